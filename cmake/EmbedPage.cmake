@@ -1,0 +1,42 @@
+# Run as a script: puts a page's parts into its HTML and writes the whole as C++.
+#   cmake -DPAGE=page.html -DSTYLE=a.css -DSCRIPTS=a.js|b.js -DD3=d3.min.js -DLICENCE=d3-licence.txt
+#         -DOUTPUT=page.cpp -P EmbedPage.cmake
+# The HTML names its parts as @style@, @d3@, @licence@ and @script@; it is cut in two at @data@.
+# Bytes are written as numbers: nothing in a part can end the literal it stands in.
+file(READ "${PAGE}" page)
+file(READ "${STYLE}" style)
+file(READ "${D3}" d3)
+file(READ "${LICENCE}" licence)
+set(script "")
+string(REPLACE "|" ";" SCRIPTS "${SCRIPTS}")
+foreach(file IN LISTS SCRIPTS)
+  file(READ "${file}" part)
+  string(APPEND script "${part}\n")
+endforeach()
+
+foreach(part IN ITEMS style script d3 licence)
+  string(FIND "${${part}}" "</script" found)
+  if(NOT found EQUAL -1)
+    message(FATAL_ERROR "${part} holds '</script', which would end the element it is written into")
+  endif()
+  string(REPLACE "@${part}@" "${${part}}" page "${page}")
+endforeach()
+
+string(FIND "${page}" "@data@" cut)
+string(LENGTH "@data@" mark)
+math(EXPR rest "${cut} + ${mark}")
+string(SUBSTRING "${page}" 0 ${cut} head)
+string(SUBSTRING "${page}" ${rest} -1 tail)
+
+function(write_bytes name text)
+  string(HEX "${text}" bytes)
+  string(REGEX REPLACE "([0-9a-f][0-9a-f])" "'\\\\x\\1'," bytes "${bytes}")
+  string(REGEX REPLACE "(................................................................................................................)" "\\1\n" bytes "${bytes}")
+  file(APPEND "${OUTPUT}" "constexpr char ${name}_bytes[] = {\n${bytes}};\n")
+endfunction()
+
+file(WRITE "${OUTPUT}" "#include \"radioslam/report/page_parts.hpp\"\n\nnamespace radioslam {\nnamespace {\n")
+write_bytes(head "${head}")
+write_bytes(tail "${tail}")
+file(APPEND "${OUTPUT}" "}  // namespace\n\nstd::string_view page_head() { return {head_bytes, sizeof head_bytes}; }\n")
+file(APPEND "${OUTPUT}" "std::string_view page_tail() { return {tail_bytes, sizeof tail_bytes}; }\n\n}  // namespace radioslam\n")

@@ -1,0 +1,18 @@
+# Installs the program, the rooms' libraries and headers, and a CMake package.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+get_property(rooms GLOBAL PROPERTY RADIOSLAM_ROOMS)
+install(TARGETS radioslam_settings ${rooms} EXPORT radioslamTargets
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+if(TARGET radioslam_program)
+  install(TARGETS radioslam_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+install(DIRECTORY src/radioslam DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp"
+        PATTERN cli EXCLUDE)
+install(EXPORT radioslamTargets NAMESPACE radioslam:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/radioslam)
+configure_package_config_file(cmake/radioslamConfig.cmake.in ${PROJECT_BINARY_DIR}/radioslamConfig.cmake
+  INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/radioslam)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/radioslamConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/radioslamConfig.cmake ${PROJECT_BINARY_DIR}/radioslamConfigVersion.cmake
+              cmake/FindMetis.cmake cmake/FindAmd.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/radioslam)

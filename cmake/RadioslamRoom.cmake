@@ -1,0 +1,31 @@
+# radioslam_room(NAME SOURCES a.cpp ... ROOMS base ... LIBRARIES Eigen3::Eigen ...)
+#
+# One room = one target. A room can include only what it links, so the order of the rooms in
+# docs/architecture.md is kept by the compiler: headers are reached through the target's own
+# include directory, which holds a link to that room alone.
+function(radioslam_room NAME)
+  cmake_parse_arguments(ROOM "" "" "SOURCES;ROOMS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
+  set(room_include ${PROJECT_BINARY_DIR}/rooms/${NAME})
+  file(MAKE_DIRECTORY ${room_include}/radioslam)
+  file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR}/${NAME} ${room_include}/radioslam/${NAME} SYMBOLIC)
+
+  list(TRANSFORM ROOM_ROOMS PREPEND radioslam_)
+  list(TRANSFORM ROOM_SOURCES PREPEND ${NAME}/)
+  set(kind STATIC)
+  set(scope PUBLIC)
+  if(NOT ROOM_SOURCES)
+    set(kind INTERFACE)
+    set(scope INTERFACE)
+  endif()
+  add_library(radioslam_${NAME} ${kind} ${ROOM_SOURCES})
+  add_library(radioslam::${NAME} ALIAS radioslam_${NAME})
+  set_target_properties(radioslam_${NAME} PROPERTIES EXPORT_NAME ${NAME})
+  target_include_directories(radioslam_${NAME} ${scope}
+    $<BUILD_INTERFACE:${room_include}> $<INSTALL_INTERFACE:include>)
+  target_link_libraries(radioslam_${NAME} ${scope} radioslam_settings ${ROOM_ROOMS} ${ROOM_LIBRARIES})
+  if(kind STREQUAL STATIC)
+    target_link_libraries(radioslam_${NAME} PRIVATE $<BUILD_INTERFACE:radioslam_warnings>
+                                                    ${ROOM_PRIVATE_LIBRARIES})
+  endif()
+  set_property(GLOBAL APPEND PROPERTY RADIOSLAM_ROOMS radioslam_${NAME})
+endfunction()

@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# Installs the Debian (bookworm) packages that are missing, and nothing else.
+#   scripts/deps.sh [build|test|lint|bench ...]     default: build
+set -euo pipefail
+export LC_ALL=C DEBIAN_FRONTEND=noninteractive
+
+build=(cmake ninja-build g++ libeigen3-dev libmetis-dev libsuitesparse-dev libyaml-cpp-dev libcli11-dev
+       nlohmann-json3-dev node-d3)
+test=(libgtest-dev libceres-dev clang-14 libclang-rt-14-dev)
+lint=(clang-format-14 clang-tidy-14)
+bench=(libbenchmark-dev)
+
+is_installed() { [[ $(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null) == installed ]]; }
+
+as_root() {
+  if [[ $(id -u) == 0 ]]; then
+    "$@"
+  elif command -v sudo >/dev/null; then
+    sudo --preserve-env=LC_ALL,DEBIAN_FRONTEND "$@"
+  else
+    echo "scripts/deps.sh: become root (or install sudo) to run: $*" >&2
+    return 1
+  fi
+}
+
+wanted=()
+for set in "${@:-build}"; do
+  case $set in
+    build) wanted+=("${build[@]}") ;;
+    test) wanted+=("${build[@]}" "${test[@]}") ;;
+    lint) wanted+=("${build[@]}" "${lint[@]}") ;;
+    bench) wanted+=("${build[@]}" "${bench[@]}") ;;
+    *) echo "scripts/deps.sh: '$set' is none of build, test, lint, bench" >&2; exit 2 ;;
+  esac
+done
+
+if ! command -v dpkg-query >/dev/null; then
+  echo "scripts/deps.sh: not a Debian system; what Debian calls these is needed: ${wanted[*]}" >&2
+  exit 0
+fi
+
+missing=()
+for package in "${wanted[@]}"; do is_installed "$package" || missing+=("$package"); done
+if ((${#missing[@]} == 0)); then exit 0; fi
+echo "installing: ${missing[*]}"
+as_root apt-get -qq update
+as_root apt-get -qq install -y --no-install-recommends "${missing[@]}" >/dev/null
