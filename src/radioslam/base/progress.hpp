@@ -1,0 +1,16 @@
+// How long work tells how far it is. The library never prints: the caller decides what to do with it.
+#pragma once
+
+#include <functional>
+#include <string_view>
+
+namespace radioslam {
+
+/// Called with a stage's name and the share of it that is done, 0 to 1. May be empty.
+using Progress = std::function<void(std::string_view stage, double fraction)>;
+
+inline void report_progress(const Progress& progress, std::string_view stage, double fraction) {
+  if (progress) progress(stage, fraction);
+}
+
+}  // namespace radioslam
