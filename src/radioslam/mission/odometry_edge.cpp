@@ -1,0 +1,84 @@
+#include "radioslam/mission/odometry_edge.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace radioslam {
+namespace {
+
+// Floors of an increment's noise: standing still is known well, not perfectly, and an edge's covariance
+// must be invertible.
+constexpr double kFloorVarianceXy = 1e-6;   // (1 mm)^2 per edge
+constexpr double kFloorVarianceYaw = 1e-8;  // (0.1 mrad)^2 per edge
+
+/// Variance per axis after `distance_m` metres and `turn_rad` radians. The turning term grows with the
+/// angle turned, so that a turn cut into parts has the variance of the whole.
+template <class Pose>
+typename Pose::Tangent increment_variance(double distance_m, double turn_rad, const OdometryNoise& noise) {
+  const auto square = [](double x) { return x * x; };
+  const double xy = square(noise.sigma_xy_per_sqrt_m) * distance_m;
+  const double yaw =
+      square(noise.sigma_yaw_per_sqrt_m_rad) * distance_m + square(noise.sigma_yaw_per_rad) * turn_rad;
+  if constexpr (Pose::kDim == 2) {
+    return {xy, xy, yaw};
+  } else {
+    typename Pose::Tangent variance;
+    variance << xy, xy, square(noise.sigma_z_per_sqrt_m) * distance_m, yaw, yaw, yaw;
+    return variance;
+  }
+}
+
+template <class Pose>
+typename Pose::Tangent floor_variance() {
+  typename Pose::Tangent variance = Pose::Tangent::Constant(kFloorVarianceXy);
+  variance.template tail<Pose::kDof - Pose::kDim>().setConstant(kFloorVarianceYaw);
+  return variance;
+}
+
+}  // namespace
+
+template <class Pose>
+OdometryEdge<Pose> odometry_edge(const Trajectory<SE3>& odometry, std::size_t begin, std::size_t end,
+                                 const OdometryNoise& noise) {
+  OdometryEdge<Pose> edge;
+  for (std::size_t i = begin; i < end; ++i) {
+    const Pose step = pose_as<Pose>(odometry[i].pose).inverse() * pose_as<Pose>(odometry[i + 1].pose);
+    const typename Pose::Tangent xi = step.log();
+    const double distance = step.translation().norm();
+    const double turn = xi.template tail<Pose::kDof - Pose::kDim>().norm();
+    const typename Pose::Jacobian carry = step.inverse().adjoint();
+
+    edge.covariance = (carry * edge.covariance * carry.transpose()).eval();
+    edge.covariance.diagonal() += increment_variance<Pose>(distance, turn, noise);
+    edge.drift_jacobian = (carry * edge.drift_jacobian).eval();
+    edge.drift_jacobian(Pose::kDof - 1, 0) += distance;
+    edge.drift_jacobian.template topRightCorner<Pose::kDim, 1>() += xi.template head<Pose::kDim>();
+    edge.T_i_j = edge.T_i_j * step;
+    edge.distance_m += distance;
+  }
+  edge.covariance.diagonal() += floor_variance<Pose>();
+  return edge;
+}
+
+std::vector<double> distance_walked(const Trajectory<SE3>& odometry) {
+  std::vector<double> walked(odometry.size(), 0.0);
+  for (std::size_t i = 1; i < odometry.size(); ++i)
+    walked[i] = walked[i - 1] + (odometry[i].pose.translation() - odometry[i - 1].pose.translation()).norm();
+  return walked;
+}
+
+double distance_walked_at(const Trajectory<SE3>& odometry, const std::vector<double>& walked, Stamp stamp) {
+  if (odometry.size() < 2 || stamp <= odometry.front().stamp) return 0;
+  if (stamp >= odometry.back().stamp) return walked.back();
+  const std::size_t i = odometry.segment(stamp);
+  const double share =
+      seconds_between(odometry[i].stamp, stamp) / seconds_between(odometry[i].stamp, odometry[i + 1].stamp);
+  return walked[i] + share * (walked[i + 1] - walked[i]);
+}
+
+template OdometryEdge<SE2> odometry_edge<SE2>(const Trajectory<SE3>&, std::size_t, std::size_t,
+                                              const OdometryNoise&);
+template OdometryEdge<SE3> odometry_edge<SE3>(const Trajectory<SE3>&, std::size_t, std::size_t,
+                                              const OdometryNoise&);
+
+}  // namespace radioslam

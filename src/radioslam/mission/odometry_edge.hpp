@@ -1,0 +1,38 @@
+// The odometry between two rows as one measurement: motion, covariance, and how a constant drift bends it.
+// First-order propagation over the rows in between: with increments Z_k, error e <- Ad(Z_k^-1) e + e_k, so a
+// yaw error early in a segment moves its end. Covariances are for T * Exp(xi), xi = [translation; rotation].
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "radioslam/geometry/se2.hpp"
+#include "radioslam/geometry/se3.hpp"
+#include "radioslam/geometry/trajectory.hpp"
+#include "radioslam/mission/mission.hpp"
+
+namespace radioslam {
+
+/// Motion of the body between two odometry rows.
+template <class Pose>
+struct OdometryEdge {
+  Pose T_i_j;
+  typename Pose::Jacobian covariance = Pose::Jacobian::Zero();  ///< of T_i_j, without the constant drift
+  /// Change of T_i_j's tangent per unit of [yaw drift (rad/m), relative scale error].
+  Eigen::Matrix<double, Pose::kDof, 2> drift_jacobian = Eigen::Matrix<double, Pose::kDof, 2>::Zero();
+  double distance_m = 0;  ///< along the rows
+};
+
+/// The edge from row `begin` to row `end` (begin <= end). Pose SE2 looks from above.
+template <class Pose>
+OdometryEdge<Pose> odometry_edge(const Trajectory<SE3>& odometry, std::size_t begin, std::size_t end,
+                                 const OdometryNoise& noise);
+
+/// Distance walked from the first row to each row, metres.
+std::vector<double> distance_walked(const Trajectory<SE3>& odometry);
+
+/// Distance walked at a stamp, interpolated; clamped to the ends.
+double distance_walked_at(const Trajectory<SE3>& odometry, const std::vector<double>& walked, Stamp stamp);
+
+}  // namespace radioslam

@@ -1,0 +1,168 @@
+#include "radioslam/mission/odometry_edge.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <functional>
+
+#include "radioslam/base/random.hpp"
+
+namespace radioslam {
+namespace {
+
+OdometryNoise noise() {
+  OdometryNoise noise;
+  noise.sigma_xy_per_sqrt_m = 0.02;
+  noise.sigma_yaw_per_sqrt_m_rad = 0.003;
+  noise.sigma_yaw_per_rad = 0.02;
+  noise.sigma_z_per_sqrt_m = 0.01;
+  return noise;
+}
+
+using Tangent = SE3::Tangent;
+
+/// The poses that the increments Exp(increment(k)) lead to, one per second.
+Trajectory<SE3> drive(int increments, const std::function<Tangent(int)>& increment) {
+  std::vector<StampedPose<SE3>> rows{{Stamp{}, SE3()}};
+  for (int k = 0; k < increments; ++k)
+    rows.push_back({Stamp::from_seconds(k + 1), rows.back().pose * SE3::exp(increment(k))});
+  return Trajectory<SE3>(std::move(rows));
+}
+
+/// A winding way; `slope` tilts it out of the plane.
+Tangent winding(int k, double slope = 0) {
+  Tangent xi;
+  xi << 0.1, 0.01 * std::sin(0.3 * k), slope * std::cos(0.2 * k), slope * std::sin(0.1 * k), 0,
+      0.03 * std::sin(0.07 * k) + 0.01;
+  return xi;
+}
+
+template <class Pose>
+void expect_cuts_agree(const Trajectory<SE3>& odometry) {
+  const std::size_t end = odometry.size() - 1;
+  const auto whole = odometry_edge<Pose>(odometry, 0, end, noise());
+  const auto floor = odometry_edge<Pose>(odometry, 7, 7, noise()).covariance;
+  for (const std::size_t cut : {std::size_t{1}, end / 3, end - 1}) {
+    const auto first = odometry_edge<Pose>(odometry, 0, cut, noise());
+    const auto second = odometry_edge<Pose>(odometry, cut, end, noise());
+    const typename Pose::Jacobian carry = second.T_i_j.inverse().adjoint();
+    const typename Pose::Jacobian covariance =
+        carry * (first.covariance - floor) * carry.transpose() + second.covariance;
+    EXPECT_LT((covariance - whole.covariance).cwiseAbs().maxCoeff(), 1e-9);
+    EXPECT_LT((carry * first.drift_jacobian + second.drift_jacobian - whole.drift_jacobian).norm(), 1e-9);
+    EXPECT_LT(((first.T_i_j * second.T_i_j).inverse() * whole.T_i_j).log().norm(), 1e-9);
+    EXPECT_NEAR(first.distance_m + second.distance_m, whole.distance_m, 1e-9);
+  }
+}
+
+TEST(OdometryEdge, CutAnywhereItTellsTheSame) {
+  expect_cuts_agree<SE2>(drive(300, [](int k) { return winding(k); }));
+  expect_cuts_agree<SE3>(drive(300, [](int k) { return winding(k, 0.02); }));
+}
+
+TEST(OdometryEdge, ATurnInPartsIsAsUncertainAsTheWholeTurn) {
+  for (const int parts : {1, 10, 100}) {
+    const auto odometry = drive(parts, [&](int) -> Tangent { return Tangent::Unit(5) / parts; });
+    const auto edge = odometry_edge<SE2>(odometry, 0, odometry.size() - 1, noise());
+    EXPECT_NEAR(edge.covariance(2, 2), 0.02 * 0.02, 1e-7);
+    EXPECT_NEAR(edge.covariance(0, 0), 0, 1e-5);
+  }
+}
+
+/// Yaw noise s per root metre on a straight way L: variances s^2 L of the yaw and s^2 L^3 / 3 across.
+TEST(OdometryEdge, YawErrorsAlongAStraightWaySwingItsEnd) {
+  const auto odometry = drive(1000, [](int) -> Tangent { return 0.05 * Tangent::Unit(0); });
+  const auto edge = odometry_edge<SE2>(odometry, 0, 1000, noise());
+  const double yaw = 0.003 * 0.003, xy = 0.02 * 0.02, length = 50;
+  EXPECT_NEAR(edge.covariance(2, 2), yaw * length, 0.005 * yaw * length);
+  EXPECT_NEAR(edge.covariance(1, 2), yaw * length * length / 2, 0.005 * yaw * length * length / 2);
+  const double across = xy * length + yaw * length * length * length / 3;
+  EXPECT_NEAR(edge.covariance(1, 1), across, 0.005 * across);
+  EXPECT_NEAR(edge.covariance(0, 0), xy * length, 0.005 * xy * length);
+  EXPECT_NEAR(edge.distance_m, length, 1e-9);
+}
+
+/// One drive with the noise that OdometryNoise describes, drawn increment by increment.
+SE2 noisy_end(const Trajectory<SE3>& odometry, Rng& rng) {
+  const auto square = [](double x) { return x * x; };
+  SE2 end;
+  for (std::size_t i = 0; i + 1 < odometry.size(); ++i) {
+    const SE2 step = flatten(odometry[i].pose).inverse() * flatten(odometry[i + 1].pose);
+    const double way = step.translation().norm(), turn = std::abs(step.angle());
+    const double sigma_xy = 0.02 * std::sqrt(way);
+    const double sigma_yaw = std::sqrt(square(0.003) * way + square(0.02) * turn);
+    end = end * step * SE2::exp({rng.normal(0, sigma_xy), rng.normal(0, sigma_xy), rng.normal(0, sigma_yaw)});
+  }
+  return end;
+}
+
+TEST(OdometryEdge, CovarianceIsThatOfNoisyDrives) {
+  constexpr int kDrives = 3000;
+  const auto odometry = drive(200, [](int k) { return winding(k); });
+  const auto edge = odometry_edge<SE2>(odometry, 0, 200, noise());
+  Rng rng(5);
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (int n = 0; n < kDrives; ++n) {
+    const Eigen::Vector3d error = (edge.T_i_j.inverse() * noisy_end(odometry, rng)).log();
+    spread += error * error.transpose() / kDrives;
+  }
+  // Mean of chi-square with three degrees of freedom, five standard deviations either way.
+  EXPECT_NEAR((edge.covariance.inverse() * spread).trace(), 3, 5 * std::sqrt(6.0 / kDrives));
+  for (int i = 0; i < 3; ++i)
+    EXPECT_NEAR(spread(i, i) / edge.covariance(i, i), 1, 5 * std::sqrt(2.0 / kDrives)) << i;
+}
+
+/// The motion that odometry with these constant errors would have reported.
+template <class Pose>
+Pose drifted_end(const Trajectory<SE3>& odometry, double yaw_drift_per_m_rad, double scale) {
+  Pose end;
+  for (std::size_t i = 0; i + 1 < odometry.size(); ++i) {
+    const Pose step = pose_as<Pose>(odometry[i].pose).inverse() * pose_as<Pose>(odometry[i + 1].pose);
+    typename Pose::Tangent xi = step.log();
+    xi[Pose::kDof - 1] += yaw_drift_per_m_rad * step.translation().norm();
+    xi.template head<Pose::kDim>() *= 1 + scale;
+    end = end * Pose::exp(xi);
+  }
+  return end;
+}
+
+template <class Pose>
+void expect_drift_jacobian(const Trajectory<SE3>& odometry) {
+  const auto edge = odometry_edge<Pose>(odometry, 0, odometry.size() - 1, {});
+  const auto slope = [&](double drift, double scale) -> typename Pose::Tangent {
+    const auto ahead = (edge.T_i_j.inverse() * drifted_end<Pose>(odometry, drift, scale)).log();
+    const auto behind = (edge.T_i_j.inverse() * drifted_end<Pose>(odometry, -drift, -scale)).log();
+    return (ahead - behind) / 2e-6;
+  };
+  // Increments are short: their own curvature, half a milliradian, is all that is left out.
+  const typename Pose::Tangent drift = slope(1e-6, 0), scale = slope(0, 1e-6);
+  EXPECT_LT((edge.drift_jacobian.col(0) - drift).norm(), 1e-3 * drift.norm());
+  EXPECT_LT((edge.drift_jacobian.col(1) - scale).norm(), 1e-3 * scale.norm());
+}
+
+TEST(OdometryEdge, DriftJacobianIsTheSlopeOfTheComposedMotion) {
+  static constexpr int kFiner = 40;
+  const auto finer = [](double slope) {
+    return [slope](int k) -> Tangent { return winding(k / kFiner, slope) / kFiner; };
+  };
+  expect_drift_jacobian<SE2>(drive(150 * kFiner, finer(0)));
+  expect_drift_jacobian<SE3>(drive(150 * kFiner, finer(0.02)));
+}
+
+TEST(DistanceWalked, FollowsTheWayAndStopsAtItsEnds) {
+  const std::vector<StampedPose<SE3>> rows{{Stamp::from_seconds(1), SE3()},
+                                           {Stamp::from_seconds(2), lift(SE2({3, 0}, 0))},
+                                           {Stamp::from_seconds(4), lift(SE2({3, 4}, 1))}};
+  const Trajectory<SE3> odometry(rows);
+  const auto walked = distance_walked(odometry);
+  EXPECT_EQ(walked, std::vector<double>({0, 3, 7}));
+  EXPECT_EQ(distance_walked_at(odometry, walked, Stamp::from_seconds(0)), 0);
+  EXPECT_NEAR(distance_walked_at(odometry, walked, Stamp::from_seconds(1.5)), 1.5, 1e-12);
+  EXPECT_NEAR(distance_walked_at(odometry, walked, Stamp::from_seconds(3)), 5, 1e-12);
+  EXPECT_EQ(distance_walked_at(odometry, walked, Stamp::from_seconds(9)), 7);
+  EXPECT_TRUE(distance_walked({}).empty());
+}
+
+}  // namespace
+}  // namespace radioslam
