@@ -1,0 +1,68 @@
+// Graduated non-convexity: a robust optimum that does not hang on the start. The surrogate of the loss is
+// nearly convex at first and becomes the loss as mu moves, each round a weighted least squares problem.
+// Source: Yang, Antonante, Tzoumas, Carlone 2020, Graduated non-convexity for robust spatial perception.
+// With s the squared Mahalanobis norm, c the factor's loss scale, per round:
+//   Geman-McClure  w = (mu c^2 / (s + mu c^2))^2,  mu: 2 max s / c^2 down to 1
+//   truncated      w = 1 up to s = c^2 mu / (mu + 1), 0 from c^2 (mu + 1) / mu on,
+//                  c sqrt(mu (mu + 1) / s) - mu between,  mu: c^2 / (2 max s - c^2) up
+#pragma once
+
+#include <vector>
+
+#include "radioslam/graph/optimizer.hpp"
+
+namespace radioslam {
+
+enum class GraduatedLoss { kGemanMcClure, kTruncatedLeastSquares };
+
+struct GraduatedParams {
+  double mu_factor = 1.4;            ///< change of mu per round; the paper's
+  int max_rounds = 100;              ///< the last round is solved at the loss itself, or at this mu
+  int steps_per_round = 3;           ///< linear solves of a round before the last
+  double settled_weight_gap = 1e-3;  ///< truncated: done when every weight is this close to 0 or 1
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit(Field{"mu_factor", "", 1.01, 10, "change of the convexity parameter per round; Yang et al. 2020"},
+          self.mu_factor);
+    visit(Field{"max_rounds", "", 1, 10000, "rounds at most"}, self.max_rounds);
+    visit(Field{"steps_per_round", "", 1, 1000, "linear solves of a round before the last"},
+          self.steps_per_round);
+    visit(Field{"settled_weight_gap", "", 0, 0.5, "done when every weight is this close to 0 or 1"},
+          self.settled_weight_gap);
+  }
+};
+
+/// One entry per factor of a list; an empty list stands for no factor.
+struct FactorMask {
+  std::vector<bool> relative_poses, ranges, bearings, positions;
+};
+/// Weights in [0, 1]; 1 for factors outside the mask. Below one half counts as rejected.
+struct FactorWeights {
+  std::vector<double> relative_poses, ranges, bearings, positions;
+};
+
+/// The factors whose loss is kGemanMcClure.
+template <class Pose>
+FactorMask geman_mcclure_factors(const PoseGraph<Pose>& graph);
+
+struct GraduatedSummary {
+  FactorWeights weights;  ///< of the last round
+  int rounds = 0;
+  int iterations = 0;     ///< linear systems solved in all rounds
+  OptimizerSummary last;  ///< of the last round, solved to the end with these weights
+};
+
+/// Moves the graph's values to the robust optimum from where they are. Factors in the mask are taken as
+/// outlier candidates with their loss's scale, whatever its kind; the others keep their loss. Measurements,
+/// weights and losses of the graph stay as they are.
+template <class Pose>
+GraduatedSummary optimize_graduated(PoseGraph<Pose>& graph, const FactorMask& mask, GraduatedLoss loss,
+                                    const GraduatedParams& params, const OptimizerParams& optimizer,
+                                    const Progress& progress = {});
+
+/// Multiplies the factors' weights; those of the mask lose their loss. For marginals and costs of the result.
+template <class Pose>
+void apply_weights(const FactorWeights& weights, const FactorMask& mask, PoseGraph<Pose>& graph);
+
+}  // namespace radioslam

@@ -1,0 +1,55 @@
+#include "radioslam/graph/initial_values.hpp"
+
+#include <cmath>
+
+#include "radioslam/graph/chordal.hpp"
+#include "radioslam/graph/optimizer.hpp"
+#include "radioslam/graph/spanning_tree.hpp"
+
+namespace radioslam {
+namespace {
+
+/// Keeps the cheapest of the starts offered to it; a cost that is not a number loses.
+template <class Pose>
+class Choice {
+ public:
+  std::optional<double> offer(const PoseGraph<Pose>& graph, InitialValues kind) {
+    const double cost = total_cost(graph);
+    if (poses_.empty() || cost < cost_ || !std::isfinite(cost_)) {
+      poses_ = graph.poses;
+      cost_ = cost;
+      kind_ = kind;
+    }
+    return cost;
+  }
+  InitialValues kind() const { return kind_; }
+  const std::vector<Pose>& poses() const { return poses_; }
+
+ private:
+  std::vector<Pose> poses_;
+  double cost_ = 0;
+  InitialValues kind_ = InitialValues::kGiven;
+};
+
+}  // namespace
+
+template <class Pose>
+InitialCosts initialise(PoseGraph<Pose>& graph, GivenValues given) {
+  const std::vector<Pose> original = graph.poses;
+  Choice<Pose> choice;
+  InitialCosts costs;
+  if (given == GivenValues::kComplete) costs.given = choice.offer(graph, InitialValues::kGiven);
+  if (initialise_chordal(graph) == ChordalResult::kDone)
+    costs.chordal = choice.offer(graph, InitialValues::kChordal);
+  graph.poses = original;
+  initialise_from_spanning_tree(graph);
+  costs.spanning_tree = choice.offer(graph, InitialValues::kSpanningTree);
+  graph.poses = choice.poses();
+  costs.chosen = choice.kind();
+  return costs;
+}
+
+template InitialCosts initialise(PoseGraph<SE2>&, GivenValues);
+template InitialCosts initialise(PoseGraph<SE3>&, GivenValues);
+
+}  // namespace radioslam

@@ -1,0 +1,208 @@
+#include "radioslam/graph/linear/block_cholesky.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "radioslam/base/check.hpp"
+#include "radioslam/graph/linear/front_kernels.hpp"
+#include "radioslam/graph/linear/front_solve.hpp"
+#include "radioslam/graph/linear/front_tree.hpp"
+#include "radioslam/graph/linear/selected_inverse.hpp"
+
+namespace radioslam {
+namespace {
+
+using ConstPanel = Eigen::Map<const Eigen::MatrixXd>;
+
+Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
+
+/// target(parent rows, parent columns) += lower triangle of a child's update matrix, for the columns of the
+/// runs [begin, end). `row_shift` is what target's first row and column are called in the parent front.
+void add_columns(const FrontTree& tree, const Front& child, const double* update, Range columns,
+                 double* target, std::size_t target_rows, std::size_t row_shift, std::size_t column_shift) {
+  for (auto c = columns.begin; c < columns.end; ++c) {
+    const auto& column = tree.runs[c];
+    for (std::size_t t = 0; t < column.length; ++t) {
+      const double* from = update + (column.row + t) * child.below;
+      double* to = target + (column.parent_row + t - column_shift) * target_rows;
+      for (auto k = c; k < child.runs.end; ++k) {
+        const auto& row = tree.runs[k];
+        const std::size_t skip = k == c ? t : 0;
+        const double* source = from + row.row;
+        double* sum = to + (row.parent_row - row_shift);
+        for (std::size_t i = skip; i < row.length; ++i) sum[i] += source[i];
+      }
+    }
+  }
+}
+
+/// First run of a child that lies below the parent's pivots.
+std::size_t first_run_below(const FrontTree& tree, const Front& child) {
+  auto k = child.runs.begin;
+  while (k < child.runs.end && tree.runs[k].row < child.below_in_pivots) ++k;
+  return k;
+}
+
+}  // namespace
+
+struct BlockCholesky::Impl {
+  BlockPattern pattern;
+  std::shared_ptr<const FrontTree> tree;
+  NumberStore factor;
+  NumberStore stack;  ///< update matrices while factorising, covariances while inverting
+  bool usable = false;
+
+  void load_blocks(const SymmetricBlockMatrix& matrix, const Front& front);
+  void add_children_to_pivots(const Front& front);
+  void add_children_to_update(const Front& front);
+  bool eliminate(const SymmetricBlockMatrix& matrix, const Front& front);
+
+  ConstPanel panel(const Front& front) const {
+    return {factor.data() + front.panel, index(front.scalars()), index(front.pivots)};
+  }
+  Eigen::MatrixXd in_elimination_order(const Eigen::MatrixXd& original) const;
+  Eigen::MatrixXd in_original_order(const Eigen::MatrixXd& x) const;
+  void solve_backward(FrontSolver& solver, Eigen::MatrixXd& x) const;
+  void check_usable() const { RADIOSLAM_CHECK(usable, "there is no factor to use"); }
+};
+
+void BlockCholesky::Impl::load_blocks(const SymmetricBlockMatrix& matrix, const Front& front) {
+  const auto n = pattern.blocks();
+  for (auto s = front.slots.begin; s < front.slots.end; ++s) {
+    const auto& slot = tree->slots[s];
+    const bool is_diagonal = slot.block < n;
+    const auto source = is_diagonal ? matrix.diagonal(slot.block) : matrix.lower(slot.block - n);
+    double* to = factor.data() + slot.destination;
+    const auto rows = slot.transposed ? source.cols() : source.rows();
+    const auto columns = slot.transposed ? source.rows() : source.cols();
+    for (Eigen::Index j = 0; j < columns; ++j) {
+      for (Eigen::Index i = is_diagonal ? j : 0; i < rows; ++i) {
+        to[i + j * index(front.scalars())] = slot.transposed ? source(j, i) : source(i, j);
+      }
+    }
+  }
+}
+
+void BlockCholesky::Impl::add_children_to_pivots(const Front& front) {
+  for (auto c = front.children.begin; c < front.children.end; ++c) {
+    const auto& child = tree->fronts[tree->children[c]];
+    add_columns(*tree, child, stack.data() + child.update, {child.runs.begin, first_run_below(*tree, child)},
+                factor.data() + front.panel, front.scalars(), 0, 0);
+  }
+}
+
+void BlockCholesky::Impl::add_children_to_update(const Front& front) {
+  for (auto c = front.children.begin; c < front.children.end; ++c) {
+    const auto& child = tree->fronts[tree->children[c]];
+    add_columns(*tree, child, stack.data() + child.update, {first_run_below(*tree, child), child.runs.end},
+                stack.data() + front.update, front.below, front.pivots, front.pivots);
+  }
+}
+
+bool BlockCholesky::Impl::eliminate(const SymmetricBlockMatrix& matrix, const Front& front) {
+  double* const panel_begin = factor.data() + front.panel;
+  std::fill_n(panel_begin, front.scalars() * front.pivots, 0.0);
+  load_blocks(matrix, front);
+  add_children_to_pivots(front);
+  if (!front_kernels().eliminate({front.pivots, front.below}, panel_begin, stack.data() + front.update)) {
+    return false;
+  }
+  add_children_to_update(front);
+  return true;
+}
+
+Eigen::MatrixXd BlockCholesky::Impl::in_elimination_order(const Eigen::MatrixXd& original) const {
+  Eigen::MatrixXd x(original.rows(), original.cols());
+  for (std::size_t at = 0; at < tree->blocks(); ++at) {
+    const auto size = index(tree->block_size(at));
+    x.middleRows(index(tree->first_scalar[at]), size) =
+        original.middleRows(index(tree->original_scalar[at]), size);
+  }
+  return x;
+}
+
+Eigen::MatrixXd BlockCholesky::Impl::in_original_order(const Eigen::MatrixXd& x) const {
+  Eigen::MatrixXd original(x.rows(), x.cols());
+  for (std::size_t at = 0; at < tree->blocks(); ++at) {
+    const auto size = index(tree->block_size(at));
+    original.middleRows(index(tree->original_scalar[at]), size) =
+        x.middleRows(index(tree->first_scalar[at]), size);
+  }
+  return original;
+}
+
+void BlockCholesky::Impl::solve_backward(FrontSolver& solver, Eigen::MatrixXd& x) const {
+  for (auto front = tree->fronts.rbegin(); front != tree->fronts.rend(); ++front) {
+    for (auto column : x.colwise()) solver.backward(*front, column.data());
+  }
+}
+
+BlockCholesky::BlockCholesky(const BlockPattern& pattern, const BlockCholeskyOptions& options)
+    : impl_(std::make_unique<Impl>()) {
+  impl_->pattern = pattern;
+  impl_->tree = std::make_shared<const FrontTree>(front_tree(pattern, options));
+  impl_->factor = NumberStore(impl_->tree->factor_scalars);
+  impl_->stack = NumberStore(std::max(impl_->tree->stack_scalars, impl_->tree->covariance_scalars));
+}
+BlockCholesky::~BlockCholesky() = default;
+BlockCholesky::BlockCholesky(BlockCholesky&&) noexcept = default;
+BlockCholesky& BlockCholesky::operator=(BlockCholesky&&) noexcept = default;
+
+Factorization BlockCholesky::factorize(const SymmetricBlockMatrix& matrix) {
+  RADIOSLAM_CHECK(
+      matrix.pattern().sizes == impl_->pattern.sizes && matrix.pattern().lower == impl_->pattern.lower,
+      "the matrix has another pattern than was analysed");
+  impl_->usable = false;
+  for (const auto& front : impl_->tree->fronts) {
+    if (!impl_->eliminate(matrix, front)) return Factorization::kNotPositiveDefinite;
+  }
+  impl_->usable = true;
+  return Factorization::kDone;
+}
+
+Eigen::VectorXd BlockCholesky::solve(const Eigen::VectorXd& b) const {
+  impl_->check_usable();
+  RADIOSLAM_CHECK(b.size() == index(impl_->tree->scalars()), "the right-hand side has another length");
+  FrontSolver solver(*impl_->tree, impl_->factor);
+  Eigen::MatrixXd x = impl_->in_elimination_order(b);
+  for (const auto& front : impl_->tree->fronts) solver.forward(front, x.data());
+  impl_->solve_backward(solver, x);
+  return impl_->in_original_order(x);
+}
+
+Eigen::MatrixXd BlockCholesky::inverse_columns(std::size_t j) const {
+  impl_->check_usable();
+  const auto& tree = *impl_->tree;
+  RADIOSLAM_CHECK(j < tree.blocks(), "no such block");
+  const std::size_t at_j = tree.place[j];
+  const auto columns = index(tree.block_size(at_j));
+  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(index(tree.scalars()), columns);
+  x.middleRows(index(tree.first_scalar[at_j]), columns).setIdentity();
+  FrontSolver solver(tree, impl_->factor);
+  // On the way up, only the path from block j to the root has anything to do.
+  for (auto s = tree.front_of[at_j]; s != kNoParent; s = tree.fronts[s].parent) {
+    for (auto column : x.colwise()) solver.forward(tree.fronts[s], column.data());
+  }
+  impl_->solve_backward(solver, x);
+  return impl_->in_original_order(x);
+}
+
+double BlockCholesky::log_determinant() const {
+  impl_->check_usable();
+  double sum = 0;
+  for (const auto& front : impl_->tree->fronts) {
+    const auto L = impl_->panel(front);
+    for (Eigen::Index k = 0; k < index(front.pivots); ++k) sum += 2 * std::log(L(k, k));
+  }
+  return sum;
+}
+
+SelectedInverse BlockCholesky::selected_inverse() const {
+  impl_->check_usable();
+  return SelectedInverse(invert(impl_->tree, impl_->factor, impl_->stack));
+}
+
+double BlockCholesky::factor_flops() const { return impl_->tree->flops; }
+std::size_t BlockCholesky::factor_scalars() const { return impl_->tree->factor_scalars; }
+
+}  // namespace radioslam

@@ -1,0 +1,169 @@
+// C <- C +- A B on column-major matrices, by the register tiles of dense_tile.hpp.
+#pragma once
+
+#include <type_traits>
+
+#include "radioslam/graph/linear/dense_tile.hpp"
+
+namespace radioslam::dense {
+
+enum class Shape {
+  kFull,
+  kLowerResult,  ///< only the lower triangle of C is needed; what is above may be overwritten
+};
+enum class Left {
+  kFull,
+  kUpper,  ///< A(i, k) is zero for k < i, and not read but near the diagonal
+};
+
+struct Extent {
+  std::size_t rows = 0, columns = 0, inner = 0;
+};
+
+template <std::size_t kMultiple>
+constexpr std::size_t round_down(std::size_t value) {
+  return value - value % kMultiple;
+}
+
+/// The tiles of a strip of kColumns columns of C, from row `first` on.
+template <class Simd, Operation kOperation, std::size_t kColumns>
+void compute_strip(std::size_t first, Extent extent, Left left, Columns a, Strided b, Target c,
+                   const TileSolver& solver = {}) {
+  constexpr std::size_t kRows = kTileVectors * Simd::kWidth;
+  for (std::size_t i = first; i < extent.rows; i += kRows) {
+    const std::size_t rows = i + kRows < extent.rows ? kRows : extent.rows - i;
+    const std::size_t skip = left == Left::kFull ? 0 : (i < extent.inner ? i : extent.inner);
+    compute_tile<Simd, kOperation, kColumns>(
+        rows, extent.inner - skip, {a.data + i + skip * a.stride, a.stride},
+        {b.data + skip * b.row_stride, b.row_stride, b.column_stride}, {c.data + i, c.stride}, solver);
+  }
+}
+
+/// Calls body(j, width) for strips of 6, 3, 2 and 1 columns that cover [0, columns); the width is a constant.
+template <class Body>
+void for_each_strip(std::size_t columns, const Body& body) {
+  std::size_t j = 0;
+  for (; columns - j >= 6; j += 6) body(j, std::integral_constant<std::size_t, 6>{});
+  for (; columns - j >= 3; j += 3) body(j, std::integral_constant<std::size_t, 3>{});
+  if (columns - j == 2) body(j, std::integral_constant<std::size_t, 2>{});
+  if (columns - j == 1) body(j, std::integral_constant<std::size_t, 1>{});
+}
+
+/// C <- C +- A B straight from where A and B are: for what fits the caches and their address tables.
+template <class Simd, Operation kOperation>
+void product_in_place(Extent extent, Shape shape, Left left, Columns a, Strided b, Target c) {
+  for_each_strip(extent.columns, [&](std::size_t j, auto width) {
+    constexpr std::size_t kColumns = decltype(width)::value;
+    compute_strip<Simd, kOperation, kColumns>(shape == Shape::kFull ? 0 : j, extent, left, a,
+                                              {b.data + j * b.column_stride, b.row_stride, b.column_stride},
+                                              {c.data + j * c.stride, c.stride});
+  });
+}
+
+/// What is copied together, so that the tiles read successive memory.
+inline constexpr std::size_t kPackedRows = 192;
+inline constexpr std::size_t kPackedDepth = 144;
+
+/// Rows of A, a tile's rows at a time: entry (i, k) of a group of T rows is at k * T + i.
+template <class Simd>
+class PackedRows {
+  static constexpr std::size_t kRows = kTileVectors * Simd::kWidth;
+  static_assert(kPackedRows % kRows == 0);
+
+ public:
+  PackedRows(std::size_t rows, std::size_t depth, Columns a) : depth_(depth) {
+    for (std::size_t i = 0; i < rows; i += kRows) {
+      const std::size_t count = rows - i < kRows ? rows - i : kRows;
+      double* const group = values_ + i * depth;
+      for (std::size_t k = 0; k < depth; ++k) {
+        const double* const column = a.data + i + k * a.stride;
+        for (std::size_t t = 0; t < count; ++t) group[k * kRows + t] = column[t];
+      }
+    }
+  }
+  /// The group that row i begins.
+  Columns group(std::size_t i) const { return {values_ + i * depth_, kRows}; }
+
+ private:
+  std::size_t depth_;
+  double values_[kPackedRows * kPackedDepth];
+};
+
+/// Columns of B, entry (k, j) at k * kColumns + j.
+template <class Simd, std::size_t kColumns>
+class PackedStrip {
+ public:
+  PackedStrip(std::size_t depth, Strided b) {
+    for (std::size_t k = 0; k < depth; ++k) {
+      for (std::size_t j = 0; j < kColumns; ++j) {
+        values_[k * kColumns + j] = b.data[k * b.row_stride + j * b.column_stride];
+      }
+    }
+  }
+  Strided from(std::size_t k) const { return {values_ + k * kColumns, kColumns, 1}; }
+
+ private:
+  double values_[kPackedDepth * kColumns];
+};
+
+/// Rows [first, first + extent.rows) of C, with an inner extent that begins at `inner_begin` of A's columns.
+template <class Simd, Operation kOperation>
+void product_of_block(std::size_t first, std::size_t inner_begin, Extent extent, Shape shape, Left left,
+                      Columns a, Strided b, Target c) {
+  constexpr std::size_t kRows = kTileVectors * Simd::kWidth;
+  const PackedRows<Simd> rows(extent.rows, extent.inner, a);
+  const std::size_t last = first + extent.rows;
+  const std::size_t columns = shape == Shape::kFull || extent.columns < last ? extent.columns : last;
+  for_each_strip(columns, [&](std::size_t j, auto width) {
+    constexpr std::size_t kColumns = decltype(width)::value;
+    const PackedStrip<Simd, kColumns> strip(extent.inner,
+                                            {b.data + j * b.column_stride, b.row_stride, b.column_stride});
+    const std::size_t begin = shape == Shape::kFull || j < first ? 0 : round_down<kRows>(j - first);
+    for (std::size_t i = begin; i < extent.rows; i += kRows) {
+      const std::size_t zeros = left == Left::kFull || first + i < inner_begin ? 0 : first + i - inner_begin;
+      const std::size_t skip = zeros < extent.inner ? zeros : extent.inner;
+      const auto group = rows.group(i);
+      compute_tile<Simd, kOperation, kColumns>(
+          i + kRows < extent.rows ? kRows : extent.rows - i, extent.inner - skip,
+          {group.data + skip * group.stride, group.stride}, strip.from(skip),
+          {c.data + first + i + j * c.stride, c.stride}, {});
+    }
+  });
+}
+
+constexpr Operation continued(Operation operation) {
+  return operation == Operation::kAssign || operation == Operation::kAdd ? Operation::kAdd
+                                                                         : Operation::kSubtract;
+}
+
+template <class Simd, Operation kOperation>
+void product_in_blocks(Extent extent, Shape shape, Left left, Columns a, Strided b, Target c) {
+  for (std::size_t k = 0; k < extent.inner || k == 0; k += kPackedDepth) {
+    const std::size_t depth = extent.inner - k < kPackedDepth ? extent.inner - k : kPackedDepth;
+    for (std::size_t i = 0; i < extent.rows; i += kPackedRows) {
+      const std::size_t rows = extent.rows - i < kPackedRows ? extent.rows - i : kPackedRows;
+      const Extent block{rows, extent.columns, depth};
+      const Columns a_block{a.data + i + k * a.stride, a.stride};
+      const Strided b_block{b.data + k * b.row_stride, b.row_stride, b.column_stride};
+      if (k == 0) {
+        product_of_block<Simd, kOperation>(i, k, block, shape, left, a_block, b_block, c);
+      } else {
+        product_of_block<Simd, continued(kOperation)>(i, k, block, shape, left, a_block, b_block, c);
+      }
+    }
+  }
+}
+
+/// C <- C +- A B, by kOperation (not the solving one).
+template <class Simd, Operation kOperation>
+void product(Extent extent, Shape shape, Left left, Columns a, Strided b, Target c) {
+  /// Copying A pays from about here; measured.
+  constexpr std::size_t kLargeRows = 192, kManyColumns = 24;
+  if (extent.rows >= kLargeRows && extent.columns >= kManyColumns) {
+    product_in_blocks<Simd, kOperation>(extent, shape, left, a, b, c);
+  } else {
+    product_in_place<Simd, kOperation>(extent, shape, left, a, b, c);
+  }
+}
+
+}  // namespace radioslam::dense

@@ -1,0 +1,137 @@
+#include "radioslam/graph/linear/supernodes.hpp"
+
+#include <algorithm>
+
+namespace radioslam {
+namespace {
+
+using Children = std::vector<std::vector<std::uint32_t>>;
+
+double work(const FrontCost& cost, std::size_t pivots, std::size_t below) {
+  const auto p = static_cast<double>(pivots);
+  const auto r = static_cast<double>(below);
+  return p * p * p / 3 + p * p * r + p * r * r + cost.per_front + cost.per_entry * (p + r) * (p + r);
+}
+
+/// Chains of columns whose patterns differ by the pivot only.
+std::vector<Supernode> fundamental_supernodes(const BlockGraph& graph, const EliminationTree& tree) {
+  std::vector<Supernode> nodes;
+  std::vector<std::uint32_t> node_of(tree.order.size());
+  for (std::uint32_t k = 0; k < tree.order.size(); ++k) {
+    const bool continues =
+        k > 0 && tree.parent[k - 1] == k && tree.below_blocks[k - 1] == tree.below_blocks[k] + 1;
+    if (!continues) nodes.emplace_back();
+    node_of[k] = static_cast<std::uint32_t>(nodes.size() - 1);
+    nodes.back().columns.push_back(k);
+    nodes.back().pivot_scalars += graph.sizes[tree.order[k]];
+    nodes.back().below_scalars = tree.below_scalars[k];
+  }
+  for (auto& node : nodes) {
+    const auto parent = tree.parent[node.columns.back()];
+    node.parent = parent == kNoParent ? kNoParent : node_of[parent];
+  }
+  return nodes;
+}
+
+void absorb(Supernode& node, Supernode& child) {
+  node.columns.insert(node.columns.end(), child.columns.begin(), child.columns.end());
+  node.pivot_scalars += child.pivot_scalars;
+  child.columns.clear();
+}
+
+/// Joins a front with those of its children that are cheaper to eliminate in it than by themselves.
+void amalgamate(std::vector<Supernode>& nodes, const FrontCost& cost) {
+  Children children(nodes.size());
+  for (std::uint32_t s = 0; s < nodes.size(); ++s) {
+    auto& node = nodes[s];
+    auto candidates = std::move(children[s]);
+    std::vector<std::uint32_t> kept;
+    while (!candidates.empty()) {
+      const auto c = candidates.back();
+      candidates.pop_back();
+      auto& child = nodes[c];
+      const double apart = work(cost, node.pivot_scalars, node.below_scalars) +
+                           work(cost, child.pivot_scalars, child.below_scalars);
+      if (work(cost, node.pivot_scalars + child.pivot_scalars, node.below_scalars) > apart) {
+        kept.push_back(c);
+        continue;
+      }
+      absorb(node, child);
+      for (const auto grandchild : children[c]) nodes[grandchild].parent = s;
+      candidates.insert(candidates.end(), children[c].begin(), children[c].end());
+    }
+    std::sort(node.columns.begin(), node.columns.end());
+    std::sort(kept.begin(), kept.end());
+    children[s] = std::move(kept);
+    if (node.parent != kNoParent) children[node.parent].push_back(s);
+  }
+}
+
+/// Which sibling first: the one whose subtree needs most beyond the update matrix it leaves behind.
+std::vector<double> stack_priority(const std::vector<Supernode>& nodes) {
+  struct Need {
+    double peak = 0, update = 0;
+  };
+  std::vector<std::vector<Need>> children(nodes.size());
+  std::vector<double> priority(nodes.size(), 0);
+  for (std::size_t s = 0; s < nodes.size(); ++s) {
+    std::stable_sort(children[s].begin(), children[s].end(),
+                     [](const Need& a, const Need& b) { return a.peak - a.update > b.peak - b.update; });
+    const auto r = static_cast<double>(nodes[s].below_scalars);
+    Need need{0, r * r};
+    double waiting = 0;
+    for (const auto& child : children[s]) {
+      need.peak = std::max(need.peak, waiting + child.peak);
+      waiting += child.update;
+    }
+    need.peak = std::max(need.peak, waiting + need.update);
+    priority[s] = need.peak - need.update;
+    if (nodes[s].parent != kNoParent) children[nodes[s].parent].push_back(need);
+  }
+  return priority;
+}
+
+std::vector<Supernode> without_absorbed(std::vector<Supernode> nodes) {
+  std::vector<std::uint32_t> name(nodes.size());
+  std::vector<Supernode> rest;
+  for (std::size_t s = 0; s < nodes.size(); ++s) {
+    name[s] = static_cast<std::uint32_t>(rest.size());
+    if (!nodes[s].columns.empty()) rest.push_back(std::move(nodes[s]));
+  }
+  for (auto& node : rest) {
+    if (node.parent != kNoParent) node.parent = name[node.parent];
+  }
+  return rest;
+}
+
+std::vector<Supernode> in_order(std::vector<Supernode> nodes, const std::vector<std::uint32_t>& order) {
+  std::vector<std::uint32_t> place(nodes.size());
+  for (std::uint32_t k = 0; k < order.size(); ++k) place[order[k]] = k;
+  std::vector<Supernode> ordered;
+  ordered.reserve(nodes.size());
+  for (const auto s : order) {
+    ordered.push_back(std::move(nodes[s]));
+    auto& parent = ordered.back().parent;
+    if (parent != kNoParent) parent = place[parent];
+  }
+  return ordered;
+}
+
+std::vector<std::uint32_t> parents(const std::vector<Supernode>& nodes) {
+  std::vector<std::uint32_t> result;
+  for (const auto& node : nodes) result.push_back(node.parent);
+  return result;
+}
+
+}  // namespace
+
+std::vector<Supernode> join_columns(const BlockGraph& graph, const EliminationTree& tree,
+                                    const FrontCost& cost) {
+  auto nodes = fundamental_supernodes(graph, tree);
+  amalgamate(nodes, cost);
+  nodes = without_absorbed(std::move(nodes));
+  const auto order = postorder(parents(nodes), stack_priority(nodes));
+  return in_order(std::move(nodes), order);
+}
+
+}  // namespace radioslam

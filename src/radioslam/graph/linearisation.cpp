@@ -1,0 +1,121 @@
+#include "radioslam/graph/linearisation.hpp"
+
+#include "radioslam/geometry/so3.hpp"
+#include "radioslam/graph/pose_chart.hpp"
+#include "radioslam/graph/residuals.hpp"
+
+namespace radioslam {
+namespace {
+
+template <class Pose>
+using PointJacobian = Eigen::Matrix<double, Pose::kDim, Pose::kDof>;
+
+/// d(Exp(phi) v) / d phi at 0: the quarter turn of v in the plane, -[v]x in space.
+Eigen::Vector2d rotation_derivative(const Eigen::Vector2d& v) { return {-v.y(), v.x()}; }
+Eigen::Matrix3d rotation_derivative(const Eigen::Vector3d& v) { return skew(-v); }
+
+/// How an end moves: R [I, d(Exp(phi) lever_arm)] for a pose.
+template <class Pose>
+PointJacobian<Pose> position_jacobian(const PoseGraph<Pose>& graph, const RangeEnd<Pose>& end) {
+  constexpr int kDim = Pose::kDim, kRotation = Pose::kDof - Pose::kDim;
+  PointJacobian<Pose> j = PointJacobian<Pose>::Zero();
+  if (!end.pose.valid()) {
+    j.template leftCols<kDim>().setIdentity();
+    return j;
+  }
+  const auto r = graph.poses[end.pose.index()].rotation_matrix();
+  j.template leftCols<kDim>() = r;
+  j.template rightCols<kRotation>() = r * rotation_derivative(end.lever_arm);
+  return j;
+}
+
+/// How a point seen from a pose's body moves when the pose does: -[I, d(Exp(phi) seen)].
+template <class Pose>
+PointJacobian<Pose> seen_by_jacobian(const typename Pose::Point& seen) {
+  PointJacobian<Pose> j;
+  j.template leftCols<Pose::kDim>() = -Eigen::Matrix<double, Pose::kDim, Pose::kDim>::Identity();
+  j.template rightCols<Pose::kDof - Pose::kDim>() = -rotation_derivative(seen);
+  return j;
+}
+
+}  // namespace
+
+template <class Pose>
+Linearisation<Pose::kDof, Pose::kDof, Pose::kDof, 2> linearise(const PoseGraph<Pose>& graph,
+                                                               const RelativePoseFactor<Pose>& factor) {
+  const Pose T_i_j = graph.poses[factor.i.index()].inverse() * graph.poses[factor.j.index()];
+  const Pose error = factor.T_i_j.inverse() * T_i_j;
+  Linearisation<Pose::kDof, Pose::kDof, Pose::kDof, 2> l;
+  auto& [by_i, by_j, by_drift] = l.jacobians;
+  l.residual = chart_error(graph.chart, error);
+  by_j = chart_derivative(graph.chart, error);
+  by_i.noalias() = -by_j * T_i_j.inverse().adjoint();
+  by_drift = -factor.drift_jacobian;
+  if (factor.drift.valid()) l.residual += by_drift * graph.drifts[factor.drift.index()];
+  return l;
+}
+
+template <class Pose>
+Linearisation<1, Pose::kDof, Pose::kDof> linearise(const PoseGraph<Pose>& graph,
+                                                   const RangeFactor<Pose>& factor) {
+  const typename Pose::Point way = position(graph, factor.j) - position(graph, factor.i);
+  const typename Pose::Point along = direction_or_zero(way);
+  Linearisation<1, Pose::kDof, Pose::kDof> l;
+  l.residual[0] = way.norm() - factor.range_m;
+  std::get<0>(l.jacobians) = -along.transpose() * position_jacobian(graph, factor.i);
+  std::get<1>(l.jacobians) = along.transpose() * position_jacobian(graph, factor.j);
+  return l;
+}
+
+template <class Pose>
+Linearisation<Pose::kDim, Pose::kDof, Pose::kDof> linearise(const PoseGraph<Pose>& graph,
+                                                            const BearingFactor<Pose>& factor) {
+  using Square = Eigen::Matrix<double, Pose::kDim, Pose::kDim>;
+  const Pose& T_w_i = graph.poses[factor.i.index()];
+  const typename Pose::Point seen = T_w_i.inverse() * position(graph, factor.j);
+  const typename Pose::Point u = direction_or_zero(seen);
+  Square across = Square::Zero();  // d(v / |v|) / dv
+  if (!u.isZero(0)) across = (Square::Identity() - u * u.transpose()) / seen.norm();
+  Linearisation<Pose::kDim, Pose::kDof, Pose::kDof> l;
+  l.residual = u - factor.direction;
+  std::get<0>(l.jacobians) = across * seen_by_jacobian<Pose>(seen);
+  std::get<1>(l.jacobians) =
+      across * T_w_i.rotation_matrix().transpose() * position_jacobian(graph, factor.j);
+  return l;
+}
+
+template <class Pose>
+Linearisation<Pose::kDim, Pose::kDof> linearise(const PoseGraph<Pose>& graph,
+                                                const PositionFactor<Pose>& factor) {
+  return {residual(graph, factor), {position_jacobian(graph, factor.i)}};
+}
+
+template <class Pose>
+Linearisation<Pose::kDof, Pose::kDof> linearise(const PoseGraph<Pose>& graph,
+                                                const PosePriorFactor<Pose>& factor) {
+  const Pose error = factor.prior.inverse() * graph.poses[factor.i.index()];
+  return {chart_error(graph.chart, error), {chart_derivative(graph.chart, error)}};
+}
+
+template <class Pose>
+Linearisation<2, 2> linearise(const PoseGraph<Pose>& graph, const DriftPriorFactor& factor) {
+  return {residual(graph, factor), {Eigen::Matrix2d::Identity()}};
+}
+
+#define RADIOSLAM_LINEARISE(Pose)                                                                           \
+  template Linearisation<Pose::kDof, Pose::kDof, Pose::kDof, 2> linearise(const PoseGraph<Pose>&,           \
+                                                                          const RelativePoseFactor<Pose>&); \
+  template Linearisation<1, Pose::kDof, Pose::kDof> linearise(const PoseGraph<Pose>&,                       \
+                                                              const RangeFactor<Pose>&);                    \
+  template Linearisation<Pose::kDim, Pose::kDof, Pose::kDof> linearise(const PoseGraph<Pose>&,              \
+                                                                       const BearingFactor<Pose>&);         \
+  template Linearisation<Pose::kDim, Pose::kDof> linearise(const PoseGraph<Pose>&,                          \
+                                                           const PositionFactor<Pose>&);                    \
+  template Linearisation<Pose::kDof, Pose::kDof> linearise(const PoseGraph<Pose>&,                          \
+                                                           const PosePriorFactor<Pose>&);                   \
+  template Linearisation<2, 2> linearise(const PoseGraph<Pose>&, const DriftPriorFactor&);
+RADIOSLAM_LINEARISE(SE2)
+RADIOSLAM_LINEARISE(SE3)
+#undef RADIOSLAM_LINEARISE
+
+}  // namespace radioslam

@@ -1,0 +1,70 @@
+#include "radioslam/graph/marginals.hpp"
+
+#include <limits>
+
+#include "radioslam/base/check.hpp"
+
+namespace radioslam {
+namespace {
+
+template <class Pose>
+Eigen::Index dimension(const Variable& v) {
+  RADIOSLAM_CHECK(v.kind != VariableKind::kNone, "a covariance needs a variable");
+  if (v.kind == VariableKind::kPose) return Pose::kDof;
+  return v.kind == VariableKind::kPoint ? Pose::kDim : Drift::SizeAtCompileTime;
+}
+
+/// Of a variable outside the equations with itself: zero for a held pose, infinite for one never measured.
+template <class Pose>
+Eigen::MatrixXd outside_covariance(const Variable& v) {
+  const Eigen::Index n = dimension<Pose>(v);
+  if (v.kind == VariableKind::kPose) return Eigen::MatrixXd::Zero(n, n);
+  return Eigen::VectorXd::Constant(n, std::numeric_limits<double>::infinity()).asDiagonal();
+}
+
+}  // namespace
+
+template <class Pose>
+std::optional<Marginals<Pose>> Marginals<Pose>::compute(const PoseGraph<Pose>& graph) {
+  NormalEquations<Pose> equations(graph);
+  if (equations.empty()) return Marginals(std::move(equations), std::nullopt, graph.poses);
+  equations.linearise(graph);
+  if (equations.factorize(0) != Factorization::kDone) return std::nullopt;
+  auto inverse = equations.cholesky().selected_inverse();
+  return Marginals(std::move(equations), std::move(inverse), graph.poses);
+}
+
+template <class Pose>
+Eigen::MatrixXd Marginals<Pose>::block(const Variable& a, const Variable& b) const {
+  const std::int32_t block_a = equations_.blocks().of(a), block_b = equations_.blocks().of(b);
+  if (block_a < 0 && a == b) return outside_covariance<Pose>(a);
+  if (block_a < 0 || block_b < 0) return Eigen::MatrixXd::Zero(dimension<Pose>(a), dimension<Pose>(b));
+  const auto row = static_cast<std::size_t>(block_a), column = static_cast<std::size_t>(block_b);
+  if (row == column) return inverse_->diagonal(row);
+  if (const auto known = inverse_->block(row, column)) return *known;
+  const auto first_row = static_cast<Eigen::Index>(equations_.matrix().offset(row));
+  return equations_.cholesky().inverse_columns(column).middleRows(first_row, dimension<Pose>(a));
+}
+
+template <class Pose>
+Eigen::MatrixXd Marginals<Pose>::joint(const Variable& a, const Variable& b) const {
+  RADIOSLAM_CHECK(a != b, "a joint covariance needs two variables");
+  const Eigen::MatrixXd cross = block(a, b);
+  Eigen::MatrixXd joint(cross.rows() + cross.cols(), cross.rows() + cross.cols());
+  joint << block(a, a), cross, cross.transpose(), block(b, b);
+  return joint;
+}
+
+template <class Pose>
+typename Marginals<Pose>::PoseCovariance Marginals<Pose>::relative_pose(PoseId i, PoseId j) const {
+  if (i == j) return PoseCovariance::Zero();
+  // T_i_j Exp(xi_j - Ad(T_j_i) xi_i).
+  const PoseCovariance by_i = -(poses_[j.index()].inverse() * poses_[i.index()]).adjoint();
+  const PoseCovariance cross = by_i * block(variable(i), variable(j));
+  return by_i * pose(i) * by_i.transpose() + pose(j) + cross + cross.transpose();
+}
+
+template class Marginals<SE2>;
+template class Marginals<SE3>;
+
+}  // namespace radioslam

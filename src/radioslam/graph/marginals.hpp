@@ -1,0 +1,47 @@
+// Marginal covariances of a graph's variables at its current values, from the inverse of the normal
+// equations' matrix H: all diagonal blocks by selected inversion on one factorisation, pairs from the same
+// entries where the factor has them and by solving otherwise.
+// Poses: for the right perturbation [translation, rotation] in the graph's own units (m, rad). Robust losses
+// count with their weight at the current residual. Held poses (gauge.hpp) have covariance zero, so all
+// covariances are relative to them; where a gauge penalty stands, directions that nothing observes have the
+// penalty's covariance. Points and drifts that no factor touches have an infinite variance.
+#pragma once
+
+#include <optional>
+
+#include "radioslam/graph/normal_equations.hpp"
+
+namespace radioslam {
+
+template <class Pose>
+class Marginals {
+ public:
+  using PoseCovariance = typename Pose::Jacobian;
+  using PointCovariance = Eigen::Matrix<double, Pose::kDim, Pose::kDim>;
+
+  /// Nothing when H is singular: something in the graph is not observed.
+  static std::optional<Marginals> compute(const PoseGraph<Pose>& graph);
+
+  PoseCovariance pose(PoseId i) const { return block(variable(i), variable(i)); }
+  PointCovariance point(PointId i) const { return block(variable(i), variable(i)); }
+  Eigen::Matrix2d drift(DriftId i) const { return block(variable(i), variable(i)); }
+
+  /// Covariance of [a; b], for different variables.
+  Eigen::MatrixXd joint(const Variable& a, const Variable& b) const;
+
+  /// Covariance of T_i_j = T_i^-1 T_j for a right perturbation.
+  PoseCovariance relative_pose(PoseId i, PoseId j) const;
+
+ private:
+  Marginals(NormalEquations<Pose> equations, std::optional<SelectedInverse> inverse, std::vector<Pose> poses)
+      : equations_(std::move(equations)), inverse_(std::move(inverse)), poses_(std::move(poses)) {}
+
+  /// The covariance of a with b.
+  Eigen::MatrixXd block(const Variable& a, const Variable& b) const;
+
+  NormalEquations<Pose> equations_;
+  std::optional<SelectedInverse> inverse_;  ///< nothing when no variable is free
+  std::vector<Pose> poses_;
+};
+
+}  // namespace radioslam

@@ -1,0 +1,193 @@
+#include "radioslam/graph/optimizer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "radioslam/graph/loss.hpp"
+#include "radioslam/graph/normal_equations.hpp"
+#include "radioslam/graph/residuals.hpp"
+
+namespace radioslam {
+namespace {
+
+template <class Pose>
+struct Values {
+  explicit Values(const PoseGraph<Pose>& graph)
+      : poses(graph.poses), points(graph.points), drifts(graph.drifts) {}
+  void restore(PoseGraph<Pose>& graph) const {
+    graph.poses = poses;
+    graph.points = points;
+    graph.drifts = drifts;
+  }
+
+  std::vector<Pose> poses;
+  std::vector<typename Pose::Point> points;
+  std::vector<Drift> drifts;
+};
+
+/// One run: the graph holds the current values, `equations` are linearised at them.
+template <class Pose>
+class Run {
+ public:
+  Run(PoseGraph<Pose>& graph, NormalEquations<Pose>& equations, const OptimizerParams& params)
+      : graph_(graph), equations_(equations), params_(params), best_(graph) {
+    best_cost_ = equations_.linearise(graph_);
+    summary_.initial_cost = best_cost_;
+    summary_.costs.push_back(best_cost_);
+  }
+
+  OptimizerSummary run(const Progress& progress) {
+    if (!std::isfinite(best_cost_)) return finish(Termination::kNoProgress);
+    while (summary_.iterations < params_.max_iterations) {
+      report_progress(progress, "optimize", summary_.iterations / double(params_.max_iterations));
+      if (const auto end = iterate()) return finish(*end);
+    }
+    return finish(Termination::kMaxIterations);
+  }
+
+ private:
+  /// One solve and what follows from it; a termination when that was the last.
+  std::optional<Termination> iterate() {
+    ++summary_.iterations;
+    if (equations_.factorize(damping_) == Factorization::kNotPositiveDefinite) return meet_singular_matrix();
+    const Eigen::VectorXd step = equations_.step();
+    if (!step.allFinite()) return meet_singular_matrix();
+    const double before = summary_.costs.back();
+    const bool last = undamped() && negligible(equations_.predicted_decrease(step), before);
+    equations_.apply(step, graph_);
+    const double cost = last ? total_cost(graph_) : equations_.linearise(graph_);
+    summary_.costs.push_back(cost);
+    if (last) return conclude(cost);
+    return judge(cost);
+  }
+
+  bool undamped() const { return damping_ <= params_.negligible_damping; }
+  bool negligible(double decrease, double cost) const {
+    return decrease <=
+           std::max(params_.relative_cost_tolerance * std::abs(cost), params_.absolute_cost_tolerance);
+  }
+
+  /// The model promises no more: take the step if it helps.
+  std::optional<Termination> conclude(double cost) {
+    if (cost <= best_cost_) {
+      keep(cost);
+      return Termination::kConverged;
+    }
+    // At the best values, a step that fails by rounding is the end; above them, go back.
+    if (steps_above_best_ == 0 && negligible(cost - best_cost_, best_cost_)) return Termination::kConverged;
+    return go_back();
+  }
+
+  std::optional<Termination> judge(double cost) {
+    if (cost < best_cost_) {
+      const bool small = undamped() && negligible(best_cost_ - cost, cost);
+      keep(cost);
+      lower_damping();
+      return small ? std::optional(Termination::kConverged) : std::nullopt;
+    }
+    const bool patient = undamped() && steps_above_best_ < params_.nonmonotone_window &&
+                         cost <= params_.nonmonotone_growth * std::abs(best_cost_);
+    if (!patient) return go_back();
+    ++steps_above_best_;
+    return std::nullopt;
+  }
+
+  void keep(double cost) {
+    best_ = Values<Pose>(graph_);
+    best_cost_ = cost;
+    steps_above_best_ = 0;
+  }
+
+  std::optional<Termination> go_back() {
+    best_.restore(graph_);
+    equations_.linearise(graph_);
+    steps_above_best_ = 0;
+    return raise_damping(params_.first_damping);
+  }
+
+  /// From now on some damping stays: the matrix is singular without.
+  std::optional<Termination> meet_singular_matrix() {
+    summary_.costs.push_back(summary_.costs.back());
+    least_damping_ = params_.negligible_damping;
+    return raise_damping(params_.negligible_damping);
+  }
+
+  std::optional<Termination> raise_damping(double first) {
+    damping_ = std::max(first, damping_ * params_.damping_factor);
+    return damping_ > params_.max_damping ? std::optional(Termination::kNoProgress) : std::nullopt;
+  }
+
+  void lower_damping() {
+    damping_ /= params_.damping_factor;
+    if (damping_ < params_.negligible_damping) damping_ = least_damping_;
+  }
+
+  OptimizerSummary finish(Termination termination) {
+    best_.restore(graph_);
+    summary_.final_cost = best_cost_;
+    summary_.termination = termination;
+    return std::move(summary_);
+  }
+
+  PoseGraph<Pose>& graph_;
+  NormalEquations<Pose>& equations_;
+  const OptimizerParams& params_;
+  Values<Pose> best_;
+  double best_cost_ = 0;
+  double damping_ = 0, least_damping_ = 0;
+  int steps_above_best_ = 0;
+  OptimizerSummary summary_;
+};
+
+}  // namespace
+
+std::string_view to_string(Termination termination) {
+  switch (termination) {
+    case Termination::kConverged:
+      return "converged";
+    case Termination::kMaxIterations:
+      return "iteration limit";
+    case Termination::kNoProgress:
+      return "no progress";
+    case Termination::kNothingToDo:
+      return "nothing to do";
+  }
+  return "unknown";
+}
+
+template <class Pose>
+double total_cost(const PoseGraph<Pose>& graph) {
+  double cost = 0;
+  for_each_factor(graph, [&](const auto& factor) {
+    cost += evaluate(loss(factor), weight(factor) * squared_norm(graph, factor)).cost;
+  });
+  return cost;
+}
+
+template <class Pose>
+OptimizerSummary optimize(PoseGraph<Pose>& graph, NormalEquations<Pose>& equations,
+                          const OptimizerParams& params, const Progress& progress) {
+  if (equations.empty()) {
+    const double cost = total_cost(graph);
+    return {cost, cost, 0, Termination::kNothingToDo, {cost}};
+  }
+  return Run<Pose>(graph, equations, params).run(progress);
+}
+
+template <class Pose>
+OptimizerSummary optimize(PoseGraph<Pose>& graph, const OptimizerParams& params, const Progress& progress) {
+  NormalEquations<Pose> equations(graph);
+  return optimize(graph, equations, params, progress);
+}
+
+#define RADIOSLAM_OPTIMIZE(Pose)                                                                       \
+  template double total_cost(const PoseGraph<Pose>&);                                                  \
+  template OptimizerSummary optimize(PoseGraph<Pose>&, const OptimizerParams&, const Progress&);       \
+  template OptimizerSummary optimize(PoseGraph<Pose>&, NormalEquations<Pose>&, const OptimizerParams&, \
+                                     const Progress&);
+RADIOSLAM_OPTIMIZE(SE2)
+RADIOSLAM_OPTIMIZE(SE3)
+#undef RADIOSLAM_OPTIMIZE
+
+}  // namespace radioslam

@@ -1,0 +1,53 @@
+#include "radioslam/graph/residuals.hpp"
+
+#include "radioslam/graph/pose_chart.hpp"
+
+namespace radioslam {
+
+template <class Pose>
+typename Pose::Tangent residual(const PoseGraph<Pose>& graph, const RelativePoseFactor<Pose>& factor) {
+  const Pose T_i_j = graph.poses[factor.i.index()].inverse() * graph.poses[factor.j.index()];
+  typename Pose::Tangent r = chart_error(graph.chart, factor.T_i_j.inverse() * T_i_j);
+  if (factor.drift.valid()) r -= factor.drift_jacobian * graph.drifts[factor.drift.index()];
+  return r;
+}
+
+template <class Pose>
+Eigen::Matrix<double, 1, 1> residual(const PoseGraph<Pose>& graph, const RangeFactor<Pose>& factor) {
+  const typename Pose::Point way = position(graph, factor.j) - position(graph, factor.i);
+  return Eigen::Matrix<double, 1, 1>(way.norm() - factor.range_m);
+}
+
+template <class Pose>
+typename Pose::Point residual(const PoseGraph<Pose>& graph, const BearingFactor<Pose>& factor) {
+  const typename Pose::Point in_body = graph.poses[factor.i.index()].inverse() * position(graph, factor.j);
+  return direction_or_zero(in_body) - factor.direction;
+}
+
+template <class Pose>
+typename Pose::Point residual(const PoseGraph<Pose>& graph, const PositionFactor<Pose>& factor) {
+  return position(graph, factor.i) - factor.position;
+}
+
+template <class Pose>
+typename Pose::Tangent residual(const PoseGraph<Pose>& graph, const PosePriorFactor<Pose>& factor) {
+  return chart_error(graph.chart, factor.prior.inverse() * graph.poses[factor.i.index()]);
+}
+
+template <class Pose>
+Drift residual(const PoseGraph<Pose>& graph, const DriftPriorFactor& factor) {
+  return graph.drifts[factor.i.index()] - factor.mean;
+}
+
+#define RADIOSLAM_RESIDUALS(Pose)                                                                  \
+  template Pose::Tangent residual(const PoseGraph<Pose>&, const RelativePoseFactor<Pose>&);        \
+  template Eigen::Matrix<double, 1, 1> residual(const PoseGraph<Pose>&, const RangeFactor<Pose>&); \
+  template Pose::Point residual(const PoseGraph<Pose>&, const BearingFactor<Pose>&);               \
+  template Pose::Point residual(const PoseGraph<Pose>&, const PositionFactor<Pose>&);              \
+  template Pose::Tangent residual(const PoseGraph<Pose>&, const PosePriorFactor<Pose>&);           \
+  template Drift residual(const PoseGraph<Pose>&, const DriftPriorFactor&);
+RADIOSLAM_RESIDUALS(SE2)
+RADIOSLAM_RESIDUALS(SE3)
+#undef RADIOSLAM_RESIDUALS
+
+}  // namespace radioslam

@@ -1,0 +1,77 @@
+// The residual of every factor at the graph's current values, and what it weighs.
+// Formulas: with the factors in pose_graph.hpp. Ends closer than kMinimumDistance_m have no direction: the
+// unit vector between them is taken as zero.
+#pragma once
+
+#include "radioslam/graph/pose_graph.hpp"
+
+namespace radioslam {
+
+inline constexpr double kMinimumDistance_m = 1e-9;
+
+/// Residuals; a range's and a bearing's are divided by sigma in squared_norm, not here.
+template <class Pose>
+typename Pose::Tangent residual(const PoseGraph<Pose>& graph, const RelativePoseFactor<Pose>& factor);
+template <class Pose>
+Eigen::Matrix<double, 1, 1> residual(const PoseGraph<Pose>& graph, const RangeFactor<Pose>& factor);
+template <class Pose>
+typename Pose::Point residual(const PoseGraph<Pose>& graph, const BearingFactor<Pose>& factor);
+template <class Pose>
+typename Pose::Point residual(const PoseGraph<Pose>& graph, const PositionFactor<Pose>& factor);
+template <class Pose>
+typename Pose::Tangent residual(const PoseGraph<Pose>& graph, const PosePriorFactor<Pose>& factor);
+template <class Pose>
+Drift residual(const PoseGraph<Pose>& graph, const DriftPriorFactor& factor);
+
+/// Where an end is, in the graph's frame.
+template <class Pose>
+typename Pose::Point position(const PoseGraph<Pose>& graph, const RangeEnd<Pose>& end) {
+  if (!end.pose.valid()) return graph.points[end.point.index()];
+  return graph.poses[end.pose.index()] * end.lever_arm;
+}
+
+/// v / |v|, or zero where v is too short to have a direction.
+template <class Vector>
+Vector direction_or_zero(const Vector& v) {
+  const double norm = v.norm();
+  return norm < kMinimumDistance_m ? Vector(Vector::Zero()) : Vector(v / norm);
+}
+
+/// The information of a factor, without weight and loss.
+template <class Pose>
+const typename Pose::Jacobian& information(const RelativePoseFactor<Pose>& factor) {
+  return factor.information;
+}
+template <class Pose>
+Eigen::Matrix<double, 1, 1> information(const RangeFactor<Pose>& factor) {
+  return Eigen::Matrix<double, 1, 1>(1 / (factor.sigma_m * factor.sigma_m));
+}
+template <class Pose>
+Eigen::Matrix<double, Pose::kDim, Pose::kDim> information(const BearingFactor<Pose>& factor) {
+  return Eigen::Matrix<double, Pose::kDim, Pose::kDim>::Identity() / (factor.sigma_rad * factor.sigma_rad);
+}
+template <class Pose>
+const Eigen::Matrix<double, Pose::kDim, Pose::kDim>& information(const PositionFactor<Pose>& factor) {
+  return factor.information;
+}
+template <class Pose>
+const typename Pose::Jacobian& information(const PosePriorFactor<Pose>& factor) {
+  return factor.information;
+}
+inline const Eigen::Matrix2d& information(const DriftPriorFactor& factor) { return factor.information; }
+
+/// Weight and loss; a drift's prior has neither.
+inline double weight(const DriftPriorFactor&) { return 1; }
+inline double weight(const auto& factor) { return factor.weight; }
+inline Loss loss(const DriftPriorFactor&) { return {}; }
+inline Loss loss(const auto& factor) { return factor.loss; }
+
+/// The squared Mahalanobis norm of a factor's residual, before its weight and its loss: the statistic to
+/// hold against a chi-squared quantile.
+template <class Pose, class Factor>
+double squared_norm(const PoseGraph<Pose>& graph, const Factor& factor) {
+  const auto r = residual(graph, factor);
+  return r.dot(information(factor) * r);
+}
+
+}  // namespace radioslam

@@ -1,0 +1,119 @@
+// Every factor, chart and kind of end against central differences.
+#include <gtest/gtest.h>
+
+#include "graph/random_graphs.hpp"
+#include "radioslam/graph/factor_sums.hpp"
+
+namespace radioslam {
+namespace {
+
+template <class Pose>
+void move(PoseGraph<Pose>& graph, const Variable& v, int axis, double step) {
+  const auto i = static_cast<std::size_t>(v.id);
+  if (v.kind == VariableKind::kPose)
+    graph.poses[i] = graph.poses[i] * Pose::exp(step * Pose::Tangent::Unit(axis));
+  else if (v.kind == VariableKind::kPoint)
+    graph.points[i][axis] += step;
+  else
+    graph.drifts[i][axis] += step;
+}
+
+template <class Pose>
+int dimension(const Variable& v) {
+  if (v.kind == VariableKind::kPose) return Pose::kDof;
+  if (v.kind == VariableKind::kPoint) return Pose::kDim;
+  return v.kind == VariableKind::kDrift ? 2 : 0;
+}
+
+/// Largest difference between a factor's Jacobians and central differences of its residual.
+template <class Pose, class Factor>
+double jacobian_error(PoseGraph<Pose> graph, const Factor& factor) {
+  constexpr double h = 1e-6;
+  const auto linear = linearise(graph, factor);
+  const auto vars = variables(factor);
+  double worst = (linear.residual - residual(graph, factor)).norm();
+  for_each_index<std::tuple_size_v<decltype(vars)>>([&](auto k) {
+    const auto& jacobian = std::get<k>(linear.jacobians);
+    for (int axis = 0; axis < dimension<Pose>(vars[k]); ++axis) {
+      auto up = graph, down = graph;
+      move(up, vars[k], axis, h);
+      move(down, vars[k], axis, -h);
+      const auto numerical = ((residual(up, factor) - residual(down, factor)) / (2 * h)).eval();
+      worst = std::max(worst, (jacobian.col(axis) - numerical).norm());
+    }
+    const Eigen::Index used = dimension<Pose>(vars[k]);
+    if (vars[k].kind == VariableKind::kPoint)
+      worst = std::max(worst, jacobian.rightCols(jacobian.cols() - used).norm());
+  });
+  return worst;
+}
+
+template <class Pose>
+class Jacobians : public testing::Test {};
+TYPED_TEST_SUITE(Jacobians, test::PoseTypes);
+
+TYPED_TEST(Jacobians, EqualCentralDifferencesForEveryFactorAndChart) {
+  for (const auto chart : {PoseChart::kLogarithm, PoseChart::kG2o})
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+      auto graph = test::draw_graph<TypeParam>(seed, 12, 1, test::Extras::kAll);
+      graph.chart = chart;
+      test::disturb(graph, seed, 0.5);
+      for_each_factor(graph,
+                      [&](const auto& f) { EXPECT_LT(jacobian_error(graph, f), 2e-7) << typeid(f).name(); });
+    }
+}
+
+TYPED_TEST(Jacobians, CoverEveryKindOfEnd) {
+  const auto graph = test::draw_graph<TypeParam>(1, 12, 1, test::Extras::kAll);
+  int to_pose = 0, to_point = 0;
+  const auto count = [&](const RangeEnd<TypeParam>& e) { ++(e.pose.valid() ? to_pose : to_point); };
+  for (const auto& f : graph.ranges) count(f.j);
+  EXPECT_TRUE(to_pose > 0 && to_point > 0);
+  to_pose = to_point = 0;
+  for (const auto& f : graph.bearings) count(f.j);
+  EXPECT_TRUE(to_pose > 0 && to_point > 0);
+  to_pose = to_point = 0;
+  for (const auto& f : graph.positions) count(f.i);
+  EXPECT_TRUE(to_pose > 0 && to_point > 0);
+}
+
+TYPED_TEST(Jacobians, AreFiniteAndZeroAtDistanceZero) {
+  using Point = typename TypeParam::Point;
+  PoseGraph<TypeParam> graph;
+  graph.poses = {TypeParam(), TypeParam()};
+  const RangeFactor<TypeParam> range{
+      {PoseId(0), {}, Point::Zero()}, {PoseId(1), {}, Point::Zero()}, 2, 1, {}, 1};
+  const auto linear_range = linearise(graph, range);
+  EXPECT_EQ(linear_range.residual[0], -2);
+  EXPECT_TRUE(std::get<0>(linear_range.jacobians).isZero(0));
+  EXPECT_TRUE(std::get<1>(linear_range.jacobians).isZero(0));
+  const BearingFactor<TypeParam> bearing{PoseId(0), {PoseId(1), {}, Point::Zero()}, Point::UnitX(), 1, {}, 1};
+  const auto linear_bearing = linearise(graph, bearing);
+  EXPECT_TRUE(linear_bearing.residual.allFinite());
+  EXPECT_TRUE(std::get<0>(linear_bearing.jacobians).isZero(0));
+  EXPECT_TRUE(std::get<1>(linear_bearing.jacobians).isZero(0));
+}
+
+TEST(Charts, G2oHalvesSmallRotationsInSpaceAndKeepsTheQuaternionsHalf) {
+  PoseGraph3 graph;
+  graph.chart = PoseChart::kG2o;
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.02, Eigen::Vector3d::UnitZ()));
+  graph.poses = {SE3(), SE3({1, 2, 3}, Eigen::Quaterniond(-turn.coeffs()))};
+  RelativePoseFactor<SE3> f;
+  f.i = PoseId(0);
+  f.j = PoseId(1);
+  const auto r = residual(graph, f);
+  EXPECT_NEAR(r[2], 3, 1e-15);
+  EXPECT_NEAR(r[5], std::sin(0.01), 1e-15);
+}
+
+TEST(SquaredNorm, IsTheMahalanobisNormBeforeWeightAndLoss) {
+  PoseGraph2 graph;
+  graph.poses = {SE2(), SE2({3, 4}, 0)};
+  const Eigen::Vector2d origin(0, 0);
+  RangeFactor<SE2> f{{PoseId(0), {}, origin}, {PoseId(1), {}, origin}, 4, 0.5, {LossKind::kCauchy, 1}, 0.1};
+  EXPECT_DOUBLE_EQ(squared_norm(graph, f), 4);
+}
+
+}  // namespace
+}  // namespace radioslam
