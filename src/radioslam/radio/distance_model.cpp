@@ -1,0 +1,102 @@
+#include "radioslam/radio/distance_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+namespace radioslam {
+namespace {
+
+constexpr double kCell_m = 1;              // over which a distance is called equally common
+constexpr double kLeastCommonness = 0.02;  // of the commonest distance: no sample counts for more than 50
+
+/// One over the number of samples at about the same distance.
+std::vector<double> even_weights(const std::vector<DistanceSample>& samples) {
+  const auto cell = [](const DistanceSample& s) { return static_cast<std::size_t>(s.distance_m / kCell_m); };
+  std::vector<double> counts;
+  for (const auto& sample : samples) {
+    if (counts.size() <= cell(sample)) counts.resize(cell(sample) + 1, 0);
+    ++counts[cell(sample)];
+  }
+  const double most = counts.empty() ? 0 : *std::max_element(counts.begin(), counts.end());
+  std::vector<double> weights;
+  for (const auto& sample : samples)
+    weights.push_back(1 / std::max(counts[cell(sample)], kLeastCommonness * most));
+  return weights;
+}
+
+/// Mean and standard deviation of a unit Gaussian around `a`, cut off below zero.
+struct Moments {
+  double mean, sigma;
+};
+
+Moments moments_of_cut_gaussian(double a) {
+  const double density = std::exp(-a * a / 2) / std::sqrt(2 * std::numbers::pi);
+  const double kept = 0.5 * std::erfc(-a / std::numbers::sqrt2);
+  const double hazard = density / kept;
+  return {a + hazard, std::sqrt(std::max(0.0, 1 - a * hazard - hazard * hazard))};
+}
+
+}  // namespace
+
+PredictedDistance cut_off_at_zero(double mean_m, double sigma_m, int samples) {
+  constexpr int kBisections = 60;
+  PredictedDistance p{mean_m, sigma_m, samples, 0, std::sqrt(mean_m * mean_m + sigma_m * sigma_m)};
+  const Moments half = moments_of_cut_gaussian(0);
+  if (mean_m * half.sigma <= sigma_m * half.mean) return p;  // wider than half a Gaussian at zero
+  const double ratio = mean_m / std::max(sigma_m, 1e-6 * mean_m);
+  double low = 0, high = ratio;  // mean / sigma rises with a, and is at least a
+  for (int i = 0; i < kBisections; ++i) {
+    const double middle = (low + high) / 2;
+    const Moments m = moments_of_cut_gaussian(middle);
+    (m.mean < ratio * m.sigma ? low : high) = middle;
+  }
+  p.spread_m = mean_m / moments_of_cut_gaussian(low).mean;
+  p.peak_m = low * p.spread_m;
+  return p;
+}
+
+DistanceModel::DistanceModel(std::vector<DistanceSample> samples, const DistanceModelParams& params)
+    : params_(params), samples_(std::move(samples)) {
+  std::sort(samples_.begin(), samples_.end(), [](const DistanceSample& a, const DistanceSample& b) {
+    return std::tie(a.similarity, a.distance_m) < std::tie(b.similarity, b.distance_m);
+  });
+  const std::vector<double> weights =
+      params_.even_distances ? even_weights(samples_) : std::vector<double>(samples_.size(), 1.0);
+  weight_.assign(1, 0);
+  sum_.assign(1, 0);
+  sum_of_squares_.assign(1, 0);
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    const double d = samples_[i].distance_m, w = weights[i];
+    weight_.push_back(weight_.back() + w);
+    sum_.push_back(sum_.back() + w * d);
+    sum_of_squares_.push_back(sum_of_squares_.back() + w * d * d);
+  }
+}
+
+std::optional<PredictedDistance> DistanceModel::predict(double similarity) const {
+  const double half = params_.bin_width / 2;
+  const auto begin = std::lower_bound(samples_.begin(), samples_.end(), similarity - half,
+                                      [](const DistanceSample& s, double v) { return s.similarity < v; });
+  const auto end = std::upper_bound(begin, samples_.end(), similarity + half,
+                                    [](double v, const DistanceSample& s) { return v < s.similarity; });
+  const auto count = end - begin;
+  if (count < params_.minimum_samples) return std::nullopt;
+  const auto i = static_cast<std::size_t>(begin - samples_.begin());
+  const auto j = static_cast<std::size_t>(end - samples_.begin());
+  const double weight = weight_[j] - weight_[i];
+  if (weight <= 0) return std::nullopt;
+  const double mean = (sum_[j] - sum_[i]) / weight;
+  const double variance = std::max(0.0, (sum_of_squares_[j] - sum_of_squares_[i]) / weight - mean * mean);
+  return cut_off_at_zero(mean, std::sqrt(variance), static_cast<int>(count));
+}
+
+std::optional<double> DistanceModel::smallest_distance_m() const {
+  std::optional<double> smallest;
+  for (double s = params_.bin_width / 2; s <= 1; s += params_.bin_width / 2)
+    if (const auto p = predict(s)) smallest = std::min(p->mean_m, smallest.value_or(p->mean_m));
+  return smallest;
+}
+
+}  // namespace radioslam

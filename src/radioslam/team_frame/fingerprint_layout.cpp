@@ -1,0 +1,245 @@
+#include "radioslam/team_frame/fingerprint_layout.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "radioslam/geometry/alignment.hpp"
+#include "radioslam/team_frame/multidimensional_scaling.hpp"
+#include "radioslam/team_frame/rigid_layout.hpp"
+
+namespace radioslam {
+namespace {
+
+/// T_common_start of a robot whose first body pose is known.
+SE2 start_from_initial_pose(const Robot& robot) {
+  return flatten(*robot.initial_pose) * flatten(robot.odometry.front().pose).inverse();
+}
+
+/// The nodes that take part, robot by robot: all, or evenly thinned to about `max_nodes`.
+std::vector<std::size_t> thinned_nodes(std::size_t count, int max_nodes) {
+  const auto most = static_cast<std::size_t>(max_nodes);
+  const std::size_t stride = std::max<std::size_t>(1, (count + most - 1) / most);
+  std::vector<std::size_t> nodes;
+  for (std::size_t i = 0; i < count; i += stride) nodes.push_back(i);
+  return nodes;
+}
+
+/// One entry per robot: the smallest robot index it hangs together with.
+class Groups {
+ public:
+  explicit Groups(std::size_t robots) : parent_(robots) { std::iota(parent_.begin(), parent_.end(), 0U); }
+  std::size_t root(std::size_t r) const {
+    while (parent_[r] != r) r = parent_[r];
+    return r;
+  }
+  void join(std::size_t a, std::size_t b) {
+    const std::size_t root_a = root(a), root_b = root(b);
+    parent_[std::max(root_a, root_b)] = std::min(root_a, root_b);
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+Groups group_robots(const Mission& mission, const RadioMeasurements& radio, double least_similarity) {
+  Groups groups(mission.robots.size());
+  std::optional<std::size_t> known;
+  for (std::size_t r = 0; r < mission.robots.size(); ++r) {
+    if (!mission.robots[r].initial_pose) continue;
+    if (known) groups.join(*known, r);
+    known = known.value_or(r);
+  }
+  if (!radio.layout_model) return groups;
+  for (std::size_t i = 0; i < radio.nodes.size(); ++i)
+    for (std::size_t j = i + 1; j < radio.nodes.size(); ++j)
+      if (static_cast<double>(radio.layout_similarity[i][j]) > least_similarity)
+        groups.join(radio.nodes[i].robot.index(), radio.nodes[j].robot.index());
+  return groups;
+}
+
+std::vector<RigidBody> make_bodies(const Mission& mission, const RadioMeasurements& radio,
+                                   const std::vector<std::size_t>& nodes) {
+  std::vector<RigidBody> bodies(mission.robots.size());
+  for (std::size_t r = 0, first = 0; r < bodies.size(); ++r) {
+    const Robot& robot = mission.robots[r];
+    std::vector<Eigen::Vector2d> points;
+    for (const std::size_t node : nodes)
+      if (radio.nodes[node].robot.index() == r)
+        points.emplace_back(radio.at(node).T_start_body.translation().head<2>());
+    bodies[r].first_node = first;
+    bodies[r].points.resize(2, static_cast<Eigen::Index>(points.size()));
+    for (std::size_t i = 0; i < points.size(); ++i)
+      bodies[r].points.col(static_cast<Eigen::Index>(i)) = points[i];
+    bodies[r].fixed = robot.initial_pose.has_value();
+    if (bodies[r].fixed) bodies[r].T_layout_body = start_from_initial_pose(robot);
+    if (robot.heading == Heading::kAbsolute) bodies[r].sigma_heading_rad = robot.sigma_heading_rad;
+    first += points.size();
+  }
+  return bodies;
+}
+
+PairTargets make_targets(const RadioMeasurements& radio, const std::vector<std::size_t>& nodes,
+                         const LayoutParams& params) {
+  const auto n = static_cast<Eigen::Index>(nodes.size());
+  PairTargets targets{Eigen::MatrixXf::Zero(n, n), Eigen::MatrixXf::Zero(n, n),
+                      Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic>::Constant(n, n, false)};
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const std::size_t a = nodes[static_cast<std::size_t>(i)], b = nodes[static_cast<std::size_t>(j)];
+      if (radio.nodes[a].robot == radio.nodes[b].robot) continue;
+      const double s = static_cast<double>(radio.layout_similarity[a][b]);
+      const double distance = radio.layout_model->distance_m(std::max(s, params.least_similarity));
+      const double sigma2 = params.sigma_m * params.sigma_m +
+                            params.sigma_relative * params.sigma_relative * distance * distance;
+      targets.distance_m(i, j) = static_cast<float>(distance);
+      targets.weight(i, j) = static_cast<float>(params.pair_weight / sigma2);
+      targets.lower_bound(i, j) = s <= params.least_similarity;
+    }
+  return targets;
+}
+
+/// Distances for the scaling: odometry within a robot, known places between fixed ones, radio elsewhere.
+Eigen::MatrixXd scaling_distances(const std::vector<RigidBody>& bodies, const PairTargets& targets) {
+  Eigen::MatrixXd distances = targets.distance_m.cast<double>();
+  const Eigen::Matrix2Xd positions = node_positions(bodies);
+  for (const RigidBody& a : bodies)
+    for (const RigidBody& b : bodies) {
+      if (&a != &b && !(a.fixed && b.fixed)) continue;
+      for (Eigen::Index i = 0; i < a.points.cols(); ++i)
+        for (Eigen::Index j = 0; j < b.points.cols(); ++j) {
+          const Eigen::Index p = static_cast<Eigen::Index>(a.first_node) + i;
+          const Eigen::Index q = static_cast<Eigen::Index>(b.first_node) + j;
+          distances(p, q) = (positions.col(p) - positions.col(q)).norm();
+        }
+    }
+  return distances;
+}
+
+/// The rotation and translation that carry the scaled points into the layout's frame: onto the robots whose
+/// place is known, else to the robots' shared heading, else nowhere.
+SE2 carry_to_frame(const std::vector<RigidBody>& bodies, const Eigen::Matrix2Xd& scaled) {
+  std::vector<Eigen::Index> known;
+  double sine = 0, cosine = 0;
+  const Eigen::Matrix2Xd positions = node_positions(bodies);
+  for (const RigidBody& body : bodies) {
+    const auto first = static_cast<Eigen::Index>(body.first_node);
+    if (body.fixed)
+      for (Eigen::Index i = 0; i < body.points.cols(); ++i) known.push_back(first + i);
+    if (body.sigma_heading_rad <= 0 || body.points.cols() < 2) continue;
+    const Eigen::Matrix2Xd mine = scaled.middleCols(first, body.points.cols());
+    const Eigen::Matrix2d covariance = (body.points.colwise() - body.points.rowwise().mean()) *
+                                       (mine.colwise() - mine.rowwise().mean()).transpose();
+    sine += covariance(1, 0) - covariance(0, 1);
+    cosine += covariance.trace();
+  }
+  if (known.empty()) return {Eigen::Vector2d::Zero(), std::atan2(sine, cosine)};
+  return align_points(Eigen::Matrix2Xd(scaled(Eigen::all, known)),
+                      Eigen::Matrix2Xd(positions(Eigen::all, known)));
+}
+
+/// Places every free body on the scaled points; returns the squared distance left.
+double place_on(std::vector<RigidBody>& bodies, const Eigen::Matrix2Xd& scaled) {
+  const SE2 carry = carry_to_frame(bodies, scaled);
+  double residual = 0;
+  for (RigidBody& body : bodies) {
+    if (body.points.cols() == 0) continue;
+    Eigen::Matrix2Xd wanted =
+        carry.rotation_matrix() *
+        scaled.middleCols(static_cast<Eigen::Index>(body.first_node), body.points.cols());
+    wanted.colwise() += carry.translation();
+    if (!body.fixed) {
+      body.T_layout_body = body.sigma_heading_rad > 0
+                               ? SE2(wanted.rowwise().mean() - body.points.rowwise().mean(), 0)
+                               : align_points(body.points, wanted);
+    }
+    for (Eigen::Index i = 0; i < body.points.cols(); ++i)
+      residual += (body.T_layout_body * Eigen::Vector2d(body.points.col(i)) - wanted.col(i)).squaredNorm();
+  }
+  return residual;
+}
+
+/// The classical scaling of the distances, those beyond `cap_m` cut to it, and its mirror image.
+std::vector<std::vector<RigidBody>> starts_by_scaling(const std::vector<RigidBody>& bodies,
+                                                      const PairTargets& targets, double cap_m) {
+  Eigen::Matrix2Xd scaled = classical_scaling(scaling_distances(bodies, targets).cwiseMin(cap_m));
+  std::vector<std::vector<RigidBody>> starts(2, bodies);
+  place_on(starts[0], scaled);
+  scaled.row(1) *= -1;
+  place_on(starts[1], scaled);
+  return starts;
+}
+
+/// Evidence between robots of different groups is a lower bound at most: leave it out.
+void drop_pairs_between_groups(PairTargets& targets, const RadioMeasurements& radio,
+                               const std::vector<std::size_t>& nodes, const Groups& groups) {
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (std::size_t j = 0; j < nodes.size(); ++j)
+      if (groups.root(radio.nodes[nodes[i]].robot.index()) !=
+          groups.root(radio.nodes[nodes[j]].robot.index()))
+        targets.weight(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = 0;
+}
+
+/// Every group in its own frame: the common one where a pose is known, else its first robot's start.
+TeamFrame express_in_group_frames(const Mission& mission, const std::vector<RigidBody>& bodies,
+                                  const Groups& groups) {
+  TeamFrame frame;
+  std::vector<bool> known(bodies.size(), false);
+  std::vector<int> members(bodies.size(), 0);
+  for (std::size_t r = 0; r < bodies.size(); ++r) {
+    if (mission.robots[r].initial_pose) known[groups.root(r)] = true;
+    ++members[groups.root(r)];
+  }
+  std::vector<int> number(bodies.size(), -1);
+  int groups_seen = 0;
+  for (std::size_t r = 0; r < bodies.size(); ++r) {
+    const std::size_t root = groups.root(r);
+    if (number[root] < 0) number[root] = groups_seen++;
+    const SE2 T_frame_layout = known[root] ? SE2() : bodies[root].T_layout_body.inverse();
+    frame.T_team_start.push_back(T_frame_layout * bodies[r].T_layout_body);
+    frame.component.push_back(number[root]);
+    frame.placed.push_back(number[root] == 0 || members[root] > 1 || known[root]);
+  }
+  return frame;
+}
+
+/// Majorises from several starts and keeps the layout of least stress: which far distances help the scaling
+/// differs between buildings, and so does which of two mirror images fits.
+std::vector<RigidBody> best_layout(const std::vector<RigidBody>& bodies, const PairTargets& targets,
+                                   const DecayModel& model, const LayoutParams& params,
+                                   const Progress& progress) {
+  constexpr std::array kCapSimilarities = {0.05, 0.1, 0.2, 0.3};
+  std::vector<RigidBody> best;
+  double least_stress = std::numeric_limits<double>::infinity();
+  for (std::size_t c = 0; c < kCapSimilarities.size(); ++c) {
+    report_progress(progress, "team frame", static_cast<double>(c) / kCapSimilarities.size());
+    for (auto& start : starts_by_scaling(bodies, targets, model.distance_m(kCapSimilarities[c]))) {
+      majorise_stress(start, targets, params.sweeps);
+      const double stress = layout_stress(start, targets);
+      if (stress >= least_stress) continue;
+      least_stress = stress;
+      best = std::move(start);
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+TeamFrame align_by_fingerprints(const Mission& mission, const RadioMeasurements& radio,
+                                const LayoutParams& params, const Progress& progress) {
+  const Groups groups = group_robots(mission, radio, params.least_similarity);
+  const std::vector<std::size_t> nodes = thinned_nodes(radio.nodes.size(), params.max_nodes);
+  std::vector<RigidBody> bodies = make_bodies(mission, radio, nodes);
+  const bool all_known = std::all_of(bodies.begin(), bodies.end(), [](const auto& b) { return b.fixed; });
+  if (radio.layout_model && !all_known) {
+    PairTargets targets = make_targets(radio, nodes, params);
+    drop_pairs_between_groups(targets, radio, nodes, groups);
+    bodies = best_layout(bodies, targets, *radio.layout_model, params, progress);
+  }
+  return express_in_group_frames(mission, bodies, groups);
+}
+
+}  // namespace radioslam
