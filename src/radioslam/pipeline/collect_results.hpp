@@ -1,0 +1,44 @@
+// From an optimised joint graph to what a run reports.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "radioslam/closure/fingerprint_closures.hpp"
+#include "radioslam/graph/marginals.hpp"
+#include "radioslam/pipeline/joint_graph.hpp"
+#include "radioslam/radio/measurements.hpp"
+#include "radioslam/results/results.hpp"
+#include "radioslam/team_frame/fingerprint_layout.hpp"
+
+namespace radioslam {
+
+/// A closure whose squared residual over its variance exceeds this has not taken part: chi-square, one
+/// degree of freedom, 99 %.
+inline constexpr double kAcceptedStatistic = 6.635;
+
+template <class Pose>
+std::vector<RobotResult> collect_robots(const Mission& mission, const JointGraph<Pose>& joint,
+                                        const TeamFrame& team_frame);
+
+template <class Pose>
+std::vector<ClosureResult> collect_closures(const RadioMeasurements& radio, const JointGraph<Pose>& joint,
+                                            const std::vector<FingerprintClosure>& closures);
+
+/// Fills RobotResult::sigma_position_m from the marginal covariances.
+template <class Pose>
+void add_uncertainty(std::vector<RobotResult>& robots, const JointGraph<Pose>& joint,
+                     const Marginals<Pose>& marginals);
+
+/// What a user should know: constant odometry errors beyond three times what is stated and what is certain.
+template <class Pose>
+std::vector<std::string> odometry_notes(const Mission& mission, const JointGraph<Pose>& joint,
+                                        const Marginals<Pose>& marginals);
+
+/// The fitted model and at most a few thousand of its samples.
+SimilarityModelResult collect_similarity_model(const RadioMeasurements& radio, const RadioParams& params);
+
+/// Components in the order of their numbers.
+std::vector<Component> collect_components(const Mission& mission, const TeamFrame& team_frame);
+
+}  // namespace radioslam

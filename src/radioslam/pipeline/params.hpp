@@ -1,0 +1,36 @@
+// Every parameter of a run, by section.
+#pragma once
+
+#include "radioslam/closure/fingerprint_closures.hpp"
+#include "radioslam/graph/optimizer.hpp"
+#include "radioslam/mission/keyframes.hpp"
+#include "radioslam/pipeline/joint_graph.hpp"
+#include "radioslam/pipeline/robust_solution.hpp"
+#include "radioslam/radio/measurements.hpp"
+#include "radioslam/team_frame/fingerprint_layout.hpp"
+
+namespace radioslam {
+
+struct RunParams {
+  KeyframeParams keyframe;
+  RadioParams radio;
+  LayoutParams team_frame;
+  FingerprintClosureParams closure;
+  JointGraphParams graph;
+  RobustParams robust;
+  /// Distances from fingerprints are good to metres: a millionth of the cost decides nothing.
+  OptimizerParams optimizer{.max_iterations = 30, .relative_cost_tolerance = 1e-5};
+
+  template <class Self, class Visitor>
+  static void visit_sections(Self& self, Visitor&& visit) {
+    visit("keyframe", self.keyframe);
+    visit("radio", self.radio);
+    visit("team_frame", self.team_frame);
+    visit("closure", self.closure);
+    visit("graph", self.graph);
+    visit("robust", self.robust);
+    visit("optimizer", self.optimizer);
+  }
+};
+
+}  // namespace radioslam

@@ -1,0 +1,24 @@
+// The offline composition: recordings in, one map of the team out.
+#pragma once
+
+#include <variant>
+
+#include "radioslam/base/progress.hpp"
+#include "radioslam/graph/pose_graph.hpp"
+#include "radioslam/mission/mission.hpp"
+#include "radioslam/pipeline/params.hpp"
+#include "radioslam/results/results.hpp"
+
+namespace radioslam {
+
+/// What a run leaves: its results and the final graph.
+struct RunOutput {
+  RunResult result;
+  std::variant<PoseGraph2, PoseGraph3> graph;
+};
+
+/// Estimates the joint trajectory of the team. Deterministic: the same mission and parameters give the same
+/// numbers for any number of threads. RunResult::parameters is left to the caller.
+RunOutput run_pipeline(const Mission& mission, const RunParams& params, const Progress& progress = {});
+
+}  // namespace radioslam

@@ -1,0 +1,40 @@
+#include "radioslam/pipeline/robust_solution.hpp"
+
+#include <algorithm>
+
+namespace radioslam {
+namespace {
+
+constexpr double kCoarseTolerance = 1e-3;  // of the stages before the last
+
+template <class Pose>
+void set_loss_scale(JointGraph<Pose>& joint, double scale) {
+  auto& ranges = joint.graph.ranges;
+  for (std::size_t k = joint.first_closure_range; k < ranges.size(); ++k)
+    ranges[k].loss = {LossKind::kCauchy, scale};
+}
+
+}  // namespace
+
+template <class Pose>
+OptimizerSummary optimize_robustly(JointGraph<Pose>& joint, const RobustParams& robust,
+                                   const OptimizerParams& optimizer, const Progress& progress) {
+  OptimizerParams coarse = optimizer;
+  coarse.relative_cost_tolerance = std::max(kCoarseTolerance, optimizer.relative_cost_tolerance);
+  int iterations = 0;
+  for (double scale = robust.first_scale; scale > robust.final_scale; scale *= robust.step) {
+    set_loss_scale(joint, scale);
+    iterations += optimize(joint.graph, coarse, progress).iterations;
+  }
+  set_loss_scale(joint, robust.final_scale);
+  OptimizerSummary summary = optimize(joint.graph, optimizer, progress);
+  summary.iterations += iterations;
+  return summary;
+}
+
+template OptimizerSummary optimize_robustly<SE2>(JointGraph<SE2>&, const RobustParams&,
+                                                 const OptimizerParams&, const Progress&);
+template OptimizerSummary optimize_robustly<SE3>(JointGraph<SE3>&, const RobustParams&,
+                                                 const OptimizerParams&, const Progress&);
+
+}  // namespace radioslam

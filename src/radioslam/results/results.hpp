@@ -1,0 +1,108 @@
+// What a run produced: everything that is written, reported and evaluated, and nothing else.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "radioslam/base/strong_id.hpp"
+#include "radioslam/geometry/se3.hpp"
+#include "radioslam/geometry/trajectory.hpp"
+
+namespace radioslam {
+
+/// A robot's estimated keyframes. All robots of one component share one frame.
+struct RobotResult {
+  std::string id;
+  Trajectory<SE3> estimate;  ///< T_frame_body at every keyframe
+  Trajectory<SE3> odometry;  ///< the same keyframes by odometry alone, placed by the initial pose (or the
+                             ///< first estimated pose)
+  std::vector<double>
+      sigma_position_m;  ///< per keyframe, sqrt of the mean variance per axis; empty if not computed
+  double yaw_drift_per_m_rad = 0;  ///< estimated
+  double scale_error = 0;          ///< estimated
+  bool start_known = false;  ///< the mission said where it starts
+  bool placed = true;              ///< false: nothing ties it to its component
+};
+
+/// Where a closure came from.
+enum class ClosureKind { kRange, kAoa, kFingerprint, kSequence, kLidar, kMatch };
+enum class ClosureStatus { kAccepted, kRejected };
+
+/// One tie between two keyframes and what became of it.
+struct ClosureResult {
+  RobotIndex robot_i;
+  Stamp stamp_i;  ///< a keyframe's
+  RobotIndex robot_j;
+  Stamp stamp_j;  ///< a keyframe's
+  ClosureKind kind = ClosureKind::kFingerprint;
+  ClosureStatus status = ClosureStatus::kAccepted;
+  double statistic = 0;  ///< the squared normalised residual that decided
+  std::string reason;    ///< of a rejection; empty when accepted
+};
+
+/// A pair of keyframes of different robots that survived pruning.
+struct CandidateResult {
+  RobotIndex robot_i;
+  Stamp stamp_i;
+  RobotIndex robot_j;
+  Stamp stamp_j;
+  double distance_m = 0;
+  double mahalanobis = 0;
+};
+
+/// One bin of a fitted similarity-to-distance model, with samples for the picture.
+struct SimilarityBin {
+  double similarity = 0;  ///< centre
+  double distance_m = 0;
+  double sigma_m = 0;
+  long samples = 0;
+};
+
+/// What the fingerprints taught: for the report.
+struct SimilarityModelResult {
+  std::string measure;
+  std::vector<SimilarityBin> bins;
+  std::vector<std::pair<double, double>> samples;  ///< (similarity, distance in metres), thinned
+};
+
+/// Wall time of a pipeline stage.
+struct StageTiming {
+  std::string stage;
+  double seconds = 0;
+};
+
+/// One parameter as it was used.
+struct EffectiveParameter {
+  std::string key;
+  std::string value;
+  std::string unit;
+  std::string meaning;
+  bool changed = false;  ///< differs from the default
+};
+
+/// Robots that share one frame.
+struct Component {
+  std::vector<std::string> robots;
+};
+
+/// A whole run.
+struct RunResult {
+  std::string mission_name;
+  int dimension = 2;
+  std::vector<RobotResult> robots;  ///< in the mission's order
+  std::vector<CandidateResult> candidates;
+  std::vector<ClosureResult> closures;
+  std::optional<SimilarityModelResult> similarity_model;
+  std::vector<Component> components;
+  std::vector<std::string> unplaced;
+  std::vector<double> hypothesis_weights{1.0};
+  std::map<std::string, double> counts;
+  std::vector<StageTiming> timings;
+  std::vector<EffectiveParameter> parameters;
+  std::vector<std::string> notes;  ///< what a user should know (odometry noise looks larger than stated, ...)
+};
+
+}  // namespace radioslam
