@@ -1,0 +1,140 @@
+#include "radioslam/eval/metrics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "radioslam/base/check.hpp"
+#include "radioslam/eval/association.hpp"
+#include "radioslam/eval/statistics.hpp"
+#include "radioslam/geometry/alignment.hpp"
+#include "radioslam/geometry/so3.hpp"
+
+namespace radioslam {
+namespace {
+
+using Matches = std::vector<MatchedPose>;
+
+const Trajectory<SE3>& estimate_of(const std::string& id, const std::vector<EstimatedTrajectory>& estimate) {
+  static const Trajectory<SE3> none;
+  for (const auto& robot : estimate)
+    if (robot.id == id) return robot.poses;
+  return none;
+}
+
+/// In the plane only x, y and yaw count.
+SE3 as_seen(const SE3& pose, int dimension) { return dimension == 2 ? lift(flatten(pose)) : pose; }
+
+std::vector<Matches> match_team(const std::vector<EstimatedTrajectory>& estimate, const Truth& truth,
+                                int dimension, Association association) {
+  std::vector<Matches> team;
+  for (const auto& robot : truth.robots) {
+    team.push_back(match_poses(estimate_of(robot.id, estimate), robot, association));
+    for (auto& match : team.back()) {
+      match.truth = as_seen(match.truth, dimension);
+      match.estimate = as_seen(match.estimate, dimension);
+    }
+  }
+  return team;
+}
+
+/// T_truth_estimate over all robots' positions at once; identity when there are none.
+SE3 align_team(const std::vector<Matches>& team, int dimension) {
+  Eigen::Index count = 0;
+  for (const auto& matches : team) count += static_cast<Eigen::Index>(matches.size());
+  if (count == 0) return {};
+  Eigen::Matrix3Xd source(3, count), target(3, count);
+  Eigen::Index column = 0;
+  for (const auto& matches : team)
+    for (const auto& match : matches) {
+      source.col(column) = match.estimate.translation();
+      target.col(column++) = match.truth.translation();
+    }
+  if (dimension == 3) return align_points(source, target);
+  return lift(align_points(Eigen::Matrix2Xd(source.topRows<2>()), Eigen::Matrix2Xd(target.topRows<2>())));
+}
+
+std::vector<double> distance_along(const Trajectory<SE3>& truth, int dimension) {
+  std::vector<double> along(truth.size(), 0.0);
+  for (std::size_t i = 1; i < truth.size(); ++i)
+    along[i] = along[i - 1] + (as_seen(truth[i].pose, dimension).translation() -
+                               as_seen(truth[i - 1].pose, dimension).translation())
+                                  .norm();
+  return along;
+}
+
+double share(std::size_t part, std::size_t whole) {
+  return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+std::vector<double> error_values(const std::vector<PointError>& errors) {
+  std::vector<double> values;
+  for (const auto& error : errors) values.push_back(error.error_m);
+  return values;
+}
+
+RobotMetrics judge_robot(const RobotTruth& truth, const Matches& matches, const SE3& T_truth_estimate,
+                         int dimension) {
+  RobotMetrics robot;
+  robot.id = truth.id;
+  const auto along = distance_along(truth.poses, dimension);
+  std::vector<bool> covered(truth.poses.size(), false);
+  for (const auto& match : matches) {
+    const Eigen::Vector3d error = T_truth_estimate * match.estimate.translation() - match.truth.translation();
+    robot.errors.push_back({truth.poses[match.truth_index].stamp, error.norm(), along[match.truth_index]});
+    covered[match.truth_index] = true;
+  }
+  robot.coverage =
+      share(static_cast<std::size_t>(std::count(covered.begin(), covered.end(), true)), covered.size());
+  robot.ate = summarise_errors(error_values(robot.errors));
+  return robot;
+}
+
+/// Over the team's pairs of consecutive compared poses: E = (Q_i^-1 Q_k)^-1 (P_i^-1 P_k), with Q the truth
+/// and P the estimate.
+std::optional<RelativeError> relative_error(const std::vector<Matches>& team, const Truth& truth) {
+  double translation = 0, rotation = 0;
+  RelativeError result;
+  for (std::size_t r = 0; r < team.size(); ++r) {
+    if (!truth.robots[r].has_orientation) continue;
+    for (std::size_t k = 1; k < team[r].size(); ++k) {
+      const auto& a = team[r][k - 1];
+      const auto& b = team[r][k];
+      const SE3 error = (a.truth.inverse() * b.truth).inverse() * (a.estimate.inverse() * b.estimate);
+      translation += error.translation().squaredNorm();
+      rotation += so3_log(error.rotation()).squaredNorm();
+      ++result.count;
+    }
+  }
+  if (result.count == 0) return std::nullopt;
+  result.translation_rmse_m = std::sqrt(translation / static_cast<double>(result.count));
+  result.rotation_rmse_rad = std::sqrt(rotation / static_cast<double>(result.count));
+  return result;
+}
+
+}  // namespace
+
+TeamMetrics evaluate_trajectories(const std::vector<EstimatedTrajectory>& estimate, const Truth& truth,
+                                  int dimension, Association association) {
+  RADIOSLAM_CHECK(dimension == 2 || dimension == 3, "the world has two or three dimensions");
+  const auto team = match_team(estimate, truth, dimension, association);
+  TeamMetrics metrics;
+  metrics.T_truth_estimate = align_team(team, dimension);
+  metrics.rpe = relative_error(team, truth);
+
+  std::vector<double> errors;
+  double covered = 0;
+  std::size_t poses = 0;
+  for (std::size_t r = 0; r < team.size(); ++r) {
+    auto robot = judge_robot(truth.robots[r], team[r], metrics.T_truth_estimate, dimension);
+    const auto values = error_values(robot.errors);
+    errors.insert(errors.end(), values.begin(), values.end());
+    covered += robot.coverage * static_cast<double>(truth.robots[r].poses.size());
+    poses += truth.robots[r].poses.size();
+    metrics.robots.push_back(std::move(robot));
+  }
+  metrics.ate = summarise_errors(std::move(errors));
+  metrics.coverage = poses == 0 ? 0 : covered / static_cast<double>(poses);
+  return metrics;
+}
+
+}  // namespace radioslam

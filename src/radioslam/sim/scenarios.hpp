@@ -1,0 +1,45 @@
+// The scenarios that can be simulated, by name: what `simulate SCENARIO` offers.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <type_traits>
+#include <variant>
+
+#include "radioslam/sim/carpark.hpp"
+#include "radioslam/sim/simulation.hpp"
+
+namespace radioslam {
+
+/// The parameters of any scenario; one alternative each.
+using ScenarioParams = std::variant<CarparkParams>;
+
+/// A kind of world with robots in it.
+struct Scenario {
+  std::string_view name;
+  std::string_view description;  ///< one line
+  ScenarioParams defaults;
+};
+
+/// All scenarios, in the order in which to list them.
+std::span<const Scenario> scenarios();
+
+/// The scenario of that name, or none.
+const Scenario* find_scenario(std::string_view name);
+
+/// Calls visit(const Field&, value&) for every parameter of a scenario.
+template <class Visitor>
+void visit_scenario_fields(ScenarioParams& params, Visitor&& visit) {
+  std::visit([&](auto& chosen) { std::decay_t<decltype(chosen)>::visit_fields(chosen, visit); }, params);
+}
+template <class Visitor>
+void visit_scenario_fields(const ScenarioParams& params, Visitor&& visit) {
+  std::visit([&](const auto& chosen) { std::decay_t<decltype(chosen)>::visit_fields(chosen, visit); },
+             params);
+}
+
+/// Runs the scenario that the parameters belong to.
+Simulation simulate(const ScenarioParams& params, std::uint64_t seed);
+
+}  // namespace radioslam

@@ -1,0 +1,15 @@
+// What a simulated scenario produces: recordings as robots would make them and, apart, what was true.
+#pragma once
+
+#include "radioslam/mission/mission.hpp"
+#include "radioslam/mission/truth.hpp"
+
+namespace radioslam {
+
+/// A mission and its truth, robot for robot.
+struct Simulation {
+  Mission mission;
+  Truth truth;
+};
+
+}  // namespace radioslam
