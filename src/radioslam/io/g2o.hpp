@@ -1,0 +1,61 @@
+// Pose graphs in g2o's text format (Kuemmerle et al. 2011), in the plane or in space. One entry per line:
+//
+//   VERTEX_SE2 id x y theta                      VERTEX_SE3:QUAT id x y z qx qy qz qw
+//   VERTEX_XY id x y                             VERTEX_TRACKXYZ id x y z
+//   EDGE_SE2 i j x y theta <3x3>                 EDGE_SE3:QUAT i j x y z qx qy qz qw <6x6>
+//   EDGE_PRIOR_SE2 i x y theta <3x3>             EDGE_SE3_PRIOR i 0 x y z qx qy qz qw <6x6>
+//   FIX id ...                                   PARAMS_SE3OFFSET 0 0 0 0 0 0 0 1
+//   EDGE_RANGE i j range_m information [lever_i lever_j]       our own: a distance between poses or points
+//
+// <nxn> is the upper triangle, row by row, of an information matrix in the order [translation, rotation] of
+// g2o's error vector (PoseChart::kG2o). A lever arm is the antenna in the body frame, x y (z). Ids have 64
+// bits. Blank lines and '#' comments are skipped; VERTEX lines may be missing, for some or all poses; edges
+// may repeat, and then count as often as they stand there. In space, edges of the plane are refused, and the
+// other way round. Refused as well: unknown tags, landmark edges, indefinite information matrices.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "radioslam/graph/pose_graph.hpp"
+#include "radioslam/io/text.hpp"
+
+namespace radioslam {
+
+/// What to do with an information matrix that has negative eigenvalues beyond rounding.
+enum class RepairInformation {
+  kNo,   ///< refuse the file, with the first line and how many there are
+  kYes,  ///< take the nearest positive definite matrix and count it
+};
+
+/// A file's graph. Poses stand in the order of their VERTEX lines, then those without one by id.
+template <class Pose>
+struct G2oGraph {
+  PoseGraph<Pose> graph;
+  std::vector<std::uint64_t> pose_ids;           ///< per pose
+  std::vector<std::uint64_t> point_ids;          ///< per point
+  std::vector<bool> pose_has_value;              ///< per pose: did it have a VERTEX line?
+  std::vector<std::size_t> relative_pose_lines;  ///< per factor, of the file
+  std::vector<std::size_t> range_lines;
+  std::vector<std::size_t> pose_prior_lines;
+  std::size_t repaired_informations = 0;
+};
+
+using AnyG2oGraph = std::variant<G2oGraph<SE2>, G2oGraph<SE3>>;
+
+/// Linear in the text; every refusal is an InputError with its line.
+AnyG2oGraph read_g2o(const Text& text, RepairInformation repair = RepairInformation::kNo);
+
+/// A graph with ids 0, 1, ... for its poses and then its points.
+template <class Pose>
+G2oGraph<Pose> with_default_ids(PoseGraph<Pose> graph);
+
+/// The text of a graph. An information is written times its factor's weight, in g2o's chart; a drift is
+/// applied to its measurements. What the format cannot say (losses, bearings, positions, drift priors) is
+/// counted in a comment at the end.
+template <class Pose>
+std::string format_g2o(const G2oGraph<Pose>& graph);
+
+}  // namespace radioslam

@@ -1,0 +1,175 @@
+#include <cmath>
+#include <numeric>
+
+#include "radioslam/base/check.hpp"
+#include "radioslam/io/g2o.hpp"
+#include "radioslam/io/g2o_tags.hpp"
+#include "radioslam/io/numbers.hpp"
+
+namespace radioslam {
+namespace {
+
+/// d(error in the graph's chart) / d(error in g2o's): in space g2o takes the quaternion's vector part, half
+/// of the rotation vector.
+template <class Pose>
+double rotation_per_g2o_rotation(PoseChart chart) {
+  return Pose::kDim == 3 && chart == PoseChart::kLogarithm ? 2 : 1;
+}
+
+/// Builds the text, one entry after the other.
+template <class Pose>
+class G2oWriter {
+ public:
+  explicit G2oWriter(const G2oGraph<Pose>& file) : file_(file), graph_(file.graph) {
+    RADIOSLAM_CHECK(file.pose_ids.size() == graph_.poses.size(), "one id per pose");
+    RADIOSLAM_CHECK(file.point_ids.size() == graph_.points.size(), "one id per point");
+  }
+
+  std::string write() {
+    write_vertices();
+    write_fixed();
+    if (Pose::kDim == 3 && !graph_.pose_priors.empty()) {
+      tag(Tags::kOffset);
+      out_ += " 0 0 0 0 0 0 0 1\n";
+    }
+    for (const auto& factor : graph_.relative_poses) write_relative_pose(factor);
+    for (const auto& factor : graph_.ranges) write_range(factor);
+    for (const auto& factor : graph_.pose_priors) write_prior(factor);
+    write_omissions();
+    return std::move(out_);
+  }
+
+ private:
+  using Tags = G2oTags<Pose>;
+
+  void tag(std::string_view name) { out_ += name; }
+  void id(std::uint64_t value) { (out_ += ' ') += std::to_string(value); }
+  void number(double value) { append_number(out_ += ' ', value); }
+  void point(const typename Pose::Point& p) {
+    for (int axis = 0; axis < Pose::kDim; ++axis) number(p(axis));
+  }
+  void pose(const Pose& value) {
+    point(value.translation());
+    if constexpr (Pose::kDim == 2) {
+      number(value.angle());
+    } else {
+      for (int k = 0; k < 4; ++k) number(value.rotation().coeffs()(k));
+    }
+  }
+
+  void information(const typename Pose::Jacobian& matrix, double weight) {
+    typename Pose::Tangent scale = Pose::Tangent::Ones();
+    scale.template tail<Pose::kDof - Pose::kDim>().setConstant(rotation_per_g2o_rotation<Pose>(graph_.chart));
+    for (int row = 0; row < Pose::kDof; ++row)
+      for (int column = row; column < Pose::kDof; ++column)
+        number(weight * scale(row) * scale(column) * matrix(row, column));
+    out_ += '\n';
+  }
+
+  void write_vertices() {
+    for (std::size_t k = 0; k < graph_.poses.size(); ++k) {
+      tag(Tags::kVertex);
+      id(file_.pose_ids[k]);
+      pose(graph_.poses[k]);
+      out_ += '\n';
+    }
+    for (std::size_t k = 0; k < graph_.points.size(); ++k) {
+      tag(Tags::kPoint);
+      id(file_.point_ids[k]);
+      point(graph_.points[k]);
+      out_ += '\n';
+    }
+  }
+
+  void write_fixed() {
+    for (std::size_t k = 0; k < graph_.pose_fixed.size(); ++k) {
+      if (!graph_.pose_fixed[k]) continue;
+      tag(kG2oFix);
+      id(file_.pose_ids[k]);
+      out_ += '\n';
+    }
+  }
+
+  void write_relative_pose(const RelativePoseFactor<Pose>& factor) {
+    Pose T_i_j = factor.T_i_j;
+    if (factor.drift.valid())
+      T_i_j = T_i_j * Pose::exp(factor.drift_jacobian * graph_.drifts[factor.drift.index()]);
+    tag(Tags::kEdge);
+    id(file_.pose_ids[factor.i.index()]);
+    id(file_.pose_ids[factor.j.index()]);
+    pose(T_i_j);
+    information(factor.information, factor.weight);
+  }
+
+  std::uint64_t id_of(const RangeEnd<Pose>& end) const {
+    return end.pose.valid() ? file_.pose_ids[end.pose.index()] : file_.point_ids[end.point.index()];
+  }
+
+  void write_range(const RangeFactor<Pose>& factor) {
+    if (factor.weight <= 0) return;
+    tag(kG2oRange);
+    id(id_of(factor.i));
+    id(id_of(factor.j));
+    number(factor.range_m);
+    number(factor.weight / (factor.sigma_m * factor.sigma_m));
+    if (!factor.i.lever_arm.isZero(0) || !factor.j.lever_arm.isZero(0)) {
+      point(factor.i.lever_arm);
+      point(factor.j.lever_arm);
+    }
+    out_ += '\n';
+  }
+
+  void write_prior(const PosePriorFactor<Pose>& factor) {
+    tag(Tags::kPrior);
+    id(file_.pose_ids[factor.i.index()]);
+    if (Pose::kDim == 3) id(0);
+    pose(factor.prior);
+    information(factor.information, factor.weight);
+  }
+
+  void write_omission(std::size_t count, std::string_view what) {
+    if (count > 0) ((out_ += "# not written: ") += std::to_string(count)).append(" ").append(what) += '\n';
+  }
+
+  void write_omissions() {
+    const auto robust = [](std::size_t sum, const auto& f) { return sum + (f.loss.kind != LossKind::kNone); };
+    const auto count = [&](const auto& factors) {
+      return std::accumulate(factors.begin(), factors.end(), std::size_t{0}, robust);
+    };
+    write_omission(count(graph_.relative_poses) + count(graph_.ranges) + count(graph_.pose_priors),
+                   "robust losses");
+    write_omission(graph_.bearings.size(), "bearings");
+    write_omission(graph_.positions.size(), "positions");
+    write_omission(graph_.drift_priors.size(), "drift priors");
+  }
+
+  const G2oGraph<Pose>& file_;
+  const PoseGraph<Pose>& graph_;
+  std::string out_;
+};
+
+}  // namespace
+
+template <class Pose>
+G2oGraph<Pose> with_default_ids(PoseGraph<Pose> graph) {
+  G2oGraph<Pose> file;
+  file.pose_ids.resize(graph.poses.size());
+  std::iota(file.pose_ids.begin(), file.pose_ids.end(), std::uint64_t{0});
+  file.point_ids.resize(graph.points.size());
+  std::iota(file.point_ids.begin(), file.point_ids.end(), std::uint64_t{graph.poses.size()});
+  file.pose_has_value.assign(graph.poses.size(), true);
+  file.graph = std::move(graph);
+  return file;
+}
+
+template <class Pose>
+std::string format_g2o(const G2oGraph<Pose>& graph) {
+  return G2oWriter<Pose>(graph).write();
+}
+
+template G2oGraph<SE2> with_default_ids(PoseGraph2);
+template G2oGraph<SE3> with_default_ids(PoseGraph3);
+template std::string format_g2o(const G2oGraph<SE2>&);
+template std::string format_g2o(const G2oGraph<SE3>&);
+
+}  // namespace radioslam

@@ -1,0 +1,22 @@
+// A mission as a folder: mission.yaml, and per robot odometry.tum and what else was recorded.
+#pragma once
+
+#include <filesystem>
+
+#include "radioslam/mission/mission.hpp"
+#include "radioslam/mission/truth.hpp"
+
+namespace radioslam {
+
+/// Reads robots/<id>/odometry.tum and wifi.csv; radio/*.csv and matches.csv are checked. Never reads the
+/// truth. Every refusal is an InputError; one that no single file is to blame for names mission.yaml.
+Mission read_mission(const std::filesystem::path& folder);
+
+/// Reads robots/<id>/groundtruth.tum of the mission's robots; a robot without one has no poses. A truth
+/// whose orientations are all the identity holds positions only.
+Truth read_truth(const std::filesystem::path& folder, const Mission& mission);
+
+/// Writes a mission's files into an existing folder (see OutputFolder). Truth may be empty.
+void write_mission(const std::filesystem::path& folder, const Mission& mission, const Truth& truth = {});
+
+}  // namespace radioslam

@@ -1,0 +1,139 @@
+#include "radioslam/io/mission_yaml.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "radioslam/geometry/so3.hpp"
+#include "radioslam/io/numbers.hpp"
+#include "radioslam/io/odometry_noise_fields.hpp"
+#include "radioslam/io/yaml_map.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr std::string_view kFormat = "radioslam-mission/1";
+constexpr std::size_t kLongestId = 200;  // a file's name has 255 bytes
+constexpr std::size_t kInitialPoseSize = 4;
+
+double sigma_at(const Text& text, const YAML::Node& node, const std::string& what) {
+  const double value = number_at(text, node, what);
+  if (value < 0) text.fail(line_of(node), what + " is negative");
+  return value;
+}
+
+void read_odometry_noise(const Text& text, const YAML::Node& node, OdometryNoise& noise) {
+  YamlKeys keys;
+  for (const auto& [name, member] : kOdometryNoiseFields)
+    keys[std::string(name)] = [&text, &noise, field = std::string(name), target = member](
+                                  const YAML::Node& value) { noise.*target = sigma_at(text, value, field); };
+  read_yaml_map(text, node, "odometry", keys);
+}
+
+void read_lidar(const Text& text, const YAML::Node& node, double& range_m) {
+  read_yaml_map(text, node, "lidar", {{"range_m", [&](const YAML::Node& value) {
+                                         range_m = number_at(text, value, "range_m");
+                                         if (range_m <= 0)
+                                           text.fail(line_of(value), "range_m is not positive");
+                                       }}});
+}
+
+Heading heading_at(const Text& text, const YAML::Node& node) {
+  const std::string value = scalar_at(text, node, "heading");
+  if (value == "absolute") return Heading::kAbsolute;
+  if (value != "relative")
+    text.fail(line_of(node), "heading '" + value + "' is neither relative nor absolute");
+  return Heading::kRelative;
+}
+
+std::optional<SE3> initial_pose_at(const Text& text, const YAML::Node& node) {
+  if (node.IsScalar() && node.Scalar() == "unknown") return std::nullopt;
+  if (!node.IsSequence() || node.size() != kInitialPoseSize)
+    text.fail(line_of(node), "initial_pose is neither unknown nor [x, y, z, yaw]");
+  Eigen::Vector4d values;
+  for (std::size_t k = 0; k < kInitialPoseSize; ++k) {
+    values(static_cast<Eigen::Index>(k)) = number_at(text, node[k], "initial_pose");
+    if (std::abs(values(static_cast<Eigen::Index>(k))) > kLargestCoordinate_m)
+      text.fail(line_of(node[k]), "initial_pose is not a plausible coordinate (more than 1e8 m)");
+  }
+  return SE3(values.head<3>(), so3_exp({0, 0, wrap_angle(values(3))}));
+}
+
+void apply_settings(const Text& text, const YAML::Node& node, const std::string& what, Robot& robot) {
+  read_yaml_map(
+      text, node, what,
+      {{"odometry", [&](const YAML::Node& value) { read_odometry_noise(text, value, robot.odometry_noise); }},
+       {"lidar", [&](const YAML::Node& value) { read_lidar(text, value, robot.lidar_range_m); }},
+       {"heading", [&](const YAML::Node& value) { robot.heading = heading_at(text, value); }},
+       {"sigma_heading_rad",
+        [&](const YAML::Node& value) {
+          robot.sigma_heading_rad = sigma_at(text, value, "sigma_heading_rad");
+        }},
+       {"initial_pose", [&](const YAML::Node& value) { robot.initial_pose = initial_pose_at(text, value); }},
+       {"antennas", [](const YAML::Node&) {}}});
+}
+
+bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
+
+bool is_usable_id(const std::string& id) {
+  if (id.empty() || id.size() > kLongestId || id.front() == '.' || id.front() == '#') return false;
+  if (id.find("..") != std::string::npos || trim(id) != id) return false;
+  return id.find_first_of("/\\,\"") == std::string::npos && std::none_of(id.begin(), id.end(), is_control);
+}
+
+void read_robots(const Text& text, const YAML::Node& node, const Robot& defaults, MissionFile& file) {
+  file.robots_line = line_of(node);
+  for_each_key(text, node, "robots", [&](const YamlEntry& entry) {
+    if (!is_usable_id(entry.key))
+      text.fail(entry.line, "the robot's id '" + entry.key + "' cannot be the name of a file");
+    Robot robot = defaults;
+    robot.id = entry.key;
+    apply_settings(text, entry.value, "robot '" + entry.key + "'", robot);
+    file.mission.robots.push_back(std::move(robot));
+    file.robot_lines.push_back(entry.line);
+  });
+  if (file.mission.robots.empty()) text.fail(file.robots_line, "there are no robots");
+}
+
+int dimension_at(const Text& text, const YAML::Node& node) {
+  const std::string value = scalar_at(text, node, "dimension");
+  if (value != "2" && value != "3") text.fail(line_of(node), "dimension '" + value + "' is neither 2 nor 3");
+  return value == "2" ? 2 : 3;
+}
+
+void check_format(const Text& text, const YAML::Node& node) {
+  const std::string format = scalar_at(text, node, "format");
+  if (format != kFormat) text.fail(line_of(node), "format '" + format + "' is not " + std::string(kFormat));
+}
+
+MissionFile read_mission_node(const Text& text, const YAML::Node& root, const std::string& default_name) {
+  MissionFile file;
+  file.mission.name = default_name;
+  YAML::Node format, robots, defaults;
+  read_yaml_map(
+      text, root, "the file",
+      {{"format", [&](const YAML::Node& value) { format.reset(value); }},
+       {"name", [&](const YAML::Node& value) { file.mission.name = scalar_at(text, value, "name"); }},
+       {"dimension", [&](const YAML::Node& value) { file.mission.dimension = dimension_at(text, value); }},
+       {"robots", [&](const YAML::Node& value) { robots.reset(value); }},
+       {"defaults", [&](const YAML::Node& value) { defaults.reset(value); }}});
+  if (!format.IsDefined() || format.IsNull())
+    text.fail(1, "'format: " + std::string(kFormat) + "' is missing");
+  check_format(text, format);
+  Robot common;
+  apply_settings(text, defaults, "defaults", common);
+  if (robots.IsNull()) text.fail(1, "'robots' is missing");
+  read_robots(text, robots, common, file);
+  return file;
+}
+
+}  // namespace
+
+MissionFile read_mission_yaml(const Text& text, const std::string& default_name) {
+  try {
+    return read_mission_node(text, load_yaml(text), default_name);
+  } catch (const YAML::Exception& error) {
+    text.fail(1, "not YAML: " + error.msg);
+  }
+}
+
+}  // namespace radioslam

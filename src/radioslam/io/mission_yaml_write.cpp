@@ -1,0 +1,82 @@
+#include <algorithm>
+#include <array>
+
+#include "radioslam/io/mission_yaml.hpp"
+#include "radioslam/io/numbers.hpp"
+#include "radioslam/io/odometry_noise_fields.hpp"
+
+namespace radioslam {
+namespace {
+
+bool is_plain(const std::string& s) {
+  constexpr std::array<std::string_view, 10> kReserved = {"true", "false", "yes", "no", "on",
+                                                          "off",  "null",  "y",   "n",  "unknown"};
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  const auto inner = [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '-'; };
+  std::string lower = s;
+  for (char& c : lower)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return !s.empty() && letter(s.front()) && std::all_of(s.begin(), s.end(), inner) &&
+         std::find(kReserved.begin(), kReserved.end(), lower) == kReserved.end();
+}
+
+/// A YAML scalar that reads as text.
+std::string quoted(const std::string& s) {
+  if (is_plain(s)) return s;
+  std::string out = "\"";
+  for (const char c : s) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
+  }
+  return out + "\"";
+}
+
+std::string initial_pose_value(const std::optional<SE3>& pose) {
+  if (!pose) return "unknown";
+  std::string out = "[";
+  for (int axis = 0; axis < 3; ++axis) out += format_number(pose->translation()(axis)) + ", ";
+  return out + format_number(pose->yaw()) + "]";
+}
+
+std::string noise_value(const OdometryNoise& noise) {
+  std::string out;
+  for (const auto& [name, member] : kOdometryNoiseFields)
+    out += (out.empty() ? "" : ", ") + std::string(name) + ": " + format_number(noise.*member);
+  return "{" + out + "}";
+}
+
+using Setting = std::pair<std::string, std::string>;
+
+std::vector<Setting> settings_of(const Robot& robot) {
+  return {{"odometry", noise_value(robot.odometry_noise)},
+          {"lidar", "{range_m: " + format_number(robot.lidar_range_m) + "}"},
+          {"heading", robot.heading == Heading::kAbsolute ? "absolute" : "relative"},
+          {"sigma_heading_rad", format_number(robot.sigma_heading_rad)},
+          {"initial_pose", initial_pose_value(robot.initial_pose)}};
+}
+
+/// The settings that differ from the defaults, in flow style.
+std::string overrides(const std::vector<Setting>& defaults, const std::vector<Setting>& settings) {
+  std::string out;
+  for (std::size_t k = 0; k < settings.size(); ++k)
+    if (settings[k] != defaults[k])
+      out += (out.empty() ? "" : ", ") + settings[k].first + ": " + settings[k].second;
+  return "{" + out + "}";
+}
+
+}  // namespace
+
+std::string format_mission_yaml(const Mission& mission) {
+  Robot common = mission.robots.empty() ? Robot{} : mission.robots.front();
+  common.initial_pose.reset();
+  const std::vector<Setting> defaults = settings_of(common);
+  std::string out = "format: radioslam-mission/1\nname: " + quoted(mission.name) +
+                    "\ndimension: " + std::to_string(mission.dimension) + "\nrobots:\n";
+  for (const Robot& robot : mission.robots)
+    out += "  " + quoted(robot.id) + ": " + overrides(defaults, settings_of(robot)) + "\n";
+  out += "defaults:\n";
+  for (const auto& [key, value] : defaults) out += "  " + key + ": " + value + "\n";
+  return out;
+}
+
+}  // namespace radioslam

@@ -1,0 +1,78 @@
+#include "radioslam/io/atomic_output.hpp"
+#include "radioslam/io/numbers.hpp"
+#include "radioslam/io/run_folder.hpp"
+#include "radioslam/io/run_tables.hpp"
+#include "radioslam/io/tum.hpp"
+
+namespace radioslam {
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr int kIndent = 2;
+
+Json robot_json(const RobotResult& robot) {
+  Json json = {{"keyframes", robot.estimate.size()},
+               {"placed", robot.placed},
+               {"yaw_drift_per_m_rad", robot.yaw_drift_per_m_rad},
+               {"scale_error", robot.scale_error}};
+  if (!robot.sigma_position_m.empty()) json["sigma_position_end_m"] = robot.sigma_position_m.back();
+  return json;
+}
+
+/// A parameter's text as what it means.
+Json parameter_json(const std::string& value) {
+  if (value == "true" || value == "false") return value == "true";
+  if (const auto integer = parse_integer(value)) return *integer;
+  if (const auto number = parse_number(value)) return *number;
+  return value;
+}
+
+/// A count is a whole number unless it is not.
+Json count_json(double count) {
+  const auto whole = parse_integer(format_number(count));
+  return whole ? Json(*whole) : Json(count);
+}
+
+Json team_frame_json(const RunResult& result) {
+  Json json = {{"components", Json::array()}, {"unplaced", result.unplaced}, {"hypotheses", Json::array()}};
+  for (const Component& component : result.components) json["components"].push_back(component.robots);
+  for (const double weight : result.hypothesis_weights) json["hypotheses"].push_back({{"weight", weight}});
+  return json;
+}
+
+std::vector<std::string> ids_of(const RunResult& result) {
+  std::vector<std::string> ids;
+  for (const RobotResult& robot : result.robots) ids.push_back(robot.id);
+  return ids;
+}
+
+}  // namespace
+
+Json summary_json(const RunResult& result, const Json& metrics) {
+  Json json = {{"mission", result.mission_name}, {"dimension", result.dimension}};
+  for (const char* section : {"robots", "counts", "seconds", "parameters"}) json[section] = Json::object();
+  for (const RobotResult& robot : result.robots) json["robots"][robot.id] = robot_json(robot);
+  for (const auto& [name, count] : result.counts) json["counts"][name] = count_json(count);
+  for (const StageTiming& timing : result.timings) json["seconds"][timing.stage] = timing.seconds;
+  for (const EffectiveParameter& parameter : result.parameters)
+    json["parameters"][parameter.key] = parameter_json(parameter.value);
+  json["team_frame"] = team_frame_json(result);
+  json["notes"] = result.notes;
+  if (!metrics.is_null()) json["metrics"] = metrics;
+  return json;
+}
+
+void write_run(const std::filesystem::path& folder, const RunResult& result, const RunDocuments& documents) {
+  const std::vector<std::string> ids = ids_of(result);
+  for (const RobotResult& robot : result.robots)
+    if (!robot.estimate.empty()) write_file(folder / (robot.id + ".tum"), format_tum(robot.estimate));
+  write_file(folder / "candidates.csv", format_candidates(result.candidates, ids));
+  write_file(folder / "closures.csv", format_closures(result.closures, ids));
+  if (!documents.graph_g2o.empty()) write_file(folder / "graph.g2o", documents.graph_g2o);
+  if (!documents.report_html.empty()) write_file(folder / "report.html", documents.report_html);
+  const Json summary = summary_json(result, documents.metrics);
+  write_file(folder / "summary.json",
+             summary.dump(kIndent, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+}  // namespace radioslam

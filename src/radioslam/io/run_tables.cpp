@@ -1,0 +1,131 @@
+#include "radioslam/io/run_tables.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "radioslam/base/check.hpp"
+#include "radioslam/io/csv.hpp"
+#include "radioslam/io/numbers.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr std::array<std::pair<ClosureKind, std::string_view>, 6> kKinds = {
+    {{ClosureKind::kRange, "range"},
+     {ClosureKind::kAoa, "aoa"},
+     {ClosureKind::kFingerprint, "fingerprint"},
+     {ClosureKind::kSequence, "sequence"},
+     {ClosureKind::kLidar, "lidar"},
+     {ClosureKind::kMatch, "match"}}};
+constexpr std::array<std::pair<ClosureStatus, std::string_view>, 2> kStatuses = {
+    {{ClosureStatus::kAccepted, "accepted"}, {ClosureStatus::kRejected, "rejected"}}};
+
+template <class Words, class Value>
+std::string_view word_for(const Words& words, Value value) {
+  const auto found =
+      std::find_if(words.begin(), words.end(), [&](const auto& w) { return w.first == value; });
+  RADIOSLAM_CHECK(found != words.end(), "every value has a word");
+  return found->second;
+}
+
+template <class Words>
+auto value_of(const CsvReader& csv, std::size_t column, const Words& words) {
+  const std::string_view word = csv.field(column);
+  const auto found =
+      std::find_if(words.begin(), words.end(), [&](const auto& w) { return w.second == word; });
+  if (found == words.end()) csv.fail("unknown word '" + std::string(word) + "'");
+  return found->first;
+}
+
+RobotIndex robot_of(const CsvReader& csv, std::size_t column, std::span<const std::string> ids) {
+  const auto found = std::find(ids.begin(), ids.end(), csv.field(column));
+  if (found == ids.end()) csv.fail("unknown robot '" + std::string(csv.field(column)) + "'");
+  return RobotIndex(static_cast<std::size_t>(found - ids.begin()));
+}
+
+/// The four columns that both tables start with.
+enum : std::size_t { kRobotI, kTimeI, kRobotJ, kTimeJ, kFirstOwn };
+const std::vector<std::string_view> kPairColumns = {"robot_i", "t_i_s", "robot_j", "t_j_s"};
+
+CsvReader::Columns pair_columns_and(std::initializer_list<std::string_view> own) {
+  CsvReader::Columns columns{kPairColumns};
+  columns.required.insert(columns.required.end(), own);
+  return columns;
+}
+
+template <class Result>
+Result read_pair(const CsvReader& csv, std::span<const std::string> ids) {
+  Result result;
+  result.robot_i = robot_of(csv, kRobotI, ids);
+  result.stamp_i = csv.stamp(kTimeI);
+  result.robot_j = robot_of(csv, kRobotJ, ids);
+  result.stamp_j = csv.stamp(kTimeJ);
+  return result;
+}
+
+template <class Result>
+std::string format_pair(const Result& pair, std::span<const std::string> ids) {
+  return ids[pair.robot_i.index()] + "," + format_stamp(pair.stamp_i) + "," + ids[pair.robot_j.index()] +
+         "," + format_stamp(pair.stamp_j);
+}
+
+/// A reason as one field of a row.
+std::string as_field(std::string text) {
+  for (char& c : text)
+    if (c == ',' || c == '\n' || c == '\r') c = ';';
+  return text;
+}
+
+}  // namespace
+
+std::string format_candidates(const std::vector<CandidateResult>& candidates,
+                              std::span<const std::string> ids) {
+  std::string out = "robot_i,t_i_s,robot_j,t_j_s,distance_m,mahalanobis\n";
+  for (const CandidateResult& candidate : candidates) {
+    out += format_pair(candidate, ids);
+    append_number(out += ',', candidate.distance_m);
+    append_number(out += ',', candidate.mahalanobis);
+    out += '\n';
+  }
+  return out;
+}
+
+std::string format_closures(const std::vector<ClosureResult>& closures, std::span<const std::string> ids) {
+  std::string out = "robot_i,t_i_s,robot_j,t_j_s,kind,status,statistic,reason\n";
+  for (const ClosureResult& closure : closures) {
+    out += format_pair(closure, ids);
+    (out += ',') += word_for(kKinds, closure.kind);
+    (out += ',') += word_for(kStatuses, closure.status);
+    append_number(out += ',', closure.statistic);
+    (out += ',') += as_field(closure.reason);
+    out += '\n';
+  }
+  return out;
+}
+
+std::vector<CandidateResult> read_candidates(const Text& text, std::span<const std::string> ids) {
+  CsvReader csv(text, pair_columns_and({"distance_m", "mahalanobis"}));
+  std::vector<CandidateResult> candidates;
+  while (csv.next()) {
+    CandidateResult& candidate = candidates.emplace_back(read_pair<CandidateResult>(csv, ids));
+    candidate.distance_m = csv.number(kFirstOwn);
+    candidate.mahalanobis = csv.number(kFirstOwn + 1);
+  }
+  return candidates;
+}
+
+std::vector<ClosureResult> read_closures(const Text& text, std::span<const std::string> ids) {
+  CsvReader csv(text, pair_columns_and({"kind", "status", "statistic", "reason"}));
+  std::vector<ClosureResult> closures;
+  while (csv.next()) {
+    ClosureResult& closure = closures.emplace_back(read_pair<ClosureResult>(csv, ids));
+    closure.kind = value_of(csv, kFirstOwn, kKinds);
+    closure.status = value_of(csv, kFirstOwn + 1, kStatuses);
+    closure.statistic = csv.number(kFirstOwn + 2);
+    closure.reason = std::string(csv.field(kFirstOwn + 3));
+  }
+  return closures;
+}
+
+}  // namespace radioslam

@@ -1,0 +1,24 @@
+// The tables of a run's folder.
+//   candidates.csv   robot_i,t_i_s,robot_j,t_j_s,distance_m,mahalanobis
+//   closures.csv     robot_i,t_i_s,robot_j,t_j_s,kind,status,statistic,reason
+// Robots are written by id; stamps exactly as in <id>.tum.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "radioslam/io/text.hpp"
+#include "radioslam/results/results.hpp"
+
+namespace radioslam {
+
+std::string format_candidates(const std::vector<CandidateResult>& candidates,
+                              std::span<const std::string> ids);
+std::string format_closures(const std::vector<ClosureResult>& closures, std::span<const std::string> ids);
+
+/// Refuse malformed rows, unknown robots, kinds and statuses.
+std::vector<CandidateResult> read_candidates(const Text& text, std::span<const std::string> ids);
+std::vector<ClosureResult> read_closures(const Text& text, std::span<const std::string> ids);
+
+}  // namespace radioslam

@@ -1,0 +1,18 @@
+// Trajectories in the TUM format: one pose per line, `t x y z qx qy qz qw`, seconds and metres, '#' comments.
+// Stamps are exact to the nanosecond in both directions; quaternions are normalised on reading.
+#pragma once
+
+#include <string>
+
+#include "radioslam/geometry/se3.hpp"
+#include "radioslam/geometry/trajectory.hpp"
+#include "radioslam/io/text.hpp"
+
+namespace radioslam {
+
+/// Refuses times that do not run forward, and a text without poses.
+Trajectory<SE3> read_tum(const Text& text);
+
+std::string format_tum(const Trajectory<SE3>& trajectory);
+
+}  // namespace radioslam

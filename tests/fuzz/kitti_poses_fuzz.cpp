@@ -1,0 +1,7 @@
+#include "fuzzed.hpp"
+#include "radioslam/io/kitti_poses.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace radioslam;
+  return fuzz_reader(data, size, [](const Text& text) { read_kitti_poses(text); });
+}

@@ -1,0 +1,134 @@
+#include "radioslam/io/mission_folder.hpp"
+
+#include <cmath>
+
+#include "example_mission.hpp"
+#include "radioslam/io/mission_yaml.hpp"
+#include "refusal.hpp"
+
+namespace radioslam {
+namespace {
+
+Mission read(const Files& files) {
+  const TemporaryFolder folder;
+  write_files(folder, files);
+  return read_mission(folder.path());
+}
+
+/// Everything that write_mission says about a mission.
+Files written(const Mission& mission, const Truth& truth = {}) {
+  const TemporaryFolder folder;
+  write_mission(folder.path(), mission, truth);
+  Files files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path()))
+    if (entry.is_regular_file()) {
+      const auto name = std::filesystem::relative(entry.path(), folder.path());
+      files[name.string()] = folder.read(name);
+    }
+  return files;
+}
+
+TEST(ReadMission, MergesDefaultsAndOverrides) {
+  const Mission mission = read(example_mission());
+  EXPECT_EQ(mission.name, "example");
+  EXPECT_EQ(mission.dimension, 2);
+  ASSERT_EQ(mission.robots.size(), 2u);
+  const Robot& a = mission.robots[0];
+  const Robot& b = mission.robots[1];
+  EXPECT_EQ(a.id, "a");
+  EXPECT_EQ(a.odometry_noise.sigma_xy_per_sqrt_m, 0.05);
+  EXPECT_EQ(a.odometry_noise.sigma_yaw_per_rad, OdometryNoise{}.sigma_yaw_per_rad);
+  EXPECT_EQ(b.odometry_noise.sigma_xy_per_sqrt_m, 0.05);
+  EXPECT_EQ(b.odometry_noise.sigma_yaw_per_rad, 0.3);
+  EXPECT_EQ(b.odometry_noise.sigma_scale, 0.01);
+  EXPECT_EQ(a.lidar_range_m, 12);
+  EXPECT_EQ(a.heading, Heading::kRelative);
+  EXPECT_EQ(b.heading, Heading::kAbsolute);
+  EXPECT_EQ(b.sigma_heading_rad, 0.1);
+  EXPECT_FALSE(a.initial_pose);
+  ASSERT_TRUE(b.initial_pose);
+  EXPECT_EQ(b.initial_pose->translation(), Eigen::Vector3d(1, 2, 0));
+  EXPECT_NEAR(b.initial_pose->yaw(), 0.5, 1e-12);
+}
+
+TEST(ReadMission, SharesAccessPointsBetweenRobots) {
+  const Mission mission = read(example_mission());
+  EXPECT_EQ(mission.access_points, (std::vector<std::string>{"aa:01", "aa:02"}));
+  ASSERT_EQ(mission.robots[1].wifi.size(), 1u);
+  EXPECT_EQ(mission.robots[1].wifi[0].readings[0].access_point, AccessPointIndex(1));
+}
+
+TEST(ReadMission, NeedsOnlyMissionYamlAndOdometry) {
+  const Mission mission = read({{"mission.yaml", "format: radioslam-mission/1\nrobots:\n  a:\n"},
+                                {"robots/a/odometry.tum", "0 0 0 0 0 0 0 1\n"}});
+  EXPECT_EQ(mission.dimension, 2);
+  EXPECT_FALSE(mission.name.empty());
+  EXPECT_EQ(mission.robots[0].odometry.size(), 1u);
+  EXPECT_TRUE(mission.robots[0].wifi.empty());
+}
+
+TEST(ReadMission, ReadsByteOrderMarksAndCrLfAlike) {
+  Files windows;
+  for (const auto& [name, content] : example_mission()) {
+    std::string& file = windows[name] = "\xef\xbb\xbf";
+    for (const char c : content) file += c == '\n' ? std::string("\r\n") : std::string(1, c);
+  }
+  EXPECT_EQ(written(read(windows)), written(read(example_mission())));
+}
+
+TEST(ReadMission, IgnoresFilesOfOtherReaders) {
+  Files files = example_mission();
+  files["robots/a/csi/5300.dat"] = "anything";
+  files["robots/a/lidar/123.bin"] = "anything";
+  files["robots/README.md"] = "anything";
+  files["robots/.hidden/x"] = "anything";
+  EXPECT_NO_THROW(read(files));
+}
+
+TEST(ReadTruth, IsApartAndKnowsWhereOnlyPositionsAreTrue) {
+  const TemporaryFolder folder;
+  Files files = example_mission();
+  write_files(folder, files);
+  const Truth truth = read_truth(folder.path(), read_mission(folder.path()));
+  ASSERT_EQ(truth.robots.size(), 2u);
+  EXPECT_EQ(truth.robots[0].id, "a");
+  EXPECT_EQ(truth.robots[0].poses.size(), 2u);
+  EXPECT_FALSE(truth.robots[0].has_orientation);
+  EXPECT_TRUE(truth.robots[1].has_orientation);
+}
+
+TEST(ReadTruth, MayBeMissing) {
+  const TemporaryFolder folder;
+  Files files = example_mission();
+  files.erase("robots/a/groundtruth.tum");
+  files.erase("robots/b/groundtruth.tum");
+  write_files(folder, files);
+  EXPECT_TRUE(read_truth(folder.path(), read_mission(folder.path())).empty());
+}
+
+TEST(WriteMission, ReadsBackAsTheSameMission) {
+  Mission mission = read(example_mission());
+  mission.name = "odd: name \"quoted\" # 1";
+  mission.robots[0].id = "1";
+  mission.robots[1].id = "null";
+  const Files files = written(mission);
+  const Mission again = read(files);
+  EXPECT_EQ(again.name, mission.name);
+  EXPECT_EQ(again.robots[1].id, "null");
+  EXPECT_EQ(again.robots[1].odometry_noise.sigma_yaw_per_rad, 0.3);
+  EXPECT_EQ(again.robots[1].heading, Heading::kAbsolute);
+  EXPECT_NEAR(again.robots[1].initial_pose->yaw(), 0.5, 1e-12);
+  EXPECT_EQ(written(again), files);
+}
+
+TEST(WriteMission, WritesTheTruthBesideIt) {
+  const TemporaryFolder folder;
+  write_files(folder, example_mission());
+  const Mission mission = read_mission(folder.path());
+  const Files files = written(mission, read_truth(folder.path(), mission));
+  EXPECT_EQ(files.count("robots/a/groundtruth.tum"), 1u);
+  EXPECT_EQ(files.at("robots/b/groundtruth.tum").substr(0, 10), "0 5 0 0 0 ");
+}
+
+}  // namespace
+}  // namespace radioslam

@@ -1,0 +1,148 @@
+#include "radioslam/io/run_folder.hpp"
+
+#include "radioslam/io/metrics_json.hpp"
+#include "refusal.hpp"
+#include "temporary_folder.hpp"
+
+namespace radioslam {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+RunResult example() {
+  RunResult result;
+  result.mission_name = "example";
+  result.robots.resize(3);
+  for (std::size_t k = 0; k < 2; ++k) {
+    result.robots[k].id = k == 0 ? "zoe" : "adam";
+    result.robots[k].estimate = Trajectory<SE3>({{{0}, SE3()}, {{1'500'000'000}, lift(SE2({1, 2}, 0.5))}});
+  }
+  result.robots[2].id = "lost";
+  result.robots[2].placed = false;
+  result.unplaced = {"lost"};
+  result.components = {{{"zoe", "adam"}}};
+  result.candidates = {{RobotIndex(0), {0}, RobotIndex(1), {1'500'000'000}, 2.5, 0.75}};
+  result.closures = {{RobotIndex(0),
+                      {0},
+                      RobotIndex(1),
+                      {1'500'000'000},
+                      ClosureKind::kFingerprint,
+                      ClosureStatus::kRejected,
+                      17.5,
+                      "too far, by half"}};
+  result.counts = {{"closures", 1}, {"share", 0.5}};
+  result.timings = {{"read", 0.25}};
+  result.parameters = {{"keyframe.distance_m", "1", "m", "", false},
+                       {"prune.enabled", "true", "", "", false},
+                       {"similarity.measure", "mended", "", "", true},
+                       {"loss.scale", "2.5", "", "", false}};
+  result.notes = {"odometry noise looks larger than stated"};
+  return result;
+}
+
+TEST(RunFolder, ReadsBackWhatItWrites) {
+  const TemporaryFolder folder;
+  write_run(folder.path(), example(), {});
+  const RunFolder run = read_run(folder.path());
+  ASSERT_EQ(run.robots.size(), 3u);
+  EXPECT_EQ(run.robots[0].id, "zoe");
+  EXPECT_EQ(run.robots[1].poses[1].stamp.ns, 1'500'000'000);
+  EXPECT_EQ(run.robots[1].poses[1].pose.translation(), Eigen::Vector3d(1, 2, 0));
+  EXPECT_TRUE(run.robots[2].poses.empty());
+  EXPECT_EQ(run.unplaced, std::vector<std::string>{"lost"});
+  ASSERT_EQ(run.components.size(), 1u);
+  EXPECT_EQ(run.components[0].robots, (std::vector<std::string>{"zoe", "adam"}));
+  ASSERT_EQ(run.candidates.size(), 1u);
+  EXPECT_EQ(run.candidates[0].robot_j, RobotIndex(1));
+  EXPECT_EQ(run.candidates[0].stamp_j.ns, 1'500'000'000);
+  EXPECT_EQ(run.candidates[0].mahalanobis, 0.75);
+  ASSERT_EQ(run.closures.size(), 1u);
+  EXPECT_EQ(run.closures[0].kind, ClosureKind::kFingerprint);
+  EXPECT_EQ(run.closures[0].status, ClosureStatus::kRejected);
+  EXPECT_EQ(run.closures[0].reason, "too far; by half");
+}
+
+TEST(RunFolder, HasTheFilesAndColumnsOfTheFormat) {
+  const TemporaryFolder folder;
+  write_run(folder.path(), example(), {nullptr, "VERTEX_SE2 0 0 0 0\n", "<html></html>"});
+  EXPECT_EQ(folder.read("candidates.csv"),
+            "robot_i,t_i_s,robot_j,t_j_s,distance_m,mahalanobis\nzoe,0,adam,1.5,2.5,0.75\n");
+  EXPECT_EQ(folder.read("closures.csv"),
+            "robot_i,t_i_s,robot_j,t_j_s,kind,status,statistic,reason\n"
+            "zoe,0,adam,1.5,fingerprint,rejected,17.5,too far; by half\n");
+  EXPECT_EQ(folder.read("zoe.tum").substr(0, 18), "0 0 0 0 0 0 0 1\n1.");
+  EXPECT_EQ(folder.read("graph.g2o"), "VERTEX_SE2 0 0 0 0\n");
+  EXPECT_EQ(folder.read("report.html"), "<html></html>");
+  EXPECT_FALSE(fs::exists(folder.path() / "lost.tum"));
+}
+
+TEST(SummaryJson, HasTheKeysOfTheFormat) {
+  const Json json = summary_json(example(), {{"ate_rmse_m", 1.5}});
+  EXPECT_EQ(json["robots"]["zoe"]["keyframes"], 2);
+  EXPECT_EQ(json["robots"]["lost"]["placed"], false);
+  EXPECT_EQ(json["counts"].dump(), R"({"closures":1,"share":0.5})");
+  EXPECT_EQ(json["seconds"].dump(), R"({"read":0.25})");
+  EXPECT_EQ(
+      json["parameters"].dump(),
+      R"({"keyframe.distance_m":1,"prune.enabled":true,"similarity.measure":"mended","loss.scale":2.5})");
+  EXPECT_EQ(json["team_frame"].dump(),
+            R"({"components":[["zoe","adam"]],"unplaced":["lost"],"hypotheses":[{"weight":1.0}]})");
+  EXPECT_EQ(json["metrics"]["ate_rmse_m"], 1.5);
+  EXPECT_FALSE(summary_json(example()).contains("metrics"));
+}
+
+TEST(MetricsJson, HasTheKeysOfTheFormatAndNullForWhatWasNotMeasured) {
+  TeamMetrics metrics;
+  metrics.ate = ErrorStatistics{1, 2, 3, 4, 5};
+  metrics.coverage = 0.5;
+  metrics.robots.resize(1);
+  metrics.robots[0].id = "a";
+  EXPECT_EQ(
+      metrics_json(metrics).dump(),
+      R"({"ate_rmse_m":1.0,"ate_mean_m":2.0,"ate_median_m":3.0,"ate_p90_m":4.0,"rpe":null,"coverage":0.5,)"
+      R"("robots":{"a":{"ate_rmse_m":null,"ate_mean_m":null,"ate_median_m":null,"ate_p90_m":null,)"
+      R"("coverage":0.0}}})");
+  EXPECT_EQ(pair_counts_json({10, 4, 3, 2}).dump(), R"({"pairs":10,"true":4,"kept":3,"true_kept":2})");
+}
+
+TEST(ReadRun, TakesAFolderOfTrajectoriesAlone) {
+  const TemporaryFolder folder;
+  folder.write("b.tum", "0 0 0 0 0 0 0 1\n");
+  folder.write("a.tum", "0 0 0 0 0 0 0 1\n");
+  const RunFolder run = read_run(folder.path());
+  ASSERT_EQ(run.robots.size(), 2u);
+  EXPECT_EQ(run.robots[0].id, "a");
+  EXPECT_TRUE(run.summary.is_null());
+}
+
+void expect_refused(const char* file, const std::string& content, std::size_t line,
+                    const std::string& words) {
+  const TemporaryFolder folder;
+  write_run(folder.path(), example(), {});
+  folder.write(file, content);
+  expect_refusal([&] { read_run(folder.path()); }, line, words);
+}
+
+TEST(ReadRun, RefusesMalformedFiles) {
+  expect_refused("summary.json", "{\n\"robots\": {\n", 3, "not JSON");
+  expect_refused("summary.json", "{\"robots\": 1e999}", 0, "too large");
+  expect_refused("summary.json", "[]", 1, "'robots' is missing");
+  expect_refused("summary.json", R"({"robots": {"a/../b": {}}})", 0, "is a path");
+  expect_refused("summary.json", R"({"robots": {}, "team_frame": {"unplaced": [1]}})", 1, "list of robots");
+  expect_refused("summary.json", R"({"robots": {"eve": {}}})", 0, "eve.tum: no such file");
+  expect_refused("zoe.tum", "0 0 0 0 0 0 0 1\n0 0 0 0 0 0 0 1\n", 2, "twice");
+  const std::string header = "robot_i,t_i_s,robot_j,t_j_s,kind,status,statistic,reason\n";
+  expect_refused("closures.csv", header + "zoe,0,eve,0,range,accepted,1,\n", 2, "unknown robot 'eve'");
+  expect_refused("closures.csv", header + "zoe,0,adam,0,magic,accepted,1,\n", 2, "unknown word 'magic'");
+  expect_refused("candidates.csv", "robot_i,t_i_s,robot_j,t_j_s,distance_m\n", 1, "'mahalanobis' is missing");
+}
+
+TEST(ReadRun, RefusesAFolderThatIsNoRun) {
+  const TemporaryFolder folder;
+  expect_refusal([&] { read_run(folder.path()); }, 0, "is not a run");
+  expect_refusal([&] { read_run(folder.path() / "none"); }, 0, "no such folder");
+}
+
+}  // namespace
+}  // namespace radioslam
