@@ -1,0 +1,165 @@
+// radioslam evaluate: a run against the truth of its mission.
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "radioslam/cli/command_options.hpp"
+#include "radioslam/cli/commands.hpp"
+#include "radioslam/cli/judgement.hpp"
+#include "radioslam/eval/closures.hpp"
+#include "radioslam/eval/metrics.hpp"
+#include "radioslam/io/metrics_json.hpp"
+#include "radioslam/io/mission_folder.hpp"
+#include "radioslam/io/run_folder.hpp"
+
+namespace radioslam::cli {
+namespace {
+
+constexpr double kLargestRadius_m = 1e6;
+
+struct Options {
+  std::string run;
+  std::string mission;
+  std::optional<double> radius_m;
+  bool evo = false;
+  bool json = false;
+};
+
+/// All that was found out.
+struct Evaluation {
+  TeamMetrics metrics;
+  std::optional<TeamMetrics> dead_reckoning;  ///< where every robot's start is known
+  PairCounts candidates;
+  PairCounts closures;
+  long accepted = 0;
+  long rejected = 0;
+};
+
+/// A run's robots by their places in the mission.
+std::vector<RobotIndex> places_in_mission(const RunFolder& run, const Mission& mission,
+                                          const Options& options) {
+  std::vector<RobotIndex> places;
+  for (const auto& robot : run.robots) {
+    const auto same = [&](const Robot& candidate) { return candidate.id == robot.id; };
+    const auto found = std::find_if(mission.robots.begin(), mission.robots.end(), same);
+    if (found == mission.robots.end()) {
+      throw InputError(options.run, 0, "robot '" + robot.id + "' is not in " + options.mission);
+    }
+    places.emplace_back(static_cast<std::size_t>(found - mission.robots.begin()));
+  }
+  return places;
+}
+
+template <class Pair>
+std::vector<Pair> with_places(std::vector<Pair> pairs, const std::vector<RobotIndex>& places) {
+  for (auto& pair : pairs) {
+    pair.robot_i = places[pair.robot_i.index()];
+    pair.robot_j = places[pair.robot_j.index()];
+  }
+  return pairs;
+}
+
+std::vector<KeyframeStamps> keyframe_stamps(const RunFolder& run, const std::vector<RobotIndex>& places,
+                                            std::size_t robots) {
+  std::vector<KeyframeStamps> stamps(robots);
+  for (std::size_t i = 0; i < run.robots.size(); ++i) {
+    for (const auto& row : run.robots[i].poses) stamps[places[i].index()].push_back(row.stamp);
+  }
+  return stamps;
+}
+
+std::vector<double> reach(const Mission& mission, std::optional<double> radius_m) {
+  if (radius_m) return reach_for_radius(mission.robots.size(), *radius_m);
+  std::vector<double> reach_m;
+  for (const auto& robot : mission.robots) reach_m.push_back(robot.lidar_range_m);
+  return reach_m;
+}
+
+void count_pairs(Evaluation& evaluation, const RunFolder& run, const std::vector<RobotIndex>& places,
+                 const PairTruth& truth) {
+  const auto closures = with_places(run.closures, places);
+  evaluation.candidates = count_candidates(keyframe_stamps(run, places, truth.reach_m.size()),
+                                           with_places(run.candidates, places), truth);
+  evaluation.closures = count_closures(closures, truth);
+  evaluation.accepted = std::count_if(closures.begin(), closures.end(), [](const ClosureResult& closure) {
+    return closure.status == ClosureStatus::kAccepted;
+  });
+  evaluation.rejected = static_cast<long>(closures.size()) - evaluation.accepted;
+}
+
+Evaluation evaluate(const Options& options) {
+  const Mission mission = read_mission(options.mission);
+  const Truth truth = read_truth(options.mission, mission);
+  if (truth.empty()) throw InputError(options.mission, 0, "no robot has a groundtruth.tum");
+  const RunFolder run = read_run(options.run);
+  const auto places = places_in_mission(run, mission, options);
+  const auto association = options.evo ? Association::kNearest : Association::kInterpolate;
+
+  Evaluation evaluation;
+  const auto estimate = in_common_frame(run.robots, run.components, run.unplaced);
+  evaluation.metrics = evaluate_trajectories(estimate, truth, mission.dimension, association);
+  const auto odometry = dead_reckoning(mission);
+  if (!odometry.empty()) {
+    evaluation.dead_reckoning = evaluate_trajectories(odometry, truth, mission.dimension, association);
+  }
+  count_pairs(evaluation, run, places, {truth, mission.dimension, reach(mission, options.radius_m)});
+  return evaluation;
+}
+
+nlohmann::ordered_json json_of(const Evaluation& evaluation) {
+  auto json = metrics_json(evaluation.metrics);
+  json["candidates"] = pair_counts_json(evaluation.candidates);
+  json["closures"] = pair_counts_json(evaluation.closures);
+  json["closures"]["accepted"] = evaluation.accepted;
+  json["closures"]["rejected"] = evaluation.rejected;
+  json["dead_reckoning"] = nullptr;
+  if (evaluation.dead_reckoning) json["dead_reckoning"] = metrics_json(*evaluation.dead_reckoning);
+  return json;
+}
+
+void print_text(const Evaluation& evaluation) {
+  std::cout << metrics_table(evaluation.metrics);
+  if (evaluation.dead_reckoning && evaluation.dead_reckoning->ate) {
+    std::cout << "dead reckoning alone: " << evaluation.dead_reckoning->ate->rmse_m << " m rmse\n";
+  }
+  std::cout << "closures: " << evaluation.accepted << " accepted, " << evaluation.rejected
+            << " rejected; between robots " << evaluation.closures.kept << " kept, of which "
+            << evaluation.closures.true_kept << " within the radius\n";
+}
+
+void evaluate_run(const Options& options) {
+  const Evaluation evaluation = evaluate(options);
+  if (options.json) {
+    std::cout << json_of(evaluation).dump(2) << '\n';
+  } else {
+    print_text(evaluation);
+  }
+}
+
+}  // namespace
+
+void add_evaluate(CLI::App& program) {
+  const auto options = std::make_shared<Options>();
+  auto* command = program.add_subcommand("evaluate", "Compare a run with the truth of its mission");
+  command->add_option("OUT", options->run, "The folder that `radioslam run` wrote")->required();
+  command->add_option("MISSION", options->mission, "The mission, with robots/<id>/groundtruth.tum")
+      ->required();
+  command
+      ->add_option("--radius", options->radius_m,
+                   "Keyframes closer than this are true pairs; default: the sum of the two LiDAR ranges")
+      ->check(CLI::Range(0.0, kLargestRadius_m))
+      ->type_name("M");
+  command->add_flag("--evo", options->evo, "Match stamps as evo does: the nearest within 0.01 s");
+  add_json_option(*command, options->json);
+  add_threads_option(*command);
+  command->footer(
+      "The estimate is interpolated at the truth's stamps, after one rigid alignment of the whole team.\n\n"
+      "Example:\n  radioslam evaluate carpark-out carpark --json");
+  command->callback([options] { evaluate_run(*options); });
+}
+
+}  // namespace radioslam::cli

@@ -1,0 +1,16 @@
+// The program's commands: each adds itself, its options and its work to the program.
+#pragma once
+
+#include <CLI/App.hpp>
+
+namespace radioslam::cli {
+
+void add_simulate(CLI::App& program);
+void add_run(CLI::App& program);
+void add_evaluate(CLI::App& program);
+void add_optimize(CLI::App& program);
+void add_similarity(CLI::App& program);
+void add_import(CLI::App& program);
+void add_parameters(CLI::App& program);
+
+}  // namespace radioslam::cli

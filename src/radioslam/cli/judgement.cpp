@@ -1,0 +1,72 @@
+#include "radioslam/cli/judgement.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace radioslam::cli {
+namespace {
+
+constexpr double kDegreesPerRadian = 57.29577951308232;
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+template <class... Values>
+std::string formatted(const char* format, Values... values) {
+  char line[200];
+  std::snprintf(line, sizeof line, format, values...);
+  return line;
+}
+
+std::string table_row(const std::string& name, const std::optional<ErrorStatistics>& ate, double coverage) {
+  if (!ate)
+    return formatted("%-24.24s %8s %8s %8s %8s %8.1f %%\n", name.c_str(), "-", "-", "-", "-", 100 * coverage);
+  return formatted("%-24.24s %8.3f %8.3f %8.3f %8.3f %8.1f %%\n", name.c_str(), ate->rmse_m, ate->mean_m,
+                   ate->median_m, ate->p90_m, 100 * coverage);
+}
+
+}  // namespace
+
+std::vector<EstimatedTrajectory> in_common_frame(std::vector<EstimatedTrajectory> robots,
+                                                 const std::vector<Component>& components,
+                                                 const std::vector<std::string>& unplaced) {
+  for (auto& robot : robots) {
+    const bool elsewhere = !components.empty() && !contains(components.front().robots, robot.id);
+    if (elsewhere || contains(unplaced, robot.id)) robot.poses = {};
+  }
+  return robots;
+}
+
+std::vector<EstimatedTrajectory> team_estimate(const RunResult& result) {
+  std::vector<EstimatedTrajectory> robots;
+  for (const auto& robot : result.robots) robots.push_back({robot.id, robot.estimate});
+  return in_common_frame(std::move(robots), result.components, result.unplaced);
+}
+
+std::vector<EstimatedTrajectory> dead_reckoning(const Mission& mission) {
+  std::vector<EstimatedTrajectory> robots;
+  for (const auto& robot : mission.robots) {
+    if (!robot.initial_pose) return {};
+    std::vector<StampedPose<SE3>> poses(robot.odometry.begin(), robot.odometry.end());
+    const SE3 T_common_start = *robot.initial_pose * robot.odometry.front().pose.inverse();
+    for (auto& row : poses) row.pose = T_common_start * row.pose;
+    robots.push_back({robot.id, Trajectory<SE3>(std::move(poses))});
+  }
+  return robots;
+}
+
+std::string metrics_table(const TeamMetrics& metrics) {
+  std::string table = formatted("%-24s %8s %8s %8s %8s %10s\n", "position error, m", "rmse", "mean", "median",
+                                "p90", "coverage");
+  for (const auto& robot : metrics.robots) table += table_row(robot.id, robot.ate, robot.coverage);
+  table += table_row("team", metrics.ate, metrics.coverage);
+  if (metrics.rpe) {
+    table += formatted("relative error per step: %.4f m, %.3f deg over %zu steps\n",
+                       metrics.rpe->translation_rmse_m, kDegreesPerRadian * metrics.rpe->rotation_rmse_rad,
+                       metrics.rpe->count);
+  }
+  return table;
+}
+
+}  // namespace radioslam::cli

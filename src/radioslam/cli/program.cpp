@@ -1,0 +1,145 @@
+#include "radioslam/cli/program.hpp"
+
+#include <poll.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <exception>
+#include <iostream>
+
+#include "radioslam/base/input_error.hpp"
+#include "radioslam/cli/command_options.hpp"
+#include "radioslam/cli/commands.hpp"
+#include "radioslam/cli/exit_status.hpp"
+#include "radioslam/cli/suggestion.hpp"
+
+namespace radioslam::cli {
+namespace {
+
+constexpr std::size_t kHelpColumn = 30;
+
+constexpr const char* kDescription =
+    "radioslam puts the walks or drives of several robots into one frame, from what their radios heard.";
+
+constexpr const char* kFooter =
+    "Try it:\n"
+    "  radioslam simulate carpark -o carpark          # two robots, their odometry and WiFi scans\n"
+    "  radioslam run carpark -o carpark-out           # all trajectories in one frame, and report.html\n"
+    "  radioslam evaluate carpark-out carpark         # how far from the truth\n\n"
+    "radioslam COMMAND --help tells more.\n"
+    "Exit status: 0 done; 2 the call or an input is wrong; 1 a failure of the program's own.";
+
+void add_commands(CLI::App& program) {
+  add_simulate(program);
+  add_run(program);
+  add_evaluate(program);
+  add_import(program);
+  add_optimize(program);
+  add_similarity(program);
+  add_parameters(program);
+}
+
+void prepare(CLI::App& program) {
+  program.name("radioslam");
+  program.description(kDescription);
+  program.footer(kFooter);
+  program.set_version_flag("--version", "radioslam " RADIOSLAM_VERSION, "Print the version");
+  program.get_formatter()->column_width(kHelpColumn);
+  program.require_subcommand(0, 1);
+  add_threads_option(program);
+  add_commands(program);
+}
+
+std::vector<std::string> command_names(const CLI::App& program) {
+  std::vector<std::string> names;
+  for (const auto* command : program.get_subcommands([](const CLI::App*) { return true; })) {
+    names.push_back(command->get_name());
+  }
+  return names;
+}
+
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const auto* option : command.get_options()) {
+    for (const auto& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+/// The command's own words where the first argument is none of them.
+std::string unknown_command(const CLI::App& program, const std::string& name) {
+  return "there is no command '" + name + "'" + did_you_mean(name, command_names(program)) +
+         " (radioslam --help lists them)";
+}
+
+std::string unexpected_argument(const CLI::App& command, const std::string& argument) {
+  const bool is_option = argument.size() > 1 && argument.front() == '-';
+  if (!is_option) return command.get_name() + ": one argument too many: '" + argument + "'";
+  const std::string name = argument.substr(0, argument.find('='));
+  return command.get_name() + ": there is no option '" + name + "'" +
+         did_you_mean(name, option_names(command));
+}
+
+/// What was wrong with the call, in one line.
+std::string call_error(const CLI::App& program, const CLI::ParseError& error) {
+  const auto parsed = program.get_subcommands();
+  const CLI::App& command = parsed.empty() ? program : *parsed.front();
+  const auto left_over = program.remaining(true);
+  std::string text = !left_over.empty() ? unexpected_argument(command, left_over.front())
+                                        : command.get_name() + ": " + error.what();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+int fail(int status, const std::string& reason) {
+  std::cerr << (reason.starts_with("radioslam") ? "" : "radioslam: ") << reason << '\n';
+  return status;
+}
+
+/// Whether whoever read our standard output is gone.
+bool reader_left() {
+  pollfd output{STDOUT_FILENO, POLLOUT, 0};
+  return poll(&output, 1, 0) > 0 && (output.revents & POLLERR) != 0;
+}
+
+/// Standard output may have been full or closed. A reader who left (head) is not worth a word.
+int finish_output() {
+  std::cout.flush();
+  if (std::cout.good() || reader_left()) return kDone;
+  return fail(kOurFailure, "cannot write to standard output");
+}
+
+int parse_and_run(CLI::App& program, std::vector<std::string> arguments) {
+  std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the back
+  try {
+    program.parse(arguments);
+  } catch (const CLI::Success& wanted) {  // help or version
+    program.exit(wanted);
+  } catch (const CLI::ParseError& error) {
+    return fail(kWrongInput, call_error(program, error));
+  } catch (const InputError& error) {
+    return fail(kWrongInput, error.what());
+  } catch (const std::exception& error) {
+    return fail(kOurFailure, std::string("internal error: ") + error.what());
+  }
+  return finish_output();
+}
+
+}  // namespace
+
+int run_program(const std::vector<std::string>& arguments) {
+  CLI::App program;
+  prepare(program);
+  if (arguments.empty()) {
+    std::cout << program.help();
+    return finish_output();
+  }
+  const auto names = command_names(program);
+  const std::string& first = arguments.front();
+  const bool is_command = std::find(names.begin(), names.end(), first) != names.end();
+  if (!is_command && !first.starts_with("-")) return fail(kWrongInput, unknown_command(program, first));
+  return parse_and_run(program, expand_set_options(arguments));
+}
+
+}  // namespace radioslam::cli

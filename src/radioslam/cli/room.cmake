@@ -1,0 +1,31 @@
+# The program. What the tests look into is a library of its own; it is not installed.
+set(cli_include ${PROJECT_BINARY_DIR}/rooms/cli)
+file(MAKE_DIRECTORY ${cli_include}/radioslam)
+file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR}/cli ${cli_include}/radioslam/cli SYMBOLIC)
+
+add_library(radioslam_cli STATIC
+  cli/command_evaluate.cpp
+  cli/command_import.cpp
+  cli/command_optimize.cpp
+  cli/command_options.cpp
+  cli/command_parameters.cpp
+  cli/command_run.cpp
+  cli/command_similarity.cpp
+  cli/command_simulate.cpp
+  cli/config.cpp
+  cli/judgement.cpp
+  cli/parameters.cpp
+  cli/program.cpp
+  cli/progress_line.cpp
+  cli/suggestion.cpp)
+add_library(radioslam::cli ALIAS radioslam_cli)
+target_include_directories(radioslam_cli PUBLIC ${cli_include})
+target_link_libraries(radioslam_cli
+  PUBLIC radioslam_results radioslam_io CLI11::CLI11
+  PRIVATE radioslam_pipeline radioslam_eval radioslam_sim radioslam_report yaml-cpp nlohmann_json::nlohmann_json radioslam_warnings)
+target_compile_definitions(radioslam_cli PRIVATE RADIOSLAM_VERSION="${PROJECT_VERSION}")
+
+add_executable(radioslam_program cli/main.cpp cli/signals.cpp)
+target_link_libraries(radioslam_program PRIVATE radioslam_cli radioslam_io radioslam_warnings)
+set_target_properties(radioslam_program PROPERTIES
+  OUTPUT_NAME radioslam RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})

@@ -1,0 +1,64 @@
+// The top of the page: what was run, how good it is, what to know.
+
+function figure(name, value, unit, detail) {
+  const shown_value = element("dd", { class: "figure" }, value, ...(unit ? [element("small", {}, unit)] : []));
+  return element("div", {}, element("dt", {}, name), shown_value, ...(detail ? [element("dd", { class: "detail" }, detail)] : []));
+}
+
+const spread = s => `median ${format.metres(s.median_m)} · p90 ${format.metres(s.p90_m)}`;
+
+function accuracy_figures(accuracy) {
+  const figures = [];
+  if (accuracy.ate) figures.push(figure("ATE, rmse", format.metres(accuracy.ate.rmse_m), "m", spread(accuracy.ate)));
+  if (accuracy.dead_reckoning)
+    figures.push(figure("Dead reckoning, rmse", format.metres(accuracy.dead_reckoning.rmse_m), "m", spread(accuracy.dead_reckoning)));
+  if (known(accuracy.ratio))
+    figures.push(figure("ATE / dead reckoning", d3.format(accuracy.ratio < 0.1 ? ".3f" : ".2f")(accuracy.ratio), "", `${format.percent(accuracy.coverage)} of the truth covered`));
+  return figures;
+}
+
+function walk_figures() {
+  if (!robots.length) return [];
+  const walked = total(robots, r => r.walked_m || 0), sigmas = robots.map(r => r.sigma_median_m).filter(known);
+  const figures = [figure("Walked", format.metres(walked), "m", `${format.count(total(robots, r => r.keyframes))} keyframes`)];
+  if (sigmas.length) figures.push(figure("Position σ, median", format.metres(d3.median(sigmas)), "m", robots.length > 1 ? `worst robot ${format.metres(d3.max(sigmas))} m` : "as estimated"));
+  return figures;
+}
+
+function run_figures() {
+  const figures = [];
+  if (closures_total)
+    figures.push(figure("Closures accepted", format.count(accepted_total), `of ${format.count(closures_total)}`, `${format.count(closures_total - accepted_total)} rejected`));
+  if (seconds_total > 0) {
+    const [value, unit] = format.seconds(seconds_total).split(/ (?=m?s$)/);
+    const slowest = report.timings.reduce((a, b) => (a.seconds > b.seconds ? a : b));
+    figures.push(figure("Time", value, unit || "", `${format.percent(slowest.seconds / seconds_total)} of it ${slowest.stage}`));
+  }
+  return figures;
+}
+
+function write_facts() {
+  const facts = [format.plural(robots.length, "robot") + (robots.length > 0 && robots.length <= few_robots ? ` (${robots.map(r => r.id).join(", ")})` : ""),
+    report.dimension === 3 ? "in space" : "in the plane", format.plural(total(robots, r => r.keyframes), "keyframe"),
+    `${format.metres(total(robots, r => r.walked_m || 0))} m walked`];
+  const duration = d3.max(robots, r => r.duration_s);
+  if (duration > 0) facts.push(`longest walk ${format.duration(duration)}`);
+  if (report.candidates) facts.push(format.plural(report.candidates, "candidate pair"));
+  by_id("facts").textContent = facts.join(" · ");
+}
+
+function write_notes() {
+  const notes = [];
+  if (report.unplaced.length) notes.push(`Unplaced, nothing ties ${report.unplaced.length === 1 ? "it" : "them"} to the others: ${report.unplaced.join(", ")}.`);
+  if (report.components.length > 1) notes.push(`${report.components.length} components, each in its own frame: ${report.components.map(ids => ids.join(", ")).join(" | ")}.`);
+  if (report.hypotheses.length > 1) notes.push(`The team's alignment is ambiguous: ${report.hypotheses.length} hypotheses with weights ${report.hypotheses.join(", ")}; the likeliest is shown.`);
+  by_id("notes").append(...notes.concat(report.notes).map(note => element("li", {}, note)));
+}
+
+function write_headline() {
+  document.title = report.mission ? `${report.mission} – radioslam` : "radioslam report";
+  by_id("mission").textContent = report.mission || "Unnamed mission";
+  write_facts();
+  by_id("headline").append(...(report.accuracy ? accuracy_figures(report.accuracy) : walk_figures()), ...run_figures());
+  write_notes();
+}

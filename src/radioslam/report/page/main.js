@@ -1,0 +1,11 @@
+// The page, from top to bottom.
+
+write_headline();
+write_map();
+write_errors();
+write_robots();
+write_similarity();
+write_closures();
+write_timings();
+write_counts();
+write_parameters();

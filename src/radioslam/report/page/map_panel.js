@@ -1,0 +1,112 @@
+// Beside the map: which layers, closures and robots it shows.
+
+function swatch(draw) {
+  const svg = d3.create("svg").attr("viewBox", "0 0 26 10").attr("aria-hidden", "true");
+  draw(svg.append("line").attr("x1", 0).attr("x2", 26).attr("y1", 5).attr("y2", 5));
+  return svg.node();
+}
+
+function row(text, value, sample, checked, on_change, disabled = false) {
+  const box = element("input", { type: "checkbox", ...(checked ? { checked: true } : {}), ...(disabled ? { disabled: true } : {}), onchange: () => on_change(box.checked) });
+  return element("label", { class: "row", title: text }, box, sample, element("span", { class: "name" }, text), element("span", { class: "value" }, value));
+}
+
+function group_of_rows(title, ...children) {
+  return element("fieldset", {}, element("legend", {}, title), ...children);
+}
+
+function layer_rows() {
+  const layer = (key, text, sample) => row(text, "", swatch(sample), state.layers[key], on => { state.layers[key] = on; changes.call("layers"); });
+  const ink = css("ink"), rows = [layer("estimate", "estimate", line => line.attr("stroke", ink).attr("stroke-width", 2))];
+  if (robots.some(r => r.odometry))
+    rows.push(layer("odometry", "odometry alone", line => line.attr("stroke", ink).attr("stroke-width", 1.1).attr("stroke-dasharray", "5 4")));
+  if (robots.some(r => r.truth)) rows.push(layer("truth", "truth", line => line.attr("stroke", css("truth")).attr("stroke-width", 3.5)));
+  if (robots.some(r => r.sigma_m))
+    rows.push(layer("sigma", "1 σ of position", line => line.attr("stroke", ink).attr("stroke-width", 9).attr("stroke-opacity", 0.16)));
+  return rows;
+}
+
+function closure_rows() {
+  return groups.map((group, g) => row(`${group.kind}, ${group.status}`, format.count(group.count),
+    swatch(line => line.attr("stroke", closure_colour(group)).attr("stroke-width", 1.4)), state.groups[g],
+    on => { state.groups[g] = on; changes.call("layers"); }));
+}
+
+function robot_row(robot) {
+  const value = robot.ate ? `${format.metres(robot.ate.rmse_m)} m` : robot.stranded ? "unplaced" : "";
+  const sample = swatch(line => line.attr("stroke", robot_colour(robot.index)).attr("stroke-width", 3));
+  const line = row(robot.id, value, sample, state.visible[robot.index], on => {
+    state.visible[robot.index] = on;
+    changes.call("visibility");
+  });
+  line.addEventListener("mouseenter", () => highlight(robot.index));
+  line.addEventListener("mouseleave", () => highlight(null));
+  line.addEventListener("focusin", () => highlight(robot.index));
+  line.addEventListener("focusout", () => highlight(null));
+  return line;
+}
+
+function show_only(chosen) {
+  state.visible = robots.map(chosen);
+  changes.call("visibility");
+}
+
+function component_chooser(map) {
+  if (report.components.length < 2) return [];
+  const options = report.components.map((ids, c) => element("option", { value: c },
+    `frame ${c + 1}: ${ids.length > 3 ? `${ids.slice(0, 2).join(", ")} and ${ids.length - 2} more` : ids.join(", ")}`));
+  return [element("select", { "aria-label": "Frame shown", onchange: event => {
+    show_only(robot => robot.component === Number(event.target.value));
+    map.fit();
+  } }, ...options)];
+}
+
+function plane_chooser(map) {
+  if (report.dimension !== 3) return [];
+  const planes = { xy: ["x", "y"], xz: ["x", "z"], yz: ["y", "z"] };
+  const set = name => { state.axes = planes[name]; map.fit(); changes.call("layers"); };
+  return [group_of_rows("Seen", choice("plane", [["xy", "from above"], ["xz", "x–z"], ["yz", "y–z"]], "xy", set))];
+}
+
+function draw_panel(panel, map) {
+  const button = (text, action) => element("button", { type: "button", class: "plain", onclick: action }, text);
+  const list = element("div", { class: "robot-list" });
+  const who = group_of_rows(robots.some(r => r.ate) ? "Robots, ATE rmse" : "Robots", ...component_chooser(map),
+    ...(robots.length > 1 ? [element("div", { class: "panel-buttons" }, button("all", () => show_only(() => true)), button("none", () => show_only(() => false)))] : []), list);
+  who.className = "robots";
+  const fill = () => {
+    const focused = list.contains(document.activeElement) ? [...list.querySelectorAll("input")].indexOf(document.activeElement) : -1;
+    list.replaceChildren(...robots.map(robot_row));
+    if (focused >= 0) list.querySelectorAll("input")[focused].focus();
+  };
+  const build = () => {
+    panel.replaceChildren(...plane_chooser(map), group_of_rows("Layers", ...layer_rows()),
+      ...(groups.length ? [group_of_rows("Closures", ...closure_rows())] : []), who);
+    fill();
+  };
+  changes.on("visibility.panel", fill);
+  changes.on("theme.panel", build);
+  build();
+}
+
+function caption_map() {
+  const parts = [];
+  if (report.frame === "truth") parts.push("In the truth's frame, after one rigid alignment of the whole team.");
+  else if (report.components.length < 2) parts.push("In the team's own frame.");
+  if (report.components.length > 1)
+    parts.push(`The team falls into ${report.components.length} components; nothing measured ties one's frame to another's.`);
+  if (robots.length <= few_robots) parts.push("A ring marks a robot's start.");
+  if (closures_drawn < closures_total)
+    parts.push(`${format.count(closures_drawn)} of ${format.count(closures_total)} closures are drawn, evenly spaced within each kind and status; all are counted.`);
+  const drawn = total(robots, r => (r.estimate ? r.estimate.t.length : 0)), keyframes = total(robots, r => r.keyframes);
+  if (drawn < keyframes) parts.push(`${format.count(drawn)} of ${format.count(keyframes)} keyframes are drawn.`);
+  by_id("map-caption").textContent = parts.join(" ");
+}
+
+function write_map() {
+  if (!robots.some(robot => robot.estimate || robot.truth)) return;
+  show("map-section");
+  const map = new MapView(by_id("map-canvas"));
+  draw_panel(by_id("map-panel"), map);
+  caption_map();
+}

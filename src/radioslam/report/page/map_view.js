@@ -1,0 +1,192 @@
+// The map: size, zoom, pointer and keys. Metres have the same length on both axes.
+
+const scale_bar_px = 44;  // at the bottom, kept free when everything is shown
+
+class MapView {
+  constructor(parent) {
+    this.parent = parent;
+    this.canvas = element("canvas", { tabindex: "0", role: "img", "aria-label": map_description() });
+    this.overlay = element("canvas", { class: "overlay", "aria-hidden": "true" });
+    this.tooltip = element("div", { class: "tooltip", hidden: true });
+    this.hint = element("span", { class: "hint" }, "Click, then scroll to zoom");
+    parent.append(this.canvas, this.overlay, this.hint, this.buttons(), this.tooltip);
+    this.context = this.canvas.getContext("2d");
+    this.transform = d3.zoomIdentity;
+    this.redraw = once_per_frame(() => this.draw());
+    this.redraw_moment = once_per_frame(() => this.draw_moment());
+    this.zoom = d3.zoom().scaleExtent([0.2, 400]).filter(() => this.accepts(d3.event))
+      .on("zoom", () => this.moved(d3.event.transform));
+    d3.select(this.canvas).call(this.zoom).on("dblclick.zoom", null).on("dblclick", () => this.fit());
+    this.listen();
+    new ResizeObserver(() => this.resize()).observe(parent);
+  }
+
+  buttons() {
+    const button = (text, label, action) => element("button", { type: "button", "aria-label": label, title: label, onclick: action }, text);
+    return element("div", { class: "map-buttons" }, button("+", "Zoom in", () => this.zoom_by(1.6)),
+      button("−", "Zoom out", () => this.zoom_by(1 / 1.6)), button("Fit", "Show everything", () => this.fit()));
+  }
+
+  listen() {
+    changes.on("visibility.map", () => { this.tree = null; this.redraw(); });
+    for (const change of ["layers", "highlight", "theme"]) changes.on(`${change}.map`, this.redraw);
+    changes.on("moment.map", this.redraw_moment);
+    this.canvas.addEventListener("mousemove", event => this.point(event));
+    this.canvas.addEventListener("mouseleave", () => this.leave());
+    this.canvas.addEventListener("focus", () => { this.hint.hidden = true; });
+    this.canvas.addEventListener("blur", () => { this.hint.hidden = false; });
+    this.canvas.addEventListener("keydown", event => this.key(event));
+  }
+
+  /// The wheel zooms once the map has been clicked, so that it does not catch a reader who scrolls by; one finger
+  /// scrolls the page, two move the map.
+  accepts(event) {
+    if (event.type === "wheel") return event.ctrlKey || document.activeElement === this.canvas;
+    if (event.touches) return event.touches.length > 1;
+    return !event.button;
+  }
+
+  key(event) {
+    const step = 60, pan = { ArrowLeft: [step, 0], ArrowRight: [-step, 0], ArrowUp: [0, step], ArrowDown: [0, -step] }[event.key];
+    if (pan) d3.select(this.canvas).call(this.zoom.translateBy, pan[0] / this.transform.k, pan[1] / this.transform.k);
+    else if (event.key === "+" || event.key === "=") this.zoom_by(1.6);
+    else if (event.key === "-") this.zoom_by(1 / 1.6);
+    else if (event.key === "0") this.fit();
+    else return;
+    event.preventDefault();
+  }
+
+  zoom_by(factor) { d3.select(this.canvas).call(this.zoom.scaleBy, factor); }
+
+  fit() {
+    this.measure();
+    d3.select(this.canvas).call(this.zoom.transform, d3.zoomIdentity);
+    this.redraw();
+  }
+
+  moved(transform) {
+    this.transform = transform;
+    this.moving = true;
+    clearTimeout(this.rest);
+    this.rest = setTimeout(() => { this.moving = false; this.redraw(); }, 160);
+    this.redraw();
+  }
+
+  resize() {
+    const { clientWidth: width, clientHeight: height } = this.parent;
+    if (!width || !height) return;
+    const ratio = window.devicePixelRatio || 1;
+    Object.assign(this, { width, height, ratio });
+    for (const canvas of [this.canvas, this.overlay]) {
+      canvas.width = Math.round(width * ratio);
+      canvas.height = Math.round(height * ratio);
+      Object.assign(canvas.style, { width: `${width}px`, height: `${height}px` });
+    }
+    this.measure();
+    this.redraw();
+  }
+
+  /// Scale and centre that show every layer of the robots that are shown.
+  measure() {
+    const [a, b] = state.axes, span = { a: [Infinity, -Infinity], b: [Infinity, -Infinity] };
+    const widen = (range, values) => {
+      for (const v of values) {
+        if (v < range[0]) range[0] = v;
+        if (v > range[1]) range[1] = v;
+      }
+    };
+    for (const robot of shown())
+      for (const layer of ["estimate", "truth", "odometry"]) {
+        if (!robot[layer] || !state.layers[layer]) continue;
+        widen(span.a, robot[layer][a]);
+        widen(span.b, robot[layer][b]);
+      }
+    const [west, east] = isFinite(span.a[0]) ? span.a : [0, 1], [south, north] = isFinite(span.b[0]) ? span.b : [0, 1];
+    const room = 0.92, least_m = 1;
+    this.base = {
+      scale: room * Math.min(this.width / Math.max(east - west, least_m), (this.height - scale_bar_px) / Math.max(north - south, least_m)),
+      x: (west + east) / 2, y: (south + north) / 2,
+    };
+  }
+
+  view() {
+    const { base, transform: t, width, height } = this;
+    return {
+      k: t.k * base.scale, width, height, moving: this.moving,
+      ox: t.k * (width / 2 - base.scale * base.x) + t.x, oy: t.k * ((height - scale_bar_px) / 2 + base.scale * base.y) + t.y,
+      points: total(robots, robot => robot.keyframes),
+    };
+  }
+
+  draw() {
+    if (!this.width) return;
+    this.context.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
+    draw_map(this.context, this.view());
+    this.draw_moment();
+  }
+
+  /// On a canvas of its own: it follows the pointer, and the map below may be large.
+  draw_moment() {
+    if (!this.width) return;
+    const context = this.overlay.getContext("2d");
+    context.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
+    context.clearRect(0, 0, this.width, this.height);
+    if (state.moment) draw_moment(context, this.view());
+  }
+
+  /// Keyframes of the robots that are shown, for the nearest one to a point.
+  keyframes() {
+    if (this.tree && this.tree.axes === state.axes) return this.tree;
+    const [a, b] = state.axes, points = [];
+    for (const robot of shown())
+      for (let i = 0; robot.estimate && i < robot.estimate.t.length; ++i)
+        if (isFinite(robot.estimate[a][i] + robot.estimate[b][i])) points.push({ robot: robot.index, i });
+    this.tree = d3.quadtree(points, p => robots[p.robot].estimate[a][p.i], p => robots[p.robot].estimate[b][p.i]);
+    this.tree.axes = state.axes;
+    return this.tree;
+  }
+
+  point(event) {
+    if (event.buttons) return this.leave();
+    const view = this.view(), reach = 16 / view.k;
+    const at = this.keyframes().find((event.offsetX - view.ox) / view.k, (view.oy - event.offsetY) / view.k, reach);
+    if (!at) return this.leave();
+    const robot = robots[at.robot];
+    point_at({ robot: at.robot, t: robot.estimate.t[at.i] });
+    highlight(at.robot);
+    this.tooltip.replaceChildren(...describe_keyframe(robot, at.i));
+    this.tooltip.hidden = false;
+    const right = event.offsetX > this.width - 240;
+    Object.assign(this.tooltip.style, {
+      left: right ? "auto" : `${event.offsetX + 16}px`, right: right ? `${this.width - event.offsetX + 16}px` : "auto",
+      top: `${Math.max(4, Math.min(event.offsetY + 12, this.height - 130))}px`,
+    });
+  }
+
+  leave() {
+    this.tooltip.hidden = true;
+    point_at(null);
+    highlight(null);
+  }
+}
+
+function describe_keyframe(robot, i) {
+  const t = robot.estimate.t[i], rows = [element("b", {}, robot.id)];
+  const row = (name, value) => rows.push(element("span", {}, `${name} `), value, element("br"));
+  row("time", `${format.clock(t)}  (${d3.format(".3f")(report.start_s + t)} s)`);
+  row("at", `${format.metres(robot.estimate.x[i])}, ${format.metres(robot.estimate.y[i])}${robot.estimate.z ? `, ${format.metres(robot.estimate.z[i])}` : ""} m`);
+  if (robot.sigma_m && isFinite(robot.sigma_m[i])) row("σ", `${format.metres(robot.sigma_m[i])} m`);
+  if (robot.errors) {
+    const e = nearest_index(robot.errors.t, t);
+    row("error", `${format.metres(robot.errors.error_m[e])} m${Math.abs(robot.errors.t[e] - t) > 1 ? ` (at ${format.clock(robot.errors.t[e])})` : ""}`);
+  }
+  const ties = (lines_at[robot.index].get(i) || []).filter(c => groups[lines.group[c]].status === "accepted").length;
+  if (closures_total) row("closures", `${ties} accepted${closures_drawn < closures_total ? " of those drawn" : ""}`);
+  rows.pop();
+  return rows;
+}
+
+function map_description() {
+  const judged = report.frame === "truth" ? ", with the truth" : "";
+  return `Map of the trajectories of ${format.plural(robots.length, "robot")}${judged}. Arrow keys move, plus and minus zoom, 0 shows everything.`;
+}

@@ -1,0 +1,42 @@
+// What the reader has chosen, and who needs to know.
+//   visibility: which robots are shown      layers: which layers are drawn
+//   highlight: one robot stands out         moment: {robot, t} under the pointer, in the map or in a chart
+//   theme: light, dark or paper
+
+const changes = d3.dispatch("visibility", "layers", "highlight", "moment", "theme");
+const few_robots = 8;
+const many_closures = 10000;  // more would hide the trajectories: the reader may switch them on
+
+const state = {
+  visible: robots.map(robot => robot.component === 0 && !robot.stranded),
+  layers: { truth: true, odometry: robots.length <= few_robots, estimate: true, sigma: false },
+  groups: groups.map(group => group.status === "accepted" && group.count <= many_closures),
+  highlight: null,
+  moment: null,
+  axes: ["x", "y"],
+};
+if (!state.visible.some(v => v)) state.visible = robots.map(() => true);
+
+const highlight = index => { if (state.highlight !== index) { state.highlight = index; changes.call("highlight"); } };
+function point_at(moment) {
+  if (state.moment === moment) return;
+  state.moment = moment;
+  changes.call("moment");
+}
+const fades = index => state.highlight !== null && state.highlight !== index;
+const shown = () => robots.filter(robot => state.visible[robot.index]);
+
+dark_scheme.addEventListener("change", () => changes.call("theme"));
+window.addEventListener("beforeprint", () => { printing = true; changes.call("theme"); });
+window.addEventListener("afterprint", () => { printing = false; changes.call("theme"); });
+
+/// Calls `draw` once before the next frame, however often it is asked for; at once when printing.
+function once_per_frame(draw) {
+  let waiting = false;
+  return () => {
+    if (printing) return draw();
+    if (waiting) return;
+    waiting = true;
+    requestAnimationFrame(() => { waiting = false; draw(); });
+  };
+}

@@ -1,0 +1,106 @@
+// The team robot by robot, closures by kind and reason, stages by time.
+
+/// columns: [{name, value(item), text(item) or node(item), number}]
+function sortable_table(columns_shown, items, decorate) {
+  const order = { column: null, sign: 1 };
+  const body = element("tbody", {});
+  const heads = columns_shown.map(c => element("th", { scope: "col", class: c.number ? "number" : null, title: c.title || null },
+    element("button", { type: "button", onclick: () => sort_by(c) }, c.name)));
+  const fill = () => {
+    const sorted = [...items];
+    if (order.column) sorted.sort((a, b) => order.sign * compare(order.column.value(a), order.column.value(b)));
+    body.replaceChildren(...sorted.map(item => decorate(element("tr", {}, ...columns_shown.map(c => cell(c, item))), item)));
+    heads.forEach((head, i) => head.setAttribute("aria-sort", order.column !== columns_shown[i] ? "none" : order.sign > 0 ? "ascending" : "descending"));
+  };
+  const sort_by = c => {
+    order.sign = order.column === c ? -order.sign : c.number ? -1 : 1;
+    order.column = c;
+    fill();
+  };
+  fill();
+  return { table: element("table", {}, element("thead", {}, element("tr", {}, ...heads)), body), fill };
+}
+
+const cell = (c, item) => element("td", { class: c.number ? "number" : c.id ? "id" : c.long ? "text" : null }, ...(c.node ? c.node(item) : [c.text(item)]));
+
+function compare(a, b) {
+  if (typeof a === "string") return d3.ascending(a, b);
+  return known(a) && known(b) ? a - b : known(a) ? 1 : known(b) ? -1 : 0;
+}
+
+function robot_columns() {
+  const some = key => robots.some(r => known(r[key]));
+  const number = (name, value, text, title) => ({ name, value, text: r => text(value(r)), number: true, title });
+  const list = [{ name: "robot", value: r => r.id, id: true, node: r => [element("span", { class: "swatch", style: { background: robot_colour(r.index) } }), r.id] }];
+  if (report.components.length > 1) list.push(number("frame", r => (r.stranded ? null : r.component + 1), format.count));
+  list.push({ name: "placed", value: r => (r.stranded ? "no" : "yes"), text: r => (r.stranded ? "no" : "yes") },
+    number("keyframes", r => r.keyframes, format.count), number("walked (m)", r => r.walked_m, format.metres));
+  if (report.accuracy) {
+    list.push(number("ATE rmse (m)", r => r.ate && r.ate.rmse_m, format.metres), number("median (m)", r => r.ate && r.ate.median_m, format.metres),
+      number("p90 (m)", r => r.ate && r.ate.p90_m, format.metres),
+      number("dead reckoning (m)", r => r.dead_reckoning && r.dead_reckoning.rmse_m, format.metres, "rmse, after its own alignment"),
+      number("covered", r => r.coverage, format.percent, "share of the truth's poses"));
+  }
+  if (some("sigma_median_m")) list.push(number("σ median (m)", r => r.sigma_median_m, format.metres));
+  if (robots.some(r => r.yaw_drift_per_m_rad)) list.push(number("yaw drift (°/100 m)", r => r.yaw_drift_per_m_rad * 100, v => minus(d3.format("+.2f")((v * 180) / Math.PI)), "estimated"));
+  if (robots.some(r => r.scale_error)) list.push(number("scale error", r => r.scale_error, v => minus(`${d3.format("+.2f")(v * 100)} %`), "estimated"));
+  return list;
+}
+
+function write_robots() {
+  if (!robots.length) return;
+  show("robots-section");
+  const place = by_id("robots-table");
+  if (robots.length > 20) place.classList.add("tall");
+  const { table, fill } = sortable_table(robot_columns(), robots, (line, robot) => {
+    line.addEventListener("mouseenter", () => highlight(robot.index));
+    line.addEventListener("mouseleave", () => highlight(null));
+    return line;
+  });
+  place.append(table);
+  changes.on("theme.robots", fill);
+}
+
+function write_closure_bars() {
+  const kinds = Array.from(new Set(groups.map(g => g.kind))), counted = (kind, status) => total(groups.filter(g => g.kind === kind && g.status === status), g => g.count);
+  const longest = d3.max(kinds, kind => counted(kind, "accepted") + counted(kind, "rejected"));
+  const bar = (count, group) => element("span", { style: { width: `${(100 * count) / longest}%`, background: closure_colour(group) } });
+  const rows = kinds.flatMap(kind => {
+    const accepted = counted(kind, "accepted"), rejected = counted(kind, "rejected");
+    return [element("span", {}, kind), element("span", { class: "bars" }, bar(accepted, { kind, status: "accepted" }), bar(rejected, { kind, status: "rejected" })),
+      element("span", {}, `${format.count(accepted)} accepted, ${format.count(rejected)} rejected`)];
+  });
+  by_id("closures-bars").replaceChildren(element("div", { class: "kinds" }, ...rows));
+}
+
+function write_closures() {
+  if (!closures_total) return;
+  show("closures-section");
+  write_closure_bars();
+  changes.on("theme.closures", write_closure_bars);
+  const { table } = sortable_table([
+    { name: "kind", value: r => r.kind, text: r => r.kind },
+    { name: "status", value: r => r.status, text: r => r.status },
+    { name: "reason", value: r => r.reason, text: r => r.reason || missing, long: true },
+    { name: "count", value: r => r.count, text: r => format.count(r.count), number: true },
+    { name: "median statistic", value: r => r.statistic_median, text: r => (known(r.statistic_median) ? d3.format(".3~g")(r.statistic_median) : missing), number: true, title: "squared normalised residual" },
+  ], report.closures.reasons, line => line);
+  by_id("closures-table").append(table);
+}
+
+function write_timings() {
+  if (!report.timings.length) return;
+  show("timings-section");
+  const longest = d3.max(report.timings, t => t.seconds) || 1;
+  const rows = report.timings.flatMap(t => [element("span", { class: "name" }, t.stage),
+    element("span", { class: "bar", style: { width: `${(100 * t.seconds) / longest}%` } }), element("span", { class: "number" }, format.stage_seconds(t.seconds))]);
+  const sum = ["total", "", format.stage_seconds(seconds_total)].map((text, i) => element("span", { class: i === 2 ? "number total" : "total" }, text));
+  by_id("timings").append(element("div", { class: "stages" }, ...rows, ...sum));
+}
+
+function write_counts() {
+  const counts = Object.entries(report.counts);
+  if (!counts.length) return;
+  show("counts-section");
+  by_id("counts").append(...counts.flatMap(([name, value]) => [element("dt", {}, name.replace(/_/g, " ")), element("dd", {}, known(value) ? d3.format(",~r")(value) : missing)]));
+}

@@ -1,0 +1,151 @@
+#include "radioslam/report/page_data.hpp"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "radioslam/report/closure_data.hpp"
+#include "radioslam/report/rounding.hpp"
+#include "radioslam/report/thinning.hpp"
+#include "radioslam/report/trajectory_data.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr std::size_t kQuantileSteps = 200;
+
+/// The earliest stamp of any robot: the page's zero of time.
+Stamp first_stamp(const RunResult& result) {
+  std::optional<Stamp> first;
+  for (const auto& robot : result.robots)
+    if (!robot.estimate.empty() && (!first || robot.estimate.front().stamp < *first))
+      first = robot.estimate.front().stamp;
+  return first.value_or(Stamp{});
+}
+
+/// Dead reckoning under the same rules as the estimate: one alignment of the whole team, its own. Nothing
+/// where a start is unknown: then odometry alone has no common frame.
+TeamMetrics judge_dead_reckoning(const RunResult& result, const Truth& truth) {
+  std::vector<EstimatedTrajectory> odometry;
+  for (const auto& robot : result.robots) odometry.push_back({robot.id, robot.odometry});
+  const auto known = [](const RobotResult& robot) { return robot.start_known; };
+  if (!std::all_of(result.robots.begin(), result.robots.end(), known)) odometry.clear();
+  return evaluate_trajectories(odometry, truth, result.dimension);
+}
+
+std::size_t component_of(const RobotResult& robot, const std::vector<Component>& components) {
+  for (std::size_t c = 0; c < components.size(); ++c) {
+    const auto& members = components[c].robots;
+    if (std::find(members.begin(), members.end(), robot.id) != members.end()) return c;
+  }
+  return 0;
+}
+
+/// The errors at kQuantileSteps + 1 equal steps of their share, from the smallest to the largest.
+PageData error_quantiles(const TeamMetrics& metrics) {
+  std::vector<double> errors;
+  for (const auto& robot : metrics.robots)
+    for (const auto& error : robot.errors) errors.push_back(error.error_m);
+  std::sort(errors.begin(), errors.end());
+  PageData quantiles = PageData::array();
+  if (errors.empty()) return quantiles;
+  for (std::size_t q = 0; q <= kQuantileSteps; ++q)
+    quantiles.push_back(rounded_metres(errors[q * (errors.size() - 1) / kQuantileSteps]));
+  return quantiles;
+}
+
+PageData accuracy_data(const Judgement& judgement) {
+  const TeamMetrics& estimate = *judgement.estimate;
+  const TeamMetrics& odometry = *judgement.dead_reckoning;
+  PageData data{{"ate", statistics_data(estimate.ate)},
+                {"dead_reckoning", statistics_data(odometry.ate)},
+                {"coverage", rounded(estimate.coverage, 4)},
+                {"quantiles_m", error_quantiles(estimate)},
+                {"dead_reckoning_quantiles_m", error_quantiles(odometry)}};
+  if (estimate.ate && odometry.ate && odometry.ate->rmse_m > 0)
+    data["ratio"] = rounded_relative(estimate.ate->rmse_m / odometry.ate->rmse_m);
+  if (estimate.rpe)
+    data["rpe"] = {{"translation_rmse_m", rounded(estimate.rpe->translation_rmse_m, 4)},
+                   {"rotation_rmse_rad", rounded(estimate.rpe->rotation_rmse_rad, 5)},
+                   {"count", estimate.rpe->count}};
+  return data;
+}
+
+PageData similarity_data(const SimilarityModelResult& model, const ReportParams& params) {
+  PageData bins = PageData::array(), similarity = bins, distance = bins;
+  for (const auto& bin : model.bins)
+    bins.push_back({{"similarity", rounded(bin.similarity, 4)},
+                    {"distance_m", rounded_metres(bin.distance_m)},
+                    {"sigma_m", rounded_metres(bin.sigma_m)},
+                    {"samples", bin.samples}});
+  const auto limit = static_cast<std::size_t>(std::max(params.maximum_samples, 2));
+  for (const std::size_t i : evenly_spaced(model.samples.size(), limit)) {
+    similarity.push_back(rounded(model.samples[i].first, 4));
+    distance.push_back(rounded_metres(model.samples[i].second));
+  }
+  return {{"measure", model.measure},
+          {"bins", std::move(bins)},
+          {"samples", model.samples.size()},
+          {"drawn", {{"similarity", std::move(similarity)}, {"distance_m", std::move(distance)}}}};
+}
+
+void add_robots(PageData& page, const RunResult& result, const Judgement& judgement,
+                const ReportParams& params) {
+  TrajectoryContext context{result.dimension, first_stamp(result), SE3(), count_totals(result, judgement),
+                            judgement};
+  if (judgement.estimate != nullptr) context.T_page_estimate = judgement.estimate->T_truth_estimate;
+  DrawnKeyframes keyframes;
+  page["robots"] = PageData::array();
+  for (const auto& robot : result.robots) {
+    keyframes.push_back(drawn_keyframes(robot, context.totals, params));
+    page["robots"].push_back(robot_data(robot, component_of(robot, result.components), context, params));
+  }
+  page["closures"] = closure_data(result, keyframes, params);
+}
+
+void add_run(PageData& page, const RunResult& result) {
+  page["components"] = PageData::array();
+  for (const auto& component : result.components) page["components"].push_back(component.robots);
+  page["unplaced"] = result.unplaced;
+  page["hypotheses"] = PageData::array();
+  for (const double weight : result.hypothesis_weights) page["hypotheses"].push_back(rounded(weight, 4));
+  page["candidates"] = result.candidates.size();
+  page["counts"] = PageData::object();
+  for (const auto& [key, count] : result.counts) page["counts"][key] = rounded_relative(count);
+  page["timings"] = PageData::array();
+  for (const auto& timing : result.timings)
+    page["timings"].push_back({{"stage", timing.stage}, {"seconds", rounded(timing.seconds, 6)}});
+  page["parameters"] = PageData::array();
+  for (const auto& parameter : result.parameters)
+    page["parameters"].push_back({{"key", parameter.key},
+                                  {"value", parameter.value},
+                                  {"unit", parameter.unit},
+                                  {"meaning", parameter.meaning},
+                                  {"changed", parameter.changed}});
+  page["notes"] = result.notes;
+}
+
+}  // namespace
+
+PageData page_data(const RunResult& result, const Truth* truth, const std::optional<TeamMetrics>& metrics,
+                   const ReportParams& params) {
+  PageData page{{"format", "radioslam-report/1"},
+                {"mission", result.mission_name},
+                {"dimension", result.dimension},
+                {"start_s", rounded_seconds(first_stamp(result).seconds())}};
+  const bool judged = truth != nullptr && !truth->empty() && metrics && metrics->ate;
+  page["frame"] = judged ? "truth" : "estimate";
+  std::optional<TeamMetrics> dead_reckoning;
+  Judgement judgement;
+  if (judged) {
+    dead_reckoning = judge_dead_reckoning(result, *truth);
+    judgement = {truth, &*metrics, &*dead_reckoning};
+    page["accuracy"] = accuracy_data(judgement);
+  }
+  add_robots(page, result, judgement, params);
+  if (result.similarity_model) page["similarity"] = similarity_data(*result.similarity_model, params);
+  add_run(page, result);
+  return page;
+}
+
+}  // namespace radioslam

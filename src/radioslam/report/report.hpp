@@ -1,0 +1,40 @@
+// A run as one self-contained HTML page: data, style, script and d3 in one file that opens without a network.
+// The data stand in the page as one JSON element (see page_data.hpp); the same input gives the same bytes.
+// Ids, names and reasons are foreign text and reach the page as data only, never as markup.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "radioslam/base/fields.hpp"
+#include "radioslam/eval/metrics.hpp"
+#include "radioslam/mission/truth.hpp"
+#include "radioslam/results/results.hpp"
+
+namespace radioslam {
+
+/// How much a page may draw; what is left out is said on the page, and never changes a number on it.
+struct ReportParams {
+  int maximum_poses = 200000;    ///< of each of estimate, odometry and truth, over all robots
+  int maximum_closures = 20000;  ///< every kind and status keeps its share
+  int maximum_samples = 8000;    ///< of similarity against distance
+  int maximum_errors = 60000;    ///< of each of estimate and odometry, over all robots
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit(Field{"maximum_poses", "", 100, 1e7, "poses drawn per layer of the map"}, self.maximum_poses);
+    visit(Field{"maximum_closures", "", 100, 1e7, "closures drawn on the map"}, self.maximum_closures);
+    visit(Field{"maximum_samples", "", 100, 1e7, "samples drawn of similarity against distance"},
+          self.maximum_samples);
+    visit(Field{"maximum_errors", "", 100, 1e7, "errors drawn over time"}, self.maximum_errors);
+  }
+};
+
+/// The page. `truth` may be null; with `truth` and `metrics` the map is drawn in the truth's frame (through
+/// metrics->T_truth_estimate) and dead reckoning is judged beside the estimate, after an alignment of its
+/// own.
+std::string render_report(const RunResult& result, const Truth* truth = nullptr,
+                          const std::optional<TeamMetrics>& metrics = std::nullopt,
+                          const ReportParams& params = {});
+
+}  // namespace radioslam

@@ -1,0 +1,148 @@
+// What the program says and how it ends when it is called rightly and wrongly.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "cli/process.hpp"
+
+namespace radioslam::cli {
+namespace {
+
+constexpr const char* kTriangle =
+    "EDGE_SE2 0 1 1 0 2.0944 100 0 0 100 0 100\n"
+    "EDGE_SE2 1 2 1 0 2.0944 100 0 0 100 0 100\n"
+    "EDGE_SE2 2 0 1.1 0 2.0944 100 0 0 100 0 100\n";
+
+bool is_one_line(const std::string& text) {
+  return !text.empty() && text.back() == '\n' && std::count(text.begin(), text.end(), '\n') == 1;
+}
+
+/// Expects exit status 2, nothing on standard output, no file, and one line with `reason` in it.
+void expect_refused(const std::vector<std::string>& arguments, const std::string& reason) {
+  const TemporaryFolder folder;
+  const auto outcome = run(arguments, folder.path());
+  EXPECT_EQ(outcome.status, 2) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_TRUE(is_one_line(outcome.err)) << outcome.err;
+  EXPECT_EQ(outcome.err.rfind("radioslam: ", 0), 0U) << outcome.err;
+  EXPECT_NE(outcome.err.find(reason), std::string::npos) << outcome.err;
+  EXPECT_TRUE(files_in(folder.path()).empty());
+}
+
+TEST(Calls, WithoutArgumentsHelp) {
+  const TemporaryFolder folder;
+  const auto outcome = run({}, folder.path());
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_NE(outcome.out.find("radioslam simulate carpark"), std::string::npos);
+  EXPECT_EQ(outcome.err, "");
+}
+
+TEST(Calls, EveryCommandHelpsWithAnExample) {
+  const TemporaryFolder folder;
+  for (const char* command :
+       {"simulate", "run", "evaluate", "import", "optimize", "similarity", "parameters"}) {
+    const auto outcome = run({command, "--help"}, folder.path());
+    EXPECT_EQ(outcome.status, 0) << command;
+    EXPECT_NE(outcome.out.find(std::string("  radioslam ") + command), std::string::npos) << command;
+  }
+}
+
+TEST(Calls, VersionIsOneLine) {
+  const TemporaryFolder folder;
+  const auto outcome = run({"--version"}, folder.path());
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.out.rfind("radioslam ", 0), 0U);
+  EXPECT_TRUE(is_one_line(outcome.out));
+}
+
+TEST(Calls, MisspellingsAreRefusedWithASuggestion) {
+  expect_refused({"optimise"}, "did you mean optimize?");
+  expect_refused({"--verison"}, "did you mean --version?");
+  expect_refused({"optimize", "g.g2o", "-o", "out.g2o", "--jsn"}, "did you mean --json?");
+  expect_refused({"simulate", "carpak", "-o", "m"}, "did you mean carpark?");
+  expect_refused({"simulate", "carpark", "-o", "m", "--set", "robot=2"}, "did you mean robots?");
+  expect_refused({"run", "m", "-o", "out", "--set", "keyfram.distance_m=1"},
+                 "did you mean keyframe.distance_m?");
+  expect_refused({"import", "indoor", "x", "-o", "m"}, "there is no such kind of source");
+}
+
+TEST(Calls, MissingAndSurplusArgumentsAreRefused) {
+  expect_refused({"optimize"}, "GRAPH is required");
+  expect_refused({"optimize", "g.g2o"}, "--output is required");
+  expect_refused({"optimize", "g.g2o", "h.g2o", "-o", "out"}, "too many: 'h.g2o'");
+  expect_refused({"evaluate", "out"}, "MISSION is required");
+  expect_refused({"similarity", "a.csv", "-o", "pairs.csv"}, "--measure is required");
+}
+
+TEST(Calls, ValuesOutOfRangeAreRefused) {
+  expect_refused({"run", "m", "-o", "out", "--set", "keyframe.distance_m=0"}, "0.01 to 1000 m");
+  expect_refused({"run", "m", "-o", "out", "--threads", "0"}, "--threads");
+  expect_refused({"simulate", "carpark", "-o", "m", "--robots", "0"}, "--robots");
+  expect_refused({"simulate", "carpark", "-o", "m", "--seed", "x"}, "--seed");
+  expect_refused({"evaluate", "out", "m", "--radius", "-1"}, "--radius");
+}
+
+TEST(Calls, MissingInputsAreNamed) {
+  expect_refused({"run", "nowhere", "-o", "out"}, "nowhere");
+  expect_refused({"evaluate", "nowhere", "nowhere"}, "nowhere");
+  expect_refused({"optimize", "nothing.g2o", "-o", "out.g2o"}, "nothing.g2o");
+  expect_refused({"import", "indoor-location", "nowhere", "-o", "out"}, "nowhere");
+  expect_refused({"similarity", "a.csv", "--measure", "cosine", "-o", "pairs.csv"}, "a.csv");
+  expect_refused({"run", "m", "-o", "out", "--config", "none.yaml"}, "none.yaml");
+}
+
+TEST(Calls, SettingsMayFollowOneAnother) {
+  const TemporaryFolder folder;
+  write_file(folder.path() / "g.g2o", kTriangle);
+  const auto outcome =
+      run({"optimize", "--set", "max_iterations=0", "first_damping=1e-3", "g.g2o", "-o", "o.g2o", "--json"},
+          folder.path());
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(nlohmann::json::parse(outcome.out)["iterations"], 0);
+}
+
+TEST(Calls, OptimizePrintsOneJsonObjectAndNothingElse) {
+  const TemporaryFolder folder;
+  write_file(folder.path() / "g.g2o", kTriangle);
+  const auto outcome = run({"optimize", "g.g2o", "-o", "o.g2o", "--json"}, folder.path());
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  const auto json = nlohmann::json::parse(outcome.out);
+  for (const char* key :
+       {"initial_cost", "final_cost", "iterations", "seconds", "termination", "certificate"}) {
+    EXPECT_TRUE(json.contains(key)) << key;
+  }
+  for (const char* key : {"read", "initialise", "optimise"})
+    EXPECT_TRUE(json["seconds"].contains(key)) << key;
+  EXPECT_TRUE(json["certificate"].is_null());
+  EXPECT_EQ(files_in(folder.path()), (std::vector<std::string>{"g.g2o", "o.g2o"}));
+}
+
+TEST(Calls, IndefiniteInformationIsRefusedOrRepairedOnDemand) {
+  const TemporaryFolder folder;
+  write_file(folder.path() / "g.g2o", std::string(kTriangle) + "EDGE_SE2 0 2 1 0 0 1 0 0 -1 0 1\n");
+  const auto refused = run({"optimize", "g.g2o", "-o", "o.g2o"}, folder.path());
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("g.g2o:4:"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("--repair-information"), std::string::npos) << refused.err;
+  const auto repaired = run({"optimize", "g.g2o", "-o", "o.g2o", "--repair-information"}, folder.path());
+  EXPECT_EQ(repaired.status, 0) << repaired.err;
+  EXPECT_NE(repaired.out.find("repaired 1 indefinite"), std::string::npos);
+}
+
+TEST(Calls, CertifyIsRefusedPlainly) {
+  expect_refused({"optimize", "g.g2o", "-o", "o.g2o", "--certify"}, "--certify");
+}
+
+TEST(Calls, ParametersListUnitsAndRanges) {
+  const TemporaryFolder folder;
+  const auto text = run({"parameters"}, folder.path());
+  EXPECT_EQ(text.status, 0);
+  EXPECT_NE(text.out.find("keyframe.distance_m = 1 m   [0.01 to 1000]\n"), std::string::npos);
+  const auto json = run({"parameters", "simulate", "--json"}, folder.path());
+  EXPECT_EQ(nlohmann::json::parse(json.out)["robots"]["range"], "1 to 100");
+}
+
+}  // namespace
+}  // namespace radioslam::cli
