@@ -137,6 +137,21 @@ struct Position {
   PositionFactor<Pose> f;
 };
 
+template <class Pose>
+struct RelativePoint {
+  template <class T>
+  bool operator()(const T* a, const T* b, const T* point, T* out) const {
+    constexpr int kDim = Pose::kDim, kR = Pose::kDof - kDim;
+    const Eigen::Map<const Vec<T, Pose::kDof>> i(a);
+    const Vec<T, kDim> way = end_position<Pose>(b, point, f.j) - i.template head<kDim>();
+    const Vec<T, kDim> seen = turn<T>(Vec<T, kR>(i.template tail<kR>()), way, -1);
+    Eigen::Map<Vec<T, kDim>>{out} =
+        root(f.information, f.weight).template cast<T>() * (seen - f.position.template cast<T>());
+    return true;
+  }
+  RelativePointFactor<Pose> f;
+};
+
 struct DriftPrior {
   template <class T>
   bool operator()(const T* d, T* out) const {
@@ -181,6 +196,10 @@ class Referee {
       problem_.AddResidualBlock(
           new ceres::AutoDiffCostFunction<Bearing<Pose>, kDim, kDof, kDof, kDim>(new Bearing<Pose>{f}),
           ceres_loss(f.loss), pose(f.i), pose(f.j.pose), point(f.j.point));
+    for (const auto& f : graph.relative_points)
+      problem_.AddResidualBlock(new ceres::AutoDiffCostFunction<RelativePoint<Pose>, kDim, kDof, kDof, kDim>(
+                                    new RelativePoint<Pose>{f}),
+                                ceres_loss(f.loss), pose(f.i), pose(f.j.pose), point(f.j.point));
     for (const auto& f : graph.positions)
       problem_.AddResidualBlock(
           new ceres::AutoDiffCostFunction<Position<Pose>, kDim, kDof, kDim>(new Position<Pose>{f}),

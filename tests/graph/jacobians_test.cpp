@@ -73,6 +73,9 @@ TYPED_TEST(Jacobians, CoverEveryKindOfEnd) {
   for (const auto& f : graph.bearings) count(f.j);
   EXPECT_TRUE(to_pose > 0 && to_point > 0);
   to_pose = to_point = 0;
+  for (const auto& f : graph.relative_points) count(f.j);
+  EXPECT_TRUE(to_pose > 0 && to_point > 0);
+  to_pose = to_point = 0;
   for (const auto& f : graph.positions) count(f.i);
   EXPECT_TRUE(to_pose > 0 && to_point > 0);
 }

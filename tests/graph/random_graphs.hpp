@@ -38,12 +38,31 @@ struct Drawing {
   Rng rng;
 };
 
+/// Sightings of poses and points from poses, off by about noise * 0.1.
+template <class Pose>
+void add_relative_points(PoseGraph<Pose>& graph, Drawing<Pose>& draw, double noise) {
+  for (std::size_t i = 0; i + 4 < graph.poses.size(); i += 2) {
+    RelativePointFactor<Pose> sighting;
+    sighting.i = PoseId(i);
+    if (i % 4 == 0)
+      sighting.j = {PoseId(i + 4), {}, draw.point(0.3)};
+    else
+      sighting.j.point = PointId(i % graph.points.size());
+    const typename Pose::Point place =
+        i % 4 == 0 ? graph.poses[i + 4] * sighting.j.lever_arm : graph.points[sighting.j.point.index()];
+    sighting.position = graph.poses[i].inverse() * place + draw.point(0.1 * noise);
+    sighting.information = draw.template information<Pose::kDim>();
+    graph.relative_points.push_back(sighting);
+  }
+}
+
 /// What a drawn graph holds beside a chain of poses with loops.
 enum class Extras { kNone, kAll };
 
 /// A walk of `count` poses; a relative pose for every step and for loops of 5; with extras, ranges between
-/// poses, with lever arms, and to points, bearings, positions, priors, and one drift in the odometry.
-/// Measurements are exact for the graph's values when `noise` is zero, else off by about noise * 0.1.
+/// poses, with lever arms, and to points, bearings, sightings, positions, priors, and one drift in the
+/// odometry. Measurements are exact for the graph's values when `noise` is zero, else off by about noise *
+/// 0.1.
 template <class Pose>
 PoseGraph<Pose> draw_graph(std::uint64_t seed, std::size_t count, double noise, Extras extras) {
   Drawing<Pose> draw(seed);
@@ -108,6 +127,7 @@ PoseGraph<Pose> draw_graph(std::uint64_t seed, std::size_t count, double noise, 
   graph.pose_priors.push_back(
       {id(count / 2), measured(graph.poses[count / 2]), draw.template information<kDof>(), {}, 0.5});
   graph.drift_priors.push_back({DriftId(0), graph.drifts[0], 100 * draw.template information<2>()});
+  add_relative_points(graph, draw, noise);
   return graph;
 }
 

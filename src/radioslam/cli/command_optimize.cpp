@@ -63,8 +63,8 @@ class Stopwatch {
 
 template <class Pose>
 std::size_t factor_count(const PoseGraph<Pose>& graph) {
-  return graph.relative_poses.size() + graph.ranges.size() + graph.bearings.size() + graph.positions.size() +
-         graph.pose_priors.size();
+  return graph.relative_poses.size() + graph.ranges.size() + graph.bearings.size() +
+         graph.relative_points.size() + graph.positions.size() + graph.pose_priors.size();
 }
 
 std::string_view start_name(InitialValues start) {

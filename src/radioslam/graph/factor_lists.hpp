@@ -12,8 +12,8 @@ namespace radioslam {
 /// References to the graph's lists, always in this order.
 template <class Pose>
 auto factor_lists(const PoseGraph<Pose>& graph) {
-  return std::tie(graph.relative_poses, graph.ranges, graph.bearings, graph.positions, graph.pose_priors,
-                  graph.drift_priors);
+  return std::tie(graph.relative_poses, graph.ranges, graph.bearings, graph.relative_points, graph.positions,
+                  graph.pose_priors, graph.drift_priors);
 }
 
 template <class Pose, class Body>
@@ -53,6 +53,10 @@ std::array<Variable, 2> variables(const RangeFactor<Pose>& f) {
 }
 template <class Pose>
 std::array<Variable, 2> variables(const BearingFactor<Pose>& f) {
+  return {variable(f.i), variable(f.j)};
+}
+template <class Pose>
+std::array<Variable, 2> variables(const RelativePointFactor<Pose>& f) {
   return {variable(f.i), variable(f.j)};
 }
 template <class Pose>

@@ -10,12 +10,13 @@
 namespace radioslam {
 namespace {
 
-/// Calls body(list of factors, its part of `parts`) for the four lists that may hold outliers.
+/// Calls body(list of factors, its part of `parts`) for the five lists that may hold outliers.
 template <class Graph, class Body, class... Parts>
 void for_each_outlier_list(Graph& graph, Body&& body, Parts&... parts) {
   body(graph.relative_poses, parts.relative_poses...);
   body(graph.ranges, parts.ranges...);
   body(graph.bearings, parts.bearings...);
+  body(graph.relative_points, parts.relative_points...);
   body(graph.positions, parts.positions...);
 }
 
@@ -90,6 +91,7 @@ class Graduation {
     work_.relative_poses = original_.relative_poses;
     work_.ranges = original_.ranges;
     work_.bearings = original_.bearings;
+    work_.relative_points = original_.relative_points;
     work_.positions = original_.positions;
     apply_weights(summary_.weights, mask_, work_);
   }

@@ -35,11 +35,11 @@ struct GraduatedParams {
 
 /// One entry per factor of a list; an empty list stands for no factor.
 struct FactorMask {
-  std::vector<bool> relative_poses, ranges, bearings, positions;
+  std::vector<bool> relative_poses, ranges, bearings, relative_points, positions;
 };
 /// Weights in [0, 1]; 1 for factors outside the mask. Below one half counts as rejected.
 struct FactorWeights {
-  std::vector<double> relative_poses, ranges, bearings, positions;
+  std::vector<double> relative_poses, ranges, bearings, relative_points, positions;
 };
 
 /// The factors whose loss is kGemanMcClure.

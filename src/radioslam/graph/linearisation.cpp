@@ -85,6 +85,16 @@ Linearisation<Pose::kDim, Pose::kDof, Pose::kDof> linearise(const PoseGraph<Pose
 }
 
 template <class Pose>
+Linearisation<Pose::kDim, Pose::kDof, Pose::kDof> linearise(const PoseGraph<Pose>& graph,
+                                                            const RelativePointFactor<Pose>& factor) {
+  const Pose& T_w_i = graph.poses[factor.i.index()];
+  const typename Pose::Point seen = T_w_i.inverse() * position(graph, factor.j);
+  return {seen - factor.position,
+          {seen_by_jacobian<Pose>(seen),
+           T_w_i.rotation_matrix().transpose() * position_jacobian(graph, factor.j)}};
+}
+
+template <class Pose>
 Linearisation<Pose::kDim, Pose::kDof> linearise(const PoseGraph<Pose>& graph,
                                                 const PositionFactor<Pose>& factor) {
   return {residual(graph, factor), {position_jacobian(graph, factor.i)}};
@@ -109,6 +119,8 @@ Linearisation<2, 2> linearise(const PoseGraph<Pose>& graph, const DriftPriorFact
                                                               const RangeFactor<Pose>&);                    \
   template Linearisation<Pose::kDim, Pose::kDof, Pose::kDof> linearise(const PoseGraph<Pose>&,              \
                                                                        const BearingFactor<Pose>&);         \
+  template Linearisation<Pose::kDim, Pose::kDof, Pose::kDof> linearise(const PoseGraph<Pose>&,              \
+                                                                       const RelativePointFactor<Pose>&);   \
   template Linearisation<Pose::kDim, Pose::kDof> linearise(const PoseGraph<Pose>&,                          \
                                                            const PositionFactor<Pose>&);                    \
   template Linearisation<Pose::kDof, Pose::kDof> linearise(const PoseGraph<Pose>&,                          \

@@ -27,6 +27,9 @@ template <class Pose>
 Linearisation<Pose::kDim, Pose::kDof, Pose::kDof> linearise(const PoseGraph<Pose>& graph,
                                                             const BearingFactor<Pose>& factor);
 template <class Pose>
+Linearisation<Pose::kDim, Pose::kDof, Pose::kDof> linearise(const PoseGraph<Pose>& graph,
+                                                            const RelativePointFactor<Pose>& factor);
+template <class Pose>
 Linearisation<Pose::kDim, Pose::kDof> linearise(const PoseGraph<Pose>& graph,
                                                 const PositionFactor<Pose>& factor);
 template <class Pose>

@@ -48,7 +48,8 @@ class NormalEquations {
     std::vector<SumsOf<Pose, Factor>> wave;  ///< the sums of the factors that are being linearised
   };
   using Lists = std::tuple<List<RelativePoseFactor<Pose>>, List<RangeFactor<Pose>>, List<BearingFactor<Pose>>,
-                           List<PositionFactor<Pose>>, List<PosePriorFactor<Pose>>, List<DriftPriorFactor>>;
+                           List<RelativePointFactor<Pose>>, List<PositionFactor<Pose>>,
+                           List<PosePriorFactor<Pose>>, List<DriftPriorFactor>>;
 
   template <class Factor>
   double linearise_list(const PoseGraph<Pose>& graph, const std::vector<Factor>& factors, List<Factor>& list);

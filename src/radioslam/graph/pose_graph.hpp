@@ -84,6 +84,18 @@ struct BearingFactor {
   double weight = 1;
 };
 
+/// Where a pose or a point is, seen from pose i, in i's body frame: T_i^-1 p_j - position.
+template <class Pose>
+struct RelativePointFactor {
+  PoseId i;
+  RangeEnd<Pose> j;
+  typename Pose::Point position = Pose::Point::Zero();
+  Eigen::Matrix<double, Pose::kDim, Pose::kDim> information =
+      Eigen::Matrix<double, Pose::kDim, Pose::kDim>::Identity();
+  Loss loss{};
+  double weight = 1;
+};
+
 /// p_i - position, of a pose or a point.
 template <class Pose>
 struct PositionFactor {
@@ -127,6 +139,7 @@ struct PoseGraph {
   std::vector<RelativePoseFactor<Pose>> relative_poses;
   std::vector<RangeFactor<Pose>> ranges;
   std::vector<BearingFactor<Pose>> bearings;
+  std::vector<RelativePointFactor<Pose>> relative_points;
   std::vector<PositionFactor<Pose>> positions;
   std::vector<PosePriorFactor<Pose>> pose_priors;
   std::vector<DriftPriorFactor> drift_priors;

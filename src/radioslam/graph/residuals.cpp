@@ -25,6 +25,11 @@ typename Pose::Point residual(const PoseGraph<Pose>& graph, const BearingFactor<
 }
 
 template <class Pose>
+typename Pose::Point residual(const PoseGraph<Pose>& graph, const RelativePointFactor<Pose>& factor) {
+  return graph.poses[factor.i.index()].inverse() * position(graph, factor.j) - factor.position;
+}
+
+template <class Pose>
 typename Pose::Point residual(const PoseGraph<Pose>& graph, const PositionFactor<Pose>& factor) {
   return position(graph, factor.i) - factor.position;
 }
@@ -43,6 +48,7 @@ Drift residual(const PoseGraph<Pose>& graph, const DriftPriorFactor& factor) {
   template Pose::Tangent residual(const PoseGraph<Pose>&, const RelativePoseFactor<Pose>&);        \
   template Eigen::Matrix<double, 1, 1> residual(const PoseGraph<Pose>&, const RangeFactor<Pose>&); \
   template Pose::Point residual(const PoseGraph<Pose>&, const BearingFactor<Pose>&);               \
+  template Pose::Point residual(const PoseGraph<Pose>&, const RelativePointFactor<Pose>&);         \
   template Pose::Point residual(const PoseGraph<Pose>&, const PositionFactor<Pose>&);              \
   template Pose::Tangent residual(const PoseGraph<Pose>&, const PosePriorFactor<Pose>&);           \
   template Drift residual(const PoseGraph<Pose>&, const DriftPriorFactor&);

@@ -17,6 +17,8 @@ Eigen::Matrix<double, 1, 1> residual(const PoseGraph<Pose>& graph, const RangeFa
 template <class Pose>
 typename Pose::Point residual(const PoseGraph<Pose>& graph, const BearingFactor<Pose>& factor);
 template <class Pose>
+typename Pose::Point residual(const PoseGraph<Pose>& graph, const RelativePointFactor<Pose>& factor);
+template <class Pose>
 typename Pose::Point residual(const PoseGraph<Pose>& graph, const PositionFactor<Pose>& factor);
 template <class Pose>
 typename Pose::Tangent residual(const PoseGraph<Pose>& graph, const PosePriorFactor<Pose>& factor);
@@ -49,6 +51,10 @@ Eigen::Matrix<double, 1, 1> information(const RangeFactor<Pose>& factor) {
 template <class Pose>
 Eigen::Matrix<double, Pose::kDim, Pose::kDim> information(const BearingFactor<Pose>& factor) {
   return Eigen::Matrix<double, Pose::kDim, Pose::kDim>::Identity() / (factor.sigma_rad * factor.sigma_rad);
+}
+template <class Pose>
+const Eigen::Matrix<double, Pose::kDim, Pose::kDim>& information(const RelativePointFactor<Pose>& factor) {
+  return factor.information;
 }
 template <class Pose>
 const Eigen::Matrix<double, Pose::kDim, Pose::kDim>& information(const PositionFactor<Pose>& factor) {

@@ -139,6 +139,7 @@ class G2oWriter {
     write_omission(count(graph_.relative_poses) + count(graph_.ranges) + count(graph_.pose_priors),
                    "robust losses");
     write_omission(graph_.bearings.size(), "bearings");
+    write_omission(graph_.relative_points.size(), "relative points");
     write_omission(graph_.positions.size(), "positions");
     write_omission(graph_.drift_priors.size(), "drift priors");
   }

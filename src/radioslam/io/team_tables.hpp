@@ -1,5 +1,6 @@
 // The tables of a mission that no estimator reads yet: radio/ranges.csv, radio/aoa.csv, radio/anchors.csv,
-// matches.csv, and each robot's imu.csv and gnss.csv. They are checked as a whole; nothing is taken from them.
+// matches.csv, and each robot's imu.csv and gnss.csv. They are checked as a whole; nothing is taken from
+// them.
 #pragma once
 
 #include <filesystem>

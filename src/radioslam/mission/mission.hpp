@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "radioslam/base/strong_id.hpp"
 #include "radioslam/geometry/se3.hpp"
 #include "radioslam/geometry/trajectory.hpp"
+#include "radioslam/mission/radio_links.hpp"
 
 namespace radioslam {
 
@@ -55,7 +57,9 @@ struct Robot {
   double sigma_heading_rad = 0.2;   ///< of an absolute heading's constant error
   std::optional<SE3> initial_pose;  ///< T_common_start, gravity-aligned; absent when unknown
   double lidar_range_m = 30;
-  std::vector<WifiScan> wifi;  ///< in time order
+  double lidar_view_rad = 2 * std::numbers::pi;  ///< width of the horizontal field of view, about body x
+  std::vector<WifiScan> wifi;                    ///< in time order
+  std::vector<PositionFix> fixes;                ///< in time order
 };
 
 /// A team's recordings.
@@ -64,7 +68,11 @@ struct Mission {
   int dimension = 2;  ///< 2: the estimate moves in the plane; 3: in space
   std::vector<Robot> robots;
   std::vector<std::string> access_points;  ///< BSSIDs, lower case, sorted
-  std::vector<std::string> unused_files;   ///< recorded and well-formed, but read by no estimator yet
+  std::vector<Anchor> anchors;
+  std::vector<RangeMeasurement> ranges;      ///< in the order of time, then as recorded
+  std::vector<ArrivalMeasurement> arrivals;  ///< likewise
+  std::vector<PoseMatch> matches;            ///< as recorded
+  std::vector<std::string> unused_files;     ///< recorded and well-formed, but read by no estimator yet
 };
 
 }  // namespace radioslam
