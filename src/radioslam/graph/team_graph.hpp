@@ -16,7 +16,9 @@ namespace radioslam {
 struct Piece {
   std::string robot;
   std::size_t first_pose = 0, pose_count = 0;
-  std::vector<Stamp> stamps;  ///< of the poses
+  std::vector<Stamp> stamps;     ///< of the poses
+  double sigma_heading_rad = 0;  ///< > 0: the piece's own frame has the common heading up to this error
+  bool in_common_frame = false;  ///< its start is known: values and a prior hold in the common frame
 };
 
 /// One of the directions of an AmbiguousBearing.

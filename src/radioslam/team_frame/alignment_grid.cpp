@@ -1,0 +1,207 @@
+#include "radioslam/team_frame/alignment_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "radioslam/base/parallel.hpp"
+#include "radioslam/geometry/se2.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kUniformShare = 1 / 12.0;    // variance of a uniform density of width one
+constexpr double kNearest_m = 0.5;            // nearer, directions mean nothing
+constexpr double kWidest_rad = 2.5066282746;  // as wide, a normal density is the uniform one at its peak
+constexpr double kHeadingReach = 3;           // sigmas of a known heading that are searched
+
+Eigen::Vector2d quarter_turn(const Eigen::Vector2d& v) { return {-v.y(), v.x()}; }
+
+/// A free end turned by theta into the placed end's orientation.
+GridEnd turned(const GridEnd& end, double theta_rad) {
+  const SE2 turn(Eigen::Vector2d::Zero(), theta_rad);
+  Eigen::Matrix3d r = Eigen::Matrix3d::Identity();
+  r.topLeftCorner<2, 2>() = turn.rotation_matrix();
+  return {turn.rotate(end.position), wrap_angle(end.heading_rad + theta_rad),
+          r * end.covariance * r.transpose(), end.height_m};
+}
+
+/// One cell, and how far the truth may lie from its middle.
+struct Cell {
+  Eigen::Vector2d offset;  ///< d (cos phi, sin phi)
+  Eigen::Vector2d radial;
+  double distance_m, variance_distance, variance_phi, variance_theta;
+};
+
+/// What of v's error lies along a direction, over both ends and the cell; `lever` is the free end's position.
+double variance_along(const Eigen::Vector2d& direction, const GridEnd& a, const GridEnd& b,
+                      const Cell& cell) {
+  const double by_distance = direction.dot(cell.radial);
+  const double by_phi = cell.distance_m * direction.dot(quarter_turn(cell.radial));
+  const double by_theta = direction.dot(quarter_turn(b.position));
+  return direction.dot((a.covariance + b.covariance).topLeftCorner<2, 2>() * direction) +
+         by_distance * by_distance * cell.variance_distance + by_phi * by_phi * cell.variance_phi +
+         by_theta * by_theta * cell.variance_theta;
+}
+
+struct Prediction {
+  double value = 0, variance = 0;
+};
+
+class Scorer {
+ public:
+  Scorer(const GridProblem& problem, const GridParams& params) : problem_(problem), params_(params) {}
+
+  Prediction range(const GridEnd& a, const GridEnd& b, const Cell& cell) const {
+    const Eigen::Vector2d v = cell.offset + b.position - a.position;
+    const double height = problem_.height_m + b.height_m - a.height_m, flat = std::max(v.norm(), kNearest_m);
+    const double distance = std::hypot(flat, height);
+    const double slope = height / distance;
+    return {distance, variance_along(v / flat, a, b, cell) * (flat / distance) * (flat / distance) +
+                          slope * slope * params_.sigma_height_m * params_.sigma_height_m};
+  }
+
+  /// Azimuth of the other end in the receiver's frame.
+  Prediction bearing(const GridEnd& a, const GridEnd& b, const Cell& cell, bool received_by_placed) const {
+    const Eigen::Vector2d v = cell.offset + b.position - a.position;
+    const double distance = std::max(v.norm(), kNearest_m);
+    const Eigen::Vector2d across = quarter_turn(v.normalized()) / distance;
+    const double direction = std::atan2(v.y(), v.x());
+    const GridEnd& receiver = received_by_placed ? a : b;
+    const double sign = received_by_placed ? -1 : 1;  // of the receiver's own position in v
+    const double value = direction - receiver.heading_rad + (received_by_placed ? 0 : kPi);
+    double variance = variance_along(across, a, b, cell) + receiver.covariance(2, 2) -
+                      2 * sign * across.dot(receiver.covariance.topRightCorner<2, 1>());
+    if (!received_by_placed) variance += heading_of_cell(across.dot(quarter_turn(b.position)), cell);
+    return {value, variance};
+  }
+
+  double log_likelihood(const GridRange& link, const GridEnd& b, const Cell& cell) const {
+    const Prediction predicted = range(link.placed, b, cell);
+    const double sigma = std::sqrt(predicted.variance + link.sigma_m * link.sigma_m);
+    const double error = (predicted.value - link.range_m) / sigma;
+    const double share = problem_.mixture.false_range_probability;
+    return std::log((1 - share) * std::exp(-0.5 * error * error) / (std::sqrt(2 * kPi) * sigma) +
+                    share / problem_.span_m);
+  }
+
+  double log_likelihood(const GridBearing& link, const GridEnd& b, const Cell& cell) const {
+    const Prediction predicted = bearing(link.placed, b, cell, link.received_by_placed);
+    double density = 1 - problem_.mixture.direct_probability;
+    for (std::size_t p = 0; p < link.azimuth_rad.size(); ++p) {
+      const double sigma =
+          std::min(kWidest_rad, std::sqrt(predicted.variance + link.sigma_rad[p] * link.sigma_rad[p]));
+      const double error = wrap_angle(predicted.value - link.azimuth_rad[p]) / sigma;
+      density += problem_.mixture.direct_probability * link.prior[p] * std::sqrt(2 * kPi) / sigma *
+                 std::exp(-0.5 * error * error);
+    }
+    return std::log(density);
+  }
+
+ private:
+  /// theta turns the receiver too: (lever - 1)^2 instead of lever^2.
+  static double heading_of_cell(double lever, const Cell& cell) {
+    return (1 - 2 * lever) * cell.variance_theta;
+  }
+
+  const GridProblem& problem_;
+  const GridParams& params_;
+};
+
+Cell make_cell(const GridCell& at, const GridParams& params) {
+  const double step = 2 * kPi / params.angle_steps;
+  const Eigen::Vector2d radial(std::cos(at.phi_rad), std::sin(at.phi_rad));
+  return {at.distance_m * radial,
+          radial,
+          at.distance_m,
+          at.sigma_distance_m * at.sigma_distance_m,
+          step * step * kUniformShare,
+          step * step * kUniformShare};
+}
+
+/// The headings to try.
+std::vector<double> headings(const GridProblem& problem, const GridParams& params) {
+  std::vector<double> result;
+  const double step = 2 * kPi / params.angle_steps;
+  for (int k = 0; k < params.angle_steps; ++k) {
+    const double theta = wrap_angle(k * step);
+    const bool possible = !problem.heading || std::abs(wrap_angle(theta - problem.heading->first)) <=
+                                                  kHeadingReach * problem.heading->second + step;
+    if (possible) result.push_back(theta);
+  }
+  return result;
+}
+
+/// Scores of all directions and distances at one heading; index = distance * angle_steps + phi.
+std::vector<double> score_heading(const GridProblem& problem, const GridParams& params, double theta_rad) {
+  const Scorer scorer(problem, params);
+  std::vector<GridEnd> range_ends, bearing_ends;
+  for (const auto& link : problem.ranges) range_ends.push_back(turned(link.free, theta_rad));
+  for (const auto& link : problem.bearings) bearing_ends.push_back(turned(link.free, theta_rad));
+  std::vector<double> scores;
+  for (const DistanceCell& distance : problem.distances)
+    for (int k = 0; k < params.angle_steps; ++k) {
+      const GridCell at{distance.distance_m, distance.sigma_m, 2 * kPi * k / params.angle_steps, theta_rad,
+                        0};
+      const Cell cell = make_cell(at, params);
+      double score = 0;
+      for (std::size_t l = 0; l < range_ends.size(); ++l)
+        score += scorer.log_likelihood(problem.ranges[l], range_ends[l], cell);
+      for (std::size_t l = 0; l < bearing_ends.size(); ++l)
+        score += scorer.log_likelihood(problem.bearings[l], bearing_ends[l], cell);
+      scores.push_back(score);
+    }
+  return scores;
+}
+
+bool neighbours(const GridCell& a, const GridCell& b, const GridParams& params) {
+  const double reach = 2.5 * 2 * kPi / params.angle_steps;
+  return std::abs(wrap_angle(a.phi_rad - b.phi_rad)) < reach &&
+         std::abs(wrap_angle(a.theta_rad - b.theta_rad)) < reach &&
+         std::abs(std::log((a.distance_m + kNearest_m) / (b.distance_m + kNearest_m))) <
+             1.5 * std::log(params.distance_ratio);
+}
+
+}  // namespace
+
+std::vector<GridCell> best_cells(const GridProblem& problem, const GridParams& params) {
+  const std::vector<double> thetas = headings(problem, params);
+  std::vector<std::vector<double>> scores(thetas.size());
+  parallel_for(thetas.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) scores[k] = score_heading(problem, params, thetas[k]);
+  });
+  std::vector<GridCell> cells;
+  for (std::size_t t = 0; t < thetas.size(); ++t)
+    for (std::size_t k = 0; k < scores[t].size(); ++k) {
+      const auto steps = static_cast<std::size_t>(params.angle_steps);
+      const DistanceCell& distance = problem.distances[k / steps];
+      cells.push_back({distance.distance_m, distance.sigma_m,
+                       wrap_angle(2 * kPi * static_cast<double>(k % steps) / params.angle_steps), thetas[t],
+                       scores[t][k]});
+    }
+  std::stable_sort(cells.begin(), cells.end(),
+                   [](const auto& a, const auto& b) { return a.score > b.score; });
+  std::vector<GridCell> peaks;
+  for (const GridCell& cell : cells) {
+    if (peaks.size() == static_cast<std::size_t>(params.peaks)) break;
+    const bool known = std::any_of(peaks.begin(), peaks.end(),
+                                   [&](const GridCell& peak) { return neighbours(peak, cell, params); });
+    if (!known) peaks.push_back(cell);
+  }
+  return peaks;
+}
+
+Inflation propagated_variances(const GridProblem& problem, const GridCell& at, const GridParams& params) {
+  const Scorer scorer(problem, params);
+  const Cell cell = make_cell(at, params);
+  Inflation inflation;
+  for (const auto& link : problem.ranges)
+    inflation.ranges_m2.push_back(scorer.range(link.placed, turned(link.free, at.theta_rad), cell).variance);
+  for (const auto& link : problem.bearings)
+    inflation.bearings_rad2.push_back(
+        scorer.bearing(link.placed, turned(link.free, at.theta_rad), cell, link.received_by_placed).variance);
+  return inflation;
+}
+
+}  // namespace radioslam
