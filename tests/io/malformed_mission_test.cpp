@@ -14,6 +14,8 @@ struct Malformed {
   const char* words;    ///< in the message
 };
 
+std::ostream& operator<<(std::ostream& out, const Malformed& bad) { return out << bad.name; }
+
 class MalformedMission : public testing::TestWithParam<Malformed> {};
 
 TEST_P(MalformedMission, IsRefusedWithFileAndLine) {
