@@ -80,7 +80,13 @@ TEST(Calls, ValuesOutOfRangeAreRefused) {
   expect_refused({"run", "m", "-o", "out", "--threads", "0"}, "--threads");
   expect_refused({"simulate", "carpark", "-o", "m", "--robots", "0"}, "--robots");
   expect_refused({"simulate", "carpark", "-o", "m", "--seed", "x"}, "--seed");
-  expect_refused({"evaluate", "out", "m", "--radius", "-1"}, "--radius");
+  expect_refused({"simulate", "carpark", "-o", "m", "--seed", "-1"}, "--seed: '-1' is not");
+  expect_refused({"simulate", "carpark", "-o", "m", "--seed", "18446744073709551616"}, "--seed");
+  expect_refused({"simulate", "carpark", "-o", "m", "--seed", "1.5"}, "--seed");
+  for (const char* radius : {"-1", "nan", "inf", "1e999", "x", ""})
+    expect_refused({"evaluate", "out", "m", "--radius", radius}, "--radius");
+  for (const char* minimum : {"-0.1", "nan", "1.1", "-inf"})
+    expect_refused({"similarity", "a.csv", "--measure", "cosine", "-o", "p.csv", "--min", minimum}, "--min");
 }
 
 TEST(Calls, MissingInputsAreNamed) {

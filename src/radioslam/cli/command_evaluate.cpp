@@ -151,7 +151,7 @@ void add_evaluate(CLI::App& program) {
   command
       ->add_option("--radius", options->radius_m,
                    "Keyframes closer than this are true pairs; default: the sum of the two LiDAR ranges")
-      ->check(CLI::Range(0.0, kLargestRadius_m))
+      ->check(number_from(0, kLargestRadius_m))
       ->type_name("M");
   command->add_flag("--evo", options->evo, "Match stamps as evo does: the nearest within 0.01 s");
   add_json_option(*command, options->json);
