@@ -123,6 +123,12 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Malformed{"BadYaml", kYaml, kFormat + "robots: {a: {}\n", 3, "not YAML"},
         Malformed{"Tab", kYaml, kFormat + "robots:\n\ta: {}\n", 3, "not YAML"},
+        Malformed{"CyclicRobots", kYaml, kFormat + "robots: &r\n  a: {}\n  b: *r\n", 3, "unknown key 'a'"},
+        Malformed{"CyclicDefaults", kYaml, kRobots + "defaults: &d\n  odometry: *d\n", 6,
+                  "unknown key 'odometry'"},
+        Malformed{"CyclicKey", kYaml, kFormat + "robots: &r\n  ? *r\n  : {}\n", 2, "a key must be"},
+        Malformed{"CyclicPose", kYaml, kRobots + "defaults:\n  initial_pose: &p [1, 2, *p, 0]\n", 6,
+                  "initial_pose must be a single value"},
         Malformed{"UnknownKey", kYaml, kRobots + "dimensions:\n  3\n", 5, "unknown key 'dimensions'"},
         Malformed{"UnknownOdometryKey", kYaml, kRobots + "defaults:\n  odometry:\n    sigma: 1\n", 7,
                   "unknown key 'sigma' in odometry"},
