@@ -23,7 +23,7 @@ struct RobotResult {
       sigma_position_m;  ///< per keyframe, sqrt of the mean variance per axis; empty if not computed
   double yaw_drift_per_m_rad = 0;  ///< estimated
   double scale_error = 0;          ///< estimated
-  bool start_known = false;  ///< the mission said where it starts
+  bool start_known = false;        ///< the mission said where it starts
   bool placed = true;              ///< false: nothing ties it to its component
 };
 
