@@ -80,7 +80,13 @@ TEST(Calls, ValuesOutOfRangeAreRefused) {
   expect_refused({"run", "m", "-o", "out", "--threads", "0"}, "--threads");
   expect_refused({"simulate", "carpark", "-o", "m", "--robots", "0"}, "--robots");
   expect_refused({"simulate", "carpark", "-o", "m", "--seed", "x"}, "--seed");
-  expect_refused({"evaluate", "out", "m", "--radius", "-1"}, "--radius");
+  expect_refused({"simulate", "carpark", "-o", "m", "--seed", "-1"}, "--seed: '-1' is not");
+  expect_refused({"simulate", "carpark", "-o", "m", "--seed", "18446744073709551616"}, "--seed");
+  expect_refused({"simulate", "carpark", "-o", "m", "--seed", "1.5"}, "--seed");
+  for (const char* radius : {"-1", "nan", "inf", "1e999", "x", ""})
+    expect_refused({"evaluate", "out", "m", "--radius", radius}, "--radius");
+  for (const char* minimum : {"-0.1", "nan", "1.1", "-inf"})
+    expect_refused({"similarity", "a.csv", "--measure", "cosine", "-o", "p.csv", "--min", minimum}, "--min");
 }
 
 TEST(Calls, MissingInputsAreNamed) {
@@ -110,13 +116,32 @@ TEST(Calls, OptimizePrintsOneJsonObjectAndNothingElse) {
   EXPECT_EQ(outcome.err, "");
   const auto json = nlohmann::json::parse(outcome.out);
   for (const char* key :
-       {"initial_cost", "final_cost", "iterations", "seconds", "termination", "certificate"}) {
+       {"initial_cost", "start_cost", "final_cost", "iterations", "seconds", "termination", "certificate"}) {
     EXPECT_TRUE(json.contains(key)) << key;
   }
   for (const char* key : {"read", "initialise", "optimise"})
     EXPECT_TRUE(json["seconds"].contains(key)) << key;
   EXPECT_TRUE(json["certificate"].is_null());
   EXPECT_EQ(files_in(folder.path()), (std::vector<std::string>{"g.g2o", "o.g2o"}));
+}
+
+TEST(Calls, OptimizeTellsTheCostOfTheFilesVerticesApartFromTheStarts) {
+  const TemporaryFolder folder;
+  const auto optimized = [&](const std::string& graph) {
+    write_file(folder.path() / "g.g2o", graph);
+    const auto outcome = run({"optimize", "g.g2o", "-o", "o.g2o", "--json"}, folder.path());
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return nlohmann::json::parse(outcome.out);
+  };
+  // Off by (3, 4) from the only edge: 100 * (3^2 + 4^2).
+  const auto given =
+      optimized("VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 4 4 0\nEDGE_SE2 0 1 1 0 0 100 0 0 100 0 100\n");
+  EXPECT_NEAR(given["initial_cost"], 2500, 1e-9);
+  EXPECT_NEAR(given["start_cost"], 0, 1e-9);
+  EXPECT_NE(given["start"], "file");
+  const auto none = optimized(kTriangle);
+  EXPECT_EQ(none["initial_cost"], none["start_cost"]);
+  EXPECT_GE(none["start_cost"], none["final_cost"]);
 }
 
 TEST(Calls, IndefiniteInformationIsRefusedOrRepairedOnDemand) {

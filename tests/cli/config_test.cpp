@@ -43,6 +43,19 @@ TEST(Config, TornYamlIsRefusedWithItsLine) {
   EXPECT_EQ(refusal("a: 1\n\tb: 2\n").substr(0, 11), "run.yaml:2:");
 }
 
+TEST(Config, AliasesWithoutEndAreRefused) {
+  EXPECT_NE(refusal("a: &x\n  b: *x\n").find("nested too deep"), std::string::npos);
+  EXPECT_EQ(parse("a: &x {b: 1}\nc: *x\n").size(), 2U);
+  std::string aliases = "l0: &l0 {a: {}, b: {}, c: {}, d: {}, e: {}, f: {}, g: {}, h: {}}\n";
+  for (int level = 1; level < 8; ++level) {
+    const std::string name = "l" + std::to_string(level), below = "*l" + std::to_string(level - 1);
+    aliases += name + ": &" + name + " {";
+    for (const char key : std::string("abcdefgh")) aliases += std::string(1, key) + ": " + below + ", ";
+    aliases += "i: {}}\n";
+  }
+  EXPECT_NE(refusal(aliases).find("more than 10000 entries"), std::string::npos) << refusal(aliases);
+}
+
 TEST(Config, AKeyMayStandOnce) {
   EXPECT_EQ(refusal("a:\n  b: 1\na.b: 2\n"), "run.yaml:3: 'a.b' stands in line 2 already");
   EXPECT_EQ(refusal("a: 1\na: 2\n"), "run.yaml:2: 'a' stands in line 1 already");

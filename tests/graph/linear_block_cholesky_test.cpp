@@ -10,6 +10,13 @@
 #include "radioslam/graph/linear/block_cholesky.hpp"
 
 namespace radioslam {
+
+/// What a parameterised test is called in a list of tests.
+static void PrintTo(Ordering ordering, std::ostream* out) {
+  const char* const names[] = {"best", "AMD", "METIS", "natural"};
+  *out << names[static_cast<std::size_t>(ordering)];
+}
+
 namespace {
 
 using test::dense;

@@ -38,97 +38,122 @@ struct Drawing {
   Rng rng;
 };
 
-/// Sightings of poses and points from poses, off by about noise * 0.1.
-template <class Pose>
-void add_relative_points(PoseGraph<Pose>& graph, Drawing<Pose>& draw, double noise) {
-  for (std::size_t i = 0; i + 4 < graph.poses.size(); i += 2) {
-    RelativePointFactor<Pose> sighting;
-    sighting.i = PoseId(i);
-    if (i % 4 == 0)
-      sighting.j = {PoseId(i + 4), {}, draw.point(0.3)};
-    else
-      sighting.j.point = PointId(i % graph.points.size());
-    const typename Pose::Point place =
-        i % 4 == 0 ? graph.poses[i + 4] * sighting.j.lever_arm : graph.points[sighting.j.point.index()];
-    sighting.position = graph.poses[i].inverse() * place + draw.point(0.1 * noise);
-    sighting.information = draw.template information<Pose::kDim>();
-    graph.relative_points.push_back(sighting);
-  }
-}
-
 /// What a drawn graph holds beside a chain of poses with loops.
 enum class Extras { kNone, kAll };
 
-/// A walk of `count` poses; a relative pose for every step and for loops of 5; with extras, ranges between
-/// poses, with lever arms, and to points, bearings, sightings, positions, priors, and one drift in the
-/// odometry. Measurements are exact for the graph's values when `noise` is zero, else off by about noise *
-/// 0.1.
+/// Draws a graph step by step; every step uses up random numbers, so their order is part of a graph's seed.
+/// Measurements are exact for the graph's values when `noise` is zero, else off by about noise * 0.1.
 template <class Pose>
-PoseGraph<Pose> draw_graph(std::uint64_t seed, std::size_t count, double noise, Extras extras) {
-  Drawing<Pose> draw(seed);
-  constexpr int kDim = Pose::kDim, kDof = Pose::kDof;
-  PoseGraph<Pose> graph;
-  Pose pose;
-  for (std::size_t i = 0; i < count; ++i) {
-    graph.poses.push_back(pose);
-    pose = pose * draw.pose(0.3, 0.4) * Pose::exp(Pose::Tangent::Unit(0) * 2.0);
+class GraphDrawing {
+ public:
+  static constexpr int kDim = Pose::kDim, kDof = Pose::kDof;
+  using Point = typename Pose::Point;
+
+  GraphDrawing(std::uint64_t seed, double noise) : draw_(seed), noise_(noise) {}
+
+  const PoseGraph<Pose>& graph() const { return graph_; }
+
+  void add_walk(std::size_t count) {
+    Pose pose;
+    for (std::size_t i = 0; i < count; ++i) {
+      graph_.poses.push_back(pose);
+      pose = pose * draw_.pose(0.3, 0.4) * Pose::exp(Pose::Tangent::Unit(0) * 2.0);
+    }
   }
-  const bool rich = extras == Extras::kAll;
-  if (rich) {
-    graph.points = {draw.point(5), draw.point(5)};
-    graph.drifts = {Drift(0.02, -0.05)};
+
+  void add_points_and_drift() {
+    graph_.points = {draw_.point(5), draw_.point(5)};
+    graph_.drifts = {Drift(0.02, -0.05)};
   }
-  const auto measured = [&](const Pose& exact) { return exact * draw.pose(0.1 * noise, 0.05 * noise); };
-  const auto id = [](std::size_t k) { return PoseId(k); };
-  const auto add_relative = [&](std::size_t i, std::size_t j, DriftId drift) {
+
+  void add_relative(std::size_t i, std::size_t j, DriftId drift) {
     RelativePoseFactor<Pose> f;
-    f.i = id(i);
-    f.j = id(j);
-    f.information = 10 * draw.template information<kDof>();
-    Pose exact = graph.poses[i].inverse() * graph.poses[j];
+    f.i = PoseId(i);
+    f.j = PoseId(j);
+    f.information = 10 * draw_.template information<kDof>();
+    Pose exact = graph_.poses[i].inverse() * graph_.poses[j];
     if (drift.valid()) {
       f.drift = drift;
-      for (int c = 0; c < 2; ++c) f.drift_jacobian.col(c) = draw.template normals<kDof>(1);
-      if (graph.chart == PoseChart::kLogarithm)
-        exact = exact * Pose::exp(-f.drift_jacobian * graph.drifts[drift.index()]);
+      for (int c = 0; c < 2; ++c) f.drift_jacobian.col(c) = draw_.template normals<kDof>(1);
+      if (graph_.chart == PoseChart::kLogarithm)
+        exact = exact * Pose::exp(-f.drift_jacobian * graph_.drifts[drift.index()]);
     }
     f.T_i_j = measured(exact);
-    graph.relative_poses.push_back(f);
-  };
-  for (std::size_t i = 0; i + 1 < count; ++i) add_relative(i, i + 1, rich ? DriftId(0) : DriftId());
-  for (std::size_t i = 0; i + 5 < count; i += 2) add_relative(i, i + 5, {});
-  if (!rich) return graph;
+    graph_.relative_poses.push_back(f);
+  }
 
-  const auto end_at = [&](std::size_t pose_index) {
-    return RangeEnd<Pose>{id(pose_index), {}, draw.point(0.3)};
-  };
-  const auto place = [&](const RangeEnd<Pose>& e) {
-    return e.pose.valid() ? typename Pose::Point(graph.poses[e.pose.index()] * e.lever_arm)
-                          : graph.points[e.point.index()];
-  };
+  void add_range(std::size_t i) {
+    RangeFactor<Pose> range{end_at(i), i % 3 == 0 ? end_at(i + 3) : point(i % 2), 0, 0.2, {}, 1};
+    range.range_m = (place(range.j) - place(range.i)).norm() + 0.1 * noise_ * draw_.rng.normal();
+    graph_.ranges.push_back(range);
+  }
+
+  void add_bearing(std::size_t i) {
+    BearingFactor<Pose> bearing{PoseId(i), i % 2 == 0 ? end_at(i + 2) : point(i % 2), {}, 0.1, {}, 1};
+    const Point seen = graph_.poses[i].inverse() * place(bearing.j);
+    bearing.direction = (seen.normalized() + draw_.point(0.05 * noise_)).normalized();
+    graph_.bearings.push_back(bearing);
+  }
+
+  void add_position(std::size_t i) {
+    PositionFactor<Pose> position{end_at(i), {}, draw_.template information<kDim>(), {}, 1};
+    position.position = place(position.i) + draw_.point(0.1 * noise_);
+    graph_.positions.push_back(position);
+  }
+
+  void add_sighting(std::size_t i) {
+    RelativePointFactor<Pose> sighting;
+    sighting.i = PoseId(i);
+    sighting.j = i % 4 == 0 ? end_at(i + 4) : point(i / 4 % 2);
+    sighting.position = graph_.poses[i].inverse() * place(sighting.j) + draw_.point(0.1 * noise_);
+    sighting.information = draw_.template information<kDim>();
+    graph_.relative_points.push_back(sighting);
+  }
+
+  void add_priors(std::size_t pose) {
+    PositionFactor<Pose> of_point{point(1), graph_.points[1], {}, {}, 1};
+    of_point.information.setIdentity();
+    graph_.positions.push_back(of_point);
+    graph_.pose_priors.push_back(
+        {PoseId(pose), measured(graph_.poses[pose]), draw_.template information<kDof>(), {}, 0.5});
+    graph_.drift_priors.push_back({DriftId(0), graph_.drifts[0], 100 * draw_.template information<2>()});
+  }
+
+ private:
+  Pose measured(const Pose& exact) { return exact * draw_.pose(0.1 * noise_, 0.05 * noise_); }
+  RangeEnd<Pose> end_at(std::size_t pose) { return {PoseId(pose), {}, draw_.point(0.3)}; }
+  static RangeEnd<Pose> point(std::size_t index) { return {{}, PointId(index), Point::Zero()}; }
+  Point place(const RangeEnd<Pose>& end) const {
+    if (!end.pose.valid()) return graph_.points[end.point.index()];
+    return graph_.poses[end.pose.index()] * end.lever_arm;
+  }
+
+  Drawing<Pose> draw_;
+  double noise_;
+  PoseGraph<Pose> graph_;
+};
+
+/// A walk of `count` poses; a relative pose for every step and for loops of 5; with extras, ranges between
+/// poses, with lever arms, and to points, bearings, sightings, positions, priors, and one drift
+/// in the odometry.
+template <class Pose>
+PoseGraph<Pose> draw_graph(std::uint64_t seed, std::size_t count, double noise, Extras extras) {
+  GraphDrawing<Pose> drawing(seed, noise);
+  const bool rich = extras == Extras::kAll;
+  drawing.add_walk(count);
+  if (rich) drawing.add_points_and_drift();
+  for (std::size_t i = 0; i + 1 < count; ++i) drawing.add_relative(i, i + 1, rich ? DriftId(0) : DriftId());
+  for (std::size_t i = 0; i + 5 < count; i += 2) drawing.add_relative(i, i + 5, {});
+  if (!rich) return drawing.graph();
+
   for (std::size_t i = 0; i + 3 < count; ++i) {
-    const RangeEnd<Pose> point{{}, PointId(i % 2), Pose::Point::Zero()};
-    RangeFactor<Pose> range{end_at(i), i % 3 == 0 ? end_at(i + 3) : point, 0, 0.2, {}, 1};
-    range.range_m = (place(range.j) - place(range.i)).norm() + 0.1 * noise * draw.rng.normal();
-    graph.ranges.push_back(range);
-    BearingFactor<Pose> bearing{id(i), i % 2 == 0 ? end_at(i + 2) : point, {}, 0.1, {}, 1};
-    const typename Pose::Point seen = graph.poses[i].inverse() * place(bearing.j);
-    bearing.direction = (seen.normalized() + draw.point(0.05 * noise)).normalized();
-    graph.bearings.push_back(bearing);
+    drawing.add_range(i);
+    drawing.add_bearing(i);
   }
-  for (std::size_t i = 0; i < count; i += 4) {
-    PositionFactor<Pose> position{end_at(i), {}, draw.template information<kDim>(), {}, 1};
-    position.position = place(position.i) + draw.point(0.1 * noise);
-    graph.positions.push_back(position);
-  }
-  PositionFactor<Pose> of_point{{{}, PointId(1), Pose::Point::Zero()}, graph.points[1], {}, {}, 1};
-  of_point.information.setIdentity();
-  graph.positions.push_back(of_point);
-  graph.pose_priors.push_back(
-      {id(count / 2), measured(graph.poses[count / 2]), draw.template information<kDof>(), {}, 0.5});
-  graph.drift_priors.push_back({DriftId(0), graph.drifts[0], 100 * draw.template information<2>()});
-  add_relative_points(graph, draw, noise);
-  return graph;
+  for (std::size_t i = 0; i < count; i += 4) drawing.add_position(i);
+  drawing.add_priors(count / 2);
+  for (std::size_t i = 0; i + 4 < count; i += 2) drawing.add_sighting(i);
+  return drawing.graph();
 }
 
 /// Moves every pose but the first, every point and every drift.

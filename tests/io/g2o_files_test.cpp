@@ -12,6 +12,8 @@ struct KnownGraph {
   std::size_t edges;
 };
 
+std::ostream& operator<<(std::ostream& out, const KnownGraph& known) { return out << known.name; }
+
 class PublishedGraph : public testing::TestWithParam<KnownGraph> {};
 
 template <class Pose>

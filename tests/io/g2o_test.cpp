@@ -46,13 +46,27 @@ TEST(ReadG2o, TakesAPlanarGraph) {
 }
 
 TEST(ReadG2o, TakesAGraphInSpaceAndNormalisesQuaternions) {
-  const auto file =
-      read3("VERTEX_SE3:QUAT 0 1 2 3 0 0 2 2\nEDGE_SE3:QUAT 0 1 1 2 3 0.5 0 0 0.5" + kIdentity6 + "\n");
+  const auto file = read3(
+      "VERTEX_SE3:QUAT 0 1 2 3 0 0 2 2\nVERTEX_SE3:QUAT 1 1 2 3 0 0 0 1\n"
+      "EDGE_SE3:QUAT 0 1 1 2 3 0.5 0 0 0.5" +
+      kIdentity6 + "\n");
   const double half = std::sqrt(0.5);
   EXPECT_NEAR(file.graph.poses[0].rotation().z(), half, 1e-15);
   EXPECT_NEAR(file.graph.poses[0].rotation().w(), half, 1e-15);
   EXPECT_NEAR(file.graph.relative_poses[0].T_i_j.rotation().x(), half, 1e-15);
-  EXPECT_EQ(file.pose_has_value, (std::vector<bool>{true, false}));
+}
+
+TEST(ReadG2o, TakesPosesOfOtherRobotsWithoutVertexLines) {
+  const std::uint64_t a = std::uint64_t{'a'} << 56, b = std::uint64_t{'b'} << 56;
+  const auto edge = [](std::uint64_t i, std::uint64_t j) {
+    return "EDGE_SE2 " + std::to_string(i) + " " + std::to_string(j) + " 1 0 0" + kIdentity3 + "\n";
+  };
+  const std::string vertex = "VERTEX_SE2 " + std::to_string(a) + " 0 0 0\n";
+  const auto file = read2(vertex + edge(a, b) + edge(a, b + 1));
+  EXPECT_EQ(file.pose_ids, (std::vector<std::uint64_t>{a, b, b + 1}));
+  EXPECT_EQ(file.pose_has_value, (std::vector<bool>{true, false, false}));
+  expect_refused(vertex + edge(a, b) + edge(a, a + 1), 3,
+                 "vertex " + std::to_string(a + 1) + " has no VERTEX line");
 }
 
 TEST(ReadG2o, OrdersPosesWithoutVertexLinesById) {
@@ -83,7 +97,7 @@ TEST(ReadG2o, TakesRangesBetweenPosesAndPoints) {
 }
 
 TEST(ReadG2o, ReadsByteOrderMarkAndCrLfAlike) {
-  const std::string plain = "VERTEX_SE2 0 0 0 0\nEDGE_SE2 0 1 1 0 0" + kIdentity3 + "\n";
+  const std::string plain = "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 0\nEDGE_SE2 0 1 1 0 0" + kIdentity3 + "\n";
   std::string windows = "\xef\xbb\xbf";
   for (const char c : plain) windows += c == '\n' ? std::string("\r\n") : std::string(1, c);
   EXPECT_EQ(format_g2o(read2(plain)), format_g2o(read2(windows)));
@@ -97,6 +111,17 @@ TEST(ReadG2o, RefusesAnIndefiniteInformationWithItsLineAndTheirNumber) {
   EXPECT_EQ(file.repaired_informations, 2u);
   const Eigen::Matrix3d expected = (Eigen::Matrix3d() << 1.5, 1.5, 0, 1.5, 1.5, 0, 0, 0, 1).finished();
   EXPECT_LT((file.graph.relative_poses[1].information - expected).norm(), 1e-6);
+}
+
+TEST(ReadG2o, RefusesAZeroInformationUnlessItIsToBeRepaired) {
+  const std::string good = "EDGE_SE2 0 1 1 0 0" + kIdentity3 + "\n";
+  const std::string zero = "EDGE_SE2 0 1 5 0 0 0 0 0 0 0 0\n";
+  expect_refused(good + zero, 2, "the information matrix is zero");
+  expect_refused(good + "EDGE_PRIOR_SE2 0 1 0 0 0 0 0 0 0 0\n", 2, "the information matrix is zero");
+  EXPECT_EQ(read2("EDGE_SE2 0 1 1 0 0 0 0 0 0 0 1\n").repaired_informations, 0u);  // yaw only
+  const auto file = read2(good + zero, RepairInformation::kYes);
+  EXPECT_EQ(file.repaired_informations, 1u);
+  EXPECT_TRUE(file.graph.relative_poses[1].information.isZero(0));
 }
 
 TEST(ReadG2o, RefusesWhatItDoesNotKnow) {
@@ -121,6 +146,8 @@ TEST(ReadG2o, RefusesMalformedLines) {
 TEST(ReadG2o, RefusesWhatDoesNotFitTogether) {
   expect_refused("VERTEX_SE2 0 0 0 0\nVERTEX_SE2 0 0 0 0\n", 2, "vertex 0 was given before");
   expect_refused("EDGE_SE2 4 4 1 0 0" + kIdentity3 + "\n", 1, "to itself");
+  expect_refused("VERTEX_SE2 0 0 0 0\nEDGE_SE2 0 1 1 0 0" + kIdentity3 + "\nVERTEX_SE2 2 0 0 0\n", 2,
+                 "vertex 1 has no VERTEX line");
   expect_refused("VERTEX_SE2 0 0 0 0\nFIX 1\n", 2, "vertex 1 does not occur");
   expect_refused("VERTEX_SE2 0 0 0 0\nEDGE_RANGE 0 1 1 1\n", 2, "vertex 1 does not occur");
   expect_refused("VERTEX_SE2 0 0 0 0\nVERTEX_XY 1 0 0\nEDGE_SE2 0 1 1 0 0" + kIdentity3 + "\n", 3,

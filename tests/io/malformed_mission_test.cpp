@@ -14,6 +14,8 @@ struct Malformed {
   const char* words;    ///< in the message
 };
 
+std::ostream& operator<<(std::ostream& out, const Malformed& bad) { return out << bad.name; }
+
 class MalformedMission : public testing::TestWithParam<Malformed> {};
 
 TEST_P(MalformedMission, IsRefusedWithFileAndLine) {
@@ -44,6 +46,9 @@ INSTANTIATE_TEST_SUITE_P(
         Malformed{"SameTime", kOdometry, kRow + kRow, 2, "twice"},
         Malformed{"Huge", kOdometry, kRow + "1 1e9 0 0 0 0 0 1\n", 2, "plausible"},
         Malformed{"ZeroQuaternion", kOdometry, kRow + "1 0 0 0 0 0 0 0\n", 2, "quaternion is zero"},
+        Malformed{"LongQuaternion", kOdometry, kRow + "1 0 0 0 0 0 0 2\n", 2, "norm is 2"},
+        Malformed{"TruthLongQuaternion", "robots/b/groundtruth.tum", kRow + "1 0 0 0 0.5 0.5 0 0\n", 2,
+                  "norm is 0.7"},
         Malformed{"Words", kOdometry, kRow + "one two\n", 2, "not a time"},
         Malformed{"Binary", kOdometry, kRow + std::string("\x00\x01\xfe\xff", 4), 2, "not UTF-8"},
         Malformed{"TimeOverflow", kOdometry, "1e30 0 0 0 0 0 0 1\n", 1, "not a time"},
@@ -53,6 +58,8 @@ INSTANTIATE_TEST_SUITE_P(
     print);
 
 const std::string kWifiHeader = "t_s,bssid,frequency_mhz,rssi_dbm\n";
+const std::string kAoaHeader = "t_s,receiver,transmitter,path,azimuth_rad,elevation_rad,sigma_rad,power_db\n";
+const std::string kMatchHeader = "robot_i,t_i_s,robot_j,t_j_s,x,y,z,qx,qy,qz,qw,sigma_t_m,sigma_r_rad\n";
 constexpr const char* kWifi = "robots/b/wifi.csv";
 INSTANTIATE_TEST_SUITE_P(
     Tables, MalformedMission,
@@ -70,21 +77,34 @@ INSTANTIATE_TEST_SUITE_P(
                   "negative"},
         Malformed{"RangeHuge", "radio/ranges.csv", "t_s,robot_i,robot_j,range_m,sigma_m\n1,a,b,1e9,1\n", 2,
                   "plausible"},
-        Malformed{"AoaFromAnAnchor", "radio/aoa.csv",
-                  "t_s,receiver,transmitter,path,azimuth_rad,elevation_rad,sigma_rad,power_db\n"
-                  "1,A1,a,0,0,0,1,0\n",
-                  2, "unknown robot 'A1'"},
+        Malformed{"AoaFromAnAnchor", "radio/aoa.csv", kAoaHeader + "1,A1,a,0,0,0,1,0\n", 2,
+                  "unknown robot 'A1'"},
         Malformed{"AnchorTwice", "radio/anchors.csv", "id,x_m,y_m,z_m,sigma_m\nA1,,,,\nA1,,,,\n", 3, "twice"},
         Malformed{"AnchorLikeRobot", "radio/anchors.csv", "id,x_m,y_m,z_m,sigma_m\na,,,,\n", 2,
                   "id of a robot"},
         Malformed{"AnchorNan", "radio/anchors.csv", "id,x_m,y_m,z_m,sigma_m\nA1,nan,1,1,1\n", 2, "finite"},
-        Malformed{"MatchUnknownRobot", "matches.csv",
-                  "robot_i,t_i_s,robot_j,t_j_s,x,y,z,qx,qy,qz,qw,sigma_t_m,sigma_r_rad\n"
-                  "a,1,c,0,1,2,0,0,0,0,1,0.1,0.01\n",
-                  2, "unknown robot 'c'"},
+        Malformed{"MatchUnknownRobot", "matches.csv", kMatchHeader + "a,1,c,0,1,2,0,0,0,0,1,0.1,0.01\n", 2,
+                  "unknown robot 'c'"},
         Malformed{"MatchMissingColumn", "matches.csv", "robot_i,t_i_s,robot_j\na,1,b\n", 1, "missing"},
         Malformed{"RangeNegative", "radio/ranges.csv", "t_s,robot_i,robot_j,range_m,sigma_m\n1,a,b,-1,0.5\n",
                   2, "negative"},
+        Malformed{"RangeItself", "radio/ranges.csv", "t_s,robot_i,robot_j,range_m,sigma_m\n1,a,a,3,0.1\n", 2,
+                  "a range of 'a' with itself"},
+        Malformed{"RangeSigmaZero", "radio/ranges.csv", "t_s,robot_i,robot_j,range_m,sigma_m\n1,a,b,3,0\n", 2,
+                  "sigma is zero"},
+        Malformed{"AoaItself", "radio/aoa.csv", kAoaHeader + "1,a,a,0,0,0,1,0\n", 2,
+                  "an angle of 'a' with itself"},
+        Malformed{"AoaSigmaZero", "radio/aoa.csv", kAoaHeader + "1,a,b,0,0,0,0,0\n", 2, "sigma is zero"},
+        Malformed{"MatchItself", "matches.csv", kMatchHeader + "b,1,b,1.0,1,2,0,0,0,0,1,0.1,0.01\n", 2,
+                  "a match at one time of 'b' with itself"},
+        Malformed{"MatchSigmaZero", "matches.csv", kMatchHeader + "a,1,b,1,1,2,0,0,0,0,1,0.1,0\n", 2,
+                  "sigma is zero"},
+        Malformed{"MatchSigmaNegative", "matches.csv", kMatchHeader + "a,1,b,1,1,2,0,0,0,0,1,-1,1\n", 2,
+                  "negative"},
+        Malformed{"MatchLongQuaternion", "matches.csv", kMatchHeader + "a,1,b,1,1,2,0,0,0,1,1,1,1\n", 2,
+                  "norm is 1.41"},
+        Malformed{"FixSigmaZero", "robots/b/gnss.csv", "t_s,x_m,y_m,z_m,sigma_m\n1,0,0,0,0\n", 2,
+                  "sigma is zero"},
         Malformed{"ImuEmpty", "robots/a/imu.csv", "", 1, "empty"},
         Malformed{
             "ImuBackwards", "robots/a/imu.csv",
@@ -103,6 +123,12 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Malformed{"BadYaml", kYaml, kFormat + "robots: {a: {}\n", 3, "not YAML"},
         Malformed{"Tab", kYaml, kFormat + "robots:\n\ta: {}\n", 3, "not YAML"},
+        Malformed{"CyclicRobots", kYaml, kFormat + "robots: &r\n  a: {}\n  b: *r\n", 3, "unknown key 'a'"},
+        Malformed{"CyclicDefaults", kYaml, kRobots + "defaults: &d\n  odometry: *d\n", 6,
+                  "unknown key 'odometry'"},
+        Malformed{"CyclicKey", kYaml, kFormat + "robots: &r\n  ? *r\n  : {}\n", 2, "a key must be"},
+        Malformed{"CyclicPose", kYaml, kRobots + "defaults:\n  initial_pose: &p [1, 2, *p, 0]\n", 6,
+                  "initial_pose must be a single value"},
         Malformed{"UnknownKey", kYaml, kRobots + "dimensions:\n  3\n", 5, "unknown key 'dimensions'"},
         Malformed{"UnknownOdometryKey", kYaml, kRobots + "defaults:\n  odometry:\n    sigma: 1\n", 7,
                   "unknown key 'sigma' in odometry"},

@@ -85,6 +85,13 @@ TEST(ReadMission, IgnoresFilesOfOtherReaders) {
   EXPECT_NO_THROW(read(files));
 }
 
+TEST(ReadMission, TakesAMatchOfARobotWithItselfAndAnAnchorKnownExactly) {
+  Files files = example_mission();
+  files["matches.csv"] += "a,1,a,0,1,2,0,0,0,0,1,0.1,0.01\n";
+  files["radio/anchors.csv"] += "A3,1,2,3,0\n";
+  EXPECT_NO_THROW(read(files));
+}
+
 TEST(ReadTruth, IsApartAndKnowsWhereOnlyPositionsAreTrue) {
   const TemporaryFolder folder;
   Files files = example_mission();

@@ -53,10 +53,11 @@ TEST(RunFolder, ReadsBackWhatItWrites) {
   EXPECT_EQ(run.unplaced, std::vector<std::string>{"lost"});
   ASSERT_EQ(run.components.size(), 1u);
   EXPECT_EQ(run.components[0].robots, (std::vector<std::string>{"zoe", "adam"}));
-  ASSERT_EQ(run.candidates.size(), 1u);
-  EXPECT_EQ(run.candidates[0].robot_j, RobotIndex(1));
-  EXPECT_EQ(run.candidates[0].stamp_j.ns, 1'500'000'000);
-  EXPECT_EQ(run.candidates[0].mahalanobis, 0.75);
+  ASSERT_TRUE(run.candidates);
+  ASSERT_EQ(run.candidates->size(), 1u);
+  EXPECT_EQ((*run.candidates)[0].robot_j, RobotIndex(1));
+  EXPECT_EQ((*run.candidates)[0].stamp_j.ns, 1'500'000'000);
+  EXPECT_EQ((*run.candidates)[0].mahalanobis, 0.75);
   ASSERT_EQ(run.closures.size(), 1u);
   EXPECT_EQ(run.closures[0].kind, ClosureKind::kFingerprint);
   EXPECT_EQ(run.closures[0].status, ClosureStatus::kRejected);
@@ -135,6 +136,7 @@ TEST(ReadRun, RefusesMalformedFiles) {
   const std::string header = "robot_i,t_i_s,robot_j,t_j_s,kind,status,statistic,reason\n";
   expect_refused("closures.csv", header + "zoe,0,eve,0,range,accepted,1,\n", 2, "unknown robot 'eve'");
   expect_refused("closures.csv", header + "zoe,0,adam,0,magic,accepted,1,\n", 2, "unknown word 'magic'");
+  expect_refused("closures.csv", header + "zoe,0.5,adam,0,range,accepted,1,\n", 2, "no keyframe at 0.5");
   expect_refused("candidates.csv", "robot_i,t_i_s,robot_j,t_j_s,distance_m\n", 1, "'mahalanobis' is missing");
 }
 

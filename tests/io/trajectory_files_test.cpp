@@ -12,7 +12,8 @@ void expect_tum_refused(const std::string& content, std::size_t line, const std:
 }
 
 TEST(ReadTum, TakesStampsExactlyAndNormalises) {
-  const auto trajectory = tum("# t x y z\n1574407123.123456789 1 2 3 0 0 3 4\n1574407124 4 5 6 0 0 0 1");
+  const auto trajectory =
+      tum("# t x y z\n1574407123.123456789 1 2 3 0 0 0.606 0.808\n1574407124 4 5 6 0 0 0 1");
   ASSERT_EQ(trajectory.size(), 2u);
   EXPECT_EQ(trajectory[0].stamp.ns, 1574407123123456789);
   EXPECT_EQ(trajectory[0].pose.translation(), Eigen::Vector3d(1, 2, 3));
@@ -32,6 +33,13 @@ TEST(ReadTum, RefusesTimeThatDoesNotRunForward) {
   const std::string pose = " 0 0 0 0 0 0 1\n";
   expect_tum_refused("1" + pose + "2" + pose + "1.5" + pose, 3, "backwards, from 2 to 1.5");
   expect_tum_refused("# c\n1" + pose + "1.0" + pose, 3, "the time 1 stands there twice");
+}
+
+TEST(ReadTum, RefusesOrientationsFarFromUnitLength) {
+  EXPECT_EQ(tum("1 0 0 0 0 0 0 1.019\n2 0 0 0 0 0 0 -0.981\n").size(), 2u);
+  expect_tum_refused("1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1.021\n", 2, "norm is 1.021 instead of 1");
+  expect_tum_refused("1 0 0 0 0 0 0 0.979\n", 1, "norm is 0.979");
+  expect_tum_refused("1 0 0 0 0 0 3 4\n", 1, "norm is 5");
 }
 
 TEST(ReadTum, RefusesMalformedRows) {

@@ -34,9 +34,11 @@ struct Evaluation {
   TeamMetrics metrics;
   std::optional<TeamMetrics> dead_reckoning;  ///< where every robot's start is known
   PairCounts candidates;
+  bool looked_for_candidates = false;  ///< otherwise none were kept because none were looked for
   PairCounts closures;
   long accepted = 0;
   long rejected = 0;
+  std::vector<std::string> notes;
 };
 
 /// A run's robots by their places in the mission.
@@ -79,16 +81,27 @@ std::vector<double> reach(const Mission& mission, std::optional<double> radius_m
   return reach_m;
 }
 
+using NoCandidates = std::vector<CandidateResult>;
+
 void count_pairs(Evaluation& evaluation, const RunFolder& run, const std::vector<RobotIndex>& places,
                  const PairTruth& truth) {
   const auto closures = with_places(run.closures, places);
-  evaluation.candidates = count_candidates(keyframe_stamps(run, places, truth.reach_m.size()),
-                                           with_places(run.candidates, places), truth);
+  evaluation.candidates =
+      count_candidates(keyframe_stamps(run, places, truth.reach_m.size()),
+                       with_places(run.candidates.value_or(NoCandidates{}), places), truth);
+  evaluation.looked_for_candidates = run.candidates.has_value();
   evaluation.closures = count_closures(closures, truth);
   evaluation.accepted = std::count_if(closures.begin(), closures.end(), [](const ClosureResult& closure) {
     return closure.status == ClosureStatus::kAccepted;
   });
   evaluation.rejected = static_cast<long>(closures.size()) - evaluation.accepted;
+}
+
+std::vector<std::string> notes_on(const RunFolder& run, const Options& options) {
+  std::vector<std::string> notes = frame_notes(run.robots, run.components, run.unplaced);
+  if (run.summary.is_null())
+    notes.push_back(options.run + " has no summary.json: every .tum file is a robot, all in one frame");
+  return notes;
 }
 
 Evaluation evaluate(const Options& options) {
@@ -100,6 +113,7 @@ Evaluation evaluate(const Options& options) {
   const auto association = options.evo ? Association::kNearest : Association::kInterpolate;
 
   Evaluation evaluation;
+  evaluation.notes = notes_on(run, options);
   const auto estimate = in_common_frame(run.robots, run.components, run.unplaced);
   evaluation.metrics = evaluate_trajectories(estimate, truth, mission.dimension, association);
   const auto odometry = dead_reckoning(mission);
@@ -113,15 +127,19 @@ Evaluation evaluate(const Options& options) {
 nlohmann::ordered_json json_of(const Evaluation& evaluation) {
   auto json = metrics_json(evaluation.metrics);
   json["candidates"] = pair_counts_json(evaluation.candidates);
+  if (!evaluation.looked_for_candidates)
+    for (const char* key : {"kept", "true_kept"}) json["candidates"][key] = nullptr;
   json["closures"] = pair_counts_json(evaluation.closures);
   json["closures"]["accepted"] = evaluation.accepted;
   json["closures"]["rejected"] = evaluation.rejected;
   json["dead_reckoning"] = nullptr;
   if (evaluation.dead_reckoning) json["dead_reckoning"] = metrics_json(*evaluation.dead_reckoning);
+  json["notes"] = evaluation.notes;
   return json;
 }
 
 void print_text(const Evaluation& evaluation) {
+  for (const auto& note : evaluation.notes) std::cout << "note: " << note << '\n';
   std::cout << metrics_table(evaluation.metrics);
   if (evaluation.dead_reckoning && evaluation.dead_reckoning->ate) {
     std::cout << "dead reckoning alone: " << evaluation.dead_reckoning->ate->rmse_m << " m rmse\n";
@@ -151,13 +169,16 @@ void add_evaluate(CLI::App& program) {
   command
       ->add_option("--radius", options->radius_m,
                    "Keyframes closer than this are true pairs; default: the sum of the two LiDAR ranges")
-      ->check(CLI::Range(0.0, kLargestRadius_m))
+      ->check(number_from(0, kLargestRadius_m))
       ->type_name("M");
   command->add_flag("--evo", options->evo, "Match stamps as evo does: the nearest within 0.01 s");
   add_json_option(*command, options->json);
   add_threads_option(*command);
   command->footer(
-      "The estimate is interpolated at the truth's stamps, after one rigid alignment of the whole team.\n\n"
+      "The estimate is interpolated at the truth's stamps, after one rigid alignment of the whole team.\n"
+      "Where every row of a robot's groundtruth.tum has the identity orientation, it is taken as waypoints:\n"
+      "positions only, and none of its orientations count in the relative error.\n"
+      "candidates.kept is null in --json where the run did not look for candidates.\n\n"
       "Example:\n  radioslam evaluate carpark-out carpark --json");
   command->callback([options] { evaluate_run(*options); });
 }

@@ -43,6 +43,7 @@ struct Report {
   std::size_t factors = 0;
   std::size_t repaired_informations = 0;
   std::string_view start;
+  double initial_cost = 0;  ///< at the file's vertices, or at the start where they are no estimate
   OptimizerSummary summary;
   Seconds seconds;
 };
@@ -94,16 +95,19 @@ Report optimize_graph(G2oGraph<Pose>& file, const OptimizerParams& params) {
   report.factors = factor_count(file.graph);
   report.repaired_informations = file.repaired_informations;
   Stopwatch stopwatch;
-  report.start = start_name(initialise(file.graph, given_values(file)).chosen);
+  const InitialCosts costs = initialise(file.graph, given_values(file));
+  report.start = start_name(costs.chosen);
   report.seconds.initialise = stopwatch.lap();
   ProgressLine line;
   report.summary = optimize(file.graph, params, line.progress());
   report.seconds.optimise = stopwatch.lap();
+  report.initial_cost = costs.given.value_or(report.summary.initial_cost);
   return report;
 }
 
 nlohmann::ordered_json json_of(const Report& report) {
-  return {{"initial_cost", report.summary.initial_cost},
+  return {{"initial_cost", report.initial_cost},
+          {"start_cost", report.summary.initial_cost},
           {"final_cost", report.summary.final_cost},
           {"iterations", report.summary.iterations},
           {"seconds",
@@ -121,12 +125,12 @@ nlohmann::ordered_json json_of(const Report& report) {
 
 void print_text(const Report& report, const std::string& output) {
   std::cout << output << ": " << report.poses << " poses, " << report.factors << " factors, cost "
-            << report.summary.initial_cost << " (" << report.start << " start) -> "
-            << report.summary.final_cost << " in " << report.summary.iterations << " iterations, "
-            << to_string(report.summary.termination) << ", "
+            << report.initial_cost << " -> " << report.summary.initial_cost << " (" << report.start
+            << " start) -> " << report.summary.final_cost << " in " << report.summary.iterations
+            << " iterations, " << to_string(report.summary.termination) << ", "
             << report.seconds.initialise + report.seconds.optimise << " s\n";
   if (report.repaired_informations > 0) {
-    std::cout << "repaired " << report.repaired_informations << " indefinite information matrices\n";
+    std::cout << "repaired " << report.repaired_informations << " indefinite or zero information matrices\n";
   }
 }
 
@@ -159,13 +163,15 @@ void add_optimize(CLI::App& program) {
       ->required();
   add_output_option(*command, options->output, "The graph to write");
   command->add_flag("--repair-information", options->repair_information,
-                    "Replace indefinite information matrices by the nearest valid ones");
+                    "Replace indefinite information matrices by the nearest valid ones, let zero ones be");
   command->add_flag("--certify", options->certify, "Certify the optimum (not there yet)");
   add_json_option(*command, options->json);
   add_parameter_options(*command, options->parameters);
   add_threads_option(*command);
   command->footer(
       "The cost is g2o's chi2: the sum of squared Mahalanobis norms, without a factor of one half.\n"
+      "--json: initial_cost is that of the file's VERTEX lines (where some are missing, of the start);\n"
+      "start_cost is that of the start taken, the cheapest of file, chordal and spanning tree.\n"
       "`radioslam parameters optimize` lists what --set can change.\n\n"
       "Example:\n  radioslam optimize sphere2500.g2o -o optimum.g2o --json");
   command->callback([options] { optimize_file(*options); });

@@ -6,6 +6,7 @@
 #include <cctype>
 
 #include "radioslam/base/parallel.hpp"
+#include "radioslam/io/numbers.hpp"
 
 namespace radioslam::cli {
 namespace {
@@ -44,6 +45,15 @@ void add_parameter_options(CLI::App& command, ParameterOptions& options) {
 
 void add_json_option(CLI::App& command, bool& json) {
   command.add_flag("--json", json, "Print one JSON object on standard output and nothing else there");
+}
+
+CLI::Validator number_from(double minimum, double maximum) {
+  const auto check = [minimum, maximum](const std::string& text) {
+    const auto number = parse_number(text);
+    if (number && minimum <= *number && *number <= maximum) return std::string{};
+    return "'" + text + "' is not a number from " + format_number(minimum) + " to " + format_number(maximum);
+  };
+  return CLI::Validator(check, "");
 }
 
 void add_threads_option(CLI::App& command) {

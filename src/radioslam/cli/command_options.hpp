@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <CLI/Validators.hpp>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,9 @@ void add_parameter_options(CLI::App& command, ParameterOptions& options);
 
 /// `--json`: one object on standard output and nothing else there.
 void add_json_option(CLI::App& command, bool& json);
+
+/// Refuses what is no finite number from `minimum` to `maximum` (CLI::Range lets NaN pass).
+CLI::Validator number_from(double minimum, double maximum);
 
 /// `--threads N`: takes effect when the command line is read.
 void add_threads_option(CLI::App& command);

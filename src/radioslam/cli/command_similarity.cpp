@@ -102,7 +102,8 @@ void add_similarity(CLI::App& program) {
   command->add_option("--measure", options->measure, "cosine, gaussian, detection, slide, mended or sorensen")
       ->required()
       ->type_name("NAME");
-  command->add_option("--min", options->minimum, "Leave out pairs less alike than this; default 0")
+  command->add_option("--min", options->minimum, "Leave out pairs less alike than this, 0 to 1; default 0")
+      ->check(number_from(0, 1))
       ->type_name("S");
   add_parameter_options(*command, options->parameters);
   add_threads_option(*command);

@@ -13,6 +13,7 @@
 #include "radioslam/cli/suggestion.hpp"
 #include "radioslam/io/atomic_output.hpp"
 #include "radioslam/io/mission_folder.hpp"
+#include "radioslam/io/numbers.hpp"
 #include "radioslam/sim/scenarios.hpp"
 
 namespace radioslam::cli {
@@ -63,6 +64,12 @@ std::string scenario_list() {
   return text;
 }
 
+/// A minus sign would wrap around.
+std::string check_seed(const std::string& text) {
+  if (parse_id(text)) return {};
+  return "'" + text + "' is not a whole number from 0 to 2^64 - 1";
+}
+
 }  // namespace
 
 void add_simulate(CLI::App& program) {
@@ -72,6 +79,7 @@ void add_simulate(CLI::App& program) {
   command->add_option("SCENARIO", options->scenario, "What to simulate")->required();
   add_output_option(*command, options->output, "The mission folder to write; replaced if there is one");
   command->add_option("--seed", options->seed, "Another seed gives another world and other noise; default 1")
+      ->check(CLI::Validator(check_seed, ""))
       ->type_name("N");
   command->add_option("--robots", options->robots, "Robots in the team")->type_name("N");
   add_parameter_options(*command, options->parameters);

@@ -3,6 +3,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+
 namespace radioslam::cli {
 namespace {
 
@@ -10,13 +11,19 @@ std::size_t line_of(const YAML::Mark& mark) {
   return mark.is_null() ? 0 : static_cast<std::size_t>(mark.line) + 1;
 }
 
+// Parameters nest two or three deep. A file in which an alias stands for a map around it has no end, and one
+// of aliases to aliases is as good as endless.
+constexpr int kDeepest = 8;
+constexpr std::size_t kMostEntries = 10'000;
+
 /// Collects the leaves of nested maps.
 class ConfigReader {
  public:
   explicit ConfigReader(const Text& text) : text_(&text) {}
 
-  void read(const YAML::Node& node, const std::string& key) {
-    if (node.IsMap()) return read_map(node, key.empty() ? key : key + ".");
+  void read(const YAML::Node& node, const std::string& key, int depth = 0) {
+    if (depth > kDeepest) text_->fail(line_of(node.Mark()), "'" + key + "' is nested too deep");
+    if (node.IsMap()) return read_map(node, key.empty() ? key : key + ".", depth + 1);
     if (node.IsScalar() && !key.empty()) return add(node, key);
     if (node.IsNull()) return;
     const std::string what = key.empty() ? "the file" : "'" + key + "'";
@@ -26,10 +33,11 @@ class ConfigReader {
   const std::vector<Setting>& settings() const { return settings_; }
 
  private:
-  void read_map(const YAML::Node& node, const std::string& prefix) {
+  void read_map(const YAML::Node& node, const std::string& prefix, int depth) {
     for (const auto& entry : node) {
+      if (++entries_ > kMostEntries) text_->fail(line_of(node.Mark()), "more than 10000 entries");
       if (!entry.first.IsScalar()) text_->fail(line_of(entry.first.Mark()), "a name must be plain text");
-      read(entry.second, prefix + entry.first.Scalar());
+      read(entry.second, prefix + entry.first.Scalar(), depth);
     }
   }
 
@@ -44,6 +52,7 @@ class ConfigReader {
   }
 
   const Text* text_;
+  std::size_t entries_ = 0;
   std::vector<Setting> settings_;
 };
 

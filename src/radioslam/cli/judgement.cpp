@@ -26,16 +26,31 @@ std::string table_row(const std::string& name, const std::optional<ErrorStatisti
                    ate->median_m, ate->p90_m, 100 * coverage);
 }
 
+bool is_elsewhere(const std::string& id, const std::vector<Component>& components) {
+  return !components.empty() && !contains(components.front().robots, id);
+}
+
 }  // namespace
 
 std::vector<EstimatedTrajectory> in_common_frame(std::vector<EstimatedTrajectory> robots,
                                                  const std::vector<Component>& components,
                                                  const std::vector<std::string>& unplaced) {
-  for (auto& robot : robots) {
-    const bool elsewhere = !components.empty() && !contains(components.front().robots, robot.id);
-    if (elsewhere || contains(unplaced, robot.id)) robot.poses = {};
-  }
+  for (auto& robot : robots)
+    if (is_elsewhere(robot.id, components) || contains(unplaced, robot.id)) robot.poses = {};
   return robots;
+}
+
+std::vector<std::string> frame_notes(const std::vector<EstimatedTrajectory>& robots,
+                                     const std::vector<Component>& components,
+                                     const std::vector<std::string>& unplaced) {
+  std::vector<std::string> notes;
+  for (const auto& robot : robots) {
+    const bool lost = contains(unplaced, robot.id);
+    if (!lost && !is_elsewhere(robot.id, components)) continue;
+    notes.push_back("robot " + robot.id + (lost ? " is not placed" : " is in another frame") +
+                    ": it counts as not covered");
+  }
+  return notes;
 }
 
 std::vector<EstimatedTrajectory> team_estimate(const RunResult& result) {

@@ -18,6 +18,11 @@ std::vector<EstimatedTrajectory> in_common_frame(std::vector<EstimatedTrajectory
                                                  const std::vector<Component>& components,
                                                  const std::vector<std::string>& unplaced);
 
+/// One line for each robot that is known not to share the first component's frame.
+std::vector<std::string> frame_notes(const std::vector<EstimatedTrajectory>& robots,
+                                     const std::vector<Component>& components,
+                                     const std::vector<std::string>& unplaced);
+
 /// The estimate of a run.
 std::vector<EstimatedTrajectory> team_estimate(const RunResult& result);
 

@@ -56,6 +56,10 @@ double sigma_in(const TextLines& at, std::string_view field, std::string_view wh
   return value;
 }
 
+std::string not_a_unit_quaternion(double norm) {
+  return "the quaternion's norm is " + format_number(norm) + " instead of 1";
+}
+
 void LineFields::skip_blanks() {
   std::size_t i = 0;
   while (i < rest_.size() && is_blank(rest_[i])) ++i;
@@ -89,7 +93,7 @@ Eigen::Vector3d LineFields::position() {
   return {x, y, z};
 }
 
-Eigen::Quaterniond LineFields::quaternion() {
+Eigen::Quaterniond LineFields::normalised_quaternion(double norm_tolerance) {
   const double x = number("qx");
   const double y = number("qy");
   const double z = number("qz");
@@ -99,6 +103,7 @@ Eigen::Quaterniond LineFields::quaternion() {
   if (!std::isfinite(norm)) fail("the quaternion is too large to be normalised");
   if (!at_->terminated() && empty() && std::abs(norm - 1) > kTornQuaternionTolerance)
     fail("the file ends in this line, and its quaternion is not of unit length: the line is torn");
+  if (std::abs(norm - 1) > norm_tolerance) fail(not_a_unit_quaternion(norm));
   return {w / norm, x / norm, y / norm, z / norm};
 }
 

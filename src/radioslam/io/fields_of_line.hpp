@@ -1,6 +1,7 @@
 // The fields of one line, read from left to right; each refusal names file, line and field.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -10,12 +11,19 @@
 
 namespace radioslam {
 
+/// How far the norm of a recorded orientation may be from 1. Rounding to two decimals stays within it; a
+/// slipped column or another number in place of one does not.
+inline constexpr double kUnitQuaternionTolerance = 0.02;
+
 /// What one field says, or a refusal. `what` is the field's name in the message.
 double number_in(const TextLines& at, std::string_view field, std::string_view what);
 double coordinate_in(const TextLines& at, std::string_view field, std::string_view what);
 Stamp stamp_in(const TextLines& at, std::string_view field, std::string_view what);
 /// Not negative.
 double sigma_in(const TextLines& at, std::string_view field, std::string_view what);
+
+/// The refusal of a quaternion that is no orientation.
+std::string not_a_unit_quaternion(double norm);
 
 /// Reads a line's fields, separated by blanks or tabs.
 class LineFields {
@@ -32,7 +40,9 @@ class LineFields {
   /// x y z of a position.
   Eigen::Vector3d position();
   /// qx qy qz qw, normalised; a zero quaternion is refused.
-  Eigen::Quaterniond quaternion();
+  Eigen::Quaterniond quaternion() { return normalised_quaternion(std::numeric_limits<double>::infinity()); }
+  /// The same; refused as well where the norm is off by more than kUnitQuaternionTolerance.
+  Eigen::Quaterniond unit_quaternion() { return normalised_quaternion(kUnitQuaternionTolerance); }
   /// x y z qx qy qz qw.
   SE3 pose();
   /// Refuses fields that are left.
@@ -42,6 +52,7 @@ class LineFields {
 
  private:
   void skip_blanks();
+  Eigen::Quaterniond normalised_quaternion(double norm_tolerance);
 
   const TextLines* at_;
   std::string_view rest_;

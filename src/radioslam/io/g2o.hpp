@@ -9,9 +9,10 @@
 //
 // <nxn> is the upper triangle, row by row, of an information matrix in the order [translation, rotation] of
 // g2o's error vector (PoseChart::kG2o). A lever arm is the antenna in the body frame, x y (z). Ids have 64
-// bits. Blank lines and '#' comments are skipped; VERTEX lines may be missing, for some or all poses; edges
-// may repeat, and then count as often as they stand there. In space, edges of the plane are refused, and the
-// other way round. Refused as well: unknown tags, landmark edges, indefinite information matrices.
+// bits. Blank lines and '#' comments are skipped; VERTEX lines may be missing, for all poses or for all of
+// another robot's (g2o_vertices.hpp); edges may repeat, and then count as often as they stand there. In
+// space, edges of the plane are refused, and the other way round. Refused as well: unknown tags, landmark
+// edges, information matrices that are indefinite or all zero.
 #pragma once
 
 #include <cstdint>
@@ -24,10 +25,10 @@
 
 namespace radioslam {
 
-/// What to do with an information matrix that has negative eigenvalues beyond rounding.
+/// What to do with an information matrix that is zero or has negative eigenvalues beyond rounding.
 enum class RepairInformation {
   kNo,   ///< refuse the file, with the first line and how many there are
-  kYes,  ///< take the nearest positive definite matrix and count it
+  kYes,  ///< take the nearest positive definite matrix (of a zero one: zero) and count it
 };
 
 /// A file's graph. Poses stand in the order of their VERTEX lines, then those without one by id.

@@ -1,31 +1,22 @@
-#include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
 #include "radioslam/io/fields_of_line.hpp"
 #include "radioslam/io/g2o.hpp"
 #include "radioslam/io/g2o_tags.hpp"
+#include "radioslam/io/g2o_vertices.hpp"
 #include "radioslam/io/information.hpp"
 #include "radioslam/io/numbers.hpp"
 
 namespace radioslam {
 namespace {
 
-using Id = std::uint64_t;
-
-/// What an id stands for.
-struct Vertex {
-  bool is_point = false;
-  std::int32_t index = 0;
-};
+using Id = G2oVertices::Id;
 
 /// The ids of an edge, until all vertices are known.
 struct EdgeEnds {
   Id i = 0;
   Id j = 0;
 };
-
-std::string quoted(Id id) { return "vertex " + std::to_string(id); }
 
 template <class Pose>
 Pose read_pose(LineFields& fields) {
@@ -57,7 +48,8 @@ typename Pose::Jacobian read_upper_triangle(LineFields& fields) {
 template <class Pose>
 class G2oReader {
  public:
-  G2oReader(const Text& text, RepairInformation repair) : text_(text), lines_(text), repair_(repair) {}
+  G2oReader(const Text& text, RepairInformation repair)
+      : text_(text), lines_(text), repair_(repair), vertices_(text) {}
 
   G2oGraph<Pose> read() {
     out_.graph.chart = PoseChart::kG2o;
@@ -99,13 +91,9 @@ class G2oReader {
     lines_.fail("unknown tag '" + name + "'");
   }
 
-  void declare(Id id, Vertex vertex) {
-    if (!vertices_.emplace(id, vertex).second) lines_.fail(quoted(id) + " was given before");
-  }
-
   void read_vertex(LineFields& fields) {
     const Id id = fields.id("id");
-    declare(id, {false, static_cast<std::int32_t>(out_.graph.poses.size())});
+    vertices_.declare(id, {false, static_cast<std::int32_t>(out_.graph.poses.size())}, lines_.number());
     out_.graph.poses.push_back(read_pose<Pose>(fields));
     out_.pose_ids.push_back(id);
     out_.pose_has_value.push_back(true);
@@ -113,7 +101,7 @@ class G2oReader {
 
   void read_point_vertex(LineFields& fields) {
     const Id id = fields.id("id");
-    declare(id, {true, static_cast<std::int32_t>(out_.graph.points.size())});
+    vertices_.declare(id, {true, static_cast<std::int32_t>(out_.graph.points.size())}, lines_.number());
     out_.graph.points.push_back(read_point<Pose>(fields));
     out_.point_ids.push_back(id);
   }
@@ -121,14 +109,16 @@ class G2oReader {
   EdgeEnds read_ends(LineFields& fields) const {
     const Id i = fields.id("id");
     const Id j = fields.id("id");
-    if (i == j) lines_.fail("an edge from " + quoted(i) + " to itself");
+    if (i == j) lines_.fail("an edge from " + quoted_vertex(i) + " to itself");
     return {i, j};
   }
 
   typename Pose::Jacobian read_information(LineFields& fields) {
     const typename Pose::Jacobian information = read_upper_triangle<Pose>(fields);
     ++informations_;
-    if (is_information(information)) return information;
+    if (information.isZero(0) && repair_ == RepairInformation::kNo)
+      lines_.fail("the information matrix is zero; --repair-information lets such an edge say nothing");
+    if (!information.isZero(0) && is_information(information)) return information;
     if (repair_ == RepairInformation::kYes) {
       ++out_.repaired_informations;
       return nearest_information(information);
@@ -141,7 +131,9 @@ class G2oReader {
   }
 
   void read_edge(LineFields& fields) {
-    relative_pose_ends_.push_back(read_ends(fields));
+    const EdgeEnds ends = read_ends(fields);
+    for (const Id id : {ends.i, ends.j}) vertices_.mention(id, lines_.number());
+    relative_pose_ends_.push_back(ends);
     RelativePoseFactor<Pose>& factor = out_.graph.relative_poses.emplace_back();
     factor.T_i_j = read_pose<Pose>(fields);
     factor.information = read_information(fields);
@@ -193,43 +185,23 @@ class G2oReader {
   }
 
   void add_undeclared_poses() {
-    std::vector<Id> missing;
-    for (const EdgeEnds& ends : relative_pose_ends_)
-      for (const Id id : {ends.i, ends.j})
-        if (!vertices_.contains(id)) missing.push_back(id);
-    std::sort(missing.begin(), missing.end());
-    missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
-    for (const Id id : missing) {
-      vertices_.emplace(id, Vertex{false, static_cast<std::int32_t>(out_.graph.poses.size())});
+    for (const Id id : vertices_.add_undeclared(out_.graph.poses.size())) {
       out_.graph.poses.emplace_back();
       out_.pose_ids.push_back(id);
       out_.pose_has_value.push_back(false);
     }
   }
 
-  Vertex find(Id id, std::size_t line) const {
-    const auto found = vertices_.find(id);
-    if (found == vertices_.end())
-      text_.fail(line, quoted(id) + " does not occur in a VERTEX line or in an edge between poses");
-    return found->second;
-  }
-
-  PoseId find_pose(Id id, std::size_t line) const {
-    const Vertex vertex = find(id, line);
-    if (vertex.is_point) text_.fail(line, quoted(id) + " is a point, a pose is needed");
-    return PoseId(vertex.index);
-  }
-
   void resolve_relative_poses() {
     for (std::size_t k = 0; k < relative_pose_ends_.size(); ++k) {
       RelativePoseFactor<Pose>& factor = out_.graph.relative_poses[k];
-      factor.i = find_pose(relative_pose_ends_[k].i, out_.relative_pose_lines[k]);
-      factor.j = find_pose(relative_pose_ends_[k].j, out_.relative_pose_lines[k]);
+      factor.i = vertices_.pose_at(relative_pose_ends_[k].i, out_.relative_pose_lines[k]);
+      factor.j = vertices_.pose_at(relative_pose_ends_[k].j, out_.relative_pose_lines[k]);
     }
   }
 
   void resolve_range_end(RangeEnd<Pose>& end, Id id, std::size_t line) const {
-    const Vertex vertex = find(id, line);
+    const G2oVertex vertex = vertices_.at(id, line);
     if (vertex.is_point && !end.lever_arm.isZero(0)) text_.fail(line, "a point has no lever arm");
     if (vertex.is_point) end.point = PointId(vertex.index);
     if (!vertex.is_point) end.pose = PoseId(vertex.index);
@@ -244,13 +216,13 @@ class G2oReader {
 
   void resolve_priors() {
     for (std::size_t k = 0; k < prior_ids_.size(); ++k)
-      out_.graph.pose_priors[k].i = find_pose(prior_ids_[k], out_.pose_prior_lines[k]);
+      out_.graph.pose_priors[k].i = vertices_.pose_at(prior_ids_[k], out_.pose_prior_lines[k]);
   }
 
   void resolve_fixed() {
     if (fixed_.empty()) return;
     out_.graph.pose_fixed.assign(out_.graph.poses.size(), false);
-    for (const auto& [id, line] : fixed_) out_.graph.pose_fixed[find_pose(id, line).index()] = true;
+    for (const auto& [id, line] : fixed_) out_.graph.pose_fixed[vertices_.pose_at(id, line).index()] = true;
   }
 
   struct Fixed {
@@ -262,7 +234,7 @@ class G2oReader {
   TextLines lines_;
   RepairInformation repair_;
   G2oGraph<Pose> out_;
-  std::unordered_map<Id, Vertex> vertices_;  // looked up, never walked through
+  G2oVertices vertices_;
   std::vector<EdgeEnds> relative_pose_ends_;
   std::vector<EdgeEnds> range_ends_;
   std::vector<Id> prior_ids_;

@@ -2,8 +2,9 @@
 // one record per line, `#` comments.
 //
 //   <ms>  TYPE_ACCELEROMETER | TYPE_GYROSCOPE | TYPE_ROTATION_VECTOR  x  y  z  accuracy
-//   <ms>  TYPE_WAYPOINT  x  y                                          metres on the floor plan, x east, y
-//   north <ms>  TYPE_WIFI  ssid  bssid  rssi_dbm  frequency_mhz  last_seen_ms #  startTime:<ms> ...
+//   <ms>  TYPE_WAYPOINT  x  y            metres on the floor plan, x east, y north
+//   <ms>  TYPE_WIFI  ssid  bssid  rssi_dbm  frequency_mhz  last_seen_ms
+//   #  startTime:<ms> ...
 //
 // Times are milliseconds of the Unix epoch. Records of other types (TYPE_...) are skipped. The rotation
 // vector is the vector part of the unit quaternion from device to east-north-up; its scalar part is positive.

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,13 +31,14 @@ struct RunFolder {
   std::vector<EstimatedTrajectory> robots;  ///< in the summary's order; without poses if not placed
   std::vector<Component> components;
   std::vector<std::string> unplaced;
-  std::vector<CandidateResult> candidates;  ///< robots index `robots`
-  std::vector<ClosureResult> closures;
-  nlohmann::ordered_json summary;  ///< null where there is no summary.json
+  std::optional<std::vector<CandidateResult>> candidates;  ///< nothing: the run did not look for any
+  std::vector<ClosureResult> closures;                     ///< robots index `robots`, here and above
+  nlohmann::ordered_json summary;                          ///< null where there is no summary.json
 };
 
 /// Reads a run's folder; every table is optional. Without summary.json the robots are those with a .tum
-/// file, by name. Refusals are InputErrors.
+/// file, by name. A run that looked for candidates and kept none has counts.candidates in its summary;
+/// without it, a candidates.csv without rows says nothing. Refusals are InputErrors.
 RunFolder read_run(const std::filesystem::path& folder);
 
 /// Parses JSON; refuses what is none, with its line.

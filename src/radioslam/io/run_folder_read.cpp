@@ -68,6 +68,14 @@ void read_trajectories(const fs::path& folder, const std::vector<std::string>& i
   }
 }
 
+/// Rows say that the run looked for candidates; so does its summary; so does the file where no summary is.
+void read_candidates_of(const fs::path& folder, RunFolder& run) {
+  if (!fs::exists(folder / "candidates.csv")) return;
+  auto candidates = read_candidates(read_text(folder / "candidates.csv"), run.robots);
+  const bool counted = !member(member(run.summary, "counts"), "candidates").is_null();
+  if (!candidates.empty() || counted || run.summary.is_null()) run.candidates = std::move(candidates);
+}
+
 }  // namespace
 
 Json read_json(const Text& text) {
@@ -96,10 +104,9 @@ RunFolder read_run(const fs::path& folder) {
     ids = robots_with_file(folder);
   }
   read_trajectories(folder, ids, run);
-  if (fs::exists(folder / "candidates.csv"))
-    run.candidates = read_candidates(read_text(folder / "candidates.csv"), ids);
+  read_candidates_of(folder, run);
   if (fs::exists(folder / "closures.csv"))
-    run.closures = read_closures(read_text(folder / "closures.csv"), ids);
+    run.closures = read_closures(read_text(folder / "closures.csv"), run.robots);
   return run;
 }
 

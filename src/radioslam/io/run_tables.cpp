@@ -38,10 +38,22 @@ auto value_of(const CsvReader& csv, std::size_t column, const Words& words) {
   return found->first;
 }
 
-RobotIndex robot_of(const CsvReader& csv, std::size_t column, std::span<const std::string> ids) {
-  const auto found = std::find(ids.begin(), ids.end(), csv.field(column));
-  if (found == ids.end()) csv.fail("unknown robot '" + std::string(csv.field(column)) + "'");
-  return RobotIndex(static_cast<std::size_t>(found - ids.begin()));
+RobotIndex robot_of(const CsvReader& csv, std::size_t column, std::span<const EstimatedTrajectory> robots) {
+  const std::string_view id = csv.field(column);
+  const auto found = std::find_if(robots.begin(), robots.end(), [&](const auto& r) { return r.id == id; });
+  if (found == robots.end()) csv.fail("unknown robot '" + std::string(id) + "'");
+  return RobotIndex(static_cast<std::size_t>(found - robots.begin()));
+}
+
+Stamp keyframe_of(const CsvReader& csv, std::size_t column, const EstimatedTrajectory& robot) {
+  const Stamp stamp = csv.stamp(column);
+  const auto found = std::lower_bound(robot.poses.begin(), robot.poses.end(), stamp,
+                                      [](const auto& row, Stamp s) { return row.stamp < s; });
+  const bool is_keyframe = found != robot.poses.end() && found->stamp == stamp;
+  if (!is_keyframe && !robot.poses.empty())
+    csv.fail("robot '" + robot.id + "' has no keyframe at " + format_stamp(stamp) + " in " + robot.id +
+             ".tum");
+  return stamp;
 }
 
 /// The four columns that both tables start with.
@@ -55,12 +67,12 @@ CsvReader::Columns pair_columns_and(std::initializer_list<std::string_view> own)
 }
 
 template <class Result>
-Result read_pair(const CsvReader& csv, std::span<const std::string> ids) {
+Result read_pair(const CsvReader& csv, std::span<const EstimatedTrajectory> robots) {
   Result result;
-  result.robot_i = robot_of(csv, kRobotI, ids);
-  result.stamp_i = csv.stamp(kTimeI);
-  result.robot_j = robot_of(csv, kRobotJ, ids);
-  result.stamp_j = csv.stamp(kTimeJ);
+  result.robot_i = robot_of(csv, kRobotI, robots);
+  result.stamp_i = keyframe_of(csv, kTimeI, robots[result.robot_i.index()]);
+  result.robot_j = robot_of(csv, kRobotJ, robots);
+  result.stamp_j = keyframe_of(csv, kTimeJ, robots[result.robot_j.index()]);
   return result;
 }
 
@@ -104,22 +116,22 @@ std::string format_closures(const std::vector<ClosureResult>& closures, std::spa
   return out;
 }
 
-std::vector<CandidateResult> read_candidates(const Text& text, std::span<const std::string> ids) {
+std::vector<CandidateResult> read_candidates(const Text& text, std::span<const EstimatedTrajectory> robots) {
   CsvReader csv(text, pair_columns_and({"distance_m", "mahalanobis"}));
   std::vector<CandidateResult> candidates;
   while (csv.next()) {
-    CandidateResult& candidate = candidates.emplace_back(read_pair<CandidateResult>(csv, ids));
+    CandidateResult& candidate = candidates.emplace_back(read_pair<CandidateResult>(csv, robots));
     candidate.distance_m = csv.number(kFirstOwn);
     candidate.mahalanobis = csv.number(kFirstOwn + 1);
   }
   return candidates;
 }
 
-std::vector<ClosureResult> read_closures(const Text& text, std::span<const std::string> ids) {
+std::vector<ClosureResult> read_closures(const Text& text, std::span<const EstimatedTrajectory> robots) {
   CsvReader csv(text, pair_columns_and({"kind", "status", "statistic", "reason"}));
   std::vector<ClosureResult> closures;
   while (csv.next()) {
-    ClosureResult& closure = closures.emplace_back(read_pair<ClosureResult>(csv, ids));
+    ClosureResult& closure = closures.emplace_back(read_pair<ClosureResult>(csv, robots));
     closure.kind = value_of(csv, kFirstOwn, kKinds);
     closure.status = value_of(csv, kFirstOwn + 1, kStatuses);
     closure.statistic = csv.number(kFirstOwn + 2);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "radioslam/eval/metrics.hpp"
 #include "radioslam/io/text.hpp"
 #include "radioslam/results/results.hpp"
 
@@ -17,8 +18,9 @@ std::string format_candidates(const std::vector<CandidateResult>& candidates,
                               std::span<const std::string> ids);
 std::string format_closures(const std::vector<ClosureResult>& closures, std::span<const std::string> ids);
 
-/// Refuse malformed rows, unknown robots, kinds and statuses.
-std::vector<CandidateResult> read_candidates(const Text& text, std::span<const std::string> ids);
-std::vector<ClosureResult> read_closures(const Text& text, std::span<const std::string> ids);
+/// Refuse malformed rows, unknown robots, kinds and statuses, and stamps at which a robot has no keyframe (of
+/// a robot without poses none are known).
+std::vector<CandidateResult> read_candidates(const Text& text, std::span<const EstimatedTrajectory> robots);
+std::vector<ClosureResult> read_closures(const Text& text, std::span<const EstimatedTrajectory> robots);
 
 }  // namespace radioslam

@@ -1,9 +1,12 @@
 #include "radioslam/io/team_tables.hpp"
 
+#include <cmath>
+#include <functional>
 #include <optional>
 #include <vector>
 
 #include "radioslam/io/csv.hpp"
+#include "radioslam/io/fields_of_line.hpp"
 
 namespace radioslam {
 namespace {
@@ -19,7 +22,7 @@ enum class Kind {
   kDistance,
   kCoordinateOrEmpty,
   kSigma,
-  kSigmaOrEmpty,
+  kSigmaOrEmpty,  ///< may be 0
 };
 
 struct Column {
@@ -58,10 +61,10 @@ void check_field(const CsvReader& csv, std::size_t column, Kind kind, const Team
       if (csv.coordinate(column) < 0) csv.fail("a distance is negative");
       return;
     case Kind::kSigmaOrEmpty:
-      if (empty) return;
-      [[fallthrough]];
+      if (!empty) csv.sigma(column);
+      return;
     case Kind::kSigma:
-      csv.sigma(column);
+      if (csv.sigma(column) <= 0) csv.fail("a sigma is zero");
       return;
   }
 }
@@ -72,10 +75,27 @@ CsvReader::Columns names_of(const std::vector<Column>& columns) {
   return result;
 }
 
-void check_table(const Text& text, const std::vector<Column>& columns, const TeamNames& names) {
+/// Checks field by field, then each row as a whole.
+void check_table(
+    const Text& text, const std::vector<Column>& columns, const TeamNames& names,
+    const std::function<void(const CsvReader&)>& check_row = [](const CsvReader&) {}) {
   CsvReader csv(text, names_of(columns));
-  while (csv.next())
+  while (csv.next()) {
     for (std::size_t k = 0; k < columns.size(); ++k) check_field(csv, k, columns[k].kind, names);
+    check_row(csv);
+  }
+}
+
+/// Refuses a row whose ends, in these columns, are one robot or one anchor.
+void refuse_itself(const CsvReader& csv, std::size_t end_i, std::size_t end_j, const std::string& what) {
+  if (csv.field(end_i) == csv.field(end_j))
+    csv.fail(what + " '" + std::string(csv.field(end_i)) + "' with itself");
+}
+
+void refuse_unless_unit_quaternion(const CsvReader& csv, std::size_t first) {
+  const double norm = std::hypot(std::hypot(csv.number(first), csv.number(first + 1)),
+                                 std::hypot(csv.number(first + 2), csv.number(first + 3)));
+  if (!(std::abs(norm - 1) <= kUnitQuaternionTolerance)) csv.fail(not_a_unit_quaternion(norm));
 }
 
 }  // namespace
@@ -87,7 +107,7 @@ void check_ranges(const Text& text, const TeamNames& names) {
                {"robot_j", Kind::kEnd},
                {"range_m", Kind::kDistance},
                {"sigma_m", Kind::kSigma}},
-              names);
+              names, [](const CsvReader& csv) { refuse_itself(csv, 1, 2, "a range of"); });
 }
 
 void check_angles(const Text& text, const TeamNames& names) {
@@ -100,7 +120,7 @@ void check_angles(const Text& text, const TeamNames& names) {
                {"elevation_rad", Kind::kNumber},
                {"sigma_rad", Kind::kSigma},
                {"power_db", Kind::kNumber}},
-              names);
+              names, [](const CsvReader& csv) { refuse_itself(csv, 1, 2, "an angle of"); });
 }
 
 void check_matches(const Text& text, const TeamNames& names) {
@@ -118,7 +138,10 @@ void check_matches(const Text& text, const TeamNames& names) {
                {"qw", Kind::kNumber},
                {"sigma_t_m", Kind::kSigma},
                {"sigma_r_rad", Kind::kSigma}},
-              names);
+              names, [](const CsvReader& csv) {
+                if (csv.stamp(1) == csv.stamp(3)) refuse_itself(csv, 0, 2, "a match at one time of");
+                refuse_unless_unit_quaternion(csv, 7);
+              });
 }
 
 std::set<std::string, std::less<>> read_anchor_ids(const Text& text, const TeamNames& names) {

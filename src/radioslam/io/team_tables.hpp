@@ -1,6 +1,6 @@
 // The tables of a mission that no estimator reads yet: radio/ranges.csv, radio/aoa.csv, radio/anchors.csv,
 // matches.csv, and each robot's imu.csv and gnss.csv. They are checked as a whole; nothing is taken from
-// them.
+// them. Sigmas are positive; only an anchor's may be 0, where its place is known exactly.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +19,8 @@ struct TeamNames {
   std::set<std::string, std::less<>> anchors = {};
 };
 
-/// Refuse malformed rows and names that belong to nobody.
+/// Refuse malformed rows, names that belong to nobody, and measurements of a robot by itself. A match of one
+/// robot with itself ties two times of it; at one time it is refused too.
 void check_ranges(const Text& text, const TeamNames& names);
 void check_angles(const Text& text, const TeamNames& names);
 void check_matches(const Text& text, const TeamNames& names);

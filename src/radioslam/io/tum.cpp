@@ -9,9 +9,10 @@ namespace {
 StampedPose<SE3> read_row(const TextLines& lines) {
   LineFields fields(lines);
   const Stamp stamp = fields.stamp("t");
-  const SE3 pose = fields.pose();
+  const Eigen::Vector3d position = fields.position();
+  const Eigen::Quaterniond orientation = fields.unit_quaternion();
   fields.end();
-  return {stamp, pose};
+  return {stamp, SE3(position, orientation)};
 }
 
 void refuse_unless_forward(const TextLines& lines, Stamp last, Stamp now) {

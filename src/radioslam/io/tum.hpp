@@ -1,5 +1,6 @@
 // Trajectories in the TUM format: one pose per line, `t x y z qx qy qz qw`, seconds and metres, '#' comments.
-// Stamps are exact to the nanosecond in both directions; quaternions are normalised on reading.
+// Stamps are exact to the nanosecond in both directions; quaternions, which must be near unit length, are
+// normalised on reading.
 #pragma once
 
 #include <string>
@@ -10,7 +11,8 @@
 
 namespace radioslam {
 
-/// Refuses times that do not run forward, and a text without poses.
+/// Refuses times that do not run forward, orientations whose norm is off by more than
+/// kUnitQuaternionTolerance, and a text without poses.
 Trajectory<SE3> read_tum(const Text& text);
 
 std::string format_tum(const Trajectory<SE3>& trajectory);

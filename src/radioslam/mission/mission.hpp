@@ -16,7 +16,8 @@ namespace radioslam {
 
 /// Noise of a robot's odometry as a random walk over the way: after d metres and theta radians of turning,
 /// variance sigma_xy_per_sqrt_m^2 d in x and in y each, and sigma_yaw_per_sqrt_m_rad^2 d +
-/// (sigma_yaw_per_rad theta)^2 in yaw. The last two are constant over the mission and unknown.
+/// sigma_yaw_per_rad^2 |theta| in yaw (not (sigma_yaw_per_rad theta)^2, which depends on how a turn is cut;
+/// docs/decisions.md). The last two are constant over the mission and unknown.
 struct OdometryNoise {
   double sigma_xy_per_sqrt_m = 0.02;
   double sigma_yaw_per_sqrt_m_rad = 0.002;

@@ -74,6 +74,8 @@ RunOutput run(const Mission& mission, const RunParams& params, const Progress& p
   result.components = collect_components(mission, team_frame);
   for (const auto& robot : result.robots)
     if (!robot.placed) result.unplaced.push_back(robot.id);
+  for (const auto& id : result.unplaced)
+    result.notes.push_back("robot " + id + " is not placed: nothing ties it to another robot");
   count(result, radio, solution);
   output.graph = std::move(joint.graph);
   return output;
