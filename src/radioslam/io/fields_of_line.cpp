@@ -29,6 +29,10 @@ std::string shown(std::string_view field) {
   at.fail(std::string(what) + " " + shown(field) + " " + reason);
 }
 
+double quaternion_norm(const Eigen::Vector4d& xyzw) {
+  return std::hypot(std::hypot(xyzw.x(), xyzw.y()), std::hypot(xyzw.z(), xyzw.w()));
+}
+
 }  // namespace
 
 double number_in(const TextLines& at, std::string_view field, std::string_view what) {
@@ -54,6 +58,13 @@ double sigma_in(const TextLines& at, std::string_view field, std::string_view wh
   const double value = number_in(at, field, what);
   if (value < 0) fail_field(at, what, field, "is negative");
   return value;
+}
+
+Eigen::Quaterniond unit_quaternion(const TextLines& at, const Eigen::Vector4d& xyzw) {
+  const double norm = quaternion_norm(xyzw);
+  if (norm < kSmallestQuaternionNorm) at.fail("the quaternion is zero");
+  if (!std::isfinite(norm)) at.fail("the quaternion is too large to be normalised");
+  return {xyzw.w() / norm, xyzw.x() / norm, xyzw.y() / norm, xyzw.z() / norm};
 }
 
 void LineFields::skip_blanks() {
@@ -94,12 +105,10 @@ Eigen::Quaterniond LineFields::quaternion() {
   const double y = number("qy");
   const double z = number("qz");
   const double w = number("qw");
-  const double norm = std::hypot(std::hypot(x, y), std::hypot(z, w));
-  if (norm < kSmallestQuaternionNorm) fail("the quaternion is zero");
-  if (!std::isfinite(norm)) fail("the quaternion is too large to be normalised");
-  if (!at_->terminated() && empty() && std::abs(norm - 1) > kTornQuaternionTolerance)
+  const Eigen::Quaterniond rotation = unit_quaternion(*at_, {x, y, z, w});
+  if (!at_->terminated() && empty() && std::abs(quaternion_norm({x, y, z, w}) - 1) > kTornQuaternionTolerance)
     fail("the file ends in this line, and its quaternion is not of unit length: the line is torn");
-  return {w / norm, x / norm, y / norm, z / norm};
+  return rotation;
 }
 
 SE3 LineFields::pose() {

@@ -16,6 +16,8 @@ double coordinate_in(const TextLines& at, std::string_view field, std::string_vi
 Stamp stamp_in(const TextLines& at, std::string_view field, std::string_view what);
 /// Not negative.
 double sigma_in(const TextLines& at, std::string_view field, std::string_view what);
+/// Normalised; a quaternion that cannot be is refused.
+Eigen::Quaterniond unit_quaternion(const TextLines& at, const Eigen::Vector4d& xyzw);
 
 /// Reads a line's fields, separated by blanks or tabs.
 class LineFields {
