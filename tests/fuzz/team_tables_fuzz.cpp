@@ -1,20 +1,30 @@
 #include "fuzzed.hpp"
+#include "radioslam/io/robot_tables.hpp"
 #include "radioslam/io/team_tables.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace radioslam;
   return fuzz_reader(data, size, [](const Text& text) {
-    const TeamNames names{{"a", "b"}, {"A1"}};
+    const TeamNames names{{{"a", RobotIndex(0)}, {"b", RobotIndex(1)}},
+                          {{{"front", Eigen::Vector3d::UnitX()}}},
+                          {{"A1", AnchorIndex(0)}}};
     // The first character chooses the table, so that one corpus serves all.
+    const Text table{text.name, text.content.substr(1)};
     switch (text.content[0]) {
       case 'r':
-        return check_ranges({text.name, text.content.substr(1)}, names);
+        read_ranges(table, names);
+        return;
       case 'd':
-        return check_angles({text.name, text.content.substr(1)}, names);
+        read_arrivals(table, names);
+        return;
       case 'm':
-        return check_matches({text.name, text.content.substr(1)}, names);
+        read_matches(table, names);
+        return;
+      case 'f':
+        read_fixes(table);
+        return;
       default:
-        read_anchor_ids({text.name, text.content.substr(1)}, names);
+        read_anchors(table, names, 2);
     }
   });
 }

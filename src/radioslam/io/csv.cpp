@@ -65,5 +65,9 @@ double CsvReader::coordinate(std::size_t column) const {
 }
 double CsvReader::sigma(std::size_t column) const { return sigma_in(lines_, field(column), names_[column]); }
 Stamp CsvReader::stamp(std::size_t column) const { return stamp_in(lines_, field(column), names_[column]); }
+Eigen::Quaterniond CsvReader::quaternion(std::size_t column) const {
+  return quaternion_in(lines_, {number(column), number(column + 1), number(column + 2), number(column + 3)},
+                       kUnitQuaternionTolerance);
+}
 
 }  // namespace radioslam

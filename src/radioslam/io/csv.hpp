@@ -2,6 +2,7 @@
 // are ignored. Fields may stand in double quotes but hold no comma. Blank lines and '#' comments are skipped.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -34,6 +35,8 @@ class CsvReader {
   double coordinate(std::size_t column) const;
   double sigma(std::size_t column) const;
   Stamp stamp(std::size_t column) const;
+  /// qx qy qz qw from four columns on, normalised.
+  Eigen::Quaterniond quaternion(std::size_t column) const;
 
   [[noreturn]] void fail(const std::string& reason) const { lines_.fail(reason); }
 

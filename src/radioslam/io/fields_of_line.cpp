@@ -29,6 +29,10 @@ std::string shown(std::string_view field) {
   at.fail(std::string(what) + " " + shown(field) + " " + reason);
 }
 
+double quaternion_norm(const Eigen::Vector4d& xyzw) {
+  return std::hypot(std::hypot(xyzw.x(), xyzw.y()), std::hypot(xyzw.z(), xyzw.w()));
+}
+
 }  // namespace
 
 double number_in(const TextLines& at, std::string_view field, std::string_view what) {
@@ -58,6 +62,14 @@ double sigma_in(const TextLines& at, std::string_view field, std::string_view wh
 
 std::string not_a_unit_quaternion(double norm) {
   return "the quaternion's norm is " + format_number(norm) + " instead of 1";
+}
+
+Eigen::Quaterniond quaternion_in(const TextLines& at, const Eigen::Vector4d& xyzw, double norm_tolerance) {
+  const double norm = quaternion_norm(xyzw);
+  if (norm < kSmallestQuaternionNorm) at.fail("the quaternion is zero");
+  if (!std::isfinite(norm)) at.fail("the quaternion is too large to be normalised");
+  if (std::abs(norm - 1) > norm_tolerance) at.fail(not_a_unit_quaternion(norm));
+  return {xyzw.w() / norm, xyzw.x() / norm, xyzw.y() / norm, xyzw.z() / norm};
 }
 
 void LineFields::skip_blanks() {
@@ -98,13 +110,11 @@ Eigen::Quaterniond LineFields::normalised_quaternion(double norm_tolerance) {
   const double y = number("qy");
   const double z = number("qz");
   const double w = number("qw");
-  const double norm = std::hypot(std::hypot(x, y), std::hypot(z, w));
-  if (norm < kSmallestQuaternionNorm) fail("the quaternion is zero");
-  if (!std::isfinite(norm)) fail("the quaternion is too large to be normalised");
-  if (!at_->terminated() && empty() && std::abs(norm - 1) > kTornQuaternionTolerance)
+  const double norm = quaternion_norm({x, y, z, w});
+  const bool may_be_torn = !at_->terminated() && empty() && norm >= kSmallestQuaternionNorm;
+  if (may_be_torn && std::abs(norm - 1) > kTornQuaternionTolerance)
     fail("the file ends in this line, and its quaternion is not of unit length: the line is torn");
-  if (std::abs(norm - 1) > norm_tolerance) fail(not_a_unit_quaternion(norm));
-  return {w / norm, x / norm, y / norm, z / norm};
+  return quaternion_in(*at_, {x, y, z, w}, norm_tolerance);
 }
 
 SE3 LineFields::pose() {

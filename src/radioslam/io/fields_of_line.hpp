@@ -21,6 +21,8 @@ double coordinate_in(const TextLines& at, std::string_view field, std::string_vi
 Stamp stamp_in(const TextLines& at, std::string_view field, std::string_view what);
 /// Not negative.
 double sigma_in(const TextLines& at, std::string_view field, std::string_view what);
+/// Normalised; refused where its norm is further from 1 than the tolerance, or zero.
+Eigen::Quaterniond quaternion_in(const TextLines& at, const Eigen::Vector4d& xyzw, double norm_tolerance);
 
 /// The refusal of a quaternion that is no orientation.
 std::string not_a_unit_quaternion(double norm);

@@ -5,7 +5,9 @@
 
 #include "radioslam/io/atomic_output.hpp"
 #include "radioslam/io/mission_yaml.hpp"
+#include "radioslam/io/robot_tables.hpp"
 #include "radioslam/io/team_tables.hpp"
+#include "radioslam/io/truth_labels.hpp"
 #include "radioslam/io/tum.hpp"
 #include "radioslam/io/wifi_csv.hpp"
 
@@ -25,15 +27,31 @@ void check_is_mission(const fs::path& folder) {
     throw InputError(folder.string(), 0, "is not a mission: it has no mission.yaml");
 }
 
-std::set<std::string, std::less<>> robot_ids(const Mission& mission) {
-  std::set<std::string, std::less<>> ids;
-  for (const Robot& robot : mission.robots) ids.insert(robot.id);
-  return ids;
+constexpr const char* kAnchors = "radio/anchors.csv";
+constexpr const char* kRanges = "radio/ranges.csv";
+constexpr const char* kArrivals = "radio/aoa.csv";
+constexpr const char* kMatches = "matches.csv";
+constexpr const char* kDirectPaths = "radio/direct_paths.csv";
+constexpr const char* kMatchLabels = "match_labels.csv";
+
+/// Hands a file's text to `use`, where there is such a file.
+template <class Use>
+void with_file(const fs::path& path, Use&& use) {
+  if (fs::exists(path)) use(read_text(path));
+}
+
+TeamNames names_of(const Mission& mission) {
+  TeamNames names;
+  for (std::size_t r = 0; r < mission.robots.size(); ++r)
+    names.robots.emplace(mission.robots[r].id, RobotIndex(r));
+  for (std::size_t k = 0; k < mission.anchors.size(); ++k)
+    names.anchors.emplace(mission.anchors[k].id, AnchorIndex(k));
+  return names;
 }
 
 /// Folders of robots that mission.yaml does not list, sorted.
 std::set<std::string> unknown_robot_folders(const fs::path& folder, const Mission& mission) {
-  const auto known = robot_ids(mission);
+  const auto known = names_of(mission).robots;
   std::set<std::string> unknown;
   if (!fs::is_directory(folder / "robots")) return unknown;
   for (const auto& entry : fs::directory_iterator(folder / "robots")) {
@@ -67,6 +85,61 @@ void read_wifi_of(const fs::path& folder, Mission& mission) {
   mission.access_points = std::move(recordings.access_points);
 }
 
+void read_fixes_of(const fs::path& folder, Mission& mission) {
+  for (Robot& robot : mission.robots)
+    with_file(robot_file(folder, robot.id, "gnss.csv"),
+              [&](const Text& text) { robot.fixes = read_fixes(text); });
+}
+
+void read_team_tables(const fs::path& folder, MissionFile& file) {
+  Mission& mission = file.mission;
+  with_file(folder / kAnchors, [&](const Text& text) {
+    mission.anchors = read_anchors(text, names_of(mission), mission.dimension);
+  });
+  TeamNames names = names_of(mission);
+  names.antennas = file.antennas;
+  with_file(folder / kRanges, [&](const Text& text) { mission.ranges = read_ranges(text, names); });
+  with_file(folder / kArrivals, [&](const Text& text) { mission.arrivals = read_arrivals(text, names); });
+  with_file(folder / kMatches, [&](const Text& text) { mission.matches = read_matches(text, names); });
+}
+
+/// What is there and read by no estimator; tables among it are checked.
+std::vector<std::string> unused_files(const fs::path& folder, const Mission& mission) {
+  std::vector<std::string> found;
+  for (const auto& [id, index] : names_of(mission).robots) {
+    with_file(robot_file(folder, id, "imu.csv"), [&](const Text& text) {
+      check_inertial(text);
+      found.push_back("robots/" + id + "/imu.csv");
+    });
+    if (fs::is_directory(robot_file(folder, id, "csi"))) found.push_back("robots/" + id + "/csi");
+  }
+  return found;
+}
+
+void write_robot(const fs::path& folder, const Robot& robot, const std::vector<std::string>& access_points) {
+  write_file(robot_file(folder, robot.id, "odometry.tum"), format_tum(robot.odometry));
+  if (!robot.wifi.empty())
+    write_file(robot_file(folder, robot.id, "wifi.csv"), format_wifi(robot.wifi, access_points));
+  if (!robot.fixes.empty()) write_file(robot_file(folder, robot.id, "gnss.csv"), format_fixes(robot.fixes));
+}
+
+void write_team_tables(const fs::path& folder, const Mission& mission) {
+  if (!mission.anchors.empty()) write_file(folder / kAnchors, format_anchors(mission));
+  if (!mission.ranges.empty()) write_file(folder / kRanges, format_ranges(mission));
+  if (!mission.arrivals.empty()) write_file(folder / kArrivals, format_arrivals(mission));
+  if (!mission.matches.empty()) write_file(folder / kMatches, format_matches(mission));
+}
+
+void write_truth(const fs::path& folder, const Mission& mission, const Truth& truth) {
+  for (const RobotTruth& robot : truth.robots)
+    if (!robot.poses.empty())
+      write_file(robot_file(folder, robot.id, "groundtruth.tum"), format_tum(robot.poses));
+  if (!truth.direct_paths.empty())
+    write_file(folder / kDirectPaths, format_direct_paths(mission, truth.direct_paths));
+  if (!truth.true_matches.empty())
+    write_file(folder / kMatchLabels, format_match_labels(mission, truth.true_matches));
+}
+
 bool all_unrotated(const Trajectory<SE3>& poses) {
   return std::all_of(poses.begin(), poses.end(),
                      [](const auto& p) { return p.pose.rotation().vec().isZero(0); });
@@ -84,7 +157,9 @@ Mission read_mission(const fs::path& folder) {
               "unknown robot '" + unknown + "': it has a folder under robots/ and is not listed");
   read_odometry(folder, yaml, file);
   read_wifi_of(folder, file.mission);
-  file.mission.unused_files = check_team_tables(folder, {robot_ids(file.mission)});
+  read_fixes_of(folder, file.mission);
+  read_team_tables(folder, file);
+  file.mission.unused_files = unused_files(folder, file.mission);
   return std::move(file.mission);
 }
 
@@ -98,19 +173,18 @@ Truth read_truth(const fs::path& folder, const Mission& mission) {
     entry.poses = read_tum(read_text(path));
     entry.has_orientation = !all_unrotated(entry.poses);
   }
+  with_file(folder / kDirectPaths,
+            [&](const Text& text) { truth.direct_paths = read_direct_paths(text, mission); });
+  with_file(folder / kMatchLabels,
+            [&](const Text& text) { truth.true_matches = read_match_labels(text, mission); });
   return truth;
 }
 
 void write_mission(const fs::path& folder, const Mission& mission, const Truth& truth) {
   write_file(folder / "mission.yaml", format_mission_yaml(mission));
-  for (const Robot& robot : mission.robots) {
-    write_file(robot_file(folder, robot.id, "odometry.tum"), format_tum(robot.odometry));
-    if (!robot.wifi.empty())
-      write_file(robot_file(folder, robot.id, "wifi.csv"), format_wifi(robot.wifi, mission.access_points));
-  }
-  for (const RobotTruth& robot : truth.robots)
-    if (!robot.poses.empty())
-      write_file(robot_file(folder, robot.id, "groundtruth.tum"), format_tum(robot.poses));
+  for (const Robot& robot : mission.robots) write_robot(folder, robot, mission.access_points);
+  write_team_tables(folder, mission);
+  write_truth(folder, mission, truth);
 }
 
 }  // namespace radioslam

@@ -8,12 +8,14 @@
 
 namespace radioslam {
 
-/// Reads robots/<id>/odometry.tum and wifi.csv; radio/*.csv and matches.csv are checked. Never reads the
-/// truth. Every refusal is an InputError; one that no single file is to blame for names mission.yaml.
+/// Reads mission.yaml, each robot's odometry.tum, wifi.csv and gnss.csv, radio/*.csv and matches.csv; checks
+/// imu.csv. Never reads the truth. Every refusal is an InputError; one that no single file is to blame for
+/// names mission.yaml.
 Mission read_mission(const std::filesystem::path& folder);
 
 /// Reads robots/<id>/groundtruth.tum of the mission's robots; a robot without one has no poses. A truth
-/// whose orientations are all the identity holds positions only.
+/// whose orientations are all the identity holds positions only. Also the labels of what was measured, where
+/// a simulator wrote them (truth_labels.hpp).
 Truth read_truth(const std::filesystem::path& folder, const Mission& mission);
 
 /// Writes a mission's files into an existing folder (see OutputFolder). Truth may be empty.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "radioslam/geometry/so3.hpp"
 #include "radioslam/io/numbers.hpp"
@@ -13,7 +14,17 @@ namespace {
 
 constexpr std::string_view kFormat = "radioslam-mission/1";
 constexpr std::size_t kLongestId = 200;  // a file's name has 255 bytes
-constexpr std::size_t kInitialPoseSize = 4;
+constexpr std::size_t kPositionSize = 3;
+constexpr std::size_t kInitialPoseSize = 4;  // and a yaw
+constexpr double kFullView_deg = 360;
+
+bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
+
+bool is_usable_id(const std::string& id) {
+  if (id.empty() || id.size() > kLongestId || id.front() == '.' || id.front() == '#') return false;
+  if (id.find("..") != std::string::npos || trim(id) != id) return false;
+  return id.find_first_of("/\\,\"") == std::string::npos && std::none_of(id.begin(), id.end(), is_control);
+}
 
 double sigma_at(const Text& text, const YAML::Node& node, const std::string& what) {
   const double value = number_at(text, node, what);
@@ -29,12 +40,43 @@ void read_odometry_noise(const Text& text, const YAML::Node& node, OdometryNoise
   read_yaml_map(text, node, "odometry", keys);
 }
 
-void read_lidar(const Text& text, const YAML::Node& node, double& range_m) {
-  read_yaml_map(text, node, "lidar", {{"range_m", [&](const YAML::Node& value) {
-                                         range_m = number_at(text, value, "range_m");
-                                         if (range_m <= 0)
-                                           text.fail(line_of(value), "range_m is not positive");
-                                       }}});
+double view_rad_at(const Text& text, const YAML::Node& node) {
+  const double view_deg = number_at(text, node, "view_deg");
+  if (view_deg <= 0 || view_deg > kFullView_deg) text.fail(line_of(node), "view_deg is not in (0, 360]");
+  return view_deg == kFullView_deg ? 2 * std::numbers::pi : view_deg * std::numbers::pi / 180;
+}
+
+void read_lidar(const Text& text, const YAML::Node& node, Robot& robot) {
+  read_yaml_map(
+      text, node, "lidar",
+      {{"range_m",
+        [&](const YAML::Node& value) {
+          robot.lidar_range_m = number_at(text, value, "range_m");
+          if (robot.lidar_range_m <= 0) text.fail(line_of(value), "range_m is not positive");
+        }},
+       {"view_deg", [&](const YAML::Node& value) { robot.lidar_view_rad = view_rad_at(text, value); }}});
+}
+
+/// The first three values of a sequence; `what` names them in a refusal.
+Eigen::Vector3d position_at(const Text& text, const YAML::Node& node, const std::string& what) {
+  Eigen::Vector3d position;
+  for (std::size_t k = 0; k < kPositionSize; ++k) {
+    const double value = number_at(text, node[k], what);
+    if (std::abs(value) > kLargestCoordinate_m)
+      text.fail(line_of(node[k]), what + " is not a plausible coordinate (more than 1e8 m)");
+    position(static_cast<Eigen::Index>(k)) = value;
+  }
+  return position;
+}
+
+void read_antennas(const Text& text, const YAML::Node& node, Antennas& antennas) {
+  for_each_key(text, node, "antennas", [&](const YamlEntry& entry) {
+    const std::string what = "antenna '" + entry.key + "'";
+    if (!is_usable_id(entry.key)) text.fail(entry.line, what + ": a table cannot name it so");
+    if (!entry.value.IsSequence() || entry.value.size() != kPositionSize)
+      text.fail(entry.line, what + " is not [x, y, z]");
+    antennas[entry.key] = position_at(text, entry.value, what);
+  });
 }
 
 Heading heading_at(const Text& text, const YAML::Node& node) {
@@ -49,46 +91,43 @@ std::optional<SE3> initial_pose_at(const Text& text, const YAML::Node& node) {
   if (node.IsScalar() && node.Scalar() == "unknown") return std::nullopt;
   if (!node.IsSequence() || node.size() != kInitialPoseSize)
     text.fail(line_of(node), "initial_pose is neither unknown nor [x, y, z, yaw]");
-  Eigen::Vector4d values;
-  for (std::size_t k = 0; k < kInitialPoseSize; ++k) {
-    values(static_cast<Eigen::Index>(k)) = number_at(text, node[k], "initial_pose");
-    if (std::abs(values(static_cast<Eigen::Index>(k))) > kLargestCoordinate_m)
-      text.fail(line_of(node[k]), "initial_pose is not a plausible coordinate (more than 1e8 m)");
-  }
-  return SE3(values.head<3>(), so3_exp({0, 0, wrap_angle(values(3))}));
+  const Eigen::Vector3d position = position_at(text, node, "initial_pose");
+  const double yaw = number_at(text, node[kPositionSize], "initial_pose");
+  return SE3(position, so3_exp({0, 0, wrap_angle(yaw)}));
 }
 
-void apply_settings(const Text& text, const YAML::Node& node, const std::string& what, Robot& robot) {
+/// What stands under defaults and under each robot.
+struct RobotSettings {
+  Robot robot;
+  Antennas antennas;
+};
+
+void apply_settings(const Text& text, const YAML::Node& node, const std::string& what,
+                    RobotSettings& settings) {
+  Robot& robot = settings.robot;
   read_yaml_map(
       text, node, what,
       {{"odometry", [&](const YAML::Node& value) { read_odometry_noise(text, value, robot.odometry_noise); }},
-       {"lidar", [&](const YAML::Node& value) { read_lidar(text, value, robot.lidar_range_m); }},
+       {"lidar", [&](const YAML::Node& value) { read_lidar(text, value, robot); }},
        {"heading", [&](const YAML::Node& value) { robot.heading = heading_at(text, value); }},
        {"sigma_heading_rad",
         [&](const YAML::Node& value) {
           robot.sigma_heading_rad = sigma_at(text, value, "sigma_heading_rad");
         }},
        {"initial_pose", [&](const YAML::Node& value) { robot.initial_pose = initial_pose_at(text, value); }},
-       {"antennas", [](const YAML::Node&) {}}});
+       {"antennas", [&](const YAML::Node& value) { read_antennas(text, value, settings.antennas); }}});
 }
 
-bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
-
-bool is_usable_id(const std::string& id) {
-  if (id.empty() || id.size() > kLongestId || id.front() == '.' || id.front() == '#') return false;
-  if (id.find("..") != std::string::npos || trim(id) != id) return false;
-  return id.find_first_of("/\\,\"") == std::string::npos && std::none_of(id.begin(), id.end(), is_control);
-}
-
-void read_robots(const Text& text, const YAML::Node& node, const Robot& defaults, MissionFile& file) {
+void read_robots(const Text& text, const YAML::Node& node, const RobotSettings& defaults, MissionFile& file) {
   file.robots_line = line_of(node);
   for_each_key(text, node, "robots", [&](const YamlEntry& entry) {
     if (!is_usable_id(entry.key))
       text.fail(entry.line, "the robot's id '" + entry.key + "' cannot be the name of a file");
-    Robot robot = defaults;
-    robot.id = entry.key;
-    apply_settings(text, entry.value, "robot '" + entry.key + "'", robot);
-    file.mission.robots.push_back(std::move(robot));
+    RobotSettings settings = defaults;
+    settings.robot.id = entry.key;
+    apply_settings(text, entry.value, "robot '" + entry.key + "'", settings);
+    file.mission.robots.push_back(std::move(settings.robot));
+    file.antennas.push_back(std::move(settings.antennas));
     file.robot_lines.push_back(entry.line);
   });
   if (file.mission.robots.empty()) text.fail(file.robots_line, "there are no robots");
@@ -119,7 +158,7 @@ MissionFile read_mission_node(const Text& text, const YAML::Node& root, const st
   if (!format.IsDefined() || format.IsNull())
     text.fail(1, "'format: " + std::string(kFormat) + "' is missing");
   check_format(text, format);
-  Robot common;
+  RobotSettings common;
   apply_settings(text, defaults, "defaults", common);
   if (robots.IsNull()) text.fail(1, "'robots' is missing");
   read_robots(text, robots, common, file);

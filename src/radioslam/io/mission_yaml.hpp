@@ -7,16 +7,17 @@
 //   defaults:
 //     odometry: {sigma_xy_per_sqrt_m: 0.02, sigma_yaw_per_sqrt_m_rad: 0.002, sigma_yaw_per_rad: 0.01,
 //                sigma_z_per_sqrt_m: 0.01, sigma_yaw_drift_per_m_rad: 0, sigma_scale: 0}
-//     lidar: {range_m: 30}
+//     lidar: {range_m: 30, view_deg: 360}    # width of the horizontal field of view about body x
 //     heading: relative                 # or absolute
 //     sigma_heading_rad: 0.2            # of an absolute heading
 //     initial_pose: unknown             # or [x, y, z, yaw] in the common frame
-//     antennas: {...}                   # not used yet
+//     antennas: {front: [0.2, 0, 0.1]}  # where each sits in the body frame
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "radioslam/io/team_names.hpp"
 #include "radioslam/io/text.hpp"
 #include "radioslam/mission/mission.hpp"
 
@@ -25,6 +26,7 @@ namespace radioslam {
 /// The file's content: a mission without recordings, and where in the file its robots stand.
 struct MissionFile {
   Mission mission;
+  std::vector<Antennas> antennas;  ///< per robot
   std::vector<std::size_t> robot_lines;
   std::size_t robots_line = 1;
 };
@@ -32,7 +34,7 @@ struct MissionFile {
 /// Refuses unknown and doubled keys, values out of range, ids that cannot be a file's name.
 MissionFile read_mission_yaml(const Text& text, const std::string& default_name);
 
-/// Everything of the mission but its recordings.
+/// Everything of the mission but its recordings; of the antennas those that its ranges name.
 std::string format_mission_yaml(const Mission& mission);
 
 }  // namespace radioslam

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <numbers>
 
 #include "radioslam/io/mission_yaml.hpp"
 #include "radioslam/io/numbers.hpp"
@@ -45,14 +46,41 @@ std::string noise_value(const OdometryNoise& noise) {
   return "{" + out + "}";
 }
 
+std::string position_value(const Eigen::Vector3d& position) {
+  return "[" + format_number(position.x()) + ", " + format_number(position.y()) + ", " +
+         format_number(position.z()) + "]";
+}
+
+std::string lidar_value(const Robot& robot) {
+  const double view_deg = robot.lidar_view_rad * 180 / std::numbers::pi;
+  return "{range_m: " + format_number(robot.lidar_range_m) + ", view_deg: " + format_number(view_deg) + "}";
+}
+
+/// The antennas of each robot that some range names.
+std::vector<Antennas> antennas_of(const Mission& mission) {
+  std::vector<Antennas> antennas(mission.robots.size());
+  for (const RangeMeasurement& range : mission.ranges)
+    for (const RadioEnd* end : {&range.i, &range.j})
+      if (!end->antenna.empty()) antennas[end->robot.index()][end->antenna] = end->lever_arm_m;
+  return antennas;
+}
+
+std::string antennas_value(const Antennas& antennas) {
+  std::string out;
+  for (const auto& [name, position] : antennas)
+    out += (out.empty() ? "" : ", ") + quoted(name) + ": " + position_value(position);
+  return "{" + out + "}";
+}
+
 using Setting = std::pair<std::string, std::string>;
 
-std::vector<Setting> settings_of(const Robot& robot) {
+std::vector<Setting> settings_of(const Robot& robot, const Antennas& antennas) {
   return {{"odometry", noise_value(robot.odometry_noise)},
-          {"lidar", "{range_m: " + format_number(robot.lidar_range_m) + "}"},
+          {"lidar", lidar_value(robot)},
           {"heading", robot.heading == Heading::kAbsolute ? "absolute" : "relative"},
           {"sigma_heading_rad", format_number(robot.sigma_heading_rad)},
-          {"initial_pose", initial_pose_value(robot.initial_pose)}};
+          {"initial_pose", initial_pose_value(robot.initial_pose)},
+          {"antennas", antennas_value(antennas)}};
 }
 
 /// The settings that differ from the defaults, in flow style.
@@ -69,11 +97,14 @@ std::string overrides(const std::vector<Setting>& defaults, const std::vector<Se
 std::string format_mission_yaml(const Mission& mission) {
   Robot common = mission.robots.empty() ? Robot{} : mission.robots.front();
   common.initial_pose.reset();
-  const std::vector<Setting> defaults = settings_of(common);
+  const std::vector<Setting> defaults = settings_of(common, {});
+  const std::vector<Antennas> antennas = antennas_of(mission);
   std::string out = "format: radioslam-mission/1\nname: " + quoted(mission.name) +
                     "\ndimension: " + std::to_string(mission.dimension) + "\nrobots:\n";
-  for (const Robot& robot : mission.robots)
-    out += "  " + quoted(robot.id) + ": " + overrides(defaults, settings_of(robot)) + "\n";
+  for (std::size_t r = 0; r < mission.robots.size(); ++r) {
+    const Robot& robot = mission.robots[r];
+    out += "  " + quoted(robot.id) + ": " + overrides(defaults, settings_of(robot, antennas[r])) + "\n";
+  }
   out += "defaults:\n";
   for (const auto& [key, value] : defaults) out += "  " + key + ": " + value + "\n";
   return out;

@@ -1,89 +1,61 @@
 #include "radioslam/io/team_tables.hpp"
 
-#include <cmath>
-#include <functional>
+#include <algorithm>
+#include <map>
 #include <optional>
-#include <vector>
+#include <set>
+#include <tuple>
+#include <utility>
 
 #include "radioslam/io/csv.hpp"
-#include "radioslam/io/fields_of_line.hpp"
 
 namespace radioslam {
 namespace {
 
-/// What a column holds.
-enum class Kind {
-  kTime,
-  kRobot,
-  kEnd,  ///< a robot or an anchor
-  kName,
-  kNumber,
-  kCoordinate,
-  kDistance,
-  kCoordinateOrEmpty,
-  kSigma,
-  kSigmaOrEmpty,  ///< may be 0
-};
-
-struct Column {
-  std::string_view name;
-  Kind kind;
-};
-
-void check_name(const CsvReader& csv, std::size_t column, const TeamNames& names, Kind kind) {
-  const std::string_view name = csv.field(column);
-  if (names.robots.contains(name) || (kind == Kind::kEnd && names.anchors.contains(name))) return;
-  csv.fail("unknown robot '" + std::string(name) + "'");
+RobotIndex robot_at(const CsvReader& csv, std::size_t column, const TeamNames& names) {
+  const auto found = names.robots.find(csv.field(column));
+  if (found == names.robots.end()) csv.fail("unknown robot '" + std::string(csv.field(column)) + "'");
+  return found->second;
 }
 
-void check_field(const CsvReader& csv, std::size_t column, Kind kind, const TeamNames& names) {
-  const bool empty = csv.field(column).empty();
-  switch (kind) {
-    case Kind::kTime:
-      csv.stamp(column);
-      return;
-    case Kind::kRobot:
-    case Kind::kEnd:
-      return check_name(csv, column, names, kind);
-    case Kind::kName:
-      if (empty) csv.fail("the id is empty");
-      return;
-    case Kind::kNumber:
-      csv.number(column);
-      return;
-    case Kind::kCoordinateOrEmpty:
-      if (empty) return;
-      [[fallthrough]];
-    case Kind::kCoordinate:
-      csv.coordinate(column);
-      return;
-    case Kind::kDistance:
-      if (csv.coordinate(column) < 0) csv.fail("a distance is negative");
-      return;
-    case Kind::kSigmaOrEmpty:
-      if (!empty) csv.sigma(column);
-      return;
-    case Kind::kSigma:
-      if (csv.sigma(column) <= 0) csv.fail("a sigma is zero");
-      return;
-  }
+/// A robot or an anchor.
+RadioEnd end_at(const CsvReader& csv, std::size_t column, const TeamNames& names) {
+  RadioEnd end;
+  const auto anchor = names.anchors.find(csv.field(column));
+  if (anchor != names.anchors.end())
+    end.anchor = anchor->second;
+  else
+    end.robot = robot_at(csv, column, names);
+  return end;
 }
 
-CsvReader::Columns names_of(const std::vector<Column>& columns) {
-  CsvReader::Columns result;
-  for (const Column& column : columns) result.required.push_back(column.name);
-  return result;
+bool is_given(const CsvReader& csv, std::size_t column) {
+  return csv.has(column) && !csv.field(column).empty();
 }
 
-/// Checks field by field, then each row as a whole.
-void check_table(
-    const Text& text, const std::vector<Column>& columns, const TeamNames& names,
-    const std::function<void(const CsvReader&)>& check_row = [](const CsvReader&) {}) {
-  CsvReader csv(text, names_of(columns));
-  while (csv.next()) {
-    for (std::size_t k = 0; k < columns.size(); ++k) check_field(csv, k, columns[k].kind, names);
-    check_row(csv);
-  }
+void read_antenna(const CsvReader& csv, std::size_t column, const TeamNames& names, RadioEnd& end) {
+  if (!is_given(csv, column)) return;
+  end.antenna = csv.field(column);
+  if (!end.robot.valid()) csv.fail("an anchor has no antenna '" + end.antenna + "'");
+  const Antennas none;
+  const Antennas& antennas =
+      end.robot.index() < names.antennas.size() ? names.antennas[end.robot.index()] : none;
+  const auto found = antennas.find(end.antenna);
+  if (found == antennas.end())
+    csv.fail("unknown antenna '" + end.antenna + "': mission.yaml lists none of this name for the robot");
+  end.lever_arm_m = found->second;
+}
+
+double distance_at(const CsvReader& csv, std::size_t column) {
+  const double distance_m = csv.coordinate(column);
+  if (distance_m < 0) csv.fail("a distance is negative");
+  return distance_m;
+}
+
+double positive_sigma(const CsvReader& csv, std::size_t column) {
+  const double sigma = csv.sigma(column);
+  if (sigma <= 0) csv.fail("a sigma is zero");
+  return sigma;
 }
 
 /// Refuses a row whose ends, in these columns, are one robot or one anchor.
@@ -92,118 +64,144 @@ void refuse_itself(const CsvReader& csv, std::size_t end_i, std::size_t end_j, c
     csv.fail(what + " '" + std::string(csv.field(end_i)) + "' with itself");
 }
 
-void refuse_unless_unit_quaternion(const CsvReader& csv, std::size_t first) {
-  const double norm = std::hypot(std::hypot(csv.number(first), csv.number(first + 1)),
-                                 std::hypot(csv.number(first + 2), csv.number(first + 3)));
-  if (!(std::abs(norm - 1) <= kUnitQuaternionTolerance)) csv.fail(not_a_unit_quaternion(norm));
+template <class Measurement>
+void sort_by_time(std::vector<Measurement>& measurements) {
+  std::stable_sort(measurements.begin(), measurements.end(),
+                   [](const Measurement& a, const Measurement& b) { return a.stamp < b.stamp; });
+}
+
+RangeMeasurement range_at(const CsvReader& csv, const TeamNames& names) {
+  enum : std::size_t { kTime, kI, kJ, kRange, kSigma, kAntennaI, kAntennaJ };
+  RangeMeasurement range;
+  range.stamp = csv.stamp(kTime);
+  range.i = end_at(csv, kI, names);
+  range.j = end_at(csv, kJ, names);
+  if (!range.i.robot.valid() && !range.j.robot.valid()) csv.fail("neither end is a robot");
+  refuse_itself(csv, kI, kJ, "a range of");
+  range.range_m = distance_at(csv, kRange);
+  range.sigma_m = positive_sigma(csv, kSigma);
+  read_antenna(csv, kAntennaI, names, range.i);
+  read_antenna(csv, kAntennaJ, names, range.j);
+  return range;
+}
+
+/// One row of aoa.csv: a path and what it belongs to.
+struct PathRow {
+  Stamp stamp;
+  RobotIndex receiver;
+  RadioEnd transmitter;
+  double number = 0;
+  ArrivalPath path;
+};
+
+PathRow path_at(const CsvReader& csv, const TeamNames& names) {
+  enum : std::size_t { kTime, kReceiver, kTransmitter, kPath, kAzimuth, kElevation, kSigma, kPower };
+  PathRow row;
+  row.stamp = csv.stamp(kTime);
+  row.receiver = robot_at(csv, kReceiver, names);
+  row.transmitter = end_at(csv, kTransmitter, names);
+  refuse_itself(csv, kReceiver, kTransmitter, "an angle of");
+  row.number = csv.number(kPath);
+  row.path.azimuth_rad = wrap_angle(csv.number(kAzimuth));
+  if (is_given(csv, kElevation)) row.path.elevation_rad = wrap_angle(csv.number(kElevation));
+  row.path.sigma_rad = positive_sigma(csv, kSigma);
+  if (is_given(csv, kPower)) row.path.power_db = csv.number(kPower);
+  return row;
+}
+
+std::vector<PathRow> read_paths(const Text& text, const TeamNames& names) {
+  CsvReader csv(text, {{"t_s", "receiver", "transmitter", "path", "azimuth_rad", "elevation_rad", "sigma_rad",
+                        "power_db"}});
+  std::vector<PathRow> rows;
+  while (csv.next()) rows.push_back(path_at(csv, names));
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const PathRow& a, const PathRow& b) { return a.stamp < b.stamp; });
+  return rows;
+}
+
+std::optional<double> coordinate_or_empty(const CsvReader& csv, std::size_t column) {
+  if (csv.field(column).empty()) return std::nullopt;
+  return csv.coordinate(column);
+}
+
+Anchor anchor_at(const CsvReader& csv, int dimension) {
+  enum : std::size_t { kId, kX, kY, kZ, kSigma };
+  Anchor anchor;
+  anchor.id = csv.field(kId);
+  if (anchor.id.empty()) csv.fail("the id is empty");
+  const auto x = coordinate_or_empty(csv, kX);
+  const auto y = coordinate_or_empty(csv, kY);
+  const auto z = coordinate_or_empty(csv, kZ);
+  if (x && y && (z || dimension == 2)) anchor.position_m = Eigen::Vector3d(*x, *y, z.value_or(0));
+  if (!csv.field(kSigma).empty()) anchor.sigma_m = csv.sigma(kSigma);
+  return anchor;
+}
+
+PoseMatch match_at(const CsvReader& csv, const TeamNames& names) {
+  enum : std::size_t { kI, kTimeI, kJ, kTimeJ, kX, kY, kZ, kRotation, kSigmaT = kRotation + 4, kSigmaR };
+  PoseMatch match;
+  match.robot_i = robot_at(csv, kI, names);
+  match.stamp_i = csv.stamp(kTimeI);
+  match.robot_j = robot_at(csv, kJ, names);
+  match.stamp_j = csv.stamp(kTimeJ);
+  if (match.stamp_i == match.stamp_j) refuse_itself(csv, kI, kJ, "a match at one time of");
+  const Eigen::Vector3d position(csv.coordinate(kX), csv.coordinate(kY), csv.coordinate(kZ));
+  match.T_i_j = SE3(position, csv.quaternion(kRotation));
+  match.sigma_t_m = positive_sigma(csv, kSigmaT);
+  match.sigma_r_rad = positive_sigma(csv, kSigmaR);
+  return match;
 }
 
 }  // namespace
 
-void check_ranges(const Text& text, const TeamNames& names) {
-  check_table(text,
-              {{"t_s", Kind::kTime},
-               {"robot_i", Kind::kEnd},
-               {"robot_j", Kind::kEnd},
-               {"range_m", Kind::kDistance},
-               {"sigma_m", Kind::kSigma}},
-              names, [](const CsvReader& csv) { refuse_itself(csv, 1, 2, "a range of"); });
-}
-
-void check_angles(const Text& text, const TeamNames& names) {
-  check_table(text,
-              {{"t_s", Kind::kTime},
-               {"receiver", Kind::kRobot},
-               {"transmitter", Kind::kEnd},
-               {"path", Kind::kNumber},
-               {"azimuth_rad", Kind::kNumber},
-               {"elevation_rad", Kind::kNumber},
-               {"sigma_rad", Kind::kSigma},
-               {"power_db", Kind::kNumber}},
-              names, [](const CsvReader& csv) { refuse_itself(csv, 1, 2, "an angle of"); });
-}
-
-void check_matches(const Text& text, const TeamNames& names) {
-  check_table(text,
-              {{"robot_i", Kind::kRobot},
-               {"t_i_s", Kind::kTime},
-               {"robot_j", Kind::kRobot},
-               {"t_j_s", Kind::kTime},
-               {"x", Kind::kCoordinate},
-               {"y", Kind::kCoordinate},
-               {"z", Kind::kCoordinate},
-               {"qx", Kind::kNumber},
-               {"qy", Kind::kNumber},
-               {"qz", Kind::kNumber},
-               {"qw", Kind::kNumber},
-               {"sigma_t_m", Kind::kSigma},
-               {"sigma_r_rad", Kind::kSigma}},
-              names, [](const CsvReader& csv) {
-                if (csv.stamp(1) == csv.stamp(3)) refuse_itself(csv, 0, 2, "a match at one time of");
-                refuse_unless_unit_quaternion(csv, 7);
-              });
-}
-
-std::set<std::string, std::less<>> read_anchor_ids(const Text& text, const TeamNames& names) {
-  const std::vector<Column> columns = {{"id", Kind::kName},
-                                       {"x_m", Kind::kCoordinateOrEmpty},
-                                       {"y_m", Kind::kCoordinateOrEmpty},
-                                       {"z_m", Kind::kCoordinateOrEmpty},
-                                       {"sigma_m", Kind::kSigmaOrEmpty}};
-  check_table(text, columns, names);
-  std::set<std::string, std::less<>> ids;
-  CsvReader csv(text, names_of(columns));
+std::vector<Anchor> read_anchors(const Text& text, const TeamNames& names, int dimension) {
+  CsvReader csv(text, {{"id", "x_m", "y_m", "z_m", "sigma_m"}});
+  std::vector<Anchor> anchors;
+  std::set<std::string> ids;
   while (csv.next()) {
-    const std::string id(csv.field(0));
+    anchors.push_back(anchor_at(csv, dimension));
+    const std::string& id = anchors.back().id;
     if (names.robots.contains(id)) csv.fail("the anchor '" + id + "' has the id of a robot");
     if (!ids.insert(id).second) csv.fail("the anchor '" + id + "' stands there twice");
   }
-  return ids;
+  return anchors;
 }
 
-void check_inertial(const Text& text) {
-  const std::vector<Column> columns = {{"t_s", Kind::kTime},        {"ax_mps2", Kind::kNumber},
-                                       {"ay_mps2", Kind::kNumber},  {"az_mps2", Kind::kNumber},
-                                       {"wx_radps", Kind::kNumber}, {"wy_radps", Kind::kNumber},
-                                       {"wz_radps", Kind::kNumber}};
-  check_table(text, columns, {});
-  CsvReader csv(text, names_of(columns));
-  std::optional<Stamp> last;
-  while (csv.next()) {
-    const Stamp stamp = csv.stamp(0);
-    if (last && stamp <= *last) csv.fail("time does not run forward");
-    last = stamp;
+std::vector<RangeMeasurement> read_ranges(const Text& text, const TeamNames& names) {
+  CsvReader csv(text, {{"t_s", "robot_i", "robot_j", "range_m", "sigma_m"}, {"antenna_i", "antenna_j"}});
+  std::vector<RangeMeasurement> ranges;
+  while (csv.next()) ranges.push_back(range_at(csv, names));
+  sort_by_time(ranges);
+  return ranges;
+}
+
+std::vector<ArrivalMeasurement> read_arrivals(const Text& text, const TeamNames& names) {
+  std::vector<ArrivalMeasurement> arrivals;
+  std::vector<std::vector<std::pair<double, ArrivalPath>>> numbered;
+  std::map<std::tuple<Stamp, RobotIndex, RobotIndex, AnchorIndex>, std::size_t> places;
+  for (const PathRow& row : read_paths(text, names)) {
+    const auto [place, is_new] = places.try_emplace(
+        {row.stamp, row.receiver, row.transmitter.robot, row.transmitter.anchor}, arrivals.size());
+    if (is_new) {
+      arrivals.push_back({row.stamp, row.receiver, row.transmitter, {}});
+      numbered.emplace_back();
+    }
+    numbered[place->second].emplace_back(row.number, row.path);
   }
-}
-
-void check_fixes(const Text& text) {
-  check_table(text,
-              {{"t_s", Kind::kTime},
-               {"x_m", Kind::kCoordinate},
-               {"y_m", Kind::kCoordinate},
-               {"z_m", Kind::kCoordinate},
-               {"sigma_m", Kind::kSigma}},
-              {});
-}
-
-std::vector<std::string> check_team_tables(const std::filesystem::path& mission_folder, TeamNames names) {
-  std::vector<std::string> found;
-  const auto with = [&](const std::string& name, const auto& check) {
-    const std::filesystem::path path = mission_folder / name;
-    if (!std::filesystem::exists(path)) return;
-    check(read_text(path));
-    found.push_back(name);
-  };
-  for (const std::string& robot : names.robots) {
-    const std::string folder = "robots/" + robot;
-    with(folder + "/imu.csv", [](const Text& text) { check_inertial(text); });
-    with(folder + "/gnss.csv", [](const Text& text) { check_fixes(text); });
+  for (std::size_t k = 0; k < arrivals.size(); ++k) {
+    std::stable_sort(numbered[k].begin(), numbered[k].end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (const auto& [number, path] : numbered[k]) arrivals[k].paths.push_back(path);
   }
-  with("radio/anchors.csv", [&](const Text& text) { names.anchors = read_anchor_ids(text, names); });
-  with("radio/ranges.csv", [&](const Text& text) { check_ranges(text, names); });
-  with("radio/aoa.csv", [&](const Text& text) { check_angles(text, names); });
-  with("matches.csv", [&](const Text& text) { check_matches(text, names); });
-  return found;
+  return arrivals;
+}
+
+std::vector<PoseMatch> read_matches(const Text& text, const TeamNames& names) {
+  CsvReader csv(text, {{"robot_i", "t_i_s", "robot_j", "t_j_s", "x", "y", "z", "qx", "qy", "qz", "qw",
+                        "sigma_t_m", "sigma_r_rad"}});
+  std::vector<PoseMatch> matches;
+  while (csv.next()) matches.push_back(match_at(csv, names));
+  return matches;
 }
 
 }  // namespace radioslam

@@ -1,37 +1,37 @@
-// The tables of a mission that no estimator reads yet: radio/ranges.csv, radio/aoa.csv, radio/anchors.csv,
-// matches.csv, and each robot's imu.csv and gnss.csv. They are checked as a whole; nothing is taken from
-// them. Sigmas are positive; only an anchor's may be 0, where its place is known exactly.
+// The tables about several robots: radio/anchors.csv, radio/ranges.csv, radio/aoa.csv and matches.csv.
+// Rows come in any order. Every row is checked: names that belong to nobody, numbers that are not finite,
+// coordinates beyond 1e8 m, negative distances and sigmas are refused with their line.
 #pragma once
 
-#include <filesystem>
-#include <functional>
-#include <set>
 #include <string>
 #include <vector>
 
+#include "radioslam/io/team_names.hpp"
 #include "radioslam/io/text.hpp"
+#include "radioslam/mission/mission.hpp"
 
 namespace radioslam {
 
-/// Which names an end of a measurement may have.
-struct TeamNames {
-  std::set<std::string, std::less<>> robots;
-  std::set<std::string, std::less<>> anchors = {};
-};
+/// `id,x_m,y_m,z_m,sigma_m`. A position is known when x and y stand there, and z as well or the mission is
+/// of the plane (z = 0). Refuses an id that stands there twice or is a robot's.
+std::vector<Anchor> read_anchors(const Text& text, const TeamNames& names, int dimension);
 
-/// Refuse malformed rows, names that belong to nobody, and measurements of a robot by itself. A match of one
-/// robot with itself ties two times of it; at one time it is refused too.
-void check_ranges(const Text& text, const TeamNames& names);
-void check_angles(const Text& text, const TeamNames& names);
-void check_matches(const Text& text, const TeamNames& names);
-/// The ids of radio/anchors.csv; refuses also an id that stands there twice or is a robot's.
-std::set<std::string, std::less<>> read_anchor_ids(const Text& text, const TeamNames& names);
+/// `t_s,robot_i,robot_j,range_m,sigma_m[,antenna_i,antenna_j]`, in the order of time, then of the rows.
+/// Refuses antennas that mission.yaml does not list, and a range without a robot or of a robot to itself.
+std::vector<RangeMeasurement> read_ranges(const Text& text, const TeamNames& names);
 
-/// Inertial rows, which must run forward in time, and position fixes.
-void check_inertial(const Text& text);
-void check_fixes(const Text& text);
+/// `t_s,receiver,transmitter,path,azimuth_rad,elevation_rad,sigma_rad,power_db`. The rows that share the
+/// first three are one measurement, its paths in the order of `path`; measurements in the order of time,
+/// then of their first rows. Angles are wrapped; an empty elevation was not measured, an empty power is 0.
+std::vector<ArrivalMeasurement> read_arrivals(const Text& text, const TeamNames& names);
 
-/// Checks those of the tables that a mission's folder has, and returns their names within it.
-std::vector<std::string> check_team_tables(const std::filesystem::path& mission_folder, TeamNames names);
+/// `robot_i,t_i_s,robot_j,t_j_s,x,y,z,qx,qy,qz,qw,sigma_t_m,sigma_r_rad`, in the order of the rows.
+std::vector<PoseMatch> read_matches(const Text& text, const TeamNames& names);
+
+/// The texts that read back as the mission's. An end with a lever arm must have an antenna's name.
+std::string format_anchors(const Mission& mission);
+std::string format_ranges(const Mission& mission);
+std::string format_arrivals(const Mission& mission);
+std::string format_matches(const Mission& mission);
 
 }  // namespace radioslam
