@@ -27,7 +27,8 @@ std::string split_team() {
   sample.result.components = {{{"a", "b"}}, {{"c"}}};
   sample.result.unplaced = {"d"};
   sample.result.robots[3].placed = false;
-  sample.result.hypothesis_weights = {0.8, 0.2};
+  sample.result.weight = 0.8;
+  sample.result.alternatives = {{0.2, sample.result.robots}};
   sample.result.parameters.clear();
   return render_report(sample.result);
 }

@@ -36,7 +36,9 @@ Json count_json(double count) {
 Json team_frame_json(const RunResult& result) {
   Json json = {{"components", Json::array()}, {"unplaced", result.unplaced}, {"hypotheses", Json::array()}};
   for (const Component& component : result.components) json["components"].push_back(component.robots);
-  for (const double weight : result.hypothesis_weights) json["hypotheses"].push_back({{"weight", weight}});
+  json["hypotheses"].push_back({{"weight", result.weight}});
+  for (const HypothesisResult& other : result.alternatives)
+    json["hypotheses"].push_back({{"weight", other.weight}});
   return json;
 }
 
@@ -44,6 +46,11 @@ std::vector<std::string> ids_of(const RunResult& result) {
   std::vector<std::string> ids;
   for (const RobotResult& robot : result.robots) ids.push_back(robot.id);
   return ids;
+}
+
+void write_trajectories(const std::filesystem::path& folder, const std::vector<RobotResult>& robots) {
+  for (const RobotResult& robot : robots)
+    if (!robot.estimate.empty()) write_file(folder / (robot.id + ".tum"), format_tum(robot.estimate));
 }
 
 }  // namespace
@@ -64,8 +71,9 @@ Json summary_json(const RunResult& result, const Json& metrics) {
 
 void write_run(const std::filesystem::path& folder, const RunResult& result, const RunDocuments& documents) {
   const std::vector<std::string> ids = ids_of(result);
-  for (const RobotResult& robot : result.robots)
-    if (!robot.estimate.empty()) write_file(folder / (robot.id + ".tum"), format_tum(robot.estimate));
+  write_trajectories(folder, result.robots);
+  for (std::size_t k = 0; k < result.alternatives.size(); ++k)
+    write_trajectories(folder / "hypotheses" / std::to_string(k + 1), result.alternatives[k].robots);
   write_file(folder / "candidates.csv", format_candidates(result.candidates, ids));
   write_file(folder / "closures.csv", format_closures(result.closures, ids));
   if (!documents.graph_g2o.empty()) write_file(folder / "graph.g2o", documents.graph_g2o);

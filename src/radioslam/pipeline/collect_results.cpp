@@ -17,63 +17,102 @@ typename Pose::Point end_position(const PoseGraph<Pose>& graph, const RangeEnd<P
   return graph.poses[end.pose.index()] * end.lever_arm;
 }
 
-/// T_report_graph of each component: components without a known pose are told in their first robot's start.
+/// T_report_graph of each component: those without a known pose are told in their first robot's start.
 template <class Pose>
-std::vector<Pose> component_frames(const Mission& mission, const JointGraph<Pose>& joint,
-                                   const TeamFrame& team_frame) {
-  std::vector<bool> known(mission.robots.size(), false), seen(mission.robots.size(), false);
-  std::vector<Pose> frames(mission.robots.size());
-  for (std::size_t r = 0; r < mission.robots.size(); ++r)
-    if (mission.robots[r].initial_pose) known[static_cast<std::size_t>(team_frame.component[r])] = true;
-  for (std::size_t r = 0; r < mission.robots.size(); ++r) {
-    const auto c = static_cast<std::size_t>(team_frame.component[r]);
-    if (seen[c] || known[c]) continue;
+std::vector<Pose> component_frames(const JointGraph<Pose>& joint, const std::vector<Pose>& poses,
+                                   const TeamPlacement<Pose>& placement) {
+  std::vector<Pose> frames(joint.robots.size());
+  std::vector<bool> seen(joint.robots.size(), false);
+  for (std::size_t r = 0; r < joint.robots.size(); ++r) {
+    const auto c = static_cast<std::size_t>(placement.component[r]);
+    if (seen[c] || placement.absolute[c]) continue;
     seen[c] = true;
-    const Pose first = joint.graph.poses[joint.robots[r].first_pose];
-    frames[c] = pose_as<Pose>(mission.robots[r].odometry.front().pose) * first.inverse();
+    const JointRobot& robot = joint.robots[r];
+    frames[c] = pose_as<Pose>(robot.odometry.front()) * poses[robot.poses.front().index()].inverse();
   }
   return frames;
 }
 
 template <class Pose>
-RobotResult collect_robot(const Robot& robot, const JointGraph<Pose>& joint, std::size_t r,
-                          const Pose& frame) {
-  const RobotVariables& variables = joint.robots[r];
+RobotResult collect_robot(const JointRobot& robot, const JointGraph<Pose>& joint,
+                          const std::vector<Pose>& poses, const Pose& frame) {
   RobotResult result;
   result.id = robot.id;
-  result.start_known = robot.initial_pose.has_value();
+  result.start_known = robot.T_common_start.has_value();
   std::vector<StampedPose<SE3>> estimate, odometry;
-  const SE3 first_odometry = robot.odometry.front().pose;
   SE3 T_frame_start;
-  for (std::size_t k = 0; k < variables.rows.size(); ++k) {
-    const SE3& by_odometry = robot.odometry[variables.rows[k]].pose;
-    const Pose pose = frame * joint.graph.poses[variables.first_pose + k];
-    const SE3 estimated = as_se3(pose, by_odometry.translation().z());
-    if (k == 0)
-      T_frame_start = (robot.initial_pose ? *robot.initial_pose : estimated) * first_odometry.inverse();
-    estimate.push_back({variables.stamps[k], estimated});
-    odometry.push_back({variables.stamps[k], T_frame_start * by_odometry});
+  for (std::size_t k = 0; k < robot.poses.size(); ++k) {
+    const SE3& by_odometry = robot.odometry[k];
+    const SE3 estimated = as_se3(Pose(frame * poses[robot.poses[k].index()]), by_odometry.translation().z());
+    if (k == 0) T_frame_start = robot.T_common_start.value_or(estimated * by_odometry.inverse());
+    estimate.push_back({robot.stamps[k], estimated});
+    odometry.push_back({robot.stamps[k], T_frame_start * by_odometry});
   }
   result.estimate = Trajectory<SE3>(std::move(estimate));
   result.odometry = Trajectory<SE3>(std::move(odometry));
-  result.yaw_drift_per_m_rad = joint.graph.drifts[r][0];
-  result.scale_error = joint.graph.drifts[r][1];
+  if (robot.drift.valid()) {
+    result.yaw_drift_per_m_rad = joint.team.graph.drifts[robot.drift.index()][0];
+    result.scale_error = joint.team.graph.drifts[robot.drift.index()][1];
+  }
+  return result;
+}
+
+ClosureResult tie_result(const RadioTie& tie, ClosureKind kind, double statistic, double weight) {
+  constexpr double kHalf = 0.5;
+  ClosureResult result;
+  result.robot_i = tie.robot_i;
+  result.stamp_i = tie.stamp_i;
+  result.robot_j = tie.robot_j;
+  result.stamp_j = tie.stamp_j;
+  result.kind = kind;
+  result.statistic = statistic;
+  if (weight < kHalf) {
+    result.status = ClosureStatus::kRejected;
+    result.reason =
+        kind == ClosureKind::kAoa ? "no path is likely direct" : "unlikely to be the direct distance";
+  }
   return result;
 }
 
 }  // namespace
 
 template <class Pose>
-std::vector<RobotResult> collect_robots(const Mission& mission, const JointGraph<Pose>& joint,
-                                        const TeamFrame& team_frame) {
-  const std::vector<Pose> frames = component_frames(mission, joint, team_frame);
+std::vector<RobotResult> collect_robots(const JointGraph<Pose>& joint, const std::vector<Pose>& poses,
+                                        const TeamPlacement<Pose>& placement) {
+  const std::vector<Pose> frames = component_frames(joint, poses, placement);
   std::vector<RobotResult> robots;
-  for (std::size_t r = 0; r < mission.robots.size(); ++r) {
-    const auto component = static_cast<std::size_t>(team_frame.component[r]);
-    robots.push_back(collect_robot(mission.robots[r], joint, r, frames[component]));
-    robots.back().placed = team_frame.placed[r];
+  for (std::size_t r = 0; r < joint.robots.size(); ++r) {
+    const auto component = static_cast<std::size_t>(placement.component[r]);
+    robots.push_back(collect_robot(joint.robots[r], joint, poses, frames[component]));
+    robots.back().placed = placement.placed[r];
   }
   return robots;
+}
+
+template <class Pose>
+std::vector<ClosureResult> collect_radio_links(const JointGraph<Pose>& joint) {
+  const auto& graph = joint.team.graph;
+  std::vector<ClosureResult> results;
+  for (std::size_t k = 0; k < joint.range_ties.size(); ++k)
+    if (joint.range_ties[k].robot_i.valid() && joint.range_ties[k].robot_j.valid())
+      results.push_back(tie_result(joint.range_ties[k], ClosureKind::kRange,
+                                   squared_norm(graph, graph.ranges[k]), graph.ranges[k].weight));
+  std::vector<double> weight(joint.team.bearings.size(), 0), statistic(joint.team.bearings.size(), 0);
+  for (std::size_t k = 0; k < joint.bearing_ties.size(); ++k) {
+    const auto& bearing = joint.team.bearings[k];
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& path : bearing.paths)
+      least = std::min(least,
+                       squared_norm(graph, BearingFactor<Pose>{
+                                               bearing.i, bearing.j, path.direction, path.sigma_rad, {}, 1}));
+    statistic[k] = least;
+    for (const auto& factor : graph.bearings)
+      if (factor.i == bearing.i && factor.j.pose == bearing.j.pose && factor.j.point == bearing.j.point)
+        weight[k] += factor.weight;
+    if (joint.bearing_ties[k].robot_j.valid())
+      results.push_back(tie_result(joint.bearing_ties[k], ClosureKind::kAoa, statistic[k], weight[k]));
+  }
+  return results;
 }
 
 template <class Pose>
@@ -81,12 +120,13 @@ std::vector<ClosureResult> collect_closures(const RadioMeasurements& radio, cons
                                             const std::vector<FingerprintClosure>& closures) {
   std::vector<ClosureResult> results;
   for (std::size_t k = 0; k < closures.size(); ++k) {
-    const auto& range = joint.graph.ranges[joint.first_closure_range + k];
+    const auto& range = joint.team.graph.ranges[joint.first_closure_range + k];
     const auto keyframe_stamp = [&](std::size_t node) {
-      const RobotVariables& variables = joint.robots[radio.nodes[node].robot.index()];
-      return variables.stamps[keyframe_before(variables.stamps, radio.at(node).fingerprint.stamp)];
+      const auto& stamps = joint.robots[radio.nodes[node].robot.index()].stamps;
+      return stamps[keyframe_before(stamps, radio.at(node).fingerprint.stamp)];
     };
-    const double distance = (end_position(joint.graph, range.j) - end_position(joint.graph, range.i)).norm();
+    const double distance =
+        (end_position(joint.team.graph, range.j) - end_position(joint.team.graph, range.i)).norm();
     ClosureResult result;
     result.robot_i = radio.nodes[closures[k].node_i].robot;
     result.stamp_i = keyframe_stamp(closures[k].node_i);
@@ -108,7 +148,7 @@ void add_uncertainty(std::vector<RobotResult>& robots, const JointGraph<Pose>& j
                      const Marginals<Pose>& marginals) {
   for (std::size_t r = 0; r < robots.size(); ++r)
     for (std::size_t k = 0; k < robots[r].estimate.size(); ++k) {
-      const auto covariance = marginals.pose(PoseId(joint.robots[r].first_pose + k));
+      const auto covariance = marginals.pose(joint.robots[r].poses[k]);
       const double trace = covariance.template topLeftCorner<Pose::kDim, Pose::kDim>().trace();
       robots[r].sigma_position_m.push_back(std::sqrt(std::max(0.0, trace) / Pose::kDim));
     }
@@ -120,8 +160,10 @@ std::vector<std::string> odometry_notes(const Mission& mission, const JointGraph
   std::vector<std::string> notes;
   for (std::size_t r = 0; r < mission.robots.size(); ++r) {
     const Robot& robot = mission.robots[r];
-    const Eigen::Vector2d estimated = joint.graph.drifts[r].cwiseAbs();
-    const Eigen::Vector2d sigma = marginals.drift(DriftId(r)).diagonal().cwiseMax(0).cwiseSqrt();
+    const DriftId drift = joint.robots[r].drift;
+    if (!drift.valid()) continue;
+    const Eigen::Vector2d estimated = joint.team.graph.drifts[drift.index()].cwiseAbs();
+    const Eigen::Vector2d sigma = marginals.drift(drift).diagonal().cwiseMax(0).cwiseSqrt();
     const Eigen::Vector2d stated(robot.odometry_noise.sigma_yaw_drift_per_m_rad,
                                  robot.odometry_noise.sigma_scale);
     if (estimated[0] > kSurprise * std::max(stated[0], sigma[0]))
@@ -147,29 +189,30 @@ SimilarityModelResult collect_similarity_model(const RadioMeasurements& radio, c
   return model;
 }
 
-std::vector<Component> collect_components(const Mission& mission, const TeamFrame& team_frame) {
+template <class Pose>
+std::vector<Component> collect_components(const JointGraph<Pose>& joint,
+                                          const TeamPlacement<Pose>& placement) {
   std::vector<Component> components;
-  for (std::size_t r = 0; r < mission.robots.size(); ++r) {
-    const auto c = static_cast<std::size_t>(team_frame.component[r]);
+  for (std::size_t r = 0; r < joint.robots.size(); ++r) {
+    const auto c = static_cast<std::size_t>(placement.component[r]);
     if (components.size() <= c) components.resize(c + 1);
-    components[c].robots.push_back(mission.robots[r].id);
+    components[c].robots.push_back(joint.robots[r].id);
   }
   return components;
 }
 
-template std::vector<RobotResult> collect_robots<SE2>(const Mission&, const JointGraph<SE2>&,
-                                                      const TeamFrame&);
-template std::vector<RobotResult> collect_robots<SE3>(const Mission&, const JointGraph<SE3>&,
-                                                      const TeamFrame&);
-template void add_uncertainty<SE2>(std::vector<RobotResult>&, const JointGraph<SE2>&, const Marginals<SE2>&);
-template void add_uncertainty<SE3>(std::vector<RobotResult>&, const JointGraph<SE3>&, const Marginals<SE3>&);
-template std::vector<std::string> odometry_notes<SE2>(const Mission&, const JointGraph<SE2>&,
-                                                      const Marginals<SE2>&);
-template std::vector<std::string> odometry_notes<SE3>(const Mission&, const JointGraph<SE3>&,
-                                                      const Marginals<SE3>&);
-template std::vector<ClosureResult> collect_closures<SE2>(const RadioMeasurements&, const JointGraph<SE2>&,
-                                                          const std::vector<FingerprintClosure>&);
-template std::vector<ClosureResult> collect_closures<SE3>(const RadioMeasurements&, const JointGraph<SE3>&,
-                                                          const std::vector<FingerprintClosure>&);
+#define RADIOSLAM_COLLECT(Pose)                                                                              \
+  template std::vector<RobotResult> collect_robots(const JointGraph<Pose>&, const std::vector<Pose>&,        \
+                                                   const TeamPlacement<Pose>&);                              \
+  template std::vector<ClosureResult> collect_radio_links(const JointGraph<Pose>&);                          \
+  template void add_uncertainty(std::vector<RobotResult>&, const JointGraph<Pose>&, const Marginals<Pose>&); \
+  template std::vector<std::string> odometry_notes(const Mission&, const JointGraph<Pose>&,                  \
+                                                   const Marginals<Pose>&);                                  \
+  template std::vector<ClosureResult> collect_closures(const RadioMeasurements&, const JointGraph<Pose>&,    \
+                                                       const std::vector<FingerprintClosure>&);              \
+  template std::vector<Component> collect_components(const JointGraph<Pose>&, const TeamPlacement<Pose>&);
+RADIOSLAM_COLLECT(SE2)
+RADIOSLAM_COLLECT(SE3)
+#undef RADIOSLAM_COLLECT
 
 }  // namespace radioslam

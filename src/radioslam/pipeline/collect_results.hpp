@@ -7,9 +7,9 @@
 #include "radioslam/closure/fingerprint_closures.hpp"
 #include "radioslam/graph/marginals.hpp"
 #include "radioslam/pipeline/joint_graph.hpp"
+#include "radioslam/pipeline/team_placement.hpp"
 #include "radioslam/radio/measurements.hpp"
 #include "radioslam/results/results.hpp"
-#include "radioslam/team_frame/fingerprint_layout.hpp"
 
 namespace radioslam {
 
@@ -17,13 +17,18 @@ namespace radioslam {
 /// degree of freedom, 99 %.
 inline constexpr double kAcceptedStatistic = 6.635;
 
+/// The robots' trajectories at these poses of the graph.
 template <class Pose>
-std::vector<RobotResult> collect_robots(const Mission& mission, const JointGraph<Pose>& joint,
-                                        const TeamFrame& team_frame);
+std::vector<RobotResult> collect_robots(const JointGraph<Pose>& joint, const std::vector<Pose>& poses,
+                                        const TeamPlacement<Pose>& placement);
 
 template <class Pose>
 std::vector<ClosureResult> collect_closures(const RadioMeasurements& radio, const JointGraph<Pose>& joint,
                                             const std::vector<FingerprintClosure>& closures);
+
+/// What became of the ranges and angles between robots: by the weight the alignment gave them.
+template <class Pose>
+std::vector<ClosureResult> collect_radio_links(const JointGraph<Pose>& joint);
 
 /// Fills RobotResult::sigma_position_m from the marginal covariances.
 template <class Pose>
@@ -39,6 +44,8 @@ std::vector<std::string> odometry_notes(const Mission& mission, const JointGraph
 SimilarityModelResult collect_similarity_model(const RadioMeasurements& radio, const RadioParams& params);
 
 /// Components in the order of their numbers.
-std::vector<Component> collect_components(const Mission& mission, const TeamFrame& team_frame);
+template <class Pose>
+std::vector<Component> collect_components(const JointGraph<Pose>& joint,
+                                          const TeamPlacement<Pose>& placement);
 
 }  // namespace radioslam

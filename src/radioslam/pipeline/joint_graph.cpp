@@ -3,96 +3,118 @@
 #include <algorithm>
 
 #include "radioslam/mission/odometry_edge.hpp"
+#include "radioslam/pipeline/radio_factors.hpp"
+#include "radioslam/pipeline/robot_nodes.hpp"
 
 namespace radioslam {
 namespace {
 
-constexpr double kSigmaAnchor_m = 1e-3;  // the frame's own origin is known by definition
-constexpr double kSigmaAnchor_rad = 1e-4;
 constexpr double kLeastSigmaDistance_m = 1;  // a predicted distance is never better than that
+constexpr double kSigmaLevel_rad = 0.03;     // roll and pitch of a start frame, which gravity gives
 
 double information(double sigma) { return 1 / (sigma * sigma); }
 
-/// T_team_start with the start's own height, roll and pitch.
+/// A constant drift is a variable where something is stated about it, or where fingerprints can tell.
 template <class Pose>
-Pose team_from_start(const SE2& T_team_start, const Robot& robot) {
-  const double z = robot.initial_pose
-                       ? robot.initial_pose->translation().z() - robot.odometry.front().pose.translation().z()
-                       : 0;
-  return pose_as<Pose>(lift(T_team_start, z));
+DriftId add_drift(PoseGraph<Pose>& graph, const Robot& robot, const JointGraphParams& params) {
+  const OdometryNoise& noise = robot.odometry_noise;
+  const double floor = robot.wifi.empty() ? 0 : 1;
+  const double yaw =
+      std::max(noise.sigma_yaw_drift_per_m_rad, floor * params.least_sigma_yaw_drift_per_m_rad);
+  const double scale = std::max(noise.sigma_scale, floor * params.least_sigma_scale);
+  if (yaw <= 0 && scale <= 0) return {};
+  constexpr double kAsGoodAsNone = 1e-9;
+  DriftPriorFactor prior;
+  prior.i = DriftId(graph.drifts.size());
+  prior.information =
+      Eigen::Vector2d(information(std::max(yaw, kAsGoodAsNone)), information(std::max(scale, kAsGoodAsNone)))
+          .asDiagonal();
+  graph.drifts.emplace_back(Drift::Zero());
+  graph.drift_priors.push_back(prior);
+  return prior.i;
+}
+
+/// The frame of the odometry as the mission tells it; the first pose has the height of the start.
+std::optional<SE3> common_from_start(const Robot& robot) {
+  if (!robot.initial_pose) return std::nullopt;
+  return lift(flatten(*robot.initial_pose),
+              robot.initial_pose->translation().z() - robot.odometry.front().pose.translation().z());
 }
 
 template <class Pose>
-void add_odometry(JointGraph<Pose>& joint, const Robot& robot, const Pose& T_team_start,
-                  const KeyframeParams& params, DriftId drift) {
-  RobotVariables variables;
-  variables.rows = select_keyframes(robot.odometry, params);
-  variables.first_pose = joint.graph.poses.size();
-  for (std::size_t k = 0; k < variables.rows.size(); ++k) {
-    const auto& [stamp, pose] = robot.odometry[variables.rows[k]];
-    variables.stamps.push_back(stamp);
-    joint.graph.poses.push_back(T_team_start * pose_as<Pose>(pose));
-    if (k == 0) continue;
+Piece add_odometry(PoseGraph<Pose>& graph, const Robot& robot, const RobotNodes& nodes, DriftId drift) {
+  Piece piece{robot.id,
+              graph.poses.size(),
+              nodes.rows.size(),
+              nodes.stamps,
+              robot.heading == Heading::kAbsolute ? robot.sigma_heading_rad : 0,
+              robot.initial_pose.has_value()};
+  const Pose T_frame_start = pose_as<Pose>(common_from_start(robot).value_or(SE3()));
+  for (std::size_t n = 0; n < nodes.rows.size(); ++n) {
+    graph.poses.push_back(T_frame_start * pose_as<Pose>(nodes.odometry[nodes.rows[n]].pose));
+    if (n == 0) continue;
     const auto edge =
-        odometry_edge<Pose>(robot.odometry, variables.rows[k - 1], variables.rows[k], robot.odometry_noise);
+        odometry_edge<Pose>(nodes.odometry, nodes.rows[n - 1], nodes.rows[n], robot.odometry_noise);
     RelativePoseFactor<Pose> factor;
-    factor.i = PoseId(variables.first_pose + k - 1);
-    factor.j = PoseId(variables.first_pose + k);
+    factor.i = PoseId(piece.first_pose + n - 1);
+    factor.j = PoseId(piece.first_pose + n);
     factor.T_i_j = edge.T_i_j;
     factor.information = edge.covariance.inverse();
     factor.drift = drift;
     factor.drift_jacobian = -edge.drift_jacobian;  // the odometry holds the drift, the true motion does not
-    joint.graph.relative_poses.push_back(factor);
+    graph.relative_poses.push_back(factor);
   }
-  joint.robots.push_back(std::move(variables));
+  return piece;
 }
 
-template <class Pose>
-void add_drift_prior(PoseGraph<Pose>& graph, const OdometryNoise& noise, const JointGraphParams& params) {
-  DriftPriorFactor prior;
-  prior.i = DriftId(graph.drifts.size());
-  const double yaw = std::max(noise.sigma_yaw_drift_per_m_rad, params.least_sigma_yaw_drift_per_m_rad);
-  const double scale = std::max(noise.sigma_scale, params.least_sigma_scale);
-  prior.information = Eigen::Vector2d(information(yaw), information(scale)).asDiagonal();
-  graph.drifts.emplace_back(Drift::Zero());
-  graph.drift_priors.push_back(prior);
+JointRobot joint_robot(const Robot& robot, const RobotNodes& nodes, std::size_t first_pose, DriftId drift) {
+  JointRobot result;
+  result.id = robot.id;
+  for (const std::size_t n : nodes.keyframes) {
+    result.stamps.push_back(nodes.stamps[n]);
+    result.poses.push_back(PoseId(first_pose + n));
+    result.odometry.push_back(nodes.odometry[nodes.rows[n]].pose);
+  }
+  result.drift = drift;
+  result.T_common_start = common_from_start(robot);
+  result.lidar_range_m = robot.lidar_range_m;
+  result.lidar_view_rad = robot.lidar_view_rad;
+  return result;
 }
 
-/// What is known of a robot's first pose: everything (a known start, the first robot of a component, which
-/// gives the frame), the heading alone, or nothing.
+/// What is known of a robot's first pose: everything (a known start), its heading, that it stands level.
 template <class Pose>
-void add_start_prior(JointGraph<Pose>& joint, const Robot& robot, const JointGraphParams& params,
-                     bool gives_frame) {
+void add_start_prior(PoseGraph<Pose>& graph, const Robot& robot, std::size_t first_pose,
+                     const JointGraphParams& params) {
   constexpr int kRotations = Pose::kDof - Pose::kDim;
-  const bool has_heading = robot.heading == Heading::kAbsolute;
-  if (!robot.initial_pose && !gives_frame && !has_heading) return;
   PosePriorFactor<Pose> prior;
-  prior.i = PoseId(joint.robots.back().first_pose);
-  prior.prior = joint.graph.poses[prior.i.index()];
+  prior.i = PoseId(first_pose);
+  prior.prior = graph.poses[first_pose];
   prior.information.setZero();
   auto diagonal = prior.information.diagonal();
   if (robot.initial_pose) {
     diagonal.setConstant(information(params.sigma_start_m));
     diagonal.template tail<kRotations>().setConstant(information(params.sigma_start_rad));
   } else {
-    if (gives_frame) diagonal.setConstant(information(kSigmaAnchor_m));
-    if (gives_frame) diagonal.template tail<kRotations>().setConstant(information(kSigmaAnchor_rad));
-    if (has_heading) diagonal[Pose::kDof - 1] = information(robot.sigma_heading_rad);
+    if constexpr (kRotations == 3)
+      diagonal.template segment<2>(Pose::kDim).setConstant(information(kSigmaLevel_rad));
+    if (robot.heading == Heading::kAbsolute) diagonal[Pose::kDof - 1] = information(robot.sigma_heading_rad);
   }
-  joint.graph.pose_priors.push_back(prior);
+  if (!prior.information.isZero(0)) graph.pose_priors.push_back(prior);
 }
 
+/// A fingerprint hangs on the keyframe before it.
 template <class Pose>
-RangeEnd<Pose> fingerprint_end(const JointGraph<Pose>& joint, const Mission& mission,
-                               const RadioMeasurements& radio, std::size_t node) {
+RangeEnd<Pose> fingerprint_end(const JointGraph<Pose>& joint, const RadioMeasurements& radio,
+                               std::size_t node) {
   const std::size_t robot = radio.nodes[node].robot.index();
-  const RobotVariables& variables = joint.robots[robot];
+  const JointRobot& of = joint.robots[robot];
   const PlacedFingerprint& placed = radio.at(node);
-  const std::size_t k = keyframe_before(variables.stamps, placed.fingerprint.stamp);
-  const Pose T_start_keyframe = pose_as<Pose>(mission.robots[robot].odometry[variables.rows[k]].pose);
+  const std::size_t k = keyframe_before(of.stamps, placed.fingerprint.stamp);
   RangeEnd<Pose> end;
-  end.pose = PoseId(variables.first_pose + k);
-  end.lever_arm = (T_start_keyframe.inverse() * pose_as<Pose>(placed.T_start_body)).translation();
+  end.pose = of.poses[k];
+  end.lever_arm =
+      (pose_as<Pose>(of.odometry[k]).inverse() * pose_as<Pose>(placed.T_start_body)).translation();
   return end;
 }
 
@@ -100,43 +122,60 @@ RangeEnd<Pose> fingerprint_end(const JointGraph<Pose>& joint, const Mission& mis
 
 template <class Pose>
 JointGraph<Pose> build_joint_graph(const Mission& mission, const KeyframeParams& keyframes,
-                                   const RadioMeasurements& radio, const TeamFrame& team_frame,
-                                   const std::vector<FingerprintClosure>& closures,
                                    const JointGraphParams& params) {
   JointGraph<Pose> joint;
-  std::vector<bool> has_frame(mission.robots.size(), false);  // per component
-  for (std::size_t r = 0; r < mission.robots.size(); ++r)
-    if (mission.robots[r].initial_pose) has_frame[static_cast<std::size_t>(team_frame.component[r])] = true;
-
+  const auto moments = link_moments(mission);
+  std::vector<RobotNodes> nodes;
   for (std::size_t r = 0; r < mission.robots.size(); ++r) {
     const Robot& robot = mission.robots[r];
-    const auto component = static_cast<std::size_t>(team_frame.component[r]);
-    add_odometry(joint, robot, team_from_start<Pose>(team_frame.T_team_start[r], robot), keyframes,
-                 DriftId(joint.graph.drifts.size()));
-    add_drift_prior(joint.graph, robot.odometry_noise, params);
-    add_start_prior(joint, robot, params, !has_frame[component]);
-    has_frame[component] = true;
+    nodes.push_back(select_nodes(robot.odometry, moments[r], keyframes));
+    const DriftId drift = add_drift(joint.team.graph, robot, params);
+    joint.team.pieces.push_back(add_odometry(joint.team.graph, robot, nodes.back(), drift));
+    const std::size_t first_pose = joint.team.pieces.back().first_pose;
+    joint.robots.push_back(joint_robot(robot, nodes.back(), first_pose, drift));
+    joint.robot_of_piece.push_back(r);
+    add_start_prior(joint.team.graph, robot, first_pose, params);
   }
-  joint.first_closure_range = joint.graph.ranges.size();
-  for (const FingerprintClosure& closure : closures) {
-    RangeFactor<Pose> range;
-    range.i = fingerprint_end(joint, mission, radio, closure.node_i);
-    range.j = fingerprint_end(joint, mission, radio, closure.node_j);
-    range.range_m = closure.predicted.peak_m;
-    range.sigma_m = std::max(kLeastSigmaDistance_m, closure.predicted.spread_m);
-    range.weight = closure.weight;
-    joint.graph.ranges.push_back(range);
-  }
+  add_radio_factors(joint, mission, nodes);
+  joint.first_closure_range = joint.team.graph.ranges.size();
   return joint;
 }
 
-template JointGraph<SE2> build_joint_graph<SE2>(const Mission&, const KeyframeParams&,
-                                                const RadioMeasurements&, const TeamFrame&,
-                                                const std::vector<FingerprintClosure>&,
-                                                const JointGraphParams&);
-template JointGraph<SE3> build_joint_graph<SE3>(const Mission&, const KeyframeParams&,
-                                                const RadioMeasurements&, const TeamFrame&,
-                                                const std::vector<FingerprintClosure>&,
-                                                const JointGraphParams&);
+template <class Pose>
+void place_robots(JointGraph<Pose>& joint, const std::vector<SE2>& T_team_start) {
+  for (std::size_t p = 0; p < joint.team.pieces.size(); ++p) {
+    const Piece& piece = joint.team.pieces[p];
+    if (piece.in_common_frame) continue;
+    const Pose T = pose_as<Pose>(lift(T_team_start[joint.robot_of_piece[p]]));
+    for (std::size_t k = 0; k < piece.pose_count; ++k) {
+      Pose& pose = joint.team.graph.poses[piece.first_pose + k];
+      pose = T * pose;
+    }
+  }
+}
+
+template <class Pose>
+void add_fingerprint_closures(JointGraph<Pose>& joint, const RadioMeasurements& radio,
+                              const std::vector<FingerprintClosure>& closures) {
+  for (const FingerprintClosure& closure : closures) {
+    RangeFactor<Pose> range;
+    range.i = fingerprint_end(joint, radio, closure.node_i);
+    range.j = fingerprint_end(joint, radio, closure.node_j);
+    range.range_m = closure.predicted.peak_m;
+    range.sigma_m = std::max(kLeastSigmaDistance_m, closure.predicted.spread_m);
+    range.weight = closure.weight;
+    joint.team.graph.ranges.push_back(range);
+  }
+}
+
+#define RADIOSLAM_JOINT_GRAPH(Pose)                                                        \
+  template JointGraph<Pose> build_joint_graph<Pose>(const Mission&, const KeyframeParams&, \
+                                                    const JointGraphParams&);              \
+  template void place_robots(JointGraph<Pose>&, const std::vector<SE2>&);                  \
+  template void add_fingerprint_closures(JointGraph<Pose>&, const RadioMeasurements&,      \
+                                         const std::vector<FingerprintClosure>&);
+RADIOSLAM_JOINT_GRAPH(SE2)
+RADIOSLAM_JOINT_GRAPH(SE3)
+#undef RADIOSLAM_JOINT_GRAPH
 
 }  // namespace radioslam

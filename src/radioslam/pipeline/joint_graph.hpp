@@ -1,24 +1,25 @@
-// The pose graph of the whole team: odometry with its constant drift, known starts and headings, and the
-// distances that fingerprints predict.
+// The graph of a whole team and what its parts stand for: every robot's odometry with its constant drift,
+// known starts and headings, radio links, anchors, and the ties that closures add.
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "radioslam/base/fields.hpp"
 #include "radioslam/closure/fingerprint_closures.hpp"
-#include "radioslam/graph/pose_graph.hpp"
+#include "radioslam/graph/team_graph.hpp"
 #include "radioslam/mission/keyframes.hpp"
 #include "radioslam/mission/mission.hpp"
-#include "radioslam/radio/measurements.hpp"
-#include "radioslam/team_frame/fingerprint_layout.hpp"
+#include "radioslam/results/results.hpp"
 
 namespace radioslam {
 
 struct JointGraphParams {
   double sigma_start_m = 0.05;  ///< of a known initial pose
   double sigma_start_rad = 0.01;
-  double least_sigma_yaw_drift_per_m_rad = 1e-3;  ///< drift is estimated even where none is stated
+  double least_sigma_yaw_drift_per_m_rad = 1e-3;  ///< where fingerprints tie distant places of one robot
   double least_sigma_scale = 0.02;
 
   template <class Self, class Visitor>
@@ -26,32 +27,55 @@ struct JointGraphParams {
     visit(Field{"sigma_start_m", "m", 1e-4, 100, "error of a known initial position"}, self.sigma_start_m);
     visit(Field{"sigma_start_rad", "rad", 1e-5, 3, "error of a known initial yaw"}, self.sigma_start_rad);
     visit(Field{"least_sigma_yaw_drift_per_m_rad", "rad/m", 0, 1,
-                "prior of the constant yaw drift where a smaller one is stated: 57 degrees per km"},
+                "prior of the constant yaw drift of robots with WiFi scans where a smaller one is stated: 57 "
+                "degrees per km"},
           self.least_sigma_yaw_drift_per_m_rad);
-    visit(Field{"least_sigma_scale", "", 0, 1, "prior of the odometry's scale error, likewise"},
+    visit(Field{"least_sigma_scale", "", 0, 1, "prior of their odometry's scale error, likewise"},
           self.least_sigma_scale);
   }
 };
 
-/// Where a robot's variables stand in the graph.
-struct RobotVariables {
-  std::vector<std::size_t> rows;  ///< odometry rows of the keyframes
-  std::vector<Stamp> stamps;      ///< of the keyframes
-  std::size_t first_pose = 0;     ///< PoseId of the first keyframe
+/// A robot and the poses of its keyframes.
+struct JointRobot {
+  std::string id;
+  std::vector<Stamp> stamps;
+  std::vector<PoseId> poses;
+  std::vector<SE3> odometry;          ///< T_start_keyframe, as recorded
+  DriftId drift;                      ///< invalid: not estimated
+  std::optional<SE3> T_common_start;  ///< where the mission says that the odometry's frame is
+  double lidar_range_m = 0;
+  double lidar_view_rad = 0;
 };
 
-/// A graph and what its parts stand for.
+/// Which keyframes a radio factor of the graph ties; a tie to an anchor has no robot j.
+struct RadioTie {
+  RobotIndex robot_i, robot_j;
+  Stamp stamp_i, stamp_j;
+};
+
 template <class Pose>
 struct JointGraph {
-  PoseGraph<Pose> graph;
-  std::vector<RobotVariables> robots;
-  std::size_t first_closure_range = 0;  ///< graph.ranges from here on belong to the closures, in order
+  TeamGraph<Pose> team;
+  std::vector<JointRobot> robots;
+  std::vector<std::size_t> robot_of_piece;  ///< per team.pieces
+  std::vector<RadioTie> range_ties;         ///< of the first team.graph.ranges
+  std::vector<RadioTie> bearing_ties;       ///< of team.bearings
+  std::size_t first_closure_range = 0;  ///< team.graph.ranges from here on belong to the closures, in order
+  std::size_t ignored_links = 0;        ///< radio links outside the time of an odometry
 };
 
+/// Everything but closures. Every trajectory stands in its own start frame, or where its start is known.
 template <class Pose>
 JointGraph<Pose> build_joint_graph(const Mission& mission, const KeyframeParams& keyframes,
-                                   const RadioMeasurements& radio, const TeamFrame& team_frame,
-                                   const std::vector<FingerprintClosure>& closures,
                                    const JointGraphParams& params);
+
+/// Moves every robot's trajectory rigidly: poses <- T_team_start * poses.
+template <class Pose>
+void place_robots(JointGraph<Pose>& joint, const std::vector<SE2>& T_team_start);
+
+/// The distances that fingerprints predict.
+template <class Pose>
+void add_fingerprint_closures(JointGraph<Pose>& joint, const RadioMeasurements& radio,
+                              const std::vector<FingerprintClosure>& closures);
 
 }  // namespace radioslam

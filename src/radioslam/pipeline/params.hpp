@@ -8,6 +8,7 @@
 #include "radioslam/pipeline/robust_solution.hpp"
 #include "radioslam/radio/measurements.hpp"
 #include "radioslam/team_frame/fingerprint_layout.hpp"
+#include "radioslam/team_frame/radio_alignment.hpp"
 
 namespace radioslam {
 
@@ -15,6 +16,7 @@ struct RunParams {
   KeyframeParams keyframe;
   RadioParams radio;
   LayoutParams team_frame;
+  RadioAlignmentParams alignment;
   FingerprintClosureParams closure;
   JointGraphParams graph;
   RobustParams robust;
@@ -26,6 +28,7 @@ struct RunParams {
     visit("keyframe", self.keyframe);
     visit("radio", self.radio);
     visit("team_frame", self.team_frame);
+    visit("alignment", self.alignment);
     visit("closure", self.closure);
     visit("graph", self.graph);
     visit("robust", self.robust);

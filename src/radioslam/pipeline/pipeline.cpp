@@ -40,6 +40,36 @@ void count(RunResult& result, const RadioMeasurements& radio, const OptimizerSum
   result.counts["optimizer_iterations"] = summary.iterations;
 }
 
+/// What the run says about the estimate in `joint`.
+template <class Pose>
+void collect(RunResult& result, const Mission& mission, const JointGraph<Pose>& joint,
+             const TeamPlacement<Pose>& placement, StageClock& clock) {
+  const auto& graph = joint.team.graph;
+  result.robots = collect_robots(joint, graph.poses, placement);
+  const auto marginals = clock.time("uncertainty", [&] { return Marginals<Pose>::compute(graph); });
+  if (marginals) {
+    add_uncertainty(result.robots, joint, *marginals);
+    result.notes = odometry_notes(mission, joint, *marginals);
+  }
+  result.weight = placement.weight;
+  for (std::size_t k = 0; k < placement.alternatives.size(); ++k)
+    result.alternatives.push_back(
+        {placement.alternative_weights[k], collect_robots(joint, placement.alternatives[k], placement)});
+  result.components = collect_components(joint, placement);
+  for (const auto& robot : result.robots)
+    if (!robot.placed) result.unplaced.push_back(robot.id);
+}
+
+void add_notes(RunResult& result, const Mission& mission, std::size_t ignored_links) {
+  for (const auto& file : mission.unused_files)
+    result.notes.push_back(file + " took no part: this version does not use it");
+  if (ignored_links > 0)
+    result.notes.push_back(std::to_string(ignored_links) +
+                           " radio measurements were left out: no odometry at their time");
+  if (!result.alternatives.empty())
+    result.notes.push_back("the links leave open how the team lies: see hypotheses/");
+}
+
 template <class Pose>
 RunOutput run(const Mission& mission, const RunParams& params, const Progress& progress) {
   RunOutput output;
@@ -47,37 +77,30 @@ RunOutput run(const Mission& mission, const RunParams& params, const Progress& p
   StageClock clock(result.timings);
 
   const auto radio = clock.time("radio", [&] { return measure_radio(mission, params.radio, progress); });
-  const auto team_frame = clock.time(
-      "team frame", [&] { return align_by_fingerprints(mission, radio, params.team_frame, progress); });
+  auto joint =
+      clock.time("graph", [&] { return build_joint_graph<Pose>(mission, params.keyframe, params.graph); });
+  const auto placement = clock.time("team frame", [&] {
+    return has_radio_links(joint) ? place_by_radio(joint, params.alignment, progress)
+                                  : place_by_fingerprints(joint, mission, radio, params.team_frame, progress);
+  });
   const auto closures = clock.time("closures", [&] {
     return propose_fingerprint_closures(mission, radio, params.radio.distance_model.trusted_way_m,
                                         params.team_frame, params.closure);
   });
-  auto joint = clock.time("graph", [&] {
-    return build_joint_graph<Pose>(mission, params.keyframe, radio, team_frame, closures, params.graph);
-  });
+  add_fingerprint_closures(joint, radio, closures);
   const auto solution = clock.time(
       "optimise", [&] { return optimize_robustly(joint, params.robust, params.optimizer, progress); });
 
   result.mission_name = mission.name;
   result.dimension = mission.dimension;
-  result.robots = collect_robots(mission, joint, team_frame);
-  const auto marginals = clock.time("uncertainty", [&] { return Marginals<Pose>::compute(joint.graph); });
-  if (marginals) {
-    add_uncertainty(result.robots, joint, *marginals);
-    result.notes = odometry_notes(mission, joint, *marginals);
-  }
-  for (const auto& file : mission.unused_files)
-    result.notes.push_back(file + " took no part: this version does not use it");
-  result.closures = collect_closures(radio, joint, closures);
+  collect(result, mission, joint, placement, clock);
+  add_notes(result, mission, joint.ignored_links);
+  result.closures = collect_radio_links(joint);
+  for (auto& closure : collect_closures(radio, joint, closures))
+    result.closures.push_back(std::move(closure));
   result.similarity_model = collect_similarity_model(radio, params.radio);
-  result.components = collect_components(mission, team_frame);
-  for (const auto& robot : result.robots)
-    if (!robot.placed) result.unplaced.push_back(robot.id);
-  for (const auto& id : result.unplaced)
-    result.notes.push_back("robot " + id + " is not placed: nothing ties it to another robot");
   count(result, radio, solution);
-  output.graph = std::move(joint.graph);
+  output.graph = std::move(joint.team.graph);
   return output;
 }
 

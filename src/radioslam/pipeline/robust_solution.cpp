@@ -9,7 +9,7 @@ constexpr double kCoarseTolerance = 1e-3;  // of the stages before the last
 
 template <class Pose>
 void set_loss_scale(JointGraph<Pose>& joint, double scale) {
-  auto& ranges = joint.graph.ranges;
+  auto& ranges = joint.team.graph.ranges;
   for (std::size_t k = joint.first_closure_range; k < ranges.size(); ++k)
     ranges[k].loss = {LossKind::kCauchy, scale};
 }
@@ -24,10 +24,10 @@ OptimizerSummary optimize_robustly(JointGraph<Pose>& joint, const RobustParams& 
   int iterations = 0;
   for (double scale = robust.first_scale; scale > robust.final_scale; scale *= robust.step) {
     set_loss_scale(joint, scale);
-    iterations += optimize(joint.graph, coarse, progress).iterations;
+    iterations += optimize(joint.team.graph, coarse, progress).iterations;
   }
   set_loss_scale(joint, robust.final_scale);
-  OptimizerSummary summary = optimize(joint.graph, optimizer, progress);
+  OptimizerSummary summary = optimize(joint.team.graph, optimizer, progress);
   summary.iterations += iterations;
   return summary;
 }

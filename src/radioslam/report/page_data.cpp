@@ -108,7 +108,9 @@ void add_run(PageData& page, const RunResult& result) {
   for (const auto& component : result.components) page["components"].push_back(component.robots);
   page["unplaced"] = result.unplaced;
   page["hypotheses"] = PageData::array();
-  for (const double weight : result.hypothesis_weights) page["hypotheses"].push_back(rounded(weight, 4));
+  page["hypotheses"].push_back(rounded(result.weight, 4));
+  for (const HypothesisResult& other : result.alternatives)
+    page["hypotheses"].push_back(rounded(other.weight, 4));
   page["candidates"] = result.candidates.size();
   page["counts"] = PageData::object();
   for (const auto& [key, count] : result.counts) page["counts"][key] = rounded_relative(count);

@@ -88,6 +88,12 @@ struct Component {
   std::vector<std::string> robots;
 };
 
+/// Another way the team may lie, less likely than the first.
+struct HypothesisResult {
+  double weight = 0;
+  std::vector<RobotResult> robots;
+};
+
 /// A whole run.
 struct RunResult {
   std::string mission_name;
@@ -98,7 +104,8 @@ struct RunResult {
   std::optional<SimilarityModelResult> similarity_model;
   std::vector<Component> components;
   std::vector<std::string> unplaced;
-  std::vector<double> hypothesis_weights{1.0};
+  double weight = 1;                           ///< of `robots` among the hypotheses
+  std::vector<HypothesisResult> alternatives;  ///< likeliest first
   std::map<std::string, double> counts;
   std::vector<StageTiming> timings;
   std::vector<EffectiveParameter> parameters;

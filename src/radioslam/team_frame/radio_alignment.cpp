@@ -7,6 +7,7 @@
 #include "radioslam/base/parallel.hpp"
 #include "radioslam/graph/marginals.hpp"
 #include "radioslam/team_frame/compressed_team.hpp"
+#include "radioslam/team_frame/level_priors.hpp"
 
 namespace radioslam {
 namespace {
@@ -150,6 +151,7 @@ class Builder {
   MixtureGraph<Pose> mixture(const TiedTeam<Pose>& tied, const Team<Pose>& team) const {
     MixtureGraph<Pose> result(tied.team, params_.mixture);
     team.give(result.graph);
+    turn_level_priors(result.graph);
     return result;
   }
 
@@ -290,6 +292,7 @@ TeamHypothesis<Pose> hypothesis(const TeamGraph<Pose>& full, CompressedTeam<Pose
   expand_values(compressed, values);
   const TiedTeam<Pose> tied = tied_team(values, components);
   MixtureGraph<Pose> mixture(tied.team, params.mixture);
+  turn_level_priors(mixture.graph);
   refine(mixture, {}, params.refinement);
 
   TeamHypothesis<Pose> result;

@@ -1,0 +1,137 @@
+#include "radioslam/pipeline/radio_factors.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace radioslam {
+namespace {
+
+constexpr double kLeastSigmaAnchor_m = 1e-3;  // an anchor's place is never exact
+
+Eigen::Vector3d unit_vector(const ArrivalPath& path) {
+  const double elevation = path.elevation_rad.value_or(0), level = std::cos(elevation);
+  return {level * std::cos(path.azimuth_rad), level * std::sin(path.azimuth_rad), std::sin(elevation)};
+}
+
+/// The direction as the estimate sees it, given the receiver's odometry pose.
+template <class Pose>
+typename Pose::Point direction(const ArrivalPath& path, const SE3& T_start_body) {
+  const Eigen::Vector3d in_body = unit_vector(path);
+  if constexpr (Pose::kDim == 3) {
+    return in_body;
+  } else {
+    const Eigen::Vector3d level = Eigen::AngleAxisd(-T_start_body.yaw(), Eigen::Vector3d::UnitZ()) *
+                                  (T_start_body.rotation() * in_body);
+    return level.head<2>().normalized();
+  }
+}
+
+template <class Pose>
+class RadioFactors {
+ public:
+  RadioFactors(JointGraph<Pose>& joint, const Mission& mission, const std::vector<RobotNodes>& nodes)
+      : joint_(joint), mission_(mission), nodes_(nodes) {}
+
+  void add_anchors() {
+    for (const Anchor& anchor : mission_.anchors) {
+      const PointId id(joint_.team.graph.points.size());
+      joint_.team.graph.points.push_back(typename Pose::Point(
+          anchor.position_m.value_or(Eigen::Vector3d::Zero()).template head<Pose::kDim>()));
+      if (!anchor.position_m) continue;
+      PositionFactor<Pose> factor;
+      factor.i.point = id;
+      factor.position = joint_.team.graph.points.back();
+      const double sigma = std::max(anchor.sigma_m, kLeastSigmaAnchor_m);
+      factor.information /= sigma * sigma;
+      joint_.team.graph.positions.push_back(factor);
+    }
+  }
+
+  void add(const RangeMeasurement& measured) {
+    if (!covered(measured.i, measured.stamp) || !covered(measured.j, measured.stamp)) {
+      ++joint_.ignored_links;
+      return;
+    }
+    RangeFactor<Pose> factor;
+    factor.i = end(measured.i, measured.stamp);
+    factor.j = end(measured.j, measured.stamp);
+    factor.range_m = measured.range_m;
+    factor.sigma_m = measured.sigma_m;
+    joint_.team.graph.ranges.push_back(factor);
+    joint_.range_ties.push_back(tie(measured.i, measured.j, measured.stamp));
+  }
+
+  void add(const ArrivalMeasurement& measured) {
+    const RadioEnd receiver{measured.receiver, {}, {}, Eigen::Vector3d::Zero()};
+    if (!covered(receiver, measured.stamp) || !covered(measured.transmitter, measured.stamp)) {
+      ++joint_.ignored_links;
+      return;
+    }
+    AmbiguousBearing<Pose> bearing;
+    bearing.i = end(receiver, measured.stamp).pose;
+    bearing.j = end(measured.transmitter, measured.stamp);
+    const SE3 T_start_body = *mission_.robots[measured.receiver.index()].odometry.at(measured.stamp);
+    for (const ArrivalPath& path : measured.paths)
+      bearing.paths.push_back({direction<Pose>(path, T_start_body), path.sigma_rad, path.power_db});
+    joint_.team.bearings.push_back(std::move(bearing));
+    joint_.bearing_ties.push_back(tie(receiver, measured.transmitter, measured.stamp));
+  }
+
+ private:
+  bool covered(const RadioEnd& end, Stamp stamp) const {
+    return !end.robot.valid() || mission_.robots[end.robot.index()].odometry.covers(stamp);
+  }
+
+  RangeEnd<Pose> end(const RadioEnd& end, Stamp stamp) const {
+    RangeEnd<Pose> result;
+    if (!end.robot.valid()) {
+      result.point = PointId(end.anchor.value);
+      return result;
+    }
+    const std::size_t r = end.robot.index();
+    result.pose = PoseId(joint_.team.pieces[r].first_pose + nodes_[r].node_at(stamp));
+    result.lever_arm = end.lever_arm_m.head<Pose::kDim>();
+    return result;
+  }
+
+  /// Told by the keyframes before it.
+  RadioTie tie(const RadioEnd& i, const RadioEnd& j, Stamp stamp) const {
+    const auto keyframe = [&](const RadioEnd& end) {
+      if (!end.robot.valid()) return Stamp{};
+      const auto& stamps = joint_.robots[end.robot.index()].stamps;
+      return stamps[keyframe_before(stamps, stamp)];
+    };
+    return {i.robot, j.robot, keyframe(i), keyframe(j)};
+  }
+
+  JointGraph<Pose>& joint_;
+  const Mission& mission_;
+  const std::vector<RobotNodes>& nodes_;
+};
+
+}  // namespace
+
+std::vector<std::vector<Stamp>> link_moments(const Mission& mission) {
+  std::vector<std::vector<Stamp>> moments(mission.robots.size());
+  const auto note = [&](RobotIndex robot, Stamp stamp) {
+    if (robot.valid()) moments[robot.index()].push_back(stamp);
+  };
+  for (const auto& range : mission.ranges) note(range.i.robot, range.stamp), note(range.j.robot, range.stamp);
+  for (const auto& arrival : mission.arrivals)
+    note(arrival.receiver, arrival.stamp), note(arrival.transmitter.robot, arrival.stamp);
+  return moments;
+}
+
+template <class Pose>
+void add_radio_factors(JointGraph<Pose>& joint, const Mission& mission,
+                       const std::vector<RobotNodes>& nodes) {
+  RadioFactors<Pose> factors(joint, mission, nodes);
+  factors.add_anchors();
+  for (const auto& range : mission.ranges) factors.add(range);
+  for (const auto& arrival : mission.arrivals) factors.add(arrival);
+}
+
+template void add_radio_factors(JointGraph<SE2>&, const Mission&, const std::vector<RobotNodes>&);
+template void add_radio_factors(JointGraph<SE3>&, const Mission&, const std::vector<RobotNodes>&);
+
+}  // namespace radioslam

@@ -1,0 +1,20 @@
+// Ranges, angles of arrival and anchors of a mission as parts of the joint graph.
+// Angles are levelled by the odometry's roll and pitch where the estimate moves in the plane.
+#pragma once
+
+#include <vector>
+
+#include "radioslam/pipeline/joint_graph.hpp"
+#include "radioslam/pipeline/robot_nodes.hpp"
+
+namespace radioslam {
+
+/// Per robot, the stamps of the links it took part in.
+std::vector<std::vector<Stamp>> link_moments(const Mission& mission);
+
+/// Adds points for the anchors, and the links whose moments all their robots' odometries cover; counts the
+/// rest.
+template <class Pose>
+void add_radio_factors(JointGraph<Pose>& joint, const Mission& mission, const std::vector<RobotNodes>& nodes);
+
+}  // namespace radioslam
