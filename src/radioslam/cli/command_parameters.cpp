@@ -11,7 +11,7 @@
 #include "radioslam/cli/suggestion.hpp"
 #include "radioslam/mission/dead_reckoning.hpp"
 #include "radioslam/pipeline/params.hpp"
-#include "radioslam/sim/carpark.hpp"
+#include "radioslam/sim/scenarios.hpp"
 
 namespace radioslam::cli {
 namespace {
@@ -30,6 +30,10 @@ struct ParameterSet {
 std::vector<ParameterSet> parameter_sets() {
   return {{"run", describe_parameters<RunParams>},
           {"simulate", describe_parameters<CarparkParams>},
+          {"carpark", describe_parameters<CarparkParams>},
+          {"city", describe_parameters<CityParams>},
+          {"hall", describe_parameters<HallParams>},
+          {"kitti", describe_parameters<KittiParams>},
           {"optimize", describe_parameters<OptimizerParams>},
           {"similarity", describe_parameters<SimilarityCommandParams>},
           {"import", describe_parameters<DeadReckoningParams>}};
@@ -69,7 +73,8 @@ void list_parameters(const Options& options) {
 void add_parameters(CLI::App& program) {
   const auto options = std::make_shared<Options>();
   auto* command = program.add_subcommand("parameters", "List what --set and --config can change");
-  command->add_option("COMMAND", options->command, "run (default), simulate, optimize, similarity or import");
+  command->add_option("COMMAND", options->command,
+                      "run (default), simulate, carpark, city, hall, kitti, optimize, similarity or import");
   add_json_option(*command, options->json);
   command->footer("Example:\n  radioslam parameters run | less");
   command->callback([options] { list_parameters(*options); });

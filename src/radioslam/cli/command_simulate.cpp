@@ -12,6 +12,7 @@
 #include "radioslam/cli/parameters.hpp"
 #include "radioslam/cli/suggestion.hpp"
 #include "radioslam/io/atomic_output.hpp"
+#include "radioslam/io/kitti_poses.hpp"
 #include "radioslam/io/mission_folder.hpp"
 #include "radioslam/io/numbers.hpp"
 #include "radioslam/sim/scenarios.hpp"
@@ -19,11 +20,16 @@
 namespace radioslam::cli {
 namespace {
 
+constexpr std::size_t kFewestPoses = 4;  ///< two for each robot
+
 struct Options {
   std::string scenario;
   std::string output;
   std::uint64_t seed = 1;
   std::optional<std::string> robots;
+  std::optional<std::string> cut;
+  std::string trajectory;
+  std::string odometry;
   ParameterOptions parameters;
 };
 
@@ -37,6 +43,7 @@ const Scenario& scenario_named(const std::string& name) {
 std::vector<Setting> settings_of(const Options& options) {
   auto settings = collect_settings(options.parameters.config_path, options.parameters.set);
   if (options.robots) settings.push_back({"robots", *options.robots, "--robots", 0});
+  if (options.cut) settings.push_back({"cut", *options.cut, "--cut", 0});
   return settings;
 }
 
@@ -45,15 +52,48 @@ ScenarioParams with_scenario_settings(const ScenarioParams& defaults, const std:
                     defaults);
 }
 
+/// The recorded drive that a scenario needs, from two files with a pose per line.
+RecordedDrive read_drive(const Options& options) {
+  if (options.trajectory.empty() || options.odometry.empty())
+    throw InputError("simulate " + options.scenario, 0,
+                     "needs a recorded drive: --trajectory FILE with its true poses and --odometry FILE");
+  RecordedDrive drive{read_kitti_poses(read_text(options.trajectory)),
+                      read_kitti_poses(read_text(options.odometry))};
+  if (drive.truth.size() != drive.odometry.size())
+    throw InputError(options.odometry, 0,
+                     "has " + std::to_string(drive.odometry.size()) + " poses, " + options.trajectory +
+                         " has " + std::to_string(drive.truth.size()));
+  if (drive.truth.size() < kFewestPoses)
+    throw InputError(options.trajectory, 0, "has too few poses to be cut in two");
+  return drive;
+}
+
+RecordedDrive drive_for(const Options& options, const ScenarioParams& params) {
+  if (needs_recording(params)) return read_drive(options);
+  if (!options.trajectory.empty() || !options.odometry.empty())
+    throw InputError("simulate " + options.scenario, 0, "takes no --trajectory or --odometry: it draws them");
+  return {};
+}
+
+/// How many of what, in words.
+std::string summary(const Mission& mission) {
+  std::string text = std::to_string(mission.robots.size()) + " robots";
+  if (!mission.ranges.empty()) text += ", " + std::to_string(mission.ranges.size()) + " ranges";
+  if (!mission.arrivals.empty())
+    text += ", " + std::to_string(mission.arrivals.size()) + " angle measurements";
+  if (!mission.matches.empty()) text += ", " + std::to_string(mission.matches.size()) + " matches";
+  return text;
+}
+
 void simulate_scenario(const Options& options) {
   const Scenario& scenario = scenario_named(options.scenario);
   const auto params = with_scenario_settings(scenario.defaults, settings_of(options));
+  const RecordedDrive drive = drive_for(options, params);
   OutputFolder output(options.output, kMissionFolder);
-  const Simulation simulation = simulate(params, options.seed);
+  const Simulation simulation = simulate(params, options.seed, drive);
   write_mission(output.path(), simulation.mission, simulation.truth);
   output.commit();
-  std::cout << options.output << ": " << simulation.mission.robots.size() << " robots, seed " << options.seed
-            << '\n';
+  std::cout << options.output << ": " << summary(simulation.mission) << ", seed " << options.seed << '\n';
 }
 
 std::string scenario_list() {
@@ -82,12 +122,20 @@ void add_simulate(CLI::App& program) {
       ->check(CLI::Validator(check_seed, ""))
       ->type_name("N");
   command->add_option("--robots", options->robots, "Robots in the team")->type_name("N");
+  command->add_option("--trajectory", options->trajectory, "kitti: the true poses of the drive")
+      ->type_name("FILE");
+  command->add_option("--odometry", options->odometry, "kitti: its odometry, in any frame of its own")
+      ->type_name("FILE");
+  command->add_option("--cut", options->cut, "kitti: share of the drive that is the first robot's")
+      ->type_name("SHARE");
   add_parameter_options(*command, options->parameters);
   add_threads_option(*command);
   command->footer(scenario_list() +
-                  "`radioslam parameters simulate` lists what --set can change.\n\n"
+                  "`radioslam parameters carpark` (city, hall, kitti) lists what --set can change.\n\n"
                   "Example: three robots, and odometry that drifts more\n"
-                  "  radioslam simulate carpark -o carpark --robots 3 --set sigma_xy_per_sqrt_m=0.05");
+                  "  radioslam simulate carpark -o carpark --robots 3 --set sigma_xy_per_sqrt_m=0.05\n"
+                  "Example: a town, few links with angles at one end\n"
+                  "  radioslam simulate city -o city --set links=8 angle_ends=one");
   command->callback([options] { simulate_scenario(*options); });
 }
 

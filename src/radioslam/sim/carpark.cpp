@@ -6,28 +6,13 @@
 #include <utility>
 
 #include "radioslam/base/parallel.hpp"
+#include "radioslam/sim/stamps.hpp"
 
 namespace radioslam {
 namespace {
 
-constexpr std::int64_t kMillisecond_ns = 1000000;
 /// Arcs cut corners, so the way is shorter than the lanes it follows: by less than a fifth.
 constexpr double kSpareWay = 1.25;
-
-/// Stamps from `begin_s` to `end_s` at a rate, in whole milliseconds.
-std::vector<Stamp> regular_stamps(double begin_s, double end_s, double rate_hz) {
-  std::vector<Stamp> stamps;
-  for (int k = 0; begin_s + k / rate_hz <= end_s; ++k) {
-    const auto ms = static_cast<std::int64_t>(std::llround((begin_s + k / rate_hz) * 1e3));
-    stamps.push_back({ms * kMillisecond_ns});
-  }
-  return stamps;
-}
-
-std::string robot_id(std::size_t index) {
-  const std::string letter(1, static_cast<char>('a' + index % 26));
-  return index < 26 ? letter : letter + std::to_string(index / 26);
-}
 
 /// A crossing for each robot, none twice as long as there are enough.
 std::vector<std::size_t> draw_starts(const LaneGrid& lanes, std::size_t robots, const Rng& rng) {

@@ -5,15 +5,26 @@
 namespace radioslam {
 namespace {
 
-Simulation simulate_one(const CarparkParams& params, std::uint64_t seed) {
-  return simulate_carpark(params, seed);
-}
+/// Runs the scenario of its argument's type.
+struct Simulate {
+  std::uint64_t seed;
+  const RecordedDrive& drive;
+
+  Simulation operator()(const CarparkParams& params) const { return simulate_carpark(params, seed); }
+  Simulation operator()(const CityParams& params) const { return simulate_city(params, seed); }
+  Simulation operator()(const HallParams& params) const { return simulate_hall(params, seed); }
+  Simulation operator()(const KittiParams& params) const { return simulate_kitti(params, drive, seed); }
+};
 
 }  // namespace
 
 std::span<const Scenario> scenarios() {
-  static const std::array<Scenario, 1> all{
-      {{"carpark", "robots on the lanes of a car park, wheel odometry and WiFi scans", CarparkParams{}}}};
+  static const std::array<Scenario, 4> all{
+      {{"carpark", "robots on the lanes of a car park, wheel odometry and WiFi scans", CarparkParams{}},
+       {"city", "robots on the streets of a town, ranges and angles of arrival, unknown starts",
+        CityParams{}},
+       {"hall", "robots between identical pillars, a handful of links, aliased matches", HallParams{}},
+       {"kitti", "a recorded drive cut in two, simulated ranges and angles", KittiParams{}}}};
   return all;
 }
 
@@ -23,8 +34,8 @@ const Scenario* find_scenario(std::string_view name) {
   return nullptr;
 }
 
-Simulation simulate(const ScenarioParams& params, std::uint64_t seed) {
-  return std::visit([&](const auto& chosen) { return simulate_one(chosen, seed); }, params);
+Simulation simulate(const ScenarioParams& params, std::uint64_t seed, const RecordedDrive& drive) {
+  return std::visit(Simulate{seed, drive}, params);
 }
 
 }  // namespace radioslam

@@ -8,12 +8,20 @@
 #include <variant>
 
 #include "radioslam/sim/carpark.hpp"
+#include "radioslam/sim/city.hpp"
+#include "radioslam/sim/hall.hpp"
+#include "radioslam/sim/kitti.hpp"
 #include "radioslam/sim/simulation.hpp"
 
 namespace radioslam {
 
 /// The parameters of any scenario; one alternative each.
-using ScenarioParams = std::variant<CarparkParams>;
+using ScenarioParams = std::variant<CarparkParams, CityParams, HallParams, KittiParams>;
+
+/// Does a scenario need a recorded drive?
+inline bool needs_recording(const ScenarioParams& params) {
+  return std::holds_alternative<KittiParams>(params);
+}
 
 /// A kind of world with robots in it.
 struct Scenario {
@@ -39,7 +47,7 @@ void visit_scenario_fields(const ScenarioParams& params, Visitor&& visit) {
              params);
 }
 
-/// Runs the scenario that the parameters belong to.
-Simulation simulate(const ScenarioParams& params, std::uint64_t seed);
+/// Runs the scenario that the parameters belong to; `drive` must be there if it needs a recording.
+Simulation simulate(const ScenarioParams& params, std::uint64_t seed, const RecordedDrive& drive = {});
 
 }  // namespace radioslam

@@ -1,0 +1,61 @@
+// A hall with a grid of identical pillars: two robots, LiDAR of 10 m, radio everywhere, very few links.
+//
+// After the hardware test of Wi-Closure: 25 x 23 m, a range and the angles at one end about every 10 m,
+// four in all, with 17 false paths among 3 direct ones; 1,848 matches, most of them off by whole pillars.
+// Frame: origin at a corner, x along the long side; robots drive the aisles between the pillars.
+#pragma once
+
+#include <cstdint>
+
+#include "radioslam/sim/aliased_matches.hpp"
+#include "radioslam/sim/city.hpp"
+#include "radioslam/sim/radio_channel.hpp"
+#include "radioslam/sim/simulation.hpp"
+#include "radioslam/sim/wheel_odometry.hpp"
+
+namespace radioslam {
+
+inline RadioChannelParams hall_radio() {
+  RadioChannelParams radio;
+  radio.links = 4;
+  radio.angle_ends = "one";
+  radio.missing_direct_share = 0.25;
+  radio.min_false_paths = 4;
+  radio.max_false_paths = 5;
+  radio.sigma_range_m = 0.2;
+  radio.mirror_stretch_m = 10;
+  radio.mirror_distance_m = 3;
+  return radio;
+}
+
+/// Everything about a hall's mission. Field names are unique over all parts.
+struct HallParams {
+  int robots = 2;
+  double hall_x_m = 25;
+  double hall_y_m = 23;
+  double pillar_spacing_m = 5;
+  double path_length_m = 45;
+  double speed_mps = 0.5;
+  double lidar_range_m = 10;
+  WheelOdometryParams odometry = random_walk_odometry();
+  RadioChannelParams radio = hall_radio();
+  AliasedMatchParams matches{115, 1733, 12};
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit(Field{"robots", "", 1, 26, "robots in the team"}, self.robots);
+    visit(Field{"hall_x_m", "m", 5, 500, "long side of the hall"}, self.hall_x_m);
+    visit(Field{"hall_y_m", "m", 5, 500, "short side of the hall"}, self.hall_y_m);
+    visit(Field{"pillar_spacing_m", "m", 2, 50, "between neighbouring pillars"}, self.pillar_spacing_m);
+    visit(Field{"path_length_m", "m", 5, 1e5, "way of each robot"}, self.path_length_m);
+    visit(Field{"speed_mps", "m/s", 0.05, 10, "speed"}, self.speed_mps);
+    visit(Field{"lidar_range_m", "m", 0.1, 1000, "range of every robot's LiDAR"}, self.lidar_range_m);
+    WheelOdometryParams::visit_fields(self.odometry, visit);
+    RadioChannelParams::visit_fields(self.radio, visit);
+    AliasedMatchParams::visit_fields(self.matches, visit);
+  }
+};
+
+Simulation simulate_hall(const HallParams& params, std::uint64_t seed);
+
+}  // namespace radioslam

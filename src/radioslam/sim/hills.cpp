@@ -1,0 +1,51 @@
+#include "radioslam/sim/hills.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace radioslam {
+namespace {
+
+constexpr int kWaves = 6;
+constexpr double kShortestWave_m = 150;
+constexpr double kLongestWave_m = 500;
+
+}  // namespace
+
+Hills::Hills(double sigma_height_m, Rng rng) {
+  for (int k = 0; k < kWaves; ++k) {
+    const double direction = rng.uniform(0, 2 * std::numbers::pi);
+    const double wavenumber = 2 * std::numbers::pi / rng.uniform(kShortestWave_m, kLongestWave_m);
+    waves_.push_back({sigma_height_m * std::sqrt(2.0 / kWaves),
+                      wavenumber * Eigen::Vector2d(std::cos(direction), std::sin(direction)),
+                      rng.uniform(0, 2 * std::numbers::pi)});
+  }
+}
+
+double Hills::height_m(const Eigen::Vector2d& position) const {
+  double height = 0;
+  for (const Wave& wave : waves_)
+    height += wave.amplitude_m * std::sin(wave.wavenumber_per_m.dot(position) + wave.phase_rad);
+  return height;
+}
+
+Eigen::Vector2d Hills::gradient(const Eigen::Vector2d& position) const {
+  Eigen::Vector2d slope = Eigen::Vector2d::Zero();
+  for (const Wave& wave : waves_)
+    slope += wave.amplitude_m * std::cos(wave.wavenumber_per_m.dot(position) + wave.phase_rad) *
+             wave.wavenumber_per_m;
+  return slope;
+}
+
+SE3 Hills::stand(const SE2& T_floor_body) const {
+  const Eigen::Vector2d place = T_floor_body.translation();
+  const Eigen::Vector2d slope = gradient(place);
+  const Eigen::Vector2d heading = T_floor_body.rotate(Eigen::Vector2d::UnitX());
+  const Eigen::Vector3d x = Eigen::Vector3d(heading.x(), heading.y(), slope.dot(heading)).normalized();
+  const Eigen::Vector3d z = Eigen::Vector3d(-slope.x(), -slope.y(), 1).normalized();
+  Eigen::Matrix3d rotation;
+  rotation << x, z.cross(x), z;
+  return {{place.x(), place.y(), height_m(place)}, Eigen::Quaterniond(rotation)};
+}
+
+}  // namespace radioslam

@@ -1,0 +1,21 @@
+#include "radioslam/sim/stamps.hpp"
+
+#include <cmath>
+
+namespace radioslam {
+
+std::vector<Stamp> regular_stamps(double begin_s, double end_s, double rate_hz) {
+  std::vector<Stamp> stamps;
+  for (int k = 0; begin_s + k / rate_hz <= end_s; ++k) {
+    const auto ms = static_cast<std::int64_t>(std::llround((begin_s + k / rate_hz) * 1e3));
+    stamps.push_back({ms * kMillisecond_ns});
+  }
+  return stamps;
+}
+
+std::string robot_id(std::size_t index) {
+  const std::string letter(1, static_cast<char>('a' + index % 26));
+  return index < 26 ? letter : letter + std::to_string(index / 26);
+}
+
+}  // namespace radioslam

@@ -1,0 +1,76 @@
+#include "radioslam/sim/team_drives.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "radioslam/sim/stamps.hpp"
+
+namespace radioslam {
+namespace {
+
+/// Arcs cut corners, so the way is shorter than the lanes it follows: by less than a fifth.
+constexpr double kSpareWay = 1.25;
+constexpr std::size_t kParts = 4;  ///< of a mission, in each of which robots shall meet
+
+Trajectory<SE3> draw_way(const LaneGrid& lanes, const Hills& ground, const TeamDriveParams& params,
+                         const Rng& rng) {
+  const std::size_t start = rng.split("start").below(lanes.size());
+  std::vector<Eigen::Vector2d> corners;
+  const double length_m = kSpareWay * params.drive.path_length_m;
+  for (const std::size_t i : draw_route(lanes, start, length_m, rng.split("route")))
+    corners.push_back(lanes.crossing(i));
+  const Drive drive(corners, params.drive, rng.split("wander"));
+  const double end_s = params.drive.path_length_m / params.drive.speed_mps;
+  std::vector<StampedPose<SE3>> poses;
+  for (const Stamp stamp : regular_stamps(0, end_s, params.rate_hz))
+    poses.push_back({stamp, ground.stand(drive.pose_at(params.drive.speed_mps * stamp.seconds()))});
+  return Trajectory<SE3>(std::move(poses));
+}
+
+/// At how many poses two robots are in range, each part of the mission counting up to a share of `wanted`:
+/// `wanted` itself when they meet enough in every part. Their poses have the same stamps.
+std::size_t spread_meeting(const Trajectory<SE3>& a, const Trajectory<SE3>& b, double range_m,
+                           std::size_t wanted) {
+  std::array<std::size_t, kParts> poses{};
+  const std::size_t size = std::min(a.size(), b.size());
+  for (std::size_t k = 0; k < size; ++k)
+    if ((a[k].pose.translation() - b[k].pose.translation()).norm() <= range_m) ++poses[kParts * k / size];
+  std::size_t total = 0;
+  for (const std::size_t count : poses) total += std::min(count, wanted / kParts);
+  return total;
+}
+
+/// The best meeting of a robot with one of the others.
+std::size_t best_meeting(const Trajectory<SE3>& way, const std::vector<Trajectory<SE3>>& others,
+                         double range_m, std::size_t wanted) {
+  std::size_t best = 0;
+  for (const auto& other : others) best = std::max(best, spread_meeting(way, other, range_m, wanted));
+  return best;
+}
+
+}  // namespace
+
+std::vector<Trajectory<SE3>> drive_team(const LaneGrid& lanes, const Hills& ground,
+                                        const TeamDriveParams& params, const Rng& rng) {
+  const std::size_t wanted = kParts * static_cast<std::size_t>(params.least_meeting_s * params.rate_hz /
+                                                               static_cast<double>(kParts));
+  std::vector<Trajectory<SE3>> team;
+  for (std::size_t r = 0; r < static_cast<std::size_t>(params.robots); ++r) {
+    const Rng own = rng.split("drives").split(r);
+    Trajectory<SE3> best = draw_way(lanes, ground, params, own.split(std::uint64_t{0}));
+    std::size_t longest = best_meeting(best, team, params.meeting_range_m, wanted);
+    for (std::uint64_t draw = 1; r > 0 && longest < wanted && draw < static_cast<std::uint64_t>(params.draws);
+         ++draw) {
+      auto next = draw_way(lanes, ground, params, own.split(draw));
+      const std::size_t meeting = best_meeting(next, team, params.meeting_range_m, wanted);
+      if (meeting <= longest) continue;
+      longest = meeting;
+      best = std::move(next);
+    }
+    team.push_back(std::move(best));
+  }
+  return team;
+}
+
+}  // namespace radioslam
