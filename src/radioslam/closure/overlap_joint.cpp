@@ -1,0 +1,221 @@
+#include "radioslam/closure/overlap_joint.hpp"
+
+#include <Eigen/Cholesky>
+
+#include "radioslam/base/check.hpp"
+#include "radioslam/closure/overlap_walk.hpp"
+
+namespace radioslam {
+namespace {
+
+/// Relative error of the skeleton's covariances: those of a factorisation and a solve, about 1e-12 in
+/// practice.
+constexpr double kSolveError = 1e-11;
+
+}  // namespace
+
+template <class Pose>
+RelativePlace<Pose> JointView<Pose>::relative(std::size_t, const Record& k, const Record& l) const {
+  constexpr int kDof = Pose::kDof, kSize = 2 * kDof + 2;
+  const auto joint = cross_->between(k.stretch, l.stretch);
+  // X_l P, then P X_k^T: X = [I - K, K, D].
+  const auto first = joint.template topRows<kDof>();
+  const Eigen::Matrix<double, kDof, kSize> of_l =
+      first + l.share.lazyProduct(joint.template middleRows<kDof>(kDof) - first) +
+      l.by_drift.lazyProduct(joint.template bottomRows<2>());
+  const auto of_first = of_l.template leftCols<kDof>();
+  const Jacobian cross = of_first +
+                         (of_l.template middleCols<kDof>(kDof) - of_first).lazyProduct(k.share.transpose()) +
+                         of_l.template rightCols<2>().lazyProduct(k.by_drift.transpose());
+  const Jacobian between = l.covariance + k.covariance - cross - cross.transpose();
+  const auto at_l = motion_at<Pose>(l.pose.translation());
+  return {l.pose.translation() - k.pose.translation(), at_l * between * at_l.transpose()};
+}
+
+/// Fills the robots of a JointCovariance from the skeleton.
+template <class Pose>
+class JointCovariance<Pose>::Builder {
+ public:
+  Builder(const PoseGraph<Pose>& graph, const std::vector<ChainOfPoses>& robots)
+      : graph_(graph),
+        chains_(robots),
+        skeleton_(reduce_to_skeleton(graph, robots)),
+        origin_(middle_of(graph.poses)) {}
+
+  std::shared_ptr<const SkeletonCovariance<Pose>> covariance() const {
+    std::vector<std::vector<StretchVariables>> stretches(chains_.size());
+    for (std::size_t c = 0; c < chains_.size(); ++c)
+      for (const Stretch& s : skeleton_.chains[c].stretches)
+        stretches[c].push_back({reduced(c, s.first), reduced(c, s.last), s.drift});
+    return SkeletonCovariance<Pose>::compute(skeleton_.graph, origin_, std::move(stretches));
+  }
+
+  Robot robot(std::size_t c, const SkeletonCovariance<Pose>& covariance) const {
+    Robot robot;
+    const auto& chain = skeleton_.chains[c];
+    std::vector<bool> searched(chains_[c].poses.size(), chains_[c].searched.empty());
+    for (const std::size_t k : chains_[c].searched) searched[k] = true;
+    PieceSums sums;
+    for (std::size_t s = 0; s < chain.stretches.size(); ++s) {
+      const Stretch& stretch = chain.stretches[s];
+      const auto joint = covariance.within(covariance.stretches(c)[s]);
+      robot.cov_drift.push_back(joint.template bottomRightCorner<2, 2>());
+      if (starts_piece(chain, s)) {
+        sums = {};
+        close_piece(robot);
+        robot.components.push_back(skeleton_.component[chains_[c].poses[stretch.first].index()]);
+      }
+      add_stretch(c, s, joint, searched, sums, robot);
+    }
+    close_piece(robot);
+    drop_empty_pieces(robot);
+    return robot;
+  }
+
+ private:
+  /// Odometry since a piece's beginning, in the common frame.
+  struct PieceSums {
+    CompensatedSum<Jacobian> covariance;
+    CompensatedSum<DriftEffect> by_drift;
+  };
+
+  PoseId reduced(std::size_t c, std::size_t k) const {
+    return skeleton_.of_pose[chains_[c].poses[k].index()];
+  }
+  const Pose& pose(std::size_t c, std::size_t k) const { return graph_.poses[chains_[c].poses[k].index()]; }
+
+  static bool starts_piece(const SkeletonChain<Pose>& chain, std::size_t s) {
+    if (s == 0) return true;
+    const Stretch &last = chain.stretches[s - 1], &stretch = chain.stretches[s];
+    return last.last != stretch.first || last.drift != stretch.drift;
+  }
+
+  static void close_piece(Robot& robot) {
+    const std::size_t begin = robot.pieces.empty() ? 0 : robot.pieces.back().end;
+    if (!robot.components.empty()) robot.pieces.push_back({begin, robot.records.size()});
+  }
+  static void drop_empty_pieces(Robot& robot) {
+    for (std::size_t p = robot.pieces.size(); p-- > 0;) {
+      if (robot.pieces[p].size() > 0) continue;
+      robot.pieces.erase(robot.pieces.begin() + static_cast<std::ptrdiff_t>(p));
+      robot.components.erase(robot.components.begin() + static_cast<std::ptrdiff_t>(p));
+    }
+  }
+
+  /// Records of a stretch's poses; its last one is left to the stretch that begins there.
+  void add_stretch(std::size_t c, std::size_t s, const typename SkeletonCovariance<Pose>::Joint& joint,
+                   const std::vector<bool>& searched, PieceSums& sums, Robot& robot) const {
+    const auto& chain = skeleton_.chains[c];
+    const Stretch& stretch = chain.stretches[s];
+    const Pose T_c1 = shifted(pose(c, stretch.first), origin_);
+    const bool next_begins = s + 1 < chain.stretches.size() && chain.stretches[s + 1].first == stretch.last;
+    const StretchSums<Pose> whole = sum_of(c, stretch);
+    const Eigen::LLT<Jacobian> whole_cholesky(whole.covariance());
+    StretchSums<Pose> here;
+    for (std::size_t k = stretch.first; k <= stretch.last; ++k) {
+      if (k > stretch.first) step(c, k, stretch, here, sums);
+      if (!searched[k] || (k == stretch.last && next_begins)) continue;
+      Jacobian share = Jacobian::Zero();
+      if (k > stretch.first) share = whole_cholesky.solve(here.covariance()).transpose();
+      if (k > stretch.first && k == stretch.last) share.setIdentity();
+      robot.records.push_back(record(shifted(pose(c, k), origin_), T_c1, share, here, whole, joint));
+      robot.records.back().stretch = static_cast<std::uint32_t>(s);
+      robot.walked.push_back({sums.covariance.value(), sums.by_drift.value()});
+    }
+  }
+
+  StretchSums<Pose> sum_of(std::size_t c, const Stretch& stretch) const {
+    StretchSums<Pose> sums;
+    const Pose T_c1_w = pose(c, stretch.first).inverse();
+    for (std::size_t k = stretch.first; k < stretch.last; ++k)
+      sums.add(*skeleton_.chains[c].steps[k], T_c1_w * pose(c, k + 1));
+    return sums;
+  }
+
+  void step(std::size_t c, std::size_t k, const Stretch& stretch, StretchSums<Pose>& here,
+            PieceSums& sums) const {
+    const auto& step = *skeleton_.chains[c].steps[k - 1];
+    here.add(step, pose(c, stretch.first).inverse() * pose(c, k));
+    const Jacobian ad = shifted(pose(c, k), origin_).adjoint();
+    sums.covariance.add(ad * step.covariance * ad.transpose());
+    sums.by_drift.add(ad * step.drift_effect);
+  }
+
+  static Record record(const Pose& T_k, const Pose& T_c1, const Jacobian& share,
+                       const StretchSums<Pose>& here, const StretchSums<Pose>& whole,
+                       const typename SkeletonCovariance<Pose>::Joint& joint) {
+    constexpr int kDof = Pose::kDof;
+    const Jacobian ad = T_c1.adjoint(), back = T_c1.inverse().adjoint();
+    const Jacobian noise = here.covariance() - share * here.covariance();
+    Record record{T_k, ad * share * back, ad * (here.drift_effect() - share * whole.drift_effect()), {}, 0,
+                  0};
+    Eigen::Matrix<double, kDof, 2 * kDof + 2> x;
+    x << Jacobian::Identity() - record.share, record.share, record.by_drift;
+    record.covariance = x * joint * x.transpose() + ad * noise * ad.transpose();
+    return record;
+  }
+
+  const PoseGraph<Pose>& graph_;
+  const std::vector<ChainOfPoses>& chains_;
+  Skeleton<Pose> skeleton_;
+  typename Pose::Point origin_;
+};
+
+template <class Pose>
+std::optional<JointCovariance<Pose>> JointCovariance<Pose>::compute(const PoseGraph<Pose>& graph,
+                                                                    const std::vector<ChainOfPoses>& robots,
+                                                                    std::size_t dense_scalars) {
+  const Builder builder(graph, robots);
+  JointCovariance joint;
+  joint.dense_scalars_ = dense_scalars;
+  joint.skeleton_ = builder.covariance();
+  if (!joint.skeleton_) return std::nullopt;
+  for (std::size_t c = 0; c < robots.size(); ++c) joint.robots_.push_back(builder.robot(c, *joint.skeleton_));
+  return joint;
+}
+
+/// Conditioning on measurements does not widen: sigma(eta_k - eta_m) is at most that of the odometry's noise
+/// alone plus that of the estimated drift.
+template <class Pose>
+PoseSpread JointCovariance<Pose>::spread(std::size_t robot, std::size_t pose, std::size_t middle) const {
+  const Robot& r = robots_[robot];
+  const Record& record = r.records[pose];
+  const auto [first, last] = std::minmax(pose, middle);
+  const typename Pose::Point& p = record.pose.translation();
+  const Jacobian at = motion_at<Pose>(p);
+  const Jacobian noise = at * (r.walked[last].covariance - r.walked[first].covariance) * at.transpose();
+  const DriftEffect by_drift = at * (r.walked[last].by_drift - r.walked[first].by_drift);
+  const Jacobian drift = by_drift * r.cov_drift[record.stretch] * by_drift.transpose();
+  const PoseSpread a = spread_of<Pose>(noise), b = spread_of<Pose>(drift),
+                   c = rounding_bound<Pose>(r.walked[last].covariance, p, kRoundingOfSums),
+                   d = rounding_bound<Pose>(record.covariance, p, kSolveError);
+  return {a.sigma_m + b.sigma_m + c.sigma_m + d.sigma_m,
+          a.sigma_rad + b.sigma_rad + c.sigma_rad + d.sigma_rad};
+}
+
+template <class Pose>
+JointView<Pose> JointCovariance<Pose>::view(std::size_t a, std::size_t b) const {
+  RADIOSLAM_CHECK(a < b, "the robot listed first comes first");
+  return View(std::make_shared<CrossCovariance<Pose>>(skeleton_, a, b, dense_scalars_));
+}
+
+template <class Pose>
+typename Pose::Jacobian JointCovariance<Pose>::relative_pose(std::size_t a, std::size_t k, std::size_t b,
+                                                             std::size_t l) const {
+  const Record& of_k = robots_[a].records[k];
+  const Record& of_l = robots_[b].records[l];
+  const RelativePlace<Pose> place = view(a, b).relative(0, of_k, of_l);
+  // Right perturbation at l: both parts turned into l's axes.
+  const Pose turn = Pose(Pose::Point::Zero(), rotation_of(of_l.pose));
+  const Jacobian back = turn.inverse().adjoint();
+  return back * place.covariance * back.transpose();
+}
+
+template class JointView<SE2>;
+template class JointView<SE3>;
+template class JointCovariance<SE2>;
+template class JointCovariance<SE3>;
+
+static_assert(OverlapSource<JointCovariance<SE2>> && OverlapSource<JointCovariance<SE3>>);
+
+}  // namespace radioslam

@@ -1,0 +1,139 @@
+#include "radioslam/closure/overlap_link.hpp"
+
+#include "radioslam/base/check.hpp"
+
+namespace radioslam {
+namespace {
+
+template <class Pose>
+using Record = typename LinkView<Pose>::Record;
+
+template <class Pose>
+void check_chain(const OdometryChain<Pose>& chain) {
+  const std::size_t n = chain.poses.size();
+  RADIOSLAM_CHECK(chain.cov_steps.size() + 1 >= n, "every step needs a covariance");
+  RADIOSLAM_CHECK(chain.walked_m.empty() || chain.walked_m.size() == n, "one distance walked per pose");
+}
+
+template <class Pose>
+std::vector<Record<Pose>> records_of(const OdometryChain<Pose>& chain) {
+  check_chain(chain);
+  const auto origin = middle_of(chain.poses);
+  CompensatedSum<typename Pose::Jacobian> sum;
+  double walked_m = 0;
+  std::vector<Record<Pose>> records;
+  records.reserve(chain.poses.size());
+  for (std::size_t k = 0; k < chain.poses.size(); ++k) {
+    const Pose pose = shifted(chain.poses[k], origin);
+    if (k > 0) {
+      const auto ad = pose.adjoint();
+      sum.add(ad * chain.cov_steps[k - 1] * ad.transpose());
+      walked_m += (chain.poses[k].translation() - chain.poses[k - 1].translation()).norm();
+    }
+    const double walked = chain.walked_m.empty() ? walked_m : chain.walked_m[k];
+    records.push_back({pose, sum.value(), walked, static_cast<std::uint32_t>(k)});
+  }
+  return records;
+}
+
+template <class Pose>
+typename Pose::Jacobian walk(const Record<Pose>& i, const Record<Pose>& j) {
+  if (i.index <= j.index) return j.cov_walk - i.cov_walk;
+  return i.cov_walk - j.cov_walk;
+}
+
+/// blkdiag(R, R) C blkdiag(R, R)^T.
+template <class Pose>
+typename Pose::Jacobian turned(const Eigen::Matrix<double, Pose::kDim, Pose::kDim>& rotation,
+                               const typename Pose::Jacobian& covariance) {
+  constexpr int kDim = Pose::kDim, kRotation = Pose::kDof - Pose::kDim;
+  typename Pose::Jacobian turn = Pose::Jacobian::Identity();
+  turn.template topLeftCorner<kDim, kDim>() = rotation;
+  if constexpr (kRotation == kDim) turn.template bottomRightCorner<kRotation, kRotation>() = rotation;
+  return turn * covariance * turn.transpose();
+}
+
+/// As a link from the robot listed first.
+template <class Pose>
+OverlapLink<Pose> in_order(const OverlapLink<Pose>& link) {
+  if (link.robot_a < link.robot_b) return link;
+  const typename Pose::Jacobian ad = link.T_a_b.adjoint();
+  return {link.robot_b, link.pose_b,          link.robot_a,
+          link.pose_a,  link.T_a_b.inverse(), ad * link.covariance * ad.transpose()};
+}
+
+}  // namespace
+
+template <class Pose>
+RelativePlace<Pose> LinkView<Pose>::relative(std::size_t t, const Record& k, const Record& l) const {
+  const Tie& tie = ties_[t];
+  const typename Pose::Point& in_b = l.pose.translation();
+  const typename Pose::Point in_a = this->in_a(t, in_b);
+  const auto at_a = motion_at<Pose>(in_a), at_b = motion_at<Pose>(in_b);
+  const typename Pose::Jacobian by_a = at_a * (walk<Pose>(k, tie.a) + tie.covariance) * at_a.transpose();
+  const typename Pose::Jacobian by_b = at_b * walk<Pose>(l, tie.b) * at_b.transpose();
+  return {in_a - k.pose.translation(), by_a + turned<Pose>(tie.R_a_b, by_b)};
+}
+
+template <class Pose>
+LinkCovariance<Pose>::LinkCovariance(const std::vector<OdometryChain<Pose>>& chains,
+                                     std::vector<OverlapLink<Pose>> links)
+    : links_(std::move(links)) {
+  for (const auto& chain : chains) {
+    robots_.push_back({records_of(chain), {}});
+    if (!chain.poses.empty()) robots_.back().pieces.push_back({0, chain.poses.size()});
+  }
+  for (auto& link : links_) {
+    RADIOSLAM_CHECK(link.robot_a != link.robot_b, "a link joins two robots");
+    RADIOSLAM_CHECK(link.robot_a < chains.size() && link.pose_a < chains[link.robot_a].poses.size() &&
+                        link.robot_b < chains.size() && link.pose_b < chains[link.robot_b].poses.size(),
+                    "a link names poses that are there");
+    link = in_order(link);
+  }
+}
+
+template <class Pose>
+PoseSpread LinkCovariance<Pose>::spread(std::size_t robot, std::size_t pose, std::size_t middle) const {
+  const auto& records = robots_[robot].records;
+  const typename Pose::Point& p = records[pose].pose.translation();
+  const auto at = motion_at<Pose>(p);
+  const PoseSpread walked = spread_of<Pose>(at * walk<Pose>(records[pose], records[middle]) * at.transpose());
+  const PoseSpread rounding = rounding_bound<Pose>(records.back().cov_walk, p, kRoundingOfSums);
+  return {walked.sigma_m + rounding.sigma_m, walked.sigma_rad + rounding.sigma_rad};
+}
+
+template <class Pose>
+typename LinkView<Pose>::Tie LinkCovariance<Pose>::tie_of(const OverlapLink<Pose>& link) const {
+  const auto& a = robots_[link.robot_a].records[link.pose_a];
+  const auto& b = robots_[link.robot_b].records[link.pose_b];
+  const Pose T_a_cb = a.pose * link.T_a_b;
+  const Pose T_a_b = T_a_cb * b.pose.inverse();
+  const typename Pose::Jacobian ad = T_a_cb.adjoint();
+  return {a, b, T_a_b, T_a_b.rotation_matrix(), ad * link.covariance * ad.transpose()};
+}
+
+template <class Pose>
+LinkView<Pose> LinkCovariance<Pose>::view(std::size_t a, std::size_t b) const {
+  RADIOSLAM_CHECK(a < b, "the robot listed first comes first");
+  std::vector<typename View::Tie> ties;
+  for (const auto& link : links_)
+    if (link.robot_a == a && link.robot_b == b) ties.push_back(tie_of(link));
+  return View(std::move(ties));
+}
+
+template <class Pose>
+typename Pose::Jacobian LinkCovariance<Pose>::odometry(std::size_t robot, std::size_t i,
+                                                       std::size_t j) const {
+  const auto& records = robots_[robot].records;
+  const typename Pose::Jacobian ad = records[j].pose.inverse().adjoint();
+  return ad * walk<Pose>(records[i], records[j]) * ad.transpose();
+}
+
+template class LinkView<SE2>;
+template class LinkView<SE3>;
+template class LinkCovariance<SE2>;
+template class LinkCovariance<SE3>;
+
+static_assert(OverlapSource<LinkCovariance<SE2>> && OverlapSource<LinkCovariance<SE3>>);
+
+}  // namespace radioslam

@@ -1,0 +1,104 @@
+// Mode "link" of Wi-Closure (III-A): the robots' own odometry stays as it is, and poses k and l of two robots
+// are compared over the link c with the shortest way k -> c_a -> c_b -> l along the odometry (ties: the first
+// link):
+//   T_k_l = T_k_ca Z_c T_cb_l
+//   S_kl  = Ad((Z_c T_cb_l)^-1) S_k_ca Ad(.)^T + Ad(T_cb_l^-1) S_c Ad(.)^T + S_cb_l      (right
+//   perturbations)
+// which in left perturbations of a's frame is a plain sum; see overlap_relative.hpp. (The source's eq. 15
+// puts the identity on the wrong term.) Robots without a link of their own have no common frame here. Cost:
+// O(1) per pair and link from prefix sums (overlap_walk.hpp).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "radioslam/closure/overlap_walk.hpp"
+
+namespace radioslam {
+
+/// One robot's keyframes in its own frame, and how the odometry between them may be off.
+template <class Pose>
+struct OdometryChain {
+  std::vector<Pose> poses;                         ///< T_start_body
+  std::vector<typename Pose::Jacobian> cov_steps;  ///< of T_k^-1 T_k+1, right perturbation: one fewer
+  std::vector<double> walked_m;                    ///< up to each pose; empty: along straight lines
+};
+
+/// T_a_b between pose `pose_a` of robot a and `pose_b` of robot b, with the covariance of a right
+/// perturbation.
+template <class Pose>
+struct OverlapLink {
+  std::size_t robot_a = 0, pose_a = 0, robot_b = 0, pose_b = 0;
+  Pose T_a_b;
+  typename Pose::Jacobian covariance = Pose::Jacobian::Identity();
+};
+
+template <class P>
+class LinkView {
+ public:
+  using Pose = P;
+  struct Record {
+    Pose pose;                         ///< in the robot's shifted frame
+    typename Pose::Jacobian cov_walk;  ///< prefix sum S
+    double walked_m = 0;
+    std::uint32_t index = 0;
+  };
+  /// A link with what both robots must know of its ends.
+  struct Tie {
+    Record a, b;
+    Pose T_a_b;  ///< frame of b in frame of a
+    Eigen::Matrix<double, Pose::kDim, Pose::kDim> R_a_b;
+    typename Pose::Jacobian covariance;  ///< of the link, left perturbation in a's frame
+  };
+
+  LinkView() = default;
+  explicit LinkView(std::vector<Tie> ties) : ties_(std::move(ties)) {}
+
+  std::size_t ties() const { return ties_.size(); }
+  double turn_in_a(std::size_t tie) const { return heading(ties_[tie].T_a_b); }
+  typename Pose::Point in_a(std::size_t tie, const typename Pose::Point& p) const {
+    return ties_[tie].R_a_b * p + ties_[tie].T_a_b.translation();
+  }
+  typename Pose::Point half_extent_in_a(std::size_t tie, const typename Pose::Point& half) const {
+    return ties_[tie].R_a_b.cwiseAbs() * half;
+  }
+  double tie_walked_a(std::size_t tie) const { return ties_[tie].a.walked_m; }
+  double tie_walked_b(std::size_t tie) const { return ties_[tie].b.walked_m; }
+  RelativePlace<Pose> relative(std::size_t tie, const Record& k, const Record& l) const;
+
+ private:
+  std::vector<Tie> ties_;
+};
+
+template <class Pose>
+class LinkCovariance {
+ public:
+  using View = LinkView<Pose>;
+
+  /// The chains hold at least as many steps as they need; links name poses that are there, of two robots.
+  LinkCovariance(const std::vector<OdometryChain<Pose>>& chains, std::vector<OverlapLink<Pose>> links);
+
+  std::size_t robots() const { return robots_.size(); }
+  const std::vector<typename View::Record>& records(std::size_t robot) const {
+    return robots_[robot].records;
+  }
+  const std::vector<PoseInterval>& pieces(std::size_t robot) const { return robots_[robot].pieces; }
+  bool joined(std::size_t, std::size_t, std::size_t, std::size_t) const { return true; }
+  PoseSpread spread(std::size_t robot, std::size_t pose, std::size_t middle) const;
+  View view(std::size_t a, std::size_t b) const;
+
+  /// Covariance of T_i^-1 T_j along one robot's odometry, right perturbation.
+  typename Pose::Jacobian odometry(std::size_t robot, std::size_t i, std::size_t j) const;
+
+ private:
+  struct Robot {
+    std::vector<typename View::Record> records;
+    std::vector<PoseInterval> pieces;
+  };
+  typename View::Tie tie_of(const OverlapLink<Pose>& link) const;
+
+  std::vector<Robot> robots_;
+  std::vector<OverlapLink<Pose>> links_;
+};
+
+}  // namespace radioslam

@@ -1,0 +1,129 @@
+// What the overlap search asks of an estimate, and the algebra that its two kinds (overlap_link.hpp,
+// overlap_joint.hpp) share.
+//
+// Perturbations here are on the LEFT, T <- Exp(eta) T, eta = Ad(T) xi for the right perturbation xi =
+// [translation, rotation] of the rest of the program: then odometry adds up, eta_l - eta_k = sum of what
+// happened between, and where l is seen from k depends on that difference alone. In the axes of the common
+// frame,
+//   d(p_l - p_k seen from k) = J(p_l) (eta_l - eta_k),   J(p) = [I, w -> w x p],
+// so the covariance in frame k, R_kl S_tt R_kl^T of theory's composition, is J(p_l) Cov(eta_l - eta_k)
+// J(p_l)^T turned by R_k^T. The distances (overlap_distance.hpp) do not feel that turn and are computed
+// without it. Frames are shifted to the middle of the poses first: eta grows with the distance from the
+// origin.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <vector>
+
+#include "radioslam/geometry/se2.hpp"
+#include "radioslam/geometry/se3.hpp"
+
+namespace radioslam {
+
+/// Poses [begin, end) of a robot.
+struct PoseInterval {
+  std::size_t begin = 0, end = 0;
+  std::size_t size() const { return end - begin; }
+};
+
+/// Upper bounds of how far one pose may be off as seen from another of the same robot, rounding included.
+struct PoseSpread {
+  double sigma_m = 0;
+  double sigma_rad = 0;
+};
+
+/// Pose l seen from pose k, in the axes of the common frame.
+template <class Pose>
+struct RelativePlace {
+  typename Pose::Point difference_m;   ///< p_l - p_k
+  typename Pose::Jacobian covariance;  ///< of that difference, and of the rotation between the two
+};
+
+/// [I, w -> w x p; 0, I]: how the point p and the axes move under eta.
+template <class Pose>
+typename Pose::Jacobian motion_at(const typename Pose::Point& p) {
+  typename Pose::Jacobian j = Pose::Jacobian::Identity();
+  if constexpr (Pose::kDim == 2) {
+    j(0, 2) = -p.y();
+    j(1, 2) = p.x();
+  } else {
+    j(0, 4) = p.z(), j(0, 5) = -p.y();
+    j(1, 3) = -p.z(), j(1, 5) = p.x();
+    j(2, 3) = p.y(), j(2, 4) = -p.x();
+  }
+  return j;
+}
+
+template <class Pose>
+auto position_block(const typename Pose::Jacobian& covariance) {
+  return covariance.template topLeftCorner<Pose::kDim, Pose::kDim>();
+}
+template <class Pose>
+auto rotation_block(const typename Pose::Jacobian& covariance) {
+  constexpr int kRotation = Pose::kDof - Pose::kDim;
+  return covariance.template bottomRightCorner<kRotation, kRotation>();
+}
+
+/// At least the square root of the largest eigenvalue: that of the Frobenius norm.
+inline double sigma_bound(const auto& covariance) { return std::sqrt(covariance.norm()); }
+
+template <class Pose>
+PoseSpread spread_of(const typename Pose::Jacobian& covariance) {
+  return {sigma_bound(position_block<Pose>(covariance)), sigma_bound(rotation_block<Pose>(covariance))};
+}
+
+/// The pose with its frame's origin moved to `origin`.
+inline SE2 shifted(const SE2& pose, const Eigen::Vector2d& origin) {
+  return {pose.translation() - origin, pose.angle()};
+}
+inline SE3 shifted(const SE3& pose, const Eigen::Vector3d& origin) {
+  return {pose.translation() - origin, pose.rotation()};
+}
+
+inline double rotation_of(const SE2& pose) { return pose.angle(); }
+inline const Eigen::Quaterniond& rotation_of(const SE3& pose) { return pose.rotation(); }
+
+inline double heading(const SE2& pose) { return pose.angle(); }
+inline double heading(const SE3& pose) { return pose.yaw(); }
+
+template <class Pose>
+typename Pose::Point middle_of(const std::vector<Pose>& poses) {
+  typename Pose::Point sum = Pose::Point::Zero();
+  for (const Pose& pose : poses) sum += pose.translation();
+  return poses.empty() ? sum : typename Pose::Point(sum / static_cast<double>(poses.size()));
+}
+
+/// What two robots must share to compare their poses: one tie per link (mode link) or one in all (mode
+/// joint). A record is what is known of one pose, `pose` in its robot's shifted frame among it.
+template <class V>
+concept OverlapView = requires(const V& view, const typename V::Record& k, std::size_t tie, double walked_m) {
+  typename V::Pose;
+  { k.pose } -> std::convertible_to<typename V::Pose>;
+  { k.walked_m } -> std::convertible_to<double>;
+  { view.ties() } -> std::convertible_to<std::size_t>;
+  { view.in_a(tie, k.pose.translation()) } -> std::convertible_to<typename V::Pose::Point>;  // from b's frame
+  { view.turn_in_a(tie) } -> std::convertible_to<double>;  // what to add to a heading in b's frame
+  // Half the extents of a box along a's axes that holds a box along b's with these half extents.
+  { view.half_extent_in_a(tie, k.pose.translation()) } -> std::convertible_to<typename V::Pose::Point>;
+  { view.relative(tie, k, k) } -> std::convertible_to<RelativePlace<typename V::Pose>>;
+  { view.tie_walked_a(tie) } -> std::convertible_to<double>;  // where the tie is on a's way, metres
+  { view.tie_walked_b(tie) } -> std::convertible_to<double>;
+};
+
+/// An estimate of a team, as the search reads it. Robots are numbered as listed in the mission.
+template <class S>
+concept OverlapSource = OverlapView<typename S::View> && requires(const S& source, std::size_t robot) {
+  { source.robots() } -> std::convertible_to<std::size_t>;
+  { source.records(robot)[0] } -> std::convertible_to<typename S::View::Record>;
+  { source.pieces(robot)[0] } -> std::convertible_to<PoseInterval>;  // runs that odometry ties together
+  {
+    source.joined(robot, robot, robot, robot)
+    } -> std::convertible_to<bool>;  // (a, piece of a, b, piece of b)
+  { source.spread(robot, robot, robot) } -> std::convertible_to<PoseSpread>;  // (robot, pose, middle pose)
+  { source.view(robot, robot) } -> std::convertible_to<typename S::View>;     // of robots a < b
+};
+
+}  // namespace radioslam

@@ -1,0 +1,132 @@
+// A robot's poses as a binary tree of intervals, with what the search needs to bound a whole interval by its
+// middle pose: the box around its positions, how far they are from the middle, how far they may be off as
+// seen from it, their headings, and the metres walked. Up to kSummed poses an interval's spread is the
+// largest over its poses; above, over its halves' bounds:
+//   sigma(k | m) <= sigma(k | m_half) + sigma(m_half | m) + |p_k - p_m_half| sigma_rad(m_half | m).
+// Cost: O(n log kSummed) spreads.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "radioslam/closure/overlap_relative.hpp"
+
+namespace radioslam {
+
+template <class Pose>
+struct OverlapNode {
+  std::uint32_t begin = 0, end = 0, middle = 0;  ///< poses [begin, end) and the one they are held against
+  std::uint32_t right = 0;  ///< the second half's node; the first is the next one; 0: a leaf
+  typename Pose::Point centre_m, half_extent_m;  ///< box around the positions
+  double radius_m = 0;                           ///< largest distance from the middle pose
+  PoseSpread spread;                             ///< largest of any pose as seen from the middle
+  double heading_spread_rad = 0;                 ///< largest difference from the middle's heading
+  double walked_low_m = 0, walked_high_m = 0;
+
+  bool leaf() const { return right == 0; }
+  std::uint32_t size() const { return end - begin; }
+};
+
+template <class Pose>
+struct OverlapTree {
+  std::vector<OverlapNode<Pose>> nodes;
+  std::vector<std::uint32_t> roots;  ///< of the robot's pieces
+};
+
+template <OverlapSource Source>
+class OverlapTreeBuilder {
+  using Pose = typename Source::View::Pose;
+  using Point = typename Pose::Point;
+  using Node = OverlapNode<Pose>;
+
+  /// Poses per leaf: smaller ones bound better, larger ones are fewer.
+  static constexpr std::size_t kLeaf = 4;
+  static constexpr std::size_t kSummed = 64;
+
+ public:
+  OverlapTreeBuilder(const Source& source, std::size_t robot) : source_(source), robot_(robot) {}
+
+  OverlapTree<Pose> build() {
+    tree_ = {};
+    for (const PoseInterval& piece : source_.pieces(robot_)) tree_.roots.push_back(build(piece));
+    return std::move(tree_);
+  }
+
+ private:
+  std::uint32_t build(const PoseInterval& poses) {
+    const auto at = static_cast<std::uint32_t>(tree_.nodes.size());
+    tree_.nodes.emplace_back();
+    const std::size_t middle = poses.begin + poses.size() / 2;
+    std::uint32_t right = 0;
+    if (poses.size() > kLeaf) {
+      build({poses.begin, middle});
+      right = build({middle, poses.end});
+    }
+    Node node;
+    node.begin = static_cast<std::uint32_t>(poses.begin);
+    node.end = static_cast<std::uint32_t>(poses.end);
+    node.middle = static_cast<std::uint32_t>(middle);
+    node.right = right;
+    if (poses.size() <= kSummed)
+      sum_poses(node);
+    else
+      join_halves(node, tree_.nodes[at + 1], tree_.nodes[right]);
+    tree_.nodes[at] = node;
+    return at;
+  }
+
+  void sum_poses(Node& node) const {
+    const auto& records = source_.records(robot_);
+    const auto& middle = records[node.middle];
+    Point low = middle.pose.translation(), high = low;
+    node.walked_low_m = node.walked_high_m = middle.walked_m;
+    for (std::size_t k = node.begin; k < node.end; ++k) {
+      const Point& p = records[k].pose.translation();
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+      node.walked_low_m = std::min(node.walked_low_m, records[k].walked_m);
+      node.walked_high_m = std::max(node.walked_high_m, records[k].walked_m);
+      node.radius_m = std::max(node.radius_m, (p - middle.pose.translation()).norm());
+      widen(node, source_.spread(robot_, k, node.middle));
+      node.heading_spread_rad = std::max(
+          node.heading_spread_rad, std::abs(wrap_angle(heading(records[k].pose) - heading(middle.pose))));
+    }
+    set_box(node, low, high);
+  }
+
+  void join_halves(Node& node, const Node& first, const Node& second) const {
+    const auto& records = source_.records(robot_);
+    const auto& middle = records[node.middle];
+    node.walked_low_m = std::min(first.walked_low_m, second.walked_low_m);
+    node.walked_high_m = std::max(first.walked_high_m, second.walked_high_m);
+    for (const Node* half : {&first, &second}) {
+      const auto& of_half = records[half->middle];
+      const PoseSpread s = source_.spread(robot_, half->middle, node.middle);
+      widen(node, {half->spread.sigma_m + s.sigma_m + half->radius_m * s.sigma_rad,
+                   half->spread.sigma_rad + s.sigma_rad});
+      const double way = (of_half.pose.translation() - middle.pose.translation()).norm();
+      node.radius_m = std::max(node.radius_m, way + half->radius_m);
+      const double turn = std::abs(wrap_angle(heading(of_half.pose) - heading(middle.pose)));
+      node.heading_spread_rad = std::max(node.heading_spread_rad, turn + half->heading_spread_rad);
+    }
+    set_box(node, (first.centre_m - first.half_extent_m).cwiseMin(second.centre_m - second.half_extent_m),
+            (first.centre_m + first.half_extent_m).cwiseMax(second.centre_m + second.half_extent_m));
+    const Point corner = (middle.pose.translation() - node.centre_m).cwiseAbs() + node.half_extent_m;
+    node.radius_m = std::min(node.radius_m, corner.norm());
+  }
+
+  static void widen(Node& node, const PoseSpread& spread) {
+    node.spread.sigma_m = std::max(node.spread.sigma_m, spread.sigma_m);
+    node.spread.sigma_rad = std::max(node.spread.sigma_rad, spread.sigma_rad);
+  }
+  static void set_box(Node& node, const Point& low, const Point& high) {
+    node.centre_m = (low + high) / 2;
+    node.half_extent_m = (high - low) / 2;
+  }
+
+  const Source& source_;
+  std::size_t robot_;
+  OverlapTree<Pose> tree_;
+};
+
+}  // namespace radioslam

@@ -1,0 +1,49 @@
+// The covariance of a robot's odometry between any two of its poses, in O(1) from prefix sums.
+//   S_j = sum over k < j of Ad(T_k+1) Q_k Ad(T_k+1)^T,  Cov(eta_j - eta_i) = S_j - S_i  for i <= j
+// with Q_k the covariance of the increment T_k^-1 T_k+1 (right perturbation). As a right perturbation of
+// T_i^-1 T_j that is Ad(T_j^-1) (S_j - S_i) Ad(T_j^-1)^T.
+// The difference cancels: S holds (distance from the frame's origin)^2 times the variance of yaw. The frame
+// is the middle of the poses and the sums are compensated (Neumaier), so what is left is a few units in the
+// last place of S itself: 1e-8 m^2 for 10 km and 1 rad. rounding_bound() states it, and the bounds of the
+// search allow for it.
+#pragma once
+
+#include <limits>
+
+#include "radioslam/closure/overlap_relative.hpp"
+
+namespace radioslam {
+
+/// A sum of matrices whose error does not grow with the number of terms.
+template <class Matrix>
+class CompensatedSum {
+ public:
+  void add(const Matrix& term) {
+    const Matrix next = sum_ + term;
+    for (Eigen::Index i = 0; i < term.size(); ++i) {
+      const double s = sum_.data()[i], t = term.data()[i], n = next.data()[i];
+      lost_.data()[i] += std::abs(s) >= std::abs(t) ? (s - n) + t : (t - n) + s;
+    }
+    sum_ = next;
+  }
+  Matrix value() const { return sum_ + lost_; }
+
+ private:
+  Matrix sum_ = Matrix::Zero(), lost_ = Matrix::Zero();
+};
+
+/// Error of a difference of prefix sums, as a share of the sums.
+inline constexpr double kRoundingOfSums = 64 * std::numeric_limits<double>::epsilon();
+
+/// Standard deviations of position, at point p, and rotation that errors of `sum` of this share can feign.
+template <class Pose>
+PoseSpread rounding_bound(const typename Pose::Jacobian& sum, const typename Pose::Point& p, double share) {
+  constexpr int kDim = Pose::kDim, kRotation = Pose::kDof - Pose::kDim;
+  const double tt = sum.template topLeftCorner<kDim, kDim>().norm();
+  const double tr = sum.template topRightCorner<kDim, kRotation>().norm();
+  const double rr = sum.template bottomRightCorner<kRotation, kRotation>().norm();
+  const double lever = p.norm();
+  return {std::sqrt(share * (tt + 2 * lever * tr + lever * lever * rr)), std::sqrt(share * rr)};
+}
+
+}  // namespace radioslam
