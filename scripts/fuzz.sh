@@ -1,20 +1,26 @@
 #!/usr/bin/env bash
-# Runs every fuzzer for a while, each from its seeds and the inputs it kept last time (build/fuzz-corpus).
+# Runs every fuzzer for a while, as many at once as there are cores, each from its seeds and the inputs it kept
+# last time (build/fuzz-corpus).
 #   scripts/fuzz.sh [SECONDS]     per fuzzer; default: 60
 set -euo pipefail
 export LC_ALL=C
 cd "$(dirname "$0")/.."
 seconds=${1:-60}
 
-scripts/deps.sh test
-cmake --preset fuzz >/dev/null
-cmake --build build/fuzz
-for fuzzer in build/fuzz/tests/fuzz/fuzz_*; do
-  [[ -f $fuzzer && -x $fuzzer ]] || continue
+fuzz_one() {
+  local fuzzer=$1 name
   name=$(basename "$fuzzer")
-  corpus=build/fuzz-corpus/$name
+  local corpus=build/fuzz-corpus/$name
   mkdir -p "$corpus" build/fuzz-findings
   echo "$name for $seconds s"
   "$fuzzer" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -print_final_stats=0 -verbosity=0 \
     -artifact_prefix="build/fuzz-findings/$name-" "$corpus" "tests/fuzz/seeds/${name#fuzz_}"
-done
+}
+export -f fuzz_one
+export seconds
+
+scripts/deps.sh test
+cmake --preset fuzz >/dev/null
+cmake --build build/fuzz --target fuzzers
+find build/fuzz/tests/fuzz -maxdepth 1 -name 'fuzz_*' -type f -executable -print0 | sort -z |
+  xargs -0 --max-args=1 --max-procs="$(nproc)" bash -c 'fuzz_one "$1"' fuzz_one
