@@ -20,7 +20,7 @@ export -f fuzz_one
 export seconds
 
 scripts/deps.sh test
-cmake --preset fuzz >/dev/null
-cmake --build build/fuzz --target fuzzers
-find build/fuzz/tests/fuzz -maxdepth 1 -name 'fuzz_*' -type f -executable -print0 | sort -z |
+cmake --preset asan >/dev/null
+cmake --build build/asan --target fuzzers --parallel "$(nproc)"
+find build/asan/tests/fuzz -maxdepth 1 -name 'fuzz_*' -type f -executable -print0 | sort -z |
   xargs -0 --max-args=1 --max-procs="$(nproc)" bash -c 'fuzz_one "$1"' fuzz_one

@@ -10,6 +10,10 @@ scripts/test.sh
 scripts/deps.sh lint bench
 scripts/format.sh --check
 
+echo "== clang, optimised"
+cmake --preset clang >/dev/null
+cmake --build build/clang --parallel "$(nproc)"
+
 echo "== clang-tidy"
 git ls-files -z 'src/*.cpp' | xargs -0 --max-args=4 --max-procs="$(nproc)" clang-tidy-14 --quiet -p build/clang
 

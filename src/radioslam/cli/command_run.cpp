@@ -57,9 +57,11 @@ void print_text(const RunResult& result, const std::optional<TeamMetrics>& metri
   std::cout << '\n';
 }
 
-RunOutput estimate(const Mission& mission, const RunParams& params) {
+RunOutput estimate(const Mission& mission, const RunParams& params, bool no_prune) {
   ProgressLine line;
-  auto run = run_pipeline(mission, params, line.progress());
+  RunOptions options;
+  options.pruning = no_prune ? Pruning::kOff : Pruning::kOn;
+  auto run = run_pipeline(mission, params, options, line.progress());
   run.result.parameters = effective_parameters(params);
   return run;
 }
@@ -70,7 +72,7 @@ void run_mission(const Options& options) {
   OutputFolder output(options.output, kRunFolder);
   const Mission mission = read_mission(options.mission);
   const Truth truth = read_truth(options.mission, mission);
-  const RunOutput run = estimate(mission, params);
+  const RunOutput run = estimate(mission, params, options.no_prune);
   const auto metrics = judge(run.result, truth);
   const RunDocuments documents = documents_of(run, truth, metrics);
   write_run(output.path(), run.result, documents);
@@ -91,7 +93,7 @@ void add_run(CLI::App& program) {
   add_output_option(*command, options->output, "The folder to write; that of an earlier run is replaced");
   add_parameter_options(*command, options->parameters);
   command->add_flag("--no-prune", options->no_prune,
-                    "Look at all pairs of keyframes (this version always does)");
+                    "Admit every match, also where the views cannot overlap");
   add_json_option(*command, options->json);
   add_threads_option(*command);
   command->footer(

@@ -7,6 +7,7 @@ namespace radioslam::cli {
 
 void add_simulate(CLI::App& program);
 void add_run(CLI::App& program);
+void add_prune(CLI::App& program);
 void add_evaluate(CLI::App& program);
 void add_optimize(CLI::App& program);
 void add_similarity(CLI::App& program);

@@ -33,6 +33,7 @@ constexpr const char* kFooter =
 void add_commands(CLI::App& program) {
   add_simulate(program);
   add_run(program);
+  add_prune(program);
   add_evaluate(program);
   add_import(program);
   add_optimize(program);

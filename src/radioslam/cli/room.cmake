@@ -9,6 +9,7 @@ add_library(radioslam_cli STATIC
   cli/command_optimize.cpp
   cli/command_options.cpp
   cli/command_parameters.cpp
+  cli/command_prune.cpp
   cli/command_run.cpp
   cli/command_similarity.cpp
   cli/command_simulate.cpp

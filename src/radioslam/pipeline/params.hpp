@@ -5,6 +5,7 @@
 #include "radioslam/graph/optimizer.hpp"
 #include "radioslam/mission/keyframes.hpp"
 #include "radioslam/pipeline/joint_graph.hpp"
+#include "radioslam/pipeline/overlap_stage.hpp"
 #include "radioslam/pipeline/robust_solution.hpp"
 #include "radioslam/radio/measurements.hpp"
 #include "radioslam/team_frame/fingerprint_layout.hpp"
@@ -19,6 +20,7 @@ struct RunParams {
   RadioAlignmentParams alignment;
   FingerprintClosureParams closure;
   JointGraphParams graph;
+  OverlapStageParams overlap;
   RobustParams robust;
   /// Distances from fingerprints are good to metres: a millionth of the cost decides nothing.
   OptimizerParams optimizer{.max_iterations = 30, .relative_cost_tolerance = 1e-5};
@@ -31,6 +33,7 @@ struct RunParams {
     visit("alignment", self.alignment);
     visit("closure", self.closure);
     visit("graph", self.graph);
+    visit("overlap", self.overlap);
     visit("robust", self.robust);
     visit("optimizer", self.optimizer);
   }

@@ -49,7 +49,7 @@ void collect(RunResult& result, const Mission& mission, const JointGraph<Pose>& 
   const auto marginals = clock.time("uncertainty", [&] { return Marginals<Pose>::compute(graph); });
   if (marginals) {
     add_uncertainty(result.robots, joint, *marginals);
-    result.notes = odometry_notes(mission, joint, *marginals);
+    for (auto& note : odometry_notes(mission, joint, *marginals)) result.notes.push_back(std::move(note));
   }
   result.weight = placement.weight;
   for (std::size_t k = 0; k < placement.alternatives.size(); ++k)
@@ -70,8 +70,43 @@ void add_notes(RunResult& result, const Mission& mission, std::size_t ignored_li
     result.notes.push_back("the links leave open how the team lies: see hypotheses/");
 }
 
+/// Whether somebody is there to look at the pairs that survive: links that could prune, or matches to prune.
+bool wants_overlaps(const Mission& mission, const RunOptions& options) {
+  return options.overlap_only || !mission.ranges.empty() || !mission.arrivals.empty() ||
+         !mission.matches.empty();
+}
+
 template <class Pose>
-RunOutput run(const Mission& mission, const RunParams& params, const Progress& progress) {
+void search_overlaps_into(RunResult& result, const JointGraph<Pose>& joint, const RunParams& params,
+                          const RunOptions& options) {
+  const OverlapStage stage = find_overlaps(joint, params.overlap, options.search);
+  if (!stage.searched)
+    result.notes.push_back("no pairs were searched: the estimate's covariances are singular");
+  if (!stage.searched) return;
+  result.counts["pairs"] = static_cast<double>(stage.counts.pairs);
+  result.counts["candidates"] = static_cast<double>(stage.counts.kept);
+  result.counts["distances_evaluated"] = static_cast<double>(stage.counts.distances_evaluated);
+  result.candidates = stage.candidates;
+}
+
+/// Admits the matches and settles which of them hold.
+template <class Pose>
+std::vector<ClosureResult> close_by_matches(JointGraph<Pose>& joint, const Mission& mission,
+                                            const std::vector<CandidateResult>& candidates,
+                                            const RunParams& params, const RunOptions& options,
+                                            const Progress& progress) {
+  auto verdicts = admit_matches(joint, mission, candidates, options.pruning);
+  settle_matches(joint, verdicts, params.optimizer, progress);
+  std::vector<ClosureResult> results;
+  for (const MatchVerdict& verdict : verdicts)
+    results.push_back({verdict.tie.robot_i, verdict.tie.stamp_i, verdict.tie.robot_j, verdict.tie.stamp_j,
+                       ClosureKind::kMatch, verdict.status, verdict.statistic, verdict.reason});
+  return results;
+}
+
+template <class Pose>
+RunOutput run(const Mission& mission, const RunParams& params, const RunOptions& options,
+              const Progress& progress) {
   RunOutput output;
   RunResult& result = output.result;
   StageClock clock(result.timings);
@@ -91,6 +126,14 @@ RunOutput run(const Mission& mission, const RunParams& params, const Progress& p
   const auto solution = clock.time(
       "optimise", [&] { return optimize_robustly(joint, params.robust, params.optimizer, progress); });
 
+  if (wants_overlaps(mission, options))
+    clock.time("overlap", [&] { return search_overlaps_into(result, joint, params, options), 0; });
+  std::vector<ClosureResult> matches;
+  if (!mission.matches.empty() && !options.overlap_only)
+    matches = clock.time("matches", [&] {
+      return close_by_matches(joint, mission, result.candidates, params, options, progress);
+    });
+
   result.mission_name = mission.name;
   result.dimension = mission.dimension;
   collect(result, mission, joint, placement, clock);
@@ -98,6 +141,7 @@ RunOutput run(const Mission& mission, const RunParams& params, const Progress& p
   result.closures = collect_radio_links(joint);
   for (auto& closure : collect_closures(radio, joint, closures))
     result.closures.push_back(std::move(closure));
+  result.closures.insert(result.closures.end(), matches.begin(), matches.end());
   result.similarity_model = collect_similarity_model(radio, params.radio);
   count(result, radio, solution);
   output.graph = std::move(joint.team.graph);
@@ -106,8 +150,10 @@ RunOutput run(const Mission& mission, const RunParams& params, const Progress& p
 
 }  // namespace
 
-RunOutput run_pipeline(const Mission& mission, const RunParams& params, const Progress& progress) {
-  return mission.dimension == 2 ? run<SE2>(mission, params, progress) : run<SE3>(mission, params, progress);
+RunOutput run_pipeline(const Mission& mission, const RunParams& params, const RunOptions& options,
+                       const Progress& progress) {
+  return mission.dimension == 2 ? run<SE2>(mission, params, options, progress)
+                                : run<SE3>(mission, params, options, progress);
 }
 
 }  // namespace radioslam

@@ -119,6 +119,8 @@ std::vector<std::vector<Stamp>> link_moments(const Mission& mission) {
   for (const auto& range : mission.ranges) note(range.i.robot, range.stamp), note(range.j.robot, range.stamp);
   for (const auto& arrival : mission.arrivals)
     note(arrival.receiver, arrival.stamp), note(arrival.transmitter.robot, arrival.stamp);
+  for (const auto& match : mission.matches)
+    note(match.robot_i, match.stamp_i), note(match.robot_j, match.stamp_j);
   return moments;
 }
 

@@ -9,7 +9,7 @@
 
 namespace radioslam {
 
-/// Per robot, the stamps of the links it took part in.
+/// Per robot, the stamps of the links and matches it took part in.
 std::vector<std::vector<Stamp>> link_moments(const Mission& mission);
 
 /// Adds points for the anchors, and the links whose moments all their robots' odometries cover; counts the

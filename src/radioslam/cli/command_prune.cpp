@@ -1,0 +1,92 @@
+// radioslam prune: the pairs of keyframes of different robots whose views could overlap.
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "radioslam/cli/command_options.hpp"
+#include "radioslam/cli/commands.hpp"
+#include "radioslam/cli/config.hpp"
+#include "radioslam/cli/parameters.hpp"
+#include "radioslam/cli/progress_line.hpp"
+#include "radioslam/io/atomic_output.hpp"
+#include "radioslam/io/mission_folder.hpp"
+#include "radioslam/io/run_folder.hpp"
+#include "radioslam/pipeline/pipeline.hpp"
+
+namespace radioslam::cli {
+namespace {
+
+struct Options {
+  std::string mission;
+  std::string output;
+  std::string mode;
+  ParameterOptions parameters;
+  bool exhaustive = false;
+  bool json = false;
+};
+
+RunOutput search(const Options& options, const RunParams& params) {
+  const Mission mission = read_mission(options.mission);
+  ProgressLine line;
+  RunOptions how;
+  how.overlap_only = true;
+  how.search = options.exhaustive ? SearchMethod::kExhaustive : SearchMethod::kTree;
+  auto run = run_pipeline(mission, params, how, line.progress());
+  run.result.parameters = effective_parameters(params);
+  return run;
+}
+
+void print_text(const RunResult& result, const std::string& output) {
+  for (const auto& note : result.notes) std::cout << "note: " << note << '\n';
+  const auto count = [&](const char* name) {
+    const auto found = result.counts.find(name);
+    return found == result.counts.end() ? 0.0 : found->second;
+  };
+  std::cout << output << ": " << count("candidates") << " of " << count("pairs")
+            << " pairs of keyframes are left, " << count("distances_evaluated") << " distances evaluated\n";
+}
+
+void prune(const Options& options) {
+  const auto settings = collect_settings(options.parameters.config_path, options.parameters.set);
+  auto params = with_settings(RunParams{}, settings);
+  if (!options.mode.empty()) params.overlap.mode = options.mode;
+  OutputFolder output(options.output, kRunFolder);
+  const RunOutput run = search(options, params);
+  write_run(output.path(), run.result, {});
+  output.commit();
+  if (options.json) {
+    auto summary = summary_json(run.result);
+    for (const char* name : {"pairs", "candidates", "distances_evaluated"})
+      if (summary["counts"].contains(name)) summary[name] = summary["counts"][name];
+    std::cout << summary.dump(2) << '\n';
+  } else {
+    print_text(run.result, options.output);
+  }
+}
+
+}  // namespace
+
+void add_prune(CLI::App& program) {
+  const auto options = std::make_shared<Options>();
+  auto* command = program.add_subcommand(
+      "prune", "Find the pairs of keyframes whose views could overlap, and only those");
+  command->add_option("MISSION", options->mission, "The folder with mission.yaml")->required();
+  add_output_option(*command, options->output, "The folder to write; that of an earlier run is replaced");
+  command
+      ->add_option("--mode", options->mode,
+                   "joint: covariances of the joint estimate (default); link: over the nearest measured link")
+      ->check(CLI::IsMember({"joint", "link"}));
+  command->add_flag("--exhaustive", options->exhaustive, "Test every pair: the same answer, slowly");
+  add_parameter_options(*command, options->parameters);
+  add_json_option(*command, options->json);
+  add_threads_option(*command);
+  command->footer(
+      "OUT gets candidates.csv, the trajectories the search used, and summary.json.\n"
+      "What `run` does before place recognition; matches are not looked at.\n\n"
+      "Example: the pairs for your own place recognition, with a wider margin\n"
+      "  radioslam prune city -o pairs --set overlap.max_mahalanobis=3");
+  command->callback([options] { prune(*options); });
+}
+
+}  // namespace radioslam::cli
