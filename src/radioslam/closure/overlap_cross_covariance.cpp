@@ -1,5 +1,6 @@
 #include "radioslam/closure/overlap_cross_covariance.hpp"
 
+#include <algorithm>
 #include <array>
 #include <map>
 
@@ -49,64 +50,80 @@ typename SkeletonCovariance<Pose>::Joint SkeletonCovariance<Pose>::within(const 
 }
 
 template <class Pose>
-Eigen::MatrixXd SkeletonCovariance<Pose>::columns(const StretchVariables& s,
+Eigen::MatrixXd SkeletonCovariance<Pose>::columns(const Variable& v,
                                                   const std::vector<Variable>& rows) const {
-  const std::array<Variable, 3> of{variable(s.first), variable(s.last), variable(s.drift)};
-  const std::array<Eigen::Index, 3> at{0, kDof, 2 * kDof};
-  Eigen::Index height = 2;  // two rows of zeros for stretches without a drift
-  for (const Variable& v : rows) height += size(v);
-  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(height, kSize);
-  for (std::size_t j = 0; j < 3; ++j) {
-    const auto block = equations_.blocks().of(of[j]);
-    if (of[j].kind == VariableKind::kNone || block < 0) continue;
-    const Eigen::MatrixXd solved =
-        equations_.cholesky().inverse_columns(static_cast<std::size_t>(block)) * to_left(of[j]).transpose();
-    Eigen::Index row = 0;
-    for (const Variable& v : rows) {
-      const auto other = equations_.blocks().of(v);
-      if (other >= 0) {
-        const auto from =
-            static_cast<Eigen::Index>(equations_.matrix().offset(static_cast<std::size_t>(other)));
-        columns.block(row, at[j], size(v), size(of[j])) = to_left(v) * solved.middleRows(from, size(v));
-      }
-      row += size(v);
+  Eigen::Index height = 2;
+  for (const Variable& row : rows) height += size(row);
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(height, size(v));
+  const auto block = equations_.blocks().of(v);
+  if (block < 0) return columns;
+  const Eigen::MatrixXd solved =
+      equations_.cholesky().inverse_columns(static_cast<std::size_t>(block)) * to_left(v).transpose();
+  Eigen::Index at = 0;
+  for (const Variable& row : rows) {
+    const auto other = equations_.blocks().of(row);
+    if (other >= 0) {
+      const auto from =
+          static_cast<Eigen::Index>(equations_.matrix().offset(static_cast<std::size_t>(other)));
+      columns.middleRows(at, size(row)) = to_left(row) * solved.middleRows(from, size(row));
     }
+    at += size(row);
   }
   return columns;
 }
 
 template <class Pose>
-CrossCovariance<Pose>::CrossCovariance(std::shared_ptr<const SkeletonCovariance<Pose>> skeleton,
-                                       std::size_t a, std::size_t b, std::size_t dense_scalars)
-    : skeleton_(std::move(skeleton)), a_(a) {
-  std::map<std::pair<int, std::int32_t>, Eigen::Index> row_of;
-  Eigen::Index height = 0;
-  const auto row = [&](const Variable& v) {
-    const auto [place, is_new] = row_of.try_emplace({static_cast<int>(v.kind), v.id}, height);
-    if (is_new) {
-      variables_b_.push_back(v);
-      height += v.kind == VariableKind::kPose ? kDof : 2;
-    }
-    return place->second;
+typename CrossCovariance<Pose>::Listed CrossCovariance<Pose>::list_variables(
+    const std::vector<StretchVariables>& stretches) {
+  Listed listed;
+  std::map<std::pair<int, std::int32_t>, std::size_t> places;
+  const auto place = [&](const Variable& v) {
+    const auto [known, is_new] =
+        places.try_emplace({static_cast<int>(v.kind), v.id}, listed.variables.size());
+    if (is_new) listed.variables.push_back(v);
+    return known->second;
   };
-  for (const StretchVariables& t : skeleton_->stretches(b))
-    rows_b_.push_back(
-        {row(variable(t.first)), row(variable(t.last)), t.drift.valid() ? row(variable(t.drift)) : -1});
-  for (Rows& rows : rows_b_)
-    if (rows.drift < 0) rows.drift = height;
-  const std::size_t stretches = skeleton_->stretches(a).size();
-  const auto per_stretch = static_cast<std::size_t>((height + 2) * kSize);
-  capacity_ = std::max<std::size_t>(1, dense_scalars / per_stretch);
-  if (stretches > capacity_) return;
-  for (std::size_t s = 0; s < stretches; ++s)
-    all_.push_back(
-        std::make_shared<Eigen::MatrixXd>(skeleton_->columns(skeleton_->stretches(a)[s], variables_b_)));
+  for (const StretchVariables& s : stretches) {
+    const std::size_t first = place(variable(s.first)), last = place(variable(s.last));
+    listed.stretches.push_back(
+        {first, last, s.drift.valid() ? place(variable(s.drift)) : stretches.size() * 3});
+  }
+  for (Places& places_of : listed.stretches)
+    places_of.drift = std::min(places_of.drift, listed.variables.size());
+  return listed;
 }
 
 template <class Pose>
-typename CrossCovariance<Pose>::Columns CrossCovariance<Pose>::latest(std::size_t s) const {
+CrossCovariance<Pose>::CrossCovariance(std::shared_ptr<const SkeletonCovariance<Pose>> skeleton,
+                                       std::size_t a, std::size_t b, std::size_t dense_scalars)
+    : skeleton_(std::move(skeleton)),
+      a_(list_variables(skeleton_->stretches(a))),
+      b_(list_variables(skeleton_->stretches(b))) {
+  Eigen::Index height = 0;
+  for (const Variable& v : b_.variables) {
+    rows_b_.push_back(height);
+    height += SkeletonCovariance<Pose>::size(v);
+  }
+  rows_b_.push_back(height);  // of no drift
+  capacity_ = std::max<std::size_t>(2, dense_scalars / static_cast<std::size_t>((height + 2) * kDof));
+  solve_all(capacity_);
+}
+
+/// Every variable where they fit, else the drifts, which every stretch needs.
+template <class Pose>
+void CrossCovariance<Pose>::solve_all(std::size_t capacity) {
+  const bool fit = a_.variables.size() <= capacity;
+  for (const Variable& v : a_.variables) {
+    const bool now = fit || v.kind == VariableKind::kDrift;
+    solved_.push_back(now ? std::make_shared<Eigen::MatrixXd>(skeleton_->columns(v, b_.variables)) : nullptr);
+  }
+  solved_.push_back(std::make_shared<Eigen::MatrixXd>(Eigen::MatrixXd::Zero(rows_b_.back() + 2, 2)));
+}
+
+template <class Pose>
+typename CrossCovariance<Pose>::Columns CrossCovariance<Pose>::latest(std::size_t v) const {
   const std::lock_guard lock(mutex_);
-  if (const auto known = place_.find(s); known != place_.end()) {
+  if (const auto known = place_.find(v); known != place_.end()) {
     latest_.splice(latest_.begin(), latest_, known->second);
     return known->second->second;
   }
@@ -114,21 +131,27 @@ typename CrossCovariance<Pose>::Columns CrossCovariance<Pose>::latest(std::size_
     place_.erase(latest_.back().first);
     latest_.pop_back();
   }
-  const auto& stretch = skeleton_->stretches(a_)[s];
-  latest_.emplace_front(s, std::make_shared<Eigen::MatrixXd>(skeleton_->columns(stretch, variables_b_)));
-  place_[s] = latest_.begin();
+  latest_.emplace_front(v,
+                        std::make_shared<Eigen::MatrixXd>(skeleton_->columns(a_.variables[v], b_.variables)));
+  place_[v] = latest_.begin();
   return latest_.front().second;
 }
 
 template <class Pose>
 typename CrossCovariance<Pose>::Joint CrossCovariance<Pose>::between(std::size_t s, std::size_t t) const {
-  const Columns held = all_.empty() ? latest(s) : nullptr;
-  const Eigen::MatrixXd& columns = held ? *held : *all_[s];
-  const Rows& rows = rows_b_[t];
+  const Places &of_a = a_.stretches[s], &of_b = b_.stretches[t];
+  const Eigen::Index first = rows_b_[of_b.first], last = rows_b_[of_b.last], drift = rows_b_[of_b.drift];
   Joint joint;
-  joint.template topRows<kDof>() = columns.middleRows<kDof>(rows.first);
-  joint.template middleRows<kDof>(kDof) = columns.middleRows<kDof>(rows.last);
-  joint.template bottomRows<2>() = columns.middleRows<2>(rows.drift);
+  const auto fill = [&](std::size_t variable, auto target) {
+    const Columns held = solved_[variable] ? nullptr : latest(variable);
+    const Eigen::MatrixXd& columns = held ? *held : *solved_[variable];
+    target.template topRows<kDof>() = columns.middleRows<kDof>(first);
+    target.template middleRows<kDof>(kDof) = columns.middleRows<kDof>(last);
+    target.template bottomRows<2>() = columns.middleRows<2>(drift);
+  };
+  fill(of_a.first, joint.template leftCols<kDof>());
+  fill(of_a.last, joint.template middleCols<kDof>(kDof));
+  fill(of_a.drift, joint.template rightCols<2>());
   return joint;
 }
 

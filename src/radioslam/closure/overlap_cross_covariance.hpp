@@ -34,8 +34,9 @@ class SkeletonCovariance {
 
   const std::vector<StretchVariables>& stretches(std::size_t robot) const { return stretches_[robot]; }
   Joint within(const StretchVariables& stretch) const;
-  /// Cov([every stretch end and drift of `rows`], [the stretch's variables]): see CrossCovariance.
-  Eigen::MatrixXd columns(const StretchVariables& stretch, const std::vector<Variable>& rows) const;
+  /// Cov(rows, v), one after the other, and two rows of zeros for stretches without a drift.
+  Eigen::MatrixXd columns(const Variable& v, const std::vector<Variable>& rows) const;
+  static constexpr Eigen::Index size(const Variable& v) { return v.kind == VariableKind::kPose ? kDof : 2; }
 
  private:
   SkeletonCovariance(PoseGraph<Pose> reduced, const typename Pose::Point& origin)
@@ -43,7 +44,6 @@ class SkeletonCovariance {
 
   Eigen::MatrixXd block(const Variable& a, const Variable& b) const;
   Eigen::MatrixXd to_left(const Variable& v) const;
-  static Eigen::Index size(const Variable& v) { return v.kind == VariableKind::kPose ? kDof : 2; }
 
   PoseGraph<Pose> graph_;
   NormalEquations<Pose> equations_;
@@ -69,22 +69,29 @@ class CrossCovariance {
 
  private:
   using Columns = std::shared_ptr<const Eigen::MatrixXd>;
-  struct Rows {
-    Eigen::Index first, last, drift;
+  using Latest = std::list<std::pair<std::size_t, Columns>>;
+  /// A stretch's variables, by their places in a list of variables.
+  struct Places {
+    std::size_t first, last, drift;
   };
-  Columns columns(std::size_t s) const;
-  Columns latest(std::size_t s) const;
+  /// The variables of a robot's stretches, each once; a stretch without a drift has the place after the last.
+  struct Listed {
+    std::vector<Variable> variables;
+    std::vector<Places> stretches;
+  };
+  static Listed list_variables(const std::vector<StretchVariables>& stretches);
+
+  void solve_all(std::size_t capacity);
+  Columns latest(std::size_t variable) const;
 
   std::shared_ptr<const SkeletonCovariance<Pose>> skeleton_;
-  std::size_t a_;
-  std::vector<Variable> variables_b_;
-  std::vector<Rows> rows_b_;
-  std::size_t capacity_ = 0;
-  std::vector<Columns> all_;  ///< empty when they do not fit
+  Listed a_, b_;
+  std::vector<Eigen::Index> rows_b_;  ///< of b's variables
+  std::size_t capacity_ = 0;          ///< columns of poses that are kept
+  std::vector<Columns> solved_;       ///< per variable of a; empty where it is solved for when asked
   mutable std::mutex mutex_;
-  mutable std::list<std::pair<std::size_t, Columns>> latest_;  ///< the latest first
-  mutable std::unordered_map<std::size_t, typename std::list<std::pair<std::size_t, Columns>>::iterator>
-      place_;
+  mutable Latest latest_;  ///< the latest first
+  mutable std::unordered_map<std::size_t, typename Latest::iterator> place_;
 };
 
 }  // namespace radioslam

@@ -69,6 +69,7 @@ class JointCovariance<Pose>::Builder {
     }
     close_piece(robot);
     drop_empty_pieces(robot);
+    for (std::size_t k = 0; k < robot.records.size(); ++k) robot.rounding.widen(rounding(robot, k));
     return robot;
   }
 
@@ -155,6 +156,13 @@ class JointCovariance<Pose>::Builder {
     return record;
   }
 
+  static PoseSpread rounding(const Robot& robot, std::size_t k) {
+    const typename Pose::Point& p = robot.records[k].pose.translation();
+    const PoseSpread sums = rounding_bound<Pose>(robot.walked[k].covariance, p, kRoundingOfSums);
+    const PoseSpread solved = rounding_bound<Pose>(robot.records[k].covariance, p, kSolveError);
+    return {sums.sigma_m + solved.sigma_m, sums.sigma_rad + solved.sigma_rad};
+  }
+
   const PoseGraph<Pose>& graph_;
   const std::vector<ChainOfPoses>& chains_;
   Skeleton<Pose> skeleton_;
@@ -186,11 +194,8 @@ PoseSpread JointCovariance<Pose>::spread(std::size_t robot, std::size_t pose, st
   const Jacobian noise = at * (r.walked[last].covariance - r.walked[first].covariance) * at.transpose();
   const DriftEffect by_drift = at * (r.walked[last].by_drift - r.walked[first].by_drift);
   const Jacobian drift = by_drift * r.cov_drift[record.stretch] * by_drift.transpose();
-  const PoseSpread a = spread_of<Pose>(noise), b = spread_of<Pose>(drift),
-                   c = rounding_bound<Pose>(r.walked[last].covariance, p, kRoundingOfSums),
-                   d = rounding_bound<Pose>(record.covariance, p, kSolveError);
-  return {a.sigma_m + b.sigma_m + c.sigma_m + d.sigma_m,
-          a.sigma_rad + b.sigma_rad + c.sigma_rad + d.sigma_rad};
+  const PoseSpread a = spread_of<Pose>(noise), b = spread_of<Pose>(drift);
+  return {a.sigma_m + b.sigma_m + r.rounding.sigma_m, a.sigma_rad + b.sigma_rad + r.rounding.sigma_rad};
 }
 
 template <class Pose>

@@ -49,7 +49,11 @@ class JointView {
   }
   double tie_walked_a(std::size_t) const { return 0; }
   double tie_walked_b(std::size_t) const { return 0; }
-  std::size_t stretches_at_hand() const { return cross_->stretches_at_hand(); }
+  /// Several threads can each go back and forth over as many without solving again.
+  bool fits_at_hand(const Record& first, const Record& last) const {
+    constexpr std::size_t kThreads = 4;
+    return last.stretch - first.stretch <= cross_->stretches_at_hand() / kThreads;
+  }
   RelativePlace<Pose> relative(std::size_t tie, const Record& k, const Record& l) const;
 
  private:
@@ -96,6 +100,7 @@ class JointCovariance {
     std::vector<Eigen::Matrix2d> cov_drift;  ///< per stretch
     std::vector<PoseInterval> pieces;
     std::vector<std::int32_t> components;  ///< of the pieces
+    PoseSpread rounding;
   };
   class Builder;
 

@@ -80,7 +80,10 @@ LinkCovariance<Pose>::LinkCovariance(const std::vector<OdometryChain<Pose>>& cha
                                      std::vector<OverlapLink<Pose>> links)
     : links_(std::move(links)) {
   for (const auto& chain : chains) {
-    robots_.push_back({records_of(chain), {}});
+    robots_.push_back({records_of(chain), {}, {}});
+    for (const auto& record : robots_.back().records)
+      robots_.back().rounding.widen(
+          rounding_bound<Pose>(record.cov_walk, record.pose.translation(), kRoundingOfSums));
     if (!chain.poses.empty()) robots_.back().pieces.push_back({0, chain.poses.size()});
   }
   for (auto& link : links_) {
@@ -98,7 +101,7 @@ PoseSpread LinkCovariance<Pose>::spread(std::size_t robot, std::size_t pose, std
   const typename Pose::Point& p = records[pose].pose.translation();
   const auto at = motion_at<Pose>(p);
   const PoseSpread walked = spread_of<Pose>(at * walk<Pose>(records[pose], records[middle]) * at.transpose());
-  const PoseSpread rounding = rounding_bound<Pose>(records.back().cov_walk, p, kRoundingOfSums);
+  const PoseSpread& rounding = robots_[robot].rounding;
   return {walked.sigma_m + rounding.sigma_m, walked.sigma_rad + rounding.sigma_rad};
 }
 

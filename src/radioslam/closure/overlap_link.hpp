@@ -64,6 +64,7 @@ class LinkView {
   }
   double tie_walked_a(std::size_t tie) const { return ties_[tie].a.walked_m; }
   double tie_walked_b(std::size_t tie) const { return ties_[tie].b.walked_m; }
+  bool fits_at_hand(const Record&, const Record&) const { return true; }
   RelativePlace<Pose> relative(std::size_t tie, const Record& k, const Record& l) const;
 
  private:
@@ -94,6 +95,7 @@ class LinkCovariance {
   struct Robot {
     std::vector<typename View::Record> records;
     std::vector<PoseInterval> pieces;
+    PoseSpread rounding;
   };
   typename View::Tie tie_of(const OverlapLink<Pose>& link) const;
 

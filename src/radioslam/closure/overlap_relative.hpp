@@ -33,6 +33,11 @@ struct PoseInterval {
 struct PoseSpread {
   double sigma_m = 0;
   double sigma_rad = 0;
+
+  void widen(const PoseSpread& other) {
+    sigma_m = std::max(sigma_m, other.sigma_m);
+    sigma_rad = std::max(sigma_rad, other.sigma_rad);
+  }
 };
 
 /// Pose l seen from pose k, in the axes of the common frame.
@@ -111,6 +116,9 @@ concept OverlapView = requires(const V& view, const typename V::Record& k, std::
   { view.relative(tie, k, k) } -> std::convertible_to<RelativePlace<typename V::Pose>>;
   { view.tie_walked_a(tie) } -> std::convertible_to<double>;  // where the tie is on a's way, metres
   { view.tie_walked_b(tie) } -> std::convertible_to<double>;
+  {
+    view.fits_at_hand(k, k)
+    } -> std::convertible_to<bool>;  // a's poses from first to last: all quick to compare
 };
 
 /// An estimate of a team, as the search reads it. Robots are numbered as listed in the mission.

@@ -12,6 +12,8 @@ namespace {
 
 /// Boxes that are opened before threads share the work: enough to keep many busy, few enough to cost nothing.
 constexpr std::size_t kTasks = 512;
+/// Boxes above one another: two trees of 32-bit pose indices, halved.
+constexpr std::size_t kDeepest = 2 * 32 + 2;
 /// Poses of the first robot per task of the exhaustive search.
 constexpr std::size_t kRowsPerTask = 64;
 
@@ -43,8 +45,10 @@ class PairSearch {
     tree_b_ = &B;
     OverlapCandidates found;
     const std::vector<Task> tasks = open(first_tasks(source), found);
-    return gather(tasks.size(), std::move(found),
-                  [&](std::size_t t, OverlapCandidates& out) { Walk(*this, out).box(tasks[t]); });
+    return gather(tasks.size(), std::move(found), [&](std::size_t t, OverlapCandidates& out) {
+      std::vector<std::vector<Bound>> levels(kDeepest);
+      walk(tasks[t].node_a, tasks[t].node_b, tasks[t].ties, 0, levels, out);
+    });
   }
 
   OverlapCandidates over_all(const Source& source) {
@@ -90,15 +94,14 @@ class PairSearch {
     return tasks;
   }
 
-  void compare(const OverlapJudge<View>& judge, std::uint32_t k, std::uint32_t l, std::span<const Bound> ties,
-               OverlapCandidates& out) const {
+  void compare(std::uint32_t k, std::uint32_t l, std::span<const Bound> ties, OverlapCandidates& out) const {
     const auto& record_k = records_a_[k];
     const auto& record_l = records_b_[l];
-    const Bound& tie = judge.nearest(ties, record_k, record_l);
+    const Bound& tie = judge_.nearest(ties, record_k, record_l);
     if (tie.state == Bound::State::kOutside) return;
-    if (judge.beyond(tie, judge.difference(tie.tie, record_k, record_l))) return;
+    if (judge_.beyond(tie, judge_.difference(tie.tie, record_k, record_l))) return;
     ++out.counts.distances_evaluated;
-    if (const auto passed = judge.pair(tie.tie, record_k, record_l)) {
+    if (const auto passed = judge_.pair(tie.tie, record_k, record_l)) {
       out.candidates.push_back({a_, b_, k, l, passed->distance_m, passed->mahalanobis});
       ++out.counts.kept;
     }
@@ -111,76 +114,62 @@ class PairSearch {
       const std::size_t begin = p.begin + t * kRowsPerTask;
       for (std::size_t k = begin; k < std::min(p.end, begin + kRowsPerTask); ++k)
         for (std::size_t l = q.begin; l < q.end; ++l)
-          compare(judge_, static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(l), ties, out);
+          compare(static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(l), ties, out);
     });
   }
 
-  /// The walk below one pair of boxes.
-  class Walk {
-   public:
-    Walk(const PairSearch& search, OverlapCandidates& out) : search_(search), out_(out) {}
+  BoxVerdict judge(std::uint32_t i, std::uint32_t j, std::span<const Bound> from, std::vector<Bound>& to,
+                   OverlapCounts& counts) const {
+    const Node &I = node_a(i), &J = node_b(j);
+    return judge_.box({I, records_a_[I.middle]}, {J, records_b_[J.middle]}, from, to, counts);
+  }
 
-    void box(const Task& task) { box(task.node_a, task.node_b, task.ties); }
+  void compare_all(std::uint32_t i, std::uint32_t j, std::span<const Bound> ties,
+                   OverlapCandidates& out) const {
+    const Node &I = node_a(i), &J = node_b(j);
+    for (std::uint32_t k = I.begin; k < I.end; ++k)
+      for (std::uint32_t l = J.begin; l < J.end; ++l) compare(k, l, ties, out);
+  }
 
-    /// The verdict on a pair of boxes, with the bounds of its ties at the end of `bounds()`.
-    BoxVerdict judge(std::uint32_t i, std::uint32_t j, std::span<const Bound> ties) {
-      const Node& I = search_.node_a(i);
-      const Node& J = search_.node_b(j);
-      return search_.judge_.box({I, search_.records_a_[I.middle]}, {J, search_.records_b_[J.middle]}, ties,
-                                bounds_, out_.counts);
+  /// The walk below a pair of boxes; `levels` holds the bounds of the boxes above.
+  void walk(std::uint32_t i, std::uint32_t j, std::span<const Bound> from, std::size_t depth,
+            std::vector<std::vector<Bound>>& levels, OverlapCandidates& out) const {
+    std::vector<Bound>& ties = levels[depth];
+    ties.clear();
+    const BoxVerdict verdict = judge(i, j, from, ties, out.counts);
+    if (verdict == BoxVerdict::kInside || verdict == BoxVerdict::kCompare) {
+      compare_all(i, j, ties, out);
+    } else if (verdict == BoxVerdict::kSplitA) {
+      walk(i + 1, j, ties, depth + 1, levels, out);
+      walk(node_a(i).right, j, ties, depth + 1, levels, out);
+    } else if (verdict == BoxVerdict::kSplitB) {
+      walk(i, j + 1, ties, depth + 1, levels, out);
+      walk(i, node_b(j).right, ties, depth + 1, levels, out);
     }
-    const std::vector<Bound>& bounds() const { return bounds_; }
+  }
 
-    void compare_all(std::uint32_t i, std::uint32_t j, std::span<const Bound> ties) {
-      const Node& I = search_.node_a(i);
-      const Node& J = search_.node_b(j);
-      for (std::uint32_t k = I.begin; k < I.end; ++k)
-        for (std::uint32_t l = J.begin; l < J.end; ++l) search_.compare(search_.judge_, k, l, ties, out_);
-    }
+  bool at_hand(const Node& I) const {
+    return I.leaf() || view_.fits_at_hand(records_a_[I.begin], records_a_[I.end - 1]);
+  }
 
-   private:
-    void box(std::uint32_t i, std::uint32_t j, std::span<const Bound> given) {
-      const std::size_t first = bounds_.size();
-      const std::vector<Bound> from(given.begin(), given.end());
-      const BoxVerdict verdict = judge(i, j, from);
-      const std::vector<Bound> ties(bounds_.begin() + static_cast<std::ptrdiff_t>(first), bounds_.end());
-      bounds_.resize(first);
-      switch (verdict) {
-        case BoxVerdict::kOutside:
-          break;
-        case BoxVerdict::kInside:
-        case BoxVerdict::kCompare:
-          compare_all(i, j, ties);
-          break;
-        case BoxVerdict::kSplitA:
-          box(i + 1, j, ties);
-          box(search_.node_a(i).right, j, ties);
-          break;
-        case BoxVerdict::kSplitB:
-          box(i, j + 1, ties);
-          box(i, search_.node_b(j).right, ties);
-          break;
-      }
-    }
-
-    const PairSearch& search_;
-    OverlapCandidates& out_;
-    std::vector<Bound> bounds_;
-  };
-
-  /// Opens boxes breadth-first until there are enough for the threads; what is settled on the way goes to
-  /// `out`.
+  /// Opens boxes breadth-first until there are enough for the threads and each is at hand; what is settled on
+  /// the way goes to `out`. In the order of a's poses.
   std::vector<Task> open(std::deque<Task> tasks, OverlapCandidates& out) const {
-    std::vector<Task> rest;
-    while (!tasks.empty() && tasks.size() < kTasks) {
+    std::vector<Task> ready;
+    while (!tasks.empty()) {
       const Task task = std::move(tasks.front());
       tasks.pop_front();
-      Walk walk(*this, out);
-      const BoxVerdict verdict = walk.judge(task.node_a, task.node_b, task.ties);
-      const auto& ties = walk.bounds();
-      if (verdict == BoxVerdict::kInside || verdict == BoxVerdict::kCompare) {
-        walk.compare_all(task.node_a, task.node_b, ties);
-      } else if (verdict == BoxVerdict::kSplitA) {
+      const bool is_at_hand = at_hand(node_a(task.node_a));
+      if (is_at_hand && tasks.size() + ready.size() >= kTasks) {
+        ready.push_back(task);
+        continue;
+      }
+      std::vector<Bound> ties;
+      BoxVerdict verdict = judge(task.node_a, task.node_b, task.ties, ties, out.counts);
+      if (verdict == BoxVerdict::kInside || verdict == BoxVerdict::kCompare)
+        compare_all(task.node_a, task.node_b, ties, out);
+      if (verdict == BoxVerdict::kSplitB && !is_at_hand) verdict = BoxVerdict::kSplitA;
+      if (verdict == BoxVerdict::kSplitA) {
         tasks.push_back({task.node_a + 1, task.node_b, ties});
         tasks.push_back({node_a(task.node_a).right, task.node_b, ties});
       } else if (verdict == BoxVerdict::kSplitB) {
@@ -188,8 +177,10 @@ class PairSearch {
         tasks.push_back({task.node_a, node_b(task.node_b).right, ties});
       }
     }
-    rest.assign(std::make_move_iterator(tasks.begin()), std::make_move_iterator(tasks.end()));
-    return rest;
+    std::stable_sort(ready.begin(), ready.end(), [&](const Task& x, const Task& y) {
+      return node_a(x.node_a).begin < node_a(y.node_a).begin;
+    });
+    return ready;
   }
 
   std::uint32_t a_, b_;

@@ -41,7 +41,7 @@ class OverlapTreeBuilder {
 
   /// Poses per leaf: smaller ones bound better, larger ones are fewer.
   static constexpr std::size_t kLeaf = 4;
-  static constexpr std::size_t kSummed = 64;
+  static constexpr std::size_t kSummed = 32;
 
  public:
   OverlapTreeBuilder(const Source& source, std::size_t robot) : source_(source), robot_(robot) {}
@@ -87,7 +87,7 @@ class OverlapTreeBuilder {
       node.walked_low_m = std::min(node.walked_low_m, records[k].walked_m);
       node.walked_high_m = std::max(node.walked_high_m, records[k].walked_m);
       node.radius_m = std::max(node.radius_m, (p - middle.pose.translation()).norm());
-      widen(node, source_.spread(robot_, k, node.middle));
+      node.spread.widen(source_.spread(robot_, k, node.middle));
       node.heading_spread_rad = std::max(
           node.heading_spread_rad, std::abs(wrap_angle(heading(records[k].pose) - heading(middle.pose))));
     }
@@ -102,8 +102,8 @@ class OverlapTreeBuilder {
     for (const Node* half : {&first, &second}) {
       const auto& of_half = records[half->middle];
       const PoseSpread s = source_.spread(robot_, half->middle, node.middle);
-      widen(node, {half->spread.sigma_m + s.sigma_m + half->radius_m * s.sigma_rad,
-                   half->spread.sigma_rad + s.sigma_rad});
+      node.spread.widen({half->spread.sigma_m + s.sigma_m + half->radius_m * s.sigma_rad,
+                         half->spread.sigma_rad + s.sigma_rad});
       const double way = (of_half.pose.translation() - middle.pose.translation()).norm();
       node.radius_m = std::max(node.radius_m, way + half->radius_m);
       const double turn = std::abs(wrap_angle(heading(of_half.pose) - heading(middle.pose)));
@@ -115,10 +115,6 @@ class OverlapTreeBuilder {
     node.radius_m = std::min(node.radius_m, corner.norm());
   }
 
-  static void widen(Node& node, const PoseSpread& spread) {
-    node.spread.sigma_m = std::max(node.spread.sigma_m, spread.sigma_m);
-    node.spread.sigma_rad = std::max(node.spread.sigma_rad, spread.sigma_rad);
-  }
   static void set_box(Node& node, const Point& low, const Point& high) {
     node.centre_m = (low + high) / 2;
     node.half_extent_m = (high - low) / 2;
