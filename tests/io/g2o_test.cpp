@@ -127,7 +127,7 @@ TEST(ReadG2o, RefusesAZeroInformationUnlessItIsToBeRepaired) {
 TEST(ReadG2o, RefusesWhatItDoesNotKnow) {
   expect_refused("VERTEX_SE2 0 0 0 0\nVERTEX_CAM 1 0\n", 2, "unknown tag 'VERTEX_CAM'");
   expect_refused("0410268 0.7588833\n", 1, "unknown tag '0410268'");
-  expect_refused("VERTEX_SE2 0 0 0 0\nVERTEX_XY 1 0 0\nEDGE_SE2_XY 0 1 1 1 1 0 1\n", 3, "landmark");
+  expect_refused("VERTEX_SE2 0 0 0 0\nVERTEX_XY 1 0 0\nEDGE_BEARING_SE2_XY 0 1 1 1\n", 3, "landmark");
   expect_refused("VERTEX_SE2 0 0 0 0\nVERTEX_SE3:QUAT 1 0 0 0 0 0 0 1\n", 2, "mixes the plane and space");
 }
 

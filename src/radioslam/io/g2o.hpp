@@ -3,6 +3,7 @@
 //   VERTEX_SE2 id x y theta                      VERTEX_SE3:QUAT id x y z qx qy qz qw
 //   VERTEX_XY id x y                             VERTEX_TRACKXYZ id x y z
 //   EDGE_SE2 i j x y theta <3x3>                 EDGE_SE3:QUAT i j x y z qx qy qz qw <6x6>
+//   EDGE_SE2_XY i j x y <2x2>                    EDGE_SE3_TRACKXYZ i j 0 x y z <3x3>
 //   EDGE_PRIOR_SE2 i x y theta <3x3>             EDGE_SE3_PRIOR i 0 x y z qx qy qz qw <6x6>
 //   FIX id ...                                   PARAMS_SE3OFFSET 0 0 0 0 0 0 0 1
 //   EDGE_RANGE i j range_m information [lever_i lever_j]       our own: a distance between poses or points
@@ -11,8 +12,8 @@
 // g2o's error vector (PoseChart::kG2o). A lever arm is the antenna in the body frame, x y (z). Ids have 64
 // bits. Blank lines and '#' comments are skipped; VERTEX lines may be missing, for all poses or for all of
 // another robot's (g2o_vertices.hpp); edges may repeat, and then count as often as they stand there. In
-// space, edges of the plane are refused, and the other way round. Refused as well: unknown tags, landmark
-// edges, information matrices that are indefinite or all zero.
+// space, edges of the plane are refused, and the other way round. Refused as well: unknown tags, other
+// landmark edges, information matrices that are indefinite or all zero.
 #pragma once
 
 #include <cstdint>
@@ -40,6 +41,7 @@ struct G2oGraph {
   std::vector<bool> pose_has_value;              ///< per pose: did it have a VERTEX line?
   std::vector<std::size_t> relative_pose_lines;  ///< per factor, of the file
   std::vector<std::size_t> range_lines;
+  std::vector<std::size_t> relative_point_lines;
   std::vector<std::size_t> pose_prior_lines;
   std::size_t repaired_informations = 0;
 };

@@ -36,11 +36,11 @@ typename Pose::Point read_point(LineFields& fields) {
   return point;
 }
 
-template <class Pose>
-typename Pose::Jacobian read_upper_triangle(LineFields& fields) {
-  typename Pose::Jacobian m;
-  for (int row = 0; row < Pose::kDof; ++row)
-    for (int column = row; column < Pose::kDof; ++column)
+template <int N>
+Eigen::Matrix<double, N, N> read_upper_triangle(LineFields& fields) {
+  Eigen::Matrix<double, N, N> m;
+  for (int row = 0; row < N; ++row)
+    for (int column = row; column < N; ++column)
       m(row, column) = m(column, row) = fields.number("information");
   return m;
 }
@@ -62,6 +62,7 @@ class G2oReader {
     add_undeclared_poses();
     resolve_relative_poses();
     resolve_ranges();
+    resolve_sightings();
     resolve_priors();
     resolve_fixed();
     if (out_.graph.poses.empty()) text_.fail(1, "the graph has no poses");
@@ -78,6 +79,7 @@ class G2oReader {
     if (tag == Tags::kVertex) return read_vertex(fields);
     if (tag == Tags::kPoint) return read_point_vertex(fields);
     if (tag == kG2oRange) return read_range(fields);
+    if (tag == Tags::kSighting) return read_sighting(fields);
     if (tag == Tags::kPrior) return read_prior(fields);
     if (tag == kG2oFix) return read_fixed(fields);
     if (tag == Tags::kOffset) return read_offset(fields);
@@ -87,7 +89,7 @@ class G2oReader {
   [[noreturn]] void refuse_tag(std::string_view tag) const {
     const std::string name(tag.substr(0, 40));
     if (is_g2o_tag<OtherPose>(tag)) lines_.fail(name + ": the graph mixes the plane and space");
-    if (is_g2o_tag<Pose>(tag)) lines_.fail(name + ": landmark edges are not supported");
+    if (is_g2o_tag<Pose>(tag)) lines_.fail(name + ": such landmark edges are not supported");
     lines_.fail("unknown tag '" + name + "'");
   }
 
@@ -113,8 +115,9 @@ class G2oReader {
     return {i, j};
   }
 
-  typename Pose::Jacobian read_information(LineFields& fields) {
-    const typename Pose::Jacobian information = read_upper_triangle<Pose>(fields);
+  template <int N>
+  Eigen::Matrix<double, N, N> read_information(LineFields& fields) {
+    const Eigen::Matrix<double, N, N> information = read_upper_triangle<N>(fields);
     ++informations_;
     if (information.isZero(0) && repair_ == RepairInformation::kNo)
       lines_.fail("the information matrix is zero; --repair-information lets such an edge say nothing");
@@ -136,7 +139,7 @@ class G2oReader {
     relative_pose_ends_.push_back(ends);
     RelativePoseFactor<Pose>& factor = out_.graph.relative_poses.emplace_back();
     factor.T_i_j = read_pose<Pose>(fields);
-    factor.information = read_information(fields);
+    factor.information = read_information<Pose::kDof>(fields);
     out_.relative_pose_lines.push_back(lines_.number());
   }
 
@@ -154,12 +157,21 @@ class G2oReader {
     out_.range_lines.push_back(lines_.number());
   }
 
+  void read_sighting(LineFields& fields) {
+    sighting_ends_.push_back(read_ends(fields));
+    if (Pose::kDim == 3) fields.id("offset parameter");
+    RelativePointFactor<Pose>& factor = out_.graph.relative_points.emplace_back();
+    factor.position = read_point<Pose>(fields);
+    factor.information = read_information<Pose::kDim>(fields);
+    out_.relative_point_lines.push_back(lines_.number());
+  }
+
   void read_prior(LineFields& fields) {
     prior_ids_.push_back(fields.id("id"));
     if (Pose::kDim == 3) fields.id("offset parameter");
     PosePriorFactor<Pose>& factor = out_.graph.pose_priors.emplace_back();
     factor.prior = read_pose<Pose>(fields);
-    factor.information = read_information(fields);
+    factor.information = read_information<Pose::kDof>(fields);
     out_.pose_prior_lines.push_back(lines_.number());
   }
 
@@ -214,6 +226,14 @@ class G2oReader {
     }
   }
 
+  void resolve_sightings() {
+    for (std::size_t k = 0; k < sighting_ends_.size(); ++k) {
+      const std::size_t line = out_.relative_point_lines[k];
+      out_.graph.relative_points[k].i = vertices_.pose_at(sighting_ends_[k].i, line);
+      resolve_range_end(out_.graph.relative_points[k].j, sighting_ends_[k].j, line);
+    }
+  }
+
   void resolve_priors() {
     for (std::size_t k = 0; k < prior_ids_.size(); ++k)
       out_.graph.pose_priors[k].i = vertices_.pose_at(prior_ids_[k], out_.pose_prior_lines[k]);
@@ -237,6 +257,7 @@ class G2oReader {
   G2oVertices vertices_;
   std::vector<EdgeEnds> relative_pose_ends_;
   std::vector<EdgeEnds> range_ends_;
+  std::vector<EdgeEnds> sighting_ends_;
   std::vector<Id> prior_ids_;
   std::vector<Fixed> fixed_;
   std::size_t informations_ = 0;

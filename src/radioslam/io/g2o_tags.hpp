@@ -1,7 +1,6 @@
 // The words that start a line of a g2o file.
 #pragma once
 
-#include <array>
 #include <string_view>
 
 #include "radioslam/geometry/se2.hpp"
@@ -19,7 +18,8 @@ struct G2oTags<SE2> {
   static constexpr std::string_view kEdge = "EDGE_SE2";
   static constexpr std::string_view kPrior = "EDGE_PRIOR_SE2";
   static constexpr std::string_view kOffset = "PARAMS_SE2OFFSET";
-  static constexpr std::array<std::string_view, 2> kLandmarks = {"EDGE_SE2_XY", "EDGE_BEARING_SE2_XY"};
+  static constexpr std::string_view kSighting = "EDGE_SE2_XY";
+  static constexpr std::string_view kUnsupported = "EDGE_BEARING_SE2_XY";
 };
 
 template <>
@@ -29,7 +29,8 @@ struct G2oTags<SE3> {
   static constexpr std::string_view kEdge = "EDGE_SE3:QUAT";
   static constexpr std::string_view kPrior = "EDGE_SE3_PRIOR";
   static constexpr std::string_view kOffset = "PARAMS_SE3OFFSET";
-  static constexpr std::array<std::string_view, 2> kLandmarks = {"EDGE_SE3_TRACKXYZ", "EDGE_SE3_XYZ"};
+  static constexpr std::string_view kSighting = "EDGE_SE3_TRACKXYZ";
+  static constexpr std::string_view kUnsupported = "EDGE_SE3_XYZ";
 };
 
 inline constexpr std::string_view kG2oRange = "EDGE_RANGE";
@@ -40,7 +41,7 @@ template <class Pose>
 constexpr bool is_g2o_tag(std::string_view tag) {
   using Tags = G2oTags<Pose>;
   return tag == Tags::kVertex || tag == Tags::kPoint || tag == Tags::kEdge || tag == Tags::kPrior ||
-         tag == Tags::kOffset || tag == Tags::kLandmarks[0] || tag == Tags::kLandmarks[1];
+         tag == Tags::kOffset || tag == Tags::kSighting || tag == Tags::kUnsupported;
 }
 
 }  // namespace radioslam

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -28,12 +29,14 @@ class G2oWriter {
   std::string write() {
     write_vertices();
     write_fixed();
-    if (Pose::kDim == 3 && !graph_.pose_priors.empty()) {
+    if (Pose::kDim == 3 && !(graph_.pose_priors.empty() && graph_.relative_points.empty())) {
       tag(Tags::kOffset);
       out_ += " 0 0 0 0 0 0 0 1\n";
     }
     for (const auto& factor : graph_.relative_poses) write_relative_pose(factor);
     for (const auto& factor : graph_.ranges) write_range(factor);
+    for (const auto& factor : graph_.relative_points)
+      if (has_a_tag(factor)) write_sighting(factor);
     for (const auto& factor : graph_.pose_priors) write_prior(factor);
     write_omissions();
     return std::move(out_);
@@ -119,6 +122,21 @@ class G2oWriter {
     out_ += '\n';
   }
 
+  /// The format knows no lever arm for it.
+  static bool has_a_tag(const RelativePointFactor<Pose>& factor) { return factor.j.lever_arm.isZero(0); }
+
+  void write_sighting(const RelativePointFactor<Pose>& factor) {
+    tag(Tags::kSighting);
+    id(file_.pose_ids[factor.i.index()]);
+    id(id_of(factor.j));
+    if (Pose::kDim == 3) id(0);
+    point(factor.position);
+    for (int row = 0; row < Pose::kDim; ++row)
+      for (int column = row; column < Pose::kDim; ++column)
+        number(factor.weight * factor.information(row, column));
+    out_ += '\n';
+  }
+
   void write_prior(const PosePriorFactor<Pose>& factor) {
     tag(Tags::kPrior);
     id(file_.pose_ids[factor.i.index()]);
@@ -136,10 +154,14 @@ class G2oWriter {
     const auto count = [&](const auto& factors) {
       return std::accumulate(factors.begin(), factors.end(), std::size_t{0}, robust);
     };
-    write_omission(count(graph_.relative_poses) + count(graph_.ranges) + count(graph_.pose_priors),
+    write_omission(count(graph_.relative_poses) + count(graph_.ranges) + count(graph_.relative_points) +
+                       count(graph_.pose_priors),
                    "robust losses");
     write_omission(graph_.bearings.size(), "bearings");
-    write_omission(graph_.relative_points.size(), "relative points");
+    write_omission(
+        static_cast<std::size_t>(std::count_if(graph_.relative_points.begin(), graph_.relative_points.end(),
+                                               [](const auto& factor) { return !has_a_tag(factor); })),
+        "relative points");
     write_omission(graph_.positions.size(), "positions");
     write_omission(graph_.drift_priors.size(), "drift priors");
   }

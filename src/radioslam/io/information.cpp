@@ -42,10 +42,13 @@ Eigen::Matrix<double, N, N> nearest_information(const Eigen::Matrix<double, N, N
   return 0.5 * (nearest + nearest.transpose());
 }
 
+template double relative_smallest_eigenvalue(const Eigen::Matrix2d&);
 template double relative_smallest_eigenvalue(const Eigen::Matrix3d&);
 template double relative_smallest_eigenvalue(const Eigen::Matrix<double, 6, 6>&);
+template bool is_information(const Eigen::Matrix2d&);
 template bool is_information(const Eigen::Matrix3d&);
 template bool is_information(const Eigen::Matrix<double, 6, 6>&);
+template Eigen::Matrix2d nearest_information(const Eigen::Matrix2d&);
 template Eigen::Matrix3d nearest_information(const Eigen::Matrix3d&);
 template Eigen::Matrix<double, 6, 6> nearest_information(const Eigen::Matrix<double, 6, 6>&);
 

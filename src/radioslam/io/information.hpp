@@ -16,7 +16,7 @@ inline constexpr double kClippedInformation = 1e-9;
 template <int N>
 double relative_smallest_eigenvalue(const Eigen::Matrix<double, N, N>& symmetric);
 
-/// Positive semidefinite up to rounding. N is 3 or 6.
+/// Positive semidefinite up to rounding. N is 2, 3 or 6.
 template <int N>
 bool is_information(const Eigen::Matrix<double, N, N>& symmetric);
 

@@ -41,7 +41,26 @@ std::optional<std::size_t> first_foreign_byte(std::string_view s) {
   return std::nullopt;
 }
 
+}  // namespace
+
+Text make_text(std::string name, std::string content) {
+  if (content.starts_with("\xef\xbb\xbf")) content.erase(0, 3);
+  Text text{std::move(name), std::move(content)};
+  if (text.content.empty()) text.fail(1, "the file is empty");
+  if (const auto place = first_foreign_byte(text.content)) {
+    const auto end = text.content.begin() + static_cast<std::ptrdiff_t>(*place);
+    text.fail(1 + static_cast<std::size_t>(std::count(text.content.begin(), end, '\n')),
+              "not UTF-8 text (byte " + std::to_string(*place + 1) + " of the file)");
+  }
+  return text;
+}
+
 std::string read_bytes(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) throw InputError(path.string(), 0, "no such file");
+  if (std::filesystem::is_directory(status))
+    throw InputError(path.string(), 0, "is a folder, a file is needed");
   errno = 0;
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
   if (!file) throw InputError(path.string(), 0, std::string("cannot be opened: ") + std::strerror(errno));
@@ -58,28 +77,7 @@ std::string read_bytes(const std::filesystem::path& path) {
   return content;
 }
 
-}  // namespace
-
-Text make_text(std::string name, std::string content) {
-  if (content.starts_with("\xef\xbb\xbf")) content.erase(0, 3);
-  Text text{std::move(name), std::move(content)};
-  if (text.content.empty()) text.fail(1, "the file is empty");
-  if (const auto place = first_foreign_byte(text.content)) {
-    const auto end = text.content.begin() + static_cast<std::ptrdiff_t>(*place);
-    text.fail(1 + static_cast<std::size_t>(std::count(text.content.begin(), end, '\n')),
-              "not UTF-8 text (byte " + std::to_string(*place + 1) + " of the file)");
-  }
-  return text;
-}
-
-Text read_text(const std::filesystem::path& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) throw InputError(path.string(), 0, "no such file");
-  if (std::filesystem::is_directory(status))
-    throw InputError(path.string(), 0, "is a folder, a file is needed");
-  return make_text(path.string(), read_bytes(path));
-}
+Text read_text(const std::filesystem::path& path) { return make_text(path.string(), read_bytes(path)); }
 
 bool TextLines::next() {
   if (rest_.empty()) return false;

@@ -25,7 +25,10 @@ struct Text {
 /// text.
 Text make_text(std::string name, std::string content);
 
-/// Reads a whole file. Refuses also a missing file, a folder, and what cannot be read.
+/// A whole file as it is. Refuses a missing file, a folder, and what cannot be read.
+std::string read_bytes(const std::filesystem::path& path);
+
+/// Reads a whole file as text. Refuses also a missing file, a folder, and what cannot be read.
 Text read_text(const std::filesystem::path& path);
 
 /// Walks through the lines of a text: `while (lines.next()) use(lines.line())`.
