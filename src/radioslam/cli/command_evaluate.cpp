@@ -10,10 +10,10 @@
 #include "radioslam/cli/command_options.hpp"
 #include "radioslam/cli/commands.hpp"
 #include "radioslam/cli/judgement.hpp"
+#include "radioslam/cli/mission_input.hpp"
 #include "radioslam/eval/closures.hpp"
 #include "radioslam/eval/metrics.hpp"
 #include "radioslam/io/metrics_json.hpp"
-#include "radioslam/io/mission_folder.hpp"
 #include "radioslam/io/run_folder.hpp"
 
 namespace radioslam::cli {
@@ -105,9 +105,10 @@ std::vector<std::string> notes_on(const RunFolder& run, const Options& options) 
 }
 
 Evaluation evaluate(const Options& options) {
-  const Mission mission = read_mission(options.mission);
-  const Truth truth = read_truth(options.mission, mission);
-  if (truth.empty()) throw InputError(options.mission, 0, "no robot has a groundtruth.tum");
+  const MissionInput input = read_input(options.mission);
+  const Mission& mission = input.mission;
+  const Truth& truth = input.truth;
+  if (truth.empty()) throw InputError(options.mission, 0, "no robot's true poses are known");
   const RunFolder run = read_run(options.run);
   const auto places = places_in_mission(run, mission, options);
   const auto association = options.evo ? Association::kNearest : Association::kInterpolate;
@@ -164,7 +165,8 @@ void add_evaluate(CLI::App& program) {
   const auto options = std::make_shared<Options>();
   auto* command = program.add_subcommand("evaluate", "Compare a run with the truth of its mission");
   command->add_option("OUT", options->run, "The folder that `radioslam run` wrote")->required();
-  command->add_option("MISSION", options->mission, "The mission, with robots/<id>/groundtruth.tum")
+  command
+      ->add_option("MISSION", options->mission, "The mission, with robots/<id>/groundtruth.tum, or the graph")
       ->required();
   command
       ->add_option("--radius", options->radius_m,

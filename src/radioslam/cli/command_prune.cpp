@@ -7,12 +7,11 @@
 #include "radioslam/cli/command_options.hpp"
 #include "radioslam/cli/commands.hpp"
 #include "radioslam/cli/config.hpp"
+#include "radioslam/cli/mission_input.hpp"
 #include "radioslam/cli/parameters.hpp"
 #include "radioslam/cli/progress_line.hpp"
 #include "radioslam/io/atomic_output.hpp"
-#include "radioslam/io/mission_folder.hpp"
 #include "radioslam/io/run_folder.hpp"
-#include "radioslam/pipeline/pipeline.hpp"
 
 namespace radioslam::cli {
 namespace {
@@ -27,12 +26,12 @@ struct Options {
 };
 
 RunOutput search(const Options& options, const RunParams& params) {
-  const Mission mission = read_mission(options.mission);
+  const MissionInput input = read_input(options.mission);
   ProgressLine line;
   RunOptions how;
   how.overlap_only = true;
   how.search = options.exhaustive ? SearchMethod::kExhaustive : SearchMethod::kTree;
-  auto run = run_pipeline(mission, params, how, line.progress());
+  auto run = run_input(input, params, how, line.progress());
   run.result.parameters = effective_parameters(params);
   return run;
 }
@@ -71,7 +70,10 @@ void add_prune(CLI::App& program) {
   const auto options = std::make_shared<Options>();
   auto* command = program.add_subcommand(
       "prune", "Find the pairs of keyframes whose views could overlap, and only those");
-  command->add_option("MISSION", options->mission, "The folder with mission.yaml")->required();
+  command
+      ->add_option("MISSION", options->mission,
+                   "The folder with mission.yaml, or a factor graph (.g2o, .pyfg, also .zst)")
+      ->required();
   add_output_option(*command, options->output, "The folder to write; that of an earlier run is replaced");
   command
       ->add_option("--mode", options->mode,

@@ -11,12 +11,12 @@
 #include "radioslam/cli/commands.hpp"
 #include "radioslam/cli/config.hpp"
 #include "radioslam/cli/judgement.hpp"
+#include "radioslam/cli/mission_input.hpp"
 #include "radioslam/cli/parameters.hpp"
 #include "radioslam/cli/progress_line.hpp"
 #include "radioslam/io/atomic_output.hpp"
 #include "radioslam/io/g2o.hpp"
 #include "radioslam/io/metrics_json.hpp"
-#include "radioslam/io/mission_folder.hpp"
 #include "radioslam/io/run_folder.hpp"
 #include "radioslam/pipeline/pipeline.hpp"
 #include "radioslam/report/report.hpp"
@@ -57,11 +57,11 @@ void print_text(const RunResult& result, const std::optional<TeamMetrics>& metri
   std::cout << '\n';
 }
 
-RunOutput estimate(const Mission& mission, const RunParams& params, bool no_prune) {
+RunOutput estimate(const MissionInput& input, const RunParams& params, bool no_prune) {
   ProgressLine line;
   RunOptions options;
   options.pruning = no_prune ? Pruning::kOff : Pruning::kOn;
-  auto run = run_pipeline(mission, params, options, line.progress());
+  auto run = run_input(input, params, options, line.progress());
   run.result.parameters = effective_parameters(params);
   return run;
 }
@@ -70,9 +70,9 @@ void run_mission(const Options& options) {
   const auto settings = collect_settings(options.parameters.config_path, options.parameters.set);
   const auto params = with_settings(RunParams{}, settings);
   OutputFolder output(options.output, kRunFolder);
-  const Mission mission = read_mission(options.mission);
-  const Truth truth = read_truth(options.mission, mission);
-  const RunOutput run = estimate(mission, params, options.no_prune);
+  const MissionInput input = read_input(options.mission);
+  const Truth& truth = input.truth;
+  const RunOutput run = estimate(input, params, options.no_prune);
   const auto metrics = judge(run.result, truth);
   const RunDocuments documents = documents_of(run, truth, metrics);
   write_run(output.path(), run.result, documents);
@@ -89,7 +89,10 @@ void run_mission(const Options& options) {
 void add_run(CLI::App& program) {
   const auto options = std::make_shared<Options>();
   auto* command = program.add_subcommand("run", "Estimate every robot's trajectory in one frame");
-  command->add_option("MISSION", options->mission, "The folder with mission.yaml")->required();
+  command
+      ->add_option("MISSION", options->mission,
+                   "The folder with mission.yaml, or a factor graph (.g2o, .pyfg, also .zst)")
+      ->required();
   add_output_option(*command, options->output, "The folder to write; that of an earlier run is replaced");
   add_parameter_options(*command, options->parameters);
   command->add_flag("--no-prune", options->no_prune,

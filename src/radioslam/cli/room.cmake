@@ -15,6 +15,7 @@ add_library(radioslam_cli STATIC
   cli/command_simulate.cpp
   cli/config.cpp
   cli/judgement.cpp
+  cli/mission_input.cpp
   cli/parameters.cpp
   cli/program.cpp
   cli/progress_line.cpp

@@ -100,8 +100,8 @@ void settle_matches(JointGraph<Pose>& joint, std::vector<MatchVerdict>& verdicts
   mask.relative_poses.assign(graph.relative_poses.size(), false);
   for (const MatchVerdict& verdict : verdicts)
     if (verdict.factor >= 0) mask.relative_poses[static_cast<std::size_t>(verdict.factor)] = true;
-  const auto summary = optimize_graduated(graph, mask, GraduatedLoss::kTruncatedLeastSquares, GraduatedParams{},
-                                          optimizer, progress);
+  const auto summary = optimize_graduated(graph, mask, GraduatedLoss::kTruncatedLeastSquares,
+                                          GraduatedParams{}, optimizer, progress);
   apply_weights(summary.weights, mask, graph);
   constexpr double kHalf = 0.5;
   for (MatchVerdict& verdict : verdicts) {

@@ -132,9 +132,7 @@ class MeasuredLinks {
   }
 
   OverlapLink<Pose> link(const RangeFactor<Pose>& range, const BearingFactor<Pose>& by_i,
-                         const BearingFactor<Pose>& by_j) const
-    requires(Pose::kDim == 2)
-  {
+                         const BearingFactor<Pose>& by_j) const requires(Pose::kDim == 2) {
     const MutualBearing measured{range.range_m,
                                  range.sigma_m,
                                  azimuth_at(by_i, range.i.pose),

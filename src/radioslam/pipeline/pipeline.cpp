@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "radioslam/pipeline/collect_results.hpp"
+#include "radioslam/pipeline/joint_graph_of_team.hpp"
 
 namespace radioslam {
 namespace {
@@ -64,8 +65,9 @@ void add_notes(RunResult& result, const Mission& mission, std::size_t ignored_li
   for (const auto& file : mission.unused_files)
     result.notes.push_back(file + " took no part: this version does not use it");
   if (ignored_links > 0)
-    result.notes.push_back(std::to_string(ignored_links) +
-                           " radio measurements were left out: no odometry at their time");
+    result.notes.push_back(
+        std::to_string(ignored_links) +
+        " links were left out: no odometry at their time, or relative poses between robots");
   if (!result.alternatives.empty())
     result.notes.push_back("the links leave open how the team lies: see hypotheses/");
 }
@@ -105,15 +107,17 @@ std::vector<ClosureResult> close_by_matches(JointGraph<Pose>& joint, const Missi
 }
 
 template <class Pose>
-RunOutput run(const Mission& mission, const RunParams& params, const RunOptions& options,
-              const Progress& progress) {
+RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const RunParams& params,
+              const RunOptions& options, const Progress& progress) {
   RunOutput output;
   RunResult& result = output.result;
   StageClock clock(result.timings);
 
   const auto radio = clock.time("radio", [&] { return measure_radio(mission, params.radio, progress); });
-  auto joint =
-      clock.time("graph", [&] { return build_joint_graph<Pose>(mission, params.keyframe, params.graph); });
+  auto joint = clock.time("graph", [&] {
+    return team ? joint_graph_of(*team, mission)
+                : build_joint_graph<Pose>(mission, params.keyframe, params.graph);
+  });
   const auto placement = clock.time("team frame", [&] {
     return has_radio_links(joint) ? place_by_radio(joint, params.alignment, progress)
                                   : place_by_fingerprints(joint, mission, radio, params.team_frame, progress);
@@ -152,8 +156,19 @@ RunOutput run(const Mission& mission, const RunParams& params, const RunOptions&
 
 RunOutput run_pipeline(const Mission& mission, const RunParams& params, const RunOptions& options,
                        const Progress& progress) {
-  return mission.dimension == 2 ? run<SE2>(mission, params, options, progress)
-                                : run<SE3>(mission, params, options, progress);
+  return mission.dimension == 2 ? run<SE2>(mission, nullptr, params, options, progress)
+                                : run<SE3>(mission, nullptr, params, options, progress);
 }
+
+template <class Pose>
+RunOutput run_pipeline(const Mission& mission, const TeamGraph<Pose>& team, const RunParams& params,
+                       const RunOptions& options, const Progress& progress) {
+  return run(mission, &team, params, options, progress);
+}
+
+template RunOutput run_pipeline(const Mission&, const TeamGraph<SE2>&, const RunParams&, const RunOptions&,
+                                const Progress&);
+template RunOutput run_pipeline(const Mission&, const TeamGraph<SE3>&, const RunParams&, const RunOptions&,
+                                const Progress&);
 
 }  // namespace radioslam

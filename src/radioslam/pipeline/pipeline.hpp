@@ -30,4 +30,10 @@ struct RunOutput {
 RunOutput run_pipeline(const Mission& mission, const RunParams& params, const RunOptions& options = {},
                        const Progress& progress = {});
 
+/// The same for a team that comes as a factor graph; `mission` has its robots and nothing else that is
+/// measured.
+template <class Pose>
+RunOutput run_pipeline(const Mission& mission, const TeamGraph<Pose>& team, const RunParams& params,
+                       const RunOptions& options = {}, const Progress& progress = {});
+
 }  // namespace radioslam

@@ -28,7 +28,8 @@ struct GridParams {
   double sigma_height_m = 3;  ///< unknown difference of two starts' heights
   int references = 8;         ///< links tried as reference
   int peaks = 10;             ///< places kept of each
-  int most_links = 150;       ///< more are thinned evenly
+  int most_links = 80;        ///< between two pieces, or a piece and a point; more are thinned evenly
+  int most_sightings = 20;    ///< of one point by one piece, likewise
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -41,8 +42,10 @@ struct GridParams {
           self.sigma_height_m);
     visit(Field{"references", "", 1, 1000, "links tried as the one to start from"}, self.references);
     visit(Field{"peaks", "", 1, 1000, "places kept for each of them"}, self.peaks);
-    visit(Field{"most_links", "", 1, 1e6, "more links than this are thinned for the search"},
+    visit(Field{"most_links", "", 1, 1e6, "more links of two robots than this are thinned for the search"},
           self.most_links);
+    visit(Field{"most_sightings", "", 1, 1e6, "more sightings of one point by one robot likewise"},
+          self.most_sightings);
   }
 };
 

@@ -9,10 +9,12 @@ namespace radioslam {
 namespace {
 
 /// Shares of the inflation, from the coarse start to none.
-constexpr std::array kShares = {1.0, 0.5, 0.25, 0.1, 0.03, 0.0};
+constexpr std::array kCoarseShares = {1.0, 0.5, 0.25};
+constexpr std::array kFineShares = {0.1, 0.03, 0.0};
 /// Shares of a Gauss-Newton step that are tried. Along a chain of odometry a shorter step bends the whole
 /// way a little less, where damping by diag(H) would hold every pose to its neighbours.
 constexpr std::array kStepShares = {1.0, 0.5, 0.2, 0.05, 0.01};
+constexpr double kCoarseTolerance = 0.1;  // nothing a choice among starts depends on
 constexpr std::array kDampings = {0.0, 1e-6, 1e-3};
 
 template <class Pose>
@@ -84,7 +86,8 @@ Refinement refine(MixtureGraph<Pose>& mixture, const Inflation& inflation, const
     return result;
   }
   Stage<Pose> stage(mixture, equations, inflation);
-  for (const double share : kShares)
+  for (const double share : kCoarseShares) stage.run(share, params.steps_per_share, params.cost_tolerance);
+  for (const double share : kFineShares)
     result.cost =
         stage.run(share, share > 0 ? params.steps_per_share : params.last_steps, params.cost_tolerance);
   equations.linearise(mixture.graph);
@@ -95,6 +98,19 @@ Refinement refine(MixtureGraph<Pose>& mixture, const Inflation& inflation, const
   return result;
 }
 
+template <class Pose>
+double refine_coarsely(MixtureGraph<Pose>& mixture, const Inflation& inflation,
+                       const RefinementParams& params) {
+  NormalEquations<Pose> equations(mixture.graph);
+  if (equations.empty()) return mixture.reweigh(inflation, kCoarseShares.back());
+  Stage<Pose> stage(mixture, equations, inflation);
+  double cost = 0;
+  for (const double share : kCoarseShares) cost = stage.run(share, params.steps_per_share, kCoarseTolerance);
+  return cost;
+}
+
+template double refine_coarsely(MixtureGraph<SE2>&, const Inflation&, const RefinementParams&);
+template double refine_coarsely(MixtureGraph<SE3>&, const Inflation&, const RefinementParams&);
 template Refinement refine(MixtureGraph<SE2>&, const Inflation&, const RefinementParams&);
 template Refinement refine(MixtureGraph<SE3>&, const Inflation&, const RefinementParams&);
 

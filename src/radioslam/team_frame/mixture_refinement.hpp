@@ -33,4 +33,10 @@ struct Refinement {
 template <class Pose>
 Refinement refine(MixtureGraph<Pose>& mixture, const Inflation& inflation, const RefinementParams& params);
 
+/// The first, most inflated part of it alone, for choosing among many starts: returns the cost there.
+/// `refine` may follow.
+template <class Pose>
+double refine_coarsely(MixtureGraph<Pose>& mixture, const Inflation& inflation,
+                       const RefinementParams& params);
+
 }  // namespace radioslam

@@ -10,6 +10,7 @@
 namespace radioslam {
 namespace {
 
+constexpr std::size_t kMostScored = 200;               // more add nothing to a choice of places
 constexpr double kUniformSigma = 0.28867513459481287;  // of a uniform density of width one
 
 /// A measurement between the component and the unit.
@@ -257,7 +258,7 @@ std::vector<Place> propose_places(const TeamGraph<Pose>& team, const TeamCompone
                                   int component, const Unit& unit, const PoseGraph<Pose>& weighted,
                                   const MixtureParams& mixture, const GridParams& params) {
   const CrossLinks<Pose> cross(team, components, component, unit);
-  const auto scored = spread(cross.links(), static_cast<std::size_t>(params.most_links));
+  const auto scored = spread(cross.links(), kMostScored);
   std::vector<std::vector<Place>> per_reference;
   for (const auto& link : references(cross.links(), static_cast<std::size_t>(params.references))) {
     const Reference<Pose> reference(team, weighted, link, mixture, params);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <utility>
 
 #include "radioslam/base/parallel.hpp"
 #include "radioslam/graph/marginals.hpp"
@@ -152,7 +154,17 @@ class Builder {
     MixtureGraph<Pose> result(tied.team, params_.mixture);
     team.give(result.graph);
     turn_level_priors(result.graph);
+    hold_unplaced(result.graph);
     return result;
+  }
+
+  /// Pieces that have no component yet take no part.
+  void hold_unplaced(PoseGraph<Pose>& graph) const {
+    graph.pose_fixed.assign(graph.poses.size(), false);
+    for (std::size_t p = 0; p < team_.pieces.size(); ++p)
+      if (components_.of_piece[p] == kAlone)
+        std::fill_n(graph.pose_fixed.begin() + static_cast<std::ptrdiff_t>(team_.pieces[p].first_pose),
+                    team_.pieces[p].pose_count, true);
   }
 
   static Inflation of_tied(const Inflation& all, const TiedTeam<Pose>& tied) {
@@ -182,25 +194,55 @@ class Builder {
       weighted.reweigh({}, 0);
       auto places =
           propose_places(team_, components_, component, unit, weighted.graph, params_.mixture, params_.grid);
-      if (places.size() > static_cast<std::size_t>(params_.beam.refined_places))
-        places.resize(static_cast<std::size_t>(params_.beam.refined_places));
+      if (places.size() > static_cast<std::size_t>(params_.beam.tried_places))
+        places.resize(static_cast<std::size_t>(params_.beam.tried_places));
       for (Place& place : places) all.emplace_back(b, std::move(place));
     }
     return all;
+  }
+
+  /// A team to refine, and how well it fits so far.
+  struct Start {
+    Team<Pose> team;
+    Inflation inflation;
+    double cost = 0;
+  };
+
+  /// The best of those that are not close to a better one.
+  std::vector<Start> different_starts(std::vector<Start> starts) const {
+    std::stable_sort(starts.begin(), starts.end(),
+                     [](const auto& a, const auto& b) { return a.cost < b.cost; });
+    const std::vector<double> no_sigmas(team_.graph.poses.size(), 0);
+    std::vector<Start> kept;
+    for (Start& start : starts) {
+      if (kept.size() == static_cast<std::size_t>(params_.beam.refined_places)) break;
+      if (std::none_of(kept.begin(), kept.end(),
+                       [&](const Start& k) { return same(k.team, start.team, no_sigmas); }))
+        kept.push_back(std::move(start));
+    }
+    return kept;
   }
 
   void add(int component, const Unit& unit) {
     const auto places = all_places(component, unit);
     (unit.is_piece ? components_.of_piece : components_.of_point)[unit.index] = component;
     const TiedTeam<Pose> tied = tied_team(team_, components_);
-    std::vector<Team<Pose>> teams(places.size());
+    std::vector<Start> starts(places.size());
     parallel_for(places.size(), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {
-        teams[k] = beam_[places[k].first];
-        move_unit(teams[k], unit, places[k].second.T_team_unit);
-        MixtureGraph<Pose> work = mixture(tied, teams[k]);
-        const Refinement refined =
-            refine(work, of_tied(places[k].second.inflation, tied), params_.refinement);
+        starts[k] = {beam_[places[k].first], of_tied(places[k].second.inflation, tied), 0};
+        move_unit(starts[k].team, unit, places[k].second.T_team_unit);
+        MixtureGraph<Pose> work = mixture(tied, starts[k].team);
+        starts[k].cost = refine_coarsely(work, starts[k].inflation, params_.refinement);
+        starts[k].team.take(work.graph);
+      }
+    });
+    starts = different_starts(std::move(starts));
+    std::vector<Team<Pose>> teams(starts.size());
+    parallel_for(starts.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        MixtureGraph<Pose> work = mixture(tied, starts[k].team);
+        const Refinement refined = refine(work, starts[k].inflation, params_.refinement);
         teams[k].take(work.graph);
         teams[k].log_evidence = refined.log_evidence;
       }
@@ -310,12 +352,53 @@ TeamHypothesis<Pose> hypothesis(const TeamGraph<Pose>& full, CompressedTeam<Pose
   return result;
 }
 
+/// At most `most` measurements of a kind between two pieces, or a piece and a point, evenly spread.
+template <class Pose>
+class Thinning {
+ public:
+  explicit Thinning(const TeamGraph<Pose>& team) : piece_of_(piece_of_poses(team)) {}
+
+  template <class Factor>
+  std::vector<Factor> operator()(const std::vector<Factor>& factors, std::size_t most) const {
+    std::map<Ends, std::size_t> total, seen;
+    for (const Factor& f : factors) ++total[ends(f)];
+    std::vector<Factor> kept;
+    for (const Factor& f : factors) {
+      const std::size_t n = total[ends(f)], k = seen[ends(f)]++;
+      if (n <= most || (k + 1) * most / n != k * most / n) kept.push_back(f);
+    }
+    return kept;
+  }
+
+ private:
+  using Ends = std::pair<std::int64_t, std::int64_t>;
+  std::int64_t number(PoseId pose) const { return static_cast<std::int64_t>(piece_of_[pose.index()]); }
+  std::int64_t number(const RangeEnd<Pose>& end) const {
+    return end.pose.valid() ? number(end.pose) : -1 - std::int64_t{end.point.value};
+  }
+  Ends ends(const auto& factor) const { return std::minmax(number(factor.i), number(factor.j)); }
+
+  std::vector<std::size_t> piece_of_;
+};
+
+template <class Pose>
+TeamGraph<Pose> with_fewer_links(const TeamGraph<Pose>& team, const GridParams& params) {
+  const auto most_links = static_cast<std::size_t>(params.most_links);
+  const auto most_sightings = static_cast<std::size_t>(params.most_sightings);
+  const Thinning<Pose> thin(team);
+  TeamGraph<Pose> fewer = team;
+  fewer.graph.ranges = thin(team.graph.ranges, most_links);
+  fewer.bearings = thin(team.bearings, most_links);
+  fewer.graph.relative_points = thin(team.graph.relative_points, most_sightings);
+  return fewer;
+}
+
 }  // namespace
 
 template <class Pose>
 RadioAlignment<Pose> align_by_radio(const TeamGraph<Pose>& team, const RadioAlignmentParams& params,
                                     const Progress& progress) {
-  CompressedTeam<Pose> compressed = compress(team);
+  CompressedTeam<Pose> compressed = compress(with_fewer_links(team, params.grid));
   Builder<Pose> builder(compressed.team, params, progress);
   builder.run();
   RadioAlignment<Pose> result;

@@ -20,7 +20,8 @@ namespace radioslam {
 
 struct BeamParams {
   int beam = 4;                ///< teams kept
-  int refined_places = 64;     ///< places refined per team and piece
+  int tried_places = 80;       ///< places refined coarsely per team and piece
+  int refined_places = 16;     ///< places refined per team and piece
   double same_map_m = 0.5;     ///< two teams nowhere further apart than this ...
   double same_map_sigmas = 3;  ///< ... plus this many standard deviations are one
   double overconfidence = 4;   ///< log evidence is divided by this for a hypothesis' weight
@@ -28,7 +29,10 @@ struct BeamParams {
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
     visit(Field{"beam", "", 1, 100, "teams kept while robots are added"}, self.beam);
-    visit(Field{"refined_places", "", 1, 10000, "places refined per team and robot"}, self.refined_places);
+    visit(Field{"tried_places", "", 1, 10000, "places refined coarsely per team and robot"},
+          self.tried_places);
+    visit(Field{"refined_places", "", 1, 10000, "and those of them refined to the end, over all teams"},
+          self.refined_places);
     visit(Field{"same_map_m", "m", 0, 1000, "teams nowhere further apart than this are one"},
           self.same_map_m);
     visit(Field{"same_map_sigmas", "sigma", 0, 100, "or than this many standard deviations"},
