@@ -106,7 +106,9 @@ void read_team_tables(const fs::path& folder, MissionFile& file) {
 /// What is there and read by no estimator; tables among it are checked.
 std::vector<std::string> unused_files(const fs::path& folder, const Mission& mission) {
   std::vector<std::string> found;
-  for (const auto& [id, index] : names_of(mission).robots) {
+  const TeamNames names = names_of(mission);
+  for (const auto& named : names.robots) {
+    const std::string& id = named.first;
     with_file(robot_file(folder, id, "imu.csv"), [&](const Text& text) {
       check_inertial(text);
       found.push_back("robots/" + id + "/imu.csv");
