@@ -31,12 +31,19 @@ class JointView {
   using Pose = P;
   using Jacobian = typename Pose::Jacobian;
   struct Record {
-    Pose pose;                                      ///< in the common, shifted frame
+    typename Pose::Point position_m;  ///< in the common, shifted frame
+    double heading_rad = 0;
     Jacobian share;                                 ///< K
     Eigen::Matrix<double, Pose::kDof, 2> by_drift;  ///< D
     Jacobian covariance;                            ///< of eta_k
     double walked_m = 0;                            ///< unused: there is one tie
     std::uint32_t stretch = 0;
+
+    template <class Self, class Visitor>
+    static void visit(Self& self, Visitor&& visit) {
+      visit(self.position_m), visit(self.heading_rad), visit(self.share), visit(self.by_drift);
+      visit.symmetric(self.covariance), visit(self.stretch);
+    }
   };
 
   explicit JointView(std::shared_ptr<const CrossCovariance<Pose>> cross) : cross_(std::move(cross)) {}
@@ -95,6 +102,7 @@ class JointCovariance {
     DriftEffect by_drift;
   };
   struct Robot {
+    std::vector<Pose> poses;  ///< searched, in the shifted frame
     std::vector<Record> records;
     std::vector<Walked> walked;
     std::vector<Eigen::Matrix2d> cov_drift;  ///< per stretch
