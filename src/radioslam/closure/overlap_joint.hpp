@@ -8,12 +8,13 @@
 // n_k independent of everything outside the stretch: so Cov(eta_k, eta_l) of two robots takes the covariance
 // of two stretches' ends and drifts, X_k P_st X_l^T, and P is that of the skeleton's own, much smaller graph.
 //
-// P between two robots is kept whole where it fits `dense_scalars`; beyond (every pose has a range, say), its
-// columns are solved for when a stretch is looked at and the latest are kept. The numbers are the same; the
-// search then goes through robot a's poses in runs of that many stretches.
-// Robots in different components, or pieces of robots, are not compared: nothing ties them together.
-// Refusals: nothing when the normal equations are singular.
-// Cost: O(poses) + a factorisation and one solve per skeleton pose and pair of robots.
+// Columns of P are solved for when a pair of stretches is first looked at, so a search pays for the skeleton
+// poses near where boxes meet only. They are kept where all fit `dense_scalars`; beyond (a range at every
+// pose of long ways, say) the latest are, and the search goes through robot a's poses in runs whose columns
+// are at hand. The numbers are the same either way. Robots in different components, or pieces of robots, are
+// not compared: nothing ties them together. Refusals: nothing when the normal equations are singular. Cost:
+// O(poses), a factorisation of the skeleton, and at most one solve per skeleton pose and pair of robots where
+// all fit.
 #pragma once
 
 #include <cstdint>
