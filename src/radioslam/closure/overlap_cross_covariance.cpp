@@ -106,18 +106,20 @@ CrossCovariance<Pose>::CrossCovariance(std::shared_ptr<const SkeletonCovariance<
   }
   rows_b_.push_back(height);  // of no drift
   capacity_ = std::max<std::size_t>(2, dense_scalars / static_cast<std::size_t>((height + 2) * kDof));
-  solve_all(capacity_);
+  all_fit_ = a_.variables.size() <= capacity_;
+  solved_ = std::vector<std::atomic<const Eigen::MatrixXd*>>(a_.variables.size() + 1);
+  solved_.back() = &store_.emplace_back(Eigen::MatrixXd::Zero(height + 2, 2));
 }
 
-/// Every variable where they fit, else the drifts, which every stretch needs.
+/// Solved for once: everything where it fits, else the drifts, which every stretch needs.
 template <class Pose>
-void CrossCovariance<Pose>::solve_all(std::size_t capacity) {
-  const bool fit = a_.variables.size() <= capacity;
-  for (const Variable& v : a_.variables) {
-    const bool now = fit || v.kind == VariableKind::kDrift;
-    solved_.push_back(now ? std::make_shared<Eigen::MatrixXd>(skeleton_->columns(v, b_.variables)) : nullptr);
-  }
-  solved_.push_back(std::make_shared<Eigen::MatrixXd>(Eigen::MatrixXd::Zero(rows_b_.back() + 2, 2)));
+const Eigen::MatrixXd& CrossCovariance<Pose>::kept(std::size_t v) const {
+  if (const auto* known = solved_[v].load(std::memory_order_acquire)) return *known;
+  const std::lock_guard lock(mutex_);
+  if (const auto* known = solved_[v].load(std::memory_order_relaxed)) return *known;
+  const Eigen::MatrixXd& columns = store_.emplace_back(skeleton_->columns(a_.variables[v], b_.variables));
+  solved_[v].store(&columns, std::memory_order_release);
+  return columns;
 }
 
 template <class Pose>
@@ -143,8 +145,9 @@ typename CrossCovariance<Pose>::Joint CrossCovariance<Pose>::between(std::size_t
   const Eigen::Index first = rows_b_[of_b.first], last = rows_b_[of_b.last], drift = rows_b_[of_b.drift];
   Joint joint;
   const auto fill = [&](std::size_t variable, auto target) {
-    const Columns held = solved_[variable] ? nullptr : latest(variable);
-    const Eigen::MatrixXd& columns = held ? *held : *solved_[variable];
+    const bool is_kept = all_fit_ || target.cols() != kDof;
+    const Columns held = is_kept ? nullptr : latest(variable);
+    const Eigen::MatrixXd& columns = is_kept ? kept(variable) : *held;
     target.template topRows<kDof>() = columns.middleRows<kDof>(first);
     target.template middleRows<kDof>(kDof) = columns.middleRows<kDof>(last);
     target.template bottomRows<2>() = columns.middleRows<2>(drift);

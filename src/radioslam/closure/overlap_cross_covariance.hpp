@@ -2,6 +2,8 @@
 // within a stretch, and between the stretches of two robots. See overlap_joint.hpp.
 #pragma once
 
+#include <atomic>
+#include <deque>
 #include <list>
 #include <memory>
 #include <mutex>
@@ -52,7 +54,7 @@ class SkeletonCovariance {
   std::vector<std::vector<StretchVariables>> stretches_;
 };
 
-/// Between robot a's stretches and robot b's. Any number of threads.
+/// Between robot a's stretches and robot b's, solved for when asked. Any number of threads.
 template <class Pose>
 class CrossCovariance {
  public:
@@ -81,14 +83,16 @@ class CrossCovariance {
   };
   static Listed list_variables(const std::vector<StretchVariables>& stretches);
 
-  void solve_all(std::size_t capacity);
+  const Eigen::MatrixXd& kept(std::size_t variable) const;
   Columns latest(std::size_t variable) const;
 
   std::shared_ptr<const SkeletonCovariance<Pose>> skeleton_;
   Listed a_, b_;
-  std::vector<Eigen::Index> rows_b_;  ///< of b's variables
-  std::size_t capacity_ = 0;          ///< columns of poses that are kept
-  std::vector<Columns> solved_;       ///< per variable of a; empty where it is solved for when asked
+  std::vector<Eigen::Index> rows_b_;                                 ///< of b's variables
+  std::size_t capacity_ = 0;                                         ///< columns of poses that are kept
+  bool all_fit_ = false;                                             ///< what was solved for once stays
+  mutable std::vector<std::atomic<const Eigen::MatrixXd*>> solved_;  ///< per variable of a and no drift
+  mutable std::deque<Eigen::MatrixXd> store_;
   mutable std::mutex mutex_;
   mutable Latest latest_;  ///< the latest first
   mutable std::unordered_map<std::size_t, typename Latest::iterator> place_;

@@ -28,8 +28,8 @@ RelativePlace<Pose> JointView<Pose>::relative(std::size_t, const Record& k, cons
                          (of_l.template middleCols<kDof>(kDof) - of_first).lazyProduct(k.share.transpose()) +
                          of_l.template rightCols<2>().lazyProduct(k.by_drift.transpose());
   const Jacobian between = l.covariance + k.covariance - cross - cross.transpose();
-  const auto at_l = motion_at<Pose>(l.pose.translation());
-  return {l.pose.translation() - k.pose.translation(), at_l * between * at_l.transpose()};
+  const auto at_l = motion_at<Pose>(l.position_m);
+  return {l.position_m - k.position_m, at_l * between * at_l.transpose()};
 }
 
 /// Fills the robots of a JointCovariance from the skeleton.
@@ -119,7 +119,8 @@ class JointCovariance<Pose>::Builder {
       Jacobian share = Jacobian::Zero();
       if (k > stretch.first) share = whole_cholesky.solve(here.covariance()).transpose();
       if (k > stretch.first && k == stretch.last) share.setIdentity();
-      robot.records.push_back(record(shifted(pose(c, k), origin_), T_c1, share, here, whole, joint));
+      robot.poses.push_back(shifted(pose(c, k), origin_));
+      robot.records.push_back(record(robot.poses.back(), T_c1, share, here, whole, joint));
       robot.records.back().stretch = static_cast<std::uint32_t>(s);
       robot.walked.push_back({sums.covariance.value(), sums.by_drift.value()});
     }
@@ -148,16 +149,21 @@ class JointCovariance<Pose>::Builder {
     constexpr int kDof = Pose::kDof;
     const Jacobian ad = T_c1.adjoint(), back = T_c1.inverse().adjoint();
     const Jacobian noise = here.covariance() - share * here.covariance();
-    Record record{T_k, ad * share * back, ad * (here.drift_effect() - share * whole.drift_effect()), {}, 0,
+    Record record{T_k.translation(),
+                  heading(T_k),
+                  ad * share * back,
+                  ad * (here.drift_effect() - share * whole.drift_effect()),
+                  {},
+                  0,
                   0};
     Eigen::Matrix<double, kDof, 2 * kDof + 2> x;
     x << Jacobian::Identity() - record.share, record.share, record.by_drift;
-    record.covariance = x * joint * x.transpose() + ad * noise * ad.transpose();
+    record.covariance = mirrored<Jacobian>(x * joint * x.transpose() + ad * noise * ad.transpose());
     return record;
   }
 
   static PoseSpread rounding(const Robot& robot, std::size_t k) {
-    const typename Pose::Point& p = robot.records[k].pose.translation();
+    const typename Pose::Point& p = robot.records[k].position_m;
     const PoseSpread sums = rounding_bound<Pose>(robot.walked[k].covariance, p, kRoundingOfSums);
     const PoseSpread solved = rounding_bound<Pose>(robot.records[k].covariance, p, kSolveError);
     return {sums.sigma_m + solved.sigma_m, sums.sigma_rad + solved.sigma_rad};
@@ -189,7 +195,7 @@ PoseSpread JointCovariance<Pose>::spread(std::size_t robot, std::size_t pose, st
   const Robot& r = robots_[robot];
   const Record& record = r.records[pose];
   const auto [first, last] = std::minmax(pose, middle);
-  const typename Pose::Point& p = record.pose.translation();
+  const typename Pose::Point& p = record.position_m;
   const Jacobian at = motion_at<Pose>(p);
   const Jacobian noise = at * (r.walked[last].covariance - r.walked[first].covariance) * at.transpose();
   const DriftEffect by_drift = at * (r.walked[last].by_drift - r.walked[first].by_drift);
@@ -211,7 +217,7 @@ typename Pose::Jacobian JointCovariance<Pose>::relative_pose(std::size_t a, std:
   const Record& of_l = robots_[b].records[l];
   const RelativePlace<Pose> place = view(a, b).relative(0, of_k, of_l);
   // Right perturbation at l: both parts turned into l's axes.
-  const Pose turn = Pose(Pose::Point::Zero(), rotation_of(of_l.pose));
+  const Pose turn = Pose(Pose::Point::Zero(), rotation_of(robots_[b].poses[l]));
   const Jacobian back = turn.inverse().adjoint();
   return back * place.covariance * back.transpose();
 }

@@ -8,12 +8,13 @@
 // n_k independent of everything outside the stretch: so Cov(eta_k, eta_l) of two robots takes the covariance
 // of two stretches' ends and drifts, X_k P_st X_l^T, and P is that of the skeleton's own, much smaller graph.
 //
-// P between two robots is kept whole where it fits `dense_scalars`; beyond (every pose has a range, say), its
-// columns are solved for when a stretch is looked at and the latest are kept. The numbers are the same; the
-// search then goes through robot a's poses in runs of that many stretches.
-// Robots in different components, or pieces of robots, are not compared: nothing ties them together.
-// Refusals: nothing when the normal equations are singular.
-// Cost: O(poses) + a factorisation and one solve per skeleton pose and pair of robots.
+// Columns of P are solved for when a pair of stretches is first looked at, so a search pays for the skeleton
+// poses near where boxes meet only. They are kept where all fit `dense_scalars`; beyond (a range at every
+// pose of long ways, say) the latest are, and the search goes through robot a's poses in runs whose columns
+// are at hand. The numbers are the same either way. Robots in different components, or pieces of robots, are
+// not compared: nothing ties them together. Refusals: nothing when the normal equations are singular. Cost:
+// O(poses), a factorisation of the skeleton, and at most one solve per skeleton pose and pair of robots where
+// all fit.
 #pragma once
 
 #include <cstdint>
@@ -31,12 +32,19 @@ class JointView {
   using Pose = P;
   using Jacobian = typename Pose::Jacobian;
   struct Record {
-    Pose pose;                                      ///< in the common, shifted frame
+    typename Pose::Point position_m;  ///< in the common, shifted frame
+    double heading_rad = 0;
     Jacobian share;                                 ///< K
     Eigen::Matrix<double, Pose::kDof, 2> by_drift;  ///< D
     Jacobian covariance;                            ///< of eta_k
     double walked_m = 0;                            ///< unused: there is one tie
     std::uint32_t stretch = 0;
+
+    template <class Self, class Visitor>
+    static void visit(Self& self, Visitor&& visit) {
+      visit(self.position_m), visit(self.heading_rad), visit(self.share), visit(self.by_drift);
+      visit.symmetric(self.covariance), visit(self.stretch);
+    }
   };
 
   explicit JointView(std::shared_ptr<const CrossCovariance<Pose>> cross) : cross_(std::move(cross)) {}
@@ -95,6 +103,7 @@ class JointCovariance {
     DriftEffect by_drift;
   };
   struct Robot {
+    std::vector<Pose> poses;  ///< searched, in the shifted frame
     std::vector<Record> records;
     std::vector<Walked> walked;
     std::vector<Eigen::Matrix2d> cov_drift;  ///< per stretch

@@ -82,8 +82,22 @@ class OverlapJudge {
     return Passed{distance_m, mahalanobis};
   }
 
+  /// Adds pair (k, l) to `out` when it is kept; `bounds` are of all ties that can be nearest.
+  void compare(OverlapCandidate pair_of, const Record& k, const Record& l, std::span<const Bound> bounds,
+               OverlapCandidates& out) const {
+    const Bound& tie = nearest(bounds, k, l);
+    if (tie.state == Bound::State::kOutside || beyond(tie, difference(tie.tie, k, l))) return;
+    ++out.counts.distances_evaluated;
+    const auto passed = pair(tie.tie, k, l);
+    if (!passed) return;
+    pair_of.distance_m = passed->distance_m;
+    pair_of.mahalanobis = passed->mahalanobis;
+    out.candidates.push_back(pair_of);
+    ++out.counts.kept;
+  }
+
   Point difference(std::size_t tie, const Record& k, const Record& l) const {
-    return view_.in_a(tie, l.pose.translation()) - k.pose.translation();
+    return view_.in_a(tie, l.position_m) - k.position_m;
   }
 
   /// The tie with the shortest way between two poses, the first among equals, out of `bounds`' or all.
@@ -145,12 +159,12 @@ class OverlapJudge {
     return minimum_distance<kDim>(place.difference_m, covariance, rule_.radius_m()).mahalanobis;
   }
 
-  ViewSector sector_a(const Pose& k, double widening_rad) const {
-    return {k.translation().template head<2>(), heading(k), rule_.a.view_rad / 2 + widening_rad,
+  ViewSector sector_a(const Record& k, double widening_rad) const {
+    return {k.position_m.template head<2>(), k.heading_rad, rule_.a.view_rad / 2 + widening_rad,
             rule_.a.range_m};
   }
-  ViewSector sector_b(std::size_t tie, const Pose& l, double widening_rad) const {
-    return {view_.in_a(tie, l.translation()).template head<2>(), view_.turn_in_a(tie) + heading(l),
+  ViewSector sector_b(std::size_t tie, const Record& l, double widening_rad) const {
+    return {view_.in_a(tie, l.position_m).template head<2>(), view_.turn_in_a(tie) + l.heading_rad,
             rule_.b.view_rad / 2 + widening_rad, rule_.b.range_m};
   }
 
@@ -163,8 +177,8 @@ class OverlapJudge {
   bool views_meet(std::size_t tie, const Record& k, const Record& l, const RelativePlace<Pose>& place) const {
     const double D = rule_.max_mahalanobis;
     const double yaw_variance = place.covariance(Pose::kDof - 1, Pose::kDof - 1);
-    const ViewSector of_l = sector_b(tie, l.pose, D * std::sqrt(std::max(0.0, yaw_variance)));
-    return sector_distance(sector_a(k.pose, 0), of_l) <= D * horizontal_sigma(place.covariance);
+    const ViewSector of_l = sector_b(tie, l, D * std::sqrt(std::max(0.0, yaw_variance)));
+    return sector_distance(sector_a(k, 0), of_l) <= D * horizontal_sigma(place.covariance);
   }
 
   /// Leaves out ties to which another is nearer for every pair of the boxes.
@@ -234,9 +248,9 @@ class OverlapJudge {
                       double sigma_m) const {
     const double sigma_rad = sigma_bound(rotation_block<Pose>(place.covariance)) + I.node.spread.sigma_rad +
                              J.node.spread.sigma_rad;
-    const ViewSector of_I = sector_a(I.middle.pose, I.node.heading_spread_rad + kRoundingShare);
+    const ViewSector of_I = sector_a(I.middle, I.node.heading_spread_rad + kRoundingShare);
     const ViewSector of_J =
-        sector_b(tie, J.middle.pose, J.node.heading_spread_rad + reach(sigma_rad) + kRoundingShare);
+        sector_b(tie, J.middle, J.node.heading_spread_rad + reach(sigma_rad) + kRoundingShare);
     return sector_distance(of_I, of_J) <= I.node.radius_m + J.node.radius_m + reach(sigma_m);
   }
 

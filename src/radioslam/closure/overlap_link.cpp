@@ -16,22 +16,30 @@ void check_chain(const OdometryChain<Pose>& chain) {
 }
 
 template <class Pose>
-std::vector<Record<Pose>> records_of(const OdometryChain<Pose>& chain) {
-  check_chain(chain);
+std::vector<Pose> shifted_poses(const OdometryChain<Pose>& chain) {
+  std::vector<Pose> poses;
+  poses.reserve(chain.poses.size());
   const auto origin = middle_of(chain.poses);
+  for (const Pose& pose : chain.poses) poses.push_back(shifted(pose, origin));
+  return poses;
+}
+
+template <class Pose>
+std::vector<Record<Pose>> records_of(const OdometryChain<Pose>& chain, const std::vector<Pose>& poses) {
   CompensatedSum<typename Pose::Jacobian> sum;
   double walked_m = 0;
   std::vector<Record<Pose>> records;
   records.reserve(chain.poses.size());
   for (std::size_t k = 0; k < chain.poses.size(); ++k) {
-    const Pose pose = shifted(chain.poses[k], origin);
+    const Pose& pose = poses[k];
     if (k > 0) {
       const auto ad = pose.adjoint();
       sum.add(ad * chain.cov_steps[k - 1] * ad.transpose());
       walked_m += (chain.poses[k].translation() - chain.poses[k - 1].translation()).norm();
     }
     const double walked = chain.walked_m.empty() ? walked_m : chain.walked_m[k];
-    records.push_back({pose, sum.value(), walked, static_cast<std::uint32_t>(k)});
+    records.push_back(
+        {pose.translation(), heading(pose), mirrored(sum.value()), walked, static_cast<std::uint32_t>(k)});
   }
   return records;
 }
@@ -67,12 +75,12 @@ OverlapLink<Pose> in_order(const OverlapLink<Pose>& link) {
 template <class Pose>
 RelativePlace<Pose> LinkView<Pose>::relative(std::size_t t, const Record& k, const Record& l) const {
   const Tie& tie = ties_[t];
-  const typename Pose::Point& in_b = l.pose.translation();
+  const typename Pose::Point& in_b = l.position_m;
   const typename Pose::Point in_a = this->in_a(t, in_b);
   const auto at_a = motion_at<Pose>(in_a), at_b = motion_at<Pose>(in_b);
   const typename Pose::Jacobian by_a = at_a * (walk<Pose>(k, tie.a) + tie.covariance) * at_a.transpose();
   const typename Pose::Jacobian by_b = at_b * walk<Pose>(l, tie.b) * at_b.transpose();
-  return {in_a - k.pose.translation(), by_a + turned<Pose>(tie.R_a_b, by_b)};
+  return {in_a - k.position_m, by_a + turned<Pose>(tie.R_a_b, by_b)};
 }
 
 template <class Pose>
@@ -80,10 +88,12 @@ LinkCovariance<Pose>::LinkCovariance(const std::vector<OdometryChain<Pose>>& cha
                                      std::vector<OverlapLink<Pose>> links)
     : links_(std::move(links)) {
   for (const auto& chain : chains) {
-    robots_.push_back({records_of(chain), {}, {}});
+    check_chain(chain);
+    robots_.push_back({shifted_poses(chain), {}, {}, {}});
+    robots_.back().records = records_of(chain, robots_.back().poses);
     for (const auto& record : robots_.back().records)
       robots_.back().rounding.widen(
-          rounding_bound<Pose>(record.cov_walk, record.pose.translation(), kRoundingOfSums));
+          rounding_bound<Pose>(record.cov_walk, record.position_m, kRoundingOfSums));
     if (!chain.poses.empty()) robots_.back().pieces.push_back({0, chain.poses.size()});
   }
   for (auto& link : links_) {
@@ -98,7 +108,7 @@ LinkCovariance<Pose>::LinkCovariance(const std::vector<OdometryChain<Pose>>& cha
 template <class Pose>
 PoseSpread LinkCovariance<Pose>::spread(std::size_t robot, std::size_t pose, std::size_t middle) const {
   const auto& records = robots_[robot].records;
-  const typename Pose::Point& p = records[pose].pose.translation();
+  const typename Pose::Point& p = records[pose].position_m;
   const auto at = motion_at<Pose>(p);
   const PoseSpread walked = spread_of<Pose>(at * walk<Pose>(records[pose], records[middle]) * at.transpose());
   const PoseSpread& rounding = robots_[robot].rounding;
@@ -109,8 +119,8 @@ template <class Pose>
 typename LinkView<Pose>::Tie LinkCovariance<Pose>::tie_of(const OverlapLink<Pose>& link) const {
   const auto& a = robots_[link.robot_a].records[link.pose_a];
   const auto& b = robots_[link.robot_b].records[link.pose_b];
-  const Pose T_a_cb = a.pose * link.T_a_b;
-  const Pose T_a_b = T_a_cb * b.pose.inverse();
+  const Pose T_a_cb = robots_[link.robot_a].poses[link.pose_a] * link.T_a_b;
+  const Pose T_a_b = T_a_cb * robots_[link.robot_b].poses[link.pose_b].inverse();
   const typename Pose::Jacobian ad = T_a_cb.adjoint();
   return {a, b, T_a_b, T_a_b.rotation_matrix(), ad * link.covariance * ad.transpose()};
 }
@@ -128,7 +138,7 @@ template <class Pose>
 typename Pose::Jacobian LinkCovariance<Pose>::odometry(std::size_t robot, std::size_t i,
                                                        std::size_t j) const {
   const auto& records = robots_[robot].records;
-  const typename Pose::Jacobian ad = records[j].pose.inverse().adjoint();
+  const typename Pose::Jacobian ad = robots_[robot].poses[j].inverse().adjoint();
   return ad * walk<Pose>(records[i], records[j]) * ad.transpose();
 }
 

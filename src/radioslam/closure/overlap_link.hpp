@@ -38,10 +38,17 @@ class LinkView {
  public:
   using Pose = P;
   struct Record {
-    Pose pose;                         ///< in the robot's shifted frame
+    typename Pose::Point position_m;  ///< in the robot's shifted frame
+    double heading_rad = 0;
     typename Pose::Jacobian cov_walk;  ///< prefix sum S
     double walked_m = 0;
     std::uint32_t index = 0;
+
+    template <class Self, class Visitor>
+    static void visit(Self& self, Visitor&& visit) {
+      visit(self.position_m), visit(self.heading_rad), visit.symmetric(self.cov_walk);
+      visit(self.walked_m), visit(self.index);
+    }
   };
   /// A link with what both robots must know of its ends.
   struct Tie {
@@ -93,6 +100,7 @@ class LinkCovariance {
 
  private:
   struct Robot {
+    std::vector<Pose> poses;  ///< in the shifted frame
     std::vector<typename View::Record> records;
     std::vector<PoseInterval> pieces;
     PoseSpread rounding;

@@ -80,6 +80,12 @@ PoseSpread spread_of(const typename Pose::Jacobian& covariance) {
   return {sigma_bound(position_block<Pose>(covariance)), sigma_bound(rotation_block<Pose>(covariance))};
 }
 
+/// With the part above the diagonal copied from below.
+template <class Matrix>
+Matrix mirrored(const Matrix& covariance) {
+  return covariance.template selfadjointView<Eigen::Lower>();
+}
+
 /// The pose with its frame's origin moved to `origin`.
 inline SE2 shifted(const SE2& pose, const Eigen::Vector2d& origin) {
   return {pose.translation() - origin, pose.angle()};
@@ -106,13 +112,14 @@ typename Pose::Point middle_of(const std::vector<Pose>& poses) {
 template <class V>
 concept OverlapView = requires(const V& view, const typename V::Record& k, std::size_t tie, double walked_m) {
   typename V::Pose;
-  { k.pose } -> std::convertible_to<typename V::Pose>;
+  { k.position_m } -> std::convertible_to<typename V::Pose::Point>;
+  { k.heading_rad } -> std::convertible_to<double>;
   { k.walked_m } -> std::convertible_to<double>;
   { view.ties() } -> std::convertible_to<std::size_t>;
-  { view.in_a(tie, k.pose.translation()) } -> std::convertible_to<typename V::Pose::Point>;  // from b's frame
+  { view.in_a(tie, k.position_m) } -> std::convertible_to<typename V::Pose::Point>;  // from b's frame
   { view.turn_in_a(tie) } -> std::convertible_to<double>;  // what to add to a heading in b's frame
   // Half the extents of a box along a's axes that holds a box along b's with these half extents.
-  { view.half_extent_in_a(tie, k.pose.translation()) } -> std::convertible_to<typename V::Pose::Point>;
+  { view.half_extent_in_a(tie, k.position_m) } -> std::convertible_to<typename V::Pose::Point>;
   { view.relative(tie, k, k) } -> std::convertible_to<RelativePlace<typename V::Pose>>;
   { view.tie_walked_a(tie) } -> std::convertible_to<double>;  // where the tie is on a's way, metres
   { view.tie_walked_b(tie) } -> std::convertible_to<double>;

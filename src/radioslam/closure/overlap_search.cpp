@@ -95,16 +95,7 @@ class PairSearch {
   }
 
   void compare(std::uint32_t k, std::uint32_t l, std::span<const Bound> ties, OverlapCandidates& out) const {
-    const auto& record_k = records_a_[k];
-    const auto& record_l = records_b_[l];
-    const Bound& tie = judge_.nearest(ties, record_k, record_l);
-    if (tie.state == Bound::State::kOutside) return;
-    if (judge_.beyond(tie, judge_.difference(tie.tie, record_k, record_l))) return;
-    ++out.counts.distances_evaluated;
-    if (const auto passed = judge_.pair(tie.tie, record_k, record_l)) {
-      out.candidates.push_back({a_, b_, k, l, passed->distance_m, passed->mahalanobis});
-      ++out.counts.kept;
-    }
+    judge_.compare({a_, b_, k, l}, records_a_[k], records_b_[l], ties, out);
   }
 
   OverlapCandidates compare_pieces(const PoseInterval& p, const PoseInterval& q,

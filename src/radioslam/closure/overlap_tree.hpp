@@ -78,18 +78,18 @@ class OverlapTreeBuilder {
   void sum_poses(Node& node) const {
     const auto& records = source_.records(robot_);
     const auto& middle = records[node.middle];
-    Point low = middle.pose.translation(), high = low;
+    Point low = middle.position_m, high = low;
     node.walked_low_m = node.walked_high_m = middle.walked_m;
     for (std::size_t k = node.begin; k < node.end; ++k) {
-      const Point& p = records[k].pose.translation();
+      const Point& p = records[k].position_m;
       low = low.cwiseMin(p);
       high = high.cwiseMax(p);
       node.walked_low_m = std::min(node.walked_low_m, records[k].walked_m);
       node.walked_high_m = std::max(node.walked_high_m, records[k].walked_m);
-      node.radius_m = std::max(node.radius_m, (p - middle.pose.translation()).norm());
+      node.radius_m = std::max(node.radius_m, (p - middle.position_m).norm());
       node.spread.widen(source_.spread(robot_, k, node.middle));
-      node.heading_spread_rad = std::max(
-          node.heading_spread_rad, std::abs(wrap_angle(heading(records[k].pose) - heading(middle.pose))));
+      node.heading_spread_rad = std::max(node.heading_spread_rad,
+                                         std::abs(wrap_angle(records[k].heading_rad - middle.heading_rad)));
     }
     set_box(node, low, high);
   }
@@ -104,14 +104,14 @@ class OverlapTreeBuilder {
       const PoseSpread s = source_.spread(robot_, half->middle, node.middle);
       node.spread.widen({half->spread.sigma_m + s.sigma_m + half->radius_m * s.sigma_rad,
                          half->spread.sigma_rad + s.sigma_rad});
-      const double way = (of_half.pose.translation() - middle.pose.translation()).norm();
+      const double way = (of_half.position_m - middle.position_m).norm();
       node.radius_m = std::max(node.radius_m, way + half->radius_m);
-      const double turn = std::abs(wrap_angle(heading(of_half.pose) - heading(middle.pose)));
+      const double turn = std::abs(wrap_angle(of_half.heading_rad - middle.heading_rad));
       node.heading_spread_rad = std::max(node.heading_spread_rad, turn + half->heading_spread_rad);
     }
     set_box(node, (first.centre_m - first.half_extent_m).cwiseMin(second.centre_m - second.half_extent_m),
             (first.centre_m + first.half_extent_m).cwiseMax(second.centre_m + second.half_extent_m));
-    const Point corner = (middle.pose.translation() - node.centre_m).cwiseAbs() + node.half_extent_m;
+    const Point corner = (middle.position_m - node.centre_m).cwiseAbs() + node.half_extent_m;
     node.radius_m = std::min(node.radius_m, corner.norm());
   }
 
