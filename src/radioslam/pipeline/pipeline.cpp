@@ -5,6 +5,7 @@
 
 #include "radioslam/pipeline/collect_results.hpp"
 #include "radioslam/pipeline/joint_graph_of_team.hpp"
+#include "radioslam/team_frame/observed_information.hpp"
 
 namespace radioslam {
 namespace {
@@ -41,13 +42,22 @@ void count(RunResult& result, const RadioMeasurements& radio, const OptimizerSum
   result.counts["optimizer_iterations"] = summary.iterations;
 }
 
+/// With weights for covariances instead of for the estimate.
+template <class Pose>
+JointGraph<Pose> honest(const JointGraph<Pose>& joint) {
+  JointGraph<Pose> result = joint;
+  discount_uncertain_measurements(result.team.graph, joint.first_closure_range);
+  return result;
+}
+
 /// What the run says about the estimate in `joint`.
 template <class Pose>
 void collect(RunResult& result, const Mission& mission, const JointGraph<Pose>& joint,
              const TeamPlacement<Pose>& placement, StageClock& clock) {
   const auto& graph = joint.team.graph;
   result.robots = collect_robots(joint, graph.poses, placement);
-  const auto marginals = clock.time("uncertainty", [&] { return Marginals<Pose>::compute(graph); });
+  const auto marginals =
+      clock.time("uncertainty", [&] { return Marginals<Pose>::compute(honest(joint).team.graph); });
   if (marginals) {
     add_uncertainty(result.robots, joint, *marginals);
     for (auto& note : odometry_notes(mission, joint, *marginals)) result.notes.push_back(std::move(note));
@@ -131,7 +141,7 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const RunPara
       "optimise", [&] { return optimize_robustly(joint, params.robust, params.optimizer, progress); });
 
   if (wants_overlaps(mission, options))
-    clock.time("overlap", [&] { return search_overlaps_into(result, joint, params, options), 0; });
+    clock.time("overlap", [&] { return search_overlaps_into(result, honest(joint), params, options), 0; });
   std::vector<ClosureResult> matches;
   if (!mission.matches.empty() && !options.overlap_only)
     matches = clock.time("matches", [&] {
