@@ -335,10 +335,8 @@ TeamHypothesis<Pose> hypothesis(const TeamGraph<Pose>& full, CompressedTeam<Pose
   const TiedTeam<Pose> tied = tied_team(values, components);
   MixtureGraph<Pose> mixture(tied.team, params.mixture);
   turn_level_priors(mixture.graph);
-  refine(mixture, {}, params.refinement);
-
   TeamHypothesis<Pose> result;
-  result.log_evidence = team.log_evidence;
+  result.log_evidence = refine(mixture, {}, params.refinement).log_evidence;
   result.range_weight.assign(full.graph.ranges.size(), 0);
   for (std::size_t k = 0; k < tied.ranges.size(); ++k)
     result.range_weight[tied.ranges[k]] = mixture.graph.ranges[k].weight;
@@ -393,6 +391,20 @@ TeamGraph<Pose> with_fewer_links(const TeamGraph<Pose>& team, const GridParams& 
   return fewer;
 }
 
+/// Sorts by evidence and sets the weights.
+template <class Pose>
+void weigh(std::vector<TeamHypothesis<Pose>>& hypotheses, double overconfidence) {
+  std::stable_sort(hypotheses.begin(), hypotheses.end(),
+                   [](const auto& a, const auto& b) { return a.log_evidence > b.log_evidence; });
+  const double best = hypotheses.front().log_evidence;
+  double sum = 0;
+  for (auto& h : hypotheses) {
+    h.weight = std::isfinite(best) ? std::exp((h.log_evidence - best) / overconfidence) : 1;
+    sum += h.weight;
+  }
+  for (auto& h : hypotheses) h.weight /= sum;
+}
+
 }  // namespace
 
 template <class Pose>
@@ -403,16 +415,9 @@ RadioAlignment<Pose> align_by_radio(const TeamGraph<Pose>& team, const RadioAlig
   builder.run();
   RadioAlignment<Pose> result;
   result.components = builder.components();
-  const double best = builder.beam().front().log_evidence;
-  double sum = 0;
-  for (const Team<Pose>& kept : builder.beam()) {
+  for (const Team<Pose>& kept : builder.beam())
     result.hypotheses.push_back(hypothesis(team, compressed, result.components, kept, params));
-    TeamHypothesis<Pose>& added = result.hypotheses.back();
-    added.weight =
-        std::isfinite(best) ? std::exp((kept.log_evidence - best) / params.beam.overconfidence) : 1;
-    sum += added.weight;
-  }
-  for (auto& h : result.hypotheses) h.weight /= sum;
+  weigh(result.hypotheses, params.beam.overconfidence);
   return result;
 }
 
