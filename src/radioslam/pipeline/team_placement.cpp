@@ -26,7 +26,7 @@ void adopt(JointGraph<Pose>& joint, const TeamHypothesis<Pose>& hypothesis) {
       const double weight = hypothesis.path_weight[k][p];
       if (weight < kLeastWeight) continue;
       graph.bearings.push_back(
-          {bearing.i, bearing.j, bearing.paths[p].direction, bearing.paths[p].sigma_rad, {}, weight});
+          {bearing.i, bearing.j, bearing.paths[p].direction, hypothesis.path_sigma_rad[k][p], {}, weight});
     }
   }
 }

@@ -81,7 +81,8 @@ double MixtureGraph<Pose>::visit_measurements(const Inflation& inflation, double
   }
   for (std::size_t b = 0; b + 1 < first_path_.size(); ++b) {
     const std::size_t begin = first_path_[b], end = first_path_[b + 1];
-    const double inflated = added(inflation.bearings_rad2, b, share);
+    if (begin == end) continue;
+    const double inflated = added(inflation.bearings_rad2, b, share) + place_variance(begin);
     double total = 1 - params_.direct_probability;
     visit.begin_bearing();
     for (std::size_t p = begin; p < end; ++p) {
@@ -96,6 +97,14 @@ double MixtureGraph<Pose>::visit_measurements(const Inflation& inflation, double
     log_likelihood += std::log(total);
   }
   return log_likelihood;
+}
+
+template <class Pose>
+double MixtureGraph<Pose>::place_variance(std::size_t path) const {
+  const auto& bearing = graph.bearings[path];
+  const double distance = (position(graph, bearing.j) - graph.poses[bearing.i.index()].translation()).norm();
+  const double share = params_.sigma_place_m / std::max(distance, kMinimumDistance_m);
+  return share * share;
 }
 
 template <class Pose>

@@ -3,8 +3,10 @@
 //   angle:   p = [(1 - P) + P sum_p pi_p c / s^m exp(-|u - mu_p|^2 / (2 s^2))] / (2 pi or 4 pi)
 // with the chord |u - mu_p| between the predicted direction and path p (von Mises, or Fisher in space),
 // c / s^m = sqrt(2 pi) / s in the plane and 2 / s^2 in space, P the probability that one of the paths is
-// direct, and pi_p its prior among them, which grows with the path's power. Source: Wi-Closure eq. 5 with the
-// term for "no path is direct". The expected weights are the posteriors of the terms.
+// direct, s^2 = sigma^2 + (sigma_place / distance)^2, without which an angle between two robots side by side
+// would be known without bound, and pi_p its prior among them, which grows with the path's power. Source:
+// Wi-Closure eq. 5 with the term for "no path is direct". The expected weights are the posteriors of the
+// terms.
 #pragma once
 
 #include <vector>
@@ -18,6 +20,7 @@ struct MixtureParams {
   double direct_probability = 0.8;        ///< P
   double false_range_probability = 0.03;  ///< e
   double power_for_double_db = 10;        ///< a path this much stronger is twice as likely direct
+  double sigma_place_m = 0.2;             ///< of the ends' antennas in their bodies: turns near directions
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -28,6 +31,9 @@ struct MixtureParams {
           self.false_range_probability);
     visit(Field{"power_for_double_db", "dB", 0.1, 1e6, "a path this much stronger is twice as likely direct"},
           self.power_for_double_db);
+    visit(Field{"sigma_place_m", "m", 1e-3, 100,
+                "error of the antennas' places: over the distance, it adds to an angle's error"},
+          self.sigma_place_m);
   }
 };
 
@@ -66,6 +72,7 @@ class MixtureGraph {
   template <class Visit>
   double visit_measurements(const Inflation& inflation, double share, Visit&& visit) const;
   double other_cost() const;
+  double place_variance(std::size_t path) const;
 
   MixtureParams params_;
   std::vector<double> range_sigma_, path_sigma_, path_prior_;

@@ -1,6 +1,6 @@
-// What measurements of uncertain origin really say: the expected weights of a mixture overstate it, since which
-// term is right is not known. Observed information of one measurement with posterior w and squared norm s
-// (Louis 1982, one dominant term): w (1 - (1 - w) s) instead of w.
+// What measurements of uncertain origin really say: the expected weights of a mixture overstate it, since
+// which term is right is not known. Observed information of one measurement with posterior w and squared norm
+// s (Louis 1982, one dominant term): w (1 - (1 - w) s) instead of w.
 #pragma once
 
 #include <cstddef>

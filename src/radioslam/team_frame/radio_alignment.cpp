@@ -340,10 +340,17 @@ TeamHypothesis<Pose> hypothesis(const TeamGraph<Pose>& full, CompressedTeam<Pose
   result.range_weight.assign(full.graph.ranges.size(), 0);
   for (std::size_t k = 0; k < tied.ranges.size(); ++k)
     result.range_weight[tied.ranges[k]] = mixture.graph.ranges[k].weight;
-  for (const auto& bearing : full.bearings) result.path_weight.emplace_back(bearing.paths.size(), 0.0);
+  for (const auto& bearing : full.bearings) {
+    result.path_weight.emplace_back(bearing.paths.size(), 0.0);
+    std::vector<double>& sigmas = result.path_sigma_rad.emplace_back();
+    for (const auto& path : bearing.paths) sigmas.push_back(path.sigma_rad);
+  }
   for (std::size_t k = 0; k < tied.bearings.size(); ++k)
-    for (std::size_t p = 0; p < result.path_weight[tied.bearings[k]].size(); ++p)
-      result.path_weight[tied.bearings[k]][p] = mixture.graph.bearings[mixture.first_path(k) + p].weight;
+    for (std::size_t p = 0; p < result.path_weight[tied.bearings[k]].size(); ++p) {
+      const auto& factor = mixture.graph.bearings[mixture.first_path(k) + p];
+      result.path_weight[tied.bearings[k]][p] = factor.weight;
+      result.path_sigma_rad[tied.bearings[k]][p] = factor.sigma_rad;
+    }
   result.poses = std::move(mixture.graph.poses);
   result.points = std::move(mixture.graph.points);
   result.drifts = std::move(mixture.graph.drifts);

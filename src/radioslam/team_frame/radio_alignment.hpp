@@ -64,8 +64,9 @@ struct TeamHypothesis {
   std::vector<Pose> poses;  ///< of the full graph
   std::vector<typename Pose::Point> points;
   std::vector<Drift> drifts;
-  std::vector<double> range_weight;              ///< posterior that each range is direct
-  std::vector<std::vector<double>> path_weight;  ///< posterior of every path of each bearing
+  std::vector<double> range_weight;                 ///< posterior that each range is direct
+  std::vector<std::vector<double>> path_sigma_rad;  ///< of every path of each bearing, places included
+  std::vector<std::vector<double>> path_weight;     ///< posterior of every path of each bearing
   double log_evidence = 0;
   double weight = 1;
 };
