@@ -56,7 +56,7 @@ std::vector<SE2> drive(Rng& rng, const Town& town) {
 }
 
 struct Team {
-  std::vector<OdometryChain<SE2>> chains;
+  std::vector<KeyframeOdometry<SE2>> chains;
   std::vector<OverlapLink<SE2>> links;
   std::vector<OverlapSensor> sensors;
 };
@@ -90,7 +90,7 @@ Team draw_team(const Town& town) {
   const Eigen::Vector3d link =
       Eigen::Vector3d(town.link_sigma_m, town.link_sigma_m, town.link_sigma_rad).cwiseAbs2();
   for (int robot = 0; robot < 2; ++robot) {
-    OdometryChain<SE2> chain{drive(rng, town), {}, {}};
+    KeyframeOdometry<SE2> chain{drive(rng, town), {}, {}};
     chain.cov_steps.assign(town.poses - 1, step.asDiagonal());
     team.chains.push_back(std::move(chain));
     team.sensors.push_back({town.range_m});

@@ -7,8 +7,8 @@
 using radioslam::SE2;
 
 // 200 keyframes a metre apart, with odometry that loses 2 cm and 0.1 degrees per square root of a metre.
-radioslam::OdometryChain<SE2> drive() {
-  radioslam::OdometryChain<SE2> chain;
+radioslam::KeyframeOdometry<SE2> drive() {
+  radioslam::KeyframeOdometry<SE2> chain;
   const SE2::Tangent sigma(0.02, 0.02, 0.002);
   for (int k = 0; k < 200; ++k) chain.poses.push_back(SE2({1.0 * k, 0}, 0));
   chain.cov_steps.assign(199, sigma.cwiseAbs2().asDiagonal());

@@ -37,7 +37,7 @@ TYPED_TEST(OverlapExchangeOf, FindsWhatTheCentralSearchFinds) {
 
 /// Two straight ways that cross at a right angle: what is far from the crossing need not be sent.
 TEST(OverlapExchangeTest, CostsAFractionOfSendingEveryPose) {
-  OdometryChain<SE2> a, b;
+  KeyframeOdometry<SE2> a, b;
   for (int k = 0; k < 1000; ++k) {
     a.poses.push_back(SE2({k - 500.0, 0}, 0));
     b.poses.push_back(SE2({0, k - 500.0}, 1.5707963));

@@ -11,7 +11,7 @@ TYPED_TEST_SUITE(OverlapLinkOf, test::PoseTypes);
 
 /// Sigma of T_i^-1 T_j by carrying the error along, step by step; i <= j.
 template <class Pose>
-typename Pose::Jacobian carried(const OdometryChain<Pose>& chain, std::size_t i, std::size_t j) {
+typename Pose::Jacobian carried(const KeyframeOdometry<Pose>& chain, std::size_t i, std::size_t j) {
   typename Pose::Jacobian covariance = Pose::Jacobian::Zero();
   for (std::size_t k = i; k < j; ++k) {
     const typename Pose::Jacobian ad = (chain.poses[k + 1].inverse() * chain.poses[k]).adjoint();

@@ -90,7 +90,7 @@ TEST(OverlapSearchTest, RobotsWithoutTiesHaveNoCandidates) {
 
 /// Two robots on parallel ways, exact but for the link's bearing: who can see whom is known by hand.
 TEST(OverlapSearchTest, KnownTeam) {
-  OdometryChain<SE2> a, b;
+  KeyframeOdometry<SE2> a, b;
   for (int k = 0; k < 11; ++k) {
     a.poses.push_back(SE2({10.0 * k, 0}, 0));
     b.poses.push_back(SE2({10.0 * k, 0}, 0));

@@ -15,7 +15,7 @@ namespace radioslam::test {
 
 template <class Pose>
 struct OverlapWorld {
-  std::vector<OdometryChain<Pose>> chains;
+  std::vector<KeyframeOdometry<Pose>> chains;
   std::vector<OverlapLink<Pose>> links;
   std::vector<OverlapSensor> sensors;
   PoseGraph<Pose> graph;
@@ -124,7 +124,7 @@ OverlapWorld<Pose> draw_world(std::uint64_t seed, const WorldSize& size, bool wi
   Drawing<Pose> draw(seed);
   OverlapWorld<Pose> world;
   for (std::size_t r = 0; r < size.robots; ++r) {
-    OdometryChain<Pose> chain{walk_in_area(draw, size), {}, {}};
+    KeyframeOdometry<Pose> chain{walk_in_area(draw, size), {}, {}};
     for (std::size_t k = 1; k < size.poses; ++k) chain.cov_steps.push_back(step_covariance(draw));
     world.chains.push_back(chain);
     world.sensors.push_back({draw.rng.uniform(4, 10)});

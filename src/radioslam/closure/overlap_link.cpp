@@ -9,14 +9,14 @@ template <class Pose>
 using Record = typename LinkView<Pose>::Record;
 
 template <class Pose>
-void check_chain(const OdometryChain<Pose>& chain) {
+void check_chain(const KeyframeOdometry<Pose>& chain) {
   const std::size_t n = chain.poses.size();
   RADIOSLAM_CHECK(chain.cov_steps.size() + 1 >= n, "every step needs a covariance");
   RADIOSLAM_CHECK(chain.walked_m.empty() || chain.walked_m.size() == n, "one distance walked per pose");
 }
 
 template <class Pose>
-std::vector<Pose> shifted_poses(const OdometryChain<Pose>& chain) {
+std::vector<Pose> shifted_poses(const KeyframeOdometry<Pose>& chain) {
   std::vector<Pose> poses;
   poses.reserve(chain.poses.size());
   const auto origin = middle_of(chain.poses);
@@ -25,7 +25,7 @@ std::vector<Pose> shifted_poses(const OdometryChain<Pose>& chain) {
 }
 
 template <class Pose>
-std::vector<Record<Pose>> records_of(const OdometryChain<Pose>& chain, const std::vector<Pose>& poses) {
+std::vector<Record<Pose>> records_of(const KeyframeOdometry<Pose>& chain, const std::vector<Pose>& poses) {
   CompensatedSum<typename Pose::Jacobian> sum;
   double walked_m = 0;
   std::vector<Record<Pose>> records;
@@ -84,7 +84,7 @@ RelativePlace<Pose> LinkView<Pose>::relative(std::size_t t, const Record& k, con
 }
 
 template <class Pose>
-LinkCovariance<Pose>::LinkCovariance(const std::vector<OdometryChain<Pose>>& chains,
+LinkCovariance<Pose>::LinkCovariance(const std::vector<KeyframeOdometry<Pose>>& chains,
                                      std::vector<OverlapLink<Pose>> links)
     : links_(std::move(links)) {
   for (const auto& chain : chains) {

@@ -18,7 +18,7 @@ namespace radioslam {
 
 /// One robot's keyframes in its own frame, and how the odometry between them may be off.
 template <class Pose>
-struct OdometryChain {
+struct KeyframeOdometry {
   std::vector<Pose> poses;                         ///< T_start_body
   std::vector<typename Pose::Jacobian> cov_steps;  ///< of T_k^-1 T_k+1, right perturbation: one fewer
   std::vector<double> walked_m;                    ///< up to each pose; empty: along straight lines
@@ -84,7 +84,7 @@ class LinkCovariance {
   using View = LinkView<Pose>;
 
   /// The chains hold at least as many steps as they need; links name poses that are there, of two robots.
-  LinkCovariance(const std::vector<OdometryChain<Pose>>& chains, std::vector<OverlapLink<Pose>> links);
+  LinkCovariance(const std::vector<KeyframeOdometry<Pose>>& chains, std::vector<OverlapLink<Pose>> links);
 
   std::size_t robots() const { return robots_.size(); }
   const std::vector<typename View::Record>& records(std::size_t robot) const {

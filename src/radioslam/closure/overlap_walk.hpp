@@ -11,26 +11,9 @@
 #include <limits>
 
 #include "radioslam/closure/overlap_relative.hpp"
+#include "radioslam/geometry/compensated_sum.hpp"
 
 namespace radioslam {
-
-/// A sum of matrices whose error does not grow with the number of terms.
-template <class Matrix>
-class CompensatedSum {
- public:
-  void add(const Matrix& term) {
-    const Matrix next = sum_ + term;
-    for (Eigen::Index i = 0; i < term.size(); ++i) {
-      const double s = sum_.data()[i], t = term.data()[i], n = next.data()[i];
-      lost_.data()[i] += std::abs(s) >= std::abs(t) ? (s - n) + t : (t - n) + s;
-    }
-    sum_ = next;
-  }
-  Matrix value() const { return sum_ + lost_; }
-
- private:
-  Matrix sum_ = Matrix::Zero(), lost_ = Matrix::Zero();
-};
 
 /// Error of a difference of prefix sums, as a share of the sums.
 inline constexpr double kRoundingOfSums = 64 * std::numeric_limits<double>::epsilon();

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <tuple>
+#include <utility>
 
+#include "radioslam/consistency/consistent_set.hpp"
 #include "radioslam/graph/graduated.hpp"
 #include "radioslam/graph/residuals.hpp"
 
@@ -53,43 +56,121 @@ MatchVerdict reject(MatchVerdict verdict, std::string reason) {
   return verdict;
 }
 
+/// A match that nothing speaks against yet.
+struct Admitted {
+  std::size_t index = 0;  ///< in the mission
+  PoseId i, j;
+};
+
 template <class Pose>
-MatchVerdict judge(JointGraph<Pose>& joint, const PoseMatch& match, const std::set<CandidateKey>& candidates,
-                   Pruning pruning) {
-  MatchVerdict verdict;
-  const PoseId i = pose_at(joint, match.robot_i, match.stamp_i);
-  const PoseId j = pose_at(joint, match.robot_j, match.stamp_j);
-  const auto keyframe = [&](RobotIndex robot, Stamp stamp) {
-    const auto& stamps = joint.robots[robot.index()].stamps;
-    return stamps[keyframe_before(stamps, stamp)];
-  };
-  verdict.tie = {match.robot_i, match.robot_j, keyframe(match.robot_i, match.stamp_i),
-                 keyframe(match.robot_j, match.stamp_j)};
-  if (!i.valid() || !j.valid()) return reject(verdict, "no odometry at its time");
-  const auto& tie = verdict.tie;
-  if (pruning == Pruning::kOn && tie.robot_i != tie.robot_j &&
-      !candidates.contains({tie.robot_i, tie.stamp_i, tie.robot_j, tie.stamp_j}))
-    return reject(verdict, "the views cannot overlap");
-  RelativePoseFactor<Pose> factor;
-  factor.i = i;
-  factor.j = j;
-  factor.T_i_j = pose_as<Pose>(match.T_i_j);
-  factor.information = match_information<Pose>(match);
-  factor.loss = {LossKind::kGemanMcClure, std::sqrt(kConsistent<Pose>)};
-  verdict.factor = static_cast<std::ptrdiff_t>(joint.team.graph.relative_poses.size());
-  joint.team.graph.relative_poses.push_back(factor);
-  return verdict;
-}
+class Admission {
+ public:
+  Admission(JointGraph<Pose>& joint, const Mission& mission, const std::vector<CandidateResult>& candidates,
+            Pruning pruning)
+      : joint_(joint), mission_(mission), candidates_(keys(candidates)), pruning_(pruning) {
+    for (std::size_t m = 0; m < mission.matches.size(); ++m) verdicts_.push_back(judge(m));
+  }
+
+  std::vector<MatchVerdict> run() {
+    for (const auto& [robots, matches] : between_robots_) keep_consistent(matches);
+    for (const Admitted& match : admitted_)
+      if (verdicts_[match.index].status == ClosureStatus::kAccepted) add_factor(match);
+    return std::move(verdicts_);
+  }
+
+ private:
+  MatchVerdict judge(std::size_t index) {
+    const PoseMatch& match = mission_.matches[index];
+    const auto keyframe = [&](RobotIndex robot, Stamp stamp) {
+      const auto& stamps = joint_.robots[robot.index()].stamps;
+      return stamps[keyframe_before(stamps, stamp)];
+    };
+    MatchVerdict verdict;
+    const RadioTie& tie = verdict.tie = {match.robot_i, match.robot_j, keyframe(match.robot_i, match.stamp_i),
+                                         keyframe(match.robot_j, match.stamp_j)};
+    const PoseId i = pose_at(joint_, match.robot_i, match.stamp_i);
+    const PoseId j = pose_at(joint_, match.robot_j, match.stamp_j);
+    if (!i.valid() || !j.valid()) return reject(verdict, "no odometry at its time");
+    const bool other = match.robot_i != match.robot_j;
+    if (other && pruning_ == Pruning::kOn &&
+        !candidates_.contains({tie.robot_i, tie.stamp_i, tie.robot_j, tie.stamp_j}))
+      return reject(verdict, "the views cannot overlap");
+    if (other) between_robots_[std::minmax(match.robot_i, match.robot_j)].push_back(admitted_.size());
+    admitted_.push_back({index, i, j});
+    return verdict;
+  }
+
+  /// Rejects all but the largest consistent set of the matches of one pair of robots.
+  void keep_consistent(const std::vector<std::size_t>& group) {
+    const PoseMatch& first = mission_.matches[admitted_[group.front()].index];
+    const auto [a, b] = std::minmax(first.robot_i, first.robot_j);
+    std::vector<RelativePoseMatch<Pose>> matches;
+    for (const std::size_t k : group) matches.push_back(oriented(admitted_[k], a));
+    const ConsistentSet set = largest_consistent_set(chain(a), chain(b), matches);
+    for (std::size_t k = 0; k < group.size(); ++k) {
+      if (set.matches[k].is_in) continue;
+      MatchVerdict& verdict = verdicts_[admitted_[group[k]].index];
+      verdict.statistic = set.matches[k].best_statistic.value_or(0);
+      verdict = reject(verdict, "not consistent with the largest set of matches");
+    }
+  }
+
+  RelativePoseMatch<Pose> oriented(const Admitted& match, RobotIndex a) const {
+    const PoseMatch& measured = mission_.matches[match.index];
+    const Pose T_i_j = pose_as<Pose>(measured.T_i_j);
+    const typename Pose::Jacobian covariance = match_information<Pose>(measured).inverse();
+    const auto place = [&](PoseId id, RobotIndex robot) { return id.index() - piece(robot).first_pose; };
+    if (measured.robot_i == a)
+      return {place(match.i, measured.robot_i), place(match.j, measured.robot_j), T_i_j, covariance};
+    const typename Pose::Jacobian turn = T_i_j.adjoint();
+    return {place(match.j, measured.robot_j), place(match.i, measured.robot_i), T_i_j.inverse(),
+            turn * covariance * turn.transpose()};
+  }
+
+  /// A mission's robots have one piece each.
+  const Piece& piece(RobotIndex robot) const { return joint_.team.pieces[robot.index()]; }
+
+  OdometryChain<Pose> chain(RobotIndex robot) const {
+    const Piece& of = piece(robot);
+    std::vector<Pose> poses{Pose()};
+    std::vector<typename Pose::Jacobian> steps;
+    for (const auto& factor : joint_.team.graph.relative_poses) {
+      const bool mine =
+          factor.i.index() == of.first_pose + poses.size() - 1 && factor.j.value == factor.i.value + 1;
+      if (!mine || poses.size() == of.pose_count) continue;
+      poses.push_back(poses.back() * factor.T_i_j);
+      steps.push_back(factor.information.inverse());
+    }
+    return {std::move(poses), steps};
+  }
+
+  void add_factor(const Admitted& match) {
+    const PoseMatch& measured = mission_.matches[match.index];
+    RelativePoseFactor<Pose> factor;
+    factor.i = match.i;
+    factor.j = match.j;
+    factor.T_i_j = pose_as<Pose>(measured.T_i_j);
+    factor.information = match_information<Pose>(measured);
+    factor.loss = {LossKind::kGemanMcClure, std::sqrt(kConsistent<Pose>)};
+    verdicts_[match.index].factor = static_cast<std::ptrdiff_t>(joint_.team.graph.relative_poses.size());
+    joint_.team.graph.relative_poses.push_back(factor);
+  }
+
+  JointGraph<Pose>& joint_;
+  const Mission& mission_;
+  std::set<CandidateKey> candidates_;
+  Pruning pruning_;
+  std::vector<Admitted> admitted_;
+  std::map<std::pair<RobotIndex, RobotIndex>, std::vector<std::size_t>> between_robots_;  ///< in admitted_
+  std::vector<MatchVerdict> verdicts_;
+};
 
 }  // namespace
 
 template <class Pose>
 std::vector<MatchVerdict> admit_matches(JointGraph<Pose>& joint, const Mission& mission,
                                         const std::vector<CandidateResult>& candidates, Pruning pruning) {
-  const auto pairs = keys(candidates);
-  std::vector<MatchVerdict> verdicts;
-  for (const PoseMatch& match : mission.matches) verdicts.push_back(judge(joint, match, pairs, pruning));
-  return verdicts;
+  return Admission<Pose>(joint, mission, candidates, pruning).run();
 }
 
 template <class Pose>

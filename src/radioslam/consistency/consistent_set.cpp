@@ -1,0 +1,56 @@
+#include "radioslam/consistency/consistent_set.hpp"
+
+namespace radioslam {
+namespace {
+
+MatchStanding standing_of(const PairwiseConsistency& pairs, const std::vector<std::size_t>& members,
+                          std::size_t match) {
+  MatchStanding standing;
+  for (const std::size_t member : members) {
+    if (member == match) {
+      standing.is_in = true;
+      continue;
+    }
+    const double statistic = pairs.statistic(match, member);
+    if (statistic <= pairs.gate) ++standing.consistent;
+    if (!standing.best_statistic || statistic < *standing.best_statistic) standing.best_statistic = statistic;
+  }
+  return standing;
+}
+
+/// What the matches that are out could agree on among themselves.
+MaximumClique second_choice(const PairwiseConsistency& pairs, const ConsistentSet& set,
+                            const MaximumCliqueParams& params) {
+  std::vector<std::size_t> out;
+  for (std::size_t k = 0; k < set.matches.size(); ++k)
+    if (!set.matches[k].is_in) out.push_back(k);
+  return maximum_clique(induced_graph(pairs.graph, out), params);
+}
+
+}  // namespace
+
+ConsistentSet largest_consistent_set(const PairwiseConsistency& pairs, const MaximumCliqueParams& params) {
+  const MaximumClique clique = maximum_clique(pairs.graph, params);
+  ConsistentSet set{clique.vertices, {}, 0, pairs.gate, clique.proven};
+  for (std::size_t k = 0; k < pairs.graph.size(); ++k)
+    set.matches.push_back(standing_of(pairs, set.members, k));
+  set.runner_up = second_choice(pairs, set, params).vertices.size();
+  return set;
+}
+
+template <class Pose>
+ConsistentSet largest_consistent_set(const OdometryChain<Pose>& chain_a, const OdometryChain<Pose>& chain_b,
+                                     const std::vector<RelativePoseMatch<Pose>>& matches,
+                                     const ConsistentSetParams& params) {
+  return largest_consistent_set(pairwise_consistency(chain_a, chain_b, matches, params.pairwise),
+                                params.clique);
+}
+
+template ConsistentSet largest_consistent_set(const OdometryChain<SE2>&, const OdometryChain<SE2>&,
+                                              const std::vector<RelativePoseMatch<SE2>>&,
+                                              const ConsistentSetParams&);
+template ConsistentSet largest_consistent_set(const OdometryChain<SE3>&, const OdometryChain<SE3>&,
+                                              const std::vector<RelativePoseMatch<SE3>>&,
+                                              const ConsistentSetParams&);
+
+}  // namespace radioslam

@@ -1,0 +1,53 @@
+// The largest set of matches between two trajectories that are all consistent with one another: pairwise
+// tests (pairwise.hpp), then the maximum clique of their graph (maximum_clique.hpp). It rejects false loop
+// closures, and, with one match per path, multipath. It trusts numbers: false matches that agree with each
+// other and outnumber the true ones win; `runner_up` below tells how close it was.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "radioslam/consistency/maximum_clique.hpp"
+#include "radioslam/consistency/pairwise.hpp"
+
+namespace radioslam {
+
+struct ConsistentSetParams {
+  PairwiseParams pairwise;
+  MaximumCliqueParams clique;
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    PairwiseParams::visit_fields(self.pairwise, visit);
+    MaximumCliqueParams::visit_fields(self.clique, visit);
+  }
+};
+
+/// How one match stands to the set.
+struct MatchStanding {
+  bool is_in = false;
+  std::size_t consistent = 0;  ///< members (itself left out) that it is consistent with
+  /// The smallest statistic against a member; absent where there is no other member. Of a match that is out
+  /// this is what to report: above the gate it agrees with nobody.
+  std::optional<double> best_statistic;
+};
+
+struct ConsistentSet {
+  std::vector<std::size_t> members;  ///< rising
+  std::vector<MatchStanding> matches;
+  std::size_t runner_up = 0;  ///< size of the largest clique among the matches that are out
+  double gate = 0;
+  bool proven = true;  ///< false when the search for the largest set was cut short
+};
+
+/// Of n matches. A single match is a set of one; no matches, an empty one.
+template <class Pose>
+ConsistentSet largest_consistent_set(const OdometryChain<Pose>& chain_a, const OdometryChain<Pose>& chain_b,
+                                     const std::vector<RelativePoseMatch<Pose>>& matches,
+                                     const ConsistentSetParams& params = {});
+
+/// The same from pairs that were tested already.
+ConsistentSet largest_consistent_set(const PairwiseConsistency& pairs,
+                                     const MaximumCliqueParams& params = {});
+
+}  // namespace radioslam

@@ -1,0 +1,39 @@
+// The largest set of vertices that are all neighbours of one another, exactly: NP-hard, but quick on graphs
+// of consistent measurements. Branch and bound with greedy colouring as bound (Tomita & Seki 2003), on
+// bitsets (San Segundo et al. 2011, BBMC), vertex by vertex in degeneracy order with the vertices of too
+// small a core number left out (Rossi et al. 2014, PMC), from a greedy clique as first bound.
+// The work is limited by counting, not by the clock: the same answer on every machine. Of several largest
+// cliques the first one met is returned, always the same.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "radioslam/base/fields.hpp"
+#include "radioslam/consistency/undirected_graph.hpp"
+
+namespace radioslam {
+
+struct MaximumCliqueParams {
+  int greedy_starts = 100;     ///< greedy cliques tried before the proof
+  double most_branches = 2e7;  ///< of the search tree; then the best clique found counts
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit(Field{"greedy_starts", "", 1, 1e6, "greedy cliques tried before the proof; ours"},
+          self.greedy_starts);
+    visit(Field{"most_branches", "", 1, 1e15,
+                "branches of the exact search before it gives up; some ten seconds"},
+          self.most_branches);
+  }
+};
+
+struct MaximumClique {
+  std::vector<std::size_t> vertices;  ///< rising
+  bool proven = true;                 ///< false when the search gave up: a larger one may exist
+  std::uint64_t branches = 0;
+};
+
+MaximumClique maximum_clique(const UndirectedGraph& graph, const MaximumCliqueParams& params = {});
+
+}  // namespace radioslam
