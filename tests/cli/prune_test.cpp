@@ -1,0 +1,151 @@
+// radioslam prune, and graphs in the place of missions.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "cli/process.hpp"
+
+namespace radioslam::cli {
+namespace {
+
+/// A small town, simulated once.
+class Prune : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TemporaryFolder;
+    const auto outcome =
+        run({"simulate", "city", "-o", "m", "--seed", "3", "--set", "path_length_m=500", "least_meeting_s=8",
+             "blocks_x=3", "blocks_y=3", "odometry_rate_hz=2.5", "links=20"},
+            folder());
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+  }
+  static void TearDownTestSuite() { delete folder_; }
+
+  static const std::filesystem::path& folder() { return folder_->path(); }
+  /// The same search with fewer places tried.
+  static Outcome prune(const std::string& out, const std::vector<std::string>& more) {
+    std::vector<std::string> words{"prune",
+                                   "m",
+                                   "-o",
+                                   out,
+                                   "--set",
+                                   "alignment.references=3",
+                                   "alignment.tried_places=12",
+                                   "alignment.refined_places=4"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words, folder());
+  }
+
+ private:
+  static TemporaryFolder* folder_;
+};
+TemporaryFolder* Prune::folder_ = nullptr;
+
+std::size_t rows(const std::string& csv) {
+  return static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')) - 1;
+}
+
+TEST_F(Prune, PrintsOneJsonObjectThatTellsItsCounts) {
+  const auto outcome = prune("json", {"--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  const auto json = nlohmann::json::parse(outcome.out);
+  for (const char* key : {"pairs", "candidates", "distances_evaluated", "seconds"})
+    ASSERT_TRUE(json.contains(key)) << key;
+  EXPECT_TRUE(json["seconds"].contains("overlap"));
+  const auto files = files_in(folder() / "json");
+  EXPECT_TRUE(std::count(files.begin(), files.end(), "candidates.csv"));
+  const std::string csv = read_file(folder() / "json/candidates.csv");
+  EXPECT_EQ(csv.substr(0, csv.find('\n')), "robot_i,t_i_s,robot_j,t_j_s,distance_m,mahalanobis");
+  EXPECT_EQ(json["candidates"], rows(csv));
+  const auto keyframes = [&](const char* file) {
+    const std::string tum = read_file(folder() / "json" / file);
+    return static_cast<std::size_t>(std::count(tum.begin(), tum.end(), '\n')) -
+           static_cast<std::size_t>(std::count(tum.begin(), tum.end(), '#'));
+  };
+  EXPECT_EQ(json["pairs"], keyframes("a.tum") * keyframes("b.tum"));
+  EXPECT_LT(json["distances_evaluated"], json["pairs"]);
+}
+
+TEST_F(Prune, ExhaustiveGivesTheSameBytesInBothModes) {
+  for (const std::string mode : {"joint", "link"}) {
+    ASSERT_EQ(prune("tree", {"--mode", mode}).status, 0);
+    const auto all = prune("all", {"--mode", mode, "--exhaustive", "--json"});
+    ASSERT_EQ(all.status, 0) << all.err;
+    const std::string csv = read_file(folder() / "tree/candidates.csv");
+    EXPECT_GT(rows(csv), 50U) << mode;
+    EXPECT_EQ(csv, read_file(folder() / "all/candidates.csv")) << mode;
+    const auto json = nlohmann::json::parse(all.out);
+    EXPECT_GE(json["distances_evaluated"], json["pairs"]) << mode;
+  }
+}
+
+TEST_F(Prune, AnUnknownModeIsRefused) {
+  const auto outcome = prune("none", {"--mode", "both"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("--mode"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(folder() / "none"));
+}
+
+/// Two robots that drive 6 m along x, 4 m apart, and range each other and a landmark at every pose, exactly.
+std::string two_robots_graph() {
+  std::string vertices, edges;
+  const auto number = [](double x) { return std::to_string(x); };
+  for (int k = 0; k <= 6; ++k) {
+    const std::string t = number(k), name = std::to_string(k);
+    // A drives along x; B starts at (1, 4) and bears 0.5 rad to the left.
+    const double ax = k, bx = 1 + k * std::cos(0.5), by = 4 + k * std::sin(0.5);
+    vertices += "VERTEX_SE2 " + t + " A" + name + " " + number(ax) + " 0 0\n";
+    vertices += "VERTEX_SE2 " + t + " B" + name + " " + number(bx) + " " + number(by) + " 0.5\n";
+    edges +=
+        "EDGE_RANGE " + t + " A" + name + " B" + name + " " + number(std::hypot(bx - ax, by)) + " 0.01\n";
+    edges += "EDGE_RANGE " + t + " A" + name + " L0 " + number(std::hypot(3 - ax, 2)) + " 0.01\n";
+    edges += "EDGE_RANGE " + t + " B" + name + " L0 " + number(std::hypot(3 - bx, 2 - by)) + " 0.01\n";
+    if (k == 0) continue;
+    const std::string before = std::to_string(k - 1);
+    for (const char* robot : {"A", "B"})
+      edges +=
+          "EDGE_SE2 " + t + " " + robot + before + " " + robot + name + " 1 0 0 0.0001 0 0 0.0001 0 0.0001\n";
+  }
+  return vertices + "VERTEX_XY L0 3 2\n" + edges;
+}
+
+TEST(Graphs, RunAndEvaluateTakeThemInTheMissionsPlace) {
+  const TemporaryFolder folder;
+  write_file(folder.path() / "team.pyfg", two_robots_graph());
+  const auto outcome = run({"run", "team.pyfg", "-o", "out"}, folder.path());
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto files = files_in(folder.path() / "out");
+  for (const char* file : {"A.tum", "B.tum", "graph.g2o", "summary.json", "closures.csv", "report.html"})
+    EXPECT_TRUE(std::count(files.begin(), files.end(), file)) << file;
+  const auto summary = nlohmann::json::parse(read_file(folder.path() / "out/summary.json"));
+  EXPECT_EQ(summary["team_frame"]["components"].size(), 1U) << summary["team_frame"];
+
+  const auto judged = run({"evaluate", "out", "team.pyfg", "--json"}, folder.path());
+  ASSERT_EQ(judged.status, 0) << judged.err;
+  const auto json = nlohmann::json::parse(judged.out);
+  EXPECT_EQ(json["coverage"], 1);
+  // Straight ways have a mirror image; one of the teams is the true one.
+  double best = json["ate_rmse_m"];
+  if (std::filesystem::exists(folder.path() / "out/hypotheses/1")) {
+    const auto other = run({"evaluate", "out/hypotheses/1", "team.pyfg", "--json"}, folder.path());
+    ASSERT_EQ(other.status, 0) << other.err;
+    best = std::min(best, nlohmann::json::parse(other.out)["ate_rmse_m"].get<double>());
+  }
+  EXPECT_LT(best, 0.05);
+}
+
+TEST(Graphs, ATornOneIsRefusedWithItsLine) {
+  const TemporaryFolder folder;
+  write_file(folder.path() / "team.pyfg", two_robots_graph() + "EDGE_RANGE 1 A0 B0\n");
+  const auto outcome = run({"run", "team.pyfg", "-o", "out"}, folder.path());
+  EXPECT_EQ(outcome.status, 2);
+  const auto graph = two_robots_graph();
+  const auto line = std::count(graph.begin(), graph.end(), '\n') + 1;
+  EXPECT_NE(outcome.err.find("team.pyfg:" + std::to_string(line) + ":"), std::string::npos) << outcome.err;
+  EXPECT_EQ(files_in(folder.path()), std::vector<std::string>{"team.pyfg"});
+}
+
+}  // namespace
+}  // namespace radioslam::cli

@@ -1,0 +1,184 @@
+// A small town from its radio links to its closures, against the truth.
+#include "radioslam/sim/city.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "radioslam/eval/closures.hpp"
+#include "radioslam/eval/metrics.hpp"
+#include "radioslam/pipeline/pipeline.hpp"
+
+namespace radioslam {
+namespace {
+
+/// Two robots, 600 m each, odometry rows (and keyframes) 4.4 m apart.
+CityParams small_city() {
+  CityParams params;
+  params.path_length_m = 600;
+  params.least_meeting_s = 10;
+  params.streets.blocks_x = 3;
+  params.streets.blocks_y = 3;
+  params.odometry.odometry_rate_hz = 2.5;
+  params.radio.links = 25;
+  return params;
+}
+
+/// As good on so small a team, and several times as fast.
+RunParams quick_params() {
+  RunParams params;
+  params.alignment.grid.references = 4;
+  params.alignment.grid.angle_steps = 40;
+  params.alignment.beam.tried_places = 24;
+  params.alignment.beam.refined_places = 6;
+  return params;
+}
+
+double error_m(const RunResult& result, const Truth& truth) {
+  std::vector<EstimatedTrajectory> estimate;
+  for (const auto& robot : result.robots) estimate.push_back({robot.id, robot.estimate});
+  return evaluate_trajectories(estimate, truth, 2).ate->rmse_m;
+}
+
+/// True: both LiDARs together reach from one keyframe to the other.
+PairCounts judge_candidates(const RunResult& result, const Mission& mission, const Truth& truth) {
+  std::vector<KeyframeStamps> keyframes;
+  PairTruth judge{truth, 2, {}};
+  for (std::size_t r = 0; r < result.robots.size(); ++r) {
+    keyframes.emplace_back();
+    for (const auto& row : result.robots[r].estimate) keyframes.back().push_back(row.stamp);
+    judge.reach_m.push_back(mission.robots[r].lidar_range_m);
+  }
+  return count_candidates(keyframes, result.candidates, judge);
+}
+
+double recall(const PairCounts& counts) {
+  return static_cast<double>(counts.true_kept) / static_cast<double>(counts.true_pairs);
+}
+
+double false_share_kept(const PairCounts& counts) {
+  return static_cast<double>(counts.kept - counts.true_kept) /
+         static_cast<double>(counts.pairs - counts.true_pairs);
+}
+
+TEST(City, IsMappedAndPrunedByItsRadioLinks) {
+  for (const std::uint64_t seed : {1U, 2U}) {
+    const auto [mission, truth] = simulate_city(small_city(), seed);
+    const auto result = run_pipeline(mission, quick_params()).result;
+    EXPECT_LT(error_m(result, truth), 3.5) << "seed " << seed;
+    ASSERT_EQ(result.components.size(), 1U);
+    EXPECT_TRUE(result.unplaced.empty());
+    const PairCounts counts = judge_candidates(result, mission, truth);
+    ASSERT_GT(counts.true_pairs, 50U);
+    EXPECT_GE(recall(counts), 0.98) << "seed " << seed;
+    EXPECT_LE(false_share_kept(counts), 0.05) << "seed " << seed;
+    EXPECT_EQ(result.counts.at("pairs"), static_cast<double>(counts.pairs));
+  }
+}
+
+TEST(City, TheExhaustiveSearchFindsTheSamePairsInBothModes) {
+  const auto [mission, truth] = simulate_city(small_city(), 3);
+  for (const char* mode : {"joint", "link"}) {
+    RunParams params = quick_params();
+    params.overlap.mode = mode;
+    RunOptions options;
+    options.overlap_only = true;
+    const auto tree = run_pipeline(mission, params, options).result;
+    options.search = SearchMethod::kExhaustive;
+    const auto all = run_pipeline(mission, params, options).result;
+    ASSERT_GT(all.candidates.size(), 50U) << mode;
+    ASSERT_EQ(tree.candidates.size(), all.candidates.size()) << mode;
+    for (std::size_t k = 0; k < all.candidates.size(); ++k) {
+      EXPECT_EQ(tree.candidates[k].stamp_i, all.candidates[k].stamp_i);
+      EXPECT_EQ(tree.candidates[k].stamp_j, all.candidates[k].stamp_j);
+      EXPECT_EQ(tree.candidates[k].mahalanobis, all.candidates[k].mahalanobis);
+    }
+    EXPECT_GE(recall(judge_candidates(tree, mission, truth)), 0.95) << mode;
+  }
+}
+
+std::vector<ClosureResult> matches_of(const RunResult& result) {
+  std::vector<ClosureResult> matches;
+  for (const auto& closure : result.closures)
+    if (closure.kind == ClosureKind::kMatch) matches.push_back(closure);
+  return matches;
+}
+
+bool is_pruned(const ClosureResult& match) { return match.reason == "the views cannot overlap"; }
+
+double true_distance_m(const PoseMatch& match, const Truth& truth) {
+  const auto position = [&](RobotIndex robot, Stamp stamp) {
+    return truth.robots[robot.index()].poses.at(stamp)->translation();
+  };
+  return (position(match.robot_i, match.stamp_i) - position(match.robot_j, match.stamp_j)).norm();
+}
+
+/// Matches by what became of them. A false one of two places near each other is nothing pruning could know;
+/// far are those beyond reach and error.
+struct MatchTally {
+  std::size_t true_accepted = 0, false_accepted = 0, false_far = 0, false_far_pruned = 0;
+};
+
+MatchTally tally(const RunResult& result, const Mission& mission, const Truth& truth) {
+  constexpr double kFar_m = 75;
+  MatchTally counts;
+  const auto matches = matches_of(result);
+  EXPECT_EQ(matches.size(), mission.matches.size());
+  for (std::size_t k = 0; k < std::min(matches.size(), mission.matches.size()); ++k) {
+    const bool accepted = matches[k].status == ClosureStatus::kAccepted;
+    if (truth.true_matches[k].value()) {
+      counts.true_accepted += accepted;
+      continue;
+    }
+    counts.false_accepted += accepted;
+    if (true_distance_m(mission.matches[k], truth) < kFar_m) continue;
+    ++counts.false_far;
+    counts.false_far_pruned += is_pruned(matches[k]);
+  }
+  return counts;
+}
+
+/// Without the matches that are false.
+Mission only_true_matches(Mission mission, const Truth& truth) {
+  std::vector<PoseMatch> kept;
+  for (std::size_t k = 0; k < mission.matches.size(); ++k)
+    if (truth.true_matches[k].value()) kept.push_back(mission.matches[k]);
+  mission.matches = kept;
+  return mission;
+}
+
+class CityWithAliases : public testing::Test {
+ protected:
+  static Simulation simulate() {
+    CityParams params = small_city();
+    params.matches.matches_true = 40;
+    params.matches.matches_false = 120;
+    return simulate_city(params, 4);
+  }
+};
+
+TEST_F(CityWithAliases, PruningRejectsThemAndTheMapStaysAsGood) {
+  const auto [mission, truth] = simulate();
+  ASSERT_EQ(mission.matches.size(), 160U);
+  const auto result = run_pipeline(mission, quick_params()).result;
+  const MatchTally counts = tally(result, mission, truth);
+  ASSERT_GT(counts.false_far, 60U);
+  EXPECT_EQ(counts.false_far_pruned, counts.false_far);
+  EXPECT_EQ(counts.false_accepted, 0U);
+  EXPECT_GE(counts.true_accepted, 30U);
+  const auto clean = run_pipeline(only_true_matches(mission, truth), quick_params()).result;
+  EXPECT_LE(error_m(result, truth), 1.2 * error_m(clean, truth));
+}
+
+TEST_F(CityWithAliases, WithoutPruningTheyAreAdmitted) {
+  const auto [mission, truth] = simulate();
+  RunOptions options;
+  options.pruning = Pruning::kOff;
+  const auto result = run_pipeline(mission, quick_params(), options).result;
+  for (const auto& match : matches_of(result)) EXPECT_FALSE(is_pruned(match));
+  const auto pruned = matches_of(run_pipeline(mission, quick_params()).result);
+  EXPECT_GT(std::count_if(pruned.begin(), pruned.end(), is_pruned), 60);
+}
+
+}  // namespace
+}  // namespace radioslam

@@ -1,0 +1,198 @@
+// The mixtures are densities, their weights posteriors.
+#include "radioslam/team_frame/measurement_mixture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace radioslam {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+BearingPath<SE2> path(double azimuth_rad, double sigma_rad, double power_db) {
+  return {{std::cos(azimuth_rad), std::sin(azimuth_rad)}, sigma_rad, power_db};
+}
+BearingPath<SE3> path(const Eigen::Vector3d& direction, double sigma_rad, double power_db) {
+  return {direction.normalized(), sigma_rad, power_db};
+}
+
+/// A receiver, and a transmitter some way off, heard by these paths; no odometry.
+template <class Pose>
+TeamGraph<Pose> heard_by(const std::vector<BearingPath<Pose>>& paths) {
+  TeamGraph<Pose> team;
+  team.graph.poses.resize(2);
+  team.pieces = {{"a", 0, 1, {Stamp{}}}, {"b", 1, 1, {Stamp{}}}};
+  AmbiguousBearing<Pose> bearing;
+  bearing.i = PoseId(0);
+  bearing.j.pose = PoseId(1);
+  bearing.paths = paths;
+  team.bearings.push_back(bearing);
+  return team;
+}
+
+TeamGraph<SE2> three_paths() {
+  return heard_by<SE2>({path(0.3, 0.1, -50), path(-2, 0.2, -55), path(2.5, 0.15, -60)});
+}
+
+void put_transmitter(MixtureGraph<SE2>& mixture, double azimuth_rad) {
+  mixture.graph.poses[1] = SE2(10 * Eigen::Vector2d(std::cos(azimuth_rad), std::sin(azimuth_rad)), 0);
+}
+
+/// The likelihood at the present values: a density over the uniform one.
+template <class Pose>
+double likelihood(const MixtureGraph<Pose>& mixture) {
+  return std::exp(-mixture.cost({}, 0) / 2);
+}
+
+TEST(MeasurementMixture, AnAnglesDensityIntegratesToOneOverTheCircle) {
+  MixtureGraph<SE2> mixture(three_paths(), {});
+  constexpr int kSteps = 720;
+  double sum = 0;
+  for (int k = 0; k < kSteps; ++k) {
+    put_transmitter(mixture, 2 * kPi * k / kSteps);
+    sum += likelihood(mixture);
+  }
+  // The chord's normal density lacks sigma^2 / 8 of von Mises' constant.
+  EXPECT_NEAR(sum / kSteps, 1, 0.2 * 0.2 / 8);
+}
+
+TEST(MeasurementMixture, ADirectionsDensityIntegratesToOneOverTheSphere) {
+  MixtureGraph<SE3> mixture(heard_by<SE3>({path({1, 1, 0.5}, 0.2, -50), path({-1, 0.2, -0.3}, 0.3, -52)}),
+                            {});
+  constexpr int kRings = 80, kSteps = 160;
+  double sum = 0;
+  for (int r = 0; r < kRings; ++r)  // rings of equal area
+    for (int k = 0; k < kSteps; ++k) {
+      const double z = 2 * (r + 0.5) / kRings - 1, level = std::sqrt(1 - z * z);
+      const double azimuth = 2 * kPi * k / kSteps;
+      mixture.graph.poses[1] =
+          SE3(10 * Eigen::Vector3d(level * std::cos(azimuth), level * std::sin(azimuth), z),
+              Eigen::Quaterniond::Identity());
+      sum += likelihood(mixture);
+    }
+  EXPECT_NEAR(sum / (kRings * kSteps), 1, 1e-3);
+}
+
+RangeFactor<SE2> range_of(double range_m) {
+  RangeFactor<SE2> range;
+  range.i.pose = PoseId(0);
+  range.j.pose = PoseId(1);
+  range.range_m = range_m;
+  range.sigma_m = 0.5;
+  return range;
+}
+
+/// Two poses `distance_m` apart, one range, and the longest range of the team, 100 m.
+MixtureGraph<SE2> ranged(double distance_m, double range_m, const MixtureParams& params) {
+  TeamGraph<SE2> team;
+  team.graph.poses = {SE2(), SE2({distance_m, 0}, 0)};
+  team.pieces = {{"a", 0, 1, {Stamp{}}}, {"b", 1, 1, {Stamp{}}}};
+  team.graph.ranges = {range_of(100), range_of(range_m)};
+  MixtureGraph<SE2> mixture(team, params);
+  mixture.graph.ranges.erase(mixture.graph.ranges.begin());
+  return mixture;
+}
+
+TEST(MeasurementMixture, ARangesDensityIntegratesToOneOverTheSpan) {
+  auto mixture = ranged(40, 40, {});
+  constexpr double kStep_m = 0.05;
+  double sum = 0;
+  for (int k = 0; k < 2000; ++k) {
+    mixture.graph.ranges[0].range_m = kStep_m * (k + 0.5);
+    sum += kStep_m * likelihood(mixture);
+  }
+  EXPECT_NEAR(sum, 1, 1e-6);
+}
+
+TEST(MeasurementMixture, ARangesWeightIsThePosteriorOfBeingDirect) {
+  MixtureParams params;
+  params.false_range_probability = 0.1;
+  auto near = ranged(40, 40.5, params), far = ranged(40, 45, params);
+  near.reweigh({}, 0);
+  far.reweigh({}, 0);
+  const double direct = 0.9 * std::exp(-0.5) / (std::sqrt(2 * kPi) * 0.5);
+  EXPECT_NEAR(near.graph.ranges[0].weight, direct / (direct + 0.1 / 100), 1e-12);
+  EXPECT_LT(far.graph.ranges[0].weight, 1e-10);
+}
+
+TEST(MeasurementMixture, WeightsAndTheNullSumToOne) {
+  MixtureParams params;
+  params.direct_probability = 0.7;
+  MixtureGraph<SE2> mixture(three_paths(), params);
+  for (const double azimuth : {0.3, 0.6, -1.7, 1.0}) {
+    put_transmitter(mixture, azimuth);
+    mixture.reweigh({}, 0);
+    const double null = (1 - params.direct_probability) / likelihood(mixture);
+    EXPECT_NEAR(mixture.direct_weight(0) + null, 1, 1e-12) << azimuth;
+    EXPECT_GT(null, 0);
+  }
+}
+
+/// Bayes by hand: no path, or one of three with its prior and the density of its chord.
+TEST(MeasurementMixture, PathWeightsArePosteriors) {
+  const auto team = three_paths();
+  const MixtureParams params;
+  MixtureGraph<SE2> mixture(team, params);
+  const double azimuth = 0.45;
+  put_transmitter(mixture, azimuth);
+  mixture.reweigh({}, 0);
+  const auto priors = path_priors(team.bearings[0], params);
+  const double azimuths[] = {0.3, -2, 2.5}, sigmas[] = {0.1, 0.2, 0.15};
+  std::vector<double> terms;
+  for (std::size_t p = 0; p < 3; ++p) {
+    const double chord = 2 * std::sin((azimuth - azimuths[p]) / 2) / sigmas[p];
+    terms.push_back(params.direct_probability * priors[p] * std::sqrt(2 * kPi) / sigmas[p] *
+                    std::exp(-chord * chord / 2));
+  }
+  const double total = 1 - params.direct_probability + terms[0] + terms[1] + terms[2];
+  for (std::size_t p = 0; p < 3; ++p)
+    EXPECT_NEAR(mixture.graph.bearings[mixture.first_path(0) + p].weight, terms[p] / total, 1e-12);
+  EXPECT_GT(terms[0] / total, 0.5);
+}
+
+TEST(MeasurementMixture, APathTenDecibelsStrongerIsTwiceAsLikely) {
+  const auto priors = path_priors(three_paths().bearings[0], {});
+  EXPECT_NEAR(std::accumulate(priors.begin(), priors.end(), 0.0), 1, 1e-12);
+  EXPECT_NEAR(priors[0] / priors[2], 2, 1e-12);
+  EXPECT_NEAR(priors[0] / priors[1], std::sqrt(2), 1e-12);
+}
+
+TEST(MeasurementMixture, InflationAddsToEveryVariance) {
+  auto team = three_paths();
+  team.graph.ranges.push_back(range_of(10));
+  MixtureGraph<SE2> mixture(team, {});
+  put_transmitter(mixture, 0.3);
+  mixture.reweigh({{2}, {0.09}}, 0.5);
+  EXPECT_NEAR(mixture.graph.ranges[0].sigma_m, std::sqrt(0.25 + 1), 1e-12);
+  EXPECT_NEAR(mixture.graph.bearings[0].sigma_rad, std::sqrt(0.01 + 0.045), 1e-12);
+  mixture.reweigh({{2}, {0.09}}, 0);
+  EXPECT_NEAR(mixture.graph.ranges[0].sigma_m, 0.5, 1e-12);
+  EXPECT_NEAR(mixture.graph.bearings[0].sigma_rad, 0.1, 1e-12);
+}
+
+TEST(MeasurementMixture, AnAngleInflatedBeyondTheCircleSaysNothing) {
+  MixtureGraph<SE2> mixture(heard_by<SE2>({path(0, 0.1, -50)}), {});
+  put_transmitter(mixture, 0);
+  EXPECT_NEAR(mixture.cost({{}, {1e6}}, 1), 0, 1e-9) << "the uniform density at the peak";
+  put_transmitter(mixture, 3);
+  EXPECT_LT(std::abs(mixture.cost({{}, {1e6}}, 1)), 1);
+}
+
+TEST(MeasurementMixture, CostIsWhatReweighReturnsAndCountsTheOdometry) {
+  auto team = three_paths();
+  RelativePoseFactor<SE2> odometry{PoseId(0), PoseId(1), SE2({9, 0}, 0)};
+  odometry.information *= 4;
+  team.graph.relative_poses.push_back(odometry);
+  MixtureGraph<SE2> mixture(team, {});
+  mixture.graph.poses[1] = SE2({10, 0}, 0);
+  const double with = mixture.cost({}, 0);
+  EXPECT_EQ(mixture.reweigh({}, 0), with);
+  mixture.graph.relative_poses.clear();
+  EXPECT_NEAR(with - mixture.cost({}, 0), 4, 1e-12);
+}
+
+}  // namespace
+}  // namespace radioslam

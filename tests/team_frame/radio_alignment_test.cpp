@@ -1,0 +1,290 @@
+// Teams placed by their links alone, against maximum likelihood that is told which paths are direct and
+// starts from the truth (the oracle). Bounds: those asked of the whole program, on shorter routes.
+#include "radioslam/team_frame/radio_alignment.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <string>
+
+#include "radioslam/base/parallel.hpp"
+#include "radioslam/geometry/alignment.hpp"
+#include "radioslam/graph/optimizer.hpp"
+#include "team_frame/radio_worlds.hpp"
+
+namespace radioslam {
+namespace {
+
+using test::RadioWorld;
+using test::SimulatedTeam;
+
+/// 600 m of way and 25 links per pair of robots.
+RadioWorld short_world() {
+  RadioWorld world;
+  world.route_m = 600;
+  world.blocks = 4;
+  world.links = 25;
+  return world;
+}
+
+/// The same search with fewer places tried: as good on so small teams, and several times as fast.
+RadioAlignmentParams quick_params() {
+  RadioAlignmentParams params;
+  params.grid.references = 4;
+  params.grid.angle_steps = 40;
+  params.beam.tried_places = 24;
+  params.beam.refined_places = 6;
+  return params;
+}
+
+RadioAlignment<SE2> align(const TeamGraph<SE2>& team) { return align_by_radio(team, quick_params()); }
+
+/// Root mean square distance of poses [first, first + count) after the one rigid motion that fits best.
+double aligned_error_m(const std::vector<SE2>& estimate, const std::vector<SE2>& truth, std::size_t first,
+                       std::size_t count) {
+  const auto n = static_cast<Eigen::Index>(count);
+  Eigen::Matrix2Xd from(2, n), to(2, n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    from.col(k) = estimate[first + static_cast<std::size_t>(k)].translation();
+    to.col(k) = truth[first + static_cast<std::size_t>(k)].translation();
+  }
+  const SE2 T = align_points(from, to);
+  const Eigen::Matrix2Xd moved = (T.rotation_matrix() * from).colwise() + T.translation();
+  return std::sqrt((moved - to).colwise().squaredNorm().mean());
+}
+
+double aligned_error_m(const std::vector<SE2>& estimate, const std::vector<SE2>& truth) {
+  return aligned_error_m(estimate, truth, 0, truth.size());
+}
+
+/// The same without any motion.
+double error_m(const std::vector<SE2>& estimate, const std::vector<SE2>& truth) {
+  double squares = 0;
+  for (std::size_t k = 0; k < truth.size(); ++k)
+    squares += (estimate[k].translation() - truth[k].translation()).squaredNorm();
+  return std::sqrt(squares / static_cast<double>(truth.size()));
+}
+
+double best_error_m(const RadioAlignment<SE2>& alignment, const std::vector<SE2>& truth) {
+  double best = std::numeric_limits<double>::infinity();
+  for (const auto& hypothesis : alignment.hypotheses)
+    best = std::min(best, aligned_error_m(hypothesis.poses, truth));
+  return best;
+}
+
+double oracle_error_m(const SimulatedTeam& simulated) {
+  auto graph = simulated.team.graph;
+  graph.poses = simulated.truth;
+  for (std::size_t k = 0; k < simulated.team.bearings.size(); ++k) {
+    const auto& bearing = simulated.team.bearings[k];
+    const int direct = simulated.direct_path[k];
+    if (direct < 0) continue;
+    const auto& path = bearing.paths[static_cast<std::size_t>(direct)];
+    graph.bearings.push_back({bearing.i, bearing.j, path.direction, path.sigma_rad, {}, 1});
+  }
+  optimize(graph, {});
+  return aligned_error_m(graph.poses, simulated.truth);
+}
+
+/// Of the oracle's error, plus the extra. Two of the cases hold only the bound for the worst single mission.
+struct Case {
+  std::string name;
+  RadioWorld world;
+  double ratio, extra_m;
+};
+
+Case make_case(const std::string& name, double ratio, double extra_m, void (*change)(RadioWorld&)) {
+  Case result{name, short_world(), ratio, extra_m};
+  change(result.world);
+  return result;
+}
+
+std::vector<Case> cases() {
+  return {make_case("BothEnds", 1.05, 0.05, [](RadioWorld&) {}),
+          make_case("OneEnd", 1.1, 0.1, [](RadioWorld& w) { w.angle_ends = 1; }),
+          make_case("RangesOnly", 1.05, 0.1, [](RadioWorld& w) { w.angle_ends = 0; }),
+          make_case("AnglesOnly", 2, 0, [](RadioWorld& w) { w.ranges = false; }),
+          make_case("ThreeRobots", 1.1, 0.1, [](RadioWorld& w) { w.robots = 3; }),
+          make_case("DelayedAngles", 1.1, 0.1, [](RadioWorld& w) { w.angle_delay_poses = 4; }),
+          make_case("MirrorImages", 1.4, 0, [](RadioWorld& w) { w.mirror = true; })};
+}
+
+class AlignByRadioCases : public testing::TestWithParam<std::tuple<Case, std::uint64_t>> {};
+
+TEST_P(AlignByRadioCases, IsAsGoodAsTheOracle) {
+  const auto& [world, seed] = GetParam();
+  const auto simulated = test::simulate_team(world.world, seed);
+  const auto alignment = align(simulated.team);
+  const double oracle_m = oracle_error_m(simulated);
+  EXPECT_LE(best_error_m(alignment, simulated.truth), world.ratio * oracle_m + world.extra_m)
+      << "oracle " << oracle_m << " m, " << alignment.hypotheses.size() << " hypotheses";
+  EXPECT_EQ(alignment.components.of_piece, std::vector<int>(simulated.team.pieces.size(), 0));
+  double weights = 0;
+  for (const auto& hypothesis : alignment.hypotheses) weights += hypothesis.weight;
+  EXPECT_NEAR(weights, 1, 1e-9);
+}
+
+std::string name_of(const testing::TestParamInfo<std::tuple<Case, std::uint64_t>>& which) {
+  return std::get<0>(which.param).name + std::to_string(std::get<1>(which.param));
+}
+
+INSTANTIATE_TEST_SUITE_P(Worlds, AlignByRadioCases,
+                         testing::Combine(testing::ValuesIn(cases()), testing::Values(1U, 2U)), name_of);
+
+TEST(AlignByRadio, TellsDirectPathsFromOthers) {
+  const auto simulated = test::simulate_team(short_world(), 3);
+  const auto best = align(simulated.team).hypotheses.front();
+  std::vector<double> direct, other;
+  for (std::size_t k = 0; k < simulated.direct_path.size(); ++k)
+    for (std::size_t p = 0; p < best.path_weight[k].size(); ++p)
+      (static_cast<int>(p) == simulated.direct_path[k] ? direct : other).push_back(best.path_weight[k][p]);
+  const auto mean = [](const std::vector<double>& weights) {
+    return std::accumulate(weights.begin(), weights.end(), 0.0) / static_cast<double>(weights.size());
+  };
+  ASSERT_GT(other.size(), 50U);
+  EXPECT_GT(mean(direct), 0.7);
+  EXPECT_LT(mean(other), 0.1) << "some happen to come from about where the other robot is";
+  EXPECT_GT(*std::min_element(best.range_weight.begin(), best.range_weight.end()), 0.5) << "all are direct";
+}
+
+/// Without the measurements of one robot.
+void cut_off(TeamGraph<SE2>& team, std::size_t piece) {
+  const auto of = piece_of_poses(team);
+  std::erase_if(team.graph.ranges, [&](const auto& f) {
+    return of[f.i.pose.index()] == piece || of[f.j.pose.index()] == piece;
+  });
+  std::erase_if(team.bearings,
+                [&](const auto& f) { return of[f.i.index()] == piece || of[f.j.pose.index()] == piece; });
+}
+
+TEST(AlignByRadio, ARobotWithoutLinksStaysInItsOwnComponent) {
+  RadioWorld world = short_world();
+  world.robots = 3;
+  auto simulated = test::simulate_team(world, 4);
+  cut_off(simulated.team, 1);
+  const auto alignment = align(simulated.team);
+  EXPECT_EQ(alignment.components.of_piece, (std::vector<int>{0, 1, 0}));
+  const auto& poses = alignment.hypotheses.front().poses;
+  const Piece& alone = simulated.team.pieces[1];
+  for (std::size_t k = alone.first_pose; k < alone.first_pose + alone.pose_count; ++k)
+    ASSERT_LT((poses[k].inverse() * simulated.team.graph.poses[k]).log().norm(), 1e-6);
+  std::vector<SE2> estimate, truth;
+  for (const std::size_t p : {0U, 2U}) {
+    const Piece& piece = simulated.team.pieces[p];
+    for (std::size_t k = piece.first_pose; k < piece.first_pose + piece.pose_count; ++k) {
+      estimate.push_back(poses[k]);
+      truth.push_back(simulated.truth[k]);
+    }
+  }
+  EXPECT_LT(aligned_error_m(estimate, truth), 2);
+}
+
+/// The piece stands where it truly started, and a prior says so.
+void tell_start(SimulatedTeam& simulated, std::size_t piece) {
+  Piece& known = simulated.team.pieces[piece];
+  known.in_common_frame = true;
+  auto& graph = simulated.team.graph;
+  const SE2 T_common_start = simulated.truth[known.first_pose] * graph.poses[known.first_pose].inverse();
+  for (std::size_t k = known.first_pose; k < known.first_pose + known.pose_count; ++k)
+    graph.poses[k] = T_common_start * graph.poses[k];
+  PosePriorFactor<SE2> prior{PoseId(known.first_pose), graph.poses[known.first_pose], {}, {}, 1};
+  prior.information = Eigen::Vector3d(400, 400, 1e4).asDiagonal();  // 0.05 m, 0.01 rad
+  graph.pose_priors.push_back(prior);
+}
+
+TEST(AlignByRadio, KeepsKnownStartsAndPlacesTheOthersInTheirFrame) {
+  auto simulated = test::simulate_team(short_world(), 5);
+  tell_start(simulated, 1);
+  const auto poses = align(simulated.team).hypotheses.front().poses;
+  const std::size_t first = simulated.team.pieces[1].first_pose;
+  const SE2::Tangent moved = (simulated.truth[first].inverse() * poses[first]).log();
+  EXPECT_LT(moved.head<2>().norm(), 0.15);
+  EXPECT_LT(std::abs(moved[2]), 0.03);
+  EXPECT_LT(error_m(poses, simulated.truth), 4);
+}
+
+/// Odometry along a straight line: `steps` of 2 m from `start`.
+void drive_straight(SimulatedTeam& result, const std::string& robot, const SE2& start, std::size_t steps) {
+  auto& graph = result.team.graph;
+  Piece piece{robot, graph.poses.size(), steps + 1, {}};
+  const SE2 step({2, 0}, 0);
+  for (std::size_t k = 0; k <= steps; ++k) {
+    piece.stamps.push_back(Stamp::from_seconds(static_cast<double>(k)));
+    graph.poses.push_back(k == 0 ? SE2() : graph.poses.back() * step);
+    result.truth.push_back(k == 0 ? start : result.truth.back() * step);
+    if (k == 0) continue;
+    RelativePoseFactor<SE2> factor{PoseId(graph.poses.size() - 2), PoseId(graph.poses.size() - 1), step};
+    factor.information = Eigen::Vector3d(1e3, 1e3, 1e5).asDiagonal();
+    graph.relative_poses.push_back(factor);
+  }
+  result.team.pieces.push_back(piece);
+}
+
+/// b's start and heading in a's frame are told by |c + 2 k w|, w = u(heading) - e_x: both signs of the
+/// heading give the same |w|, and c may be on either side of w.
+std::vector<SE2> places_with_these_ranges(const SE2& T_a_b) {
+  std::vector<SE2> places;
+  for (const double sign : {1.0, -1.0}) {
+    const double heading = sign * T_a_b.angle();
+    const Eigen::Vector2d c(T_a_b.translation().x(), sign * T_a_b.translation().y());
+    const Eigen::Vector2d w = Eigen::Vector2d(std::cos(heading) - 1, std::sin(heading)).normalized();
+    places.emplace_back(c, heading);
+    places.emplace_back(2 * w.dot(c) * w - c, heading);
+  }
+  return places;
+}
+
+TEST(AlignByRadio, PlacesThatFitAsWellAreHypothesesOfEqualWeight) {
+  SimulatedTeam simulated;
+  constexpr std::size_t kSteps = 40;
+  const SE2 T_a_b({60, 40}, -2.5);
+  drive_straight(simulated, "a", SE2(), kSteps);
+  drive_straight(simulated, "b", T_a_b, kSteps);
+  Rng rng(1);
+  for (std::size_t k = 0; k <= kSteps; k += 2) {
+    RangeFactor<SE2> range;
+    range.i.pose = PoseId(k);
+    range.j.pose = PoseId(kSteps + 1 + k);
+    range.sigma_m = 0.3;
+    const Eigen::Vector2d apart =
+        simulated.truth[range.j.pose.index()].translation() - simulated.truth[k].translation();
+    range.range_m = rng.normal(apart.norm(), range.sigma_m);
+    simulated.team.graph.ranges.push_back(range);
+  }
+  const auto alignment = align(simulated.team);
+  const auto places = places_with_these_ranges(T_a_b);
+  ASSERT_EQ(alignment.hypotheses.size(), places.size());
+  for (const SE2& place : places) {
+    const auto fits = [&](const auto& hypothesis) {
+      const SE2 estimate = hypothesis.poses[0].inverse() * hypothesis.poses[kSteps + 1];
+      return (estimate.translation() - place.translation()).norm() < 4 &&
+             std::abs(wrap_angle(estimate.angle() - place.angle())) < 0.1;
+    };
+    EXPECT_EQ(std::count_if(alignment.hypotheses.begin(), alignment.hypotheses.end(), fits), 1)
+        << place.translation().transpose() << ", " << place.angle();
+  }
+  for (const auto& hypothesis : alignment.hypotheses) EXPECT_NEAR(hypothesis.weight, 0.25, 0.05);
+}
+
+TEST(AlignByRadio, GivesTheSameNumbersForAnyNumberOfThreads) {
+  const auto simulated = test::simulate_team(short_world(), 6);
+  set_thread_count(1);
+  const auto one = align(simulated.team);
+  set_thread_count(2);
+  const auto two = align(simulated.team);
+  set_thread_count(0);
+  ASSERT_EQ(one.hypotheses.size(), two.hypotheses.size());
+  for (std::size_t h = 0; h < one.hypotheses.size(); ++h) {
+    EXPECT_EQ(one.hypotheses[h].weight, two.hypotheses[h].weight);
+    EXPECT_EQ(one.hypotheses[h].path_weight, two.hypotheses[h].path_weight);
+    for (std::size_t k = 0; k < one.hypotheses[h].poses.size(); ++k) {
+      ASSERT_EQ(one.hypotheses[h].poses[k].translation(), two.hypotheses[h].poses[k].translation());
+      ASSERT_EQ(one.hypotheses[h].poses[k].angle(), two.hypotheses[h].poses[k].angle());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace radioslam
