@@ -1,6 +1,6 @@
 # Run as a script: puts a page's parts into its HTML and writes the whole as C++.
 #   cmake -DPAGE=page.html -DSTYLE=a.css -DSCRIPTS=a.js|b.js -DD3=d3.min.js -DLICENCE=d3-licence.txt
-#         -DOUTPUT=page.cpp -P EmbedPage.cmake
+#         -DHEADER=radioslam/room/page_parts.hpp -DNAMESPACE=radioslam -DOUTPUT=page.cpp -P EmbedPage.cmake
 # The HTML names its parts as @style@, @d3@, @licence@ and @script@; it is cut in two at @data@.
 # Bytes are written as numbers: nothing in a part can end the literal it stands in.
 file(READ "${PAGE}" page)
@@ -35,8 +35,8 @@ function(write_bytes name text)
   file(APPEND "${OUTPUT}" "constexpr char ${name}_bytes[] = {\n${bytes}};\n")
 endfunction()
 
-file(WRITE "${OUTPUT}" "#include \"radioslam/report/page_parts.hpp\"\n\nnamespace radioslam {\nnamespace {\n")
+file(WRITE "${OUTPUT}" "#include \"${HEADER}\"\n\nnamespace ${NAMESPACE} {\nnamespace {\n")
 write_bytes(head "${head}")
 write_bytes(tail "${tail}")
 file(APPEND "${OUTPUT}" "}  // namespace\n\nstd::string_view page_head() { return {head_bytes, sizeof head_bytes}; }\n")
-file(APPEND "${OUTPUT}" "std::string_view page_tail() { return {tail_bytes, sizeof tail_bytes}; }\n\n}  // namespace radioslam\n")
+file(APPEND "${OUTPUT}" "std::string_view page_tail() { return {tail_bytes, sizeof tail_bytes}; }\n\n}  // namespace ${NAMESPACE}\n")

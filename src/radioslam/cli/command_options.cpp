@@ -56,6 +56,14 @@ CLI::Validator number_from(double minimum, double maximum) {
   return CLI::Validator(check, "");
 }
 
+CLI::Validator seed_number() {
+  const auto check = [](const std::string& text) {
+    if (parse_id(text)) return std::string{};
+    return "'" + text + "' is not a whole number from 0 to 2^64 - 1";
+  };
+  return CLI::Validator(check, "");
+}
+
 void add_threads_option(CLI::App& command) {
   command
       .add_option_function<int>(

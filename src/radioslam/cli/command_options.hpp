@@ -29,6 +29,9 @@ void add_json_option(CLI::App& command, bool& json);
 /// Refuses what is no finite number from `minimum` to `maximum` (CLI::Range lets NaN pass).
 CLI::Validator number_from(double minimum, double maximum);
 
+/// Refuses what is no whole number from 0 to 2^64 - 1 (a minus sign would wrap around).
+CLI::Validator seed_number();
+
 /// `--threads N`: takes effect when the command line is read.
 void add_threads_option(CLI::App& command);
 

@@ -10,17 +10,14 @@
 #include "radioslam/cli/commands.hpp"
 #include "radioslam/cli/config.hpp"
 #include "radioslam/cli/parameters.hpp"
+#include "radioslam/cli/recorded_drive.hpp"
 #include "radioslam/cli/suggestion.hpp"
 #include "radioslam/io/atomic_output.hpp"
-#include "radioslam/io/kitti_poses.hpp"
 #include "radioslam/io/mission_folder.hpp"
-#include "radioslam/io/numbers.hpp"
 #include "radioslam/sim/scenarios.hpp"
 
 namespace radioslam::cli {
 namespace {
-
-constexpr std::size_t kFewestPoses = 4;  ///< two for each robot
 
 struct Options {
   std::string scenario;
@@ -52,24 +49,9 @@ ScenarioParams with_scenario_settings(const ScenarioParams& defaults, const std:
                     defaults);
 }
 
-/// The recorded drive that a scenario needs, from two files with a pose per line.
-RecordedDrive read_drive(const Options& options) {
-  if (options.trajectory.empty() || options.odometry.empty())
-    throw InputError("simulate " + options.scenario, 0,
-                     "needs a recorded drive: --trajectory FILE with its true poses and --odometry FILE");
-  RecordedDrive drive{read_kitti_poses(read_text(options.trajectory)),
-                      read_kitti_poses(read_text(options.odometry))};
-  if (drive.truth.size() != drive.odometry.size())
-    throw InputError(options.odometry, 0,
-                     "has " + std::to_string(drive.odometry.size()) + " poses, " + options.trajectory +
-                         " has " + std::to_string(drive.truth.size()));
-  if (drive.truth.size() < kFewestPoses)
-    throw InputError(options.trajectory, 0, "has too few poses to be cut in two");
-  return drive;
-}
-
 RecordedDrive drive_for(const Options& options, const ScenarioParams& params) {
-  if (needs_recording(params)) return read_drive(options);
+  if (needs_recording(params))
+    return read_drive("simulate " + options.scenario, options.trajectory, options.odometry);
   if (!options.trajectory.empty() || !options.odometry.empty())
     throw InputError("simulate " + options.scenario, 0, "takes no --trajectory or --odometry: it draws them");
   return {};
@@ -104,12 +86,6 @@ std::string scenario_list() {
   return text;
 }
 
-/// A minus sign would wrap around.
-std::string check_seed(const std::string& text) {
-  if (parse_id(text)) return {};
-  return "'" + text + "' is not a whole number from 0 to 2^64 - 1";
-}
-
 }  // namespace
 
 void add_simulate(CLI::App& program) {
@@ -119,7 +95,7 @@ void add_simulate(CLI::App& program) {
   command->add_option("SCENARIO", options->scenario, "What to simulate")->required();
   add_output_option(*command, options->output, "The mission folder to write; replaced if there is one");
   command->add_option("--seed", options->seed, "Another seed gives another world and other noise; default 1")
-      ->check(CLI::Validator(check_seed, ""))
+      ->check(seed_number())
       ->type_name("N");
   command->add_option("--robots", options->robots, "Robots in the team")->type_name("N");
   command->add_option("--trajectory", options->trajectory, "kitti: the true poses of the drive")

@@ -12,6 +12,7 @@ void add_evaluate(CLI::App& program);
 void add_optimize(CLI::App& program);
 void add_similarity(CLI::App& program);
 void add_import(CLI::App& program);
+void add_reproduce(CLI::App& program);
 void add_parameters(CLI::App& program);
 
 }  // namespace radioslam::cli

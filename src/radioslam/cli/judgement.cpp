@@ -26,19 +26,7 @@ std::string table_row(const std::string& name, const std::optional<ErrorStatisti
                    ate->median_m, ate->p90_m, 100 * coverage);
 }
 
-bool is_elsewhere(const std::string& id, const std::vector<Component>& components) {
-  return !components.empty() && !contains(components.front().robots, id);
-}
-
 }  // namespace
-
-std::vector<EstimatedTrajectory> in_common_frame(std::vector<EstimatedTrajectory> robots,
-                                                 const std::vector<Component>& components,
-                                                 const std::vector<std::string>& unplaced) {
-  for (auto& robot : robots)
-    if (is_elsewhere(robot.id, components) || contains(unplaced, robot.id)) robot.poses = {};
-  return robots;
-}
 
 std::vector<std::string> frame_notes(const std::vector<EstimatedTrajectory>& robots,
                                      const std::vector<Component>& components,
@@ -51,12 +39,6 @@ std::vector<std::string> frame_notes(const std::vector<EstimatedTrajectory>& rob
                     ": it counts as not covered");
   }
   return notes;
-}
-
-std::vector<EstimatedTrajectory> team_estimate(const RunResult& result) {
-  std::vector<EstimatedTrajectory> robots;
-  for (const auto& robot : result.robots) robots.push_back({robot.id, robot.estimate});
-  return in_common_frame(std::move(robots), result.components, result.unplaced);
 }
 
 std::vector<EstimatedTrajectory> dead_reckoning(const Mission& mission) {

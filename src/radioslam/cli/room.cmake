@@ -10,6 +10,7 @@ add_library(radioslam_cli STATIC
   cli/command_options.cpp
   cli/command_parameters.cpp
   cli/command_prune.cpp
+  cli/command_reproduce.cpp
   cli/command_run.cpp
   cli/command_similarity.cpp
   cli/command_simulate.cpp
@@ -19,12 +20,13 @@ add_library(radioslam_cli STATIC
   cli/parameters.cpp
   cli/program.cpp
   cli/progress_line.cpp
+  cli/recorded_drive.cpp
   cli/suggestion.cpp)
 add_library(radioslam::cli ALIAS radioslam_cli)
 target_include_directories(radioslam_cli PUBLIC ${cli_include})
 target_link_libraries(radioslam_cli
   PUBLIC radioslam_results radioslam_io CLI11::CLI11
-  PRIVATE radioslam_pipeline radioslam_eval radioslam_sim radioslam_report yaml-cpp nlohmann_json::nlohmann_json radioslam_warnings)
+  PRIVATE radioslam_pipeline radioslam_eval radioslam_sim radioslam_report radioslam_study yaml-cpp nlohmann_json::nlohmann_json radioslam_warnings)
 target_compile_definitions(radioslam_cli PRIVATE RADIOSLAM_VERSION="${PROJECT_VERSION}")
 
 add_executable(radioslam_program cli/main.cpp cli/signals.cpp)

@@ -1,0 +1,174 @@
+// radioslam reproduce: a published table beside ours, or a map of where ours breaks.
+#include <array>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "radioslam/cli/command_options.hpp"
+#include "radioslam/cli/commands.hpp"
+#include "radioslam/cli/config.hpp"
+#include "radioslam/cli/parameters.hpp"
+#include "radioslam/cli/progress_line.hpp"
+#include "radioslam/cli/recorded_drive.hpp"
+#include "radioslam/cli/suggestion.hpp"
+#include "radioslam/io/atomic_output.hpp"
+#include "radioslam/study/study_json.hpp"
+#include "radioslam/study/study_page.hpp"
+
+namespace radioslam::cli {
+namespace {
+
+constexpr int kMostSeeds = 1000;
+constexpr double kLeastCut = 0.01, kLargestCut = 0.99;
+constexpr const char* kStudyFolder = "table.json";
+
+struct Options {
+  std::string table;
+  std::string output;
+  std::string trajectory;
+  std::string odometry;
+  std::optional<double> cut;
+  std::uint64_t seed = 1;
+  std::optional<int> seeds;
+  std::vector<std::string> set;
+  bool json = false;
+};
+
+/// What a table leaves.
+struct Study {
+  StudyTable table;
+  nlohmann::ordered_json json;
+  std::string page;
+};
+
+[[noreturn]] void refuse(const Options& options, const std::string& reason) {
+  throw InputError("reproduce " + options.table, 0, reason);
+}
+
+Study wi_closure_kitti(const Options& options) {
+  const RecordedDrive drive = read_drive("reproduce " + options.table, options.trajectory, options.odometry);
+  auto scenario = with_settings(wi_closure_drive(), collect_settings({}, options.set));
+  if (options.cut) scenario.cut = *options.cut;
+  ProgressLine line;
+  std::vector<WiClosureKitti> seeds;
+  for (int k = 0; k < options.seeds.value_or(1); ++k)
+    seeds.push_back(reproduce_wi_closure_kitti(drive, scenario, options.seed + static_cast<std::uint64_t>(k),
+                                               line.progress()));
+  StudyTable table = wi_closure_kitti_table(seeds);
+  std::string page = render_table_page(table);
+  return {std::move(table), wi_closure_kitti_json(seeds), std::move(page)};
+}
+
+Study robustness(const Options& options) {
+  constexpr int kSeeds = 3;
+  if (!options.trajectory.empty() || !options.odometry.empty() || options.cut)
+    refuse(options, "takes no --trajectory, --odometry or --cut: its towns are simulated");
+  const auto town = with_settings(robustness_town(), collect_settings({}, options.set));
+  ProgressLine line;
+  const RobustnessMap map =
+      map_robustness(RobustnessGrid{}, town, options.seed, options.seeds.value_or(kSeeds), line.progress());
+  return {robustness_table(map), robustness_json(map), render_robustness_page(map)};
+}
+
+struct Table {
+  std::string_view name;
+  std::string_view description;
+  Study (*reproduce)(const Options&);
+};
+
+constexpr std::array<Table, 2> kTables{
+    {{"wi-closure-kitti", "KITTI 08 cut in two, radio of 0.5 m and 10 degrees: the thesis beside ours",
+      wi_closure_kitti},
+     {"robustness-map", "error and recall over angle noise, links and false paths: where it breaks",
+      robustness}}};
+
+std::string table_list() {
+  std::string text = "Tables:\n";
+  for (const Table& table : kTables)
+    text += "  " + std::string(table.name) + ": " + std::string(table.description) + "\n";
+  return text;
+}
+
+const Table& table_named(const Options& options) {
+  std::vector<std::string> names;
+  for (const Table& table : kTables) {
+    if (table.name == options.table) return table;
+    names.emplace_back(table.name);
+  }
+  refuse(options, "there is no such table" + did_you_mean(options.table, names));
+}
+
+void write_study(const Study& study, OutputFolder& output) {
+  write_file(output.path() / "table.json", study.json.dump(2) + "\n");
+  write_file(output.path() / "table.csv", table_csv(study.table));
+  write_file(output.path() / "table.txt", table_text(study.table));
+  write_file(output.path() / "index.html", study.page);
+  output.commit();
+}
+
+void reproduce(const Options& options) {
+  if (options.table.empty()) {
+    std::cout << table_list();
+    return;
+  }
+  const Table& table = table_named(options);
+  std::optional<OutputFolder> output;
+  if (!options.output.empty()) output.emplace(options.output, kStudyFolder);
+  const Study study = table.reproduce(options);
+  if (output) write_study(study, *output);
+  if (options.json) {
+    std::cout << study.json.dump(2) << '\n';
+  } else {
+    std::cout << table_text(study.table);
+  }
+}
+
+void add_table_options(CLI::App& command, Options& options) {
+  command.add_option("--trajectory", options.trajectory, "wi-closure-kitti: the true poses of the drive")
+      ->type_name("FILE");
+  command.add_option("--odometry", options.odometry, "wi-closure-kitti: its odometry, in a frame of its own")
+      ->type_name("FILE");
+  command
+      .add_option("--cut", options.cut,
+                  "wi-closure-kitti: share of the drive that is the first robot's; 0.34")
+      ->check(number_from(kLeastCut, kLargestCut))
+      ->type_name("SHARE");
+  command.add_option("--seed", options.seed, "The first seed; default 1")
+      ->check(seed_number())
+      ->type_name("N");
+  command.add_option("--seeds", options.seeds, "So many seeds, and their medians")
+      ->check(CLI::Range(1, kMostSeeds))
+      ->type_name("N");
+}
+
+}  // namespace
+
+void add_reproduce(CLI::App& program) {
+  const auto options = std::make_shared<Options>();
+  auto* command = program.add_subcommand("reproduce", "Make a published table again, ours beside it");
+  command->add_option("TABLE", options->table, "Which one; without it, the list");
+  command->add_option("-o,--output", options->output, "A folder for index.html, table.csv and table.json")
+      ->type_name("PATH");
+  add_table_options(*command, *options);
+  add_set_option(*command, options->set);
+  add_json_option(*command, options->json);
+  add_threads_option(*command);
+  command->footer(
+      table_list() +
+      "A recorded drive is two files in KITTI's format, one pose of the LiDAR per line. The true poses are\n"
+      "those of the odometry benchmark (cvlibs.net/datasets/kitti), brought into the LiDAR's frame; the\n"
+      "repository RobotsRuning/KITTI_odometry_evaluation_tool on GitHub has them "
+      "(ground_truth_pose/GT_LiDAR)\n"
+      "together with A-LOAM's odometry (data/ALOAM_result_pred).\n"
+      "--set changes the simulation (`radioslam parameters kitti` and `city`). robustness-map takes "
+      "minutes.\n\n"
+      "Example:\n"
+      "  radioslam reproduce wi-closure-kitti --trajectory GT_LiDAR/08.txt --odometry ALOAM/08.txt\n"
+      "Example: the map for a team without ranges\n"
+      "  radioslam reproduce robustness-map --set ranges=false -o map");
+  command->callback([options] { reproduce(*options); });
+}
+
+}  // namespace radioslam::cli

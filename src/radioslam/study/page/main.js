@@ -1,0 +1,11 @@
+// Puts the page together.
+
+document.title = `${study.title} · radioslam`;
+by_id("title").textContent = study.title;
+by_id("lead").textContent = study.lead;
+if (study.map) {
+  by_id("summary").textContent = map_summary();
+  write_maps();
+  dark_scheme.addEventListener("change", write_maps);
+}
+write_table();

@@ -1,0 +1,94 @@
+#include "radioslam/study/study_json.hpp"
+
+#include "radioslam/io/metrics_json.hpp"
+#include "radioslam/study/published_wi_closure.hpp"
+#include "radioslam/study/robustness_summary.hpp"
+
+namespace radioslam {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json optional_json(std::optional<double> value) { return value ? Json(*value) : Json(); }
+
+Json search_json(const JudgedRun& run) {
+  Json json = pair_counts_json(run.candidates);
+  json["recall"] = optional_json(recall(run.candidates));
+  json["false_rejected"] = optional_json(false_rejected(run.candidates));
+  json["distances_evaluated"] = run.distances_evaluated;
+  json["search_s"] = run.search_s;
+  json["total_s"] = run.total_s;
+  return json;
+}
+
+Json mode_json(const KittiMode& mode) {
+  Json json = search_json(mode.search);
+  json["ate_without_matches_m"] = optional_json(mode.search.ate_m);
+  json["ate_pruned_m"] = optional_json(mode.aliased.ate_m);
+  json["total_with_matches_s"] = mode.aliased.total_s;
+  return json;
+}
+
+Json published_json() {
+  using namespace published_wi_closure;
+  return {{"pairs", kPairs},
+          {"true", kTruePairs},
+          {"kept", kKept},
+          {"true_kept", kTrueKept},
+          {"recall", kRecall},
+          {"false_rejected", kFalseRejected},
+          {"search_s", kSearch_s},
+          {"total_s", kWithSearch_s},
+          {"baseline_s", kBaseline_s},
+          {"ate_unpruned_m", kBaselineAte_m}};
+}
+
+Json seed_json(const WiClosureKitti& seed) {
+  return {{"seed", seed.seed},
+          {"cut", seed.scenario.cut},
+          {"links", seed.scenario.radio.links},
+          {"joint", mode_json(seed.joint)},
+          {"link", mode_json(seed.link)},
+          {"ate_unpruned_m", optional_json(seed.unpruned.ate_m)},
+          {"ate_true_matches_m", optional_json(seed.true_matches.ate_m)},
+          {"ate_oracle_m", optional_json(seed.ate_oracle_m)}};
+}
+
+Json cell_json(const RobustnessCell& cell) {
+  const RobustnessSummary s = summarise(cell);
+  return {{"sigma_angle_deg", cell.sigma_angle_deg},
+          {"links", cell.links},
+          {"false_paths", cell.false_paths},
+          {"ratio", optional_json(s.ratio)},
+          {"worst_ratio", optional_json(s.worst_ratio)},
+          {"ate_m", optional_json(s.ate_m)},
+          {"ate_oracle_m", optional_json(s.ate_oracle_m)},
+          {"recall", optional_json(s.recall)},
+          {"least_recall", optional_json(s.least_recall)},
+          {"false_rejected", optional_json(s.false_rejected)},
+          {"failed", s.failed},
+          {"confidently_wrong", s.confidently_wrong}};
+}
+
+}  // namespace
+
+Json wi_closure_kitti_json(const std::vector<WiClosureKitti>& seeds) {
+  Json json{{"table", "wi-closure-kitti"}, {"published", published_json()}, {"seeds", Json::array()}};
+  for (const auto& seed : seeds) json["seeds"].push_back(seed_json(seed));
+  return json;
+}
+
+Json robustness_json(const RobustnessMap& map) {
+  Json json{{"table", "robustness-map"},
+            {"axes",
+             {{"sigma_angle_deg", map.grid.sigma_angle_deg},
+              {"links", map.grid.links},
+              {"false_paths", map.grid.false_paths}}},
+            {"first_seed", map.first_seed},
+            {"seeds", map.seeds},
+            {"cells", Json::array()}};
+  for (const auto& cell : map.cells) json["cells"].push_back(cell_json(cell));
+  return json;
+}
+
+}  // namespace radioslam

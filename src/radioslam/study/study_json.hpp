@@ -1,0 +1,19 @@
+// What `reproduce --json` prints. What could not be measured is null.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "radioslam/study/robustness_map.hpp"
+#include "radioslam/study/wi_closure_kitti.hpp"
+
+namespace radioslam {
+
+/// {"table", "published": {...}, "seeds": [{"seed", "cut", "links", "joint": {...}, "link": {...}, ...}]}
+nlohmann::ordered_json wi_closure_kitti_json(const std::vector<WiClosureKitti>& seeds);
+
+/// {"table", "axes": {...}, "first_seed", "seeds", "cells": [{"sigma_angle_deg", "links", "false_paths",
+///   "ratio", ...}]}: a cell's summary.
+nlohmann::ordered_json robustness_json(const RobustnessMap& map);
+
+}  // namespace radioslam

@@ -1,0 +1,16 @@
+// A study as one self-contained HTML page: data, style, script and d3 in one file, as the report.
+#pragma once
+
+#include <string>
+
+#include "radioslam/study/robustness_map.hpp"
+#include "radioslam/study/study_table.hpp"
+
+namespace radioslam {
+
+std::string render_table_page(const StudyTable& table);
+
+/// Heat maps of error, recall and failures, a column per number of false paths, with the table below.
+std::string render_robustness_page(const RobustnessMap& map);
+
+}  // namespace radioslam

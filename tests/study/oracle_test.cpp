@@ -1,0 +1,82 @@
+#include "radioslam/study/oracle.hpp"
+
+#include <gtest/gtest.h>
+
+#include "radioslam/study/judged_run.hpp"
+#include "study/small_town.hpp"
+
+namespace radioslam {
+namespace {
+
+double oracle_error_m(const CityParams& town, std::uint64_t seed) {
+  const auto [mission, truth] = simulate_city(town, seed);
+  const auto estimate = oracle_estimate(mission, truth, {});
+  EXPECT_TRUE(estimate);
+  return *ate_rmse_m(*estimate, truth, mission.dimension);
+}
+
+TEST(Oracle, FindsTheTruthWithoutNoise) {
+  for (const int dimension : {2, 3}) {
+    CityParams town = small_town();
+    town.dimension = dimension;
+    town.odometry.sigma_xy_per_sqrt_m = town.odometry.sigma_yaw_per_sqrt_m_rad = 1e-5;
+    town.odometry.sigma_yaw_per_rad = town.sigma_z_per_sqrt_m = 1e-5;
+    town.radio.sigma_range_m = 0.001;
+    town.radio.sigma_angle_deg = 0.01;
+    EXPECT_LT(oracle_error_m(town, 1), 0.02) << dimension;
+  }
+}
+
+TEST(Oracle, DoesNotSeeFalsePaths) {
+  CityParams town = small_town();
+  town.radio.missing_direct_share = 0;
+  town.radio.max_false_paths = 0;
+  const double alone = oracle_error_m(town, 2);
+  town.radio.min_false_paths = town.radio.max_false_paths = 8;
+  EXPECT_NEAR(oracle_error_m(town, 2), alone, 1e-6);
+}
+
+TEST(Oracle, IsHelpedByMoreLinks) {
+  CityParams town = small_town();
+  town.odometry.sigma_yaw_per_sqrt_m_rad = 0.01;
+  double few = 0, many = 0;
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    town.radio.links = 3;
+    few += oracle_error_m(town, seed);
+    town.radio.links = 60;
+    many += oracle_error_m(town, seed);
+  }
+  EXPECT_LT(many, 0.8 * few);
+}
+
+TEST(Oracle, KeepsTheLabelledPathsAlone) {
+  auto [mission, truth] = simulate_city(small_town(), 3);
+  mission.matches.resize(4);
+  truth.direct_paths[0] = kNoDirectPath;
+  truth.direct_paths[1] = std::nullopt;
+  truth.direct_paths[2] = static_cast<int>(mission.arrivals[2].paths.size()) - 1;
+  const Mission labelled = with_direct_paths_only(mission, truth);
+  EXPECT_TRUE(labelled.matches.empty());
+  EXPECT_LE(labelled.arrivals.size(), mission.arrivals.size() - 2);
+  ASSERT_FALSE(labelled.arrivals.empty());
+  EXPECT_EQ(labelled.arrivals.front().paths.front().azimuth_rad,
+            mission.arrivals[2].paths.back().azimuth_rad);
+  for (const auto& arrival : labelled.arrivals) EXPECT_EQ(arrival.paths.size(), 1U);
+}
+
+TEST(Oracle, NeedsATruthToStartFrom) {
+  const auto [mission, truth] = simulate_city(small_town(), 4);
+  Truth waypoints = truth;
+  waypoints.robots[0].has_orientation = false;
+  EXPECT_FALSE(oracle_estimate(mission, waypoints, {}));
+  Truth late = truth;
+  std::vector<StampedPose<SE3>> poses(truth.robots[1].poses.begin() + 5, truth.robots[1].poses.end());
+  late.robots[1].poses = Trajectory<SE3>(std::move(poses));
+  EXPECT_FALSE(oracle_estimate(mission, late, {}));
+  Mission anchored = mission;
+  anchored.anchors.push_back({"x", std::nullopt, 0});
+  EXPECT_FALSE(oracle_estimate(anchored, truth, {}));
+}
+
+}  // namespace
+}  // namespace radioslam
