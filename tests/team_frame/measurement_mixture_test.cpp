@@ -11,6 +11,7 @@ namespace radioslam {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+constexpr double kDistance_m = 10;  ///< to the transmitter
 
 BearingPath<SE2> path(double azimuth_rad, double sigma_rad, double power_db) {
   return {{std::cos(azimuth_rad), std::sin(azimuth_rad)}, sigma_rad, power_db};
@@ -38,7 +39,8 @@ TeamGraph<SE2> three_paths() {
 }
 
 void put_transmitter(MixtureGraph<SE2>& mixture, double azimuth_rad) {
-  mixture.graph.poses[1] = SE2(10 * Eigen::Vector2d(std::cos(azimuth_rad), std::sin(azimuth_rad)), 0);
+  mixture.graph.poses[1] =
+      SE2(kDistance_m * Eigen::Vector2d(std::cos(azimuth_rad), std::sin(azimuth_rad)), 0);
 }
 
 /// The likelihood at the present values: a density over the uniform one.
@@ -140,7 +142,9 @@ TEST(MeasurementMixture, PathWeightsArePosteriors) {
   put_transmitter(mixture, azimuth);
   mixture.reweigh({}, 0);
   const auto priors = path_priors(team.bearings[0], params);
-  const double azimuths[] = {0.3, -2, 2.5}, sigmas[] = {0.1, 0.2, 0.15};
+  const double place = params.sigma_place_m / kDistance_m;
+  const double azimuths[] = {0.3, -2, 2.5};
+  const double sigmas[] = {std::hypot(0.1, place), std::hypot(0.2, place), std::hypot(0.15, place)};
   std::vector<double> terms;
   for (std::size_t p = 0; p < 3; ++p) {
     const double chord = 2 * std::sin((azimuth - azimuths[p]) / 2) / sigmas[p];
@@ -165,12 +169,13 @@ TEST(MeasurementMixture, InflationAddsToEveryVariance) {
   team.graph.ranges.push_back(range_of(10));
   MixtureGraph<SE2> mixture(team, {});
   put_transmitter(mixture, 0.3);
+  const double place2 = std::pow(MixtureParams{}.sigma_place_m / kDistance_m, 2);
   mixture.reweigh({{2}, {0.09}}, 0.5);
   EXPECT_NEAR(mixture.graph.ranges[0].sigma_m, std::sqrt(0.25 + 1), 1e-12);
-  EXPECT_NEAR(mixture.graph.bearings[0].sigma_rad, std::sqrt(0.01 + 0.045), 1e-12);
+  EXPECT_NEAR(mixture.graph.bearings[0].sigma_rad, std::sqrt(0.01 + 0.045 + place2), 1e-12);
   mixture.reweigh({{2}, {0.09}}, 0);
   EXPECT_NEAR(mixture.graph.ranges[0].sigma_m, 0.5, 1e-12);
-  EXPECT_NEAR(mixture.graph.bearings[0].sigma_rad, 0.1, 1e-12);
+  EXPECT_NEAR(mixture.graph.bearings[0].sigma_rad, std::sqrt(0.01 + place2), 1e-12);
 }
 
 TEST(MeasurementMixture, AnAngleInflatedBeyondTheCircleSaysNothing) {

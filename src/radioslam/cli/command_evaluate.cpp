@@ -108,7 +108,7 @@ Evaluation evaluate(const Options& options) {
   const MissionInput input = read_input(options.mission);
   const Mission& mission = input.mission;
   const Truth& truth = input.truth;
-  if (truth.empty()) throw InputError(options.mission, 0, "no robot's true poses are known");
+  if (truth.empty()) throw InputError(options.mission, 0, "no robot's truth is known (groundtruth.tum, or a graph's VERTEX lines)");
   const RunFolder run = read_run(options.run);
   const auto places = places_in_mission(run, mission, options);
   const auto association = options.evo ? Association::kNearest : Association::kInterpolate;

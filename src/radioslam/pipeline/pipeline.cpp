@@ -72,6 +72,8 @@ void collect(RunResult& result, const Mission& mission, const JointGraph<Pose>& 
 }
 
 void add_notes(RunResult& result, const Mission& mission, std::size_t ignored_links) {
+  for (const auto& id : result.unplaced)
+    result.notes.push_back("robot " + id + " is not placed: nothing ties it to another robot");
   for (const auto& file : mission.unused_files)
     result.notes.push_back(file + " took no part: this version does not use it");
   if (ignored_links > 0)
