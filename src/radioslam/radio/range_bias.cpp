@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace radioslam {
 namespace {
@@ -14,6 +15,8 @@ constexpr double kDeviationToSigma = 1.4826;  // median absolute deviation of a 
 constexpr double kHuberSigmas = 1.345;        // 95 % efficiency (Huber 1981)
 constexpr int kHuberSteps = 50;
 constexpr double kSettled_m = 1e-5;
+constexpr double kClipSigmas = 3;  // so that single reflections do not make the correlation
+constexpr double kMostCorrelated = 0.99;
 
 double median_of(std::vector<double> values) {
   if (values.empty()) return 0;
@@ -95,9 +98,11 @@ class Calibration {
 
   CalibratedPositions run() {
     place();
+    find_noise();
+    place();
     for (int k = 0; k < params_.most_iterations && params_.prior_sigma_m > 0; ++k) {
-      find_noise();
       const double moved_m = improve_biases();
+      find_noise();
       place();
       if (moved_m < kSettled_m) break;
     }
@@ -126,15 +131,36 @@ class Calibration {
     noise_factor_ = std::max(1.0, deviation_around(normalised, 0) / std::sqrt(share));
   }
 
+  /// Reflections last: ranges that follow one another err alike. Of what they say, the share that counts with
+  /// the correlation of neighbours rho is (1 - rho) / (1 + rho), that of a first-order process.
+  double independent_share() const {
+    std::vector<double> last(static_cast<std::size_t>(biases_.size()), 0);
+    double product = 0, square = 0;
+    for_each_fix([&](const RangeEpoch& epoch, const Multilateration& fix) {
+      for (std::size_t k = 0; k < epoch.ranges.size(); ++k) {
+        const double sigma_m = noise_factor_ * epoch.ranges[k].sight.sigma_m;
+        const double now = std::clamp(fix.residuals_m[k] / sigma_m, -kClipSigmas, kClipSigmas);
+        product += now * std::exchange(last[epoch.ranges[k].pair], now);
+        square += now * now;
+      }
+    });
+    const double rho = square > 0 ? std::clamp(product / square, 0.0, kMostCorrelated) : 0;
+    return (1 - rho) / (1 + rho);
+  }
+
   /// One step of the biases; returns the largest change.
   double improve_biases() {
     const double prior = 1 / (params_.prior_sigma_m * params_.prior_sigma_m);
-    information_ = prior * Eigen::MatrixXd::Identity(biases_.size(), biases_.size());
-    Eigen::VectorXd pull = -prior * biases_;
+    information_.setZero();
+    Eigen::VectorXd pull = Eigen::VectorXd::Zero(biases_.size());
     for_each_fix([&](const RangeEpoch& epoch, const Multilateration& fix) {
       if (epoch.ranges.size() > static_cast<std::size_t>(anchors_->rows()))
         add_epoch(epoch, corrected(epoch, biases_, noise_factor_), fix, *anchors_, information_, pull);
     });
+    const double share = independent_share();
+    information_ *= share, pull *= share;
+    information_.diagonal().array() += prior;
+    pull -= prior * biases_;
     const Eigen::VectorXd move = information_.ldlt().solve(pull);
     biases_ += move;
     return biases_.size() > 0 ? move.cwiseAbs().maxCoeff() : 0;

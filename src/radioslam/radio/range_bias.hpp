@@ -5,8 +5,10 @@
 // are known and the receiver is not, biases and positions are estimated together: each epoch with more ranges
 // than coordinates says something about the biases, whatever the position. With positions eliminated,
 //   H = sum over epochs of W - W J (J^T W J)^-1 J^T W  + I / sigma_b^2,   H db = sum of P r - b / sigma_b^2,
-// W being 1/sigma^2 times the weight of a Cauchy loss. The prior sigma_b keeps what is not observed near
-// zero. Metres; measured = true + bias. Cost: O(ranges) per iteration plus (pairs)^3.
+// W being 1/sigma^2 times the weight of a Cauchy loss, all of it less where neighbours in time err alike.
+// Ranges whose error changes with the place (reflections) are no constant bias: it comes out wrong, and so
+// may the positions. The prior sigma_b keeps what is not observed near zero. Metres; measured = true + bias.
+// Cost: O(ranges) per iteration plus (pairs)^3.
 #pragma once
 
 #include <cstddef>
