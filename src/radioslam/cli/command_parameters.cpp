@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "radioslam/cli/anchors_params.hpp"
 #include "radioslam/cli/command_options.hpp"
 #include "radioslam/cli/commands.hpp"
 #include "radioslam/cli/parameters.hpp"
@@ -36,6 +37,7 @@ std::vector<ParameterSet> parameter_sets() {
           {"kitti", describe_parameters<KittiParams>},
           {"optimize", describe_parameters<OptimizerParams>},
           {"similarity", describe_parameters<SimilarityCommandParams>},
+          {"anchors", describe_parameters<AnchorsParams>},
           {"import", describe_parameters<DeadReckoningParams>}};
 }
 
@@ -73,8 +75,9 @@ void list_parameters(const Options& options) {
 void add_parameters(CLI::App& program) {
   const auto options = std::make_shared<Options>();
   auto* command = program.add_subcommand("parameters", "List what --set and --config can change");
-  command->add_option("COMMAND", options->command,
-                      "run (default), simulate, carpark, city, hall, kitti, optimize, similarity or import");
+  command->add_option(
+      "COMMAND", options->command,
+      "run (default), simulate, carpark, city, hall, kitti, optimize, similarity, anchors or import");
   add_json_option(*command, options->json);
   command->footer("Example:\n  radioslam parameters run | less");
   command->callback([options] { list_parameters(*options); });

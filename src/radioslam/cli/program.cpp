@@ -38,6 +38,7 @@ void add_commands(CLI::App& program) {
   add_import(program);
   add_optimize(program);
   add_similarity(program);
+  add_anchors(program);
   add_reproduce(program);
   add_parameters(program);
 }

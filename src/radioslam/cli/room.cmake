@@ -4,6 +4,7 @@ file(MAKE_DIRECTORY ${cli_include}/radioslam)
 file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR}/cli ${cli_include}/radioslam/cli SYMBOLIC)
 
 add_library(radioslam_cli STATIC
+  cli/command_anchors.cpp
   cli/command_evaluate.cpp
   cli/command_import.cpp
   cli/command_optimize.cpp

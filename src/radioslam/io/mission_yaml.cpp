@@ -7,24 +7,16 @@
 #include "radioslam/geometry/so3.hpp"
 #include "radioslam/io/numbers.hpp"
 #include "radioslam/io/odometry_noise_fields.hpp"
+#include "radioslam/io/usable_id.hpp"
 #include "radioslam/io/yaml_map.hpp"
 
 namespace radioslam {
 namespace {
 
 constexpr std::string_view kFormat = "radioslam-mission/1";
-constexpr std::size_t kLongestId = 200;  // a file's name has 255 bytes
 constexpr std::size_t kPositionSize = 3;
 constexpr std::size_t kInitialPoseSize = 4;  // and a yaw
 constexpr double kFullView_deg = 360;
-
-bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
-
-bool is_usable_id(const std::string& id) {
-  if (id.empty() || id.size() > kLongestId || id.front() == '.' || id.front() == '#') return false;
-  if (id.find("..") != std::string::npos || trim(id) != id) return false;
-  return id.find_first_of("/\\,\"") == std::string::npos && std::none_of(id.begin(), id.end(), is_control);
-}
 
 double sigma_at(const Text& text, const YAML::Node& node, const std::string& what) {
   const double value = number_at(text, node, what);
