@@ -40,10 +40,14 @@ int main(int argc, char** argv) {
   std::filesystem::create_directories(folder);
   write(folder / "three.html", with_truth(make_sample({})));
   write(folder / "alone.html", with_truth(make_sample({.robots = 1, .keyframes = 300, .closures = 40})));
-  write(folder / "space.html", with_truth(make_sample({.robots = 2, .keyframes = 400, .dimension = 3})));
-  write(folder / "many.html", with_truth(make_sample({.robots = 65, .keyframes = 500, .closures = 6000})));
-  write(folder / "huge.html",
-        with_truth(make_sample({.robots = 20, .keyframes = 10000, .closures = 100000})));
+  write(folder / "space.html",
+        with_truth(make_sample(
+            {.robots = 2, .keyframes = 400, .candidates = 3000, .alternatives = 2, .dimension = 3})));
+  write(folder / "many.html",
+        with_truth(make_sample({.robots = 65, .keyframes = 500, .closures = 6000, .candidates = 50000})));
+  write(
+      folder / "huge.html",
+      with_truth(make_sample({.robots = 20, .keyframes = 10000, .closures = 100000, .candidates = 300000})));
   write(folder / "split_no_truth.html", split_team());
   write(folder / "no_truth.html", render_report(make_sample({}).result));
   write(folder / "empty.html", render_report(radioslam::RunResult{}));

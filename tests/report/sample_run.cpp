@@ -114,6 +114,45 @@ void add_closures(Sample& sample, const SampleParams& params, Rng rng) {
   }
 }
 
+/// Near pairs of different robots, the one listed first in front; some may be there twice.
+void add_candidates(Sample& sample, const SampleParams& params, Rng rng) {
+  const auto wanted = static_cast<std::size_t>(params.candidates);
+  while (sample.result.candidates.size() < wanted) {
+    const ClosureResult drawn = random_closure(params, rng);
+    if (drawn.robot_i.value >= drawn.robot_j.value) continue;
+    const auto position = [&](RobotIndex robot, Stamp stamp) {
+      return sample.truth.robots[robot.index()].poses.at(stamp)->translation();
+    };
+    const double distance_m =
+        (position(drawn.robot_i, drawn.stamp_i) - position(drawn.robot_j, drawn.stamp_j)).norm();
+    if (distance_m > 30) continue;
+    sample.result.candidates.push_back(
+        {drawn.robot_i, drawn.stamp_i, drawn.robot_j, drawn.stamp_j, distance_m, 0.5});
+  }
+  if (wanted == 0) return;
+  const double robots = params.robots, keyframes = params.keyframes;
+  sample.result.counts["pairs"] = robots * (robots - 1) / 2 * keyframes * keyframes;
+  sample.result.counts["candidates"] = params.candidates;
+  sample.result.counts["distances_evaluated"] = 1.25 * params.candidates;
+}
+
+/// The team with all robots but the first turned about their starts, each time further.
+void add_alternatives(RunResult& result, int count) {
+  for (int k = 1; k <= count; ++k) {
+    HypothesisResult other{0.3 / k, result.robots};
+    for (std::size_t r = 1; r < other.robots.size(); ++r) {
+      RobotResult& robot = other.robots[r];
+      const SE3 start = robot.estimate.front().pose;
+      const SE3 turn = start * lift(SE2(Eigen::Vector2d(4 * k, 0), 0.8 * k)) * start.inverse();
+      Poses poses(robot.estimate.begin(), robot.estimate.end());
+      for (auto& [stamp, pose] : poses) pose = turn * pose;
+      robot.estimate = Trajectory<SE3>(std::move(poses));
+    }
+    result.alternatives.push_back(std::move(other));
+  }
+  if (count > 0) result.weight = 0.6;
+}
+
 void add_similarity(RunResult& result, Rng rng) {
   SimilarityModelResult model;
   model.measure = "gaussian";
@@ -159,6 +198,8 @@ Sample make_sample(const SampleParams& params) {
   add_closures(sample, params, rng.split("closures"));
   add_similarity(result, rng.split("similarity"));
   add_run(result);
+  add_candidates(sample, params, rng.split("candidates"));
+  add_alternatives(result, params.alternatives);
   std::vector<EstimatedTrajectory> estimate;
   for (const auto& robot : result.robots) estimate.push_back({robot.id, robot.estimate});
   sample.metrics = evaluate_trajectories(estimate, sample.truth, params.dimension);

@@ -13,6 +13,8 @@ struct SampleParams {
   int robots = 3;
   int keyframes = 600;
   int closures = 800;
+  int candidates = 0;
+  int alternatives = 0;
   int dimension = 2;
 };
 

@@ -1,9 +1,12 @@
 #include "radioslam/report/page_data.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
+#include "radioslam/report/alternative_data.hpp"
+#include "radioslam/report/candidate_data.hpp"
 #include "radioslam/report/closure_data.hpp"
 #include "radioslam/report/rounding.hpp"
 #include "radioslam/report/thinning.hpp"
@@ -101,19 +104,22 @@ void add_robots(PageData& page, const RunResult& result, const Judgement& judgem
     page["robots"].push_back(robot_data(robot, component_of(robot, result.components), context, params));
   }
   page["closures"] = closure_data(result, keyframes, params);
+  page["alternatives"] = alternative_data(result, context, params);
 }
 
-void add_run(PageData& page, const RunResult& result) {
+/// What is whole stays exact, however large.
+PageData counted(double count) {
+  return std::trunc(count) == count ? rounded(count, 0) : rounded_relative(count);
+}
+
+void add_run(PageData& page, const RunResult& result, const ReportParams& params) {
   page["components"] = PageData::array();
   for (const auto& component : result.components) page["components"].push_back(component.robots);
   page["unplaced"] = result.unplaced;
-  page["hypotheses"] = PageData::array();
-  page["hypotheses"].push_back(rounded(result.weight, 4));
-  for (const HypothesisResult& other : result.alternatives)
-    page["hypotheses"].push_back(rounded(other.weight, 4));
-  page["candidates"] = result.candidates.size();
+  page["weight"] = rounded(result.weight, 4);
+  page["candidates"] = candidate_data(result, params);
   page["counts"] = PageData::object();
-  for (const auto& [key, count] : result.counts) page["counts"][key] = rounded_relative(count);
+  for (const auto& [key, count] : result.counts) page["counts"][key] = counted(count);
   page["timings"] = PageData::array();
   for (const auto& timing : result.timings)
     page["timings"].push_back({{"stage", timing.stage}, {"seconds", rounded(timing.seconds, 6)}});
@@ -146,7 +152,7 @@ PageData page_data(const RunResult& result, const Truth* truth, const std::optio
   }
   add_robots(page, result, judgement, params);
   if (result.similarity_model) page["similarity"] = similarity_data(*result.similarity_model, params);
-  add_run(page, result);
+  add_run(page, result, params);
   return page;
 }
 

@@ -15,15 +15,24 @@ namespace radioslam {
 
 /// How much a page may draw; what is left out is said on the page, and never changes a number on it.
 struct ReportParams {
-  int maximum_poses = 200000;    ///< of each of estimate, odometry and truth, over all robots
-  int maximum_closures = 20000;  ///< every kind and status keeps its share
-  int maximum_samples = 8000;    ///< of similarity against distance
-  int maximum_errors = 60000;    ///< of each of estimate and odometry, over all robots
+  int maximum_poses = 200000;             ///< of each of estimate, odometry and truth, over all robots
+  int maximum_closures = 20000;           ///< every kind and status keeps its share
+  int maximum_matrices = 12;              ///< pairs of robots whose kept pairs are drawn, the fullest ones
+  int maximum_candidate_cells = 60000;    ///< bins of the matrices of pairs, over all pairs of robots
+  int maximum_alternative_poses = 20000;  ///< over all hypotheses but the likeliest
+  int maximum_samples = 8000;             ///< of similarity against distance
+  int maximum_errors = 60000;             ///< of each of estimate and odometry, over all robots
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
     visit(Field{"maximum_poses", "", 100, 1e7, "poses drawn per layer of the map"}, self.maximum_poses);
     visit(Field{"maximum_closures", "", 100, 1e7, "closures drawn on the map"}, self.maximum_closures);
+    visit(Field{"maximum_matrices", "", 1, 1000, "pairs of robots whose kept pairs are drawn"},
+          self.maximum_matrices);
+    visit(Field{"maximum_candidate_cells", "", 100, 1e7, "bins of the matrices of pairs that were kept"},
+          self.maximum_candidate_cells);
+    visit(Field{"maximum_alternative_poses", "", 100, 1e7, "poses drawn of the other hypotheses"},
+          self.maximum_alternative_poses);
     visit(Field{"maximum_samples", "", 100, 1e7, "samples drawn of similarity against distance"},
           self.maximum_samples);
     visit(Field{"maximum_errors", "", 100, 1e7, "errors drawn over time"}, self.maximum_errors);

@@ -23,6 +23,11 @@ const robots = report.robots.map((robot, index) => ({
   stranded: !robot.placed || report.unplaced.includes(robot.id),
 }));
 
+const alternatives = report.alternatives.map(other => ({
+  ...other,
+  robots: other.robots.map(path => (path.x.length ? { x: column(path.x), y: column(path.y), z: path.z && column(path.z) } : null)),
+}));
+
 const groups = report.closures.groups;
 const lines = report.closures.drawn;
 const total = (items, value) => items.reduce((sum, item) => sum + value(item), 0);

@@ -32,8 +32,9 @@ const format = {
     return minutes < 60 ? `${minutes}:${tenths}` : `${Math.floor(minutes / 60)}:${rest(minutes % 60)}:${rest(whole % 60)}`;
   },
   percent: v => (known(v) ? `${d3.format(v > 0 && v < 0.0995 ? ".1f" : ".0f")(v * 100)} %` : missing),
+  fine_percent: v => (known(v) ? `${d3.format(v < 0.001 ? ".1~g" : v < 0.0995 ? ".2f" : ".1f")(v * 100)} %` : missing),
   degrees: v => (known(v) ? minus(d3.format(".3f")((v * 180) / Math.PI)) : missing),
-  plural: (n, word) => `${grouped(n)} ${word}${n === 1 ? "" : "s"}`,
+  plural: (n, word, words = `${word}s`) => `${grouped(n)} ${n === 1 ? word : words}`,
 };
 
 const shortened = text => (text.length > 24 ? `${text.slice(0, 23)}…` : text);

@@ -27,6 +27,11 @@ function walk_figures() {
 
 function run_figures() {
   const figures = [];
+  if (alternatives.length)
+    figures.push(figure("Weight of the team shown", format.percent(report.weight), "", format.plural(alternatives.length, "other hypothesis", "other hypotheses")));
+  const { kept, pairs, distances_evaluated } = report.candidates;
+  if (known(pairs) && pairs > 0)
+    figures.push(figure("Pairs kept", format.fine_percent(kept / pairs), "", `${format.count(kept)} of ${format.count(pairs)}; ${format.count(distances_evaluated)} distances evaluated`));
   if (closures_total)
     figures.push(figure("Closures accepted", format.count(accepted_total), `of ${format.count(closures_total)}`, `${format.count(closures_total - accepted_total)} rejected`));
   if (seconds_total > 0) {
@@ -43,15 +48,16 @@ function write_facts() {
     `${format.metres(total(robots, r => r.walked_m || 0))} m walked`];
   const duration = d3.max(robots, r => r.duration_s);
   if (duration > 0) facts.push(`longest walk ${format.duration(duration)}`);
-  if (report.candidates) facts.push(format.plural(report.candidates, "candidate pair"));
   by_id("facts").textContent = facts.join(" · ");
 }
+
+const names = ids => (ids.length > 6 ? `${ids.slice(0, 5).join(", ")} and ${ids.length - 5} more` : ids.join(", "));
 
 function write_notes() {
   const notes = [];
   if (report.unplaced.length) notes.push(`Unplaced, nothing ties ${report.unplaced.length === 1 ? "it" : "them"} to the others: ${report.unplaced.join(", ")}.`);
-  if (report.components.length > 1) notes.push(`${report.components.length} components, each in its own frame: ${report.components.map(ids => ids.join(", ")).join(" | ")}.`);
-  if (report.hypotheses.length > 1) notes.push(`The team's alignment is ambiguous: ${report.hypotheses.length} hypotheses with weights ${report.hypotheses.join(", ")}; the likeliest is shown.`);
+  if (report.components.length > 1)
+    notes.push(`Not joined: nothing measured ties ${report.components.map(names).join(" to ")}. Each of these ${report.components.length} frames stands for itself; distances between them mean nothing.`);
   by_id("notes").append(...notes.concat(report.notes).map(note => element("li", {}, note)));
 }
 

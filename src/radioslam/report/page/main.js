@@ -4,6 +4,8 @@ write_headline();
 write_map();
 write_errors();
 write_robots();
+write_hypotheses();
+write_overlap();
 write_similarity();
 write_closures();
 write_timings();

@@ -65,6 +65,26 @@ function draw_paths(context, view, layer, style) {
   context.globalAlpha = 1;
 }
 
+/// The other hypotheses, the likelier the clearer; the dots tell them from the odometry's dashes.
+function draw_alternatives(context, view) {
+  const [a, b] = state.axes;
+  context.setLineDash(view.moving ? [] : [1, 3]);
+  context.lineCap = "round";
+  context.lineWidth = 1.6;
+  alternatives.forEach(other => {
+    for (const robot of shown()) {
+      const path = other.robots[robot.index];
+      if (!path) continue;
+      context.globalAlpha = fades(robot.index) ? 0.1 : 0.5 + 0.4 * Math.min(1, other.weight / report.weight);
+      context.strokeStyle = robot_colour(robot.index);
+      stroke_path(context, path[a], path[b], view);
+    }
+  });
+  context.setLineDash([]);
+  context.lineCap = "butt";
+  context.globalAlpha = 1;
+}
+
 /// One filled area per robot: the union of discs of one sigma about its keyframes.
 function draw_sigma(context, view) {
   const [a, b] = state.axes;
@@ -202,6 +222,7 @@ function draw_map(context, view) {
   if (layers.sigma) draw_sigma(context, view);
   if (layers.truth) draw_paths(context, view, "truth", { colour: () => css("truth"), width: many ? 2 : 3.5, alpha: 0.75 });
   if (layers.odometry) draw_paths(context, view, "odometry", { colour: robot_colour, width: 1.1, alpha: 0.75, dash: [5, 4] });
+  if (layers.alternatives) draw_alternatives(context, view);
   draw_closures(context, view);
   if (layers.estimate) draw_paths(context, view, "estimate", { colour: robot_colour, width: many ? 1.2 : 1.8, alpha: 1 });
   if (layers.estimate) draw_starts(context, view);

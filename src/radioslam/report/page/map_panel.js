@@ -23,6 +23,9 @@ function layer_rows() {
   if (robots.some(r => r.truth)) rows.push(layer("truth", "truth", line => line.attr("stroke", css("truth")).attr("stroke-width", 3.5)));
   if (robots.some(r => r.sigma_m))
     rows.push(layer("sigma", "1 σ of position", line => line.attr("stroke", ink).attr("stroke-width", 9).attr("stroke-opacity", 0.16)));
+  if (alternatives.length)
+    rows.push(layer("alternatives", format.plural(alternatives.length, "other hypothesis", "other hypotheses"),
+      line => line.attr("stroke", ink).attr("stroke-width", 1.6).attr("stroke-dasharray", "1 3").attr("stroke-linecap", "round")));
   return rows;
 }
 
@@ -96,6 +99,7 @@ function caption_map() {
   if (report.components.length > 1)
     parts.push(`The team falls into ${report.components.length} components; nothing measured ties one's frame to another's.`);
   if (robots.length <= few_robots) parts.push("A ring marks a robot's start.");
+  if (alternatives.length) parts.push("Dotted: where the team lies by the other hypotheses, seen from the first robot.");
   if (closures_drawn < closures_total)
     parts.push(`${format.count(closures_drawn)} of ${format.count(closures_total)} closures are drawn, evenly spaced within each kind and status; all are counted.`);
   const drawn = total(robots, r => (r.estimate ? r.estimate.t.length : 0)), keyframes = total(robots, r => r.keyframes);

@@ -101,6 +101,11 @@ class MapView {
         widen(span.a, robot[layer][a]);
         widen(span.b, robot[layer][b]);
       }
+    if (state.layers.alternatives)
+      for (const path of alternatives.flatMap(other => other.robots.filter((_, r) => state.visible[r]))) {
+        widen(span.a, path ? path[a] : []);
+        widen(span.b, path ? path[b] : []);
+      }
     const [west, east] = isFinite(span.a[0]) ? span.a : [0, 1], [south, north] = isFinite(span.b[0]) ? span.b : [0, 1];
     const room = 0.92, least_m = 1;
     this.base = {

@@ -9,7 +9,7 @@ const many_closures = 10000;  // more would hide the trajectories: the reader ma
 
 const state = {
   visible: robots.map(robot => robot.component === 0 && !robot.stranded),
-  layers: { truth: true, odometry: robots.length <= few_robots, estimate: true, sigma: false },
+  layers: { truth: true, odometry: robots.length <= few_robots, estimate: true, sigma: false, alternatives: true },
   groups: groups.map(group => group.status === "accepted" && group.count <= many_closures),
   highlight: null,
   moment: null,

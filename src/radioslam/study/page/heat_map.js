@@ -60,6 +60,7 @@ function write_maps() {
 /// In words: how much of the map holds, and where the first cracks are.
 function map_summary() {
   const all = Array.from(cells.values()), breaks = all.filter(c => c.failed >= 0.5), wrong = all.filter(c => c.confidently_wrong > 0);
-  const where = broken => (broken.length === 0 ? "" : ` (${d3.min(broken, c => c.links)} to ${d3.max(broken, c => c.links)} links, ${d3.min(broken, c => c.sigma_angle_deg)}° to ${d3.max(broken, c => c.sigma_angle_deg)}°, ${d3.min(broken, c => c.false_paths)} to ${d3.max(broken, c => c.false_paths)} false paths)`);
+  const range = (broken, key) => Array.from(new Set(d3.extent(broken, c => c[key]))).join(" to ");
+  const where = broken => (broken.length === 0 ? "" : ` (${range(broken, "links")} links, ${range(broken, "sigma_angle_deg")} degrees, ${range(broken, "false_paths")} false paths)`);
   return `At ${breaks.length} of ${all.length} squares at least half of the towns failed${where(breaks)}; at ${wrong.length} some town was confidently wrong${where(wrong)}.`;
 }

@@ -19,8 +19,9 @@ const measures = [
   { key: "ratio", name: "Error over the oracle's, median", bad: v => Math.log(Math.max(v, 1)) / Math.log(worst_ratio), text: d3.format(".2f"), ends: ["1", `${worst_ratio} and more`] },
   { key: "worst_ratio", name: "Error over the oracle's, worst town", bad: v => Math.log(Math.max(v, 1)) / Math.log(worst_ratio), text: d3.format(".2f"), ends: ["1", `${worst_ratio} and more`] },
   { key: "recall", name: "Recall of the pairs whose views overlap, median", bad: v => (1 - v) / (1 - worst_recall), text: d3.format(".3f"), ends: ["1", `${worst_recall} and less`] },
+  { key: "least_recall", name: "Recall, worst town", bad: v => (1 - v) / (1 - worst_recall), text: d3.format(".3f"), ends: ["1", `${worst_recall} and less`] },
   { key: "false_rejected", name: "False pairs rejected, median", bad: v => (1 - v) / (1 - worst_recall), text: d3.format(".3f"), ends: ["1", `${worst_recall} and less`] },
-  { key: "failed", name: "Share of towns that failed", bad: v => v, text: d3.format(".2f"), ends: ["0", "1"] },
-  { key: "confidently_wrong", name: "Share of towns confidently wrong", bad: v => v, text: d3.format(".2f"), ends: ["0", "1"] },
+  { key: "failed", name: "Share of towns that failed", bad: v => v, text: d3.format(".2~f"), ends: ["0", "1"] },
+  { key: "confidently_wrong", name: "Share of towns confidently wrong", bad: v => v, text: d3.format(".2~f"), ends: ["0", "1"] },
 ];
 const compact = (text, v) => (Math.abs(v) >= 100 ? d3.format(".0f")(v) : Math.abs(v) >= 10 ? d3.format(".1f")(v) : text(v));
