@@ -55,12 +55,12 @@ function draw_matrix(canvas, matrix) {
 
 function matrix_figure(matrix, index) {
   const i = robots[matrix.robot_i], j = robots[matrix.robot_j], pairs = i.keyframes * j.keyframes;
-  const text = `${format.count(matrix.kept)} of ${format.count(pairs)} pairs, ${format.fine_percent(matrix.kept / pairs)}`;
+  const share = format.fine_percent(matrix.kept / pairs), text = `${format.count(matrix.kept)} of ${format.count(pairs)} pairs, ${share}`;
   const canvas = element("canvas", { role: "img", "aria-label": `Pairs of ${i.id} and ${j.id} that were kept: ${text}` });
   const redraw = once_per_frame(() => draw_matrix(canvas, matrix));
   new ResizeObserver(redraw).observe(canvas);
   changes.on(`theme.matrix${index}`, redraw);
-  return element("div", { class: "matrix" }, element("p", {}, element("b", {}, `${shortened(i.id)} × ${shortened(j.id)}`), ` ${text}`), canvas,
+  return element("div", { class: "matrix" }, element("p", {}, element("b", {}, `${shortened(i.id)} × ${shortened(j.id)}`), ` ${format.count(matrix.kept)} kept, ${share}`), canvas,
     element("div", { class: "across" }, element("span", {}, `across: ${shortened(i.id)}'s way`), element("span", {}, `up: ${shortened(j.id)}'s way`)));
 }
 

@@ -1,0 +1,85 @@
+// Tables from end to end: listed, refused, made and written.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "cli/process.hpp"
+
+namespace radioslam::cli {
+namespace {
+
+/// Two rounds of a circle in KITTI's format, a pose per metre.
+/// The radius wobbles by so much.
+std::string circle(double wobble_m) {
+  constexpr int kPoses = 240;
+  constexpr double kRadius_m = 19;
+  std::ostringstream lines;
+  for (int k = 0; k < kPoses; ++k) {
+    const double angle = k / kRadius_m, c = std::cos(angle), s = std::sin(angle);
+    const double radius_m = kRadius_m + wobble_m * std::sin(0.1 * k);
+    lines << c << ' ' << -s << " 0 " << radius_m * s << ' ' << s << ' ' << c << " 0 "
+          << kRadius_m - radius_m * c << " 0 0 1 0\n";
+  }
+  return lines.str();
+}
+
+class Reproduce : public testing::Test {
+ protected:
+  void SetUp() override {
+    write_file(folder() / "truth.txt", circle(0));
+    write_file(folder() / "odometry.txt", circle(0.2));
+  }
+  const std::filesystem::path& folder() const { return folder_.path(); }
+  std::string refusal(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), "reproduce");
+    const auto outcome = run(arguments, folder());
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_EQ(outcome.out, "");
+    return outcome.err;
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+TEST_F(Reproduce, WithoutATableListsThem) {
+  const auto outcome = run({"reproduce"}, folder());
+  EXPECT_EQ(outcome.status, 0);
+  for (const char* name : {"wi-closure-kitti", "robustness-map"})
+    EXPECT_NE(outcome.out.find(name), std::string::npos) << name;
+}
+
+TEST_F(Reproduce, WritesTheTableThatItPrints) {
+  const auto outcome =
+      run({"reproduce", "wi-closure-kitti", "--trajectory", "truth.txt", "--odometry", "odometry.txt",
+           "--cut", "0.5", "--set", "links=6", "dimension=2", "--json", "-o", "out"},
+          folder());
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(files_in(folder() / "out"),
+            (std::vector<std::string>{"index.html", "table.csv", "table.json", "table.txt"}));
+  EXPECT_EQ(read_file(folder() / "out" / "table.json"), outcome.out);
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json["published"]["kept"], 7049);
+  EXPECT_EQ(json["seeds"][0]["cut"], 0.5);
+  EXPECT_EQ(json["seeds"][0]["links"], 6);
+  EXPECT_GT(json["seeds"][0]["joint"]["recall"], 0.9);
+}
+
+TEST_F(Reproduce, RefusesWhatItCannotMake) {
+  EXPECT_NE(refusal({"wi-closure-kiti"}).find("did you mean wi-closure-kitti"), std::string::npos);
+  EXPECT_NE(refusal({"wi-closure-kitti", "--odometry", "odometry.txt"}).find("--trajectory"),
+            std::string::npos);
+  EXPECT_NE(refusal({"robustness-map", "--cut", "0.5"}).find("towns are simulated"), std::string::npos);
+  EXPECT_NE(refusal({"robustness-map", "--seeds", "0"}).find("--seeds"), std::string::npos);
+  EXPECT_NE(refusal({"robustness-map", "--set", "lamps=3"}).find("lamps"), std::string::npos);
+  write_file(folder() / "short.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
+  EXPECT_NE(refusal({"wi-closure-kitti", "--trajectory", "truth.txt", "--odometry", "short.txt"})
+                .find("short.txt: has 1 poses"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace radioslam::cli
