@@ -1,4 +1,5 @@
 // radioslam prune: the pairs of keyframes of different robots whose views could overlap.
+#include <cmath>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -40,7 +41,7 @@ void print_text(const RunResult& result, const std::string& output) {
   for (const auto& note : result.notes) std::cout << "note: " << note << '\n';
   const auto count = [&](const char* name) {
     const auto found = result.counts.find(name);
-    return found == result.counts.end() ? 0.0 : found->second;
+    return found == result.counts.end() ? 0LL : std::llround(found->second);
   };
   std::cout << output << ": " << count("candidates") << " of " << count("pairs")
             << " pairs of keyframes are left, " << count("distances_evaluated") << " distances evaluated\n";
