@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <ostream>
 #include <string>
 
 #include "radioslam/base/parallel.hpp"
@@ -100,6 +101,8 @@ Case make_case(const std::string& name, double ratio, double extra_m, void (*cha
   change(result.world);
   return result;
 }
+
+void PrintTo(const Case& of, std::ostream* out) { *out << of.name; }
 
 std::vector<Case> cases() {
   return {make_case("BothEnds", 1.05, 0.05, [](RadioWorld&) {}),
