@@ -34,7 +34,8 @@ RadioWorld short_world() {
 RadioAlignmentParams quick_params() {
   RadioAlignmentParams params;
   params.grid.references = 4;
-  params.grid.angle_steps = 40;
+  params.grid.angle_steps = 36;
+  params.grid.farthest_m = 100;  // what the radio reaches
   params.beam.tried_places = 24;
   params.beam.refined_places = 6;
   return params;
