@@ -38,7 +38,8 @@ class Places {
 };
 
 template <class Pose>
-std::vector<KeyframeOdometry<Pose>> odometry_chains(const JointGraph<Pose>& joint, const Places<Pose>& places) {
+std::vector<KeyframeOdometry<Pose>> odometry_chains(const JointGraph<Pose>& joint,
+                                                    const Places<Pose>& places) {
   std::vector<KeyframeOdometry<Pose>> chains(joint.robots.size());
   for (std::size_t r = 0; r < chains.size(); ++r)
     for (const SE3& pose : joint.robots[r].odometry) chains[r].poses.push_back(pose_as<Pose>(pose));

@@ -44,20 +44,20 @@ void count(RunResult& result, const RadioMeasurements& radio, const OptimizerSum
 
 /// With weights for covariances instead of for the estimate.
 template <class Pose>
-JointGraph<Pose> honest(const JointGraph<Pose>& joint) {
+JointGraph<Pose> honest(const JointGraph<Pose>& joint, const MixtureParams& mixture) {
   JointGraph<Pose> result = joint;
-  discount_uncertain_measurements(result.team.graph, joint.first_closure_range);
+  discount_uncertain_measurements(result.team.graph, joint.first_closure_range, mixture.sigma_place_m);
   return result;
 }
 
 /// What the run says about the estimate in `joint`.
 template <class Pose>
 void collect(RunResult& result, const Mission& mission, const JointGraph<Pose>& joint,
-             const TeamPlacement<Pose>& placement, StageClock& clock) {
+             const TeamPlacement<Pose>& placement, const MixtureParams& mixture, StageClock& clock) {
   const auto& graph = joint.team.graph;
   result.robots = collect_robots(joint, graph.poses, placement);
   const auto marginals =
-      clock.time("uncertainty", [&] { return Marginals<Pose>::compute(honest(joint).team.graph); });
+      clock.time("uncertainty", [&] { return Marginals<Pose>::compute(honest(joint, mixture).team.graph); });
   if (marginals) {
     add_uncertainty(result.robots, joint, *marginals);
     for (auto& note : odometry_notes(mission, joint, *marginals)) result.notes.push_back(std::move(note));
@@ -143,7 +143,9 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const RunPara
       "optimise", [&] { return optimize_robustly(joint, params.robust, params.optimizer, progress); });
 
   if (wants_overlaps(mission, options))
-    clock.time("overlap", [&] { return search_overlaps_into(result, honest(joint), params, options), 0; });
+    clock.time("overlap", [&] {
+      return search_overlaps_into(result, honest(joint, params.alignment.mixture), params, options), 0;
+    });
   std::vector<ClosureResult> matches;
   if (!mission.matches.empty() && !options.overlap_only)
     matches = clock.time("matches", [&] {
@@ -152,7 +154,7 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const RunPara
 
   result.mission_name = mission.name;
   result.dimension = mission.dimension;
-  collect(result, mission, joint, placement, clock);
+  collect(result, mission, joint, placement, params.alignment.mixture, clock);
   add_notes(result, mission, joint.ignored_links);
   result.closures = collect_radio_links(joint);
   for (auto& closure : collect_closures(radio, joint, closures))

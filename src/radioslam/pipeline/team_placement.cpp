@@ -1,6 +1,7 @@
 #include "radioslam/pipeline/team_placement.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "radioslam/team_frame/level_priors.hpp"
 
@@ -8,6 +9,7 @@ namespace radioslam {
 namespace {
 
 constexpr double kLeastWeight = 0.05;        // of a path or range that takes part in the final solution
+constexpr double kSaysNothing_rad = 0.5;     // an angle between robots this close, for their antennas' places
 constexpr double kLeastAlternative = 0.001;  // of a hypothesis worth writing
 constexpr std::size_t kMostAlternatives = 3;
 
@@ -24,7 +26,9 @@ void adopt(JointGraph<Pose>& joint, const TeamHypothesis<Pose>& hypothesis) {
     const auto& bearing = joint.team.bearings[k];
     for (std::size_t p = 0; p < bearing.paths.size(); ++p) {
       const double weight = hypothesis.path_weight[k][p];
-      if (weight < kLeastWeight) continue;
+      const double by_places2 =
+          std::pow(hypothesis.path_sigma_rad[k][p], 2) - std::pow(bearing.paths[p].sigma_rad, 2);
+      if (weight < kLeastWeight || by_places2 > kSaysNothing_rad * kSaysNothing_rad) continue;
       graph.bearings.push_back(
           {bearing.i, bearing.j, bearing.paths[p].direction, hypothesis.path_sigma_rad[k][p], {}, weight});
     }
