@@ -37,7 +37,9 @@ KittiParams wi_closure_drive() {
 
 WiClosureKitti reproduce_wi_closure_kitti(const RecordedDrive& drive, const KittiParams& scenario,
                                           std::uint64_t seed, const Progress& progress) {
-  const auto [mission, truth] = simulate_kitti(scenario, drive, seed);
+  const Simulation simulation = simulate_kitti(scenario, drive, seed);
+  const Mission& mission = simulation.mission;
+  const Truth& truth = simulation.truth;
   const Mission bare = without_matches(mission);
 
   constexpr int kEstimates = 7;
