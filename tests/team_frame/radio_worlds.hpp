@@ -83,9 +83,13 @@ class RadioWorldSimulator {
     Piece piece{"r" + std::to_string(robot), graph.poses.size(), 1, {Stamp{0}}};
     result_.team.pieces.push_back(piece);
     const double quarter = std::numbers::pi / 2;
-    SE2 start({world_.block_m * static_cast<double>(rng_.below(static_cast<std::uint64_t>(world_.blocks))),
-               world_.block_m * static_cast<double>(rng_.below(static_cast<std::uint64_t>(world_.blocks)))},
-              quarter * static_cast<double>(rng_.below(4)));
+    // Every number is drawn in a statement of its own: compilers differ in the order of a call's arguments.
+    const double heading = quarter * static_cast<double>(rng_.below(4));
+    const double x =
+        world_.block_m * static_cast<double>(rng_.below(static_cast<std::uint64_t>(world_.blocks)));
+    const double y =
+        world_.block_m * static_cast<double>(rng_.below(static_cast<std::uint64_t>(world_.blocks)));
+    const SE2 start({x, y}, heading);
     result_.truth.push_back(start);
     graph.poses.push_back(SE2());
     const int steps_per_block = static_cast<int>(world_.block_m / kStep_m);
@@ -151,13 +155,18 @@ class RadioWorldSimulator {
     int direct_index = -1;
     if (rng_.uniform() >= world_.missing_direct_share) {
       direct_index = 0;
-      bearing.paths.push_back(path(direct + rng_.normal(0, world_.sigma_angle_rad), rng_.normal(-50, 6)));
+      const double power_db = rng_.normal(-50, 6);
+      bearing.paths.push_back(path(direct + rng_.normal(0, world_.sigma_angle_rad), power_db));
     }
-    if (world_.mirror)  // a wall beside the street, parallel to the receiver's heading
-      bearing.paths.push_back(path(-direct + rng_.normal(0, world_.sigma_angle_rad), rng_.normal(-53, 6)));
+    if (world_.mirror) {  // a wall beside the street, parallel to the receiver's heading
+      const double power_db = rng_.normal(-53, 6);
+      bearing.paths.push_back(path(-direct + rng_.normal(0, world_.sigma_angle_rad), power_db));
+    }
     const int extra = static_cast<int>(rng_.below(static_cast<std::uint64_t>(world_.most_false_paths) + 1));
-    for (int k = 0; k < extra; ++k)
-      bearing.paths.push_back(path(rng_.uniform(-std::numbers::pi, std::numbers::pi), rng_.normal(-55, 6)));
+    for (int k = 0; k < extra; ++k) {
+      const double power_db = rng_.normal(-55, 6);
+      bearing.paths.push_back(path(rng_.uniform(-std::numbers::pi, std::numbers::pi), power_db));
+    }
     if (bearing.paths.empty()) bearing.paths.push_back(path(rng_.uniform(-3, 3), -60));
     result_.team.bearings.push_back(bearing);
     result_.direct_path.push_back(direct_index);
