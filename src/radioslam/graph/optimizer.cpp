@@ -4,27 +4,13 @@
 #include <cmath>
 #include <optional>
 
+#include "radioslam/graph/graph_values.hpp"
 #include "radioslam/graph/loss.hpp"
 #include "radioslam/graph/normal_equations.hpp"
 #include "radioslam/graph/residuals.hpp"
 
 namespace radioslam {
 namespace {
-
-template <class Pose>
-struct Values {
-  explicit Values(const PoseGraph<Pose>& graph)
-      : poses(graph.poses), points(graph.points), drifts(graph.drifts) {}
-  void restore(PoseGraph<Pose>& graph) const {
-    graph.poses = poses;
-    graph.points = points;
-    graph.drifts = drifts;
-  }
-
-  std::vector<Pose> poses;
-  std::vector<typename Pose::Point> points;
-  std::vector<Drift> drifts;
-};
 
 /// One run: the graph holds the current values, `equations` are linearised at them.
 template <class Pose>
@@ -94,7 +80,7 @@ class Run {
   }
 
   void keep(double cost) {
-    best_ = Values<Pose>(graph_);
+    best_ = GraphValues<Pose>(graph_);
     best_cost_ = cost;
     steps_above_best_ = 0;
   }
@@ -133,7 +119,7 @@ class Run {
   PoseGraph<Pose>& graph_;
   NormalEquations<Pose>& equations_;
   const OptimizerParams& params_;
-  Values<Pose> best_;
+  GraphValues<Pose> best_;
   double best_cost_ = 0;
   double damping_ = 0, least_damping_ = 0;
   int steps_above_best_ = 0;

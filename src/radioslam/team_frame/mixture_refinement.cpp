@@ -3,6 +3,7 @@
 #include <array>
 #include <limits>
 
+#include "radioslam/graph/graph_values.hpp"
 #include "radioslam/graph/normal_equations.hpp"
 
 namespace radioslam {
@@ -16,19 +17,6 @@ constexpr std::array kFineShares = {0.1, 0.03, 0.0};
 constexpr std::array kStepShares = {1.0, 0.5, 0.2, 0.05, 0.01};
 constexpr double kCoarseTolerance = 0.1;  // nothing a choice among starts depends on
 constexpr std::array kDampings = {0.0, 1e-6, 1e-3};
-
-template <class Pose>
-struct Values {
-  explicit Values(const PoseGraph<Pose>& g) : poses(g.poses), points(g.points), drifts(g.drifts) {}
-  void restore(PoseGraph<Pose>& g) const {
-    g.poses = poses;
-    g.points = points;
-    g.drifts = drifts;
-  }
-  std::vector<Pose> poses;
-  std::vector<typename Pose::Point> points;
-  std::vector<Drift> drifts;
-};
 
 template <class Pose>
 class Stage {
@@ -50,7 +38,7 @@ class Stage {
   /// One step that lowers the cost; false where none does.
   bool step(double share) {
     equations_.linearise(mixture_.graph);
-    const Values<Pose> start(mixture_.graph);
+    const GraphValues<Pose> start(mixture_.graph);
     for (const double damping : kDampings) {
       if (equations_.factorize(damping) == Factorization::kNotPositiveDefinite) continue;
       const Eigen::VectorXd step = equations_.step();

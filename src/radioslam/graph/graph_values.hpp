@@ -1,0 +1,28 @@
+// The values of a graph's variables without its factors: to go back to, or to carry to another graph of the
+// same variables.
+#pragma once
+
+#include <vector>
+
+#include "radioslam/graph/pose_graph.hpp"
+
+namespace radioslam {
+
+template <class Pose>
+struct GraphValues {
+  GraphValues() = default;
+  explicit GraphValues(const PoseGraph<Pose>& graph)
+      : poses(graph.poses), points(graph.points), drifts(graph.drifts) {}
+
+  void restore(PoseGraph<Pose>& graph) const {
+    graph.poses = poses;
+    graph.points = points;
+    graph.drifts = drifts;
+  }
+
+  std::vector<Pose> poses;
+  std::vector<typename Pose::Point> points;
+  std::vector<Drift> drifts;
+};
+
+}  // namespace radioslam
