@@ -23,6 +23,14 @@ TEST(Csv, FindsColumnsByNameInAnyOrderAndIgnoresOthers) {
   EXPECT_FALSE(csv.next());
 }
 
+TEST(Csv, TakesAllQuotesAndBlanksAwayFromAroundAField) {
+  const Text t = text("x,y\n\" 1 \",\"\" 2\" \"\n");
+  CsvReader csv(t, {{"x", "y"}, {}});
+  ASSERT_TRUE(csv.next());
+  EXPECT_EQ(csv.field(kX), "1");
+  EXPECT_EQ(csv.field(kY), "2");
+}
+
 TEST(Csv, TakesAnOptionalColumn) {
   const Text t = text("extra,y,x\n7,2,1\n");
   CsvReader csv(t, {{"x", "y"}, {"extra"}});

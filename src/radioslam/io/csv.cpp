@@ -7,11 +7,15 @@
 namespace radioslam {
 namespace {
 
-/// Without blanks around it and without a pair of double quotes.
+bool is_quoted(std::string_view field) {
+  return field.size() >= 2 && field.front() == '"' && field.back() == '"';
+}
+
+/// Without the blanks and the double quotes around it, inside the quotes too: written bare, it reads the
+/// same.
 std::string_view bare(std::string_view field) {
   field = trim(field);
-  if (field.size() >= 2 && field.front() == '"' && field.back() == '"')
-    field = field.substr(1, field.size() - 2);
+  while (is_quoted(field)) field = trim(field.substr(1, field.size() - 2));
   return field;
 }
 
