@@ -27,4 +27,6 @@ target_compile_options(radioslam_warnings INTERFACE
   # g++ 12 reports uninitialised members inside Eigen's own vectorised kernels (GCC bug 105593 and kin).
   # -Wrestrict is wrong about "literal" + std::string (GCC bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-uninitialized -Wno-array-bounds -Wno-stringop-overflow
-                                  -Wno-restrict>)
+                                  -Wno-restrict>
+  # In a unity build no source is the main file, where g++ lets lambdas capture types of anonymous namespaces.
+  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wno-subobject-linkage>)

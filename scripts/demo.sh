@@ -13,7 +13,7 @@ scripts/deps.sh build
 if [[ -f build/release/CMakeCache.txt ]]; then
   cmake --preset release >/dev/null
 else
-  cmake --preset release -DRADIOSLAM_BUILD_TESTS=OFF >/dev/null
+  cmake --preset release -DRADIOSLAM_BUILD_TESTS=OFF -DCMAKE_UNITY_BUILD=ON >/dev/null
 fi
 cmake --build build/release --target radioslam_program
 

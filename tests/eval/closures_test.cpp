@@ -47,7 +47,7 @@ TEST(CountCandidates, HeightCountsInSpaceOnly) {
 }
 
 TEST(CountCandidates, EqualsTheCountOverAllPairs) {
-  const Truth truth = testing::winding_team(1, 4, 60);
+  const Truth truth = test::winding_team(1, 4, 60);
   std::vector<KeyframeStamps> keyframes;
   for (const auto& path : truth.robots) keyframes.push_back(stamps_of(path.poses));
   const std::vector<double> reach{1, 2, 4, 8};

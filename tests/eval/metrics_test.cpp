@@ -12,10 +12,10 @@
 namespace radioslam {
 namespace {
 
-using testing::changed;
-using testing::estimate_from;
-using testing::noise;
-using testing::winding_team;
+using test::changed;
+using test::estimate_from;
+using test::noise;
+using test::winding_team;
 
 const auto kExact = [](const SE3& pose) { return pose; };
 

@@ -8,7 +8,7 @@
 #include "radioslam/base/random.hpp"
 #include "radioslam/eval/metrics.hpp"
 
-namespace radioslam::testing {
+namespace radioslam::test {
 
 /// A winding path in space: a pose every `period_s` seconds.
 inline Trajectory<SE3> winding_path(Rng& rng, std::size_t poses, double period_s) {
@@ -58,4 +58,4 @@ inline auto noise(Rng& rng) {
   };
 }
 
-}  // namespace radioslam::testing
+}  // namespace radioslam::test

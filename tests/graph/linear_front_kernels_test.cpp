@@ -57,7 +57,7 @@ Worked work(const FrontKernels& kernels, const Front& front) {
   return worked;
 }
 
-void expect_near(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const char* what) {
+void expect_close(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const char* what) {
   if (b.size() == 0) return;
   EXPECT_LE((a - b).cwiseAbs().maxCoeff(), 1e-10 * (1 + b.cwiseAbs().maxCoeff())) << what;
 }
@@ -70,20 +70,20 @@ void expect_agrees_with_dense(const Front& front, const Worked& worked) {
   const Eigen::LLT<Eigen::MatrixXd> factor(pivots);
   const Eigen::MatrixXd L = factor.matrixL();
   const Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(p, p));
-  expect_near(worked.panel.topRows(p), L, "L_PP");
+  expect_close(worked.panel.topRows(p), L, "L_PP");
   if (r == 0) {
-    expect_near(worked.covariance, inverse, "Z_PP");
+    expect_close(worked.covariance, inverse, "Z_PP");
     return;
   }
   const Eigen::MatrixXd L_RP = L.triangularView<Eigen::Lower>().solve(below.transpose()).transpose();
-  expect_near(worked.panel.bottomRows(r), L_RP, "L_RP");
+  expect_close(worked.panel.bottomRows(r), L_RP, "L_RP");
   Eigen::MatrixXd update = -L_RP * L_RP.transpose();
   clear_above_diagonal(update);
-  expect_near(worked.update, update, "update");
+  expect_close(worked.update, update, "update");
   const Eigen::MatrixXd Y = below * inverse;
   const Eigen::MatrixXd Z_RP = -front.covariance_below * Y;
-  expect_near(worked.covariance.bottomRows(r), Z_RP, "Z_RP");
-  expect_near(worked.covariance.topRows(p), inverse - Y.transpose() * Z_RP, "Z_PP");
+  expect_close(worked.covariance.bottomRows(r), Z_RP, "Z_RP");
+  expect_close(worked.covariance.topRows(p), inverse - Y.transpose() * Z_RP, "Z_PP");
 }
 
 TEST(FrontKernels, AgreeWithDenseAndGiveTheSameBytesForEveryInstructionSet) {

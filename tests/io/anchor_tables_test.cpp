@@ -7,10 +7,10 @@ namespace {
 
 DistanceTable distances(const std::string& text) { return read_distances(make_text("d.csv", text), 0.02); }
 
-const std::string kRanges = "t_s,robot_i,robot_j,range_m,sigma_m,antenna_i,antenna_j\n";
+const std::string kRangeHeader = "t_s,robot_i,robot_j,range_m,sigma_m,antenna_i,antenna_j\n";
 
-RangeTable ranges(const std::string& rows) {
-  return read_anchor_ranges(make_text("r.csv", kRanges + rows), {"A", "B"});
+RangeTable anchor_ranges(const std::string& rows) {
+  return read_anchor_ranges(make_text("r.csv", kRangeHeader + rows), {"A", "B"});
 }
 
 TEST(Distances, NumberTheirAnchorsAsTheyCome) {
@@ -36,7 +36,7 @@ TEST(Distances, RefuseWhatIsNone) {
 }
 
 TEST(AnchorRanges, AreSortedToTheirRobotsAndPairsOfAntennas) {
-  const auto table = ranges(
+  const auto table = anchor_ranges(
       "2,r,A,1,0.1,front,\n1,B,r,2,0.1,,front\n3,A,r,3,0.1,,back\n4,r,A,4,0.2,front,\n1,s,B,5,0.1,,x\n"
       "1,r,s,6,0.1,,\n1,A,B,7,0.1,,\n");
   ASSERT_EQ(table.receivers.size(), 2U);
@@ -58,11 +58,11 @@ TEST(AnchorRanges, AreSortedToTheirRobotsAndPairsOfAntennas) {
 }
 
 TEST(AnchorRanges, RefuseWhatIsNone) {
-  expect_refusal([] { ranges("1,r,r,2,0.1,,\n"); }, 2, "with itself");
-  expect_refusal([] { ranges("1,r,A,0,0.1,,\n"); }, 2, "a range is not positive");
-  expect_refusal([] { ranges("1,r,A,2,0,,\n"); }, 2, "a sigma is not positive");
-  expect_refusal([] { ranges("1,r,s,2,0.1,,\n"); }, 0, "between a robot and an anchor");
-  expect_refusal([] { ranges("1,../r,A,2,0.1,,\n"); }, 2, "cannot be the name of a file");
+  expect_refusal([] { anchor_ranges("1,r,r,2,0.1,,\n"); }, 2, "with itself");
+  expect_refusal([] { anchor_ranges("1,r,A,0,0.1,,\n"); }, 2, "a range is not positive");
+  expect_refusal([] { anchor_ranges("1,r,A,2,0,,\n"); }, 2, "a sigma is not positive");
+  expect_refusal([] { anchor_ranges("1,r,s,2,0.1,,\n"); }, 0, "between a robot and an anchor");
+  expect_refusal([] { anchor_ranges("1,../r,A,2,0.1,,\n"); }, 2, "cannot be the name of a file");
 }
 
 }  // namespace

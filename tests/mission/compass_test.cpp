@@ -8,8 +8,8 @@
 namespace radioslam {
 namespace {
 
-using testing::KnownWalk;
-using testing::recorded;
+using test::KnownWalk;
+using test::recorded;
 
 /// Largest error of the heading over the walk.
 double heading_error(const KnownWalk& walk) {
@@ -27,7 +27,7 @@ double heading_error(const KnownWalk& walk) {
 TEST(FitCompass, FindsEastForEveryStart) {
   for (const double start_rad : {0.0, 1.0, 3.1, 3.2, -1.5}) {
     KnownWalk walk;
-    walk.R_hand_device = testing::tilted_hand();
+    walk.R_hand_device = test::tilted_hand();
     walk.heading_rad = [start_rad](double t) { return start_rad + std::sin(t); };
     // The tilted y axis seen from above turns as the walker does, up to a constant.
     const auto motion = recorded(walk);

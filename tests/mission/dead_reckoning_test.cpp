@@ -7,18 +7,18 @@
 namespace radioslam {
 namespace {
 
-using testing::KnownWalk;
-using testing::kPi;
-using testing::recorded;
-using testing::walk_stamp;
+using test::KnownWalk;
+using test::kPi;
+using test::recorded;
+using test::walk_stamp;
 
 /// Ten seconds north-east, a turn to the left, ten seconds north-west; noisy sensors, a biased gyroscope.
 KnownWalk hook() {
   KnownWalk walk;
   walk.duration_s = 24;
-  walk.heading_rad = testing::turn_at(11, kPi / 4, 3 * kPi / 4);
-  const auto first = testing::steps_between(1, 11, 2, 3);
-  const auto second = testing::steps_between(12, 22, 2, 3);
+  walk.heading_rad = test::turn_at(11, kPi / 4, 3 * kPi / 4);
+  const auto first = test::steps_between(1, 11, 2, 3);
+  const auto second = test::steps_between(12, 22, 2, 3);
   walk.vertical_mps2 = [=](double t) { return first(t) + second(t); };
   walk.gyroscope_bias_radps = {0.001, -0.001, 0.0005};
   walk.sigma_force_mps2 = 0.3;
@@ -54,8 +54,8 @@ TEST(ReckonWalk, CoversTheWholeLogAndStartsAtTheOrigin) {
 
 TEST(ReckonWalk, StandsDuringAPause) {
   KnownWalk pause;
-  const auto before = testing::steps_between(2, 10, 2, 3);
-  const auto after = testing::steps_between(20, 26, 2, 3);
+  const auto before = test::steps_between(2, 10, 2, 3);
+  const auto after = test::steps_between(20, 26, 2, 3);
   pause.vertical_mps2 = [=](double t) { return before(t) + after(t); };
   const auto walk = reckon(recorded(pause), 0, 30);
   EXPECT_LT(

@@ -7,8 +7,8 @@
 namespace radioslam {
 namespace {
 
-using testing::KnownWalk;
-using testing::recorded;
+using test::KnownWalk;
+using test::recorded;
 
 class Held : public ::testing::TestWithParam<double> {
  protected:
@@ -32,7 +32,7 @@ TEST_P(Held, FollowsTurnsThroughMoreThanAFullCircle) {
 
 TEST_P(Held, GivesTheVerticalAcceleration) {
   auto walk = this->walk();
-  walk.vertical_mps2 = testing::steps_between(5, 25, 1.8, 3);
+  walk.vertical_mps2 = test::steps_between(5, 25, 1.8, 3);
   const auto level = level_motion(recorded(walk), {});
   for (std::size_t i = 0; i < level.size(); ++i)
     EXPECT_NEAR(level[i].vertical_mps2, walk.vertical_mps2(0.02 * static_cast<double>(i)), 1e-6);

@@ -9,7 +9,7 @@
 #include "radioslam/base/random.hpp"
 #include "radioslam/mission/phone_motion.hpp"
 
-namespace radioslam::testing {
+namespace radioslam::test {
 
 inline constexpr double kPi = std::numbers::pi;
 inline constexpr double kSampleTime_s = 0.02;
@@ -76,4 +76,4 @@ inline Eigen::Quaterniond tilted_hand() {
   return Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitX()) * Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitY());
 }
 
-}  // namespace radioslam::testing
+}  // namespace radioslam::test

@@ -8,7 +8,7 @@ namespace radioslam {
 namespace {
 
 TEST(MeasureRadio, PlacesEveryFingerprintOnItsOdometry) {
-  const auto team = testing::walking_team(2, Heading::kRelative, 30, 1);
+  const auto team = test::walking_team(2, Heading::kRelative, 30, 1);
   const auto radio = measure_radio(team.mission, {}, {});
   ASSERT_EQ(radio.nodes.size(), radio.robots[0].size() + radio.robots[1].size());
   ASSERT_EQ(radio.near_similarity.size(), radio.nodes.size());
@@ -24,7 +24,7 @@ TEST(MeasureRadio, PlacesEveryFingerprintOnItsOdometry) {
 }
 
 TEST(MeasureRadio, TrainsOnOneRobotsNearPairsOnly) {
-  auto team = testing::walking_team(3, Heading::kRelative, 60, 2);
+  auto team = test::walking_team(3, Heading::kRelative, 60, 2);
   RadioParams params;
   params.fingerprint.window_s = 0;  // each scan by itself
   params.distance_model.trusted_way_m = 10.5;
@@ -36,7 +36,7 @@ TEST(MeasureRadio, TrainsOnOneRobotsNearPairsOnly) {
 }
 
 TEST(MeasureRadio, UsesTheMeasuresAskedFor) {
-  const auto team = testing::walking_team(1, Heading::kRelative, 20, 3);
+  const auto team = test::walking_team(1, Heading::kRelative, 20, 3);
   RadioParams params;
   params.measure = "cosine";
   params.layout_measure = "gaussian";
@@ -50,7 +50,7 @@ TEST(MeasureRadio, UsesTheMeasuresAskedFor) {
 }
 
 TEST(MeasureRadio, LearnsThatLessAlikeIsFurtherApart) {
-  const auto team = testing::walking_team(2, Heading::kRelative, 200, 4);
+  const auto team = test::walking_team(2, Heading::kRelative, 200, 4);
   const auto radio = measure_radio(team.mission, {}, {});
   const auto far = radio.near_model.predict(0.4), near = radio.near_model.predict(0.8);
   ASSERT_TRUE(far && near);
@@ -59,7 +59,7 @@ TEST(MeasureRadio, LearnsThatLessAlikeIsFurtherApart) {
 }
 
 TEST(MeasureRadio, OfAMissionWithoutWifiKnowsNothing) {
-  auto team = testing::walking_team(2, Heading::kRelative, 20, 5);
+  auto team = test::walking_team(2, Heading::kRelative, 20, 5);
   for (Robot& robot : team.mission.robots) robot.wifi.clear();
   const auto radio = measure_radio(team.mission, {}, {});
   EXPECT_TRUE(radio.nodes.empty());

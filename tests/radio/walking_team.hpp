@@ -8,7 +8,7 @@
 #include "radioslam/base/random.hpp"
 #include "radioslam/mission/mission.hpp"
 
-namespace radioslam::testing {
+namespace radioslam::test {
 
 /// An access point and what it is called in the mission.
 struct AccessPoint {
@@ -101,4 +101,4 @@ inline WalkingTeam walking_team(int robots, Heading heading, int seconds, std::u
   return team;
 }
 
-}  // namespace radioslam::testing
+}  // namespace radioslam::test

@@ -13,7 +13,7 @@
 namespace radioslam {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn_rad = std::numbers::pi;
 
 /// Where the free reference end truly is.
 struct TruePlace {
@@ -28,7 +28,7 @@ SE2 pose_of(const GridEnd& end) { return {end.position, end.heading_rad}; }
 GridEnd random_end(Rng& rng) {
   GridEnd end;
   end.position = {rng.uniform(-80, 80), rng.uniform(-80, 80)};
-  end.heading_rad = rng.uniform(-kPi, kPi);
+  end.heading_rad = rng.uniform(-kHalfTurn_rad, kHalfTurn_rad);
   end.covariance = Eigen::Vector3d(0.1, 0.1, 1e-4).asDiagonal();
   return end;
 }
@@ -44,7 +44,8 @@ GridBearing bearing(const GridEnd& placed, const GridEnd& free, bool received_by
   const SE2 a = pose_of(placed), b = truth.T_placed_free() * pose_of(free);
   const double sigma = 0.15;
   GridBearing link{placed, free, received_by_placed, {}, {sigma, sigma, sigma}, {0.4, 0.3, 0.3}};
-  link.azimuth_rad = {rng.uniform(-kPi, kPi), rng.uniform(-kPi, kPi), rng.uniform(-kPi, kPi)};
+  link.azimuth_rad = {rng.uniform(-kHalfTurn_rad, kHalfTurn_rad), rng.uniform(-kHalfTurn_rad, kHalfTurn_rad),
+                      rng.uniform(-kHalfTurn_rad, kHalfTurn_rad)};
   link.azimuth_rad[rng.below(3)] =
       (received_by_placed ? azimuth(a, b) : azimuth(b, a)) + rng.normal(0, sigma);
   return link;
@@ -56,7 +57,8 @@ GridRange range(const GridEnd& placed, const GridEnd& free, const TruePlace& tru
 }
 
 TruePlace random_place(Rng& rng) {
-  return {rng.uniform(20, 90), rng.uniform(-kPi, kPi), rng.uniform(-kPi, kPi)};
+  return {rng.uniform(20, 90), rng.uniform(-kHalfTurn_rad, kHalfTurn_rad),
+          rng.uniform(-kHalfTurn_rad, kHalfTurn_rad)};
 }
 
 GridParams coarse_params() {
@@ -65,7 +67,7 @@ GridParams coarse_params() {
   return params;
 }
 
-double step(const GridParams& params) { return 2 * kPi / params.angle_steps; }
+double step(const GridParams& params) { return 2 * kHalfTurn_rad / params.angle_steps; }
 
 bool is_at(const GridCell& cell, const TruePlace& truth, const GridParams& params) {
   return std::abs(wrap_angle(cell.phi_rad - truth.phi_rad)) < 1.5 * step(params) &&
@@ -182,7 +184,8 @@ TEST(AlignmentGrid, PropagatedVariancesAgreeWithSampling) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     Rng rng(seed);
     const GridEnd placed = correlated_end(rng), free = correlated_end(rng);
-    const GridCell cell{rng.uniform(100, 180), 1, rng.uniform(-kPi, kPi), rng.uniform(-kPi, kPi), 0};
+    const GridCell cell{rng.uniform(100, 180), 1, rng.uniform(-kHalfTurn_rad, kHalfTurn_rad),
+                        rng.uniform(-kHalfTurn_rad, kHalfTurn_rad), 0};
     GridProblem problem;
     problem.ranges = {{placed, free, 1, 1}};
     problem.bearings = {{placed, free, true, {0}, {1}, {1}}, {placed, free, false, {0}, {1}, {1}}};

@@ -8,7 +8,7 @@
 namespace radioslam {
 namespace {
 
-using testing::WalkingTeam;
+using test::WalkingTeam;
 
 /// Of some 300 fingerprints 120 are as good, and six times as fast.
 TeamFrame align(const Mission& mission) {
@@ -54,7 +54,7 @@ constexpr double kPlaced_m = 4;
 
 TEST(AlignByFingerprints, LaysOutATeamOfUnknownStarts) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    const auto team = testing::walking_team(4, Heading::kRelative, 150, seed);
+    const auto team = test::walking_team(4, Heading::kRelative, 150, seed);
     const auto frame = align(team.mission);
     EXPECT_LT(aligned_error_m(compare(team, frame)), kPlaced_m) << "seed " << seed;
     EXPECT_EQ(frame.component, std::vector<int>(4, 0));
@@ -82,7 +82,7 @@ WalkingTeam mirror(WalkingTeam team) {
 TEST(AlignByFingerprints, TellsALayoutFromItsMirrorImage) {
   for (std::uint64_t seed = 3; seed <= 6; ++seed) {
     // Short walks: on long ones a robot turns by itself from the mirrored start into its place.
-    const auto team = testing::walking_team(4, Heading::kRelative, 60, seed);
+    const auto team = test::walking_team(4, Heading::kRelative, 60, seed);
     const auto mirrored = mirror(team);
     const double error_m = aligned_error_m(compare(team, align(team.mission)));
     EXPECT_LT(error_m, kPlaced_m) << "seed " << seed;
@@ -92,7 +92,7 @@ TEST(AlignByFingerprints, TellsALayoutFromItsMirrorImage) {
 
 TEST(AlignByFingerprints, KeepsTheCompassOfAbsoluteHeadings) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    auto team = testing::walking_team(4, Heading::kAbsolute, 150, seed);
+    auto team = test::walking_team(4, Heading::kAbsolute, 150, seed);
     for (Robot& robot : team.mission.robots) robot.sigma_heading_rad = 0.05;
     const auto frame = align(team.mission);
     auto places = compare(team, frame);
@@ -103,14 +103,14 @@ TEST(AlignByFingerprints, KeepsTheCompassOfAbsoluteHeadings) {
 }
 
 TEST(AlignByFingerprints, TheFirstRobotGivesTheFrame) {
-  const auto team = testing::walking_team(3, Heading::kRelative, 60, 1);
+  const auto team = test::walking_team(3, Heading::kRelative, 60, 1);
   const auto frame = align(team.mission);
   EXPECT_LT(frame.T_team_start[0].log().norm(), 1e-9);
   EXPECT_GT(frame.T_team_start[1].log().norm(), 0.1);
 }
 
 TEST(AlignByFingerprints, KeepsKnownStartsAndPlacesTheOthersAroundThem) {
-  auto team = testing::walking_team(4, Heading::kRelative, 150, 2);
+  auto team = test::walking_team(4, Heading::kRelative, 150, 2);
   for (const std::size_t r : {1U, 3U}) team.mission.robots[r].initial_pose = lift(team.walks[r][0]);
   const auto frame = align(team.mission);
   for (const std::size_t r : {1U, 3U})
@@ -119,7 +119,7 @@ TEST(AlignByFingerprints, KeepsKnownStartsAndPlacesTheOthersAroundThem) {
 }
 
 TEST(AlignByFingerprints, AnInitialPoseIsTheFirstBodysNotTheOdometrysOrigin) {
-  auto team = testing::walking_team(1, Heading::kRelative, 20, 3);
+  auto team = test::walking_team(1, Heading::kRelative, 20, 3);
   Robot& robot = team.mission.robots[0];
   std::vector<StampedPose<SE3>> rows(robot.odometry.begin(), robot.odometry.end());
   for (auto& row : rows) row.pose = lift(SE2({7, -3}, 0.4)) * row.pose;
@@ -131,8 +131,8 @@ TEST(AlignByFingerprints, AnInitialPoseIsTheFirstBodysNotTheOdometrysOrigin) {
 
 TEST(AlignByFingerprints, TeamsWithoutACommonAccessPointAreApart) {
   WalkingTeam team;
-  testing::add_walkers(team, 2, Heading::kRelative, 100, Rng(1));
-  testing::add_walkers(team, 2, Heading::kRelative, 100, Rng(2));
+  test::add_walkers(team, 2, Heading::kRelative, 100, Rng(1));
+  test::add_walkers(team, 2, Heading::kRelative, 100, Rng(2));
   const auto frame = align(team.mission);
   EXPECT_EQ(frame.component, std::vector<int>({0, 0, 1, 1}));
   EXPECT_EQ(frame.placed, std::vector<bool>(4, true));
@@ -142,8 +142,8 @@ TEST(AlignByFingerprints, TeamsWithoutACommonAccessPointAreApart) {
 TEST(AlignByFingerprints, EachOfTwoTeamsIsLaidOut) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     WalkingTeam team;
-    testing::add_walkers(team, 3, Heading::kRelative, 120, Rng(seed));
-    testing::add_walkers(team, 3, Heading::kRelative, 120, Rng(seed + 100));
+    test::add_walkers(team, 3, Heading::kRelative, 120, Rng(seed));
+    test::add_walkers(team, 3, Heading::kRelative, 120, Rng(seed + 100));
     const auto places = compare(team, align(team.mission));
     const Eigen::Index half = places.truth.cols() / 2;
     EXPECT_LT(aligned_error_m({places.truth.leftCols(half), places.estimate.leftCols(half)}), kPlaced_m)
@@ -155,14 +155,14 @@ TEST(AlignByFingerprints, EachOfTwoTeamsIsLaidOut) {
 
 TEST(AlignByFingerprints, KnownStartsHoldTeamsTogether) {
   WalkingTeam team;
-  testing::add_walkers(team, 2, Heading::kRelative, 60, Rng(1));
-  testing::add_walkers(team, 2, Heading::kRelative, 60, Rng(2));
+  test::add_walkers(team, 2, Heading::kRelative, 60, Rng(1));
+  test::add_walkers(team, 2, Heading::kRelative, 60, Rng(2));
   for (const std::size_t r : {0U, 2U}) team.mission.robots[r].initial_pose = lift(team.walks[r][0]);
   EXPECT_EQ(align(team.mission).component, std::vector<int>(4, 0));
 }
 
 TEST(AlignByFingerprints, ARobotWithoutWifiIsUnplaced) {
-  auto team = testing::walking_team(3, Heading::kRelative, 60, 1);
+  auto team = test::walking_team(3, Heading::kRelative, 60, 1);
   team.mission.robots[1].wifi.clear();
   const auto frame = align(team.mission);
   EXPECT_EQ(frame.component, std::vector<int>({0, 1, 0}));
@@ -170,7 +170,7 @@ TEST(AlignByFingerprints, ARobotWithoutWifiIsUnplaced) {
 }
 
 TEST(AlignByFingerprints, ARobotWithoutWifiIsPlacedByItsInitialPose) {
-  auto team = testing::walking_team(3, Heading::kRelative, 60, 1);
+  auto team = test::walking_team(3, Heading::kRelative, 60, 1);
   team.mission.robots[1].wifi.clear();
   for (const std::size_t r : {0U, 1U}) team.mission.robots[r].initial_pose = lift(team.walks[r][0]);
   const auto frame = align(team.mission);

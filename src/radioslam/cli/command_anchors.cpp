@@ -26,7 +26,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct AnchorsOptions {
   std::string distances, ranges, output;
   std::string origin, along_x, left;
   ParameterOptions parameters;
@@ -68,7 +68,8 @@ std::string why_not(const LayoutFailure& failure, const DistanceTable& table, in
   return {};
 }
 
-AnchorLayout layout_of(const DistanceTable& table, const Options& options, const AnchorsParams& params) {
+AnchorLayout layout_of(const DistanceTable& table, const AnchorsOptions& options,
+                       const AnchorsParams& params) {
   const AnchorFrame frame{anchor_named("--origin", options.origin, table.anchors),
                           anchor_named("--along-x", options.along_x, table.anchors),
                           anchor_named("--left", options.left, table.anchors)};
@@ -151,7 +152,7 @@ Json summary_of(const DistanceTable& table, const AnchorLayout& layout, const Ra
   return summary;
 }
 
-void print_text(const Options& options, const DistanceTable& table, const AnchorLayout& layout,
+void print_text(const AnchorsOptions& options, const DistanceTable& table, const AnchorLayout& layout,
                 const std::vector<LocatedRobot>& robots) {
   std::cout << options.output << ": " << table.anchors.size() << " anchors from " << table.distances.size()
             << " distances, residual " << layout.rms_m << " m rms";
@@ -170,7 +171,7 @@ void print_text(const Options& options, const DistanceTable& table, const Anchor
   }
 }
 
-void refuse_unplaced(const Options& options, const std::vector<LocatedRobot>& robots) {
+void refuse_unplaced(const AnchorsOptions& options, const std::vector<LocatedRobot>& robots) {
   for (const auto& robot : robots)
     if (robot.track.fixes.empty())
       throw InputError(options.ranges, 0,
@@ -179,7 +180,7 @@ void refuse_unplaced(const Options& options, const std::vector<LocatedRobot>& ro
                            "within epochs.epoch_s of each other");
 }
 
-void place_anchors(const Options& options) {
+void place_anchors(const AnchorsOptions& options) {
   const auto settings = collect_settings(options.parameters.config_path, options.parameters.set);
   const auto params = with_settings(AnchorsParams{}, settings);
   OutputFolder output(options.output, kRunFolder);
@@ -205,7 +206,7 @@ void place_anchors(const Options& options) {
 }  // namespace
 
 void add_anchors(CLI::App& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<AnchorsOptions>();
   auto* command =
       program.add_subcommand("anchors", "Place anchors by their distances, and robots by their ranges");
   command->add_option("DISTANCES", options->distances, "id_i,id_j,distance_m[,sigma_m]")->required();

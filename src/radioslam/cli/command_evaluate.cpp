@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kLargestRadius_m = 1e6;
 
-struct Options {
+struct EvaluateOptions {
   std::string run;
   std::string mission;
   std::optional<double> radius_m;
@@ -43,7 +43,7 @@ struct Evaluation {
 
 /// A run's robots by their places in the mission.
 std::vector<RobotIndex> places_in_mission(const RunFolder& run, const Mission& mission,
-                                          const Options& options) {
+                                          const EvaluateOptions& options) {
   std::vector<RobotIndex> places;
   for (const auto& robot : run.robots) {
     const auto same = [&](const Robot& candidate) { return candidate.id == robot.id; };
@@ -97,18 +97,20 @@ void count_pairs(Evaluation& evaluation, const RunFolder& run, const std::vector
   evaluation.rejected = static_cast<long>(closures.size()) - evaluation.accepted;
 }
 
-std::vector<std::string> notes_on(const RunFolder& run, const Options& options) {
+std::vector<std::string> notes_on(const RunFolder& run, const EvaluateOptions& options) {
   std::vector<std::string> notes = frame_notes(run.robots, run.components, run.unplaced);
   if (run.summary.is_null())
     notes.push_back(options.run + " has no summary.json: every .tum file is a robot, all in one frame");
   return notes;
 }
 
-Evaluation evaluate(const Options& options) {
+Evaluation evaluate(const EvaluateOptions& options) {
   const MissionInput input = read_input(options.mission);
   const Mission& mission = input.mission;
   const Truth& truth = input.truth;
-  if (truth.empty()) throw InputError(options.mission, 0, "no robot's truth is known (groundtruth.tum, or a graph's VERTEX lines)");
+  if (truth.empty())
+    throw InputError(options.mission, 0,
+                     "no robot's truth is known (groundtruth.tum, or a graph's VERTEX lines)");
   const RunFolder run = read_run(options.run);
   const auto places = places_in_mission(run, mission, options);
   const auto association = options.evo ? Association::kNearest : Association::kInterpolate;
@@ -150,7 +152,7 @@ void print_text(const Evaluation& evaluation) {
             << evaluation.closures.true_kept << " within the radius\n";
 }
 
-void evaluate_run(const Options& options) {
+void evaluate_run(const EvaluateOptions& options) {
   const Evaluation evaluation = evaluate(options);
   if (options.json) {
     std::cout << json_of(evaluation).dump(2) << '\n';
@@ -162,7 +164,7 @@ void evaluate_run(const Options& options) {
 }  // namespace
 
 void add_evaluate(CLI::App& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<EvaluateOptions>();
   auto* command = program.add_subcommand("evaluate", "Compare a run with the truth of its mission");
   command->add_option("OUT", options->run, "The folder that `radioslam run` wrote")->required();
   command

@@ -17,14 +17,14 @@ namespace {
 
 constexpr const char* kIndoorLocation = "indoor-location";
 
-struct Options {
+struct ImportOptions {
   std::string kind;
   std::string source;
   std::string output;
   ParameterOptions parameters;
 };
 
-void import_recordings(const Options& options) {
+void import_recordings(const ImportOptions& options) {
   if (options.kind != kIndoorLocation) {
     throw InputError("import " + options.kind, 0,
                      "there is no such kind of source" + did_you_mean(options.kind, {kIndoorLocation}));
@@ -43,7 +43,7 @@ void import_recordings(const Options& options) {
 }  // namespace
 
 void add_import(CLI::App& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ImportOptions>();
   auto* command = program.add_subcommand("import", "Turn other people's recordings into a mission");
   command->add_option("KIND", options->kind, "indoor-location: phone logs of walks on one floor")->required();
   command->add_option("SOURCE", options->source, "A log, or a folder that holds logs at any depth")

@@ -21,7 +21,7 @@
 namespace radioslam::cli {
 namespace {
 
-struct Options {
+struct OptimizeOptions {
   std::string input;
   std::string output;
   ParameterOptions parameters;
@@ -134,7 +134,7 @@ void print_text(const Report& report, const std::string& output) {
   }
 }
 
-void optimize_file(const Options& options) {
+void optimize_file(const OptimizeOptions& options) {
   if (options.certify)
     throw InputError("--certify", 0, "certificates of global optimality are not there yet");
   const auto settings = collect_settings(options.parameters.config_path, options.parameters.set);
@@ -157,7 +157,7 @@ void optimize_file(const Options& options) {
 }  // namespace
 
 void add_optimize(CLI::App& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<OptimizeOptions>();
   auto* command = program.add_subcommand("optimize", "Bring a pose graph to its minimum");
   command->add_option("GRAPH", options->input, "A graph in g2o's format, in the plane or in space")
       ->required();

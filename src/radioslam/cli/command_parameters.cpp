@@ -17,7 +17,7 @@
 namespace radioslam::cli {
 namespace {
 
-struct Options {
+struct ParametersOptions {
   std::string command = "run";
   bool json = false;
 };
@@ -61,7 +61,7 @@ nlohmann::ordered_json json_of(const std::vector<ParameterDescription>& paramete
   return object;
 }
 
-void list_parameters(const Options& options) {
+void list_parameters(const ParametersOptions& options) {
   const auto parameters = parameters_of(options.command);
   if (options.json) {
     std::cout << json_of(parameters).dump(2) << '\n';
@@ -73,7 +73,7 @@ void list_parameters(const Options& options) {
 }  // namespace
 
 void add_parameters(CLI::App& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ParametersOptions>();
   auto* command = program.add_subcommand("parameters", "List what --set and --config can change");
   command->add_option(
       "COMMAND", options->command,

@@ -17,7 +17,7 @@
 namespace radioslam::cli {
 namespace {
 
-struct Options {
+struct PruneOptions {
   std::string mission;
   std::string output;
   std::string mode;
@@ -26,7 +26,7 @@ struct Options {
   bool json = false;
 };
 
-RunOutput search(const Options& options, const RunParams& params) {
+RunOutput search(const PruneOptions& options, const RunParams& params) {
   const MissionInput input = read_input(options.mission);
   ProgressLine line;
   RunOptions how;
@@ -47,7 +47,7 @@ void print_text(const RunResult& result, const std::string& output) {
             << " pairs of keyframes are left, " << count("distances_evaluated") << " distances evaluated\n";
 }
 
-void prune(const Options& options) {
+void prune(const PruneOptions& options) {
   const auto settings = collect_settings(options.parameters.config_path, options.parameters.set);
   auto params = with_settings(RunParams{}, settings);
   if (!options.mode.empty()) params.overlap.mode = options.mode;
@@ -68,7 +68,7 @@ void prune(const Options& options) {
 }  // namespace
 
 void add_prune(CLI::App& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<PruneOptions>();
   auto* command = program.add_subcommand(
       "prune", "Find the pairs of keyframes whose views could overlap, and only those");
   command

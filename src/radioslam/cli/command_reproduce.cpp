@@ -24,7 +24,7 @@ constexpr int kMostSeeds = 1000;
 constexpr double kLeastCut = 0.01, kLargestCut = 0.99;
 constexpr const char* kStudyFolder = "table.json";
 
-struct Options {
+struct ReproduceOptions {
   std::string table;
   std::string output;
   std::string trajectory;
@@ -43,11 +43,11 @@ struct Study {
   std::string page;
 };
 
-[[noreturn]] void refuse(const Options& options, const std::string& reason) {
+[[noreturn]] void refuse(const ReproduceOptions& options, const std::string& reason) {
   throw InputError("reproduce " + options.table, 0, reason);
 }
 
-Study wi_closure_kitti(const Options& options) {
+Study wi_closure_kitti(const ReproduceOptions& options) {
   const RecordedDrive drive = read_drive("reproduce " + options.table, options.trajectory, options.odometry);
   auto scenario = with_settings(wi_closure_drive(), collect_settings({}, options.set));
   if (options.cut) scenario.cut = *options.cut;
@@ -61,7 +61,7 @@ Study wi_closure_kitti(const Options& options) {
   return {std::move(table), wi_closure_kitti_json(seeds), std::move(page)};
 }
 
-Study robustness(const Options& options) {
+Study robustness(const ReproduceOptions& options) {
   constexpr int kSeeds = 3;
   if (!options.trajectory.empty() || !options.odometry.empty() || options.cut)
     refuse(options, "takes no --trajectory, --odometry or --cut: its towns are simulated");
@@ -75,7 +75,7 @@ Study robustness(const Options& options) {
 struct Table {
   std::string_view name;
   std::string_view description;
-  Study (*reproduce)(const Options&);
+  Study (*reproduce)(const ReproduceOptions&);
 };
 
 constexpr std::array<Table, 2> kTables{
@@ -91,7 +91,7 @@ std::string table_list() {
   return text;
 }
 
-const Table& table_named(const Options& options) {
+const Table& table_named(const ReproduceOptions& options) {
   std::vector<std::string> names;
   for (const Table& table : kTables) {
     if (table.name == options.table) return table;
@@ -108,7 +108,7 @@ void write_study(const Study& study, OutputFolder& output) {
   output.commit();
 }
 
-void reproduce(const Options& options) {
+void reproduce(const ReproduceOptions& options) {
   if (options.table.empty()) {
     std::cout << table_list();
     return;
@@ -125,7 +125,7 @@ void reproduce(const Options& options) {
   }
 }
 
-void add_table_options(CLI::App& command, Options& options) {
+void add_table_options(CLI::App& command, ReproduceOptions& options) {
   command.add_option("--trajectory", options.trajectory, "wi-closure-kitti: the true poses of the drive")
       ->type_name("FILE");
   command.add_option("--odometry", options.odometry, "wi-closure-kitti: its odometry, in a frame of its own")
@@ -146,7 +146,7 @@ void add_table_options(CLI::App& command, Options& options) {
 }  // namespace
 
 void add_reproduce(CLI::App& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ReproduceOptions>();
   auto* command = program.add_subcommand("reproduce", "Make a published table again, ours beside it");
   command->add_option("TABLE", options->table, "Which one; without it, the list");
   command->add_option("-o,--output", options->output, "A folder for index.html, table.csv and table.json")

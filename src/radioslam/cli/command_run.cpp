@@ -24,7 +24,7 @@
 namespace radioslam::cli {
 namespace {
 
-struct Options {
+struct RunArguments {
   std::string mission;
   std::string output;
   ParameterOptions parameters;
@@ -66,7 +66,7 @@ RunOutput estimate(const MissionInput& input, const RunParams& params, bool no_p
   return run;
 }
 
-void run_mission(const Options& options) {
+void run_mission(const RunArguments& options) {
   const auto settings = collect_settings(options.parameters.config_path, options.parameters.set);
   const auto params = with_settings(RunParams{}, settings);
   OutputFolder output(options.output, kRunFolder);
@@ -87,7 +87,7 @@ void run_mission(const Options& options) {
 }  // namespace
 
 void add_run(CLI::App& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RunArguments>();
   auto* command = program.add_subcommand("run", "Estimate every robot's trajectory in one frame");
   command
       ->add_option("MISSION", options->mission,

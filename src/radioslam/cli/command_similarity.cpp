@@ -26,7 +26,7 @@ constexpr std::array kMeasures{SimilarityMeasure::kCosine,    SimilarityMeasure:
                                SimilarityMeasure::kDetection, SimilarityMeasure::kSlide,
                                SimilarityMeasure::kMended,    SimilarityMeasure::kSorensen};
 
-struct Options {
+struct SimilarityOptions {
   std::vector<std::string> inputs;
   std::string output;
   std::string measure;
@@ -76,7 +76,7 @@ std::string pair_rows(const std::vector<std::vector<Fingerprint>>& fingerprints,
   return rows;
 }
 
-void write_similarity(const Options& options) {
+void write_similarity(const SimilarityOptions& options) {
   const auto measure = measure_named(options.measure);
   const auto settings = collect_settings(options.parameters.config_path, options.parameters.set);
   const auto params = with_settings(SimilarityCommandParams{}, settings);
@@ -93,7 +93,7 @@ void write_similarity(const Options& options) {
 }  // namespace
 
 void add_similarity(CLI::App& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SimilarityOptions>();
   auto* command = program.add_subcommand("similarity", "Compare WiFi fingerprints pair by pair");
   command->add_option("WIFI", options->inputs, "One or two wifi.csv; two are compared with each other")
       ->required()

@@ -19,7 +19,7 @@
 namespace radioslam::cli {
 namespace {
 
-struct Options {
+struct SimulateOptions {
   std::string scenario;
   std::string output;
   std::uint64_t seed = 1;
@@ -37,7 +37,7 @@ const Scenario& scenario_named(const std::string& name) {
   throw InputError("simulate " + name, 0, "there is no such scenario" + did_you_mean(name, names));
 }
 
-std::vector<Setting> settings_of(const Options& options) {
+std::vector<Setting> settings_of(const SimulateOptions& options) {
   auto settings = collect_settings(options.parameters.config_path, options.parameters.set);
   if (options.robots) settings.push_back({"robots", *options.robots, "--robots", 0});
   if (options.cut) settings.push_back({"cut", *options.cut, "--cut", 0});
@@ -49,7 +49,7 @@ ScenarioParams with_scenario_settings(const ScenarioParams& defaults, const std:
                     defaults);
 }
 
-RecordedDrive drive_for(const Options& options, const ScenarioParams& params) {
+RecordedDrive drive_for(const SimulateOptions& options, const ScenarioParams& params) {
   if (needs_recording(params))
     return read_drive("simulate " + options.scenario, options.trajectory, options.odometry);
   if (!options.trajectory.empty() || !options.odometry.empty())
@@ -67,7 +67,7 @@ std::string summary(const Mission& mission) {
   return text;
 }
 
-void simulate_scenario(const Options& options) {
+void simulate_scenario(const SimulateOptions& options) {
   const Scenario& scenario = scenario_named(options.scenario);
   const auto params = with_scenario_settings(scenario.defaults, settings_of(options));
   const RecordedDrive drive = drive_for(options, params);
@@ -89,7 +89,7 @@ std::string scenario_list() {
 }  // namespace
 
 void add_simulate(CLI::App& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SimulateOptions>();
   auto* command =
       program.add_subcommand("simulate", "Make a mission with its truth, as robots would record it");
   command->add_option("SCENARIO", options->scenario, "What to simulate")->required();

@@ -7,7 +7,7 @@
 namespace radioslam {
 namespace {
 
-constexpr double kSmallAngle = 1e-4;
+constexpr double kSmallTurn_rad = 1e-4;
 
 /// sin(w)/w and (1 - cos w)/w, the entries of V in Exp: t = V * rho.
 struct Sincs {
@@ -15,7 +15,7 @@ struct Sincs {
 };
 
 Sincs sincs(double w) {
-  if (std::abs(w) < kSmallAngle) return {1 - w * w / 6, w / 2 - w * w * w / 24};
+  if (std::abs(w) < kSmallTurn_rad) return {1 - w * w / 6, w / 2 - w * w * w / 24};
   const double half_sine = std::sin(w / 2);  // 1 - cos w = 2 sin^2(w/2), without cancellation
   return {std::sin(w) / w, 2 * half_sine * half_sine / w};
 }
@@ -37,7 +37,7 @@ SE2 SE2::exp(const Tangent& xi) {
 SE2::Tangent SE2::log() const {
   // V^-1 = [a, w/2; -w/2, a] with a = (w/2) / tan(w/2).
   const double h = angle_ / 2;
-  const double a = std::abs(angle_) < kSmallAngle ? 1 - h * h / 3 : h / std::tan(h);
+  const double a = std::abs(angle_) < kSmallTurn_rad ? 1 - h * h / 3 : h / std::tan(h);
   return {a * t_.x() + h * t_.y(), -h * t_.x() + a * t_.y(), angle_};
 }
 
@@ -78,7 +78,7 @@ SE2::Jacobian SE2::right_jacobian(const Tangent& xi) {
   j(1, 0) = -c;
   j(1, 1) = s;
   double p = 0, q = 0;  // (w - sin w)/w^2 and (1 - cos w)/w^2
-  if (std::abs(w) < kSmallAngle) {
+  if (std::abs(w) < kSmallTurn_rad) {
     p = w / 6;
     q = 0.5 - w * w / 24;
   } else {

@@ -11,10 +11,6 @@
 namespace radioslam {
 namespace {
 
-bool is_given(const CsvReader& csv, std::size_t column) {
-  return csv.has(column) && !csv.field(column).empty();
-}
-
 double positive(const CsvReader& csv, std::size_t column, const char* what) {
   const double value = csv.coordinate(column);
   if (value <= 0) csv.fail(std::string(what) + " is not positive");
@@ -43,7 +39,7 @@ class Numbering {
 };
 
 std::string antenna_name(const CsvReader& csv, const std::string& id, std::size_t column) {
-  return is_given(csv, column) ? id + "/" + std::string(csv.field(column)) : id;
+  return csv.given(column) ? id + "/" + std::string(csv.field(column)) : id;
 }
 
 enum RangeColumn : std::size_t { kTime, kI, kJ, kRange, kSigma, kAntennaI, kAntennaJ };
@@ -110,7 +106,7 @@ DistanceTable read_distances(const Text& text, double default_sigma_m) {
     const std::string i = id_at(csv, kIdI), j = id_at(csv, kIdJ);
     if (i == j) csv.fail("a distance of '" + i + "' to itself");
     const double sigma_m =
-        is_given(csv, kDistanceSigma) ? positive(csv, kDistanceSigma, "a sigma") : default_sigma_m;
+        csv.given(kDistanceSigma) ? positive(csv, kDistanceSigma, "a sigma") : default_sigma_m;
     const std::size_t number_i = number_of(i), number_j = number_of(j);
     table.distances.push_back({number_i, number_j, positive(csv, kDistance, "a distance"), sigma_m});
   }

@@ -31,6 +31,8 @@ class CsvReader {
   /// Column numbers count through the required columns and on through the optional ones.
   bool has(std::size_t column) const { return places_[column].has_value(); }
   std::string_view field(std::size_t column) const { return fields_[*places_[column]]; }
+  /// Whether the row has something in a column that may be missing or empty.
+  bool given(std::size_t column) const { return has(column) && !field(column).empty(); }
   double number(std::size_t column) const;
   double coordinate(std::size_t column) const;
   double sigma(std::size_t column) const;

@@ -29,12 +29,8 @@ RadioEnd end_at(const CsvReader& csv, std::size_t column, const TeamNames& names
   return end;
 }
 
-bool is_given(const CsvReader& csv, std::size_t column) {
-  return csv.has(column) && !csv.field(column).empty();
-}
-
 void read_antenna(const CsvReader& csv, std::size_t column, const TeamNames& names, RadioEnd& end) {
-  if (!is_given(csv, column)) return;
+  if (!csv.given(column)) return;
   end.antenna = csv.field(column);
   if (!end.robot.valid()) csv.fail("an anchor has no antenna '" + end.antenna + "'");
   const Antennas none;
@@ -103,9 +99,9 @@ PathRow path_at(const CsvReader& csv, const TeamNames& names) {
   refuse_itself(csv, kReceiver, kTransmitter, "an angle of");
   row.number = csv.number(kPath);
   row.path.azimuth_rad = wrap_angle(csv.number(kAzimuth));
-  if (is_given(csv, kElevation)) row.path.elevation_rad = wrap_angle(csv.number(kElevation));
+  if (csv.given(kElevation)) row.path.elevation_rad = wrap_angle(csv.number(kElevation));
   row.path.sigma_rad = positive_sigma(csv, kSigma);
-  if (is_given(csv, kPower)) row.path.power_db = csv.number(kPower);
+  if (csv.given(kPower)) row.path.power_db = csv.number(kPower);
   return row;
 }
 

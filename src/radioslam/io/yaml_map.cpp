@@ -7,19 +7,19 @@
 namespace radioslam {
 namespace {
 
-std::size_t line_of(const YAML::Mark& mark) {
+std::size_t line_at(const YAML::Mark& mark) {
   return mark.line < 0 ? 1 : static_cast<std::size_t>(mark.line) + 1;
 }
 
 }  // namespace
 
-std::size_t line_of(const YAML::Node& node) { return line_of(node.Mark()); }
+std::size_t line_of(const YAML::Node& node) { return line_at(node.Mark()); }
 
 YAML::Node load_yaml(const Text& text) {
   try {
     return YAML::Load(text.content);
   } catch (const YAML::Exception& error) {
-    text.fail(line_of(error.mark), "not YAML: " + error.msg);
+    text.fail(line_at(error.mark), "not YAML: " + error.msg);
   }
 }
 

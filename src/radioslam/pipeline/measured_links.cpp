@@ -11,7 +11,7 @@
 namespace radioslam {
 namespace {
 
-constexpr double kLeastWeight = 0.5;  // of a range or path that is taken as direct
+constexpr double kDirectWeight = 0.5;  // of a range or path that is taken as direct
 
 /// Where a pose of the graph is on its robot's way.
 struct Place {
@@ -61,7 +61,7 @@ template <class Pose>
 const BearingFactor<Pose>* direct_path(const PoseGraph<Pose>& graph, PoseId receiver, PoseId transmitter) {
   const BearingFactor<Pose>* best = nullptr;
   for (const auto& factor : graph.bearings)
-    if (factor.i == receiver && factor.j.pose == transmitter && factor.weight >= kLeastWeight &&
+    if (factor.i == receiver && factor.j.pose == transmitter && factor.weight >= kDirectWeight &&
         (!best || factor.weight > best->weight))
       best = &factor;
   return best;
@@ -80,7 +80,7 @@ class MeasuredLinks {
       const auto& graph = joint_.team.graph;
       for (std::size_t k = 0; k < joint_.range_ties.size(); ++k) {
         const auto& range = graph.ranges[k];
-        if (!range.i.pose.valid() || !range.j.pose.valid() || range.weight < kLeastWeight) continue;
+        if (!range.i.pose.valid() || !range.j.pose.valid() || range.weight < kDirectWeight) continue;
         const auto* seen_by_i = nearest_bearing(range.i.pose, range.j.pose);
         const auto* seen_by_j = nearest_bearing(range.j.pose, range.i.pose);
         if (seen_by_i && seen_by_j) links.push_back(link(range, *seen_by_i, *seen_by_j));

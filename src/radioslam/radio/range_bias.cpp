@@ -14,7 +14,7 @@ using Eigen::Index;
 constexpr double kDeviationToSigma = 1.4826;  // median absolute deviation of a normal distribution
 constexpr double kHuberSigmas = 1.345;        // 95 % efficiency (Huber 1981)
 constexpr int kHuberSteps = 50;
-constexpr double kSettled_m = 1e-5;
+constexpr double kBiasSettled_m = 1e-5;
 constexpr double kClipSigmas = 3;  // so that single reflections do not make the correlation
 constexpr double kMostCorrelated = 0.99;
 
@@ -104,7 +104,7 @@ class Calibration {
       const double moved_m = improve_biases();
       find_noise();
       place();
-      if (moved_m < kSettled_m) break;
+      if (moved_m < kBiasSettled_m) break;
     }
     return result();
   }

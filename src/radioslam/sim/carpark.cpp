@@ -11,9 +11,6 @@
 namespace radioslam {
 namespace {
 
-/// Arcs cut corners, so the way is shorter than the lanes it follows: by less than a fifth.
-constexpr double kSpareWay = 1.25;
-
 /// A crossing for each robot, none twice as long as there are enough.
 std::vector<std::size_t> draw_starts(const LaneGrid& lanes, std::size_t robots, const Rng& rng) {
   std::vector<std::size_t> starts;
@@ -30,10 +27,8 @@ std::vector<std::size_t> draw_starts(const LaneGrid& lanes, std::size_t robots, 
 }
 
 Drive draw_drive(const LaneGrid& lanes, std::size_t start, const DriveParams& params, const Rng& rng) {
-  std::vector<Eigen::Vector2d> corners;
-  for (const std::size_t i : draw_route(lanes, start, kSpareWay * params.path_length_m, rng.split("route")))
-    corners.push_back(lanes.crossing(i));
-  return Drive(corners, params, rng.split("wander"));
+  return Drive(draw_corners(lanes, start, params.path_length_m, rng.split("route")), params,
+               rng.split("wander"));
 }
 
 std::vector<SE2> poses_at(const std::vector<Stamp>& stamps, const PoseAtTime& pose_at) {

@@ -14,6 +14,7 @@ namespace {
 constexpr double kShortestWave_m = 12;
 constexpr double kLongestWave_m = 40;
 constexpr double kStraight_rad = 1e-9;     ///< turns below this are none
+constexpr double kSpareWay = 1.25;         ///< arcs cut corners and shorten the way, by less than a fifth
 constexpr double kLongestCutShare = 0.45;  ///< of a lane that the corner at one end may take
 
 using LaneUse = std::map<std::pair<std::size_t, std::size_t>, int>;
@@ -49,6 +50,14 @@ std::vector<std::size_t> draw_route(const LaneGrid& lanes, std::size_t start, do
     route.push_back(next);
   }
   return route;
+}
+
+std::vector<Eigen::Vector2d> draw_corners(const LaneGrid& lanes, std::size_t start, double path_length_m,
+                                          const Rng& rng) {
+  std::vector<Eigen::Vector2d> corners;
+  for (const std::size_t i : draw_route(lanes, start, kSpareWay * path_length_m, rng))
+    corners.push_back(lanes.crossing(i));
+  return corners;
 }
 
 Drive::Drive(const std::vector<Eigen::Vector2d>& corners, const DriveParams& params, Rng rng) {

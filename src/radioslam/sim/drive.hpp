@@ -37,6 +37,10 @@ struct DriveParams {
 /// Crossings passed from `start`, one after the other, until the way is at least `length_m` long.
 std::vector<std::size_t> draw_route(const LaneGrid& lanes, std::size_t start, double length_m, Rng rng);
 
+/// Where a drive of `path_length_m` from a crossing turns: the crossings of a route that is long enough.
+std::vector<Eigen::Vector2d> draw_corners(const LaneGrid& lanes, std::size_t start, double path_length_m,
+                                          const Rng& rng);
+
 /// Where a drive leads, by the way along the centre lines.
 class Drive {
  public:

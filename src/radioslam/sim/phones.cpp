@@ -4,11 +4,10 @@
 #include <cmath>
 
 #include "radioslam/base/check.hpp"
+#include "radioslam/sim/stamps.hpp"
 
 namespace radioslam {
 namespace {
-
-constexpr std::int64_t kMillisecond_ns = 1000000;
 
 Stamp whole_milliseconds(double seconds) {
   return {static_cast<std::int64_t>(std::llround(seconds * 1e3)) * kMillisecond_ns};

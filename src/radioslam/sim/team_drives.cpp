@@ -9,17 +9,12 @@
 namespace radioslam {
 namespace {
 
-/// Arcs cut corners, so the way is shorter than the lanes it follows: by less than a fifth.
-constexpr double kSpareWay = 1.25;
 constexpr std::size_t kParts = 4;  ///< of a mission, in each of which robots shall meet
 
 Trajectory<SE3> draw_way(const LaneGrid& lanes, const Hills& ground, const TeamDriveParams& params,
                          const Rng& rng) {
   const std::size_t start = rng.split("start").below(lanes.size());
-  std::vector<Eigen::Vector2d> corners;
-  const double length_m = kSpareWay * params.drive.path_length_m;
-  for (const std::size_t i : draw_route(lanes, start, length_m, rng.split("route")))
-    corners.push_back(lanes.crossing(i));
+  const auto corners = draw_corners(lanes, start, params.drive.path_length_m, rng.split("route"));
   const Drive drive(corners, params.drive, rng.split("wander"));
   const double end_s = params.drive.path_length_m / params.drive.speed_mps;
   std::vector<StampedPose<SE3>> poses;

@@ -6,15 +6,14 @@
 
 #include "radioslam/base/parallel.hpp"
 #include "radioslam/geometry/se2.hpp"
+#include "radioslam/team_frame/measurement_mixture.hpp"
 
 namespace radioslam {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kUniformShare = 1 / 12.0;    // variance of a uniform density of width one
-constexpr double kNearest_m = 0.5;            // nearer, directions mean nothing
-constexpr double kWidest_rad = 2.5066282746;  // as wide, a normal density is the uniform one at its peak
-constexpr double kHeadingReach = 3;           // sigmas of a known heading that are searched
+constexpr double kUniformShare = 1 / 12.0;  // variance of a uniform density of width one
+constexpr double kNearest_m = 0.5;          // nearer, directions mean nothing
+constexpr double kHeadingReach = 3;         // sigmas of a known heading that are searched
 
 Eigen::Vector2d quarter_turn(const Eigen::Vector2d& v) { return {-v.y(), v.x()}; }
 
@@ -70,7 +69,7 @@ class Scorer {
     const double direction = std::atan2(v.y(), v.x());
     const GridEnd& receiver = received_by_placed ? a : b;
     const double sign = received_by_placed ? -1 : 1;  // of the receiver's own position in v
-    const double value = direction - receiver.heading_rad + (received_by_placed ? 0 : kPi);
+    const double value = direction - receiver.heading_rad + (received_by_placed ? 0 : std::numbers::pi);
     double variance = variance_along(across, a, b, cell) + receiver.covariance(2, 2) -
                       2 * sign * across.dot(receiver.covariance.topRightCorner<2, 1>());
     if (!received_by_placed) variance += heading_of_cell(across.dot(quarter_turn(b.position)), cell);
@@ -82,7 +81,7 @@ class Scorer {
     const double sigma = std::sqrt(predicted.variance + link.sigma_m * link.sigma_m);
     const double error = (predicted.value - link.range_m) / sigma;
     const double share = problem_.mixture.false_range_probability;
-    return std::log((1 - share) * std::exp(-0.5 * error * error) / (std::sqrt(2 * kPi) * sigma) +
+    return std::log((1 - share) * std::exp(-0.5 * error * error) / (std::sqrt(2 * std::numbers::pi) * sigma) +
                     share / problem_.span_m);
   }
 
@@ -91,10 +90,10 @@ class Scorer {
     double density = 1 - problem_.mixture.direct_probability;
     for (std::size_t p = 0; p < link.azimuth_rad.size(); ++p) {
       const double sigma =
-          std::min(kWidest_rad, std::sqrt(predicted.variance + link.sigma_rad[p] * link.sigma_rad[p]));
+          std::min(kWidest_rad<SE2>, std::sqrt(predicted.variance + link.sigma_rad[p] * link.sigma_rad[p]));
       const double error = wrap_angle(predicted.value - link.azimuth_rad[p]) / sigma;
-      density += problem_.mixture.direct_probability * link.prior[p] * std::sqrt(2 * kPi) / sigma *
-                 std::exp(-0.5 * error * error);
+      density += problem_.mixture.direct_probability * link.prior[p] * std::sqrt(2 * std::numbers::pi) /
+                 sigma * std::exp(-0.5 * error * error);
     }
     return std::log(density);
   }
@@ -110,7 +109,7 @@ class Scorer {
 };
 
 Cell make_cell(const GridCell& at, const GridParams& params) {
-  const double step = 2 * kPi / params.angle_steps;
+  const double step = 2 * std::numbers::pi / params.angle_steps;
   const Eigen::Vector2d radial(std::cos(at.phi_rad), std::sin(at.phi_rad));
   return {at.distance_m * radial,
           radial,
@@ -123,7 +122,7 @@ Cell make_cell(const GridCell& at, const GridParams& params) {
 /// The headings to try.
 std::vector<double> headings(const GridProblem& problem, const GridParams& params) {
   std::vector<double> result;
-  const double step = 2 * kPi / params.angle_steps;
+  const double step = 2 * std::numbers::pi / params.angle_steps;
   for (int k = 0; k < params.angle_steps; ++k) {
     const double theta = wrap_angle(k * step);
     const bool possible = !problem.heading || std::abs(wrap_angle(theta - problem.heading->first)) <=
@@ -142,8 +141,8 @@ std::vector<double> score_heading(const GridProblem& problem, const GridParams& 
   std::vector<double> scores;
   for (const DistanceCell& distance : problem.distances)
     for (int k = 0; k < params.angle_steps; ++k) {
-      const GridCell at{distance.distance_m, distance.sigma_m, 2 * kPi * k / params.angle_steps, theta_rad,
-                        0};
+      const GridCell at{distance.distance_m, distance.sigma_m, 2 * std::numbers::pi * k / params.angle_steps,
+                        theta_rad, 0};
       const Cell cell = make_cell(at, params);
       double score = 0;
       for (std::size_t l = 0; l < range_ends.size(); ++l)
@@ -156,7 +155,7 @@ std::vector<double> score_heading(const GridProblem& problem, const GridParams& 
 }
 
 bool neighbours(const GridCell& a, const GridCell& b, const GridParams& params) {
-  const double reach = 2.5 * 2 * kPi / params.angle_steps;
+  const double reach = 2.5 * 2 * std::numbers::pi / params.angle_steps;
   return std::abs(wrap_angle(a.phi_rad - b.phi_rad)) < reach &&
          std::abs(wrap_angle(a.theta_rad - b.theta_rad)) < reach &&
          std::abs(std::log((a.distance_m + kNearest_m) / (b.distance_m + kNearest_m))) <
@@ -177,8 +176,8 @@ std::vector<GridCell> best_cells(const GridProblem& problem, const GridParams& p
       const auto steps = static_cast<std::size_t>(params.angle_steps);
       const DistanceCell& distance = problem.distances[k / steps];
       cells.push_back({distance.distance_m, distance.sigma_m,
-                       wrap_angle(2 * kPi * static_cast<double>(k % steps) / params.angle_steps), thetas[t],
-                       scores[t][k]});
+                       wrap_angle(2 * std::numbers::pi * static_cast<double>(k % steps) / params.angle_steps),
+                       thetas[t], scores[t][k]});
     }
   std::stable_sort(cells.begin(), cells.end(),
                    [](const auto& a, const auto& b) { return a.score > b.score; });

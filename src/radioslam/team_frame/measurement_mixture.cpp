@@ -28,10 +28,6 @@ double direction_density(double squared_norm, double sigma) {
   return peak * std::exp(-0.5 * squared_norm);
 }
 
-/// Wider than this a direction says nothing: its density is the uniform one.
-template <class Pose>
-constexpr double kWidest_rad = Pose::kDim == 2 ? 2.5066282746310002 : 1.4142135623730951;
-
 }  // namespace
 
 template <class Pose>

@@ -16,6 +16,10 @@
 
 namespace radioslam {
 
+/// Wider than this a direction says nothing: its density is the uniform one.
+template <class Pose>
+inline constexpr double kWidest_rad = Pose::kDim == 2 ? 2.5066282746310002 : 1.4142135623730951;
+
 struct MixtureParams {
   double direct_probability = 0.8;        ///< P
   double false_range_probability = 0.03;  ///< e

@@ -14,8 +14,6 @@ namespace {
 
 using ConstPanel = Eigen::Map<const Eigen::MatrixXd>;
 
-Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
-
 /// target(parent rows, parent columns) += lower triangle of a child's update matrix, for the columns of the
 /// runs [begin, end). `row_shift` is what target's first row and column are called in the parent front.
 void add_columns(const FrontTree& tree, const Front& child, const double* update, Range columns,

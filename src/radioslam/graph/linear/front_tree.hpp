@@ -10,6 +10,9 @@
 
 namespace radioslam {
 
+/// A place or size as Eigen takes it.
+inline Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
+
 /// `length` successive rows of a front's update matrix that are successive rows of the parent front.
 /// A run lies in the parent's pivots or below them, not across.
 struct RowRun {

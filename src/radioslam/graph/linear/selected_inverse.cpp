@@ -8,8 +8,6 @@
 namespace radioslam {
 namespace {
 
-Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
-
 /// A front's covariances while the fronts below it are being computed.
 struct ParentFront {
   const double* panel = nullptr;  ///< pivots with all rows

@@ -5,7 +5,7 @@
 namespace radioslam {
 namespace {
 
-using Children = std::vector<std::vector<std::uint32_t>>;
+using ChildLists = std::vector<std::vector<std::uint32_t>>;
 
 double work(const FrontCost& cost, std::size_t pivots, std::size_t below) {
   const auto p = static_cast<double>(pivots);
@@ -41,7 +41,7 @@ void absorb(Supernode& node, Supernode& child) {
 
 /// Joins a front with those of its children that are cheaper to eliminate in it than by themselves.
 void amalgamate(std::vector<Supernode>& nodes, const FrontCost& cost) {
-  Children children(nodes.size());
+  ChildLists children(nodes.size());
   for (std::uint32_t s = 0; s < nodes.size(); ++s) {
     auto& node = nodes[s];
     auto candidates = std::move(children[s]);
