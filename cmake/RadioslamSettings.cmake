@@ -28,5 +28,7 @@ target_compile_options(radioslam_warnings INTERFACE
   # -Wrestrict is wrong about "literal" + std::string (GCC bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-uninitialized -Wno-array-bounds -Wno-stringop-overflow
                                   -Wno-restrict>
-  # In a unity build no source is the main file, where g++ lets lambdas capture types of anonymous namespaces.
+  # In a unity build sources see each other's names, and none is the main file, where g++ lets lambdas capture
+  # types of anonymous namespaces.
+  $<$<BOOL:${CMAKE_UNITY_BUILD}>:-Wno-shadow>
   $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wno-subobject-linkage>)
