@@ -103,9 +103,9 @@ Vec<T, Pose::kDim> end_position(const T* pose, const T* point, const RangeEnd<Po
 template <class Pose>
 struct Range {
   template <class T>
-  bool operator()(const T* a, const T* b, const T* point, T* out) const {
+  bool operator()(const T* a, const T* b, const T* point, const T* bias, T* out) const {
     const Vec<T, Pose::kDim> way = end_position<Pose>(b, point, f.j) - end_position<Pose>(a, point, f.i);
-    out[0] = (way.norm() - T(f.range_m)) * T(std::sqrt(f.weight) / f.sigma_m);
+    out[0] = (way.norm() + bias[0] - T(f.range_m)) * T(std::sqrt(f.weight) / f.sigma_m);
     return true;
   }
   RangeFactor<Pose> f;
@@ -152,6 +152,15 @@ struct RelativePoint {
   RelativePointFactor<Pose> f;
 };
 
+struct BiasPrior {
+  template <class T>
+  bool operator()(const T* bias, const T* of, T* out) const {
+    out[0] = (bias[0] - of[0] - T(f.mean_m)) / T(f.sigma_m);
+    return true;
+  }
+  RangeBiasPriorFactor f;
+};
+
 struct DriftPrior {
   template <class T>
   bool operator()(const T* d, T* out) const {
@@ -173,11 +182,13 @@ class Referee {
  public:
   static constexpr int kDim = Pose::kDim, kDof = Pose::kDof;
 
-  explicit Referee(const PoseGraph<Pose>& graph) : points_(graph.points), drifts_(graph.drifts) {
+  explicit Referee(const PoseGraph<Pose>& graph)
+      : points_(graph.points), drifts_(graph.drifts), biases_(graph.range_biases) {
     for (const auto& pose : graph.poses) poses_.push_back(parameters(pose));
     poses_.push_back(Array<kDof>::Zero());
     points_.push_back(Pose::Point::Zero());
     drifts_.push_back(Drift::Zero());
+    biases_.push_back(0);
     for (const auto& f : graph.relative_poses) {
       auto* cost = new ceres::AutoDiffCostFunction<Relative<Pose>, kDof, kDof, kDof, 2>(
           new Relative<Pose>{parameters(f.T_i_j), root(f.information, f.weight), f.drift_jacobian});
@@ -190,8 +201,8 @@ class Referee {
     }
     for (const auto& f : graph.ranges)
       problem_.AddResidualBlock(
-          new ceres::AutoDiffCostFunction<Range<Pose>, 1, kDof, kDof, kDim>(new Range<Pose>{f}),
-          ceres_loss(f.loss), pose(f.i.pose), pose(f.j.pose), point(f.j.point));
+          new ceres::AutoDiffCostFunction<Range<Pose>, 1, kDof, kDof, kDim, 1>(new Range<Pose>{f}),
+          ceres_loss(f.loss), pose(f.i.pose), pose(f.j.pose), point(f.j.point), bias(f.bias));
     for (const auto& f : graph.bearings)
       problem_.AddResidualBlock(
           new ceres::AutoDiffCostFunction<Bearing<Pose>, kDim, kDof, kDof, kDim>(new Bearing<Pose>{f}),
@@ -207,7 +218,11 @@ class Referee {
     for (const auto& f : graph.drift_priors)
       problem_.AddResidualBlock(new ceres::AutoDiffCostFunction<DriftPrior, 2, 2>(new DriftPrior{f}), nullptr,
                                 drift(f.i));
-    for (double* dummy : {poses_.back().data(), points_.back().data(), drifts_.back().data()})
+    for (const auto& f : graph.range_bias_priors)
+      problem_.AddResidualBlock(new ceres::AutoDiffCostFunction<BiasPrior, 1, 1, 1>(new BiasPrior{f}),
+                                nullptr, bias(f.i), bias(f.of));
+    for (double* dummy :
+         {poses_.back().data(), points_.back().data(), drifts_.back().data(), &biases_.back()})
       if (problem_.HasParameterBlock(dummy)) problem_.SetParameterBlockConstant(dummy);
   }
 
@@ -237,6 +252,8 @@ class Referee {
       worst = std::max(worst, (graph.points[i] - points_[i]).norm());
     for (std::size_t i = 0; i < graph.drifts.size(); ++i)
       worst = std::max(worst, (graph.drifts[i] - drifts_[i]).norm());
+    for (std::size_t i = 0; i < graph.range_biases.size(); ++i)
+      worst = std::max(worst, std::abs(graph.range_biases[i] - biases_[i]));
     return worst;
   }
 
@@ -244,10 +261,12 @@ class Referee {
   double* pose(PoseId i) { return (i.valid() ? poses_[i.index()] : poses_.back()).data(); }
   double* point(PointId i) { return (i.valid() ? points_[i.index()] : points_.back()).data(); }
   double* drift(DriftId i) { return (i.valid() ? drifts_[i.index()] : drifts_.back()).data(); }
+  double* bias(BiasId i) { return i.valid() ? &biases_[i.index()] : &biases_.back(); }
 
   std::vector<Array<kDof>> poses_;
   std::vector<typename Pose::Point> points_;
   std::vector<Drift> drifts_;
+  std::vector<double> biases_;
   ceres::Problem problem_;
 };
 

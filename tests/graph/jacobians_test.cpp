@@ -14,15 +14,18 @@ void move(PoseGraph<Pose>& graph, const Variable& v, int axis, double step) {
     graph.poses[i] = graph.poses[i] * Pose::exp(step * Pose::Tangent::Unit(axis));
   else if (v.kind == VariableKind::kPoint)
     graph.points[i][axis] += step;
-  else
+  else if (v.kind == VariableKind::kDrift)
     graph.drifts[i][axis] += step;
+  else
+    graph.range_biases[i] += step;
 }
 
 template <class Pose>
 int dimension(const Variable& v) {
   if (v.kind == VariableKind::kPose) return Pose::kDof;
   if (v.kind == VariableKind::kPoint) return Pose::kDim;
-  return v.kind == VariableKind::kDrift ? 2 : 0;
+  if (v.kind == VariableKind::kDrift) return 2;
+  return v.kind == VariableKind::kBias ? 1 : 0;
 }
 
 /// Largest difference between a factor's Jacobians and central differences of its residual.

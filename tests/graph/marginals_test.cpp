@@ -79,11 +79,14 @@ TYPED_TEST(MarginalsOf, EveryVariableEqualTheDenseInverse) {
   }
   const auto drift = variable(DriftId(0));
   close(marginals->drift(DriftId(0)), this->expected(drift, drift));
+  const auto bias = variable(BiasId(0));
+  EXPECT_NEAR(marginals->range_bias_m2(BiasId(0)), this->expected(bias, bias)(0, 0), 1e-12);
 }
 
 TYPED_TEST(MarginalsOf, EveryPairEqualTheDenseInverse) {
   const auto marginals = Marginals<TypeParam>::compute(this->graph);
-  std::vector<Variable> all{variable(PointId(0)), variable(PointId(1)), variable(DriftId(0))};
+  std::vector<Variable> all{variable(PointId(0)), variable(PointId(1)), variable(DriftId(0)),
+                            variable(BiasId(0)), variable(BiasId(1))};
   for (std::size_t i = 0; i < 25; ++i) all.push_back(variable(PoseId(i)));
   for (const auto& a : all)
     for (const auto& b : all) {

@@ -61,9 +61,10 @@ class GraphDrawing {
     }
   }
 
-  void add_points_and_drift() {
+  void add_points_drift_and_bias() {
     graph_.points = {draw_.point(5), draw_.point(5)};
     graph_.drifts = {Drift(0.02, -0.05)};
+    graph_.range_biases = {0.3, 0.2};
   }
 
   void add_relative(std::size_t i, std::size_t j, DriftId drift) {
@@ -85,6 +86,10 @@ class GraphDrawing {
   void add_range(std::size_t i) {
     RangeFactor<Pose> range{end_at(i), i % 3 == 0 ? end_at(i + 3) : point(i % 2), 0, 0.2, {}, 1};
     range.range_m = (place(range.j) - place(range.i)).norm() + 0.1 * noise_ * draw_.rng.normal();
+    if (i % 2 == 0) {
+      range.bias = BiasId(0);
+      range.range_m += graph_.range_biases[0];
+    }
     graph_.ranges.push_back(range);
   }
 
@@ -117,6 +122,9 @@ class GraphDrawing {
     graph_.pose_priors.push_back(
         {PoseId(pose), measured(graph_.poses[pose]), draw_.template information<kDof>(), {}, 0.5});
     graph_.drift_priors.push_back({DriftId(0), graph_.drifts[0], 100 * draw_.template information<2>()});
+    graph_.range_bias_priors.push_back(
+        {BiasId(0), BiasId(1), graph_.range_biases[0] - graph_.range_biases[1], 0.5});
+    graph_.range_bias_priors.push_back({BiasId(1), {}, graph_.range_biases[1], 0.4});
   }
 
  private:
@@ -134,14 +142,15 @@ class GraphDrawing {
 };
 
 /// A walk of `count` poses; a relative pose for every step and for loops of 5; with extras, ranges between
-/// poses, with lever arms, and to points, bearings, sightings, positions, priors, and one drift
-/// in the odometry.
+/// poses, with lever arms, and to points, bearings, sightings, positions, priors, one drift
+/// in the odometry, and one bias of every other range
+/// with another above it.
 template <class Pose>
 PoseGraph<Pose> draw_graph(std::uint64_t seed, std::size_t count, double noise, Extras extras) {
   GraphDrawing<Pose> drawing(seed, noise);
   const bool rich = extras == Extras::kAll;
   drawing.add_walk(count);
-  if (rich) drawing.add_points_and_drift();
+  if (rich) drawing.add_points_drift_and_bias();
   for (std::size_t i = 0; i + 1 < count; ++i) drawing.add_relative(i, i + 1, rich ? DriftId(0) : DriftId());
   for (std::size_t i = 0; i + 5 < count; i += 2) drawing.add_relative(i, i + 5, {});
   if (!rich) return drawing.graph();
@@ -156,7 +165,7 @@ PoseGraph<Pose> draw_graph(std::uint64_t seed, std::size_t count, double noise, 
   return drawing.graph();
 }
 
-/// Moves every pose but the first, every point and every drift.
+/// Moves every pose but the first, and every point, drift and bias.
 template <class Pose>
 void disturb(PoseGraph<Pose>& graph, std::uint64_t seed, double amount) {
   Drawing<Pose> draw(seed);
@@ -164,9 +173,10 @@ void disturb(PoseGraph<Pose>& graph, std::uint64_t seed, double amount) {
     graph.poses[i] = graph.poses[i] * draw.pose(amount, amount);
   for (auto& point : graph.points) point += draw.point(amount);
   for (auto& drift : graph.drifts) drift += 0.1 * amount * draw.template normals<2>(1);
+  for (auto& bias : graph.range_biases) bias += amount;
 }
 
-/// The largest difference of any pose, point or drift.
+/// The largest difference of any pose, point, drift or bias.
 template <class Pose>
 double largest_difference(const PoseGraph<Pose>& a, const PoseGraph<Pose>& b) {
   double worst = 0;
@@ -176,6 +186,8 @@ double largest_difference(const PoseGraph<Pose>& a, const PoseGraph<Pose>& b) {
     worst = std::max(worst, (a.points[i] - b.points[i]).norm());
   for (std::size_t i = 0; i < a.drifts.size(); ++i)
     worst = std::max(worst, (a.drifts[i] - b.drifts[i]).norm());
+  for (std::size_t i = 0; i < a.range_biases.size(); ++i)
+    worst = std::max(worst, std::abs(a.range_biases[i] - b.range_biases[i]));
   return worst;
 }
 

@@ -142,6 +142,7 @@ class Reduction {
     reduced.chart = graph_.chart;
     reduced.points = graph_.points;
     reduced.drifts = graph_.drifts;
+    reduced.range_biases = graph_.range_biases;
     for (std::size_t i = 0; i < kept_.size(); ++i) {
       if (!kept_[i]) continue;
       skeleton_.of_pose[i] = PoseId(reduced.poses.size());
@@ -165,6 +166,7 @@ class Reduction {
     reduced.positions = graph_.positions;
     reduced.pose_priors = graph_.pose_priors;
     reduced.drift_priors = graph_.drift_priors;
+    reduced.range_bias_priors = graph_.range_bias_priors;
     const auto both = [&](auto& factors) {
       for (auto& factor : factors) renumber(factor.i), renumber(factor.j);
     };

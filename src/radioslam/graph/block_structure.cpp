@@ -15,6 +15,8 @@ std::int32_t VariableBlocks::of(const Variable& v) const {
       return points[static_cast<std::size_t>(v.id)];
     case VariableKind::kDrift:
       return drifts[static_cast<std::size_t>(v.id)];
+    case VariableKind::kBias:
+      return biases[static_cast<std::size_t>(v.id)];
   }
   return -1;
 }
@@ -31,11 +33,13 @@ template <class Pose>
 VariableBlocks number_blocks(const PoseGraph<Pose>& graph, const std::vector<bool>& held) {
   VariableBlocks b{std::vector<std::int32_t>(graph.poses.size(), -1),
                    std::vector<std::int32_t>(graph.points.size(), -1),
-                   std::vector<std::int32_t>(graph.drifts.size(), -1)};
+                   std::vector<std::int32_t>(graph.drifts.size(), -1),
+                   std::vector<std::int32_t>(graph.range_biases.size(), -1)};
   for_each_factor(graph, [&](const auto& factor) {
     for (const Variable& v : variables(factor)) {
       if (v.kind == VariableKind::kPoint) b.points[static_cast<std::size_t>(v.id)] = 0;
       if (v.kind == VariableKind::kDrift) b.drifts[static_cast<std::size_t>(v.id)] = 0;
+      if (v.kind == VariableKind::kBias) b.biases[static_cast<std::size_t>(v.id)] = 0;
     }
   });
   std::int32_t next = 0;
@@ -43,6 +47,7 @@ VariableBlocks number_blocks(const PoseGraph<Pose>& graph, const std::vector<boo
     if (!held[i]) b.poses[i] = next++;
   for (auto& block : b.points) block = block < 0 ? -1 : next++;
   for (auto& block : b.drifts) block = block < 0 ? -1 : next++;
+  for (auto& block : b.biases) block = block < 0 ? -1 : next++;
   return b;
 }
 
@@ -56,6 +61,7 @@ BlockPattern block_pattern(const PoseGraph<Pose>& graph, const VariableBlocks& b
   add_sizes(blocks.poses, Pose::kDof);
   add_sizes(blocks.points, Pose::kDim);
   add_sizes(blocks.drifts, static_cast<int>(Drift::SizeAtCompileTime));
+  add_sizes(blocks.biases, 1);
   for_each_factor(graph, [&](const auto& factor) {
     const auto indices = block_indices(blocks, variables(factor));
     for_each_pair<std::tuple_size_v<decltype(indices)>>([&](std::size_t, std::size_t a, std::size_t b) {

@@ -1,5 +1,6 @@
 // Which block of the normal equations belongs to which variable, and where a factor adds to them.
-// Order of the blocks: poses, points, drifts, without held poses and variables that no factor touches.
+// Order of the blocks: poses, points, drifts, range biases, without held poses and variables that no factor
+// touches.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +15,7 @@ namespace radioslam {
 
 /// The block of each variable; -1 for those left out.
 struct VariableBlocks {
-  std::vector<std::int32_t> poses, points, drifts;
+  std::vector<std::int32_t> poses, points, drifts, biases;
 
   std::int32_t of(const Variable& v) const;
 };

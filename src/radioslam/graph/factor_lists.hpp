@@ -13,7 +13,7 @@ namespace radioslam {
 template <class Pose>
 auto factor_lists(const PoseGraph<Pose>& graph) {
   return std::tie(graph.relative_poses, graph.ranges, graph.bearings, graph.relative_points, graph.positions,
-                  graph.pose_priors, graph.drift_priors);
+                  graph.pose_priors, graph.drift_priors, graph.range_bias_priors);
 }
 
 template <class Pose, class Body>
@@ -24,7 +24,7 @@ void for_each_factor(const PoseGraph<Pose>& graph, Body&& body) {
   std::apply([&](const auto&... lists) { (one_list(lists), ...); }, factor_lists(graph));
 }
 
-enum class VariableKind : std::uint8_t { kNone, kPose, kPoint, kDrift };
+enum class VariableKind : std::uint8_t { kNone, kPose, kPoint, kDrift, kBias };
 
 struct Variable {
   VariableKind kind = VariableKind::kNone;
@@ -37,6 +37,9 @@ inline Variable variable(PointId id) { return {VariableKind::kPoint, id.value}; 
 inline Variable variable(DriftId id) {
   return id.valid() ? Variable{VariableKind::kDrift, id.value} : Variable{};
 }
+inline Variable variable(BiasId id) {
+  return id.valid() ? Variable{VariableKind::kBias, id.value} : Variable{};
+}
 template <class Pose>
 Variable variable(const RangeEnd<Pose>& end) {
   return end.pose.valid() ? variable(end.pose) : variable(end.point);
@@ -48,8 +51,8 @@ std::array<Variable, 3> variables(const RelativePoseFactor<Pose>& f) {
   return {variable(f.i), variable(f.j), variable(f.drift)};
 }
 template <class Pose>
-std::array<Variable, 2> variables(const RangeFactor<Pose>& f) {
-  return {variable(f.i), variable(f.j)};
+std::array<Variable, 3> variables(const RangeFactor<Pose>& f) {
+  return {variable(f.i), variable(f.j), variable(f.bias)};
 }
 template <class Pose>
 std::array<Variable, 2> variables(const BearingFactor<Pose>& f) {
@@ -68,5 +71,8 @@ std::array<Variable, 1> variables(const PosePriorFactor<Pose>& f) {
   return {variable(f.i)};
 }
 inline std::array<Variable, 1> variables(const DriftPriorFactor& f) { return {variable(f.i)}; }
+inline std::array<Variable, 2> variables(const RangeBiasPriorFactor& f) {
+  return {variable(f.i), variable(f.of)};
+}
 
 }  // namespace radioslam

@@ -37,7 +37,7 @@ class DisjointSets {
   std::vector<std::int32_t> parent_;
 };
 
-/// The place of a pose or point in the joint numbering; -1 for a drift or none.
+/// The place of a pose or point in the joint numbering; -1 for a drift, a bias or none.
 template <class Pose>
 std::int32_t member(const PoseGraph<Pose>& graph, const Variable& v) {
   if (v.kind == VariableKind::kPose) return v.id;

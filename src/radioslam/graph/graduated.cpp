@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "radioslam/base/check.hpp"
+#include "radioslam/graph/graph_values.hpp"
 #include "radioslam/graph/normal_equations.hpp"
 #include "radioslam/graph/residuals.hpp"
 
@@ -100,9 +101,7 @@ class Graduation {
   /// round, bent by outliers, may have left the basin that the first values lie in.
   void iterate(const OptimizerParams& params) {
     PoseGraph<Pose> start = work_;
-    start.poses = original_.poses;
-    start.points = original_.points;
-    start.drifts = original_.drifts;
+    GraphValues<Pose>(original_).restore(start);
     if (total_cost(start) < total_cost(work_)) work_ = std::move(start);
     summary_.last = optimize(work_, equations_, params);
     summary_.iterations += summary_.last.iterations;
@@ -208,9 +207,7 @@ GraduatedSummary optimize_graduated(PoseGraph<Pose>& graph, const FactorMask& ma
                                     const Progress& progress) {
   Graduation<Pose> graduation(graph, mask, loss, params, optimizer);
   GraduatedSummary summary = graduation.run(progress);
-  graph.poses = graduation.work().poses;
-  graph.points = graduation.work().points;
-  graph.drifts = graduation.work().drifts;
+  GraphValues<Pose>(graduation.work()).restore(graph);
   return summary;
 }
 

@@ -12,17 +12,19 @@ template <class Pose>
 struct GraphValues {
   GraphValues() = default;
   explicit GraphValues(const PoseGraph<Pose>& graph)
-      : poses(graph.poses), points(graph.points), drifts(graph.drifts) {}
+      : poses(graph.poses), points(graph.points), drifts(graph.drifts), range_biases(graph.range_biases) {}
 
   void restore(PoseGraph<Pose>& graph) const {
     graph.poses = poses;
     graph.points = points;
     graph.drifts = drifts;
+    graph.range_biases = range_biases;
   }
 
   std::vector<Pose> poses;
   std::vector<typename Pose::Point> points;
   std::vector<Drift> drifts;
+  std::vector<double> range_biases;
 };
 
 }  // namespace radioslam

@@ -56,12 +56,13 @@ Linearisation<Pose::kDof, Pose::kDof, Pose::kDof, 2> linearise(const PoseGraph<P
 }
 
 template <class Pose>
-Linearisation<1, Pose::kDof, Pose::kDof> linearise(const PoseGraph<Pose>& graph,
-                                                   const RangeFactor<Pose>& factor) {
+Linearisation<1, Pose::kDof, Pose::kDof, 1> linearise(const PoseGraph<Pose>& graph,
+                                                      const RangeFactor<Pose>& factor) {
   const typename Pose::Point way = position(graph, factor.j) - position(graph, factor.i);
   const typename Pose::Point along = direction_or_zero(way);
-  Linearisation<1, Pose::kDof, Pose::kDof> l;
-  l.residual[0] = way.norm() - factor.range_m;
+  Linearisation<1, Pose::kDof, Pose::kDof, 1> l;
+  l.residual = residual(graph, factor);
+  std::get<2>(l.jacobians)[0] = 1;
   std::get<0>(l.jacobians) = -along.transpose() * position_jacobian(graph, factor.i);
   std::get<1>(l.jacobians) = along.transpose() * position_jacobian(graph, factor.j);
   return l;
@@ -112,11 +113,17 @@ Linearisation<2, 2> linearise(const PoseGraph<Pose>& graph, const DriftPriorFact
   return {residual(graph, factor), {Eigen::Matrix2d::Identity()}};
 }
 
+template <class Pose>
+Linearisation<1, 1, 1> linearise(const PoseGraph<Pose>& graph, const RangeBiasPriorFactor& factor) {
+  using One = Eigen::Matrix<double, 1, 1>;
+  return {residual(graph, factor), {One::Identity(), -One::Identity()}};
+}
+
 #define RADIOSLAM_LINEARISE(Pose)                                                                           \
   template Linearisation<Pose::kDof, Pose::kDof, Pose::kDof, 2> linearise(const PoseGraph<Pose>&,           \
                                                                           const RelativePoseFactor<Pose>&); \
-  template Linearisation<1, Pose::kDof, Pose::kDof> linearise(const PoseGraph<Pose>&,                       \
-                                                              const RangeFactor<Pose>&);                    \
+  template Linearisation<1, Pose::kDof, Pose::kDof, 1> linearise(const PoseGraph<Pose>&,                    \
+                                                                 const RangeFactor<Pose>&);                 \
   template Linearisation<Pose::kDim, Pose::kDof, Pose::kDof> linearise(const PoseGraph<Pose>&,              \
                                                                        const BearingFactor<Pose>&);         \
   template Linearisation<Pose::kDim, Pose::kDof, Pose::kDof> linearise(const PoseGraph<Pose>&,              \
@@ -125,7 +132,8 @@ Linearisation<2, 2> linearise(const PoseGraph<Pose>& graph, const DriftPriorFact
                                                            const PositionFactor<Pose>&);                    \
   template Linearisation<Pose::kDof, Pose::kDof> linearise(const PoseGraph<Pose>&,                          \
                                                            const PosePriorFactor<Pose>&);                   \
-  template Linearisation<2, 2> linearise(const PoseGraph<Pose>&, const DriftPriorFactor&);
+  template Linearisation<2, 2> linearise(const PoseGraph<Pose>&, const DriftPriorFactor&);                  \
+  template Linearisation<1, 1, 1> linearise(const PoseGraph<Pose>&, const RangeBiasPriorFactor&);
 RADIOSLAM_LINEARISE(SE2)
 RADIOSLAM_LINEARISE(SE3)
 #undef RADIOSLAM_LINEARISE

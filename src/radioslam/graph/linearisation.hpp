@@ -21,8 +21,8 @@ template <class Pose>
 Linearisation<Pose::kDof, Pose::kDof, Pose::kDof, 2> linearise(const PoseGraph<Pose>& graph,
                                                                const RelativePoseFactor<Pose>& factor);
 template <class Pose>
-Linearisation<1, Pose::kDof, Pose::kDof> linearise(const PoseGraph<Pose>& graph,
-                                                   const RangeFactor<Pose>& factor);
+Linearisation<1, Pose::kDof, Pose::kDof, 1> linearise(const PoseGraph<Pose>& graph,
+                                                      const RangeFactor<Pose>& factor);
 template <class Pose>
 Linearisation<Pose::kDim, Pose::kDof, Pose::kDof> linearise(const PoseGraph<Pose>& graph,
                                                             const BearingFactor<Pose>& factor);
@@ -37,5 +37,7 @@ Linearisation<Pose::kDof, Pose::kDof> linearise(const PoseGraph<Pose>& graph,
                                                 const PosePriorFactor<Pose>& factor);
 template <class Pose>
 Linearisation<2, 2> linearise(const PoseGraph<Pose>& graph, const DriftPriorFactor& factor);
+template <class Pose>
+Linearisation<1, 1, 1> linearise(const PoseGraph<Pose>& graph, const RangeBiasPriorFactor& factor);
 
 }  // namespace radioslam

@@ -11,7 +11,8 @@ template <class Pose>
 Eigen::Index dimension(const Variable& v) {
   RADIOSLAM_CHECK(v.kind != VariableKind::kNone, "a covariance needs a variable");
   if (v.kind == VariableKind::kPose) return Pose::kDof;
-  return v.kind == VariableKind::kPoint ? Pose::kDim : Drift::SizeAtCompileTime;
+  if (v.kind == VariableKind::kPoint) return Pose::kDim;
+  return v.kind == VariableKind::kDrift ? Drift::SizeAtCompileTime : 1;
 }
 
 /// Of a variable outside the equations with itself: zero for a held pose, infinite for one never measured.

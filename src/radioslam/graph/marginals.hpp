@@ -4,7 +4,7 @@
 // Poses: for the right perturbation [translation, rotation] in the graph's own units (m, rad). Robust losses
 // count with their weight at the current residual. Held poses (gauge.hpp) have covariance zero, so all
 // covariances are relative to them; where a gauge penalty stands, directions that nothing observes have the
-// penalty's covariance. Points and drifts that no factor touches have an infinite variance.
+// penalty's covariance. Points, drifts and biases that no factor touches have an infinite variance.
 #pragma once
 
 #include <optional>
@@ -25,6 +25,8 @@ class Marginals {
   PoseCovariance pose(PoseId i) const { return block(variable(i), variable(i)); }
   PointCovariance point(PointId i) const { return block(variable(i), variable(i)); }
   Eigen::Matrix2d drift(DriftId i) const { return block(variable(i), variable(i)); }
+  /// Variance.
+  double range_bias_m2(BiasId i) const { return block(variable(i), variable(i))(0, 0); }
 
   /// Covariance of [a; b], for different variables.
   Eigen::MatrixXd joint(const Variable& a, const Variable& b) const;

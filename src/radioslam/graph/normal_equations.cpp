@@ -13,10 +13,12 @@ constexpr double kEmptyDiagonalShare = 1e-9;
 /// Factors whose sums are computed in parallel before they are added in order, and the share of a thread.
 constexpr std::size_t kWave = 2048, kGrain = 256;
 
-BlockCholeskyOptions drifts_last(const VariableBlocks& blocks) {
+/// Drifts and biases touch many poses.
+BlockCholeskyOptions shared_last(const VariableBlocks& blocks) {
   BlockCholeskyOptions options;
-  for (const auto block : blocks.drifts)
-    if (block >= 0) options.last.push_back(block);
+  for (const auto& list : {blocks.drifts, blocks.biases})
+    for (const auto block : list)
+      if (block >= 0) options.last.push_back(block);
   return options;
 }
 
@@ -29,13 +31,15 @@ NormalEquations<Pose>::NormalEquations(const PoseGraph<Pose>& graph)
       matrix_(block_pattern(graph, blocks_)) {
   gradient_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(matrix_.rows()));
   const auto factors = factor_lists(graph);
+  static_assert(std::tuple_size_v<Lists> == std::tuple_size_v<decltype(factors)>,
+                "every factor has its list");
   for_each_index<std::tuple_size_v<Lists>>([&](auto k) {
     auto& list = std::get<k>(lists_);
     for (const auto& factor : std::get<k>(factors))
       list.slots.push_back(factor_slots(matrix_, blocks_, variables(factor)));
     list.wave.resize(std::min(kWave, list.slots.size()));
   });
-  if (!empty()) cholesky_ = std::make_unique<BlockCholesky>(matrix_.pattern(), drifts_last(blocks_));
+  if (!empty()) cholesky_ = std::make_unique<BlockCholesky>(matrix_.pattern(), shared_last(blocks_));
 }
 
 template <class Pose>
@@ -107,6 +111,9 @@ void NormalEquations<Pose>::apply(const Eigen::VectorXd& step, PoseGraph<Pose>& 
       graph.points[i] += part(blocks_.points[i], std::integral_constant<int, Pose::kDim>{});
   for (std::size_t i = 0; i < graph.drifts.size(); ++i)
     if (blocks_.drifts[i] >= 0) graph.drifts[i] += part(blocks_.drifts[i], std::integral_constant<int, 2>{});
+  for (std::size_t i = 0; i < graph.range_biases.size(); ++i)
+    if (blocks_.biases[i] >= 0)
+      graph.range_biases[i] += part(blocks_.biases[i], std::integral_constant<int, 1>{})[0];
 }
 
 template class NormalEquations<SE2>;

@@ -49,7 +49,7 @@ class NormalEquations {
   };
   using Lists = std::tuple<List<RelativePoseFactor<Pose>>, List<RangeFactor<Pose>>, List<BearingFactor<Pose>>,
                            List<RelativePointFactor<Pose>>, List<PositionFactor<Pose>>,
-                           List<PosePriorFactor<Pose>>, List<DriftPriorFactor>>;
+                           List<PosePriorFactor<Pose>>, List<DriftPriorFactor>, List<RangeBiasPriorFactor>>;
 
   template <class Factor>
   double linearise_list(const PoseGraph<Pose>& graph, const std::vector<Factor>& factors, List<Factor>& list);

@@ -1,5 +1,6 @@
 // Variables and factors of a joint estimate. Knows nothing of radios or LiDAR.
-// Perturbations are on the right: T <- T Exp(xi), xi = [translation, rotation]; points and drifts add.
+// Perturbations are on the right: T <- T Exp(xi), xi = [translation, rotation]; points, drifts and biases
+// add.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,6 +16,7 @@ namespace radioslam {
 using PoseId = StrongId<struct PoseIdTag>;
 using PointId = StrongId<struct PointIdTag>;
 using DriftId = StrongId<struct DriftIdTag>;
+using BiasId = StrongId<struct BiasIdTag>;
 
 /// How a relative pose's error E = Z^-1 T_i^-1 T_j becomes a vector.
 enum class PoseChart {
@@ -62,7 +64,7 @@ struct RangeEnd {
   typename Pose::Point lever_arm = Pose::Point::Zero();
 };
 
-/// |p_j - p_i| - range_m. At coinciding ends the direction is undefined and the Jacobian is zero.
+/// |p_j - p_i| + bias - range_m. At coinciding ends the direction is undefined and the Jacobian is zero.
 template <class Pose>
 struct RangeFactor {
   RangeEnd<Pose> i, j;
@@ -70,6 +72,7 @@ struct RangeFactor {
   double sigma_m = 1;
   Loss loss{};
   double weight = 1;
+  BiasId bias{};  ///< of all ranges between two antennas, say; invalid: none
 };
 
 /// The direction from pose i to a pose or point, as a unit vector in i's body frame:
@@ -124,6 +127,15 @@ struct DriftPriorFactor {
   Eigen::Matrix2d information = Eigen::Matrix2d::Identity();
 };
 
+/// range_biases[i] - range_biases[of] - mean_m: a bias near a number, or near another bias, which may be one
+/// that several have in common.
+struct RangeBiasPriorFactor {
+  BiasId i;
+  BiasId of{};  ///< invalid: none
+  double mean_m = 0;
+  double sigma_m = 1;
+};
+
 /// A joint estimate's variables with their current values, and everything measured about them.
 template <class Pose>
 struct PoseGraph {
@@ -133,6 +145,7 @@ struct PoseGraph {
   std::vector<Pose> poses;
   std::vector<Point> points;
   std::vector<Drift> drifts;
+  std::vector<double> range_biases;  ///< metres
   std::vector<bool> pose_fixed;  ///< empty, or one per pose; a graph without priors and fixed poses fixes the
                                  ///< first pose of every component
 
@@ -143,6 +156,7 @@ struct PoseGraph {
   std::vector<PositionFactor<Pose>> positions;
   std::vector<PosePriorFactor<Pose>> pose_priors;
   std::vector<DriftPriorFactor> drift_priors;
+  std::vector<RangeBiasPriorFactor> range_bias_priors;
 };
 
 using PoseGraph2 = PoseGraph<SE2>;

@@ -6,7 +6,7 @@ namespace {
 /// Only the relative poses, with blocks of a translation's size: points stand for the poses.
 template <class Pose>
 VariableBlocks free_blocks(const PoseGraph<Pose>& graph, const std::vector<bool>& held) {
-  VariableBlocks blocks{std::vector<std::int32_t>(graph.poses.size(), -1), {}, {}};
+  VariableBlocks blocks{std::vector<std::int32_t>(graph.poses.size(), -1), {}, {}, {}};
   std::int32_t next = 0;
   for (std::size_t p = 0; p < graph.poses.size(); ++p)
     if (!held[p]) blocks.poses[p] = next++;

@@ -15,7 +15,8 @@ typename Pose::Tangent residual(const PoseGraph<Pose>& graph, const RelativePose
 template <class Pose>
 Eigen::Matrix<double, 1, 1> residual(const PoseGraph<Pose>& graph, const RangeFactor<Pose>& factor) {
   const typename Pose::Point way = position(graph, factor.j) - position(graph, factor.i);
-  return Eigen::Matrix<double, 1, 1>(way.norm() - factor.range_m);
+  const double bias_m = factor.bias.valid() ? graph.range_biases[factor.bias.index()] : 0;
+  return Eigen::Matrix<double, 1, 1>(way.norm() + bias_m - factor.range_m);
 }
 
 template <class Pose>
@@ -44,6 +45,12 @@ Drift residual(const PoseGraph<Pose>& graph, const DriftPriorFactor& factor) {
   return graph.drifts[factor.i.index()] - factor.mean;
 }
 
+template <class Pose>
+Eigen::Matrix<double, 1, 1> residual(const PoseGraph<Pose>& graph, const RangeBiasPriorFactor& factor) {
+  const double mean_m = factor.mean_m + (factor.of.valid() ? graph.range_biases[factor.of.index()] : 0);
+  return Eigen::Matrix<double, 1, 1>(graph.range_biases[factor.i.index()] - mean_m);
+}
+
 #define RADIOSLAM_RESIDUALS(Pose)                                                                  \
   template Pose::Tangent residual(const PoseGraph<Pose>&, const RelativePoseFactor<Pose>&);        \
   template Eigen::Matrix<double, 1, 1> residual(const PoseGraph<Pose>&, const RangeFactor<Pose>&); \
@@ -51,7 +58,8 @@ Drift residual(const PoseGraph<Pose>& graph, const DriftPriorFactor& factor) {
   template Pose::Point residual(const PoseGraph<Pose>&, const RelativePointFactor<Pose>&);         \
   template Pose::Point residual(const PoseGraph<Pose>&, const PositionFactor<Pose>&);              \
   template Pose::Tangent residual(const PoseGraph<Pose>&, const PosePriorFactor<Pose>&);           \
-  template Drift residual(const PoseGraph<Pose>&, const DriftPriorFactor&);
+  template Drift residual(const PoseGraph<Pose>&, const DriftPriorFactor&);                        \
+  template Eigen::Matrix<double, 1, 1> residual(const PoseGraph<Pose>&, const RangeBiasPriorFactor&);
 RADIOSLAM_RESIDUALS(SE2)
 RADIOSLAM_RESIDUALS(SE3)
 #undef RADIOSLAM_RESIDUALS

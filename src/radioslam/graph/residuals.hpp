@@ -24,6 +24,8 @@ template <class Pose>
 typename Pose::Tangent residual(const PoseGraph<Pose>& graph, const PosePriorFactor<Pose>& factor);
 template <class Pose>
 Drift residual(const PoseGraph<Pose>& graph, const DriftPriorFactor& factor);
+template <class Pose>
+Eigen::Matrix<double, 1, 1> residual(const PoseGraph<Pose>& graph, const RangeBiasPriorFactor& factor);
 
 /// Where an end is, in the graph's frame.
 template <class Pose>
@@ -65,11 +67,16 @@ const typename Pose::Jacobian& information(const PosePriorFactor<Pose>& factor) 
   return factor.information;
 }
 inline const Eigen::Matrix2d& information(const DriftPriorFactor& factor) { return factor.information; }
+inline Eigen::Matrix<double, 1, 1> information(const RangeBiasPriorFactor& factor) {
+  return Eigen::Matrix<double, 1, 1>(1 / (factor.sigma_m * factor.sigma_m));
+}
 
-/// Weight and loss; a drift's prior has neither.
+/// Weight and loss; the priors of drifts and biases have neither.
 inline double weight(const DriftPriorFactor&) { return 1; }
+inline double weight(const RangeBiasPriorFactor&) { return 1; }
 inline double weight(const auto& factor) { return factor.weight; }
 inline Loss loss(const DriftPriorFactor&) { return {}; }
+inline Loss loss(const RangeBiasPriorFactor&) { return {}; }
 inline Loss loss(const auto& factor) { return factor.loss; }
 
 /// The squared Mahalanobis norm of a factor's residual, before its weight and its loss: the statistic to

@@ -113,7 +113,7 @@ class G2oWriter {
     tag(kG2oRange);
     id(id_of(factor.i));
     id(id_of(factor.j));
-    number(factor.range_m);
+    number(factor.range_m - (factor.bias.valid() ? graph_.range_biases[factor.bias.index()] : 0));
     number(factor.weight / (factor.sigma_m * factor.sigma_m));
     if (!factor.i.lever_arm.isZero(0) || !factor.j.lever_arm.isZero(0)) {
       point(factor.i.lever_arm);
@@ -164,6 +164,7 @@ class G2oWriter {
         "relative points");
     write_omission(graph_.positions.size(), "positions");
     write_omission(graph_.drift_priors.size(), "drift priors");
+    write_omission(graph_.range_bias_priors.size(), "range bias priors");
   }
 
   const G2oGraph<Pose>& file_;
