@@ -40,8 +40,8 @@ TEST(Calls, WithoutArgumentsHelp) {
 
 TEST(Calls, EveryCommandHelpsWithAnExample) {
   const TemporaryFolder folder;
-  for (const char* command :
-       {"simulate", "run", "evaluate", "import", "optimize", "similarity", "anchors", "parameters", "prune"}) {
+  for (const char* command : {"simulate", "run", "evaluate", "import", "optimize", "similarity", "anchors",
+                              "parameters", "prune"}) {
     const auto outcome = run({command, "--help"}, folder.path());
     EXPECT_EQ(outcome.status, 0) << command;
     EXPECT_NE(outcome.out.find(std::string("  radioslam ") + command), std::string::npos) << command;

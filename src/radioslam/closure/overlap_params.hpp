@@ -12,7 +12,7 @@
 namespace radioslam {
 
 struct OverlapParams {
-  double max_mahalanobis = 1.5;       ///< D
+  double max_mahalanobis = 1.5;      ///< D
   std::string distance = "minimum";  ///< minimum: d_min, seed: d* (overlap_distance.hpp)
 
   template <class Self, class Visitor>

@@ -25,8 +25,8 @@ struct Anchor {
 /// One end of a measurement: a robot's radio or an anchor.
 struct RadioEnd {
   RobotIndex robot{};
-  AnchorIndex anchor{};  ///< used when `robot` is invalid
-  std::string antenna;   ///< its name; empty where the robot has one only
+  AnchorIndex anchor{};                                   ///< used when `robot` is invalid
+  std::string antenna;                                    ///< its name; empty where the robot has one only
   Eigen::Vector3d lever_arm_m = Eigen::Vector3d::Zero();  ///< the antenna in the robot's body frame
 };
 

@@ -9,9 +9,9 @@
 
 namespace radioslam {
 
-/// Lowers the weights of the first `ranges` ranges and of all bearings accordingly, never below zero; those of
-/// bearings also by what the antennas' places, known to `sigma_place_m`, do to an angle at the present distance.
-/// For covariances only: the estimate itself belongs to the weights as they were.
+/// Lowers the weights of the first `ranges` ranges and of all bearings accordingly, never below zero; those
+/// of bearings also by what the antennas' places, known to `sigma_place_m`, do to an angle at the present
+/// distance. For covariances only: the estimate itself belongs to the weights as they were.
 template <class Pose>
 void discount_uncertain_measurements(PoseGraph<Pose>& graph, std::size_t ranges, double sigma_place_m);
 
