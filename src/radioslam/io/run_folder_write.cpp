@@ -42,6 +42,17 @@ Json team_frame_json(const RunResult& result) {
   return json;
 }
 
+Json range_biases_json(const RunResult& result) {
+  Json json = Json::array();
+  for (const RangeBiasResult& bias : result.range_biases)
+    json.push_back({{"end_i", bias.end_i},
+                    {"end_j", bias.end_j},
+                    {"bias_m", bias.bias_m},
+                    {"sigma_m", bias.sigma_m},
+                    {"ranges", bias.ranges}});
+  return json;
+}
+
 std::vector<std::string> ids_of(const RunResult& result) {
   std::vector<std::string> ids;
   for (const RobotResult& robot : result.robots) ids.push_back(robot.id);
@@ -64,6 +75,7 @@ Json summary_json(const RunResult& result, const Json& metrics) {
   for (const EffectiveParameter& parameter : result.parameters)
     json["parameters"][parameter.key] = parameter_json(parameter.value);
   json["team_frame"] = team_frame_json(result);
+  json["range_biases"] = range_biases_json(result);
   json["notes"] = result.notes;
   if (!metrics.is_null()) json["metrics"] = metrics;
   return json;

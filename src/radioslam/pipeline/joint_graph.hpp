@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "radioslam/base/fields.hpp"
@@ -59,7 +60,9 @@ struct JointGraph {
   std::vector<JointRobot> robots;
   std::vector<std::size_t> robot_of_piece;  ///< per team.pieces
   std::vector<RadioTie> range_ties;         ///< of the first team.graph.ranges
-  std::vector<RadioTie> bearing_ties;       ///< of team.bearings
+  std::vector<std::size_t> range_pairs;     ///< of the same ranges, which of the antenna pairs they belong to
+  std::vector<std::pair<std::string, std::string>> antenna_pairs;  ///< as in RangeBiasResult
+  std::vector<RadioTie> bearing_ties;                              ///< of team.bearings
   std::size_t first_closure_range = 0;  ///< team.graph.ranges from here on belong to the closures, in order
   std::size_t ignored_links = 0;        ///< radio links outside the time of an odometry
 };

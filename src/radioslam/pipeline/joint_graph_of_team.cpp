@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "radioslam/base/check.hpp"
+#include "radioslam/pipeline/antenna_pairs.hpp"
 #include "radioslam/team_frame/tied_team.hpp"
 
 namespace radioslam {
@@ -55,7 +56,15 @@ JointGraph<Pose> joint_graph_of(const TeamGraph<Pose>& team, const Mission& miss
     if (j.valid()) result.robot_j = of_pose[j.index()].robot_i, result.stamp_j = of_pose[j.index()].stamp_i;
     return result;
   };
-  for (const auto& range : team.graph.ranges) joint.range_ties.push_back(tie(range.i.pose, range.j.pose));
+  AntennaPairs pairs(joint.antenna_pairs);
+  const auto name = [&](const RangeEnd<Pose>& end) {
+    if (!end.pose.valid()) return "landmark " + std::to_string(end.point.index());
+    return joint.robots[of_pose[end.pose.index()].robot_i.index()].id;
+  };
+  for (const auto& range : team.graph.ranges) {
+    joint.range_ties.push_back(tie(range.i.pose, range.j.pose));
+    joint.range_pairs.push_back(pairs.index_of(name(range.i), name(range.j)));
+  }
   for (const auto& bearing : team.bearings) joint.bearing_ties.push_back(tie(bearing.i, bearing.j.pose));
   const auto piece_of = piece_of_poses(team);
   joint.ignored_links = static_cast<std::size_t>(

@@ -6,6 +6,7 @@
 #include "radioslam/mission/keyframes.hpp"
 #include "radioslam/pipeline/joint_graph.hpp"
 #include "radioslam/pipeline/overlap_stage.hpp"
+#include "radioslam/pipeline/range_biases.hpp"
 #include "radioslam/pipeline/robust_solution.hpp"
 #include "radioslam/radio/measurements.hpp"
 #include "radioslam/team_frame/fingerprint_layout.hpp"
@@ -20,6 +21,7 @@ struct RunParams {
   RadioAlignmentParams alignment;
   FingerprintClosureParams closure;
   JointGraphParams graph;
+  TeamBiasParams range_bias;
   OverlapStageParams overlap;
   RobustParams robust;
   /// Distances from fingerprints are good to metres: a millionth of the cost decides nothing.
@@ -33,6 +35,7 @@ struct RunParams {
     visit("alignment", self.alignment);
     visit("closure", self.closure);
     visit("graph", self.graph);
+    visit("range_bias", self.range_bias);
     visit("overlap", self.overlap);
     visit("robust", self.robust);
     visit("optimizer", self.optimizer);

@@ -141,6 +141,10 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const RunPara
   add_fingerprint_closures(joint, radio, closures);
   const auto solution = clock.time(
       "optimise", [&] { return optimize_robustly(joint, params.robust, params.optimizer, progress); });
+  result.range_biases = clock.time("range biases", [&] {
+    return estimate_range_biases(joint, params.range_bias, params.alignment.mixture, params.optimizer,
+                                 progress);
+  });
 
   if (wants_overlaps(mission, options))
     clock.time("overlap", [&] {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "radioslam/pipeline/antenna_pairs.hpp"
+
 namespace radioslam {
 namespace {
 
@@ -59,6 +61,7 @@ class RadioFactors {
     factor.sigma_m = measured.sigma_m;
     joint_.team.graph.ranges.push_back(factor);
     joint_.range_ties.push_back(tie(measured.i, measured.j, measured.stamp));
+    joint_.range_pairs.push_back(pairs_.index_of(name(measured.i), name(measured.j)));
   }
 
   void add(const ArrivalMeasurement& measured) {
@@ -94,6 +97,12 @@ class RadioFactors {
     return result;
   }
 
+  std::string name(const RadioEnd& end) const {
+    const std::string& id =
+        end.robot.valid() ? mission_.robots[end.robot.index()].id : mission_.anchors[end.anchor.index()].id;
+    return end.antenna.empty() ? id : id + "/" + end.antenna;
+  }
+
   /// Told by the keyframes before it.
   RadioTie tie(const RadioEnd& i, const RadioEnd& j, Stamp stamp) const {
     const auto keyframe = [&](const RadioEnd& end) {
@@ -105,6 +114,7 @@ class RadioFactors {
   }
 
   JointGraph<Pose>& joint_;
+  AntennaPairs pairs_{joint_.antenna_pairs};
   const Mission& mission_;
   const std::vector<RobotNodes>& nodes_;
 };

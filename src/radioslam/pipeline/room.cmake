@@ -1,1 +1,1 @@
-radioslam_room(pipeline SOURCES joint_graph.cpp joint_graph_of_team.cpp robot_nodes.cpp radio_factors.cpp team_placement.cpp measured_links.cpp overlap_stage.cpp match_stage.cpp robust_solution.cpp collect_results.cpp pipeline.cpp ROOMS closure consistency results)
+radioslam_room(pipeline SOURCES joint_graph.cpp joint_graph_of_team.cpp robot_nodes.cpp radio_factors.cpp team_placement.cpp measured_links.cpp overlap_stage.cpp match_stage.cpp robust_solution.cpp range_biases.cpp collect_results.cpp pipeline.cpp ROOMS closure consistency results)

@@ -116,6 +116,13 @@ void add_run(PageData& page, const RunResult& result, const ReportParams& params
   page["components"] = PageData::array();
   for (const auto& component : result.components) page["components"].push_back(component.robots);
   page["unplaced"] = result.unplaced;
+  page["range_biases"] = PageData::array();
+  for (const auto& bias : result.range_biases)
+    page["range_biases"].push_back({{"end_i", bias.end_i},
+                                    {"end_j", bias.end_j},
+                                    {"bias_m", rounded(bias.bias_m, 4)},
+                                    {"sigma_m", rounded(bias.sigma_m, 4)},
+                                    {"ranges", bias.ranges}});
   page["weight"] = rounded(result.weight, 4);
   page["candidates"] = candidate_data(result, params);
   page["counts"] = PageData::object();

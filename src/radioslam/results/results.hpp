@@ -83,6 +83,15 @@ struct EffectiveParameter {
   bool changed = false;  ///< differs from the default
 };
 
+/// The constant error of the ranges between two antennas, each told as its robot or anchor and, where it has
+/// one, its name: "a/front". measured = distance + bias.
+struct RangeBiasResult {
+  std::string end_i, end_j;
+  double bias_m = 0;
+  double sigma_m = 0;
+  std::size_t ranges = 0;
+};
+
 /// Robots that share one frame.
 struct Component {
   std::vector<std::string> robots;
@@ -102,6 +111,7 @@ struct RunResult {
   std::vector<CandidateResult> candidates;
   std::vector<ClosureResult> closures;
   std::optional<SimilarityModelResult> similarity_model;
+  std::vector<RangeBiasResult> range_biases;  ///< those that show
   std::vector<Component> components;
   std::vector<std::string> unplaced;
   double weight = 1;                           ///< of `robots` among the hypotheses

@@ -1,6 +1,7 @@
 #include "radioslam/team_frame/measurement_mixture.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -28,7 +29,20 @@ double direction_density(double squared_norm, double sigma) {
   return peak * std::exp(-0.5 * squared_norm);
 }
 
+/// Direct, and false.
+std::array<double, 2> range_densities(double error_m, double sigma_m, double span_m,
+                                      const MixtureParams& params) {
+  const double error = error_m / sigma_m;
+  return {(1 - params.false_range_probability) * normal_density(error * error, sigma_m),
+          params.false_range_probability / span_m};
+}
+
 }  // namespace
+
+double range_posterior(double error_m, double sigma_m, double span_m, const MixtureParams& params) {
+  const auto [direct, wrong] = range_densities(error_m, sigma_m, span_m, params);
+  return direct / (direct + wrong);
+}
 
 template <class Pose>
 std::vector<double> path_priors(const AmbiguousBearing<Pose>& bearing, const MixtureParams& params) {
@@ -69,11 +83,10 @@ double MixtureGraph<Pose>::visit_measurements(const Inflation& inflation, double
   double log_likelihood = 0;
   for (std::size_t k = 0; k < graph.ranges.size(); ++k) {
     const double sigma = std::sqrt(range_sigma_[k] * range_sigma_[k] + added(inflation.ranges_m2, k, share));
-    const double error = residual(graph, graph.ranges[k])[0] / sigma;
-    const double direct = (1 - params_.false_range_probability) * normal_density(error * error, sigma);
-    const double total = direct + params_.false_range_probability / span_m_;
-    log_likelihood += std::log(total);
-    visit.range(k, sigma, direct / total);
+    const auto [direct, wrong] =
+        range_densities(residual(graph, graph.ranges[k])[0], sigma, span_m_, params_);
+    log_likelihood += std::log(direct + wrong);
+    visit.range(k, sigma, direct / (direct + wrong));
   }
   for (std::size_t b = 0; b + 1 < first_path_.size(); ++b) {
     const std::size_t begin = first_path_[b], end = first_path_[b + 1];

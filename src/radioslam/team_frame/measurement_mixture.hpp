@@ -47,6 +47,9 @@ struct Inflation {
   std::vector<double> bearings_rad2;  ///< per bearing; empty: none
 };
 
+/// The probability that a range with this error is the direct distance. `span_m`: of all ranges.
+double range_posterior(double error_m, double sigma_m, double span_m, const MixtureParams& params);
+
 /// Priors pi_p of a bearing's paths; they sum to one.
 template <class Pose>
 std::vector<double> path_priors(const AmbiguousBearing<Pose>& bearing, const MixtureParams& params);

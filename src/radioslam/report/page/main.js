@@ -8,6 +8,7 @@ write_hypotheses();
 write_overlap();
 write_similarity();
 write_closures();
+write_range_biases();
 write_timings();
 write_counts();
 write_parameters();

@@ -61,6 +61,20 @@ function write_robots() {
   changes.on("theme.robots", fill);
 }
 
+function write_range_biases() {
+  if (!report.range_biases.length) return;
+  show("biases-section");
+  const metres = d3.format("+.3f");
+  const { table } = sortable_table([
+    { name: "from", value: b => b.end_i, text: b => b.end_i },
+    { name: "to", value: b => b.end_j, text: b => b.end_j },
+    { name: "too long by (m)", value: b => b.bias_m, text: b => minus(metres(b.bias_m)), number: true },
+    { name: "σ (m)", value: b => b.sigma_m, text: b => format.metres(b.sigma_m), number: true },
+    { name: "ranges", value: b => b.ranges, text: b => format.count(b.ranges), number: true },
+  ], report.range_biases, line => line);
+  by_id("biases-table").append(table);
+}
+
 function write_closure_bars() {
   const kinds = Array.from(new Set(groups.map(g => g.kind))), counted = (kind, status) => total(groups.filter(g => g.kind === kind && g.status === status), g => g.count);
   const longest = d3.max(kinds, kind => counted(kind, "accepted") + counted(kind, "rejected"));
