@@ -5,12 +5,14 @@
 
 #include <algorithm>
 
+#include "pipeline/town_runs.hpp"
 #include "radioslam/eval/closures.hpp"
-#include "radioslam/eval/metrics.hpp"
-#include "radioslam/pipeline/pipeline.hpp"
 
 namespace radioslam {
 namespace {
+
+using test::error_m;
+using test::quick_params;
 
 /// Two robots, 600 m each, odometry rows (and keyframes) 4.4 m apart.
 CityParams small_city() {
@@ -22,22 +24,6 @@ CityParams small_city() {
   params.odometry.odometry_rate_hz = 2.5;
   params.radio.links = 25;
   return params;
-}
-
-/// As good on so small a team, and several times as fast.
-RunParams quick_params() {
-  RunParams params;
-  params.alignment.grid.references = 4;
-  params.alignment.grid.angle_steps = 40;
-  params.alignment.beam.tried_places = 24;
-  params.alignment.beam.refined_places = 6;
-  return params;
-}
-
-double error_m(const RunResult& result, const Truth& truth) {
-  std::vector<EstimatedTrajectory> estimate;
-  for (const auto& robot : result.robots) estimate.push_back({robot.id, robot.estimate});
-  return evaluate_trajectories(estimate, truth, 2).ate->rmse_m;
 }
 
 /// True: both LiDARs together reach from one keyframe to the other.

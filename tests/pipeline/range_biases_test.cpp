@@ -4,22 +4,18 @@
 #include <cmath>
 
 #include "io/recorded_data.hpp"
+#include "pipeline/town_runs.hpp"
 #include "radioslam/base/random.hpp"
-#include "radioslam/eval/metrics.hpp"
 #include "radioslam/geometry/trajectory.hpp"
 #include "radioslam/io/csv.hpp"
-#include "radioslam/pipeline/pipeline.hpp"
 #include "radioslam/radio/range_bias.hpp"
 #include "radioslam/sim/city.hpp"
 
 namespace radioslam {
 namespace {
 
-double error_m(const RunResult& result, const Truth& truth) {
-  std::vector<EstimatedTrajectory> estimate;
-  for (const auto& robot : result.robots) estimate.push_back({robot.id, robot.estimate});
-  return evaluate_trajectories(estimate, truth, 2).ate->rmse_m;
-}
+using test::error_m;
+using test::quick_params;
 
 CityParams ranging_city() {
   CityParams params;
@@ -30,15 +26,6 @@ CityParams ranging_city() {
   params.odometry.odometry_rate_hz = 10;
   params.radio.links = 150;
   params.radio.sigma_range_m = 0.1;
-  return params;
-}
-
-RunParams quick_params() {
-  RunParams params;
-  params.alignment.grid.references = 4;
-  params.alignment.grid.angle_steps = 40;
-  params.alignment.beam.tried_places = 24;
-  params.alignment.beam.refined_places = 6;
   return params;
 }
 
@@ -81,10 +68,10 @@ TEST(RangeBiases, AreNotSeenInErrorsThatComeInRuns) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     auto [mission, truth] = simulate_city(ranging_city(), seed);
     Rng rng(seed);
-    double error_m = kSigma_m * rng.normal();
+    double late_m = kSigma_m * rng.normal();
     for (RangeMeasurement& range : mission.ranges) {
-      range.range_m += error_m;
-      error_m = kStay * error_m + kSigma_m * std::sqrt(1 - kStay * kStay) * rng.normal();
+      range.range_m += late_m;
+      late_m = kStay * late_m + kSigma_m * std::sqrt(1 - kStay * kStay) * rng.normal();
     }
     EXPECT_TRUE(run_pipeline(mission, quick_params()).result.range_biases.empty()) << "seed " << seed;
   }

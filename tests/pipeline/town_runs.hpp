@@ -1,0 +1,26 @@
+// How pipeline tests run small simulated towns, and what they make of them.
+#pragma once
+
+#include "radioslam/eval/metrics.hpp"
+#include "radioslam/pipeline/pipeline.hpp"
+
+namespace radioslam::test {
+
+/// As good on so small a team, and several times as fast.
+inline RunParams quick_params() {
+  RunParams params;
+  params.alignment.grid.references = 4;
+  params.alignment.grid.angle_steps = 40;
+  params.alignment.beam.tried_places = 24;
+  params.alignment.beam.refined_places = 6;
+  return params;
+}
+
+/// Of the whole team after one alignment, root mean square.
+inline double error_m(const RunResult& result, const Truth& truth) {
+  std::vector<EstimatedTrajectory> estimate;
+  for (const auto& robot : result.robots) estimate.push_back({robot.id, robot.estimate});
+  return evaluate_trajectories(estimate, truth, 2).ate->rmse_m;
+}
+
+}  // namespace radioslam::test
