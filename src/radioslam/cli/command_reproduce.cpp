@@ -21,6 +21,7 @@ namespace radioslam::cli {
 namespace {
 
 constexpr int kMostSeeds = 1000;
+constexpr std::size_t kMostPoses = 1000000;
 constexpr double kLeastCut = 0.01, kLargestCut = 0.99;
 constexpr const char* kStudyFolder = "table.json";
 
@@ -32,6 +33,7 @@ struct ReproduceOptions {
   std::optional<double> cut;
   std::uint64_t seed = 1;
   std::optional<int> seeds;
+  std::optional<std::size_t> poses;
   std::vector<std::string> set;
   bool json = false;
 };
@@ -63,13 +65,24 @@ Study wi_closure_kitti(const ReproduceOptions& options) {
 
 Study robustness(const ReproduceOptions& options) {
   constexpr int kSeeds = 3;
-  if (!options.trajectory.empty() || !options.odometry.empty() || options.cut)
-    refuse(options, "takes no --trajectory, --odometry or --cut: its towns are simulated");
+  if (!options.trajectory.empty() || !options.odometry.empty() || options.cut || options.poses)
+    refuse(options, "takes no --trajectory, --odometry, --cut or --poses: its towns are simulated");
   const auto town = with_settings(robustness_town(), collect_settings({}, options.set));
   ProgressLine line;
   const RobustnessMap map =
       map_robustness(RobustnessGrid{}, town, options.seed, options.seeds.value_or(kSeeds), line.progress());
   return {robustness_table(map), robustness_json(map), render_robustness_page(map)};
+}
+
+Study overlap_growth(const ReproduceOptions& options) {
+  constexpr std::size_t kPoses = 100000;
+  if (!options.trajectory.empty() || !options.odometry.empty() || options.cut || options.seeds ||
+      !options.set.empty())
+    refuse(options, "takes only --poses and --seed: its towns are made for it");
+  ProgressLine line;
+  const OverlapGrowth growth =
+      measure_overlap_growth(options.poses.value_or(kPoses), options.seed, line.progress());
+  return {overlap_growth_table(growth), overlap_growth_json(growth), render_growth_page(growth)};
 }
 
 struct Table {
@@ -78,11 +91,13 @@ struct Table {
   Study (*reproduce)(const ReproduceOptions&);
 };
 
-constexpr std::array<Table, 2> kTables{
+constexpr std::array<Table, 3> kTables{
     {{"wi-closure-kitti", "KITTI 08 cut in two, radio of 0.5 m and 10 degrees: the thesis beside ours",
       wi_closure_kitti},
      {"robustness-map", "error and recall over angle noise, links and false paths: where it breaks",
-      robustness}}};
+      robustness},
+     {"overlap-growth", "seconds of the overlap search over the size of the mission, to a million poses",
+      overlap_growth}}};
 
 std::string table_list() {
   std::string text = "Tables:\n";
@@ -138,6 +153,9 @@ void add_table_options(CLI::App& command, ReproduceOptions& options) {
   command.add_option("--seed", options.seed, "The first seed; default 1")
       ->check(seed_number())
       ->type_name("N");
+  command.add_option("--poses", options.poses, "overlap-growth: of each robot in the largest town; 100000")
+      ->check(CLI::Range(std::size_t{1000}, kMostPoses))
+      ->type_name("N");
   command.add_option("--seeds", options.seeds, "So many seeds, and their medians")
       ->check(CLI::Range(1, kMostSeeds))
       ->type_name("N");
@@ -162,6 +180,7 @@ void add_reproduce(CLI::App& program) {
       "repository RobotsRuning/KITTI_odometry_evaluation_tool on GitHub has them "
       "(ground_truth_pose/GT_LiDAR)\n"
       "together with A-LOAM's odometry (data/ALOAM_result_pred).\n"
+      "overlap-growth needs 1 GiB of memory per half million poses.\n"
       "--set changes the simulation (`radioslam parameters kitti` and `city`). robustness-map takes "
       "minutes.\n\n"
       "Example:\n"

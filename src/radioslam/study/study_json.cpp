@@ -70,6 +70,19 @@ Json cell_json(const RobustnessCell& cell) {
           {"confidently_wrong", s.confidently_wrong}};
 }
 
+Json growth_mode_json(const std::vector<OverlapGrowthPoint>& points) {
+  Json towns = Json::array();
+  for (const OverlapGrowthPoint& p : points)
+    towns.push_back({{"poses", p.poses},
+                     {"pairs", p.pairs},
+                     {"kept", p.kept},
+                     {"distances_evaluated", p.distances_evaluated},
+                     {"prepare_s", p.prepare_s},
+                     {"search_s", p.search_s},
+                     {"all_pairs_s", optional_json(p.all_pairs_s)}});
+  return {{"exponent", optional_json(growth_exponent(points))}, {"towns", std::move(towns)}};
+}
+
 }  // namespace
 
 Json wi_closure_kitti_json(const std::vector<WiClosureKitti>& seeds) {
@@ -89,6 +102,13 @@ Json robustness_json(const RobustnessMap& map) {
             {"cells", Json::array()}};
   for (const auto& cell : map.cells) json["cells"].push_back(cell_json(cell));
   return json;
+}
+
+nlohmann::ordered_json overlap_growth_json(const OverlapGrowth& growth) {
+  return {{"table", "overlap-growth"},
+          {"seed", growth.seed},
+          {"joint", growth_mode_json(growth.joint)},
+          {"link", growth_mode_json(growth.link)}};
 }
 
 }  // namespace radioslam

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "radioslam/study/overlap_growth.hpp"
 #include "radioslam/study/robustness_map.hpp"
 #include "radioslam/study/wi_closure_kitti.hpp"
 
@@ -15,5 +16,9 @@ nlohmann::ordered_json wi_closure_kitti_json(const std::vector<WiClosureKitti>& 
 /// {"table", "axes": {...}, "first_seed", "seeds", "cells": [{"sigma_angle_deg", "links", "false_paths",
 ///   "ratio", ...}]}: a cell's summary.
 nlohmann::ordered_json robustness_json(const RobustnessMap& map);
+
+/// {"table", "seed", "joint": {"exponent", "towns": [{"poses", "pairs", "kept", "distances_evaluated",
+///   "prepare_s", "search_s", "all_pairs_s"}]}, "link": {...}}
+nlohmann::ordered_json overlap_growth_json(const OverlapGrowth& growth);
 
 }  // namespace radioslam

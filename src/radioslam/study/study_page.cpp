@@ -33,4 +33,10 @@ std::string render_robustness_page(const RobustnessMap& map) {
   return page(data);
 }
 
+std::string render_growth_page(const OverlapGrowth& growth) {
+  Json data = table_json(overlap_growth_table(growth));
+  data["growth"] = overlap_growth_json(growth);
+  return page(data);
+}
+
 }  // namespace radioslam

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "radioslam/study/overlap_growth.hpp"
 #include "radioslam/study/robustness_map.hpp"
 #include "radioslam/study/study_table.hpp"
 
@@ -12,5 +13,8 @@ std::string render_table_page(const StudyTable& table);
 
 /// Heat maps of error, recall and failures, a column per number of false paths, with the table below.
 std::string render_robustness_page(const RobustnessMap& map);
+
+/// Seconds over poses and pairs kept, both axes logarithmic, with the table below.
+std::string render_growth_page(const OverlapGrowth& growth);
 
 }  // namespace radioslam

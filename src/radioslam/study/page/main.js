@@ -8,4 +8,8 @@ if (study.map) {
   write_maps();
   dark_scheme.addEventListener("change", write_maps);
 }
+if (study.growth) {
+  by_id("summary").textContent = growth_summary();
+  write_growth();
+}
 write_table();
