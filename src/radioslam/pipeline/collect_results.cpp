@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <tuple>
 
 #include "radioslam/graph/marginals.hpp"
 #include "radioslam/graph/residuals.hpp"
@@ -100,9 +98,6 @@ std::vector<ClosureResult> collect_radio_links(const JointGraph<Pose>& joint) {
     if (joint.range_ties[k].robot_i.valid() && joint.range_ties[k].robot_j.valid())
       results.push_back(tie_result(joint.range_ties[k], ClosureKind::kRange,
                                    squared_norm(graph, graph.ranges[k]), graph.ranges[k].weight));
-  std::map<std::tuple<PoseId, PoseId, PointId>, double> weight;  // of all paths between two ends
-  for (const auto& factor : graph.bearings)
-    weight[{factor.i, factor.j.pose, factor.j.point}] += factor.weight;
   for (std::size_t k = 0; k < joint.bearing_ties.size(); ++k) {
     if (!joint.bearing_ties[k].robot_j.valid()) continue;
     const auto& bearing = joint.team.bearings[k];
@@ -111,9 +106,9 @@ std::vector<ClosureResult> collect_radio_links(const JointGraph<Pose>& joint) {
       least = std::min(least,
                        squared_norm(graph, BearingFactor<Pose>{
                                                bearing.i, bearing.j, path.direction, path.sigma_rad, {}, 1}));
-    const auto found = weight.find({bearing.i, bearing.j.pose, bearing.j.point});
-    results.push_back(tie_result(joint.bearing_ties[k], ClosureKind::kAoa, least,
-                                 found == weight.end() ? 0 : found->second));
+    const BearingVerdict& verdict = joint.bearing_verdicts[k];
+    results.push_back(tie_result(joint.bearing_ties[k], ClosureKind::kAoa, least, verdict.weight));
+    if (verdict.too_near) results.back().reason = "the robots are too near for an angle to count";
   }
   return results;
 }

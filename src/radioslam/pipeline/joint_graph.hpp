@@ -54,6 +54,12 @@ struct RadioTie {
   Stamp stamp_i, stamp_j;
 };
 
+/// What the alignment made of a bearing.
+struct BearingVerdict {
+  double weight = 0;      ///< of its paths that take part, together
+  bool too_near = false;  ///< the robots stood so close that the antennas' places decide the angle
+};
+
 template <class Pose>
 struct JointGraph {
   TeamGraph<Pose> team;
@@ -63,6 +69,7 @@ struct JointGraph {
   std::vector<std::size_t> range_pairs;     ///< of the same ranges, which of the antenna pairs they belong to
   std::vector<std::pair<std::string, std::string>> antenna_pairs;  ///< as in RangeBiasResult
   std::vector<RadioTie> bearing_ties;                              ///< of team.bearings
+  std::vector<BearingVerdict> bearing_verdicts;  ///< likewise, once the team is placed; empty before
   std::size_t first_closure_range = 0;  ///< team.graph.ranges from here on belong to the closures, in order
   std::size_t ignored_links = 0;        ///< radio links outside the time of an odometry
 };

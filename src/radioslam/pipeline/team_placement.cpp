@@ -24,11 +24,14 @@ void adopt(JointGraph<Pose>& joint, const TeamHypothesis<Pose>& hypothesis) {
     graph.ranges[k].weight = hypothesis.range_weight[k] < kLeastWeight ? 0 : hypothesis.range_weight[k];
   for (std::size_t k = 0; k < joint.team.bearings.size(); ++k) {
     const auto& bearing = joint.team.bearings[k];
+    BearingVerdict& verdict = joint.bearing_verdicts.emplace_back();
     for (std::size_t p = 0; p < bearing.paths.size(); ++p) {
       const double weight = hypothesis.path_weight[k][p];
       const double by_places2 =
           std::pow(hypothesis.path_sigma_rad[k][p], 2) - std::pow(bearing.paths[p].sigma_rad, 2);
-      if (weight < kLeastWeight || by_places2 > kSaysNothing_rad * kSaysNothing_rad) continue;
+      if (by_places2 > kSaysNothing_rad * kSaysNothing_rad) verdict.too_near = true;
+      if (weight < kLeastWeight || verdict.too_near) continue;
+      verdict.weight += weight;
       graph.bearings.push_back(
           {bearing.i, bearing.j, bearing.paths[p].direction, hypothesis.path_sigma_rad[k][p], {}, weight});
     }
