@@ -22,6 +22,7 @@ RunResult example() {
   result.robots[2].placed = false;
   result.unplaced = {"lost"};
   result.components = {{{"zoe", "adam"}}};
+  result.transforms = {{"zoe", "adam", lift(SE2({1.5, -2}, 0), 0), Eigen::Matrix2d{{4, 0.5}, {0.5, 1}}}};
   result.candidates = {{RobotIndex(0), {0}, RobotIndex(1), {1'500'000'000}, 2.5, 0.75}};
   result.closures = {{RobotIndex(0),
                       {0},
@@ -88,7 +89,9 @@ TEST(SummaryJson, HasTheKeysOfTheFormat) {
       json["parameters"].dump(),
       R"({"keyframe.distance_m":1,"prune.enabled":true,"similarity.measure":"mended","loss.scale":2.5})");
   EXPECT_EQ(json["team_frame"].dump(),
-            R"({"components":[["zoe","adam"]],"unplaced":["lost"],"hypotheses":[{"weight":1.0}]})");
+            R"({"components":[["zoe","adam"]],"unplaced":["lost"],"hypotheses":[{"weight":1.0}],)"
+            R"("transforms":[{"robot_i":"zoe","robot_j":"adam","translation_m":[1.5,-2.0,0.0],)"
+            R"("rotation_xyzw":[0.0,0.0,0.0,1.0],"covariance":[[4.0,0.5],[0.5,1.0]]}]})");
   EXPECT_EQ(json["metrics"]["ate_rmse_m"], 1.5);
   EXPECT_FALSE(summary_json(example()).contains("metrics"));
 }

@@ -2,10 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
@@ -13,29 +10,18 @@
 #include <tuple>
 #include <vector>
 
-#include "report/sample_run.hpp"
+#include "report/sample_page.hpp"
 
 namespace radioslam {
 namespace {
 
-using Json = nlohmann::json;
+using sample::data_of;
+using sample::data_text;
+using sample::Json;
+using sample::judged_page;
+using sample::kDataBegins;
 using sample::make_sample;
 using sample::Sample;
-
-const std::string kDataBegins = "<script type=\"application/json\" id=\"data\">";
-
-std::string data_text(const std::string& page) {
-  const auto begin = page.find(kDataBegins);
-  EXPECT_NE(begin, std::string::npos);
-  const auto from = begin + kDataBegins.size();
-  return page.substr(from, page.find("</script", from) - from);
-}
-
-Json data_of(const std::string& page) { return Json::parse(data_text(page)); }
-
-std::string judged_page(const Sample& sample, const ReportParams& params = {}) {
-  return render_report(sample.result, &sample.truth, sample.metrics, params);
-}
 
 std::size_t count_of(const std::string& text, const std::string& part) {
   std::size_t count = 0;
@@ -173,125 +159,6 @@ TEST(Report, ThinningCountsEverything) {
   }
   for (std::size_t c = 0; c < drawn; ++c)
     EXPECT_LT(data["closures"]["drawn"]["keyframe_i"][c].get<int>(), 100);
-}
-
-/// Kept pairs per (robot_i, robot_j, bin_i, bin_j).
-using Bins = std::map<std::tuple<std::size_t, std::size_t, std::size_t, std::size_t>, std::size_t>;
-
-Bins bins_of(const Json& candidates) {
-  Bins bins;
-  for (const Json& m : candidates["matrices"])
-    for (std::size_t k = 0; k < m["cell"].size(); ++k) {
-      const auto cell = m["cell"][k].get<std::size_t>(), width = m["bins_i"].get<std::size_t>();
-      bins[{m["robot_i"].get<std::size_t>(), m["robot_j"].get<std::size_t>(), cell % width, cell / width}] =
-          m["count"][k].get<std::size_t>();
-    }
-  return bins;
-}
-
-std::size_t keyframe_of(const RunResult& result, RobotIndex robot, Stamp stamp) {
-  const auto& estimate = result.robots[robot.index()].estimate;
-  std::size_t k = 0;
-  while (estimate[k].stamp != stamp) ++k;
-  return k;
-}
-
-TEST(Report, EveryCandidateIsInItsBin) {
-  const Sample sample = make_sample({.keyframes = 100, .closures = 5, .candidates = 900});
-  ReportParams params;
-  params.maximum_candidate_cells = 3 * 30 * 30;
-  const Json candidates = data_of(judged_page(sample, params))["candidates"];
-  Bins expected;
-  for (const auto& c : sample.result.candidates)
-    ++expected[{c.robot_i.index(), c.robot_j.index(),
-                keyframe_of(sample.result, c.robot_i, c.stamp_i) * 30 / 100,
-                keyframe_of(sample.result, c.robot_j, c.stamp_j) * 30 / 100}];
-  EXPECT_EQ(bins_of(candidates), expected);
-  EXPECT_EQ(candidates["kept"], 900);
-  EXPECT_EQ(candidates["pairs"], 30000);
-  EXPECT_EQ(candidates["distances_evaluated"], 1125);
-}
-
-TEST(Report, CandidatesInAnyOrderOfTheirRobotsAreTheSame) {
-  Sample sample = make_sample({.keyframes = 60, .closures = 5, .candidates = 200});
-  const Json before = data_of(judged_page(sample))["candidates"];
-  for (auto& c : sample.result.candidates) {
-    std::swap(c.robot_i, c.robot_j);
-    std::swap(c.stamp_i, c.stamp_j);
-  }
-  EXPECT_EQ(data_of(judged_page(sample))["candidates"], before);
-}
-
-TEST(Report, TheFullestMatricesAreShownWithinTheBudget) {
-  const Sample sample = make_sample({.robots = 12, .keyframes = 200, .closures = 5, .candidates = 20000});
-  ReportParams params;
-  params.maximum_matrices = 10;
-  params.maximum_candidate_cells = 2000;
-  const Json candidates = data_of(judged_page(sample, params))["candidates"];
-  std::map<std::pair<int, int>, std::size_t> per_pair;
-  for (const auto& c : sample.result.candidates) ++per_pair[{c.robot_i.value, c.robot_j.value}];
-  std::vector<std::size_t> sizes;
-  for (const auto& [robots, kept] : per_pair) sizes.push_back(kept);
-  std::sort(sizes.rbegin(), sizes.rend());
-  ASSERT_EQ(candidates["matrices"].size(), 10U);
-  EXPECT_EQ(candidates["robot_pairs"], per_pair.size());
-  std::size_t cells = 0;
-  for (std::size_t m = 0; m < 10; ++m) {
-    cells += candidates["matrices"][m]["cell"].size();
-    EXPECT_EQ(candidates["matrices"][m]["kept"], sizes[m]);
-  }
-  EXPECT_LE(cells, 2000U);
-  EXPECT_GT(cells, 500U);
-}
-
-TEST(Report, WithoutASearchThereAreNoCandidates) {
-  const Json candidates = data_of(judged_page(make_sample({.keyframes = 20, .closures = 5})))["candidates"];
-  EXPECT_TRUE(candidates["pairs"].is_null());
-  EXPECT_TRUE(candidates["matrices"].empty());
-}
-
-TEST(Report, LargeCountsAreExact) {
-  Sample sample = make_sample({.keyframes = 20, .closures = 5});
-  sample.result.counts["pairs"] = 7167256;
-  sample.result.counts["share"] = 0.123456789;
-  const Json counts = data_of(judged_page(sample))["counts"];
-  EXPECT_EQ(counts["pairs"], 7167256);
-  EXPECT_EQ(counts["share"], 0.123457);
-}
-
-TEST(Report, AlternativesStandInThePagesFrameAndAreJudged) {
-  const Sample sample = make_sample({.keyframes = 50, .closures = 5, .alternatives = 2});
-  const Json data = data_of(judged_page(sample));
-  ASSERT_EQ(data["alternatives"].size(), 2U);
-  EXPECT_EQ(data["weight"], 0.6);
-  const auto& other = sample.result.alternatives[1];
-  const Json& shown = data["alternatives"][1];
-  EXPECT_EQ(shown["weight"], 0.15);
-  for (std::size_t r = 0; r < 3; ++r) {
-    const Eigen::Vector3d p =
-        sample.metrics.T_truth_estimate * other.robots[r].estimate[7].pose.translation();
-    EXPECT_NEAR(shown["robots"][r]["x"][7].get<double>(), p.x(), 0.0051);
-    EXPECT_NEAR(shown["robots"][r]["y"][7].get<double>(), p.y(), 0.0051);
-  }
-  std::vector<EstimatedTrajectory> team;
-  for (const auto& robot : other.robots) team.push_back({robot.id, robot.estimate});
-  EXPECT_NEAR(shown["ate_rmse_m"].get<double>(), evaluate_trajectories(team, sample.truth, 2).ate->rmse_m,
-              0.00051);
-  EXPECT_GT(shown["ate_rmse_m"].get<double>(), 2);
-  const Json unjudged = data_of(render_report(sample.result))["alternatives"];
-  EXPECT_FALSE(unjudged[1].contains("ate_rmse_m"));
-}
-
-TEST(Report, AlternativesKeepToTheirBudget) {
-  const Sample sample = make_sample({.keyframes = 300, .closures = 5, .alternatives = 3});
-  ReportParams params;
-  params.maximum_alternative_poses = 180;
-  std::size_t poses = 0;
-  const Json data = data_of(judged_page(sample, params));
-  for (const Json& other : data["alternatives"])
-    for (const Json& robot : other["robots"]) poses += robot["x"].size();
-  EXPECT_LE(poses, 180U);
-  EXPECT_GE(poses, 170U);
 }
 
 TEST(Report, ForeignTextStaysText) {

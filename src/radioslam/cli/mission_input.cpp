@@ -46,8 +46,10 @@ MissionInput from_graph(TeamGraphFile<Pose> file, const std::string& path) {
 }  // namespace
 
 MissionInput read_input(const std::string& path) {
-  if (is_graph_file(path))
-    return std::visit([&](auto&& file) { return from_graph(std::move(file), path); }, read_team_graph(path));
+  if (is_graph_file(path)) {
+    auto graph = read_team_graph(path);
+    return std::visit([&](auto& file) { return from_graph(std::move(file), path); }, graph);
+  }
   MissionInput input;
   input.mission = read_mission(path);
   input.truth = read_truth(path, input.mission);

@@ -33,12 +33,28 @@ Json count_json(double count) {
   return whole ? Json(*whole) : Json(count);
 }
 
+Json transform_json(const TransformResult& transform) {
+  const Eigen::Vector3d t = transform.T_i_j.translation();
+  const Eigen::Quaterniond q = transform.T_i_j.rotation();
+  Json covariance = Json::array();
+  for (const auto& row : transform.covariance.rowwise())
+    covariance.push_back(std::vector<double>(row.begin(), row.end()));
+  return {{"robot_i", transform.robot_i},
+          {"robot_j", transform.robot_j},
+          {"translation_m", {t.x(), t.y(), t.z()}},
+          {"rotation_xyzw", {q.x(), q.y(), q.z(), q.w()}},
+          {"covariance", std::move(covariance)}};
+}
+
 Json team_frame_json(const RunResult& result) {
   Json json = {{"components", Json::array()}, {"unplaced", result.unplaced}, {"hypotheses", Json::array()}};
   for (const Component& component : result.components) json["components"].push_back(component.robots);
   json["hypotheses"].push_back({{"weight", result.weight}});
   for (const HypothesisResult& other : result.alternatives)
     json["hypotheses"].push_back({{"weight", other.weight}});
+  json["transforms"] = Json::array();
+  for (const TransformResult& transform : result.transforms)
+    json["transforms"].push_back(transform_json(transform));
   return json;
 }
 

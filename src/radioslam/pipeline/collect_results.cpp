@@ -75,6 +75,20 @@ ClosureResult tie_result(const RadioTie& tie, ClosureKind kind, double statistic
   return result;
 }
 
+template <class Pose>
+TransformResult transform_between(const JointGraph<Pose>& joint, std::size_t i, std::size_t j,
+                                  const Marginals<Pose>& marginals) {
+  const JointRobot &robot_i = joint.robots[i], &robot_j = joint.robots[j];
+  const PoseId start_i = robot_i.poses.front(), start_j = robot_j.poses.front();
+  const auto& poses = joint.team.graph.poses;
+  const Pose T_start_i_start_j = poses[start_i.index()].inverse() * poses[start_j.index()];
+  const Pose T_i_start_i = pose_as<Pose>(robot_i.odometry.front());
+  const Pose T_j_start_j = pose_as<Pose>(robot_j.odometry.front());
+  const auto into_j = T_j_start_j.adjoint();
+  return {robot_i.id, robot_j.id, as_se3(Pose(T_i_start_i * T_start_i_start_j * T_j_start_j.inverse()), 0),
+          into_j * marginals.relative_pose(start_i, start_j) * into_j.transpose()};
+}
+
 }  // namespace
 
 template <class Pose>
@@ -153,6 +167,20 @@ void add_uncertainty(std::vector<RobotResult>& robots, const JointGraph<Pose>& j
 }
 
 template <class Pose>
+std::vector<TransformResult> collect_transforms(const JointGraph<Pose>& joint,
+                                                const TeamPlacement<Pose>& placement,
+                                                const Marginals<Pose>& marginals) {
+  std::vector<TransformResult> transforms;
+  const auto placed_with = [&](std::size_t i, std::size_t j) {
+    return placement.placed[i] && placement.placed[j] && placement.component[i] == placement.component[j];
+  };
+  for (std::size_t i = 0; i < joint.robots.size(); ++i)
+    for (std::size_t j = i + 1; j < joint.robots.size(); ++j)
+      if (placed_with(i, j)) transforms.push_back(transform_between(joint, i, j, marginals));
+  return transforms;
+}
+
+template <class Pose>
 std::vector<std::string> odometry_notes(const Mission& mission, const JointGraph<Pose>& joint,
                                         const Marginals<Pose>& marginals) {
   std::vector<std::string> notes;
@@ -204,6 +232,8 @@ std::vector<Component> collect_components(const JointGraph<Pose>& joint,
                                                    const TeamPlacement<Pose>&);                              \
   template std::vector<ClosureResult> collect_radio_links(const JointGraph<Pose>&);                          \
   template void add_uncertainty(std::vector<RobotResult>&, const JointGraph<Pose>&, const Marginals<Pose>&); \
+  template std::vector<TransformResult> collect_transforms(                                                  \
+      const JointGraph<Pose>&, const TeamPlacement<Pose>&, const Marginals<Pose>&);                          \
   template std::vector<std::string> odometry_notes(const Mission&, const JointGraph<Pose>&,                  \
                                                    const Marginals<Pose>&);                                  \
   template std::vector<ClosureResult> collect_closures(const RadioMeasurements&, const JointGraph<Pose>&,    \

@@ -35,6 +35,12 @@ template <class Pose>
 void add_uncertainty(std::vector<RobotResult>& robots, const JointGraph<Pose>& joint,
                      const Marginals<Pose>& marginals);
 
+/// Between every two placed robots of one component.
+template <class Pose>
+std::vector<TransformResult> collect_transforms(const JointGraph<Pose>& joint,
+                                                const TeamPlacement<Pose>& placement,
+                                                const Marginals<Pose>& marginals);
+
 /// What a user should know: constant odometry errors beyond three times what is stated and what is certain.
 template <class Pose>
 std::vector<std::string> odometry_notes(const Mission& mission, const JointGraph<Pose>& joint,

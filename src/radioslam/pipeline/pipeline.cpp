@@ -60,6 +60,7 @@ void collect(RunResult& result, const Mission& mission, const JointGraph<Pose>& 
       clock.time("uncertainty", [&] { return Marginals<Pose>::compute(honest(joint, mixture).team.graph); });
   if (marginals) {
     add_uncertainty(result.robots, joint, *marginals);
+    result.transforms = collect_transforms(joint, placement, *marginals);
     for (auto& note : odometry_notes(mission, joint, *marginals)) result.notes.push_back(std::move(note));
   }
   result.weight = placement.weight;

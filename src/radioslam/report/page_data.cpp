@@ -112,10 +112,32 @@ PageData counted(double count) {
   return std::trunc(count) == count ? rounded(count, 0) : rounded_relative(count);
 }
 
+/// From the first robot of each component.
+PageData transform_data(const RunResult& result) {
+  PageData data = PageData::array();
+  const auto is_first = [&](const std::string& id) {
+    return std::any_of(result.components.begin(), result.components.end(),
+                       [&](const Component& component) { return component.robots.front() == id; });
+  };
+  for (const auto& transform : result.transforms) {
+    if (!is_first(transform.robot_i)) continue;
+    const Eigen::Vector3d t = transform.T_i_j.translation();
+    const Eigen::VectorXd variance = transform.covariance.diagonal().cwiseMax(0);
+    data.push_back({{"robot_i", transform.robot_i},
+                    {"robot_j", transform.robot_j},
+                    {"translation_m", {rounded(t.x(), 4), rounded(t.y(), 4), rounded(t.z(), 4)}},
+                    {"yaw_rad", rounded(transform.T_i_j.yaw(), 6)},
+                    {"sigma_position_m", rounded(std::sqrt(variance.head(result.dimension).mean()), 4)},
+                    {"sigma_yaw_rad", rounded(std::sqrt(variance[variance.size() - 1]), 6)}});
+  }
+  return data;
+}
+
 void add_run(PageData& page, const RunResult& result, const ReportParams& params) {
   page["components"] = PageData::array();
   for (const auto& component : result.components) page["components"].push_back(component.robots);
   page["unplaced"] = result.unplaced;
+  page["transforms"] = transform_data(result);
   page["range_biases"] = PageData::array();
   for (const auto& bias : result.range_biases)
     page["range_biases"].push_back({{"end_i", bias.end_i},

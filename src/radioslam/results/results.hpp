@@ -92,6 +92,15 @@ struct RangeBiasResult {
   std::size_t ranges = 0;
 };
 
+/// How the frames of two robots' odometries lie to each other, at the robots' first keyframes.
+struct TransformResult {
+  std::string robot_i, robot_j;
+  SE3 T_i_j;  ///< takes points of j's odometry frame to i's
+  /// Of [metres; radians] for a right perturbation T_i_j Exp(xi): 3 x 3 (x, y, yaw) in the plane, 6 x 6 in
+  /// space.
+  Eigen::MatrixXd covariance;
+};
+
 /// Robots that share one frame.
 struct Component {
   std::vector<std::string> robots;
@@ -113,6 +122,7 @@ struct RunResult {
   std::optional<SimilarityModelResult> similarity_model;
   std::vector<RangeBiasResult> range_biases;  ///< those that show
   std::vector<Component> components;
+  std::vector<TransformResult> transforms;  ///< every two robots of one component; empty if not computed
   std::vector<std::string> unplaced;
   double weight = 1;                           ///< of `robots` among the hypotheses
   std::vector<HypothesisResult> alternatives;  ///< likeliest first

@@ -4,6 +4,7 @@ write_headline();
 write_map();
 write_errors();
 write_robots();
+write_frames();
 write_hypotheses();
 write_overlap();
 write_similarity();

@@ -61,6 +61,23 @@ function write_robots() {
   changes.on("theme.robots", fill);
 }
 
+function write_frames() {
+  if (!report.transforms.length) return;
+  show("frames-section");
+  const column = (name, value, text) => ({ name, value, text: t => minus(text(value(t))), number: true });
+  const { table } = sortable_table([
+    { name: "in the frame of", value: t => t.robot_i, text: t => t.robot_i },
+    { name: "frame of", value: t => t.robot_j, text: t => t.robot_j },
+    column("x (m)", t => t.translation_m[0], d3.format(".2f")),
+    column("y (m)", t => t.translation_m[1], d3.format(".2f")),
+    ...(report.dimension === 3 ? [column("z (m)", t => t.translation_m[2], d3.format(".2f"))] : []),
+    column("heading (°)", t => t.yaw_rad, format.degrees),
+    column("σ of a position (m)", t => t.sigma_position_m, format.metres),
+    column("σ of the heading (°)", t => t.sigma_yaw_rad, format.degrees),
+  ], report.transforms, line => line);
+  by_id("frames-table").append(table);
+}
+
 function write_range_biases() {
   if (!report.range_biases.length) return;
   show("biases-section");
