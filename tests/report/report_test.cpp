@@ -161,6 +161,15 @@ TEST(Report, ThinningCountsEverything) {
     EXPECT_LT(data["closures"]["drawn"]["keyframe_i"][c].get<int>(), 100);
 }
 
+TEST(Report, LargeCountsAreExact) {
+  Sample sample = make_sample({.keyframes = 20, .closures = 5});
+  sample.result.counts["pairs"] = 7167256;
+  sample.result.counts["share"] = 0.123456789;
+  const Json counts = data_of(judged_page(sample))["counts"];
+  EXPECT_EQ(counts["pairs"], 7167256);
+  EXPECT_EQ(counts["share"], 0.123457);
+}
+
 TEST(Report, ForeignTextStaysText) {
   const std::string hostile = "</script><script>alert(1)</script><!--\"'&\n\xff";
   Sample sample = make_sample({.keyframes = 20, .closures = 5});
