@@ -199,5 +199,40 @@ TEST(MeasurementMixture, CostIsWhatReweighReturnsAndCountsTheOdometry) {
   EXPECT_NEAR(with - mixture.cost({}, 0), 4, 1e-12);
 }
 
+TEST(MeasurementMixture, AnAngleFromBeyondTheReachIsUnlikely) {
+  TeamGraph<SE2> team = heard_by<SE2>({path(0, 0.1, -50)});
+  MixtureParams params;
+  params.reach_m = 80;
+  params.sigma_place_m = 1e-3;  // or the distance shows within the reach too
+  const auto cost_at = [&](double distance_m) {
+    MixtureGraph<SE2> mixture(team, params);
+    mixture.graph.poses[1] = SE2({distance_m, 0}, 0);
+    return mixture.cost({}, 0);
+  };
+  EXPECT_NEAR(cost_at(20), cost_at(80), 1e-4);
+  EXPECT_NEAR(cost_at(120) - cost_at(80), 4, 1e-4) << "two standard deviations of a quarter of the reach";
+  EXPECT_GT(cost_at(2000), 500);
+}
+
+TEST(MeasurementMixture, TheLongestRangeIsWithinReach) {
+  TeamGraph<SE2> team = heard_by<SE2>({path(0, 0.1, -50)});
+  MixtureParams params;
+  params.sigma_place_m = 1e-3;
+  params.false_range_probability = 0.5;  // so that the range itself says the same at both
+  RangeFactor<SE2> range;
+  range.i.pose = PoseId(0);
+  range.j.pose = PoseId(1);
+  range.range_m = 5000;
+  range.sigma_m = 1;
+  team.graph.ranges.push_back(range);
+  const auto cost_at = [&](double distance_m) {
+    MixtureGraph<SE2> mixture(team, params);
+    mixture.graph.poses[1] = SE2({distance_m, 0}, 0);
+    return mixture.cost({}, 0);
+  };
+  EXPECT_NEAR(cost_at(20), cost_at(4900), 1e-4);
+  EXPECT_GT(cost_at(20000), cost_at(20) + 100);
+}
+
 }  // namespace
 }  // namespace radioslam

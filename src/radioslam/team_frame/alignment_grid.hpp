@@ -22,20 +22,17 @@
 namespace radioslam {
 
 struct GridParams {
-  int angle_steps = 60;     ///< cells of phi and of theta in a full turn
-  double farthest_m = 200;  ///< distances tried where no range was measured
-  double distance_ratio = 1.5;
-  double sigma_height_m = 3;  ///< unknown difference of two starts' heights
-  int references = 8;         ///< links tried as reference
-  int peaks = 10;             ///< places kept of each
-  int most_links = 80;        ///< between two pieces, or a piece and a point; more are thinned evenly
-  int most_sightings = 20;    ///< of one point by one piece, likewise
+  int angle_steps = 60;         ///< cells of phi and of theta in a full turn
+  double distance_ratio = 1.5;  ///< of the distances tried, up to the radio's reach, where none was measured
+  double sigma_height_m = 3;    ///< unknown difference of two starts' heights
+  int references = 8;           ///< links tried as reference
+  int peaks = 10;               ///< places kept of each
+  int most_links = 80;          ///< between two pieces, or a piece and a point; more are thinned evenly
+  int most_sightings = 20;      ///< of one point by one piece, likewise
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
     visit(Field{"angle_steps", "", 8, 720, "directions and headings tried in a full turn"}, self.angle_steps);
-    visit(Field{"farthest_m", "m", 1, 1e5, "largest distance tried where no range was measured"},
-          self.farthest_m);
     visit(Field{"distance_ratio", "", 1.05, 10, "each distance tried to the one before it"},
           self.distance_ratio);
     visit(Field{"sigma_height_m", "m", 0, 1e4, "unknown difference of two starts' heights"},

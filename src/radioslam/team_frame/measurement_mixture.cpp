@@ -13,6 +13,7 @@ namespace radioslam {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+constexpr double kReachOverItsSigma = 4;
 
 double added(const std::vector<double>& inflation, std::size_t k, double share) {
   return inflation.empty() ? 0 : share * inflation[k];
@@ -91,7 +92,9 @@ double MixtureGraph<Pose>::visit_measurements(const Inflation& inflation, double
   for (std::size_t b = 0; b + 1 < first_path_.size(); ++b) {
     const std::size_t begin = first_path_[b], end = first_path_[b + 1];
     if (begin == end) continue;
-    const double inflated = added(inflation.bearings_rad2, b, share) + place_variance(begin);
+    const double distance = distance_m(begin);
+    const double by_places = params_.sigma_place_m / std::max(distance, kMinimumDistance_m);
+    const double inflated = added(inflation.bearings_rad2, b, share) + by_places * by_places;
     double total = 1 - params_.direct_probability;
     visit.begin_bearing();
     for (std::size_t p = begin; p < end; ++p) {
@@ -103,17 +106,22 @@ double MixtureGraph<Pose>::visit_measurements(const Inflation& inflation, double
       visit.path(p, sigma, density);
     }
     visit.end_bearing(begin, end, total);
-    log_likelihood += std::log(total);
+    log_likelihood += std::log(total) + log_within_reach(distance);
   }
   return log_likelihood;
 }
 
 template <class Pose>
-double MixtureGraph<Pose>::place_variance(std::size_t path) const {
+double MixtureGraph<Pose>::distance_m(std::size_t path) const {
   const auto& bearing = graph.bearings[path];
-  const double distance = (position(graph, bearing.j) - graph.poses[bearing.i.index()].translation()).norm();
-  const double share = params_.sigma_place_m / std::max(distance, kMinimumDistance_m);
-  return share * share;
+  return (position(graph, bearing.j) - graph.poses[bearing.i.index()].translation()).norm();
+}
+
+template <class Pose>
+double MixtureGraph<Pose>::log_within_reach(double distance_m) const {
+  const double reach_m = std::max(params_.reach_m, span_m_);
+  const double excess = std::max(0.0, distance_m - reach_m) / (reach_m / kReachOverItsSigma);
+  return -excess * excess / 2;
 }
 
 template <class Pose>

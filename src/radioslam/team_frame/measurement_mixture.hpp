@@ -7,6 +7,9 @@
 // would be known without bound, and pi_p its prior among them, which grows with the path's power. Source:
 // Wi-Closure eq. 5 with the term for "no path is direct". The expected weights are the posteriors of the
 // terms.
+//   horizon: an angle between ends further apart than the radio reaches also has
+//            N(excess; 0, (reach / 4)^2) / N(0): angles alone are fitted best by teams far away, where all
+//            directions are parallel.
 #pragma once
 
 #include <vector>
@@ -25,6 +28,7 @@ struct MixtureParams {
   double false_range_probability = 0.03;  ///< e
   double power_for_double_db = 10;        ///< a path this much stronger is twice as likely direct
   double sigma_place_m = 0.2;             ///< of the ends' antennas in their bodies: turns near directions
+  double reach_m = 200;                   ///< of the radio; the longest measured range where that is longer
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -38,6 +42,8 @@ struct MixtureParams {
     visit(Field{"sigma_place_m", "m", 1e-3, 100,
                 "error of the antennas' places: over the distance, it adds to an angle's error"},
           self.sigma_place_m);
+    visit(Field{"reach_m", "m", 1, 1e6, "angles are hardly measured, and no distance is tried, beyond this"},
+          self.reach_m);
   }
 };
 
@@ -79,7 +85,8 @@ class MixtureGraph {
   template <class Visit>
   double visit_measurements(const Inflation& inflation, double share, Visit&& visit) const;
   double other_cost() const;
-  double place_variance(std::size_t path) const;
+  double distance_m(std::size_t path) const;
+  double log_within_reach(double distance_m) const;
 
   MixtureParams params_;
   std::vector<double> range_sigma_, path_sigma_, path_prior_;

@@ -154,7 +154,7 @@ class Reference {
   Eigen::Matrix2d point_covariance(PointId point) const {
     const auto covariance = marginals_->point(point);
     return covariance.allFinite() ? Eigen::Matrix2d(covariance.template topLeftCorner<2, 2>())
-                                  : Eigen::Matrix2d(Eigen::Matrix2d::Identity() * params_.farthest_m);
+                                  : Eigen::Matrix2d(Eigen::Matrix2d::Identity() * mixture_.reach_m);
   }
 
   GridBearing bearing(const CrossLink<Pose>& link, const GridEnd& placed, const GridEnd& free) const {
@@ -175,7 +175,7 @@ class Reference {
       return {{std::sqrt(std::max(flat2, 0.0)), range.sigma_m}};
     }
     std::vector<DistanceCell> cells;
-    for (double d = 1; d < params_.farthest_m * params_.distance_ratio; d *= params_.distance_ratio)
+    for (double d = 1; d < mixture_.reach_m * params_.distance_ratio; d *= params_.distance_ratio)
       cells.push_back({d, kUniformSigma * d * std::log(params_.distance_ratio)});
     return cells;
   }

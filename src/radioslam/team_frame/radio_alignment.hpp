@@ -21,7 +21,7 @@ namespace radioslam {
 struct BeamParams {
   int beam = 4;                ///< teams kept
   int tried_places = 80;       ///< places refined coarsely per team and piece
-  int refined_places = 16;     ///< places refined per team and piece
+  int refined_places = 48;     ///< places refined per team and piece
   double same_map_m = 0.5;     ///< two teams nowhere further apart than this ...
   double same_map_sigmas = 3;  ///< ... plus this many standard deviations are one
   double overconfidence = 4;   ///< log evidence is divided by this for a hypothesis' weight
