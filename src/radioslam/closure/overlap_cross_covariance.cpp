@@ -13,7 +13,7 @@ std::shared_ptr<const SkeletonCovariance<Pose>> SkeletonCovariance<Pose>::comput
     PoseGraph<Pose> reduced, const typename Pose::Point& origin,
     std::vector<std::vector<StretchVariables>> stretches) {
   std::shared_ptr<SkeletonCovariance> s(new SkeletonCovariance(std::move(reduced), origin));
-  s->stretches_ = std::move(stretches);
+  s->stretches_.swap(stretches);
   if (s->equations_.empty()) return s;
   s->equations_.linearise(s->graph_);
   if (s->equations_.factorize(0) != Factorization::kDone) return nullptr;
@@ -41,7 +41,7 @@ template <class Pose>
 typename SkeletonCovariance<Pose>::Joint SkeletonCovariance<Pose>::within(const StretchVariables& s) const {
   Joint joint = Joint::Zero();
   const std::array<Variable, 3> of{variable(s.first), variable(s.last), variable(s.drift)};
-  const std::array<Eigen::Index, 3> at{0, kDof, 2 * kDof};
+  const std::array<Eigen::Index, 3> at{0, kDof, Eigen::Index{2} * kDof};
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j)
       if (of[i].kind != VariableKind::kNone && of[j].kind != VariableKind::kNone)

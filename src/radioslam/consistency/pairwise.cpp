@@ -82,6 +82,7 @@ PairwiseConsistency pairwise_consistency(const OdometryChain<Pose>& chain_a,
   return result;
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): Pose is a type.
 #define RADIOSLAM_INSTANTIATE(Pose)                                                                         \
   template LoopJacobians<Pose> loop_jacobians(const Pose&, const Pose&, const Pose&);                       \
   template double loop_statistic(const UncertainPose<Pose>&, const UncertainPose<Pose>&,                    \
@@ -91,6 +92,7 @@ PairwiseConsistency pairwise_consistency(const OdometryChain<Pose>& chain_a,
   template PairwiseConsistency pairwise_consistency(const OdometryChain<Pose>&, const OdometryChain<Pose>&, \
                                                     const std::vector<RelativePoseMatch<Pose>>&,            \
                                                     const PairwiseParams&)
+// NOLINTEND(bugprone-macro-parentheses)
 RADIOSLAM_INSTANTIATE(SE2);
 RADIOSLAM_INSTANTIATE(SE3);
 #undef RADIOSLAM_INSTANTIATE

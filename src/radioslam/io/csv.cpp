@@ -21,7 +21,7 @@ std::string_view bare(std::string_view field) {
 
 }  // namespace
 
-CsvReader::CsvReader(const Text& text, Columns columns) : lines_(text) {
+CsvReader::CsvReader(const Text& text, const Columns& columns) : lines_(text) {
   if (!lines_.next_with_content()) text.fail(1, "the file has no header line");
   split(lines_.line());
   width_ = fields_.size();

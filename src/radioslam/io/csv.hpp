@@ -23,7 +23,7 @@ class CsvReader {
   };
 
   /// Reads the header; refuses a missing or doubled column.
-  CsvReader(const Text& text, Columns columns);
+  CsvReader(const Text& text, const Columns& columns);
 
   /// Moves to the next row; refuses one with more or fewer fields than the header.
   bool next();

@@ -117,7 +117,7 @@ class G2oReader {
 
   template <int N>
   Eigen::Matrix<double, N, N> read_information(LineFields& fields) {
-    const Eigen::Matrix<double, N, N> information = read_upper_triangle<N>(fields);
+    Eigen::Matrix<double, N, N> information = read_upper_triangle<N>(fields);
     ++informations_;
     if (information.isZero(0) && repair_ == RepairInformation::kNo)
       lines_.fail("the information matrix is zero; --repair-information lets such an edge say nothing");

@@ -103,10 +103,12 @@ std::string format_mission_yaml(const Mission& mission) {
                     "\ndimension: " + std::to_string(mission.dimension) + "\nrobots:\n";
   for (std::size_t r = 0; r < mission.robots.size(); ++r) {
     const Robot& robot = mission.robots[r];
-    out += "  " + quoted(robot.id) + ": " + overrides(defaults, settings_of(robot, antennas[r])) + "\n";
+    out.append("  ").append(quoted(robot.id)).append(": ");
+    out.append(overrides(defaults, settings_of(robot, antennas[r]))).append("\n");
   }
   out += "defaults:\n";
-  for (const auto& [key, value] : defaults) out += "  " + key + ": " + value + "\n";
+  for (const auto& [key, value] : defaults)
+    out.append("  ").append(key).append(": ").append(value).append("\n");
   return out;
 }
 

@@ -109,6 +109,7 @@ class PyfgReader {
       }
       fields.end();
     }
+    lines_ = nullptr;
   }
 
   void read_vertex(std::string_view tag, LineFields& fields) {

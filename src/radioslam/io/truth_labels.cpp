@@ -112,8 +112,8 @@ std::string format_match_labels(const Mission& mission, const std::vector<std::o
   for (std::size_t k = 0; k < labels.size(); ++k) {
     if (!labels[k]) continue;
     const auto& [i, stamp_i, j, stamp_j] = key_of(mission, mission.matches[k]);
-    out += i + ',' + format_stamp(stamp_i) + ',' + j + ',' + format_stamp(stamp_j) +
-           (*labels[k] ? ",true\n" : ",false\n");
+    out.append(i).append(",").append(format_stamp(stamp_i)).append(",");
+    out.append(j).append(",").append(format_stamp(stamp_j)).append(*labels[k] ? ",true\n" : ",false\n");
   }
   return out;
 }

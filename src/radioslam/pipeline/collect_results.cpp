@@ -11,6 +11,7 @@ namespace radioslam {
 namespace {
 
 constexpr std::size_t kMostSamplesShown = 4000;
+constexpr double kHalfBin = 0.5;
 constexpr double kSurprise = 3;  // standard deviations
 
 template <class Pose>
@@ -204,10 +205,13 @@ std::vector<std::string> odometry_notes(const Mission& mission, const JointGraph
 SimilarityModelResult collect_similarity_model(const RadioMeasurements& radio, const RadioParams& params) {
   SimilarityModelResult model;
   model.measure = params.measure;
-  const double half_bin = params.distance_model.bin_width / 2;
-  for (double s = half_bin; s < 1; s += 2 * half_bin)
+  const double bin = params.distance_model.bin_width;
+  const auto bins = static_cast<int>(std::ceil(1 / bin - kHalfBin));
+  for (int b = 0; b < bins; ++b) {
+    const double s = (b + kHalfBin) * bin;
     if (const auto p = radio.near_model.predict(s))
       model.bins.push_back({s, p->mean_m, p->sigma_m, p->samples});
+  }
   const auto& samples = radio.near_model.samples();
   const std::size_t stride = std::max<std::size_t>(1, samples.size() / kMostSamplesShown);
   for (std::size_t i = 0; i < samples.size(); i += stride)

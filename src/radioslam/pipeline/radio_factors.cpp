@@ -18,7 +18,7 @@ Eigen::Vector3d unit_vector(const ArrivalPath& path) {
 /// The direction as the estimate sees it, given the receiver's odometry pose.
 template <class Pose>
 typename Pose::Point direction(const ArrivalPath& path, const SE3& T_start_body) {
-  const Eigen::Vector3d in_body = unit_vector(path);
+  Eigen::Vector3d in_body = unit_vector(path);
   if constexpr (Pose::kDim == 3) {
     return in_body;
   } else {

@@ -22,8 +22,10 @@ OptimizerSummary optimize_robustly(JointGraph<Pose>& joint, const RobustParams& 
   OptimizerParams coarse = optimizer;
   coarse.relative_cost_tolerance = std::max(kCoarseTolerance, optimizer.relative_cost_tolerance);
   int iterations = 0;
-  for (double scale = robust.first_scale; scale > robust.final_scale; scale *= robust.step) {
+  double scale = robust.first_scale;
+  while (scale > robust.final_scale) {
     set_loss_scale(joint, scale);
+    scale *= robust.step;
     iterations += optimize(joint.team.graph, coarse, progress).iterations;
   }
   set_loss_scale(joint, robust.final_scale);

@@ -94,8 +94,10 @@ std::optional<PredictedDistance> DistanceModel::predict(double similarity) const
 
 std::optional<double> DistanceModel::smallest_distance_m() const {
   std::optional<double> smallest;
-  for (double s = params_.bin_width / 2; s <= 1; s += params_.bin_width / 2)
-    if (const auto p = predict(s)) smallest = std::min(p->mean_m, smallest.value_or(p->mean_m));
+  const double step = params_.bin_width / 2;
+  const auto steps = static_cast<int>(std::floor(1 / step));
+  for (int k = 1; k <= steps; ++k)
+    if (const auto p = predict(k * step)) smallest = std::min(p->mean_m, smallest.value_or(p->mean_m));
   return smallest;
 }
 

@@ -38,7 +38,7 @@ Eigen::Vector2d Hills::gradient(const Eigen::Vector2d& position) const {
 }
 
 SE3 Hills::stand(const SE2& T_floor_body) const {
-  const Eigen::Vector2d place = T_floor_body.translation();
+  const Eigen::Vector2d& place = T_floor_body.translation();
   const Eigen::Vector2d slope = gradient(place);
   const Eigen::Vector2d heading = T_floor_body.rotate(Eigen::Vector2d::UnitX());
   const Eigen::Vector3d x = Eigen::Vector3d(heading.x(), heading.y(), slope.dot(heading)).normalized();

@@ -61,8 +61,8 @@ Eigen::Vector2d draw_inside(const LaneGridParams& floor, Rng& rng) {
 
 Eigen::Vector2d draw_outside(const LaneGridParams& floor, double reach_m, Rng& rng) {
   for (;;) {
-    const Eigen::Vector2d p(rng.uniform(-reach_m, floor.floor_x_m + reach_m),
-                            rng.uniform(-reach_m, floor.floor_y_m + reach_m));
+    Eigen::Vector2d p(rng.uniform(-reach_m, floor.floor_x_m + reach_m),
+                      rng.uniform(-reach_m, floor.floor_y_m + reach_m));
     const bool inside = p.x() >= 0 && p.x() <= floor.floor_x_m && p.y() >= 0 && p.y() <= floor.floor_y_m;
     if (!inside) return p;
   }

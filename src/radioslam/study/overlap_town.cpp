@@ -17,7 +17,8 @@ namespace {
 std::vector<SE2> drive(Rng& rng, const OverlapTown& town) {
   std::vector<SE2> poses;
   const auto blocks = static_cast<std::uint64_t>(town.side_m / town.street_m);
-  Eigen::Vector2d p = Eigen::Vector2d::Constant(town.street_m * static_cast<double>(blocks / 2));
+  const std::uint64_t middle = blocks / 2;
+  Eigen::Vector2d p = Eigen::Vector2d::Constant(town.street_m * static_cast<double>(middle));
   int quarter = 0;
   double left_m = 0;
   const auto way = [](int q) {

@@ -104,18 +104,18 @@ std::string lead_of(const std::vector<WiClosureKitti>& seeds) {
 std::vector<std::string> notes() {
   return {
       "[1] 1,913 missed of 5,544 are 34.5 %; the thesis's table I says that 1 % were missed.",
-      "[2] The text says 464 s of which 53 s are the search, the table 411 s: that is without the search. "
-      "The baseline took 896 s; so 48 % are saved. Their seconds hold the whole LiDAR pipeline; ours have "
-      "none, and matches as they are.",
-      "[3] Their false matches come from DiSCo-SLAM with loosened thresholds, ours are drawn, and without "
-      "pruning ours still stand against radio and a robust loss; the row shows the damage, not theirs.",
-      "[4] The printed figure is unreadable ('13'). 1.3 m would be 98 % less than 66.1 m; the claimed 99 % "
-      "needs 0.66 m, 1 m when rounded. The thesis does not define its ATE: 'average trajectory error'. Ours "
-      "is the RMSE after one rigid alignment of the team.",
-      "The thesis's drive is DiSCo-SLAM's version of KITTI 08, whose cut and keyframes are not published: "
-      "the counts of pairs and true pairs depend on them, recall and rejection less so.",
-      "Mode link in three dimensions takes the relative poses at the links from the joint estimate: a range "
-      "and two angles fix a full pose in the plane only.",
+      ("[2] The text says 464 s of which 53 s are the search, the table 411 s: that is without the search. "
+       "The baseline took 896 s; so 48 % are saved. Their seconds hold the whole LiDAR pipeline; ours have "
+       "none, and matches as they are."),
+      ("[3] Their false matches come from DiSCo-SLAM with loosened thresholds, ours are drawn, and without "
+       "pruning ours still stand against radio and a robust loss; the row shows the damage, not theirs."),
+      ("[4] The printed figure is unreadable ('13'). 1.3 m would be 98 % less than 66.1 m; the claimed 99 % "
+       "needs 0.66 m, 1 m when rounded. The thesis does not define its ATE: 'average trajectory error'. Ours "
+       "is the RMSE after one rigid alignment of the team."),
+      ("The thesis's drive is DiSCo-SLAM's version of KITTI 08, whose cut and keyframes are not published: "
+       "the counts of pairs and true pairs depend on them, recall and rejection less so."),
+      ("Mode link in three dimensions takes the relative poses at the links from the joint estimate: a range "
+       "and two angles fix a full pose in the plane only."),
       "The oracle is maximum likelihood told which paths are direct and started from the truth."};
 }
 
