@@ -81,5 +81,23 @@ TEST_F(Reproduce, RefusesWhatItCannotMake) {
             std::string::npos);
 }
 
+TEST(SimulateKitti, SaysWhenTheRobotsNeverMeet) {
+  const TemporaryFolder folder;
+  std::string straight;
+  for (int k = 0; k < 1200; ++k) straight += "1 0 0 0 0 1 0 0 0 0 1 " + std::to_string(k) + "\n";
+  write_file(folder.path() / "drive.txt", straight);
+  const auto simulate = [&](const std::string& reach) {
+    return run({"simulate", "kitti", "-o", "m" + reach, "--trajectory", "drive.txt", "--odometry",
+                "drive.txt", "--cut", "0.5", "--set", "radio_range_m=" + reach},
+               folder.path());
+  };
+  const auto apart = simulate("100");
+  EXPECT_EQ(apart.status, 0) << apart.err;
+  EXPECT_NE(apart.out.find("note: no two robots ever come within reach"), std::string::npos) << apart.out;
+  const auto near = simulate("700");
+  EXPECT_EQ(near.status, 0) << near.err;
+  EXPECT_EQ(near.out.find("note"), std::string::npos) << near.out;
+}
+
 }  // namespace
 }  // namespace radioslam::cli

@@ -1,4 +1,5 @@
 // radioslam simulate: a scenario becomes a mission folder with its truth.
+#include <algorithm>
 #include <cstdint>
 #include <iostream>
 #include <memory>
@@ -76,6 +77,11 @@ void simulate_scenario(const SimulateOptions& options) {
   write_mission(output.path(), simulation.mission, simulation.truth);
   output.commit();
   std::cout << options.output << ": " << summary(simulation.mission) << ", seed " << options.seed << '\n';
+  const Mission& mission = simulation.mission;
+  const bool has_scans = std::any_of(mission.robots.begin(), mission.robots.end(),
+                                     [](const Robot& robot) { return !robot.wifi.empty(); });
+  if (mission.robots.size() > 1 && !has_scans && mission.ranges.empty() && mission.arrivals.empty())
+    std::cout << "note: no two robots ever come within reach of each other's radio: nothing ties them\n";
 }
 
 std::string scenario_list() {

@@ -18,7 +18,7 @@ enum class GraduatedLoss { kGemanMcClure, kTruncatedLeastSquares };
 struct GraduatedParams {
   double mu_factor = 1.4;            ///< change of mu per round; the paper's
   int max_rounds = 100;              ///< the last round is solved at the loss itself, or at this mu
-  int steps_per_round = 3;           ///< linear solves of a round before the last
+  int steps_per_round = 10;          ///< linear solves of a round before the last
   double settled_weight_gap = 1e-3;  ///< truncated: done when every weight is this close to 0 or 1
 
   template <class Self, class Visitor>

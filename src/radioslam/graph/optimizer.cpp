@@ -1,6 +1,7 @@
 #include "radioslam/graph/optimizer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -11,6 +12,11 @@
 
 namespace radioslam {
 namespace {
+
+/// Shares of an undamped step that are tried where the whole one fails, and the least gain they are taken
+/// for.
+constexpr std::array kStepShares = {0.6, 0.35, 0.2, 0.1, 0.03};
+constexpr double kWorthwhile = 0.05;
 
 /// One run: the graph holds the current values, `equations` are linearised at them.
 template <class Pose>
@@ -89,7 +95,34 @@ class Run {
     best_.restore(graph_);
     equations_.linearise(graph_);
     steps_above_best_ = 0;
+    if (undamped() && shorten()) return std::nullopt;
     return raise_damping(params_.first_damping);
+  }
+
+  /// Takes the best share of the undamped step from the best values, if one is worth it. A closure far off at
+  /// the end of a long chain needs all of its poses to move together: a shorter step does that, where
+  /// damping holds each of them back.
+  bool shorten() {
+    if (equations_.factorize(damping_) == Factorization::kNotPositiveDefinite) return false;
+    ++summary_.iterations;
+    const Eigen::VectorXd step = equations_.step();
+    double best_share = 0, best_cost = best_cost_;
+    for (const double share : kStepShares) {
+      equations_.apply(share * step, graph_);
+      const double cost = total_cost(graph_);
+      best_.restore(graph_);
+      if (cost >= best_cost) continue;
+      best_share = share;
+      best_cost = cost;
+    }
+    const bool worthwhile = best_cost < (1 - kWorthwhile) * best_cost_;
+    if (worthwhile) {
+      equations_.apply(best_share * step, graph_);
+      equations_.linearise(graph_);
+      keep(best_cost);
+    }
+    summary_.costs.push_back(best_cost_);
+    return worthwhile;
   }
 
   /// From now on some damping stays: the matrix is singular without.
