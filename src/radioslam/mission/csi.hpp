@@ -1,0 +1,46 @@
+// Channel state information: what a WiFi card measured of the packets it heard, before any sense is made of
+// it.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <compare>
+#include <complex>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "radioslam/geometry/trajectory.hpp"
+
+namespace radioslam {
+
+/// A card's address, the first of its six bytes the most significant.
+struct MacAddress {
+  std::uint64_t value = 0;
+  friend constexpr auto operator<=>(MacAddress, MacAddress) = default;
+};
+
+/// What one packet's training symbols said of the channel.
+struct CsiPacket {
+  Stamp stamp;                           ///< by the host's clock where the capture has it, else as clock_us
+  std::uint32_t clock_us = 0;            ///< of the card: a 1 MHz counter of its own, which wraps
+  std::optional<MacAddress> sender;      ///< absent where the capture does not tell
+  std::optional<std::uint32_t> counter;  ///< of the frame; the answer to a frame carries the same
+  std::array<int, 3> rssi{};             ///< per antenna, in the card's own scale; 0: not used
+  int noise_dbm = 0;                     ///< -127: not measured
+  int gain_control_db = 0;
+  /// Complex channel in the card's own scale, (receiving antennas * streams) x subcarriers; row s * antennas
+  /// + a is what antenna a heard of stream s.
+  Eigen::MatrixXcf channel;
+  int antennas = 0, streams = 0;
+};
+
+/// Everything a card wrote down.
+struct CsiCapture {
+  std::vector<CsiPacket> packets;     ///< as recorded
+  std::vector<double> subcarrier_hz;  ///< from the carrier, of every column
+  std::vector<std::string> warnings;  ///< what was left out, and where
+};
+
+}  // namespace radioslam
