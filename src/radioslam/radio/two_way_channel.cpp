@@ -1,0 +1,189 @@
+#include "radioslam/radio/two_way_channel.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <map>
+#include <numbers>
+
+namespace radioslam {
+namespace {
+
+constexpr std::size_t kFewestExchanges = 3;
+constexpr double kOffsetStep_hz = 100;
+constexpr double kPerMicrosecond_s = 1e-6;
+constexpr double kCounterStep_us = 1;
+constexpr int kQuantileRounds = 20;
+
+struct Exchange {
+  const CsiPacket* heard;
+  const CsiPacket* answer;
+};
+
+/// By counter; nothing for a counter that stands twice.
+std::map<std::uint32_t, const CsiPacket*> by_counter(const CsiCapture& capture,
+                                                     std::optional<MacAddress> sender) {
+  std::map<std::uint32_t, const CsiPacket*> packets;
+  for (const CsiPacket& packet : capture.packets) {
+    if (!packet.counter || (sender && packet.sender != sender)) continue;
+    const auto [place, is_new] = packets.emplace(*packet.counter, &packet);
+    if (!is_new) place->second = nullptr;
+  }
+  return packets;
+}
+
+std::vector<Exchange> pair_up(const CsiCapture& receiver, MacAddress sender, const CsiCapture& answers) {
+  const auto heard = by_counter(receiver, sender), back = by_counter(answers, std::nullopt);
+  std::vector<Exchange> exchanges;
+  for (const auto& [counter, packet] : heard) {
+    const auto answer = back.find(counter);
+    if (packet && answer != back.end() && answer->second) exchanges.push_back({packet, answer->second});
+  }
+  std::stable_sort(exchanges.begin(), exchanges.end(),
+                   [](const Exchange& a, const Exchange& b) { return a.heard->stamp < b.heard->stamp; });
+  exchanges.erase(
+      std::unique(exchanges.begin(), exchanges.end(),
+                  [](const Exchange& a, const Exchange& b) { return a.heard->stamp == b.heard->stamp; }),
+      exchanges.end());
+  return exchanges;
+}
+
+/// The receiver's counter less the sender's, both counted on over their wraps.
+std::vector<double> clock_differences_us(const std::vector<Exchange>& exchanges) {
+  std::vector<double> difference{0};
+  const auto step = [](const CsiPacket* from, const CsiPacket* to) {
+    return std::int64_t{static_cast<std::int32_t>(to->clock_us - from->clock_us)};
+  };
+  for (std::size_t k = 1; k < exchanges.size(); ++k)
+    difference.push_back(difference.back() +
+                         static_cast<double>(step(exchanges[k - 1].heard, exchanges[k].heard) -
+                                             step(exchanges[k - 1].answer, exchanges[k].answer)));
+  return difference;
+}
+
+/// What the values stray from the polynomial in time that has `share` of them below it: quantile regression,
+/// by iteratively reweighted least squares.
+std::vector<double> without_drift(const std::vector<double>& values, const std::vector<Exchange>& exchanges,
+                                  int degree, double share) {
+  const auto n = std::ssize(values);
+  const Stamp first = exchanges.front().heard->stamp, last = exchanges.back().heard->stamp;
+  const Eigen::VectorXd y = Eigen::Map<const Eigen::VectorXd>(values.data(), n);
+  Eigen::MatrixXd powers(n, degree + 1);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const double t = 2 * seconds_between(first, exchanges[static_cast<std::size_t>(k)].heard->stamp) /
+                         seconds_between(first, last) -
+                     1;
+    for (Eigen::Index d = 0; d <= degree; ++d) powers(k, d) = std::pow(t, static_cast<double>(d));
+  }
+  Eigen::VectorXd weight = Eigen::VectorXd::Ones(n), rest = y;
+  for (int round = 0; round < kQuantileRounds; ++round) {
+    const Eigen::MatrixXd weighted = weight.asDiagonal() * powers;
+    const Eigen::VectorXd fit = (weighted.transpose() * powers).ldlt().solve(weighted.transpose() * y);
+    rest = y - powers * fit;
+    for (Eigen::Index k = 0; k < n; ++k)
+      weight[k] = (rest[k] > 0 ? share : 1 - share) / std::max(std::abs(rest[k]), kCounterStep_us);
+  }
+  return {rest.begin(), rest.end()};
+}
+
+/// The mean over the subcarriers nearest to the carrier.
+std::complex<double> centre(const CsiPacket& packet, const std::vector<double>& subcarrier_hz, int count) {
+  std::vector<std::size_t> order(subcarrier_hz.size());
+  for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::abs(subcarrier_hz[a]) < std::abs(subcarrier_hz[b]);
+  });
+  order.resize(std::min(order.size(), static_cast<std::size_t>(count)));
+  std::complex<double> sum = 0;
+  for (const std::size_t k : order)
+    sum += std::complex<double>(packet.channel(0, static_cast<Eigen::Index>(k)));
+  return sum / static_cast<double>(order.size());
+}
+
+/// From each exchange to the next: how the phase turned, and by how much the jitter grew.
+struct Turn {
+  std::complex<double> phase;
+  double jitter_us;
+};
+
+std::complex<double> turned_back(std::complex<double> phase, double jitter_us, double offset_hz) {
+  return phase * std::polar(1.0, -2 * std::numbers::pi * offset_hz * jitter_us * kPerMicrosecond_s);
+}
+
+double coherence(const std::vector<Turn>& turns, double offset_hz) {
+  std::complex<double> sum = 0;
+  for (const Turn& turn : turns) sum += turned_back(turn.phase, turn.jitter_us, offset_hz);
+  return turns.empty() ? 0 : std::abs(sum) / static_cast<double>(turns.size());
+}
+
+std::vector<Turn> successive_turns(const std::vector<Exchange>& exchanges, const std::vector<double>& jitter,
+                                   const std::vector<std::complex<double>>& centres,
+                                   const TwoWayParams& params) {
+  std::vector<Turn> turns;
+  for (std::size_t k = 1; k < exchanges.size(); ++k) {
+    const std::complex<double> turn = centres[k] * std::conj(centres[k - 1]);
+    const bool near =
+        seconds_between(exchanges[k - 1].heard->stamp, exchanges[k].heard->stamp) <= params.longest_pause_s;
+    if (near && std::abs(turn) > 0) turns.push_back({turn / std::abs(turn), jitter[k] - jitter[k - 1]});
+  }
+  return turns;
+}
+
+double frequency_offset_hz(const std::vector<Turn>& turns, double most_hz) {
+  double best_hz = 0, best = coherence(turns, 0);
+  const auto steps = static_cast<int>(most_hz / kOffsetStep_hz);
+  for (int k = -steps; k <= steps; ++k) {
+    const double here = coherence(turns, k * kOffsetStep_hz);
+    if (here <= best) continue;
+    best = here;
+    best_hz = k * kOffsetStep_hz;
+  }
+  return best_hz;
+}
+
+}  // namespace
+
+std::optional<TwoWayChannel> two_way_channel(const CsiCapture& receiver, MacAddress sender,
+                                             const CsiCapture& answers, const TwoWayParams& params) {
+  std::vector<Exchange> exchanges = pair_up(receiver, sender, answers);
+  if (exchanges.size() < kFewestExchanges || receiver.subcarrier_hz != answers.subcarrier_hz)
+    return std::nullopt;
+  TwoWayChannel result;
+  result.paired = exchanges.size();
+  const std::vector<double> all_jitter =
+      without_drift(clock_differences_us(exchanges), exchanges, params.drift_degree, params.undelayed_share);
+  std::vector<double> jitter;
+  std::vector<Exchange> usual;
+  for (std::size_t k = 0; k < exchanges.size(); ++k) {
+    if (std::abs(all_jitter[k]) > params.most_jitter_us) continue;
+    usual.push_back(exchanges[k]);
+    jitter.push_back(all_jitter[k]);
+  }
+  result.late = exchanges.size() - usual.size();
+  if (usual.size() < kFewestExchanges) return std::nullopt;
+  exchanges = std::move(usual);
+
+  std::vector<std::complex<double>> centres;
+  for (const auto& [heard, answer] : exchanges)
+    centres.push_back(centre(*heard, receiver.subcarrier_hz, params.centre_subcarriers) *
+                      centre(*answer, receiver.subcarrier_hz, params.centre_subcarriers));
+  const std::vector<Turn> turns = successive_turns(exchanges, jitter, centres, params);
+  result.frequency_offset_hz = frequency_offset_hz(turns, params.most_offset_hz);
+  result.coherence = coherence(turns, result.frequency_offset_hz);
+  result.coherence_before = coherence(turns, 0);
+
+  result.product.resize(static_cast<Eigen::Index>(exchanges.size()),
+                        static_cast<Eigen::Index>(receiver.subcarrier_hz.size()));
+  for (std::size_t k = 0; k < exchanges.size(); ++k) {
+    const auto& [heard, answer] = exchanges[k];
+    result.stamps.push_back(heard->stamp);
+    result.product.row(static_cast<Eigen::Index>(k)) =
+        heard->channel.row(0).cast<std::complex<double>>().cwiseProduct(
+            answer->channel.row(0).cast<std::complex<double>>()) *
+        turned_back(1, jitter[k], result.frequency_offset_hz);
+  }
+  return result;
+}
+
+}  // namespace radioslam
