@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # Runs every fuzzer for a while, as many at once as there are cores, each from its seeds and the inputs it kept
 # last time (build/fuzz-corpus).
-#   scripts/fuzz.sh [SECONDS]     per fuzzer; default: 60
+#   scripts/fuzz.sh [SECONDS [SEED]]     per fuzzer; default: 60 s, other inputs every time
 set -euo pipefail
 export LC_ALL=C
 cd "$(dirname "$0")/.."
 seconds=${1:-60}
+seed=${2:-0}
 
 fuzz_one() {
   local fuzzer=$1 name
@@ -13,11 +14,11 @@ fuzz_one() {
   local corpus=build/fuzz-corpus/$name
   mkdir -p "$corpus" build/fuzz-findings
   echo "$name for $seconds s"
-  "$fuzzer" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -print_final_stats=0 -verbosity=0 \
+  "$fuzzer" -max_total_time="$seconds" -seed="$seed" -timeout=10 -rss_limit_mb=2048 -print_final_stats=0 -verbosity=0 \
     -artifact_prefix="build/fuzz-findings/$name-" "$corpus" "tests/fuzz/seeds/${name#fuzz_}"
 }
 export -f fuzz_one
-export seconds
+export seconds seed
 
 scripts/deps.sh test
 cmake --preset asan >/dev/null

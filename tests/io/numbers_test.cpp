@@ -21,6 +21,12 @@ TEST(ParseNumber, TakesDecimalNumbersAsAWhole) {
 
 TEST(ParseNumber, ReadsWhatIsTooSmallAsZero) {
   EXPECT_EQ(parse_number("1e-400"), 0);
+  EXPECT_EQ(parse_number("-1e-99999999999"), 0);
+  EXPECT_EQ(parse_number("." + std::string(370, '0') + "8e0000000000"), 0);
+  EXPECT_EQ(parse_number("." + std::string(370, '0') + "8e10"), 0);
+  EXPECT_EQ(parse_number("1e400"), std::nullopt);
+  EXPECT_EQ(parse_number("1" + std::string(370, '0') + "e-10"), std::nullopt);
+  EXPECT_EQ(parse_number("1e99999999999"), std::nullopt);
   EXPECT_EQ(parse_number("-0." + std::string(400, '0') + "1"), 0);
 }
 

@@ -29,13 +29,6 @@ std::optional<Number> parse_whole(std::string_view token) {
   return value;
 }
 
-/// Of a number that does not fit a double: is it too small rather than too large?
-bool underflows(std::string_view token) {
-  if (token.find("e-") != std::string_view::npos || token.find("E-") != std::string_view::npos) return true;
-  const std::size_t first = token.find_first_not_of('-');
-  return token.find_first_of("eE") == std::string_view::npos && token.substr(first).find_first_of("0.") == 0;
-}
-
 /// digits * 10^exponent.
 struct Decimal {
   bool negative = false;
@@ -65,6 +58,13 @@ std::optional<Decimal> parse_decimal(std::string_view token) {
   if (!exponent) return std::nullopt;
   result.exponent += *exponent;
   return result;
+}
+
+/// Of a number that does not fit a double: is it too small rather than too large?
+bool underflows(std::string_view token) {
+  if (const auto decimal = parse_decimal(token))
+    return static_cast<std::int64_t>(decimal->digits.size()) + decimal->exponent < 0;
+  return token.find("e-") != std::string_view::npos || token.find("E-") != std::string_view::npos;
 }
 
 /// Drops digits behind the point and rounds to nearest; nothing if it has more than 18 digits.
