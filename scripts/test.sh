@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds and tests everything: release with g++, then AddressSanitizer and UndefinedBehaviorSanitizer with clang,
-# then ten seconds of every fuzzer from the same build, from one seed (the nightly takes others). All with warnings as errors, and as unity builds (several
-# sources at once), which take half the time from nothing.
+# then ten seconds of every fuzzer from the same build, from one seed (the nightly takes others). All with
+# warnings as errors, and as unity builds (several sources at once), which take half the time from nothing.
 #   scripts/test.sh [--quick]     --quick: release only
 set -euo pipefail
 export LC_ALL=C
