@@ -6,6 +6,7 @@
 #include <complex>
 #include <map>
 #include <numbers>
+#include <numeric>
 
 namespace radioslam {
 namespace {
@@ -87,18 +88,22 @@ std::vector<double> without_drift(const std::vector<double>& values, const std::
   return {rest.begin(), rest.end()};
 }
 
-/// The mean over the subcarriers nearest to the carrier.
-std::complex<double> centre(const CsiPacket& packet, const std::vector<double>& subcarrier_hz, int count) {
-  std::vector<std::size_t> order(subcarrier_hz.size());
-  for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return std::abs(subcarrier_hz[a]) < std::abs(subcarrier_hz[b]);
+/// The columns of the subcarriers nearest to the carrier.
+std::vector<Eigen::Index> centre_columns(const std::vector<double>& subcarrier_hz, int count) {
+  std::vector<Eigen::Index> columns(subcarrier_hz.size());
+  std::iota(columns.begin(), columns.end(), Eigen::Index{0});
+  std::stable_sort(columns.begin(), columns.end(), [&](Eigen::Index a, Eigen::Index b) {
+    return std::abs(subcarrier_hz[static_cast<std::size_t>(a)]) <
+           std::abs(subcarrier_hz[static_cast<std::size_t>(b)]);
   });
-  order.resize(std::min(order.size(), static_cast<std::size_t>(count)));
+  columns.resize(std::min(columns.size(), static_cast<std::size_t>(count)));
+  return columns;
+}
+
+std::complex<double> mean_of(const CsiPacket& packet, const std::vector<Eigen::Index>& columns) {
   std::complex<double> sum = 0;
-  for (const std::size_t k : order)
-    sum += std::complex<double>(packet.channel(0, static_cast<Eigen::Index>(k)));
-  return sum / static_cast<double>(order.size());
+  for (const Eigen::Index k : columns) sum += std::complex<double>(packet.channel(0, k));
+  return sum / static_cast<double>(columns.size());
 }
 
 /// From each exchange to the next: how the phase turned, and by how much the jitter grew.
@@ -164,10 +169,10 @@ std::optional<TwoWayChannel> two_way_channel(const CsiCapture& receiver, MacAddr
   if (usual.size() < kFewestExchanges) return std::nullopt;
   exchanges = std::move(usual);
 
+  const auto columns = centre_columns(receiver.subcarrier_hz, params.centre_subcarriers);
   std::vector<std::complex<double>> centres;
   for (const auto& [heard, answer] : exchanges)
-    centres.push_back(centre(*heard, receiver.subcarrier_hz, params.centre_subcarriers) *
-                      centre(*answer, receiver.subcarrier_hz, params.centre_subcarriers));
+    centres.push_back(mean_of(*heard, columns) * mean_of(*answer, columns));
   const std::vector<Turn> turns = successive_turns(exchanges, jitter, centres, params);
   result.frequency_offset_hz = frequency_offset_hz(turns, params.most_offset_hz);
   result.coherence = coherence(turns, result.frequency_offset_hz);
