@@ -13,18 +13,7 @@ namespace {
 
 using test::error_m;
 using test::quick_params;
-
-/// Two robots, 600 m each, odometry rows (and keyframes) 4.4 m apart.
-CityParams small_city() {
-  CityParams params;
-  params.path_length_m = 600;
-  params.least_meeting_s = 10;
-  params.streets.blocks_x = 3;
-  params.streets.blocks_y = 3;
-  params.odometry.odometry_rate_hz = 2.5;
-  params.radio.links = 25;
-  return params;
-}
+using test::small_city;
 
 /// True: both LiDARs together reach from one keyframe to the other.
 PairCounts judge_candidates(const RunResult& result, const Mission& mission, const Truth& truth) {
@@ -49,7 +38,7 @@ double false_share_kept(const PairCounts& counts) {
 
 TEST(City, IsMappedAndPrunedByItsRadioLinks) {
   for (const std::uint64_t seed : {1U, 2U}) {
-    const auto [mission, truth] = simulate_city(small_city(), seed);
+    const auto [mission, truth] = simulate_city(small_city(600), seed);
     const auto result = run_pipeline(mission, quick_params()).result;
     EXPECT_LT(error_m(result, truth), 3.5) << "seed " << seed;
     ASSERT_EQ(result.components.size(), 1U);
@@ -63,7 +52,7 @@ TEST(City, IsMappedAndPrunedByItsRadioLinks) {
 }
 
 TEST(City, TheExhaustiveSearchFindsTheSamePairsInBothModes) {
-  const auto [mission, truth] = simulate_city(small_city(), 3);
+  const auto [mission, truth] = simulate_city(small_city(600), 3);
   for (const char* mode : {"joint", "link"}) {
     RunParams params = quick_params();
     params.overlap.mode = mode;
@@ -136,7 +125,7 @@ Mission only_true_matches(Mission mission, const Truth& truth) {
 class CityWithAliases : public testing::Test {
  protected:
   static Simulation simulate() {
-    CityParams params = small_city();
+    CityParams params = small_city(600);
     params.matches.matches_true = 40;
     params.matches.matches_false = 120;
     return simulate_city(params, 4);

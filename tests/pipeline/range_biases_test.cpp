@@ -9,7 +9,6 @@
 #include "radioslam/geometry/trajectory.hpp"
 #include "radioslam/io/csv.hpp"
 #include "radioslam/radio/range_bias.hpp"
-#include "radioslam/sim/city.hpp"
 
 namespace radioslam {
 namespace {
@@ -18,11 +17,7 @@ using test::error_m;
 using test::quick_params;
 
 CityParams ranging_city() {
-  CityParams params;
-  params.path_length_m = 400;
-  params.least_meeting_s = 10;
-  params.streets.blocks_x = 3;
-  params.streets.blocks_y = 3;
+  CityParams params = test::small_city(400);
   params.odometry.odometry_rate_hz = 10;
   params.radio.links = 150;
   params.radio.sigma_range_m = 0.1;

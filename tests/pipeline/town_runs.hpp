@@ -3,8 +3,21 @@
 
 #include "radioslam/eval/metrics.hpp"
 #include "radioslam/pipeline/pipeline.hpp"
+#include "radioslam/sim/city.hpp"
 
 namespace radioslam::test {
+
+/// Two robots that drive so far each, odometry rows (and keyframes) 4.4 m apart.
+inline CityParams small_city(double way_m) {
+  CityParams params;
+  params.path_length_m = way_m;
+  params.least_meeting_s = 10;
+  params.streets.blocks_x = 3;
+  params.streets.blocks_y = 3;
+  params.odometry.odometry_rate_hz = 2.5;
+  params.radio.links = 25;
+  return params;
+}
 
 /// As good on so small a team, and several times as fast.
 inline RunParams quick_params() {

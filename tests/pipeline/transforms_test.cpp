@@ -4,23 +4,11 @@
 #include <cmath>
 
 #include "pipeline/town_runs.hpp"
-#include "radioslam/sim/city.hpp"
 
 namespace radioslam {
 namespace {
 
 constexpr int kDim = 3;  // of a pose in the plane
-
-CityParams talkative_town() {
-  CityParams params;
-  params.path_length_m = 400;
-  params.least_meeting_s = 10;
-  params.streets.blocks_x = 3;
-  params.streets.blocks_y = 3;
-  params.odometry.odometry_rate_hz = 2.5;
-  params.radio.links = 25;
-  return params;
-}
 
 SE2 true_start(const Truth& truth, const Mission& mission, std::size_t r) {
   return pose_as<SE2>(truth.robots[r].poses.at(mission.robots[r].odometry.front().stamp).value());
@@ -36,7 +24,7 @@ TEST(Transforms, AreAsUncertainAsTheySay) {
   constexpr int kTeams = 20;
   double sum = 0;
   for (std::uint64_t seed = 1; seed <= kTeams; ++seed) {
-    const auto [mission, truth] = simulate_city(talkative_town(), seed);
+    const auto [mission, truth] = simulate_city(test::small_city(400), seed);
     const RunResult result = run_pipeline(mission, test::quick_params()).result;
     ASSERT_EQ(result.transforms.size(), 1U);
     const TransformResult& transform = result.transforms.front();
@@ -49,7 +37,7 @@ TEST(Transforms, AreAsUncertainAsTheySay) {
 }
 
 TEST(Transforms, FollowTheOdometryFrames) {
-  auto [mission, truth] = simulate_city(talkative_town(), 1);
+  auto [mission, truth] = simulate_city(test::small_city(400), 1);
   const TransformResult at_start = run_pipeline(mission, test::quick_params()).result.transforms.front();
   const SE3 T_new_old = lift(SE2({30, -4}, 0.8), 0);
   std::vector<StampedPose<SE3>> rows;
