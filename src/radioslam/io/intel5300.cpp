@@ -146,6 +146,7 @@ class Reader {
     if (capture_.packets.empty()) {
       wide_ = wide;
       capture_.subcarrier_hz = subcarriers_hz(wide);
+      capture_.bandwidth_hz = wide ? 40e6 : 20e6;
     }
     return wide == wide_;
   }

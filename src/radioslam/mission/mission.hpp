@@ -10,6 +10,7 @@
 #include "radioslam/base/strong_id.hpp"
 #include "radioslam/geometry/se3.hpp"
 #include "radioslam/geometry/trajectory.hpp"
+#include "radioslam/mission/csi.hpp"
 #include "radioslam/mission/radio_links.hpp"
 
 namespace radioslam {
@@ -61,6 +62,7 @@ struct Robot {
   double lidar_view_rad = 2 * std::numbers::pi;  ///< width of the horizontal field of view, about body x
   std::vector<WifiScan> wifi;                    ///< in time order
   std::vector<PositionFix> fixes;                ///< in time order
+  std::optional<CsiRecording> csi;               ///< what its WiFi card measured of the packets it heard
 };
 
 /// A team's recordings.
