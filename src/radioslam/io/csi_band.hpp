@@ -1,0 +1,35 @@
+// Where in the spectrum the columns of a channel lie.
+#pragma once
+
+#include <compare>
+#include <optional>
+#include <vector>
+
+#include "radioslam/mission/csi.hpp"
+
+namespace radioslam {
+
+/// Of 802.11a, g, n and ac.
+inline constexpr double kSubcarrierSpacing_hz = 312.5e3;
+
+/// The columns that a packet measured, by their subcarriers' numbers from the carrier.
+struct CsiBand {
+  double carrier_hz = 0;
+  double bandwidth_hz = 0;
+  std::vector<int> subcarriers;
+  friend auto operator<=>(const CsiBand&, const CsiBand&) = default;
+};
+
+/// Centre of a channel between 2.4 and 2.5 GHz (1 to 14), nothing for other numbers. Channels of 40 MHz are
+/// told by the number at their centre.
+std::optional<double> carrier_at_2_ghz(int channel);
+/// Centre of a channel between 5 and 5.9 GHz (32 to 177), nothing for other numbers.
+std::optional<double> carrier_at_5_ghz(int channel);
+
+/// From -furthest to -nearest and from nearest to furthest.
+std::vector<int> subcarriers_on_both_sides(int nearest, int furthest);
+
+/// A capture without packets whose columns lie there.
+CsiCapture capture_of(const CsiBand& band);
+
+}  // namespace radioslam
