@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "example_mission.hpp"
+#include "radioslam/io/intel5300_write.hpp"
 #include "radioslam/io/mission_yaml.hpp"
+#include "radioslam/mission/wifi_channel.hpp"
 #include "refusal.hpp"
 
 namespace radioslam {
@@ -83,6 +85,88 @@ TEST(ReadMission, IgnoresFilesOfOtherReaders) {
   files["robots/README.md"] = "anything";
   files["robots/.hidden/x"] = "anything";
   EXPECT_NO_THROW(read(files));
+}
+
+/// A capture of one packet by that sender.
+CsiCapture capture_of(std::uint64_t sender, std::uint32_t counter) {
+  CsiCapture capture;
+  capture.subcarrier_hz = grouped_subcarriers_hz(ChannelWidth::k20MHz);
+  capture.bandwidth_hz = 20e6;
+  CsiPacket& packet = capture.packets.emplace_back();
+  packet.stamp = {1'500'000'000};
+  packet.sender = MacAddress{sender};
+  packet.counter = counter;
+  packet.antennas = packet.streams = 1;
+  packet.channel.setConstant(1, 30, {7, -7});
+  return capture;
+}
+
+/// The example mission with a card on robot a, whose captures are two files, and a folder of robot b's that
+/// nothing describes.
+Files mission_with_csi() {
+  Files files = example_mission();
+  std::string& yaml = files["mission.yaml"];
+  const std::string before = "a: {antennas: {front: [0.2, 0, 0.1]}";
+  yaml.replace(yaml.find(before), before.size(),
+               "a: {csi: {mac: '00:16:EA:00:00:01', channel: 108, antennas: [rear, front]}, "
+               "antennas: {front: [0.2, 0, 0.1], rear: [-0.2, 0, 0.1]}");
+  files["robots/a/csi/2.dat"] = write_intel5300(capture_of(2, 22));
+  files["robots/a/csi/1.dat"] = write_intel5300(capture_of(2, 11));
+  files["robots/a/csi/.hidden"] = "anything";
+  files["robots/b/csi/1.dat"] = "anything";
+  return files;
+}
+
+TEST(ReadMission, ReadsTheCapturesOfCardsThatItDescribes) {
+  const Mission mission = read(mission_with_csi());
+  ASSERT_TRUE(mission.robots[0].csi);
+  const CsiRecording& csi = *mission.robots[0].csi;
+  EXPECT_EQ(csi.address, MacAddress{0x0016ea000001});
+  EXPECT_EQ(csi.carrier_hz, 5.54e9);
+  ASSERT_EQ(csi.antennas_m.size(), 2U);
+  EXPECT_EQ(csi.antennas_m[0], Eigen::Vector3d(-0.2, 0, 0.1));
+  EXPECT_EQ(csi.antennas_m[1], Eigen::Vector3d(0.2, 0, 0.1));
+  ASSERT_EQ(csi.captures.size(), 2U);
+  EXPECT_EQ(csi.captures[0].packets[0].counter, 11U);
+  EXPECT_EQ(csi.captures[1].packets[0].counter, 22U);
+  EXPECT_FALSE(mission.robots[1].csi);
+  EXPECT_EQ(mission.unused_files, std::vector<std::string>{"robots/b/csi"});
+}
+
+TEST(ReadMission, ACardWithoutAntennasHasOneAtTheBody) {
+  Files files = example_mission();
+  files["mission.yaml"] += "  csi: {channel: 6}\n";
+  const Mission mission = read(files);
+  ASSERT_TRUE(mission.robots[1].csi);
+  EXPECT_FALSE(mission.robots[1].csi->address);
+  EXPECT_EQ(mission.robots[1].csi->carrier_hz, 2.437e9);
+  EXPECT_EQ(mission.robots[1].csi->antennas_m, std::vector<Eigen::Vector3d>{Eigen::Vector3d::Zero()});
+  EXPECT_TRUE(mission.robots[1].csi->captures.empty());
+  EXPECT_EQ(written(read(written(mission))), written(mission));
+}
+
+TEST(ReadMission, NamesTheFileThatIsNoCapture) {
+  Files files = mission_with_csi();
+  files["robots/a/csi/2.dat"] = "anything";
+  EXPECT_NE(refusal([&] { read(files); }).find("robots/a/csi/2.dat: at byte 0"), std::string::npos);
+}
+
+TEST(WriteMission, KeepsCardsAndTheirCaptures) {
+  Files files = mission_with_csi();
+  files["radio/ranges.csv"] =
+      "t_s,robot_i,robot_j,range_m,sigma_m,antenna_i,antenna_j\n0.5,a,b,3,0.1,front,\n";
+  const Mission mission = read(files);
+  const Files once = written(mission);
+  EXPECT_EQ(once.at("robots/a/csi/capture-1.dat"), files.at("robots/a/csi/1.dat"));
+  EXPECT_EQ(once.at("robots/a/csi/capture-2.dat"), files.at("robots/a/csi/2.dat"));
+  EXPECT_EQ(once.count("robots/b/csi/1.dat"), 0U);
+  EXPECT_NE(once.at("mission.yaml").find("antennas: [csi1, front]"), std::string::npos)
+      << "no table names the rear one; the front one keeps its name";
+  const Mission again = read(once);
+  EXPECT_EQ(again.robots[0].csi->address, mission.robots[0].csi->address);
+  EXPECT_EQ(again.robots[0].csi->antennas_m, mission.robots[0].csi->antennas_m);
+  EXPECT_EQ(again.ranges[0].i.antenna, "front");
+  EXPECT_EQ(written(again), once);
 }
 
 TEST(ReadMission, TakesAMatchOfARobotWithItselfAndAnAnchorKnownExactly) {

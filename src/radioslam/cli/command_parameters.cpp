@@ -33,6 +33,7 @@ std::vector<ParameterSet> parameter_sets() {
           {"simulate", describe_parameters<CarparkParams>},
           {"carpark", describe_parameters<CarparkParams>},
           {"city", describe_parameters<CityParams>},
+          {"csi", describe_parameters<CsiRoomParams>},
           {"hall", describe_parameters<HallParams>},
           {"kitti", describe_parameters<KittiParams>},
           {"optimize", describe_parameters<OptimizerParams>},
@@ -77,7 +78,7 @@ void add_parameters(CLI::App& program) {
   auto* command = program.add_subcommand("parameters", "List what --set and --config can change");
   command->add_option(
       "COMMAND", options->command,
-      "run (default), simulate, carpark, city, hall, kitti, optimize, similarity, anchors or import");
+      "run (default), simulate, carpark, city, csi, hall, kitti, optimize, similarity, anchors or import");
   add_json_option(*command, options->json);
   command->footer("Example:\n  radioslam parameters run | less");
   command->callback([options] { list_parameters(*options); });

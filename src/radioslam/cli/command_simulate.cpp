@@ -64,6 +64,11 @@ std::string summary(const Mission& mission) {
   if (!mission.ranges.empty()) text += ", " + std::to_string(mission.ranges.size()) + " ranges";
   if (!mission.arrivals.empty())
     text += ", " + std::to_string(mission.arrivals.size()) + " angle measurements";
+  std::size_t packets = 0;
+  for (const Robot& robot : mission.robots)
+    if (robot.csi)
+      for (const CsiCapture& capture : robot.csi->captures) packets += capture.packets.size();
+  if (packets > 0) text += ", " + std::to_string(packets) + " packets' CSI";
   if (!mission.matches.empty()) text += ", " + std::to_string(mission.matches.size()) + " matches";
   return text;
 }
@@ -78,8 +83,9 @@ void simulate_scenario(const SimulateOptions& options) {
   output.commit();
   std::cout << options.output << ": " << summary(simulation.mission) << ", seed " << options.seed << '\n';
   const Mission& mission = simulation.mission;
-  const bool has_scans = std::any_of(mission.robots.begin(), mission.robots.end(),
-                                     [](const Robot& robot) { return !robot.wifi.empty(); });
+  const bool has_scans = std::any_of(mission.robots.begin(), mission.robots.end(), [](const Robot& robot) {
+    return !robot.wifi.empty() || (robot.csi && !robot.csi->captures.empty());
+  });
   if (mission.robots.size() > 1 && !has_scans && mission.ranges.empty() && mission.arrivals.empty())
     std::cout << "note: no two robots ever come within reach of each other's radio: nothing ties them\n";
 }
@@ -113,7 +119,7 @@ void add_simulate(CLI::App& program) {
   add_parameter_options(*command, options->parameters);
   add_threads_option(*command);
   command->footer(scenario_list() +
-                  "`radioslam parameters carpark` (city, hall, kitti) lists what --set can change.\n\n"
+                  "`radioslam parameters carpark` (city, csi, hall, kitti) lists what --set can change.\n\n"
                   "Example: three robots, and odometry that drifts more\n"
                   "  radioslam simulate carpark -o carpark --robots 3 --set sigma_xy_per_sqrt_m=0.05\n"
                   "Example: a town, few links with angles at one end\n"

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <compare>
-#include <optional>
 #include <vector>
 
 #include "radioslam/mission/csi.hpp"
@@ -19,12 +18,6 @@ struct CsiBand {
   std::vector<int> subcarriers;
   friend auto operator<=>(const CsiBand&, const CsiBand&) = default;
 };
-
-/// Centre of a channel between 2.4 and 2.5 GHz (1 to 14), nothing for other numbers. Channels of 40 MHz are
-/// told by the number at their centre.
-std::optional<double> carrier_at_2_ghz(int channel);
-/// Centre of a channel between 5 and 5.9 GHz (32 to 177), nothing for other numbers.
-std::optional<double> carrier_at_5_ghz(int channel);
 
 /// From -furthest to -nearest and from nearest to furthest.
 std::vector<int> subcarriers_on_both_sides(int nearest, int furthest);

@@ -1,5 +1,7 @@
 #include "radioslam/io/esp32_training.hpp"
 
+#include "radioslam/mission/wifi_channel.hpp"
+
 namespace radioslam {
 namespace {
 
@@ -8,8 +10,7 @@ constexpr double kNarrow_hz = 20e6, kWide_hz = 40e6;
 constexpr int kNarrowCentre = 32;  ///< of either half of 40 MHz
 
 double primary_carrier_hz(const TextLines& at, int channel) {
-  if (const auto carrier_hz = carrier_at_2_ghz(channel)) return *carrier_hz;
-  if (const auto carrier_hz = carrier_at_5_ghz(channel)) return *carrier_hz;
+  if (const auto carrier_hz = carrier_of_channel_hz(channel)) return *carrier_hz;
   at.fail("channel " + std::to_string(channel) + " is none of 2.4 or 5 GHz");
 }
 

@@ -5,16 +5,13 @@
 #include <numeric>
 
 #include "radioslam/base/input_error.hpp"
+#include "radioslam/io/intel5300_layout.hpp"
+#include "radioslam/mission/wifi_channel.hpp"
 
 namespace radioslam {
 namespace {
 
-constexpr std::uint8_t kChannelCode = 187;
-constexpr std::size_t kSubcarriers = 30, kSkippedBits = 3, kBitsPerValue = 16;
-constexpr std::size_t kStockHeader = 20, kLongHeader = 38;
-constexpr std::size_t kMostAntennas = 3;
-constexpr unsigned kWideChannelFlag = 0x800;
-constexpr double kSubcarrierSpacing_hz = 312.5e3;
+using namespace intel5300;
 
 /// Little endian numbers; the caller has checked that they are there.
 class Bytes {
@@ -38,10 +35,6 @@ class Bytes {
   std::string_view bytes_;
 };
 
-std::size_t bytes_of_channel(std::size_t antennas, std::size_t streams) {
-  return (kSubcarriers * (antennas * streams * kBitsPerValue + kSkippedBits) + 7) / 8;
-}
-
 /// Which antenna each of the card's chains listened on. Chains as they come where the card says nonsense.
 std::array<std::size_t, kMostAntennas> antenna_order(unsigned code, std::size_t antennas) {
   std::array<std::size_t, kMostAntennas> order{code & 3U, (code >> 2U) & 3U, (code >> 4U) & 3U};
@@ -50,20 +43,6 @@ std::array<std::size_t, kMostAntennas> antenna_order(unsigned code, std::size_t 
   for (std::size_t k = 0; k < antennas; ++k)
     if (sorted[k] != k) std::iota(order.begin(), order.end(), std::size_t{0});
   return order;
-}
-
-std::vector<double> subcarriers_hz(bool wide) {
-  std::vector<double> hz;
-  const auto add = [&](int index) { hz.push_back(index * kSubcarrierSpacing_hz); };
-  if (wide) {
-    for (int k = -58; k <= 58; k += 4) add(k);
-    return hz;
-  }
-  for (int k = -28; k <= -2; k += 2) add(k);
-  add(-1);
-  for (int k = 1; k <= 27; k += 2) add(k);
-  add(28);
-  return hz;
 }
 
 class Reader {
@@ -145,7 +124,7 @@ class Reader {
   bool is_of_first_width(bool wide) {
     if (capture_.packets.empty()) {
       wide_ = wide;
-      capture_.subcarrier_hz = subcarriers_hz(wide);
+      capture_.subcarrier_hz = grouped_subcarriers_hz(wide ? ChannelWidth::k40MHz : ChannelWidth::k20MHz);
       capture_.bandwidth_hz = wide ? 40e6 : 20e6;
     }
     return wide == wide_;

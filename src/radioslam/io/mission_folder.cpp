@@ -4,6 +4,7 @@
 #include <set>
 
 #include "radioslam/io/atomic_output.hpp"
+#include "radioslam/io/csi_folder.hpp"
 #include "radioslam/io/mission_yaml.hpp"
 #include "radioslam/io/robot_tables.hpp"
 #include "radioslam/io/team_tables.hpp"
@@ -91,6 +92,16 @@ void read_fixes_of(const fs::path& folder, Mission& mission) {
               [&](const Text& text) { robot.fixes = read_fixes(text); });
 }
 
+/// Captures of robots whose card mission.yaml describes; of others nobody knows which packets are theirs.
+void read_csi_of(const fs::path& folder, Mission& mission) {
+  for (Robot& robot : mission.robots) {
+    if (!robot.csi) continue;
+    robot.csi->captures = read_csi_folder(robot_file(folder, robot.id, "csi"));
+    for (const CsiCapture& capture : robot.csi->captures)
+      if (robot.csi->carrier_hz == 0) robot.csi->carrier_hz = capture.carrier_hz.value_or(0);
+  }
+}
+
 void read_team_tables(const fs::path& folder, MissionFile& file) {
   Mission& mission = file.mission;
   with_file(folder / kAnchors, [&](const Text& text) {
@@ -109,11 +120,13 @@ std::vector<std::string> unused_files(const fs::path& folder, const Mission& mis
   const TeamNames names = names_of(mission);
   for (const auto& named : names.robots) {
     const std::string& id = named.first;
+    const Robot& robot = mission.robots[named.second.index()];
     with_file(robot_file(folder, id, "imu.csv"), [&](const Text& text) {
       check_inertial(text);
       found.push_back("robots/" + id + "/imu.csv");
     });
-    if (fs::is_directory(robot_file(folder, id, "csi"))) found.push_back("robots/" + id + "/csi");
+    if (!robot.csi && fs::is_directory(robot_file(folder, id, "csi")))
+      found.push_back("robots/" + id + "/csi");
   }
   return found;
 }
@@ -123,6 +136,7 @@ void write_robot(const fs::path& folder, const Robot& robot, const std::vector<s
   if (!robot.wifi.empty())
     write_file(robot_file(folder, robot.id, "wifi.csv"), format_wifi(robot.wifi, access_points));
   if (!robot.fixes.empty()) write_file(robot_file(folder, robot.id, "gnss.csv"), format_fixes(robot.fixes));
+  if (robot.csi) write_csi_folder(robot_file(folder, robot.id, "csi"), robot.csi->captures);
 }
 
 void write_team_tables(const fs::path& folder, const Mission& mission) {
@@ -160,6 +174,7 @@ Mission read_mission(const fs::path& folder) {
   read_odometry(folder, yaml, file);
   read_wifi_of(folder, file.mission);
   read_fixes_of(folder, file.mission);
+  read_csi_of(folder, file.mission);
   read_team_tables(folder, file);
   file.mission.unused_files = unused_files(folder, file.mission);
   return std::move(file.mission);

@@ -5,6 +5,8 @@
 #include <numbers>
 
 #include "radioslam/geometry/so3.hpp"
+#include "radioslam/io/csi_yaml.hpp"
+#include "radioslam/io/mac_address.hpp"
 #include "radioslam/io/numbers.hpp"
 #include "radioslam/io/odometry_noise_fields.hpp"
 #include "radioslam/io/usable_id.hpp"
@@ -92,6 +94,7 @@ std::optional<SE3> initial_pose_at(const Text& text, const YAML::Node& node) {
 struct RobotSettings {
   Robot robot;
   Antennas antennas;
+  std::optional<CsiSettings> csi;
 };
 
 void apply_settings(const Text& text, const YAML::Node& node, const std::string& what,
@@ -107,7 +110,20 @@ void apply_settings(const Text& text, const YAML::Node& node, const std::string&
           robot.sigma_heading_rad = sigma_at(text, value, "sigma_heading_rad");
         }},
        {"initial_pose", [&](const YAML::Node& value) { robot.initial_pose = initial_pose_at(text, value); }},
-       {"antennas", [&](const YAML::Node& value) { read_antennas(text, value, settings.antennas); }}});
+       {"antennas", [&](const YAML::Node& value) { read_antennas(text, value, settings.antennas); }},
+       {"csi", [&](const YAML::Node& value) {
+          if (!settings.csi) settings.csi.emplace();
+          read_csi_settings(text, value, *settings.csi);
+        }}});
+}
+
+/// Refuses a card whose address another robot's has: nobody could tell their packets apart.
+void check_own_address(const Text& text, const YamlEntry& entry, const CsiRecording& csi,
+                       const std::vector<Robot>& others) {
+  for (const Robot& other : others)
+    if (csi.address && other.csi && other.csi->address == csi.address)
+      text.fail(entry.line, "robot '" + entry.key + "' has the mac " + format_mac_address(*csi.address) + " of robot '" +
+                                other.id + "'");
 }
 
 void read_robots(const Text& text, const YAML::Node& node, const RobotSettings& defaults, MissionFile& file) {
@@ -118,6 +134,10 @@ void read_robots(const Text& text, const YAML::Node& node, const RobotSettings& 
     RobotSettings settings = defaults;
     settings.robot.id = entry.key;
     apply_settings(text, entry.value, "robot '" + entry.key + "'", settings);
+    if (settings.csi) {
+      settings.robot.csi = csi_recording(text, *settings.csi, settings.antennas);
+      check_own_address(text, entry, *settings.robot.csi, file.mission.robots);
+    }
     file.mission.robots.push_back(std::move(settings.robot));
     file.antennas.push_back(std::move(settings.antennas));
     file.robot_lines.push_back(entry.line);

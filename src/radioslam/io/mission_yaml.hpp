@@ -12,6 +12,7 @@
 //     sigma_heading_rad: 0.2            # of an absolute heading
 //     initial_pose: unknown             # or [x, y, z, yaw] in the common frame
 //     antennas: {front: [0.2, 0, 0.1]}  # where each sits in the body frame
+//     csi: {mac: "00:16:ea:00:00:01", channel: 108, antennas: [front]}    # the WiFi card (csi_yaml.hpp)
 #pragma once
 
 #include <string>
@@ -34,7 +35,8 @@ struct MissionFile {
 /// Refuses unknown and doubled keys, values out of range, ids that cannot be a file's name.
 MissionFile read_mission_yaml(const Text& text, const std::string& default_name);
 
-/// Everything of the mission but its recordings; of the antennas those that its ranges name.
+/// Everything of the mission but its recordings; of the antennas those that its ranges name and those of
+/// its WiFi cards.
 std::string format_mission_yaml(const Mission& mission);
 
 }  // namespace radioslam

@@ -2,9 +2,12 @@
 #include <array>
 #include <numbers>
 
+#include "radioslam/io/csi_yaml.hpp"
+#include "radioslam/io/mac_address.hpp"
 #include "radioslam/io/mission_yaml.hpp"
 #include "radioslam/io/numbers.hpp"
 #include "radioslam/io/odometry_noise_fields.hpp"
+#include "radioslam/mission/wifi_channel.hpp"
 
 namespace radioslam {
 namespace {
@@ -72,15 +75,31 @@ std::string antennas_value(const Antennas& antennas) {
   return "{" + out + "}";
 }
 
+std::string csi_value(const CsiRecording& csi, const std::vector<std::string>& antennas) {
+  std::vector<std::string> entries;
+  if (csi.address) entries.push_back("mac: \"" + format_mac_address(*csi.address) + "\"");
+  if (const auto channel = channel_of_carrier(csi.carrier_hz))
+    entries.push_back("channel: " + std::to_string(*channel));
+  std::string names;
+  for (const std::string& name : antennas) names += (names.empty() ? "" : ", ") + quoted(name);
+  if (!antennas.empty()) entries.push_back("antennas: [" + names + "]");
+  std::string out;
+  for (const std::string& entry : entries) out += (out.empty() ? "" : ", ") + entry;
+  return "{" + out + "}";
+}
+
 using Setting = std::pair<std::string, std::string>;
 
-std::vector<Setting> settings_of(const Robot& robot, const Antennas& antennas) {
+std::vector<Setting> settings_of(const Robot& robot, Antennas antennas) {
+  std::string csi;
+  if (robot.csi) csi = csi_value(*robot.csi, name_csi_antennas(*robot.csi, antennas));
   return {{"odometry", noise_value(robot.odometry_noise)},
           {"lidar", lidar_value(robot)},
           {"heading", robot.heading == Heading::kAbsolute ? "absolute" : "relative"},
           {"sigma_heading_rad", format_number(robot.sigma_heading_rad)},
           {"initial_pose", initial_pose_value(robot.initial_pose)},
-          {"antennas", antennas_value(antennas)}};
+          {"antennas", antennas_value(antennas)},
+          {"csi", csi}};
 }
 
 /// The settings that differ from the defaults, in flow style.
@@ -97,6 +116,7 @@ std::string overrides(const std::vector<Setting>& defaults, const std::vector<Se
 std::string format_mission_yaml(const Mission& mission) {
   Robot common = mission.robots.empty() ? Robot{} : mission.robots.front();
   common.initial_pose.reset();
+  common.csi.reset();
   const std::vector<Setting> defaults = settings_of(common, {});
   const std::vector<Antennas> antennas = antennas_of(mission);
   std::string out = "format: radioslam-mission/1\nname: " + quoted(mission.name) +
@@ -108,7 +128,7 @@ std::string format_mission_yaml(const Mission& mission) {
   }
   out += "defaults:\n";
   for (const auto& [key, value] : defaults)
-    out.append("  ").append(key).append(": ").append(value).append("\n");
+    if (!value.empty()) out.append("  ").append(key).append(": ").append(value).append("\n");
   return out;
 }
 

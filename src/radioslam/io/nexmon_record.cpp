@@ -6,6 +6,7 @@
 
 #include "radioslam/base/input_error.hpp"
 #include "radioslam/io/byte_view.hpp"
+#include "radioslam/mission/wifi_channel.hpp"
 
 namespace radioslam {
 namespace {
@@ -56,11 +57,11 @@ const Width* width_of(std::uint16_t chanspec) {
 
 std::optional<double> carrier_of(std::uint16_t chanspec) {
   constexpr unsigned kAt2 = 0, kAt5 = 3;
-  const int channel = chanspec & 0xff;
+  constexpr double kBetweenBands_hz = 4e9;
   const unsigned band = chanspec >> 14U;
-  if (band == kAt2) return carrier_at_2_ghz(channel);
-  if (band == kAt5) return carrier_at_5_ghz(channel);
-  return std::nullopt;
+  const auto carrier_hz = carrier_of_channel_hz(chanspec & 0xff);
+  if (!carrier_hz || band != (*carrier_hz < kBetweenBands_hz ? kAt2 : kAt5)) return std::nullopt;
+  return carrier_hz;
 }
 
 std::string hexadecimal(unsigned value) {

@@ -49,7 +49,7 @@ struct CsiCapture {
 /// A robot's WiFi card and all that it wrote down.
 struct CsiRecording {
   std::optional<MacAddress> address;        ///< by which others know its packets
-  double carrier_hz = 0;                    ///< of the channel it listened on
+  double carrier_hz = 0;                    ///< of the channel it listened on; 0: not known
   std::vector<Eigen::Vector3d> antennas_m;  ///< in the robot's body frame, in the order of the channel's rows
   std::vector<CsiCapture> captures;         ///< one per file, in the order of their names
 };

@@ -12,6 +12,7 @@ struct Simulate {
 
   Simulation operator()(const CarparkParams& params) const { return simulate_carpark(params, seed); }
   Simulation operator()(const CityParams& params) const { return simulate_city(params, seed); }
+  Simulation operator()(const CsiRoomParams& params) const { return simulate_csi_room(params, seed); }
   Simulation operator()(const HallParams& params) const { return simulate_hall(params, seed); }
   Simulation operator()(const KittiParams& params) const { return simulate_kitti(params, drive, seed); }
 };
@@ -19,10 +20,12 @@ struct Simulate {
 }  // namespace
 
 std::span<const Scenario> scenarios() {
-  static const std::array<Scenario, 4> all{
+  static const std::array<Scenario, 5> all{
       {{"carpark", "robots on the lanes of a car park, wheel odometry and WiFi scans", CarparkParams{}},
        {"city", "robots on the streets of a town, ranges and angles of arrival, unknown starts",
         CityParams{}},
+       {"csi", "robots in a room that take turns to drive, the CSI of their packets, a few ranges",
+        CsiRoomParams{}},
        {"hall", "robots between identical pillars, a handful of links, aliased matches", HallParams{}},
        {"kitti", "a recorded drive cut in two, simulated ranges and angles", KittiParams{}}}};
   return all;

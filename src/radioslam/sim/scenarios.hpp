@@ -9,6 +9,7 @@
 
 #include "radioslam/sim/carpark.hpp"
 #include "radioslam/sim/city.hpp"
+#include "radioslam/sim/csi_room.hpp"
 #include "radioslam/sim/hall.hpp"
 #include "radioslam/sim/kitti.hpp"
 #include "radioslam/sim/simulation.hpp"
@@ -16,7 +17,7 @@
 namespace radioslam {
 
 /// The parameters of any scenario; one alternative each.
-using ScenarioParams = std::variant<CarparkParams, CityParams, HallParams, KittiParams>;
+using ScenarioParams = std::variant<CarparkParams, CityParams, CsiRoomParams, HallParams, KittiParams>;
 
 /// Does a scenario need a recorded drive?
 inline bool needs_recording(const ScenarioParams& params) {
