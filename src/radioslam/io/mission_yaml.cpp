@@ -122,8 +122,8 @@ void check_own_address(const Text& text, const YamlEntry& entry, const CsiRecord
                        const std::vector<Robot>& others) {
   for (const Robot& other : others)
     if (csi.address && other.csi && other.csi->address == csi.address)
-      text.fail(entry.line, "robot '" + entry.key + "' has the mac " + format_mac_address(*csi.address) + " of robot '" +
-                                other.id + "'");
+      text.fail(entry.line, "robot '" + entry.key + "' has the mac " + format_mac_address(*csi.address) +
+                                " of robot '" + other.id + "'");
 }
 
 void read_robots(const Text& text, const YAML::Node& node, const RobotSettings& defaults, MissionFile& file) {

@@ -112,6 +112,24 @@ struct HypothesisResult {
   std::vector<RobotResult> robots;
 };
 
+/// A direction of one measurement.
+struct ArrivalPeakResult {
+  double azimuth_rad = 0;  ///< in the receiver's body frame
+  double sigma_rad = 0;
+  double power_db = 0;    ///< to the strongest
+  bool is_ghost = false;  ///< a product of two paths, between them
+};
+
+/// Directions measured out of channel state information.
+struct MeasuredArrivalResult {
+  std::string receiver, transmitter;
+  Stamp stamp;
+  std::vector<ArrivalPeakResult> peaks;  ///< the strongest first
+  std::vector<float> profile;            ///< power over body azimuth from -pi, evenly; the strongest 1
+  std::optional<double>
+      estimated_azimuth_rad;  ///< of the transmitter, in the body frame, by the final estimate
+};
+
 /// A whole run.
 struct RunResult {
   std::string mission_name;
@@ -120,7 +138,8 @@ struct RunResult {
   std::vector<CandidateResult> candidates;
   std::vector<ClosureResult> closures;
   std::optional<SimilarityModelResult> similarity_model;
-  std::vector<RangeBiasResult> range_biases;  ///< those that show
+  std::vector<RangeBiasResult> range_biases;    ///< those that show
+  std::vector<MeasuredArrivalResult> arrivals;  ///< out of channel state information
   std::vector<Component> components;
   std::vector<TransformResult> transforms;  ///< every two robots of one component; empty if not computed
   std::vector<std::string> unplaced;

@@ -1,0 +1,7 @@
+#include "radioslam/radio/beam_kernel.hpp"
+
+namespace radioslam {
+
+BeamKernel beam_kernel_narrow() { return &sum_beams; }
+
+}  // namespace radioslam
