@@ -12,6 +12,7 @@
 #include "radioslam/cli/suggestion.hpp"
 #include "radioslam/mission/dead_reckoning.hpp"
 #include "radioslam/pipeline/params.hpp"
+#include "radioslam/radio/arrival_estimate.hpp"
 #include "radioslam/sim/scenarios.hpp"
 
 namespace radioslam::cli {
@@ -38,6 +39,7 @@ std::vector<ParameterSet> parameter_sets() {
           {"kitti", describe_parameters<KittiParams>},
           {"optimize", describe_parameters<OptimizerParams>},
           {"similarity", describe_parameters<SimilarityCommandParams>},
+          {"aoa", describe_parameters<ArrivalParams>},
           {"anchors", describe_parameters<AnchorsParams>},
           {"import", describe_parameters<DeadReckoningParams>}};
 }

@@ -6,6 +6,7 @@
 namespace radioslam::cli {
 
 void add_anchors(CLI::App& program);
+void add_aoa(CLI::App& program);
 void add_simulate(CLI::App& program);
 void add_run(CLI::App& program);
 void add_prune(CLI::App& program);

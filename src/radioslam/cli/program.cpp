@@ -37,6 +37,7 @@ void add_commands(CLI::App& program) {
   add_evaluate(program);
   add_import(program);
   add_optimize(program);
+  add_aoa(program);
   add_similarity(program);
   add_anchors(program);
   add_reproduce(program);

@@ -5,6 +5,7 @@ file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR}/cli ${cli_include}/radioslam/cli SY
 
 add_library(radioslam_cli STATIC
   cli/command_anchors.cpp
+  cli/command_aoa.cpp
   cli/command_evaluate.cpp
   cli/command_import.cpp
   cli/command_optimize.cpp

@@ -33,8 +33,8 @@ struct ArrivalParams {
   double least_way_m = 0.15;         ///< a shorter way tells no direction
   int model_paths = 8;               ///< waves that each packet's delay is measured against
   int model_passes = 4;
-  int peaks = 4;                   ///< at most
-  double sigma_floor_rad = 0.015;  ///< of antennas' places and clocks, beside what the channel tells
+  int peaks = 4;                  ///< at most
+  double sigma_floor_rad = 0.02;  ///< of antennas' places and clocks, beside what the channel tells
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {

@@ -13,9 +13,11 @@
 namespace radioslam {
 namespace {
 
-constexpr double kTwin = 0.95;         // of a peak's power: its mirror is as likely
-constexpr double kGhost = 2;           // times the power of the waves there is a product's
-constexpr double kMostGhostWave = 0.1; // of the strongest wave
+constexpr double kOverlap = 2;           // pieces that each packet stands in
+constexpr double kReach = 3;             // resolutions of a piece within which peaks may be one wave
+constexpr double kTwin = 0.95;           // of a peak's power: its mirror is as likely
+constexpr double kGhost = 4;             // times the power of the waves there is a product's
+constexpr double kMostGhostWave = 0.05;  // of the strongest wave
 
 double turn_rad(double from_rad, double to_rad) {
   return std::remainder(to_rad - from_rad, 2 * std::numbers::pi);
@@ -48,8 +50,7 @@ AzimuthProfile over_azimuth(const WaveGrid& grid, const std::vector<double>& pow
 
 /// Horizontal directions from which a straight way's phases are the same: the line's azimuth, if it is one.
 double mirror_of(double azimuth_rad, const SyntheticArray& array) {
-  const Eigen::Matrix2d spread =
-      array.positions_m.topRows<2>() * array.positions_m.topRows<2>().transpose();
+  const Eigen::Matrix2d spread = array.positions_m.topRows<2>() * array.positions_m.topRows<2>().transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(spread);
   const Eigen::Vector2d line = axes.eigenvectors().col(1);
   return std::remainder(2 * std::atan2(line.y(), line.x()) - azimuth_rad, 2 * std::numbers::pi);
@@ -63,6 +64,33 @@ std::vector<std::size_t> local_maxima(const std::vector<double>& power) {
   std::stable_sort(peaks.begin(), peaks.end(),
                    [&](std::size_t a, std::size_t b) { return power[a] > power[b]; });
   return peaks;
+}
+
+/// The chance that of two peaks' values the lesser is the greater in truth: their difference's blocks say how
+/// sure its sign is.
+double chance_of_other(const std::vector<double>& shares, const std::vector<double>& other) {
+  double difference = 0, scatter = 0;
+  for (std::size_t b = 0; b < shares.size(); ++b) difference += shares[b] - other[b];
+  const double mean = difference / static_cast<double>(shares.size());
+  for (std::size_t b = 0; b < shares.size(); ++b) scatter += std::pow(shares[b] - other[b] - mean, 2);
+  const double sigma = std::sqrt(kOverlap * scatter);
+  return sigma > 0 ? 0.5 * std::erfc(difference / (sigma * std::numbers::sqrt2)) : 0;
+}
+
+/// Peaks that the array hardly parts: the direct wave may be any of them, as likely as their values' order is
+/// unsure.
+void widen_by_neighbours(std::vector<ArrivalPeak>& peaks, const std::vector<std::vector<double>>& shares,
+                         double reach_rad) {
+  std::vector<double> variance;
+  for (std::size_t i = 0; i < peaks.size(); ++i) {
+    double sum = peaks[i].sigma_rad * peaks[i].sigma_rad;
+    for (std::size_t j = 0; j < peaks.size(); ++j) {
+      const double apart = turn_rad(peaks[i].azimuth_rad, peaks[j].azimuth_rad);
+      if (i != j && std::abs(apart) < reach_rad) sum += chance_of_other(shares[i], shares[j]) * apart * apart;
+    }
+    variance.push_back(sum);
+  }
+  for (std::size_t i = 0; i < peaks.size(); ++i) peaks[i].sigma_rad = std::sqrt(variance[i]);
 }
 
 /// How far apart in direction two waves of one way are told apart.
@@ -139,6 +167,7 @@ std::vector<ArrivalPeak> find_peaks(const AzimuthProfile& profile, const MovedAr
   const double most = most_curvature(moved, params);
   const auto maxima = local_maxima(profile.power);
   std::vector<ArrivalPeak> peaks;
+  std::vector<std::vector<double>> shares;
   for (const std::size_t k : maxima) {
     if (std::ssize(peaks) == params.peaks) break;
     const BeamObjective objective(pieces, delays, profile.source[k]);
@@ -153,12 +182,16 @@ std::vector<ArrivalPeak> find_peaks(const AzimuthProfile& profile, const MovedAr
     peak.curvature_per_m = source.curvature_per_m;
     peak.power_db = decibels(profile.power[k] / profile.power[maxima.front()]);
     peak.sigma_rad = std::hypot(objective.sigma_rad(source, most), params.sigma_floor_rad);
+    shares.push_back(objective.shares(source));
     WaveSource twin = source;
     twin.azimuth_rad = mirror_of(source.azimuth_rad, moved.array);
     if (std::abs(turn_rad(twin.azimuth_rad, source.azimuth_rad)) > 2 * peak.sigma_rad &&
         objective.value(twin) > kTwin * objective.value(source))
       peak.mirror_rad = twin.azimuth_rad;
   }
+  if (!moved.is_difference)
+    widen_by_neighbours(peaks, shares,
+                        kReach * 2 * std::numbers::pi / (moved.array.wavenumber_radpm * params.subarray_m));
   return peaks;
 }
 

@@ -10,7 +10,7 @@ namespace radioslam {
 
 /// A profile over azimuth from -pi, and where each azimuth's best source lies.
 struct AzimuthProfile {
-  std::vector<double> power;        ///< share of the channel explained, for Bartlett; 1 / (1 - fit) for MUSIC
+  std::vector<double> power;  ///< share of the channel explained, for Bartlett; 1 / (1 - fit) for MUSIC
   std::vector<WaveSource> source;
 };
 

@@ -10,8 +10,12 @@ std::optional<ChannelTrack> two_way_track(const CsiCapture& receiver, MacAddress
                                           const Eigen::Vector3d& antenna_m, const TwoWayParams& params) {
   auto two_way = two_way_channel(receiver, sender, answers, params);
   if (!two_way) return std::nullopt;
-  return ChannelTrack{std::move(two_way->stamps), std::move(two_way->product), receiver.subcarrier_hz,
-                      carrier_hz,                 true,                        antenna_m};
+  return ChannelTrack{std::move(two_way->stamps),
+                      std::move(two_way->product),
+                      receiver.subcarrier_hz,
+                      carrier_hz,
+                      true,
+                      antenna_m};
 }
 
 std::optional<ChannelTrack> antenna_pair_track(const CsiCapture& receiver, std::optional<MacAddress> sender,
@@ -26,10 +30,9 @@ std::optional<ChannelTrack> antenna_pair_track(const CsiCapture& receiver, std::
       packets.push_back(&packet);
   std::stable_sort(packets.begin(), packets.end(),
                    [](const CsiPacket* a, const CsiPacket* b) { return a->stamp < b->stamp; });
-  packets.erase(
-      std::unique(packets.begin(), packets.end(),
-                  [](const CsiPacket* a, const CsiPacket* b) { return a->stamp == b->stamp; }),
-      packets.end());
+  packets.erase(std::unique(packets.begin(), packets.end(),
+                            [](const CsiPacket* a, const CsiPacket* b) { return a->stamp == b->stamp; }),
+                packets.end());
   if (packets.empty()) return std::nullopt;
   ChannelTrack track;
   track.subcarrier_hz = receiver.subcarrier_hz;

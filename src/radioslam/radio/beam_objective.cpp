@@ -2,14 +2,16 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <numeric>
 
 namespace radioslam {
 namespace {
 
-constexpr Eigen::Index kBlocks = 12;  // of every piece of the way
+constexpr Eigen::Index kBlocks = 5;  // of every piece of the way
 constexpr int kClimbs = 12, kHalvings = 6;
 constexpr double kAngleStep_rad = 1e-4, kCurvatureStep_per_m = 1e-4;
 constexpr double kLongestClimb_rad = 0.02;
@@ -56,6 +58,22 @@ double BeamObjective::value(const WaveSource& source) const {
     value += std::norm(sum);
   }
   return value / static_cast<double>(pieces_.size());
+}
+
+std::vector<double> BeamObjective::shares(const WaveSource& source) const {
+  std::vector<double> shares;
+  for (const Piece& piece : pieces_) {
+    std::array<std::complex<double>, kBlocks> parts{};
+    const Eigen::Index n = piece.weights.size();
+    for (Eigen::Index k = 0; k < n; ++k)
+      parts[static_cast<std::size_t>(k * kBlocks / n)] +=
+          piece.weights[k] *
+          std::polar(1.0, piece.wavenumber_radpm * excess_way_m(source, piece.positions_m.col(k)));
+    const std::complex<double> sum = std::accumulate(parts.begin(), parts.end(), std::complex<double>(0));
+    for (const auto& part : parts)
+      shares.push_back((std::conj(sum) * part).real() / static_cast<double>(pieces_.size()));
+  }
+  return shares;
 }
 
 BeamObjective::Slope BeamObjective::slope(const WaveSource& source) const {
@@ -122,9 +140,8 @@ WaveSource BeamObjective::climb(WaveSource from, double most_curvature_per_m) co
 double BeamObjective::sigma_rad(const WaveSource& peak, double most_curvature_per_m) const {
   const Slope s = slope(peak);
   Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
-  // Blocks of overlapping pieces stand for the same packets: their shares are added before they are squared
-  // only within a piece, which counts each packet's rest once per piece.
   for (const auto& share : s.shares) scatter += share * share.transpose();
+  if (pieces_.size() > 1) scatter *= 2;
   const bool is_inside = peak.curvature_per_m > 0 && peak.curvature_per_m < most_curvature_per_m;
   const double widest_rad = std::numbers::pi / std::sqrt(3.0);
   if (is_inside && s.bend(0, 0) > 0 && s.bend.determinant() > 0) {

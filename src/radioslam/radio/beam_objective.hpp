@@ -6,7 +6,8 @@
 // (azimuth, curvature), the peak's covariance is the sandwich
 //   H^-1 (sum_b g_b g_b^T) H^-1,  H = -J'',  g_b the share of J' of the way's b-th block:
 // what is left beside the wave (other paths, noise, errors of the trajectory) moves the peak as it moves the
-// blocks' shares, whatever it is. Source: Huber 1967, with blocks since neighbours' rests are alike.
+// blocks' shares, whatever it is. Source: Huber 1967, with blocks since neighbours' rests are alike. Where
+// pieces overlap by half, every packet's share stands in two of them, which doubles the scatter.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,6 +24,9 @@ class BeamObjective {
   BeamObjective(const std::vector<SyntheticArray>& pieces, const DelayTable& delays, const WaveSource& near);
 
   double value(const WaveSource& source) const;
+
+  /// Each block's share of the value; their sum is the value.
+  std::vector<double> shares(const WaveSource& source) const;
 
   /// The nearest peak in azimuth and, where it bends the value down, in curvature from 0 to `most`.
   WaveSource climb(WaveSource from, double most_curvature_per_m) const;
