@@ -10,6 +10,7 @@
 #include "radioslam/cli/parameters.hpp"
 #include "radioslam/cli/similarity_params.hpp"
 #include "radioslam/cli/suggestion.hpp"
+#include "radioslam/io/iw_ftm.hpp"
 #include "radioslam/mission/dead_reckoning.hpp"
 #include "radioslam/pipeline/params.hpp"
 #include "radioslam/sim/scenarios.hpp"
@@ -38,7 +39,8 @@ std::vector<ParameterSet> parameter_sets() {
           {"optimize", describe_parameters<OptimizerParams>},
           {"similarity", describe_parameters<SimilarityCommandParams>},
           {"anchors", describe_parameters<AnchorsParams>},
-          {"import", describe_parameters<DeadReckoningParams>}};
+          {"import", describe_parameters<DeadReckoningParams>},
+          {"iw-ftm", describe_parameters<IwFtmParams>}};
 }
 
 std::vector<ParameterDescription> parameters_of(const std::string& command) {
@@ -77,7 +79,7 @@ void add_parameters(CLI::App& program) {
   auto* command = program.add_subcommand("parameters", "List what --set and --config can change");
   command->add_option(
       "COMMAND", options->command,
-      "run (default), simulate, carpark, city, hall, kitti, optimize, similarity, anchors or import");
+      "run (default), simulate, carpark, city, hall, kitti, optimize, similarity, anchors, import or iw-ftm");
   add_json_option(*command, options->json);
   command->footer("Example:\n  radioslam parameters run | less");
   command->callback([options] { list_parameters(*options); });
