@@ -110,8 +110,8 @@ std::vector<ClosureResult> close_by_matches(JointGraph<Pose>& joint, const Missi
                                             const std::vector<CandidateResult>& candidates,
                                             const RunParams& params, const RunOptions& options,
                                             const Progress& progress) {
-  auto verdicts = admit_matches(joint, mission, candidates, options.pruning);
-  settle_matches(joint, verdicts, params.optimizer, progress);
+  auto verdicts = admit_matches(joint, mission, candidates, options.pruning, params.matches, params.angles);
+  settle_matches(joint, verdicts, params.matches, params.optimizer, progress);
   std::vector<ClosureResult> results;
   for (const MatchVerdict& verdict : verdicts)
     results.push_back({verdict.tie.robot_i, verdict.tie.stamp_i, verdict.tie.robot_j, verdict.tie.stamp_j,
