@@ -133,6 +133,42 @@ TEST(CheckRelativePose, AtNoDistanceAgrees) {
   EXPECT_EQ(check.verdict, AngleVerdict::kAgrees);
 }
 
+/// By hand: with sigma = 10 degrees a peak is sqrt(2 pi) / sigma = 14.3619 times uniform.
+TEST(LogOddsElsewhere, ByHand) {
+  const double P = 0.8;
+  const auto odds = [&](double azimuth_deg, const std::vector<ArrivalPath>& paths, double band_rad = 0) {
+    return std::exp(log_odds_elsewhere(towards(azimuth_deg), heard(paths), P, band_rad, bare()));
+  };
+  EXPECT_NEAR(odds(0, {path(0)}), 1 / (0.2 + 0.8 * 14.3619), 1e-6);
+  EXPECT_NEAR(odds(0, {path(90)}), 5, 1e-6);
+  EXPECT_NEAR(odds(-175, {path(175)}), 1 / (0.2 + 0.8 * 14.3619 * std::exp(-0.5)), 1e-6);
+  EXPECT_NEAR(odds(0, {path(0), path(90), path(-90), path(180)}), 1 / (0.2 + 0.2 * 14.3619), 1e-6);
+  EXPECT_NEAR(odds(0, {path(30)}, 20 * kDegree), 1 / (0.2 + 0.8 * 14.3619 * std::exp(-0.5)), 1e-6);
+}
+
+/// What makes it evidence: if one of the paths leads to the robot, with probability P, its mean is 1.
+TEST(LogOddsElsewhere, HasAMeanOfOneUnderAnHonestPose) {
+  const double P = 0.8;
+  for (const auto& paths : {std::vector{path(0)}, std::vector{path(0), path(15)},
+                            std::vector{path(170), path(-60), path(20, {}, 0.6)}}) {
+    double mean = 0, all = 0;
+    const double step_deg = 0.25;
+    for (double azimuth_deg = -180; azimuth_deg < 180; azimuth_deg += step_deg) {
+      double density = (1 - P) / (2 * std::numbers::pi);
+      for (const ArrivalPath& one : paths) {
+        const double off = wrap_angle(azimuth_deg * kDegree - one.azimuth_rad) / one.sigma_rad;
+        density += P / static_cast<double>(paths.size()) * std::exp(-off * off / 2) /
+                   (one.sigma_rad * std::sqrt(2 * std::numbers::pi));
+      }
+      all += density * step_deg * kDegree;
+      mean += density * step_deg * kDegree *
+              std::exp(log_odds_elsewhere(towards(azimuth_deg), heard(paths), P, 0, bare()));
+    }
+    EXPECT_NEAR(all, 1, 1e-6);
+    EXPECT_NEAR(mean, 1, 1e-6);
+  }
+}
+
 TEST(Levelled, TakesOffRollAndPitch) {
   // Rolled by 90 degrees to the right about body x: body z points along the level's -y.
   const SE3 rolled(Eigen::Vector3d::Zero(),

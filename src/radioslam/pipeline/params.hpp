@@ -4,6 +4,7 @@
 #include "radioslam/closure/fingerprint_closures.hpp"
 #include "radioslam/graph/optimizer.hpp"
 #include "radioslam/mission/keyframes.hpp"
+#include "radioslam/pipeline/angle_checks.hpp"
 #include "radioslam/pipeline/joint_graph.hpp"
 #include "radioslam/pipeline/match_angles.hpp"
 #include "radioslam/pipeline/overlap_stage.hpp"
@@ -27,6 +28,7 @@ struct RunParams {
   OverlapStageParams overlap;
   MatchParams matches;
   ArrivalLikelihoodParams angles;
+  AngleCheckParams angle_check;
   RobustParams robust;
   /// Distances from fingerprints are good to metres: a millionth of the cost decides nothing.
   OptimizerParams optimizer{.max_iterations = 30, .relative_cost_tolerance = 1e-5};
@@ -43,6 +45,7 @@ struct RunParams {
     visit("overlap", self.overlap);
     visit("matches", self.matches);
     visit("angles", self.angles);
+    visit("angle_check", self.angle_check);
     visit("robust", self.robust);
     visit("optimizer", self.optimizer);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "radioslam/base/check.hpp"
 
@@ -72,6 +73,25 @@ AngleCheck check_relative_pose(const SE3& T_i_j, const ArrivalMeasurement& measu
   }
   check.verdict = is_beyond ? AngleVerdict::kBeyond : AngleVerdict::kAgrees;
   return check;
+}
+
+double log_odds_elsewhere(const SE3& T_i_j, const ArrivalMeasurement& measured, double direct_probability,
+                          double band_rad, const ArrivalLikelihoodParams& params) {
+  const Eigen::Vector3d antenna = T_i_j * measured.transmitter.lever_arm_m;
+  const double level_m = antenna.head<2>().norm();
+  if (level_m < kNoDistance_m) return 0;
+  const double azimuth_rad = std::atan2(antenna.y(), antenna.x());
+  double hit = 0;
+  for (const ArrivalPath& path : measured.paths) {
+    const double sigma_rad =
+        std::hypot(path.sigma_rad * antenna.norm() / level_m, params.sigma_place_m / level_m);
+    const double off_rad =
+        std::max(0.0, std::abs(wrap_angle(azimuth_rad - path.azimuth_rad)) - band_rad) / sigma_rad;
+    const double all_around = std::erf(std::numbers::pi / sigma_rad / std::numbers::sqrt2);
+    hit += std::exp(-off_rad * off_rad / 2) * std::sqrt(2 * std::numbers::pi) / sigma_rad / all_around;
+  }
+  return -std::log(1 - direct_probability +
+                   direct_probability * hit / static_cast<double>(measured.paths.size()));
 }
 
 Eigen::Vector3d unit_vector(const ArrivalPath& path) {

@@ -80,6 +80,14 @@ struct AngleCheck {
 AngleCheck check_relative_pose(const SE3& T_i_j, const ArrivalMeasurement& measured,
                                const ArrivalLikelihoodParams& params, const DirectionSigma& predicted = {});
 
+/// Log odds that the other robot may as well be anywhere around, against being where T_i_j says,
+///   -log(2 pi f),  f = (1 - P) / 2 pi + P / n sum over the n paths of N(theta - theta_p; s_theta),
+/// P the probability that one of the paths is direct, whichever: power does not count. What is in `band_rad`
+/// of the predicted azimuth counts as hit. If T_i_j is right the mean of exp of it is 1 or less, so that of
+/// products is (an e-value; Vovk and Wang 2021). Azimuths alone.
+double log_odds_elsewhere(const SE3& T_i_j, const ArrivalMeasurement& measured, double direct_probability,
+                          double band_rad, const ArrivalLikelihoodParams& params);
+
 /// A path's direction in the receiver's body; level where no elevation was measured.
 Eigen::Vector3d unit_vector(const ArrivalPath& path);
 
