@@ -38,6 +38,7 @@ RunResult example() {
                        {"prune.enabled", "true", "", "", false},
                        {"similarity.measure", "mended", "", "", true},
                        {"loss.scale", "2.5", "", "", false}};
+  result.angle_checks = {{"zoe", "adam", CheckedPose::kClaim, 12, 0.25, 0.75, 1e-4, true}};
   result.notes = {"odometry noise looks larger than stated"};
   return result;
 }
@@ -93,6 +94,14 @@ TEST(SummaryJson, HasTheKeysOfTheFormat) {
             R"("transforms":[{"robot_i":"zoe","robot_j":"adam","translation_m":[1.5,-2.0,0.0],)"
             R"("rotation_xyzw":[0.0,0.0,0.0,1.0],"covariance":[[4.0,0.5],[0.5,1.0]]}]})");
   EXPECT_EQ(json["metrics"]["ate_rmse_m"], 1.5);
+  EXPECT_EQ(json["angle_checks"], Json::array({{{"receiver", "zoe"},
+                                                {"transmitter", "adam"},
+                                                {"pose", "claim"},
+                                                {"measurements", 12},
+                                                {"median_weight", 0.25},
+                                                {"share_beyond", 0.75},
+                                                {"chance", 1e-4},
+                                                {"contradicted", true}}}));
   EXPECT_FALSE(summary_json(example()).contains("metrics"));
 }
 

@@ -10,6 +10,7 @@
 #include "radioslam/cli/parameters.hpp"
 #include "radioslam/cli/similarity_params.hpp"
 #include "radioslam/cli/suggestion.hpp"
+#include "radioslam/io/iw_ftm.hpp"
 #include "radioslam/mission/dead_reckoning.hpp"
 #include "radioslam/pipeline/params.hpp"
 #include "radioslam/radio/arrival_estimate.hpp"
@@ -41,7 +42,8 @@ std::vector<ParameterSet> parameter_sets() {
           {"similarity", describe_parameters<SimilarityCommandParams>},
           {"aoa", describe_parameters<ArrivalParams>},
           {"anchors", describe_parameters<AnchorsParams>},
-          {"import", describe_parameters<DeadReckoningParams>}};
+          {"import", describe_parameters<DeadReckoningParams>},
+          {"iw-ftm", describe_parameters<IwFtmParams>}};
 }
 
 std::vector<ParameterDescription> parameters_of(const std::string& command) {
@@ -80,7 +82,7 @@ void add_parameters(CLI::App& program) {
   auto* command = program.add_subcommand("parameters", "List what --set and --config can change");
   command->add_option(
       "COMMAND", options->command,
-      "run (default), simulate, carpark, city, csi, hall, kitti, optimize, similarity, anchors or import");
+      "run (default), simulate, carpark, city, csi, hall, kitti, optimize, similarity, aoa, anchors, import or iw-ftm");
   add_json_option(*command, options->json);
   command->footer("Example:\n  radioslam parameters run | less");
   command->callback([options] { list_parameters(*options); });

@@ -18,6 +18,7 @@
 #include "radioslam/base/fields.hpp"
 #include "radioslam/consistency/odometry_chain.hpp"
 #include "radioslam/consistency/undirected_graph.hpp"
+#include "radioslam/geometry/uncertain_pose.hpp"
 
 namespace radioslam {
 
@@ -27,13 +28,6 @@ struct RelativePoseMatch {
   std::size_t pose_a = 0, pose_b = 0;
   Pose T_a_b;
   typename Pose::Jacobian covariance = Pose::Jacobian::Identity();  ///< right perturbation; positive definite
-};
-
-/// An estimate of a relative pose with the covariance of its right perturbation.
-template <class Pose>
-struct UncertainPose {
-  Pose pose;
-  typename Pose::Jacobian covariance = Pose::Jacobian::Zero();
 };
 
 /// Derivatives of Log(Z_i F Z_j^-1 E^-1) under right perturbations, where it is near zero.

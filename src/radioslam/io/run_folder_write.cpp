@@ -69,6 +69,20 @@ Json range_biases_json(const RunResult& result) {
   return json;
 }
 
+Json angle_checks_json(const RunResult& result) {
+  Json json = Json::array();
+  for (const AngleCheckResult& check : result.angle_checks)
+    json.push_back({{"receiver", check.receiver},
+                    {"transmitter", check.transmitter},
+                    {"pose", check.pose == CheckedPose::kClaim ? "claim" : "estimate"},
+                    {"measurements", check.measurements},
+                    {"median_weight", check.median_weight},
+                    {"share_beyond", check.share_beyond},
+                    {"chance", check.chance},
+                    {"contradicted", check.contradicted}});
+  return json;
+}
+
 std::vector<std::string> ids_of(const RunResult& result) {
   std::vector<std::string> ids;
   for (const RobotResult& robot : result.robots) ids.push_back(robot.id);
@@ -92,6 +106,7 @@ Json summary_json(const RunResult& result, const Json& metrics) {
     json["parameters"][parameter.key] = parameter_json(parameter.value);
   json["team_frame"] = team_frame_json(result);
   json["range_biases"] = range_biases_json(result);
+  json["angle_checks"] = angle_checks_json(result);
   json["notes"] = result.notes;
   if (!metrics.is_null()) json["metrics"] = metrics;
   return json;

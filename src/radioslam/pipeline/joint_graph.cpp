@@ -34,13 +34,6 @@ DriftId add_drift(PoseGraph<Pose>& graph, const Robot& robot, const JointGraphPa
   return prior.i;
 }
 
-/// The frame of the odometry as the mission tells it; the first pose has the height of the start.
-std::optional<SE3> common_from_start(const Robot& robot) {
-  if (!robot.initial_pose) return std::nullopt;
-  return lift(flatten(*robot.initial_pose),
-              robot.initial_pose->translation().z() - robot.odometry.front().pose.translation().z());
-}
-
 template <class Pose>
 Piece add_odometry(PoseGraph<Pose>& graph, const Robot& robot, const RobotNodes& nodes, DriftId drift) {
   Piece piece{robot.id,
@@ -119,6 +112,12 @@ RangeEnd<Pose> fingerprint_end(const JointGraph<Pose>& joint, const RadioMeasure
 }
 
 }  // namespace
+
+std::optional<SE3> common_from_start(const Robot& robot) {
+  if (!robot.initial_pose) return std::nullopt;
+  return lift(flatten(*robot.initial_pose),
+              robot.initial_pose->translation().z() - robot.odometry.front().pose.translation().z());
+}
 
 template <class Pose>
 JointGraph<Pose> build_joint_graph(const Mission& mission, const KeyframeParams& keyframes,

@@ -74,6 +74,9 @@ struct JointGraph {
   std::size_t ignored_links = 0;        ///< radio links outside the time of an odometry
 };
 
+/// Where the mission says that a robot's odometry starts, its first pose at the height of the known one.
+std::optional<SE3> common_from_start(const Robot& robot);
+
 /// Everything but closures. Every trajectory stands in its own start frame, or where its start is known.
 template <class Pose>
 JointGraph<Pose> build_joint_graph(const Mission& mission, const KeyframeParams& keyframes,

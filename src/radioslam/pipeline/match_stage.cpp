@@ -66,13 +66,15 @@ template <class Pose>
 class Admission {
  public:
   Admission(JointGraph<Pose>& joint, const Mission& mission, const std::vector<CandidateResult>& candidates,
-            Pruning pruning)
-      : joint_(joint), mission_(mission), candidates_(keys(candidates)), pruning_(pruning) {
+            Pruning pruning, const MatchParams& params, const ArrivalLikelihoodParams& likelihood)
+      : joint_(joint), mission_(mission), candidates_(keys(candidates)), pruning_(pruning), params_(params) {
+    if (params.angle_weights) angles_.emplace(mission, params, likelihood);
     for (std::size_t m = 0; m < mission.matches.size(); ++m) verdicts_.push_back(judge(m));
   }
 
   std::vector<MatchVerdict> run() {
-    for (const auto& [robots, matches] : between_robots_) keep_consistent(matches);
+    if (params_.robust)
+      for (const auto& [robots, matches] : between_robots_) keep_consistent(matches);
     for (const Admitted& match : admitted_)
       if (verdicts_[match.index].status == ClosureStatus::kAccepted) add_factor(match);
     return std::move(verdicts_);
@@ -151,8 +153,12 @@ class Admission {
     factor.j = match.j;
     factor.T_i_j = pose_as<Pose>(measured.T_i_j);
     factor.information = match_information<Pose>(measured);
-    factor.loss = {LossKind::kGemanMcClure, std::sqrt(kConsistent<Pose>)};
-    verdicts_[match.index].factor = static_cast<std::ptrdiff_t>(joint_.team.graph.relative_poses.size());
+    if (params_.robust) factor.loss = {LossKind::kGemanMcClure, std::sqrt(kConsistent<Pose>)};
+    MatchVerdict& verdict = verdicts_[match.index];
+    if (angles_ && measured.robot_i != measured.robot_j)
+      verdict.angle_scale = angles_->template information_scale<Pose>(measured);
+    factor.information *= verdict.angle_scale.value_or(1);
+    verdict.factor = static_cast<std::ptrdiff_t>(joint_.team.graph.relative_poses.size());
     joint_.team.graph.relative_poses.push_back(factor);
   }
 
@@ -160,22 +166,17 @@ class Admission {
   const Mission& mission_;
   std::set<CandidateKey> candidates_;
   Pruning pruning_;
+  MatchParams params_;
+  std::optional<MatchAngles> angles_;  ///< only where they are to weigh
   std::vector<Admitted> admitted_;
   std::map<std::pair<RobotIndex, RobotIndex>, std::vector<std::size_t>> between_robots_;  ///< in admitted_
   std::vector<MatchVerdict> verdicts_;
 };
 
-}  // namespace
-
+/// With a loss that gives up on what does not fit.
 template <class Pose>
-std::vector<MatchVerdict> admit_matches(JointGraph<Pose>& joint, const Mission& mission,
-                                        const std::vector<CandidateResult>& candidates, Pruning pruning) {
-  return Admission<Pose>(joint, mission, candidates, pruning).run();
-}
-
-template <class Pose>
-void settle_matches(JointGraph<Pose>& joint, std::vector<MatchVerdict>& verdicts,
-                    const OptimizerParams& optimizer, const Progress& progress) {
+void optimize_graduated_matches(JointGraph<Pose>& joint, const std::vector<MatchVerdict>& verdicts,
+                                const OptimizerParams& optimizer, const Progress& progress) {
   auto& graph = joint.team.graph;
   FactorMask mask;
   mask.relative_poses.assign(graph.relative_poses.size(), false);
@@ -184,20 +185,44 @@ void settle_matches(JointGraph<Pose>& joint, std::vector<MatchVerdict>& verdicts
   const auto summary = optimize_graduated(graph, mask, GraduatedLoss::kTruncatedLeastSquares,
                                           GraduatedParams{}, optimizer, progress);
   apply_weights(summary.weights, mask, graph);
+}
+
+}  // namespace
+
+template <class Pose>
+std::vector<MatchVerdict> admit_matches(JointGraph<Pose>& joint, const Mission& mission,
+                                        const std::vector<CandidateResult>& candidates, Pruning pruning,
+                                        const MatchParams& params,
+                                        const ArrivalLikelihoodParams& likelihood) {
+  return Admission<Pose>(joint, mission, candidates, pruning, params, likelihood).run();
+}
+
+template <class Pose>
+void settle_matches(JointGraph<Pose>& joint, std::vector<MatchVerdict>& verdicts, const MatchParams& params,
+                    const OptimizerParams& optimizer, const Progress& progress) {
+  auto& graph = joint.team.graph;
+  if (params.robust)
+    optimize_graduated_matches(joint, verdicts, optimizer, progress);
+  else
+    optimize(graph, optimizer, progress);
   constexpr double kHalf = 0.5;
   for (MatchVerdict& verdict : verdicts) {
     if (verdict.factor < 0) continue;
     const auto& factor = graph.relative_poses[static_cast<std::size_t>(verdict.factor)];
     verdict.statistic = squared_norm(graph, factor);
-    if (factor.weight < kHalf) verdict = reject(verdict, "the joint estimate disagrees");
+    if (factor.weight < kHalf)
+      verdict = reject(verdict, "the joint estimate disagrees");
+    else if (verdict.angle_scale.value_or(1) < kHalf)
+      verdict = reject(verdict, "the angles of arrival disagree");
   }
 }
 
-#define RADIOSLAM_MATCH_STAGE(Pose)                                                                   \
-  template std::vector<MatchVerdict> admit_matches(JointGraph<Pose>&, const Mission&,                 \
-                                                   const std::vector<CandidateResult>&, Pruning);     \
-  template void settle_matches(JointGraph<Pose>&, std::vector<MatchVerdict>&, const OptimizerParams&, \
-                               const Progress&);
+#define RADIOSLAM_MATCH_STAGE(Pose)                                                                     \
+  template std::vector<MatchVerdict> admit_matches(JointGraph<Pose>&, const Mission&,                   \
+                                                   const std::vector<CandidateResult>&, Pruning,        \
+                                                   const MatchParams&, const ArrivalLikelihoodParams&); \
+  template void settle_matches(JointGraph<Pose>&, std::vector<MatchVerdict>&, const MatchParams&,       \
+                               const OptimizerParams&, const Progress&);
 RADIOSLAM_MATCH_STAGE(SE2)
 RADIOSLAM_MATCH_STAGE(SE3)
 #undef RADIOSLAM_MATCH_STAGE

@@ -4,10 +4,13 @@
 #include "radioslam/closure/fingerprint_closures.hpp"
 #include "radioslam/graph/optimizer.hpp"
 #include "radioslam/mission/keyframes.hpp"
+#include "radioslam/pipeline/angle_checks.hpp"
 #include "radioslam/pipeline/joint_graph.hpp"
+#include "radioslam/pipeline/match_angles.hpp"
 #include "radioslam/pipeline/overlap_stage.hpp"
 #include "radioslam/pipeline/range_biases.hpp"
 #include "radioslam/pipeline/robust_solution.hpp"
+#include "radioslam/radio/arrival_likelihood.hpp"
 #include "radioslam/radio/measurements.hpp"
 #include "radioslam/team_frame/fingerprint_layout.hpp"
 #include "radioslam/team_frame/radio_alignment.hpp"
@@ -23,6 +26,9 @@ struct RunParams {
   JointGraphParams graph;
   TeamBiasParams range_bias;
   OverlapStageParams overlap;
+  MatchParams matches;
+  ArrivalLikelihoodParams angles;
+  AngleCheckParams angle_check;
   RobustParams robust;
   /// Distances from fingerprints are good to metres: a millionth of the cost decides nothing.
   OptimizerParams optimizer{.max_iterations = 30, .relative_cost_tolerance = 1e-5};
@@ -37,6 +43,9 @@ struct RunParams {
     visit("graph", self.graph);
     visit("range_bias", self.range_bias);
     visit("overlap", self.overlap);
+    visit("matches", self.matches);
+    visit("angles", self.angles);
+    visit("angle_check", self.angle_check);
     visit("robust", self.robust);
     visit("optimizer", self.optimizer);
   }

@@ -110,13 +110,25 @@ std::vector<ClosureResult> close_by_matches(JointGraph<Pose>& joint, const Missi
                                             const std::vector<CandidateResult>& candidates,
                                             const RunParams& params, const RunOptions& options,
                                             const Progress& progress) {
-  auto verdicts = admit_matches(joint, mission, candidates, options.pruning);
-  settle_matches(joint, verdicts, params.optimizer, progress);
+  auto verdicts = admit_matches(joint, mission, candidates, options.pruning, params.matches, params.angles);
+  settle_matches(joint, verdicts, params.matches, params.optimizer, progress);
   std::vector<ClosureResult> results;
   for (const MatchVerdict& verdict : verdicts)
     results.push_back({verdict.tie.robot_i, verdict.tie.stamp_i, verdict.tie.robot_j, verdict.tie.stamp_j,
                        ClosureKind::kMatch, verdict.status, verdict.statistic, verdict.reason});
   return results;
+}
+
+/// Is every robot where it says it is, and where the estimate has it?
+template <class Pose>
+void check_angles_into(RunResult& result, const Mission& mission, const JointGraph<Pose>& joint,
+                       const TeamPlacement<Pose>& placement, const RunParams& params) {
+  const auto add = [&](const AngleChecks& checks, CheckedPose pose) {
+    result.angle_checks.insert(result.angle_checks.end(), checks.pairs.begin(), checks.pairs.end());
+    for (auto& note : angle_notes(checks, pose)) result.notes.push_back(std::move(note));
+  };
+  add(check_claims<Pose>(mission, params.graph, params.angles, params.angle_check), CheckedPose::kClaim);
+  add(check_estimate(mission, joint, placement, params.angles, params.angle_check), CheckedPose::kEstimate);
 }
 
 template <class Pose>
@@ -161,6 +173,9 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const RunPara
   result.dimension = mission.dimension;
   collect(result, mission, joint, placement, params.alignment.mixture, clock);
   add_notes(result, mission, joint.ignored_links);
+  if (!mission.arrivals.empty())
+    clock.time("angle checks",
+               [&] { return check_angles_into(result, mission, joint, placement, params), 0; });
   result.closures = collect_radio_links(joint);
   for (auto& closure : collect_closures(radio, joint, closures))
     result.closures.push_back(std::move(closure));

@@ -4,29 +4,12 @@
 #include <cmath>
 
 #include "radioslam/pipeline/antenna_pairs.hpp"
+#include "radioslam/radio/arrival_likelihood.hpp"
 
 namespace radioslam {
 namespace {
 
 constexpr double kLeastSigmaAnchor_m = 1e-3;  // an anchor's place is never exact
-
-Eigen::Vector3d unit_vector(const ArrivalPath& path) {
-  const double elevation = path.elevation_rad.value_or(0), level = std::cos(elevation);
-  return {level * std::cos(path.azimuth_rad), level * std::sin(path.azimuth_rad), std::sin(elevation)};
-}
-
-/// The direction as the estimate sees it, given the receiver's odometry pose.
-template <class Pose>
-typename Pose::Point direction(const ArrivalPath& path, const SE3& T_start_body) {
-  Eigen::Vector3d in_body = unit_vector(path);
-  if constexpr (Pose::kDim == 3) {
-    return in_body;
-  } else {
-    const Eigen::Vector3d level = Eigen::AngleAxisd(-T_start_body.yaw(), Eigen::Vector3d::UnitZ()) *
-                                  (T_start_body.rotation() * in_body);
-    return level.head<2>().normalized();
-  }
-}
 
 template <class Pose>
 class RadioFactors {
@@ -74,8 +57,8 @@ class RadioFactors {
     bearing.i = end(receiver, measured.stamp).pose;
     bearing.j = end(measured.transmitter, measured.stamp);
     const SE3 T_start_body = *mission_.robots[measured.receiver.index()].odometry.at(measured.stamp);
-    for (const ArrivalPath& path : measured.paths)
-      bearing.paths.push_back({direction<Pose>(path, T_start_body), path.sigma_rad, path.power_db});
+    for (const ArrivalPath& path : as_estimated<Pose>(measured, T_start_body).paths)
+      bearing.paths.push_back({unit_vector(path).template head<Pose::kDim>(), path.sigma_rad, path.power_db});
     joint_.team.bearings.push_back(std::move(bearing));
     joint_.bearing_ties.push_back(tie(receiver, measured.transmitter, measured.stamp));
   }
@@ -135,6 +118,12 @@ std::vector<std::vector<Stamp>> link_moments(const Mission& mission) {
 }
 
 template <class Pose>
+ArrivalMeasurement as_estimated(const ArrivalMeasurement& measured, const SE3& T_start_body) {
+  if constexpr (Pose::kDim == 2) return levelled(measured, T_start_body);
+  return measured;
+}
+
+template <class Pose>
 void add_radio_factors(JointGraph<Pose>& joint, const Mission& mission,
                        const std::vector<RobotNodes>& nodes) {
   RadioFactors<Pose> factors(joint, mission, nodes);
@@ -143,6 +132,8 @@ void add_radio_factors(JointGraph<Pose>& joint, const Mission& mission,
   for (const auto& arrival : mission.arrivals) factors.add(arrival);
 }
 
+template ArrivalMeasurement as_estimated<SE2>(const ArrivalMeasurement&, const SE3&);
+template ArrivalMeasurement as_estimated<SE3>(const ArrivalMeasurement&, const SE3&);
 template void add_radio_factors(JointGraph<SE2>&, const Mission&, const std::vector<RobotNodes>&);
 template void add_radio_factors(JointGraph<SE3>&, const Mission&, const std::vector<RobotNodes>&);
 

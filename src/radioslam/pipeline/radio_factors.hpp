@@ -12,6 +12,10 @@ namespace radioslam {
 /// Per robot, the stamps of the links and matches it took part in.
 std::vector<std::vector<Stamp>> link_moments(const Mission& mission);
 
+/// The paths as an estimate of this dimension sees them, given the receiver's odometry pose.
+template <class Pose>
+ArrivalMeasurement as_estimated(const ArrivalMeasurement& measured, const SE3& T_start_body);
+
 /// Adds points for the anchors, and the links whose moments all their robots' odometries cover; counts the
 /// rest.
 template <class Pose>

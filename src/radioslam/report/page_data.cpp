@@ -145,6 +145,15 @@ void add_run(PageData& page, const RunResult& result, const ReportParams& params
                                     {"bias_m", rounded(bias.bias_m, 4)},
                                     {"sigma_m", rounded(bias.sigma_m, 4)},
                                     {"ranges", bias.ranges}});
+  page["angle_checks"] = PageData::array();
+  for (const auto& check : result.angle_checks)
+    page["angle_checks"].push_back({{"receiver", check.receiver},
+                                    {"transmitter", check.transmitter},
+                                    {"pose", check.pose == CheckedPose::kClaim ? "claim" : "estimate"},
+                                    {"measurements", check.measurements},
+                                    {"median_weight", rounded(check.median_weight, 3)},
+                                    {"share_beyond", rounded(check.share_beyond, 3)},
+                                    {"contradicted", check.contradicted}});
   page["weight"] = rounded(result.weight, 4);
   page["candidates"] = candidate_data(result, params);
   page["counts"] = PageData::object();

@@ -92,6 +92,23 @@ struct RangeBiasResult {
   std::size_t ranges = 0;
 };
 
+/// Whose relative pose the angles between two robots were held against.
+enum class CheckedPose {
+  kClaim,     ///< what both report of themselves: known start and odometry
+  kEstimate,  ///< the joint estimate
+};
+
+/// What the angles at which one robot heard another one, or an anchor, say of where it is.
+struct AngleCheckResult {
+  std::string receiver, transmitter;
+  CheckedPose pose = CheckedPose::kEstimate;
+  std::size_t measurements = 0;
+  double median_weight = 0;  ///< of the relative pose under each measurement, 0 to 1
+  double share_beyond = 0;   ///< of the measurements with no path near the predicted direction
+  double chance = 1;         ///< that an honest pair, both directions together, is contradicted so much
+  bool contradicted = false;
+};
+
 /// How the frames of two robots' odometries lie to each other, at the robots' first keyframes.
 struct TransformResult {
   std::string robot_i, robot_j;
@@ -140,6 +157,7 @@ struct RunResult {
   std::optional<SimilarityModelResult> similarity_model;
   std::vector<RangeBiasResult> range_biases;    ///< those that show
   std::vector<MeasuredArrivalResult> arrivals;  ///< out of channel state information
+  std::vector<AngleCheckResult> angle_checks;
   std::vector<Component> components;
   std::vector<TransformResult> transforms;  ///< every two robots of one component; empty if not computed
   std::vector<std::string> unplaced;

@@ -10,6 +10,7 @@ write_overlap();
 write_similarity();
 write_closures();
 write_range_biases();
+write_angle_checks();
 write_timings();
 write_counts();
 write_parameters();

@@ -92,6 +92,22 @@ function write_range_biases() {
   by_id("biases-table").append(table);
 }
 
+function write_angle_checks() {
+  if (!report.angle_checks.length) return;
+  show("angles-section");
+  const share = d3.format(".0%");
+  const { table } = sortable_table([
+    { name: "hears", value: c => c.receiver, text: c => c.receiver },
+    { name: "whom", value: c => c.transmitter, text: c => c.transmitter },
+    { name: "where", value: c => c.pose, text: c => (c.pose === "claim" ? "both say" : "estimated") },
+    { name: "angles", value: c => c.measurements, text: c => format.count(c.measurements), number: true },
+    { name: "median likelihood", value: c => c.median_weight, text: c => d3.format(".2f")(c.median_weight), number: true },
+    { name: "beyond the threshold", value: c => c.share_beyond, text: c => share(c.share_beyond), number: true },
+    { name: "verdict", value: c => c.contradicted, text: c => (c.contradicted ? "contradicted" : "agrees") },
+  ], report.angle_checks, line => line);
+  by_id("angles-table").append(table);
+}
+
 function write_closure_bars() {
   const kinds = Array.from(new Set(groups.map(g => g.kind))), counted = (kind, status) => total(groups.filter(g => g.kind === kind && g.status === status), g => g.count);
   const longest = d3.max(kinds, kind => counted(kind, "accepted") + counted(kind, "rejected"));

@@ -1,0 +1,32 @@
+// A pose with its covariance, for T Exp(xi): what chains of measured poses add up to, to first order.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace radioslam {
+
+template <class Pose>
+struct UncertainPose {
+  Pose pose;
+  typename Pose::Jacobian covariance = Pose::Jacobian::Zero();
+
+  /// T^-1, whose perturbation is -Ad(T) xi.
+  UncertainPose inverse() const {
+    const typename Pose::Jacobian carry = pose.adjoint();
+    return {pose.inverse(), carry * covariance * carry.transpose()};
+  }
+
+  /// Of two independent ones: T Exp(xi) S Exp(zeta) = T S Exp(Ad(S^-1) xi) Exp(zeta).
+  UncertainPose operator*(const UncertainPose& next) const {
+    const typename Pose::Jacobian carry = next.pose.inverse().adjoint();
+    return {pose * next.pose, carry * covariance * carry.transpose() + next.covariance};
+  }
+
+  /// Of the pose's position, in the frame that it leads to.
+  Eigen::Matrix<double, Pose::kDim, Pose::kDim> position_covariance() const {
+    const auto turn = pose.rotation_matrix();
+    return turn * covariance.template topLeftCorner<Pose::kDim, Pose::kDim>() * turn.transpose();
+  }
+};
+
+}  // namespace radioslam
