@@ -29,6 +29,7 @@ namespace radioslam::cli {
 namespace {
 
 constexpr double kDegree_rad = std::numbers::pi / 180;
+constexpr double kWidestClock_s = 0.2;  // an estimate less sure than this is none
 
 struct AoaOptions {
   std::string capture, reverse, transmitter, trajectory, output, clock_offset = "0";
@@ -110,11 +111,12 @@ ChannelTrack track_of(const AoaOptions& options, const ArrivalParams& params) {
   if (!sender) throw InputError(options.capture, 0, "does not tell who sent: its packets cannot be paired");
   const CsiCapture answers = read_csi_capture(options.reverse);
   for (const auto& warning : answers.warnings) std::cerr << "note: " << warning << '\n';
-  const auto track = two_way_track(capture, *sender, answers, carrier_hz,
-                                   antennas.empty() ? Eigen::Vector3d::Zero() : antennas.front(),
-                                   params.two_way);
+  const auto track =
+      two_way_track(capture, *sender, answers, carrier_hz,
+                    antennas.empty() ? Eigen::Vector3d::Zero() : antennas.front(), params.two_way);
   if (!track)
-    throw InputError(options.reverse, 0, "fewer than three of its packets answer those of " + options.capture);
+    throw InputError(options.reverse, 0,
+                     "fewer than three of its packets answer those of " + options.capture);
   return *track;
 }
 
@@ -164,8 +166,8 @@ std::string profile_rows(const ArrivalEstimate& estimate) {
   rows << "azimuth_trajectory_frame_rad,power\n" << std::setprecision(9);
   const auto n = static_cast<double>(estimate.profile.size());
   for (std::size_t k = 0; k < estimate.profile.size(); ++k)
-    rows << -std::numbers::pi + 2 * std::numbers::pi * static_cast<double>(k) / n << ',' << estimate.profile[k]
-         << '\n';
+    rows << -std::numbers::pi + 2 * std::numbers::pi * static_cast<double>(k) / n << ','
+         << estimate.profile[k] << '\n';
   return rows.str();
 }
 
@@ -174,8 +176,8 @@ void print_text(const ArrivalEstimate& estimate, const std::optional<ClockOffset
             << "azimuth  in the trajectory's frame  elevation  sigma (deg)  power (dB)\n"
             << std::fixed;
   for (const FramedPeak& framed : in_body_frame(estimate)) {
-    std::cout << std::setprecision(1) << std::setw(7) << framed.body_azimuth_rad / kDegree_rad << std::setw(28)
-              << framed.peak->azimuth_rad / kDegree_rad << std::setw(11)
+    std::cout << std::setprecision(1) << std::setw(7) << framed.body_azimuth_rad / kDegree_rad
+              << std::setw(28) << framed.peak->azimuth_rad / kDegree_rad << std::setw(11)
               << framed.body_elevation_rad / kDegree_rad << std::setw(13)
               << framed.peak->sigma_rad / kDegree_rad << std::setw(12) << framed.peak->power_db;
     if (framed.body_mirror_rad)
@@ -185,20 +187,25 @@ void print_text(const ArrivalEstimate& estimate, const std::optional<ClockOffset
   }
   if (clock)
     std::cout << std::setprecision(3) << "clock offset " << clock->offset_s << " s, sigma " << clock->sigma_s
-              << " s: " << "added to the capture's stamps\n";
+              << " s: "
+              << "added to the capture's stamps\n";
 }
 
 std::optional<ClockOffset> clock_offset_of(const AoaOptions& options, const ChannelTrack& track,
-                                           const Trajectory<SE3>& trajectory, const ArrivalParams& params) {
+                                           const Trajectory<SE3>& trajectory) {
   if (options.clock_offset != "estimate") {
     const auto offset_s = parse_number(options.clock_offset);
     if (!offset_s)
       throw InputError("--clock-offset " + options.clock_offset, 0, "is neither seconds nor 'estimate'");
     return *offset_s == 0 ? std::nullopt : std::optional(ClockOffset{*offset_s, 0});
   }
-  const auto clock = estimate_clock_offset(track, trajectory, params);
+  const auto clock = estimate_clock_offset(track, trajectory);
   if (!clock)
     throw InputError("--clock-offset estimate", 0, "there is too little motion to estimate an offset by");
+  if (clock->sigma_s > kWidestClock_s)
+    throw InputError(
+        "--clock-offset estimate", 0,
+        "the speed changes too little to tell the offset (sigma " + std::to_string(clock->sigma_s) + " s)");
   return clock;
 }
 
@@ -208,20 +215,20 @@ std::optional<ClockOffset> clock_offset_of(const AoaOptions& options, const Chan
       throw InputError(options.trajectory, 0, "has no poses at the times of " + options.capture);
     case NoArrival::kNoMotion:
       throw InputError(options.trajectory, 0, "hardly moves: one place tells no direction");
-    case NoArrival::kTooFewPackets: break;
+    case NoArrival::kTooFewPackets:
+      break;
   }
   throw InputError(options.capture, 0, "has too few packets while the antenna moves");
 }
 
 void measure(const AoaOptions& options) {
-  const auto params = with_settings(
-      ArrivalParams{}, collect_settings(options.parameters.config_path, options.parameters.set));
+  const auto params = with_settings(ArrivalParams{},
+                                    collect_settings(options.parameters.config_path, options.parameters.set));
   const auto trajectory = read_tum(read_text(options.trajectory));
   ChannelTrack track = track_of(options, params);
-  const auto clock = clock_offset_of(options, track, trajectory, params);
+  const auto clock = clock_offset_of(options, track, trajectory);
   if (clock) track = shifted(std::move(track), clock->offset_s);
-  const auto result =
-      estimate_arrival(track, trajectory, track.stamps.front(), track.stamps.back(), params);
+  const auto result = estimate_arrival(track, trajectory, track.stamps.front(), track.stamps.back(), params);
   if (!result.estimate) refuse(options, result.reason);
   if (!options.output.empty()) OutputFile(options.output).commit(profile_rows(*result.estimate));
   if (options.json)
@@ -242,7 +249,8 @@ void add_aoa(CLI::App& program) {
   command->add_option("--trajectory", options->trajectory, "Its body poses, in the TUM format")
       ->required()
       ->type_name("FILE");
-  command->add_option("--reverse", options->reverse, "What the other end heard of it: offsets cancel in pairs")
+  command
+      ->add_option("--reverse", options->reverse, "What the other end heard of it: offsets cancel in pairs")
       ->type_name("CAPTURE");
   command->add_option("--transmitter", options->transmitter, "Whose packets to measure, of several")
       ->type_name("MAC");

@@ -80,9 +80,9 @@ void list_parameters(const ParametersOptions& options) {
 void add_parameters(CLI::App& program) {
   const auto options = std::make_shared<ParametersOptions>();
   auto* command = program.add_subcommand("parameters", "List what --set and --config can change");
-  command->add_option(
-      "COMMAND", options->command,
-      "run (default), simulate, carpark, city, csi, hall, kitti, optimize, similarity, aoa, anchors, import or iw-ftm");
+  command->add_option("COMMAND", options->command,
+                      "run (default), simulate, carpark, city, csi, hall, kitti, optimize, similarity, aoa, "
+                      "anchors, import or iw-ftm");
   add_json_option(*command, options->json);
   command->footer("Example:\n  radioslam parameters run | less");
   command->callback([options] { list_parameters(*options); });

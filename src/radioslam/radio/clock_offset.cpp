@@ -1,29 +1,83 @@
 #include "radioslam/radio/clock_offset.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <complex>
 #include <vector>
 
-#include "radioslam/radio/arrival_channel.hpp"
 #include "radioslam/radio/arrival_slopes.hpp"
 
 namespace radioslam {
 namespace {
 
-constexpr int kAzimuths = 120;
-constexpr Eigen::Index kThinning = 3;
-constexpr std::size_t kFewestPackets = 100;
-constexpr std::size_t kFewestPieces = 3;
+constexpr double kNewestShare = 0.15;
+constexpr std::size_t kFewestMoments = 50;
+constexpr std::size_t kParts = 10;
+constexpr double kLeastVariation = 0.3;  // of the speed, to its mean
 
-/// Where the sum of some pieces' curves is largest, refined between the steps, in steps.
-double best_step(const std::vector<std::vector<double>>& curves, std::size_t left_out) {
-  std::vector<double> sum(curves.front().size(), 0);
-  for (std::size_t piece = 0; piece < curves.size(); ++piece)
-    for (std::size_t k = 0; piece != left_out && k < sum.size(); ++k) sum[k] += curves[piece][k];
-  const auto best = static_cast<std::size_t>(std::max_element(sum.begin(), sum.end()) - sum.begin());
-  if (best == 0 || best + 1 == sum.size()) return static_cast<double>(best);
-  const double bend = sum[best - 1] - 2 * sum[best] + sum[best + 1];
-  return static_cast<double>(best) + (bend < 0 ? (sum[best - 1] - sum[best + 1]) / (2 * bend) : 0);
+/// A time and how fast the channel changed then, in radians a second up to a factor.
+struct Moment {
+  Stamp stamp;
+  double channel_rate;
+};
+
+/// How far the channel is from where it was the smoothing time before, at the middle of that time:
+/// sqrt(1 - Re rho), rho the correlation of the two over the subcarriers, their phase included.
+std::vector<Moment> channel_rates(const ChannelTrack& track, double window_s) {
+  Eigen::MatrixXcd channel = track.channel;
+  align_to_predecessors(channel, track.subcarrier_hz, packet_delays(track.subcarrier_hz), kNewestShare);
+  std::vector<Moment> moments;
+  Eigen::Index first = 0;
+  for (Eigen::Index last = 1; last < channel.rows(); ++last) {
+    const auto stamp = [&](Eigen::Index k) { return track.stamps[static_cast<std::size_t>(k)]; };
+    while (seconds_between(stamp(first), stamp(last)) > window_s) ++first;
+    const double size = channel.row(first).norm() * channel.row(last).norm();
+    if (first == 0 || first == last || size == 0) continue;
+    const double alike = channel.row(first).dot(channel.row(last)).real() / size;
+    moments.push_back(
+        {{stamp(first).ns + (stamp(last).ns - stamp(first).ns) / 2}, std::sqrt(std::max(0.0, 1 - alike))});
+  }
+  return moments;
+}
+
+/// Metres a second of the antenna around a time; nothing outside the trajectory.
+std::optional<double> speed_mps(const Trajectory<SE3>& trajectory, const Eigen::Vector3d& lever_m,
+                                Stamp stamp, double window_s) {
+  const auto half_ns = static_cast<std::int64_t>(window_s * 0.5e9);
+  const auto before = trajectory.at({stamp.ns - half_ns}), after = trajectory.at({stamp.ns + half_ns});
+  if (!before || !after) return std::nullopt;
+  return (*after * lever_m - *before * lever_m).norm() / window_s;
+}
+
+/// Sums from which a correlation follows, and from which a part can be taken off.
+struct Sums {
+  double n = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
+  void add(double a, double b) {
+    n += 1;
+    x += a;
+    y += b;
+    xx += a * a;
+    yy += b * b;
+    xy += a * b;
+  }
+  Sums without(const Sums& other) const {
+    return {n - other.n, x - other.x, y - other.y, xx - other.xx, yy - other.yy, xy - other.xy};
+  }
+  /// Of y, to its mean.
+  double variation() const { return y > 0 ? std::sqrt(std::max(0.0, n * yy - y * y)) / y : 0; }
+  double correlation() const {
+    const double spread = (n * xx - x * x) * (n * yy - y * y);
+    return spread > 0 ? (n * xy - x * y) / std::sqrt(spread) : 0;
+  }
+};
+
+/// Where the values are largest, refined between the steps, in steps.
+double best_step(const std::vector<double>& values) {
+  const auto best = static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
+  if (best == 0 || best + 1 == values.size()) return static_cast<double>(best);
+  const double bend = values[best - 1] - 2 * values[best] + values[best + 1];
+  return static_cast<double>(best) + (bend < 0 ? (values[best - 1] - values[best + 1]) / (2 * bend) : 0);
 }
 
 }  // namespace
@@ -34,49 +88,41 @@ ChannelTrack shifted(ChannelTrack track, double offset_s) {
 }
 
 std::optional<ClockOffset> estimate_clock_offset(const ChannelTrack& track, const Trajectory<SE3>& trajectory,
-                                                 const ArrivalParams& params,
-                                                 const ClockOffsetParams& search) {
-  if (track.stamps.empty()) return std::nullopt;
-  const Stamp begin = track.stamps.front(), end = track.stamps.back();
-  ChannelTrack one_way = one_way_between(track, begin, end);
-  MovedArray moved = moved_array(one_way, trajectory, begin, end, params);
-  if (moved.rows.size() < kFewestPackets || moved.is_difference) return std::nullopt;
-  align_to_waves(moved, params);
-  for (std::size_t k = 0; k < moved.rows.size(); ++k)
-    one_way.channel.row(static_cast<Eigen::Index>(moved.rows[k])) =
-        moved.array.channel.row(static_cast<Eigen::Index>(k));
-  const auto steps = static_cast<int>(std::lround(search.most_s / search.step_s));
-  std::vector<std::vector<double>> curves;
+                                                 const ClockOffsetParams& params) {
+  if (!track.is_two_way || track.stamps.size() < kFewestMoments || trajectory.empty()) return std::nullopt;
+  const auto reach_ns = std::llround(params.most_s * 1e9);
+  std::vector<Moment> moments;
+  for (const Moment& moment : channel_rates(track, params.smoothing_s))
+    if (speed_mps(trajectory, track.lever_arm_m, {moment.stamp.ns - reach_ns}, params.smoothing_s) &&
+        speed_mps(trajectory, track.lever_arm_m, {moment.stamp.ns + reach_ns}, params.smoothing_s))
+      moments.push_back(moment);
+  if (moments.size() < kFewestMoments) return std::nullopt;
+  const auto steps = static_cast<int>(std::lround(params.most_s / params.step_s));
+  std::vector<double> whole;
+  double least_variation = kLeastVariation;
+  std::vector<std::vector<double>> without(kParts);
   for (int step = -steps; step <= steps; ++step) {
-    MovedArray there = moved;
-    for (std::size_t k = 0; k < moved.rows.size(); ++k) {
-      const Stamp at{one_way.stamps[moved.rows[k]].ns + std::llround(step * search.step_s * 1e9)};
-      const Stamp inside = std::clamp(at, trajectory.front().stamp, trajectory.back().stamp);
-      there.array.positions_m.col(static_cast<Eigen::Index>(k)) =
-          *trajectory.at(inside) * track.lever_arm_m - moved.array.centre_m;
+    std::array<Sums, kParts> parts{};
+    Sums all;
+    for (std::size_t k = 0; k < moments.size(); ++k) {
+      const Stamp there{moments[k].stamp.ns + std::llround(step * params.step_s * 1e9)};
+      const auto speed = speed_mps(trajectory, track.lever_arm_m, there, params.smoothing_s);
+      if (!speed) continue;
+      all.add(moments[k].channel_rate, *speed);
+      parts[k * kParts / moments.size()].add(moments[k].channel_rate, *speed);
     }
-    if (there.is_plane) there.array.positions_m.row(2).setZero();
-    WaveGrid grid = grid_for(there, params, kAzimuths);
-    if (there.is_plane) grid.elevations_rad = {0};
-    const DelayTable delays = delay_table(there.array.subcarrier_hz);
-    const auto pieces = subarrays(both_ways(there).array, params.subarray_m);
-    if (pieces.size() < kFewestPieces) return std::nullopt;
-    curves.resize(std::max(curves.size(), pieces.size()));
-    for (std::size_t piece = 0; piece < curves.size(); ++piece) {
-      const ArrayBeams beams = array_beams(
-          thinned(pieces[std::min(piece, pieces.size() - 1)], kThinning), grid, delays);
-      curves[piece].push_back(
-          static_cast<double>(*std::max_element(beams.power.begin(), beams.power.end())));
-    }
+    whole.push_back(all.correlation());
+    least_variation = std::min(least_variation, all.variation());
+    for (std::size_t part = 0; part < kParts; ++part)
+      without[part].push_back(all.without(parts[part]).correlation());
   }
-  for (auto& curve : curves) curve.resize(static_cast<std::size_t>(2 * steps + 1), 0);
-  const auto n = static_cast<double>(curves.size());
-  const double best = best_step(curves, curves.size());
+  const double best = best_step(whole);
+  const bool is_inside = best > 0 && best < 2.0 * steps;
+  if (!is_inside || least_variation < kLeastVariation) return std::nullopt;
   double scatter = 0;
-  for (std::size_t piece = 0; piece < curves.size(); ++piece)
-    scatter += std::pow(best_step(curves, piece) - best, 2);
-  const double sigma = std::min(std::hypot(std::sqrt((n - 1) / n * scatter), 0.5), static_cast<double>(steps));
-  return ClockOffset{(best - steps) * search.step_s, sigma * search.step_s};
+  for (const auto& values : without) scatter += std::pow(best_step(values) - best, 2);
+  const double sigma = std::sqrt((kParts - 1.0) / kParts * scatter);
+  return ClockOffset{(best - steps) * params.step_s, std::max(sigma, 0.5) * params.step_s};
 }
 
 }  // namespace radioslam

@@ -1,9 +1,10 @@
-// How much later the trajectory's clock is than the capture's: where the array is in focus.
+// How much later the trajectory's clock is than the capture's.
 //
-// The waves in a channel add up best when the antenna's places are those of the packets' true times. The
-// offset is the one with the greatest sum, over the pieces of the way, of what the strongest wave explains;
-// leaving out each piece in turn says how sure it is (jackknife). A trajectory at constant velocity on a
-// line is as sharp at any offset: the sigma is then as wide as the search.
+// A channel changes as fast as the antenna moves: over a step of d metres its successive values part by
+// about kappa d. The offset is where how fast the channel changes and how fast the antenna moves agree best
+// in time (correlation); leaving out a tenth of the time in turn says how sure it is (jackknife). Only where
+// the speed changes, as at a start or a stop, is there something to agree on: a drive of constant speed
+// leaves the offset open, and the sigma is then wide. Ours.
 #pragma once
 
 #include <optional>
@@ -13,8 +14,9 @@
 namespace radioslam {
 
 struct ClockOffsetParams {
-  double most_s = 0.3;    ///< either way
-  double step_s = 0.01;   ///< of the search; refined by a parabola
+  double most_s = 1;          ///< either way
+  double step_s = 0.01;       ///< of the search; refined by a parabola
+  double smoothing_s = 0.06;  ///< over which both speeds are taken
 };
 
 struct ClockOffset {
@@ -22,10 +24,10 @@ struct ClockOffset {
   double sigma_s = 0;
 };
 
-/// Nothing where the track has no motion to judge by.
+/// Of a track both ways. Nothing where the trajectory covers too few packets by the search's reach, or where
+/// either speed never changes.
 std::optional<ClockOffset> estimate_clock_offset(const ChannelTrack& track, const Trajectory<SE3>& trajectory,
-                                                 const ArrivalParams& params,
-                                                 const ClockOffsetParams& search = {});
+                                                 const ClockOffsetParams& params = {});
 
 /// The track with its stamps moved.
 ChannelTrack shifted(ChannelTrack track, double offset_s);
