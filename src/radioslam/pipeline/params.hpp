@@ -5,6 +5,7 @@
 #include "radioslam/graph/optimizer.hpp"
 #include "radioslam/mission/keyframes.hpp"
 #include "radioslam/pipeline/angle_checks.hpp"
+#include "radioslam/pipeline/csi_stage.hpp"
 #include "radioslam/pipeline/joint_graph.hpp"
 #include "radioslam/pipeline/match_angles.hpp"
 #include "radioslam/pipeline/overlap_stage.hpp"
@@ -20,6 +21,7 @@ namespace radioslam {
 struct RunParams {
   KeyframeParams keyframe;
   RadioParams radio;
+  CsiStageParams csi;
   LayoutParams team_frame;
   RadioAlignmentParams alignment;
   FingerprintClosureParams closure;
@@ -37,6 +39,7 @@ struct RunParams {
   static void visit_sections(Self& self, Visitor&& visit) {
     visit("keyframe", self.keyframe);
     visit("radio", self.radio);
+    visit("csi", self.csi);
     visit("team_frame", self.team_frame);
     visit("alignment", self.alignment);
     visit("closure", self.closure);

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "radioslam/pipeline/collect_results.hpp"
+#include "radioslam/pipeline/csi_stage.hpp"
 #include "radioslam/pipeline/joint_graph_of_team.hpp"
 #include "radioslam/team_frame/observed_information.hpp"
 
@@ -188,10 +189,40 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const RunPara
 
 }  // namespace
 
-RunOutput run_pipeline(const Mission& mission, const RunParams& params, const RunOptions& options,
-                       const Progress& progress) {
+namespace {
+
+RunOutput run_in_its_dimension(const Mission& mission, const RunParams& params, const RunOptions& options,
+                               const Progress& progress) {
   return mission.dimension == 2 ? run<SE2>(mission, nullptr, params, options, progress)
                                 : run<SE3>(mission, nullptr, params, options, progress);
+}
+
+/// The mission with the angles measured in its captures, and without the captures.
+Mission with_angles(Mission mission, const std::vector<ArrivalMeasurement>& measured) {
+  for (Robot& robot : mission.robots) robot.csi.reset();
+  mission.arrivals.insert(mission.arrivals.end(), measured.begin(), measured.end());
+  std::stable_sort(mission.arrivals.begin(), mission.arrivals.end(),
+                   [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
+  return mission;
+}
+
+}  // namespace
+
+RunOutput run_pipeline(const Mission& mission, const RunParams& params, const RunOptions& options,
+                       const Progress& progress) {
+  std::vector<StageTiming> timings;
+  MeasuredCsi csi =
+      StageClock(timings).time("angles", [&] { return measure_csi(mission, params.csi, progress); });
+  if (csi.arrivals.empty() && csi.notes.empty())
+    return run_in_its_dimension(mission, params, options, progress);
+  RunOutput output = run_in_its_dimension(with_angles(mission, csi.arrivals), params, options, progress);
+  RunResult& result = output.result;
+  result.timings.insert(result.timings.begin(), timings.begin(), timings.end());
+  result.counts["arrivals_measured"] = static_cast<double>(csi.arrivals.size());
+  for (auto& note : csi.notes) result.notes.push_back(std::move(note));
+  add_estimated_azimuths(csi.profiles, result.robots);
+  result.arrivals = std::move(csi.profiles);
+  return output;
 }
 
 template <class Pose>
