@@ -67,7 +67,8 @@ class CsiStage {
       captures_.push_back(robot.csi ? merged(*robot.csi, robot.id, notes) : CsiCapture{});
       still_.push_back(robot.csi ? still_times(robot.odometry, params.still_m) : std::vector<TimeWindow>{});
       if (!captures_.back().packets.empty() && carrier_of(*robot.csi, captures_.back()) == 0)
-        notes.push_back("robot " + robot.id + "'s captures took no part: neither they nor mission.yaml tell "
+        notes.push_back("robot " + robot.id +
+                        "'s captures took no part: neither they nor mission.yaml tell "
                         "the channel");
     }
   }
@@ -175,8 +176,7 @@ ArrivalMeasurement measurement_of(const Mission& mission, const Attempt& attempt
 std::vector<float> turned_to_body(const ArrivalEstimate& estimate) {
   const Eigen::Vector3d forward = estimate.T_frame_body.rotation() * Eigen::Vector3d::UnitX();
   const auto n = std::ssize(estimate.profile);
-  const auto shift =
-      std::lround(azimuth_of(forward) / (2 * std::numbers::pi) * static_cast<double>(n));
+  const auto shift = std::lround(azimuth_of(forward) / (2 * std::numbers::pi) * static_cast<double>(n));
   std::vector<float> turned;
   for (std::ptrdiff_t k = 0; k < n; ++k)
     turned.push_back(estimate.profile[static_cast<std::size_t>(((k + shift) % n + n) % n)]);
@@ -204,9 +204,8 @@ MeasuredCsi measure_csi(const Mission& mission, const CsiStageParams& params, co
   if (std::none_of(mission.robots.begin(), mission.robots.end(), has_csi)) return result;
   const CsiStage stage(mission, params, result.notes);
   std::vector<Attempt> attempts = stage.attempts();
-  std::stable_sort(attempts.begin(), attempts.end(), [](const Attempt& a, const Attempt& b) {
-    return a.window.begin < b.window.begin;
-  });
+  std::stable_sort(attempts.begin(), attempts.end(),
+                   [](const Attempt& a, const Attempt& b) { return a.window.begin < b.window.begin; });
   std::vector<std::optional<ArrivalEstimate>> estimates(attempts.size());
   constexpr std::size_t kRound = 16;
   for (std::size_t done = 0; done < attempts.size(); done += kRound) {

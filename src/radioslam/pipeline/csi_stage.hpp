@@ -17,9 +17,9 @@
 namespace radioslam {
 
 struct CsiStageParams {
-  double window_m = 1;        ///< way of one measurement
+  double window_m = 1;           ///< way of one measurement
   double window_turn_rad = 1.5;  ///< turn of one measurement of a pair of antennas
-  double still_m = 0.005;     ///< the other end may move so far meanwhile: a tenth of a wavelength
+  double still_m = 0.005;        ///< the other end may move so far meanwhile: a tenth of a wavelength
   ArrivalParams arrival;
 
   template <class Self, class Visitor>
@@ -34,8 +34,8 @@ struct CsiStageParams {
 
 /// What the captures gave.
 struct MeasuredCsi {
-  std::vector<ArrivalMeasurement> arrivals;      ///< in the order of time
-  std::vector<MeasuredArrivalResult> profiles;   ///< likewise, one each
+  std::vector<ArrivalMeasurement> arrivals;     ///< in the order of time
+  std::vector<MeasuredArrivalResult> profiles;  ///< likewise, one each
   std::vector<std::string> notes;
 };
 

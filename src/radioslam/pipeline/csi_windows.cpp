@@ -14,8 +14,7 @@ std::vector<TimeWindow> still_times(const Trajectory<SE3>& odometry, double reac
   std::vector<TimeWindow> times;
   for (std::size_t first = 0; first < odometry.size();) {
     std::size_t last = first;
-    while (last + 1 < odometry.size() &&
-           distance_m(odometry[first].pose, odometry[last + 1].pose) <= reach_m)
+    while (last + 1 < odometry.size() && distance_m(odometry[first].pose, odometry[last + 1].pose) <= reach_m)
       ++last;
     if (last > first) times.push_back({odometry[first].stamp, odometry[last].stamp});
     first = last + 1;

@@ -35,23 +35,39 @@ struct Best {
   std::uint16_t delay = 0;
 };
 
+/// Eight delays at a time, as the compiler's vectors.
 class DelaySearch {
  public:
   DelaySearch(const Eigen::MatrixXcd& over_subcarriers, const DelayTable& delays)
-      : turns_((over_subcarriers * delays.turns()).cast<std::complex<float>>()) {}
+      : signals_(static_cast<std::size_t>(over_subcarriers.rows())),
+        delays_(static_cast<std::size_t>(delays.turns().cols())) {
+    const Eigen::MatrixXcd turns = over_subcarriers * delays.turns();
+    for (Eigen::Index r = 0; r < turns.rows(); ++r)
+      for (Eigen::Index t = 0; t < turns.cols(); ++t) {
+        real_.push_back(static_cast<float>(turns(r, t).real()));
+        imaginary_.push_back(static_cast<float>(turns(r, t).imag()));
+      }
+  }
 
-  Best best(const std::complex<float>* z) const {
-    Best result;
-    const Eigen::Map<const Eigen::RowVectorXcf> beam(z, turns_.rows());
-    for (Eigen::Index t = 0; t < turns_.cols(); ++t) {
-      const float power = std::norm(beam.cwiseProduct(turns_.col(t).transpose()).sum());
-      if (power > result.power) result = {power, static_cast<std::uint16_t>(t)};
+  Best best(const std::complex<float>* z) {
+    re_.assign(delays_, 0);
+    im_.assign(delays_, 0);
+    for (std::size_t r = 0; r < signals_; ++r) {
+      const float a = z[r].real(), b = z[r].imag();
+      const float* real = &real_[r * delays_];
+      const float* imaginary = &imaginary_[r * delays_];
+      for (std::size_t t = 0; t < delays_; ++t) re_[t] += a * real[t] - b * imaginary[t];
+      for (std::size_t t = 0; t < delays_; ++t) im_[t] += a * imaginary[t] + b * real[t];
     }
-    return result;
+    for (std::size_t t = 0; t < delays_; ++t) re_[t] = re_[t] * re_[t] + im_[t] * im_[t];
+    const auto best = std::max_element(re_.begin(), re_.end());
+    return {*best, static_cast<std::uint16_t>(best - re_.begin())};
   }
 
  private:
-  Eigen::MatrixXcf turns_;  ///< signals x delays
+  std::size_t signals_, delays_;
+  std::vector<float> real_, imaginary_;  ///< signals x delays
+  std::vector<float> re_, im_;           ///< of one beam
 };
 
 BeamDirection direction_of(const WaveSource& source) {
@@ -69,7 +85,7 @@ ArrayBeams array_beams(const SyntheticArray& array, const WaveGrid& grid, const 
   if (energy == 0) return result;
   const Signals signals = strongest_signals(array.channel);
   const BeamInput input = beam_input(array.positions_m, array.wavenumber_radpm, signals.signals);
-  const DelaySearch search(signals.over_subcarriers, delays);
+  DelaySearch search(signals.over_subcarriers, delays);
   const BeamKernel kernel = beam_kernel();
   const auto scale = static_cast<float>(1 / (energy * static_cast<double>(array.channel.size())));
   std::vector<BeamDirection> directions(kBlock);
@@ -79,11 +95,7 @@ ArrayBeams array_beams(const SyntheticArray& array, const WaveGrid& grid, const 
     for (std::size_t d = 0; d < count; ++d) directions[d] = direction_of(grid.source(begin + d));
     kernel(input, directions.data(), count, sums.data());
     for (std::size_t d = 0; d < count; ++d) {
-      std::complex<float> z[BeamInput::kMostSignals];
-      for (std::size_t r = 0; r < input.signals; ++r)
-        z[r] = {sums[d].real_cos[r] - sums[d].imaginary_sin[r],
-                sums[d].imaginary_cos[r] + sums[d].real_sin[r]};
-      const Best best = search.best(z);
+      const Best best = search.best(sums[d].z.data());
       result.power[begin + d] = best.power * scale;
       result.best_delay[begin + d] = best.delay;
     }

@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kLightspeed_mps = 299792458;
 constexpr double kPhaseStep_rad = 2;
+constexpr double kAveragedTurn_rad = 0.8;
 constexpr double kOutOfPlane = 0.25;  // of the level extent
 
 std::optional<Eigen::Vector3d> place(const ChannelTrack& track, const Trajectory<SE3>& trajectory,
@@ -107,16 +108,23 @@ WaveGrid grid_for(const MovedArray& moved, const ArrivalParams& params, int azim
   return grid;
 }
 
-SyntheticArray thinned(const SyntheticArray& array, Eigen::Index every) {
-  SyntheticArray some = array;
-  const Eigen::Index n = (array.snapshots() + every - 1) / every;
-  some.positions_m.resize(3, n);
-  some.channel.resize(n, array.channel.cols());
-  for (Eigen::Index k = 0; k < n; ++k) {
-    some.positions_m.col(k) = array.positions_m.col(k * every);
-    some.channel.row(k) = array.channel.row(k * every);
+SyntheticArray averaged(const SyntheticArray& array) {
+  const double reach_m = kAveragedTurn_rad / array.wavenumber_radpm;
+  SyntheticArray means = array;
+  Eigen::Index count = 0;
+  for (Eigen::Index first = 0; first < array.snapshots(); ++count) {
+    Eigen::Index last = first;
+    while (last + 1 < array.snapshots() &&
+           (array.positions_m.col(last + 1) - array.positions_m.col(first)).norm() < reach_m)
+      ++last;
+    const Eigen::Index n = last - first + 1;
+    means.positions_m.col(count) = array.positions_m.middleCols(first, n).rowwise().mean();
+    means.channel.row(count) = array.channel.middleRows(first, n).colwise().mean();
+    first = last + 1;
   }
-  return some;
+  means.positions_m.conservativeResize(3, count);
+  means.channel.conservativeResize(count, array.channel.cols());
+  return means;
 }
 
 }  // namespace radioslam

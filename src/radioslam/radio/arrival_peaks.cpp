@@ -105,7 +105,8 @@ double resolution_rad(const MovedArray& one_way) {
 AzimuthProfile bartlett_profile(const MovedArray& moved, const ArrivalParams& params) {
   const WaveGrid grid = grid_for(moved, params, params.azimuths);
   const DelayTable delays = delay_table(moved.array.subcarrier_hz);
-  const auto pieces = subarrays(moved.array, piece_length_m(moved, params));
+  const SyntheticArray array = moved.is_difference ? moved.array : averaged(moved.array);
+  const auto pieces = subarrays(array, piece_length_m(moved, params));
   std::vector<double> power(grid.size(), 0);
   for (const SyntheticArray& piece : pieces) {
     const ArrayBeams beams = array_beams(piece, grid, delays);
@@ -152,9 +153,7 @@ AzimuthProfile music_profile(const MovedArray& moved, const ArrivalParams& param
     BeamSum sum;
     kernel(input, &to, 1, &sum);
     double fit = 0;
-    for (std::size_t r = 0; r < input.signals; ++r)
-      fit += std::pow(sum.real_cos[r] - sum.imaginary_sin[r], 2) +
-             std::pow(sum.imaginary_cos[r] + sum.real_sin[r], 2);
+    for (std::size_t r = 0; r < input.signals; ++r) fit += static_cast<double>(std::norm(sum.z[r]));
     power.push_back(1 / std::max(1 - fit / static_cast<double>(h.rows()), 1e-6));
   }
   return over_azimuth(grid, power);

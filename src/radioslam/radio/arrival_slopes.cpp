@@ -6,8 +6,7 @@ namespace radioslam {
 namespace {
 
 constexpr int kAzimuths = 240;
-constexpr Eigen::Index kThinning = 3;  // of the snapshots that the waves are sought in
-constexpr double kStep = 1.0 / 8;      // of the band's resolution
+constexpr double kStep = 1.0 / 8;                                              // of the band's resolution
 constexpr double kPacketDelays = 5, kWaveDelays = 2.5, kUncentredDelays = 14;  // resolutions
 
 double resolution_s(const std::vector<double>& subcarrier_hz) {
@@ -48,8 +47,8 @@ std::vector<WavePath> align_to_waves(MovedArray& one_way, const ArrivalParams& p
   std::vector<WavePath> waves;
   for (int pass = 0; pass < params.model_passes; ++pass) {
     const int count = std::min(params.model_paths, 2 + 2 * pass);
-    advance_all(array.channel, hz, find_paths(thinned(array, kThinning), grid, far, 1).front().delay_s);
-    waves = find_paths(thinned(array, kThinning), grid, near, count);
+    advance_all(array.channel, hz, find_paths(averaged(array), grid, far, 1).front().delay_s);
+    waves = find_paths(averaged(array), grid, near, count);
     align_to_model(array.channel, hz, packets, channel_of(waves, array));
   }
   return waves;

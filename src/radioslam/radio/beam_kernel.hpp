@@ -67,54 +67,55 @@ inline Eight excess_turns(const BeamInput& input, const BeamDirection& to, std::
   return bent / (root(all(1) + rho * bent * per_turn) + all(1));
 }
 
-template <bool kCurved, std::size_t kSignals>
-void sum_one(const BeamInput& input, const BeamDirection& to, BeamSum& out) {
-  Eight real_cos[kSignals] = {}, imaginary_sin[kSignals] = {}, imaginary_cos[kSignals] = {},
-        real_sin[kSignals] = {};
-  for (std::size_t k = 0; k < input.padded; k += 8) {
-    const SineCosine turn = sine_cosine(excess_turns<kCurved>(input, to, k));
-    for (std::size_t r = 0; r < kSignals; ++r) {
-      const Eight re = load(&input.real[r * input.padded + k]),
-                  im = load(&input.imaginary[r * input.padded + k]);
-      real_cos[r] += re * turn.cosine;
-      imaginary_sin[r] += im * turn.sine;
-      imaginary_cos[r] += im * turn.cosine;
-      real_sin[r] += re * turn.sine;
-    }
-  }
-  for (std::size_t r = 0; r < kSignals; ++r) {
-    out.real_cos[r] = sum(real_cos[r]);
-    out.imaginary_sin[r] = sum(imaginary_sin[r]);
-    out.imaginary_cos[r] = sum(imaginary_cos[r]);
-    out.real_sin[r] = sum(real_sin[r]);
+/// Snapshots whose sines and cosines are at hand at one time.
+constexpr std::size_t kChunk = 256;
+
+struct Turns {
+  alignas(32) float sine[kChunk];
+  alignas(32) float cosine[kChunk];
+};
+
+template <bool kCurved>
+void turn(const BeamInput& input, const BeamDirection& to, std::size_t begin, std::size_t count,
+          Turns& turns) {
+  for (std::size_t k = 0; k < count; k += 8) {
+    const SineCosine of = sine_cosine(excess_turns<kCurved>(input, to, begin + k));
+    __builtin_memcpy(&turns.sine[k], &of.sine, sizeof of.sine);
+    __builtin_memcpy(&turns.cosine[k], &of.cosine, sizeof of.cosine);
   }
 }
 
+/// Adds some signals' sums over a chunk: few enough at a time for the registers.
 template <std::size_t kSignals>
-void sum_all(const BeamInput& input, const BeamDirection* to, std::size_t count, BeamSum* sums) {
-  for (std::size_t d = 0; d < count; ++d)
-    to[d].curvature == 0 ? sum_one<false, kSignals>(input, to[d], sums[d])
-                         : sum_one<true, kSignals>(input, to[d], sums[d]);
+void add_signals(const BeamInput& input, std::size_t first, std::size_t begin, std::size_t count,
+                 const Turns& turns, std::complex<float>* z) {
+  Eight re[kSignals] = {}, im[kSignals] = {};
+  for (std::size_t k = 0; k < count; k += 8) {
+    const Eight sine = load(&turns.sine[k]), cosine = load(&turns.cosine[k]);
+    for (std::size_t r = 0; r < kSignals; ++r) {
+      const std::size_t at = (first + r) * input.padded + begin + k;
+      const Eight a = load(&input.real[at]), b = load(&input.imaginary[at]);
+      re[r] += a * cosine - b * sine;
+      im[r] += b * cosine + a * sine;
+    }
+  }
+  for (std::size_t r = 0; r < kSignals; ++r) z[first + r] += std::complex<float>(sum(re[r]), sum(im[r]));
 }
 
 void sum_beams(const BeamInput& input, const BeamDirection* to, std::size_t count, BeamSum* sums) {
-  switch (input.signals) {
-    case 1:
-      return sum_all<1>(input, to, count, sums);
-    case 2:
-      return sum_all<2>(input, to, count, sums);
-    case 3:
-      return sum_all<3>(input, to, count, sums);
-    case 4:
-      return sum_all<4>(input, to, count, sums);
-    case 5:
-      return sum_all<5>(input, to, count, sums);
-    case 6:
-      return sum_all<6>(input, to, count, sums);
-    case 7:
-      return sum_all<7>(input, to, count, sums);
-    default:
-      return sum_all<8>(input, to, count, sums);
+  Turns turns;
+  for (std::size_t d = 0; d < count; ++d) {
+    sums[d].z.fill(0);
+    for (std::size_t begin = 0; begin < input.padded; begin += kChunk) {
+      const std::size_t part = input.padded - begin < kChunk ? input.padded - begin : kChunk;
+      to[d].curvature == 0 ? turn<false>(input, to[d], begin, part, turns)
+                           : turn<true>(input, to[d], begin, part, turns);
+      std::size_t first = 0;
+      for (; first + 4 <= input.signals; first += 4)
+        add_signals<4>(input, first, begin, part, turns, sums[d].z.data());
+      for (; first < input.signals; ++first)
+        add_signals<1>(input, first, begin, part, turns, sums[d].z.data());
+    }
   }
 }
 

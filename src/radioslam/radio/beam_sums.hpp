@@ -5,6 +5,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <complex>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -29,11 +31,9 @@ struct BeamInput {
 BeamInput beam_input(const Eigen::Matrix3Xd& positions_m, double wavenumber_radpm,
                      const Eigen::MatrixXcd& signals);
 
-/// z of one source.
+/// z of one source, of every signal.
 struct BeamSum {
-  /// sum of y_re cos, y_im sin, y_im cos, y_re sin of every signal
-  float real_cos[BeamInput::kMostSignals], imaginary_sin[BeamInput::kMostSignals];
-  float imaginary_cos[BeamInput::kMostSignals], real_sin[BeamInput::kMostSignals];
+  std::array<std::complex<float>, BeamInput::kMostSignals> z;
 };
 
 /// One source's direction, and its curvature in 1/m.

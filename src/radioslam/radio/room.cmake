@@ -4,10 +4,10 @@ radioslam_room(radio SOURCES fingerprint.cpp similarity.cpp distance_model.cpp d
                        square_root_channel.cpp array_beams.cpp path_model.cpp arrival_track.cpp arrival_array.cpp arrival_slopes.cpp
                        arrival_channel.cpp beam_objective.cpp arrival_peaks.cpp clock_offset.cpp arrival_estimate.cpp ROOMS mission)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-  set_source_files_properties(radio/beam_kernel_wide.cpp PROPERTIES COMPILE_OPTIONS -mavx2)
+  set_source_files_properties(radio/beam_kernel_wide.cpp PROPERTIES COMPILE_OPTIONS "-mavx2;-fno-math-errno")
 endif()
 # Its vectors are wider than the registers; none of them leaves the file.
-set_source_files_properties(radio/beam_kernel_narrow.cpp PROPERTIES COMPILE_OPTIONS -Wno-psabi)
+set_source_files_properties(radio/beam_kernel_narrow.cpp PROPERTIES COMPILE_OPTIONS "-Wno-psabi;-fno-math-errno")
 # One source each on purpose: each defines the same functions for other registers.
 set_source_files_properties(radio/beam_kernel_narrow.cpp radio/beam_kernel_wide.cpp
                             PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

@@ -135,13 +135,30 @@ std::vector<Turn> successive_turns(const std::vector<Exchange>& exchanges, const
   return turns;
 }
 
+/// Where the coherence is largest. The phases are turned on from one offset to the next, and afresh now and
+/// then, so that rounding does not gather.
 double frequency_offset_hz(const std::vector<Turn>& turns, double most_hz) {
-  double best_hz = 0, best = coherence(turns, 0);
-  const auto steps = static_cast<int>(most_hz / kOffsetStep_hz);
-  for (int k = -steps; k <= steps; ++k) {
-    const double here = coherence(turns, k * kOffsetStep_hz);
-    if (here <= best) continue;
-    best = here;
+  constexpr int kAfresh = 64;
+  std::vector<std::complex<double>> steps, phases(turns.size());
+  for (const Turn& turn : turns) steps.push_back(turned_back(1, turn.jitter_us, kOffsetStep_hz));
+  const auto count = static_cast<int>(most_hz / kOffsetStep_hz);
+  double best_hz = 0, best = 0;
+  for (int k = -count; k <= count; ++k) {
+    const bool afresh = (k + count) % kAfresh == 0;
+    double re = 0, im = 0;
+    for (std::size_t t = 0; t < turns.size(); ++t) {
+      const std::complex<double> here =
+          afresh
+              ? turned_back(turns[t].phase, turns[t].jitter_us, k * kOffsetStep_hz)
+              : std::complex<double>(phases[t].real() * steps[t].real() - phases[t].imag() * steps[t].imag(),
+                                     phases[t].real() * steps[t].imag() + phases[t].imag() * steps[t].real());
+      phases[t] = here;
+      re += here.real();
+      im += here.imag();
+    }
+    const double size = re * re + im * im;
+    if (size <= best) continue;
+    best = size;
     best_hz = k * kOffsetStep_hz;
   }
   return best_hz;
