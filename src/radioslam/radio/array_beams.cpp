@@ -21,8 +21,7 @@ Signals strongest_signals(const Eigen::MatrixXcd& channel) {
   const Eigen::MatrixXcd gram = channel.adjoint() * channel;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> eigen(gram);
   Eigen::Index count = 0;
-  const Eigen::Index most =
-      std::min(gram.rows(), static_cast<Eigen::Index>(BeamInput::kMostSignals));
+  const Eigen::Index most = std::min(gram.rows(), static_cast<Eigen::Index>(BeamInput::kMostSignals));
   while (count < most &&
          eigen.eigenvalues()[gram.rows() - 1 - count] >= kFaintest * eigen.eigenvalues()[gram.rows() - 1])
     ++count;

@@ -16,7 +16,7 @@
 namespace radioslam {
 
 struct ArrayBeams {
-  std::vector<float> power;                ///< of every source of the grid
+  std::vector<float> power;               ///< of every source of the grid
   std::vector<std::uint16_t> best_delay;  ///< column of the delay table
 };
 

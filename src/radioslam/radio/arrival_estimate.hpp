@@ -33,8 +33,8 @@ struct ArrivalParams {
   double least_way_m = 0.15;         ///< a shorter way tells no direction
   int model_paths = 8;               ///< waves that each packet's delay is measured against
   int model_passes = 4;
-  int peaks = 4;                     ///< at most
-  double sigma_floor_rad = 0.015;    ///< of antennas' places and clocks, beside what the channel tells
+  int peaks = 4;                   ///< at most
+  double sigma_floor_rad = 0.015;  ///< of antennas' places and clocks, beside what the channel tells
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -59,34 +59,35 @@ struct ArrivalParams {
 
 /// One direction.
 struct ArrivalPeak {
-  double azimuth_rad = 0;    ///< in the trajectory's frame
-  double elevation_rad = 0;  ///< likewise; of a plane motion up, though down is as likely
-  double sigma_rad = 0;      ///< of the azimuth
-  double power_db = 0;       ///< to the strongest peak
-  double curvature_per_m = 0;            ///< one over the source's distance, as far as the wave shows it
-  std::optional<double> mirror_rad;      ///< the azimuth that a straight way cannot tell from this
-  bool is_ghost = false;                 ///< a product of two paths, between them
+  double azimuth_rad = 0;            ///< in the trajectory's frame
+  double elevation_rad = 0;          ///< likewise; of a plane motion up, though down is as likely
+  double sigma_rad = 0;              ///< of the azimuth
+  double power_db = 0;               ///< to the strongest peak
+  double curvature_per_m = 0;        ///< one over the source's distance, as far as the wave shows it
+  std::optional<double> mirror_rad;  ///< the azimuth that a straight way cannot tell from this
+  bool is_ghost = false;             ///< a product of two paths, between them
 };
 
 /// What one window of packets tells of one transmitter.
 struct ArrivalEstimate {
-  Stamp stamp;                ///< the middle of the packets
-  SE3 T_frame_body;           ///< of the receiver then
-  Eigen::Vector3d centre_m;   ///< mean place of the antenna: directions are seen from there
-  std::size_t packets = 0;    ///< that count
-  std::vector<ArrivalPeak> peaks;      ///< the strongest first, at least one
-  std::vector<float> profile;          ///< power over azimuth from -pi, the strongest 1
-  double explained = 0;                ///< share of the channel that the strongest wave explains, 0 to 1
+  Stamp stamp;                     ///< the middle of the packets
+  SE3 T_frame_body;                ///< of the receiver then
+  Eigen::Vector3d centre_m;        ///< mean place of the antenna: directions are seen from there
+  std::size_t packets = 0;         ///< that count
+  std::vector<ArrivalPeak> peaks;  ///< the strongest first, at least one
+  std::vector<float> profile;      ///< power over azimuth from -pi, the strongest 1
+  double explained = 0;            ///< share of the channel that the strongest wave explains, 0 to 1
 };
 
 /// Channels and where they were measured, free of the oscillators' phases.
 struct ChannelTrack {
-  std::vector<Stamp> stamps;         ///< increasing
-  Eigen::MatrixXcd channel;          ///< packets x subcarriers
+  std::vector<Stamp> stamps;  ///< increasing
+  Eigen::MatrixXcd channel;   ///< packets x subcarriers
   std::vector<double> subcarrier_hz;
   double carrier_hz = 0;
-  bool is_two_way = false;           ///< the product of both ways, else an antenna against another
-  Eigen::Vector3d lever_arm_m = Eigen::Vector3d::Zero();  ///< antenna in the body frame; of a pair the difference
+  bool is_two_way = false;  ///< the product of both ways, else an antenna against another
+  Eigen::Vector3d lever_arm_m =
+      Eigen::Vector3d::Zero();  ///< antenna in the body frame; of a pair the difference
 };
 
 /// From both ends' captures; nothing where too few packets pair up.
@@ -97,8 +98,9 @@ std::optional<ChannelTrack> two_way_track(const CsiCapture& receiver, MacAddress
 /// Antenna `first` against `second`, h_first conj(h_second), of every packet from `sender` (of any where
 /// absent).
 std::optional<ChannelTrack> antenna_pair_track(const CsiCapture& receiver, std::optional<MacAddress> sender,
-                                               double carrier_hz, const std::vector<Eigen::Vector3d>& antennas_m,
-                                               int first, int second);
+                                               double carrier_hz,
+                                               const std::vector<Eigen::Vector3d>& antennas_m, int first,
+                                               int second);
 
 enum class NoArrival { kNoMotion, kTooFewPackets, kNoOdometry };
 

@@ -18,9 +18,7 @@ inline Eight load(const float* p) {
 
 inline Eight all(float x) { return Eight{x, x, x, x, x, x, x, x}; }
 
-inline float sum(Eight v) {
-  return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
-}
+inline float sum(Eight v) { return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7])); }
 
 /// To the nearest whole number, for |x| < 2^22: the sum with 1.5 * 2^23 has no room for the fraction.
 inline Eight rounded(Eight x) {
@@ -36,10 +34,11 @@ struct SineCosine {
 inline SineCosine sine_cosine(Eight turns) {
   const Eight quarters = rounded(turns * all(4));
   const Eight x = (turns - quarters * all(0.25F)) * all(6.28318530718F), xx = x * x;
-  const Eight s = x * (all(1) + xx * (all(-1.66666546e-1F) + xx * (all(8.33216087e-3F) + xx * all(-1.95152959e-4F))));
-  const Eight c = all(1) + xx * (all(-0.5F) +
-                                 xx * (all(4.16666457e-2F) +
-                                       xx * (all(-1.38873162e-3F) + xx * all(2.44331571e-5F))));
+  const Eight s =
+      x * (all(1) + xx * (all(-1.66666546e-1F) + xx * (all(8.33216087e-3F) + xx * all(-1.95152959e-4F))));
+  const Eight c =
+      all(1) +
+      xx * (all(-0.5F) + xx * (all(4.16666457e-2F) + xx * (all(-1.38873162e-3F) + xx * all(2.44331571e-5F))));
   const EightInts q = __builtin_convertvector(quarters, EightInts);
   const EightInts odd = -(q & 1), sine_sign = (q & 2) << 30, cosine_sign = ((q + 1) & 2) << 30;
   const auto bits = [](Eight v) { return reinterpret_cast<EightInts>(v); };
@@ -60,7 +59,8 @@ inline Eight excess_turns(const BeamInput& input, const BeamDirection& to, std::
   const Eight along = load(&input.x_turns[k]) * all(to.x) + load(&input.y_turns[k]) * all(to.y) +
                       load(&input.z_turns[k]) * all(to.z);
   if constexpr (!kCurved) return -along;
-  // With q = |p|^2 and d = p.u, both times kappa/(2 pi): |rho p - u|^2 = 1 + (rho^2 q - 2 rho d)/(kappa/(2 pi)).
+  // With q = |p|^2 and d = p.u, both times kappa/(2 pi): |rho p - u|^2 = 1 + (rho^2 q - 2 rho d)/(kappa/(2
+  // pi)).
   const Eight rho = all(to.curvature), square = load(&input.square_turns[k]);
   const Eight bent = rho * square - along - along;
   const Eight per_turn = all(static_cast<float>(1 / input.turns_per_m));
@@ -74,7 +74,8 @@ void sum_one(const BeamInput& input, const BeamDirection& to, BeamSum& out) {
   for (std::size_t k = 0; k < input.padded; k += 8) {
     const SineCosine turn = sine_cosine(excess_turns<kCurved>(input, to, k));
     for (std::size_t r = 0; r < kSignals; ++r) {
-      const Eight re = load(&input.real[r * input.padded + k]), im = load(&input.imaginary[r * input.padded + k]);
+      const Eight re = load(&input.real[r * input.padded + k]),
+                  im = load(&input.imaginary[r * input.padded + k]);
       real_cos[r] += re * turn.cosine;
       imaginary_sin[r] += im * turn.sine;
       imaginary_cos[r] += im * turn.cosine;
@@ -98,14 +99,22 @@ void sum_all(const BeamInput& input, const BeamDirection* to, std::size_t count,
 
 void sum_beams(const BeamInput& input, const BeamDirection* to, std::size_t count, BeamSum* sums) {
   switch (input.signals) {
-    case 1: return sum_all<1>(input, to, count, sums);
-    case 2: return sum_all<2>(input, to, count, sums);
-    case 3: return sum_all<3>(input, to, count, sums);
-    case 4: return sum_all<4>(input, to, count, sums);
-    case 5: return sum_all<5>(input, to, count, sums);
-    case 6: return sum_all<6>(input, to, count, sums);
-    case 7: return sum_all<7>(input, to, count, sums);
-    default: return sum_all<8>(input, to, count, sums);
+    case 1:
+      return sum_all<1>(input, to, count, sums);
+    case 2:
+      return sum_all<2>(input, to, count, sums);
+    case 3:
+      return sum_all<3>(input, to, count, sums);
+    case 4:
+      return sum_all<4>(input, to, count, sums);
+    case 5:
+      return sum_all<5>(input, to, count, sums);
+    case 6:
+      return sum_all<6>(input, to, count, sums);
+    case 7:
+      return sum_all<7>(input, to, count, sums);
+    default:
+      return sum_all<8>(input, to, count, sums);
   }
 }
 

@@ -15,8 +15,8 @@ namespace radioslam {
 
 /// Signals over the snapshots of an array, laid out for the kernel; padded by silent snapshots.
 struct BeamInput {
-  std::size_t padded = 0;   ///< snapshots, a multiple of eight
-  std::size_t signals = 0;  ///< at most kMostSignals
+  std::size_t padded = 0;                        ///< snapshots, a multiple of eight
+  std::size_t signals = 0;                       ///< at most kMostSignals
   std::vector<float> x_turns, y_turns, z_turns;  ///< kappa p/(2 pi)
   std::vector<float> square_turns;               ///< kappa |p|^2/(2 pi), per metre
   std::vector<float> real, imaginary;            ///< signals x padded

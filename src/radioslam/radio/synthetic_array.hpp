@@ -38,10 +38,10 @@ inline double excess_way_m(const WaveSource& source, const Eigen::Vector3d& posi
 
 struct SyntheticArray {
   Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();
-  Eigen::Matrix3Xd positions_m;        ///< from the centre, one column per snapshot
-  Eigen::MatrixXcd channel;            ///< snapshots x subcarriers
-  std::vector<double> subcarrier_hz;   ///< from the carrier
-  double wavenumber_radpm = 0;         ///< kappa, of the carrier
+  Eigen::Matrix3Xd positions_m;       ///< from the centre, one column per snapshot
+  Eigen::MatrixXcd channel;           ///< snapshots x subcarriers
+  std::vector<double> subcarrier_hz;  ///< from the carrier
+  double wavenumber_radpm = 0;        ///< kappa, of the carrier
 
   Eigen::Index snapshots() const { return channel.rows(); }
 };

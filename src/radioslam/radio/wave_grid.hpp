@@ -13,9 +13,7 @@ struct WaveGrid {
   std::vector<double> elevations_rad{0};
   std::vector<double> curvatures_per_m{0};
 
-  double azimuth_rad(int k) const {
-    return -std::numbers::pi + 2 * std::numbers::pi * k / azimuths;
-  }
+  double azimuth_rad(int k) const { return -std::numbers::pi + 2 * std::numbers::pi * k / azimuths; }
   std::size_t size() const {
     return static_cast<std::size_t>(azimuths) * elevations_rad.size() * curvatures_per_m.size();
   }

@@ -1,0 +1,88 @@
+#include "radioslam/radio/arrival_estimate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "radioslam/radio/arrival_peaks.hpp"
+#include "radioslam/radio/arrival_slopes.hpp"
+#include "radioslam/radio/square_root_channel.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr std::size_t kFewestPackets = 16;
+constexpr double kNewestShare = 0.15;
+
+/// The track's packets between two stamps, as the channel of one way.
+ChannelTrack one_way_between(const ChannelTrack& track, Stamp begin, Stamp end) {
+  ChannelTrack part = track;
+  const auto first = std::lower_bound(track.stamps.begin(), track.stamps.end(), begin) - track.stamps.begin();
+  const auto last = std::upper_bound(track.stamps.begin(), track.stamps.end(), end) - track.stamps.begin();
+  part.stamps.assign(track.stamps.begin() + first, track.stamps.begin() + last);
+  part.channel = track.channel.middleRows(first, std::max<std::ptrdiff_t>(last - first, 0));
+  if (!track.is_two_way || part.stamps.empty()) return part;
+  align_to_predecessors(part.channel, part.subcarrier_hz, packet_delays(part.subcarrier_hz), kNewestShare);
+  part.channel = square_root_channel(part.channel);
+  return part;
+}
+
+/// The product both ways again, every value as strong as the next: what is faded counts as what is not.
+MovedArray both_ways(const MovedArray& one_way) {
+  MovedArray both = one_way;
+  both.array.channel = one_way.array.channel.unaryExpr([](const std::complex<double>& h) {
+    const double power = std::norm(h);
+    return power > 0 ? h * h / power : h;
+  });
+  both.array.wavenumber_radpm *= 2;
+  return both;
+}
+
+MovedArray evened(const MovedArray& difference) {
+  MovedArray even = difference;
+  even.array.channel = difference.array.channel.unaryExpr([](const std::complex<double>& h) {
+    const double size = std::abs(h);
+    return size > 0 ? h / size : h;
+  });
+  return even;
+}
+
+void fill_peaks(ArrivalEstimate& estimate, MovedArray& one_way, const ArrivalParams& params) {
+  std::vector<WavePath> waves;
+  if (!one_way.is_difference) waves = align_to_waves(one_way, params);
+  const MovedArray even = one_way.is_difference ? evened(one_way) : both_ways(one_way);
+  const AzimuthProfile profile = params.profile == "music" ? music_profile(one_way, params)
+                                                           : bartlett_profile(even, params);
+  const bool is_sparse = params.profile == "sparse";
+  if (is_sparse && waves.empty())
+    waves = find_paths(one_way.array, grid_for(one_way, params, params.azimuths),
+                       delay_table(one_way.array.subcarrier_hz), params.model_paths);
+  estimate.peaks = is_sparse ? peaks_of_waves(waves, one_way, params)
+                             : find_peaks(profile, params.profile == "music" ? one_way : even, params);
+  if (!one_way.is_difference && !is_sparse) name_ghosts(estimate.peaks, waves, one_way);
+  const double most = *std::max_element(profile.power.begin(), profile.power.end());
+  for (const double power : profile.power) estimate.profile.push_back(static_cast<float>(power / most));
+  estimate.explained = most;
+}
+
+}  // namespace
+
+ArrivalResult estimate_arrival(const ChannelTrack& track, const Trajectory<SE3>& trajectory, Stamp begin,
+                               Stamp end, const ArrivalParams& params) {
+  const ChannelTrack part = one_way_between(track, begin, end);
+  if (part.stamps.empty()) return {std::nullopt, NoArrival::kTooFewPackets};
+  MovedArray one_way = moved_array(part, trajectory, begin, end, params);
+  if (one_way.rows.empty()) return {std::nullopt, NoArrival::kNoOdometry};
+  if (!one_way.is_difference && one_way.way_m < params.least_way_m)
+    return {std::nullopt, NoArrival::kNoMotion};
+  if (one_way.rows.size() < kFewestPackets) return {std::nullopt, NoArrival::kTooFewPackets};
+  ArrivalEstimate estimate;
+  const Stamp first = part.stamps[one_way.rows.front()], last = part.stamps[one_way.rows.back()];
+  estimate.stamp = {first.ns + (last.ns - first.ns) / 2};
+  estimate.T_frame_body = *trajectory.at(estimate.stamp);
+  estimate.centre_m = one_way.array.centre_m;
+  estimate.packets = one_way.rows.size();
+  fill_peaks(estimate, one_way, params);
+  return {std::move(estimate), {}};
+}
+
+}  // namespace radioslam

@@ -1,0 +1,218 @@
+#include "radioslam/radio/arrival_peaks.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "radioslam/radio/arrival_slopes.hpp"
+#include "radioslam/radio/beam_objective.hpp"
+#include "radioslam/radio/beam_sums.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr double kTwin = 0.95;         // of a peak's power: its mirror is as likely
+constexpr double kGhost = 2;           // times the power of the waves there is a product's
+constexpr double kMostGhostWave = 0.1; // of the strongest wave
+
+double turn_rad(double from_rad, double to_rad) {
+  return std::remainder(to_rad - from_rad, 2 * std::numbers::pi);
+}
+
+double decibels(double ratio) { return 10 * std::log10(std::max(ratio, 1e-12)); }
+
+double most_curvature(const MovedArray& moved, const ArrivalParams& params) {
+  return moved.is_difference ? 0 : 1 / params.nearest_source_m;
+}
+
+/// Of the way whose profiles are added; a pair of antennas is one piece.
+double piece_length_m(const MovedArray& moved, const ArrivalParams& params) {
+  return moved.is_difference ? 1e9 : params.subarray_m;
+}
+
+/// Over azimuth, the best of elevation and curvature.
+AzimuthProfile over_azimuth(const WaveGrid& grid, const std::vector<double>& power) {
+  const auto around = static_cast<std::size_t>(grid.azimuths);
+  AzimuthProfile profile;
+  profile.power.assign(around, -1);
+  profile.source.resize(around);
+  for (std::size_t k = 0; k < power.size(); ++k) {
+    if (power[k] <= profile.power[k % around]) continue;
+    profile.power[k % around] = power[k];
+    profile.source[k % around] = grid.source(k);
+  }
+  return profile;
+}
+
+/// Horizontal directions from which a straight way's phases are the same: the line's azimuth, if it is one.
+double mirror_of(double azimuth_rad, const SyntheticArray& array) {
+  const Eigen::Matrix2d spread =
+      array.positions_m.topRows<2>() * array.positions_m.topRows<2>().transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(spread);
+  const Eigen::Vector2d line = axes.eigenvectors().col(1);
+  return std::remainder(2 * std::atan2(line.y(), line.x()) - azimuth_rad, 2 * std::numbers::pi);
+}
+
+std::vector<std::size_t> local_maxima(const std::vector<double>& power) {
+  const std::size_t n = power.size();
+  std::vector<std::size_t> peaks;
+  for (std::size_t k = 0; k < n; ++k)
+    if (power[k] >= power[(k + n - 1) % n] && power[k] > power[(k + 1) % n]) peaks.push_back(k);
+  std::stable_sort(peaks.begin(), peaks.end(),
+                   [&](std::size_t a, std::size_t b) { return power[a] > power[b]; });
+  return peaks;
+}
+
+/// How far apart in direction two waves of one way are told apart.
+double resolution_rad(const MovedArray& one_way) {
+  const auto& p = one_way.array.positions_m;
+  const double extent_m = (p.rowwise().maxCoeff() - p.rowwise().minCoeff()).norm();
+  return 2 * std::numbers::pi / (one_way.array.wavenumber_radpm * std::max(extent_m, 1e-6));
+}
+
+}  // namespace
+
+AzimuthProfile bartlett_profile(const MovedArray& moved, const ArrivalParams& params) {
+  const WaveGrid grid = grid_for(moved, params, params.azimuths);
+  const DelayTable delays = delay_table(moved.array.subcarrier_hz);
+  const auto pieces = subarrays(moved.array, piece_length_m(moved, params));
+  std::vector<double> power(grid.size(), 0);
+  for (const SyntheticArray& piece : pieces) {
+    const ArrayBeams beams = array_beams(piece, grid, delays);
+    for (std::size_t k = 0; k < power.size(); ++k)
+      power[k] += static_cast<double>(beams.power[k]) / static_cast<double>(pieces.size());
+  }
+  return over_azimuth(grid, power);
+}
+
+AzimuthProfile music_profile(const MovedArray& moved, const ArrivalParams& params) {
+  const Eigen::MatrixXcd& h = moved.array.channel;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> eigen(h.adjoint() * h);
+  const Eigen::Index values = std::min(h.rows(), h.cols());
+  const auto power_of = [&](Eigen::Index k) {
+    return std::max(eigen.eigenvalues()[h.cols() - 1 - k], 1e-12 * eigen.eigenvalues()[h.cols() - 1]);
+  };
+  // Minimum description length over the eigenvalues, K snapshots of them.
+  const auto samples = static_cast<double>(h.rows());
+  Eigen::Index signals = 1;
+  double shortest = std::numeric_limits<double>::infinity();
+  for (Eigen::Index order = 1; order < std::min<Eigen::Index>(values, BeamInput::kMostSignals + 1); ++order) {
+    double logs = 0, mean = 0;
+    for (Eigen::Index k = order; k < values; ++k) {
+      logs += std::log(power_of(k));
+      mean += power_of(k);
+    }
+    const auto rest = static_cast<double>(values - order), free = static_cast<double>(order);
+    const double length = samples * (rest * std::log(mean / rest) - logs) +
+                          0.5 * free * (2 * static_cast<double>(values) - free) * std::log(samples);
+    if (length >= shortest) continue;
+    shortest = length;
+    signals = order;
+  }
+  Eigen::MatrixXcd basis = h * eigen.eigenvectors().rightCols(signals);
+  basis.colwise().normalize();
+  const WaveGrid grid = grid_for(moved, params, params.azimuths);
+  const BeamInput input = beam_input(moved.array.positions_m, moved.array.wavenumber_radpm, basis);
+  const BeamKernel kernel = beam_kernel();
+  std::vector<double> power;
+  for (std::size_t k = 0; k < grid.size(); ++k) {
+    const WaveSource source = grid.source(k);
+    const Eigen::Vector3f u = source.direction().cast<float>();
+    const BeamDirection to{u.x(), u.y(), u.z(), static_cast<float>(source.curvature_per_m)};
+    BeamSum sum;
+    kernel(input, &to, 1, &sum);
+    double fit = 0;
+    for (std::size_t r = 0; r < input.signals; ++r)
+      fit += std::pow(sum.real_cos[r] - sum.imaginary_sin[r], 2) +
+             std::pow(sum.imaginary_cos[r] + sum.real_sin[r], 2);
+    power.push_back(1 / std::max(1 - fit / static_cast<double>(h.rows()), 1e-6));
+  }
+  return over_azimuth(grid, power);
+}
+
+std::vector<ArrivalPeak> find_peaks(const AzimuthProfile& profile, const MovedArray& moved,
+                                    const ArrivalParams& params) {
+  const auto pieces = subarrays(moved.array, piece_length_m(moved, params));
+  const DelayTable delays = delay_table(moved.array.subcarrier_hz);
+  const double most = most_curvature(moved, params);
+  const auto maxima = local_maxima(profile.power);
+  std::vector<ArrivalPeak> peaks;
+  for (const std::size_t k : maxima) {
+    if (std::ssize(peaks) == params.peaks) break;
+    const BeamObjective objective(pieces, delays, profile.source[k]);
+    const WaveSource source = objective.climb(profile.source[k], most);
+    const bool is_known = std::any_of(peaks.begin(), peaks.end(), [&](const ArrivalPeak& other) {
+      return std::abs(turn_rad(other.azimuth_rad, source.azimuth_rad)) < std::numbers::pi / params.azimuths;
+    });
+    if (is_known) continue;
+    ArrivalPeak& peak = peaks.emplace_back();
+    peak.azimuth_rad = source.azimuth_rad;
+    peak.elevation_rad = source.elevation_rad;
+    peak.curvature_per_m = source.curvature_per_m;
+    peak.power_db = decibels(profile.power[k] / profile.power[maxima.front()]);
+    peak.sigma_rad = std::hypot(objective.sigma_rad(source, most), params.sigma_floor_rad);
+    WaveSource twin = source;
+    twin.azimuth_rad = mirror_of(source.azimuth_rad, moved.array);
+    if (std::abs(turn_rad(twin.azimuth_rad, source.azimuth_rad)) > 2 * peak.sigma_rad &&
+        objective.value(twin) > kTwin * objective.value(source))
+      peak.mirror_rad = twin.azimuth_rad;
+  }
+  return peaks;
+}
+
+std::vector<ArrivalPeak> peaks_of_waves(const std::vector<WavePath>& waves, const MovedArray& one_way,
+                                        const ArrivalParams& params) {
+  const double apart_rad = resolution_rad(one_way) / 2;
+  const DelayTable delays = delay_table(one_way.array.subcarrier_hz);
+  std::vector<WavePath> sorted = waves;
+  std::stable_sort(sorted.begin(), sorted.end(), [](const WavePath& a, const WavePath& b) {
+    return std::norm(a.amplitude) > std::norm(b.amplitude);
+  });
+  std::vector<ArrivalPeak> peaks;
+  for (const WavePath& wave : sorted) {
+    if (std::ssize(peaks) == params.peaks) break;
+    // What the other waves leave of the channel shows this one alone.
+    std::vector<WavePath> others;
+    for (const WavePath& other : waves)
+      if (std::abs(turn_rad(other.source.azimuth_rad, wave.source.azimuth_rad)) >= apart_rad)
+        others.push_back(other);
+    SyntheticArray alone = one_way.array;
+    alone.channel -= channel_of(others, one_way.array);
+    const BeamObjective objective({alone}, delays, wave.source);
+    const WaveSource source = objective.climb(wave.source, most_curvature(one_way, params));
+    const bool is_known = std::any_of(peaks.begin(), peaks.end(), [&](const ArrivalPeak& other) {
+      return std::abs(turn_rad(other.azimuth_rad, source.azimuth_rad)) < apart_rad;
+    });
+    if (is_known) continue;
+    ArrivalPeak& peak = peaks.emplace_back();
+    peak.azimuth_rad = source.azimuth_rad;
+    peak.elevation_rad = source.elevation_rad;
+    peak.curvature_per_m = source.curvature_per_m;
+    peak.power_db = decibels(std::norm(wave.amplitude) / std::norm(sorted.front().amplitude));
+    peak.sigma_rad =
+        std::hypot(objective.sigma_rad(source, most_curvature(one_way, params)), params.sigma_floor_rad);
+  }
+  return peaks;
+}
+
+void name_ghosts(std::vector<ArrivalPeak>& peaks, const std::vector<WavePath>& waves,
+                 const MovedArray& one_way) {
+  const double near = resolution_rad(one_way) / 2;
+  double strongest = 0;
+  for (const WavePath& wave : waves) strongest = std::max(strongest, std::norm(wave.amplitude));
+  for (ArrivalPeak& peak : peaks) {
+    const Eigen::Vector3d at = WaveSource{peak.azimuth_rad, peak.elevation_rad, 0}.direction();
+    double here = 0, product = 0;
+    for (const WavePath& a : waves) {
+      if ((a.source.direction() - at).norm() < near) here = std::max(here, std::norm(a.amplitude));
+      for (const WavePath& b : waves)
+        if (&a < &b && ((a.source.direction() + b.source.direction()) / 2 - at).norm() < near)
+          product = std::max(product, 2 * std::abs(a.amplitude) * std::abs(b.amplitude));
+    }
+    peak.is_ghost = product > kGhost * here && here < kMostGhostWave * strongest;
+  }
+}
+
+}  // namespace radioslam

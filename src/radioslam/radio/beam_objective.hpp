@@ -1,0 +1,46 @@
+// The profile at any source, not only on the grid, with what it takes to climb to its peak and to say how
+// sure that peak is.
+//
+//   J(u) = sum_q |Z_q(u)|^2 / E_q,  Z_q = sum_k w_k exp(j kappa e(p_k; u)),
+// over the array's pieces q, w the channel at the piece's best delay, E_q = K_q sum |h|^2 S. With theta =
+// (azimuth, curvature), the peak's covariance is the sandwich
+//   H^-1 (sum_b g_b g_b^T) H^-1,  H = -J'',  g_b the share of J' of the way's b-th block:
+// what is left beside the wave (other paths, noise, errors of the trajectory) moves the peak as it moves the
+// blocks' shares, whatever it is. Source: Huber 1967, with blocks since neighbours' rests are alike.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "radioslam/radio/subcarrier_slopes.hpp"
+#include "radioslam/radio/synthetic_array.hpp"
+
+namespace radioslam {
+
+class BeamObjective {
+ public:
+  /// Delays are the best at `near`.
+  BeamObjective(const std::vector<SyntheticArray>& pieces, const DelayTable& delays, const WaveSource& near);
+
+  double value(const WaveSource& source) const;
+
+  /// The nearest peak in azimuth and, where it bends the value down, in curvature from 0 to `most`.
+  WaveSource climb(WaveSource from, double most_curvature_per_m) const;
+
+  /// Sigma of the azimuth at a peak; the widest, half a turn over the square root of three, where the value
+  /// does not bend down.
+  double sigma_rad(const WaveSource& peak, double most_curvature_per_m) const;
+
+ private:
+  struct Piece {
+    Eigen::Matrix3Xd positions_m;
+    Eigen::VectorXcd weights;  ///< over the snapshots, by 1 / sqrt(E_q)
+    double wavenumber_radpm;
+  };
+  struct Slope;
+  Slope slope(const WaveSource& source) const;
+
+  std::vector<Piece> pieces_;
+};
+
+}  // namespace radioslam
