@@ -175,8 +175,8 @@ StudyTable aoa_paths_table(const std::vector<AoaPathsCell>& cells) {
       "Three paths at once",
       "Three plane waves 25 degrees apart at 20 dB over an arc of a metre, the direct one first and "
       "strongest, the others up to 6 dB weaker.",
-      {"runs", "all three within 5°", "direct within 2°", "strongest is direct, within 2°",
-       "direct's median error, °", "ghosts named per run"},
+      {"runs", "all three within 5°", "direct within 2°", "strongest within 2° of it",
+       "median error of it, °", "ghosts named per run"},
       {},
       {}};
   for (const AoaPathsCell& cell : cells) {

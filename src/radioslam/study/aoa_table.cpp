@@ -146,7 +146,9 @@ std::size_t unmeasured(const std::vector<AoaLink>& links) {
 std::vector<std::string> notes(const std::vector<AoaLink>& links, bool has_published) {
   std::vector<std::string> notes{
       "An error is the azimuth's of the strongest peak against the way from the mean of motion capture's "
-      "rows to the transmitter, whatever motion the directions were measured with."};
+      "rows to the transmitter, whatever motion the directions were measured with; best of 4: the share of "
+      "links "
+      "with one of the four strongest peaks within 10°."};
   if (has_published)
     notes.emplace_back(
         "The authors' figures are from their own files of results, which have no wheel odometry; the same "
@@ -228,15 +230,16 @@ std::vector<AoaGroup> group_links(const std::vector<AoaLink>& links,
 StudyTable aoa_table(const std::vector<AoaLink>& links, const std::vector<WsrResult>& published) {
   StudyTable table{"Angles of arrival of the WSR data set",
                    "A robot drives an arc; the direction of each transmitter, from packets both ways.",
-                   {"links", "median error, °", "within 10°", "best of 4 within 10°", "within 1.645 σ"},
+                   {"links", "median, °", "within 10°", "best of 4", "within 1.645 σ"},
                    {},
                    notes(links, !published.empty())};
   for (const AoaGroup& group : group_links(links, published)) {
     const std::string name = std::string(word_for(group.sight)) + ", " + word_for(group.motion);
     table.rows.push_back(row_of(name, group.ours));
-    if (group.published.links > 0) table.rows.push_back(row_of("  authors, same trials", group.published));
+    if (group.published.links > 0)
+      table.rows.push_back(row_of(name + ": authors, same trials", group.published));
     if (group.published_all.links > 0)
-      table.rows.push_back(row_of("  authors, all their trials", group.published_all));
+      table.rows.push_back(row_of(name + ": authors, all trials", group.published_all));
   }
   return table;
 }
