@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "cli/process.hpp"
+#include "study/made_up_trial.hpp"
 
 namespace radioslam::cli {
 namespace {
@@ -79,6 +80,59 @@ TEST_F(Reproduce, RefusesWhatItCannotMake) {
   EXPECT_NE(refusal({"wi-closure-kitti", "--trajectory", "truth.txt", "--odometry", "short.txt"})
                 .find("short.txt: has 1 poses"),
             std::string::npos);
+}
+
+/// The refusal of a call in an empty folder.
+std::string refused(const std::vector<std::string>& arguments) {
+  const TemporaryFolder folder;
+  const auto outcome = run(arguments, folder.path());
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(outcome.out, "");
+  return outcome.err;
+}
+
+TEST(ReproduceAoa, PutsTheAuthorsFiguresBesideOurs) {
+  const TemporaryFolder folder;
+  sample::write_trial(folder.path() / "raw" / "LOS_Set_A" / "L1", "_now");
+  const auto link = sample::results_json("tx2", {-30, 5}, sample::antenna_at(0).translation());
+  const std::string results = "2D-Displacement_output_files/default_configuration";
+  sample::write_bytes(folder.path() / results / "LOS_Set_A_using_groundtruth_displacement.json",
+                      "{\"1\": [" + link + "]}");
+  const auto outcome =
+      run({"reproduce", "aoa", "--dataset", "raw", "--set", "azimuths=180", "--json", "-o", "out"},
+          folder.path());
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(files_in(folder.path() / "out"),
+            (std::vector<std::string>{"index.html", "links.csv", "table.csv", "table.json", "table.txt"}));
+  const auto json = nlohmann::json::parse(outcome.out);
+  ASSERT_EQ(json["groups"].size(), 3U);
+  EXPECT_EQ(json["groups"][0]["motion"], "motion capture");
+  EXPECT_EQ(json["groups"][0]["ours"]["links"], 2);
+  EXPECT_EQ(json["groups"][0]["ours"]["within_10_deg"], 1);
+  EXPECT_EQ(json["groups"][0]["authors_same_trials"]["links"], 1);
+  EXPECT_EQ(json["groups"][0]["authors_same_trials"]["within_10_deg"], 0);
+  EXPECT_EQ(json["groups"][0]["authors_same_trials"]["best_of_4_within_10_deg"], 1);
+  EXPECT_EQ(json["links"].size(), 6U);
+}
+
+TEST(ReproduceAoa, RefusesWhatItCannotMake) {
+  EXPECT_NE(refused({"reproduce", "aoa"}).find("--dataset"), std::string::npos);
+  EXPECT_NE(refused({"reproduce", "aoa", "--dataset", "."}).find("csi_rx"), std::string::npos);
+  EXPECT_NE(refused({"reproduce", "aoa", "--dataset", ".", "--seeds", "3"}).find("--seeds"),
+            std::string::npos);
+  EXPECT_NE(refused({"reproduce", "aoa-paths", "--cut", "0.5"}).find("--cut"), std::string::npos);
+  EXPECT_NE(refused({"reproduce", "aoa-paths", "--dataset", "."}).find("--dataset"), std::string::npos);
+  EXPECT_NE(refused({"reproduce", "aoa-paths", "--set", "azimuth=3"}).find("azimuths"), std::string::npos);
+}
+
+TEST(ReproduceAoaPaths, PrintsARowPerProfileAndCards) {
+  const TemporaryFolder folder;
+  const auto outcome =
+      run({"reproduce", "aoa-paths", "--seeds", "1", "--set", "azimuths=120"}, folder.path());
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  for (const char* row : {"bartlett, no carrier", "music, carrier", "sparse, carrier"})
+    EXPECT_NE(outcome.out.find(row), std::string::npos) << row;
 }
 
 TEST(SimulateKitti, SaysWhenTheRobotsNeverMeet) {

@@ -66,6 +66,26 @@ TEST(RunFolder, ReadsBackWhatItWrites) {
   EXPECT_EQ(run.closures[0].reason, "too far; by half");
 }
 
+TEST(RunFolder, MeasuredDirectionsAreAMissionsTable) {
+  const TemporaryFolder folder;
+  RunResult result = example();
+  write_run(folder.path(), result, {});
+  EXPECT_FALSE(fs::exists(folder.path() / "aoa.csv"));
+  result.arrivals = {{"zoe",
+                      "adam",
+                      {1'500'000'000},
+                      {{0.25, 0.0625, 0, false}, {1, 0.5, -2, true}, {-3, 0.125, -4.5, false}},
+                      {},
+                      0.5},
+                     {"adam", "zoe", {0}, {{2, 0.25, 0, false}}, {}, {}}};
+  write_run(folder.path(), result, {});
+  EXPECT_EQ(folder.read("aoa.csv"),
+            "t_s,receiver,transmitter,path,azimuth_rad,elevation_rad,sigma_rad,power_db\n"
+            "1.5,zoe,adam,0,0.25,,0.0625,0\n"
+            "1.5,zoe,adam,1,-3,,0.125,-4.5\n"
+            "0,adam,zoe,0,2,,0.25,0\n");
+}
+
 TEST(RunFolder, HasTheFilesAndColumnsOfTheFormat) {
   const TemporaryFolder folder;
   write_run(folder.path(), example(), {nullptr, "VERTEX_SE2 0 0 0 0\n", "<html></html>"});

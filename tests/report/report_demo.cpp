@@ -39,6 +39,8 @@ int main(int argc, char** argv) {
   const std::filesystem::path folder = argc > 1 ? argv[1] : ".";
   std::filesystem::create_directories(folder);
   write(folder / "three.html", with_truth(make_sample({})));
+  write(folder / "directions.html", with_truth(make_sample({.keyframes = 300, .arrivals = 90})));
+  write(folder / "one_direction.html", render_report(make_sample({.arrivals = 1}).result));
   write(folder / "alone.html", with_truth(make_sample({.robots = 1, .keyframes = 300, .closures = 40})));
   write(folder / "space.html",
         with_truth(make_sample(

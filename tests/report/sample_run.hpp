@@ -16,6 +16,7 @@ struct SampleParams {
   int candidates = 0;
   int alternatives = 0;
   int dimension = 2;
+  int arrivals = 0;
 };
 
 struct Sample {

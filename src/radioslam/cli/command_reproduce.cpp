@@ -12,6 +12,7 @@
 #include "radioslam/cli/parameters.hpp"
 #include "radioslam/cli/progress_line.hpp"
 #include "radioslam/cli/recorded_drive.hpp"
+#include "radioslam/cli/recorded_trials.hpp"
 #include "radioslam/cli/suggestion.hpp"
 #include "radioslam/io/atomic_output.hpp"
 #include "radioslam/study/study_json.hpp"
@@ -30,6 +31,8 @@ struct ReproduceOptions {
   std::string output;
   std::string trajectory;
   std::string odometry;
+  std::string dataset;
+  std::string authors;
   std::optional<double> cut;
   std::uint64_t seed = 1;
   std::optional<int> seeds;
@@ -43,6 +46,7 @@ struct Study {
   StudyTable table;
   nlohmann::ordered_json json;
   std::string page;
+  std::string links_csv = {};  ///< a row per measurement, where the table has them
 };
 
 [[noreturn]] void refuse(const ReproduceOptions& options, const std::string& reason) {
@@ -85,19 +89,55 @@ Study overlap_growth(const ReproduceOptions& options) {
   return {overlap_growth_table(growth), overlap_growth_json(growth), render_growth_page(growth)};
 }
 
+void refuse_drive(const ReproduceOptions& options) {
+  if (!options.trajectory.empty() || !options.odometry.empty() || options.cut || options.poses)
+    refuse(options, "takes no --trajectory, --odometry, --cut or --poses");
+}
+
+Study aoa(const ReproduceOptions& options) {
+  refuse_drive(options);
+  if (options.seeds) refuse(options, "takes no --seeds: its trials are recorded");
+  const auto params = with_settings(ArrivalParams{}, collect_settings({}, options.set));
+  const RecordedTrials recorded = find_trials("reproduce " + options.table, options.dataset, options.authors);
+  ProgressLine line;
+  std::vector<AoaLink> links;
+  for (std::size_t k = 0; k < recorded.trials.size(); ++k) {
+    report_progress(line.progress(), recorded.trials[k].name,
+                    static_cast<double>(k) / static_cast<double>(recorded.trials.size()));
+    for (AoaLink& link : measure_wsr_trial(read_wsr_trial(recorded.trials[k]), recorded.published, params))
+      links.push_back(std::move(link));
+  }
+  StudyTable table = aoa_table(links, recorded.published);
+  std::string page = render_table_page(table);
+  return {std::move(table), aoa_json(links, recorded.published), std::move(page), aoa_links_csv(links)};
+}
+
+Study aoa_paths(const ReproduceOptions& options) {
+  constexpr int kSeeds = 200;
+  refuse_drive(options);
+  const auto params = with_settings(ArrivalParams{}, collect_settings({}, options.set));
+  ProgressLine line;
+  const auto cells = measure_aoa_paths(options.seeds.value_or(kSeeds), options.seed, params, line.progress());
+  StudyTable table = aoa_paths_table(cells);
+  std::string page = render_table_page(table);
+  return {std::move(table), aoa_paths_json(cells), std::move(page)};
+}
+
 struct Table {
   std::string_view name;
   std::string_view description;
   Study (*reproduce)(const ReproduceOptions&);
 };
 
-constexpr std::array<Table, 3> kTables{
+constexpr std::array<Table, 5> kTables{
     {{"wi-closure-kitti", "KITTI 08 cut in two, radio of 0.5 m and 10 degrees: the thesis beside ours",
       wi_closure_kitti},
      {"robustness-map", "error and recall over angle noise, links and false paths: where it breaks",
       robustness},
      {"overlap-growth", "seconds of the overlap search over the size of the mission, to a million poses",
-      overlap_growth}}};
+      overlap_growth},
+     {"aoa", "angles of arrival of the WSR data set: its authors' figures beside ours", aoa},
+     {"aoa-paths", "three simulated paths at once: which of them each profile finds", aoa_paths}}};
 
 std::string table_list() {
   std::string text = "Tables:\n";
@@ -120,6 +160,7 @@ void write_study(const Study& study, OutputFolder& output) {
   write_file(output.path() / "table.csv", table_csv(study.table));
   write_file(output.path() / "table.txt", table_text(study.table));
   write_file(output.path() / "index.html", study.page);
+  if (!study.links_csv.empty()) write_file(output.path() / "links.csv", study.links_csv);
   output.commit();
 }
 
@@ -129,6 +170,8 @@ void reproduce(const ReproduceOptions& options) {
     return;
   }
   const Table& table = table_named(options);
+  if (table.reproduce != aoa && !(options.dataset.empty() && options.authors.empty()))
+    refuse(options, "takes no --dataset or --authors");
   std::optional<OutputFolder> output;
   if (!options.output.empty()) output.emplace(options.output, kStudyFolder);
   const Study study = table.reproduce(options);
@@ -150,6 +193,12 @@ void add_table_options(CLI::App& command, ReproduceOptions& options) {
                   "wi-closure-kitti: share of the drive that is the first robot's; 0.34")
       ->check(number_from(kLeastCut, kLargestCut))
       ->type_name("SHARE");
+  command.add_option("--dataset", options.dataset, "aoa: a folder that has trials of the WSR data set in it")
+      ->type_name("DIR");
+  command
+      .add_option("--authors", options.authors,
+                  "aoa: its authors' results; default: 2D-Displacement_output_files beside the trials")
+      ->type_name("DIR");
   command.add_option("--seed", options.seed, "The first seed; default 1")
       ->check(seed_number())
       ->type_name("N");
@@ -181,8 +230,9 @@ void add_reproduce(CLI::App& program) {
       "(ground_truth_pose/GT_LiDAR)\n"
       "together with A-LOAM's odometry (data/ALOAM_result_pred).\n"
       "overlap-growth needs 1 GiB of memory per half million poses.\n"
-      "--set changes the simulation (`radioslam parameters kitti` and `city`). robustness-map takes "
-      "minutes.\n\n"
+      "--set changes the simulation (`radioslam parameters kitti` and `city`), of aoa and aoa-paths how\n"
+      "directions are estimated. robustness-map and aoa-paths take minutes.\n"
+      "The WSR data set is the repository Harvard-REACT/WSR-Toolbox-Dataset on GitHub.\n\n"
       "Example:\n"
       "  radioslam reproduce wi-closure-kitti --trajectory GT_LiDAR/08.txt --odometry ALOAM/08.txt\n"
       "Example: the map for a team without ranges\n"

@@ -23,6 +23,7 @@ add_library(radioslam_cli STATIC
   cli/program.cpp
   cli/progress_line.cpp
   cli/recorded_drive.cpp
+  cli/recorded_trials.cpp
   cli/suggestion.cpp)
 add_library(radioslam::cli ALIAS radioslam_cli)
 target_include_directories(radioslam_cli PUBLIC ${cli_include})

@@ -1,4 +1,5 @@
-// A run's folder: <id>.tum per robot, candidates.csv, closures.csv, graph.g2o, summary.json, report.html.
+// A run's folder: <id>.tum per robot, candidates.csv, closures.csv, aoa.csv where directions were measured,
+// graph.g2o, summary.json, report.html.
 #pragma once
 
 #include <filesystem>

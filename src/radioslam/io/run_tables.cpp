@@ -116,6 +116,23 @@ std::string format_closures(const std::vector<ClosureResult>& closures, std::spa
   return out;
 }
 
+std::string format_measured_arrivals(const std::vector<MeasuredArrivalResult>& arrivals) {
+  std::string out = "t_s,receiver,transmitter,path,azimuth_rad,elevation_rad,sigma_rad,power_db\n";
+  for (const MeasuredArrivalResult& arrival : arrivals) {
+    int path = 0;
+    for (const ArrivalPeakResult& peak : arrival.peaks) {
+      if (peak.is_ghost) continue;
+      out += format_stamp(arrival.stamp) + "," + arrival.receiver + "," + arrival.transmitter + "," +
+             std::to_string(path++);
+      append_number(out += ',', peak.azimuth_rad);
+      append_number(out += ",,", peak.sigma_rad);
+      append_number(out += ',', peak.power_db);
+      out += '\n';
+    }
+  }
+  return out;
+}
+
 std::vector<CandidateResult> read_candidates(const Text& text, std::span<const EstimatedTrajectory> robots) {
   CsvReader csv(text, pair_columns_and({"distance_m", "mahalanobis"}));
   std::vector<CandidateResult> candidates;

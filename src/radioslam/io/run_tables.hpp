@@ -1,6 +1,7 @@
 // The tables of a run's folder.
 //   candidates.csv   robot_i,t_i_s,robot_j,t_j_s,distance_m,mahalanobis
 //   closures.csv     robot_i,t_i_s,robot_j,t_j_s,kind,status,statistic,reason
+//   aoa.csv          t_s,receiver,transmitter,path,azimuth_rad,elevation_rad,sigma_rad,power_db
 // Robots are written by id; stamps exactly as in <id>.tum.
 #pragma once
 
@@ -17,6 +18,9 @@ namespace radioslam {
 std::string format_candidates(const std::vector<CandidateResult>& candidates,
                               std::span<const std::string> ids);
 std::string format_closures(const std::vector<ClosureResult>& closures, std::span<const std::string> ids);
+/// As a mission's radio/aoa.csv has them, without elevations. Products of two paths are no directions and are
+/// left out; the other peaks count from 0, the strongest first.
+std::string format_measured_arrivals(const std::vector<MeasuredArrivalResult>& arrivals);
 
 /// Refuse malformed rows, unknown robots, kinds and statuses, and stamps at which a robot has no keyframe (of
 /// a robot without poses none are known).

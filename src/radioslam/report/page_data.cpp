@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "radioslam/report/alternative_data.hpp"
+#include "radioslam/report/arrival_data.hpp"
 #include "radioslam/report/candidate_data.hpp"
 #include "radioslam/report/closure_data.hpp"
 #include "radioslam/report/rounding.hpp"
@@ -190,6 +191,8 @@ PageData page_data(const RunResult& result, const Truth* truth, const std::optio
   }
   add_robots(page, result, judgement, params);
   if (result.similarity_model) page["similarity"] = similarity_data(*result.similarity_model, params);
+  if (!result.arrivals.empty())
+    page["arrivals"] = arrival_data(result, first_stamp(result), judgement.truth, params);
   add_run(page, result, params);
   return page;
 }

@@ -22,6 +22,8 @@ struct ReportParams {
   int maximum_alternative_poses = 20000;  ///< over all hypotheses but the likeliest
   int maximum_samples = 8000;             ///< of similarity against distance
   int maximum_errors = 60000;             ///< of each of estimate and odometry, over all robots
+  int maximum_arrivals = 60;              ///< measured directions with their profiles, over all links
+  int maximum_profile_values = 180;       ///< of one profile, all around
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -36,6 +38,10 @@ struct ReportParams {
     visit(Field{"maximum_samples", "", 100, 1e7, "samples drawn of similarity against distance"},
           self.maximum_samples);
     visit(Field{"maximum_errors", "", 100, 1e7, "errors drawn over time"}, self.maximum_errors);
+    visit(Field{"maximum_arrivals", "", 2, 1e5, "measured directions drawn with their profiles"},
+          self.maximum_arrivals);
+    visit(Field{"maximum_profile_values", "", 36, 3600, "values drawn of one such profile"},
+          self.maximum_profile_values);
   }
 };
 

@@ -83,6 +83,34 @@ Json growth_mode_json(const std::vector<OverlapGrowthPoint>& points) {
   return {{"exponent", optional_json(growth_exponent(points))}, {"towns", std::move(towns)}};
 }
 
+Json figures_json(const AoaFigures& figures) {
+  return {{"links", figures.links},
+          {"median_error_rad", optional_json(figures.median_rad)},
+          {"within_10_deg", optional_json(figures.within_10_deg)},
+          {"best_of_4_within_10_deg", optional_json(figures.best_of_4_within_10_deg)},
+          {"within_1_645_sigma", optional_json(figures.within_sigma)}};
+}
+
+Json link_json(const AoaLink& link) {
+  Json peaks = Json::array();
+  for (const ArrivalPeak& peak : link.peaks)
+    peaks.push_back({{"azimuth_rad", peak.azimuth_rad},
+                     {"elevation_rad", peak.elevation_rad},
+                     {"sigma_rad", peak.sigma_rad},
+                     {"power_db", peak.power_db},
+                     {"ghost", peak.is_ghost}});
+  const bool measured = !link.peaks.empty();
+  return {{"trial", link.trial},
+          {"transmitter", link.transmitter},
+          {"sight", word_for(link.sight)},
+          {"motion", word_for(link.motion)},
+          {"true_azimuth_rad", link.true_azimuth_rad},
+          {"error_rad", measured ? Json(error_rad(link)) : Json()},
+          {"peaks", std::move(peaks)},
+          {"authors_errors_rad", link.published_rad},
+          {"reason", link.reason}};
+}
+
 }  // namespace
 
 Json wi_closure_kitti_json(const std::vector<WiClosureKitti>& seeds) {
@@ -109,6 +137,35 @@ nlohmann::ordered_json overlap_growth_json(const OverlapGrowth& growth) {
           {"seed", growth.seed},
           {"joint", growth_mode_json(growth.joint)},
           {"link", growth_mode_json(growth.link)}};
+}
+
+nlohmann::ordered_json aoa_json(const std::vector<AoaLink>& links, const std::vector<WsrResult>& published) {
+  Json json{{"table", "aoa"}, {"groups", Json::array()}, {"links", Json::array()}};
+  for (const AoaGroup& group : group_links(links, published))
+    json["groups"].push_back({{"sight", word_for(group.sight)},
+                              {"motion", word_for(group.motion)},
+                              {"ours", figures_json(group.ours)},
+                              {"authors_same_trials", figures_json(group.published)},
+                              {"authors_all", figures_json(group.published_all)}});
+  for (const AoaLink& link : links) json["links"].push_back(link_json(link));
+  return json;
+}
+
+nlohmann::ordered_json aoa_paths_json(const std::vector<AoaPathsCell>& cells) {
+  Json json{{"table", "aoa-paths"}, {"cells", Json::array()}};
+  for (const AoaPathsCell& cell : cells) {
+    Json runs = Json::array();
+    for (const AoaPathsRun& run : cell.runs)
+      runs.push_back({{"seed", run.seed},
+                      {"measured", run.measured},
+                      {"found", run.found},
+                      {"direct_error_rad", run.direct_error_rad},
+                      {"strongest_error_rad", run.strongest_error_rad},
+                      {"ghosts", run.ghosts}});
+    json["cells"].push_back(
+        {{"profile", cell.profile}, {"cards", word_for(cell.cards)}, {"runs", std::move(runs)}});
+  }
+  return json;
 }
 
 }  // namespace radioslam

@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "radioslam/study/aoa_paths.hpp"
+#include "radioslam/study/aoa_table.hpp"
 #include "radioslam/study/overlap_growth.hpp"
 #include "radioslam/study/robustness_map.hpp"
 #include "radioslam/study/wi_closure_kitti.hpp"
@@ -20,5 +22,15 @@ nlohmann::ordered_json robustness_json(const RobustnessMap& map);
 /// {"table", "seed", "joint": {"exponent", "towns": [{"poses", "pairs", "kept", "distances_evaluated",
 ///   "prepare_s", "search_s", "all_pairs_s"}]}, "link": {...}}
 nlohmann::ordered_json overlap_growth_json(const OverlapGrowth& growth);
+
+/// {"table", "groups": [{"sight", "motion", "ours": {"links", "median_error_rad", "within_10_deg",
+///   "best_of_4_within_10_deg", "within_1_645_sigma"}, "authors_same_trials": {...}, "authors_all": {...}}],
+///   "links": [{"trial", "transmitter", "sight", "motion", "true_azimuth_rad", "error_rad", "peaks": [...],
+///   "authors_errors_rad", "reason"}]}
+nlohmann::ordered_json aoa_json(const std::vector<AoaLink>& links, const std::vector<WsrResult>& published);
+
+/// {"table", "cells": [{"profile", "cards", "runs": [{"seed", "measured", "found", "direct_error_rad",
+///   "strongest_error_rad", "ghosts"}]}]}
+nlohmann::ordered_json aoa_paths_json(const std::vector<AoaPathsCell>& cells);
 
 }  // namespace radioslam

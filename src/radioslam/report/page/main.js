@@ -7,6 +7,7 @@ write_robots();
 write_frames();
 write_hypotheses();
 write_overlap();
+write_directions();
 write_similarity();
 write_closures();
 write_range_biases();

@@ -1,0 +1,270 @@
+#include "radioslam/study/aoa_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "radioslam/base/parallel.hpp"
+#include "radioslam/geometry/se2.hpp"
+#include "radioslam/io/numbers.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr double kDegree_rad = std::numbers::pi / 180;
+constexpr double kNear_rad = 10 * kDegree_rad;
+constexpr double kSigmas = 1.645;  ///< 90 % of a normal distribution lie within
+constexpr std::size_t kBestOf = 4;
+/// The authors' starts are rows of motion capture with six decimals.
+constexpr double kSamePlace_m = 5e-6;
+constexpr WsrSight kSights[] = {WsrSight::kLineOfSight, WsrSight::kNoLineOfSight};
+constexpr WsrMotion kMotions[] = {WsrMotion::kMotionCapture, WsrMotion::kTrackingCamera,
+                                  WsrMotion::kWheelOdometry};
+/// Of the antenna from the base's centre, whose odometry the wheels tell.
+const Eigen::Vector3d kAntennaFromBase_m(0, 0.16, 0);
+
+const char* reason_text(NoArrival reason) {
+  switch (reason) {
+    case NoArrival::kNoMotion:
+      return "no motion";
+    case NoArrival::kTooFewPackets:
+      return "too few packets";
+    case NoArrival::kNoOdometry:
+      return "no odometry at the packets' times";
+  }
+  return "";
+}
+
+/// A motion of a trial, and where the antenna is on the body that moves.
+struct Motion {
+  WsrMotion kind;
+  const Trajectory<SE3>* trajectory;
+  Eigen::Vector3d antenna_m;
+};
+
+std::vector<Motion> motions_of(const WsrTrial& trial) {
+  std::vector<Motion> motions{{WsrMotion::kMotionCapture, &trial.motion_capture, Eigen::Vector3d::Zero()}};
+  if (trial.tracking_camera)
+    motions.push_back({WsrMotion::kTrackingCamera, &*trial.tracking_camera, Eigen::Vector3d::Zero()});
+  if (trial.wheel_odometry)
+    motions.push_back({WsrMotion::kWheelOdometry, &*trial.wheel_odometry, kAntennaFromBase_m});
+  return motions;
+}
+
+Eigen::Vector3d mean_place_m(const Trajectory<SE3>& trajectory) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const auto& [stamp, pose] : trajectory) sum += pose.translation();
+  return sum / static_cast<double>(trajectory.size());
+}
+
+bool starts_in(const WsrResult& result, const WsrTrial& trial) {
+  return std::any_of(trial.motion_capture.begin(), trial.motion_capture.end(), [&](const auto& row) {
+    return (row.pose.translation() - result.start_m).cwiseAbs().maxCoeff() < kSamePlace_m;
+  });
+}
+
+std::vector<double> published_errors(const WsrTrial& trial, const AoaLink& link,
+                                     const std::vector<WsrResult>& published) {
+  for (const WsrResult& result : published)
+    if (result.sight == link.sight && result.motion == link.motion &&
+        result.transmitter == link.transmitter && starts_in(result, trial))
+      return result.errors_rad;
+  return {};
+}
+
+void measure(const WsrTrial& trial, const WsrTransmitter& transmitter, const Motion& motion,
+             const ArrivalParams& params, AoaLink& link) {
+  const auto track = two_way_track(trial.receiver, transmitter.address, transmitter.heard, trial.carrier_hz,
+                                   motion.antenna_m, params.two_way);
+  if (!track) {
+    link.reason = reason_text(NoArrival::kTooFewPackets);
+    return;
+  }
+  const auto result = estimate_arrival(*track, *motion.trajectory, motion.trajectory->front().stamp,
+                                       motion.trajectory->back().stamp, params);
+  if (result.estimate) {
+    link.peaks = result.estimate->peaks;
+  } else {
+    link.reason = reason_text(result.reason);
+  }
+}
+
+double share_of(std::size_t part, std::size_t whole) {
+  return static_cast<double>(part) / static_cast<double>(whole);
+}
+
+/// The errors of peaks per link, the strongest first; of a link without any, half a turn.
+using LinkErrors = std::vector<std::vector<double>>;
+
+AoaFigures figures_of(const LinkErrors& links) {
+  AoaFigures figures{links.size(), {}, {}, {}, {}};
+  if (links.empty()) return figures;
+  std::vector<double> strongest;
+  std::size_t near = 0, near_best = 0;
+  for (const auto& errors : links) {
+    const auto is_near = [](double error_rad) { return std::abs(error_rad) <= kNear_rad; };
+    const auto last = errors.begin() + static_cast<std::ptrdiff_t>(std::min(errors.size(), kBestOf));
+    strongest.push_back(std::abs(errors.front()));
+    if (is_near(errors.front())) ++near;
+    if (std::any_of(errors.begin(), last, is_near)) ++near_best;
+  }
+  figures.median_rad = median_of(std::move(strongest));
+  figures.within_10_deg = share_of(near, links.size());
+  figures.best_of_4_within_10_deg = share_of(near_best, links.size());
+  return figures;
+}
+
+AoaFigures our_figures(const std::vector<const AoaLink*>& links) {
+  LinkErrors errors;
+  std::size_t covered = 0;
+  for (const AoaLink* link : links) {
+    errors.push_back({error_rad(*link)});
+    for (std::size_t p = 1; p < link->peaks.size(); ++p) errors.back().push_back(error_rad(*link, p));
+    if (!link->peaks.empty() && error_rad(*link) <= kSigmas * link->peaks.front().sigma_rad) ++covered;
+  }
+  AoaFigures figures = figures_of(errors);
+  if (!links.empty()) figures.within_sigma = share_of(covered, links.size());
+  return figures;
+}
+
+StudyRow row_of(const std::string& label, const AoaFigures& figures) {
+  const auto degrees = [](std::optional<double> rad) {
+    return rad ? std::optional(*rad / kDegree_rad) : std::nullopt;
+  };
+  return {label,
+          {number_text(static_cast<double>(figures.links), 0), number_text(degrees(figures.median_rad), 1),
+           percent_text(figures.within_10_deg, 0), percent_text(figures.best_of_4_within_10_deg, 0),
+           percent_text(figures.within_sigma, 0)}};
+}
+
+std::size_t unmeasured(const std::vector<AoaLink>& links) {
+  return static_cast<std::size_t>(
+      std::count_if(links.begin(), links.end(), [](const AoaLink& link) { return link.peaks.empty(); }));
+}
+
+std::vector<std::string> notes(const std::vector<AoaLink>& links, bool has_published) {
+  std::vector<std::string> notes{
+      "An error is the azimuth's of the strongest peak against the way from the mean of motion capture's "
+      "rows to the transmitter, whatever motion the directions were measured with; best of 4: the share of "
+      "links "
+      "with one of the four strongest peaks within 10°."};
+  if (has_published)
+    notes.emplace_back(
+        "The authors' figures are from their own files of results, which have no wheel odometry; the same "
+        "trials are those of theirs that start at a row of ours.");
+  if (const std::size_t count = unmeasured(links); count > 0)
+    notes.push_back(std::to_string(count) + " of " + std::to_string(links.size()) +
+                    " links gave no direction; they count as off by half a turn.");
+  return notes;
+}
+
+}  // namespace
+
+const char* word_for(WsrSight sight) {
+  return sight == WsrSight::kLineOfSight ? "line of sight" : "no line of sight";
+}
+
+const char* word_for(WsrMotion motion) {
+  switch (motion) {
+    case WsrMotion::kMotionCapture:
+      return "motion capture";
+    case WsrMotion::kTrackingCamera:
+      return "tracking camera";
+    case WsrMotion::kWheelOdometry:
+      return "wheel odometry";
+  }
+  return "";
+}
+
+double error_rad(const AoaLink& link, std::size_t peak) {
+  if (peak >= link.peaks.size()) return std::numbers::pi;
+  return std::abs(wrap_angle(link.peaks[peak].azimuth_rad - link.true_azimuth_rad));
+}
+
+std::vector<AoaLink> measure_wsr_trial(const WsrTrial& trial, const std::vector<WsrResult>& published,
+                                       const ArrivalParams& params) {
+  const std::vector<Motion> motions = motions_of(trial);
+  const Eigen::Vector3d here_m = mean_place_m(trial.motion_capture);
+  std::vector<AoaLink> links(motions.size() * trial.transmitters.size());
+  parallel_for(links.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const Motion& motion = motions[k / trial.transmitters.size()];
+      const WsrTransmitter& transmitter = trial.transmitters[k % trial.transmitters.size()];
+      const Eigen::Vector3d there_m = transmitter.position_m - here_m;
+      links[k] = {trial.name,
+                  transmitter.name,
+                  trial.sight,
+                  motion.kind,
+                  std::atan2(there_m.y(), there_m.x()),
+                  {},
+                  {},
+                  {}};
+      links[k].published_rad = published_errors(trial, links[k], published);
+      measure(trial, transmitter, motion, params, links[k]);
+    }
+  });
+  return links;
+}
+
+std::vector<AoaGroup> group_links(const std::vector<AoaLink>& links,
+                                  const std::vector<WsrResult>& published) {
+  std::vector<AoaGroup> groups;
+  for (const WsrSight sight : kSights)
+    for (const WsrMotion motion : kMotions) {
+      std::vector<const AoaLink*> ours;
+      LinkErrors same, all;
+      for (const AoaLink& link : links) {
+        if (link.sight != sight || link.motion != motion) continue;
+        ours.push_back(&link);
+        if (!link.published_rad.empty()) same.push_back(link.published_rad);
+      }
+      for (const WsrResult& result : published)
+        if (result.sight == sight && result.motion == motion) all.push_back(result.errors_rad);
+      if (!ours.empty())
+        groups.push_back({sight, motion, our_figures(ours), figures_of(same), figures_of(all)});
+    }
+  return groups;
+}
+
+StudyTable aoa_table(const std::vector<AoaLink>& links, const std::vector<WsrResult>& published) {
+  StudyTable table{"Angles of arrival of the WSR data set",
+                   "A robot drives an arc; the direction of each transmitter, from packets both ways.",
+                   {"links", "median, °", "within 10°", "best of 4", "within 1.645 σ"},
+                   {},
+                   notes(links, !published.empty())};
+  for (const AoaGroup& group : group_links(links, published)) {
+    const std::string name = std::string(word_for(group.sight)) + ", " + word_for(group.motion);
+    table.rows.push_back(row_of(name, group.ours));
+    if (group.published.links > 0)
+      table.rows.push_back(row_of(name + ": authors, same trials", group.published));
+    if (group.published_all.links > 0)
+      table.rows.push_back(row_of(name + ": authors, all trials", group.published_all));
+  }
+  return table;
+}
+
+std::string aoa_links_csv(const std::vector<AoaLink>& links) {
+  std::string out =
+      "trial,transmitter,sight,motion,true_azimuth_rad,azimuth_rad,sigma_rad,error_rad,best_of_4_error_rad,"
+      "authors_error_rad,reason\n";
+  for (const AoaLink& link : links) {
+    out += link.trial + "," + link.transmitter + "," + word_for(link.sight) + "," + word_for(link.motion) +
+           "," + format_number(link.true_azimuth_rad) + ",";
+    if (!link.peaks.empty()) {
+      double best_rad = std::numbers::pi;
+      for (std::size_t p = 0; p < kBestOf; ++p) best_rad = std::min(best_rad, error_rad(link, p));
+      out += format_number(link.peaks.front().azimuth_rad) + "," +
+             format_number(link.peaks.front().sigma_rad) + "," + format_number(error_rad(link)) + "," +
+             format_number(best_rad);
+    } else {
+      out += ",,,";
+    }
+    out += ",";
+    if (!link.published_rad.empty()) out += format_number(std::abs(link.published_rad.front()));
+    out += "," + link.reason + "\n";
+  }
+  return out;
+}
+
+}  // namespace radioslam

@@ -1,0 +1,64 @@
+// Angles of arrival out of the WSR data set beside what its authors got: a robot drives an arc, and the
+// strongest direction that its radio measured is compared with where the transmitter stood.
+//
+// The error is that of the azimuth against atan2(transmitter - mean place of motion capture's rows), for
+// every motion. A link without an estimate counts as one that is off by half a turn. The authors' links of
+// the same trials are those of the same transmitter that start at a row of the trial's motion capture.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "radioslam/io/wsr_results.hpp"
+#include "radioslam/io/wsr_trial.hpp"
+#include "radioslam/radio/arrival_estimate.hpp"
+#include "radioslam/study/study_table.hpp"
+
+namespace radioslam {
+
+/// One transmitter of one trial by one motion.
+struct AoaLink {
+  std::string trial, transmitter;
+  WsrSight sight = WsrSight::kLineOfSight;
+  WsrMotion motion = WsrMotion::kMotionCapture;
+  double true_azimuth_rad = 0;
+  std::vector<ArrivalPeak> peaks;     ///< the strongest first; none where there is no estimate
+  std::vector<double> published_rad;  ///< the authors' errors of their peaks; none where not found
+  std::string reason;                 ///< of no estimate
+};
+
+/// What became of many links.
+struct AoaFigures {
+  std::size_t links = 0;
+  std::optional<double> median_rad;
+  std::optional<double> within_10_deg;            ///< share of the links
+  std::optional<double> best_of_4_within_10_deg;  ///< share with one of the four strongest peaks
+  std::optional<double> within_sigma;             ///< share within 1.645 of its own sigma
+};
+
+/// Ours, theirs of the same links, and theirs of all.
+struct AoaGroup {
+  WsrSight sight;
+  WsrMotion motion;
+  AoaFigures ours, published, published_all;
+};
+
+/// All links of a trial, by every motion it has. `published` may be empty.
+std::vector<AoaLink> measure_wsr_trial(const WsrTrial& trial, const std::vector<WsrResult>& published,
+                                       const ArrivalParams& params);
+
+/// Those that have any link of ours.
+std::vector<AoaGroup> group_links(const std::vector<AoaLink>& links, const std::vector<WsrResult>& published);
+
+/// Absolute error of a peak; half a turn where there is none.
+double error_rad(const AoaLink& link, std::size_t peak = 0);
+
+StudyTable aoa_table(const std::vector<AoaLink>& links, const std::vector<WsrResult>& published);
+/// A row per link: trial,transmitter,sight,motion,peak azimuths, errors.
+std::string aoa_links_csv(const std::vector<AoaLink>& links);
+
+const char* word_for(WsrSight sight);
+const char* word_for(WsrMotion motion);
+
+}  // namespace radioslam
