@@ -13,6 +13,7 @@
 namespace radioslam {
 namespace {
 
+constexpr int kRefinements = 3;          // rounds of all waves
 constexpr double kOverlap = 2;           // pieces that each packet stands in
 constexpr double kReach = 3;             // resolutions of a piece within which peaks may be one wave
 constexpr double kTwin = 0.95;           // of a peak's power: its mirror is as likely
@@ -196,35 +197,35 @@ std::vector<ArrivalPeak> find_peaks(const AzimuthProfile& profile, const MovedAr
 
 std::vector<ArrivalPeak> peaks_of_waves(const std::vector<WavePath>& waves, const MovedArray& one_way,
                                         const ArrivalParams& params) {
-  const double apart_rad = resolution_rad(one_way) / 2;
+  const double apart_rad = resolution_rad(one_way) / 2, most = most_curvature(one_way, params);
   const DelayTable delays = delay_table(one_way.array.subcarrier_hz);
-  std::vector<WavePath> sorted = waves;
-  std::stable_sort(sorted.begin(), sorted.end(), [](const WavePath& a, const WavePath& b) {
+  const auto is_stronger = [](const WavePath& a, const WavePath& b) {
     return std::norm(a.amplitude) > std::norm(b.amplitude);
-  });
+  };
+  std::vector<WavePath> sorted = waves, distinct;
+  std::stable_sort(sorted.begin(), sorted.end(), is_stronger);
+  for (const WavePath& wave : sorted)
+    if (std::ssize(distinct) < params.peaks &&
+        std::none_of(distinct.begin(), distinct.end(), [&](const WavePath& other) {
+          return std::abs(turn_rad(other.source.azimuth_rad, wave.source.azimuth_rad)) < apart_rad;
+        }))
+      distinct.push_back(wave);
+  distinct = refine_paths(distinct, averaged(one_way.array), delays, most, kRefinements);
+  std::stable_sort(distinct.begin(), distinct.end(), is_stronger);
   std::vector<ArrivalPeak> peaks;
-  for (const WavePath& wave : sorted) {
-    if (std::ssize(peaks) == params.peaks) break;
-    // What the other waves leave of the channel shows this one alone.
+  for (const WavePath& wave : distinct) {
     std::vector<WavePath> others;
-    for (const WavePath& other : waves)
-      if (std::abs(turn_rad(other.source.azimuth_rad, wave.source.azimuth_rad)) >= apart_rad)
-        others.push_back(other);
+    for (const WavePath& other : distinct)
+      if (&other != &wave) others.push_back(other);
     SyntheticArray alone = one_way.array;
     alone.channel -= channel_of(others, one_way.array);
     const BeamObjective objective({alone}, delays, wave.source);
-    const WaveSource source = objective.climb(wave.source, most_curvature(one_way, params));
-    const bool is_known = std::any_of(peaks.begin(), peaks.end(), [&](const ArrivalPeak& other) {
-      return std::abs(turn_rad(other.azimuth_rad, source.azimuth_rad)) < apart_rad;
-    });
-    if (is_known) continue;
     ArrivalPeak& peak = peaks.emplace_back();
-    peak.azimuth_rad = source.azimuth_rad;
-    peak.elevation_rad = source.elevation_rad;
-    peak.curvature_per_m = source.curvature_per_m;
-    peak.power_db = decibels(std::norm(wave.amplitude) / std::norm(sorted.front().amplitude));
-    peak.sigma_rad =
-        std::hypot(objective.sigma_rad(source, most_curvature(one_way, params)), params.sigma_floor_rad);
+    peak.azimuth_rad = wave.source.azimuth_rad;
+    peak.elevation_rad = wave.source.elevation_rad;
+    peak.curvature_per_m = wave.source.curvature_per_m;
+    peak.power_db = decibels(std::norm(wave.amplitude) / std::norm(distinct.front().amplitude));
+    peak.sigma_rad = std::hypot(objective.sigma_rad(wave.source, most), params.sigma_floor_rad);
   }
   return peaks;
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "radioslam/radio/beam_objective.hpp"
+
 namespace radioslam {
 namespace {
 
@@ -61,6 +63,30 @@ std::vector<WavePath> find_paths(const SyntheticArray& array, const WaveGrid& gr
       rest.channel -= paths[i].amplitude * atoms[i].over_snapshots * atoms[i].over_subcarriers;
     }
   }
+  return paths;
+}
+
+std::vector<WavePath> refine_paths(std::vector<WavePath> paths, const SyntheticArray& array,
+                                   const DelayTable& delays, double most_curvature_per_m, int rounds) {
+  std::vector<Atom> atoms;
+  for (const WavePath& path : paths) atoms.push_back(atom_of(path, array));
+  const auto solve = [&] {
+    const Eigen::VectorXcd c = amplitudes(atoms, array.channel);
+    for (std::size_t i = 0; i < paths.size(); ++i) paths[i].amplitude = c[static_cast<Eigen::Index>(i)];
+  };
+  solve();
+  for (int round = 0; round < rounds; ++round)
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      SyntheticArray alone = array;
+      for (std::size_t j = 0; j < paths.size(); ++j)
+        if (j != i) alone.channel -= paths[j].amplitude * atoms[j].over_snapshots * atoms[j].over_subcarriers;
+      const BeamObjective objective({alone}, delays, paths[i].source);
+      paths[i].source = objective.climb(paths[i].source, most_curvature_per_m);
+      atoms[i] = atom_of(paths[i], array);
+      paths[i].delay_s = delays.best_delay_s(atoms[i].over_snapshots.adjoint() * alone.channel);
+      atoms[i] = atom_of(paths[i], array);
+      solve();
+    }
   return paths;
 }
 
