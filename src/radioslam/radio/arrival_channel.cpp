@@ -6,13 +6,9 @@
 
 #include "radioslam/radio/arrival_slopes.hpp"
 #include "radioslam/radio/square_root_channel.hpp"
+#include "radioslam/radio/subcarrier_slopes.hpp"
 
 namespace radioslam {
-namespace {
-
-constexpr double kNewestShare = 0.15;
-
-}  // namespace
 
 ChannelTrack one_way_between(const ChannelTrack& track, Stamp begin, Stamp end) {
   ChannelTrack part = track;

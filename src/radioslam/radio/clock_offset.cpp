@@ -11,7 +11,6 @@
 namespace radioslam {
 namespace {
 
-constexpr double kNewestShare = 0.15;
 constexpr std::size_t kFewestMoments = 50;
 constexpr std::size_t kParts = 10;
 constexpr double kLeastVariation = 0.3;  // of the speed, to its mean

@@ -28,6 +28,10 @@ class DelayTable {
 /// Every row with a delay added to its phase: h(s) exp(j 2 pi f_s t).
 void advance(Eigen::Ref<Eigen::RowVectorXcd> row, const std::vector<double>& subcarrier_hz, double delay_s);
 
+/// Of the newest row in the mean that the next one is aligned with: as long as a walk of a wavelength's fifth
+/// at 120 packets a second.
+inline constexpr double kNewestShare = 0.15;
+
 /// Aligns each row with a mean of the rows before it, of which the latest counts `newest_share`.
 void align_to_predecessors(Eigen::MatrixXcd& channel, const std::vector<double>& subcarrier_hz,
                            const DelayTable& delays, double newest_share);
