@@ -2,6 +2,8 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "radioslam/radio/beam_sums.hpp"
 
@@ -9,7 +11,6 @@ namespace radioslam {
 namespace {
 
 constexpr double kFaintest = 1e-3;  // of the strongest signal's power
-constexpr std::size_t kBlock = 256;
 
 /// The channel's strongest singular vectors: channel ~ signals * over_subcarriers.
 struct Signals {
@@ -35,45 +36,149 @@ struct Best {
   std::uint16_t delay = 0;
 };
 
-/// Eight delays at a time, as the compiler's vectors.
+/// Four delays at a time, as the compiler's vectors.
 class DelaySearch {
  public:
   DelaySearch(const Eigen::MatrixXcd& over_subcarriers, const DelayTable& delays)
       : signals_(static_cast<std::size_t>(over_subcarriers.rows())),
-        delays_(static_cast<std::size_t>(delays.turns().cols())) {
+        fours_((static_cast<std::size_t>(delays.turns().cols()) + 3) / 4),
+        turns_(2 * signals_ * fours_, Four{}) {
     const Eigen::MatrixXcd turns = over_subcarriers * delays.turns();
     for (Eigen::Index r = 0; r < turns.rows(); ++r)
       for (Eigen::Index t = 0; t < turns.cols(); ++t) {
-        real_.push_back(static_cast<float>(turns(r, t).real()));
-        imaginary_.push_back(static_cast<float>(turns(r, t).imag()));
+        Four* four = &turns_[2 * (static_cast<std::size_t>(t / 4) * signals_ + static_cast<std::size_t>(r))];
+        four[0][t % 4] = static_cast<float>(turns(r, t).real());
+        four[1][t % 4] = static_cast<float>(turns(r, t).imag());
       }
   }
 
-  Best best(const std::complex<float>* z) {
-    re_.assign(delays_, 0);
-    im_.assign(delays_, 0);
+  Best best(const BeamSum& beam) const {
+    std::array<Four, BeamInput::kMostSignals> a, b;
     for (std::size_t r = 0; r < signals_; ++r) {
-      const float a = z[r].real(), b = z[r].imag();
-      const float* real = &real_[r * delays_];
-      const float* imaginary = &imaginary_[r * delays_];
-      for (std::size_t t = 0; t < delays_; ++t) re_[t] += a * real[t] - b * imaginary[t];
-      for (std::size_t t = 0; t < delays_; ++t) im_[t] += a * imaginary[t] + b * real[t];
+      a[r] = all(beam.z[r].real());
+      b[r] = all(beam.z[r].imag());
     }
-    for (std::size_t t = 0; t < delays_; ++t) re_[t] = re_[t] * re_[t] + im_[t] * im_[t];
-    const auto best = std::max_element(re_.begin(), re_.end());
-    return {*best, static_cast<std::uint16_t>(best - re_.begin())};
+    Four most = all(-1);
+    Ints where{};
+    const Four* turn = turns_.data();
+    for (std::size_t t = 0; t < fours_; ++t) {
+      Four re{}, im{};
+      for (std::size_t r = 0; r < signals_; ++r, turn += 2) {
+        re += a[r] * turn[0] - b[r] * turn[1];
+        im += a[r] * turn[1] + b[r] * turn[0];
+      }
+      const Four power = re * re + im * im;
+      const Ints is_more = power > most;
+      const auto now = static_cast<int>(t);
+      most = reinterpret_cast<Four>((is_more & reinterpret_cast<Ints>(power)) |
+                                    (~is_more & reinterpret_cast<Ints>(most)));
+      where = (is_more & Ints{now, now, now, now}) | (~is_more & where);
+    }
+    int best = 0;
+    const auto delay_of = [&](int lane) { return 4 * where[lane] + lane; };
+    for (int lane = 1; lane < 4; ++lane)
+      if (most[lane] > most[best] || (most[lane] == most[best] && delay_of(lane) < delay_of(best)))
+        best = lane;
+    return {most[best], static_cast<std::uint16_t>(delay_of(best))};
   }
 
  private:
-  std::size_t signals_, delays_;
-  std::vector<float> real_, imaginary_;  ///< signals x delays
-  std::vector<float> re_, im_;           ///< of one beam
+  using Four = float __attribute__((vector_size(16)));
+  using Ints = int __attribute__((vector_size(16)));
+
+  static Four all(float x) { return Four{x, x, x, x}; }
+
+  std::size_t signals_, fours_;
+  std::vector<Four> turns_;  ///< real and imaginary part of every signal, four delays after four
 };
 
-BeamDirection direction_of(const WaveSource& source) {
-  const Eigen::Vector3f u = source.direction().cast<float>();
-  return {u.x(), u.y(), u.z(), static_cast<float>(source.curvature_per_m)};
-}
+/// One channel's profile, row by row of a grid.
+class Profile {
+ public:
+  Profile(const SyntheticArray& array, const WaveGrid& grid, const DelayTable& delays)
+      : array_(array),
+        grid_(grid),
+        signals_(strongest_signals(array.channel)),
+        input_(beam_input(array.positions_m, array.wavenumber_radpm, signals_.signals)),
+        search_(signals_.over_subcarriers, delays),
+        scale_(static_cast<float>(1 /
+                                  (array.channel.squaredNorm() * static_cast<double>(array.channel.size())))),
+        is_level_(array.positions_m.row(2).isZero(0)),
+        level_(around()),
+        directions_(around()),
+        sums_(around()),
+        opposite_sums_(around() / 2) {
+    for (std::size_t d = 0; d < around(); ++d)
+      level_[d] = WaveSource{grid.azimuth_rad(static_cast<int>(d)), 0, 0}.direction();
+  }
+
+  void fill_row(std::size_t row, ArrayBeams& result) {
+    const std::size_t begin = row * around();
+    const WaveSource first = grid_.source(begin);
+    point(first);
+    if (first.curvature_per_m == 0 && around() % 2 == 0) {
+      sum_opposite(first.elevation_rad);
+      for (std::size_t d = 0; d < around() / 2; ++d) {
+        store(opposite_sums_[d].ahead, begin + d, result);
+        store(opposite_sums_[d].behind, begin + d + around() / 2, result);
+      }
+    } else {
+      kernel_(input_, directions_.data(), around(), sums_.data());
+      for (std::size_t d = 0; d < around(); ++d) store(sums_[d], begin + d, result);
+    }
+  }
+
+ private:
+  std::size_t around() const { return static_cast<std::size_t>(grid_.azimuths); }
+
+  /// All around, at one source's elevation and curvature.
+  void point(const WaveSource& source) {
+    const double level = std::cos(source.elevation_rad);
+    const auto z = static_cast<float>(std::sin(source.elevation_rad));
+    const auto curvature = static_cast<float>(source.curvature_per_m);
+    for (std::size_t d = 0; d < around(); ++d) {
+      const Eigen::Vector3f u = (level * level_[d]).cast<float>();
+      directions_[d] = {u.x(), u.y(), z, curvature};
+    }
+  }
+
+  /// Plane waves of one elevation: what height does to them is the same all around, so that with it in the
+  /// signals, azimuths half a turn apart are opposite.
+  void sum_opposite(double elevation_rad) {
+    const std::size_t half = around() / 2;
+    if (is_level_) {
+      opposite_kernel_(input_, directions_.data(), half, opposite_sums_.data());
+      return;
+    }
+    const double turn_radpm = -array_.wavenumber_radpm * std::sin(elevation_rad);
+    Eigen::MatrixXcd raised = signals_.signals;
+    for (Eigen::Index k = 0; k < raised.rows(); ++k)
+      raised.row(k) *= std::polar(1.0, turn_radpm * array_.positions_m(2, k));
+    for (BeamDirection& direction : directions_) direction.z = 0;
+    const BeamInput input = beam_input(array_.positions_m, array_.wavenumber_radpm, raised);
+    opposite_kernel_(input, directions_.data(), half, opposite_sums_.data());
+  }
+
+  void store(const BeamSum& sum, std::size_t at, ArrayBeams& result) {
+    const Best best = search_.best(sum);
+    result.power[at] = best.power * scale_;
+    result.best_delay[at] = best.delay;
+  }
+
+  const SyntheticArray& array_;
+  const WaveGrid& grid_;
+  Signals signals_;
+  BeamInput input_;
+  DelaySearch search_;
+  float scale_;
+  bool is_level_;
+  BeamKernel kernel_ = beam_kernel();
+  OppositeBeamKernel opposite_kernel_ = opposite_beam_kernel();
+  std::vector<Eigen::Vector3d> level_;     ///< directions at elevation 0
+  std::vector<BeamDirection> directions_;  ///< of one row, as are the sums
+  std::vector<BeamSum> sums_;
+  std::vector<OppositeBeamSums> opposite_sums_;
+};
 
 }  // namespace
 
@@ -81,25 +186,10 @@ ArrayBeams array_beams(const SyntheticArray& array, const WaveGrid& grid, const 
   ArrayBeams result;
   result.power.assign(grid.size(), 0);
   result.best_delay.assign(grid.size(), 0);
-  const double energy = array.channel.squaredNorm();
-  if (energy == 0) return result;
-  const Signals signals = strongest_signals(array.channel);
-  const BeamInput input = beam_input(array.positions_m, array.wavenumber_radpm, signals.signals);
-  DelaySearch search(signals.over_subcarriers, delays);
-  const BeamKernel kernel = beam_kernel();
-  const auto scale = static_cast<float>(1 / (energy * static_cast<double>(array.channel.size())));
-  std::vector<BeamDirection> directions(kBlock);
-  std::vector<BeamSum> sums(kBlock);
-  for (std::size_t begin = 0; begin < grid.size(); begin += kBlock) {
-    const std::size_t count = std::min(kBlock, grid.size() - begin);
-    for (std::size_t d = 0; d < count; ++d) directions[d] = direction_of(grid.source(begin + d));
-    kernel(input, directions.data(), count, sums.data());
-    for (std::size_t d = 0; d < count; ++d) {
-      const Best best = search.best(sums[d].z.data());
-      result.power[begin + d] = best.power * scale;
-      result.best_delay[begin + d] = best.delay;
-    }
-  }
+  if (array.channel.squaredNorm() == 0) return result;
+  Profile profile(array, grid, delays);
+  for (std::size_t row = 0; row < grid.elevations_rad.size() * grid.curvatures_per_m.size(); ++row)
+    profile.fill_row(row, result);
   return result;
 }
 

@@ -119,5 +119,45 @@ void sum_beams(const BeamInput& input, const BeamDirection* to, std::size_t coun
   }
 }
 
+/// Adds some signals' sums over a chunk, of both directions.
+template <std::size_t kSignals>
+void add_opposite_signals(const BeamInput& input, std::size_t first, std::size_t begin, std::size_t count,
+                          const Turns& turns, OppositeBeamSums& z) {
+  Eight ac[kSignals] = {}, bs[kSignals] = {}, bc[kSignals] = {}, as[kSignals] = {};
+  for (std::size_t k = 0; k < count; k += 8) {
+    const Eight sine = load(&turns.sine[k]), cosine = load(&turns.cosine[k]);
+    for (std::size_t r = 0; r < kSignals; ++r) {
+      const std::size_t at = (first + r) * input.padded + begin + k;
+      const Eight a = load(&input.real[at]), b = load(&input.imaginary[at]);
+      ac[r] += a * cosine;
+      bs[r] += b * sine;
+      bc[r] += b * cosine;
+      as[r] += a * sine;
+    }
+  }
+  for (std::size_t r = 0; r < kSignals; ++r) {
+    z.ahead.z[first + r] += std::complex<float>(sum(ac[r] - bs[r]), sum(bc[r] + as[r]));
+    z.behind.z[first + r] += std::complex<float>(sum(ac[r] + bs[r]), sum(bc[r] - as[r]));
+  }
+}
+
+void sum_opposite_beams(const BeamInput& input, const BeamDirection* to, std::size_t count,
+                        OppositeBeamSums* sums) {
+  Turns turns;
+  for (std::size_t d = 0; d < count; ++d) {
+    sums[d].ahead.z.fill(0);
+    sums[d].behind.z.fill(0);
+    for (std::size_t begin = 0; begin < input.padded; begin += kChunk) {
+      const std::size_t part = input.padded - begin < kChunk ? input.padded - begin : kChunk;
+      turn<false>(input, to[d], begin, part, turns);
+      std::size_t first = 0;
+      for (; first + 2 <= input.signals; first += 2)
+        add_opposite_signals<2>(input, first, begin, part, turns, sums[d]);
+      for (; first < input.signals; ++first)
+        add_opposite_signals<1>(input, first, begin, part, turns, sums[d]);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace radioslam

@@ -4,4 +4,6 @@ namespace radioslam {
 
 BeamKernel beam_kernel_narrow() { return &sum_beams; }
 
+OppositeBeamKernel opposite_beam_kernel_narrow() { return &sum_opposite_beams; }
+
 }  // namespace radioslam

@@ -6,5 +6,7 @@ namespace radioslam {
 
 BeamKernel beam_kernel_wide() { return &sum_beams; }
 
+OppositeBeamKernel opposite_beam_kernel_wide() { return &sum_opposite_beams; }
+
 }  // namespace radioslam
 #endif

@@ -42,4 +42,11 @@ BeamKernel beam_kernel() {
   return beam_kernel_narrow();
 }
 
+OppositeBeamKernel opposite_beam_kernel() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx2")) return opposite_beam_kernel_wide();
+#endif
+  return opposite_beam_kernel_narrow();
+}
+
 }  // namespace radioslam

@@ -44,10 +44,23 @@ struct BeamDirection {
 using BeamKernel = void (*)(const BeamInput& input, const BeamDirection* directions, std::size_t count,
                             BeamSum* sums);
 
+/// Of a plane wave from u and of one from -u, whose steering is the conjugate: both from the same sines and
+/// products, in half the time.
+struct OppositeBeamSums {
+  BeamSum ahead, behind;
+};
+
+/// Curvatures are not looked at.
+using OppositeBeamKernel = void (*)(const BeamInput& input, const BeamDirection* directions,
+                                    std::size_t count, OppositeBeamSums* sums);
+
 /// The fastest kernel that this machine can run.
 BeamKernel beam_kernel();
+OppositeBeamKernel opposite_beam_kernel();
 
 BeamKernel beam_kernel_narrow();
 BeamKernel beam_kernel_wide();  ///< x86-64 with AVX2 only
+OppositeBeamKernel opposite_beam_kernel_narrow();
+OppositeBeamKernel opposite_beam_kernel_wide();  ///< likewise
 
 }  // namespace radioslam
