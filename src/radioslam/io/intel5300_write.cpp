@@ -17,7 +17,7 @@ constexpr std::int64_t kNanosecondsPerMicrosecond = 1000, kMicrosecondsPerSecond
 constexpr unsigned kAntennasInOrder = 0b100100;  ///< two bits per chain: chain k listens on antenna k
 constexpr unsigned kRateAndFlags = 0x101;        ///< as recorded: legacy rate, antenna A
 constexpr double kWideBandwidth_hz = 40e6;
-constexpr std::size_t kMacBytes = 6, kBitsPerByte = 8;
+constexpr std::size_t kBitsPerByte = 8;
 
 void append_little_endian(std::string& out, std::uint64_t value, std::size_t bytes) {
   for (std::size_t k = 0; k < bytes; ++k)
@@ -77,7 +77,7 @@ void append_host_part(std::string& out, const CsiPacket& packet) {
                   "seconds since the epoch in 32 bits");
   append_little_endian(out, static_cast<std::uint64_t>(us / kMicrosecondsPerSecond), 4);
   append_little_endian(out, static_cast<std::uint64_t>(us % kMicrosecondsPerSecond), 4);
-  for (std::size_t byte = kMacBytes; byte > 0; --byte)
+  for (std::size_t byte = MacAddress::kBytes; byte > 0; --byte)
     out.push_back(static_cast<char>(packet.sender->value >> (kBitsPerByte * (byte - 1)) & 0xffU));
   append_little_endian(out, *packet.counter, 4);
 }

@@ -5,7 +5,7 @@
 namespace radioslam {
 namespace {
 
-constexpr std::size_t kMacBytes = 6, kMacTextLength = 17, kCharactersPerByte = 3;
+constexpr std::size_t kMacTextLength = 17, kCharactersPerByte = 3;
 
 std::optional<unsigned> hexadecimal_digit(char c) {
   if (c >= '0' && c <= '9') return static_cast<unsigned>(c - '0');
@@ -30,8 +30,8 @@ std::optional<MacAddress> parse_mac_address(std::string_view text) {
 std::string format_mac_address(MacAddress address) {
   constexpr std::string_view kDigits = "0123456789abcdef";
   std::string text;
-  for (std::size_t k = 0; k < kMacBytes; ++k) {
-    const std::uint64_t byte = address.value >> (8 * (kMacBytes - 1 - k)) & 0xffU;
+  for (std::size_t k = 0; k < MacAddress::kBytes; ++k) {
+    const std::uint64_t byte = address.value >> (8 * (MacAddress::kBytes - 1 - k)) & 0xffU;
     if (k > 0) text += ':';
     text += kDigits[byte >> 4U];
     text += kDigits[byte & 0xfU];

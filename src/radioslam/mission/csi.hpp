@@ -6,6 +6,7 @@
 #include <array>
 #include <compare>
 #include <complex>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -17,6 +18,7 @@ namespace radioslam {
 
 /// A card's address, the first of its six bytes the most significant.
 struct MacAddress {
+  static constexpr std::size_t kBytes = 6;
   std::uint64_t value = 0;
   friend constexpr auto operator<=>(MacAddress, MacAddress) = default;
 };
