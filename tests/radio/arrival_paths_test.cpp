@@ -84,6 +84,23 @@ TEST(ArrivalPaths, ProductsOfTwoPathsAreNamedAndPathsAreNot) {
   EXPECT_GE(named, 3) << "or the test shows nothing";
 }
 
+// Lost signs of the square root part a wave in two beside it, whose product then stands where it was.
+TEST(ArrivalPaths, AWaveInPartsIsNoProductOfThem) {
+  const double left = 20 * kDegree_rad, right = 80 * kDegree_rad;
+  SimulatedExchange exchange;
+  exchange.motion = metre_of_arc;
+  exchange.paths = plane_wave_paths({{left, 0, -15, 3e-8}, {right, 0, -18, 5e-8}});
+  int named = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    exchange.seed = seed;
+    const ArrivalResult result = arrival_of(exchange.two_way(), exchange.trajectory());
+    ASSERT_TRUE(result.estimate);
+    for (const ArrivalPeak& peak : result.estimate->peaks)
+      if (apart_rad(peak.azimuth_rad, left) < 2 * kDegree_rad && peak.is_ghost) ++named;
+  }
+  EXPECT_LE(named, 1);
+}
+
 TEST(ArrivalPaths, OfOneWaveHaveNoGhost) {
   SimulatedExchange exchange;
   exchange.motion = metre_of_arc;

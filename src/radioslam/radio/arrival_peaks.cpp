@@ -17,6 +17,7 @@ constexpr double kOverlap = 2;           // pieces that each packet stands in
 constexpr double kReach = 3;             // resolutions of a piece within which peaks may be one wave
 constexpr double kTwin = 0.95;           // of a peak's power: its mirror is as likely
 constexpr double kGhost = 4;             // times the power of the waves there is a product's
+constexpr double kOnePath = 4;           // resolutions within which waves are parts of one path
 constexpr double kMostGhostWave = 0.05;  // of the strongest wave
 
 double turn_rad(double from_rad, double to_rad) {
@@ -245,7 +246,8 @@ void name_ghosts(std::vector<ArrivalPeak>& peaks, const std::vector<WavePath>& w
     for (const WavePath& a : waves) {
       if (apart(a.source.direction(), at) < near) here = std::max(here, std::norm(a.amplitude));
       for (const WavePath& b : waves)
-        if (&a < &b && apart((a.source.direction() + b.source.direction()) / 2, at) < near)
+        if (&a < &b && apart(a.source.direction(), b.source.direction()) > 2 * kOnePath * near &&
+            apart((a.source.direction() + b.source.direction()) / 2, at) < near)
           product = std::max(product, 2 * std::abs(a.amplitude) * std::abs(b.amplitude));
     }
     peak.is_ghost = product > kGhost * here && here < kMostGhostWave * strongest;
