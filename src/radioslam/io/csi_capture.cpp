@@ -62,7 +62,7 @@ struct CsiFileKind {
 };
 
 /// The first that recognises a file has it: those that can tell best stand first.
-constexpr std::array kKinds{
+constexpr std::array kFileKinds{
     CsiFileKind{"a MATLAB file", is_matlab, nullptr},
     CsiFileKind{"a pcapng file (`editcap -F pcap` makes a pcap file of it)", is_pcapng, nullptr},
     CsiFileKind{"a pcap file", is_pcap, read_nexmon_csi},
@@ -76,9 +76,9 @@ constexpr std::array kKinds{
 
 CsiCapture read_csi_capture(const std::string& name, std::string_view bytes) {
   if (bytes.empty()) throw InputError(name, 0, "the file is empty");
-  const auto* kind =
-      std::find_if(kKinds.begin(), kKinds.end(), [&](const CsiFileKind& k) { return k.recognises(bytes); });
-  const bool is_known = kind != kKinds.end();
+  const auto* kind = std::find_if(kFileKinds.begin(), kFileKinds.end(),
+                                  [&](const CsiFileKind& k) { return k.recognises(bytes); });
+  const bool is_known = kind != kFileKinds.end();
   if (is_known && kind->read != nullptr) return kind->read(name, bytes);
   throw InputError(name, 0,
                    "at byte 0: " + (is_known ? std::string(kind->name) : "no kind of capture that is known") +

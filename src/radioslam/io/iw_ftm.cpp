@@ -16,7 +16,7 @@ constexpr std::string_view kPeer = "Peer ";
 constexpr std::size_t kAddressLength = 17;
 constexpr double kMetresPerPicosecond = 299'792'458e-12 / 2;  // there and back
 constexpr double kMetresPerMillimetre = 1e-3;
-constexpr double kNsPerSecond = 1e9;
+constexpr double kNanosecondsPerSecond = 1e9;
 constexpr double kMostYears_s = 9e9;     // the difference of two times fits up to 292 years
 constexpr double kDisagreement_m = 0.1;  // rounding and what a driver may calibrate
 constexpr double kDisagreement = 0.1;    // of the distance
@@ -153,8 +153,9 @@ std::optional<Stamp> time_of(const PeerResult& result, std::optional<std::int64_
   const std::int64_t since = result.measured ? boot.value_or(0) : 0;
   const double on_host_clock_ns = static_cast<double>(ns) + static_cast<double>(since);
   const auto fits = [](double time_ns) { return std::abs(time_ns) < 9e18; };
-  if (!fits(on_host_clock_ns) || !fits(on_host_clock_ns + offset_s * kNsPerSecond)) return std::nullopt;
-  return Stamp{ns + since + std::llround(offset_s * kNsPerSecond)};
+  if (!fits(on_host_clock_ns) || !fits(on_host_clock_ns + offset_s * kNanosecondsPerSecond))
+    return std::nullopt;
+  return Stamp{ns + since + std::llround(offset_s * kNanosecondsPerSecond)};
 }
 
 /// A distance and its root variance, if stated.

@@ -12,7 +12,7 @@ constexpr std::size_t kFileHeader = 24, kPacketHeader = 16;
 constexpr std::size_t kLongestPacket = 262'144;  // libpcap's own limit
 constexpr std::uint32_t kEthernet = 1, kLinuxCooked = 113;
 constexpr std::size_t kEthernetHeader = 14, kLinuxCookedHeader = 16;
-constexpr std::int64_t kSecond_ns = 1'000'000'000, kMicrosecond_ns = 1000, kNanosecond_ns = 1;
+constexpr std::int64_t kFullSecond_ns = 1'000'000'000, kMicrosecond_ns = 1000, kNanosecond_ns = 1;
 constexpr std::uint16_t kIpv4Type = 0x0800, kFragmentBits = 0x3fff;
 constexpr std::size_t kShortestIpv4Header = 20, kUdpHeader = 8;
 constexpr std::uint8_t kUdpProtocol = 17;
@@ -70,11 +70,12 @@ std::optional<PcapPacket> PcapReader::next() {
   const std::size_t length = view_.u32(at_ + 8);
   if (length > kLongestPacket) fail("a packet of " + std::to_string(length) + " bytes");
   const std::int64_t fraction_ns = view_.u32(at_ + 4) * fraction_ns_;
-  if (fraction_ns >= kSecond_ns) fail("a stamp of " + std::to_string(fraction_ns) + " ns beyond its second");
+  if (fraction_ns >= kFullSecond_ns)
+    fail("a stamp of " + std::to_string(fraction_ns) + " ns beyond its second");
   torn_ = length > left - kPacketHeader;
   if (torn_) return std::nullopt;
   PcapPacket packet;
-  packet.stamp = {view_.u32(at_) * kSecond_ns + fraction_ns};
+  packet.stamp = {view_.u32(at_) * kFullSecond_ns + fraction_ns};
   packet.at = at_ + kPacketHeader;
   packet.bytes = bytes_.substr(packet.at, length);
   at_ = packet.at + length;

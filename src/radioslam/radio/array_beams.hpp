@@ -2,8 +2,8 @@
 //   P(u) = max_tau |sum_ks h(k, s) exp(j (kappa e(p_k) + 2 pi f_s tau))|^2 / (K S sum |h|^2),
 // between 0 and 1, the share of the channel that this one wave explains (Bartlett). Of the channel's
 // singular vectors over the subcarriers the strongest carry the profile: those under a thousandth of the
-// strongest's power are left out, and all after the eighth; a share r of the power left out changes P by at
-// most r of its own scale. In single precision (beam_sums.hpp).
+// strongest's power are left out, and all after the eighth; a share r of the power left out changes the root
+// of P by at most the root of r. In single precision (beam_sums.hpp).
 #pragma once
 
 #include <Eigen/Core>

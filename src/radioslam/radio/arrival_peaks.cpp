@@ -18,6 +18,7 @@ constexpr double kOverlap = 2;           // pieces that each packet stands in
 constexpr double kReach = 3;             // resolutions of a piece within which peaks may be one wave
 constexpr double kTwin = 0.95;           // of a peak's power: its mirror is as likely
 constexpr double kGhost = 4;             // times the power of the waves there is a product's
+constexpr double kOnePath = 4;           // resolutions within which waves are parts of one path
 constexpr double kMostGhostWave = 0.05;  // of the strongest wave
 
 double turn_rad(double from_rad, double to_rad) {
@@ -233,15 +234,21 @@ std::vector<ArrivalPeak> peaks_of_waves(const std::vector<WavePath>& waves, cons
 void name_ghosts(std::vector<ArrivalPeak>& peaks, const std::vector<WavePath>& waves,
                  const MovedArray& one_way) {
   const double near = resolution_rad(one_way) / 2;
+  // A plane way sees no height: a product's level direction is short, and its peak stands as high as that
+  // says.
+  const auto apart = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    return one_way.is_plane ? (a - b).head<2>().norm() : (a - b).norm();
+  };
   double strongest = 0;
   for (const WavePath& wave : waves) strongest = std::max(strongest, std::norm(wave.amplitude));
   for (ArrivalPeak& peak : peaks) {
     const Eigen::Vector3d at = WaveSource{peak.azimuth_rad, peak.elevation_rad, 0}.direction();
     double here = 0, product = 0;
     for (const WavePath& a : waves) {
-      if ((a.source.direction() - at).norm() < near) here = std::max(here, std::norm(a.amplitude));
+      if (apart(a.source.direction(), at) < near) here = std::max(here, std::norm(a.amplitude));
       for (const WavePath& b : waves)
-        if (&a < &b && ((a.source.direction() + b.source.direction()) / 2 - at).norm() < near)
+        if (&a < &b && apart(a.source.direction(), b.source.direction()) > 2 * kOnePath * near &&
+            apart((a.source.direction() + b.source.direction()) / 2, at) < near)
           product = std::max(product, 2 * std::abs(a.amplitude) * std::abs(b.amplitude));
     }
     peak.is_ghost = product > kGhost * here && here < kMostGhostWave * strongest;

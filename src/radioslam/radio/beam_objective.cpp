@@ -82,6 +82,7 @@ BeamObjective::Slope BeamObjective::slope(const WaveSource& source) const {
     const Eigen::Index n = piece.weights.size();
     std::complex<double> sum = 0;
     std::vector<Eigen::Vector2cd> parts(static_cast<std::size_t>(kBlocks), Eigen::Vector2cd::Zero());
+    std::array<std::complex<double>, kBlocks> sums{};
     Eigen::Matrix2cd second = Eigen::Matrix2cd::Zero();
     for (Eigen::Index k = 0; k < n; ++k) {
       const Eigen::Vector3d p = piece.positions_m.col(k);
@@ -97,12 +98,17 @@ BeamObjective::Slope BeamObjective::slope(const WaveSource& source) const {
       const std::complex<double> jz(-z.imag(), z.real());
       sum += z;
       parts[static_cast<std::size_t>(k * kBlocks / n)] += jz * turn;
+      sums[static_cast<std::size_t>(k * kBlocks / n)] += z;
       second -= z * (turn * turn.transpose());
       second(0, 0) += jz * turn_bend;
     }
     Eigen::Vector2cd first = Eigen::Vector2cd::Zero();
     for (const auto& part : parts) first += part;
-    for (const auto& part : parts) result.shares.push_back(2 * (std::conj(sum) * part).real());
+    // The phase that turns all of a piece alike moves no peak: in the blocks' shares it would count as noise.
+    const Eigen::Vector2d common = (std::conj(sum) * first).imag() / std::max(std::norm(sum), 1e-300);
+    for (std::size_t b = 0; b < parts.size(); ++b)
+      result.shares.push_back(2 * (std::conj(sum) * parts[b]).real() +
+                              2 * (std::conj(sum) * sums[b]).imag() * common);
     result.gradient += 2 * (std::conj(sum) * first).real();
     result.bend -= 2 * ((first.conjugate() * first.transpose()).real() + (std::conj(sum) * second).real());
   }

@@ -6,7 +6,8 @@
 // (azimuth, curvature), the peak's covariance is the sandwich
 //   H^-1 (sum_b g_b g_b^T) H^-1,  H = -J'',  g_b the share of J' of the way's b-th block:
 // what is left beside the wave (other paths, noise, errors of the trajectory) moves the peak as it moves the
-// blocks' shares, whatever it is. Source: Huber 1967, with blocks since neighbours' rests are alike. Where
+// blocks' shares, whatever it is. Source: Huber 1967, with blocks since neighbours' rests are alike. What
+// turns Z_q as a whole leaves |Z_q| as it is and is taken off the shares. Where
 // pieces overlap by half, every packet's share stands in two of them, which doubles the scatter.
 #pragma once
 

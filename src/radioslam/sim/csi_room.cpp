@@ -27,8 +27,8 @@ double distance_to_walls_m(const std::vector<WallSegment>& walls, const Eigen::V
 }
 
 /// Anywhere in the room, apart: each the draw that is furthest from walls (doubled) and earlier robots.
-std::vector<SE2> draw_starts(const CsiRoomParams& params, const std::vector<WallSegment>& walls,
-                             const Rng& rng) {
+std::vector<SE2> draw_room_starts(const CsiRoomParams& params, const std::vector<WallSegment>& walls,
+                                  const Rng& rng) {
   std::vector<SE2> starts;
   for (std::size_t r = 0; r < static_cast<std::size_t>(params.robots); ++r) {
     Rng own = rng.split(r);
@@ -60,7 +60,7 @@ struct TeamMotion {
 
 TeamMotion draw_motion(const CsiRoomParams& params, const std::vector<WallSegment>& walls, const Rng& rng) {
   TeamMotion motion;
-  motion.starts = draw_starts(params, walls, rng.split("starts"));
+  motion.starts = draw_room_starts(params, walls, rng.split("starts"));
   motion.legs = draw_turns(
       motion.starts, [&](const Eigen::Vector2d& place) { return distance_to_walls_m(walls, place); },
       params.drives, rng.split("legs"));
@@ -160,7 +160,7 @@ std::vector<RangeMeasurement> draw_ranges(const TeamMotion& motion, const CsiRoo
   return ranges;
 }
 
-Trajectory<SE3> lifted(const std::vector<Stamp>& stamps, const std::vector<SE2>& poses) {
+Trajectory<SE3> lifted_way(const std::vector<Stamp>& stamps, const std::vector<SE2>& poses) {
   std::vector<StampedPose<SE3>> stamped;
   for (std::size_t i = 0; i < stamps.size(); ++i) stamped.push_back({stamps[i], lift(poses[i])});
   return Trajectory<SE3>(std::move(stamped));
@@ -174,10 +174,11 @@ void append_robots(const TeamMotion& motion, const CsiRoomParams& params, const 
     for (const Stamp stamp : stamps) poses.push_back(motion.pose_at(r, stamp.seconds()));
     Robot& robot = simulation.mission.robots.emplace_back();
     robot.id = robot_id(r);
-    robot.odometry = lifted(stamps, draw_dead_reckoning(poses, params.odometry, rng.split(r)).T_start_body);
+    robot.odometry =
+        lifted_way(stamps, draw_dead_reckoning(poses, params.odometry, rng.split(r)).T_start_body);
     robot.odometry_noise = stated_noise(params.odometry);
     robot.lidar_range_m = params.lidar_range_m;
-    simulation.truth.robots.push_back({robot.id, lifted(stamps, poses), true});
+    simulation.truth.robots.push_back({robot.id, lifted_way(stamps, poses), true});
   }
 }
 

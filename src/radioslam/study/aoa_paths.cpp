@@ -13,8 +13,9 @@
 namespace radioslam {
 namespace {
 
-constexpr double kDegree_rad = std::numbers::pi / 180;
-constexpr double kBetween_rad = 25 * kDegree_rad, kFound_rad = 5 * kDegree_rad, kDirect_rad = 2 * kDegree_rad;
+constexpr double kOneDegree_rad = std::numbers::pi / 180;
+constexpr double kBetween_rad = 25 * kOneDegree_rad, kFound_rad = 5 * kOneDegree_rad,
+                 kDirect_rad = 2 * kOneDegree_rad;
 constexpr double kWay_m = 1, kTurn_rad = 1.5;  ///< of the arc
 constexpr double kDrive_s = 8, kPackets_hz = 120, kPoses_hz = 50, kRest_s = 0.5;
 constexpr double kSnr_db = 20, kWeakest_db = -6;
@@ -129,7 +130,7 @@ AoaPathsRun judge(std::uint64_t seed, const Recorded& recorded, const ArrivalPar
   return run;
 }
 
-std::vector<AoaPathsCell> empty_cells(std::size_t seeds) {
+std::vector<AoaPathsCell> empty_table(std::size_t seeds) {
   std::vector<AoaPathsCell> cells;
   for (const AoaCards cards : kCards)
     for (const char* profile : kProfiles) cells.push_back({profile, cards, std::vector<AoaPathsRun>(seeds)});
@@ -150,7 +151,7 @@ const char* word_for(AoaCards cards) {
 std::vector<AoaPathsCell> measure_aoa_paths(int seeds, std::uint64_t first_seed, const ArrivalParams& params,
                                             const Progress& progress) {
   const auto count = static_cast<std::size_t>(seeds);
-  std::vector<AoaPathsCell> cells = empty_cells(count);
+  std::vector<AoaPathsCell> cells = empty_table(count);
   const std::size_t batch = std::max<std::size_t>(thread_count(), 1) * 2;
   for (std::size_t done = 0; done < count; done += batch) {
     report_progress(progress, "aoa-paths", static_cast<double>(done) / static_cast<double>(count));
@@ -185,7 +186,7 @@ StudyTable aoa_paths_table(const std::vector<AoaPathsCell>& cells) {
     std::vector<double> errors;
     for (const AoaPathsRun& run : runs) {
       ghosts += run.ghosts;
-      errors.push_back(run.direct_error_rad / kDegree_rad);
+      errors.push_back(run.direct_error_rad / kOneDegree_rad);
     }
     table.rows.push_back(
         {cell.profile + std::string(", ") + word_for(cell.cards),

@@ -1,0 +1,197 @@
+// Angles of arrival from a simulated mission's captures, as users ask for them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "cli/process.hpp"
+
+namespace radioslam::cli {
+namespace {
+
+using nlohmann::json;
+using Arguments = std::vector<std::string>;
+
+const std::string kHeard = "m/robots/a/csi/capture.dat";
+const Arguments kTrajectory{"--trajectory", "m/robots/a/odometry.tum"};
+const Arguments kReverse{"--reverse", "m/robots/b/csi/capture.dat"};
+const Arguments kOfB{"--transmitter", "00:16:ea:00:00:02"};
+const Arguments kChannel{"--channel", "108"};
+const Arguments kLever{"--lever", "0.15,0,0.3"};
+
+Arguments joined(const std::vector<Arguments>& parts) {
+  Arguments all;
+  for (const Arguments& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+double apart_rad(double a, double b) { return std::abs(std::remainder(a - b, 2 * M_PI)); }
+
+/// A planar pose out of a TUM file.
+struct Place {
+  double t_s = -1, x_m = 0, y_m = 0, yaw_rad = 0;
+};
+
+Place place_at(const std::filesystem::path& path, double t_s) {
+  std::istringstream rows(read_file(path));
+  Place best;
+  std::array<double, 8> row{};
+  while (rows >> row[0]) {
+    for (std::size_t k = 1; k < row.size(); ++k) rows >> row[k];
+    if (best.t_s < 0 || std::abs(row[0] - t_s) < std::abs(best.t_s - t_s))
+      best = {row[0], row[1], row[2], 2 * std::atan2(row[6], row[7])};
+  }
+  return best;
+}
+
+/// Three robots that take turns, one leg each; made once.
+class Aoa : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TemporaryFolder;
+    const Outcome made = run({"simulate", "csi", "-o", "m", "--seed", "3", "--set", "turns_per_robot=1",
+                              "--set", "inner_walls=0", "--set", "most_bounces=0"},
+                             folder_->path());
+    ASSERT_EQ(made.status, 0) << made.err;
+  }
+  static void TearDownTestSuite() {
+    delete folder_;
+    folder_ = nullptr;
+  }
+
+  static Outcome aoa(const std::vector<Arguments>& more, const Arguments& trajectory = kTrajectory) {
+    return run(joined({{"aoa", kHeard}, trajectory, joined(more)}), folder_->path());
+  }
+
+  static void expect_refused(const std::vector<Arguments>& more, const std::string& reason,
+                             const Arguments& trajectory = kTrajectory) {
+    const auto before = files_in(folder_->path());
+    const Outcome outcome = aoa(more, trajectory);
+    EXPECT_EQ(outcome.status, 2) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_NE(outcome.err.find(reason), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_EQ(files_in(folder_->path()), before);
+  }
+
+  static json measured(const std::vector<Arguments>& more) {
+    const Outcome outcome = aoa({kReverse, kOfB, kChannel, kLever, {"--json"}, joined(more)});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+    return json::parse(outcome.out);
+  }
+
+  static inline TemporaryFolder* folder_ = nullptr;
+};
+
+TEST_F(Aoa, JsonHasTheKeysOfItsFormat) {
+  const json result = measured({});
+  for (const char* key : {"t_s", "packets", "peaks"}) EXPECT_TRUE(result.contains(key)) << key;
+  EXPECT_TRUE(result["t_s"].is_number());
+  EXPECT_GT(result["packets"].get<int>(), 300);
+  ASSERT_FALSE(result["peaks"].empty());
+  double before_db = 0;
+  for (const json& peak : result["peaks"]) {
+    for (const char* key :
+         {"azimuth_rad", "azimuth_trajectory_frame_rad", "elevation_rad", "sigma_rad", "power_db"}) {
+      ASSERT_TRUE(peak.contains(key)) << key;
+      EXPECT_TRUE(std::isfinite(peak[key].get<double>())) << key;
+    }
+    EXPECT_GT(peak["sigma_rad"].get<double>(), 0);
+    EXPECT_LE(peak["power_db"].get<double>(), before_db) << "the strongest first";
+    before_db = peak["power_db"].get<double>();
+  }
+  EXPECT_EQ(result["peaks"][0]["power_db"].get<double>(), 0);
+}
+
+TEST_F(Aoa, PointsAtTheTransmitterInBothFrames) {
+  const json result = measured({});
+  const double t_s = result["t_s"].get<double>();
+  const auto robots = folder_->path() / "m/robots";
+  const Place a = place_at(robots / "a/groundtruth.tum", t_s),
+              b = place_at(robots / "b/groundtruth.tum", t_s);
+  const double azimuth_rad = std::atan2(b.y_m - a.y_m, b.x_m - a.x_m) - a.yaw_rad;
+  const json& peak = result["peaks"][0];
+  EXPECT_LT(apart_rad(peak["azimuth_rad"].get<double>(), azimuth_rad), 0.1);
+  const Place reckoned = place_at(robots / "a/odometry.tum", t_s);
+  EXPECT_LT(apart_rad(peak["azimuth_trajectory_frame_rad"].get<double>(),
+                      peak["azimuth_rad"].get<double>() + reckoned.yaw_rad),
+            0.03);
+  EXPECT_GT(std::abs(reckoned.yaw_rad), 0.2) << "or the test shows nothing";
+}
+
+TEST_F(Aoa, IsTheSameForOneThreadAndTwo) {
+  EXPECT_EQ(measured({{"--threads", "1"}}), measured({{"--threads", "2"}}));
+}
+
+TEST_F(Aoa, WritesTheProfile) {
+  const Outcome outcome = aoa({kReverse, kOfB, kChannel, kLever, {"-o", "profile.csv"}});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("packets around"), std::string::npos);
+  const std::string profile = read_file(folder_->path() / "profile.csv");
+  EXPECT_TRUE(profile.starts_with("azimuth_trajectory_frame_rad,power\n-3.14159265,"));
+  EXPECT_EQ(std::count(profile.begin(), profile.end(), '\n'), 361);
+  EXPECT_NE(profile.find(",1\n"), std::string::npos) << "the strongest is 1";
+}
+
+TEST_F(Aoa, AClockOffsetIsAppliedAndReported) {
+  const json plain = measured({}), late = measured({{"--clock-offset", "0.3"}});
+  EXPECT_FALSE(plain.contains("clock_offset"));
+  EXPECT_EQ(late["clock_offset"]["offset_s"].get<double>(), 0.3);
+  EXPECT_EQ(late["clock_offset"]["sigma_s"].get<double>(), 0) << "given, not estimated";
+  EXPECT_GT(apart_rad(plain["peaks"][0]["azimuth_trajectory_frame_rad"].get<double>(),
+                      late["peaks"][0]["azimuth_trajectory_frame_rad"].get<double>()),
+            0.02);
+}
+
+TEST_F(Aoa, RefusesToGuessTheSender) {
+  expect_refused({kReverse, kChannel},
+                 "has packets from 00:16:ea:00:00:02, 00:16:ea:00:00:03: choose one by --transmitter");
+  expect_refused({kReverse, kChannel, {"--transmitter", "00:16:ea:00:00:09"}},
+                 "has no packets from 00:16:ea:00:00:09; it has them from 00:16:ea:00:00:02");
+  expect_refused({kReverse, kChannel, {"--transmitter", "b"}}, "--transmitter b: is not an address");
+}
+
+TEST_F(Aoa, RefusesToGuessTheChannel) {
+  expect_refused({kReverse, kOfB}, "does not tell its carrier: give its WiFi channel by --channel");
+  expect_refused({kReverse, kOfB, {"--channel", "15"}}, "is not the number of a WiFi channel");
+}
+
+TEST_F(Aoa, RefusesOneAntennaInOneDirection) {
+  expect_refused({kOfB, kChannel}, "give the other end's capture by --reverse, or two antennas' places");
+  expect_refused({kOfB, kChannel, {"--lever", "0,0,0"}, {"--lever", "0.1,0,0"}},
+                 "has no packets that two antennas heard");
+}
+
+TEST_F(Aoa, RefusesLeversThatAreNone) {
+  for (const char* lever : {"0.1,0.2", "0.1,x,0", "1,2,3,4", "1 2 3"})
+    expect_refused({kReverse, kOfB, kChannel, {"--lever", lever}},
+                   std::string("--lever ") + lever + ": is not x,y,z in metres");
+}
+
+TEST_F(Aoa, RefusesClockOffsetsThatAreNone) {
+  expect_refused({kReverse, kOfB, kChannel, {"--clock-offset", "soon"}},
+                 "--clock-offset soon: is neither seconds nor 'estimate'");
+}
+
+TEST_F(Aoa, RefusesTrajectoriesThatTellNothing) {
+  write_file(folder_->path() / "still.tum", "0 0 0 0 0 0 0 1\n1000 0 0 0 0 0 0 1\n");
+  write_file(folder_->path() / "later.tum", "5000 0 0 0 0 0 0 1\n6000 5 0 0 0 0 0 1\n");
+  const std::vector<Arguments> rest{kReverse, kOfB, kChannel};
+  expect_refused(rest, "still.tum: hardly moves", {"--trajectory", "still.tum"});
+  expect_refused(rest, "later.tum: has no poses at the times of", {"--trajectory", "later.tum"});
+  expect_refused(rest, "nothing.tum: no such file", {"--trajectory", "nothing.tum"});
+}
+
+TEST_F(Aoa, RefusesAReverseThatAnswersNothing) {
+  write_file(folder_->path() / "empty.dat", "");
+  const Outcome outcome = aoa({{"--reverse", "empty.dat"}, kOfB, kChannel});
+  EXPECT_EQ(outcome.status, 2) << outcome.err;
+  EXPECT_NE(outcome.err.find("empty.dat"), std::string::npos) << outcome.err;
+}
+
+}  // namespace
+}  // namespace radioslam::cli

@@ -1,0 +1,148 @@
+// Simulated captures of known waves through the whole estimate.
+#include "radioslam/radio/arrival_estimate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "radio/simulated_exchange.hpp"
+
+namespace radioslam {
+namespace {
+
+using namespace waves;
+
+double error_deg(const ArrivalPeak& peak, double azimuth_rad) {
+  return apart_rad(peak.azimuth_rad, azimuth_rad) / kDegree_rad;
+}
+
+SimulatedExchange arc_of(PathsBetween paths) {
+  SimulatedExchange exchange;
+  exchange.motion = metre_of_arc;
+  exchange.paths = std::move(paths);
+  return exchange;
+}
+
+TEST(ArrivalEstimate, FindsTheOneWaveOfAMetresArc) {
+  for (const double azimuth_rad : {-2.9, -1.4, 0.2, 1.0, 2.3}) {
+    const SimulatedExchange exchange = arc_of(wave_from(azimuth_rad));
+    const ArrivalResult result = arrival_of(exchange.two_way(), exchange.trajectory());
+    ASSERT_TRUE(result.estimate);
+    const ArrivalEstimate& estimate = *result.estimate;
+    ASSERT_FALSE(estimate.peaks.empty());
+    EXPECT_LT(error_deg(estimate.peaks.front(), azimuth_rad), 1) << azimuth_rad;
+    EXPECT_EQ(estimate.peaks.front().power_db, 0);
+    EXPECT_FALSE(estimate.peaks.front().is_ghost);
+    EXPECT_FALSE(estimate.peaks.front().mirror_rad) << "an arc tells left from right";
+    EXPECT_LT(estimate.peaks.front().sigma_rad, 3 * kDegree_rad);
+    EXPECT_GT(estimate.explained, 0.8);
+    EXPECT_LE(estimate.explained, 1);
+    EXPECT_NEAR(estimate.stamp.seconds(), 4, 0.1);
+    EXPECT_LT((estimate.T_frame_body.translation() - metre_of_arc(4).translation()).norm(), 0.02);
+    EXPECT_GT(estimate.packets, 400U);
+  }
+}
+
+TEST(ArrivalEstimate, EveryProfileFindsIt) {
+  const SimulatedExchange exchange = arc_of(wave_from(1));
+  const ChannelTrack track = exchange.two_way();
+  for (const char* profile : {"bartlett", "music", "sparse"}) {
+    ArrivalParams params;
+    params.profile = profile;
+    const ArrivalResult result = arrival_of(track, exchange.trajectory(), params);
+    ASSERT_TRUE(result.estimate) << profile;
+    EXPECT_LT(error_deg(result.estimate->peaks.front(), 1), 2) << profile;
+    ASSERT_EQ(result.estimate->profile.size(), 360U);
+    const auto& power = result.estimate->profile;
+    const auto most = std::max_element(power.begin(), power.end()) - power.begin();
+    EXPECT_EQ(power[static_cast<std::size_t>(most)], 1);
+    EXPECT_LT(apart_rad(-std::numbers::pi + static_cast<double>(most) * kDegree_rad, 1), 2.5 * kDegree_rad);
+  }
+}
+
+TEST(ArrivalEstimate, OfAStraightWayNamesTheMirror) {
+  SimulatedExchange exchange = arc_of(wave_from(40 * kDegree_rad));
+  exchange.motion = [](double t_s) { return SE3({0.25 * (t_s - 4), 0, 0}, Eigen::Quaterniond::Identity()); };
+  const ChannelTrack track = exchange.two_way();
+  const auto strongest = [&](const ArrivalParams& params) {
+    return arrival_of(track, exchange.trajectory(), params).estimate->peaks.front();
+  };
+  const ArrivalPeak any = strongest({});
+  EXPECT_NEAR(std::cos(any.azimuth_rad) * std::cos(any.elevation_rad), std::cos(40 * kDegree_rad), 0.02)
+      << "a line tells the angle to itself, and height may be part of it";
+  ArrivalParams level;
+  level.most_elevation_rad = 0;
+  const ArrivalPeak peak = strongest(level);
+  ASSERT_TRUE(peak.mirror_rad);
+  EXPECT_LT(apart_rad(std::abs(peak.azimuth_rad), 40 * kDegree_rad), 2 * kDegree_rad);
+  EXPECT_LT(apart_rad(*peak.mirror_rad, -peak.azimuth_rad), 0.5 * kDegree_rad) << "left for right";
+}
+
+TEST(ArrivalEstimate, OfAStillRobotIsNoMotion) {
+  SimulatedExchange exchange = arc_of(wave_from(1));
+  exchange.motion = [](double /*t_s*/) { return metre_of_arc(2); };
+  const ArrivalResult result = arrival_of(exchange.two_way(), exchange.trajectory());
+  EXPECT_FALSE(result.estimate);
+  EXPECT_EQ(result.reason, NoArrival::kNoMotion);
+}
+
+TEST(ArrivalEstimate, OfAShortWayIsNoMotion) {
+  SimulatedExchange exchange = arc_of(wave_from(1));
+  exchange.motion = [](double t_s) { return on_circle(0.5, 0.05 * t_s); };
+  EXPECT_EQ(arrival_of(exchange.two_way(), exchange.trajectory()).reason, NoArrival::kNoMotion);
+}
+
+TEST(ArrivalEstimate, WithATrajectoryOfAnotherTimeIsNoOdometry) {
+  const SimulatedExchange exchange = arc_of(wave_from(1));
+  const ArrivalResult result = arrival_of(exchange.two_way(), exchange.trajectory(100));
+  EXPECT_FALSE(result.estimate);
+  EXPECT_EQ(result.reason, NoArrival::kNoOdometry);
+}
+
+TEST(ArrivalEstimate, OfAFewPacketsIsTooFew) {
+  SimulatedExchange exchange = arc_of(wave_from(1));
+  exchange.end_s = exchange.begin_s + 0.1;
+  exchange.motion = [](double t_s) { return on_circle(0.5, 10 * (t_s - 2)); };
+  const ArrivalResult result = arrival_of(exchange.two_way(), exchange.trajectory());
+  EXPECT_FALSE(result.estimate);
+  EXPECT_EQ(result.reason, NoArrival::kTooFewPackets);
+  const ChannelTrack track = exchange.two_way();
+  const Stamp later = Stamp::from_seconds(50);
+  EXPECT_EQ(estimate_arrival(track, exchange.trajectory(), later, later, {}).reason,
+            NoArrival::kTooFewPackets)
+      << "none at all";
+}
+
+TEST(ArrivalEstimate, NeedsTheLeverArmOfABodyThatTurns) {
+  SimulatedExchange exchange = arc_of(wave_from(0.7));
+  exchange.antennas_m = {{0.16, 0, 0}};
+  exchange.motion = [](double t_s) {  // creeps forward while it turns about
+    return SE3({0.1 * (t_s - 4), 0, 0}, so3_exp({0, 0, 1.2 * (t_s - 4)}));
+  };
+  ChannelTrack track = exchange.two_way();
+  const ArrivalResult right = arrival_of(track, exchange.trajectory());
+  ASSERT_TRUE(right.estimate);
+  EXPECT_LT(error_deg(right.estimate->peaks.front(), 0.7), 2);
+  track.lever_arm_m.setZero();
+  const ArrivalResult without = arrival_of(track, exchange.trajectory());
+  ASSERT_TRUE(without.estimate);
+  EXPECT_GT(error_deg(without.estimate->peaks.front(), 0.7), 5);
+  EXPECT_LT(without.estimate->explained, 0.7 * right.estimate->explained);
+}
+
+TEST(ArrivalEstimate, RecoversElevationFromAHelix) {
+  for (const double elevation_rad : {-0.35, 0.0, 0.4}) {
+    SimulatedExchange exchange = arc_of(wave_from(-1.2, elevation_rad));
+    exchange.motion = [](double t_s) {
+      SE3 pose = on_circle(0.25, 2 * (t_s - 4));
+      return SE3(pose.translation() + Eigen::Vector3d(0, 0, 0.12 * (t_s - 4)), pose.rotation());
+    };
+    const ArrivalResult result = arrival_of(exchange.two_way(), exchange.trajectory());
+    ASSERT_TRUE(result.estimate);
+    EXPECT_LT(error_deg(result.estimate->peaks.front(), -1.2), 2) << elevation_rad;
+    EXPECT_NEAR(result.estimate->peaks.front().elevation_rad, elevation_rad, 5 * kDegree_rad);
+  }
+}
+
+}  // namespace
+}  // namespace radioslam

@@ -1,0 +1,70 @@
+#include "radioslam/radio/clock_offset.hpp"
+
+#include <gtest/gtest.h>
+
+#include "radio/simulated_exchange.hpp"
+
+namespace radioslam {
+namespace {
+
+using namespace waves;
+
+constexpr double kTwoPi = 2 * std::numbers::pi;
+
+/// A room's few waves, so that the channel changes wherever the antenna goes.
+PathsBetween few_waves() {
+  return plane_wave_paths({{0.3, 0, -15, 3e-8}, {2.1, 0.2, -18, 5e-8}, {-1.5, 0, -20, 6e-8}});
+}
+
+/// Stops every two seconds on its way along a circle.
+SimulatedExchange stop_and_go() {
+  SimulatedExchange exchange;
+  exchange.motion = [](double t_s) {
+    return on_circle(0.6, 0.3 * (t_s - std::sin(kTwoPi * t_s / 2) / kTwoPi * 2));
+  };
+  exchange.paths = few_waves();
+  exchange.end_s = 12;
+  return exchange;
+}
+
+TEST(ClockOffset, OfStopAndGoIsRecovered) {
+  for (const double late_s : {0.0, 0.15}) {
+    SimulatedExchange exchange = stop_and_go();
+    exchange.cards.stamp_offset_s = late_s;
+    const auto clock = estimate_clock_offset(exchange.two_way(), exchange.trajectory());
+    ASSERT_TRUE(clock) << late_s;
+    EXPECT_NEAR(clock->offset_s, -late_s, 0.03) << "to be added to stamps that are late";
+    EXPECT_LT(clock->sigma_s, 0.05);
+    EXPECT_GT(clock->sigma_s, 0);
+  }
+}
+
+TEST(ClockOffset, OfAConstantSpeedIsNothing) {
+  SimulatedExchange exchange = stop_and_go();
+  exchange.motion = [](double t_s) { return on_circle(0.6, 0.4 * t_s); };
+  EXPECT_FALSE(estimate_clock_offset(exchange.two_way(), exchange.trajectory()));
+}
+
+TEST(ClockOffset, WithoutATrajectoryAroundTheCaptureIsNothing) {
+  const SimulatedExchange exchange = stop_and_go();
+  EXPECT_FALSE(estimate_clock_offset(exchange.two_way(), exchange.trajectory(100)));
+  EXPECT_FALSE(estimate_clock_offset(exchange.two_way(), Trajectory<SE3>()));
+}
+
+TEST(ClockOffset, OfAntennasAgainstEachOtherIsNothing) {
+  ChannelTrack track = stop_and_go().two_way();
+  track.is_two_way = false;
+  EXPECT_FALSE(estimate_clock_offset(track, stop_and_go().trajectory()));
+}
+
+TEST(ClockOffset, ShiftingMovesStampsAlone) {
+  const ChannelTrack track = stop_and_go().two_way();
+  const ChannelTrack moved = shifted(track, -0.25);
+  ASSERT_EQ(moved.stamps.size(), track.stamps.size());
+  for (std::size_t k = 0; k < track.stamps.size(); ++k)
+    EXPECT_EQ(moved.stamps[k].ns, track.stamps[k].ns - 250'000'000);
+  EXPECT_EQ(moved.channel, track.channel);
+}
+
+}  // namespace
+}  // namespace radioslam
