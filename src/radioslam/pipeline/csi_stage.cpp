@@ -164,7 +164,8 @@ ArrivalMeasurement measurement_of(const Mission& mission, const Attempt& attempt
   measured.transmitter.robot = RobotIndex(attempt.transmitter);
   measured.transmitter.lever_arm_m = mission.robots[attempt.transmitter].csi->antennas_m.front();
   for (const ArrivalPeak& peak : estimate.peaks) {
-    if (peak.is_ghost) continue;
+    // The strongest is named a ghost wrongly now and then, and losing it costs more than a false path.
+    if (peak.is_ghost && &peak != &estimate.peaks.front()) continue;
     measured.paths.push_back(path_of(estimate, peak.azimuth_rad, peak, mission.dimension));
     if (peak.mirror_rad)
       measured.paths.push_back(path_of(estimate, *peak.mirror_rad, peak, mission.dimension));

@@ -28,13 +28,13 @@ struct ArrivalParams {
   int azimuths = 360;                ///< of the grid; peaks are refined below its step
   double most_elevation_rad = 0.7;   ///< up and, where the motion leaves its plane, down
   double nearest_source_m = 2;       ///< waves are as bent as from there, or less
-  double subarray_m = 0.4;           ///< the way's pieces, half overlapping, whose profiles are added
+  double subarray_m = 0.25;          ///< the way's pieces, half overlapping, whose profiles are added
   double least_step_m = 5e-4;        ///< a packet counts once the antenna has moved so far since the last
   double least_way_m = 0.15;         ///< a shorter way tells no direction
   int model_paths = 8;               ///< waves that each packet's delay is measured against
   int model_passes = 4;
   int peaks = 4;                  ///< at most
-  double sigma_floor_rad = 0.02;  ///< of antennas' places and clocks, beside what the channel tells
+  double sigma_floor_rad = 0.03;  ///< of antennas' places and clocks, beside what the channel tells
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
