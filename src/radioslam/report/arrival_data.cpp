@@ -53,7 +53,8 @@ PageData peak_data(const std::vector<ArrivalPeakResult>& peaks) {
 PageData profile_data(const std::vector<float>& profile, const ReportParams& params) {
   PageData data = PageData::array();
   const auto limit = static_cast<std::size_t>(std::max(params.maximum_profile_values, 1));
-  for (const float power : thinned_profile(profile, limit)) data.push_back(rounded(power, kProfileDecimals));
+  for (const float power : thinned_profile(profile, limit))
+    data.push_back(rounded(static_cast<double>(power), kProfileDecimals));
   return data;
 }
 
