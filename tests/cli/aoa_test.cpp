@@ -31,13 +31,13 @@ Arguments joined(const std::vector<Arguments>& parts) {
 double apart_rad(double a, double b) { return std::abs(std::remainder(a - b, 2 * M_PI)); }
 
 /// A planar pose out of a TUM file.
-struct Place {
+struct PlaceInRoom {
   double t_s = -1, x_m = 0, y_m = 0, yaw_rad = 0;
 };
 
-Place place_at(const std::filesystem::path& path, double t_s) {
+PlaceInRoom place_at(const std::filesystem::path& path, double t_s) {
   std::istringstream rows(read_file(path));
-  Place best;
+  PlaceInRoom best;
   std::array<double, 8> row{};
   while (rows >> row[0]) {
     for (std::size_t k = 1; k < row.size(); ++k) rows >> row[k];
@@ -66,8 +66,8 @@ class Aoa : public testing::Test {
     return run(joined({{"aoa", kHeard}, trajectory, joined(more)}), folder_->path());
   }
 
-  static void expect_refused(const std::vector<Arguments>& more, const std::string& reason,
-                             const Arguments& trajectory = kTrajectory) {
+  static void expect_call_refused(const std::vector<Arguments>& more, const std::string& reason,
+                                  const Arguments& trajectory = kTrajectory) {
     const auto before = files_in(folder_->path());
     const Outcome outcome = aoa(more, trajectory);
     EXPECT_EQ(outcome.status, 2) << outcome.err;
@@ -111,12 +111,12 @@ TEST_F(Aoa, PointsAtTheTransmitterInBothFrames) {
   const json result = measured({});
   const double t_s = result["t_s"].get<double>();
   const auto robots = folder_->path() / "m/robots";
-  const Place a = place_at(robots / "a/groundtruth.tum", t_s),
-              b = place_at(robots / "b/groundtruth.tum", t_s);
+  const PlaceInRoom a = place_at(robots / "a/groundtruth.tum", t_s),
+                    b = place_at(robots / "b/groundtruth.tum", t_s);
   const double azimuth_rad = std::atan2(b.y_m - a.y_m, b.x_m - a.x_m) - a.yaw_rad;
   const json& peak = result["peaks"][0];
   EXPECT_LT(apart_rad(peak["azimuth_rad"].get<double>(), azimuth_rad), 0.1);
-  const Place reckoned = place_at(robots / "a/odometry.tum", t_s);
+  const PlaceInRoom reckoned = place_at(robots / "a/odometry.tum", t_s);
   EXPECT_LT(apart_rad(peak["azimuth_trajectory_frame_rad"].get<double>(),
                       peak["azimuth_rad"].get<double>() + reckoned.yaw_rad),
             0.03);
@@ -148,42 +148,42 @@ TEST_F(Aoa, AClockOffsetIsAppliedAndReported) {
 }
 
 TEST_F(Aoa, RefusesToGuessTheSender) {
-  expect_refused({kReverse, kChannel},
-                 "has packets from 00:16:ea:00:00:02, 00:16:ea:00:00:03: choose one by --transmitter");
-  expect_refused({kReverse, kChannel, {"--transmitter", "00:16:ea:00:00:09"}},
-                 "has no packets from 00:16:ea:00:00:09; it has them from 00:16:ea:00:00:02");
-  expect_refused({kReverse, kChannel, {"--transmitter", "b"}}, "--transmitter b: is not an address");
+  expect_call_refused({kReverse, kChannel},
+                      "has packets from 00:16:ea:00:00:02, 00:16:ea:00:00:03: choose one by --transmitter");
+  expect_call_refused({kReverse, kChannel, {"--transmitter", "00:16:ea:00:00:09"}},
+                      "has no packets from 00:16:ea:00:00:09; it has them from 00:16:ea:00:00:02");
+  expect_call_refused({kReverse, kChannel, {"--transmitter", "b"}}, "--transmitter b: is not an address");
 }
 
 TEST_F(Aoa, RefusesToGuessTheChannel) {
-  expect_refused({kReverse, kOfB}, "does not tell its carrier: give its WiFi channel by --channel");
-  expect_refused({kReverse, kOfB, {"--channel", "15"}}, "is not the number of a WiFi channel");
+  expect_call_refused({kReverse, kOfB}, "does not tell its carrier: give its WiFi channel by --channel");
+  expect_call_refused({kReverse, kOfB, {"--channel", "15"}}, "is not the number of a WiFi channel");
 }
 
 TEST_F(Aoa, RefusesOneAntennaInOneDirection) {
-  expect_refused({kOfB, kChannel}, "give the other end's capture by --reverse, or two antennas' places");
-  expect_refused({kOfB, kChannel, {"--lever", "0,0,0"}, {"--lever", "0.1,0,0"}},
-                 "has no packets that two antennas heard");
+  expect_call_refused({kOfB, kChannel}, "give the other end's capture by --reverse, or two antennas' places");
+  expect_call_refused({kOfB, kChannel, {"--lever", "0,0,0"}, {"--lever", "0.1,0,0"}},
+                      "has no packets that two antennas heard");
 }
 
 TEST_F(Aoa, RefusesLeversThatAreNone) {
   for (const char* lever : {"0.1,0.2", "0.1,x,0", "1,2,3,4", "1 2 3"})
-    expect_refused({kReverse, kOfB, kChannel, {"--lever", lever}},
-                   std::string("--lever ") + lever + ": is not x,y,z in metres");
+    expect_call_refused({kReverse, kOfB, kChannel, {"--lever", lever}},
+                        std::string("--lever ") + lever + ": is not x,y,z in metres");
 }
 
 TEST_F(Aoa, RefusesClockOffsetsThatAreNone) {
-  expect_refused({kReverse, kOfB, kChannel, {"--clock-offset", "soon"}},
-                 "--clock-offset soon: is neither seconds nor 'estimate'");
+  expect_call_refused({kReverse, kOfB, kChannel, {"--clock-offset", "soon"}},
+                      "--clock-offset soon: is neither seconds nor 'estimate'");
 }
 
 TEST_F(Aoa, RefusesTrajectoriesThatTellNothing) {
   write_file(folder_->path() / "still.tum", "0 0 0 0 0 0 0 1\n1000 0 0 0 0 0 0 1\n");
   write_file(folder_->path() / "later.tum", "5000 0 0 0 0 0 0 1\n6000 5 0 0 0 0 0 1\n");
   const std::vector<Arguments> rest{kReverse, kOfB, kChannel};
-  expect_refused(rest, "still.tum: hardly moves", {"--trajectory", "still.tum"});
-  expect_refused(rest, "later.tum: has no poses at the times of", {"--trajectory", "later.tum"});
-  expect_refused(rest, "nothing.tum: no such file", {"--trajectory", "nothing.tum"});
+  expect_call_refused(rest, "still.tum: hardly moves", {"--trajectory", "still.tum"});
+  expect_call_refused(rest, "later.tum: has no poses at the times of", {"--trajectory", "later.tum"});
+  expect_call_refused(rest, "nothing.tum: no such file", {"--trajectory", "nothing.tum"});
 }
 
 TEST_F(Aoa, RefusesAReverseThatAnswersNothing) {

@@ -20,7 +20,7 @@ Outcome import(const TemporaryFolder& folder, const std::vector<std::string>& mo
   return run(arguments, folder.path());
 }
 
-void expect_refused(const std::vector<std::string>& more, const std::string& reason) {
+void expect_log_refused(const std::vector<std::string>& more, const std::string& reason) {
   const TemporaryFolder folder;
   const Outcome outcome = import(folder, more);
   EXPECT_EQ(outcome.status, 2) << outcome.err;
@@ -55,14 +55,14 @@ TEST(ImportRanges, AreAMissionsTable) {
 }
 
 TEST(ImportRanges, RefusesNamesThatAreNone) {
-  expect_refused({}, "--robot says whose ranges they are");
-  expect_refused({"--robot", "a/b"}, "cannot be the name");
-  expect_refused({"--robot", "a", "--name", "door"}, "BSSID=ID is expected");
-  expect_refused({"--robot", "a", "--name", "02:00:00:00:02:00=a"}, "no distance to itself");
-  expect_refused({"--robot", "a", "--name", "02:00:00:00:02:00=b", "--name", "02:00:00:00:02:00=c"},
-                 "has a name already");
-  expect_refused({"--robot", "a", "--set", "furthest_m=1", "--set", "most_negative_m=0"},
-                 "none of the 3 measurements");
+  expect_log_refused({}, "--robot says whose ranges they are");
+  expect_log_refused({"--robot", "a/b"}, "cannot be the name");
+  expect_log_refused({"--robot", "a", "--name", "door"}, "BSSID=ID is expected");
+  expect_log_refused({"--robot", "a", "--name", "02:00:00:00:02:00=a"}, "no distance to itself");
+  expect_log_refused({"--robot", "a", "--name", "02:00:00:00:02:00=b", "--name", "02:00:00:00:02:00=c"},
+                     "has a name already");
+  expect_log_refused({"--robot", "a", "--set", "furthest_m=1", "--set", "most_negative_m=0"},
+                     "none of the 3 measurements");
 }
 
 }  // namespace

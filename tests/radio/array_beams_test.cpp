@@ -87,7 +87,7 @@ TEST(ArrayBeams, AreThoseOfAllSubcarriers) {
     const ArrayBeams beams = array_beams(array, grid, delays);
     for (std::size_t k = 0; k < grid.size(); k += 7) {
       const Direct direct = direct_power(array, grid.source(k), delays);
-      EXPECT_NEAR(beams.power[k], direct.power, 1e-3) << k;
+      EXPECT_NEAR(double{beams.power[k]}, direct.power, 1e-3) << k;
       EXPECT_LT(std::abs(std::sqrt(double{beams.power[k]}) - std::sqrt(direct.power)), left + 1e-4) << k;
       if (direct.power > 0.1) {
         EXPECT_LE(std::abs(Eigen::Index{beams.best_delay[k]} - direct.delay), 1) << k;
@@ -108,7 +108,7 @@ TEST(ArrayBeams, LoseNoMoreByTheirRankThanThePowerLeftOut) {
   for (std::size_t k = 0; k < grid.size(); k += 3) {
     const double direct = direct_power(array, grid.source(k), delays).power;
     EXPECT_LT(std::abs(std::sqrt(double{beams.power[k]}) - std::sqrt(direct)), std::sqrt(left)) << k;
-    EXPECT_NEAR(beams.power[k], direct, 0.02) << "noise has no direction";
+    EXPECT_NEAR(double{beams.power[k]}, direct, 0.02) << "noise has no direction";
   }
 }
 

@@ -34,7 +34,7 @@ ArrivalMeasurement heard(std::vector<ArrivalPath> paths) {
 }
 
 /// Ten metres away in this direction.
-SE3 towards(double azimuth_deg, double elevation_deg = 0) {
+SE3 facing(double azimuth_deg, double elevation_deg = 0) {
   const double azimuth = azimuth_deg * kDegree, elevation = elevation_deg * kDegree;
   return {10 * Eigen::Vector3d(std::cos(elevation) * std::cos(azimuth),
                                std::cos(elevation) * std::sin(azimuth), std::sin(elevation)),
@@ -58,7 +58,7 @@ TEST(AngleWeight, CappedByHand) {
 }
 
 TEST(CheckRelativePose, WithAnAzimuthAlone) {
-  const AngleCheck check = check_relative_pose(towards(30), heard({path(50)}), bare());
+  const AngleCheck check = check_relative_pose(facing(30), heard({path(50)}), bare());
   EXPECT_NEAR(check.azimuth_error_rad, -20 * kDegree, 1e-12);
   EXPECT_FALSE(check.elevation_error_rad);
   EXPECT_NEAR(check.weight, std::exp(-2.0), 1e-12);
@@ -67,7 +67,7 @@ TEST(CheckRelativePose, WithAnAzimuthAlone) {
 }
 
 TEST(CheckRelativePose, InSpace) {
-  const AngleCheck check = check_relative_pose(towards(30, 60), heard({path(40, 55, kSigma)}), bare());
+  const AngleCheck check = check_relative_pose(facing(30, 60), heard({path(40, 55, kSigma)}), bare());
   EXPECT_NEAR(check.azimuth_error_rad, -10 * kDegree, 1e-12);
   EXPECT_NEAR(*check.elevation_error_rad, 5 * kDegree, 1e-12);
   EXPECT_NEAR(check.azimuth_sigma_rad, 2 * kSigma, 1e-12);  // 1 / cos(60 degrees)
@@ -77,7 +77,7 @@ TEST(CheckRelativePose, InSpace) {
 
 TEST(CheckRelativePose, EitherErrorMayReachTheThreshold) {
   const auto verdict = [](double azimuth_deg, double elevation_deg) {
-    return check_relative_pose(towards(0, 0), heard({path(azimuth_deg, elevation_deg)}), bare()).verdict;
+    return check_relative_pose(facing(0, 0), heard({path(azimuth_deg, elevation_deg)}), bare()).verdict;
   };
   EXPECT_EQ(verdict(8.4, 8.4), AngleVerdict::kAgrees);
   EXPECT_EQ(verdict(8.6, 0), AngleVerdict::kBeyond);
@@ -85,13 +85,13 @@ TEST(CheckRelativePose, EitherErrorMayReachTheThreshold) {
 }
 
 TEST(CheckRelativePose, WithinTheThresholdNothingIsLost) {
-  const AngleCheck check = check_relative_pose(towards(0), heard({path(8)}), bare());
+  const AngleCheck check = check_relative_pose(facing(0), heard({path(8)}), bare());
   EXPECT_LT(check.weight, 0.8);
   EXPECT_EQ(check.information_scale(), 1);
 }
 
 TEST(CheckRelativePose, WrapsAround) {
-  const AngleCheck check = check_relative_pose(towards(-178), heard({path(176)}), bare());
+  const AngleCheck check = check_relative_pose(facing(-178), heard({path(176)}), bare());
   EXPECT_NEAR(check.azimuth_error_rad, 6 * kDegree, 1e-12);
   EXPECT_EQ(check.verdict, AngleVerdict::kAgrees);
 }
@@ -99,14 +99,14 @@ TEST(CheckRelativePose, WrapsAround) {
 TEST(CheckRelativePose, TakesTheNearestPathBySumOfBothErrors) {
   // 25 = 20 + 5, 24 = 4 + 20, 22 across the wrap and 1.
   const auto measured = heard({path(-150, 5), path(-174, 20), path(168, 1)});
-  const AngleCheck check = check_relative_pose(towards(-170), measured, bare());
+  const AngleCheck check = check_relative_pose(facing(-170), measured, bare());
   EXPECT_EQ(check.nearest_path, 2U);
   EXPECT_NEAR(check.azimuth_error_rad, 22 * kDegree, 1e-12);
 }
 
 TEST(CheckRelativePose, ElevationsThatWereNotMeasuredAgree) {
   const auto measured = heard({path(0, 0), path(3)});
-  const AngleCheck check = check_relative_pose(towards(0, 20), measured, bare());
+  const AngleCheck check = check_relative_pose(facing(0, 20), measured, bare());
   EXPECT_EQ(check.nearest_path, 1U);
   EXPECT_FALSE(check.elevation_error_rad);
 }
@@ -114,7 +114,7 @@ TEST(CheckRelativePose, ElevationsThatWereNotMeasuredAgree) {
 TEST(CheckRelativePose, WidensByPlaceAndPrediction) {
   ArrivalLikelihoodParams params;
   params.sigma_place_m = 1;
-  const AngleCheck check = check_relative_pose(towards(30), heard({path(50)}), params, {0.2, 0});
+  const AngleCheck check = check_relative_pose(facing(30), heard({path(50)}), params, {0.2, 0});
   EXPECT_NEAR(check.azimuth_sigma_rad, std::sqrt(kSigma * kSigma + 0.01 + 0.04), 1e-12);
 }
 
@@ -137,7 +137,7 @@ TEST(CheckRelativePose, AtNoDistanceAgrees) {
 TEST(LogOddsElsewhere, ByHand) {
   const double P = 0.8;
   const auto odds = [&](double azimuth_deg, const std::vector<ArrivalPath>& paths, double band_rad = 0) {
-    return std::exp(log_odds_elsewhere(towards(azimuth_deg), heard(paths), P, band_rad, bare()));
+    return std::exp(log_odds_elsewhere(facing(azimuth_deg), heard(paths), P, band_rad, bare()));
   };
   EXPECT_NEAR(odds(0, {path(0)}), 1 / (0.2 + 0.8 * 14.3619), 1e-6);
   EXPECT_NEAR(odds(0, {path(90)}), 5, 1e-6);
@@ -162,7 +162,7 @@ TEST(LogOddsElsewhere, HasAMeanOfOneUnderAnHonestPose) {
       }
       all += density * step_deg * kDegree;
       mean += density * step_deg * kDegree *
-              std::exp(log_odds_elsewhere(towards(azimuth_deg), heard(paths), P, 0, bare()));
+              std::exp(log_odds_elsewhere(facing(azimuth_deg), heard(paths), P, 0, bare()));
     }
     EXPECT_NEAR(all, 1, 1e-6);
     EXPECT_NEAR(mean, 1, 1e-6);
