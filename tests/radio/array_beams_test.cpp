@@ -53,7 +53,7 @@ TEST(ArrayBeams, OfAWaveAreOneAtItsSourceAndLessElsewhere) {
           array_of({{grid.source(own), delays.delay_s(column), {0.3, -0.4}}}, arc(90, 0.5, 2.5));
       const ArrayBeams beams = array_beams(array, grid, delays);
       ASSERT_EQ(beams.power.size(), grid.size());
-      EXPECT_NEAR(beams.power[own], 1, 1e-3);
+      EXPECT_NEAR(static_cast<double>(beams.power[own]), 1, 1e-3);
       EXPECT_EQ(beams.best_delay[own], column);
       for (std::size_t k = 0; k < grid.size(); ++k) {
         if (k == own) continue;
@@ -87,8 +87,10 @@ TEST(ArrayBeams, AreThoseOfAllSubcarriers) {
     const ArrayBeams beams = array_beams(array, grid, delays);
     for (std::size_t k = 0; k < grid.size(); k += 7) {
       const Direct direct = direct_power(array, grid.source(k), delays);
-      EXPECT_NEAR(double{beams.power[k]}, direct.power, 1e-3) << k;
-      EXPECT_LT(std::abs(std::sqrt(double{beams.power[k]}) - std::sqrt(direct.power)), left + 1e-4) << k;
+      EXPECT_NEAR(static_cast<double>(beams.power[k]), direct.power, 1e-3) << k;
+      EXPECT_LT(std::abs(std::sqrt(static_cast<double>(beams.power[k])) - std::sqrt(direct.power)),
+                left + 1e-4)
+          << k;
       if (direct.power > 0.1) {
         EXPECT_LE(std::abs(Eigen::Index{beams.best_delay[k]} - direct.delay), 1) << k;
       }
@@ -107,8 +109,9 @@ TEST(ArrayBeams, LoseNoMoreByTheirRankThanThePowerLeftOut) {
   const ArrayBeams beams = array_beams(array, grid, delays);
   for (std::size_t k = 0; k < grid.size(); k += 3) {
     const double direct = direct_power(array, grid.source(k), delays).power;
-    EXPECT_LT(std::abs(std::sqrt(double{beams.power[k]}) - std::sqrt(direct)), std::sqrt(left)) << k;
-    EXPECT_NEAR(double{beams.power[k]}, direct, 0.02) << "noise has no direction";
+    EXPECT_LT(std::abs(std::sqrt(static_cast<double>(beams.power[k])) - std::sqrt(direct)), std::sqrt(left))
+        << k;
+    EXPECT_NEAR(static_cast<double>(beams.power[k]), direct, 0.02) << "noise has no direction";
   }
 }
 
