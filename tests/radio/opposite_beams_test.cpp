@@ -10,13 +10,13 @@
 namespace radioslam {
 namespace {
 
-constexpr double kWavenumber_radpm = 232;
+constexpr double kBothWays_radpm = 232;
 constexpr Eigen::Index kSnapshots = 300;  // more than are summed at one time, and no multiple of eight
 
 SyntheticArray random_array(Eigen::Index signals, double height_m) {
   Rng rng(1);
   SyntheticArray array;
-  array.wavenumber_radpm = kWavenumber_radpm;
+  array.wavenumber_radpm = kBothWays_radpm;
   array.positions_m.resize(3, kSnapshots);
   for (double& x : array.positions_m.reshaped()) x = rng.uniform(-0.6, 0.6);
   array.positions_m.row(2) *= height_m;
@@ -80,7 +80,7 @@ TEST(ArrayBeams, IsWhatDoublesGiveAtEverySource) {
         Eigen::RowVectorXcd sum = Eigen::RowVectorXcd::Zero(kSubcarriers);
         for (Eigen::Index i = 0; i < kSnapshots; ++i)
           sum += array.channel.row(i) *
-                 std::polar(1.0, kWavenumber_radpm * excess_way_m(grid.source(k), array.positions_m.col(i)));
+                 std::polar(1.0, kBothWays_radpm * excess_way_m(grid.source(k), array.positions_m.col(i)));
         const Eigen::RowVectorXd power = (sum * delays.turns()).cwiseAbs2() / most;
         EXPECT_NEAR(static_cast<double>(beams.power[k]), power.maxCoeff(), 1e-6);
         EXPECT_NEAR(power[beams.best_delay[k]], power.maxCoeff(), 1e-6);

@@ -12,7 +12,9 @@ namespace {
 
 constexpr std::size_t kFewestPackets = 16;
 
-void fill_peaks(ArrivalEstimate& estimate, MovedArray& one_way, const ArrivalParams& params) {
+void fill_peaks(ArrivalEstimate& estimate, MovedArray& one_way, ArrivalParams params) {
+  // Only Bartlett's profile is a sum over pieces of the way.
+  if (params.profile != "bartlett") params.subarray_m = std::max(params.subarray_m, 2 * one_way.way_m);
   std::vector<WavePath> waves;
   if (!one_way.is_difference) waves = align_to_waves(one_way, params);
   const MovedArray even = one_way.is_difference ? evened(one_way) : both_ways(one_way);
