@@ -160,6 +160,11 @@ TEST_F(Aoa, RefusesToGuessTheChannel) {
   expect_call_refused({kReverse, kOfB, {"--channel", "15"}}, "is not the number of a WiFi channel");
 }
 
+TEST_F(Aoa, RefusesAnswersOfAnotherRobot) {
+  expect_call_refused({{"--reverse", "m/robots/c/csi/capture.dat"}, kOfB, kChannel},
+                      "c/csi/capture.dat: does not answer the packets of");
+}
+
 TEST_F(Aoa, RefusesOneAntennaInOneDirection) {
   expect_call_refused({kOfB, kChannel}, "give the other end's capture by --reverse, or two antennas' places");
   expect_call_refused({kOfB, kChannel, {"--lever", "0,0,0"}, {"--lever", "0.1,0,0"}},
