@@ -113,18 +113,17 @@ ChannelTrack track_of(const AoaOptions& options, const ArrivalParams& params) {
   if (!sender) throw InputError(options.capture, 0, "does not tell who sent: its packets cannot be paired");
   const CsiCapture answers = read_csi_capture(options.reverse);
   for (const auto& warning : answers.warnings) std::cerr << "note: " << warning << '\n';
-  const auto both = two_way_channel(capture, *sender, answers, params.two_way);
-  if (both && both->coherence < kLeastCoherence)
-    throw InputError(options.reverse, 0,
-                     "does not answer the packets of " + format_mac_address(*sender) +
-                         ": from one exchange to the next the phases do not agree (coherence " +
-                         std::to_string(both->coherence) + ")");
   const auto track =
       two_way_track(capture, *sender, answers, carrier_hz,
                     antennas.empty() ? Eigen::Vector3d::Zero() : antennas.front(), params.two_way);
   if (!track)
     throw InputError(options.reverse, 0,
                      "fewer than three of its packets answer those of " + options.capture);
+  if (track->coherence < kLeastCoherence)
+    throw InputError(options.reverse, 0,
+                     "does not answer the packets of " + format_mac_address(*sender) +
+                         ": from one exchange to the next the phases do not agree (coherence " +
+                         std::to_string(track->coherence) + ")");
   return *track;
 }
 

@@ -37,13 +37,6 @@ struct PeerResult {
 
 bool is_hex(char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); }
 
-std::string lower_case_address(std::string_view s) {
-  std::string result(s);
-  for (char& c : result)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return result;
-}
-
 bool is_address(std::string_view s) {
   if (s.size() != kAddressLength) return false;
   for (std::size_t k = 0; k < s.size(); ++k)
@@ -99,7 +92,7 @@ class ResultReader {
     std::string_view address = take_word(line);
     if (!address.ends_with(':')) at_.fail("a peer's address ends with a colon");
     address.remove_suffix(1);
-    result.bssid = lower_case_address(address);
+    result.bssid = lower_case(address);
     if (!is_address(result.bssid)) at_.fail("'" + result.bssid + "' is no address of a peer");
     while (!trim(line).empty()) {
       const std::string_view word = take_word(line);

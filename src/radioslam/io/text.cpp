@@ -98,6 +98,13 @@ bool TextLines::next_with_content() {
   return false;
 }
 
+std::string lower_case(std::string_view s) {
+  std::string result(s);
+  for (char& c : result)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return result;
+}
+
 std::string_view trim(std::string_view s) {
   const std::size_t first = s.find_first_not_of(" \t");
   if (first == std::string_view::npos) return {};

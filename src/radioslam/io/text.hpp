@@ -58,4 +58,7 @@ class TextLines {
 /// Without blanks and tabs at both ends.
 std::string_view trim(std::string_view s);
 
+/// With the letters A to Z as a to z.
+std::string lower_case(std::string_view s);
+
 }  // namespace radioslam

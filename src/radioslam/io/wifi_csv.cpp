@@ -19,13 +19,6 @@ struct Row {
   float rssi_dbm = 0;
 };
 
-std::string lower_case(std::string_view s) {
-  std::string result(s);
-  for (char& c : result)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return result;
-}
-
 Row read_row(const CsvReader& csv) {
   enum : std::size_t { kTime, kBssid, kFrequency, kRssi };
   const Stamp stamp = csv.stamp(kTime);

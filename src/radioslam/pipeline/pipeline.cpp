@@ -187,10 +187,6 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const RunPara
   return output;
 }
 
-}  // namespace
-
-namespace {
-
 RunOutput run_in_its_dimension(const Mission& mission, const RunParams& params, const RunOptions& options,
                                const Progress& progress) {
   return mission.dimension == 2 ? run<SE2>(mission, nullptr, params, options, progress)

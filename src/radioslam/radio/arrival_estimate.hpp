@@ -85,6 +85,7 @@ struct ChannelTrack {
   Eigen::MatrixXcd channel;   ///< packets x subcarriers
   std::vector<double> subcarrier_hz;
   double carrier_hz = 0;
+  double coherence = 0;     ///< of a product both ways, from one exchange to the next; 0 to 1
   bool is_two_way = false;  ///< the product of both ways, else an antenna against another
   Eigen::Vector3d lever_arm_m =
       Eigen::Vector3d::Zero();  ///< antenna in the body frame; of a pair the difference

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "radioslam/base/check.hpp"
+#include "radioslam/geometry/direction.hpp"
 
 namespace radioslam {
 namespace {
@@ -95,8 +96,7 @@ double log_odds_elsewhere(const SE3& T_i_j, const ArrivalMeasurement& measured, 
 }
 
 Eigen::Vector3d unit_vector(const ArrivalPath& path) {
-  const double elevation = path.elevation_rad.value_or(0), level = std::cos(elevation);
-  return {level * std::cos(path.azimuth_rad), level * std::sin(path.azimuth_rad), std::sin(elevation)};
+  return unit_direction(path.azimuth_rad, path.elevation_rad.value_or(0));
 }
 
 ArrivalMeasurement levelled(ArrivalMeasurement measured, const SE3& T_start_receiver) {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "radioslam/geometry/se2.hpp"
 #include "radioslam/radio/arrival_slopes.hpp"
 #include "radioslam/radio/beam_objective.hpp"
 #include "radioslam/radio/beam_sums.hpp"
@@ -20,10 +21,6 @@ constexpr double kTwin = 0.95;           // of a peak's power: its mirror is as 
 constexpr double kGhost = 4;             // times the power of the waves there is a product's
 constexpr double kOnePath = 4;           // resolutions within which waves are parts of one path
 constexpr double kMostGhostWave = 0.05;  // of the strongest wave
-
-double turn_rad(double from_rad, double to_rad) {
-  return std::remainder(to_rad - from_rad, 2 * std::numbers::pi);
-}
 
 double decibels(double ratio) { return 10 * std::log10(std::max(ratio, 1e-12)); }
 
@@ -55,7 +52,7 @@ double mirror_of(double azimuth_rad, const SyntheticArray& array) {
   const Eigen::Matrix2d spread = array.positions_m.topRows<2>() * array.positions_m.topRows<2>().transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(spread);
   const Eigen::Vector2d line = axes.eigenvectors().col(1);
-  return std::remainder(2 * std::atan2(line.y(), line.x()) - azimuth_rad, 2 * std::numbers::pi);
+  return wrap_angle(2 * std::atan2(line.y(), line.x()) - azimuth_rad);
 }
 
 std::vector<std::size_t> local_maxima(const std::vector<double>& power) {
@@ -87,7 +84,7 @@ void widen_by_neighbours(std::vector<ArrivalPeak>& peaks, const std::vector<std:
   for (std::size_t i = 0; i < peaks.size(); ++i) {
     double sum = peaks[i].sigma_rad * peaks[i].sigma_rad;
     for (std::size_t j = 0; j < peaks.size(); ++j) {
-      const double apart = turn_rad(peaks[i].azimuth_rad, peaks[j].azimuth_rad);
+      const double apart = wrap_angle(peaks[j].azimuth_rad - peaks[i].azimuth_rad);
       if (i != j && std::abs(apart) < reach_rad) sum += chance_of_other(shares[i], shares[j]) * apart * apart;
     }
     variance.push_back(sum);
@@ -174,7 +171,8 @@ std::vector<ArrivalPeak> find_peaks(const AzimuthProfile& profile, const MovedAr
     const BeamObjective objective(pieces, delays, profile.source[k]);
     const WaveSource source = objective.climb(profile.source[k], most);
     const bool is_known = std::any_of(peaks.begin(), peaks.end(), [&](const ArrivalPeak& other) {
-      return std::abs(turn_rad(other.azimuth_rad, source.azimuth_rad)) < std::numbers::pi / params.azimuths;
+      return std::abs(wrap_angle(source.azimuth_rad - other.azimuth_rad)) <
+             std::numbers::pi / params.azimuths;
     });
     if (is_known) continue;
     ArrivalPeak& peak = peaks.emplace_back();
@@ -186,7 +184,7 @@ std::vector<ArrivalPeak> find_peaks(const AzimuthProfile& profile, const MovedAr
     shares.push_back(objective.shares(source));
     WaveSource twin = source;
     twin.azimuth_rad = mirror_of(source.azimuth_rad, moved.array);
-    if (std::abs(turn_rad(twin.azimuth_rad, source.azimuth_rad)) > 2 * peak.sigma_rad &&
+    if (std::abs(wrap_angle(source.azimuth_rad - twin.azimuth_rad)) > 2 * peak.sigma_rad &&
         objective.value(twin) > kTwin * objective.value(source))
       peak.mirror_rad = twin.azimuth_rad;
   }
@@ -208,7 +206,7 @@ std::vector<ArrivalPeak> peaks_of_waves(const std::vector<WavePath>& waves, cons
   for (const WavePath& wave : sorted)
     if (std::ssize(distinct) < params.peaks &&
         std::none_of(distinct.begin(), distinct.end(), [&](const WavePath& other) {
-          return std::abs(turn_rad(other.source.azimuth_rad, wave.source.azimuth_rad)) < apart_rad;
+          return std::abs(wrap_angle(wave.source.azimuth_rad - other.source.azimuth_rad)) < apart_rad;
         }))
       distinct.push_back(wave);
   distinct = refine_paths(distinct, averaged(one_way.array), delays, most, kRefinements);

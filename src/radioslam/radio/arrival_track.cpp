@@ -10,12 +10,15 @@ std::optional<ChannelTrack> two_way_track(const CsiCapture& receiver, MacAddress
                                           const Eigen::Vector3d& antenna_m, const TwoWayParams& params) {
   auto two_way = two_way_channel(receiver, sender, answers, params);
   if (!two_way) return std::nullopt;
-  return ChannelTrack{std::move(two_way->stamps),
-                      std::move(two_way->product),
-                      receiver.subcarrier_hz,
-                      carrier_hz,
-                      true,
-                      antenna_m};
+  ChannelTrack track;
+  track.stamps = std::move(two_way->stamps);
+  track.channel = std::move(two_way->product);
+  track.subcarrier_hz = receiver.subcarrier_hz;
+  track.carrier_hz = carrier_hz;
+  track.coherence = two_way->coherence;
+  track.is_two_way = true;
+  track.lever_arm_m = antenna_m;
+  return track;
 }
 
 std::optional<ChannelTrack> antenna_pair_track(const CsiCapture& receiver, std::optional<MacAddress> sender,

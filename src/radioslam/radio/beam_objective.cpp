@@ -8,6 +8,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "radioslam/geometry/se2.hpp"
+
 namespace radioslam {
 namespace {
 
@@ -18,7 +20,7 @@ constexpr double kLongestClimb_rad = 0.02;
 constexpr double kCurvatureReach_per_m = 0.1;
 
 WaveSource moved(WaveSource source, double azimuth_rad, double curvature_per_m) {
-  source.azimuth_rad = std::remainder(source.azimuth_rad + azimuth_rad, 2 * std::numbers::pi);
+  source.azimuth_rad = wrap_angle(source.azimuth_rad + azimuth_rad);
   source.curvature_per_m += curvature_per_m;
   return source;
 }

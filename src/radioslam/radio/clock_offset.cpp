@@ -6,6 +6,7 @@
 #include <complex>
 #include <vector>
 
+#include "radioslam/base/parabola.hpp"
 #include "radioslam/radio/arrival_slopes.hpp"
 
 namespace radioslam {
@@ -75,8 +76,7 @@ struct Sums {
 double best_step(const std::vector<double>& values) {
   const auto best = static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
   if (best == 0 || best + 1 == values.size()) return static_cast<double>(best);
-  const double bend = values[best - 1] - 2 * values[best] + values[best + 1];
-  return static_cast<double>(best) + (bend < 0 ? (values[best - 1] - values[best + 1]) / (2 * bend) : 0);
+  return static_cast<double>(best) + parabola_peak(values[best - 1], values[best], values[best + 1]);
 }
 
 }  // namespace

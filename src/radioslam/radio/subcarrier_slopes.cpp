@@ -4,6 +4,8 @@
 #include <complex>
 #include <numbers>
 
+#include "radioslam/base/parabola.hpp"
+
 namespace radioslam {
 
 DelayTable::DelayTable(const std::vector<double>& subcarrier_hz, double most_s, double step_s)
@@ -22,9 +24,7 @@ double DelayTable::best_delay_s(const Eigen::RowVectorXcd& product) const {
   Eigen::Index best = 0;
   size.maxCoeff(&best);
   if (best == 0 || best + 1 == size.cols()) return delay_s(best);
-  const double before = size[best - 1], here = size[best], after = size[best + 1];
-  const double bend = before - 2 * here + after;
-  return delay_s(best) + (bend < 0 ? step_s_ * (before - after) / (2 * bend) : 0);
+  return delay_s(best) + step_s_ * parabola_peak(size[best - 1], size[best], size[best + 1]);
 }
 
 void advance(Eigen::Ref<Eigen::RowVectorXcd> row, const std::vector<double>& subcarrier_hz, double delay_s) {

@@ -11,8 +11,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cmath>
 #include <vector>
+
+#include "radioslam/geometry/direction.hpp"
 
 namespace radioslam {
 
@@ -22,10 +23,7 @@ struct WaveSource {
   double elevation_rad = 0;
   double curvature_per_m = 0;  ///< one over the distance; 0: a plane wave
 
-  Eigen::Vector3d direction() const {
-    const double level = std::cos(elevation_rad);
-    return {level * std::cos(azimuth_rad), level * std::sin(azimuth_rad), std::sin(elevation_rad)};
-  }
+  Eigen::Vector3d direction() const { return unit_direction(azimuth_rad, elevation_rad); }
 };
 
 /// The way to `position` less the way to the centre, metres.

@@ -37,12 +37,6 @@ std::vector<SE2> poses_at(const std::vector<Stamp>& stamps, const PoseAtTime& po
   return poses;
 }
 
-Trajectory<SE3> lifted(const std::vector<Stamp>& stamps, const std::vector<SE2>& poses) {
-  std::vector<StampedPose<SE3>> stamped;
-  for (std::size_t i = 0; i < stamps.size(); ++i) stamped.push_back({stamps[i], lift(poses[i])});
-  return Trajectory<SE3>(std::move(stamped));
-}
-
 /// One robot's recordings and truth.
 struct RobotRun {
   Robot robot;

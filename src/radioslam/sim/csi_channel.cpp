@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "radioslam/geometry/direction.hpp"
 #include "radioslam/mission/wifi_channel.hpp"
 
 namespace radioslam {
@@ -30,9 +31,7 @@ PathsBetween plane_wave_paths(std::vector<PlaneWave> waves) {
   return [waves = std::move(waves)](const Eigen::Vector3d& here_m, const Eigen::Vector3d& /*there_m*/) {
     std::vector<RadioPath> paths;
     for (const PlaneWave& wave : waves) {
-      const double level = std::cos(wave.elevation_rad);
-      const Eigen::Vector3d from(level * std::cos(wave.azimuth_rad), level * std::sin(wave.azimuth_rad),
-                                 std::sin(wave.elevation_rad));
+      const Eigen::Vector3d from = unit_direction(wave.azimuth_rad, wave.elevation_rad);
       paths.push_back(
           {wave.delay_s * kLightSpeed_mps - from.dot(here_m), std::pow(10, wave.power_db / 20), 0, from});
     }

@@ -160,12 +160,6 @@ std::vector<RangeMeasurement> draw_ranges(const TeamMotion& motion, const CsiRoo
   return ranges;
 }
 
-Trajectory<SE3> lifted_way(const std::vector<Stamp>& stamps, const std::vector<SE2>& poses) {
-  std::vector<StampedPose<SE3>> stamped;
-  for (std::size_t i = 0; i < stamps.size(); ++i) stamped.push_back({stamps[i], lift(poses[i])});
-  return Trajectory<SE3>(std::move(stamped));
-}
-
 void append_robots(const TeamMotion& motion, const CsiRoomParams& params, const Rng& rng,
                    Simulation& simulation) {
   const auto stamps = regular_stamps(0, motion.end_s, params.odometry.odometry_rate_hz);
@@ -174,11 +168,10 @@ void append_robots(const TeamMotion& motion, const CsiRoomParams& params, const 
     for (const Stamp stamp : stamps) poses.push_back(motion.pose_at(r, stamp.seconds()));
     Robot& robot = simulation.mission.robots.emplace_back();
     robot.id = robot_id(r);
-    robot.odometry =
-        lifted_way(stamps, draw_dead_reckoning(poses, params.odometry, rng.split(r)).T_start_body);
+    robot.odometry = lifted(stamps, draw_dead_reckoning(poses, params.odometry, rng.split(r)).T_start_body);
     robot.odometry_noise = stated_noise(params.odometry);
     robot.lidar_range_m = params.lidar_range_m;
-    simulation.truth.robots.push_back({robot.id, lifted_way(stamps, poses), true});
+    simulation.truth.robots.push_back({robot.id, lifted(stamps, poses), true});
   }
 }
 

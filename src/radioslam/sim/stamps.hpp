@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "radioslam/base/stamp.hpp"
+#include "radioslam/geometry/se3.hpp"
+#include "radioslam/geometry/trajectory.hpp"
 
 namespace radioslam {
 
@@ -13,6 +15,9 @@ inline constexpr std::int64_t kMillisecond_ns = 1000000;
 
 /// Stamps from `begin_s` to `end_s` at a rate.
 std::vector<Stamp> regular_stamps(double begin_s, double end_s, double rate_hz);
+
+/// Poses in the plane, one per stamp, as a trajectory in space.
+Trajectory<SE3> lifted(const std::vector<Stamp>& stamps, const std::vector<SE2>& poses);
 
 /// a, b, ..., z, a1, b1, ...
 std::string robot_id(std::size_t index);
