@@ -53,7 +53,7 @@ std::vector<FingerprintClosure> propose_near_closures(const RadioMeasurements& r
       if (!limit) continue;
       const auto predicted = radio.near_model.predict(similarity);
       if (predicted && predicted->mean_m < std::max(*limit, least))
-        closures.push_back({i, j, similarity, *predicted, 1});
+        closures.push_back({i, j, similarity, *predicted, 1, false});
     }
   }
   share_evidence(closures, radio.nodes.size(), params.independent_pairs);
@@ -74,7 +74,7 @@ std::vector<FingerprintClosure> propose_layout_closures(const Mission& mission,
       if (mission.robots[a.index()].initial_pose && mission.robots[b.index()].initial_pose) continue;
       const double distance = radio.layout_model->distance_m(similarity);
       const double sigma = std::hypot(layout.sigma_m, layout.sigma_relative * distance);
-      closures.push_back({i, j, similarity, {distance, sigma, 0, distance, sigma}, layout.pair_weight});
+      closures.push_back({i, j, similarity, {distance, sigma, 0, distance, sigma}, layout.pair_weight, true});
     }
   }
   return thinned(closures, static_cast<std::size_t>(params.layout_pairs));

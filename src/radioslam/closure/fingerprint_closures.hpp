@@ -43,7 +43,8 @@ struct FingerprintClosure {
   std::size_t node_i = 0, node_j = 0;  ///< RadioMeasurements::nodes, node_i < node_j
   double similarity = 0;
   PredictedDistance predicted;
-  double weight = 1;  ///< share of the pair that is independent evidence
+  double weight = 1;          ///< share of the pair that is independent evidence
+  bool holds_layout = false;  ///< far apart, between robots of which one has no known start
 };
 
 /// Near pairs of fingerprints, predicted distance below nu.

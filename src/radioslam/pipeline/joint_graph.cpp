@@ -96,21 +96,6 @@ void add_start_prior(PoseGraph<Pose>& graph, const Robot& robot, std::size_t fir
   if (!prior.information.isZero(0)) graph.pose_priors.push_back(prior);
 }
 
-/// A fingerprint hangs on the keyframe before it.
-template <class Pose>
-RangeEnd<Pose> fingerprint_end(const JointGraph<Pose>& joint, const RadioMeasurements& radio,
-                               std::size_t node) {
-  const std::size_t robot = radio.nodes[node].robot.index();
-  const JointRobot& of = joint.robots[robot];
-  const PlacedFingerprint& placed = radio.at(node);
-  const std::size_t k = keyframe_before(of.stamps, placed.fingerprint.stamp);
-  RangeEnd<Pose> end;
-  end.pose = of.poses[k];
-  end.lever_arm =
-      (pose_as<Pose>(of.odometry[k]).inverse() * pose_as<Pose>(placed.T_start_body)).translation();
-  return end;
-}
-
 }  // namespace
 
 std::optional<SE3> common_from_start(const Robot& robot) {
@@ -154,6 +139,20 @@ void place_robots(JointGraph<Pose>& joint, const std::vector<SE2>& T_team_start)
 }
 
 template <class Pose>
+RangeEnd<Pose> fingerprint_end(const JointGraph<Pose>& joint, const RadioMeasurements& radio,
+                               std::size_t node) {
+  const std::size_t robot = radio.nodes[node].robot.index();
+  const JointRobot& of = joint.robots[robot];
+  const PlacedFingerprint& placed = radio.at(node);
+  const std::size_t k = keyframe_before(of.stamps, placed.fingerprint.stamp);
+  RangeEnd<Pose> end;
+  end.pose = of.poses[k];
+  end.lever_arm =
+      (pose_as<Pose>(of.odometry[k]).inverse() * pose_as<Pose>(placed.T_start_body)).translation();
+  return end;
+}
+
+template <class Pose>
 void add_fingerprint_closures(JointGraph<Pose>& joint, const RadioMeasurements& radio,
                               const std::vector<FingerprintClosure>& closures) {
   for (const FingerprintClosure& closure : closures) {
@@ -167,11 +166,12 @@ void add_fingerprint_closures(JointGraph<Pose>& joint, const RadioMeasurements& 
   }
 }
 
-#define RADIOSLAM_JOINT_GRAPH(Pose)                                                        \
-  template JointGraph<Pose> build_joint_graph<Pose>(const Mission&, const KeyframeParams&, \
-                                                    const JointGraphParams&);              \
-  template void place_robots(JointGraph<Pose>&, const std::vector<SE2>&);                  \
-  template void add_fingerprint_closures(JointGraph<Pose>&, const RadioMeasurements&,      \
+#define RADIOSLAM_JOINT_GRAPH(Pose)                                                                        \
+  template JointGraph<Pose> build_joint_graph<Pose>(const Mission&, const KeyframeParams&,                 \
+                                                    const JointGraphParams&);                              \
+  template void place_robots(JointGraph<Pose>&, const std::vector<SE2>&);                                  \
+  template RangeEnd<Pose> fingerprint_end(const JointGraph<Pose>&, const RadioMeasurements&, std::size_t); \
+  template void add_fingerprint_closures(JointGraph<Pose>&, const RadioMeasurements&,                      \
                                          const std::vector<FingerprintClosure>&);
 RADIOSLAM_JOINT_GRAPH(SE2)
 RADIOSLAM_JOINT_GRAPH(SE3)

@@ -86,6 +86,11 @@ JointGraph<Pose> build_joint_graph(const Mission& mission, const KeyframeParams&
 template <class Pose>
 void place_robots(JointGraph<Pose>& joint, const std::vector<SE2>& T_team_start);
 
+/// Where node `node` of `radio` was: fixed to the keyframe before it.
+template <class Pose>
+RangeEnd<Pose> fingerprint_end(const JointGraph<Pose>& joint, const RadioMeasurements& radio,
+                               std::size_t node);
+
 /// The distances that fingerprints predict.
 template <class Pose>
 void add_fingerprint_closures(JointGraph<Pose>& joint, const RadioMeasurements& radio,

@@ -13,6 +13,7 @@
 #include "radioslam/pipeline/robust_solution.hpp"
 #include "radioslam/radio/arrival_likelihood.hpp"
 #include "radioslam/radio/measurements.hpp"
+#include "radioslam/team_frame/field_refinement.hpp"
 #include "radioslam/team_frame/fingerprint_layout.hpp"
 #include "radioslam/team_frame/radio_alignment.hpp"
 
@@ -23,6 +24,7 @@ struct RunParams {
   RadioParams radio;
   CsiStageParams csi;
   LayoutParams team_frame;
+  FieldParams field;
   RadioAlignmentParams alignment;
   FingerprintClosureParams closure;
   JointGraphParams graph;
@@ -41,6 +43,7 @@ struct RunParams {
     visit("radio", self.radio);
     visit("csi", self.csi);
     visit("team_frame", self.team_frame);
+    visit("field", self.field);
     visit("alignment", self.alignment);
     visit("closure", self.closure);
     visit("graph", self.graph);

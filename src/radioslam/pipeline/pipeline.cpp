@@ -5,6 +5,7 @@
 
 #include "radioslam/pipeline/collect_results.hpp"
 #include "radioslam/pipeline/csi_stage.hpp"
+#include "radioslam/pipeline/field_stage.hpp"
 #include "radioslam/pipeline/joint_graph_of_team.hpp"
 #include "radioslam/team_frame/observed_information.hpp"
 
@@ -148,13 +149,18 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const RunPara
     return has_radio_links(joint) ? place_by_radio(joint, params.alignment, progress)
                                   : place_by_fingerprints(joint, mission, radio, params.team_frame, progress);
   });
-  const auto closures = clock.time("closures", [&] {
+  auto closures = clock.time("closures", [&] {
     return propose_fingerprint_closures(mission, radio, params.radio.distance_model.trusted_way_m,
                                         params.team_frame, params.closure);
   });
   add_fingerprint_closures(joint, radio, closures);
   const auto solution = clock.time(
       "optimise", [&] { return optimize_robustly(joint, params.robust, params.optimizer, progress); });
+  clock.time("radio field", [&] {
+    if (refine_by_radio_field(joint, mission, radio, placement, closures, params.field, progress))
+      optimize(joint.team.graph, params.optimizer, progress);
+    return 0;
+  });
   result.range_biases = clock.time("range biases", [&] {
     return estimate_range_biases(joint, params.range_bias, params.alignment.mixture, params.optimizer,
                                  progress);

@@ -1,0 +1,114 @@
+#include "radioslam/pipeline/field_stage.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "radioslam/geometry/alignment.hpp"
+#include "radioslam/team_frame/strays.hpp"
+
+namespace radioslam {
+namespace {
+
+template <class Pose>
+typename Pose::Point place(const JointGraph<Pose>& joint, const RangeEnd<Pose>& end) {
+  return joint.team.graph.poses[end.pose.index()] * end.lever_arm;
+}
+
+/// Some of the component's fingerprints, evenly, robot by robot.
+std::vector<std::size_t> nodes_of(const RadioMeasurements& radio, const std::vector<int>& component, int of,
+                                  int max_nodes) {
+  std::vector<std::size_t> all, kept;
+  for (std::size_t i = 0; i < radio.nodes.size(); ++i)
+    if (component[radio.nodes[i].robot.index()] == of) all.push_back(i);
+  const std::size_t stride = all.size() / static_cast<std::size_t>(max_nodes) + 1;
+  for (std::size_t k = 0; k < all.size(); k += stride) kept.push_back(all[k]);
+  return kept;
+}
+
+/// Every robot's odometry as a rigid body that lies as its optimised trajectory does.
+template <class Pose>
+std::vector<RigidBody> bodies_of(const JointGraph<Pose>& joint, const Mission& mission,
+                                 const RadioMeasurements& radio, const std::vector<std::size_t>& nodes) {
+  std::vector<std::vector<std::size_t>> of_robot(mission.robots.size());
+  for (const std::size_t node : nodes) of_robot[radio.nodes[node].robot.index()].push_back(node);
+  std::vector<RigidBody> bodies(mission.robots.size());
+  std::size_t first = 0;
+  for (std::size_t r = 0; r < bodies.size(); ++r) {
+    const auto count = static_cast<Eigen::Index>(of_robot[r].size());
+    RigidBody& body = bodies[r];
+    body.first_node = first;
+    body.points.resize(2, count);
+    body.fixed = mission.robots[r].initial_pose.has_value();
+    if (mission.robots[r].heading == Heading::kAbsolute)
+      body.sigma_heading_rad = mission.robots[r].sigma_heading_rad;
+    Eigen::Matrix2Xd optimised(2, count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const std::size_t node = of_robot[r][static_cast<std::size_t>(k)];
+      body.points.col(k) = radio.at(node).T_start_body.translation().template head<2>();
+      optimised.col(k) = place(joint, fingerprint_end(joint, radio, node)).template head<2>();
+    }
+    if (count == 1) body.T_layout_body = SE2(optimised.col(0) - body.points.col(0), 0);
+    if (count > 1) body.T_layout_body = align_points(body.points, optimised);
+    first += of_robot[r].size();
+  }
+  return bodies;
+}
+
+/// Strays first, then all against their common field.
+void refine(std::vector<RigidBody>& bodies, const RadioMeasurements& radio, const std::vector<std::size_t>& nodes,
+            const FieldParams& params) {
+  std::vector<FieldNode> field_nodes;
+  std::vector<const Fingerprint*> fingerprints;
+  for (const std::size_t node : nodes) {
+    const Fingerprint& fingerprint = radio.at(node).fingerprint;
+    field_nodes.push_back({radio.nodes[node].robot.index(), fingerprint.stamp});
+    fingerprints.push_back(&fingerprint);
+  }
+  const Eigen::MatrixXd heard = heard_powers(fingerprints, params.exponent);
+  relocate_strays(bodies, heard * heard.transpose());
+  refine_by_field(bodies, RadioField(std::move(field_nodes), heard, params.channels), params);
+}
+
+template <class Pose>
+void retie(JointGraph<Pose>& joint, std::vector<FingerprintClosure>& closures) {
+  for (std::size_t k = 0; k < closures.size(); ++k) {
+    if (!closures[k].holds_layout) continue;
+    RangeFactor<Pose>& range = joint.team.graph.ranges[joint.first_closure_range + k];
+    range.range_m = (place(joint, range.i) - place(joint, range.j)).norm();
+    closures[k].predicted.mean_m = closures[k].predicted.peak_m = range.range_m;
+  }
+}
+
+}  // namespace
+
+template <class Pose>
+bool refine_by_radio_field(JointGraph<Pose>& joint, const Mission& mission, const RadioMeasurements& radio,
+                           const TeamPlacement<Pose>& placement, std::vector<FingerprintClosure>& closures,
+                           const FieldParams& params, const Progress& progress) {
+  if (!params.enabled || std::none_of(closures.begin(), closures.end(), [](const auto& c) { return c.holds_layout; }))
+    return false;
+  std::vector<SE2> moves(mission.robots.size());
+  const int components = 1 + *std::max_element(placement.component.begin(), placement.component.end());
+  for (int c = 0; c < components; ++c) {
+    report_progress(progress, "radio field", static_cast<double>(c) / components);
+    const auto nodes = nodes_of(radio, placement.component, c, params.max_nodes);
+    std::vector<RigidBody> bodies = bodies_of(joint, mission, radio, nodes);
+    const std::vector<RigidBody> before = bodies;
+    refine(bodies, radio, nodes, params);
+    for (std::size_t r = 0; r < bodies.size(); ++r)
+      if (placement.component[r] == c)
+        moves[r] = bodies[r].T_layout_body * before[r].T_layout_body.inverse();
+  }
+  place_robots(joint, moves);
+  retie(joint, closures);
+  return true;
+}
+
+template bool refine_by_radio_field(JointGraph<SE2>&, const Mission&, const RadioMeasurements&,
+                                    const TeamPlacement<SE2>&, std::vector<FingerprintClosure>&,
+                                    const FieldParams&, const Progress&);
+template bool refine_by_radio_field(JointGraph<SE3>&, const Mission&, const RadioMeasurements&,
+                                    const TeamPlacement<SE3>&, std::vector<FingerprintClosure>&,
+                                    const FieldParams&, const Progress&);
+
+}  // namespace radioslam
