@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "io/temporary_folder.hpp"
+#include "radioslam/io/csi_band.hpp"  // beside the simulator's: one name for both was two definitions
 #include "radioslam/io/mission_folder.hpp"
 #include "radioslam/radio/two_way_channel.hpp"
 #include "radioslam/sim/csi_room.hpp"
