@@ -122,7 +122,7 @@ Exchange wsr_like() {
 ChannelTrack track_of(const Exchange& exchange, const ArrivalParams& params) {
   return two_way_track(exchange.driver, kStander, exchange.stander, kCarrier_hz, Eigen::Vector3d::Zero(),
                        params.two_way)
-      .value();
+      .track.value();
 }
 
 void pair(benchmark::State& state) {

@@ -95,8 +95,8 @@ TEST_F(Aoa, JsonHasTheKeysOfItsFormat) {
   ASSERT_FALSE(result["peaks"].empty());
   double before_db = 0;
   for (const json& peak : result["peaks"]) {
-    for (const char* key :
-         {"azimuth_rad", "azimuth_trajectory_frame_rad", "elevation_rad", "sigma_rad", "power_db"}) {
+    for (const char* key : {"azimuth_rad", "azimuth_trajectory_frame_rad", "elevation_rad", "sigma_rad",
+                            "power_db", "elevation_sigma_rad"}) {
       ASSERT_TRUE(peak.contains(key)) << key;
       EXPECT_TRUE(std::isfinite(peak[key].get<double>())) << key;
     }
@@ -171,6 +171,100 @@ TEST_F(Aoa, RefusesOneAntennaInOneDirection) {
                       "has no packets that two antennas heard");
 }
 
+TEST_F(Aoa, RefusesMoreLeversThanItUses) {
+  const Arguments twice{"--lever", "0.1,0,0", "--lever", "0.2,0,0"};
+  expect_call_refused({kReverse, kOfB, kChannel, twice}, "--lever: is given twice with --reverse");
+  expect_call_refused({kOfB, kChannel, twice, {"--lever", "0.3,0,0"}}, "--lever: is given more than twice");
+}
+
+TEST_F(Aoa, MeasuresAPartOfTheWay) {
+  const json all = measured({});
+  const std::string middle = std::to_string(all["t_s"].get<double>());
+  const json first = measured({{"--end", middle}}), second = measured({{"--begin", middle}});
+  EXPECT_LT(first["t_s"].get<double>(), all["t_s"].get<double>());
+  EXPECT_GT(second["t_s"].get<double>(), all["t_s"].get<double>());
+  EXPECT_LT(first["packets"].get<int>() + second["packets"].get<int>(), all["packets"].get<int>() + 2);
+  expect_call_refused({kReverse, kOfB, kChannel, {"--begin", "1e6"}},
+                      "has no packets between --begin and --end");
+}
+
+TEST_F(Aoa, RefusesAWayTooWideWithAHint) {
+  expect_call_refused({kReverse, kOfB, kChannel, {"--lever", "1e6,0,0"}},
+                      "choose a part of it by --begin and --end");
+}
+
+TEST_F(Aoa, ReportsTheCapturesPowerAndEffectiveSnr) {
+  const json result = measured({});
+  for (const char* end : {"heard", "answers"}) {
+    ASSERT_TRUE(result["captures"].contains(end));
+    const json& capture = result["captures"][end];
+    EXPECT_GT(capture["packets"].get<int>(), 300) << end;
+    EXPECT_LT(capture["received_power_dbm"].get<double>(), 0) << end;
+    const json& esnr = capture["effective_snr_db"];
+    EXPECT_LE(esnr["bpsk"].get<double>(), esnr["qpsk"].get<double>()) << end;
+    EXPECT_LE(esnr["qpsk"].get<double>(), esnr["qam16"].get<double>()) << end;
+    EXPECT_LE(esnr["qam16"].get<double>(), esnr["qam64"].get<double>()) << end;
+  }
+}
+
+/// The rows of a trajectory up to a time, and from there on where it then was.
+std::string stopped_at(const std::string& rows, double stop_s) {
+  std::istringstream lines(rows);
+  std::string out, line, rest;
+  while (std::getline(lines, line)) {
+    const std::string stamp = line.substr(0, line.find(' '));
+    if (rest.empty() || std::stod(stamp) <= stop_s) rest = line.substr(line.find(' '));
+    out += stamp + rest + "\n";
+  }
+  return out;
+}
+
+TEST_F(Aoa, SaysWhyNoClockOffsetIsEstimated) {
+  write_file(folder_->path() / "short.tum", "0 0 0 0 0 0 0 1\n0.5 1 0 0 0 0 0 1\n");
+  expect_call_refused({kReverse, kOfB, kChannel, {"--clock-offset", "estimate"}},
+                      "short.tum covers too few of the packets", {"--trajectory", "short.tum"});
+  const std::string truth = read_file(folder_->path() / "m/robots/a/groundtruth.tum");
+  const double middle_s = measured({})["t_s"].get<double>();
+  write_file(folder_->path() / "still.tum", stopped_at(truth, middle_s - 20));
+  expect_call_refused({kReverse, kOfB, kChannel, {"--clock-offset", "estimate"}},
+                      "the speed changes too little to tell", {"--trajectory", "still.tum"});
+  const Outcome pair = run({"simulate", "csi", "-o", "pair", "--seed", "3", "--set", "turns_per_robot=1",
+                            "--set", "antennas=2", "--set", "robots=2"},
+                           folder_->path());
+  ASSERT_EQ(pair.status, 0) << pair.err;
+  const Outcome outcome =
+      run(joined({{"aoa", "pair/robots/a/csi/capture.dat", "--trajectory", "pair/robots/a/odometry.tum",
+                   "--lever", "0.15,0,0.3", "--lever", "0.15,0.027,0.3", "--clock-offset", "estimate"},
+                  kChannel}),
+          folder_->path());
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("needs packets both ways"), std::string::npos) << outcome.err;
+}
+
+TEST_F(Aoa, TakesCapturesOfFewPacketsASecond) {
+  const Outcome made =
+      run({"simulate", "csi", "-o", "slow", "--seed", "3", "--set", "turns_per_robot=1", "--set",
+           "inner_walls=0", "--set", "most_bounces=0", "--set", "packet_rate_hz=40"},
+          folder_->path());
+  ASSERT_EQ(made.status, 0) << made.err;
+  const Outcome outcome =
+      run(joined({{"aoa", "slow/robots/a/csi/capture.dat", "--reverse", "slow/robots/b/csi/capture.dat",
+                   "--trajectory", "slow/robots/a/odometry.tum", "--json"},
+                  kOfB,
+                  kChannel,
+                  kLever}),
+          folder_->path());
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json result = json::parse(outcome.out);
+  const double t_s = result["t_s"].get<double>();
+  const auto robots = folder_->path() / "slow/robots";
+  const PlaceInRoom a = place_at(robots / "a/groundtruth.tum", t_s),
+                    b = place_at(robots / "b/groundtruth.tum", t_s);
+  EXPECT_LT(apart_rad(result["peaks"][0]["azimuth_rad"].get<double>(),
+                      std::atan2(b.y_m - a.y_m, b.x_m - a.x_m) - a.yaw_rad),
+            0.1);
+}
+
 TEST_F(Aoa, RefusesLeversThatAreNone) {
   for (const char* lever : {"0.1,0.2", "0.1,x,0", "1,2,3,4", "1 2 3"})
     expect_call_refused({kReverse, kOfB, kChannel, {"--lever", lever}},
@@ -180,6 +274,8 @@ TEST_F(Aoa, RefusesLeversThatAreNone) {
 TEST_F(Aoa, RefusesClockOffsetsThatAreNone) {
   expect_call_refused({kReverse, kOfB, kChannel, {"--clock-offset", "soon"}},
                       "--clock-offset soon: is neither seconds nor 'estimate'");
+  expect_call_refused({kReverse, kOfB, kChannel, {"--clock-offset", "1e30"}},
+                      "--clock-offset 1e30: is more than any two clocks differ by");
 }
 
 TEST_F(Aoa, RefusesTrajectoriesThatTellNothing) {

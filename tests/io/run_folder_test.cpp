@@ -76,13 +76,15 @@ TEST(RunFolder, MeasuredDirectionsAreAMissionsTable) {
                       {1'500'000'000},
                       {{0.25, 0.0625, 0, false}, {1, 0.5, -2, true}, {-3, 0.125, -4.5, false}},
                       {},
-                      0.5},
-                     {"adam", "zoe", {0}, {{2, 0.25, 0, false}}, {}, {}}};
+                      0.5,
+                      {{0.25, {}, 0.0625, 0}, {-3, 0.5, 0.125, -4.5}, {3, -0.5, 0.125, -4.5}}},
+                     {"adam", "zoe", {0}, {{2, 0.25, 0, true}}, {}, {}, {{2, {}, 0.25, 0}}}};
   write_run(folder.path(), result, {});
   EXPECT_EQ(folder.read("aoa.csv"),
             "t_s,receiver,transmitter,path,azimuth_rad,elevation_rad,sigma_rad,power_db\n"
             "1.5,zoe,adam,0,0.25,,0.0625,0\n"
-            "1.5,zoe,adam,1,-3,,0.125,-4.5\n"
+            "1.5,zoe,adam,1,-3,0.5,0.125,-4.5\n"
+            "1.5,zoe,adam,2,3,-0.5,0.125,-4.5\n"
             "0,adam,zoe,0,2,,0.25,0\n");
 }
 

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "radio/simulated_exchange.hpp"
 #include "radioslam/base/parallel.hpp"
+#include "radioslam/base/random.hpp"
 #include "radioslam/geometry/so3.hpp"
 #include "radioslam/sim/csi_room.hpp"
 
@@ -35,7 +37,7 @@ const MeasuredCsi& open_measurements() {
   return measured;
 }
 
-double apart_rad(double a, double b) { return std::abs(std::remainder(a - b, 2 * std::numbers::pi)); }
+using waves::apart_rad;
 
 /// Of the transmitter's antenna seen from the receiver's body.
 double true_azimuth_rad(const Simulation& simulation, const ArrivalMeasurement& measured) {
@@ -153,9 +155,104 @@ TEST(CsiStage, SaysThatTheChannelIsMissing) {
   }
   const MeasuredCsi measured = measure_csi(mission, {}, {});
   EXPECT_TRUE(measured.arrivals.empty());
-  ASSERT_EQ(measured.notes.size(), 2U);
+  ASSERT_GE(measured.notes.size(), 2U);
   EXPECT_NE(measured.notes[0].find("channel"), std::string::npos);
 }
+
+bool has_note(const MeasuredCsi& measured, const std::string& words) {
+  return std::any_of(measured.notes.begin(), measured.notes.end(),
+                     [&](const std::string& note) { return note.find(words) != std::string::npos; });
+}
+
+TEST(CsiStage, SaysThatACardsAddressIsMissing) {
+  Mission mission = open_mission().mission;
+  mission.robots[1].csi->address.reset();
+  const MeasuredCsi measured = measure_csi(mission, {}, {});
+  EXPECT_TRUE(has_note(measured, "what others heard of robot b took no part: mission.yaml has no mac"));
+  EXPECT_TRUE(has_note(measured, "of robot a's captures took no part: no robot's card has the mac"));
+  for (const ArrivalMeasurement& arrival : measured.arrivals) EXPECT_EQ(arrival.receiver.index(), 1U);
+}
+
+/// b's card heard something else than a's packets: the same counters, other phases.
+Mission with_anothers_answers(Mission mission) {
+  Rng rng(3);
+  for (CsiCapture& capture : mission.robots[1].csi->captures)
+    for (CsiPacket& packet : capture.packets)
+      packet.channel *= std::polar(1.0F, static_cast<float>(rng.uniform(0, 2 * std::numbers::pi)));
+  return mission;
+}
+
+TEST(CsiStage, TakesNoAnswersOfAnotherEnd) {
+  const MeasuredCsi measured = measure_csi(with_anothers_answers(open_mission().mission), {}, {});
+  EXPECT_TRUE(measured.arrivals.empty());
+  EXPECT_TRUE(has_note(measured, "robot a did not measure where it heard b from on"));
+  EXPECT_TRUE(has_note(measured, "their phases do not agree"));
+}
+
+TEST(CsiStage, TakesNoElevationFromALevelWayAndKeepsWhatItTook) {
+  Mission mission = open_mission().mission;
+  mission.dimension = 3;
+  const MeasuredCsi measured = measure_csi(mission, {}, {});
+  ASSERT_EQ(measured.arrivals.size(), open_measurements().arrivals.size());
+  for (std::size_t k = 0; k < measured.arrivals.size(); ++k) {
+    ASSERT_EQ(measured.profiles[k].paths.size(), measured.arrivals[k].paths.size());
+    for (std::size_t p = 0; p < measured.arrivals[k].paths.size(); ++p) {
+      EXPECT_FALSE(measured.arrivals[k].paths[p].elevation_rad);
+      EXPECT_EQ(measured.profiles[k].paths[p].azimuth_rad, measured.arrivals[k].paths[p].azimuth_rad);
+    }
+  }
+}
+
+/// A robot that drives by fits and starts, its captures by a clock that is late, and one that stands and
+/// answers.
+Mission stop_and_go(double late_s) {
+  SimulatedExchange exchange;
+  constexpr double kTurn_rad = 2 * std::numbers::pi;
+  exchange.motion = [](double t_s) {
+    return on_circle(0.6, 0.3 * (t_s - std::sin(kTurn_rad * t_s / 2) / kTurn_rad * 2));
+  };
+  exchange.paths = plane_wave_paths({{0.3, 0, -15, 3e-8}, {2.1, 0.2, -18, 5e-8}, {-1.5, 0, -20, 6e-8}});
+  exchange.end_s = 12;
+  exchange.cards.stamp_offset_s = late_s;
+  SimulatedExchange::Captures heard = exchange.captures();
+  const auto robot = [](const char* id, Trajectory<SE3> odometry, std::uint64_t address, CsiCapture capture) {
+    Robot result;
+    result.id = id;
+    result.odometry = std::move(odometry);
+    result.csi = CsiRecording{
+        MacAddress{address}, SimulatedExchange::kCarrier_hz, {{0.1, 0.05, 0}}, {std::move(capture)}};
+    return result;
+  };
+  Mission mission;
+  mission.robots.push_back(robot("a", exchange.trajectory(), 0xa, std::move(heard.asker)));
+  const SE3 stand(exchange.answerer_m, Eigen::Quaterniond::Identity());
+  mission.robots.push_back(
+      robot("b", Trajectory<SE3>({{Stamp::from_seconds(0), stand}, {Stamp::from_seconds(15), stand}}), 0xb,
+            std::move(heard.answerer)));
+  return mission;
+}
+
+TEST(CsiStage, FindsTheClockOffsetAndUndoesIt) {
+  const MeasuredCsi late = measure_csi(stop_and_go(0.3), {}, {}), right = measure_csi(stop_and_go(0), {}, {});
+  EXPECT_TRUE(has_note(late, "robot a's captures were moved by -0."));
+  EXPECT_FALSE(has_note(right, "captures were moved"));
+  CsiStageParams as_is;
+  as_is.clock_offset = false;
+  const MeasuredCsi left = measure_csi(stop_and_go(0.3), as_is, {});
+  EXPECT_FALSE(has_note(left, "captures were moved"));
+  ASSERT_FALSE(right.arrivals.empty());
+  ASSERT_EQ(late.arrivals.size(), right.arrivals.size());
+  ASSERT_EQ(left.arrivals.size(), right.arrivals.size());
+  const auto off_rad = [&](const MeasuredCsi& of) {
+    double sum = 0;
+    for (std::size_t k = 0; k < right.arrivals.size(); ++k)
+      sum += apart_rad(of.arrivals[k].paths.front().azimuth_rad, right.arrivals[k].paths.front().azimuth_rad);
+    return sum;
+  };
+  EXPECT_LT(off_rad(late), 0.5 * off_rad(left));
+}
+
+TEST(CsiStage, LeavesClocksThatAgree) { EXPECT_FALSE(has_note(open_measurements(), "captures were moved")); }
 
 TEST(CsiStage, SaysWhereTheEstimateHasTheTransmitter) {
   MeasuredArrivalResult profile;

@@ -103,14 +103,22 @@ TEST(MatchAngles, SparePlainLeastSquaresFromAliases) {
   const auto [mission, truth] = simulate_city(city, 1);
   RunParams params = test::quick_params();
   params.matches.robust = false;
-  const double without_m = test::error_m(run_pipeline(mission, params).result, truth);
+  const RunOutput plain = run_pipeline(mission, params);
+  const double without_m = test::error_m(plain.result, truth);
   params.matches.angle_weights = true;
-  const auto weighed = run_pipeline(mission, params).result;
+  const RunOutput output = run_pipeline(mission, params);
+  const RunResult& weighed = output.result;
   EXPECT_GT(without_m, 8);
   EXPECT_LT(test::error_m(weighed, truth), without_m / 3);
   EXPECT_TRUE(std::any_of(weighed.closures.begin(), weighed.closures.end(), [](const ClosureResult& closure) {
     return closure.reason == "the angles of arrival disagree";
   }));
+  const auto rejected = std::count_if(
+      weighed.closures.begin(), weighed.closures.end(),
+      [](const ClosureResult& closure) { return closure.reason == "the angles of arrival disagree"; });
+  EXPECT_EQ(std::get<PoseGraph2>(output.graph).relative_poses.size() + static_cast<std::size_t>(rejected),
+            std::get<PoseGraph2>(plain.graph).relative_poses.size())
+      << "what counts as rejected is not in the graph";
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ TEST(ClockOffset, OfStopAndGoIsRecovered) {
   for (const double late_s : {0.0, 0.15}) {
     SimulatedExchange exchange = stop_and_go();
     exchange.cards.stamp_offset_s = late_s;
-    const auto clock = estimate_clock_offset(exchange.two_way(), exchange.trajectory());
+    const auto clock = estimate_clock_offset(exchange.two_way(), exchange.trajectory()).clock;
     ASSERT_TRUE(clock) << late_s;
     EXPECT_NEAR(clock->offset_s, -late_s, 0.03) << "to be added to stamps that are late";
     EXPECT_LT(clock->sigma_s, 0.05);
@@ -42,19 +42,26 @@ TEST(ClockOffset, OfStopAndGoIsRecovered) {
 TEST(ClockOffset, OfAConstantSpeedIsNothing) {
   SimulatedExchange exchange = stop_and_go();
   exchange.motion = [](double t_s) { return on_circle(0.6, 0.4 * t_s); };
-  EXPECT_FALSE(estimate_clock_offset(exchange.two_way(), exchange.trajectory()));
+  const auto result = estimate_clock_offset(exchange.two_way(), exchange.trajectory());
+  EXPECT_FALSE(result.clock);
+  EXPECT_EQ(result.reason, NoClockOffset::kConstantSpeed);
 }
 
 TEST(ClockOffset, WithoutATrajectoryAroundTheCaptureIsNothing) {
   const SimulatedExchange exchange = stop_and_go();
-  EXPECT_FALSE(estimate_clock_offset(exchange.two_way(), exchange.trajectory(100)));
-  EXPECT_FALSE(estimate_clock_offset(exchange.two_way(), Trajectory<SE3>()));
+  for (const auto& trajectory : {exchange.trajectory(100), Trajectory<SE3>()}) {
+    const auto result = estimate_clock_offset(exchange.two_way(), trajectory);
+    EXPECT_FALSE(result.clock);
+    EXPECT_EQ(result.reason, NoClockOffset::kUncovered);
+  }
 }
 
 TEST(ClockOffset, OfAntennasAgainstEachOtherIsNothing) {
   ChannelTrack track = stop_and_go().two_way();
   track.is_two_way = false;
-  EXPECT_FALSE(estimate_clock_offset(track, stop_and_go().trajectory()));
+  const auto result = estimate_clock_offset(track, stop_and_go().trajectory());
+  EXPECT_FALSE(result.clock);
+  EXPECT_EQ(result.reason, NoClockOffset::kNotTwoWay);
 }
 
 TEST(ClockOffset, ShiftingMovesStampsAlone) {

@@ -7,6 +7,7 @@
 #include "io/recorded_data.hpp"
 #include "radioslam/io/intel5300.hpp"
 #include "radioslam/io/text.hpp"
+#include "radioslam/radio/capture_power.hpp"
 #include "radioslam/radio/effective_snr.hpp"
 
 namespace radioslam {
@@ -80,6 +81,33 @@ TEST(Intel5300Power, OfARecordedCapture) {
     EXPECT_GT(effective_db, 5);
     EXPECT_LT(effective_db, 45);
   }
+}
+
+TEST(CapturePower, IsTheMediansOfTheSendersPackets) {
+  CsiCapture capture;
+  for (const int rssi : {28, 30, 45}) {
+    capture.packets.push_back(packet(1, 1, {6, 8}));
+    capture.packets.back().rssi[0] = rssi;
+    capture.packets.back().sender = MacAddress{7};
+  }
+  capture.packets.push_back(packet(1, 1, 1));
+  const CapturePower power = capture_power(capture, MacAddress{7});
+  EXPECT_EQ(power.packets, 3U);
+  EXPECT_NEAR(*power.received_power_dbm, 30 - 44 - 40, 1e-9);
+  const double flat_db = -10 * std::log10(std::pow(10, -3.6) + 1e-2);
+  ASSERT_EQ(power.effective_snr_db.size(), 4U);
+  for (const auto& [modulation, snr_db] : power.effective_snr_db)
+    EXPECT_NEAR(snr_db, flat_db, 1e-3) << modulation << ": a flat channel's is its SNR";
+}
+
+TEST(CapturePower, OfCardsThatWriteDbmIsThatWithoutAnSnr) {
+  CsiCapture capture;
+  capture.packets.push_back(packet(1, 1, {6, 8}));
+  capture.packets.back().rssi = {-61, 0, 0};
+  const CapturePower power = capture_power(capture, std::nullopt);
+  EXPECT_NEAR(*power.received_power_dbm, -61, 1e-9);
+  EXPECT_TRUE(power.effective_snr_db.empty());
+  EXPECT_FALSE(capture_power({}, std::nullopt).received_power_dbm);
 }
 
 }  // namespace

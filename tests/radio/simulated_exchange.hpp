@@ -18,10 +18,10 @@ struct SimulatedExchange {
   Eigen::Vector3d answerer_m{30, 0, 0};
   std::vector<Eigen::Vector3d> antennas_m{{0.1, 0.05, 0}};
   CsiCardParams cards;
-  double begin_s = 2, end_s = 6;
+  double begin_s = 2, end_s = 6, packets_hz = 120;
   std::uint64_t seed = 1;
 
-  static constexpr double kCarrier_hz = 5.54e9, kPackets_hz = 120, kPoses_hz = 50;
+  static constexpr double kCarrier_hz = 5.54e9, kPoses_hz = 50;
 
   struct Captures {
     CsiCapture asker, answerer;
@@ -37,7 +37,7 @@ struct SimulatedExchange {
         [stand_m](double /*t_s*/) { return SE3(stand_m, Eigen::Quaterniond::Identity()); },
         CsiCard(cards, end_s + 5, rng.split("answerer"))};
     std::vector<AskedPacket> asked;
-    for (double t_s = begin_s; t_s < end_s; t_s += 1 / kPackets_hz)
+    for (double t_s = begin_s; t_s < end_s; t_s += 1 / packets_hz)
       asked.push_back({t_s, static_cast<std::uint32_t>(asked.size())});
     const CsiAir air{paths, CsiBand::intel5300(kCarrier_hz), cards};
     HeardPackets heard = exchange_packets(asker, answerer, asked, air, rng.split("exchange"));
@@ -47,7 +47,8 @@ struct SimulatedExchange {
 
   ChannelTrack two_way() const {
     const Captures both = captures();
-    return *two_way_track(both.asker, MacAddress{0xb}, both.answerer, kCarrier_hz, antennas_m.front(), {});
+    return *two_way_track(both.asker, MacAddress{0xb}, both.answerer, kCarrier_hz, antennas_m.front(), {})
+                .track;
   }
 
   ChannelTrack antenna_pair() const {

@@ -25,6 +25,7 @@ struct Exchanged {
 
 struct World {
   int exchanges = 600;
+  double rate_hz = kRate_hz;
   double offset_hz = -9300;
   double clock_rate = 2e-5;  ///< of the sender's clock against the receiver's
   int later_us = 0;          ///< so much later come two thirds of the second half's answers
@@ -55,7 +56,7 @@ Exchanged exchange(const World& world) {
     const bool is_later = 2 * k > world.exchanges && k % 3 != 0, is_earlier = k % 50 == 0;
     const double wait_us = 300 - 8 * std::log(1 - rng.uniform(0, 1)) + (is_later ? world.later_us : 0) -
                            (is_earlier ? world.earlier_us : 0);
-    const double t_s = k / kRate_hz;
+    const double t_s = k / world.rate_hz;
     const double oscillators = rng.uniform(-std::numbers::pi, std::numbers::pi);
     const double late = 2 * std::numbers::pi * world.offset_hz * wait_us * 1e-6;
     const auto noise = [&] {
@@ -86,17 +87,17 @@ TEST(TwoWayChannel, UndoesTheJitterOfTheAnswers) {
     World world;
     world.later_us = world.earlier_us = apart_us;
     const auto [receiver, answers] = exchange(world);
-    const auto channel = two_way_channel(receiver, kSender, answers, {});
+    const auto channel = two_way_channel(receiver, kSender, answers, {}).channel;
     ASSERT_TRUE(channel);
     EXPECT_EQ(channel->paired, 600U);
     EXPECT_GT(channel->stamps.size(), 580U);
     EXPECT_NEAR(channel->frequency_offset_hz, world.offset_hz, 500);
-    EXPECT_GT(channel->coherence, 0.95);
+    EXPECT_GT(*channel->coherence, 0.95);
     EXPECT_LT(channel->coherence_before, 0.92);
     EXPECT_LT(phase_error_rad(*channel), 0.3) << apart_us;
     TwoWayParams blind;
     blind.most_offset_hz = 100;
-    EXPECT_GT(phase_error_rad(*two_way_channel(receiver, kSender, answers, blind)), 0.4)
+    EXPECT_GT(phase_error_rad(*two_way_channel(receiver, kSender, answers, blind).channel), 0.4)
         << "or the test shows nothing";
   }
 }
@@ -106,7 +107,7 @@ TEST(TwoWayChannel, CancelsWhatTheOscillatorsAdd) {
   world.offset_hz = 0;
   world.noise = 0;
   const auto [receiver, answers] = exchange(world);
-  const auto channel = two_way_channel(receiver, kSender, answers, {});
+  const auto channel = two_way_channel(receiver, kSender, answers, {}).channel;
   ASSERT_TRUE(channel);
   EXPECT_LT(phase_error_rad(*channel), 0.03);
   EXPECT_NEAR(std::abs(channel->product(5, 0)), 2500, 0.01);
@@ -117,7 +118,7 @@ TEST(TwoWayChannel, PairsByCounterAndSender) {
   receiver.packets[10].sender = MacAddress{1};          // somebody else's
   receiver.packets[20].counter = 21;                    // twice: which is it?
   answers.packets.erase(answers.packets.begin() + 30);  // lost
-  const auto channel = two_way_channel(receiver, kSender, answers, {});
+  const auto channel = two_way_channel(receiver, kSender, answers, {}).channel;
   ASSERT_TRUE(channel);
   EXPECT_EQ(channel->paired, 600U - 4U);
   for (std::size_t k = 1; k < channel->stamps.size(); ++k)
@@ -126,19 +127,54 @@ TEST(TwoWayChannel, PairsByCounterAndSender) {
 
 TEST(TwoWayChannel, IsNothingWithoutExchanges) {
   auto [receiver, answers] = exchange({});
-  EXPECT_FALSE(two_way_channel(receiver, MacAddress{1}, answers, {}));
+  EXPECT_FALSE(two_way_channel(receiver, MacAddress{1}, answers, {}).channel);
   for (CsiPacket& packet : answers.packets) packet.counter.reset();
-  EXPECT_FALSE(two_way_channel(receiver, kSender, answers, {}));
+  EXPECT_FALSE(two_way_channel(receiver, kSender, answers, {}).channel);
+}
+
+TEST(TwoWayChannel, OfOtherSubcarriersSaysSo) {
+  auto [receiver, answers] = exchange({});
+  answers.subcarrier_hz.back() += 312.5e3;
+  EXPECT_EQ(two_way_channel(receiver, kSender, answers, {}).reason, NoTwoWay::kOtherSubcarriers);
+}
+
+// Whatever the rate, the offset is found, and the answers of another end are not taken for this one's.
+TEST(TwoWayChannel, TellsRightFromWrongAnswersAtAnyRate) {
+  for (const double rate_hz : {400.0, 40.0, 5.0}) {
+    World world;
+    world.rate_hz = rate_hz;
+    auto [receiver, answers] = exchange(world);
+    const auto right = two_way_channel(receiver, kSender, answers, {}).channel;
+    ASSERT_TRUE(right) << rate_hz;
+    EXPECT_NEAR(right->frequency_offset_hz, world.offset_hz, 500) << rate_hz;
+    EXPECT_GT(*right->coherence, 0.9) << rate_hz;
+    Rng rng(5);
+    for (CsiPacket& packet : answers.packets)
+      packet.channel *= std::polar(1.0F, static_cast<float>(rng.uniform(0, 6.3)));
+    const auto wrong = two_way_channel(receiver, kSender, answers, {});
+    EXPECT_FALSE(wrong.channel) << rate_hz;
+    EXPECT_EQ(wrong.reason, NoTwoWay::kIncoherent) << rate_hz;
+  }
+}
+
+TEST(TwoWayChannel, OfFewExchangesSaysNothingOfTheirCoherence) {
+  World world;
+  world.exchanges = 60;
+  const auto [receiver, answers] = exchange(world);
+  const auto channel = two_way_channel(receiver, kSender, answers, {}).channel;
+  ASSERT_TRUE(channel);
+  EXPECT_FALSE(channel->coherence);
 }
 
 TEST(TwoWayChannel, OfRecordedExchangesIsCoherent) {
   RADIOSLAM_RECORDED(folder, "wsr/raw/LOS_Set_A/0627_2D-multi-link_A_L1");
   const auto capture = [&](const char* file) { return read_intel5300(file, read_bytes(folder / file)); };
   const auto channel = two_way_channel(capture("csi_rx_2021-06-27_202550.dat"), MacAddress{0x00216ab26efa},
-                                       capture("csi_tx4_2021-06-27_202550.dat"), {});
+                                       capture("csi_tx4_2021-06-27_202550.dat"), {})
+                           .channel;
   ASSERT_TRUE(channel);
   EXPECT_LT(channel->coherence_before, 0.7);
-  EXPECT_GT(channel->coherence, 0.9);
+  EXPECT_GT(*channel->coherence, 0.9);
 }
 
 }  // namespace

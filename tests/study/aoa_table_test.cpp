@@ -5,8 +5,10 @@
 
 #include <numbers>
 
+#include "io/recorded_data.hpp"
 #include "io/temporary_folder.hpp"
 #include "radioslam/study/study_json.hpp"
+#include "radioslam/study/study_page.hpp"
 #include "study/made_up_trial.hpp"
 
 namespace radioslam {
@@ -30,6 +32,7 @@ TEST(AoaTable, FindsTheTransmittersByEveryMotion) {
   for (const AoaLink& link : links) {
     EXPECT_EQ(link.sight, WsrSight::kLineOfSight);
     ASSERT_FALSE(link.peaks.empty()) << link.reason;
+    EXPECT_NEAR(link.frame_turn_rad, 0, 1e-6) << "one frame for all motions";
     EXPECT_LT(error_rad(link), 2 * kDegree_rad) << link.transmitter << " " << word_for(link.motion);
   }
   EXPECT_EQ(links[0].trial, "L1_one");
@@ -40,6 +43,41 @@ TEST(AoaTable, FindsTheTransmittersByEveryMotion) {
   EXPECT_EQ(groups[0].ours.within_10_deg, 1);
   EXPECT_EQ(groups[0].published.links, 0U);
   EXPECT_EQ(aoa_table(links, {}).rows.size(), 3U);
+}
+
+TEST(AoaTable, ThePageHasAPolarProfilePerLinkWithTruthAndAuthors) {
+  AoaLink link{"t", "tx2", WsrSight::kLineOfSight, WsrMotion::kMotionCapture, 3, {}, {-0.5}, {}};
+  link.peaks.emplace_back().azimuth_rad = 2.75;
+  link.profile.assign(360, 0.25F);
+  link.profile[340] = 1;
+  const std::string page = render_aoa_page(aoa_table({link}, {}), {link});
+  EXPECT_NE(page.find(R"("true_azimuth_rad":3)"), std::string::npos);
+  EXPECT_NE(page.find(R"("authors_azimuth_rad":[-2.783])"), std::string::npos) << "truth less error, wrapped";
+  EXPECT_NE(page.find(R"("peaks":[{"azimuth_rad":2.75}])"), std::string::npos);
+  EXPECT_NE(page.find("0.25,1"), std::string::npos);
+}
+
+// Seven trials; the floors are those that the project asks for.
+TEST(AoaTable, RecordedLinksAreAsAccurateAsAskedFor) {
+  RADIOSLAM_RECORDED(dataset, "wsr/raw");
+  std::vector<AoaLink> links;
+  for (const auto& files : find_wsr_trials(dataset)) {
+    WsrTrial trial = read_wsr_trial(files);
+    trial.tracking_camera.reset();
+    trial.wheel_odometry.reset();
+    for (AoaLink& link : measure_wsr_trial(trial, {}, {})) links.push_back(std::move(link));
+  }
+  const auto groups = group_links(links, {});
+  ASSERT_EQ(groups.size(), 2U);
+  const AoaFigures &in_sight = groups[0].ours, &out_of_sight = groups[1].ours;
+  ASSERT_EQ(in_sight.links + out_of_sight.links, 21U);
+  EXPECT_LE(*in_sight.median_rad, 3.5 * kDegree_rad);
+  EXPECT_GE(*in_sight.within_10_deg, 0.95);
+  EXPECT_GE(*in_sight.best_of_4_within_10_deg, 0.98);
+  EXPECT_GE(*in_sight.within_sigma, 0.8);
+  EXPECT_LE(*in_sight.within_sigma, 0.97);
+  EXPECT_LE(*out_of_sight.median_rad, 6 * kDegree_rad);
+  EXPECT_GE(*out_of_sight.within_10_deg, 0.66);
 }
 
 TEST(AoaTable, TakesTheAuthorsLinksThatStartWhereTheTrialDoes) {
@@ -87,6 +125,10 @@ TEST(AoaTable, FiguresAreThoseByHand) {
   EXPECT_EQ(figures.best_of_4_within_10_deg, 0.5);  // the fifth peak does not count
   EXPECT_EQ(figures.within_sigma, 0.5);
   EXPECT_EQ(error_rad(silent), std::numbers::pi);
+  EXPECT_NEAR(*figures.own_frame_median_rad, 16 * kDegree_rad, 1e-9);
+  AoaLink turned = link_off_by({-12}, 5);
+  turned.frame_turn_rad = 10 * kDegree_rad;
+  EXPECT_NEAR(own_frame_error_rad(turned), 2 * kDegree_rad, 1e-9);
   const StudyTable table = aoa_table(links, {});
   EXPECT_NE(table.notes.back().find("1 of 4"), std::string::npos);
 }

@@ -10,6 +10,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "radioslam/cli/command_options.hpp"
@@ -23,28 +24,35 @@
 #include "radioslam/io/tum.hpp"
 #include "radioslam/mission/wifi_channel.hpp"
 #include "radioslam/radio/arrival_estimate.hpp"
+#include "radioslam/radio/capture_power.hpp"
 #include "radioslam/radio/clock_offset.hpp"
 
 namespace radioslam::cli {
 namespace {
 
 constexpr double kDegree_rad = std::numbers::pi / 180;
-// Of 21 recorded links 0.90-0.96; with the answers of another end 0.05-0.09.
-constexpr double kLeastCoherence = 0.3;
-constexpr double kWidestClock_s = 0.2;  // an estimate less sure than this is none
+constexpr double kLongestClock_s = 4e9;  // offsets of stamps since 1970 to any other clock; fit their 64 bits
 
 struct AoaOptions {
   std::string capture, reverse, transmitter, trajectory, output, clock_offset = "0";
   std::vector<std::string> levers;
   std::optional<int> channel;
+  std::optional<double> begin_s, end_s;
   ParameterOptions parameters;
   bool json = false;
 };
 
-/// A direction, in the body frame at the estimate's stamp and in the trajectory's frame.
+/// Channels, and how strong the packets were that they come from.
+struct Heard {
+  ChannelTrack track;
+  CapturePower heard;
+  std::optional<CapturePower> answers;
+};
+
+/// A direction in the body frame at the estimate's stamp, beside the peak in the trajectory's.
 struct FramedPeak {
-  double body_azimuth_rad, body_elevation_rad;
-  std::optional<double> body_mirror_rad;
+  ArrivalDirection body;
+  std::optional<ArrivalDirection> body_mirror;
   const ArrivalPeak* peak;
 };
 
@@ -95,75 +103,112 @@ double carrier_of(const AoaOptions& options, const CsiCapture& capture) {
                    "is not the number of a WiFi channel (1-14 or 32-177)");
 }
 
-ChannelTrack track_of(const AoaOptions& options, const ArrivalParams& params) {
-  const CsiCapture capture = read_csi_capture(options.capture);
+[[noreturn]] void refuse_answers(const AoaOptions& options, MacAddress sender, NoTwoWay reason) {
+  switch (reason) {
+    case NoTwoWay::kOtherSubcarriers:
+      throw InputError(options.reverse, 0,
+                       "measures other subcarriers than " + options.capture + ": both need one bandwidth");
+    case NoTwoWay::kIncoherent:
+      throw InputError(options.reverse, 0,
+                       "does not answer the packets of " + format_mac_address(sender) +
+                           ", or the antenna moves too far between them: from one exchange to the next the "
+                           "phases do not agree");
+    case NoTwoWay::kTooFewExchanges:
+      break;
+  }
+  throw InputError(options.reverse, 0, "fewer than three of its packets answer those of " + options.capture);
+}
+
+CsiCapture read_with_notes(const std::string& path) {
+  CsiCapture capture = read_csi_capture(path);
   for (const auto& warning : capture.warnings) std::cerr << "note: " << warning << '\n';
+  return capture;
+}
+
+Heard by_antenna_pair(const AoaOptions& options, const CsiCapture& capture, double carrier_hz,
+                      const std::vector<Eigen::Vector3d>& antennas) {
+  if (antennas.size() < 2)
+    throw InputError(options.capture, 0,
+                     "one antenna in one direction leaves the oscillators' phases in: give the other end's "
+                     "capture by --reverse, or two antennas' places by --lever twice");
+  const auto sender = transmitter_of(options, capture);
+  auto track = antenna_pair_track(capture, sender, carrier_hz, antennas, 0, 1);
+  if (!track) throw InputError(options.capture, 0, "has no packets that two antennas heard");
+  return {*std::move(track), capture_power(capture, sender), {}};
+}
+
+Heard with_answers(const AoaOptions& options, const CsiCapture& capture, double carrier_hz,
+                   const std::vector<Eigen::Vector3d>& antennas, const ArrivalParams& params) {
+  if (antennas.size() > 1)
+    throw InputError("--lever", 0,
+                     "is given twice with --reverse, which one antenna of each end takes part in");
+  const auto sender = transmitter_of(options, capture);
+  if (!sender) throw InputError(options.capture, 0, "does not tell who sent: its packets cannot be paired");
+  const CsiCapture answers = read_with_notes(options.reverse);
+  auto both = two_way_track(capture, *sender, answers, carrier_hz,
+                            antennas.empty() ? Eigen::Vector3d::Zero() : antennas.front(), params.two_way);
+  if (!both.track) refuse_answers(options, *sender, both.reason);
+  return {*std::move(both.track), capture_power(capture, sender), capture_power(answers, std::nullopt)};
+}
+
+Heard heard_of(const AoaOptions& options, const ArrivalParams& params) {
+  const CsiCapture capture = read_with_notes(options.capture);
   std::vector<Eigen::Vector3d> antennas;
   for (const auto& lever : options.levers) antennas.push_back(lever_of(lever));
-  const auto sender = transmitter_of(options, capture);
+  if (antennas.size() > 2) throw InputError("--lever", 0, "is given more than twice: a pair is two antennas");
   const double carrier_hz = carrier_of(options, capture);
-  if (options.reverse.empty()) {
-    if (antennas.size() < 2)
-      throw InputError(options.capture, 0,
-                       "one antenna in one direction leaves the oscillators' phases in: give the other end's "
-                       "capture by --reverse, or two antennas' places by --lever twice");
-    if (const auto track = antenna_pair_track(capture, sender, carrier_hz, antennas, 0, 1)) return *track;
-    throw InputError(options.capture, 0, "has no packets that two antennas heard");
-  }
-  if (!sender) throw InputError(options.capture, 0, "does not tell who sent: its packets cannot be paired");
-  const CsiCapture answers = read_csi_capture(options.reverse);
-  for (const auto& warning : answers.warnings) std::cerr << "note: " << warning << '\n';
-  const auto track =
-      two_way_track(capture, *sender, answers, carrier_hz,
-                    antennas.empty() ? Eigen::Vector3d::Zero() : antennas.front(), params.two_way);
-  if (!track)
-    throw InputError(options.reverse, 0,
-                     "fewer than three of its packets answer those of " + options.capture);
-  if (track->coherence < kLeastCoherence)
-    throw InputError(options.reverse, 0,
-                     "does not answer the packets of " + format_mac_address(*sender) +
-                         ": from one exchange to the next the phases do not agree (coherence " +
-                         std::to_string(track->coherence) + ")");
-  return *track;
+  return options.reverse.empty() ? by_antenna_pair(options, capture, carrier_hz, antennas)
+                                 : with_answers(options, capture, carrier_hz, antennas, params);
+}
+
+nlohmann::ordered_json json_of(const CapturePower& power) {
+  nlohmann::ordered_json json{{"packets", power.packets}};
+  if (power.received_power_dbm) json["received_power_dbm"] = *power.received_power_dbm;
+  for (const auto& [modulation, snr_db] : power.effective_snr_db)
+    if (std::isfinite(snr_db)) json["effective_snr_db"][modulation] = snr_db;
+  return json;
 }
 
 std::vector<FramedPeak> in_body_frame(const ArrivalEstimate& estimate) {
   const Eigen::Matrix3d R_body_frame = estimate.T_frame_body.rotation().conjugate().toRotationMatrix();
   const auto turned = [&](double azimuth_rad, double elevation_rad) {
-    return Eigen::Vector3d(R_body_frame * WaveSource{azimuth_rad, elevation_rad, 0}.direction());
+    const Eigen::Vector3d u = R_body_frame * WaveSource{azimuth_rad, elevation_rad, 0}.direction();
+    return ArrivalDirection{std::atan2(u.y(), u.x()), std::asin(std::clamp(u.z(), -1.0, 1.0))};
   };
   std::vector<FramedPeak> peaks;
   for (const ArrivalPeak& peak : estimate.peaks) {
-    const Eigen::Vector3d u = turned(peak.azimuth_rad, peak.elevation_rad);
-    FramedPeak framed{std::atan2(u.y(), u.x()), std::asin(std::clamp(u.z(), -1.0, 1.0)), {}, &peak};
-    if (peak.mirror_rad) {
-      const Eigen::Vector3d v = turned(*peak.mirror_rad, peak.elevation_rad);
-      framed.body_mirror_rad = std::atan2(v.y(), v.x());
-    }
+    FramedPeak framed{turned(peak.azimuth_rad, peak.elevation_rad), {}, &peak};
+    if (peak.mirror) framed.body_mirror = turned(peak.mirror->azimuth_rad, peak.mirror->elevation_rad);
     peaks.push_back(framed);
   }
   return peaks;
 }
 
-nlohmann::ordered_json json_of(const ArrivalEstimate& estimate, const std::optional<ClockOffset>& clock) {
+nlohmann::ordered_json json_of(const ArrivalEstimate& estimate, const std::optional<ClockOffset>& clock,
+                               const Heard& from) {
   nlohmann::ordered_json json{{"t_s", estimate.stamp.seconds()},
                               {"packets", estimate.packets},
                               {"explained", estimate.explained},
                               {"peaks", nlohmann::ordered_json::array()}};
   for (const FramedPeak& framed : in_body_frame(estimate)) {
-    nlohmann::ordered_json peak{{"azimuth_rad", framed.body_azimuth_rad},
+    nlohmann::ordered_json peak{{"azimuth_rad", framed.body.azimuth_rad},
                                 {"azimuth_trajectory_frame_rad", framed.peak->azimuth_rad},
-                                {"elevation_rad", framed.body_elevation_rad},
+                                {"elevation_rad", framed.body.elevation_rad},
                                 {"sigma_rad", framed.peak->sigma_rad},
-                                {"power_db", framed.peak->power_db}};
+                                {"elevation_sigma_rad", framed.peak->elevation_sigma_rad},
+                                {"power_db", framed.peak->power_db},
+                                {"explained", framed.peak->explained}};
     if (framed.peak->curvature_per_m > 0) peak["distance_m"] = 1 / framed.peak->curvature_per_m;
-    if (framed.body_mirror_rad) {
-      peak["mirror_azimuth_rad"] = *framed.body_mirror_rad;
-      peak["mirror_azimuth_trajectory_frame_rad"] = *framed.peak->mirror_rad;
+    if (framed.body_mirror) {
+      peak["mirror_azimuth_rad"] = framed.body_mirror->azimuth_rad;
+      peak["mirror_azimuth_trajectory_frame_rad"] = framed.peak->mirror->azimuth_rad;
+      peak["mirror_elevation_rad"] = framed.body_mirror->elevation_rad;
     }
     if (framed.peak->is_ghost) peak["ghost"] = true;
     json["peaks"].push_back(peak);
   }
+  json["captures"]["heard"] = json_of(from.heard);
+  if (from.answers) json["captures"]["answers"] = json_of(*from.answers);
   if (clock) json["clock_offset"] = {{"offset_s", clock->offset_s}, {"sigma_s", clock->sigma_s}};
   return json;
 }
@@ -183,12 +228,13 @@ void print_text(const ArrivalEstimate& estimate, const std::optional<ClockOffset
             << "azimuth  in the trajectory's frame  elevation  sigma (deg)  power (dB)\n"
             << std::fixed;
   for (const FramedPeak& framed : in_body_frame(estimate)) {
-    std::cout << std::setprecision(1) << std::setw(7) << framed.body_azimuth_rad / kDegree_rad
+    std::cout << std::setprecision(1) << std::setw(7) << framed.body.azimuth_rad / kDegree_rad
               << std::setw(28) << framed.peak->azimuth_rad / kDegree_rad << std::setw(11)
-              << framed.body_elevation_rad / kDegree_rad << std::setw(13)
+              << framed.body.elevation_rad / kDegree_rad << std::setw(13)
               << framed.peak->sigma_rad / kDegree_rad << std::setw(12) << framed.peak->power_db;
-    if (framed.body_mirror_rad)
-      std::cout << "  or at " << *framed.body_mirror_rad / kDegree_rad << ": the way is straight";
+    if (framed.body_mirror)
+      std::cout << "  or at " << framed.body_mirror->azimuth_rad / kDegree_rad << ", elevation "
+                << framed.body_mirror->elevation_rad / kDegree_rad << ": the way does not tell";
     if (framed.peak->is_ghost) std::cout << "  ghost: a product of two paths";
     std::cout << '\n';
   }
@@ -202,18 +248,26 @@ std::optional<ClockOffset> clock_offset_of(const AoaOptions& options, const Chan
                                            const Trajectory<SE3>& trajectory) {
   if (options.clock_offset != "estimate") {
     const auto offset_s = parse_number(options.clock_offset);
-    if (!offset_s)
-      throw InputError("--clock-offset " + options.clock_offset, 0, "is neither seconds nor 'estimate'");
+    if (!offset_s || std::abs(*offset_s) > kLongestClock_s)
+      throw InputError(
+          "--clock-offset " + options.clock_offset, 0,
+          offset_s ? "is more than any two clocks differ by" : "is neither seconds nor 'estimate'");
     return *offset_s == 0 ? std::nullopt : std::optional(ClockOffset{*offset_s, 0});
   }
-  const auto clock = estimate_clock_offset(track, trajectory);
-  if (!clock)
-    throw InputError("--clock-offset estimate", 0, "there is too little motion to estimate an offset by");
-  if (clock->sigma_s > kWidestClock_s)
-    throw InputError(
-        "--clock-offset estimate", 0,
-        "the speed changes too little to tell the offset (sigma " + std::to_string(clock->sigma_s) + " s)");
-  return clock;
+  const auto result = estimate_clock_offset(track, trajectory);
+  if (result.clock) return result.clock;
+  switch (result.reason) {
+    case NoClockOffset::kNotTwoWay:
+      throw InputError("--clock-offset estimate", 0,
+                       "needs packets both ways: give the other end's by --reverse");
+    case NoClockOffset::kConstantSpeed:
+      throw InputError("--clock-offset estimate", 0,
+                       "the speed changes too little to tell: the antenna would have to stop or start");
+    case NoClockOffset::kUncovered:
+      break;
+  }
+  throw InputError("--clock-offset estimate", 0,
+                   options.trajectory + " covers too few of the packets with a second to either side");
 }
 
 [[noreturn]] void refuse(const AoaOptions& options, NoArrival reason) {
@@ -222,24 +276,44 @@ std::optional<ClockOffset> clock_offset_of(const AoaOptions& options, const Chan
       throw InputError(options.trajectory, 0, "has no poses at the times of " + options.capture);
     case NoArrival::kNoMotion:
       throw InputError(options.trajectory, 0, "hardly moves: one place tells no direction");
+    case NoArrival::kTooWide:
+      throw InputError(options.trajectory, 0,
+                       "goes further than most_extent_m: choose a part of it by --begin and --end");
+    case NoArrival::kSilent:
+      throw InputError(options.capture, 0, "measured a channel of zeros throughout");
     case NoArrival::kTooFewPackets:
       break;
   }
   throw InputError(options.capture, 0, "has too few packets while the antenna moves");
 }
 
+/// The first and the last stamp to be measured.
+std::pair<Stamp, Stamp> chosen_times(const AoaOptions& options, const ChannelTrack& track) {
+  Stamp begin = track.stamps.front(), end = track.stamps.back();
+  if (options.begin_s) begin = std::max(begin, Stamp::from_seconds(*options.begin_s));
+  if (options.end_s) end = std::min(end, Stamp::from_seconds(*options.end_s));
+  if (end < begin)
+    throw InputError(options.capture, 0,
+                     "has no packets between --begin and --end: it has them from " +
+                         format_stamp(track.stamps.front()) + " to " + format_stamp(track.stamps.back()) +
+                         " s");
+  return {begin, end};
+}
+
 void measure(const AoaOptions& options) {
   const auto params = with_settings(ArrivalParams{},
                                     collect_settings(options.parameters.config_path, options.parameters.set));
   const auto trajectory = read_tum(read_text(options.trajectory));
-  ChannelTrack track = track_of(options, params);
+  Heard from = heard_of(options, params);
+  ChannelTrack& track = from.track;
   const auto clock = clock_offset_of(options, track, trajectory);
   if (clock) track = shifted(std::move(track), clock->offset_s);
-  const auto result = estimate_arrival(track, trajectory, track.stamps.front(), track.stamps.back(), params);
+  const auto [begin, end] = chosen_times(options, track);
+  const auto result = estimate_arrival(track, trajectory, begin, end, params);
   if (!result.estimate) refuse(options, result.reason);
   if (!options.output.empty()) OutputFile(options.output).commit(profile_rows(*result.estimate));
   if (options.json)
-    std::cout << json_of(*result.estimate, clock).dump() << '\n';
+    std::cout << json_of(*result.estimate, clock, from).dump() << '\n';
   else
     print_text(*result.estimate, clock);
 }
@@ -273,6 +347,12 @@ void add_aoa(CLI::App& program) {
   command
       ->add_option("--clock-offset", options->clock_offset,
                    "Seconds to add to the capture's stamps, or 'estimate'; default 0")
+      ->type_name("S");
+  command->add_option("--begin", options->begin_s, "Measure packets from this stamp on, of those to the end")
+      ->check(CLI::Range(-kLongestClock_s, kLongestClock_s))
+      ->type_name("S");
+  command->add_option("--end", options->end_s, "Measure packets up to this stamp")
+      ->check(CLI::Range(-kLongestClock_s, kLongestClock_s))
       ->type_name("S");
   command->add_option("-o,--output", options->output, "The profile over azimuth to write, as CSV")
       ->type_name("PROFILE.csv");

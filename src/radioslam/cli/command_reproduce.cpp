@@ -108,7 +108,7 @@ Study aoa(const ReproduceOptions& options) {
       links.push_back(std::move(link));
   }
   StudyTable table = aoa_table(links, recorded.published);
-  std::string page = render_table_page(table);
+  std::string page = render_aoa_page(table, links);
   return {std::move(table), aoa_json(links, recorded.published), std::move(page), aoa_links_csv(links)};
 }
 

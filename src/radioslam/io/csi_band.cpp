@@ -9,7 +9,7 @@ std::vector<int> subcarriers_on_both_sides(int nearest, int furthest) {
   return numbers;
 }
 
-CsiCapture capture_of(const CsiBand& band) {
+CsiCapture capture_of(const CapturedBand& band) {
   CsiCapture capture;
   capture.carrier_hz = band.carrier_hz;
   capture.bandwidth_hz = band.bandwidth_hz;

@@ -12,17 +12,17 @@ namespace radioslam {
 inline constexpr double kSubcarrierSpacing_hz = 312.5e3;
 
 /// The columns that a packet measured, by their subcarriers' numbers from the carrier.
-struct CsiBand {
+struct CapturedBand {
   double carrier_hz = 0;
   double bandwidth_hz = 0;
   std::vector<int> subcarriers;
-  friend auto operator<=>(const CsiBand&, const CsiBand&) = default;
+  friend auto operator<=>(const CapturedBand&, const CapturedBand&) = default;
 };
 
 /// From -furthest to -nearest and from nearest to furthest.
 std::vector<int> subcarriers_on_both_sides(int nearest, int furthest);
 
 /// A capture without packets whose columns lie there.
-CsiCapture capture_of(const CsiBand& band);
+CsiCapture capture_of(const CapturedBand& band);
 
 }  // namespace radioslam

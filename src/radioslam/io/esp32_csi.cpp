@@ -62,10 +62,10 @@ class Esp32Reader {
   }
 
   CsiCapture capture_of_most_measured() const {
-    MeasuredShapes<CsiBand> bands;
+    MeasuredShapes<CapturedBand> bands;
     for (const Esp32Measurement& measurement : measurements_)
       for (const TrainingField& field : measurement.fields) bands.add(field.band, field.places.size());
-    const CsiBand& kept = bands.most_measured();
+    const CapturedBand& kept = bands.most_measured();
     CsiCapture capture = capture_of(kept);
     for (const Esp32Measurement& measurement : measurements_)
       for (const TrainingField& field : measurement.fields)

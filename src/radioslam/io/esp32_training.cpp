@@ -37,7 +37,7 @@ int narrow_place(const Esp32Packet& packet, int subcarrier, int values) {
 }
 
 template <class PlaceOf>
-TrainingField field_of(const CsiBand& band, std::size_t begin, const Esp32Packet& packet,
+TrainingField field_of(const CapturedBand& band, std::size_t begin, const Esp32Packet& packet,
                        PlaceOf&& place_of) {
   constexpr std::size_t kInvalidValues = 2;
   TrainingField field{{band.carrier_hz, band.bandwidth_hz, {}}, {}};

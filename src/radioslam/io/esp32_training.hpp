@@ -15,7 +15,7 @@ namespace radioslam {
 
 /// One training field's columns that carry something.
 struct TrainingField {
-  CsiBand band;                     ///< the carrier is the centre of the field's 20 or 40 MHz
+  CapturedBand band;                ///< the carrier is the centre of the field's 20 or 40 MHz
   std::vector<std::size_t> places;  ///< of every column among the packet's complex values
 };
 

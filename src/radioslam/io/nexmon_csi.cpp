@@ -38,7 +38,7 @@ struct NexmonFrame {
 
 /// Where a packet was measured and by which cores and streams.
 struct NexmonShape {
-  CsiBand band;
+  CapturedBand band;
   std::uint16_t chip = 0;
   std::set<int> cores, streams;
   friend auto operator<=>(const NexmonShape&, const NexmonShape&) = default;

@@ -141,11 +141,11 @@ NexmonRecord read_nexmon_record(const std::string& name, std::size_t at, std::st
   return record;
 }
 
-CsiBand nexmon_band(const NexmonRecord& record) {
+CapturedBand nexmon_band(const NexmonRecord& record) {
   constexpr int kWrittenOver = 2;
   const Width& width = *width_of(record.chanspec);
-  CsiBand band{*carrier_of(record.chanspec), width.bandwidth_hz,
-               subcarriers_on_both_sides(width.nearest, width.furthest)};
+  CapturedBand band{*carrier_of(record.chanspec), width.bandwidth_hz,
+                    subcarriers_on_both_sides(width.nearest, width.furthest)};
   // At 20 MHz it writes over others, beyond those kept.
   if (record.rssi_dbm && width.nearest == kWrittenOver) std::erase(band.subcarriers, kWrittenOver);
   return band;

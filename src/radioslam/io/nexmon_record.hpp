@@ -42,6 +42,6 @@ NexmonRecord read_nexmon_record(const std::string& name, std::size_t at, std::st
 
 /// The columns that carry something in packets of every kind: at 20 MHz those of 802.11a, +-26; at 40 and 80
 /// MHz those of 802.11n and ac, and of the newer firmware without +2, which it writes over.
-CsiBand nexmon_band(const NexmonRecord& record);
+CapturedBand nexmon_band(const NexmonRecord& record);
 
 }  // namespace radioslam

@@ -119,14 +119,15 @@ std::string format_closures(const std::vector<ClosureResult>& closures, std::spa
 std::string format_measured_arrivals(const std::vector<MeasuredArrivalResult>& arrivals) {
   std::string out = "t_s,receiver,transmitter,path,azimuth_rad,elevation_rad,sigma_rad,power_db\n";
   for (const MeasuredArrivalResult& arrival : arrivals) {
-    int path = 0;
-    for (const ArrivalPeakResult& peak : arrival.peaks) {
-      if (peak.is_ghost) continue;
+    int number = 0;
+    for (const ArrivalPath& path : arrival.paths) {
       out += format_stamp(arrival.stamp) + "," + arrival.receiver + "," + arrival.transmitter + "," +
-             std::to_string(path++);
-      append_number(out += ',', peak.azimuth_rad);
-      append_number(out += ",,", peak.sigma_rad);
-      append_number(out += ',', peak.power_db);
+             std::to_string(number++);
+      append_number(out += ',', path.azimuth_rad);
+      out += ',';
+      if (path.elevation_rad) append_number(out, *path.elevation_rad);
+      append_number(out += ',', path.sigma_rad);
+      append_number(out += ',', path.power_db);
       out += '\n';
     }
   }

@@ -18,8 +18,7 @@ namespace radioslam {
 std::string format_candidates(const std::vector<CandidateResult>& candidates,
                               std::span<const std::string> ids);
 std::string format_closures(const std::vector<ClosureResult>& closures, std::span<const std::string> ids);
-/// As a mission's radio/aoa.csv has them, without elevations. Products of two paths are no directions and are
-/// left out; the other peaks count from 0, the strongest first.
+/// As a mission's radio/aoa.csv has them: the paths that the run took, counted from 0 in each measurement.
 std::string format_measured_arrivals(const std::vector<MeasuredArrivalResult>& arrivals);
 
 /// Refuse malformed rows, unknown robots, kinds and statuses, and stamps at which a robot has no keyframe (of

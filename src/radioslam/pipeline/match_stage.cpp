@@ -56,6 +56,8 @@ MatchVerdict reject(MatchVerdict verdict, std::string reason) {
   return verdict;
 }
 
+constexpr double kLeastShare = 0.5;  // of its information, below which a match counts as rejected
+
 /// A match that nothing speaks against yet.
 struct Admitted {
   std::size_t index = 0;  ///< in the mission
@@ -157,6 +159,10 @@ class Admission {
     MatchVerdict& verdict = verdicts_[match.index];
     if (angles_ && measured.robot_i != measured.robot_j)
       verdict.angle_scale = angles_->template information_scale<Pose>(measured);
+    if (verdict.angle_scale.value_or(1) < kLeastShare) {
+      verdict = reject(verdict, "the angles of arrival disagree");
+      return;
+    }
     factor.information *= verdict.angle_scale.value_or(1);
     verdict.factor = static_cast<std::ptrdiff_t>(joint_.team.graph.relative_poses.size());
     joint_.team.graph.relative_poses.push_back(factor);
@@ -205,15 +211,11 @@ void settle_matches(JointGraph<Pose>& joint, std::vector<MatchVerdict>& verdicts
     optimize_graduated_matches(joint, verdicts, optimizer, progress);
   else
     optimize(graph, optimizer, progress);
-  constexpr double kHalf = 0.5;
   for (MatchVerdict& verdict : verdicts) {
     if (verdict.factor < 0) continue;
     const auto& factor = graph.relative_poses[static_cast<std::size_t>(verdict.factor)];
     verdict.statistic = squared_norm(graph, factor);
-    if (factor.weight < kHalf)
-      verdict = reject(verdict, "the joint estimate disagrees");
-    else if (verdict.angle_scale.value_or(1) < kHalf)
-      verdict = reject(verdict, "the angles of arrival disagree");
+    if (factor.weight < kLeastShare) verdict = reject(verdict, "the joint estimate disagrees");
   }
 }
 

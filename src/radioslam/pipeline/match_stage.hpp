@@ -2,7 +2,8 @@
 // With pruning, a match of two robots is admitted when the keyframes before its two ends are a candidate pair
 // of the overlap search; matches within a robot always are. Of those admitted, the largest set that is
 // pairwise consistent under the odometry's covariance joins the graph, each with a loss that can still drop
-// it. On request, the angles of arrival measured near a match of two robots scale its information.
+// it. On request, the angles of arrival measured near a match of two robots scale its information; one that
+// they leave less than half of it stays out of the graph.
 #pragma once
 
 #include <optional>
@@ -38,8 +39,7 @@ std::vector<MatchVerdict> admit_matches(JointGraph<Pose>& joint, const Mission& 
                                         const MatchParams& params, const ArrivalLikelihoodParams& likelihood);
 
 /// Optimises with graduated losses on the matches, which may reject some of them after all; with all of them
-/// under least squares where they are not to be robust. A match whose angles left it less than half of its
-/// information counts as rejected, like a radio link of that weight.
+/// under least squares where they are not to be robust.
 template <class Pose>
 void settle_matches(JointGraph<Pose>& joint, std::vector<MatchVerdict>& verdicts, const MatchParams& params,
                     const OptimizerParams& optimizer, const Progress& progress);

@@ -1,5 +1,6 @@
 #include "radioslam/radio/arrival_array.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,8 +10,12 @@ namespace {
 
 constexpr double kLightspeed_mps = 299792458;
 constexpr double kPhaseStep_rad = 2;
+constexpr double kBendStep_rad = 1;  // at the edge of a piece; with twice that weaker peaks are missed
 constexpr double kAveragedTurn_rad = 0.8;
-constexpr double kOutOfPlane = 0.25;  // of the level extent
+// Root mean square phases below which an extent tells nothing: of heights at the steepest wave searched, a
+// fifth of what parts up from down; of the breadth of a straight way, where left is worth 0.9 of right.
+constexpr double kLevel_rad = 0.4, kStraight_rad = 0.3;
+constexpr double kSteep = 0.7;  // of a straight way's direction, its vertical part
 
 std::optional<Eigen::Vector3d> place(const ChannelTrack& track, const Trajectory<SE3>& trajectory,
                                      Stamp stamp) {
@@ -21,6 +26,63 @@ std::optional<Eigen::Vector3d> place(const ChannelTrack& track, const Trajectory
 }
 
 double furthest_m(const Eigen::Matrix3Xd& positions) { return positions.colwise().norm().maxCoeff(); }
+
+/// Sets the extent, the axes and the shape.
+void find_shape(MovedArray& moved, const ArrivalParams& params) {
+  const Eigen::Matrix3Xd& p = moved.array.positions_m;
+  const Eigen::Matrix3Xd centred = p.colwise() - p.rowwise().mean();
+  const Eigen::Matrix3d covariance = centred * centred.transpose() / static_cast<double>(p.cols());
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(covariance);
+  moved.extent_m = (p.rowwise().maxCoeff() - p.rowwise().minCoeff()).norm();
+  moved.along = axes.eigenvectors().col(2);
+  moved.normal = axes.eigenvectors().col(0);
+  const double wavenumber_radpm = (moved.is_difference ? 1 : 2) * moved.array.wavenumber_radpm;
+  const double breadth_m = std::sqrt(std::max(axes.eigenvalues()[1], 0.0));
+  const double height_rad =
+      wavenumber_radpm * std::sqrt(covariance(2, 2)) * std::sin(params.most_elevation_rad);
+  const bool is_straight = wavenumber_radpm * breadth_m < kStraight_rad;
+  if (is_straight && std::abs(moved.along.z()) < kSteep)
+    moved.shape = ArrayShape::kLine;
+  else
+    moved.shape = height_rad < kLevel_rad ? ArrayShape::kPlane : ArrayShape::kSpace;
+}
+
+/// Half of what the heights differ by within a piece of the way.
+double height_reach_m(const MovedArray& moved, double piece_m) {
+  double reach_m = 0;
+  for (const SyntheticArray& piece : subarrays(moved.array, piece_m)) {
+    const auto heights = piece.positions_m.row(2);
+    reach_m = std::max(reach_m, (heights.maxCoeff() - heights.minCoeff()) / 2);
+  }
+  return reach_m;
+}
+
+/// Elevations between which kappa (level_m (1 - cos e) + height_m sin e) grows by a step; down too in space.
+std::vector<double> elevations_for(const MovedArray& moved, double level_m, double height_m,
+                                   double most_elevation_rad) {
+  std::vector<double> elevations{0};
+  const double reach_m = std::hypot(level_m, height_m), lag_rad = std::atan2(level_m, height_m);
+  const double step_m = kPhaseStep_rad / moved.array.wavenumber_radpm;
+  if (moved.shape == ArrayShape::kLine) return elevations;
+  for (double further_m = step_m; further_m - level_m < reach_m; further_m += step_m) {
+    const double elevation_rad = lag_rad + std::asin((further_m - level_m) / reach_m);
+    if (elevation_rad >= most_elevation_rad) break;
+    elevations.push_back(elevation_rad);
+    if (moved.shape == ArrayShape::kSpace) elevations.push_back(-elevation_rad);
+  }
+  return elevations;
+}
+
+/// Pieces of `piece_m` are coherent.
+std::vector<double> curvatures_for(const MovedArray& moved, double piece_m, double nearest_source_m) {
+  std::vector<double> curvatures{0};
+  const double radius_m = furthest_m(moved.array.positions_m);
+  const double step =
+      kPhaseStep_rad / (moved.array.wavenumber_radpm * radius_m * std::min(radius_m, piece_m));
+  if (moved.is_difference) return curvatures;
+  for (double rho = step; rho < 1 / nearest_source_m + step / 2; rho += step) curvatures.push_back(rho);
+  return curvatures;
+}
 
 }  // namespace
 
@@ -56,9 +118,7 @@ MovedArray moved_array(const ChannelTrack& track, const Trajectory<SE3>& traject
     array.centre_m = array.positions_m.rowwise().mean();
     array.positions_m.colwise() -= array.centre_m;
   }
-  const Eigen::Vector3d spread = array.positions_m.rowwise().norm();
-  moved.is_plane = spread.z() < kOutOfPlane * std::hypot(spread.x(), spread.y());
-  if (moved.is_plane) array.positions_m.row(2).setZero();
+  find_shape(moved, params);
   return moved;
 }
 
@@ -86,26 +146,17 @@ std::vector<SyntheticArray> subarrays(const SyntheticArray& array, double piece_
 }
 
 WaveGrid grid_for(const MovedArray& moved, const ArrivalParams& params, int azimuths) {
-  const SyntheticArray& array = moved.array;
-  const double radius_m = furthest_m(array.positions_m);
-  const double reach_m = std::min(radius_m, params.subarray_m / 2);
-  WaveGrid grid;
-  grid.azimuths = azimuths;
-  const double most_curvature = moved.is_difference ? 0 : 1 / params.nearest_source_m;
-  const double step = kPhaseStep_rad / (array.wavenumber_radpm * radius_m * radius_m);
-  for (double rho = step; rho < most_curvature + step / 2; rho += step) grid.curvatures_per_m.push_back(rho);
-  if (moved.is_plane) {
-    const double level_step = kPhaseStep_rad / (array.wavenumber_radpm * reach_m);
-    for (double level = 1 - level_step; level > std::cos(params.most_elevation_rad); level -= level_step)
-      grid.elevations_rad.push_back(std::acos(level));
-  } else {
-    const double rise_step = kPhaseStep_rad / (array.wavenumber_radpm * reach_m);
-    for (double rise = rise_step; rise < params.most_elevation_rad; rise += rise_step) {
-      grid.elevations_rad.push_back(rise);
-      grid.elevations_rad.push_back(-rise);
-    }
-  }
-  return grid;
+  const double level_m = std::min(furthest_m(moved.array.positions_m), params.subarray_m / 2);
+  const double height_m = std::min(level_m, height_reach_m(moved, params.subarray_m));
+  return {azimuths, elevations_for(moved, level_m, height_m, params.most_elevation_rad),
+          curvatures_for(moved, params.subarray_m, params.nearest_source_m)};
+}
+
+WaveGrid whole_way_grid(const MovedArray& moved, const ArrivalParams& params, int azimuths) {
+  const double whole_m = 2 * moved.way_m;
+  const double height_m = moved.shape == ArrayShape::kSpace ? height_reach_m(moved, whole_m) : 0;
+  return {azimuths, elevations_for(moved, 0, height_m, params.most_elevation_rad),
+          curvatures_for(moved, whole_m, params.nearest_source_m)};
 }
 
 SyntheticArray averaged(const SyntheticArray& array) {

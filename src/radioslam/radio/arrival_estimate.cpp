@@ -29,7 +29,7 @@ void fill_peaks(ArrivalEstimate& estimate, MovedArray& one_way, ArrivalParams pa
   if (!one_way.is_difference && !is_sparse) name_ghosts(estimate.peaks, waves, one_way);
   const double most = *std::max_element(profile.power.begin(), profile.power.end());
   for (const double power : profile.power) estimate.profile.push_back(static_cast<float>(power / most));
-  estimate.explained = most;
+  estimate.explained = estimate.peaks.front().explained;
 }
 
 }  // namespace
@@ -42,13 +42,16 @@ ArrivalResult estimate_arrival(const ChannelTrack& track, const Trajectory<SE3>&
   if (one_way.rows.empty()) return {std::nullopt, NoArrival::kNoOdometry};
   if (!one_way.is_difference && one_way.way_m < params.least_way_m)
     return {std::nullopt, NoArrival::kNoMotion};
+  if (one_way.extent_m > params.most_extent_m) return {std::nullopt, NoArrival::kTooWide};
   if (one_way.rows.size() < kFewestPackets) return {std::nullopt, NoArrival::kTooFewPackets};
+  if (one_way.array.channel.squaredNorm() == 0) return {std::nullopt, NoArrival::kSilent};
   ArrivalEstimate estimate;
   const Stamp first = part.stamps[one_way.rows.front()], last = part.stamps[one_way.rows.back()];
   estimate.stamp = {first.ns + (last.ns - first.ns) / 2};
   estimate.T_frame_body = *trajectory.at(estimate.stamp);
   estimate.centre_m = one_way.array.centre_m;
   estimate.packets = one_way.rows.size();
+  estimate.tells_height = one_way.shape == ArrayShape::kSpace;
   fill_peaks(estimate, one_way, params);
   return {std::move(estimate), {}};
 }

@@ -6,6 +6,10 @@
 //   profile      how strongly a wave from each direction is in the channel: Bartlett, MUSIC or sparse paths
 //   peaks        refined below the grid's step, with sigma, relative power, and what they may be instead
 //
+// A way that is straight, to within what turns no phase, tells one angle, to itself: its directions are taken
+// as level, and each may be its mirror image, left for right. A level way does not tell up from down. What
+// antennas against each other hear of several paths holds products of theirs as well, which are not told from
+// paths: with a pair the false peaks stand unnamed, and none may be the direct one.
 // Source: theory as in WSR (Jadhav et al., section 4); the square root, the slopes against a path model and
 // the sub-arcs are ours (docs/decisions.md). Frame: the trajectory's. Units: rad, m, dB.
 #pragma once
@@ -31,6 +35,7 @@ struct ArrivalParams {
   double subarray_m = 0.25;          ///< the way's pieces, half overlapping, whose profiles are added
   double least_step_m = 5e-4;        ///< a packet counts once the antenna has moved so far since the last
   double least_way_m = 0.15;         ///< a shorter way tells no direction
+  double most_extent_m = 4;          ///< a wider one has no one direction, and takes long
   int model_paths = 8;               ///< waves that each packet's delay is measured against
   int model_passes = 4;
   int peaks = 4;                  ///< at most
@@ -48,6 +53,8 @@ struct ArrivalParams {
     visit(Field{"subarray_m", "m", 0.05, 1e6, "pieces of the way whose profiles are added"}, self.subarray_m);
     visit(Field{"least_step_m", "m", 0, 0.1, "between packets that count"}, self.least_step_m);
     visit(Field{"least_way_m", "m", 0.01, 100, "shorter ways are not measured"}, self.least_way_m);
+    visit(Field{"most_extent_m", "m", 0.1, 30, "wider ways are not measured; the time grows with the cube"},
+          self.most_extent_m);
     visit(Field{"model_paths", "", 1, 32, "waves against which packets' delays are measured"},
           self.model_paths);
     visit(Field{"model_passes", "", 0, 20, "rounds of that"}, self.model_passes);
@@ -57,15 +64,23 @@ struct ArrivalParams {
   }
 };
 
-/// One direction.
+/// A direction in the trajectory's frame.
+struct ArrivalDirection {
+  double azimuth_rad = 0, elevation_rad = 0;
+};
+
+/// One direction that a wave came from.
 struct ArrivalPeak {
-  double azimuth_rad = 0;            ///< in the trajectory's frame
-  double elevation_rad = 0;          ///< likewise; of a plane motion up, though down is as likely
-  double sigma_rad = 0;              ///< of the azimuth
-  double power_db = 0;               ///< to the strongest peak
-  double curvature_per_m = 0;        ///< one over the source's distance, as far as the wave shows it
-  std::optional<double> mirror_rad;  ///< the azimuth that a straight way cannot tell from this
-  bool is_ghost = false;             ///< a product of two paths, between them
+  double azimuth_rad = 0;          ///< in the trajectory's frame
+  double elevation_rad = 0;        ///< likewise; of a level way up, though down is as likely
+  double sigma_rad = 0;            ///< of the azimuth
+  double elevation_sigma_rad = 0;  ///< half a turn over the root of three where the way does not tell
+  double power_db = 0;             ///< to the strongest peak
+  double curvature_per_m = 0;      ///< one over the source's distance, as far as the wave shows it
+  double explained = 0;            ///< share of the channel that this wave alone explains, 0 to 1
+  std::optional<ArrivalDirection>
+      mirror;             ///< as likely: the other side of a straight way, or of a way's plane
+  bool is_ghost = false;  ///< a product of two paths, between them
 };
 
 /// What one window of packets tells of one transmitter.
@@ -76,7 +91,8 @@ struct ArrivalEstimate {
   std::size_t packets = 0;         ///< that count
   std::vector<ArrivalPeak> peaks;  ///< the strongest first, at least one
   std::vector<float> profile;      ///< power over azimuth from -pi, the strongest 1
-  double explained = 0;            ///< share of the channel that the strongest wave explains, 0 to 1
+  double explained = 0;            ///< the strongest peak's
+  bool tells_height = false;       ///< the way leaves its level by enough for signed elevations
 };
 
 /// Channels and where they were measured, free of the oscillators' phases.
@@ -85,16 +101,19 @@ struct ChannelTrack {
   Eigen::MatrixXcd channel;   ///< packets x subcarriers
   std::vector<double> subcarrier_hz;
   double carrier_hz = 0;
-  double coherence = 0;     ///< of a product both ways, from one exchange to the next; 0 to 1
   bool is_two_way = false;  ///< the product of both ways, else an antenna against another
   Eigen::Vector3d lever_arm_m =
       Eigen::Vector3d::Zero();  ///< antenna in the body frame; of a pair the difference
 };
 
-/// From both ends' captures; nothing where too few packets pair up.
-std::optional<ChannelTrack> two_way_track(const CsiCapture& receiver, MacAddress sender,
-                                          const CsiCapture& answers, double carrier_hz,
-                                          const Eigen::Vector3d& antenna_m, const TwoWayParams& params);
+struct TwoWayTrack {
+  std::optional<ChannelTrack> track;
+  NoTwoWay reason = NoTwoWay::kTooFewExchanges;  ///< where there is none
+};
+
+/// From both ends' captures.
+TwoWayTrack two_way_track(const CsiCapture& receiver, MacAddress sender, const CsiCapture& answers,
+                          double carrier_hz, const Eigen::Vector3d& antenna_m, const TwoWayParams& params);
 
 /// Antenna `first` against `second`, h_first conj(h_second), of every packet from `sender` (of any where
 /// absent).
@@ -103,7 +122,13 @@ std::optional<ChannelTrack> antenna_pair_track(const CsiCapture& receiver, std::
                                                const std::vector<Eigen::Vector3d>& antennas_m, int first,
                                                int second);
 
-enum class NoArrival { kNoMotion, kTooFewPackets, kNoOdometry };
+enum class NoArrival {
+  kNoMotion,
+  kTooFewPackets,
+  kNoOdometry,
+  kTooWide,  ///< the way, beyond most_extent_m
+  kSilent    ///< the channel is zero throughout
+};
 
 struct ArrivalResult {
   std::optional<ArrivalEstimate> estimate;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -21,11 +22,15 @@ constexpr double kTwin = 0.95;           // of a peak's power: its mirror is as 
 constexpr double kGhost = 4;             // times the power of the waves there is a product's
 constexpr double kOnePath = 4;           // resolutions within which waves are parts of one path
 constexpr double kMostGhostWave = 0.05;  // of the strongest wave
+constexpr double kMostGhostShare = 0.5;  // of the channel
 
 double decibels(double ratio) { return 10 * std::log10(std::max(ratio, 1e-12)); }
 
-double most_curvature(const MovedArray& moved, const ArrivalParams& params) {
-  return moved.is_difference ? 0 : 1 / params.nearest_source_m;
+/// Where the array tells sources apart.
+SourceBounds bounds_for(const MovedArray& moved, const ArrivalParams& params) {
+  const double most_rad = moved.shape == ArrayShape::kLine ? 0 : params.most_elevation_rad;
+  return {moved.is_difference ? 0 : 1 / params.nearest_source_m,
+          moved.shape == ArrayShape::kSpace ? -most_rad : 0, most_rad};
 }
 
 /// Of the way whose profiles are added; a pair of antennas is one piece.
@@ -47,12 +52,56 @@ AzimuthProfile over_azimuth(const WaveGrid& grid, const std::vector<double>& pow
   return profile;
 }
 
-/// Horizontal directions from which a straight way's phases are the same: the line's azimuth, if it is one.
-double mirror_of(double azimuth_rad, const SyntheticArray& array) {
-  const Eigen::Matrix2d spread = array.positions_m.topRows<2>() * array.positions_m.topRows<2>().transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(spread);
-  const Eigen::Vector2d line = axes.eigenvectors().col(1);
-  return wrap_angle(2 * std::atan2(line.y(), line.x()) - azimuth_rad);
+/// The same source on the other side of the upright plane along the way, and of the way's own plane: where
+/// the way lies in one of them its phases are the same.
+std::array<WaveSource, 2> twins_of(const WaveSource& source, const MovedArray& moved) {
+  WaveSource across = source, beyond = source;
+  across.azimuth_rad = wrap_angle(2 * std::atan2(moved.along.y(), moved.along.x()) - source.azimuth_rad);
+  const Eigen::Vector3d u = source.direction();
+  const Eigen::Vector3d v = u - 2 * u.dot(moved.normal) * moved.normal;
+  beyond.azimuth_rad = std::atan2(v.y(), v.x());
+  beyond.elevation_rad = std::asin(std::clamp(v.z(), -1.0, 1.0));
+  return {across, beyond};
+}
+
+/// The first of them that explains as much and is another direction.
+std::optional<ArrivalDirection> mirror_of(const WaveSource& source, const ArrivalPeak& peak,
+                                          const BeamObjective& objective, const MovedArray& moved) {
+  for (const WaveSource& twin : twins_of(source, moved)) {
+    const bool is_apart = std::abs(wrap_angle(source.azimuth_rad - twin.azimuth_rad)) > 2 * peak.sigma_rad ||
+                          std::abs(source.elevation_rad - twin.elevation_rad) > 2 * peak.elevation_sigma_rad;
+    if (is_apart && objective.value(twin) > kTwin * objective.value(source))
+      return ArrivalDirection{twin.azimuth_rad, twin.elevation_rad};
+  }
+  return std::nullopt;
+}
+
+/// Elevation's sigma on a level way, which measures its cosine, no better than the floor. Near the level the
+/// slope of that is none: half of what twice the cosine's sigma reaches.
+double level_elevation_sigma_rad(double elevation_rad, double sigma_rad, double floor_rad) {
+  const double cosine = std::cos(elevation_rad);
+  const double sigma = std::hypot(sigma_rad * std::sin(elevation_rad), floor_rad);
+  const double highest = std::acos(std::max(cosine - 2 * sigma, -1.0));
+  const double lowest = std::acos(std::min(cosine + 2 * sigma, 1.0));
+  return std::max(highest - elevation_rad, elevation_rad - lowest) / 2;
+}
+
+/// A peak at a source, but for its power.
+ArrivalPeak peak_at(const WaveSource& source, const BeamObjective& objective, const MovedArray& moved,
+                    const ArrivalParams& params) {
+  SourceSigma sigma = objective.sigma(source, bounds_for(moved, params));
+  if (moved.shape == ArrayShape::kPlane)
+    sigma.elevation_rad =
+        level_elevation_sigma_rad(source.elevation_rad, sigma.elevation_rad, params.sigma_floor_rad);
+  ArrivalPeak peak;
+  peak.azimuth_rad = source.azimuth_rad;
+  peak.elevation_rad = source.elevation_rad;
+  peak.curvature_per_m = source.curvature_per_m;
+  peak.sigma_rad = std::hypot(sigma.azimuth_rad, params.sigma_floor_rad);
+  peak.elevation_sigma_rad = std::hypot(sigma.elevation_rad, params.sigma_floor_rad);
+  peak.explained = std::min(objective.value(source), 1.0);
+  peak.mirror = mirror_of(source, peak, objective, moved);
+  return peak;
 }
 
 std::vector<std::size_t> local_maxima(const std::vector<double>& power) {
@@ -162,31 +211,21 @@ std::vector<ArrivalPeak> find_peaks(const AzimuthProfile& profile, const MovedAr
                                     const ArrivalParams& params) {
   const auto pieces = subarrays(moved.array, piece_length_m(moved, params));
   const DelayTable delays = delay_table(moved.array.subcarrier_hz);
-  const double most = most_curvature(moved, params);
   const auto maxima = local_maxima(profile.power);
   std::vector<ArrivalPeak> peaks;
   std::vector<std::vector<double>> shares;
   for (const std::size_t k : maxima) {
     if (std::ssize(peaks) == params.peaks) break;
     const BeamObjective objective(pieces, delays, profile.source[k]);
-    const WaveSource source = objective.climb(profile.source[k], most);
+    const WaveSource source = objective.climb(profile.source[k], bounds_for(moved, params));
     const bool is_known = std::any_of(peaks.begin(), peaks.end(), [&](const ArrivalPeak& other) {
       return std::abs(wrap_angle(source.azimuth_rad - other.azimuth_rad)) <
              std::numbers::pi / params.azimuths;
     });
     if (is_known) continue;
-    ArrivalPeak& peak = peaks.emplace_back();
-    peak.azimuth_rad = source.azimuth_rad;
-    peak.elevation_rad = source.elevation_rad;
-    peak.curvature_per_m = source.curvature_per_m;
-    peak.power_db = decibels(profile.power[k] / profile.power[maxima.front()]);
-    peak.sigma_rad = std::hypot(objective.sigma_rad(source, most), params.sigma_floor_rad);
+    peaks.push_back(peak_at(source, objective, moved, params));
+    peaks.back().power_db = decibels(profile.power[k] / profile.power[maxima.front()]);
     shares.push_back(objective.shares(source));
-    WaveSource twin = source;
-    twin.azimuth_rad = mirror_of(source.azimuth_rad, moved.array);
-    if (std::abs(wrap_angle(source.azimuth_rad - twin.azimuth_rad)) > 2 * peak.sigma_rad &&
-        objective.value(twin) > kTwin * objective.value(source))
-      peak.mirror_rad = twin.azimuth_rad;
   }
   if (!moved.is_difference)
     widen_by_neighbours(peaks, shares,
@@ -196,7 +235,7 @@ std::vector<ArrivalPeak> find_peaks(const AzimuthProfile& profile, const MovedAr
 
 std::vector<ArrivalPeak> peaks_of_waves(const std::vector<WavePath>& waves, const MovedArray& one_way,
                                         const ArrivalParams& params) {
-  const double apart_rad = resolution_rad(one_way) / 2, most = most_curvature(one_way, params);
+  const double apart_rad = resolution_rad(one_way) / 2;
   const DelayTable delays = delay_table(one_way.array.subcarrier_hz);
   const auto is_stronger = [](const WavePath& a, const WavePath& b) {
     return std::norm(a.amplitude) > std::norm(b.amplitude);
@@ -209,7 +248,8 @@ std::vector<ArrivalPeak> peaks_of_waves(const std::vector<WavePath>& waves, cons
           return std::abs(wrap_angle(wave.source.azimuth_rad - other.source.azimuth_rad)) < apart_rad;
         }))
       distinct.push_back(wave);
-  distinct = refine_paths(distinct, averaged(one_way.array), delays, most, kRefinements);
+  distinct =
+      refine_paths(distinct, averaged(one_way.array), delays, bounds_for(one_way, params), kRefinements);
   std::stable_sort(distinct.begin(), distinct.end(), is_stronger);
   std::vector<ArrivalPeak> peaks;
   for (const WavePath& wave : distinct) {
@@ -219,23 +259,23 @@ std::vector<ArrivalPeak> peaks_of_waves(const std::vector<WavePath>& waves, cons
     SyntheticArray alone = one_way.array;
     alone.channel -= channel_of(others, one_way.array);
     const BeamObjective objective({alone}, delays, wave.source);
-    ArrivalPeak& peak = peaks.emplace_back();
-    peak.azimuth_rad = wave.source.azimuth_rad;
-    peak.elevation_rad = wave.source.elevation_rad;
-    peak.curvature_per_m = wave.source.curvature_per_m;
-    peak.power_db = decibels(std::norm(wave.amplitude) / std::norm(distinct.front().amplitude));
-    peak.sigma_rad = std::hypot(objective.sigma_rad(wave.source, most), params.sigma_floor_rad);
+    peaks.push_back(peak_at(wave.source, objective, one_way, params));
+    peaks.back().power_db = decibels(std::norm(wave.amplitude) / std::norm(distinct.front().amplitude));
+    peaks.back().explained =
+        std::min(BeamObjective({one_way.array}, delays, wave.source).value(wave.source), 1.0);
   }
   return peaks;
 }
 
 void name_ghosts(std::vector<ArrivalPeak>& peaks, const std::vector<WavePath>& waves,
                  const MovedArray& one_way) {
-  const double near = resolution_rad(one_way) / 2;
-  // A plane way sees no height: a product's level direction is short, and its peak stands as high as that
-  // says.
+  const double near = std::max(resolution_rad(one_way) / 2, 2 * std::numbers::pi / kWaveAzimuths);
+  // A product's level direction is short, and on a way that sees no height its peak stands as high as that
+  // says; a straight way sees one component alone.
   const auto apart = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-    return one_way.is_plane ? (a - b).head<2>().norm() : (a - b).norm();
+    const Eigen::Vector3d way = a - b;
+    if (one_way.shape == ArrayShape::kLine) return std::abs(way.dot(one_way.along));
+    return one_way.shape == ArrayShape::kPlane ? way.head<2>().norm() : way.norm();
   };
   double strongest = 0;
   for (const WavePath& wave : waves) strongest = std::max(strongest, std::norm(wave.amplitude));
@@ -249,7 +289,8 @@ void name_ghosts(std::vector<ArrivalPeak>& peaks, const std::vector<WavePath>& w
             apart((a.source.direction() + b.source.direction()) / 2, at) < near)
           product = std::max(product, 2 * std::abs(a.amplitude) * std::abs(b.amplitude));
     }
-    peak.is_ghost = product > kGhost * here && here < kMostGhostWave * strongest;
+    peak.is_ghost =
+        product > kGhost * here && here < kMostGhostWave * strongest && peak.explained < kMostGhostShare;
   }
 }
 

@@ -30,7 +30,8 @@ std::vector<ArrivalPeak> find_peaks(const AzimuthProfile& profile, const MovedAr
 std::vector<ArrivalPeak> peaks_of_waves(const std::vector<WavePath>& waves, const MovedArray& one_way,
                                         const ArrivalParams& params);
 
-/// Marks peaks of the product both ways that no wave of one way explains, but two waves' product does.
+/// Marks peaks of the product both ways that no wave of one way explains, but two waves' product does. What
+/// explains more than half of the channel is none.
 void name_ghosts(std::vector<ArrivalPeak>& peaks, const std::vector<WavePath>& waves,
                  const MovedArray& one_way);
 

@@ -5,7 +5,6 @@
 namespace radioslam {
 namespace {
 
-constexpr int kAzimuths = 240;
 constexpr double kStep = 1.0 / 8;                                              // of the band's resolution
 constexpr double kPacketDelays = 5, kWaveDelays = 2.5, kUncentredDelays = 14;  // resolutions
 
@@ -39,8 +38,7 @@ DelayTable packet_delays(const std::vector<double>& subcarrier_hz) {
 
 std::vector<WavePath> align_to_waves(MovedArray& one_way, const ArrivalParams& params) {
   SyntheticArray& array = one_way.array;
-  WaveGrid grid = grid_for(one_way, params, kAzimuths);
-  if (one_way.is_plane) grid.elevations_rad = {0};
+  const WaveGrid grid = whole_way_grid(one_way, params, kWaveAzimuths);
   const auto& hz = array.subcarrier_hz;
   const DelayTable far = delays_up_to(hz, kUncentredDelays, 1.0 / 3), near = delay_table(hz);
   const DelayTable packets = packet_delays(hz);

@@ -9,6 +9,9 @@
 
 namespace radioslam {
 
+/// Of the grid that waves are sought on.
+inline constexpr int kWaveAzimuths = 240;
+
 /// Aligns the rows of the array's channel; returns the waves, the strongest at about no delay.
 std::vector<WavePath> align_to_waves(MovedArray& one_way, const ArrivalParams& params);
 

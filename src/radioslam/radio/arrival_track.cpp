@@ -5,20 +5,18 @@
 
 namespace radioslam {
 
-std::optional<ChannelTrack> two_way_track(const CsiCapture& receiver, MacAddress sender,
-                                          const CsiCapture& answers, double carrier_hz,
-                                          const Eigen::Vector3d& antenna_m, const TwoWayParams& params) {
+TwoWayTrack two_way_track(const CsiCapture& receiver, MacAddress sender, const CsiCapture& answers,
+                          double carrier_hz, const Eigen::Vector3d& antenna_m, const TwoWayParams& params) {
   auto two_way = two_way_channel(receiver, sender, answers, params);
-  if (!two_way) return std::nullopt;
+  if (!two_way.channel) return {std::nullopt, two_way.reason};
   ChannelTrack track;
-  track.stamps = std::move(two_way->stamps);
-  track.channel = std::move(two_way->product);
+  track.stamps = std::move(two_way.channel->stamps);
+  track.channel = std::move(two_way.channel->product);
   track.subcarrier_hz = receiver.subcarrier_hz;
   track.carrier_hz = carrier_hz;
-  track.coherence = two_way->coherence;
   track.is_two_way = true;
   track.lever_arm_m = antenna_m;
-  return track;
+  return {std::move(track), {}};
 }
 
 std::optional<ChannelTrack> antenna_pair_track(const CsiCapture& receiver, std::optional<MacAddress> sender,

@@ -1,5 +1,6 @@
 #include "radioslam/radio/beam_objective.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
@@ -14,35 +15,103 @@ namespace radioslam {
 namespace {
 
 constexpr Eigen::Index kBlocks = 5;  // of every piece of the way
-constexpr int kClimbs = 12, kHalvings = 6;
-constexpr double kAngleStep_rad = 1e-4, kCurvatureStep_per_m = 1e-4;
-constexpr double kLongestClimb_rad = 0.02;
-constexpr double kCurvatureReach_per_m = 0.1;
+constexpr int kClimbs = 20, kStepHalvings = 6;
+constexpr double kFlattest = 1e-6;  // bend of a direction against that of the steepest
+const double kWidest_rad = std::numbers::pi / std::sqrt(3.0);
 
-WaveSource moved(WaveSource source, double azimuth_rad, double curvature_per_m) {
-  source.azimuth_rad = wrap_angle(source.azimuth_rad + azimuth_rad);
-  source.curvature_per_m += curvature_per_m;
+/// The longest step of a climb in azimuth, elevation and curvature.
+const Eigen::Vector3d kLongestSteps(0.02, 0.05, 0.1);
+
+WaveSource moved(WaveSource source, const Eigen::Vector3d& step) {
+  source.azimuth_rad = wrap_angle(source.azimuth_rad + step.x());
+  source.elevation_rad += step.y();
+  source.curvature_per_m += step.z();
   return source;
+}
+
+WaveSource within(WaveSource source, const SourceBounds& bounds) {
+  source.elevation_rad =
+      std::clamp(source.elevation_rad, bounds.least_elevation_rad, bounds.most_elevation_rad);
+  source.curvature_per_m = std::clamp(source.curvature_per_m, 0.0, bounds.most_curvature_per_m);
+  return source;
+}
+
+/// Of azimuth, elevation and curvature those that may move along a slope, or at all.
+std::vector<Eigen::Index> free_at(const WaveSource& source, const SourceBounds& bounds,
+                                  const Eigen::Vector3d& slope = Eigen::Vector3d::Zero()) {
+  const auto is_free = [](double value, double least, double most, double up) {
+    return least < most && (value > least || up > 0) && (value < most || up < 0);
+  };
+  std::vector<Eigen::Index> free{0};
+  if (is_free(source.elevation_rad, bounds.least_elevation_rad, bounds.most_elevation_rad, slope.y()))
+    free.push_back(1);
+  if (is_free(source.curvature_per_m, 0, bounds.most_curvature_per_m, slope.z())) free.push_back(2);
+  return free;
 }
 
 }  // namespace
 
-/// J' and J'' over (azimuth, curvature), and the blocks' shares of J'.
+/// J' and J'' over (azimuth, elevation, curvature), and the blocks' shares of J'.
 struct BeamObjective::Slope {
-  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d bend = Eigen::Matrix2d::Zero();  ///< -J''
-  std::vector<Eigen::Vector2d> shares;
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d bend = Eigen::Matrix3d::Zero();  ///< -J''
+  std::vector<Eigen::Vector3d> shares;
 };
+
+namespace {
+
+/// Of kappa e over azimuth, elevation and curvature, at one place.
+struct PhaseSlope {
+  Eigen::Vector3d first;
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();  ///< of the angles; curvature's part is left out
+};
+
+/// With d = p.u, q = |p|^2 and N = |rho p - u|: e = (rho q - 2 d) / (N + 1), de/dd = -1 / N,
+/// d2e/dd2 = -rho / N^3, dN/drho = (rho q - d) / N.
+class PhaseSlopes {
+ public:
+  PhaseSlopes(const WaveSource& source, double wavenumber_radpm)
+      : u_(source.direction()), rho_(source.curvature_per_m), wavenumber_radpm_(wavenumber_radpm) {
+    const double ca = std::cos(source.azimuth_rad), sa = std::sin(source.azimuth_rad);
+    const double ce = std::cos(source.elevation_rad), se = std::sin(source.elevation_rad);
+    by_azimuth_ = {-ce * sa, ce * ca, 0};
+    by_elevation_ = {-se * ca, -se * sa, ce};
+    by_azimuth_twice_ = {-ce * ca, -ce * sa, 0};
+    by_both_ = {se * sa, -se * ca, 0};
+  }
+
+  double phase_rad(const Eigen::Vector3d& p) const { return wavenumber_radpm_ * excess_way_m(u_, rho_, p); }
+
+  PhaseSlope at(const Eigen::Vector3d& p) const {
+    const double d = p.dot(u_), q = p.squaredNorm(), n = (rho_ * p - u_).norm();
+    const double a = p.dot(by_azimuth_), e = p.dot(by_elevation_), bent = rho_ / (n * n * n);
+    const double more = q / (n + 1) - (rho_ * q - 2 * d) * (rho_ * q - d) / (n * (n + 1) * (n + 1));
+    PhaseSlope slope{wavenumber_radpm_ * Eigen::Vector3d(-a / n, -e / n, more)};
+    slope.second(0, 0) = -p.dot(by_azimuth_twice_) / n - bent * a * a;
+    slope.second(1, 1) = d / n - bent * e * e;
+    slope.second(0, 1) = slope.second(1, 0) = -p.dot(by_both_) / n - bent * a * e;
+    slope.second *= wavenumber_radpm_;
+    return slope;
+  }
+
+ private:
+  Eigen::Vector3d u_, by_azimuth_, by_elevation_, by_azimuth_twice_, by_both_;
+  double rho_, wavenumber_radpm_;
+};
+
+}  // namespace
 
 BeamObjective::BeamObjective(const std::vector<SyntheticArray>& pieces, const DelayTable& delays,
                              const WaveSource& near) {
+  const Eigen::Vector3d u = near.direction();
   for (const SyntheticArray& array : pieces) {
     const double energy =
         static_cast<double>(array.channel.size()) * std::max(array.channel.squaredNorm(), 1e-300);
     Eigen::RowVectorXcd beam = Eigen::RowVectorXcd::Zero(array.channel.cols());
     for (Eigen::Index k = 0; k < array.snapshots(); ++k)
       beam += array.channel.row(k) *
-              std::polar(1.0, array.wavenumber_radpm * excess_way_m(near, array.positions_m.col(k)));
+              std::polar(1.0, array.wavenumber_radpm *
+                                  excess_way_m(u, near.curvature_per_m, array.positions_m.col(k)));
     Eigen::Index best = 0;
     (beam * delays.turns()).cwiseAbs().maxCoeff(&best);
     pieces_.push_back({array.positions_m, array.channel * delays.turns().col(best) / std::sqrt(energy),
@@ -51,26 +120,29 @@ BeamObjective::BeamObjective(const std::vector<SyntheticArray>& pieces, const De
 }
 
 double BeamObjective::value(const WaveSource& source) const {
+  const Eigen::Vector3d u = source.direction();
   double value = 0;
   for (const Piece& piece : pieces_) {
     std::complex<double> sum = 0;
     for (Eigen::Index k = 0; k < piece.weights.size(); ++k)
-      sum += piece.weights[k] *
-             std::polar(1.0, piece.wavenumber_radpm * excess_way_m(source, piece.positions_m.col(k)));
+      sum +=
+          piece.weights[k] * std::polar(1.0, piece.wavenumber_radpm * excess_way_m(u, source.curvature_per_m,
+                                                                                   piece.positions_m.col(k)));
     value += std::norm(sum);
   }
   return value / static_cast<double>(pieces_.size());
 }
 
 std::vector<double> BeamObjective::shares(const WaveSource& source) const {
+  const Eigen::Vector3d u = source.direction();
   std::vector<double> shares;
   for (const Piece& piece : pieces_) {
     std::array<std::complex<double>, kBlocks> parts{};
     const Eigen::Index n = piece.weights.size();
     for (Eigen::Index k = 0; k < n; ++k)
       parts[static_cast<std::size_t>(k * kBlocks / n)] +=
-          piece.weights[k] *
-          std::polar(1.0, piece.wavenumber_radpm * excess_way_m(source, piece.positions_m.col(k)));
+          piece.weights[k] * std::polar(1.0, piece.wavenumber_radpm * excess_way_m(u, source.curvature_per_m,
+                                                                                   piece.positions_m.col(k)));
     const std::complex<double> sum = std::accumulate(parts.begin(), parts.end(), std::complex<double>(0));
     for (const auto& part : parts)
       shares.push_back((std::conj(sum) * part).real() / static_cast<double>(pieces_.size()));
@@ -83,31 +155,24 @@ BeamObjective::Slope BeamObjective::slope(const WaveSource& source) const {
   for (const Piece& piece : pieces_) {
     const Eigen::Index n = piece.weights.size();
     std::complex<double> sum = 0;
-    std::vector<Eigen::Vector2cd> parts(static_cast<std::size_t>(kBlocks), Eigen::Vector2cd::Zero());
+    std::vector<Eigen::Vector3cd> parts(static_cast<std::size_t>(kBlocks), Eigen::Vector3cd::Zero());
     std::array<std::complex<double>, kBlocks> sums{};
-    Eigen::Matrix2cd second = Eigen::Matrix2cd::Zero();
+    Eigen::Matrix3cd second = Eigen::Matrix3cd::Zero();
+    const PhaseSlopes slopes(source, piece.wavenumber_radpm);
     for (Eigen::Index k = 0; k < n; ++k) {
       const Eigen::Vector3d p = piece.positions_m.col(k);
-      const auto excess = [&](double a, double c) { return excess_way_m(moved(source, a, c), p); };
-      const double here = excess(0, 0), left = excess(-kAngleStep_rad, 0), right = excess(kAngleStep_rad, 0);
-      const double bent = excess(0, kCurvatureStep_per_m);
-      const Eigen::Vector2d turn =
-          piece.wavenumber_radpm *
-          Eigen::Vector2d((right - left) / (2 * kAngleStep_rad), (bent - here) / kCurvatureStep_per_m);
-      const double turn_bend =
-          piece.wavenumber_radpm * (right - 2 * here + left) / (kAngleStep_rad * kAngleStep_rad);
-      const std::complex<double> z = piece.weights[k] * std::polar(1.0, piece.wavenumber_radpm * here);
+      const PhaseSlope turn = slopes.at(p);
+      const std::complex<double> z = piece.weights[k] * std::polar(1.0, slopes.phase_rad(p));
       const std::complex<double> jz(-z.imag(), z.real());
       sum += z;
-      parts[static_cast<std::size_t>(k * kBlocks / n)] += jz * turn;
+      parts[static_cast<std::size_t>(k * kBlocks / n)] += jz * turn.first;
       sums[static_cast<std::size_t>(k * kBlocks / n)] += z;
-      second -= z * (turn * turn.transpose());
-      second(0, 0) += jz * turn_bend;
+      second += jz * turn.second - z * (turn.first * turn.first.transpose());
     }
-    Eigen::Vector2cd first = Eigen::Vector2cd::Zero();
+    Eigen::Vector3cd first = Eigen::Vector3cd::Zero();
     for (const auto& part : parts) first += part;
     // The phase that turns all of a piece alike moves no peak: in the blocks' shares it would count as noise.
-    const Eigen::Vector2d common = (std::conj(sum) * first).imag() / std::max(std::norm(sum), 1e-300);
+    const Eigen::Vector3d common = (std::conj(sum) * first).imag() / std::max(std::norm(sum), 1e-300);
     for (std::size_t b = 0; b < parts.size(); ++b)
       result.shares.push_back(2 * (std::conj(sum) * parts[b]).real() +
                               2 * (std::conj(sum) * sums[b]).imag() * common);
@@ -117,23 +182,33 @@ BeamObjective::Slope BeamObjective::slope(const WaveSource& source) const {
   return result;
 }
 
-WaveSource BeamObjective::climb(WaveSource from, double most_curvature_per_m) const {
+namespace {
+
+/// Uphill where the value bends either way: Newton's step with the bend's size (saddle-free; Dauphin et al.
+/// 2014), in units of the longest steps.
+Eigen::Vector3d uphill(const Eigen::Vector3d& gradient, const Eigen::Matrix3d& bend,
+                       const std::vector<Eigen::Index>& free) {
+  const Eigen::VectorXd reach = kLongestSteps(free), slope = gradient(free).cwiseProduct(reach);
+  const Eigen::MatrixXd scaled = reach.asDiagonal() * bend(free, free) * reach.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(scaled);
+  const Eigen::VectorXd size = axes.eigenvalues().cwiseAbs();
+  const double least = std::max(kFlattest * size.maxCoeff(), 1e-300);
+  const Eigen::VectorXd along = (axes.eigenvectors().transpose() * slope).cwiseQuotient(size.cwiseMax(least));
+  Eigen::Vector3d step = Eigen::Vector3d::Zero();
+  step(free) = (axes.eigenvectors() * along).cwiseProduct(reach);
+  return step.cwiseMax(-kLongestSteps).cwiseMin(kLongestSteps);
+}
+
+}  // namespace
+
+WaveSource BeamObjective::climb(WaveSource from, const SourceBounds& bounds) const {
   double here = value(from);
   for (int round = 0; round < kClimbs; ++round) {
     const Slope s = slope(from);
-    Eigen::Vector2d step = Eigen::Vector2d::Zero();
-    if (most_curvature_per_m > 0 && s.bend.determinant() > 0 && s.bend(0, 0) > 0)
-      step = s.bend.inverse() * s.gradient;
-    else if (s.bend(0, 0) > 0)
-      step.x() = s.gradient.x() / s.bend(0, 0);
-    else
-      step.x() = std::copysign(kLongestClimb_rad, s.gradient.x());
-    step.x() = std::clamp(step.x(), -kLongestClimb_rad, kLongestClimb_rad);
-    step.y() = std::clamp(step.y(), -kCurvatureReach_per_m, kCurvatureReach_per_m);
+    Eigen::Vector3d step = uphill(s.gradient, s.bend, free_at(from, bounds, s.gradient));
     bool climbed = false;
-    for (int half = 0; half < kHalvings && !climbed; ++half, step /= 2) {
-      WaveSource next = moved(from, step.x(), step.y());
-      next.curvature_per_m = std::clamp(next.curvature_per_m, 0.0, most_curvature_per_m);
+    for (int half = 0; half < kStepHalvings && !climbed; ++half, step /= 2) {
+      const WaveSource next = within(moved(from, step), bounds);
       const double there = value(next);
       if (there <= here) continue;
       climbed = true;
@@ -145,19 +220,19 @@ WaveSource BeamObjective::climb(WaveSource from, double most_curvature_per_m) co
   return from;
 }
 
-double BeamObjective::sigma_rad(const WaveSource& peak, double most_curvature_per_m) const {
+SourceSigma BeamObjective::sigma(const WaveSource& peak, const SourceBounds& bounds) const {
   const Slope s = slope(peak);
-  Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   for (const auto& share : s.shares) scatter += share * share.transpose();
   if (pieces_.size() > 1) scatter *= 2;
-  const bool is_inside = peak.curvature_per_m > 0 && peak.curvature_per_m < most_curvature_per_m;
-  const double widest_rad = std::numbers::pi / std::sqrt(3.0);
-  if (is_inside && s.bend(0, 0) > 0 && s.bend.determinant() > 0) {
-    const Eigen::Matrix2d inverse = s.bend.inverse();
-    return std::min(widest_rad, std::sqrt((inverse * scatter * inverse)(0, 0)));
-  }
-  if (s.bend(0, 0) <= 0) return widest_rad;
-  return std::min(widest_rad, std::sqrt(scatter(0, 0)) / s.bend(0, 0));
+  std::vector<Eigen::Index> free = free_at(peak, bounds);
+  if (Eigen::MatrixXd(s.bend(free, free)).llt().info() != Eigen::Success) free = {0};
+  if (s.bend(0, 0) <= 0) return {kWidest_rad, kWidest_rad};
+  const Eigen::MatrixXd inverse = Eigen::MatrixXd(s.bend(free, free)).inverse();
+  const Eigen::MatrixXd covariance = inverse * scatter(free, free) * inverse;
+  const bool has_elevation = free.size() > 1 && free[1] == 1;
+  return {std::min(kWidest_rad, std::sqrt(covariance(0, 0))),
+          has_elevation ? std::min(kWidest_rad, std::sqrt(covariance(1, 1))) : kWidest_rad};
 }
 
 }  // namespace radioslam

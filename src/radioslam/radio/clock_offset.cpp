@@ -86,16 +86,17 @@ ChannelTrack shifted(ChannelTrack track, double offset_s) {
   return track;
 }
 
-std::optional<ClockOffset> estimate_clock_offset(const ChannelTrack& track, const Trajectory<SE3>& trajectory,
-                                                 const ClockOffsetParams& params) {
-  if (!track.is_two_way || track.stamps.size() < kFewestMoments || trajectory.empty()) return std::nullopt;
+ClockOffsetResult estimate_clock_offset(const ChannelTrack& track, const Trajectory<SE3>& trajectory,
+                                        const ClockOffsetParams& params) {
+  if (!track.is_two_way) return {std::nullopt, NoClockOffset::kNotTwoWay};
+  if (track.stamps.size() < kFewestMoments || trajectory.empty()) return {};
   const auto reach_ns = std::llround(params.most_s * 1e9);
   std::vector<Moment> moments;
   for (const Moment& moment : channel_rates(track, params.smoothing_s))
     if (speed_mps(trajectory, track.lever_arm_m, {moment.stamp.ns - reach_ns}, params.smoothing_s) &&
         speed_mps(trajectory, track.lever_arm_m, {moment.stamp.ns + reach_ns}, params.smoothing_s))
       moments.push_back(moment);
-  if (moments.size() < kFewestMoments) return std::nullopt;
+  if (moments.size() < kFewestMoments) return {};
   const auto steps = static_cast<int>(std::lround(params.most_s / params.step_s));
   std::vector<double> whole;
   double least_variation = kLeastVariation;
@@ -117,11 +118,12 @@ std::optional<ClockOffset> estimate_clock_offset(const ChannelTrack& track, cons
   }
   const double best = best_step(whole);
   const bool is_inside = best > 0 && best < 2.0 * steps;
-  if (!is_inside || least_variation < kLeastVariation) return std::nullopt;
+  if (!is_inside || least_variation < kLeastVariation) return {std::nullopt, NoClockOffset::kConstantSpeed};
   double scatter = 0;
   for (const auto& values : without) scatter += std::pow(best_step(values) - best, 2);
-  const double sigma = std::sqrt((kParts - 1.0) / kParts * scatter);
-  return ClockOffset{(best - steps) * params.step_s, std::max(sigma, 0.5) * params.step_s};
+  const double sigma_s = std::max(std::sqrt((kParts - 1.0) / kParts * scatter), 0.5) * params.step_s;
+  if (sigma_s > params.widest_s) return {std::nullopt, NoClockOffset::kConstantSpeed};
+  return {ClockOffset{(best - steps) * params.step_s, sigma_s}, {}};
 }
 
 }  // namespace radioslam

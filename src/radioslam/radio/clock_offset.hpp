@@ -17,6 +17,7 @@ struct ClockOffsetParams {
   double most_s = 1;          ///< either way
   double step_s = 0.01;       ///< of the search; refined by a parabola
   double smoothing_s = 0.06;  ///< over which both speeds are taken
+  double widest_s = 0.2;      ///< an estimate less sure than this is none
 };
 
 struct ClockOffset {
@@ -24,10 +25,20 @@ struct ClockOffset {
   double sigma_s = 0;
 };
 
-/// Of a track both ways. Nothing where the trajectory covers too few packets by the search's reach, or where
-/// either speed never changes.
-std::optional<ClockOffset> estimate_clock_offset(const ChannelTrack& track, const Trajectory<SE3>& trajectory,
-                                                 const ClockOffsetParams& params = {});
+enum class NoClockOffset {
+  kNotTwoWay,     ///< antennas against each other turn with the body: their speed is not the channel's
+  kUncovered,     ///< too few packets that the trajectory covers, with a second to either side
+  kConstantSpeed  ///< nothing to agree on: the speed hardly changes, or the sigma is too wide
+};
+
+struct ClockOffsetResult {
+  std::optional<ClockOffset> clock;
+  NoClockOffset reason = NoClockOffset::kUncovered;  ///< where there is none
+};
+
+/// Of a track both ways.
+ClockOffsetResult estimate_clock_offset(const ChannelTrack& track, const Trajectory<SE3>& trajectory,
+                                        const ClockOffsetParams& params = {});
 
 /// The track with its stamps moved.
 ChannelTrack shifted(ChannelTrack track, double offset_s);

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <numbers>
 
-#include "radioslam/radio/beam_objective.hpp"
-
 namespace radioslam {
 namespace {
 
@@ -67,7 +65,7 @@ std::vector<WavePath> find_paths(const SyntheticArray& array, const WaveGrid& gr
 }
 
 std::vector<WavePath> refine_paths(std::vector<WavePath> paths, const SyntheticArray& array,
-                                   const DelayTable& delays, double most_curvature_per_m, int rounds) {
+                                   const DelayTable& delays, const SourceBounds& bounds, int rounds) {
   std::vector<Atom> atoms;
   for (const WavePath& path : paths) atoms.push_back(atom_of(path, array));
   const auto solve = [&] {
@@ -81,7 +79,7 @@ std::vector<WavePath> refine_paths(std::vector<WavePath> paths, const SyntheticA
       for (std::size_t j = 0; j < paths.size(); ++j)
         if (j != i) alone.channel -= paths[j].amplitude * atoms[j].over_snapshots * atoms[j].over_subcarriers;
       const BeamObjective objective({alone}, delays, paths[i].source);
-      paths[i].source = objective.climb(paths[i].source, most_curvature_per_m);
+      paths[i].source = objective.climb(paths[i].source, bounds);
       atoms[i] = atom_of(paths[i], array);
       paths[i].delay_s = delays.best_delay_s(atoms[i].over_snapshots.adjoint() * alone.channel);
       atoms[i] = atom_of(paths[i], array);

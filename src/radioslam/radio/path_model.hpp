@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "radioslam/radio/array_beams.hpp"
+#include "radioslam/radio/beam_objective.hpp"
 
 namespace radioslam {
 
@@ -25,7 +26,7 @@ std::vector<WavePath> find_paths(const SyntheticArray& array, const WaveGrid& gr
 /// The same paths, each in turn moved to where it explains most of what the others leave, `rounds` times, and
 /// all amplitudes solved again. `delays`: where each path's delay is sought.
 std::vector<WavePath> refine_paths(std::vector<WavePath> paths, const SyntheticArray& array,
-                                   const DelayTable& delays, double most_curvature_per_m, int rounds);
+                                   const DelayTable& delays, const SourceBounds& bounds, int rounds);
 
 /// What the paths make the channel at positions (3 x snapshots): snapshots x subcarriers.
 Eigen::MatrixXcd channel_of(const std::vector<WavePath>& paths, const SyntheticArray& array);

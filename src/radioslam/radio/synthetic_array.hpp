@@ -26,12 +26,16 @@ struct WaveSource {
   Eigen::Vector3d direction() const { return unit_direction(azimuth_rad, elevation_rad); }
 };
 
-/// The way to `position` less the way to the centre, metres.
-inline double excess_way_m(const WaveSource& source, const Eigen::Vector3d& position) {
-  const Eigen::Vector3d u = source.direction();
-  const double rho = source.curvature_per_m, along = position.dot(u);
+/// The way to `position` less the way to the centre, metres, from direction u.
+inline double excess_way_m(const Eigen::Vector3d& u, double curvature_per_m,
+                           const Eigen::Vector3d& position) {
+  const double rho = curvature_per_m, along = position.dot(u);
   if (rho == 0) return -along;
   return (rho * position.squaredNorm() - 2 * along) / ((rho * position - u).norm() + 1);
+}
+
+inline double excess_way_m(const WaveSource& source, const Eigen::Vector3d& position) {
+  return excess_way_m(source.direction(), source.curvature_per_m, position);
 }
 
 struct SyntheticArray {

@@ -16,6 +16,9 @@ constexpr double kOffsetStep_hz = 100;
 constexpr double kPerMicrosecond_s = 1e-6;
 constexpr double kCounterStep_us = 1;
 constexpr int kQuantileRounds = 20;
+constexpr double kUsualPauses = 1.5;
+constexpr std::size_t kFewestTurns = 100;
+constexpr double kChance = 0.01;
 
 struct Exchange {
   const CsiPacket* heard;
@@ -122,17 +125,33 @@ double coherence(const std::vector<Turn>& turns, double offset_hz) {
   return turns.empty() ? 0 : std::abs(sum) / static_cast<double>(turns.size());
 }
 
+/// Seconds from one exchange to the next, the median.
+double usual_pause_s(const std::vector<Exchange>& exchanges) {
+  std::vector<double> pauses;
+  for (std::size_t k = 1; k < exchanges.size(); ++k)
+    pauses.push_back(seconds_between(exchanges[k - 1].heard->stamp, exchanges[k].heard->stamp));
+  const auto middle = pauses.begin() + std::ssize(pauses) / 2;
+  std::nth_element(pauses.begin(), middle, pauses.end());
+  return *middle;
+}
+
 std::vector<Turn> successive_turns(const std::vector<Exchange>& exchanges, const std::vector<double>& jitter,
-                                   const std::vector<std::complex<double>>& centres,
-                                   const TwoWayParams& params) {
+                                   const std::vector<std::complex<double>>& centres, double longest_pause_s) {
   std::vector<Turn> turns;
   for (std::size_t k = 1; k < exchanges.size(); ++k) {
     const std::complex<double> turn = centres[k] * std::conj(centres[k - 1]);
     const bool near =
-        seconds_between(exchanges[k - 1].heard->stamp, exchanges[k].heard->stamp) <= params.longest_pause_s;
+        seconds_between(exchanges[k - 1].heard->stamp, exchanges[k].heard->stamp) <= longest_pause_s;
     if (near && std::abs(turn) > 0) turns.push_back({turn / std::abs(turn), jitter[k] - jitter[k - 1]});
   }
   return turns;
+}
+
+int frequencies_tried(double most_hz) { return 2 * static_cast<int>(most_hz / kOffsetStep_hz) + 1; }
+
+/// May phases at random agree so well?
+bool is_chance(std::size_t turns, double coherence, int tried) {
+  return tried * std::exp(-static_cast<double>(turns) * coherence * coherence) > kChance;
 }
 
 /// Where the coherence is largest. The phases are turned on from one offset to the next, and afresh now and
@@ -141,7 +160,7 @@ double frequency_offset_hz(const std::vector<Turn>& turns, double most_hz) {
   constexpr int kAfresh = 64;
   std::vector<std::complex<double>> steps, phases(turns.size());
   for (const Turn& turn : turns) steps.push_back(turned_back(1, turn.jitter_us, kOffsetStep_hz));
-  const auto count = static_cast<int>(most_hz / kOffsetStep_hz);
+  const int count = frequencies_tried(most_hz) / 2;
   double best_hz = 0, best = 0;
   for (int k = -count; k <= count; ++k) {
     const bool afresh = (k + count) % kAfresh == 0;
@@ -166,11 +185,11 @@ double frequency_offset_hz(const std::vector<Turn>& turns, double most_hz) {
 
 }  // namespace
 
-std::optional<TwoWayChannel> two_way_channel(const CsiCapture& receiver, MacAddress sender,
-                                             const CsiCapture& answers, const TwoWayParams& params) {
+TwoWayResult two_way_channel(const CsiCapture& receiver, MacAddress sender, const CsiCapture& answers,
+                             const TwoWayParams& params) {
   std::vector<Exchange> exchanges = pair_up(receiver, sender, answers);
-  if (exchanges.size() < kFewestExchanges || receiver.subcarrier_hz != answers.subcarrier_hz)
-    return std::nullopt;
+  if (exchanges.size() < kFewestExchanges) return {};
+  if (receiver.subcarrier_hz != answers.subcarrier_hz) return {std::nullopt, NoTwoWay::kOtherSubcarriers};
   TwoWayChannel result;
   result.paired = exchanges.size();
   const std::vector<double> all_jitter =
@@ -183,17 +202,26 @@ std::optional<TwoWayChannel> two_way_channel(const CsiCapture& receiver, MacAddr
     jitter.push_back(all_jitter[k]);
   }
   result.late = exchanges.size() - usual.size();
-  if (usual.size() < kFewestExchanges) return std::nullopt;
+  if (usual.size() < kFewestExchanges) return {};
   exchanges = std::move(usual);
 
   const auto columns = centre_columns(receiver.subcarrier_hz, params.centre_subcarriers);
   std::vector<std::complex<double>> centres;
   for (const auto& [heard, answer] : exchanges)
     centres.push_back(mean_of(*heard, columns) * mean_of(*answer, columns));
-  const std::vector<Turn> turns = successive_turns(exchanges, jitter, centres, params);
-  result.frequency_offset_hz = frequency_offset_hz(turns, params.most_offset_hz);
-  result.coherence = coherence(turns, result.frequency_offset_hz);
+  const double usual_s = kUsualPauses * usual_pause_s(exchanges);
+  const std::vector<Turn> turns =
+      successive_turns(exchanges, jitter, centres, std::max(params.longest_pause_s, usual_s));
+  const double best_hz = frequency_offset_hz(turns, params.most_offset_hz);
+  const double best = coherence(turns, best_hz);
+  const bool by_chance = is_chance(turns.size(), best, frequencies_tried(params.most_offset_hz));
   result.coherence_before = coherence(turns, 0);
+  if (turns.size() >= kFewestTurns) {
+    result.coherence = best;
+    if (by_chance || (usual_s <= params.longest_pause_s && best < params.least_coherence))
+      return {std::nullopt, NoTwoWay::kIncoherent};
+  }
+  if (!by_chance) result.frequency_offset_hz = best_hz;
 
   result.product.resize(static_cast<Eigen::Index>(exchanges.size()),
                         static_cast<Eigen::Index>(receiver.subcarrier_hz.size()));
@@ -205,7 +233,7 @@ std::optional<TwoWayChannel> two_way_channel(const CsiCapture& receiver, MacAddr
             answer->channel.row(0).cast<std::complex<double>>()) *
         turned_back(1, jitter[k], result.frequency_offset_hz);
   }
-  return result;
+  return {std::move(result), {}};
 }
 
 }  // namespace radioslam

@@ -10,6 +10,7 @@
 #include "radioslam/base/strong_id.hpp"
 #include "radioslam/geometry/se3.hpp"
 #include "radioslam/geometry/trajectory.hpp"
+#include "radioslam/mission/radio_links.hpp"
 
 namespace radioslam {
 
@@ -144,7 +145,8 @@ struct MeasuredArrivalResult {
   std::vector<ArrivalPeakResult> peaks;  ///< the strongest first
   std::vector<float> profile;            ///< power over body azimuth from -pi, evenly; the strongest 1
   std::optional<double>
-      estimated_azimuth_rad;  ///< of the transmitter, in the body frame, by the final estimate
+      estimated_azimuth_rad;       ///< of the transmitter, in the body frame, by the final estimate
+  std::vector<ArrivalPath> paths;  ///< that the run took of the peaks, with mirror images
 };
 
 /// A whole run.

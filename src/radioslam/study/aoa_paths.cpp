@@ -96,7 +96,8 @@ Recorded record(std::uint64_t seed, AoaCards cards, const ArrivalParams& params)
   const CsiCapture questions = write_down(std::move(heard.by_answerer), air, rng.split("second host"));
   recorded.trajectory = poses_of(body);
   recorded.track =
-      two_way_track(answers, kStanding, questions, kCarrier_hz, Eigen::Vector3d::Zero(), params.two_way);
+      two_way_track(answers, kStanding, questions, kCarrier_hz, Eigen::Vector3d::Zero(), params.two_way)
+          .track;
   return recorded;
 }
 
@@ -130,10 +131,16 @@ AoaPathsRun judge(std::uint64_t seed, const Recorded& recorded, const ArrivalPar
   return run;
 }
 
-std::vector<AoaPathsCell> empty_table(std::size_t seeds) {
+std::vector<std::string> profiles_of(const std::string& only) {
+  if (!only.empty()) return {only};
+  return {kProfiles.begin(), kProfiles.end()};
+}
+
+std::vector<AoaPathsCell> empty_table(std::size_t seeds, const std::vector<std::string>& profiles) {
   std::vector<AoaPathsCell> cells;
   for (const AoaCards cards : kCards)
-    for (const char* profile : kProfiles) cells.push_back({profile, cards, std::vector<AoaPathsRun>(seeds)});
+    for (const std::string& profile : profiles)
+      cells.push_back({profile, cards, std::vector<AoaPathsRun>(seeds)});
   return cells;
 }
 
@@ -149,20 +156,21 @@ const char* word_for(AoaCards cards) {
 }
 
 std::vector<AoaPathsCell> measure_aoa_paths(int seeds, std::uint64_t first_seed, const ArrivalParams& params,
-                                            const Progress& progress) {
+                                            const Progress& progress, const std::string& profile) {
   const auto count = static_cast<std::size_t>(seeds);
-  std::vector<AoaPathsCell> cells = empty_table(count);
+  const std::vector<std::string> profiles = profiles_of(profile);
+  std::vector<AoaPathsCell> cells = empty_table(count, profiles);
   const std::size_t batch = std::max<std::size_t>(thread_count(), 1) * 2;
   for (std::size_t done = 0; done < count; done += batch) {
     report_progress(progress, "aoa-paths", static_cast<double>(done) / static_cast<double>(count));
     parallel_for(std::min(batch, count - done), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = done + begin; k < done + end; ++k)
-        for (std::size_t c = 0; c < cells.size(); c += kProfiles.size()) {
+        for (std::size_t c = 0; c < cells.size(); c += profiles.size()) {
           const std::uint64_t seed = first_seed + k;
           const Recorded recorded = record(seed, cells[c].cards, params);
-          for (std::size_t p = 0; p < kProfiles.size(); ++p) {
+          for (std::size_t p = 0; p < profiles.size(); ++p) {
             ArrivalParams by_profile = params;
-            by_profile.profile = kProfiles[p];
+            by_profile.profile = profiles[p];
             cells[c + p].runs[k] = judge(seed, recorded, by_profile);
           }
         }

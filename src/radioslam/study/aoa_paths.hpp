@@ -36,9 +36,9 @@ struct AoaPathsCell {
 };
 
 /// Seeds from `first_seed` on, each with ideal and with drifting cards, by bartlett, music and sparse; the
-/// same runs for any number of threads.
+/// same runs for any number of threads. Of `profile` alone where it is given.
 std::vector<AoaPathsCell> measure_aoa_paths(int seeds, std::uint64_t first_seed, const ArrivalParams& params,
-                                            const Progress& progress);
+                                            const Progress& progress, const std::string& profile = "");
 
 StudyTable aoa_paths_table(const std::vector<AoaPathsCell>& cells);
 

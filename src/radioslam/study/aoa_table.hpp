@@ -2,8 +2,11 @@
 // strongest direction that its radio measured is compared with where the transmitter stood.
 //
 // The error is that of the azimuth against atan2(transmitter - mean place of motion capture's rows), for
-// every motion. A link without an estimate counts as one that is off by half a turn. The authors' links of
-// the same trials are those of the same transmitter that start at a row of the trial's motion capture.
+// every motion: the error of a motion's frame is in it. Wheels know no heading to begin with, and that of a
+// tracking camera drifts: what is left of the error in the motion's own frame, turned onto motion capture's
+// by the two trajectories' best alignment in the plane, stands beside it. A link without an estimate counts
+// as one that is off by half a turn. The authors' links of the same trials are those of the same transmitter
+// that start at a row of the trial's motion capture.
 #pragma once
 
 #include <optional>
@@ -26,15 +29,18 @@ struct AoaLink {
   std::vector<ArrivalPeak> peaks;     ///< the strongest first; none where there is no estimate
   std::vector<double> published_rad;  ///< the authors' errors of their peaks; none where not found
   std::string reason;                 ///< of no estimate
+  std::vector<float> profile = {};    ///< power over azimuth from -pi, the strongest 1
+  double frame_turn_rad = 0;          ///< turns the motion's frame onto motion capture's
 };
 
 /// What became of many links.
 struct AoaFigures {
   std::size_t links = 0;
   std::optional<double> median_rad;
-  std::optional<double> within_10_deg;            ///< share of the links
-  std::optional<double> best_of_4_within_10_deg;  ///< share with one of the four strongest peaks
-  std::optional<double> within_sigma;             ///< share within 1.645 of its own sigma
+  std::optional<double> within_10_deg;              ///< share of the links
+  std::optional<double> best_of_4_within_10_deg;    ///< share with one of the four strongest peaks
+  std::optional<double> within_sigma;               ///< share within 1.645 of its own sigma
+  std::optional<double> own_frame_median_rad = {};  ///< in the motion's own frame
 };
 
 /// Ours, theirs of the same links, and theirs of all.
@@ -53,6 +59,9 @@ std::vector<AoaGroup> group_links(const std::vector<AoaLink>& links, const std::
 
 /// Absolute error of a peak; half a turn where there is none.
 double error_rad(const AoaLink& link, std::size_t peak = 0);
+
+/// Of the strongest peak, in the motion's own frame.
+double own_frame_error_rad(const AoaLink& link);
 
 StudyTable aoa_table(const std::vector<AoaLink>& links, const std::vector<WsrResult>& published);
 /// A row per link: trial,transmitter,sight,motion,peak azimuths, errors.

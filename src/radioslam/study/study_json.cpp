@@ -88,7 +88,8 @@ Json figures_json(const AoaFigures& figures) {
           {"median_error_rad", optional_json(figures.median_rad)},
           {"within_10_deg", optional_json(figures.within_10_deg)},
           {"best_of_4_within_10_deg", optional_json(figures.best_of_4_within_10_deg)},
-          {"within_1_645_sigma", optional_json(figures.within_sigma)}};
+          {"within_1_645_sigma", optional_json(figures.within_sigma)},
+          {"own_frame_median_error_rad", optional_json(figures.own_frame_median_rad)}};
 }
 
 Json link_json(const AoaLink& link) {
@@ -106,6 +107,7 @@ Json link_json(const AoaLink& link) {
           {"motion", word_for(link.motion)},
           {"true_azimuth_rad", link.true_azimuth_rad},
           {"error_rad", measured ? Json(error_rad(link)) : Json()},
+          {"own_frame_error_rad", measured ? Json(own_frame_error_rad(link)) : Json()},
           {"peaks", std::move(peaks)},
           {"authors_errors_rad", link.published_rad},
           {"reason", link.reason}};

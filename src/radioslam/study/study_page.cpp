@@ -1,6 +1,9 @@
 #include "radioslam/study/study_page.hpp"
 
+#include "radioslam/geometry/se2.hpp"
+#include "radioslam/report/arrival_data.hpp"
 #include "radioslam/report/embedded_data.hpp"
+#include "radioslam/report/rounding.hpp"
 #include "radioslam/study/page_parts.hpp"
 #include "radioslam/study/study_json.hpp"
 
@@ -23,6 +26,28 @@ std::string page(const Json& data) {
   return embed_data(study_page::page_head(), data, study_page::page_tail());
 }
 
+constexpr int kDecimals = 3;
+constexpr std::size_t kProfileValues = 180;
+
+Json direction_json(const AoaLink& link) {
+  Json peaks = Json::array(), profile = Json::array(), authors = Json::array();
+  for (const ArrivalPeak& peak : link.peaks)
+    peaks.push_back({{"azimuth_rad", rounded(peak.azimuth_rad, kDecimals)}});
+  for (const float power : thinned_profile(link.profile, kProfileValues))
+    profile.push_back(rounded(static_cast<double>(power), kDecimals));
+  for (const double error_rad : link.published_rad)  // the truth less what they measured
+    authors.push_back(rounded(wrap_angle(link.true_azimuth_rad - error_rad), kDecimals));
+  return {{"trial", link.trial},
+          {"transmitter", link.transmitter},
+          {"sight", word_for(link.sight)},
+          {"motion", word_for(link.motion)},
+          {"true_azimuth_rad", rounded(link.true_azimuth_rad, kDecimals)},
+          {"authors_azimuth_rad", std::move(authors)},
+          {"peaks", std::move(peaks)},
+          {"profile", std::move(profile)},
+          {"reason", link.reason}};
+}
+
 }  // namespace
 
 std::string render_table_page(const StudyTable& table) { return page(table_json(table)); }
@@ -30,6 +55,13 @@ std::string render_table_page(const StudyTable& table) { return page(table_json(
 std::string render_robustness_page(const RobustnessMap& map) {
   Json data = table_json(robustness_table(map));
   data["map"] = robustness_json(map);
+  return page(data);
+}
+
+std::string render_aoa_page(const StudyTable& table, const std::vector<AoaLink>& links) {
+  Json data = table_json(table);
+  data["directions"] = Json::array();
+  for (const AoaLink& link : links) data["directions"].push_back(direction_json(link));
   return page(data);
 }
 

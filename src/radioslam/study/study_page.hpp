@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "radioslam/study/aoa_table.hpp"
 #include "radioslam/study/overlap_growth.hpp"
 #include "radioslam/study/robustness_map.hpp"
 #include "radioslam/study/study_table.hpp"
@@ -16,5 +17,8 @@ std::string render_robustness_page(const RobustnessMap& map);
 
 /// Seconds over poses and pairs kept, both axes logarithmic, with the table below.
 std::string render_growth_page(const OverlapGrowth& growth);
+
+/// A polar profile per link, with the truth and the authors' direction, and the table below.
+std::string render_aoa_page(const StudyTable& table, const std::vector<AoaLink>& links);
 
 }  // namespace radioslam

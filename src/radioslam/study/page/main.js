@@ -12,4 +12,5 @@ if (study.growth) {
   by_id("summary").textContent = growth_summary();
   write_growth();
 }
+if (study.directions) write_directions();
 write_table();
