@@ -175,7 +175,7 @@ constexpr std::array<Recording, 10> kRecordings{{{"pcap_radiotap/80211-sample.pc
                                                  {"pcap_radiotap/80211-sample2.pcap", 63},
                                                  {"pcap_radiotap/80211-sample3.pcap", 150},
                                                  {"pcap_radiotap/sample.pcap", 20},
-                                                 {"pcap_radiotap/sample2.pcap", 306},
+                                                 {"pcap_radiotap/sample2.pcap", 307},
                                                  {"pcap_radiotap/ssid-logger_beacons.pcap", 29},
                                                  {"aircrack/test1.pcap", 3},
                                                  {"aircrack/zn2i.pcap", 1},

@@ -31,9 +31,9 @@ constexpr std::int64_t kNsOfSecond = 1'000'000'000;
 constexpr std::size_t kShortestFrame = 10, kSecondAddress = 10, kThirdAddress = 16, kAddressBytes = 6;
 enum FrameType : unsigned { kManagement = 0, kControl = 1, kData = 2 };
 constexpr unsigned kProbeResponse = 5, kBeacon80211 = 8;
-/// Control frames with a second address: trigger, beamforming poll, NDP announcement, block acknowledgement
-/// and its request, power save poll, request to send, contention free end and its acknowledgement.
-constexpr std::array<unsigned, 9> kControlWithSender{2, 4, 5, 8, 9, 10, 11, 14, 15};
+/// Control frames with a transmitter's address: trigger, beamforming poll, NDP announcement, block
+/// acknowledgement and its request, power save poll, request to send.
+constexpr std::array<unsigned, 7> kControlWithSender{2, 4, 5, 8, 9, 10, 11};
 
 using FilePointer = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 using CapturePointer = std::unique_ptr<pcap_t, void (*)(pcap_t*)>;

@@ -27,8 +27,8 @@ void append_log(WifiLog& all, WifiLog&& log) {
 WifiLog join_wifi_logs(std::vector<WifiLog> logs) {
   WifiLog all;
   for (WifiLog& log : logs) append_log(all, std::move(log));
-  const std::size_t implausible =
-      std::erase_if(all.rows, [](const WifiRow& row) { return !is_plausible_rssi(row.rssi_dbm); });
+  const std::size_t implausible = std::erase_if(
+      all.rows, [](const WifiRow& row) { return !is_plausible_rssi(static_cast<double>(row.rssi_dbm)); });
   if (implausible > 0) all.counts["levels are outside -150 to 30 dBm and left out"] += implausible;
   std::stable_sort(all.rows.begin(), all.rows.end(),
                    [](const WifiRow& a, const WifiRow& b) { return a.stamp < b.stamp; });
