@@ -1,4 +1,5 @@
 // radioslam import: other people's recordings become a mission folder, or a table for one.
+#include <algorithm>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -7,8 +8,8 @@
 
 #include "radioslam/cli/command_options.hpp"
 #include "radioslam/cli/commands.hpp"
-#include "radioslam/cli/config.hpp"
-#include "radioslam/cli/parameters.hpp"
+#include "radioslam/cli/import_options.hpp"
+#include "radioslam/cli/import_wifi.hpp"
 #include "radioslam/cli/suggestion.hpp"
 #include "radioslam/io/atomic_output.hpp"
 #include "radioslam/io/indoor_location.hpp"
@@ -16,33 +17,16 @@
 #include "radioslam/io/mission_folder.hpp"
 #include "radioslam/io/team_tables.hpp"
 #include "radioslam/io/usable_id.hpp"
+#include "radioslam/io/wifi_rtt.hpp"
+#include "radioslam/io/wifine.hpp"
 
 namespace radioslam::cli {
 namespace {
 
-constexpr const char* kIndoorLocation = "indoor-location";
-constexpr const char* kIwFtm = "iw-ftm";
-
-struct ImportOptions {
-  std::string kind;
-  std::string source;
-  std::string output;
-  std::string robot;
-  std::vector<std::string> names;
-  ParameterOptions parameters;
-};
-
-template <class Params>
-Params params_of(const ImportOptions& options) {
-  return with_settings(Params{}, collect_settings(options.parameters.config_path, options.parameters.set));
-}
-
 void import_walks(const ImportOptions& options) {
   const auto params = params_of<DeadReckoningParams>(options);
-  if (!options.robot.empty() || !options.names.empty())
-    throw InputError("import indoor-location", 0, "--robot and --name are for iw-ftm");
   OutputFolder output(options.output, kMissionFolder);
-  const ImportedMission imported = import_indoor_location(options.source, params);
+  const ImportedMission imported = import_indoor_location(only_source(options), params);
   write_mission(output.path(), imported.mission, imported.truth);
   output.commit();
   for (const auto& warning : imported.warnings) std::cout << "note: " << warning << '\n';
@@ -50,9 +34,28 @@ void import_walks(const ImportOptions& options) {
             << imported.mission.access_points.size() << " access points\n";
 }
 
-void check_id(const std::string& option, const std::string& id) {
-  if (!is_usable_id(id))
-    throw InputError(option, 0, "'" + id + "' cannot be the name of a robot or an anchor");
+/// Recordings without odometry: what there is, and a line that says so.
+void write_study(const ImportOptions& options, OutputFolder& output, const ImportedMission& imported) {
+  const Mission& mission = imported.mission;
+  write_mission(output.path(), mission, imported.truth);
+  output.commit();
+  std::size_t scans = 0;
+  for (const Robot& robot : mission.robots) scans += robot.wifi.size();
+  for (const auto& warning : imported.warnings) std::cout << "note: " << warning << '\n';
+  std::cout << "note: nobody recorded odometry: `radioslam run` needs an odometry.tum of each robot\n"
+            << options.output << ": " << mission.robots.size() << " robots, " << scans << " scans, "
+            << mission.access_points.size() << " access points, " << mission.ranges.size() << " ranges\n";
+}
+
+void import_wifine_walks(const ImportOptions& options) {
+  OutputFolder output(options.output, kMissionFolder);
+  write_study(options, output, import_wifine(only_source(options)));
+}
+
+void import_rtt_walk(const ImportOptions& options) {
+  const auto params = params_of<WifiRttParams>(options);
+  OutputFolder output(options.output, kMissionFolder);
+  write_study(options, output, import_wifi_rtt(only_source(options), params));
 }
 
 /// What each --name BSSID=ID calls a radio.
@@ -64,7 +67,7 @@ std::map<std::string, std::string> names_of(const ImportOptions& options) {
     std::string bssid = option.substr(0, equals);
     for (char& c : bssid)
       if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    check_id("--name " + option, option.substr(equals + 1));
+    check_import_id("--name " + option, option.substr(equals + 1));
     if (option.substr(equals + 1) == options.robot)
       throw InputError("--name " + option, 0, "the robot measures no distance to itself");
     if (!names.emplace(bssid, option.substr(equals + 1)).second)
@@ -99,12 +102,12 @@ void note(std::size_t count, const char* what) {
 void import_ranges(const ImportOptions& options) {
   const auto params = params_of<IwFtmParams>(options);
   if (options.robot.empty()) throw InputError("import iw-ftm", 0, "--robot says whose ranges they are");
-  check_id("--robot " + options.robot, options.robot);
+  check_import_id("--robot " + options.robot, options.robot);
   OutputFile output(options.output);
-  const IwFtmLog log = read_iw_ftm(read_text(options.source), params);
+  const IwFtmLog log = read_iw_ftm(read_text(only_source(options)), params);
   const Mission mission = mission_of(log, options);
   if (mission.ranges.empty())
-    throw InputError(options.source, 0,
+    throw InputError(only_source(options), 0,
                      "none of the " + std::to_string(log.failed + log.implausible + log.timeless) +
                          " measurements gave a distance with a time");
   output.commit(format_ranges(mission));
@@ -117,14 +120,65 @@ void import_ranges(const ImportOptions& options) {
   std::cout << '\n';
 }
 
-void import_recordings(const ImportOptions& options) {
-  if (options.kind == kIndoorLocation) return import_walks(options);
-  if (options.kind == kIwFtm) return import_ranges(options);
+/// An option that not every kind takes.
+enum class Option { kRobot, kName, kFields, kTime };
+
+/// One kind of source.
+struct ImportKind {
+  const char* name;
+  void (*import)(const ImportOptions&);
+  std::vector<Option> options;
+};
+
+const std::vector<ImportKind>& import_kinds() {
+  static const std::vector<ImportKind> kinds{
+      {"indoor-location", import_walks, {}},
+      {"iw-ftm", import_ranges, {Option::kRobot, Option::kName}},
+      {"iw", import_printed_scans, {Option::kRobot, Option::kTime}},
+      {"iwlist", import_printed_scans, {Option::kRobot, Option::kTime}},
+      {"nmcli", import_printed_scans, {Option::kRobot, Option::kTime, Option::kFields}},
+      {"airodump", import_airodump, {Option::kRobot}},
+      {"pcap", import_wifi_captures, {Option::kRobot}},
+      {"wifine", import_wifine_walks, {}},
+      {"wifi-rtt", import_rtt_walk, {}},
+  };
+  return kinds;
+}
+
+void refuse_unless(bool is_fine, const ImportOptions& options, const char* option) {
+  if (!is_fine) throw InputError("import " + options.kind, 0, std::string("takes no ") + option);
+}
+
+void check_options(const ImportOptions& options, const ImportKind& kind) {
+  const auto takes = [&](Option option) {
+    return std::find(kind.options.begin(), kind.options.end(), option) != kind.options.end();
+  };
+  refuse_unless(options.robot.empty() || takes(Option::kRobot), options, "--robot");
+  refuse_unless(options.names.empty() || takes(Option::kName), options, "--name");
+  refuse_unless(options.fields.empty() || takes(Option::kFields), options, "--fields");
+  refuse_unless(options.time.empty() || takes(Option::kTime), options, "--time");
+  refuse_unless(!options.file_times || takes(Option::kTime), options, "--file-times");
+}
+
+void import_recordings(ImportOptions options) {
+  std::replace(options.kind.begin(), options.kind.end(), '_', '-');
+  std::vector<std::string> names;
+  for (const ImportKind& kind : import_kinds()) {
+    names.emplace_back(kind.name);
+    if (options.kind != kind.name) continue;
+    check_options(options, kind);
+    return kind.import(options);
+  }
   throw InputError("import " + options.kind, 0,
-                   "there is no such kind of source" + did_you_mean(options.kind, {kIndoorLocation, kIwFtm}));
+                   "there is no such kind of source" + did_you_mean(options.kind, names));
 }
 
 }  // namespace
+
+void check_import_id(const std::string& option, const std::string& id) {
+  if (!is_usable_id(id))
+    throw InputError(option, 0, "'" + id + "' cannot be the name of a robot or an anchor");
+}
 
 void add_import(CLI::App& program) {
   const auto options = std::make_shared<ImportOptions>();
@@ -134,30 +188,54 @@ void add_import(CLI::App& program) {
       ->add_option("KIND", options->kind,
                    "indoor-location: phone logs of walks on one floor, into a mission;\n"
                    "iw-ftm: what `iw dev wlan0 measurement ftm_request` or `iw event -t` printed, into a "
-                   "ranges.csv")
+                   "ranges.csv;\n"
+                   "iw, iwlist, nmcli: what `iw dev wlan0 scan`, `iwlist wlan0 scan` or\n"
+                   "`nmcli -t -f BSSID,SSID-HEX,CHAN,FREQ,SIGNAL dev wifi list` printed, into a robot's "
+                   "wifi.csv;\n"
+                   "airodump: airodump-ng's .csv or .log.csv, likewise;\n"
+                   "pcap: a capture in monitor mode (pcap, pcapng; radiotap), likewise;\n"
+                   "wifine, wifi-rtt: these datasets, into missions without odometry")
       ->required();
-  command->add_option("SOURCE", options->source, "A log, or (walks) a folder that holds logs at any depth")
+  command
+      ->add_option("SOURCE", options->sources,
+                   "A log, or a folder that holds logs; of what WiFi tools heard also several")
       ->required();
   add_output_option(*command, options->output,
-                    "The mission folder, or the ranges.csv, to write; replaced if there is one");
-  command->add_option("--robot", options->robot, "iw-ftm: the robot that measured")->type_name("ID");
+                    "The mission folder, or the ranges.csv or wifi.csv, to write; replaced if there is one.\n"
+                    "Of what WiFi tools heard: a mission gets a robots/ID/wifi.csv and keeps the rest");
+  command->add_option("--robot", options->robot, "The robot that measured or heard")->type_name("ID");
   command
       ->add_option("--name", options->names,
                    "iw-ftm: call this radio so, an anchor or another robot; its BSSID by default")
       ->type_name("BSSID=ID")
       ->expected(1)
       ->take_all();
+  command->add_option("--fields", options->fields, "nmcli: what its -f was told")->type_name("NAME,...");
+  command
+      ->add_option("--time", options->time,
+                   "iw, iwlist, nmcli: when the one scan of a file without times was made; 0 by default")
+      ->type_name("SECONDS");
+  command->add_flag("--file-times", options->file_times,
+                    "iw, iwlist, nmcli: files without times were made when they were last written");
   add_parameter_options(*command, options->parameters);
   add_threads_option(*command);
   command->footer(
-      "`radioslam parameters import` lists what --set can change for walks, `radioslam parameters iw-ftm` "
+      "`radioslam parameters import` lists what --set can change for walks, `radioslam parameters KIND` "
       "for\n"
-      "ranges. A mission takes a robot's ranges in radio/ranges.csv; each radio that is no robot needs a row "
+      "the others. A mission takes a robot's ranges in radio/ranges.csv; each radio that is no robot needs a "
+      "row "
       "in\n"
       "radio/anchors.csv, empty coordinates where its place is unknown.\n\n"
-      "Example: the walks of one floor; a robot's distances to two access points\n"
+      "A log of scans has a line with the Unix time before each:\n"
+      "  while true; do date +%s.%N; iw dev wlan0 scan; done >> log\n"
+      "Otherwise a file is one scan, and its time stands in its name (scan-1574407123.5.txt). What iw heard "
+      "before\n"
+      "the previous scan is a leftover and left out. airodump's times are local: --set utc_offset_h=2.\n\n"
+      "Example: the walks of one floor; a robot's distances to two access points; what it heard\n"
       "  radioslam import indoor-location site1/F1 -o walks\n"
-      "  radioslam import iw-ftm ftm.txt --robot a --name 02:00:00:00:01:00=door -o ranges.csv");
+      "  radioslam import iw-ftm ftm.txt --robot a --name 02:00:00:00:01:00=door -o ranges.csv\n"
+      "  radioslam import iw log --robot a -o mission\n"
+      "  radioslam import pcap monitor.pcapng -o wifi.csv");
   command->callback([options] { import_recordings(*options); });
 }
 

@@ -10,7 +10,11 @@
 #include "radioslam/cli/parameters.hpp"
 #include "radioslam/cli/similarity_params.hpp"
 #include "radioslam/cli/suggestion.hpp"
+#include "radioslam/io/airodump_csv.hpp"
 #include "radioslam/io/iw_ftm.hpp"
+#include "radioslam/io/printed_scans.hpp"
+#include "radioslam/io/wifi_capture.hpp"
+#include "radioslam/io/wifi_rtt.hpp"
 #include "radioslam/mission/dead_reckoning.hpp"
 #include "radioslam/pipeline/params.hpp"
 #include "radioslam/radio/arrival_estimate.hpp"
@@ -43,7 +47,13 @@ std::vector<ParameterSet> parameter_sets() {
           {"aoa", describe_parameters<ArrivalParams>},
           {"anchors", describe_parameters<AnchorsParams>},
           {"import", describe_parameters<DeadReckoningParams>},
-          {"iw-ftm", describe_parameters<IwFtmParams>}};
+          {"iw-ftm", describe_parameters<IwFtmParams>},
+          {"iw", describe_parameters<PrintedScanParams>},
+          {"iwlist", describe_parameters<PrintedScanParams>},
+          {"nmcli", describe_parameters<PrintedScanParams>},
+          {"airodump", describe_parameters<AirodumpParams>},
+          {"pcap", describe_parameters<WifiCaptureParams>},
+          {"wifi-rtt", describe_parameters<WifiRttParams>}};
 }
 
 std::vector<ParameterDescription> parameters_of(const std::string& command) {
@@ -82,7 +92,7 @@ void add_parameters(CLI::App& program) {
   auto* command = program.add_subcommand("parameters", "List what --set and --config can change");
   command->add_option("COMMAND", options->command,
                       "run (default), simulate, carpark, city, csi, hall, kitti, optimize, similarity, aoa, "
-                      "anchors, import or iw-ftm");
+                      "anchors, import, iw-ftm, iw, iwlist, nmcli, airodump, pcap or wifi-rtt");
   add_json_option(*command, options->json);
   command->footer("Example:\n  radioslam parameters run | less");
   command->callback([options] { list_parameters(*options); });

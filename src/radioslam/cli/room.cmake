@@ -17,6 +17,7 @@ add_library(radioslam_cli STATIC
   cli/command_similarity.cpp
   cli/command_simulate.cpp
   cli/config.cpp
+  cli/import_wifi.cpp
   cli/judgement.cpp
   cli/mission_input.cpp
   cli/parameters.cpp
@@ -24,7 +25,8 @@ add_library(radioslam_cli STATIC
   cli/progress_line.cpp
   cli/recorded_drive.cpp
   cli/recorded_trials.cpp
-  cli/suggestion.cpp)
+  cli/suggestion.cpp
+  cli/wifi_target.cpp)
 add_library(radioslam::cli ALIAS radioslam_cli)
 target_include_directories(radioslam_cli PUBLIC ${cli_include})
 target_link_libraries(radioslam_cli

@@ -132,7 +132,8 @@ std::vector<std::string> unused_files(const fs::path& folder, const Mission& mis
 }
 
 void write_robot(const fs::path& folder, const Robot& robot, const std::vector<std::string>& access_points) {
-  write_file(robot_file(folder, robot.id, "odometry.tum"), format_tum(robot.odometry));
+  if (!robot.odometry.empty())
+    write_file(robot_file(folder, robot.id, "odometry.tum"), format_tum(robot.odometry));
   if (!robot.wifi.empty())
     write_file(robot_file(folder, robot.id, "wifi.csv"), format_wifi(robot.wifi, access_points));
   if (!robot.fixes.empty()) write_file(robot_file(folder, robot.id, "gnss.csv"), format_fixes(robot.fixes));

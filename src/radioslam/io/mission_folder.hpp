@@ -18,7 +18,8 @@ Mission read_mission(const std::filesystem::path& folder);
 /// a simulator wrote them (truth_labels.hpp).
 Truth read_truth(const std::filesystem::path& folder, const Mission& mission);
 
-/// Writes a mission's files into an existing folder (see OutputFolder). Truth may be empty.
+/// Writes a mission's files into an existing folder (see OutputFolder). Truth may be empty. A robot without
+/// odometry has no odometry.tum: such a folder becomes a mission that can be read when that is added.
 void write_mission(const std::filesystem::path& folder, const Mission& mission, const Truth& truth = {});
 
 }  // namespace radioslam

@@ -5,6 +5,8 @@ radioslam_room(io SOURCES text.cpp numbers.cpp fields_of_line.cpp csv.cpp inform
                           mission_yaml_write.cpp team_tables.cpp team_tables_write.cpp anchor_tables.cpp usable_id.cpp robot_tables.cpp truth_labels.cpp mission_folder.cpp atomic_output.cpp
                           zstd_text.cpp pyfg.cpp g2o_team.cpp team_assembly.cpp team_graph_file.cpp
                           run_tables.cpp metrics_json.cpp run_folder_write.cpp run_folder_read.cpp
+                          wifi_log.cpp printed_time.cpp printed_scans.cpp iw_scan.cpp iwlist_scan.cpp nmcli_list.cpp airodump_csv.cpp
+                          radiotap.cpp wifi_capture.cpp quoted_row.cpp csv_files.cpp wifine.cpp wifi_rtt.cpp
                ROOMS graph mission radio results eval
                LIBRARIES nlohmann_json::nlohmann_json
-               PRIVATE_LIBRARIES yaml-cpp Zstd::Zstd)
+               PRIVATE_LIBRARIES yaml-cpp Zstd::Zstd Pcap::Pcap)

@@ -43,10 +43,15 @@ std::optional<std::size_t> first_foreign_byte(std::string_view s) {
 
 }  // namespace
 
-Text make_text(std::string name, std::string content) {
+Text make_printed_text(std::string name, std::string content) {
   if (content.starts_with("\xef\xbb\xbf")) content.erase(0, 3);
   Text text{std::move(name), std::move(content)};
   if (text.content.empty()) text.fail(1, "the file is empty");
+  return text;
+}
+
+Text make_text(std::string name, std::string content) {
+  Text text = make_printed_text(std::move(name), std::move(content));
   if (const auto place = first_foreign_byte(text.content)) {
     const auto end = text.content.begin() + static_cast<std::ptrdiff_t>(*place);
     text.fail(1 + static_cast<std::size_t>(std::count(text.content.begin(), end, '\n')),
@@ -78,6 +83,10 @@ std::string read_bytes(const std::filesystem::path& path) {
 }
 
 Text read_text(const std::filesystem::path& path) { return make_text(path.string(), read_bytes(path)); }
+
+Text read_printed_text(const std::filesystem::path& path) {
+  return make_printed_text(path.string(), read_bytes(path));
+}
 
 bool TextLines::next() {
   if (rest_.empty()) return false;

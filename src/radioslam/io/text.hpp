@@ -31,6 +31,11 @@ std::string read_bytes(const std::filesystem::path& path);
 /// Reads a whole file as text. Refuses also a missing file, a folder, and what cannot be read.
 Text read_text(const std::filesystem::path& path);
 
+/// Lines that a tool printed, in which names may stand as raw bytes: these are not checked. Refuses what is
+/// empty.
+Text make_printed_text(std::string name, std::string content);
+Text read_printed_text(const std::filesystem::path& path);
+
 /// Walks through the lines of a text: `while (lines.next()) use(lines.line())`.
 class TextLines {
  public:

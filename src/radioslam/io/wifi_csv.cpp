@@ -27,7 +27,7 @@ Row read_row(const CsvReader& csv) {
   const double frequency_mhz = csv.coordinate(kFrequency);
   if (frequency_mhz < 0) csv.fail("the frequency is negative");
   const double rssi_dbm = csv.number(kRssi);
-  if (rssi_dbm < kWeakest_dbm || rssi_dbm > kStrongest_dbm)
+  if (!is_plausible_rssi(rssi_dbm))
     csv.fail("rssi_dbm " + format_number(rssi_dbm) + " is outside -150 to 30 dBm");
   return {stamp, lower_case(bssid), static_cast<float>(frequency_mhz), static_cast<float>(rssi_dbm)};
 }
@@ -67,6 +67,8 @@ std::vector<WifiScan> scans_of(const std::vector<Row>& rows, const std::vector<s
 }
 
 }  // namespace
+
+bool is_plausible_rssi(double rssi_dbm) { return rssi_dbm >= kWeakest_dbm && rssi_dbm <= kStrongest_dbm; }
 
 WifiRecordings read_wifi(std::span<const Text> texts) {
   std::vector<std::vector<Row>> receivers;

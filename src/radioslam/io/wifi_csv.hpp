@@ -17,7 +17,10 @@ struct WifiRecordings {
   std::vector<std::vector<WifiScan>> receivers;  ///< per text, in time order
 };
 
-/// One text per receiver; one with a header alone has no scans. Refuses an RSSI outside [-150, 30] dBm.
+/// What a radio can hear: -150 to 30 dBm.
+bool is_plausible_rssi(double rssi_dbm);
+
+/// One text per receiver; one with a header alone has no scans. Refuses an implausible RSSI.
 WifiRecordings read_wifi(std::span<const Text> texts);
 
 std::string format_wifi(const std::vector<WifiScan>& scans, const std::vector<std::string>& access_points);

@@ -1,0 +1,144 @@
+#include "radioslam/cli/import_wifi.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <set>
+
+#include "radioslam/cli/wifi_target.hpp"
+#include "radioslam/io/airodump_csv.hpp"
+#include "radioslam/io/iw_scan.hpp"
+#include "radioslam/io/iwlist_scan.hpp"
+#include "radioslam/io/nmcli_list.hpp"
+#include "radioslam/io/printed_time.hpp"
+#include "radioslam/io/wifi_capture.hpp"
+
+namespace radioslam::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The sources that are files, and the files in those that are folders, by name; `extensions` of these, or
+/// any.
+std::vector<fs::path> files_of(const ImportOptions& options, const std::vector<std::string>& extensions) {
+  std::vector<fs::path> files;
+  for (const std::string& source : options.sources) {
+    if (!fs::is_directory(source)) {
+      files.emplace_back(source);
+      continue;
+    }
+    std::vector<fs::path> inside;
+    for (const auto& entry : fs::recursive_directory_iterator(source)) {
+      const std::string extension = entry.path().extension().string();
+      const bool is_meant =
+          extensions.empty() || std::count(extensions.begin(), extensions.end(), extension) > 0;
+      if (entry.is_regular_file() && is_meant && !entry.path().filename().string().starts_with('.'))
+        inside.push_back(entry.path());
+    }
+    std::sort(inside.begin(), inside.end());
+    if (inside.empty()) throw InputError(source, 0, "there is no file to import in this folder");
+    files.insert(files.end(), inside.begin(), inside.end());
+  }
+  return files;
+}
+
+void print_notes(const WifiLog& log) {
+  for (const std::string& warning : log.warnings) std::cout << "note: " << warning << '\n';
+  for (const auto& [what, count] : log.counts) std::cout << "note: " << count << ' ' << what << '\n';
+}
+
+/// "12 rows, 3 scans, 5 radios", and whose.
+std::string summary_of(const WifiLog& log, const WifiTarget& target) {
+  std::set<std::string> radios;
+  std::set<Stamp> scans;
+  for (const WifiRow& row : log.rows) {
+    radios.insert(row.bssid);
+    scans.insert(row.stamp);
+  }
+  const std::string counts = std::to_string(log.rows.size()) + " rows, " + std::to_string(scans.size()) +
+                             " scans, " + std::to_string(radios.size()) + " radios";
+  return counts + (target.robot().empty() ? "" : " of " + target.robot());
+}
+
+void write_wifi(const ImportOptions& options, WifiTarget& target, std::vector<WifiLog> logs) {
+  const WifiLog log = join_wifi_logs(std::move(logs));
+  if (log.rows.empty()) {
+    std::string why;
+    for (const auto& [what, count] : log.counts) why += "; " + std::to_string(count) + " " + what;
+    throw InputError(options.sources.front(), 0, "there is no level of a radio in it" + why);
+  }
+  target.commit(log.rows);
+  print_notes(log);
+  if (const std::string missing = target.missing(); !missing.empty())
+    std::cout << "note: " << missing << '\n';
+  std::cout << options.output << ": " << summary_of(log, target) << '\n';
+}
+
+WifiTarget target_of(const ImportOptions& options) {
+  return {options.output, options.robot, options.sources.front()};
+}
+
+/// The time of what a file lists without one; nothing where nothing tells it.
+std::optional<Stamp> time_of_file(const ImportOptions& options, const fs::path& file, std::size_t files) {
+  if (!options.time.empty()) {
+    const auto time = parse_time_line(options.time);
+    if (!time)
+      throw InputError("--time " + options.time, 0, "seconds are expected, or ISO 8601 with its zone");
+    if (files > 1) throw InputError("--time " + options.time, 0, "is for one file, of one scan");
+    return time;
+  }
+  if (options.file_times) return time_of_last_write(file);
+  return time_in_name(file.stem().string());
+}
+
+PrintedLog read_list(const ImportOptions& options, const Text& text) {
+  if (options.kind == "iw") return read_iw_scans(text);
+  if (options.kind == "iwlist") return read_iwlist_scans(text);
+  return read_nmcli_lists(text,
+                          options.fields.empty() ? usual_nmcli_fields() : parse_nmcli_fields(options.fields));
+}
+
+PrintedLog read_list_file(const ImportOptions& options, const fs::path& file, std::size_t files) {
+  if (files > 1 && fs::is_regular_file(file) && fs::is_empty(file))
+    return {{}, {{"files are empty: scans that failed", 1}}, {}};
+  const Text text = read_printed_text(file);
+  PrintedLog log = read_list(options, text);
+  const auto time = time_of_file(options, file, files);
+  const bool is_timed = std::all_of(log.scans.begin(), log.scans.end(),
+                                    [](const PrintedScan& scan) { return scan.stamp.has_value(); });
+  if (files > 1 && !time && !is_timed)
+    text.fail(0, "has no time: neither a line with one, nor its name; --file-times takes the file's");
+  time_scans(text, log, time);
+  return log;
+}
+
+}  // namespace
+
+void import_printed_scans(const ImportOptions& options) {
+  const auto params = params_of<PrintedScanParams>(options);
+  WifiTarget target = target_of(options);
+  const auto files = files_of(options, {});
+  std::vector<PrintedLog> logs;
+  for (const fs::path& file : files) logs.push_back(read_list_file(options, file, files.size()));
+  write_wifi(options, target, {rows_of_scans(std::move(logs), params)});
+}
+
+void import_airodump(const ImportOptions& options) {
+  const auto params = params_of<AirodumpParams>(options);
+  WifiTarget target = target_of(options);
+  std::vector<WifiLog> logs;
+  for (const std::string& source : options.sources)
+    logs.push_back(read_airodump(read_printed_text(source), params));
+  write_wifi(options, target, std::move(logs));
+}
+
+void import_wifi_captures(const ImportOptions& options) {
+  const auto params = params_of<WifiCaptureParams>(options);
+  WifiTarget target = target_of(options);
+  std::vector<WifiLog> logs;
+  for (const fs::path& file : files_of(options, {".pcap", ".pcapng", ".cap"}))
+    logs.push_back(read_wifi_capture(file, params));
+  write_wifi(options, target, std::move(logs));
+}
+
+}  // namespace radioslam::cli

@@ -1,0 +1,80 @@
+#include "radioslam/cli/wifi_target.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "radioslam/cli/import_options.hpp"
+#include "radioslam/cli/suggestion.hpp"
+#include "radioslam/io/csv_files.hpp"
+#include "radioslam/io/mission_folder.hpp"
+#include "radioslam/io/mission_yaml.hpp"
+#include "radioslam/io/usable_id.hpp"
+
+namespace radioslam::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> robots_of(const fs::path& mission) {
+  std::vector<std::string> ids;
+  for (const Robot& robot : read_mission_yaml(read_text(mission / kMissionFolder), "").mission.robots)
+    ids.push_back(robot.id);
+  return ids;
+}
+
+}  // namespace
+
+WifiTarget::WifiTarget(const std::string& output, const std::string& robot, const std::string& source)
+    : output_(output), robot_(robot) {
+  if (!robot.empty()) check_import_id("--robot " + robot, robot);
+  if (output.ends_with(".csv")) {
+    file_.emplace(output);
+  } else if (fs::exists(fs::path(output) / kMissionFolder)) {
+    find_robot_of_mission();
+    file_.emplace(file_of_robot("wifi.csv"));
+  } else {
+    if (robot_.empty()) name_robot_after(source);
+    folder_.emplace(output, kMissionFolder);
+  }
+}
+
+void WifiTarget::find_robot_of_mission() {
+  const auto ids = robots_of(output_);
+  if (robot_.empty() && ids.size() == 1) robot_ = ids.front();
+  if (robot_.empty())
+    throw InputError(
+        output_, 0,
+        "this mission has " + std::to_string(ids.size()) + " robots; --robot says which of them heard this");
+  if (std::find(ids.begin(), ids.end(), robot_) == ids.end())
+    throw InputError("--robot " + robot_, 0,
+                     "the mission " + output_ + " has no such robot" + did_you_mean(robot_, ids));
+}
+
+void WifiTarget::name_robot_after(const std::string& source) {
+  robot_ = name_of_source(source);
+  if (!is_usable_id(robot_))
+    throw InputError(source, 0, "its name cannot be a robot's; --robot gives another");
+}
+
+std::string WifiTarget::file_of_robot(const char* name) const {
+  return (fs::path(output_) / "robots" / robot_ / name).string();
+}
+
+void WifiTarget::commit(const std::vector<WifiRow>& rows) {
+  const std::string table = format_wifi_rows(rows);
+  if (file_) return file_->commit(table);
+  Mission mission;
+  mission.name = name_of_source(output_);
+  mission.robots.emplace_back().id = robot_;
+  write_mission(folder_->path(), mission);
+  write_file(folder_->path() / "robots" / robot_ / "wifi.csv", table);
+  folder_->commit();
+}
+
+std::string WifiTarget::missing() const {
+  if (robot_.empty() || output_.ends_with(".csv")) return {};
+  const std::string odometry = file_of_robot("odometry.tum");
+  return fs::exists(odometry) ? "" : odometry + " is not there; `radioslam run` needs it";
+}
+
+}  // namespace radioslam::cli

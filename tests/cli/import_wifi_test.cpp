@@ -1,0 +1,141 @@
+// What WiFi tools heard, into a robot's wifi.csv.
+#include <gtest/gtest.h>
+
+#include "cli/process.hpp"
+
+namespace radioslam::cli {
+namespace {
+
+const std::string kScan =
+    "BSS 02:00:00:00:01:00(on wlan0)\n\tfreq: 2412\n\tsignal: -53.-50 dBm\n\tlast seen: 120 ms ago\n"
+    "BSS 02:00:00:00:02:00(on wlan0)\n\tfreq: 5180\n\tsignal: -60.00 dBm\n\tlast seen: 2000 ms ago\n";
+const std::string kTable =
+    "t_s,bssid,frequency_mhz,rssi_dbm\n0,02:00:00:00:01:00,2412,-53.5\n0,02:00:00:00:02:00,5180,-60\n";
+
+struct ImportWifi : testing::Test {
+  void SetUp() override { write_file(folder.path() / "scan.txt", kScan); }
+  Outcome import(const std::vector<std::string>& arguments) const {
+    std::vector<std::string> call{"import"};
+    call.insert(call.end(), arguments.begin(), arguments.end());
+    return run(call, folder.path());
+  }
+  void expect_refused(const std::vector<std::string>& arguments, const std::string& reason) const {
+    const auto before = files_in(folder.path());
+    const Outcome outcome = import(arguments);
+    EXPECT_EQ(outcome.status, 2) << outcome.err;
+    EXPECT_NE(outcome.err.find(reason), std::string::npos) << outcome.err;
+    EXPECT_EQ(files_in(folder.path()), before);
+  }
+  /// A mission of robots a and b.
+  void make_team() const {
+    for (const char* id : {"a", "b"}) {
+      std::filesystem::create_directories(folder.path() / "m/robots" / id);
+      write_file(folder.path() / "m/robots" / id / "odometry.tum", "0 0 0 0 0 0 0 1\n9 2 0 0 0 0 0 1\n");
+    }
+    write_file(folder.path() / "m/mission.yaml",
+               "format: radioslam-mission/1\nname: m\ndimension: 2\nrobots:\n  a: {}\n  b: {}\n");
+  }
+
+  TemporaryFolder folder;
+};
+
+TEST_F(ImportWifi, WritesATableAlone) {
+  const Outcome outcome = import({"iw", "scan.txt", "-o", "wifi.csv"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(read_file(folder.path() / "wifi.csv"), kTable);
+  EXPECT_EQ(outcome.out, "wifi.csv: 2 rows, 1 scans, 2 radios\n");
+}
+
+TEST_F(ImportWifi, GivesAMissionsRobotItsTableAndKeepsTheRest) {
+  make_team();
+  const Outcome outcome = import({"iw", "scan.txt", "--robot", "b", "--time", "3.5", "-o", "m"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "m: 2 rows, 1 scans, 2 radios of b\n");
+  EXPECT_EQ(files_in(folder.path() / "m"),
+            (std::vector<std::string>{"mission.yaml", "robots/a/odometry.tum", "robots/b/odometry.tum",
+                                      "robots/b/wifi.csv"}));
+  EXPECT_EQ(read_file(folder.path() / "m/robots/b/wifi.csv").substr(33, 4), "3.5,");
+  const Outcome ran = run({"run", "m", "-o", "out"}, folder.path());
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  expect_refused({"iw", "scan.txt", "-o", "m"}, "has 2 robots; --robot says which");
+  expect_refused({"iw", "scan.txt", "--robot", "c", "-o", "m"}, "has no such robot");
+}
+
+TEST_F(ImportWifi, StartsAMissionThatWantsOdometry) {
+  const Outcome outcome = import({"iw", "scan.txt", "-o", "m"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.out,
+            "note: m/robots/scan/odometry.tum is not there; `radioslam run` needs it\nm: 2 rows, 1 scans, 2 "
+            "radios of scan\n");
+  EXPECT_EQ(read_file(folder.path() / "m/robots/scan/wifi.csv"), kTable);
+  ASSERT_EQ(import({"iw", "scan.txt", "--time", "1", "-o", "m"}).status, 0);  // again, into its only robot
+  write_file(folder.path() / "m/robots/scan/odometry.tum", "0 0 0 0 0 0 0 1\n9 2 0 0 0 0 0 1\n");
+  const Outcome ran = run({"run", "m", "-o", "out"}, folder.path());
+  EXPECT_EQ(ran.status, 0) << ran.err;
+}
+
+TEST_F(ImportWifi, TakesAFolderOfScansTimedByTheirNames) {
+  std::filesystem::create_directories(folder.path() / "scans");
+  write_file(folder.path() / "scans/scan-1574407125.5.txt", kScan);
+  write_file(folder.path() / "scans/scan-1574407123.txt", kScan);
+  write_file(folder.path() / "scans/scan-1574407129.txt", "");
+  const Outcome outcome = import({"iw", "scans", "--set", "clock_offset_s=-1574407123", "-o", "wifi.csv"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "note: 1 files are empty: scans that failed\nwifi.csv: 4 rows, 2 scans, 2 radios\n");
+  EXPECT_NE(read_file(folder.path() / "wifi.csv").find("\n2.5,02:00:00:00:01:00,2412,-53.5\n"),
+            std::string::npos);
+  expect_refused({"iw", "scan.txt", "scans", "-o", "out.csv"}, "scan.txt: has no time");
+  EXPECT_EQ(import({"iw", "scan.txt", "scans", "--file-times", "-o", "out.csv"}).status, 0);
+}
+
+TEST_F(ImportWifi, ReadsTheOtherTools) {
+  write_file(
+      folder.path() / "iwlist.txt",
+      "Cell 01 - Address: 02:00:00:00:01:00\nFrequency:2.412 GHz\nQuality=5/7  Signal level=-53 dBm\n");
+  write_file(folder.path() / "nmcli.txt", "02\\:00\\:00\\:00\\:01\\:00:80\n");
+  write_file(folder.path() / "log.csv",
+             "LocalTime,GPSTime,ESSID,BSSID,Power,Security,Latitude,Longitude,Latitude Error,Longitude "
+             "Error,Type\r\n"
+             "2019-11-22 07:18:43,1900-01-00 00:00:00,a,02:00:00:00:01:00,-53,,0,0,0,0,AP\r\n");
+  EXPECT_EQ(import({"iwlist", "iwlist.txt", "-o", "1.csv"}).status, 0);
+  EXPECT_EQ(import({"nmcli", "nmcli.txt", "--fields", "BSSID,SIGNAL", "-o", "2.csv"}).status, 0);
+  EXPECT_EQ(import({"airodump", "log.csv", "--set", "utc_offset_h=1", "-o", "3.csv"}).status, 0);
+  EXPECT_NE(read_file(folder.path() / "1.csv").find("\n0,02:00:00:00:01:00,2412,-53\n"), std::string::npos);
+  EXPECT_NE(read_file(folder.path() / "2.csv").find("\n0,02:00:00:00:01:00,0,-52\n"), std::string::npos);
+  EXPECT_NE(read_file(folder.path() / "3.csv").find("\n1574403523,02:00:00:00:01:00,0,-53\n"),
+            std::string::npos);
+}
+
+TEST_F(ImportWifi, WritesStudiesWithoutOdometry) {
+  write_file(folder.path() / "walk.csv",
+             "0,num_visible_APs,timestamp,x,y,z,floorID\n-57.0,1,0.0,13.8,1.5,1.4,0\n");
+  const Outcome outcome = import({"wifine", "walk.csv", "-o", "m"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("note: nobody recorded odometry"), std::string::npos);
+  EXPECT_EQ(
+      files_in(folder.path() / "m"),
+      (std::vector<std::string>{"mission.yaml", "robots/walk/groundtruth.tum", "robots/walk/wifi.csv"}));
+  const Outcome similar =
+      run({"similarity", "m/robots/walk/wifi.csv", "--measure", "cosine", "-o", "pairs.csv"}, folder.path());
+  EXPECT_EQ(similar.status, 0) << similar.err;
+}
+
+TEST_F(ImportWifi, RefusesWithTheLine) {
+  write_file(folder.path() / "bad.txt", kScan + "BSS what(on wlan0)\n");
+  write_file(folder.path() / "weak.txt", "BSS 02:00:00:00:01:00(on wlan0)\n\tsignal: 5/100\n");
+  write_file(folder.path() / "no.pcap", "this is no capture at all");
+  expect_refused({"iw", "bad.txt", "-o", "m"}, "bad.txt:9: 'what' is no address");
+  expect_refused({"iw", "weak.txt", "-o", "m"}, "no level of a radio in it; 1 have no level in dBm");
+  expect_refused({"iw", "nowhere.txt", "-o", "m"}, "no such file");
+  expect_refused({"pcap", "no.pcap", "-o", "m"}, "no.pcap: at byte 4: unknown file format");
+  expect_refused({"airodump", "scan.txt", "-o", "m"}, "scan.txt:1: neither the header");
+  expect_refused({"iw", "scan.txt", "--time", "soon", "-o", "m"}, "seconds are expected");
+  expect_refused({"iw", "scan.txt", "--robot", "a/b", "-o", "m"}, "cannot be the name");
+  expect_refused({"iw", "scan.txt", "--fields", "BSSID", "-o", "m"}, "takes no --fields");
+  expect_refused({"pcap", "no.pcap", "--time", "1", "-o", "m"}, "takes no --time");
+  expect_refused({"wifine", "scan.txt", "scan.txt", "-o", "m"}, "takes one source");
+  expect_refused({"iwlst", "scan.txt", "-o", "m"}, "did you mean iwlist");
+}
+
+}  // namespace
+}  // namespace radioslam::cli
