@@ -19,6 +19,7 @@ add_library(radioslam_cli STATIC
   cli/config.cpp
   cli/judgement.cpp
   cli/mission_input.cpp
+  cli/pair_table.cpp
   cli/parameters.cpp
   cli/program.cpp
   cli/progress_line.cpp

@@ -1,47 +1,27 @@
 #include "radioslam/radio/fingerprint_blocks.hpp"
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 #include <span>
 
 #include "radioslam/base/parallel.hpp"
+#include "radioslam/radio/place_order.hpp"
 
 namespace radioslam {
 namespace {
 
-constexpr std::size_t kStrongest = 3;  // access points that tell where a fingerprint is
 constexpr std::size_t kBlocksPerTask = 8;
 
-using StrongestHeard = std::array<AccessPointIndex, kStrongest>;
-
-/// The strongest first; equal ones in the order of the access points.
-StrongestHeard strongest_of(const Fingerprint& fingerprint) {
-  std::array<FingerprintEntry, kStrongest> best{};
-  const auto end = std::partial_sort_copy(
-      fingerprint.entries.begin(), fingerprint.entries.end(), best.begin(), best.end(),
-      [](const FingerprintEntry& a, const FingerprintEntry& b) {
-        return a.rss_dbm != b.rss_dbm ? a.rss_dbm > b.rss_dbm : a.access_point < b.access_point;
-      });
-  StrongestHeard strongest;
-  std::transform(best.begin(), end, strongest.begin(), [](const auto& entry) { return entry.access_point; });
-  return strongest;
-}
-
-/// The fingerprints slab by slab; within one, those next to each other heard the same strongest.
-std::vector<std::uint32_t> order_by_place(const std::vector<Fingerprint>& fingerprints) {
-  std::vector<StrongestHeard> strongest(fingerprints.size());
+/// The fingerprints slab by slab; within one, neighbours hear the same access points.
+std::vector<std::uint32_t> block_order(const std::vector<Fingerprint>& fingerprints,
+                                       std::size_t access_points) {
   std::vector<std::uint32_t> order(fingerprints.size());
   std::iota(order.begin(), order.end(), 0U);
-  parallel_for(order.size(), kSlabLanes, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) strongest[i] = strongest_of(fingerprints[i]);
-  });
   parallel_for((order.size() + kSlabLanes - 1) / kSlabLanes, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t slab = begin; slab < end; ++slab) {
-      const auto first = order.begin() + static_cast<std::ptrdiff_t>(slab * kSlabLanes);
-      const auto last = std::min(order.end() - first, static_cast<std::ptrdiff_t>(kSlabLanes)) + first;
-      std::stable_sort(first, last,
-                       [&](std::uint32_t i, std::uint32_t j) { return strongest[i] < strongest[j]; });
+      const auto members = std::span(order).subspan(slab * kSlabLanes);
+      order_by_place(fingerprints, access_points, kLanes,
+                     members.first(std::min(members.size(), kSlabLanes)));
     }
   });
   return order;
@@ -90,7 +70,7 @@ FingerprintBlock block_of(const std::vector<Fingerprint>& all, std::span<const s
 
 FingerprintBlocks fingerprint_blocks(const std::vector<Fingerprint>& fingerprints, std::size_t access_points,
                                      SimilarityMeasure measure, const SimilarityParams& params) {
-  const std::vector<std::uint32_t> order = order_by_place(fingerprints);
+  const std::vector<std::uint32_t> order = block_order(fingerprints, access_points);
   FingerprintBlocks result;
   result.blocks.resize((order.size() + kLanes - 1) / kLanes);
   parallel_for(result.blocks.size(), kBlocksPerTask, [&](std::size_t begin, std::size_t end) {

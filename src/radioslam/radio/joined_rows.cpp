@@ -29,7 +29,8 @@ void add_detections(const Fingerprint& row, const Fingerprint& column, SharedSum
     while (j != column.entries.end() && j->access_point < entry.access_point) ++j;
     if (j == column.entries.end()) return;
     if (j->access_point != entry.access_point) continue;
-    const double tau_i = static_cast<double>(entry.detection_rate), tau_j = static_cast<double>(j->detection_rate);
+    const double tau_i = static_cast<double>(entry.detection_rate),
+                 tau_j = static_cast<double>(j->detection_rate);
     sums.detection2_i += tau_i * tau_i;
     sums.detection2_j += tau_j * tau_j;
   }
@@ -153,7 +154,8 @@ LaneBits JoinedRows::allowed_lanes(const Row& row, const FingerprintBlock& block
 void JoinedRows::take(Row& row, const FingerprintBlock& block, std::size_t lane, const LaneSums& sums) {
   SharedSums shared{static_cast<int>(sums.shared[lane]), sums.sum[lane], 0, 0};
   const std::uint32_t j = block.fingerprints[lane];
-  if (query_.measure == SimilarityMeasure::kDetection) add_detections(*row.fingerprint, (*columns_)[j], shared);
+  if (query_.measure == SimilarityMeasure::kDetection)
+    add_detections(*row.fingerprint, (*columns_)[j], shared);
   const auto similarity = static_cast<float>(
       similarity_of(shared, row.totals, block.totals[lane], query_.measure, query_.params));
   if (static_cast<double>(similarity) < query_.minimum) return;
@@ -166,8 +168,8 @@ void JoinedRows::collect(Row& row, std::size_t slab) {
   for (std::size_t word = 0; word < row.finds.has.size(); ++word) {
     for (std::uint64_t left = row.finds.has[word]; left != 0; left &= left - 1) {
       const std::size_t place = 64 * word + static_cast<std::size_t>(std::countr_zero(left));
-      row.pairs.push_back({row.index, static_cast<std::uint32_t>(slab * kSlabLanes + place),
-                           row.finds.similarity[place]});
+      row.pairs.push_back(
+          {row.index, static_cast<std::uint32_t>(slab * kSlabLanes + place), row.finds.similarity[place]});
     }
     row.finds.has[word] = 0;
   }

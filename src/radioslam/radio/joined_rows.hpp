@@ -1,6 +1,6 @@
-// Some fingerprints, at most one per bit of RowBits, joined with all blocks: what similarity_join.hpp does for
-// the rows of one task. Rows that follow each other in a recording meet the same blocks, and a block's columns
-// are then in the fast memory for all of them.
+// Some fingerprints, at most one per bit of RowBits, joined with all blocks: what similarity_join.hpp does
+// for the rows of one task. Rows that follow each other in a recording meet the same blocks, and a block's
+// columns are then in the fast memory for all of them.
 #pragma once
 
 #include <cstdint>
@@ -64,11 +64,11 @@ class JoinedRows {
   SimilarityKernel kernel_;
   const std::vector<Fingerprint>* columns_ = nullptr;
   std::vector<Row> rows_;
-  std::vector<std::uint32_t> locals_;        ///< per access point; 0: no row hears it
-  std::vector<AccessPointIndex> heard_;      ///< per local
-  std::vector<RowBits> wanting_;             ///< per local: rows with it in their prefix
-  std::vector<RowBits> wanted_;              ///< per block: rows that may find something there
-  std::vector<const float*> column_;         ///< per local, in the block at hand; null where it has none
+  std::vector<std::uint32_t> locals_;    ///< per access point; 0: no row hears it
+  std::vector<AccessPointIndex> heard_;  ///< per local
+  std::vector<RowBits> wanting_;         ///< per local: rows with it in their prefix
+  std::vector<RowBits> wanted_;          ///< per block: rows that may find something there
+  std::vector<const float*> column_;     ///< per local, in the block at hand; null where it has none
   std::vector<MetColumn> met_;
 };
 

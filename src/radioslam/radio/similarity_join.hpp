@@ -1,6 +1,6 @@
-// All pairs of fingerprints that are at least so similar, without looking at all pairs: an exact set-similarity
-// join for every measure. It gives the very floats of similarity_table(), and of the pairs exactly those that
-// reach `minimum` there.
+// All pairs of fingerprints that are at least so similar, without looking at all pairs: an exact
+// set-similarity join for every measure. It gives the very floats of similarity_table(), and of the pairs
+// exactly those that reach `minimum` there.
 //   1. Length and prefix filters (similarity_need.hpp) leave, of the blocks of fingerprints of one place
 //      (fingerprint_blocks.hpp), those that hear enough of what a fingerprint heard.
 //   2. The sums of a fingerprint with a whole block come from the columns that both have, lane by lane and

@@ -79,8 +79,7 @@ void sum_lanes(const MetColumn* columns, std::size_t count, LaneSums& sums) {
 
 /// exp(x) or less, for x >= 0.
 inline FourDoubles exp_at_most(FourDoubles x) {
-  return in_all(1) +
-         x * (in_all(1) + x * (in_all(1.0 / 2) + x * (in_all(1.0 / 6) + x * in_all(1.0 / 24))));
+  return in_all(1) + x * (in_all(1) + x * (in_all(1.0 / 2) + x * (in_all(1.0 / 6) + x * in_all(1.0 / 24))));
 }
 
 /// Four lanes of what a test looks at.
@@ -89,9 +88,8 @@ struct TestedLanes {
 };
 
 inline TestedLanes tested_lanes(const LaneSums& sums, const LaneTotals& lanes, std::size_t k) {
-  return {load_lanes(&sums.sum[k]),
-          load_lanes(&sums.shared[k]), load_lanes(&lanes.heard[k]), load_lanes(&lanes.total[k]),
-          load_lanes(&lanes.least_detection2[k])};
+  return {load_lanes(&sums.sum[k]), load_lanes(&sums.shared[k]), load_lanes(&lanes.heard[k]),
+          load_lanes(&lanes.total[k]), load_lanes(&lanes.least_detection2[k])};
 }
 
 /// s^2 >= least^2

@@ -32,8 +32,8 @@ struct LaneSums {
 
 /// What every lane's fingerprint brings; lanes without one hear nothing.
 struct LaneTotals {
-  alignas(32) std::array<double, kLanes> heard{};            ///< access points
-  alignas(32) std::array<double, kLanes> total{};            ///< see FingerprintTotals
+  alignas(32) std::array<double, kLanes> heard{};             ///< access points
+  alignas(32) std::array<double, kLanes> total{};             ///< see FingerprintTotals
   alignas(32) std::array<double, kLanes> least_detection2{};  ///< its smallest tau^2
 };
 

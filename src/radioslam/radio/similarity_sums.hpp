@@ -31,8 +31,8 @@ FingerprintTotals totals_of(const Fingerprint& fingerprint, SimilarityMeasure me
 
 /// Sums over the shared access points.
 struct SharedSums {
-  int shared = 0;        ///< H; cosine and Sørensen do without
-  double sum = 0;        ///< cosine: of f_i f_j; Sørensen: of min(g_i, g_j); else of (f_i - f_j)^2, dB^2
+  int shared = 0;  ///< H; cosine and Sørensen do without
+  double sum = 0;  ///< cosine: of f_i f_j; Sørensen: of min(g_i, g_j); else of (f_i - f_j)^2, dB^2
   double detection2_i = 0, detection2_j = 0;  ///< detection: of tau_i^2 and tau_j^2
 };
 double similarity_of(const SharedSums& sums, const FingerprintTotals& i, const FingerprintTotals& j,
