@@ -1,14 +1,12 @@
 // Similar pairs of fingerprints by the join and by all pairs, on all threads of one run.
-//   join/M/s/o   100,000 fingerprints of 50 access points, from walkers on a campus of 1 km^2 with 4,000
-//   access
-//                points; measure M, least similarity s in percent. With o = 1 in random order, as if
-//                everybody had been everywhere.
+//   join/M/s/o   100,000 fingerprints of 50 access points, from walkers on a campus of 1 km^2 with 4,000 of
+//                them; measure M, least similarity s in percent. With o = 1 in random order, as if everybody
+//                had been everywhere.
 //   all_pairs/M  every pair of the first 20,000 of them by similarity_table(), some rows at a time
-// Counters: `pairs` found; `all_pairs_s`, what all pairs of the same fingerprints take: the time of
-// similarity_table() over kSampledRows rows spread over the recording, times the pairs it is less (measured
-// in the same run, before the join); `times_faster`, their ratio; `peak_MiB`, the most memory that the
-// process has held so far, the fingerprints included; `missed`, pairs of the sampled rows that differ from
-// the table's: 0.
+// Counters: `pairs` found; `all_pairs_s`, what similarity_table() takes per pair over kSampledRows rows
+// spread over the recording, measured in the same run before the join, times the pairs of all rows;
+// `times_faster`, their ratio; `missed`, sampled rows whose pairs or floats differ from the table's: 0;
+// `peak_MiB`, the most memory that the process has held so far, the fingerprints included.
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
 
@@ -86,7 +84,7 @@ std::size_t count_missed(const SimilarityJoin& join, const SampledRows& sampled,
     for (std::uint32_t j = i + 1; j < sampled.table[k].size(); ++j)
       if (static_cast<double>(sampled.table[k][j]) >= minimum)
         expected.push_back({i, j, sampled.table[k][j]});
-    missed += join.pairs_of(i, i + 1) == expected ? 0 : 1;
+    if (join.pairs_of(i, i + 1) != expected) ++missed;
   }
   return missed;
 }

@@ -92,7 +92,7 @@ TEST(SimilarityLanes, NeverLoseALaneThatReaches) {
       if (measure != SimilarityMeasure::kCosine && measure != SimilarityMeasure::kSorensen)
         for (double& sum : sums.sum) sum *= scale * scale * scale;
       LaneTotals lanes;
-      const FingerprintTotals own{static_cast<int>(count) + 1, 0.25 * static_cast<double>(count + 1)};
+      const FingerprintTotals own{static_cast<int>(count) + 1, 0.25 * static_cast<double>(count + 1), 0.25};
       lanes.heard.fill(own.heard);
       lanes.total.fill(own.total);
       lanes.least_detection2.fill(0.25);

@@ -40,17 +40,15 @@ std::vector<AccessPointIndex> access_points_of(const std::vector<Fingerprint>& a
 void fill_lane(const Fingerprint& fingerprint, std::size_t lane, SimilarityMeasure measure,
                const SimilarityParams& params, FingerprintBlock& block) {
   std::size_t column = 0;
-  double least_detection = fingerprint.entries.empty() ? 0 : 1;
   for (const auto& entry : fingerprint.entries) {
     while (block.access_points[column] < entry.access_point) ++column;
     block.values[column * kLanes + lane] = compared_value(entry, measure, params);
-    least_detection = std::min(least_detection, static_cast<double>(entry.detection_rate));
   }
   const FingerprintTotals totals = totals_of(fingerprint, measure, params);
   block.totals.push_back(totals);
   block.lanes.heard[lane] = totals.heard;
   block.lanes.total[lane] = totals.total;
-  block.lanes.least_detection2[lane] = least_detection * least_detection;
+  block.lanes.least_detection2[lane] = totals.least_detection2;
 }
 
 FingerprintBlock block_of(const std::vector<Fingerprint>& all, std::span<const std::uint32_t> members,

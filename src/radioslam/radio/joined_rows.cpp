@@ -15,15 +15,8 @@ double surely_below(double minimum) {
   return std::max((1 - kRounding) * minimum - kSmallestHalf, std::numeric_limits<double>::min());
 }
 
-double least_detection2(const Fingerprint& fingerprint) {
-  double least = fingerprint.entries.empty() ? 0 : 1;
-  for (const auto& entry : fingerprint.entries)
-    least = std::min(least, static_cast<double>(entry.detection_rate));
-  return least * least;
-}
-
 /// Adds what only the detection measure needs, in the order of the access points.
-void add_detections(const Fingerprint& row, const Fingerprint& column, SharedSums& sums) {
+void add_shared_detections(const Fingerprint& row, const Fingerprint& column, SharedSums& sums) {
   auto j = column.entries.begin();
   for (const auto& entry : row.entries) {
     while (j != column.entries.end() && j->access_point < entry.access_point) ++j;
@@ -48,14 +41,14 @@ JoinedRows::JoinedRows(const FingerprintBlocks& blocks, const SimilarityQuery& q
       wanting_(1, 0),
       wanted_(blocks.blocks.size(), 0) {}
 
-LaneQuery JoinedRows::lane_query(const Fingerprint& row, const FingerprintTotals& totals) const {
+LaneQuery JoinedRows::lane_query(const FingerprintTotals& totals) const {
   const auto& params = query_.params;
   const bool detects = query_.measure == SimilarityMeasure::kDetection;
   LaneQuery query;
   query.least = surely_below(query_.minimum);
   query.heard = totals.heard;
   query.total = totals.total;
-  query.least_detection2 = least_detection2(row);
+  query.least_detection2 = totals.least_detection2;
   query.per_db2 = 1 / (2 * params.sigma_rss_db * params.sigma_rss_db);
   query.per_detection2 = detects ? 1 / (2 * params.sigma_detection * params.sigma_detection) : 0;
   query.minimum_shared = params.minimum_shared;
@@ -75,7 +68,7 @@ std::uint32_t JoinedRows::local_of(AccessPointIndex access_point) {
 void JoinedRows::add(const Fingerprint& row, std::uint32_t index) {
   RADIOSLAM_CHECK(rows_.size() < std::numeric_limits<RowBits>::digits, "a bit per row");
   const FingerprintTotals totals = totals_of(row, query_.measure, query_.params);
-  const LaneQuery query = lane_query(row, totals);
+  const LaneQuery query = lane_query(totals);
   SharedNeed need = shared_need(row, query.least, query_.measure, query_.params);
   Row added{&row, index, std::move(need), totals, query, {}, {}, {}, {}};
   for (const auto& entry : row.entries) {
@@ -155,7 +148,7 @@ void JoinedRows::take(Row& row, const FingerprintBlock& block, std::size_t lane,
   SharedSums shared{static_cast<int>(sums.shared[lane]), sums.sum[lane], 0, 0};
   const std::uint32_t j = block.fingerprints[lane];
   if (query_.measure == SimilarityMeasure::kDetection)
-    add_detections(*row.fingerprint, (*columns_)[j], shared);
+    add_shared_detections(*row.fingerprint, (*columns_)[j], shared);
   const auto similarity = static_cast<float>(
       similarity_of(shared, row.totals, block.totals[lane], query_.measure, query_.params));
   if (static_cast<double>(similarity) < query_.minimum) return;

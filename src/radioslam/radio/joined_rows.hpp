@@ -48,7 +48,7 @@ class JoinedRows {
     std::vector<SimilarPair> pairs;
   };
 
-  LaneQuery lane_query(const Fingerprint& row, const FingerprintTotals& totals) const;
+  LaneQuery lane_query(const FingerprintTotals& totals) const;
   std::uint32_t local_of(AccessPointIndex access_point);
   void want_blocks();
   void join_slab(std::size_t slab);

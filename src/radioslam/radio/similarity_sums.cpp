@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace radioslam {
 namespace {
@@ -20,7 +21,17 @@ double alone_detection2(const SharedSums& sums, const FingerprintTotals& i, cons
   return (i.total - sums.detection2_i) + (j.total - sums.detection2_j);
 }
 
-double square(double x) { return x * x; }
+double squared(double x) { return x * x; }
+
+void add_detections(const Fingerprint& fingerprint, FingerprintTotals& totals) {
+  double least2 = std::numeric_limits<double>::infinity();
+  for (const auto& entry : fingerprint.entries) {
+    const double detection2 = squared(static_cast<double>(entry.detection_rate));
+    totals.total += detection2;
+    least2 = std::min(least2, detection2);
+  }
+  totals.least_detection2 = fingerprint.entries.empty() ? 0 : least2;
+}
 
 }  // namespace
 
@@ -32,13 +43,12 @@ float compared_value(const FingerprintEntry& entry, SimilarityMeasure measure,
 
 FingerprintTotals totals_of(const Fingerprint& fingerprint, SimilarityMeasure measure,
                             const SimilarityParams& params) {
-  FingerprintTotals totals{static_cast<int>(fingerprint.entries.size()), 0};
+  FingerprintTotals totals{static_cast<int>(fingerprint.entries.size()), 0, 0};
+  if (measure == SimilarityMeasure::kDetection) add_detections(fingerprint, totals);
   for (const auto& entry : fingerprint.entries) {
-    if (measure == SimilarityMeasure::kCosine) totals.total += square(shifted_rss_db(entry.rss_dbm));
+    if (measure == SimilarityMeasure::kCosine) totals.total += squared(shifted_rss_db(entry.rss_dbm));
     if (measure == SimilarityMeasure::kSorensen)
       totals.total += static_cast<double>(compared_value(entry, measure, params));
-    if (measure == SimilarityMeasure::kDetection)
-      totals.total += square(static_cast<double>(entry.detection_rate));
   }
   return totals;
 }

@@ -23,8 +23,9 @@ float compared_value(const FingerprintEntry& entry, SimilarityMeasure measure,
 
 /// What a fingerprint brings to every pair it is in.
 struct FingerprintTotals {
-  int heard = 0;     ///< L = H + M
-  double total = 0;  ///< cosine: sum of f^2; Sørensen: of g; detection: of tau^2; else 0
+  int heard = 0;                ///< L = H + M
+  double total = 0;             ///< cosine: sum of f^2; Sørensen: of g; detection: of tau^2; else 0
+  double least_detection2 = 0;  ///< detection: the smallest tau^2
 };
 FingerprintTotals totals_of(const Fingerprint& fingerprint, SimilarityMeasure measure,
                             const SimilarityParams& params);
