@@ -12,8 +12,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <map>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include "fingerprint_campus.hpp"
 #include "radioslam/base/parallel.hpp"
@@ -69,11 +70,16 @@ SampledRows sample(const std::vector<Fingerprint>& all, SimilarityMeasure measur
   return sampled;
 }
 
+/// Of the last that was asked for.
 const SampledRows& sampled_rows(Order order, SimilarityMeasure measure) {
-  static std::map<std::pair<Order, SimilarityMeasure>, SampledRows> known;
-  const auto key = std::pair(order, measure);
-  if (!known.contains(key)) known.emplace(key, sample(campus(order), measure));
-  return known.at(key);
+  using Key = std::pair<Order, SimilarityMeasure>;
+  static std::optional<std::pair<Key, SampledRows>> last;
+  const Key key(order, measure);
+  if (!last || last->first != key) {
+    last.reset();
+    last.emplace(key, sample(campus(order), measure));
+  }
+  return last->second;
 }
 
 std::size_t count_missed(const SimilarityJoin& join, const SampledRows& sampled, double minimum) {
