@@ -97,6 +97,22 @@ TEST(OutputFile, AppearsAtOnceOrNotAtAll) {
   EXPECT_EQ(entries(folder.path()), 2u);
 }
 
+TEST(OutputFile, TakesPartsAndShowsNoneBeforeTheEnd) {
+  const TemporaryFolder folder;
+  folder.write("pairs.csv", "old");
+  {
+    OutputFile output(folder.path() / "pairs.csv");
+    output.append("a\n");
+    output.append("b\n");
+    EXPECT_EQ(folder.read("pairs.csv"), "old");
+    output.commit("c\n");
+  }
+  EXPECT_EQ(folder.read("pairs.csv"), "a\nb\nc\n");
+  { OutputFile(folder.path() / "pairs.csv").append("half"); }
+  EXPECT_EQ(folder.read("pairs.csv"), "a\nb\nc\n");
+  EXPECT_EQ(entries(folder.path()), 1u);
+}
+
 TEST(OutputFile, RefusesAFolderAndADevice) {
   const TemporaryFolder folder;
   expect_refusal([&] { OutputFile output(folder.path()); }, 0, "is not a file");

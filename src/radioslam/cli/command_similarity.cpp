@@ -1,7 +1,5 @@
 // radioslam similarity: how alike the WiFi fingerprints of one or two recordings are, pair by pair.
-#include <algorithm>
 #include <array>
-#include <charconv>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -10,14 +8,16 @@
 #include "radioslam/cli/command_options.hpp"
 #include "radioslam/cli/commands.hpp"
 #include "radioslam/cli/config.hpp"
+#include "radioslam/cli/pair_table.hpp"
 #include "radioslam/cli/parameters.hpp"
+#include "radioslam/cli/progress_line.hpp"
 #include "radioslam/cli/similarity_params.hpp"
 #include "radioslam/cli/suggestion.hpp"
 #include "radioslam/io/atomic_output.hpp"
-#include "radioslam/io/numbers.hpp"
 #include "radioslam/io/wifi_csv.hpp"
 #include "radioslam/radio/fingerprint.hpp"
 #include "radioslam/radio/similarity.hpp"
+#include "radioslam/radio/similarity_join.hpp"
 
 namespace radioslam::cli {
 namespace {
@@ -52,42 +52,24 @@ std::vector<std::vector<Fingerprint>> read_fingerprints(const std::vector<std::s
   return fingerprints;
 }
 
-void append_shortest(std::string& out, float value) {
-  std::array<char, 32> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-  out.append(buffer.data(), end);
-}
-
-/// One row per pair; of one recording with itself, each pair once and none with itself.
-std::string pair_rows(const std::vector<std::vector<Fingerprint>>& fingerprints,
-                      const std::vector<std::vector<float>>& table, double minimum) {
-  const bool with_itself = fingerprints.size() == 1;
-  const auto& first = fingerprints.front();
-  const auto& second = fingerprints.back();
-  std::string rows = "t_i_s,t_j_s,similarity\n";
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    for (std::size_t j = with_itself ? i + 1 : 0; j < second.size(); ++j) {
-      if (static_cast<double>(table[i][j]) < minimum) continue;
-      rows += format_stamp(first[i].stamp) + "," + format_stamp(second[j].stamp) + ",";
-      append_shortest(rows, table[i][j]);
-      rows += '\n';
-    }
-  }
-  return rows;
-}
-
 void write_similarity(const SimilarityOptions& options) {
   const auto measure = measure_named(options.measure);
   const auto settings = collect_settings(options.parameters.config_path, options.parameters.set);
   const auto params = with_settings(SimilarityCommandParams{}, settings);
   OutputFile output(options.output);
   const auto fingerprints = read_fingerprints(options.inputs, params.radio.fingerprint);
-  const auto table =
-      similarity_table(fingerprints.front(), fingerprints.back(), measure, params.radio.similarity);
-  const std::string rows = pair_rows(fingerprints, table, options.minimum);
-  output.commit(rows);
-  std::cout << options.output << ": " << std::count(rows.begin(), rows.end(), '\n') - 1 << " pairs of "
-            << fingerprints.front().size() << " x " << fingerprints.back().size() << " fingerprints\n";
+  const auto &first = fingerprints.front(), &second = fingerprints.back();
+  const SimilarityQuery query{measure, params.radio.similarity, options.minimum};
+  const auto join = fingerprints.size() == 1 ? SimilarityJoin::within(first, query)
+                                             : SimilarityJoin::between(first, second, query);
+  std::size_t pairs = 0;
+  {
+    ProgressLine line;
+    pairs = write_pair_table(join, first, second, output, line.progress());
+  }
+  output.commit();
+  std::cout << options.output << ": " << pairs << " pairs of " << first.size() << " x " << second.size()
+            << " fingerprints\n";
 }
 
 }  // namespace

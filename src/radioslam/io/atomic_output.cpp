@@ -151,8 +151,19 @@ OutputFile::OutputFile(const fs::path& target) : UnfinishedOutput(target) {
     throw InputError(target.string(), 0, "cannot be written: " + std::generic_category().message(errno));
 }
 
+void OutputFile::append(std::string_view part) {
+  if (!file_) {
+    const std::lock_guard lock(registry().mutex);
+    refuse_when_closed(target_);
+    file_.reset(std::fopen(temporary_.c_str(), "wb"));
+    if (!file_) fail(errno, temporary_);
+  }
+  if (std::fwrite(part.data(), 1, part.size(), file_.get()) != part.size()) fail(errno, temporary_);
+}
+
 void OutputFile::commit(std::string_view content) {
-  write_file(temporary_, content);
+  append(content);
+  if (std::fclose(file_.release()) != 0) fail(errno, temporary_);
   const std::lock_guard lock(registry().mutex);
   refuse_when_closed(target_);
   fs::rename(temporary_, target_);

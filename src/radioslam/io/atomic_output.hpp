@@ -2,7 +2,9 @@
 // goes when its object goes (an exception) or on remove_unfinished_outputs() (an interruption).
 #pragma once
 
+#include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <string_view>
 
 namespace radioslam {
@@ -38,13 +40,22 @@ class OutputFolder : private UnfinishedOutput {
   void commit();
 };
 
-/// A file that appears at once, in place of an older one.
+/// A file that appears at once, in place of an older one. std::system_error when it cannot be written.
 class OutputFile : private UnfinishedOutput {
  public:
   /// Refuses (InputError) a target that is a folder or a device, and a folder that does not let us write.
   explicit OutputFile(const std::filesystem::path& target);
 
-  void commit(std::string_view content);
+  /// Writes what is larger than the memory should hold, part by part.
+  void append(std::string_view part);
+  /// Moves what was appended, and then `content`, to the target.
+  void commit(std::string_view content = {});
+
+ private:
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  std::unique_ptr<std::FILE, Close> file_;
 };
 
 /// Writes a file inside an output folder, with the folders it needs; std::system_error if that fails.

@@ -1,7 +1,10 @@
 #include "radioslam/io/wifi_csv.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <functional>
 #include <tuple>
+#include <unordered_map>
 
 #include "radioslam/io/csv.hpp"
 #include "radioslam/io/numbers.hpp"
@@ -12,16 +15,63 @@ namespace {
 constexpr double kWeakest_dbm = -150;
 constexpr double kStrongest_dbm = 30;
 
+/// Numbers for BSSIDs: a recording names few of them very often.
+class BssidNumbers {
+ public:
+  /// Of any spelling; in lower case they are the same.
+  std::uint32_t of(std::string_view spelling) {
+    const auto known = by_spelling_.find(spelling);
+    if (known != by_spelling_.end()) return known->second;
+    const std::string lower = lower_case(spelling);
+    const auto [place, is_new] = by_spelling_.try_emplace(lower, static_cast<std::uint32_t>(names_.size()));
+    if (is_new) names_.push_back(lower);
+    const std::uint32_t number = place->second;
+    by_spelling_.emplace(spelling, number);
+    return number;
+  }
+
+  std::vector<std::string> sorted() const {
+    std::vector<std::string> names = names_;
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+
+  /// Per number, the place among the sorted ones.
+  std::vector<AccessPointIndex> places(const std::vector<std::string>& sorted) const {
+    std::vector<AccessPointIndex> places;
+    for (const auto& name : names_) {
+      const auto place = std::lower_bound(sorted.begin(), sorted.end(), name);
+      places.emplace_back(static_cast<std::size_t>(place - sorted.begin()));
+    }
+    return places;
+  }
+
+ private:
+  struct Hash {
+    using is_transparent = void;
+    std::size_t operator()(std::string_view s) const { return std::hash<std::string_view>()(s); }
+  };
+
+  std::unordered_map<std::string, std::uint32_t, Hash, std::equal_to<>> by_spelling_;
+  std::vector<std::string> names_;  ///< lower case, per number
+};
+
 struct Row {
   Stamp stamp;
-  std::string bssid;
+  std::uint32_t bssid = 0;  ///< its number
   float frequency_mhz = 0;
   float rssi_dbm = 0;
 };
 
-Row read_row(const CsvReader& csv) {
+/// The last stamp read and its text: the rows of a scan have the same.
+struct LastStamp {
+  std::string_view text;
+  Stamp stamp;
+};
+
+Row read_row(const CsvReader& csv, LastStamp& last, BssidNumbers& numbers) {
   enum : std::size_t { kTime, kBssid, kFrequency, kRssi };
-  const Stamp stamp = csv.stamp(kTime);
+  if (csv.field(kTime) != last.text || last.text.empty()) last = {csv.field(kTime), csv.stamp(kTime)};
   const std::string_view bssid = csv.field(kBssid);
   if (bssid.empty()) csv.fail("the bssid is empty");
   const double frequency_mhz = csv.coordinate(kFrequency);
@@ -29,39 +79,34 @@ Row read_row(const CsvReader& csv) {
   const double rssi_dbm = csv.number(kRssi);
   if (!is_plausible_rssi(rssi_dbm))
     csv.fail("rssi_dbm " + format_number(rssi_dbm) + " is outside -150 to 30 dBm");
-  return {stamp, lower_case(bssid), static_cast<float>(frequency_mhz), static_cast<float>(rssi_dbm)};
+  return {last.stamp, numbers.of(bssid), static_cast<float>(frequency_mhz), static_cast<float>(rssi_dbm)};
 }
 
-std::vector<Row> read_rows(const Text& text) {
+std::vector<Row> read_rows(const Text& text, BssidNumbers& numbers) {
   CsvReader csv(text, {{"t_s", "bssid", "frequency_mhz", "rssi_dbm"}});
   std::vector<Row> rows;
-  while (csv.next()) rows.push_back(read_row(csv));
-  // The strongest first among equals, so that the order of the rows does not matter.
-  std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
-    return std::tie(a.stamp, a.bssid, b.rssi_dbm, b.frequency_mhz) <
-           std::tie(b.stamp, b.bssid, a.rssi_dbm, a.frequency_mhz);
-  });
-  const auto same = [](const Row& a, const Row& b) { return a.stamp == b.stamp && a.bssid == b.bssid; };
-  rows.erase(std::unique(rows.begin(), rows.end(), same), rows.end());
+  LastStamp last;
+  while (csv.next()) rows.push_back(read_row(csv, last, numbers));
   return rows;
 }
 
-std::vector<std::string> distinct_bssids(const std::vector<std::vector<Row>>& receivers) {
-  std::vector<std::string> result;
-  for (const auto& rows : receivers)
-    for (const Row& row : rows) result.push_back(row.bssid);
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
-  return result;
+/// One reading per stamp and access point, in their order. The strongest comes first among equals, so that
+/// the order of the rows does not matter.
+void sort_rows(std::vector<Row>& rows, const std::vector<AccessPointIndex>& places) {
+  const auto before = [&](const Row& a, const Row& b) {
+    return std::tie(a.stamp, places[a.bssid], b.rssi_dbm, b.frequency_mhz) <
+           std::tie(b.stamp, places[b.bssid], a.rssi_dbm, a.frequency_mhz);
+  };
+  if (!std::is_sorted(rows.begin(), rows.end(), before)) std::sort(rows.begin(), rows.end(), before);
+  const auto same = [](const Row& a, const Row& b) { return a.stamp == b.stamp && a.bssid == b.bssid; };
+  rows.erase(std::unique(rows.begin(), rows.end(), same), rows.end());
 }
 
-std::vector<WifiScan> scans_of(const std::vector<Row>& rows, const std::vector<std::string>& access_points) {
+std::vector<WifiScan> scans_of(const std::vector<Row>& rows, const std::vector<AccessPointIndex>& places) {
   std::vector<WifiScan> scans;
   for (const Row& row : rows) {
     if (scans.empty() || scans.back().stamp != row.stamp) scans.push_back({row.stamp, {}});
-    const auto place = std::lower_bound(access_points.begin(), access_points.end(), row.bssid);
-    const auto index = static_cast<std::size_t>(place - access_points.begin());
-    scans.back().readings.push_back({AccessPointIndex(index), row.frequency_mhz, row.rssi_dbm});
+    scans.back().readings.push_back({places[row.bssid], row.frequency_mhz, row.rssi_dbm});
   }
   return scans;
 }
@@ -71,11 +116,16 @@ std::vector<WifiScan> scans_of(const std::vector<Row>& rows, const std::vector<s
 bool is_plausible_rssi(double rssi_dbm) { return rssi_dbm >= kWeakest_dbm && rssi_dbm <= kStrongest_dbm; }
 
 WifiRecordings read_wifi(std::span<const Text> texts) {
+  BssidNumbers numbers;
   std::vector<std::vector<Row>> receivers;
-  for (const Text& text : texts) receivers.push_back(read_rows(text));
+  for (const Text& text : texts) receivers.push_back(read_rows(text, numbers));
   WifiRecordings result;
-  result.access_points = distinct_bssids(receivers);
-  for (const auto& rows : receivers) result.receivers.push_back(scans_of(rows, result.access_points));
+  result.access_points = numbers.sorted();
+  const std::vector<AccessPointIndex> places = numbers.places(result.access_points);
+  for (auto& rows : receivers) {
+    sort_rows(rows, places);
+    result.receivers.push_back(scans_of(rows, places));
+  }
   return result;
 }
 

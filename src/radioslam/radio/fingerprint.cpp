@@ -1,35 +1,41 @@
 #include "radioslam/radio/fingerprint.hpp"
 
+#include <algorithm>
 #include <functional>
-#include <map>
 
 #include "radioslam/mission/odometry_edge.hpp"
 
 namespace radioslam {
 namespace {
 
-struct Sum {
-  double rss_dbm = 0;
-  int scans = 0;
-};
+/// The readings of all scans by access point, those of one in the order of the scans.
+std::vector<const WifiReading*> by_access_point(const std::vector<const WifiScan*>& window) {
+  std::vector<const WifiReading*> readings;
+  for (const WifiScan* scan : window)
+    for (const WifiReading& reading : scan->readings) readings.push_back(&reading);
+  const auto before = [](const WifiReading* a, const WifiReading* b) {
+    return a->access_point < b->access_point;
+  };
+  if (!std::is_sorted(readings.begin(), readings.end(), before))
+    std::stable_sort(readings.begin(), readings.end(), before);
+  return readings;
+}
 
 Fingerprint merge(const std::vector<const WifiScan*>& window) {
   Fingerprint fingerprint;
   fingerprint.scans = static_cast<int>(window.size());
-  std::map<AccessPointIndex, Sum> sums;
   std::int64_t offset_ns = 0;
-  for (const WifiScan* scan : window) {
-    offset_ns += scan->stamp.ns - window.front()->stamp.ns;
-    for (const WifiReading& reading : scan->readings) {
-      Sum& sum = sums[reading.access_point];
-      sum.rss_dbm += static_cast<double>(reading.rssi_dbm);
-      ++sum.scans;
-    }
-  }
+  for (const WifiScan* scan : window) offset_ns += scan->stamp.ns - window.front()->stamp.ns;
   fingerprint.stamp.ns = window.front()->stamp.ns + offset_ns / fingerprint.scans;
-  for (const auto& [access_point, sum] : sums) {
-    fingerprint.entries.push_back({access_point, static_cast<float>(sum.rss_dbm / sum.scans),
-                                   static_cast<float>(sum.scans) / static_cast<float>(fingerprint.scans)});
+  const auto readings = by_access_point(window);
+  for (auto next = readings.begin(); next != readings.end();) {
+    const AccessPointIndex access_point = (*next)->access_point;
+    double sum_dbm = 0;
+    int heard = 0;
+    for (; next != readings.end() && (*next)->access_point == access_point; ++next, ++heard)
+      sum_dbm += static_cast<double>((*next)->rssi_dbm);
+    fingerprint.entries.push_back({access_point, static_cast<float>(sum_dbm / heard),
+                                   static_cast<float>(heard) / static_cast<float>(fingerprint.scans)});
   }
   return fingerprint;
 }
