@@ -11,6 +11,7 @@
 #include "radioslam/pipeline/overlap_stage.hpp"
 #include "radioslam/pipeline/range_biases.hpp"
 #include "radioslam/pipeline/robust_solution.hpp"
+#include "radioslam/pipeline/sequence_stage.hpp"
 #include "radioslam/radio/arrival_likelihood.hpp"
 #include "radioslam/radio/measurements.hpp"
 #include "radioslam/team_frame/fingerprint_layout.hpp"
@@ -25,6 +26,7 @@ struct RunParams {
   LayoutParams team_frame;
   RadioAlignmentParams alignment;
   FingerprintClosureParams closure;
+  SequenceStageParams sequence;
   JointGraphParams graph;
   TeamBiasParams range_bias;
   OverlapStageParams overlap;
@@ -43,6 +45,7 @@ struct RunParams {
     visit("team_frame", self.team_frame);
     visit("alignment", self.alignment);
     visit("closure", self.closure);
+    visit("sequence", self.sequence);
     visit("graph", self.graph);
     visit("range_bias", self.range_bias);
     visit("overlap", self.overlap);

@@ -153,6 +153,8 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const RunPara
                                         params.team_frame, params.closure);
   });
   add_fingerprint_closures(joint, radio, closures);
+  const auto sequences =
+      clock.time("sequences", [&] { return add_sequence_closures(joint, radio, params.sequence); });
   const auto solution = clock.time(
       "optimise", [&] { return optimize_robustly(joint, params.robust, params.optimizer, progress); });
   result.range_biases = clock.time("range biases", [&] {
@@ -179,6 +181,8 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const RunPara
                [&] { return check_angles_into(result, mission, joint, placement, params), 0; });
   result.closures = collect_radio_links(joint);
   for (auto& closure : collect_closures(radio, joint, closures))
+    result.closures.push_back(std::move(closure));
+  for (auto& closure : collect_sequence_closures(joint, radio, sequences))
     result.closures.push_back(std::move(closure));
   result.closures.insert(result.closures.end(), matches.begin(), matches.end());
   result.similarity_model = collect_similarity_model(radio, params.radio);
