@@ -19,8 +19,8 @@ struct SequenceClosureParams {
   double least_way_m = 50;            ///< between the two, within a robot
   double least_similarity = 0.3;      ///< of the two
   double window_way_m = 30;           ///< whole length of a window
-  double largest_sigma_m = 2;           ///< of the position, along its loosest axis
-  double largest_sigma_yaw_rad = 0.26;  ///< 15 degrees
+  double largest_sigma_m = 3;           ///< of the position, along its loosest axis
+  double largest_sigma_yaw_rad = 0.35;  ///< 20 degrees
   SequenceMatchParams match;
 
   template <class Self, class Visitor>
@@ -33,7 +33,7 @@ struct SequenceClosureParams {
           self.window_way_m);
     visit(Field{"largest_sigma_m", "m", 0.01, 1000, "a closure less certain than this is none; ours"},
           self.largest_sigma_m);
-    visit(Field{"largest_sigma_yaw_rad", "rad", 0.001, 10, "nor one whose yaw is; ours, 15 degrees"},
+    visit(Field{"largest_sigma_yaw_rad", "rad", 0.001, 10, "nor one whose yaw is; ours, 20 degrees"},
           self.largest_sigma_yaw_rad);
     SequenceMatchParams::visit_fields(self.match, visit);
   }

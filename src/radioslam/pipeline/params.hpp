@@ -4,6 +4,7 @@
 #include "radioslam/closure/fingerprint_closures.hpp"
 #include "radioslam/graph/optimizer.hpp"
 #include "radioslam/mission/keyframes.hpp"
+#include "radioslam/pipeline/access_point_stage.hpp"
 #include "radioslam/pipeline/angle_checks.hpp"
 #include "radioslam/pipeline/csi_stage.hpp"
 #include "radioslam/pipeline/joint_graph.hpp"
@@ -33,6 +34,7 @@ struct RunParams {
   MatchParams matches;
   ArrivalLikelihoodParams angles;
   AngleCheckParams angle_check;
+  AccessPointStageParams access_points;
   RobustParams robust;
   /// Distances from fingerprints are good to metres: a millionth of the cost decides nothing.
   OptimizerParams optimizer{.max_iterations = 30, .relative_cost_tolerance = 1e-5};
@@ -52,6 +54,7 @@ struct RunParams {
     visit("matches", self.matches);
     visit("angles", self.angles);
     visit("angle_check", self.angle_check);
+    visit("access_points", self.access_points);
     visit("robust", self.robust);
     visit("optimizer", self.optimizer);
   }

@@ -186,6 +186,8 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const RunPara
     result.closures.push_back(std::move(closure));
   result.closures.insert(result.closures.end(), matches.begin(), matches.end());
   result.similarity_model = collect_similarity_model(radio, params.radio);
+  clock.time("access points",
+             [&] { return add_access_points(result, mission, radio, params.access_points), 0; });
   count(result, radio, solution);
   output.graph = std::move(joint.team.graph);
   return output;
