@@ -20,8 +20,8 @@ inline DistanceModel lawful_model() {
   return DistanceModel(std::move(samples), {});
 }
 
-/// Robots that made a fingerprint at each of these poses, all told in one frame. Each one's odometry starts at
-/// its first pose.
+/// Robots that made a fingerprint at each of these poses, all told in one frame. Each one's odometry starts
+/// at its first pose.
 inline RadioMeasurements lawful_radio(const std::vector<std::vector<SE2>>& robots) {
   RadioMeasurements radio{{}, {}, {}, {}, lawful_model(), {}};
   std::vector<Eigen::Vector2d> places;

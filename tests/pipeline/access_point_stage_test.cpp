@@ -102,7 +102,8 @@ TEST(AccessPointStage, IsTheSameForAnyNumberOfThreads) {
   const auto numbers = [] {
     std::vector<double> all;
     for (const auto& point : place(26).result.access_points) {
-      all.insert(all.end(), {point.position_m.x(), point.position_m.y(), point.exponent, point.covariance(0, 1)});
+      all.insert(all.end(),
+                 {point.position_m.x(), point.position_m.y(), point.exponent, point.covariance(0, 1)});
     }
     return all;
   };

@@ -66,9 +66,8 @@ TEST(SequenceStage, EveryCandidateReachesTheResult) {
   RunParams params;
   params.sequence.enabled = true;
   const auto sequences = sequences_of(run_pipeline(mission, params).result);
-  const auto accepted = std::count_if(sequences.begin(), sequences.end(), [](const auto& c) {
-    return c.status == ClosureStatus::kAccepted;
-  });
+  const auto accepted = std::count_if(sequences.begin(), sequences.end(),
+                                      [](const auto& c) { return c.status == ClosureStatus::kAccepted; });
   EXPECT_GT(accepted, 0);
   EXPECT_GT(sequences.size(), static_cast<std::size_t>(accepted));
   for (const auto& c : sequences) {

@@ -18,17 +18,17 @@ double heard_dbm(const Eigen::Vector2d& from, const Eigen::Vector2d& at) {
 }
 
 /// Along a straight way of 60 m on x.
-std::vector<PlacedReading> straight_way(const Eigen::Vector2d& access_point) {
-  std::vector<PlacedReading> readings;
-  for (double x = 0; x <= 60; x += 2) readings.push_back({{x, 0}, heard_dbm(access_point, {x, 0})});
-  return readings;
+HeardAlongWays straight_way(const Eigen::Vector2d& access_point) {
+  HeardAlongWays heard;
+  for (double x = 0; x <= 60; x += 2) heard.readings.push_back({{x, 0}, heard_dbm(access_point, {x, 0})});
+  return heard;
 }
 
 /// The same, and on along y.
-std::vector<PlacedReading> bent_walk(const Eigen::Vector2d& access_point) {
-  auto readings = straight_way(access_point);
-  for (double y = 2; y <= 40; y += 2) readings.push_back({{60, y}, heard_dbm(access_point, {60, y})});
-  return readings;
+HeardAlongWays bent_walk(const Eigen::Vector2d& access_point) {
+  HeardAlongWays heard = straight_way(access_point);
+  for (double y = 2; y <= 40; y += 2) heard.readings.push_back({{60, y}, heard_dbm(access_point, {60, y})});
+  return heard;
 }
 
 TEST(AccessPoints, ExactReadingsGiveThePlaceAndTheLaw) {
@@ -54,40 +54,61 @@ TEST(AccessPoints, AStraightWayLeavesItsMirrorImageOpen) {
 }
 
 TEST(AccessPoints, AWeakSignalAllAlikeIsLoose) {
-  std::vector<PlacedReading> readings;
-  for (double x = 0; x <= 20; x += 2) readings.push_back({{x, 0}, -85});
-  const auto fit = fit_access_point(readings, {});
+  HeardAlongWays heard;
+  for (double x = 0; x <= 20; x += 2) heard.readings.push_back({{x, 0}, -85});
+  const auto fit = fit_access_point(heard, {});
   ASSERT_TRUE(fit);
   EXPECT_EQ(fit->status, AccessPointStatus::kLoose);
 }
 
 TEST(AccessPoints, FewPlacesAreNoAccessPoint) {
-  auto readings = bent_walk({45, 14});
-  readings.resize(7);
-  EXPECT_FALSE(fit_access_point(readings, {}));
+  HeardAlongWays heard = bent_walk({45, 14});
+  heard.readings.resize(7);
+  EXPECT_FALSE(fit_access_point(heard, {}));
   EXPECT_FALSE(fit_access_point({}, {}));
 }
 
 TEST(AccessPoints, AFewWildReadingsMoveItLittle) {
   const Eigen::Vector2d truth(45, 14);
-  auto readings = bent_walk(truth);
-  for (std::size_t k = 3; k < readings.size(); k += 11) readings[k].rss_dbm -= 25;
-  const auto fit = fit_access_point(readings, {});
+  HeardAlongWays heard = bent_walk(truth);
+  for (std::size_t k = 3; k < heard.readings.size(); k += 11) heard.readings[k].rss_dbm -= 25;
+  const auto fit = fit_access_point(heard, {});
   ASSERT_TRUE(fit);
   EXPECT_LT((fit->position_m - truth).norm(), 4);
 }
 
 TEST(AccessPoints, ManyReadingsOfAPlaceAreOnePlace) {
-  auto readings = bent_walk({45, 14});
-  const auto once = fit_access_point(readings, {});
-  for (int again = 0; again < 9; ++again) readings.insert(readings.end(), readings.begin(), readings.begin() + 51);
-  const auto often = fit_access_point(readings, {});
+  HeardAlongWays heard = bent_walk({45, 14});
+  const auto once = fit_access_point(heard, {});
+  const std::vector<PlacedReading> each = heard.readings;
+  for (int again = 0; again < 9; ++again)
+    heard.readings.insert(heard.readings.end(), each.begin(), each.end());
+  const auto often = fit_access_point(heard, {});
   ASSERT_TRUE(once && often);
   EXPECT_EQ(often->places, once->places);
   EXPECT_GT(often->covariance(0, 0), 0.5 * once->covariance(0, 0));
   AccessPointParams few;
   few.most_places = 20;
-  EXPECT_LE(fit_access_point(readings, few)->places, 20U);
+  EXPECT_LE(fit_access_point(heard, few)->places, 20U);
+}
+
+TEST(AccessPoints, WhereItIsNotHeardTellsHowFastItFades) {
+  // A way that leads away: only the part above the floor is heard.
+  const Eigen::Vector2d truth(0, 5);
+  HeardAlongWays heard;
+  heard.floor_dbm = -75;
+  for (double x = 0; x <= 150; x += 2) {
+    const double rss_dbm = heard_dbm(truth, {x, 0}) + (static_cast<int>(x) % 4 == 0 ? 6 : -6);
+    if (rss_dbm > heard.floor_dbm)
+      heard.readings.push_back({{x, 0}, rss_dbm});
+    else
+      heard.silent_m.emplace_back(x, 0);
+  }
+  HeardAlongWays deaf = heard;
+  deaf.silent_m.clear();
+  const auto with = fit_access_point(heard, {}), without = fit_access_point(deaf, {});
+  ASSERT_TRUE(with && without);
+  EXPECT_GT(with->path_loss.exponent, without->path_loss.exponent + 0.1);
 }
 
 /// Shadowing of the model's own kind along a bent walk: what the covariance promises holds.
@@ -99,15 +120,15 @@ TEST(AccessPoints, TheTruthLiesWithinTheCovariance) {
   for (std::uint64_t run = 0; run < 40; ++run) {
     Rng own = rng.split(run);
     const Eigen::Vector2d truth(own.uniform(20, 70), own.uniform(-10, 35));
-    auto readings = bent_walk(truth);
+    HeardAlongWays heard = bent_walk(truth);
     double shadowing_db = own.normal(0, params.sigma_shadowing_db);
     const double kept = std::exp(-2 / params.shadowing_length_m);
-    for (PlacedReading& reading : readings) {
+    for (PlacedReading& reading : heard.readings) {
       reading.rss_dbm += shadowing_db + own.normal(0, params.sigma_fading_db);
       shadowing_db =
           kept * shadowing_db + own.normal(0, params.sigma_shadowing_db * std::sqrt(1 - kept * kept));
     }
-    const auto fit = fit_access_point(readings, params);
+    const auto fit = fit_access_point(heard, params);
     ASSERT_TRUE(fit);
     if (fit->status != AccessPointStatus::kFound) continue;
     const Eigen::Vector2d off = fit->position_m - truth;

@@ -7,7 +7,7 @@ namespace {
 
 TEST(PathLoss, FreeSpaceAsInTheTextbook) {
   EXPECT_NEAR(free_space_loss_db(1000, 1000), 92.44, 1e-9);
-  EXPECT_NEAR(free_space_loss_db(1, 2400), 40.05, 0.01);   // a metre of WiFi
+  EXPECT_NEAR(free_space_loss_db(1, 2400), 40.05, 0.01);  // a metre of WiFi
   EXPECT_NEAR(free_space_loss_db(20, 2400) - free_space_loss_db(10, 2400), 6.0206, 1e-4);
 }
 

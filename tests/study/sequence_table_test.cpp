@@ -40,8 +40,7 @@ TEST(SequenceTable, ErrorsAreThoseOfTheTruth) {
   const auto radio = measure_radio(simulation.mission, {}, {});
   SequenceClosure closure{{3, radio.nodes.size() - 4, 0.9}, {}};
   const auto pose = [&](std::size_t node) {
-    return flatten(
-        *truth.robots[radio.nodes[node].robot.index()].poses.at(radio.at(node).fingerprint.stamp));
+    return flatten(*truth.robots[radio.nodes[node].robot.index()].poses.at(radio.at(node).fingerprint.stamp));
   };
   const SE2 T_j_i = pose(closure.candidate.node_j).inverse() * pose(closure.candidate.node_i);
   closure.fit.verdict = SequenceVerdict::kAccepted;

@@ -128,8 +128,8 @@ Study sequence_closures(const ReproduceOptions& options) {
   refuse_drive(options);
   const auto carpark = with_settings(CarparkParams{}, collect_settings({}, options.set));
   ProgressLine line;
-  const auto cells = measure_sequence_closures(carpark, options.seed, options.seeds.value_or(kSeeds),
-                                               line.progress());
+  const auto cells =
+      measure_sequence_closures(carpark, options.seed, options.seeds.value_or(kSeeds), line.progress());
   StudyTable table = sequence_table(cells);
   std::string page = render_table_page(table);
   return {std::move(table), sequence_json(cells), std::move(page)};

@@ -1,10 +1,10 @@
 // Closures between two stretches of way that sounded alike, each a relative pose.
 // Candidates are pairs (i, j) of fingerprints, of different robots or a long way apart, that are more alike
-// than any pair near them along either way. Around both, windows are matched (sequence_match.hpp). Accepted is
-// what fits within metres, has no rival and is certain; of accepted ones whose two windows both overlap, the
-// most certain one, so that no pair of fingerprints counts twice.
-// In the plane. Source: Dammalapati and Hajdarpasic, WiFi Assisted Loop Closure Detection.
-// Cost: fingerprints^2 look-ups, and per candidate the square of a window's fingerprints.
+// than any pair near them along either way. Around both, windows are matched (sequence_match.hpp). Accepted
+// is what fits within metres, has no rival and is certain; of accepted ones whose two windows both overlap,
+// the most certain one, so that no pair of fingerprints counts twice. In the plane. Source: Dammalapati and
+// Hajdarpasic, WiFi Assisted Loop Closure Detection. Cost: fingerprints^2 look-ups, and per candidate the
+// square of a window's fingerprints.
 #pragma once
 
 #include <string_view>
@@ -16,9 +16,9 @@
 namespace radioslam {
 
 struct SequenceClosureParams {
-  double least_way_m = 50;            ///< between the two, within a robot
-  double least_similarity = 0.3;      ///< of the two
-  double window_way_m = 30;           ///< whole length of a window
+  double least_way_m = 50;              ///< between the two, within a robot
+  double least_similarity = 0.3;        ///< of the two
+  double window_way_m = 30;             ///< whole length of a window
   double largest_sigma_m = 3;           ///< of the position, along its loosest axis
   double largest_sigma_yaw_rad = 0.35;  ///< 20 degrees
   SequenceMatchParams match;

@@ -17,6 +17,7 @@ using Eigen::Index;
 
 constexpr Index kLeastPlaces = 3;
 constexpr int kHeadings = 4;
+constexpr double kHopeless = 3;  // times the largest residual: no estimate from there comes back
 
 /// A row per node of i, a column per node of j.
 Eigen::MatrixXd window_similarities(const RadioMeasurements& radio, const SequenceWindow& i,
@@ -100,9 +101,9 @@ std::vector<SE2> rival_starts(const SE2& T, const SequenceWindow& i, const Seque
                           align_points(i.place_m, reflected(lie, lie))};
   const SE2 to_middle(i.place_m.rowwise().mean(), 0);
   for (int quarter = 1; quarter < kHeadings; ++quarter)
-    starts.push_back(
-        T * to_middle *
-        SE2(Eigen::Vector2d::Zero(), quarter * 2 * std::numbers::pi / kHeadings) * to_middle.inverse());
+    starts.push_back(T * to_middle *
+                     SE2(Eigen::Vector2d::Zero(), quarter * 2 * std::numbers::pi / kHeadings) *
+                     to_middle.inverse());
   return starts;
 }
 
@@ -116,8 +117,7 @@ bool has_rival(const PairFit& fit, const std::vector<PredictedPair>& pairs, cons
                const SequenceWindow& j, const SequenceMatchParams& params) {
   for (const SE2& start : rival_starts(fit.T_j_i, i, j)) {
     const PairFit other = fit_pairs(start, pairs, params.loss_sigmas);
-    if (is_other(fit.T_j_i, other.T_j_i, params) &&
-        other.at.cost < fit.at.cost + params.least_rival_margin)
+    if (is_other(fit.T_j_i, other.T_j_i, params) && other.at.cost < fit.at.cost + params.least_rival_margin)
       return true;
   }
   return false;
@@ -140,8 +140,11 @@ SequenceFit match_windows(const RadioMeasurements& radio, const SequenceWindow& 
   if (std::min(i_in_j.source.cols(), j_in_i.source.cols()) < kLeastPlaces)
     return {SequenceVerdict::kTooFewPlaces, 0, {}};
   const SE2 start = aligned(i_in_j, j_in_i);
+  const double start_residual_m = mean_distance_m(start, i_in_j);
+  if (start_residual_m >= kHopeless * params.largest_residual_m)
+    return {SequenceVerdict::kResidual, start_residual_m, start};
   const auto pairs = predicted_pairs(radio.near_model, similarity, i, j);
-  if (pairs.empty()) return {SequenceVerdict::kNoDistances, mean_distance_m(start, i_in_j), start};
+  if (pairs.empty()) return {SequenceVerdict::kNoDistances, start_residual_m, start};
   const PairFit best = fit_pairs(start, pairs, params.loss_sigmas);
   SequenceFit fit{SequenceVerdict::kAccepted, mean_distance_m(best.T_j_i, i_in_j), best.T_j_i};
   if (fit.residual_m >= params.largest_residual_m)

@@ -21,13 +21,13 @@
 namespace radioslam {
 
 struct SequenceMatchParams {
-  int nearest = 3;                  ///< k
-  double loss_sigmas = 2;           ///< scale of the Cauchy loss on predicted distances
-  double largest_residual_m = 3;    ///< mean distance of a place from its match
-  double rival_distance_m = 3;      ///< a pose further off than this is another one
-  double rival_angle_rad = 0.35;    ///< or turned by more than this, 20 degrees
-  double least_rival_margin = 10;   ///< in cost: less, and the rival may be the true one
-  double independent_share = 0.2;   ///< of a window's pairs: the evidence that they are together
+  int nearest = 3;                 ///< k
+  double loss_sigmas = 2;          ///< scale of the Cauchy loss on predicted distances
+  double largest_residual_m = 3;   ///< mean distance of a place from its match
+  double rival_distance_m = 3;     ///< a pose further off than this is another one
+  double rival_angle_rad = 0.35;   ///< or turned by more than this, 20 degrees
+  double least_rival_margin = 10;  ///< in cost: less, and the rival may be the true one
+  double independent_share = 0.2;  ///< of a window's pairs: the evidence that they are together
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {

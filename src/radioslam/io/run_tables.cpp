@@ -144,8 +144,9 @@ std::string format_access_points(const std::vector<AccessPointResult>& access_po
   for (const AccessPointResult& point : access_points) {
     const Eigen::Vector4d sigma = point.covariance.diagonal().cwiseMax(0).cwiseSqrt();
     out += as_field(point.bssid);
-    for (const double number : {point.position_m.x(), point.position_m.y(), sigma[0], sigma[1],
-                                point.covariance(0, 1), point.power_at_1m_dbm, point.exponent, point.sigma_db})
+    for (const double number :
+         {point.position_m.x(), point.position_m.y(), sigma[0], sigma[1], point.covariance(0, 1),
+          point.power_at_1m_dbm, point.exponent, point.sigma_db})
       append_number(out += ',', number);
     (out += ',') += std::to_string(point.readings);
     (out += ',') += word_for(kAccessPointsKnown, point.known);

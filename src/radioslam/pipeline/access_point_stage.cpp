@@ -1,6 +1,7 @@
 #include "radioslam/pipeline/access_point_stage.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -11,10 +12,13 @@ namespace radioslam {
 namespace {
 
 constexpr std::size_t kMostShown = 24;  // readings of an access point
+constexpr double kHalf = 0.5, kAboutHalf = 0.15;
+constexpr std::size_t kLeastHalfHeard = 50;
+constexpr double kWeakShare = 0.05;  // of all readings that are weaker than a floor nobody can see
 
 /// What was heard of one access point.
 struct HeardAccessPoint {
-  std::vector<PlacedReading> readings;
+  HeardAlongWays along;
   double strongest_dbm = -std::numeric_limits<double>::infinity();
 };
 
@@ -28,21 +32,50 @@ std::vector<bool> in_first_component(const RunResult& result) {
   return in;
 }
 
+/// The power that half of the scans hear: the median of readings that about half of them held, or, where
+/// scans are too few for that, a weak reading.
+double hearing_floor_dbm(const RadioMeasurements& radio) {
+  std::vector<double> half_heard, all;
+  for (const auto& robot : radio.robots)
+    for (const PlacedFingerprint& placed : robot)
+      for (const FingerprintEntry& entry : placed.fingerprint.entries) {
+        all.push_back(static_cast<double>(entry.rss_dbm));
+        if (std::abs(static_cast<double>(entry.detection_rate) - kHalf) <= kAboutHalf)
+          half_heard.push_back(all.back());
+      }
+  const bool enough = half_heard.size() >= kLeastHalfHeard;
+  auto& values = enough ? half_heard : all;
+  if (values.empty()) return HeardAlongWays{}.floor_dbm;
+  const double share = enough ? kHalf : kWeakShare;
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
 std::vector<HeardAccessPoint> readings_of(const RunResult& result, const Mission& mission,
                                           const RadioMeasurements& radio, double least_detection) {
   std::vector<HeardAccessPoint> heard(mission.access_points.size());
+  const double floor_dbm = hearing_floor_dbm(radio);
+  for (HeardAccessPoint& of : heard) of.along.floor_dbm = floor_dbm;
   const std::vector<bool> in = in_first_component(result);
   for (std::size_t node = 0; node < radio.nodes.size(); ++node) {
     const std::size_t robot = radio.nodes[node].robot.index();
     const Fingerprint& fingerprint = radio.at(node).fingerprint;
     const auto pose = result.robots[robot].estimate.at(fingerprint.stamp);
     if (!in[robot] || !pose) continue;
-    for (const FingerprintEntry& entry : fingerprint.entries) {
-      if (static_cast<double>(entry.detection_rate) < least_detection) continue;
-      HeardAccessPoint& of = heard[entry.access_point.index()];
-      const double rss_dbm = static_cast<double>(entry.rss_dbm);
-      of.readings.push_back({pose->translation().head<2>(), rss_dbm});
-      of.strongest_dbm = std::max(of.strongest_dbm, rss_dbm);
+    const Eigen::Vector2d place = pose->translation().head<2>();
+    auto entry = fingerprint.entries.begin();
+    for (std::size_t a = 0; a < heard.size(); ++a) {
+      while (entry != fingerprint.entries.end() && entry->access_point.index() < a) ++entry;
+      const bool there = entry != fingerprint.entries.end() && entry->access_point.index() == a;
+      if (!there || static_cast<double>(entry->detection_rate) < least_detection) {
+        heard[a].along.silent_m.push_back(place);
+        continue;
+      }
+      const double rss_dbm = static_cast<double>(entry->rss_dbm);
+      heard[a].along.readings.push_back({place, rss_dbm});
+      heard[a].strongest_dbm = std::max(heard[a].strongest_dbm, rss_dbm);
     }
   }
   return heard;
@@ -83,15 +116,15 @@ void place_access_points(RunResult& result, const Mission& mission,
                          const std::vector<HeardAccessPoint>& heard, const AccessPointParams& params) {
   std::vector<std::optional<AccessPointFit>> fits(heard.size());
   parallel_for(heard.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t a = begin; a < end; ++a) fits[a] = fit_access_point(heard[a].readings, params);
+    for (std::size_t a = begin; a < end; ++a) fits[a] = fit_access_point(heard[a].along, params);
   });
   const std::vector<double> mhz = frequencies(mission);
   for (std::size_t a = 0; a < fits.size(); ++a)
     if (const auto& fit = fits[a])
       result.access_points.push_back({mission.access_points[a], mhz[a], known(fit->status), fit->position_m,
                                       fit->path_loss.power_at_1m_dbm, fit->path_loss.exponent,
-                                      fit->covariance, fit->sigma_db, heard[a].readings.size(),
-                                      fit->rival_m, some_of(heard[a].readings)});
+                                      fit->covariance, fit->sigma_db, heard[a].along.readings.size(),
+                                      fit->rival_m, some_of(heard[a].along.readings)});
   const auto count = [&](AccessPointKnown of) {
     return static_cast<double>(std::count_if(result.access_points.begin(), result.access_points.end(),
                                              [&](const auto& point) { return point.known == of; }));
@@ -105,7 +138,7 @@ void place_access_points(RunResult& result, const Mission& mission,
 std::vector<std::size_t> strongest(const std::vector<HeardAccessPoint>& heard, std::size_t most) {
   std::vector<std::size_t> order;
   for (std::size_t a = 0; a < heard.size(); ++a)
-    if (!heard[a].readings.empty()) order.push_back(a);
+    if (!heard[a].along.readings.empty()) order.push_back(a);
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return heard[a].strongest_dbm > heard[b].strongest_dbm;
   });

@@ -71,8 +71,9 @@ std::vector<ClosureResult> collect_sequence_closures(const JointGraph<Pose>& joi
   std::vector<ClosureResult> results;
   for (const auto& [closure, factor] : ties) {
     const auto [i, j, similarity] = closure.candidate;
-    ClosureResult result{radio.nodes[i].robot,   keyframe_stamp(i),       radio.nodes[j].robot,
-                         keyframe_stamp(j),      ClosureKind::kSequence,  ClosureStatus::kRejected,
+    ClosureResult result{radio.nodes[i].robot,   keyframe_stamp(i),
+                         radio.nodes[j].robot,   keyframe_stamp(j),
+                         ClosureKind::kSequence, ClosureStatus::kRejected,
                          closure.fit.residual_m, std::string(reason(closure.fit.verdict))};
     if (closure.fit.verdict == SequenceVerdict::kAccepted) {
       const auto& graph = joint.team.graph;
@@ -86,10 +87,10 @@ std::vector<ClosureResult> collect_sequence_closures(const JointGraph<Pose>& joi
   return results;
 }
 
-#define RADIOSLAM_SEQUENCE_STAGE(Pose)                                                                   \
-  template std::vector<SequenceTie> add_sequence_closures(JointGraph<Pose>&, const RadioMeasurements&,   \
-                                                          const SequenceStageParams&);                   \
-  template std::vector<ClosureResult> collect_sequence_closures(                                         \
+#define RADIOSLAM_SEQUENCE_STAGE(Pose)                                                                 \
+  template std::vector<SequenceTie> add_sequence_closures(JointGraph<Pose>&, const RadioMeasurements&, \
+                                                          const SequenceStageParams&);                 \
+  template std::vector<ClosureResult> collect_sequence_closures(                                       \
       const JointGraph<Pose>&, const RadioMeasurements&, const std::vector<SequenceTie>&);
 RADIOSLAM_SEQUENCE_STAGE(SE2)
 RADIOSLAM_SEQUENCE_STAGE(SE3)

@@ -48,18 +48,19 @@ PageData point_data(const AccessPointResult& point, const SE3& T_page_estimate) 
   const Eigen::Vector2d sigma = axes.eigenvalues().cwiseMax(0).cwiseSqrt();
   const Eigen::Vector2d along = axes.eigenvectors().col(1);
   const Eigen::Vector2d at = on_page_m(T_page_estimate, point.position_m);
-  PageData data{{"bssid", point.bssid},
-                {"frequency_mhz", rounded(point.frequency_mhz, 0)},
-                {"known", word_for(point.known)},
-                {"x", rounded(at.x(), kPointDecimals)},
-                {"y", rounded(at.y(), kPointDecimals)},
-                {"major_m", rounded(sigma[1], kPointDecimals)},
-                {"minor_m", rounded(sigma[0], kPointDecimals)},
-                {"turn_rad", rounded(std::atan2(along.y(), along.x()) + T_page_estimate.yaw(), kTurnDecimals)},
-                {"p0_dbm", rounded(point.power_at_1m_dbm, kDecibelDecimals)},
-                {"exponent", rounded(point.exponent, kPointDecimals)},
-                {"sigma_db", rounded(point.sigma_db, kDecibelDecimals)},
-                {"readings", point.readings}};
+  PageData data{
+      {"bssid", point.bssid},
+      {"frequency_mhz", rounded(point.frequency_mhz, 0)},
+      {"known", word_for(point.known)},
+      {"x", rounded(at.x(), kPointDecimals)},
+      {"y", rounded(at.y(), kPointDecimals)},
+      {"major_m", rounded(sigma[1], kPointDecimals)},
+      {"minor_m", rounded(sigma[0], kPointDecimals)},
+      {"turn_rad", rounded(std::atan2(along.y(), along.x()) + T_page_estimate.yaw(), kTurnDecimals)},
+      {"p0_dbm", rounded(point.power_at_1m_dbm, kDecibelDecimals)},
+      {"exponent", rounded(point.exponent, kPointDecimals)},
+      {"sigma_db", rounded(point.sigma_db, kDecibelDecimals)},
+      {"readings", point.readings}};
   if (point.rival_m) data["rival"] = pair_data(on_page_m(T_page_estimate, *point.rival_m));
   data["heard"] = heard_data(point, T_page_estimate);
   return data;

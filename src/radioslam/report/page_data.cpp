@@ -195,8 +195,8 @@ PageData page_data(const RunResult& result, const Truth* truth, const std::optio
   if (!result.arrivals.empty())
     page["arrivals"] = arrival_data(result, first_stamp(result), judgement.truth, params);
   if (!result.access_points.empty())
-    page["access_points"] = access_point_data(
-        result, judged ? judgement.estimate->T_truth_estimate : SE3(), params);
+    page["access_points"] =
+        access_point_data(result, judged ? judgement.estimate->T_truth_estimate : SE3(), params);
   if (!result.signals.empty()) page["signals"] = signal_data(result, first_stamp(result), params);
   add_run(page, result, params);
   return page;

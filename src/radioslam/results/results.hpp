@@ -164,10 +164,10 @@ struct AccessPointResult {
   double power_at_1m_dbm = 0;
   double exponent = 0;
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();  ///< of [x, y, power, exponent]
-  double sigma_db = 0;                          ///< of a reading about that law
-  std::size_t readings = 0;                     ///< fingerprints that hold it
-  std::optional<Eigen::Vector2d> rival_m = {};  ///< where it may be as well
-  std::vector<Eigen::Vector3d> heard = {};      ///< [x, y, dBm] of a few readings, for the picture
+  double sigma_db = 0;                                   ///< of a reading about that law
+  std::size_t readings = 0;                              ///< fingerprints that hold it
+  std::optional<Eigen::Vector2d> rival_m = {};           ///< where it may be as well
+  std::vector<Eigen::Vector3d> heard = {};               ///< [x, y, dBm] of a few readings, for the picture
 };
 
 /// How strongly some of the access points were heard along one robot's way; the strongest of all robots.

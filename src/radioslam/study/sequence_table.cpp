@@ -17,8 +17,7 @@ constexpr double kSimilarityStep = 0.1;
 constexpr int kDegreesOfFreedom = 3;
 
 SE2 true_pose(const RadioMeasurements& radio, const Truth& truth, std::size_t node) {
-  const auto pose =
-      truth.robots[radio.nodes[node].robot.index()].poses.at(radio.at(node).fingerprint.stamp);
+  const auto pose = truth.robots[radio.nodes[node].robot.index()].poses.at(radio.at(node).fingerprint.stamp);
   RADIOSLAM_CHECK(pose.has_value(), "the truth must cover the fingerprints");
   return flatten(*pose);
 }
@@ -62,15 +61,14 @@ StudyRow row_of(const SequenceCell& cell) {
   const double accepted = static_cast<double>(cell.accepted.size());
   const auto right = std::count_if(cell.accepted.begin(), cell.accepted.end(),
                                    [](const SequenceError& error) { return error.right(); });
-  const auto share =
-      accepted > 0 ? std::optional(static_cast<double>(right) / accepted) : std::nullopt;
-  return {"window " + number_text(cell.window_way_m, 0) + " m, similarity " +
-              number_text(cell.least_similarity, 1),
-          {number_text(static_cast<double>(cell.candidates) / missions, 0),
-           number_text(accepted / missions, 1), percent_text(share, 1),
-           number_text(median_over(cell, [](const auto& e) { return e.distance_m; }), 2),
-           number_text(median_over(cell, [](const auto& e) { return e.angle_rad * kRadians_deg; }), 1),
-           number_text(median_over(cell, [](const auto& e) { return e.nees / kDegreesOfFreedom; }), 2)}};
+  const auto share = accepted > 0 ? std::optional(static_cast<double>(right) / accepted) : std::nullopt;
+  return {
+      "window " + number_text(cell.window_way_m, 0) + " m, similarity " +
+          number_text(cell.least_similarity, 1),
+      {number_text(static_cast<double>(cell.candidates) / missions, 0), number_text(accepted / missions, 1),
+       percent_text(share, 1), number_text(median_over(cell, [](const auto& e) { return e.distance_m; }), 2),
+       number_text(median_over(cell, [](const auto& e) { return e.angle_rad * kRadians_deg; }), 1),
+       number_text(median_over(cell, [](const auto& e) { return e.nees / kDegreesOfFreedom; }), 2)}};
 }
 
 }  // namespace
@@ -101,13 +99,14 @@ std::vector<SequenceCell> measure_sequence_closures(const CarparkParams& carpark
 }
 
 StudyTable sequence_table(const std::vector<SequenceCell>& cells) {
-  StudyTable table{"Sequence closures",
-                   "Car parks of which fingerprints alone say where two stretches of way meet: relative poses "
-                   "against the truth, per mission.",
-                   {"candidates", "accepted", "within 3 m and 20°", "median error, m", "median error, °",
-                    "median of NEES / 3"},
-                   {},
-                   {}};
+  StudyTable table{
+      "Sequence closures",
+      "Car parks of which fingerprints alone say where two stretches of way meet: relative poses "
+      "against the truth, per mission.",
+      {"candidates", "accepted", "within 3 m and 20°", "median error, m", "median error, °",
+       "median of NEES / 3"},
+      {},
+      {}};
   for (const SequenceCell& cell : cells) table.rows.push_back(row_of(cell));
   table.notes = {"The window is the whole length of way that is matched on either side.",
                  "Accepted closures share no pair of fingerprints: longer windows leave fewer of them.",
