@@ -11,7 +11,7 @@
 namespace radioslam {
 namespace {
 
-constexpr std::size_t kMostShown = 24;  // readings of an access point
+constexpr std::size_t kMostShown = 12;  // readings of an access point
 constexpr double kHalf = 0.5, kAboutHalf = 0.15;
 constexpr std::size_t kLeastHalfHeard = 50;
 constexpr double kWeakShare = 0.05;  // of all readings that are weaker than a floor nobody can see
@@ -91,11 +91,14 @@ std::vector<double> frequencies(const Mission& mission) {
   return mhz;
 }
 
-/// A few readings, evenly chosen.
-std::vector<Eigen::Vector3d> some_of(const std::vector<PlacedReading>& readings) {
-  const std::size_t stride = (readings.size() + kMostShown - 1) / kMostShown;
+/// A few readings, evenly chosen from the stronger half: the weak ones say little of a place.
+std::vector<Eigen::Vector3d> some_of(std::vector<PlacedReading> readings) {
+  std::stable_sort(readings.begin(), readings.end(),
+                   [](const PlacedReading& a, const PlacedReading& b) { return a.rss_dbm > b.rss_dbm; });
+  const std::size_t half = std::min(readings.size(), std::max(kMostShown, readings.size() / 2));
+  const std::size_t stride = (half + kMostShown - 1) / kMostShown;
   std::vector<Eigen::Vector3d> some;
-  for (std::size_t k = 0; k < readings.size(); k += stride)
+  for (std::size_t k = 0; k < half; k += stride)
     some.emplace_back(readings[k].place_m.x(), readings[k].place_m.y(), readings[k].rss_dbm);
   return some;
 }
