@@ -58,7 +58,7 @@ TEST(AccessPointStage, CovariancesHoldAgainstTheSimulatorsTruth) {
       const Eigen::Vector2d off = point.position_m - true_place(placed, point.bssid);
       const double nees = off.dot(point.covariance.topLeftCorner<2, 2>().inverse() * off);
       sum += nees / 2;
-      beyond += nees > 5.99 ? 1 : 0;  // 5 % of an honest covariance
+      beyond += nees > 5.99 ? 1U : 0U;  // 5 % of an honest covariance
       ++found;
       errors.push_back(off.norm());
     }

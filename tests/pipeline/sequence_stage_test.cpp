@@ -53,7 +53,7 @@ TEST(SequenceStage, AcceptedOnesHoldInTruth) {
       };
       const SE2 gap = factor.T_i_j.inverse() * (true_pose(factor.i).inverse() * true_pose(factor.j));
       ++accepted;
-      right += gap.translation().norm() <= 3 && std::abs(gap.angle()) <= 0.35 ? 1 : 0;
+      right += gap.translation().norm() <= 3 && std::abs(gap.angle()) <= 0.35 ? 1U : 0U;
     }
     EXPECT_GT(joint.team.graph.relative_poses.size(), before);
   }
@@ -72,7 +72,9 @@ TEST(SequenceStage, EveryCandidateReachesTheResult) {
   EXPECT_GT(sequences.size(), static_cast<std::size_t>(accepted));
   for (const auto& c : sequences) {
     EXPECT_EQ(c.reason.empty(), c.status == ClosureStatus::kAccepted);
-    if (c.status == ClosureStatus::kAccepted) EXPECT_LT(c.statistic, 3);
+    if (c.status == ClosureStatus::kAccepted) {
+      EXPECT_LT(c.statistic, 3);
+    }
   }
 }
 
