@@ -17,7 +17,7 @@ using Eigen::Index;
 
 constexpr Index kLeastPlaces = 3;
 constexpr int kHeadings = 4;
-constexpr double kHopeless = 3;  // times the largest residual: no estimate from there comes back
+constexpr double kHopeless = 1.5;  // times the largest residual: no estimate from there comes back
 
 /// A row per node of i, a column per node of j.
 Eigen::MatrixXd window_similarities(const RadioMeasurements& radio, const SequenceWindow& i,
