@@ -34,13 +34,15 @@ HeardAlongWays bent_walk(const Eigen::Vector2d& access_point) {
 
 TEST(AccessPoints, ExactReadingsGiveThePlaceAndTheLaw) {
   const Eigen::Vector2d truth(45, 14);
-  const auto fit = fit_access_point(bent_walk(truth), {});
+  HeardAlongWays heard = bent_walk(truth);
+  for (double x = 58; x >= 0; x -= 2) heard.readings.push_back({{x, 40}, heard_dbm(truth, {x, 40})});
+  const auto fit = fit_access_point(heard, {});
   ASSERT_TRUE(fit);
   EXPECT_EQ(fit->status, AccessPointStatus::kFound);
   EXPECT_LT((fit->position_m - truth).norm(), 0.5);
   EXPECT_NEAR(fit->path_loss.exponent, kLaw.exponent, 0.15);
   EXPECT_NEAR(fit->path_loss.power_at_1m_dbm, kLaw.power_at_1m_dbm, 2);
-  EXPECT_EQ(fit->places, 51U);
+  EXPECT_EQ(fit->places, 81U);
 }
 
 TEST(AccessPoints, AStraightWayLeavesItsMirrorImageOpen) {
