@@ -6,7 +6,7 @@
 namespace radioslam {
 namespace {
 
-constexpr int kMostSteps = 30;
+constexpr int kMostFitSteps = 30;
 constexpr double kSettled = 1e-4;  // metres and radians
 constexpr double kFirstDamping = 1e-3, kMostDamping = 1e6, kDampingStep = 10;
 
@@ -50,7 +50,7 @@ PairCost evaluate_pairs(const SE2& T_j_i, const std::vector<PredictedPair>& pair
 PairFit fit_pairs(const SE2& start, const std::vector<PredictedPair>& pairs, double loss_sigmas) {
   PairFit best{start, evaluate_pairs(start, pairs, loss_sigmas)};
   double damping = kFirstDamping;
-  for (int step = 0; step < kMostSteps && damping < kMostDamping; ++step) {
+  for (int step = 0; step < kMostFitSteps && damping < kMostDamping; ++step) {
     Eigen::Matrix3d damped = best.at.information;
     damped.diagonal() *= 1 + damping;
     const Eigen::Vector3d move = -damped.ldlt().solve(best.at.gradient);

@@ -12,7 +12,7 @@ namespace radioslam {
 namespace {
 
 constexpr std::size_t kMostShown = 12;  // readings of an access point
-constexpr double kHalf = 0.5, kAboutHalf = 0.15;
+constexpr double kHalfOfScans = 0.5, kAboutHalf = 0.15;
 constexpr std::size_t kLeastHalfHeard = 50;
 constexpr double kWeakShare = 0.05;  // of all readings that are weaker than a floor nobody can see
 
@@ -40,13 +40,13 @@ double hearing_floor_dbm(const RadioMeasurements& radio) {
     for (const PlacedFingerprint& placed : robot)
       for (const FingerprintEntry& entry : placed.fingerprint.entries) {
         all.push_back(static_cast<double>(entry.rss_dbm));
-        if (std::abs(static_cast<double>(entry.detection_rate) - kHalf) <= kAboutHalf)
+        if (std::abs(static_cast<double>(entry.detection_rate) - kHalfOfScans) <= kAboutHalf)
           half_heard.push_back(all.back());
       }
   const bool enough = half_heard.size() >= kLeastHalfHeard;
   auto& values = enough ? half_heard : all;
   if (values.empty()) return HeardAlongWays{}.floor_dbm;
-  const double share = enough ? kHalf : kWeakShare;
+  const double share = enough ? kHalfOfScans : kWeakShare;
   const auto at =
       values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
