@@ -57,8 +57,8 @@ TEST_F(Missions, RunWritesWhatItPromisesAndEvaluateReadsIt) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
   EXPECT_EQ(files_in(folder() / "out"),
-            (std::vector<std::string>{"a.tum", "b.tum", "candidates.csv", "closures.csv", "graph.g2o",
-                                      "report.html", "summary.json"}));
+            (std::vector<std::string>{"a.tum", "access_points.csv", "b.tum", "candidates.csv", "closures.csv",
+                                      "graph.g2o", "report.html", "summary.json"}));
   const auto summary = nlohmann::json::parse(read_file(folder() / "out/summary.json"));
   for (const char* key : {"robots", "counts", "seconds", "parameters", "team_frame", "metrics"}) {
     EXPECT_TRUE(summary.contains(key)) << key;

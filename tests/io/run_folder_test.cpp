@@ -88,6 +88,34 @@ TEST(RunFolder, MeasuredDirectionsAreAMissionsTable) {
             "0,adam,zoe,0,2,,0.25,0\n");
 }
 
+TEST(RunFolder, AccessPointsAreATableWhereThereAreSome) {
+  const TemporaryFolder folder;
+  RunResult result = example();
+  write_run(folder.path(), result, {});
+  EXPECT_FALSE(fs::exists(folder.path() / "access_points.csv"));
+  AccessPointResult point;
+  point.bssid = "02:00:00:00:00:01";
+  point.frequency_mhz = 2437;
+  point.position_m = {1.5, -2};
+  point.power_at_1m_dbm = -40.5;
+  point.exponent = 2.75;
+  point.covariance = Eigen::Vector4d(4, 9, 16, 0.25).asDiagonal();
+  point.covariance(0, 1) = point.covariance(1, 0) = 1.25;
+  point.sigma_db = 5;
+  point.readings = 12;
+  AccessPointResult other = point;
+  other.bssid = "02:00:00:00:00:02";
+  other.known = AccessPointKnown::kAmbiguous;
+  other.rival_m = Eigen::Vector2d(1.5, 7);
+  result.access_points = {point, other};
+  write_run(folder.path(), result, {});
+  EXPECT_EQ(folder.read("access_points.csv"),
+            "bssid,x_m,y_m,sigma_x_m,sigma_y_m,cov_xy,p0_dbm,exponent,sigma_db,readings,status,sigma_p0_db,"
+            "sigma_exponent,frequency_mhz,rival_x_m,rival_y_m\n"
+            "02:00:00:00:00:01,1.5,-2,2,3,1.25,-40.5,2.75,5,12,found,4,0.5,2437,,\n"
+            "02:00:00:00:00:02,1.5,-2,2,3,1.25,-40.5,2.75,5,12,ambiguous,4,0.5,2437,1.5,7\n");
+}
+
 TEST(RunFolder, HasTheFilesAndColumnsOfTheFormat) {
   const TemporaryFolder folder;
   write_run(folder.path(), example(), {nullptr, "VERTEX_SE2 0 0 0 0\n", "<html></html>"});

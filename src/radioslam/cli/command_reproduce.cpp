@@ -123,13 +123,25 @@ Study aoa_paths(const ReproduceOptions& options) {
   return {std::move(table), aoa_paths_json(cells), std::move(page)};
 }
 
+Study sequence_closures(const ReproduceOptions& options) {
+  constexpr int kSeeds = 3;
+  refuse_drive(options);
+  const auto carpark = with_settings(CarparkParams{}, collect_settings({}, options.set));
+  ProgressLine line;
+  const auto cells =
+      measure_sequence_closures(carpark, options.seed, options.seeds.value_or(kSeeds), line.progress());
+  StudyTable table = sequence_table(cells);
+  std::string page = render_table_page(table);
+  return {std::move(table), sequence_json(cells), std::move(page)};
+}
+
 struct Table {
   std::string_view name;
   std::string_view description;
   Study (*reproduce)(const ReproduceOptions&);
 };
 
-constexpr std::array<Table, 5> kTables{
+constexpr std::array<Table, 6> kTables{
     {{"wi-closure-kitti", "KITTI 08 cut in two, radio of 0.5 m and 10 degrees: the thesis beside ours",
       wi_closure_kitti},
      {"robustness-map", "error and recall over angle noise, links and false paths: where it breaks",
@@ -137,7 +149,9 @@ constexpr std::array<Table, 5> kTables{
      {"overlap-growth", "seconds of the overlap search over the size of the mission, to a million poses",
       overlap_growth},
      {"aoa", "angles of arrival of the WSR data set: its authors' figures beside ours", aoa},
-     {"aoa-paths", "three simulated paths at once: which of them each profile finds", aoa_paths}}};
+     {"aoa-paths", "three simulated paths at once: which of them each profile finds", aoa_paths},
+     {"sequence-closures", "stretches of way that sound alike: closures over similarity and window",
+      sequence_closures}}};
 
 std::string table_list() {
   std::string text = "Tables:\n";
@@ -230,8 +244,8 @@ void add_reproduce(CLI::App& program) {
       "(ground_truth_pose/GT_LiDAR)\n"
       "together with A-LOAM's odometry (data/ALOAM_result_pred).\n"
       "overlap-growth needs 1 GiB of memory per half million poses.\n"
-      "--set changes the simulation (`radioslam parameters kitti` and `city`), of aoa and aoa-paths how\n"
-      "directions are estimated. robustness-map and aoa-paths take minutes.\n"
+      "--set changes the simulation (`radioslam parameters kitti`, `city`, `carpark`), of aoa and\n"
+      "aoa-paths how directions are estimated. robustness-map and aoa-paths take minutes.\n"
       "The WSR data set is the repository Harvard-REACT/WSR-Toolbox-Dataset on GitHub.\n\n"
       "Example:\n"
       "  radioslam reproduce wi-closure-kitti --trajectory GT_LiDAR/08.txt --odometry ALOAM/08.txt\n"

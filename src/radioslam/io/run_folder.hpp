@@ -1,5 +1,5 @@
 // A run's folder: <id>.tum per robot, candidates.csv, closures.csv, aoa.csv where directions were measured,
-// graph.g2o, summary.json, report.html.
+// access_points.csv where some were placed, graph.g2o, summary.json, report.html.
 #pragma once
 
 #include <filesystem>

@@ -120,6 +120,8 @@ void write_run(const std::filesystem::path& folder, const RunResult& result, con
   write_file(folder / "candidates.csv", format_candidates(result.candidates, ids));
   write_file(folder / "closures.csv", format_closures(result.closures, ids));
   if (!result.arrivals.empty()) write_file(folder / "aoa.csv", format_measured_arrivals(result.arrivals));
+  if (!result.access_points.empty())
+    write_file(folder / "access_points.csv", format_access_points(result.access_points));
   if (!documents.graph_g2o.empty()) write_file(folder / "graph.g2o", documents.graph_g2o);
   if (!documents.report_html.empty()) write_file(folder / "report.html", documents.report_html);
   const Json summary = summary_json(result, documents.metrics);

@@ -20,6 +20,10 @@ constexpr std::array<std::pair<ClosureKind, std::string_view>, 6> kKinds = {
      {ClosureKind::kMatch, "match"}}};
 constexpr std::array<std::pair<ClosureStatus, std::string_view>, 2> kStatuses = {
     {{ClosureStatus::kAccepted, "accepted"}, {ClosureStatus::kRejected, "rejected"}}};
+constexpr std::array<std::pair<AccessPointKnown, std::string_view>, 3> kAccessPointsKnown = {
+    {{AccessPointKnown::kFound, "found"},
+     {AccessPointKnown::kAmbiguous, "ambiguous"},
+     {AccessPointKnown::kLoose, "loose"}}};
 
 template <class Words, class Value>
 std::string_view word_for(const Words& words, Value value) {
@@ -130,6 +134,29 @@ std::string format_measured_arrivals(const std::vector<MeasuredArrivalResult>& a
       append_number(out += ',', path.power_db);
       out += '\n';
     }
+  }
+  return out;
+}
+
+std::string format_access_points(const std::vector<AccessPointResult>& access_points) {
+  std::string out =
+      "bssid,x_m,y_m,sigma_x_m,sigma_y_m,cov_xy,p0_dbm,exponent,sigma_db,readings,status,sigma_p0_db,"
+      "sigma_exponent,frequency_mhz,rival_x_m,rival_y_m\n";
+  for (const AccessPointResult& point : access_points) {
+    const Eigen::Vector4d sigma = point.covariance.diagonal().cwiseMax(0).cwiseSqrt();
+    out += as_field(point.bssid);
+    for (const double number :
+         {point.position_m.x(), point.position_m.y(), sigma[0], sigma[1], point.covariance(0, 1),
+          point.power_at_1m_dbm, point.exponent, point.sigma_db})
+      append_number(out += ',', number);
+    (out += ',') += std::to_string(point.readings);
+    (out += ',') += word_for(kAccessPointsKnown, point.known);
+    for (const double number : {sigma[2], sigma[3], point.frequency_mhz}) append_number(out += ',', number);
+    out += ',';
+    if (point.rival_m) append_number(out, point.rival_m->x());
+    out += ',';
+    if (point.rival_m) append_number(out, point.rival_m->y());
+    out += '\n';
   }
   return out;
 }

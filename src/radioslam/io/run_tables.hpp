@@ -2,6 +2,8 @@
 //   candidates.csv   robot_i,t_i_s,robot_j,t_j_s,distance_m,mahalanobis
 //   closures.csv     robot_i,t_i_s,robot_j,t_j_s,kind,status,statistic,reason
 //   aoa.csv          t_s,receiver,transmitter,path,azimuth_rad,elevation_rad,sigma_rad,power_db
+//   access_points.csv   bssid,x_m,y_m,sigma_x_m,sigma_y_m,cov_xy,p0_dbm,exponent,sigma_db,readings,status,
+//                       sigma_p0_db,sigma_exponent,frequency_mhz,rival_x_m,rival_y_m
 // Robots are written by id; stamps exactly as in <id>.tum.
 #pragma once
 
@@ -20,6 +22,10 @@ std::string format_candidates(const std::vector<CandidateResult>& candidates,
 std::string format_closures(const std::vector<ClosureResult>& closures, std::span<const std::string> ids);
 /// As a mission's radio/aoa.csv has them: the paths that the run took, counted from 0 in each measurement.
 std::string format_measured_arrivals(const std::vector<MeasuredArrivalResult>& arrivals);
+
+/// status: found|ambiguous|loose. Positions are in the first component's frame, p0_dbm is the power at 1 m,
+/// sigma_db that of a reading about the law. The rival is empty where there is none.
+std::string format_access_points(const std::vector<AccessPointResult>& access_points);
 
 /// Refuse malformed rows, unknown robots, kinds and statuses, and stamps at which a robot has no keyframe (of
 /// a robot without poses none are known).

@@ -4,6 +4,7 @@
 #include "radioslam/closure/fingerprint_closures.hpp"
 #include "radioslam/graph/optimizer.hpp"
 #include "radioslam/mission/keyframes.hpp"
+#include "radioslam/pipeline/access_point_stage.hpp"
 #include "radioslam/pipeline/angle_checks.hpp"
 #include "radioslam/pipeline/csi_stage.hpp"
 #include "radioslam/pipeline/joint_graph.hpp"
@@ -11,6 +12,7 @@
 #include "radioslam/pipeline/overlap_stage.hpp"
 #include "radioslam/pipeline/range_biases.hpp"
 #include "radioslam/pipeline/robust_solution.hpp"
+#include "radioslam/pipeline/sequence_stage.hpp"
 #include "radioslam/radio/arrival_likelihood.hpp"
 #include "radioslam/radio/measurements.hpp"
 #include "radioslam/team_frame/field_refinement.hpp"
@@ -27,12 +29,14 @@ struct RunParams {
   FieldParams field;
   RadioAlignmentParams alignment;
   FingerprintClosureParams closure;
+  SequenceStageParams sequence;
   JointGraphParams graph;
   TeamBiasParams range_bias;
   OverlapStageParams overlap;
   MatchParams matches;
   ArrivalLikelihoodParams angles;
   AngleCheckParams angle_check;
+  AccessPointStageParams access_points;
   RobustParams robust;
   /// Distances from fingerprints are good to metres: a millionth of the cost decides nothing.
   OptimizerParams optimizer{.max_iterations = 30, .relative_cost_tolerance = 1e-5};
@@ -46,12 +50,14 @@ struct RunParams {
     visit("field", self.field);
     visit("alignment", self.alignment);
     visit("closure", self.closure);
+    visit("sequence", self.sequence);
     visit("graph", self.graph);
     visit("range_bias", self.range_bias);
     visit("overlap", self.overlap);
     visit("matches", self.matches);
     visit("angles", self.angles);
     visit("angle_check", self.angle_check);
+    visit("access_points", self.access_points);
     visit("robust", self.robust);
     visit("optimizer", self.optimizer);
   }

@@ -154,6 +154,8 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const RunPara
                                         params.team_frame, params.closure);
   });
   add_fingerprint_closures(joint, radio, closures);
+  const auto sequences =
+      clock.time("sequences", [&] { return add_sequence_closures(joint, radio, params.sequence); });
   const auto solution = clock.time(
       "optimise", [&] { return optimize_robustly(joint, params.robust, params.optimizer, progress); });
   clock.time("radio field", [&] {
@@ -186,8 +188,12 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const RunPara
   result.closures = collect_radio_links(joint);
   for (auto& closure : collect_closures(radio, joint, closures))
     result.closures.push_back(std::move(closure));
+  for (auto& closure : collect_sequence_closures(joint, radio, sequences))
+    result.closures.push_back(std::move(closure));
   result.closures.insert(result.closures.end(), matches.begin(), matches.end());
   result.similarity_model = collect_similarity_model(radio, params.radio);
+  clock.time("access points",
+             [&] { return add_access_points(result, mission, radio, params.access_points), 0; });
   count(result, radio, solution);
   output.graph = std::move(joint.team.graph);
   return output;

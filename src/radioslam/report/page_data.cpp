@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "radioslam/report/access_point_data.hpp"
 #include "radioslam/report/alternative_data.hpp"
 #include "radioslam/report/arrival_data.hpp"
 #include "radioslam/report/candidate_data.hpp"
@@ -193,6 +194,10 @@ PageData page_data(const RunResult& result, const Truth* truth, const std::optio
   if (result.similarity_model) page["similarity"] = similarity_data(*result.similarity_model, params);
   if (!result.arrivals.empty())
     page["arrivals"] = arrival_data(result, first_stamp(result), judgement.truth, params);
+  if (!result.access_points.empty())
+    page["access_points"] =
+        access_point_data(result, judged ? judgement.estimate->T_truth_estimate : SE3(), params);
+  if (!result.signals.empty()) page["signals"] = signal_data(result, first_stamp(result), params);
   add_run(page, result, params);
   return page;
 }

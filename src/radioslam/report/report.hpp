@@ -24,6 +24,8 @@ struct ReportParams {
   int maximum_errors = 60000;             ///< of each of estimate and odometry, over all robots
   int maximum_arrivals = 60;              ///< measured directions with their profiles, over all links
   int maximum_profile_values = 180;       ///< of one profile, all around
+  int maximum_access_points = 1000;       ///< on the map
+  int maximum_signal_values = 20000;      ///< of signal strength and similarity over time, over all robots
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -42,6 +44,9 @@ struct ReportParams {
           self.maximum_arrivals);
     visit(Field{"maximum_profile_values", "", 36, 3600, "values drawn of one such profile"},
           self.maximum_profile_values);
+    visit(Field{"maximum_access_points", "", 1, 1e6, "access points on the map"}, self.maximum_access_points);
+    visit(Field{"maximum_signal_values", "", 100, 1e7, "values drawn of signal strength over time"},
+          self.maximum_signal_values);
   }
 };
 

@@ -149,6 +149,44 @@ struct MeasuredArrivalResult {
   std::vector<ArrivalPath> paths;  ///< that the run took of the peaks, with mirror images
 };
 
+/// Whether the place of an access point is known.
+enum class AccessPointKnown {
+  kFound,
+  kAmbiguous,  ///< it may as well be at its rival
+  kLoose,      ///< anywhere around
+};
+
+/// Where an access point is, by how strongly it was heard along the estimate, and how it sounds:
+/// P(d) = power_at_1m_dbm - 10 exponent log10(d / 1 m).
+struct AccessPointResult {
+  std::string bssid;
+  double frequency_mhz = 0;
+  AccessPointKnown known = AccessPointKnown::kFound;
+  Eigen::Vector2d position_m = Eigen::Vector2d::Zero();  ///< in the frame of the first component
+  double power_at_1m_dbm = 0;
+  double exponent = 0;
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();  ///< of [x, y, power, exponent]
+  double sigma_db = 0;                                   ///< of a reading about that law
+  std::size_t readings = 0;                              ///< fingerprints that hold it
+  std::optional<Eigen::Vector2d> rival_m = {};           ///< where it may be as well
+  std::vector<Eigen::Vector3d> heard = {};               ///< [x, y, dBm] of a few readings, for the picture
+};
+
+/// How strongly some of the access points were heard along one robot's way; the strongest of all robots.
+struct SignalResult {
+  std::string robot, bssid;
+  std::vector<Stamp> stamps;
+  std::vector<float> rss_dbm;
+};
+
+/// How alike one fingerprint of a robot is to every other one of the same robot.
+struct SimilarityOverTime {
+  std::string robot;
+  Stamp of;
+  std::vector<Stamp> stamps;
+  std::vector<float> similarity;
+};
+
 /// A whole run.
 struct RunResult {
   std::string mission_name;
@@ -160,6 +198,9 @@ struct RunResult {
   std::vector<RangeBiasResult> range_biases;    ///< those that show
   std::vector<MeasuredArrivalResult> arrivals;  ///< out of channel state information
   std::vector<AngleCheckResult> angle_checks;
+  std::vector<AccessPointResult> access_points;  ///< by BSSID; those heard in enough places
+  std::vector<SignalResult> signals;
+  std::vector<SimilarityOverTime> similarity_over_time;
   std::vector<Component> components;
   std::vector<TransformResult> transforms;  ///< every two robots of one component; empty if not computed
   std::vector<std::string> unplaced;

@@ -170,4 +170,22 @@ nlohmann::ordered_json aoa_paths_json(const std::vector<AoaPathsCell>& cells) {
   return json;
 }
 
+nlohmann::ordered_json sequence_json(const std::vector<SequenceCell>& cells) {
+  Json json{{"table", "sequence-closures"}, {"cells", Json::array()}};
+  for (const SequenceCell& cell : cells) {
+    Json accepted = Json::array();
+    for (const SequenceError& error : cell.accepted)
+      accepted.push_back({{"error_m", error.distance_m},
+                          {"error_rad", error.angle_rad},
+                          {"nees", error.nees},
+                          {"right", error.right()}});
+    json["cells"].push_back({{"least_similarity", cell.least_similarity},
+                             {"window_way_m", cell.window_way_m},
+                             {"missions", cell.missions},
+                             {"candidates", cell.candidates},
+                             {"accepted", std::move(accepted)}});
+  }
+  return json;
+}
+
 }  // namespace radioslam

@@ -8,6 +8,7 @@
 #include "radioslam/study/aoa_table.hpp"
 #include "radioslam/study/overlap_growth.hpp"
 #include "radioslam/study/robustness_map.hpp"
+#include "radioslam/study/sequence_table.hpp"
 #include "radioslam/study/wi_closure_kitti.hpp"
 
 namespace radioslam {
@@ -32,5 +33,9 @@ nlohmann::ordered_json aoa_json(const std::vector<AoaLink>& links, const std::ve
 /// {"table", "cells": [{"profile", "cards", "runs": [{"seed", "measured", "found", "direct_error_rad",
 ///   "strongest_error_rad", "ghosts"}]}]}
 nlohmann::ordered_json aoa_paths_json(const std::vector<AoaPathsCell>& cells);
+
+/// {"table", "cells": [{"least_similarity", "window_way_m", "missions", "candidates", "accepted":
+///   [{"error_m", "error_rad", "nees", "right"}]}]}
+nlohmann::ordered_json sequence_json(const std::vector<SequenceCell>& cells);
 
 }  // namespace radioslam

@@ -8,6 +8,8 @@ write_frames();
 write_hypotheses();
 write_overlap();
 write_directions();
+write_access_points();
+write_signals();
 write_similarity();
 write_closures();
 write_range_biases();

@@ -226,5 +226,6 @@ function draw_map(context, view) {
   draw_closures(context, view);
   if (layers.estimate) draw_paths(context, view, "estimate", { colour: robot_colour, width: many ? 1.2 : 1.8, alpha: 1 });
   if (layers.estimate) draw_starts(context, view);
+  if (layers.access_points) draw_access_points(context, view);
   draw_scale_bar(context, view);
 }

@@ -26,6 +26,8 @@ function layer_rows() {
   if (alternatives.length)
     rows.push(layer("alternatives", format.plural(alternatives.length, "other hypothesis", "other hypotheses"),
       line => line.attr("stroke", ink).attr("stroke-width", 1.6).attr("stroke-dasharray", "1 3").attr("stroke-linecap", "round")));
+  if (points_placed)
+    rows.push(layer("access_points", format.plural(points_placed, "access point"), line => line.attr("stroke", ink).attr("stroke-width", 8).attr("x1", 9).attr("x2", 17)));
   return rows;
 }
 

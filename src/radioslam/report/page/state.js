@@ -7,12 +7,16 @@ const changes = d3.dispatch("visibility", "layers", "highlight", "moment", "them
 const few_robots = 8;
 const many_closures = 10000;  // more would hide the trajectories: the reader may switch them on
 
+const points_placed = report.access_points ? report.access_points.points.length : 0;
+const many_points = 150;  // likewise
+
 const state = {
   visible: robots.map(robot => robot.component === 0 && !robot.stranded),
-  layers: { truth: true, odometry: robots.length <= few_robots, estimate: true, sigma: false, alternatives: true },
+  layers: { truth: true, odometry: robots.length <= few_robots, estimate: true, sigma: false, alternatives: true, access_points: points_placed > 0 && points_placed <= many_points },
   groups: groups.map(group => group.status === "accepted" && group.count <= many_closures),
   highlight: null,
   moment: null,
+  access_point: null,  // the chosen one
   axes: ["x", "y"],
 };
 if (!state.visible.some(v => v)) state.visible = robots.map(() => true);

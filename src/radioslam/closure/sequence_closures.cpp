@@ -1,0 +1,124 @@
+#include "radioslam/closure/sequence_closures.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "radioslam/base/parallel.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr double kPeakShare = 0.25;  // of a window, on either side, that a candidate is the peak of
+
+/// Is no fingerprint near `node` along its way more similar to `other`? Of equals the first is the peak.
+bool is_peak(const RadioMeasurements& radio, std::size_t node, std::size_t other, double within_m) {
+  const double own = similarity_of(radio, node, other);
+  for (std::size_t n = node; n-- > 0 && way_between_m(radio, n, node) <= within_m;)
+    if (similarity_of(radio, n, other) >= own) return false;
+  for (std::size_t n = node + 1; n < radio.nodes.size() && way_between_m(radio, n, node) <= within_m; ++n)
+    if (similarity_of(radio, n, other) > own) return false;
+  return true;
+}
+
+/// Do both windows of one closure reach into those of the other one?
+bool overlap(const RadioMeasurements& radio, const SequenceCandidate& a, const SequenceCandidate& b,
+             double window_way_m) {
+  const auto near = [&](std::size_t x, std::size_t y) { return way_between_m(radio, x, y) < window_way_m; };
+  return (near(a.node_i, b.node_i) && near(a.node_j, b.node_j)) ||
+         (near(a.node_i, b.node_j) && near(a.node_j, b.node_i));
+}
+
+bool accepted(const SequenceClosure& closure) { return closure.fit.verdict == SequenceVerdict::kAccepted; }
+
+/// Leaves the most certain one of accepted closures that overlap.
+void keep_separate(const RadioMeasurements& radio, std::vector<SequenceClosure>& closures,
+                   double window_way_m) {
+  std::vector<std::size_t> order;
+  for (std::size_t k = 0; k < closures.size(); ++k)
+    if (accepted(closures[k])) order.push_back(k);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return closures[a].fit.covariance.determinant() < closures[b].fit.covariance.determinant();
+  });
+  std::vector<std::size_t> kept;
+  for (const std::size_t k : order) {
+    const bool beside = std::any_of(kept.begin(), kept.end(), [&](std::size_t other) {
+      return overlap(radio, closures[k].candidate, closures[other].candidate, window_way_m);
+    });
+    if (beside)
+      closures[k].fit.verdict = SequenceVerdict::kBeside;
+    else
+      kept.push_back(k);
+  }
+}
+
+bool is_certain(const Eigen::Matrix3d& covariance, const SequenceClosureParams& params) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance.topLeftCorner<2, 2>(),
+                                                            Eigen::EigenvaluesOnly);
+  return std::sqrt(axes.eigenvalues()[1]) <= params.largest_sigma_m &&
+         std::sqrt(covariance(2, 2)) <= params.largest_sigma_yaw_rad;
+}
+
+void drop_uncertain(std::vector<SequenceClosure>& closures, const SequenceClosureParams& params) {
+  for (SequenceClosure& closure : closures)
+    if (accepted(closure) && !is_certain(closure.fit.covariance, params))
+      closure.fit.verdict = SequenceVerdict::kUncertain;
+}
+
+}  // namespace
+
+std::string_view reason(SequenceVerdict verdict) {
+  switch (verdict) {
+    case SequenceVerdict::kAccepted:
+      return "";
+    case SequenceVerdict::kTooFewPlaces:
+      return "too few nodes";
+    case SequenceVerdict::kNoDistances:
+      return "no distances predicted";
+    case SequenceVerdict::kResidual:
+      return "residual";
+    case SequenceVerdict::kAmbiguous:
+      return "another pose fits as well";
+    case SequenceVerdict::kUncertain:
+      return "too straight or too coarse";
+    case SequenceVerdict::kBeside:
+      return "a more certain one beside it";
+  }
+  return "";
+}
+
+std::vector<SequenceCandidate> sequence_candidates(const RadioMeasurements& radio,
+                                                   const SequenceClosureParams& params) {
+  const double peak_m = kPeakShare * params.window_way_m;
+  std::vector<SequenceCandidate> candidates;
+  for (std::size_t i = 0; i < radio.nodes.size(); ++i)
+    for (std::size_t j = i + 1; j < radio.nodes.size(); ++j) {
+      const double similarity = similarity_of(radio, i, j);
+      if (similarity <= 0 || similarity < params.least_similarity ||
+          way_between_m(radio, i, j) < params.least_way_m)
+        continue;
+      if (is_peak(radio, i, j, peak_m) && is_peak(radio, j, i, peak_m))
+        candidates.push_back({i, j, similarity});
+    }
+  return candidates;
+}
+
+std::vector<SequenceClosure> propose_sequence_closures(const RadioMeasurements& radio,
+                                                       const SequenceClosureParams& params) {
+  std::vector<SequenceClosure> closures;
+  for (const SequenceCandidate& candidate : sequence_candidates(radio, params))
+    closures.push_back({candidate, {}});
+  const double half_m = params.window_way_m / 2;
+  parallel_for(closures.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const auto& [node_i, node_j, similarity] = closures[k].candidate;
+      closures[k].fit = match_windows(radio, window_around(radio, node_i, half_m),
+                                      window_around(radio, node_j, half_m), params.match);
+    }
+  });
+  drop_uncertain(closures, params);
+  keep_separate(radio, closures, params.window_way_m);
+  return closures;
+}
+
+}  // namespace radioslam

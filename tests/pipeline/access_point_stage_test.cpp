@@ -1,0 +1,119 @@
+#include "radioslam/pipeline/access_point_stage.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "radioslam/base/parallel.hpp"
+#include "radioslam/sim/carpark.hpp"
+
+namespace radioslam {
+namespace {
+
+/// A result whose estimate is the truth.
+RunResult true_result(const Mission& mission, const Truth& truth) {
+  RunResult result;
+  result.components.emplace_back();
+  for (std::size_t r = 0; r < mission.robots.size(); ++r) {
+    RobotResult robot;
+    robot.id = mission.robots[r].id;
+    robot.estimate = truth.robots[r].poses;
+    result.components.front().robots.push_back(robot.id);
+    result.robots.push_back(std::move(robot));
+  }
+  return result;
+}
+
+struct PlacedCarpark {
+  RunResult result;
+  std::vector<Transmitter> transmitters;
+};
+
+PlacedCarpark place(std::uint64_t seed) {
+  CarparkParams params;
+  params.transmitters.access_points = 40;
+  params.odometry.draws = 1;
+  const auto [mission, truth] = simulate_carpark(params, seed);
+  PlacedCarpark placed{true_result(mission, truth), make_carpark_world(params, seed).transmitters};
+  RadioParams radio;
+  add_access_points(placed.result, mission, measure_radio(mission, radio, {}), {});
+  return placed;
+}
+
+Eigen::Vector2d true_place(const PlacedCarpark& placed, const std::string& bssid) {
+  for (const Transmitter& radio : placed.transmitters)
+    if (radio.bssid() == bssid) return radio.position().head<2>();
+  return Eigen::Vector2d::Constant(1e9);
+}
+
+TEST(AccessPointStage, CovariancesHoldAgainstTheSimulatorsTruth) {
+  double sum = 0;
+  std::size_t found = 0, beyond = 0;
+  std::vector<double> errors;
+  for (const std::uint64_t seed : {21U, 22U, 23U}) {
+    const PlacedCarpark placed = place(seed);
+    for (const auto& point : placed.result.access_points) {
+      if (point.known != AccessPointKnown::kFound) continue;
+      const Eigen::Vector2d off = point.position_m - true_place(placed, point.bssid);
+      const double nees = off.dot(point.covariance.topLeftCorner<2, 2>().inverse() * off);
+      sum += nees / 2;
+      beyond += nees > 5.99 ? 1U : 0U;  // 5 % of an honest covariance
+      ++found;
+      errors.push_back(off.norm());
+    }
+  }
+  ASSERT_GE(found, 60U);
+  std::sort(errors.begin(), errors.end());
+  EXPECT_LT(errors[errors.size() / 2], 4);
+  EXPECT_LT(sum / static_cast<double>(found), 2);
+  EXPECT_LT(static_cast<double>(beyond), 0.15 * static_cast<double>(found));
+}
+
+TEST(AccessPointStage, TellsSignalsAndSimilarity) {
+  const RunResult result = place(24).result;
+  EXPECT_EQ(result.similarity_over_time.size(), 2U);
+  ASSERT_FALSE(result.signals.empty());
+  for (const auto& signal : result.signals) EXPECT_EQ(signal.stamps.size(), signal.rss_dbm.size());
+  EXPECT_EQ(result.counts.at("access_points"), static_cast<double>(result.access_points.size()));
+  EXPECT_TRUE(std::is_sorted(result.access_points.begin(), result.access_points.end(),
+                             [](const auto& a, const auto& b) { return a.bssid < b.bssid; }));
+}
+
+TEST(AccessPointStage, ARobotInAFrameOfItsOwnTakesNoPart) {
+  CarparkParams params;
+  params.drive.path_length_m = 100;
+  params.odometry.draws = 1;
+  const auto [mission, truth] = simulate_carpark(params, 25);
+  RunResult both = true_result(mission, truth), alone = both;
+  alone.components = {{{mission.robots[0].id}}, {{mission.robots[1].id}}};
+  const auto radio = measure_radio(mission, {}, {});
+  add_access_points(both, mission, radio, {});
+  add_access_points(alone, mission, radio, {});
+  const auto readings = [](const RunResult& result) {
+    std::size_t sum = 0;
+    for (const auto& point : result.access_points) sum += point.readings;
+    return sum;
+  };
+  EXPECT_LT(readings(alone), readings(both));
+}
+
+TEST(AccessPointStage, IsTheSameForAnyNumberOfThreads) {
+  const auto numbers = [] {
+    std::vector<double> all;
+    for (const auto& point : place(26).result.access_points) {
+      all.insert(all.end(),
+                 {point.position_m.x(), point.position_m.y(), point.exponent, point.covariance(0, 1)});
+    }
+    return all;
+  };
+  set_thread_count(1);
+  const auto alone = numbers();
+  set_thread_count(3);
+  const auto together = numbers();
+  set_thread_count(0);
+  EXPECT_EQ(alone, together);
+}
+
+}  // namespace
+}  // namespace radioslam

@@ -1,0 +1,89 @@
+#include "radioslam/pipeline/sequence_stage.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "radioslam/graph/residuals.hpp"
+#include "radioslam/pipeline/pipeline.hpp"
+#include "radioslam/sim/carpark.hpp"
+
+namespace radioslam {
+namespace {
+
+/// Two robots on few lanes, which they share.
+CarparkParams shared_lanes() {
+  CarparkParams params;
+  params.lanes.floor_x_m = 40;
+  params.lanes.floor_y_m = 30;
+  params.lanes.aisles_along_y = 3;
+  params.lanes.aisles_along_x = 3;
+  params.drive.path_length_m = 250;
+  params.odometry.odometry_rate_hz = 2;
+  params.transmitters.access_points = 40;
+  return params;
+}
+
+std::vector<ClosureResult> sequences_of(const RunResult& result) {
+  std::vector<ClosureResult> sequences;
+  for (const auto& closure : result.closures)
+    if (closure.kind == ClosureKind::kSequence) sequences.push_back(closure);
+  return sequences;
+}
+
+TEST(SequenceStage, AcceptedOnesHoldInTruth) {
+  std::size_t accepted = 0, right = 0;
+  for (const std::uint64_t seed : {11U, 12U, 13U}) {
+    const Simulation simulation = simulate_carpark(shared_lanes(), seed);
+    const Mission& mission = simulation.mission;
+    const Truth& truth = simulation.truth;
+    const auto radio = measure_radio(mission, {}, {});
+    auto joint = build_joint_graph<SE2>(mission, {}, {});
+    const std::size_t before = joint.team.graph.relative_poses.size();
+    for (const auto& [closure, place] : add_sequence_closures(joint, radio, {})) {
+      if (closure.fit.verdict != SequenceVerdict::kAccepted) continue;
+      // The factor's own measurement, between keyframes.
+      const auto& factor = joint.team.graph.relative_poses[place];
+      const auto true_pose = [&](PoseId id) {
+        for (std::size_t r = 0; r < joint.robots.size(); ++r)
+          for (std::size_t k = 0; k < joint.robots[r].poses.size(); ++k)
+            if (joint.robots[r].poses[k] == id)
+              return flatten(*truth.robots[r].poses.at(joint.robots[r].stamps[k]));
+        return SE2();
+      };
+      const SE2 gap = factor.T_i_j.inverse() * (true_pose(factor.i).inverse() * true_pose(factor.j));
+      ++accepted;
+      right += gap.translation().norm() <= 3 && std::abs(gap.angle()) <= 0.35 ? 1U : 0U;
+    }
+    EXPECT_GT(joint.team.graph.relative_poses.size(), before);
+  }
+  EXPECT_GE(accepted, 10U);
+  EXPECT_GE(static_cast<double>(right), 0.9 * static_cast<double>(accepted));
+}
+
+TEST(SequenceStage, EveryCandidateReachesTheResult) {
+  const auto mission = simulate_carpark(shared_lanes(), 14).mission;
+  RunParams params;
+  params.sequence.enabled = true;
+  const auto sequences = sequences_of(run_pipeline(mission, params).result);
+  const auto accepted = std::count_if(sequences.begin(), sequences.end(),
+                                      [](const auto& c) { return c.status == ClosureStatus::kAccepted; });
+  EXPECT_GT(accepted, 0);
+  EXPECT_GT(sequences.size(), static_cast<std::size_t>(accepted));
+  for (const auto& c : sequences) {
+    EXPECT_EQ(c.reason.empty(), c.status == ClosureStatus::kAccepted);
+    if (c.status == ClosureStatus::kAccepted) {
+      EXPECT_LT(c.statistic, 3);
+    }
+  }
+}
+
+TEST(SequenceStage, SwitchedOffThereAreNone) {
+  const auto mission = simulate_carpark(shared_lanes(), 14).mission;
+  RunParams params;
+  params.sequence.enabled = false;
+  EXPECT_TRUE(sequences_of(run_pipeline(mission, params).result).empty());
+}
+
+}  // namespace
+}  // namespace radioslam
