@@ -55,8 +55,8 @@ std::vector<RigidBody> bodies_of(const JointGraph<Pose>& joint, const Mission& m
 }
 
 /// Strays first, then all against their common field.
-void refine(std::vector<RigidBody>& bodies, const RadioMeasurements& radio, const std::vector<std::size_t>& nodes,
-            const FieldParams& params) {
+void refine(std::vector<RigidBody>& bodies, const RadioMeasurements& radio,
+            const std::vector<std::size_t>& nodes, const FieldParams& params) {
   std::vector<FieldNode> field_nodes;
   std::vector<const Fingerprint*> fingerprints;
   for (const std::size_t node : nodes) {
@@ -85,7 +85,8 @@ template <class Pose>
 bool refine_by_radio_field(JointGraph<Pose>& joint, const Mission& mission, const RadioMeasurements& radio,
                            const TeamPlacement<Pose>& placement, std::vector<FingerprintClosure>& closures,
                            const FieldParams& params, const Progress& progress) {
-  if (!params.enabled || std::none_of(closures.begin(), closures.end(), [](const auto& c) { return c.holds_layout; }))
+  if (!params.enabled ||
+      std::none_of(closures.begin(), closures.end(), [](const auto& c) { return c.holds_layout; }))
     return false;
   std::vector<SE2> moves(mission.robots.size());
   const int components = 1 + *std::max_element(placement.component.begin(), placement.component.end());
@@ -96,8 +97,7 @@ bool refine_by_radio_field(JointGraph<Pose>& joint, const Mission& mission, cons
     const std::vector<RigidBody> before = bodies;
     refine(bodies, radio, nodes, params);
     for (std::size_t r = 0; r < bodies.size(); ++r)
-      if (placement.component[r] == c)
-        moves[r] = bodies[r].T_layout_body * before[r].T_layout_body.inverse();
+      if (placement.component[r] == c) moves[r] = bodies[r].T_layout_body * before[r].T_layout_body.inverse();
   }
   place_robots(joint, moves);
   retie(joint, closures);

@@ -34,8 +34,8 @@ class Refinement {
       const RigidBody& body = bodies[b];
       if (body.fixed || body.points.cols() == 0) continue;
       const Eigen::Vector2d mean = body.points.rowwise().mean();
-      free_.push_back({b, body.points.colwise() - mean,
-                       {body.T_layout_body * mean, body.T_layout_body.angle(), 0}});
+      free_.push_back(
+          {b, body.points.colwise() - mean, {body.T_layout_body * mean, body.T_layout_body.angle(), 0}});
     }
   }
 
@@ -129,7 +129,8 @@ class Refinement {
     for (std::size_t f = 0; f < free_.size(); ++f) {
       const double sigma = bodies_[free_[f].index].sigma_heading_rad;
       if (sigma <= 0) continue;
-      const double scale = kMedianOfGaussian * sigma, off = wrap_angle(placing(x, f).turn_rad - common) / scale;
+      const double scale = kMedianOfGaussian * sigma,
+                   off = wrap_angle(placing(x, f).turn_rad - common) / scale;
       const double slope = 2 * off / (1 + off * off) / scale;
       result.value += std::log1p(off * off);
       result.gradient[4 * static_cast<Eigen::Index>(f) + 2] += kTurn_rad * slope;
@@ -160,7 +161,8 @@ void refine_by_field(std::vector<RigidBody>& bodies, const RadioField& field, co
   const Minimum found = minimise([&](const Eigen::VectorXd& x) { return refinement(x); }, refinement.start(),
                                  params.iterations, kLeastGain);
   std::vector<SE2> poses;
-  for (std::size_t f = 0; f < refinement.free_bodies().size(); ++f) poses.push_back(refinement.pose(found.x, f));
+  for (std::size_t f = 0; f < refinement.free_bodies().size(); ++f)
+    poses.push_back(refinement.pose(found.x, f));
   for (std::size_t f = 0; f < poses.size(); ++f)
     bodies[refinement.free_bodies()[f].index].T_layout_body = poses[f];
 }

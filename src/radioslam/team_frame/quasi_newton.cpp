@@ -8,8 +8,8 @@
 namespace radioslam {
 namespace {
 
-constexpr std::size_t kMemory = 10;       // steps remembered
-constexpr double kEnoughDescent = 1e-4;   // of what the slope promises
+constexpr std::size_t kMemory = 10;      // steps remembered
+constexpr double kEnoughDescent = 1e-4;  // of what the slope promises
 constexpr double kLeastCurvature = 1e-10;
 constexpr int kHalvings = 30;
 

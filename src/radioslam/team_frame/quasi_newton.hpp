@@ -1,6 +1,6 @@
-// The minimum of a smooth function of many variables by its gradient: limited-memory BFGS (Nocedal 1980; Liu and
-// Nocedal 1989) with a line search that halves until the value falls enough (Armijo) and keeps only pairs that
-// curve upwards.
+// The minimum of a smooth function of many variables by its gradient: limited-memory BFGS (Nocedal 1980; Liu
+// and Nocedal 1989) with a line search that halves until the value falls enough (Armijo) and keeps only pairs
+// that curve upwards.
 #pragma once
 
 #include <Eigen/Core>

@@ -13,10 +13,10 @@ namespace radioslam {
 namespace {
 
 constexpr double kUnheard_dbm = -100;
-constexpr int kLeastFingerprints = 3;     // of an access point that says something about several places
-constexpr double kNearest_m2 = 1e-4;      // added to squared distances: the far term has a corner at zero
-constexpr double kRounding = 1e-9;        // added to S's diagonal where it is factorised
-constexpr Eigen::Index kBlock = 64;       // columns per task, whatever the number of threads
+constexpr int kLeastFingerprints = 3;  // of an access point that says something about several places
+constexpr double kNearest_m2 = 1e-4;   // added to squared distances: the far term has a corner at zero
+constexpr double kRounding = 1e-9;     // added to S's diagonal where it is factorised
+constexpr Eigen::Index kBlock = 64;    // columns per task, whatever the number of threads
 
 /// Calls body(first, count) for blocks of the columns [0, columns).
 template <class Body>

@@ -9,9 +9,9 @@
 //          + [same robot] (robot + drift exp(-|t_i - t_j| / drift_time)) + [i = j] noise
 //
 // The scans of one robot share more than their place: entries that a phone repeats from earlier scans, the
-// body that carries it, the network's momentary answers. Scans of one walk are alike at 0.94 where those of two
-// walks at the same place are at 0.76 (ilc20, cosine); a model without the terms of the third line calls that
-// distance, and pushes the walks apart.
+// body that carries it, the network's momentary answers. Scans of one walk are alike at 0.94 where those of
+// two walks at the same place are at 0.76 (ilc20, cosine); a model without the terms of the third line calls
+// that distance, and pushes the walks apart.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,7 +24,18 @@ namespace radioslam {
 
 /// The covariance's parameters, as logarithms: all are positive.
 struct FieldKernel {
-  enum Index { kFar, kFarLength, kNear, kNearLength, kNoise, kRobot, kEverywhere, kDrift, kDriftTime, kCount };
+  enum Index {
+    kFar,
+    kFarLength,
+    kNear,
+    kNearLength,
+    kNoise,
+    kRobot,
+    kEverywhere,
+    kDrift,
+    kDriftTime,
+    kCount
+  };
   using Vector = Eigen::Matrix<double, kCount, 1>;
   Vector log;
 
@@ -58,16 +69,16 @@ class RadioField {
 
  private:
   Eigen::MatrixXd covariance(const Eigen::Matrix2Xd& places, const FieldKernel& kernel) const;
-  void add_slopes(const Eigen::Matrix2Xd& places, const FieldKernel& kernel, const Eigen::MatrixXd& by_covariance,
-                  FieldCost& cost) const;
+  void add_slopes(const Eigen::Matrix2Xd& places, const FieldKernel& kernel,
+                  const Eigen::MatrixXd& by_covariance, FieldCost& cost) const;
 
   std::vector<FieldNode> nodes_;
   Eigen::MatrixXd heard_;  ///< S = heard heard^T
   double channels_;
 };
 
-/// A row of unit length per fingerprint, a column per access point that at least three of them hold: (RSS + 100)^e.
-/// Fingerprints that hold none have a row of zeros.
+/// A row of unit length per fingerprint, a column per access point that at least three of them hold: (RSS +
+/// 100)^e. Fingerprints that hold none have a row of zeros.
 Eigen::MatrixXd heard_powers(const std::vector<const Fingerprint*>& fingerprints, double exponent);
 
 }  // namespace radioslam

@@ -9,10 +9,10 @@
 namespace radioslam {
 namespace {
 
-constexpr std::size_t kMostAlike = 3;        // scans of others that a scan is compared with
+constexpr std::size_t kMostAlike = 3;  // scans of others that a scan is compared with
 constexpr double kUsualDeviations = 3;
-constexpr double kMadOfGaussian = 1.4826;    // standard deviation over median absolute deviation
-constexpr std::size_t kLeastTeam = 4;        // robots below which nothing is usual
+constexpr double kMadOfGaussian = 1.4826;  // standard deviation over median absolute deviation
+constexpr std::size_t kLeastTeam = 4;      // robots below which nothing is usual
 
 /// Per node its most similar nodes of other bodies, the most alike first.
 using Neighbours = std::vector<std::vector<Eigen::Index>>;
@@ -44,7 +44,8 @@ double median(std::vector<double> values) {
 std::optional<double> distance_to_alike(const RigidBody& body, const Neighbours& neighbours,
                                         const Eigen::Matrix2Xd& positions) {
   std::vector<double> distances;
-  for (std::size_t i = body.first_node; i < body.first_node + static_cast<std::size_t>(body.points.cols()); ++i)
+  for (std::size_t i = body.first_node; i < body.first_node + static_cast<std::size_t>(body.points.cols());
+       ++i)
     if (!neighbours[i].empty())
       distances.push_back(
           (positions.col(static_cast<Eigen::Index>(i)) - positions.col(neighbours[i].front())).norm());
@@ -53,7 +54,8 @@ std::optional<double> distance_to_alike(const RigidBody& body, const Neighbours&
 }
 
 /// The move after which the nodes' distances to the nearest of their most similar ones sum to the least.
-Eigen::Vector2d best_move(const RigidBody& body, const Neighbours& neighbours, const Eigen::Matrix2Xd& positions) {
+Eigen::Vector2d best_move(const RigidBody& body, const Neighbours& neighbours,
+                          const Eigen::Matrix2Xd& positions) {
   const std::size_t end = body.first_node + static_cast<std::size_t>(body.points.cols());
   const auto apart = [&](std::size_t i, Eigen::Index j) -> Eigen::Vector2d {
     return positions.col(j) - positions.col(static_cast<Eigen::Index>(i));

@@ -1,9 +1,9 @@
 // Robots that a layout put far from every place that sounds like theirs.
 //
-// Scans that hold few access points are unlike all others, which a layout by distances reads as being far away;
-// yet the scans most like them are mostly right. A stray is a robot whose scans lie further from their most
-// similar ones of other robots than is usual in the team; it is moved, unturned, to where its scans and their
-// most similar ones agree best.
+// Scans that hold few access points are unlike all others, which a layout by distances reads as being far
+// away; yet the scans most like them are mostly right. A stray is a robot whose scans lie further from their
+// most similar ones of other robots than is usual in the team; it is moved, unturned, to where its scans and
+// their most similar ones agree best.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,0 +1,70 @@
+#include "radioslam/team_frame/strays.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "radioslam/base/random.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr Eigen::Index kPlaces = 6;
+
+std::vector<RigidBody> walks_of_a_hall(Rng& rng) {
+  std::vector<RigidBody> bodies(10);
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    bodies[b].first_node = b * static_cast<std::size_t>(kPlaces);
+    bodies[b].points = Eigen::Matrix2Xd::NullaryExpr(2, kPlaces, [&] { return rng.uniform(-6, 6); });
+    bodies[b].T_layout_body = SE2({rng.uniform(0, 15), rng.uniform(0, 15)}, rng.uniform(-3, 3));
+  }
+  return bodies;
+}
+
+/// Falls with the distance of the true places.
+Eigen::MatrixXd similarity_of(const std::vector<RigidBody>& bodies) {
+  const Eigen::Matrix2Xd x = node_positions(bodies);
+  return Eigen::MatrixXd::NullaryExpr(x.cols(), x.cols(), [&](Eigen::Index i, Eigen::Index j) {
+    return std::exp(-(x.col(i) - x.col(j)).norm() / 20);
+  });
+}
+
+TEST(RelocateStrays, BringsBackTheOneThatIsFarOff) {
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+    Rng rng(seed);
+    std::vector<RigidBody> bodies = walks_of_a_hall(rng);
+    const Eigen::MatrixXd similarity = similarity_of(bodies);
+    const SE2 truth = bodies[4].T_layout_body;
+    bodies[4].T_layout_body = SE2(truth.translation() + Eigen::Vector2d(60, -40), truth.angle());
+    const auto moved = relocate_strays(bodies, similarity);
+    ASSERT_FALSE(moved.empty());
+    EXPECT_EQ(moved.front(), 4U);
+    EXPECT_LT((bodies[4].T_layout_body.translation() - truth.translation()).norm(), 6);
+    EXPECT_EQ(bodies[4].T_layout_body.angle(), truth.angle());
+  }
+}
+
+TEST(RelocateStrays, LeavesFixedBodiesAndSmallTeams) {
+  Rng rng(6);
+  std::vector<RigidBody> bodies = walks_of_a_hall(rng);
+  const Eigen::MatrixXd similarity = similarity_of(bodies);
+  bodies[4].T_layout_body = SE2({90, 90}, 0);
+  bodies[4].fixed = true;
+  for (const std::size_t b : relocate_strays(bodies, similarity)) EXPECT_NE(b, 4U);
+  bodies.resize(3);
+  bodies[2].T_layout_body = SE2({90, 90}, 0);
+  EXPECT_TRUE(relocate_strays(bodies, similarity.topLeftCorner(3 * kPlaces, 3 * kPlaces)).empty());
+}
+
+TEST(RelocateStrays, LeavesWhoeverIsLikeNobody) {
+  Rng rng(7);
+  std::vector<RigidBody> bodies = walks_of_a_hall(rng);
+  Eigen::MatrixXd similarity = similarity_of(bodies);
+  similarity.middleCols(4 * kPlaces, kPlaces).setZero();
+  similarity.middleRows(4 * kPlaces, kPlaces).setZero();
+  bodies[4].T_layout_body = SE2({90, 90}, 0);
+  for (const std::size_t b : relocate_strays(bodies, similarity)) EXPECT_NE(b, 4U);
+}
+
+}  // namespace
+}  // namespace radioslam
