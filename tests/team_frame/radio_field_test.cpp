@@ -46,7 +46,8 @@ double cost_by_formula(const Eigen::Matrix2Xd& x, const FieldKernel& k, const Ei
           k[FieldKernel::kEverywhere];
       if (a.robot == b.robot)
         c += k[FieldKernel::kRobot] +
-             k[FieldKernel::kDrift] * std::exp(-3 * std::abs(double(i - j)) / k[FieldKernel::kDriftTime]);
+             k[FieldKernel::kDrift] *
+                 std::exp(-3 * std::abs(static_cast<double>(i - j)) / k[FieldKernel::kDriftTime]);
       if (i == j) c += k[FieldKernel::kNoise];
     }
   return kChannels / 2 *

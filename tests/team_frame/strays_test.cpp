@@ -30,7 +30,7 @@ Eigen::MatrixXd similarity_of(const std::vector<RigidBody>& bodies) {
 }
 
 TEST(RelocateStrays, BringsBackTheOneThatIsFarOff) {
-  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U}) {
     Rng rng(seed);
     std::vector<RigidBody> bodies = walks_of_a_hall(rng);
     const Eigen::MatrixXd similarity = similarity_of(bodies);
