@@ -39,7 +39,7 @@ TEST(Csv, TakesAnOptionalColumn) {
   EXPECT_EQ(csv.number(kExtra), 7);
 }
 
-void expect_refused(const std::string& content, std::size_t line, const std::string& words) {
+void expect_table_refused(const std::string& content, std::size_t line, const std::string& words) {
   expect_refusal(
       [&] {
         const Text t = text(content);
@@ -53,20 +53,20 @@ void expect_refused(const std::string& content, std::size_t line, const std::str
 }
 
 TEST(Csv, RefusesHeadersThatDoNotFit) {
-  expect_refused("x,z\n1,2\n", 1, "the column 'y' is missing");
-  expect_refused("1,2\n", 1, "the column 'x' is missing");
-  expect_refused("x,y,x\n1,2,3\n", 1, "twice");
-  expect_refused("\n", 1, "no header");
-  expect_refused("", 1, "empty");
+  expect_table_refused("x,z\n1,2\n", 1, "the column 'y' is missing");
+  expect_table_refused("1,2\n", 1, "the column 'x' is missing");
+  expect_table_refused("x,y,x\n1,2,3\n", 1, "twice");
+  expect_table_refused("\n", 1, "no header");
+  expect_table_refused("", 1, "empty");
 }
 
 TEST(Csv, RefusesRowsThatDoNotFit) {
-  expect_refused("x,y\n1,2\n1\n", 3, "the row has 1 fields, the header 2");
-  expect_refused("x,y\n1,2,3\n", 2, "the row has 3 fields");
-  expect_refused("x,y\n1,2\n1", 3, "the file ends in this line");
-  expect_refused("x,y\n,2\n", 2, "x '' is not a finite number");
-  expect_refused("x,y\n1e9,2\n", 2, "x '1e9'");
-  expect_refused("x,y\n1,-2\n", 2, "y '-2' is negative");
+  expect_table_refused("x,y\n1,2\n1\n", 3, "the row has 1 fields, the header 2");
+  expect_table_refused("x,y\n1,2,3\n", 2, "the row has 3 fields");
+  expect_table_refused("x,y\n1,2\n1", 3, "the file ends in this line");
+  expect_table_refused("x,y\n,2\n", 2, "x '' is not a finite number");
+  expect_table_refused("x,y\n1e9,2\n", 2, "x '1e9'");
+  expect_table_refused("x,y\n1,-2\n", 2, "y '-2' is negative");
 }
 
 WifiRecordings wifi(const std::vector<std::string>& contents) {

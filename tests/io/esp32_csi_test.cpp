@@ -12,7 +12,7 @@
 namespace radioslam {
 namespace {
 
-CsiCapture read(const std::string& text) { return read_esp32_csi("x.csv", text); }
+CsiCapture read_lines(const std::string& text) { return read_esp32_csi("x.csv", text); }
 
 /// Whether the capture's first packet has, of subcarrier k, the value at `place(k)`.
 void expect_places(const CsiCapture& capture, const std::function<int(int)>& place) {
@@ -38,7 +38,7 @@ void expect_columns(const CsiCapture& capture, std::size_t count, int furthest, 
 
 TEST(Esp32Csi, ReadsBothLayouts) {
   for (const Esp32Layout layout : {Esp32Layout::kTool, Esp32Layout::kEspressif}) {
-    const CsiCapture capture = read(Esp32Text{.layout = layout}.line());
+    const CsiCapture capture = read_lines(Esp32Text{.layout = layout}.line());
     EXPECT_TRUE(capture.warnings.empty());
     ASSERT_EQ(capture.packets.size(), 1U);
     const CsiPacket& packet = capture.packets.front();
@@ -63,7 +63,7 @@ TEST(Esp32Csi, FindsColumnsByTheHeader) {
   std::string line = "CSI_DATA,5,77,3c:71:bf:6d:2a:78,-40,0,0,0,-91,11,0,-1,128,0,\"[";
   for (int n = 0; n < 64; ++n)
     line += std::to_string(esp32_imaginary(n)) + "," + std::to_string(esp32_real(n)) + (n < 63 ? "," : "]\"");
-  const CsiCapture capture = read(header + line);
+  const CsiCapture capture = read_lines(header + line);
   expect_columns(capture, 52, 26, 2462e6, 20e6);
   expect_places(capture, [](int k) { return k < 0 ? k + 64 : k; });
   EXPECT_EQ(capture.packets[0].clock_us, 4'294'967'295U);
@@ -76,9 +76,9 @@ TEST(Esp32Csi, LeavesOutTheSubcarrierOfAnInvalidFirstWord) {
   Esp32Text invalid = said, silent = said;
   invalid.first_word = "1";
   silent.layout = Esp32Layout::kTool;
-  expect_columns(read(said.line()), 52, 26, 2437e6, 20e6);
+  expect_columns(read_lines(said.line()), 52, 26, 2437e6, 20e6);
   for (const Esp32Text& text : {invalid, silent}) {
-    const CsiCapture capture = read(text.line());
+    const CsiCapture capture = read_lines(text.line());
     expect_columns(capture, 51, 26, 2437e6, 20e6);
     expect_places(capture, [](int k) { return k < 0 ? k + 64 : k; });
     EXPECT_EQ(capture.subcarrier_hz[26], 2 * 312.5e3);
@@ -88,15 +88,15 @@ TEST(Esp32Csi, LeavesOutTheSubcarrierOfAnInvalidFirstWord) {
 TEST(Esp32Csi, KnowsTheOrderBesideASecondChannel) {
   for (const int secondary : {1, 2}) {
     const CsiCapture legacy =
-        read(Esp32Text{.mode = 0, .secondary = secondary, .told = 128, .values = 128}.line());
+        read_lines(Esp32Text{.mode = 0, .secondary = secondary, .told = 128, .values = 128}.line());
     expect_columns(legacy, 52, 26, 2437e6, 20e6);
     expect_places(legacy, [](int k) { return k + 32; });
-    const CsiCapture narrow = read(Esp32Text{.secondary = secondary}.line());
+    const CsiCapture narrow = read_lines(Esp32Text{.secondary = secondary}.line());
     expect_columns(narrow, 56, 28, 2437e6, 20e6);
     expect_places(narrow, [](int k) { return 64 + k + 32; });
     const int coded = secondary == 1 ? 376 : 380;
     const CsiCapture stbc =
-        read(Esp32Text{.stbc = 1, .secondary = secondary, .told = coded, .values = coded}.line());
+        read_lines(Esp32Text{.stbc = 1, .secondary = secondary, .told = coded, .values = coded}.line());
     expect_columns(stbc, 56, 28, 2437e6, 20e6);
     expect_places(stbc, [&](int k) { return 64 + k + (secondary == 1 ? 30 : 32); });
   }
@@ -106,12 +106,12 @@ TEST(Esp32Csi, ReadsPacketsOf40Megahertz) {
   for (const int secondary : {1, 2}) {
     const double carrier_hz = secondary == 1 ? 2447e6 : 2427e6;
     Esp32Text text{.bandwidth = 1, .secondary = secondary, .told = 384, .values = 384};
-    const CsiCapture plain = read(text.line());
+    const CsiCapture plain = read_lines(text.line());
     expect_columns(plain, 114, 58, carrier_hz, 40e6);
     expect_places(plain, [](int k) { return 64 + (k < 0 ? k + 128 : k); });
     text.stbc = 1;
     text.told = text.values = 612;
-    const CsiCapture coded = read(text.line());
+    const CsiCapture coded = read_lines(text.line());
     expect_columns(coded, 114, 58, carrier_hz, 40e6);
     expect_places(coded, [](int k) { return 64 + (k < 0 ? k + 121 : k); });
   }
@@ -119,13 +119,15 @@ TEST(Esp32Csi, ReadsPacketsOf40Megahertz) {
 
 TEST(Esp32Csi, ReadsTheLegacyFieldWhereOnlyThatIsPrinted) {
   const CsiCapture capture =
-      read(Esp32Text{.bandwidth = 1, .secondary = 1, .told = 384, .values = 128}.line());
+      read_lines(Esp32Text{.bandwidth = 1, .secondary = 1, .told = 384, .values = 128}.line());
   expect_columns(capture, 52, 26, 2437e6, 20e6);
   expect_places(capture, [](int k) { return k + 32; });
 }
 
 TEST(Esp32Csi, KnowsTheCarrierOfAChannel) {
-  const auto carrier = [](int channel) { return *read(Esp32Text{.channel = channel}.line()).carrier_hz; };
+  const auto carrier = [](int channel) {
+    return *read_lines(Esp32Text{.channel = channel}.line()).carrier_hz;
+  };
   EXPECT_EQ(carrier(1), 2412e6);
   EXPECT_EQ(carrier(13), 2472e6);
   EXPECT_EQ(carrier(14), 2484e6);
@@ -136,12 +138,12 @@ TEST(Esp32Csi, KnowsTheCarrierOfAChannel) {
 TEST(Esp32Csi, KeepsTheFieldThatMostWasMeasuredWith) {
   const std::string legacy = Esp32Text{.mode = 0, .told = 128, .values = 128}.line(),
                     high = Esp32Text{}.line();
-  const CsiCapture all = read(high + legacy + legacy + high);
+  const CsiCapture all = read_lines(high + legacy + legacy + high);
   EXPECT_EQ(all.packets.size(), 4U);  // 4 x 51 values of the legacy field, 2 x 56 of the other one
   EXPECT_EQ(all.subcarrier_hz.size(), 51U);
   EXPECT_TRUE(all.warnings.empty());
   const std::string most = high + high + high + high;
-  const CsiCapture narrow = read(most + most + most + legacy);
+  const CsiCapture narrow = read_lines(most + most + most + legacy);
   EXPECT_EQ(narrow.packets.size(), 12U);
   EXPECT_EQ(narrow.subcarrier_hz.size(), 56U);
   ASSERT_EQ(narrow.warnings.size(), 1U);
@@ -150,7 +152,7 @@ TEST(Esp32Csi, KeepsTheFieldThatMostWasMeasuredWith) {
 }
 
 TEST(Esp32Csi, TakesTheHostsTimeWhereItWasSet) {
-  const CsiCapture capture = read(Esp32Text{.host_time = "1,1600000000.25"}.line());
+  const CsiCapture capture = read_lines(Esp32Text{.host_time = "1,1600000000.25"}.line());
   EXPECT_EQ(capture.packets[0].stamp.ns, 1'600'000'000'250'000'000);
   EXPECT_EQ(capture.packets[0].clock_us, 80'272'146U);
 }
@@ -159,7 +161,7 @@ TEST(Esp32Csi, PassesOverTheLogAndLeavesOutTornLines) {
   const std::string line = Esp32Text{}.line();
   const std::string text = "rst:0x1 (POWERON_RESET)\r\n\xff\xfe\n" + line.substr(0, 200) + line +
                            "W (51) wifi: " + line + line.substr(0, 300) + "\n\n" + line.substr(0, 90);
-  const CsiCapture capture = read(text);
+  const CsiCapture capture = read_lines(text);
   EXPECT_EQ(capture.packets.size(), 2U);
   ASSERT_EQ(capture.warnings.size(), 2U);
   EXPECT_EQ(capture.warnings[0], "x.csv: 2 lines that tell no CSI are passed over");
@@ -170,7 +172,7 @@ TEST(Esp32Csi, PassesOverTheLogAndLeavesOutTornLines) {
 TEST(Esp32Csi, ReadsUpToAnyCut) {
   const std::string line = Esp32Text{}.line();
   for (std::size_t cut = 1; cut + 2 < line.size(); cut += 11) {
-    const CsiCapture capture = read(line + line.substr(0, cut));
+    const CsiCapture capture = read_lines(line + line.substr(0, cut));
     EXPECT_EQ(capture.packets.size(), 1U);
     EXPECT_EQ(capture.warnings.size(), 1U);
   }
@@ -182,7 +184,7 @@ TEST(Esp32Csi, RefusesALineThatContradictsItself) {
     return "log\n" + line.replace(line.find(from), from.size(), to);
   };
   const auto expect = [](const std::string& text, const std::string& words) {
-    expect_refusal([&] { read(text); }, 2, words);
+    expect_refusal([&] { read_lines(text); }, 2, words);
   };
   expect(changed("3C:71", "3C71"), "'3C71:BF:6D:2A:78' is no address such as");
   expect(changed(",256,[", ",255,["), "256 values, where len tells 255");
@@ -203,7 +205,7 @@ TEST(Esp32Csi, RefusesALineThatContradictsItself) {
 }
 
 TEST(Esp32Csi, RefusesWhatIsNoCapture) {
-  const auto refused = [](const std::string& text) { return refusal([&] { read(text); }); };
+  const auto refused = [](const std::string& text) { return refusal([&] { read_lines(text); }); };
   EXPECT_EQ(refused(""), "x.csv: the file is empty");
   EXPECT_EQ(refused("a log\nof something else"), "x.csv: there is no line of CSI_DATA in it");
   EXPECT_EQ(refused("CSI_DATA,7"), "x.csv:1: there is no list of values");

@@ -16,7 +16,7 @@
 namespace radioslam {
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000;
+constexpr std::int64_t kMillisecond = 1'000'000;
 
 /// A folder with the small log once or more.
 void write_logs(const TemporaryFolder& folder, const std::vector<std::string>& names) {
@@ -43,8 +43,8 @@ TEST(ImportIndoorLocation, TheOdometryCoversTheWholeLogAndStartsAtTheOrigin) {
   ASSERT_EQ(imported.mission.robots.size(), 1U);
   EXPECT_EQ(imported.mission.name, "walk");
   const auto& odometry = imported.mission.robots[0].odometry;
-  EXPECT_EQ(odometry.front().stamp.ns, 1574242584992 * kMs);
-  EXPECT_EQ(odometry.back().stamp.ns, 1574242586500 * kMs);
+  EXPECT_EQ(odometry.front().stamp.ns, 1574242584992 * kMillisecond);
+  EXPECT_EQ(odometry.back().stamp.ns, 1574242586500 * kMillisecond);
   EXPECT_EQ(odometry.front().pose.translation(), Eigen::Vector3d(0, 0, 0));
 }
 
@@ -54,7 +54,7 @@ TEST(ImportIndoorLocation, TheTruthIsTheWaypoints) {
   const auto& truth = imported.truth.robots.at(0);
   EXPECT_FALSE(truth.has_orientation);
   ASSERT_EQ(truth.poses.size(), 2U);
-  EXPECT_EQ(truth.poses[1].stamp.ns, 1574242586500 * kMs);
+  EXPECT_EQ(truth.poses[1].stamp.ns, 1574242586500 * kMillisecond);
   EXPECT_EQ(truth.poses[1].pose.translation(), Eigen::Vector3d(205.5, 288, 0));
 }
 

@@ -16,15 +16,15 @@ constexpr std::uint16_t kChip43455c0 = 101, kChip4358 = 3, kChip4366c0 = 106;
 constexpr std::uint16_t kChannel42At80 = 0xe02a, kChannel38At40 = 0xd826, kChannel6At20 = 0x1006;
 
 /// What core c hears of stream s at subcarrier k: every place another value, of both signs.
-int real_part(int c, int s, int k) { return 20 * k - 3 + 5000 * c + s; }
-int imaginary_part(int c, int s, int k) { return 7 - 30 * k - 5000 * s - c; }
+int made_real_part(int c, int s, int k) { return 20 * k - 3 + 5000 * c + s; }
+int made_imaginary_part(int c, int s, int k) { return 7 - 30 * k - 5000 * s - c; }
 
 std::string whole_numbers(int real, int imaginary) {
   return number_bytes(static_cast<std::uint16_t>(real), 2) +
          number_bytes(static_cast<std::uint16_t>(imaginary), 2);
 }
 
-struct Record {
+struct MadeRecord {
   int core = 0, stream = 0;
   std::uint16_t sequence = 0x0120, chanspec = kChannel42At80, chip = kChip43455c0;
   int subcarriers = 256;
@@ -37,7 +37,7 @@ struct Record {
                       number_bytes(chanspec, 2) + number_bytes(chip, 2);
     for (int n = 0; n < subcarriers; ++n) {
       const int k = n < subcarriers / 2 ? n : n - subcarriers;
-      out += whole_numbers(real_part(core, stream, k), imaginary_part(core, stream, k));
+      out += whole_numbers(made_real_part(core, stream, k), made_imaginary_part(core, stream, k));
     }
     return out;
   }
@@ -51,7 +51,7 @@ class Capture {
     microseconds_ += 100;
     return *this;
   }
-  Capture& add(const Record& record) { return add(record.bytes()); }
+  Capture& add(const MadeRecord& record) { return add(record.bytes()); }
   Capture& wait(std::uint32_t microseconds) {
     microseconds_ += microseconds;
     return *this;
@@ -66,7 +66,7 @@ class Capture {
 };
 
 TEST(NexmonCsi, ReadsWholeNumbers) {
-  const CsiCapture capture = Capture().wait(355'509).add(Record()).read();
+  const CsiCapture capture = Capture().wait(355'509).add(MadeRecord()).read();
   EXPECT_EQ(capture.carrier_hz, 5210e6);
   EXPECT_EQ(capture.bandwidth_hz, 80e6);
   EXPECT_TRUE(capture.warnings.empty());
@@ -82,13 +82,14 @@ TEST(NexmonCsi, ReadsWholeNumbers) {
   ASSERT_EQ(capture.subcarrier_hz.size(), 241U);
   for (Eigen::Index column = 0; column < 241; ++column) {
     const int k = static_cast<int>(capture.subcarrier_hz[static_cast<std::size_t>(column)] / 312.5e3);
-    EXPECT_EQ(packet.channel(0, column), std::complex<float>(static_cast<float>(real_part(0, 0, k)),
-                                                             static_cast<float>(imaginary_part(0, 0, k))));
+    EXPECT_EQ(packet.channel(0, column),
+              std::complex<float>(static_cast<float>(made_real_part(0, 0, k)),
+                                  static_cast<float>(made_imaginary_part(0, 0, k))));
   }
 }
 
 TEST(NexmonCsi, LeavesOutTheSubcarriersThatCarryNothing) {
-  const auto numbers = [](const Record& record) {
+  const auto numbers = [](const MadeRecord& record) {
     std::vector<int> k;
     for (const double hz : Capture().add(record).read().subcarrier_hz)
       k.push_back(static_cast<int>(hz / 312.5e3));
@@ -102,19 +103,19 @@ TEST(NexmonCsi, LeavesOutTheSubcarriersThatCarryNothing) {
     EXPECT_EQ(std::count(k.begin(), k.end(), 2) == 1, has_2);
     EXPECT_EQ(std::count(k.begin(), k.end(), 0), 0);
   };
-  Record old;
+  MadeRecord old;
   old.said = std::string("\x11\x11", 2);
-  expect(numbers(Record()), 122, 241, false);  // +2 is written over
+  expect(numbers(MadeRecord()), 122, 241, false);  // +2 is written over
   expect(numbers(old), 122, 242, true);
-  const Record wide{.chanspec = kChannel38At40, .subcarriers = 128};
+  const MadeRecord wide{.chanspec = kChannel38At40, .subcarriers = 128};
   expect(numbers(wide), 58, 113, false);
-  const Record narrow{.chanspec = kChannel6At20, .subcarriers = 64};
+  const MadeRecord narrow{.chanspec = kChannel6At20, .subcarriers = 64};
   expect(numbers(narrow), 26, 52, true);
 }
 
 TEST(NexmonCsi, KnowsTheCarrierOfAChanspec) {
   const auto carrier = [](std::uint16_t chanspec, int subcarriers) {
-    return *Capture().add(Record{.chanspec = chanspec, .subcarriers = subcarriers}).read().carrier_hz;
+    return *Capture().add(MadeRecord{.chanspec = chanspec, .subcarriers = subcarriers}).read().carrier_hz;
   };
   EXPECT_EQ(carrier(kChannel6At20, 64), 2437e6);
   EXPECT_EQ(carrier(0x100e, 64), 2484e6);
@@ -134,7 +135,7 @@ std::uint32_t short_float(bool minus_r, unsigned r, bool minus_i, unsigned i, in
 }
 
 std::complex<float> value_at_subcarrier_1(std::uint16_t chip, std::uint32_t word) {
-  Record record{.chanspec = kChannel6At20, .chip = chip, .subcarriers = 64};
+  MadeRecord record{.chanspec = kChannel6At20, .chip = chip, .subcarriers = 64};
   const std::string bytes = record.bytes();
   const CsiCapture capture =
       Capture().add(bytes.substr(0, 18 + 4) + number_bytes(word, 4) + bytes.substr(18 + 8)).read();
@@ -162,7 +163,8 @@ TEST(NexmonCsi, PutsCoresAndStreamsTogether) {
   Capture made;
   for (std::uint16_t sequence = 0x10; sequence <= 0x30; sequence += 0x10)
     for (const int stream : {0, 1})
-      for (const int core : {3, 0, 2}) made.add(Record{.core = core, .stream = stream, .sequence = sequence});
+      for (const int core : {3, 0, 2})
+        made.add(MadeRecord{.core = core, .stream = stream, .sequence = sequence});
   const CsiCapture capture = made.read();
   ASSERT_EQ(capture.packets.size(), 3U);
   for (const CsiPacket& packet : capture.packets) {
@@ -172,25 +174,25 @@ TEST(NexmonCsi, PutsCoresAndStreamsTogether) {
     for (int stream = 0; stream < 2; ++stream)
       for (int antenna = 0; antenna < 3; ++antenna)
         EXPECT_EQ(packet.channel(3 * stream + antenna, 0),
-                  std::complex<float>(static_cast<float>(real_part(cores[antenna], stream, -122)),
-                                      static_cast<float>(imaginary_part(cores[antenna], stream, -122))));
+                  std::complex<float>(static_cast<float>(made_real_part(cores[antenna], stream, -122)),
+                                      static_cast<float>(made_imaginary_part(cores[antenna], stream, -122))));
   }
   EXPECT_EQ(capture.packets[1].counter, 0x20U);
   EXPECT_EQ(capture.packets[1].stamp.ns, 1'600'000'000'000'600'000);
 }
 
 TEST(NexmonCsi, ReadsCoresInEitherByteOrder) {
-  std::string second = Record{.core = 1}.bytes();
+  std::string second = MadeRecord{.core = 1}.bytes();
   std::swap(second[12], second[13]);
-  EXPECT_EQ(Capture().add(Record()).add(second).read().packets.front().antennas, 2);
+  EXPECT_EQ(Capture().add(MadeRecord()).add(second).read().packets.front().antennas, 2);
 }
 
 TEST(NexmonCsi, TellsFramesWithoutNumbersApart) {
-  Record record{.sequence = 0, .said = std::string("\xc6\x94", 2)};  // a block acknowledgement
+  MadeRecord record{.sequence = 0, .said = std::string("\xc6\x94", 2)};  // a block acknowledgement
   const CsiCapture one_core = Capture().add(record).add(record).add(record).read();
   EXPECT_EQ(one_core.packets.size(), 3U);
   EXPECT_EQ(one_core.packets[0].counter, std::nullopt);
-  Record second = record;
+  MadeRecord second = record;
   second.core = 1;
   // The second core's record of the first frame and the first's of the next are lost: no frame of the two.
   const CsiCapture two_cores = Capture()
@@ -211,17 +213,17 @@ TEST(NexmonCsi, TellsFramesWithoutNumbersApart) {
 }
 
 TEST(NexmonCsi, KeepsTheChannelThatMostWasMeasuredOn) {
-  const Record narrow{.chanspec = kChannel6At20, .subcarriers = 64};
-  const CsiCapture capture = Capture().add(narrow).add(Record()).add(narrow).read();
+  const MadeRecord narrow{.chanspec = kChannel6At20, .subcarriers = 64};
+  const CsiCapture capture = Capture().add(narrow).add(MadeRecord()).add(narrow).read();
   EXPECT_EQ(capture.packets.size(), 1U);
   EXPECT_EQ(capture.bandwidth_hz, 80e6);
   EXPECT_EQ(capture.warnings.size(), 1U);
 }
 
 TEST(NexmonCsi, LeavesOutWhatIsNoRecordAndWhatIsTorn) {
-  const Record strange{.chip = 999};
-  const std::string torn = Record().bytes().substr(0, 18 + 1000);
-  const CsiCapture capture = Capture().add("something else").add(Record()).add(strange).add(torn).read();
+  const MadeRecord strange{.chip = 999};
+  const std::string torn = MadeRecord().bytes().substr(0, 18 + 1000);
+  const CsiCapture capture = Capture().add("something else").add(MadeRecord()).add(strange).add(torn).read();
   EXPECT_EQ(capture.packets.size(), 1U);
   ASSERT_EQ(capture.warnings.size(), 2U);
   EXPECT_EQ(capture.warnings[0], "x.pcap: 1 packets that are no CSI are passed over");
@@ -232,8 +234,8 @@ TEST(NexmonCsi, LeavesOutWhatIsNoRecordAndWhatIsTorn) {
 }
 
 TEST(NexmonCsi, KeepsWhatStandsBeforeATornPacket) {
-  const std::string one = Capture().add(Record()).bytes();
-  const std::string two = Capture().add(Record()).add(Record()).bytes();
+  const std::string one = Capture().add(MadeRecord()).bytes();
+  const std::string two = Capture().add(MadeRecord()).add(MadeRecord()).bytes();
   for (std::size_t size = one.size() + 1; size < two.size(); size += 7) {
     const CsiCapture capture = read_nexmon_csi("x.pcap", std::string_view(two).substr(0, size));
     EXPECT_EQ(capture.packets.size(), 1U);
@@ -251,15 +253,15 @@ TEST(NexmonCsi, RefusesWhatIsNoCapture) {
   EXPECT_EQ(refused("text"), "x.pcap: at byte 0: this is no pcap file");
   EXPECT_EQ(refused(Capture().bytes()),
             "x.pcap: at byte 24: the pcap file ends without a packet of Nexmon CSI");
-  EXPECT_EQ(refused(Capture().add(Record()).bytes().substr(0, 500)),
+  EXPECT_EQ(refused(Capture().add(MadeRecord()).bytes().substr(0, 500)),
             "x.pcap: at byte 24: the first packet is cut off");
   EXPECT_EQ(refused(Capture().add(std::string("\x11\x11", 2)).bytes()),
             "x.pcap: at byte 40: a record of 2 bytes");
-  EXPECT_EQ(refused(Capture().add(Record{.chanspec = 0x2b06}).bytes()),
+  EXPECT_EQ(refused(Capture().add(MadeRecord{.chanspec = 0x2b06}).bytes()),
             "x.pcap: at byte 40: chanspec 0x2b06, where channels of 20, 40 and 80 MHz are known");
-  EXPECT_EQ(refused(Capture().add(Record{.subcarriers = 64}).bytes()),
+  EXPECT_EQ(refused(Capture().add(MadeRecord{.subcarriers = 64}).bytes()),
             "x.pcap: at byte 40: 256 bytes of CSI, where 1024 belong to chanspec 0xe02a");
-  EXPECT_EQ(refused(Capture().add(Record()).add(Record{.core = 1, .stream = 1}).bytes()),
+  EXPECT_EQ(refused(Capture().add(MadeRecord()).add(MadeRecord{.core = 1, .stream = 1}).bytes()),
             "x.pcap: no frame has a record of every stream from every core that heard it");
 }
 

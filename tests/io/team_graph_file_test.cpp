@@ -26,16 +26,16 @@ std::string vertex(const std::string& name, double x) {
   return "VERTEX_SE2 " + name + " " + std::to_string(x) + " 0 0\n";
 }
 
-TeamGraphFile<SE2> read(const std::vector<std::string>& contents) {
+TeamGraphFile<SE2> read_graph_lines(const std::vector<std::string>& contents) {
   std::vector<Text> texts;
   for (const auto& content : contents) texts.push_back(make_text("t.g2o", content));
   return std::get<TeamGraphFile<SE2>>(read_g2o_team(texts));
 }
 
 TEST(G2oTeam, LettersAreRobotsAndVerticesAreNoStart) {
-  const auto file = read({vertex(id('a', 0), 5) + vertex(id('a', 1), 50) + vertex(id('b', 0), 7) +
-                          vertex(id('b', 1), 70) + edge(id('a', 0), id('b', 1), 9) +
-                          edge(id('a', 0), id('a', 1), 1) + edge(id('b', 0), id('b', 1), 2)});
+  const auto file = read_graph_lines({vertex(id('a', 0), 5) + vertex(id('a', 1), 50) + vertex(id('b', 0), 7) +
+                                      vertex(id('b', 1), 70) + edge(id('a', 0), id('b', 1), 9) +
+                                      edge(id('a', 0), id('a', 1), 1) + edge(id('b', 0), id('b', 1), 2)});
   ASSERT_EQ(file.team.pieces.size(), 2u);
   EXPECT_EQ(file.team.pieces[1].robot, "b");
   EXPECT_EQ(file.team.graph.poses[0].translation().x(), 0);
@@ -49,7 +49,7 @@ TEST(G2oTeam, LettersAreRobotsAndVerticesAreNoStart) {
 }
 
 TEST(G2oTeam, PlainIdsAreOneRobot) {
-  const auto file = read({edge("3", "4", 1) + edge("4", "9", 1) + edge("3", "9", 2)});
+  const auto file = read_graph_lines({edge("3", "4", 1) + edge("4", "9", 1) + edge("3", "9", 2)});
   ASSERT_EQ(file.team.pieces.size(), 1u);
   EXPECT_EQ(file.team.pieces[0].robot, "a");
   EXPECT_EQ(file.team.pieces[0].pose_count, 3u);
@@ -58,16 +58,19 @@ TEST(G2oTeam, PlainIdsAreOneRobot) {
 
 TEST(G2oTeam, EdgesBetweenRobotsInBothFilesCountOnce) {
   const std::string meeting = edge(id('a', 1), id('b', 0), 3);
-  const auto file = read({edge(id('a', 0), id('a', 1), 1) + meeting,
-                          edge(id('b', 0), id('b', 1), 1) + meeting + edge(id('a', 1), id('b', 0), 4)});
+  const auto file =
+      read_graph_lines({edge(id('a', 0), id('a', 1), 1) + meeting,
+                        edge(id('b', 0), id('b', 1), 1) + meeting + edge(id('a', 1), id('b', 0), 4)});
   EXPECT_EQ(file.team.graph.relative_poses.size(), 4u);
   EXPECT_EQ(file.team.pieces.size(), 2u);
-  const auto within_a_file = read({edge(id('a', 0), id('b', 0), 3) + edge(id('a', 0), id('b', 0), 3)});
+  const auto within_a_file =
+      read_graph_lines({edge(id('a', 0), id('b', 0), 3) + edge(id('a', 0), id('b', 0), 3)});
   EXPECT_EQ(within_a_file.team.graph.relative_poses.size(), 2u);
 }
 
 TEST(G2oTeam, SeesLandmarks) {
-  const auto file = read({"VERTEX_XY 9 1 2\n" + edge("0", "1", 1) + "EDGE_SE2_XY 1 9 2 3 4 0 5\n"});
+  const auto file =
+      read_graph_lines({"VERTEX_XY 9 1 2\n" + edge("0", "1", 1) + "EDGE_SE2_XY 1 9 2 3 4 0 5\n"});
   ASSERT_EQ(file.team.graph.relative_points.size(), 1u);
   const auto& sighting = file.team.graph.relative_points[0];
   EXPECT_EQ(sighting.i, PoseId(1));

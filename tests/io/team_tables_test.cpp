@@ -135,7 +135,7 @@ Files full_mission() {
   return files;
 }
 
-LabelledMission read(const Files& files) {
+LabelledMission read_tables(const Files& files) {
   const TemporaryFolder folder;
   write_files(folder, files);
   Mission mission = read_mission(folder.path());
@@ -144,7 +144,7 @@ LabelledMission read(const Files& files) {
 }
 
 TEST(MissionWithRadio, HoldsEveryTable) {
-  const auto [mission, truth] = read(full_mission());
+  const auto [mission, truth] = read_tables(full_mission());
   ASSERT_EQ(mission.anchors.size(), 2u);
   ASSERT_EQ(mission.ranges.size(), 2u);
   EXPECT_EQ(mission.ranges[0].i.lever_arm_m, Eigen::Vector3d(0, 0, 1));
@@ -159,7 +159,7 @@ TEST(MissionWithRadio, HoldsEveryTable) {
 }
 
 TEST(MissionWithRadio, KeepsItsLabelsWithTheTruth) {
-  const auto [mission, truth] = read(full_mission());
+  const auto [mission, truth] = read_tables(full_mission());
   using Paths = std::vector<std::optional<int>>;
   using Labels = std::vector<std::optional<bool>>;
   EXPECT_EQ(truth.direct_paths, (Paths{1, kNoDirectPath}));
@@ -167,7 +167,7 @@ TEST(MissionWithRadio, KeepsItsLabelsWithTheTruth) {
 }
 
 TEST(MissionWithRadio, ReadsBackAsItWasWritten) {
-  const auto [mission, truth] = read(full_mission());
+  const auto [mission, truth] = read_tables(full_mission());
   const TemporaryFolder first, second;
   write_mission(first.path(), mission, truth);
   const Mission again = read_mission(first.path());
@@ -185,7 +185,8 @@ TEST(MissionWithRadio, NamesWhatNobodyUses) {
   Files files = example_mission();
   files["robots/a/imu.csv"] = "t_s,ax_mps2,ay_mps2,az_mps2,wx_radps,wy_radps,wz_radps\n2,0,0,9.8,0,0,0\n";
   files["robots/b/csi/1.dat"] = "anything";
-  EXPECT_EQ(read(files).mission.unused_files, (std::vector<std::string>{"robots/a/imu.csv", "robots/b/csi"}));
+  EXPECT_EQ(read_tables(files).mission.unused_files,
+            (std::vector<std::string>{"robots/a/imu.csv", "robots/b/csi"}));
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace {
 
 const std::string kHeader = "0,1,2,num_visible_APs,timestamp,x,y,z,floorID\n";
 
-ImportedMission read(const std::string& content) {
+ImportedMission read_walk(const std::string& content) {
   return mission_of_wifine({{"a", make_text("a.csv", content)}}, "m");
 }
 
@@ -36,7 +36,7 @@ TEST(Wifine, EveryTrajectoryIsARobotWithTruthAndScans) {
 
 TEST(Wifine, BecomesAMissionWhenThereIsOdometry) {
   const TemporaryFolder folder;
-  const ImportedMission imported = read(kHeader + "-57.0,-100.0,-83.5,2,0.0,13.8,1.5,1.4,0\n");
+  const ImportedMission imported = read_walk(kHeader + "-57.0,-100.0,-83.5,2,0.0,13.8,1.5,1.4,0\n");
   write_mission(folder.path(), imported.mission, imported.truth);
   expect_refusal([&] { read_mission(folder.path()); }, 5, "has no robots/a/odometry.tum");
   folder.write("robots/a/odometry.tum", "0 0 0 0 0 0 0 1\n");
@@ -46,13 +46,15 @@ TEST(Wifine, BecomesAMissionWhenThereIsOdometry) {
 }
 
 TEST(Wifine, RefusesOtherTables) {
-  expect_refusal([] { read("a,b\n"); }, 1, "not that of WiFine");
-  expect_refusal([] { read("0,2,num_visible_APs,timestamp,x,y,z,floorID\n"); }, 1, "not that of WiFine");
-  expect_refusal([] { read(kHeader); }, 1, "no rows");
-  expect_refusal([] { read(kHeader + "-57.0,-100.0,-83.5,2,0.0,13.8,1.5,1.4\n"); }, 2, "8 fields");
-  expect_refusal([] { read(kHeader + "-57.0,-100.0,-83.5,3,0.0,13.8,1.5,1.4,0\n"); }, 2, "and 2 are heard");
-  expect_refusal([] { read(kHeader + "57.0,-100.0,-83.5,2,0.0,13.8,1.5,1.4,0\n"); }, 2, "implausible");
-  expect_refusal([] { read(kHeader + "-5,-5,-5,3,1,1,1,1,0\n-5,-5,-5,3,1,1,1,1,0\n"); }, 3, "run forward");
+  expect_refusal([] { read_walk("a,b\n"); }, 1, "not that of WiFine");
+  expect_refusal([] { read_walk("0,2,num_visible_APs,timestamp,x,y,z,floorID\n"); }, 1, "not that of WiFine");
+  expect_refusal([] { read_walk(kHeader); }, 1, "no rows");
+  expect_refusal([] { read_walk(kHeader + "-57.0,-100.0,-83.5,2,0.0,13.8,1.5,1.4\n"); }, 2, "8 fields");
+  expect_refusal([] { read_walk(kHeader + "-57.0,-100.0,-83.5,3,0.0,13.8,1.5,1.4,0\n"); }, 2,
+                 "and 2 are heard");
+  expect_refusal([] { read_walk(kHeader + "57.0,-100.0,-83.5,2,0.0,13.8,1.5,1.4,0\n"); }, 2, "implausible");
+  expect_refusal([] { read_walk(kHeader + "-5,-5,-5,3,1,1,1,1,0\n-5,-5,-5,3,1,1,1,1,0\n"); }, 3,
+                 "run forward");
   expect_refusal([] { import_wifine("/nowhere/train"); }, 0, "no such file");
 }
 

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kDegree_rad = std::numbers::pi / 180;
 
-CsiRoomParams open_room() {
+CsiRoomParams room_without_walls() {
   CsiRoomParams params;
   params.robots = 2;
   params.inner_walls = 0;
@@ -28,7 +28,7 @@ CsiRoomParams open_room() {
 }
 
 const Simulation& open_mission() {
-  static const Simulation simulation = simulate_csi_room(open_room(), 4);
+  static const Simulation simulation = simulate_csi_room(room_without_walls(), 4);
   return simulation;
 }
 

@@ -5,9 +5,9 @@
 namespace radioslam {
 namespace {
 
-constexpr int kRobotShift = 56;
+constexpr int kKeyRobotShift = 56;
 
-G2oVertices::Id robot_of(G2oVertices::Id id) { return id >> kRobotShift; }
+G2oVertices::Id robot_of(G2oVertices::Id id) { return id >> kKeyRobotShift; }
 
 }  // namespace
 

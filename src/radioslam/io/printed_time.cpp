@@ -15,7 +15,7 @@
 namespace radioslam {
 namespace {
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
+constexpr std::int64_t kPrintedSecond_ns = 1'000'000'000;
 constexpr int kSecondsPerHour = 3600, kSecondsPerMinute = 60;
 constexpr std::size_t kSecondsDigits = 10, kDigitsPerThousand = 3, kMostDigits = 19;
 
@@ -85,7 +85,7 @@ std::optional<Stamp> take_calendar_time(std::string_view& text) {
   const std::int64_t midnight_s = std::chrono::seconds(days->time_since_epoch()).count();
   const std::int64_t s = midnight_s + *seconds;
   if (s < 0 || static_cast<double>(s) >= kLatestTime_s) return std::nullopt;
-  return Stamp{s * kSecond_ns + *fraction_ns};
+  return Stamp{s * kPrintedSecond_ns + *fraction_ns};
 }
 
 /// Of "Z", "+01:00" or "+0100", seconds east of Greenwich.
@@ -113,7 +113,7 @@ std::optional<Stamp> parse_zoned_time(std::string_view text) {
   if (!stamp) return std::nullopt;
   const auto east_s = take_zone_s(text);
   if (!east_s || !text.empty()) return std::nullopt;
-  return Stamp{stamp->ns - *east_s * kSecond_ns};
+  return Stamp{stamp->ns - *east_s * kPrintedSecond_ns};
 }
 
 /// Digits of seconds, or of a thousandth, a millionth or a billionth of them.
@@ -157,7 +157,7 @@ Stamp time_of_last_write(const std::filesystem::path& path) {
   if (::stat(path.c_str(), &status) != 0) throw InputError(path.string(), 0, "no such file");
   if (std::abs(static_cast<double>(status.st_mtim.tv_sec)) > kLatestTime_s)
     throw InputError(path.string(), 0, "was last written at an implausible time");
-  return {status.st_mtim.tv_sec * kSecond_ns + status.st_mtim.tv_nsec};
+  return {status.st_mtim.tv_sec * kPrintedSecond_ns + status.st_mtim.tv_nsec};
 }
 
 }  // namespace radioslam

@@ -37,7 +37,7 @@ struct Tags<SE3> {
 };
 
 constexpr std::string_view kRange = "EDGE_RANGE";
-constexpr std::size_t kShownCharacters = 40;
+constexpr std::size_t kShownOfLine = 40;
 constexpr double kLargestStamp_s = 9e9;  ///< year 2255; leaves room to tell equal stamps apart
 
 template <class Pose>
@@ -47,9 +47,7 @@ bool is_tag_of(std::string_view tag) {
          tag == T::kRelativePose || tag == T::kSighting;
 }
 
-std::string in_quotes(std::string_view word) {
-  return "'" + std::string(word.substr(0, kShownCharacters)) + "'";
-}
+std::string in_quotes(std::string_view word) { return "'" + std::string(word.substr(0, kShownOfLine)) + "'"; }
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
@@ -58,7 +56,7 @@ PosePlace place_of(const TextLines& lines, std::string_view name, Stamp stamp) {
   std::size_t letters = 0;
   while (letters < name.size() && is_letter(name[letters])) ++letters;
   const auto place = parse_id(name.substr(letters));
-  if (letters == 0 || letters > kShownCharacters || !place)
+  if (letters == 0 || letters > kShownOfLine || !place)
     lines.fail("the pose's id " + in_quotes(name) + " is not letters and a number");
   return {std::string(name.substr(0, letters)), *place, stamp};
 }

@@ -14,7 +14,7 @@ namespace {
 constexpr double kDirectWeight = 0.5;  // of a range or path that is taken as direct
 
 /// Where a pose of the graph is on its robot's way.
-struct Place {
+struct LinkPlace {
   std::size_t robot = 0, keyframe = 0;  ///< the keyframe at or before it
   Stamp stamp;
 };
@@ -31,10 +31,10 @@ class Places {
                                          piece.stamps[k]};
     }
   }
-  const Place& of(PoseId pose) const { return places_[pose.index()]; }
+  const LinkPlace& of(PoseId pose) const { return places_[pose.index()]; }
 
  private:
-  std::vector<Place> places_;
+  std::vector<LinkPlace> places_;
 };
 
 template <class Pose>
@@ -46,7 +46,7 @@ std::vector<KeyframeOdometry<Pose>> odometry_chains(const JointGraph<Pose>& join
   for (auto& chain : chains)
     chain.cov_steps.resize(chain.poses.empty() ? 0 : chain.poses.size() - 1, Pose::Jacobian::Zero());
   for (const auto& factor : joint.team.graph.relative_poses) {
-    const Place &i = places.of(factor.i), &j = places.of(factor.j);
+    const LinkPlace &i = places.of(factor.i), &j = places.of(factor.j);
     if (factor.j.value != factor.i.value + 1 || i.robot != j.robot) continue;
     if (i.keyframe >= chains[i.robot].cov_steps.size()) continue;
     auto& sum = chains[i.robot].cov_steps[i.keyframe];
@@ -147,7 +147,7 @@ class MeasuredLinks {
   /// Carried from the moment of measurement to the keyframes before it.
   OverlapLink<Pose> at_keyframes(PoseId i, PoseId j, const Pose& T_i_j,
                                  const typename Pose::Jacobian& covariance) const {
-    const Place &a = places_.of(i), &b = places_.of(j);
+    const LinkPlace &a = places_.of(i), &b = places_.of(j);
     const auto& poses = joint_.team.graph.poses;
     const Pose T_ka_i = poses[joint_.robots[a.robot].poses[a.keyframe].index()].inverse() * poses[i.index()];
     const Pose T_j_kb = poses[j.index()].inverse() * poses[joint_.robots[b.robot].poses[b.keyframe].index()];

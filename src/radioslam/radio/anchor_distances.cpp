@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr int kMostSteps = 200;
+constexpr int kMostDampedSteps = 200;
 constexpr double kFirstDamping = 1e-3;  // Levenberg-Marquardt, as a share of the mean information
 constexpr double kLeastDamping = 1e-9;  // keeps what shift and turn leave open in place
 constexpr double kMostDamping = 1e9;
@@ -82,7 +82,7 @@ Eigen::VectorXd descent(const Eigen::MatrixXd& points, const std::vector<AnchorD
 double refine(Eigen::MatrixXd& points, const std::vector<AnchorDistance>& distances,
               const std::vector<bool>& used) {
   double cost = chi_squared_of(points, distances, used), damping = kFirstDamping;
-  for (int step = 0; step < kMostSteps && damping < kMostDamping; ++step) {
+  for (int step = 0; step < kMostDampedSteps && damping < kMostDamping; ++step) {
     Eigen::MatrixXd information = distance_information(points, distances, used);
     information.diagonal().array() += damping * information.diagonal().mean();
     const Eigen::VectorXd move = information.ldlt().solve(descent(points, distances, used));

@@ -7,15 +7,15 @@ namespace radioslam {
 namespace {
 
 constexpr int kWaves = 6;
-constexpr double kShortestWave_m = 150;
-constexpr double kLongestWave_m = 500;
+constexpr double kShortestHill_m = 150;
+constexpr double kLongestHill_m = 500;
 
 }  // namespace
 
 Hills::Hills(double sigma_height_m, Rng rng) {
   for (int k = 0; k < kWaves; ++k) {
     const double direction = rng.uniform(0, 2 * std::numbers::pi);
-    const double wavenumber = 2 * std::numbers::pi / rng.uniform(kShortestWave_m, kLongestWave_m);
+    const double wavenumber = 2 * std::numbers::pi / rng.uniform(kShortestHill_m, kLongestHill_m);
     waves_.push_back({sigma_height_m * std::sqrt(2.0 / kWaves),
                       wavenumber * Eigen::Vector2d(std::cos(direction), std::sin(direction)),
                       rng.uniform(0, 2 * std::numbers::pi)});

@@ -26,9 +26,9 @@ struct FreeBody {
   Placing start;
 };
 
-class Refinement {
+class FieldRefinement {
  public:
-  Refinement(const std::vector<RigidBody>& bodies, const RadioField& field, const FieldParams& params)
+  FieldRefinement(const std::vector<RigidBody>& bodies, const RadioField& field, const FieldParams& params)
       : bodies_(bodies), field_(field), params_(params), places_(node_positions(bodies)) {
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       const RigidBody& body = bodies[b];
@@ -156,7 +156,7 @@ class Refinement {
 }  // namespace
 
 void refine_by_field(std::vector<RigidBody>& bodies, const RadioField& field, const FieldParams& params) {
-  Refinement refinement(bodies, field, params);
+  FieldRefinement refinement(bodies, field, params);
   if (!refinement.has_free_bodies()) return;
   const Minimum found = minimise([&](const Eigen::VectorXd& x) { return refinement(x); }, refinement.start(),
                                  params.iterations, kLeastGain);

@@ -14,13 +14,13 @@ constexpr double kLeastCurvature = 1e-10;
 constexpr int kHalvings = 30;
 
 /// One step and what it did to the gradient.
-struct Step {
+struct Turn {
   Eigen::VectorXd moved, turned;
   double curvature = 0;  ///< moved . turned
 };
 
 /// The two-loop recursion: - H gradient.
-Eigen::VectorXd direction_of(const Eigen::VectorXd& gradient, const std::deque<Step>& steps) {
+Eigen::VectorXd direction_of(const Eigen::VectorXd& gradient, const std::deque<Turn>& steps) {
   Eigen::VectorXd q = -gradient;
   std::vector<double> along(steps.size());
   for (std::size_t k = steps.size(); k-- > 0;) {
@@ -44,7 +44,7 @@ Minimum minimise(const SmoothFunction& function, const Eigen::VectorXd& start, i
                  double least_gain) {
   Minimum best{start, 0, 0};
   ValueAndGradient here = function(start);
-  std::deque<Step> steps;
+  std::deque<Turn> steps;
   for (; best.iterations < max_iterations; ++best.iterations) {
     Eigen::VectorXd direction = direction_of(here.gradient, steps);
     if (!is_descent(direction, here.gradient)) {
@@ -60,7 +60,7 @@ Minimum minimise(const SmoothFunction& function, const Eigen::VectorXd& start, i
       if (std::isfinite(there.value) && there.value <= here.value + kEnoughDescent * length * slope) break;
     }
     if (halvings == kHalvings) break;
-    Step step{length * direction, there.gradient - here.gradient, 0};
+    Turn step{length * direction, there.gradient - here.gradient, 0};
     step.curvature = step.moved.dot(step.turned);
     best.x += step.moved;
     const double gain = here.value - there.value;
