@@ -27,8 +27,8 @@ TEST(ThresholdSweep, SumsUpTheMissions) {
   const StudyTable table = threshold_sweep_table(missions);
   ASSERT_EQ(table.rows.size(), 5U);
   EXPECT_EQ(table.rows[1].label, "mission 2");
-  EXPECT_EQ(table.rows[1].cells, (std::vector<std::string>{"20.00", "1.20", "1.00", "ν 5 m, Cauchy 0.5 σ", "1.200",
-                                                           "0.060"}));
+  EXPECT_EQ(table.rows[1].cells,
+            (std::vector<std::string>{"20.00", "1.20", "1.00", "ν 5 m, Cauchy 0.5 σ", "1.200", "0.060"}));
   EXPECT_EQ(table.rows[3].cells, (std::vector<std::string>{"", "", "", "", "1.000", "0.060"}));
   EXPECT_EQ(table.rows[4].cells, (std::vector<std::string>{"", "", "", "", "1.200", "0.080"}));
 }
