@@ -48,7 +48,7 @@ class Reproduce : public testing::Test {
 TEST_F(Reproduce, WithoutATableListsThem) {
   const auto outcome = run({"reproduce"}, folder());
   EXPECT_EQ(outcome.status, 0);
-  for (const char* name : {"wi-closure-kitti", "robustness-map"})
+  for (const char* name : {"wi-closure-kitti", "robustness-map", "fingerprint-tables", "threshold-sweep"})
     EXPECT_NE(outcome.out.find(name), std::string::npos) << name;
 }
 
@@ -133,6 +133,51 @@ TEST(ReproduceAoaPaths, PrintsARowPerProfileAndCards) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   for (const char* row : {"bartlett, no carrier", "music, carrier", "sparse, carrier"})
     EXPECT_NE(outcome.out.find(row), std::string::npos) << row;
+}
+
+/// `reproduce TABLE` on one car park so small that it takes a moment.
+Outcome reproduce_small_carpark(const std::string& table, const std::filesystem::path& folder) {
+  return run({"reproduce", table, "--seeds", "1", "--seed", "3", "--json", "-o", "out", "--set",
+              "floor_x_m=40", "floor_y_m=30", "aisles_along_y=3", "aisles_along_x=3", "path_length_m=60",
+              "odometry_rate_hz=2", "access_points=30"},
+             folder);
+}
+
+TEST(ReproduceFingerprintTables, PutsThePublishedFiguresBesideOurs) {
+  const TemporaryFolder folder;
+  const auto outcome = reproduce_small_carpark("fingerprint-tables", folder.path());
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(files_in(folder.path() / "out"),
+            (std::vector<std::string>{"index.html", "table.csv", "table.json", "table.txt"}));
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json["defaults_ate_m"].size(), 1U);
+  ASSERT_EQ(json["cells"].size(), 189U);
+  EXPECT_EQ(json["cells"][1]["measure"], "cosine");
+  EXPECT_EQ(json["cells"][1]["nu_s_m"], 5);
+  EXPECT_EQ(json["cells"][1]["published_m"], (std::vector<double>{4.876, 9.137}));
+}
+
+TEST(ReproduceThresholdSweep, PutsTheDefaultsBesideTheBestCell) {
+  const TemporaryFolder folder;
+  const auto outcome = reproduce_small_carpark("threshold-sweep", folder.path());
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  ASSERT_EQ(json["missions"].size(), 1U);
+  const auto& mission = json["missions"][0];
+  EXPECT_EQ(mission["seed"], 3);
+  EXPECT_EQ(mission["cells"].size(), 45U);
+  for (const auto& cell : mission["cells"]) EXPECT_GE(cell["ate_m"], mission["best"]["ate_m"]);
+  EXPECT_NE(read_file(folder.path() / "out" / "table.txt").find("mission 3"), std::string::npos);
+}
+
+TEST(ReproduceFingerprintTables, RefusesWhatItCannotMake) {
+  EXPECT_NE(refused({"reproduce", "fingerprint-tables", "--cut", "0.5"}).find("--cut"), std::string::npos);
+  EXPECT_NE(refused({"reproduce", "fingerprint-tables", "--dataset", "."}).find("--dataset"),
+            std::string::npos);
+  EXPECT_NE(refused({"reproduce", "threshold-sweep", "--poses", "2000"}).find("--poses"), std::string::npos);
+  EXPECT_NE(refused({"reproduce", "threshold-sweep", "--set", "known_start=false"}).find("known_start=true"),
+            std::string::npos);
 }
 
 TEST(SimulateKitti, SaysWhenTheRobotsNeverMeet) {

@@ -4,21 +4,10 @@
 
 #include "radioslam/base/parallel.hpp"
 #include "radioslam/study/study_json.hpp"
+#include "study/small_carpark.hpp"
 
 namespace radioslam {
 namespace {
-
-CarparkParams short_drives() {
-  CarparkParams params;
-  params.lanes.floor_x_m = 40;
-  params.lanes.floor_y_m = 30;
-  params.lanes.aisles_along_y = 3;
-  params.lanes.aisles_along_x = 3;
-  params.drive.path_length_m = 150;
-  params.odometry.odometry_rate_hz = 2;
-  params.transmitters.access_points = 30;
-  return params;
-}
 
 TEST(SequenceTable, EveryCellSeesEveryMission) {
   const auto cells = measure_sequence_closures(short_drives(), 3, 1);

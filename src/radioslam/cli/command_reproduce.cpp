@@ -135,13 +135,43 @@ Study sequence_closures(const ReproduceOptions& options) {
   return {std::move(table), sequence_json(cells), std::move(page)};
 }
 
+/// A car park whose robots know where they start: without, there is no dead reckoning to compare with.
+CarparkParams known_carpark(const ReproduceOptions& options) {
+  refuse_drive(options);
+  const auto carpark = with_settings(CarparkParams{}, collect_settings({}, options.set));
+  if (!carpark.known_start) refuse(options, "its robots must know where they start: known_start=true");
+  return carpark;
+}
+
+Study fingerprint_tables(const ReproduceOptions& options) {
+  constexpr int kSeeds = 3;
+  const auto carpark = known_carpark(options);
+  ProgressLine line;
+  const auto tables =
+      measure_fingerprint_tables(carpark, options.seed, options.seeds.value_or(kSeeds), line.progress());
+  StudyTable table = fingerprint_tables_table(tables);
+  std::string page = render_table_page(table);
+  return {std::move(table), fingerprint_tables_json(tables), std::move(page)};
+}
+
+Study threshold_sweep(const ReproduceOptions& options) {
+  constexpr int kSeeds = 10;
+  const auto carpark = known_carpark(options);
+  ProgressLine line;
+  const auto missions =
+      sweep_thresholds(carpark, {}, options.seed, options.seeds.value_or(kSeeds), line.progress());
+  StudyTable table = threshold_sweep_table(missions);
+  std::string page = render_table_page(table);
+  return {std::move(table), threshold_sweep_json(missions), std::move(page)};
+}
+
 struct Table {
   std::string_view name;
   std::string_view description;
   Study (*reproduce)(const ReproduceOptions&);
 };
 
-constexpr std::array<Table, 6> kTables{
+constexpr std::array<Table, 8> kTables{
     {{"wi-closure-kitti", "KITTI 08 cut in two, radio of 0.5 m and 10 degrees: the thesis beside ours",
       wi_closure_kitti},
      {"robustness-map", "error and recall over angle noise, links and false paths: where it breaks",
@@ -151,7 +181,11 @@ constexpr std::array<Table, 6> kTables{
      {"aoa", "angles of arrival of the WSR data set: its authors' figures beside ours", aoa},
      {"aoa-paths", "three simulated paths at once: which of them each profile finds", aoa_paths},
      {"sequence-closures", "stretches of way that sound alike: closures over similarity and window",
-      sequence_closures}}};
+      sequence_closures},
+     {"fingerprint-tables", "fingerprints over threshold and measure: tables I to III beside ours",
+      fingerprint_tables},
+     {"threshold-sweep", "the defaults beside the best threshold and loss for each of ten car parks",
+      threshold_sweep}}};
 
 std::string table_list() {
   std::string text = "Tables:\n";
@@ -219,7 +253,7 @@ void add_table_options(CLI::App& command, ReproduceOptions& options) {
   command.add_option("--poses", options.poses, "overlap-growth: of each robot in the largest town; 100000")
       ->check(CLI::Range(std::size_t{1000}, kMostPoses))
       ->type_name("N");
-  command.add_option("--seeds", options.seeds, "So many seeds, and their medians")
+  command.add_option("--seeds", options.seeds, "So many seeds, and their medians or means")
       ->check(CLI::Range(1, kMostSeeds))
       ->type_name("N");
 }
@@ -245,7 +279,8 @@ void add_reproduce(CLI::App& program) {
       "together with A-LOAM's odometry (data/ALOAM_result_pred).\n"
       "overlap-growth needs 1 GiB of memory per half million poses.\n"
       "--set changes the simulation (`radioslam parameters kitti`, `city`, `carpark`), of aoa and\n"
-      "aoa-paths how directions are estimated. robustness-map and aoa-paths take minutes.\n"
+      "aoa-paths how directions are estimated. robustness-map, aoa-paths, fingerprint-tables and\n"
+      "threshold-sweep take minutes.\n"
       "The WSR data set is the repository Harvard-REACT/WSR-Toolbox-Dataset on GitHub.\n\n"
       "Example:\n"
       "  radioslam reproduce wi-closure-kitti --trajectory GT_LiDAR/08.txt --odometry ALOAM/08.txt\n"

@@ -60,6 +60,18 @@ std::optional<double> ate_rmse_m(const std::vector<EstimatedTrajectory>& estimat
   return metrics.ate->rmse_m;
 }
 
+std::optional<double> dead_reckoning_ate_m(const Mission& mission, const Truth& truth) {
+  std::vector<EstimatedTrajectory> robots;
+  for (const Robot& robot : mission.robots) {
+    if (!robot.initial_pose) return std::nullopt;
+    const SE3 T_common_frame = *robot.initial_pose * robot.odometry.front().pose.inverse();
+    std::vector<StampedPose<SE3>> poses(robot.odometry.begin(), robot.odometry.end());
+    for (auto& row : poses) row.pose = T_common_frame * row.pose;
+    robots.push_back({robot.id, Trajectory<SE3>(std::move(poses))});
+  }
+  return ate_rmse_m(robots, truth, mission.dimension);
+}
+
 JudgedRun run_and_judge(const Mission& mission, const Truth& truth, const RunParams& params,
                         const RunOptions& options) {
   const RunResult result = run_pipeline(mission, params, options).result;

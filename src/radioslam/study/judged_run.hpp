@@ -30,6 +30,9 @@ std::optional<double> false_rejected(const PairCounts& counts);
 JudgedRun run_and_judge(const Mission& mission, const Truth& truth, const RunParams& params,
                         const RunOptions& options);
 
+/// Of odometry alone, every robot from its known start; nothing where a start is unknown.
+std::optional<double> dead_reckoning_ate_m(const Mission& mission, const Truth& truth);
+
 /// RMSE after one rigid alignment of the whole team; nothing where nothing can be compared.
 std::optional<double> ate_rmse_m(const std::vector<EstimatedTrajectory>& estimate, const Truth& truth,
                                  int dimension);

@@ -1,10 +1,9 @@
 #include "radioslam/study/robustness_map.hpp"
 
-#include <mutex>
-
 #include "radioslam/base/parallel.hpp"
 #include "radioslam/study/judged_run.hpp"
 #include "radioslam/study/oracle.hpp"
+#include "radioslam/study/progress_counter.hpp"
 
 namespace radioslam {
 namespace {
@@ -48,21 +47,6 @@ std::vector<RobustnessCell> empty_cells(const RobustnessGrid& grid, std::size_t 
   return cells;
 }
 
-/// Counts what is done, from any thread.
-class Counter {
- public:
-  Counter(const Progress& progress, std::size_t total) : progress_(progress), total_(total) {}
-  void one_more() {
-    const std::lock_guard lock(mutex_);
-    report_progress(progress_, "towns", static_cast<double>(++done_) / static_cast<double>(total_));
-  }
-
- private:
-  const Progress& progress_;
-  std::size_t total_, done_ = 0;
-  std::mutex mutex_;
-};
-
 }  // namespace
 
 CityParams robustness_town() {
@@ -87,7 +71,7 @@ RobustnessMap map_robustness(const RobustnessGrid& grid, const CityParams& town,
                              int seeds, const Progress& progress) {
   const auto per_cell = static_cast<std::size_t>(seeds);
   RobustnessMap map{grid, first_seed, seeds, empty_cells(grid, per_cell)};
-  Counter counter(progress, map.cells.size() * per_cell);
+  ProgressCounter counter(progress, "towns", map.cells.size() * per_cell);
   parallel_for(map.cells.size() * per_cell, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       RobustnessCell& cell = map.cells[k / per_cell];

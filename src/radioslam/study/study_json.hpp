@@ -6,9 +6,11 @@
 
 #include "radioslam/study/aoa_paths.hpp"
 #include "radioslam/study/aoa_table.hpp"
+#include "radioslam/study/fingerprint_tables.hpp"
 #include "radioslam/study/overlap_growth.hpp"
 #include "radioslam/study/robustness_map.hpp"
 #include "radioslam/study/sequence_table.hpp"
+#include "radioslam/study/threshold_sweep.hpp"
 #include "radioslam/study/wi_closure_kitti.hpp"
 
 namespace radioslam {
@@ -37,5 +39,14 @@ nlohmann::ordered_json aoa_paths_json(const std::vector<AoaPathsCell>& cells);
 /// {"table", "cells": [{"least_similarity", "window_way_m", "missions", "candidates", "accepted":
 ///   [{"error_m", "error_rad", "nees", "right"}]}]}
 nlohmann::ordered_json sequence_json(const std::vector<SequenceCell>& cells);
+
+/// {"table", "first_seed", "defaults_ate_m": [by seed], "dead_reckoning_ate_m", "cells": [{"measure",
+///   "sigma_detection", "nu_s_m", "nu_p_m", "published_m": [Test I, Test II], "ate_m": [by seed]}]}
+nlohmann::ordered_json fingerprint_tables_json(const FingerprintTables& tables);
+
+/// {"table", "missions": [{"seed", "dead_reckoning_ate_m", "default_ate_m", "best": {...},
+///   "default_over_best", "default_over_dead_reckoning", "cells": [{"nu_m", "loss_sigmas", "ate_m"}]}]};
+/// loss_sigmas is null for least squares.
+nlohmann::ordered_json threshold_sweep_json(const std::vector<SweptMission>& missions);
 
 }  // namespace radioslam

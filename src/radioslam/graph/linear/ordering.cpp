@@ -4,6 +4,7 @@
 #include <metis.h>
 
 #include <algorithm>
+#include <mutex>
 #include <numeric>
 
 #include "radioslam/base/check.hpp"
@@ -99,6 +100,8 @@ EliminationOrder nested_dissection_order(const BlockGraph& graph) {
   idx_t options[METIS_NOPTIONS];
   METIS_SetDefaultOptions(options);
   options[METIS_OPTION_SEED] = 1;
+  static std::mutex one_at_a_time;  // METIS draws from the C library's rand(), which the whole process shares
+  const std::lock_guard lock(one_at_a_time);
   const int status = METIS_NodeND(&blocks, starts.data(), neighbours.data(), sizes.data(), options,
                                   order.data(), position.data());
   RADIOSLAM_CHECK(status == METIS_OK, "METIS refused a valid graph");
