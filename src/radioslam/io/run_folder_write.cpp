@@ -15,6 +15,10 @@ Json robot_json(const RobotResult& robot) {
                {"placed", robot.placed},
                {"yaw_drift_per_m_rad", robot.yaw_drift_per_m_rad},
                {"scale_error", robot.scale_error}};
+  if (robot.sigma_rssi_offset_db) {
+    json["rssi_offset_db"] = robot.rssi_offset_db;
+    json["sigma_rssi_offset_db"] = *robot.sigma_rssi_offset_db;
+  }
   if (!robot.sigma_position_m.empty()) json["sigma_position_end_m"] = robot.sigma_position_m.back();
   return json;
 }

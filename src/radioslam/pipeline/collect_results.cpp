@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
+#include <sstream>
 
 #include "radioslam/graph/marginals.hpp"
 #include "radioslam/graph/residuals.hpp"
@@ -200,6 +202,26 @@ std::vector<std::string> odometry_notes(const Mission& mission, const JointGraph
                       " measures distances with an error beyond what it states");
   }
   return notes;
+}
+
+void add_device_offsets(std::vector<RobotResult>& robots, const DeviceOffsets& offsets) {
+  for (std::size_t r = 0; r < std::min(robots.size(), offsets.robots.size()); ++r) {
+    const DeviceOffset& device = offsets.robots[r];
+    if (device.pairs == 0) continue;
+    robots[r].rssi_offset_db = device.offset_db;
+    robots[r].sigma_rssi_offset_db = device.sigma_db;
+  }
+}
+
+std::string device_offset_note(const std::vector<RobotResult>& robots) {
+  const auto [weakest, strongest] = std::minmax_element(
+      robots.begin(), robots.end(),
+      [](const RobotResult& a, const RobotResult& b) { return a.rssi_offset_db < b.rssi_offset_db; });
+  std::ostringstream note;
+  note << std::fixed << std::setprecision(1) << "the device of " << strongest->id << " hears "
+       << strongest->rssi_offset_db - weakest->rssi_offset_db << " dB stronger than that of " << weakest->id
+       << ": every robot's offset was taken off (rssi_offset_db in summary.json)";
+  return note.str();
 }
 
 SimilarityModelResult collect_similarity_model(const RadioMeasurements& radio, const RadioParams& params) {

@@ -46,6 +46,12 @@ template <class Pose>
 std::vector<std::string> odometry_notes(const Mission& mission, const JointGraph<Pose>& joint,
                                         const Marginals<Pose>& marginals);
 
+/// Fills RobotResult::rssi_offset_db and its sigma where fingerprints told.
+void add_device_offsets(std::vector<RobotResult>& robots, const DeviceOffsets& offsets);
+
+/// What a user should know where offsets were taken off: how far apart the devices are.
+std::string device_offset_note(const std::vector<RobotResult>& robots);
+
 /// The fitted model and at most a few thousand of its samples.
 SimilarityModelResult collect_similarity_model(const RadioMeasurements& radio, const RadioParams& params);
 

@@ -181,6 +181,8 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const RunPara
   result.mission_name = mission.name;
   result.dimension = mission.dimension;
   collect(result, mission, joint, placement, params.alignment.mixture, clock);
+  add_device_offsets(result.robots, radio.device_offsets);
+  if (radio.device_offsets.shown) result.notes.push_back(device_offset_note(result.robots));
   add_notes(result, mission, joint.ignored_links);
   if (!mission.arrivals.empty())
     clock.time("angle checks",

@@ -1,15 +1,17 @@
 #include "radioslam/radio/measurements.hpp"
 
+#include <utility>
+
 #include "radioslam/base/check.hpp"
 #include "radioslam/mission/odometry_edge.hpp"
 
 namespace radioslam {
 namespace {
 
-std::vector<PlacedFingerprint> place_on_odometry(const Robot& robot, const FingerprintParams& params) {
+std::vector<PlacedFingerprint> place_on_odometry(const Robot& robot, std::vector<Fingerprint> fingerprints) {
   const std::vector<double> walked = distance_walked(robot.odometry);
   std::vector<PlacedFingerprint> placed;
-  for (Fingerprint& fingerprint : make_fingerprints(robot, params)) {
+  for (Fingerprint& fingerprint : fingerprints) {
     const Stamp stamp = fingerprint.stamp;
     placed.push_back({std::move(fingerprint), *robot.odometry.at(stamp),
                       distance_walked_at(robot.odometry, walked, stamp)});
@@ -43,11 +45,15 @@ SimilarityMeasure named(const std::string& name) {
 }  // namespace
 
 RadioMeasurements measure_radio(const Mission& mission, const RadioParams& params, const Progress& progress) {
-  RadioMeasurements radio{{}, {}, {}, {}, DistanceModel({}, params.distance_model), {}};
+  RadioMeasurements radio{{}, {}, {}, {}, DistanceModel({}, params.distance_model), {}, {}};
+  std::vector<std::vector<Fingerprint>> heard;
+  for (const Robot& robot : mission.robots) heard.push_back(make_fingerprints(robot, params.fingerprint));
+  radio.device_offsets = estimate_device_offsets(heard, params.similarity, params.device_offset);
   std::vector<Fingerprint> all;
   for (std::size_t r = 0; r < mission.robots.size(); ++r) {
     report_progress(progress, "radio", static_cast<double>(r) / static_cast<double>(mission.robots.size()));
-    radio.robots.push_back(place_on_odometry(mission.robots[r], params.fingerprint));
+    remove_device_offset(heard[r], radio.device_offsets.robots[r].offset_db);
+    radio.robots.push_back(place_on_odometry(mission.robots[r], std::move(heard[r])));
     for (std::size_t i = 0; i < radio.robots.back().size(); ++i) {
       radio.nodes.push_back({RobotIndex(r), i});
       all.push_back(radio.robots.back()[i].fingerprint);

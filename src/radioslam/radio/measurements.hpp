@@ -9,6 +9,7 @@
 #include "radioslam/base/progress.hpp"
 #include "radioslam/mission/mission.hpp"
 #include "radioslam/radio/decay_model.hpp"
+#include "radioslam/radio/device_offset.hpp"
 #include "radioslam/radio/distance_model.hpp"
 #include "radioslam/radio/fingerprint.hpp"
 #include "radioslam/radio/similarity.hpp"
@@ -18,6 +19,7 @@ namespace radioslam {
 struct RadioParams {
   FingerprintParams fingerprint;
   SimilarityParams similarity;
+  DeviceOffsetParams device_offset;
   DistanceModelParams distance_model;
   std::string measure = "sorensen";         ///< for near pairs
   std::string layout_measure = "sorensen";  ///< for the layout of the team
@@ -26,6 +28,7 @@ struct RadioParams {
   static void visit_fields(Self& self, Visitor&& visit) {
     FingerprintParams::visit_fields(self.fingerprint, visit);
     SimilarityParams::visit_fields(self.similarity, visit);
+    DeviceOffsetParams::visit_fields(self.device_offset, visit);
     DistanceModelParams::visit_fields(self.distance_model, visit);
     visit(Field{"measure", "", 0, 0, "similarity that finds near pairs; best ranking of pairs under 5 m",
                 "cosine|gaussian|detection|slide|mended|sorensen"},
@@ -38,9 +41,9 @@ struct RadioParams {
 
 /// A fingerprint where its robot's odometry was.
 struct PlacedFingerprint {
-  Fingerprint fingerprint;
-  SE3 T_start_body;     ///< odometry at its stamp
-  double walked_m = 0;  ///< from the robot's start
+  Fingerprint fingerprint;  ///< without its device's offset
+  SE3 T_start_body;         ///< odometry at its stamp
+  double walked_m = 0;      ///< from the robot's start
 };
 
 /// Fingerprint `index` of robot `robot`.
@@ -57,6 +60,7 @@ struct RadioMeasurements {
   std::vector<std::vector<float>> layout_similarity;  ///< nodes x nodes, `layout_measure`
   DistanceModel near_model;
   std::optional<DecayModel> layout_model;  ///< absent when too few samples train it
+  DeviceOffsets device_offsets = {};       ///< of each robot; already taken off its fingerprints
 
   const PlacedFingerprint& at(std::size_t node) const {
     return robots[nodes[node].robot.index()][nodes[node].index];

@@ -24,8 +24,10 @@ struct RobotResult {
       sigma_position_m;  ///< per keyframe, sqrt of the mean variance per axis; empty if not computed
   double yaw_drift_per_m_rad = 0;  ///< estimated
   double scale_error = 0;          ///< estimated
-  bool start_known = false;        ///< the mission said where it starts
-  bool placed = true;              ///< false: nothing ties it to its component
+  double rssi_offset_db = 0;       ///< its device hears so much stronger than the team's mean
+  std::optional<double> sigma_rssi_offset_db = {};  ///< absent where nothing tells
+  bool start_known = false;                         ///< the mission said where it starts
+  bool placed = true;                               ///< false: nothing ties it to its component
 };
 
 /// Where a closure came from.

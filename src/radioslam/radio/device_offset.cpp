@@ -1,0 +1,248 @@
+#include "radioslam/radio/device_offset.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "radioslam/base/parallel.hpp"
+#include "radioslam/consistency/chi_squared.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr double kMedianToSigma = 1.4826;  // of a normal distribution's absolute deviations
+constexpr double kHuber = 1.345;           // 95 % efficient on normal residuals (Huber 1981)
+constexpr double kRankTolerance = 1e-9;    // of the largest eigenvalue
+constexpr double kLeastSpread_db = 1e-3;   // readings have whole dB: identical ones still have a scale
+
+/// An access point that both fingerprints of a pair heard.
+struct SharedReading {
+  double difference_db = 0;  ///< first less second
+  double sum_dbm = 0;
+  double detection = 0;  ///< both rates together
+};
+
+std::vector<SharedReading> shared_readings(const Fingerprint& a, const Fingerprint& b) {
+  std::vector<SharedReading> shared;
+  auto j = b.entries.begin();
+  for (const FingerprintEntry& x : a.entries) {
+    while (j != b.entries.end() && j->access_point < x.access_point) ++j;
+    if (j == b.entries.end()) break;
+    if (x.access_point < j->access_point) continue;
+    const double first = static_cast<double>(x.rss_dbm), second = static_cast<double>(j->rss_dbm);
+    shared.push_back(
+        {first - second, first + second, static_cast<double>(x.detection_rate + j->detection_rate)});
+  }
+  return shared;
+}
+
+/// The Gaussian measure that does not see an offset, walking both lists once.
+double offset_free_similarity(const Fingerprint& a, const Fingerprint& b, const SimilarityParams& params) {
+  double shared = 0, sum = 0, squares = 0;
+  auto j = b.entries.begin();
+  for (const FingerprintEntry& x : a.entries) {
+    while (j != b.entries.end() && j->access_point < x.access_point) ++j;
+    if (j == b.entries.end()) break;
+    if (x.access_point < j->access_point) continue;
+    const double d = static_cast<double>(x.rss_dbm) - static_cast<double>(j->rss_dbm);
+    shared += 1;
+    sum += d;
+    squares += d * d;
+  }
+  if (shared < std::max(2, params.minimum_shared)) return 0;
+  const double variance = std::max(0.0, squares - sum * sum / shared) / (shared - 1);
+  const double all = static_cast<double>(a.entries.size() + b.entries.size()) - shared;
+  return std::exp(-variance / (2 * params.sigma_rss_db * params.sigma_rss_db)) * shared / all;
+}
+
+/// The mean difference over the access points heard most surely and strongest.
+double told_difference_db(const Fingerprint& a, const Fingerprint& b, int strongest) {
+  std::vector<SharedReading> shared = shared_readings(a, b);
+  std::stable_sort(shared.begin(), shared.end(), [](const SharedReading& x, const SharedReading& y) {
+    return std::tie(x.detection, x.sum_dbm) > std::tie(y.detection, y.sum_dbm);
+  });
+  shared.resize(std::min(shared.size(), static_cast<std::size_t>(strongest)));
+  double sum_db = 0;
+  for (const SharedReading& reading : shared) sum_db += reading.difference_db;
+  return sum_db / static_cast<double>(shared.size());
+}
+
+/// What two fingerprints of one place say of their robots' offsets.
+struct TellingPair {
+  std::size_t robot_a = 0, robot_b = 0;
+  std::size_t i = 0, j = 0;  ///< their fingerprints
+  double difference_db = 0;  ///< a's readings less b's
+};
+
+/// The pairs of two robots' fingerprints that prefer each other.
+std::vector<TellingPair> mutual_pairs(const std::vector<std::vector<Fingerprint>>& robots, std::size_t a,
+                                      std::size_t b, const SimilarityParams& similarity,
+                                      const DeviceOffsetParams& params) {
+  struct Best {
+    double similarity = 0;
+    std::size_t of = 0;
+  };
+  std::vector<Best> of_i(robots[a].size()), of_j(robots[b].size());
+  for (std::size_t i = 0; i < of_i.size(); ++i)
+    for (std::size_t j = 0; j < of_j.size(); ++j) {
+      const double s = offset_free_similarity(robots[a][i], robots[b][j], similarity);
+      if (s > of_i[i].similarity) of_i[i] = {s, j};
+      if (s > of_j[j].similarity) of_j[j] = {s, i};
+    }
+  std::vector<TellingPair> pairs;
+  for (std::size_t i = 0; i < of_i.size(); ++i) {
+    const auto [s, j] = of_i[i];
+    if (s > 0 && s >= params.least_similarity && of_j[j].of == i)
+      pairs.push_back({a, b, i, j, told_difference_db(robots[a][i], robots[b][j], params.strongest_shared)});
+  }
+  return pairs;
+}
+
+/// Those of the whole team.
+std::vector<TellingPair> telling_pairs(const std::vector<std::vector<Fingerprint>>& robots,
+                                       const SimilarityParams& similarity, const DeviceOffsetParams& params) {
+  std::vector<std::pair<std::size_t, std::size_t>> teams;
+  for (std::size_t b = 1; b < robots.size(); ++b)
+    for (std::size_t a = 0; a < b; ++a) teams.emplace_back(a, b);
+  std::vector<std::vector<TellingPair>> found(teams.size());
+  parallel_for(teams.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      found[k] = mutual_pairs(robots, teams[k].first, teams[k].second, similarity, params);
+  });
+  std::vector<TellingPair> all;
+  for (const auto& pairs : found)
+    if (pairs.size() >= static_cast<std::size_t>(params.least_pairs))
+      all.insert(all.end(), pairs.begin(), pairs.end());
+  return all;
+}
+
+double median_of(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// By how much a fingerprint's error, common to its pairs, widens the covariance.
+double repeated_use(const std::vector<TellingPair>& pairs) {
+  std::set<std::pair<std::size_t, std::size_t>> fingerprints;
+  for (const TellingPair& pair : pairs) {
+    fingerprints.emplace(pair.robot_a, pair.i);
+    fingerprints.emplace(pair.robot_b, pair.j);
+  }
+  const double per_fingerprint = 2 * static_cast<double>(pairs.size()) / static_cast<double>(fingerprints.size());
+  return (1 + per_fingerprint) / 2;
+}
+
+/// Offsets at the minimum, and the information of the pairs alone.
+struct OffsetSolution {
+  Eigen::VectorXd offsets_db;
+  Eigen::MatrixXd information;  ///< 1/dB^2; blind to what tied robots share
+};
+
+/// One step of reweighting: `spread_db` of a pair about the offsets.
+OffsetSolution reweighted(const std::vector<TellingPair>& pairs, const Eigen::VectorXd& offsets_db,
+                          double spread_db, double prior_sigma_db) {
+  const Eigen::Index robots = offsets_db.size();
+  OffsetSolution next{Eigen::VectorXd::Zero(robots), Eigen::MatrixXd::Zero(robots, robots)};
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(robots);
+  for (const TellingPair& pair : pairs) {
+    const auto a = static_cast<Eigen::Index>(pair.robot_a), b = static_cast<Eigen::Index>(pair.robot_b);
+    const double residual = std::abs(pair.difference_db - offsets_db[a] + offsets_db[b]) / spread_db;
+    const double weight = kHuber / std::max(residual, kHuber) / (spread_db * spread_db);
+    next.information(a, a) += weight;
+    next.information(b, b) += weight;
+    next.information(a, b) -= weight;
+    next.information(b, a) -= weight;
+    gradient[a] += weight * pair.difference_db;
+    gradient[b] -= weight * pair.difference_db;
+  }
+  Eigen::MatrixXd posterior = next.information;
+  posterior.diagonal().array() += 1 / (prior_sigma_db * prior_sigma_db);
+  next.offsets_db = posterior.llt().solve(gradient);
+  return next;
+}
+
+double spread_about(const std::vector<TellingPair>& pairs, const Eigen::VectorXd& offsets_db) {
+  std::vector<double> residuals;
+  for (const TellingPair& pair : pairs)
+    residuals.push_back(std::abs(pair.difference_db - offsets_db[static_cast<Eigen::Index>(pair.robot_a)] +
+                                 offsets_db[static_cast<Eigen::Index>(pair.robot_b)]));
+  return std::max(kLeastSpread_db, kMedianToSigma * median_of(std::move(residuals)));
+}
+
+OffsetSolution solve(const std::vector<TellingPair>& pairs, std::size_t robots,
+                     const DeviceOffsetParams& params) {
+  OffsetSolution solution{Eigen::VectorXd::Zero(static_cast<Eigen::Index>(robots)), {}};
+  for (int k = 0; k < params.most_iterations; ++k)
+    solution = reweighted(pairs, solution.offsets_db, spread_about(pairs, solution.offsets_db),
+                          params.prior_sigma_db);
+  solution.information /= repeated_use(pairs);
+  return solution;
+}
+
+/// The offsets' independent combinations, and how well the pairs tell each.
+struct ToldCombinations {
+  Eigen::MatrixXd directions;       ///< robots x combinations, orthonormal
+  Eigen::VectorXd information;      ///< 1/dB^2
+};
+
+/// Robots less one for each group of tied ones: what those share nobody tells.
+ToldCombinations told_combinations(const Eigen::MatrixXd& information) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(information);
+  const Eigen::VectorXd& values = eigen.eigenvalues();  // ascending
+  const double least = kRankTolerance * values[values.size() - 1];
+  const Eigen::Index told = (values.array() > least).count();
+  return {eigen.eigenvectors().rightCols(told), values.tail(told)};
+}
+
+/// Whether the offsets are larger than their errors, which are least_sigma_db in every robot at least.
+bool offsets_show(const ToldCombinations& told, const Eigen::VectorXd& offsets_db,
+                  const DeviceOffsetParams& params) {
+  const Eigen::ArrayXd along = (told.directions.transpose() * offsets_db).array();
+  const Eigen::ArrayXd variance = told.information.array().inverse() + params.least_sigma_db * params.least_sigma_db;
+  const double statistic = (along.square() / variance).sum();
+  return chi_squared_tail(statistic, static_cast<int>(along.size())) < params.false_alarm_probability;
+}
+
+/// Of each robot's offset against its tied team's mean.
+Eigen::VectorXd sigmas_db(const ToldCombinations& told, const DeviceOffsetParams& params) {
+  const double prior = 1 / (params.prior_sigma_db * params.prior_sigma_db);
+  const Eigen::VectorXd variance = (told.information.array() + prior).inverse();
+  const Eigen::VectorXd of_robot = told.directions.cwiseAbs2() * variance;
+  return (of_robot.array() + params.least_sigma_db * params.least_sigma_db).sqrt();
+}
+
+}  // namespace
+
+DeviceOffsets estimate_device_offsets(const std::vector<std::vector<Fingerprint>>& robots,
+                                      const SimilarityParams& similarity, const DeviceOffsetParams& params) {
+  DeviceOffsets result{std::vector<DeviceOffset>(robots.size(), {0, params.prior_sigma_db, 0}), false};
+  if (params.prior_sigma_db <= 0) return result;
+  const std::vector<TellingPair> pairs = telling_pairs(robots, similarity, params);
+  if (pairs.empty()) return result;
+  const OffsetSolution solution = solve(pairs, robots.size(), params);
+  const ToldCombinations told = told_combinations(solution.information);
+  result.shown = offsets_show(told, solution.offsets_db, params);
+  const Eigen::VectorXd sigma_db = sigmas_db(told, params);
+  for (const TellingPair& pair : pairs) {
+    ++result.robots[pair.robot_a].pairs;
+    ++result.robots[pair.robot_b].pairs;
+  }
+  for (std::size_t r = 0; r < robots.size(); ++r) {
+    DeviceOffset& robot = result.robots[r];
+    if (robot.pairs == 0) continue;
+    if (result.shown) robot.offset_db = solution.offsets_db[static_cast<Eigen::Index>(r)];
+    robot.sigma_db = sigma_db[static_cast<Eigen::Index>(r)];
+  }
+  return result;
+}
+
+void remove_device_offset(std::vector<Fingerprint>& fingerprints, double offset_db) {
+  for (Fingerprint& fingerprint : fingerprints)
+    for (FingerprintEntry& entry : fingerprint.entries) entry.rss_dbm -= static_cast<float>(offset_db);
+}
+
+}  // namespace radioslam

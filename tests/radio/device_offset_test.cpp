@@ -1,0 +1,150 @@
+#include "radioslam/radio/device_offset.hpp"
+
+#include <gtest/gtest.h>
+
+#include "radioslam/base/parallel.hpp"
+#include "radioslam/radio/measurements.hpp"
+#include "radioslam/sim/carpark.hpp"
+
+namespace radioslam {
+namespace {
+
+using Fingerprints = std::vector<std::vector<Fingerprint>>;
+
+/// What the robots of a car park hear, one phone each, all of one make.
+Mission one_make(int robots, std::uint64_t seed) {
+  CarparkParams params;
+  params.robots = robots;
+  params.phones.phones = 1;
+  params.phones.sigma_phone_offset_db = 0;
+  return simulate_carpark(params, seed).mission;
+}
+
+Fingerprints heard_in(const Mission& mission) {
+  Fingerprints heard;
+  for (const Robot& robot : mission.robots) heard.push_back(make_fingerprints(robot, {}));
+  return heard;
+}
+
+DeviceOffsets estimated(const Fingerprints& heard) { return estimate_device_offsets(heard, {}, {}); }
+
+TEST(DeviceOffset, IsZeroForPhonesOfOneMake) {
+  const auto offsets = estimated(heard_in(one_make(3, 401)));
+  EXPECT_FALSE(offsets.shown);
+  for (const DeviceOffset& robot : offsets.robots) {
+    EXPECT_EQ(robot.offset_db, 0);
+    EXPECT_GT(robot.pairs, 0U);
+    EXPECT_LT(robot.sigma_db, 0.5);
+  }
+}
+
+TEST(DeviceOffset, OfAPhoneThatHearsWeakerIsFound) {
+  CarparkParams params;
+  params.phones.phones = 1;
+  params.phones.sigma_phone_offset_db = 0;
+  auto mission = simulate_carpark(params, 402).mission;
+  // Six decibels less before the threshold: to one phone that is six decibels less of every transmitter.
+  params.transmitters.mean_power_at_1m_dbm -= 6;
+  mission.robots[1].wifi = simulate_carpark(params, 402).mission.robots[1].wifi;
+  const auto offsets = estimated(heard_in(mission));
+  ASSERT_TRUE(offsets.shown);
+  EXPECT_NEAR(offsets.robots[0].offset_db - offsets.robots[1].offset_db, 6, 1);
+}
+
+TEST(DeviceOffset, MovesWithWhatIsAddedToOneRobotAndNothingElse) {
+  const Fingerprints heard = heard_in(one_make(3, 403));
+  Fingerprints louder = heard, more = heard;
+  remove_device_offset(louder[1], -4);
+  remove_device_offset(more[1], -8);
+  const auto first = estimated(louder), second = estimated(more);
+  ASSERT_TRUE(first.shown && second.shown);
+  const auto between = [](const DeviceOffsets& of, std::size_t a, std::size_t b) {
+    return of.robots[a].offset_db - of.robots[b].offset_db;
+  };
+  EXPECT_NEAR(between(second, 1, 0) - between(first, 1, 0), 4, 0.05);
+  EXPECT_NEAR(between(second, 1, 2) - between(first, 1, 2), 4, 0.05);
+  EXPECT_NEAR(between(second, 2, 0) - between(first, 2, 0), 0, 0.02);
+  for (const auto& of : {first, second})
+    EXPECT_NEAR(of.robots[0].offset_db + of.robots[1].offset_db + of.robots[2].offset_db, 0, 1e-9);
+}
+
+TEST(DeviceOffset, IsTakenOffBeforeFingerprintsAreCompared) {
+  Mission mission = one_make(2, 404);
+  const auto add = [&](Robot& robot, float decibels) {
+    for (WifiScan& scan : robot.wifi)
+      for (WifiReading& reading : scan.readings) reading.rssi_dbm += decibels;
+  };
+  for (Robot& robot : mission.robots) add(robot, -3);  // the mean of what follows
+  const auto plain = measure_radio(mission, {}, {});
+  add(mission.robots[0], 3);
+  add(mission.robots[1], -3);
+  const auto corrected = measure_radio(mission, {}, {});
+  RadioParams off;
+  off.device_offset.prior_sigma_db = 0;
+  const auto as_heard = measure_radio(mission, off, {});
+  ASSERT_TRUE(corrected.device_offsets.shown);
+  EXPECT_FALSE(as_heard.device_offsets.shown);
+  double error = 0, error_as_heard = 0;
+  for (std::size_t i = 0; i < plain.nodes.size(); ++i)
+    for (std::size_t j = i + 1; j < plain.nodes.size(); ++j) {
+      if (plain.nodes[i].robot == plain.nodes[j].robot) continue;
+      const auto of = [&](const RadioMeasurements& radio) {
+        return static_cast<double>(std::abs(radio.near_similarity[i][j] - plain.near_similarity[i][j]));
+      };
+      error += of(corrected);
+      error_as_heard += of(as_heard);
+    }
+  EXPECT_LT(error, 0.2 * error_as_heard);
+}
+
+TEST(DeviceOffset, IsTheSameForAnyNumberOfThreads) {
+  Fingerprints heard = heard_in(one_make(3, 405));
+  remove_device_offset(heard[0], 5);
+  set_thread_count(1);
+  const auto alone = estimated(heard);
+  set_thread_count(4);
+  const auto together = estimated(heard);
+  set_thread_count(0);
+  for (std::size_t r = 0; r < heard.size(); ++r)
+    EXPECT_EQ(alone.robots[r].offset_db, together.robots[r].offset_db);
+}
+
+TEST(DeviceOffset, NeedsSomethingToCompare) {
+  const Mission mission = one_make(2, 406);
+  Fingerprints heard = heard_in(mission);
+  const auto expect_nothing = [](const Fingerprints& fingerprints) {
+    const auto offsets = estimated(fingerprints);
+    EXPECT_FALSE(offsets.shown);
+    ASSERT_EQ(offsets.robots.size(), fingerprints.size());
+    for (const DeviceOffset& robot : offsets.robots) {
+      EXPECT_EQ(robot.offset_db, 0);
+      EXPECT_EQ(robot.sigma_db, DeviceOffsetParams{}.prior_sigma_db);
+      EXPECT_EQ(robot.pairs, 0U);
+    }
+  };
+  expect_nothing({});
+  expect_nothing({{}, {}});
+  expect_nothing({heard[0]});
+  expect_nothing({heard[0], {}});
+  for (Fingerprint& fingerprint : heard[1])
+    for (FingerprintEntry& entry : fingerprint.entries)
+      entry.access_point = AccessPointIndex(entry.access_point.index() + mission.access_points.size());
+  expect_nothing(heard);  // nothing heard by both
+}
+
+TEST(DeviceOffset, LeavesAnUntiedRobotWhereItIs) {
+  const Mission mission = one_make(3, 407);
+  Fingerprints heard = heard_in(mission);
+  remove_device_offset(heard[1], 5);
+  for (Fingerprint& fingerprint : heard[2])
+    for (FingerprintEntry& entry : fingerprint.entries)
+      entry.access_point = AccessPointIndex(entry.access_point.index() + mission.access_points.size());
+  const auto offsets = estimated(heard);
+  ASSERT_TRUE(offsets.shown);
+  EXPECT_NEAR(offsets.robots[0].offset_db, 2.5, 0.5);
+  EXPECT_NEAR(offsets.robots[0].offset_db + offsets.robots[1].offset_db, 0, 1e-9);
+  EXPECT_EQ(offsets.robots[2].offset_db, 0);
+}
+
+}  // namespace
+}  // namespace radioslam
