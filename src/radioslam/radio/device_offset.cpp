@@ -119,7 +119,7 @@ std::vector<TellingPair> telling_pairs(const std::vector<std::vector<Fingerprint
   return all;
 }
 
-double median_of(std::vector<double> values) {
+double middle_of(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
@@ -132,7 +132,8 @@ double repeated_use(const std::vector<TellingPair>& pairs) {
     fingerprints.emplace(pair.robot_a, pair.i);
     fingerprints.emplace(pair.robot_b, pair.j);
   }
-  const double per_fingerprint = 2 * static_cast<double>(pairs.size()) / static_cast<double>(fingerprints.size());
+  const double per_fingerprint =
+      2 * static_cast<double>(pairs.size()) / static_cast<double>(fingerprints.size());
   return (1 + per_fingerprint) / 2;
 }
 
@@ -170,7 +171,7 @@ double spread_about(const std::vector<TellingPair>& pairs, const Eigen::VectorXd
   for (const TellingPair& pair : pairs)
     residuals.push_back(std::abs(pair.difference_db - offsets_db[static_cast<Eigen::Index>(pair.robot_a)] +
                                  offsets_db[static_cast<Eigen::Index>(pair.robot_b)]));
-  return std::max(kLeastSpread_db, kMedianToSigma * median_of(std::move(residuals)));
+  return std::max(kLeastSpread_db, kMedianToSigma * middle_of(std::move(residuals)));
 }
 
 OffsetSolution solve(const std::vector<TellingPair>& pairs, std::size_t robots,
@@ -185,8 +186,8 @@ OffsetSolution solve(const std::vector<TellingPair>& pairs, std::size_t robots,
 
 /// The offsets' independent combinations, and how well the pairs tell each.
 struct ToldCombinations {
-  Eigen::MatrixXd directions;       ///< robots x combinations, orthonormal
-  Eigen::VectorXd information;      ///< 1/dB^2
+  Eigen::MatrixXd directions;   ///< robots x combinations, orthonormal
+  Eigen::VectorXd information;  ///< 1/dB^2
 };
 
 /// Robots less one for each group of tied ones: what those share nobody tells.
@@ -202,7 +203,8 @@ ToldCombinations told_combinations(const Eigen::MatrixXd& information) {
 bool offsets_show(const ToldCombinations& told, const Eigen::VectorXd& offsets_db,
                   const DeviceOffsetParams& params) {
   const Eigen::ArrayXd along = (told.directions.transpose() * offsets_db).array();
-  const Eigen::ArrayXd variance = told.information.array().inverse() + params.least_sigma_db * params.least_sigma_db;
+  const Eigen::ArrayXd variance =
+      told.information.array().inverse() + params.least_sigma_db * params.least_sigma_db;
   const double statistic = (along.square() / variance).sum();
   return chi_squared_tail(statistic, static_cast<int>(along.size())) < params.false_alarm_probability;
 }

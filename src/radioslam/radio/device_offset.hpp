@@ -5,9 +5,9 @@
 // whose spread does not see the offset. So pairs of one place are found by the Gaussian measure with the
 // pair's own mean difference taken off,
 //   s_ij = exp(-var(d) / 2 sigma_r^2) H / (H + M_i + M_j),
-// and those that prefer each other are asked, where two robots have a few such. What one says is the mean of d over a few
-// access points that no scan of the two missed, the strongest: of weak ones only the lucky readings are
-// heard, which hides an offset. The offsets o minimise
+// and those that prefer each other are asked, where two robots have a few such. What one says is the mean of
+// d over a few access points that no scan of the two missed, the strongest: of weak ones only the lucky
+// readings are heard, which hides an offset. The offsets o minimise
 //   sum over pairs of Huber((d_ij - o_a + o_b) / s) + sum over robots of o^2 / 2 sigma_o^2,
 // s from the median residual, so they sum to zero over robots that are tied, and are zero for one that is
 // not. A fingerprint in m pairs errs in all of them: covariances grow by (1 + m) / 2. All offsets are kept,
@@ -54,7 +54,8 @@ struct DeviceOffsetParams {
     visit(Field{"device_offset_least_similarity", "", 0, 1,
                 "of a pair that tells; below, real places differ by more than phones"},
           self.least_similarity);
-    visit(Field{"device_offset_least_pairs", "", 2, 1e6, "of two robots that tell; fewer may all be from one odd place"},
+    visit(Field{"device_offset_least_pairs", "", 2, 1e6,
+                "of two robots that tell; fewer may all be from one odd place"},
           self.least_pairs);
     visit(Field{"device_offset_iterations", "", 1, 1000, "of offsets and weights in turn"},
           self.most_iterations);
