@@ -32,7 +32,8 @@ Hall make_hall(Rng& rng) {
       body.points.col(k) << 2.5 * static_cast<double>(k), std::sin(static_cast<double>(k));
       hall.nodes.push_back({w, Stamp{static_cast<std::int64_t>(k) * 2'000'000'000}});
     }
-    body.T_layout_body = SE2({rng.uniform(0, 60), rng.uniform(0, 60)}, rng.uniform(-3, 3));
+    const double x = rng.uniform(0, 60), y = rng.uniform(0, 60), turn = rng.uniform(-3, 3);
+    body.T_layout_body = SE2({x, y}, turn);
     body.sigma_heading_rad = 0.2;
   }
   const Eigen::Matrix2Xd x = node_positions(hall.bodies);

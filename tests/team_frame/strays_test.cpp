@@ -16,7 +16,8 @@ std::vector<RigidBody> walks_of_a_hall(Rng& rng) {
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     bodies[b].first_node = b * static_cast<std::size_t>(kPlaces);
     bodies[b].points = Eigen::Matrix2Xd::NullaryExpr(2, kPlaces, [&] { return rng.uniform(-6, 6); });
-    bodies[b].T_layout_body = SE2({rng.uniform(0, 15), rng.uniform(0, 15)}, rng.uniform(-3, 3));
+    const double x = rng.uniform(0, 15), y = rng.uniform(0, 15), turn = rng.uniform(-3, 3);
+    bodies[b].T_layout_body = SE2({x, y}, turn);
   }
   return bodies;
 }

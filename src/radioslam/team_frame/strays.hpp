@@ -2,8 +2,8 @@
 //
 // Scans that hold few access points are unlike all others, which a layout by distances reads as being far
 // away; yet the scans most like them are mostly right. A stray is a robot whose scans lie further from their
-// most similar ones of other robots than is usual in the team; it is moved, unturned, to where its scans and
-// their most similar ones agree best.
+// most similar ones of three other robots than is usual in the team; it is moved, unturned, to where its
+// scans and their most similar ones agree best.
 #pragma once
 
 #include <Eigen/Core>
