@@ -12,10 +12,10 @@
 // s from the median residual, so they sum to zero over robots that are tied, and are zero for one that is
 // not. A fingerprint in m pairs errs in all of them: covariances grow by (1 + m) / 2. All offsets are kept,
 // or none when chi-squared finds none beyond false alarm; adding c dB to a robot's readings moves its offset
-// against every other one by c (less what the prior holds back). Of large offsets a tenth goes unseen, since
-// a device that hears less hears fewer access points.
-// Never refuses: no scans, one robot, or nothing in common give zeros. dB.
-// Cost: the shared access points of all pairs of fingerprints of different robots, on all threads.
+// against every other one by c (less what the prior holds back). Of large offsets a tenth or two goes unseen,
+// since a device that hears less hears fewer access points. Never refuses: no scans, one robot, or nothing in
+// common give zeros. dB. Cost: the shared access points of all pairs of fingerprints of different robots, on
+// all threads.
 #pragma once
 
 #include <cstddef>
