@@ -119,7 +119,7 @@ std::vector<TellingPair> telling_pairs(const std::vector<std::vector<Fingerprint
   return all;
 }
 
-double middle_of(std::vector<double> values) {
+double middle_offset(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
@@ -171,7 +171,7 @@ double spread_about(const std::vector<TellingPair>& pairs, const Eigen::VectorXd
   for (const TellingPair& pair : pairs)
     residuals.push_back(std::abs(pair.difference_db - offsets_db[static_cast<Eigen::Index>(pair.robot_a)] +
                                  offsets_db[static_cast<Eigen::Index>(pair.robot_b)]));
-  return std::max(kLeastSpread_db, kMedianToSigma * middle_of(std::move(residuals)));
+  return std::max(kLeastSpread_db, kMedianToSigma * middle_offset(std::move(residuals)));
 }
 
 OffsetSolution solve(const std::vector<TellingPair>& pairs, std::size_t robots,
