@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "pipeline/small_carpark.hpp"
 #include "radioslam/base/parallel.hpp"
 #include "radioslam/sim/carpark.hpp"
 
@@ -12,15 +13,9 @@ namespace {
 
 /// A small floor that two robots drive all over.
 CarparkParams small_carpark() {
-  CarparkParams params;
-  params.lanes.floor_x_m = 40;
-  params.lanes.floor_y_m = 30;
-  params.lanes.aisles_along_y = 3;
-  params.lanes.aisles_along_x = 3;
+  CarparkParams params = short_drives();
   params.lanes.closed_lane_share = 0;
   params.drive.path_length_m = 200;
-  params.odometry.odometry_rate_hz = 2;
-  params.transmitters.access_points = 30;
   return params;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "pipeline/small_carpark.hpp"
 #include "radioslam/graph/residuals.hpp"
 #include "radioslam/pipeline/pipeline.hpp"
 #include "radioslam/sim/carpark.hpp"
@@ -13,13 +14,8 @@ namespace {
 
 /// Two robots on few lanes, which they share.
 CarparkParams shared_lanes() {
-  CarparkParams params;
-  params.lanes.floor_x_m = 40;
-  params.lanes.floor_y_m = 30;
-  params.lanes.aisles_along_y = 3;
-  params.lanes.aisles_along_x = 3;
+  CarparkParams params = short_drives();
   params.drive.path_length_m = 250;
-  params.odometry.odometry_rate_hz = 2;
   params.transmitters.access_points = 40;
   return params;
 }

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "pipeline/small_carpark.hpp"
 #include "radioslam/base/parallel.hpp"
 #include "radioslam/study/study_json.hpp"
-#include "study/small_carpark.hpp"
 
 namespace radioslam {
 namespace {

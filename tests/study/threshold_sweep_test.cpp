@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "pipeline/small_carpark.hpp"
 #include "radioslam/base/parallel.hpp"
 #include "radioslam/study/judged_run.hpp"
 #include "radioslam/study/study_json.hpp"
-#include "study/small_carpark.hpp"
 
 namespace radioslam {
 namespace {

@@ -16,6 +16,7 @@
 #include "radioslam/io/iw_ftm.hpp"
 #include "radioslam/io/mission_folder.hpp"
 #include "radioslam/io/team_tables.hpp"
+#include "radioslam/io/text.hpp"
 #include "radioslam/io/usable_id.hpp"
 #include "radioslam/io/wifi_rtt.hpp"
 #include "radioslam/io/wifine.hpp"
@@ -64,9 +65,7 @@ std::map<std::string, std::string> names_of(const ImportOptions& options) {
   for (const std::string& option : options.names) {
     const std::size_t equals = option.find('=');
     if (equals == std::string::npos) throw InputError("--name " + option, 0, "BSSID=ID is expected");
-    std::string bssid = option.substr(0, equals);
-    for (char& c : bssid)
-      if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    const std::string bssid = lower_case(option.substr(0, equals));
     check_import_id("--name " + option, option.substr(equals + 1));
     if (option.substr(equals + 1) == options.robot)
       throw InputError("--name " + option, 0, "the robot measures no distance to itself");

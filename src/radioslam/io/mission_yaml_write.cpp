@@ -7,6 +7,7 @@
 #include "radioslam/io/mission_yaml.hpp"
 #include "radioslam/io/numbers.hpp"
 #include "radioslam/io/odometry_noise_fields.hpp"
+#include "radioslam/io/text.hpp"
 #include "radioslam/mission/wifi_channel.hpp"
 
 namespace radioslam {
@@ -17,9 +18,7 @@ bool is_plain(const std::string& s) {
                                                           "off",  "null",  "y",   "n",  "unknown"};
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
   const auto inner = [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '-'; };
-  std::string lower = s;
-  for (char& c : lower)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  const std::string lower = lower_case(s);
   return !s.empty() && letter(s.front()) && std::all_of(s.begin(), s.end(), inner) &&
          std::find(kReserved.begin(), kReserved.end(), lower) == kReserved.end();
 }

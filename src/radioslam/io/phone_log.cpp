@@ -143,10 +143,8 @@ class PhoneLogReader {
     if (rssi_dbm < kWeakestRssi_dbm || rssi_dbm > kStrongestRssi_dbm)
       at_.fail("the signal strength is not plausible (-150 to 30 dBm)");
     entry.rssi_dbm = static_cast<float>(rssi_dbm);
-    entry.bssid = from_end(4);
+    entry.bssid = lower_case(from_end(4));
     if (entry.bssid.empty()) at_.fail("the access point has no BSSID");
-    std::transform(entry.bssid.begin(), entry.bssid.end(), entry.bssid.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
     return entry;
   }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "radioslam/base/median.hpp"
 #include "radioslam/geometry/se2.hpp"
 
 namespace radioslam {
@@ -78,9 +79,7 @@ CompassFit improved(const std::vector<Difference>& differences, CompassFit fit, 
 double median_magnitude(const std::vector<Difference>& differences, const CompassFit& fit) {
   std::vector<double> magnitudes;
   for (const auto& d : differences) magnitudes.push_back(std::abs(residual(d, fit)));
-  const auto middle = magnitudes.begin() + static_cast<std::ptrdiff_t>(magnitudes.size() / 2);
-  std::nth_element(magnitudes.begin(), middle, magnitudes.end());
-  return *middle;
+  return upper_median(std::move(magnitudes));
 }
 
 }  // namespace

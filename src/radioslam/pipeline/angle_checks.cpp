@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "radioslam/base/median.hpp"
 #include "radioslam/consistency/chi_squared.hpp"
 #include "radioslam/mission/odometry_between.hpp"
 #include "radioslam/pipeline/angle_predictions.hpp"
@@ -105,9 +106,7 @@ class Judge {
       weights.push_back(angle->check.weight);
       beyond += angle->check.verdict == AngleVerdict::kBeyond ? 1U : 0U;
     }
-    const auto middle = weights.begin() + static_cast<std::ptrdiff_t>(weights.size() / 2);
-    std::nth_element(weights.begin(), middle, weights.end());
-    result.median_weight = *middle;
+    result.median_weight = upper_median(std::move(weights));
     result.share_beyond = static_cast<double>(beyond) / static_cast<double>(angles.size());
     return result;
   }

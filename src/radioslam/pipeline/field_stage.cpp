@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "radioslam/geometry/alignment.hpp"
+#include "radioslam/team_frame/fingerprint_bodies.hpp"
 #include "radioslam/team_frame/strays.hpp"
 
 namespace radioslam {
@@ -20,8 +21,7 @@ std::vector<std::size_t> nodes_of(const RadioMeasurements& radio, const std::vec
   std::vector<std::size_t> all, kept;
   for (std::size_t i = 0; i < radio.nodes.size(); ++i)
     if (component[radio.nodes[i].robot.index()] == of) all.push_back(i);
-  const std::size_t stride = all.size() / static_cast<std::size_t>(max_nodes) + 1;
-  for (std::size_t k = 0; k < all.size(); k += stride) kept.push_back(all[k]);
+  for (const std::size_t k : thinned_nodes(all.size(), max_nodes)) kept.push_back(all[k]);
   return kept;
 }
 
@@ -29,27 +29,15 @@ std::vector<std::size_t> nodes_of(const RadioMeasurements& radio, const std::vec
 template <class Pose>
 std::vector<RigidBody> bodies_of(const JointGraph<Pose>& joint, const Mission& mission,
                                  const RadioMeasurements& radio, const std::vector<std::size_t>& nodes) {
-  std::vector<std::vector<std::size_t>> of_robot(mission.robots.size());
-  for (const std::size_t node : nodes) of_robot[radio.nodes[node].robot.index()].push_back(node);
-  std::vector<RigidBody> bodies(mission.robots.size());
-  std::size_t first = 0;
-  for (std::size_t r = 0; r < bodies.size(); ++r) {
-    const auto count = static_cast<Eigen::Index>(of_robot[r].size());
-    RigidBody& body = bodies[r];
-    body.first_node = first;
-    body.points.resize(2, count);
-    body.fixed = mission.robots[r].initial_pose.has_value();
-    if (mission.robots[r].heading == Heading::kAbsolute)
-      body.sigma_heading_rad = mission.robots[r].sigma_heading_rad;
-    Eigen::Matrix2Xd optimised(2, count);
-    for (Eigen::Index k = 0; k < count; ++k) {
-      const std::size_t node = of_robot[r][static_cast<std::size_t>(k)];
-      body.points.col(k) = radio.at(node).T_start_body.translation().template head<2>();
+  std::vector<RigidBody> bodies = fingerprint_bodies(mission, radio, nodes);
+  for (RigidBody& body : bodies) {
+    Eigen::Matrix2Xd optimised(2, body.points.cols());
+    for (Eigen::Index k = 0; k < optimised.cols(); ++k) {
+      const std::size_t node = nodes[body.first_node + static_cast<std::size_t>(k)];
       optimised.col(k) = place(joint, fingerprint_end(joint, radio, node)).template head<2>();
     }
-    if (count == 1) body.T_layout_body = SE2(optimised.col(0) - body.points.col(0), 0);
-    if (count > 1) body.T_layout_body = align_points(body.points, optimised);
-    first += of_robot[r].size();
+    if (optimised.cols() == 1) body.T_layout_body = SE2(optimised.col(0) - body.points.col(0), 0);
+    if (optimised.cols() > 1) body.T_layout_body = align_points(body.points, optimised);
   }
   return bodies;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "radioslam/base/median.hpp"
 #include "radioslam/radio/effective_snr.hpp"
 #include "radioslam/radio/intel5300_power.hpp"
 
@@ -24,9 +25,7 @@ constexpr std::array<NamedModulation, 4> kModulations{{{"bpsk", Modulation::kBps
 
 std::optional<double> middle_of(std::vector<double> values) {
   if (values.empty()) return std::nullopt;
-  const auto middle = values.begin() + std::ssize(values) / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return upper_median(std::move(values));
 }
 
 bool is_in_dbm(const CsiPacket& packet) {

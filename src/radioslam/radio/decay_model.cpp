@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "radioslam/base/median.hpp"
+
 namespace radioslam {
 namespace {
 
@@ -21,9 +23,7 @@ std::optional<DecayModel> fit_decay(const std::vector<DistanceSample>& samples, 
     if (similarity > kLeastSimilarity && similarity < kMostSimilarity && distance > kLeastDistance_m)
       lengths.push_back(distance / -std::log(similarity));
   if (static_cast<int>(lengths.size()) < minimum_samples) return std::nullopt;
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return DecayModel{*middle};
+  return DecayModel{upper_median(std::move(lengths))};
 }
 
 }  // namespace radioslam

@@ -7,8 +7,10 @@
 #include <tuple>
 #include <utility>
 
+#include "radioslam/base/median.hpp"
 #include "radioslam/base/parallel.hpp"
 #include "radioslam/consistency/chi_squared.hpp"
+#include "radioslam/radio/shared_access_points.hpp"
 
 namespace radioslam {
 namespace {
@@ -27,31 +29,23 @@ struct SharedReading {
 
 std::vector<SharedReading> shared_readings(const Fingerprint& a, const Fingerprint& b) {
   std::vector<SharedReading> shared;
-  auto j = b.entries.begin();
-  for (const FingerprintEntry& x : a.entries) {
-    while (j != b.entries.end() && j->access_point < x.access_point) ++j;
-    if (j == b.entries.end()) break;
-    if (x.access_point < j->access_point) continue;
-    const double first = static_cast<double>(x.rss_dbm), second = static_cast<double>(j->rss_dbm);
+  walk_shared(a, b, [&](const FingerprintEntry& x, const FingerprintEntry& y) {
+    const double first = static_cast<double>(x.rss_dbm), second = static_cast<double>(y.rss_dbm);
     shared.push_back(
-        {first - second, first + second, static_cast<double>(x.detection_rate + j->detection_rate)});
-  }
+        {first - second, first + second, static_cast<double>(x.detection_rate + y.detection_rate)});
+  });
   return shared;
 }
 
 /// The Gaussian measure that does not see an offset, walking both lists once.
 double offset_free_similarity(const Fingerprint& a, const Fingerprint& b, const SimilarityParams& params) {
   double shared = 0, sum = 0, squares = 0;
-  auto j = b.entries.begin();
-  for (const FingerprintEntry& x : a.entries) {
-    while (j != b.entries.end() && j->access_point < x.access_point) ++j;
-    if (j == b.entries.end()) break;
-    if (x.access_point < j->access_point) continue;
-    const double d = static_cast<double>(x.rss_dbm) - static_cast<double>(j->rss_dbm);
+  walk_shared(a, b, [&](const FingerprintEntry& x, const FingerprintEntry& y) {
+    const double d = static_cast<double>(x.rss_dbm) - static_cast<double>(y.rss_dbm);
     shared += 1;
     sum += d;
     squares += d * d;
-  }
+  });
   if (shared < std::max(2, params.minimum_shared)) return 0;
   const double variance = std::max(0.0, squares - sum * sum / shared) / (shared - 1);
   const double all = static_cast<double>(a.entries.size() + b.entries.size()) - shared;
@@ -119,12 +113,6 @@ std::vector<TellingPair> telling_pairs(const std::vector<std::vector<Fingerprint
   return all;
 }
 
-double middle_offset(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// By how much a fingerprint's error, common to its pairs, widens the covariance.
 double repeated_use(const std::vector<TellingPair>& pairs) {
   std::set<std::pair<std::size_t, std::size_t>> fingerprints;
@@ -171,7 +159,7 @@ double spread_about(const std::vector<TellingPair>& pairs, const Eigen::VectorXd
   for (const TellingPair& pair : pairs)
     residuals.push_back(std::abs(pair.difference_db - offsets_db[static_cast<Eigen::Index>(pair.robot_a)] +
                                  offsets_db[static_cast<Eigen::Index>(pair.robot_b)]));
-  return std::max(kLeastSpread_db, kMedianToSigma * middle_offset(std::move(residuals)));
+  return std::max(kLeastSpread_db, kMedianToSigma * upper_median(std::move(residuals)));
 }
 
 OffsetSolution solve(const std::vector<TellingPair>& pairs, std::size_t robots,

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "radioslam/base/median.hpp"
+
 namespace radioslam {
 namespace {
 
@@ -20,9 +22,7 @@ constexpr double kMostCorrelated = 0.99;
 
 double median_of(std::vector<double> values) {
   if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return upper_median(std::move(values));
 }
 
 double deviation_around(std::vector<double> values, double centre) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "radioslam/base/parallel.hpp"
+#include "radioslam/radio/shared_access_points.hpp"
 #include "radioslam/radio/similarity_sums.hpp"
 
 namespace radioslam {
@@ -39,22 +40,6 @@ std::vector<ComparedFingerprint> compared(const std::vector<Fingerprint>& finger
   std::vector<ComparedFingerprint> result;
   for (const auto& fingerprint : fingerprints) result.push_back(compared(fingerprint, measure, params));
   return result;
-}
-
-/// Calls both(a, b) for every access point that both hear, in their order.
-template <class Both>
-void walk_shared(const Fingerprint& a, const Fingerprint& b, Both&& both) {
-  auto i = a.entries.begin();
-  auto j = b.entries.begin();
-  while (i != a.entries.end() && j != b.entries.end()) {
-    if (i->access_point < j->access_point) {
-      ++i;
-    } else if (j->access_point < i->access_point) {
-      ++j;
-    } else {
-      both(*i++, *j++);
-    }
-  }
 }
 
 SharedSums product_sums(const Fingerprint& a, const Fingerprint& b) {

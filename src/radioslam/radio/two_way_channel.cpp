@@ -8,6 +8,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "radioslam/base/median.hpp"
+
 namespace radioslam {
 namespace {
 
@@ -130,9 +132,7 @@ double usual_pause_s(const std::vector<Exchange>& exchanges) {
   std::vector<double> pauses;
   for (std::size_t k = 1; k < exchanges.size(); ++k)
     pauses.push_back(seconds_between(exchanges[k - 1].heard->stamp, exchanges[k].heard->stamp));
-  const auto middle = pauses.begin() + std::ssize(pauses) / 2;
-  std::nth_element(pauses.begin(), middle, pauses.end());
-  return *middle;
+  return upper_median(std::move(pauses));
 }
 
 std::vector<Turn> successive_turns(const std::vector<Exchange>& exchanges, const std::vector<double>& jitter,

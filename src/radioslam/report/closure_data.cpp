@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "radioslam/base/median.hpp"
 #include "radioslam/report/rounding.hpp"
 #include "radioslam/report/thinning.hpp"
 
@@ -49,14 +50,12 @@ PageData reason_rows(const std::vector<ClosureResult>& closures) {
   for (const auto& closure : closures)
     statistics[{closure.kind, closure.status, closure.reason}].push_back(closure.statistic);
   PageData rows = PageData::array();
-  for (auto& [reason, values] : statistics) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
+  for (const auto& [reason, values] : statistics) {
     rows.push_back({{"kind", name(std::get<0>(reason))},
                     {"status", name(std::get<1>(reason))},
                     {"reason", std::get<2>(reason)},
                     {"count", values.size()},
-                    {"statistic_median", rounded_relative(*middle)}});
+                    {"statistic_median", rounded_relative(upper_median(values))}});
   }
   return rows;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "radioslam/base/median.hpp"
 #include "radioslam/report/rounding.hpp"
 #include "radioslam/report/thinning.hpp"
 
@@ -58,19 +59,13 @@ PageData sigma_data(const RobotResult& robot, const std::vector<std::size_t>& ke
   return sigma;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 void add_paths(PageData& data, const RobotResult& robot, const TrajectoryContext& context,
                const ReportParams& params) {
   const auto kept = drawn_keyframes(robot, context.totals, params);
   data["estimate"] = path_data(robot.estimate, kept, context.T_page_estimate, context);
   if (robot.sigma_position_m.size() == robot.estimate.size() && !robot.sigma_position_m.empty()) {
     data["sigma_m"] = sigma_data(robot, kept);
-    data["sigma_median_m"] = rounded_metres(median(robot.sigma_position_m));
+    data["sigma_median_m"] = rounded_metres(upper_median(robot.sigma_position_m));
   }
   const std::size_t poses = robot.odometry.size();
   const auto limit = share_of_budget(poses, context.totals.keyframes, budget(params.maximum_poses));

@@ -1,8 +1,8 @@
 #include "radioslam/team_frame/field_refinement.hpp"
 
+#include <algorithm>
 #include <cmath>
 
-#include "radioslam/base/check.hpp"
 #include "radioslam/team_frame/quasi_newton.hpp"
 
 namespace radioslam {
@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kMedianOfGaussian = 0.6745;  // a Cauchy of this scale has the median of a unit Gaussian
 constexpr double kLeastGain = 1e-3;           // of the cost, a log likelihood
+constexpr double kLeastSigmaScale = 1e-6;     // where none is allowed
 // What the variables are counted in, so that all are of one size.
 constexpr double kMove_m = 5, kTurn_rad = 0.1, kStretch = 0.05;
 
@@ -100,13 +101,13 @@ class FieldRefinement {
         cost.by_position.middleCols(static_cast<Eigen::Index>(body.first_node), body.points.cols());
     const Eigen::Matrix2Xd arms = places_of(f).colwise() - p.centre_m;
     const Eigen::Vector2d moved = (p.centre_m - free_[f].start.centre_m) / params_.sigma_layout_m;
-    const double stretched = p.log_scale / std::max(params_.sigma_scale, 1e-6);
+    const double sigma_scale = std::max(params_.sigma_scale, kLeastSigmaScale);
+    const double stretched = p.log_scale / sigma_scale;
     result.value += (moved.squaredNorm() + stretched * stretched) / 2;
     auto gradient = result.gradient.segment<4>(4 * static_cast<Eigen::Index>(f));
     gradient.head<2>() = kMove_m * (slopes.rowwise().sum() + moved / params_.sigma_layout_m);
     gradient[2] = kTurn_rad * (slopes.row(1).dot(arms.row(0)) - slopes.row(0).dot(arms.row(1)));
-    gradient[3] =
-        kStretch * (slopes.cwiseProduct(arms).sum() + stretched / std::max(params_.sigma_scale, 1e-6));
+    gradient[3] = kStretch * (slopes.cwiseProduct(arms).sum() + stretched / sigma_scale);
   }
 
   /// Robots that share a heading turn alike, up to their errors; where none is fixed, all may turn together.
@@ -160,11 +161,8 @@ void refine_by_field(std::vector<RigidBody>& bodies, const RadioField& field, co
   if (!refinement.has_free_bodies()) return;
   const Minimum found = minimise([&](const Eigen::VectorXd& x) { return refinement(x); }, refinement.start(),
                                  params.iterations, kLeastGain);
-  std::vector<SE2> poses;
   for (std::size_t f = 0; f < refinement.free_bodies().size(); ++f)
-    poses.push_back(refinement.pose(found.x, f));
-  for (std::size_t f = 0; f < poses.size(); ++f)
-    bodies[refinement.free_bodies()[f].index].T_layout_body = poses[f];
+    bodies[refinement.free_bodies()[f].index].T_layout_body = refinement.pose(found.x, f);
 }
 
 }  // namespace radioslam

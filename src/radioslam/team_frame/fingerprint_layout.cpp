@@ -7,25 +7,12 @@
 #include <numeric>
 
 #include "radioslam/geometry/alignment.hpp"
+#include "radioslam/team_frame/fingerprint_bodies.hpp"
 #include "radioslam/team_frame/multidimensional_scaling.hpp"
 #include "radioslam/team_frame/rigid_layout.hpp"
 
 namespace radioslam {
 namespace {
-
-/// T_common_start of a robot whose first body pose is known.
-SE2 start_from_initial_pose(const Robot& robot) {
-  return flatten(*robot.initial_pose) * flatten(robot.odometry.front().pose).inverse();
-}
-
-/// The nodes that take part, robot by robot: all, or evenly thinned to about `max_nodes`.
-std::vector<std::size_t> thinned_nodes(std::size_t count, int max_nodes) {
-  const auto most = static_cast<std::size_t>(max_nodes);
-  const std::size_t stride = std::max<std::size_t>(1, (count + most - 1) / most);
-  std::vector<std::size_t> nodes;
-  for (std::size_t i = 0; i < count; i += stride) nodes.push_back(i);
-  return nodes;
-}
 
 /// One entry per robot: the smallest robot index it hangs together with.
 class Groups {
@@ -58,27 +45,6 @@ Groups group_robots(const Mission& mission, const RadioMeasurements& radio, doub
       if (static_cast<double>(radio.layout_similarity[i][j]) > least_similarity)
         groups.join(radio.nodes[i].robot.index(), radio.nodes[j].robot.index());
   return groups;
-}
-
-std::vector<RigidBody> make_bodies(const Mission& mission, const RadioMeasurements& radio,
-                                   const std::vector<std::size_t>& nodes) {
-  std::vector<RigidBody> bodies(mission.robots.size());
-  for (std::size_t r = 0, first = 0; r < bodies.size(); ++r) {
-    const Robot& robot = mission.robots[r];
-    std::vector<Eigen::Vector2d> points;
-    for (const std::size_t node : nodes)
-      if (radio.nodes[node].robot.index() == r)
-        points.emplace_back(radio.at(node).T_start_body.translation().head<2>());
-    bodies[r].first_node = first;
-    bodies[r].points.resize(2, static_cast<Eigen::Index>(points.size()));
-    for (std::size_t i = 0; i < points.size(); ++i)
-      bodies[r].points.col(static_cast<Eigen::Index>(i)) = points[i];
-    bodies[r].fixed = robot.initial_pose.has_value();
-    if (bodies[r].fixed) bodies[r].T_layout_body = start_from_initial_pose(robot);
-    if (robot.heading == Heading::kAbsolute) bodies[r].sigma_heading_rad = robot.sigma_heading_rad;
-    first += points.size();
-  }
-  return bodies;
 }
 
 PairTargets make_targets(const RadioMeasurements& radio, const std::vector<std::size_t>& nodes,
@@ -232,7 +198,7 @@ TeamFrame align_by_fingerprints(const Mission& mission, const RadioMeasurements&
                                 const LayoutParams& params, const Progress& progress) {
   const Groups groups = group_robots(mission, radio, params.least_similarity);
   const std::vector<std::size_t> nodes = thinned_nodes(radio.nodes.size(), params.max_nodes);
-  std::vector<RigidBody> bodies = make_bodies(mission, radio, nodes);
+  std::vector<RigidBody> bodies = fingerprint_bodies(mission, radio, nodes);
   const bool all_known = std::all_of(bodies.begin(), bodies.end(), [](const auto& b) { return b.fixed; });
   if (radio.layout_model && !all_known) {
     PairTargets targets = make_targets(radio, nodes, params);

@@ -1,9 +1,10 @@
 #include "radioslam/team_frame/quasi_newton.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <deque>
-#include <limits>
 #include <utility>
+#include <vector>
 
 namespace radioslam {
 namespace {

@@ -8,11 +8,11 @@
 
 #include "radioslam/base/check.hpp"
 #include "radioslam/base/parallel.hpp"
+#include "radioslam/radio/similarity_sums.hpp"
 
 namespace radioslam {
 namespace {
 
-constexpr double kUnheard_dbm = -100;
 constexpr int kLeastFingerprints = 3;  // of an access point that says something about several places
 constexpr double kNearest_m2 = 1e-4;   // added to squared distances: the far term has a corner at zero
 constexpr double kRounding = 1e-9;     // added to S's diagonal where it is factorised
@@ -172,7 +172,7 @@ Eigen::MatrixXd heard_powers(const std::vector<const Fingerprint*>& fingerprints
     for (const auto& entry : fingerprints[i]->entries)
       if (const auto place = column.find(entry.access_point); place != column.end())
         heard(static_cast<Eigen::Index>(i), place->second) =
-            std::pow(std::max(0.0, static_cast<double>(entry.rss_dbm) - kUnheard_dbm), exponent);
+            std::pow(shifted_rss_db(entry.rss_dbm), exponent);
   for (Eigen::Index i = 0; i < heard.rows(); ++i)
     if (const double norm = heard.row(i).norm(); norm > 0) heard.row(i) /= norm;
   return heard;

@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "radioslam/base/median.hpp"
+
 namespace radioslam {
 namespace {
 
@@ -47,12 +49,6 @@ Neighbours all_neighbours(const std::vector<RigidBody>& bodies, const Eigen::Mat
   return neighbours;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// The median over the body's nodes of the distance to their `rank`-th most similar ones; nothing where they
 /// have none.
 std::optional<double> distance_to_alike(const RigidBody& body, const Neighbours& neighbours,
@@ -65,7 +61,7 @@ std::optional<double> distance_to_alike(const RigidBody& body, const Neighbours&
     distances.push_back((positions.col(i) - positions.col(j)).norm());
   }
   if (distances.empty()) return std::nullopt;
-  return median(std::move(distances));
+  return upper_median(std::move(distances));
 }
 
 /// How far the body is from all that are like it: small for one that only its nearest, a stray, left alone.
@@ -116,9 +112,9 @@ std::vector<std::size_t> relocate_strays(std::vector<RigidBody>& bodies, const E
       if (!bodies[b].fixed) strays.emplace_back(-loneliness(bodies[b], neighbours, positions), b);
     }
   if (distances.size() < kLeastTeam) return {};
-  const double usual = median(distances);
+  const double usual = upper_median(distances);
   for (const double d : distances) deviations.push_back(std::abs(d - usual));
-  const double most = usual + kUsualDeviations * kMadOfGaussian * median(deviations);
+  const double most = usual + kUsualDeviations * kMadOfGaussian * upper_median(deviations);
   std::sort(strays.begin(), strays.end());
 
   std::vector<std::size_t> moved;
