@@ -11,9 +11,18 @@
 #include "radioslam/geometry/se3.hpp"
 #include "radioslam/geometry/trajectory.hpp"
 #include "radioslam/mission/csi.hpp"
+#include "radioslam/mission/inertial.hpp"
+#include "radioslam/mission/lidar.hpp"
 #include "radioslam/mission/radio_links.hpp"
 
 namespace radioslam {
+
+/// Noise measured along with the odometry, between one row and the next.
+struct OdometryStepNoise {
+  Stamp begin, end;
+  /// Of the motion's error per second, of T * Exp(xi), xi = [translation; rotation]; m^2/s, rad^2/s.
+  SE3::Jacobian covariance_per_s = SE3::Jacobian::Zero();
+};
 
 /// Noise of a robot's odometry as a random walk over the way: after d metres and theta radians of turning,
 /// variance sigma_xy_per_sqrt_m^2 d in x and in y each, and sigma_yaw_per_sqrt_m_rad^2 d +
@@ -26,6 +35,7 @@ struct OdometryNoise {
   double sigma_z_per_sqrt_m = 0.01;
   double sigma_yaw_drift_per_m_rad = 0;  ///< prior of a constant yaw drift
   double sigma_scale = 0;                ///< prior of a constant relative error of the distance walked
+  std::vector<OdometryStepNoise> steps;  ///< measured; where there are any, they stand for the random walk
 };
 
 /// What the yaw of the odometry refers to.
@@ -53,7 +63,8 @@ struct WifiScan {
 /// One robot's recordings.
 struct Robot {
   std::string id;
-  Trajectory<SE3> odometry;  ///< T_start_body, at least one pose
+  /// T_start_body, at least one pose; none where there are scans, from which it is then estimated.
+  Trajectory<SE3> odometry;
   OdometryNoise odometry_noise;
   Heading heading = Heading::kRelative;
   double sigma_heading_rad = 0.2;   ///< of an absolute heading's constant error
@@ -63,6 +74,8 @@ struct Robot {
   std::vector<WifiScan> wifi;                    ///< in time order
   std::vector<PositionFix> fixes;                ///< in time order
   std::optional<CsiRecording> csi;               ///< what its WiFi card measured of the packets it heard
+  LidarLog lidar;                                ///< may be empty
+  std::vector<InertialSample> inertial;          ///< strictly increasing in time; may be empty
 };
 
 /// A team's recordings.

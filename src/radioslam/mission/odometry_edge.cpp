@@ -1,6 +1,7 @@
 #include "radioslam/mission/odometry_edge.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace radioslam {
@@ -35,6 +36,28 @@ typename Pose::Tangent floor_variance() {
   return variance;
 }
 
+/// A covariance of motions in space as the estimate's dimension sees it.
+template <class Pose>
+typename Pose::Jacobian seen_from_above(const SE3::Jacobian& covariance) {
+  if constexpr (Pose::kDim == 3) {
+    return covariance;
+  } else {
+    const std::array<int, 3> kept{0, 1, 5};  // x, y, yaw
+    return covariance(kept, kept);
+  }
+}
+
+/// What was measured of the noise between two times: of every step its share.
+SE3::Jacobian measured_covariance(const std::vector<OdometryStepNoise>& steps, Stamp begin, Stamp end) {
+  SE3::Jacobian covariance = SE3::Jacobian::Zero();
+  auto step = std::lower_bound(steps.begin(), steps.end(), begin,
+                               [](const OdometryStepNoise& s, Stamp at) { return s.end <= at; });
+  for (; step != steps.end() && step->begin < end; ++step)
+    covariance +=
+        seconds_between(std::max(begin, step->begin), std::min(end, step->end)) * step->covariance_per_s;
+  return covariance;
+}
+
 }  // namespace
 
 template <class Pose>
@@ -49,7 +72,11 @@ OdometryEdge<Pose> odometry_edge(const Trajectory<SE3>& odometry, std::size_t be
     const typename Pose::Jacobian carry = step.inverse().adjoint();
 
     edge.covariance = (carry * edge.covariance * carry.transpose()).eval();
-    edge.covariance.diagonal() += increment_variance<Pose>(distance, turn, noise);
+    if (noise.steps.empty())
+      edge.covariance.diagonal() += increment_variance<Pose>(distance, turn, noise);
+    else
+      edge.covariance +=
+          seen_from_above<Pose>(measured_covariance(noise.steps, odometry[i].stamp, odometry[i + 1].stamp));
     edge.drift_jacobian = (carry * edge.drift_jacobian).eval();
     edge.drift_jacobian(Pose::kDof - 1, 0) += distance;
     edge.drift_jacobian.template topRightCorner<Pose::kDim, 1>() += xi.template head<Pose::kDim>();
