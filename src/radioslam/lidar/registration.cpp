@@ -1,0 +1,137 @@
+#include "radioslam/lidar/registration.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "radioslam/base/parallel.hpp"
+#include "radioslam/geometry/so3.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr std::size_t kPointsPerBlock = 256;  // sums of one block: the same for any number of threads
+constexpr std::size_t kFewestMatches = 6;
+constexpr double kPlanarInformation = 1e12;   // pins height, roll and pitch of a scanner in the plane
+
+struct NormalSums {
+  SE3::Jacobian hessian = SE3::Jacobian::Zero();
+  SE3::Tangent gradient = SE3::Tangent::Zero();
+  double weights = 0, weighted_squares = 0;
+  std::size_t matches = 0;
+
+  void operator+=(const NormalSums& other) {
+    hessian += other.hessian;
+    gradient += other.gradient;
+    weights += other.weights;
+    weighted_squares += other.weighted_squares;
+    matches += other.matches;
+  }
+};
+
+/// One pass over the source's points at one pose.
+class Pass {
+ public:
+  Pass(const NearestSurfel& target, const SE3& T, double reach_m, double blur_m, double loss_scale)
+      : target_(target),
+        R_(T.rotation_matrix()),
+        R_float_(R_.cast<float>()),
+        t_float_(T.translation().cast<float>()),
+        squared_reach_(static_cast<float>(reach_m * reach_m)),
+        squared_blur_(static_cast<float>(blur_m * blur_m)),
+        squared_scale_(loss_scale * loss_scale) {}
+
+  /// Adds a point's share. With e' = R' e and W' = R' W R the error's Jacobian is [-I, [p]x].
+  void add(const Surfel& surfel, NormalSums& sums) const {
+    const Eigen::Vector3f moved = R_float_ * surfel.position + t_float_;
+    const Surfel* met = target_(moved, squared_reach_);
+    if (!met) return;
+    Eigen::Matrix3f covariance = R_float_.transpose() * met->covariance * R_float_ + surfel.covariance;
+    covariance.diagonal().array() += squared_blur_;
+    const Eigen::Matrix3d information = covariance.cast<double>().inverse();
+    const Eigen::Vector3d error = (R_float_.transpose() * (met->position - moved)).cast<double>();
+    const Eigen::Vector3d pull = information * error;
+    const double squares = error.dot(pull);
+    const double root = squared_scale_ / (squared_scale_ + squares);
+    const double weight = root * root;
+    const Eigen::Matrix3d arm = skew(surfel.position.cast<double>());
+    const Eigen::Matrix3d turned = information * arm;
+    sums.hessian.topLeftCorner<3, 3>() += weight * information;
+    sums.hessian.topRightCorner<3, 3>() -= weight * turned;
+    sums.hessian.bottomRightCorner<3, 3>() -= weight * (arm * turned);
+    sums.gradient.head<3>() -= weight * pull;
+    sums.gradient.tail<3>() -= weight * (arm * pull);
+    sums.weights += weight;
+    sums.weighted_squares += weight * squares;
+    ++sums.matches;
+  }
+
+ private:
+  const NearestSurfel& target_;
+  Eigen::Matrix3d R_;
+  Eigen::Matrix3f R_float_;
+  Eigen::Vector3f t_float_;
+  float squared_reach_, squared_blur_;
+  double squared_scale_;
+};
+
+NormalSums sum_over(const std::vector<Surfel>& source, const Pass& pass) {
+  const std::size_t blocks = (source.size() + kPointsPerBlock - 1) / kPointsPerBlock;
+  std::vector<NormalSums> partial(blocks);
+  parallel_for(blocks, 2, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b)
+      for (std::size_t k = b * kPointsPerBlock; k < std::min(source.size(), (b + 1) * kPointsPerBlock); ++k)
+        pass.add(source[k], partial[b]);
+  });
+  NormalSums total;
+  for (const NormalSums& sums : partial) total += sums;
+  total.hessian.bottomLeftCorner<3, 3>() = total.hessian.topRightCorner<3, 3>().transpose();
+  return total;
+}
+
+/// A scanner in the plane says nothing of height, roll and pitch: they stay as they are.
+void pin_plane(SE3::Jacobian& hessian, SE3::Tangent& gradient) {
+  for (const int axis : {2, 3, 4}) {
+    hessian.row(axis).setZero();
+    hessian.col(axis).setZero();
+    hessian(axis, axis) = kPlanarInformation;
+    gradient(axis) = 0;
+  }
+}
+
+}  // namespace
+
+Registration register_surfels(const NearestSurfel& target, const std::vector<Surfel>& source,
+                              const RegistrationStart& start, const PosePrior& prior, ScannerKind kind,
+                              const RegistrationParams& params) {
+  constexpr double kNoBlur_m = 0.01;
+  Registration result;
+  result.T_target_source = start.T_target_source;
+  double blur_m = start.blur_m;
+  for (result.iterations = 1; result.iterations <= params.max_iterations; ++result.iterations) {
+    const NormalSums sums = sum_over(source, Pass(target, result.T_target_source, start.reach_m, blur_m, params.loss_scale));
+    if (sums.matches < kFewestMatches) return result;
+    const SE3::Tangent from_prior = (prior.pose.inverse() * result.T_target_source).log();
+    result.information = params.independent_share * sums.hessian;
+    result.posterior = result.information + prior.information;
+    SE3::Tangent gradient = params.independent_share * sums.gradient + prior.information * from_prior;
+    SE3::Jacobian hessian = result.posterior;
+    if (kind == ScannerKind::kPlanar) pin_plane(hessian, gradient);
+    hessian.diagonal() *= 1 + 1e-9;
+    const SE3::Tangent step = -hessian.ldlt().solve(gradient);
+    result.T_target_source = result.T_target_source * SE3::exp(step);
+    result.matched_share = sums.weights / static_cast<double>(source.size());
+    result.rms_m = std::sqrt(sums.weighted_squares / std::max(1e-12, 3 * sums.weights));
+    const bool is_short = step.head<3>().norm() < params.translation_tolerance_m &&
+                          step.tail<3>().norm() < params.rotation_tolerance_rad;
+    if (is_short && blur_m == 0) {
+      result.end = RegistrationEnd::kConverged;
+      return result;
+    }
+    blur_m = blur_m * params.narrowing < kNoBlur_m ? 0 : blur_m * params.narrowing;
+  }
+  result.end = RegistrationEnd::kMaxIterations;
+  return result;
+}
+
+}  // namespace radioslam

@@ -1,0 +1,82 @@
+// Lays a cloud of surfels onto another: generalised ICP (Segal, Haehnel, Thrun 2009) with metric covariances.
+//
+//   e_k = q_k - T p_k               q_k: the target's surfel nearest to T p_k, within a reach
+//   cost = sum rho_c(e_k' W_k e_k)  W_k = (C_q + R C_p R' + b^2 I)^-1,  rho_c: Geman, McClure
+//
+// Gauss-Newton on T Exp(xi), xi = [translation; rotation]. The blur b starts as wide as the start may be
+// wrong, where points pull as points do, and narrows to nothing, where they slide along their surfaces. Neighbouring points err together
+// (same surface, same scan line): the information counts `independent_share` of them.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "radioslam/base/fields.hpp"
+#include "radioslam/geometry/se3.hpp"
+#include "radioslam/lidar/surfel.hpp"
+
+namespace radioslam {
+
+struct RegistrationParams {
+  int max_iterations = 30;
+  double loss_scale = 3;           ///< standard deviations beyond which a point counts for little
+  double narrowing = 0.6;          ///< of the blur from one iteration to the next
+  double translation_tolerance_m = 1e-4;
+  double rotation_tolerance_rad = 1e-5;
+  double independent_share = 0.1;
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit(Field{"max_iterations", "", 1, 1000, "steps of one registration"}, self.max_iterations);
+    visit(Field{"loss_scale", "", 0.5, 100, "standard deviations beyond which a point counts for little"},
+          self.loss_scale);
+    visit(Field{"narrowing", "", 0.01, 0.99, "of the blur from one step to the next"}, self.narrowing);
+    visit(Field{"translation_tolerance_m", "m", 1e-9, 1, "a step shorter than this is the last"},
+          self.translation_tolerance_m);
+    visit(Field{"rotation_tolerance_rad", "rad", 1e-9, 1, "and turning less than this"},
+          self.rotation_tolerance_rad);
+    visit(Field{"independent_share", "", 1e-4, 1, "so much of a point's information counts"},
+          self.independent_share);
+  }
+};
+
+enum class RegistrationEnd {
+  kConverged,
+  kMaxIterations,
+  kNoOverlap,   ///< fewer than six points met a surface
+};
+
+/// What is known of T_target_source beforehand: nothing where the information is zero.
+struct PosePrior {
+  SE3 pose;
+  SE3::Jacobian information = SE3::Jacobian::Zero();  ///< of xi in pose * Exp(xi)
+};
+
+struct Registration {
+  SE3 T_target_source;
+  /// Of xi in T_target_source * Exp(xi) from the points alone, without the prior.
+  SE3::Jacobian information = SE3::Jacobian::Zero();
+  SE3::Jacobian posterior = SE3::Jacobian::Zero();   ///< with the prior
+  double matched_share = 0;  ///< of the source's points with a surface within reach and the loss
+  double rms_m = 0;          ///< of their distances across the surface... weighted
+  int iterations = 0;
+  RegistrationEnd end = RegistrationEnd::kNoOverlap;
+};
+
+/// The nearest surfel of the target closer than the root of the second argument, or none; thread-safe.
+using NearestSurfel = std::function<const Surfel*(const Eigen::Vector3f& point, float squared_reach)>;
+
+/// Where to start, and how wrong that may be.
+struct RegistrationStart {
+  SE3 T_target_source;
+  double blur_m = 0;   ///< of the first iteration
+  double reach_m = 1;  ///< no point farther from the target counts
+};
+
+Registration register_surfels(const NearestSurfel& target, const std::vector<Surfel>& source,
+                              const RegistrationStart& start, const PosePrior& prior, ScannerKind kind,
+                              const RegistrationParams& params);
+
+}  // namespace radioslam

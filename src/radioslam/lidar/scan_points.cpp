@@ -1,0 +1,64 @@
+#include "radioslam/lidar/scan_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "radioslam/base/check.hpp"
+
+namespace radioslam {
+namespace {
+
+/// Exp(time * twist) at so many times that a point between two of them is off by next to nothing.
+class SweptMotion {
+ public:
+  SweptMotion(const std::vector<float>& times_s, const SE3::Tangent& twist_per_s) {
+    if (times_s.empty()) return;
+    const auto [first, last] = std::minmax_element(times_s.begin(), times_s.end());
+    first_s_ = *first;
+    step_s_ = std::max(1e-9F, (*last - *first) / static_cast<float>(kSteps));
+    for (int k = 0; k <= kSteps; ++k) {
+      const SE3 T = SE3::exp(static_cast<double>(first_s_ + static_cast<float>(k) * step_s_) * twist_per_s);
+      rotations_.push_back(T.rotation_matrix().cast<float>());
+      translations_.push_back(T.translation().cast<float>());
+    }
+  }
+
+  Eigen::Vector3f carry(const Eigen::Vector3f& point, float time_s) const {
+    const auto k = static_cast<std::size_t>(std::lround((time_s - first_s_) / step_s_));
+    return rotations_[k] * point + translations_[k];
+  }
+
+ private:
+  static constexpr int kSteps = 256;
+  float first_s_ = 0, step_s_ = 1;
+  std::vector<Eigen::Matrix3f> rotations_;
+  std::vector<Eigen::Vector3f> translations_;
+};
+
+}  // namespace
+
+ScanPoints usable_points(const LidarScan& scan, const SE3::Tangent& twist_per_s,
+                         const ScanPointParams& params) {
+  RADIOSLAM_CHECK(scan.times_s.empty() || scan.times_s.size() == scan.points.size(), "a time per point or none");
+  const SweptMotion motion(scan.times_s, twist_per_s);
+  const auto near_squared = static_cast<float>(params.least_range_m * params.least_range_m);
+  const auto far_squared = static_cast<float>(params.most_range_m * params.most_range_m);
+  ScanPoints result;
+  result.points.reserve(scan.points.size());
+  for (std::size_t k = 0; k < scan.points.size(); ++k) {
+    const Eigen::Vector3f& point = scan.points[k];
+    const float squared = point.squaredNorm();
+    if (!point.allFinite())
+      ++result.counts.not_finite;
+    else if (squared < near_squared)
+      ++result.counts.near;
+    else if (!(squared <= far_squared))
+      ++result.counts.far;
+    else
+      result.points.push_back(scan.times_s.empty() ? point : motion.carry(point, scan.times_s[k]));
+  }
+  result.counts.used = result.points.size();
+  return result;
+}
+
+}  // namespace radioslam

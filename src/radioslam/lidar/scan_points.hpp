@@ -1,0 +1,50 @@
+// The points of a scan that can be used, where they were at the scan's stamp.
+//
+// Left out are points that are not finite, that are nearer than the scanner's own robot or farther than what
+// returns from one surface can be told from another's. A scan swept while the robot moved is bent; each point
+// is carried along the motion, taken as a constant twist, to where the stamp's body frame saw it:
+//   p(stamp) = Exp(time * twist) p
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "radioslam/base/fields.hpp"
+#include "radioslam/geometry/se3.hpp"
+#include "radioslam/mission/lidar.hpp"
+
+namespace radioslam {
+
+struct ScanPointParams {
+  double least_range_m = 0.3;
+  double most_range_m = 100;
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit(Field{"least_range_m", "m", 0, 100, "nearer points are the robot's own"}, self.least_range_m);
+    visit(Field{"most_range_m", "m", 0.1, 1000, "farther points are left out"}, self.most_range_m);
+  }
+};
+
+/// What became of the points of one scan, or of many.
+struct PointCounts {
+  std::size_t used = 0, not_finite = 0, near = 0, far = 0;
+
+  void operator+=(const PointCounts& other) {
+    used += other.used;
+    not_finite += other.not_finite;
+    near += other.near;
+    far += other.far;
+  }
+};
+
+struct ScanPoints {
+  std::vector<Eigen::Vector3f> points;  ///< in the body frame at the scan's stamp
+  PointCounts counts;
+};
+
+/// `twist_per_s`: of the body, T(t) = T(stamp) Exp(t twist); it counts where the scan tells its points' times.
+ScanPoints usable_points(const LidarScan& scan, const SE3::Tangent& twist_per_s, const ScanPointParams& params);
+
+}  // namespace radioslam

@@ -1,0 +1,121 @@
+#include "radioslam/lidar/surfel_map.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace radioslam {
+namespace {
+
+constexpr double kLeastSpacings = 0.7;      // keeps what a shifted grid of the same spacing measures anew
+constexpr std::size_t kFirstSlots = 1U << 12U;
+
+/// Squared distance from `offset` in a cell of size `cell` to the neighbouring cell `step` away on every axis.
+float squared_distance_to_cell(const Eigen::Vector3f& offset, const Eigen::Vector3i& step, float cell) {
+  float sum = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float gap = step(axis) == 0 ? 0 : step(axis) > 0 ? cell - offset(axis) : offset(axis);
+    sum += gap * gap;
+  }
+  return sum;
+}
+
+}  // namespace
+
+SurfelMap::SurfelMap(double spacing_m, double reach_m)
+    : cell_m_(reach_m),
+      cells_per_m_(static_cast<float>(1 / cell_m_)),
+      least_squared_distance_(static_cast<float>(kLeastSpacings * spacing_m * kLeastSpacings * spacing_m)),
+      keys_(kFirstSlots),
+      slots_(kFirstSlots, kNoCell) {}
+
+std::size_t SurfelMap::slot_of(VoxelKey key) const {
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t slot = VoxelHash{}(key) & mask;
+  while (slots_[slot] != kNoCell && keys_[slot] != key) slot = (slot + 1) & mask;
+  return slot;
+}
+
+std::uint32_t SurfelMap::find(const Eigen::Vector3i& cell) const { return slots_[slot_of(voxel_key(cell))]; }
+
+void SurfelMap::rehash(std::size_t slots) {
+  keys_.assign(slots, VoxelKey{});
+  slots_.assign(slots, kNoCell);
+  for (std::uint32_t k = 0; k < cells_.size(); ++k) {
+    const VoxelKey key = voxel_key(cells_[k].index);
+    const std::size_t slot = slot_of(key);
+    keys_[slot] = key;
+    slots_[slot] = k;
+  }
+}
+
+std::uint32_t SurfelMap::find_or_make(const Eigen::Vector3i& cell) {
+  const VoxelKey key = voxel_key(cell);
+  std::size_t slot = slot_of(key);
+  if (slots_[slot] != kNoCell) return slots_[slot];
+  if (2 * (cells_.size() + 1) > slots_.size()) {
+    rehash(2 * slots_.size());
+    slot = slot_of(key);
+  }
+  keys_[slot] = key;
+  slots_[slot] = static_cast<std::uint32_t>(cells_.size());
+  cells_.push_back({cell, {}});
+  return slots_[slot];
+}
+
+void SurfelMap::add(const std::vector<Surfel>& surfels) {
+  for (const Surfel& surfel : surfels) {
+    if (nearest(surfel.position, least_squared_distance_)) continue;
+    auto& cell = cells_[find_or_make(voxel_of(surfel.position, cells_per_m_))].surfels;
+    cell.push_back(surfel);
+    ++surfels_;
+  }
+}
+
+void SurfelMap::forget_beyond(const Eigen::Vector3f& centre, double radius_m) {
+  const auto cell_m = static_cast<float>(cell_m_);
+  const auto squared_radius = static_cast<float>(radius_m * radius_m);
+  std::erase_if(cells_, [&](const Cell& cell) {
+    const Eigen::Vector3f middle = (cell.index.cast<float>().array() + 0.5F) * cell_m;
+    return (middle - centre).squaredNorm() > squared_radius;
+  });
+  surfels_ = 0;
+  for (const Cell& cell : cells_) surfels_ += cell.surfels.size();
+  rehash(slots_.size());
+}
+
+const Surfel* SurfelMap::nearest(const Eigen::Vector3f& point, float squared_reach) const {
+  const Eigen::Vector3i home = voxel_of(point, cells_per_m_);
+  const auto cell_m = static_cast<float>(cell_m_);
+  const Eigen::Vector3f offset = point - home.cast<float>() * cell_m;
+  const Surfel* best = nullptr;
+  float best_squared = std::min(squared_reach, cell_m * cell_m);
+  const auto look_into = [&](const Eigen::Vector3i& index) {
+    const std::uint32_t cell = find(index);
+    if (cell == kNoCell) return;
+    for (const Surfel& surfel : cells_[cell].surfels) {
+      const float squared = (surfel.position - point).squaredNorm();
+      if (squared < best_squared) {
+        best_squared = squared;
+        best = &surfel;
+      }
+    }
+  };
+  look_into(home);
+  for (int x = -1; x <= 1; ++x)
+    for (int y = -1; y <= 1; ++y)
+      for (int z = -1; z <= 1; ++z) {
+        const Eigen::Vector3i step(x, y, z);
+        if (step.isZero() || squared_distance_to_cell(offset, step, cell_m) >= best_squared) continue;
+        look_into(home + step);
+      }
+  return best;
+}
+
+std::vector<Surfel> SurfelMap::surfels() const {
+  std::vector<Surfel> all;
+  all.reserve(surfels_);
+  for (const Cell& cell : cells_) all.insert(all.end(), cell.surfels.begin(), cell.surfels.end());
+  return all;
+}
+
+}  // namespace radioslam

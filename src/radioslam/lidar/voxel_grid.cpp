@@ -1,0 +1,68 @@
+#include "radioslam/lidar/voxel_grid.hpp"
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "radioslam/lidar/voxel_key.hpp"
+
+namespace radioslam {
+namespace {
+
+/// Cells by their keys, with open addressing: at most half of the slots are taken.
+class CellNumbers {
+ public:
+  explicit CellNumbers(std::size_t most_cells)
+      : mask_(std::bit_ceil(2 * most_cells + 2) - 1), keys_(mask_ + 1), numbers_(mask_ + 1, kFree) {}
+
+  /// The number that `key` got when it was first met; `next` if that is now.
+  std::uint32_t number_of(VoxelKey key, std::uint32_t next) {
+    std::size_t slot = VoxelHash{}(key) & mask_;
+    while (numbers_[slot] != kFree && keys_[slot] != key) slot = (slot + 1) & mask_;
+    if (numbers_[slot] == kFree) {
+      keys_[slot] = key;
+      numbers_[slot] = next;
+    }
+    return numbers_[slot];
+  }
+
+ private:
+  static constexpr std::uint32_t kFree = ~0U;
+  std::size_t mask_;
+  std::vector<VoxelKey> keys_;
+  std::vector<std::uint32_t> numbers_;
+};
+
+}  // namespace
+
+std::vector<Eigen::Vector3f> thin_by_voxels(const std::vector<Eigen::Vector3f>& points, double cell_m) {
+  const auto cells_per_m = static_cast<float>(1 / cell_m);
+  CellNumbers cells(points.size());
+  std::vector<Eigen::Vector3f> sums;
+  std::vector<float> counts;
+  for (const Eigen::Vector3f& point : points) {
+    const std::uint32_t cell =
+        cells.number_of(voxel_key(voxel_of(point, cells_per_m)), static_cast<std::uint32_t>(sums.size()));
+    if (cell == sums.size()) {
+      sums.emplace_back(Eigen::Vector3f::Zero());
+      counts.push_back(0);
+    }
+    sums[cell] += point;
+    counts[cell] += 1;
+  }
+  for (std::size_t k = 0; k < sums.size(); ++k) sums[k] /= counts[k];
+  return sums;
+}
+
+std::vector<Surfel> first_per_voxel(const std::vector<Surfel>& surfels, double cell_m) {
+  const auto cells_per_m = static_cast<float>(1 / cell_m);
+  CellNumbers cells(surfels.size());
+  std::vector<Surfel> kept;
+  for (const Surfel& surfel : surfels) {
+    const auto next = static_cast<std::uint32_t>(kept.size());
+    if (cells.number_of(voxel_key(voxel_of(surfel.position, cells_per_m)), next) == next) kept.push_back(surfel);
+  }
+  return kept;
+}
+
+}  // namespace radioslam
