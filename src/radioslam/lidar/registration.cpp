@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kPointsPerBlock = 256;  // sums of one block: the same for any number of threads
 constexpr std::size_t kFewestMatches = 6;
-constexpr double kPlanarInformation = 1e12;   // pins height, roll and pitch of a scanner in the plane
+constexpr double kPlanarInformation = 1e8;  // pins height, roll and pitch of a scanner in the plane
 
 struct NormalSums {
   SE3::Jacobian hessian = SE3::Jacobian::Zero();
@@ -90,18 +90,20 @@ NormalSums sum_over(const std::vector<Surfel>& source, const Pass& pass) {
 }
 
 /// A scanner in the plane says nothing of height, roll and pitch: they stay as they are.
-void pin_plane(SE3::Jacobian& hessian, SE3::Tangent& gradient) {
+void pin_plane(Registration& result, SE3::Tangent& gradient) {
   for (const int axis : {2, 3, 4}) {
-    hessian.row(axis).setZero();
-    hessian.col(axis).setZero();
-    hessian(axis, axis) = kPlanarInformation;
+    for (SE3::Jacobian* information : {&result.information, &result.posterior}) {
+      information->row(axis).setZero();
+      information->col(axis).setZero();
+      (*information)(axis, axis) = kPlanarInformation;
+    }
     gradient(axis) = 0;
   }
 }
 
 }  // namespace
 
-Registration register_surfels(const NearestSurfel& target, const std::vector<Surfel>& source,
+Registration register_surfels(const NearestSurfel& target, const SurfelSource& source,
                               const RegistrationStart& start, const PosePrior& prior, ScannerKind kind,
                               const RegistrationParams& params) {
   constexpr double kNoBlur_m = 0.01;
@@ -109,18 +111,19 @@ Registration register_surfels(const NearestSurfel& target, const std::vector<Sur
   result.T_target_source = start.T_target_source;
   double blur_m = start.blur_m;
   for (result.iterations = 1; result.iterations <= params.max_iterations; ++result.iterations) {
-    const NormalSums sums = sum_over(source, Pass(target, result.T_target_source, start.reach_m, blur_m, params.loss_scale));
+    const NormalSums sums = sum_over(
+        source.surfels, Pass(target, result.T_target_source, start.reach_m, blur_m, params.loss_scale));
     if (sums.matches < kFewestMatches) return result;
     const SE3::Tangent from_prior = (prior.pose.inverse() * result.T_target_source).log();
-    result.information = params.independent_share * sums.hessian;
+    result.information = source.independent_share * sums.hessian;
     result.posterior = result.information + prior.information;
-    SE3::Tangent gradient = params.independent_share * sums.gradient + prior.information * from_prior;
+    SE3::Tangent gradient = source.independent_share * sums.gradient + prior.information * from_prior;
+    if (kind == ScannerKind::kPlanar) pin_plane(result, gradient);
     SE3::Jacobian hessian = result.posterior;
-    if (kind == ScannerKind::kPlanar) pin_plane(hessian, gradient);
     hessian.diagonal() *= 1 + 1e-9;
     const SE3::Tangent step = -hessian.ldlt().solve(gradient);
     result.T_target_source = result.T_target_source * SE3::exp(step);
-    result.matched_share = sums.weights / static_cast<double>(source.size());
+    result.matched_share = sums.weights / static_cast<double>(source.surfels.size());
     result.rms_m = std::sqrt(sums.weighted_squares / std::max(1e-12, 3 * sums.weights));
     const bool is_short = step.head<3>().norm() < params.translation_tolerance_m &&
                           step.tail<3>().norm() < params.rotation_tolerance_rad;

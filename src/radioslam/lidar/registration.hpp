@@ -4,8 +4,9 @@
 //   cost = sum rho_c(e_k' W_k e_k)  W_k = (C_q + R C_p R' + b^2 I)^-1,  rho_c: Geman, McClure
 //
 // Gauss-Newton on T Exp(xi), xi = [translation; rotation]. The blur b starts as wide as the start may be
-// wrong, where points pull as points do, and narrows to nothing, where they slide along their surfaces. Neighbouring points err together
-// (same surface, same scan line): the information counts `independent_share` of them.
+// wrong, where points pull as points do, and narrows to nothing, where they slide along their surfaces.
+// Neighbouring points err together (same surface, same scan line): the information counts `independent_share`
+// of each.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,11 +22,10 @@ namespace radioslam {
 
 struct RegistrationParams {
   int max_iterations = 30;
-  double loss_scale = 3;           ///< standard deviations beyond which a point counts for little
-  double narrowing = 0.6;          ///< of the blur from one iteration to the next
+  double loss_scale = 3;   ///< standard deviations beyond which a point counts for little
+  double narrowing = 0.6;  ///< of the blur from one iteration to the next
   double translation_tolerance_m = 1e-4;
   double rotation_tolerance_rad = 1e-5;
-  double independent_share = 0.1;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -37,15 +37,19 @@ struct RegistrationParams {
           self.translation_tolerance_m);
     visit(Field{"rotation_tolerance_rad", "rad", 1e-9, 1, "and turning less than this"},
           self.rotation_tolerance_rad);
-    visit(Field{"independent_share", "", 1e-4, 1, "so much of a point's information counts"},
-          self.independent_share);
   }
 };
 
 enum class RegistrationEnd {
   kConverged,
   kMaxIterations,
-  kNoOverlap,   ///< fewer than six points met a surface
+  kNoOverlap,  ///< fewer than six points met a surface
+};
+
+/// What is registered.
+struct SurfelSource {
+  std::vector<Surfel> surfels;
+  double independent_share = 1;  ///< so much of each one's information counts
 };
 
 /// What is known of T_target_source beforehand: nothing where the information is zero.
@@ -58,7 +62,7 @@ struct Registration {
   SE3 T_target_source;
   /// Of xi in T_target_source * Exp(xi) from the points alone, without the prior.
   SE3::Jacobian information = SE3::Jacobian::Zero();
-  SE3::Jacobian posterior = SE3::Jacobian::Zero();   ///< with the prior
+  SE3::Jacobian posterior = SE3::Jacobian::Zero();  ///< with the prior
   double matched_share = 0;  ///< of the source's points with a surface within reach and the loss
   double rms_m = 0;          ///< of their distances across the surface... weighted
   int iterations = 0;
@@ -75,7 +79,7 @@ struct RegistrationStart {
   double reach_m = 1;  ///< no point farther from the target counts
 };
 
-Registration register_surfels(const NearestSurfel& target, const std::vector<Surfel>& source,
+Registration register_surfels(const NearestSurfel& target, const SurfelSource& source,
                               const RegistrationStart& start, const PosePrior& prior, ScannerKind kind,
                               const RegistrationParams& params);
 

@@ -15,6 +15,18 @@ constexpr float kFlat_m = 1e-3F;
 
 double square(double x) { return x * x; }
 
+/// Where a robot may be that moved otherwise than predicted: it stopped, or turned up to four steps further.
+std::vector<SE3> starts_about(const SE3& last, const SE3& predicted, double step_m, double range_m) {
+  const double step_rad = step_m / std::max(range_m, step_m);
+  std::vector<SE3> starts;
+  for (const SE3& guess : {predicted, last, interpolate(last, predicted, 0.5)})
+    for (const double steps : {0.0, -0.5, 0.5, -1.0, 1.0, -2.0, 2.0}) {
+      const Eigen::Quaterniond turn(Eigen::AngleAxisd(steps * step_rad, Eigen::Vector3d::UnitZ()));
+      starts.push_back(guess * SE3(Eigen::Vector3d::Zero(), turn));
+    }
+  return starts;
+}
+
 }  // namespace
 
 ScannerTraits scanner_traits(const LidarLog& log, const LidarParams& params) {
@@ -38,11 +50,7 @@ ScannerTraits scanner_traits(const LidarLog& log, const LidarParams& params) {
 }
 
 ScanOdometer::ScanOdometer(const ScannerTraits& traits, const LidarParams& params)
-    : traits_(traits),
-      params_(params),
-      map_(traits.spacing_m, params.odometry.reach_spacings * traits.spacing_m),
-      coarse_map_(params.odometry.coarse_spacings * traits.spacing_m,
-                  params.odometry.coarse_reach_spacings * traits.spacing_m) {}
+    : traits_(traits), params_(params), map_(traits.spacing_m, params.map) {}
 
 double ScanOdometer::sigma_m() const {
   const auto& p = params_.odometry;
@@ -58,104 +66,70 @@ double ScanOdometer::sigma_rad() const {
 
 PosePrior ScanOdometer::prior_at(const SE3& predicted) const {
   PosePrior prior{predicted};
-  prior.information.diagonal().head<3>().setConstant(1 / square(sigma_m()));
-  prior.information.diagonal().tail<3>().setConstant(1 / square(sigma_rad()));
+  prior.information.diagonal().head<3>().setConstant(1 / square(params_.odometry.prior_factor * sigma_m()));
+  prior.information.diagonal().tail<3>().setConstant(1 / square(params_.odometry.prior_factor * sigma_rad()));
   return prior;
 }
 
-std::vector<Surfel> ScanOdometer::thinned(const std::vector<Surfel>& surfels, double spacings) const {
-  return first_per_voxel(surfels, spacings * traits_.spacing_m);
+Registration ScanOdometer::lay_onto_map(const ScanCloud& cloud, const PosePrior& prior) const {
+  const double deviation_m = sigma_m() + sigma_rad() * cloud.median_range_m;
+  Registration near = register_near(map_, cloud, prior, deviation_m, traits_.kind, params_.registration);
+  const double enough = params_.odometry.enough_share * usual_share_;
+  if (near.matched_share >= enough) return near;
+  const auto starts = starts_about(pose_, prior.pose, map_.coarse().reach_m() / 2, cloud.median_range_m);
+  const Registration far = register_from(map_, cloud, starts, enough, traits_.kind, params_.registration);
+  return far.matched_share > near.matched_share ? far : near;
 }
 
-Registration ScanOdometer::register_scan(const std::vector<Surfel>& surfels, const PosePrior& prior) const {
-  const auto fine = [&](const Eigen::Vector3f& point, float squared) { return map_.nearest(point, squared); };
-  const auto coarse = [&](const Eigen::Vector3f& point, float squared) {
-    return coarse_map_.nearest(point, squared);
-  };
-  const double deviation = sigma_m() + sigma_rad() * median_range_m_;
-  const double wanted = params_.odometry.reach_sigmas * deviation;
-  const double reach = std::clamp(wanted, traits_.spacing_m, map_.reach_m());
-  const auto source = thinned(surfels, params_.odometry.source_spacings);
-  Registration best = register_surfels(fine, source, {prior.pose, std::min(deviation, reach), reach}, prior, traits_.kind,
-                            params_.registration);
-  const double expected = params_.odometry.enough * usual_matched_share_;
-  if (best.matched_share >= expected) return best;
-  RegistrationParams rough = params_.registration;
-  rough.translation_tolerance_m = 0.1 * traits_.spacing_m;
-  rough.rotation_tolerance_rad = 0.01;
-  PosePrior none{prior.pose};
-  none.information.diagonal().setConstant(1e-3);
-  const auto few = thinned(surfels, params_.odometry.coarse_spacings);
-  const SE3::Tangent ahead = (pose_.inverse() * prior.pose).log();
-  for (const double share : {1.0, 0.0, 0.5})
-    for (const double turn : {0.0, -0.25, 0.25, -0.5, 0.5}) {
-      const SE3 guess = pose_ * SE3::exp(share * ahead) * SE3({0, 0, 0}, Eigen::Quaterniond(Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ())));
-      const Registration start =
-          register_surfels(coarse, few, {guess, 0.5 * coarse_map_.reach_m(), coarse_map_.reach_m()}, none,
-                           traits_.kind, rough);
-      const Registration fit = register_surfels(
-          fine, source, {start.T_target_source, traits_.spacing_m, map_.reach_m()}, none, traits_.kind,
-          params_.registration);
-      if (fit.matched_share > best.matched_share) best = fit;
-      if (best.matched_share >= expected) return best;
-    }
-  return best;
+void ScanOdometer::learn(const SE3& deviation, double matched_share) {
+  const double newest =
+      std::max(1 / static_cast<double>(++deviation_.count), params_.odometry.deviation_share);
+  const auto towards = [&](double& mean, double squares) { mean += newest * (squares / 3 - mean); };
+  towards(deviation_.squares_m2, deviation.translation().squaredNorm());
+  towards(deviation_.squares_rad2, deviation.log().tail<3>().squaredNorm());
+  usual_share_ += newest * (matched_share - usual_share_);
+}
+
+void ScanOdometer::advance(const ScanPose& scan, double dt_s) {
+  const SE3 motion = pose_.inverse() * scan.T_start_body;
+  if (dt_s > 0) twist_per_s_ = motion.log() / dt_s;
+  way_m_ += motion.translation().norm();
+  pose_ = scan.T_start_body;
+  last_ = scan.stamp;
+  if (scan.matched_share >= params_.odometry.insert_share * usual_share_) map_.add(scan.cloud, pose_, way_m_);
 }
 
 ScanPose ScanOdometer::add(Stamp stamp, const LidarScan& scan, const std::optional<SE3>& T_previous_body) {
   const double dt_s = last_ ? seconds_between(*last_, stamp) : 0;
   const SE3 motion = T_previous_body ? *T_previous_body : SE3::exp(dt_s * twist_per_s_);
   const SE3::Tangent twist = T_previous_body && dt_s > 0 ? SE3::Tangent(motion.log() / dt_s) : twist_per_s_;
-  ScanPoints usable = usable_points(scan, twist, params_.points);
+  const ScanPoints usable = usable_points(scan, twist, params_.points);
 
   ScanPose result;
   result.stamp = stamp;
   result.T_start_body = pose_ * motion;
   result.counts = usable.counts;
   if (usable.points.size() < kFewestPoints) return result;
-  const auto surfels = measure_surfels(thin_by_voxels(usable.points, traits_.spacing_m), traits_.spacing_m,
-                                       traits_.kind, params_.surfel);
-  std::vector<double> ranges;
-  for (const Surfel& surfel : surfels) ranges.push_back(static_cast<double>(surfel.position.norm()));
-  median_range_m_ = upper_median(ranges);
+  result.cloud = scan_cloud(measure_surfels(thin_by_voxels(usable.points, traits_.spacing_m),
+                                            traits_.spacing_m, traits_.kind, params_.surfel),
+                            traits_.spacing_m, traits_.kind, params_.map);
   if (map_.empty()) {
     result.outcome = ScanOutcome::kFirst;
-  } else {
-    const PosePrior prior = prior_at(result.T_start_body);
-    const Registration fit = register_scan(surfels, prior);
-    result.matched_share = fit.matched_share;
-    result.rms_m = fit.rms_m;
-    result.iterations = fit.iterations;
-    if (fit.end == RegistrationEnd::kNoOverlap || fit.matched_share < params_.odometry.least_matched_share) {
-      result.outcome = ScanOutcome::kUnmatched;
-      return result;
-    }
-    const SE3 deviation = prior.pose.inverse() * fit.T_target_source;
-    const auto n = static_cast<double>(++deviation_.count);
-    const double share = std::max(1 / n, 0.05);
-    deviation_.squares_m2 += share * (deviation.translation().squaredNorm() / 3 - deviation_.squares_m2);
-    deviation_.squares_rad2 += share * (deviation.log().tail<3>().squaredNorm() / 3 - deviation_.squares_rad2);
-    result.T_start_body = fit.T_target_source;
-    result.covariance = fit.posterior.inverse();
-    result.outcome = ScanOutcome::kRegistered;
+    advance(result, dt_s);
+    return result;
   }
-  const bool fits = result.outcome == ScanOutcome::kFirst ||
-                    result.matched_share >= params_.odometry.insert_share * usual_matched_share_;
-  if (result.outcome == ScanOutcome::kRegistered)
-    usual_matched_share_ += (usual_matched_share_ == 0 ? 1 : 0.1) * (result.matched_share - usual_matched_share_);
-  if (dt_s > 0) twist_per_s_ = (pose_.inverse() * result.T_start_body).log() / dt_s;
-  pose_ = result.T_start_body;
-  last_ = stamp;
-  if (!fits) return result;
-  std::vector<Surfel> moved(surfels.size());
-  const Eigen::Matrix3f R = pose_.rotation_matrix().cast<float>();
-  const Eigen::Vector3f t = pose_.translation().cast<float>();
-  for (std::size_t k = 0; k < surfels.size(); ++k)
-    moved[k] = {R * surfels[k].position + t, R * surfels[k].covariance * R.transpose()};
-  map_.add(moved);
-  coarse_map_.add(moved);
-  map_.forget_beyond(t, params_.odometry.map_radius_m);
-  coarse_map_.forget_beyond(t, params_.odometry.map_radius_m);
+  const PosePrior prior = prior_at(result.T_start_body);
+  const Registration fit = lay_onto_map(result.cloud, prior);
+  result.matched_share = fit.matched_share;
+  result.rms_m = fit.rms_m;
+  result.iterations = fit.iterations;
+  result.outcome = ScanOutcome::kUnmatched;
+  if (fit.matched_share < params_.odometry.least_matched_share) return result;
+  result.outcome = ScanOutcome::kRegistered;
+  result.T_start_body = fit.T_target_source;
+  result.covariance = fit.posterior.inverse();
+  learn(prior.pose.inverse() * fit.T_target_source, fit.matched_share);
+  advance(result, dt_s);
   return result;
 }
 

@@ -2,8 +2,9 @@
 //
 //   points    what of the scan can be used, unbent by the motion so far          (scan_points.hpp)
 //   surfels   the points thinned, each with its surface                          (voxel_grid.hpp, surfel.hpp)
-//   pose      generalised ICP onto the map, from where the motion leads          (registration.hpp)
-//   map       takes what it does not have yet, and forgets what is far           (surfel_map.hpp)
+//   pose      generalised ICP onto the map, from where the motion leads          (registration.hpp);
+//             where that fits worse than usual, from other starts as well        (pose_search.hpp)
+//   map       takes what it does not have yet, and forgets what is out of sight  (local_map.hpp)
 //
 // How far points may lie from the map follows from how wrong the predicted motion was so far, as in KISS-ICP
 // (Vizzo et al. 2023, "adaptive threshold"); the same deviation is the prior of the pose, so that along a
@@ -18,31 +19,28 @@
 #include "radioslam/base/progress.hpp"
 #include "radioslam/geometry/trajectory.hpp"
 #include "radioslam/geometry/uncertain_pose.hpp"
+#include "radioslam/lidar/local_map.hpp"
+#include "radioslam/lidar/pose_search.hpp"
 #include "radioslam/lidar/registration.hpp"
 #include "radioslam/lidar/scan_points.hpp"
 #include "radioslam/lidar/surfel.hpp"
-#include "radioslam/lidar/surfel_map.hpp"
 
 namespace radioslam {
 
 struct ScanOdometryParams {
-  double spacing_m = 0;           ///< of the map's points; 0: by the scans
-  double spacing_share = 0.05;    ///< of the median range, where the scans decide
+  double spacing_m = 0;         ///< of the map's points; 0: by the scans
+  double spacing_share = 0.05;  ///< of the median range, where the scans decide
   double least_spacing_m = 0.05;
   double most_spacing_m = 0.5;
-  double source_spacings = 2;     ///< a scan is registered by points so far apart
-  double reach_spacings = 3;      ///< no point meets a surface farther than this
-  double coarse_spacings = 3;     ///< likewise where the motion may be far off
-  double coarse_reach_spacings = 12;
-  double enough = 0.9;
-  double insert_share = 0.8;
-  double map_radius_m = 120;
-  double first_sigma_m = 0.5;     ///< deviation of the predicted motion before any is known
+  double first_sigma_m = 0.5;  ///< deviation of the predicted motion before any is known
   double first_sigma_rad = 0.2;
   double least_sigma_m = 0.02;
   double least_sigma_rad = 0.005;
-  double reach_sigmas = 3;
-  double least_matched_share = 0.15;  ///< a scan less of which fits the map is not taken
+  double prior_factor = 10;           ///< the prior's sigma, in deviations
+  double deviation_share = 0.05;      ///< weight of the newest deviation
+  double enough_share = 0.9;          ///< of the usual fit; one worse than that is searched for from afar
+  double insert_share = 0.8;          ///< of the usual fit; a scan below it does not enter the map
+  double least_matched_share = 0.15;  ///< a scan less of which fits the map is left out
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -51,23 +49,21 @@ struct ScanOdometryParams {
           self.spacing_share);
     visit(Field{"least_spacing_m", "m", 0.001, 10, "and not less than this"}, self.least_spacing_m);
     visit(Field{"most_spacing_m", "m", 0.001, 10, "nor more"}, self.most_spacing_m);
-    visit(Field{"source_spacings", "", 1, 10, "a scan is registered by points so many spacings apart"},
-          self.source_spacings);
-    visit(Field{"reach_spacings", "", 1, 10, "no point meets a surface farther than this"},
-          self.reach_spacings);
-    visit(Field{"coarse_spacings", "", 1, 100, "spacing of a first alignment where the motion may be far off"},
-          self.coarse_spacings);
-    visit(Field{"insert_share", "", 0, 1, "and its reach"}, self.insert_share);
-    visit(Field{"enough", "", 0, 1, "and its reach"}, self.enough);
-    visit(Field{"coarse_reach_spacings", "", 1, 100, "and its reach"}, self.coarse_reach_spacings);
-    visit(Field{"map_radius_m", "m", 1, 1e4, "what is farther is forgotten"}, self.map_radius_m);
     visit(Field{"first_sigma_m", "m", 1e-3, 10, "error of the first predicted motion"}, self.first_sigma_m);
     visit(Field{"first_sigma_rad", "rad", 1e-3, 3, "likewise"}, self.first_sigma_rad);
     visit(Field{"least_sigma_m", "m", 1e-4, 10, "no predicted motion is trusted to be better"},
           self.least_sigma_m);
     visit(Field{"least_sigma_rad", "rad", 1e-5, 3, "likewise"}, self.least_sigma_rad);
-    visit(Field{"reach_sigmas", "", 1, 10, "points reach as far as the motion may be wrong"},
-          self.reach_sigmas);
+    visit(Field{"prior_factor", "", 1, 1000,
+                "the prior's sigma in deviations: predictions err systematically, and count where scans tell "
+                "nothing"},
+          self.prior_factor);
+    visit(Field{"deviation_share", "", 1e-3, 1, "weight of the newest in the mean deviation"},
+          self.deviation_share);
+    visit(Field{"enough_share", "", 0, 1, "of the usual fit; a worse one is searched for from afar"},
+          self.enough_share);
+    visit(Field{"insert_share", "", 0, 1, "of the usual fit; a scan below it does not enter the map"},
+          self.insert_share);
     visit(Field{"least_matched_share", "", 0, 1, "a scan less of which fits the map is left out"},
           self.least_matched_share);
   }
@@ -77,6 +73,7 @@ struct LidarParams {
   ScanPointParams points;
   SurfelParams surfel;
   RegistrationParams registration;
+  LocalMapParams map;
   ScanOdometryParams odometry;
 
   template <class Self, class Visitor>
@@ -84,6 +81,7 @@ struct LidarParams {
     visit("points", self.points);
     visit("surfel", self.surfel);
     visit("registration", self.registration);
+    visit("map", self.map);
     visit("odometry", self.odometry);
   }
 };
@@ -106,6 +104,7 @@ struct ScanPose {
   double rms_m = 0;
   int iterations = 0;
   PointCounts counts;
+  ScanCloud cloud;  ///< in the body frame; empty where there are too few points
 };
 
 /// How far apart the map's points lie, and whether the scanner measures in a plane: from up to ten scans.
@@ -123,29 +122,29 @@ class ScanOdometer {
   /// otherwise the robot is taken to go on as before. Stamps must increase.
   ScanPose add(Stamp stamp, const LidarScan& scan, const std::optional<SE3>& T_previous_body = {});
 
-  const SurfelMap& map() const { return map_; }
-
  private:
+  /// How wrong the predicted motion was so far, mean squares per axis.
   struct Deviation {
     double squares_m2 = 0, squares_rad2 = 0;
     std::size_t count = 0;
   };
 
-  std::vector<Surfel> thinned(const std::vector<Surfel>& surfels, double spacings) const;
-  Registration register_scan(const std::vector<Surfel>& surfels, const PosePrior& prior) const;
-  PosePrior prior_at(const SE3& predicted) const;
   double sigma_m() const;
   double sigma_rad() const;
+  PosePrior prior_at(const SE3& predicted) const;
+  Registration lay_onto_map(const ScanCloud& cloud, const PosePrior& prior) const;
+  void learn(const SE3& deviation, double matched_share);
+  void advance(const ScanPose& scan, double dt_s);
 
   ScannerTraits traits_;
   LidarParams params_;
-  SurfelMap map_, coarse_map_;
+  LocalMap map_;
   std::optional<Stamp> last_;
   SE3 pose_;
+  double way_m_ = 0;
   SE3::Tangent twist_per_s_ = SE3::Tangent::Zero();
   Deviation deviation_;
-  double median_range_m_ = 10;
-  double usual_matched_share_ = 0;
+  double usual_share_ = 0;  ///< of a scan's points that fit
 };
 
 }  // namespace radioslam

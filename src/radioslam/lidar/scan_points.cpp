@@ -39,7 +39,8 @@ class SweptMotion {
 
 ScanPoints usable_points(const LidarScan& scan, const SE3::Tangent& twist_per_s,
                          const ScanPointParams& params) {
-  RADIOSLAM_CHECK(scan.times_s.empty() || scan.times_s.size() == scan.points.size(), "a time per point or none");
+  RADIOSLAM_CHECK(scan.times_s.empty() || scan.times_s.size() == scan.points.size(),
+                  "a time per point or none");
   const SweptMotion motion(scan.times_s, twist_per_s);
   const auto near_squared = static_cast<float>(params.least_range_m * params.least_range_m);
   const auto far_squared = static_cast<float>(params.most_range_m * params.most_range_m);

@@ -44,7 +44,9 @@ struct ScanPoints {
   PointCounts counts;
 };
 
-/// `twist_per_s`: of the body, T(t) = T(stamp) Exp(t twist); it counts where the scan tells its points' times.
-ScanPoints usable_points(const LidarScan& scan, const SE3::Tangent& twist_per_s, const ScanPointParams& params);
+/// `twist_per_s`: of the body, T(t) = T(stamp) Exp(t twist); it counts where the scan tells its points'
+/// times.
+ScanPoints usable_points(const LidarScan& scan, const SE3::Tangent& twist_per_s,
+                         const ScanPointParams& params);
 
 }  // namespace radioslam

@@ -22,9 +22,9 @@ struct Surfel {
 enum class ScannerKind { kSpatial, kPlanar };
 
 struct SurfelParams {
-  int neighbours = 10;         ///< so many points about a point tell its surface
-  double reach_spacings = 3;   ///< neighbours beyond so many spacings do not
-  double sigma_range_m = 0.02; ///< of a single measurement: 2 to 3 cm in data sheets
+  int neighbours = 10;          ///< so many points about a point tell its surface
+  double reach_spacings = 3;    ///< neighbours beyond so many spacings do not
+  double sigma_range_m = 0.02;  ///< of a single measurement: 2 to 3 cm in data sheets
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {

@@ -6,10 +6,11 @@
 namespace radioslam {
 namespace {
 
-constexpr double kLeastSpacings = 0.7;      // keeps what a shifted grid of the same spacing measures anew
+constexpr double kLeastSpacings = 0.7;  // keeps what a shifted grid of the same spacing measures anew
 constexpr std::size_t kFirstSlots = 1U << 12U;
 
-/// Squared distance from `offset` in a cell of size `cell` to the neighbouring cell `step` away on every axis.
+/// Squared distance from `offset` in a cell of size `cell` to the neighbouring cell `step` away on every
+/// axis.
 float squared_distance_to_cell(const Eigen::Vector3f& offset, const Eigen::Vector3i& step, float cell) {
   float sum = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -30,7 +31,7 @@ SurfelMap::SurfelMap(double spacing_m, double reach_m)
 
 std::size_t SurfelMap::slot_of(VoxelKey key) const {
   const std::size_t mask = slots_.size() - 1;
-  std::size_t slot = VoxelHash{}(key) & mask;
+  std::size_t slot = VoxelHash{}(key)&mask;
   while (slots_[slot] != kNoCell && keys_[slot] != key) slot = (slot + 1) & mask;
   return slot;
 }
@@ -48,7 +49,7 @@ void SurfelMap::rehash(std::size_t slots) {
   }
 }
 
-std::uint32_t SurfelMap::find_or_make(const Eigen::Vector3i& cell) {
+std::uint32_t SurfelMap::find_or_make(const Eigen::Vector3i& cell, double way_m) {
   const VoxelKey key = voxel_key(cell);
   std::size_t slot = slot_of(key);
   if (slots_[slot] != kNoCell) return slots_[slot];
@@ -58,26 +59,23 @@ std::uint32_t SurfelMap::find_or_make(const Eigen::Vector3i& cell) {
   }
   keys_[slot] = key;
   slots_[slot] = static_cast<std::uint32_t>(cells_.size());
-  cells_.push_back({cell, {}});
+  cells_.push_back({cell, way_m, {}});
   return slots_[slot];
 }
 
-void SurfelMap::add(const std::vector<Surfel>& surfels) {
+void SurfelMap::add(const std::vector<Surfel>& surfels, double way_m) {
   for (const Surfel& surfel : surfels) {
+    Cell& cell = cells_[find_or_make(voxel_of(surfel.position, cells_per_m_), way_m)];
+    cell.seen_m = way_m;
     if (nearest(surfel.position, least_squared_distance_)) continue;
-    auto& cell = cells_[find_or_make(voxel_of(surfel.position, cells_per_m_))].surfels;
-    cell.push_back(surfel);
+    cell.surfels.push_back(surfel);
     ++surfels_;
   }
 }
 
-void SurfelMap::forget_beyond(const Eigen::Vector3f& centre, double radius_m) {
-  const auto cell_m = static_cast<float>(cell_m_);
-  const auto squared_radius = static_cast<float>(radius_m * radius_m);
-  std::erase_if(cells_, [&](const Cell& cell) {
-    const Eigen::Vector3f middle = (cell.index.cast<float>().array() + 0.5F) * cell_m;
-    return (middle - centre).squaredNorm() > squared_radius;
-  });
+void SurfelMap::forget_before(double way_m) {
+  const auto forgotten = std::erase_if(cells_, [&](const Cell& cell) { return cell.seen_m < way_m; });
+  if (forgotten == 0) return;
   surfels_ = 0;
   for (const Cell& cell : cells_) surfels_ += cell.surfels.size();
   rehash(slots_.size());

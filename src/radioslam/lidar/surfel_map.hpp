@@ -1,4 +1,5 @@
-// The surroundings of a robot as surfels in the cells of a hash grid: grows scan by scan, forgets what is far.
+// The surroundings of a robot as surfels in the cells of a hash grid: grows scan by scan, forgets what is out
+// of sight for long.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,13 +22,14 @@ class SurfelMap {
   std::size_t size() const { return surfels_; }
   bool empty() const { return surfels_ == 0; }
 
-  /// Adds what is not there yet, in the map's frame.
-  void add(const std::vector<Surfel>& surfels);
+  /// Adds what is not there yet, in the map's frame, seen `way_m` metres into the robot's way.
+  void add(const std::vector<Surfel>& surfels, double way_m);
 
-  /// Forgets cells farther than `radius_m` from `centre`.
-  void forget_beyond(const Eigen::Vector3f& centre, double radius_m);
+  /// Forgets the cells in which nothing was seen since `way_m` metres into the way.
+  void forget_before(double way_m);
 
-  /// The nearest surfel closer than the root of `squared_reach`, or none. The pointer is good until the map changes.
+  /// The nearest surfel closer than the root of `squared_reach`, or none. The pointer is good until the map
+  /// changes.
   const Surfel* nearest(const Eigen::Vector3f& point, float squared_reach) const;
 
   /// Every surfel, cell by cell.
@@ -38,11 +40,12 @@ class SurfelMap {
 
   std::size_t slot_of(VoxelKey key) const;
   std::uint32_t find(const Eigen::Vector3i& cell) const;
-  std::uint32_t find_or_make(const Eigen::Vector3i& cell);
+  std::uint32_t find_or_make(const Eigen::Vector3i& cell, double way_m);
   void rehash(std::size_t slots);
 
   struct Cell {
     Eigen::Vector3i index;
+    double seen_m;
     std::vector<Surfel> surfels;
   };
 

@@ -17,7 +17,7 @@ class CellNumbers {
 
   /// The number that `key` got when it was first met; `next` if that is now.
   std::uint32_t number_of(VoxelKey key, std::uint32_t next) {
-    std::size_t slot = VoxelHash{}(key) & mask_;
+    std::size_t slot = VoxelHash{}(key)&mask_;
     while (numbers_[slot] != kFree && keys_[slot] != key) slot = (slot + 1) & mask_;
     if (numbers_[slot] == kFree) {
       keys_[slot] = key;
@@ -60,7 +60,8 @@ std::vector<Surfel> first_per_voxel(const std::vector<Surfel>& surfels, double c
   std::vector<Surfel> kept;
   for (const Surfel& surfel : surfels) {
     const auto next = static_cast<std::uint32_t>(kept.size());
-    if (cells.number_of(voxel_key(voxel_of(surfel.position, cells_per_m)), next) == next) kept.push_back(surfel);
+    if (cells.number_of(voxel_key(voxel_of(surfel.position, cells_per_m)), next) == next)
+      kept.push_back(surfel);
   }
   return kept;
 }

@@ -15,7 +15,9 @@ struct VoxelKey {
 
 inline VoxelKey voxel_key(const Eigen::Vector3i& cell) {
   constexpr std::uint64_t kMask = (1U << 21U) - 1U;
-  const auto bits = [](int index) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(index)) & kMask; };
+  const auto bits = [](int index) {
+    return static_cast<std::uint64_t>(static_cast<std::int64_t>(index)) & kMask;
+  };
   return {bits(cell.x()) << 42U | bits(cell.y()) << 21U | bits(cell.z())};
 }
 
