@@ -76,9 +76,9 @@ TEST(Lzf, CopiesWhatItJustWrote) {
 
 std::vector<float> times_of(const std::string& name, const std::string& size, const std::string& type,
                             const std::string& value, Stamp stamp) {
-  return read_bytes_as_pcd(header("x y z " + name, "4 4 4 " + size, "F F F " + type, 1, "ascii") + "0 0 0 " +
-                               value + "\n",
-                           stamp)
+  return read_bytes_as_pcd(
+             header("x y z " + name, "4 4 4 " + size, "F F F " + type, 1, "ascii") + "0 0 0 " + value + "\n",
+             stamp)
       .times_s;
 }
 

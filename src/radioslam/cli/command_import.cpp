@@ -8,6 +8,7 @@
 
 #include "radioslam/cli/command_options.hpp"
 #include "radioslam/cli/commands.hpp"
+#include "radioslam/cli/import_lidar.hpp"
 #include "radioslam/cli/import_options.hpp"
 #include "radioslam/cli/import_wifi.hpp"
 #include "radioslam/cli/suggestion.hpp"
@@ -140,6 +141,7 @@ const std::vector<ImportKind>& import_kinds() {
       {"pcap", import_wifi_captures, {Option::kRobot}},
       {"wifine", import_wifine_walks, {}},
       {"wifi-rtt", import_rtt_walk, {}},
+      {"carmen", import_carmen_log, {Option::kRobot}},
   };
   return kinds;
 }
@@ -184,16 +186,18 @@ void add_import(CLI::App& program) {
   auto* command =
       program.add_subcommand("import", "Turn other people's recordings into a mission, or a table of one");
   command
-      ->add_option("KIND", options->kind,
-                   "indoor-location: phone logs of walks on one floor, into a mission;\n"
-                   "iw-ftm: what `iw dev wlan0 measurement ftm_request` or `iw event -t` printed, into a "
-                   "ranges.csv;\n"
-                   "iw, iwlist, nmcli: what `iw dev wlan0 scan`, `iwlist wlan0 scan` or\n"
-                   "`nmcli -t -f BSSID,SSID-HEX,CHAN,FREQ,SIGNAL dev wifi list` printed, into a robot's "
-                   "wifi.csv;\n"
-                   "airodump: airodump-ng's .csv or .log.csv, likewise;\n"
-                   "pcap: a capture in monitor mode (pcap, pcapng; radiotap), likewise;\n"
-                   "wifine, wifi-rtt: these datasets, into missions without odometry")
+      ->add_option(
+          "KIND", options->kind,
+          "indoor-location: phone logs of walks on one floor, into a mission;\n"
+          "iw-ftm: what `iw dev wlan0 measurement ftm_request` or `iw event -t` printed, into a "
+          "ranges.csv;\n"
+          "iw, iwlist, nmcli: what `iw dev wlan0 scan`, `iwlist wlan0 scan` or\n"
+          "`nmcli -t -f BSSID,SSID-HEX,CHAN,FREQ,SIGNAL dev wifi list` printed, into a robot's "
+          "wifi.csv;\n"
+          "airodump: airodump-ng's .csv or .log.csv, likewise;\n"
+          "pcap: a capture in monitor mode (pcap, pcapng; radiotap), likewise;\n"
+          "wifine, wifi-rtt: these datasets, into missions without odometry;\n"
+          "carmen: a log of CARMEN (.gz, .bz2) with a plane's laser scans and odometry, into a mission")
       ->required();
   command
       ->add_option("SOURCE", options->sources,
@@ -234,7 +238,8 @@ void add_import(CLI::App& program) {
       "  radioslam import indoor-location site1/F1 -o walks\n"
       "  radioslam import iw-ftm ftm.txt --robot a --name 02:00:00:00:01:00=door -o ranges.csv\n"
       "  radioslam import iw log --robot a -o mission\n"
-      "  radioslam import pcap monitor.pcapng -o wifi.csv");
+      "  radioslam import pcap monitor.pcapng -o wifi.csv\n"
+      "  radioslam import carmen intel.clf.bz2 -o mission");
   command->callback([options] { import_recordings(*options); });
 }
 

@@ -82,7 +82,8 @@ std::string format_bin(const LidarScan& scan) {
 LidarLog read_lidar_folder(const fs::path& folder) {
   LidarLog log;
   if (!fs::exists(folder)) return log;
-  if (!fs::is_directory(folder)) throw InputError(folder.string(), 0, "is a file, a folder of scans is needed");
+  if (!fs::is_directory(folder))
+    throw InputError(folder.string(), 0, "is a file, a folder of scans is needed");
   const auto files = std::make_shared<const std::vector<ScanFile>>(list_scans(folder));
   for (const ScanFile& file : *files) {
     if (!log.stamps.empty() && file.stamp == log.stamps.back())

@@ -6,9 +6,9 @@ namespace radioslam {
 namespace {
 
 constexpr std::size_t kLiteralLimit = 32;
-constexpr std::size_t kLongCopy = 7;           ///< of the length's three bits: one more byte adds to it
-constexpr std::size_t kShortestCopy = 2;       ///< is a length of 0, which no code has
-constexpr std::size_t kLargestExpansion = 100; ///< 3 bytes stand for 264 at most
+constexpr std::size_t kLongCopy = 7;            ///< of the length's three bits: one more byte adds to it
+constexpr std::size_t kShortestCopy = 2;        ///< is a length of 0, which no code has
+constexpr std::size_t kLargestExpansion = 100;  ///< 3 bytes stand for 264 at most
 
 std::size_t lzf_byte(std::string_view bytes, std::size_t at) { return static_cast<std::uint8_t>(bytes[at]); }
 

@@ -40,8 +40,8 @@ struct PcdHeader {
 using PcdEntries = std::map<std::string, std::vector<std::string>, std::less<>>;
 
 bool is_pcd_keyword(std::string_view word) {
-  for (const char* known : {"VERSION", "FIELDS", "SIZE", "TYPE", "COUNT", "WIDTH", "HEIGHT", "VIEWPOINT",
-                            "POINTS", "DATA"})
+  for (const char* known :
+       {"VERSION", "FIELDS", "SIZE", "TYPE", "COUNT", "WIDTH", "HEIGHT", "VIEWPOINT", "POINTS", "DATA"})
     if (word == known) return true;
   return false;
 }
@@ -61,7 +61,8 @@ PcdEntries read_entries(TextLines& lines) {
 }
 
 /// What a keyword's line says, or a refusal.
-const std::vector<std::string>& words_of(const TextLines& at, const PcdEntries& entries, const char* keyword) {
+const std::vector<std::string>& words_of(const TextLines& at, const PcdEntries& entries,
+                                         const char* keyword) {
   const auto entry = entries.find(keyword);
   if (entry == entries.end()) at.fail(std::string("the header has no ") + keyword);
   return entry->second;
@@ -75,9 +76,9 @@ std::size_t count_of(const TextLines& at, const std::string& word, const char* k
 
 NumberType number_type(const TextLines& at, const std::string& type, const std::string& size) {
   static const std::map<std::string, NumberType> types{
-      {"I1", NumberType::kInt8},    {"U1", NumberType::kUint8},   {"I2", NumberType::kInt16},
-      {"U2", NumberType::kUint16},  {"I4", NumberType::kInt32},   {"U4", NumberType::kUint32},
-      {"I8", NumberType::kInt64},   {"U8", NumberType::kUint64},  {"F4", NumberType::kFloat32},
+      {"I1", NumberType::kInt8},   {"U1", NumberType::kUint8},  {"I2", NumberType::kInt16},
+      {"U2", NumberType::kUint16}, {"I4", NumberType::kInt32},  {"U4", NumberType::kUint32},
+      {"I8", NumberType::kInt64},  {"U8", NumberType::kUint64}, {"F4", NumberType::kFloat32},
       {"F8", NumberType::kFloat64}};
   const auto found = types.find(type + size);
   if (found == types.end()) at.fail("a field of TYPE " + type + " and SIZE " + size + " is none");
@@ -124,7 +125,8 @@ PcdHeader read_header(const Text& file, TextLines& lines) {
   const auto& encoding = entries.at("DATA");
   if (encoding.size() != 1) lines.fail("DATA is not one word");
   PcdHeader header{fields_of(lines, entries), points_in(lines, entries), encoding.front(), 0};
-  const auto line_end = static_cast<std::size_t>(lines.line().data() - file.content.data()) + lines.line().size();
+  const auto line_end =
+      static_cast<std::size_t>(lines.line().data() - file.content.data()) + lines.line().size();
   const std::size_t end = file.content.find('\n', line_end);
   header.data_begin = end == std::string::npos ? file.content.size() : end + 1;
   return header;
@@ -169,14 +171,17 @@ double floating_in(const TextLines& at, const PcdField& field, std::string_view 
 }
 
 /// The record's bytes of one number in a line; of a field that nobody reads, whatever stands there.
-void append_ascii_number(const TextLines& at, std::string& out, const PcdField& field, std::string_view word) {
+void append_ascii_number(const TextLines& at, std::string& out, const PcdField& field,
+                         std::string_view word) {
   const bool is_time = is_time_name(field.name);
   if (!is_time && field.name != "x" && field.name != "y" && field.name != "z") {
     out.append(bytes_of(field.type), '\0');
   } else if (field.type == NumberType::kFloat32 || field.type == NumberType::kFloat64) {
     const double value = floating_in(at, field, word);
-    if (field.type == NumberType::kFloat32) append_f32(out, static_cast<float>(value));
-    else append_f64(out, value);
+    if (field.type == NumberType::kFloat32)
+      append_f32(out, static_cast<float>(value));
+    else
+      append_f64(out, value);
   } else {
     const auto value = parse_integer(word);
     if (!value) at.fail(field.name + " '" + std::string(word) + "' is no whole number");

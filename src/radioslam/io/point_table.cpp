@@ -10,8 +10,8 @@ namespace radioslam {
 namespace {
 
 constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
-constexpr double kLargestOffset_s = 1e6;         ///< a scan that took longer is none: its times are absolute
-constexpr double kSmallestNanoseconds = 1e12;    ///< as seconds, it would be 30,000 years after the epoch
+constexpr double kLargestOffset_s = 1e6;       ///< a scan that took longer is none: its times are absolute
+constexpr double kSmallestNanoseconds = 1e12;  ///< as seconds, it would be 30,000 years after the epoch
 constexpr std::int64_t kLargestOffset_ns = 1'000'000'000'000'000;
 
 bool is_floating(NumberType type) { return type == NumberType::kFloat32 || type == NumberType::kFloat64; }
@@ -42,13 +42,20 @@ double floating_at(const ByteView& view, NumberType type, std::size_t at) {
 
 std::int64_t integer_at(const ByteView& view, NumberType type, std::size_t at) {
   switch (type) {
-    case NumberType::kInt8: return view.i8(at);
-    case NumberType::kUint8: return view.u8(at);
-    case NumberType::kInt16: return view.i16(at);
-    case NumberType::kUint16: return view.u16(at);
-    case NumberType::kInt32: return view.i32(at);
-    case NumberType::kUint32: return view.u32(at);
-    default: return view.i64(at);
+    case NumberType::kInt8:
+      return view.i8(at);
+    case NumberType::kUint8:
+      return view.u8(at);
+    case NumberType::kInt16:
+      return view.i16(at);
+    case NumberType::kUint16:
+      return view.u16(at);
+    case NumberType::kInt32:
+      return view.i32(at);
+    case NumberType::kUint32:
+      return view.u32(at);
+    default:
+      return view.i64(at);
   }
 }
 
@@ -81,13 +88,17 @@ float time_at(const ByteView& view, const PointColumn& column, std::size_t row, 
 std::size_t bytes_of(NumberType type) {
   switch (type) {
     case NumberType::kInt8:
-    case NumberType::kUint8: return 1;
+    case NumberType::kUint8:
+      return 1;
     case NumberType::kInt16:
-    case NumberType::kUint16: return 2;
+    case NumberType::kUint16:
+      return 2;
     case NumberType::kInt32:
     case NumberType::kUint32:
-    case NumberType::kFloat32: return 4;
-    default: return 8;
+    case NumberType::kFloat32:
+      return 4;
+    default:
+      return 8;
   }
 }
 

@@ -1,0 +1,10 @@
+// radioslam import carmen: what robots with laser scanners recorded becomes a mission.
+#pragma once
+
+#include "radioslam/cli/import_options.hpp"
+
+namespace radioslam::cli {
+
+void import_carmen_log(const ImportOptions& options);
+
+}  // namespace radioslam::cli
