@@ -58,8 +58,9 @@ TEST(Carmen, SpreadsReadingsOverHalfACircle) {
 }
 
 TEST(Carmen, OdometryIsTheScansAndBeginsAtTheStart) {
-  const auto imported = read("ODOM 5 5 5 0 0 0 9 nohost 0\n" + flaser("1 2 3", "10 20 1.5707963267948966", "10") +
-                             flaser("1 2 3", "10 22 1.5707963267948966", "11"));
+  const auto imported =
+      read("ODOM 5 5 5 0 0 0 9 nohost 0\n" + flaser("1 2 3", "10 20 1.5707963267948966", "10") +
+           flaser("1 2 3", "10 22 1.5707963267948966", "11"));
   const auto& odometry = imported.mission.robots[0].odometry;
   ASSERT_EQ(odometry.size(), 2U);
   EXPECT_EQ(odometry[0].stamp, Stamp{10'000'000'000});
@@ -72,8 +73,8 @@ TEST(Carmen, PutsALateLineBeforeThoseThatFollow) {
   const auto imported = read(flaser("1 2 3", "0 0 0", "10") + flaser("1 2 3", "1 0 0", "12") +
                              flaser("1 2 3", "2 0 0", "11") + flaser("1 2 3", "3 0 0", "13"));
   const Robot& robot = imported.mission.robots[0];
-  EXPECT_EQ(robot.lidar.stamps, (std::vector<Stamp>{{10'000'000'000}, {10'999'999'000}, {11'000'000'000},
-                                                    {13'000'000'000}}));
+  EXPECT_EQ(robot.lidar.stamps,
+            (std::vector<Stamp>{{10'000'000'000}, {10'999'999'000}, {11'000'000'000}, {13'000'000'000}}));
   EXPECT_EQ(robot.odometry[1].pose.translation().x(), 1) << "the log's order is kept";
   ASSERT_EQ(imported.warnings.size(), 1U);
   EXPECT_NE(imported.warnings[0].find("1 scans are stamped later"), std::string::npos);
@@ -81,7 +82,8 @@ TEST(Carmen, PutsALateLineBeforeThoseThatFollow) {
 
 TEST(Carmen, ReadsScansThatDescribeThemselves) {
   const auto imported = read(
-      "ROBOTLASER1 0 -0.5 1 0.5 10 0.01 0 3 2 2 10 2 7 8 1 2 1.5707963267948966 1 1 1.5707963267948966 0 0 0.3 "
+      "ROBOTLASER1 0 -0.5 1 0.5 10 0.01 0 3 2 2 10 2 7 8 1 2 1.5707963267948966 1 1 1.5707963267948966 0 0 "
+      "0.3 "
       "0.2 0 100.5 host 3\n");
   const Robot& robot = imported.mission.robots[0];
   EXPECT_EQ(robot.lidar.stamps[0], Stamp{100'500'000'000});

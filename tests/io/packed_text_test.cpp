@@ -15,7 +15,8 @@ namespace {
 std::string bzip2_of(std::string content) {
   std::string packed(content.size() + 1000, '\0');
   auto size = static_cast<unsigned>(packed.size());
-  BZ2_bzBuffToBuffCompress(packed.data(), &size, content.data(), static_cast<unsigned>(content.size()), 1, 0, 0);
+  BZ2_bzBuffToBuffCompress(packed.data(), &size, content.data(), static_cast<unsigned>(content.size()), 1, 0,
+                           0);
   packed.resize(size);
   return packed;
 }
@@ -61,8 +62,8 @@ TEST(PackedText, SeveralPiecesAreOneText) {
 }
 
 TEST(PackedText, RefusesWhatIsCutOffSpoiltOrEndless) {
-  for (const auto& [packed, decompress] :
-       {std::pair(bzip2_of(long_text()), &decompress_bzip2), std::pair(gzip_of(long_text()), &decompress_gzip)}) {
+  for (const auto& [packed, decompress] : {std::pair(bzip2_of(long_text()), &decompress_bzip2),
+                                           std::pair(gzip_of(long_text()), &decompress_gzip)}) {
     const auto read = [&, run = decompress](const std::string& bytes, std::size_t limit) {
       return [=] { run("log", bytes, limit); };
     };

@@ -121,7 +121,7 @@ void import_ranges(const ImportOptions& options) {
 }
 
 /// An option that not every kind takes.
-enum class Option { kRobot, kName, kFields, kTime };
+enum class Option { kRobot, kName, kFields, kTime, kPoses };
 
 /// One kind of source.
 struct ImportKind {
@@ -142,6 +142,7 @@ const std::vector<ImportKind>& import_kinds() {
       {"wifine", import_wifine_walks, {}},
       {"wifi-rtt", import_rtt_walk, {}},
       {"carmen", import_carmen_log, {Option::kRobot}},
+      {"kitti", import_kitti_drive, {Option::kRobot, Option::kPoses}},
   };
   return kinds;
 }
@@ -157,6 +158,7 @@ void check_options(const ImportOptions& options, const ImportKind& kind) {
   refuse_unless(options.robot.empty() || takes(Option::kRobot), options, "--robot");
   refuse_unless(options.names.empty() || takes(Option::kName), options, "--name");
   refuse_unless(options.fields.empty() || takes(Option::kFields), options, "--fields");
+  refuse_unless(options.poses.empty() || takes(Option::kPoses), options, "--poses");
   refuse_unless(options.time.empty() || takes(Option::kTime), options, "--time");
   refuse_unless(!options.file_times || takes(Option::kTime), options, "--file-times");
 }
@@ -197,7 +199,9 @@ void add_import(CLI::App& program) {
           "airodump: airodump-ng's .csv or .log.csv, likewise;\n"
           "pcap: a capture in monitor mode (pcap, pcapng; radiotap), likewise;\n"
           "wifine, wifi-rtt: these datasets, into missions without odometry;\n"
-          "carmen: a log of CARMEN (.gz, .bz2) with a plane's laser scans and odometry, into a mission")
+          "carmen: a log of CARMEN (.gz, .bz2) with a plane's laser scans and odometry, into a mission;\n"
+          "kitti: LiDAR scans (.bin), times.txt, poses and calib.txt as the KITTI odometry benchmark's, "
+          "into a mission")
       ->required();
   command
       ->add_option("SOURCE", options->sources,
@@ -218,6 +222,10 @@ void add_import(CLI::App& program) {
       ->add_option("--time", options->time,
                    "iw, iwlist, nmcli: when the one scan of a file without times was made; 0 by default")
       ->type_name("SECONDS");
+  command
+      ->add_option("--poses", options->poses,
+                   "kitti: the true poses, twelve numbers a line; by default what lies beside the scans")
+      ->type_name("FILE");
   command->add_flag("--file-times", options->file_times,
                     "iw, iwlist, nmcli: files without times were made when they were last written");
   add_parameter_options(*command, options->parameters);
@@ -239,7 +247,8 @@ void add_import(CLI::App& program) {
       "  radioslam import iw-ftm ftm.txt --robot a --name 02:00:00:00:01:00=door -o ranges.csv\n"
       "  radioslam import iw log --robot a -o mission\n"
       "  radioslam import pcap monitor.pcapng -o wifi.csv\n"
-      "  radioslam import carmen intel.clf.bz2 -o mission");
+      "  radioslam import carmen intel.clf.bz2 -o mission\n"
+      "  radioslam import kitti sequences/08 -o mission");
   command->callback([options] { import_recordings(*options); });
 }
 

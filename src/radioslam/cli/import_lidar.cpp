@@ -5,6 +5,7 @@
 
 #include "radioslam/io/atomic_output.hpp"
 #include "radioslam/io/carmen.hpp"
+#include "radioslam/io/kitti_sequence.hpp"
 #include "radioslam/io/mission_folder.hpp"
 #include "radioslam/io/packed_text.hpp"
 
@@ -28,11 +29,8 @@ std::string name_of(const std::string& source) {
   return fs::is_directory(path) ? name : name.substr(0, name.find('.', 1));
 }
 
-void print_summary(const ImportOptions& options, const ImportedMission& imported) {
+void print_notes(const ImportedMission& imported) {
   for (const std::string& warning : imported.warnings) std::cout << "note: " << warning << '\n';
-  for (const Robot& robot : imported.mission.robots)
-    std::cout << options.output << ": " << robot.lidar.size() << " scans, " << robot.odometry.size()
-              << " poses of odometry, " << robot.inertial.size() << " inertial readings of " << robot.id << '\n';
 }
 
 }  // namespace
@@ -45,7 +43,22 @@ void import_carmen_log(const ImportOptions& options) {
   imported.mission.name = name_of(only_source(options));
   write_mission(output.path(), imported.mission, imported.truth);
   output.commit();
-  print_summary(options, imported);
+  print_notes(imported);
+  std::cout << options.output << ": " << imported.mission.robots[0].lidar.size() << " scans and odometry of "
+            << robot << '\n';
+}
+
+void import_kitti_drive(const ImportOptions& options) {
+  const std::string robot = robot_named(options);
+  OutputFolder output(options.output, kMissionFolder);
+  KittiDrive drive = read_kitti_drive(only_source(options), robot, options.poses);
+  drive.imported.mission.name = name_of(only_source(options));
+  write_mission(output.path(), drive.imported.mission, drive.imported.truth);
+  copy_kitti_scans(drive.scans, output.path() / "robots" / robot / "lidar");
+  output.commit();
+  print_notes(drive.imported);
+  std::cout << options.output << ": " << drive.scans.size() << " scans of " << robot << ", "
+            << (drive.imported.truth.robots.empty() ? "no truth" : "and the truth") << '\n';
 }
 
 }  // namespace radioslam::cli

@@ -1,4 +1,4 @@
-// radioslam import carmen: what robots with laser scanners recorded becomes a mission.
+// radioslam import carmen, kitti: what robots with laser scanners recorded becomes a mission.
 #pragma once
 
 #include "radioslam/cli/import_options.hpp"
@@ -6,5 +6,7 @@
 namespace radioslam::cli {
 
 void import_carmen_log(const ImportOptions& options);
+
+void import_kitti_drive(const ImportOptions& options);
 
 }  // namespace radioslam::cli

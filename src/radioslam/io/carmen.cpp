@@ -96,7 +96,8 @@ Stamp read_time_before_end(const TextLines& lines, LineFields& fields) {
   std::vector<std::string_view> rest;
   while (!fields.empty()) rest.push_back(fields.next("a value"));
   if (rest.size() <= kFieldsBehindTime) fields.fail("the line ends before its ipc_timestamp");
-  return plausible_time(fields, stamp_in(lines, rest[rest.size() - 1 - kFieldsBehindTime], "the ipc_timestamp"));
+  return plausible_time(fields,
+                        stamp_in(lines, rest[rest.size() - 1 - kFieldsBehindTime], "the ipc_timestamp"));
 }
 
 /// ROBOTLASER1, behind its first word.
@@ -153,8 +154,9 @@ std::size_t put_in_order(const Text& text, std::vector<CarmenScan>& scans, const
     Stamp& stamp = scans[k - 1].stamp;
     if (stamp < next) continue;
     if (stamp.seconds() - next.seconds() > params.largest_delay_s)
-      text.fail(scans[k - 1].line, "its time " + format_stamp(stamp) + " is after that of lines that follow, " +
-                                       format_stamp(next) + " (largest_delay_s)");
+      text.fail(scans[k - 1].line, "its time " + format_stamp(stamp) +
+                                       " is after that of lines that follow, " + format_stamp(next) +
+                                       " (largest_delay_s)");
     stamp.ns = next.ns - kLeastStep_ns;
     ++late;
   }
@@ -195,7 +197,8 @@ Trajectory<SE3> odometry_of(const std::vector<CarmenScan>& scans) {
 /// How wide the scans look, about the body's x; all around where they do not look ahead.
 double view_of(const CarmenScan& scan) {
   const double view_rad = static_cast<double>(scan.ranges_m.size()) * std::abs(scan.fan.step_rad);
-  const double middle_rad = scan.fan.begin_rad + scan.fan.step_rad * static_cast<double>(scan.ranges_m.size()) / 2;
+  const double middle_rad =
+      scan.fan.begin_rad + scan.fan.step_rad * static_cast<double>(scan.ranges_m.size()) / 2;
   const bool looks_ahead = std::abs(wrap_angle(scan.fan.T_body_laser.angle() + middle_rad)) < view_rad / 2;
   return looks_ahead ? std::min(view_rad, 2 * std::numbers::pi) : 2 * std::numbers::pi;
 }

@@ -29,13 +29,6 @@ Stamp stamp_in_name(const fs::path& file) {
   return {*ns};
 }
 
-void check_whole_points(const fs::path& file, std::uintmax_t bytes) {
-  if (bytes % kBinPointBytes != 0)
-    throw InputError(file.string(), 0,
-                     "is no scan: its " + std::to_string(bytes) +
-                         " bytes are not a multiple of a point's 16 (float32 x y z intensity)");
-}
-
 /// By their stamps, then by their names.
 std::vector<ScanFile> list_scans(const fs::path& folder) {
   std::vector<fs::path> paths;
@@ -49,7 +42,7 @@ std::vector<ScanFile> list_scans(const fs::path& folder) {
   std::vector<ScanFile> scans;
   for (const fs::path& path : paths) {
     scans.push_back({path, stamp_in_name(path)});
-    if (path.extension() == ".bin") check_whole_points(path, fs::file_size(path));
+    if (path.extension() == ".bin") check_bin_size(path, fs::file_size(path));
   }
   std::stable_sort(scans.begin(), scans.end(),
                    [](const ScanFile& a, const ScanFile& b) { return a.stamp < b.stamp; });
@@ -58,7 +51,7 @@ std::vector<ScanFile> list_scans(const fs::path& folder) {
 
 LidarScan read_bin(const fs::path& file) {
   const std::string bytes = read_bytes(file);
-  check_whole_points(file, bytes.size());
+  check_bin_size(file, bytes.size());
   const ByteView view(bytes, ByteOrder::kLittle);
   LidarScan scan;
   scan.points.reserve(bytes.size() / kBinPointBytes);
@@ -78,6 +71,13 @@ std::string format_bin(const LidarScan& scan) {
 }
 
 }  // namespace
+
+void check_bin_size(const fs::path& file, std::uintmax_t bytes) {
+  if (bytes % kBinPointBytes != 0)
+    throw InputError(file.string(), 0,
+                     "is no scan: its " + std::to_string(bytes) +
+                         " bytes are not a multiple of a point's 16 (float32 x y z intensity)");
+}
 
 LidarLog read_lidar_folder(const fs::path& folder) {
   LidarLog log;

@@ -2,6 +2,7 @@
 // <t_ns>.bin, float32 x y z intensity in little-endian order, or <t_ns>.pcd (pcd.hpp).
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 
 #include "radioslam/mission/lidar.hpp"
@@ -12,6 +13,9 @@ namespace radioslam {
 /// files are ignored. Refuses (InputError) at once a .bin or .pcd with another name, two scans of one stamp
 /// and a .bin that is not a whole number of points (none is fine); on reading, a .pcd that is none.
 LidarLog read_lidar_folder(const std::filesystem::path& folder);
+
+/// Refuses (InputError) a .bin of so many bytes that it is not a whole number of points.
+void check_bin_size(const std::filesystem::path& file, std::uintmax_t bytes);
 
 /// One file of such a folder.
 LidarScan read_lidar_file(const std::filesystem::path& file, Stamp stamp);
