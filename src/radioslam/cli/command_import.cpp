@@ -8,6 +8,7 @@
 
 #include "radioslam/cli/command_options.hpp"
 #include "radioslam/cli/commands.hpp"
+#include "radioslam/cli/import_lidar.hpp"
 #include "radioslam/cli/import_options.hpp"
 #include "radioslam/cli/import_wifi.hpp"
 #include "radioslam/cli/suggestion.hpp"
@@ -120,7 +121,7 @@ void import_ranges(const ImportOptions& options) {
 }
 
 /// An option that not every kind takes.
-enum class Option { kRobot, kName, kFields, kTime };
+enum class Option { kRobot, kName, kFields, kTime, kPoses };
 
 /// One kind of source.
 struct ImportKind {
@@ -140,6 +141,8 @@ const std::vector<ImportKind>& import_kinds() {
       {"pcap", import_wifi_captures, {Option::kRobot}},
       {"wifine", import_wifine_walks, {}},
       {"wifi-rtt", import_rtt_walk, {}},
+      {"carmen", import_carmen_log, {Option::kRobot}},
+      {"kitti", import_kitti_drive, {Option::kRobot, Option::kPoses}},
   };
   return kinds;
 }
@@ -155,6 +158,7 @@ void check_options(const ImportOptions& options, const ImportKind& kind) {
   refuse_unless(options.robot.empty() || takes(Option::kRobot), options, "--robot");
   refuse_unless(options.names.empty() || takes(Option::kName), options, "--name");
   refuse_unless(options.fields.empty() || takes(Option::kFields), options, "--fields");
+  refuse_unless(options.poses.empty() || takes(Option::kPoses), options, "--poses");
   refuse_unless(options.time.empty() || takes(Option::kTime), options, "--time");
   refuse_unless(!options.file_times || takes(Option::kTime), options, "--file-times");
 }
@@ -184,16 +188,20 @@ void add_import(CLI::App& program) {
   auto* command =
       program.add_subcommand("import", "Turn other people's recordings into a mission, or a table of one");
   command
-      ->add_option("KIND", options->kind,
-                   "indoor-location: phone logs of walks on one floor, into a mission;\n"
-                   "iw-ftm: what `iw dev wlan0 measurement ftm_request` or `iw event -t` printed, into a "
-                   "ranges.csv;\n"
-                   "iw, iwlist, nmcli: what `iw dev wlan0 scan`, `iwlist wlan0 scan` or\n"
-                   "`nmcli -t -f BSSID,SSID-HEX,CHAN,FREQ,SIGNAL dev wifi list` printed, into a robot's "
-                   "wifi.csv;\n"
-                   "airodump: airodump-ng's .csv or .log.csv, likewise;\n"
-                   "pcap: a capture in monitor mode (pcap, pcapng; radiotap), likewise;\n"
-                   "wifine, wifi-rtt: these datasets, into missions without odometry")
+      ->add_option(
+          "KIND", options->kind,
+          "indoor-location: phone logs of walks on one floor, into a mission;\n"
+          "iw-ftm: what `iw dev wlan0 measurement ftm_request` or `iw event -t` printed, into a "
+          "ranges.csv;\n"
+          "iw, iwlist, nmcli: what `iw dev wlan0 scan`, `iwlist wlan0 scan` or\n"
+          "`nmcli -t -f BSSID,SSID-HEX,CHAN,FREQ,SIGNAL dev wifi list` printed, into a robot's "
+          "wifi.csv;\n"
+          "airodump: airodump-ng's .csv or .log.csv, likewise;\n"
+          "pcap: a capture in monitor mode (pcap, pcapng; radiotap), likewise;\n"
+          "wifine, wifi-rtt: these datasets, into missions without odometry;\n"
+          "carmen: a log of CARMEN (.gz, .bz2) with a plane's laser scans and odometry, into a mission;\n"
+          "kitti: LiDAR scans (.bin), times.txt, poses and calib.txt as the KITTI odometry benchmark's, "
+          "into a mission")
       ->required();
   command
       ->add_option("SOURCE", options->sources,
@@ -214,6 +222,10 @@ void add_import(CLI::App& program) {
       ->add_option("--time", options->time,
                    "iw, iwlist, nmcli: when the one scan of a file without times was made; 0 by default")
       ->type_name("SECONDS");
+  command
+      ->add_option("--poses", options->poses,
+                   "kitti: the true poses, twelve numbers a line; by default what lies beside the scans")
+      ->type_name("FILE");
   command->add_flag("--file-times", options->file_times,
                     "iw, iwlist, nmcli: files without times were made when they were last written");
   add_parameter_options(*command, options->parameters);
@@ -234,7 +246,9 @@ void add_import(CLI::App& program) {
       "  radioslam import indoor-location site1/F1 -o walks\n"
       "  radioslam import iw-ftm ftm.txt --robot a --name 02:00:00:00:01:00=door -o ranges.csv\n"
       "  radioslam import iw log --robot a -o mission\n"
-      "  radioslam import pcap monitor.pcapng -o wifi.csv");
+      "  radioslam import pcap monitor.pcapng -o wifi.csv\n"
+      "  radioslam import carmen intel.clf.bz2 -o mission\n"
+      "  radioslam import kitti sequences/08 -o mission");
   command->callback([options] { import_recordings(*options); });
 }
 

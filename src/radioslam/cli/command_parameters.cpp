@@ -11,6 +11,7 @@
 #include "radioslam/cli/similarity_params.hpp"
 #include "radioslam/cli/suggestion.hpp"
 #include "radioslam/io/airodump_csv.hpp"
+#include "radioslam/io/carmen.hpp"
 #include "radioslam/io/iw_ftm.hpp"
 #include "radioslam/io/printed_scans.hpp"
 #include "radioslam/io/wifi_capture.hpp"
@@ -53,7 +54,8 @@ std::vector<ParameterSet> parameter_sets() {
           {"nmcli", describe_parameters<PrintedScanParams>},
           {"airodump", describe_parameters<AirodumpParams>},
           {"pcap", describe_parameters<WifiCaptureParams>},
-          {"wifi-rtt", describe_parameters<WifiRttParams>}};
+          {"wifi-rtt", describe_parameters<WifiRttParams>},
+          {"carmen", describe_parameters<CarmenParams>}};
 }
 
 std::vector<ParameterDescription> parameters_of(const std::string& command) {
@@ -92,7 +94,7 @@ void add_parameters(CLI::App& program) {
   auto* command = program.add_subcommand("parameters", "List what --set and --config can change");
   command->add_option("COMMAND", options->command,
                       "run (default), simulate, carpark, city, csi, hall, kitti, optimize, similarity, aoa, "
-                      "anchors, import, iw-ftm, iw, iwlist, nmcli, airodump, pcap or wifi-rtt");
+                      "anchors, import, iw-ftm, iw, iwlist, nmcli, airodump, pcap, wifi-rtt or carmen");
   add_json_option(*command, options->json);
   command->footer("Example:\n  radioslam parameters run | less");
   command->callback([options] { list_parameters(*options); });

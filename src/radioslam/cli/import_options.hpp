@@ -18,6 +18,7 @@ struct ImportOptions {
   std::vector<std::string> names;
   std::string fields;
   std::string time;
+  std::string poses;
   bool file_times = false;
   ParameterOptions parameters;
 };

@@ -11,19 +11,11 @@
 #include <string>
 #include <vector>
 
+#include "radioslam/io/imported_mission.hpp"
 #include "radioslam/io/phone_log.hpp"
 #include "radioslam/mission/dead_reckoning.hpp"
-#include "radioslam/mission/mission.hpp"
-#include "radioslam/mission/truth.hpp"
 
 namespace radioslam {
-
-/// A mission and its truth from someone else's recordings.
-struct ImportedMission {
-  Mission mission;
-  Truth truth;
-  std::vector<std::string> warnings;  ///< what a user should know about the source, one line each
-};
 
 /// A log and the name of its robot.
 struct NamedPhoneLog {

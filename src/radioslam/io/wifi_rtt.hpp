@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "radioslam/base/fields.hpp"
-#include "radioslam/io/indoor_location.hpp"
+#include "radioslam/io/imported_mission.hpp"
 #include "radioslam/io/text.hpp"
 
 namespace radioslam {

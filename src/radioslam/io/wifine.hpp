@@ -11,7 +11,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "radioslam/io/indoor_location.hpp"
+#include "radioslam/io/imported_mission.hpp"
 #include "radioslam/io/text.hpp"
 
 namespace radioslam {

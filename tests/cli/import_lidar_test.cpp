@@ -1,0 +1,86 @@
+// What robots with laser scanners recorded, into a mission.
+#include <gtest/gtest.h>
+
+#include "cli/process.hpp"
+
+namespace radioslam::cli {
+namespace {
+
+const std::string kLog =
+    "FLASER 3 1 2 3 0 0 0 5 5 0 10 nohost 0\nFLASER 3 1 9 3 0 0 0 6 5 0 12 nohost 0\n"
+    "FLASER 3 1 2 3 0 0 0 7 5 0 11.5 nohost 0\n";
+
+struct ImportLidar : testing::Test {
+  Outcome import(const std::vector<std::string>& arguments) const {
+    std::vector<std::string> call{"import"};
+    call.insert(call.end(), arguments.begin(), arguments.end());
+    return run(call, folder.path());
+  }
+  void expect_refused(const std::vector<std::string>& arguments, const std::string& reason) const {
+    const auto before = files_in(folder.path());
+    const Outcome outcome = import(arguments);
+    EXPECT_EQ(outcome.status, 2) << outcome.err;
+    EXPECT_NE(outcome.err.find(reason), std::string::npos) << outcome.err;
+    EXPECT_EQ(files_in(folder.path()), before) << "nothing half-written";
+  }
+
+  TemporaryFolder folder;
+};
+
+TEST_F(ImportLidar, CarmenBecomesAMissionThatRuns) {
+  write_file(folder.path() / "hall.clf", kLog);
+  const Outcome outcome = import({"carmen", "hall.clf", "--robot", "scout", "-o", "m"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.out,
+            "note: 1 scans are stamped later than one that follows; they are put before it\n"
+            "m: 3 scans and odometry of scout\n");
+  EXPECT_EQ(files_in(folder.path() / "m"),
+            (std::vector<std::string>{"mission.yaml", "robots/scout/lidar/10000000000.bin",
+                                      "robots/scout/lidar/11499999000.bin",
+                                      "robots/scout/lidar/11500000000.bin", "robots/scout/odometry.tum"}));
+  EXPECT_EQ(read_file(folder.path() / "m/robots/scout/lidar/11499999000.bin").size(), 32U)
+      << "the 9 m reading is the log's largest: no return";
+  EXPECT_NE(read_file(folder.path() / "m/mission.yaml").find("name: hall\ndimension: 2\n"),
+            std::string::npos);
+  const Outcome ran = run({"run", "m", "-o", "out"}, folder.path());
+  EXPECT_EQ(ran.status, 0) << ran.err;
+}
+
+TEST_F(ImportLidar, CarmenRefusesWithTheLine) {
+  write_file(folder.path() / "hall.clf", kLog + "FLASER 3 1 2\n");
+  expect_refused({"carmen", "hall.clf", "-o", "m"}, "hall.clf:4: ");
+  expect_refused({"carmen", "none.clf", "-o", "m"}, "none.clf: no such file");
+  expect_refused({"carmen", "hall.clf", "--robot", "a/b", "-o", "m"}, "cannot be the name of a robot");
+  expect_refused({"carmen", "hall.clf", "--time", "1", "-o", "m"}, "takes no --time");
+  write_file(folder.path() / "late.clf", kLog);
+  expect_refused({"carmen", "late.clf", "--set", "largest_delay_s=0.1", "-o", "m"},
+                 "late.clf:2: its time 12");
+}
+
+TEST_F(ImportLidar, KittiCopiesScansByteForByte) {
+  std::filesystem::create_directories(folder.path() / "drive/bin");
+  const std::string point = "0123456789abcdef";
+  write_file(folder.path() / "drive/bin/000000.bin", point);
+  write_file(folder.path() / "drive/bin/000001.bin", "");
+  write_file(folder.path() / "drive/times.txt", "1630577758.569490\n1630577759.068947\n");
+  write_file(folder.path() / "truth.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 5 0 1 0 6 0 0 1 7\n");
+  const Outcome outcome = import({"kitti", "drive/", "--poses", "truth.txt", "-o", "m"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "note: the truth is truth.txt, of the LiDAR\nm: 2 scans of a, and the truth\n");
+  EXPECT_EQ(read_file(folder.path() / "m/robots/a/lidar/1630577758569490000.bin"), point);
+  EXPECT_EQ(read_file(folder.path() / "m/robots/a/lidar/1630577759068947000.bin"), "");
+  EXPECT_EQ(read_file(folder.path() / "m/robots/a/groundtruth.tum"),
+            "1630577758.56949 0 0 0 0 0 0 1\n1630577759.068947 5 6 7 0 0 0 1\n");
+  EXPECT_NE(read_file(folder.path() / "m/mission.yaml").find("name: drive\ndimension: 3\n"),
+            std::string::npos);
+}
+
+TEST_F(ImportLidar, KittiRefusesWhatIsNoDrive) {
+  write_file(folder.path() / "scans.tar.zst", "x");
+  expect_refused({"kitti", "scans.tar.zst", "-o", "m"}, "archives have to be unpacked first");
+  expect_refused({"kitti", "none", "-o", "m"}, "none: no such folder");
+  expect_refused({"kitti", ".", "-o", "m"}, "there is no scan in it");
+}
+
+}  // namespace
+}  // namespace radioslam::cli
