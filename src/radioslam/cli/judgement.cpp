@@ -46,6 +46,7 @@ std::vector<EstimatedTrajectory> dead_reckoning(const Mission& mission) {
   for (const auto& robot : mission.robots) {
     if (!robot.initial_pose) return {};
     std::vector<StampedPose<SE3>> poses(robot.odometry.begin(), robot.odometry.end());
+    if (robot.odometry.empty()) return {};  // it is estimated from scans
     const SE3 T_common_start = *robot.initial_pose * robot.odometry.front().pose.inverse();
     for (auto& row : poses) row.pose = T_common_start * row.pose;
     robots.push_back({robot.id, Trajectory<SE3>(std::move(poses))});

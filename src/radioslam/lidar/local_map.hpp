@@ -17,7 +17,7 @@ struct LocalMapParams {
   double coarse_spacings = 3;         ///< of a first alignment where the start may be far off
   double coarse_reach_spacings = 12;  ///< and its reach
   double memory_m = 30;
-  double correlation_share = 0.3;     ///< of the median range: points closer together err together
+  double correlation_share = 0.3;  ///< of the median range: points closer together err together
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -30,8 +30,9 @@ struct LocalMapParams {
     visit(Field{"coarse_reach_spacings", "", 1, 100, "and its reach"}, self.coarse_reach_spacings);
     visit(Field{"memory_m", "m", 1, 1e6, "what was out of sight for so long a way is forgotten"},
           self.memory_m);
-    visit(Field{"correlation_share", "", 1e-3, 10, "of the median range: points closer together err together"},
-          self.correlation_share);
+    visit(
+        Field{"correlation_share", "", 1e-3, 10, "of the median range: points closer together err together"},
+        self.correlation_share);
   }
 };
 

@@ -92,8 +92,7 @@ std::vector<SE3> starts_in(const Window& window, const SE3& guess) {
     for (int y = -window.y; y <= window.y; ++y)
       for (int yaw = -window.yaw; yaw <= window.yaw; ++yaw) {
         const Eigen::Vector3d shift(x * window.step_m, y * window.step_m, 0);
-        const Eigen::Quaterniond turn(
-            Eigen::AngleAxisd(yaw * window.step_rad, Eigen::Vector3d::UnitZ()));
+        const Eigen::Quaterniond turn(Eigen::AngleAxisd(yaw * window.step_rad, Eigen::Vector3d::UnitZ()));
         starts.emplace_back(guess.translation() + shift, turn * guess.rotation());
       }
   return starts;
@@ -137,8 +136,8 @@ Registration register_from(const LocalMap& map, const ScanCloud& scan, const std
 PoseSearch search_pose(const LocalMap& map, const ScanCloud& scan, const UncertainPose<SE3>& guess,
                        ScannerKind kind, const PoseSearchParams& search, const RegistrationParams& params) {
   const Window window = window_of(map, scan, guess, search);
-  const auto starts = most_promising(map, scan, starts_in(window, guess.pose),
-                                     static_cast<std::size_t>(search.most_aligned));
+  const auto starts =
+      most_promising(map, scan, starts_in(window, guess.pose), static_cast<std::size_t>(search.most_aligned));
   std::vector<Registration> fits(starts.size());
   parallel_for(starts.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) fits[k] = register_far(map, scan, starts[k], kind, params);

@@ -69,9 +69,7 @@ class LoopCloser {
   }
 
  private:
-  double radius_of(std::size_t k) const {
-    return params_.radius_share * keyframes_.clouds[k].median_range_m;
-  }
+  double radius_of(std::size_t k) const { return params_.radius_share * keyframes_.clouds[k].median_range_m; }
 
   std::vector<Candidate> find_candidates() {
     const auto marginals = Marginals<SE3>::compute(graph_);
@@ -85,7 +83,8 @@ class LoopCloser {
         if (!tried_.insert({i, j}).second) continue;
         const auto T_i_j = graph_.poses[i].inverse() * graph_.poses[j];
         const SE3::Jacobian covariance = marginals->relative_pose(PoseId(i), PoseId(j));
-        if (is_candidate({T_i_j, covariance}, radius_of(j))) candidates.push_back({i, j, {T_i_j, covariance}});
+        if (is_candidate({T_i_j, covariance}, radius_of(j)))
+          candidates.push_back({i, j, {T_i_j, covariance}});
       }
     }
     return candidates;
@@ -204,11 +203,16 @@ class LoopCloser {
 
 std::string_view reason(LoopVerdict verdict) {
   switch (verdict) {
-    case LoopVerdict::kAccepted: return "";
-    case LoopVerdict::kPoorFit: return "the scans do not fit";
-    case LoopVerdict::kAmbiguous: return "another place fits as well";
-    case LoopVerdict::kFarFromGuess: return "the odometry disagrees";
-    case LoopVerdict::kOutvoted: return "the other closures disagree";
+    case LoopVerdict::kAccepted:
+      return "";
+    case LoopVerdict::kPoorFit:
+      return "the scans do not fit";
+    case LoopVerdict::kAmbiguous:
+      return "another place fits as well";
+    case LoopVerdict::kFarFromGuess:
+      return "the odometry disagrees";
+    case LoopVerdict::kOutvoted:
+      return "the other closures disagree";
   }
   return "";
 }

@@ -26,10 +26,10 @@ namespace radioslam {
 
 struct ScanLoopParams {
   bool enabled = true;
-  double radius_share = 0.5;   ///< of the median range: keyframes nearer than this see much the same
-  double least_way_m = 10;     ///< between the two keyframes
-  double stride_m = 2;         ///< keyframes are tried so far apart
-  double submap_m = 5;         ///< of way to either side of the earlier keyframe
+  double radius_share = 0.5;  ///< of the median range: keyframes nearer than this see much the same
+  double least_way_m = 10;    ///< between the two keyframes
+  double stride_m = 2;        ///< keyframes are tried so far apart
+  double submap_m = 5;        ///< of way to either side of the earlier keyframe
   double sigmas = 3;
   double known_sigma_m = 0.1;  ///< pairs whose relative position is known better need no closure
   double fit_share = 0.85;     ///< of the usual fit of a scan to its own map
@@ -82,10 +82,10 @@ struct ScanLoop {
 
 /// One robot's keyframes.
 struct ScanKeyframes {
-  std::vector<SE3> poses;                      ///< T_start_keyframe, by odometry
-  std::vector<SE3::Jacobian> step_covariances; ///< of T_k^-1 T_k+1
-  std::vector<ScanCloud> clouds;               ///< may be empty: of a keyframe without a scan
-  double usual_share = 1;                      ///< of a scan's points that fit its own map
+  std::vector<SE3> poses;                       ///< T_start_keyframe, by odometry
+  std::vector<SE3::Jacobian> step_covariances;  ///< of T_k^-1 T_k+1
+  std::vector<ScanCloud> clouds;                ///< may be empty: of a keyframe without a scan
+  double usual_share = 1;                       ///< of a scan's points that fit its own map
   double spacing_m = 0.25;
   ScannerKind kind = ScannerKind::kSpatial;
 };

@@ -78,11 +78,11 @@ struct LidarParams {
 
   template <class Self, class Visitor>
   static void visit_sections(Self& self, Visitor&& visit) {
-    visit("points", self.points);
-    visit("surfel", self.surfel);
-    visit("registration", self.registration);
-    visit("map", self.map);
-    visit("odometry", self.odometry);
+    visit("scan_points", self.points);
+    visit("scan_surfels", self.surfel);
+    visit("scan_registration", self.registration);
+    visit("scan_map", self.map);
+    visit("scan_odometry", self.odometry);
   }
 };
 

@@ -4,6 +4,11 @@
 
 namespace radioslam {
 
+bool is_new_keyframe(const SE3& last, const SE3& pose, const KeyframeParams& params) {
+  const SE3 step = last.inverse() * pose;
+  return step.translation().norm() >= params.distance_m || step.log().tail<3>().norm() >= params.angle_rad;
+}
+
 std::vector<std::size_t> select_keyframes(const Trajectory<SE3>& odometry, const KeyframeParams& params) {
   std::vector<std::size_t> keyframes;
   for (std::size_t i = 0; i < odometry.size(); ++i) {
@@ -11,9 +16,7 @@ std::vector<std::size_t> select_keyframes(const Trajectory<SE3>& odometry, const
       keyframes.push_back(i);
       continue;
     }
-    const SE3 step = odometry[keyframes.back()].pose.inverse() * odometry[i].pose;
-    const double turn = step.log().tail<3>().norm();
-    if (step.translation().norm() >= params.distance_m || turn >= params.angle_rad) keyframes.push_back(i);
+    if (is_new_keyframe(odometry[keyframes.back()].pose, odometry[i].pose, params)) keyframes.push_back(i);
   }
   return keyframes;
 }

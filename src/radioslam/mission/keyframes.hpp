@@ -23,6 +23,9 @@ struct KeyframeParams {
   }
 };
 
+/// Is a pose at least `distance_m` or `angle_rad` from the last keyframe?
+bool is_new_keyframe(const SE3& last, const SE3& pose, const KeyframeParams& params);
+
 /// Indices of the odometry rows at least `distance_m` or `angle_rad` from the last keyframe, and of the
 /// first and the last row.
 std::vector<std::size_t> select_keyframes(const Trajectory<SE3>& odometry, const KeyframeParams& params);

@@ -106,9 +106,10 @@ std::optional<SE3> common_from_start(const Robot& robot) {
 
 template <class Pose>
 JointGraph<Pose> build_joint_graph(const Mission& mission, const KeyframeParams& keyframes,
-                                   const JointGraphParams& params) {
+                                   const JointGraphParams& params, std::vector<std::vector<Stamp>> moments) {
   JointGraph<Pose> joint;
-  const auto moments = link_moments(mission);
+  moments.resize(mission.robots.size());
+  add_link_moments(mission, moments);
   std::vector<RobotNodes> nodes;
   for (std::size_t r = 0; r < mission.robots.size(); ++r) {
     const Robot& robot = mission.robots[r];
@@ -167,8 +168,8 @@ void add_fingerprint_closures(JointGraph<Pose>& joint, const RadioMeasurements& 
 }
 
 #define RADIOSLAM_JOINT_GRAPH(Pose)                                                                        \
-  template JointGraph<Pose> build_joint_graph<Pose>(const Mission&, const KeyframeParams&,                 \
-                                                    const JointGraphParams&);                              \
+  template JointGraph<Pose> build_joint_graph<Pose>(                                                       \
+      const Mission&, const KeyframeParams&, const JointGraphParams&, std::vector<std::vector<Stamp>>);    \
   template void place_robots(JointGraph<Pose>&, const std::vector<SE2>&);                                  \
   template RangeEnd<Pose> fingerprint_end(const JointGraph<Pose>&, const RadioMeasurements&, std::size_t); \
   template void add_fingerprint_closures(JointGraph<Pose>&, const RadioMeasurements&,                      \

@@ -78,9 +78,11 @@ struct JointGraph {
 std::optional<SE3> common_from_start(const Robot& robot);
 
 /// Everything but closures. Every trajectory stands in its own start frame, or where its start is known.
+/// `moments`: per robot, further times of its odometry at which poses stand; empty: none.
 template <class Pose>
 JointGraph<Pose> build_joint_graph(const Mission& mission, const KeyframeParams& keyframes,
-                                   const JointGraphParams& params);
+                                   const JointGraphParams& params,
+                                   std::vector<std::vector<Stamp>> moments = {});
 
 /// Moves every robot's trajectory rigidly: poses <- T_team_start * poses.
 template <class Pose>

@@ -12,6 +12,7 @@
 #include "radioslam/pipeline/overlap_stage.hpp"
 #include "radioslam/pipeline/range_biases.hpp"
 #include "radioslam/pipeline/robust_solution.hpp"
+#include "radioslam/pipeline/scan_stage.hpp"
 #include "radioslam/pipeline/sequence_stage.hpp"
 #include "radioslam/radio/arrival_likelihood.hpp"
 #include "radioslam/radio/measurements.hpp"
@@ -24,6 +25,7 @@ namespace radioslam {
 struct RunParams {
   KeyframeParams keyframe;
   RadioParams radio;
+  ScanParams scans;
   CsiStageParams csi;
   LayoutParams team_frame;
   FieldParams field;
@@ -45,6 +47,7 @@ struct RunParams {
   static void visit_sections(Self& self, Visitor&& visit) {
     visit("keyframe", self.keyframe);
     visit("radio", self.radio);
+    ScanParams::visit_sections(self.scans, visit);
     visit("csi", self.csi);
     visit("team_frame", self.team_frame);
     visit("field", self.field);

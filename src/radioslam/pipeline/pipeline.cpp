@@ -7,6 +7,7 @@
 #include "radioslam/pipeline/csi_stage.hpp"
 #include "radioslam/pipeline/field_stage.hpp"
 #include "radioslam/pipeline/joint_graph_of_team.hpp"
+#include "radioslam/pipeline/scan_closures.hpp"
 #include "radioslam/team_frame/observed_information.hpp"
 
 namespace radioslam {
@@ -134,17 +135,20 @@ void check_angles_into(RunResult& result, const Mission& mission, const JointGra
 }
 
 template <class Pose>
-RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const RunParams& params,
-              const RunOptions& options, const Progress& progress) {
+RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const std::vector<ScanClosure>& loops,
+              const RunParams& params, const RunOptions& options, const Progress& progress) {
   RunOutput output;
   RunResult& result = output.result;
   StageClock clock(result.timings);
 
   const auto radio = clock.time("radio", [&] { return measure_radio(mission, params.radio, progress); });
   auto joint = clock.time("graph", [&] {
-    return team ? joint_graph_of(*team, mission)
-                : build_joint_graph<Pose>(mission, params.keyframe, params.graph);
+    if (team) return joint_graph_of(*team, mission);
+    std::vector<std::vector<Stamp>> moments(mission.robots.size());
+    add_closure_moments(loops, moments);
+    return build_joint_graph<Pose>(mission, params.keyframe, params.graph, std::move(moments));
   });
+  const ScanTies scan_ties = add_scan_closures(joint, loops, params.optimizer);
   const auto placement = clock.time("team frame", [&] {
     return has_radio_links(joint) ? place_by_radio(joint, params.alignment, progress)
                                   : place_by_fingerprints(joint, mission, radio, params.team_frame, progress);
@@ -192,6 +196,8 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const RunPara
     result.closures.push_back(std::move(closure));
   for (auto& closure : collect_sequence_closures(joint, radio, sequences))
     result.closures.push_back(std::move(closure));
+  for (auto& closure : collect_scan_closures(joint, loops, scan_ties))
+    result.closures.push_back(std::move(closure));
   result.closures.insert(result.closures.end(), matches.begin(), matches.end());
   result.similarity_model = collect_similarity_model(radio, params.radio);
   clock.time("access points",
@@ -201,34 +207,43 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const RunPara
   return output;
 }
 
-RunOutput run_in_its_dimension(const Mission& mission, const RunParams& params, const RunOptions& options,
-                               const Progress& progress) {
-  return mission.dimension == 2 ? run<SE2>(mission, nullptr, params, options, progress)
-                                : run<SE3>(mission, nullptr, params, options, progress);
+RunOutput run_in_its_dimension(const Mission& mission, const std::vector<ScanClosure>& loops,
+                               const RunParams& params, const RunOptions& options, const Progress& progress) {
+  return mission.dimension == 2 ? run<SE2>(mission, nullptr, loops, params, options, progress)
+                                : run<SE3>(mission, nullptr, loops, params, options, progress);
 }
 
-/// The mission with the angles measured in its captures, and without the captures.
-Mission with_angles(Mission mission, const std::vector<ArrivalMeasurement>& measured) {
+/// The angles measured in the mission's captures in place of the captures.
+void add_angles(Mission& mission, const std::vector<ArrivalMeasurement>& measured) {
   for (Robot& robot : mission.robots) robot.csi.reset();
   mission.arrivals.insert(mission.arrivals.end(), measured.begin(), measured.end());
   std::stable_sort(mission.arrivals.begin(), mission.arrivals.end(),
                    [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
-  return mission;
 }
 
 }  // namespace
 
-RunOutput run_pipeline(const Mission& mission, const RunParams& params, const RunOptions& options,
+RunOutput run_pipeline(const Mission& recorded, const RunParams& params, const RunOptions& options,
                        const Progress& progress) {
   std::vector<StageTiming> timings;
-  MeasuredCsi csi =
-      StageClock(timings).time("angles", [&] { return measure_csi(mission, params.csi, progress); });
-  if (csi.arrivals.empty() && csi.notes.empty())
-    return run_in_its_dimension(mission, params, options, progress);
-  RunOutput output = run_in_its_dimension(with_angles(mission, csi.arrivals), params, options, progress);
+  StageClock clock(timings);
+  Mission mission = recorded;
+  const MeasuredScans scans =
+      clock.time("scans", [&] { return measure_scans(mission, params.scans, params.keyframe, progress); });
+  MeasuredCsi csi = clock.time("angles", [&] { return measure_csi(mission, params.csi, progress); });
+  add_angles(mission, csi.arrivals);
+  RunOutput output = run_in_its_dimension(mission, scans.closures, params, options, progress);
   RunResult& result = output.result;
+  if (csi.arrivals.empty() && csi.notes.empty()) timings.pop_back();
+  if (scans.scans == 0) timings.erase(timings.begin());
   result.timings.insert(result.timings.begin(), timings.begin(), timings.end());
-  result.counts["arrivals_measured"] = static_cast<double>(csi.arrivals.size());
+  if (scans.scans > 0) {
+    result.counts["scans"] = static_cast<double>(scans.scans);
+    result.counts["scans_registered"] = static_cast<double>(scans.registered);
+  }
+  if (!csi.arrivals.empty() || !csi.notes.empty())
+    result.counts["arrivals_measured"] = static_cast<double>(csi.arrivals.size());
+  result.notes.insert(result.notes.end(), scans.notes.begin(), scans.notes.end());
   for (auto& note : csi.notes) result.notes.push_back(std::move(note));
   add_estimated_azimuths(csi.profiles, result.robots);
   result.arrivals = std::move(csi.profiles);
@@ -238,7 +253,7 @@ RunOutput run_pipeline(const Mission& mission, const RunParams& params, const Ru
 template <class Pose>
 RunOutput run_pipeline(const Mission& mission, const TeamGraph<Pose>& team, const RunParams& params,
                        const RunOptions& options, const Progress& progress) {
-  return run(mission, &team, params, options, progress);
+  return run(mission, &team, {}, params, options, progress);
 }
 
 template RunOutput run_pipeline(const Mission&, const TeamGraph<SE2>&, const RunParams&, const RunOptions&,

@@ -104,8 +104,7 @@ class RadioFactors {
 
 }  // namespace
 
-std::vector<std::vector<Stamp>> link_moments(const Mission& mission) {
-  std::vector<std::vector<Stamp>> moments(mission.robots.size());
+void add_link_moments(const Mission& mission, std::vector<std::vector<Stamp>>& moments) {
   const auto note = [&](RobotIndex robot, Stamp stamp) {
     if (robot.valid()) moments[robot.index()].push_back(stamp);
   };
@@ -114,7 +113,6 @@ std::vector<std::vector<Stamp>> link_moments(const Mission& mission) {
     note(arrival.receiver, arrival.stamp), note(arrival.transmitter.robot, arrival.stamp);
   for (const auto& match : mission.matches)
     note(match.robot_i, match.stamp_i), note(match.robot_j, match.stamp_j);
-  return moments;
 }
 
 template <class Pose>

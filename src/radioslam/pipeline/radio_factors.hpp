@@ -9,8 +9,8 @@
 
 namespace radioslam {
 
-/// Per robot, the stamps of the links and matches it took part in.
-std::vector<std::vector<Stamp>> link_moments(const Mission& mission);
+/// Adds to every robot's moments the stamps of the links and matches it took part in.
+void add_link_moments(const Mission& mission, std::vector<std::vector<Stamp>>& moments);
 
 /// The paths as an estimate of this dimension sees them, given the receiver's odometry pose.
 template <class Pose>

@@ -1,0 +1,58 @@
+// What robots with laser scanners make of their scans before the team is looked at: an odometry, and closures
+// within each robot. Robots without scans stay as they are.
+//
+// The scans' poses become the robot's odometry, with the noise that was measured along with them; recorded
+// odometry only tells where a scan is looked for, and leads on where the scans begin later or end earlier.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "radioslam/base/fields.hpp"
+#include "radioslam/base/progress.hpp"
+#include "radioslam/lidar/scan_loops.hpp"
+#include "radioslam/lidar/scan_odometry.hpp"
+#include "radioslam/mission/keyframes.hpp"
+#include "radioslam/mission/mission.hpp"
+#include "radioslam/pipeline/scan_closures.hpp"
+
+namespace radioslam {
+
+struct ScanStageParams {
+  std::string odometry = "scans";
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit(Field{"odometry", "", 0, 0, "where both are there: of the scans, or as recorded", "scans|recorded"},
+          self.odometry);
+  }
+};
+
+struct MeasuredScans {
+  std::vector<ScanClosure> closures;
+  std::vector<std::string> notes;
+  std::size_t scans = 0, registered = 0, keyframes = 0;
+};
+
+/// Everything that the scans need.
+struct ScanParams {
+  ScanStageParams stage;
+  LidarParams lidar;
+  PoseSearchParams search;
+  ScanLoopParams loops;
+
+  template <class Self, class Visitor>
+  static void visit_sections(Self& self, Visitor&& visit) {
+    visit("scans", self.stage);
+    LidarParams::visit_sections(self.lidar, visit);
+    visit("scan_search", self.search);
+    visit("scan_loops", self.loops);
+  }
+};
+
+/// Gives robots with scans their odometry.
+MeasuredScans measure_scans(Mission& mission, const ScanParams& params, const KeyframeParams& keyframes,
+                            const Progress& progress);
+
+}  // namespace radioslam
