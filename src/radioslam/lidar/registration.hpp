@@ -23,9 +23,9 @@ namespace radioslam {
 struct RegistrationParams {
   int max_iterations = 30;
   double loss_scale = 3;   ///< standard deviations beyond which a point counts for little
-  double narrowing = 0.6;  ///< of the blur from one iteration to the next
-  double translation_tolerance_m = 1e-4;
-  double rotation_tolerance_rad = 1e-5;
+  double narrowing = 0.35;  ///< of the blur from one iteration to the next
+  double translation_tolerance_m = 1e-3;
+  double rotation_tolerance_rad = 3e-4;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
