@@ -14,10 +14,11 @@ namespace radioslam::test {
 
 /// How lively a motion is.
 struct Liveliness {
-  double way_m = 1;          ///< of each sine, per axis
-  double turn_rad = 0.5;     ///< likewise, of yaw, pitch and roll
-  double fastest_radps = 3;  ///< of the sines' angular frequencies
-  double speed_mps = 1;      ///< of the straight motion that they are added to
+  double way_m = 1;            ///< of each sine, per axis
+  double turn_rad = 0.5;       ///< likewise, of yaw, pitch and roll
+  double fastest_radps = 3;    ///< of the sines' angular frequencies
+  double speed_mps = 1;        ///< of the straight motion that they are added to
+  double turning_radps = 0.2;  ///< likewise, at most
 };
 
 /// Each of x, y, z, yaw, pitch, roll a straight line plus three sines.
@@ -25,7 +26,8 @@ class SmoothMotion {
  public:
   SmoothMotion(Rng rng, const Liveliness& of) {
     for (int axis = 0; axis < 6; ++axis) {
-      lines_[index(axis)] = axis < 3 ? rng.normal(0, of.speed_mps) : rng.uniform(-0.2, 0.2);
+      lines_[index(axis)] =
+          axis < 3 ? rng.normal(0, of.speed_mps) : rng.uniform(-of.turning_radps, of.turning_radps);
       for (Sine& sine : sines_[index(axis)])
         sine = {rng.uniform(0.3, 1) * (axis < 3 ? of.way_m : of.turn_rad) / kSines,
                 rng.uniform(0.2, 1) * of.fastest_radps, rng.uniform(0, 6.28)};
