@@ -34,6 +34,11 @@ class SmoothMotion {
     }
   }
 
+  /// On top of the drawn lines.
+  void add_course(const Eigen::Vector3d& velocity_mps) {
+    for (int axis = 0; axis < 3; ++axis) lines_[index(axis)] += velocity_mps[axis];
+  }
+
   SE3 pose(double t) const {
     const Eigen::Quaterniond R = Eigen::AngleAxisd(value(3, t), Eigen::Vector3d::UnitZ()) *
                                  Eigen::AngleAxisd(value(4, t), Eigen::Vector3d::UnitY()) *

@@ -21,6 +21,7 @@ struct InertialNoiseParams {
   double integration_noise = 1e-4;
   double gravity_mps2 = 9.81;
   double longest_gap_s = 0.1;
+  double unmeasured_velocity_walk = 2;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -28,9 +29,9 @@ struct InertialNoiseParams {
           self.accelerometer_noise);
     visit(Field{"gyroscope_noise", "rad/s/sqrt(Hz)", 1e-8, 1, "noise density of the gyroscope"},
           self.gyroscope_noise);
-    visit(Field{"accelerometer_walk", "m/s^2/sqrt(s)", 1e-9, 1, "random walk of the accelerometer's bias"},
+    visit(Field{"accelerometer_walk", "m/s^2/sqrt(s)", 1e-6, 1, "random walk of the accelerometer's bias"},
           self.accelerometer_walk);
-    visit(Field{"gyroscope_walk", "rad/s/sqrt(s)", 1e-10, 1, "random walk of the gyroscope's bias"},
+    visit(Field{"gyroscope_walk", "rad/s/sqrt(s)", 1e-7, 1, "random walk of the gyroscope's bias"},
           self.gyroscope_walk);
     visit(Field{"sigma_accelerometer_bias_mps2", "m/s^2", 1e-6, 10, "its bias at the start, per axis"},
           self.sigma_accelerometer_bias_mps2);
@@ -44,6 +45,8 @@ struct InertialNoiseParams {
     visit(Field{"longest_gap_s", "s", 1e-3, 10,
                 "without a reading; a motion over a longer gap counts as not measured"},
           self.longest_gap_s);
+    visit(Field{"unmeasured_velocity_walk", "m/s/sqrt(s)", 1e-3, 1000, "of a velocity over such a gap"},
+          self.unmeasured_velocity_walk);
   }
 
   /// Gravity's acceleration in a frame whose z points up.
