@@ -207,6 +207,26 @@ TEST(InertialSmoother, GapsInTheReadingsLeaveTheScans) {
   EXPECT_FALSE(smooth_inertially(sim.drive, sim.samples, noise, params));
 }
 
+/// Every twentieth registration wrong by a metre or half a radian.
+TEST(InertialSmoother, BearsWrongRegistrations) {
+  const InertialNoiseParams noise = good_unit();
+  const InertialSmootherParams params;
+  SimulatedDrive sim = simulate_drive({}, noise, params, Rng(36));
+  Rng rng(37);
+  for (std::size_t k = 0; k < sim.drive.steps.size(); ++k) {
+    sim.drive.steps[k].outlier_sigmas = 5;
+    if (k % 20 != 10) continue;
+    SE3::Tangent wrong;
+    wrong << test::normal_vector(rng, 1), test::normal_vector(rng, 0.5);
+    sim.drive.steps[k].T_i_j = sim.drive.steps[k].T_i_j * SE3::exp(wrong);
+  }
+  const auto smoothed = smooth_inertially(sim.drive, sim.samples, noise, params);
+  ASSERT_TRUE(smoothed && smoothed->converged);
+  const double nees = squared_norm(smoothed->states.back().step_to(sim.truth.back()),
+                                   smoothed->covariance.of(sim.truth.size() - 1));
+  EXPECT_LT(nees, chi_squared_quantile(0.999, kDof));
+}
+
 TEST(InertialSmoother, OneStateIsItsPrior) {
   const InertialNoiseParams noise;
   const InertialSmootherParams params;

@@ -1,6 +1,7 @@
 #include "radioslam/inertial/state_factors.hpp"
 
 #include <Eigen/LU>
+#include <cmath>
 
 namespace radioslam {
 namespace {
@@ -32,6 +33,17 @@ SE3::Tangent pose_residual(const PoseStep& step, const InertialState& i, const I
   return (step.T_i_j.inverse() * (i.T_world_body.inverse() * j.T_world_body)).log();
 }
 
+/// What a squared norm counts, and by how much of it its residual pulls.
+struct Robust {
+  double cost = 0, weight = 1;
+};
+
+Robust robust(double squared_norm, double outlier_sigmas) {
+  const double ratio = squared_norm / (outlier_sigmas * outlier_sigmas);
+  if (!(ratio > 1)) return {squared_norm, 1};
+  return {squared_norm / ratio * (1 + std::log(ratio)), 1 / ratio};
+}
+
 /// Adds the squared norm of J_i x_i + J_j x_j + r.
 template <class Residual, class ByState, class Information>
 void add_squared_norm(StepTerms& sum, const Residual& r, const ByState& by_i, const ByState& by_j,
@@ -54,7 +66,10 @@ void add_pose_step(StepTerms& sum, const PoseStep& step, const InertialState& i,
   ByState by_i = ByState::Zero(), by_j = ByState::Zero();
   by_j.leftCols<6>() = SE3::right_jacobian_inverse(r);
   by_i.leftCols<6>() = -by_j.leftCols<6>() * T_j_i.adjoint();
-  add_squared_norm(sum, r, by_i, by_j, step.information);
+  const double s = r.dot(step.information * r);
+  const Robust counted = robust(s, step.outlier_sigmas);
+  add_squared_norm(sum, r, by_i, by_j, SE3::Jacobian(counted.weight * step.information));
+  sum.cost += counted.cost - counted.weight * s;
 }
 
 /// Adds that states differ by `change` in the places from `first` on, with a diagonal information.
@@ -94,7 +109,7 @@ double cost_of(const StateStep& step, const InertialState& i, const InertialStat
                const InertialNoiseParams& params) {
   const SE3::Tangent r = pose_residual(step.pose, i, j);
   const BiasChange walk = bias_between(i, j);
-  double cost = r.dot(step.pose.information * r) +
+  double cost = robust(r.dot(step.pose.information * r), step.pose.outlier_sigmas).cost +
                 walk.dot(bias_information(step.duration_s, params).cwiseProduct(walk));
   if (step.readings) {
     const InertialResidual inertial = inertial_residual(i, j, *step.readings, params);

@@ -2,7 +2,9 @@
 // state to the next. Squared norms of
 //
 //   prior            mean^-1 state, of any information
-//   relative pose    Log(Z^-1 T_i^-1 T_j), of any information, none along a corridor without features
+//   relative pose    Log(Z^-1 T_i^-1 T_j), of any information, none along a corridor without features;
+//                    beyond c standard deviations a squared norm s counts as c^2 (1 + log(s / c^2)): a wrong
+//                    registration pulls the less the further it is off
 //   readings         inertial_factor.hpp
 //   biases           b_j - b_i, of the walk's variance
 //   velocity         v_j - v_i where readings are missing, so that it stays defined
@@ -10,6 +12,7 @@
 // Information matrices here, not covariances: where a direction was not measured there is no covariance.
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "radioslam/inertial/inertial_factor.hpp"
@@ -24,7 +27,8 @@ struct StatePrior {
 /// A motion as measured from outside, by laser scans, say.
 struct PoseStep {
   SE3 T_i_j;
-  SE3::Jacobian information = SE3::Jacobian::Zero();  ///< of T_i_j Exp(xi); zero: not measured
+  SE3::Jacobian information = SE3::Jacobian::Zero();                ///< of T_i_j Exp(xi); zero: not measured
+  double outlier_sigmas = std::numeric_limits<double>::infinity();  ///< c; of a norm of six dimensions
 };
 
 /// Everything between two successive states.
