@@ -30,13 +30,6 @@ UncertainPose<Pose> with_drift(const OdometryEdge<Pose>& edge, const OdometryNoi
           edge.covariance + edge.drift_jacobian * variance.asDiagonal() * edge.drift_jacobian.transpose()};
 }
 
-template <class Pose>
-OdometryEdge<Pose> followed_by(const OdometryEdge<Pose>& edge, const OdometryEdge<Pose>& next) {
-  const typename Pose::Jacobian carry = next.T_i_j.inverse().adjoint();
-  return {edge.T_i_j * next.T_i_j, carry * edge.covariance * carry.transpose() + next.covariance,
-          carry * edge.drift_jacobian + next.drift_jacobian, edge.distance_m + next.distance_m};
-}
-
 }  // namespace
 
 template <class Pose>

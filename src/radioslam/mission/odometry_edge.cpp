@@ -7,8 +7,6 @@
 namespace radioslam {
 namespace {
 
-// Floors of an increment's noise: standing still is known well, not perfectly, and an edge's covariance
-// must be invertible.
 constexpr double kFloorVarianceXy = 1e-6;   // (1 mm)^2 per edge
 constexpr double kFloorVarianceYaw = 1e-8;  // (0.1 mrad)^2 per edge
 
@@ -27,13 +25,6 @@ typename Pose::Tangent increment_variance(double distance_m, double turn_rad, co
     variance << xy, xy, square(noise.sigma_z_per_sqrt_m) * distance_m, yaw, yaw, yaw;
     return variance;
   }
-}
-
-template <class Pose>
-typename Pose::Tangent floor_variance() {
-  typename Pose::Tangent variance = Pose::Tangent::Constant(kFloorVarianceXy);
-  variance.template tail<Pose::kDof - Pose::kDim>().setConstant(kFloorVarianceYaw);
-  return variance;
 }
 
 /// A covariance of motions in space as the estimate's dimension sees it.
@@ -61,29 +52,46 @@ SE3::Jacobian measured_covariance(const std::vector<OdometryStepNoise>& steps, S
 }  // namespace
 
 template <class Pose>
+void append_row(OdometryEdge<Pose>& edge, const StampedPose<SE3>& from, const StampedPose<SE3>& to,
+                const OdometryNoise& noise) {
+  const Pose step = pose_as<Pose>(from.pose).inverse() * pose_as<Pose>(to.pose);
+  const typename Pose::Tangent xi = step.log();
+  const double distance = step.translation().norm();
+  const double turn = xi.template tail<Pose::kDof - Pose::kDim>().norm();
+  const typename Pose::Jacobian carry = step.inverse().adjoint();
+
+  edge.covariance = (carry * edge.covariance * carry.transpose()).eval();
+  if (noise.steps.empty())
+    edge.covariance.diagonal() += increment_variance<Pose>(distance, turn, noise);
+  else
+    edge.covariance += seen_from_above<Pose>(measured_covariance(noise.steps, from.stamp, to.stamp));
+  edge.drift_jacobian = (carry * edge.drift_jacobian).eval();
+  edge.drift_jacobian(Pose::kDof - 1, 0) += distance;
+  edge.drift_jacobian.template topRightCorner<Pose::kDim, 1>() += xi.template head<Pose::kDim>();
+  edge.T_i_j = edge.T_i_j * step;
+  edge.distance_m += distance;
+}
+
+template <class Pose>
+OdometryEdge<Pose> followed_by(const OdometryEdge<Pose>& edge, const OdometryEdge<Pose>& next) {
+  const typename Pose::Jacobian carry = next.T_i_j.inverse().adjoint();
+  return {edge.T_i_j * next.T_i_j, carry * edge.covariance * carry.transpose() + next.covariance,
+          carry * edge.drift_jacobian + next.drift_jacobian, edge.distance_m + next.distance_m};
+}
+
+template <class Pose>
+typename Pose::Tangent least_edge_variance() {
+  typename Pose::Tangent variance = Pose::Tangent::Constant(kFloorVarianceXy);
+  variance.template tail<Pose::kDof - Pose::kDim>().setConstant(kFloorVarianceYaw);
+  return variance;
+}
+
+template <class Pose>
 OdometryEdge<Pose> odometry_edge(const Trajectory<SE3>& odometry, std::size_t begin, std::size_t end,
                                  const OdometryNoise& noise) {
   OdometryEdge<Pose> edge;
-  for (std::size_t i = begin; i < end; ++i) {
-    const Pose step = pose_as<Pose>(odometry[i].pose).inverse() * pose_as<Pose>(odometry[i + 1].pose);
-    const typename Pose::Tangent xi = step.log();
-    const double distance = step.translation().norm();
-    const double turn = xi.template tail<Pose::kDof - Pose::kDim>().norm();
-    const typename Pose::Jacobian carry = step.inverse().adjoint();
-
-    edge.covariance = (carry * edge.covariance * carry.transpose()).eval();
-    if (noise.steps.empty())
-      edge.covariance.diagonal() += increment_variance<Pose>(distance, turn, noise);
-    else
-      edge.covariance +=
-          seen_from_above<Pose>(measured_covariance(noise.steps, odometry[i].stamp, odometry[i + 1].stamp));
-    edge.drift_jacobian = (carry * edge.drift_jacobian).eval();
-    edge.drift_jacobian(Pose::kDof - 1, 0) += distance;
-    edge.drift_jacobian.template topRightCorner<Pose::kDim, 1>() += xi.template head<Pose::kDim>();
-    edge.T_i_j = edge.T_i_j * step;
-    edge.distance_m += distance;
-  }
-  edge.covariance.diagonal() += floor_variance<Pose>();
+  for (std::size_t i = begin; i < end; ++i) append_row(edge, odometry[i], odometry[i + 1], noise);
+  edge.covariance.diagonal() += least_edge_variance<Pose>();
   return edge;
 }
 
@@ -103,9 +111,15 @@ double distance_walked_at(const Trajectory<SE3>& odometry, const std::vector<dou
   return walked[i] + share * (walked[i + 1] - walked[i]);
 }
 
-template OdometryEdge<SE2> odometry_edge<SE2>(const Trajectory<SE3>&, std::size_t, std::size_t,
-                                              const OdometryNoise&);
-template OdometryEdge<SE3> odometry_edge<SE3>(const Trajectory<SE3>&, std::size_t, std::size_t,
-                                              const OdometryNoise&);
+#define RADIOSLAM_ODOMETRY_EDGE(Pose)                                                             \
+  template OdometryEdge<Pose> odometry_edge(const Trajectory<SE3>&, std::size_t, std::size_t,     \
+                                            const OdometryNoise&);                                \
+  template void append_row(OdometryEdge<Pose>&, const StampedPose<SE3>&, const StampedPose<SE3>&, \
+                           const OdometryNoise&);                                                 \
+  template OdometryEdge<Pose> followed_by(const OdometryEdge<Pose>&, const OdometryEdge<Pose>&);  \
+  template Pose::Tangent least_edge_variance<Pose>();
+RADIOSLAM_ODOMETRY_EDGE(SE2)
+RADIOSLAM_ODOMETRY_EDGE(SE3)
+#undef RADIOSLAM_ODOMETRY_EDGE
 
 }  // namespace radioslam

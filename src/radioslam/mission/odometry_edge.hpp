@@ -29,6 +29,21 @@ template <class Pose>
 OdometryEdge<Pose> odometry_edge(const Trajectory<SE3>& odometry, std::size_t begin, std::size_t end,
                                  const OdometryNoise& noise);
 
+/// Extends an edge by the motion from one row to the next. The covariance comes without the floor that
+/// odometry_edge() adds once to every edge.
+template <class Pose>
+void append_row(OdometryEdge<Pose>& edge, const StampedPose<SE3>& from, const StampedPose<SE3>& to,
+                const OdometryNoise& noise);
+
+/// Both edges as one.
+template <class Pose>
+OdometryEdge<Pose> followed_by(const OdometryEdge<Pose>& edge, const OdometryEdge<Pose>& next);
+
+/// That floor, on the diagonal: standing still is known well, not perfectly, and an edge's covariance must be
+/// invertible.
+template <class Pose>
+typename Pose::Tangent least_edge_variance();
+
 /// Distance walked from the first row to each row, metres.
 std::vector<double> distance_walked(const Trajectory<SE3>& odometry);
 

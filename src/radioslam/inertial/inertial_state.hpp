@@ -1,0 +1,34 @@
+// What inertial readings carry from one time to the next: pose, velocity and the unit's biases.
+// The world's z points up. Tangent of a state, 15 numbers, in this order:
+//   [translation, rotation of T_world_body Exp(xi) (m, rad); velocity (m/s); bias of the gyroscope (rad/s);
+//    bias of the accelerometer (m/s^2)]
+#pragma once
+
+#include <Eigen/Core>
+
+#include "radioslam/geometry/se3.hpp"
+
+namespace radioslam {
+
+/// Readings less these are true.
+struct InertialBias {
+  Eigen::Vector3d gyroscope_radps = Eigen::Vector3d::Zero();
+  Eigen::Vector3d accelerometer_mps2 = Eigen::Vector3d::Zero();
+};
+
+struct InertialState {
+  static constexpr int kDof = 15;
+  static constexpr int kVelocity = 6, kGyroscope = 9, kAccelerometer = 12;  ///< where they begin
+  using Tangent = Eigen::Matrix<double, kDof, 1>;
+  using Jacobian = Eigen::Matrix<double, kDof, kDof>;
+
+  SE3 T_world_body;
+  Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();  ///< of the body's origin, in the world
+  InertialBias bias;
+
+  InertialState moved_by(const Tangent& step) const;
+  /// The step that leads from here to there.
+  Tangent step_to(const InertialState& there) const;
+};
+
+}  // namespace radioslam

@@ -1,0 +1,145 @@
+#include "radioslam/inertial/state_factors.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+
+namespace radioslam {
+namespace {
+
+constexpr int kVelocityAt = InertialState::kVelocity, kBiasAt = InertialState::kGyroscope;
+
+using BiasChange = Eigen::Matrix<double, 6, 1>;
+
+BiasChange bias_between(const InertialState& i, const InertialState& j) {
+  BiasChange change;
+  change << j.bias.gyroscope_radps - i.bias.gyroscope_radps,
+      j.bias.accelerometer_mps2 - i.bias.accelerometer_mps2;
+  return change;
+}
+
+BiasChange bias_information(double duration_s, const InertialNoiseParams& noise) {
+  BiasChange information;
+  information.head<3>().setConstant(1 / (noise.gyroscope_walk * noise.gyroscope_walk * duration_s));
+  information.tail<3>().setConstant(1 / (noise.accelerometer_walk * noise.accelerometer_walk * duration_s));
+  return information;
+}
+
+double velocity_information(const StateStep& step, const InertialNoiseParams& params) {
+  if (step.readings) return 0;
+  return 1 / (params.unmeasured_velocity_walk * params.unmeasured_velocity_walk * step.duration_s);
+}
+
+SE3::Tangent pose_residual(const PoseStep& step, const InertialState& i, const InertialState& j) {
+  return (step.T_i_j.inverse() * (i.T_world_body.inverse() * j.T_world_body)).log();
+}
+
+/// What a squared norm counts, and by how much of it its residual pulls.
+struct Robust {
+  double cost = 0, weight = 1;
+};
+
+Robust robust(double squared_norm, double outlier_sigmas) {
+  const double ratio = squared_norm / (outlier_sigmas * outlier_sigmas);
+  if (!(ratio > 1)) return {squared_norm, 1};
+  return {squared_norm / ratio * (1 + std::log(ratio)), 1 / ratio};
+}
+
+/// Adds the squared norm of J_i x_i + J_j x_j + r.
+template <class Residual, class ByState, class Information>
+void add_squared_norm(StepTerms& sum, const Residual& r, const ByState& by_i, const ByState& by_j,
+                      const Information& information) {
+  const auto weighted_i = (information * by_i).eval();
+  const auto weighted_j = (information * by_j).eval();
+  const auto weighted_r = (information * r).eval();
+  sum.i_i.noalias() += by_i.transpose() * weighted_i;
+  sum.j_i.noalias() += by_j.transpose() * weighted_i;
+  sum.j_j.noalias() += by_j.transpose() * weighted_j;
+  sum.slope_i.noalias() += by_i.transpose() * weighted_r;
+  sum.slope_j.noalias() += by_j.transpose() * weighted_r;
+  sum.cost += r.dot(weighted_r);
+}
+
+void add_pose_step(StepTerms& sum, const PoseStep& step, const InertialState& i, const InertialState& j) {
+  using ByState = Eigen::Matrix<double, 6, InertialState::kDof>;
+  const SE3::Tangent r = pose_residual(step, i, j);
+  const SE3 T_j_i = j.T_world_body.inverse() * i.T_world_body;
+  ByState by_i = ByState::Zero(), by_j = ByState::Zero();
+  by_j.leftCols<6>() = SE3::right_jacobian_inverse(r);
+  by_i.leftCols<6>() = -by_j.leftCols<6>() * T_j_i.adjoint();
+  const double s = r.dot(step.information * r);
+  const Robust counted = robust(s, step.outlier_sigmas);
+  add_squared_norm(sum, r, by_i, by_j, SE3::Jacobian(counted.weight * step.information));
+  sum.cost += counted.cost - counted.weight * s;
+}
+
+/// Adds that states differ by `change` in the places from `first` on, with a diagonal information.
+template <class Vector>
+void add_difference(StepTerms& sum, int first, const Vector& change, const Vector& information) {
+  for (Eigen::Index k = 0; k < change.size(); ++k) {
+    const Eigen::Index at = first + k;
+    sum.i_i(at, at) += information[k];
+    sum.j_j(at, at) += information[k];
+    sum.j_i(at, at) -= information[k];
+    sum.slope_i[at] -= information[k] * change[k];
+    sum.slope_j[at] += information[k] * change[k];
+    sum.cost += information[k] * change[k] * change[k];
+  }
+}
+
+StepTerms no_terms() {
+  using Block = InertialState::Jacobian;
+  using Slope = InertialState::Tangent;
+  return {Block::Zero(), Block::Zero(), Block::Zero(), Slope::Zero(), Slope::Zero(), 0};
+}
+
+}  // namespace
+
+StateStep state_step(const PoseStep& pose, std::optional<Preintegration> readings, double duration_s) {
+  StateStep step{pose, std::move(readings), Preintegration::Covariance::Zero(), duration_s};
+  if (step.readings) step.readings_information = step.readings->covariance.inverse();
+  return step;
+}
+
+double cost_of(const StatePrior& prior, const InertialState& state) {
+  const InertialState::Tangent r = prior.mean.step_to(state);
+  return r.dot(prior.information * r);
+}
+
+double cost_of(const StateStep& step, const InertialState& i, const InertialState& j,
+               const InertialNoiseParams& params) {
+  const SE3::Tangent r = pose_residual(step.pose, i, j);
+  const BiasChange walk = bias_between(i, j);
+  double cost = robust(r.dot(step.pose.information * r), step.pose.outlier_sigmas).cost +
+                walk.dot(bias_information(step.duration_s, params).cwiseProduct(walk));
+  if (step.readings) {
+    const InertialResidual inertial = inertial_residual(i, j, *step.readings, params);
+    return cost + inertial.dot(step.readings_information * inertial);
+  }
+  return cost + velocity_information(step, params) * (j.velocity_mps - i.velocity_mps).squaredNorm();
+}
+
+PriorTerms linearise(const StatePrior& prior, const InertialState& state) {
+  const InertialState::Tangent r = prior.mean.step_to(state);
+  InertialState::Jacobian by_state = InertialState::Jacobian::Identity();
+  by_state.topLeftCorner<6, 6>() = SE3::right_jacobian_inverse(r.head<6>());
+  const InertialState::Jacobian weighted = by_state.transpose() * prior.information;
+  return {weighted * by_state, weighted * r, r.dot(prior.information * r)};
+}
+
+StepTerms linearise(const StateStep& step, const InertialState& i, const InertialState& j,
+                    const InertialNoiseParams& params) {
+  StepTerms sum = no_terms();
+  if (!step.pose.information.isZero(0)) add_pose_step(sum, step.pose, i, j);
+  if (step.readings) {
+    const LinearInertialFactor f = linearise_inertial(i, j, *step.readings, params);
+    add_squared_norm(sum, f.residual, f.by_i, f.by_j, step.readings_information);
+  } else {
+    const double information = velocity_information(step, params);
+    add_difference(sum, kVelocityAt, Eigen::Vector3d(j.velocity_mps - i.velocity_mps),
+                   Eigen::Vector3d(Eigen::Vector3d::Constant(information)));
+  }
+  add_difference(sum, kBiasAt, bias_between(i, j), bias_information(step.duration_s, params));
+  return sum;
+}
+
+}  // namespace radioslam
