@@ -100,7 +100,8 @@ void add_run(CLI::App& program) {
   add_json_option(*command, options->json);
   add_threads_option(*command);
   command->footer(
-      "OUT gets <robot>.tum, closures.csv, candidates.csv, graph.g2o, summary.json and report.html.\n"
+      "OUT gets <robot>.tum, dense/<robot>.tum (every odometry row or scan), closures.csv, candidates.csv,\n"
+      "graph.g2o, summary.json and report.html.\n"
       "`radioslam parameters run` lists what --set and --config can change.\n\n"
       "Example:\n"
       "  radioslam run carpark -o carpark-out --set keyframe.distance_m=2");

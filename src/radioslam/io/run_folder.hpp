@@ -1,5 +1,6 @@
-// A run's folder: <id>.tum per robot, candidates.csv, closures.csv, aoa.csv where directions were measured,
-// access_points.csv where some were placed, graph.g2o, summary.json, report.html.
+// A run's folder: <id>.tum per robot, dense/<id>.tum with its whole odometry, candidates.csv, closures.csv,
+// aoa.csv where directions were measured, access_points.csv where some were placed, graph.g2o, summary.json,
+// report.html.
 #pragma once
 
 #include <filesystem>

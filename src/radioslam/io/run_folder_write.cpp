@@ -94,8 +94,11 @@ std::vector<std::string> ids_of(const RunResult& result) {
 }
 
 void write_trajectories(const std::filesystem::path& folder, const std::vector<RobotResult>& robots) {
-  for (const RobotResult& robot : robots)
-    if (!robot.estimate.empty()) write_file(folder / (robot.id + ".tum"), format_tum(robot.estimate));
+  for (const RobotResult& robot : robots) {
+    const std::string name = robot.id + ".tum";
+    if (!robot.estimate.empty()) write_file(folder / name, format_tum(robot.estimate));
+    if (!robot.dense.empty()) write_file(folder / "dense" / name, format_tum(robot.dense));
+  }
 }
 
 }  // namespace

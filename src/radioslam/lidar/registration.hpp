@@ -22,7 +22,7 @@ namespace radioslam {
 
 struct RegistrationParams {
   int max_iterations = 30;
-  double loss_scale = 3;   ///< standard deviations beyond which a point counts for little
+  double loss_scale = 3;    ///< standard deviations beyond which a point counts for little
   double narrowing = 0.35;  ///< of the blur from one iteration to the next
   double translation_tolerance_m = 1e-3;
   double rotation_tolerance_rad = 3e-4;

@@ -128,6 +128,7 @@ ScanPose ScanOdometer::add(Stamp stamp, const LidarScan& scan, const std::option
   result.outcome = ScanOutcome::kRegistered;
   result.T_start_body = fit.T_target_source;
   result.covariance = fit.posterior.inverse();
+  result.information = fit.information;
   learn(prior.pose.inverse() * fit.T_target_source, fit.matched_share);
   advance(result, dt_s);
   return result;

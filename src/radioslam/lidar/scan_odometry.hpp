@@ -98,7 +98,8 @@ enum class ScanOutcome {
 struct ScanPose {
   Stamp stamp;
   SE3 T_start_body;
-  SE3::Jacobian covariance = SE3::Jacobian::Zero();  ///< of the step from the scan registered before
+  SE3::Jacobian covariance = SE3::Jacobian::Zero();   ///< of the step from the scan registered before
+  SE3::Jacobian information = SE3::Jacobian::Zero();  ///< of that step, from the points alone
   ScanOutcome outcome = ScanOutcome::kTooFew;
   double matched_share = 0;
   double rms_m = 0;

@@ -5,6 +5,7 @@
 
 #include "radioslam/pipeline/collect_results.hpp"
 #include "radioslam/pipeline/csi_stage.hpp"
+#include "radioslam/pipeline/dense_trajectory.hpp"
 #include "radioslam/pipeline/field_stage.hpp"
 #include "radioslam/pipeline/joint_graph_of_team.hpp"
 #include "radioslam/pipeline/scan_closures.hpp"
@@ -66,6 +67,8 @@ void collect(RunResult& result, const Mission& mission, const JointGraph<Pose>& 
     result.transforms = collect_transforms(joint, placement, *marginals);
     for (auto& note : odometry_notes(mission, joint, *marginals)) result.notes.push_back(std::move(note));
   }
+  for (std::size_t r = 0; r < mission.robots.size(); ++r)
+    result.robots[r].dense = dense_trajectory<Pose>(mission, joint, nullptr, r, result.robots[r]).poses;
   result.weight = placement.weight;
   for (std::size_t k = 0; k < placement.alternatives.size(); ++k)
     result.alternatives.push_back(

@@ -18,6 +18,10 @@ std::optional<SE3> recorded_motion(const Trajectory<SE3>& odometry, Stamp from, 
   return a->inverse() * *b;
 }
 
+bool uses_inertial(const Robot& robot, const ScanParams& params) {
+  return params.inertial.stage.enabled && !robot.inertial.empty();
+}
+
 /// One robot's scans in a row.
 struct ScanTrack {
   std::vector<ScanPose> poses;  ///< those registered, without their clouds
@@ -39,21 +43,25 @@ bool starts_keyframe(const ScanTrack& track, const KeyframeParams& params) {
                          params);
 }
 
-ScanTrack track_scans(const Robot& robot, const ScannerTraits& traits, const LidarParams& lidar,
+ScanTrack track_scans(const Robot& robot, const ScannerTraits& traits, const ScanParams& params,
                       const KeyframeParams& keyframes, const Progress& progress) {
-  ScanOdometer odometer(traits, lidar);
+  ScanOdometer odometer(traits, params.lidar);
+  InertialGuide guide(robot.inertial, params.inertial);
   ScanTrack track;
   ScanCloud last_cloud;
   for (std::size_t k = 0; k < robot.lidar.size(); ++k) {
     const Stamp stamp = robot.lidar.stamps[k];
     std::optional<SE3> motion;
-    if (!track.poses.empty()) motion = recorded_motion(robot.odometry, track.poses.back().stamp, stamp);
+    if (uses_inertial(robot, params)) motion = guide.motion_to(stamp);
+    if (!motion && !track.poses.empty())
+      motion = recorded_motion(robot.odometry, track.poses.back().stamp, stamp);
     ScanPose pose = odometer.add(stamp, robot.lidar.read(k), motion);
     report_progress(progress, "scans of " + robot.id,
                     static_cast<double>(k + 1) / static_cast<double>(robot.lidar.size()));
     ++track.outcomes[pose.outcome];
     track.points += pose.counts;
     if (!is_registered(pose)) continue;
+    if (uses_inertial(robot, params)) guide.add(pose);
     last_cloud = std::exchange(pose.cloud, {});
     track.usual_share += pose.matched_share;
     track.poses.push_back(std::move(pose));
@@ -85,12 +93,14 @@ std::vector<StampedPose<SE3>> led_on(const Trajectory<SE3>& odometry, Stamp begi
 OdometryStepNoise stated_noise(const StampedPose<SE3>& a, const StampedPose<SE3>& b,
                                const OdometryNoise& noise) {
   const Trajectory<SE3> rows({a, b});
-  return {a.stamp, b.stamp, odometry_edge<SE3>(rows, 0, 1, noise).covariance / seconds_between(a.stamp, b.stamp)};
+  return {a.stamp, b.stamp,
+          odometry_edge<SE3>(rows, 0, 1, noise).covariance / seconds_between(a.stamp, b.stamp)};
 }
 
 /// The robot's odometry by its scans, with recorded rows before and after.
 void take_odometry(Robot& robot, const ScanTrack& track) {
-  constexpr Stamp kEver{std::numeric_limits<std::int64_t>::max()}, kNever{std::numeric_limits<std::int64_t>::min()};
+  constexpr Stamp kEver{std::numeric_limits<std::int64_t>::max()},
+      kNever{std::numeric_limits<std::int64_t>::min()};
   const ScanPose &first = track.poses.front(), &last = track.poses.back();
   OdometryNoise stated = robot.odometry_noise;
   stated.steps.clear();
@@ -111,6 +121,20 @@ void take_odometry(Robot& robot, const ScanTrack& track) {
   robot.odometry_noise = {0, 0, 0, 0, 0, 0, std::move(steps)};
 }
 
+/// Puts the estimate from scans and readings in the place of that from scans alone.
+bool take_readings(ScanTrack& track, const std::vector<InertialSample>& samples,
+                   const InertialParams& params) {
+  const auto smoothed = smooth_scans(track.poses, samples, params);
+  if (!smoothed) return false;
+  for (std::size_t k = 0; k < track.poses.size(); ++k) {
+    track.poses[k].T_start_body = smoothed->poses[k];
+    if (k == 0) continue;
+    const OdometryStepNoise& step = smoothed->steps[k - 1];
+    track.poses[k].covariance = seconds_between(step.begin, step.end) * step.covariance_per_s;
+  }
+  return true;
+}
+
 ScanKeyframes keyframes_of(ScanTrack& track, const ScannerTraits& traits) {
   ScanKeyframes result;
   result.usual_share = track.usual_share;
@@ -121,8 +145,9 @@ ScanKeyframes keyframes_of(ScanTrack& track, const ScannerTraits& traits) {
     if (n == 0) continue;
     UncertainPose<SE3> step;
     for (std::size_t k = track.keyframes[n - 1] + 1; k <= track.keyframes[n]; ++k)
-      step = step * UncertainPose<SE3>{track.poses[k - 1].T_start_body.inverse() * track.poses[k].T_start_body,
-                                       track.poses[k].covariance};
+      step =
+          step * UncertainPose<SE3>{track.poses[k - 1].T_start_body.inverse() * track.poses[k].T_start_body,
+                                    track.poses[k].covariance};
     result.step_covariances.push_back(step.covariance);
   }
   result.clouds = std::move(track.clouds);
@@ -150,12 +175,15 @@ MeasuredScans measure_scans(Mission& mission, const ScanParams& params, const Ke
     if (robot.lidar.empty()) continue;
     if (params.stage.odometry == "recorded" && !robot.odometry.empty()) continue;
     const ScannerTraits traits = scanner_traits(robot.lidar, params.lidar);
-    ScanTrack track = track_scans(robot, traits, params.lidar, keyframes, progress);
+    ScanTrack track = track_scans(robot, traits, params, keyframes, progress);
     add_notes(measured, robot, track);
     measured.scans += robot.lidar.size();
     if (track.poses.empty()) continue;
     measured.registered += track.poses.size();
     measured.keyframes += track.keyframes.size();
+    if (uses_inertial(robot, params) && !take_readings(track, robot.inertial, params.inertial))
+      measured.notes.push_back("robot " + robot.id +
+                               ": its inertial readings do not go with its scans and were left out");
     const ScanKeyframes scans = keyframes_of(track, traits);
     take_odometry(robot, track);
     const ScanLoops loops = close_scan_loops(scans, params.loops, params.lidar.map, params.search,

@@ -3,6 +3,7 @@
 //
 // The scans' poses become the robot's odometry, with the noise that was measured along with them; recorded
 // odometry only tells where a scan is looked for, and leads on where the scans begin later or end earlier.
+// Inertial readings tell that better, and carry the robot where the scans tell nothing.
 #pragma once
 
 #include <cstddef>
@@ -15,6 +16,7 @@
 #include "radioslam/lidar/scan_odometry.hpp"
 #include "radioslam/mission/keyframes.hpp"
 #include "radioslam/mission/mission.hpp"
+#include "radioslam/pipeline/inertial_odometry.hpp"
 #include "radioslam/pipeline/scan_closures.hpp"
 
 namespace radioslam {
@@ -41,6 +43,7 @@ struct ScanParams {
   LidarParams lidar;
   PoseSearchParams search;
   ScanLoopParams loops;
+  InertialParams inertial;
 
   template <class Self, class Visitor>
   static void visit_sections(Self& self, Visitor&& visit) {
@@ -48,6 +51,7 @@ struct ScanParams {
     LidarParams::visit_sections(self.lidar, visit);
     visit("scan_search", self.search);
     visit("scan_loops", self.loops);
+    InertialParams::visit_sections(self.inertial, visit);
   }
 };
 

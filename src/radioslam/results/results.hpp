@@ -18,6 +18,7 @@ namespace radioslam {
 struct RobotResult {
   std::string id;
   Trajectory<SE3> estimate;  ///< T_frame_body at every keyframe
+  Trajectory<SE3> dense;     ///< the same at every row of the odometry from the first keyframe to the last
   Trajectory<SE3> odometry;  ///< the same keyframes by odometry alone, placed by the initial pose (or the
                              ///< first estimated pose)
   std::vector<double>
