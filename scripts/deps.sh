@@ -4,8 +4,8 @@
 set -euo pipefail
 export LC_ALL=C DEBIAN_FRONTEND=noninteractive
 
-build=(cmake ninja-build g++ libeigen3-dev libmetis-dev libsuitesparse-dev libyaml-cpp-dev libzstd-dev libbz2-dev zlib1g-dev libpcap-dev
-       libcli11-dev nlohmann-json3-dev node-d3)
+build=(cmake ninja-build g++ libeigen3-dev libmetis-dev libsuitesparse-dev libyaml-cpp-dev libzstd-dev libbz2-dev zlib1g-dev liblz4-dev libsqlite3-dev
+       libpcap-dev libcli11-dev nlohmann-json3-dev node-d3)
 test=(libgtest-dev libceres-dev clang-14 libclang-rt-14-dev)
 lint=(clang-format-14 clang-tidy-14)
 bench=(libbenchmark-dev)

@@ -11,8 +11,7 @@ namespace {
 
 const std::string kPoint(16, 'x');
 /// Of a camera that looks ahead: its z is the LiDAR's x, its x the LiDAR's -y, its y the LiDAR's -z.
-const std::string kCalibration =
-    "P0: 7 0 0 0 0 7 0 0 0 0 1 0\nTr: 0 -1 0 0.1 0 0 -1 -0.2 1 0 0 -0.3\n";
+const std::string kCalibration = "P0: 7 0 0 0 0 7 0 0 0 0 1 0\nTr: 0 -1 0 0.1 0 0 -1 -0.2 1 0 0 -0.3\n";
 const std::string kIdentity = "1 0 0 0 0 1 0 0 0 0 1 0\n";
 
 TEST(KittiDrive, BringsCameraPosesIntoTheLidarsFrame) {
@@ -30,7 +29,8 @@ TEST(KittiDrive, BringsCameraPosesIntoTheLidarsFrame) {
   const auto& truth = drive.imported.truth.robots.at(0).poses;
   ASSERT_EQ(truth.size(), 2U);
   EXPECT_LT(truth[0].pose.log().norm(), 1e-12);
-  EXPECT_LT((truth[1].pose.translation() - Eigen::Vector3d(2.5, 0, 0)).norm(), 1e-12) << "along the LiDAR's x";
+  EXPECT_LT((truth[1].pose.translation() - Eigen::Vector3d(2.5, 0, 0)).norm(), 1e-12)
+      << "along the LiDAR's x";
   EXPECT_EQ(truth[1].stamp, drive.scans[1].stamp);
 }
 
@@ -38,7 +38,8 @@ TEST(KittiDrive, TakesPosesAsTheLidarsWithoutACalibration) {
   const TemporaryFolder folder;
   folder.write("bin/000000.bin", kPoint);
   folder.write("poses_kitti.txt", "1 0 0 3 0 1 0 4 0 0 1 5\n");
-  for (const std::filesystem::path& source : {folder.path(), folder.path() / "bin", folder.path() / "bin" / ""}) {
+  for (const std::filesystem::path& source :
+       {folder.path(), folder.path() / "bin", folder.path() / "bin" / ""}) {
     const KittiDrive drive = read_kitti_drive(source, "a");
     ASSERT_EQ(drive.imported.truth.robots.size(), 1U) << source;
     EXPECT_EQ(drive.imported.truth.robots[0].poses[0].pose.translation(), Eigen::Vector3d(3, 4, 5));
@@ -62,7 +63,8 @@ TEST(KittiDrive, NumbersScansByTheirNames) {
   folder.write("times.txt", "5\n6\n");  // of these scans
   EXPECT_EQ(read_kitti_drive(folder.path(), "a").scans[0].stamp, Stamp{5'000'000'000});
   folder.write("times.txt", "5\n6\n7\n");
-  expect_refusal([&] { read_kitti_drive(folder.path(), "a"); }, 0, "has 3 lines for 2 scans, and none for x_9.bin");
+  expect_refusal([&] { read_kitti_drive(folder.path(), "a"); }, 0,
+                 "has 3 lines for 2 scans, and none for x_9.bin");
 }
 
 TEST(KittiDrive, Refuses) {
@@ -92,7 +94,8 @@ TEST(KittiDrive, CopiesRecordedScans) {
   const TemporaryFolder folder;
   copy_kitti_scans(drive.scans, folder.path() / "lidar");
   const LidarLog log = read_lidar_folder(folder.path() / "lidar");
-  EXPECT_EQ(log.stamps, (std::vector<Stamp>{{9'400'000'000}, {9'500'000'000}, {19'800'000'000}, {19'900'000'000}}));
+  EXPECT_EQ(log.stamps,
+            (std::vector<Stamp>{{9'400'000'000}, {9'500'000'000}, {19'800'000'000}, {19'900'000'000}}));
   EXPECT_EQ(log.read(0).points.size(), 1'945'888U / 16U);
   EXPECT_EQ(folder.read("lidar/9400000000.bin"), read_bytes(source / "kitti00_000094.bin"));
 }

@@ -121,7 +121,7 @@ void import_ranges(const ImportOptions& options) {
 }
 
 /// An option that not every kind takes.
-enum class Option { kRobot, kName, kFields, kTime, kPoses };
+enum class Option { kRobot, kRobots, kName, kFields, kTime, kPoses, kTopics };
 
 /// One kind of source.
 struct ImportKind {
@@ -141,8 +141,9 @@ const std::vector<ImportKind>& import_kinds() {
       {"pcap", import_wifi_captures, {Option::kRobot}},
       {"wifine", import_wifine_walks, {}},
       {"wifi-rtt", import_rtt_walk, {}},
-      {"carmen", import_carmen_log, {Option::kRobot}},
-      {"kitti", import_kitti_drive, {Option::kRobot, Option::kPoses}},
+      {"carmen", import_carmen_logs, {Option::kRobots}},
+      {"kitti", import_kitti_drives, {Option::kRobots, Option::kPoses}},
+      {"rosbag", import_ros_recordings, {Option::kRobots, Option::kTopics}},
   };
   return kinds;
 }
@@ -155,16 +156,23 @@ void check_options(const ImportOptions& options, const ImportKind& kind) {
   const auto takes = [&](Option option) {
     return std::find(kind.options.begin(), kind.options.end(), option) != kind.options.end();
   };
-  refuse_unless(options.robot.empty() || takes(Option::kRobot), options, "--robot");
+  refuse_unless(options.robots.empty() || takes(Option::kRobot) || takes(Option::kRobots), options,
+                "--robot");
+  refuse_unless(options.robots.size() <= 1 || takes(Option::kRobots), options, "second --robot");
   refuse_unless(options.names.empty() || takes(Option::kName), options, "--name");
   refuse_unless(options.fields.empty() || takes(Option::kFields), options, "--fields");
   refuse_unless(options.poses.empty() || takes(Option::kPoses), options, "--poses");
+  const bool has_topics = options.list || !options.odometry.empty() || !options.scans.empty() ||
+                          !options.imu.empty() || !options.truth.empty();
+  refuse_unless(!has_topics || takes(Option::kTopics), options, "topics of ROS");
   refuse_unless(options.time.empty() || takes(Option::kTime), options, "--time");
   refuse_unless(!options.file_times || takes(Option::kTime), options, "--file-times");
 }
 
 void import_recordings(ImportOptions options) {
   std::replace(options.kind.begin(), options.kind.end(), '_', '-');
+  if (!options.robots.empty()) options.robot = options.robots.front();
+  if (options.output.empty() && !options.list) throw CLI::RequiredError("--output");
   std::vector<std::string> names;
   for (const ImportKind& kind : import_kinds()) {
     names.emplace_back(kind.name);
@@ -174,6 +182,12 @@ void import_recordings(ImportOptions options) {
   }
   throw InputError("import " + options.kind, 0,
                    "there is no such kind of source" + did_you_mean(options.kind, names));
+}
+
+/// An option that may be given once, or once per source.
+void add_per_source_option(CLI::App& command, const char* name, std::vector<std::string>& values,
+                           const char* type, const char* what) {
+  command.add_option(name, values, what)->type_name(type)->expected(1)->take_all();
 }
 
 }  // namespace
@@ -205,12 +219,21 @@ void add_import(CLI::App& program) {
       ->required();
   command
       ->add_option("SOURCE", options->sources,
-                   "A log, or a folder that holds logs; of what WiFi tools heard also several")
+                   "A log, or a folder that holds logs; of what WiFi tools heard also several; of carmen, "
+                   "kitti and\n"
+                   "rosbag one per robot")
       ->required();
-  add_output_option(*command, options->output,
-                    "The mission folder, or the ranges.csv or wifi.csv, to write; replaced if there is one.\n"
-                    "Of what WiFi tools heard: a mission gets a robots/ID/wifi.csv and keeps the rest");
-  command->add_option("--robot", options->robot, "The robot that measured or heard")->type_name("ID");
+  command
+      ->add_option("-o,--output", options->output,
+                   "The mission folder, or the ranges.csv or wifi.csv, to write; replaced if there is one.\n"
+                   "Of what WiFi tools heard: a mission gets a robots/ID/wifi.csv and keeps the rest")
+      ->type_name("PATH");
+  command
+      ->add_option("--robot", options->robots,
+                   "The robot that measured or heard; of carmen, kitti and rosbag one per source (a, b, ...)")
+      ->type_name("ID")
+      ->expected(1)
+      ->take_all();
   command
       ->add_option("--name", options->names,
                    "iw-ftm: call this radio so, an anchor or another robot; its BSSID by default")
@@ -222,10 +245,18 @@ void add_import(CLI::App& program) {
       ->add_option("--time", options->time,
                    "iw, iwlist, nmcli: when the one scan of a file without times was made; 0 by default")
       ->type_name("SECONDS");
-  command
-      ->add_option("--poses", options->poses,
-                   "kitti: the true poses, twelve numbers a line; by default what lies beside the scans")
-      ->type_name("FILE");
+  add_per_source_option(
+      *command, "--poses", options->poses, "FILE",
+      "kitti: the true poses, twelve numbers a line; by default what lies beside the scans");
+  add_per_source_option(
+      *command, "--odometry", options->odometry, "TOPIC",
+      "rosbag: of Odometry or poses, or /tf:FRAME.CHILD, or none; by default the only Odometry");
+  add_per_source_option(*command, "--scans", options->scans, "TOPIC",
+                        "rosbag: of PointCloud2 or LaserScan, or none; by default the only one");
+  add_per_source_option(*command, "--imu", options->imu, "TOPIC", "rosbag: likewise, of Imu");
+  add_per_source_option(*command, "--truth", options->truth, "TOPIC",
+                        "rosbag: the true poses, as --odometry; none by default");
+  command->add_flag("--list", options->list, "rosbag: list topics, types and numbers of messages instead");
   command->add_flag("--file-times", options->file_times,
                     "iw, iwlist, nmcli: files without times were made when they were last written");
   add_parameter_options(*command, options->parameters);
@@ -248,7 +279,11 @@ void add_import(CLI::App& program) {
       "  radioslam import iw log --robot a -o mission\n"
       "  radioslam import pcap monitor.pcapng -o wifi.csv\n"
       "  radioslam import carmen intel.clf.bz2 -o mission\n"
-      "  radioslam import kitti sequences/08 -o mission");
+      "  radioslam import kitti sequences/08 -o mission\n"
+      "  radioslam import rosbag drive.mcap --list\n"
+      "  radioslam import rosbag one.bag two.bag --robot r1 --robot r2 --odometry /odom --truth /mocap/pose "
+      "-o "
+      "mission");
   command->callback([options] { import_recordings(*options); });
 }
 

@@ -14,12 +14,15 @@ struct ImportOptions {
   std::string kind;
   std::vector<std::string> sources;
   std::string output;
-  std::string robot;
+  std::string robot;                ///< where there is one
+  std::vector<std::string> robots;  ///< all of them
   std::vector<std::string> names;
   std::string fields;
   std::string time;
-  std::string poses;
+  std::vector<std::string> poses;
+  std::vector<std::string> odometry, scans, imu, truth;  ///< topics
   bool file_times = false;
+  bool list = false;
   ParameterOptions parameters;
 };
 

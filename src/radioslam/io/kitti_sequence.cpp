@@ -33,7 +33,8 @@ struct ScanList {
 std::optional<std::uint64_t> number_in_name(const fs::path& file) {
   const std::string stem = file.stem().string();
   const std::size_t last_other = stem.find_last_not_of(kDigits);
-  const auto number = parse_id(std::string_view(stem).substr(last_other == std::string::npos ? 0 : last_other + 1));
+  const auto number =
+      parse_id(std::string_view(stem).substr(last_other == std::string::npos ? 0 : last_other + 1));
   return number && *number <= kLargestScanNumber ? number : std::nullopt;
 }
 
@@ -51,13 +52,15 @@ std::vector<fs::path> bin_files(const fs::path& folder) {
 fs::path folder_of_scans(const fs::path& source) {
   if (!fs::exists(source)) throw InputError(source.string(), 0, "no such folder");
   if (!fs::is_directory(source))
-    throw InputError(source.string(), 0,
-                     "is a file; a folder with scans (.bin) is needed, and archives have to be unpacked first");
+    throw InputError(
+        source.string(), 0,
+        "is a file; a folder with scans (.bin) is needed, and archives have to be unpacked first");
   for (const fs::path& folder : {source / "velodyne", source / "bin", source})
     if (!bin_files(folder).empty()) return folder;
-  throw InputError(source.string(), 0,
-                   "there is no scan in it: no .bin in velodyne/, in bin/ or in the folder itself; archives have "
-                   "to be unpacked first");
+  throw InputError(
+      source.string(), 0,
+      "there is no scan in it: no .bin in velodyne/, in bin/ or in the folder itself; archives have "
+      "to be unpacked first");
 }
 
 /// In the order of their numbers; of names without numbers, or with equal ones, in the order of the names.
@@ -67,9 +70,8 @@ std::vector<NumberedScan> number_scans(const std::vector<fs::path>& files) {
     if (const auto number = number_in_name(file)) scans.push_back({file, *number});
   std::stable_sort(scans.begin(), scans.end(),
                    [](const NumberedScan& a, const NumberedScan& b) { return a.number < b.number; });
-  const auto equal = std::adjacent_find(scans.begin(), scans.end(), [](const auto& a, const auto& b) {
-    return a.number == b.number;
-  });
+  const auto equal = std::adjacent_find(scans.begin(), scans.end(),
+                                        [](const auto& a, const auto& b) { return a.number == b.number; });
   if (scans.size() == files.size() && equal == scans.end()) return scans;
   scans.clear();
   for (const fs::path& file : files) scans.push_back({file, scans.size()});
@@ -89,8 +91,9 @@ const Value& value_of(const ScanList<Value>& list, const std::vector<NumberedSca
   if (list.values.size() == scans.size()) return list.values[k];
   if (scans[k].number < list.values.size()) return list.values[scans[k].number];
   throw InputError(list.file.string(), 0,
-                   "has " + std::to_string(list.values.size()) + " lines for " + std::to_string(scans.size()) +
-                       " scans, and none for " + scans[k].file.filename().string());
+                   "has " + std::to_string(list.values.size()) + " lines for " +
+                       std::to_string(scans.size()) + " scans, and none for " +
+                       scans[k].file.filename().string());
 }
 
 ScanList<Stamp> read_times(const fs::path& file) {
@@ -151,16 +154,17 @@ std::vector<KittiScan> stamp_scans(const std::vector<NumberedScan>& numbered,
                                    const std::optional<ScanList<Stamp>>& times) {
   std::vector<KittiScan> scans;
   for (std::size_t k = 0; k < numbered.size(); ++k)
-    scans.push_back({numbered[k].file,
-                     times ? value_of(*times, numbered, k)
-                           : Stamp::from_seconds(static_cast<double>(numbered[k].number) / kKittiFrequency_hz)});
+    scans.push_back({numbered[k].file, times ? value_of(*times, numbered, k)
+                                             : Stamp::from_seconds(static_cast<double>(numbered[k].number) /
+                                                                   kKittiFrequency_hz)});
   return scans;
 }
 
 Trajectory<SE3> truth_of(const ScanList<SE3>& poses, const std::vector<NumberedScan>& numbered,
                          const std::vector<KittiScan>& scans) {
   std::vector<StampedPose<SE3>> truth;
-  for (std::size_t k = 0; k < scans.size(); ++k) truth.push_back({scans[k].stamp, value_of(poses, numbered, k)});
+  for (std::size_t k = 0; k < scans.size(); ++k)
+    truth.push_back({scans[k].stamp, value_of(poses, numbered, k)});
   return Trajectory<SE3>(std::move(truth));
 }
 
@@ -178,7 +182,8 @@ KittiDrive read_kitti_drive(const fs::path& source, const std::string& robot, co
   drive.scans = stamp_scans(numbered, times);
   drive.imported.mission.dimension = 3;
   drive.imported.mission.robots.emplace_back().id = robot;
-  if (!times) drive.imported.warnings.emplace_back("there is no times.txt; the scans are taken to be at 10 Hz");
+  if (!times)
+    drive.imported.warnings.emplace_back("there is no times.txt; the scans are taken to be at 10 Hz");
   const auto truth_file = poses.empty() ? find_poses(folders) : poses;
   if (!truth_file) return drive;
   const auto T_camera_lidar = read_calibration(folders.front() / "calib.txt");

@@ -1,5 +1,5 @@
-// LiDAR drives in the layout of the KITTI odometry benchmark (Geiger et al. 2012), as missions of one robot in
-// space, whose body is its LiDAR:
+// LiDAR drives in the layout of the KITTI odometry benchmark (Geiger et al. 2012), as missions of one robot
+// in space, whose body is its LiDAR:
 //
 //   SOURCE/velodyne/000000.bin    float32 x y z intensity; or SOURCE/bin/, or in SOURCE itself
 //   SOURCE/times.txt              seconds, a line per scan; 10 Hz without it
