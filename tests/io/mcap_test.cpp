@@ -47,7 +47,8 @@ TEST(Mcap, ReadsMessagesInAndOutOfChunks) {
 
 TEST(Mcap, ReadsNothingBehindTheData) {
   const std::string records = mcap_records(kMessages);
-  EXPECT_EQ(visit(mcap_of(records) + records + "\x89MCAP0\r\n"), kLines) << "the summary repeats the channels";
+  EXPECT_EQ(visit(mcap_of(records) + records + "\x89MCAP0\r\n"), kLines)
+      << "the summary repeats the channels";
 }
 
 TEST(Mcap, ReadsWhatPrecedesACut) {
@@ -75,7 +76,8 @@ TEST(Mcap, RefusesWithTheByte) {
   };
   refuse(mcap_record(0x05, little(9, 2) + little(0, 20)), "at byte ");
   refuse(mcap_record(0x05, little(9, 2) + little(0, 20)), "a message of a channel that is not known");
-  refuse(mcap_record(0x04, little(0, 2) + little(5, 2) + counted("/a") + counted("cdr")), "schema that is not known");
+  refuse(mcap_record(0x04, little(0, 2) + little(5, 2) + counted("/a") + counted("cdr")),
+         "schema that is not known");
   refuse(mcap_record(0x04, "x"), "the data end early");
   refuse(mcap_chunk(records, "", records, 1), "checksum differs");
   refuse(mcap_chunk(records, "", records + "x"), "not as long as it says");

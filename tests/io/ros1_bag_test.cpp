@@ -22,7 +22,8 @@ std::vector<std::string> visit(const std::string& bytes) {
 std::string bz2_of(std::string content) {
   std::string packed(content.size() + 1000, '\0');
   auto size = static_cast<unsigned>(packed.size());
-  BZ2_bzBuffToBuffCompress(packed.data(), &size, content.data(), static_cast<unsigned>(content.size()), 1, 0, 0);
+  BZ2_bzBuffToBuffCompress(packed.data(), &size, content.data(), static_cast<unsigned>(content.size()), 1, 0,
+                           0);
   packed.resize(size);
   return packed;
 }
@@ -56,7 +57,8 @@ TEST(Ros1Bag, RefusesWithTheByte) {
     expect_refusal([&] { visit(bag_of(content)); }, 0, words);
   };
   const std::string records = bag_records(kMessages);
-  refuse(bag_record({"op=\x02", "conn=" + little(7, 4), "time=" + little(0, 8)}, ""), "connection that is not known");
+  refuse(bag_record({"op=\x02", "conn=" + little(7, 4), "time=" + little(0, 8)}, ""),
+         "connection that is not known");
   refuse(bag_record({"op=\x02"}, ""), "at byte ");
   refuse(bag_record({"op=\x02"}, ""), "a record has no conn");
   refuse(bag_record({"op=\x02", "conn=x"}, ""), "conn is of another length");

@@ -17,7 +17,8 @@ class RosBytes {
  public:
   explicit RosBytes(MessageEncoding encoding, ByteOrder order = ByteOrder::kLittle)
       : is_cdr_(encoding == MessageEncoding::kCdr), order_(order) {
-    if (is_cdr_) bytes_ = std::string("\0", 1) + (order == ByteOrder::kBig ? '\0' : '\1') + std::string(2, '\0');
+    if (is_cdr_)
+      bytes_ = std::string("\0", 1) + (order == ByteOrder::kBig ? '\0' : '\1') + std::string(2, '\0');
   }
 
   RosBytes& u8(unsigned value) { return number(value, 1); }
@@ -87,24 +88,26 @@ inline std::string little(std::uint64_t value, std::size_t bytes) {
 }
 
 /// Schemas, channels and messages, each message with its own channel.
-inline std::string mcap_records(const std::vector<WrittenMessage>& messages, const std::string& encoding = "cdr") {
+inline std::string mcap_records(const std::vector<WrittenMessage>& messages,
+                                const std::string& encoding = "cdr") {
   std::string out;
   for (std::size_t k = 0; k < messages.size(); ++k) {
     const WrittenMessage& message = messages[k];
     std::string type = message.type;
     if (encoding == "cdr") type.insert(type.find('/'), "/msg");
     out += mcap_record(0x03, little(k + 1, 2) + counted(type) + counted("ros2msg") + counted(""));
-    out += mcap_record(0x04, little(k, 2) + little(k + 1, 2) + counted(message.topic) + counted(encoding) + counted(""));
+    out += mcap_record(
+        0x04, little(k, 2) + little(k + 1, 2) + counted(message.topic) + counted(encoding) + counted(""));
     const auto time = little(static_cast<std::uint64_t>(message.time_ns), 8);
     out += mcap_record(0x05, little(k, 2) + little(0, 4) + time + time + message.bytes);
   }
   return out;
 }
 
-inline std::string mcap_chunk(const std::string& records, const std::string& compression, const std::string& packed,
-                              std::uint32_t checksum = 0) {
-  return mcap_record(0x06, little(0, 16) + little(records.size(), 8) + little(checksum, 4) + counted(compression) +
-                               little(packed.size(), 8) + packed);
+inline std::string mcap_chunk(const std::string& records, const std::string& compression,
+                              const std::string& packed, std::uint32_t checksum = 0) {
+  return mcap_record(0x06, little(0, 16) + little(records.size(), 8) + little(checksum, 4) +
+                               counted(compression) + little(packed.size(), 8) + packed);
 }
 
 inline const std::string kMcapEnd = mcap_record(0x0f, little(0, 4));
@@ -134,12 +137,14 @@ inline std::string bag_records(const std::vector<WrittenMessage>& messages) {
   return out;
 }
 
-inline std::string bag_chunk(const std::string& records, const std::string& compression, const std::string& packed) {
+inline std::string bag_chunk(const std::string& records, const std::string& compression,
+                             const std::string& packed) {
   return bag_record({"op=\x05", "compression=" + compression, "size=" + little(records.size(), 4)}, packed);
 }
 
 inline std::string bag_of(const std::string& records) {
-  return "#ROSBAG V2.0\n" + bag_record({"op=\x03", "index_pos=" + little(0, 8)}, std::string(50, ' ')) + records;
+  return "#ROSBAG V2.0\n" + bag_record({"op=\x03", "index_pos=" + little(0, 8)}, std::string(50, ' ')) +
+         records;
 }
 
 /// Who notes what it is told: "TOPIC TYPE TIME BYTES".

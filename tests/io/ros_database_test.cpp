@@ -36,9 +36,9 @@ TEST(RosDatabase, ReadsMessagesInTheOrderOfTime) {
   const TemporaryFolder folder;
   std::string packed(ZSTD_compressBound(5), '\0');
   packed.resize(ZSTD_compress(packed.data(), packed.size(), "later", 5, 1));
-  const auto path = make_database(
-      folder, std::string(kTables) + "INSERT INTO messages VALUES (1, 3, 20, " + hexadecimal(packed) +
-                  "), (2, 3, 10, x'6869'), (3, 4, 5, x'00'), (4, 5, 30, x'00');");
+  const auto path = make_database(folder, std::string(kTables) + "INSERT INTO messages VALUES (1, 3, 20, " +
+                                              hexadecimal(packed) +
+                                              "), (2, 3, 10, x'6869'), (3, 4, 5, x'00'), (4, 5, 30, x'00');");
   NotedMessages noted;
   const auto warnings = visit_ros_database(path, noted.visitor());
   EXPECT_EQ(noted.lines, (std::vector<std::string>{"/a std_msgs/String 10 hi", "/a std_msgs/String 20 later",
@@ -59,7 +59,8 @@ TEST(RosDatabase, RefusesOtherTablesAndSpoiltFiles) {
   for (int k = 0; k < 1000; ++k) rows += "INSERT INTO messages VALUES (NULL, 3, 1, x'6869');";
   const auto path = make_database(spoilt, kTables + ("BEGIN;" + rows) + "COMMIT;");
   std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
-  expect_refusal([&] { visit_ros_database(path, noted.visitor()); }, 0, "cannot be read as a rosbag2 database");
+  expect_refusal([&] { visit_ros_database(path, noted.visitor()); }, 0,
+                 "cannot be read as a rosbag2 database");
 }
 
 }  // namespace

@@ -78,7 +78,8 @@ Imported import(const std::vector<WrittenMessage>& messages, const RosTopicWishe
 }
 
 TEST(RosImport, BringsWhatSensorsSayIntoTheBody) {
-  const auto imported = import({laser(5), odometry(4, 3), odometry(5, 3.5), imu(4, "laser"), static_transform("laser")});
+  const auto imported =
+      import({laser(5), odometry(4, 3), odometry(5, 3.5), imu(4, "laser"), static_transform("laser")});
   const Robot& robot = imported.robot();
   EXPECT_EQ(imported.mission.mission.dimension, 2);
   EXPECT_EQ(robot.lidar_range_m, 12);
@@ -119,7 +120,8 @@ TEST(RosImport, TakesTheTruthOnlyWhenAsked) {
   const std::vector<WrittenMessage> messages{odometry(4, 3), pose(4, 10), pose(5, 11)};
   const auto unasked = import(messages);
   EXPECT_TRUE(unasked.mission.truth.robots.empty());
-  EXPECT_NE(unasked.notes().find("--truth TOPIC does: /truth (geometry_msgs/PoseStamped, 2)"), std::string::npos);
+  EXPECT_NE(unasked.notes().find("--truth TOPIC does: /truth (geometry_msgs/PoseStamped, 2)"),
+            std::string::npos);
   const auto asked = import(messages, {"", "", "", "/truth"});
   ASSERT_EQ(asked.mission.truth.robots.size(), 1U);
   EXPECT_EQ(asked.mission.truth.robots[0].poses[1].pose.translation().x(), 11) << "in its own frame";
@@ -135,11 +137,13 @@ TEST(RosImport, TakesPosesOutOfTransforms) {
   EXPECT_EQ(imported.mission.truth.robots[0].poses[0].pose.translation(), Eigen::Vector3d(5, 0, 0));
   ASSERT_EQ(imported.robot().odometry.size(), 1U);
   const auto base = import({tf, static_transform("laser")}, {"/tf:odom.base", "", "", "/tf:odom.laser"});
-  EXPECT_LT((base.mission.truth.robots[0].poses[0].pose.translation() - Eigen::Vector3d(6, 0, 0.2)).norm(), 1e-12);
+  EXPECT_LT((base.mission.truth.robots[0].poses[0].pose.translation() - Eigen::Vector3d(6, 0, 0.2)).norm(),
+            1e-12);
 }
 
 TEST(RosImport, RefusesWithTheTopicsThereAre) {
-  const std::vector<WrittenMessage> two{odometry(4, 3), odometry(4, 3, "/wheels"), laser(4), laser(4, "/rear")};
+  const std::vector<WrittenMessage> two{odometry(4, 3), odometry(4, 3, "/wheels"), laser(4),
+                                        laser(4, "/rear")};
   const auto refuse = [](const std::vector<WrittenMessage>& messages, const RosTopicWishes& wishes,
                          const char* words) { expect_refusal([&] { import(messages, wishes); }, 0, words); };
   refuse(two, {},

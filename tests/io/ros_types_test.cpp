@@ -127,8 +127,9 @@ TEST_P(RosTypes, RefusesWhatEndsEarly) {
   const std::string whole = cloud(message(), ByteOrder::kLittle, "os").bytes();
   const RosChannel points = channel("sensor_msgs/PointCloud2");
   for (std::size_t size = 0; size < whole.size() - 1; ++size)
-    EXPECT_NE(refusal([&] { read_ros_scan({points, {}, std::string_view(whole).substr(0, size), "x.mcap"}); })
-                  .find("x.mcap: a message of /topic, at its byte "),
+    EXPECT_NE(refusal([&] {
+                read_ros_scan({points, {}, std::string_view(whole).substr(0, size), "x.mcap"});
+              }).find("x.mcap: a message of /topic, at its byte "),
               std::string::npos)
         << size;
   RosBytes many = message();
@@ -147,12 +148,17 @@ TEST_P(RosTypes, RefusesCloudsThatContradictThemselves) {
   EXPECT_TRUE(read_ros_scan(as(points, with_size(1, 0, 4))).scan.points.empty());
   expect_refusal([&] { read_ros_scan(as(points, with_size(1, 1, 4))); }, 0, "the points have no y");
   expect_refusal([&] { read_ros_scan(as(points, with_size(1, 2, 4))); }, 0, "fewer points than");
-  expect_refusal([&] { read_ros_scan(as(points, with_size(4'000'000'000, 4'000'000'000, 0))); }, 0, "fewer points");
+  expect_refusal([&] { read_ros_scan(as(points, with_size(4'000'000'000, 4'000'000'000, 0))); }, 0,
+                 "fewer points");
 }
 
 TEST(RosMessageReader, RefusesOtherEncapsulations) {
   const RosChannel channel{"/topic", "x/Y", MessageEncoding::kCdr};
-  expect_refusal([&] { RosMessageReader({channel, {}, std::string_view("\0\3\0\0", 4), "x"}); }, 0, "plain CDR");
+  expect_refusal(
+      [&] {
+        RosMessageReader({channel, {}, std::string_view("\0\3\0\0", 4), "x"});
+      },
+      0, "plain CDR");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // What `radioslam import` was called with, and what its kinds of sources have in common.
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,9 @@ inline const std::string& only_source(const ImportOptions& options) {
                      "takes one source, " + std::to_string(options.sources.size()) + " are given");
   return options.sources.front();
 }
+
+/// Adds what a call of `import` can say.
+void add_import_options(CLI::App& command, ImportOptions& options);
 
 /// Refuses what cannot name a robot or an anchor; `option` is how it was given.
 void check_import_id(const std::string& option, const std::string& id);

@@ -57,12 +57,19 @@ class McapReader {
     const std::size_t begin = cursor.position();
     const ByteCursor content(cursor.take(length), ByteOrder::kLittle, {name_, part_, begin});
     switch (opcode) {
-      case kMcapSchema: return read_schema(content);
-      case kMcapChannel: return read_channel(content);
-      case kMcapMessage: return read_message(content);
-      case kMcapChunk: return read_chunk(content);
-      case kMcapDataEnd: ended_ = true; return;
-      default: return;
+      case kMcapSchema:
+        return read_schema(content);
+      case kMcapChannel:
+        return read_channel(content);
+      case kMcapMessage:
+        return read_message(content);
+      case kMcapChunk:
+        return read_chunk(content);
+      case kMcapDataEnd:
+        ended_ = true;
+        return;
+      default:
+        return;
     }
   }
 
@@ -94,8 +101,10 @@ class McapReader {
     if (time_ns > kLargestTime_ns) content.fail("a message's time is implausible");
     if (!channel->second) return;
     const bool is_read = visitor_.reads(*channel->second);
-    visitor_.take({*channel->second, {static_cast<std::int64_t>(time_ns)},
-                   is_read ? content.rest() : std::string_view{}, name_});
+    visitor_.take({*channel->second,
+                   {static_cast<std::int64_t>(time_ns)},
+                   is_read ? content.rest() : std::string_view{},
+                   name_});
   }
 
   void read_chunk(ByteCursor content) {
@@ -108,7 +117,8 @@ class McapReader {
     const std::string_view packed = content.take(content.u64());
     const std::string unpacked = unpack_chunk(content, compression, packed, size);
     if (unpacked.size() != size) content.fail("the chunk is not as long as it says");
-    if (checksum != 0 && checksum != checksum_of(unpacked)) content.fail("the chunk's checksum differs: it is spoilt");
+    if (checksum != 0 && checksum != checksum_of(unpacked))
+      content.fail("the chunk's checksum differs: it is spoilt");
     part_ = place;
     ByteCursor records(unpacked, ByteOrder::kLittle, {name_, part_});
     while (!records.empty()) read_record(records);
@@ -126,8 +136,7 @@ class McapReader {
   }
 
   static std::uint32_t checksum_of(const std::string& bytes) {
-    return static_cast<std::uint32_t>(
-        crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+    return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
   }
 
   const std::string& name_;
@@ -142,7 +151,8 @@ class McapReader {
 
 }  // namespace
 
-std::vector<std::string> visit_mcap(const std::string& name, std::string_view bytes, const RosVisitor& visitor) {
+std::vector<std::string> visit_mcap(const std::string& name, std::string_view bytes,
+                                    const RosVisitor& visitor) {
   return McapReader(name, visitor).read(bytes);
 }
 

@@ -10,7 +10,12 @@
 namespace radioslam {
 namespace {
 
-enum BagOpcode : std::uint8_t { kBagMessage = 0x02, kBagHeader = 0x03, kBagChunk = 0x05, kBagConnection = 0x07 };
+enum BagOpcode : std::uint8_t {
+  kBagMessage = 0x02,
+  kBagHeader = 0x03,
+  kBagChunk = 0x05,
+  kBagConnection = 0x07
+};
 constexpr std::size_t kLengthBytes = 4;
 constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 
@@ -79,17 +84,23 @@ class Ros1BagReader {
     const BagRecord record{read_bag_fields({header, ByteOrder::kLittle, {name_, part, header_begin}}),
                            {cursor.counted(), ByteOrder::kLittle, {name_, part, data_begin}}};
     switch (record.number("op", 1)) {
-      case kBagHeader: return refuse_encryption(record);
-      case kBagConnection: return read_connection(record);
-      case kBagMessage: return read_message(record);
-      case kBagChunk: return read_chunk(record);
-      default: return;  // indices
+      case kBagHeader:
+        return refuse_encryption(record);
+      case kBagConnection:
+        return read_connection(record);
+      case kBagMessage:
+        return read_message(record);
+      case kBagChunk:
+        return read_chunk(record);
+      default:
+        return;  // indices
     }
   }
 
   static void refuse_encryption(const BagRecord& record) {
     const auto encryptor = record.header.find("encryptor");
-    if (encryptor != record.header.end() && !encryptor->second.empty()) record.data.fail("the bag is encrypted");
+    if (encryptor != record.header.end() && !encryptor->second.empty())
+      record.data.fail("the bag is encrypted");
   }
 
   void read_connection(const BagRecord& record) {
@@ -108,8 +119,10 @@ class Ros1BagReader {
     const auto nanoseconds = static_cast<std::int64_t>(time >> 32U);
     ByteCursor data = record.data;
     const bool is_read = visitor_.reads(channel->second);
-    visitor_.take({channel->second, {seconds * kNsPerSecond + nanoseconds},
-                   is_read ? data.rest() : std::string_view{}, name_});
+    visitor_.take({channel->second,
+                   {seconds * kNsPerSecond + nanoseconds},
+                   is_read ? data.rest() : std::string_view{},
+                   name_});
   }
 
   void read_chunk(const BagRecord& record) {
@@ -128,10 +141,14 @@ class Ros1BagReader {
     const std::uint64_t size = record.number("size", 4);
     const std::size_t limit = std::min<std::size_t>(size, kLargestDecompressed);
     std::string unpacked;
-    if (compression == "none") unpacked = data.rest();
-    else if (compression == "bz2") unpacked = decompress_bzip2(name_ + ": " + place, data.rest(), limit);
-    else if (compression == "lz4") unpacked = decompress_lz4(name_ + ": " + place, data.rest(), limit);
-    else data.fail("the compression '" + std::string(compression) + "' is not known");
+    if (compression == "none")
+      unpacked = data.rest();
+    else if (compression == "bz2")
+      unpacked = decompress_bzip2(name_ + ": " + place, data.rest(), limit);
+    else if (compression == "lz4")
+      unpacked = decompress_lz4(name_ + ": " + place, data.rest(), limit);
+    else
+      data.fail("the compression '" + std::string(compression) + "' is not known");
     if (unpacked.size() != size) data.fail("the chunk is not as long as it says");
     return unpacked;
   }

@@ -79,15 +79,17 @@ DatabaseChannels read_topics(const std::string& name, sqlite3* database, std::se
   const Statement rows = prepare(name, database, "SELECT id, name, type, serialization_format FROM topics");
   while (next_row(name, database, rows.get())) {
     const std::string encoding = text_at(rows.get(), 3);
-    if (encoding != "cdr") foreign.insert(encoding);
+    if (encoding != "cdr")
+      foreign.insert(encoding);
     else
-      channels[sqlite3_column_int64(rows.get(), 0)] = {text_at(rows.get(), 1), short_type(text_at(rows.get(), 2)),
-                                                       MessageEncoding::kCdr};
+      channels[sqlite3_column_int64(rows.get(), 0)] = {
+          text_at(rows.get(), 1), short_type(text_at(rows.get(), 2)), MessageEncoding::kCdr};
   }
   return channels;
 }
 
-void take_row(const std::string& name, sqlite3_stmt* row, const RosChannel& channel, const RosVisitor& visitor) {
+void take_row(const std::string& name, sqlite3_stmt* row, const RosChannel& channel,
+              const RosVisitor& visitor) {
   const Stamp stamp{sqlite3_column_int64(row, 1)};
   const std::string_view bytes = visitor.reads(channel) ? bytes_at(row, 2) : std::string_view{};
   if (!bytes.starts_with(kZstdMagic)) return visitor.take({channel, stamp, bytes, name});

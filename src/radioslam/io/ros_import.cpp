@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kPlaneHeight_m = 0.1, kPlaneTilt = 0.05;  ///< the latter of the sine of half a tilt
 constexpr double kNegligibleLever_m = 0.05;
-constexpr double kLeastForce_mps2 = 5;    ///< a mean specific force below this is not in m/s^2
+constexpr double kLeastForce_mps2 = 5;  ///< a mean specific force below this is not in m/s^2
 
 /// What is left out or replaced, by why.
 using RosCounts = std::map<std::string, std::size_t>;
@@ -23,7 +23,8 @@ using RosCounts = std::map<std::string, std::size_t>;
 std::string body_frame(const RosSurvey& survey, const RosTopicChoice& choice) {
   if (choice.odometry && !choice.odometry->child.empty()) return choice.odometry->child;
   if (choice.odometry)
-    if (const RosTopic* topic = survey.find(choice.odometry->topic); !topic->child.empty()) return topic->child;
+    if (const RosTopic* topic = survey.find(choice.odometry->topic); !topic->child.empty())
+      return topic->child;
   for (const char* usual : {"base_link", "base_footprint"})
     if (survey.frames.knows(usual)) return usual;
   return "";
@@ -46,7 +47,8 @@ SE3 place_of_sensor(const RosSurvey& survey, const std::string& body, const std:
 /// In the order of time, each stamp once.
 template <class Item>
 void put_in_order(std::vector<Item>& items, const std::string& topic, RosCounts& counts) {
-  std::stable_sort(items.begin(), items.end(), [](const Item& a, const Item& b) { return a.stamp < b.stamp; });
+  std::stable_sort(items.begin(), items.end(),
+                   [](const Item& a, const Item& b) { return a.stamp < b.stamp; });
   const auto end = std::unique(items.begin(), items.end(),
                                [](const Item& a, const Item& b) { return a.stamp == b.stamp; });
   if (end != items.end())
@@ -98,7 +100,8 @@ class RosCollector {
     return message.stamp;
   }
 
-  void take_poses(const RosMessage& message, const RosPoseTopic& topic, std::vector<StampedPose<SE3>>& poses) {
+  void take_poses(const RosMessage& message, const RosPoseTopic& topic,
+                  std::vector<StampedPose<SE3>>& poses) {
     if (!is_transforms_type(message.channel.type)) return take_pose(message, read_ros_pose(message), poses);
     for (RosPose& transform : read_ros_transforms(message)) {
       const auto T_before = frames_.find(topic.frame, transform.header.frame);
@@ -110,8 +113,10 @@ class RosCollector {
   }
 
   void take_pose(const RosMessage& message, const RosPose& pose, std::vector<StampedPose<SE3>>& poses) {
-    if (pose.pose) poses.push_back({time_of(message, pose.header), *pose.pose});
-    else ++counts[message.channel.topic + ": poses are none (not finite, or without orientation) and left out"];
+    if (pose.pose)
+      poses.push_back({time_of(message, pose.header), *pose.pose});
+    else
+      ++counts[message.channel.topic + ": poses are none (not finite, or without orientation) and left out"];
   }
 
   void take_scan(const RosMessage& message) {
@@ -138,7 +143,8 @@ class RosCollector {
     if (reading.specific_force_mps2.allFinite() && reading.angular_rate_radps.allFinite())
       inertial.push_back({time_of(message, reading.header), R_body_imu * reading.specific_force_mps2,
                           R_body_imu * reading.angular_rate_radps});
-    else ++counts[message.channel.topic + ": readings that are not finite are left out"];
+    else
+      ++counts[message.channel.topic + ": readings that are not finite are left out"];
   }
 
   const FrameTree& frames_;

@@ -53,8 +53,8 @@ RosHeader RosMessageReader::header() {
 
 std::size_t RosMessageReader::count(std::size_t least_bytes) {
   const std::size_t elements = u32();
-  if (elements > cursor_.left() / least_bytes) cursor_.fail("the message ends before its " +
-                                                            std::to_string(elements) + " elements do");
+  if (elements > cursor_.left() / least_bytes)
+    cursor_.fail("the message ends before its " + std::to_string(elements) + " elements do");
   return elements;
 }
 

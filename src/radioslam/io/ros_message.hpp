@@ -1,5 +1,6 @@
-// The values of a ROS message, one after the other: of ROS 1 (little endian, nothing aligned) or in the Common
-// Data Representation of ROS 2 (either order, numbers aligned to their size behind a header of four bytes).
+// The values of a ROS message, one after the other: of ROS 1 (little endian, nothing aligned) or in the
+// Common Data Representation of ROS 2 (either order, numbers aligned to their size behind a header of four
+// bytes).
 #pragma once
 
 #include <cstdint>

@@ -26,9 +26,10 @@ std::vector<fs::path> recording_files(const fs::path& source) {
     if (entry.is_regular_file() && is_recording_name(entry.path())) files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   if (files.empty())
-    throw InputError(source.string(), 0,
-                     "there is no recording in it: no .bag, .mcap or .db3 (those that end in .zstd have to be "
-                     "decompressed first)");
+    throw InputError(
+        source.string(), 0,
+        "there is no recording in it: no .bag, .mcap or .db3 (those that end in .zstd have to be "
+        "decompressed first)");
   return files;
 }
 

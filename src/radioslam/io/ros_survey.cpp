@@ -61,7 +61,8 @@ RosSurvey survey_recording(const std::filesystem::path& source) {
 std::string list_of_topics(const std::vector<RosTopic>& topics) {
   std::string list;
   for (const RosTopic& topic : topics)
-    list += (list.empty() ? "" : ", ") + topic.name + " (" + topic.type + ", " + std::to_string(topic.messages) + ")";
+    list += (list.empty() ? "" : ", ") + topic.name + " (" + topic.type + ", " +
+            std::to_string(topic.messages) + ")";
   return list.empty() ? "none" : list;
 }
 

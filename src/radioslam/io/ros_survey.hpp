@@ -1,4 +1,5 @@
-// What a ROS recording holds: its topics, their frames and the static transforms, before anything is imported.
+// What a ROS recording holds: its topics, their frames and the static transforms, before anything is
+// imported.
 #pragma once
 
 #include <cstddef>

@@ -26,7 +26,8 @@ class TopicChooser {
   TopicChooser(const std::string& source, const RosSurvey& survey) : source_(source), survey_(survey) {}
 
   /// The topic asked for, or the only one of the kind but `others`.
-  std::optional<std::string> choose(const TopicKind& kind, const std::string& wish, const std::string& other) const {
+  std::optional<std::string> choose(const TopicKind& kind, const std::string& wish,
+                                    const std::string& other) const {
     if (wish == kNoTopic) return std::nullopt;
     if (!wish.empty()) return asked_for(kind, wish);
     std::vector<RosTopic> found;
@@ -57,7 +58,8 @@ class TopicChooser {
     if (is_transforms_type(topic->type))
       fail(std::string(kind.option) + ": " + wish + " has transforms; " + wish + ":FRAME.CHILD says which");
     if (!kind.is_allowed(topic->type))
-      fail_with_topics(std::string(kind.option) + ": " + wish + " is of " + topic->type + ", not " + kind.what);
+      fail_with_topics(std::string(kind.option) + ": " + wish + " is of " + topic->type + ", not " +
+                       kind.what);
     return wish;
   }
 
@@ -69,7 +71,8 @@ class TopicChooser {
     const std::string frames = wish.substr(colon + 1);
     const std::size_t point = frames.find('.');
     if (topic == nullptr || !is_transforms_type(topic->type))
-      fail_with_topics(std::string(kind.option) + ": there is no topic of transforms " + wish.substr(0, colon));
+      fail_with_topics(std::string(kind.option) + ": there is no topic of transforms " +
+                       wish.substr(0, colon));
     if (point == std::string::npos)
       fail(std::string(kind.option) + " " + wish + ": two frames with a point between them are expected");
     return RosPoseTopic{topic->name, frames.substr(0, point), frames.substr(point + 1)};
@@ -81,16 +84,18 @@ class TopicChooser {
 
 }  // namespace
 
-RosTopicChoice choose_topics(const std::string& source, const RosSurvey& survey, const RosTopicWishes& wishes) {
+RosTopicChoice choose_topics(const std::string& source, const RosSurvey& survey,
+                             const RosTopicWishes& wishes) {
   const IsOfKind none = [](std::string_view) { return false; };
   const TopicChooser chooser(source, survey);
   RosTopicChoice choice;
   choice.truth = chooser.choose_poses({"--truth", "poses", none, is_pose_type}, wishes.truth, "");
   const std::string truth = choice.truth ? choice.truth->topic : "";
-  choice.odometry =
-      chooser.choose_poses({"--odometry", "odometry", is_odometry_type, is_pose_type}, wishes.odometry, truth);
+  choice.odometry = chooser.choose_poses({"--odometry", "odometry", is_odometry_type, is_pose_type},
+                                         wishes.odometry, truth);
   choice.scans = chooser.choose({"--scans", "laser scans", is_scan_type, is_scan_type}, wishes.scans, "");
-  choice.imu = chooser.choose({"--imu", "inertial readings", is_inertial_type, is_inertial_type}, wishes.imu, "");
+  choice.imu =
+      chooser.choose({"--imu", "inertial readings", is_inertial_type, is_inertial_type}, wishes.imu, "");
   if (!choice.odometry && !choice.scans)
     chooser.fail_with_topics(
         "there is neither odometry nor a laser scan to import; --odometry takes a topic of poses, or "

@@ -28,6 +28,7 @@ struct RosTopicChoice {
 
 /// Refuses (InputError on `source`, with the topics there are) a topic that is not there or is of another
 /// kind, several of one kind where none is asked for, and a recording with neither odometry nor scans.
-RosTopicChoice choose_topics(const std::string& source, const RosSurvey& survey, const RosTopicWishes& wishes);
+RosTopicChoice choose_topics(const std::string& source, const RosSurvey& survey,
+                             const RosTopicWishes& wishes);
 
 }  // namespace radioslam

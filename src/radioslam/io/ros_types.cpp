@@ -40,8 +40,8 @@ RosPose read_transform(RosMessageReader& reader) {
 }
 
 std::optional<NumberType> type_of_datatype(std::uint8_t datatype) {
-  constexpr std::array<NumberType, 8> kTypes{NumberType::kInt8,  NumberType::kUint8,  NumberType::kInt16,
-                                             NumberType::kUint16, NumberType::kInt32, NumberType::kUint32,
+  constexpr std::array<NumberType, 8> kTypes{NumberType::kInt8,    NumberType::kUint8,  NumberType::kInt16,
+                                             NumberType::kUint16,  NumberType::kInt32,  NumberType::kUint32,
                                              NumberType::kFloat32, NumberType::kFloat64};
   if (datatype < 1 || datatype > kTypes.size()) return std::nullopt;
   return kTypes[datatype - 1U];
@@ -64,7 +64,8 @@ std::vector<PointColumn> read_point_fields(RosMessageReader& reader) {
 }
 
 /// The rows of an image of points without what lies between them.
-std::string without_padding(std::string_view data, std::size_t height, std::size_t row_bytes, std::size_t row_step) {
+std::string without_padding(std::string_view data, std::size_t height, std::size_t row_bytes,
+                            std::size_t row_step) {
   std::string rows;
   for (std::size_t row = 0; row < height; ++row) rows += data.substr(row * row_step, row_bytes);
   return rows;
@@ -81,7 +82,8 @@ RosScan read_point_cloud(RosMessageReader& reader) {
   table.bytes = reader.take(reader.count(1));
   const std::size_t row_bytes = width * point_step;  // of 32 bits each: it fits
   const bool is_padded = height > 1 && row_step > row_bytes;
-  if (width > 0 && height > 0 && (point_step == 0 || (is_padded ? row_step : row_bytes) > table.bytes.size() / height))
+  if (width > 0 && height > 0 &&
+      (point_step == 0 || (is_padded ? row_step : row_bytes) > table.bytes.size() / height))
     reader.fail("the cloud has fewer points than its height and width say");
   std::string rows;
   if (is_padded) table.bytes = rows = without_padding(table.bytes, height, row_bytes, row_step);
@@ -133,9 +135,13 @@ bool is_pose_type(std::string_view type) {
          type == "geometry_msgs/PoseWithCovarianceStamped" || type == "geometry_msgs/TransformStamped";
 }
 
-bool is_transforms_type(std::string_view type) { return type == "tf2_msgs/TFMessage" || type == "tf/tfMessage"; }
+bool is_transforms_type(std::string_view type) {
+  return type == "tf2_msgs/TFMessage" || type == "tf/tfMessage";
+}
 
-bool is_scan_type(std::string_view type) { return type == "sensor_msgs/PointCloud2" || type == kLaserScanType; }
+bool is_scan_type(std::string_view type) {
+  return type == "sensor_msgs/PointCloud2" || type == kLaserScanType;
+}
 
 RosPose read_ros_pose(const RosMessage& message) {
   RosMessageReader reader(message);

@@ -23,8 +23,8 @@ struct RosPose {
 
 struct RosScan {
   RosHeader header;
-  LidarScan scan;         ///< in the sensor's frame
-  double range_max_m = 0; ///< of a LaserScan; 0 where not told
+  LidarScan scan;          ///< in the sensor's frame
+  double range_max_m = 0;  ///< of a LaserScan; 0 where not told
 };
 
 struct RosInertial {
