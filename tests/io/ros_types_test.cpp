@@ -143,9 +143,10 @@ TEST_P(RosTypes, RefusesCloudsThatContradictThemselves) {
   const auto with_size = [](std::uint64_t height, std::uint64_t width, std::uint64_t step) {
     RosBytes bytes = message();
     bytes.header(1, 0, "os").u32(height).u32(width).u32(1).text("x").u32(0).u8(7).u32(1);
-    return bytes.u8(0).u32(step).u32(step * width).u32(4).raw("1234").u8(1);
+    return bytes.u8(0).u32(step).u32(step * width + 1000).u32(4).raw("1234").u8(1);
   };
   EXPECT_TRUE(read_ros_scan(as(points, with_size(1, 0, 4))).scan.points.empty());
+  EXPECT_TRUE(read_ros_scan(as(points, with_size(1000, 0, 4))).scan.points.empty());
   expect_refusal([&] { read_ros_scan(as(points, with_size(1, 1, 4))); }, 0, "the points have no y");
   expect_refusal([&] { read_ros_scan(as(points, with_size(1, 2, 4))); }, 0, "fewer points than");
   expect_refusal([&] { read_ros_scan(as(points, with_size(4'000'000'000, 4'000'000'000, 0))); }, 0,

@@ -20,7 +20,8 @@ constexpr const char* kKinds =
 
 constexpr const char* kFooter =
     "`radioslam parameters import` lists what --set can change for walks, `radioslam parameters KIND` for\n"
-    "the others. A mission takes a robot's ranges in radio/ranges.csv; each radio that is no robot needs a row "
+    "the others. A mission takes a robot's ranges in radio/ranges.csv; each radio that is no robot needs a "
+    "row "
     "in\n"
     "radio/anchors.csv, empty coordinates where its place is unknown.\n\n"
     "A log of scans has a line with the Unix time before each:\n"
@@ -42,8 +43,8 @@ constexpr const char* kFooter =
     "  radioslam import rosbag one.bag two.bag --odometry /odom --scans /points --truth /mocap -o mission";
 
 /// An option that may be given several times, each with one value.
-void add_repeated_option(CLI::App& command, const char* name, std::vector<std::string>& values, const char* type,
-                         const char* what) {
+void add_repeated_option(CLI::App& command, const char* name, std::vector<std::string>& values,
+                         const char* type, const char* what) {
   command.add_option(name, values, what)->type_name(type)->expected(1)->take_all();
 }
 
@@ -62,8 +63,9 @@ void add_wifi_options(CLI::App& command, ImportOptions& options) {
 void add_lidar_options(CLI::App& command, ImportOptions& options) {
   add_repeated_option(command, "--poses", options.poses, "FILE",
                       "kitti: the true poses, twelve numbers a line; by default what lies beside the scans");
-  add_repeated_option(command, "--odometry", options.odometry, "TOPIC",
-                      "rosbag: of Odometry or poses, or /tf:FRAME.CHILD, or none; by default the only Odometry");
+  add_repeated_option(
+      command, "--odometry", options.odometry, "TOPIC",
+      "rosbag: of Odometry or poses, or /tf:FRAME.CHILD, or none; by default the only Odometry");
   add_repeated_option(command, "--scans", options.scans, "TOPIC",
                       "rosbag: of PointCloud2 or LaserScan, or none; by default the only one");
   add_repeated_option(command, "--imu", options.imu, "TOPIC",
@@ -83,18 +85,20 @@ void check_import_id(const std::string& option, const std::string& id) {
 void add_import_options(CLI::App& command, ImportOptions& options) {
   command.add_option("KIND", options.kind, kKinds)->required();
   command
-      .add_option("SOURCE", options.sources,
-                  "A log, or a folder that holds logs; several of what WiFi tools heard, and of carmen, kitti\n"
-                  "and rosbag one per robot")
+      .add_option(
+          "SOURCE", options.sources,
+          "A log, or a folder that holds logs; several of what WiFi tools heard, and of carmen, kitti\n"
+          "and rosbag one per robot")
       ->required();
   command
       .add_option("-o,--output", options.output,
                   "The mission folder, or the ranges.csv or wifi.csv, to write; replaced if there is one.\n"
                   "Of what WiFi tools heard: a mission gets a robots/ID/wifi.csv and keeps the rest")
       ->type_name("PATH");
-  add_repeated_option(command, "--robot", options.robots, "ID",
-                      "The robot that measured or heard; of carmen, kitti and rosbag one per source, a, b, ... "
-                      "by default");
+  add_repeated_option(
+      command, "--robot", options.robots, "ID",
+      "The robot that measured or heard; of carmen, kitti and rosbag one per source, a, b, ... "
+      "by default");
   add_wifi_options(command, options);
   add_lidar_options(command, options);
   add_parameter_options(command, options.parameters);

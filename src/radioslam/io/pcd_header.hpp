@@ -1,4 +1,5 @@
-// The header of a PCD file (pcd.hpp): what its points are made of, how many there are and how they are written.
+// The header of a PCD file (pcd.hpp): what its points are made of, how many there are and how they are
+// written.
 #pragma once
 
 #include <cstddef>
@@ -30,8 +31,8 @@ struct PcdHeader {
   }
 };
 
-/// Reads up to the end of the line DATA. Refuses (InputError, with the line) a header that says something else
-/// or contradicts itself. COUNT, VERSION and VIEWPOINT may be missing, and POINTS or WIDTH.
+/// Reads up to the end of the line DATA. Refuses (InputError, with the line) a header that says something
+/// else or contradicts itself. COUNT, VERSION and VIEWPOINT may be missing, and POINTS or WIDTH.
 PcdHeader read_pcd_header(const Text& file, TextLines& lines);
 
 }  // namespace radioslam

@@ -80,16 +80,15 @@ RosScan read_point_cloud(RosMessageReader& reader) {
   const std::size_t point_step = reader.u32();
   const std::size_t row_step = reader.u32();
   table.bytes = reader.take(reader.count(1));
+  if (width == 0 || height == 0) return scan;
   const std::size_t row_bytes = width * point_step;  // of 32 bits each: it fits
   const bool is_padded = height > 1 && row_step > row_bytes;
-  if (width > 0 && height > 0 &&
-      (point_step == 0 || (is_padded ? row_step : row_bytes) > table.bytes.size() / height))
+  if (point_step == 0 || (is_padded ? row_step : row_bytes) > table.bytes.size() / height)
     reader.fail("the cloud has fewer points than its height and width say");
   std::string rows;
   if (is_padded) table.bytes = rows = without_padding(table.bytes, height, row_bytes, row_step);
   table.rows = width * height;
   for (PointColumn& column : table.columns) column.stride = point_step;
-  if (table.rows == 0) return scan;
   if (const auto refusal = refusal_of(table)) reader.fail(*refusal);
   scan.scan = points_of(table, scan.header.stamp);
   return scan;
