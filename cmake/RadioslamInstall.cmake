@@ -15,4 +15,4 @@ configure_package_config_file(cmake/radioslamConfig.cmake.in ${PROJECT_BINARY_DI
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/radioslam)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/radioslamConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/radioslamConfig.cmake ${PROJECT_BINARY_DIR}/radioslamConfigVersion.cmake
-              cmake/FindMetis.cmake cmake/FindAmd.cmake cmake/FindZstd.cmake cmake/FindPcap.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/radioslam)
+              cmake/FindMetis.cmake cmake/FindAmd.cmake cmake/FindZstd.cmake cmake/FindLz4.cmake cmake/FindPcap.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/radioslam)

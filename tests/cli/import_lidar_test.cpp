@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "cli/process.hpp"
+#include "io/ros_bytes.hpp"
 
 namespace radioslam::cli {
 namespace {
@@ -80,6 +81,44 @@ TEST_F(ImportLidar, KittiRefusesWhatIsNoDrive) {
   expect_refused({"kitti", "scans.tar.zst", "-o", "m"}, "archives have to be unpacked first");
   expect_refused({"kitti", "none", "-o", "m"}, "none: no such folder");
   expect_refused({"kitti", ".", "-o", "m"}, "there is no scan in it");
+}
+
+/// Odometry of two robots, in one recording.
+std::string recording_of_two() {
+  RosBytes bytes(MessageEncoding::kRos1);
+  bytes.header(10, 0, "odom").text("base").f64s({1, 2, 0, 0, 0, 0, 1});
+  return bag_of(bag_records({{"/r1/odom", "nav_msgs/Odometry", 9, bytes.bytes()},
+                             {"/r2/odom", "nav_msgs/Odometry", 9, bytes.bytes()}}));
+}
+
+TEST_F(ImportLidar, RosbagListsTopics) {
+  write_file(folder.path() / "x.bag", recording_of_two());
+  const Outcome outcome = import({"rosbag", "x.bag", "--list"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "/r1/odom  nav_msgs/Odometry  1\n/r2/odom  nav_msgs/Odometry  1\n");
+}
+
+TEST_F(ImportLidar, RosbagOfATeamBecomesOneMission) {
+  write_file(folder.path() / "x.bag", recording_of_two());
+  const Outcome outcome = import({"rosbag", "x.bag", "x.bag", "--robot", "r1", "--robot", "r2", "--odometry",
+                                  "/r1/odom", "--odometry", "/r2/odom", "-o", "team"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(files_in(folder.path() / "team"),
+            (std::vector<std::string>{"mission.yaml", "robots/r1/odometry.tum", "robots/r2/odometry.tum"}));
+  EXPECT_EQ(read_file(folder.path() / "team/robots/r2/odometry.tum"), "10 0 0 0 0 0 0 1\n");
+}
+
+TEST_F(ImportLidar, RosbagRefusesWhatIsAmbiguous) {
+  write_file(folder.path() / "x.bag", recording_of_two());
+  expect_refused({"rosbag", "x.bag", "-o", "m"}, "x.bag: has 2 topics with odometry; --odometry says which");
+  expect_refused({"rosbag", "x.bag"}, "--output");
+  expect_refused({"rosbag", "x.bag", "x.bag", "--robot", "a", "-o", "m"},
+                 "2 sources are given and 1 --robot");
+  expect_refused({"rosbag", "x.bag", "x.bag", "--robot", "a", "--robot", "a", "-o", "m"}, "one name");
+  expect_refused({"rosbag", "x.bag", "--odometry", "/r1/odom", "--odometry", "/r2/odom", "-o", "m"},
+                 "--odometry: is given 2 times for 1 sources");
+  expect_refused({"carmen", "x.bag", "--scans", "/x", "-o", "m"}, "takes no topics of ROS");
+  expect_refused({"iw", "x.bag", "--robot", "a", "--robot", "b", "-o", "m"}, "takes no second --robot");
 }
 
 }  // namespace

@@ -18,7 +18,6 @@
 #include "radioslam/io/mission_folder.hpp"
 #include "radioslam/io/team_tables.hpp"
 #include "radioslam/io/text.hpp"
-#include "radioslam/io/usable_id.hpp"
 #include "radioslam/io/wifi_rtt.hpp"
 #include "radioslam/io/wifine.hpp"
 
@@ -121,7 +120,7 @@ void import_ranges(const ImportOptions& options) {
 }
 
 /// An option that not every kind takes.
-enum class Option { kRobot, kName, kFields, kTime, kPoses };
+enum class Option { kRobot, kRobots, kName, kFields, kTime, kPoses, kTopics };
 
 /// One kind of source.
 struct ImportKind {
@@ -141,8 +140,9 @@ const std::vector<ImportKind>& import_kinds() {
       {"pcap", import_wifi_captures, {Option::kRobot}},
       {"wifine", import_wifine_walks, {}},
       {"wifi-rtt", import_rtt_walk, {}},
-      {"carmen", import_carmen_log, {Option::kRobot}},
-      {"kitti", import_kitti_drive, {Option::kRobot, Option::kPoses}},
+      {"carmen", import_carmen_logs, {Option::kRobots}},
+      {"kitti", import_kitti_drives, {Option::kRobots, Option::kPoses}},
+      {"rosbag", import_ros_recordings, {Option::kRobots, Option::kTopics}},
   };
   return kinds;
 }
@@ -155,16 +155,23 @@ void check_options(const ImportOptions& options, const ImportKind& kind) {
   const auto takes = [&](Option option) {
     return std::find(kind.options.begin(), kind.options.end(), option) != kind.options.end();
   };
-  refuse_unless(options.robot.empty() || takes(Option::kRobot), options, "--robot");
+  refuse_unless(options.robots.empty() || takes(Option::kRobot) || takes(Option::kRobots), options,
+                "--robot");
+  refuse_unless(options.robots.size() <= 1 || takes(Option::kRobots), options, "second --robot");
   refuse_unless(options.names.empty() || takes(Option::kName), options, "--name");
   refuse_unless(options.fields.empty() || takes(Option::kFields), options, "--fields");
   refuse_unless(options.poses.empty() || takes(Option::kPoses), options, "--poses");
+  const bool has_topics = options.list || !options.odometry.empty() || !options.scans.empty() ||
+                          !options.imu.empty() || !options.truth.empty();
+  refuse_unless(!has_topics || takes(Option::kTopics), options, "topics of ROS");
   refuse_unless(options.time.empty() || takes(Option::kTime), options, "--time");
   refuse_unless(!options.file_times || takes(Option::kTime), options, "--file-times");
 }
 
 void import_recordings(ImportOptions options) {
   std::replace(options.kind.begin(), options.kind.end(), '_', '-');
+  if (!options.robots.empty()) options.robot = options.robots.front();
+  if (options.output.empty() && !options.list) throw CLI::RequiredError("--output");
   std::vector<std::string> names;
   for (const ImportKind& kind : import_kinds()) {
     names.emplace_back(kind.name);
@@ -178,77 +185,11 @@ void import_recordings(ImportOptions options) {
 
 }  // namespace
 
-void check_import_id(const std::string& option, const std::string& id) {
-  if (!is_usable_id(id))
-    throw InputError(option, 0, "'" + id + "' cannot be the name of a robot or an anchor");
-}
-
 void add_import(CLI::App& program) {
   const auto options = std::make_shared<ImportOptions>();
   auto* command =
       program.add_subcommand("import", "Turn other people's recordings into a mission, or a table of one");
-  command
-      ->add_option(
-          "KIND", options->kind,
-          "indoor-location: phone logs of walks on one floor, into a mission;\n"
-          "iw-ftm: what `iw dev wlan0 measurement ftm_request` or `iw event -t` printed, into a "
-          "ranges.csv;\n"
-          "iw, iwlist, nmcli: what `iw dev wlan0 scan`, `iwlist wlan0 scan` or\n"
-          "`nmcli -t -f BSSID,SSID-HEX,CHAN,FREQ,SIGNAL dev wifi list` printed, into a robot's "
-          "wifi.csv;\n"
-          "airodump: airodump-ng's .csv or .log.csv, likewise;\n"
-          "pcap: a capture in monitor mode (pcap, pcapng; radiotap), likewise;\n"
-          "wifine, wifi-rtt: these datasets, into missions without odometry;\n"
-          "carmen: a log of CARMEN (.gz, .bz2) with a plane's laser scans and odometry, into a mission;\n"
-          "kitti: LiDAR scans (.bin), times.txt, poses and calib.txt as the KITTI odometry benchmark's, "
-          "into a mission")
-      ->required();
-  command
-      ->add_option("SOURCE", options->sources,
-                   "A log, or a folder that holds logs; of what WiFi tools heard also several")
-      ->required();
-  add_output_option(*command, options->output,
-                    "The mission folder, or the ranges.csv or wifi.csv, to write; replaced if there is one.\n"
-                    "Of what WiFi tools heard: a mission gets a robots/ID/wifi.csv and keeps the rest");
-  command->add_option("--robot", options->robot, "The robot that measured or heard")->type_name("ID");
-  command
-      ->add_option("--name", options->names,
-                   "iw-ftm: call this radio so, an anchor or another robot; its BSSID by default")
-      ->type_name("BSSID=ID")
-      ->expected(1)
-      ->take_all();
-  command->add_option("--fields", options->fields, "nmcli: what its -f was told")->type_name("NAME,...");
-  command
-      ->add_option("--time", options->time,
-                   "iw, iwlist, nmcli: when the one scan of a file without times was made; 0 by default")
-      ->type_name("SECONDS");
-  command
-      ->add_option("--poses", options->poses,
-                   "kitti: the true poses, twelve numbers a line; by default what lies beside the scans")
-      ->type_name("FILE");
-  command->add_flag("--file-times", options->file_times,
-                    "iw, iwlist, nmcli: files without times were made when they were last written");
-  add_parameter_options(*command, options->parameters);
-  add_threads_option(*command);
-  command->footer(
-      "`radioslam parameters import` lists what --set can change for walks, `radioslam parameters KIND` "
-      "for\n"
-      "the others. A mission takes a robot's ranges in radio/ranges.csv; each radio that is no robot needs a "
-      "row "
-      "in\n"
-      "radio/anchors.csv, empty coordinates where its place is unknown.\n\n"
-      "A log of scans has a line with the Unix time before each:\n"
-      "  while true; do date +%s.%N; iw dev wlan0 scan; done >> log\n"
-      "Otherwise a file is one scan, and its time stands in its name (scan-1574407123.5.txt). What iw heard "
-      "before\n"
-      "the previous scan is a leftover and left out. airodump's times are local: --set utc_offset_h=2.\n\n"
-      "Example: the walks of one floor; a robot's distances to two access points; what it heard\n"
-      "  radioslam import indoor-location site1/F1 -o walks\n"
-      "  radioslam import iw-ftm ftm.txt --robot a --name 02:00:00:00:01:00=door -o ranges.csv\n"
-      "  radioslam import iw log --robot a -o mission\n"
-      "  radioslam import pcap monitor.pcapng -o wifi.csv\n"
-      "  radioslam import carmen intel.clf.bz2 -o mission\n"
-      "  radioslam import kitti sequences/08 -o mission");
+  add_import_options(*command, *options);
   command->callback([options] { import_recordings(*options); });
 }
 

@@ -1,24 +1,38 @@
 #include "radioslam/cli/import_lidar.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <set>
 
 #include "radioslam/io/atomic_output.hpp"
 #include "radioslam/io/carmen.hpp"
 #include "radioslam/io/kitti_sequence.hpp"
+#include "radioslam/io/lidar_folder.hpp"
 #include "radioslam/io/mission_folder.hpp"
 #include "radioslam/io/packed_text.hpp"
+#include "radioslam/io/ros_import.hpp"
 
 namespace radioslam::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// The robot that --robot names, or a.
-std::string robot_named(const ImportOptions& options) {
-  if (options.robot.empty()) return "a";
-  check_import_id("--robot " + options.robot, options.robot);
-  return options.robot;
+/// The robots of the sources, in turn: as --robot names them, or a, b and so on.
+std::vector<std::string> robots_of(const ImportOptions& options) {
+  constexpr std::size_t kLetters = 26;
+  std::vector<std::string> robots = options.robots;
+  if (robots.empty() && options.sources.size() <= kLetters)
+    for (std::size_t k = 0; k < options.sources.size(); ++k)
+      robots.emplace_back(1, static_cast<char>('a' + k));
+  if (robots.size() != options.sources.size())
+    throw InputError("import " + options.kind, 0,
+                     std::to_string(options.sources.size()) + " sources are given and " +
+                         std::to_string(robots.size()) + " --robot");
+  for (const std::string& robot : robots) check_import_id("--robot " + robot, robot);
+  const std::set<std::string> different(robots.begin(), robots.end());
+  if (different.size() != robots.size()) throw InputError("--robot", 0, "two robots have one name");
+  return robots;
 }
 
 /// "intel" of logs/intel.clf.bz2 and of logs/intel/.
@@ -29,36 +43,114 @@ std::string name_of(const std::string& source) {
   return fs::is_directory(path) ? name : name.substr(0, name.find('.', 1));
 }
 
-void print_notes(const ImportedMission& imported) {
-  for (const std::string& warning : imported.warnings) std::cout << "note: " << warning << '\n';
+/// The mission that sources become, robot by robot, and its folder.
+class TeamOutput {
+ public:
+  explicit TeamOutput(const ImportOptions& options)
+      : options_(options), folder_(options.output, kMissionFolder) {
+    team_.mission.dimension = 2;
+    team_.mission.name = name_of(options.sources.size() == 1 ? options.sources.front() : options.output);
+  }
+
+  fs::path scans_of(const std::string& robot) const { return folder_.path() / "robots" / robot / "lidar"; }
+
+  /// `what` says what came of a robot, in one line.
+  void add(ImportedMission one, const std::string& what) {
+    team_.mission.dimension = std::max(team_.mission.dimension, one.mission.dimension);
+    std::move(one.mission.robots.begin(), one.mission.robots.end(), std::back_inserter(team_.mission.robots));
+    std::move(one.truth.robots.begin(), one.truth.robots.end(), std::back_inserter(team_.truth.robots));
+    for (const std::string& warning : one.warnings) lines_.push_back("note: " + warning);
+    lines_.push_back(options_.output + ": " + what);
+  }
+
+  void commit() {
+    write_mission(folder_.path(), team_.mission, team_.truth);
+    folder_.commit();
+    for (const std::string& line : lines_) std::cout << line << '\n';
+  }
+
+ private:
+  const ImportOptions& options_;
+  OutputFolder folder_;
+  ImportedMission team_;
+  std::vector<std::string> lines_;
+};
+
+/// What an option that may be given once, or once per source, says of source k.
+std::string of_source(const ImportOptions& options, const std::vector<std::string>& values,
+                      const char* option, std::size_t k) {
+  if (values.size() <= 1) return values.empty() ? std::string{} : values.front();
+  if (values.size() != options.sources.size())
+    throw InputError(option, 0,
+                     "is given " + std::to_string(values.size()) + " times for " +
+                         std::to_string(options.sources.size()) + " sources");
+  return values[k];
+}
+
+void list_topics(const ImportOptions& options) {
+  for (const std::string& source : options.sources) {
+    const RosSurvey survey = survey_recording(source);
+    for (const std::string& warning : survey.warnings) std::cout << "note: " << warning << '\n';
+    for (const RosTopic& topic : survey.topics)
+      std::cout << topic.name << "  " << topic.type << "  " << topic.messages << '\n';
+  }
+}
+
+/// "177 scans, 345 poses of odometry, the truth of a": what there is.
+std::string summary_of(const RosImport& imported) {
+  const Robot& robot = imported.imported.mission.robots.front();
+  std::string summary = std::to_string(imported.scans) + " scans, " + std::to_string(robot.odometry.size()) +
+                        " poses of odometry, " + std::to_string(robot.inertial.size()) + " inertial readings";
+  if (!imported.imported.truth.robots.empty())
+    summary += ", " + std::to_string(imported.imported.truth.robots.front().poses.size()) + " true poses";
+  return summary + " of " + robot.id;
 }
 
 }  // namespace
 
-void import_carmen_log(const ImportOptions& options) {
+void import_carmen_logs(const ImportOptions& options) {
   const auto params = params_of<CarmenParams>(options);
-  const std::string robot = robot_named(options);
-  OutputFolder output(options.output, kMissionFolder);
-  ImportedMission imported = read_carmen(read_packed_text(only_source(options)), robot, params);
-  imported.mission.name = name_of(only_source(options));
-  write_mission(output.path(), imported.mission, imported.truth);
+  const std::vector<std::string> robots = robots_of(options);
+  TeamOutput output(options);
+  for (std::size_t k = 0; k < robots.size(); ++k) {
+    ImportedMission imported = read_carmen(read_packed_text(options.sources[k]), robots[k], params);
+    const std::size_t scans = imported.mission.robots.front().lidar.size();
+    output.add(std::move(imported), std::to_string(scans) + " scans and odometry of " + robots[k]);
+  }
   output.commit();
-  print_notes(imported);
-  std::cout << options.output << ": " << imported.mission.robots[0].lidar.size() << " scans and odometry of "
-            << robot << '\n';
 }
 
-void import_kitti_drive(const ImportOptions& options) {
-  const std::string robot = robot_named(options);
-  OutputFolder output(options.output, kMissionFolder);
-  KittiDrive drive = read_kitti_drive(only_source(options), robot, options.poses);
-  drive.imported.mission.name = name_of(only_source(options));
-  write_mission(output.path(), drive.imported.mission, drive.imported.truth);
-  copy_kitti_scans(drive.scans, output.path() / "robots" / robot / "lidar");
+void import_kitti_drives(const ImportOptions& options) {
+  const std::vector<std::string> robots = robots_of(options);
+  TeamOutput output(options);
+  for (std::size_t k = 0; k < robots.size(); ++k) {
+    KittiDrive drive =
+        read_kitti_drive(options.sources[k], robots[k], of_source(options, options.poses, "--poses", k));
+    copy_kitti_scans(drive.scans, output.scans_of(robots[k]));
+    const bool has_truth = !drive.imported.truth.robots.empty();
+    output.add(std::move(drive.imported), std::to_string(drive.scans.size()) + " scans of " + robots[k] +
+                                              (has_truth ? ", and the truth" : ", no truth"));
+  }
   output.commit();
-  print_notes(drive.imported);
-  std::cout << options.output << ": " << drive.scans.size() << " scans of " << robot << ", "
-            << (drive.imported.truth.robots.empty() ? "no truth" : "and the truth") << '\n';
+}
+
+void import_ros_recordings(const ImportOptions& options) {
+  if (options.list) return list_topics(options);
+  const std::vector<std::string> robots = robots_of(options);
+  TeamOutput output(options);
+  for (std::size_t k = 0; k < robots.size(); ++k) {
+    const RosTopicWishes wishes{of_source(options, options.odometry, "--odometry", k),
+                                of_source(options, options.scans, "--scans", k),
+                                of_source(options, options.imu, "--imu", k),
+                                of_source(options, options.truth, "--truth", k)};
+    const fs::path folder = output.scans_of(robots[k]);
+    RosImport imported = import_ros_recording(
+        options.sources[k], robots[k], wishes,
+        [&](Stamp stamp, const LidarScan& scan) { write_lidar_scan(folder, stamp, scan); });
+    const std::string summary = summary_of(imported);
+    output.add(std::move(imported.imported), summary);
+  }
+  output.commit();
 }
 
 }  // namespace radioslam::cli

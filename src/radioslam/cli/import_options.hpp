@@ -1,6 +1,7 @@
 // What `radioslam import` was called with, and what its kinds of sources have in common.
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
@@ -14,12 +15,15 @@ struct ImportOptions {
   std::string kind;
   std::vector<std::string> sources;
   std::string output;
-  std::string robot;
+  std::string robot;                ///< where there is one
+  std::vector<std::string> robots;  ///< all of them
   std::vector<std::string> names;
   std::string fields;
   std::string time;
-  std::string poses;
+  std::vector<std::string> poses;
+  std::vector<std::string> odometry, scans, imu, truth;  ///< topics
   bool file_times = false;
+  bool list = false;
   ParameterOptions parameters;
 };
 
@@ -35,6 +39,9 @@ inline const std::string& only_source(const ImportOptions& options) {
                      "takes one source, " + std::to_string(options.sources.size()) + " are given");
   return options.sources.front();
 }
+
+/// Adds what a call of `import` can say.
+void add_import_options(CLI::App& command, ImportOptions& options);
 
 /// Refuses what cannot name a robot or an anchor; `option` is how it was given.
 void check_import_id(const std::string& option, const std::string& id);

@@ -18,6 +18,7 @@ add_library(radioslam_cli STATIC
   cli/command_simulate.cpp
   cli/config.cpp
   cli/import_lidar.cpp
+  cli/import_options.cpp
   cli/import_wifi.cpp
   cli/judgement.cpp
   cli/mission_input.cpp

@@ -1,0 +1,231 @@
+#include "radioslam/io/ros_import.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "radioslam/base/input_error.hpp"
+#include "radioslam/geometry/so3.hpp"
+#include "radioslam/io/ros_recording.hpp"
+#include "radioslam/io/ros_types.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr double kPlaneHeight_m = 0.1, kPlaneTilt = 0.05;  ///< the latter of the sine of half a tilt
+constexpr double kNegligibleLever_m = 0.05;
+constexpr double kLeastForce_mps2 = 5;  ///< a mean specific force below this is not in m/s^2
+
+/// What is left out or replaced, by why.
+using RosCounts = std::map<std::string, std::size_t>;
+
+/// The body's frame, "" where nothing tells it.
+std::string body_frame(const RosSurvey& survey, const RosTopicChoice& choice) {
+  if (choice.odometry && !choice.odometry->child.empty()) return choice.odometry->child;
+  if (choice.odometry)
+    if (const RosTopic* topic = survey.find(choice.odometry->topic); !topic->child.empty())
+      return topic->child;
+  for (const char* usual : {"base_link", "base_footprint"})
+    if (survey.frames.knows(usual)) return usual;
+  return "";
+}
+
+/// T_body_sensor of a topic; `warnings` tell what it is taken from.
+SE3 place_of_sensor(const RosSurvey& survey, const std::string& body, const std::string& topic,
+                    std::vector<std::string>& warnings) {
+  const std::string& sensor = survey.find(topic)->frame;
+  if (sensor == body) return {};
+  if (!body.empty())
+    if (const auto T_body_sensor = survey.frames.find(body, sensor)) return *T_body_sensor;
+  warnings.push_back(topic + ": " +
+                     (body.empty() ? "nothing names the body's frame"
+                                   : "no static transform leads from " + body + " to " + sensor) +
+                     "; '" + sensor + "' is taken as the body's frame");
+  return {};
+}
+
+/// In the order of time, each stamp once.
+template <class Item>
+void put_in_order(std::vector<Item>& items, const std::string& topic, RosCounts& counts) {
+  std::stable_sort(items.begin(), items.end(),
+                   [](const Item& a, const Item& b) { return a.stamp < b.stamp; });
+  const auto end = std::unique(items.begin(), items.end(),
+                               [](const Item& a, const Item& b) { return a.stamp == b.stamp; });
+  if (end != items.end())
+    counts[topic + ": messages of a time that another has are left out"] +=
+        static_cast<std::size_t>(items.end() - end);
+  items.erase(end, items.end());
+}
+
+/// Collects what the chosen topics say.
+class RosCollector {
+ public:
+  RosCollector(const RosSurvey& survey, RosTopicChoice choice, const RosScanSink& sink)
+      : frames_(survey.frames), choice_(std::move(choice)), sink_(sink) {
+    const std::string body = body_frame(survey, choice_);
+    if (choice_.scans) T_body_laser_ = place_of_sensor(survey, body, *choice_.scans, warnings);
+    if (choice_.imu) T_body_imu_ = place_of_sensor(survey, body, *choice_.imu, warnings);
+    if (T_body_imu_.translation().norm() > kNegligibleLever_m)
+      warnings.push_back(*choice_.imu + ": the unit's place in the body is not accounted for");
+  }
+
+  bool reads(const RosChannel& channel) const {
+    return is_topic(choice_.odometry, channel) || is_topic(choice_.truth, channel) ||
+           channel.topic == choice_.scans || channel.topic == choice_.imu;
+  }
+
+  void take(const RosMessage& message) {
+    if (is_topic(choice_.odometry, message.channel)) take_poses(message, *choice_.odometry, odometry);
+    if (is_topic(choice_.truth, message.channel)) take_poses(message, *choice_.truth, truth);
+    if (message.channel.topic == choice_.scans) take_scan(message);
+    if (message.channel.topic == choice_.imu) take_inertial(message);
+  }
+
+  std::vector<StampedPose<SE3>> odometry, truth;
+  std::vector<InertialSample> inertial;
+  std::set<Stamp> scans;
+  bool is_plane_scanner = false;
+  double range_max_m = 0;  ///< of the plane's scanner; 0 where not told
+  RosCounts counts;
+  std::vector<std::string> warnings;
+
+ private:
+  static bool is_topic(const std::optional<RosPoseTopic>& chosen, const RosChannel& channel) {
+    return chosen && chosen->topic == channel.topic;
+  }
+
+  Stamp time_of(const RosMessage& message, const RosHeader& header) {
+    if (header.stamp != Stamp{}) return header.stamp;
+    ++counts[message.channel.topic + ": messages have no time of their own; the recording's is taken"];
+    return message.stamp;
+  }
+
+  void take_poses(const RosMessage& message, const RosPoseTopic& topic,
+                  std::vector<StampedPose<SE3>>& poses) {
+    if (!is_transforms_type(message.channel.type)) return take_pose(message, read_ros_pose(message), poses);
+    for (RosPose& transform : read_ros_transforms(message)) {
+      const auto T_before = frames_.find(topic.frame, transform.header.frame);
+      const auto T_behind = frames_.find(transform.child, topic.child);
+      if (!T_before || !T_behind) continue;
+      if (transform.pose) transform.pose = *T_before * *transform.pose * *T_behind;
+      take_pose(message, transform, poses);
+    }
+  }
+
+  void take_pose(const RosMessage& message, const RosPose& pose, std::vector<StampedPose<SE3>>& poses) {
+    if (pose.pose)
+      poses.push_back({time_of(message, pose.header), *pose.pose});
+    else
+      ++counts[message.channel.topic + ": poses are none (not finite, or without orientation) and left out"];
+  }
+
+  void take_scan(const RosMessage& message) {
+    RosScan scan = read_ros_scan(message);
+    const Stamp stamp = time_of(message, scan.header);
+    if (!scans.insert(stamp).second) {
+      ++counts[message.channel.topic + ": messages of a time that another has are left out"];
+      return;
+    }
+    is_plane_scanner = message.channel.type == kLaserScanType;
+    range_max_m = std::max(range_max_m, scan.range_max_m);
+    const Eigen::Matrix3f R_body_laser = T_body_laser_.rotation().toRotationMatrix().cast<float>();
+    const Eigen::Vector3f t_body_laser = T_body_laser_.translation().cast<float>();
+    for (Eigen::Vector3f& point : scan.scan.points) {
+      point = Eigen::Vector3f(R_body_laser * point + t_body_laser);
+      if (is_plane_scanner) point.z() = 0;
+    }
+    sink_(stamp, scan.scan);
+  }
+
+  void take_inertial(const RosMessage& message) {
+    const RosInertial reading = read_ros_inertial(message);
+    const Eigen::Quaterniond& R_body_imu = T_body_imu_.rotation();
+    if (reading.specific_force_mps2.allFinite() && reading.angular_rate_radps.allFinite())
+      inertial.push_back({time_of(message, reading.header), R_body_imu * reading.specific_force_mps2,
+                          R_body_imu * reading.angular_rate_radps});
+    else
+      ++counts[message.channel.topic + ": readings that are not finite are left out"];
+  }
+
+  const FrameTree& frames_;
+  RosTopicChoice choice_;
+  const RosScanSink& sink_;
+  SE3 T_body_laser_, T_body_imu_;
+};
+
+/// Poses from the first one's place and heading on.
+Trajectory<SE3> from_start(std::vector<StampedPose<SE3>> poses) {
+  if (poses.empty()) return {};
+  const SE3& first = poses.front().pose;
+  const SE3 T_start = SE3(first.translation(), so3_exp({0, 0, first.yaw()})).inverse();
+  for (auto& entry : poses) entry.pose = T_start * entry.pose;
+  return Trajectory<SE3>(std::move(poses));
+}
+
+bool is_plane(const Trajectory<SE3>& poses) {
+  return std::all_of(poses.begin(), poses.end(), [](const StampedPose<SE3>& entry) {
+    const Eigen::Quaterniond& rotation = entry.pose.rotation();
+    return std::abs(entry.pose.translation().z()) < kPlaneHeight_m &&
+           std::hypot(rotation.x(), rotation.y()) < kPlaneTilt;
+  });
+}
+
+/// Are the forces in units of the earth's gravity?
+bool is_in_g(const std::vector<InertialSample>& samples) {
+  double sum_mps2 = 0;
+  for (const InertialSample& sample : samples) sum_mps2 += sample.specific_force_mps2.norm();
+  return !samples.empty() && sum_mps2 < kLeastForce_mps2 * static_cast<double>(samples.size());
+}
+
+RosImport mission_of(RosCollector& collected, const std::string& robot, bool has_scans) {
+  RosImport result;
+  result.scans = collected.scans.size();
+  Robot& recorded = result.imported.mission.robots.emplace_back();
+  recorded.id = robot;
+  recorded.odometry = from_start(std::move(collected.odometry));
+  recorded.inertial = std::move(collected.inertial);
+  if (collected.range_max_m > 0) recorded.lidar_range_m = collected.range_max_m;
+  const bool moves_in_plane = has_scans ? collected.is_plane_scanner : is_plane(recorded.odometry);
+  result.imported.mission.dimension = moves_in_plane ? 2 : 3;
+  if (!collected.truth.empty())
+    result.imported.truth.robots.push_back({robot, Trajectory<SE3>(std::move(collected.truth)), true});
+  return result;
+}
+
+void add_warnings(const RosCollector& collected, const RosSurvey& survey, const RosTopicChoice& choice,
+                  std::vector<std::string>& warnings) {
+  warnings = survey.warnings;
+  warnings.insert(warnings.end(), collected.warnings.begin(), collected.warnings.end());
+  for (const auto& [what, count] : collected.counts) {
+    const std::size_t colon = what.find(": ");
+    warnings.push_back(what.substr(0, colon + 2) + std::to_string(count) + what.substr(colon + 1));
+  }
+  std::vector<RosTopic> poses;
+  for (const RosTopic& topic : survey.topics)
+    if (is_pose_type(topic.type) && topic.type != kOdometryType) poses.push_back(topic);
+  if (!choice.truth && !poses.empty())
+    warnings.push_back("no poses are taken as the truth; --truth TOPIC does: " + list_of_topics(poses));
+}
+
+}  // namespace
+
+RosImport import_ros_recording(const std::filesystem::path& source, const std::string& robot,
+                               const RosTopicWishes& wishes, const RosScanSink& sink) {
+  const RosSurvey survey = survey_recording(source);
+  const RosTopicChoice choice = choose_topics(source.string(), survey, wishes);
+  RosCollector collected(survey, choice, sink);
+  visit_recording(source, {[&](const RosChannel& channel) { return collected.reads(channel); },
+                           [&](const RosMessage& message) { collected.take(message); }});
+  if (choice.odometry) put_in_order(collected.odometry, choice.odometry->topic, collected.counts);
+  if (choice.truth) put_in_order(collected.truth, choice.truth->topic, collected.counts);
+  if (choice.imu) put_in_order(collected.inertial, *choice.imu, collected.counts);
+  if (choice.odometry && collected.odometry.empty() && collected.scans.empty())
+    throw InputError(source.string(), 0, choice.odometry->topic + " has no pose to import");
+  if (is_in_g(collected.inertial))
+    collected.warnings.push_back(*choice.imu + ": forces are far below 9.81 m/s2; are they in g?");
+  RosImport result = mission_of(collected, robot, choice.scans.has_value());
+  add_warnings(collected, survey, choice, result.imported.warnings);
+  return result;
+}
+
+}  // namespace radioslam

@@ -1,0 +1,54 @@
+// The values of a ROS message, one after the other: of ROS 1 (little endian, nothing aligned) or in the
+// Common Data Representation of ROS 2 (either order, numbers aligned to their size behind a header of four
+// bytes).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "radioslam/base/stamp.hpp"
+#include "radioslam/io/byte_cursor.hpp"
+#include "radioslam/io/ros_recording.hpp"
+
+namespace radioslam {
+
+/// std_msgs/Header.
+struct RosHeader {
+  Stamp stamp;
+  std::string frame;  ///< without a slash at its begin
+};
+
+/// Every value is refused (InputError, with topic and byte) where the message ends before it.
+class RosMessageReader {
+ public:
+  /// Refuses an encapsulation other than plain CDR.
+  explicit RosMessageReader(const RosMessage& message);
+
+  bool boolean() { return cursor_.u8() != 0; }
+  std::uint8_t u8() { return cursor_.u8(); }
+  std::int32_t i32() { return align(4), cursor_.i32(); }
+  std::uint32_t u32() { return align(4), cursor_.u32(); }
+  float f32() { return align(4), cursor_.f32(); }
+  double f64() { return align(8), cursor_.f64(); }
+  std::string text();
+  std::string frame();
+  RosHeader header();
+  /// How many elements follow; refused unless so many of at least `least_bytes` each can.
+  std::size_t count(std::size_t least_bytes);
+  /// So many bytes as they are.
+  std::string_view take(std::size_t bytes) { return cursor_.take(bytes); }
+
+  ByteOrder order() const { return order_; }
+  [[noreturn]] void fail(const std::string& reason) const { cursor_.fail(reason); }
+
+ private:
+  void align(std::size_t bytes);
+
+  bool is_cdr_;
+  ByteOrder order_;
+  std::string part_;
+  ByteCursor cursor_;
+};
+
+}  // namespace radioslam

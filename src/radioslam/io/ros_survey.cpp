@@ -1,0 +1,69 @@
+#include "radioslam/io/ros_survey.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "radioslam/io/ros_recording.hpp"
+#include "radioslam/io/ros_types.hpp"
+
+namespace radioslam {
+namespace {
+
+using TopicsByName = std::map<std::string, RosTopic>;
+
+bool is_static_transforms(const RosChannel& channel) {
+  return is_transforms_type(channel.type) && channel.topic.ends_with("tf_static");
+}
+
+bool has_a_frame(const RosChannel& channel) {
+  return channel.type == kOdometryType || channel.type == kInertialType || is_scan_type(channel.type);
+}
+
+void add_static_transforms(const RosMessage& message, FrameTree& frames) {
+  for (const RosPose& transform : read_ros_transforms(message))
+    if (transform.pose) frames.add(transform.header.frame, transform.child, *transform.pose);
+}
+
+/// The frames that a topic's first message names.
+void note_frames(const RosMessage& message, RosTopic& topic) {
+  RosMessageReader reader(message);
+  topic.frame = reader.header().frame;
+  if (topic.type == kOdometryType) topic.child = reader.frame();
+}
+
+}  // namespace
+
+const RosTopic* RosSurvey::find(const std::string& name) const {
+  const auto found =
+      std::find_if(topics.begin(), topics.end(), [&](const RosTopic& topic) { return topic.name == name; });
+  return found == topics.end() ? nullptr : &*found;
+}
+
+RosSurvey survey_recording(const std::filesystem::path& source) {
+  RosSurvey survey;
+  TopicsByName topics;
+  RosVisitor visitor;
+  visitor.reads = [&](const RosChannel& channel) {
+    return is_static_transforms(channel) || (has_a_frame(channel) && !topics.contains(channel.topic));
+  };
+  visitor.take = [&](const RosMessage& message) {
+    const auto [topic, is_new] =
+        topics.try_emplace(message.channel.topic, RosTopic{message.channel.topic, message.channel.type});
+    ++topic->second.messages;
+    if (is_static_transforms(message.channel)) add_static_transforms(message, survey.frames);
+    if (is_new && has_a_frame(message.channel)) note_frames(message, topic->second);
+  };
+  survey.warnings = visit_recording(source, visitor);
+  for (const auto& named : topics) survey.topics.push_back(named.second);
+  return survey;
+}
+
+std::string list_of_topics(const std::vector<RosTopic>& topics) {
+  std::string list;
+  for (const RosTopic& topic : topics)
+    list += (list.empty() ? "" : ", ") + topic.name + " (" + topic.type + ", " +
+            std::to_string(topic.messages) + ")";
+  return list.empty() ? "none" : list;
+}
+
+}  // namespace radioslam

@@ -1,0 +1,54 @@
+// The message types of ROS that a robot's recordings are made of, in ROS 1 and ROS 2 alike.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "radioslam/geometry/se3.hpp"
+#include "radioslam/io/ros_message.hpp"
+#include "radioslam/mission/lidar.hpp"
+
+namespace radioslam {
+
+/// A pose or a transform: T_frame_child.
+struct RosPose {
+  RosHeader header;
+  std::string child;  ///< empty where the type names none
+  /// Nothing where its numbers are no pose: not finite, or no rotation.
+  std::optional<SE3> pose;
+};
+
+struct RosScan {
+  RosHeader header;
+  LidarScan scan;          ///< in the sensor's frame
+  double range_max_m = 0;  ///< of a LaserScan; 0 where not told
+};
+
+struct RosInertial {
+  RosHeader header;
+  Eigen::Vector3d specific_force_mps2;
+  Eigen::Vector3d angular_rate_radps;
+};
+
+/// nav_msgs/Odometry, geometry_msgs/PoseStamped, PoseWithCovarianceStamped, TransformStamped.
+bool is_pose_type(std::string_view type);
+/// tf2_msgs/TFMessage, tf/tfMessage.
+bool is_transforms_type(std::string_view type);
+/// sensor_msgs/PointCloud2, sensor_msgs/LaserScan.
+bool is_scan_type(std::string_view type);
+inline constexpr std::string_view kOdometryType = "nav_msgs/Odometry";
+inline constexpr std::string_view kInertialType = "sensor_msgs/Imu";
+inline constexpr std::string_view kLaserScanType = "sensor_msgs/LaserScan";
+
+/// The message must be of a pose type, and so on.
+RosPose read_ros_pose(const RosMessage& message);
+std::vector<RosPose> read_ros_transforms(const RosMessage& message);
+/// Of a PointCloud2 all points; of a LaserScan, in the plane z = 0, the readings within its limits. Times are
+/// since the header's stamp (point_table.hpp); those of a LaserScan that has a time increment too.
+RosScan read_ros_scan(const RosMessage& message);
+RosInertial read_ros_inertial(const RosMessage& message);
+
+}  // namespace radioslam

@@ -1,0 +1,229 @@
+#include "radioslam/io/ros_import.hpp"
+
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "recorded_data.hpp"
+#include "refusal.hpp"
+#include "ros_bytes.hpp"
+#include "temporary_folder.hpp"
+
+namespace radioslam {
+namespace {
+
+const double kHalf = std::sqrt(0.5);
+
+std::string ros2(const std::function<void(RosBytes&)>& fill) {
+  RosBytes bytes(MessageEncoding::kCdr);
+  fill(bytes);
+  return bytes.bytes();
+}
+
+WrittenMessage odometry(unsigned seconds, double x, const std::string& topic = "/odom") {
+  return {topic, "nav_msgs/Odometry", 7, ros2([&](RosBytes& bytes) {
+            bytes.header(seconds, 0, "odom").text("base").f64s({x, 1, 0.5, 0, 0, kHalf, kHalf});
+          })};
+}
+
+WrittenMessage pose(unsigned seconds, double x) {
+  return {"/truth", "geometry_msgs/PoseStamped", 7, ros2([&](RosBytes& bytes) {
+            bytes.header(seconds, 0, "map").f64s({x, 0, 0, 0, 0, 0, 1});
+          })};
+}
+
+/// The laser is 1 m ahead of the base and looks to its left.
+WrittenMessage static_transform(const std::string& child) {
+  return {"/tf_static", "tf2_msgs/TFMessage", 7, ros2([&](RosBytes& bytes) {
+            bytes.u32(1).header(0, 0, "base").text(child).f64s({1, 0, 0.2, 0, 0, kHalf, kHalf});
+          })};
+}
+
+/// One reading of 2 m, straight ahead.
+WrittenMessage laser(unsigned seconds, const std::string& topic = "/scan") {
+  return {topic, "sensor_msgs/LaserScan", 9, ros2([&](RosBytes& bytes) {
+            bytes.header(seconds, 0, "laser");
+            for (const float value : {0.0F, 1.0F, 1.0F, 0.0F, 0.1F, 0.5F, 12.0F}) bytes.f32(value);
+            bytes.u32(1).f32(2).u32(0);
+          })};
+}
+
+WrittenMessage imu(unsigned seconds, const std::string& frame) {
+  return {"/imu", "sensor_msgs/Imu", 9, ros2([&](RosBytes& bytes) {
+            bytes.header(seconds, 0, frame).f64s(std::vector<double>(13)).f64s({0.1, 0, 0});
+            bytes.f64s(std::vector<double>(9)).f64s({9, 0, 4});
+          })};
+}
+
+/// An import, and the scans it hands on.
+struct Imported {
+  ImportedMission mission;
+  std::map<Stamp, LidarScan> scans;
+
+  const Robot& robot() const { return mission.mission.robots.at(0); }
+  std::string notes() const {
+    std::string all;
+    for (const std::string& warning : mission.warnings) all += warning + '\n';
+    return all;
+  }
+};
+
+Imported import(const std::vector<WrittenMessage>& messages, const RosTopicWishes& wishes = {}) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("x.mcap", mcap_of(mcap_records(messages)));
+  Imported result;
+  const auto sink = [&](Stamp stamp, const LidarScan& scan) { result.scans[stamp] = scan; };
+  result.mission = import_ros_recording(file, "a", wishes, sink).imported;
+  return result;
+}
+
+TEST(RosImport, BringsWhatSensorsSayIntoTheBody) {
+  const auto imported =
+      import({laser(5), odometry(4, 3), odometry(5, 3.5), imu(4, "laser"), static_transform("laser")});
+  const Robot& robot = imported.robot();
+  EXPECT_EQ(imported.mission.mission.dimension, 2);
+  EXPECT_EQ(robot.lidar_range_m, 12);
+  ASSERT_EQ(robot.odometry.size(), 2U);
+  EXPECT_LT(robot.odometry[0].pose.log().norm(), 1e-12);
+  EXPECT_LT((robot.odometry[1].pose.translation() - Eigen::Vector3d(0, -0.5, 0)).norm(), 1e-12)
+      << "the robot faced +y and moved along +x";
+  ASSERT_EQ(imported.scans.size(), 1U);
+  EXPECT_LT((imported.scans.at({5'000'000'000}).points.at(0) - Eigen::Vector3f(1, 2, 0)).norm(), 1e-6);
+  ASSERT_EQ(robot.inertial.size(), 1U);
+  EXPECT_LT((robot.inertial[0].specific_force_mps2 - Eigen::Vector3d(0, 9, 4)).norm(), 1e-12);
+  EXPECT_LT((robot.inertial[0].angular_rate_radps - Eigen::Vector3d(0, 0.1, 0)).norm(), 1e-12);
+  EXPECT_EQ(imported.notes(), "/imu: the unit's place in the body is not accounted for\n");
+}
+
+TEST(RosImport, TakesASensorsFrameAsTheBodysWhereNothingLeadsThere) {
+  const auto imported = import({laser(5), odometry(4, 3)});
+  EXPECT_LT((imported.scans.begin()->second.points.at(0) - Eigen::Vector3f(2, 0, 0)).norm(), 1e-6);
+  EXPECT_EQ(imported.notes(),
+            "/scan: no static transform leads from base to laser; 'laser' is taken as the body's frame\n");
+  EXPECT_NE(import({laser(5)}).notes().find("nothing names the body's frame"), std::string::npos);
+}
+
+TEST(RosImport, PutsMessagesInOrderOnce) {
+  const auto imported =
+      import({odometry(9, 1), odometry(4, 3), odometry(9, 2), laser(2), laser(1), laser(2), odometry(0, 7)});
+  ASSERT_EQ(imported.robot().odometry.size(), 3U);
+  EXPECT_EQ(imported.robot().odometry[0].stamp, Stamp{7}) << "without a time of its own: the recording's";
+  EXPECT_EQ(imported.robot().odometry[2].stamp, Stamp{9'000'000'000});
+  EXPECT_NEAR(imported.robot().odometry[2].pose.translation().norm(), 6, 1e-12) << "the first of two counts";
+  EXPECT_EQ(imported.scans.size(), 2U);
+  EXPECT_NE(imported.notes().find("/odom: 1 messages have no time of their own"), std::string::npos);
+  EXPECT_NE(imported.notes().find("/odom: 1 messages of a time that another has"), std::string::npos);
+  EXPECT_NE(imported.notes().find("/scan: 1 messages of a time that another has"), std::string::npos);
+}
+
+TEST(RosImport, TakesTheTruthOnlyWhenAsked) {
+  const std::vector<WrittenMessage> messages{odometry(4, 3), pose(4, 10), pose(5, 11)};
+  const auto unasked = import(messages);
+  EXPECT_TRUE(unasked.mission.truth.robots.empty());
+  EXPECT_NE(unasked.notes().find("--truth TOPIC does: /truth (geometry_msgs/PoseStamped, 2)"),
+            std::string::npos);
+  const auto asked = import(messages, {"", "", "", "/truth"});
+  ASSERT_EQ(asked.mission.truth.robots.size(), 1U);
+  EXPECT_EQ(asked.mission.truth.robots[0].poses[1].pose.translation().x(), 11) << "in its own frame";
+  EXPECT_EQ(asked.notes(), "");
+}
+
+TEST(RosImport, TakesPosesOutOfTransforms) {
+  const WrittenMessage tf{"/tf", "tf2_msgs/TFMessage", 7, ros2([](RosBytes& bytes) {
+                            bytes.u32(2).header(3, 0, "odom").text("base").f64s({5, 0, 0, 0, 0, 0, 1});
+                            bytes.header(3, 0, "map").text("odom").f64s({9, 9, 9, 0, 0, 0, 1});
+                          })};
+  const auto imported = import({tf, static_transform("laser")}, {"/tf:odom.laser", "", "", "/tf:odom.base"});
+  EXPECT_EQ(imported.mission.truth.robots[0].poses[0].pose.translation(), Eigen::Vector3d(5, 0, 0));
+  ASSERT_EQ(imported.robot().odometry.size(), 1U);
+  const auto base = import({tf, static_transform("laser")}, {"/tf:odom.base", "", "", "/tf:odom.laser"});
+  EXPECT_LT((base.mission.truth.robots[0].poses[0].pose.translation() - Eigen::Vector3d(6, 0, 0.2)).norm(),
+            1e-12);
+}
+
+TEST(RosImport, RefusesWithTheTopicsThereAre) {
+  const std::vector<WrittenMessage> two{odometry(4, 3), odometry(4, 3, "/wheels"), laser(4),
+                                        laser(4, "/rear")};
+  const auto refuse = [](const std::vector<WrittenMessage>& messages, const RosTopicWishes& wishes,
+                         const char* words) { expect_refusal([&] { import(messages, wishes); }, 0, words); };
+  refuse(two, {},
+         "has 2 topics with odometry; --odometry says which, or none: /odom (nav_msgs/Odometry, 1), /wheels "
+         "(nav_msgs/Odometry, 1)");
+  refuse(two, {"/odom", "", "", ""}, "--scans says which");
+  refuse(two, {"/x", "", "", ""}, "--odometry: there is no topic /x; the recording has /odom");
+  refuse(two, {"/scan", "", "", ""}, "--odometry: /scan is of sensor_msgs/LaserScan, not odometry");
+  refuse(two, {"/odom", "none", "", "/tf:a.b"}, "--truth: there is no topic of transforms /tf");
+  refuse({pose(1, 2)}, {}, "neither odometry nor a laser scan");
+  refuse({static_transform("laser")}, {"/tf_static", "", "", ""}, "/tf_static:FRAME.CHILD says which");
+  refuse({static_transform("laser")}, {"/tf_static:a", "", "", ""}, "two frames with a point between them");
+  refuse({static_transform("laser")}, {"/tf_static:a.b", "", "", ""}, "has no pose to import");
+  EXPECT_EQ(import(two, {"/odom", "/rear", "", ""}).scans.size(), 1U);
+  EXPECT_TRUE(import(two, {"none", "/rear", "", ""}).robot().odometry.empty());
+  EXPECT_TRUE(import(two, {"", "none", "", "/wheels"}).scans.empty()) << "the truth is not the odometry too";
+}
+
+TEST(RosImport, ReadsFoldersAndRefusesWhatIsNoRecording) {
+  const TemporaryFolder folder;
+  expect_refusal([&] { survey_recording(folder.path()); }, 0, "there is no recording in it");
+  expect_refusal([&] { survey_recording(folder.path() / "none"); }, 0, "no such file");
+  folder.write("b.mcap", mcap_of(mcap_records({laser(5)})));
+  folder.write("a.bag", bag_of(""));
+  folder.write("metadata.yaml", "rosbag2_bagfile_information:");
+  EXPECT_EQ(list_of_topics(survey_recording(folder.path()).topics), "/scan (sensor_msgs/LaserScan, 1)");
+  folder.write("c.db3", "no database");
+  expect_refusal([&] { survey_recording(folder.path()); }, 0, "c.db3: at byte 0: is no recording");
+  folder.write("c.db3", "");
+  expect_refusal([&] { survey_recording(folder.path()); }, 0, "c.db3: at byte 0: is no recording");
+}
+
+TEST(FrameTree, FollowsChainsBothWays) {
+  FrameTree tree;
+  const SE3 T_base_mast({0, 0, 1}, Eigen::Quaterniond::Identity());
+  const SE3 T_mast_laser({1, 0, 0}, Eigen::Quaterniond(kHalf, 0, 0, kHalf));
+  const SE3 T_base_imu({0, 2, 0}, Eigen::Quaterniond::Identity());
+  tree.add("base", "mast", T_base_mast);
+  tree.add("mast", "laser", T_mast_laser);
+  tree.add("base", "imu", T_base_imu);
+  tree.add("x", "y", {});
+  EXPECT_TRUE(tree.knows("base") && tree.knows("imu") && !tree.knows("z"));
+  EXPECT_LT((tree.find("base", "laser")->inverse() * (T_base_mast * T_mast_laser)).log().norm(), 1e-12);
+  EXPECT_LT((*tree.find("imu", "laser") * *tree.find("laser", "imu")).log().norm(), 1e-12);
+  EXPECT_LT((tree.find("imu", "laser")->translation() - Eigen::Vector3d(1, -2, 1)).norm(), 1e-12);
+  EXPECT_LT(tree.find("z", "z")->log().norm(), 1e-12) << "a frame lies on itself";
+  EXPECT_FALSE(tree.find("base", "y"));
+  tree.add("laser", "base", T_base_imu);  // a loop, which nobody should publish
+  EXPECT_TRUE(tree.find("base", "imu"));
+}
+
+/// One recording in the formats of ROS 1 and ROS 2.
+TEST(RosImport, RecordedBagAndDatabaseAreOne) {
+  RADIOSLAM_RECORDED(folder, "ros_logs");
+  const auto read = [&](const char* name) {
+    return import_ros_recording(folder / name, "a", {"/tf:odom.base_link", "", "", ""},
+                                [](Stamp, const LidarScan&) {})
+        .imported.mission.robots.at(0)
+        .odometry;
+  };
+  const auto bag = read("tf_example.bag");
+  const auto database = read("tf_example");
+  ASSERT_EQ(bag.size(), 517U);
+  ASSERT_EQ(database.size(), 517U);
+  for (std::size_t k = 0; k < bag.size(); ++k) {
+    EXPECT_EQ(bag[k].stamp, database[k].stamp);
+    EXPECT_EQ(bag[k].pose.translation(), database[k].pose.translation());
+  }
+}
+
+/// The counts are those that the sqlite3 program and the files' own statistics give.
+TEST(RosImport, RecordedTopicsAreCounted) {
+  RADIOSLAM_RECORDED(mcap, "ros_logs/nav2_turtlebot.mcap");
+  EXPECT_EQ(list_of_topics(survey_recording(mcap).topics),
+            "/amcl_pose (geometry_msgs/PoseWithCovarianceStamped, 135), /odom (nav_msgs/Odometry, 2639), /tf "
+            "(tf2_msgs/TFMessage, 5422), /tf_static (tf2_msgs/TFMessage, 1)");
+  const RosSurvey team = survey_recording(recorded_data("tiers/shortbag.db3"));
+  EXPECT_EQ(team.topics.size(), 45U);
+  EXPECT_EQ(team.find("/vrpn_client_node/turtlebot3_cap/pose")->messages, 1032U);
+}
+
+}  // namespace
+}  // namespace radioslam
