@@ -1,9 +1,11 @@
 #include "radioslam/io/mission_folder.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "example_mission.hpp"
 #include "radioslam/io/intel5300_write.hpp"
+#include "radioslam/io/little_endian.hpp"
 #include "radioslam/io/mission_yaml.hpp"
 #include "radioslam/mission/wifi_channel.hpp"
 #include "refusal.hpp"
@@ -81,7 +83,7 @@ TEST(ReadMission, ReadsByteOrderMarksAndCrLfAlike) {
 TEST(ReadMission, IgnoresFilesOfOtherReaders) {
   Files files = example_mission();
   files["robots/a/csi/5300.dat"] = "anything";
-  files["robots/a/lidar/123.bin"] = "anything";
+  files["robots/a/lidar/README.md"] = "anything";
   files["robots/README.md"] = "anything";
   files["robots/.hidden/x"] = "anything";
   EXPECT_NO_THROW(read(files));
@@ -174,6 +176,78 @@ TEST(ReadMission, TakesAMatchOfARobotWithItselfAndAnAnchorKnownExactly) {
   files["matches.csv"] += "a,1,a,0,1,2,0,0,0,0,1,0.1,0.01\n";
   files["radio/anchors.csv"] += "A3,1,2,3,0\n";
   EXPECT_NO_THROW(read(files));
+}
+
+/// Points as a scan's .bin.
+std::string bin_of(const std::vector<Eigen::Vector3f>& points) {
+  std::string bytes;
+  for (const Eigen::Vector3f& point : points)
+    for (const float number : {point.x(), point.y(), point.z(), 0.5F}) append_f32(bytes, number);
+  return bytes;
+}
+
+constexpr const char* kImu =
+    "t_s,ax_mps2,ay_mps2,az_mps2,wx_radps,wy_radps,wz_radps\n0.5,0.1,-0.2,9.81,0.01,0.02,-0.03\n"
+    "1.500000001,1,2,3,4,5,6\n";
+
+TEST(ReadMission, ReadsScansAndInertialReadings) {
+  Files files = example_mission();
+  files["robots/a/lidar/2000000000.bin"] = bin_of({{1, 2, 3}, {4, 5, 6}});
+  files["robots/a/lidar/1000000000.bin"] = "";
+  files["robots/a/imu.csv"] = kImu;
+  const TemporaryFolder folder;
+  write_files(folder, files);
+  const Mission mission = read_mission(folder.path());
+  const Robot& a = mission.robots[0];
+  EXPECT_EQ(a.lidar.stamps, (std::vector<Stamp>{{1'000'000'000}, {2'000'000'000}}));
+  EXPECT_TRUE(a.lidar.read(0).points.empty());
+  EXPECT_EQ(a.lidar.read(1).points, (std::vector<Eigen::Vector3f>{{1, 2, 3}, {4, 5, 6}}));
+  ASSERT_EQ(a.inertial.size(), 2U);
+  EXPECT_EQ(a.inertial[0].specific_force_mps2, Eigen::Vector3d(0.1, -0.2, 9.81));
+  EXPECT_EQ(a.inertial[1].angular_rate_radps, Eigen::Vector3d(4, 5, 6));
+  EXPECT_EQ(a.inertial[1].stamp, Stamp{1'500'000'001});
+  EXPECT_TRUE(mission.robots[1].lidar.empty());
+  EXPECT_TRUE(mission.unused_files.empty());
+}
+
+TEST(ReadMission, TakesScansInPlaceOfOdometry) {
+  Files files = example_mission();
+  files.erase("robots/b/odometry.tum");
+  EXPECT_NE(refusal([&] { read(files); }).find("mission.yaml:6: robot 'b' has no robots/b/odometry.tum"),
+            std::string::npos);
+  files["robots/b/lidar/1000000000.bin"] = bin_of({{1, 2, 3}});
+  const Mission mission = read(files);
+  EXPECT_TRUE(mission.robots[1].odometry.empty());
+  EXPECT_EQ(mission.robots[1].lidar.size(), 1U);
+}
+
+/// A mission's scans, in memory: one with times and one without.
+LidarLog two_scans() {
+  LidarLog log;
+  log.stamps = {{1'000'000'000}, {2'000'000'000}};
+  log.read = [](std::size_t k) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    return k == 0 ? LidarScan{{{1, 2, 3}, {nan, 0, -1}}, {}} : LidarScan{{{4, 5, 6}}, {-0.25F}};
+  };
+  return log;
+}
+
+TEST(WriteMission, KeepsScansAndInertialReadings) {
+  Files files = example_mission();
+  files["robots/b/imu.csv"] = kImu;
+  Mission mission = read(files);
+  mission.robots[0].lidar = two_scans();
+  const TemporaryFolder folder;
+  write_mission(folder.path(), mission);
+  const Mission again = read_mission(folder.path());
+  const LidarLog& log = again.robots[0].lidar;
+  EXPECT_EQ(log.stamps, mission.robots[0].lidar.stamps);
+  EXPECT_EQ(log.read(0).points[0], Eigen::Vector3f(1, 2, 3));
+  EXPECT_TRUE(std::isnan(log.read(0).points[1].x()));
+  EXPECT_TRUE(log.read(0).times_s.empty());
+  EXPECT_EQ(log.read(1).points[0], Eigen::Vector3f(4, 5, 6));
+  EXPECT_EQ(log.read(1).times_s, std::vector<float>{-0.25F});
+  EXPECT_EQ(folder.read("robots/b/imu.csv"), kImu);
 }
 
 TEST(ReadTruth, IsApartAndKnowsWhereOnlyPositionsAreTrue) {

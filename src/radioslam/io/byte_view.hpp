@@ -1,6 +1,7 @@
 // Numbers of a fixed size in bytes, of either order.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -22,6 +23,11 @@ class ByteView {
   std::uint16_t u16(std::size_t at) const { return static_cast<std::uint16_t>(number(at, 2)); }
   int i16(std::size_t at) const { return static_cast<std::int16_t>(u16(at)); }
   std::uint32_t u32(std::size_t at) const { return static_cast<std::uint32_t>(number(at, 4)); }
+  std::int32_t i32(std::size_t at) const { return static_cast<std::int32_t>(u32(at)); }
+  std::uint64_t u64(std::size_t at) const { return number(at, 8); }
+  std::int64_t i64(std::size_t at) const { return static_cast<std::int64_t>(u64(at)); }
+  float f32(std::size_t at) const { return std::bit_cast<float>(u32(at)); }
+  double f64(std::size_t at) const { return std::bit_cast<double>(u64(at)); }
   /// Its first byte is the most significant one, whatever the order of numbers.
   MacAddress mac_address(std::size_t at) const { return {ByteView(bytes_, ByteOrder::kBig).number(at, 6)}; }
 

@@ -7,6 +7,7 @@
 
 #include "radioslam/base/check.hpp"
 #include "radioslam/io/intel5300_layout.hpp"
+#include "radioslam/io/little_endian.hpp"
 
 namespace radioslam {
 namespace {
@@ -18,11 +19,6 @@ constexpr unsigned kAntennasInOrder = 0b100100;  ///< two bits per chain: chain 
 constexpr unsigned kRateAndFlags = 0x101;        ///< as recorded: legacy rate, antenna A
 constexpr double kWideBandwidth_hz = 40e6;
 constexpr std::size_t kBitsPerByte = 8;
-
-void append_little_endian(std::string& out, std::uint64_t value, std::size_t bytes) {
-  for (std::size_t k = 0; k < bytes; ++k)
-    out.push_back(static_cast<char>(value >> (kBitsPerByte * k) & 0xffU));
-}
 
 void append_byte(std::string& out, int value, int least, int most) {
   out.push_back(static_cast<char>(std::clamp(value, least, most)));

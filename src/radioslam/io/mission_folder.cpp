@@ -5,6 +5,7 @@
 
 #include "radioslam/io/atomic_output.hpp"
 #include "radioslam/io/csi_folder.hpp"
+#include "radioslam/io/lidar_folder.hpp"
 #include "radioslam/io/mission_yaml.hpp"
 #include "radioslam/io/robot_tables.hpp"
 #include "radioslam/io/team_tables.hpp"
@@ -62,13 +63,17 @@ std::set<std::string> unknown_robot_folders(const fs::path& folder, const Missio
   return unknown;
 }
 
-void read_odometry(const fs::path& folder, const Text& yaml, MissionFile& file) {
+/// Each robot's odometry and its scans, one of which it must have.
+void read_motion(const fs::path& folder, const Text& yaml, MissionFile& file) {
   for (std::size_t k = 0; k < file.mission.robots.size(); ++k) {
     Robot& robot = file.mission.robots[k];
     const fs::path path = robot_file(folder, robot.id, "odometry.tum");
-    if (!fs::exists(path))
-      yaml.fail(file.robot_lines[k], "robot '" + robot.id + "' has no robots/" + robot.id + "/odometry.tum");
-    robot.odometry = read_tum(read_text(path));
+    robot.lidar = read_lidar_folder(robot_file(folder, robot.id, "lidar"));
+    if (fs::exists(path))
+      robot.odometry = read_tum(read_text(path));
+    else if (robot.lidar.empty())
+      yaml.fail(file.robot_lines[k], "robot '" + robot.id + "' has no robots/" + robot.id +
+                                         "/odometry.tum, and no scans in place of it");
   }
 }
 
@@ -86,10 +91,13 @@ void read_wifi_of(const fs::path& folder, Mission& mission) {
   mission.access_points = std::move(recordings.access_points);
 }
 
-void read_fixes_of(const fs::path& folder, Mission& mission) {
-  for (Robot& robot : mission.robots)
+void read_robot_tables(const fs::path& folder, Mission& mission) {
+  for (Robot& robot : mission.robots) {
+    with_file(robot_file(folder, robot.id, "imu.csv"),
+              [&](const Text& text) { robot.inertial = read_inertial(text); });
     with_file(robot_file(folder, robot.id, "gnss.csv"),
               [&](const Text& text) { robot.fixes = read_fixes(text); });
+  }
 }
 
 /// Captures of robots whose card mission.yaml describes; of others nobody knows which packets are theirs.
@@ -114,20 +122,13 @@ void read_team_tables(const fs::path& folder, MissionFile& file) {
   with_file(folder / kMatches, [&](const Text& text) { mission.matches = read_matches(text, names); });
 }
 
-/// What is there and read by no estimator; tables among it are checked.
+/// What is there and read by no estimator.
 std::vector<std::string> unused_files(const fs::path& folder, const Mission& mission) {
   std::vector<std::string> found;
-  const TeamNames names = names_of(mission);
-  for (const auto& named : names.robots) {
-    const std::string& id = named.first;
-    const Robot& robot = mission.robots[named.second.index()];
-    with_file(robot_file(folder, id, "imu.csv"), [&](const Text& text) {
-      check_inertial(text);
-      found.push_back("robots/" + id + "/imu.csv");
-    });
-    if (!robot.csi && fs::is_directory(robot_file(folder, id, "csi")))
-      found.push_back("robots/" + id + "/csi");
-  }
+  for (const Robot& robot : mission.robots)
+    if (!robot.csi && fs::is_directory(robot_file(folder, robot.id, "csi")))
+      found.push_back("robots/" + robot.id + "/csi");
+  std::sort(found.begin(), found.end());
   return found;
 }
 
@@ -136,7 +137,10 @@ void write_robot(const fs::path& folder, const Robot& robot, const std::vector<s
     write_file(robot_file(folder, robot.id, "odometry.tum"), format_tum(robot.odometry));
   if (!robot.wifi.empty())
     write_file(robot_file(folder, robot.id, "wifi.csv"), format_wifi(robot.wifi, access_points));
+  if (!robot.inertial.empty())
+    write_file(robot_file(folder, robot.id, "imu.csv"), format_inertial(robot.inertial));
   if (!robot.fixes.empty()) write_file(robot_file(folder, robot.id, "gnss.csv"), format_fixes(robot.fixes));
+  write_lidar_folder(robot_file(folder, robot.id, "lidar"), robot.lidar);
   if (robot.csi) write_csi_folder(robot_file(folder, robot.id, "csi"), robot.csi->captures);
 }
 
@@ -172,9 +176,9 @@ Mission read_mission(const fs::path& folder) {
   for (const std::string& unknown : unknown_robot_folders(folder, file.mission))
     yaml.fail(file.robots_line,
               "unknown robot '" + unknown + "': it has a folder under robots/ and is not listed");
-  read_odometry(folder, yaml, file);
+  read_motion(folder, yaml, file);
   read_wifi_of(folder, file.mission);
-  read_fixes_of(folder, file.mission);
+  read_robot_tables(folder, file.mission);
   read_csi_of(folder, file.mission);
   read_team_tables(folder, file);
   file.mission.unused_files = unused_files(folder, file.mission);

@@ -8,9 +8,10 @@
 
 namespace radioslam {
 
-/// Reads mission.yaml, each robot's odometry.tum, wifi.csv and gnss.csv, radio/*.csv and matches.csv, and the
-/// captures in csi/ of robots whose mission.yaml has the key `csi`; checks imu.csv. Never reads the truth.
-/// Every refusal is an InputError; one that no single file is to blame for names mission.yaml.
+/// Reads mission.yaml, each robot's odometry.tum, wifi.csv, imu.csv and gnss.csv, radio/*.csv and
+/// matches.csv, and the captures in csi/ of robots whose mission.yaml has the key `csi`. Lists the scans in
+/// lidar/, which are read when they are asked for; a robot that has some needs no odometry.tum. Never reads
+/// the truth. Every refusal is an InputError; one that no single file is to blame for names mission.yaml.
 Mission read_mission(const std::filesystem::path& folder);
 
 /// Reads robots/<id>/groundtruth.tum of the mission's robots; a robot without one has no poses. A truth

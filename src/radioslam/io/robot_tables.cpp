@@ -1,23 +1,35 @@
 #include "radioslam/io/robot_tables.hpp"
 
 #include <algorithm>
-#include <optional>
 
 #include "radioslam/io/csv.hpp"
 #include "radioslam/io/numbers.hpp"
 
 namespace radioslam {
 
-void check_inertial(const Text& text) {
-  constexpr std::size_t kColumns = 7;
+std::vector<InertialSample> read_inertial(const Text& text) {
+  enum : std::size_t { kTime, kAx, kAy, kAz, kWx, kWy, kWz };
   CsvReader csv(text, {{"t_s", "ax_mps2", "ay_mps2", "az_mps2", "wx_radps", "wy_radps", "wz_radps"}});
-  std::optional<Stamp> last;
+  std::vector<InertialSample> samples;
   while (csv.next()) {
-    const Stamp stamp = csv.stamp(0);
-    if (last && stamp <= *last) csv.fail("time does not run forward");
-    for (std::size_t column = 1; column < kColumns; ++column) csv.number(column);
-    last = stamp;
+    const Stamp stamp = csv.stamp(kTime);
+    if (!samples.empty() && stamp <= samples.back().stamp) csv.fail("time does not run forward");
+    samples.push_back({stamp,
+                       {csv.number(kAx), csv.number(kAy), csv.number(kAz)},
+                       {csv.number(kWx), csv.number(kWy), csv.number(kWz)}});
   }
+  return samples;
+}
+
+std::string format_inertial(const std::vector<InertialSample>& samples) {
+  std::string out = "t_s,ax_mps2,ay_mps2,az_mps2,wx_radps,wy_radps,wz_radps\n";
+  for (const InertialSample& sample : samples) {
+    out += format_stamp(sample.stamp);
+    for (const double force : sample.specific_force_mps2) append_number(out += ',', force);
+    for (const double rate : sample.angular_rate_radps) append_number(out += ',', rate);
+    out += '\n';
+  }
+  return out;
 }
 
 std::vector<PositionFix> read_fixes(const Text& text) {

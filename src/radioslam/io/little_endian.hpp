@@ -1,0 +1,24 @@
+// Numbers as bytes, the least significant first; appended to what is being written.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace radioslam {
+
+/// The lower `bytes` bytes of a whole number.
+inline void append_little_endian(std::string& out, std::uint64_t value, std::size_t bytes) {
+  for (std::size_t k = 0; k < bytes; ++k) out += static_cast<char>(value >> (8 * k) & 0xffU);
+}
+
+inline void append_f32(std::string& out, float value) {
+  append_little_endian(out, std::bit_cast<std::uint32_t>(value), sizeof(value));
+}
+
+inline void append_f64(std::string& out, double value) {
+  append_little_endian(out, std::bit_cast<std::uint64_t>(value), sizeof(value));
+}
+
+}  // namespace radioslam

@@ -1,0 +1,260 @@
+#include "radioslam/io/pcd.hpp"
+
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "radioslam/base/check.hpp"
+#include "radioslam/io/fields_of_line.hpp"
+#include "radioslam/io/little_endian.hpp"
+#include "radioslam/io/lzf.hpp"
+#include "radioslam/io/numbers.hpp"
+#include "radioslam/io/point_table.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr std::size_t kLargestPointCount = std::size_t{1} << 32U;
+constexpr std::size_t kLargestFieldCount = 1 << 16;  ///< of one field, numbers per point
+
+struct PcdField {
+  std::string name;
+  NumberType type = NumberType::kFloat32;
+  std::size_t count = 1;
+};
+
+struct PcdHeader {
+  std::vector<PcdField> fields;
+  std::size_t points = 0;
+  std::string encoding;
+  std::size_t data_begin = 0;  ///< byte of the file
+
+  std::size_t record_bytes() const {
+    std::size_t bytes = 0;
+    for (const PcdField& field : fields) bytes += field.count * bytes_of(field.type);
+    return bytes;
+  }
+};
+
+/// The words of each line of the header, by the line's first word.
+using PcdEntries = std::map<std::string, std::vector<std::string>, std::less<>>;
+
+bool is_pcd_keyword(std::string_view word) {
+  for (const char* known : {"VERSION", "FIELDS", "SIZE", "TYPE", "COUNT", "WIDTH", "HEIGHT", "VIEWPOINT",
+                            "POINTS", "DATA"})
+    if (word == known) return true;
+  return false;
+}
+
+PcdEntries read_entries(TextLines& lines) {
+  PcdEntries entries;
+  while (!entries.contains("DATA")) {
+    if (!lines.next_with_content()) lines.fail("the header ends before DATA: this is no PCD file");
+    LineFields fields(lines);
+    const std::string keyword(fields.next("a keyword"));
+    if (!is_pcd_keyword(keyword)) lines.fail("no line of a PCD header starts so");
+    auto [entry, is_new] = entries.try_emplace(keyword);
+    if (!is_new) lines.fail(keyword + " stands there twice");
+    while (!fields.empty()) entry->second.emplace_back(fields.next("a value"));
+  }
+  return entries;
+}
+
+/// What a keyword's line says, or a refusal.
+const std::vector<std::string>& words_of(const TextLines& at, const PcdEntries& entries, const char* keyword) {
+  const auto entry = entries.find(keyword);
+  if (entry == entries.end()) at.fail(std::string("the header has no ") + keyword);
+  return entry->second;
+}
+
+std::size_t count_of(const TextLines& at, const std::string& word, const char* keyword, std::size_t limit) {
+  const auto count = parse_id(word);
+  if (!count || *count > limit) at.fail(keyword + (" '" + word) + "' is no count");
+  return *count;
+}
+
+NumberType number_type(const TextLines& at, const std::string& type, const std::string& size) {
+  static const std::map<std::string, NumberType> types{
+      {"I1", NumberType::kInt8},    {"U1", NumberType::kUint8},   {"I2", NumberType::kInt16},
+      {"U2", NumberType::kUint16},  {"I4", NumberType::kInt32},   {"U4", NumberType::kUint32},
+      {"I8", NumberType::kInt64},   {"U8", NumberType::kUint64},  {"F4", NumberType::kFloat32},
+      {"F8", NumberType::kFloat64}};
+  const auto found = types.find(type + size);
+  if (found == types.end()) at.fail("a field of TYPE " + type + " and SIZE " + size + " is none");
+  return found->second;
+}
+
+std::vector<PcdField> fields_of(const TextLines& at, const PcdEntries& entries) {
+  const auto& names = words_of(at, entries, "FIELDS");
+  const auto& sizes = words_of(at, entries, "SIZE");
+  const auto& types = words_of(at, entries, "TYPE");
+  const bool has_counts = entries.contains("COUNT");
+  if (sizes.size() != names.size() || types.size() != names.size() ||
+      (has_counts && words_of(at, entries, "COUNT").size() != names.size()))
+    at.fail("FIELDS, SIZE, TYPE and COUNT name different numbers of fields");
+  std::vector<PcdField> fields;
+  for (std::size_t k = 0; k < names.size(); ++k)
+    fields.push_back({names[k], number_type(at, types[k], sizes[k]),
+                      has_counts ? count_of(at, entries.at("COUNT")[k], "COUNT", kLargestFieldCount) : 1});
+  return fields;
+}
+
+/// Of a keyword with one number, where it is there.
+std::optional<std::size_t> count_in(const TextLines& at, const PcdEntries& entries, const char* keyword) {
+  const auto entry = entries.find(keyword);
+  if (entry == entries.end()) return std::nullopt;
+  if (entry->second.size() != 1) at.fail(std::string(keyword) + " is not one number");
+  return count_of(at, entry->second.front(), keyword, kLargestPointCount);
+}
+
+std::size_t points_in(const TextLines& at, const PcdEntries& entries) {
+  const auto points = count_in(at, entries, "POINTS");
+  const auto width = count_in(at, entries, "WIDTH");
+  if (!points && !width) at.fail("the header has neither POINTS nor WIDTH");
+  if (!width) return *points;
+  const std::size_t height = count_in(at, entries, "HEIGHT").value_or(1);
+  if (height > 0 && *width > kLargestPointCount / height) at.fail("WIDTH and HEIGHT are implausible");
+  if (points && *points != *width * height) at.fail("POINTS is not WIDTH times HEIGHT");
+  return *width * height;
+}
+
+/// Reads up to the end of the line DATA.
+PcdHeader read_header(const Text& file, TextLines& lines) {
+  const PcdEntries entries = read_entries(lines);
+  const auto& encoding = entries.at("DATA");
+  if (encoding.size() != 1) lines.fail("DATA is not one word");
+  PcdHeader header{fields_of(lines, entries), points_in(lines, entries), encoding.front(), 0};
+  const auto line_end = static_cast<std::size_t>(lines.line().data() - file.content.data()) + lines.line().size();
+  const std::size_t end = file.content.find('\n', line_end);
+  header.data_begin = end == std::string::npos ? file.content.size() : end + 1;
+  return header;
+}
+
+/// The points of records one after the other.
+PointTable table_of_records(const PcdHeader& header, std::string_view bytes) {
+  PointTable table{bytes, ByteOrder::kLittle, header.points, {}};
+  std::size_t offset = 0;
+  for (const PcdField& field : header.fields) {
+    if (field.count == 1) table.columns.push_back({field.name, field.type, offset, header.record_bytes()});
+    offset += field.count * bytes_of(field.type);
+  }
+  return table;
+}
+
+/// The points of columns one after the other.
+PointTable table_of_columns(const PcdHeader& header, std::string_view bytes) {
+  PointTable table{bytes, ByteOrder::kLittle, header.points, {}};
+  std::size_t offset = 0;
+  for (const PcdField& field : header.fields) {
+    const std::size_t field_bytes = field.count * bytes_of(field.type);
+    if (field.count == 1) table.columns.push_back({field.name, field.type, offset, field_bytes});
+    offset += field_bytes * header.points;
+  }
+  return table;
+}
+
+LidarScan checked_points_of(const TextLines& at, const PointTable& table, Stamp stamp) {
+  if (const auto refusal = refusal_of(table)) at.fail(*refusal);
+  return points_of(table, stamp);
+}
+
+/// A number, or one of those that are none.
+double floating_in(const TextLines& at, const PcdField& field, std::string_view word) {
+  std::string name = lower_case(word);
+  const bool is_negative = name.starts_with('-');
+  if (is_negative || name.starts_with('+')) name.erase(0, 1);
+  if (name == "nan") return std::numeric_limits<double>::quiet_NaN();
+  if (name != "inf") return number_in(at, word, field.name);
+  return is_negative ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
+}
+
+/// The record's bytes of one number in a line; of a field that nobody reads, whatever stands there.
+void append_ascii_number(const TextLines& at, std::string& out, const PcdField& field, std::string_view word) {
+  const bool is_time = is_time_name(field.name);
+  if (!is_time && field.name != "x" && field.name != "y" && field.name != "z") {
+    out.append(bytes_of(field.type), '\0');
+  } else if (field.type == NumberType::kFloat32 || field.type == NumberType::kFloat64) {
+    const double value = floating_in(at, field, word);
+    if (field.type == NumberType::kFloat32) append_f32(out, static_cast<float>(value));
+    else append_f64(out, value);
+  } else {
+    const auto value = parse_integer(word);
+    if (!value) at.fail(field.name + " '" + std::string(word) + "' is no whole number");
+    append_little_endian(out, static_cast<std::uint64_t>(*value), bytes_of(field.type));
+  }
+}
+
+LidarScan read_ascii(TextLines& lines, const PcdHeader& header, Stamp stamp) {
+  std::string records;
+  for (std::size_t row = 0; row < header.points; ++row) {
+    if (!lines.next_with_content())
+      lines.fail("the points end after " + std::to_string(row) + " of " + std::to_string(header.points));
+    LineFields fields(lines);
+    for (const PcdField& field : header.fields)
+      for (std::size_t k = 0; k < field.count; ++k)
+        append_ascii_number(lines, records, field, fields.next(field.name));
+    fields.end();
+  }
+  return checked_points_of(lines, table_of_records(header, records), stamp);
+}
+
+[[noreturn]] void fail_cut_off(const Text& file, std::size_t needed) {
+  file.fail(0, "is cut off: the header tells of " + std::to_string(needed) + " bytes of points, " +
+                   "the file ends before them");
+}
+
+LidarScan read_binary(const Text& file, const TextLines& lines, const PcdHeader& header, Stamp stamp) {
+  const std::string_view data = std::string_view(file.content).substr(header.data_begin);
+  const std::size_t record = header.record_bytes();
+  if (record > 0 && header.points > data.size() / record) fail_cut_off(file, header.points * record);
+  return checked_points_of(lines, table_of_records(header, data), stamp);
+}
+
+LidarScan read_compressed(const Text& file, const TextLines& lines, const PcdHeader& header, Stamp stamp) {
+  constexpr std::size_t kSizesBytes = 8;
+  const std::string_view data = std::string_view(file.content).substr(header.data_begin);
+  if (data.size() < kSizesBytes) fail_cut_off(file, kSizesBytes);
+  const ByteView sizes(data, ByteOrder::kLittle);
+  const std::size_t compressed = sizes.u32(0);
+  const std::size_t size = sizes.u32(4);
+  if (data.size() - kSizesBytes < compressed) fail_cut_off(file, kSizesBytes + compressed);
+  const std::size_t record = header.record_bytes();
+  if (record == 0 || size % record != 0 || size / record != header.points)
+    file.fail(0, "the compressed points are not as many as the header says");
+  const auto columns = decompress_lzf(data.substr(kSizesBytes, compressed), size);
+  if (!columns) file.fail(0, "the points cannot be decompressed");
+  return checked_points_of(lines, table_of_columns(header, *columns), stamp);
+}
+
+std::string pcd_header(const LidarScan& scan) {
+  const std::string points = std::to_string(scan.points.size());
+  const bool has_times = !scan.times_s.empty();
+  return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z intensity" +
+         std::string(has_times ? " t" : "") + "\nSIZE 4 4 4 4" + (has_times ? " 4" : "") + "\nTYPE F F F F" +
+         (has_times ? " F" : "") + "\nCOUNT 1 1 1 1" + (has_times ? " 1" : "") + "\nWIDTH " + points +
+         "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + points + "\nDATA binary\n";
+}
+
+}  // namespace
+
+LidarScan read_pcd(const Text& file, Stamp stamp) {
+  TextLines lines(file);
+  const PcdHeader header = read_header(file, lines);
+  if (header.encoding == "ascii") return read_ascii(lines, header, stamp);
+  if (header.encoding == "binary") return read_binary(file, lines, header, stamp);
+  if (header.encoding == "binary_compressed") return read_compressed(file, lines, header, stamp);
+  lines.fail("DATA '" + header.encoding + "' is neither ascii, binary nor binary_compressed");
+}
+
+std::string format_pcd(const LidarScan& scan) {
+  RADIOSLAM_CHECK(scan.times_s.empty() || scan.times_s.size() == scan.points.size(), "each point has a time");
+  std::string out = pcd_header(scan);
+  for (std::size_t k = 0; k < scan.points.size(); ++k) {
+    for (const float coordinate : scan.points[k]) append_f32(out, coordinate);
+    append_f32(out, 0);
+    if (!scan.times_s.empty()) append_f32(out, scan.times_s[k]);
+  }
+  return out;
+}
+
+}  // namespace radioslam
