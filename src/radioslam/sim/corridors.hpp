@@ -24,6 +24,7 @@ namespace radioslam {
 inline OnboardParams corridor_sensors() {
   OnboardParams onboard;
   onboard.lidar.lidar_beams = 16;
+  onboard.lidar.lidar_azimuth_steps = 600;
   onboard.lidar.lidar_min_range_m = 0.3;
   onboard.inertial.imu_hz = 200;
   onboard.ride.speed_swing = 0.4;
