@@ -228,8 +228,12 @@ void run_at_the_ends(Params params, const std::set<std::string_view>& long_at_th
         for (const auto& arrival : mission.arrivals)
           for (const auto& path : arrival.paths)
             ASSERT_TRUE(std::isfinite(path.azimuth_rad)) << field.name << " = " << end;
-        for (const auto& robot : mission.robots)
-          ASSERT_TRUE(robot.odometry.back().pose.translation().allFinite()) << field.name << " = " << end;
+        for (const auto& robot : mission.robots) {
+          ASSERT_TRUE(robot.odometry.empty() || robot.odometry.back().pose.translation().allFinite())
+              << field.name << " = " << end;
+          ASSERT_FALSE(robot.odometry.empty() && robot.lidar.empty()) << field.name << " = " << end;
+          if (!robot.lidar.empty() && field.name != "lidar_azimuth_steps") robot.lidar.read(0);
+        }
       }
       value = before;
     }
@@ -255,6 +259,15 @@ TEST(Hall, RunsAtTheEndsOfItsRanges) {
   HallParams params;
   params.path_length_m = 6;
   params.matches = {2, 2};
+  run_at_the_ends(params, kLong);
+}
+
+TEST(Corridors, RunAtTheEndsOfTheirRanges) {
+  CorridorsParams params;
+  params.path_length_m = 12;
+  params.wheel_odometry = true;
+  params.onboard.inertial.imu_hz = 20;
+  params.onboard.lidar.lidar_azimuth_steps = 10;
   run_at_the_ends(params, kLong);
 }
 

@@ -40,6 +40,7 @@ std::vector<ParameterSet> parameter_sets() {
           {"simulate", describe_parameters<CarparkParams>},
           {"carpark", describe_parameters<CarparkParams>},
           {"city", describe_parameters<CityParams>},
+          {"corridors", describe_parameters<CorridorsParams>},
           {"csi", describe_parameters<CsiRoomParams>},
           {"hall", describe_parameters<HallParams>},
           {"kitti", describe_parameters<KittiParams>},
@@ -92,9 +93,10 @@ void list_parameters(const ParametersOptions& options) {
 void add_parameters(CLI::App& program) {
   const auto options = std::make_shared<ParametersOptions>();
   auto* command = program.add_subcommand("parameters", "List what --set and --config can change");
-  command->add_option("COMMAND", options->command,
-                      "run (default), simulate, carpark, city, csi, hall, kitti, optimize, similarity, aoa, "
-                      "anchors, import, iw-ftm, iw, iwlist, nmcli, airodump, pcap, wifi-rtt or carmen");
+  command->add_option(
+      "COMMAND", options->command,
+      "run (default), simulate, carpark, city, corridors, csi, hall, kitti, optimize, similarity, aoa, "
+      "anchors, import, iw-ftm, iw, iwlist, nmcli, airodump, pcap, wifi-rtt or carmen");
   add_json_option(*command, options->json);
   command->footer("Example:\n  radioslam parameters run | less");
   command->callback([options] { list_parameters(*options); });

@@ -64,6 +64,13 @@ std::string summary(const Mission& mission) {
   if (!mission.ranges.empty()) text += ", " + std::to_string(mission.ranges.size()) + " ranges";
   if (!mission.arrivals.empty())
     text += ", " + std::to_string(mission.arrivals.size()) + " angle measurements";
+  std::size_t scans = 0, readings = 0;
+  for (const Robot& robot : mission.robots) {
+    scans += robot.lidar.size();
+    readings += robot.inertial.size();
+  }
+  if (scans > 0) text += ", " + std::to_string(scans) + " LiDAR scans";
+  if (readings > 0) text += ", " + std::to_string(readings) + " inertial readings";
   std::size_t packets = 0;
   for (const Robot& robot : mission.robots)
     if (robot.csi)
@@ -118,12 +125,13 @@ void add_simulate(CLI::App& program) {
       ->type_name("SHARE");
   add_parameter_options(*command, options->parameters);
   add_threads_option(*command);
-  command->footer(scenario_list() +
-                  "`radioslam parameters carpark` (city, csi, hall, kitti) lists what --set can change.\n\n"
-                  "Example: three robots, and odometry that drifts more\n"
-                  "  radioslam simulate carpark -o carpark --robots 3 --set sigma_xy_per_sqrt_m=0.05\n"
-                  "Example: a town, few links with angles at one end\n"
-                  "  radioslam simulate city -o city --set links=8 angle_ends=one");
+  command->footer(
+      scenario_list() +
+      "`radioslam parameters carpark` (city, corridors, csi, hall, kitti) lists what --set can change.\n\n"
+      "Example: three robots, and odometry that drifts more\n"
+      "  radioslam simulate carpark -o carpark --robots 3 --set sigma_xy_per_sqrt_m=0.05\n"
+      "Example: a town, few links with angles at one end\n"
+      "  radioslam simulate city -o city --set links=8 angle_ends=one");
   command->callback([options] { simulate_scenario(*options); });
 }
 

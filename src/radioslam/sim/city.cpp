@@ -1,5 +1,6 @@
 #include "radioslam/sim/city.hpp"
 
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -51,13 +52,28 @@ Simulation simulate_city(const CityParams& params, std::uint64_t seed) {
   const LaneGrid streets = make_streets(params.streets, rng.split("streets"));
   const Hills ground = hilly ? Hills(params.sigma_height_m, rng.split("hills")) : Hills();
 
+  OnboardParams onboard = params.onboard;
+  onboard.lidar.range_m = params.lidar_range_m;
+
   std::vector<DrivenRobot> robots;
-  for (auto& truth : drive_team(streets, ground, drives_of(params), rng.split("drives")))
-    robots.push_back(drive_robot(std::move(truth), params, rng.split("odometry").split(robots.size())));
-  return make_radio_mission(std::move(robots),
-                            {"city-" + std::to_string(seed), params.dimension, params.lidar_range_m,
-                             params.radio, params.matches, place_alias(2 * params.lidar_range_m)},
-                            rng);
+  std::vector<std::shared_ptr<const TrueMotion>> motions;
+  for (auto& way : drive_team(streets, ground, drives_of(params), rng.split("drives"))) {
+    auto ridden = ride_along(std::move(way), params.odometry.odometry_rate_hz, onboard,
+                             rng.split("rides").split(robots.size()));
+    motions.push_back(std::move(ridden.motion));
+    robots.push_back(
+        drive_robot(std::move(ridden.poses), params, rng.split("odometry").split(robots.size())));
+  }
+  Simulation simulation =
+      make_radio_mission(std::move(robots),
+                         {"city-" + std::to_string(seed), params.dimension, params.lidar_range_m,
+                          params.radio, params.matches, place_alias(2 * params.lidar_range_m)},
+                         rng);
+  WorldShapes shapes;
+  shapes.boxes = build_houses(params.streets, params.houses, ground, rng.split("houses"));
+  shapes.ground = ground;
+  add_onboard_sensors(simulation, motions, std::move(shapes), onboard, rng.split("onboard"));
+  return simulation;
 }
 
 }  // namespace radioslam

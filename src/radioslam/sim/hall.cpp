@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -22,7 +23,7 @@ int aisles(double size_m, double spacing_m) {
   return std::clamp(static_cast<int>(std::lround(size_m / spacing_m)), 2, 50);
 }
 
-LaneGrid aisles_between_pillars(const HallParams& params, Rng rng) {
+LaneGridParams aisles_between_pillars(const HallParams& params) {
   LaneGridParams lanes;
   lanes.floor_x_m = params.hall_x_m;
   lanes.floor_y_m = params.hall_y_m;
@@ -30,7 +31,7 @@ LaneGrid aisles_between_pillars(const HallParams& params, Rng rng) {
   lanes.aisles_along_x = aisles(params.hall_y_m, params.pillar_spacing_m);
   lanes.margin_m = std::min(params.pillar_spacing_m / 2, std::min(params.hall_x_m, params.hall_y_m) / 4);
   lanes.closed_lane_share = 0;
-  return LaneGrid(lanes, rng);
+  return lanes;
 }
 
 /// A shift by whole pillars, not by none.
@@ -44,7 +45,26 @@ DrawAlias pillar_alias(double spacing_m) {
   };
 }
 
+/// Midway between two neighbours of `count` lines from margin to size - margin.
+double midway_m(int index, int count, double size_m, double margin_m) {
+  return margin_m + (size_m - 2 * margin_m) * (index + 0.5) / (count - 1);
+}
+
 }  // namespace
+
+WorldShapes hall_shapes(const HallParams& params) {
+  const Eigen::Vector2d size(params.hall_x_m, params.hall_y_m);
+  const LaneGridParams lanes = aisles_between_pillars(params);
+  WorldShapes shapes;
+  shapes.boxes.push_back({size / 2, Eigen::Vector2d::UnitX(), size / 2, 0, params.hall_height_m});
+  for (int i = 0; i + 1 < lanes.aisles_along_y; ++i)
+    for (int j = 0; j + 1 < lanes.aisles_along_x; ++j) {
+      const Eigen::Vector2d place(midway_m(i, lanes.aisles_along_y, size.x(), lanes.margin_m),
+                                  midway_m(j, lanes.aisles_along_x, size.y(), lanes.margin_m));
+      shapes.pillars.push_back({place, params.pillar_radius_m, 0, params.hall_height_m});
+    }
+  return shapes;
+}
 
 Simulation simulate_hall(const HallParams& params, std::uint64_t seed) {
   const Rng rng = Rng(seed).split("hall");
@@ -52,18 +72,27 @@ Simulation simulate_hall(const HallParams& params, std::uint64_t seed) {
   drives.robots = params.robots;
   drives.drive = {params.path_length_m, params.speed_mps, kCornerRadius_m, kWander_m};
   drives.rate_hz = params.odometry.odometry_rate_hz;
-  const LaneGrid lanes = aisles_between_pillars(params, rng.split("aisles"));
+  const LaneGrid lanes(aisles_between_pillars(params), rng.split("aisles"));
+  OnboardParams onboard = params.onboard;
+  onboard.lidar.range_m = params.lidar_range_m;
 
   std::vector<DrivenRobot> robots;
-  for (auto& truth : drive_team(lanes, Hills(), drives, rng.split("drives"))) {
+  std::vector<std::shared_ptr<const TrueMotion>> motions;
+  for (auto& way : drive_team(lanes, Hills(), drives, rng.split("drives"))) {
+    auto ridden =
+        ride_along(std::move(way), drives.rate_hz, onboard, rng.split("rides").split(robots.size()));
     const Rng own = rng.split("odometry").split(robots.size());
-    auto odometry = drift_over_ground(truth, params.odometry, 0, own);
-    robots.push_back({std::move(truth), std::move(odometry), stated_noise(params.odometry)});
+    auto odometry = drift_over_ground(ridden.poses, params.odometry, 0, own);
+    motions.push_back(std::move(ridden.motion));
+    robots.push_back({std::move(ridden.poses), std::move(odometry), stated_noise(params.odometry)});
   }
-  return make_radio_mission(std::move(robots),
-                            {"hall-" + std::to_string(seed), 2, params.lidar_range_m, params.radio,
-                             params.matches, pillar_alias(params.pillar_spacing_m)},
-                            rng);
+  Simulation simulation =
+      make_radio_mission(std::move(robots),
+                         {"hall-" + std::to_string(seed), 2, params.lidar_range_m, params.radio,
+                          params.matches, pillar_alias(params.pillar_spacing_m)},
+                         rng);
+  add_onboard_sensors(simulation, motions, hall_shapes(params), onboard, rng.split("onboard"));
+  return simulation;
 }
 
 }  // namespace radioslam

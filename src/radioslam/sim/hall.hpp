@@ -2,14 +2,18 @@
 //
 // After the hardware test of Wi-Closure: 25 x 23 m, a range and the angles at one end about every 10 m,
 // four in all, with 17 false paths among 3 direct ones; 1,848 matches, most of them off by whole pillars.
-// Frame: origin at a corner, x along the long side; robots drive the aisles between the pillars.
+// Frame: origin at a corner, x along the long side; robots drive the aisles between the pillars. With
+// lidar_beams they scan walls, floor, ceiling and pillars, with imu_hz they ride smoothly
+// (onboard_sensors.hpp).
 #pragma once
 
 #include <cstdint>
 
 #include "radioslam/sim/aliased_matches.hpp"
 #include "radioslam/sim/city.hpp"
+#include "radioslam/sim/onboard_sensors.hpp"
 #include "radioslam/sim/radio_channel.hpp"
+#include "radioslam/sim/ray_world.hpp"
 #include "radioslam/sim/simulation.hpp"
 #include "radioslam/sim/wheel_odometry.hpp"
 
@@ -34,9 +38,12 @@ struct HallParams {
   double hall_x_m = 25;
   double hall_y_m = 23;
   double pillar_spacing_m = 5;
+  double pillar_radius_m = 0.3;
+  double hall_height_m = 4;
   double path_length_m = 45;
   double speed_mps = 0.5;
   double lidar_range_m = 10;
+  OnboardParams onboard;
   WheelOdometryParams odometry = random_walk_odometry();
   RadioChannelParams radio = hall_radio();
   AliasedMatchParams matches{115, 1733, 12};
@@ -47,14 +54,21 @@ struct HallParams {
     visit(Field{"hall_x_m", "m", 5, 500, "long side of the hall"}, self.hall_x_m);
     visit(Field{"hall_y_m", "m", 5, 500, "short side of the hall"}, self.hall_y_m);
     visit(Field{"pillar_spacing_m", "m", 2, 50, "between neighbouring pillars"}, self.pillar_spacing_m);
+    visit(Field{"pillar_radius_m", "m", 0.05, 0.5, "of every pillar, where they are scanned"},
+          self.pillar_radius_m);
+    visit(Field{"hall_height_m", "m", 2, 100, "of walls, pillars and ceiling, likewise"}, self.hall_height_m);
     visit(Field{"path_length_m", "m", 5, 1e5, "way of each robot"}, self.path_length_m);
     visit(Field{"speed_mps", "m/s", 0.05, 10, "speed"}, self.speed_mps);
     visit(Field{"lidar_range_m", "m", 0.1, 1000, "range of every robot's LiDAR"}, self.lidar_range_m);
+    OnboardParams::visit_fields(self.onboard, visit);
     WheelOdometryParams::visit_fields(self.odometry, visit);
     RadioChannelParams::visit_fields(self.radio, visit);
     AliasedMatchParams::visit_fields(self.matches, visit);
   }
 };
+
+/// One large box, seen from inside, and the pillars in it: midway between the aisles.
+WorldShapes hall_shapes(const HallParams& params);
 
 Simulation simulate_hall(const HallParams& params, std::uint64_t seed);
 

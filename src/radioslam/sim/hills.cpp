@@ -9,6 +9,8 @@ namespace {
 constexpr int kWaves = 6;
 constexpr double kShortestHill_m = 150;
 constexpr double kLongestHill_m = 500;
+constexpr double kOnGround_m = 1e-6;  ///< a ray so low has met the ground
+constexpr int kMostSteps = 200;       ///< of a ray; a dozen are usual
 
 }  // namespace
 
@@ -46,6 +48,30 @@ SE3 Hills::stand(const SE2& T_floor_body) const {
   Eigen::Matrix3d rotation;
   rotation << x, z.cross(x), z;
   return {{place.x(), place.y(), height_m(place)}, Eigen::Quaterniond(rotation)};
+}
+
+double Hills::most_bend_per_m(const Eigen::Vector2d& direction) const {
+  double bend = 0;
+  for (const Wave& wave : waves_)
+    bend += std::abs(wave.amplitude_m) * std::pow(wave.wavenumber_per_m.dot(direction), 2);
+  return bend;
+}
+
+std::optional<double> Hills::ray_m(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                                   double most_m) const {
+  const Eigen::Vector2d along = direction.head<2>();
+  const double bend = most_bend_per_m(along);
+  double way_m = 0, over_m = origin.z() - height_m(origin.head<2>());
+  if (over_m <= kOnGround_m) return std::nullopt;
+  for (int step = 0; step < kMostSteps && over_m > kOnGround_m; ++step) {
+    const Eigen::Vector2d place = (origin + way_m * direction).head<2>();
+    const double rise = direction.z() - gradient(place).dot(along);
+    const double closing = std::sqrt(rise * rise + 2 * bend * over_m) - rise;
+    if (2 * over_m > closing * (most_m - way_m)) return std::nullopt;  // still over the ground at most_m
+    way_m += 2 * over_m / closing;
+    over_m = origin.z() + way_m * direction.z() - height_m((origin + way_m * direction).head<2>());
+  }
+  return way_m;
 }
 
 }  // namespace radioslam

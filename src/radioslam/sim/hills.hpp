@@ -1,9 +1,15 @@
-// Gentle ground: a height over the plane as a sum of waves, and how a vehicle stands on it.
+// Gentle ground: a height over the plane as a sum of waves, how a vehicle stands on it, and where rays meet
+// it.
 //
 //   h(p) = sum over waves of amplitude sin(k . p + phase), wavelengths of 150 to 500 m
+//
+// A ray's height over the ground, f(s), bends by at most M = sum of amplitude (k . d)^2 along d. So f stays
+// positive over a step s that solves f + f' s - M s^2 / 2 = 0: such steps never pass the ground, and close to
+// it they are Newton's.
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "radioslam/base/random.hpp"
@@ -22,6 +28,10 @@ class Hills {
   Eigen::Vector2d gradient(const Eigen::Vector2d& position) const;
   /// The body on the ground: z along the ground's normal, x above the plane's heading.
   SE3 stand(const SE2& T_floor_body) const;
+  /// How far a ray goes from a place above the ground along a unit vector until it first meets the ground:
+  /// to a micrometre of height. Nothing where that is not within `most_m`, nor from below the ground.
+  std::optional<double> ray_m(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                              double most_m) const;
 
  private:
   struct Wave {
@@ -29,6 +39,8 @@ class Hills {
     Eigen::Vector2d wavenumber_per_m;
     double phase_rad = 0;
   };
+  double most_bend_per_m(const Eigen::Vector2d& direction) const;
+
   std::vector<Wave> waves_;
 };
 

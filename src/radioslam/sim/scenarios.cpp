@@ -12,6 +12,7 @@ struct Simulate {
 
   Simulation operator()(const CarparkParams& params) const { return simulate_carpark(params, seed); }
   Simulation operator()(const CityParams& params) const { return simulate_city(params, seed); }
+  Simulation operator()(const CorridorsParams& params) const { return simulate_corridors(params, seed); }
   Simulation operator()(const CsiRoomParams& params) const { return simulate_csi_room(params, seed); }
   Simulation operator()(const HallParams& params) const { return simulate_hall(params, seed); }
   Simulation operator()(const KittiParams& params) const { return simulate_kitti(params, drive, seed); }
@@ -20,10 +21,12 @@ struct Simulate {
 }  // namespace
 
 std::span<const Scenario> scenarios() {
-  static const std::array<Scenario, 5> all{
+  static const std::array<Scenario, 6> all{
       {{"carpark", "robots on the lanes of a car park, wheel odometry and WiFi scans", CarparkParams{}},
        {"city", "robots on the streets of a town, ranges and angles of arrival, unknown starts",
         CityParams{}},
+       {"corridors", "robots in corridors without features, scans and inertial readings, ranges and angles",
+        CorridorsParams{}},
        {"csi", "robots in a room that take turns to drive, the CSI of their packets, a few ranges",
         CsiRoomParams{}},
        {"hall", "robots between identical pillars, a handful of links, aliased matches", HallParams{}},

@@ -9,6 +9,7 @@
 
 #include "radioslam/sim/carpark.hpp"
 #include "radioslam/sim/city.hpp"
+#include "radioslam/sim/corridors.hpp"
 #include "radioslam/sim/csi_room.hpp"
 #include "radioslam/sim/hall.hpp"
 #include "radioslam/sim/kitti.hpp"
@@ -17,7 +18,8 @@
 namespace radioslam {
 
 /// The parameters of any scenario; one alternative each.
-using ScenarioParams = std::variant<CarparkParams, CityParams, CsiRoomParams, HallParams, KittiParams>;
+using ScenarioParams =
+    std::variant<CarparkParams, CityParams, CorridorsParams, CsiRoomParams, HallParams, KittiParams>;
 
 /// Does a scenario need a recorded drive?
 inline bool needs_recording(const ScenarioParams& params) {
