@@ -116,11 +116,11 @@ std::vector<ClosureResult> collect_scan_closures(const JointGraph<Pose>& joint,
   return results;
 }
 
-#define RADIOSLAM_SCAN_CLOSURES(Pose)                                                             \
-  template ScanTies add_scan_closures(JointGraph<Pose>&, const std::vector<ScanClosure>&,         \
-                                      const OptimizerParams&);                                    \
-  template std::vector<ClosureResult> collect_scan_closures(const JointGraph<Pose>&,              \
-                                                            const std::vector<ScanClosure>&, const ScanTies&);
+#define RADIOSLAM_SCAN_CLOSURES(Pose)                                                     \
+  template ScanTies add_scan_closures(JointGraph<Pose>&, const std::vector<ScanClosure>&, \
+                                      const OptimizerParams&);                            \
+  template std::vector<ClosureResult> collect_scan_closures(                              \
+      const JointGraph<Pose>&, const std::vector<ScanClosure>&, const ScanTies&);
 RADIOSLAM_SCAN_CLOSURES(SE2)
 RADIOSLAM_SCAN_CLOSURES(SE3)
 #undef RADIOSLAM_SCAN_CLOSURES

@@ -85,12 +85,14 @@ std::vector<StampedPose<SE3>> led_on(const Trajectory<SE3>& odometry, Stamp begi
 OdometryStepNoise stated_noise(const StampedPose<SE3>& a, const StampedPose<SE3>& b,
                                const OdometryNoise& noise) {
   const Trajectory<SE3> rows({a, b});
-  return {a.stamp, b.stamp, odometry_edge<SE3>(rows, 0, 1, noise).covariance / seconds_between(a.stamp, b.stamp)};
+  return {a.stamp, b.stamp,
+          odometry_edge<SE3>(rows, 0, 1, noise).covariance / seconds_between(a.stamp, b.stamp)};
 }
 
 /// The robot's odometry by its scans, with recorded rows before and after.
 void take_odometry(Robot& robot, const ScanTrack& track) {
-  constexpr Stamp kEver{std::numeric_limits<std::int64_t>::max()}, kNever{std::numeric_limits<std::int64_t>::min()};
+  constexpr Stamp kEver{std::numeric_limits<std::int64_t>::max()},
+      kNever{std::numeric_limits<std::int64_t>::min()};
   const ScanPose &first = track.poses.front(), &last = track.poses.back();
   OdometryNoise stated = robot.odometry_noise;
   stated.steps.clear();
@@ -121,8 +123,9 @@ ScanKeyframes keyframes_of(ScanTrack& track, const ScannerTraits& traits) {
     if (n == 0) continue;
     UncertainPose<SE3> step;
     for (std::size_t k = track.keyframes[n - 1] + 1; k <= track.keyframes[n]; ++k)
-      step = step * UncertainPose<SE3>{track.poses[k - 1].T_start_body.inverse() * track.poses[k].T_start_body,
-                                       track.poses[k].covariance};
+      step =
+          step * UncertainPose<SE3>{track.poses[k - 1].T_start_body.inverse() * track.poses[k].T_start_body,
+                                    track.poses[k].covariance};
     result.step_covariances.push_back(step.covariance);
   }
   result.clouds = std::move(track.clouds);
