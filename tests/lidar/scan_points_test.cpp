@@ -48,9 +48,8 @@ double worst_error_m(const ScanPoints& usable, const std::vector<Eigen::Vector3d
 
 TEST(UsablePoints, CountsWhatItLeavesOut) {
   LidarScan scan;
-  scan.points = {{1, 2, 3},     {kNaN, 0, 0},    {0, kNaN, 1}, {0, 0, kInfinite}, {-kInfinite, 1, 1},
-                 {0, 0, 0},     {0.1F, 0, 0},    {481, 0, 0},  {0, -300, 300},    {1e30F, 0, 0},
-                 {-5, -6, 0.5F}};
+  scan.points = {{1, 2, 3},    {kNaN, 0, 0}, {0, kNaN, 1},   {0, 0, kInfinite}, {-kInfinite, 1, 1}, {0, 0, 0},
+                 {0.1F, 0, 0}, {481, 0, 0},  {0, -300, 300}, {1e30F, 0, 0},     {-5, -6, 0.5F}};
   const ScanPoints usable = usable_points(scan, SE3::Tangent::Zero(), {0.5, 100});
   ASSERT_EQ(usable.points.size(), 2U);
   EXPECT_EQ(usable.points[0], scan.points.front());

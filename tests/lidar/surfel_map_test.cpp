@@ -83,9 +83,8 @@ TEST(SurfelMap, KeepsItsSurfelsApartAndLeavesNoGap) {
       ASSERT_GT((kept[a].position - kept[b].position).norm(), 0.7 * kSpacing_m - 1e-5);
   for (const Surfel& surfel : added) ASSERT_LT(nearest_distance_m(kept, surfel.position), 0.7 * kSpacing_m);
   for (const Surfel& surfel : kept)
-    ASSERT_TRUE(std::any_of(added.begin(), added.end(), [&](const Surfel& a) {
-      return a.position == surfel.position;
-    }));
+    ASSERT_TRUE(std::any_of(added.begin(), added.end(),
+                            [&](const Surfel& a) { return a.position == surfel.position; }));
 }
 
 TEST(SurfelMap, AddsNothingTwice) {
@@ -101,8 +100,7 @@ TEST(SurfelMap, AddsNothingTwice) {
 /// Rows of surfels a metre apart, so that each has cells of its own.
 std::vector<Surfel> row_at(float x) {
   std::vector<Surfel> row;
-  for (int k = 0; k < 40; ++k)
-    row.push_back({{x, static_cast<float>(k), 0}, Eigen::Matrix3f::Identity()});
+  for (int k = 0; k < 40; ++k) row.push_back({{x, static_cast<float>(k), 0}, Eigen::Matrix3f::Identity()});
   return row;
 }
 
@@ -134,7 +132,8 @@ TEST(SurfelMap, AfterForgettingStillFindsTheNearest) {
     map.add(scattered(3, 400, rng, centre), n);
     map.forget_before(n - 5);
   }
-  for (const Surfel& probe : scattered(9, 1000, rng, {36, 0, -36})) expect_nearest(map, probe.position, kReach_m);
+  for (const Surfel& probe : scattered(9, 1000, rng, {36, 0, -36}))
+    expect_nearest(map, probe.position, kReach_m);
 }
 
 TEST(SurfelMap, OfNothingFindsNothing) {

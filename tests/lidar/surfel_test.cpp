@@ -127,8 +127,7 @@ TEST(MeasureSurfels, AreTheSameForAnyNumberOfThreads) {
   set_thread_count(3);
   const auto together = measure_surfels(points, kSpacing_m, ScannerKind::kSpatial, {});
   set_thread_count(0);
-  for (std::size_t k = 0; k < points.size(); ++k)
-    ASSERT_EQ(alone[k].covariance, together[k].covariance) << k;
+  for (std::size_t k = 0; k < points.size(); ++k) ASSERT_EQ(alone[k].covariance, together[k].covariance) << k;
 }
 
 }  // namespace

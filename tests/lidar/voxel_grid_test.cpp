@@ -16,8 +16,7 @@ using CellIndex = std::array<long, 3>;
 CellIndex cell_of(const Eigen::Vector3f& point, double cell_m) {
   CellIndex cell;
   for (int axis = 0; axis < 3; ++axis)
-    cell[static_cast<std::size_t>(axis)] =
-        std::lround(std::floor(static_cast<double>(point[axis]) / cell_m));
+    cell[static_cast<std::size_t>(axis)] = std::lround(std::floor(static_cast<double>(point[axis]) / cell_m));
   return cell;
 }
 
