@@ -179,8 +179,7 @@ TEST(RegisterSurfels, TurnsWithItsTarget) {
   const ScanPair pair = scan_pair(furnished_room(), ScannerKind::kSpatial, 3);
   const auto target = pair.map.surfels(), turned = transformed(tilted_pose(), target);
   const SE3 start = pair.T_target_source * SE3::exp(planar_motion(0.1, 0.1, 0.04));
-  const auto fit =
-      register_surfels(nearest_of(target), pair.source, {start, 0.2, 0.75}, {}, pair.kind, {});
+  const auto fit = register_surfels(nearest_of(target), pair.source, {start, 0.2, 0.75}, {}, pair.kind, {});
   const auto other = register_surfels(nearest_of(turned), pair.source, {tilted_pose() * start, 0.2, 0.75}, {},
                                       pair.kind, {});
   const SE3 expected = tilted_pose() * fit.T_target_source;
@@ -195,8 +194,7 @@ TEST(RegisterSurfels, TurnsWithItsSource) {
   const SE3 start = pair.T_target_source * SE3::exp(planar_motion(0.1, 0.1, 0.04));
   const SE3 B = tilted_pose();
   const SurfelSource turned{transformed(B.inverse(), pair.source.surfels), pair.source.independent_share};
-  const auto fit =
-      register_surfels(nearest_of(target), pair.source, {start, 0.2, 0.75}, {}, pair.kind, {});
+  const auto fit = register_surfels(nearest_of(target), pair.source, {start, 0.2, 0.75}, {}, pair.kind, {});
   const auto other = register_surfels(nearest_of(target), turned, {start * B, 0.2, 0.75}, {}, pair.kind, {});
   const SE3 expected = fit.T_target_source * B;
   EXPECT_LT((expected.inverse() * other.T_target_source).log().norm(), 1e-3);

@@ -123,8 +123,8 @@ inline ScanCloud cloud_of(const LidarScan& scan, double spacing_m, ScannerKind k
 /// A room that looks the same from nowhere else in it.
 inline ScannedRoom furnished_room() {
   ScannedRoom room;
-  room.boxes = {{{-6, -4, 0}, {6, 4, 3}},         // the room itself
-                {{2, 1.5, 0}, {3.5, 2.5, 1.6}},   // crates
+  room.boxes = {{{-6, -4, 0}, {6, 4, 3}},        // the room itself
+                {{2, 1.5, 0}, {3.5, 2.5, 1.6}},  // crates
                 {{-4.5, -3, 0}, {-3, -2.2, 2}},
                 {{-6, 2, 0}, {-4.6, 4, 3}},       // a closet in a corner
                 {{3.5, -4, 0}, {4.1, -2.4, 3}}};  // the stub of a wall
@@ -145,7 +145,9 @@ inline SE3 pose_at(double x_m, double y_m, double z_m, double yaw_rad) {
   return lift(SE2({x_m, y_m}, yaw_rad), z_m);
 }
 
-inline double distance_between(const SE3& a, const SE3& b) { return (a.translation() - b.translation()).norm(); }
+inline double distance_between(const SE3& a, const SE3& b) {
+  return (a.translation() - b.translation()).norm();
+}
 inline double angle_between(const SE3& a, const SE3& b) { return (a.inverse() * b).log().tail<3>().norm(); }
 
 }  // namespace radioslam::test
