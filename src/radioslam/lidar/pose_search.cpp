@@ -62,18 +62,19 @@ struct Window {
   int x = 0, y = 0, yaw = 0;  ///< steps to either side
   double step_m = 1, step_rad = 1;
 
-  int starts() const { return (2 * x + 1) * (2 * y + 1) * (2 * yaw + 1); }
+  double starts() const { return (2.0 * x + 1) * (2.0 * y + 1) * (2.0 * yaw + 1); }
 };
 
 Window window_of(const LocalMap& map, const ScanCloud& scan, const UncertainPose<SE3>& guess,
                  const PoseSearchParams& search) {
   const Eigen::Matrix3d position = guess.position_covariance();
-  const double wide_x = search.sigmas * std::sqrt(position(0, 0));
-  const double wide_y = search.sigmas * std::sqrt(position(1, 1));
-  const double wide_yaw = std::min(std::numbers::pi, search.sigmas * std::sqrt(guess.covariance(5, 5)));
   Window window;
   window.step_m = map.coarse().reach_m() / 2;
   window.step_rad = window.step_m / std::max(scan.median_range_m, window.step_m);
+  const double widest = search.most_starts * window.step_m;  // that many in a row are too many by far
+  const double wide_x = std::min(widest, search.sigmas * std::sqrt(position(0, 0)));
+  const double wide_y = std::min(widest, search.sigmas * std::sqrt(position(1, 1)));
+  const double wide_yaw = std::min(std::numbers::pi, search.sigmas * std::sqrt(guess.covariance(5, 5)));
   const auto steps = [](double wide, double step) { return static_cast<int>(std::ceil(wide / step - 0.5)); };
   do {
     window.x = std::max(0, steps(wide_x, window.step_m));
@@ -112,6 +113,13 @@ std::vector<SE3> most_promising(const LocalMap& map, const ScanCloud& scan, cons
   return best;
 }
 
+/// Do two poses put a point of the scan, at its median range, farther apart than the fine map's reach?
+bool are_apart(const SE3& a, const SE3& b, const LocalMap& map, const ScanCloud& scan) {
+  const SE3 between = a.inverse() * b;
+  const double turn_rad = between.log().tail<3>().norm();
+  return std::max(between.translation().norm(), turn_rad * scan.median_range_m) > map.fine().reach_m();
+}
+
 }  // namespace
 
 Registration register_near(const LocalMap& map, const ScanCloud& scan, const PosePrior& prior,
@@ -145,11 +153,9 @@ PoseSearch search_pose(const LocalMap& map, const ScanCloud& scan, const Uncerta
   PoseSearch result;
   for (const Registration& fit : fits)
     if (fit.matched_share > result.best.matched_share) result.best = fit;
-  for (const Registration& fit : fits) {
-    const SE3 apart = result.best.T_target_source.inverse() * fit.T_target_source;
-    if (apart.translation().norm() > map.fine().reach_m())
+  for (const Registration& fit : fits)
+    if (are_apart(result.best.T_target_source, fit.T_target_source, map, scan))
       result.next_share = std::max(result.next_share, fit.matched_share);
-  }
   return result;
 }
 

@@ -35,7 +35,8 @@ struct PoseSearchParams {
   }
 };
 
-/// What a search found, the best first; others are at least a coarse reach or its angle apart from it.
+/// What a search found. Places apart are so by more than the fine map's reach, or turned by as much at the
+/// scan's median range.
 struct PoseSearch {
   Registration best;
   double next_share = 0;  ///< of the points that fit at the best place apart from it

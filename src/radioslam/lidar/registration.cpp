@@ -113,7 +113,7 @@ Registration register_surfels(const NearestSurfel& target, const SurfelSource& s
   for (result.iterations = 1; result.iterations <= params.max_iterations; ++result.iterations) {
     const NormalSums sums = sum_over(
         source.surfels, Pass(target, result.T_target_source, start.reach_m, blur_m, params.loss_scale));
-    if (sums.matches < kFewestMatches) return result;
+    if (sums.matches < kFewestMatches) return {.T_target_source = start.T_target_source};
     const SE3::Tangent from_prior = (prior.pose.inverse() * result.T_target_source).log();
     result.information = source.independent_share * sums.hessian;
     result.posterior = result.information + prior.information;

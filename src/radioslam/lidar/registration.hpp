@@ -43,7 +43,7 @@ struct RegistrationParams {
 enum class RegistrationEnd {
   kConverged,
   kMaxIterations,
-  kNoOverlap,  ///< fewer than six points met a surface
+  kNoOverlap,  ///< fewer than six points met a surface, at the start or on the way: the pose is the start's
 };
 
 /// What is registered.

@@ -2,20 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "radioslam/base/check.hpp"
 
 namespace radioslam {
 namespace {
 
-/// Exp(time * twist) at so many times that a point between two of them is off by next to nothing.
+/// Exp(time * twist) at so many times that a point between two of them is off by next to nothing. Times that
+/// are no numbers do not count.
 class SweptMotion {
  public:
   SweptMotion(const std::vector<float>& times_s, const SE3::Tangent& twist_per_s) {
-    if (times_s.empty()) return;
-    const auto [first, last] = std::minmax_element(times_s.begin(), times_s.end());
-    first_s_ = *first;
-    step_s_ = std::max(1e-9F, (*last - *first) / static_cast<float>(kSteps));
+    float last_s = -std::numeric_limits<float>::infinity();
+    first_s_ = -last_s;
+    for (const float time_s : times_s) {
+      if (!std::isfinite(time_s)) continue;
+      first_s_ = std::min(first_s_, time_s);
+      last_s = std::max(last_s, time_s);
+    }
+    if (last_s < first_s_) return;
+    step_s_ = std::max(1e-9F, (last_s - first_s_) / static_cast<float>(kSteps));
     for (int k = 0; k <= kSteps; ++k) {
       const SE3 T = SE3::exp(static_cast<double>(first_s_ + static_cast<float>(k) * step_s_) * twist_per_s);
       rotations_.push_back(T.rotation_matrix().cast<float>());
@@ -48,15 +55,18 @@ ScanPoints usable_points(const LidarScan& scan, const SE3::Tangent& twist_per_s,
   result.points.reserve(scan.points.size());
   for (std::size_t k = 0; k < scan.points.size(); ++k) {
     const Eigen::Vector3f& point = scan.points[k];
-    const float squared = point.squaredNorm();
-    if (!point.allFinite())
+    const bool is_timed = !scan.times_s.empty();
+    if (!point.allFinite() || (is_timed && !std::isfinite(scan.times_s[k]))) {
       ++result.counts.not_finite;
-    else if (squared < near_squared)
+    } else if (point.squaredNorm() < near_squared) {
       ++result.counts.near;
-    else if (!(squared <= far_squared))
-      ++result.counts.far;
-    else
-      result.points.push_back(scan.times_s.empty() ? point : motion.carry(point, scan.times_s[k]));
+    } else {
+      const Eigen::Vector3f at_stamp = is_timed ? motion.carry(point, scan.times_s[k]) : point;
+      if (at_stamp.squaredNorm() <= far_squared)
+        result.points.push_back(at_stamp);
+      else
+        ++result.counts.far;
+    }
   }
   result.counts.used = result.points.size();
   return result;

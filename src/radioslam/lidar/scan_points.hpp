@@ -1,8 +1,9 @@
 // The points of a scan that can be used, where they were at the scan's stamp.
 //
-// Left out are points that are not finite, that are nearer than the scanner's own robot or farther than what
-// returns from one surface can be told from another's. A scan swept while the robot moved is bent; each point
-// is carried along the motion, taken as a constant twist, to where the stamp's body frame saw it:
+// Left out are points that are not finite or have times that are not, that are nearer than the scanner's own
+// robot or farther than what returns from one surface can be told from another's. A scan swept while the
+// robot moved is bent; each point is carried along the motion, taken as a constant twist, to where the
+// stamp's body frame saw it:
 //   p(stamp) = Exp(time * twist) p
 #pragma once
 

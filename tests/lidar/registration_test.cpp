@@ -1,0 +1,279 @@
+#include "radioslam/lidar/registration.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "lidar/scanned_room.hpp"
+#include "radioslam/base/parallel.hpp"
+#include "radioslam/geometry/so3.hpp"
+#include "radioslam/lidar/surfel_map.hpp"
+
+namespace radioslam {
+namespace {
+
+using namespace test;
+
+constexpr double kChiSquared6 = 22.458;  // 99.9 %
+
+/// A look at every surfel.
+NearestSurfel nearest_of(const std::vector<Surfel>& surfels) {
+  return [&surfels](const Eigen::Vector3f& point, float squared_reach) {
+    const Surfel* nearest = nullptr;
+    for (const Surfel& surfel : surfels) {
+      const float squared = (surfel.position - point).squaredNorm();
+      if (squared >= squared_reach) continue;
+      squared_reach = squared;
+      nearest = &surfel;
+    }
+    return nearest;
+  };
+}
+
+NearestSurfel nearest_on(const SurfelMap& map) {
+  return [&map](const Eigen::Vector3f& point, float squared) { return map.nearest(point, squared); };
+}
+
+/// Points here and there, each known as well in every direction.
+std::vector<Surfel> scattered_surfels(int count, double sigma_m, std::uint64_t seed) {
+  Rng rng(seed);
+  std::vector<Surfel> surfels;
+  for (int k = 0; k < count; ++k) {
+    const double x = rng.uniform(-5, 5), y = rng.uniform(-5, 5), z = rng.uniform(-1, 2);
+    const auto variance = static_cast<float>(sigma_m * sigma_m);
+    surfels.push_back({Eigen::Vector3d(x, y, z).cast<float>(), variance * Eigen::Matrix3f::Identity()});
+  }
+  return surfels;
+}
+
+SE3 tilted_pose() {
+  SE3::Tangent xi;
+  xi << 3, -2, 0.4, 0.2, -0.1, 1.1;
+  return SE3::exp(xi);
+}
+
+/// Two scans in one place, half a metre and some degrees apart.
+struct ScanPair {
+  ScannerKind kind;
+  SurfelMap map;
+  SurfelSource source;
+  SE3 T_target_source;
+
+  Registration lay(const SE3& start, const PosePrior& prior = {}) const {
+    return register_surfels(nearest_on(map), source, {start, 0.3, map.reach_m()}, prior, kind, {});
+  }
+};
+
+ScanPair scan_pair(const ScannedRoom& room, ScannerKind kind, std::uint64_t seed) {
+  const double spacing_m = 0.15;
+  Rng noise(seed), places = noise.split("places");
+  Scanner scanner = kind == ScannerKind::kPlanar ? planar_scanner() : Scanner();
+  if (kind == ScannerKind::kSpatial) scanner.azimuths = 120;
+  const double x = places.uniform(-1.5, 1.5), y = places.uniform(-1, 1), yaw = places.uniform(-3, 3);
+  const double forward = places.uniform(-0.5, 0.5), aside = places.uniform(-0.2, 0.2);
+  const SE3 T_room_a = pose_at(x, y, 1.2, yaw);
+  const SE3 T_a_b = SE3::exp(planar_motion(forward, aside, places.uniform(-0.2, 0.2)));
+  ScanPair pair{kind, SurfelMap(spacing_m, 0.75), {}, T_a_b};
+  pair.map.add(surfels_of(sweep(room, scanner, T_room_a, noise), spacing_m, kind), 0);
+  pair.source = cloud_of(sweep(room, scanner, T_room_a * T_a_b, noise), spacing_m, kind).source;
+  return pair;
+}
+
+/// Squared error in standard deviations, per degree of freedom that the scanner measures.
+double normalised_squares(const ScanPair& pair, const Registration& fit) {
+  const SE3::Tangent error = (pair.T_target_source.inverse() * fit.T_target_source).log();
+  const std::array<int, 3> plane{0, 1, 5};
+  if (pair.kind == ScannerKind::kSpatial) return error.dot(fit.information * error) / 6;
+  return error(plane).dot(fit.information(plane, plane) * error(plane)) / 3;
+}
+
+TEST(RegisterSurfels, FindsAPoseFromThirtyCentimetresAndFiveDegreesOff) {
+  for (const ScannerKind kind : {ScannerKind::kSpatial, ScannerKind::kPlanar})
+    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+      const ScanPair pair = scan_pair(furnished_room(), kind, seed);
+      const double side = 30.0 * static_cast<double>(seed) * kDegree;
+      const SE3 off =
+          SE3::exp(planar_motion(0.3 * std::cos(side), 0.3 * std::sin(side), seed % 2 == 0 ? 0.087 : -0.087));
+      const Registration fit = pair.lay(pair.T_target_source * off);
+      EXPECT_NE(fit.end, RegistrationEnd::kNoOverlap);
+      EXPECT_LT(6 * normalised_squares(pair, fit), kChiSquared6) << seed;
+      EXPECT_LT(distance_between(fit.T_target_source, pair.T_target_source), 0.03) << seed;
+      EXPECT_LT(angle_between(fit.T_target_source, pair.T_target_source), 0.3 * kDegree) << seed;
+      EXPECT_GT(fit.matched_share, 0.6);
+    }
+}
+
+/// NEES over a hundred pairs: one where the information is the errors', more where it promises too much.
+double mean_nees(const ScannedRoom& room, ScannerKind kind) {
+  double mean = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    const ScanPair pair = scan_pair(room, kind, 1000 + seed);
+    const SE3 off = SE3::exp(planar_motion(0.1, -0.05, 0.03));
+    mean += normalised_squares(pair, pair.lay(pair.T_target_source * off)) / 100;
+  }
+  testing::Test::RecordProperty("mean_nees", std::to_string(mean));
+  return mean;
+}
+
+TEST(RegisterSurfels, IsNotSurerThanItIsRightInSpace) {
+  EXPECT_LT(mean_nees(furnished_room(), ScannerKind::kSpatial), 1.5);
+}
+
+TEST(RegisterSurfels, IsNotSurerThanItIsRightInThePlane) {
+  EXPECT_LT(mean_nees(furnished_room(), ScannerKind::kPlanar), 1.5);
+}
+
+TEST(RegisterSurfels, OfACloudOntoItselfMovedFindsTheMotion) {
+  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+    const SurfelSource source{scattered_surfels(400, 0.05, seed)};
+    const auto moved = transformed(tilted_pose(), source.surfels);
+    SE3::Tangent off;
+    off << 0.1, -0.08, 0.06, 0.02, -0.015, 0.03;
+    const RegistrationStart start{tilted_pose() * SE3::exp(off), 0.1, 1};
+    const auto fit = register_surfels(nearest_of(moved), source, start, {}, ScannerKind::kSpatial, {});
+    EXPECT_EQ(fit.end, RegistrationEnd::kConverged);
+    EXPECT_LT((tilted_pose().inverse() * fit.T_target_source).log().norm(), 1e-4);
+    EXPECT_NEAR(fit.matched_share, 1, 1e-3);
+    EXPECT_LT(fit.rms_m, 1e-2);
+  }
+}
+
+/// The sum of J' J / (2 sigma^2), J = [I, -[p]x]: two clouds of the same noise, at rest.
+TEST(RegisterSurfels, TellsTheInformationOfKnownPoints) {
+  const double sigma_m = 0.05;
+  for (const double share : {1.0, 0.25}) {
+    const SurfelSource source{scattered_surfels(300, sigma_m, 7), share};
+    SE3::Jacobian expected = SE3::Jacobian::Zero();
+    for (const Surfel& surfel : source.surfels) {
+      Eigen::Matrix<double, 3, 6> jacobian;
+      jacobian << Eigen::Matrix3d::Identity(), -skew(surfel.position.cast<double>());
+      expected += share / (2 * sigma_m * sigma_m) * jacobian.transpose() * jacobian;
+    }
+    const auto fit =
+        register_surfels(nearest_of(source.surfels), source, {SE3(), 0, 1}, {}, ScannerKind::kSpatial, {});
+    EXPECT_LT((fit.information - expected).norm(), 1e-4 * expected.norm());
+    EXPECT_LT((fit.posterior - expected).norm(), 1e-4 * expected.norm());
+  }
+}
+
+/// Two estimates of one place meet where their information weighs the same.
+TEST(RegisterSurfels, MeetsThePriorHalfWay) {
+  const SurfelSource source{scattered_surfels(300, 0.05, 8)};
+  const auto moved = transformed(SE3::exp(planar_motion(0.06, 0, 0)), source.surfels);
+  RegistrationParams params;
+  params.loss_scale = 100;  // squares, or nearly so
+  params.max_iterations = 200;
+  const RegistrationStart start{SE3(), 0, 1};
+  const auto free = register_surfels(nearest_of(moved), source, start, {}, ScannerKind::kSpatial, params);
+  EXPECT_NEAR(free.T_target_source.translation().x(), 0.06, 1e-3);
+  const PosePrior prior{SE3(), free.information};
+  const auto fit = register_surfels(nearest_of(moved), source, start, prior, ScannerKind::kSpatial, params);
+  EXPECT_NEAR(fit.T_target_source.translation().x(), 0.03, 1e-3);
+  EXPECT_LT((fit.posterior - 2 * free.information).norm(), 0.02 * free.information.norm());
+}
+
+TEST(RegisterSurfels, TurnsWithItsTarget) {
+  const ScanPair pair = scan_pair(furnished_room(), ScannerKind::kSpatial, 3);
+  const auto target = pair.map.surfels(), turned = transformed(tilted_pose(), target);
+  const SE3 start = pair.T_target_source * SE3::exp(planar_motion(0.1, 0.1, 0.04));
+  const auto fit = register_surfels(nearest_of(target), pair.source, {start, 0.2, 0.75}, {}, pair.kind, {});
+  const auto other = register_surfels(nearest_of(turned), pair.source, {tilted_pose() * start, 0.2, 0.75}, {},
+                                      pair.kind, {});
+  const SE3 expected = tilted_pose() * fit.T_target_source;
+  EXPECT_LT((expected.inverse() * other.T_target_source).log().norm(), 1e-3);
+  EXPECT_LT((other.information - fit.information).norm(), 0.02 * fit.information.norm());
+}
+
+/// T Exp(xi) B = T B Exp(Ad(B)^-1 xi).
+TEST(RegisterSurfels, TurnsWithItsSource) {
+  const ScanPair pair = scan_pair(furnished_room(), ScannerKind::kSpatial, 4);
+  const auto target = pair.map.surfels();
+  const SE3 start = pair.T_target_source * SE3::exp(planar_motion(0.1, 0.1, 0.04));
+  const SE3 B = tilted_pose();
+  const SurfelSource turned{transformed(B.inverse(), pair.source.surfels), pair.source.independent_share};
+  const auto fit = register_surfels(nearest_of(target), pair.source, {start, 0.2, 0.75}, {}, pair.kind, {});
+  const auto other = register_surfels(nearest_of(target), turned, {start * B, 0.2, 0.75}, {}, pair.kind, {});
+  const SE3 expected = fit.T_target_source * B;
+  EXPECT_LT((expected.inverse() * other.T_target_source).log().norm(), 1e-3);
+  const SE3::Jacobian carry = B.adjoint();
+  const SE3::Jacobian information = carry.transpose() * fit.information * carry;
+  EXPECT_LT((other.information - information).norm(), 0.02 * information.norm());
+}
+
+TEST(RegisterSurfels, OfAPlanarScannerLeavesHeightRollAndPitchAsTheyWere) {
+  const ScanPair pair = scan_pair(furnished_room(), ScannerKind::kPlanar, 5);
+  const Registration fit = pair.lay(pair.T_target_source * SE3::exp(planar_motion(0.2, -0.1, 0.05)));
+  EXPECT_EQ(fit.T_target_source.translation().z(), 0);
+  EXPECT_EQ(fit.T_target_source.rotation().x(), 0);
+  EXPECT_EQ(fit.T_target_source.rotation().y(), 0);
+  EXPECT_LT(distance_between(fit.T_target_source, pair.T_target_source), 0.03);
+}
+
+TEST(RegisterSurfels, WithoutOverlapSaysSoAndStaysWhereItStarted) {
+  const SurfelSource source{scattered_surfels(300, 0.05, 9)};
+  const SE3 start = pose_at(100, 0, 0, 0.3);
+  const auto expect_refusal = [&](const std::vector<Surfel>& target, const SurfelSource& of) {
+    const auto fit = register_surfels(nearest_of(target), of, {start, 0.2, 1}, {}, ScannerKind::kSpatial, {});
+    EXPECT_EQ(fit.end, RegistrationEnd::kNoOverlap);
+    EXPECT_EQ(fit.matched_share, 0);
+    EXPECT_TRUE(fit.information.isZero(0));
+    EXPECT_LT((start.inverse() * fit.T_target_source).log().norm(), 1e-12);
+  };
+  expect_refusal(source.surfels, source);
+  expect_refusal({}, source);
+  expect_refusal(source.surfels, {});
+  const SurfelSource few{scattered_surfels(5, 0.05, 9)};  // too few to hold a pose
+  expect_refusal(transformed(start, few.surfels), few);
+}
+
+/// Six points in a clump can turn a scanner far from them out of their own reach.
+TEST(RegisterSurfels, ThatLosesItsOverlapOnTheWaySaysSoToo) {
+  int lost = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    Rng rng(seed);
+    SurfelSource source;
+    std::vector<Surfel> target;
+    for (int k = 0; k < 6; ++k) {
+      Eigen::Vector3f at(60, 0, 0), met(60, 0, 0);
+      for (int axis = 0; axis < 3; ++axis) {
+        at[axis] += static_cast<float>(rng.normal(0, 0.3));
+        met[axis] += static_cast<float>(rng.normal(0.2, 0.3));
+      }
+      source.surfels.push_back({at, 0.001F * Eigen::Matrix3f::Identity()});
+      target.push_back({met, 0.001F * Eigen::Matrix3f::Identity()});
+    }
+    const auto fit =
+        register_surfels(nearest_of(target), source, {SE3(), 0, 1}, {}, ScannerKind::kSpatial, {});
+    EXPECT_TRUE(fit.T_target_source.translation().allFinite());
+    EXPECT_TRUE(fit.information.allFinite());
+    if (fit.end != RegistrationEnd::kNoOverlap) continue;
+    ++lost;
+    EXPECT_EQ(fit.matched_share, 0) << seed;
+    EXPECT_TRUE(fit.information.isZero(0)) << seed;
+    EXPECT_LT(fit.T_target_source.log().norm(), 1e-12) << seed;
+  }
+  EXPECT_GT(lost, 0) << "the task is too easy";
+}
+
+TEST(RegisterSurfels, GivesTheSameBytesForAnyNumberOfThreads) {
+  const ScanPair pair = scan_pair(furnished_room(), ScannerKind::kSpatial, 6);
+  const SE3 start = pair.T_target_source * SE3::exp(planar_motion(0.2, 0.1, -0.05));
+  set_thread_count(1);
+  const Registration alone = pair.lay(start);
+  for (const std::size_t threads : {2U, 5U}) {
+    set_thread_count(threads);
+    const Registration together = pair.lay(start);
+    EXPECT_EQ(together.T_target_source.translation(), alone.T_target_source.translation());
+    EXPECT_EQ(together.T_target_source.rotation().coeffs(), alone.T_target_source.rotation().coeffs());
+    EXPECT_EQ(together.information, alone.information);
+    EXPECT_EQ(together.matched_share, alone.matched_share);
+    EXPECT_EQ(together.rms_m, alone.rms_m);
+  }
+  set_thread_count(0);
+}
+
+}  // namespace
+}  // namespace radioslam

@@ -1,0 +1,134 @@
+#include "radioslam/lidar/surfel.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "radioslam/base/parallel.hpp"
+#include "radioslam/base/random.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr double kSpacing_m = 0.1;
+
+Eigen::Quaterniond random_turn(Rng& rng) {
+  const double w = rng.normal(), x = rng.normal(), y = rng.normal(), z = rng.normal();
+  return Eigen::Quaterniond(w, x, y, z).normalized();
+}
+
+/// A square of points, a spacing apart and jittered, with this noise across.
+std::vector<Eigen::Vector3f> noisy_plane(const Eigen::Vector3d& centre, const Eigen::Quaterniond& turn,
+                                         double sigma_m, Rng& rng) {
+  std::vector<Eigen::Vector3f> points;
+  for (int a = -10; a <= 10; ++a)
+    for (int b = -10; b <= 10; ++b) {
+      const double u = kSpacing_m * (a + rng.uniform(-0.3, 0.3));
+      const double v = kSpacing_m * (b + rng.uniform(-0.3, 0.3));
+      const Eigen::Vector3d point = turn * Eigen::Vector3d(u, v, rng.normal(0, sigma_m));
+      points.emplace_back((centre + point).cast<float>());
+    }
+  return points;
+}
+
+Eigen::Vector3d thinnest_direction(const Surfel& surfel) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(surfel.covariance.cast<double>())
+      .eigenvectors()
+      .col(0);
+}
+
+bool is_positive_definite(const Eigen::Matrix3f& covariance) {
+  return covariance.allFinite() && covariance.isApprox(covariance.transpose()) &&
+         covariance.cast<double>().eigenvalues().real().minCoeff() > 0;
+}
+
+TEST(MeasureSurfels, AreThinAcrossAPlaneAndWideAlongIt) {
+  Rng rng(1);
+  const double sigma_m = 0.01;
+  SurfelParams params;
+  params.sigma_range_m = 0.004;
+  double mean_across = 0;
+  for (int n = 0; n < 20; ++n) {
+    const Eigen::Quaterniond turn = random_turn(rng);
+    const Eigen::Vector3d normal = turn * Eigen::Vector3d::UnitZ(), along = turn * Eigen::Vector3d::UnitX();
+    const Eigen::Vector3d centre = turn * Eigen::Vector3d(0, 3, n == 0 ? 1000 : 10);
+    const auto points = noisy_plane(centre, turn, sigma_m, rng);
+    double across = 0, wide = 0, aligned = 0;
+    for (const Surfel& surfel : measure_surfels(points, kSpacing_m, ScannerKind::kSpatial, params)) {
+      const Eigen::Matrix3d covariance = surfel.covariance.cast<double>();
+      across += normal.dot(covariance * normal) / static_cast<double>(points.size());
+      wide += along.dot(covariance * along) / static_cast<double>(points.size());
+      aligned += std::abs(thinnest_direction(surfel).dot(normal)) / static_cast<double>(points.size());
+    }
+    mean_across += across / 20;
+    EXPECT_GT(wide, std::pow(kSpacing_m / 2, 2));
+    EXPECT_GT(aligned, 0.98);
+  }
+  // Ten neighbours spread about their own mean, and the scanner's stated noise on top.
+  const double expected = 0.9 * sigma_m * sigma_m + params.sigma_range_m * params.sigma_range_m;
+  EXPECT_NEAR(mean_across, expected, 0.07 * expected);
+}
+
+TEST(MeasureSurfels, StandAtTheirPoints) {
+  Rng rng(2);
+  const auto points = noisy_plane({1, 2, 3}, random_turn(rng), 0.01, rng);
+  const auto surfels = measure_surfels(points, kSpacing_m, ScannerKind::kSpatial, {});
+  ASSERT_EQ(surfels.size(), points.size());
+  for (std::size_t k = 0; k < points.size(); ++k) ASSERT_EQ(surfels[k].position, points[k]);
+}
+
+TEST(MeasureSurfels, OfAPlanarScannerLeaveTheHeightOpen) {
+  std::vector<Eigen::Vector3f> wall;
+  for (int k = 0; k < 50; ++k) wall.emplace_back(2.0F, 0.1F * static_cast<float>(k), 0.0F);
+  const auto surfels = measure_surfels(wall, kSpacing_m, ScannerKind::kPlanar, {});
+  for (std::size_t k = 0; k < surfels.size(); ++k) {
+    const Surfel& surfel = surfels[k];
+    EXPECT_GE(surfel.covariance(2, 2), kSpacing_m * kSpacing_m);
+    if (k < 3 || k + 3 >= surfels.size()) continue;  // at a wall's end there are few neighbours
+    EXPECT_LT(surfel.covariance(0, 0), 0.1 * kSpacing_m * kSpacing_m);
+    EXPECT_GT(surfel.covariance(1, 1), 0.25 * kSpacing_m * kSpacing_m);
+  }
+}
+
+/// Nothing is known of their surface: they lie as they may, within a spacing or so.
+TEST(MeasureSurfels, OfIsolatedPointsAreTheSameAllAround) {
+  std::vector<Eigen::Vector3f> points;
+  for (int k = 0; k < 20; ++k) points.emplace_back(static_cast<float>(k), 0.0F, 0.0F);
+  for (const Surfel& surfel : measure_surfels(points, kSpacing_m, ScannerKind::kSpatial, {})) {
+    EXPECT_TRUE(surfel.covariance.isApprox(surfel.covariance(0, 0) * Eigen::Matrix3f::Identity()));
+    EXPECT_GT(std::sqrt(surfel.covariance(0, 0)), 0.5 * kSpacing_m);
+    EXPECT_LT(std::sqrt(surfel.covariance(0, 0)), 2 * kSpacing_m);
+  }
+}
+
+TEST(MeasureSurfels, OfFewOrOfEqualPointsArePositiveDefinite) {
+  for (const ScannerKind kind : {ScannerKind::kSpatial, ScannerKind::kPlanar})
+    for (const std::size_t count : {1U, 2U, 3U, 4U, 5U, 30U})
+      for (const float apart_m : {0.0F, 0.05F, 50.0F}) {
+        std::vector<Eigen::Vector3f> points;
+        for (std::size_t k = 0; k < count; ++k) points.emplace_back(5, apart_m * static_cast<float>(k), 0);
+        const auto surfels = measure_surfels(points, kSpacing_m, kind, {});
+        ASSERT_EQ(surfels.size(), count);
+        for (const Surfel& surfel : surfels) EXPECT_TRUE(is_positive_definite(surfel.covariance));
+      }
+  EXPECT_TRUE(measure_surfels({}, kSpacing_m, ScannerKind::kSpatial, {}).empty());
+}
+
+TEST(MeasureSurfels, AreTheSameForAnyNumberOfThreads) {
+  Rng rng(3);
+  auto points = noisy_plane({1, 2, 3}, random_turn(rng), 0.05, rng);
+  const auto more = noisy_plane({1, 2, 4}, random_turn(rng), 0.05, rng);
+  points.insert(points.end(), more.begin(), more.end());
+  set_thread_count(1);
+  const auto alone = measure_surfels(points, kSpacing_m, ScannerKind::kSpatial, {});
+  set_thread_count(3);
+  const auto together = measure_surfels(points, kSpacing_m, ScannerKind::kSpatial, {});
+  set_thread_count(0);
+  for (std::size_t k = 0; k < points.size(); ++k) ASSERT_EQ(alone[k].covariance, together[k].covariance) << k;
+}
+
+}  // namespace
+}  // namespace radioslam
