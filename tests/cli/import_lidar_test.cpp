@@ -7,7 +7,7 @@
 namespace radioslam::cli {
 namespace {
 
-const std::string kLog =
+const std::string kHallLog =
     "FLASER 3 1 2 3 0 0 0 5 5 0 10 nohost 0\nFLASER 3 1 9 3 0 0 0 6 5 0 12 nohost 0\n"
     "FLASER 3 1 2 3 0 0 0 7 5 0 11.5 nohost 0\n";
 
@@ -29,7 +29,7 @@ struct ImportLidar : testing::Test {
 };
 
 TEST_F(ImportLidar, CarmenBecomesAMissionThatRuns) {
-  write_file(folder.path() / "hall.clf", kLog);
+  write_file(folder.path() / "hall.clf", kHallLog);
   const Outcome outcome = import({"carmen", "hall.clf", "--robot", "scout", "-o", "m"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.out,
@@ -48,12 +48,12 @@ TEST_F(ImportLidar, CarmenBecomesAMissionThatRuns) {
 }
 
 TEST_F(ImportLidar, CarmenRefusesWithTheLine) {
-  write_file(folder.path() / "hall.clf", kLog + "FLASER 3 1 2\n");
+  write_file(folder.path() / "hall.clf", kHallLog + "FLASER 3 1 2\n");
   expect_refused({"carmen", "hall.clf", "-o", "m"}, "hall.clf:4: ");
   expect_refused({"carmen", "none.clf", "-o", "m"}, "none.clf: no such file");
   expect_refused({"carmen", "hall.clf", "--robot", "a/b", "-o", "m"}, "cannot be the name of a robot");
   expect_refused({"carmen", "hall.clf", "--time", "1", "-o", "m"}, "takes no --time");
-  write_file(folder.path() / "late.clf", kLog);
+  write_file(folder.path() / "late.clf", kHallLog);
   expect_refused({"carmen", "late.clf", "--set", "largest_delay_s=0.1", "-o", "m"},
                  "late.clf:2: its time 12");
 }

@@ -8,7 +8,8 @@
 namespace radioslam {
 
 inline void check_scan(const LidarScan& scan) {
-  RADIOSLAM_CHECK(scan.times_s.empty() || scan.times_s.size() == scan.points.size(), "a time per point or none");
+  RADIOSLAM_CHECK(scan.times_s.empty() || scan.times_s.size() == scan.points.size(),
+                  "a time per point or none");
 }
 
 }  // namespace radioslam

@@ -1,6 +1,5 @@
-#include "radioslam/io/pcd.hpp"
-
 #include "lidar_checks.hpp"
+#include "radioslam/io/pcd.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace radioslam;

@@ -1,5 +1,4 @@
 #include "radioslam/io/ros1_bag.hpp"
-
 #include "ros_checks.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,16 +1,19 @@
 // The first byte says how a message is encoded and of which type it is; the rest is the message.
-#include "radioslam/io/ros_types.hpp"
-
 #include <array>
 
+#include "radioslam/io/ros_types.hpp"
 #include "ros_checks.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace radioslam;
-  constexpr std::array<const char*, 8> kTypes{
-      "nav_msgs/Odometry",   "geometry_msgs/PoseStamped", "geometry_msgs/TransformStamped",
-      "tf2_msgs/TFMessage",  "tf/tfMessage",              "sensor_msgs/PointCloud2",
-      "sensor_msgs/LaserScan", "sensor_msgs/Imu"};
+  constexpr std::array<const char*, 8> kTypes{"nav_msgs/Odometry",
+                                              "geometry_msgs/PoseStamped",
+                                              "geometry_msgs/TransformStamped",
+                                              "tf2_msgs/TFMessage",
+                                              "tf/tfMessage",
+                                              "sensor_msgs/PointCloud2",
+                                              "sensor_msgs/LaserScan",
+                                              "sensor_msgs/Imu"};
   if (size == 0) return 0;
   const RosChannel channel{"/topic", kTypes[data[0] % kTypes.size()],
                            (data[0] & 0x80U) != 0 ? MessageEncoding::kRos1 : MessageEncoding::kCdr};

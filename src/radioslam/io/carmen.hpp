@@ -10,7 +10,8 @@
 // Scans are of the first of FLASER, ROBOTLASER1, RLASER that the log has. A FLASER or RLASER line does not
 // tell its angles: n readings cover the field of view from its right edge on, the last one on its left edge
 // where n is odd (181, 361) and one step before it where n is even (180, 360). So the step is 1 degree for
-// both 180 and 181: walls of the logs `intel` and `aces` then meet at 90.1 degrees, otherwise at 90.4.
+// both 180 and 181: walls of the logs `aces` and `intel` then meet at 89.9 and 90.2 degrees, otherwise at
+// 90.3 and 90.5.
 //
 // Odometry is what the scans' own lines say, one row per scan, from the log's first one on. ODOM lines lie
 // between and hold nothing that a scan's pose does not, and their times jump where the scans' do.
