@@ -17,7 +17,7 @@ struct LocalMapParams {
   double coarse_spacings = 3;         ///< of a first alignment where the start may be far off
   double coarse_reach_spacings = 12;  ///< and its reach
   double memory_m = 30;
-  double correlation_share = 0.3;  ///< of the median range: points closer together err together
+  double correlation_share = 0.12;  ///< of the median range: points closer together err together
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {

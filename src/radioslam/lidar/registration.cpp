@@ -1,6 +1,7 @@
 #include "radioslam/lidar/registration.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -101,6 +102,19 @@ void pin_plane(Registration& result, SE3::Tangent& gradient) {
   }
 }
 
+/// Takes `share` of the largest information about the position off that along each axis. What an axis keeps,
+/// it keeps in all that the points tell along it.
+void take_off_leak(NormalSums& sums, double share) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(sums.hessian.topLeftCorner<3, 3>());
+  const Eigen::Vector3d values = axes.eigenvalues();
+  const Eigen::Vector3d left = (values.array() - share * values(2)).max(0.0);
+  const Eigen::Vector3d kept = left.cwiseQuotient(values.cwiseMax(1e-12)).cwiseSqrt();
+  SE3::Jacobian scale = SE3::Jacobian::Identity();
+  scale.topLeftCorner<3, 3>() = axes.eigenvectors() * kept.asDiagonal() * axes.eigenvectors().transpose();
+  sums.hessian = (scale * sums.hessian * scale).eval();
+  sums.gradient = (scale * sums.gradient).eval();
+}
+
 }  // namespace
 
 Registration register_surfels(const NearestSurfel& target, const SurfelSource& source,
@@ -111,9 +125,10 @@ Registration register_surfels(const NearestSurfel& target, const SurfelSource& s
   result.T_target_source = start.T_target_source;
   double blur_m = start.blur_m;
   for (result.iterations = 1; result.iterations <= params.max_iterations; ++result.iterations) {
-    const NormalSums sums = sum_over(
+    NormalSums sums = sum_over(
         source.surfels, Pass(target, result.T_target_source, start.reach_m, blur_m, params.loss_scale));
     if (sums.matches < kFewestMatches) return {.T_target_source = start.T_target_source};
+    if (blur_m == 0 && kind == ScannerKind::kSpatial) take_off_leak(sums, params.leak_share);
     const SE3::Tangent from_prior = (prior.pose.inverse() * result.T_target_source).log();
     result.information = source.independent_share * sums.hessian;
     result.posterior = result.information + prior.information;

@@ -7,6 +7,10 @@
 // wrong, where points pull as points do, and narrows to nothing, where they slide along their surfaces.
 // Neighbouring points err together (same surface, same scan line): the information counts `independent_share`
 // of each.
+// The normal of a surface is known to a few degrees only, so that some of what a wall tells across leaks
+// along it: along a corridor, thousands of points promise what none of them knows. Of the information about
+// the position `leak_share` of the largest eigenvalue is taken off all three. (In space; a plane's scan line
+// has its normals from many points.)
 #pragma once
 
 #include <Eigen/Core>
@@ -24,6 +28,7 @@ struct RegistrationParams {
   int max_iterations = 30;
   double loss_scale = 3;    ///< standard deviations beyond which a point counts for little
   double narrowing = 0.35;  ///< of the blur from one iteration to the next
+  double leak_share = 0.015;
   double translation_tolerance_m = 1e-3;
   double rotation_tolerance_rad = 3e-4;
 
@@ -33,6 +38,8 @@ struct RegistrationParams {
     visit(Field{"loss_scale", "", 0.5, 100, "standard deviations beyond which a point counts for little"},
           self.loss_scale);
     visit(Field{"narrowing", "", 0.01, 0.99, "of the blur from one step to the next"}, self.narrowing);
+    visit(Field{"leak_share", "", 0, 0.5, "of the largest information, which noisy normals leak elsewhere"},
+          self.leak_share);
     visit(Field{"translation_tolerance_m", "m", 1e-9, 1, "a step shorter than this is the last"},
           self.translation_tolerance_m);
     visit(Field{"rotation_tolerance_rad", "rad", 1e-9, 1, "and turning less than this"},

@@ -1,6 +1,9 @@
 #include "radioslam/lidar/surfel.hpp"
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "radioslam/base/check.hpp"
 #include "radioslam/base/parallel.hpp"
@@ -34,22 +37,50 @@ Eigen::Matrix3f spread_of(const std::vector<Eigen::Vector3f>& points, const std:
 
 struct SurfelScale {
   std::size_t neighbours;
+  ScannerKind kind;
+  float flatness, variance_along;
   float reach_squared, variance_range, variance_alone;
 };
 
+/// Of a single beam's neighbours: long along one axis, which rises by less than 45 degrees.
+bool is_level_line(const Eigen::Vector3f& variances, const Eigen::Vector3f& longest, float across) {
+  return variances(1) < across && variances(2) > across && std::abs(longest.z()) < 0.7F;
+}
+
+/// With the variances along a surface as they are for what it tells there: next to nothing.
+Eigen::Matrix3f freed_along(const Eigen::Matrix3f& covariance, const SurfelScale& scale) {
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> axes;
+  axes.computeDirect(covariance);
+  const Eigen::Vector3f variances = axes.eigenvalues();
+  const float across = scale.flatness * std::max(variances(0), scale.variance_range);
+  Eigen::Vector3f freed = variances.cwiseMax(scale.variance_range);
+  if (is_level_line(variances, axes.eigenvectors().col(2), across))
+    return scale.variance_along * Eigen::Matrix3f::Identity();
+  for (float& variance : freed) {
+    const float ratio = variance / across;
+    variance = std::min(variance * (1 + ratio * ratio), std::max(variance, scale.variance_along));
+  }
+  return axes.eigenvectors() * freed.asDiagonal() * axes.eigenvectors().transpose();
+}
+
 Surfel surfel_at(const std::vector<Eigen::Vector3f>& points, const CloudTree& tree, std::size_t k,
-                 const SurfelScale& scale, ScannerKind kind) {
+                 const SurfelScale& scale) {
   std::array<std::size_t, kMostNeighbours> indices{};
   std::array<float, kMostNeighbours> squared_distances{};
   std::size_t count = tree.nearest(points[k], scale.neighbours, indices.data(), squared_distances.data());
   while (count > 0 && squared_distances[count - 1] > scale.reach_squared) --count;
   Surfel surfel{points[k], Eigen::Matrix3f::Zero()};
-  if (count >= kFewestNeighbours)
-    surfel.covariance = spread_of(points, indices.data(), count);
-  else
+  const bool is_alone = count < kFewestNeighbours;
+  if (is_alone)
     surfel.covariance.diagonal().setConstant(scale.variance_alone);
+  else
+    surfel.covariance = spread_of(points, indices.data(), count);
   surfel.covariance.diagonal().array() += scale.variance_range;
-  if (kind == ScannerKind::kPlanar) surfel.covariance(2, 2) += scale.variance_alone;
+  if (scale.kind == ScannerKind::kPlanar)
+    surfel.covariance(2, 2) += scale.variance_alone;
+  else
+    surfel.covariance =
+        is_alone ? scale.variance_along * Eigen::Matrix3f::Identity() : freed_along(surfel.covariance, scale);
   return surfel;
 }
 
@@ -61,13 +92,17 @@ std::vector<Surfel> measure_surfels(const std::vector<Eigen::Vector3f>& points, 
   if (points.empty()) return {};
   const CloudTree tree(points);
   const double reach = params.reach_spacings * spacing_m;
-  const SurfelScale scale{static_cast<std::size_t>(params.neighbours), static_cast<float>(reach * reach),
+  const SurfelScale scale{static_cast<std::size_t>(params.neighbours),
+                          kind,
+                          static_cast<float>(params.flatness),
+                          static_cast<float>(params.sigma_along_m * params.sigma_along_m),
+                          static_cast<float>(reach * reach),
                           static_cast<float>(params.sigma_range_m * params.sigma_range_m),
                           static_cast<float>(spacing_m * spacing_m)};
   std::vector<Surfel> surfels(points.size());
   constexpr std::size_t kGrain = 256;
   parallel_for(points.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) surfels[k] = surfel_at(points, tree, k, scale, kind);
+    for (std::size_t k = begin; k < end; ++k) surfels[k] = surfel_at(points, tree, k, scale);
   });
   return surfels;
 }

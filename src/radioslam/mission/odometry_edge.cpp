@@ -38,7 +38,8 @@ typename Pose::Jacobian seen_from_above(const SE3::Jacobian& covariance) {
   }
 }
 
-/// What was measured of the noise between two times: of every step its share.
+}  // namespace
+
 SE3::Jacobian measured_covariance(const std::vector<OdometryStepNoise>& steps, Stamp begin, Stamp end) {
   SE3::Jacobian covariance = SE3::Jacobian::Zero();
   auto step = std::lower_bound(steps.begin(), steps.end(), begin,
@@ -48,8 +49,6 @@ SE3::Jacobian measured_covariance(const std::vector<OdometryStepNoise>& steps, S
         seconds_between(std::max(begin, step->begin), std::min(end, step->end)) * step->covariance_per_s;
   return covariance;
 }
-
-}  // namespace
 
 template <class Pose>
 void append_row(OdometryEdge<Pose>& edge, const StampedPose<SE3>& from, const StampedPose<SE3>& to,

@@ -44,6 +44,9 @@ OdometryEdge<Pose> followed_by(const OdometryEdge<Pose>& edge, const OdometryEdg
 template <class Pose>
 typename Pose::Tangent least_edge_variance();
 
+/// What was measured of the noise between two times: of every step its share.
+SE3::Jacobian measured_covariance(const std::vector<OdometryStepNoise>& steps, Stamp begin, Stamp end);
+
 /// Distance walked from the first row to each row, metres.
 std::vector<double> distance_walked(const Trajectory<SE3>& odometry);
 

@@ -10,68 +10,108 @@ PoseStep scan_step(const ScanPose& from, const ScanPose& to, const InertialStage
   return {from.T_start_body.inverse() * to.T_start_body, to.information, params.outlier_sigmas};
 }
 
-std::optional<SE3> InertialGuide::motion_to(Stamp stamp) const {
-  if (poses_.empty()) return std::nullopt;
-  const StampedPose<SE3>& last = poses_.back();
-  const InertialBias bias = filter_ ? filter_->state().bias : InertialBias{};
-  const auto readings = preintegrate(*samples_, last.stamp, stamp, bias, params_.noise);
-  if (!readings) return std::nullopt;
-  if (!filter_)
-    return SE3(seconds_between(last.stamp, stamp) * velocity_mps_, readings->motion.rotation);
+std::optional<InertialState> InertialGuide::predicted(Stamp stamp) const {
   const InertialState& state = filter_->state();
-  return state.T_world_body.inverse() * state_after(state, readings->motion, params_.noise).T_world_body;
+  if (stamp == node_.stamp) return state;
+  const auto readings = preintegrate(*samples_, node_.stamp, stamp, state.bias, params_.noise);
+  if (!readings) return std::nullopt;
+  return state_after(state, readings->motion, params_.noise);
+}
+
+std::optional<SE3> InertialGuide::motion_to(Stamp stamp) const {
+  if (empty_) return std::nullopt;
+  if (filter_) {
+    const auto now = predicted(last_.stamp), then = predicted(stamp);
+    if (!now || !then) return std::nullopt;
+    return now->T_world_body.inverse() * then->T_world_body;
+  }
+  const auto readings = preintegrate(*samples_, last_.stamp, stamp, {}, params_.noise);
+  if (!readings) return std::nullopt;
+  return SE3(seconds_between(last_.stamp, stamp) * velocity_mps_, readings->motion.rotation);
 }
 
 void InertialGuide::align() {
-  const auto aligned =
-      align_gravity(Trajectory<SE3>(poses_), *samples_, params_.noise, params_.alignment);
+  const auto aligned = align_gravity(Trajectory<SE3>(poses_), *samples_, params_.noise, params_.alignment);
   if (!aligned) {
-    poses_.erase(poses_.begin(), poses_.begin() + static_cast<std::ptrdiff_t>(poses_.size() / 2));
+    poses_.erase(poses_.begin(), poses_.begin() + std::ssize(poses_) / 2);
     return;
   }
-  InertialState now = aligned->states.back();
-  const SE3 T_world_odometry(Eigen::Vector3d::Zero(), aligned->R_world_odometry);
-  now.T_world_body = T_world_odometry * poses_.back().pose;
-  filter_.emplace(start_prior(now, params_.noise, params_.smoother));
-  poses_ = {poses_.back()};
+  filter_.emplace(start_prior(aligned->states.back(), params_.noise, params_.smoother));
+  node_ = poses_.back();
+  poses_.clear();
 }
 
 void InertialGuide::add(const ScanPose& scan) {
-  if (!poses_.empty()) {
-    const StampedPose<SE3>& last = poses_.back();
-    const double dt_s = seconds_between(last.stamp, scan.stamp);
-    const SE3 motion = last.pose.inverse() * scan.T_start_body;
-    velocity_mps_ = motion.translation() / dt_s;
-    if (filter_) {
-      const PoseStep step{motion, scan.information, params_.stage.outlier_sigmas};
-      auto readings = preintegrate(*samples_, last.stamp, scan.stamp, filter_->state().bias, params_.noise);
-      filter_->advance(state_step(step, std::move(readings), dt_s), params_.noise);
-      poses_.clear();
+  if (!empty_)
+    velocity_mps_ =
+        (last_.pose.inverse() * scan.T_start_body).translation() / seconds_between(last_.stamp, scan.stamp);
+  empty_ = false;
+  last_ = {scan.stamp, scan.T_start_body};
+  if (!filter_) {
+    poses_.push_back(last_);
+    if (seconds_between(poses_.front().stamp, scan.stamp) >= params_.alignment.window_s) align();
+    return;
+  }
+  const double dt_s = seconds_between(node_.stamp, scan.stamp);
+  if (dt_s < params_.stage.node_s) return;
+  const PoseStep step{node_.pose.inverse() * scan.T_start_body, scan.information,
+                      params_.stage.outlier_sigmas};
+  auto readings = preintegrate(*samples_, node_.stamp, scan.stamp, filter_->state().bias, params_.noise);
+  filter_->advance(state_step(step, std::move(readings), dt_s), params_.noise);
+  node_ = last_;
+}
+
+namespace {
+
+/// The scans that states stand at: the first, the last, and those at least so long after the one before.
+std::vector<std::size_t> nodes_of(const std::vector<ScanPose>& scans, double node_s) {
+  std::vector<std::size_t> nodes;
+  for (std::size_t k = 0; k < scans.size(); ++k)
+    if (nodes.empty() || k + 1 == scans.size() ||
+        seconds_between(scans[nodes.back()].stamp, scans[k].stamp) >= node_s)
+      nodes.push_back(k);
+  return nodes;
+}
+
+/// The scans' poses, held to the states at the nodes: what is missing from one to the next is spread evenly.
+std::vector<SE3> bent(const std::vector<ScanPose>& scans, const std::vector<std::size_t>& nodes,
+                      const std::vector<InertialState>& states) {
+  std::vector<SE3> poses{states.front().T_world_body};
+  for (std::size_t n = 1; n < nodes.size(); ++n) {
+    const std::size_t begin = nodes[n - 1], end = nodes[n];
+    const SE3 &T_begin = states[n - 1].T_world_body, &T_end = states[n].T_world_body;
+    const SE3 from_begin = scans[begin].T_start_body.inverse();
+    const SE3::Tangent missing =
+        ((from_begin * scans[end].T_start_body).inverse() * T_begin.inverse() * T_end).log();
+    for (std::size_t k = begin + 1; k <= end; ++k) {
+      const double share = seconds_between(scans[begin].stamp, scans[k].stamp) /
+                           seconds_between(scans[begin].stamp, scans[end].stamp);
+      poses.push_back(T_begin * from_begin * scans[k].T_start_body * SE3::exp(share * missing));
     }
   }
-  poses_.push_back({scan.stamp, scan.T_start_body});
-  if (!filter_ && seconds_between(poses_.front().stamp, scan.stamp) >= params_.alignment.window_s) align();
+  return poses;
 }
+
+}  // namespace
 
 std::optional<InertialOdometry> smooth_scans(const std::vector<ScanPose>& scans,
                                              const std::vector<InertialSample>& samples,
                                              const InertialParams& params) {
   std::vector<StampedPose<SE3>> poses;
-  InertialDrive drive;
-  for (std::size_t k = 0; k < scans.size(); ++k) {
-    poses.push_back({scans[k].stamp, scans[k].T_start_body});
-    drive.stamps.push_back(scans[k].stamp);
-    if (k > 0) drive.steps.push_back(scan_step(scans[k - 1], scans[k], params.stage));
-  }
+  for (const ScanPose& scan : scans) poses.push_back({scan.stamp, scan.T_start_body});
   const auto aligned = align_gravity(Trajectory<SE3>(poses), samples, params.noise, params.alignment);
   if (!aligned) return std::nullopt;
+  const auto nodes = nodes_of(scans, params.stage.node_s);
+  InertialDrive drive;
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    drive.stamps.push_back(scans[nodes[n]].stamp);
+    if (n > 0) drive.steps.push_back(scan_step(scans[nodes[n - 1]], scans[nodes[n]], params.stage));
+  }
   drive.start = aligned->states.front();
   const auto smoothed = smooth_inertially(drive, samples, params.noise, params.smoother);
   if (!smoothed) return std::nullopt;
-  InertialOdometry odometry;
-  for (const InertialState& state : smoothed->states) odometry.poses.push_back(state.T_world_body);
-  odometry.steps = odometry_noise_of_states(*smoothed, params.odometry_noise);
-  return odometry;
+  return InertialOdometry{bent(scans, nodes, smoothed->states),
+                          odometry_noise_of_states(*smoothed, params.odometry_noise)};
 }
 
 }  // namespace radioslam

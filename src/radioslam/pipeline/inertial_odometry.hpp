@@ -4,6 +4,10 @@
 //               gravity is known; until then the gyroscope tells how the robot turned
 //   afterwards  the smoother (inertial/inertial_smoother.hpp) estimates all states at once; of the scans it
 //               takes what their points tell, nothing along a corridor without features
+//
+// Successive scans lie on one map, so the error of the motion between two of them does not grow with the
+// number of scans in between. States therefore stand `node_s` apart, and the motion from one to the next has
+// the information of one registration; the scans in between are bent along.
 #pragma once
 
 #include <optional>
@@ -21,12 +25,14 @@ namespace radioslam {
 struct InertialStageParams {
   bool enabled = true;
   double outlier_sigmas = 5;
+  double node_s = 5;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
     visit(Field{"enabled", "", 0, 1, "use imu.csv with the scans"}, self.enabled);
     visit(Field{"outlier_sigmas", "", 1, 1e6, "a registration farther off pulls ever less"},
           self.outlier_sigmas);
+    visit(Field{"node_s", "s", 0, 100, "between the states of scans and readings together"}, self.node_s);
   }
 };
 
@@ -63,10 +69,13 @@ class InertialGuide {
 
  private:
   void align();
+  std::optional<InertialState> predicted(Stamp stamp) const;
 
   const std::vector<InertialSample>* samples_;
   InertialParams params_;
-  std::vector<StampedPose<SE3>> poses_;  ///< until gravity is known, then the last one
+  std::vector<StampedPose<SE3>> poses_;  ///< until gravity is known
+  StampedPose<SE3> node_{}, last_{};     ///< the filter's state's, and the last scan's
+  bool empty_ = true;
   Eigen::Vector3d velocity_mps_ = Eigen::Vector3d::Zero();  ///< of the body, in its frame
   std::optional<InertialFilter> filter_;
 };
@@ -76,8 +85,8 @@ PoseStep scan_step(const ScanPose& from, const ScanPose& to, const InertialStage
 
 /// What scans and readings say together; z is up.
 struct InertialOdometry {
-  std::vector<SE3> poses;  ///< of the scans
-  std::vector<OdometryStepNoise> steps;
+  std::vector<SE3> poses;                ///< of the scans
+  std::vector<OdometryStepNoise> steps;  ///< from state to state
 };
 
 /// Nothing where gravity is not found or the smoother refuses.

@@ -129,8 +129,8 @@ bool take_readings(ScanTrack& track, const std::vector<InertialSample>& samples,
   for (std::size_t k = 0; k < track.poses.size(); ++k) {
     track.poses[k].T_start_body = smoothed->poses[k];
     if (k == 0) continue;
-    const OdometryStepNoise& step = smoothed->steps[k - 1];
-    track.poses[k].covariance = seconds_between(step.begin, step.end) * step.covariance_per_s;
+    const Stamp begin = track.poses[k - 1].stamp, end = track.poses[k].stamp;
+    track.poses[k].covariance = measured_covariance(smoothed->steps, begin, end);
   }
   return true;
 }

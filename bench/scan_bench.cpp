@@ -1,0 +1,97 @@
+// Scans of some 60,000 points in a simulated town, one thread: odometry per scan, and two scans registered
+// from 0.3 m and 2 degrees off, from raw points on.
+#include <benchmark/benchmark.h>
+
+#include "radioslam/base/parallel.hpp"
+#include "radioslam/lidar/pose_search.hpp"
+#include "radioslam/lidar/scan_odometry.hpp"
+#include "radioslam/lidar/voxel_grid.hpp"
+#include "radioslam/sim/city.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr std::size_t kScans = 40;
+
+/// What one robot saw on its first seconds.
+struct Recording {
+  std::vector<Stamp> stamps;
+  std::vector<LidarScan> scans;
+  double points = 0;  ///< per scan
+};
+
+const Recording& recording() {
+  static const Recording recorded = [] {
+    CityParams params;
+    params.path_length_m = 100;
+    params.onboard.lidar.lidar_beams = 64;
+    params.onboard.lidar.lidar_azimuth_steps = 1100;
+    params.lidar_range_m = 100;
+    const Simulation town = simulate_city(params, 1);
+    const LidarLog& log = town.mission.robots.front().lidar;
+    Recording result;
+    for (std::size_t k = 0; k < kScans; ++k) {
+      result.stamps.push_back(log.stamps[k]);
+      result.scans.push_back(log.read(k));
+      result.points += static_cast<double>(result.scans.back().points.size()) / kScans;
+    }
+    return result;
+  }();
+  return recorded;
+}
+
+ScannerTraits traits_of(const Recording& recorded) {
+  LidarLog log{recorded.stamps, [&](std::size_t k) { return recorded.scans[k]; }};
+  return scanner_traits(log, {});
+}
+
+void odometry(benchmark::State& state) {
+  const Recording& recorded = recording();
+  set_thread_count(1);
+  const ScannerTraits traits = traits_of(recorded);
+  std::size_t registered = 0;
+  for (auto _ : state) {
+    ScanOdometer odometer(traits, {});
+    for (std::size_t k = 0; k < kScans; ++k)
+      if (odometer.add(recorded.stamps[k], recorded.scans[k]).outcome == ScanOutcome::kRegistered)
+        ++registered;
+  }
+  set_thread_count(0);
+  if (registered + static_cast<std::size_t>(state.iterations()) !=
+      kScans * static_cast<std::size_t>(state.iterations()))
+    state.SkipWithError("not every scan was registered");
+  state.counters["points"] = recorded.points;
+  state.counters["scans_per_s"] = benchmark::Counter(
+      static_cast<double>(kScans) * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+}
+
+ScanCloud cloud_of(const LidarScan& scan, const ScannerTraits& traits, const LidarParams& params) {
+  const auto points = usable_points(scan, SE3::Tangent::Zero(), params.points).points;
+  return scan_cloud(measure_surfels(thin_by_voxels(points, traits.spacing_m), traits.spacing_m, traits.kind,
+                                    params.surfel),
+                    traits.spacing_m, traits.kind, params.map);
+}
+
+void registration(benchmark::State& state) {
+  const Recording& recorded = recording();
+  set_thread_count(1);
+  const ScannerTraits traits = traits_of(recorded);
+  const LidarParams params;
+  PosePrior prior;
+  prior.pose = SE3({0.2, -0.2, 0.1}, Eigen::Quaterniond(Eigen::AngleAxisd(0.035, Eigen::Vector3d::UnitZ())));
+  prior.information.diagonal().setConstant(1e-3);
+  for (auto _ : state) {
+    LocalMap map(traits.spacing_m, params.map);
+    map.add(cloud_of(recorded.scans[0], traits, params), SE3(), 0);
+    const ScanCloud source = cloud_of(recorded.scans[1], traits, params);
+    benchmark::DoNotOptimize(register_near(map, source, prior, 0.5, traits.kind, params.registration));
+  }
+  set_thread_count(0);
+  state.counters["points"] = recorded.points;
+}
+
+BENCHMARK(odometry)->Unit(benchmark::kMillisecond);
+BENCHMARK(registration)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace radioslam
