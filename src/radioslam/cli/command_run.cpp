@@ -12,6 +12,7 @@
 #include "radioslam/cli/config.hpp"
 #include "radioslam/cli/judgement.hpp"
 #include "radioslam/cli/mission_input.hpp"
+#include "radioslam/cli/output_apart.hpp"
 #include "radioslam/cli/parameters.hpp"
 #include "radioslam/cli/progress_line.hpp"
 #include "radioslam/io/atomic_output.hpp"
@@ -69,6 +70,7 @@ RunOutput estimate(const MissionInput& input, const RunParams& params, bool no_p
 void run_mission(const RunArguments& options) {
   const auto settings = collect_settings(options.parameters.config_path, options.parameters.set);
   const auto params = with_settings(RunParams{}, settings);
+  refuse_replacing_inputs(options.output, {options.mission});
   OutputFolder output(options.output, kRunFolder);
   const MissionInput input = read_input(options.mission);
   const Truth& truth = input.truth;
