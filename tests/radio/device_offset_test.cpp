@@ -69,6 +69,25 @@ TEST(DeviceOffset, EveryPlaceIsAPairOnceHoweverTheRowsAreShared) {
   set_thread_count(0);
 }
 
+TEST(DeviceOffset, SaysWhatItIsOfEachRobot) {
+  using Status = DeviceOffsetStatus;
+  const auto statuses = [](const Fingerprints& heard, const DeviceOffsetParams& params = {}) {
+    std::vector<Status> all;
+    for (const auto& robot : estimate_device_offsets(heard, {}, params).robots) all.push_back(robot.status);
+    return all;
+  };
+  const auto here = clear_places(20, -50), louder = clear_places(20, -44);
+  const std::vector<Fingerprint> few(here.begin(), here.begin() + 3);
+  EXPECT_EQ(statuses({here, louder, few, {}}),
+            (std::vector{Status::kTakenOff, Status::kTakenOff, Status::kNotObserved, Status::kNotSought}));
+  EXPECT_EQ(statuses({here, here}), (std::vector{Status::kNotShown, Status::kNotShown}));
+  EXPECT_EQ(statuses({here, few}), (std::vector{Status::kNotObserved, Status::kNotObserved}));
+  EXPECT_EQ(statuses({here, {}}), (std::vector{Status::kNotSought, Status::kNotSought}));
+  DeviceOffsetParams off;
+  off.prior_sigma_db = 0;
+  EXPECT_EQ(statuses({here, louder}, off), (std::vector{Status::kNotSought, Status::kNotSought}));
+}
+
 TEST(DeviceOffset, OfAPhoneThatHearsWeakerIsFound) {
   CarparkParams params;
   params.phones.phones = 1;

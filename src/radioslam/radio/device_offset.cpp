@@ -262,11 +262,22 @@ Eigen::VectorXd sigmas_db(const ToldCombinations& told, const DeviceOffsetParams
   return (of_robot.array() + params.least_sigma_db * params.least_sigma_db).sqrt();
 }
 
+/// Before any pair: robots with fingerprints beside another one's wait to be observed.
+DeviceOffsets nothing_told(const std::vector<std::vector<Fingerprint>>& robots,
+                           const DeviceOffsetParams& params) {
+  DeviceOffsets result{std::vector<DeviceOffset>(robots.size(), {0, params.prior_sigma_db, 0}), false};
+  const auto heard = std::count_if(robots.begin(), robots.end(), [](const auto& of) { return !of.empty(); });
+  for (std::size_t r = 0; r < robots.size(); ++r)
+    if (params.prior_sigma_db > 0 && heard > 1 && !robots[r].empty())
+      result.robots[r].status = DeviceOffsetStatus::kNotObserved;
+  return result;
+}
+
 }  // namespace
 
 DeviceOffsets estimate_device_offsets(const std::vector<std::vector<Fingerprint>>& robots,
                                       const SimilarityParams& similarity, const DeviceOffsetParams& params) {
-  DeviceOffsets result{std::vector<DeviceOffset>(robots.size(), {0, params.prior_sigma_db, 0}), false};
+  DeviceOffsets result = nothing_told(robots, params);
   if (params.prior_sigma_db <= 0) return result;
   const std::vector<TellingPair> pairs = telling_pairs(robots, similarity, params);
   if (pairs.empty()) return result;
@@ -281,6 +292,7 @@ DeviceOffsets estimate_device_offsets(const std::vector<std::vector<Fingerprint>
   for (std::size_t r = 0; r < robots.size(); ++r) {
     DeviceOffset& robot = result.robots[r];
     if (robot.pairs == 0) continue;
+    robot.status = result.shown ? DeviceOffsetStatus::kTakenOff : DeviceOffsetStatus::kNotShown;
     if (result.shown) robot.offset_db = solution.offsets_db[static_cast<Eigen::Index>(r)];
     robot.sigma_db = sigma_db[static_cast<Eigen::Index>(r)];
   }
