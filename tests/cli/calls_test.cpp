@@ -75,6 +75,39 @@ TEST(Calls, MissingAndSurplusArgumentsAreRefused) {
   expect_refused({"similarity", "a.csv", "-o", "pairs.csv"}, "--measure is required");
 }
 
+/// Writes `file`, calls, and expects a refusal that leaves the file as it was.
+void expect_kept(const std::string& file, const std::string& content,
+                 const std::vector<std::string>& arguments) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories((folder.path() / file).parent_path());
+  write_file(folder.path() / file, content);
+  const auto outcome = run(arguments, folder.path());
+  EXPECT_EQ(outcome.status, 2) << file;
+  EXPECT_NE(outcome.err.find("would be replaced"), std::string::npos) << outcome.err;
+  EXPECT_EQ(read_file(folder.path() / file), content);
+}
+
+TEST(Calls, NothingReplacesWhatItReads) {
+  const std::string scans = "t_s,bssid,frequency_mhz,rssi_dbm\n0,ap1,2412,-50\n1,ap1,2412,-51\n";
+  const std::string list = "BSS 02:00:00:00:01:00(on wlan0)\n\tfreq: 2412\n\tsignal: -53.00 dBm\n";
+  expect_kept("x.csv", scans, {"similarity", "x.csv", "--measure", "cosine", "-o", "x.csv"});
+  expect_kept("x.csv", scans, {"similarity", "z.csv", "x.csv", "--measure", "cosine", "-o", "a/../x.csv"});
+  expect_kept("g.g2o", kTriangle, {"optimize", "g.g2o", "-o", "./g.g2o"});
+  expect_kept("p.tum", "0 0 0 0 0 0 0 1\n", {"aoa", "c.dat", "--trajectory", "p.tum", "-o", "p.tum"});
+  expect_kept("out/d.csv", "id_i,id_j,distance_m\n", {"anchors", "out/d.csv", "-o", "out"});
+  expect_kept("log.csv", list, {"import", "iw", "log.csv", "-o", "log.csv"});
+  expect_kept("logs/log.csv", list, {"import", "iw", "logs", "-o", "logs/log.csv"});
+  expect_kept("log.csv", list, {"import", "iw-ftm", "log.csv", "--robot", "a", "-o", "log.csv"});
+  expect_kept("out/g.g2o", kTriangle, {"run", "out/g.g2o", "-o", "out"});
+}
+
+TEST(Calls, WhatIsBesideAnInputIsWritten) {
+  const TemporaryFolder folder;
+  write_file(folder.path() / "g.g2o", kTriangle);
+  EXPECT_EQ(run({"optimize", "g.g2o", "-o", "g.g2o.optimum"}, folder.path()).status, 0);
+  EXPECT_EQ(run({"run", "g.g2o", "-o", "g"}, folder.path()).status, 0);
+}
+
 TEST(Calls, ValuesOutOfRangeAreRefused) {
   expect_refused({"run", "m", "-o", "out", "--set", "keyframe.distance_m=0"}, "0.01 to 1000 m");
   expect_refused({"run", "m", "-o", "out", "--threads", "0"}, "--threads");

@@ -48,6 +48,15 @@ class Evaluate : public testing::Test {
   Outcome ran_;
 };
 
+TEST_F(Evaluate, RunsErrorSaysWhatItIsNotOver) {
+  EXPECT_NE(ran().out.find(" m rmse over 66.6 % of the true poses\n"), std::string::npos) << ran().out;
+  write_file(folder() / "m/mission.yaml",
+             "format: radioslam-mission/1\nrobots:\n  a: {initial_pose: [0, 0, 0, 0]}\n"
+             "  b: {initial_pose: [0, 5, 0, 0]}\n  c: {initial_pose: [0, 9, 0, 0]}\n");
+  const auto whole = run({"run", "m", "-o", "out"}, folder());
+  EXPECT_NE(whole.out.find(" m rmse\n"), std::string::npos) << whole.out;
+}
+
 TEST_F(Evaluate, NamesRobotsThatCouldNotBePlaced) {
   EXPECT_NE(ran().out.find("note: robot c is not placed"), std::string::npos) << ran().out;
   EXPECT_EQ(ran().out.find("robot b is not placed"), std::string::npos) << ran().out;

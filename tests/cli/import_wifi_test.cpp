@@ -1,6 +1,8 @@
 // What WiFi tools heard, into a robot's wifi.csv.
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 #include "cli/process.hpp"
 
 namespace radioslam::cli {
@@ -86,6 +88,58 @@ TEST_F(ImportWifi, TakesAFolderOfScansTimedByTheirNames) {
             std::string::npos);
   expect_refused({"iw", "scan.txt", "scans", "-o", "out.csv"}, "scan.txt: has no time");
   EXPECT_EQ(import({"iw", "scan.txt", "scans", "--file-times", "-o", "out.csv"}).status, 0);
+}
+
+/// Two lists of one log, half a second and more after the machine started at 100 s.
+std::string boot_scan(const std::string& address, double heard_s, int age_ms) {
+  return "BSS " + address + "(on wlan0)\n\tlast seen: " + std::to_string(heard_s) +
+         "s [boottime]\n\tfreq: 2412\n\tsignal: -50.00 dBm\n\tlast seen: " + std::to_string(age_ms) +
+         " ms ago\n";
+}
+const std::string kBootScans = boot_scan("02:00:00:00:01:00", 100.5, 10) +
+                               boot_scan("02:00:00:00:02:00", 98.51, 2000) +
+                               boot_scan("02:00:00:00:01:00", 104.0, 510);
+
+TEST_F(ImportWifi, ATimeThatIsToldGoesBeforeTheMachinesOwn) {
+  write_file(folder.path() / "f.txt", kBootScans);
+  write_file(folder.path() / "scan-1574407123.txt", kBootScans);
+  const std::string told =
+      "t_s,bssid,frequency_mhz,rssi_dbm\n1574407123,02:00:00:00:01:00,2412,-50\n1574407123,02:00:00:00:02:00,"
+      "2412,-50\n1574407127,02:00:00:00:01:00,2412,-50\n";
+  for (const auto& arguments : {std::vector<std::string>{"iw", "f.txt", "--time", "1574407123"},
+                                std::vector<std::string>{"iw", "scan-1574407123.txt"}}) {
+    auto call = arguments;
+    call.insert(call.end(), {"-o", "wifi.csv"});
+    const Outcome outcome = import(call);
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(read_file(folder.path() / "wifi.csv"), told);
+    EXPECT_EQ(outcome.out, "wifi.csv: 3 rows, 2 scans, 2 radios\n");
+  }
+}
+
+TEST_F(ImportWifi, AFilesTimeIsThatOfItsLastScan) {
+  write_file(folder.path() / "f.txt", kBootScans);
+  using Clock = std::filesystem::file_time_type::clock;
+  const auto written = std::chrono::sys_seconds(std::chrono::seconds(1'574'407'127));
+  std::filesystem::last_write_time(folder.path() / "f.txt", Clock::from_sys(written));
+  ASSERT_EQ(import({"iw", "f.txt", "--file-times", "-o", "wifi.csv"}).status, 0);
+  const std::string table = read_file(folder.path() / "wifi.csv");
+  EXPECT_NE(table.find("\n1574407123,02:00:00:00:02:00,"), std::string::npos) << table;
+  EXPECT_NE(table.find("\n1574407127,02:00:00:00:01:00,"), std::string::npos) << table;
+}
+
+TEST_F(ImportWifi, TheMachinesOwnTimeIsNotedAndStandsAlone) {
+  write_file(folder.path() / "f.txt", kBootScans);
+  write_file(folder.path() / "scan-1574407123.txt", kBootScans);
+  write_file(folder.path() / "lines.txt", "1574407123\n" + kScan);
+  const Outcome outcome = import({"iw", "f.txt", "-o", "wifi.csv"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("note: f.txt: its times are seconds since the machine started"),
+            std::string::npos)
+      << outcome.out;
+  EXPECT_NE(read_file(folder.path() / "wifi.csv").find("\n100.51,02:00:00:00:01:00,"), std::string::npos);
+  expect_refused({"iw", "f.txt", "scan-1574407123.txt", "-o", "out.csv"}, "f.txt: has only times since");
+  expect_refused({"iw", "lines.txt", "f.txt", "-o", "out.csv"}, "f.txt: has only times since");
 }
 
 TEST_F(ImportWifi, ReadsTheOtherTools) {

@@ -13,10 +13,11 @@ constexpr double kHalfWindow_m = 14;
 constexpr double kQuarter = 1.5707963267948966;
 
 /// Both robots' whole ways against each other, around their middles.
-SequenceFit match_ways(const std::vector<SE2>& a, const std::vector<SE2>& b) {
+SequenceFit match_ways(const std::vector<SE2>& a, const std::vector<SE2>& b,
+                       const SequenceMatchParams& params = {}) {
   const auto radio = lawful_radio({a, b});
   return match_windows(radio, window_around(radio, a.size() / 2, kHalfWindow_m),
-                       window_around(radio, a.size() + b.size() / 2, kHalfWindow_m), {});
+                       window_around(radio, a.size() + b.size() / 2, kHalfWindow_m), params);
 }
 
 SE2 middle_to_middle(const std::vector<SE2>& a, const std::vector<SE2>& b) {
@@ -53,6 +54,25 @@ TEST(SequenceMatch, ACrossingIsNone) {
 TEST(SequenceMatch, AParallelWayMayBeOnEitherSide) {
   const auto a = bent_way(0, 0, 0, kWay, 0.02), b = bent_way(0, 2.5, 0, kWay, 0.02);
   EXPECT_EQ(match_ways(a, b).verdict, SequenceVerdict::kAmbiguous);
+}
+
+TEST(SequenceMatch, ARivalsCostCountsAsMuchAsItIsIndependent) {
+  SequenceMatchParams all, fifth;
+  all.independent_share = 1;
+  fifth.independent_share = 0.2;
+  std::size_t open_by_share = 0;
+  for (double bend = 0.02; bend < 0.6; bend += 0.02) {
+    const auto a = bent_way(0, 0, 0, kWay, bend), b = bent_way(0, 2.5, 0, kWay, bend);
+    const auto by_all = match_ways(a, b, all).verdict, by_fifth = match_ways(a, b, fifth).verdict;
+    SequenceMatchParams scaled = all;
+    scaled.least_rival_margin = all.least_rival_margin / fifth.independent_share;
+    EXPECT_EQ(by_fifth, match_ways(a, b, scaled).verdict) << bend;
+    if (by_all == SequenceVerdict::kAmbiguous) {
+      EXPECT_EQ(by_fifth, SequenceVerdict::kAmbiguous) << bend << ": less evidence";
+    }
+    if (by_all == SequenceVerdict::kAccepted && by_fifth == SequenceVerdict::kAmbiguous) ++open_by_share;
+  }
+  EXPECT_GT(open_by_share, 0U);
 }
 
 TEST(SequenceMatch, TwoPlacesAreTooFew) {

@@ -26,6 +26,18 @@ TEST(PrintedTime, OtherLinesAreNone) {
     EXPECT_FALSE(parse_time_line(line)) << line;
 }
 
+TEST(PrintedTime, ClocksShowNoOthers) {
+  for (const char* line : {"2024-01-01T24:00:00Z", "2024-01-01T45:00:00Z", "2024-01-01T10:60:00Z",
+                           "2024-01-01T10:00:61Z", "2024-01-01T10:00:00+99:99", "2024-01-01T10:00:00-15:00",
+                           "2024-01-01T10:00:00+14:01", "2024-01-01T10:00:00+01:60"})
+    EXPECT_FALSE(parse_time_line(line)) << line;
+  EXPECT_FALSE(parse_calendar_time("2024-01-01 45:60:60"));
+  // A leap second is the next minute's first; the date line's other side is 14 hours off.
+  EXPECT_EQ(parse_time_line("2019-11-22T07:17:60Z")->ns, kNovember_ns - 43'000'000'000);
+  EXPECT_EQ(parse_time_line("2019-11-22T21:18:43+14:00")->ns, kNovember_ns);
+  EXPECT_TRUE(parse_calendar_time("2024-01-01 23:59:60"));
+}
+
 TEST(PrintedTime, ReadsLocalClocksAsGreenwich) {
   EXPECT_EQ(parse_calendar_time("2019-11-22 07:18:43")->ns, kNovember_ns);
   EXPECT_FALSE(parse_calendar_time("2019-11-22 07:18:43 "));

@@ -155,6 +155,22 @@ TEST(SummaryJson, HasTheKeysOfTheFormat) {
   EXPECT_FALSE(summary_json(example()).contains("metrics"));
 }
 
+TEST(SummaryJson, SaysWhatBecameOfADevicesOffset) {
+  RunResult result = example();
+  const auto offset = [&](RssiOffset of) {
+    result.robots.front().rssi_offset = of;
+    return summary_json(result)["robots"][result.robots.front().id];
+  };
+  EXPECT_FALSE(offset(RssiOffset::kNotSought).contains("rssi_offset"));
+  EXPECT_EQ(offset(RssiOffset::kNotObserved)["rssi_offset"], "not observed");
+  EXPECT_FALSE(offset(RssiOffset::kNotObserved).contains("rssi_offset_db"));
+  EXPECT_EQ(offset(RssiOffset::kNotShown)["rssi_offset"], "not shown");
+  result.robots.front().rssi_offset_db = 2.5;
+  result.robots.front().sigma_rssi_offset_db = 0.5;
+  EXPECT_EQ(offset(RssiOffset::kTakenOff)["rssi_offset"], "taken off");
+  EXPECT_EQ(offset(RssiOffset::kTakenOff)["rssi_offset_db"], 2.5);
+}
+
 TEST(MetricsJson, HasTheKeysOfTheFormatAndNullForWhatWasNotMeasured) {
   TeamMetrics metrics;
   metrics.ate = ErrorStatistics{1, 2, 3, 4, 5};

@@ -80,6 +80,15 @@ TEST(WifiCapture, CountsWhatItLeavesOut) {
                                                 {"frames have no level and are left out", 1}}));
 }
 
+TEST(WifiCapture, SecondsThatAreNoneAreNoTimeBefore1970) {
+  const std::string packet = radiotap(2412, -50) + beacon_bytes(1);
+  const WifiLog log = read(kMicroseconds.header() + heard() + kMicroseconds.packet(0xffffffff, 0, packet) +
+                           kMicroseconds.packet(0, 0, packet));
+  EXPECT_EQ(row_texts(log), (Rows{kHeard[0], kHeard[1], "0,02:00:00:00:00:01,2412,-50"}));
+  EXPECT_EQ(log.counts,
+            (std::map<std::string, std::size_t>{{"packets have an implausible time and are left out", 1}}));
+}
+
 TEST(WifiCapture, EveryFrameOfWhoNamesItself) {
   WifiCaptureParams params;
   params.every_frame = true;

@@ -1,6 +1,7 @@
 #include "radioslam/pipeline/access_point_stage.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -96,6 +97,43 @@ TEST(AccessPointStage, ARobotInAFrameOfItsOwnTakesNoPart) {
     return sum;
   };
   EXPECT_LT(readings(alone), readings(both));
+}
+
+/// The most memory that this process has held so far.
+double peak_mib() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+TEST(AccessPointStage, OnesHeardOnceCostNoMemoryPerPlace) {
+  // A place for each of their silences would be 16 bytes x 60,000 x 600: 550 MiB.
+  constexpr std::size_t kFingerprints = 600, kNewOnes = 100;
+  Mission mission;
+  mission.robots.resize(1);
+  RunResult result;
+  result.components.push_back({});
+  result.components.front().robots.push_back("");
+  RadioMeasurements radio{{{}}, {}, {}, {}, DistanceModel({}, {}), {}};
+  std::vector<StampedPose<SE3>> way;
+  for (std::size_t k = 0; k < kFingerprints; ++k) {
+    Fingerprint fingerprint{Stamp::from_seconds(static_cast<double>(k)), 1, {}};
+    for (std::size_t a = 0; a < kNewOnes; ++a) {
+      fingerprint.entries.push_back({AccessPointIndex(mission.access_points.size()), -70, 1});
+      mission.access_points.push_back(std::to_string(mission.access_points.size()));
+    }
+    way.push_back({fingerprint.stamp, lift(SE2({static_cast<double>(k), 0}, 0))});
+    radio.robots.front().push_back({std::move(fingerprint), way.back().pose, static_cast<double>(k)});
+    radio.nodes.push_back({RobotIndex(std::size_t{0}), k});
+  }
+  radio.near_similarity.assign(kFingerprints, std::vector<float>(kFingerprints, 0));
+  result.robots.resize(1);
+  result.robots.front().estimate = Trajectory<SE3>(std::move(way));
+  const double before_mib = peak_mib();
+  add_access_points(result, mission, radio, {});
+  EXPECT_LT(peak_mib() - before_mib, 150);
+  EXPECT_TRUE(result.access_points.empty());
+  EXPECT_FALSE(result.signals.empty());
 }
 
 TEST(AccessPointStage, IsTheSameForAnyNumberOfThreads) {

@@ -81,5 +81,25 @@ TEST(SequenceStage, SwitchedOffThereAreNone) {
   EXPECT_TRUE(sequences_of(run_pipeline(mission, params).result).empty());
 }
 
+TEST(SequenceStage, SaysThatItSeeksNoneInSpace) {
+  CarparkParams params = short_drives();
+  params.drive.path_length_m = 30;
+  Mission mission = simulate_carpark(params, 11).mission;
+  const auto says_so = [&](const RunParams& of) {
+    const auto notes = run_pipeline(mission, of, {}, {}).result.notes;
+    return std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+      return note.find("sequence closures are poses in the plane") != std::string::npos;
+    });
+  };
+  RunParams off;
+  off.sequence.enabled = false;
+  EXPECT_FALSE(says_so({}));
+  mission.dimension = 3;
+  EXPECT_TRUE(says_so({}));
+  EXPECT_FALSE(says_so(off));
+  for (Robot& robot : mission.robots) robot.wifi.clear();
+  EXPECT_FALSE(says_so({}));
+}
+
 }  // namespace
 }  // namespace radioslam

@@ -38,6 +38,56 @@ TEST(DeviceOffset, IsZeroForPhonesOfOneMake) {
   }
 }
 
+/// Places nobody confuses, eight access points in each.
+std::vector<Fingerprint> clear_places(std::size_t places, float rss_dbm) {
+  std::vector<Fingerprint> heard;
+  for (std::size_t place = 0; place < places; ++place) {
+    Fingerprint fingerprint{Stamp::from_seconds(static_cast<double>(place)), 1, {}};
+    for (std::size_t k = 0; k < 8; ++k)
+      fingerprint.entries.push_back(
+          {AccessPointIndex(8 * place + k), rss_dbm - 3 * static_cast<float>(k), 1});
+    heard.push_back(std::move(fingerprint));
+  }
+  return heard;
+}
+
+TEST(DeviceOffset, EveryPlaceIsAPairOnceHoweverTheRowsAreShared) {
+  // Each of 40 places was visited twice by either robot, the second time many rows later.
+  constexpr std::size_t kPlaces = 40;
+  Fingerprints heard{clear_places(kPlaces, -50), clear_places(kPlaces, -58)};
+  for (auto& robot : heard) {
+    const auto again = robot;
+    robot.insert(robot.end(), again.begin(), again.end());
+  }
+  for (const std::size_t threads : {1U, 3U}) {
+    set_thread_count(threads);
+    const auto offsets = estimated(heard);
+    EXPECT_EQ(offsets.robots[0].pairs, kPlaces);
+    EXPECT_EQ(offsets.robots[1].pairs, kPlaces);
+    EXPECT_NEAR(offsets.robots[0].offset_db - offsets.robots[1].offset_db, 8, 0.05);
+  }
+  set_thread_count(0);
+}
+
+TEST(DeviceOffset, SaysWhatItIsOfEachRobot) {
+  using Status = DeviceOffsetStatus;
+  const auto statuses = [](const Fingerprints& heard, const DeviceOffsetParams& params = {}) {
+    std::vector<Status> all;
+    for (const auto& robot : estimate_device_offsets(heard, {}, params).robots) all.push_back(robot.status);
+    return all;
+  };
+  const auto here = clear_places(20, -50), louder = clear_places(20, -44);
+  const std::vector<Fingerprint> few(here.begin(), here.begin() + 3);
+  EXPECT_EQ(statuses({here, louder, few, {}}),
+            (std::vector{Status::kTakenOff, Status::kTakenOff, Status::kNotObserved, Status::kNotSought}));
+  EXPECT_EQ(statuses({here, here}), (std::vector{Status::kNotShown, Status::kNotShown}));
+  EXPECT_EQ(statuses({here, few}), (std::vector{Status::kNotObserved, Status::kNotObserved}));
+  EXPECT_EQ(statuses({here, {}}), (std::vector{Status::kNotSought, Status::kNotSought}));
+  DeviceOffsetParams off;
+  off.prior_sigma_db = 0;
+  EXPECT_EQ(statuses({here, louder}, off), (std::vector{Status::kNotSought, Status::kNotSought}));
+}
+
 TEST(DeviceOffset, OfAPhoneThatHearsWeakerIsFound) {
   CarparkParams params;
   params.phones.phones = 1;

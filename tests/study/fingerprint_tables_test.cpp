@@ -39,6 +39,16 @@ TEST(FingerprintTables, PairsBetweenRobotsTakeTheErrorDown) {
   EXPECT_LT(*team, 0.6 * *reckoned);
 }
 
+TEST(FingerprintTables, TakeDevicesAsTheyAre) {
+  auto [mission, truth] = simulate_carpark(short_drives(), 3);
+  const auto alone = published_algorithm_ate_m(mission, truth, {kGaussian, 10, 0});
+  for (WifiScan& scan : mission.robots[1].wifi)
+    for (WifiReading& reading : scan.readings) reading.rssi_dbm -= 25;
+  const auto team = published_algorithm_ate_m(mission, truth, {kGaussian, 10, 10});
+  ASSERT_TRUE(team && alone);
+  EXPECT_NEAR(*team, *alone, 0.05 * *alone) << "the Gaussian measure finds nothing alike 25 dB apart";
+}
+
 TEST(FingerprintTables, MeansLeaveOutWhatIsMissing) {
   EXPECT_EQ(mean_of({1.0, std::nullopt, 4.0}), 2.5);
   EXPECT_EQ(mean_of({std::nullopt}), std::nullopt);

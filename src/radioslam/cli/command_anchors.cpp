@@ -13,6 +13,7 @@
 #include "radioslam/cli/command_options.hpp"
 #include "radioslam/cli/commands.hpp"
 #include "radioslam/cli/config.hpp"
+#include "radioslam/cli/output_apart.hpp"
 #include "radioslam/cli/parameters.hpp"
 #include "radioslam/cli/suggestion.hpp"
 #include "radioslam/io/anchor_tables.hpp"
@@ -183,6 +184,7 @@ void refuse_unplaced(const AnchorsOptions& options, const std::vector<LocatedRob
 void place_anchors(const AnchorsOptions& options) {
   const auto settings = collect_settings(options.parameters.config_path, options.parameters.set);
   const auto params = with_settings(AnchorsParams{}, settings);
+  refuse_replacing_inputs(options.output, {options.distances, options.ranges});
   OutputFolder output(options.output, kRunFolder);
   const DistanceTable table = read_distances(read_text(options.distances), params.distance_sigma_m);
   const AnchorLayout layout = layout_of(table, options, params);

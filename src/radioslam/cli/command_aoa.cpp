@@ -16,6 +16,7 @@
 #include "radioslam/cli/command_options.hpp"
 #include "radioslam/cli/commands.hpp"
 #include "radioslam/cli/config.hpp"
+#include "radioslam/cli/output_apart.hpp"
 #include "radioslam/cli/parameters.hpp"
 #include "radioslam/io/atomic_output.hpp"
 #include "radioslam/io/csi_capture.hpp"
@@ -301,6 +302,7 @@ std::pair<Stamp, Stamp> chosen_times(const AoaOptions& options, const ChannelTra
 }
 
 void measure(const AoaOptions& options) {
+  refuse_replacing_inputs(options.output, {options.capture, options.reverse, options.trajectory});
   const auto params = with_settings(ArrivalParams{},
                                     collect_settings(options.parameters.config_path, options.parameters.set));
   const auto trajectory = read_tum(read_text(options.trajectory));

@@ -11,6 +11,7 @@
 #include "radioslam/cli/import_lidar.hpp"
 #include "radioslam/cli/import_options.hpp"
 #include "radioslam/cli/import_wifi.hpp"
+#include "radioslam/cli/output_apart.hpp"
 #include "radioslam/cli/suggestion.hpp"
 #include "radioslam/io/atomic_output.hpp"
 #include "radioslam/io/indoor_location.hpp"
@@ -26,6 +27,7 @@ namespace {
 
 void import_walks(const ImportOptions& options) {
   const auto params = params_of<DeadReckoningParams>(options);
+  refuse_replacing_inputs(options.output, options.sources);
   OutputFolder output(options.output, kMissionFolder);
   const ImportedMission imported = import_indoor_location(only_source(options), params);
   write_mission(output.path(), imported.mission, imported.truth);
@@ -49,12 +51,14 @@ void write_study(const ImportOptions& options, OutputFolder& output, const Impor
 }
 
 void import_wifine_walks(const ImportOptions& options) {
+  refuse_replacing_inputs(options.output, options.sources);
   OutputFolder output(options.output, kMissionFolder);
   write_study(options, output, import_wifine(only_source(options)));
 }
 
 void import_rtt_walk(const ImportOptions& options) {
   const auto params = params_of<WifiRttParams>(options);
+  refuse_replacing_inputs(options.output, options.sources);
   OutputFolder output(options.output, kMissionFolder);
   write_study(options, output, import_wifi_rtt(only_source(options), params));
 }
@@ -102,6 +106,7 @@ void import_ranges(const ImportOptions& options) {
   const auto params = params_of<IwFtmParams>(options);
   if (options.robot.empty()) throw InputError("import iw-ftm", 0, "--robot says whose ranges they are");
   check_import_id("--robot " + options.robot, options.robot);
+  refuse_replacing_inputs(options.output, options.sources);
   OutputFile output(options.output);
   const IwFtmLog log = read_iw_ftm(read_text(only_source(options)), params);
   const Mission mission = mission_of(log, options);

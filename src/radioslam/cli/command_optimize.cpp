@@ -11,6 +11,7 @@
 #include "radioslam/cli/command_options.hpp"
 #include "radioslam/cli/commands.hpp"
 #include "radioslam/cli/config.hpp"
+#include "radioslam/cli/output_apart.hpp"
 #include "radioslam/cli/parameters.hpp"
 #include "radioslam/cli/progress_line.hpp"
 #include "radioslam/graph/initial_values.hpp"
@@ -140,6 +141,7 @@ void optimize_file(const OptimizeOptions& options) {
   const auto settings = collect_settings(options.parameters.config_path, options.parameters.set);
   const auto params = with_settings(OptimizerParams{}, settings);
   Stopwatch stopwatch;
+  refuse_replacing_inputs(options.output, {options.input});
   OutputFile output(options.output);
   auto graph = read_g2o(read_text(options.input),
                         options.repair_information ? RepairInformation::kYes : RepairInformation::kNo);

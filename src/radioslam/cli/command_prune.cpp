@@ -9,6 +9,7 @@
 #include "radioslam/cli/commands.hpp"
 #include "radioslam/cli/config.hpp"
 #include "radioslam/cli/mission_input.hpp"
+#include "radioslam/cli/output_apart.hpp"
 #include "radioslam/cli/parameters.hpp"
 #include "radioslam/cli/progress_line.hpp"
 #include "radioslam/io/atomic_output.hpp"
@@ -51,6 +52,7 @@ void prune(const PruneOptions& options) {
   const auto settings = collect_settings(options.parameters.config_path, options.parameters.set);
   auto params = with_settings(RunParams{}, settings);
   if (!options.mode.empty()) params.overlap.mode = options.mode;
+  refuse_replacing_inputs(options.output, {options.mission});
   OutputFolder output(options.output, kRunFolder);
   const RunOutput run = search(options, params);
   write_run(output.path(), run.result, {});

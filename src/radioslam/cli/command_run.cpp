@@ -1,9 +1,12 @@
 // radioslam run: a mission becomes the trajectories of its robots in one frame.
 #include <chrono>
+#include <cmath>
 #include <filesystem>
+#include <iomanip>
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <variant>
 
@@ -12,6 +15,7 @@
 #include "radioslam/cli/config.hpp"
 #include "radioslam/cli/judgement.hpp"
 #include "radioslam/cli/mission_input.hpp"
+#include "radioslam/cli/output_apart.hpp"
 #include "radioslam/cli/parameters.hpp"
 #include "radioslam/cli/progress_line.hpp"
 #include "radioslam/io/atomic_output.hpp"
@@ -47,13 +51,25 @@ RunDocuments documents_of(const RunOutput& run, const Truth& truth,
   return documents;
 }
 
+/// ", position error 2.1 m rmse", and over how much of the truth where that is not all.
+std::string error_text(const TeamMetrics& metrics) {
+  if (!metrics.ate) return {};
+  std::ostringstream text;
+  text << ", position error " << metrics.ate->rmse_m << " m rmse";
+  // Rounded down: what is not all never reads 100 %.
+  if (metrics.coverage < 1)
+    text << std::fixed << std::setprecision(1) << " over " << std::floor(1000 * metrics.coverage) / 10
+         << " % of the true poses";
+  return text.str();
+}
+
 void print_text(const RunResult& result, const std::optional<TeamMetrics>& metrics,
                 const std::string& output) {
   for (const auto& note : result.notes) std::cout << "note: " << note << '\n';
   std::cout << output << ": " << result.robots.size() << " robots, " << result.closures.size()
             << " closures, " << result.components.size()
             << (result.components.size() == 1 ? " frame" : " separate frames");
-  if (metrics && metrics->ate) std::cout << ", position error " << metrics->ate->rmse_m << " m rmse";
+  if (metrics) std::cout << error_text(*metrics);
   std::cout << '\n';
 }
 
@@ -69,6 +85,7 @@ RunOutput estimate(const MissionInput& input, const RunParams& params, bool no_p
 void run_mission(const RunArguments& options) {
   const auto settings = collect_settings(options.parameters.config_path, options.parameters.set);
   const auto params = with_settings(RunParams{}, settings);
+  refuse_replacing_inputs(options.output, {options.mission});
   OutputFolder output(options.output, kRunFolder);
   const MissionInput input = read_input(options.mission);
   const Truth& truth = input.truth;

@@ -8,6 +8,7 @@
 #include "radioslam/cli/command_options.hpp"
 #include "radioslam/cli/commands.hpp"
 #include "radioslam/cli/config.hpp"
+#include "radioslam/cli/output_apart.hpp"
 #include "radioslam/cli/pair_table.hpp"
 #include "radioslam/cli/parameters.hpp"
 #include "radioslam/cli/progress_line.hpp"
@@ -56,6 +57,7 @@ void write_similarity(const SimilarityOptions& options) {
   const auto measure = measure_named(options.measure);
   const auto settings = collect_settings(options.parameters.config_path, options.parameters.set);
   const auto params = with_settings(SimilarityCommandParams{}, settings);
+  refuse_replacing_inputs(options.output, options.inputs);
   OutputFile output(options.output);
   const auto fingerprints = read_fingerprints(options.inputs, params.radio.fingerprint);
   const auto &first = fingerprints.front(), &second = fingerprints.back();

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <set>
 
+#include "radioslam/cli/output_apart.hpp"
 #include "radioslam/io/atomic_output.hpp"
 #include "radioslam/io/carmen.hpp"
 #include "radioslam/io/kitti_sequence.hpp"
@@ -43,11 +44,18 @@ std::string name_of(const std::string& source) {
   return fs::is_directory(path) ? name : name.substr(0, name.find('.', 1));
 }
 
+/// The folder of a call's mission, which holds nothing that the call reads.
+const std::string& folder_apart(const ImportOptions& options) {
+  refuse_replacing_inputs(options.output, options.sources);
+  refuse_replacing_inputs(options.output, options.poses);
+  return options.output;
+}
+
 /// The mission that sources become, robot by robot, and its folder.
 class TeamOutput {
  public:
   explicit TeamOutput(const ImportOptions& options)
-      : options_(options), folder_(options.output, kMissionFolder) {
+      : options_(options), folder_(folder_apart(options), kMissionFolder) {
     team_.mission.dimension = 2;
     team_.mission.name = name_of(options.sources.size() == 1 ? options.sources.front() : options.output);
   }

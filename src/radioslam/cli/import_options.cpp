@@ -53,11 +53,13 @@ void add_wifi_options(CLI::App& command, ImportOptions& options) {
                       "iw-ftm: call this radio so, an anchor or another robot; its BSSID by default");
   command.add_option("--fields", options.fields, "nmcli: what its -f was told")->type_name("NAME,...");
   command
-      .add_option("--time", options.time,
-                  "iw, iwlist, nmcli: when the one scan of a file without times was made; 0 by default")
+      .add_option(
+          "--time", options.time,
+          "iw, iwlist, nmcli: when the (first) scan of a file without times was made; else its name tells, "
+          "else iw's seconds since the machine started, else it is 0")
       ->type_name("SECONDS");
   command.add_flag("--file-times", options.file_times,
-                   "iw, iwlist, nmcli: files without times were made when they were last written");
+                   "iw, iwlist, nmcli: files without times were last written at their last scan");
 }
 
 void add_lidar_options(CLI::App& command, ImportOptions& options) {

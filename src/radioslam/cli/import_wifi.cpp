@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <set>
 
+#include "radioslam/cli/output_apart.hpp"
 #include "radioslam/cli/wifi_target.hpp"
 #include "radioslam/io/airodump_csv.hpp"
 #include "radioslam/io/iw_scan.hpp"
@@ -74,21 +76,25 @@ void write_wifi(const ImportOptions& options, WifiTarget& target, std::vector<Wi
   std::cout << options.output << ": " << summary_of(log, target) << '\n';
 }
 
-WifiTarget target_of(const ImportOptions& options) {
-  return {options.output, options.robot, options.sources.front()};
+/// Refuses one that would replace a file that is read.
+std::unique_ptr<WifiTarget> target_of(const ImportOptions& options, const std::vector<fs::path>& files) {
+  auto target = std::make_unique<WifiTarget>(options.output, options.robot, options.sources.front());
+  refuse_replacing_inputs(target->replaced(), {files.begin(), files.end()});
+  return target;
 }
 
 /// The time of what a file lists without one; nothing where nothing tells it.
-std::optional<Stamp> time_of_file(const ImportOptions& options, const fs::path& file, std::size_t files) {
+std::optional<ToldTime> time_of_file(const ImportOptions& options, const fs::path& file, std::size_t files) {
   if (!options.time.empty()) {
     const auto time = parse_time_line(options.time);
     if (!time)
       throw InputError("--time " + options.time, 0, "seconds are expected, or ISO 8601 with its zone");
     if (files > 1) throw InputError("--time " + options.time, 0, "is for one file, of one scan");
-    return time;
+    return ToldTime{*time};
   }
-  if (options.file_times) return time_of_last_write(file);
-  return time_in_name(file.stem().string());
+  if (options.file_times) return ToldTime{time_of_last_write(file), ToldTime::Of::kLast};
+  const auto time = time_in_name(file.stem().string());
+  return time ? std::optional(ToldTime{*time}) : std::nullopt;
 }
 
 PrintedLog read_list(const ImportOptions& options, const Text& text) {
@@ -112,33 +118,46 @@ PrintedLog read_list_file(const ImportOptions& options, const fs::path& file, st
   return log;
 }
 
+/// Seconds since a machine started beside those of another clock are a recording that nobody made.
+void refuse_two_clocks(const std::vector<fs::path>& files, const std::vector<PrintedLog>& logs) {
+  std::optional<std::size_t> told, boot;
+  for (std::size_t k = 0; k < logs.size(); ++k)
+    if (const auto clock = clock_of(logs[k])) (clock == PrintedClock::kBoot ? boot : told) = k;
+  if (told && boot)
+    throw InputError(files[*boot].string(), 0,
+                     "has only times since the machine started, " + files[*told].string() +
+                         " has others; a line with the time before each scan, a name with it or "
+                         "--file-times tells them of all");
+}
+
 }  // namespace
 
 void import_printed_scans(const ImportOptions& options) {
   const auto params = params_of<PrintedScanParams>(options);
-  WifiTarget target = target_of(options);
   const auto files = files_of(options, {});
+  const auto target = target_of(options, files);
   std::vector<PrintedLog> logs;
   for (const fs::path& file : files) logs.push_back(read_list_file(options, file, files.size()));
-  write_wifi(options, target, {rows_of_scans(std::move(logs), params)});
+  refuse_two_clocks(files, logs);
+  write_wifi(options, *target, {rows_of_scans(std::move(logs), params)});
 }
 
 void import_airodump(const ImportOptions& options) {
   const auto params = params_of<AirodumpParams>(options);
-  WifiTarget target = target_of(options);
+  const auto target = target_of(options, {options.sources.begin(), options.sources.end()});
   std::vector<WifiLog> logs;
   for (const std::string& source : options.sources)
     logs.push_back(read_airodump(read_printed_text(source), params));
-  write_wifi(options, target, std::move(logs));
+  write_wifi(options, *target, std::move(logs));
 }
 
 void import_wifi_captures(const ImportOptions& options) {
   const auto params = params_of<WifiCaptureParams>(options);
-  WifiTarget target = target_of(options);
+  const auto files = files_of(options, {".pcap", ".pcapng", ".cap"});
+  const auto target = target_of(options, files);
   std::vector<WifiLog> logs;
-  for (const fs::path& file : files_of(options, {".pcap", ".pcapng", ".cap"}))
-    logs.push_back(read_wifi_capture(file, params));
-  write_wifi(options, target, std::move(logs));
+  for (const fs::path& file : files) logs.push_back(read_wifi_capture(file, params));
+  write_wifi(options, *target, std::move(logs));
 }
 
 }  // namespace radioslam::cli

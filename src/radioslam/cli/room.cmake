@@ -22,6 +22,7 @@ add_library(radioslam_cli STATIC
   cli/import_wifi.cpp
   cli/judgement.cpp
   cli/mission_input.cpp
+  cli/output_apart.cpp
   cli/pair_table.cpp
   cli/parameters.cpp
   cli/program.cpp

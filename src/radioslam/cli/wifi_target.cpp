@@ -28,15 +28,17 @@ WifiTarget::WifiTarget(const std::string& output, const std::string& robot, cons
     : output_(output), robot_(robot) {
   if (!robot.empty()) check_import_id("--robot " + robot, robot);
   if (output.ends_with(".csv")) {
-    file_.emplace(output);
+    file_.emplace(table_ = output);
   } else if (fs::exists(fs::path(output) / kMissionFolder)) {
     find_robot_of_mission();
-    file_.emplace(file_of_robot("wifi.csv"));
+    file_.emplace(table_ = file_of_robot("wifi.csv"));
   } else {
     if (robot_.empty()) name_robot_after(source);
     folder_.emplace(output, kMissionFolder);
   }
 }
+
+std::string WifiTarget::replaced() const { return file_ ? table_ : output_; }
 
 void WifiTarget::find_robot_of_mission() {
   const auto ids = robots_of(output_);

@@ -22,6 +22,8 @@ class WifiTarget {
 
   void commit(const std::vector<WifiRow>& rows);
 
+  /// What commit() replaces.
+  std::string replaced() const;
   /// The robot's name; empty for a table alone.
   const std::string& robot() const { return robot_; }
   /// What is still missing before the mission can be run; empty when nothing is known to be.
@@ -33,6 +35,7 @@ class WifiTarget {
   std::string file_of_robot(const char* name) const;
 
   std::string output_, robot_;
+  std::string table_;  ///< the path of file_
   std::optional<OutputFile> file_;
   std::optional<OutputFolder> folder_;
 };

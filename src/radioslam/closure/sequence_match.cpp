@@ -112,13 +112,14 @@ bool is_other(const SE2& a, const SE2& b, const SequenceMatchParams& params) {
   return gap.translation().norm() > params.rival_distance_m || std::abs(gap.angle()) > params.rival_angle_rad;
 }
 
-/// Is there another pose that costs hardly more?
+/// Is there another pose that costs hardly more? Of the cost, which sums over all pairs, the share counts
+/// that they are independent evidence for, as in the covariance.
 bool has_rival(const PairFit& fit, const std::vector<PredictedPair>& pairs, const SequenceWindow& i,
                const SequenceWindow& j, const SequenceMatchParams& params) {
   for (const SE2& start : rival_starts(fit.T_j_i, i, j)) {
     const PairFit other = fit_pairs(start, pairs, params.loss_sigmas);
-    if (is_other(fit.T_j_i, other.T_j_i, params) && other.at.cost < fit.at.cost + params.least_rival_margin)
-      return true;
+    const double margin = params.independent_share * (other.at.cost - fit.at.cost);
+    if (is_other(fit.T_j_i, other.T_j_i, params) && margin < params.least_rival_margin) return true;
   }
   return false;
 }

@@ -26,7 +26,7 @@ struct SequenceMatchParams {
   double largest_residual_m = 3;   ///< mean distance of a place from its match
   double rival_distance_m = 3;     ///< a pose further off than this is another one
   double rival_angle_rad = 0.35;   ///< or turned by more than this, 20 degrees
-  double least_rival_margin = 10;  ///< in cost: less, and the rival may be the true one
+  double least_rival_margin = 10;  ///< in independent cost: less, and the rival may be the true one
   double independent_share = 0.2;  ///< of a window's pairs: the evidence that they are together
 
   template <class Self, class Visitor>

@@ -128,7 +128,10 @@ std::vector<PrintedScan> dated_by_boot_clock(PrintedScan scan) {
     const bool is_later = printed && !parts.empty() && parts.back().stamp &&
                           std::abs(*printed - parts.back().stamp->seconds()) > kSamePrint_s;
     if (parts.empty() || is_later) parts.push_back({scan.line, std::nullopt, {}});
-    if (printed && !parts.back().stamp) parts.back().stamp = Stamp::from_seconds(*printed);
+    if (printed && !parts.back().stamp) {
+      parts.back().stamp = Stamp::from_seconds(*printed);
+      parts.back().clock = PrintedClock::kBoot;
+    }
     parts.back().readings.push_back(std::move(reading));
   }
   return parts;

@@ -9,7 +9,8 @@
 //           SSID: ...
 //
 // Other lines are passed over. A list begins with a line that is a time; where a log has none but boot times,
-// it begins where they say that it was printed later, and its time is then that of the machine's boot clock.
+// it begins where they say that it was printed later, and its time is then that of the machine's boot clock,
+// unless another one is told (time_scans).
 // A level that is no dBm ("50/100") is none. What the file's end cuts off is left out.
 #pragma once
 

@@ -1,6 +1,7 @@
 #include "radioslam/io/printed_scans.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <iterator>
 #include <set>
 #include <utility>
@@ -11,6 +12,9 @@ namespace {
 constexpr const char* kStale = "are leftovers of an earlier scan and left out";
 constexpr const char* kKeptStale = "are leftovers of an earlier scan, kept at the time they were heard";
 constexpr const char* kNoLevel = "have no level in dBm and are left out";
+constexpr const char* kBootTimes =
+    ": its times are seconds since the machine started: neither a line, nor its name, nor the call tells "
+    "others";
 constexpr const char* kNothing = "scans list nothing";
 
 bool lists_a_radio_twice(const PrintedScan& scan) {
@@ -51,17 +55,37 @@ class RowMaker {
   WifiLog log_;
 };
 
+/// Moves lists dated by the boot clock, as one.
+void move_to(PrintedLog& log, const ToldTime& time) {
+  const PrintedScan& at = time.of == ToldTime::Of::kFirst ? log.scans.front() : log.scans.back();
+  const std::int64_t ahead_ns = time.stamp.ns - at.stamp->ns;
+  for (PrintedScan& scan : log.scans) {
+    scan.stamp = Stamp{scan.stamp->ns + ahead_ns};
+    scan.clock = PrintedClock::kTold;
+  }
+}
+
 }  // namespace
 
-void time_scans(const Text& text, PrintedLog& log, std::optional<Stamp> time) {
+std::optional<PrintedClock> clock_of(const PrintedLog& log) {
+  return log.scans.empty() ? std::nullopt : std::optional(log.scans.front().clock);
+}
+
+void time_scans(const Text& text, PrintedLog& log, const std::optional<ToldTime>& time) {
   const std::size_t empty =
       std::erase_if(log.scans, [](const PrintedScan& scan) { return scan.readings.empty(); });
   if (empty > 0) log.counts[kNothing] += empty;
+  if (clock_of(log) == PrintedClock::kBoot) {
+    if (time)
+      move_to(log, *time);
+    else
+      log.warnings.push_back(text.name + kBootTimes);
+  }
   for (PrintedScan& scan : log.scans) {
     if (scan.stamp) continue;
     if (log.scans.size() > 1)
       text.fail(scan.line, "this scan has no time; a line with the Unix time is expected before each");
-    scan.stamp = time.value_or(Stamp{0});
+    scan.stamp = time ? time->stamp : Stamp{0};
     if (lists_a_radio_twice(scan))
       log.warnings.push_back(text.name + ": lists a radio twice; if these are several scans, put a line " +
                              "with the Unix time before each");

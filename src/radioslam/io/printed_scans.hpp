@@ -3,6 +3,10 @@
 // A list says what was heard in one scan, which gives all its rows their time; wherever the tool adds how
 // long ago it heard a radio, that tells leftovers: a radio heard before the previous list was made stood in
 // that list already, and is left out, or kept at the time it was heard. Of a log's first list all is kept.
+//
+// Two clocks may date a list: the one that whoever recorded tells of (a line in the log, the file's name, the
+// call), and the one that starts with the machine, where the tool prints its times. The first goes before:
+// lists dated by the second keep their distances in time and move as one to where one of them is told to be.
 #pragma once
 
 #include <cstddef>
@@ -41,11 +45,14 @@ struct PrintedReading {
   std::optional<Stamp> heard;      ///< when it was heard, on the clock that starts with the machine
 };
 
+enum class PrintedClock { kTold, kBoot };
+
 /// One list.
 struct PrintedScan {
   std::size_t line = 0;        ///< where it begins
   std::optional<Stamp> stamp;  ///< at most kLatestTime_s
   std::vector<PrintedReading> readings;
+  PrintedClock clock = PrintedClock::kTold;  ///< of the stamp
 };
 
 /// What a reader found in one file.
@@ -55,9 +62,20 @@ struct PrintedLog {
   std::vector<std::string> warnings;
 };
 
-/// Leaves out lists of nothing, and gives the one list of a log without times `time`, or 0. Refuses, with its
-/// line, a list without a time beside others.
-void time_scans(const Text& text, PrintedLog& log, std::optional<Stamp> time);
+/// A log's time that does not stand in it: that of its first list, or of its last one.
+struct ToldTime {
+  enum class Of { kFirst, kLast };
+  Stamp stamp;  ///< at most kLatestTime_s
+  Of of = Of::kFirst;
+};
+
+/// Leaves out lists of nothing, and gives the one list of a log without times that of `time`, or 0; lists
+/// dated by the boot clock move to `time`, and a note says so where there is none. Refuses, with its line, a
+/// list without a time beside others.
+void time_scans(const Text& text, PrintedLog& log, const std::optional<ToldTime>& time);
+
+/// Of a log's lists, once they have times. All have one clock.
+std::optional<PrintedClock> clock_of(const PrintedLog& log);
 
 /// The rows of all logs' lists together.
 WifiLog rows_of_scans(std::vector<PrintedLog> logs, const PrintedScanParams& params);

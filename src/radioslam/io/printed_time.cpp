@@ -17,6 +17,8 @@ namespace {
 
 constexpr std::int64_t kPrintedSecond_ns = 1'000'000'000;
 constexpr int kSecondsPerHour = 3600, kSecondsPerMinute = 60;
+constexpr int kLastHour = 23, kLastMinute = 59, kLeapSecond = 60;
+constexpr int kFurthestZone_h = 14;  // Kiribati's
 constexpr std::size_t kSecondsDigits = 10, kDigitsPerThousand = 3, kMostDigits = 19;
 
 bool is_decimal(char c) { return c >= '0' && c <= '9'; }
@@ -39,16 +41,21 @@ bool take_one_of(std::string_view& text, std::string_view characters) {
   return true;
 }
 
-/// "07:18:43" or another row of numbers of two digits, the first worth `unit`, the next a 60th of that.
-std::optional<int> take_sexagesimal(std::string_view& text, int numbers, int unit) {
-  int sum = 0;
-  for (int k = 0; k < numbers; ++k, unit /= 60) {
-    if (k > 0 && !take_one_of(text, ":")) return std::nullopt;
-    const auto number = take_digits(text, 2);
-    if (!number || *number > 60) return std::nullopt;
-    sum += *number * unit;
-  }
-  return sum;
+/// Two digits, at most `most`.
+std::optional<int> take_two_digits(std::string_view& text, int most) {
+  const auto number = take_digits(text, 2);
+  return number && *number <= most ? number : std::nullopt;
+}
+
+/// "07:18:43" as seconds since midnight; a leap second is the next minute's first.
+std::optional<int> take_time_of_day_s(std::string_view& text) {
+  const auto hours = take_two_digits(text, kLastHour);
+  if (!hours || !take_one_of(text, ":")) return std::nullopt;
+  const auto minutes = take_two_digits(text, kLastMinute);
+  if (!minutes || !take_one_of(text, ":")) return std::nullopt;
+  const auto seconds = take_two_digits(text, kLeapSecond);
+  if (!seconds) return std::nullopt;
+  return *hours * kSecondsPerHour + *minutes * kSecondsPerMinute + *seconds;
 }
 
 /// ".5" or ",5" behind the seconds, in nanoseconds; 0 where there is none.
@@ -79,7 +86,7 @@ std::optional<std::chrono::sys_days> take_date(std::string_view& text) {
 std::optional<Stamp> take_calendar_time(std::string_view& text) {
   const auto days = take_date(text);
   if (!days || !take_one_of(text, "T ")) return std::nullopt;
-  const auto seconds = take_sexagesimal(text, 3, kSecondsPerHour);
+  const auto seconds = take_time_of_day_s(text);
   const auto fraction_ns = seconds ? take_fraction_ns(text) : std::nullopt;
   if (!fraction_ns) return std::nullopt;
   const std::int64_t midnight_s = std::chrono::seconds(days->time_since_epoch()).count();
@@ -93,11 +100,12 @@ std::optional<int> take_zone_s(std::string_view& text) {
   if (take_one_of(text, "Z")) return 0;
   const bool is_west = text.starts_with('-');
   if (!take_one_of(text, "+-")) return std::nullopt;
-  const auto hours = take_digits(text, 2);
+  const auto hours = take_two_digits(text, kFurthestZone_h);
   take_one_of(text, ":");
-  const auto minutes = hours ? take_digits(text, 2) : std::nullopt;
+  const auto minutes = hours ? take_two_digits(text, kLastMinute) : std::nullopt;
   if (!minutes) return std::nullopt;
   const int east_s = *hours * kSecondsPerHour + *minutes * kSecondsPerMinute;
+  if (east_s > kFurthestZone_h * kSecondsPerHour) return std::nullopt;
   return is_west ? -east_s : east_s;
 }
 

@@ -10,11 +10,27 @@ namespace {
 using Json = nlohmann::ordered_json;
 constexpr int kIndent = 2;
 
+/// What rssi_offset says; nothing where none was sought.
+const char* rssi_offset_text(RssiOffset offset) {
+  switch (offset) {
+    case RssiOffset::kNotSought:
+      return nullptr;
+    case RssiOffset::kNotObserved:
+      return "not observed";
+    case RssiOffset::kNotShown:
+      return "not shown";
+    case RssiOffset::kTakenOff:
+      return "taken off";
+  }
+  return nullptr;
+}
+
 Json robot_json(const RobotResult& robot) {
   Json json = {{"keyframes", robot.estimate.size()},
                {"placed", robot.placed},
                {"yaw_drift_per_m_rad", robot.yaw_drift_per_m_rad},
                {"scale_error", robot.scale_error}};
+  if (const char* text = rssi_offset_text(robot.rssi_offset)) json["rssi_offset"] = text;
   if (robot.sigma_rssi_offset_db) {
     json["rssi_offset_db"] = robot.rssi_offset_db;
     json["sigma_rssi_offset_db"] = *robot.sigma_rssi_offset_db;

@@ -117,9 +117,10 @@ CapturePointer open_capture(const std::string& name, FilePointer file) {
   return capture;
 }
 
+/// Nothing before 1970: libpcap takes a file's unsigned seconds for signed ones.
 std::optional<Stamp> time_of_packet(const pcap_pkthdr& header) {
-  if (std::abs(static_cast<double>(header.ts.tv_sec)) > kLatestTime_s || header.ts.tv_usec < 0 ||
-      header.ts.tv_usec >= kNsOfSecond)
+  if (header.ts.tv_sec < 0 || static_cast<double>(header.ts.tv_sec) > kLatestTime_s ||
+      header.ts.tv_usec < 0 || header.ts.tv_usec >= kNsOfSecond)
     return std::nullopt;
   return Stamp{header.ts.tv_sec * kNsOfSecond + header.ts.tv_usec};  // in nanoseconds, as asked for
 }

@@ -18,8 +18,17 @@ constexpr double kWeakShare = 0.05;  // of all readings that are weaker than a f
 
 /// What was heard of one access point.
 struct HeardAccessPoint {
-  HeardAlongWays along;
+  std::vector<PlacedReading> readings;
+  std::vector<std::size_t> at;  ///< the places of `readings`, ascending
   double strongest_dbm = -std::numeric_limits<double>::infinity();
+};
+
+/// What was heard of all, and where somebody listened. Where one is silent follows from that: kept for each,
+/// it would grow with access points times places.
+struct HeardAccessPoints {
+  std::vector<Eigen::Vector2d> places_m;
+  std::vector<HeardAccessPoint> each;
+  double floor_dbm = 0;
 };
 
 /// Robots whose estimate is in the first component's frame.
@@ -53,11 +62,10 @@ double hearing_floor_dbm(const RadioMeasurements& radio) {
   return *at;
 }
 
-std::vector<HeardAccessPoint> readings_of(const RunResult& result, const Mission& mission,
-                                          const RadioMeasurements& radio, double least_detection) {
-  std::vector<HeardAccessPoint> heard(mission.access_points.size());
-  const double floor_dbm = hearing_floor_dbm(radio);
-  for (HeardAccessPoint& of : heard) of.along.floor_dbm = floor_dbm;
+HeardAccessPoints readings_of(const RunResult& result, const Mission& mission, const RadioMeasurements& radio,
+                              double least_detection) {
+  HeardAccessPoints heard{
+      {}, std::vector<HeardAccessPoint>(mission.access_points.size()), hearing_floor_dbm(radio)};
   const std::vector<bool> in = in_first_component(result);
   for (std::size_t node = 0; node < radio.nodes.size(); ++node) {
     const std::size_t robot = radio.nodes[node].robot.index();
@@ -65,20 +73,30 @@ std::vector<HeardAccessPoint> readings_of(const RunResult& result, const Mission
     const auto pose = result.robots[robot].estimate.at(fingerprint.stamp);
     if (!in[robot] || !pose) continue;
     const Eigen::Vector2d place = pose->translation().head<2>();
-    auto entry = fingerprint.entries.begin();
-    for (std::size_t a = 0; a < heard.size(); ++a) {
-      while (entry != fingerprint.entries.end() && entry->access_point.index() < a) ++entry;
-      const bool there = entry != fingerprint.entries.end() && entry->access_point.index() == a;
-      if (!there || static_cast<double>(entry->detection_rate) < least_detection) {
-        heard[a].along.silent_m.push_back(place);
-        continue;
-      }
-      const double rss_dbm = static_cast<double>(entry->rss_dbm);
-      heard[a].along.readings.push_back({place, rss_dbm});
-      heard[a].strongest_dbm = std::max(heard[a].strongest_dbm, rss_dbm);
+    for (const FingerprintEntry& entry : fingerprint.entries) {
+      if (static_cast<double>(entry.detection_rate) < least_detection) continue;
+      HeardAccessPoint& of = heard.each[entry.access_point.index()];
+      const double rss_dbm = static_cast<double>(entry.rss_dbm);
+      of.readings.push_back({place, rss_dbm});
+      of.at.push_back(heard.places_m.size());
+      of.strongest_dbm = std::max(of.strongest_dbm, rss_dbm);
     }
+    heard.places_m.push_back(place);
   }
   return heard;
+}
+
+/// With the places where it was not heard.
+HeardAlongWays along_ways(const HeardAccessPoints& heard, std::size_t access_point) {
+  const HeardAccessPoint& of = heard.each[access_point];
+  HeardAlongWays along{of.readings, {}, heard.floor_dbm};
+  auto there = of.at.begin();
+  for (std::size_t place = 0; place < heard.places_m.size(); ++place)
+    if (there != of.at.end() && *there == place)
+      ++there;
+    else
+      along.silent_m.push_back(heard.places_m[place]);
+  return along;
 }
 
 /// The last frequency that each access point was heard on.
@@ -115,19 +133,21 @@ AccessPointKnown known(AccessPointStatus status) {
   return AccessPointKnown::kLoose;
 }
 
-void place_access_points(RunResult& result, const Mission& mission,
-                         const std::vector<HeardAccessPoint>& heard, const AccessPointParams& params) {
-  std::vector<std::optional<AccessPointFit>> fits(heard.size());
-  parallel_for(heard.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t a = begin; a < end; ++a) fits[a] = fit_access_point(heard[a].along, params);
+void place_access_points(RunResult& result, const Mission& mission, const HeardAccessPoints& heard,
+                         const AccessPointParams& params) {
+  std::vector<std::optional<AccessPointFit>> fits(heard.each.size());
+  parallel_for(fits.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t a = begin; a < end; ++a)
+      if (heard.each[a].readings.size() >= static_cast<std::size_t>(params.least_places))
+        fits[a] = fit_access_point(along_ways(heard, a), params);
   });
   const std::vector<double> mhz = frequencies(mission);
   for (std::size_t a = 0; a < fits.size(); ++a)
     if (const auto& fit = fits[a])
       result.access_points.push_back({mission.access_points[a], mhz[a], known(fit->status), fit->position_m,
                                       fit->path_loss.power_at_1m_dbm, fit->path_loss.exponent,
-                                      fit->covariance, fit->sigma_db, heard[a].along.readings.size(),
-                                      fit->rival_m, some_of(heard[a].along.readings)});
+                                      fit->covariance, fit->sigma_db, heard.each[a].readings.size(),
+                                      fit->rival_m, some_of(heard.each[a].readings)});
   const auto count = [&](AccessPointKnown of) {
     return static_cast<double>(std::count_if(result.access_points.begin(), result.access_points.end(),
                                              [&](const auto& point) { return point.known == of; }));
@@ -141,7 +161,7 @@ void place_access_points(RunResult& result, const Mission& mission,
 std::vector<std::size_t> strongest(const std::vector<HeardAccessPoint>& heard, std::size_t most) {
   std::vector<std::size_t> order;
   for (std::size_t a = 0; a < heard.size(); ++a)
-    if (!heard[a].along.readings.empty()) order.push_back(a);
+    if (!heard[a].readings.empty()) order.push_back(a);
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return heard[a].strongest_dbm > heard[b].strongest_dbm;
   });
@@ -190,7 +210,7 @@ void add_access_points(RunResult& result, const Mission& mission, const RadioMea
   if (!params.enabled || radio.nodes.empty()) return;
   const auto heard = readings_of(result, mission, radio, params.least_detection);
   place_access_points(result, mission, heard, params.fit);
-  tell_signals(result, mission, radio, strongest(heard, static_cast<std::size_t>(params.signals)));
+  tell_signals(result, mission, radio, strongest(heard.each, static_cast<std::size_t>(params.signals)));
   tell_similarity(result, mission, radio);
 }
 

@@ -92,6 +92,20 @@ TransformResult transform_between(const JointGraph<Pose>& joint, std::size_t i, 
           into_j * marginals.relative_pose(start_i, start_j) * into_j.transpose()};
 }
 
+RssiOffset rssi_offset_of(DeviceOffsetStatus status) {
+  switch (status) {
+    case DeviceOffsetStatus::kNotSought:
+      return RssiOffset::kNotSought;
+    case DeviceOffsetStatus::kNotObserved:
+      return RssiOffset::kNotObserved;
+    case DeviceOffsetStatus::kNotShown:
+      return RssiOffset::kNotShown;
+    case DeviceOffsetStatus::kTakenOff:
+      return RssiOffset::kTakenOff;
+  }
+  return RssiOffset::kNotSought;
+}
+
 }  // namespace
 
 template <class Pose>
@@ -207,6 +221,7 @@ std::vector<std::string> odometry_notes(const Mission& mission, const JointGraph
 void add_device_offsets(std::vector<RobotResult>& robots, const DeviceOffsets& offsets) {
   for (std::size_t r = 0; r < std::min(robots.size(), offsets.robots.size()); ++r) {
     const DeviceOffset& device = offsets.robots[r];
+    robots[r].rssi_offset = rssi_offset_of(device.status);
     if (device.pairs == 0) continue;
     robots[r].rssi_offset_db = device.offset_db;
     robots[r].sigma_rssi_offset_db = device.sigma_db;

@@ -78,7 +78,8 @@ void collect(RunResult& result, const Mission& mission, const JointGraph<Pose>& 
     if (!robot.placed) result.unplaced.push_back(robot.id);
 }
 
-void add_notes(RunResult& result, const Mission& mission, std::size_t ignored_links) {
+void add_notes(RunResult& result, const Mission& mission, const RadioMeasurements& radio,
+               const SequenceStageParams& sequence, std::size_t ignored_links) {
   for (const auto& id : result.unplaced)
     result.notes.push_back("robot " + id + " is not placed: nothing ties it to another robot");
   for (const auto& file : mission.unused_files)
@@ -89,6 +90,7 @@ void add_notes(RunResult& result, const Mission& mission, std::size_t ignored_li
         " links were left out: no odometry at their time, or relative poses between robots");
   if (!result.alternatives.empty())
     result.notes.push_back("the links leave open how the team lies: see hypotheses/");
+  if (const auto note = sequence_note(mission.dimension, radio, sequence)) result.notes.push_back(*note);
 }
 
 /// Whether somebody is there to look at the pairs that survive: links that could prune, or matches to prune.
@@ -190,7 +192,7 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const std::ve
   collect(result, mission, joint, placement, params.alignment.mixture, clock);
   add_device_offsets(result.robots, radio.device_offsets);
   if (radio.device_offsets.shown) result.notes.push_back(device_offset_note(result.robots));
-  add_notes(result, mission, joint.ignored_links);
+  add_notes(result, mission, radio, params.sequence, joint.ignored_links);
   if (!mission.arrivals.empty())
     clock.time("angle checks",
                [&] { return check_angles_into(result, mission, joint, placement, params), 0; });

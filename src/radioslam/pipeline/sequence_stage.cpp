@@ -44,6 +44,13 @@ RelativePoseFactor<SE2> keyframe_factor(const JointGraph<SE2>& joint, const Radi
 
 }  // namespace
 
+std::optional<std::string> sequence_note(int dimension, const RadioMeasurements& radio,
+                                         const SequenceStageParams& params) {
+  if (dimension == 2 || !params.enabled || radio.nodes.empty()) return std::nullopt;
+  return "stretches of way that sounded alike were not sought: sequence closures are poses in the plane, "
+         "and the mission has three dimensions";
+}
+
 template <class Pose>
 std::vector<SequenceTie> add_sequence_closures(JointGraph<Pose>& joint, const RadioMeasurements& radio,
                                                const SequenceStageParams& params) {

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "radioslam/base/fields.hpp"
@@ -31,6 +33,10 @@ struct SequenceTie {
   SequenceClosure closure;
   std::size_t factor = 0;
 };
+
+/// What to say where none are sought although there are fingerprints: outside the plane.
+std::optional<std::string> sequence_note(int dimension, const RadioMeasurements& radio,
+                                         const SequenceStageParams& params);
 
 /// Looks for sequence closures and adds those accepted to the graph.
 template <class Pose>

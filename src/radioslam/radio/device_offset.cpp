@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -18,7 +19,9 @@ namespace {
 constexpr double kMedianToSigma = 1.4826;  // of a normal distribution's absolute deviations
 constexpr double kHuber = 1.345;           // 95 % efficient on normal residuals (Huber 1981)
 constexpr double kRankTolerance = 1e-9;    // of the largest eigenvalue
-constexpr double kLeastSpread_db = 1e-3;   // readings have whole dB: identical ones still have a scale
+constexpr std::size_t kLeastRowsTogether = 16, kMostBlocks = 64;  // of a table of two robots' fingerprints
+constexpr std::size_t kBlocksAtOnce = 256;
+constexpr double kLeastSpread_db = 1e-3;  // readings have whole dB: identical ones still have a scale
 
 /// An access point that both fingerprints of a pair heard.
 struct SharedReading {
@@ -71,45 +74,99 @@ struct TellingPair {
   double difference_db = 0;  ///< a's readings less b's
 };
 
-/// The pairs of two robots' fingerprints that prefer each other.
-std::vector<TellingPair> mutual_pairs(const std::vector<std::vector<Fingerprint>>& robots, std::size_t a,
-                                      std::size_t b, const SimilarityParams& similarity,
-                                      const DeviceOffsetParams& params) {
-  struct Best {
-    double similarity = 0;
-    std::size_t of = 0;
-  };
-  std::vector<Best> of_i(robots[a].size()), of_j(robots[b].size());
-  for (std::size_t i = 0; i < of_i.size(); ++i)
-    for (std::size_t j = 0; j < of_j.size(); ++j) {
-      const double s = offset_free_similarity(robots[a][i], robots[b][j], similarity);
-      if (s > of_i[i].similarity) of_i[i] = {s, j};
-      if (s > of_j[j].similarity) of_j[j] = {s, i};
+/// The most similar of some fingerprints, the first of equals.
+struct MostSimilar {
+  double similarity = 0;
+  std::size_t of = 0;
+};
+
+/// Rows of the table of two robots' fingerprints: what one task compares.
+struct RowBlock {
+  std::size_t a = 0, b = 0;        ///< robots
+  std::size_t begin = 0, end = 0;  ///< fingerprints of a
+  std::vector<MostSimilar> of_i;   ///< of its rows, over all of b's
+  std::vector<MostSimilar> of_j;   ///< of b's, over its rows
+};
+
+void compare_rows(RowBlock& block, const std::vector<std::vector<Fingerprint>>& robots,
+                  const SimilarityParams& similarity) {
+  const auto &of_a = robots[block.a], &of_b = robots[block.b];
+  block.of_i.resize(block.end - block.begin);
+  block.of_j.resize(of_b.size());
+  for (std::size_t i = block.begin; i < block.end; ++i)
+    for (std::size_t j = 0; j < of_b.size(); ++j) {
+      const double s = offset_free_similarity(of_a[i], of_b[j], similarity);
+      MostSimilar &row = block.of_i[i - block.begin], &column = block.of_j[j];
+      if (s > row.similarity) row = {s, j};
+      if (s > column.similarity) column = {s, i};
     }
+}
+
+/// The rows of two robots' table in a few blocks, so that two robots keep many threads busy.
+std::vector<RowBlock> row_blocks(const std::vector<std::vector<Fingerprint>>& robots, std::size_t a,
+                                 std::size_t b) {
+  const std::size_t rows = robots[a].size();
+  const std::size_t together = std::max(kLeastRowsTogether, (rows + kMostBlocks - 1) / kMostBlocks);
+  std::vector<RowBlock> blocks;
+  for (std::size_t begin = 0; begin < rows; begin += together)
+    blocks.push_back({a, b, begin, std::min(rows, begin + together), {}, {}});
+  return blocks;
+}
+
+/// The pairs of two robots' fingerprints that prefer each other, from all of their table's blocks.
+std::vector<TellingPair> mutual_pairs(const RowBlock* first, const RowBlock* last,
+                                      const std::vector<std::vector<Fingerprint>>& robots,
+                                      const DeviceOffsetParams& params) {
+  std::vector<MostSimilar> of_j = first->of_j;
+  for (const RowBlock* block = first + 1; block != last; ++block)
+    for (std::size_t j = 0; j < of_j.size(); ++j)
+      if (block->of_j[j].similarity > of_j[j].similarity) of_j[j] = block->of_j[j];
   std::vector<TellingPair> pairs;
-  for (std::size_t i = 0; i < of_i.size(); ++i) {
-    const auto [s, j] = of_i[i];
-    if (s > 0 && s >= params.least_similarity && of_j[j].of == i)
-      pairs.push_back({a, b, i, j, told_difference_db(robots[a][i], robots[b][j], params.strongest_shared)});
-  }
+  for (const RowBlock* block = first; block != last; ++block)
+    for (std::size_t i = block->begin; i < block->end; ++i) {
+      const auto [s, j] = block->of_i[i - block->begin];
+      if (s > 0 && s >= params.least_similarity && of_j[j].of == i)
+        pairs.push_back(
+            {block->a, block->b, i, j,
+             told_difference_db(robots[block->a][i], robots[block->b][j], params.strongest_shared)});
+    }
+  return pairs;
+}
+
+/// Pairs of robots, the second's later than the first's.
+std::vector<std::pair<std::size_t, std::size_t>> robot_pairs(std::size_t robots) {
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t b = 1; b < robots; ++b)
+    for (std::size_t a = 0; a < b; ++a) pairs.emplace_back(a, b);
   return pairs;
 }
 
 /// Those of the whole team.
 std::vector<TellingPair> telling_pairs(const std::vector<std::vector<Fingerprint>>& robots,
                                        const SimilarityParams& similarity, const DeviceOffsetParams& params) {
-  std::vector<std::pair<std::size_t, std::size_t>> teams;
-  for (std::size_t b = 1; b < robots.size(); ++b)
-    for (std::size_t a = 0; a < b; ++a) teams.emplace_back(a, b);
-  std::vector<std::vector<TellingPair>> found(teams.size());
-  parallel_for(teams.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k)
-      found[k] = mutual_pairs(robots, teams[k].first, teams[k].second, similarity, params);
-  });
+  const auto of_robots = robot_pairs(robots.size());
   std::vector<TellingPair> all;
-  for (const auto& pairs : found)
-    if (pairs.size() >= static_cast<std::size_t>(params.least_pairs))
-      all.insert(all.end(), pairs.begin(), pairs.end());
+  for (std::size_t next = 0; next < of_robots.size();) {
+    // As many robots' blocks at once as keep the threads busy: more would only take memory.
+    std::vector<RowBlock> blocks;
+    std::vector<std::size_t> ends;
+    for (; next < of_robots.size() && blocks.size() < kBlocksAtOnce; ++next) {
+      auto of_two = row_blocks(robots, of_robots[next].first, of_robots[next].second);
+      std::move(of_two.begin(), of_two.end(), std::back_inserter(blocks));
+      ends.push_back(blocks.size());
+    }
+    parallel_for(blocks.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) compare_rows(blocks[k], robots, similarity);
+    });
+    std::size_t begin = 0;
+    for (const std::size_t end : ends) {
+      if (end == begin) continue;
+      const auto pairs = mutual_pairs(blocks.data() + begin, blocks.data() + end, robots, params);
+      if (pairs.size() >= static_cast<std::size_t>(params.least_pairs))
+        all.insert(all.end(), pairs.begin(), pairs.end());
+      begin = end;
+    }
+  }
   return all;
 }
 
@@ -205,11 +262,22 @@ Eigen::VectorXd sigmas_db(const ToldCombinations& told, const DeviceOffsetParams
   return (of_robot.array() + params.least_sigma_db * params.least_sigma_db).sqrt();
 }
 
+/// Before any pair: robots with fingerprints beside another one's wait to be observed.
+DeviceOffsets nothing_told(const std::vector<std::vector<Fingerprint>>& robots,
+                           const DeviceOffsetParams& params) {
+  DeviceOffsets result{std::vector<DeviceOffset>(robots.size(), {0, params.prior_sigma_db, 0}), false};
+  const auto heard = std::count_if(robots.begin(), robots.end(), [](const auto& of) { return !of.empty(); });
+  for (std::size_t r = 0; r < robots.size(); ++r)
+    if (params.prior_sigma_db > 0 && heard > 1 && !robots[r].empty())
+      result.robots[r].status = DeviceOffsetStatus::kNotObserved;
+  return result;
+}
+
 }  // namespace
 
 DeviceOffsets estimate_device_offsets(const std::vector<std::vector<Fingerprint>>& robots,
                                       const SimilarityParams& similarity, const DeviceOffsetParams& params) {
-  DeviceOffsets result{std::vector<DeviceOffset>(robots.size(), {0, params.prior_sigma_db, 0}), false};
+  DeviceOffsets result = nothing_told(robots, params);
   if (params.prior_sigma_db <= 0) return result;
   const std::vector<TellingPair> pairs = telling_pairs(robots, similarity, params);
   if (pairs.empty()) return result;
@@ -224,6 +292,7 @@ DeviceOffsets estimate_device_offsets(const std::vector<std::vector<Fingerprint>
   for (std::size_t r = 0; r < robots.size(); ++r) {
     DeviceOffset& robot = result.robots[r];
     if (robot.pairs == 0) continue;
+    robot.status = result.shown ? DeviceOffsetStatus::kTakenOff : DeviceOffsetStatus::kNotShown;
     if (result.shown) robot.offset_db = solution.offsets_db[static_cast<Eigen::Index>(r)];
     robot.sigma_db = sigma_db[static_cast<Eigen::Index>(r)];
   }

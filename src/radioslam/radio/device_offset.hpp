@@ -62,11 +62,19 @@ struct DeviceOffsetParams {
   }
 };
 
+enum class DeviceOffsetStatus {
+  kNotSought,    ///< switched off, no fingerprints, or nobody else's
+  kNotObserved,  ///< fewer than least_pairs pairs with every other robot
+  kNotShown,     ///< told, and the team's offsets are no larger than their errors
+  kTakenOff,
+};
+
 /// How much stronger than the team's mean a robot's device hears.
 struct DeviceOffset {
   double offset_db = 0;
   double sigma_db = 0;    ///< of the estimate, whether kept or not; the prior's when nothing tells
   std::size_t pairs = 0;  ///< of fingerprints that told of it
+  DeviceOffsetStatus status = DeviceOffsetStatus::kNotSought;
 };
 
 struct DeviceOffsets {

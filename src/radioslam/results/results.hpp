@@ -14,6 +14,9 @@
 
 namespace radioslam {
 
+/// What became of the offset of a robot's device.
+enum class RssiOffset { kNotSought, kNotObserved, kNotShown, kTakenOff };
+
 /// A robot's estimated keyframes. All robots of one component share one frame.
 struct RobotResult {
   std::string id;
@@ -27,8 +30,9 @@ struct RobotResult {
   double scale_error = 0;          ///< estimated
   double rssi_offset_db = 0;       ///< its device hears so much stronger than the team's mean
   std::optional<double> sigma_rssi_offset_db = {};  ///< absent where nothing tells
-  bool start_known = false;                         ///< the mission said where it starts
-  bool placed = true;                               ///< false: nothing ties it to its component
+  RssiOffset rssi_offset = RssiOffset::kNotSought;
+  bool start_known = false;  ///< the mission said where it starts
+  bool placed = true;        ///< false: nothing ties it to its component
 };
 
 /// Where a closure came from.

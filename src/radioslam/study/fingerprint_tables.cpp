@@ -29,6 +29,7 @@ RadioParams published_radio(const FingerprintMeasure& measure) {
   params.distance_model.even_distances = false;
   params.measure = measure.measure;
   params.similarity.sigma_detection = measure.sigma_detection;
+  params.device_offset.prior_sigma_db = 0;
   return params;
 }
 

@@ -5,9 +5,9 @@
 // As published: windows of 5 s however far the robot drives in them; samples of the distance model all count
 // the same; a pair within a robot takes part after 100 m of way where d(s) < nu_s, one between robots where
 // d(s) < nu_p; every one weighs 1 / sigma(s)^2 in least squares, next to odometry and known starts. No loss,
-// no sequences, no shares of evidence, no variable for the odometry's constant drift. What is not published
-// is ours: the odometry's covariances are the white part of what the mission states, a window over similarity
-// needs 30 samples, and sigma is at least 1 m.
+// no sequences, no shares of evidence, no offsets of devices, no variable for the odometry's constant drift.
+// What is not published is ours: the odometry's covariances are the white part of what the mission states, a
+// window over similarity needs 30 samples, and sigma is at least 1 m.
 #pragma once
 
 #include <array>
