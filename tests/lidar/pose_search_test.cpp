@@ -21,7 +21,8 @@ struct SearchedScan {
 };
 
 SearchedScan searched_scan(const ScannedRoom& room, const std::vector<SE3>& places, const SE3& T_room_scan,
-                           std::uint64_t seed, ScannerKind kind = ScannerKind::kSpatial, double most_m = 100) {
+                           std::uint64_t seed, ScannerKind kind = ScannerKind::kSpatial,
+                           double most_m = 100) {
   Rng rng(seed);
   Scanner scanner = kind == ScannerKind::kPlanar ? planar_scanner() : Scanner();
   if (kind == ScannerKind::kSpatial) scanner.azimuths = 180;
@@ -56,8 +57,7 @@ TEST(SearchPose, FindsAScanFromMetresAndFortyDegreesOff) {
       Rng rng(50 + seed);
       const double x = rng.uniform(-2.5, 2.5), y = rng.uniform(-1, 1);
       const SE3 truth = pose_at(x, y, 1.2, rng.uniform(-3, 3));
-      const auto [map, scan] =
-          searched_scan(furnished_room(), places_in_furnished_room(), truth, seed, kind);
+      const auto [map, scan] = searched_scan(furnished_room(), places_in_furnished_room(), truth, seed, kind);
       const double side = rng.uniform(-3, 3);
       const SE3 guess = pose_at(x + 3 * std::cos(side), y + 3 * std::sin(side), 1.2,
                                 truth.yaw() + (seed % 2 == 0 ? 40 : -40) * kDegree);
@@ -142,7 +142,8 @@ TEST(SearchPose, GivesTheSameBytesForAnyNumberOfThreads) {
   const auto together = search_pose(map, scan, guess, ScannerKind::kSpatial, {}, {});
   set_thread_count(0);
   EXPECT_EQ(alone.best.T_target_source.translation(), together.best.T_target_source.translation());
-  EXPECT_EQ(alone.best.T_target_source.rotation().coeffs(), together.best.T_target_source.rotation().coeffs());
+  EXPECT_EQ(alone.best.T_target_source.rotation().coeffs(),
+            together.best.T_target_source.rotation().coeffs());
   EXPECT_EQ(alone.best.information, together.best.information);
   EXPECT_EQ(alone.next_share, together.next_share);
 }

@@ -33,7 +33,7 @@ ScannerTraits scanner_traits(const LidarLog& log, const LidarParams& params) {
   std::vector<double> ranges;
   ScannerTraits traits;
   traits.kind = ScannerKind::kPlanar;
-  const std::size_t stride = std::max<std::size_t>(1, log.size() / kTraitScans);
+  const std::size_t stride = std::max<std::size_t>(1, (log.size() + kTraitScans - 1) / kTraitScans);
   for (std::size_t k = 0; k < log.size(); k += stride) {
     const auto points = usable_points(log.read(k), SE3::Tangent::Zero(), params.points).points;
     for (const Eigen::Vector3f& point : points) {
@@ -90,11 +90,14 @@ void ScanOdometer::learn(const SE3& deviation, double matched_share) {
   usual_share_ += newest * (matched_share - usual_share_);
 }
 
-void ScanOdometer::advance(const ScanPose& scan, double dt_s) {
-  const SE3 motion = pose_.inverse() * scan.T_start_body;
-  if (dt_s > 0) twist_per_s_ = motion.log() / dt_s;
-  way_m_ += motion.translation().norm();
+void ScanOdometer::advance(const ScanPose& scan, const SweepMiddle& middle) {
+  const SE3 T_start_middle = scan.T_start_body * middle.T_body_middle;
+  const double dt_s = seconds_between(middle_stamp_, middle.stamp);
+  if (last_ && dt_s > 0) twist_per_s_ = (middle_.inverse() * T_start_middle).log() / dt_s;
+  way_m_ += (pose_.inverse() * scan.T_start_body).translation().norm();
   pose_ = scan.T_start_body;
+  middle_ = T_start_middle;
+  middle_stamp_ = middle.stamp;
   last_ = scan.stamp;
   if (scan.matched_share >= params_.odometry.insert_share * usual_share_) map_.add(scan.cloud, pose_, way_m_);
 }
@@ -104,6 +107,8 @@ ScanPose ScanOdometer::add(Stamp stamp, const LidarScan& scan, const std::option
   const SE3 motion = T_previous_body ? *T_previous_body : SE3::exp(dt_s * twist_per_s_);
   const SE3::Tangent twist = T_previous_body && dt_s > 0 ? SE3::Tangent(motion.log() / dt_s) : twist_per_s_;
   const ScanPoints usable = usable_points(scan, twist, params_.points);
+  const SweepMiddle middle{{stamp.ns + Stamp::from_seconds(usable.middle_s).ns},
+                           SE3::exp(usable.middle_s * twist)};
 
   ScanPose result;
   result.stamp = stamp;
@@ -115,7 +120,7 @@ ScanPose ScanOdometer::add(Stamp stamp, const LidarScan& scan, const std::option
                             traits_.spacing_m, traits_.kind, params_.map);
   if (map_.empty()) {
     result.outcome = ScanOutcome::kFirst;
-    advance(result, dt_s);
+    advance(result, middle);
     return result;
   }
   const PosePrior prior = prior_at(result.T_start_body);
@@ -129,7 +134,7 @@ ScanPose ScanOdometer::add(Stamp stamp, const LidarScan& scan, const std::option
   result.T_start_body = fit.T_target_source;
   result.covariance = fit.posterior.inverse();
   learn(prior.pose.inverse() * fit.T_target_source, fit.matched_share);
-  advance(result, dt_s);
+  advance(result, middle);
   return result;
 }
 

@@ -9,6 +9,10 @@
 // How far points may lie from the map follows from how wrong the predicted motion was so far, as in KISS-ICP
 // (Vizzo et al. 2023, "adaptive threshold"); the same deviation is the prior of the pose, so that along a
 // direction in which the scans tell nothing the prediction stands, with its uncertainty.
+//
+// The motion is measured from the middle of one sweep to the middle of the next. A scan unbent by a motion
+// that is wrong lies wrong at its stamp, but not at its middle; from stamp to stamp the error would return as
+// that of the next motion, with the other sign, and never decay where stamps are the sweeps' beginnings.
 #pragma once
 
 #include <cstddef>
@@ -129,18 +133,25 @@ class ScanOdometer {
     std::size_t count = 0;
   };
 
+  /// The middle of a sweep.
+  struct SweepMiddle {
+    Stamp stamp;
+    SE3 T_body_middle;  ///< where the body is then
+  };
+
   double sigma_m() const;
   double sigma_rad() const;
   PosePrior prior_at(const SE3& predicted) const;
   Registration lay_onto_map(const ScanCloud& cloud, const PosePrior& prior) const;
   void learn(const SE3& deviation, double matched_share);
-  void advance(const ScanPose& scan, double dt_s);
+  void advance(const ScanPose& scan, const SweepMiddle& middle);
 
   ScannerTraits traits_;
   LidarParams params_;
   LocalMap map_;
   std::optional<Stamp> last_;
-  SE3 pose_;
+  SE3 pose_, middle_;  ///< at the last scan's stamp and at its middle
+  Stamp middle_stamp_;
   double way_m_ = 0;
   SE3::Tangent twist_per_s_ = SE3::Tangent::Zero();
   Deviation deviation_;
