@@ -73,6 +73,17 @@ TEST(ScanOdometer, FollowsSuddenTurns) {
     }
 }
 
+/// Nothing is known of the motion and of the usual fit yet.
+TEST(ScanOdometer, FollowsATurnBetweenItsFirstTwoScans) {
+  std::vector<SE3> poses = around_furnished_room(40);
+  poses.resize(3);  // 23 and 18 degrees apart
+  for (const ScannerKind kind : {ScannerKind::kSpatial, ScannerKind::kPlanar})
+    for (std::uint64_t seed = 5; seed <= 11; ++seed) {
+      const ScanDrive drive = drive_along(furnished_room(), scanner_of(kind), poses, seed);
+      expect_end(odometry_of(drive), drive, kClose_m, 2 * kClose_rad);
+    }
+}
+
 TEST(ScannerTraits, AreTheScannersAndTheRooms) {
   const auto traits_of = [](const ScannedRoom& room, ScannerKind kind, double spacing_m) {
     LidarParams params;

@@ -74,7 +74,7 @@ PosePrior ScanOdometer::prior_at(const SE3& predicted) const {
 Registration ScanOdometer::lay_onto_map(const ScanCloud& cloud, const PosePrior& prior) const {
   const double deviation_m = sigma_m() + sigma_rad() * cloud.median_range_m;
   Registration near = register_near(map_, cloud, prior, deviation_m, traits_.kind, params_.registration);
-  const double enough = params_.odometry.enough_share * usual_share_;
+  const double enough = deviation_.count == 0 ? 1 : params_.odometry.enough_share * usual_share_;
   if (near.matched_share >= enough) return near;
   const auto starts = starts_about(pose_, prior.pose, map_.coarse().reach_m() / 2, cloud.median_range_m);
   const Registration far = register_from(map_, cloud, starts, enough, traits_.kind, params_.registration);
