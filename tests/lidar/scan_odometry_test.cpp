@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "lidar/scan_drive.hpp"
+#include "radioslam/base/parallel.hpp"
 
 namespace radioslam {
 namespace {
@@ -16,6 +18,10 @@ Scanner scanner_of(ScannerKind kind) {
   Scanner scanner = kind == ScannerKind::kPlanar ? planar_scanner() : Scanner();
   if (kind == ScannerKind::kSpatial) scanner.azimuths = 150;
   return scanner;
+}
+
+bool is_on_the_way(const ScanPose& pose) {
+  return pose.outcome == ScanOutcome::kRegistered || pose.outcome == ScanOutcome::kFirst;
 }
 
 void expect_end(const std::vector<ScanPose>& poses, const ScanDrive& drive, double off_m, double off_rad) {
@@ -84,6 +90,75 @@ TEST(ScanOdometer, FollowsATurnBetweenItsFirstTwoScans) {
     }
 }
 
+LidarScan noise_scan(ScannerKind kind, int count, Rng& rng) {
+  LidarScan scan;
+  for (int k = 0; k < count; ++k) {
+    const double x = rng.uniform(-8, 8), y = rng.uniform(-8, 8), z = rng.uniform(-2, 3);
+    scan.points.emplace_back(Eigen::Vector3d(x, y, kind == ScannerKind::kPlanar ? 0 : z).cast<float>());
+  }
+  return scan;
+}
+
+/// The drive with broken scans among its scans, and which of them are.
+struct SpoiltDrive {
+  ScanDrive drive;
+  std::vector<bool> broken;
+};
+
+SpoiltDrive spoilt(const ScanDrive& drive, const std::vector<LidarScan>& broken) {
+  SpoiltDrive result;
+  const auto add = [&](Stamp stamp, const SE3& truth, const LidarScan& scan, bool is_broken) {
+    result.drive.stamps.push_back(stamp);
+    result.drive.truth.push_back(truth);
+    result.drive.scans.push_back(scan);
+    result.broken.push_back(is_broken);
+  };
+  for (std::size_t k = 0; k < drive.scans.size(); ++k) {
+    add(drive.stamps[k], drive.truth[k], drive.scans[k], false);
+    if (k < 4 || k % 2 == 1) continue;
+    add({drive.stamps[k].ns + 50'000'000}, drive.truth[k], broken[k / 2 % broken.size()], true);
+  }
+  return result;
+}
+
+TEST(ScanOdometer, LeavesBrokenScansOut) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const ScannerKind kind : {ScannerKind::kSpatial, ScannerKind::kPlanar}) {
+    Rng rng(5);
+    const LidarScan all_nan{std::vector<Eigen::Vector3f>(3000, Eigen::Vector3f(nan, 1, 2)), {}};
+    const LidarScan all_zero{std::vector<Eigen::Vector3f>(3000, Eigen::Vector3f::Zero()), {}};
+    const LidarScan all_far{std::vector<Eigen::Vector3f>(3000, Eigen::Vector3f(481, 0, 0)), {}};
+    const LidarScan three{{{1, 2, 0}, {3, 4, 0}, {-5, 1, 0}}, {}};
+    const auto [drive, broken] =
+        spoilt(drive_along(furnished_room(), scanner_of(kind), around_furnished_room(40), 6),
+               {{}, all_nan, three, noise_scan(kind, 1500, rng), all_zero, all_far});
+    const auto poses = odometry_of(drive);
+    for (std::size_t k = 0; k < poses.size(); ++k)
+      EXPECT_EQ(is_on_the_way(poses[k]), !broken[k]) << k << ", fits by " << poses[k].matched_share;
+    expect_end(poses, drive, kClose_m, kClose_rad);
+  }
+}
+
+/// Where all scans fit worse than they used to, the map is to blame.
+TEST(ScanOdometer, GoesOnAfterScansThatItMissed) {
+  ScanDrive drive =
+      drive_along(furnished_hall(), scanner_of(ScannerKind::kPlanar), through_furnished_hall(60), 10);
+  drive.truth.erase(drive.truth.begin() + 12, drive.truth.begin() + 40);
+  drive.scans.erase(drive.scans.begin() + 12, drive.scans.begin() + 40);
+  drive.stamps.resize(drive.scans.size());
+  LidarParams params;
+  params.odometry.least_matched_share = 0;
+  params.odometry.least_usual_share = 1;
+  params.odometry.patience = 5;
+  const auto poses = odometry_of(drive, params);
+  std::size_t left_out = 0, longest = 0;
+  for (const ScanPose& pose : poses) {
+    left_out = is_on_the_way(pose) ? 0 : left_out + 1;
+    longest = std::max(longest, left_out);
+  }
+  EXPECT_EQ(longest, 5U);
+}
+
 TEST(ScannerTraits, AreTheScannersAndTheRooms) {
   const auto traits_of = [](const ScannedRoom& room, ScannerKind kind, double spacing_m) {
     LidarParams params;
@@ -150,7 +225,7 @@ double mean_angle_off(const std::vector<ScanPose>& poses, const ScanDrive& drive
 /// Stamps at the beginning of the sweeps are the hard case: an error of the motion returns as the next one's.
 TEST(ScanOdometer, UnbendsScansThatWereSweptOnTheMove) {
   for (const ScannerKind kind : {ScannerKind::kSpatial, ScannerKind::kPlanar})
-    for (const double stamp_at : {0.0, 0.5, 1.0}) {
+    for (const double stamp_at : {0.0, 1.0}) {
       Scanner scanner = scanner_of(kind);
       scanner.sweep_s = 0.1;
       scanner.stamp_at = stamp_at;

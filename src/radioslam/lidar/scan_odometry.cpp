@@ -64,6 +64,12 @@ double ScanOdometer::sigma_rad() const {
                                : std::max(p.least_sigma_rad, std::sqrt(deviation_.squares_rad2));
 }
 
+double ScanOdometer::least_share() const {
+  const auto& p = params_.odometry;
+  const double usual = left_out_ < p.patience ? usual_share_ : 0;  // else it may be the map that is wrong
+  return std::max(p.least_matched_share, p.least_usual_share * usual);
+}
+
 PosePrior ScanOdometer::prior_at(const SE3& predicted) const {
   PosePrior prior{predicted};
   prior.information.diagonal().head<3>().setConstant(1 / square(params_.odometry.prior_factor * sigma_m()));
@@ -129,7 +135,8 @@ ScanPose ScanOdometer::add(Stamp stamp, const LidarScan& scan, const std::option
   result.rms_m = fit.rms_m;
   result.iterations = fit.iterations;
   result.outcome = ScanOutcome::kUnmatched;
-  if (fit.matched_share < params_.odometry.least_matched_share) return result;
+  if (fit.matched_share < least_share()) return ++left_out_, result;
+  left_out_ = 0;
   result.outcome = ScanOutcome::kRegistered;
   result.T_start_body = fit.T_target_source;
   result.covariance = fit.posterior.inverse();

@@ -45,6 +45,8 @@ struct ScanOdometryParams {
   double enough_share = 0.9;          ///< of the usual fit; one worse than that is searched for from afar
   double insert_share = 0.8;          ///< of the usual fit; a scan below it does not enter the map
   double least_matched_share = 0.15;  ///< a scan less of which fits the map is left out
+  double least_usual_share = 0.5;     ///< likewise, of the usual fit: noise reaches 0.4
+  int patience = 10;                  ///< after so many left out in a row the usual fit counts no more
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -70,6 +72,9 @@ struct ScanOdometryParams {
           self.insert_share);
     visit(Field{"least_matched_share", "", 0, 1, "a scan less of which fits the map is left out"},
           self.least_matched_share);
+    visit(Field{"least_usual_share", "", 0, 1, "likewise, of the usual fit"}, self.least_usual_share);
+    visit(Field{"patience", "", 0, 1e6, "after so many left out in a row the usual fit counts no more"},
+          self.patience);
   }
 };
 
@@ -141,6 +146,7 @@ class ScanOdometer {
 
   double sigma_m() const;
   double sigma_rad() const;
+  double least_share() const;
   PosePrior prior_at(const SE3& predicted) const;
   Registration lay_onto_map(const ScanCloud& cloud, const PosePrior& prior) const;
   void learn(const SE3& deviation, double matched_share);
@@ -156,6 +162,7 @@ class ScanOdometer {
   SE3::Tangent twist_per_s_ = SE3::Tangent::Zero();
   Deviation deviation_;
   double usual_share_ = 0;  ///< of a scan's points that fit
+  int left_out_ = 0;        ///< scans in a row that did not
 };
 
 }  // namespace radioslam
