@@ -124,12 +124,24 @@ TEST(UsablePoints, LeavesOutPointsWhoseTimeIsNoNumber) {
 TEST(UsablePoints, LeavesOutPointsWithImpossibleTimes) {
   for (const float impossible_s : {-3e10F, 3e10F, -3e38F, 3e38F}) {
     LidarScan scan;
-    scan.points = {{3, 0, 0}, {0, 4, 0}};
-    scan.times_s = {0, impossible_s};
-    const PointCounts counts = usable_points(scan, turning_twist(), {}).counts;
-    EXPECT_EQ(counts.used, 1U) << impossible_s;
-    EXPECT_EQ(counts.far, 1U) << impossible_s;
+    scan.points = {{3, 0, 0}, {0, 4, 0}, {0, 5, 0}};
+    scan.times_s = {0, impossible_s, 0.1F};
+    const ScanPoints usable = usable_points(scan, turning_twist(), {});
+    const SE3 T = SE3::exp(0.1 * turning_twist());
+    EXPECT_LT(worst_error_m(usable, {{3, 0, 0}, T * Eigen::Vector3d(0, 5, 0)}), 1e-4);
+    EXPECT_EQ(usable.counts.not_finite, 1U) << impossible_s;
+    EXPECT_GE(usable.middle_s, 0);
+    EXPECT_LE(usable.middle_s, 0.11);
   }
+}
+
+TEST(UsablePoints, KnowTheMiddleOfTheirTimes) {
+  Rng rng(5);
+  EXPECT_NEAR(usable_points(swept_points(257, 0, 0.1, rng).scan, turning_twist(), {}).middle_s, 0.05, 1e-3);
+  EXPECT_NEAR(usable_points(swept_points(257, -0.1, 0, rng).scan, turning_twist(), {}).middle_s, -0.05, 1e-3);
+  LidarScan untimed;
+  untimed.points = {{3, 0, 0}};
+  EXPECT_EQ(usable_points(untimed, turning_twist(), {}).middle_s, 0);
 }
 
 TEST(UsablePoints, OfAnEmptyScanThereAreNone) {

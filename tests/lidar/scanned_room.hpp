@@ -74,7 +74,8 @@ struct Scanner {
   double view_rad = 2 * std::numbers::pi;  ///< about body x
   double sigma_range_m = 0.02;
   double most_m = 100;
-  double sweep_s = 0;  ///< > 0: points have times, from the stamp on
+  double sweep_s = 0;   ///< > 0: points have times
+  double stamp_at = 0;  ///< share of the sweep at the stamp
 };
 
 inline Scanner planar_scanner(int azimuths = 360, double view_rad = 2 * std::numbers::pi) {
@@ -86,13 +87,14 @@ inline Scanner planar_scanner(int azimuths = 360, double view_rad = 2 * std::num
   return scanner;
 }
 
-/// A scan by a robot that is at `T_room_body` at the stamp and moves on with this twist.
+/// A scan by a robot that is at `T_room_body` at the stamp and moves with this twist.
 inline LidarScan sweep(const ScannedRoom& room, const Scanner& scanner, const SE3& T_room_body, Rng& rng,
                        const SE3::Tangent& twist_per_s = SE3::Tangent::Zero()) {
   LidarScan scan;
   for (int a = 0; a < scanner.azimuths; ++a) {
     const double share = a / static_cast<double>(scanner.azimuths);
-    const double time_s = scanner.sweep_s * share, azimuth = (share - 0.5) * scanner.view_rad;
+    const double time_s = scanner.sweep_s * (share - scanner.stamp_at),
+                 azimuth = (share - 0.5) * scanner.view_rad;
     const SE3 T = T_room_body * SE3::exp(time_s * twist_per_s);
     for (int b = 0; b < scanner.beams; ++b) {
       const double rise = b / std::max(1.0, scanner.beams - 1.0);

@@ -33,7 +33,7 @@ ScannerTraits scanner_traits(const LidarLog& log, const LidarParams& params) {
   std::vector<double> ranges;
   ScannerTraits traits;
   traits.kind = ScannerKind::kPlanar;
-  const std::size_t stride = std::max<std::size_t>(1, log.size() / kTraitScans);
+  const std::size_t stride = std::max<std::size_t>(1, (log.size() + kTraitScans - 1) / kTraitScans);
   for (std::size_t k = 0; k < log.size(); k += stride) {
     const auto points = usable_points(log.read(k), SE3::Tangent::Zero(), params.points).points;
     for (const Eigen::Vector3f& point : points) {
@@ -64,6 +64,12 @@ double ScanOdometer::sigma_rad() const {
                                : std::max(p.least_sigma_rad, std::sqrt(deviation_.squares_rad2));
 }
 
+double ScanOdometer::least_share() const {
+  const auto& p = params_.odometry;
+  const double usual = left_out_ < p.patience ? usual_share_ : 0;  // else it may be the map that is wrong
+  return std::max(p.least_matched_share, p.least_usual_share * usual);
+}
+
 PosePrior ScanOdometer::prior_at(const SE3& predicted) const {
   PosePrior prior{predicted};
   prior.information.diagonal().head<3>().setConstant(1 / square(params_.odometry.prior_factor * sigma_m()));
@@ -74,7 +80,7 @@ PosePrior ScanOdometer::prior_at(const SE3& predicted) const {
 Registration ScanOdometer::lay_onto_map(const ScanCloud& cloud, const PosePrior& prior) const {
   const double deviation_m = sigma_m() + sigma_rad() * cloud.median_range_m;
   Registration near = register_near(map_, cloud, prior, deviation_m, traits_.kind, params_.registration);
-  const double enough = params_.odometry.enough_share * usual_share_;
+  const double enough = deviation_.count == 0 ? 1 : params_.odometry.enough_share * usual_share_;
   if (near.matched_share >= enough) return near;
   const auto starts = starts_about(pose_, prior.pose, map_.coarse().reach_m() / 2, cloud.median_range_m);
   const Registration far = register_from(map_, cloud, starts, enough, traits_.kind, params_.registration);
@@ -90,11 +96,14 @@ void ScanOdometer::learn(const SE3& deviation, double matched_share) {
   usual_share_ += newest * (matched_share - usual_share_);
 }
 
-void ScanOdometer::advance(const ScanPose& scan, double dt_s) {
-  const SE3 motion = pose_.inverse() * scan.T_start_body;
-  if (dt_s > 0) twist_per_s_ = motion.log() / dt_s;
-  way_m_ += motion.translation().norm();
+void ScanOdometer::advance(const ScanPose& scan, const SweepMiddle& middle) {
+  const SE3 T_start_middle = scan.T_start_body * middle.T_body_middle;
+  const double dt_s = seconds_between(middle_stamp_, middle.stamp);
+  if (last_ && dt_s > 0) twist_per_s_ = (middle_.inverse() * T_start_middle).log() / dt_s;
+  way_m_ += (pose_.inverse() * scan.T_start_body).translation().norm();
   pose_ = scan.T_start_body;
+  middle_ = T_start_middle;
+  middle_stamp_ = middle.stamp;
   last_ = scan.stamp;
   if (scan.matched_share >= params_.odometry.insert_share * usual_share_) map_.add(scan.cloud, pose_, way_m_);
 }
@@ -104,6 +113,8 @@ ScanPose ScanOdometer::add(Stamp stamp, const LidarScan& scan, const std::option
   const SE3 motion = T_previous_body ? *T_previous_body : SE3::exp(dt_s * twist_per_s_);
   const SE3::Tangent twist = T_previous_body && dt_s > 0 ? SE3::Tangent(motion.log() / dt_s) : twist_per_s_;
   const ScanPoints usable = usable_points(scan, twist, params_.points);
+  const SweepMiddle middle{{stamp.ns + Stamp::from_seconds(usable.middle_s).ns},
+                           SE3::exp(usable.middle_s * twist)};
 
   ScanPose result;
   result.stamp = stamp;
@@ -115,7 +126,7 @@ ScanPose ScanOdometer::add(Stamp stamp, const LidarScan& scan, const std::option
                             traits_.spacing_m, traits_.kind, params_.map);
   if (map_.empty()) {
     result.outcome = ScanOutcome::kFirst;
-    advance(result, dt_s);
+    advance(result, middle);
     return result;
   }
   const PosePrior prior = prior_at(result.T_start_body);
@@ -124,13 +135,14 @@ ScanPose ScanOdometer::add(Stamp stamp, const LidarScan& scan, const std::option
   result.rms_m = fit.rms_m;
   result.iterations = fit.iterations;
   result.outcome = ScanOutcome::kUnmatched;
-  if (fit.matched_share < params_.odometry.least_matched_share) return result;
+  if (fit.matched_share < least_share()) return ++left_out_, result;
+  left_out_ = 0;
   result.outcome = ScanOutcome::kRegistered;
   result.T_start_body = fit.T_target_source;
   result.covariance = fit.posterior.inverse();
   result.information = fit.information;
   learn(prior.pose.inverse() * fit.T_target_source, fit.matched_share);
-  advance(result, dt_s);
+  advance(result, middle);
   return result;
 }
 

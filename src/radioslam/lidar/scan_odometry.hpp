@@ -9,6 +9,10 @@
 // How far points may lie from the map follows from how wrong the predicted motion was so far, as in KISS-ICP
 // (Vizzo et al. 2023, "adaptive threshold"); the same deviation is the prior of the pose, so that along a
 // direction in which the scans tell nothing the prediction stands, with its uncertainty.
+//
+// The motion is measured from the middle of one sweep to the middle of the next. A scan unbent by a motion
+// that is wrong lies wrong at its stamp, but not at its middle; from stamp to stamp the error would return as
+// that of the next motion, with the other sign, and never decay where stamps are the sweeps' beginnings.
 #pragma once
 
 #include <cstddef>
@@ -41,6 +45,8 @@ struct ScanOdometryParams {
   double enough_share = 0.9;          ///< of the usual fit; one worse than that is searched for from afar
   double insert_share = 0.8;          ///< of the usual fit; a scan below it does not enter the map
   double least_matched_share = 0.15;  ///< a scan less of which fits the map is left out
+  double least_usual_share = 0.5;     ///< likewise, of the usual fit: noise reaches 0.4
+  int patience = 10;                  ///< after so many left out in a row the usual fit counts no more
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -66,6 +72,9 @@ struct ScanOdometryParams {
           self.insert_share);
     visit(Field{"least_matched_share", "", 0, 1, "a scan less of which fits the map is left out"},
           self.least_matched_share);
+    visit(Field{"least_usual_share", "", 0, 1, "likewise, of the usual fit"}, self.least_usual_share);
+    visit(Field{"patience", "", 0, 1e6, "after so many left out in a row the usual fit counts no more"},
+          self.patience);
   }
 };
 
@@ -130,22 +139,31 @@ class ScanOdometer {
     std::size_t count = 0;
   };
 
+  /// The middle of a sweep.
+  struct SweepMiddle {
+    Stamp stamp;
+    SE3 T_body_middle;  ///< where the body is then
+  };
+
   double sigma_m() const;
   double sigma_rad() const;
+  double least_share() const;
   PosePrior prior_at(const SE3& predicted) const;
   Registration lay_onto_map(const ScanCloud& cloud, const PosePrior& prior) const;
   void learn(const SE3& deviation, double matched_share);
-  void advance(const ScanPose& scan, double dt_s);
+  void advance(const ScanPose& scan, const SweepMiddle& middle);
 
   ScannerTraits traits_;
   LidarParams params_;
   LocalMap map_;
   std::optional<Stamp> last_;
-  SE3 pose_;
+  SE3 pose_, middle_;  ///< at the last scan's stamp and at its middle
+  Stamp middle_stamp_;
   double way_m_ = 0;
   SE3::Tangent twist_per_s_ = SE3::Tangent::Zero();
   Deviation deviation_;
   double usual_share_ = 0;  ///< of a scan's points that fit
+  int left_out_ = 0;        ///< scans in a row that did not
 };
 
 }  // namespace radioslam

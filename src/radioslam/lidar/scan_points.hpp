@@ -20,17 +20,22 @@ namespace radioslam {
 struct ScanPointParams {
   double least_range_m = 0.3;
   double most_range_m = 100;
+  double most_time_s = 60;  ///< from the stamp: slow scanners sweep for seconds
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
     visit(Field{"least_range_m", "m", 0, 100, "nearer points are the robot's own"}, self.least_range_m);
     visit(Field{"most_range_m", "m", 0.1, 1000, "farther points are left out"}, self.most_range_m);
+    visit(Field{"most_time_s", "s", 1e-3, 1e6, "points farther from their scan's stamp are left out"},
+          self.most_time_s);
   }
 };
 
 /// What became of the points of one scan, or of many.
 struct PointCounts {
-  std::size_t used = 0, not_finite = 0, near = 0, far = 0;
+  std::size_t used = 0;
+  std::size_t not_finite = 0;  ///< or of an impossible time
+  std::size_t near = 0, far = 0;
 
   void operator+=(const PointCounts& other) {
     used += other.used;
@@ -43,6 +48,7 @@ struct PointCounts {
 struct ScanPoints {
   std::vector<Eigen::Vector3f> points;  ///< in the body frame at the scan's stamp
   PointCounts counts;
+  double middle_s = 0;  ///< median of their times; 0 without any
 };
 
 /// `twist_per_s`: of the body, T(t) = T(stamp) Exp(t twist); it counts where the scan tells its points'

@@ -1,0 +1,91 @@
+// Drives through scanned rooms, as a robot's scanner records them.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "lidar/scanned_room.hpp"
+#include "radioslam/lidar/scan_odometry.hpp"
+
+namespace radioslam::test {
+
+/// Scans with the places at which they began.
+struct ScanDrive {
+  std::vector<Stamp> stamps;
+  std::vector<SE3> truth;  ///< T_room_body
+  std::vector<LidarScan> scans;
+
+  /// As odometry should have it: in the frame of the first scan.
+  SE3 way_to(std::size_t k) const { return truth.front().inverse() * truth[k]; }
+  SE3 way() const { return way_to(truth.size() - 1); }
+};
+
+/// Ten scans a second along these poses, each swept on the way past its pose.
+inline ScanDrive drive_along(const ScannedRoom& room, const Scanner& scanner, const std::vector<SE3>& poses,
+                             std::uint64_t seed) {
+  constexpr double kStep_s = 0.1;
+  Rng rng(seed);
+  ScanDrive drive;
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    const std::size_t next = std::min(k + 1, poses.size() - 1), last = std::max<std::size_t>(k, 1) - 1;
+    const SE3::Tangent ahead = (poses[k].inverse() * poses[next]).log() / kStep_s;
+    const SE3::Tangent behind = (poses[last].inverse() * poses[k]).log() / kStep_s;
+    const double share = scanner.stamp_at;
+    drive.stamps.push_back(Stamp::from_seconds(kStep_s * static_cast<double>(k)));
+    drive.truth.push_back(poses[k]);
+    drive.scans.push_back(sweep(room, scanner, poses[k], rng, (1 - share) * ahead + share * behind));
+  }
+  return drive;
+}
+
+inline LidarLog log_of(const ScanDrive& drive) {
+  return {drive.stamps, [scans = drive.scans](std::size_t k) { return scans[k]; }};
+}
+
+inline std::vector<ScanPose> odometry_of(const ScanDrive& drive, const LidarParams& params = {}) {
+  ScanOdometer odometer(scanner_traits(log_of(drive), params), params);
+  std::vector<ScanPose> poses;
+  for (std::size_t k = 0; k < drive.scans.size(); ++k)
+    poses.push_back(odometer.add(drive.stamps[k], drive.scans[k]));
+  return poses;
+}
+
+/// Once around the furnished room, always looking ahead.
+inline std::vector<SE3> around_furnished_room(int steps) {
+  std::vector<SE3> poses;
+  for (int k = 0; k < steps; ++k) {
+    const double angle = 2 * std::numbers::pi * k / steps;
+    const double x = 2.4 * std::cos(angle), y = 0.9 * std::sin(angle);
+    poses.push_back(pose_at(x, y, 1.2, std::atan2(0.9 * std::cos(angle), -2.4 * std::sin(angle))));
+  }
+  return poses;
+}
+
+/// A hall, 40 m by 24 m, with pillars of different girths and some crates.
+inline ScannedRoom furnished_hall() {
+  ScannedRoom hall;
+  hall.boxes = {{{-20, -12, 0}, {20, 12, 5}},
+                {{-12, 6, 0}, {-9, 8, 2.5}},
+                {{4, -9, 0}, {6, -5, 2}},
+                {{11, 5, 0}, {13, 9, 3}},
+                {{-18, -10, 0}, {-15, -8, 4}}};
+  Rng rng(77);
+  for (int x = -1; x <= 1; ++x)
+    for (const double y : {-4.0, 4.0}) {
+      const double radius_m = rng.uniform(0.2, 0.5);
+      hall.pillars.push_back({{11.0 * x + rng.uniform(-1, 1), y}, radius_m});
+    }
+  return hall;
+}
+
+/// Through the hall: 20 m there in a slight bend.
+inline std::vector<SE3> through_furnished_hall(int steps) {
+  std::vector<SE3> poses{pose_at(-12, -0.5, 1.2, -0.3)};
+  for (int k = 1; k < steps; ++k)
+    poses.push_back(poses.back() * SE3::exp(planar_motion(24.0 / steps, 0, 0.6 / steps)));
+  return poses;
+}
+
+}  // namespace radioslam::test
