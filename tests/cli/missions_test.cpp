@@ -58,7 +58,8 @@ TEST_F(Missions, RunWritesWhatItPromisesAndEvaluateReadsIt) {
   EXPECT_EQ(outcome.err, "");
   EXPECT_EQ(files_in(folder() / "out"),
             (std::vector<std::string>{"a.tum", "access_points.csv", "b.tum", "candidates.csv", "closures.csv",
-                                      "graph.g2o", "report.html", "summary.json"}));
+                                      "dense/a.tum", "dense/b.tum", "graph.g2o", "report.html",
+                                      "summary.json"}));
   const auto summary = nlohmann::json::parse(read_file(folder() / "out/summary.json"));
   for (const char* key : {"robots", "counts", "seconds", "parameters", "team_frame", "metrics"}) {
     EXPECT_TRUE(summary.contains(key)) << key;
