@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -59,7 +60,7 @@ TEST(MeasureSurfels, AreThinAcrossAPlaneAndWideAlongIt) {
     double across = 0, wide = 0, aligned = 0;
     for (const Surfel& surfel : measure_surfels(points, kSpacing_m, ScannerKind::kSpatial, params)) {
       const Eigen::Matrix3d covariance = surfel.covariance.cast<double>();
-      across += normal.dot(covariance * normal) / static_cast<double>(points.size());
+      across += 1 / normal.dot(covariance.inverse() * normal) / static_cast<double>(points.size());
       wide += along.dot(covariance * along) / static_cast<double>(points.size());
       aligned += std::abs(thinnest_direction(surfel).dot(normal)) / static_cast<double>(points.size());
     }
@@ -69,7 +70,7 @@ TEST(MeasureSurfels, AreThinAcrossAPlaneAndWideAlongIt) {
   }
   // Ten neighbours spread about their own mean, and the scanner's stated noise on top.
   const double expected = 0.9 * sigma_m * sigma_m + params.sigma_range_m * params.sigma_range_m;
-  EXPECT_NEAR(mean_across, expected, 0.07 * expected);
+  EXPECT_NEAR(mean_across, expected, 0.1 * expected);
 }
 
 TEST(MeasureSurfels, StandAtTheirPoints) {
@@ -93,14 +94,13 @@ TEST(MeasureSurfels, OfAPlanarScannerLeaveTheHeightOpen) {
   }
 }
 
-/// Nothing is known of their surface: they lie as they may, within a spacing or so.
+/// Nothing is known of their surface: they tell nothing.
 TEST(MeasureSurfels, OfIsolatedPointsAreTheSameAllAround) {
   std::vector<Eigen::Vector3f> points;
   for (int k = 0; k < 20; ++k) points.emplace_back(static_cast<float>(k), 0.0F, 0.0F);
   for (const Surfel& surfel : measure_surfels(points, kSpacing_m, ScannerKind::kSpatial, {})) {
     EXPECT_TRUE(surfel.covariance.isApprox(surfel.covariance(0, 0) * Eigen::Matrix3f::Identity()));
-    EXPECT_GT(std::sqrt(surfel.covariance(0, 0)), 0.5 * kSpacing_m);
-    EXPECT_LT(std::sqrt(surfel.covariance(0, 0)), 2 * kSpacing_m);
+    EXPECT_GT(std::sqrt(surfel.covariance(0, 0)), 10 * kSpacing_m);
   }
 }
 

@@ -8,9 +8,9 @@
 // Neighbouring points err together (same surface, same scan line): the information counts `independent_share`
 // of each.
 // The normal of a surface is known to a few degrees only, so that some of what a wall tells across leaks
-// along it: along a corridor, thousands of points promise what none of them knows. Of the information about
-// the position `leak_share` of the largest eigenvalue is taken off all three. (In space; a plane's scan line
-// has its normals from many points.)
+// along it: along a corridor, thousands of points promise what none of them knows. Of the stated information
+// about the position `leak_share` of the largest eigenvalue is taken off all three. (In space; a plane's scan
+// line has its normals from many points.)
 #pragma once
 
 #include <Eigen/Core>
@@ -28,7 +28,7 @@ struct RegistrationParams {
   int max_iterations = 30;
   double loss_scale = 3;    ///< standard deviations beyond which a point counts for little
   double narrowing = 0.35;  ///< of the blur from one iteration to the next
-  double leak_share = 0.015;
+  double leak_share = 0.02;
   double translation_tolerance_m = 1e-3;
   double rotation_tolerance_rad = 3e-4;
 
