@@ -67,9 +67,9 @@ void odometry(benchmark::State& state) {
 
 ScanCloud cloud_of(const LidarScan& scan, const ScannerTraits& traits, const LidarParams& params) {
   const auto points = usable_points(scan, SE3::Tangent::Zero(), params.points).points;
-  return scan_cloud(measure_surfels(thin_by_voxels(points, traits.spacing_m), traits.spacing_m, traits.kind,
-                                    params.surfel),
-                    traits.spacing_m, traits.kind, params.map);
+  return scan_cloud(
+      measure_surfels(thin_by_voxels(points, traits.spacing_m), traits.spacing_m, traits.kind, params.surfel),
+      traits.spacing_m, traits.kind, params.map);
 }
 
 void registration(benchmark::State& state) {

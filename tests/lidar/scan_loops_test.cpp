@@ -19,12 +19,10 @@ constexpr double kKeyframeSpacing_m = 0.2;
 /// Corridors around a block of 14 m by 14 m, with niches, pillars and crates.
 ScannedRoom ring_of_corridors() {
   ScannedRoom ring;
-  ring.boxes = {{{-10, -10, 0}, {10, 10, 3}},        {{-7, -7, 0}, {7, 7, 3}},
-                {{-4, -10, 0}, {-3, -9.3, 3}},       {{2, -7.6, 0}, {3.2, -7, 2}},
-                {{9.2, -3, 0}, {10, -1, 3}},         {{7, 3, 0}, {7.5, 4.5, 3}},
-                {{0, 9.4, 0}, {2.5, 10, 2}},         {{-5, 7, 0}, {-4.4, 7.7, 3}},
-                {{-10, 4, 0}, {-9.5, 5, 3}},         {{-7.8, -2, 0}, {-7, -1.2, 3}},
-                {{5.5, -10, 0}, {7, -9.1, 2.5}}};
+  ring.boxes = {{{-10, -10, 0}, {10, 10, 3}},   {{-7, -7, 0}, {7, 7, 3}},       {{-4, -10, 0}, {-3, -9.3, 3}},
+                {{2, -7.6, 0}, {3.2, -7, 2}},   {{9.2, -3, 0}, {10, -1, 3}},    {{7, 3, 0}, {7.5, 4.5, 3}},
+                {{0, 9.4, 0}, {2.5, 10, 2}},    {{-5, 7, 0}, {-4.4, 7.7, 3}},   {{-10, 4, 0}, {-9.5, 5, 3}},
+                {{-7.8, -2, 0}, {-7, -1.2, 3}}, {{5.5, -10, 0}, {7, -9.1, 2.5}}};
   ring.pillars = {{{-9.6, -4}, 0.2}, {{4, 9.7}, 0.25}, {{-1, -9.7}, 0.15}};
   return ring;
 }
@@ -33,7 +31,8 @@ ScannedRoom ring_of_corridors() {
 std::vector<SE3> around_the_ring() {
   std::vector<SE3> poses{pose_at(-6, -8.5, 1, 0)};
   const auto go = [&](double way_m) {
-    for (int k = 0; k < static_cast<int>(way_m); ++k) poses.push_back(poses.back() * SE3::exp(planar_motion(1, 0, 0)));
+    for (int k = 0; k < static_cast<int>(way_m); ++k)
+      poses.push_back(poses.back() * SE3::exp(planar_motion(1, 0, 0)));
   };
   const auto turn = [&] {
     for (int k = 0; k < 3; ++k)
@@ -233,8 +232,8 @@ TEST(CloseScanLoops, AreTheSameForAnyNumberOfThreads) {
 
 TEST(CloseScanLoops, HaveAReasonUnlessTheyStand) {
   EXPECT_TRUE(reason(LoopVerdict::kAccepted).empty());
-  for (const LoopVerdict verdict : {LoopVerdict::kPoorFit, LoopVerdict::kAmbiguous,
-                                    LoopVerdict::kFarFromGuess, LoopVerdict::kOutvoted})
+  for (const LoopVerdict verdict :
+       {LoopVerdict::kPoorFit, LoopVerdict::kAmbiguous, LoopVerdict::kFarFromGuess, LoopVerdict::kOutvoted})
     EXPECT_FALSE(reason(verdict).empty());
 }
 

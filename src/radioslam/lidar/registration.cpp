@@ -102,8 +102,16 @@ void pin_plane(Registration& result, SE3::Tangent& gradient) {
   }
 }
 
+/// -H^-1 g; next to nothing along what H does not tell.
+SE3::Tangent newton_step(SE3::Jacobian hessian, const SE3::Tangent& gradient) {
+  constexpr double kUntold = 1e-6;  // information of a kilometre, or of a thousand turns
+  hessian.diagonal() *= 1 + 1e-9;
+  hessian.diagonal().array() += kUntold;
+  return -hessian.ldlt().solve(gradient);
+}
+
 /// Takes `share` of the largest information about the position off that along each axis. What an axis keeps,
-/// it keeps in all that the points tell along it.
+/// it keeps in all that the points tell along it; where the points want to go stays as it is.
 void take_off_leak(NormalSums& sums, double share) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(sums.hessian.topLeftCorner<3, 3>());
   const Eigen::Vector3d values = axes.eigenvalues();
@@ -111,8 +119,9 @@ void take_off_leak(NormalSums& sums, double share) {
   const Eigen::Vector3d kept = left.cwiseQuotient(values.cwiseMax(1e-12)).cwiseSqrt();
   SE3::Jacobian scale = SE3::Jacobian::Identity();
   scale.topLeftCorner<3, 3>() = axes.eigenvectors() * kept.asDiagonal() * axes.eigenvectors().transpose();
+  const SE3::Tangent wanted = newton_step(sums.hessian, sums.gradient);
   sums.hessian = (scale * sums.hessian * scale).eval();
-  sums.gradient = (scale * sums.gradient).eval();
+  sums.gradient = -sums.hessian * wanted;
 }
 
 }  // namespace
@@ -134,9 +143,7 @@ Registration register_surfels(const NearestSurfel& target, const SurfelSource& s
     result.posterior = result.information + prior.information;
     SE3::Tangent gradient = source.independent_share * sums.gradient + prior.information * from_prior;
     if (kind == ScannerKind::kPlanar) pin_plane(result, gradient);
-    SE3::Jacobian hessian = result.posterior;
-    hessian.diagonal() *= 1 + 1e-9;
-    const SE3::Tangent step = -hessian.ldlt().solve(gradient);
+    const SE3::Tangent step = newton_step(result.posterior, gradient);
     result.T_target_source = result.T_target_source * SE3::exp(step);
     result.matched_share = sums.weights / static_cast<double>(source.surfels.size());
     result.rms_m = std::sqrt(sums.weighted_squares / std::max(1e-12, 3 * sums.weights));
