@@ -241,6 +241,51 @@ TEST(RegisterSurfels, WithoutOverlapSaysSoAndStaysWhereItStarted) {
   expect_refusal(transformed(start, few.surfels), few);
 }
 
+/// A corridor without a feature, and without an end in sight.
+struct CorridorScans {
+  SurfelMap map{0.1, 0.3};
+  SurfelSource source;
+  SE3 T_target_source = pose_at(0.5, 0.1, 0, 0);
+};
+
+CorridorScans corridor_scans(ScannerKind kind, std::uint64_t seed) {
+  ScannedRoom corridor;
+  corridor.boxes = {{{-1000, -1.5, 0}, {1000, 1.5, 2.5}}};
+  Scanner scanner = kind == ScannerKind::kPlanar ? planar_scanner() : Scanner();
+  scanner.most_m = 25;
+  Rng rng(seed);
+  CorridorScans scans;
+  scans.map.add(surfels_of(sweep(corridor, scanner, pose_at(0, 0, 1.2, 0), rng), 0.1, kind), 0);
+  scans.source = cloud_of(sweep(corridor, scanner, pose_at(0.5, 0.1, 1.2, 0), rng), 0.1, kind).source;
+  return scans;
+}
+
+TEST(RegisterSurfels, AlongACorridorTellsNothingAndLeavesThePriorAlone) {
+  for (std::uint64_t seed = 0; seed < 4; ++seed)
+    for (const double off_m : {-0.2, 0.0, 0.2}) {
+      const CorridorScans scans = corridor_scans(ScannerKind::kSpatial, seed);
+      PosePrior prior{scans.T_target_source * SE3::exp(planar_motion(off_m, 0.03, 0.01))};
+      prior.information.diagonal().setConstant(100);  // 10 cm
+      const auto fit = register_surfels(nearest_on(scans.map), scans.source, {prior.pose, 0.1, 0.3}, prior,
+                                        ScannerKind::kSpatial, {});
+      EXPECT_NEAR(fit.T_target_source.translation().x(), prior.pose.translation().x(), 0.05);
+      EXPECT_NEAR(fit.T_target_source.translation().y(), 0.1, 0.01);
+      EXPECT_LT(fit.information(0, 0), 0.002 * fit.information(1, 1));
+      EXPECT_LT(angle_between(fit.T_target_source, scans.T_target_source), 0.5 * kDegree);
+    }
+}
+
+/// A plane's scan: the ends of the walls that it sees hold it a little.
+TEST(RegisterSurfels, AlongACorridorTellsFarLessThanAcross) {
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    const CorridorScans scans = corridor_scans(ScannerKind::kPlanar, seed);
+    const auto fit = register_surfels(nearest_on(scans.map), scans.source, {scans.T_target_source, 0.1, 0.3},
+                                      {scans.T_target_source}, ScannerKind::kPlanar, {});
+    EXPECT_NEAR(fit.T_target_source.translation().y(), 0.1, 0.01);
+    EXPECT_LT(fit.information(0, 0), 0.1 * fit.information(1, 1));
+  }
+}
+
 /// Along an axis of which next to nothing is left, steps are no longer than elsewhere.
 TEST(RegisterSurfels, DoesNotOvershootWhatItTrustsLess) {
   const SurfelSource source{scattered_surfels(300, 0.05, 10)};
