@@ -30,6 +30,7 @@ struct ScanTrack {
   std::map<ScanOutcome, std::size_t> outcomes;
   PointCounts points;
   double usual_share = 0;
+  bool is_level = false;  ///< gravity told how the first pose stands
 };
 
 bool is_registered(const ScanPose& pose) {
@@ -97,8 +98,21 @@ OdometryStepNoise stated_noise(const StampedPose<SE3>& a, const StampedPose<SE3>
           odometry_edge<SE3>(rows, 0, 1, noise).covariance / seconds_between(a.stamp, b.stamp)};
 }
 
+/// Where the scans' poses begin in the frame of the recorded odometry: known starts and compasses speak of
+/// that.
+SE3 start_of_scans(const Trajectory<SE3>& odometry, const ScanTrack& track) {
+  for (const ScanPose& pose : track.poses)
+    if (const auto recorded = odometry.at(pose.stamp)) {
+      const SE3 T = *recorded * pose.T_start_body.inverse();
+      return track.is_level ? lift(flatten(T), T.translation().z()) : T;
+    }
+  return {};
+}
+
 /// The robot's odometry by its scans, with recorded rows before and after.
-void take_odometry(Robot& robot, const ScanTrack& track) {
+void take_odometry(Robot& robot, ScanTrack& track) {
+  const SE3 T_start_scans = start_of_scans(robot.odometry, track);
+  for (ScanPose& pose : track.poses) pose.T_start_body = T_start_scans * pose.T_start_body;
   constexpr Stamp kEver{std::numeric_limits<std::int64_t>::max()},
       kNever{std::numeric_limits<std::int64_t>::min()};
   const ScanPose &first = track.poses.front(), &last = track.poses.back();
