@@ -242,6 +242,20 @@ TEST(Pipeline, RunsOnScansAlone) {
   }
 }
 
+/// Its start is all that there is to say of it.
+TEST(Pipeline, RunsWithARobotWhoseScansAreOfNoUse) {
+  Robot blind;
+  blind.id = "b";
+  blind.lidar = broken_log(20);
+  const Mission mission = mission_of({scanning_robot("a", small_drive()), blind});
+  const RunResult result = run_pipeline(mission, {}).result;
+  ASSERT_EQ(result.robots.size(), 2U);
+  EXPECT_EQ(result.robots[1].estimate.size(), 1U);
+  EXPECT_TRUE(std::any_of(result.notes.begin(), result.notes.end(), [](const std::string& note) {
+    return note.find("robot b: 20 scans") != std::string::npos;
+  }));
+}
+
 TEST(Pipeline, WithScansGivesTheSameNumbersForAnyNumberOfThreads) {
   const ScanDrive drive = small_drive(ScannerKind::kSpatial);
   Robot robot = scanning_robot("a", drive);

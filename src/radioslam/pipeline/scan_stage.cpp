@@ -149,6 +149,11 @@ bool take_readings(ScanTrack& track, const std::vector<InertialSample>& samples,
   return true;
 }
 
+/// A robot that nothing tells to move, from its first scan on.
+void stand_still(Robot& robot) {
+  if (robot.odometry.empty()) robot.odometry = Trajectory<SE3>({{robot.lidar.stamps.front(), SE3()}});
+}
+
 ScanKeyframes keyframes_of(ScanTrack& track, const ScannerTraits& traits) {
   ScanKeyframes result;
   result.usual_share = track.usual_share;
@@ -192,7 +197,10 @@ MeasuredScans measure_scans(Mission& mission, const ScanParams& params, const Ke
     ScanTrack track = track_scans(robot, traits, params, keyframes, progress);
     add_notes(measured, robot, track);
     measured.scans += robot.lidar.size();
-    if (track.poses.empty()) continue;
+    if (track.poses.empty()) {
+      stand_still(robot);
+      continue;
+    }
     measured.registered += track.poses.size();
     measured.keyframes += track.keyframes.size();
     if (uses_inertial(robot, params) && !take_readings(track, robot.inertial, params.inertial))
