@@ -73,8 +73,7 @@ TEST(SearchPose, LooksWithinItsWindow) {
   const auto [map, scan] = searched_scan(furnished_room(), places_in_furnished_room(), truth, 1);
   const SE3 far = pose_at(4.5, 0.2, 1.2, 0.4 + 170 * kDegree);
   const auto found = search_pose(map, scan, guess_at(far, 0.1, 2 * kDegree), ScannerKind::kSpatial, {}, {});
-  const SE3& found_pose = found.best.T_target_source;
-  EXPECT_GT(distance_between(found_pose, truth) + angle_between(found_pose, truth), 1);
+  EXPECT_GT(angle_between(found.best.T_target_source, truth), 90 * kDegree);
 }
 
 TEST(SearchPose, OfAGuessThatIsRightNeedsNoWindow) {

@@ -30,6 +30,7 @@ struct ScanTrack {
   std::map<ScanOutcome, std::size_t> outcomes;
   PointCounts points;
   double usual_share = 0;
+  bool is_level = false;  ///< gravity told how the first pose stands
 };
 
 bool is_registered(const ScanPose& pose) {
@@ -97,8 +98,21 @@ OdometryStepNoise stated_noise(const StampedPose<SE3>& a, const StampedPose<SE3>
           odometry_edge<SE3>(rows, 0, 1, noise).covariance / seconds_between(a.stamp, b.stamp)};
 }
 
+/// Where the scans' poses begin in the frame of the recorded odometry: known starts and compasses speak of
+/// that.
+SE3 start_of_scans(const Trajectory<SE3>& odometry, const ScanTrack& track) {
+  for (const ScanPose& pose : track.poses)
+    if (const auto recorded = odometry.at(pose.stamp)) {
+      const SE3 T = *recorded * pose.T_start_body.inverse();
+      return track.is_level ? lift(flatten(T), T.translation().z()) : T;
+    }
+  return {};
+}
+
 /// The robot's odometry by its scans, with recorded rows before and after.
-void take_odometry(Robot& robot, const ScanTrack& track) {
+void take_odometry(Robot& robot, ScanTrack& track) {
+  const SE3 T_start_scans = start_of_scans(robot.odometry, track);
+  for (ScanPose& pose : track.poses) pose.T_start_body = T_start_scans * pose.T_start_body;
   constexpr Stamp kEver{std::numeric_limits<std::int64_t>::max()},
       kNever{std::numeric_limits<std::int64_t>::min()};
   const ScanPose &first = track.poses.front(), &last = track.poses.back();
@@ -133,6 +147,11 @@ bool take_readings(ScanTrack& track, const std::vector<InertialSample>& samples,
     track.poses[k].covariance = measured_covariance(smoothed->steps, begin, end);
   }
   return true;
+}
+
+/// A robot that nothing tells to move, from its first scan on.
+void stand_still(Robot& robot) {
+  if (robot.odometry.empty()) robot.odometry = Trajectory<SE3>({{robot.lidar.stamps.front(), SE3()}});
 }
 
 ScanKeyframes keyframes_of(ScanTrack& track, const ScannerTraits& traits) {
@@ -178,7 +197,10 @@ MeasuredScans measure_scans(Mission& mission, const ScanParams& params, const Ke
     ScanTrack track = track_scans(robot, traits, params, keyframes, progress);
     add_notes(measured, robot, track);
     measured.scans += robot.lidar.size();
-    if (track.poses.empty()) continue;
+    if (track.poses.empty()) {
+      stand_still(robot);
+      continue;
+    }
     measured.registered += track.poses.size();
     measured.keyframes += track.keyframes.size();
     if (uses_inertial(robot, params) && !take_readings(track, robot.inertial, params.inertial))
