@@ -4,6 +4,8 @@
 
 #include <numbers>
 
+#include "radioslam/base/random.hpp"
+
 namespace radioslam {
 namespace {
 
@@ -47,6 +49,35 @@ TEST(SelectKeyframes, KeepsTheFirstAndTheLastRowOnce) {
   EXPECT_EQ(select_keyframes(one_row_per_second({}), {}), Rows());
   EXPECT_EQ(select_keyframes(one_row_per_second({SE2()}), {}), Rows({0}));
   EXPECT_EQ(select_keyframes(one_row_per_second({SE2(), SE2()}), {}), Rows({0, 1}));
+}
+
+/// One pose at a time, as a robot meets them, the choice is the same but for the last row.
+TEST(IsNewKeyframe, ChoosesAsSelectKeyframesDoes) {
+  Rng rng(4);
+  std::vector<SE2> poses{SE2()};
+  for (int k = 0; k < 400; ++k) {
+    const double way_m = rng.uniform(0, 0.4), turn_rad = rng.normal(0, 0.06);
+    poses.push_back(poses.back() * SE2({way_m, 0}, turn_rad));
+  }
+  const auto odometry = one_row_per_second(poses);
+  for (const KeyframeParams& params : {KeyframeParams{}, KeyframeParams{3, 1}, KeyframeParams{0.5, 100}}) {
+    Rows chosen{0};
+    for (std::size_t i = 1; i < odometry.size(); ++i)
+      if (is_new_keyframe(odometry[chosen.back()].pose, odometry[i].pose, params)) chosen.push_back(i);
+    if (chosen.back() + 1 < odometry.size()) chosen.push_back(odometry.size() - 1);
+    EXPECT_EQ(select_keyframes(odometry, params), chosen);
+    EXPECT_GT(chosen.size(), 5U);
+  }
+}
+
+TEST(IsNewKeyframe, CountsTheWayOrTheTurn) {
+  const SE3 last = lift(SE2({3, -2}, 0.7));
+  const auto at = [&](double way_m, double turn_rad) { return last * lift(SE2({0, way_m}, turn_rad)); };
+  const KeyframeParams params{2, 0.5};
+  EXPECT_FALSE(is_new_keyframe(last, last, params));
+  EXPECT_FALSE(is_new_keyframe(last, at(1.99, 0.49), params));
+  EXPECT_TRUE(is_new_keyframe(last, at(2.01, 0), params));
+  EXPECT_TRUE(is_new_keyframe(last, at(0, -0.51), params));
 }
 
 TEST(KeyframeBefore, IsTheLastOneNotLaterThanTheStamp) {

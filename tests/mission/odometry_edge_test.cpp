@@ -3,10 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
+#include <vector>
 
 #include "radioslam/base/random.hpp"
+#include "radioslam/geometry/uncertain_pose.hpp"
 
 namespace radioslam {
 namespace {
@@ -148,6 +152,76 @@ TEST(OdometryEdge, DriftJacobianIsTheSlopeOfTheComposedMotion) {
   };
   expect_drift_jacobian<SE2>(drive(150 * kFiner, finer(0)));
   expect_drift_jacobian<SE3>(drive(150 * kFiner, finer(0.02)));
+}
+
+/// Noise measured along with the odometry, a step a second, from `drive`'s rows.
+std::vector<OdometryStepNoise> measured_steps(int count, std::uint64_t seed) {
+  Rng rng(seed);
+  std::vector<OdometryStepNoise> steps;
+  for (int k = 0; k < count; ++k) {
+    SE3::Jacobian root;
+    for (double& value : root.reshaped()) value = rng.normal(0, 0.002);
+    steps.push_back({Stamp::from_seconds(k), Stamp::from_seconds(k + 1), root * root.transpose()});
+  }
+  return steps;
+}
+
+/// The same way with rows in between.
+Trajectory<SE3> with_further_rows(const Trajectory<SE3>& odometry, const std::vector<double>& seconds) {
+  std::vector<StampedPose<SE3>> rows(odometry.begin(), odometry.end());
+  for (const double s : seconds)
+    rows.push_back({Stamp::from_seconds(s), *odometry.at(Stamp::from_seconds(s))});
+  std::sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
+  return Trajectory<SE3>(std::move(rows));
+}
+
+TEST(OdometryEdge, OfMeasuredStepsIsTheirChain) {
+  const auto odometry = drive(6, [](int k) { return winding(k, 0.02); });
+  OdometryNoise noise;
+  noise.steps = measured_steps(6, 1);
+  UncertainPose<SE3> chain;
+  for (std::size_t k = 1; k <= 4; ++k)
+    chain = chain * UncertainPose<SE3>{odometry[k].pose.inverse() * odometry[k + 1].pose,
+                                       noise.steps[k].covariance_per_s};
+  const auto edge = odometry_edge<SE3>(odometry, 1, 5, noise);
+  const SE3::Jacobian floor = odometry_edge<SE3>(odometry, 1, 1, noise).covariance;
+  EXPECT_LT((edge.covariance - floor - chain.covariance).norm(), 1e-9 * chain.covariance.norm());
+}
+
+/// A row in the middle of a step, or at any time, changes nothing: standing still exactly, and on the way but
+/// for the lever of half a step.
+TEST(OdometryEdge, OfAMeasuredStepCutInTwoIsThatOfTheWhole) {
+  OdometryNoise noise;
+  noise.steps = measured_steps(6, 2);
+  const std::vector<double> cuts{0.5, 2.25, 2.75, 5.9};
+  const auto expect_same = [&](const Trajectory<SE3>& whole, double tolerance) {
+    const auto cut = with_further_rows(whole, cuts);
+    const auto a = odometry_edge<SE3>(whole, 0, whole.size() - 1, noise);
+    const auto b = odometry_edge<SE3>(cut, 0, cut.size() - 1, noise);
+    EXPECT_LT((a.covariance - b.covariance).norm(), tolerance * a.covariance.norm());
+    EXPECT_LT((a.T_i_j.inverse() * b.T_i_j).log().norm(), 1e-9);
+    const auto c = odometry_edge<SE2>(whole, 0, whole.size() - 1, noise);
+    const auto d = odometry_edge<SE2>(cut, 0, cut.size() - 1, noise);
+    EXPECT_LT((c.covariance - d.covariance).norm(), tolerance * c.covariance.norm());
+  };
+  expect_same(drive(6, [](int) -> Tangent { return Tangent::Zero(); }), 1e-12);
+  expect_same(drive(6, [](int k) { return winding(k, 0.02); }), 0.05);
+}
+
+TEST(OdometryEdge, OfMeasuredStepsCountsWhatLiesBetweenItsRows) {
+  OdometryNoise noise;
+  for (const int begin : {2, 4}) {
+    SE3::Jacobian per_s = SE3::Jacobian::Zero();
+    per_s.diagonal().setConstant(1e-4 * begin);
+    noise.steps.push_back({Stamp::from_seconds(begin), Stamp::from_seconds(begin + 1), per_s});
+  }
+  const auto at = [](double s) { return Stamp::from_seconds(s); };
+  EXPECT_NEAR(measured_covariance(noise.steps, at(0), at(2))(0, 0), 0, 1e-15);
+  EXPECT_NEAR(measured_covariance(noise.steps, at(2.25), at(2.75))(0, 0), 1e-4, 1e-12);
+  EXPECT_NEAR(measured_covariance(noise.steps, at(2.5), at(4.5))(0, 0), 1e-4 + 2e-4, 1e-12);
+  EXPECT_NEAR(measured_covariance(noise.steps, at(0), at(9))(0, 0), 2e-4 + 4e-4, 1e-12);
+  EXPECT_NEAR(measured_covariance(noise.steps, at(5), at(9))(0, 0), 0, 1e-15);
+  EXPECT_TRUE(measured_covariance({}, at(0), at(9)).isZero(0));
 }
 
 TEST(DistanceWalked, FollowsTheWayAndStopsAtItsEnds) {
