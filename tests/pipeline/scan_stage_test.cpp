@@ -257,6 +257,28 @@ TEST(Pipeline, RunsWithARobotWhoseScansAreOfNoUse) {
   }));
 }
 
+TEST(Pipeline, ReportsTheLoopsThatScansClose) {
+  auto poses = around_furnished_room(40);
+  const auto again = poses;
+  poses.insert(poses.end(), again.begin(), again.end());
+  const ScanDrive drive = drive_along(furnished_room(), planar_scanner(), poses, 3);
+  const Mission mission = mission_of({scanning_robot("a", drive)});
+  RunParams params;
+  params.scans.loops.known_sigma_m = 0;  // try them however well the scans tell the way already
+  params.scans.loops.least_way_m = 5;
+  const RunResult result = run_pipeline(mission, params).result;
+  std::size_t accepted = 0;
+  for (const ClosureResult& closure : result.closures) {
+    EXPECT_EQ(closure.kind, ClosureKind::kLidar);
+    EXPECT_LT(closure.stamp_i, closure.stamp_j);
+    EXPECT_EQ(closure.status == ClosureStatus::kAccepted, closure.reason.empty());
+    if (closure.status == ClosureStatus::kAccepted) ++accepted;
+  }
+  EXPECT_GT(accepted, 2U);
+  const auto& estimate = result.robots[0].estimate;
+  EXPECT_LT(distance_between(estimate.back().pose, estimate.front().pose * drive.way()), 0.05);
+}
+
 TEST(Pipeline, WithScansGivesTheSameNumbersForAnyNumberOfThreads) {
   const ScanDrive drive = small_drive(ScannerKind::kSpatial);
   Robot robot = scanning_robot("a", drive);
