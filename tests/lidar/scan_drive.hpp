@@ -25,15 +25,15 @@ struct ScanDrive {
 /// Ten scans a second along these poses, each swept on the way past its pose.
 inline ScanDrive drive_along(const ScannedRoom& room, const Scanner& scanner, const std::vector<SE3>& poses,
                              std::uint64_t seed) {
-  constexpr double kStep_s = 0.1;
+  constexpr double kBetweenScans_s = 0.1;
   Rng rng(seed);
   ScanDrive drive;
   for (std::size_t k = 0; k < poses.size(); ++k) {
     const std::size_t next = std::min(k + 1, poses.size() - 1), last = std::max<std::size_t>(k, 1) - 1;
-    const SE3::Tangent ahead = (poses[k].inverse() * poses[next]).log() / kStep_s;
-    const SE3::Tangent behind = (poses[last].inverse() * poses[k]).log() / kStep_s;
+    const SE3::Tangent ahead = (poses[k].inverse() * poses[next]).log() / kBetweenScans_s;
+    const SE3::Tangent behind = (poses[last].inverse() * poses[k]).log() / kBetweenScans_s;
     const double share = scanner.stamp_at;
-    drive.stamps.push_back(Stamp::from_seconds(kStep_s * static_cast<double>(k)));
+    drive.stamps.push_back(Stamp::from_seconds(kBetweenScans_s * static_cast<double>(k)));
     drive.truth.push_back(poses[k]);
     drive.scans.push_back(sweep(room, scanner, poses[k], rng, (1 - share) * ahead + share * behind));
   }

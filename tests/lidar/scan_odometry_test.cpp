@@ -79,6 +79,17 @@ TEST(ScanOdometer, FollowsSuddenTurns) {
     }
 }
 
+/// Most of a hall's points lie on rings about the scanner, on the floor: they turn and move along with it.
+TEST(ScanOdometer, IsNotHeldByTheRingsOfItsBeams) {
+  for (const std::uint64_t seed : {2U, 3U}) {
+    auto poses = through_furnished_hall(40);
+    for (std::size_t k = 0; k < poses.size(); ++k)
+      poses[k] = poses[k] * SE3::exp(planar_motion(0, 0, 30 * kDegree * static_cast<double>((k + 1) / 4)));
+    const ScanDrive drive = drive_along(furnished_hall(), scanner_of(ScannerKind::kSpatial), poses, seed);
+    expect_end(odometry_of(drive), drive, kClose_m, kClose_rad);
+  }
+}
+
 /// Nothing is known of the motion and of the usual fit yet.
 TEST(ScanOdometer, FollowsATurnBetweenItsFirstTwoScans) {
   std::vector<SE3> poses = around_furnished_room(40);

@@ -11,7 +11,7 @@
 namespace radioslam {
 namespace {
 
-constexpr double kSpacing_m = 0.2, kReach_m = 0.6;
+constexpr double kSurfelSpacing_m = 0.2, kSurfelReach_m = 0.6;
 
 std::vector<Surfel> scattered(double reach_m, int count, Rng& rng, const Eigen::Vector3f& centre) {
   std::vector<Surfel> surfels;
@@ -46,23 +46,23 @@ void expect_nearest(const SurfelMap& map, const Eigen::Vector3f& point, double r
 TEST(SurfelMap, FindsTheNearestAsALookAtEverySurfelDoes) {
   Rng rng(1);
   for (const Eigen::Vector3f& centre : {Eigen::Vector3f(0, 0, 0), Eigen::Vector3f(-300, 200, -10)}) {
-    SurfelMap map(kSpacing_m, kReach_m);
+    SurfelMap map(kSurfelSpacing_m, kSurfelReach_m);
     map.add(scattered(2, 700, rng, centre), 0);
     for (const Surfel& probe : scattered(2.8, 700, rng, centre))
-      for (const double reach_m : {kReach_m, 0.25, 5.0}) expect_nearest(map, probe.position, reach_m);
+      for (const double reach_m : {kSurfelReach_m, 0.25, 5.0}) expect_nearest(map, probe.position, reach_m);
   }
 }
 
 TEST(SurfelMap, FindsAcrossTheCornersOfItsCells) {
   for (int corner = 0; corner < 8; ++corner) {
-    SurfelMap map(kSpacing_m, kReach_m);
+    SurfelMap map(kSurfelSpacing_m, kSurfelReach_m);
     const Eigen::Vector3f side((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1,
                                (corner & 4) != 0 ? 1 : -1);
     for (const float off_m : {0.01F, 0.1F, 0.3F}) {
       map.add({{off_m * side, Eigen::Matrix3f::Identity()}}, 0);
       for (const float at_m : {0.001F, 0.03F, 0.2F}) {
-        expect_nearest(map, -at_m * side, kReach_m);
-        expect_nearest(map, at_m * side, kReach_m);
+        expect_nearest(map, -at_m * side, kSurfelReach_m);
+        expect_nearest(map, at_m * side, kSurfelReach_m);
       }
     }
   }
@@ -70,7 +70,7 @@ TEST(SurfelMap, FindsAcrossTheCornersOfItsCells) {
 
 TEST(SurfelMap, KeepsItsSurfelsApartAndLeavesNoGap) {
   Rng rng(2);
-  SurfelMap map(kSpacing_m, kReach_m);
+  SurfelMap map(kSurfelSpacing_m, kSurfelReach_m);
   const auto added = scattered(1, 5000, rng, {0.1F, 0, 0});
   for (std::size_t k = 0; k < added.size(); k += 500)
     map.add({added.begin() + static_cast<std::ptrdiff_t>(k),
@@ -80,8 +80,9 @@ TEST(SurfelMap, KeepsItsSurfelsApartAndLeavesNoGap) {
   ASSERT_EQ(kept.size(), map.size());
   for (std::size_t a = 0; a < kept.size(); ++a)
     for (std::size_t b = 0; b < a; ++b)
-      ASSERT_GT((kept[a].position - kept[b].position).norm(), 0.7 * kSpacing_m - 1e-5);
-  for (const Surfel& surfel : added) ASSERT_LT(nearest_distance_m(kept, surfel.position), 0.7 * kSpacing_m);
+      ASSERT_GT((kept[a].position - kept[b].position).norm(), 0.7 * kSurfelSpacing_m - 1e-5);
+  for (const Surfel& surfel : added)
+    ASSERT_LT(nearest_distance_m(kept, surfel.position), 0.7 * kSurfelSpacing_m);
   for (const Surfel& surfel : kept)
     ASSERT_TRUE(std::any_of(added.begin(), added.end(),
                             [&](const Surfel& a) { return a.position == surfel.position; }));
@@ -89,7 +90,7 @@ TEST(SurfelMap, KeepsItsSurfelsApartAndLeavesNoGap) {
 
 TEST(SurfelMap, AddsNothingTwice) {
   Rng rng(3);
-  SurfelMap map(kSpacing_m, kReach_m);
+  SurfelMap map(kSurfelSpacing_m, kSurfelReach_m);
   const auto surfels = scattered(2, 500, rng, {0, 0, 0});
   map.add(surfels, 0);
   const std::size_t size = map.size();
@@ -105,7 +106,7 @@ std::vector<Surfel> row_at(float x) {
 }
 
 TEST(SurfelMap, ForgetsWhatWasOutOfSightAndNothingElse) {
-  SurfelMap map(kSpacing_m, kReach_m);
+  SurfelMap map(kSurfelSpacing_m, kSurfelReach_m);
   for (int n = 0; n < 10; ++n) map.add(row_at(static_cast<float>(10 * n)), 10.0 * n);
   map.add(row_at(20), 95);  // seen again: nothing new, but it is in sight
   ASSERT_EQ(map.size(), 400U);
@@ -126,18 +127,18 @@ TEST(SurfelMap, ForgetsWhatWasOutOfSightAndNothingElse) {
 
 TEST(SurfelMap, AfterForgettingStillFindsTheNearest) {
   Rng rng(4);
-  SurfelMap map(kSpacing_m, kReach_m);
+  SurfelMap map(kSurfelSpacing_m, kSurfelReach_m);
   for (int n = 0; n < 40; ++n) {  // a way of 40 m, so many cells that the table grows
     const Eigen::Vector3f centre(static_cast<float>(n), 0, static_cast<float>(-n));
     map.add(scattered(3, 400, rng, centre), n);
     map.forget_before(n - 5);
   }
   for (const Surfel& probe : scattered(9, 1000, rng, {36, 0, -36}))
-    expect_nearest(map, probe.position, kReach_m);
+    expect_nearest(map, probe.position, kSurfelReach_m);
 }
 
 TEST(SurfelMap, OfNothingFindsNothing) {
-  const SurfelMap map(kSpacing_m, kReach_m);
+  const SurfelMap map(kSurfelSpacing_m, kSurfelReach_m);
   EXPECT_TRUE(map.empty());
   EXPECT_EQ(map.size(), 0U);
   EXPECT_EQ(map.nearest({1, 2, 3}, 100), nullptr);
