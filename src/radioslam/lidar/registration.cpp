@@ -102,26 +102,16 @@ void pin_plane(Registration& result, SE3::Tangent& gradient) {
   }
 }
 
-/// -H^-1 g; next to nothing along what H does not tell.
-SE3::Tangent newton_step(SE3::Jacobian hessian, const SE3::Tangent& gradient) {
-  constexpr double kUntold = 1e-6;  // information of a kilometre, or of a thousand turns
-  hessian.diagonal() *= 1 + 1e-9;
-  hessian.diagonal().array() += kUntold;
-  return -hessian.ldlt().solve(gradient);
-}
-
-/// Takes `share` of the largest information about the position off that along each axis. What an axis keeps,
-/// it keeps in all that the points tell along it; where the points want to go stays as it is.
-void take_off_leak(NormalSums& sums, double share) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(sums.hessian.topLeftCorner<3, 3>());
+/// The information without `share` of the largest about the position, off that along each axis. What an axis
+/// keeps, it keeps in all that the points tell along it.
+SE3::Jacobian without_leak(const SE3::Jacobian& information, double share) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(information.topLeftCorner<3, 3>());
   const Eigen::Vector3d values = axes.eigenvalues();
   const Eigen::Vector3d left = (values.array() - share * values(2)).max(0.0);
   const Eigen::Vector3d kept = left.cwiseQuotient(values.cwiseMax(1e-12)).cwiseSqrt();
   SE3::Jacobian scale = SE3::Jacobian::Identity();
   scale.topLeftCorner<3, 3>() = axes.eigenvectors() * kept.asDiagonal() * axes.eigenvectors().transpose();
-  const SE3::Tangent wanted = newton_step(sums.hessian, sums.gradient);
-  sums.hessian = (scale * sums.hessian * scale).eval();
-  sums.gradient = -sums.hessian * wanted;
+  return scale * information * scale;
 }
 
 }  // namespace
@@ -134,18 +124,22 @@ Registration register_surfels(const NearestSurfel& target, const SurfelSource& s
   result.T_target_source = start.T_target_source;
   double blur_m = start.blur_m;
   for (result.iterations = 1; result.iterations <= params.max_iterations; ++result.iterations) {
-    NormalSums sums = sum_over(
+    const NormalSums sums = sum_over(
         source.surfels, Pass(target, result.T_target_source, start.reach_m, blur_m, params.loss_scale));
     if (sums.matches < kFewestMatches) return {.T_target_source = start.T_target_source};
-    if (blur_m == 0 && kind == ScannerKind::kSpatial) take_off_leak(sums, params.leak_share);
     const SE3::Tangent from_prior = (prior.pose.inverse() * result.T_target_source).log();
-    result.information = source.independent_share * sums.hessian;
+    const SE3::Jacobian all = source.independent_share * sums.hessian;
+    result.information = kind == ScannerKind::kSpatial ? without_leak(all, params.leak_share) : all;
     result.posterior = result.information + prior.information;
     SE3::Tangent gradient = source.independent_share * sums.gradient + prior.information * from_prior;
-    if (kind == ScannerKind::kPlanar) pin_plane(result, gradient);
-    SE3::Tangent step = newton_step(result.posterior, gradient);
-    step *= std::min(
-        1.0, start.reach_m / std::max(step.head<3>().norm(), 1e-9));  // no farther than points are met
+    SE3::Jacobian hessian = all + prior.information;
+    if (kind == ScannerKind::kPlanar) {
+      pin_plane(result, gradient);
+      hessian = result.posterior;
+    }
+    hessian.diagonal() *= 1 + 1e-9;
+    SE3::Tangent step = -hessian.ldlt().solve(gradient);
+    step *= std::min(1.0, start.reach_m / std::max(step.head<3>().norm(), 1e-9));
     result.T_target_source = result.T_target_source * SE3::exp(step);
     result.matched_share = sums.weights / static_cast<double>(source.surfels.size());
     result.rms_m = std::sqrt(sums.weighted_squares / std::max(1e-12, 3 * sums.weights));
