@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds and tests everything: release with g++, then AddressSanitizer and UndefinedBehaviorSanitizer with clang,
-# then three seconds of every fuzzer from the same build, from one seed (the nightly takes others). All with
+# then two seconds of every fuzzer from the same build, from one seed (the nightly takes others). All with
 # warnings as errors, and as unity builds (several sources at once), which take half the time from nothing.
 #   scripts/test.sh [--quick]     --quick: release only
 set -euo pipefail
@@ -37,6 +37,6 @@ configure_and_build asan
 run_tests asan
 
 step "fuzzers"
-scripts/fuzz.sh 3 1
+scripts/fuzz.sh 2 1
 
 step "done"

@@ -8,9 +8,9 @@
 
 namespace radioslam {
 
-/// The lower `bytes` bytes of a whole number.
+/// The lower `bytes` bytes of a whole number; zeros beyond its eighth.
 inline void append_little_endian(std::string& out, std::uint64_t value, std::size_t bytes) {
-  for (std::size_t k = 0; k < bytes; ++k) out += static_cast<char>(value >> (8 * k) & 0xffU);
+  for (; bytes > 0; --bytes, value >>= 8U) out += static_cast<char>(value & 0xffU);
 }
 
 inline void append_f32(std::string& out, float value) {

@@ -80,11 +80,12 @@ class LoopCloser {
       if (way_[j] < next_m || keyframes_.clouds[j].source.surfels.empty()) continue;
       next_m = way_[j] + params_.stride_m;
       for (const std::size_t i : earlier_visits(j, *marginals)) {
-        if (!tried_.insert({i, j}).second) continue;
+        if (tried_.contains({i, j})) continue;
         const auto T_i_j = graph_.poses[i].inverse() * graph_.poses[j];
         const SE3::Jacobian covariance = marginals->relative_pose(PoseId(i), PoseId(j));
-        if (is_candidate({T_i_j, covariance}, radius_of(j)))
-          candidates.push_back({i, j, {T_i_j, covariance}});
+        if (!is_candidate({T_i_j, covariance}, radius_of(j))) continue;
+        tried_.insert({i, j});
+        candidates.push_back({i, j, {T_i_j, covariance}});
       }
     }
     return candidates;
