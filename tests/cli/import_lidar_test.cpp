@@ -1,7 +1,7 @@
 // What robots with laser scanners recorded, into a mission.
 #include <gtest/gtest.h>
 
-#include "cli/process.hpp"
+#include "cli/import_fixture.hpp"
 #include "io/ros_bytes.hpp"
 
 namespace radioslam::cli {
@@ -11,22 +11,7 @@ const std::string kHallLog =
     "FLASER 3 1 2 3 0 0 0 5 5 0 10 nohost 0\nFLASER 3 1 9 3 0 0 0 6 5 0 12 nohost 0\n"
     "FLASER 3 1 2 3 0 0 0 7 5 0 11.5 nohost 0\n";
 
-struct ImportLidar : testing::Test {
-  Outcome import(const std::vector<std::string>& arguments) const {
-    std::vector<std::string> call{"import"};
-    call.insert(call.end(), arguments.begin(), arguments.end());
-    return run(call, folder.path());
-  }
-  void expect_refused(const std::vector<std::string>& arguments, const std::string& reason) const {
-    const auto before = files_in(folder.path());
-    const Outcome outcome = import(arguments);
-    EXPECT_EQ(outcome.status, 2) << outcome.err;
-    EXPECT_NE(outcome.err.find(reason), std::string::npos) << outcome.err;
-    EXPECT_EQ(files_in(folder.path()), before) << "nothing half-written";
-  }
-
-  TemporaryFolder folder;
-};
+using ImportLidar = ImportFixture;
 
 TEST_F(ImportLidar, CarmenBecomesAMissionThatRuns) {
   write_file(folder.path() / "hall.clf", kHallLog);

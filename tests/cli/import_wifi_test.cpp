@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-#include "cli/process.hpp"
+#include "cli/import_fixture.hpp"
 
 namespace radioslam::cli {
 namespace {
@@ -14,20 +14,8 @@ const std::string kScan =
 const std::string kTable =
     "t_s,bssid,frequency_mhz,rssi_dbm\n0,02:00:00:00:01:00,2412,-53.5\n0,02:00:00:00:02:00,5180,-60\n";
 
-struct ImportWifi : testing::Test {
+struct ImportWifi : ImportFixture {
   void SetUp() override { write_file(folder.path() / "scan.txt", kScan); }
-  Outcome import(const std::vector<std::string>& arguments) const {
-    std::vector<std::string> call{"import"};
-    call.insert(call.end(), arguments.begin(), arguments.end());
-    return run(call, folder.path());
-  }
-  void expect_refused(const std::vector<std::string>& arguments, const std::string& reason) const {
-    const auto before = files_in(folder.path());
-    const Outcome outcome = import(arguments);
-    EXPECT_EQ(outcome.status, 2) << outcome.err;
-    EXPECT_NE(outcome.err.find(reason), std::string::npos) << outcome.err;
-    EXPECT_EQ(files_in(folder.path()), before);
-  }
   /// A mission of robots a and b.
   void make_team() const {
     for (const char* id : {"a", "b"}) {
@@ -37,8 +25,6 @@ struct ImportWifi : testing::Test {
     write_file(folder.path() / "m/mission.yaml",
                "format: radioslam-mission/1\nname: m\ndimension: 2\nrobots:\n  a: {}\n  b: {}\n");
   }
-
-  TemporaryFolder folder;
 };
 
 TEST_F(ImportWifi, WritesATableAlone) {

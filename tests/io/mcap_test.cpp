@@ -10,10 +10,6 @@
 namespace radioslam {
 namespace {
 
-const std::vector<WrittenMessage> kMessages{{"/a", "std_msgs/String", 1'500'000'001, "hello"},
-                                            {"/unread", "nav_msgs/Odometry", 2, "long"}};
-const std::vector<std::string> kLines{"/a std_msgs/String 1500000001 hello", "/unread nav_msgs/Odometry 2 "};
-
 std::vector<std::string> visit(const std::string& bytes) {
   NotedMessages noted;
   EXPECT_EQ(visit_mcap("x.mcap", bytes, noted.visitor()), std::vector<std::string>{});
@@ -38,21 +34,21 @@ std::uint32_t checksum(const std::string& content) {
 }
 
 TEST(Mcap, ReadsMessagesInAndOutOfChunks) {
-  const std::string records = mcap_records(kMessages);
-  EXPECT_EQ(visit(mcap_of(records)), kLines);
-  EXPECT_EQ(visit(mcap_of(mcap_chunk(records, "", records, checksum(records)))), kLines);
-  EXPECT_EQ(visit(mcap_of(mcap_chunk(records, "lz4", lz4_of(records)))), kLines);
-  EXPECT_EQ(visit(mcap_of(mcap_chunk(records, "zstd", zstd_of(records)))), kLines);
+  const std::string records = mcap_records(kWrittenMessages);
+  EXPECT_EQ(visit(mcap_of(records)), kNotedLines);
+  EXPECT_EQ(visit(mcap_of(mcap_chunk(records, "", records, checksum(records)))), kNotedLines);
+  EXPECT_EQ(visit(mcap_of(mcap_chunk(records, "lz4", lz4_of(records)))), kNotedLines);
+  EXPECT_EQ(visit(mcap_of(mcap_chunk(records, "zstd", zstd_of(records)))), kNotedLines);
 }
 
 TEST(Mcap, ReadsNothingBehindTheData) {
-  const std::string records = mcap_records(kMessages);
-  EXPECT_EQ(visit(mcap_of(records) + records + "\x89MCAP0\r\n"), kLines)
+  const std::string records = mcap_records(kWrittenMessages);
+  EXPECT_EQ(visit(mcap_of(records) + records + "\x89MCAP0\r\n"), kNotedLines)
       << "the summary repeats the channels";
 }
 
 TEST(Mcap, ReadsWhatPrecedesACut) {
-  const std::string whole = mcap_of(mcap_records(kMessages));
+  const std::string whole = mcap_of(mcap_records(kWrittenMessages));
   for (const std::size_t missing : {std::size_t{1}, kMcapEnd.size(), kMcapEnd.size() + 2}) {
     NotedMessages noted;
     const auto warnings = visit_mcap("x.mcap", whole.substr(0, whole.size() - missing), noted.visitor());
@@ -64,13 +60,14 @@ TEST(Mcap, ReadsWhatPrecedesACut) {
 
 TEST(Mcap, LeavesForeignEncodingsOut) {
   NotedMessages noted;
-  const auto warnings = visit_mcap("x.mcap", mcap_of(mcap_records(kMessages, "protobuf")), noted.visitor());
+  const auto warnings =
+      visit_mcap("x.mcap", mcap_of(mcap_records(kWrittenMessages, "protobuf")), noted.visitor());
   EXPECT_EQ(warnings, std::vector<std::string>{"x.mcap: messages encoded as 'protobuf' are left out"});
   EXPECT_TRUE(noted.lines.empty());
 }
 
 TEST(Mcap, RefusesWithTheByte) {
-  const std::string records = mcap_records(kMessages);
+  const std::string records = mcap_records(kWrittenMessages);
   const auto refuse = [](const std::string& content, const char* words) {
     expect_refusal([&] { visit(mcap_of(content)); }, 0, words);
   };

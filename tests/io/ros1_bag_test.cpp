@@ -9,10 +9,6 @@
 namespace radioslam {
 namespace {
 
-const std::vector<WrittenMessage> kMessages{{"/a", "std_msgs/String", 1'500'000'001, "hello"},
-                                            {"/unread", "nav_msgs/Odometry", 2, "long"}};
-const std::vector<std::string> kLines{"/a std_msgs/String 1500000001 hello", "/unread nav_msgs/Odometry 2 "};
-
 std::vector<std::string> visit(const std::string& bytes) {
   NotedMessages noted;
   EXPECT_EQ(visit_ros1_bag("x.bag", bytes, noted.visitor()), std::vector<std::string>{});
@@ -35,16 +31,16 @@ std::string lz4_of(const std::string& content) {
 }
 
 TEST(Ros1Bag, ReadsMessagesInAndOutOfChunks) {
-  const std::string records = bag_records(kMessages);
-  EXPECT_EQ(visit(bag_of(records)), kLines);
+  const std::string records = bag_records(kWrittenMessages);
+  EXPECT_EQ(visit(bag_of(records)), kNotedLines);
   const std::string index = bag_record({"op=\x04", "ver=" + little(1, 4)}, "12345678");
-  EXPECT_EQ(visit(bag_of(bag_chunk(records, "none", records) + index)), kLines);
-  EXPECT_EQ(visit(bag_of(bag_chunk(records, "bz2", bz2_of(records)))), kLines);
-  EXPECT_EQ(visit(bag_of(bag_chunk(records, "lz4", lz4_of(records)))), kLines);
+  EXPECT_EQ(visit(bag_of(bag_chunk(records, "none", records) + index)), kNotedLines);
+  EXPECT_EQ(visit(bag_of(bag_chunk(records, "bz2", bz2_of(records)))), kNotedLines);
+  EXPECT_EQ(visit(bag_of(bag_chunk(records, "lz4", lz4_of(records)))), kNotedLines);
 }
 
 TEST(Ros1Bag, ReadsWhatPrecedesACut) {
-  const std::string whole = bag_of(bag_records(kMessages));
+  const std::string whole = bag_of(bag_records(kWrittenMessages));
   NotedMessages noted;
   const auto warnings = visit_ros1_bag("x.bag", whole.substr(0, whole.size() - 1), noted.visitor());
   ASSERT_EQ(warnings.size(), 1U);
@@ -56,7 +52,7 @@ TEST(Ros1Bag, RefusesWithTheByte) {
   const auto refuse = [](const std::string& content, const char* words) {
     expect_refusal([&] { visit(bag_of(content)); }, 0, words);
   };
-  const std::string records = bag_records(kMessages);
+  const std::string records = bag_records(kWrittenMessages);
   refuse(bag_record({"op=\x02", "conn=" + little(7, 4), "time=" + little(0, 8)}, ""),
          "connection that is not known");
   refuse(bag_record({"op=\x02"}, ""), "at byte ");

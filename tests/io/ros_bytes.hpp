@@ -159,4 +159,10 @@ struct NotedMessages {
   std::vector<std::string> lines;
 };
 
+/// Two messages, and what NotedMessages notes of them.
+inline const std::vector<WrittenMessage> kWrittenMessages{{"/a", "std_msgs/String", 1'500'000'001, "hello"},
+                                                          {"/unread", "nav_msgs/Odometry", 2, "long"}};
+inline const std::vector<std::string> kNotedLines{"/a std_msgs/String 1500000001 hello",
+                                                  "/unread nav_msgs/Odometry 2 "};
+
 }  // namespace radioslam

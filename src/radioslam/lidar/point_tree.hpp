@@ -8,11 +8,10 @@
 
 namespace radioslam {
 
-/// Looks at `points`, which must outlive it and stay as they are. Position: point -> Eigen::Vector3f.
-template <class Point, class Position>
+/// Looks at `points`, which must outlive it and stay as they are.
 class PointTree {
  public:
-  explicit PointTree(const std::vector<Point>& points)
+  explicit PointTree(const std::vector<Eigen::Vector3f>& points)
       : points_{points}, tree_(3, points_, nanoflann::KDTreeSingleIndexAdaptorParams(kLeafSize)) {
     tree_.buildIndex();
   }
@@ -33,10 +32,10 @@ class PointTree {
   static constexpr std::size_t kLeafSize = 16;
 
   struct Dataset {
-    const std::vector<Point>& points;
+    const std::vector<Eigen::Vector3f>& points;
     std::size_t kdtree_get_point_count() const { return points.size(); }
     float kdtree_get_pt(std::size_t k, std::size_t axis) const {
-      return Position{}(points[k])[static_cast<Eigen::Index>(axis)];
+      return points[k][static_cast<Eigen::Index>(axis)];
     }
     template <class Box>
     bool kdtree_get_bbox(Box& /*box*/) const {

@@ -15,11 +15,6 @@ namespace {
 constexpr std::size_t kMostNeighbours = 50;
 constexpr std::size_t kFewestNeighbours = 4;  // three always lie in a plane
 
-struct ItselfPosition {
-  const Eigen::Vector3f& operator()(const Eigen::Vector3f& point) const { return point; }
-};
-using CloudTree = PointTree<Eigen::Vector3f, ItselfPosition>;
-
 /// Covariance of these points about their mean, summed about the first for the sake of the digits.
 Eigen::Matrix3f spread_of(const std::vector<Eigen::Vector3f>& points, const std::size_t* indices,
                           std::size_t count) {
@@ -63,25 +58,20 @@ Eigen::Matrix3f freed_along(const Eigen::Matrix3f& covariance, const SurfelScale
   return axes.eigenvectors() * freed.asDiagonal() * axes.eigenvectors().transpose();
 }
 
-Surfel surfel_at(const std::vector<Eigen::Vector3f>& points, const CloudTree& tree, std::size_t k,
+Surfel surfel_at(const std::vector<Eigen::Vector3f>& points, const PointTree& tree, std::size_t k,
                  const SurfelScale& scale) {
   std::array<std::size_t, kMostNeighbours> indices{};
   std::array<float, kMostNeighbours> squared_distances{};
   std::size_t count = tree.nearest(points[k], scale.neighbours, indices.data(), squared_distances.data());
   while (count > 0 && squared_distances[count - 1] > scale.reach_squared) --count;
-  Surfel surfel{points[k], Eigen::Matrix3f::Zero()};
-  const bool is_alone = count < kFewestNeighbours;
-  if (is_alone)
-    surfel.covariance.diagonal().setConstant(scale.variance_alone);
-  else
-    surfel.covariance = spread_of(points, indices.data(), count);
-  surfel.covariance.diagonal().array() += scale.variance_range;
-  if (scale.kind == ScannerKind::kPlanar)
-    surfel.covariance(2, 2) += scale.variance_alone;
-  else
-    surfel.covariance =
-        is_alone ? scale.variance_along * Eigen::Matrix3f::Identity() : freed_along(surfel.covariance, scale);
-  return surfel;
+  const bool is_alone = count < kFewestNeighbours, is_planar = scale.kind == ScannerKind::kPlanar;
+  if (is_alone && !is_planar) return {points[k], scale.variance_along * Eigen::Matrix3f::Identity()};
+  Eigen::Matrix3f covariance = is_alone ? Eigen::Matrix3f(scale.variance_alone * Eigen::Matrix3f::Identity())
+                                        : spread_of(points, indices.data(), count);
+  covariance.diagonal().array() += scale.variance_range;
+  if (!is_planar) return {points[k], freed_along(covariance, scale)};
+  covariance(2, 2) += scale.variance_alone;
+  return {points[k], covariance};
 }
 
 }  // namespace
@@ -90,7 +80,7 @@ std::vector<Surfel> measure_surfels(const std::vector<Eigen::Vector3f>& points, 
                                     ScannerKind kind, const SurfelParams& params) {
   RADIOSLAM_CHECK(params.neighbours <= static_cast<int>(kMostNeighbours), "no more neighbours than that");
   if (points.empty()) return {};
-  const CloudTree tree(points);
+  const PointTree tree(points);
   const double reach = params.reach_spacings * spacing_m;
   const SurfelScale scale{static_cast<std::size_t>(params.neighbours),
                           kind,

@@ -140,6 +140,18 @@ void place_robots(JointGraph<Pose>& joint, const std::vector<SE2>& T_team_start)
 }
 
 template <class Pose>
+PoseId pose_at(const JointGraph<Pose>& joint, RobotIndex robot, Stamp stamp) {
+  for (std::size_t p = 0; p < joint.team.pieces.size(); ++p) {
+    if (joint.robot_of_piece[p] != robot.index()) continue;
+    const Piece& piece = joint.team.pieces[p];
+    const auto found = std::lower_bound(piece.stamps.begin(), piece.stamps.end(), stamp);
+    if (found != piece.stamps.end() && *found == stamp)
+      return PoseId(piece.first_pose + static_cast<std::size_t>(found - piece.stamps.begin()));
+  }
+  return {};
+}
+
+template <class Pose>
 RangeEnd<Pose> fingerprint_end(const JointGraph<Pose>& joint, const RadioMeasurements& radio,
                                std::size_t node) {
   const std::size_t robot = radio.nodes[node].robot.index();
@@ -170,6 +182,7 @@ void add_fingerprint_closures(JointGraph<Pose>& joint, const RadioMeasurements& 
 #define RADIOSLAM_JOINT_GRAPH(Pose)                                                                        \
   template JointGraph<Pose> build_joint_graph<Pose>(                                                       \
       const Mission&, const KeyframeParams&, const JointGraphParams&, std::vector<std::vector<Stamp>>);    \
+  template PoseId pose_at(const JointGraph<Pose>&, RobotIndex, Stamp);                                     \
   template void place_robots(JointGraph<Pose>&, const std::vector<SE2>&);                                  \
   template RangeEnd<Pose> fingerprint_end(const JointGraph<Pose>&, const RadioMeasurements&, std::size_t); \
   template void add_fingerprint_closures(JointGraph<Pose>&, const RadioMeasurements&,                      \

@@ -74,6 +74,14 @@ struct JointGraph {
   std::size_t ignored_links = 0;        ///< radio links outside the time of an odometry
 };
 
+/// chi-squared of a relative pose, 99 %: 3 and 6 degrees of freedom.
+template <class Pose>
+inline constexpr double kPoseChiSquared99 = Pose::kDof == 3 ? 11.345 : 16.812;
+
+/// The pose of a robot at exactly this stamp, which select_nodes made; invalid outside its odometry.
+template <class Pose>
+PoseId pose_at(const JointGraph<Pose>& joint, RobotIndex robot, Stamp stamp);
+
 /// Where the mission says that a robot's odometry starts, its first pose at the height of the known one.
 std::optional<SE3> common_from_start(const Robot& robot);
 

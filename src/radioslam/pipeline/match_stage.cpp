@@ -14,10 +14,6 @@
 namespace radioslam {
 namespace {
 
-/// chi-squared, 99 %: 3 and 6 degrees of freedom.
-template <class Pose>
-constexpr double kConsistent = Pose::kDof == 3 ? 11.345 : 16.812;
-
 using CandidateKey = std::tuple<RobotIndex, Stamp, RobotIndex, Stamp>;
 
 std::set<CandidateKey> keys(const std::vector<CandidateResult>& candidates) {
@@ -35,19 +31,6 @@ typename Pose::Jacobian match_information(const PoseMatch& match) {
   typename Pose::Tangent diagonal = Pose::Tangent::Constant(1 / (match.sigma_t_m * match.sigma_t_m));
   diagonal.template tail<kRotations>().setConstant(1 / (match.sigma_r_rad * match.sigma_r_rad));
   return diagonal.asDiagonal();
-}
-
-/// The pose of a robot at exactly this stamp, which select_nodes made; nothing outside its odometry.
-template <class Pose>
-PoseId pose_at(const JointGraph<Pose>& joint, RobotIndex robot, Stamp stamp) {
-  for (std::size_t p = 0; p < joint.team.pieces.size(); ++p) {
-    if (joint.robot_of_piece[p] != robot.index()) continue;
-    const Piece& piece = joint.team.pieces[p];
-    const auto found = std::lower_bound(piece.stamps.begin(), piece.stamps.end(), stamp);
-    if (found != piece.stamps.end() && *found == stamp)
-      return PoseId(piece.first_pose + static_cast<std::size_t>(found - piece.stamps.begin()));
-  }
-  return {};
 }
 
 MatchVerdict reject(MatchVerdict verdict, std::string reason) {
@@ -155,7 +138,7 @@ class Admission {
     factor.j = match.j;
     factor.T_i_j = pose_as<Pose>(measured.T_i_j);
     factor.information = match_information<Pose>(measured);
-    if (params_.robust) factor.loss = {LossKind::kGemanMcClure, std::sqrt(kConsistent<Pose>)};
+    if (params_.robust) factor.loss = {LossKind::kGemanMcClure, std::sqrt(kPoseChiSquared99<Pose>)};
     MatchVerdict& verdict = verdicts_[match.index];
     if (angles_ && measured.robot_i != measured.robot_j)
       verdict.angle_scale = angles_->template information_scale<Pose>(measured);

@@ -67,8 +67,6 @@ void collect(RunResult& result, const Mission& mission, const JointGraph<Pose>& 
     result.transforms = collect_transforms(joint, placement, *marginals);
     for (auto& note : odometry_notes(mission, joint, *marginals)) result.notes.push_back(std::move(note));
   }
-  for (std::size_t r = 0; r < mission.robots.size(); ++r)
-    result.robots[r].dense = dense_trajectory<Pose>(mission, joint, nullptr, r, result.robots[r]).poses;
   result.weight = placement.weight;
   for (std::size_t k = 0; k < placement.alternatives.size(); ++k)
     result.alternatives.push_back(
@@ -190,6 +188,8 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const std::ve
   result.mission_name = mission.name;
   result.dimension = mission.dimension;
   collect(result, mission, joint, placement, params.alignment.mixture, clock);
+  for (std::size_t r = 0; r < mission.robots.size() && !options.overlap_only; ++r)
+    result.robots[r].dense = dense_trajectory<Pose>(mission, joint, nullptr, r, result.robots[r]).poses;
   add_device_offsets(result.robots, radio.device_offsets);
   if (radio.device_offsets.shown) result.notes.push_back(device_offset_note(result.robots));
   add_notes(result, mission, radio, params.sequence, joint.ignored_links);
@@ -218,6 +218,12 @@ RunOutput run_in_its_dimension(const Mission& mission, const std::vector<ScanClo
                                 : run<SE3>(mission, nullptr, loops, params, options, progress);
 }
 
+/// Scans or captures, of which odometry and angles have to be made first.
+bool has_raw_recordings(const Mission& mission) {
+  return std::any_of(mission.robots.begin(), mission.robots.end(),
+                     [](const Robot& robot) { return !robot.lidar.empty() || robot.csi; });
+}
+
 /// The angles measured in the mission's captures in place of the captures.
 void add_angles(Mission& mission, const std::vector<ArrivalMeasurement>& measured) {
   for (Robot& robot : mission.robots) robot.csi.reset();
@@ -230,6 +236,7 @@ void add_angles(Mission& mission, const std::vector<ArrivalMeasurement>& measure
 
 RunOutput run_pipeline(const Mission& recorded, const RunParams& params, const RunOptions& options,
                        const Progress& progress) {
+  if (!has_raw_recordings(recorded)) return run_in_its_dimension(recorded, {}, params, options, progress);
   std::vector<StageTiming> timings;
   StageClock clock(timings);
   Mission mission = recorded;

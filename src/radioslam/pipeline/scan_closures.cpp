@@ -1,7 +1,6 @@
 #include "radioslam/pipeline/scan_closures.hpp"
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -12,10 +11,6 @@
 
 namespace radioslam {
 namespace {
-
-/// chi-squared, 99 %: 3 and 6 degrees of freedom.
-template <class Pose>
-constexpr double kFits = Pose::kDof == 3 ? 11.345 : 16.812;
 
 /// As the estimate's dimension sees it: height, roll and pitch taken as free.
 template <class Pose>
@@ -32,21 +27,14 @@ typename Pose::Jacobian information_as(const SE3::Jacobian& information) {
 }
 
 template <class Pose>
-PoseId node_at(const JointGraph<Pose>& joint, RobotIndex robot, Stamp stamp) {
-  const Piece& piece = joint.team.pieces[robot.index()];  // a mission's robots have one piece each
-  const auto found = std::lower_bound(piece.stamps.begin(), piece.stamps.end(), stamp);
-  RADIOSLAM_CHECK(found != piece.stamps.end() && *found == stamp, "a closure's stamps are nodes");
-  return PoseId(piece.first_pose + static_cast<std::size_t>(found - piece.stamps.begin()));
-}
-
-template <class Pose>
 RelativePoseFactor<Pose> closure_factor(const JointGraph<Pose>& joint, const ScanClosure& closure) {
   RelativePoseFactor<Pose> factor;
-  factor.i = node_at(joint, closure.robot, closure.stamp_i);
-  factor.j = node_at(joint, closure.robot, closure.stamp_j);
+  factor.i = pose_at(joint, closure.robot, closure.stamp_i);
+  factor.j = pose_at(joint, closure.robot, closure.stamp_j);
+  RADIOSLAM_CHECK(factor.i.valid() && factor.j.valid(), "a closure's stamps are nodes");
   factor.T_i_j = pose_as<Pose>(closure.loop.T_i_j);
   factor.information = information_as<Pose>(closure.loop.information);
-  factor.loss = {LossKind::kGemanMcClure, std::sqrt(kFits<Pose>)};
+  factor.loss = {LossKind::kGemanMcClure, std::sqrt(kPoseChiSquared99<Pose>)};
   return factor;
 }
 
@@ -106,7 +94,7 @@ std::vector<ClosureResult> collect_scan_closures(const JointGraph<Pose>& joint,
     if (ties[k] >= 0) {
       const auto& graph = joint.team.graph;
       result.statistic = squared_norm(graph, graph.relative_poses[static_cast<std::size_t>(ties[k])]);
-      if (result.statistic > kFits<Pose>)
+      if (result.statistic > kPoseChiSquared99<Pose>)
         result.reason = "the joint estimate disagrees";
       else
         result.status = ClosureStatus::kAccepted;

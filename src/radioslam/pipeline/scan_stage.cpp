@@ -202,7 +202,6 @@ MeasuredScans measure_scans(Mission& mission, const ScanParams& params, const Ke
       continue;
     }
     measured.registered += track.poses.size();
-    measured.keyframes += track.keyframes.size();
     if (uses_inertial(robot, params) && !take_readings(track, robot.inertial, params.inertial))
       measured.notes.push_back("robot " + robot.id +
                                ": its inertial readings do not go with its scans and were left out");

@@ -34,7 +34,7 @@ struct ScanStageParams {
 struct MeasuredScans {
   std::vector<ScanClosure> closures;
   std::vector<std::string> notes;
-  std::size_t scans = 0, registered = 0, keyframes = 0;
+  std::size_t scans = 0, registered = 0;
 };
 
 /// Everything that the scans need.

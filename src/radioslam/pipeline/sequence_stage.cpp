@@ -9,8 +9,6 @@
 namespace radioslam {
 namespace {
 
-constexpr double kDisagrees = 11.345;  // chi-squared, 3 degrees of freedom, 99 %
-
 /// The keyframe before a fingerprint.
 std::size_t keyframe_of_node(const JointRobot& robot, const RadioMeasurements& radio, std::size_t node) {
   return keyframe_before(robot.stamps, radio.at(node).fingerprint.stamp);
@@ -84,7 +82,7 @@ std::vector<ClosureResult> collect_sequence_closures(const JointGraph<Pose>& joi
                          closure.fit.residual_m, std::string(reason(closure.fit.verdict))};
     if (closure.fit.verdict == SequenceVerdict::kAccepted) {
       const auto& graph = joint.team.graph;
-      if (squared_norm(graph, graph.relative_poses[factor]) > kDisagrees)
+      if (squared_norm(graph, graph.relative_poses[factor]) > kPoseChiSquared99<SE2>)
         result.reason = "the estimate disagrees";
       else
         result.status = ClosureStatus::kAccepted;
