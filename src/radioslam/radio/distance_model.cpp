@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kCell_m = 1;              // over which a distance is called equally common
 constexpr double kLeastCommonness = 0.02;  // of the commonest distance: no sample counts for more than 50
+constexpr double kStepsPerWindow = 100;
 
 /// One over the number of samples at about the same distance.
 std::vector<double> even_weights(const std::vector<DistanceSample>& samples) {
@@ -73,9 +74,18 @@ DistanceModel::DistanceModel(std::vector<DistanceSample> samples, const Distance
     sum_.push_back(sum_.back() + w * d);
     sum_of_squares_.push_back(sum_of_squares_.back() + w * d * d);
   }
+  const double step = params_.bin_width / kStepsPerWindow;
+  for (std::size_t k = 0; k == 0 || (static_cast<double>(k) - 0.5) * step < 1; ++k)
+    steps_.push_back(predict_from_window(static_cast<double>(k) * step));
 }
 
 std::optional<PredictedDistance> DistanceModel::predict(double similarity) const {
+  if (!(similarity >= 0)) return std::nullopt;
+  const double step = std::round(std::min(similarity, 1.0) * kStepsPerWindow / params_.bin_width);
+  return steps_[std::min(steps_.size() - 1, static_cast<std::size_t>(step))];
+}
+
+std::optional<PredictedDistance> DistanceModel::predict_from_window(double similarity) const {
   const double half = params_.bin_width / 2;
   const auto begin = std::lower_bound(samples_.begin(), samples_.end(), similarity - half,
                                       [](const DistanceSample& s, double v) { return s.similarity < v; });

@@ -53,21 +53,25 @@ struct PredictedDistance {
 /// is not allowed below zero.
 PredictedDistance cut_off_at_zero(double mean_m, double sigma_m, int samples);
 
-/// d(s) and sigma(s) by a window sliding over s.
+/// d(s) and sigma(s) by a window sliding over s in steps of a hundredth of its width.
 class DistanceModel {
  public:
   DistanceModel(std::vector<DistanceSample> samples, const DistanceModelParams& params);
 
-  /// Nothing where too few samples lie within half a bin of `similarity`.
+  /// Nothing where too few samples lie within half a bin of `similarity`, taken to the nearest step, or it
+  /// is negative.
   std::optional<PredictedDistance> predict(double similarity) const;
   /// The smallest mean distance that any similarity predicts; nothing without predictions.
   std::optional<double> smallest_distance_m() const;
   const std::vector<DistanceSample>& samples() const { return samples_; }
 
  private:
+  std::optional<PredictedDistance> predict_from_window(double similarity) const;
+
   DistanceModelParams params_;
-  std::vector<DistanceSample> samples_;                ///< by similarity
-  std::vector<double> weight_, sum_, sum_of_squares_;  ///< running sums over the samples, one longer
+  std::vector<DistanceSample> samples_;                  ///< by similarity
+  std::vector<double> weight_, sum_, sum_of_squares_;    ///< running sums over the samples, one longer
+  std::vector<std::optional<PredictedDistance>> steps_;  ///< of similarities from 0 to 1
 };
 
 }  // namespace radioslam
