@@ -103,9 +103,9 @@ Vec<T, Pose::kDim> end_position(const T* pose, const T* point, const RangeEnd<Po
 template <class Pose>
 struct Range {
   template <class T>
-  bool operator()(const T* a, const T* b, const T* point, const T* bias, T* out) const {
+  bool operator()(const T* a, const T* b, const T* point, const T* bias, const T* drift, T* out) const {
     const Vec<T, Pose::kDim> way = end_position<Pose>(b, point, f.j) - end_position<Pose>(a, point, f.i);
-    out[0] = (way.norm() + bias[0] - T(f.range_m)) * T(std::sqrt(f.weight) / f.sigma_m);
+    out[0] = (way.norm() / (T(1) - drift[1]) + bias[0] - T(f.range_m)) * T(std::sqrt(f.weight) / f.sigma_m);
     return true;
   }
   RangeFactor<Pose> f;
@@ -201,8 +201,8 @@ class Referee {
     }
     for (const auto& f : graph.ranges)
       problem_.AddResidualBlock(
-          new ceres::AutoDiffCostFunction<Range<Pose>, 1, kDof, kDof, kDim, 1>(new Range<Pose>{f}),
-          ceres_loss(f.loss), pose(f.i.pose), pose(f.j.pose), point(f.j.point), bias(f.bias));
+          new ceres::AutoDiffCostFunction<Range<Pose>, 1, kDof, kDof, kDim, 1, 2>(new Range<Pose>{f}),
+          ceres_loss(f.loss), pose(f.i.pose), pose(f.j.pose), point(f.j.point), bias(f.bias), drift(f.drift));
     for (const auto& f : graph.bearings)
       problem_.AddResidualBlock(
           new ceres::AutoDiffCostFunction<Bearing<Pose>, kDim, kDof, kDof, kDim>(new Bearing<Pose>{f}),

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <numbers>
 
 #include "graph/random_graphs.hpp"
 #include "radioslam/base/parallel.hpp"
@@ -204,6 +205,47 @@ TEST(OptimizerParams, FieldsHoldTheirDefaults) {
     ++count;
   });
   EXPECT_EQ(count, 9);
+}
+
+/// Two laps of a ring of poses on top of each other, exact odometry with a scale error as a variable, and a
+/// pull of `weight` between every two that stand within 2 m.
+PoseGraph2 two_laps(double weight, DriftId taught_by) {
+  constexpr int kLap = 60, kPoses = 2 * kLap;
+  constexpr double kStep_m = 1, kSigma_m = 0.02, kSigmaScale = 0.02, kNear_m = 2.5, kSigmaNear_m = 2;
+  PoseGraph2 graph;
+  graph.drifts = {Drift::Zero()};
+  graph.drift_priors = {
+      {DriftId(0), Drift::Zero(), Eigen::Vector2d(1e12, 1 / (kSigmaScale * kSigmaScale)).asDiagonal()}};
+  const SE2 step({kStep_m, 0}, 2 * std::numbers::pi / kLap);
+  for (int k = 0; k < kPoses; ++k) {
+    graph.poses.push_back(k == 0 ? SE2() : graph.poses.back() * step);
+    if (k == 0) continue;
+    RelativePoseFactor<SE2> odometry{PoseId(k - 1), PoseId(k), step};
+    odometry.information /= kSigma_m * kSigma_m;
+    odometry.drift = DriftId(0);
+    odometry.drift_jacobian.col(1) = -(step.inverse().adjoint() * Eigen::Vector3d(kStep_m, 0, 0));
+    graph.relative_poses.push_back(odometry);
+  }
+  for (int i = 0; i < kPoses; ++i)
+    for (int j = i + 1; j < kPoses; ++j) {
+      RangeFactor<SE2> near{{PoseId(i)}, {PoseId(j)}, 0, kSigmaNear_m};
+      near.drift = taught_by;
+      near.weight = weight;
+      if ((graph.poses[PoseId(i).index()].translation() - graph.poses[PoseId(j).index()].translation())
+              .norm() < kNear_m)
+        graph.ranges.push_back(near);
+    }
+  return graph;
+}
+
+TEST(Optimizer, PairsTaughtByAnOdometryDoNotShrinkItHoweverMany) {
+  for (const double weight : {1.0, 10.0}) {
+    auto taught = two_laps(weight, DriftId(0)), untaught = two_laps(weight, DriftId());
+    optimize(taught, OptimizerParams{});
+    optimize(untaught, OptimizerParams{});
+    EXPECT_NEAR(taught.drifts[0][1], 0, 0.003) << weight;
+    EXPECT_GT(untaught.drifts[0][1], 0.03) << weight;  // the pull towards distance 0 is a wish for less way
+  }
 }
 
 }  // namespace

@@ -85,7 +85,12 @@ class GraphDrawing {
 
   void add_range(std::size_t i) {
     RangeFactor<Pose> range{end_at(i), i % 3 == 0 ? end_at(i + 3) : point(i % 2), 0, 0.2, {}, 1};
-    range.range_m = (place(range.j) - place(range.i)).norm() + 0.1 * noise_ * draw_.rng.normal();
+    const double exact_m = (place(range.j) - place(range.i)).norm();
+    range.range_m = exact_m + 0.1 * noise_ * draw_.rng.normal();
+    if (i % 4 == 1) {
+      range.drift = DriftId(0);
+      range.range_m += exact_m * (1 / (1 - graph_.drifts[0][1]) - 1);
+    }
     if (i % 2 == 0) {
       range.bias = BiasId(0);
       range.range_m += graph_.range_biases[0];
@@ -143,8 +148,7 @@ class GraphDrawing {
 
 /// A walk of `count` poses; a relative pose for every step and for loops of 5; with extras, ranges between
 /// poses, with lever arms, and to points, bearings, sightings, positions, priors, one drift
-/// in the odometry, and one bias of every other range
-/// with another above it.
+/// in the odometry and in every fourth range, and one bias of every other range with another above it.
 template <class Pose>
 PoseGraph<Pose> draw_graph(std::uint64_t seed, std::size_t count, double noise, Extras extras) {
   GraphDrawing<Pose> drawing(seed, noise);

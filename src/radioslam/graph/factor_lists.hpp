@@ -52,7 +52,7 @@ std::array<Variable, 3> variables(const RelativePoseFactor<Pose>& f) {
 }
 template <class Pose>
 std::array<Variable, 3> variables(const RangeFactor<Pose>& f) {
-  return {variable(f.i), variable(f.j), variable(f.bias)};
+  return {variable(f.i), variable(f.j), f.drift.valid() ? variable(f.drift) : variable(f.bias)};
 }
 template <class Pose>
 std::array<Variable, 2> variables(const BearingFactor<Pose>& f) {

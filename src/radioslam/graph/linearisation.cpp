@@ -56,15 +56,19 @@ Linearisation<Pose::kDof, Pose::kDof, Pose::kDof, 2> linearise(const PoseGraph<P
 }
 
 template <class Pose>
-Linearisation<1, Pose::kDof, Pose::kDof, 1> linearise(const PoseGraph<Pose>& graph,
+Linearisation<1, Pose::kDof, Pose::kDof, 2> linearise(const PoseGraph<Pose>& graph,
                                                       const RangeFactor<Pose>& factor) {
   const typename Pose::Point way = position(graph, factor.j) - position(graph, factor.i);
   const typename Pose::Point along = direction_or_zero(way);
-  Linearisation<1, Pose::kDof, Pose::kDof, 1> l;
+  const double unit = length_unit(graph, factor);
+  Linearisation<1, Pose::kDof, Pose::kDof, 2> l;
   l.residual = residual(graph, factor);
-  std::get<2>(l.jacobians)[0] = 1;
-  std::get<0>(l.jacobians) = -along.transpose() * position_jacobian(graph, factor.i);
-  std::get<1>(l.jacobians) = along.transpose() * position_jacobian(graph, factor.j);
+  std::get<0>(l.jacobians) = -unit * along.transpose() * position_jacobian(graph, factor.i);
+  std::get<1>(l.jacobians) = unit * along.transpose() * position_jacobian(graph, factor.j);
+  if (factor.drift.valid())
+    std::get<2>(l.jacobians) << 0, way.norm() * unit * unit;
+  else
+    std::get<2>(l.jacobians) << 1, 0;
   return l;
 }
 
@@ -122,7 +126,7 @@ Linearisation<1, 1, 1> linearise(const PoseGraph<Pose>& graph, const RangeBiasPr
 #define RADIOSLAM_LINEARISE(Pose)                                                                           \
   template Linearisation<Pose::kDof, Pose::kDof, Pose::kDof, 2> linearise(const PoseGraph<Pose>&,           \
                                                                           const RelativePoseFactor<Pose>&); \
-  template Linearisation<1, Pose::kDof, Pose::kDof, 1> linearise(const PoseGraph<Pose>&,                    \
+  template Linearisation<1, Pose::kDof, Pose::kDof, 2> linearise(const PoseGraph<Pose>&,                    \
                                                                  const RangeFactor<Pose>&);                 \
   template Linearisation<Pose::kDim, Pose::kDof, Pose::kDof> linearise(const PoseGraph<Pose>&,              \
                                                                        const BearingFactor<Pose>&);         \

@@ -10,7 +10,8 @@
 namespace radioslam {
 
 /// `Columns` are those of the factor's variables, in the order of variables(factor). An end that may be a
-/// pose or a point has a pose's columns; for a point those after the first kDim are zero.
+/// pose or a point has a pose's columns; for a point those after the first kDim are zero. A range's drift or
+/// bias has a drift's columns; for a bias the second is zero.
 template <int Rows, int... Columns>
 struct Linearisation {
   Eigen::Matrix<double, Rows, 1> residual;
@@ -21,7 +22,7 @@ template <class Pose>
 Linearisation<Pose::kDof, Pose::kDof, Pose::kDof, 2> linearise(const PoseGraph<Pose>& graph,
                                                                const RelativePoseFactor<Pose>& factor);
 template <class Pose>
-Linearisation<1, Pose::kDof, Pose::kDof, 1> linearise(const PoseGraph<Pose>& graph,
+Linearisation<1, Pose::kDof, Pose::kDof, 2> linearise(const PoseGraph<Pose>& graph,
                                                       const RangeFactor<Pose>& factor);
 template <class Pose>
 Linearisation<Pose::kDim, Pose::kDof, Pose::kDof> linearise(const PoseGraph<Pose>& graph,

@@ -64,7 +64,8 @@ struct RangeEnd {
   typename Pose::Point lever_arm = Pose::Point::Zero();
 };
 
-/// |p_j - p_i| + bias - range_m. At coinciding ends the direction is undefined and the Jacobian is zero.
+/// |p_j - p_i| / (1 - scale) + bias - range_m, with the scale error of `drift` and at most one of drift and
+/// bias. At coinciding ends the direction is undefined and the Jacobian by the ends is zero.
 template <class Pose>
 struct RangeFactor {
   RangeEnd<Pose> i, j;
@@ -72,7 +73,8 @@ struct RangeFactor {
   double sigma_m = 1;
   Loss loss{};
   double weight = 1;
-  BiasId bias{};  ///< of all ranges between two antennas, say; invalid: none
+  BiasId bias{};    ///< of all ranges between two antennas, say; invalid: none
+  DriftId drift{};  ///< of the odometry that `range_m` was learned from; invalid: true metres
 };
 
 /// The direction from pose i to a pose or point, as a unit vector in i's body frame:

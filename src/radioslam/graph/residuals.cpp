@@ -16,7 +16,7 @@ template <class Pose>
 Eigen::Matrix<double, 1, 1> residual(const PoseGraph<Pose>& graph, const RangeFactor<Pose>& factor) {
   const typename Pose::Point way = position(graph, factor.j) - position(graph, factor.i);
   const double bias_m = factor.bias.valid() ? graph.range_biases[factor.bias.index()] : 0;
-  return Eigen::Matrix<double, 1, 1>(way.norm() + bias_m - factor.range_m);
+  return Eigen::Matrix<double, 1, 1>(length_unit(graph, factor) * way.norm() + bias_m - factor.range_m);
 }
 
 template <class Pose>

@@ -3,6 +3,8 @@
 // unit vector between them is taken as zero.
 #pragma once
 
+#include <algorithm>
+
 #include "radioslam/graph/pose_graph.hpp"
 
 namespace radioslam {
@@ -32,6 +34,17 @@ template <class Pose>
 typename Pose::Point position(const PoseGraph<Pose>& graph, const RangeEnd<Pose>& end) {
   if (!end.pose.valid()) return graph.points[end.point.index()];
   return graph.poses[end.pose.index()] * end.lever_arm;
+}
+
+/// A scale error is never larger in a range's unit: odometries that stretch a step twentyfold are none.
+inline constexpr double kLargestScaleError = 0.95;
+
+/// A true metre in those that a range was learned in, 1 / (1 - scale error): an odometry's step is its true
+/// length and the scale error's share of its own.
+template <class Pose>
+double length_unit(const PoseGraph<Pose>& graph, const RangeFactor<Pose>& factor) {
+  if (!factor.drift.valid()) return 1;
+  return 1 / (1 - std::min(graph.drifts[factor.drift.index()][1], kLargestScaleError));
 }
 
 /// v / |v|, or zero where v is too short to have a direction.

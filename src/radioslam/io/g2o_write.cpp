@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "radioslam/base/check.hpp"
+#include "radioslam/graph/residuals.hpp"
 #include "radioslam/io/g2o.hpp"
 #include "radioslam/io/g2o_tags.hpp"
 #include "radioslam/io/numbers.hpp"
@@ -113,8 +114,10 @@ class G2oWriter {
     tag(kG2oRange);
     id(id_of(factor.i));
     id(id_of(factor.j));
-    number(factor.range_m - (factor.bias.valid() ? graph_.range_biases[factor.bias.index()] : 0));
-    number(factor.weight / (factor.sigma_m * factor.sigma_m));
+    const double bias_m = factor.bias.valid() ? graph_.range_biases[factor.bias.index()] : 0;
+    const double unit = length_unit(graph_, factor), sigma_m = factor.sigma_m / unit;
+    number((factor.range_m - bias_m) / unit);
+    number(factor.weight / (sigma_m * sigma_m));
     if (!factor.i.lever_arm.isZero(0) || !factor.j.lever_arm.isZero(0)) {
       point(factor.i.lever_arm);
       point(factor.j.lever_arm);

@@ -165,6 +165,15 @@ RangeEnd<Pose> fingerprint_end(const JointGraph<Pose>& joint, const RadioMeasure
   return end;
 }
 
+/// The odometry in whose metres a near pair's distance is told: similarities were learned from all robots'
+/// own odometries together, so that the pairs of two robots take one's and the other's in turn.
+template <class Pose>
+DriftId taught_by(const JointGraph<Pose>& joint, const RadioMeasurements& radio,
+                  const FingerprintClosure& closure) {
+  const std::size_t node = (closure.node_i + closure.node_j) % 2 == 0 ? closure.node_i : closure.node_j;
+  return joint.robots[radio.nodes[node].robot.index()].drift;
+}
+
 template <class Pose>
 void add_fingerprint_closures(JointGraph<Pose>& joint, const RadioMeasurements& radio,
                               const std::vector<FingerprintClosure>& closures) {
@@ -175,6 +184,7 @@ void add_fingerprint_closures(JointGraph<Pose>& joint, const RadioMeasurements& 
     range.range_m = closure.predicted.peak_m;
     range.sigma_m = std::max(kLeastSigmaDistance_m, closure.predicted.spread_m);
     range.weight = closure.weight;
+    if (!closure.holds_layout) range.drift = taught_by(joint, radio, closure);
     joint.team.graph.ranges.push_back(range);
   }
 }
