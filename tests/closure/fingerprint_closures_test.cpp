@@ -35,7 +35,7 @@ RadioMeasurements measured(const std::vector<std::vector<double>>& walked_m, dou
     }
   }
   const std::vector<float> row(radio.nodes.size(), static_cast<float>(similarity));
-  radio.near_similarity.assign(radio.nodes.size(), row);
+  radio.near_similarity = TeamSimilarity(std::vector<std::vector<float>>(radio.nodes.size(), row));
   radio.layout_similarity = radio.near_similarity;
   return radio;
 }

@@ -37,11 +37,13 @@ inline RadioMeasurements lawful_radio(const std::vector<std::vector<SE2>>& robot
       places.push_back(robots[r][k].translation());
     }
   }
+  std::vector<std::vector<float>> similarity;
   for (const auto& a : places) {
     std::vector<float> row;
     for (const auto& b : places) row.push_back(static_cast<float>(similarity_at((a - b).norm())));
-    radio.near_similarity.push_back(std::move(row));
+    similarity.push_back(std::move(row));
   }
+  radio.near_similarity = TeamSimilarity(std::move(similarity));
   return radio;
 }
 

@@ -126,7 +126,8 @@ TEST(AccessPointStage, OnesHeardOnceCostNoMemoryPerPlace) {
     radio.robots.front().push_back({std::move(fingerprint), way.back().pose, static_cast<double>(k)});
     radio.nodes.push_back({RobotIndex(std::size_t{0}), k});
   }
-  radio.near_similarity.assign(kFingerprints, std::vector<float>(kFingerprints, 0));
+  radio.near_similarity =
+      TeamSimilarity(std::vector<std::vector<float>>(kFingerprints, std::vector<float>(kFingerprints, 0)));
   result.robots.resize(1);
   result.robots.front().estimate = Trajectory<SE3>(std::move(way));
   const double before_mib = peak_mib();

@@ -139,7 +139,7 @@ TEST(DeviceOffset, IsTakenOffBeforeFingerprintsAreCompared) {
     for (std::size_t j = i + 1; j < plain.nodes.size(); ++j) {
       if (plain.nodes[i].robot == plain.nodes[j].robot) continue;
       const auto of = [&](const RadioMeasurements& radio) {
-        return static_cast<double>(std::abs(radio.near_similarity[i][j] - plain.near_similarity[i][j]));
+        return static_cast<double>(std::abs(radio.near_similarity.of(i, j) - plain.near_similarity.of(i, j)));
       };
       error += of(corrected);
       error_as_heard += of(as_heard);

@@ -54,6 +54,22 @@ TEST(DistanceModel, KnowsItsSmallestPrediction) {
   EXPECT_FALSE(DistanceModel({}, plain()).smallest_distance_m());
 }
 
+TEST(DistanceModel, SimilaritiesThatTellNothingHaveNoSmallestPrediction) {
+  std::vector<DistanceSample> samples;
+  for (int k = 0; k < 400; ++k) samples.push_back({1, 0.1 * k});  // all alike, whatever the distance
+  ASSERT_TRUE(DistanceModel(samples, plain()).predict(1));
+  EXPECT_FALSE(DistanceModel(samples, plain()).smallest_distance_m());
+}
+
+TEST(DistanceModel, KnowsTheLeastSimilarityThatPredictsSoNear) {
+  const DistanceModel model({{0.2, 9}, {0.21, 9}, {0.22, 9}, {0.8, 3}, {0.81, 3}, {0.82, 3}}, plain());
+  const double least = *model.least_similarity_below(4);
+  EXPECT_NEAR(least, 0.77, 0.002);  // the window there holds all three
+  EXPECT_FALSE(model.predict(least - 0.002));
+  EXPECT_NEAR(*model.least_similarity_below(10), 0.17, 0.002);
+  EXPECT_FALSE(model.least_similarity_below(3));
+}
+
 /// Samples of one law s = exp(-d / 15 m + normal) at distances drawn by `draw`, in metres.
 std::vector<DistanceSample> draw_samples(const std::function<double(double)>& draw) {
   Rng rng(7);

@@ -45,8 +45,8 @@ TEST(MeasureRadio, UsesTheMeasuresAskedFor) {
   const auto expected = [&](SimilarityMeasure measure) {
     return static_cast<float>(similarity(a, b, measure, params.similarity));
   };
-  EXPECT_EQ(radio.near_similarity[0][3], expected(SimilarityMeasure::kCosine));
-  EXPECT_EQ(radio.layout_similarity[0][3], expected(SimilarityMeasure::kGaussian));
+  EXPECT_EQ(radio.near_similarity.of(0, 3), expected(SimilarityMeasure::kCosine));
+  EXPECT_EQ(radio.layout_similarity.of(0, 3), expected(SimilarityMeasure::kGaussian));
 }
 
 TEST(MeasureRadio, LearnsThatLessAlikeIsFurtherApart) {

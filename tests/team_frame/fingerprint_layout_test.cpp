@@ -178,5 +178,20 @@ TEST(AlignByFingerprints, ARobotWithoutWifiIsPlacedByItsInitialPose) {
   EXPECT_EQ(frame.placed, std::vector<bool>(3, true));
 }
 
+/// A team that hears only its first `access_points` ones.
+Mission deafened(Mission mission, std::size_t access_points) {
+  for (Robot& robot : mission.robots)
+    for (WifiScan& scan : robot.wifi)
+      std::erase_if(scan.readings,
+                    [&](const WifiReading& r) { return r.access_point.index() >= access_points; });
+  return mission;
+}
+
+TEST(AlignByFingerprints, TwoAccessPointsTieNobody) {
+  const auto team = test::walking_team(2, Heading::kRelative, 150, 1);
+  EXPECT_EQ(align(deafened(team.mission, 2)).component, (std::vector<int>{0, 1}));
+  EXPECT_EQ(align(deafened(team.mission, 6)).component, (std::vector<int>{0, 0}));
+}
+
 }  // namespace
 }  // namespace radioslam

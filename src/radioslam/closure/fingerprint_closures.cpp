@@ -27,16 +27,13 @@ void share_evidence(std::vector<FingerprintClosure>& closures, std::size_t nodes
     closure.weight = std::min(1.0, 2 * independent / (pairs[closure.node_i] + pairs[closure.node_j]));
 }
 
-/// Every k-th closure, weighing k times as much.
-std::vector<FingerprintClosure> thinned(const std::vector<FingerprintClosure>& closures, std::size_t most) {
-  if (most == 0) return {};
-  const std::size_t stride = (closures.size() + most - 1) / most;
-  std::vector<FingerprintClosure> kept;
-  for (std::size_t k = 0; k < closures.size(); k += stride) {
-    kept.push_back(closures[k]);
-    kept.back().weight *= static_cast<double>(stride);
-  }
-  return kept;
+/// One of `stands_for` far pairs.
+FingerprintClosure far_closure(const SimilarPair& pair, const DecayModel& model, const LayoutParams& layout,
+                               double stands_for) {
+  const double similarity = static_cast<double>(pair.similarity), distance = model.distance_m(similarity);
+  const double sigma = std::hypot(layout.sigma_m, layout.sigma_relative * distance);
+  return {pair.i, pair.j, similarity, {distance, sigma, 0, distance, sigma}, layout.pair_weight * stands_for,
+          true};
 }
 
 }  // namespace
@@ -44,18 +41,18 @@ std::vector<FingerprintClosure> thinned(const std::vector<FingerprintClosure>& c
 std::vector<FingerprintClosure> propose_near_closures(const RadioMeasurements& radio, double trusted_way_m,
                                                       const FingerprintClosureParams& params) {
   const double least = params.nearest_factor * radio.near_model.smallest_distance_m().value_or(0);
+  const double farthest = std::max({least, params.between_distance_m, params.within_distance_m});
+  const auto minimum = radio.near_model.least_similarity_below(farthest);
   std::vector<FingerprintClosure> closures;
-  for (std::size_t i = 0; i < radio.nodes.size(); ++i) {
-    for (std::size_t j = i + 1; j < radio.nodes.size(); ++j) {
-      const double similarity = static_cast<double>(radio.near_similarity[i][j]);
-      if (similarity <= 0) continue;
-      const auto limit = distance_limit(radio, i, j, trusted_way_m, params);
-      if (!limit) continue;
-      const auto predicted = radio.near_model.predict(similarity);
-      if (predicted && predicted->mean_m < std::max(*limit, least))
-        closures.push_back({i, j, similarity, *predicted, 1, false});
-    }
-  }
+  if (!minimum) return closures;
+  radio.near_similarity.for_each_pair(std::max(*minimum, kLeastSimilarity), [&](const SimilarPair& pair) {
+    const auto limit = distance_limit(radio, pair.i, pair.j, trusted_way_m, params);
+    if (!limit) return;
+    const double similarity = static_cast<double>(pair.similarity);
+    const auto predicted = radio.near_model.predict(similarity);
+    if (predicted && predicted->mean_m < std::max(*limit, least))
+      closures.push_back({pair.i, pair.j, similarity, *predicted, 1, false});
+  });
   share_evidence(closures, radio.nodes.size(), params.independent_pairs);
   return closures;
 }
@@ -65,19 +62,24 @@ std::vector<FingerprintClosure> propose_layout_closures(const Mission& mission,
                                                         const LayoutParams& layout,
                                                         const FingerprintClosureParams& params) {
   std::vector<FingerprintClosure> closures;
-  if (!radio.layout_model) return closures;
-  for (std::size_t i = 0; i < radio.nodes.size(); ++i) {
-    for (std::size_t j = i + 1; j < radio.nodes.size(); ++j) {
-      const RobotIndex a = radio.nodes[i].robot, b = radio.nodes[j].robot;
-      const double similarity = static_cast<double>(radio.layout_similarity[i][j]);
-      if (a == b || similarity <= layout.least_similarity) continue;
-      if (mission.robots[a.index()].initial_pose && mission.robots[b.index()].initial_pose) continue;
-      const double distance = radio.layout_model->distance_m(similarity);
-      const double sigma = std::hypot(layout.sigma_m, layout.sigma_relative * distance);
-      closures.push_back({i, j, similarity, {distance, sigma, 0, distance, sigma}, layout.pair_weight, true});
-    }
-  }
-  return thinned(closures, static_cast<std::size_t>(params.layout_pairs));
+  const auto most = static_cast<std::size_t>(params.layout_pairs);
+  if (!radio.layout_model || most == 0) return closures;
+  const auto for_each_far_pair = [&](const auto& visit) {
+    radio.layout_similarity.for_each_pair(layout.least_similarity, [&](const SimilarPair& pair) {
+      const RobotIndex a = radio.nodes[pair.i].robot, b = radio.nodes[pair.j].robot;
+      if (a == b || static_cast<double>(pair.similarity) <= layout.least_similarity) return;
+      if (mission.robots[a.index()].initial_pose && mission.robots[b.index()].initial_pose) return;
+      visit(pair);
+    });
+  };
+  std::size_t count = 0, next = 0;
+  for_each_far_pair([&](const SimilarPair&) { ++count; });
+  const std::size_t stride = (count + most - 1) / most;
+  for_each_far_pair([&](const SimilarPair& pair) {
+    if (next++ % stride == 0)
+      closures.push_back(far_closure(pair, *radio.layout_model, layout, static_cast<double>(stride)));
+  });
+  return closures;
 }
 
 std::vector<FingerprintClosure> propose_fingerprint_closures(const Mission& mission,

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "radioslam/base/parallel.hpp"
 
@@ -19,6 +20,16 @@ bool is_peak(const RadioMeasurements& radio, std::size_t node, std::size_t other
   for (std::size_t n = node + 1; n < radio.nodes.size() && way_between_m(radio, n, node) <= within_m; ++n)
     if (similarity_of(radio, n, other) > own) return false;
   return true;
+}
+
+/// The same, as far as pairs found next to each other tell: most are no peaks, and this is quick.
+bool is_peak_of_row(const RadioMeasurements& radio, std::span<const SimilarPair> row, std::size_t k,
+                    double within_m) {
+  const auto beside = [&](std::size_t other) {
+    return way_between_m(radio, row[other].j, row[k].j) <= within_m;
+  };
+  if (k > 0 && beside(k - 1) && row[k - 1].similarity >= row[k].similarity) return false;
+  return k + 1 == row.size() || !beside(k + 1) || row[k + 1].similarity <= row[k].similarity;
 }
 
 /// Do both windows of one closure reach into those of the other one?
@@ -91,15 +102,15 @@ std::vector<SequenceCandidate> sequence_candidates(const RadioMeasurements& radi
                                                    const SequenceClosureParams& params) {
   const double peak_m = kPeakShare * params.window_way_m;
   std::vector<SequenceCandidate> candidates;
-  for (std::size_t i = 0; i < radio.nodes.size(); ++i)
-    for (std::size_t j = i + 1; j < radio.nodes.size(); ++j) {
-      const double similarity = similarity_of(radio, i, j);
-      if (similarity <= 0 || similarity < params.least_similarity ||
-          way_between_m(radio, i, j) < params.least_way_m)
-        continue;
-      if (is_peak(radio, i, j, peak_m) && is_peak(radio, j, i, peak_m))
-        candidates.push_back({i, j, similarity});
+  const auto take = [&](std::span<const SimilarPair> row) {
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      const auto [i, j, similarity] = row[k];
+      if (way_between_m(radio, i, j) >= params.least_way_m && is_peak_of_row(radio, row, k, peak_m) &&
+          is_peak(radio, i, j, peak_m) && is_peak(radio, j, i, peak_m))
+        candidates.push_back({i, j, static_cast<double>(similarity)});
     }
+  };
+  radio.near_similarity.for_each_row(std::max(params.least_similarity, kLeastSimilarity), take);
   return candidates;
 }
 

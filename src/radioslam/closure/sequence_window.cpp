@@ -26,7 +26,7 @@ double way_between_m(const RadioMeasurements& radio, std::size_t a, std::size_t 
 }
 
 double similarity_of(const RadioMeasurements& radio, std::size_t a, std::size_t b) {
-  return static_cast<double>(radio.near_similarity[a][b]);
+  return static_cast<double>(radio.near_similarity.of(a, b));
 }
 
 }  // namespace radioslam

@@ -11,6 +11,7 @@ namespace {
 constexpr double kCell_m = 1;              // over which a distance is called equally common
 constexpr double kLeastCommonness = 0.02;  // of the commonest distance: no sample counts for more than 50
 constexpr double kStepsPerWindow = 100;
+constexpr double kTellingShare = 2.0 / 3;  // of the mean distance at any similarity
 
 /// One over the number of samples at about the same distance.
 std::vector<double> even_weights(const std::vector<DistanceSample>& samples) {
@@ -25,6 +26,11 @@ std::vector<double> even_weights(const std::vector<DistanceSample>& samples) {
   for (const auto& sample : samples)
     weights.push_back(1 / std::max(counts[cell(sample)], kLeastCommonness * most));
   return weights;
+}
+
+/// The least similarity that is taken to step k of the window.
+double begin_of_step(std::size_t k, const DistanceModelParams& params) {
+  return (static_cast<double>(k) - 0.5) * params.bin_width / kStepsPerWindow;
 }
 
 /// Mean and standard deviation of a unit Gaussian around `a`, cut off below zero.
@@ -75,7 +81,7 @@ DistanceModel::DistanceModel(std::vector<DistanceSample> samples, const Distance
     sum_of_squares_.push_back(sum_of_squares_.back() + w * d * d);
   }
   const double step = params_.bin_width / kStepsPerWindow;
-  for (std::size_t k = 0; k == 0 || (static_cast<double>(k) - 0.5) * step < 1; ++k)
+  for (std::size_t k = 0; begin_of_step(k, params_) < 1; ++k)
     steps_.push_back(predict_from_window(static_cast<double>(k) * step));
 }
 
@@ -102,12 +108,18 @@ std::optional<PredictedDistance> DistanceModel::predict_from_window(double simil
   return cut_off_at_zero(mean, std::sqrt(variance), static_cast<int>(count));
 }
 
+std::optional<double> DistanceModel::least_similarity_below(double distance_m) const {
+  constexpr double kRoundingMargin = 1e-9;
+  for (std::size_t k = 0; k < steps_.size(); ++k)
+    if (steps_[k] && steps_[k]->mean_m < distance_m) return begin_of_step(k, params_) - kRoundingMargin;
+  return std::nullopt;
+}
+
 std::optional<double> DistanceModel::smallest_distance_m() const {
+  const double telling_m = kTellingShare * sum_.back() / weight_.back();  // not a number without samples
   std::optional<double> smallest;
-  const double step = params_.bin_width / 2;
-  const auto steps = static_cast<int>(std::floor(1 / step));
-  for (int k = 1; k <= steps; ++k)
-    if (const auto p = predict(k * step)) smallest = std::min(p->mean_m, smallest.value_or(p->mean_m));
+  for (const auto& p : steps_)
+    if (p && p->mean_m < telling_m) smallest = std::min(p->mean_m, smallest.value_or(p->mean_m));
   return smallest;
 }
 

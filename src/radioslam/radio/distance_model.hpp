@@ -61,8 +61,11 @@ class DistanceModel {
   /// Nothing where too few samples lie within half a bin of `similarity`, taken to the nearest step, or it
   /// is negative.
   std::optional<PredictedDistance> predict(double similarity) const;
-  /// The smallest mean distance that any similarity predicts; nothing without predictions.
+  /// The smallest mean distance that any similarity predicts; nothing where none predicts clearly less than
+  /// what pairs of any similarity are apart.
   std::optional<double> smallest_distance_m() const;
+  /// The least similarity that predicts a mean below `distance_m`; nothing where none does.
+  std::optional<double> least_similarity_below(double distance_m) const;
   const std::vector<DistanceSample>& samples() const { return samples_; }
 
  private:

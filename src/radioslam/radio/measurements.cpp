@@ -20,8 +20,7 @@ std::vector<PlacedFingerprint> place_on_odometry(const Robot& robot, std::vector
 }
 
 /// Pairs of one robot's fingerprints whose odometry distance can be trusted.
-std::vector<DistanceSample> training_samples(const RadioMeasurements& radio,
-                                             const std::vector<std::vector<float>>& table,
+std::vector<DistanceSample> training_samples(const RadioMeasurements& radio, const TeamSimilarity& similarity,
                                              double trusted_way_m) {
   std::vector<DistanceSample> samples;
   for (std::size_t i = 0; i < radio.nodes.size(); ++i) {
@@ -30,7 +29,7 @@ std::vector<DistanceSample> training_samples(const RadioMeasurements& radio,
       const PlacedFingerprint &a = radio.at(i), &b = radio.at(j);
       if (b.walked_m - a.walked_m > trusted_way_m) break;
       const double distance = (b.T_start_body.translation() - a.T_start_body.translation()).norm();
-      samples.push_back({static_cast<double>(table[i][j]), distance});
+      samples.push_back({static_cast<double>(similarity.of(i, j)), distance});
     }
   }
   return samples;
@@ -59,8 +58,10 @@ RadioMeasurements measure_radio(const Mission& mission, const RadioParams& param
       all.push_back(radio.robots.back()[i].fingerprint);
     }
   }
-  radio.near_similarity = similarity_table(all, all, named(params.measure), params.similarity);
-  radio.layout_similarity = similarity_table(all, all, named(params.layout_measure), params.similarity);
+  radio.near_similarity = TeamSimilarity(all, named(params.measure), params.similarity);
+  radio.layout_similarity = params.layout_measure == params.measure
+                                ? radio.near_similarity
+                                : TeamSimilarity(all, named(params.layout_measure), params.similarity);
 
   const double trusted = params.distance_model.trusted_way_m;
   radio.near_model =

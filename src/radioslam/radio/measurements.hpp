@@ -13,6 +13,7 @@
 #include "radioslam/radio/distance_model.hpp"
 #include "radioslam/radio/fingerprint.hpp"
 #include "radioslam/radio/similarity.hpp"
+#include "radioslam/radio/team_similarity.hpp"
 
 namespace radioslam {
 
@@ -55,9 +56,9 @@ struct FingerprintIndex {
 /// The team's fingerprints in one list, robot by robot in time order.
 struct RadioMeasurements {
   std::vector<std::vector<PlacedFingerprint>> robots;
-  std::vector<FingerprintIndex> nodes;                ///< all of them
-  std::vector<std::vector<float>> near_similarity;    ///< nodes x nodes, `measure`
-  std::vector<std::vector<float>> layout_similarity;  ///< nodes x nodes, `layout_measure`
+  std::vector<FingerprintIndex> nodes;  ///< all of them
+  TeamSimilarity near_similarity;       ///< of nodes, `measure`
+  TeamSimilarity layout_similarity;     ///< of nodes, `layout_measure`
   DistanceModel near_model;
   std::optional<DecayModel> layout_model;  ///< absent when too few samples train it
   DeviceOffsets device_offsets = {};       ///< of each robot; already taken off its fingerprints

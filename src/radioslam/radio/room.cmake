@@ -1,5 +1,5 @@
 radioslam_room(radio SOURCES fingerprint.cpp similarity.cpp similarity_sums.cpp similarity_need.cpp similarity_lanes.cpp
-                       similarity_kernel_narrow.cpp similarity_kernel_wide.cpp place_order.cpp fingerprint_blocks.cpp joined_rows.cpp similarity_join.cpp
+                       similarity_kernel_narrow.cpp similarity_kernel_wide.cpp place_order.cpp fingerprint_blocks.cpp joined_rows.cpp similarity_join.cpp fingerprint_comparison.cpp team_similarity.cpp
                distance_model.cpp decay_model.cpp device_offset.cpp measurements.cpp
                anchor_distances.cpp anchor_frame.cpp anchor_layout.cpp multilateration.cpp range_epochs.cpp range_bias.cpp receiver_track.cpp
                        two_way_channel.cpp arrival_likelihood.cpp effective_snr.cpp intel5300_power.cpp capture_power.cpp beam_sums.cpp beam_kernel_narrow.cpp beam_kernel_wide.cpp subcarrier_slopes.cpp

@@ -4,9 +4,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
+#include <set>
+#include <utility>
 
 #include "radioslam/geometry/alignment.hpp"
+#include "radioslam/radio/shared_access_points.hpp"
 #include "radioslam/team_frame/fingerprint_bodies.hpp"
 #include "radioslam/team_frame/multidimensional_scaling.hpp"
 #include "radioslam/team_frame/rigid_layout.hpp"
@@ -31,7 +35,22 @@ class Groups {
   std::vector<std::size_t> parent_;
 };
 
-Groups group_robots(const Mission& mission, const RadioMeasurements& radio, double least_similarity) {
+/// The access points that two robots heard both, in fingerprints that are alike.
+class SharedHearing {
+ public:
+  /// How many with those of this pair.
+  std::size_t add(std::size_t robot_a, std::size_t robot_b, const Fingerprint& a, const Fingerprint& b) {
+    std::set<AccessPointIndex>& shared = shared_[{robot_a, robot_b}];
+    walk_shared(a, b,
+                [&](const FingerprintEntry& x, const FingerprintEntry&) { shared.insert(x.access_point); });
+    return shared.size();
+  }
+
+ private:
+  std::map<std::pair<std::size_t, std::size_t>, std::set<AccessPointIndex>> shared_;
+};
+
+Groups group_robots(const Mission& mission, const RadioMeasurements& radio, const LayoutParams& params) {
   Groups groups(mission.robots.size());
   std::optional<std::size_t> known;
   for (std::size_t r = 0; r < mission.robots.size(); ++r) {
@@ -40,10 +59,14 @@ Groups group_robots(const Mission& mission, const RadioMeasurements& radio, doub
     known = known.value_or(r);
   }
   if (!radio.layout_model) return groups;
-  for (std::size_t i = 0; i < radio.nodes.size(); ++i)
-    for (std::size_t j = i + 1; j < radio.nodes.size(); ++j)
-      if (static_cast<double>(radio.layout_similarity[i][j]) > least_similarity)
-        groups.join(radio.nodes[i].robot.index(), radio.nodes[j].robot.index());
+  SharedHearing hearing;
+  radio.layout_similarity.for_each_pair(params.least_similarity, [&](const SimilarPair& pair) {
+    const std::size_t a = radio.nodes[pair.i].robot.index(), b = radio.nodes[pair.j].robot.index();
+    if (groups.root(a) == groups.root(b) || static_cast<double>(pair.similarity) <= params.least_similarity)
+      return;
+    const std::size_t shared = hearing.add(a, b, radio.at(pair.i).fingerprint, radio.at(pair.j).fingerprint);
+    if (shared >= static_cast<std::size_t>(params.least_shared)) groups.join(a, b);
+  });
   return groups;
 }
 
@@ -56,7 +79,7 @@ PairTargets make_targets(const RadioMeasurements& radio, const std::vector<std::
     for (Eigen::Index j = 0; j < n; ++j) {
       const std::size_t a = nodes[static_cast<std::size_t>(i)], b = nodes[static_cast<std::size_t>(j)];
       if (radio.nodes[a].robot == radio.nodes[b].robot) continue;
-      const double s = static_cast<double>(radio.layout_similarity[a][b]);
+      const double s = static_cast<double>(radio.layout_similarity.of(a, b));
       const double distance = radio.layout_model->distance_m(std::max(s, params.least_similarity));
       const double sigma2 = params.sigma_m * params.sigma_m +
                             params.sigma_relative * params.sigma_relative * distance * distance;
@@ -196,7 +219,7 @@ std::vector<RigidBody> best_layout(const std::vector<RigidBody>& bodies, const P
 
 TeamFrame align_by_fingerprints(const Mission& mission, const RadioMeasurements& radio,
                                 const LayoutParams& params, const Progress& progress) {
-  const Groups groups = group_robots(mission, radio, params.least_similarity);
+  const Groups groups = group_robots(mission, radio, params);
   const std::vector<std::size_t> nodes = thinned_nodes(radio.nodes.size(), params.max_nodes);
   std::vector<RigidBody> bodies = fingerprint_bodies(mission, radio, nodes);
   const bool all_known = std::all_of(bodies.begin(), bodies.end(), [](const auto& b) { return b.fixed; });

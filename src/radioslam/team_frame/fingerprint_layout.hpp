@@ -25,6 +25,7 @@ struct LayoutParams {
   double sigma_m = 5;             ///< sigma_0: error of a predicted distance near zero
   double sigma_relative = 0.3;    ///< r: its relative error far away
   double pair_weight = 0.02;      ///< distances share their fingerprints' errors: one counts this much
+  int least_shared = 3;           ///< access points that tie two robots: x, y and a heading are unknown
   int sweeps = 100;
   int max_nodes = 1500;  ///< more fingerprints are thinned evenly
 
@@ -36,6 +37,8 @@ struct LayoutParams {
     visit(Field{"sigma_relative", "", 0, 2, "its relative error far away"}, self.sigma_relative);
     visit(Field{"pair_weight", "", 1e-4, 1, "share of a pair that is independent evidence"},
           self.pair_weight);
+    visit(Field{"least_shared", "", 1, 1000, "access points that two robots must both hear to be tied"},
+          self.least_shared);
     visit(Field{"sweeps", "", 1, 10000, "passes over the robots"}, self.sweeps);
     visit(Field{"max_nodes", "", 10, 20000, "more fingerprints than this are thinned"}, self.max_nodes);
   }
