@@ -7,6 +7,7 @@
 #include "radioslam/pipeline/access_point_stage.hpp"
 #include "radioslam/pipeline/angle_checks.hpp"
 #include "radioslam/pipeline/csi_stage.hpp"
+#include "radioslam/pipeline/fix_stage.hpp"
 #include "radioslam/pipeline/joint_graph.hpp"
 #include "radioslam/pipeline/match_angles.hpp"
 #include "radioslam/pipeline/overlap_stage.hpp"
@@ -33,6 +34,7 @@ struct RunParams {
   FingerprintClosureParams closure;
   SequenceStageParams sequence;
   JointGraphParams graph;
+  FixParams fixes;
   TeamBiasParams range_bias;
   OverlapStageParams overlap;
   MatchParams matches;
@@ -55,6 +57,7 @@ struct RunParams {
     visit("closure", self.closure);
     visit("sequence", self.sequence);
     visit("graph", self.graph);
+    visit("fixes", self.fixes);
     visit("range_bias", self.range_bias);
     visit("overlap", self.overlap);
     visit("matches", self.matches);

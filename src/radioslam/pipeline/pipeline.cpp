@@ -7,6 +7,7 @@
 #include "radioslam/pipeline/csi_stage.hpp"
 #include "radioslam/pipeline/dense_trajectory.hpp"
 #include "radioslam/pipeline/field_stage.hpp"
+#include "radioslam/pipeline/fix_stage.hpp"
 #include "radioslam/pipeline/joint_graph_of_team.hpp"
 #include "radioslam/pipeline/scan_closures.hpp"
 #include "radioslam/team_frame/observed_information.hpp"
@@ -149,15 +150,20 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const std::ve
     if (team) return joint_graph_of(*team, mission);
     std::vector<std::vector<Stamp>> moments(mission.robots.size());
     add_closure_moments(loops, moments);
+    add_fix_moments(mission, moments);
     return build_joint_graph<Pose>(mission, params.keyframe, params.graph, std::move(moments));
   });
   const ScanTies scan_ties = add_scan_closures(joint, loops, params.optimizer);
+  auto fixes = place_by_fixes(joint, mission, params.fixes, params.optimizer, progress);
+  const auto with_starts = with_placed_starts<Pose>(mission, fixes);
+  const Mission& placed = with_starts ? *with_starts : mission;
   const auto placement = clock.time("team frame", [&] {
     return has_radio_links(joint) ? place_by_radio(joint, params.alignment, progress)
-                                  : place_by_fingerprints(joint, mission, radio, params.team_frame, progress);
+                                  : place_by_fingerprints(joint, placed, radio, params.team_frame, progress);
   });
+  hold_by_fixes(joint, fixes, placement);
   auto closures = clock.time("closures", [&] {
-    return propose_fingerprint_closures(mission, radio, params.radio.distance_model.trusted_way_m,
+    return propose_fingerprint_closures(placed, radio, params.radio.distance_model.trusted_way_m,
                                         params.team_frame, params.closure);
   });
   add_fingerprint_closures(joint, radio, closures);
@@ -165,8 +171,9 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const std::ve
       clock.time("sequences", [&] { return add_sequence_closures(joint, radio, params.sequence); });
   const auto solution = clock.time(
       "optimise", [&] { return optimize_robustly(joint, params.robust, params.optimizer, progress); });
+  settle_fixes(joint, fixes, params.optimizer, progress);
   clock.time("radio field", [&] {
-    if (refine_by_radio_field(joint, mission, radio, placement, closures, params.field, progress))
+    if (refine_by_radio_field(joint, placed, radio, placement, closures, params.field, progress))
       optimize(joint.team.graph, params.optimizer, progress);
     return 0;
   });
@@ -193,6 +200,7 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const std::ve
   add_device_offsets(result.robots, radio.device_offsets);
   if (radio.device_offsets.shown) result.notes.push_back(device_offset_note(result.robots));
   add_notes(result, mission, radio, params.sequence, joint.ignored_links);
+  add_fix_results(result, joint, fixes);
   if (!mission.arrivals.empty())
     clock.time("angle checks",
                [&] { return check_angles_into(result, mission, joint, placement, params), 0; });

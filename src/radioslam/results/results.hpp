@@ -17,6 +17,14 @@ namespace radioslam {
 /// What became of the offset of a robot's device.
 enum class RssiOffset { kNotSought, kNotObserved, kNotShown, kTakenOff };
 
+/// What became of a robot's position fixes.
+struct FixResult {
+  std::size_t used = 0, rejected = 0;  ///< rejected: contradicted by the estimate
+  std::size_t outside = 0;             ///< at times without odometry
+  bool place = false;                  ///< they put the robot into the common frame
+  std::string unused;                  ///< why none took part; empty where they did
+};
+
 /// A robot's estimated keyframes. All robots of one component share one frame.
 struct RobotResult {
   std::string id;
@@ -31,8 +39,9 @@ struct RobotResult {
   double rssi_offset_db = 0;       ///< its device hears so much stronger than the team's mean
   std::optional<double> sigma_rssi_offset_db = {};  ///< absent where nothing tells
   RssiOffset rssi_offset = RssiOffset::kNotSought;
-  bool start_known = false;  ///< the mission said where it starts
-  bool placed = true;        ///< false: nothing ties it to its component
+  bool start_known = false;             ///< the mission said where it starts
+  bool placed = true;                   ///< false: nothing ties it to its component
+  std::optional<FixResult> fixes = {};  ///< absent where it has none
 };
 
 /// Where a closure came from.
