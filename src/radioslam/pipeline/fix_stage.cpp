@@ -7,9 +7,9 @@
 
 #include "radioslam/consistency/chi_squared.hpp"
 #include "radioslam/geometry/alignment.hpp"
-#include "radioslam/graph/graduated.hpp"
 #include "radioslam/graph/residuals.hpp"
 #include "radioslam/mission/odometry_edge.hpp"
+#include "radioslam/pipeline/fix_growth.hpp"
 #include "radioslam/team_frame/level_priors.hpp"
 
 namespace radioslam {
@@ -48,7 +48,7 @@ RobotFixes<Pose> fixes_of(const JointGraph<Pose>& joint, const Mission& mission,
     factor.i.lever_arm = robot.fix_lever_m.template head<Pose::kDim>();
     factor.position = fix.position_m.template head<Pose::kDim>();
     factor.information /= near[k] * fix.sigma_m * fix.sigma_m;
-    factor.loss = {LossKind::kGemanMcClure, std::sqrt(gate / near[k])};
+    factor.loss = {LossKind::kNone, std::sqrt(gate / near[k])};
     result.factors.push_back(factor);
   }
   if (!result.factors.empty()) result.role = FixRole::kTooFew;
@@ -85,12 +85,11 @@ class FixPlacement {
       fixes_.push_back(fixes_of(joint, mission, r, params));
   }
 
-  TeamFixes<Pose> run(const OptimizerParams& optimizer, const Progress& progress) {
-    for (std::size_t r = 0; r < fixes_.size(); ++r)
-      if (lay_onto_fixes(r)) add_to_ways(r);
-    if (!ways_.positions.empty()) {
+  TeamFixes<Pose> run(const OptimizerParams& optimizer) {
+    for (std::size_t r = 0; r < fixes_.size(); ++r) lay_onto_fixes(r);
+    if (!laid_.empty()) {
       turn_level_priors(ways_);
-      bend(optimizer, progress);
+      bend(optimizer);
       for (const std::size_t r : laid_) judge(r);
       drop_other_frame();
       for (const std::size_t r : laid_) adopt(r);
@@ -115,42 +114,40 @@ class FixPlacement {
   bool known_start(std::size_t r) const { return joint_.team.pieces[r].in_common_frame; }
   PoseId first_pose(std::size_t r) const { return PoseId(joint_.team.pieces[r].first_pose); }
 
-  /// Whether it is worth bending its way.
-  bool lay_onto_fixes(std::size_t r) {
-    if (fixes_[r].factors.size() < static_cast<std::size_t>(params_.least_fixes) && !known_start(r))
-      return false;
-    if (fixes_[r].factors.empty() || known_start(r)) return !fixes_[r].factors.empty();
-    const auto T = align_by_fixes(fixes_of_way(mission_.robots[r]), params_.alignment);
-    if (!T) {
-      fixes_[r].role = FixRole::kTooClose;
-      return false;
+  void lay_onto_fixes(std::size_t r) {
+    GrowingFixes<Pose> growing{fixes_[r].factors, fixes_of_way(mission_.robots[r]), {0}, {}};
+    if (!known_start(r)) {
+      if (growing.factors.size() < static_cast<std::size_t>(params_.least_fixes)) return;
+      const auto found = align_by_fixes(growing.of_way, params_.alignment);
+      if (!found) {
+        fixes_[r].role = FixRole::kTooClose;
+        return;
+      }
+      growing.seeds_m = {found->way_i_m, found->way_j_m};
+      move(r, pose_as<Pose>(found->T_fixes_start));
+      forget_heading(ways_, first_pose(r));
     }
+    if (growing.factors.empty()) return;
+    laid_.push_back(r);
+    growing_.push_back(std::move(growing));
+  }
+
+  void move(std::size_t r, const Pose& T_fixes_start) {
     const Piece& piece = joint_.team.pieces[r];
     for (std::size_t k = 0; k < piece.pose_count; ++k) {
       Pose& pose = ways_.poses[piece.first_pose + k];
-      pose = pose_as<Pose>(*T) * pose;
+      pose = T_fixes_start * pose;
     }
-    forget_heading(ways_, first_pose(r));
-    return true;
   }
 
-  void add_to_ways(std::size_t r) {
-    laid_.push_back(r);
-    fixes_[r].first_factor = ways_.positions.size();
-    ways_.positions.insert(ways_.positions.end(), fixes_[r].factors.begin(), fixes_[r].factors.end());
-  }
-
-  void bend(const OptimizerParams& optimizer, const Progress& progress) {
-    FactorMask mask;
-    mask.positions.assign(ways_.positions.size(), true);
-    const auto summary = optimize_graduated(ways_, mask, GraduatedLoss::kTruncatedLeastSquares,
-                                            GraduatedParams{}, optimizer, progress);
-    for (const std::size_t r : laid_)
-      for (std::size_t k = 0; k < fixes_[r].factors.size(); ++k) {
-        auto& factor = fixes_[r].factors[k];
-        factor.weight = summary.weights.positions[fixes_[r].first_factor + k];
-        factor.loss.kind = LossKind::kNone;
-      }
+  void bend(const OptimizerParams& optimizer) {
+    FixGrowthParams growth;
+    growth.gate = chi_squared_quantile(params_.gate_probability, Pose::kDim);
+    growth.drift_share = params_.alignment.drift_share;
+    grow_fixes(ways_, growing_, growth, optimizer);
+    for (std::size_t n = 0; n < laid_.size(); ++n)
+      for (std::size_t k = 0; k < growing_[n].holds.size(); ++k)
+        fixes_[laid_[n]].factors[k].weight = growing_[n].holds[k] ? 1 : 0;
   }
 
   void judge(std::size_t r) {
@@ -226,6 +223,7 @@ class FixPlacement {
   PoseGraph<Pose> ways_;
   TeamFixes<Pose> fixes_;
   std::vector<std::size_t> laid_;
+  std::vector<GrowingFixes<Pose>> growing_;  ///< of these
 };
 
 bool takes_part(FixRole role) { return role == FixRole::kPlace || role == FixRole::kHold; }
@@ -276,11 +274,11 @@ void add_fix_moments(const Mission& mission, std::vector<std::vector<Stamp>>& mo
 
 template <class Pose>
 TeamFixes<Pose> place_by_fixes(JointGraph<Pose>& joint, const Mission& mission, const FixParams& params,
-                               const OptimizerParams& optimizer, const Progress& progress) {
+                               const OptimizerParams& optimizer) {
   if (std::all_of(mission.robots.begin(), mission.robots.end(),
                   [](const Robot& robot) { return robot.fixes.empty(); }))
     return {};
-  return FixPlacement<Pose>(joint, mission, params).run(optimizer, progress);
+  return FixPlacement<Pose>(joint, mission, params).run(optimizer);
 }
 
 template <class Pose>
@@ -354,7 +352,7 @@ void add_fix_results(RunResult& result, const JointGraph<Pose>& joint, const Tea
 
 #define RADIOSLAM_FIX_STAGE(Pose)                                                                   \
   template TeamFixes<Pose> place_by_fixes(JointGraph<Pose>&, const Mission&, const FixParams&,      \
-                                          const OptimizerParams&, const Progress&);                 \
+                                          const OptimizerParams&);                                  \
   template std::optional<Mission> with_placed_starts<Pose>(const Mission&, const TeamFixes<Pose>&); \
   template void hold_by_fixes(JointGraph<Pose>&, TeamFixes<Pose>&, const TeamPlacement<Pose>&);     \
   template void settle_fixes(JointGraph<Pose>&, const TeamFixes<Pose>&, const OptimizerParams&,     \

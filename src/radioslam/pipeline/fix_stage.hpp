@@ -6,7 +6,7 @@
 // Their frame is the common one, in which known starts and anchors are told as well.
 //
 // A robot of unknown start is first laid onto its fixes as a rigid body (fix_alignment.hpp); then its way
-// bends under truncated least squares, graduated, so that gross errors drop out. It is placed by its fixes
+// bends to those that hold (fix_growth.hpp), so that gross errors drop out. It is placed by its fixes
 // where enough of them agree and are spread enough to give a heading. Fixes of other robots take part once
 // something else has put them into the common frame. Where a robot of known start disagrees with its fixes,
 // their frame is another one, and none of the team's fixes take part.
@@ -78,7 +78,7 @@ void add_fix_moments(const Mission& mission, std::vector<std::vector<Stamp>>& mo
 /// of robots of known start, to the graph.
 template <class Pose>
 TeamFixes<Pose> place_by_fixes(JointGraph<Pose>& joint, const Mission& mission, const FixParams& params,
-                               const OptimizerParams& optimizer, const Progress& progress);
+                               const OptimizerParams& optimizer);
 
 /// The mission with the starts that the fixes gave; nothing where they gave none.
 template <class Pose>

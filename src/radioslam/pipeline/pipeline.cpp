@@ -154,7 +154,7 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const std::ve
     return build_joint_graph<Pose>(mission, params.keyframe, params.graph, std::move(moments));
   });
   const ScanTies scan_ties = add_scan_closures(joint, loops, params.optimizer);
-  auto fixes = place_by_fixes(joint, mission, params.fixes, params.optimizer, progress);
+  auto fixes = place_by_fixes(joint, mission, params.fixes, params.optimizer);
   const auto with_starts = with_placed_starts<Pose>(mission, fixes);
   const Mission& placed = with_starts ? *with_starts : mission;
   const auto placement = clock.time("team frame", [&] {

@@ -57,20 +57,23 @@ double median_height_m(const std::vector<FixOfWay>& fixes) {
 
 }  // namespace
 
-std::optional<SE3> align_by_fixes(const std::vector<FixOfWay>& fixes, const FixAlignmentParams& params) {
+std::optional<FixAlignment> align_by_fixes(const std::vector<FixOfWay>& fixes,
+                                           const FixAlignmentParams& params) {
   const auto tried = some_fixes(fixes, params.tried_fixes);
   const auto scored = some_fixes(fixes, params.scored_fixes);
-  std::optional<SE2> best;
+  std::optional<FixAlignment> best;
+  const double height_m = fixes.empty() ? 0 : median_height_m(fixes);
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < tried.size(); ++i)
     for (std::size_t j = i + 1; j < tried.size(); ++j) {
       const auto place = place_by_two(tried[i], tried[j], params);
       if (!place) continue;
       const double cost = cost_of(*place, tried[i], tried[j], scored, params.drift_share);
-      if (cost < least) best = place, least = cost;
+      if (cost >= least) continue;
+      least = cost;
+      best = FixAlignment{lift(*place, height_m), tried[i].way_m, tried[j].way_m};
     }
-  if (!best) return std::nullopt;
-  return lift(*best, median_height_m(fixes));
+  return best;
 }
 
 }  // namespace radioslam

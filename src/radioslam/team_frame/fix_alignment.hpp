@@ -43,7 +43,14 @@ struct FixOfWay {
   double way_m = 0;  ///< from the start
 };
 
-/// T_fixes_start, turned about the vertical only; `fixes` in the order of time.
-std::optional<SE3> align_by_fixes(const std::vector<FixOfWay>& fixes, const FixAlignmentParams& params);
+/// By the best two fixes, near which it is best.
+struct FixAlignment {
+  SE3 T_fixes_start;  ///< turned about the vertical only
+  double way_i_m = 0, way_j_m = 0;
+};
+
+/// `fixes` in the order of time.
+std::optional<FixAlignment> align_by_fixes(const std::vector<FixOfWay>& fixes,
+                                           const FixAlignmentParams& params);
 
 }  // namespace radioslam
