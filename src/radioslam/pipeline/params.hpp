@@ -13,6 +13,7 @@
 #include "radioslam/pipeline/overlap_stage.hpp"
 #include "radioslam/pipeline/range_biases.hpp"
 #include "radioslam/pipeline/robust_solution.hpp"
+#include "radioslam/pipeline/scan_picture.hpp"
 #include "radioslam/pipeline/scan_stage.hpp"
 #include "radioslam/pipeline/sequence_stage.hpp"
 #include "radioslam/radio/arrival_likelihood.hpp"
@@ -27,6 +28,7 @@ struct RunParams {
   KeyframeParams keyframe;
   RadioParams radio;
   ScanParams scans;
+  ScanPictureParams scan_picture;
   CsiStageParams csi;
   LayoutParams team_frame;
   FieldParams field;
@@ -50,6 +52,7 @@ struct RunParams {
     visit("keyframe", self.keyframe);
     visit("radio", self.radio);
     ScanParams::visit_sections(self.scans, visit);
+    visit("scan_picture", self.scan_picture);
     visit("csi", self.csi);
     visit("team_frame", self.team_frame);
     visit("field", self.field);

@@ -10,6 +10,7 @@
 #include "radioslam/pipeline/fix_stage.hpp"
 #include "radioslam/pipeline/joint_graph_of_team.hpp"
 #include "radioslam/pipeline/scan_closures.hpp"
+#include "radioslam/pipeline/scan_picture.hpp"
 #include "radioslam/team_frame/observed_information.hpp"
 
 namespace radioslam {
@@ -232,6 +233,22 @@ bool has_raw_recordings(const Mission& mission) {
                      [](const Robot& robot) { return !robot.lidar.empty() || robot.csi; });
 }
 
+void count_scans(RunResult& result, const MeasuredScans& scans) {
+  result.counts["scans"] = static_cast<double>(scans.scans);
+  result.counts["scans_registered"] = static_cast<double>(scans.registered);
+  result.counts["scans_of_few_points"] = static_cast<double>(scans.too_few);
+  result.counts["scans_lost"] = static_cast<double>(scans.unmatched);
+  result.counts["scan_closures_accepted"] =
+      static_cast<double>(std::count_if(result.closures.begin(), result.closures.end(), [](const auto& c) {
+        return c.kind == ClosureKind::kLidar && c.status == ClosureStatus::kAccepted;
+      }));
+}
+
+bool has_scans(const Mission& mission) {
+  return std::any_of(mission.robots.begin(), mission.robots.end(),
+                     [](const Robot& robot) { return !robot.lidar.empty(); });
+}
+
 /// The angles measured in the mission's captures in place of the captures.
 void add_angles(Mission& mission, const std::vector<ArrivalMeasurement>& measured) {
   for (Robot& robot : mission.robots) robot.csi.reset();
@@ -257,10 +274,11 @@ RunOutput run_pipeline(const Mission& recorded, const RunParams& params, const R
   if (csi.arrivals.empty() && csi.notes.empty()) timings.pop_back();
   if (scans.scans == 0) timings.erase(timings.begin());
   result.timings.insert(result.timings.begin(), timings.begin(), timings.end());
-  if (scans.scans > 0) {
-    result.counts["scans"] = static_cast<double>(scans.scans);
-    result.counts["scans_registered"] = static_cast<double>(scans.registered);
-  }
+  if (scans.scans > 0) count_scans(result, scans);
+  if (has_scans(mission) && !options.overlap_only)
+    StageClock(result.timings).time("scan picture", [&] {
+      return add_scan_pictures(result, mission, params.scans.lidar, params.scan_picture), 0;
+    });
   if (!csi.arrivals.empty() || !csi.notes.empty())
     result.counts["arrivals_measured"] = static_cast<double>(csi.arrivals.size());
   result.notes.insert(result.notes.end(), scans.notes.begin(), scans.notes.end());
