@@ -13,6 +13,8 @@
 namespace radioslam {
 namespace {
 
+constexpr std::size_t kHighest = 50;  // one cell of so many counts as one of the highest
+
 /// Column x and row y of a cell as one number, in the order of rows.
 std::int64_t cell_key(std::int32_t x, std::int32_t y) {
   return (static_cast<std::int64_t>(y) << 32) + static_cast<std::uint32_t>(x);
@@ -29,7 +31,7 @@ std::int32_t step_of(double value_m, double step_m) {
 struct CellHits {
   std::int32_t last_scan = -1;
   int scans = 0;
-  std::vector<std::int32_t> heights;  ///< distinct, at most as many as needed
+  std::vector<std::int32_t> heights;  ///< distinct
 };
 
 /// The scans nearest after keyframes, at most `most`, evenly.
@@ -62,32 +64,50 @@ class CellGrid {
     CellHits& hits = cells_[cell_key(step_of(point.x(), cell_m_), step_of(point.y(), cell_m_))];
     if (hits.last_scan != scan) hits.last_scan = scan, ++hits.scans;
     const std::int32_t height = step_of(point.z(), params_.height_step_m);
-    if (hits.heights.size() < static_cast<std::size_t>(params_.least_heights) &&
-        std::find(hits.heights.begin(), hits.heights.end(), height) == hits.heights.end())
+    if (std::find(hits.heights.begin(), hits.heights.end(), height) == hits.heights.end())
       hits.heights.push_back(height);
   }
 
-  /// Cells hit at `least_heights` or more, in rows; so wide that they are few enough.
-  ScanPictureResult picture(int least_heights, std::size_t most) const {
-    std::map<std::int64_t, int> kept;
-    for (const auto& [key, hits] : cells_)
-      if (hits.heights.size() >= static_cast<std::size_t>(least_heights)) kept[key] = hits.scans;
+  /// By y, then by x; cells so wide that they are few enough.
+  ScanPictureResult picture(ScannerKind kind, std::size_t most) const {
+    auto kept = kind == ScannerKind::kPlanar ? scans_that_hit() : heights_of_upright();
     double cell_m = cell_m_;
     while (kept.size() > std::max<std::size_t>(1, most)) {
       std::map<std::int64_t, int> wider;
-      for (const auto& [key, scans] : kept) {
+      for (const auto& [key, hits] : kept) {
         int& there = wider[cell_key(column_of(key) >> 1, row_of(key) >> 1)];
-        there = std::max(there, scans);
+        there = std::max(there, hits);
       }
       kept = std::move(wider);
       cell_m *= 2;
     }
     ScanPictureResult result{cell_m, 0, {}};
-    for (const auto& [key, scans] : kept) result.cells.push_back({column_of(key), row_of(key), scans});
+    for (const auto& [key, hits] : kept) result.cells.push_back({column_of(key), row_of(key), hits});
     return result;
   }
 
  private:
+  std::map<std::int64_t, int> scans_that_hit() const {
+    std::map<std::int64_t, int> kept;
+    for (const auto& [key, hits] : cells_) kept[key] = hits.scans;
+    return kept;
+  }
+
+  std::map<std::int64_t, int> heights_of_upright() const {
+    std::vector<std::size_t> counts;
+    for (const auto& [_, hits] : cells_) counts.push_back(hits.heights.size());
+    if (counts.empty()) return {};
+    const auto high = counts.end() - 1 - static_cast<std::ptrdiff_t>(counts.size() / kHighest);
+    std::nth_element(counts.begin(), high, counts.end());
+    const double least =
+        std::max<double>(params_.least_heights, params_.least_share * static_cast<double>(*high));
+    std::map<std::int64_t, int> kept;
+    for (const auto& [key, hits] : cells_)
+      if (static_cast<double>(hits.heights.size()) >= least)
+        kept[key] = static_cast<int>(hits.heights.size());
+    return kept;
+  }
+
   double cell_m_;
   const ScanPictureParams& params_;
   std::unordered_map<std::int64_t, CellHits> cells_;
@@ -96,9 +116,9 @@ class CellGrid {
 ScanPictureResult picture_of(const Robot& robot, const RobotResult& estimate, const LidarParams& lidar,
                              const ScanPictureParams& params, std::size_t robots) {
   const ScannerTraits traits = scanner_traits(robot.lidar, lidar);
-  CellGrid grid(traits.spacing_m, params);
-  const auto scans =
-      shown_scans(robot.lidar, estimate, static_cast<std::size_t>(params.most_scans) / robots + 1);
+  CellGrid grid(params.cell_spacings * traits.spacing_m, params);
+  const auto scans = shown_scans(
+      robot.lidar, estimate, std::max<std::size_t>(1, static_cast<std::size_t>(params.most_scans) / robots));
   for (std::size_t n = 0; n < scans.size(); ++n) {
     const Stamp stamp = robot.lidar.stamps[scans[n]];
     const SE3 T_frame_body = *estimate.dense.at(stamp);
@@ -108,9 +128,7 @@ ScanPictureResult picture_of(const Robot& robot, const RobotResult& estimate, co
     for (std::size_t k = 0; k < points.size(); k += stride)
       grid.add(static_cast<std::int32_t>(n), T_frame_body * Eigen::Vector3d(points[k].cast<double>()));
   }
-  const int least_heights = traits.kind == ScannerKind::kPlanar ? 1 : params.least_heights;
-  ScanPictureResult result =
-      grid.picture(least_heights, static_cast<std::size_t>(params.most_cells) / robots);
+  ScanPictureResult result = grid.picture(traits.kind, static_cast<std::size_t>(params.most_cells) / robots);
   result.scans = scans.size();
   return result;
 }

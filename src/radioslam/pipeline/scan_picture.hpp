@@ -1,9 +1,11 @@
 // What a robot's scans show from above, as cells of a grid for the page's map: walls, not floors.
 //
-// Scans at keyframes, evenly thinned, are placed by the estimated trajectory. A cell counts the scans that
-// hit it. Of a scanner that measures in space a cell is kept where it was hit at several heights: walls,
-// trunks and shelves are, floors and ceilings are not, not even one above the other. Cells are as wide as the
-// scans' points are thinned, and widened by two until few enough are left. Cost: a hash access per point.
+// Scans at keyframes, evenly thinned, are placed by the estimated trajectory. In a plane's scans a cell
+// counts the scans that hit it. Of a scanner that measures in space it counts the heights at which it was
+// hit, and is kept where these are enough, and a share of what the highest things have: walls, trunks and
+// shelves are hit all the way up, floors and ceilings are not, not even one above the other. Cells are as
+// wide as a share of the distance that registration leaves between points, and widened by two until few
+// enough are left. Cost: a hash access per point.
 #pragma once
 
 #include "radioslam/base/fields.hpp"
@@ -19,6 +21,8 @@ struct ScanPictureParams {
   int most_cells = 40000;
   double height_step_m = 0.25;
   int least_heights = 3;
+  double least_share = 0.3;
+  double cell_spacings = 0.5;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -28,6 +32,10 @@ struct ScanPictureParams {
     visit(Field{"height_step_m", "m", 0.01, 100, "heights so far apart count as two"}, self.height_step_m);
     visit(Field{"least_heights", "", 1, 100, "at so many heights a cell is hit, or is a floor"},
           self.least_heights);
+    visit(Field{"least_share", "", 0, 1, "and at such a share of the heights of the highest cells"},
+          self.least_share);
+    visit(Field{"cell_spacings", "", 0.01, 100, "width of a cell, in spacings of the map's points"},
+          self.cell_spacings);
   }
 };
 

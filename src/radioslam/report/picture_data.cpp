@@ -11,9 +11,9 @@ namespace {
 
 constexpr int kMostDigit = 9;
 
-char hits_digit(int scans) {
+char hits_digit(int hits) {
   int digit = 1;
-  for (int left = scans; left > 1 && digit < kMostDigit; left /= 2) ++digit;
+  for (int left = hits; left > 1 && digit < kMostDigit; left /= 2) ++digit;
   return static_cast<char>('0' + digit);
 }
 
@@ -26,7 +26,7 @@ PageData picture_data(const ScanPictureResult& picture, const SE3& T_page_estima
     std::string digits;
     for (end = begin; end < picture.cells.size() && picture.cells[end].y == picture.cells[begin].y; ++end) {
       if (end > begin) row.push_back(picture.cells[end].x - picture.cells[end - 1].x);
-      digits += hits_digit(picture.cells[end].scans);
+      digits += hits_digit(picture.cells[end].hits);
     }
     rows.push_back(std::move(row));
     hits.push_back(std::move(digits));

@@ -26,10 +26,10 @@ struct FixResult {
   std::string unused;                  ///< why none took part; empty where they did
 };
 
-/// A cell of a picture from above, and how many scans hit it.
+/// A cell of a picture from above.
 struct ScanCell {
   std::int32_t x = 0, y = 0;  ///< from x * cell_m to (x + 1) * cell_m, likewise y
-  int scans = 0;
+  int hits = 0;               ///< scans that hit it; of scanners in space, heights
 };
 
 /// What a robot's scans show from above, in the frame of its estimate.

@@ -106,7 +106,7 @@ function caption_map() {
   if (closures_drawn < closures_total)
     parts.push(`${format.count(closures_drawn)} of ${format.count(closures_total)} closures are drawn, evenly spaced within each kind and status; all are counted.`);
   if (picture_cells)
-    parts.push(`Grey: walls and whatever else stands upright, as ${format.plural(picture_scans, "scan")} at keyframes hit it${report.dimension === 3 ? "; drawn from above only" : ""}.`);
+    parts.push(`Grey: walls and whatever else stands upright, in ${format.plural(picture_scans, "scan")} at keyframes${report.dimension === 3 ? "; only seen from above" : ""}.`);
   const drawn = total(robots, r => (r.estimate ? r.estimate.t.length : 0)), keyframes = total(robots, r => r.keyframes);
   if (drawn < keyframes) parts.push(`${format.count(drawn)} of ${format.count(keyframes)} keyframes are drawn.`);
   by_id("map-caption").textContent = parts.join(" ");

@@ -1,9 +1,9 @@
-// What the robots' scans show from above: cells under the trajectories, the darker the more scans hit them.
+// What the robots' scans show from above: cells under the trajectories, the darker the more they were hit.
 
 const picture_levels = 9;
 const moving_cells = 15000;  // drawn while the view moves
 
-/// Cells as corners in the page's metres, by how many scans hit them.
+/// Cells as corners in the page's metres, by how much they were hit.
 function unpack_picture(picture) {
   if (!picture) return null;
   const { cell_m, x, y, yaw } = picture, c = Math.cos(yaw), s = Math.sin(yaw);
