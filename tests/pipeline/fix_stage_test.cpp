@@ -160,7 +160,7 @@ TEST(FixStage, SigmasOfPositionsAreHonest) {
 }
 
 TEST(FixStage, ThreadsChangeNothing) {
-  const auto [mission, truth] = town_of_fixes(10, 0.2);
+  const Mission mission = town_of_fixes(10, 0.2).mission;
   const auto poses = [&](std::size_t threads) {
     set_thread_count(threads);
     return run_pipeline(mission, quick_params()).result.robots[1].estimate;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <set>
 #include <unordered_map>
@@ -13,7 +14,7 @@
 namespace radioslam {
 namespace {
 
-constexpr std::size_t kHighest = 50;  // one cell of so many counts as one of the highest
+constexpr std::size_t kHighest = 30;  // so many cells may be higher than what counts as the highest
 
 /// Column x and row y of a cell as one number, in the order of rows.
 std::int64_t cell_key(std::int32_t x, std::int32_t y) {
@@ -97,8 +98,8 @@ class CellGrid {
     std::vector<std::size_t> counts;
     for (const auto& [_, hits] : cells_) counts.push_back(hits.heights.size());
     if (counts.empty()) return {};
-    const auto high = counts.end() - 1 - static_cast<std::ptrdiff_t>(counts.size() / kHighest);
-    std::nth_element(counts.begin(), high, counts.end());
+    const auto high = counts.begin() + static_cast<std::ptrdiff_t>(std::min(kHighest, counts.size() - 1));
+    std::nth_element(counts.begin(), high, counts.end(), std::greater<>());
     const double least =
         std::max<double>(params_.least_heights, params_.least_share * static_cast<double>(*high));
     std::map<std::int64_t, int> kept;

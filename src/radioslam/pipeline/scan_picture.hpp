@@ -20,7 +20,7 @@ struct ScanPictureParams {
   int most_points = 20000;
   int most_cells = 40000;
   double height_step_m = 0.25;
-  int least_heights = 3;
+  int least_heights = 5;  ///< a floor and a ceiling, each on the border of two
   double least_share = 0.3;
   double cell_spacings = 0.5;
 
