@@ -21,7 +21,7 @@ struct ScanPictureParams {
   int most_cells = 40000;
   double height_step_m = 0.25;
   int least_heights = 5;  ///< a floor and a ceiling, each on the border of two
-  double least_share = 0.3;
+  double least_share = 0.2;
   double cell_spacings = 0.5;
 
   template <class Self, class Visitor>
