@@ -36,7 +36,7 @@ std::vector<double> ways_to_set(const GrowingFixes<Pose>& fixes) {
 
 /// Judges a robot's fixes at the graph's values; sets the scales of their losses. Whether the set changed.
 template <class Pose>
-bool judge(const PoseGraph<Pose>& graph, GrowingFixes<Pose>& fixes, const FixGrowthParams& params) {
+bool judge_fixes(const PoseGraph<Pose>& graph, GrowingFixes<Pose>& fixes, const FixGrowthParams& params) {
   const std::vector<double> way_m = ways_to_set(fixes);
   std::vector<bool> passes(way_m.size());
   double least_m = kNowhere_m;
@@ -67,7 +67,7 @@ void grow_fixes(PoseGraph<Pose>& graph, std::vector<GrowingFixes<Pose>>& team, c
   for (auto& fixes : team) fixes.holds.assign(fixes.factors.size(), false);
   for (int round = 0; round < params.most_rounds; ++round) {
     bool changed = false;
-    for (auto& fixes : team) changed = judge(graph, fixes, params) || changed;
+    for (auto& fixes : team) changed = judge_fixes(graph, fixes, params) || changed;
     if (!changed) return;
     for (const auto& fixes : team)
       for (std::size_t k = 0; k < fixes.factors.size(); ++k)

@@ -261,8 +261,8 @@ std::string why_not(FixRole role) {
   return "";
 }
 
-std::string plural(std::size_t count, const std::string& what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "es");
+std::string fixes_text(std::size_t count) {
+  return std::to_string(count) + (count == 1 ? " position fix" : " position fixes");
 }
 
 }  // namespace
@@ -338,14 +338,14 @@ void add_fix_results(RunResult& result, const JointGraph<Pose>& joint, const Tea
     result.counts["fixes_used"] += static_cast<double>(robot.used);
     result.counts["fixes_rejected"] += static_cast<double>(robot.rejected);
     if (!robot.unused.empty())
-      result.notes.push_back("robot " + result.robots[r].id + ": its " + plural(all, "position fix") +
+      result.notes.push_back("robot " + result.robots[r].id + ": its " + fixes_text(all) +
                              " took no part: " + robot.unused);
     else if (robot.rejected > 0)
       result.notes.push_back("robot " + result.robots[r].id + ": " + std::to_string(robot.rejected) + " of " +
-                             plural(robot.used + robot.rejected, "position fix") +
+                             fixes_text(robot.used + robot.rejected) +
                              " contradict the estimate and were left out");
     if (robot.outside > 0 && robot.used + robot.rejected > 0)
-      result.notes.push_back("robot " + result.robots[r].id + ": " + plural(robot.outside, "position fix") +
+      result.notes.push_back("robot " + result.robots[r].id + ": " + fixes_text(robot.outside) +
                              " lie outside the time of its odometry");
   }
 }

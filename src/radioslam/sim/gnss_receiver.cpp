@@ -5,7 +5,7 @@
 namespace radioslam {
 namespace {
 
-Eigen::Vector3d normal_vector(Rng& rng, double sigma) {
+Eigen::Vector3d fix_noise(Rng& rng, double sigma) {
   return {rng.normal(0, sigma), rng.normal(0, sigma), rng.normal(0, sigma)};
 }
 
@@ -33,7 +33,7 @@ class GrossSpells {
  private:
   void begin() {
     inside_ = true;
-    error_m_ = normal_vector(rng_, sigma_m_);
+    error_m_ = fix_noise(rng_, sigma_m_);
   }
 
   double sigma_m_, leave_, enter_;
@@ -54,8 +54,7 @@ std::vector<PositionFix> simulate_gnss(const TrueMotion& motion, const GnssRecei
     const Stamp stamp = Stamp::from_seconds(static_cast<double>(k) / params.gnss_hz);
     if (motion.end() < stamp) return fixes;
     fixes.push_back(
-        {stamp,
-         motion.pose_at(stamp).translation() + normal_vector(noise, params.gnss_sigma_m) + gross.next(),
+        {stamp, motion.pose_at(stamp).translation() + fix_noise(noise, params.gnss_sigma_m) + gross.next(),
          params.gnss_sigma_m});
   }
 }
