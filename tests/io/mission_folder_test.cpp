@@ -89,6 +89,17 @@ TEST(ReadMission, IgnoresFilesOfOtherReaders) {
   EXPECT_NO_THROW(read(files));
 }
 
+TEST(ReadMission, AnAntennaNamedGnssIsWhereFixesAre) {
+  Files files = example_mission();
+  std::string& yaml = files["mission.yaml"];
+  const std::string before = "front: [0.2, 0, 0.1]";
+  yaml.replace(yaml.find(before), before.size(), before + ", gnss: [-0.5, 0.1, 1.5]");
+  const Mission mission = read(files);
+  EXPECT_EQ(mission.robots[0].fix_lever_m, Eigen::Vector3d(-0.5, 0.1, 1.5));
+  EXPECT_EQ(mission.robots[1].fix_lever_m, Eigen::Vector3d::Zero());
+  EXPECT_NE(format_mission_yaml(mission).find("[-0.5, 0.1, 1.5]"), std::string::npos);
+}
+
 /// A capture of one packet by that sender.
 CsiCapture capture_of(std::uint64_t sender, std::uint32_t counter) {
   CsiCapture capture;

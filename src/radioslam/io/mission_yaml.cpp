@@ -134,6 +134,8 @@ void read_robots(const Text& text, const YAML::Node& node, const RobotSettings& 
     RobotSettings settings = defaults;
     settings.robot.id = entry.key;
     apply_settings(text, entry.value, "robot '" + entry.key + "'", settings);
+    const auto receiver = settings.antennas.find(std::string(kFixAntenna));
+    if (receiver != settings.antennas.end()) settings.robot.fix_lever_m = receiver->second;
     if (settings.csi) {
       settings.robot.csi = csi_recording(text, *settings.csi, settings.antennas);
       check_own_address(text, entry, *settings.robot.csi, file.mission.robots);

@@ -11,11 +11,12 @@
 //     heading: relative                 # or absolute
 //     sigma_heading_rad: 0.2            # of an absolute heading
 //     initial_pose: unknown             # or [x, y, z, yaw] in the common frame
-//     antennas: {front: [0.2, 0, 0.1]}  # where each sits in the body frame
+//     antennas: {front: [0.2, 0, 0.1]}  # where each sits in the body frame; gnss: that of position fixes
 //     csi: {mac: "00:16:ea:00:00:01", channel: 108, antennas: [front]}    # the WiFi card (csi_yaml.hpp)
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "radioslam/io/team_names.hpp"
@@ -23,6 +24,9 @@
 #include "radioslam/mission/mission.hpp"
 
 namespace radioslam {
+
+/// The antenna whose places a robot's gnss.csv tells; the body's origin where there is none.
+inline constexpr std::string_view kFixAntenna = "gnss";
 
 /// The file's content: a mission without recordings, and where in the file its robots stand.
 struct MissionFile {
@@ -35,8 +39,8 @@ struct MissionFile {
 /// Refuses unknown and doubled keys, values out of range, ids that cannot be a file's name.
 MissionFile read_mission_yaml(const Text& text, const std::string& default_name);
 
-/// Everything of the mission but its recordings; of the antennas those that its ranges name and those of
-/// its WiFi cards.
+/// Everything of the mission but its recordings; of the antennas those that its ranges name, those of its
+/// WiFi cards and those of position fixes.
 std::string format_mission_yaml(const Mission& mission);
 
 }  // namespace radioslam

@@ -58,12 +58,15 @@ std::string lidar_value(const Robot& robot) {
   return "{range_m: " + format_number(robot.lidar_range_m) + ", view_deg: " + format_number(view_deg) + "}";
 }
 
-/// The antennas of each robot that some range names.
+/// The antennas of each robot that some range names, and those of position fixes.
 std::vector<Antennas> antennas_of(const Mission& mission) {
   std::vector<Antennas> antennas(mission.robots.size());
   for (const RangeMeasurement& range : mission.ranges)
     for (const RadioEnd* end : {&range.i, &range.j})
       if (!end->antenna.empty()) antennas[end->robot.index()][end->antenna] = end->lever_arm_m;
+  for (std::size_t r = 0; r < antennas.size(); ++r)
+    if (!mission.robots[r].fix_lever_m.isZero(0))
+      antennas[r][std::string(kFixAntenna)] = mission.robots[r].fix_lever_m;
   return antennas;
 }
 

@@ -25,6 +25,13 @@ const char* rssi_offset_text(RssiOffset offset) {
   return nullptr;
 }
 
+Json fixes_json(const FixResult& fixes) {
+  Json json = {{"used", fixes.used}, {"rejected", fixes.rejected}, {"outside", fixes.outside}};
+  json["place_it"] = fixes.place;
+  if (!fixes.unused.empty()) json["unused"] = fixes.unused;
+  return json;
+}
+
 Json robot_json(const RobotResult& robot) {
   Json json = {{"keyframes", robot.estimate.size()},
                {"placed", robot.placed},
@@ -35,6 +42,7 @@ Json robot_json(const RobotResult& robot) {
     json["rssi_offset_db"] = robot.rssi_offset_db;
     json["sigma_rssi_offset_db"] = *robot.sigma_rssi_offset_db;
   }
+  if (robot.fixes) json["fixes"] = fixes_json(*robot.fixes);
   if (!robot.sigma_position_m.empty()) json["sigma_position_end_m"] = robot.sigma_position_m.back();
   return json;
 }

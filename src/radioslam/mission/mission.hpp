@@ -73,9 +73,10 @@ struct Robot {
   double lidar_view_rad = 2 * std::numbers::pi;  ///< width of the horizontal field of view, about body x
   std::vector<WifiScan> wifi;                    ///< in time order
   std::vector<PositionFix> fixes;                ///< in time order
-  std::optional<CsiRecording> csi;               ///< what its WiFi card measured of the packets it heard
-  LidarLog lidar;                                ///< may be empty
-  std::vector<InertialSample> inertial;          ///< strictly increasing in time; may be empty
+  Eigen::Vector3d fix_lever_m = Eigen::Vector3d::Zero();  ///< their antenna in the body frame
+  std::optional<CsiRecording> csi;       ///< what its WiFi card measured of the packets it heard
+  LidarLog lidar;                        ///< may be empty
+  std::vector<InertialSample> inertial;  ///< strictly increasing in time; may be empty
 };
 
 /// A team's recordings.

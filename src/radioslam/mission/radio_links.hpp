@@ -63,7 +63,7 @@ struct PoseMatch {
   double sigma_r_rad = 1;
 };
 
-/// Where a robot was in the common frame.
+/// Where a robot, or the antenna of its receiver, was in the common frame.
 struct PositionFix {
   Stamp stamp;
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();

@@ -14,11 +14,12 @@ constexpr double kSigmaLevel_rad = 0.03;     // roll and pitch of a start frame,
 
 double information(double sigma) { return 1 / (sigma * sigma); }
 
-/// A constant drift is a variable where something is stated about it, or where fingerprints can tell.
+/// A constant drift is a variable where something is stated about it, or where fingerprints or fixes can
+/// tell.
 template <class Pose>
 DriftId add_drift(PoseGraph<Pose>& graph, const Robot& robot, const JointGraphParams& params) {
   const OdometryNoise& noise = robot.odometry_noise;
-  const double floor = robot.wifi.empty() ? 0 : 1;
+  const double floor = robot.wifi.empty() && robot.fixes.empty() ? 0 : 1;
   const double yaw =
       std::max(noise.sigma_yaw_drift_per_m_rad, floor * params.least_sigma_yaw_drift_per_m_rad);
   const double scale = std::max(noise.sigma_scale, floor * params.least_sigma_scale);

@@ -20,7 +20,7 @@ namespace radioslam {
 struct JointGraphParams {
   double sigma_start_m = 0.05;  ///< of a known initial pose
   double sigma_start_rad = 0.01;
-  double least_sigma_yaw_drift_per_m_rad = 1e-3;  ///< where fingerprints tie distant places of one robot
+  double least_sigma_yaw_drift_per_m_rad = 1e-3;  ///< where fingerprints or fixes tell
   double least_sigma_scale = 0.02;
 
   template <class Self, class Visitor>
@@ -28,8 +28,9 @@ struct JointGraphParams {
     visit(Field{"sigma_start_m", "m", 1e-4, 100, "error of a known initial position"}, self.sigma_start_m);
     visit(Field{"sigma_start_rad", "rad", 1e-5, 3, "error of a known initial yaw"}, self.sigma_start_rad);
     visit(Field{"least_sigma_yaw_drift_per_m_rad", "rad/m", 0, 1,
-                "prior of the constant yaw drift of robots with WiFi scans where a smaller one is stated: 57 "
-                "degrees per km"},
+                "prior of the constant yaw drift of robots with WiFi scans or position fixes where a smaller "
+                "one is "
+                "stated: 57 degrees per km"},
           self.least_sigma_yaw_drift_per_m_rad);
     visit(Field{"least_sigma_scale", "", 0, 1, "prior of their odometry's scale error, likewise"},
           self.least_sigma_scale);
@@ -44,6 +45,7 @@ struct JointRobot {
   std::vector<SE3> odometry;          ///< T_start_keyframe, as recorded
   DriftId drift;                      ///< invalid: not estimated
   std::optional<SE3> T_common_start;  ///< where the mission says that the odometry's frame is
+  bool placed_by_fixes = false;       ///< its position fixes put it into the common frame
   double lidar_range_m = 0;
   double lidar_view_rad = 0;
 };

@@ -7,11 +7,13 @@
 #include "radioslam/pipeline/access_point_stage.hpp"
 #include "radioslam/pipeline/angle_checks.hpp"
 #include "radioslam/pipeline/csi_stage.hpp"
+#include "radioslam/pipeline/fix_stage.hpp"
 #include "radioslam/pipeline/joint_graph.hpp"
 #include "radioslam/pipeline/match_angles.hpp"
 #include "radioslam/pipeline/overlap_stage.hpp"
 #include "radioslam/pipeline/range_biases.hpp"
 #include "radioslam/pipeline/robust_solution.hpp"
+#include "radioslam/pipeline/scan_picture.hpp"
 #include "radioslam/pipeline/scan_stage.hpp"
 #include "radioslam/pipeline/sequence_stage.hpp"
 #include "radioslam/radio/arrival_likelihood.hpp"
@@ -26,6 +28,7 @@ struct RunParams {
   KeyframeParams keyframe;
   RadioParams radio;
   ScanParams scans;
+  ScanPictureParams scan_picture;
   CsiStageParams csi;
   LayoutParams team_frame;
   FieldParams field;
@@ -33,6 +36,7 @@ struct RunParams {
   FingerprintClosureParams closure;
   SequenceStageParams sequence;
   JointGraphParams graph;
+  FixParams fixes;
   TeamBiasParams range_bias;
   OverlapStageParams overlap;
   MatchParams matches;
@@ -48,6 +52,7 @@ struct RunParams {
     visit("keyframe", self.keyframe);
     visit("radio", self.radio);
     ScanParams::visit_sections(self.scans, visit);
+    visit("scan_picture", self.scan_picture);
     visit("csi", self.csi);
     visit("team_frame", self.team_frame);
     visit("field", self.field);
@@ -55,6 +60,7 @@ struct RunParams {
     visit("closure", self.closure);
     visit("sequence", self.sequence);
     visit("graph", self.graph);
+    visit("fixes", self.fixes);
     visit("range_bias", self.range_bias);
     visit("overlap", self.overlap);
     visit("matches", self.matches);

@@ -7,8 +7,10 @@
 #include "radioslam/pipeline/csi_stage.hpp"
 #include "radioslam/pipeline/dense_trajectory.hpp"
 #include "radioslam/pipeline/field_stage.hpp"
+#include "radioslam/pipeline/fix_stage.hpp"
 #include "radioslam/pipeline/joint_graph_of_team.hpp"
 #include "radioslam/pipeline/scan_closures.hpp"
+#include "radioslam/pipeline/scan_picture.hpp"
 #include "radioslam/team_frame/observed_information.hpp"
 
 namespace radioslam {
@@ -149,15 +151,20 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const std::ve
     if (team) return joint_graph_of(*team, mission);
     std::vector<std::vector<Stamp>> moments(mission.robots.size());
     add_closure_moments(loops, moments);
+    add_fix_moments(mission, moments);
     return build_joint_graph<Pose>(mission, params.keyframe, params.graph, std::move(moments));
   });
   const ScanTies scan_ties = add_scan_closures(joint, loops, params.optimizer);
+  auto fixes = place_by_fixes(joint, mission, params.fixes, params.optimizer);
+  const auto with_starts = with_placed_starts<Pose>(mission, fixes);
+  const Mission& placed = with_starts ? *with_starts : mission;
   const auto placement = clock.time("team frame", [&] {
     return has_radio_links(joint) ? place_by_radio(joint, params.alignment, progress)
-                                  : place_by_fingerprints(joint, mission, radio, params.team_frame, progress);
+                                  : place_by_fingerprints(joint, placed, radio, params.team_frame, progress);
   });
+  hold_by_fixes(joint, fixes, placement);
   auto closures = clock.time("closures", [&] {
-    return propose_fingerprint_closures(mission, radio, params.radio.distance_model.trusted_way_m,
+    return propose_fingerprint_closures(placed, radio, params.radio.distance_model.trusted_way_m,
                                         params.team_frame, params.closure);
   });
   add_fingerprint_closures(joint, radio, closures);
@@ -165,8 +172,9 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const std::ve
       clock.time("sequences", [&] { return add_sequence_closures(joint, radio, params.sequence); });
   const auto solution = clock.time(
       "optimise", [&] { return optimize_robustly(joint, params.robust, params.optimizer, progress); });
+  settle_fixes(joint, fixes, params.optimizer, progress);
   clock.time("radio field", [&] {
-    if (refine_by_radio_field(joint, mission, radio, placement, closures, params.field, progress))
+    if (refine_by_radio_field(joint, placed, radio, placement, closures, params.field, progress))
       optimize(joint.team.graph, params.optimizer, progress);
     return 0;
   });
@@ -193,6 +201,7 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const std::ve
   add_device_offsets(result.robots, radio.device_offsets);
   if (radio.device_offsets.shown) result.notes.push_back(device_offset_note(result.robots));
   add_notes(result, mission, radio, params.sequence, joint.ignored_links);
+  add_fix_results(result, joint, fixes);
   if (!mission.arrivals.empty())
     clock.time("angle checks",
                [&] { return check_angles_into(result, mission, joint, placement, params), 0; });
@@ -224,6 +233,22 @@ bool has_raw_recordings(const Mission& mission) {
                      [](const Robot& robot) { return !robot.lidar.empty() || robot.csi; });
 }
 
+void count_scans(RunResult& result, const MeasuredScans& scans) {
+  result.counts["scans"] = static_cast<double>(scans.scans);
+  result.counts["scans_registered"] = static_cast<double>(scans.registered);
+  result.counts["scans_of_few_points"] = static_cast<double>(scans.too_few);
+  result.counts["scans_lost"] = static_cast<double>(scans.unmatched);
+  result.counts["scan_closures_accepted"] =
+      static_cast<double>(std::count_if(result.closures.begin(), result.closures.end(), [](const auto& c) {
+        return c.kind == ClosureKind::kLidar && c.status == ClosureStatus::kAccepted;
+      }));
+}
+
+bool has_scans(const Mission& mission) {
+  return std::any_of(mission.robots.begin(), mission.robots.end(),
+                     [](const Robot& robot) { return !robot.lidar.empty(); });
+}
+
 /// The angles measured in the mission's captures in place of the captures.
 void add_angles(Mission& mission, const std::vector<ArrivalMeasurement>& measured) {
   for (Robot& robot : mission.robots) robot.csi.reset();
@@ -249,10 +274,11 @@ RunOutput run_pipeline(const Mission& recorded, const RunParams& params, const R
   if (csi.arrivals.empty() && csi.notes.empty()) timings.pop_back();
   if (scans.scans == 0) timings.erase(timings.begin());
   result.timings.insert(result.timings.begin(), timings.begin(), timings.end());
-  if (scans.scans > 0) {
-    result.counts["scans"] = static_cast<double>(scans.scans);
-    result.counts["scans_registered"] = static_cast<double>(scans.registered);
-  }
+  if (scans.scans > 0) count_scans(result, scans);
+  if (has_scans(mission) && !options.overlap_only)
+    StageClock(result.timings).time("scan picture", [&] {
+      return add_scan_pictures(result, mission, params.scans.lidar, params.scan_picture), 0;
+    });
   if (!csi.arrivals.empty() || !csi.notes.empty())
     result.counts["arrivals_measured"] = static_cast<double>(csi.arrivals.size());
   result.notes.insert(result.notes.end(), scans.notes.begin(), scans.notes.end());

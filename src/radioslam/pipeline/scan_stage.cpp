@@ -178,6 +178,8 @@ void add_notes(MeasuredScans& measured, const Robot& robot, const ScanTrack& tra
     if (count > 0) measured.notes.push_back("robot " + robot.id + ": " + std::to_string(count) + ' ' + what);
   };
   const auto outcome = [&](ScanOutcome o) { return track.outcomes.contains(o) ? track.outcomes.at(o) : 0; };
+  measured.too_few += outcome(ScanOutcome::kTooFew);
+  measured.unmatched += outcome(ScanOutcome::kUnmatched);
   note(outcome(ScanOutcome::kTooFew), "scans had hardly any points and were left out");
   note(outcome(ScanOutcome::kUnmatched), "scans did not fit the map and were left out");
   note(track.points.not_finite, "points were no numbers");

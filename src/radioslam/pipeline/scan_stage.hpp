@@ -35,6 +35,7 @@ struct MeasuredScans {
   std::vector<ScanClosure> closures;
   std::vector<std::string> notes;
   std::size_t scans = 0, registered = 0;
+  std::size_t too_few = 0, unmatched = 0;  ///< left out: of hardly any points; not on the map
 };
 
 /// Everything that the scans need.

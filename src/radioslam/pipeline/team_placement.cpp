@@ -78,7 +78,8 @@ template <class Pose>
 std::vector<bool> absolute_components(const JointGraph<Pose>& joint, const std::vector<int>& component) {
   std::vector<bool> absolute(component.size(), false);
   for (std::size_t r = 0; r < component.size(); ++r)
-    if (joint.robots[r].T_common_start) absolute[static_cast<std::size_t>(component[r])] = true;
+    if (joint.robots[r].T_common_start || joint.robots[r].placed_by_fixes)
+      absolute[static_cast<std::size_t>(component[r])] = true;
   return absolute;
 }
 

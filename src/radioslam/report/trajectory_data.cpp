@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "radioslam/base/median.hpp"
+#include "radioslam/report/picture_data.hpp"
 #include "radioslam/report/rounding.hpp"
 #include "radioslam/report/thinning.hpp"
 
@@ -72,6 +73,10 @@ void add_paths(PageData& data, const RobotResult& robot, const TrajectoryContext
   data["odometry"] = path_data(robot.odometry, evenly_spaced(poses, limit), context.T_page_estimate, context);
 }
 
+PageData fixes_data(const FixResult& fixes) {
+  return {{"used", fixes.used}, {"rejected", fixes.rejected}, {"unused", fixes.unused}};
+}
+
 void add_judgement(PageData& data, const RobotResult& robot, const TrajectoryContext& context,
                    const ReportParams& params) {
   const Judgement& judgement = context.judgement;
@@ -124,6 +129,8 @@ PageData robot_data(const RobotResult& robot, std::size_t component, const Traje
                 {"scale_error", rounded_relative(robot.scale_error)}};
   add_paths(data, robot, context, params);
   add_judgement(data, robot, context, params);
+  if (robot.picture) data["picture"] = picture_data(*robot.picture, context.T_page_estimate);
+  if (robot.fixes) data["fixes"] = fixes_data(*robot.fixes);
   return data;
 }
 

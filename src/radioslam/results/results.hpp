@@ -1,6 +1,7 @@
 // What a run produced: everything that is written, reported and evaluated, and nothing else.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -17,6 +18,27 @@ namespace radioslam {
 /// What became of the offset of a robot's device.
 enum class RssiOffset { kNotSought, kNotObserved, kNotShown, kTakenOff };
 
+/// What became of a robot's position fixes.
+struct FixResult {
+  std::size_t used = 0, rejected = 0;  ///< rejected: contradicted by the estimate
+  std::size_t outside = 0;             ///< at times without odometry
+  bool place = false;                  ///< they put the robot into the common frame
+  std::string unused;                  ///< why none took part; empty where they did
+};
+
+/// A cell of a picture from above.
+struct ScanCell {
+  std::int32_t x = 0, y = 0;  ///< from x * cell_m to (x + 1) * cell_m, likewise y
+  int hits = 0;               ///< scans that hit it; of scanners in space, heights
+};
+
+/// What a robot's scans show from above, in the frame of its estimate.
+struct ScanPictureResult {
+  double cell_m = 0;
+  std::size_t scans = 0;        ///< that were taken
+  std::vector<ScanCell> cells;  ///< by y, then by x
+};
+
 /// A robot's estimated keyframes. All robots of one component share one frame.
 struct RobotResult {
   std::string id;
@@ -31,8 +53,10 @@ struct RobotResult {
   double rssi_offset_db = 0;       ///< its device hears so much stronger than the team's mean
   std::optional<double> sigma_rssi_offset_db = {};  ///< absent where nothing tells
   RssiOffset rssi_offset = RssiOffset::kNotSought;
-  bool start_known = false;  ///< the mission said where it starts
-  bool placed = true;        ///< false: nothing ties it to its component
+  bool start_known = false;                       ///< the mission said where it starts
+  bool placed = true;                             ///< false: nothing ties it to its component
+  std::optional<FixResult> fixes = {};            ///< absent where it has none
+  std::optional<ScanPictureResult> picture = {};  ///< absent where it has no scans
 };
 
 /// Where a closure came from.

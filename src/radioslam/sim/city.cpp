@@ -72,6 +72,8 @@ Simulation simulate_city(const CityParams& params, std::uint64_t seed) {
   WorldShapes shapes;
   shapes.boxes = build_houses(params.streets, params.houses, ground, rng.split("houses"));
   shapes.ground = ground;
+  for (std::size_t r = 0; r < motions.size(); ++r)
+    simulation.mission.robots[r].fixes = simulate_gnss(*motions[r], params.gnss, rng.split("gnss").split(r));
   add_onboard_sensors(simulation, motions, std::move(shapes), onboard, rng.split("onboard"));
   return simulation;
 }

@@ -3,13 +3,15 @@
 // After the tests of Wi-Closure (range and angle at both ends, 0.5 m and 10 degrees, LiDAR of 30 m). The
 // odometry is a random walk without constant errors by default. In three dimensions the ground has gentle
 // hills, angles have an elevation, and the odometry's height drifts. With lidar_beams robots scan the ground
-// and the houses along the streets (town_houses.hpp); with imu_hz they ride smoothly (onboard_sensors.hpp).
+// and the houses along the streets (town_houses.hpp); with imu_hz they ride smoothly (onboard_sensors.hpp);
+// with gnss_hz they get position fixes (gnss_receiver.hpp).
 // At the default speed a corner is taken at 1.5 g: speed_mps=4 is a car's.
 #pragma once
 
 #include <cstdint>
 
 #include "radioslam/sim/aliased_matches.hpp"
+#include "radioslam/sim/gnss_receiver.hpp"
 #include "radioslam/sim/onboard_sensors.hpp"
 #include "radioslam/sim/radio_channel.hpp"
 #include "radioslam/sim/simulation.hpp"
@@ -53,6 +55,7 @@ struct CityParams {
   double sigma_height_m = 4;
   double sigma_z_per_sqrt_m = 0.01;
   OnboardParams onboard = roof_sensors();
+  GnssReceiverParams gnss;
   StreetGridParams streets;
   TownHouseParams houses;
   WheelOdometryParams odometry = random_walk_odometry();
@@ -81,6 +84,7 @@ struct CityParams {
     visit(Field{"sigma_z_per_sqrt_m", "m/sqrt(m)", 0, 1, "white noise of the odometry's height, in 3D"},
           self.sigma_z_per_sqrt_m);
     OnboardParams::visit_fields(self.onboard, visit);
+    GnssReceiverParams::visit_fields(self.gnss, visit);
     StreetGridParams::visit_fields(self.streets, visit);
     TownHouseParams::visit_fields(self.houses, visit);
     WheelOdometryParams::visit_fields(self.odometry, visit);

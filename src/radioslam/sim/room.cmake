@@ -4,4 +4,4 @@ radioslam_room(sim SOURCES lane_grid.cpp drive.cpp wheel_odometry.cpp shadowing.
                            arrival_paths.cpp radio_channel.cpp aliased_matches.cpp radio_mission.cpp city.cpp
                            hall.cpp corridors.cpp town_houses.cpp upright_shapes.cpp floor_grid.cpp ray_world.cpp
                            spline_motion.cpp true_motion.cpp smooth_ride.cpp inertial_unit.cpp lidar_scanner.cpp
-                           onboard_sensors.cpp kitti.cpp scenarios.cpp ROOMS base geometry mission)
+                           onboard_sensors.cpp gnss_receiver.cpp kitti.cpp scenarios.cpp ROOMS base geometry mission)

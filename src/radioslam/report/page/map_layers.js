@@ -219,6 +219,7 @@ function draw_map(context, view) {
   context.clearRect(0, 0, view.width, view.height);
   draw_grid(context, view);
   const many = robots.length > few_robots, { layers } = state;
+  if (layers.picture) draw_pictures(context, view);
   if (layers.sigma) draw_sigma(context, view);
   if (layers.truth) draw_paths(context, view, "truth", { colour: () => css("truth"), width: many ? 2 : 3.5, alpha: 0.75 });
   if (layers.odometry) draw_paths(context, view, "odometry", { colour: robot_colour, width: 1.1, alpha: 0.75, dash: [5, 4] });

@@ -23,6 +23,7 @@ function layer_rows() {
   if (robots.some(r => r.truth)) rows.push(layer("truth", "truth", line => line.attr("stroke", css("truth")).attr("stroke-width", 3.5)));
   if (robots.some(r => r.sigma_m))
     rows.push(layer("sigma", "1 σ of position", line => line.attr("stroke", ink).attr("stroke-width", 9).attr("stroke-opacity", 0.16)));
+  if (picture_cells) rows.push(layer("picture", "scans", line => line.attr("stroke", css("walls")).attr("stroke-width", 8)));
   if (alternatives.length)
     rows.push(layer("alternatives", format.plural(alternatives.length, "other hypothesis", "other hypotheses"),
       line => line.attr("stroke", ink).attr("stroke-width", 1.6).attr("stroke-dasharray", "1 3").attr("stroke-linecap", "round")));
@@ -104,6 +105,8 @@ function caption_map() {
   if (alternatives.length) parts.push("Dotted: where the team lies by the other hypotheses, seen from the first robot.");
   if (closures_drawn < closures_total)
     parts.push(`${format.count(closures_drawn)} of ${format.count(closures_total)} closures are drawn, evenly spaced within each kind and status; all are counted.`);
+  if (picture_cells)
+    parts.push(`Grey: walls and whatever else stands upright, in ${format.plural(picture_scans, "scan")} at keyframes${report.dimension === 3 ? "; only seen from above" : ""}.`);
   const drawn = total(robots, r => (r.estimate ? r.estimate.t.length : 0)), keyframes = total(robots, r => r.keyframes);
   if (drawn < keyframes) parts.push(`${format.count(drawn)} of ${format.count(keyframes)} keyframes are drawn.`);
   by_id("map-caption").textContent = parts.join(" ");

@@ -101,6 +101,11 @@ class MapView {
         widen(span.a, robot[layer][a]);
         widen(span.b, robot[layer][b]);
       }
+    if (state.layers.picture && a === "x" && b === "y")
+      for (const robot of shown()) {
+        widen(span.a, picture_spans[robot.index].x);
+        widen(span.b, picture_spans[robot.index].y);
+      }
     if (state.layers.alternatives)
       for (const path of alternatives.flatMap(other => other.robots.filter((_, r) => state.visible[r]))) {
         widen(span.a, path ? path[a] : []);

@@ -12,7 +12,7 @@ const many_points = 150;  // likewise
 
 const state = {
   visible: robots.map(robot => robot.component === 0 && !robot.stranded),
-  layers: { truth: true, odometry: robots.length <= few_robots, estimate: true, sigma: false, alternatives: true, access_points: points_placed > 0 && points_placed <= many_points },
+  layers: { truth: true, odometry: robots.length <= few_robots, estimate: true, sigma: false, alternatives: true, picture: true, access_points: points_placed > 0 && points_placed <= many_points },
   groups: groups.map(group => group.status === "accepted" && group.count <= many_closures),
   highlight: null,
   moment: null,

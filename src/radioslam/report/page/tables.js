@@ -42,6 +42,9 @@ function robot_columns() {
       number("covered", r => r.coverage, format.percent, "share of the truth's poses"));
   }
   if (some("sigma_median_m")) list.push(number("σ median (m)", r => r.sigma_median_m, format.metres));
+  if (some("fixes"))
+    list.push(number("fixes used", r => r.fixes && r.fixes.used, format.count, "position fixes that hold in the estimate"),
+      number("fixes rejected", r => r.fixes && r.fixes.rejected, format.count, "position fixes that contradict it"));
   if (robots.some(r => r.yaw_drift_per_m_rad)) list.push(number("yaw drift (°/100 m)", r => r.yaw_drift_per_m_rad * 100, v => minus(d3.format("+.2f")((v * 180) / Math.PI)), "estimated"));
   if (robots.some(r => r.scale_error)) list.push(number("scale error", r => r.scale_error, v => minus(`${d3.format("+.2f")(v * 100)} %`), "estimated"));
   return list;
