@@ -24,7 +24,7 @@ TEST(TeamSimilarity, VisitsThePairsOfTheTableInItsOrder) {
   const auto table = similarity_table(fingerprints, fingerprints, SimilarityMeasure::kSorensen, {});
   const TeamSimilarity joined(fingerprints, SimilarityMeasure::kSorensen, {}), given(table);
   ASSERT_EQ(joined.size(), given.size());
-  for (const double minimum : {kLeastSimilarity, 0.3, 0.8}) {
+  for (const double minimum : {kAnySimilarity, 0.3, 0.8}) {
     std::vector<SimilarPair> a, b, expected;
     joined.for_each_pair(minimum, [&](const SimilarPair& pair) { a.push_back(pair); });
     given.for_each_pair(minimum, [&](const SimilarPair& pair) { b.push_back(pair); });

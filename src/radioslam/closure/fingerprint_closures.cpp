@@ -45,7 +45,7 @@ std::vector<FingerprintClosure> propose_near_closures(const RadioMeasurements& r
   const auto minimum = radio.near_model.least_similarity_below(farthest);
   std::vector<FingerprintClosure> closures;
   if (!minimum) return closures;
-  radio.near_similarity.for_each_pair(std::max(*minimum, kLeastSimilarity), [&](const SimilarPair& pair) {
+  radio.near_similarity.for_each_pair(std::max(*minimum, kAnySimilarity), [&](const SimilarPair& pair) {
     const auto limit = distance_limit(radio, pair.i, pair.j, trusted_way_m, params);
     if (!limit) return;
     const double similarity = static_cast<double>(pair.similarity);

@@ -110,7 +110,7 @@ std::vector<SequenceCandidate> sequence_candidates(const RadioMeasurements& radi
         candidates.push_back({i, j, static_cast<double>(similarity)});
     }
   };
-  radio.near_similarity.for_each_row(std::max(params.least_similarity, kLeastSimilarity), take);
+  radio.near_similarity.for_each_row(std::max(params.least_similarity, kAnySimilarity), take);
   return candidates;
 }
 

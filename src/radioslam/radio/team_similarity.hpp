@@ -1,5 +1,6 @@
-// How similar the team's fingerprints are: any two of them, or all pairs that reach a minimum, by the exact join of
-// similarity_join.hpp. Nothing grows with the number of pairs but the time to visit those that reach it.
+// How similar the team's fingerprints are: any two of them, or all pairs that reach a minimum, by the exact
+// join of similarity_join.hpp. Nothing grows with the number of pairs but the time to visit those that reach
+// it.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +17,7 @@
 namespace radioslam {
 
 /// The least similarity of two fingerprints that have something in common.
-inline constexpr double kLeastSimilarity = std::numeric_limits<float>::denorm_min();
+inline constexpr double kAnySimilarity = static_cast<double>(std::numeric_limits<float>::denorm_min());
 
 /// Copies share what they were made of.
 class TeamSimilarity {
