@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "radioslam/base/random.hpp"
@@ -88,6 +89,39 @@ TEST(KeyframeBefore, IsTheLastOneNotLaterThanTheStamp) {
   EXPECT_EQ(keyframe_before(keyframes, {20}), 1U);
   EXPECT_EQ(keyframe_before(keyframes, {29}), 1U);
   EXPECT_EQ(keyframe_before(keyframes, {99}), 2U);
+}
+
+TEST(WithBends, LeavesNoRowFarFromTheWayBetweenItsKeyframes) {
+  Rng rng(3);
+  std::vector<SE2> poses{SE2()};
+  for (int i = 0; i < 300; ++i)  // stops, turns and rushes
+    poses.push_back(poses.back() *
+                    SE2({rng.uniform() < 0.3 ? 0 : rng.uniform(0, 0.4), 0}, rng.normal(0, 0.05)));
+  const auto odometry = one_row_per_second(poses);
+  const KeyframeParams params;
+  const Rows sparse = select_keyframes(odometry, params), dense = with_bends(odometry, sparse, params);
+  EXPECT_GT(dense.size(), sparse.size());
+  EXPECT_TRUE(std::includes(dense.begin(), dense.end(), sparse.begin(), sparse.end()));
+  std::vector<StampedPose<SE3>> kept;
+  for (const std::size_t row : dense) kept.push_back(odometry[row]);
+  const Trajectory<SE3> drawn(std::move(kept));
+  for (const auto& row : odometry) {
+    const SE3 off = drawn.at(row.stamp)->inverse() * row.pose;
+    EXPECT_LE(off.translation().norm(), params.bend_m + 1e-12);
+    EXPECT_LE(off.log().tail<3>().norm(), params.bend_rad + 1e-12);
+  }
+}
+
+TEST(WithBends, AddsNothingToAnEvenDriveOrWithoutAllowances) {
+  std::vector<SE2> even{SE2()}, uneven{SE2()};
+  for (int i = 0; i < 50; ++i) even.push_back(even.back() * SE2({0.1, 0}, 0.01));
+  for (int i = 0; i < 50; ++i) uneven.push_back(uneven.back() * SE2({i % 7 == 0 ? 0.6 : 0, 0}, 0.01));
+  const KeyframeParams params, any{1, 0.17, 0, 0};
+  const Rows keyframes = select_keyframes(one_row_per_second(even), params);
+  EXPECT_EQ(with_bends(one_row_per_second(even), keyframes, params), keyframes);
+  const Rows others = select_keyframes(one_row_per_second(uneven), any);
+  EXPECT_EQ(with_bends(one_row_per_second(uneven), others, any), others);
+  EXPECT_EQ(with_bends({}, {}, params), Rows());
 }
 
 }  // namespace

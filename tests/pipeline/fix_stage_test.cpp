@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "pipeline/town_runs.hpp"
@@ -88,6 +89,17 @@ TEST(FixStage, FewOrNearFixesDoNotPlaceAndSaySo) {
   for (auto& fix : mission.robots[0].fixes) fix.sigma_m = 500;  // as if all were one place
   result = run_pipeline(mission, quick_params()).result;
   EXPECT_EQ(result.robots[0].fixes->unused, "too close together to give its heading");
+}
+
+TEST(FixStage, FixesOfAnotherTimeThanTheOdometryAreNamed) {
+  auto [mission, truth] = town_of_fixes(7, 0);
+  for (auto& fix : mission.robots[1].fixes) fix.stamp = Stamp::from_seconds(fix.stamp.seconds() + 1000);
+  const auto result = run_pipeline(mission, quick_params()).result;
+  const auto names_them = [&](const std::string& note) {
+    return note.starts_with("robot " + mission.robots[1].id) &&
+           note.ends_with("lie outside the time of its odometry");
+  };
+  EXPECT_EQ(std::count_if(result.notes.begin(), result.notes.end(), names_them), 1);
 }
 
 TEST(FixStage, FewFixesHoldARobotThatRadioTies) {

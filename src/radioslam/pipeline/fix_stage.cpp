@@ -344,7 +344,7 @@ void add_fix_results(RunResult& result, const JointGraph<Pose>& joint, const Tea
       result.notes.push_back("robot " + result.robots[r].id + ": " + std::to_string(robot.rejected) + " of " +
                              fixes_text(robot.used + robot.rejected) +
                              " contradict the estimate and were left out");
-    if (robot.outside > 0 && robot.used + robot.rejected > 0)
+    if (robot.outside > 0 && robot.unused.empty())
       result.notes.push_back("robot " + result.robots[r].id + ": " + fixes_text(robot.outside) +
                              " lie outside the time of its odometry");
   }

@@ -97,6 +97,12 @@ void add_start_prior(PoseGraph<Pose>& graph, const Robot& robot, std::size_t fir
   if (!prior.information.isZero(0)) graph.pose_priors.push_back(prior);
 }
 
+/// Odometry of scans is good to centimetres: its keyframes follow its bends.
+KeyframeParams keyframe_rule(const Robot& robot, KeyframeParams params) {
+  if (robot.lidar.empty()) params.bend_m = params.bend_rad = 0;
+  return params;
+}
+
 }  // namespace
 
 std::optional<SE3> common_from_start(const Robot& robot) {
@@ -114,7 +120,7 @@ JointGraph<Pose> build_joint_graph(const Mission& mission, const KeyframeParams&
   std::vector<RobotNodes> nodes;
   for (std::size_t r = 0; r < mission.robots.size(); ++r) {
     const Robot& robot = mission.robots[r];
-    nodes.push_back(select_nodes(robot.odometry, moments[r], keyframes));
+    nodes.push_back(select_nodes(robot.odometry, moments[r], keyframe_rule(robot, keyframes)));
     const DriftId drift = add_drift(joint.team.graph, robot, params);
     joint.team.pieces.push_back(add_odometry(joint.team.graph, robot, nodes.back(), drift));
     const std::size_t first_pose = joint.team.pieces.back().first_pose;

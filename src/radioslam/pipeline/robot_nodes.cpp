@@ -29,7 +29,8 @@ RobotNodes select_nodes(const Trajectory<SE3>& odometry, std::vector<Stamp> mome
                         const KeyframeParams& params) {
   std::erase_if(moments, [&](Stamp moment) { return !odometry.covers(moment); });
   std::vector<Stamp> keyframes;
-  for (const std::size_t row : select_keyframes(odometry, params)) keyframes.push_back(odometry[row].stamp);
+  for (const std::size_t row : with_bends(odometry, select_keyframes(odometry, params), params))
+    keyframes.push_back(odometry[row].stamp);
   RobotNodes nodes;
   nodes.odometry = with_moments(odometry, moments);
   nodes.stamps = std::move(moments);
