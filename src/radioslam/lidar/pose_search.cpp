@@ -124,10 +124,15 @@ bool are_apart(const SE3& a, const SE3& b, const LocalMap& map, const ScanCloud&
 
 Registration register_near(const LocalMap& map, const ScanCloud& scan, const PosePrior& prior,
                            double deviation_m, ScannerKind kind, const RegistrationParams& params) {
+  return register_at(map, scan, prior.pose, prior, deviation_m, kind, params);
+}
+
+Registration register_at(const LocalMap& map, const ScanCloud& scan, const SE3& start, const PosePrior& prior,
+                         double deviation_m, ScannerKind kind, const RegistrationParams& params) {
   constexpr double kSigmas = 3;
   const double reach = std::clamp(kSigmas * deviation_m, map.fine().reach_m() / 3, map.fine().reach_m());
-  return register_surfels(nearest_in(map.fine()), scan.source,
-                          {prior.pose, std::min(deviation_m, reach), reach}, prior, kind, params);
+  return register_surfels(nearest_in(map.fine()), scan.source, {start, std::min(deviation_m, reach), reach},
+                          prior, kind, params);
 }
 
 Registration register_from(const LocalMap& map, const ScanCloud& scan, const std::vector<SE3>& starts,

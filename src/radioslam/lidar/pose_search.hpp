@@ -16,6 +16,10 @@ namespace radioslam {
 Registration register_near(const LocalMap& map, const ScanCloud& scan, const PosePrior& prior,
                            double deviation_m, ScannerKind kind, const RegistrationParams& params);
 
+/// Likewise from a start that is not the prior's.
+Registration register_at(const LocalMap& map, const ScanCloud& scan, const SE3& start, const PosePrior& prior,
+                         double deviation_m, ScannerKind kind, const RegistrationParams& params);
+
 /// From each of `starts` in turn, until one fits by `enough_share` of the points; else the one that fits
 /// best.
 Registration register_from(const LocalMap& map, const ScanCloud& scan, const std::vector<SE3>& starts,
