@@ -78,12 +78,15 @@ PosePrior ScanOdometer::prior_at(const SE3& predicted) const {
   return prior;
 }
 
-ScanOdometer::Sweep ScanOdometer::sweep_of(Stamp stamp, ScanPoints points,
-                                           const SE3::Tangent& twist_per_s) const {
+ScanOdometer::Sweep ScanOdometer::sweep_of(Stamp stamp, ScanPoints points, const SE3::Tangent& twist_per_s,
+                                           MotionSource source) const {
   ThinnedPoints thinned = thin_by_voxels(points.points, points.times_s, traits_.spacing_m);
-  return {stamp, twist_per_s,
+  return {stamp,
+          source,
+          twist_per_s,
           measure_surfels(thinned.points, traits_.spacing_m, traits_.kind, params_.surfel),
-          std::move(thinned.times_s), points.middle_s};
+          std::move(thinned.times_s),
+          points.middle_s};
 }
 
 ScanCloud ScanOdometer::cloud_of(const Sweep& sweep) const {
@@ -189,7 +192,8 @@ void ScanOdometer::begin_anew(const RivalFit& on_rival, ScanPose& result) {
 
 void ScanOdometer::register_on_map(Sweep sweep, const Registration& first_fit, const PosePrior& prior,
                                    ScanPose& result) {
-  const Registration fit = unbend(sweep, result.cloud, first_fit, prior);
+  const Registration fit =
+      sweep.source == MotionSource::kSoFar ? unbend(sweep, result.cloud, first_fit, prior) : first_fit;
   result.matched_share = fit.matched_share;
   result.rms_m = fit.rms_m;
   result.iterations = fit.iterations;
@@ -214,7 +218,8 @@ ScanPose ScanOdometer::add(Stamp stamp, const LidarScan& scan, const std::option
   result.T_start_body = last_ ? last_->T_map_body * motion : motion;
   result.counts = usable.counts;
   if (usable.points.size() < kFewestPoints) return result;
-  const Sweep sweep = sweep_of(stamp, std::move(usable), twist);
+  const Sweep sweep =
+      sweep_of(stamp, std::move(usable), twist, T_previous_body ? MotionSource::kTold : MotionSource::kSoFar);
   result.cloud = cloud_of(sweep);
   if (!last_) {
     result.outcome = ScanOutcome::kFirst;

@@ -4,7 +4,7 @@
 //   surfels   the points thinned, each with its surface                          (voxel_grid.hpp, surfel.hpp)
 //   pose      generalised ICP onto the map, from where the motion leads          (registration.hpp);
 //             where that fits worse than usual, from other starts as well        (pose_search.hpp)
-//   points    unbent by the motion that was found, and the pose once more
+//   points    unbent by the motion that was found, and the pose once more, where nothing else told the motion
 //   map       takes what it does not have yet, and forgets what is out of sight  (local_map.hpp)
 //
 // How far points may lie from the map follows from how wrong the predicted motion was so far, as in KISS-ICP
@@ -15,7 +15,8 @@
 // that is wrong lies wrong at its stamp, but not at its middle; from stamp to stamp the error would return as
 // that of the next motion, with the other sign, and never decay where stamps are the sweeps' beginnings. The
 // motion so far is as old as one sweep, so a robot that speeds up or begins to turn has its scans bent, and
-// its poses at their stamps wrong by a degree: what was found is put in its place at once.
+// its poses at their stamps wrong by a degree: what was found is put in its place at once. A motion that
+// inertial readings or wheels told is newer than that, and true where scans tell nothing; it stays.
 //
 // A scan that does not fit begins a rival map, which the next ones that do not fit either must fit; one that
 // does not takes its place. After `patience` scans the rival becomes the map: where it lies is as uncertain
@@ -163,9 +164,13 @@ class ScanOdometer {
     SE3 T_map_body, T_map_middle;  ///< at the stamp and in the middle of the sweep
   };
 
+  /// By what motion a scan was unbent: that so far, or one that something else tells.
+  enum class MotionSource { kSoFar, kTold };
+
   /// A scan as it is registered.
   struct Sweep {
     Stamp stamp;
+    MotionSource source = MotionSource::kSoFar;
     SE3::Tangent twist_per_s;  ///< by which it was unbent
     std::vector<Surfel> surfels;
     std::vector<float> times_s;  ///< of the surfels; empty where not known
@@ -195,7 +200,7 @@ class ScanOdometer {
   double sigma_rad() const;
   double least_share() const;
   PosePrior prior_at(const SE3& predicted) const;
-  Sweep sweep_of(Stamp stamp, ScanPoints points, const SE3::Tangent& twist_per_s) const;
+  Sweep sweep_of(Stamp stamp, ScanPoints points, const SE3::Tangent& twist_per_s, MotionSource source) const;
   ScanCloud cloud_of(const Sweep& sweep) const;
   Registration lay_onto_map(const ScanCloud& cloud, const PosePrior& prior) const;
   Registration unbend(Sweep& sweep, ScanCloud& cloud, const Registration& fit, const PosePrior& prior) const;
