@@ -99,7 +99,15 @@ std::vector<SE3> starts_in(const Window& window, const SE3& guess) {
   return starts;
 }
 
-/// The starts at which most points meet the map, the best first; of equal ones the earlier.
+/// Do two poses put a point of the scan, at its median range, farther apart than the fine map's reach?
+bool are_apart(const SE3& a, const SE3& b, const LocalMap& map, const ScanCloud& scan) {
+  const SE3 between = a.inverse() * b;
+  const double turn_rad = between.log().tail<3>().norm();
+  return std::max(between.translation().norm(), turn_rad * scan.median_range_m) > map.fine().reach_m();
+}
+
+}  // namespace
+
 std::vector<SE3> most_promising(const LocalMap& map, const ScanCloud& scan, const std::vector<SE3>& starts,
                                 std::size_t count) {
   std::vector<std::pair<double, std::size_t>> shares(starts.size());
@@ -112,15 +120,6 @@ std::vector<SE3> most_promising(const LocalMap& map, const ScanCloud& scan, cons
   for (std::size_t k = 0; k < count; ++k) best.push_back(starts[shares[k].second]);
   return best;
 }
-
-/// Do two poses put a point of the scan, at its median range, farther apart than the fine map's reach?
-bool are_apart(const SE3& a, const SE3& b, const LocalMap& map, const ScanCloud& scan) {
-  const SE3 between = a.inverse() * b;
-  const double turn_rad = between.log().tail<3>().norm();
-  return std::max(between.translation().norm(), turn_rad * scan.median_range_m) > map.fine().reach_m();
-}
-
-}  // namespace
 
 Registration register_near(const LocalMap& map, const ScanCloud& scan, const PosePrior& prior,
                            double deviation_m, ScannerKind kind, const RegistrationParams& params) {

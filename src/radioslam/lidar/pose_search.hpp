@@ -20,6 +20,10 @@ Registration register_near(const LocalMap& map, const ScanCloud& scan, const Pos
 Registration register_at(const LocalMap& map, const ScanCloud& scan, const SE3& start, const PosePrior& prior,
                          double deviation_m, ScannerKind kind, const RegistrationParams& params);
 
+/// The starts at which most of a few points meet the map, the best first; of equal ones the earlier.
+std::vector<SE3> most_promising(const LocalMap& map, const ScanCloud& scan, const std::vector<SE3>& starts,
+                                std::size_t count);
+
 /// From each of `starts` in turn, until one fits by `enough_share` of the points; else the one that fits
 /// best.
 Registration register_from(const LocalMap& map, const ScanCloud& scan, const std::vector<SE3>& starts,

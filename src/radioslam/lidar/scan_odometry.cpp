@@ -71,6 +71,19 @@ double ScanOdometer::least_share() const {
                                : std::max(p.least_matched_share, p.least_usual_share * usual_share_);
 }
 
+double ScanOdometer::enough_share() const {
+  return deviation_.count == 0 ? 1 : std::max(least_share(), params_.odometry.enough_share * usual_share_);
+}
+
+/// Where nothing has any order for long, that is how the world looks.
+bool ScanOdometer::may_be_a_map(const ScanCloud& cloud) {
+  if (scan_order(cloud.all, traits_.kind, params_.order) >= params_.order.least_share)
+    without_order_ = 0;
+  else
+    without_order_ = std::min(without_order_ + 1, params_.odometry.patience + 1);
+  return without_order_ == 0 || without_order_ > params_.odometry.patience;
+}
+
 PosePrior ScanOdometer::prior_at(const SE3& predicted) const {
   PosePrior prior{predicted};
   prior.information.diagonal().head<3>().setConstant(1 / square(params_.odometry.prior_factor * sigma_m()));
@@ -93,14 +106,20 @@ ScanCloud ScanOdometer::cloud_of(const Sweep& sweep) const {
   return scan_cloud(sweep.surfels, traits_.spacing_m, traits_.kind, params_.map);
 }
 
-Registration ScanOdometer::lay_onto_map(const ScanCloud& cloud, const PosePrior& prior) const {
+Registration ScanOdometer::lay_nearby(const ScanCloud& cloud, const PosePrior& prior) const {
   const double deviation_m = sigma_m() + sigma_rad() * cloud.median_range_m;
-  Registration near = register_near(map_, cloud, prior, deviation_m, traits_.kind, params_.registration);
-  const double enough = deviation_.count == 0 ? 1 : params_.odometry.enough_share * usual_share_;
-  if (near.matched_share >= enough) return near;
+  return register_near(map_, cloud, prior, deviation_m, traits_.kind, params_.registration);
+}
+
+/// From other starts, the most promising of them; `near` if none fits better.
+Registration ScanOdometer::search_afar(const ScanCloud& cloud, const PosePrior& prior,
+                                       const Registration& near) const {
   const auto starts =
       starts_about(last_->T_map_body, prior.pose, map_.coarse().reach_m() / 2, cloud.median_range_m);
-  const Registration far = register_from(map_, cloud, starts, enough, traits_.kind, params_.registration);
+  const auto promising =
+      most_promising(map_, cloud, starts, static_cast<std::size_t>(params_.odometry.most_aligned));
+  const Registration far =
+      register_from(map_, cloud, promising, enough_share(), traits_.kind, params_.registration);
   return far.matched_share > near.matched_share ? far : near;
 }
 
@@ -190,6 +209,19 @@ void ScanOdometer::begin_anew(const RivalFit& on_rival, ScanPose& result) {
   rival_.reset();
 }
 
+/// Lays the scan onto what others that fit the map no better make up; enough of them are the map.
+void ScanOdometer::try_new_map(const Sweep& sweep, ScanPose& result) {
+  const auto on_rival = lay_onto_rival(sweep, result.cloud, result.T_start_body);
+  const int patience = deviation_.count == 0 ? 1 : params_.odometry.patience;
+  if (on_rival && rival_->scans > patience) begin_anew(*on_rival, result);
+}
+
+void ScanOdometer::begin(const Sweep& sweep, ScanPose& result) {
+  result.outcome = ScanOutcome::kFirst;
+  advance(sweep.place_at(result.T_start_body));
+  map_.add(result.cloud, result.T_start_body, way_m_);
+}
+
 void ScanOdometer::register_on_map(Sweep sweep, const Registration& first_fit, const PosePrior& prior,
                                    ScanPose& result) {
   const Registration fit =
@@ -221,24 +253,25 @@ ScanPose ScanOdometer::add(Stamp stamp, const LidarScan& scan, const std::option
   const Sweep sweep =
       sweep_of(stamp, std::move(usable), twist, T_previous_body ? MotionSource::kTold : MotionSource::kSoFar);
   result.cloud = cloud_of(sweep);
+  result.outcome = ScanOutcome::kUnmatched;
   if (!last_) {
-    result.outcome = ScanOutcome::kFirst;
-    advance(sweep.place_at(result.T_start_body));
-    map_.add(result.cloud, result.T_start_body, way_m_);
+    if (may_be_a_map(result.cloud)) begin(sweep, result);
     return result;
   }
   const PosePrior prior = prior_at(result.T_start_body);
-  const Registration fit = lay_onto_map(result.cloud, prior);
+  Registration fit = lay_nearby(result.cloud, prior);
+  const bool is_at_home = fit.matched_share >= enough_share();
+  const bool is_lost = !is_at_home && may_be_a_map(result.cloud);
+  if (is_lost) fit = search_afar(result.cloud, prior, fit);
   result.matched_share = fit.matched_share;
   result.rms_m = fit.rms_m;
   result.iterations = fit.iterations;
-  result.outcome = ScanOutcome::kUnmatched;
-  if (fit.matched_share >= least_share()) {
+  const bool may_register = is_at_home || is_lost || deviation_.count > 0;
+  if (may_register && fit.matched_share >= least_share()) {
     rival_.reset();
     register_on_map(sweep, fit, prior, result);
-  } else if (const auto on_rival = lay_onto_rival(sweep, result.cloud, result.T_start_body)) {
-    const int patience = deviation_.count == 0 ? 1 : params_.odometry.patience;
-    if (rival_->scans > patience) begin_anew(*on_rival, result);
+  } else if (is_lost) {
+    try_new_map(sweep, result);
   }
   return result;
 }

@@ -21,7 +21,8 @@
 // A scan that does not fit begins a rival map, which the next ones that do not fit either must fit; one that
 // does not takes its place. After `patience` scans the rival becomes the map: where it lies is as uncertain
 // as the motion from the last scan that did fit. A first scan that the second one does not fit is no map yet:
-// one scan that fits the rival is enough.
+// one scan that fits the rival is enough. Noise fits anything: a scan without order (scan_order.hpp) neither
+// begins a map nor is searched for from afar, unless `patience` others before it had none either.
 #pragma once
 
 #include <cstddef>
@@ -35,6 +36,7 @@
 #include "radioslam/lidar/local_map.hpp"
 #include "radioslam/lidar/pose_search.hpp"
 #include "radioslam/lidar/registration.hpp"
+#include "radioslam/lidar/scan_order.hpp"
 #include "radioslam/lidar/scan_points.hpp"
 #include "radioslam/lidar/surfel.hpp"
 
@@ -52,6 +54,7 @@ struct ScanOdometryParams {
   double prior_factor = 10;           ///< the prior's sigma, in deviations
   double deviation_share = 0.05;      ///< weight of the newest deviation
   double enough_share = 0.9;          ///< of the usual fit; one worse than that is searched for from afar
+  int most_aligned = 5;               ///< of 21 starts of that search, the most promising
   double insert_share = 0.8;          ///< of the usual fit; a scan below it does not enter the map
   double least_matched_share = 0.15;  ///< a scan less of which fits the map is left out
   double least_usual_share = 0.5;     ///< likewise, of the usual fit: noise reaches 0.4
@@ -78,6 +81,8 @@ struct ScanOdometryParams {
           self.deviation_share);
     visit(Field{"enough_share", "", 0, 1, "of the usual fit; a worse one is searched for from afar"},
           self.enough_share);
+    visit(Field{"most_aligned", "", 1, 21, "of the 21 starts of that search, the most promising"},
+          self.most_aligned);
     visit(Field{"insert_share", "", 0, 1, "of the usual fit; a scan below it does not enter the map"},
           self.insert_share);
     visit(Field{"least_matched_share", "", 0, 1, "a scan less of which fits the map is left out"},
@@ -95,6 +100,7 @@ struct LidarParams {
   SurfelParams surfel;
   RegistrationParams registration;
   LocalMapParams map;
+  ScanOrderParams order;
   ScanOdometryParams odometry;
 
   template <class Self, class Visitor>
@@ -103,6 +109,7 @@ struct LidarParams {
     visit("scan_surfels", self.surfel);
     visit("scan_registration", self.registration);
     visit("scan_map", self.map);
+    visit("scan_order", self.order);
     visit("scan_odometry", self.odometry);
   }
 };
@@ -199,13 +206,18 @@ class ScanOdometer {
   double sigma_m() const;
   double sigma_rad() const;
   double least_share() const;
+  double enough_share() const;
+  bool may_be_a_map(const ScanCloud& cloud);
   PosePrior prior_at(const SE3& predicted) const;
   Sweep sweep_of(Stamp stamp, ScanPoints points, const SE3::Tangent& twist_per_s, MotionSource source) const;
   ScanCloud cloud_of(const Sweep& sweep) const;
-  Registration lay_onto_map(const ScanCloud& cloud, const PosePrior& prior) const;
+  Registration lay_nearby(const ScanCloud& cloud, const PosePrior& prior) const;
+  Registration search_afar(const ScanCloud& cloud, const PosePrior& prior, const Registration& near) const;
   Registration unbend(Sweep& sweep, ScanCloud& cloud, const Registration& fit, const PosePrior& prior) const;
   void begin_rival(const Sweep& sweep, const ScanCloud& cloud, const SE3& predicted);
   std::optional<RivalFit> lay_onto_rival(const Sweep& sweep, const ScanCloud& cloud, const SE3& predicted);
+  void begin(const Sweep& sweep, ScanPose& result);
+  void try_new_map(const Sweep& sweep, ScanPose& result);
   void begin_anew(const RivalFit& on_rival, ScanPose& result);
   void register_on_map(Sweep sweep, const Registration& fit, const PosePrior& prior, ScanPose& result);
   void learn(const SE3& deviation, double matched_share);
@@ -220,6 +232,7 @@ class ScanOdometer {
   Deviation deviation_;
   double usual_share_ = 0;  ///< of a scan's points that fit
   std::optional<Rival> rival_;
+  int without_order_ = 0;  ///< scans in a row that fitted worse than usual and have no order
 };
 
 }  // namespace radioslam
