@@ -14,7 +14,8 @@ namespace radioslam {
 
 /// From `prior.pose`, which may put points wrong by `deviation_m`.
 Registration register_near(const LocalMap& map, const ScanCloud& scan, const PosePrior& prior,
-                           double deviation_m, ScannerKind kind, const RegistrationParams& params);
+                           double deviation_m, ScannerKind kind, const RegistrationParams& params,
+                           double least_met_share = 0);
 
 /// Likewise from a start that is not the prior's.
 Registration register_at(const LocalMap& map, const ScanCloud& scan, const SE3& start, const PosePrior& prior,

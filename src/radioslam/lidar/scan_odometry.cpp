@@ -108,7 +108,8 @@ ScanCloud ScanOdometer::cloud_of(const Sweep& sweep) const {
 
 Registration ScanOdometer::lay_nearby(const ScanCloud& cloud, const PosePrior& prior) const {
   const double deviation_m = sigma_m() + sigma_rad() * cloud.median_range_m;
-  return register_near(map_, cloud, prior, deviation_m, traits_.kind, params_.registration);
+  return register_near(map_, cloud, prior, deviation_m, traits_.kind, params_.registration,
+                       deviation_.count == 0 ? 0 : least_share());
 }
 
 /// From other starts, the most promising of them; `near` if none fits better.
@@ -269,6 +270,7 @@ ScanPose ScanOdometer::add(Stamp stamp, const LidarScan& scan, const std::option
   const bool may_register = is_at_home || is_lost || deviation_.count > 0;
   if (may_register && fit.matched_share >= least_share()) {
     rival_.reset();
+    without_order_ = 0;
     register_on_map(sweep, fit, prior, result);
   } else if (is_lost) {
     try_new_map(sweep, result);

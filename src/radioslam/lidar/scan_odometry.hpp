@@ -232,7 +232,7 @@ class ScanOdometer {
   Deviation deviation_;
   double usual_share_ = 0;  ///< of a scan's points that fit
   std::optional<Rival> rival_;
-  int without_order_ = 0;  ///< scans in a row that fitted worse than usual and have no order
+  int without_order_ = 0;  ///< scans in a row that do not fit and have no order
 };
 
 }  // namespace radioslam
