@@ -2,6 +2,10 @@
 // from 0.3 m and 2 degrees off, from raw points on.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
+#include <chrono>
+#include <vector>
+
 #include "radioslam/base/parallel.hpp"
 #include "radioslam/lidar/pose_search.hpp"
 #include "radioslam/lidar/scan_odometry.hpp"
@@ -11,7 +15,7 @@
 namespace radioslam {
 namespace {
 
-constexpr std::size_t kScans = 40;
+constexpr std::size_t kScans = 100;
 
 /// What one robot saw on its first seconds.
 struct Recording {
@@ -45,22 +49,36 @@ ScannerTraits traits_of(const Recording& recorded) {
   return scanner_traits(log, {});
 }
 
+/// The value below which `share` of them lie.
+double quantile(std::vector<double> values, double share) {
+  std::sort(values.begin(), values.end());
+  const auto k = static_cast<std::size_t>(share * static_cast<double>(values.size()));
+  return values[std::min(values.size() - 1, k)];
+}
+
 void odometry(benchmark::State& state) {
   const Recording& recorded = recording();
   set_thread_count(1);
   const ScannerTraits traits = traits_of(recorded);
   std::size_t registered = 0;
+  std::vector<double> took_ms;
   for (auto _ : state) {
     ScanOdometer odometer(traits, {});
-    for (std::size_t k = 0; k < kScans; ++k)
+    for (std::size_t k = 0; k < kScans; ++k) {
+      const auto before = std::chrono::steady_clock::now();
       if (odometer.add(recorded.stamps[k], recorded.scans[k]).outcome == ScanOutcome::kRegistered)
         ++registered;
+      const std::chrono::duration<double, std::milli> passed = std::chrono::steady_clock::now() - before;
+      took_ms.push_back(passed.count());
+    }
   }
   set_thread_count(0);
   if (registered + static_cast<std::size_t>(state.iterations()) !=
       kScans * static_cast<std::size_t>(state.iterations()))
     state.SkipWithError("not every scan was registered");
   state.counters["points"] = recorded.points;
+  state.counters["median_ms"] = quantile(took_ms, 0.5);
+  state.counters["p99_ms"] = quantile(took_ms, 0.99);
   state.counters["scans_per_s"] = benchmark::Counter(
       static_cast<double>(kScans) * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
 }

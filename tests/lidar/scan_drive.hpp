@@ -52,6 +52,16 @@ inline std::vector<ScanPose> odometry_of(const ScanDrive& drive, const LidarPara
   return poses;
 }
 
+/// Points thrown anywhere.
+inline LidarScan noise_scan(ScannerKind kind, int count, Rng& rng) {
+  LidarScan scan;
+  for (int k = 0; k < count; ++k) {
+    const double x = rng.uniform(-8, 8), y = rng.uniform(-8, 8), z = rng.uniform(-2, 3);
+    scan.points.emplace_back(Eigen::Vector3d(x, y, kind == ScannerKind::kPlanar ? 0 : z).cast<float>());
+  }
+  return scan;
+}
+
 /// Once around the furnished room, always looking ahead.
 inline std::vector<SE3> around_furnished_room(int steps) {
   std::vector<SE3> poses;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "lidar/scan_drive.hpp"
 #include "radioslam/base/parallel.hpp"
@@ -18,10 +20,6 @@ Scanner scanner_of(ScannerKind kind) {
   Scanner scanner = kind == ScannerKind::kPlanar ? planar_scanner() : Scanner();
   if (kind == ScannerKind::kSpatial) scanner.azimuths = 150;
   return scanner;
-}
-
-bool is_on_the_way(const ScanPose& pose) {
-  return pose.outcome == ScanOutcome::kRegistered || pose.outcome == ScanOutcome::kFirst;
 }
 
 void expect_end(const std::vector<ScanPose>& poses, const ScanDrive& drive, double off_m, double off_rad) {
@@ -101,15 +99,6 @@ TEST(ScanOdometer, FollowsATurnBetweenItsFirstTwoScans) {
     }
 }
 
-LidarScan noise_scan(ScannerKind kind, int count, Rng& rng) {
-  LidarScan scan;
-  for (int k = 0; k < count; ++k) {
-    const double x = rng.uniform(-8, 8), y = rng.uniform(-8, 8), z = rng.uniform(-2, 3);
-    scan.points.emplace_back(Eigen::Vector3d(x, y, kind == ScannerKind::kPlanar ? 0 : z).cast<float>());
-  }
-  return scan;
-}
-
 /// The drive with broken scans among its scans, and which of them are.
 struct SpoiltDrive {
   ScanDrive drive;
@@ -145,29 +134,101 @@ TEST(ScanOdometer, LeavesBrokenScansOut) {
                {{}, all_nan, three, noise_scan(kind, 1500, rng), all_zero, all_far});
     const auto poses = odometry_of(drive);
     for (std::size_t k = 0; k < poses.size(); ++k)
-      EXPECT_EQ(is_on_the_way(poses[k]), !broken[k]) << k << ", fits by " << poses[k].matched_share;
+      EXPECT_EQ(is_on_the_way(poses[k].outcome), !broken[k]) << k << ", fits by " << poses[k].matched_share;
     expect_end(poses, drive, kClose_m, kClose_rad);
   }
 }
 
-/// Where all scans fit worse than they used to, the map is to blame.
-TEST(ScanOdometer, GoesOnAfterScansThatItMissed) {
-  ScanDrive drive =
-      drive_along(furnished_hall(), scanner_of(ScannerKind::kPlanar), through_furnished_hall(60), 10);
-  drive.truth.erase(drive.truth.begin() + 12, drive.truth.begin() + 40);
-  drive.scans.erase(drive.scans.begin() + 12, drive.scans.begin() + 40);
-  drive.stamps.resize(drive.scans.size());
-  LidarParams params;
-  params.odometry.least_matched_share = 0;
-  params.odometry.least_usual_share = 1;
-  params.odometry.patience = 5;
-  const auto poses = odometry_of(drive, params);
-  std::size_t left_out = 0, longest = 0;
-  for (const ScanPose& pose : poses) {
-    left_out = is_on_the_way(pose) ? 0 : left_out + 1;
-    longest = std::max(longest, left_out);
+/// From the room into the hall, as by a lift: nothing fits any more, but what comes fits together.
+TEST(ScanOdometer, BeginsANewMapWhereNothingFitsForLong) {
+  constexpr std::size_t kInRoom = 10, kInHall = 20;
+  const auto patience = static_cast<std::size_t>(ScanOdometryParams().patience);
+  for (const ScannerKind kind : {ScannerKind::kSpatial, ScannerKind::kPlanar}) {
+    ScanDrive drive = drive_along(furnished_room(), scanner_of(kind), around_furnished_room(40), 10);
+    const ScanDrive hall = drive_along(furnished_hall(), scanner_of(kind), through_furnished_hall(40), 11);
+    drive.truth.resize(kInRoom);
+    drive.scans.resize(kInRoom);
+    drive.truth.insert(drive.truth.end(), hall.truth.begin(), hall.truth.begin() + kInHall);
+    drive.scans.insert(drive.scans.end(), hall.scans.begin(), hall.scans.begin() + kInHall);
+    drive.stamps.resize(drive.scans.size());
+    const auto poses = odometry_of(drive);
+    const std::size_t begun = kInRoom + patience;
+    for (std::size_t k = 1; k < poses.size(); ++k)
+      EXPECT_EQ(poses[k].outcome, k < kInRoom  ? ScanOutcome::kRegistered
+                                  : k < begun  ? ScanOutcome::kUnmatched
+                                  : k == begun ? ScanOutcome::kNewMap
+                                               : ScanOutcome::kRegistered)
+          << k;
+    // No more than a robot may go that drives on as before: 0.35 m from one scan to the next.
+    const double on_m = distance_between(poses[begun].T_start_body, poses[kInRoom - 1].T_start_body);
+    EXPECT_LT(on_m, 0.7 * static_cast<double>(patience + 1));
+    EXPECT_TRUE(poses[begun].information.isZero(0));
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_GT(std::sqrt(poses[begun].covariance(axis, axis)), 0.5);
+      EXPECT_GT(std::sqrt(poses[begun].covariance(axis + 3, axis + 3)), 10 * kDegree);
+    }
+    const SE3 expected = poses[begun].T_start_body * drive.truth[begun].inverse() * drive.truth.back();
+    EXPECT_LT(distance_between(poses.back().T_start_body, expected), kClose_m);
+    EXPECT_LT(angle_between(poses.back().T_start_body, expected), kClose_rad);
   }
-  EXPECT_EQ(longest, 5U);
+}
+
+/// What scanners deliver that start, or that look into the sun.
+std::vector<LidarScan> garbage(ScannerKind kind, Rng& rng) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  return {{},
+          {std::vector<Eigen::Vector3f>(3000, Eigen::Vector3f(nan, 1, 2)), {}},
+          {{{1, 2, 0}, {3, 4, 0}, {-5, 1, 0}}, {}},
+          noise_scan(kind, 30, rng),
+          noise_scan(kind, kind == ScannerKind::kPlanar ? 1500 : 8000, rng)};
+}
+
+/// It is no map for good, be it the first scan, the second, or both.
+void expect_no_harm(const ScanDrive& good, const std::vector<std::pair<std::size_t, LidarScan>>& broken) {
+  ScanDrive drive = good;
+  std::size_t first_good = 0;
+  for (const auto& [place, scan] : broken) {
+    drive.scans[place] = scan;
+    if (place == first_good) ++first_good;
+  }
+  const auto poses = odometry_of(drive);
+  EXPECT_EQ(poses[first_good].outcome, ScanOutcome::kFirst) << broken.front().second.points.size();
+  for (std::size_t k = 2; k < poses.size(); ++k) {
+    const SE3 way = poses[first_good].T_start_body.inverse() * poses[k].T_start_body;
+    const SE3 true_way = drive.truth[first_good].inverse() * drive.truth[k];
+    EXPECT_TRUE(is_on_the_way(poses[k].outcome)) << k;
+    EXPECT_LT(distance_between(way, true_way), 2 * kClose_m) << k;
+    EXPECT_LT(angle_between(way, true_way), 2 * kClose_rad) << k;
+  }
+}
+
+TEST(ScanOdometer, DoesNotTakeNoiseForItsFirstMap) {
+  for (const ScannerKind kind : {ScannerKind::kSpatial, ScannerKind::kPlanar}) {
+    Rng rng(12);
+    ScanDrive good = drive_along(furnished_room(), scanner_of(kind), around_furnished_room(60), 13);
+    good.scans.resize(8);
+    good.truth.resize(8);
+    good.stamps.resize(8);
+    for (const LidarScan& scan : garbage(kind, rng)) {
+      expect_no_harm(good, {{0, scan}});
+      expect_no_harm(good, {{1, scan}});
+      expect_no_harm(good, {{0, scan}, {1, scan}});
+      expect_no_harm(good, {{0, scan}, {1, noise_scan(kind, 1000, rng)}});
+    }
+  }
+}
+
+/// Where all is without order, that is how the world looks: ten scans later it is the map.
+TEST(ScanOdometer, StartsWhereNothingHasOrder) {
+  Rng rng(14);
+  const LidarScan thicket = noise_scan(ScannerKind::kSpatial, 3000, rng);
+  ScanOdometer odometer({0.3, ScannerKind::kSpatial}, {});
+  const int patience = ScanOdometryParams().patience;
+  for (int k = 0; k <= patience + 3; ++k)
+    EXPECT_EQ(odometer.add({100'000'000 * k}, thicket).outcome, k < patience    ? ScanOutcome::kUnmatched
+                                                                : k == patience ? ScanOutcome::kFirst
+                                                                                : ScanOutcome::kRegistered)
+        << k;
 }
 
 TEST(ScannerTraits, AreTheScannersAndTheRooms) {

@@ -16,6 +16,12 @@ NearestSurfel nearest_in(const SurfelMap& map) {
   return [&map](const Eigen::Vector3f& point, float squared) { return map.nearest(point, squared); };
 }
 
+RegistrationStart start_at(const SE3& pose, double deviation_m, const LocalMap& map) {
+  constexpr double kSigmas = 3;
+  const double reach = std::clamp(kSigmas * deviation_m, map.fine().reach_m() / 3, map.fine().reach_m());
+  return {pose, std::min(deviation_m, reach), reach};
+}
+
 PosePrior hardly_any_prior(const SE3& pose) {
   PosePrior prior{pose};
   prior.information.diagonal().setConstant(kHardlyAny);
@@ -99,7 +105,15 @@ std::vector<SE3> starts_in(const Window& window, const SE3& guess) {
   return starts;
 }
 
-/// The starts at which most points meet the map, the best first; of equal ones the earlier.
+/// Do two poses put a point of the scan, at its median range, farther apart than the fine map's reach?
+bool are_apart(const SE3& a, const SE3& b, const LocalMap& map, const ScanCloud& scan) {
+  const SE3 between = a.inverse() * b;
+  const double turn_rad = between.log().tail<3>().norm();
+  return std::max(between.translation().norm(), turn_rad * scan.median_range_m) > map.fine().reach_m();
+}
+
+}  // namespace
+
 std::vector<SE3> most_promising(const LocalMap& map, const ScanCloud& scan, const std::vector<SE3>& starts,
                                 std::size_t count) {
   std::vector<std::pair<double, std::size_t>> shares(starts.size());
@@ -113,21 +127,18 @@ std::vector<SE3> most_promising(const LocalMap& map, const ScanCloud& scan, cons
   return best;
 }
 
-/// Do two poses put a point of the scan, at its median range, farther apart than the fine map's reach?
-bool are_apart(const SE3& a, const SE3& b, const LocalMap& map, const ScanCloud& scan) {
-  const SE3 between = a.inverse() * b;
-  const double turn_rad = between.log().tail<3>().norm();
-  return std::max(between.translation().norm(), turn_rad * scan.median_range_m) > map.fine().reach_m();
+Registration register_near(const LocalMap& map, const ScanCloud& scan, const PosePrior& prior,
+                           double deviation_m, ScannerKind kind, const RegistrationParams& params,
+                           double least_met_share) {
+  RegistrationStart start = start_at(prior.pose, deviation_m, map);
+  start.least_met_share = least_met_share;
+  return register_surfels(nearest_in(map.fine()), scan.source, start, prior, kind, params);
 }
 
-}  // namespace
-
-Registration register_near(const LocalMap& map, const ScanCloud& scan, const PosePrior& prior,
-                           double deviation_m, ScannerKind kind, const RegistrationParams& params) {
-  constexpr double kSigmas = 3;
-  const double reach = std::clamp(kSigmas * deviation_m, map.fine().reach_m() / 3, map.fine().reach_m());
-  return register_surfels(nearest_in(map.fine()), scan.source,
-                          {prior.pose, std::min(deviation_m, reach), reach}, prior, kind, params);
+Registration register_at(const LocalMap& map, const ScanCloud& scan, const SE3& start, const PosePrior& prior,
+                         double deviation_m, ScannerKind kind, const RegistrationParams& params) {
+  return register_surfels(nearest_in(map.fine()), scan.source, start_at(start, deviation_m, map), prior, kind,
+                          params);
 }
 
 Registration register_from(const LocalMap& map, const ScanCloud& scan, const std::vector<SE3>& starts,

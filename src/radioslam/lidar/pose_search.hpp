@@ -14,7 +14,16 @@ namespace radioslam {
 
 /// From `prior.pose`, which may put points wrong by `deviation_m`.
 Registration register_near(const LocalMap& map, const ScanCloud& scan, const PosePrior& prior,
-                           double deviation_m, ScannerKind kind, const RegistrationParams& params);
+                           double deviation_m, ScannerKind kind, const RegistrationParams& params,
+                           double least_met_share = 0);
+
+/// Likewise from a start that is not the prior's.
+Registration register_at(const LocalMap& map, const ScanCloud& scan, const SE3& start, const PosePrior& prior,
+                         double deviation_m, ScannerKind kind, const RegistrationParams& params);
+
+/// The starts at which most of a few points meet the map, the best first; of equal ones the earlier.
+std::vector<SE3> most_promising(const LocalMap& map, const ScanCloud& scan, const std::vector<SE3>& starts,
+                                std::size_t count);
 
 /// From each of `starts` in turn, until one fits by `enough_share` of the points; else the one that fits
 /// best.

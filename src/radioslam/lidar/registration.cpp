@@ -12,7 +12,7 @@ namespace radioslam {
 namespace {
 
 constexpr std::size_t kPointsPerBlock = 256;  // sums of one block: the same for any number of threads
-constexpr std::size_t kFewestMatches = 6;
+constexpr double kFewestMatches = 6;
 constexpr double kPlanarInformation = 1e8;  // pins height, roll and pitch of a scanner in the plane
 
 struct NormalSums {
@@ -123,10 +123,12 @@ Registration register_surfels(const NearestSurfel& target, const SurfelSource& s
   Registration result;
   result.T_target_source = start.T_target_source;
   double blur_m = start.blur_m;
+  const double fewest =
+      std::max(kFewestMatches, start.least_met_share * static_cast<double>(source.surfels.size()));
   for (result.iterations = 1; result.iterations <= params.max_iterations; ++result.iterations) {
     const NormalSums sums = sum_over(
         source.surfels, Pass(target, result.T_target_source, start.reach_m, blur_m, params.loss_scale));
-    if (sums.matches < kFewestMatches) return {.T_target_source = start.T_target_source};
+    if (static_cast<double>(sums.matches) < fewest) return {.T_target_source = start.T_target_source};
     const SE3::Tangent from_prior = (prior.pose.inverse() * result.T_target_source).log();
     const SE3::Jacobian all = source.independent_share * sums.hessian;
     result.information = kind == ScannerKind::kSpatial ? without_leak(all, params.leak_share) : all;

@@ -50,7 +50,7 @@ struct RegistrationParams {
 enum class RegistrationEnd {
   kConverged,
   kMaxIterations,
-  kNoOverlap,  ///< fewer than six points met a surface, at the start or on the way: the pose is the start's
+  kNoOverlap,  ///< too few points met a surface, at the start or on the way: the pose is the start's
 };
 
 /// What is registered.
@@ -82,8 +82,9 @@ using NearestSurfel = std::function<const Surfel*(const Eigen::Vector3f& point, 
 /// Where to start, and how wrong that may be.
 struct RegistrationStart {
   SE3 T_target_source;
-  double blur_m = 0;   ///< of the first iteration
-  double reach_m = 1;  ///< no point farther from the target counts
+  double blur_m = 0;           ///< of the first iteration
+  double reach_m = 1;          ///< no point farther from the target counts
+  double least_met_share = 0;  ///< of the points; where fewer meet the target there is no overlap
 };
 
 Registration register_surfels(const NearestSurfel& target, const SurfelSource& source,

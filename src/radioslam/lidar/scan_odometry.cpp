@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "radioslam/base/median.hpp"
 #include "radioslam/lidar/voxel_grid.hpp"
@@ -66,8 +67,21 @@ double ScanOdometer::sigma_rad() const {
 
 double ScanOdometer::least_share() const {
   const auto& p = params_.odometry;
-  const double usual = left_out_ < p.patience ? usual_share_ : 0;  // else it may be the map that is wrong
-  return std::max(p.least_matched_share, p.least_usual_share * usual);
+  return deviation_.count == 0 ? p.least_first_share
+                               : std::max(p.least_matched_share, p.least_usual_share * usual_share_);
+}
+
+double ScanOdometer::enough_share() const {
+  return deviation_.count == 0 ? 1 : std::max(least_share(), params_.odometry.enough_share * usual_share_);
+}
+
+/// Where nothing has any order for long, that is how the world looks.
+bool ScanOdometer::may_be_a_map(const ScanCloud& cloud) {
+  if (scan_order(cloud.all, traits_.kind, params_.order) >= params_.order.least_share)
+    without_order_ = 0;
+  else
+    without_order_ = std::min(without_order_ + 1, params_.odometry.patience + 1);
+  return without_order_ == 0 || without_order_ > params_.odometry.patience;
 }
 
 PosePrior ScanOdometer::prior_at(const SE3& predicted) const {
@@ -77,14 +91,57 @@ PosePrior ScanOdometer::prior_at(const SE3& predicted) const {
   return prior;
 }
 
-Registration ScanOdometer::lay_onto_map(const ScanCloud& cloud, const PosePrior& prior) const {
+ScanOdometer::Sweep ScanOdometer::sweep_of(Stamp stamp, ScanPoints points, const SE3::Tangent& twist_per_s,
+                                           MotionSource source) const {
+  ThinnedPoints thinned = thin_by_voxels(points.points, points.times_s, traits_.spacing_m);
+  return {stamp,
+          source,
+          twist_per_s,
+          measure_surfels(thinned.points, traits_.spacing_m, traits_.kind, params_.surfel),
+          std::move(thinned.times_s),
+          points.middle_s};
+}
+
+ScanCloud ScanOdometer::cloud_of(const Sweep& sweep) const {
+  return scan_cloud(sweep.surfels, traits_.spacing_m, traits_.kind, params_.map);
+}
+
+Registration ScanOdometer::lay_nearby(const ScanCloud& cloud, const PosePrior& prior) const {
   const double deviation_m = sigma_m() + sigma_rad() * cloud.median_range_m;
-  Registration near = register_near(map_, cloud, prior, deviation_m, traits_.kind, params_.registration);
-  const double enough = deviation_.count == 0 ? 1 : params_.odometry.enough_share * usual_share_;
-  if (near.matched_share >= enough) return near;
-  const auto starts = starts_about(pose_, prior.pose, map_.coarse().reach_m() / 2, cloud.median_range_m);
-  const Registration far = register_from(map_, cloud, starts, enough, traits_.kind, params_.registration);
+  return register_near(map_, cloud, prior, deviation_m, traits_.kind, params_.registration,
+                       deviation_.count == 0 ? 0 : least_share());
+}
+
+/// From other starts, the most promising of them; `near` if none fits better.
+Registration ScanOdometer::search_afar(const ScanCloud& cloud, const PosePrior& prior,
+                                       const Registration& near) const {
+  const auto starts =
+      starts_about(last_->T_map_body, prior.pose, map_.coarse().reach_m() / 2, cloud.median_range_m);
+  const auto promising =
+      most_promising(map_, cloud, starts, static_cast<std::size_t>(params_.odometry.most_aligned));
+  const Registration far =
+      register_from(map_, cloud, promising, enough_share(), traits_.kind, params_.registration);
   return far.matched_share > near.matched_share ? far : near;
+}
+
+/// Puts the motion that was found in the place of that so far, if the scan fits no worse for it.
+Registration ScanOdometer::unbend(Sweep& sweep, ScanCloud& cloud, const Registration& fit,
+                                  const PosePrior& prior) const {
+  if (sweep.times_s.empty()) return fit;
+  const SE3 T_map_middle = fit.T_target_source * sweep.T_body_middle();
+  const double dt_s = seconds_between(last_->middle_stamp, sweep.middle());
+  if (dt_s <= 0) return fit;
+  Sweep unbent = sweep;
+  unbent.twist_per_s = (last_->T_map_middle.inverse() * T_map_middle).log() / dt_s;
+  unbent.surfels = carried_anew(sweep.surfels, sweep.times_s, sweep.twist_per_s, unbent.twist_per_s);
+  ScanCloud unbent_cloud = cloud_of(unbent);
+  Registration better = register_at(map_, unbent_cloud, T_map_middle * unbent.T_body_middle().inverse(),
+                                    prior, 0, traits_.kind, params_.registration);
+  if (better.matched_share < params_.odometry.enough_share * fit.matched_share) return fit;
+  sweep = std::move(unbent);
+  cloud = std::move(unbent_cloud);
+  better.iterations += fit.iterations;
+  return better;
 }
 
 void ScanOdometer::learn(const SE3& deviation, double matched_share) {
@@ -96,53 +153,128 @@ void ScanOdometer::learn(const SE3& deviation, double matched_share) {
   usual_share_ += newest * (matched_share - usual_share_);
 }
 
-void ScanOdometer::advance(const ScanPose& scan, const SweepMiddle& middle) {
-  const SE3 T_start_middle = scan.T_start_body * middle.T_body_middle;
-  const double dt_s = seconds_between(middle_stamp_, middle.stamp);
-  if (last_ && dt_s > 0) twist_per_s_ = (middle_.inverse() * T_start_middle).log() / dt_s;
-  way_m_ += (pose_.inverse() * scan.T_start_body).translation().norm();
-  pose_ = scan.T_start_body;
-  middle_ = T_start_middle;
-  middle_stamp_ = middle.stamp;
-  last_ = scan.stamp;
-  if (scan.matched_share >= params_.odometry.insert_share * usual_share_) map_.add(scan.cloud, pose_, way_m_);
+void ScanOdometer::advance(const Place& place) {
+  if (last_) {
+    const double dt_s = seconds_between(last_->middle_stamp, place.middle_stamp);
+    if (dt_s > 0) twist_per_s_ = (last_->T_map_middle.inverse() * place.T_map_middle).log() / dt_s;
+    way_m_ += (last_->T_map_body.inverse() * place.T_map_body).translation().norm();
+  }
+  last_ = place;
 }
 
-ScanPose ScanOdometer::add(Stamp stamp, const LidarScan& scan, const std::optional<SE3>& T_previous_body) {
-  const double dt_s = last_ ? seconds_between(*last_, stamp) : 0;
-  const SE3 motion = T_previous_body ? *T_previous_body : SE3::exp(dt_s * twist_per_s_);
-  const SE3::Tangent twist = T_previous_body && dt_s > 0 ? SE3::Tangent(motion.log() / dt_s) : twist_per_s_;
-  const ScanPoints usable = usable_points(scan, twist, params_.points);
-  const SweepMiddle middle{{stamp.ns + Stamp::from_seconds(usable.middle_s).ns},
-                           SE3::exp(usable.middle_s * twist)};
+void ScanOdometer::begin_rival(const Sweep& sweep, const ScanCloud& cloud, const SE3& predicted) {
+  const SE3 gap = last_->T_map_body.inverse() * predicted;
+  rival_ = Rival{LocalMap(traits_.spacing_m, params_.map),
+                 sweep.place_at(predicted),
+                 sweep.place_at(predicted),
+                 predicted,
+                 gap.translation().norm(),
+                 gap.log().tail<3>().norm()};
+  rival_->map.add(cloud, predicted, way_m_);
+}
 
-  ScanPose result;
-  result.stamp = stamp;
-  result.T_start_body = pose_ * motion;
-  result.counts = usable.counts;
-  if (usable.points.size() < kFewestPoints) return result;
-  result.cloud = scan_cloud(measure_surfels(thin_by_voxels(usable.points, traits_.spacing_m),
-                                            traits_.spacing_m, traits_.kind, params_.surfel),
-                            traits_.spacing_m, traits_.kind, params_.map);
-  if (map_.empty()) {
-    result.outcome = ScanOutcome::kFirst;
-    advance(result, middle);
-    return result;
+/// Where the scan lies on the rival; the rival takes it, or is begun anew.
+std::optional<ScanOdometer::RivalFit> ScanOdometer::lay_onto_rival(const Sweep& sweep, const ScanCloud& cloud,
+                                                                   const SE3& predicted) {
+  if (rival_) {
+    const PosePrior prior = prior_at(rival_->last.T_map_body * rival_->predicted.inverse() * predicted);
+    const Registration fit = register_near(rival_->map, cloud, prior, rival_->map.fine().reach_m(),
+                                           traits_.kind, params_.registration);
+    if (fit.matched_share >= std::max(params_.odometry.least_first_share, least_share())) {
+      ++rival_->scans;
+      rival_->map.add(cloud, fit.T_target_source, way_m_);
+      rival_->before = std::exchange(rival_->last, sweep.place_at(fit.T_target_source));
+      rival_->predicted = predicted;
+      return RivalFit{fit, prior};
+    }
   }
-  const PosePrior prior = prior_at(result.T_start_body);
-  const Registration fit = lay_onto_map(result.cloud, prior);
+  begin_rival(sweep, cloud, predicted);
+  return std::nullopt;
+}
+
+/// The rival is the map from now on. All of the motion from the one to the other may be wrong.
+void ScanOdometer::begin_anew(const RivalFit& on_rival, ScanPose& result) {
+  result.outcome = ScanOutcome::kNewMap;
+  result.matched_share = on_rival.fit.matched_share;
+  result.T_start_body = on_rival.fit.T_target_source;
+  const double wide_m = params_.odometry.first_sigma_m + rival_->gap_m;
+  const double wide_rad = params_.odometry.first_sigma_rad + rival_->gap_rad;
+  result.covariance.setZero();
+  result.covariance.diagonal().head<3>().setConstant(wide_m * wide_m);
+  result.covariance.diagonal().tail<3>().setConstant(wide_rad * wide_rad);
+  map_ = std::move(rival_->map);
+  const Place place = rival_->last;
+  last_ = rival_->before;
+  learn(on_rival.prior.pose.inverse() * on_rival.fit.T_target_source, on_rival.fit.matched_share);
+  advance(place);
+  rival_.reset();
+}
+
+/// Lays the scan onto what others that fit the map no better make up; enough of them are the map.
+void ScanOdometer::try_new_map(const Sweep& sweep, ScanPose& result) {
+  const auto on_rival = lay_onto_rival(sweep, result.cloud, result.T_start_body);
+  const int patience = deviation_.count == 0 ? 1 : params_.odometry.patience;
+  if (on_rival && rival_->scans > patience) begin_anew(*on_rival, result);
+}
+
+void ScanOdometer::begin(const Sweep& sweep, ScanPose& result) {
+  result.outcome = ScanOutcome::kFirst;
+  advance(sweep.place_at(result.T_start_body));
+  map_.add(result.cloud, result.T_start_body, way_m_);
+}
+
+void ScanOdometer::register_on_map(Sweep sweep, const Registration& first_fit, const PosePrior& prior,
+                                   ScanPose& result) {
+  const Registration fit =
+      sweep.source == MotionSource::kSoFar ? unbend(sweep, result.cloud, first_fit, prior) : first_fit;
   result.matched_share = fit.matched_share;
   result.rms_m = fit.rms_m;
   result.iterations = fit.iterations;
-  result.outcome = ScanOutcome::kUnmatched;
-  if (fit.matched_share < least_share()) return ++left_out_, result;
-  left_out_ = 0;
   result.outcome = ScanOutcome::kRegistered;
   result.T_start_body = fit.T_target_source;
   result.covariance = fit.posterior.inverse();
   result.information = fit.information;
-  learn(prior.pose.inverse() * fit.T_target_source, fit.matched_share);
-  advance(result, middle);
+  learn(prior.pose.inverse() * first_fit.T_target_source, fit.matched_share);
+  advance(sweep.place_at(result.T_start_body));
+  if (result.matched_share >= params_.odometry.insert_share * usual_share_)
+    map_.add(result.cloud, result.T_start_body, way_m_);
+}
+
+ScanPose ScanOdometer::add(Stamp stamp, const LidarScan& scan, const std::optional<SE3>& T_previous_body) {
+  const double dt_s = last_ ? seconds_between(last_->stamp, stamp) : 0;
+  const SE3 motion = T_previous_body ? *T_previous_body : SE3::exp(dt_s * twist_per_s_);
+  const SE3::Tangent twist = T_previous_body && dt_s > 0 ? SE3::Tangent(motion.log() / dt_s) : twist_per_s_;
+  ScanPoints usable = usable_points(scan, twist, params_.points);
+
+  ScanPose result;
+  result.stamp = stamp;
+  result.T_start_body = last_ ? last_->T_map_body * motion : motion;
+  result.counts = usable.counts;
+  if (usable.points.size() < kFewestPoints) return result;
+  const Sweep sweep =
+      sweep_of(stamp, std::move(usable), twist, T_previous_body ? MotionSource::kTold : MotionSource::kSoFar);
+  result.cloud = cloud_of(sweep);
+  result.outcome = ScanOutcome::kUnmatched;
+  if (!last_) {
+    if (may_be_a_map(result.cloud)) begin(sweep, result);
+    return result;
+  }
+  const PosePrior prior = prior_at(result.T_start_body);
+  Registration fit = lay_nearby(result.cloud, prior);
+  const bool is_at_home = fit.matched_share >= enough_share();
+  const bool is_lost = !is_at_home && may_be_a_map(result.cloud);
+  if (is_lost) fit = search_afar(result.cloud, prior, fit);
+  result.matched_share = fit.matched_share;
+  result.rms_m = fit.rms_m;
+  result.iterations = fit.iterations;
+  const bool may_register = is_at_home || is_lost || deviation_.count > 0;
+  if (may_register && fit.matched_share >= least_share()) {
+    rival_.reset();
+    without_order_ = 0;
+    register_on_map(sweep, fit, prior, result);
+  } else if (is_lost) {
+    try_new_map(sweep, result);
+  }
   return result;
 }
 

@@ -4,6 +4,7 @@
 //   surfels   the points thinned, each with its surface                          (voxel_grid.hpp, surfel.hpp)
 //   pose      generalised ICP onto the map, from where the motion leads          (registration.hpp);
 //             where that fits worse than usual, from other starts as well        (pose_search.hpp)
+//   points    unbent by the motion that was found, and the pose once more, where nothing else told the motion
 //   map       takes what it does not have yet, and forgets what is out of sight  (local_map.hpp)
 //
 // How far points may lie from the map follows from how wrong the predicted motion was so far, as in KISS-ICP
@@ -12,7 +13,16 @@
 //
 // The motion is measured from the middle of one sweep to the middle of the next. A scan unbent by a motion
 // that is wrong lies wrong at its stamp, but not at its middle; from stamp to stamp the error would return as
-// that of the next motion, with the other sign, and never decay where stamps are the sweeps' beginnings.
+// that of the next motion, with the other sign, and never decay where stamps are the sweeps' beginnings. The
+// motion so far is as old as one sweep, so a robot that speeds up or begins to turn has its scans bent, and
+// its poses at their stamps wrong by a degree: what was found is put in its place at once. A motion that
+// inertial readings or wheels told is newer than that, and true where scans tell nothing; it stays.
+//
+// A scan that does not fit begins a rival map, which the next ones that do not fit either must fit; one that
+// does not takes its place. After `patience` scans the rival becomes the map: where it lies is as uncertain
+// as the motion from the last scan that did fit. A first scan that the second one does not fit is no map yet:
+// one scan that fits the rival is enough. Noise fits anything: a scan without order (scan_order.hpp) neither
+// begins a map nor is searched for from afar, unless `patience` others before it had none either.
 #pragma once
 
 #include <cstddef>
@@ -26,6 +36,7 @@
 #include "radioslam/lidar/local_map.hpp"
 #include "radioslam/lidar/pose_search.hpp"
 #include "radioslam/lidar/registration.hpp"
+#include "radioslam/lidar/scan_order.hpp"
 #include "radioslam/lidar/scan_points.hpp"
 #include "radioslam/lidar/surfel.hpp"
 
@@ -43,10 +54,12 @@ struct ScanOdometryParams {
   double prior_factor = 10;           ///< the prior's sigma, in deviations
   double deviation_share = 0.05;      ///< weight of the newest deviation
   double enough_share = 0.9;          ///< of the usual fit; one worse than that is searched for from afar
+  int most_aligned = 5;               ///< of 21 starts of that search, the most promising
   double insert_share = 0.8;          ///< of the usual fit; a scan below it does not enter the map
   double least_matched_share = 0.15;  ///< a scan less of which fits the map is left out
   double least_usual_share = 0.5;     ///< likewise, of the usual fit: noise reaches 0.4
-  int patience = 10;                  ///< after so many left out in a row the usual fit counts no more
+  double least_first_share = 0.5;     ///< likewise, of the second scan, when nothing is usual yet
+  int patience = 10;                  ///< after so many left out that fit each other they are the map
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -68,12 +81,16 @@ struct ScanOdometryParams {
           self.deviation_share);
     visit(Field{"enough_share", "", 0, 1, "of the usual fit; a worse one is searched for from afar"},
           self.enough_share);
+    visit(Field{"most_aligned", "", 1, 21, "of the 21 starts of that search, the most promising"},
+          self.most_aligned);
     visit(Field{"insert_share", "", 0, 1, "of the usual fit; a scan below it does not enter the map"},
           self.insert_share);
     visit(Field{"least_matched_share", "", 0, 1, "a scan less of which fits the map is left out"},
           self.least_matched_share);
     visit(Field{"least_usual_share", "", 0, 1, "likewise, of the usual fit"}, self.least_usual_share);
-    visit(Field{"patience", "", 0, 1e6, "after so many left out in a row the usual fit counts no more"},
+    visit(Field{"least_first_share", "", 0, 1, "likewise, of the second scan, when nothing is usual yet"},
+          self.least_first_share);
+    visit(Field{"patience", "", 1, 1e6, "after so many left out that fit each other they are the map"},
           self.patience);
   }
 };
@@ -83,6 +100,7 @@ struct LidarParams {
   SurfelParams surfel;
   RegistrationParams registration;
   LocalMapParams map;
+  ScanOrderParams order;
   ScanOdometryParams odometry;
 
   template <class Self, class Visitor>
@@ -91,6 +109,7 @@ struct LidarParams {
     visit("scan_surfels", self.surfel);
     visit("scan_registration", self.registration);
     visit("scan_map", self.map);
+    visit("scan_order", self.order);
     visit("scan_odometry", self.odometry);
   }
 };
@@ -101,7 +120,14 @@ enum class ScanOutcome {
   kFirst,      ///< where the map starts
   kTooFew,     ///< hardly any points that can be used
   kUnmatched,  ///< does not fit the map
+  kNewMap,     ///< registered on a new map: the step to it is hardly known
 };
+
+/// Is the scan's pose one of the robot's way?
+constexpr bool is_on_the_way(ScanOutcome outcome) {
+  return outcome == ScanOutcome::kRegistered || outcome == ScanOutcome::kFirst ||
+         outcome == ScanOutcome::kNewMap;
+}
 
 /// A scan's pose in the frame of the robot's start.
 struct ScanPose {
@@ -139,31 +165,74 @@ class ScanOdometer {
     std::size_t count = 0;
   };
 
-  /// The middle of a sweep.
-  struct SweepMiddle {
+  /// A scan on a map.
+  struct Place {
+    Stamp stamp, middle_stamp;
+    SE3 T_map_body, T_map_middle;  ///< at the stamp and in the middle of the sweep
+  };
+
+  /// By what motion a scan was unbent: that so far, or one that something else tells.
+  enum class MotionSource { kSoFar, kTold };
+
+  /// A scan as it is registered.
+  struct Sweep {
     Stamp stamp;
-    SE3 T_body_middle;  ///< where the body is then
+    MotionSource source = MotionSource::kSoFar;
+    SE3::Tangent twist_per_s;  ///< by which it was unbent
+    std::vector<Surfel> surfels;
+    std::vector<float> times_s;  ///< of the surfels; empty where not known
+    double middle_s = 0;
+
+    SE3 T_body_middle() const { return SE3::exp(middle_s * twist_per_s); }
+    Stamp middle() const { return {stamp.ns + Stamp::from_seconds(middle_s).ns}; }
+    Place place_at(const SE3& T_map_body) const {
+      return {stamp, middle(), T_map_body, T_map_body * T_body_middle()};
+    }
+  };
+
+  /// What scans that did not fit the map make up.
+  struct Rival {
+    LocalMap map;
+    Place before, last;     ///< the last two scans' places
+    SE3 predicted;          ///< the last one's, from the map
+    double gap_m, gap_rad;  ///< predicted motion from the map to the rival
+    int scans = 1;
+  };
+  struct RivalFit {
+    Registration fit;
+    PosePrior prior;
   };
 
   double sigma_m() const;
   double sigma_rad() const;
   double least_share() const;
+  double enough_share() const;
+  bool may_be_a_map(const ScanCloud& cloud);
   PosePrior prior_at(const SE3& predicted) const;
-  Registration lay_onto_map(const ScanCloud& cloud, const PosePrior& prior) const;
+  Sweep sweep_of(Stamp stamp, ScanPoints points, const SE3::Tangent& twist_per_s, MotionSource source) const;
+  ScanCloud cloud_of(const Sweep& sweep) const;
+  Registration lay_nearby(const ScanCloud& cloud, const PosePrior& prior) const;
+  Registration search_afar(const ScanCloud& cloud, const PosePrior& prior, const Registration& near) const;
+  Registration unbend(Sweep& sweep, ScanCloud& cloud, const Registration& fit, const PosePrior& prior) const;
+  void begin_rival(const Sweep& sweep, const ScanCloud& cloud, const SE3& predicted);
+  std::optional<RivalFit> lay_onto_rival(const Sweep& sweep, const ScanCloud& cloud, const SE3& predicted);
+  void begin(const Sweep& sweep, ScanPose& result);
+  void try_new_map(const Sweep& sweep, ScanPose& result);
+  void begin_anew(const RivalFit& on_rival, ScanPose& result);
+  void register_on_map(Sweep sweep, const Registration& fit, const PosePrior& prior, ScanPose& result);
   void learn(const SE3& deviation, double matched_share);
-  void advance(const ScanPose& scan, const SweepMiddle& middle);
+  void advance(const Place& place);
 
   ScannerTraits traits_;
   LidarParams params_;
   LocalMap map_;
-  std::optional<Stamp> last_;
-  SE3 pose_, middle_;  ///< at the last scan's stamp and at its middle
-  Stamp middle_stamp_;
+  std::optional<Place> last_;
   double way_m_ = 0;
   SE3::Tangent twist_per_s_ = SE3::Tangent::Zero();
   Deviation deviation_;
   double usual_share_ = 0;  ///< of a scan's points that fit
-  int left_out_ = 0;        ///< scans in a row that did not
+  std::optional<Rival> rival_;
+  int without_order_ = 0;  ///< scans in a row that do not fit and have no order
 };
 
 }  // namespace radioslam

@@ -13,6 +13,7 @@
 
 #include "radioslam/base/fields.hpp"
 #include "radioslam/geometry/se3.hpp"
+#include "radioslam/lidar/surfel.hpp"
 #include "radioslam/mission/lidar.hpp"
 
 namespace radioslam {
@@ -47,6 +48,7 @@ struct PointCounts {
 
 struct ScanPoints {
   std::vector<Eigen::Vector3f> points;  ///< in the body frame at the scan's stamp
+  std::vector<float> times_s;           ///< of each since the stamp; empty where not known
   PointCounts counts;
   double middle_s = 0;  ///< median of their times; 0 without any
 };
@@ -55,5 +57,10 @@ struct ScanPoints {
 /// times.
 ScanPoints usable_points(const LidarScan& scan, const SE3::Tangent& twist_per_s,
                          const ScanPointParams& params);
+
+/// Surfels of points that were carried along one twist, carried along another instead. `times_s` is of each,
+/// or empty: then they stay.
+std::vector<Surfel> carried_anew(const std::vector<Surfel>& surfels, const std::vector<float>& times_s,
+                                 const SE3::Tangent& was_per_s, const SE3::Tangent& is_per_s);
 
 }  // namespace radioslam

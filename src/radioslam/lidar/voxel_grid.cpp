@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "radioslam/base/check.hpp"
 #include "radioslam/lidar/voxel_key.hpp"
 
 namespace radioslam {
@@ -36,21 +37,30 @@ class CellNumbers {
 }  // namespace
 
 std::vector<Eigen::Vector3f> thin_by_voxels(const std::vector<Eigen::Vector3f>& points, double cell_m) {
+  return thin_by_voxels(points, {}, cell_m).points;
+}
+
+ThinnedPoints thin_by_voxels(const std::vector<Eigen::Vector3f>& points, const std::vector<float>& times_s,
+                             double cell_m) {
+  RADIOSLAM_CHECK(times_s.empty() || times_s.size() == points.size(), "a time per point or none");
   const auto cells_per_m = static_cast<float>(1 / cell_m);
   CellNumbers cells(points.size());
-  std::vector<Eigen::Vector3f> sums;
+  ThinnedPoints sums;
   std::vector<float> counts;
-  for (const Eigen::Vector3f& point : points) {
-    const std::uint32_t cell =
-        cells.number_of(voxel_key(voxel_of(point, cells_per_m)), static_cast<std::uint32_t>(sums.size()));
-    if (cell == sums.size()) {
-      sums.emplace_back(Eigen::Vector3f::Zero());
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const std::uint32_t cell = cells.number_of(voxel_key(voxel_of(points[k], cells_per_m)),
+                                               static_cast<std::uint32_t>(counts.size()));
+    if (cell == counts.size()) {
+      sums.points.emplace_back(Eigen::Vector3f::Zero());
+      if (!times_s.empty()) sums.times_s.push_back(0);
       counts.push_back(0);
     }
-    sums[cell] += point;
+    sums.points[cell] += points[k];
+    if (!times_s.empty()) sums.times_s[cell] += times_s[k];
     counts[cell] += 1;
   }
-  for (std::size_t k = 0; k < sums.size(); ++k) sums[k] /= counts[k];
+  for (std::size_t k = 0; k < counts.size(); ++k) sums.points[k] /= counts[k];
+  for (std::size_t k = 0; k < sums.times_s.size(); ++k) sums.times_s[k] /= counts[k];
   return sums;
 }
 

@@ -53,7 +53,7 @@ void InertialGuide::add(const ScanPose& scan) {
     return;
   }
   const double dt_s = seconds_between(node_.stamp, scan.stamp);
-  if (dt_s < params_.stage.node_s) return;
+  if (dt_s < params_.stage.node_s && scan.outcome != ScanOutcome::kNewMap) return;
   const PoseStep step{node_.pose.inverse() * scan.T_start_body, scan.information,
                       params_.stage.outlier_sigmas};
   auto readings = preintegrate(*samples_, node_.stamp, scan.stamp, filter_->state().bias, params_.noise);
@@ -63,11 +63,13 @@ void InertialGuide::add(const ScanPose& scan) {
 
 namespace {
 
-/// The scans that states stand at: the first, the last, and those at least so long after the one before.
+/// The scans that states stand at: the first, the last, and those at least so long after the one before; and
+/// those on either side of where a new map was begun.
 std::vector<std::size_t> nodes_of(const std::vector<ScanPose>& scans, double node_s) {
   std::vector<std::size_t> nodes;
   for (std::size_t k = 0; k < scans.size(); ++k)
-    if (nodes.empty() || k + 1 == scans.size() ||
+    if (nodes.empty() || k + 1 == scans.size() || scans[k].outcome == ScanOutcome::kNewMap ||
+        scans[k + 1].outcome == ScanOutcome::kNewMap ||
         seconds_between(scans[nodes.back()].stamp, scans[k].stamp) >= node_s)
       nodes.push_back(k);
   return nodes;

@@ -33,8 +33,12 @@ struct ScanTrack {
   bool is_level = false;  ///< gravity told how the first pose stands
 };
 
-bool is_registered(const ScanPose& pose) {
-  return pose.outcome == ScanOutcome::kFirst || pose.outcome == ScanOutcome::kRegistered;
+/// A first scan that the next ones did not fit is no place to start from.
+void forget_start(ScanTrack& track) {
+  track.poses.clear();
+  track.keyframes.clear();
+  track.clouds.clear();
+  track.usual_share = 0;
 }
 
 /// Keyframes by the rule of select_keyframes, but for the last pose, which is not known to be the last yet.
@@ -61,7 +65,11 @@ ScanTrack track_scans(const Robot& robot, const ScannerTraits& traits, const Sca
                     static_cast<double>(k + 1) / static_cast<double>(robot.lidar.size()));
     ++track.outcomes[pose.outcome];
     track.points += pose.counts;
-    if (!is_registered(pose)) continue;
+    if (!is_on_the_way(pose.outcome)) continue;
+    if (pose.outcome == ScanOutcome::kNewMap && track.poses.size() == 1) {
+      forget_start(track);
+      guide = InertialGuide(robot.inertial, params.inertial);
+    }
     if (uses_inertial(robot, params)) guide.add(pose);
     last_cloud = std::exchange(pose.cloud, {});
     track.usual_share += pose.matched_share;
@@ -182,6 +190,7 @@ void add_notes(MeasuredScans& measured, const Robot& robot, const ScanTrack& tra
   measured.unmatched += outcome(ScanOutcome::kUnmatched);
   note(outcome(ScanOutcome::kTooFew), "scans had hardly any points and were left out");
   note(outcome(ScanOutcome::kUnmatched), "scans did not fit the map and were left out");
+  note(outcome(ScanOutcome::kNewMap), "times scans fitted nothing for long, and a new map was begun");
   note(track.points.not_finite, "points were no numbers");
   note(track.points.far, "points were farther away than scan_points.most_range_m");
 }
