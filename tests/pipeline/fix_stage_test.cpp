@@ -95,9 +95,9 @@ TEST(FixStage, FixesOfAnotherTimeThanTheOdometryAreNamed) {
   auto [mission, truth] = town_of_fixes(7, 0);
   for (auto& fix : mission.robots[1].fixes) fix.stamp = Stamp::from_seconds(fix.stamp.seconds() + 1000);
   const auto result = run_pipeline(mission, quick_params()).result;
-  const auto names_them = [&](const std::string& note) {
-    return note.starts_with("robot " + mission.robots[1].id) &&
-           note.ends_with("lie outside the time of its odometry");
+  const std::string about = "robot " + mission.robots[1].id;
+  const auto names_them = [&about](const std::string& note) {
+    return note.starts_with(about) && note.ends_with("lie outside the time of its odometry");
   };
   EXPECT_EQ(std::count_if(result.notes.begin(), result.notes.end(), names_them), 1);
 }
