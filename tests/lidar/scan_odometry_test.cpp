@@ -275,6 +275,23 @@ TEST(ScanOdometer, WaitsForAScanToStartFrom) {
   }
 }
 
+TEST(ScanOdometer, AfterALongTimeWithoutScansGoesOnOnlyWhereItStood) {
+  const ScanDrive drive =
+      drive_along(furnished_room(), scanner_of(ScannerKind::kPlanar), around_furnished_room(40), 7);
+  const auto elsewhere = drive.scans[20];  // metres away, as after a walk that nobody recorded
+  for (const bool moved : {false, true}) {
+    ScanOdometer odometer(scanner_traits(log_of(drive), {}), {});
+    for (std::size_t k = 0; k < 5; ++k) odometer.add(drive.stamps[k], drive.scans[k]);
+    const Stamp later = Stamp::from_seconds(drive.stamps[4].seconds() + 600);
+    const ScanPose pose = odometer.add(later, moved ? elsewhere : drive.scans[4]);
+    EXPECT_EQ(pose.outcome, moved ? ScanOutcome::kNewMap : ScanOutcome::kRegistered);
+    if (moved)
+      EXPECT_GT(pose.covariance.diagonal().minCoeff(), 0.2);
+    else
+      EXPECT_LT(distance_between(pose.T_start_body, drive.way_to(4)), kClose_m);
+  }
+}
+
 /// From rest, turning as fast as 1.6 rad/s to one side and then to the other, and at rest again.
 std::vector<SE3> turning_on_the_spot() {
   std::vector<SE3> poses;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "radioslam/base/median.hpp"
@@ -82,6 +83,17 @@ bool ScanOdometer::may_be_a_map(const ScanCloud& cloud) {
   else
     without_order_ = std::min(without_order_ + 1, params_.odometry.patience + 1);
   return without_order_ == 0 || without_order_ > params_.odometry.patience;
+}
+
+/// Is the last scan much longer ago than usual?
+bool ScanOdometer::is_after_gap(Stamp stamp) {
+  const double dt_s = newest_ ? seconds_between(*newest_, stamp) : 0;
+  newest_ = stamp;
+  if (dt_s <= 0) return false;
+  const double most_s = interval_s_ > 0 ? params_.odometry.patience * interval_s_ : dt_s;
+  const double newest_share = interval_s_ > 0 ? params_.odometry.deviation_share : 1;
+  interval_s_ += newest_share * (std::min(dt_s, most_s) - interval_s_);
+  return dt_s > most_s;
 }
 
 PosePrior ScanOdometer::prior_at(const SE3& predicted) const {
@@ -223,6 +235,22 @@ void ScanOdometer::begin(const Sweep& sweep, ScanPose& result) {
   map_.add(result.cloud, result.T_start_body, way_m_);
 }
 
+/// Where the scan before it was, as if the robot had stood; it may have gone on, and turned any way.
+void ScanOdometer::begin_after_gap(const Sweep& sweep, ScanPose& result) {
+  const double gap_s = seconds_between(last_->stamp, sweep.stamp);
+  const double wide_m = params_.odometry.first_sigma_m + gap_s * twist_per_s_.head<3>().norm();
+  result.outcome = ScanOutcome::kNewMap;
+  result.covariance.setZero();
+  result.covariance.diagonal().head<3>().setConstant(square(wide_m));
+  result.covariance.diagonal().tail<3>().setConstant(square(std::numbers::pi));
+  map_ = LocalMap(traits_.spacing_m, params_.map);
+  rival_.reset();
+  last_ = sweep.place_at(result.T_start_body);
+  twist_per_s_.setZero();
+  deviation_ = {};
+  map_.add(result.cloud, result.T_start_body, way_m_);
+}
+
 void ScanOdometer::register_on_map(Sweep sweep, const Registration& first_fit, const PosePrior& prior,
                                    ScanPose& result) {
   const Registration fit =
@@ -251,6 +279,8 @@ ScanPose ScanOdometer::add(Stamp stamp, const LidarScan& scan, const std::option
   result.T_start_body = last_ ? last_->T_map_body * motion : motion;
   result.counts = usable.counts;
   if (usable.points.size() < kFewestPoints) return result;
+  const bool is_anywhere = is_after_gap(stamp) && last_ && !T_previous_body;
+  if (is_anywhere) result.T_start_body = last_->T_map_body;
   const Sweep sweep =
       sweep_of(stamp, std::move(usable), twist, T_previous_body ? MotionSource::kTold : MotionSource::kSoFar);
   result.cloud = cloud_of(sweep);
@@ -263,6 +293,10 @@ ScanPose ScanOdometer::add(Stamp stamp, const LidarScan& scan, const std::option
   Registration fit = lay_nearby(result.cloud, prior);
   const bool is_at_home = fit.matched_share >= enough_share();
   const bool is_lost = !is_at_home && may_be_a_map(result.cloud);
+  if (is_anywhere && is_lost) {
+    begin_after_gap(sweep, result);
+    return result;
+  }
   if (is_lost) fit = search_afar(result.cloud, prior, fit);
   result.matched_share = fit.matched_share;
   result.rms_m = fit.rms_m;

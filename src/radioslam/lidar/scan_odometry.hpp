@@ -23,6 +23,10 @@
 // as the motion from the last scan that did fit. A first scan that the second one does not fit is no map yet:
 // one scan that fits the rival is enough. Noise fits anything: a scan without order (scan_order.hpp) neither
 // begins a map nor is searched for from afar, unless `patience` others before it had none either.
+//
+// After a time without scans, `patience` times as long as usual, nothing but scans tells how the robot moved:
+// one that fits where it stood as well as usual goes on there; any other begins a new map at once, since
+// among all the poses that the robot may have reached by then some fit by chance.
 #pragma once
 
 #include <cstddef>
@@ -59,7 +63,8 @@ struct ScanOdometryParams {
   double least_matched_share = 0.15;  ///< a scan less of which fits the map is left out
   double least_usual_share = 0.5;     ///< likewise, of the usual fit: noise reaches 0.4
   double least_first_share = 0.5;     ///< likewise, of the second scan, when nothing is usual yet
-  int patience = 10;                  ///< after so many left out that fit each other they are the map
+  int patience = 10;                  ///< after so many left out that fit each other, or times the usual
+                                      ///< interval without any, a new map is begun
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -208,6 +213,7 @@ class ScanOdometer {
   double least_share() const;
   double enough_share() const;
   bool may_be_a_map(const ScanCloud& cloud);
+  bool is_after_gap(Stamp stamp);
   PosePrior prior_at(const SE3& predicted) const;
   Sweep sweep_of(Stamp stamp, ScanPoints points, const SE3::Tangent& twist_per_s, MotionSource source) const;
   ScanCloud cloud_of(const Sweep& sweep) const;
@@ -217,6 +223,7 @@ class ScanOdometer {
   void begin_rival(const Sweep& sweep, const ScanCloud& cloud, const SE3& predicted);
   std::optional<RivalFit> lay_onto_rival(const Sweep& sweep, const ScanCloud& cloud, const SE3& predicted);
   void begin(const Sweep& sweep, ScanPose& result);
+  void begin_after_gap(const Sweep& sweep, ScanPose& result);
   void try_new_map(const Sweep& sweep, ScanPose& result);
   void begin_anew(const RivalFit& on_rival, ScanPose& result);
   void register_on_map(Sweep sweep, const Registration& fit, const PosePrior& prior, ScanPose& result);
@@ -232,6 +239,8 @@ class ScanOdometer {
   Deviation deviation_;
   double usual_share_ = 0;  ///< of a scan's points that fit
   std::optional<Rival> rival_;
+  std::optional<Stamp> newest_;
+  double interval_s_ = 0;  ///< between scans, usually; 0: not known yet
   int without_order_ = 0;  ///< scans in a row that do not fit and have no order
 };
 

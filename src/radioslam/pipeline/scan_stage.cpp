@@ -190,7 +190,9 @@ void add_notes(MeasuredScans& measured, const Robot& robot, const ScanTrack& tra
   measured.unmatched += outcome(ScanOutcome::kUnmatched);
   note(outcome(ScanOutcome::kTooFew), "scans had hardly any points and were left out");
   note(outcome(ScanOutcome::kUnmatched), "scans did not fit the map and were left out");
-  note(outcome(ScanOutcome::kNewMap), "times scans fitted nothing for long, and a new map was begun");
+  note(outcome(ScanOutcome::kNewMap),
+       "times scans fitted nothing for long or were missing, and a new map was begun: how the robot moved "
+       "there is not known");
   note(track.points.not_finite, "points were no numbers");
   note(track.points.far, "points were farther away than scan_points.most_range_m");
 }
