@@ -40,9 +40,10 @@ WrittenMessage static_transform(const std::string& child) {
 }
 
 /// One reading of 2 m, straight ahead.
-WrittenMessage laser(unsigned seconds, const std::string& topic = "/scan") {
+WrittenMessage laser(unsigned seconds, const std::string& topic = "/scan",
+                     const std::string& frame = "laser") {
   return {topic, "sensor_msgs/LaserScan", 9, ros2([&](RosBytes& bytes) {
-            bytes.header(seconds, 0, "laser");
+            bytes.header(seconds, 0, frame);
             for (const float value : {0.0F, 1.0F, 1.0F, 0.0F, 0.1F, 0.5F, 12.0F}) bytes.f32(value);
             bytes.u32(1).f32(2).u32(0);
           })};
@@ -51,7 +52,7 @@ WrittenMessage laser(unsigned seconds, const std::string& topic = "/scan") {
 WrittenMessage imu(unsigned seconds, const std::string& frame) {
   return {"/imu", "sensor_msgs/Imu", 9, ros2([&](RosBytes& bytes) {
             bytes.header(seconds, 0, frame).f64s(std::vector<double>(13)).f64s({0.1, 0, 0});
-            bytes.f64s(std::vector<double>(9)).f64s({9, 0, 4});
+            bytes.f64s(std::vector<double>(9)).f64s({9, 0, 4}).f64s(std::vector<double>(9));
           })};
 }
 
@@ -99,8 +100,54 @@ TEST(RosImport, TakesASensorsFrameAsTheBodysWhereNothingLeadsThere) {
   const auto imported = import({laser(5), odometry(4, 3)});
   EXPECT_LT((imported.scans.begin()->second.points.at(0) - Eigen::Vector3f(2, 0, 0)).norm(), 1e-6);
   EXPECT_EQ(imported.notes(),
-            "/scan: no static transform leads from base to laser; 'laser' is taken as the body's frame\n");
+            "/scan: no fixed transform leads from base to laser; 'laser' is taken as the body's frame\n");
   EXPECT_NE(import({laser(5)}).notes().find("nothing names the body's frame"), std::string::npos);
+}
+
+/// A laser that hangs upside down, 1 m ahead, and the odometry, as ROS 1 tells both on /tf.
+WrittenMessage repeated_transforms(unsigned seconds, double x) {
+  return {"/tf", "tf2_msgs/TFMessage", 7, ros2([&](RosBytes& bytes) {
+            bytes.u32(2).header(seconds, 0, "base").text("laser").f64s({1, 0, 0, 1, 0, 0, 0});
+            bytes.header(seconds, 0, "odom").text("base").f64s({x, 0, 0, 0, 0, 0, 1});
+          })};
+}
+
+WrittenMessage side_laser(unsigned seconds) {
+  return {"/scan", "sensor_msgs/LaserScan", 9, ros2([&](RosBytes& bytes) {
+            bytes.header(seconds, 0, "laser");
+            for (const float value : {1.5707964F, 1.0F, 1.0F, 0.0F, 0.1F, 0.5F, 12.0F}) bytes.f32(value);
+            bytes.u32(1).f32(2).u32(0);
+          })};
+}
+
+TEST(RosImport, TakesWhatKeepsItsValueAsFixedOnAnyTopicOfTransforms) {
+  const auto first_point = [](const std::vector<WrittenMessage>& messages) {
+    return import(messages).scans.begin()->second.points.at(0);
+  };
+  const Eigen::Vector3f right(1, -2, 0), untold(0, 2, 0);
+  const auto repeated = {repeated_transforms(1, 0), repeated_transforms(2, 0.5), side_laser(5),
+                         odometry(1, 0)};
+  EXPECT_LT((first_point(repeated) - right).norm(), 1e-6) << "its left is the body's right";
+  EXPECT_EQ(import(repeated).notes(), "");
+  EXPECT_LT((first_point({repeated_transforms(1, 0), side_laser(5), odometry(1, 0)}) - untold).norm(), 1e-6)
+      << "told once, it keeps nothing";
+  WrittenMessage moved = static_transform("laser");
+  moved.topic = "/tf";
+  EXPECT_LT((first_point({repeated_transforms(1, 0), moved, side_laser(5), odometry(1, 0)}) - untold).norm(),
+            1e-6)
+      << "it moves";
+  EXPECT_LT((first_point({static_transform("laser"), repeated_transforms(1, 0), repeated_transforms(2, 1),
+                          side_laser(5), odometry(1, 0)}) -
+             Eigen::Vector3f(-1, 0, 0))
+                .norm(),
+            1e-6)
+      << "tf_static counts more";
+}
+
+TEST(RosImport, TakesTheUsualBodyWithoutANote) {
+  EXPECT_EQ(import({laser(5, "/scan", "base_link")}).notes(), "");
+  EXPECT_NE(import({laser(5, "/scan", "lidar")}).notes().find("nothing names the body's frame"),
+            std::string::npos);
 }
 
 TEST(RosImport, PutsMessagesInOrderOnce) {
