@@ -150,6 +150,95 @@ TEST(RosImport, TakesTheUsualBodyWithoutANote) {
             std::string::npos);
 }
 
+/// Every tenth of a second two points, of times that lie 50,000 apart, from `first` on.
+WrittenMessage timed_cloud(unsigned k, std::uint64_t first) {
+  return {"/points", "sensor_msgs/PointCloud2", 9, ros2([&](RosBytes& bytes) {
+            bytes.header(5, k * 100'000'000U, "base_link").u32(1).u32(2).u32(4);
+            for (const char* axis : {"x", "y", "z"}) bytes.text(axis).u32(0).u8(7).u32(1);
+            bytes.text("t").u32(4).u8(6).u32(1).u8(0).u32(8).u32(16);
+            RosBytes rows(MessageEncoding::kRos1);
+            rows.f32(1).u32(first).f32(2).u32(first + 50'000);
+            bytes.u32(16).raw(rows.bytes()).u8(1);
+          })};
+}
+
+std::vector<WrittenMessage> timed_clouds(unsigned number, std::uint64_t first) {
+  std::vector<WrittenMessage> clouds;
+  for (unsigned k = 0; k < number; ++k) clouds.push_back(timed_cloud(number - 1 - k, first));
+  return clouds;
+}
+
+TEST(RosImport, FindsTheUnitOfPointsTimes) {
+  for (const unsigned number : {2U, 9U, 10U, 11U, 13U}) {
+    const auto imported = import(timed_clouds(number, 0));
+    ASSERT_EQ(imported.scans.size(), number);
+    for (const auto& scan : imported.scans) EXPECT_EQ(scan.second.times_s, (std::vector<float>{0, 0.05F}));
+    EXPECT_EQ(imported.notes(),
+              "/points: the points' times are taken to be in microseconds: in nanoseconds a sweep would not "
+              "last about as long as the next takes to come\n");
+  }
+  const auto alone = import(timed_clouds(1, 0));
+  EXPECT_EQ(alone.scans.begin()->second.times_s, (std::vector<float>{0, 5e-5F})) << "nothing to judge by";
+  EXPECT_EQ(alone.notes(), "");
+}
+
+TEST(RosImport, NotesOncePerTopicThatClocksDiffer) {
+  const auto imported = import(timed_clouds(12, 3'000'000'000));
+  EXPECT_EQ(imported.scans.begin()->second.times_s, (std::vector<float>{0, 0.05F}));
+  EXPECT_NE(imported.notes().find("\n/points: the points' times are of another clock than the scans'; the "
+                                  "first is taken to be at the scan's stamp, in 12 scans\n"),
+            std::string::npos)
+      << imported.notes();
+}
+
+TEST(RosImport, LeavesOutReadingsThatSayTheyAreNone) {
+  WrittenMessage none = imu(4, "base");
+  none.bytes = ros2([&](RosBytes& bytes) {
+    bytes.header(4, 0, "base").f64s(std::vector<double>(16)).f64(-1).f64s(std::vector<double>(20));
+  });
+  const auto imported = import({odometry(4, 3), none, imu(5, "base")});
+  EXPECT_EQ(imported.robot().inertial.size(), 1U);
+  EXPECT_EQ(imported.notes(),
+            "/imu: 1 readings lack rates or forces, as they say themselves, and are left out\n");
+}
+
+/// The map moves the odometry's frame, which moves the body, which carries a laser.
+WrittenMessage moving_transform(unsigned seconds, const char* parent, const char* child, double x) {
+  return {"/tf", "tf2_msgs/TFMessage", 7, ros2([&](RosBytes& bytes) {
+            bytes.u32(1).header(seconds, 0, parent).text(child).f64s({x, 0, 0, 0, 0, kHalf, kHalf});
+          })};
+}
+
+TEST(RosImport, ComposesMovingTransforms) {
+  const std::vector<WrittenMessage> messages{
+      moving_transform(10, "map", "odom", 0),  moving_transform(20, "map", "odom", 10),
+      moving_transform(9, "odom", "base", 0),  moving_transform(10, "odom", "base", 1),
+      moving_transform(15, "odom", "base", 2), moving_transform(20, "odom", "base", 3),
+      moving_transform(21, "odom", "base", 4), static_transform("laser")};
+  const auto way = import(messages, {"/tf:odom.base", "", "", "/tf:map.base"});
+  const auto& truth = way.mission.truth.robots.at(0).poses;
+  ASSERT_EQ(truth.size(), 3U) << "when both are known";
+  EXPECT_EQ(truth[1].stamp, Stamp{15'000'000'000});
+  EXPECT_LT((truth[1].pose.translation() - Eigen::Vector3d(5, 2, 0)).norm(), 1e-12) << "half way";
+  EXPECT_NEAR(std::abs(truth[1].pose.yaw()), std::acos(-1.0), 1e-12);
+  EXPECT_EQ(way.notes(),
+            "/tf: 2 poses are left out, for another transform between the frames is not known then\n");
+  const auto back = import(messages, {"/tf:odom.base", "", "", "/tf:laser.map"});
+  const auto laser = import(messages, {"/tf:odom.base", "", "", "/tf:map.laser"});
+  EXPECT_LT((back.mission.truth.robots.at(0).poses[1].pose * laser.mission.truth.robots.at(0).poses[1].pose)
+                .log()
+                .norm(),
+            1e-12)
+      << "the other way round";
+  expect_refusal(
+      [&] {
+        import(messages, {"/tf:map.wheel", "", "", ""});
+      },
+      0, "no transforms lead from map to wheel");
+  EXPECT_NE(import(messages, {"/tf:odom.base", "", "", "/tf:map.wheel"}).notes().find("has no pose"),
+            std::string::npos);
+}
+
 TEST(RosImport, PutsMessagesInOrderOnce) {
   const auto imported =
       import({odometry(9, 1), odometry(4, 3), odometry(9, 2), laser(2), laser(1), laser(2), odometry(0, 7)});

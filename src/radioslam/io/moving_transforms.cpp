@@ -9,7 +9,8 @@ namespace {
 
 /// In the order of time, of two of one time the first.
 Trajectory<SE3> ordered(std::vector<StampedPose<SE3>> poses) {
-  std::stable_sort(poses.begin(), poses.end(), [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
+  std::stable_sort(poses.begin(), poses.end(),
+                   [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
   poses.erase(std::unique(poses.begin(), poses.end(),
                           [](const auto& a, const auto& b) { return a.stamp == b.stamp; }),
               poses.end());

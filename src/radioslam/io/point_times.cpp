@@ -13,8 +13,9 @@ namespace {
 
 constexpr double kLargestOffset_s = 1e6;       ///< a scan that took longer is none: its times are absolute
 constexpr double kSmallestNanoseconds = 1e12;  ///< as seconds, it would be 30,000 years after the epoch
-constexpr double kLongestSweep = 2, kShortestSweep = 0.01;        ///< in intervals between scans
-constexpr double kLongestShortSweep_s = 1, kFarthestSweep_s = 1;  ///< of a clock that can be told from another
+constexpr double kLongestSweep = 2, kShortestSweep = 0.01;  ///< in intervals between scans
+constexpr double kLongestShortSweep_s = 1,
+                 kFarthestSweep_s = 1;  ///< of a clock that can be told from another
 constexpr double kCoarsest_s = 1e-3;
 constexpr std::array kUnits{PointTimeUnit::kSecond, PointTimeUnit::kMillisecond, PointTimeUnit::kMicrosecond,
                             PointTimeUnit::kNanosecond};

@@ -1,10 +1,10 @@
 // When the points of a scan were measured, from a column of times whose unit and clock nobody tells.
 //
 // The column is the first one named t, time, timestamp, offset_time or time_offset. Its usual unit is the
-// nanosecond of whole numbers and the second of others, or the nanosecond from 1e12 on. A sweep lasts about as
-// long as the next one takes to come: where the interval between scans is known, the unit in which a sweep
-// lasts from a hundredth of it (or of a second) to twice as long is taken, the usual one where that fits, else
-// the largest that is not too long.
+// nanosecond of whole numbers and the second of others, or the nanosecond from 1e12 on. A sweep lasts about
+// as long as the next one takes to come: where the interval between scans is known, the unit in which a sweep
+// lasts from a hundredth of it (or of a second) to twice as long is taken, the usual one where that fits,
+// else the largest that is not too long.
 //
 // Times are since the scan's stamp, or absolute from 1e6 s on. Where a sweep of a second or less lies
 // altogether more than a second off its stamp, two clocks differ, and its first point is taken to be at the

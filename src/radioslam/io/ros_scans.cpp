@@ -46,8 +46,9 @@ void RosScans::find_unit() {
   if (times.empty() || !interval) return;
   unit_ = unit_of(times, *interval);
   if (*unit_ != times.front().usual)
-    unusual_ = std::string("the points' times are taken to be in ") + name_of(*unit_) +
-               ": a sweep would not fit between scans in " + name_of(times.front().usual);
+    unusual_ = std::string("the points' times are taken to be in ") + name_of(*unit_) + ": in " +
+               name_of(times.front().usual) +
+               " a sweep would not last about as long as the next takes to come";
 }
 
 void RosScans::hand_on(const RosMessage& message) {
@@ -64,7 +65,8 @@ std::vector<std::string> RosScans::notes() const {
       notes.push_back(topic_ + ": the points' times " + what + ", in " + std::to_string(found->second) +
                       " scans");
   };
-  note(PointClock::kOther, "are of another clock than the scans'; the first is taken to be at the scan's stamp");
+  note(PointClock::kOther,
+       "are of another clock than the scans'; the first is taken to be at the scan's stamp");
   note(PointClock::kCoarse, "are too coarse to tell points apart and are left out");
   return notes;
 }
