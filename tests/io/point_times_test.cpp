@@ -60,8 +60,7 @@ class TimedPoints {
 /// A sweep of 0.1 s from `first_s` on.
 TimedPoints sweep(double first_s, double per_second) {
   TimedPoints points;
-  for (int k = 0; k <= 10; ++k)
-    points.add_whole(std::llround((first_s + 0.01 * k) * per_second));
+  for (int k = 0; k <= 10; ++k) points.add_whole(std::llround((first_s + 0.01 * k) * per_second));
   return points;
 }
 
@@ -112,7 +111,8 @@ TEST(PointTimes, KeepTheUsualUnitWhereItCanBe) {
 
 /// Leap seconds, a scanner that counts since it was switched on, and one that is nowhere near.
 TEST(PointTimes, OfAnotherClockBeginAtTheStamp) {
-  for (const double first_s : {1'700'000'018.0, 1'699'999'982.0, 1'700'000'000.0 + 37 * 3600, 2600.0, -50.0}) {
+  for (const double first_s :
+       {1'700'000'018.0, 1'699'999'982.0, 1'700'000'000.0 + 37 * 3600, 2600.0, -50.0}) {
     TimedPoints points = sweep(first_s, 1e9);
     const PointTimes times = times_of(points.table(NumberType::kInt64), kStamp);
     EXPECT_EQ(times.clock, PointClock::kOther) << first_s;

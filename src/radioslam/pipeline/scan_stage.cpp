@@ -183,6 +183,7 @@ void add_notes(MeasuredScans& measured, const Robot& robot, const ScanTrack& tra
   note(outcome(ScanOutcome::kTooFew), "scans had hardly any points and were left out");
   note(outcome(ScanOutcome::kUnmatched), "scans did not fit the map and were left out");
   note(track.points.not_finite, "points were no numbers");
+  note(track.points.off_time, "points' times were farther from their scan's than scan_points.most_time_s");
   note(track.points.far, "points were farther away than scan_points.most_range_m");
 }
 
