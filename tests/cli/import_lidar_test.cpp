@@ -102,6 +102,7 @@ TEST_F(ImportLidar, RosbagRefusesWhatIsAmbiguous) {
   expect_refused({"rosbag", "x.bag", "x.bag", "--robot", "a", "--robot", "a", "-o", "m"}, "one name");
   expect_refused({"rosbag", "x.bag", "--odometry", "/r1/odom", "--odometry", "/r2/odom", "-o", "m"},
                  "--odometry: is given 2 times for 1 sources");
+  expect_refused({"rosbag", "x.bag", "--set", "a=1", "-o", "m"}, "takes no parameters");
   expect_refused({"carmen", "x.bag", "--scans", "/x", "-o", "m"}, "takes no topics of ROS");
   expect_refused({"iw", "x.bag", "--robot", "a", "--robot", "b", "-o", "m"}, "takes no second --robot");
 }

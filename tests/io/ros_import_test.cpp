@@ -239,6 +239,37 @@ TEST(RosImport, ComposesMovingTransforms) {
             std::string::npos);
 }
 
+WrittenMessage position_fix(unsigned seconds, double latitude_deg, double height_m, unsigned status = 0) {
+  return {"/fix", "sensor_msgs/NavSatFix", 9, ros2([&](RosBytes& bytes) {
+            bytes.header(seconds, 0, "laser").u8(status).u16(1).f64s({latitude_deg, 11, height_m});
+            bytes.f64s(std::vector<double>(9)).u8(0);
+          })};
+}
+
+TEST(RosImport, BringsFixesIntoOneLocalFrame) {
+  const auto imported =
+      import({odometry(4, 3), static_transform("laser"), position_fix(6, 48.00001, std::nan("")),
+              position_fix(5, 48, 500), position_fix(7, 48, 503), position_fix(8, 48, 1, 255)});
+  const Robot& robot = imported.robot();
+  ASSERT_EQ(robot.fixes.size(), 3U);
+  EXPECT_EQ(robot.fixes[0].position_m, Eigen::Vector3d::Zero());
+  EXPECT_LT((robot.fixes[1].position_m - Eigen::Vector3d(0, 1.112, 0)).norm(), 1e-3)
+      << "10 millionths of a degree";
+  EXPECT_LT((robot.fixes[2].position_m - Eigen::Vector3d(0, 0, 3)).norm(), 1e-6);
+  EXPECT_EQ(robot.fixes[2].sigma_m, 10);
+  EXPECT_LT((robot.fix_lever_m - Eigen::Vector3d(1, 0, 0.2)).norm(), 1e-12) << "where the antenna sits";
+  EXPECT_EQ(imported.notes(),
+            "/fix: 3 fixes tell no sigma; 10 m are taken\n/fix: 1 readings have no fix and are left out\n");
+  const TemporaryFolder folder;
+  const auto other =
+      folder.write("x.mcap", mcap_of(mcap_records({odometry(4, 3), position_fix(5, 48, 500)})));
+  const GeodeticPlace origin{48 * std::acos(-1.0) / 180, 11 * std::acos(-1.0) / 180, 490};
+  const auto second = import_ros_recording(
+      other, "b", {}, [](Stamp, const LidarScan&) {}, origin);
+  EXPECT_LT((second.imported.mission.robots[0].fixes[0].position_m - Eigen::Vector3d(0, 0, 10)).norm(), 1e-6);
+  EXPECT_EQ(second.fix_origin->height_m, 490);
+}
+
 TEST(RosImport, PutsMessagesInOrderOnce) {
   const auto imported =
       import({odometry(9, 1), odometry(4, 3), odometry(9, 2), laser(2), laser(1), laser(2), odometry(0, 7)});

@@ -173,6 +173,26 @@ TEST_P(RosTypes, InertialReadings) {
   EXPECT_EQ(reading.specific_force_mps2, Eigen::Vector3d(4, 5, 6));
 }
 
+RosBytes fix(RosBytes bytes, unsigned status, double height_m, unsigned covariance_type) {
+  bytes.header(1, 0, "gps").u8(status).u16(1).f64s({48, 11, height_m});
+  return bytes.f64s({1, 0, 0, 0, 4, 0, 0, 0, 9}).u8(covariance_type);
+}
+
+TEST_P(RosTypes, PositionFixes) {
+  const RosChannel gnss = channel("sensor_msgs/NavSatFix");
+  const RosFix whole = read_ros_fix(as(gnss, fix(message(), 0, 500, 2)));
+  EXPECT_EQ(whole.header.frame, "gps");
+  ASSERT_TRUE(whole.place);
+  EXPECT_NEAR(whole.place->latitude_rad, 48 * std::acos(-1.0) / 180, 1e-12);
+  EXPECT_NEAR(whole.place->longitude_rad, 11 * std::acos(-1.0) / 180, 1e-12);
+  EXPECT_EQ(whole.place->height_m, 500);
+  EXPECT_EQ(whole.sigma_m, 3);
+  EXPECT_EQ(read_ros_fix(as(gnss, fix(message(), 0, std::nan(""), 2))).sigma_m, 2) << "of east and north";
+  EXPECT_FALSE(read_ros_fix(as(gnss, fix(message(), 255, 500, 2))).place) << "status -1: no fix";
+  EXPECT_FALSE(read_ros_fix(as(gnss, fix(message(), 0, 1e9, 2))).place);
+  EXPECT_FALSE(read_ros_fix(as(gnss, fix(message(), 0, 500, 0))).sigma_m) << "not known";
+}
+
 TEST_P(RosTypes, RefusesWhatEndsEarly) {
   const std::string whole = cloud(message(), ByteOrder::kLittle, "os").bytes();
   const RosChannel points = channel("sensor_msgs/PointCloud2");

@@ -1,6 +1,7 @@
 #include "radioslam/io/ros_import.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -16,6 +17,7 @@ namespace {
 constexpr double kPlaneHeight_m = 0.1, kPlaneTilt = 0.05;  ///< the latter of the sine of half a tilt
 constexpr const char* kUsualBody = "base_link";
 constexpr double kNegligibleLever_m = 0.05;
+constexpr double kUnknownFixSigma_m = 10;
 constexpr double kLeastForce_mps2 = 5;  ///< a mean specific force below this is not in m/s^2
 
 constexpr const char* kTwice = "messages of a time that another has are left out";
@@ -62,6 +64,12 @@ void put_in_order(std::vector<Item>& items, const std::string& topic, RosCounts&
   items.erase(end, items.end());
 }
 
+struct GeodeticFix {
+  Stamp stamp;
+  GeodeticPlace place;
+  double sigma_m = 0;
+};
+
 /// Collects what the chosen topics say.
 class RosCollector {
  public:
@@ -73,6 +81,7 @@ class RosCollector {
     const std::string body = body_frame(survey, choice_);
     if (choice_.scans) T_body_laser_ = place_of_sensor(survey, body, *choice_.scans, warnings);
     if (choice_.imu) T_body_imu_ = place_of_sensor(survey, body, *choice_.imu, warnings);
+    if (choice_.gnss) fix_lever_m = place_of_sensor(survey, body, *choice_.gnss, warnings).translation();
     if (T_body_imu_.translation().norm() > kNegligibleLever_m)
       warnings.push_back(*choice_.imu + ": the unit's place in the body is not accounted for");
   }
@@ -81,7 +90,7 @@ class RosCollector {
 
   bool reads(const RosChannel& channel) const {
     return is_topic(choice_.odometry, channel) || is_topic(choice_.truth, channel) ||
-           channel.topic == choice_.scans || channel.topic == choice_.imu;
+           channel.topic == choice_.scans || channel.topic == choice_.imu || channel.topic == choice_.gnss;
   }
 
   void take(const RosMessage& message) {
@@ -91,6 +100,7 @@ class RosCollector {
     if (is_topic(choice_.truth, message.channel)) take_pose(message, truth);
     if (message.channel.topic == choice_.scans) scan_messages_.take(message);
     if (message.channel.topic == choice_.imu) take_inertial(message);
+    if (message.channel.topic == choice_.gnss) take_fix(message);
   }
 
   /// Behind the last message: everything in the order of time.
@@ -100,11 +110,14 @@ class RosCollector {
     warnings.insert(warnings.end(), notes.begin(), notes.end());
     if (choice_.odometry) finish_poses(*choice_.odometry, odometry);
     if (choice_.truth) finish_poses(*choice_.truth, truth);
+    if (choice_.gnss) put_in_order(fixes, *choice_.gnss, counts);
     if (choice_.imu) put_in_order(inertial, *choice_.imu, counts);
   }
 
   std::vector<StampedPose<SE3>> odometry, truth;
   std::vector<InertialSample> inertial;
+  std::vector<GeodeticFix> fixes;
+  Eigen::Vector3d fix_lever_m = Eigen::Vector3d::Zero();
   std::set<Stamp> scans;
   bool is_plane_scanner = false;
   double range_max_m = 0;  ///< of the plane's scanner; 0 where not told
@@ -162,6 +175,14 @@ class RosCollector {
     sink_(stamp, scan.scan);
   }
 
+  void take_fix(const RosMessage& message) {
+    const RosFix fix = read_ros_fix(message);
+    if (!fix.place) return count(message.channel.topic, "readings have no fix and are left out", 1);
+    if (!fix.sigma_m) count(message.channel.topic, "fixes tell no sigma; 10 m are taken", 1);
+    fixes.push_back(
+        {counted_time_of(message, fix.header), *fix.place, fix.sigma_m.value_or(kUnknownFixSigma_m)});
+  }
+
   void take_inertial(const RosMessage& message) {
     const RosInertial reading = read_ros_inertial(message);
     const Eigen::Quaterniond& R_body_imu = T_body_imu_.rotation();
@@ -198,6 +219,25 @@ bool is_plane(const Trajectory<SE3>& poses) {
     return std::abs(entry.pose.translation().z()) < kPlaneHeight_m &&
            std::hypot(rotation.x(), rotation.y()) < kPlaneTilt;
   });
+}
+
+std::vector<PositionFix> local_fixes(const std::vector<GeodeticFix>& fixes, const GeodeticPlace& origin) {
+  std::vector<PositionFix> local;
+  for (const GeodeticFix& fix : fixes) {
+    GeodeticPlace place = fix.place;
+    if (!std::isfinite(place.height_m)) place.height_m = origin.height_m;
+    local.push_back({fix.stamp, east_north_up_m(origin, place), fix.sigma_m});
+  }
+  return local;
+}
+
+/// The origin asked for, or the first fix; at height 0 where it tells none.
+std::optional<GeodeticPlace> origin_of_fixes(const std::vector<GeodeticFix>& fixes,
+                                             const std::optional<GeodeticPlace>& asked_for) {
+  if (asked_for || fixes.empty()) return asked_for;
+  GeodeticPlace origin = fixes.front().place;
+  if (!std::isfinite(origin.height_m)) origin.height_m = 0;
+  return origin;
 }
 
 /// Are the forces in units of the earth's gravity?
@@ -247,7 +287,8 @@ void add_warnings(const RosCollector& collected, const RosSurvey& survey, const 
 }  // namespace
 
 RosImport import_ros_recording(const std::filesystem::path& source, const std::string& robot,
-                               const RosTopicWishes& wishes, const RosScanSink& sink) {
+                               const RosTopicWishes& wishes, const RosScanSink& sink,
+                               const std::optional<GeodeticPlace>& fix_origin) {
   const RosSurvey survey = survey_recording(source);
   const RosTopicChoice choice = choose_topics(source.string(), survey, wishes);
   RosCollector collected(survey, choice, sink);
@@ -262,6 +303,12 @@ RosImport import_ros_recording(const std::filesystem::path& source, const std::s
   if (is_in_g(collected.inertial))
     collected.warnings.push_back(*choice.imu + ": forces are far below 9.81 m/s2; are they in g?");
   RosImport result = mission_of(collected, robot, choice.scans.has_value());
+  result.fix_origin = origin_of_fixes(collected.fixes, fix_origin);
+  if (!collected.fixes.empty()) {
+    Robot& recorded = result.imported.mission.robots.front();
+    recorded.fixes = local_fixes(collected.fixes, *result.fix_origin);
+    recorded.fix_lever_m = collected.fix_lever_m;
+  }
   add_warnings(collected, survey, choice, result.imported.warnings);
   return result;
 }

@@ -11,12 +11,18 @@
 // tilt is kept. Scans of a plane (LaserScan) make a mission of dimension 2, as does odometry alone that
 // climbs less than 0.1 m and tilts less than 5 degrees. Poses out of a topic of transforms go over
 // as many moving ones as lie between the frames (moving_transforms.hpp).
+//
+// Position fixes (NavSatFix) become places east, north and up (local_frame.hpp) of the team's first one, with
+// the sigma of their worst axis, 10 m where none is told; where they tell no height they lie as high as the
+// first.
 #pragma once
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
+#include "radioslam/geometry/local_frame.hpp"
 #include "radioslam/io/imported_mission.hpp"
 #include "radioslam/io/ros_topics.hpp"
 
@@ -28,11 +34,14 @@ using RosScanSink = std::function<void(Stamp, const LidarScan&)>;
 struct RosImport {
   ImportedMission imported;
   std::size_t scans = 0;
+  std::optional<GeodeticPlace> fix_origin;  ///< of the local frame, where there are fixes
 };
 
-/// Goes through the recording twice. Refuses (InputError) what the recording's and the messages' readers and
-/// choose_topics refuse, and odometry without a pose.
+/// A team's fixes need one `fix_origin`; nothing for the first fix. Goes through the recording twice. Refuses
+/// (InputError) what the recording's and the messages' readers and choose_topics refuse, and odometry without
+/// a pose.
 RosImport import_ros_recording(const std::filesystem::path& source, const std::string& robot,
-                               const RosTopicWishes& wishes, const RosScanSink& sink);
+                               const RosTopicWishes& wishes, const RosScanSink& sink,
+                               const std::optional<GeodeticPlace>& fix_origin = std::nullopt);
 
 }  // namespace radioslam

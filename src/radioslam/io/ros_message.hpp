@@ -30,6 +30,7 @@ class RosMessageReader {
 
   bool boolean() { return cursor_.u8() != 0; }
   std::uint8_t u8() { return cursor_.u8(); }
+  std::uint16_t u16() { return align(2), cursor_.u16(); }
   std::int32_t i32() { return align(4), cursor_.i32(); }
   std::uint32_t u32() { return align(4), cursor_.u32(); }
   float f32() { return align(4), cursor_.f32(); }

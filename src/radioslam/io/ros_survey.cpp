@@ -13,7 +13,8 @@ namespace {
 using TopicsByName = std::map<std::string, RosTopic>;
 
 bool has_a_frame(const RosChannel& channel) {
-  return channel.type == kOdometryType || channel.type == kInertialType || is_scan_type(channel.type);
+  return channel.type == kOdometryType || channel.type == kInertialType || channel.type == kFixType ||
+         is_scan_type(channel.type);
 }
 
 /// The frames that a topic's first message names.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
 
 #include "radioslam/io/fields_of_line.hpp"
 #include "radioslam/io/numbers.hpp"
@@ -14,6 +15,7 @@ namespace {
 constexpr std::size_t kLeastTransformBytes = 68;
 constexpr std::size_t kLeastPointFieldBytes = 13;
 constexpr int kCovarianceNumbers = 9;
+constexpr double kLargestHeight_m = 1e6;
 constexpr std::size_t kLivoxPointBytes = 19;
 constexpr int kLivoxIdBytes = 4;  ///< the scanner's, and three of no meaning
 constexpr int kLivoxMarks = 3;    ///< reflectivity, tag and line, a byte each
@@ -246,6 +248,28 @@ RosInertial read_ros_inertial(const RosMessage& message) {
   inertial.specific_force_mps2 = read_ros_vector(reader);
   inertial.is_whole = skip_covariance(reader) && has_rate;
   return inertial;
+}
+
+RosFix read_ros_fix(const RosMessage& message) {
+  RosMessageReader reader(message);
+  RosFix fix{reader.header(), std::nullopt, std::nullopt};
+  const bool has_fix = static_cast<std::int8_t>(reader.u8()) >= 0;
+  reader.u16();  // which satellites
+  const double latitude_deg = reader.f64();
+  const double longitude_deg = reader.f64();
+  const double height_m = reader.f64();
+  Eigen::Matrix3d covariance;
+  for (double& number : covariance.reshaped()) number = reader.f64();
+  const bool has_covariance = reader.u8() != 0;
+  const bool is_on_earth = std::abs(latitude_deg) <= 90 && std::abs(longitude_deg) <= 360 &&
+                           !(std::abs(height_m) > kLargestHeight_m);
+  constexpr double kRadians = std::numbers::pi / 180;
+  if (has_fix && is_on_earth)
+    fix.place = GeodeticPlace{latitude_deg * kRadians, longitude_deg * kRadians, height_m};
+  const int axes = std::isfinite(height_m) ? 3 : 2;
+  const double variance = covariance.diagonal().head(axes).maxCoeff();
+  if (has_covariance && variance > 0 && std::isfinite(variance)) fix.sigma_m = std::sqrt(variance);
+  return fix;
 }
 
 }  // namespace radioslam

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "radioslam/geometry/local_frame.hpp"
 #include "radioslam/geometry/se3.hpp"
 #include "radioslam/io/point_times.hpp"
 #include "radioslam/io/ros_message.hpp"
@@ -36,6 +37,13 @@ struct RosInertial {
   bool is_whole = true;  ///< the unit measures both: neither covariance begins with -1
 };
 
+/// sensor_msgs/NavSatFix.
+struct RosFix {
+  RosHeader header;
+  std::optional<GeodeticPlace> place;  ///< nothing without a fix; a height that is not told is NaN
+  std::optional<double> sigma_m;       ///< of the worst axis; nothing where not told
+};
+
 /// nav_msgs/Odometry, geometry_msgs/PoseStamped, PoseWithCovarianceStamped, TransformStamped.
 bool is_pose_type(std::string_view type);
 /// tf2_msgs/TFMessage, tf/tfMessage.
@@ -44,6 +52,7 @@ bool is_transforms_type(std::string_view type);
 bool is_scan_type(std::string_view type);
 inline constexpr std::string_view kOdometryType = "nav_msgs/Odometry";
 inline constexpr std::string_view kInertialType = "sensor_msgs/Imu";
+inline constexpr std::string_view kFixType = "sensor_msgs/NavSatFix";
 inline constexpr std::string_view kLaserScanType = "sensor_msgs/LaserScan";
 inline constexpr std::string_view kPointCloudType = "sensor_msgs/PointCloud2";
 
@@ -57,5 +66,6 @@ RosScan read_ros_scan(const RosMessage& message, std::optional<PointTimeUnit> un
 /// Of a PointCloud2, for the search of its unit; of other scans nothing.
 std::optional<RawPointTimes> read_ros_point_times(const RosMessage& message);
 RosInertial read_ros_inertial(const RosMessage& message);
+RosFix read_ros_fix(const RosMessage& message);
 
 }  // namespace radioslam
