@@ -22,8 +22,8 @@ Eigen::Vector3d east_north_up_m(const GeodeticPlace& origin, const GeodeticPlace
   const double sin_p = std::sin(origin.latitude_rad), cos_p = std::cos(origin.latitude_rad);
   const double sin_l = std::sin(origin.longitude_rad), cos_l = std::cos(origin.longitude_rad);
   Eigen::Matrix3d R_local_earth;
-  R_local_earth << -sin_l, cos_l, 0,                            //
-      -sin_p * cos_l, -sin_p * sin_l, cos_p,                    //
+  R_local_earth << -sin_l, cos_l, 0,          //
+      -sin_p * cos_l, -sin_p * sin_l, cos_p,  //
       cos_p * cos_l, cos_p * sin_l, sin_p;
   return R_local_earth * (earth_centred_m(place) - earth_centred_m(origin));
 }
