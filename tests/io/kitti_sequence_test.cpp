@@ -102,6 +102,7 @@ TEST(KittiDrive, TellsNumbersFromTimesAndNames) {
             (Order{{"v1.000002", 200'000'000}, {"v1.000010", 1'000'000'000}}));
   EXPECT_EQ(order_of({"0000000000000002", "0000000000000010"}),
             (Order{{"0000000000000002", 200'000'000}, {"0000000000000010", 1'000'000'000}}));
+  EXPECT_EQ(order_of({"9999999999999999"}), (Order{{"9999999999999999", 0}})) << "beyond all times";
   EXPECT_EQ(order_of({"b_1", "a_9", "a_2"}), (Order{{"a_2", 0}, {"a_9", 100'000'000}, {"b_1", 200'000'000}}))
       << "of two drives, as it seems: by name";
   const TemporaryFolder folder;

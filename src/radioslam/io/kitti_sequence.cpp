@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <optional>
 
 #include "radioslam/base/input_error.hpp"
@@ -17,6 +18,7 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kLargestScanNumber = 1'000'000'000;
 constexpr std::size_t kEpochDigits = 9;         ///< of the seconds since 1970, from 1973 on
 constexpr std::size_t kMicrosecondDigits = 16;  ///< of the microseconds since then, from 2001 on
+constexpr std::int64_t kLargestMicroseconds = std::numeric_limits<std::int64_t>::max() / 1000;
 constexpr const char* kDigits = "0123456789";
 
 /// A scan, and what its name tells of its place in the drive.
@@ -60,11 +62,12 @@ std::optional<std::uint64_t> number_in_name(const std::string& name) {
 std::optional<Stamp> whole_time_of(const std::string& digits) {
   const auto value = parse_integer(digits);
   if (!value || digits.front() == '0' || digits.size() < kMicrosecondDigits) return std::nullopt;
-  return Stamp{digits.size() == kMicrosecondDigits ? *value * 1000 : *value};
+  if (digits.size() > kMicrosecondDigits) return Stamp{*value};
+  return *value > kLargestMicroseconds ? std::nullopt : std::optional(Stamp{*value * 1000});
 }
 
 /// The time that a name ends with: seconds with a point, or digits alone.
-std::optional<Stamp> time_in_name(const std::string& name) {
+std::optional<Stamp> time_in_scan_name(const std::string& name) {
   const std::string digits = digits_at_end(name);
   const std::string seconds = digits_before_point(name);
   if (digits.empty()) return std::nullopt;
@@ -108,7 +111,8 @@ bool sort_by(std::vector<NamedScan>& scans, Key key) {
 std::vector<NamedScan> scans_by_time(const std::vector<fs::path>& files) {
   std::vector<NamedScan> scans;
   for (const fs::path& file : files)
-    if (const auto time = time_in_name(file.stem().string())) scans.push_back({file, std::nullopt, time});
+    if (const auto time = time_in_scan_name(file.stem().string()))
+      scans.push_back({file, std::nullopt, time});
   const bool are_all = scans.size() == files.size();
   return are_all && sort_by(scans, [](const NamedScan& scan) { return *scan.time; })
              ? scans
@@ -214,8 +218,8 @@ std::optional<fs::path> find_poses(const std::vector<fs::path>& folders) {
 }
 
 /// When scan k was made, as times.txt, its name or its number tells.
-Stamp stamp_of(const std::vector<NamedScan>& scans, const std::optional<ScanList<Stamp>>& times,
-               std::size_t k) {
+Stamp stamp_of_scan(const std::vector<NamedScan>& scans, const std::optional<ScanList<Stamp>>& times,
+                    std::size_t k) {
   if (times) return value_of(*times, scans, k);
   if (scans[k].time) return *scans[k].time;
   return Stamp::from_seconds(static_cast<double>(scans[k].number.value_or(k)) / kKittiFrequency_hz);
@@ -224,7 +228,8 @@ Stamp stamp_of(const std::vector<NamedScan>& scans, const std::optional<ScanList
 std::vector<KittiScan> stamp_scans(const std::vector<NamedScan>& named,
                                    const std::optional<ScanList<Stamp>>& times) {
   std::vector<KittiScan> scans;
-  for (std::size_t k = 0; k < named.size(); ++k) scans.push_back({named[k].file, stamp_of(named, times, k)});
+  for (std::size_t k = 0; k < named.size(); ++k)
+    scans.push_back({named[k].file, stamp_of_scan(named, times, k)});
   return scans;
 }
 

@@ -8,7 +8,7 @@ namespace radioslam {
 namespace {
 
 /// In the order of time, of two of one time the first.
-Trajectory<SE3> ordered(std::vector<StampedPose<SE3>> poses) {
+Trajectory<SE3> in_order_of_time(std::vector<StampedPose<SE3>> poses) {
   std::stable_sort(poses.begin(), poses.end(),
                    [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
   poses.erase(std::unique(poses.begin(), poses.end(),
@@ -74,7 +74,7 @@ TransformedPoses MovingTransforms::find(const FrameTree& fixed, const std::strin
     found.without_pose += link.without_pose;
     found.without_time += link.without_time;
     if (link.poses.size() >= way->steps[most].link->second.poses.size()) most = k;
-    links.push_back(ordered(link.poses));
+    links.push_back(in_order_of_time(link.poses));
   }
   for (const StampedPose<SE3>& told : way->steps[most].link->second.poses) {
     std::optional<SE3> T_frame_child = SE3();

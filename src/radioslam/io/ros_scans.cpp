@@ -9,12 +9,13 @@ namespace {
 
 constexpr std::size_t kJudgedScans = 10;
 
-/// The usual time from one stamp to the next; nothing where all are one.
-std::optional<double> interval_s(std::vector<Stamp> stamps) {
+/// The usual time from one stamp to the next, however far apart they are; nothing where all are one.
+std::optional<double> usual_interval_s(std::vector<Stamp> stamps) {
   std::sort(stamps.begin(), stamps.end());
   std::vector<double> gaps_s;
   for (std::size_t k = 1; k < stamps.size(); ++k)
-    if (stamps[k] != stamps[k - 1]) gaps_s.push_back(seconds_between(stamps[k - 1], stamps[k]));
+    if (stamps[k] != stamps[k - 1])
+      gaps_s.push_back((static_cast<double>(stamps[k].ns) - static_cast<double>(stamps[k - 1].ns)) * 1e-9);
   return gaps_s.empty() ? std::nullopt : std::optional(upper_median(gaps_s));
 }
 
@@ -42,7 +43,7 @@ void RosScans::find_unit() {
     stamps.push_back(time_of(message, RosMessageReader(message).header()));
     if (const auto raw = read_ros_point_times(message)) times.push_back(*raw);
   }
-  const auto interval = interval_s(stamps);
+  const auto interval = usual_interval_s(stamps);
   if (times.empty() || !interval) return;
   unit_ = unit_of(times, *interval);
   if (*unit_ != times.front().usual)
