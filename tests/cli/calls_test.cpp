@@ -200,6 +200,11 @@ TEST(Calls, ParametersListUnitsAndRanges) {
   EXPECT_NE(text.out.find("keyframe.distance_m = 1 m   [0.01 to 1000]\n"), std::string::npos);
   const auto json = run({"parameters", "simulate", "--json"}, folder.path());
   EXPECT_EQ(nlohmann::json::parse(json.out)["robots"]["range"], "1 to 100");
+  EXPECT_EQ(run({"parameters", "indoor-location"}, folder.path()).out,
+            run({"parameters", "import"}, folder.path()).out);
+  const auto none = run({"parameters", "rosbag"}, folder.path());
+  EXPECT_EQ(none.status, 2);
+  EXPECT_EQ(none.err, "radioslam: parameters rosbag: this import has no parameters\n");
 }
 
 }  // namespace

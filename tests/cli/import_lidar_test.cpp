@@ -93,6 +93,30 @@ TEST_F(ImportLidar, RosbagOfATeamBecomesOneMission) {
   EXPECT_EQ(read_file(folder.path() / "team/robots/r2/odometry.tum"), "10 0 0 0 0 0 0 1\n");
 }
 
+/// A robot's odometry and one fix, so far north.
+std::string recording_with_fix(double latitude_deg) {
+  RosBytes odometry(MessageEncoding::kRos1), fix(MessageEncoding::kRos1);
+  odometry.header(10, 0, "odom").text("base").f64s({1, 2, 0, 0, 0, 0, 1});
+  fix.header(10, 0, "base").u8(0).u16(1).f64s({latitude_deg, 0, 0}).f64s(std::vector<double>(9, 4)).u8(2);
+  return bag_of(bag_records({{"/odom", "nav_msgs/Odometry", 9, odometry.bytes()},
+                             {"/fix", "sensor_msgs/NavSatFix", 9, fix.bytes()}}));
+}
+
+TEST_F(ImportLidar, RosbagBringsFixesOfATeamIntoOneFrame) {
+  write_file(folder.path() / "x.bag", recording_with_fix(0));
+  write_file(folder.path() / "y.bag", recording_with_fix(0.001));
+  const Outcome outcome = import({"rosbag", "x.bag", "y.bag", "-o", "team"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("1 poses of odometry, 0 inertial readings, 1 position fixes of b\n"),
+            std::string::npos)
+      << outcome.out;
+  EXPECT_EQ(read_file(folder.path() / "team/robots/a/gnss.csv"), "t_s,x_m,y_m,z_m,sigma_m\n10,0,0,0,2\n");
+  const std::string other = read_file(folder.path() / "team/robots/b/gnss.csv");
+  EXPECT_NE(other.find("\n10,0,110.57"), std::string::npos) << other;
+  ASSERT_EQ(import({"rosbag", "x.bag", "--gnss", "none", "-o", "alone"}).status, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "alone/robots/a/gnss.csv"));
+}
+
 TEST_F(ImportLidar, RosbagRefusesWhatIsAmbiguous) {
   write_file(folder.path() / "x.bag", recording_of_two());
   expect_refused({"rosbag", "x.bag", "-o", "m"}, "x.bag: has 2 topics with odometry; --odometry says which");
@@ -102,6 +126,7 @@ TEST_F(ImportLidar, RosbagRefusesWhatIsAmbiguous) {
   expect_refused({"rosbag", "x.bag", "x.bag", "--robot", "a", "--robot", "a", "-o", "m"}, "one name");
   expect_refused({"rosbag", "x.bag", "--odometry", "/r1/odom", "--odometry", "/r2/odom", "-o", "m"},
                  "--odometry: is given 2 times for 1 sources");
+  expect_refused({"rosbag", "x.bag", "--set", "a=1", "-o", "m"}, "takes no parameters");
   expect_refused({"carmen", "x.bag", "--scans", "/x", "-o", "m"}, "takes no topics of ROS");
   expect_refused({"iw", "x.bag", "--robot", "a", "--robot", "b", "-o", "m"}, "takes no second --robot");
 }

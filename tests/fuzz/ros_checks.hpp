@@ -12,6 +12,8 @@ inline void read_as_said(const RosMessage& message) {
   if (is_pose_type(type)) read_ros_pose(message);
   if (is_transforms_type(type)) read_ros_transforms(message);
   if (is_scan_type(type)) check_scan(read_ros_scan(message).scan);
+  if (is_scan_type(type)) read_ros_point_times(message);
+  if (type == kFixType) read_ros_fix(message);
   if (type == kInertialType) read_ros_inertial(message);
 }
 

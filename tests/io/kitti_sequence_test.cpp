@@ -67,6 +67,53 @@ TEST(KittiDrive, NumbersScansByTheirNames) {
                  "has 3 lines for 2 scans, and none for x_9.bin");
 }
 
+/// The scans' names and stamps, in turn.
+std::vector<std::pair<std::string, std::int64_t>> order_of(const std::vector<std::string>& names,
+                                                           std::string* note = nullptr) {
+  const TemporaryFolder folder;
+  for (const std::string& name : names) folder.write(name + ".bin", kPoint);
+  const KittiDrive drive = read_kitti_drive(folder.path(), "a");
+  if (note != nullptr) *note = drive.imported.warnings.at(0);
+  std::vector<std::pair<std::string, std::int64_t>> order;
+  for (const KittiScan& scan : drive.scans) order.emplace_back(scan.file.stem().string(), scan.stamp.ns);
+  return order;
+}
+
+TEST(KittiDrive, TakesTimesInNames) {
+  using Order = std::vector<std::pair<std::string, std::int64_t>>;
+  std::string note;
+  EXPECT_EQ(order_of({"1630577759.068947", "1630577758.569490", "1630577758.67"}, &note),
+            (Order{{"1630577758.569490", 1'630'577'758'569'490'000},
+                   {"1630577758.67", 1'630'577'758'670'000'000},
+                   {"1630577759.068947", 1'630'577'759'068'947'000}}));
+  EXPECT_EQ(note, "there is no times.txt; the scans' names are taken as times");
+  EXPECT_EQ(
+      order_of({"x_1630577758.5", "x_1630577758.25"}),
+      (Order{{"x_1630577758.25", 1'630'577'758'250'000'000}, {"x_1630577758.5", 1'630'577'758'500'000'000}}))
+      << "within one second";
+  EXPECT_EQ(order_of({"10.5", "9.75"}), (Order{{"9.75", 9'750'000'000}, {"10.5", 10'500'000'000}}));
+  EXPECT_EQ(order_of({"1630577758569490", "1630577758469490"})[0].second, 1'630'577'758'469'490'000);
+  EXPECT_EQ(order_of({"1630577758569490123", "1630577758469490123"})[0].second, 1'630'577'758'469'490'123);
+}
+
+TEST(KittiDrive, TellsNumbersFromTimesAndNames) {
+  using Order = std::vector<std::pair<std::string, std::int64_t>>;
+  EXPECT_EQ(order_of({"v1.000002", "v1.000010"}),
+            (Order{{"v1.000002", 200'000'000}, {"v1.000010", 1'000'000'000}}));
+  EXPECT_EQ(order_of({"0000000000000002", "0000000000000010"}),
+            (Order{{"0000000000000002", 200'000'000}, {"0000000000000010", 1'000'000'000}}));
+  EXPECT_EQ(order_of({"9999999999999999"}), (Order{{"9999999999999999", 0}})) << "beyond all times";
+  EXPECT_EQ(order_of({"b_1", "a_9", "a_2"}), (Order{{"a_2", 0}, {"a_9", 100'000'000}, {"b_1", 200'000'000}}))
+      << "of two drives, as it seems: by name";
+  const TemporaryFolder folder;
+  for (const char* name : {"12.5.bin", "13.5.bin"}) folder.write(name, kPoint);
+  folder.write("times.txt", "7\n8\n");
+  EXPECT_EQ(read_kitti_drive(folder.path(), "a").scans[1].stamp, Stamp{8'000'000'000})
+      << "the list counts more";
+  folder.write("times.txt", "6\n7\n8\n");
+  expect_refusal([&] { read_kitti_drive(folder.path(), "a"); }, 0, "has 3 lines for 2 scans");
+}
+
 TEST(KittiDrive, Refuses) {
   const TemporaryFolder folder;
   const auto read = [&] { read_kitti_drive(folder.path(), "a"); };

@@ -22,7 +22,9 @@ class RosBytes {
   }
 
   RosBytes& u8(unsigned value) { return number(value, 1); }
+  RosBytes& u16(std::uint64_t value) { return number(value, 2); }
   RosBytes& u32(std::uint64_t value) { return number(value, 4); }
+  RosBytes& u64(std::uint64_t value) { return number(value, 8); }
   RosBytes& f32(float value) { return number(std::bit_cast<std::uint32_t>(value), 4); }
   RosBytes& f64(double value) { return number(std::bit_cast<std::uint64_t>(value), 8); }
   RosBytes& f64s(const std::vector<double>& values) {

@@ -61,6 +61,15 @@ TEST(RosDatabase, RefusesOtherTablesAndSpoiltFiles) {
   std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
   expect_refusal([&] { visit_ros_database(path, noted.visitor()); }, 0,
                  "cannot be read as a rosbag2 database");
+  // SQLite's own words for a schema that is none go over two lines.
+  const TemporaryFolder odd;
+  const auto schema =
+      make_database(odd,
+                    "CREATE TABLE topics(id); PRAGMA writable_schema = ON; UPDATE sqlite_master SET sql = "
+                    "'CREATE TABLE topics(id ' || char(96, 10) || '   q';");
+  const std::string words = refusal([&] { visit_ros_database(schema, noted.visitor()); });
+  EXPECT_NE(words.find("` q"), std::string::npos) << words;
+  EXPECT_EQ(words.find('\n'), std::string::npos) << words;
 }
 
 }  // namespace

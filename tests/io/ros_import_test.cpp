@@ -40,9 +40,10 @@ WrittenMessage static_transform(const std::string& child) {
 }
 
 /// One reading of 2 m, straight ahead.
-WrittenMessage laser(unsigned seconds, const std::string& topic = "/scan") {
+WrittenMessage laser(unsigned seconds, const std::string& topic = "/scan",
+                     const std::string& frame = "laser") {
   return {topic, "sensor_msgs/LaserScan", 9, ros2([&](RosBytes& bytes) {
-            bytes.header(seconds, 0, "laser");
+            bytes.header(seconds, 0, frame);
             for (const float value : {0.0F, 1.0F, 1.0F, 0.0F, 0.1F, 0.5F, 12.0F}) bytes.f32(value);
             bytes.u32(1).f32(2).u32(0);
           })};
@@ -51,7 +52,7 @@ WrittenMessage laser(unsigned seconds, const std::string& topic = "/scan") {
 WrittenMessage imu(unsigned seconds, const std::string& frame) {
   return {"/imu", "sensor_msgs/Imu", 9, ros2([&](RosBytes& bytes) {
             bytes.header(seconds, 0, frame).f64s(std::vector<double>(13)).f64s({0.1, 0, 0});
-            bytes.f64s(std::vector<double>(9)).f64s({9, 0, 4});
+            bytes.f64s(std::vector<double>(9)).f64s({9, 0, 4}).f64s(std::vector<double>(9));
           })};
 }
 
@@ -99,8 +100,174 @@ TEST(RosImport, TakesASensorsFrameAsTheBodysWhereNothingLeadsThere) {
   const auto imported = import({laser(5), odometry(4, 3)});
   EXPECT_LT((imported.scans.begin()->second.points.at(0) - Eigen::Vector3f(2, 0, 0)).norm(), 1e-6);
   EXPECT_EQ(imported.notes(),
-            "/scan: no static transform leads from base to laser; 'laser' is taken as the body's frame\n");
+            "/scan: no fixed transform leads from base to laser; 'laser' is taken as the body's frame\n");
   EXPECT_NE(import({laser(5)}).notes().find("nothing names the body's frame"), std::string::npos);
+}
+
+/// A laser that hangs upside down, 1 m ahead, and the odometry, as ROS 1 tells both on /tf.
+WrittenMessage repeated_transforms(unsigned seconds, double x) {
+  return {"/tf", "tf2_msgs/TFMessage", 7, ros2([&](RosBytes& bytes) {
+            bytes.u32(2).header(seconds, 0, "base").text("laser").f64s({1, 0, 0, 1, 0, 0, 0});
+            bytes.header(seconds, 0, "odom").text("base").f64s({x, 0, 0, 0, 0, 0, 1});
+          })};
+}
+
+WrittenMessage side_laser(unsigned seconds) {
+  return {"/scan", "sensor_msgs/LaserScan", 9, ros2([&](RosBytes& bytes) {
+            bytes.header(seconds, 0, "laser");
+            for (const float value : {1.5707964F, 1.0F, 1.0F, 0.0F, 0.1F, 0.5F, 12.0F}) bytes.f32(value);
+            bytes.u32(1).f32(2).u32(0);
+          })};
+}
+
+TEST(RosImport, TakesWhatKeepsItsValueAsFixedOnAnyTopicOfTransforms) {
+  const auto first_point = [](const std::vector<WrittenMessage>& messages) {
+    return import(messages).scans.begin()->second.points.at(0);
+  };
+  const Eigen::Vector3f right(1, -2, 0), untold(0, 2, 0);
+  const auto repeated = {repeated_transforms(1, 0), repeated_transforms(2, 0.5), side_laser(5),
+                         odometry(1, 0)};
+  EXPECT_LT((first_point(repeated) - right).norm(), 1e-6) << "its left is the body's right";
+  EXPECT_EQ(import(repeated).notes(), "");
+  EXPECT_LT((first_point({repeated_transforms(1, 0), side_laser(5), odometry(1, 0)}) - untold).norm(), 1e-6)
+      << "told once, it keeps nothing";
+  WrittenMessage moved = static_transform("laser");
+  moved.topic = "/tf";
+  EXPECT_LT((first_point({repeated_transforms(1, 0), moved, side_laser(5), odometry(1, 0)}) - untold).norm(),
+            1e-6)
+      << "it moves";
+  EXPECT_LT((first_point({static_transform("laser"), repeated_transforms(1, 0), repeated_transforms(2, 1),
+                          side_laser(5), odometry(1, 0)}) -
+             Eigen::Vector3f(-1, 0, 0))
+                .norm(),
+            1e-6)
+      << "tf_static counts more";
+}
+
+TEST(RosImport, TakesTheUsualBodyWithoutANote) {
+  EXPECT_EQ(import({laser(5, "/scan", "base_link")}).notes(), "");
+  EXPECT_NE(import({laser(5, "/scan", "lidar")}).notes().find("nothing names the body's frame"),
+            std::string::npos);
+}
+
+/// Every tenth of a second two points, of times that lie 50,000 apart, from `first` on.
+WrittenMessage timed_cloud(unsigned k, std::uint64_t first) {
+  return {"/points", "sensor_msgs/PointCloud2", 9, ros2([&](RosBytes& bytes) {
+            bytes.header(5, k * 100'000'000U, "base_link").u32(1).u32(2).u32(4);
+            for (const char* axis : {"x", "y", "z"}) bytes.text(axis).u32(0).u8(7).u32(1);
+            bytes.text("t").u32(4).u8(6).u32(1).u8(0).u32(8).u32(16);
+            RosBytes rows(MessageEncoding::kRos1);
+            rows.f32(1).u32(first).f32(2).u32(first + 50'000);
+            bytes.u32(16).raw(rows.bytes()).u8(1);
+          })};
+}
+
+std::vector<WrittenMessage> timed_clouds(unsigned number, std::uint64_t first) {
+  std::vector<WrittenMessage> clouds;
+  for (unsigned k = 0; k < number; ++k) clouds.push_back(timed_cloud(number - 1 - k, first));
+  return clouds;
+}
+
+TEST(RosImport, FindsTheUnitOfPointsTimes) {
+  for (const unsigned number : {2U, 9U, 10U, 11U, 13U}) {
+    const auto imported = import(timed_clouds(number, 0));
+    ASSERT_EQ(imported.scans.size(), number);
+    for (const auto& scan : imported.scans) EXPECT_EQ(scan.second.times_s, (std::vector<float>{0, 0.05F}));
+    EXPECT_EQ(imported.notes(),
+              "/points: the points' times are taken to be in microseconds: in nanoseconds a sweep would not "
+              "last about as long as the next takes to come\n");
+  }
+  const auto alone = import(timed_clouds(1, 0));
+  EXPECT_EQ(alone.scans.begin()->second.times_s, (std::vector<float>{0, 5e-5F})) << "nothing to judge by";
+  EXPECT_EQ(alone.notes(), "");
+}
+
+TEST(RosImport, NotesOncePerTopicThatClocksDiffer) {
+  const auto imported = import(timed_clouds(12, 3'000'000'000));
+  EXPECT_EQ(imported.scans.begin()->second.times_s, (std::vector<float>{0, 0.05F}));
+  EXPECT_NE(imported.notes().find("\n/points: the points' times are of another clock than the scans'; the "
+                                  "first is taken to be at the scan's stamp, in 12 scans\n"),
+            std::string::npos)
+      << imported.notes();
+}
+
+TEST(RosImport, LeavesOutReadingsThatSayTheyAreNone) {
+  WrittenMessage none = imu(4, "base");
+  none.bytes = ros2([&](RosBytes& bytes) {
+    bytes.header(4, 0, "base").f64s(std::vector<double>(16)).f64(-1).f64s(std::vector<double>(20));
+  });
+  const auto imported = import({odometry(4, 3), none, imu(5, "base")});
+  EXPECT_EQ(imported.robot().inertial.size(), 1U);
+  EXPECT_EQ(imported.notes(),
+            "/imu: 1 readings lack rates or forces, as they say themselves, and are left out\n");
+}
+
+/// The map moves the odometry's frame, which moves the body, which carries a laser.
+WrittenMessage moving_transform(unsigned seconds, const char* parent, const char* child, double x) {
+  return {"/tf", "tf2_msgs/TFMessage", 7, ros2([&](RosBytes& bytes) {
+            bytes.u32(1).header(seconds, 0, parent).text(child).f64s({x, 0, 0, 0, 0, kHalf, kHalf});
+          })};
+}
+
+TEST(RosImport, ComposesMovingTransforms) {
+  const std::vector<WrittenMessage> messages{
+      moving_transform(10, "map", "odom", 0),  moving_transform(20, "map", "odom", 10),
+      moving_transform(9, "odom", "base", 0),  moving_transform(10, "odom", "base", 1),
+      moving_transform(15, "odom", "base", 2), moving_transform(20, "odom", "base", 3),
+      moving_transform(21, "odom", "base", 4), static_transform("laser")};
+  const auto way = import(messages, {"/tf:odom.base", "", "", "/tf:map.base"});
+  const auto& truth = way.mission.truth.robots.at(0).poses;
+  ASSERT_EQ(truth.size(), 3U) << "when both are known";
+  EXPECT_EQ(truth[1].stamp, Stamp{15'000'000'000});
+  EXPECT_LT((truth[1].pose.translation() - Eigen::Vector3d(5, 2, 0)).norm(), 1e-12) << "half way";
+  EXPECT_NEAR(std::abs(truth[1].pose.yaw()), std::acos(-1.0), 1e-12);
+  EXPECT_EQ(way.notes(),
+            "/tf: 2 poses are left out, for another transform between the frames is not known then\n");
+  const auto back = import(messages, {"/tf:odom.base", "", "", "/tf:laser.map"});
+  const auto laser = import(messages, {"/tf:odom.base", "", "", "/tf:map.laser"});
+  EXPECT_LT((back.mission.truth.robots.at(0).poses[1].pose * laser.mission.truth.robots.at(0).poses[1].pose)
+                .log()
+                .norm(),
+            1e-12)
+      << "the other way round";
+  expect_refusal(
+      [&] {
+        import(messages, {"/tf:map.wheel", "", "", ""});
+      },
+      0, "no transforms lead from map to wheel");
+  EXPECT_NE(import(messages, {"/tf:odom.base", "", "", "/tf:map.wheel"}).notes().find("has no pose"),
+            std::string::npos);
+}
+
+WrittenMessage position_fix(unsigned seconds, double latitude_deg, double height_m, unsigned status = 0) {
+  return {"/fix", "sensor_msgs/NavSatFix", 9, ros2([&](RosBytes& bytes) {
+            bytes.header(seconds, 0, "laser").u8(status).u16(1).f64s({latitude_deg, 11, height_m});
+            bytes.f64s(std::vector<double>(9)).u8(0);
+          })};
+}
+
+TEST(RosImport, BringsFixesIntoOneLocalFrame) {
+  const auto imported =
+      import({odometry(4, 3), static_transform("laser"), position_fix(6, 48.00001, std::nan("")),
+              position_fix(5, 48, 500), position_fix(7, 48, 503), position_fix(8, 48, 1, 255)});
+  const Robot& robot = imported.robot();
+  ASSERT_EQ(robot.fixes.size(), 3U);
+  EXPECT_EQ(robot.fixes[0].position_m, Eigen::Vector3d::Zero());
+  EXPECT_LT((robot.fixes[1].position_m - Eigen::Vector3d(0, 1.112, 0)).norm(), 1e-3)
+      << "10 millionths of a degree";
+  EXPECT_LT((robot.fixes[2].position_m - Eigen::Vector3d(0, 0, 3)).norm(), 1e-6);
+  EXPECT_EQ(robot.fixes[2].sigma_m, 10);
+  EXPECT_LT((robot.fix_lever_m - Eigen::Vector3d(1, 0, 0.2)).norm(), 1e-12) << "where the antenna sits";
+  EXPECT_EQ(imported.notes(),
+            "/fix: 3 fixes tell no sigma; 10 m are taken\n/fix: 1 readings have no fix and are left out\n");
+  const TemporaryFolder folder;
+  const auto other =
+      folder.write("x.mcap", mcap_of(mcap_records({odometry(4, 3), position_fix(5, 48, 500)})));
+  const GeodeticPlace origin{48 * std::acos(-1.0) / 180, 11 * std::acos(-1.0) / 180, 490};
+  const auto second = import_ros_recording(
+      other, "b", {}, [](Stamp, const LidarScan&) {}, origin);
+  EXPECT_LT((second.imported.mission.robots[0].fixes[0].position_m - Eigen::Vector3d(0, 0, 10)).norm(), 1e-6);
+  EXPECT_EQ(second.fix_origin->height_m, 490);
 }
 
 TEST(RosImport, PutsMessagesInOrderOnce) {

@@ -113,14 +113,84 @@ TEST_P(RosTypes, LaserScans) {
   EXPECT_EQ(scan.scan.times_s, (std::vector<float>{0, 0.5F}));
 }
 
-TEST_P(RosTypes, InertialReadings) {
+/// Drivers that do not know a scanner's largest range leave it zero.
+TEST_P(RosTypes, LaserScansWithoutALargestRange) {
   RosBytes bytes = message();
-  bytes.header(1, 5, "imu").f64s({9, 9, 9, 9}).f64s(std::vector<double>(9, 8)).f64s({1, 2, 3});
-  bytes.f64s(std::vector<double>(9, 7)).f64s({4, 5, 6}).f64s(std::vector<double>(9, 6));
+  bytes.header(1, 0, "laser");
+  for (const float value : {0.0F, 1.0F, 1.0F, 0.0F, 0.0F, 0.0F, 0.0F}) bytes.f32(value);
+  bytes.u32(2).f32(2).f32(400).u32(0);
+  const RosChannel laser = channel("sensor_msgs/LaserScan");
+  const RosScan scan = read_ros_scan(as(laser, bytes));
+  EXPECT_EQ(scan.scan.points.size(), 2U);
+  EXPECT_EQ(scan.range_max_m, 0) << "not told";
+}
+
+TEST_P(RosTypes, LivoxPoints) {
+  RosBytes bytes = message();
+  bytes.header(1, 0, "livox").u64(1'000'000'000).u32(2).u8(7).u8(0).u8(0).u8(0).u32(2);
+  bytes.u32(0).f32(1).f32(2).f32(3).u8(9).u8(9).u8(9);
+  bytes.u32(50'000'000).f32(4).f32(5).f32(6).u8(9).u8(9).u8(9);
+  for (const char* type : {"livox_ros_driver/CustomMsg", "livox_ros_driver2/CustomMsg"}) {
+    const RosChannel livox = channel(type);
+    ASSERT_TRUE(is_scan_type(type));
+    const RosScan scan = read_ros_scan(as(livox, bytes));
+    EXPECT_EQ(scan.header.frame, "livox");
+    ASSERT_EQ(scan.scan.points.size(), 2U);
+    EXPECT_EQ(scan.scan.points[1], Eigen::Vector3f(4, 5, 6));
+    EXPECT_EQ(scan.scan.times_s, (std::vector<float>{0, 0.05F}));
+    EXPECT_FALSE(read_ros_point_times(as(livox, bytes))) << "their unit is known";
+  }
+}
+
+/// Without a time in the header absolute times are since the recording's.
+TEST_P(RosTypes, TimesOfACloudWithoutATimeOfItsOwn) {
+  RosBytes bytes = message();
+  bytes.header(0, 0, "os").u32(1).u32(1).u32(4);
+  bytes.text("x").u32(0).u8(7).u32(1).text("y").u32(0).u8(7).u32(1).text("z").u32(0).u8(7).u32(1);
+  bytes.text("timestamp").u32(4).u8(8).u32(1);
+  RosBytes record(MessageEncoding::kRos1);
+  record.f32(1).f64(1'700'000'000.25);
+  bytes.u8(0).u32(12).u32(12).u32(12).raw(record.bytes()).u8(1);
+  const RosChannel points = channel("sensor_msgs/PointCloud2");
+  const RosMessage recorded{points, {1'700'000'000'000'000'000}, bytes.bytes(), "x.mcap"};
+  EXPECT_EQ(read_ros_scan(recorded).scan.times_s, std::vector<float>{0.25F});
+  EXPECT_EQ(read_ros_scan(recorded).clock, PointClock::kScans);
+}
+
+RosBytes inertial(RosBytes bytes, double rate_covariance, double force_covariance) {
+  bytes.header(1, 5, "imu").f64s({9, 9, 9, 9}).f64(-1).f64s(std::vector<double>(8)).f64s({1, 2, 3});
+  bytes.f64(rate_covariance).f64s(std::vector<double>(8)).f64s({4, 5, 6});
+  return bytes.f64(force_covariance).f64s(std::vector<double>(8));
+}
+
+TEST_P(RosTypes, InertialReadings) {
   const RosChannel imu = channel("sensor_msgs/Imu");
-  const RosInertial reading = read_ros_inertial(as(imu, bytes));
+  EXPECT_FALSE(read_ros_inertial(as(imu, inertial(message(), -1, 6))).is_whole);
+  EXPECT_FALSE(read_ros_inertial(as(imu, inertial(message(), 7, -1))).is_whole);
+  const RosInertial reading = read_ros_inertial(as(imu, inertial(message(), 7, 6)));
+  EXPECT_TRUE(reading.is_whole) << "of orientation alone it tells nothing";
   EXPECT_EQ(reading.angular_rate_radps, Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(reading.specific_force_mps2, Eigen::Vector3d(4, 5, 6));
+}
+
+RosBytes fix(RosBytes bytes, unsigned status, double height_m, unsigned covariance_type) {
+  bytes.header(1, 0, "gps").u8(status).u16(1).f64s({48, 11, height_m});
+  return bytes.f64s({1, 0, 0, 0, 4, 0, 0, 0, 9}).u8(covariance_type);
+}
+
+TEST_P(RosTypes, PositionFixes) {
+  const RosChannel gnss = channel("sensor_msgs/NavSatFix");
+  const RosFix whole = read_ros_fix(as(gnss, fix(message(), 0, 500, 2)));
+  EXPECT_EQ(whole.header.frame, "gps");
+  ASSERT_TRUE(whole.place);
+  EXPECT_NEAR(whole.place->latitude_rad, 48 * std::acos(-1.0) / 180, 1e-12);
+  EXPECT_NEAR(whole.place->longitude_rad, 11 * std::acos(-1.0) / 180, 1e-12);
+  EXPECT_EQ(whole.place->height_m, 500);
+  EXPECT_EQ(whole.sigma_m, 3);
+  EXPECT_EQ(read_ros_fix(as(gnss, fix(message(), 0, std::nan(""), 2))).sigma_m, 2) << "of east and north";
+  EXPECT_FALSE(read_ros_fix(as(gnss, fix(message(), 255, 500, 2))).place) << "status -1: no fix";
+  EXPECT_FALSE(read_ros_fix(as(gnss, fix(message(), 0, 1e9, 2))).place);
+  EXPECT_FALSE(read_ros_fix(as(gnss, fix(message(), 0, 500, 0))).sigma_m) << "not known";
 }
 
 TEST_P(RosTypes, RefusesWhatEndsEarly) {

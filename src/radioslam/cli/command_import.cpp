@@ -125,7 +125,7 @@ void import_ranges(const ImportOptions& options) {
 }
 
 /// An option that not every kind takes.
-enum class Option { kRobot, kRobots, kName, kFields, kTime, kPoses, kTopics };
+enum class Option { kRobot, kRobots, kName, kFields, kTime, kPoses, kTopics, kParameters };
 
 /// One kind of source.
 struct ImportKind {
@@ -136,16 +136,16 @@ struct ImportKind {
 
 const std::vector<ImportKind>& import_kinds() {
   static const std::vector<ImportKind> kinds{
-      {"indoor-location", import_walks, {}},
-      {"iw-ftm", import_ranges, {Option::kRobot, Option::kName}},
-      {"iw", import_printed_scans, {Option::kRobot, Option::kTime}},
-      {"iwlist", import_printed_scans, {Option::kRobot, Option::kTime}},
-      {"nmcli", import_printed_scans, {Option::kRobot, Option::kTime, Option::kFields}},
-      {"airodump", import_airodump, {Option::kRobot}},
-      {"pcap", import_wifi_captures, {Option::kRobot}},
+      {"indoor-location", import_walks, {Option::kParameters}},
+      {"iw-ftm", import_ranges, {Option::kRobot, Option::kName, Option::kParameters}},
+      {"iw", import_printed_scans, {Option::kRobot, Option::kTime, Option::kParameters}},
+      {"iwlist", import_printed_scans, {Option::kRobot, Option::kTime, Option::kParameters}},
+      {"nmcli", import_printed_scans, {Option::kRobot, Option::kTime, Option::kFields, Option::kParameters}},
+      {"airodump", import_airodump, {Option::kRobot, Option::kParameters}},
+      {"pcap", import_wifi_captures, {Option::kRobot, Option::kParameters}},
       {"wifine", import_wifine_walks, {}},
-      {"wifi-rtt", import_rtt_walk, {}},
-      {"carmen", import_carmen_logs, {Option::kRobots}},
+      {"wifi-rtt", import_rtt_walk, {Option::kParameters}},
+      {"carmen", import_carmen_logs, {Option::kRobots, Option::kParameters}},
       {"kitti", import_kitti_drives, {Option::kRobots, Option::kPoses}},
       {"rosbag", import_ros_recordings, {Option::kRobots, Option::kTopics}},
   };
@@ -167,9 +167,11 @@ void check_options(const ImportOptions& options, const ImportKind& kind) {
   refuse_unless(options.fields.empty() || takes(Option::kFields), options, "--fields");
   refuse_unless(options.poses.empty() || takes(Option::kPoses), options, "--poses");
   const bool has_topics = options.list || !options.odometry.empty() || !options.scans.empty() ||
-                          !options.imu.empty() || !options.truth.empty();
+                          !options.imu.empty() || !options.gnss.empty() || !options.truth.empty();
   refuse_unless(!has_topics || takes(Option::kTopics), options, "topics of ROS");
   refuse_unless(options.time.empty() || takes(Option::kTime), options, "--time");
+  const bool has_settings = !options.parameters.set.empty() || !options.parameters.config_path.empty();
+  refuse_unless(!has_settings || takes(Option::kParameters), options, "parameters");
   refuse_unless(!options.file_times || takes(Option::kTime), options, "--file-times");
 }
 

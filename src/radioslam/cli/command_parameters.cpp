@@ -49,6 +49,7 @@ std::vector<ParameterSet> parameter_sets() {
           {"aoa", describe_parameters<ArrivalParams>},
           {"anchors", describe_parameters<AnchorsParams>},
           {"import", describe_parameters<DeadReckoningParams>},
+          {"indoor-location", describe_parameters<DeadReckoningParams>},
           {"iw-ftm", describe_parameters<IwFtmParams>},
           {"iw", describe_parameters<PrintedScanParams>},
           {"iwlist", describe_parameters<PrintedScanParams>},
@@ -60,6 +61,8 @@ std::vector<ParameterSet> parameter_sets() {
 }
 
 std::vector<ParameterDescription> parameters_of(const std::string& command) {
+  for (const char* kind : {"rosbag", "wifine"})
+    if (command == kind) throw InputError("parameters " + command, 0, "this import has no parameters");
   std::vector<std::string> commands;
   for (const auto& set : parameter_sets()) {
     if (set.command == command) return set.describe();
@@ -96,7 +99,7 @@ void add_parameters(CLI::App& program) {
   command->add_option(
       "COMMAND", options->command,
       "run (default), simulate, carpark, city, corridors, csi, hall, kitti, optimize, similarity, aoa, "
-      "anchors, import, iw-ftm, iw, iwlist, nmcli, airodump, pcap, wifi-rtt or carmen");
+      "anchors, import, indoor-location, iw-ftm, iw, iwlist, nmcli, airodump, pcap, wifi-rtt or carmen");
   add_json_option(*command, options->json);
   command->footer("Example:\n  radioslam parameters run | less");
   command->callback([options] { list_parameters(*options); });

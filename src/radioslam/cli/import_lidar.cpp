@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <set>
 
 #include "radioslam/cli/output_apart.hpp"
@@ -109,6 +110,7 @@ std::string summary_of(const RosImport& imported) {
   const Robot& robot = imported.imported.mission.robots.front();
   std::string summary = std::to_string(imported.scans) + " scans, " + std::to_string(robot.odometry.size()) +
                         " poses of odometry, " + std::to_string(robot.inertial.size()) + " inertial readings";
+  if (!robot.fixes.empty()) summary += ", " + std::to_string(robot.fixes.size()) + " position fixes";
   if (!imported.imported.truth.robots.empty())
     summary += ", " + std::to_string(imported.imported.truth.robots.front().poses.size()) + " true poses";
   return summary + " of " + robot.id;
@@ -146,15 +148,17 @@ void import_ros_recordings(const ImportOptions& options) {
   if (options.list) return list_topics(options);
   const std::vector<std::string> robots = robots_of(options);
   TeamOutput output(options);
+  std::optional<GeodeticPlace> fix_origin;  // one frame for all
   for (std::size_t k = 0; k < robots.size(); ++k) {
-    const RosTopicWishes wishes{of_source(options, options.odometry, "--odometry", k),
-                                of_source(options, options.scans, "--scans", k),
-                                of_source(options, options.imu, "--imu", k),
-                                of_source(options, options.truth, "--truth", k)};
+    const RosTopicWishes wishes{
+        of_source(options, options.odometry, "--odometry", k),
+        of_source(options, options.scans, "--scans", k), of_source(options, options.imu, "--imu", k),
+        of_source(options, options.truth, "--truth", k), of_source(options, options.gnss, "--gnss", k)};
     const fs::path folder = output.scans_of(robots[k]);
     RosImport imported = import_ros_recording(
         options.sources[k], robots[k], wishes,
-        [&](Stamp stamp, const LidarScan& scan) { write_lidar_scan(folder, stamp, scan); });
+        [&](Stamp stamp, const LidarScan& scan) { write_lidar_scan(folder, stamp, scan); }, fix_origin);
+    fix_origin = imported.fix_origin;
     const std::string summary = summary_of(imported);
     output.add(std::move(imported.imported), summary);
   }

@@ -19,8 +19,8 @@ constexpr const char* kKinds =
     "rosbag: a recording of ROS 1 or ROS 2 (.bag, .mcap, .db3, or a folder of them), likewise";
 
 constexpr const char* kFooter =
-    "`radioslam parameters import` lists what --set can change for walks, `radioslam parameters KIND` for\n"
-    "the others. A mission takes a robot's ranges in radio/ranges.csv; each radio that is no robot needs a "
+    "`radioslam parameters KIND` lists what --set can change; of kitti, rosbag and wifine it is nothing.\n"
+    "A mission takes a robot's ranges in radio/ranges.csv; each radio that is no robot needs a "
     "row "
     "in\n"
     "radio/anchors.csv, empty coordinates where its place is unknown.\n\n"
@@ -72,6 +72,8 @@ void add_lidar_options(CLI::App& command, ImportOptions& options) {
                       "rosbag: of PointCloud2 or LaserScan, or none; by default the only one");
   add_repeated_option(command, "--imu", options.imu, "TOPIC",
                       "rosbag: of Imu, or none; by default the only one");
+  add_repeated_option(command, "--gnss", options.gnss, "TOPIC",
+                      "rosbag: of NavSatFix, or none; by default the only one");
   add_repeated_option(command, "--truth", options.truth, "TOPIC",
                       "rosbag: the true poses, as for --odometry; none by default");
   command.add_flag("--list", options.list, "rosbag: list topics, types and numbers of messages instead");

@@ -21,7 +21,7 @@ struct ImportOptions {
   std::string fields;
   std::string time;
   std::vector<std::string> poses;
-  std::vector<std::string> odometry, scans, imu, truth;  ///< topics
+  std::vector<std::string> odometry, scans, imu, gnss, truth;  ///< topics
   bool file_times = false;
   bool list = false;
   ParameterOptions parameters;

@@ -1,4 +1,4 @@
-// How a robot's frames lie to each other where they do not move: the static transforms of ROS.
+// How a robot's frames lie to each other where they do not move: the fixed transforms of ROS.
 #pragma once
 
 #include <map>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <optional>
 
 #include "radioslam/base/input_error.hpp"
@@ -15,11 +16,16 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kLargestScanNumber = 1'000'000'000;
+constexpr std::size_t kEpochDigits = 9;         ///< of the seconds since 1970, from 1973 on
+constexpr std::size_t kMicrosecondDigits = 16;  ///< of the microseconds since then, from 2001 on
+constexpr std::int64_t kLargestMicroseconds = std::numeric_limits<std::int64_t>::max() / 1000;
 constexpr const char* kDigits = "0123456789";
 
-struct NumberedScan {
+/// A scan, and what its name tells of its place in the drive.
+struct NamedScan {
   fs::path file;
-  std::uint64_t number = 0;
+  std::optional<std::uint64_t> number;
+  std::optional<Stamp> time;
 };
 
 /// A list with a line per scan, and where it stands.
@@ -29,13 +35,43 @@ struct ScanList {
   std::vector<Value> values;
 };
 
+/// "000123" of "x_000123".
+std::string digits_at_end(const std::string& name) {
+  const std::size_t last_other = name.find_last_not_of(kDigits);
+  return name.substr(last_other == std::string::npos ? 0 : last_other + 1);
+}
+
+/// "x_" of it.
+std::string before_digits(const std::string& name) {
+  return name.substr(0, name.size() - digits_at_end(name).size());
+}
+
+/// "1630577758" of "x_1630577758.569490".
+std::string digits_before_point(const std::string& name) {
+  const std::string before = before_digits(name);
+  return before.ends_with('.') ? digits_at_end(before.substr(0, before.size() - 1)) : "";
+}
+
 /// The number that a name ends with.
-std::optional<std::uint64_t> number_in_name(const fs::path& file) {
-  const std::string stem = file.stem().string();
-  const std::size_t last_other = stem.find_last_not_of(kDigits);
-  const auto number =
-      parse_id(std::string_view(stem).substr(last_other == std::string::npos ? 0 : last_other + 1));
+std::optional<std::uint64_t> number_in_name(const std::string& name) {
+  const auto number = parse_id(digits_at_end(name));
   return number && *number <= kLargestScanNumber ? number : std::nullopt;
+}
+
+/// Sixteen digits are microseconds, up to nineteen nanoseconds; none of them begins with a zero.
+std::optional<Stamp> whole_time_of(const std::string& digits) {
+  const auto value = parse_integer(digits);
+  if (!value || digits.front() == '0' || digits.size() < kMicrosecondDigits) return std::nullopt;
+  if (digits.size() > kMicrosecondDigits) return Stamp{*value};
+  return *value > kLargestMicroseconds ? std::nullopt : std::optional(Stamp{*value * 1000});
+}
+
+/// The time that a name ends with: seconds with a point, or digits alone.
+std::optional<Stamp> time_in_scan_name(const std::string& name) {
+  const std::string digits = digits_at_end(name);
+  const std::string seconds = digits_before_point(name);
+  if (digits.empty()) return std::nullopt;
+  return seconds.empty() ? whole_time_of(digits) : parse_stamp(seconds + '.' + digits);
 }
 
 std::vector<fs::path> bin_files(const fs::path& folder) {
@@ -63,18 +99,49 @@ fs::path folder_of_scans(const fs::path& source) {
       "to be unpacked first");
 }
 
-/// In the order of their numbers; of names without numbers, or with equal ones, in the order of the names.
-std::vector<NumberedScan> number_scans(const std::vector<fs::path>& files) {
-  std::vector<NumberedScan> scans;
-  for (const fs::path& file : files)
-    if (const auto number = number_in_name(file)) scans.push_back({file, *number});
+template <class Key>
+bool sort_by(std::vector<NamedScan>& scans, Key key) {
   std::stable_sort(scans.begin(), scans.end(),
-                   [](const NumberedScan& a, const NumberedScan& b) { return a.number < b.number; });
-  const auto equal = std::adjacent_find(scans.begin(), scans.end(),
-                                        [](const auto& a, const auto& b) { return a.number == b.number; });
-  if (scans.size() == files.size() && equal == scans.end()) return scans;
-  scans.clear();
-  for (const fs::path& file : files) scans.push_back({file, scans.size()});
+                   [&](const NamedScan& a, const NamedScan& b) { return key(a) < key(b); });
+  return std::adjacent_find(scans.begin(), scans.end(),
+                            [&](const auto& a, const auto& b) { return key(a) == key(b); }) == scans.end();
+}
+
+/// In the order of their times, where every name has its own.
+std::vector<NamedScan> scans_by_time(const std::vector<fs::path>& files) {
+  std::vector<NamedScan> scans;
+  for (const fs::path& file : files)
+    if (const auto time = time_in_scan_name(file.stem().string()))
+      scans.push_back({file, std::nullopt, time});
+  const bool are_all = scans.size() == files.size();
+  return are_all && sort_by(scans, [](const NamedScan& scan) { return *scan.time; })
+             ? scans
+             : std::vector<NamedScan>{};
+}
+
+/// In the order of their numbers, where every name has its own behind what they have in common.
+std::vector<NamedScan> scans_by_number(const std::vector<fs::path>& files) {
+  const std::string before = before_digits(files.front().stem().string());
+  std::vector<NamedScan> scans;
+  for (const fs::path& file : files) {
+    const std::string name = file.stem().string();
+    const auto number = number_in_name(name);
+    if (number && before_digits(name) == before) scans.push_back({file, number, std::nullopt});
+  }
+  const bool are_all = scans.size() == files.size();
+  return are_all && sort_by(scans, [](const NamedScan& scan) { return *scan.number; })
+             ? scans
+             : std::vector<NamedScan>{};
+}
+
+/// As their names tell. A number behind a point is one, and no part of a second, where all names have the
+/// same before it and that is too short for a time.
+std::vector<NamedScan> order_scans(const std::vector<fs::path>& files) {
+  const bool has_time = digits_before_point(files.front().stem().string()).size() >= kEpochDigits;
+  if (auto scans = has_time ? std::vector<NamedScan>{} : scans_by_number(files); !scans.empty()) return scans;
+  if (auto scans = scans_by_time(files); !scans.empty()) return scans;
+  std::vector<NamedScan> scans;
+  for (const fs::path& file : files) scans.push_back({file, std::nullopt, std::nullopt});
   return scans;
 }
 
@@ -87,9 +154,9 @@ std::optional<fs::path> first_file(const std::vector<fs::path>& candidates) {
 
 /// The value of scan k of `scans`.
 template <class Value>
-const Value& value_of(const ScanList<Value>& list, const std::vector<NumberedScan>& scans, std::size_t k) {
+const Value& value_of(const ScanList<Value>& list, const std::vector<NamedScan>& scans, std::size_t k) {
   if (list.values.size() == scans.size()) return list.values[k];
-  if (scans[k].number < list.values.size()) return list.values[scans[k].number];
+  if (scans[k].number && *scans[k].number < list.values.size()) return list.values[*scans[k].number];
   throw InputError(list.file.string(), 0,
                    "has " + std::to_string(list.values.size()) + " lines for " +
                        std::to_string(scans.size()) + " scans, and none for " +
@@ -150,21 +217,26 @@ std::optional<fs::path> find_poses(const std::vector<fs::path>& folders) {
   return first_file(candidates);
 }
 
-std::vector<KittiScan> stamp_scans(const std::vector<NumberedScan>& numbered,
+/// When scan k was made, as times.txt, its name or its number tells.
+Stamp stamp_of_scan(const std::vector<NamedScan>& scans, const std::optional<ScanList<Stamp>>& times,
+                    std::size_t k) {
+  if (times) return value_of(*times, scans, k);
+  if (scans[k].time) return *scans[k].time;
+  return Stamp::from_seconds(static_cast<double>(scans[k].number.value_or(k)) / kKittiFrequency_hz);
+}
+
+std::vector<KittiScan> stamp_scans(const std::vector<NamedScan>& named,
                                    const std::optional<ScanList<Stamp>>& times) {
   std::vector<KittiScan> scans;
-  for (std::size_t k = 0; k < numbered.size(); ++k)
-    scans.push_back({numbered[k].file, times ? value_of(*times, numbered, k)
-                                             : Stamp::from_seconds(static_cast<double>(numbered[k].number) /
-                                                                   kKittiFrequency_hz)});
+  for (std::size_t k = 0; k < named.size(); ++k)
+    scans.push_back({named[k].file, stamp_of_scan(named, times, k)});
   return scans;
 }
 
-Trajectory<SE3> truth_of(const ScanList<SE3>& poses, const std::vector<NumberedScan>& numbered,
+Trajectory<SE3> truth_of(const ScanList<SE3>& poses, const std::vector<NamedScan>& named,
                          const std::vector<KittiScan>& scans) {
   std::vector<StampedPose<SE3>> truth;
-  for (std::size_t k = 0; k < scans.size(); ++k)
-    truth.push_back({scans[k].stamp, value_of(poses, numbered, k)});
+  for (std::size_t k = 0; k < scans.size(); ++k) truth.push_back({scans[k].stamp, value_of(poses, named, k)});
   return Trajectory<SE3>(std::move(truth));
 }
 
@@ -173,21 +245,23 @@ Trajectory<SE3> truth_of(const ScanList<SE3>& poses, const std::vector<NumberedS
 KittiDrive read_kitti_drive(const fs::path& source, const std::string& robot, const fs::path& poses) {
   const fs::path folder = folder_of_scans(source.has_filename() ? source : source.parent_path());
   const std::vector<fs::path> folders = list_folders(folder);
-  const std::vector<NumberedScan> numbered = number_scans(bin_files(folder));
-  for (const NumberedScan& scan : numbered) check_bin_size(scan.file, fs::file_size(scan.file));
+  const std::vector<NamedScan> named = order_scans(bin_files(folder));
+  for (const NamedScan& scan : named) check_bin_size(scan.file, fs::file_size(scan.file));
   std::optional<ScanList<Stamp>> times;
   for (const fs::path& place : folders)
     if (!times && fs::exists(place / "times.txt")) times = read_times(place / "times.txt");
   KittiDrive drive;
-  drive.scans = stamp_scans(numbered, times);
+  drive.scans = stamp_scans(named, times);
   drive.imported.mission.dimension = 3;
   drive.imported.mission.robots.emplace_back().id = robot;
   if (!times)
-    drive.imported.warnings.emplace_back("there is no times.txt; the scans are taken to be at 10 Hz");
+    drive.imported.warnings.emplace_back(named.front().time
+                                             ? "there is no times.txt; the scans' names are taken as times"
+                                             : "there is no times.txt; the scans are taken to be at 10 Hz");
   const auto truth_file = poses.empty() ? find_poses(folders) : poses;
   if (!truth_file) return drive;
   const auto T_camera_lidar = read_calibration(folders.front() / "calib.txt");
-  const auto truth = truth_of(read_poses(*truth_file, T_camera_lidar), numbered, drive.scans);
+  const auto truth = truth_of(read_poses(*truth_file, T_camera_lidar), named, drive.scans);
   drive.imported.truth.robots.push_back({robot, truth, true});
   drive.imported.warnings.push_back("the truth is " + truth_file->string() + ", of the " +
                                     (T_camera_lidar ? "camera" : "LiDAR"));

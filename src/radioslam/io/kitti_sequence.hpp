@@ -2,13 +2,15 @@
 // in space, whose body is its LiDAR:
 //
 //   SOURCE/velodyne/000000.bin    float32 x y z intensity; or SOURCE/bin/, or in SOURCE itself
-//   SOURCE/times.txt              seconds, a line per scan; 10 Hz without it
+//   SOURCE/times.txt              seconds, a line per scan; without it as names tell, or 10 Hz
 //   SOURCE/calib.txt              where a line Tr, Tr_velo_cam or Tr_velo_to_cam is T_camera_lidar
 //   SOURCE/../../poses/NAME.txt   of the camera where calib.txt tells where that is, otherwise of the LiDAR;
 //                                 or SOURCE/poses_kitti.txt or SOURCE/poses.txt
 //
-// A scan's number is what its name ends with. Lines of times and poses are the scans' in turn where there are
-// as many; otherwise line k is that of scan number k, from 0 on.
+// A scan's number is what its name ends with, where all names have the same before it; otherwise a name may
+// end with a time (seconds with a point, 16 digits of microseconds or 17 to 19 of nanoseconds), which counts
+// where there is no times.txt; else scans are in the order of their names. Lines of times and poses are the
+// scans' in turn where there are as many; otherwise line k is that of scan number k, from 0 on.
 #pragma once
 
 #include <filesystem>

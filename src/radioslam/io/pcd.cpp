@@ -8,7 +8,7 @@
 #include "radioslam/io/lzf.hpp"
 #include "radioslam/io/numbers.hpp"
 #include "radioslam/io/pcd_header.hpp"
-#include "radioslam/io/point_table.hpp"
+#include "radioslam/io/point_times.hpp"
 
 namespace radioslam {
 namespace {
@@ -38,7 +38,7 @@ PointTable table_of_columns(const PcdHeader& header, std::string_view bytes) {
 
 LidarScan checked_points_of(const TextLines& at, const PointTable& table, Stamp stamp) {
   if (const auto refusal = refusal_of(table)) at.fail(*refusal);
-  return points_of(table, stamp);
+  return {points_of(table), times_of(table, stamp).since_stamp_s};
 }
 
 /// A number, or one of those that are none.

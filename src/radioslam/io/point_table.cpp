@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "radioslam/base/check.hpp"
 
@@ -10,21 +9,10 @@ namespace radioslam {
 namespace {
 
 constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
-constexpr double kLargestOffset_s = 1e6;       ///< a scan that took longer is none: its times are absolute
-constexpr double kSmallestNanoseconds = 1e12;  ///< as seconds, it would be 30,000 years after the epoch
-constexpr std::int64_t kLargestOffset_ns = 1'000'000'000'000'000;
-
-bool is_floating(NumberType type) { return type == NumberType::kFloat32 || type == NumberType::kFloat64; }
 
 const PointColumn* find_column(const PointTable& table, std::string_view name) {
   const auto found = std::find_if(table.columns.begin(), table.columns.end(),
                                   [&](const PointColumn& column) { return column.name == name; });
-  return found == table.columns.end() ? nullptr : &*found;
-}
-
-const PointColumn* find_time_column(const PointTable& table) {
-  const auto found = std::find_if(table.columns.begin(), table.columns.end(),
-                                  [](const PointColumn& column) { return is_time_name(column.name); });
   return found == table.columns.end() ? nullptr : &*found;
 }
 
@@ -34,53 +22,6 @@ bool is_inside(const PointTable& table, const PointColumn& column) {
   if (table.bytes.size() < size || column.offset > table.bytes.size() - size) return false;
   if (column.stride == 0) return table.rows == 1;
   return table.rows - 1 <= (table.bytes.size() - size - column.offset) / column.stride;
-}
-
-double floating_at(const ByteView& view, NumberType type, std::size_t at) {
-  return type == NumberType::kFloat32 ? static_cast<double>(view.f32(at)) : view.f64(at);
-}
-
-std::int64_t integer_at(const ByteView& view, NumberType type, std::size_t at) {
-  switch (type) {
-    case NumberType::kInt8:
-      return view.i8(at);
-    case NumberType::kUint8:
-      return view.u8(at);
-    case NumberType::kInt16:
-      return view.i16(at);
-    case NumberType::kUint16:
-      return view.u16(at);
-    case NumberType::kInt32:
-      return view.i32(at);
-    case NumberType::kUint32:
-      return view.u32(at);
-    default:
-      return view.i64(at);
-  }
-}
-
-/// a - b, which may not fit, in seconds.
-double seconds_less(std::int64_t a_ns, std::int64_t b_ns) {
-  std::int64_t difference = 0;
-  if (!__builtin_sub_overflow(a_ns, b_ns, &difference)) return static_cast<double>(difference) * 1e-9;
-  return (static_cast<double>(a_ns) - static_cast<double>(b_ns)) * 1e-9;
-}
-
-double offset_of_integer_s(std::int64_t time_ns, Stamp stamp) {
-  return seconds_less(time_ns, time_ns > kLargestOffset_ns ? stamp.ns : 0);
-}
-
-double offset_of_floating_s(double time, Stamp stamp) {
-  if (!(time > kLargestOffset_s)) return time;
-  if (time < kSmallestNanoseconds) return time - stamp.seconds();
-  return (time - static_cast<double>(stamp.ns)) * 1e-9;
-}
-
-float time_at(const ByteView& view, const PointColumn& column, std::size_t row, Stamp stamp) {
-  const std::size_t at = column.offset + row * column.stride;
-  return static_cast<float>(is_floating(column.type)
-                                ? offset_of_floating_s(floating_at(view, column.type, at), stamp)
-                                : offset_of_integer_s(integer_at(view, column.type, at), stamp));
 }
 
 }  // namespace
@@ -119,22 +60,50 @@ std::optional<std::string> refusal_of(const PointTable& table) {
   return std::nullopt;
 }
 
-LidarScan points_of(const PointTable& table, Stamp stamp) {
-  RADIOSLAM_CHECK(!refusal_of(table), "only a table that was checked has points");
+bool is_floating(NumberType type) { return type == NumberType::kFloat32 || type == NumberType::kFloat64; }
+
+double floating_at(const PointTable& table, const PointColumn& column, std::size_t row) {
   const ByteView view(table.bytes, table.order);
-  LidarScan scan;
-  scan.points.resize(table.rows);
+  const std::size_t at = column.offset + row * column.stride;
+  return column.type == NumberType::kFloat32 ? static_cast<double>(view.f32(at)) : view.f64(at);
+}
+
+std::int64_t whole_at(const PointTable& table, const PointColumn& column, std::size_t row) {
+  const ByteView view(table.bytes, table.order);
+  const std::size_t at = column.offset + row * column.stride;
+  switch (column.type) {
+    case NumberType::kInt8:
+      return view.i8(at);
+    case NumberType::kUint8:
+      return view.u8(at);
+    case NumberType::kInt16:
+      return view.i16(at);
+    case NumberType::kUint16:
+      return view.u16(at);
+    case NumberType::kInt32:
+      return view.i32(at);
+    case NumberType::kUint32:
+      return view.u32(at);
+    default:
+      return view.i64(at);
+  }
+}
+
+const PointColumn* find_time_column(const PointTable& table) {
+  const auto found = std::find_if(table.columns.begin(), table.columns.end(),
+                                  [](const PointColumn& column) { return is_time_name(column.name); });
+  return found == table.columns.end() ? nullptr : &*found;
+}
+
+std::vector<Eigen::Vector3f> points_of(const PointTable& table) {
+  RADIOSLAM_CHECK(!refusal_of(table), "only a table that was checked has points");
+  std::vector<Eigen::Vector3f> points(table.rows);
   for (int axis = 0; axis < 3; ++axis) {
     const PointColumn& column = *find_column(table, kAxes[static_cast<std::size_t>(axis)]);
     for (std::size_t row = 0; row < table.rows; ++row)
-      scan.points[row](axis) =
-          static_cast<float>(floating_at(view, column.type, column.offset + row * column.stride));
+      points[row](axis) = static_cast<float>(floating_at(table, column, row));
   }
-  if (const PointColumn* time = find_time_column(table)) {
-    scan.times_s.resize(table.rows);
-    for (std::size_t row = 0; row < table.rows; ++row) scan.times_s[row] = time_at(view, *time, row, stamp);
-  }
-  return scan;
+  return points;
 }
 
 }  // namespace radioslam

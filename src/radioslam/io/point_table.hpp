@@ -1,14 +1,16 @@
-// Points as a table of numbers with named columns, as PCD files and PointCloud2 messages hold them.
+// Points as a table of numbers with named columns, as PCD files and PointCloud2 messages hold them; what the
+// times of points mean stands in point_times.hpp.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "radioslam/io/byte_view.hpp"
-#include "radioslam/mission/lidar.hpp"
 
 namespace radioslam {
 
@@ -49,10 +51,16 @@ bool is_time_name(std::string_view name);
 /// reaches beyond the bytes. Nothing for a table that points_of takes.
 std::optional<std::string> refusal_of(const PointTable& table);
 
-/// The columns x, y and z; and, of the first column named t, time, timestamp, offset_time or time_offset,
-/// the points' times: whole numbers are nanoseconds, others seconds. Beyond 1e6 s a time is not since the
-/// scan's `stamp` but an absolute one, and then a floating-point number may be in nanoseconds as well (told
-/// by 1e12 and more). What is not finite stays so.
-LidarScan points_of(const PointTable& table, Stamp stamp);
+/// Of a table that was checked, the columns x, y and z; what is not finite stays so.
+std::vector<Eigen::Vector3f> points_of(const PointTable& table);
+
+/// The first column that is_time_name; nothing (null) where there is none.
+const PointColumn* find_time_column(const PointTable& table);
+
+bool is_floating(NumberType type);
+/// The number of a column that is_floating.
+double floating_at(const PointTable& table, const PointColumn& column, std::size_t row);
+/// The number of one that is not; of 64 bits without a sign as if it had one.
+std::int64_t whole_at(const PointTable& table, const PointColumn& column, std::size_t row);
 
 }  // namespace radioslam

@@ -2,6 +2,7 @@
 
 #include <sqlite3.h>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <set>
@@ -17,8 +18,13 @@ constexpr std::string_view kZstdMagic = "\x28\xb5\x2f\xfd";
 using Database = std::unique_ptr<sqlite3, int (*)(sqlite3*)>;
 using Statement = std::unique_ptr<sqlite3_stmt, int (*)(sqlite3_stmt*)>;
 
+/// In one line, whatever SQLite says.
 [[noreturn]] void fail_with_database(const std::string& name, sqlite3* database) {
-  throw InputError(name, 0, std::string("cannot be read as a rosbag2 database: ") + sqlite3_errmsg(database));
+  std::string reason = sqlite3_errmsg(database);
+  std::replace(reason.begin(), reason.end(), '\n', ' ');
+  const auto both_blank = [](char a, char b) { return a == ' ' && b == ' '; };
+  reason.erase(std::unique(reason.begin(), reason.end(), both_blank), reason.end());
+  throw InputError(name, 0, "cannot be read as a rosbag2 database: " + reason);
 }
 
 /// A file name in a URI.

@@ -1,20 +1,28 @@
 #include "radioslam/io/ros_import.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
 #include "radioslam/base/input_error.hpp"
 #include "radioslam/geometry/so3.hpp"
+#include "radioslam/io/moving_transforms.hpp"
 #include "radioslam/io/ros_recording.hpp"
-#include "radioslam/io/ros_types.hpp"
+#include "radioslam/io/ros_scans.hpp"
 
 namespace radioslam {
 namespace {
 
 constexpr double kPlaneHeight_m = 0.1, kPlaneTilt = 0.05;  ///< the latter of the sine of half a tilt
+constexpr const char* kUsualBody = "base_link";
 constexpr double kNegligibleLever_m = 0.05;
+constexpr double kUnknownFixSigma_m = 10;
 constexpr double kLeastForce_mps2 = 5;  ///< a mean specific force below this is not in m/s^2
+
+constexpr const char* kTwice = "messages of a time that another has are left out";
+constexpr const char* kWithoutTime = "messages have no time of their own; the recording's is taken";
+constexpr const char* kWithoutPose = "poses are none (not finite, or without orientation) and left out";
 
 /// What is left out or replaced, by why.
 using RosCounts = std::map<std::string, std::size_t>;
@@ -25,7 +33,7 @@ std::string body_frame(const RosSurvey& survey, const RosTopicChoice& choice) {
   if (choice.odometry)
     if (const RosTopic* topic = survey.find(choice.odometry->topic); !topic->child.empty())
       return topic->child;
-  for (const char* usual : {"base_link", "base_footprint"})
+  for (const char* usual : {kUsualBody, "base_footprint"})
     if (survey.frames.knows(usual)) return usual;
   return "";
 }
@@ -37,9 +45,10 @@ SE3 place_of_sensor(const RosSurvey& survey, const std::string& body, const std:
   if (sensor == body) return {};
   if (!body.empty())
     if (const auto T_body_sensor = survey.frames.find(body, sensor)) return *T_body_sensor;
+  if (body.empty() && sensor == kUsualBody) return {};
   warnings.push_back(topic + ": " +
                      (body.empty() ? "nothing names the body's frame"
-                                   : "no static transform leads from " + body + " to " + sensor) +
+                                   : "no fixed transform leads from " + body + " to " + sensor) +
                      "; '" + sensor + "' is taken as the body's frame");
   return {};
 }
@@ -51,38 +60,64 @@ void put_in_order(std::vector<Item>& items, const std::string& topic, RosCounts&
                    [](const Item& a, const Item& b) { return a.stamp < b.stamp; });
   const auto end = std::unique(items.begin(), items.end(),
                                [](const Item& a, const Item& b) { return a.stamp == b.stamp; });
-  if (end != items.end())
-    counts[topic + ": messages of a time that another has are left out"] +=
-        static_cast<std::size_t>(items.end() - end);
+  if (end != items.end()) counts[topic + ": " + kTwice] += static_cast<std::size_t>(items.end() - end);
   items.erase(end, items.end());
 }
+
+struct GeodeticFix {
+  Stamp stamp;
+  GeodeticPlace place;
+  double sigma_m = 0;
+};
 
 /// Collects what the chosen topics say.
 class RosCollector {
  public:
   RosCollector(const RosSurvey& survey, RosTopicChoice choice, const RosScanSink& sink)
-      : frames_(survey.frames), choice_(std::move(choice)), sink_(sink) {
+      : frames_(survey.frames),
+        choice_(std::move(choice)),
+        sink_(sink),
+        scan_messages_([this](const RosMessage& message, RosScan scan) { take_scan(message, scan); }) {
     const std::string body = body_frame(survey, choice_);
     if (choice_.scans) T_body_laser_ = place_of_sensor(survey, body, *choice_.scans, warnings);
     if (choice_.imu) T_body_imu_ = place_of_sensor(survey, body, *choice_.imu, warnings);
+    if (choice_.gnss) fix_lever_m = place_of_sensor(survey, body, *choice_.gnss, warnings).translation();
     if (T_body_imu_.translation().norm() > kNegligibleLever_m)
       warnings.push_back(*choice_.imu + ": the unit's place in the body is not accounted for");
   }
+  RosCollector(const RosCollector&) = delete;
+  RosCollector& operator=(const RosCollector&) = delete;
 
   bool reads(const RosChannel& channel) const {
     return is_topic(choice_.odometry, channel) || is_topic(choice_.truth, channel) ||
-           channel.topic == choice_.scans || channel.topic == choice_.imu;
+           channel.topic == choice_.scans || channel.topic == choice_.imu || channel.topic == choice_.gnss;
   }
 
   void take(const RosMessage& message) {
-    if (is_topic(choice_.odometry, message.channel)) take_poses(message, *choice_.odometry, odometry);
-    if (is_topic(choice_.truth, message.channel)) take_poses(message, *choice_.truth, truth);
-    if (message.channel.topic == choice_.scans) take_scan(message);
+    if (reads(message.channel) && is_transforms_type(message.channel.type))
+      return transforms_[message.channel.topic].take(message);
+    if (is_topic(choice_.odometry, message.channel)) take_pose(message, odometry);
+    if (is_topic(choice_.truth, message.channel)) take_pose(message, truth);
+    if (message.channel.topic == choice_.scans) scan_messages_.take(message);
     if (message.channel.topic == choice_.imu) take_inertial(message);
+    if (message.channel.topic == choice_.gnss) take_fix(message);
+  }
+
+  /// Behind the last message: everything in the order of time.
+  void finish() {
+    scan_messages_.finish();
+    const auto notes = scan_messages_.notes();
+    warnings.insert(warnings.end(), notes.begin(), notes.end());
+    if (choice_.odometry) finish_poses(*choice_.odometry, odometry);
+    if (choice_.truth) finish_poses(*choice_.truth, truth);
+    if (choice_.gnss) put_in_order(fixes, *choice_.gnss, counts);
+    if (choice_.imu) put_in_order(inertial, *choice_.imu, counts);
   }
 
   std::vector<StampedPose<SE3>> odometry, truth;
   std::vector<InertialSample> inertial;
+  std::vector<GeodeticFix> fixes;
+  Eigen::Vector3d fix_lever_m = Eigen::Vector3d::Zero();
   std::set<Stamp> scans;
   bool is_plane_scanner = false;
   double range_max_m = 0;  ///< of the plane's scanner; 0 where not told
@@ -94,36 +129,39 @@ class RosCollector {
     return chosen && chosen->topic == channel.topic;
   }
 
-  Stamp time_of(const RosMessage& message, const RosHeader& header) {
-    if (header.stamp != Stamp{}) return header.stamp;
-    ++counts[message.channel.topic + ": messages have no time of their own; the recording's is taken"];
-    return message.stamp;
+  void count(const std::string& topic, const char* what, std::size_t number) {
+    if (number > 0) counts[topic + ": " + what] += number;
   }
 
-  void take_poses(const RosMessage& message, const RosPoseTopic& topic,
-                  std::vector<StampedPose<SE3>>& poses) {
-    if (!is_transforms_type(message.channel.type)) return take_pose(message, read_ros_pose(message), poses);
-    for (RosPose& transform : read_ros_transforms(message)) {
-      const auto T_before = frames_.find(topic.frame, transform.header.frame);
-      const auto T_behind = frames_.find(transform.child, topic.child);
-      if (!T_before || !T_behind) continue;
-      if (transform.pose) transform.pose = *T_before * *transform.pose * *T_behind;
-      take_pose(message, transform, poses);
-    }
+  Stamp counted_time_of(const RosMessage& message, const RosHeader& header) {
+    if (header.stamp == Stamp{}) count(message.channel.topic, kWithoutTime, 1);
+    return time_of(message, header);
   }
 
-  void take_pose(const RosMessage& message, const RosPose& pose, std::vector<StampedPose<SE3>>& poses) {
+  void take_pose(const RosMessage& message, std::vector<StampedPose<SE3>>& poses) {
+    const RosPose pose = read_ros_pose(message);
     if (pose.pose)
-      poses.push_back({time_of(message, pose.header), *pose.pose});
+      poses.push_back({counted_time_of(message, pose.header), *pose.pose});
     else
-      ++counts[message.channel.topic + ": poses are none (not finite, or without orientation) and left out"];
+      count(message.channel.topic, kWithoutPose, 1);
   }
 
-  void take_scan(const RosMessage& message) {
-    RosScan scan = read_ros_scan(message);
-    const Stamp stamp = time_of(message, scan.header);
+  void finish_poses(const RosPoseTopic& topic, std::vector<StampedPose<SE3>>& poses) {
+    if (const auto transforms = transforms_.find(topic.topic); transforms != transforms_.end()) {
+      TransformedPoses found = transforms->second.find(frames_, topic.frame, topic.child);
+      count(topic.topic, kWithoutTime, found.without_time);
+      count(topic.topic, kWithoutPose, found.without_pose);
+      count(topic.topic, "poses are left out, for another transform between the frames is not known then",
+            found.alone);
+      poses = std::move(found.poses);
+    }
+    put_in_order(poses, topic.topic, counts);
+  }
+
+  void take_scan(const RosMessage& message, RosScan& scan) {
+    const Stamp stamp = counted_time_of(message, scan.header);
     if (!scans.insert(stamp).second) {
-      ++counts[message.channel.topic + ": messages of a time that another has are left out"];
+      count(message.channel.topic, kTwice, 1);
       return;
     }
     is_plane_scanner = message.channel.type == kLaserScanType;
@@ -137,19 +175,32 @@ class RosCollector {
     sink_(stamp, scan.scan);
   }
 
+  void take_fix(const RosMessage& message) {
+    const RosFix fix = read_ros_fix(message);
+    if (!fix.place) return count(message.channel.topic, "readings have no fix and are left out", 1);
+    if (!fix.sigma_m) count(message.channel.topic, "fixes tell no sigma; 10 m are taken", 1);
+    fixes.push_back(
+        {counted_time_of(message, fix.header), *fix.place, fix.sigma_m.value_or(kUnknownFixSigma_m)});
+  }
+
   void take_inertial(const RosMessage& message) {
     const RosInertial reading = read_ros_inertial(message);
     const Eigen::Quaterniond& R_body_imu = T_body_imu_.rotation();
-    if (reading.specific_force_mps2.allFinite() && reading.angular_rate_radps.allFinite())
-      inertial.push_back({time_of(message, reading.header), R_body_imu * reading.specific_force_mps2,
+    if (!reading.is_whole)
+      count(message.channel.topic, "readings lack rates or forces, as they say themselves, and are left out",
+            1);
+    else if (reading.specific_force_mps2.allFinite() && reading.angular_rate_radps.allFinite())
+      inertial.push_back({counted_time_of(message, reading.header), R_body_imu * reading.specific_force_mps2,
                           R_body_imu * reading.angular_rate_radps});
     else
-      ++counts[message.channel.topic + ": readings that are not finite are left out"];
+      count(message.channel.topic, "readings that are not finite are left out", 1);
   }
 
   const FrameTree& frames_;
   RosTopicChoice choice_;
   const RosScanSink& sink_;
+  RosScans scan_messages_;
+  std::map<std::string, MovingTransforms> transforms_;  ///< by topic
   SE3 T_body_laser_, T_body_imu_;
 };
 
@@ -170,11 +221,37 @@ bool is_plane(const Trajectory<SE3>& poses) {
   });
 }
 
+std::vector<PositionFix> local_fixes(const std::vector<GeodeticFix>& fixes, const GeodeticPlace& origin) {
+  std::vector<PositionFix> local;
+  for (const GeodeticFix& fix : fixes) {
+    GeodeticPlace place = fix.place;
+    if (!std::isfinite(place.height_m)) place.height_m = origin.height_m;
+    local.push_back({fix.stamp, east_north_up_m(origin, place), fix.sigma_m});
+  }
+  return local;
+}
+
+/// The origin asked for, or the first fix; at height 0 where it tells none.
+std::optional<GeodeticPlace> origin_of_fixes(const std::vector<GeodeticFix>& fixes,
+                                             const std::optional<GeodeticPlace>& asked_for) {
+  if (asked_for || fixes.empty()) return asked_for;
+  GeodeticPlace origin = fixes.front().place;
+  if (!std::isfinite(origin.height_m)) origin.height_m = 0;
+  return origin;
+}
+
 /// Are the forces in units of the earth's gravity?
 bool is_in_g(const std::vector<InertialSample>& samples) {
   double sum_mps2 = 0;
   for (const InertialSample& sample : samples) sum_mps2 += sample.specific_force_mps2.norm();
   return !samples.empty() && sum_mps2 < kLeastForce_mps2 * static_cast<double>(samples.size());
+}
+
+std::string without_poses(const RosPoseTopic& topic) {
+  return topic.topic + " has no pose to import" +
+         (topic.frame.empty()
+              ? ""
+              : ": no transforms lead from " + topic.frame + " to " + topic.child + " at one time");
 }
 
 RosImport mission_of(RosCollector& collected, const std::string& robot, bool has_scans) {
@@ -210,20 +287,28 @@ void add_warnings(const RosCollector& collected, const RosSurvey& survey, const 
 }  // namespace
 
 RosImport import_ros_recording(const std::filesystem::path& source, const std::string& robot,
-                               const RosTopicWishes& wishes, const RosScanSink& sink) {
+                               const RosTopicWishes& wishes, const RosScanSink& sink,
+                               const std::optional<GeodeticPlace>& fix_origin) {
   const RosSurvey survey = survey_recording(source);
   const RosTopicChoice choice = choose_topics(source.string(), survey, wishes);
   RosCollector collected(survey, choice, sink);
   visit_recording(source, {[&](const RosChannel& channel) { return collected.reads(channel); },
                            [&](const RosMessage& message) { collected.take(message); }});
-  if (choice.odometry) put_in_order(collected.odometry, choice.odometry->topic, collected.counts);
-  if (choice.truth) put_in_order(collected.truth, choice.truth->topic, collected.counts);
-  if (choice.imu) put_in_order(collected.inertial, *choice.imu, collected.counts);
+  collected.finish();
   if (choice.odometry && collected.odometry.empty() && collected.scans.empty())
-    throw InputError(source.string(), 0, choice.odometry->topic + " has no pose to import");
+    throw InputError(source.string(), 0, without_poses(*choice.odometry));
+  if (choice.odometry && collected.odometry.empty())
+    collected.warnings.push_back(without_poses(*choice.odometry));
+  if (choice.truth && collected.truth.empty()) collected.warnings.push_back(without_poses(*choice.truth));
   if (is_in_g(collected.inertial))
     collected.warnings.push_back(*choice.imu + ": forces are far below 9.81 m/s2; are they in g?");
   RosImport result = mission_of(collected, robot, choice.scans.has_value());
+  result.fix_origin = origin_of_fixes(collected.fixes, fix_origin);
+  if (!collected.fixes.empty()) {
+    Robot& recorded = result.imported.mission.robots.front();
+    recorded.fixes = local_fixes(collected.fixes, *result.fix_origin);
+    recorded.fix_lever_m = collected.fix_lever_m;
+  }
   add_warnings(collected, survey, choice, result.imported.warnings);
   return result;
 }

@@ -16,6 +16,10 @@ ByteOrder order_of(const RosMessage& message) {
 
 }  // namespace
 
+Stamp time_of(const RosMessage& message, const RosHeader& header) {
+  return header.stamp != Stamp{} ? header.stamp : message.stamp;
+}
+
 RosMessageReader::RosMessageReader(const RosMessage& message)
     : is_cdr_(is_cdr(message)),
       order_(order_of(message)),

@@ -19,6 +19,9 @@ struct RosHeader {
   std::string frame;  ///< without a slash at its begin
 };
 
+/// The header's time; the recording's where it has none.
+Stamp time_of(const RosMessage& message, const RosHeader& header);
+
 /// Every value is refused (InputError, with topic and byte) where the message ends before it.
 class RosMessageReader {
  public:
@@ -27,9 +30,11 @@ class RosMessageReader {
 
   bool boolean() { return cursor_.u8() != 0; }
   std::uint8_t u8() { return cursor_.u8(); }
+  std::uint16_t u16() { return align(2), cursor_.u16(); }
   std::int32_t i32() { return align(4), cursor_.i32(); }
   std::uint32_t u32() { return align(4), cursor_.u32(); }
   float f32() { return align(4), cursor_.f32(); }
+  std::uint64_t u64() { return align(8), cursor_.u64(); }
   double f64() { return align(8), cursor_.f64(); }
   std::string text();
   std::string frame();

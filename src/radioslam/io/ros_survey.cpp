@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "radioslam/io/fixed_transforms.hpp"
 #include "radioslam/io/ros_recording.hpp"
 #include "radioslam/io/ros_types.hpp"
 
@@ -11,17 +12,9 @@ namespace {
 
 using TopicsByName = std::map<std::string, RosTopic>;
 
-bool is_static_transforms(const RosChannel& channel) {
-  return is_transforms_type(channel.type) && channel.topic.ends_with("tf_static");
-}
-
 bool has_a_frame(const RosChannel& channel) {
-  return channel.type == kOdometryType || channel.type == kInertialType || is_scan_type(channel.type);
-}
-
-void add_static_transforms(const RosMessage& message, FrameTree& frames) {
-  for (const RosPose& transform : read_ros_transforms(message))
-    if (transform.pose) frames.add(transform.header.frame, transform.child, *transform.pose);
+  return channel.type == kOdometryType || channel.type == kInertialType || channel.type == kFixType ||
+         is_scan_type(channel.type);
 }
 
 /// The frames that a topic's first message names.
@@ -41,19 +34,21 @@ const RosTopic* RosSurvey::find(const std::string& name) const {
 
 RosSurvey survey_recording(const std::filesystem::path& source) {
   RosSurvey survey;
+  FixedTransforms fixed;
   TopicsByName topics;
   RosVisitor visitor;
   visitor.reads = [&](const RosChannel& channel) {
-    return is_static_transforms(channel) || (has_a_frame(channel) && !topics.contains(channel.topic));
+    return is_transforms_type(channel.type) || (has_a_frame(channel) && !topics.contains(channel.topic));
   };
   visitor.take = [&](const RosMessage& message) {
     const auto [topic, is_new] =
         topics.try_emplace(message.channel.topic, RosTopic{message.channel.topic, message.channel.type});
     ++topic->second.messages;
-    if (is_static_transforms(message.channel)) add_static_transforms(message, survey.frames);
+    if (is_transforms_type(message.channel.type)) fixed.take(message);
     if (is_new && has_a_frame(message.channel)) note_frames(message, topic->second);
   };
   survey.warnings = visit_recording(source, visitor);
+  survey.frames = fixed.tree();
   for (const auto& named : topics) survey.topics.push_back(named.second);
   return survey;
 }

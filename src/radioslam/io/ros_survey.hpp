@@ -1,4 +1,4 @@
-// What a ROS recording holds: its topics, their frames and the static transforms, before anything is
+// What a ROS recording holds: its topics, their frames and the fixed transforms, before anything is
 // imported.
 #pragma once
 
@@ -21,7 +21,7 @@ struct RosTopic {
 
 struct RosSurvey {
   std::vector<RosTopic> topics;  ///< that have messages, by name
-  FrameTree frames;              ///< of the topics called tf_static
+  FrameTree frames;              ///< that never move (fixed_transforms.hpp)
   std::vector<std::string> warnings;
 
   /// Nothing (null) where there is no such topic.

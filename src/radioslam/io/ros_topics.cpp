@@ -11,6 +11,7 @@ constexpr const char* kNoTopic = "none";
 using IsOfKind = bool (*)(std::string_view type);
 
 bool is_odometry_type(std::string_view type) { return type == kOdometryType; }
+bool is_fix_type(std::string_view type) { return type == kFixType; }
 bool is_inertial_type(std::string_view type) { return type == kInertialType; }
 
 /// One kind of topics, and the option that names one of them.
@@ -96,6 +97,7 @@ RosTopicChoice choose_topics(const std::string& source, const RosSurvey& survey,
   choice.scans = chooser.choose({"--scans", "laser scans", is_scan_type, is_scan_type}, wishes.scans, "");
   choice.imu =
       chooser.choose({"--imu", "inertial readings", is_inertial_type, is_inertial_type}, wishes.imu, "");
+  choice.gnss = chooser.choose({"--gnss", "position fixes", is_fix_type, is_fix_type}, wishes.gnss, "");
   if (!choice.odometry && !choice.scans)
     chooser.fail_with_topics(
         "there is neither odometry nor a laser scan to import; --odometry takes a topic of poses, or "

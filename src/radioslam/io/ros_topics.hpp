@@ -9,10 +9,10 @@
 namespace radioslam {
 
 /// As a user asks for them: a topic; a topic of transforms with the two frames, "/tf:odom.base_link"; "none";
-/// or empty, where the only one of its kind is taken (of odometry, scans and inertial readings) or none (of
-/// the truth: a pose may as well be a goal or somebody's estimate).
+/// or empty, where the only one of its kind is taken (of odometry, scans, inertial readings and position
+/// fixes) or none (of the truth: a pose may as well be a goal or somebody's estimate).
 struct RosTopicWishes {
-  std::string odometry, scans, imu, truth;
+  std::string odometry = {}, scans = {}, imu = {}, truth = {}, gnss = {};
 };
 
 /// Where poses are taken from.
@@ -23,7 +23,7 @@ struct RosPoseTopic {
 
 struct RosTopicChoice {
   std::optional<RosPoseTopic> odometry, truth;
-  std::optional<std::string> scans, imu;
+  std::optional<std::string> scans, imu, gnss;
 };
 
 /// Refuses (InputError on `source`, with the topics there are) a topic that is not there or is of another

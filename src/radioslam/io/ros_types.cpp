@@ -2,10 +2,12 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
 
 #include "radioslam/io/fields_of_line.hpp"
 #include "radioslam/io/numbers.hpp"
-#include "radioslam/io/point_table.hpp"
 
 namespace radioslam {
 namespace {
@@ -13,11 +15,22 @@ namespace {
 constexpr std::size_t kLeastTransformBytes = 68;
 constexpr std::size_t kLeastPointFieldBytes = 13;
 constexpr int kCovarianceNumbers = 9;
+constexpr double kLargestHeight_m = 1e6;
+constexpr std::size_t kLivoxPointBytes = 19;
+constexpr int kLivoxIdBytes = 4;  ///< the scanner's, and three of no meaning
+constexpr int kLivoxMarks = 3;    ///< reflectivity, tag and line, a byte each
 
 Eigen::Vector3d read_ros_vector(RosMessageReader& reader) {
   const double x = reader.f64();
   const double y = reader.f64();
   return {x, y, reader.f64()};
+}
+
+/// False where it says that nothing was measured.
+bool skip_covariance(RosMessageReader& reader) {
+  const double first = reader.f64();
+  for (int k = 1; k < kCovarianceNumbers; ++k) reader.f64();
+  return first != -1;
 }
 
 /// Position, then x y z w of the orientation, as geometry_msgs/Pose and Transform have them.
@@ -71,26 +84,74 @@ std::string without_padding(std::string_view data, std::size_t height, std::size
   return rows;
 }
 
-RosScan read_point_cloud(RosMessageReader& reader) {
-  RosScan scan{reader.header(), {}};
-  const std::size_t height = reader.u32();
-  const std::size_t width = reader.u32();
-  PointTable table{{}, ByteOrder::kLittle, 0, read_point_fields(reader)};
-  if (reader.boolean()) table.order = ByteOrder::kBig;
-  const std::size_t point_step = reader.u32();
-  const std::size_t row_step = reader.u32();
-  table.bytes = reader.take(reader.count(1));
-  if (width == 0 || height == 0) return scan;
-  const std::size_t row_bytes = width * point_step;  // of 32 bits each: it fits
-  const bool is_padded = height > 1 && row_step > row_bytes;
-  if (point_step == 0 || (is_padded ? row_step : row_bytes) > table.bytes.size() / height)
+/// A PointCloud2's points; moved, it still refers to what it holds.
+struct RosPointCloud {
+  RosHeader header;
+  std::unique_ptr<std::string> without_gaps;  ///< where rows lie apart
+  PointTable table;
+};
+
+/// Where the rows of an image of points are.
+struct CloudRows {
+  std::size_t height, width, point_step, row_step;
+};
+
+void fill_table(RosMessageReader& reader, const CloudRows& rows, RosPointCloud& cloud) {
+  PointTable& table = cloud.table;
+  const std::size_t row_bytes = rows.width * rows.point_step;  // of 32 bits each: it fits
+  const bool is_padded = rows.height > 1 && rows.row_step > row_bytes;
+  if (rows.point_step == 0 || (is_padded ? rows.row_step : row_bytes) > table.bytes.size() / rows.height)
     reader.fail("the cloud has fewer points than its height and width say");
-  std::string rows;
-  if (is_padded) table.bytes = rows = without_padding(table.bytes, height, row_bytes, row_step);
-  table.rows = width * height;
-  for (PointColumn& column : table.columns) column.stride = point_step;
+  if (is_padded) {
+    cloud.without_gaps =
+        std::make_unique<std::string>(without_padding(table.bytes, rows.height, row_bytes, rows.row_step));
+    table.bytes = *cloud.without_gaps;
+  }
+  table.rows = rows.width * rows.height;
+  for (PointColumn& column : table.columns) column.stride = rows.point_step;
   if (const auto refusal = refusal_of(table)) reader.fail(*refusal);
-  scan.scan = points_of(table, scan.header.stamp);
+}
+
+/// Without rows where its height or width is zero.
+RosPointCloud read_point_cloud(RosMessageReader& reader) {
+  RosPointCloud cloud{reader.header(), nullptr, {}};
+  CloudRows rows{};
+  rows.height = reader.u32();
+  rows.width = reader.u32();
+  cloud.table.columns = read_point_fields(reader);
+  if (reader.boolean()) cloud.table.order = ByteOrder::kBig;
+  rows.point_step = reader.u32();
+  rows.row_step = reader.u32();
+  cloud.table.bytes = reader.take(reader.count(1));
+  if (rows.width > 0 && rows.height > 0) fill_table(reader, rows, cloud);
+  return cloud;
+}
+
+RosScan read_cloud_scan(const RosMessage& message, std::optional<PointTimeUnit> unit) {
+  RosMessageReader reader(message);
+  const RosPointCloud cloud = read_point_cloud(reader);
+  RosScan scan{cloud.header, {}};
+  if (cloud.table.rows == 0) return scan;
+  scan.scan.points = points_of(cloud.table);
+  PointTimes times = times_of(cloud.table, time_of(message, cloud.header), unit);
+  scan.scan.times_s = std::move(times.since_stamp_s);
+  scan.clock = times.clock;
+  return scan;
+}
+
+/// Livox's CustomMsg: times are since a base, which is the header's stamp.
+RosScan read_livox_scan(RosMessageReader& reader) {
+  RosScan scan{reader.header(), {}};
+  reader.u64();  // the base
+  reader.u32();  // how many points
+  for (int k = 0; k < kLivoxIdBytes; ++k) reader.u8();
+  const std::size_t points = reader.count(kLivoxPointBytes);
+  for (std::size_t k = 0; k < points; ++k) {
+    scan.scan.times_s.push_back(static_cast<float>(reader.u32() * 1e-9));
+    Eigen::Vector3f& point = scan.scan.points.emplace_back();
+    for (float& coordinate : point) coordinate = reader.f32();
+    for (int byte = 0; byte < kLivoxMarks; ++byte) reader.u8();
+  }
   return scan;
 }
 
@@ -107,13 +168,14 @@ LaserScanFan read_fan(RosMessageReader& reader) {
   reader.f32();  // time between scans
   fan.least_m = static_cast<double>(reader.f32());
   fan.most_m = static_cast<double>(reader.f32());
+  if (!(fan.most_m > 0)) fan.most_m = std::numeric_limits<double>::infinity();  // not set
   return fan;
 }
 
 RosScan read_laser_scan(RosMessageReader& reader) {
   RosScan scan{reader.header(), {}};
   const LaserScanFan fan = read_fan(reader);
-  if (std::isfinite(fan.most_m) && fan.most_m > 0) scan.range_max_m = fan.most_m;
+  if (std::isfinite(fan.most_m)) scan.range_max_m = fan.most_m;
   const std::size_t readings = reader.count(sizeof(float));
   for (std::size_t k = 0; k < readings; ++k) {
     const auto range_m = static_cast<double>(reader.f32());
@@ -139,7 +201,8 @@ bool is_transforms_type(std::string_view type) {
 }
 
 bool is_scan_type(std::string_view type) {
-  return type == "sensor_msgs/PointCloud2" || type == kLaserScanType;
+  return type == kPointCloudType || type == kLaserScanType ||
+         (type.starts_with("livox") && type.ends_with("/CustomMsg"));
 }
 
 RosPose read_ros_pose(const RosMessage& message) {
@@ -160,9 +223,17 @@ std::vector<RosPose> read_ros_transforms(const RosMessage& message) {
   return transforms;
 }
 
-RosScan read_ros_scan(const RosMessage& message) {
+RosScan read_ros_scan(const RosMessage& message, std::optional<PointTimeUnit> unit) {
+  if (message.channel.type == kPointCloudType) return read_cloud_scan(message, unit);
   RosMessageReader reader(message);
-  return message.channel.type == kLaserScanType ? read_laser_scan(reader) : read_point_cloud(reader);
+  return message.channel.type == kLaserScanType ? read_laser_scan(reader) : read_livox_scan(reader);
+}
+
+std::optional<RawPointTimes> read_ros_point_times(const RosMessage& message) {
+  if (message.channel.type != kPointCloudType) return std::nullopt;
+  RosMessageReader reader(message);
+  const RosPointCloud cloud = read_point_cloud(reader);
+  return cloud.table.rows == 0 ? std::nullopt : raw_times_of(cloud.table);
 }
 
 RosInertial read_ros_inertial(const RosMessage& message) {
@@ -170,11 +241,35 @@ RosInertial read_ros_inertial(const RosMessage& message) {
   RosInertial inertial;
   inertial.header = reader.header();
   constexpr int kOrientationNumbers = 4;
-  for (int k = 0; k < kOrientationNumbers + kCovarianceNumbers; ++k) reader.f64();
+  for (int k = 0; k < kOrientationNumbers; ++k) reader.f64();
+  skip_covariance(reader);
   inertial.angular_rate_radps = read_ros_vector(reader);
-  for (int k = 0; k < kCovarianceNumbers; ++k) reader.f64();
+  const bool has_rate = skip_covariance(reader);
   inertial.specific_force_mps2 = read_ros_vector(reader);
+  inertial.is_whole = skip_covariance(reader) && has_rate;
   return inertial;
+}
+
+RosFix read_ros_fix(const RosMessage& message) {
+  RosMessageReader reader(message);
+  RosFix fix{reader.header(), std::nullopt, std::nullopt};
+  const bool has_fix = static_cast<std::int8_t>(reader.u8()) >= 0;
+  reader.u16();  // which satellites
+  const double latitude_deg = reader.f64();
+  const double longitude_deg = reader.f64();
+  const double height_m = reader.f64();
+  Eigen::Matrix3d covariance;
+  for (double& number : covariance.reshaped()) number = reader.f64();
+  const bool has_covariance = reader.u8() != 0;
+  const bool is_on_earth = std::abs(latitude_deg) <= 90 && std::abs(longitude_deg) <= 360 &&
+                           !(std::abs(height_m) > kLargestHeight_m);
+  constexpr double kRadians = std::numbers::pi / 180;
+  if (has_fix && is_on_earth)
+    fix.place = GeodeticPlace{latitude_deg * kRadians, longitude_deg * kRadians, height_m};
+  const int axes = std::isfinite(height_m) ? 3 : 2;
+  const double variance = covariance.diagonal().head(axes).maxCoeff();
+  if (has_covariance && variance > 0 && std::isfinite(variance)) fix.sigma_m = std::sqrt(variance);
+  return fix;
 }
 
 }  // namespace radioslam

@@ -76,8 +76,10 @@ ScanPoints usable_points(const LidarScan& scan, const SE3::Tangent& twist_per_s,
   for (std::size_t k = 0; k < scan.points.size(); ++k) {
     const Eigen::Vector3f& point = scan.points[k];
     const float squared = point.squaredNorm();
-    if (!point.allFinite() || (motion.is_timed() && !motion.covers(scan.times_s[k]))) {
+    if (!point.allFinite() || (motion.is_timed() && !std::isfinite(scan.times_s[k]))) {
       ++result.counts.not_finite;
+    } else if (motion.is_timed() && !motion.covers(scan.times_s[k])) {
+      ++result.counts.off_time;
     } else if (squared < near_squared) {
       ++result.counts.near;
     } else if (!(squared <= far_squared)) {

@@ -35,12 +35,14 @@ struct ScanPointParams {
 /// What became of the points of one scan, or of many.
 struct PointCounts {
   std::size_t used = 0;
-  std::size_t not_finite = 0;  ///< or of an impossible time
+  std::size_t not_finite = 0;  ///< or of a time that is not
   std::size_t near = 0, far = 0;
+  std::size_t off_time = 0;  ///< farther from the stamp than most_time_s
 
   void operator+=(const PointCounts& other) {
     used += other.used;
     not_finite += other.not_finite;
+    off_time += other.off_time;
     near += other.near;
     far += other.far;
   }

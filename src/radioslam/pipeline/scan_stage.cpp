@@ -194,6 +194,7 @@ void add_notes(MeasuredScans& measured, const Robot& robot, const ScanTrack& tra
        "times scans fitted nothing for long or were missing, and a new map was begun: how the robot moved "
        "there is not known");
   note(track.points.not_finite, "points were no numbers");
+  note(track.points.off_time, "points' times were farther from their scan's than scan_points.most_time_s");
   note(track.points.far, "points were farther away than scan_points.most_range_m");
 }
 
