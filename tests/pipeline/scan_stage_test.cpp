@@ -185,6 +185,37 @@ TEST(MeasureScans, StateTheNoiseOfEveryStep) {
   EXPECT_LT(by_scans(0, 0) + by_scans(1, 1), 0.3 * 0.3);
 }
 
+/// The recorded way between scans that lie far apart, not the straight one.
+TEST(MeasureScans, LeadAcrossAGapByRecordedOdometry) {
+  const ScanDrive drive = small_drive();
+  Robot robot = scanning_robot("a", drive);
+  robot.odometry = recorded_odometry(drive, SE3());
+  const LidarLog whole = robot.lidar;
+  constexpr std::size_t kBegin = 15, kEnd = 25;
+  robot.lidar.stamps.erase(robot.lidar.stamps.begin() + kBegin, robot.lidar.stamps.begin() + kEnd);
+  robot.lidar.read = [whole](std::size_t k) { return whole.read(k < kBegin ? k : k + kEnd - kBegin); };
+  Mission mission = mission_of({robot});
+  EXPECT_TRUE(measure(mission).notes.empty());
+  const auto& odometry = mission.robots[0].odometry;
+  EXPECT_EQ(odometry.size(), robot.odometry.size());
+  EXPECT_EQ(mission.robots[0].odometry_noise.steps.size(), odometry.size() - 1);
+  const SE3 T_odometry_first = *odometry.at(whole.stamps.front());
+  for (std::size_t k = 0; k < whole.size(); ++k)
+    EXPECT_LT(distance_between(*odometry.at(whole.stamps[k]), T_odometry_first * drive.way_to(k)), 0.08) << k;
+}
+
+TEST(MeasureScans, SayWhichOdometryDoesNotReachThem) {
+  const ScanDrive drive = small_drive();
+  Robot robot = scanning_robot("a", drive);
+  const auto whole = recorded_odometry(drive, SE3());
+  std::vector<StampedPose<SE3>> rows(whole.begin(), whole.begin() + 10);
+  robot.odometry = Trajectory<SE3>(rows);
+  Mission mission = mission_of({robot});
+  const MeasuredScans measured = measure(mission);
+  ASSERT_EQ(measured.notes.size(), 1U);
+  EXPECT_NE(measured.notes[0].find("10 rows of recorded odometry"), std::string::npos) << measured.notes[0];
+}
+
 LidarLog broken_log(std::size_t count) {
   LidarLog log;
   for (std::size_t k = 0; k < count; ++k) log.stamps.push_back(Stamp::from_seconds(static_cast<double>(k)));

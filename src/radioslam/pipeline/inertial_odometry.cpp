@@ -1,64 +1,12 @@
 #include "radioslam/pipeline/inertial_odometry.hpp"
 
+#include <algorithm>
 #include <utility>
-
-#include "radioslam/inertial/motion_prediction.hpp"
 
 namespace radioslam {
 
 PoseStep scan_step(const ScanPose& from, const ScanPose& to, const InertialStageParams& params) {
   return {from.T_start_body.inverse() * to.T_start_body, to.information, params.outlier_sigmas};
-}
-
-std::optional<InertialState> InertialGuide::predicted(Stamp stamp) const {
-  const InertialState& state = filter_->state();
-  if (stamp == node_.stamp) return state;
-  const auto readings = preintegrate(*samples_, node_.stamp, stamp, state.bias, params_.noise);
-  if (!readings) return std::nullopt;
-  return state_after(state, readings->motion, params_.noise);
-}
-
-std::optional<SE3> InertialGuide::motion_to(Stamp stamp) const {
-  if (empty_) return std::nullopt;
-  if (filter_) {
-    const auto now = predicted(last_.stamp), then = predicted(stamp);
-    if (!now || !then) return std::nullopt;
-    return now->T_world_body.inverse() * then->T_world_body;
-  }
-  const auto readings = preintegrate(*samples_, last_.stamp, stamp, {}, params_.noise);
-  if (!readings) return std::nullopt;
-  return SE3(seconds_between(last_.stamp, stamp) * velocity_mps_, readings->motion.rotation);
-}
-
-void InertialGuide::align() {
-  const auto aligned = align_gravity(Trajectory<SE3>(poses_), *samples_, params_.noise, params_.alignment);
-  if (!aligned) {
-    poses_.erase(poses_.begin(), poses_.begin() + std::ssize(poses_) / 2);
-    return;
-  }
-  filter_.emplace(start_prior(aligned->states.back(), params_.noise, params_.smoother));
-  node_ = poses_.back();
-  poses_.clear();
-}
-
-void InertialGuide::add(const ScanPose& scan) {
-  if (!empty_)
-    velocity_mps_ =
-        (last_.pose.inverse() * scan.T_start_body).translation() / seconds_between(last_.stamp, scan.stamp);
-  empty_ = false;
-  last_ = {scan.stamp, scan.T_start_body};
-  if (!filter_) {
-    poses_.push_back(last_);
-    if (seconds_between(poses_.front().stamp, scan.stamp) >= params_.alignment.window_s) align();
-    return;
-  }
-  const double dt_s = seconds_between(node_.stamp, scan.stamp);
-  if (dt_s < params_.stage.node_s && scan.outcome != ScanOutcome::kNewMap) return;
-  const PoseStep step{node_.pose.inverse() * scan.T_start_body, scan.information,
-                      params_.stage.outlier_sigmas};
-  auto readings = preintegrate(*samples_, node_.stamp, scan.stamp, filter_->state().bias, params_.noise);
-  filter_->advance(state_step(step, std::move(readings), dt_s), params_.noise);
-  node_ = last_;
 }
 
 namespace {
@@ -113,7 +61,8 @@ std::optional<InertialOdometry> smooth_scans(const std::vector<ScanPose>& scans,
   const auto smoothed = smooth_inertially(drive, samples, params.noise, params.smoother);
   if (!smoothed) return std::nullopt;
   return InertialOdometry{bent(scans, nodes, smoothed->states),
-                          odometry_noise_of_states(*smoothed, params.odometry_noise)};
+                          odometry_noise_of_states(*smoothed, params.odometry_noise),
+                          smoothed->cost / static_cast<double>(std::max<std::size_t>(1, drive.steps.size()))};
 }
 
 }  // namespace radioslam

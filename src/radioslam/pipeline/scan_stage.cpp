@@ -6,7 +6,11 @@
 #include <optional>
 #include <utility>
 
+#include "radioslam/base/median.hpp"
+#include "radioslam/mission/continuous_trajectory.hpp"
 #include "radioslam/mission/odometry_edge.hpp"
+#include "radioslam/pipeline/inertial_guide.hpp"
+#include "radioslam/pipeline/inertial_odometry.hpp"
 
 namespace radioslam {
 namespace {
@@ -48,21 +52,29 @@ bool starts_keyframe(const ScanTrack& track, const KeyframeParams& params) {
                          params);
 }
 
-ScanTrack track_scans(const Robot& robot, const ScannerTraits& traits, const ScanParams& params,
-                      const KeyframeParams& keyframes, const Progress& progress) {
+/// Which readings help to lay scans.
+enum class ScanGuide { kNone, kReadings };
+
+/// The scans of the first `until` of them.
+ScanTrack track_scans(const Robot& robot, std::size_t until, ScanGuide by, const ScannerTraits& traits,
+                      const ScanParams& params, const KeyframeParams& keyframes, const Progress& progress) {
   ScanOdometer odometer(traits, params.lidar);
   InertialGuide guide(robot.inertial, params.inertial);
   ScanTrack track;
   ScanCloud last_cloud;
-  for (std::size_t k = 0; k < robot.lidar.size(); ++k) {
+  for (std::size_t k = 0; k < until; ++k) {
     const Stamp stamp = robot.lidar.stamps[k];
-    std::optional<SE3> motion;
-    if (uses_inertial(robot, params)) motion = guide.motion_to(stamp);
+    LidarScan scan = robot.lidar.read(k);
+    std::optional<ScanGuess> guess;
+    if (by == ScanGuide::kReadings) guess = guide.guess(stamp, swept_time(scan, params.lidar.points));
+    std::optional<SE3> motion = guess ? guess->T_previous_body : std::nullopt;
     if (!motion && !track.poses.empty())
       motion = recorded_motion(robot.odometry, track.poses.back().stamp, stamp);
-    ScanPose pose = odometer.add(stamp, robot.lidar.read(k), motion);
+    const bool is_unbent = guess && params.inertial.stage.sweep == "readings";
+    if (is_unbent) scan = unbent(std::move(scan), guess->way, params.lidar.points);
+    ScanPose pose = odometer.add(stamp, scan, motion);
     report_progress(progress, "scans of " + robot.id,
-                    static_cast<double>(k + 1) / static_cast<double>(robot.lidar.size()));
+                    static_cast<double>(k + 1) / static_cast<double>(until));
     ++track.outcomes[pose.outcome];
     track.points += pose.counts;
     if (!is_on_the_way(pose.outcome)) continue;
@@ -70,7 +82,7 @@ ScanTrack track_scans(const Robot& robot, const ScannerTraits& traits, const Sca
       forget_start(track);
       guide = InertialGuide(robot.inertial, params.inertial);
     }
-    if (uses_inertial(robot, params)) guide.add(pose);
+    if (by == ScanGuide::kReadings) guide.add(pose, is_unbent ? guess : std::nullopt);
     last_cloud = std::exchange(pose.cloud, {});
     track.usual_share += pose.matched_share;
     track.poses.push_back(std::move(pose));
@@ -117,44 +129,147 @@ SE3 start_of_scans(const Trajectory<SE3>& odometry, const ScanTrack& track) {
   return {};
 }
 
-/// The robot's odometry by its scans, with recorded rows before and after.
-void take_odometry(Robot& robot, ScanTrack& track) {
+/// Recorded rows between two scans, bent to meet both as their noise grew.
+std::vector<StampedPose<SE3>> bridged(const Robot& robot, const ScanPose& a, const ScanPose& b) {
+  if (!robot.odometry.covers(a.stamp) || !robot.odometry.covers(b.stamp)) return {};
+  std::vector<Stamp> stamps;
+  for (const auto& row : robot.odometry)
+    if (a.stamp < row.stamp && row.stamp < b.stamp) stamps.push_back(row.stamp);
+  const Trajectory<SE3> ends({{a.stamp, a.T_start_body}, {b.stamp, b.T_start_body}});
+  const ContinuousTrajectory<SE3> way(robot, {ends, {}});
+  const auto poses = way.at(stamps);
+  std::vector<StampedPose<SE3>> rows;
+  for (std::size_t k = 0; k < stamps.size(); ++k) rows.push_back({stamps[k], poses[k].pose});
+  return rows;
+}
+
+/// Beyond which recorded rows between two scans tell more than the way straight from one to the other.
+double longest_scan_step_s(const ScanTrack& track, const ScanStageParams& params) {
+  std::vector<double> steps_s;
+  for (std::size_t k = 1; k < track.poses.size(); ++k)
+    steps_s.push_back(seconds_between(track.poses[k - 1].stamp, track.poses[k].stamp));
+  return steps_s.empty() ? 0 : params.gap_steps * upper_median(std::move(steps_s));
+}
+
+/// Rows of an odometry, each with the noise of the step to it.
+struct NoisyRows {
+  std::vector<StampedPose<SE3>> rows;
+  std::vector<OdometryStepNoise> steps;
+
+  /// Rows with the robot's stated noise.
+  void lead_on(const std::vector<StampedPose<SE3>>& more, const OdometryNoise& stated) {
+    for (const auto& row : more) {
+      if (!rows.empty()) steps.push_back(stated_noise(rows.back(), row, stated));
+      rows.push_back(row);
+    }
+  }
+
+  /// A scan with the rows that lead to it from the one before; its covariance is spread evenly in time.
+  void add_scan(std::vector<StampedPose<SE3>> bridge, const ScanPose& scan) {
+    bridge.push_back({scan.stamp, scan.T_start_body});
+    const double since_s = seconds_between(rows.back().stamp, scan.stamp);
+    for (const auto& row : bridge) {
+      steps.push_back({rows.back().stamp, row.stamp, scan.covariance / since_s});
+      rows.push_back(row);
+    }
+  }
+};
+
+/// The robot's odometry by its scans, with recorded rows before, after and in their gaps.
+void take_odometry(Robot& robot, ScanTrack& track, const ScanStageParams& params) {
   const SE3 T_start_scans = start_of_scans(robot.odometry, track);
   for (ScanPose& pose : track.poses) pose.T_start_body = T_start_scans * pose.T_start_body;
   constexpr Stamp kEver{std::numeric_limits<std::int64_t>::max()},
       kNever{std::numeric_limits<std::int64_t>::min()};
   const ScanPose &first = track.poses.front(), &last = track.poses.back();
+  const double longest_s = longest_scan_step_s(track, params);
   OdometryNoise stated = robot.odometry_noise;
   stated.steps.clear();
-  auto rows = led_on(robot.odometry, kNever, first.stamp, first.stamp, first.T_start_body);
-  const std::size_t before = rows.size();
-  for (const ScanPose& pose : track.poses) rows.push_back({pose.stamp, pose.T_start_body});
-  const auto after = led_on(robot.odometry, last.stamp, kEver, last.stamp, last.T_start_body);
-  rows.insert(rows.end(), after.begin(), after.end());
-  std::vector<OdometryStepNoise> steps;
-  for (std::size_t k = 1; k < rows.size(); ++k) {
-    const bool by_scans = k > before && k < before + track.poses.size();
-    steps.push_back(by_scans ? OdometryStepNoise{rows[k - 1].stamp, rows[k].stamp,
-                                                 track.poses[k - before].covariance /
-                                                     seconds_between(rows[k - 1].stamp, rows[k].stamp)}
-                             : stated_noise(rows[k - 1], rows[k], stated));
+  NoisyRows by;
+  by.lead_on(led_on(robot.odometry, kNever, first.stamp, first.stamp, first.T_start_body), stated);
+  by.lead_on({{first.stamp, first.T_start_body}}, stated);
+  for (std::size_t k = 1; k < track.poses.size(); ++k) {
+    const ScanPose &before = track.poses[k - 1], &scan = track.poses[k];
+    const bool is_gap = seconds_between(before.stamp, scan.stamp) > longest_s;
+    by.add_scan(is_gap ? bridged(robot, before, scan) : std::vector<StampedPose<SE3>>{}, scan);
   }
-  robot.odometry = Trajectory<SE3>(std::move(rows));
-  robot.odometry_noise = {0, 0, 0, 0, 0, 0, std::move(steps)};
+  by.lead_on(led_on(robot.odometry, last.stamp, kEver, last.stamp, last.T_start_body), stated);
+  robot.odometry = Trajectory<SE3>(std::move(by.rows));
+  robot.odometry_noise = {0, 0, 0, 0, 0, 0, std::move(by.steps)};
 }
 
-/// Puts the estimate from scans and readings in the place of that from scans alone.
-bool take_readings(ScanTrack& track, const std::vector<InertialSample>& samples,
-                   const InertialParams& params) {
+/// Recorded rows before the first scan or after the last that nothing ties to it.
+void note_lost_odometry(const Robot& robot, const ScanTrack& track, std::vector<std::string>& notes) {
+  const Stamp first = track.poses.front().stamp, last = track.poses.back().stamp;
+  std::size_t lost = 0;
+  for (const auto& row : robot.odometry)
+    if ((row.stamp < first && !robot.odometry.covers(first)) ||
+        (last < row.stamp && !robot.odometry.covers(last)))
+      ++lost;
+  if (lost > 0)
+    notes.push_back("robot " + robot.id + ": " + std::to_string(lost) +
+                    " rows of recorded odometry do not reach its scans and were left out");
+}
+
+void leave_out_wild_readings(Robot& robot, const WildReadingParams& params, std::vector<std::string>& notes) {
+  TameReadings tame = leave_out_wild(robot.inertial, params);
+  if (tame.left_out == 0) return;
+  robot.inertial = std::move(tame.samples);
+  notes.push_back("robot " + robot.id + ": " + std::to_string(tame.left_out) +
+                  " inertial readings stand out from those about them and were left out");
+}
+
+/// Puts the estimate from scans and readings in the place of that from scans alone; says why not.
+std::optional<std::string> take_readings(ScanTrack& track, const std::vector<InertialSample>& samples,
+                                         const InertialParams& params) {
   const auto smoothed = smooth_scans(track.poses, samples, params);
-  if (!smoothed) return false;
+  if (!smoothed) return "gravity does not show in its readings along its scans";
+  if (smoothed->cost_per_step > params.stage.most_cost_per_step) return "its readings contradict its scans";
   for (std::size_t k = 0; k < track.poses.size(); ++k) {
     track.poses[k].T_start_body = smoothed->poses[k];
     if (k == 0) continue;
     const Stamp begin = track.poses[k - 1].stamp, end = track.poses[k].stamp;
     track.poses[k].covariance = measured_covariance(smoothed->steps, begin, end);
   }
-  return true;
+  track.is_level = true;
+  return std::nullopt;
+}
+
+/// How many scans lie within the first seconds.
+std::size_t scans_within(const LidarLog& log, double duration_s) {
+  std::size_t count = 0;
+  while (count < log.size() && seconds_between(log.stamps.front(), log.stamps[count]) <= duration_s) ++count;
+  return count;
+}
+
+std::optional<std::string> disagreement_with(const ScanTrack& track, const Robot& robot,
+                                             const InertialParams& params) {
+  std::vector<StampedPose<SE3>> poses;
+  for (const ScanPose& scan : track.poses) poses.push_back({scan.stamp, scan.T_start_body});
+  return disagreement(Trajectory<SE3>(poses), robot.inertial, params.noise, params.agreement);
+}
+
+/// The robot's scans, with its readings where these agree with scans laid by themselves.
+ScanTrack lay_scans(Robot& robot, const ScannerTraits& traits, const ScanParams& params,
+                    const KeyframeParams& keyframes, const Progress& progress,
+                    std::vector<std::string>& notes) {
+  const auto track = [&](std::size_t until, ScanGuide by) {
+    return track_scans(robot, until, by, traits, params, keyframes, progress);
+  };
+  const std::size_t all = robot.lidar.size();
+  if (!uses_inertial(robot, params)) return track(all, ScanGuide::kNone);
+  leave_out_wild_readings(robot, params.inertial.wild, notes);
+  const std::size_t checked = scans_within(robot.lidar, params.inertial.stage.check_s);
+  ScanTrack alone = track(checked, ScanGuide::kNone);
+  auto wrong = disagreement_with(alone, robot, params.inertial);
+  if (!wrong) {
+    ScanTrack together = track(all, ScanGuide::kReadings);
+    if (together.poses.empty()) return together;
+    wrong = take_readings(together, robot.inertial, params.inertial);
+    if (!wrong) return together;
+  }
+  notes.push_back("robot " + robot.id + ": " + *wrong + "; its inertial readings were left out");
+  return checked == all ? std::move(alone) : track(all, ScanGuide::kNone);
 }
 
 /// A robot that nothing tells to move, from its first scan on.
@@ -208,7 +323,7 @@ MeasuredScans measure_scans(Mission& mission, const ScanParams& params, const Ke
     if (robot.lidar.empty()) continue;
     if (params.stage.odometry == "recorded" && !robot.odometry.empty()) continue;
     const ScannerTraits traits = scanner_traits(robot.lidar, params.lidar);
-    ScanTrack track = track_scans(robot, traits, params, keyframes, progress);
+    ScanTrack track = lay_scans(robot, traits, params, keyframes, progress, measured.notes);
     add_notes(measured, robot, track);
     measured.scans += robot.lidar.size();
     if (track.poses.empty()) {
@@ -216,11 +331,9 @@ MeasuredScans measure_scans(Mission& mission, const ScanParams& params, const Ke
       continue;
     }
     measured.registered += track.poses.size();
-    if (uses_inertial(robot, params) && !take_readings(track, robot.inertial, params.inertial))
-      measured.notes.push_back("robot " + robot.id +
-                               ": its inertial readings do not go with its scans and were left out");
     const ScanKeyframes scans = keyframes_of(track, traits);
-    take_odometry(robot, track);
+    note_lost_odometry(robot, track, measured.notes);
+    take_odometry(robot, track, params.stage);
     const ScanLoops loops = close_scan_loops(scans, params.loops, params.lidar.map, params.search,
                                              params.lidar.registration, progress);
     for (const ScanLoop& loop : loops.loops)

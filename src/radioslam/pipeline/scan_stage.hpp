@@ -2,8 +2,8 @@
 // within each robot. Robots without scans stay as they are.
 //
 // The scans' poses become the robot's odometry, with the noise that was measured along with them; recorded
-// odometry only tells where a scan is looked for, and leads on where the scans begin later or end earlier.
-// Inertial readings tell that better, and carry the robot where the scans tell nothing.
+// odometry only tells where a scan is looked for, and leads on where the scans begin later, end earlier or
+// have a gap. Inertial readings tell that better, and carry the robot where the scans tell nothing.
 #pragma once
 
 #include <cstddef>
@@ -16,18 +16,22 @@
 #include "radioslam/lidar/scan_odometry.hpp"
 #include "radioslam/mission/keyframes.hpp"
 #include "radioslam/mission/mission.hpp"
-#include "radioslam/pipeline/inertial_odometry.hpp"
+#include "radioslam/pipeline/inertial_params.hpp"
 #include "radioslam/pipeline/scan_closures.hpp"
 
 namespace radioslam {
 
 struct ScanStageParams {
   std::string odometry = "scans";
+  double gap_steps = 3;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
     visit(Field{"odometry", "", 0, 0, "where both are there: of the scans, or as recorded", "scans|recorded"},
           self.odometry);
+    visit(Field{"gap_steps", "", 1, 1e9,
+                "times the usual time from scan to scan; recorded odometry leads across longer gaps"},
+          self.gap_steps);
   }
 };
 

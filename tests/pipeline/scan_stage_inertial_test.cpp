@@ -1,0 +1,140 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "lidar/scan_drive.hpp"
+#include "radioslam/pipeline/scan_stage.hpp"
+
+namespace radioslam {
+namespace {
+
+using namespace test;
+
+constexpr double kLap_s = 16, kReadings_hz = 100, kGravity_mps2 = 9.81;
+constexpr int kScans = 160;
+
+/// Once around the furnished room, slower and faster.
+SE3 lap_pose(double t) {
+  const double lap = 2 * std::numbers::pi * t / kLap_s, angle = lap + 0.3 * std::sin(2 * lap);
+  return pose_at(2.4 * std::cos(angle), 0.9 * std::sin(angle), 1.2,
+                 std::atan2(0.9 * std::cos(angle), -2.4 * std::sin(angle)));
+}
+
+/// By differences over a millisecond.
+InertialSample lap_reading(double t) {
+  constexpr double h = 1e-3;
+  const SE3 before = lap_pose(t - h), here = lap_pose(t), after = lap_pose(t + h);
+  const Eigen::Vector3d acceleration =
+      (before.translation() - 2 * here.translation() + after.translation()) / (h * h);
+  return {Stamp::from_seconds(t),
+          here.rotation().conjugate() * (acceleration + Eigen::Vector3d(0, 0, kGravity_mps2)),
+          (before.inverse() * after).log().tail<3>() / (2 * h)};
+}
+
+ScanDrive lap_drive() {
+  std::vector<SE3> poses;
+  for (int k = 0; k < kScans; ++k) poses.push_back(lap_pose(0.1 * k));
+  Scanner scanner = planar_scanner(360);
+  scanner.sweep_s = 0.09;
+  return drive_along(furnished_room(), scanner, poses, 1);
+}
+
+struct LapRun {
+  Trajectory<SE3> odometry;
+  std::vector<std::string> notes;
+  double worst_m = 0;
+};
+
+using Spoil = std::function<void(std::size_t, InertialSample&)>;
+
+LapRun run_lap(const Spoil& spoil, bool enabled = true) {
+  static const ScanDrive drive = lap_drive();
+  Robot robot;
+  robot.id = "a";
+  robot.lidar = log_of(drive);
+  for (int k = 0; k <= 16.1 * kReadings_hz; ++k) {
+    robot.inertial.push_back(lap_reading(k / kReadings_hz));
+    spoil(static_cast<std::size_t>(k), robot.inertial.back());
+  }
+  Mission mission;
+  mission.dimension = 2;
+  mission.robots = {robot};
+  ScanParams params;
+  params.inertial.stage.enabled = enabled;
+  params.inertial.stage.sweep =
+      "readings";  // a lap this lively bends scans more than their last motion tells
+  LapRun run;
+  run.notes = measure_scans(mission, params, {}, {}).notes;
+  run.odometry = mission.robots[0].odometry;
+  for (std::size_t k = 0; k < run.odometry.size(); ++k) {
+    const SE3 way = run.odometry.front().pose.inverse() * run.odometry[k].pose;
+    const SE3 off(drive.way_to(k).translation() - way.translation(), Eigen::Quaterniond::Identity());
+    run.worst_m = std::max(run.worst_m, off.translation().head<2>().norm());  // a plane tells no height
+  }
+  return run;
+}
+
+void keep(std::size_t, InertialSample&) {}
+
+void expect_left_out(const LapRun& run, const std::string& why) {
+  ASSERT_EQ(run.notes.size(), 1U);
+  EXPECT_NE(run.notes[0].find(why), std::string::npos) << run.notes[0];
+  EXPECT_NE(run.notes[0].find("left out"), std::string::npos) << run.notes[0];
+  const LapRun without = run_lap(keep, false);
+  ASSERT_EQ(run.odometry.size(), without.odometry.size());
+  for (std::size_t k = 0; k < run.odometry.size(); ++k)
+    EXPECT_EQ(run.odometry[k].pose.translation(), without.odometry[k].pose.translation());
+}
+
+TEST(InertialReadings, ThatAreGoodAreUsedWithoutAWord) {
+  const LapRun run = run_lap(keep);
+  EXPECT_TRUE(run.notes.empty()) << run.notes.front();
+  EXPECT_EQ(run.odometry.size(), static_cast<std::size_t>(kScans));
+  EXPECT_LT(run.worst_m, 0.05);
+}
+
+TEST(InertialReadings, InGAreLeftOut) {
+  expect_left_out(run_lap([](std::size_t, InertialSample& s) { s.specific_force_mps2 /= kGravity_mps2; }),
+                  "is it in g?");
+}
+
+TEST(InertialReadings, InDegreesAreLeftOut) {
+  expect_left_out(run_lap([](std::size_t, InertialSample& s) { s.angular_rate_radps /= kDegree; }),
+                  "is it in rad/s");
+}
+
+TEST(InertialReadings, UpsideDownAreLeftOut) {
+  expect_left_out(run_lap([](std::size_t, InertialSample& s) {
+                    s.specific_force_mps2.tail<2>() *= -1;
+                    s.angular_rate_radps.tail<2>() *= -1;
+                  }),
+                  "its gyroscope turns -");
+}
+
+TEST(InertialReadings, OfAnotherMountingAreLeftOut) {
+  expect_left_out(run_lap([](std::size_t, InertialSample& s) {
+                    for (Eigen::Vector3d* v : {&s.specific_force_mps2, &s.angular_rate_radps})
+                      *v = Eigen::Vector3d(v->x(), v->z(), -v->y());
+                  }),
+                  "its gyroscope");
+}
+
+TEST(InertialReadings, OfAnotherClockAreLeftOut) {
+  expect_left_out(run_lap([](std::size_t, InertialSample& s) { s.stamp.ns += 400'000'000; }), "too late");
+}
+
+TEST(InertialReadings, OfWhichOneIsWildAreUsedWithoutIt) {
+  for (const double wild : {1e8, 500.0}) {
+    const LapRun run = run_lap([&](std::size_t k, InertialSample& s) {
+      if (k == 333) s.specific_force_mps2.x() = wild;
+    });
+    ASSERT_EQ(run.notes.size(), 1U);
+    EXPECT_NE(run.notes[0].find("robot a: 1 inertial readings"), std::string::npos) << run.notes[0];
+    EXPECT_LT(run.worst_m, 0.05);
+  }
+}
+
+}  // namespace
+}  // namespace radioslam
