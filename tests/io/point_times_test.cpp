@@ -18,7 +18,9 @@ constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 /// Points one metre and more ahead with times, and the bytes that their table refers to.
 class TimedPoints {
  public:
-  void add(double time, float x = 1) { rows_.push_back({x, time, static_cast<std::int64_t>(time)}); }
+  void add(double time, float x = 1) {
+    rows_.push_back({x, time, std::isfinite(time) ? static_cast<std::int64_t>(time) : 0});
+  }
   void add_whole(std::int64_t time, float x = 1) { rows_.push_back({x, static_cast<double>(time), time}); }
 
   PointTable table(NumberType type) {
