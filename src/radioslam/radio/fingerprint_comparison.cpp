@@ -56,8 +56,9 @@ FingerprintComparison::FingerprintComparison(const std::vector<Fingerprint>& fin
   }
 }
 
-double FingerprintComparison::similarity(std::size_t i, std::size_t j) const {
-  const Compared &a = fingerprints_[i], &b = fingerprints_[j];
+double FingerprintComparison::similarity(std::size_t i, const FingerprintComparison& others,
+                                         std::size_t j) const {
+  const Compared &a = fingerprints_[i], &b = others.fingerprints_[j];
   return similarity_of(shared_sums(a.fingerprint, b.fingerprint, measure_), a.totals, b.totals, measure_,
                        params_);
 }

@@ -18,7 +18,9 @@ class FingerprintComparison {
 
   std::size_t size() const { return fingerprints_.size(); }
   /// Of fingerprints i and j.
-  double similarity(std::size_t i, std::size_t j) const;
+  double similarity(std::size_t i, std::size_t j) const { return similarity(i, *this, j); }
+  /// Of fingerprint i and j of others, made ready for the same measure.
+  double similarity(std::size_t i, const FingerprintComparison& others, std::size_t j) const;
 
  private:
   struct Compared {

@@ -42,14 +42,12 @@ double similarity(const Fingerprint& a, const Fingerprint& b, SimilarityMeasure 
 std::vector<std::vector<float>> similarity_table(const std::vector<Fingerprint>& a,
                                                  const std::vector<Fingerprint>& b, SimilarityMeasure measure,
                                                  const SimilarityParams& params) {
-  std::vector<Fingerprint> both = a;
-  both.insert(both.end(), b.begin(), b.end());
-  const FingerprintComparison comparison(both, measure, params);
+  const FingerprintComparison rows(a, measure, params), columns(b, measure, params);
   std::vector<std::vector<float>> table(a.size(), std::vector<float>(b.size()));
   parallel_for(a.size(), kRowsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       for (std::size_t j = 0; j < b.size(); ++j)
-        table[i][j] = static_cast<float>(comparison.similarity(i, a.size() + j));
+        table[i][j] = static_cast<float>(rows.similarity(i, columns, j));
   });
   return table;
 }

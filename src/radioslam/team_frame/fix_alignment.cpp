@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "radioslam/base/median.hpp"
 
 namespace radioslam {
 namespace {
@@ -50,9 +53,7 @@ double cost_of(const SE2& T_fixes_start, const FixOfWay& a, const FixOfWay& b,
 double median_height_m(const std::vector<FixOfWay>& fixes) {
   std::vector<double> heights;
   for (const FixOfWay& fix : fixes) heights.push_back(fix.position_m.z() - fix.by_odometry_m.z());
-  const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
-  std::nth_element(heights.begin(), middle, heights.end());
-  return *middle;
+  return upper_median(std::move(heights));
 }
 
 }  // namespace
