@@ -13,7 +13,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "radioslam/base/fields.hpp"
@@ -58,6 +57,8 @@ enum class FixRole {
   kOtherFrame,  ///< the fixes of a robot of known start contradict that start
 };
 
+constexpr bool takes_part(FixRole role) { return role == FixRole::kPlace || role == FixRole::kHold; }
+
 /// The fixes of one robot.
 template <class Pose>
 struct RobotFixes {
@@ -92,9 +93,5 @@ void hold_by_fixes(JointGraph<Pose>& joint, TeamFixes<Pose>& fixes, const TeamPl
 template <class Pose>
 void settle_fixes(JointGraph<Pose>& joint, const TeamFixes<Pose>& fixes, const OptimizerParams& optimizer,
                   const Progress& progress);
-
-/// What became of them.
-template <class Pose>
-void add_fix_results(RunResult& result, const JointGraph<Pose>& joint, const TeamFixes<Pose>& fixes);
 
 }  // namespace radioslam

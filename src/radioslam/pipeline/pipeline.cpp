@@ -7,6 +7,7 @@
 #include "radioslam/pipeline/csi_stage.hpp"
 #include "radioslam/pipeline/dense_trajectory.hpp"
 #include "radioslam/pipeline/field_stage.hpp"
+#include "radioslam/pipeline/fix_results.hpp"
 #include "radioslam/pipeline/fix_stage.hpp"
 #include "radioslam/pipeline/joint_graph_of_team.hpp"
 #include "radioslam/pipeline/scan_closures.hpp"
