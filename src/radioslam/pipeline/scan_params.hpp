@@ -1,0 +1,44 @@
+// Everything that laser scans need.
+#pragma once
+
+#include <string>
+
+#include "radioslam/base/fields.hpp"
+#include "radioslam/lidar/scan_loops.hpp"
+#include "radioslam/lidar/scan_odometry.hpp"
+#include "radioslam/pipeline/inertial_params.hpp"
+
+namespace radioslam {
+
+struct ScanStageParams {
+  std::string odometry = "scans";
+  double gap_steps = 3;
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit(Field{"odometry", "", 0, 0, "where both are there: of the scans, or as recorded", "scans|recorded"},
+          self.odometry);
+    visit(Field{"gap_steps", "", 1, 1e9,
+                "times the usual time from scan to scan; recorded odometry leads across longer gaps"},
+          self.gap_steps);
+  }
+};
+
+struct ScanParams {
+  ScanStageParams stage;
+  LidarParams lidar;
+  PoseSearchParams search;
+  ScanLoopParams loops;
+  InertialParams inertial;
+
+  template <class Self, class Visitor>
+  static void visit_sections(Self& self, Visitor&& visit) {
+    visit("scans", self.stage);
+    LidarParams::visit_sections(self.lidar, visit);
+    visit("scan_search", self.search);
+    visit("scan_loops", self.loops);
+    InertialParams::visit_sections(self.inertial, visit);
+  }
+};
+
+}  // namespace radioslam
