@@ -60,6 +60,21 @@ TEST(FixStage, ATeamWithoutRadioSharesTheFixesFrame) {
   }
 }
 
+TEST(FixStage, TakesItsTimeInTheReport) {
+  Mission mission = town_of_fixes(5, 0).mission;
+  const auto stages = [&] {
+    std::vector<std::string> names;
+    for (const auto& timing : run_pipeline(mission, quick_params()).result.timings)
+      names.push_back(timing.stage);
+    return names;
+  };
+  std::vector<std::string> with = stages();
+  EXPECT_EQ(std::erase_if(with, [](const auto& s) { return s == "position fixes" || s == "settle fixes"; }),
+            2U);
+  for (Robot& robot : mission.robots) robot.fixes.clear();
+  EXPECT_EQ(with, stages());
+}
+
 TEST(FixStage, GrossFixesAreOutvoted) {
   const auto [mission, truth] = town_of_fixes(6, 0.35);
   const auto [clean, clean_truth] = town_of_fixes(6, 0);

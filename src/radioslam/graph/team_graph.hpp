@@ -21,6 +21,13 @@ struct Piece {
   bool in_common_frame = false;  ///< its start is known: values and a prior hold in the common frame
 };
 
+/// Moves the piece rigidly: its poses <- T * its poses.
+template <class Pose>
+void move_piece(std::vector<Pose>& poses, const Piece& piece, const Pose& T) {
+  for (std::size_t k = piece.first_pose; k < piece.first_pose + piece.pose_count; ++k)
+    poses[k] = T * poses[k];
+}
+
 /// One of the directions of an AmbiguousBearing.
 template <class Pose>
 struct BearingPath {

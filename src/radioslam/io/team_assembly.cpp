@@ -142,9 +142,7 @@ class Assembly {
                      [&](const auto& factor) { return factor.i.index() >= begin && factor.i.index() < end; });
     if (prior == graph_.pose_priors.end()) return;
     piece.in_common_frame = true;
-    const Pose T_common_piece = prior->prior * graph_.poses[prior->i.index()].inverse();
-    for (std::size_t pose = begin; pose < end; ++pose)
-      graph_.poses[pose] = T_common_piece * graph_.poses[pose];
+    move_piece(graph_.poses, piece, prior->prior * graph_.poses[prior->i.index()].inverse());
   }
 
   void place_points() {

@@ -123,20 +123,12 @@ class FixPlacement {
         return;
       }
       growing.seeds_m = {found->way_i_m, found->way_j_m};
-      move(r, pose_as<Pose>(found->T_fixes_start));
+      move_piece(ways_.poses, joint_.team.pieces[r], pose_as<Pose>(found->T_fixes_start));
       forget_heading(ways_, first_pose(r));
     }
     if (growing.factors.empty()) return;
     laid_.push_back(r);
     growing_.push_back(std::move(growing));
-  }
-
-  void move(std::size_t r, const Pose& T_fixes_start) {
-    const Piece& piece = joint_.team.pieces[r];
-    for (std::size_t k = 0; k < piece.pose_count; ++k) {
-      Pose& pose = ways_.poses[piece.first_pose + k];
-      pose = T_fixes_start * pose;
-    }
   }
 
   void bend(const OptimizerParams& optimizer) {
@@ -241,6 +233,11 @@ bool judge_anew(PoseGraph<Pose>& graph, const RobotFixes<Pose>& fixes) {
 
 }  // namespace
 
+bool has_fixes(const Mission& mission) {
+  return std::any_of(mission.robots.begin(), mission.robots.end(),
+                     [](const Robot& robot) { return !robot.fixes.empty(); });
+}
+
 void add_fix_moments(const Mission& mission, std::vector<std::vector<Stamp>>& moments) {
   for (std::size_t r = 0; r < mission.robots.size(); ++r)
     for (const PositionFix& fix : mission.robots[r].fixes) moments[r].push_back(fix.stamp);
@@ -249,9 +246,7 @@ void add_fix_moments(const Mission& mission, std::vector<std::vector<Stamp>>& mo
 template <class Pose>
 TeamFixes<Pose> place_by_fixes(JointGraph<Pose>& joint, const Mission& mission, const FixParams& params,
                                const OptimizerParams& optimizer) {
-  if (std::all_of(mission.robots.begin(), mission.robots.end(),
-                  [](const Robot& robot) { return robot.fixes.empty(); }))
-    return {};
+  if (!has_fixes(mission)) return {};
   return FixPlacement<Pose>(joint, mission, params).run(optimizer);
 }
 

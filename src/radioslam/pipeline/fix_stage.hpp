@@ -72,6 +72,8 @@ struct RobotFixes {
 template <class Pose>
 using TeamFixes = std::vector<RobotFixes<Pose>>;
 
+bool has_fixes(const Mission& mission);
+
 /// Adds to every robot's moments the stamps of its fixes.
 void add_fix_moments(const Mission& mission, std::vector<std::vector<Stamp>>& moments);
 

@@ -138,11 +138,7 @@ void place_robots(JointGraph<Pose>& joint, const std::vector<SE2>& T_team_start)
   for (std::size_t p = 0; p < joint.team.pieces.size(); ++p) {
     const Piece& piece = joint.team.pieces[p];
     if (piece.in_common_frame) continue;
-    const Pose T = pose_as<Pose>(lift(T_team_start[joint.robot_of_piece[p]]));
-    for (std::size_t k = 0; k < piece.pose_count; ++k) {
-      Pose& pose = joint.team.graph.poses[piece.first_pose + k];
-      pose = T * pose;
-    }
+    move_piece(joint.team.graph.poses, piece, pose_as<Pose>(lift(T_team_start[joint.robot_of_piece[p]])));
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <type_traits>
 
 #include "radioslam/pipeline/collect_results.hpp"
 #include "radioslam/pipeline/csi_stage.hpp"
@@ -25,14 +26,25 @@ class StageClock {
   /// Runs `stage` and notes how long it took.
   template <class Work>
   auto time(std::string_view stage, Work&& work) {
-    const auto begin = std::chrono::steady_clock::now();
-    auto result = work();
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
-    timings_.push_back({std::string(stage), spent.count()});
-    return result;
+    const auto begin = Clock::now();
+    if constexpr (std::is_void_v<decltype(work())>) {
+      work();
+      note(stage, begin);
+    } else {
+      auto result = work();
+      note(stage, begin);
+      return result;
+    }
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
+
+  void note(std::string_view stage, Clock::time_point begin) {
+    const std::chrono::duration<double> spent = Clock::now() - begin;
+    timings_.push_back({std::string(stage), spent.count()});
+  }
+
   std::vector<StageTiming>& timings_;
 };
 
@@ -156,7 +168,10 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const std::ve
     return build_joint_graph<Pose>(mission, params.keyframe, params.graph, std::move(moments));
   });
   const ScanTies scan_ties = add_scan_closures(joint, loops, params.optimizer);
-  auto fixes = place_by_fixes(joint, mission, params.fixes, params.optimizer);
+  TeamFixes<Pose> fixes;
+  if (has_fixes(mission))
+    fixes = clock.time("position fixes",
+                       [&] { return place_by_fixes(joint, mission, params.fixes, params.optimizer); });
   const auto with_starts = with_placed_starts<Pose>(mission, fixes);
   const Mission& placed = with_starts ? *with_starts : mission;
   const auto placement = clock.time("team frame", [&] {
@@ -173,11 +188,11 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const std::ve
       clock.time("sequences", [&] { return add_sequence_closures(joint, radio, params.sequence); });
   const auto solution = clock.time(
       "optimise", [&] { return optimize_robustly(joint, params.robust, params.optimizer, progress); });
-  settle_fixes(joint, fixes, params.optimizer, progress);
+  if (has_fixes(mission))
+    clock.time("settle fixes", [&] { settle_fixes(joint, fixes, params.optimizer, progress); });
   clock.time("radio field", [&] {
     if (refine_by_radio_field(joint, placed, radio, placement, closures, params.field, progress))
       optimize(joint.team.graph, params.optimizer, progress);
-    return 0;
   });
   result.range_biases = clock.time("range biases", [&] {
     return estimate_range_biases(joint, params.range_bias, params.alignment.mixture, params.optimizer,
@@ -186,7 +201,7 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const std::ve
 
   if (wants_overlaps(mission, options))
     clock.time("overlap", [&] {
-      return search_overlaps_into(result, honest(joint, params.alignment.mixture), params, options), 0;
+      search_overlaps_into(result, honest(joint, params.alignment.mixture), params, options);
     });
   std::vector<ClosureResult> matches;
   if (!mission.matches.empty() && !options.overlap_only)
@@ -204,8 +219,7 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const std::ve
   add_notes(result, mission, radio, params.sequence, joint.ignored_links);
   add_fix_results(result, joint, fixes);
   if (!mission.arrivals.empty())
-    clock.time("angle checks",
-               [&] { return check_angles_into(result, mission, joint, placement, params), 0; });
+    clock.time("angle checks", [&] { check_angles_into(result, mission, joint, placement, params); });
   result.closures = collect_radio_links(joint);
   for (auto& closure : collect_closures(radio, joint, closures))
     result.closures.push_back(std::move(closure));
@@ -215,8 +229,7 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const std::ve
     result.closures.push_back(std::move(closure));
   result.closures.insert(result.closures.end(), matches.begin(), matches.end());
   result.similarity_model = collect_similarity_model(radio, params.radio);
-  clock.time("access points",
-             [&] { return add_access_points(result, mission, radio, params.access_points), 0; });
+  clock.time("access points", [&] { add_access_points(result, mission, radio, params.access_points); });
   count(result, radio, solution);
   output.graph = std::move(joint.team.graph);
   return output;
@@ -278,7 +291,7 @@ RunOutput run_pipeline(const Mission& recorded, const RunParams& params, const R
   if (scans.scans > 0) count_scans(result, scans);
   if (has_scans(mission) && !options.overlap_only)
     StageClock(result.timings).time("scan picture", [&] {
-      return add_scan_pictures(result, mission, params.scans.lidar, params.scan_picture), 0;
+      add_scan_pictures(result, mission, params.scans.lidar, params.scan_picture);
     });
   if (!csi.arrivals.empty() || !csi.notes.empty())
     result.counts["arrivals_measured"] = static_cast<double>(csi.arrivals.size());

@@ -180,9 +180,7 @@ class Builder {
       team.points[unit.index] = T * team.points[unit.index];
       return;
     }
-    const Piece& piece = team_.pieces[unit.index];
-    for (std::size_t k = piece.first_pose; k < piece.first_pose + piece.pose_count; ++k)
-      team.poses[k] = T * team.poses[k];
+    move_piece(team.poses, team_.pieces[unit.index], T);
   }
 
   /// Where the unit may be for every team of the beam: the best places, none twice.
