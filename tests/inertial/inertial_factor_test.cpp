@@ -68,31 +68,5 @@ TEST(InertialState, MovesByTheStepBetween) {
   EXPECT_LT(a.moved_by(a.step_to(b)).step_to(b).norm(), 1e-12);
 }
 
-/// 200 Hz within a scan, off the readings' stamps.
-TEST(MotionPrediction, FollowsTheMotion) {
-  const InertialNoiseParams params;
-  for (int n = 0; n < 10; ++n) {
-    const test::SmoothMotion motion(Rng(5).split(static_cast<std::uint64_t>(n)), {});
-    const auto samples = test::perfect_readings(motion, 2, 200, params);
-    std::vector<Stamp> stamps;
-    for (int k = 0; k <= 20; ++k) stamps.push_back(Stamp::from_seconds(1.0021 + 0.005 * k));
-    const auto states = predict_motion(motion.state(1), Stamp::from_seconds(1), samples, stamps, params);
-    ASSERT_TRUE(states);
-    for (std::size_t k = 0; k < stamps.size(); ++k) {
-      const auto error = motion.state(stamps[k].seconds()).step_to((*states)[k]);
-      EXPECT_LT(error.norm(), 3e-4);
-    }
-  }
-}
-
-TEST(MotionPrediction, RefusesGaps) {
-  const InertialNoiseParams params;
-  const test::SmoothMotion motion(Rng(6), {});
-  const auto samples = test::perfect_readings(motion, 1, 100, params);
-  EXPECT_FALSE(predict_motion({}, Stamp::from_seconds(0.9), samples, {Stamp::from_seconds(1.2)}, params));
-  const auto none = predict_motion({}, Stamp{0}, samples, {}, params);
-  EXPECT_TRUE(none && none->empty());
-}
-
 }  // namespace
 }  // namespace radioslam

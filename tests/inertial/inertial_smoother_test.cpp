@@ -6,7 +6,6 @@
 
 #include "inertial/simulated_drive.hpp"
 #include "radioslam/consistency/chi_squared.hpp"
-#include "radioslam/inertial/inertial_filter.hpp"
 
 namespace radioslam {
 namespace {
@@ -143,26 +142,6 @@ TEST(InertialSmoother, CovariancesAreHonest) {
   EXPECT_TRUE(in_band(last, 15 * kRuns));
   EXPECT_TRUE(in_band(step, 6 * kRuns));
   EXPECT_TRUE(in_band(half, 6 * kRuns));
-}
-
-/// The last state has seen everything: filter and smoother say the same of it.
-TEST(InertialFilter, EndsWhereTheSmootherEnds) {
-  const InertialNoiseParams noise = good_unit();
-  InertialSmootherParams params;
-  params.sigma_start_tilt_rad = 0.02;
-  const SimulatedDrive sim = simulate_drive({}, noise, params, Rng(33));
-  InertialFilter filter(start_prior(sim.drive.start, noise, params));
-  for (std::size_t k = 0; k + 1 < sim.drive.stamps.size(); ++k) {
-    const Stamp from = sim.drive.stamps[k], to = sim.drive.stamps[k + 1];
-    const auto readings = preintegrate(sim.samples, from, to, filter.state().bias, noise);
-    const auto step = state_step(sim.drive.steps[k], readings, seconds_between(from, to));
-    ASSERT_EQ(filter.advance(step, noise), InertialFilter::Advance::kDone);
-  }
-  const auto smoothed = smooth_inertially(sim.drive, sim.samples, noise, params);
-  const auto& covariance = smoothed->covariance.of(40);
-  EXPECT_LT(squared_norm(smoothed->states.back().step_to(filter.state()), covariance), 1);
-  const InertialState::Tangent variance = filter.covariance().diagonal();
-  EXPECT_TRUE(variance.cwiseQuotient(covariance.diagonal()).isApproxToConstant(1, 0.1));
 }
 
 /// Twenty seconds of a minute without a feature along the way: the scans' odometry stands still there.

@@ -50,6 +50,7 @@ std::optional<std::vector<ReadingInterval>> reading_intervals(const std::vector<
     intervals.push_back(between(before, *next));
     before = *next;
   }
+  if (seconds_between(before.stamp, to) > longest_gap_s) return std::nullopt;
   if (before.stamp < to) intervals.push_back(between(before, *last));
   return intervals;
 }

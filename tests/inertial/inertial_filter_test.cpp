@@ -1,0 +1,137 @@
+#include "radioslam/inertial/inertial_filter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+
+#include "inertial/simulated_drive.hpp"
+
+namespace radioslam {
+namespace {
+
+using test::DrivePlan;
+using test::simulate_drive;
+using test::SimulatedDrive;
+using Block = InertialState::Jacobian;
+
+/// The filter at the end of a drive.
+InertialFilter filtered(const SimulatedDrive& sim, const InertialNoiseParams& noise,
+                        const InertialSmootherParams& params) {
+  InertialFilter filter(start_prior(sim.drive.start, noise, params));
+  for (std::size_t k = 0; k + 1 < sim.drive.stamps.size(); ++k) {
+    const Stamp from = sim.drive.stamps[k], to = sim.drive.stamps[k + 1];
+    const auto readings = preintegrate(sim.samples, from, to, filter.state().bias, noise);
+    const auto step = state_step(sim.drive.steps[k], readings, seconds_between(from, to));
+    EXPECT_EQ(filter.advance(step, noise), InertialFilter::Advance::kDone) << k;
+  }
+  return filter;
+}
+
+/// How far the filter's last state is from the smoother's, in its sigmas, and its covariance likewise.
+struct Difference {
+  double state = 0, covariance = 0;
+};
+
+Difference from_the_smoother(const SimulatedDrive& sim, const InertialNoiseParams& noise,
+                             const InertialSmootherParams& params) {
+  const InertialFilter filter = filtered(sim, noise, params);
+  const auto smoothed = smooth_inertially(sim.drive, sim.samples, noise, params);
+  EXPECT_TRUE(smoothed && smoothed->converged);
+  const Block covariance = smoothed->covariance.of(sim.truth.size() - 1);
+  const InertialState::Tangent off = smoothed->states.back().step_to(filter.state());
+  const Eigen::LLT<Block> root(covariance);  // the smoother's becomes the unit matrix
+  const Block half = root.matrixL().solve(filter.covariance());
+  const Block whitened = root.matrixL().solve(half.transpose());
+  return {root.matrixL().solve(off).norm(), (whitened - Block::Identity()).cwiseAbs().maxCoeff()};
+}
+
+/// A drive that hardly turns, by a unit of which everything but the noise is nearly known.
+TEST(InertialFilter, EndsWhereTheSmootherEndsIfTheDriveIsNearlyLinear) {
+  InertialNoiseParams noise;
+  noise.sigma_accelerometer_bias_mps2 = 0.01;
+  noise.sigma_gyroscope_bias_radps = 1e-3;
+  InertialSmootherParams params;
+  params.sigma_start_tilt_rad = 1e-3;
+  params.cost_tolerance = 1e-12;
+  DrivePlan plan;
+  plan.liveliness = {1, 0.01, 2, 0.5, 0};
+  plan.corridor_begin_s = 1.5;
+  plan.corridor_end_s = 3;
+  for (std::uint64_t n = 0; n < 5; ++n) {
+    const auto off = from_the_smoother(simulate_drive(plan, noise, params, Rng(61).split(n)), noise, params);
+    EXPECT_LT(off.state, 1e-3) << n;
+    EXPECT_LT(off.covariance, 1e-3) << n;
+  }
+}
+
+/// Turns and unknown biases make the two differ by what lies beyond the first order.
+TEST(InertialFilter, EndsNearTheSmootherOnALivelyDrive) {
+  InertialNoiseParams noise;
+  noise.sigma_accelerometer_bias_mps2 = 0.05;
+  InertialSmootherParams params;
+  params.sigma_start_tilt_rad = 0.02;
+  const auto off = from_the_smoother(simulate_drive({}, noise, params, Rng(33)), noise, params);
+  EXPECT_LT(off.state, 1);
+  EXPECT_LT(off.covariance, 0.3);
+}
+
+StatePrior drawn_belief(Rng& rng) {
+  InertialState state = test::SmoothMotion(rng.split("motion"), {}).state(1);
+  StatePrior prior = start_prior(state, {}, {});
+  Block mixing = Block::Identity();
+  for (Eigen::Index k = 0; k < mixing.size(); ++k) mixing(k) += rng.normal(0, 0.05);
+  prior.information = (mixing.transpose() * prior.information * mixing).eval();
+  return prior;
+}
+
+/// Without readings: the pose's error is carried along the step, the others' walks are added.
+TEST(InertialFilter, WithoutReadingsAddsTheErrorOfTheStep) {
+  const InertialNoiseParams noise;
+  Rng rng(62);
+  const StatePrior start = drawn_belief(rng);
+  SE3::Tangent motion;
+  motion << 1, 0.2, 0, 0, 0.1, 0.5;
+  SE3::Jacobian of_step = SE3::Jacobian::Identity() * 1e-4;
+  of_step(0, 5) = of_step(5, 0) = 5e-5;
+  InertialFilter filter(start);
+  const Block before = filter.covariance();
+  const double duration_s = 0.5;
+  const auto step = state_step({SE3::exp(motion), of_step.inverse()}, std::nullopt, duration_s);
+  ASSERT_EQ(filter.advance(step, noise), InertialFilter::Advance::kDone);
+
+  Block carry = Block::Identity(), expected = Block::Zero();
+  carry.topLeftCorner<6, 6>() = SE3::exp(motion).inverse().adjoint();
+  const auto walk = [&](int at, double density) {
+    expected.block<3, 3>(at, at).diagonal().setConstant(density * density * duration_s);
+  };
+  expected.topLeftCorner<6, 6>() = of_step;
+  walk(InertialState::kVelocity, noise.unmeasured_velocity_walk);
+  walk(InertialState::kGyroscope, noise.gyroscope_walk);
+  walk(InertialState::kAccelerometer, noise.accelerometer_walk);
+  expected += carry * before * carry.transpose();
+  const InertialState::Tangent scale = expected.diagonal().cwiseSqrt().cwiseInverse();
+  const Block off = scale.asDiagonal() * (filter.covariance() - expected) * scale.asDiagonal();
+  EXPECT_LT(off.cwiseAbs().maxCoeff(), 1e-6);
+  InertialState there = start.mean;
+  there.T_world_body = there.T_world_body * SE3::exp(motion);
+  EXPECT_LT(there.step_to(filter.state()).norm(), 1e-9);
+}
+
+TEST(InertialFilter, RefusesWhatLeavesSomethingOpenAndStaysWhereItIs) {
+  const InertialNoiseParams noise;
+  Rng rng(63);
+  InertialFilter filter(drawn_belief(rng));
+  const InertialState before = filter.state();
+  const Block information = filter.belief().information;
+  SE3::Jacobian no_x = SE3::Jacobian::Identity();
+  no_x(0, 0) = 0;
+  for (const SE3::Jacobian& known : {SE3::Jacobian(SE3::Jacobian::Zero()), no_x})
+    EXPECT_EQ(filter.advance(state_step({SE3(), known}, std::nullopt, 0.1), noise),
+              InertialFilter::Advance::kUndetermined);
+  EXPECT_EQ(filter.state().T_world_body.translation(), before.T_world_body.translation());
+  EXPECT_EQ(filter.state().velocity_mps, before.velocity_mps);
+  EXPECT_EQ(filter.belief().information, information);
+}
+
+}  // namespace
+}  // namespace radioslam

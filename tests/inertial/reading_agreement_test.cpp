@@ -1,0 +1,176 @@
+#include "radioslam/inertial/reading_agreement.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "inertial/smooth_motion.hpp"
+#include "radioslam/geometry/so3.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr double kEnd_s = 30, kReadings_hz = 100, kPoses_hz = 10;
+
+/// A drive's poses and readings, both with small errors.
+struct Recording {
+  Trajectory<SE3> poses;
+  std::vector<InertialSample> samples;
+};
+
+/// Poses from 2 s on, so that readings on another clock are there as well.
+Recording record(std::uint64_t seed, const test::Liveliness& liveliness) {
+  const InertialNoiseParams noise;
+  Rng rng = Rng(71).split(seed);
+  const test::SmoothMotion motion(rng.split("motion"), liveliness);
+  Recording recording{{}, test::perfect_readings(motion, kEnd_s, kReadings_hz, noise)};
+  test::add_errors(recording.samples, {{0.01, 0.005, -0.01}, {0.05, -0.05, 0.1}}, kReadings_hz, noise, rng);
+  std::vector<StampedPose<SE3>> rows;
+  for (int k = 20; k <= (kEnd_s - 2) * kPoses_hz; ++k) {
+    SE3::Tangent error;
+    error << test::normal_vector(rng, 0.02), test::normal_vector(rng, 0.005);
+    rows.push_back({Stamp::from_seconds(k / kPoses_hz), motion.pose(k / kPoses_hz) * SE3::exp(error)});
+  }
+  recording.poses = Trajectory<SE3>(std::move(rows));
+  return recording;
+}
+
+constexpr test::Liveliness kTurning{1, 1.5, 2, 0.5, 0.2};
+
+using Spoil = std::function<void(InertialSample&)>;
+
+Recording spoilt(Recording recording, const Spoil& spoil) {
+  for (InertialSample& sample : recording.samples) spoil(sample);
+  return recording;
+}
+
+std::optional<std::string> verdict(const Recording& recording) {
+  return disagreement(recording.poses, recording.samples, {}, {});
+}
+
+/// That the verdict has these words.
+testing::AssertionResult says(const Recording& recording, const std::string& words) {
+  const auto wrong = verdict(recording);
+  if (!wrong) return testing::AssertionFailure() << "nothing is said";
+  if (wrong->find(words) != std::string::npos) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << *wrong;
+}
+
+TEST(ReadingAgreement, OfOneBodyThereIsNothingToSay) {
+  for (std::uint64_t n = 0; n < 5; ++n) EXPECT_EQ(verdict(record(n, kTurning)), std::nullopt) << n;
+}
+
+/// A minute is the whole of what the gyroscope's rates are off by.
+TEST(ReadingAgreement, NamesTheGyroscopesBias) {
+  for (const double off : {0.05, 0.4}) {
+    const Recording biased = spoilt(record(1, kTurning), [&](InertialSample& s) {
+      s.angular_rate_radps += Eigen::Vector3d(-0.01, off - 0.005, 0.01);
+    });
+    if (off < 0.1)  // 5 sigmas of 0.02 rad/s
+      EXPECT_EQ(verdict(biased), std::nullopt);
+    else
+      EXPECT_TRUE(says(biased, "its gyroscope is off by 0.4"));
+  }
+}
+
+TEST(ReadingAgreement, NamesTheFactorOfTurns) {
+  for (const auto& [factor, name] : {std::pair(0.5, "turns 0.5"), {2.0, "turns 2"}, {-1.0, "turns -1"}}) {
+    const Recording scaled =
+        spoilt(record(2, kTurning), [f = factor](InertialSample& s) { s.angular_rate_radps *= f; });
+    const auto wrong = verdict(scaled);
+    ASSERT_TRUE(wrong) << name;
+    const auto at = wrong->find("turns ");
+    ASSERT_NE(at, std::string::npos) << *wrong;
+    EXPECT_NEAR(std::stod(wrong->substr(at + 6)), factor, 0.03 * std::abs(factor)) << *wrong;
+  }
+}
+
+/// A factor within what turns may be off by is let pass.
+TEST(ReadingAgreement, LetsASmallFactorPass) {
+  EXPECT_EQ(verdict(spoilt(record(3, kTurning), [](InertialSample& s) { s.angular_rate_radps *= 1.03; })),
+            std::nullopt);
+}
+
+TEST(ReadingAgreement, NamesTheLagOfTheClocks) {
+  for (const double lag_s : {-0.8, -0.3, 0.3, 0.8}) {
+    const Recording late = spoilt(record(4, kTurning), [&](InertialSample& s) {
+      s.stamp.ns += Stamp::from_seconds(lag_s).ns;
+    });
+    const auto wrong = verdict(late);
+    ASSERT_TRUE(wrong) << lag_s;
+    EXPECT_NE(wrong->find(lag_s > 0 ? "too late" : "too early"), std::string::npos) << *wrong;
+    const auto at = wrong->find("stamped ");
+    ASSERT_NE(at, std::string::npos) << *wrong;
+    EXPECT_NEAR(std::stod(wrong->substr(at + 8)), std::abs(lag_s), 0.051) << *wrong;
+  }
+}
+
+TEST(ReadingAgreement, LetsASmallLagPass) {
+  for (const double lag_s : {-0.05, 0.05})
+    EXPECT_EQ(verdict(spoilt(record(5, kTurning),
+                             [&](InertialSample& s) { s.stamp.ns += Stamp::from_seconds(lag_s).ns; })),
+              std::nullopt)
+        << lag_s;
+}
+
+TEST(ReadingAgreement, NamesTheForceThatIsNotGravity) {
+  const auto times = [](double factor) {
+    return spoilt(record(6, kTurning), [=](InertialSample& s) { s.specific_force_mps2 *= factor; });
+  };
+  EXPECT_TRUE(says(times(1 / 9.81), "is it in g?"));
+  EXPECT_TRUE(says(times(2), "m/s^2, not gravity's 9.81"));
+  EXPECT_FALSE(says(times(2), "is it in g?"));
+  EXPECT_EQ(verdict(times(1.03)), std::nullopt);
+}
+
+TEST(ReadingAgreement, SeesAnotherMounting) {
+  const Eigen::Quaterniond mounting = so3_exp({1.2, 0.5, -0.7});
+  EXPECT_TRUE(says(spoilt(record(7, kTurning),
+                          [&](InertialSample& s) {
+                            s.specific_force_mps2 = mounting * s.specific_force_mps2;
+                            s.angular_rate_radps = mounting * s.angular_rate_radps;
+                          }),
+                   "in the body's frame?"));
+}
+
+/// Of turns, that is: any gyroscope agrees with a body that hardly does.
+TEST(ReadingAgreement, OfADriveThatHardlyTurnsThereIsNothingToSay) {
+  const Recording straight = record(8, {1, 0.002, 2, 0.5, 0});
+  const auto upset = [](InertialSample& s) { s.angular_rate_radps = Eigen::Vector3d(-1, 2, -3).cwiseProduct(s.angular_rate_radps); };
+  EXPECT_EQ(verdict(spoilt(straight, upset)), std::nullopt);
+  EXPECT_TRUE(says(spoilt(straight, [](InertialSample& s) { s.specific_force_mps2 *= 0.5; }), "gravity"));
+}
+
+/// Every tenth pose anywhere: so every fifth pair of successive windows at most.
+TEST(ReadingAgreement, IsNotMovedByPosesThatAreWrongNowAndThen) {
+  const Recording right = record(9, kTurning);
+  Rng rng(72);
+  std::vector<StampedPose<SE3>> rows(right.poses.begin(), right.poses.end());
+  for (std::size_t k = 0; k < rows.size(); k += 25)
+    rows[k].pose = rows[k].pose * SE3({0, 0, 0}, so3_exp(test::normal_vector(rng, 1)));
+  EXPECT_EQ(verdict({Trajectory<SE3>(rows), right.samples}), std::nullopt);
+}
+
+/// The odometry's frame leans as it likes.
+TEST(ReadingAgreement, DoesNotDependOnTheFrameOfThePoses) {
+  SE3::Tangent frame;
+  frame << 10, -20, 3, 0.4, -0.9, 2;
+  const Recording wrong =
+      spoilt(record(10, kTurning), [](InertialSample& s) { s.angular_rate_radps *= 3; });
+  std::vector<StampedPose<SE3>> rows;
+  for (const auto& row : wrong.poses) rows.push_back({row.stamp, SE3::exp(frame) * row.pose});
+  ASSERT_TRUE(verdict(wrong));
+  EXPECT_EQ(verdict(wrong), verdict({Trajectory<SE3>(rows), wrong.samples}));
+}
+
+TEST(ReadingAgreement, LooksAtWhatIsThere) {
+  Recording half = record(11, kTurning);
+  half.samples.erase(half.samples.begin() + 1000, half.samples.begin() + 2000);
+  EXPECT_EQ(verdict(half), std::nullopt);
+  EXPECT_TRUE(says(spoilt(half, [](InertialSample& s) { s.angular_rate_radps *= -1; }), "turns -1"));
+  EXPECT_EQ(verdict({half.poses, {}}), std::nullopt);
+  EXPECT_EQ(verdict({{}, half.samples}), std::nullopt);
+}
+
+}  // namespace
+}  // namespace radioslam
