@@ -49,7 +49,8 @@ TEST(MotionPrediction, OfAThrowIsAParabola) {
   start.T_world_body = SE3({1, 2, 3}, Eigen::Quaterniond(Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitY())));
   start.velocity_mps = {2, -1, 5};
   const auto stamps = every_tenth(0, 1);
-  const auto states = predict_motion(start, Stamp{0}, steady_readings({0, 0, 0}, {0, 3, 0}, 1), stamps, params);
+  const auto states =
+      predict_motion(start, Stamp{0}, steady_readings({0, 0, 0}, {0, 3, 0}, 1), stamps, params);
   ASSERT_TRUE(states);
   for (std::size_t k = 0; k < stamps.size(); ++k) {
     const double t = stamps[k].seconds();
@@ -69,8 +70,8 @@ TEST(MotionPrediction, ClosesACircle) {
   start.velocity_mps = {kSpeed_mps, 0, 0};
   const auto samples = steady_readings({0, kSpeed_mps * kSpeed_mps / kRadius_m, params.gravity_mps2},
                                        {0, 0, kSpeed_mps / kRadius_m}, kLap_s + 0.1);
-  const auto states = predict_motion(
-      start, Stamp{0}, samples, {Stamp::from_seconds(kLap_s / 2), Stamp::from_seconds(kLap_s)}, params);
+  const auto states = predict_motion(start, Stamp{0}, samples,
+                                     {Stamp::from_seconds(kLap_s / 2), Stamp::from_seconds(kLap_s)}, params);
   ASSERT_TRUE(states);
   const Eigen::Vector3d across(0, 2 * kRadius_m, 0);
   EXPECT_LT((states->front().T_world_body.translation() - across).norm(), 1e-3);

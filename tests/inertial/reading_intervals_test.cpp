@@ -65,7 +65,8 @@ TEST(ReadingIntervals, ReachFromReadingToReading) {
 }
 
 TEST(ReadingIntervals, BeyondTheReadingsKeepTheLastValues) {
-  const auto before = pieces_between(uneven_readings(), -0.05, 0), after = pieces_between(uneven_readings(), 0.2, 0.29);
+  const auto before = pieces_between(uneven_readings(), -0.05, 0),
+             after = pieces_between(uneven_readings(), 0.2, 0.29);
   ASSERT_TRUE(before && after);
   EXPECT_LT((summed(*before).turn - 0.05 * reading_at(0).angular_rate_radps).norm(), 1e-9);
   EXPECT_LT((summed(*after).push - 0.09 * reading_at(0.2).specific_force_mps2).norm(), 1e-9);
