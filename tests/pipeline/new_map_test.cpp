@@ -1,0 +1,146 @@
+// Scans that fit nothing for long, or were missing: a new map is begun, and how the robot moved there is as
+// uncertain as it is said to be.
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <functional>
+
+#include "lidar/scan_drive.hpp"
+#include "radioslam/consistency/chi_squared.hpp"
+#include "radioslam/mission/odometry_edge.hpp"
+#include "radioslam/pipeline/pipeline.hpp"
+#include "radioslam/pipeline/scan_stage.hpp"
+
+namespace radioslam {
+namespace {
+
+using namespace test;
+
+constexpr std::size_t kPatience = 10;  // of ScanOdometryParams
+
+/// A drive on which a new map is begun.
+struct BrokenDrive {
+  ScanDrive drive;
+  std::size_t last = 0, next = 0;  ///< the scans on either side of the step to the new map
+};
+
+/// Ten minutes without scans, over which the robot drives on to elsewhere in the room.
+BrokenDrive drive_with_a_gap(std::size_t until) {
+  const ScanDrive whole = drive_along(furnished_room(), planar_scanner(), around_furnished_room(40), 1);
+  BrokenDrive broken;
+  broken.last = 9;
+  broken.next = 10;
+  for (std::size_t k = 0; k < whole.scans.size(); ++k) {
+    if (k > broken.last && k < until) continue;
+    const double later_s = k > broken.last ? 600 : 0;
+    broken.drive.stamps.push_back(Stamp::from_seconds(whole.stamps[k].seconds() + later_s));
+    broken.drive.truth.push_back(whole.truth[k]);
+    broken.drive.scans.push_back(whole.scans[k]);
+  }
+  return broken;
+}
+
+/// The world about the robot becomes another one: a lift's doors open. In it the robot goes on by `step` per
+/// scan until the new map is begun, and through the hall from there on.
+BrokenDrive drive_by_lift(const SE3& step) {
+  constexpr std::size_t kInRoom = 10;
+  ScanDrive drive = drive_along(furnished_room(), planar_scanner(), around_furnished_room(40), 10);
+  drive.truth.resize(kInRoom);
+  drive.scans.resize(kInRoom);
+  auto poses = through_furnished_hall(40);
+  poses.resize(16);
+  std::vector<SE3> arriving{poses.front()};
+  for (std::size_t k = 0; k < kPatience; ++k)
+    arriving.insert(arriving.begin(), arriving.front() * step.inverse());
+  poses.insert(poses.begin(), arriving.begin(), arriving.end() - 1);
+  const ScanDrive hall = drive_along(furnished_hall(), planar_scanner(), poses, 11);
+  const SE3 T_room_hall = drive.truth.back() * step * hall.truth.front().inverse();
+  for (std::size_t k = 0; k < hall.scans.size(); ++k) {
+    drive.truth.push_back(T_room_hall * hall.truth[k]);
+    drive.scans.push_back(hall.scans[k]);
+  }
+  drive.stamps.clear();
+  for (std::size_t k = 0; k < drive.scans.size(); ++k)
+    drive.stamps.push_back(Stamp::from_seconds(0.1 * static_cast<double>(k)));
+  return {drive, kInRoom - 1, kInRoom + kPatience};
+}
+
+Mission mission_of_drive(const ScanDrive& drive) {
+  Robot robot;
+  robot.id = "a";
+  robot.lidar = log_of(drive);
+  Mission mission;
+  mission.name = "new map";
+  mission.dimension = 2;
+  mission.robots = {robot};
+  return mission;
+}
+
+std::size_t scan_at(const ScanDrive& drive, Stamp stamp) {
+  return static_cast<std::size_t>(std::find(drive.stamps.begin(), drive.stamps.end(), stamp) -
+                                  drive.stamps.begin());
+}
+
+SE3 true_step(const ScanDrive& drive, Stamp from, Stamp to) {
+  return drive.truth[scan_at(drive, from)].inverse() * drive.truth[scan_at(drive, to)];
+}
+
+bool is_noted(const std::vector<std::string>& notes, const std::string& words) {
+  return std::any_of(notes.begin(), notes.end(),
+                     [&](const std::string& note) { return note.find(words) != std::string::npos; });
+}
+
+/// Every step but the one to the new map is right; that one's error is one of its covariance.
+void expect_steps(const Trajectory<SE3>& rows, const BrokenDrive& broken,
+                  const std::function<SE3::Jacobian(Stamp, Stamp)>& covariance_of) {
+  const ScanDrive& drive = broken.drive;
+  bool is_there = false;
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    const Stamp from = rows[k - 1].stamp, to = rows[k].stamp;
+    const SE3 step = rows[k - 1].pose.inverse() * rows[k].pose;
+    const SE3 error = step.inverse() * true_step(drive, from, to);
+    if (from <= drive.stamps[broken.last] && drive.stamps[broken.next] <= to) {
+      is_there = true;
+      const SE3::Tangent xi = error.log();
+      const double nees = xi.dot(covariance_of(from, to).llt().solve(xi));
+      EXPECT_LT(nees, chi_squared_quantile(0.99, 6));
+    } else {
+      EXPECT_LT(error.translation().norm(), 0.06) << k;
+      EXPECT_LT(error.log().tail<3>().norm(), kDegree) << k;
+    }
+  }
+  EXPECT_TRUE(is_there);
+}
+
+/// As odometry, and in the estimate.
+void expect_known_unknown(const BrokenDrive& broken, std::size_t unmatched) {
+  Mission mission = mission_of_drive(broken.drive);
+  const RunResult result = run_pipeline(mission, {}).result;
+  const MeasuredScans measured = measure_scans(mission, {}, {}, {});
+  EXPECT_EQ(measured.unmatched, unmatched);
+  EXPECT_EQ(measured.registered + unmatched, broken.drive.scans.size());
+  for (const auto& notes : {measured.notes, result.notes}) {
+    EXPECT_TRUE(
+        is_noted(notes, "robot a: 1 times scans fitted nothing for long or were missing, and a new map"));
+    EXPECT_EQ(is_noted(notes, "robot a: " + std::to_string(unmatched) + " scans did not fit"), unmatched > 0);
+  }
+  const Robot& robot = mission.robots[0];
+  for (const auto& rows : {robot.odometry, result.robots[0].estimate})
+    expect_steps(rows, broken, [&](Stamp from, Stamp to) {
+      return measured_covariance(robot.odometry_noise.steps, from, to);
+    });
+}
+
+TEST(NewMap, AfterALongTimeWithoutScans) {
+  for (const std::size_t until : {18U, 25U, 30U}) expect_known_unknown(drive_with_a_gap(until), 0);
+}
+
+/// The robot goes on as before, stands, or turns on the spot.
+TEST(NewMap, AfterScansThatFittedNothingForLong) {
+  const SE3 on = SE3::exp(planar_motion(0.35, 0, 0.1)), stands, turns = SE3::exp(planar_motion(0, 0, 0.12));
+  for (const SE3& step : {on, stands, turns}) expect_known_unknown(drive_by_lift(step), kPatience);
+}
+
+}  // namespace
+}  // namespace radioslam
