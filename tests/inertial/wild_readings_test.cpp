@@ -120,7 +120,5 @@ TEST(WildReadings, AreAllKeptWhereTheyAreMany) {
   expect_left_out(samples, {});
 }
 
-TEST(WildReadings, OfNoneThereAreNone) { expect_left_out({}, {}); }
-
 }  // namespace
 }  // namespace radioslam
