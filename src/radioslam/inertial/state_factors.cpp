@@ -87,9 +87,9 @@ void add_difference(StepTerms& sum, int first, const Vector& change, const Vecto
 }
 
 StepTerms no_terms() {
-  using Block = InertialState::Jacobian;
-  using Slope = InertialState::Tangent;
-  return {Block::Zero(), Block::Zero(), Block::Zero(), Slope::Zero(), Slope::Zero(), 0};
+  const InertialState::Jacobian block = InertialState::Jacobian::Zero();
+  const InertialState::Tangent slope = InertialState::Tangent::Zero();
+  return {block, block, block, slope, slope, 0};
 }
 
 }  // namespace
