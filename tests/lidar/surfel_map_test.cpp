@@ -53,6 +53,23 @@ TEST(SurfelMap, FindsTheNearestAsALookAtEverySurfelDoes) {
   }
 }
 
+/// What was seen from afar as a point is a surface from nearby, and stays one.
+TEST(SurfelMap, LearnsTheSurfaceOfAPoint) {
+  SurfelMap map(kSurfelSpacing_m, kSurfelReach_m);
+  const Eigen::Vector3f place(1.19F, 0, 0), beside(1.21F, 0, 0);  // in two cells
+  const Surfel point{place, 4e-4F * Eigen::Matrix3f::Identity(), 0, SurfelShape::kPoint};
+  const Surfel surface{beside, Eigen::Vector3f(1e-3F, 1, 1).asDiagonal(), 0.01F, SurfelShape::kSurface};
+  EXPECT_EQ(map.add({point}, 0), 1U);
+  EXPECT_EQ(map.add({surface}, 0), 0U);
+  EXPECT_EQ(map.add({point}, 0), 0U);
+  const auto surfels = map.surfels();
+  ASSERT_EQ(surfels.size(), 1U);
+  EXPECT_EQ(surfels[0].position, place);
+  EXPECT_EQ(surfels[0].covariance, surface.covariance);
+  EXPECT_EQ(surfels[0].shape, SurfelShape::kSurface);
+  EXPECT_EQ(surfels[0].tilt_rad2, surface.tilt_rad2);
+}
+
 TEST(SurfelMap, FindsAcrossTheCornersOfItsCells) {
   for (int corner = 0; corner < 8; ++corner) {
     SurfelMap map(kSurfelSpacing_m, kSurfelReach_m);

@@ -93,14 +93,53 @@ TEST(MeasureSurfels, OfAPlanarScannerLeaveTheHeightOpen) {
   }
 }
 
-/// Nothing is known of their surface.
-TEST(MeasureSurfels, OfIsolatedPointsAreTheSameAllAround) {
-  std::vector<Eigen::Vector3f> points;
-  for (int k = 0; k < 20; ++k) points.emplace_back(static_cast<float>(k), 0.0F, 0.0F);
-  for (const Surfel& surfel : measure_surfels(points, kSpacing_m, ScannerKind::kSpatial, {})) {
-    EXPECT_TRUE(surfel.covariance.isApprox(surfel.covariance(0, 0) * Eigen::Matrix3f::Identity()));
-    EXPECT_GT(std::sqrt(surfel.covariance(0, 0)), 0.5 * kSpacing_m);
+/// Nothing is known of their surface, and only the measurement errs.
+TEST(MeasureSurfels, OfPointsWithoutASurfaceAreTheMeasurementsAlone) {
+  std::vector<Eigen::Vector3f> apart, beam;
+  for (int k = 0; k < 20; ++k) {
+    apart.emplace_back(static_cast<float>(k), 0.0F, 0.0F);
+    beam.emplace_back(5.0F, 0.05F * static_cast<float>(k), 0.0F);  // level: the slope across it is not seen
   }
+  const SurfelParams params;
+  const auto variance = static_cast<float>(params.sigma_range_m * params.sigma_range_m);
+  for (const auto& points : {apart, beam})
+    for (const Surfel& surfel : measure_surfels(points, kSpacing_m, ScannerKind::kSpatial, params)) {
+      EXPECT_EQ(surfel.shape, SurfelShape::kPoint);
+      EXPECT_TRUE(surfel.covariance.isApprox(variance * Eigen::Matrix3f::Identity()));
+    }
+}
+
+/// A pole, or a wall that few beams meet under a small angle: no telling which.
+TEST(MeasureSurfels, OfARisingLineAreNoSurfaces) {
+  std::vector<Eigen::Vector3f> line;
+  for (int k = 0; k < 20; ++k) line.emplace_back(5.0F, 1.0F, 0.05F * static_cast<float>(k));
+  for (const Surfel& surfel : measure_surfels(line, kSpacing_m, ScannerKind::kSpatial, {}))
+    EXPECT_EQ(surfel.shape, SurfelShape::kBlob);
+}
+
+/// The variance of the normals' tilt is what is stated, up to what the noise across the plane is overstated.
+TEST(MeasureSurfels, OfAPlaneKnowHowFarTheirNormalsMayLean) {
+  Rng rng(4);
+  SurfelParams params;
+  params.sigma_range_m = 1e-3;
+  const double sigma_m = 0.01;
+  double leans = 0, stated = 0;
+  std::size_t surfaces = 0, all = 0;
+  for (int n = 0; n < 20; ++n) {
+    const Eigen::Quaterniond turn = random_turn(rng);
+    const Eigen::Vector3d along = turn * Eigen::Vector3d::UnitX();
+    const auto points = noisy_plane(turn * Eigen::Vector3d(0, 3, 5), turn, sigma_m, rng);
+    for (const Surfel& surfel : measure_surfels(points, kSpacing_m, ScannerKind::kSpatial, params)) {
+      ++all;
+      if (surfel.shape != SurfelShape::kSurface) continue;
+      ++surfaces;
+      leans += std::pow(thinnest_direction(surfel).dot(along), 2);
+      stated += static_cast<double>(surfel.tilt_rad2);
+    }
+  }
+  EXPECT_GT(static_cast<double>(surfaces), 0.9 * static_cast<double>(all));
+  EXPECT_GT(stated, 0.7 * leans);
+  EXPECT_LT(stated, 3 * leans);
 }
 
 TEST(MeasureSurfels, OfFewOrOfEqualPointsArePositiveDefinite) {

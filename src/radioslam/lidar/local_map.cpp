@@ -42,7 +42,8 @@ std::vector<Surfel> transformed(const SE3& T, const std::vector<Surfel>& surfels
   std::vector<Surfel> moved;
   moved.reserve(surfels.size());
   for (const Surfel& surfel : surfels)
-    moved.push_back({R * surfel.position + t, R * surfel.covariance * R.transpose()});
+    moved.push_back(
+        {R * surfel.position + t, R * surfel.covariance * R.transpose(), surfel.tilt_rad2, surfel.shape});
   return moved;
 }
 
@@ -51,12 +52,13 @@ LocalMap::LocalMap(double spacing_m, const LocalMapParams& params)
       fine_(spacing_m, params.reach_spacings * spacing_m),
       coarse_(params.coarse_spacings * spacing_m, params.coarse_reach_spacings * spacing_m) {}
 
-void LocalMap::add(const ScanCloud& cloud, const SE3& T_map_body, double way_m) {
+double LocalMap::add(const ScanCloud& cloud, const SE3& T_map_body, double way_m) {
   const std::vector<Surfel> surfels = transformed(T_map_body, cloud.all);
-  fine_.add(surfels, way_m);
+  const std::size_t taken = fine_.add(surfels, way_m);
   coarse_.add(surfels, way_m);
   fine_.forget_before(way_m - memory_m_);
   coarse_.forget_before(way_m - memory_m_);
+  return static_cast<double>(taken) / static_cast<double>(std::max<std::size_t>(1, surfels.size()));
 }
 
 }  // namespace radioslam

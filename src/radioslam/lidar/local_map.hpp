@@ -58,8 +58,9 @@ class LocalMap {
   const SurfelMap& fine() const { return fine_; }
   const SurfelMap& coarse() const { return coarse_; }
 
-  /// A scan from this pose, `way_m` metres into the way; what lies too far back is forgotten.
-  void add(const ScanCloud& cloud, const SE3& T_map_body, double way_m);
+  /// A scan from this pose, `way_m` metres into the way; what lies too far back is forgotten. Returns
+  /// which share of the scan is new.
+  double add(const ScanCloud& cloud, const SE3& T_map_body, double way_m);
 
  private:
   double memory_m_;

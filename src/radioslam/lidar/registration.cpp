@@ -18,37 +18,53 @@ constexpr double kPlanarInformation = 1e8;  // pins height, roll and pitch of a 
 struct NormalSums {
   SE3::Jacobian hessian = SE3::Jacobian::Zero();
   SE3::Tangent gradient = SE3::Tangent::Zero();
-  double weights = 0, weighted_squares = 0;
+  double leak = 0, weights = 0, weighted_squares = 0;
   std::size_t matches = 0;
 
   void operator+=(const NormalSums& other) {
     hessian += other.hessian;
     gradient += other.gradient;
+    leak += other.leak;
     weights += other.weights;
     weighted_squares += other.weighted_squares;
     matches += other.matches;
   }
 };
 
+/// Of the normal by which two surfels are laid onto each other: the mean of theirs, or the only one's.
+float tilt_of(const Surfel& a, const Surfel& b) {
+  const bool are_both = a.shape != SurfelShape::kPoint && b.shape != SurfelShape::kPoint;
+  return (are_both ? 0.25F : 1) * (a.tilt_rad2 + b.tilt_rad2);
+}
+
 /// One pass over the source's points at one pose.
 class Pass {
  public:
-  Pass(const NearestSurfel& target, const SE3& T, double reach_m, double blur_m, double loss_scale)
+  Pass(const NearestSurfel& target, const SE3& T, double reach_m, double blur_m,
+       const RegistrationParams& params)
       : target_(target),
         R_(T.rotation_matrix()),
         R_float_(R_.cast<float>()),
         t_float_(T.translation().cast<float>()),
         squared_reach_(static_cast<float>(reach_m * reach_m)),
         squared_blur_(static_cast<float>(blur_m * blur_m)),
-        squared_scale_(loss_scale * loss_scale) {}
+        squared_point_reach_(squared_reach_ * static_cast<float>(params.point_reach * params.point_reach)),
+        squared_scale_(params.loss_scale * params.loss_scale) {}
 
   /// Adds a point's share. With e' = R' e and W' = R' W R the error's Jacobian is [-I, [p]x].
   void add(const Surfel& surfel, NormalSums& sums) const {
     const Eigen::Vector3f moved = R_float_ * surfel.position + t_float_;
     const Surfel* met = target_(moved, squared_reach_);
     if (!met) return;
+    const float squared_distance = (met->position - moved).squaredNorm();
+    if (!tell_together(*met, surfel, squared_distance)) {
+      ++sums.weights;
+      ++sums.matches;
+      return;
+    }
     Eigen::Matrix3f covariance = R_float_.transpose() * met->covariance * R_float_ + surfel.covariance;
-    covariance.diagonal().array() += squared_blur_;
+    const float tilt_rad2 = tilt_of(*met, surfel);
+    covariance.diagonal().array() += squared_blur_ + tilt_rad2 * squared_distance;
     const Eigen::Matrix3d information = covariance.cast<double>().inverse();
     const Eigen::Vector3d error = (R_float_.transpose() * (met->position - moved)).cast<double>();
     const Eigen::Vector3d pull = information * error;
@@ -62,17 +78,25 @@ class Pass {
     sums.hessian.bottomRightCorner<3, 3>() -= weight * (arm * turned);
     sums.gradient.head<3>() -= weight * pull;
     sums.gradient.tail<3>() -= weight * (arm * pull);
+    sums.leak += weight * information.trace() * static_cast<double>(tilt_rad2);
     sums.weights += weight;
     sums.weighted_squares += weight * squares;
     ++sums.matches;
   }
 
  private:
+  /// A point alone tells only where it meets a surface beyond doubt, and close by: it may be another's.
+  bool tell_together(const Surfel& a, const Surfel& b, float squared_distance) const {
+    const auto [less, more] = std::minmax(a.shape, b.shape);
+    return less != SurfelShape::kPoint ||
+           (more == SurfelShape::kSurface && squared_distance < squared_point_reach_);
+  }
+
   const NearestSurfel& target_;
   Eigen::Matrix3d R_;
   Eigen::Matrix3f R_float_;
   Eigen::Vector3f t_float_;
-  float squared_reach_, squared_blur_;
+  float squared_reach_, squared_blur_, squared_point_reach_;
   double squared_scale_;
 };
 
@@ -102,12 +126,12 @@ void pin_plane(Registration& result, SE3::Tangent& gradient) {
   }
 }
 
-/// The information without `share` of the largest about the position, off that along each axis. What an axis
-/// keeps, it keeps in all that the points tell along it.
-SE3::Jacobian without_leak(const SE3::Jacobian& information, double share) {
+/// The information without `leak` about the position, off that along each axis. What an axis keeps, it keeps
+/// in all that the points tell along it.
+SE3::Jacobian without_leak(const SE3::Jacobian& information, double leak) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(information.topLeftCorner<3, 3>());
   const Eigen::Vector3d values = axes.eigenvalues();
-  const Eigen::Vector3d left = (values.array() - share * values(2)).max(0.0);
+  const Eigen::Vector3d left = (values.array() - leak).max(0.0);
   const Eigen::Vector3d kept = left.cwiseQuotient(values.cwiseMax(1e-12)).cwiseSqrt();
   SE3::Jacobian scale = SE3::Jacobian::Identity();
   scale.topLeftCorner<3, 3>() = axes.eigenvectors() * kept.asDiagonal() * axes.eigenvectors().transpose();
@@ -126,19 +150,22 @@ Registration register_surfels(const NearestSurfel& target, const SurfelSource& s
   const double fewest =
       std::max(kFewestMatches, start.least_met_share * static_cast<double>(source.surfels.size()));
   for (result.iterations = 1; result.iterations <= params.max_iterations; ++result.iterations) {
-    const NormalSums sums = sum_over(
-        source.surfels, Pass(target, result.T_target_source, start.reach_m, blur_m, params.loss_scale));
+    const NormalSums sums =
+        sum_over(source.surfels, Pass(target, result.T_target_source, start.reach_m, blur_m, params));
     if (static_cast<double>(sums.matches) < fewest) return {.T_target_source = start.T_target_source};
     const SE3::Tangent from_prior = (prior.pose.inverse() * result.T_target_source).log();
-    const SE3::Jacobian all = source.independent_share * sums.hessian;
-    result.information = kind == ScannerKind::kSpatial ? without_leak(all, params.leak_share) : all;
-    result.posterior = result.information + prior.information;
-    SE3::Tangent gradient = source.independent_share * sums.gradient + prior.information * from_prior;
-    SE3::Jacobian hessian = all + prior.information;
-    if (kind == ScannerKind::kPlanar) {
-      pin_plane(result, gradient);
-      hessian = result.posterior;
+    SE3::Jacobian all = source.independent_share * sums.hessian;
+    SE3::Tangent gradient = source.independent_share * sums.gradient;
+    result.information = all;
+    if (kind == ScannerKind::kSpatial) {
+      result.information = without_leak(all, params.leak_factor * source.independent_share * sums.leak);
+      all.diagonal() *= 1 + 1e-9;
+      gradient = result.information * all.ldlt().solve(gradient);
     }
+    gradient += prior.information * from_prior;
+    result.posterior = result.information + prior.information;
+    if (kind == ScannerKind::kPlanar) pin_plane(result, gradient);
+    SE3::Jacobian hessian = result.posterior;
     hessian.diagonal() *= 1 + 1e-9;
     SE3::Tangent step = -hessian.ldlt().solve(gradient);
     step *= std::min(1.0, start.reach_m / std::max(step.head<3>().norm(), 1e-9));

@@ -7,10 +7,15 @@
 // wrong, where points pull as points do, and narrows to nothing, where they slide along their surfaces.
 // Neighbouring points err together (same surface, same scan line): the information counts `independent_share`
 // of each.
+// A point without a surface of its own is held to a surface of the other cloud that it lies close to, or
+// the other way round; two points tell each other nothing.
 // The normal of a surface is known to a few degrees only, so that some of what a wall tells across leaks
-// along it: along a corridor, thousands of points promise what none of them knows. Of the stated information
-// about the position `leak_share` of the largest eigenvalue is taken off all three. (In space; a plane's scan
-// line has its normals from many points.)
+// along it: along a corridor, thousands of points promise what none of them knows. How far normals may lean
+// is known (surfel.hpp: s^2; it also makes a match uncertain, by s^2 per squared distance along the surface),
+// and with it what leaks of all information, sum w tr(W_k) s_k^2. Of the information about the position H so
+// much, times `leak_factor`, is taken off along each axis: H' = S H S. The points' own answer x = -H^-1 g
+// then counts as much as H' says, against the prior: along a corridor the prior stands. (In space; a plane's
+// scan line has its normals from many points.)
 #pragma once
 
 #include <Eigen/Core>
@@ -26,9 +31,10 @@ namespace radioslam {
 
 struct RegistrationParams {
   int max_iterations = 30;
-  double loss_scale = 3;    ///< standard deviations beyond which a point counts for little
-  double narrowing = 0.35;  ///< of the blur from one iteration to the next
-  double leak_share = 0.02;
+  double loss_scale = 3;      ///< standard deviations beyond which a point counts for little
+  double point_reach = 0.35;  ///< of the reach; farther from a surface a point without its own tells nothing
+  double narrowing = 0.35;    ///< of the blur from one iteration to the next
+  double leak_factor = 2;
   double translation_tolerance_m = 1e-3;
   double rotation_tolerance_rad = 3e-4;
 
@@ -37,9 +43,12 @@ struct RegistrationParams {
     visit(Field{"max_iterations", "", 1, 1000, "steps of one registration"}, self.max_iterations);
     visit(Field{"loss_scale", "", 0.5, 100, "standard deviations beyond which a point counts for little"},
           self.loss_scale);
+    visit(Field{"point_reach", "", 0, 1,
+                "of the reach; farther from a surface a point without its own tells nothing"},
+          self.point_reach);
     visit(Field{"narrowing", "", 0.01, 0.99, "of the blur from one step to the next"}, self.narrowing);
-    visit(Field{"leak_share", "", 0, 0.5, "of the largest information, which noisy normals leak elsewhere"},
-          self.leak_share);
+    visit(Field{"leak_factor", "", 0, 100, "times what noisy normals leak of their information elsewhere"},
+          self.leak_factor);
     visit(Field{"translation_tolerance_m", "m", 1e-9, 1, "a step shorter than this is the last"},
           self.translation_tolerance_m);
     visit(Field{"rotation_tolerance_rad", "rad", 1e-9, 1, "and turning less than this"},

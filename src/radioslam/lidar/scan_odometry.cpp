@@ -194,10 +194,10 @@ std::optional<ScanOdometer::RivalFit> ScanOdometer::lay_onto_rival(const Sweep& 
                                            traits_.kind, params_.registration);
     if (fit.matched_share >= std::max(params_.odometry.least_first_share, least_share())) {
       ++rival_->scans;
-      rival_->map.add(cloud, fit.T_target_source, way_m_);
+      const double new_share = rival_->map.add(cloud, fit.T_target_source, way_m_);
       rival_->before = std::exchange(rival_->last, sweep.place_at(fit.T_target_source));
       rival_->predicted = predicted;
-      return RivalFit{fit, prior};
+      return RivalFit{fit, prior, new_share};
     }
   }
   begin_rival(sweep, cloud, predicted);
@@ -207,6 +207,8 @@ std::optional<ScanOdometer::RivalFit> ScanOdometer::lay_onto_rival(const Sweep& 
 /// The rival is the map from now on. All of the motion from the one to the other may be wrong.
 void ScanOdometer::begin_anew(const RivalFit& on_rival, ScanPose& result) {
   result.outcome = ScanOutcome::kNewMap;
+  result.new_share = on_rival.new_share;
+  result.information = on_rival.fit.information;
   result.matched_share = on_rival.fit.matched_share;
   result.T_start_body = on_rival.fit.T_target_source;
   const double wide_m = params_.odometry.first_sigma_m + rival_->gap_m;
@@ -229,10 +231,20 @@ void ScanOdometer::try_new_map(const Sweep& sweep, ScanPose& result) {
   if (on_rival && rival_->scans > patience) begin_anew(*on_rival, result);
 }
 
+/// Where a scan lies on the map that it alone makes up.
+SE3::Jacobian ScanOdometer::exact() {
+  constexpr double kExact_m = 1e-4, kExact_rad = 1e-5;
+  SE3::Jacobian information = SE3::Jacobian::Zero();
+  information.diagonal().head<3>().setConstant(1 / square(kExact_m));
+  information.diagonal().tail<3>().setConstant(1 / square(kExact_rad));
+  return information;
+}
+
 void ScanOdometer::begin(const Sweep& sweep, ScanPose& result) {
   result.outcome = ScanOutcome::kFirst;
+  result.information = exact();
   advance(sweep.place_at(result.T_start_body));
-  map_.add(result.cloud, result.T_start_body, way_m_);
+  result.new_share = map_.add(result.cloud, result.T_start_body, way_m_);
 }
 
 /// Where the scan before it was, as if the robot had stood; it may have gone on, and turned any way.
@@ -243,12 +255,13 @@ void ScanOdometer::begin_after_gap(const Sweep& sweep, ScanPose& result) {
   result.covariance.setZero();
   result.covariance.diagonal().head<3>().setConstant(square(wide_m));
   result.covariance.diagonal().tail<3>().setConstant(square(std::numbers::pi));
+  result.information = exact();
   map_ = LocalMap(traits_.spacing_m, params_.map);
   rival_.reset();
   last_ = sweep.place_at(result.T_start_body);
   twist_per_s_.setZero();
   deviation_ = {};
-  map_.add(result.cloud, result.T_start_body, way_m_);
+  result.new_share = map_.add(result.cloud, result.T_start_body, way_m_);
 }
 
 void ScanOdometer::register_on_map(Sweep sweep, const Registration& first_fit, const PosePrior& prior,
@@ -265,7 +278,7 @@ void ScanOdometer::register_on_map(Sweep sweep, const Registration& first_fit, c
   learn(prior.pose.inverse() * first_fit.T_target_source, fit.matched_share);
   advance(sweep.place_at(result.T_start_body));
   if (result.matched_share >= params_.odometry.insert_share * usual_share_)
-    map_.add(result.cloud, result.T_start_body, way_m_);
+    result.new_share = map_.add(result.cloud, result.T_start_body, way_m_);
 }
 
 ScanPose ScanOdometer::add(Stamp stamp, const LidarScan& scan, const std::optional<SE3>& T_previous_body) {

@@ -139,8 +139,9 @@ struct ScanPose {
   Stamp stamp;
   SE3 T_start_body;
   SE3::Jacobian covariance = SE3::Jacobian::Zero();   ///< of the step from the scan registered before
-  SE3::Jacobian information = SE3::Jacobian::Zero();  ///< of that step, from the points alone
+  SE3::Jacobian information = SE3::Jacobian::Zero();  ///< of the pose on the map, from the points alone
   ScanOutcome outcome = ScanOutcome::kTooFew;
+  double new_share = 0;  ///< of its points, that entered the map
   double matched_share = 0;
   double rms_m = 0;
   int iterations = 0;
@@ -206,6 +207,7 @@ class ScanOdometer {
   struct RivalFit {
     Registration fit;
     PosePrior prior;
+    double new_share;
   };
 
   double sigma_m() const;
@@ -222,6 +224,7 @@ class ScanOdometer {
   Registration unbend(Sweep& sweep, ScanCloud& cloud, const Registration& fit, const PosePrior& prior) const;
   void begin_rival(const Sweep& sweep, const ScanCloud& cloud, const SE3& predicted);
   std::optional<RivalFit> lay_onto_rival(const Sweep& sweep, const ScanCloud& cloud, const SE3& predicted);
+  static SE3::Jacobian exact();
   void begin(const Sweep& sweep, ScanPose& result);
   void begin_after_gap(const Sweep& sweep, ScanPose& result);
   void try_new_map(const Sweep& sweep, ScanPose& result);

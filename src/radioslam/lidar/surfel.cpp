@@ -33,7 +33,7 @@ Eigen::Matrix3f spread_of(const std::vector<Eigen::Vector3f>& points, const std:
 struct SurfelScale {
   std::size_t neighbours;
   ScannerKind kind;
-  float flatness, variance_along;
+  float flatness, clearly_flat, variance_along;
   float reach_squared, variance_range, variance_alone;
 };
 
@@ -42,20 +42,27 @@ bool is_level_line(const Eigen::Vector3f& variances, const Eigen::Vector3f& long
   return variances(1) < across && variances(2) > across && std::abs(longest.z()) < 0.7F;
 }
 
+Surfel bare_at(const Eigen::Vector3f& point, const SurfelScale& scale) {
+  return {point, scale.variance_range * Eigen::Matrix3f::Identity(), 0, SurfelShape::kPoint};
+}
+
 /// With the variances along a surface as they are for what it tells there: next to nothing.
-Eigen::Matrix3f freed_along(const Eigen::Matrix3f& covariance, const SurfelScale& scale) {
+Surfel surface_at(const Eigen::Vector3f& point, const Eigen::Matrix3f& covariance, std::size_t count,
+                  const SurfelScale& scale) {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> axes;
   axes.computeDirect(covariance);
   const Eigen::Vector3f variances = axes.eigenvalues();
   const float across = scale.flatness * std::max(variances(0), scale.variance_range);
   Eigen::Vector3f freed = variances.cwiseMax(scale.variance_range);
-  if (is_level_line(variances, axes.eigenvectors().col(2), across))
-    return scale.variance_along * Eigen::Matrix3f::Identity();
+  if (is_level_line(variances, axes.eigenvectors().col(2), across)) return bare_at(point, scale);
+  const bool is_flat = variances(1) > scale.clearly_flat * variances(0);
+  const float tilt_rad2 = variances(0) / (static_cast<float>(count) * variances(1));
   for (float& variance : freed) {
     const float ratio = variance / across;
     variance = std::min(variance * (1 + ratio * ratio), std::max(variance, scale.variance_along));
   }
-  return axes.eigenvectors() * freed.asDiagonal() * axes.eigenvectors().transpose();
+  return {point, axes.eigenvectors() * freed.asDiagonal() * axes.eigenvectors().transpose(), tilt_rad2,
+          is_flat ? SurfelShape::kSurface : SurfelShape::kBlob};
 }
 
 Surfel surfel_at(const std::vector<Eigen::Vector3f>& points, const PointTree& tree, std::size_t k,
@@ -65,11 +72,11 @@ Surfel surfel_at(const std::vector<Eigen::Vector3f>& points, const PointTree& tr
   std::size_t count = tree.nearest(points[k], scale.neighbours, indices.data(), squared_distances.data());
   while (count > 0 && squared_distances[count - 1] > scale.reach_squared) --count;
   const bool is_alone = count < kFewestNeighbours, is_planar = scale.kind == ScannerKind::kPlanar;
-  if (is_alone && !is_planar) return {points[k], scale.variance_along * Eigen::Matrix3f::Identity()};
+  if (is_alone && !is_planar) return bare_at(points[k], scale);
   Eigen::Matrix3f covariance = is_alone ? Eigen::Matrix3f(scale.variance_alone * Eigen::Matrix3f::Identity())
                                         : spread_of(points, indices.data(), count);
   covariance.diagonal().array() += scale.variance_range;
-  if (!is_planar) return {points[k], freed_along(covariance, scale)};
+  if (!is_planar) return surface_at(points[k], covariance, count, scale);
   covariance(2, 2) += scale.variance_alone;
   return {points[k], covariance};
 }
@@ -85,6 +92,7 @@ std::vector<Surfel> measure_surfels(const std::vector<Eigen::Vector3f>& points, 
   const SurfelScale scale{static_cast<std::size_t>(params.neighbours),
                           kind,
                           static_cast<float>(params.flatness),
+                          static_cast<float>(params.clearly_flat),
                           static_cast<float>(params.sigma_along_m * params.sigma_along_m),
                           static_cast<float>(reach * reach),
                           static_cast<float>(params.sigma_range_m * params.sigma_range_m),

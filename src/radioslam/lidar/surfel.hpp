@@ -7,22 +7,33 @@
 // hold a scan to the points it happens to meet, and promise centimetres along a corridor without features.
 // So the variances l of C about its axes, l0 the smallest, grow where they are a surface's,
 //   l' = min(l (1 + (l / (flatness l0))^2), max(l, sigma_along^2)).
-// A point that stands alone tells nothing. Neighbours in a level line are one beam's on a surface of unknown
-// slope, the ground far ahead, say: such a surfel is free all around. A line that rises over many beams is a
-// pole. All this holds for scans of space; a plane's scan samples its walls finely, and the ends of what it
-// sees of them do tell.
+// A point that stands alone knows of no surface. Nor do neighbours in a level line: they are one beam's on a
+// surface of unknown slope, the ground far ahead, say. A line that rises over many beams is a pole, or a wall
+// met under a small angle. A normal from n neighbours leans by a variance of l0 / (n l1) about either axis.
+// All this holds for scans of space; a plane's scan samples its walls finely, and the ends of what it sees of
+// them do tell.
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
 #include "radioslam/base/fields.hpp"
 
 namespace radioslam {
 
+/// What the points about a point tell of its surface.
+enum class SurfelShape : std::uint8_t {
+  kPoint,    ///< nothing: it stands alone, or in a level line
+  kBlob,     ///< a line or a cloud, or too few points to tell from one
+  kSurface,  ///< clearly flat
+};
+
 struct Surfel {
   Eigen::Vector3f position;    ///< metres
-  Eigen::Matrix3f covariance;  ///< m^2, positive definite
+  Eigen::Matrix3f covariance;  ///< m^2, positive definite; of the measurement alone where no surface shows
+  float tilt_rad2 = 0;         ///< variance of the surface's normal about either axis along it
+  SurfelShape shape = SurfelShape::kSurface;
 };
 
 /// Does a scanner measure in its xy-plane only? Then heights tell nothing.
@@ -34,6 +45,7 @@ struct SurfelParams {
   double flatness = 2;          ///< a variance so many times the smallest is that of a surface
   double sigma_along_m = 3;     ///< along a surface, which tells nothing there
   double sigma_range_m = 0.02;  ///< of a single measurement: 2 to 3 cm in data sheets
+  double clearly_flat = 10;     ///< a variance so many times the smallest is that of a surface beyond doubt
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -46,6 +58,7 @@ struct SurfelParams {
           self.sigma_along_m);
     visit(Field{"sigma_range_m", "m", 1e-4, 1, "noise of a single measurement; data sheets say 2 to 3 cm"},
           self.sigma_range_m);
+    visit(Field{"clearly_flat", "", 1, 1000, "and one so many times, beyond doubt"}, self.clearly_flat);
   }
 };
 

@@ -63,14 +63,28 @@ std::uint32_t SurfelMap::find_or_make(const Eigen::Vector3i& cell, double way_m)
   return slots_[slot];
 }
 
-void SurfelMap::add(const std::vector<Surfel>& surfels, double way_m) {
+std::size_t SurfelMap::add(const std::vector<Surfel>& surfels, double way_m) {
+  const std::size_t before = surfels_;
   for (const Surfel& surfel : surfels) {
     Cell& cell = cells_[find_or_make(voxel_of(surfel.position, cells_per_m_), way_m)];
     cell.seen_m = way_m;
-    if (nearest(surfel.position, least_squared_distance_)) continue;
+    if (const Surfel* met = nearest(surfel.position, least_squared_distance_)) {
+      if (surfel.shape > met->shape) learn_surface(*met, surfel);
+      continue;
+    }
     cell.surfels.push_back(surfel);
     ++surfels_;
   }
+  return surfels_ - before;
+}
+
+void SurfelMap::learn_surface(const Surfel& bare, const Surfel& surface) {
+  for (Surfel& surfel : cells_[find(voxel_of(bare.position, cells_per_m_))].surfels)
+    if (&surfel == &bare) {
+      const Eigen::Vector3f position = surfel.position;
+      surfel = surface;
+      surfel.position = position;
+    }
 }
 
 void SurfelMap::forget_before(double way_m) {

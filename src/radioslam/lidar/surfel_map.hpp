@@ -23,7 +23,8 @@ class SurfelMap {
   bool empty() const { return surfels_ == 0; }
 
   /// Adds what is not there yet, in the map's frame, seen `way_m` metres into the robot's way.
-  void add(const std::vector<Surfel>& surfels, double way_m);
+  /// Returns how many.
+  std::size_t add(const std::vector<Surfel>& surfels, double way_m);
 
   /// Forgets the cells in which nothing was seen since `way_m` metres into the way.
   void forget_before(double way_m);
@@ -40,6 +41,8 @@ class SurfelMap {
 
   std::size_t slot_of(VoxelKey key) const;
   std::uint32_t find(const Eigen::Vector3i& cell) const;
+  /// The map's bare surfel lies on the surface of the other.
+  void learn_surface(const Surfel& bare, const Surfel& surface);
   std::uint32_t find_or_make(const Eigen::Vector3i& cell, double way_m);
   void rehash(std::size_t slots);
 
