@@ -1,4 +1,5 @@
-// A robot with a laser scanner's odometry and an inertial unit, both with the errors that they state.
+// A robot with a laser scanner's poses on a drifting map and an inertial unit, all with the errors that they
+// state.
 #pragma once
 
 #include <utility>
@@ -14,7 +15,8 @@ namespace radioslam::test {
 struct DrivePlan {
   double duration_s = 4;
   double states_hz = 10, readings_hz = 200;
-  double sigma_position_m = 0.02, sigma_rotation_rad = 0.003;  ///< of one step by scans
+  double sigma_position_m = 0.02, sigma_rotation_rad = 0.003;  ///< of one pose by scans
+  double sigma_drift_m = 0.01, sigma_drift_rad = 0.002;        ///< of the map, from one state to the next
   double corridor_begin_s = 0, corridor_end_s = 0;  ///< there scans see no motion along the world's x
   Liveliness liveliness{1, 0.3, 2, 0.5, 0.1};
   Eigen::Vector3d course_mps = Eigen::Vector3d::Zero();
@@ -26,19 +28,38 @@ struct SimulatedDrive {
   std::vector<InertialState> truth;  ///< at the drive's stamps
 };
 
-constexpr double kCorridorSigma_m = 100;
+constexpr double kNotSeen_m = 100;      ///< deviation of a pose along the corridor
+constexpr double kCorridorDrift_m = 1;  ///< of the map along it, from one state to the next
 
-/// What scans tell of T_i_j: with noise, or in the corridor nothing of its way along `along` in frame j.
-inline PoseStep scan_step(const SE3& T_i_j, const DrivePlan& plan, const Eigen::Vector3d& along, Rng& rng) {
+inline SE3::Jacobian diagonal_covariance(double sigma_m, double sigma_rad, const Eigen::Vector3d& more_m) {
   SE3::Jacobian covariance = SE3::Jacobian::Zero();
-  covariance.diagonal().head<3>().setConstant(plan.sigma_position_m * plan.sigma_position_m);
-  covariance.diagonal().tail<3>().setConstant(plan.sigma_rotation_rad * plan.sigma_rotation_rad);
-  covariance.topLeftCorner<3, 3>() += kCorridorSigma_m * kCorridorSigma_m * along * along.transpose();
+  covariance.diagonal().head<3>().setConstant(sigma_m * sigma_m);
+  covariance.diagonal().tail<3>().setConstant(sigma_rad * sigma_rad);
+  covariance.topLeftCorner<3, 3>() += more_m * more_m.transpose();
+  return covariance;
+}
+
+/// The world on the map at a state and the next. Where scans do not see the way along `along` (in the body's
+/// frame at the first, zero elsewhere), the map goes along.
+struct GrowingMap {
+  SE3 T_map_world;
+
+  void grow(const SE3& from, const SE3& to, const Eigen::Vector3d& along, const DrivePlan& plan, Rng& rng) {
+    SE3::Tangent drift;
+    drift << normal_vector(rng, plan.sigma_drift_m), normal_vector(rng, plan.sigma_drift_rad);
+    drift.head<3>() -= along * along.dot((from.inverse() * to).translation());
+    T_map_world = T_map_world * from * SE3::exp(drift) * from.inverse();
+  }
+};
+
+/// What scans tell of a pose on the map: with noise, or of its way along `along` in the body's frame nothing.
+inline MapPose scan_pose(const SE3& T_map_body, const DrivePlan& plan, const Eigen::Vector3d& along,
+                         Rng& rng) {
   SE3::Tangent noise;
   noise << normal_vector(rng, plan.sigma_position_m), normal_vector(rng, plan.sigma_rotation_rad);
-  const Eigen::Vector3d way = T_i_j.rotation().conjugate() * T_i_j.translation();
-  noise.head<3>() -= along * along.dot(way + noise.head<3>());
-  return {T_i_j * SE3::exp(noise), covariance.inverse()};
+  noise.head<3>() -= along * along.dot(noise.head<3>());
+  return {T_map_body * SE3::exp(noise),
+          diagonal_covariance(plan.sigma_position_m, plan.sigma_rotation_rad, kNotSeen_m * along).inverse()};
 }
 
 /// The start's guess is drawn about the truth with the sigmas that the smoother assumes.
@@ -51,18 +72,26 @@ inline SimulatedDrive simulate_drive(const DrivePlan& plan, const InertialNoiseP
   const InertialBias bias{normal_vector(rng, noise.sigma_gyroscope_bias_radps),
                           normal_vector(rng, noise.sigma_accelerometer_bias_mps2)};
   const auto biases = add_errors(sim.samples, bias, plan.readings_hz, noise, rng);
+  GrowingMap map{SE3({3, -2, 1}, so3_exp({0.1, -0.2, 0.8}))};
   for (int k = 0; k <= std::lround(plan.duration_s * plan.states_hz); ++k) {
     const double t = k / plan.states_hz;
     sim.drive.stamps.push_back(Stamp::from_seconds(t));
     sim.truth.push_back(motion.state(t));
     sim.truth.back().bias = biases[static_cast<std::size_t>(std::lround(t * plan.readings_hz))];
-    if (k == 0) continue;
-    const bool in_corridor = plan.corridor_begin_s < t && t <= plan.corridor_end_s;
-    const SE3 &from = sim.truth[sim.truth.size() - 2].T_world_body, &to = sim.truth.back().T_world_body;
-    const Eigen::Vector3d along = in_corridor
-                                      ? Eigen::Vector3d(to.rotation().conjugate() * Eigen::Vector3d::UnitX())
-                                      : Eigen::Vector3d(Eigen::Vector3d::Zero());
-    sim.drive.steps.push_back(scan_step(from.inverse() * to, plan, along, rng));
+    const SE3& to = sim.truth.back().T_world_body;
+    const auto along = [&](const SE3& T) {
+      const bool in_corridor = plan.corridor_begin_s < t && t <= plan.corridor_end_s;
+      return Eigen::Vector3d(in_corridor ? T.rotation().conjugate() * Eigen::Vector3d::UnitX()
+                                         : Eigen::Vector3d(Eigen::Vector3d::Zero()));
+    };
+    if (k > 0) {
+      const SE3& from = sim.truth[sim.truth.size() - 2].T_world_body;
+      map.grow(from, to, along(from), plan, rng);
+      sim.drive.map_drifts.push_back(
+          diagonal_covariance(plan.sigma_drift_m, plan.sigma_drift_rad, kCorridorDrift_m * along(from)));
+    }
+    sim.truth.back().T_map_world = map.T_map_world;
+    sim.drive.poses.push_back(scan_pose(map.T_map_world * to, plan, along(to), rng));
   }
   sim.drive.start = sim.truth.front();
   sim.drive.start.bias = {};

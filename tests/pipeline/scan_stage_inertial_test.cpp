@@ -63,8 +63,6 @@ LapRun run_lap(const Spoil& spoil, bool enabled = true) {
   mission.robots = {robot};
   ScanParams params;
   params.inertial.stage.enabled = enabled;
-  params.inertial.stage.sweep =
-      "readings";  // a lap this lively bends scans more than their last motion tells
   LapRun run;
   run.notes = measure_scans(mission, params, {}, {}).notes;
   run.odometry = mission.robots[0].odometry;

@@ -63,7 +63,7 @@ LinearInertialFactor linearise_inertial(const InertialState& i, const InertialSt
   f.by_i.block<3, 3>(kRotation, kTurn) = -from_turn * R_i_j.transpose();
   f.by_i.block<3, 3>(kVelocity, kTurn) = skew(actual.velocity_mps);
   f.by_i.block<3, 3>(kVelocity, InertialState::kVelocity) = -back;
-  f.by_i.rightCols<6>() = by_bias(f.residual, measured, i.bias);
+  f.by_i.middleCols<6>(InertialState::kGyroscope) = by_bias(f.residual, measured, i.bias);
 
   f.by_j.block<3, 3>(kPosition, 0) = R_i_j;
   f.by_j.block<3, 3>(kRotation, kTurn) = from_turn;

@@ -14,7 +14,7 @@ using Block = InertialState::Jacobian;
 /// Where the step leads without a look at how well it fits.
 InertialState first_guess(const InertialState& i, const StateStep& step, const InertialNoiseParams& params) {
   if (step.readings) return state_after(i, step.readings->with_bias(i.bias), params);
-  return {i.T_world_body * step.pose.T_i_j, i.velocity_mps, i.bias};
+  return {i.T_map_world.inverse() * step.pose.T_map_body, i.velocity_mps, i.bias, i.T_map_world};
 }
 
 }  // namespace

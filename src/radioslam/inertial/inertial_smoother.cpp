@@ -20,7 +20,7 @@ struct ChainProblem {
   /// Step k with the readings summed for this bias.
   StateStep step_for(std::size_t k, const InertialBias& bias) const {
     const Stamp from = drive.stamps[k], to = drive.stamps[k + 1];
-    return state_step(drive.steps[k], preintegrate(samples, from, to, bias, noise),
+    return state_step(drive.poses[k + 1], drive.map_drifts[k], preintegrate(samples, from, to, bias, noise),
                       seconds_between(from, to));
   }
 };
@@ -29,7 +29,7 @@ struct ChainProblem {
 std::optional<States> pass_forward(ChainProblem& problem) {
   InertialFilter filter(problem.prior);
   States states{filter.state()};
-  for (std::size_t k = 0; k < problem.drive.steps.size(); ++k) {
+  for (std::size_t k = 0; k < problem.drive.map_drifts.size(); ++k) {
     problem.steps.push_back(problem.step_for(k, filter.state().bias));
     if (filter.advance(problem.steps.back(), problem.noise) == InertialFilter::Advance::kUndetermined)
       return std::nullopt;
@@ -127,7 +127,7 @@ UncertainPose<SE3> InertialTrajectory::relative_pose(std::size_t i, std::size_t 
   return {T_i_j, by_i * of_i * by_i.transpose() + cross + cross.transpose() + of_j};
 }
 
-StatePrior start_prior(const InertialState& start, const InertialNoiseParams& noise,
+StatePrior start_prior(const InertialState& start, const MapPose& pose, const InertialNoiseParams& noise,
                        const InertialSmootherParams& params) {
   const auto information = [](double sigma) { return 1 / (sigma * sigma); };
   const double tilt = information(params.sigma_start_tilt_rad);
@@ -141,6 +141,12 @@ StatePrior start_prior(const InertialState& start, const InertialNoiseParams& no
   diagonal.segment<3>(InertialState::kGyroscope).setConstant(information(noise.sigma_gyroscope_bias_radps));
   diagonal.segment<3>(InertialState::kAccelerometer)
       .setConstant(information(noise.sigma_accelerometer_bias_mps2));
+  prior.mean.T_map_world = pose.T_map_body * start.T_world_body.inverse();
+  Eigen::Matrix<double, 6, InertialState::kDof> by_state;
+  by_state.setZero();
+  by_state.leftCols<6>().setIdentity();
+  by_state.middleCols<6>(InertialState::kMap) = start.T_world_body.inverse().adjoint();
+  prior.information += by_state.transpose() * pose.information * by_state;
   return prior;
 }
 
@@ -148,9 +154,11 @@ std::optional<InertialTrajectory> smooth_inertially(const InertialDrive& drive,
                                                     const std::vector<InertialSample>& samples,
                                                     const InertialNoiseParams& noise,
                                                     const InertialSmootherParams& params) {
-  RADIOSLAM_CHECK(!drive.stamps.empty() && drive.steps.size() + 1 == drive.stamps.size(),
-                  "a step from every state to the next");
-  ChainProblem problem{start_prior(drive.start, noise, params), {}, drive, samples, noise};
+  RADIOSLAM_CHECK(!drive.stamps.empty() && drive.poses.size() == drive.stamps.size() &&
+                      drive.map_drifts.size() + 1 == drive.stamps.size(),
+                  "a pose for every state, a drift from each to the next");
+  ChainProblem problem{
+      start_prior(drive.start, drive.poses.front(), noise, params), {}, drive, samples, noise};
   auto states = pass_forward(problem);
   if (!states) return std::nullopt;
   Minimum minimum = minimise(problem, std::move(*states), params);

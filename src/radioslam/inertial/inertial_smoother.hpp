@@ -1,5 +1,5 @@
-// All states of one robot at once, from the motions measured between them (by laser scans, say) and its
-// inertial readings: the least squares of state_factors.hpp over the whole drive, by Gauss-Newton on the
+// All states of one robot at once, from their poses measured on a map (by laser scans, say) and its inertial
+// readings: the least squares of state_factors.hpp over the whole drive, by Gauss-Newton on the
 // chain (state_chain.hpp), damped where a step fails. What the poses do not measure - the way along a
 // corridor without features, roll and pitch after a long way - the readings carry.
 //
@@ -8,8 +8,9 @@
 //
 // Positions are relative to the start, the heading too; roll, pitch, velocity and biases at the start are
 // unknown up to the given sigmas.
-// Refuses where a step measures nothing at all: no readings, and a relative pose of less than full rank.
-// Cost: linear in states and readings, some 30 us per state and step.
+// The map's frame is the world's at the start, but for its tilt, and drifts as stated.
+// Refuses where a step measures nothing at all: no readings, and a pose of less than full rank.
+// Cost: linear in states and readings, some 60 us per state and step.
 #pragma once
 
 #include <optional>
@@ -55,9 +56,10 @@ struct InertialSmootherParams {
 
 /// What was measured of a drive beside the readings.
 struct InertialDrive {
-  std::vector<Stamp> stamps;    ///< of the states, increasing, at least one
-  std::vector<PoseStep> steps;  ///< from each to the next; one fewer
-  InertialState start;          ///< first guess at the first stamp, level and with its biases
+  std::vector<Stamp> stamps;              ///< of the states, increasing, at least one
+  std::vector<MapPose> poses;             ///< one each
+  std::vector<SE3::Jacobian> map_drifts;  ///< covariances from each to the next, in the former body's frame
+  InertialState start;                    ///< first guess at the first stamp, level and with its biases
 };
 
 /// The states of a drive.
@@ -73,8 +75,9 @@ struct InertialTrajectory {
   UncertainPose<SE3> relative_pose(std::size_t i, std::size_t j) const;
 };
 
-/// What is known at the start; biases have the noise's prior about those of `start`.
-StatePrior start_prior(const InertialState& start, const InertialNoiseParams& noise,
+/// What is known at the start; biases have the noise's prior about those of `start`, and the map lies where
+/// `pose` says.
+StatePrior start_prior(const InertialState& start, const MapPose& pose, const InertialNoiseParams& noise,
                        const InertialSmootherParams& params);
 
 /// The readings may have gaps.

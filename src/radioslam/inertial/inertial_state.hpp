@@ -1,7 +1,8 @@
-// What inertial readings carry from one time to the next: pose, velocity and the unit's biases.
-// The world's z points up. Tangent of a state, 15 numbers, in this order:
+// What inertial readings carry from one time to the next: pose, velocity and the unit's biases; and where the
+// world lies on the map that something else, a laser scanner, say, measures poses on.
+// The world's z points up. Tangent of a state, 21 numbers, in this order:
 //   [translation, rotation of T_world_body Exp(xi) (m, rad); velocity (m/s); bias of the gyroscope (rad/s);
-//    bias of the accelerometer (m/s^2)]
+//    bias of the accelerometer (m/s^2); translation, rotation of T_map_world Exp(xi)]
 #pragma once
 
 #include <Eigen/Core>
@@ -17,14 +18,15 @@ struct InertialBias {
 };
 
 struct InertialState {
-  static constexpr int kDof = 15;
-  static constexpr int kVelocity = 6, kGyroscope = 9, kAccelerometer = 12;  ///< where they begin
+  static constexpr int kDof = 21;
+  static constexpr int kVelocity = 6, kGyroscope = 9, kAccelerometer = 12, kMap = 15;  ///< where they begin
   using Tangent = Eigen::Matrix<double, kDof, 1>;
   using Jacobian = Eigen::Matrix<double, kDof, kDof>;
 
   SE3 T_world_body;
   Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();  ///< of the body's origin, in the world
   InertialBias bias;
+  SE3 T_map_world = {};
 
   InertialState moved_by(const Tangent& step) const;
   /// The step that leads from here to there.

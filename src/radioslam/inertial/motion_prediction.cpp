@@ -13,7 +13,7 @@ InertialState state_after(const InertialState& state, const FreeMotion& motion,
   const Eigen::Vector3d position =
       T.translation() + t * state.velocity_mps + 0.5 * t * t * g + T.rotate(motion.position_m);
   return {SE3(position, T.rotation() * motion.rotation),
-          state.velocity_mps + t * g + T.rotate(motion.velocity_mps), state.bias};
+          state.velocity_mps + t * g + T.rotate(motion.velocity_mps), state.bias, state.T_map_world};
 }
 
 std::optional<std::vector<InertialState>> predict_motion(const InertialState& state, Stamp start,

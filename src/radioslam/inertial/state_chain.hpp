@@ -4,7 +4,7 @@
 //   H = L L^T, L_k = chol(H_k - C_k C_k^T), C_(k+1) = B_k L_k^-T            B_k: row k + 1, column k of H
 //   x_k depends on x_(k+1) alone:  S_k,m = G_k S_(k+1),m for m > k,  G_k = -L_k^-T C_(k+1)^T
 //   S_k,k = (L_k L_k^T)^-1 + G_k S_(k+1),(k+1) G_k^T
-// Cost: some 15 x 15 products per state; a covariance between states a and b: products of the states between.
+// Cost: some 21 x 21 products per state; a covariance between states a and b: products of the states between.
 #pragma once
 
 #include <cstddef>

@@ -6,9 +6,11 @@
 namespace radioslam {
 namespace {
 
-constexpr int kVelocityAt = InertialState::kVelocity, kBiasAt = InertialState::kGyroscope;
+constexpr int kVelocityAt = InertialState::kVelocity, kBiasAt = InertialState::kGyroscope,
+              kMapAt = InertialState::kMap;
 
 using BiasChange = Eigen::Matrix<double, 6, 1>;
+using PoseByState = Eigen::Matrix<double, 6, InertialState::kDof>;
 
 BiasChange bias_between(const InertialState& i, const InertialState& j) {
   BiasChange change;
@@ -29,8 +31,13 @@ double velocity_information(const StateStep& step, const InertialNoiseParams& pa
   return 1 / (params.unmeasured_velocity_walk * params.unmeasured_velocity_walk * step.duration_s);
 }
 
-SE3::Tangent pose_residual(const PoseStep& step, const InertialState& i, const InertialState& j) {
-  return (step.T_i_j.inverse() * (i.T_world_body.inverse() * j.T_world_body)).log();
+SE3::Tangent pose_residual(const MapPose& measured, const InertialState& state) {
+  return (measured.T_map_body.inverse() * state.T_map_world * state.T_world_body).log();
+}
+
+SE3::Tangent drift_residual(const InertialState& i, const InertialState& j) {
+  const SE3& T = i.T_world_body;
+  return (T.inverse() * i.T_map_world.inverse() * j.T_map_world * T).log();
 }
 
 /// What a squared norm counts, and by how much of it its residual pulls.
@@ -59,17 +66,30 @@ void add_squared_norm(StepTerms& sum, const Residual& r, const ByState& by_i, co
   sum.cost += r.dot(weighted_r);
 }
 
-void add_pose_step(StepTerms& sum, const PoseStep& step, const InertialState& i, const InertialState& j) {
-  using ByState = Eigen::Matrix<double, 6, InertialState::kDof>;
-  const SE3::Tangent r = pose_residual(step, i, j);
-  const SE3 T_j_i = j.T_world_body.inverse() * i.T_world_body;
-  ByState by_i = ByState::Zero(), by_j = ByState::Zero();
-  by_j.leftCols<6>() = SE3::right_jacobian_inverse(r);
-  by_i.leftCols<6>() = -by_j.leftCols<6>() * T_j_i.adjoint();
-  const double s = r.dot(step.information * r);
-  const Robust counted = robust(s, step.outlier_sigmas);
-  add_squared_norm(sum, r, by_i, by_j, SE3::Jacobian(counted.weight * step.information));
-  sum.cost += counted.cost - counted.weight * s;
+void add_map_pose(StepTerms& sum, const MapPose& measured, const InertialState& state) {
+  const SE3::Tangent r = pose_residual(measured, state);
+  PoseByState by_state = PoseByState::Zero();
+  by_state.leftCols<6>() = SE3::right_jacobian_inverse(r);
+  by_state.middleCols<6>(kMapAt) = by_state.leftCols<6>() * state.T_world_body.inverse().adjoint();
+  const double s = r.dot(measured.information * r);
+  const Robust counted = robust(s, measured.outlier_sigmas);
+  const SE3::Jacobian information = counted.weight * measured.information;
+  const auto weighted = (information * by_state).eval();
+  sum.j_j.noalias() += by_state.transpose() * weighted;
+  sum.slope_j.noalias() += weighted.transpose() * r;
+  sum.cost += counted.cost;
+}
+
+void add_map_drift(StepTerms& sum, const SE3::Jacobian& information, const InertialState& i,
+                   const InertialState& j) {
+  const SE3::Tangent r = drift_residual(i, j);
+  const SE3::Jacobian after = SE3::right_jacobian_inverse(r), before = SE3::right_jacobian_inverse(-r);
+  const SE3::Jacobian to_body = i.T_world_body.inverse().adjoint();
+  PoseByState by_i = PoseByState::Zero(), by_j = PoseByState::Zero();
+  by_i.leftCols<6>() = after - before;
+  by_i.middleCols<6>(kMapAt) = -before * to_body;
+  by_j.middleCols<6>(kMapAt) = after * to_body;
+  add_squared_norm(sum, r, by_i, by_j, information);
 }
 
 /// Adds that states differ by `change` in the places from `first` on, with a diagonal information.
@@ -94,8 +114,10 @@ StepTerms no_terms() {
 
 }  // namespace
 
-StateStep state_step(const PoseStep& pose, std::optional<Preintegration> readings, double duration_s) {
-  StateStep step{pose, std::move(readings), Preintegration::Covariance::Zero(), duration_s};
+StateStep state_step(const MapPose& pose, const SE3::Jacobian& map_drift,
+                     std::optional<Preintegration> readings, double duration_s) {
+  StateStep step{pose, map_drift.inverse(), std::move(readings), Preintegration::Covariance::Zero(),
+                 duration_s};
   if (step.readings) step.readings_information = step.readings->covariance.inverse();
   return step;
 }
@@ -107,9 +129,10 @@ double cost_of(const StatePrior& prior, const InertialState& state) {
 
 double cost_of(const StateStep& step, const InertialState& i, const InertialState& j,
                const InertialNoiseParams& params) {
-  const SE3::Tangent r = pose_residual(step.pose, i, j);
+  const SE3::Tangent r = pose_residual(step.pose, j), drift = drift_residual(i, j);
   const BiasChange walk = bias_between(i, j);
   double cost = robust(r.dot(step.pose.information * r), step.pose.outlier_sigmas).cost +
+                drift.dot(step.map_information * drift) +
                 walk.dot(bias_information(step.duration_s, params).cwiseProduct(walk));
   if (step.readings) {
     const InertialResidual inertial = inertial_residual(i, j, *step.readings, params);
@@ -122,6 +145,7 @@ PriorTerms linearise(const StatePrior& prior, const InertialState& state) {
   const InertialState::Tangent r = prior.mean.step_to(state);
   InertialState::Jacobian by_state = InertialState::Jacobian::Identity();
   by_state.topLeftCorner<6, 6>() = SE3::right_jacobian_inverse(r.head<6>());
+  by_state.block<6, 6>(kMapAt, kMapAt) = SE3::right_jacobian_inverse(r.segment<6>(kMapAt));
   const InertialState::Jacobian weighted = by_state.transpose() * prior.information;
   return {weighted * by_state, weighted * r, r.dot(prior.information * r)};
 }
@@ -129,7 +153,8 @@ PriorTerms linearise(const StatePrior& prior, const InertialState& state) {
 StepTerms linearise(const StateStep& step, const InertialState& i, const InertialState& j,
                     const InertialNoiseParams& params) {
   StepTerms sum = no_terms();
-  if (!step.pose.information.isZero(0)) add_pose_step(sum, step.pose, i, j);
+  if (!step.pose.information.isZero(0)) add_map_pose(sum, step.pose, j);
+  add_map_drift(sum, step.map_information, i, j);
   if (step.readings) {
     const LinearInertialFactor f = linearise_inertial(i, j, *step.readings, params);
     add_squared_norm(sum, f.residual, f.by_i, f.by_j, step.readings_information);

@@ -64,13 +64,14 @@ std::optional<ScanGuess> InertialGuide::guess(Stamp stamp, const SweptTime& time
   return guess;
 }
 
-void InertialGuide::align() {
+void InertialGuide::align(const ScanPose& scan) {
   const auto aligned = align_gravity(Trajectory<SE3>(poses_), *samples_, params_.noise, params_.alignment);
   if (!aligned) {
     poses_.erase(poses_.begin(), poses_.begin() + std::ssize(poses_) / 2);
     return;
   }
-  filter_.emplace(start_prior(aligned->states.back(), params_.noise, params_.smoother));
+  filter_.emplace(
+      start_prior(aligned->states.back(), map_pose(scan, params_.stage), params_.noise, params_.smoother));
   node_ = poses_.back();
   poses_.clear();
 }
@@ -89,16 +90,18 @@ void InertialGuide::add(const ScanPose& scan, const std::optional<ScanGuess>& gu
                       : *last_);
   if (!filter_) {
     poses_.push_back(*last_);
-    if (seconds_between(poses_.front().stamp, scan.stamp) >= params_.alignment.window_s) align();
+    if (seconds_between(poses_.front().stamp, scan.stamp) >= params_.alignment.window_s) align(scan);
+    if (filter_) drift_.emplace(scan, params_.stage);
     return;
   }
+  drift_->add(scan);
   const double dt_s = seconds_between(node_.stamp, scan.stamp);
   if (dt_s < params_.stage.node_s && scan.outcome != ScanOutcome::kNewMap) return;
-  const PoseStep step{node_.pose.inverse() * scan.T_start_body, scan.information,
-                      params_.stage.outlier_sigmas};
   auto readings = preintegrate(*samples_, node_.stamp, scan.stamp, filter_->state().bias, params_.noise);
-  filter_->advance(state_step(step, std::move(readings), dt_s), params_.noise);
+  filter_->advance(state_step(map_pose(scan, params_.stage), drift_->covariance(), std::move(readings), dt_s),
+                   params_.noise);
   node_ = *last_;
+  drift_.emplace(scan, params_.stage);
 }
 
 }  // namespace radioslam

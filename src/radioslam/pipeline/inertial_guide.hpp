@@ -16,6 +16,7 @@
 #include "radioslam/inertial/inertial_filter.hpp"
 #include "radioslam/lidar/scan_odometry.hpp"
 #include "radioslam/pipeline/inertial_params.hpp"
+#include "radioslam/pipeline/map_drift.hpp"
 #include "radioslam/pipeline/swept_way.hpp"
 
 namespace radioslam {
@@ -39,7 +40,7 @@ class InertialGuide {
   void add(const ScanPose& scan, const std::optional<ScanGuess>& guess);
 
  private:
-  void align();
+  void align(const ScanPose& scan);
   void take_velocity(const StampedPose<SE3>& middle);
   /// The body at these times, which do not decrease, in any one frame.
   std::optional<std::vector<SE3>> way_through(const std::vector<Stamp>& stamps) const;
@@ -51,6 +52,7 @@ class InertialGuide {
   std::optional<StampedPose<SE3>> last_, middle_;           ///< the last scan's, and of its sweep's middle
   Eigen::Vector3d velocity_mps_ = Eigen::Vector3d::Zero();  ///< of the body, in its frame
   std::optional<InertialFilter> filter_;
+  std::optional<MapDrift> drift_;  ///< since the filter's state
 };
 
 }  // namespace radioslam

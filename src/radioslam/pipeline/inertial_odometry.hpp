@@ -2,9 +2,10 @@
 // (inertial/inertial_smoother.hpp) estimates all states at once; of the scans it takes what their points
 // tell, nothing along a corridor without features.
 //
-// Successive scans lie on one map, so the error of the motion between two of them does not grow with the
-// number of scans in between. States therefore stand `node_s` apart, and the motion from one to the next has
-// the information of one registration; the scans in between are bent along.
+// Scans lie on one map, which drifts as it grows (map_drift.hpp): over known ground poses from scans do not
+// drift, and readings add nothing to their error. States stand `node_s` apart, for the
+// errors of successive scans are nearly the same one; in between the readings lead, or the scans where
+// readings are missing.
 #pragma once
 
 #include <optional>
@@ -16,9 +17,6 @@
 #include "radioslam/pipeline/inertial_params.hpp"
 
 namespace radioslam {
-
-/// A step between two registered scans, as their points alone tell it.
-PoseStep scan_step(const ScanPose& from, const ScanPose& to, const InertialStageParams& params);
 
 /// What scans and readings say together; z is up.
 struct InertialOdometry {

@@ -1,8 +1,6 @@
 // Everything that the use of inertial readings together with scans needs.
 #pragma once
 
-#include <string>
-
 #include "radioslam/base/fields.hpp"
 #include "radioslam/inertial/gravity_alignment.hpp"
 #include "radioslam/inertial/inertial_smoother.hpp"
@@ -15,8 +13,9 @@ namespace radioslam {
 struct InertialStageParams {
   bool enabled = true;
   double outlier_sigmas = 5;
-  double node_s = 5;
-  std::string sweep = "motion";
+  double node_s = 2;
+  double unmeasured_m = 10;
+  double unmeasured_rad = 1;
   double check_s = 120;
   double most_cost_per_step = 60;
 
@@ -26,10 +25,9 @@ struct InertialStageParams {
     visit(Field{"outlier_sigmas", "", 1, 1e6, "a registration farther off pulls ever less"},
           self.outlier_sigmas);
     visit(Field{"node_s", "s", 0, 100, "between the states of scans and readings together"}, self.node_s);
-    visit(Field{"sweep", "", 0, 0,
-                "what takes the motion out of a scan: that since the scan before, or the readings during it",
-                "motion|readings"},
-          self.sweep);
+    visit(Field{"unmeasured_m", "m", 1e-2, 1e6, "deviation of a pose where a scan does not tell it"},
+          self.unmeasured_m);
+    visit(Field{"unmeasured_rad", "rad", 1e-3, 100, "likewise"}, self.unmeasured_rad);
     visit(Field{"check_s", "s", 1, 1e6, "of the scans, laid by themselves, that readings must agree with"},
           self.check_s);
     visit(Field{"most_cost_per_step", "", 1, 1e9,

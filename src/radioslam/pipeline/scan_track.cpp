@@ -34,14 +34,13 @@ class ScanTracker {
     LidarScan scan = robot_.lidar.read(k);
     std::optional<ScanGuess> guess = guess_of(stamp, scan);
     const std::optional<SE3> motion = motion_to(stamp, guess);
-    const bool is_unbent = guess && params_.inertial.stage.sweep == "readings";
-    if (is_unbent) scan = unbent(std::move(scan), guess->way, params_.lidar.points);
+    if (guess) scan = unbent(std::move(scan), guess->way, params_.lidar.points);
     ScanPose pose = odometer_.add(stamp, scan, motion);
     ++track_.outcomes[pose.outcome];
     track_.points += pose.counts;
     if (!is_on_the_way(pose.outcome)) return;
     if (pose.outcome == ScanOutcome::kNewMap && track_.poses.size() == 1) forget_start();
-    if (by_ == ScanGuide::kReadings) guide_.add(pose, is_unbent ? guess : std::nullopt);
+    if (by_ == ScanGuide::kReadings) guide_.add(pose, guess);
     append(std::move(pose));
   }
 
