@@ -59,9 +59,12 @@ TEST(SurfelMap, LearnsTheSurfaceOfAPoint) {
   const Eigen::Vector3f place(1.19F, 0, 0), beside(1.21F, 0, 0);  // in two cells
   const Surfel point{place, 4e-4F * Eigen::Matrix3f::Identity(), 0, SurfelShape::kPoint};
   const Surfel surface{beside, Eigen::Vector3f(1e-3F, 1, 1).asDiagonal(), 0.01F, SurfelShape::kSurface};
+  const Surfel blob{beside, Eigen::Vector3f(1e-3F, 1e-3F, 1).asDiagonal(), 0, SurfelShape::kBlob};
   EXPECT_EQ(map.add({point}, 0), 1U);
+  EXPECT_EQ(map.add({blob}, 0), 0U);
+  EXPECT_EQ(map.surfels()[0].shape, SurfelShape::kPoint);  // upright lines on walls would be poles
   EXPECT_EQ(map.add({surface}, 0), 0U);
-  EXPECT_EQ(map.add({point}, 0), 0U);
+  EXPECT_EQ(map.add({point, blob}, 0), 0U);
   const auto surfels = map.surfels();
   ASSERT_EQ(surfels.size(), 1U);
   EXPECT_EQ(surfels[0].position, place);

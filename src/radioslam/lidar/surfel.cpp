@@ -56,11 +56,13 @@ Surfel surface_at(const Eigen::Vector3f& point, const Eigen::Matrix3f& covarianc
   Eigen::Vector3f freed = variances.cwiseMax(scale.variance_range);
   if (is_level_line(variances, axes.eigenvectors().col(2), across)) return bare_at(point, scale);
   const bool is_flat = variances(1) > scale.clearly_flat * variances(0);
-  const float tilt_rad2 = variances(0) / (static_cast<float>(count) * variances(1));
   for (float& variance : freed) {
     const float ratio = variance / across;
     variance = std::min(variance * (1 + ratio * ratio), std::max(variance, scale.variance_along));
   }
+  const float alike = freed(0) / freed(1), n = static_cast<float>(count);
+  const float tilt_rad2 =
+      (1 - alike) * variances(0) / (n * variances(1)) + alike * variances(1) / (n * variances(2));
   return {point, axes.eigenvectors() * freed.asDiagonal() * axes.eigenvectors().transpose(), tilt_rad2,
           is_flat ? SurfelShape::kSurface : SurfelShape::kBlob};
 }

@@ -69,7 +69,8 @@ std::size_t SurfelMap::add(const std::vector<Surfel>& surfels, double way_m) {
     Cell& cell = cells_[find_or_make(voxel_of(surfel.position, cells_per_m_), way_m)];
     cell.seen_m = way_m;
     if (const Surfel* met = nearest(surfel.position, least_squared_distance_)) {
-      if (surfel.shape > met->shape) learn_surface(*met, surfel);
+      if (surfel.shape == SurfelShape::kSurface && met->shape != SurfelShape::kSurface)
+        learn_surface(*met, surfel);
       continue;
     }
     cell.surfels.push_back(surfel);
