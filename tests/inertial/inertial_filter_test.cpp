@@ -101,6 +101,19 @@ TEST(InertialFilter, EndsNearTheSmootherOnALivelyDrive) {
   EXPECT_LT(off.covariance, 0.3);
 }
 
+/// A drive of which no scan ever tells where on the map it is, but for its turns.
+TEST(InertialFilter, GoesOnWhereTheFirstPoseDoesNotTellWhereTheMapLies) {
+  const InertialNoiseParams noise;
+  const InertialSmootherParams params;
+  SimulatedDrive sim = simulate_drive({}, noise, params, Rng(65));
+  for (MapPose& pose : sim.drive.poses) {
+    pose.information.topRows<3>().setZero();
+    pose.information.leftCols<3>().setZero();
+  }
+  const InertialFilter filter = filtered(sim, noise, params);  // expects every step to be done
+  EXPECT_TRUE(filter.covariance().allFinite());
+}
+
 StatePrior drawn_belief(Rng& rng) {
   InertialState state = test::SmoothMotion(rng.split("motion"), {}).state(1);
   const MapPose pose{SE3({1, 2, 3}, so3_exp({0.3, 0.1, -1})) * state.T_world_body,

@@ -6,7 +6,7 @@
 //
 // A few Gauss-Newton steps over both states, so that a direction which the poses do not measure is carried by
 // the readings, and the biases are learnt under way.
-// Refuses a step that leaves something open: no readings, and a relative pose of less than full rank.
+// Refuses a step that leaves something open: no readings, and a pose on the map of less than full rank.
 #pragma once
 
 #include "radioslam/inertial/state_factors.hpp"

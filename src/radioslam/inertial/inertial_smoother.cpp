@@ -141,6 +141,9 @@ StatePrior start_prior(const InertialState& start, const MapPose& pose, const In
   diagonal.segment<3>(InertialState::kGyroscope).setConstant(information(noise.sigma_gyroscope_bias_radps));
   diagonal.segment<3>(InertialState::kAccelerometer)
       .setConstant(information(noise.sigma_accelerometer_bias_mps2));
+  auto map = diagonal.segment<6>(InertialState::kMap);
+  map.head<3>().setConstant(information(params.sigma_start_map_m));
+  map.tail<3>().setConstant(information(params.sigma_start_map_rad));
   prior.mean.T_map_world = pose.T_map_body * start.T_world_body.inverse();
   Eigen::Matrix<double, 6, InertialState::kDof> by_state;
   by_state.setZero();

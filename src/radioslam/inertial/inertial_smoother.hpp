@@ -9,7 +9,7 @@
 // Positions are relative to the start, the heading too; roll, pitch, velocity and biases at the start are
 // unknown up to the given sigmas.
 // The map's frame is the world's at the start, but for its tilt, and drifts as stated.
-// Refuses where a step measures nothing at all: no readings, and a pose of less than full rank.
+// Refuses where a step measures nothing at all: no readings, and a pose on the map of less than full rank.
 // Cost: linear in states and readings, some 60 us per state and step.
 #pragma once
 
@@ -28,6 +28,8 @@ struct InertialSmootherParams {
   double sigma_start_yaw_rad = 1e-3;
   double sigma_start_tilt_rad = 0.1;
   double sigma_start_velocity_mps = 10;
+  double sigma_start_map_m = 10;
+  double sigma_start_map_rad = 1;
   int max_iterations = 30;
   double cost_tolerance = 1e-4;
   double first_damping = 1e-6;
@@ -44,6 +46,10 @@ struct InertialSmootherParams {
           self.sigma_start_tilt_rad);
     visit(Field{"sigma_start_velocity_mps", "m/s", 1e-3, 1000, "of the first velocity"},
           self.sigma_start_velocity_mps);
+    visit(Field{"sigma_start_map_m", "m", 1e-3, 1e6,
+                "of where the map lies, where the first pose does not tell"},
+          self.sigma_start_map_m);
+    visit(Field{"sigma_start_map_rad", "rad", 1e-3, 100, "likewise"}, self.sigma_start_map_rad);
     visit(Field{"max_iterations", "", 1, 1000, "steps at most"}, self.max_iterations);
     visit(Field{"cost_tolerance", "", 1e-12, 1, "stop when a step promises less than this"},
           self.cost_tolerance);
@@ -58,7 +64,8 @@ struct InertialSmootherParams {
 struct InertialDrive {
   std::vector<Stamp> stamps;              ///< of the states, increasing, at least one
   std::vector<MapPose> poses;             ///< one each
-  std::vector<SE3::Jacobian> map_drifts;  ///< covariances from each to the next, in the former body's frame
+  std::vector<SE3::Jacobian> map_drifts;  ///< covariances from each to the next, of Exp(xi) in the former
+                                          ///< body's frame: [translation, rotation], m^2, rad^2
   InertialState start;                    ///< first guess at the first stamp, level and with its biases
 };
 

@@ -26,7 +26,7 @@ struct InertialState {
   SE3 T_world_body;
   Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();  ///< of the body's origin, in the world
   InertialBias bias;
-  SE3 T_map_world = {};
+  SE3 T_map_world = {};  ///< of the map that poses are measured on
 
   InertialState moved_by(const Tangent& step) const;
   /// The step that leads from here to there.

@@ -34,7 +34,7 @@ struct RegistrationParams {
   double loss_scale = 3;      ///< standard deviations beyond which a point counts for little
   double point_reach = 0.35;  ///< of the reach; farther from a surface a point without its own tells nothing
   double narrowing = 0.35;    ///< of the blur from one iteration to the next
-  double leak_factor = 2;
+  double leak_factor = 2;     ///< times what noisy normals leak
   double translation_tolerance_m = 1e-3;
   double rotation_tolerance_rad = 3e-4;
 

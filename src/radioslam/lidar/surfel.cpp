@@ -51,7 +51,7 @@ Surfel surface_at(const Eigen::Vector3f& point, const Eigen::Matrix3f& covarianc
                   const SurfelScale& scale) {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> axes;
   axes.computeDirect(covariance);
-  const Eigen::Vector3f variances = axes.eigenvalues();
+  const Eigen::Vector3f variances = axes.eigenvalues().cwiseMax(0.0F);
   const float across = scale.flatness * std::max(variances(0), scale.variance_range);
   Eigen::Vector3f freed = variances.cwiseMax(scale.variance_range);
   if (is_level_line(variances, axes.eigenvectors().col(2), across)) return bare_at(point, scale);

@@ -23,7 +23,7 @@ class SurfelMap {
   bool empty() const { return surfels_ == 0; }
 
   /// Adds what is not there yet, in the map's frame, seen `way_m` metres into the robot's way.
-  /// Returns how many.
+  /// What is there learns its surface from new surfels. Returns how many were added.
   std::size_t add(const std::vector<Surfel>& surfels, double way_m);
 
   /// Forgets the cells in which nothing was seen since `way_m` metres into the way.
@@ -41,7 +41,7 @@ class SurfelMap {
 
   std::size_t slot_of(VoxelKey key) const;
   std::uint32_t find(const Eigen::Vector3i& cell) const;
-  /// The map's bare surfel lies on the surface of the other.
+  /// The map's surfel, not known to be a surface's, lies on that of the other.
   void learn_surface(const Surfel& bare, const Surfel& surface);
   std::uint32_t find_or_make(const Eigen::Vector3i& cell, double way_m);
   void rehash(std::size_t slots);

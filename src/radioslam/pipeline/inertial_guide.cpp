@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "radioslam/inertial/motion_prediction.hpp"
-#include "radioslam/pipeline/inertial_odometry.hpp"
 
 namespace radioslam {
 namespace {
@@ -98,8 +97,9 @@ void InertialGuide::add(const ScanPose& scan, const std::optional<ScanGuess>& gu
   const double dt_s = seconds_between(node_.stamp, scan.stamp);
   if (dt_s < params_.stage.node_s && scan.outcome != ScanOutcome::kNewMap) return;
   auto readings = preintegrate(*samples_, node_.stamp, scan.stamp, filter_->state().bias, params_.noise);
-  filter_->advance(state_step(map_pose(scan, params_.stage), drift_->covariance(), std::move(readings), dt_s),
-                   params_.noise);
+  const StateStep step =
+      state_step(map_pose(scan, params_.stage), drift_->covariance(), std::move(readings), dt_s);
+  if (filter_->advance(step, params_.noise) != InertialFilter::Advance::kDone) return;
   node_ = *last_;
   drift_.emplace(scan, params_.stage);
 }

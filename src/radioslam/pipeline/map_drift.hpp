@@ -4,10 +4,12 @@
 // But the map grows by the scans. One of which a share f_k is new and whose registration errs by e_k moves
 // all that follows by f_k e_k:
 //   D_ij = sum_k f_k^2 Ad(T_i_k) C_k Ad(T_i_k)',  i <= k < j,   C_k = (I_k + U)^-1
-// with the deviations U of what is not measured at all. So along a corridor without features the map comes
+// with the deviations U of what is not measured at all (`unmeasured_m`, `unmeasured_rad`). That e_i is also
+// the error of scan i's own pose is left out of account. So along a corridor without features the map comes
 // loose from where it began, while over known ground it stays. A new map (ScanOutcome::kNewMap) lies anywhere
 // about the one before, by the covariance of the step to it.
-// D_ij is that of Exp(xi) in body i's frame.
+// D_ij is that of Exp(xi) in body i's frame: [translation, rotation], m^2, rad^2. Cost: 6 x 6 products a
+// scan.
 #pragma once
 
 #include "radioslam/inertial/state_factors.hpp"
