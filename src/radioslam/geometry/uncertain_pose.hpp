@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include "radioslam/geometry/se3.hpp"
+
 namespace radioslam {
 
 template <class Pose>
@@ -28,5 +30,13 @@ struct UncertainPose {
     return turn * covariance.template topLeftCorner<Pose::kDim, Pose::kDim>() * turn.transpose();
   }
 };
+
+/// A covariance, or an information, that is the same about all axes of [translation; rotation].
+inline SE3::Jacobian isotropic(double translation, double rotation) {
+  SE3::Jacobian matrix = SE3::Jacobian::Zero();
+  matrix.diagonal().head<3>().setConstant(translation);
+  matrix.diagonal().tail<3>().setConstant(rotation);
+  return matrix;
+}
 
 }  // namespace radioslam

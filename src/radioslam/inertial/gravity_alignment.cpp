@@ -153,10 +153,8 @@ std::vector<InertialState> turned_states(const Poses& poses, const Eigen::Quater
   std::vector<InertialState> states;
   for (std::size_t k = 0; k < poses.size(); ++k) {
     const Eigen::Vector3d velocity = unknowns.segment<3>(static_cast<Eigen::Index>(kVelocities + 3 * k));
-    states.push_back({T_world_odometry * poses[k].pose,
-                      R * velocity,
-                      {gyroscope, unknowns.segment<3>(kBias)},
-                      T_world_odometry.inverse()});
+    states.push_back(
+        {T_world_odometry * poses[k].pose, R * velocity, {gyroscope, unknowns.segment<3>(kBias)}});
   }
   return states;
 }

@@ -41,9 +41,7 @@ std::vector<Surfel> transformed(const SE3& T, const std::vector<Surfel>& surfels
   const Eigen::Vector3f t = T.translation().cast<float>();
   std::vector<Surfel> moved;
   moved.reserve(surfels.size());
-  for (const Surfel& surfel : surfels)
-    moved.push_back(
-        {R * surfel.position + t, R * surfel.covariance * R.transpose(), surfel.tilt_rad2, surfel.shape});
+  for (const Surfel& surfel : surfels) moved.push_back(transformed(R, t, surfel));
   return moved;
 }
 

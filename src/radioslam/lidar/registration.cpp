@@ -56,7 +56,8 @@ class Pass {
     const Eigen::Vector3f moved = R_float_ * surfel.position + t_float_;
     const Surfel* met = target_(moved, squared_reach_);
     if (!met) return;
-    const float squared_distance = (met->position - moved).squaredNorm();
+    const Eigen::Vector3f offset = met->position - moved;
+    const float squared_distance = offset.squaredNorm();
     if (!tell_together(*met, surfel, squared_distance)) {
       ++sums.weights;
       ++sums.matches;
@@ -66,7 +67,7 @@ class Pass {
     const float tilt_rad2 = tilt_of(*met, surfel);
     covariance.diagonal().array() += squared_blur_ + tilt_rad2 * squared_distance;
     const Eigen::Matrix3d information = covariance.cast<double>().inverse();
-    const Eigen::Vector3d error = (R_float_.transpose() * (met->position - moved)).cast<double>();
+    const Eigen::Vector3d error = (R_float_.transpose() * offset).cast<double>();
     const Eigen::Vector3d pull = information * error;
     const double squares = error.dot(pull);
     const double root = squared_scale_ / (squared_scale_ + squares);

@@ -17,6 +17,12 @@ constexpr float kFlat_m = 1e-3F;
 
 double square(double x) { return x * x; }
 
+/// Of where a scan lies on the map that it alone makes up.
+SE3::Jacobian exact() {
+  constexpr double kExact_m = 1e-4, kExact_rad = 1e-5;
+  return isotropic(1 / square(kExact_m), 1 / square(kExact_rad));
+}
+
 /// Where a robot may be that moved otherwise than predicted: it stopped, or turned up to four steps further.
 std::vector<SE3> starts_about(const SE3& last, const SE3& predicted, double step_m, double range_m) {
   const double step_rad = step_m / std::max(range_m, step_m);
@@ -30,6 +36,12 @@ std::vector<SE3> starts_about(const SE3& last, const SE3& predicted, double step
 }
 
 }  // namespace
+
+Trajectory<SE3> trajectory_of(const std::vector<ScanPose>& scans) {
+  std::vector<StampedPose<SE3>> poses;
+  for (const ScanPose& scan : scans) poses.push_back({scan.stamp, scan.T_start_body});
+  return Trajectory<SE3>(std::move(poses));
+}
 
 ScannerTraits scanner_traits(const LidarLog& log, const LidarParams& params) {
   std::vector<double> ranges;
@@ -97,10 +109,8 @@ bool ScanOdometer::is_after_gap(Stamp stamp) {
 }
 
 PosePrior ScanOdometer::prior_at(const SE3& predicted) const {
-  PosePrior prior{predicted};
-  prior.information.diagonal().head<3>().setConstant(1 / square(params_.odometry.prior_factor * sigma_m()));
-  prior.information.diagonal().tail<3>().setConstant(1 / square(params_.odometry.prior_factor * sigma_rad()));
-  return prior;
+  const double factor = params_.odometry.prior_factor;
+  return {predicted, isotropic(1 / square(factor * sigma_m()), 1 / square(factor * sigma_rad()))};
 }
 
 ScanOdometer::Sweep ScanOdometer::sweep_of(Stamp stamp, ScanPoints points, const SE3::Tangent& twist_per_s,
@@ -213,9 +223,7 @@ void ScanOdometer::begin_anew(const RivalFit& on_rival, ScanPose& result) {
   result.T_start_body = on_rival.fit.T_target_source;
   const double wide_m = params_.odometry.first_sigma_m + rival_->gap_m;
   const double wide_rad = params_.odometry.first_sigma_rad + rival_->gap_rad;
-  result.covariance.setZero();
-  result.covariance.diagonal().head<3>().setConstant(wide_m * wide_m);
-  result.covariance.diagonal().tail<3>().setConstant(wide_rad * wide_rad);
+  result.covariance = isotropic(square(wide_m), square(wide_rad));
   map_ = std::move(rival_->map);
   const Place place = rival_->last;
   last_ = rival_->before;
@@ -231,15 +239,6 @@ void ScanOdometer::try_new_map(const Sweep& sweep, ScanPose& result) {
   if (on_rival && rival_->scans > patience) begin_anew(*on_rival, result);
 }
 
-/// Where a scan lies on the map that it alone makes up.
-SE3::Jacobian ScanOdometer::exact() {
-  constexpr double kExact_m = 1e-4, kExact_rad = 1e-5;
-  SE3::Jacobian information = SE3::Jacobian::Zero();
-  information.diagonal().head<3>().setConstant(1 / square(kExact_m));
-  information.diagonal().tail<3>().setConstant(1 / square(kExact_rad));
-  return information;
-}
-
 void ScanOdometer::begin(const Sweep& sweep, ScanPose& result) {
   result.outcome = ScanOutcome::kFirst;
   result.information = exact();
@@ -252,9 +251,7 @@ void ScanOdometer::begin_after_gap(const Sweep& sweep, ScanPose& result) {
   const double gap_s = seconds_between(last_->stamp, sweep.stamp);
   const double wide_m = params_.odometry.first_sigma_m + gap_s * twist_per_s_.head<3>().norm();
   result.outcome = ScanOutcome::kNewMap;
-  result.covariance.setZero();
-  result.covariance.diagonal().head<3>().setConstant(square(wide_m));
-  result.covariance.diagonal().tail<3>().setConstant(square(std::numbers::pi));
+  result.covariance = isotropic(square(wide_m), square(std::numbers::pi));
   result.information = exact();
   map_ = LocalMap(traits_.spacing_m, params_.map);
   rival_.reset();

@@ -149,6 +149,9 @@ struct ScanPose {
   ScanCloud cloud;  ///< in the body frame; empty where there are too few points
 };
 
+/// Of registered scans.
+Trajectory<SE3> trajectory_of(const std::vector<ScanPose>& scans);
+
 /// How far apart the map's points lie, and whether the scanner measures in a plane: from up to ten scans.
 struct ScannerTraits {
   double spacing_m = 0.25;
@@ -224,7 +227,6 @@ class ScanOdometer {
   Registration unbend(Sweep& sweep, ScanCloud& cloud, const Registration& fit, const PosePrior& prior) const;
   void begin_rival(const Sweep& sweep, const ScanCloud& cloud, const SE3& predicted);
   std::optional<RivalFit> lay_onto_rival(const Sweep& sweep, const ScanCloud& cloud, const SE3& predicted);
-  static SE3::Jacobian exact();
   void begin(const Sweep& sweep, ScanPose& result);
   void begin_after_gap(const Sweep& sweep, ScanPose& result);
   void try_new_map(const Sweep& sweep, ScanPose& result);

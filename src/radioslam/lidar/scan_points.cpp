@@ -44,9 +44,8 @@ class SweptMotion {
   }
 
   Surfel carry(const Surfel& surfel, float time_s) const {
-    const Eigen::Matrix3f& R = rotations_[step_at(time_s)];
-    return {carry(surfel.position, time_s), R * surfel.covariance * R.transpose(), surfel.tilt_rad2,
-            surfel.shape};
+    const std::size_t k = step_at(time_s);
+    return transformed(rotations_[k], translations_[k], surfel);
   }
 
  private:

@@ -85,6 +85,10 @@ Surfel surfel_at(const std::vector<Eigen::Vector3f>& points, const PointTree& tr
 
 }  // namespace
 
+Surfel transformed(const Eigen::Matrix3f& R, const Eigen::Vector3f& t, const Surfel& surfel) {
+  return {R * surfel.position + t, R * surfel.covariance * R.transpose(), surfel.tilt_rad2, surfel.shape};
+}
+
 std::vector<Surfel> measure_surfels(const std::vector<Eigen::Vector3f>& points, double spacing_m,
                                     ScannerKind kind, const SurfelParams& params) {
   RADIOSLAM_CHECK(params.neighbours <= static_cast<int>(kMostNeighbours), "no more neighbours than that");

@@ -9,9 +9,9 @@
 //   l' = min(l (1 + (l / (flatness l0))^2), max(l, sigma_along^2)).
 // A point that stands alone knows of no surface. Nor do neighbours in a level line: they are one beam's on a
 // surface of unknown slope, the ground far ahead, say. A line that rises over many beams is a pole, or a wall
-// met under a small angle. A normal from n neighbours leans by a variance of l0 / (n l1) about either axis.
-// All this holds for scans of space; a plane's scan samples its walls finely, and the ends of what it sees of
-// them do tell.
+// met under a small angle. A normal from n neighbours leans by a variance of l0 / (n l1) about either axis,
+// a line by l1 / (n l2): the first counts 1 - l0' / l1', the second the rest. All this holds for scans of
+// space; a plane's scan samples its walls finely, and the ends of what it sees of them do tell.
 #pragma once
 
 #include <Eigen/Core>
@@ -61,6 +61,9 @@ struct SurfelParams {
     visit(Field{"clearly_flat", "", 1, 1000, "and one so many times, beyond doubt"}, self.clearly_flat);
   }
 };
+
+/// Turned, then moved.
+Surfel transformed(const Eigen::Matrix3f& R, const Eigen::Vector3f& t, const Surfel& surfel);
 
 /// A surfel at each of `points`, which lie about `spacing_m` apart. Cost: n log n.
 std::vector<Surfel> measure_surfels(const std::vector<Eigen::Vector3f>& points, double spacing_m,

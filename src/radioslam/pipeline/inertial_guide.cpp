@@ -28,7 +28,7 @@ std::vector<SE3> led_by_turns(const std::vector<InertialState>& states, const st
 
 std::optional<std::vector<SE3>> InertialGuide::way_through(const std::vector<Stamp>& stamps) const {
   const InertialState start = filter_ ? filter_->state() : InertialState{};
-  const Stamp from = filter_ ? node_.stamp : stamps.front();
+  const Stamp from = filter_ ? state_stamp_ : stamps.front();
   const auto states = predict_motion(start, from, *samples_, stamps, params_.noise);
   if (!states) return std::nullopt;
   if (!filter_) return led_by_turns(*states, stamps, velocity_mps_);
@@ -46,7 +46,7 @@ std::optional<ScanGuess> InertialGuide::guess(Stamp stamp, const SweptTime& time
     stamps.push_back({stamp.ns + Stamp::from_seconds(guess.way.time_of(k)).ns});
   if (last_) stamps.push_back(last_->stamp);
   if (filter_)  // what was before its state it does not know
-    for (Stamp& at : stamps) at = std::max(at, node_.stamp);
+    for (Stamp& at : stamps) at = std::max(at, state_stamp_);
   std::vector<Stamp> sorted = stamps;
   std::sort(sorted.begin(), sorted.end());
   sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
@@ -71,7 +71,7 @@ void InertialGuide::align(const ScanPose& scan) {
   }
   filter_.emplace(
       start_prior(aligned->states.back(), map_pose(scan, params_.stage), params_.noise, params_.smoother));
-  node_ = poses_.back();
+  state_stamp_ = scan.stamp;
   poses_.clear();
 }
 
@@ -94,13 +94,13 @@ void InertialGuide::add(const ScanPose& scan, const std::optional<ScanGuess>& gu
     return;
   }
   drift_->add(scan);
-  const double dt_s = seconds_between(node_.stamp, scan.stamp);
+  const double dt_s = seconds_between(state_stamp_, scan.stamp);
   if (dt_s < params_.stage.node_s && scan.outcome != ScanOutcome::kNewMap) return;
-  auto readings = preintegrate(*samples_, node_.stamp, scan.stamp, filter_->state().bias, params_.noise);
+  auto readings = preintegrate(*samples_, state_stamp_, scan.stamp, filter_->state().bias, params_.noise);
   const StateStep step =
       state_step(map_pose(scan, params_.stage), drift_->covariance(), std::move(readings), dt_s);
   if (filter_->advance(step, params_.noise) != InertialFilter::Advance::kDone) return;
-  node_ = *last_;
+  state_stamp_ = scan.stamp;
   drift_.emplace(scan, params_.stage);
 }
 

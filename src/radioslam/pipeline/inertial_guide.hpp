@@ -48,7 +48,7 @@ class InertialGuide {
   const std::vector<InertialSample>* samples_;
   InertialParams params_;
   std::vector<StampedPose<SE3>> poses_;                     ///< until gravity is known
-  StampedPose<SE3> node_{};                                 ///< the filter's state's
+  Stamp state_stamp_;                                       ///< the filter's state's
   std::optional<StampedPose<SE3>> last_, middle_;           ///< the last scan's, and of its sweep's middle
   Eigen::Vector3d velocity_mps_ = Eigen::Vector3d::Zero();  ///< of the body, in its frame
   std::optional<InertialFilter> filter_;

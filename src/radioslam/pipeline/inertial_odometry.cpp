@@ -68,9 +68,7 @@ std::vector<SE3> poses_through(const std::vector<ScanPose>& scans, const std::ve
 std::optional<InertialOdometry> smooth_scans(const std::vector<ScanPose>& scans,
                                              const std::vector<InertialSample>& samples,
                                              const InertialParams& params) {
-  std::vector<StampedPose<SE3>> poses;
-  for (const ScanPose& scan : scans) poses.push_back({scan.stamp, scan.T_start_body});
-  const auto aligned = align_gravity(Trajectory<SE3>(poses), samples, params.noise, params.alignment);
+  const auto aligned = align_gravity(trajectory_of(scans), samples, params.noise, params.alignment);
   if (!aligned) return std::nullopt;
   const auto nodes = nodes_of(scans, params.stage.node_s);
   InertialDrive drive;

@@ -44,13 +44,6 @@ std::size_t scans_within(const LidarLog& log, double duration_s) {
   return count;
 }
 
-std::optional<std::string> disagreement_with(const ScanTrack& track, const Robot& robot,
-                                             const InertialParams& params) {
-  std::vector<StampedPose<SE3>> poses;
-  for (const ScanPose& scan : track.poses) poses.push_back({scan.stamp, scan.T_start_body});
-  return disagreement(Trajectory<SE3>(poses), robot.inertial, params.noise, params.agreement);
-}
-
 }  // namespace
 
 ScanTrack lay_scans(Robot& robot, const ScannerTraits& traits, const ScanParams& params,
@@ -64,7 +57,8 @@ ScanTrack lay_scans(Robot& robot, const ScannerTraits& traits, const ScanParams&
   leave_out_wild_readings(robot, params.inertial.wild, notes);
   const std::size_t checked = scans_within(robot.lidar, params.inertial.stage.check_s);
   ScanTrack alone = track(checked, ScanGuide::kNone);
-  auto wrong = disagreement_with(alone, robot, params.inertial);
+  auto wrong = disagreement(trajectory_of(alone.poses), robot.inertial, params.inertial.noise,
+                            params.inertial.agreement);
   if (!wrong) {
     ScanTrack together = track(all, ScanGuide::kReadings);
     if (together.poses.empty()) return together;

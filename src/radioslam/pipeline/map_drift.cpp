@@ -3,30 +3,19 @@
 #include <Eigen/Cholesky>
 
 namespace radioslam {
-namespace {
-
-/// Of [translation, rotation], each the same about all axes.
-SE3::Tangent diagonal_of(double translation, double rotation) {
-  SE3::Tangent diagonal;
-  diagonal << Eigen::Vector3d::Constant(translation), Eigen::Vector3d::Constant(rotation);
-  return diagonal;
-}
-
-}  // namespace
-
 MapDrift::MapDrift(const ScanPose& from, const InertialStageParams& params)
     : params_(params),
       T_from_map_(from.T_start_body.inverse()),
       T_map_last_(from.T_start_body),
       next_(added_by(from)) {
   constexpr double kLeast_m = 1e-5, kLeast_rad = 1e-6;  // what numbers carry
-  covariance_ = diagonal_of(kLeast_m * kLeast_m, kLeast_rad * kLeast_rad).asDiagonal();
+  covariance_ = isotropic(kLeast_m * kLeast_m, kLeast_rad * kLeast_rad);
 }
 
 SE3::Jacobian MapDrift::added_by(const ScanPose& scan) const {
-  SE3::Jacobian information = scan.information;
-  information.diagonal() += diagonal_of(1 / (params_.unmeasured_m * params_.unmeasured_m),
-                                        1 / (params_.unmeasured_rad * params_.unmeasured_rad));
+  const SE3::Jacobian information =
+      scan.information + isotropic(1 / (params_.unmeasured_m * params_.unmeasured_m),
+                                   1 / (params_.unmeasured_rad * params_.unmeasured_rad));
   return scan.new_share * scan.new_share * information.llt().solve(SE3::Jacobian::Identity());
 }
 
