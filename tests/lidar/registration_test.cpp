@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
@@ -273,6 +274,41 @@ TEST(RegisterSurfels, TellsNothingAlongACorridor) {
       EXPECT_NEAR(fit.T_target_source.translation().y(), 0.1, 0.01);
       EXPECT_LT(fit.information(0, 0), 0.002 * fit.information(1, 1));
       EXPECT_LT(std::abs((scans.T_target_source.inverse() * fit.T_target_source).yaw()), 0.2 * kDegree);
+    }
+}
+
+/// What leaks is taken off; nothing is told that the points do not tell, not of turns and shifts together
+/// either: in a round hall, off its middle, they know neither by itself.
+TEST(RegisterSurfels, TellsNoMoreThanItsPointsInAnyDirection) {
+  ScannedRoom round_hall;
+  round_hall.boxes = {{{-20, -20, 0}, {20, 20, 3}}};
+  round_hall.pillars = {{{4, 0}, 8}};
+  ScannedRoom corridor;
+  corridor.boxes = {{{-1000, -1.5, 0}, {1000, 1.5, 2.5}}};
+  for (const ScannedRoom& room : {round_hall, corridor, furnished_room()})
+    for (std::uint64_t seed = 0; seed < 3; ++seed) {
+      Rng rng(seed);
+      Scanner scanner;
+      scanner.most_m = 25;
+      SurfelMap map(0.1, 0.3);
+      map.add(surfels_of(sweep(room, scanner, pose_at(0, 0, 1.2, 0), rng), 0.1, ScannerKind::kSpatial), 0);
+      const SE3 moved = pose_at(0.05, 0.03, 1.2, 0.3);
+      const SurfelSource source =
+          cloud_of(sweep(room, scanner, moved, rng), 0.1, ScannerKind::kSpatial).source;
+      RegistrationParams once;
+      once.max_iterations = 1;  // both of the same pose
+      const auto information_by = [&](double leak_factor) {
+        once.leak_factor = leak_factor;
+        return register_surfels(nearest_on(map), source, {pose_at(0.05, 0.03, 0, 0.3), 0, 0.3}, {},
+                                ScannerKind::kSpatial, once)
+            .information;
+      };
+      const SE3::Jacobian all = information_by(0), told = information_by(2);
+      const auto smallest = [](const SE3::Jacobian& m) {
+        return Eigen::SelfAdjointEigenSolver<SE3::Jacobian>(m).eigenvalues()[0];
+      };
+      EXPECT_GE(smallest(all - told), -1e-9 * all.norm());
+      EXPECT_GE(smallest(told), -1e-9 * all.norm());
     }
 }
 

@@ -26,7 +26,7 @@ struct Box {
   Eigen::Vector3d low, high;
 };
 
-/// Upright, without end.
+/// Upright, without end: seen from outside, or a round hall's wall seen from inside.
 struct Pillar {
   Eigen::Vector2d centre;
   double radius_m = 0.3;
@@ -56,8 +56,9 @@ inline double distance_to(const Pillar& pillar, const Eigen::Vector3d& from, con
   const double a = along.squaredNorm(), b = offset.dot(along);
   const double root = b * b - a * (offset.squaredNorm() - pillar.radius_m * pillar.radius_m);
   if (a == 0 || root < 0) return kNothing_m;
-  const double way = (-b - std::sqrt(root)) / a;
-  return way > 0 ? way : kNothing_m;
+  const double enters = (-b - std::sqrt(root)) / a, leaves = (-b + std::sqrt(root)) / a;
+  if (leaves <= 0) return kNothing_m;
+  return enters > 0 ? enters : leaves;
 }
 
 inline double distance_to(const ScannedRoom& room, const Eigen::Vector3d& from, const Eigen::Vector3d& ray) {

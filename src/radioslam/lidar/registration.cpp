@@ -127,16 +127,16 @@ void pin_plane(Registration& result, SE3::Tangent& gradient) {
   }
 }
 
-/// The information without `leak` about the position, off that along each axis. What an axis keeps, it keeps
-/// in all that the points tell along it.
-SE3::Jacobian without_leak(const SE3::Jacobian& information, double leak) {
+/// K of registration.hpp: times an information, what of it is told by the points rather than by normals that
+/// lean; times a gradient, that of the same answer.
+SE3::Jacobian kept_without_leak(const SE3::Jacobian& information, double leak) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(information.topLeftCorner<3, 3>());
-  const Eigen::Vector3d values = axes.eigenvalues();
-  const Eigen::Vector3d left = (values.array() - leak).max(0.0);
-  const Eigen::Vector3d kept = left.cwiseQuotient(values.cwiseMax(1e-12)).cwiseSqrt();
-  SE3::Jacobian scale = SE3::Jacobian::Identity();
-  scale.topLeftCorner<3, 3>() = axes.eigenvectors() * kept.asDiagonal() * axes.eigenvectors().transpose();
-  return scale * information * scale;
+  const Eigen::Array3d h = axes.eigenvalues().array().max(1e-12);
+  const Eigen::Vector3d off = h.min(leak) / h.square();
+  SE3::Jacobian keep = SE3::Jacobian::Identity();
+  keep.leftCols<3>() -=
+      information.leftCols<3>() * axes.eigenvectors() * off.asDiagonal() * axes.eigenvectors().transpose();
+  return keep;
 }
 
 }  // namespace
@@ -155,13 +155,13 @@ Registration register_surfels(const NearestSurfel& target, const SurfelSource& s
         sum_over(source.surfels, Pass(target, result.T_target_source, start.reach_m, blur_m, params));
     if (static_cast<double>(sums.matches) < fewest) return {.T_target_source = start.T_target_source};
     const SE3::Tangent from_prior = (prior.pose.inverse() * result.T_target_source).log();
-    SE3::Jacobian all = source.independent_share * sums.hessian;
     SE3::Tangent gradient = source.independent_share * sums.gradient;
-    result.information = all;
+    result.information = source.independent_share * sums.hessian;
     if (kind == ScannerKind::kSpatial) {
-      result.information = without_leak(all, params.leak_factor * source.independent_share * sums.leak);
-      all.diagonal() *= 1 + 1e-9;
-      gradient = result.information * all.ldlt().solve(gradient);
+      const SE3::Jacobian keep =
+          kept_without_leak(result.information, params.leak_factor * source.independent_share * sums.leak);
+      result.information = keep * result.information;
+      gradient = keep * gradient;
     }
     gradient += prior.information * from_prior;
     result.posterior = result.information + prior.information;

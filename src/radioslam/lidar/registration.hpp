@@ -12,10 +12,14 @@
 // The normal of a surface is known to a few degrees only, so that some of what a wall tells across leaks
 // along it: along a corridor, thousands of points promise what none of them knows. How far normals may lean
 // is known (surfel.hpp: s^2; it also makes a match uncertain, by s^2 per squared distance along the surface),
-// and with it what leaks of all information, sum w tr(W_k) s_k^2. Of the information about the position H so
-// much, times `leak_factor`, is taken off along each axis: H' = S H S. The points' own answer x = -H^-1 g
-// then counts as much as H' says, against the prior: along a corridor the prior stands. (In space; a plane's
-// scan line has its normals from many points.)
+// and with it what leaks of all information, l = sum w tr(W_k) s_k^2. So much, times `leak_factor`, is taken
+// off along each axis a_i of what is told of the position, H_t = sum h_i a_i a_i', as if the position were
+// known the less along it:
+//   H' = K H,  K = I - sum (min(l, h_i) / h_i^2) H a_i a_i',  H' <= H in every direction.
+// The points' own answer x = -H^-1 g then counts as much as H' says, against the prior (g' = K g): along a
+// corridor the prior stands. (In space; a plane's scan line has its normals from many points.) Where only a
+// turn and a shift together are unknown, in a round hall off its middle, a tenth of the turn's information
+// stays that nothing tells.
 #pragma once
 
 #include <Eigen/Core>
