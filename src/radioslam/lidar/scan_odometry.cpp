@@ -108,6 +108,19 @@ bool ScanOdometer::is_after_gap(Stamp stamp) {
   return dt_s > most_s;
 }
 
+/// A scanner in the plane does not see its robot rock, which it does a little.
+SE3::Jacobian ScanOdometer::told_of_pose(SE3::Jacobian information) const {
+  if (traits_.kind == ScannerKind::kSpatial) return information;
+  const double height = 1 / square(params_.odometry.level_sigma_m);
+  const double tilt = 1 / square(params_.odometry.level_sigma_rad);
+  for (const auto& [axis, least] : {std::pair{2, height}, {3, tilt}, {4, tilt}}) {
+    information.row(axis).setZero();
+    information.col(axis).setZero();
+    information(axis, axis) = least;
+  }
+  return information;
+}
+
 PosePrior ScanOdometer::prior_at(const SE3& predicted) const {
   const double factor = params_.odometry.prior_factor;
   return {predicted, isotropic(1 / square(factor * sigma_m()), 1 / square(factor * sigma_rad()))};
@@ -218,7 +231,7 @@ std::optional<ScanOdometer::RivalFit> ScanOdometer::lay_onto_rival(const Sweep& 
 void ScanOdometer::begin_anew(const RivalFit& on_rival, ScanPose& result) {
   result.outcome = ScanOutcome::kNewMap;
   result.new_share = on_rival.new_share;
-  result.information = on_rival.fit.information;
+  result.information = told_of_pose(on_rival.fit.information);
   result.matched_share = on_rival.fit.matched_share;
   result.T_start_body = on_rival.fit.T_target_source;
   const double wide_m = params_.odometry.first_sigma_m + rival_->gap_m;
@@ -241,7 +254,7 @@ void ScanOdometer::try_new_map(const Sweep& sweep, ScanPose& result) {
 
 void ScanOdometer::begin(const Sweep& sweep, ScanPose& result) {
   result.outcome = ScanOutcome::kFirst;
-  result.information = exact();
+  result.information = told_of_pose(exact());
   advance(sweep.place_at(result.T_start_body));
   result.new_share = map_.add(result.cloud, result.T_start_body, way_m_);
 }
@@ -252,7 +265,7 @@ void ScanOdometer::begin_after_gap(const Sweep& sweep, ScanPose& result) {
   const double wide_m = params_.odometry.first_sigma_m + gap_s * twist_per_s_.head<3>().norm();
   result.outcome = ScanOutcome::kNewMap;
   result.covariance = isotropic(square(wide_m), square(std::numbers::pi));
-  result.information = exact();
+  result.information = told_of_pose(exact());
   map_ = LocalMap(traits_.spacing_m, params_.map);
   rival_.reset();
   last_ = sweep.place_at(result.T_start_body);
@@ -271,7 +284,7 @@ void ScanOdometer::register_on_map(Sweep sweep, const Registration& first_fit, c
   result.outcome = ScanOutcome::kRegistered;
   result.T_start_body = fit.T_target_source;
   result.covariance = fit.posterior.inverse();
-  result.information = fit.information;
+  result.information = told_of_pose(fit.information);
   learn(prior.pose.inverse() * first_fit.T_target_source, fit.matched_share);
   advance(sweep.place_at(result.T_start_body));
   if (result.matched_share >= params_.odometry.insert_share * usual_share_)
@@ -280,7 +293,8 @@ void ScanOdometer::register_on_map(Sweep sweep, const Registration& first_fit, c
 
 ScanPose ScanOdometer::add(Stamp stamp, const LidarScan& scan, const std::optional<SE3>& T_previous_body) {
   const double dt_s = last_ ? seconds_between(last_->stamp, stamp) : 0;
-  const SE3 motion = T_previous_body ? *T_previous_body : SE3::exp(dt_s * twist_per_s_);
+  SE3 motion = T_previous_body ? *T_previous_body : SE3::exp(dt_s * twist_per_s_);
+  if (traits_.kind == ScannerKind::kPlanar) motion = lift(flatten(motion));  // its map is its plane
   const SE3::Tangent twist = T_previous_body && dt_s > 0 ? SE3::Tangent(motion.log() / dt_s) : twist_per_s_;
   ScanPoints usable = usable_points(scan, twist, params_.points);
 

@@ -18,6 +18,9 @@
 // its poses at their stamps wrong by a degree: what was found is put in its place at once. A motion that
 // inertial readings or wheels told is newer than that, and true where scans tell nothing; it stays.
 //
+// A scanner in the plane has its map in that plane, and tells nothing of height, roll and pitch. Its robot
+// stays there but for rocking a little (`level_sigma_m`, `level_sigma_rad`): so much is told of its pose.
+//
 // A scan that does not fit begins a rival map, which the next ones that do not fit either must fit; one that
 // does not takes its place. After `patience` scans the rival becomes the map: where it lies is as uncertain
 // as the motion from the last scan that did fit. A first scan that the second one does not fit is no map yet:
@@ -55,6 +58,8 @@ struct ScanOdometryParams {
   double first_sigma_rad = 0.2;
   double least_sigma_m = 0.02;
   double least_sigma_rad = 0.005;
+  double level_sigma_m = 0.1;  ///< of a robot with a scanner in the plane, from its plane
+  double level_sigma_rad = 0.05;
   double prior_factor = 10;           ///< the prior's sigma, in deviations
   double deviation_share = 0.05;      ///< weight of the newest deviation
   double enough_share = 0.9;          ///< of the usual fit; one worse than that is searched for from afar
@@ -78,6 +83,9 @@ struct ScanOdometryParams {
     visit(Field{"least_sigma_m", "m", 1e-4, 10, "no predicted motion is trusted to be better"},
           self.least_sigma_m);
     visit(Field{"least_sigma_rad", "rad", 1e-5, 3, "likewise"}, self.least_sigma_rad);
+    visit(Field{"level_sigma_m", "m", 1e-4, 100, "of a robot with a scanner in the plane, from its plane"},
+          self.level_sigma_m);
+    visit(Field{"level_sigma_rad", "rad", 1e-5, 3, "likewise"}, self.level_sigma_rad);
     visit(Field{"prior_factor", "", 1, 1000,
                 "the prior's sigma in deviations: predictions err systematically, and count where scans tell "
                 "nothing"},
@@ -219,6 +227,7 @@ class ScanOdometer {
   double enough_share() const;
   bool may_be_a_map(const ScanCloud& cloud);
   bool is_after_gap(Stamp stamp);
+  SE3::Jacobian told_of_pose(SE3::Jacobian information) const;
   PosePrior prior_at(const SE3& predicted) const;
   Sweep sweep_of(Stamp stamp, ScanPoints points, const SE3::Tangent& twist_per_s, MotionSource source) const;
   ScanCloud cloud_of(const Sweep& sweep) const;
