@@ -93,12 +93,13 @@ TEST(MeasureSurfels, OfAPlanarScannerLeaveTheHeightOpen) {
   }
 }
 
-/// Nothing is known of their surface, and only the measurement errs.
+/// Nothing is known of their surface, and only the measurement errs: far apart, or in one beam's line along
+/// a wall.
 TEST(MeasureSurfels, OfPointsWithoutASurfaceAreTheMeasurementsAlone) {
   std::vector<Eigen::Vector3f> apart, beam;
   for (int k = 0; k < 20; ++k) {
     apart.emplace_back(static_cast<float>(k), 0.0F, 0.0F);
-    beam.emplace_back(5.0F, 0.05F * static_cast<float>(k), 0.0F);  // level: the slope across it is not seen
+    beam.emplace_back(5 + 0.05F * static_cast<float>(k), 1.0F, 0.0F);
   }
   const SurfelParams params;
   const auto variance = static_cast<float>(params.sigma_range_m * params.sigma_range_m);
@@ -107,6 +108,42 @@ TEST(MeasureSurfels, OfPointsWithoutASurfaceAreTheMeasurementsAlone) {
       EXPECT_EQ(surfel.shape, SurfelShape::kPoint);
       EXPECT_TRUE(surfel.covariance.isApprox(variance * Eigen::Matrix3f::Identity()));
     }
+}
+
+/// One beam's line on the ground ahead, with the noise that its ranges have: known in height alone.
+TEST(MeasureSurfels, OfABeamOnTheGroundTellTheirHeight) {
+  const SurfelParams params;
+  const auto along = static_cast<float>(params.sigma_along_m * params.sigma_along_m);
+  const auto height = static_cast<float>(params.sigma_range_m * params.sigma_range_m);
+  Rng rng(6);
+  std::vector<Eigen::Vector3f> beam;
+  for (int k = -20; k < 20; ++k) {
+    const double azimuth = 0.01 * k, range_m = 8 + rng.normal(0, params.sigma_range_m);
+    beam.emplace_back(
+        Eigen::Vector3d(range_m * std::cos(azimuth), range_m * std::sin(azimuth), -0.15 * range_m)
+            .cast<float>());
+  }
+  for (const Surfel& surfel : measure_surfels(beam, kSpacing_m, ScannerKind::kSpatial, params)) {
+    if (std::abs(surfel.position.y()) > 1) continue;  // at its ends there are few neighbours
+    EXPECT_EQ(surfel.shape, SurfelShape::kLine);
+    EXPECT_TRUE(
+        surfel.covariance.isApprox(Eigen::Matrix3f(Eigen::Vector3f(along, along, height).asDiagonal())));
+  }
+}
+
+/// Of one beam three points in a row and as many of its neighbour's: no surface beyond doubt, whatever they
+/// happen to lie like.
+TEST(MeasureSurfels, OfFewNeighboursAreNoClearSurfaces) {
+  const SurfelParams params;
+  for (const int columns : {3, 4, 5}) {
+    std::vector<Eigen::Vector3f> patch;
+    for (int k = 0; k < columns; ++k)
+      for (const float height : {0.0F, 0.2F}) patch.emplace_back(5.0F, 0.05F * static_cast<float>(k), height);
+    for (const Surfel& surfel : measure_surfels(patch, kSpacing_m, ScannerKind::kSpatial, params))
+      EXPECT_EQ(surfel.shape, columns == 3   ? SurfelShape::kPoint
+                              : columns == 4 ? SurfelShape::kBlob
+                                             : SurfelShape::kSurface);
+  }
 }
 
 /// A pole, or a wall that few beams meet under a small angle: no telling which.

@@ -31,10 +31,13 @@ struct NormalSums {
   }
 };
 
-/// Of the normal by which two surfels are laid onto each other: the mean of theirs, or the only one's.
+bool is_lone(const Surfel& surfel) { return surfel.shape < SurfelShape::kBlob; }
+
+/// Of the normal by which two surfels are laid onto each other: the mean of theirs, or a surface's to which
+/// something is held that has none.
 float tilt_of(const Surfel& a, const Surfel& b) {
-  const bool are_both = a.shape != SurfelShape::kPoint && b.shape != SurfelShape::kPoint;
-  return (are_both ? 0.25F : 1) * (a.tilt_rad2 + b.tilt_rad2);
+  if (is_lone(a) == is_lone(b)) return 0.25F * (a.tilt_rad2 + b.tilt_rad2);
+  return is_lone(a) ? b.tilt_rad2 : a.tilt_rad2;
 }
 
 /// One pass over the source's points at one pose.
@@ -63,8 +66,8 @@ class Pass {
       ++sums.matches;
       return;
     }
-    Eigen::Matrix3f covariance = R_float_.transpose() * met->covariance * R_float_ + surfel.covariance;
     const float tilt_rad2 = tilt_of(*met, surfel);
+    Eigen::Matrix3f covariance = covariance_of(*met, surfel);
     covariance.diagonal().array() += squared_blur_ + tilt_rad2 * squared_distance;
     const Eigen::Matrix3d information = covariance.cast<double>().inverse();
     const Eigen::Vector3d error = (R_float_.transpose() * offset).cast<double>();
@@ -79,18 +82,30 @@ class Pass {
     sums.hessian.bottomRightCorner<3, 3>() -= weight * (arm * turned);
     sums.gradient.head<3>() -= weight * pull;
     sums.gradient.tail<3>() -= weight * (arm * pull);
-    sums.leak += weight * information.trace() * static_cast<double>(tilt_rad2);
+    if (!is_lone(*met) || !is_lone(surfel))  // the normals of lines are not measured
+      sums.leak += weight * information.trace() * static_cast<double>(tilt_rad2);
     sums.weights += weight;
     sums.weighted_squares += weight * squares;
     ++sums.matches;
   }
 
  private:
-  /// A point alone tells only where it meets a surface beyond doubt, and close by: it may be another's.
+  /// What stands alone tells only where it meets a surface beyond doubt, and close by: it may be another's.
   bool tell_together(const Surfel& a, const Surfel& b, float squared_distance) const {
-    const auto [less, more] = std::minmax(a.shape, b.shape);
-    return less != SurfelShape::kPoint ||
-           (more == SurfelShape::kSurface && squared_distance < squared_point_reach_);
+    if (is_lone(a) && is_lone(b)) return a.shape == SurfelShape::kLine && b.shape == SurfelShape::kLine;
+    if (!is_lone(a) && !is_lone(b)) return true;
+    return std::max(a.shape, b.shape) == SurfelShape::kSurface && squared_distance < squared_point_reach_;
+  }
+
+  /// Of the offset from one to the other, in the source's frame. What stands alone scatters about a surface
+  /// as the surface's own points do.
+  Eigen::Matrix3f covariance_of(const Surfel& met, const Surfel& surfel) const {
+    if (!is_lone(met) && is_lone(surfel)) return 2 * turned_back(met.covariance);
+    if (is_lone(met) && !is_lone(surfel)) return 2 * surfel.covariance;
+    return turned_back(met.covariance) + surfel.covariance;
+  }
+  Eigen::Matrix3f turned_back(const Eigen::Matrix3f& covariance) const {
+    return R_float_.transpose() * covariance * R_float_;
   }
 
   const NearestSurfel& target_;

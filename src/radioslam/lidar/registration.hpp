@@ -8,7 +8,7 @@
 // Neighbouring points err together (same surface, same scan line): the information counts `independent_share`
 // of each.
 // A point without a surface of its own is held to a surface of the other cloud that it lies close to, or
-// the other way round; two points tell each other nothing.
+// the other way round; two points tell each other nothing, two in level lines their height (surfel.hpp).
 // The normal of a surface is known to a few degrees only, so that some of what a wall tells across leaks
 // along it: along a corridor, thousands of points promise what none of them knows. How far normals may lean
 // is known (surfel.hpp: s^2; it also makes a match uncertain, by s^2 per squared distance along the surface),

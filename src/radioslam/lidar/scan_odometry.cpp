@@ -147,7 +147,8 @@ Registration ScanOdometer::lay_nearby(const ScanCloud& cloud, const PosePrior& p
                        deviation_.count == 0 ? 0 : least_share());
 }
 
-/// From other starts, the most promising of them; `near` if none fits better.
+/// From other starts, the most promising of them; `near` unless it fits worse by far. Where little tells the
+/// motion, scans fit a little better where their beams meet what they drew before: where the robot was.
 Registration ScanOdometer::search_afar(const ScanCloud& cloud, const PosePrior& prior,
                                        const Registration& near) const {
   const auto starts =
@@ -156,7 +157,7 @@ Registration ScanOdometer::search_afar(const ScanCloud& cloud, const PosePrior& 
       most_promising(map_, cloud, starts, static_cast<std::size_t>(params_.odometry.most_aligned));
   const Registration far =
       register_from(map_, cloud, promising, enough_share(), traits_.kind, params_.registration);
-  return far.matched_share > near.matched_share ? far : near;
+  return near.matched_share < params_.odometry.enough_share * far.matched_share ? far : near;
 }
 
 /// Puts the motion that was found in the place of that so far, if the scan fits no worse for it.

@@ -13,7 +13,8 @@ namespace radioslam {
 namespace {
 
 constexpr std::size_t kMostNeighbours = 50;
-constexpr std::size_t kFewestNeighbours = 4;  // three always lie in a plane
+// Three always lie in a plane; beside one beam's three in a row it takes as many of others.
+constexpr std::size_t kFewestInPlane = 4, kFewestInSpace = 7;
 
 /// Covariance of these points about their mean, summed about the first for the sake of the digits.
 Eigen::Matrix3f spread_of(const std::vector<Eigen::Vector3f>& points, const std::size_t* indices,
@@ -33,7 +34,7 @@ Eigen::Matrix3f spread_of(const std::vector<Eigen::Vector3f>& points, const std:
 struct SurfelScale {
   std::size_t neighbours;
   ScannerKind kind;
-  float flatness, clearly_flat, variance_along;
+  float flatness, clearly_flat, variance_along, line_slope_rad2;
   float reach_squared, variance_range, variance_alone;
 };
 
@@ -42,8 +43,19 @@ bool is_level_line(const Eigen::Vector3f& variances, const Eigen::Vector3f& long
   return variances(1) < across && variances(2) > across && std::abs(longest.z()) < 0.7F;
 }
 
+/// As a beam's line lies on the ground; on a wall alongside it runs away from the scanner.
+bool lies_across_view(const Eigen::Vector3f& point, const Eigen::Vector3f& line) {
+  constexpr float kCos60 = 0.5F;
+  return std::abs(point.head<2>().dot(line.head<2>())) < kCos60 * point.head<2>().norm();
+}
+
 Surfel bare_at(const Eigen::Vector3f& point, const SurfelScale& scale) {
   return {point, scale.variance_range * Eigen::Matrix3f::Identity(), 0, SurfelShape::kPoint};
+}
+
+Surfel line_at(const Eigen::Vector3f& point, const SurfelScale& scale) {
+  const Eigen::Vector3f level(scale.variance_along, scale.variance_along, scale.variance_range);
+  return {point, level.asDiagonal(), scale.line_slope_rad2, SurfelShape::kLine};
 }
 
 /// With the variances along a surface as they are for what it tells there: next to nothing.
@@ -54,8 +66,11 @@ Surfel surface_at(const Eigen::Vector3f& point, const Eigen::Matrix3f& covarianc
   const Eigen::Vector3f variances = axes.eigenvalues().cwiseMax(0.0F);
   const float across = scale.flatness * std::max(variances(0), scale.variance_range);
   Eigen::Vector3f freed = variances.cwiseMax(scale.variance_range);
-  if (is_level_line(variances, axes.eigenvectors().col(2), across)) return bare_at(point, scale);
-  const bool is_flat = variances(1) > scale.clearly_flat * variances(0);
+  const float clearly_across = scale.clearly_flat * std::max(variances(0), scale.variance_range);
+  if (is_level_line(variances, axes.eigenvectors().col(2), clearly_across))
+    return lies_across_view(point, axes.eigenvectors().col(2)) ? line_at(point, scale)
+                                                               : bare_at(point, scale);
+  const bool is_flat = count >= scale.neighbours && variances(1) > scale.clearly_flat * variances(0);
   for (float& variance : freed) {
     const float ratio = variance / across;
     variance = std::min(variance * (1 + ratio * ratio), std::max(variance, scale.variance_along));
@@ -73,7 +88,8 @@ Surfel surfel_at(const std::vector<Eigen::Vector3f>& points, const PointTree& tr
   std::array<float, kMostNeighbours> squared_distances{};
   std::size_t count = tree.nearest(points[k], scale.neighbours, indices.data(), squared_distances.data());
   while (count > 0 && squared_distances[count - 1] > scale.reach_squared) --count;
-  const bool is_alone = count < kFewestNeighbours, is_planar = scale.kind == ScannerKind::kPlanar;
+  const bool is_planar = scale.kind == ScannerKind::kPlanar;
+  const bool is_alone = count < (is_planar ? kFewestInPlane : kFewestInSpace);
   if (is_alone && !is_planar) return bare_at(points[k], scale);
   Eigen::Matrix3f covariance = is_alone ? Eigen::Matrix3f(scale.variance_alone * Eigen::Matrix3f::Identity())
                                         : spread_of(points, indices.data(), count);
@@ -100,6 +116,7 @@ std::vector<Surfel> measure_surfels(const std::vector<Eigen::Vector3f>& points, 
                           static_cast<float>(params.flatness),
                           static_cast<float>(params.clearly_flat),
                           static_cast<float>(params.sigma_along_m * params.sigma_along_m),
+                          static_cast<float>(params.line_slope_rad * params.line_slope_rad),
                           static_cast<float>(reach * reach),
                           static_cast<float>(params.sigma_range_m * params.sigma_range_m),
                           static_cast<float>(spacing_m * spacing_m)};

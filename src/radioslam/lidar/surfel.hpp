@@ -7,11 +7,14 @@
 // hold a scan to the points it happens to meet, and promise centimetres along a corridor without features.
 // So the variances l of C about its axes, l0 the smallest, grow where they are a surface's,
 //   l' = min(l (1 + (l / (flatness l0))^2), max(l, sigma_along^2)).
-// A point that stands alone knows of no surface. Nor do neighbours in a level line: they are one beam's on a
-// surface of unknown slope, the ground far ahead, say. A line that rises over many beams is a pole, or a wall
-// met under a small angle. A normal from n neighbours leans by a variance of l0 / (n l1) about either axis,
-// a line by l1 / (n l2): the first counts 1 - l0' / l1', the second the rest. All this holds for scans of
-// space; a plane's scan samples its walls finely, and the ends of what it sees of them do tell.
+// A point that stands alone, with fewer than seven neighbours in space, knows of no surface. Nor do
+// neighbours in a level line, of which none beside it makes a surface beyond doubt: they are one beam's on
+// the ground far ahead, or the ceiling, and go with the scanner. Taken for a surface they would say that it
+// stands. They tell of height alone, on ground that slopes by `line_slope`. A line that rises over many beams
+// is a pole, or a wall met under a small angle. A normal from n neighbours leans by a variance of l0 / (n l1)
+// about either axis, a line by l1 / (n l2): the first counts 1 - l0' / l1', the second the rest. All this
+// holds for scans of space; a plane's scan samples its walls finely, and the ends of what it sees of them do
+// tell.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,14 +27,15 @@ namespace radioslam {
 
 /// What the points about a point tell of its surface.
 enum class SurfelShape : std::uint8_t {
-  kPoint,    ///< nothing: it stands alone, or in a level line
+  kPoint,    ///< nothing: it stands alone
+  kLine,     ///< its height: it stands in a level line, as a beam draws on the ground
   kBlob,     ///< a line or a cloud, or too few points to tell from one
-  kSurface,  ///< clearly flat
+  kSurface,  ///< clearly flat, by as many neighbours as are looked for
 };
 
 struct Surfel {
   Eigen::Vector3f position;    ///< metres
-  Eigen::Matrix3f covariance;  ///< m^2, positive definite; of the measurement alone where no surface shows
+  Eigen::Matrix3f covariance;  ///< m^2, positive definite; of the measurement alone where nothing shows
   float tilt_rad2 = 0;         ///< variance of the surface's normal about either axis along it
   SurfelShape shape = SurfelShape::kSurface;
 };
@@ -45,7 +49,9 @@ struct SurfelParams {
   double flatness = 2;          ///< a variance so many times the smallest is that of a surface
   double sigma_along_m = 3;     ///< along a surface, which tells nothing there
   double sigma_range_m = 0.02;  ///< of a single measurement: 2 to 3 cm in data sheets
-  double clearly_flat = 10;     ///< a variance so many times the smallest is that of a surface beyond doubt
+  double line_slope_rad = 0.2;  ///< of the ground on which a beam draws a level line, and of the scanner
+  double clearly_flat = 10;  ///< a variance so many times the smallest is that of a surface beyond doubt, of
+                             ///< all its neighbours
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -58,6 +64,8 @@ struct SurfelParams {
           self.sigma_along_m);
     visit(Field{"sigma_range_m", "m", 1e-4, 1, "noise of a single measurement; data sheets say 2 to 3 cm"},
           self.sigma_range_m);
+    visit(Field{"line_slope_rad", "rad", 1e-3, 1.5, "slope of the ground that a beam draws a level line on"},
+          self.line_slope_rad);
     visit(Field{"clearly_flat", "", 1, 1000, "and one so many times, beyond doubt"}, self.clearly_flat);
   }
 };
