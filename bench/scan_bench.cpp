@@ -27,7 +27,7 @@ struct Recording {
 const Recording& recording() {
   static const Recording recorded = [] {
     CityParams params;
-    params.path_length_m = 100;
+    params.path_length_m = 150;
     params.onboard.lidar.lidar_beams = 64;
     params.onboard.lidar.lidar_azimuth_steps = 1100;
     params.lidar_range_m = 100;
