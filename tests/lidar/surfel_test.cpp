@@ -146,6 +146,18 @@ TEST(MeasureSurfels, OfFewNeighboursAreNoClearSurfaces) {
   }
 }
 
+/// As few neighbours as may be asked for still make surfaces.
+TEST(MeasureSurfels, OfFewerNeighboursThanUsualKnowTheirSurface) {
+  SurfelParams params;
+  params.neighbours = 4;
+  std::vector<Eigen::Vector3f> wall;
+  for (int y = 0; y < 10; ++y)
+    for (int z = 0; z < 10; ++z)
+      wall.emplace_back(5.0F, 0.1F * static_cast<float>(y), 0.1F * static_cast<float>(z));
+  for (const Surfel& surfel : measure_surfels(wall, kSpacing_m, ScannerKind::kSpatial, params))
+    EXPECT_NE(surfel.shape, SurfelShape::kPoint);
+}
+
 /// A pole, or a wall that few beams meet under a small angle: no telling which.
 TEST(MeasureSurfels, OfARisingLineAreNoSurfaces) {
   std::vector<Eigen::Vector3f> line;

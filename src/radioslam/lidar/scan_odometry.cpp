@@ -155,9 +155,10 @@ Registration ScanOdometer::search_afar(const ScanCloud& cloud, const PosePrior& 
       starts_about(last_->T_map_body, prior.pose, map_.coarse().reach_m() / 2, cloud.median_range_m);
   const auto promising =
       most_promising(map_, cloud, starts, static_cast<std::size_t>(params_.odometry.most_aligned));
-  const Registration far =
-      register_from(map_, cloud, promising, enough_share(), traits_.kind, params_.registration);
-  return near.matched_share < params_.odometry.enough_share * far.matched_share ? far : near;
+  const double better = near.matched_share / params_.odometry.enough_share;
+  const Registration far = register_from(map_, cloud, promising, std::max(enough_share(), better),
+                                         traits_.kind, params_.registration);
+  return far.matched_share > better ? far : near;
 }
 
 /// Puts the motion that was found in the place of that so far, if the scan fits no worse for it.

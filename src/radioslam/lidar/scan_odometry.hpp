@@ -92,7 +92,8 @@ struct ScanOdometryParams {
           self.prior_factor);
     visit(Field{"deviation_share", "", 1e-3, 1, "weight of the newest in the mean deviation"},
           self.deviation_share);
-    visit(Field{"enough_share", "", 0, 1, "of the usual fit; a worse one is searched for from afar"},
+    visit(Field{"enough_share", "", 0, 1,
+                "of the usual fit; a worse one is searched for from afar, and must be so of what is found"},
           self.enough_share);
     visit(Field{"most_aligned", "", 1, 21, "of the 21 starts of that search, the most promising"},
           self.most_aligned);

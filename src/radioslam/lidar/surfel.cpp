@@ -13,8 +13,7 @@ namespace radioslam {
 namespace {
 
 constexpr std::size_t kMostNeighbours = 50;
-// Three always lie in a plane; beside one beam's three in a row it takes as many of others.
-constexpr std::size_t kFewestInPlane = 4, kFewestInSpace = 7;
+constexpr std::size_t kFewestInPlane = 4;  // three always lie in a plane
 
 /// Covariance of these points about their mean, summed about the first for the sake of the digits.
 Eigen::Matrix3f spread_of(const std::vector<Eigen::Vector3f>& points, const std::size_t* indices,
@@ -32,15 +31,18 @@ Eigen::Matrix3f spread_of(const std::vector<Eigen::Vector3f>& points, const std:
 }
 
 struct SurfelScale {
-  std::size_t neighbours;
+  std::size_t neighbours, fewest;
   ScannerKind kind;
   float flatness, clearly_flat, variance_along, line_slope_rad2;
   float reach_squared, variance_range, variance_alone;
 };
 
-/// Of a single beam's neighbours: long along one axis, which rises by less than 45 degrees.
-bool is_level_line(const Eigen::Vector3f& variances, const Eigen::Vector3f& longest, float across) {
-  return variances(1) < across && variances(2) > across && std::abs(longest.z()) < 0.7F;
+/// Of a single beam's neighbours: in a row, which rises by less than 45 degrees, and none clearly beside it.
+bool is_level_line(const Eigen::Vector3f& variances, const Eigen::Vector3f& longest,
+                   const SurfelScale& scale) {
+  constexpr float kSin45 = 0.7F;
+  const float clearly_across = scale.clearly_flat * std::max(variances(0), scale.variance_range);
+  return variances(1) < clearly_across && variances(2) > clearly_across && std::abs(longest.z()) < kSin45;
 }
 
 /// As a beam's line lies on the ground; on a wall alongside it runs away from the scanner.
@@ -66,8 +68,7 @@ Surfel surface_at(const Eigen::Vector3f& point, const Eigen::Matrix3f& covarianc
   const Eigen::Vector3f variances = axes.eigenvalues().cwiseMax(0.0F);
   const float across = scale.flatness * std::max(variances(0), scale.variance_range);
   Eigen::Vector3f freed = variances.cwiseMax(scale.variance_range);
-  const float clearly_across = scale.clearly_flat * std::max(variances(0), scale.variance_range);
-  if (is_level_line(variances, axes.eigenvectors().col(2), clearly_across))
+  if (is_level_line(variances, axes.eigenvectors().col(2), scale))
     return lies_across_view(point, axes.eigenvectors().col(2)) ? line_at(point, scale)
                                                                : bare_at(point, scale);
   const bool is_flat = count >= scale.neighbours && variances(1) > scale.clearly_flat * variances(0);
@@ -89,7 +90,7 @@ Surfel surfel_at(const std::vector<Eigen::Vector3f>& points, const PointTree& tr
   std::size_t count = tree.nearest(points[k], scale.neighbours, indices.data(), squared_distances.data());
   while (count > 0 && squared_distances[count - 1] > scale.reach_squared) --count;
   const bool is_planar = scale.kind == ScannerKind::kPlanar;
-  const bool is_alone = count < (is_planar ? kFewestInPlane : kFewestInSpace);
+  const bool is_alone = count < (is_planar ? kFewestInPlane : scale.fewest);
   if (is_alone && !is_planar) return bare_at(points[k], scale);
   Eigen::Matrix3f covariance = is_alone ? Eigen::Matrix3f(scale.variance_alone * Eigen::Matrix3f::Identity())
                                         : spread_of(points, indices.data(), count);
@@ -112,6 +113,7 @@ std::vector<Surfel> measure_surfels(const std::vector<Eigen::Vector3f>& points, 
   const PointTree tree(points);
   const double reach = params.reach_spacings * spacing_m;
   const SurfelScale scale{static_cast<std::size_t>(params.neighbours),
+                          static_cast<std::size_t>(std::min(params.fewest_neighbours, params.neighbours)),
                           kind,
                           static_cast<float>(params.flatness),
                           static_cast<float>(params.clearly_flat),

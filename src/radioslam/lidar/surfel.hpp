@@ -7,7 +7,7 @@
 // hold a scan to the points it happens to meet, and promise centimetres along a corridor without features.
 // So the variances l of C about its axes, l0 the smallest, grow where they are a surface's,
 //   l' = min(l (1 + (l / (flatness l0))^2), max(l, sigma_along^2)).
-// A point that stands alone, with fewer than seven neighbours in space, knows of no surface. Nor do
+// A point that stands alone, in space with fewer than `fewest_neighbours`, knows of no surface. Nor do
 // neighbours in a level line, of which none beside it makes a surface beyond doubt: they are one beam's on
 // the ground far ahead, or the ceiling, and go with the scanner. Taken for a surface they would say that it
 // stands. They tell of height alone, on ground that slopes by `line_slope`. A line that rises over many beams
@@ -45,6 +45,7 @@ enum class ScannerKind { kSpatial, kPlanar };
 
 struct SurfelParams {
   int neighbours = 10;          ///< so many points about a point tell its surface
+  int fewest_neighbours = 7;    ///< the point itself among them; fewer tell nothing, in space
   double reach_spacings = 3;    ///< neighbours beyond so many spacings do not
   double flatness = 2;          ///< a variance so many times the smallest is that of a surface
   double sigma_along_m = 3;     ///< along a surface, which tells nothing there
@@ -56,11 +57,13 @@ struct SurfelParams {
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
     visit(Field{"neighbours", "", 4, 50, "points about a point that tell its surface"}, self.neighbours);
+    visit(Field{"fewest_neighbours", "", 4, 50, "fewer tell nothing of a surface, in space"},
+          self.fewest_neighbours);
     visit(Field{"reach_spacings", "", 1, 20, "no neighbour is farther, in spacings of the points"},
           self.reach_spacings);
     visit(Field{"flatness", "", 1, 1000, "a variance so many times the smallest is that of a surface"},
           self.flatness);
-    visit(Field{"sigma_along_m", "m", 1e-3, 1000, "along a surface, at most: it tells nothing there"},
+    visit(Field{"sigma_along_m", "m", 1e-3, 30, "along a surface, at most: it tells nothing there"},
           self.sigma_along_m);
     visit(Field{"sigma_range_m", "m", 1e-4, 1, "noise of a single measurement; data sheets say 2 to 3 cm"},
           self.sigma_range_m);
