@@ -62,7 +62,8 @@ struct LapRun {
 using Spoil = std::function<void(std::size_t, InertialSample&)>;
 
 LapRun run_lap(const Spoil& spoil, bool enabled = true, Way way_of_body = lap_pose) {
-  const ScanDrive drive = lap_drive(way_of_body);
+  static const ScanDrive even = lap_drive(lap_pose), rocking = lap_drive(rocking_lap_pose);
+  const ScanDrive& drive = way_of_body == rocking_lap_pose ? rocking : even;
   Robot robot;
   robot.id = "a";
   robot.lidar = log_of(drive);

@@ -132,14 +132,9 @@ NormalSums sum_over(const std::vector<Surfel>& source, const Pass& pass) {
 
 /// A scanner in the plane says nothing of height, roll and pitch: they stay as they are.
 void pin_plane(Registration& result, SE3::Tangent& gradient) {
-  for (const int axis : {2, 3, 4}) {
-    for (SE3::Jacobian* information : {&result.information, &result.posterior}) {
-      information->row(axis).setZero();
-      information->col(axis).setZero();
-      (*information)(axis, axis) = kPlanarInformation;
-    }
-    gradient(axis) = 0;
-  }
+  for (SE3::Jacobian* information : {&result.information, &result.posterior})
+    *information = known_off_plane(*information, kPlanarInformation, kPlanarInformation);
+  gradient.segment<3>(2).setZero();
 }
 
 /// K of registration.hpp: times an information, what of it is told by the points rather than by normals that
@@ -155,6 +150,13 @@ SE3::Jacobian kept_without_leak(const SE3::Jacobian& information, double leak) {
 }
 
 }  // namespace
+
+SE3::Jacobian known_off_plane(SE3::Jacobian information, double height, double tilt) {
+  information.middleRows<3>(2).setZero();
+  information.middleCols<3>(2).setZero();
+  information.diagonal().segment<3>(2) << height, tilt, tilt;
+  return information;
+}
 
 Registration register_surfels(const NearestSurfel& target, const SurfelSource& source,
                               const RegistrationStart& start, const PosePrior& prior, ScannerKind kind,

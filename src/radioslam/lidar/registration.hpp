@@ -100,6 +100,10 @@ struct RegistrationStart {
   double least_met_share = 0;  ///< of the points; where fewer meet the target there is no overlap
 };
 
+/// The information of a scanner in the plane, with so much about height, and about roll and pitch, which it
+/// does not tell.
+SE3::Jacobian known_off_plane(SE3::Jacobian information, double height, double tilt);
+
 Registration register_surfels(const NearestSurfel& target, const SurfelSource& source,
                               const RegistrationStart& start, const PosePrior& prior, ScannerKind kind,
                               const RegistrationParams& params);

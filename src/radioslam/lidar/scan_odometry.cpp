@@ -109,16 +109,10 @@ bool ScanOdometer::is_after_gap(Stamp stamp) {
 }
 
 /// A scanner in the plane does not see its robot rock, which it does a little.
-SE3::Jacobian ScanOdometer::told_of_pose(SE3::Jacobian information) const {
+SE3::Jacobian ScanOdometer::told_of_pose(const SE3::Jacobian& information) const {
   if (traits_.kind == ScannerKind::kSpatial) return information;
-  const double height = 1 / square(params_.odometry.level_sigma_m);
-  const double tilt = 1 / square(params_.odometry.level_sigma_rad);
-  for (const auto& [axis, least] : {std::pair{2, height}, {3, tilt}, {4, tilt}}) {
-    information.row(axis).setZero();
-    information.col(axis).setZero();
-    information(axis, axis) = least;
-  }
-  return information;
+  return known_off_plane(information, 1 / square(params_.odometry.level_sigma_m),
+                         1 / square(params_.odometry.level_sigma_rad));
 }
 
 PosePrior ScanOdometer::prior_at(const SE3& predicted) const {

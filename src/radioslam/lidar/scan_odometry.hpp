@@ -228,7 +228,7 @@ class ScanOdometer {
   double enough_share() const;
   bool may_be_a_map(const ScanCloud& cloud);
   bool is_after_gap(Stamp stamp);
-  SE3::Jacobian told_of_pose(SE3::Jacobian information) const;
+  SE3::Jacobian told_of_pose(const SE3::Jacobian& information) const;
   PosePrior prior_at(const SE3& predicted) const;
   Sweep sweep_of(Stamp stamp, ScanPoints points, const SE3::Tangent& twist_per_s, MotionSource source) const;
   ScanCloud cloud_of(const Sweep& sweep) const;
