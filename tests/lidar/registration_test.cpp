@@ -351,6 +351,34 @@ TEST(RegisterSurfels, HoldsLonePointsToSurfacesAndToNothingElse) {
   EXPECT_TRUE(lay(nearest_of(points.surfels)).information.isZero(0));
 }
 
+/// Beams' lines on the ground ahead, of one scan and of the next: known in height, and that as well as ground
+/// is level from the one to the other.
+TEST(RegisterSurfels, KnowsTheHeightOfLinesAsWellAsGroundIsLevel) {
+  const SurfelParams surfel;
+  const double variance_m2 = surfel.sigma_range_m * surfel.sigma_range_m;
+  const double slope_rad2 = surfel.line_slope_rad * surfel.line_slope_rad;
+  const auto lines_at = [&](double x_m) {
+    std::vector<Eigen::Vector3f> beam;
+    for (int k = -20; k <= 20; ++k) beam.emplace_back(Eigen::Vector3d(x_m, 0.08 * k, -1).cast<float>());
+    return measure_surfels(beam, 0.1, ScannerKind::kSpatial, surfel);
+  };
+  RegistrationParams once;
+  once.max_iterations = 1;
+  for (const double between_m : {0.0, 0.1, 0.2}) {
+    const auto before = lines_at(8 + between_m);
+    const SurfelSource now{lines_at(8)};
+    const auto lines =
+        static_cast<double>(std::ranges::count(now.surfels, SurfelShape::kLine, &Surfel::shape));
+    ASSERT_GT(lines, 30);
+    const SE3::Jacobian information =
+        register_surfels(nearest_of(before), now, {SE3(), 0, 0.3}, {}, ScannerKind::kSpatial, once)
+            .information;
+    const double each = 1 / (2 * variance_m2 + slope_rad2 * between_m * between_m);
+    EXPECT_NEAR(information(2, 2), lines * each, 0.01 * lines * each) << between_m;
+    for (const int axis : {0, 1, 5}) EXPECT_LT(information(axis, axis), 0.01 * information(2, 2)) << axis;
+  }
+}
+
 /// A plane's scan: the ends of the walls that it sees hold it a little.
 TEST(RegisterSurfels, AlongACorridorTellsFarLessThanAcross) {
   for (std::uint64_t seed = 0; seed < 4; ++seed) {

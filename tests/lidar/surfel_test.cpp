@@ -131,6 +131,24 @@ TEST(MeasureSurfels, OfABeamOnTheGroundTellTheirHeight) {
   }
 }
 
+/// A wall ahead, of which points lie so close together that patches of them are little wider than the noise:
+/// none tells a height.
+TEST(MeasureSurfels, OfAFineWallAreNoBeamsOnTheGround) {
+  const double spacing_m = 0.05;
+  const SurfelParams params;
+  Rng rng(7);
+  std::vector<Eigen::Vector3f> wall;
+  for (int y = -20; y <= 20; ++y)
+    for (int z = -20; z <= 20; ++z) {
+      const double beside_m = spacing_m * (y + rng.uniform(-0.3, 0.3));
+      const double above_m = spacing_m * (z + rng.uniform(-0.3, 0.3));
+      wall.emplace_back(
+          Eigen::Vector3d(8 + rng.normal(0, params.sigma_range_m), beside_m, above_m).cast<float>());
+    }
+  for (const Surfel& surfel : measure_surfels(wall, spacing_m, ScannerKind::kSpatial, params))
+    EXPECT_NE(surfel.shape, SurfelShape::kLine);
+}
+
 /// Of one beam three points in a row and as many of its neighbour's: no surface beyond doubt, whatever they
 /// happen to lie like.
 TEST(MeasureSurfels, OfFewNeighboursAreNoClearSurfaces) {

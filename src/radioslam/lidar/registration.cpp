@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "radioslam/base/parallel.hpp"
 #include "radioslam/geometry/so3.hpp"
@@ -33,12 +34,12 @@ struct NormalSums {
 
 bool is_lone(const Surfel& surfel) { return surfel.shape < SurfelShape::kBlob; }
 
-/// Of the normal by which two surfels are laid onto each other: the mean of theirs, or a surface's to which
-/// something is held that has none.
-float tilt_of(const Surfel& a, const Surfel& b) {
-  if (is_lone(a) == is_lone(b)) return 0.25F * (a.tilt_rad2 + b.tilt_rad2);
-  return is_lone(a) ? b.tilt_rad2 : a.tilt_rad2;
-}
+/// What two surfels tell of the offset from one to the other, in the source's frame.
+struct Meeting {
+  Eigen::Matrix3f covariance;
+  float tilt_rad2;     ///< of the normal by which they are laid onto each other, about either axis
+  float leaking_rad2;  ///< of that, by noise in what was measured
+};
 
 /// One pass over the source's points at one pose.
 class Pass {
@@ -61,15 +62,14 @@ class Pass {
     if (!met) return;
     const Eigen::Vector3f offset = met->position - moved;
     const float squared_distance = offset.squaredNorm();
-    if (!tell_together(*met, surfel, squared_distance)) {
+    ++sums.matches;
+    std::optional<Meeting> meeting = meeting_of(*met, surfel, squared_distance);
+    if (!meeting) {
       ++sums.weights;
-      ++sums.matches;
       return;
     }
-    const float tilt_rad2 = tilt_of(*met, surfel);
-    Eigen::Matrix3f covariance = covariance_of(*met, surfel);
-    covariance.diagonal().array() += squared_blur_ + tilt_rad2 * squared_distance;
-    const Eigen::Matrix3d information = covariance.cast<double>().inverse();
+    meeting->covariance.diagonal().array() += squared_blur_ + meeting->tilt_rad2 * squared_distance;
+    const Eigen::Matrix3d information = meeting->covariance.cast<double>().inverse();
     const Eigen::Vector3d error = (R_float_.transpose() * offset).cast<double>();
     const Eigen::Vector3d pull = information * error;
     const double squares = error.dot(pull);
@@ -82,27 +82,31 @@ class Pass {
     sums.hessian.bottomRightCorner<3, 3>() -= weight * (arm * turned);
     sums.gradient.head<3>() -= weight * pull;
     sums.gradient.tail<3>() -= weight * (arm * pull);
-    if (!is_lone(*met) || !is_lone(surfel))  // the normals of lines are not measured
-      sums.leak += weight * information.trace() * static_cast<double>(tilt_rad2);
+    sums.leak += weight * information.trace() * static_cast<double>(meeting->leaking_rad2);
     sums.weights += weight;
     sums.weighted_squares += weight * squares;
-    ++sums.matches;
   }
 
  private:
-  /// What stands alone tells only where it meets a surface beyond doubt, and close by: it may be another's.
-  bool tell_together(const Surfel& a, const Surfel& b, float squared_distance) const {
-    if (is_lone(a) && is_lone(b)) return a.shape == SurfelShape::kLine && b.shape == SurfelShape::kLine;
-    if (!is_lone(a) && !is_lone(b)) return true;
-    return std::max(a.shape, b.shape) == SurfelShape::kSurface && squared_distance < squared_point_reach_;
-  }
-
-  /// Of the offset from one to the other, in the source's frame. What stands alone scatters about a surface
-  /// as the surface's own points do.
-  Eigen::Matrix3f covariance_of(const Surfel& met, const Surfel& surfel) const {
-    if (!is_lone(met) && is_lone(surfel)) return 2 * turned_back(met.covariance);
-    if (is_lone(met) && !is_lone(surfel)) return 2 * surfel.covariance;
-    return turned_back(met.covariance) + surfel.covariance;
+  /// A point that stands alone tells only where it meets a surface beyond doubt, about which it scatters as
+  /// the surface's own points do, and close by: it may be another's. Two lines lie on one ground, which
+  /// slopes between them; none of their normals is measured.
+  std::optional<Meeting> meeting_of(const Surfel& met, const Surfel& surfel, float squared_distance) const {
+    const bool met_alone = is_lone(met), alone = is_lone(surfel);
+    if (met_alone && alone) {
+      if (met.shape != SurfelShape::kLine || surfel.shape != SurfelShape::kLine) return std::nullopt;
+      const float tilt_rad2 = std::max(met.tilt_rad2, surfel.tilt_rad2);
+      return Meeting{turned_back(met.covariance) + surfel.covariance, tilt_rad2, 0};
+    }
+    if (met_alone || alone) {
+      const Surfel& surface = alone ? met : surfel;
+      if (surface.shape != SurfelShape::kSurface || squared_distance >= squared_point_reach_)
+        return std::nullopt;
+      const Eigen::Matrix3f covariance = 2 * (alone ? turned_back(met.covariance) : surfel.covariance);
+      return Meeting{covariance, surface.tilt_rad2, surface.tilt_rad2};
+    }
+    const float tilt_rad2 = 0.25F * (met.tilt_rad2 + surfel.tilt_rad2);
+    return Meeting{turned_back(met.covariance) + surfel.covariance, tilt_rad2, tilt_rad2};
   }
   Eigen::Matrix3f turned_back(const Eigen::Matrix3f& covariance) const {
     return R_float_.transpose() * covariance * R_float_;

@@ -37,12 +37,15 @@ struct SurfelScale {
   float reach_squared, variance_range, variance_alone;
 };
 
-/// Of a single beam's neighbours: in a row, which rises by less than 45 degrees, and none clearly beside it.
+/// Of a single beam's neighbours: in a row, far longer than wide, which rises by less than 45 degrees, and
+/// none clearly beside it.
 bool is_level_line(const Eigen::Vector3f& variances, const Eigen::Vector3f& longest,
                    const SurfelScale& scale) {
   constexpr float kSin45 = 0.7F;
   const float clearly_across = scale.clearly_flat * std::max(variances(0), scale.variance_range);
-  return variances(1) < clearly_across && variances(2) > clearly_across && std::abs(longest.z()) < kSin45;
+  const bool is_row = variances(1) < clearly_across && variances(2) > clearly_across &&
+                      variances(2) > scale.clearly_flat * variances(1);
+  return is_row && std::abs(longest.z()) < kSin45;
 }
 
 /// As a beam's line lies on the ground; on a wall alongside it runs away from the scanner.
