@@ -134,7 +134,7 @@ TEST(MeasureSurfels, OfABeamOnTheGroundTellTheirHeight) {
 /// A wall ahead, of which points lie so close together that patches of them are little wider than the noise:
 /// none tells a height.
 TEST(MeasureSurfels, OfAFineWallAreNoBeamsOnTheGround) {
-  const double spacing_m = 0.05;
+  const double spacing_m = 0.07;
   const SurfelParams params;
   Rng rng(7);
   std::vector<Eigen::Vector3f> wall;
