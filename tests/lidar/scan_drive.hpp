@@ -29,9 +29,13 @@ inline ScanDrive drive_along(const ScannedRoom& room, const Scanner& scanner, co
   Rng rng(seed);
   ScanDrive drive;
   for (std::size_t k = 0; k < poses.size(); ++k) {
-    const std::size_t next = std::min(k + 1, poses.size() - 1), last = std::max<std::size_t>(k, 1) - 1;
-    const SE3::Tangent ahead = (poses[k].inverse() * poses[next]).log() / kBetweenScans_s;
-    const SE3::Tangent behind = (poses[last].inverse() * poses[k]).log() / kBetweenScans_s;
+    // beyond its ends the drive goes on as it began and ended
+    const std::size_t to = std::min(k + 1, poses.size() - 1), from = std::max<std::size_t>(k, 1) - 1;
+    const auto twist = [&](std::size_t i, std::size_t j) {
+      return SE3::Tangent((poses[i].inverse() * poses[j]).log() / kBetweenScans_s);
+    };
+    const SE3::Tangent ahead = to > k ? twist(k, to) : twist(from, k);
+    const SE3::Tangent behind = from < k ? twist(from, k) : twist(k, to);
     const double share = scanner.stamp_at;
     drive.stamps.push_back(Stamp::from_seconds(kBetweenScans_s * static_cast<double>(k)));
     drive.truth.push_back(poses[k]);

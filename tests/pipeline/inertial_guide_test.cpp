@@ -67,17 +67,17 @@ GuessErrors worst_errors(const ExactDrive& drive, double from_s, double to_s,
   for (int k = 0; k <= std::lround(to_s * kScans_hz); ++k) {
     ScanPose scan = drive.scan(k);
     const auto guess = guide.guess(scan.stamp, kSweep);
-    EXPECT_TRUE(guess) << k;
-    if (!guess) break;
-    EXPECT_EQ(guess->T_previous_body.has_value(), k > 0);
-    if (k > 0 && k >= from_s * kScans_hz) {
+    EXPECT_EQ(guess.has_value(), k > 1) << k;
+    if (guess && k >= from_s * kScans_hz) {
       const GuessErrors errors = errors_of(*guess, drive, k);
       worst.motion_m = std::max(worst.motion_m, errors.motion_m);
       worst.motion_rad = std::max(worst.motion_rad, errors.motion_rad);
       worst.sweep_m = std::max(worst.sweep_m, errors.sweep_m);
       worst.sweep_rad = std::max(worst.sweep_rad, errors.sweep_rad);
     }
-    if (laid == LaidScans::kRightInTheMiddle)
+    if (laid == LaidScans::kRightInTheMiddle && !guess)
+      scan.T_start_body = scan.T_start_body * SE3({0.02 * k, 0, 0}, Eigen::Quaterniond::Identity());
+    if (laid == LaidScans::kRightInTheMiddle && guess)
       scan.T_start_body = scan.T_start_body * drive.truth(k).inverse() * drive.truth(k, kSweep.middle_s) *
                           guess->way.middle().inverse();
     guide.add(scan, guess);
@@ -96,8 +96,7 @@ TEST(InertialGuide, KnowsTheMotion) {
   }
 }
 
-/// Until then the gyroscope tells the turns from the first scan on, and the velocity is that of the last
-/// step.
+/// Until then the gyroscope tells the turns, and the velocity is that of the last step.
 TEST(InertialGuide, KnowsTheTurnsBeforeItKnowsGravity) {
   for (std::uint64_t n = 0; n < 3; ++n) {
     const GuessErrors worst = worst_errors(ExactDrive(n), 0.2, 2.9);
@@ -107,11 +106,11 @@ TEST(InertialGuide, KnowsTheTurnsBeforeItKnowsGravity) {
   }
 }
 
-/// A body that keeps its velocity, of which nothing is known at first: one step tells it, though the first
-/// scans were unbent as if the body stood. An error would otherwise come back with every scan.
-TEST(InertialGuide, KnowsAnEvenMotionFromTheThirdScanOn) {
+/// A body that keeps its velocity: though its first scans lie where they should not, two that were unbent by
+/// a wrong velocity tell the right one. An error would otherwise come back with every scan.
+TEST(InertialGuide, KnowsAnEvenMotionFromTheFifthScanOn) {
   const ExactDrive drive(5, {0, 0, 1, 2, 0});
-  const GuessErrors worst = worst_errors(drive, 0.2, 2.9, LaidScans::kRightInTheMiddle);
+  const GuessErrors worst = worst_errors(drive, 0.4, 2.9, LaidScans::kRightInTheMiddle);
   EXPECT_LT(worst.motion_m, 1e-6);
   EXPECT_LT(worst.sweep_m, 1e-6);
   EXPECT_LT(worst.motion_rad, 1e-6);
@@ -126,7 +125,7 @@ TEST(InertialGuide, HasNoGuessWhereReadingsAreMissing) {
     const ScanPose scan = drive.scan(k);
     const auto guess = guide.guess(scan.stamp, {});
     // Scans at 2.1 to 2.4 s lie in the gap, the one at 2.5 s after it.
-    EXPECT_EQ(guess.has_value(), k <= 10 || k > 15) << k;
+    EXPECT_EQ(guess.has_value(), k > 1 && (k <= 10 || k > 15)) << k;
     guide.add(scan, guess);
   }
 }

@@ -103,8 +103,8 @@ void expect_used_well(Way way_of_body) {
   const LapRun alone = run_lap(keep, false, way_of_body), run = run_lap(keep, true, way_of_body);
   EXPECT_TRUE(run.notes.empty()) << run.notes.front();
   EXPECT_EQ(run.odometry.size(), static_cast<std::size_t>(kScans));
-  EXPECT_LT(run.worst_m, 0.06);
-  EXPECT_LT(run.worst_m, 0.2 * alone.worst_m);
+  EXPECT_LT(run.worst_m, 0.05);
+  EXPECT_LT(run.worst_m, 1.2 * alone.worst_m);
 }
 
 TEST(InertialReadings, ThatAreGoodAreUsedWithoutAWord) { expect_used_well(lap_pose); }

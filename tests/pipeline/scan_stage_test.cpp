@@ -163,6 +163,37 @@ TEST(MeasureScans, StayInTheFrameOfTheRecordedOdometry) {
   }
 }
 
+/// A robot that weaves, its scans unbent by a motion that is none any more: each step's noise is about what
+/// its error is, also where recorded rows tell the motion.
+TEST(MeasureScans, KnowHowFarTheirSweepsMayBeBent) {
+  Scanner scanner = planar_scanner();
+  scanner.sweep_s = 0.1;
+  std::vector<SE3> poses;
+  for (int k = 0; k < 80; ++k) poses.push_back(pose_at(-2 + 0.05 * k, 0, 1.2, 0.3 * std::sin(0.8 * k)));
+  for (const bool is_recorded : {false, true}) {
+    double squares = 0;
+    int count = 0;
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+      const ScanDrive drive = drive_along(furnished_room(), scanner, poses, seed);
+      Robot robot = scanning_robot("a", drive);
+      if (is_recorded) robot.odometry = recorded_odometry(drive, SE3());
+      Mission mission = mission_of({robot});
+      measure(mission);
+      const Trajectory<SE3>& odometry = mission.robots[0].odometry;
+      for (std::size_t k = 10; k < drive.truth.size(); ++k) {
+        const Stamp from = robot.lidar.stamps[k - 1], to = robot.lidar.stamps[k];
+        const SE3 truth = drive.truth[k - 1].inverse() * drive.truth[k];
+        const SE3::Tangent error = (step_between(odometry, from, to).inverse() * truth).log();
+        const auto noise = measured_covariance(mission.robots[0].odometry_noise.steps, from, to);
+        for (const int axis : {0, 1, 5}) squares += error[axis] * error[axis] / noise(axis, axis);
+        count += 3;
+      }
+    }
+    EXPECT_GT(squares / count, 0.05) << is_recorded;
+    EXPECT_LT(squares / count, 2) << is_recorded;
+  }
+}
+
 /// The noise of every row, and together as that of the whole way.
 TEST(MeasureScans, StateTheNoiseOfEveryStep) {
   const ScanDrive drive = small_drive();

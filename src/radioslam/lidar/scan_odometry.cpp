@@ -155,6 +155,11 @@ Registration ScanOdometer::search_afar(const ScanCloud& cloud, const PosePrior& 
   return far.matched_share > better ? far : near;
 }
 
+void ScanOdometer::unbend_by(const SE3::Tangent& twist_per_s, Sweep& sweep) {
+  sweep.surfels = carried_anew(sweep.surfels, sweep.times_s, sweep.twist_per_s, twist_per_s);
+  sweep.twist_per_s = twist_per_s;
+}
+
 /// Puts the motion that was found in the place of that so far, if the scan fits no worse for it.
 Registration ScanOdometer::unbend(Sweep& sweep, ScanCloud& cloud, const Registration& fit,
                                   const PosePrior& prior) const {
@@ -163,8 +168,7 @@ Registration ScanOdometer::unbend(Sweep& sweep, ScanCloud& cloud, const Registra
   const double dt_s = seconds_between(last_->middle_stamp, sweep.middle());
   if (dt_s <= 0) return fit;
   Sweep unbent = sweep;
-  unbent.twist_per_s = (last_->T_map_middle.inverse() * T_map_middle).log() / dt_s;
-  unbent.surfels = carried_anew(sweep.surfels, sweep.times_s, sweep.twist_per_s, unbent.twist_per_s);
+  unbend_by((last_->T_map_middle.inverse() * T_map_middle).log() / dt_s, unbent);
   ScanCloud unbent_cloud = cloud_of(unbent);
   Registration better = register_at(map_, unbent_cloud, T_map_middle * unbent.T_body_middle().inverse(),
                                     prior, 0, traits_.kind, params_.registration);
@@ -173,6 +177,20 @@ Registration ScanOdometer::unbend(Sweep& sweep, ScanCloud& cloud, const Registra
   cloud = std::move(unbent_cloud);
   better.iterations += fit.iterations;
   return better;
+}
+
+/// The only sweep on the map and the next one were taken for those of a robot that stands, and are bent
+/// alike: unbends both by the motion from the one to the other.
+void ScanOdometer::unbend_first(Sweep& next, const Registration& fit) {
+  const double dt_s = seconds_between(first_->middle(), next.middle());
+  if (dt_s <= 0) return;
+  const SE3 T_map_body = last_->T_map_body;
+  const SE3::Tangent twist_per_s = (T_map_body.inverse() * fit.T_target_source).log() / dt_s;
+  unbend_by(twist_per_s, *first_);
+  unbend_by(twist_per_s, next);
+  map_ = LocalMap(traits_.spacing_m, params_.map);
+  map_.add(cloud_of(*first_), T_map_body, way_m_);
+  last_ = first_->place_at(T_map_body);
 }
 
 void ScanOdometer::learn(const SE3& deviation, double matched_share) {
@@ -239,6 +257,7 @@ void ScanOdometer::begin_anew(const RivalFit& on_rival, ScanPose& result) {
   learn(on_rival.prior.pose.inverse() * on_rival.fit.T_target_source, on_rival.fit.matched_share);
   advance(place);
   rival_.reset();
+  first_.reset();
 }
 
 /// Lays the scan onto what others that fit the map no better make up; enough of them are the map.
@@ -253,6 +272,7 @@ void ScanOdometer::begin(const Sweep& sweep, ScanPose& result) {
   result.information = told_of_pose(exact());
   advance(sweep.place_at(result.T_start_body));
   result.new_share = map_.add(result.cloud, result.T_start_body, way_m_);
+  first_ = sweep;
 }
 
 /// Where the scan before it was, as if the robot had stood; it may have gone on, and turned any way.
@@ -268,10 +288,16 @@ void ScanOdometer::begin_after_gap(const Sweep& sweep, ScanPose& result) {
   twist_per_s_.setZero();
   deviation_ = {};
   result.new_share = map_.add(result.cloud, result.T_start_body, way_m_);
+  first_ = sweep;
 }
 
 void ScanOdometer::register_on_map(Sweep sweep, const Registration& first_fit, const PosePrior& prior,
                                    ScanPose& result) {
+  if (first_ && sweep.source == MotionSource::kSoFar && !sweep.times_s.empty()) {
+    unbend_first(sweep, first_fit);
+    result.cloud = cloud_of(sweep);
+  }
+  first_.reset();
   const Registration fit =
       sweep.source == MotionSource::kSoFar ? unbend(sweep, result.cloud, first_fit, prior) : first_fit;
   result.matched_share = fit.matched_share;

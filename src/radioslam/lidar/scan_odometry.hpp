@@ -16,7 +16,9 @@
 // that of the next motion, with the other sign, and never decay where stamps are the sweeps' beginnings. The
 // motion so far is as old as one sweep, so a robot that speeds up or begins to turn has its scans bent, and
 // its poses at their stamps wrong by a degree: what was found is put in its place at once. A motion that
-// inertial readings or wheels told is newer than that, and true where scans tell nothing; it stays.
+// inertial readings or wheels told is newer than that, and true where scans tell nothing; it stays. Of the
+// first scan's motion nothing is known until the second one is laid onto it, both bent alike; then both are
+// unbent, or the whole way would lie off by what the robot went during half a sweep.
 //
 // A scanner in the plane has its map in that plane, and tells nothing of height, roll and pitch. Its robot
 // stays there but for rocking a little (`level_sigma_m`, `level_sigma_rad`): so much is told of its pose.
@@ -235,6 +237,8 @@ class ScanOdometer {
   Registration lay_nearby(const ScanCloud& cloud, const PosePrior& prior) const;
   Registration search_afar(const ScanCloud& cloud, const PosePrior& prior, const Registration& near) const;
   Registration unbend(Sweep& sweep, ScanCloud& cloud, const Registration& fit, const PosePrior& prior) const;
+  static void unbend_by(const SE3::Tangent& twist_per_s, Sweep& sweep);
+  void unbend_first(Sweep& next, const Registration& fit);
   void begin_rival(const Sweep& sweep, const ScanCloud& cloud, const SE3& predicted);
   std::optional<RivalFit> lay_onto_rival(const Sweep& sweep, const ScanCloud& cloud, const SE3& predicted);
   void begin(const Sweep& sweep, ScanPose& result);
@@ -252,7 +256,8 @@ class ScanOdometer {
   double way_m_ = 0;
   SE3::Tangent twist_per_s_ = SE3::Tangent::Zero();
   Deviation deviation_;
-  double usual_share_ = 0;  ///< of a scan's points that fit
+  double usual_share_ = 0;      ///< of a scan's points that fit
+  std::optional<Sweep> first_;  ///< the only one on the map
   std::optional<Rival> rival_;
   std::optional<Stamp> newest_;
   double interval_s_ = 0;  ///< between scans, usually; 0: not known yet

@@ -8,8 +8,6 @@
 namespace radioslam {
 namespace {
 
-constexpr std::size_t kSweptPoses = 257;  // a point between two of them is off by next to nothing
-
 /// The poses of a body that turns as these states do and keeps its velocity in its own frame.
 std::vector<SE3> led_by_turns(const std::vector<InertialState>& states, const std::vector<Stamp>& stamps,
                               const Eigen::Vector3d& velocity_mps) {
@@ -31,16 +29,15 @@ std::optional<std::vector<SE3>> InertialGuide::way_through(const std::vector<Sta
   const Stamp from = filter_ ? state_stamp_ : stamps.front();
   const auto states = predict_motion(start, from, *samples_, stamps, params_.noise);
   if (!states) return std::nullopt;
-  if (!filter_) return led_by_turns(*states, stamps, velocity_mps_);
+  if (!filter_) return led_by_turns(*states, stamps, *velocity_mps_);
   std::vector<SE3> way;
   for (const InertialState& state : *states) way.push_back(state.T_world_body);
   return way;
 }
 
 std::optional<ScanGuess> InertialGuide::guess(Stamp stamp, const SweptTime& time) const {
-  ScanGuess guess;
-  guess.way.time = time;
-  guess.way.poses.resize(time.first_s < time.last_s ? kSweptPoses : 1);
+  if (!velocity_mps_) return std::nullopt;
+  ScanGuess guess{{}, SweptWay::over(time)};
   std::vector<Stamp> stamps{stamp};
   for (std::size_t k = 0; k < guess.way.poses.size(); ++k)
     stamps.push_back({stamp.ns + Stamp::from_seconds(guess.way.time_of(k)).ns});

@@ -17,15 +17,9 @@
 #include "radioslam/lidar/scan_odometry.hpp"
 #include "radioslam/pipeline/inertial_params.hpp"
 #include "radioslam/pipeline/map_drift.hpp"
-#include "radioslam/pipeline/swept_way.hpp"
+#include "radioslam/pipeline/scan_guess.hpp"
 
 namespace radioslam {
-
-/// What the readings tell of a scan before it is laid onto the map.
-struct ScanGuess {
-  std::optional<SE3> T_previous_body;  ///< since the last scan; nothing before the first
-  SweptWay way;
-};
 
 class InertialGuide {
  public:
@@ -33,7 +27,7 @@ class InertialGuide {
   InertialGuide(const std::vector<InertialSample>& samples, const InertialParams& params)
       : samples_(&samples), params_(params) {}
 
-  /// Nothing where readings are missing.
+  /// Nothing where readings are missing, nor of the first two scans: how fast the body goes is not known.
   std::optional<ScanGuess> guess(Stamp stamp, const SweptTime& time) const;
 
   /// A registered scan, in time order, and where the body was in the middle of its sweep.
@@ -47,10 +41,10 @@ class InertialGuide {
 
   const std::vector<InertialSample>* samples_;
   InertialParams params_;
-  std::vector<StampedPose<SE3>> poses_;                     ///< until gravity is known
-  Stamp state_stamp_;                                       ///< the filter's state's
-  std::optional<StampedPose<SE3>> last_, middle_;           ///< the last scan's, and of its sweep's middle
-  Eigen::Vector3d velocity_mps_ = Eigen::Vector3d::Zero();  ///< of the body, in its frame
+  std::vector<StampedPose<SE3>> poses_;            ///< until gravity is known
+  Stamp state_stamp_;                              ///< the filter's state's
+  std::optional<StampedPose<SE3>> last_, middle_;  ///< the last scan's, and of its sweep's middle
+  std::optional<Eigen::Vector3d> velocity_mps_;    ///< of the body, in its frame
   std::optional<InertialFilter> filter_;
   std::optional<MapDrift> drift_;  ///< since the filter's state
 };

@@ -13,6 +13,7 @@ namespace radioslam {
 struct ScanStageParams {
   std::string odometry = "scans";
   double gap_steps = 3;
+  double change_share = 0.2;  ///< weight of the newest change of motion in the mean
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -21,6 +22,9 @@ struct ScanStageParams {
     visit(Field{"gap_steps", "", 1, 1e9,
                 "times the usual time from scan to scan; recorded odometry leads across longer gaps"},
           self.gap_steps);
+    visit(Field{"change_share", "", 1e-3, 1,
+                "weight of the newest in the mean change of motion, by which swept scans are bent"},
+          self.change_share);
   }
 };
 

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <optional>
 #include <utility>
+#include <vector>
 
+#include "radioslam/base/median.hpp"
 #include "radioslam/geometry/uncertain_pose.hpp"
 #include "radioslam/pipeline/inertial_guide.hpp"
+#include "radioslam/pipeline/sweep_bend.hpp"
 
 namespace radioslam {
 namespace {
@@ -17,6 +20,22 @@ std::optional<SE3> recorded_motion(const Trajectory<SE3>& odometry, Stamp from, 
   return a->inverse() * *b;
 }
 
+/// Usually, between two in a row; 0 where there are no two.
+double usual_interval_s(const std::vector<Stamp>& stamps) {
+  std::vector<double> intervals_s;
+  for (std::size_t k = 1; k < stamps.size(); ++k)
+    intervals_s.push_back(seconds_between(stamps[k - 1], stamps[k]));
+  return intervals_s.empty() ? 0 : upper_median(std::move(intervals_s));
+}
+
+std::vector<Stamp> stamps_of(const Trajectory<SE3>& rows) {
+  std::vector<Stamp> stamps;
+  for (const auto& row : rows) stamps.push_back(row.stamp);
+  return stamps;
+}
+
+constexpr double kLongest = 1.5;  // rows as often as scans, but for some jitter
+
 class ScanTracker {
  public:
   ScanTracker(const Robot& robot, ScanGuide by, const ScannerTraits& traits, const ScanParams& params,
@@ -26,21 +45,30 @@ class ScanTracker {
         params_(params),
         keyframes_(keyframes),
         odometer_(traits, params.lidar),
-        guide_(robot.inertial, params.inertial) {}
+        guide_(robot.inertial, params.inertial),
+        row_interval_s_(usual_interval_s(stamps_of(robot.odometry))),
+        scan_interval_s_(usual_interval_s(robot.lidar.stamps)),
+        bend_(params.stage.change_share) {}
 
   /// Scan k of the robot, the next one.
   void add(std::size_t k) {
     const Stamp stamp = robot_.lidar.stamps[k];
     LidarScan scan = robot_.lidar.read(k);
-    std::optional<ScanGuess> guess = guess_of(stamp, scan);
-    const std::optional<SE3> motion = motion_to(stamp, guess);
-    if (guess) scan = unbent(std::move(scan), guess->way, params_.lidar.points);
+    const SweptTime time = swept_time(scan, params_.lidar.points);
+    const Guess guess = guess_of(stamp, time);
+    const std::optional<SE3> motion = motion_to(stamp, guess.guess);
+    if (guess.guess) scan = unbent(std::move(scan), guess.guess->way, params_.lidar.points);
     ScanPose pose = odometer_.add(stamp, scan, motion);
     ++track_.outcomes[pose.outcome];
     track_.points += pose.counts;
     if (!is_on_the_way(pose.outcome)) return;
-    if (pose.outcome == ScanOutcome::kNewMap && track_.poses.size() == 1) forget_start();
-    if (by_ == ScanGuide::kReadings) guide_.add(pose, guess);
+    if (pose.outcome == ScanOutcome::kNewMap) {
+      bend_ = SweepBend(params_.stage.change_share);
+      bent_before_.setZero();
+      if (track_.poses.size() == 1) forget_start();
+    }
+    if (by_ == ScanGuide::kReadings) guide_.add(pose, guess.guess);
+    add_bend(pose, guess.by, time);
     append(std::move(pose));
   }
 
@@ -52,9 +80,21 @@ class ScanTracker {
   }
 
  private:
-  std::optional<ScanGuess> guess_of(Stamp stamp, const LidarScan& scan) const {
-    if (by_ == ScanGuide::kNone) return std::nullopt;
-    return guide_.guess(stamp, swept_time(scan, params_.lidar.points));
+  /// By the first that tells; of recorded rows less often than scans no motion within a sweep is known.
+  struct Guess {
+    SweptBy by = SweptBy::kScans;
+    std::optional<ScanGuess> guess;
+  };
+
+  Guess guess_of(Stamp stamp, const SweptTime& time) const {
+    if (by_ == ScanGuide::kReadings)
+      if (auto guess = guide_.guess(stamp, time)) return {SweptBy::kReadings, std::move(guess)};
+    if (row_interval_s_ > kLongest * scan_interval_s_) return {};
+    std::optional<Stamp> previous;
+    if (!track_.poses.empty()) previous = track_.poses.back().stamp;
+    if (auto guess = guess_by_odometry(robot_.odometry, previous, stamp, time))
+      return {SweptBy::kRecordedRows, std::move(guess)};
+    return {};
   }
 
   /// Since the scan before, where anything but scans tells it.
@@ -62,6 +102,17 @@ class ScanTracker {
     if (guess && guess->T_previous_body) return guess->T_previous_body;
     if (track_.poses.empty()) return std::nullopt;
     return recorded_motion(robot_.odometry, track_.poses.back().stamp, stamp);
+  }
+
+  /// What the sweeps of this scan and of the one before leave open of the step between them.
+  void add_bend(ScanPose& pose, SweptBy by, const SweptTime& time) {
+    bend_.add(pose.stamp, pose.T_start_body);
+    const double swept_s = time.last_s - time.first_s;
+    const double over_s = by == SweptBy::kRecordedRows ? row_interval_s_ : swept_s;
+    SE3::Tangent variances = SE3::Tangent::Zero();
+    if (swept_s > 0) variances = bend_.variances(by, over_s, pose.cloud.median_range_m);
+    pose.covariance.diagonal() += bent_before_ + variances;
+    bent_before_ = variances;
   }
 
   void forget_start() {
@@ -97,6 +148,9 @@ class ScanTracker {
   const KeyframeParams& keyframes_;
   ScanOdometer odometer_;
   InertialGuide guide_;
+  double row_interval_s_, scan_interval_s_;  ///< usually, of recorded odometry and of scans
+  SweepBend bend_;
+  SE3::Tangent bent_before_ = SE3::Tangent::Zero();  ///< variances of the last pose
   ScanTrack track_;
   ScanCloud last_cloud_;  ///< of the last pose
 };

@@ -27,6 +27,11 @@ SweptTime swept_time(const LidarScan& scan, const ScanPointParams& params) {
   return time;
 }
 
+SweptWay SweptWay::over(const SweptTime& time) {
+  constexpr std::size_t kPoses = 257;
+  return {time, std::vector<SE3>(time.first_s < time.last_s ? kPoses : 1)};
+}
+
 double SweptWay::time_of(std::size_t k) const {
   const auto steps = static_cast<double>(std::max<std::size_t>(1, poses.size() - 1));
   return time.first_s + (time.last_s - time.first_s) * static_cast<double>(k) / steps;

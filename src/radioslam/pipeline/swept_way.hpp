@@ -1,5 +1,5 @@
-// Where the body was while a scan was swept, as inertial readings tell it, and the scan as it would be had
-// the body stood at its place at the stamp:
+// Where the body was while a scan was swept, as readings or recorded odometry tell it, and the scan as it
+// would be had the body stood at its place at the stamp:
 //   p(stamp) = T_body(time) p
 // A constant motion since the scan before (lidar/scan_points.hpp) lags where the body begins or ends a turn.
 #pragma once
@@ -25,6 +25,9 @@ SweptTime swept_time(const LidarScan& scan, const ScanPointParams& params);
 struct SweptWay {
   SweptTime time;
   std::vector<SE3> poses;  ///< at least one; from time.first_s to time.last_s
+
+  /// So many that a point between two of them is off by next to nothing; none is known yet.
+  static SweptWay over(const SweptTime& time);
 
   double time_of(std::size_t k) const;
   std::size_t nearest(double time_s) const;
