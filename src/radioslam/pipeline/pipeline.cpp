@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "radioslam/pipeline/collect_results.hpp"
+#include "radioslam/pipeline/csi_arrivals.hpp"
 #include "radioslam/pipeline/csi_stage.hpp"
 #include "radioslam/pipeline/dense_trajectory.hpp"
 #include "radioslam/pipeline/field_stage.hpp"
