@@ -11,6 +11,7 @@
 #include "radioslam/base/parallel.hpp"
 #include "radioslam/base/random.hpp"
 #include "radioslam/geometry/so3.hpp"
+#include "radioslam/pipeline/csi_arrivals.hpp"
 #include "radioslam/sim/csi_room.hpp"
 
 namespace radioslam {

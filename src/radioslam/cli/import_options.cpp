@@ -18,7 +18,7 @@ constexpr const char* kKinds =
     "benchmark has them, likewise;\n"
     "rosbag: a recording of ROS 1 or ROS 2 (.bag, .mcap, .db3, or a folder of them), likewise";
 
-constexpr const char* kFooter =
+constexpr const char* kImportFooter =
     "`radioslam parameters KIND` lists what --set can change; of kitti, rosbag and wifine it is nothing.\n"
     "A mission takes a robot's ranges in radio/ranges.csv; each radio that is no robot needs a "
     "row "
@@ -107,7 +107,7 @@ void add_import_options(CLI::App& command, ImportOptions& options) {
   add_lidar_options(command, options);
   add_parameter_options(command, options.parameters);
   add_threads_option(command);
-  command.footer(kFooter);
+  command.footer(kImportFooter);
 }
 
 }  // namespace radioslam::cli

@@ -22,7 +22,7 @@ constexpr std::size_t kHelpColumn = 30;
 constexpr const char* kDescription =
     "radioslam puts the walks or drives of several robots into one frame, from what their radios heard.";
 
-constexpr const char* kFooter =
+constexpr const char* kProgramFooter =
     "Try it:\n"
     "  radioslam simulate carpark -o carpark          # two robots, their odometry and WiFi scans\n"
     "  radioslam run carpark -o carpark-out           # all trajectories in one frame, and report.html\n"
@@ -47,7 +47,7 @@ void add_commands(CLI::App& program) {
 void prepare(CLI::App& program) {
   program.name("radioslam");
   program.description(kDescription);
-  program.footer(kFooter);
+  program.footer(kProgramFooter);
   program.set_version_flag("--version", "radioslam " RADIOSLAM_VERSION, "Print the version");
   program.get_formatter()->column_width(kHelpColumn);
   program.require_subcommand(0, 1);

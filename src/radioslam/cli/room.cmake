@@ -4,6 +4,7 @@ file(MAKE_DIRECTORY ${cli_include}/radioslam)
 file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR}/cli ${cli_include}/radioslam/cli SYMBOLIC)
 
 add_library(radioslam_cli STATIC
+  cli/arrival_output.cpp
   cli/command_anchors.cpp
   cli/command_aoa.cpp
   cli/command_evaluate.cpp
@@ -17,6 +18,7 @@ add_library(radioslam_cli STATIC
   cli/command_similarity.cpp
   cli/command_simulate.cpp
   cli/config.cpp
+  cli/heard_channels.cpp
   cli/import_lidar.cpp
   cli/import_options.cpp
   cli/import_wifi.cpp

@@ -18,18 +18,15 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 
 #include "radioslam/geometry/local_frame.hpp"
 #include "radioslam/io/imported_mission.hpp"
+#include "radioslam/io/ros_scans.hpp"
 #include "radioslam/io/ros_topics.hpp"
 
 namespace radioslam {
-
-/// Takes the scans one by one, in any order, each stamp once: they need not fit into memory.
-using RosScanSink = std::function<void(Stamp, const LidarScan&)>;
 
 struct RosImport {
   ImportedMission imported;

@@ -12,6 +12,9 @@
 
 namespace radioslam {
 
+/// Takes the scans one by one, in any order, each stamp once: they need not fit into memory.
+using RosScanSink = std::function<void(Stamp, const LidarScan&)>;
+
 /// Hands the scans on in the order of their messages, the first ten only after the tenth has come or with
 /// finish().
 class RosScans {

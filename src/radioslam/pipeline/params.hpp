@@ -6,7 +6,7 @@
 #include "radioslam/mission/keyframes.hpp"
 #include "radioslam/pipeline/access_point_stage.hpp"
 #include "radioslam/pipeline/angle_checks.hpp"
-#include "radioslam/pipeline/csi_stage.hpp"
+#include "radioslam/pipeline/csi_params.hpp"
 #include "radioslam/pipeline/fix_stage.hpp"
 #include "radioslam/pipeline/joint_graph.hpp"
 #include "radioslam/pipeline/match_angles.hpp"
