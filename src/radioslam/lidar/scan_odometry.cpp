@@ -5,15 +5,12 @@
 #include <numbers>
 #include <utility>
 
-#include "radioslam/base/median.hpp"
 #include "radioslam/lidar/voxel_grid.hpp"
 
 namespace radioslam {
 namespace {
 
 constexpr std::size_t kFewestPoints = 20;
-constexpr std::size_t kTraitScans = 10;
-constexpr float kFlat_m = 1e-3F;
 
 double square(double x) { return x * x; }
 
@@ -41,26 +38,6 @@ Trajectory<SE3> trajectory_of(const std::vector<ScanPose>& scans) {
   std::vector<StampedPose<SE3>> poses;
   for (const ScanPose& scan : scans) poses.push_back({scan.stamp, scan.T_start_body});
   return Trajectory<SE3>(std::move(poses));
-}
-
-ScannerTraits scanner_traits(const LidarLog& log, const LidarParams& params) {
-  std::vector<double> ranges;
-  ScannerTraits traits;
-  traits.kind = ScannerKind::kPlanar;
-  const std::size_t stride = std::max<std::size_t>(1, (log.size() + kTraitScans - 1) / kTraitScans);
-  for (std::size_t k = 0; k < log.size(); k += stride) {
-    const auto points = usable_points(log.read(k), SE3::Tangent::Zero(), params.points).points;
-    for (const Eigen::Vector3f& point : points) {
-      ranges.push_back(static_cast<double>(point.norm()));
-      if (std::abs(point.z() - points.front().z()) > kFlat_m) traits.kind = ScannerKind::kSpatial;
-    }
-  }
-  const ScanOdometryParams& odometry = params.odometry;
-  traits.spacing_m = odometry.spacing_m > 0 ? odometry.spacing_m
-                     : ranges.empty()       ? odometry.most_spacing_m
-                                            : std::clamp(odometry.spacing_share * upper_median(ranges),
-                                                         odometry.least_spacing_m, odometry.most_spacing_m);
-  return traits;
 }
 
 ScanOdometer::ScanOdometer(const ScannerTraits& traits, const LidarParams& params)
@@ -120,8 +97,8 @@ PosePrior ScanOdometer::prior_at(const SE3& predicted) const {
   return {predicted, isotropic(1 / square(factor * sigma_m()), 1 / square(factor * sigma_rad()))};
 }
 
-ScanOdometer::Sweep ScanOdometer::sweep_of(Stamp stamp, ScanPoints points, const SE3::Tangent& twist_per_s,
-                                           MotionSource source) const {
+ScanSweep ScanOdometer::sweep_of(Stamp stamp, ScanPoints points, const SE3::Tangent& twist_per_s,
+                                 MotionSource source) const {
   ThinnedPoints thinned = thin_by_voxels(points.points, points.times_s, traits_.spacing_m);
   return {stamp,
           source,
@@ -131,7 +108,7 @@ ScanOdometer::Sweep ScanOdometer::sweep_of(Stamp stamp, ScanPoints points, const
           points.middle_s};
 }
 
-ScanCloud ScanOdometer::cloud_of(const Sweep& sweep) const {
+ScanCloud ScanOdometer::cloud_of(const ScanSweep& sweep) const {
   return scan_cloud(sweep.surfels, traits_.spacing_m, traits_.kind, params_.map);
 }
 
@@ -155,20 +132,15 @@ Registration ScanOdometer::search_afar(const ScanCloud& cloud, const PosePrior& 
   return far.matched_share > better ? far : near;
 }
 
-void ScanOdometer::unbend_by(const SE3::Tangent& twist_per_s, Sweep& sweep) {
-  sweep.surfels = carried_anew(sweep.surfels, sweep.times_s, sweep.twist_per_s, twist_per_s);
-  sweep.twist_per_s = twist_per_s;
-}
-
 /// Puts the motion that was found in the place of that so far, if the scan fits no worse for it.
-Registration ScanOdometer::unbend(Sweep& sweep, ScanCloud& cloud, const Registration& fit,
+Registration ScanOdometer::unbend(ScanSweep& sweep, ScanCloud& cloud, const Registration& fit,
                                   const PosePrior& prior) const {
   if (sweep.times_s.empty()) return fit;
   const SE3 T_map_middle = fit.T_target_source * sweep.T_body_middle();
   const double dt_s = seconds_between(last_->middle_stamp, sweep.middle());
   if (dt_s <= 0) return fit;
-  Sweep unbent = sweep;
-  unbend_by((last_->T_map_middle.inverse() * T_map_middle).log() / dt_s, unbent);
+  ScanSweep unbent = sweep;
+  unbent.unbend_by((last_->T_map_middle.inverse() * T_map_middle).log() / dt_s);
   ScanCloud unbent_cloud = cloud_of(unbent);
   Registration better = register_at(map_, unbent_cloud, T_map_middle * unbent.T_body_middle().inverse(),
                                     prior, 0, traits_.kind, params_.registration);
@@ -181,13 +153,13 @@ Registration ScanOdometer::unbend(Sweep& sweep, ScanCloud& cloud, const Registra
 
 /// The only sweep on the map and the next one were taken for those of a robot that stands, and are bent
 /// alike: unbends both by the motion from the one to the other.
-void ScanOdometer::unbend_first(Sweep& next, const Registration& fit) {
+void ScanOdometer::unbend_first(ScanSweep& next, const Registration& fit) {
   const double dt_s = seconds_between(first_->middle(), next.middle());
   if (dt_s <= 0) return;
   const SE3 T_map_body = last_->T_map_body;
   const SE3::Tangent twist_per_s = (T_map_body.inverse() * fit.T_target_source).log() / dt_s;
-  unbend_by(twist_per_s, *first_);
-  unbend_by(twist_per_s, next);
+  first_->unbend_by(twist_per_s);
+  next.unbend_by(twist_per_s);
   map_ = LocalMap(traits_.spacing_m, params_.map);
   map_.add(cloud_of(*first_), T_map_body, way_m_);
   last_ = first_->place_at(T_map_body);
@@ -202,7 +174,7 @@ void ScanOdometer::learn(const SE3& deviation, double matched_share) {
   usual_share_ += newest * (matched_share - usual_share_);
 }
 
-void ScanOdometer::advance(const Place& place) {
+void ScanOdometer::advance(const ScanPlace& place) {
   if (last_) {
     const double dt_s = seconds_between(last_->middle_stamp, place.middle_stamp);
     if (dt_s > 0) twist_per_s_ = (last_->T_map_middle.inverse() * place.T_map_middle).log() / dt_s;
@@ -211,7 +183,7 @@ void ScanOdometer::advance(const Place& place) {
   last_ = place;
 }
 
-void ScanOdometer::begin_rival(const Sweep& sweep, const ScanCloud& cloud, const SE3& predicted) {
+void ScanOdometer::begin_rival(const ScanSweep& sweep, const ScanCloud& cloud, const SE3& predicted) {
   const SE3 gap = last_->T_map_body.inverse() * predicted;
   rival_ = Rival{LocalMap(traits_.spacing_m, params_.map),
                  sweep.place_at(predicted),
@@ -223,7 +195,8 @@ void ScanOdometer::begin_rival(const Sweep& sweep, const ScanCloud& cloud, const
 }
 
 /// Where the scan lies on the rival; the rival takes it, or is begun anew.
-std::optional<ScanOdometer::RivalFit> ScanOdometer::lay_onto_rival(const Sweep& sweep, const ScanCloud& cloud,
+std::optional<ScanOdometer::RivalFit> ScanOdometer::lay_onto_rival(const ScanSweep& sweep,
+                                                                   const ScanCloud& cloud,
                                                                    const SE3& predicted) {
   if (rival_) {
     const PosePrior prior = prior_at(rival_->last.T_map_body * rival_->predicted.inverse() * predicted);
@@ -252,7 +225,7 @@ void ScanOdometer::begin_anew(const RivalFit& on_rival, ScanPose& result) {
   const double wide_rad = params_.odometry.first_sigma_rad + rival_->gap_rad;
   result.covariance = isotropic(square(wide_m), square(wide_rad));
   map_ = std::move(rival_->map);
-  const Place place = rival_->last;
+  const ScanPlace place = rival_->last;
   last_ = rival_->before;
   learn(on_rival.prior.pose.inverse() * on_rival.fit.T_target_source, on_rival.fit.matched_share);
   advance(place);
@@ -261,13 +234,13 @@ void ScanOdometer::begin_anew(const RivalFit& on_rival, ScanPose& result) {
 }
 
 /// Lays the scan onto what others that fit the map no better make up; enough of them are the map.
-void ScanOdometer::try_new_map(const Sweep& sweep, ScanPose& result) {
+void ScanOdometer::try_new_map(const ScanSweep& sweep, ScanPose& result) {
   const auto on_rival = lay_onto_rival(sweep, result.cloud, result.T_start_body);
   const int patience = deviation_.count == 0 ? 1 : params_.odometry.patience;
   if (on_rival && rival_->scans > patience) begin_anew(*on_rival, result);
 }
 
-void ScanOdometer::begin(const Sweep& sweep, ScanPose& result) {
+void ScanOdometer::begin(const ScanSweep& sweep, ScanPose& result) {
   result.outcome = ScanOutcome::kFirst;
   result.information = told_of_pose(exact());
   advance(sweep.place_at(result.T_start_body));
@@ -276,7 +249,7 @@ void ScanOdometer::begin(const Sweep& sweep, ScanPose& result) {
 }
 
 /// Where the scan before it was, as if the robot had stood; it may have gone on, and turned any way.
-void ScanOdometer::begin_after_gap(const Sweep& sweep, ScanPose& result) {
+void ScanOdometer::begin_after_gap(const ScanSweep& sweep, ScanPose& result) {
   const double gap_s = seconds_between(last_->stamp, sweep.stamp);
   const double wide_m = params_.odometry.first_sigma_m + gap_s * twist_per_s_.head<3>().norm();
   result.outcome = ScanOutcome::kNewMap;
@@ -291,7 +264,7 @@ void ScanOdometer::begin_after_gap(const Sweep& sweep, ScanPose& result) {
   first_ = sweep;
 }
 
-void ScanOdometer::register_on_map(Sweep sweep, const Registration& first_fit, const PosePrior& prior,
+void ScanOdometer::register_on_map(ScanSweep sweep, const Registration& first_fit, const PosePrior& prior,
                                    ScanPose& result) {
   if (first_ && sweep.source == MotionSource::kSoFar && !sweep.times_s.empty()) {
     unbend_first(sweep, first_fit);
@@ -327,7 +300,7 @@ ScanPose ScanOdometer::add(Stamp stamp, const LidarScan& scan, const std::option
   if (usable.points.size() < kFewestPoints) return result;
   const bool is_anywhere = is_after_gap(stamp) && last_ && !T_previous_body;
   if (is_anywhere) result.T_start_body = last_->T_map_body;
-  const Sweep sweep =
+  const ScanSweep sweep =
       sweep_of(stamp, std::move(usable), twist, T_previous_body ? MotionSource::kTold : MotionSource::kSoFar);
   result.cloud = cloud_of(sweep);
   result.outcome = ScanOutcome::kUnmatched;

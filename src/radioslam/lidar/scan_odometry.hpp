@@ -38,97 +38,17 @@
 #include <optional>
 #include <vector>
 
-#include "radioslam/base/fields.hpp"
 #include "radioslam/base/progress.hpp"
 #include "radioslam/geometry/trajectory.hpp"
 #include "radioslam/geometry/uncertain_pose.hpp"
+#include "radioslam/lidar/lidar_params.hpp"
 #include "radioslam/lidar/local_map.hpp"
 #include "radioslam/lidar/pose_search.hpp"
 #include "radioslam/lidar/registration.hpp"
-#include "radioslam/lidar/scan_order.hpp"
-#include "radioslam/lidar/scan_points.hpp"
-#include "radioslam/lidar/surfel.hpp"
+#include "radioslam/lidar/scan_sweep.hpp"
+#include "radioslam/lidar/scanner_traits.hpp"
 
 namespace radioslam {
-
-struct ScanOdometryParams {
-  double spacing_m = 0;         ///< of the map's points; 0: by the scans
-  double spacing_share = 0.05;  ///< of the median range, where the scans decide
-  double least_spacing_m = 0.05;
-  double most_spacing_m = 0.5;
-  double first_sigma_m = 0.5;  ///< deviation of the predicted motion before any is known
-  double first_sigma_rad = 0.2;
-  double least_sigma_m = 0.02;
-  double least_sigma_rad = 0.005;
-  double level_sigma_m = 0.1;  ///< of a robot with a scanner in the plane, from its plane
-  double level_sigma_rad = 0.05;
-  double prior_factor = 10;           ///< the prior's sigma, in deviations
-  double deviation_share = 0.05;      ///< weight of the newest deviation
-  double enough_share = 0.9;          ///< of the usual fit; one worse than that is searched for from afar
-  int most_aligned = 5;               ///< of 21 starts of that search, the most promising
-  double insert_share = 0.8;          ///< of the usual fit; a scan below it does not enter the map
-  double least_matched_share = 0.15;  ///< a scan less of which fits the map is left out
-  double least_usual_share = 0.5;     ///< likewise, of the usual fit: noise reaches 0.4
-  double least_first_share = 0.5;     ///< likewise, of the second scan, when nothing is usual yet
-  int patience = 10;                  ///< after so many left out that fit each other, or times the usual
-                                      ///< interval without any, a new map is begun
-
-  template <class Self, class Visitor>
-  static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"spacing_m", "m", 0, 10, "between points of the map; 0: by the scans"}, self.spacing_m);
-    visit(Field{"spacing_share", "", 0.001, 1, "of the median range, where the scans decide"},
-          self.spacing_share);
-    visit(Field{"least_spacing_m", "m", 0.001, 10, "and not less than this"}, self.least_spacing_m);
-    visit(Field{"most_spacing_m", "m", 0.001, 10, "nor more"}, self.most_spacing_m);
-    visit(Field{"first_sigma_m", "m", 1e-3, 10, "error of the first predicted motion"}, self.first_sigma_m);
-    visit(Field{"first_sigma_rad", "rad", 1e-3, 3, "likewise"}, self.first_sigma_rad);
-    visit(Field{"least_sigma_m", "m", 1e-4, 10, "no predicted motion is trusted to be better"},
-          self.least_sigma_m);
-    visit(Field{"least_sigma_rad", "rad", 1e-5, 3, "likewise"}, self.least_sigma_rad);
-    visit(Field{"level_sigma_m", "m", 1e-4, 100, "of a robot with a scanner in the plane, from its plane"},
-          self.level_sigma_m);
-    visit(Field{"level_sigma_rad", "rad", 1e-5, 3, "likewise"}, self.level_sigma_rad);
-    visit(Field{"prior_factor", "", 1, 1000,
-                "the prior's sigma in deviations: predictions err systematically, and count where scans tell "
-                "nothing"},
-          self.prior_factor);
-    visit(Field{"deviation_share", "", 1e-3, 1, "weight of the newest in the mean deviation"},
-          self.deviation_share);
-    visit(Field{"enough_share", "", 0, 1,
-                "of the usual fit; a worse one is searched for from afar, and must be so of what is found"},
-          self.enough_share);
-    visit(Field{"most_aligned", "", 1, 21, "of the 21 starts of that search, the most promising"},
-          self.most_aligned);
-    visit(Field{"insert_share", "", 0, 1, "of the usual fit; a scan below it does not enter the map"},
-          self.insert_share);
-    visit(Field{"least_matched_share", "", 0, 1, "a scan less of which fits the map is left out"},
-          self.least_matched_share);
-    visit(Field{"least_usual_share", "", 0, 1, "likewise, of the usual fit"}, self.least_usual_share);
-    visit(Field{"least_first_share", "", 0, 1, "likewise, of the second scan, when nothing is usual yet"},
-          self.least_first_share);
-    visit(Field{"patience", "", 1, 1e6, "after so many left out that fit each other they are the map"},
-          self.patience);
-  }
-};
-
-struct LidarParams {
-  ScanPointParams points;
-  SurfelParams surfel;
-  RegistrationParams registration;
-  LocalMapParams map;
-  ScanOrderParams order;
-  ScanOdometryParams odometry;
-
-  template <class Self, class Visitor>
-  static void visit_sections(Self& self, Visitor&& visit) {
-    visit("scan_points", self.points);
-    visit("scan_surfels", self.surfel);
-    visit("scan_registration", self.registration);
-    visit("scan_map", self.map);
-    visit("scan_order", self.order);
-    visit("scan_odometry", self.odometry);
-  }
-};
 
 /// What became of a scan.
 enum class ScanOutcome {
@@ -163,13 +83,6 @@ struct ScanPose {
 /// Of registered scans.
 Trajectory<SE3> trajectory_of(const std::vector<ScanPose>& scans);
 
-/// How far apart the map's points lie, and whether the scanner measures in a plane: from up to ten scans.
-struct ScannerTraits {
-  double spacing_m = 0.25;
-  ScannerKind kind = ScannerKind::kSpatial;
-};
-ScannerTraits scanner_traits(const LidarLog& log, const LidarParams& params);
-
 class ScanOdometer {
  public:
   ScanOdometer(const ScannerTraits& traits, const LidarParams& params);
@@ -185,37 +98,12 @@ class ScanOdometer {
     std::size_t count = 0;
   };
 
-  /// A scan on a map.
-  struct Place {
-    Stamp stamp, middle_stamp;
-    SE3 T_map_body, T_map_middle;  ///< at the stamp and in the middle of the sweep
-  };
-
-  /// By what motion a scan was unbent: that so far, or one that something else tells.
-  enum class MotionSource { kSoFar, kTold };
-
-  /// A scan as it is registered.
-  struct Sweep {
-    Stamp stamp;
-    MotionSource source = MotionSource::kSoFar;
-    SE3::Tangent twist_per_s;  ///< by which it was unbent
-    std::vector<Surfel> surfels;
-    std::vector<float> times_s;  ///< of the surfels; empty where not known
-    double middle_s = 0;
-
-    SE3 T_body_middle() const { return SE3::exp(middle_s * twist_per_s); }
-    Stamp middle() const { return {stamp.ns + Stamp::from_seconds(middle_s).ns}; }
-    Place place_at(const SE3& T_map_body) const {
-      return {stamp, middle(), T_map_body, T_map_body * T_body_middle()};
-    }
-  };
-
   /// What scans that did not fit the map make up.
   struct Rival {
     LocalMap map;
-    Place before, last;     ///< the last two scans' places
-    SE3 predicted;          ///< the last one's, from the map
-    double gap_m, gap_rad;  ///< predicted motion from the map to the rival
+    ScanPlace before, last;  ///< the last two scans' places
+    SE3 predicted;           ///< the last one's, from the map
+    double gap_m, gap_rad;   ///< predicted motion from the map to the rival
     int scans = 1;
   };
   struct RivalFit {
@@ -232,32 +120,34 @@ class ScanOdometer {
   bool is_after_gap(Stamp stamp);
   SE3::Jacobian told_of_pose(const SE3::Jacobian& information) const;
   PosePrior prior_at(const SE3& predicted) const;
-  Sweep sweep_of(Stamp stamp, ScanPoints points, const SE3::Tangent& twist_per_s, MotionSource source) const;
-  ScanCloud cloud_of(const Sweep& sweep) const;
+  ScanSweep sweep_of(Stamp stamp, ScanPoints points, const SE3::Tangent& twist_per_s,
+                     MotionSource source) const;
+  ScanCloud cloud_of(const ScanSweep& sweep) const;
   Registration lay_nearby(const ScanCloud& cloud, const PosePrior& prior) const;
   Registration search_afar(const ScanCloud& cloud, const PosePrior& prior, const Registration& near) const;
-  Registration unbend(Sweep& sweep, ScanCloud& cloud, const Registration& fit, const PosePrior& prior) const;
-  static void unbend_by(const SE3::Tangent& twist_per_s, Sweep& sweep);
-  void unbend_first(Sweep& next, const Registration& fit);
-  void begin_rival(const Sweep& sweep, const ScanCloud& cloud, const SE3& predicted);
-  std::optional<RivalFit> lay_onto_rival(const Sweep& sweep, const ScanCloud& cloud, const SE3& predicted);
-  void begin(const Sweep& sweep, ScanPose& result);
-  void begin_after_gap(const Sweep& sweep, ScanPose& result);
-  void try_new_map(const Sweep& sweep, ScanPose& result);
+  Registration unbend(ScanSweep& sweep, ScanCloud& cloud, const Registration& fit,
+                      const PosePrior& prior) const;
+  void unbend_first(ScanSweep& next, const Registration& fit);
+  void begin_rival(const ScanSweep& sweep, const ScanCloud& cloud, const SE3& predicted);
+  std::optional<RivalFit> lay_onto_rival(const ScanSweep& sweep, const ScanCloud& cloud,
+                                         const SE3& predicted);
+  void begin(const ScanSweep& sweep, ScanPose& result);
+  void begin_after_gap(const ScanSweep& sweep, ScanPose& result);
+  void try_new_map(const ScanSweep& sweep, ScanPose& result);
   void begin_anew(const RivalFit& on_rival, ScanPose& result);
-  void register_on_map(Sweep sweep, const Registration& fit, const PosePrior& prior, ScanPose& result);
+  void register_on_map(ScanSweep sweep, const Registration& fit, const PosePrior& prior, ScanPose& result);
   void learn(const SE3& deviation, double matched_share);
-  void advance(const Place& place);
+  void advance(const ScanPlace& place);
 
   ScannerTraits traits_;
   LidarParams params_;
   LocalMap map_;
-  std::optional<Place> last_;
+  std::optional<ScanPlace> last_;
   double way_m_ = 0;
   SE3::Tangent twist_per_s_ = SE3::Tangent::Zero();
   Deviation deviation_;
-  double usual_share_ = 0;      ///< of a scan's points that fit
-  std::optional<Sweep> first_;  ///< the only one on the map
+  double usual_share_ = 0;          ///< of a scan's points that fit
+  std::optional<ScanSweep> first_;  ///< the only one on the map
   std::optional<Rival> rival_;
   std::optional<Stamp> newest_;
   double interval_s_ = 0;  ///< between scans, usually; 0: not known yet
