@@ -47,6 +47,20 @@ TEST(ClockOffset, OfAConstantSpeedIsNothing) {
   EXPECT_EQ(result.reason, NoClockOffset::kConstantSpeed);
 }
 
+/// On its way the antenna comes nearer to a wall: the channel changes faster there, and the speed swells and
+/// fades too slowly to tell that from an offset.
+TEST(ClockOffset, OfASpeedThatChangesSlowlyIsNothing) {
+  for (const double toward_rad : {0.0, 1.5, 3.0}) {
+    SimulatedExchange exchange = stop_and_go();
+    exchange.motion = [&](double t_s) {
+      return on_circle(0.6, toward_rad + 0.3 * (t_s - std::sin(kTwoPi * t_s / 6) / kTwoPi * 6));
+    };
+    const auto result = estimate_clock_offset(exchange.two_way(), exchange.trajectory());
+    EXPECT_FALSE(result.clock) << result.clock->offset_s;
+    EXPECT_EQ(result.reason, NoClockOffset::kConstantSpeed);
+  }
+}
+
 TEST(ClockOffset, WithoutATrajectoryAroundTheCaptureIsNothing) {
   const SimulatedExchange exchange = stop_and_go();
   for (const auto& trajectory : {exchange.trajectory(100), Trajectory<SE3>()}) {

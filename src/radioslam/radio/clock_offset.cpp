@@ -79,6 +79,16 @@ double best_step(const std::vector<double>& values) {
   return static_cast<double>(best) + parabola_peak(values[best - 1], values[best], values[best + 1]);
 }
 
+/// Half of the steps over which these are nearly as large as the largest.
+double half_width(const std::vector<double>& values) {
+  constexpr double kNearly = 0.95;
+  const double nearly = kNearly * *std::max_element(values.begin(), values.end());
+  const auto is_near = [&](double value) { return value >= nearly; };
+  const auto first = std::find_if(values.begin(), values.end(), is_near);
+  const auto last = std::find_if(values.rbegin(), values.rend(), is_near);
+  return static_cast<double>(values.rend() - last - 1 - (first - values.begin())) / 2;
+}
+
 }  // namespace
 
 ChannelTrack shifted(ChannelTrack track, double offset_s) {
@@ -118,7 +128,9 @@ ClockOffsetResult estimate_clock_offset(const ChannelTrack& track, const Traject
   }
   const double best = best_step(whole);
   const bool is_inside = best > 0 && best < 2.0 * steps;
-  if (!is_inside || least_variation < kLeastVariation) return {std::nullopt, NoClockOffset::kConstantSpeed};
+  const bool is_sharp = half_width(whole) * params.step_s <= params.widest_peak_s;
+  if (!is_inside || !is_sharp || least_variation < kLeastVariation)
+    return {std::nullopt, NoClockOffset::kConstantSpeed};
   double scatter = 0;
   for (const auto& values : without) scatter += std::pow(best_step(values) - best, 2);
   const double sigma_s = std::max(std::sqrt((kParts - 1.0) / kParts * scatter), 0.5) * params.step_s;
