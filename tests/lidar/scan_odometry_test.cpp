@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -335,21 +336,102 @@ TEST(ScanOdometer, UnbendsScansThatWereSweptOnTheMove) {
     }
 }
 
+/// Half a metre from scan to scan.
+std::vector<SE3> fast_straight_drive() {
+  std::vector<SE3> poses;
+  for (int k = 0; k < 12; ++k) poses.push_back(pose_at(-5 + 0.5 * k, 0.3, 1.2, 0));
+  return poses;
+}
+
+Scanner sweeping(ScannerKind kind, double stamp_at) {
+  Scanner scanner = scanner_of(kind);
+  scanner.sweep_s = 0.1;
+  scanner.stamp_at = stamp_at;
+  return scanner;
+}
+
+void expect_way(const std::vector<ScanPose>& found, const ScanDrive& drive, std::size_t from) {
+  ASSERT_EQ(found.size(), drive.truth.size());
+  for (std::size_t k = from; k < found.size(); ++k) {
+    const SE3 way = found[from].T_start_body.inverse() * found[k].T_start_body;
+    EXPECT_LT(distance_between(way, drive.truth[from].inverse() * drive.truth[k]), 0.05) << k;
+  }
+}
+
 /// Nothing tells how fast the robot goes when its first scan is swept: by the second one it is known.
 TEST(ScanOdometer, UnbendsItsFirstScanToo) {
   for (const ScannerKind kind : {ScannerKind::kSpatial, ScannerKind::kPlanar})
     for (const double stamp_at : {0.0, 0.5, 1.0}) {
-      Scanner scanner = scanner_of(kind);
-      scanner.sweep_s = 0.1;
-      scanner.stamp_at = stamp_at;
-      std::vector<SE3> poses;
-      for (int k = 0; k < 12; ++k) poses.push_back(pose_at(-5 + 0.5 * k, 0.3, 1.2, 0));
-      const ScanDrive drive = drive_along(furnished_hall(), scanner, poses, 9);
-      const auto found = odometry_of(drive);
-      ASSERT_EQ(found.size(), poses.size());
-      for (std::size_t k = 0; k < found.size(); ++k)
-        EXPECT_LT(distance_between(found[k].T_start_body, drive.way_to(k)), 0.05) << k << ' ' << stamp_at;
+      const ScanDrive drive =
+          drive_along(furnished_hall(), sweeping(kind, stamp_at), fast_straight_drive(), 9);
+      expect_way(odometry_of(drive), drive, 0);
     }
+}
+
+/// Where something else tells the motion to the second scan, by that.
+TEST(ScanOdometer, UnbendsItsFirstScanByTheMotionThatIsTold) {
+  for (const double stamp_at : {0.0, 0.5, 1.0}) {
+    const Scanner scanner = sweeping(ScannerKind::kPlanar, stamp_at);
+    const ScanDrive drive = drive_along(furnished_hall(), scanner, fast_straight_drive(), 9);
+    ScanOdometer odometer(scanner_traits(log_of(drive), {}), {});
+    std::vector<ScanPose> found;
+    for (std::size_t k = 0; k < drive.scans.size(); ++k) {
+      std::optional<SE3> motion;
+      if (k > 0) motion = drive.truth[k - 1].inverse() * drive.truth[k];
+      found.push_back(odometer.add(drive.stamps[k], drive.scans[k], motion));
+    }
+    expect_way(found, drive, 0);
+  }
+}
+
+/// The first scan of a map that begins after a gap was unbent by the motion before that.
+TEST(ScanOdometer, UnbendsTheFirstScanAfterAGap) {
+  for (const double stamp_at : {0.0, 1.0}) {
+    const Scanner scanner = sweeping(ScannerKind::kPlanar, stamp_at);
+    ScanDrive drive = drive_along(furnished_hall(), scanner, fast_straight_drive(), 9);
+    const std::size_t before = drive.truth.size();
+    std::vector<SE3> elsewhere;
+    for (int k = 0; k < 12; ++k) elsewhere.push_back(pose_at(9 - 0.5 * k, -1, 1.2, 3.0));
+    const ScanDrive later = drive_along(furnished_hall(), scanner, elsewhere, 9);
+    for (std::size_t k = 0; k < later.truth.size(); ++k) {
+      drive.stamps.push_back({later.stamps[k].ns + Stamp::from_seconds(60).ns});
+      drive.truth.push_back(later.truth[k]);
+      drive.scans.push_back(later.scans[k]);
+    }
+    const auto found = odometry_of(drive);
+    EXPECT_EQ(found[before].outcome, ScanOutcome::kNewMap);
+    expect_way(found, drive, before);
+  }
+}
+
+/// The first scan is of another room: the next two make up the map.
+TEST(ScanOdometer, UnbendsTheFirstScansOfARival) {
+  for (const double stamp_at : {0.0, 1.0}) {
+    const Scanner scanner = sweeping(ScannerKind::kPlanar, stamp_at);
+    ScanDrive drive = drive_along(furnished_hall(), scanner, fast_straight_drive(), 9);
+    drive.scans[0] = drive_along(furnished_room(), scanner, around_furnished_room(40), 9).scans[0];
+    const auto found = odometry_of(drive);
+    EXPECT_EQ(found[1].outcome, ScanOutcome::kUnmatched);
+    EXPECT_EQ(found[2].outcome, ScanOutcome::kNewMap);
+    expect_way(found, drive, 2);
+  }
+}
+
+/// What was given out of the first scan is given again.
+TEST(ScanOdometer, GivesTheFirstCloudUnbent) {
+  const ScanDrive drive =
+      drive_along(furnished_hall(), sweeping(ScannerKind::kPlanar, 0), fast_straight_drive(), 9);
+  const auto found = odometry_of(drive);
+  ASSERT_TRUE(found[1].first_cloud);
+  for (std::size_t k = 2; k < found.size(); ++k) EXPECT_FALSE(found[k].first_cloud);
+  const ScannerTraits traits = scanner_traits(log_of(drive), {});
+  LocalMap map(traits.spacing_m, {});
+  map.add(*found[1].first_cloud, SE3(), 0);
+  for (std::size_t k = 2; k < 5; ++k) {
+    const PosePrior prior{found[k].T_start_body, isotropic(1e-4, 1e-4)};
+    const auto fit = register_near(map, found[k].cloud, prior, 0.3, traits.kind, {}, 0);
+    EXPECT_LT(distance_between(fit.T_target_source, drive.way_to(k)), 0.03) << k;
+  }
 }
 
 }  // namespace

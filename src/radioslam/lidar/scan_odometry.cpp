@@ -151,18 +151,31 @@ Registration ScanOdometer::unbend(ScanSweep& sweep, ScanCloud& cloud, const Regi
   return better;
 }
 
-/// The only sweep on the map and the next one were taken for those of a robot that stands, and are bent
-/// alike: unbends both by the motion from the one to the other.
-void ScanOdometer::unbend_first(ScanSweep& next, const Registration& fit) {
-  const double dt_s = seconds_between(first_->middle(), next.middle());
-  if (dt_s <= 0) return;
-  const SE3 T_map_body = last_->T_map_body;
-  const SE3::Tangent twist_per_s = (T_map_body.inverse() * fit.T_target_source).log() / dt_s;
-  first_->unbend_by(twist_per_s);
-  next.unbend_by(twist_per_s);
-  map_ = LocalMap(traits_.spacing_m, params_.map);
-  map_.add(cloud_of(*first_), T_map_body, way_m_);
-  last_ = first_->place_at(T_map_body);
+/// Unbends the first two sweeps of a map by the motion from the one to the other, and lays them anew; nothing
+/// where they fit worse for it. A bent sweep lies right in its middle.
+std::optional<ScanOdometer::MapStart> ScanOdometer::unbend_start(const ScanSweep& first, const ScanPlace& at,
+                                                                 const ScanSweep& next,
+                                                                 const Registration& fit,
+                                                                 const PosePrior& prior) const {
+  const double dt_s = seconds_between(at.middle_stamp, next.middle());
+  if (first.times_s.empty() || dt_s <= 0) return std::nullopt;
+  const SE3 T_map_middle = fit.T_target_source * next.T_body_middle();
+  const SE3::Tangent twist_per_s =
+      next.source == MotionSource::kTold
+          ? next.twist_per_s
+          : SE3::Tangent((at.T_map_middle.inverse() * T_map_middle).log() / dt_s);
+  MapStart start{first, next, LocalMap(traits_.spacing_m, params_.map), {}, {}, {}, {}};
+  start.first.unbend_by(twist_per_s);
+  start.next.unbend_by(twist_per_s);
+  start.first_cloud = cloud_of(start.first);
+  start.next_cloud = cloud_of(start.next);
+  start.first_place = start.first.place_at(at.T_map_body);
+  start.map.add(start.first_cloud, at.T_map_body, way_m_);
+  const SE3 predicted = start.first_place.T_map_middle * SE3::exp(dt_s * twist_per_s);
+  start.fit = register_at(start.map, start.next_cloud, predicted * start.next.T_body_middle().inverse(),
+                          prior, traits_.spacing_m, traits_.kind, params_.registration);
+  if (start.fit.matched_share < params_.odometry.enough_share * fit.matched_share) return std::nullopt;
+  return start;
 }
 
 void ScanOdometer::learn(const SE3& deviation, double matched_share) {
@@ -189,21 +202,33 @@ void ScanOdometer::begin_rival(const ScanSweep& sweep, const ScanCloud& cloud, c
                  sweep.place_at(predicted),
                  sweep.place_at(predicted),
                  predicted,
+                 sweep,
                  gap.translation().norm(),
                  gap.log().tail<3>().norm()};
   rival_->map.add(cloud, predicted, way_m_);
 }
 
+/// Its first two sweeps, the second of which is this one.
+void ScanOdometer::unbend_rival(ScanSweep& sweep, ScanCloud& cloud, Registration& fit,
+                                const PosePrior& prior) {
+  auto start = unbend_start(rival_->first, rival_->last, sweep, fit, prior);
+  if (!start) return;
+  rival_->map = std::move(start->map);
+  rival_->last = start->first_place;
+  sweep = std::move(start->next);
+  cloud = std::move(start->next_cloud);
+  fit = start->fit;
+}
+
 /// Where the scan lies on the rival; the rival takes it, or is begun anew.
-std::optional<ScanOdometer::RivalFit> ScanOdometer::lay_onto_rival(const ScanSweep& sweep,
-                                                                   const ScanCloud& cloud,
+std::optional<ScanOdometer::RivalFit> ScanOdometer::lay_onto_rival(ScanSweep sweep, ScanCloud& cloud,
                                                                    const SE3& predicted) {
   if (rival_) {
     const PosePrior prior = prior_at(rival_->last.T_map_body * rival_->predicted.inverse() * predicted);
-    const Registration fit = register_near(rival_->map, cloud, prior, rival_->map.fine().reach_m(),
-                                           traits_.kind, params_.registration);
+    Registration fit = register_near(rival_->map, cloud, prior, rival_->map.fine().reach_m(), traits_.kind,
+                                     params_.registration);
     if (fit.matched_share >= std::max(params_.odometry.least_first_share, least_share())) {
-      ++rival_->scans;
+      if (rival_->scans++ == 1) unbend_rival(sweep, cloud, fit, prior);
       const double new_share = rival_->map.add(cloud, fit.T_target_source, way_m_);
       rival_->before = std::exchange(rival_->last, sweep.place_at(fit.T_target_source));
       rival_->predicted = predicted;
@@ -266,13 +291,17 @@ void ScanOdometer::begin_after_gap(const ScanSweep& sweep, ScanPose& result) {
 
 void ScanOdometer::register_on_map(ScanSweep sweep, const Registration& first_fit, const PosePrior& prior,
                                    ScanPose& result) {
-  if (first_ && sweep.source == MotionSource::kSoFar && !sweep.times_s.empty()) {
-    unbend_first(sweep, first_fit);
-    result.cloud = cloud_of(sweep);
+  Registration fit = first_fit;
+  if (auto start = first_ ? unbend_start(*first_, *last_, sweep, first_fit, prior) : std::nullopt) {
+    map_ = std::move(start->map);
+    last_ = start->first_place;
+    sweep = std::move(start->next);
+    result.cloud = std::move(start->next_cloud);
+    result.first_cloud = std::move(start->first_cloud);
+    fit = start->fit;
   }
   first_.reset();
-  const Registration fit =
-      sweep.source == MotionSource::kSoFar ? unbend(sweep, result.cloud, first_fit, prior) : first_fit;
+  fit = unbend(sweep, result.cloud, fit, prior);
   result.matched_share = fit.matched_share;
   result.rms_m = fit.rms_m;
   result.iterations = fit.iterations;

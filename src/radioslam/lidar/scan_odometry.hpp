@@ -16,9 +16,9 @@
 // that of the next motion, with the other sign, and never decay where stamps are the sweeps' beginnings. The
 // motion so far is as old as one sweep, so a robot that speeds up or begins to turn has its scans bent, and
 // its poses at their stamps wrong by a degree: what was found is put in its place at once. A motion that
-// inertial readings or wheels told is newer than that, and true where scans tell nothing; it stays. Of the
-// first scan's motion nothing is known until the second one is laid onto it, both bent alike; then both are
-// unbent, or the whole way would lie off by what the robot went during half a sweep.
+// inertial readings or wheels told of the sweep itself is newer than that, and true where scans tell nothing;
+// it stays. Of a map's first scan the motion is often not known until the second one is laid onto it; then
+// both are unbent, or the whole way would lie off by what the robot went during half a sweep.
 //
 // A scanner in the plane has its map in that plane, and tells nothing of height, roll and pitch. Its robot
 // stays there but for rocking a little (`level_sigma_m`, `level_sigma_rad`): so much is told of its pose.
@@ -77,7 +77,8 @@ struct ScanPose {
   double rms_m = 0;
   int iterations = 0;
   PointCounts counts;
-  ScanCloud cloud;  ///< in the body frame; empty where there are too few points
+  ScanCloud cloud;                            ///< in the body frame; empty where there are too few points
+  std::optional<ScanCloud> first_cloud = {};  ///< of the scan before, which began the map: unbent since
 };
 
 /// Of registered scans.
@@ -103,8 +104,17 @@ class ScanOdometer {
     LocalMap map;
     ScanPlace before, last;  ///< the last two scans' places
     SE3 predicted;           ///< the last one's, from the map
-    double gap_m, gap_rad;   ///< predicted motion from the map to the rival
+    ScanSweep first;
+    double gap_m, gap_rad;  ///< predicted motion from the map to the rival
     int scans = 1;
+  };
+  /// The first two sweeps of a map, unbent.
+  struct MapStart {
+    ScanSweep first, next;
+    LocalMap map;  ///< of the first one
+    ScanCloud first_cloud, next_cloud;
+    ScanPlace first_place;
+    Registration fit;  ///< of the next one
   };
   struct RivalFit {
     Registration fit;
@@ -127,10 +137,11 @@ class ScanOdometer {
   Registration search_afar(const ScanCloud& cloud, const PosePrior& prior, const Registration& near) const;
   Registration unbend(ScanSweep& sweep, ScanCloud& cloud, const Registration& fit,
                       const PosePrior& prior) const;
-  void unbend_first(ScanSweep& next, const Registration& fit);
+  std::optional<MapStart> unbend_start(const ScanSweep& first, const ScanPlace& at, const ScanSweep& next,
+                                       const Registration& fit, const PosePrior& prior) const;
+  void unbend_rival(ScanSweep& sweep, ScanCloud& cloud, Registration& fit, const PosePrior& prior);
   void begin_rival(const ScanSweep& sweep, const ScanCloud& cloud, const SE3& predicted);
-  std::optional<RivalFit> lay_onto_rival(const ScanSweep& sweep, const ScanCloud& cloud,
-                                         const SE3& predicted);
+  std::optional<RivalFit> lay_onto_rival(ScanSweep sweep, ScanCloud& cloud, const SE3& predicted);
   void begin(const ScanSweep& sweep, ScanPose& result);
   void begin_after_gap(const ScanSweep& sweep, ScanPose& result);
   void try_new_map(const ScanSweep& sweep, ScanPose& result);

@@ -13,13 +13,6 @@
 namespace radioslam {
 namespace {
 
-/// Motion from one time to the other by recorded odometry, where it covers both.
-std::optional<SE3> recorded_motion(const Trajectory<SE3>& odometry, Stamp from, Stamp to) {
-  const auto a = odometry.at(from), b = odometry.at(to);
-  if (!a || !b) return std::nullopt;
-  return a->inverse() * *b;
-}
-
 /// Usually, between two in a row; 0 where there are no two.
 double usual_interval_s(const std::vector<Stamp>& stamps) {
   std::vector<double> intervals_s;
@@ -34,8 +27,6 @@ std::vector<Stamp> stamps_of(const Trajectory<SE3>& rows) {
   return stamps;
 }
 
-constexpr double kLongest = 1.5;  // rows as often as scans, but for some jitter
-
 class ScanTracker {
  public:
   ScanTracker(const Robot& robot, ScanGuide by, const ScannerTraits& traits, const ScanParams& params,
@@ -48,7 +39,7 @@ class ScanTracker {
         guide_(robot.inertial, params.inertial),
         row_interval_s_(usual_interval_s(stamps_of(robot.odometry))),
         scan_interval_s_(usual_interval_s(robot.lidar.stamps)),
-        bend_(params.stage.change_share) {}
+        bend_(params.stage.change_share, scan_interval_s_) {}
 
   /// Scan k of the robot, the next one.
   void add(std::size_t k) {
@@ -63,12 +54,13 @@ class ScanTracker {
     track_.points += pose.counts;
     if (!is_on_the_way(pose.outcome)) return;
     if (pose.outcome == ScanOutcome::kNewMap) {
-      bend_ = SweepBend(params_.stage.change_share);
+      bend_.begin_anew();
       bent_before_.setZero();
       if (track_.poses.size() == 1) forget_start();
     }
     if (by_ == ScanGuide::kReadings) guide_.add(pose, guess.guess);
     add_bend(pose, guess.by, time);
+    take_first_cloud(std::exchange(pose.first_cloud, std::nullopt));
     append(std::move(pose));
   }
 
@@ -89,10 +81,10 @@ class ScanTracker {
   Guess guess_of(Stamp stamp, const SweptTime& time) const {
     if (by_ == ScanGuide::kReadings)
       if (auto guess = guide_.guess(stamp, time)) return {SweptBy::kReadings, std::move(guess)};
-    if (row_interval_s_ > kLongest * scan_interval_s_) return {};
     std::optional<Stamp> previous;
     if (!track_.poses.empty()) previous = track_.poses.back().stamp;
-    if (auto guess = guess_by_odometry(robot_.odometry, previous, stamp, time))
+    const double most_rows_s = params_.stage.row_steps * scan_interval_s_;
+    if (auto guess = guess_by_odometry(robot_.odometry, previous, stamp, time, most_rows_s))
       return {SweptBy::kRecordedRows, std::move(guess)};
     return {};
   }
@@ -101,18 +93,31 @@ class ScanTracker {
   std::optional<SE3> motion_to(Stamp stamp, const std::optional<ScanGuess>& guess) const {
     if (guess && guess->T_previous_body) return guess->T_previous_body;
     if (track_.poses.empty()) return std::nullopt;
-    return recorded_motion(robot_.odometry, track_.poses.back().stamp, stamp);
+    return recorded_motion(track_.poses.back().stamp, stamp);
+  }
+
+  /// By recorded odometry, also across a gap in the scans, but not where a gap in its rows is longer.
+  std::optional<SE3> recorded_motion(Stamp from, Stamp to) const {
+    const auto a = robot_.odometry.at(from), b = robot_.odometry.at(to);
+    if (!a || !b) return std::nullopt;
+    const double most_rows_s = std::max(params_.stage.row_steps * row_interval_s_, seconds_between(from, to));
+    if (longest_between_rows_s(robot_.odometry, from, to) > most_rows_s) return std::nullopt;
+    return a->inverse() * *b;
   }
 
   /// What the sweeps of this scan and of the one before leave open of the step between them.
   void add_bend(ScanPose& pose, SweptBy by, const SweptTime& time) {
     bend_.add(pose.stamp, pose.T_start_body);
-    const double swept_s = time.last_s - time.first_s;
-    const double over_s = by == SweptBy::kRecordedRows ? row_interval_s_ : swept_s;
-    SE3::Tangent variances = SE3::Tangent::Zero();
-    if (swept_s > 0) variances = bend_.variances(by, over_s, pose.cloud.median_range_m);
+    const SE3::Tangent variances =
+        bend_.variances(by, time, std::min(row_interval_s_, scan_interval_s_), pose.cloud.median_range_m);
     pose.covariance.diagonal() += bent_before_ + variances;
     bent_before_ = variances;
+  }
+
+  /// The last keyframe's cloud, if it began the map.
+  void take_first_cloud(std::optional<ScanCloud> cloud) {
+    if (cloud && !track_.keyframes.empty() && track_.keyframes.back() + 1 == track_.poses.size())
+      track_.clouds.back() = *std::move(cloud);
   }
 
   void forget_start() {
