@@ -1,6 +1,7 @@
 #include "radioslam/lidar/surfel_map.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace radioslam {
@@ -9,15 +10,10 @@ namespace {
 constexpr double kLeastSpacings = 0.7;  // keeps what a shifted grid of the same spacing measures anew
 constexpr std::size_t kFirstSlots = 1U << 12U;
 
-/// Squared distance from `offset` in a cell of size `cell` to the neighbouring cell `step` away on every
-/// axis.
-float squared_distance_to_cell(const Eigen::Vector3f& offset, const Eigen::Vector3i& step, float cell) {
-  float sum = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const float gap = step(axis) == 0 ? 0 : step(axis) > 0 ? cell - offset(axis) : offset(axis);
-    sum += gap * gap;
-  }
-  return sum;
+/// Squared distances from `offset` in a cell of size `cell` to the cells one step back, its own, and the next
+/// on an axis.
+std::array<float, 3> squared_gaps(float offset, float cell) {
+  return {offset * offset, 0, (cell - offset) * (cell - offset)};
 }
 
 }  // namespace
@@ -114,13 +110,20 @@ const Surfel* SurfelMap::nearest(const Eigen::Vector3f& point, float squared_rea
     }
   };
   look_into(home);
-  for (int x = -1; x <= 1; ++x)
-    for (int y = -1; y <= 1; ++y)
-      for (int z = -1; z <= 1; ++z) {
-        const Eigen::Vector3i step(x, y, z);
-        if (step.isZero() || squared_distance_to_cell(offset, step, cell_m) >= best_squared) continue;
-        look_into(home + step);
+  const auto x_gaps = squared_gaps(offset.x(), cell_m), y_gaps = squared_gaps(offset.y(), cell_m),
+             z_gaps = squared_gaps(offset.z(), cell_m);
+  for (std::size_t x = 0; x < 3; ++x) {
+    if (x_gaps[x] >= best_squared) continue;
+    for (std::size_t y = 0; y < 3; ++y) {
+      if (x_gaps[x] + y_gaps[y] >= best_squared) continue;
+      for (std::size_t z = 0; z < 3; ++z) {
+        const bool is_home = x == 1 && y == 1 && z == 1;
+        if (is_home || x_gaps[x] + y_gaps[y] + z_gaps[z] >= best_squared) continue;
+        look_into(home + Eigen::Vector3i(static_cast<int>(x), static_cast<int>(y), static_cast<int>(z)) -
+                  Eigen::Vector3i::Ones());
       }
+    }
+  }
   return best;
 }
 
