@@ -97,7 +97,7 @@ PosePrior ScanOdometer::prior_at(const SE3& predicted) const {
   return {predicted, isotropic(1 / square(factor * sigma_m()), 1 / square(factor * sigma_rad()))};
 }
 
-ScanSweep ScanOdometer::sweep_of(Stamp stamp, ScanPoints points, const SE3::Tangent& twist_per_s,
+ScanSweep ScanOdometer::sweep_of(Stamp stamp, const ScanPoints& points, const SE3::Tangent& twist_per_s,
                                  MotionSource source) const {
   ThinnedPoints thinned = thin_by_voxels(points.points, points.times_s, traits_.spacing_m);
   return {stamp,
@@ -320,7 +320,7 @@ ScanPose ScanOdometer::add(Stamp stamp, const LidarScan& scan, const std::option
   SE3 motion = T_previous_body ? *T_previous_body : SE3::exp(dt_s * twist_per_s_);
   if (traits_.kind == ScannerKind::kPlanar) motion = lift(flatten(motion));  // its map is its plane
   const SE3::Tangent twist = T_previous_body && dt_s > 0 ? SE3::Tangent(motion.log() / dt_s) : twist_per_s_;
-  ScanPoints usable = usable_points(scan, twist, params_.points);
+  const ScanPoints usable = usable_points(scan, twist, params_.points);
 
   ScanPose result;
   result.stamp = stamp;
@@ -330,7 +330,7 @@ ScanPose ScanOdometer::add(Stamp stamp, const LidarScan& scan, const std::option
   const bool is_anywhere = is_after_gap(stamp) && last_ && !T_previous_body;
   if (is_anywhere) result.T_start_body = last_->T_map_body;
   const ScanSweep sweep =
-      sweep_of(stamp, std::move(usable), twist, T_previous_body ? MotionSource::kTold : MotionSource::kSoFar);
+      sweep_of(stamp, usable, twist, T_previous_body ? MotionSource::kTold : MotionSource::kSoFar);
   result.cloud = cloud_of(sweep);
   result.outcome = ScanOutcome::kUnmatched;
   if (!last_) {

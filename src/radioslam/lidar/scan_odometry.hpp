@@ -130,7 +130,7 @@ class ScanOdometer {
   bool is_after_gap(Stamp stamp);
   SE3::Jacobian told_of_pose(const SE3::Jacobian& information) const;
   PosePrior prior_at(const SE3& predicted) const;
-  ScanSweep sweep_of(Stamp stamp, ScanPoints points, const SE3::Tangent& twist_per_s,
+  ScanSweep sweep_of(Stamp stamp, const ScanPoints& points, const SE3::Tangent& twist_per_s,
                      MotionSource source) const;
   ScanCloud cloud_of(const ScanSweep& sweep) const;
   Registration lay_nearby(const ScanCloud& cloud, const PosePrior& prior) const;

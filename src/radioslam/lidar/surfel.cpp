@@ -18,7 +18,7 @@ constexpr std::size_t kFewestInPlane = 4;  // three always lie in a plane
 /// Covariance of these points about their mean, summed about the first for the sake of the digits.
 Eigen::Matrix3f spread_of(const std::vector<Eigen::Vector3f>& points, const std::size_t* indices,
                           std::size_t count) {
-  const Eigen::Vector3f origin = points[indices[0]];
+  const Eigen::Vector3f& origin = points[indices[0]];
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   Eigen::Matrix3f squares = Eigen::Matrix3f::Zero();
   for (std::size_t k = 1; k < count; ++k) {
