@@ -136,13 +136,12 @@ Registration ScanOdometer::search_afar(const ScanCloud& cloud, const PosePrior& 
 Registration ScanOdometer::unbend(ScanSweep& sweep, ScanCloud& cloud, const Registration& fit,
                                   const PosePrior& prior) const {
   if (sweep.times_s.empty()) return fit;
-  const SE3 T_map_middle = fit.T_target_source * sweep.T_body_middle();
-  const double dt_s = seconds_between(last_->middle_stamp, sweep.middle());
-  if (dt_s <= 0) return fit;
+  const ScanPlace place = sweep.place_at(fit.T_target_source);
+  if (place.middle_stamp <= last_->middle_stamp) return fit;
   ScanSweep unbent = sweep;
-  unbent.unbend_by((last_->T_map_middle.inverse() * T_map_middle).log() / dt_s);
+  unbent.unbend_by(twist_between(*last_, place));
   ScanCloud unbent_cloud = cloud_of(unbent);
-  Registration better = register_at(map_, unbent_cloud, T_map_middle * unbent.T_body_middle().inverse(),
+  Registration better = register_at(map_, unbent_cloud, place.T_map_middle * unbent.T_body_middle().inverse(),
                                     prior, 0, traits_.kind, params_.registration);
   if (better.matched_share < params_.odometry.enough_share * fit.matched_share) return fit;
   sweep = std::move(unbent);
@@ -159,11 +158,9 @@ std::optional<ScanOdometer::MapStart> ScanOdometer::unbend_start(const ScanSweep
                                                                  const PosePrior& prior) const {
   const double dt_s = seconds_between(at.middle_stamp, next.middle());
   if (first.times_s.empty() || dt_s <= 0) return std::nullopt;
-  const SE3 T_map_middle = fit.T_target_source * next.T_body_middle();
-  const SE3::Tangent twist_per_s =
-      next.source == MotionSource::kTold
-          ? next.twist_per_s
-          : SE3::Tangent((at.T_map_middle.inverse() * T_map_middle).log() / dt_s);
+  const SE3::Tangent twist_per_s = next.source == MotionSource::kTold
+                                       ? next.twist_per_s
+                                       : twist_between(at, next.place_at(fit.T_target_source));
   MapStart start{first, next, LocalMap(traits_.spacing_m, params_.map), {}, {}, {}, {}};
   start.first.unbend_by(twist_per_s);
   start.next.unbend_by(twist_per_s);
@@ -189,8 +186,7 @@ void ScanOdometer::learn(const SE3& deviation, double matched_share) {
 
 void ScanOdometer::advance(const ScanPlace& place) {
   if (last_) {
-    const double dt_s = seconds_between(last_->middle_stamp, place.middle_stamp);
-    if (dt_s > 0) twist_per_s_ = (last_->T_map_middle.inverse() * place.T_map_middle).log() / dt_s;
+    if (last_->middle_stamp < place.middle_stamp) twist_per_s_ = twist_between(*last_, place);
     way_m_ += (last_->T_map_body.inverse() * place.T_map_body).translation().norm();
   }
   last_ = place;

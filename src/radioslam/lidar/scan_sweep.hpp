@@ -16,6 +16,9 @@ struct ScanPlace {
   SE3 T_map_body, T_map_middle;  ///< at the stamp and in the middle of the sweep
 };
 
+/// From the middle of one sweep to that of a later one.
+SE3::Tangent twist_between(const ScanPlace& from, const ScanPlace& to);
+
 /// By what motion a scan was unbent: that so far, or one that something else tells.
 enum class MotionSource { kSoFar, kTold };
 

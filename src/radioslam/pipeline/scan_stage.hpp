@@ -2,8 +2,9 @@
 // within each robot. Robots without scans stay as they are.
 //
 // The scans' poses become the robot's odometry, with the noise that was measured along with them; recorded
-// odometry only tells where a scan is looked for, and leads on where the scans begin later, end earlier or
-// have a gap. Inertial readings tell that better, and carry the robot where the scans tell nothing.
+// odometry tells where a scan is looked for and how it was swept, and leads on where the scans begin later,
+// end earlier or have a gap. Inertial readings tell that better, and carry the robot where the scans tell
+// nothing.
 #pragma once
 
 #include <cstddef>

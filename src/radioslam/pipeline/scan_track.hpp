@@ -5,8 +5,8 @@
 //   inertial readings    where the caller has them help           (inertial_guide.hpp)
 //   recorded odometry
 //   the motion so far
-// The same tells how the body moved while a scan was swept, and how much of that is left open is part of each
-// step's covariance                                                 (scan_guess.hpp, sweep_bend.hpp)
+// The same tells how the body moved while a scan was swept, recorded odometry only with rows as often as
+// scans (scan_guess.hpp); how much of that is left open is part of each step's covariance (sweep_bend.hpp).
 // Scans that fit nothing, or have hardly any points, are not in the row; they are counted. A first scan that
 // the next ones did not fit is no place to start from: the row then begins with the new map.
 // Cost: the scans' registrations; of the clouds only those of the keyframes are kept.
