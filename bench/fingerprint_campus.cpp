@@ -12,13 +12,13 @@ namespace {
 constexpr double kReach_m = 110, kShadowCell_m = 8;
 constexpr double kPowerAtMetre_dbm = -35, kPathLossExponent = 3;
 constexpr double kSigmaShadow_db = 6, kSigmaNoise_db = 3;
-constexpr double kSurelyHeard_dbm = -80, kNeverHeard_dbm = -110;
+constexpr double kAlwaysDetected_dbm = -80, kNeverDetected_dbm = -110;
 
 struct Place {
   double x_m = 0, y_m = 0;
 };
 
-/// Access points by the cell of a grid as wide as their reach.
+/// Access points in a grid with cells as wide as their range.
 class AccessPointMap {
  public:
   AccessPointMap(const Campus& campus, Rng rng)
@@ -49,7 +49,7 @@ class AccessPointMap {
   std::vector<Place> places_;
 };
 
-/// The same for the same access point and cell.
+/// Shadowing, constant per access point and cell.
 double shadow_db(std::size_t access_point, const Place& place, std::uint64_t seed) {
   const auto cell = [](double at_m) { return static_cast<std::uint64_t>(at_m / kShadowCell_m) & 0xfffU; };
   const std::uint64_t key = (access_point << 24U) | (cell(place.x_m) << 12U) | cell(place.y_m);
@@ -58,13 +58,13 @@ double shadow_db(std::size_t access_point, const Place& place, std::uint64_t see
 
 double distance_m(const Place& a, const Place& b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
 
-double mean_rss_dbm(double way_m) {
-  return kPowerAtMetre_dbm - 10 * kPathLossExponent * std::log10(std::max(1.0, way_m));
+double mean_rss_dbm(double range_m) {
+  return kPowerAtMetre_dbm - 10 * kPathLossExponent * std::log10(std::max(1.0, range_m));
 }
 
-/// One access point over the scans of a window; not heard in any: a rate of 0.
+/// Entry of one access point over the scans of a window; detection rate 0 if it was not detected.
 FingerprintEntry heard_entry(std::size_t access_point, double mean_dbm, int scans, Rng& rng) {
-  const double chance = (mean_dbm - kNeverHeard_dbm) / (kSurelyHeard_dbm - kNeverHeard_dbm);
+  const double chance = (mean_dbm - kNeverDetected_dbm) / (kAlwaysDetected_dbm - kNeverDetected_dbm);
   int heard = 0;
   double sum_dbm = 0;
   for (int s = 0; s < scans; ++s) {
@@ -80,9 +80,9 @@ FingerprintEntry heard_entry(std::size_t access_point, double mean_dbm, int scan
 Fingerprint fingerprint_at(const Place& place, const AccessPointMap& map, const Campus& campus, Rng& rng) {
   Fingerprint fingerprint{{}, campus.scans, {}};
   map.near(place, [&](std::size_t k) {
-    const double way_m = distance_m(map.at(k), place);
-    if (way_m > kReach_m) return;
-    const double mean_dbm = mean_rss_dbm(way_m) + shadow_db(k, place, campus.seed);
+    const double range_m = distance_m(map.at(k), place);
+    if (range_m > kReach_m) return;
+    const double mean_dbm = mean_rss_dbm(range_m) + shadow_db(k, place, campus.seed);
     const FingerprintEntry entry = heard_entry(k, mean_dbm, campus.scans, rng);
     if (entry.detection_rate > 0) fingerprint.entries.push_back(entry);
   });
@@ -96,7 +96,7 @@ Fingerprint fingerprint_at(const Place& place, const AccessPointMap& map, const 
   return fingerprint;
 }
 
-/// A walk that turns a little at every step, and back at the border.
+/// Random walk that turns slightly at every step, and back at the border.
 class Walk {
  public:
   Walk(const Campus& campus, Rng& rng)

@@ -1,5 +1,5 @@
-// Block Cholesky on the patterns of well-known kinds of pose graphs. The counter `factorisations` of the
-// marginals is what they cost in numeric factorisations.
+// Block Cholesky factorisation on the sparsity patterns of typical pose graphs. The counter `factorisations`
+// is the cost of marginal covariances relative to one numeric factorisation.
 #include <benchmark/benchmark.h>
 
 #include <chrono>
@@ -13,7 +13,7 @@ namespace {
 
 using Edges = std::set<std::pair<int, int>>;
 
-/// A walk along `rings` rings of `per_ring` poses, each tied to its neighbour in the ring before.
+/// A trajectory of `rings` rings of `per_ring` poses, each connected to its neighbour in the previous ring.
 Edges ring_edges(int rings, int per_ring) {
   Edges edges;
   for (int i = 1; i < rings * per_ring; ++i) {
@@ -25,7 +25,7 @@ Edges ring_edges(int rings, int per_ring) {
 
 BlockPattern sphere() { return test::pattern_of(std::vector<std::int32_t>(2500, 6), ring_edges(50, 50)); }
 
-/// The last ring closes on the first, and one neighbour in ten has not been recognised.
+/// The last ring closes on the first, and one loop closure in ten is missing.
 BlockPattern torus() {
   constexpr int kRings = 100, kPerRing = 50;
   auto edges = ring_edges(kRings, kPerRing);
@@ -35,7 +35,7 @@ BlockPattern torus() {
   return test::pattern_of(std::vector<std::int32_t>(kRings * kPerRing, 6), edges);
 }
 
-/// A random walk over the crossings of a city, tied to the last visit of each crossing.
+/// A random walk over the crossings of a city, with a loop closure to the last visit of each crossing.
 BlockPattern city() {
   constexpr int kSide = 60, kPoses = 10000;
   Rng rng(2);

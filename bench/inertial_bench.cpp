@@ -1,9 +1,10 @@
-// The states of a drive of 1,000 s with scans at 10 Hz and readings at 200 Hz.
+// Inertial smoothing, noise inflation and motion prediction on drives of up to 1,000 s with scans at 10 Hz
+// and IMU samples at 200 Hz.
 #include <benchmark/benchmark.h>
 
 #include "inertial/simulated_drive.hpp"
 #include "radioslam/inertial/motion_prediction.hpp"
-#include "radioslam/inertial/odometry_noise_of_states.hpp"
+#include "radioslam/inertial/odometry_noise_inflation.hpp"
 
 namespace radioslam {
 namespace {
@@ -29,11 +30,11 @@ BENCHMARK(smoother)->Arg(100)->Arg(1000)->Unit(benchmark::kMillisecond);
 void noise_of_states(benchmark::State& state) {
   const auto sim = long_drive(static_cast<double>(state.range(0)));
   const auto smoothed = smooth_inertially(sim.drive, sim.samples, {}, {});
-  for (auto _ : state) benchmark::DoNotOptimize(odometry_noise_of_states(*smoothed, {}));
+  for (auto _ : state) benchmark::DoNotOptimize(odometry_noise_inflation(*smoothed, {}));
 }
 BENCHMARK(noise_of_states)->Arg(100)->Arg(1000)->Unit(benchmark::kMillisecond);
 
-/// 20 poses within a scan of 0.1 s.
+/// Predicts 20 poses within a scan of 0.1 s.
 void prediction(benchmark::State& state) {
   const auto sim = long_drive(10);
   std::vector<Stamp> stamps;

@@ -1,13 +1,13 @@
-// The overlap search on two robots that drive the streets of a town, in both modes, on one core.
-//   town/...      1.1 M pairs, the size of KITTI 08 cut in two
-//   country/n     n poses a robot, the area growing with n, so that the pairs kept grow with n too
-// Counters: pairs; kept; `evaluated`: distances evaluated as a share of what is allowed, three a pair kept
-// and one a pose; `items_per_s`: poses and pairs kept; `prepare` is what the covariances cost before the
+// Overlap search for two robots that drive the streets of a town, in both modes, on one core.
+//   town/...      1.1 M pairs, the size of KITTI 08 split in two
+//   country/n     n poses per robot in an area that grows with n, so that the pairs kept grow linearly
+// Counters: pairs; kept; `evaluated`: distances evaluated relative to the allowance of three per pair kept
+// and one per pose; `items_per_s`: poses and pairs kept; `prepare`: time for the covariances before the
 // search.
 #include <benchmark/benchmark.h>
 
 #include "radioslam/base/parallel.hpp"
-#include "radioslam/study/overlap_town.hpp"
+#include "radioslam/study/overlap_growth/overlap_town.hpp"
 
 namespace radioslam {
 namespace {

@@ -1,4 +1,5 @@
-// All pairs of matches between two walks: the argument is how many matches.
+// Pairwise consistency of all pairs of matches between two trajectories; the argument is the number of
+// matches.
 #include <benchmark/benchmark.h>
 
 #include "radioslam/base/random.hpp"

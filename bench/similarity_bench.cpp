@@ -1,12 +1,11 @@
-// Similar pairs of fingerprints by the join and by all pairs, on all threads of one run.
-//   join/M/s/o   100,000 fingerprints of 50 access points, from walkers on a campus of 1 km^2 with 4,000 of
-//                them; measure M, least similarity s in percent. With o = 1 in random order, as if everybody
-//                had been everywhere.
-//   all_pairs/M  every pair of the first 20,000 of them by similarity_table(), some rows at a time
-// Counters: `pairs` found; `all_pairs_extrapolated_s`, what similarity_table() takes per pair over
-// kSampledRows rows spread over the recording, measured in the same run before the join, times the pairs of
-// all rows; `times_faster_extrapolated`, their ratio; `missed`, sampled rows whose pairs or floats differ
-// from the table's, which is an error; `peak_MiB`, the most memory that the process has held so far, the
+// Benchmark of the similarity join against comparing all pairs, on all threads.
+//   join/M/s/o   100,000 fingerprints of 50 access points, from walkers on a campus of 1 km^2 with 4,000
+//                access points; measure M, similarity threshold s in percent; o = 1 shuffles fingerprints
+//   all_pairs/M  every pair of the first 20,000 fingerprints by similarity_table(), some rows at a time
+// Counters: `pairs`, pairs found; `all_pairs_extrapolated_s`, time of similarity_table() per pair over
+// kSampledRows rows spread over the recording, measured in the same run before the join, times the number of
+// all pairs; `times_faster_extrapolated`, its ratio to the join's time; `missed`, sampled rows whose pairs or
+// values differ from the table's, which is an error; `peak_MiB`, peak memory of the process so far,
 // fingerprints included.
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
@@ -20,7 +19,7 @@
 #include "fingerprint_campus.hpp"
 #include "radioslam/base/parallel.hpp"
 #include "radioslam/base/random.hpp"
-#include "radioslam/radio/similarity_join.hpp"
+#include "radioslam/radio/fingerprints/similarity_join.hpp"
 
 namespace radioslam {
 namespace {
@@ -51,7 +50,7 @@ const std::vector<Fingerprint>& campus(Order order) {
   return shuffled;
 }
 
-/// Rows of the table of all pairs, and how long a pair of them takes.
+/// Sampled rows of the table of all pairs, and the time per pair.
 struct SampledRows {
   std::vector<std::size_t> rows;
   std::vector<std::vector<float>> table;
@@ -71,7 +70,7 @@ SampledRows sample(const std::vector<Fingerprint>& all, SimilarityMeasure measur
   return sampled;
 }
 
-/// Of the last that was asked for.
+/// Sampled rows of an order and measure; the last result is cached.
 const SampledRows& sampled_rows(Order order, SimilarityMeasure measure) {
   using Key = std::pair<Order, SimilarityMeasure>;
   static std::optional<std::pair<Key, SampledRows>> last;
@@ -96,7 +95,7 @@ std::size_t count_missed(const SimilarityJoin& join, const SampledRows& sampled,
   return missed;
 }
 
-/// The pairs, some rows at a time, as a program would write them to a file.
+/// Counts the pairs, some rows at a time, as a program would write them to a file.
 std::size_t count_pairs(const SimilarityJoin& join) {
   std::vector<std::size_t> counts((join.rows() + SimilarityJoin::kRowsTogether - 1) /
                                   SimilarityJoin::kRowsTogether);
@@ -124,7 +123,7 @@ void join(benchmark::State& state, SimilarityMeasure measure) {
     const std::size_t missed = count_missed(joined, sampled, minimum);
     state.counters["missed"] = static_cast<double>(missed);
     if (missed > 0) {
-      state.SkipWithError("the join's rows are not those of all pairs");
+      state.SkipWithError("the join's pairs differ from those of the table");
       return;
     }
   }
@@ -140,14 +139,14 @@ void all_pairs(benchmark::State& state, SimilarityMeasure measure) {
   for (auto _ : state) {
     for (std::size_t i = 0; i < all.size(); i += kRowsAtOnce) {
       const auto first = all.begin() + static_cast<std::ptrdiff_t>(i);
-      // Of one recording with itself: the columns from the row's own on.
+      // One recording with itself: only columns from the row's own on.
       const std::vector<Fingerprint> rows(first, first + kRowsAtOnce), columns(first, all.end());
       benchmark::DoNotOptimize(similarity_table(rows, columns, measure, {}));
     }
   }
 }
 
-void settle(benchmark::internal::Benchmark* bench) {
+void configure(benchmark::internal::Benchmark* bench) {
   for (const int order : {0, 1})
     for (const int percent : {30, 50, 80}) bench->Args({percent, order});
   bench->Iterations(1)->UseManualTime()->Unit(benchmark::kSecond);
@@ -157,12 +156,12 @@ BENCHMARK_CAPTURE(all_pairs, gaussian, SimilarityMeasure::kGaussian)
     ->Iterations(1)
     ->UseRealTime()
     ->Unit(benchmark::kSecond);
-BENCHMARK_CAPTURE(join, cosine, SimilarityMeasure::kCosine)->Apply(settle);
-BENCHMARK_CAPTURE(join, gaussian, SimilarityMeasure::kGaussian)->Apply(settle);
-BENCHMARK_CAPTURE(join, detection, SimilarityMeasure::kDetection)->Apply(settle);
-BENCHMARK_CAPTURE(join, slide, SimilarityMeasure::kSlide)->Apply(settle);
-BENCHMARK_CAPTURE(join, mended, SimilarityMeasure::kMended)->Apply(settle);
-BENCHMARK_CAPTURE(join, sorensen, SimilarityMeasure::kSorensen)->Apply(settle);
+BENCHMARK_CAPTURE(join, cosine, SimilarityMeasure::kCosine)->Apply(configure);
+BENCHMARK_CAPTURE(join, gaussian, SimilarityMeasure::kGaussian)->Apply(configure);
+BENCHMARK_CAPTURE(join, detection, SimilarityMeasure::kDetection)->Apply(configure);
+BENCHMARK_CAPTURE(join, slide, SimilarityMeasure::kProduct)->Apply(configure);
+BENCHMARK_CAPTURE(join, mended, SimilarityMeasure::kGeometricMean)->Apply(configure);
+BENCHMARK_CAPTURE(join, sorensen, SimilarityMeasure::kSorensen)->Apply(configure);
 
 }  // namespace
 }  // namespace radioslam

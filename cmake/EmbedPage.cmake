@@ -1,8 +1,8 @@
-# Run as a script: puts a page's parts into its HTML and writes the whole as C++.
+# Script: inserts the parts of a page into its HTML and writes the result as C++.
 #   cmake -DPAGE=page.html -DSTYLE=a.css -DSCRIPTS=a.js|b.js -DD3=d3.min.js -DLICENCE=d3-licence.txt
 #         -DHEADER=radioslam/room/page_parts.hpp -DNAMESPACE=radioslam -DOUTPUT=page.cpp -P EmbedPage.cmake
-# The HTML names its parts as @style@, @d3@, @licence@ and @script@; it is cut in two at @data@.
-# Bytes are written as numbers: nothing in a part can end the literal it stands in.
+# The HTML refers to its parts as @style@, @d3@, @licence@ and @script@; it is split at @data@.
+# Bytes are written as numbers, so that no part can terminate the literal that contains it.
 file(READ "${PAGE}" page)
 file(READ "${STYLE}" style)
 file(READ "${D3}" d3)
@@ -17,7 +17,7 @@ endforeach()
 foreach(part IN ITEMS style script d3 licence)
   string(FIND "${${part}}" "</script" found)
   if(NOT found EQUAL -1)
-    message(FATAL_ERROR "${part} holds '</script', which would end the element it is written into")
+    message(FATAL_ERROR "${part} contains '</script', which would end the element that contains it")
   endif()
   string(REPLACE "@${part}@" "${${part}}" page "${page}")
 endforeach()

@@ -1,5 +1,5 @@
-# Finds d3 version 5 (one JavaScript file, written into every report) and defines D3_JS.
-# -DD3_JS=/path/to/d3.min.js names another copy.
+# Finds d3 version 5 (a JavaScript file that is embedded in every report) and defines D3_JS.
+# -DD3_JS=/path/to/d3.min.js selects another copy.
 find_file(D3_JS d3.min.js
   PATHS /usr/share/nodejs/d3/dist /usr/share/javascript/d3 /usr/local/share/nodejs/d3/dist
   NO_DEFAULT_PATH DOC "d3.min.js, version 5")

@@ -1,4 +1,4 @@
-# Installs the program, the rooms' libraries and headers, and a CMake package.
+# Installs the program, the libraries and headers of all rooms, and a CMake package.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 

@@ -1,8 +1,7 @@
 # radioslam_page(TARGET FOLDER HEADER NAMESPACE SCRIPTS...)
 #
-# Compiles a page into a room: FOLDER/page.html with its style, the scripts in the order in which they build
-# on one another, and d3. HEADER declares page_head() and page_tail() in NAMESPACE. Parts that the folder has
-# not of its own come from the report's page.
+# Compiles a page into a room: FOLDER/page.html with its style, the scripts in the order of their dependencies, and d3.
+# HEADER declares page_head() and page_tail() in NAMESPACE. Style and licence are shared with the report's page.
 find_package(D3 5...<6 REQUIRED)
 set(RADIOSLAM_REPORT_PAGE ${PROJECT_SOURCE_DIR}/src/radioslam/report/page)
 

@@ -1,8 +1,7 @@
 # radioslam_room(NAME SOURCES a.cpp ... ROOMS base ... LIBRARIES Eigen3::Eigen ...)
 #
-# One room = one target. A room can include only what it links, so the order of the rooms in
-# docs/architecture.md is kept by the compiler: headers are reached through the target's own
-# include directory, which holds a link to that room alone.
+# Each room is one target and can include only the rooms it links, so that the compiler enforces the order of the rooms
+# in docs/architecture.md: the include directory of a target contains a symbolic link to that room only.
 function(radioslam_room NAME)
   cmake_parse_arguments(ROOM "" "" "SOURCES;ROOMS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
   set(room_include ${PROJECT_BINARY_DIR}/rooms/${NAME})
@@ -26,6 +25,7 @@ function(radioslam_room NAME)
   if(kind STREQUAL STATIC)
     target_link_libraries(radioslam_${NAME} PRIVATE $<BUILD_INTERFACE:radioslam_warnings>
                                                     ${ROOM_PRIVATE_LIBRARIES})
+    radioslam_group_sources(radioslam_${NAME})
   endif()
   set_property(GLOBAL APPEND PROPERTY RADIOSLAM_ROOMS radioslam_${NAME})
 endfunction()

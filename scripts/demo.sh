@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# From a clean clone to a table and a page: builds radioslam, simulates robots in a car park, puts them into one
-# frame and compares with the truth.
+# Demonstration from a clean clone: builds radioslam, simulates robots in a car park, estimates their trajectories in
+# one frame, and compares them with the ground truth.
 #   scripts/demo.sh [FOLDER]      results in FOLDER; default: build/demo
 set -euo pipefail
 export LC_ALL=C
@@ -9,11 +9,11 @@ results=$(realpath -m "${1:-$repository/build/demo}")
 cd "$repository"
 
 scripts/deps.sh build
-# The program alone needs no test packages; a build folder that has them keeps them.
+# The program alone needs no test packages; an existing build folder keeps its configuration.
 if [[ -f build/release/CMakeCache.txt ]]; then
   cmake --preset release >/dev/null
 else
-  cmake --preset release -DRADIOSLAM_BUILD_TESTS=OFF -DCMAKE_UNITY_BUILD=ON >/dev/null
+  cmake --preset release -DRADIOSLAM_BUILD_TESTS=OFF -DRADIOSLAM_GROUP_SOURCES=ON >/dev/null
 fi
 cmake --build build/release --target radioslam_program
 
@@ -23,4 +23,4 @@ mkdir -p "$results"
 "$radioslam" run "$results/carpark" -o "$results/estimate"
 "$radioslam" evaluate "$results/estimate" "$results/carpark"
 echo
-echo "The page: $results/estimate/report.html"
+echo "Report: $results/estimate/report.html"

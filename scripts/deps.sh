@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Installs the Debian (bookworm) packages that are missing, and nothing else.
+# Installs missing Debian (bookworm) packages.
 #   scripts/deps.sh [build|test|lint|bench ...]     default: build
 set -euo pipefail
 export LC_ALL=C DEBIAN_FRONTEND=noninteractive
 
 build=(cmake ninja-build g++ libeigen3-dev libnanoflann-dev libmetis-dev libsuitesparse-dev libyaml-cpp-dev libzstd-dev
        zlib1g-dev libbz2-dev liblz4-dev libsqlite3-dev libpcap-dev libcli11-dev nlohmann-json3-dev node-d3)
-test=(libgtest-dev libceres-dev clang-14 libclang-rt-14-dev)
+test=(libgtest-dev libceres-dev clang-14 libclang-rt-14-dev python3-minimal)
 lint=(clang-format-14 clang-tidy-14)
 bench=(libbenchmark-dev)
 
@@ -30,12 +30,12 @@ for set in "${@:-build}"; do
     test) wanted+=("${build[@]}" "${test[@]}") ;;
     lint) wanted+=("${build[@]}" "${lint[@]}") ;;
     bench) wanted+=("${build[@]}" "${bench[@]}") ;;
-    *) echo "scripts/deps.sh: '$set' is none of build, test, lint, bench" >&2; exit 2 ;;
+    *) echo "scripts/deps.sh: '$set' is not one of build, test, lint, bench" >&2; exit 2 ;;
   esac
 done
 
 if ! command -v dpkg-query >/dev/null; then
-  echo "scripts/deps.sh: not a Debian system; what Debian calls these is needed: ${wanted[*]}" >&2
+  echo "scripts/deps.sh: not a Debian system; install the equivalents of these packages: ${wanted[*]}" >&2
   exit 0
 fi
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Formats the C++ sources in place; with --check only says whether they are formatted.
+# Formats the C++ sources in place; with --check, only checks whether they are formatted.
 set -euo pipefail
 export LC_ALL=C
 cd "$(dirname "$0")/.."

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Runs every fuzzer for a while, as many at once as there are cores, each from its seeds and the inputs it kept
-# last time (build/fuzz-corpus).
-#   scripts/fuzz.sh [SECONDS [SEED]]     per fuzzer; default: 60 s, other inputs every time
+# Runs every fuzzer for a limited time, one per core in parallel, starting from its seeds and the corpus of earlier runs
+# (build/fuzz-corpus).
+#   scripts/fuzz.sh [SECONDS [SEED]]     per fuzzer; default: 60 s and a random seed
 set -euo pipefail
 export LC_ALL=C
 cd "$(dirname "$0")/.."

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# How far off the estimate is over many simulated car parks: one row per seed.
-#   scripts/sweep.sh [SEEDS] [name=value ...]     further arguments go to `radioslam run --set`
+# Trajectory error over many simulated car parks: one row per seed.
+#   scripts/sweep.sh [SEEDS] [name=value ...]     further arguments are passed to `radioslam run --set`
 set -euo pipefail
 export LC_ALL=C
 cd "$(dirname "$0")/.."

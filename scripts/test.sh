@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Builds and tests everything: release with g++, then AddressSanitizer and UndefinedBehaviorSanitizer with clang,
-# then two seconds of every fuzzer from the same build, from one seed (the nightly takes others). All with
-# warnings as errors, and as unity builds (several sources at once), which take half the time from nothing.
+# Checks how the sources are divided (scripts/check_structure.py). Then builds and tests everything: release with g++,
+# then AddressSanitizer and UndefinedBehaviorSanitizer with clang,
+# then runs every fuzzer of the sanitizer build for two seconds with a fixed seed (scripts/nightly.sh uses random ones).
+# All builds treat warnings as errors and compile sources in groups, which halves the time of a build from scratch.
 #   scripts/test.sh [--quick]     --quick: release only
 set -euo pipefail
 export LC_ALL=C
@@ -27,8 +28,12 @@ rm -f build/release/ctest.log
 step "packages"
 scripts/deps.sh test
 
+step "structure"
+scripts/check_structure.py
+
 step "release"
-configure_and_build release -DRADIOSLAM_BUILD_TESTS=ON -DCMAKE_UNITY_BUILD=ON
+configure_and_build release -DRADIOSLAM_BUILD_TESTS=ON -DRADIOSLAM_GROUP_SOURCES=ON
+scripts/check_words.sh build/release/radioslam
 run_tests release
 if [[ ${1:-} == --quick ]]; then exit 0; fi
 

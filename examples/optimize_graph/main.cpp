@@ -1,5 +1,5 @@
-// A robot drives three sides of a square; at the end its radio measures how far it is from where it started.
-// Prints its poses with their standard deviations before and after that distance is used.
+// Pose graph optimisation: a robot drives three sides of a square, then its radio measures the distance to
+// its start. Prints the poses with their standard deviations before and after adding that distance.
 #include <cstdio>
 #include <numbers>
 #include <radioslam/graph/marginals.hpp>

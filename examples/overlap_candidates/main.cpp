@@ -1,12 +1,13 @@
-// Trajectories with covariances and radio links in, pairs of keyframes worth comparing out.
-// Two robots drive crossing streets; where they pass each other, one radio link tells the other's pose.
+// Overlap search: finds the keyframe pairs of two robots whose views can overlap, from odometry with
+// covariances and one radio link. The robots drive along crossing streets; where they pass each other, a link
+// measures the relative pose.
 #include <cstdio>
 #include <numbers>
-#include <radioslam/closure/overlap_search.hpp>
+#include <radioslam/closure/overlap/overlap_search.hpp>
 
 using radioslam::SE2;
 
-// 200 keyframes a metre apart, with odometry that loses 2 cm and 0.1 degrees per square root of a metre.
+// 200 keyframes one metre apart; odometry noise of 2 cm and 0.1 degrees per square root of a metre.
 radioslam::KeyframeOdometry<SE2> drive() {
   radioslam::KeyframeOdometry<SE2> chain;
   const SE2::Tangent sigma(0.02, 0.02, 0.002);
@@ -16,8 +17,8 @@ radioslam::KeyframeOdometry<SE2> drive() {
 }
 
 int main() {
-  // Each in its own frame: at its keyframe 100, robot 0 saw robot 1's keyframe 60 five metres ahead,
-  // crossing.
+  // Each trajectory is in its own frame. At keyframe 100 of robot 0, keyframe 60 of robot 1 is five metres
+  // ahead with a perpendicular heading.
   const SE2::Tangent sigma(0.5, 0.5, 0.1);
   const radioslam::OverlapLink<SE2> link{
       0, 100, 1, 60, SE2({5, 0}, std::numbers::pi / 2), sigma.cwiseAbs2().asDiagonal()};

@@ -1,4 +1,4 @@
-// Anchors and robots among them, from tables to a folder.
+// radioslam anchors from its tables to the output folder.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -91,14 +91,15 @@ TEST(Anchors, HandednessIsAsAsked) {
   EXPECT_NEAR(r[1], 15, 1e-6);
 }
 
-TEST(Anchors, WhatFixesNoLayoutIsRefused) {
+TEST(Anchors, DistancesThatDetermineNoLayoutAreRefused) {
   const std::string header = "id_i,id_j,distance_m\n";
-  expect_refused(header + "A,B,3\n", "2 anchors, at least 3 are needed");
-  expect_refused(header + "A,B,3\nB,C,5\nA,C,4\nD,E,1\n", "leads from anchor 'A' to 'D'");
-  expect_refused(header + "A,B,3\nB,C,5\nA,C,4\nD,A,1\n", "do not hold anchor 'D' in place");
+  expect_refused(header + "A,B,3\n", "only 2 anchors; at least 3 are needed");
+  expect_refused(header + "A,B,3\nB,C,5\nA,C,4\nD,E,1\n", "connects anchor 'A' to 'D'");
+  expect_refused(header + "A,B,3\nB,C,5\nA,C,4\nD,A,1\n", "the position of anchor 'D' is not determined");
   expect_refused(header + "A,B,3\nB,C,5\nA,C,8\n", "on one line");
-  expect_refused(distance_rows(), "--origin, --along-x and --left must be", {"--origin", "P", "--left", "P"});
-  expect_refused(distance_rows(), "there is no such anchor", {"--left", "X"});
+  expect_refused(distance_rows(), "--origin, --along-x and --left must name",
+                 {"--origin", "P", "--left", "P"});
+  expect_refused(distance_rows(), "unknown anchor", {"--left", "X"});
   expect_refused(distance_rows(), "nothing.csv", {"--ranges", "nothing.csv"});
   expect_refused(header + "A,B,3\nB,C,5\nA,C,4\n", "at least 4 are needed", {"--set", "layout.dimension=3"});
 }

@@ -1,4 +1,4 @@
-// Angles of arrival from a simulated mission's captures, as users ask for them.
+// radioslam aoa on the captures of a simulated mission.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,12 +30,12 @@ Arguments joined(const std::vector<Arguments>& parts) {
 
 double apart_rad(double a, double b) { return std::abs(std::remainder(a - b, 2 * M_PI)); }
 
-/// A planar pose out of a TUM file.
+/// A planar pose from a TUM file.
 struct PlaceInRoom {
   double t_s = -1, x_m = 0, y_m = 0, yaw_rad = 0;
 };
 
-PlaceInRoom place_at(const std::filesystem::path& path, double t_s) {
+PlaceInRoom pose_at(const std::filesystem::path& path, double t_s) {
   std::istringstream rows(read_file(path));
   PlaceInRoom best;
   std::array<double, 8> row{};
@@ -47,13 +47,13 @@ PlaceInRoom place_at(const std::filesystem::path& path, double t_s) {
   return best;
 }
 
-/// Three robots that take turns, one leg each; made once.
+/// Three robots that take turns to drive one leg each; simulated once.
 class Aoa : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new TemporaryFolder;
     const Outcome made = run({"simulate", "csi", "-o", "m", "--seed", "3", "--set", "turns_per_robot=1",
-                              "--set", "inner_walls=0", "--set", "most_bounces=0"},
+                              "--set", "inner_walls=0", "--set", "max_bounces=0"},
                              folder_->path());
     ASSERT_EQ(made.status, 0) << made.err;
   }
@@ -111,16 +111,16 @@ TEST_F(Aoa, PointsAtTheTransmitterInBothFrames) {
   const json result = measured({});
   const double t_s = result["t_s"].get<double>();
   const auto robots = folder_->path() / "m/robots";
-  const PlaceInRoom a = place_at(robots / "a/groundtruth.tum", t_s),
-                    b = place_at(robots / "b/groundtruth.tum", t_s);
+  const PlaceInRoom a = pose_at(robots / "a/groundtruth.tum", t_s),
+                    b = pose_at(robots / "b/groundtruth.tum", t_s);
   const double azimuth_rad = std::atan2(b.y_m - a.y_m, b.x_m - a.x_m) - a.yaw_rad;
   const json& peak = result["peaks"][0];
   EXPECT_LT(apart_rad(peak["azimuth_rad"].get<double>(), azimuth_rad), 0.1);
-  const PlaceInRoom reckoned = place_at(robots / "a/odometry.tum", t_s);
+  const PlaceInRoom reckoned = pose_at(robots / "a/odometry.tum", t_s);
   EXPECT_LT(apart_rad(peak["azimuth_trajectory_frame_rad"].get<double>(),
                       peak["azimuth_rad"].get<double>() + reckoned.yaw_rad),
             0.03);
-  EXPECT_GT(std::abs(reckoned.yaw_rad), 0.2) << "or the test shows nothing";
+  EXPECT_GT(std::abs(reckoned.yaw_rad), 0.2) << "or the test is pointless";
 }
 
 TEST_F(Aoa, IsTheSameForOneThreadAndTwo) {
@@ -149,14 +149,14 @@ TEST_F(Aoa, AClockOffsetIsAppliedAndReported) {
 
 TEST_F(Aoa, RefusesToGuessTheSender) {
   expect_call_refused({kReverse, kChannel},
-                      "has packets from 00:16:ea:00:00:02, 00:16:ea:00:00:03: choose one by --transmitter");
+                      "has packets from 00:16:ea:00:00:02, 00:16:ea:00:00:03: choose one with --transmitter");
   expect_call_refused({kReverse, kChannel, {"--transmitter", "00:16:ea:00:00:09"}},
-                      "has no packets from 00:16:ea:00:00:09; it has them from 00:16:ea:00:00:02");
-  expect_call_refused({kReverse, kChannel, {"--transmitter", "b"}}, "--transmitter b: is not an address");
+                      "has no packets from 00:16:ea:00:00:09, only from 00:16:ea:00:00:02");
+  expect_call_refused({kReverse, kChannel, {"--transmitter", "b"}}, "--transmitter b: is not a MAC address");
 }
 
 TEST_F(Aoa, RefusesToGuessTheChannel) {
-  expect_call_refused({kReverse, kOfB}, "does not tell its carrier: give its WiFi channel by --channel");
+  expect_call_refused({kReverse, kOfB}, "does not record its carrier: give its WiFi channel with --channel");
   expect_call_refused({kReverse, kOfB, {"--channel", "15"}}, "is not the number of a WiFi channel");
 }
 
@@ -166,18 +166,19 @@ TEST_F(Aoa, RefusesAnswersOfAnotherRobot) {
 }
 
 TEST_F(Aoa, RefusesOneAntennaInOneDirection) {
-  expect_call_refused({kOfB, kChannel}, "give the other end's capture by --reverse, or two antennas' places");
+  expect_call_refused({kOfB, kChannel},
+                      "give the other end's capture with --reverse, or the positions of two antennas");
   expect_call_refused({kOfB, kChannel, {"--lever", "0,0,0"}, {"--lever", "0.1,0,0"}},
-                      "has no packets that two antennas heard");
+                      "has no packets received by two antennas");
 }
 
 TEST_F(Aoa, RefusesMoreLeversThanItUses) {
   const Arguments twice{"--lever", "0.1,0,0", "--lever", "0.2,0,0"};
-  expect_call_refused({kReverse, kOfB, kChannel, twice}, "--lever: is given twice with --reverse");
-  expect_call_refused({kOfB, kChannel, twice, {"--lever", "0.3,0,0"}}, "--lever: is given more than twice");
+  expect_call_refused({kReverse, kOfB, kChannel, twice}, "--lever: may be given only once with --reverse");
+  expect_call_refused({kOfB, kChannel, twice, {"--lever", "0.3,0,0"}}, "--lever: may be given at most twice");
 }
 
-TEST_F(Aoa, MeasuresAPartOfTheWay) {
+TEST_F(Aoa, MeasuresASegmentOfTheTrajectory) {
   const json all = measured({});
   const std::string middle = std::to_string(all["t_s"].get<double>());
   const json first = measured({{"--end", middle}}), second = measured({{"--begin", middle}});
@@ -188,9 +189,9 @@ TEST_F(Aoa, MeasuresAPartOfTheWay) {
                       "has no packets between --begin and --end");
 }
 
-TEST_F(Aoa, RefusesAWayTooWideWithAHint) {
+TEST_F(Aoa, RefusesAnApertureTooWideWithAHint) {
   expect_call_refused({kReverse, kOfB, kChannel, {"--lever", "1e6,0,0"}},
-                      "choose a part of it by --begin and --end");
+                      "select a shorter segment with --begin and --end");
 }
 
 TEST_F(Aoa, ReportsTheCapturesPowerAndEffectiveSnr) {
@@ -207,7 +208,7 @@ TEST_F(Aoa, ReportsTheCapturesPowerAndEffectiveSnr) {
   }
 }
 
-/// The rows of a trajectory up to a time, and from there on where it then was.
+/// The trajectory up to a time; afterwards it stays at its last pose.
 std::string stopped_at(const std::string& rows, double stop_s) {
   std::istringstream lines(rows);
   std::string out, line, rest;
@@ -219,7 +220,7 @@ std::string stopped_at(const std::string& rows, double stop_s) {
   return out;
 }
 
-TEST_F(Aoa, SaysWhyNoClockOffsetIsEstimated) {
+TEST_F(Aoa, ExplainsWhyNoClockOffsetIsEstimated) {
   write_file(folder_->path() / "short.tum", "0 0 0 0 0 0 0 1\n0.5 1 0 0 0 0 0 1\n");
   expect_call_refused({kReverse, kOfB, kChannel, {"--clock-offset", "estimate"}},
                       "short.tum covers too few of the packets", {"--trajectory", "short.tum"});
@@ -227,7 +228,7 @@ TEST_F(Aoa, SaysWhyNoClockOffsetIsEstimated) {
   const double middle_s = measured({})["t_s"].get<double>();
   write_file(folder_->path() / "still.tum", stopped_at(truth, middle_s - 20));
   expect_call_refused({kReverse, kOfB, kChannel, {"--clock-offset", "estimate"}},
-                      "the speed changes too little to tell", {"--trajectory", "still.tum"});
+                      "the speed changes too little", {"--trajectory", "still.tum"});
   const Outcome pair = run({"simulate", "csi", "-o", "pair", "--seed", "3", "--set", "turns_per_robot=1",
                             "--set", "antennas=2", "--set", "robots=2"},
                            folder_->path());
@@ -238,14 +239,13 @@ TEST_F(Aoa, SaysWhyNoClockOffsetIsEstimated) {
                   kChannel}),
           folder_->path());
   EXPECT_EQ(outcome.status, 2);
-  EXPECT_NE(outcome.err.find("needs packets both ways"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("needs packets in both directions"), std::string::npos) << outcome.err;
 }
 
 TEST_F(Aoa, TakesCapturesOfFewPacketsASecond) {
-  const Outcome made =
-      run({"simulate", "csi", "-o", "slow", "--seed", "3", "--set", "turns_per_robot=1", "--set",
-           "inner_walls=0", "--set", "most_bounces=0", "--set", "packet_rate_hz=40"},
-          folder_->path());
+  const Outcome made = run({"simulate", "csi", "-o", "slow", "--seed", "3", "--set", "turns_per_robot=1",
+                            "--set", "inner_walls=0", "--set", "max_bounces=0", "--set", "packet_rate_hz=40"},
+                           folder_->path());
   ASSERT_EQ(made.status, 0) << made.err;
   const Outcome outcome =
       run(joined({{"aoa", "slow/robots/a/csi/capture.dat", "--reverse", "slow/robots/b/csi/capture.dat",
@@ -258,27 +258,27 @@ TEST_F(Aoa, TakesCapturesOfFewPacketsASecond) {
   const json result = json::parse(outcome.out);
   const double t_s = result["t_s"].get<double>();
   const auto robots = folder_->path() / "slow/robots";
-  const PlaceInRoom a = place_at(robots / "a/groundtruth.tum", t_s),
-                    b = place_at(robots / "b/groundtruth.tum", t_s);
+  const PlaceInRoom a = pose_at(robots / "a/groundtruth.tum", t_s),
+                    b = pose_at(robots / "b/groundtruth.tum", t_s);
   EXPECT_LT(apart_rad(result["peaks"][0]["azimuth_rad"].get<double>(),
                       std::atan2(b.y_m - a.y_m, b.x_m - a.x_m) - a.yaw_rad),
             0.1);
 }
 
-TEST_F(Aoa, RefusesLeversThatAreNone) {
+TEST_F(Aoa, RefusesInvalidLevers) {
   for (const char* lever : {"0.1,0.2", "0.1,x,0", "1,2,3,4", "1 2 3"})
     expect_call_refused({kReverse, kOfB, kChannel, {"--lever", lever}},
                         std::string("--lever ") + lever + ": is not x,y,z in metres");
 }
 
-TEST_F(Aoa, RefusesClockOffsetsThatAreNone) {
+TEST_F(Aoa, RefusesInvalidClockOffsets) {
   expect_call_refused({kReverse, kOfB, kChannel, {"--clock-offset", "soon"}},
                       "--clock-offset soon: is neither seconds nor 'estimate'");
   expect_call_refused({kReverse, kOfB, kChannel, {"--clock-offset", "1e30"}},
-                      "--clock-offset 1e30: is more than any two clocks differ by");
+                      "--clock-offset 1e30: is too large for an offset of two clocks");
 }
 
-TEST_F(Aoa, RefusesTrajectoriesThatTellNothing) {
+TEST_F(Aoa, RefusesUnusableTrajectories) {
   write_file(folder_->path() / "still.tum", "0 0 0 0 0 0 0 1\n1000 0 0 0 0 0 0 1\n");
   write_file(folder_->path() / "later.tum", "5000 0 0 0 0 0 0 1\n6000 5 0 0 0 0 0 1\n");
   const std::vector<Arguments> rest{kReverse, kOfB, kChannel};
@@ -287,7 +287,7 @@ TEST_F(Aoa, RefusesTrajectoriesThatTellNothing) {
   expect_call_refused(rest, "nothing.tum: no such file", {"--trajectory", "nothing.tum"});
 }
 
-TEST_F(Aoa, RefusesAReverseThatAnswersNothing) {
+TEST_F(Aoa, RefusesAReverseWithoutAnswers) {
   write_file(folder_->path() / "empty.dat", "");
   const Outcome outcome = aoa({{"--reverse", "empty.dat"}, kOfB, kChannel});
   EXPECT_EQ(outcome.status, 2) << outcome.err;

@@ -1,4 +1,4 @@
-// What the program says and how it ends when it is called rightly and wrongly.
+// Output and exit status of the program for valid and invalid command lines.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -64,18 +64,18 @@ TEST(Calls, MisspellingsAreRefusedWithASuggestion) {
   expect_refused({"simulate", "carpark", "-o", "m", "--set", "robot=2"}, "did you mean robots?");
   expect_refused({"run", "m", "-o", "out", "--set", "keyfram.distance_m=1"},
                  "did you mean keyframe.distance_m?");
-  expect_refused({"import", "indoor", "x", "-o", "m"}, "there is no such kind of source");
+  expect_refused({"import", "indoor", "x", "-o", "m"}, "unknown kind of source");
 }
 
 TEST(Calls, MissingAndSurplusArgumentsAreRefused) {
   expect_refused({"optimize"}, "GRAPH is required");
   expect_refused({"optimize", "g.g2o"}, "--output is required");
-  expect_refused({"optimize", "g.g2o", "h.g2o", "-o", "out"}, "too many: 'h.g2o'");
+  expect_refused({"optimize", "g.g2o", "h.g2o", "-o", "out"}, "unexpected argument 'h.g2o'");
   expect_refused({"evaluate", "out"}, "MISSION is required");
   expect_refused({"similarity", "a.csv", "-o", "pairs.csv"}, "--measure is required");
 }
 
-/// Writes `file`, calls, and expects a refusal that leaves the file as it was.
+/// Writes `file`, runs the program, and expects an error that leaves the file unchanged.
 void expect_kept(const std::string& file, const std::string& content,
                  const std::vector<std::string>& arguments) {
   const TemporaryFolder folder;
@@ -158,7 +158,7 @@ TEST(Calls, OptimizePrintsOneJsonObjectAndNothingElse) {
   EXPECT_EQ(files_in(folder.path()), (std::vector<std::string>{"g.g2o", "o.g2o"}));
 }
 
-TEST(Calls, OptimizeTellsTheCostOfTheFilesVerticesApartFromTheStarts) {
+TEST(Calls, OptimizeReportsTheCostsOfTheFilesVerticesAndOfTheStart) {
   const TemporaryFolder folder;
   const auto optimized = [&](const std::string& graph) {
     write_file(folder.path() / "g.g2o", graph);
@@ -205,6 +205,52 @@ TEST(Calls, ParametersListUnitsAndRanges) {
   const auto none = run({"parameters", "rosbag"}, folder.path());
   EXPECT_EQ(none.status, 2);
   EXPECT_EQ(none.err, "radioslam: parameters rosbag: this import has no parameters\n");
+}
+
+TEST(Calls, ParametersListTheBasicOnesUnlessAllAreWanted) {
+  const TemporaryFolder folder;
+  const auto basic = run({"parameters"}, folder.path());
+  EXPECT_EQ(basic.out.find("radio.bin_width"), std::string::npos);
+  EXPECT_TRUE(basic.out.ends_with(" more: radioslam parameters run --all\n")) << basic.out;
+  EXPECT_EQ(run({"parameters", "prune"}, folder.path()).out.find("radio.bin_width"), std::string::npos);
+  const auto all = run({"parameters", "run", "--all"}, folder.path());
+  EXPECT_NE(all.out.find("radio.bin_width = 0.05"), std::string::npos);
+  EXPECT_EQ(all.out.find(" more: "), std::string::npos);
+  // Short lists are complete.
+  const auto angles = run({"parameters", "aoa"}, folder.path());
+  EXPECT_EQ(angles.out, run({"parameters", "aoa", "--all"}, folder.path()).out);
+  EXPECT_NE(angles.out.find("model_passes"), std::string::npos);
+}
+
+TEST(Calls, ParametersAsJsonHaveLevelsAndFormerNames) {
+  const TemporaryFolder folder;
+  const auto json = nlohmann::json::parse(run({"parameters", "run", "--json"}, folder.path()).out);
+  EXPECT_EQ(json["keyframe.distance_m"]["level"], "basic");
+  EXPECT_TRUE(json["keyframe.distance_m"]["formerly"].empty());
+  EXPECT_EQ(json["scan_structure.elongation"]["level"], "expert");
+  EXPECT_EQ(json["scan_structure.elongation"]["formerly"], nlohmann::json({"scan_order.elongation"}));
+}
+
+TEST(Calls, FormerNamesGiveTheSameBytes) {
+  const TemporaryFolder folder;
+  const auto simulate = [&](const std::string& output, const std::vector<std::string>& settings) {
+    std::vector<std::string> call{"simulate", "carpark", "-o", output, "--set", "path_length_m=30"};
+    call.insert(call.end(), settings.begin(), settings.end());
+    const auto outcome = run(call, folder.path());
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+  };
+  simulate("now", {"outside_ratio=0.6", "missed_scan_ratio=0.3"});
+  simulate("former", {"outside_share=0.6", "missed_scan_share=0.3"});
+  write_file(folder.path() / "former.yaml", "outside_share: 0.6\nmissed_scan_share: 0.2\n");
+  simulate("both", {"--config", "former.yaml", "--set", "missed_scan_ratio=0.3"});
+  simulate("other", {"outside_ratio=0.1", "missed_scan_ratio=0.3"});
+  const auto wifi = [&](const char* mission) {
+    return read_file(folder.path() / mission / "robots" / "a" / "wifi.csv");
+  };
+  EXPECT_FALSE(wifi("now").empty());
+  EXPECT_TRUE(wifi("former") == wifi("now"));
+  EXPECT_TRUE(wifi("both") == wifi("now"));
+  EXPECT_FALSE(wifi("other") == wifi("now"));
 }
 
 }  // namespace

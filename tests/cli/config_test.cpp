@@ -21,7 +21,7 @@ TEST(Config, NestedMapsBecomeDottedKeysWithTheirLines) {
   ASSERT_EQ(settings.size(), 2U);
   EXPECT_EQ(settings[0].key, "keyframe.distance_m");
   EXPECT_EQ(settings[0].value, "2");
-  EXPECT_EQ(settings[0].place, "run.yaml");
+  EXPECT_EQ(settings[0].origin, "run.yaml");
   EXPECT_EQ(settings[0].line, 3U);
   EXPECT_EQ(settings[1].key, "radio.measure");
   EXPECT_EQ(settings[1].line, 5U);
@@ -32,18 +32,18 @@ TEST(Config, EmptySectionsSetNothing) {
   EXPECT_TRUE(parse("keyframe:\n").empty());
 }
 
-TEST(Config, WhatIsNoMapIsRefused) {
+TEST(Config, AnythingButMapsIsRefused) {
   EXPECT_EQ(refusal("- 1\n- 2\n"), "run.yaml:1: the file must hold 'name: value' lines");
   EXPECT_EQ(refusal("just words\n"), "run.yaml:1: the file must hold 'name: value' lines");
   EXPECT_EQ(refusal("a: 1\nb: [1, 2]\n"), "run.yaml:2: 'b' must hold 'name: value' lines");
 }
 
-TEST(Config, TornYamlIsRefusedWithItsLine) {
+TEST(Config, TruncatedYamlIsRefusedWithItsLine) {
   EXPECT_EQ(refusal("keyframe:\n  distance_m: [1\n").substr(0, 11), "run.yaml:3:");
   EXPECT_EQ(refusal("a: 1\n\tb: 2\n").substr(0, 11), "run.yaml:2:");
 }
 
-TEST(Config, AliasesWithoutEndAreRefused) {
+TEST(Config, EndlessAliasesAreRefused) {
   EXPECT_NE(refusal("a: &x\n  b: *x\n").find("nested too deep"), std::string::npos);
   EXPECT_EQ(parse("a: &x {b: 1}\nc: *x\n").size(), 2U);
   std::string aliases = "l0: &l0 {a: {}, b: {}, c: {}, d: {}, e: {}, f: {}, g: {}, h: {}}\n";
@@ -56,9 +56,9 @@ TEST(Config, AliasesWithoutEndAreRefused) {
   EXPECT_NE(refusal(aliases).find("more than 10000 entries"), std::string::npos) << refusal(aliases);
 }
 
-TEST(Config, AKeyMayStandOnce) {
-  EXPECT_EQ(refusal("a:\n  b: 1\na.b: 2\n"), "run.yaml:3: 'a.b' stands in line 2 already");
-  EXPECT_EQ(refusal("a: 1\na: 2\n"), "run.yaml:2: 'a' stands in line 1 already");
+TEST(Config, AKeyMayAppearOnce) {
+  EXPECT_EQ(refusal("a:\n  b: 1\na.b: 2\n"), "run.yaml:3: 'a.b' appears twice, first in line 2");
+  EXPECT_EQ(refusal("a: 1\na: 2\n"), "run.yaml:2: 'a' appears twice, first in line 1");
 }
 
 TEST(Config, SetOptionsAreSplitAtTheFirstEqualsSign) {

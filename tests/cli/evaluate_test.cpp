@@ -1,4 +1,4 @@
-// What `evaluate` says about runs that are incomplete, and `run` about robots it cannot place.
+// `evaluate` on incomplete runs, and `run` on robots it cannot place.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kWalk = "0 0 0 0 0 0 0 1\n1 2 0 0 0 0 0 1\n2 4 0 0 0 0 0 1\n";
 
-/// Two robots with known starts and a third, c, that nothing ties to them.
+/// Two robots with known starts and a third, c, without any measurement that relates it to them.
 class Evaluate : public testing::Test {
  protected:
   Evaluate() {
@@ -48,7 +48,7 @@ class Evaluate : public testing::Test {
   Outcome ran_;
 };
 
-TEST_F(Evaluate, RunsErrorSaysWhatItIsNotOver) {
+TEST_F(Evaluate, RunReportsItsErrorWithTheCoverage) {
   EXPECT_NE(ran().out.find(" m rmse over 66.6 % of the true poses\n"), std::string::npos) << ran().out;
   write_file(folder() / "m/mission.yaml",
              "format: radioslam-mission/1\nrobots:\n  a: {initial_pose: [0, 0, 0, 0]}\n"
@@ -67,7 +67,7 @@ TEST_F(Evaluate, NamesRobotsThatCouldNotBePlaced) {
   EXPECT_EQ(json["robots"]["c"]["coverage"], 0);
 }
 
-TEST_F(Evaluate, SaysThatASummaryIsMissing) {
+TEST_F(Evaluate, NotesAMissingSummary) {
   fs::remove(folder() / "out/summary.json");
   const auto outcome = evaluate();
   EXPECT_EQ(outcome.status, 0) << outcome.err;
@@ -91,7 +91,7 @@ TEST_F(Evaluate, RefusesPairsAtStampsThatAreNoKeyframes) {
       << again.err;
 }
 
-TEST_F(Evaluate, TellsNoCandidatesFromNoneLookedFor) {
+TEST_F(Evaluate, DistinguishesNoCandidatesFromNoSearch) {
   auto json = evaluated();
   EXPECT_TRUE(json["candidates"]["kept"].is_null());
   EXPECT_TRUE(json["candidates"]["true_kept"].is_null());

@@ -1,4 +1,4 @@
-// `radioslam import` in a folder of its own.
+// Fixture that runs `radioslam import` in a temporary folder.
 #pragma once
 
 #include <gtest/gtest.h>

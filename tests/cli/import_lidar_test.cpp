@@ -1,8 +1,8 @@
-// What robots with laser scanners recorded, into a mission.
+// radioslam import carmen, kitti, rosbag: recordings with LiDAR scans become a mission.
 #include <gtest/gtest.h>
 
 #include "cli/import_fixture.hpp"
-#include "io/ros_bytes.hpp"
+#include "io/ros/ros_bytes.hpp"
 
 namespace radioslam::cli {
 namespace {
@@ -18,7 +18,7 @@ TEST_F(ImportLidar, CarmenBecomesAMissionThatRuns) {
   const Outcome outcome = import({"carmen", "hall.clf", "--robot", "scout", "-o", "m"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.out,
-            "note: 1 scans are stamped later than one that follows; they are put before it\n"
+            "note: 1 scans are stamped later than a following one and were moved to before it\n"
             "m: 3 scans and odometry of scout\n");
   EXPECT_EQ(files_in(folder.path() / "m"),
             (std::vector<std::string>{"mission.yaml", "robots/scout/lidar/10000000000.bin",
@@ -36,11 +36,10 @@ TEST_F(ImportLidar, CarmenRefusesWithTheLine) {
   write_file(folder.path() / "hall.clf", kHallLog + "FLASER 3 1 2\n");
   expect_refused({"carmen", "hall.clf", "-o", "m"}, "hall.clf:4: ");
   expect_refused({"carmen", "none.clf", "-o", "m"}, "none.clf: no such file");
-  expect_refused({"carmen", "hall.clf", "--robot", "a/b", "-o", "m"}, "cannot be the name of a robot");
+  expect_refused({"carmen", "hall.clf", "--robot", "a/b", "-o", "m"}, "is not a valid name of a robot");
   expect_refused({"carmen", "hall.clf", "--time", "1", "-o", "m"}, "takes no --time");
   write_file(folder.path() / "late.clf", kHallLog);
-  expect_refused({"carmen", "late.clf", "--set", "largest_delay_s=0.1", "-o", "m"},
-                 "late.clf:2: its time 12");
+  expect_refused({"carmen", "late.clf", "--set", "max_delay_s=0.1", "-o", "m"}, "late.clf:2: its time 12");
 }
 
 TEST_F(ImportLidar, KittiCopiesScansByteForByte) {
@@ -52,7 +51,9 @@ TEST_F(ImportLidar, KittiCopiesScansByteForByte) {
   write_file(folder.path() / "truth.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 5 0 1 0 6 0 0 1 7\n");
   const Outcome outcome = import({"kitti", "drive/", "--poses", "truth.txt", "-o", "m"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_EQ(outcome.out, "note: the truth is truth.txt, of the LiDAR\nm: 2 scans of a, and the truth\n");
+  EXPECT_EQ(
+      outcome.out,
+      "note: the ground truth is truth.txt, with poses of the LiDAR\nm: 2 scans of a, with ground truth\n");
   EXPECT_EQ(read_file(folder.path() / "m/robots/a/lidar/1630577758569490000.bin"), point);
   EXPECT_EQ(read_file(folder.path() / "m/robots/a/lidar/1630577759068947000.bin"), "");
   EXPECT_EQ(read_file(folder.path() / "m/robots/a/groundtruth.tum"),
@@ -61,11 +62,11 @@ TEST_F(ImportLidar, KittiCopiesScansByteForByte) {
             std::string::npos);
 }
 
-TEST_F(ImportLidar, KittiRefusesWhatIsNoDrive) {
+TEST_F(ImportLidar, KittiRefusesInvalidFolders) {
   write_file(folder.path() / "scans.tar.zst", "x");
   expect_refused({"kitti", "scans.tar.zst", "-o", "m"}, "archives have to be unpacked first");
   expect_refused({"kitti", "none", "-o", "m"}, "none: no such folder");
-  expect_refused({"kitti", ".", "-o", "m"}, "there is no scan in it");
+  expect_refused({"kitti", ".", "-o", "m"}, "contains no scans");
 }
 
 /// Odometry of two robots, in one recording.
@@ -93,7 +94,7 @@ TEST_F(ImportLidar, RosbagOfATeamBecomesOneMission) {
   EXPECT_EQ(read_file(folder.path() / "team/robots/r2/odometry.tum"), "10 0 0 0 0 0 0 1\n");
 }
 
-/// A robot's odometry and one fix, so far north.
+/// A robot's odometry and one position fix at the given latitude.
 std::string recording_with_fix(double latitude_deg) {
   RosBytes odometry(MessageEncoding::kRos1), fix(MessageEncoding::kRos1);
   odometry.header(10, 0, "odom").text("base").f64s({1, 2, 0, 0, 0, 0, 1});
@@ -107,8 +108,7 @@ TEST_F(ImportLidar, RosbagBringsFixesOfATeamIntoOneFrame) {
   write_file(folder.path() / "y.bag", recording_with_fix(0.001));
   const Outcome outcome = import({"rosbag", "x.bag", "y.bag", "-o", "team"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("1 poses of odometry, 0 inertial readings, 1 position fixes of b\n"),
-            std::string::npos)
+  EXPECT_NE(outcome.out.find("1 odometry samples, 0 IMU samples, 1 position fixes of b\n"), std::string::npos)
       << outcome.out;
   EXPECT_EQ(read_file(folder.path() / "team/robots/a/gnss.csv"), "t_s,x_m,y_m,z_m,sigma_m\n10,0,0,0,2\n");
   const std::string other = read_file(folder.path() / "team/robots/b/gnss.csv");
@@ -117,17 +117,17 @@ TEST_F(ImportLidar, RosbagBringsFixesOfATeamIntoOneFrame) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "alone/robots/a/gnss.csv"));
 }
 
-TEST_F(ImportLidar, RosbagRefusesWhatIsAmbiguous) {
+TEST_F(ImportLidar, RosbagRefusesAmbiguousTopics) {
   write_file(folder.path() / "x.bag", recording_of_two());
-  expect_refused({"rosbag", "x.bag", "-o", "m"}, "x.bag: has 2 topics with odometry; --odometry says which");
+  expect_refused({"rosbag", "x.bag", "-o", "m"}, "x.bag: has 2 topics with odometry; --odometry selects one");
   expect_refused({"rosbag", "x.bag"}, "--output");
   expect_refused({"rosbag", "x.bag", "x.bag", "--robot", "a", "-o", "m"},
-                 "2 sources are given and 1 --robot");
-  expect_refused({"rosbag", "x.bag", "x.bag", "--robot", "a", "--robot", "a", "-o", "m"}, "one name");
+                 "2 sources but 1 --robot are given");
+  expect_refused({"rosbag", "x.bag", "x.bag", "--robot", "a", "--robot", "a", "-o", "m"}, "the same name");
   expect_refused({"rosbag", "x.bag", "--odometry", "/r1/odom", "--odometry", "/r2/odom", "-o", "m"},
                  "--odometry: is given 2 times for 1 sources");
   expect_refused({"rosbag", "x.bag", "--set", "a=1", "-o", "m"}, "takes no parameters");
-  expect_refused({"carmen", "x.bag", "--scans", "/x", "-o", "m"}, "takes no topics of ROS");
+  expect_refused({"carmen", "x.bag", "--scans", "/x", "-o", "m"}, "takes no ROS topics");
   expect_refused({"iw", "x.bag", "--robot", "a", "--robot", "b", "-o", "m"}, "takes no second --robot");
 }
 

@@ -1,4 +1,4 @@
-// What iw printed of round trips, into the ranges of a mission.
+// radioslam import iw-ftm: round trip times printed by iw become the ranges of a mission.
 #include <gtest/gtest.h>
 
 #include "cli/process.hpp"
@@ -36,7 +36,7 @@ TEST(ImportRanges, NamesRadiosAndCountsWhatFailed) {
   EXPECT_EQ(read_file(folder.path() / "ranges.csv"),
             "t_s,robot_i,robot_j,range_m,sigma_m\n107.5,a,door,0,0.5\n108,a,02:00:00:00:01:00,4.706,1\n");
   EXPECT_EQ(outcome.out,
-            "note: 1 measurements failed\nranges.csv: 2 ranges of a to door 02:00:00:00:01:00\n");
+            "note: 1 measurements failed\nranges.csv: 2 ranges from a to door 02:00:00:00:01:00\n");
 }
 
 TEST(ImportRanges, AreAMissionsTable) {
@@ -54,14 +54,14 @@ TEST(ImportRanges, AreAMissionsTable) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
 }
 
-TEST(ImportRanges, RefusesNamesThatAreNone) {
-  expect_log_refused({}, "--robot says whose ranges they are");
-  expect_log_refused({"--robot", "a/b"}, "cannot be the name");
-  expect_log_refused({"--robot", "a", "--name", "door"}, "BSSID=ID is expected");
-  expect_log_refused({"--robot", "a", "--name", "02:00:00:00:02:00=a"}, "no distance to itself");
+TEST(ImportRanges, RefusesInvalidNames) {
+  expect_log_refused({}, "--robot is required");
+  expect_log_refused({"--robot", "a/b"}, "is not a valid name");
+  expect_log_refused({"--robot", "a", "--name", "door"}, "expected BSSID=ID");
+  expect_log_refused({"--robot", "a", "--name", "02:00:00:00:02:00=a"}, "cannot measure a range to itself");
   expect_log_refused({"--robot", "a", "--name", "02:00:00:00:02:00=b", "--name", "02:00:00:00:02:00=c"},
-                     "has a name already");
-  expect_log_refused({"--robot", "a", "--set", "furthest_m=1", "--set", "most_negative_m=0"},
+                     "already has a name");
+  expect_log_refused({"--robot", "a", "--set", "max_range_m=1", "--set", "max_negative_m=0"},
                      "none of the 3 measurements");
 }
 

@@ -1,4 +1,4 @@
-// What WiFi tools heard, into a robot's wifi.csv.
+// radioslam import iw, iwlist, nmcli, airodump, pcap: output of WiFi tools becomes a robot's wifi.csv.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -45,15 +45,15 @@ TEST_F(ImportWifi, GivesAMissionsRobotItsTableAndKeepsTheRest) {
   EXPECT_EQ(read_file(folder.path() / "m/robots/b/wifi.csv").substr(33, 4), "3.5,");
   const Outcome ran = run({"run", "m", "-o", "out"}, folder.path());
   EXPECT_EQ(ran.status, 0) << ran.err;
-  expect_refused({"iw", "scan.txt", "-o", "m"}, "has 2 robots; --robot says which");
+  expect_refused({"iw", "scan.txt", "-o", "m"}, "has 2 robots; --robot selects");
   expect_refused({"iw", "scan.txt", "--robot", "c", "-o", "m"}, "has no such robot");
 }
 
-TEST_F(ImportWifi, StartsAMissionThatWantsOdometry) {
+TEST_F(ImportWifi, StartsAMissionThatLacksOdometry) {
   const Outcome outcome = import({"iw", "scan.txt", "-o", "m"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.out,
-            "note: m/robots/scan/odometry.tum is not there; `radioslam run` needs it\nm: 2 rows, 1 scans, 2 "
+            "note: m/robots/scan/odometry.tum is missing; `radioslam run` needs it\nm: 2 rows, 1 scans, 2 "
             "radios of scan\n");
   EXPECT_EQ(read_file(folder.path() / "m/robots/scan/wifi.csv"), kTable);
   ASSERT_EQ(import({"iw", "scan.txt", "--time", "1", "-o", "m"}).status, 0);  // again, into its only robot
@@ -69,7 +69,8 @@ TEST_F(ImportWifi, TakesAFolderOfScansTimedByTheirNames) {
   write_file(folder.path() / "scans/scan-1574407129.txt", "");
   const Outcome outcome = import({"iw", "scans", "--set", "clock_offset_s=-1574407123", "-o", "wifi.csv"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_EQ(outcome.out, "note: 1 files are empty: scans that failed\nwifi.csv: 4 rows, 2 scans, 2 radios\n");
+  EXPECT_EQ(outcome.out,
+            "note: 1 empty files of failed scans were skipped\nwifi.csv: 4 rows, 2 scans, 2 radios\n");
   EXPECT_NE(read_file(folder.path() / "wifi.csv").find("\n2.5,02:00:00:00:01:00,2412,-53.5\n"),
             std::string::npos);
   expect_refused({"iw", "scan.txt", "scans", "-o", "out.csv"}, "scan.txt: has no time");
@@ -86,10 +87,10 @@ const std::string kBootScans = boot_scan("02:00:00:00:01:00", 100.5, 10) +
                                boot_scan("02:00:00:00:02:00", 98.51, 2000) +
                                boot_scan("02:00:00:00:01:00", 104.0, 510);
 
-TEST_F(ImportWifi, ATimeThatIsToldGoesBeforeTheMachinesOwn) {
+TEST_F(ImportWifi, AGivenTimeTakesPrecedenceOverTheTimeSinceBoot) {
   write_file(folder.path() / "f.txt", kBootScans);
   write_file(folder.path() / "scan-1574407123.txt", kBootScans);
-  const std::string told =
+  const std::string given =
       "t_s,bssid,frequency_mhz,rssi_dbm\n1574407123,02:00:00:00:01:00,2412,-50\n1574407123,02:00:00:00:02:00,"
       "2412,-50\n1574407127,02:00:00:00:01:00,2412,-50\n";
   for (const auto& arguments : {std::vector<std::string>{"iw", "f.txt", "--time", "1574407123"},
@@ -98,7 +99,7 @@ TEST_F(ImportWifi, ATimeThatIsToldGoesBeforeTheMachinesOwn) {
     call.insert(call.end(), {"-o", "wifi.csv"});
     const Outcome outcome = import(call);
     ASSERT_EQ(outcome.status, 0) << outcome.err;
-    EXPECT_EQ(read_file(folder.path() / "wifi.csv"), told);
+    EXPECT_EQ(read_file(folder.path() / "wifi.csv"), given);
     EXPECT_EQ(outcome.out, "wifi.csv: 3 rows, 2 scans, 2 radios\n");
   }
 }
@@ -114,14 +115,13 @@ TEST_F(ImportWifi, AFilesTimeIsThatOfItsLastScan) {
   EXPECT_NE(table.find("\n1574407127,02:00:00:00:01:00,"), std::string::npos) << table;
 }
 
-TEST_F(ImportWifi, TheMachinesOwnTimeIsNotedAndStandsAlone) {
+TEST_F(ImportWifi, TimesSinceBootAreNotedAndDoNotMixWithOthers) {
   write_file(folder.path() / "f.txt", kBootScans);
   write_file(folder.path() / "scan-1574407123.txt", kBootScans);
   write_file(folder.path() / "lines.txt", "1574407123\n" + kScan);
   const Outcome outcome = import({"iw", "f.txt", "-o", "wifi.csv"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("note: f.txt: its times are seconds since the machine started"),
-            std::string::npos)
+  EXPECT_NE(outcome.out.find("note: f.txt: its times are seconds since boot"), std::string::npos)
       << outcome.out;
   EXPECT_NE(read_file(folder.path() / "wifi.csv").find("\n100.51,02:00:00:00:01:00,"), std::string::npos);
   expect_refused({"iw", "f.txt", "scan-1574407123.txt", "-o", "out.csv"}, "f.txt: has only times since");
@@ -151,7 +151,7 @@ TEST_F(ImportWifi, WritesStudiesWithoutOdometry) {
              "0,num_visible_APs,timestamp,x,y,z,floorID\n-57.0,1,0.0,13.8,1.5,1.4,0\n");
   const Outcome outcome = import({"wifine", "walk.csv", "-o", "m"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("note: nobody recorded odometry"), std::string::npos);
+  EXPECT_NE(outcome.out.find("note: the recording has no odometry"), std::string::npos);
   EXPECT_EQ(
       files_in(folder.path() / "m"),
       (std::vector<std::string>{"mission.yaml", "robots/walk/groundtruth.tum", "robots/walk/wifi.csv"}));
@@ -164,13 +164,13 @@ TEST_F(ImportWifi, RefusesWithTheLine) {
   write_file(folder.path() / "bad.txt", kScan + "BSS what(on wlan0)\n");
   write_file(folder.path() / "weak.txt", "BSS 02:00:00:00:01:00(on wlan0)\n\tsignal: 5/100\n");
   write_file(folder.path() / "no.pcap", "this is no capture at all");
-  expect_refused({"iw", "bad.txt", "-o", "m"}, "bad.txt:9: 'what' is no address");
-  expect_refused({"iw", "weak.txt", "-o", "m"}, "no level of a radio in it; 1 have no level in dBm");
+  expect_refused({"iw", "bad.txt", "-o", "m"}, "bad.txt:9: 'what' is not a valid address");
+  expect_refused({"iw", "weak.txt", "-o", "m"}, "has no signal strengths; 1 readings have no level in dBm");
   expect_refused({"iw", "nowhere.txt", "-o", "m"}, "no such file");
   expect_refused({"pcap", "no.pcap", "-o", "m"}, "no.pcap: at byte 4: unknown file format");
   expect_refused({"airodump", "scan.txt", "-o", "m"}, "scan.txt:1: neither the header");
-  expect_refused({"iw", "scan.txt", "--time", "soon", "-o", "m"}, "seconds are expected");
-  expect_refused({"iw", "scan.txt", "--robot", "a/b", "-o", "m"}, "cannot be the name");
+  expect_refused({"iw", "scan.txt", "--time", "soon", "-o", "m"}, "expected seconds");
+  expect_refused({"iw", "scan.txt", "--robot", "a/b", "-o", "m"}, "is not a valid name");
   expect_refused({"iw", "scan.txt", "--fields", "BSSID", "-o", "m"}, "takes no --fields");
   expect_refused({"pcap", "no.pcap", "--time", "1", "-o", "m"}, "takes no --time");
   expect_refused({"wifine", "scan.txt", "scan.txt", "-o", "m"}, "takes one source");

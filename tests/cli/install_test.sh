@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs the project, then builds and runs the examples outside of it.
+# Installs the project, then builds and runs the examples against the installation.
 #   install_test.sh SOURCE BUILD GENERATOR CXX CXX_FLAGS
 set -euo pipefail
 export LC_ALL=C
@@ -9,7 +9,7 @@ trap 'rm -rf "$folder"' EXIT
 
 quietly() { "$@" >"$folder/log" 2>&1 || { cat "$folder/log"; exit 1; }; }
 
-# example NAME WORDS: what it prints holds the words.
+# example NAME WORDS: builds and runs the example; its output must contain the words.
 example() {
   quietly cmake -S "$source/examples/$1" -B "$folder/$1" -G "$generator" -DCMAKE_PREFIX_PATH="$folder/prefix" \
     -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS="$flags"

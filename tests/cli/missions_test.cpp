@@ -1,4 +1,4 @@
-// Missions from end to end: simulated, run, evaluated, torn, interrupted.
+// Missions from end to end: simulated, run, evaluated, damaged, interrupted.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A short drive of two robots, simulated once.
+/// A short mission of two robots, simulated once.
 class Missions : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -66,9 +66,9 @@ TEST_F(Missions, RunWritesWhatItPromisesAndEvaluateReadsIt) {
   }
   EXPECT_EQ(summary["parameters"]["keyframe.distance_m"], 1);
 
-  const auto judged = run({"evaluate", "out", "m", "--json"}, folder());
-  ASSERT_EQ(judged.status, 0) << judged.err;
-  const auto json = nlohmann::json::parse(judged.out);
+  const auto evaluated = run({"evaluate", "out", "m", "--json"}, folder());
+  ASSERT_EQ(evaluated.status, 0) << evaluated.err;
+  const auto json = nlohmann::json::parse(evaluated.out);
   for (const char* key : {"ate_rmse_m", "ate_mean_m", "ate_median_m", "ate_p90_m", "rpe", "coverage",
                           "robots", "candidates", "closures"}) {
     EXPECT_TRUE(json.contains(key)) << key;
@@ -86,9 +86,9 @@ TEST_F(Missions, TheTruthChangesNothingInTheEstimate) {
   for (const char* file : {"a.tum", "b.tum", "closures.csv", "graph.g2o"}) {
     EXPECT_EQ(read_file(folder() / "out" / file), read_file(folder() / "blind" / file)) << file;
   }
-  const auto judged = run({"evaluate", "blind", "m"}, folder());
-  EXPECT_EQ(judged.status, 2);
-  EXPECT_NE(judged.err.find("groundtruth.tum"), std::string::npos);
+  const auto evaluated = run({"evaluate", "blind", "m"}, folder());
+  EXPECT_EQ(evaluated.status, 2);
+  EXPECT_NE(evaluated.err.find("groundtruth.tum"), std::string::npos);
 }
 
 TEST_F(Missions, TheSameBytesForAnyNumberOfThreads) {
@@ -130,7 +130,7 @@ TEST_F(Missions, ByteOrderMarkAndCarriageReturnsChangeNothing) {
   }
 }
 
-/// One way to break a mission and where the message must point.
+/// One kind of damage to a mission and the place that the error message must name.
 struct Damage {
   std::string name;
   std::string file;

@@ -38,7 +38,7 @@ Setting option(const std::string& key, const std::string& value) {
   return {key, value, "--set " + key + "=" + value, 0};
 }
 
-/// What with_settings says against the setting; empty when it takes it.
+/// The error that with_settings reports for the setting; empty if it is accepted.
 std::string refusal(const Setting& setting) {
   try {
     with_settings(TripParams{}, {setting});
@@ -75,7 +75,7 @@ TEST(Parameters, OutOfRangeIsRefusedWithRangeAndUnit) {
             "--set there.steps=0: '0' is not a whole number from 1 to 100");
 }
 
-TEST(Parameters, WhatIsNoValueIsRefused) {
+TEST(Parameters, MalformedValuesAreRefused) {
   for (const char* text : {"", "x", "1x", "nan", "inf", "-inf", "1e999", " 1", "1,5"}) {
     EXPECT_NE(refusal(option("there.step_m", text)), "") << text;
   }
@@ -91,15 +91,15 @@ TEST(Parameters, AFileIsNamedWithItsLine) {
             "trip.yaml:4: 'there.steps: 0' is not a whole number from 1 to 100");
 }
 
-TEST(Parameters, AnUnknownNameIsRefusedWithItsNeighbours) {
+TEST(Parameters, AnUnknownNameIsRefusedWithSuggestions) {
   EXPECT_EQ(
       refusal(option("there.stpes", "3")),
-      "--set there.stpes=3: there is no parameter 'there.stpes'; did you mean there.steps or there.step_m?");
+      "--set there.stpes=3: unknown parameter 'there.stpes'; did you mean there.steps or there.step_m?");
   EXPECT_EQ(refusal(option("gait", "run")),
-            "--set gait=run: there is no parameter 'gait'; did you mean back.gait or there.gait?");
+            "--set gait=run: unknown parameter 'gait'; did you mean back.gait or there.gait?");
 }
 
-TEST(Parameters, EffectiveOnesTellWhatChanged) {
+TEST(Parameters, EffectiveParametersMarkChanges) {
   TripParams trip;
   trip.back.step_m = 0.8;
   const auto list = effective_parameters(trip);
@@ -120,7 +120,7 @@ TEST(Parameters, TextsReadBackAsTheSameNumber) {
   }
 }
 
-TEST(Parameters, TheListTellsUnitRangeDefaultAndMeaning) {
+TEST(Parameters, TheListShowsUnitRangeDefaultAndDescription) {
   const auto list = describe_parameters<WalkParams>();
   const std::string text = parameter_list_text({list.front()});
   EXPECT_EQ(text, "step_m = 0.7 m   [0.1 to 2]\n    length of a step\n");

@@ -1,4 +1,4 @@
-// Runs the program under test as its users do.
+// Runs the program under test in a process of its own.
 #pragma once
 
 #include <filesystem>
@@ -8,14 +8,14 @@
 
 namespace radioslam::cli {
 
-/// What a process left.
+/// Exit status and outputs of a process.
 struct Outcome {
-  int status = 0;  ///< exit status; 128 + the signal if one ended it
+  int status = 0;  ///< exit status; 128 + signal if a signal ended it
   std::string out;
   std::string err;
 };
 
-/// A signal to send after a while.
+/// A signal to send after a delay.
 struct Interruption {
   int signal = 0;
   double after_s = 0;
@@ -25,7 +25,7 @@ struct Interruption {
 Outcome run(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
             std::optional<Interruption> interruption = std::nullopt);
 
-/// A folder that goes when this object goes.
+/// A temporary folder that is removed with this object.
 class TemporaryFolder {
  public:
   TemporaryFolder();

@@ -1,4 +1,4 @@
-// radioslam prune, and graphs in the place of missions.
+// radioslam prune, and factor graphs as input instead of missions.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ class Prune : public testing::Test {
   static void SetUpTestSuite() {
     folder_ = new TemporaryFolder;
     const auto outcome =
-        run({"simulate", "city", "-o", "m", "--seed", "3", "--set", "path_length_m=500", "least_meeting_s=8",
+        run({"simulate", "city", "-o", "m", "--seed", "3", "--set", "path_length_m=500", "min_contact_s=8",
              "blocks_x=3", "blocks_y=3", "odometry_rate_hz=2.5", "links=20"},
             folder());
     ASSERT_EQ(outcome.status, 0) << outcome.err;
@@ -23,7 +23,7 @@ class Prune : public testing::Test {
   static void TearDownTestSuite() { delete folder_; }
 
   static const std::filesystem::path& folder() { return folder_->path(); }
-  /// The same search with fewer places tried.
+  /// The search with fewer alignment hypotheses, for speed.
   static Outcome prune(const std::string& out, const std::vector<std::string>& more) {
     std::vector<std::string> words{"prune",
                                    "m",
@@ -46,7 +46,7 @@ std::size_t rows(const std::string& csv) {
   return static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')) - 1;
 }
 
-TEST_F(Prune, PrintsOneJsonObjectThatTellsItsCounts) {
+TEST_F(Prune, PrintsOneJsonObjectWithItsCounts) {
   const auto outcome = prune("json", {"--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
@@ -111,7 +111,7 @@ std::string two_robots_graph() {
   return vertices + "VERTEX_XY L0 3 2\n" + edges;
 }
 
-TEST(Graphs, RunAndEvaluateTakeThemInTheMissionsPlace) {
+TEST(Graphs, RunAndEvaluateAcceptThemInsteadOfMissions) {
   const TemporaryFolder folder;
   write_file(folder.path() / "team.pyfg", two_robots_graph());
   const auto outcome = run({"run", "team.pyfg", "-o", "out"}, folder.path());
@@ -122,11 +122,11 @@ TEST(Graphs, RunAndEvaluateTakeThemInTheMissionsPlace) {
   const auto summary = nlohmann::json::parse(read_file(folder.path() / "out/summary.json"));
   EXPECT_EQ(summary["team_frame"]["components"].size(), 1U) << summary["team_frame"];
 
-  const auto judged = run({"evaluate", "out", "team.pyfg", "--json"}, folder.path());
-  ASSERT_EQ(judged.status, 0) << judged.err;
-  const auto json = nlohmann::json::parse(judged.out);
+  const auto evaluated = run({"evaluate", "out", "team.pyfg", "--json"}, folder.path());
+  ASSERT_EQ(evaluated.status, 0) << evaluated.err;
+  const auto json = nlohmann::json::parse(evaluated.out);
   EXPECT_EQ(json["coverage"], 1);
-  // Straight ways have a mirror image; one of the teams is the true one.
+  // Straight trajectories have a mirror solution; one of the two hypotheses is the true one.
   double best = json["ate_rmse_m"];
   if (std::filesystem::exists(folder.path() / "out/hypotheses/1")) {
     const auto other = run({"evaluate", "out/hypotheses/1", "team.pyfg", "--json"}, folder.path());
@@ -136,7 +136,7 @@ TEST(Graphs, RunAndEvaluateTakeThemInTheMissionsPlace) {
   EXPECT_LT(best, 0.05);
 }
 
-TEST(Graphs, ATornOneIsRefusedWithItsLine) {
+TEST(Graphs, ATruncatedOneIsRefusedWithItsLine) {
   const TemporaryFolder folder;
   write_file(folder.path() / "team.pyfg", two_robots_graph() + "EDGE_RANGE 1 A0 B0\n");
   const auto outcome = run({"run", "team.pyfg", "-o", "out"}, folder.path());

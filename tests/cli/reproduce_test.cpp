@@ -1,4 +1,4 @@
-// Tables from end to end: listed, refused, made and written.
+// radioslam reproduce from end to end: tables are listed, refused, computed and written.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -6,13 +6,12 @@
 #include <sstream>
 
 #include "cli/process.hpp"
-#include "study/made_up_trial.hpp"
+#include "study/aoa/synthetic_trial.hpp"
 
 namespace radioslam::cli {
 namespace {
 
-/// Two rounds of a circle in KITTI's format, a pose per metre.
-/// The radius wobbles by so much.
+/// Two rounds of a circle in KITTI format, one pose per metre; the radius varies by `wobble_m`.
 std::string circle(double wobble_m) {
   constexpr int kPoses = 240;
   constexpr double kRadius_m = 19;
@@ -69,7 +68,7 @@ TEST_F(Reproduce, WritesTheTableThatItPrints) {
   EXPECT_GT(json["seeds"][0]["joint"]["recall"], 0.9);
 }
 
-TEST_F(Reproduce, RefusesWhatItCannotMake) {
+TEST_F(Reproduce, RefusesInvalidCalls) {
   EXPECT_NE(refusal({"wi-closure-kiti"}).find("did you mean wi-closure-kitti"), std::string::npos);
   EXPECT_NE(refusal({"wi-closure-kitti", "--odometry", "odometry.txt"}).find("--trajectory"),
             std::string::npos);
@@ -82,7 +81,7 @@ TEST_F(Reproduce, RefusesWhatItCannotMake) {
             std::string::npos);
 }
 
-/// The refusal of a call in an empty folder.
+/// The error message of a call in an empty folder.
 std::string refused(const std::vector<std::string>& arguments) {
   const TemporaryFolder folder;
   const auto outcome = run(arguments, folder.path());
@@ -91,7 +90,7 @@ std::string refused(const std::vector<std::string>& arguments) {
   return outcome.err;
 }
 
-TEST(ReproduceAoa, PutsTheAuthorsFiguresBesideOurs) {
+TEST(ReproduceAoa, ComparesWithTheAuthorsFigures) {
   const TemporaryFolder folder;
   sample::write_trial(folder.path() / "raw" / "LOS_Set_A" / "L1", "_now");
   const auto link = sample::results_json("tx2", {-30, 5}, sample::antenna_at(0).translation());
@@ -116,7 +115,7 @@ TEST(ReproduceAoa, PutsTheAuthorsFiguresBesideOurs) {
   EXPECT_EQ(json["links"].size(), 6U);
 }
 
-TEST(ReproduceAoa, RefusesWhatItCannotMake) {
+TEST(ReproduceAoa, RefusesInvalidCalls) {
   EXPECT_NE(refused({"reproduce", "aoa"}).find("--dataset"), std::string::npos);
   EXPECT_NE(refused({"reproduce", "aoa", "--dataset", "."}).find("csi_rx"), std::string::npos);
   EXPECT_NE(refused({"reproduce", "aoa", "--dataset", ".", "--seeds", "3"}).find("--seeds"),
@@ -143,7 +142,7 @@ Outcome reproduce_small_carpark(const std::string& table, const std::filesystem:
              folder);
 }
 
-TEST(ReproduceFingerprintTables, PutsThePublishedFiguresBesideOurs) {
+TEST(ReproduceFingerprintTables, ComparesWithThePublishedFigures) {
   const TemporaryFolder folder;
   const auto outcome = reproduce_small_carpark("fingerprint-tables", folder.path());
   ASSERT_EQ(outcome.status, 0) << outcome.err;
@@ -158,7 +157,7 @@ TEST(ReproduceFingerprintTables, PutsThePublishedFiguresBesideOurs) {
   EXPECT_EQ(json["cells"][1]["published_m"], (std::vector<double>{4.876, 9.137}));
 }
 
-TEST(ReproduceThresholdSweep, PutsTheDefaultsBesideTheBestCell) {
+TEST(ReproduceThresholdSweep, ComparesTheDefaultsWithTheBestCell) {
   const TemporaryFolder folder;
   const auto outcome = reproduce_small_carpark("threshold-sweep", folder.path());
   ASSERT_EQ(outcome.status, 0) << outcome.err;
@@ -171,7 +170,7 @@ TEST(ReproduceThresholdSweep, PutsTheDefaultsBesideTheBestCell) {
   EXPECT_NE(read_file(folder.path() / "out" / "table.txt").find("mission 3"), std::string::npos);
 }
 
-TEST(ReproduceFingerprintTables, RefusesWhatItCannotMake) {
+TEST(ReproduceFingerprintTables, RefusesInvalidCalls) {
   EXPECT_NE(refused({"reproduce", "fingerprint-tables", "--cut", "0.5"}).find("--cut"), std::string::npos);
   EXPECT_NE(refused({"reproduce", "fingerprint-tables", "--dataset", "."}).find("--dataset"),
             std::string::npos);
@@ -180,7 +179,7 @@ TEST(ReproduceFingerprintTables, RefusesWhatItCannotMake) {
             std::string::npos);
 }
 
-TEST(SimulateKitti, SaysWhenTheRobotsNeverMeet) {
+TEST(SimulateKitti, NotesThatTheRobotsAreNeverInRange) {
   const TemporaryFolder folder;
   std::string straight;
   for (int k = 0; k < 1200; ++k) straight += "1 0 0 0 0 1 0 0 0 0 1 " + std::to_string(k) + "\n";

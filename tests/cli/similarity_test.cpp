@@ -1,4 +1,4 @@
-// Tables of similar pairs, as the program writes them.
+// radioslam similarity: the tables it writes.
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A scan every ten seconds, by somebody who walks along a row of access points and back.
+/// A scan every ten seconds on the path along a row of access points and back.
 std::string walk_along_access_points(int scans, std::uint64_t seed) {
   Rng rng(seed);
   std::ostringstream rows;
@@ -34,13 +34,13 @@ class SimilarityCommand : public testing::Test {
   }
   fs::path path(const std::string& name) const { return folder_.path() / name; }
 
-  /// The table's rows, and what the program said.
+  /// The rows of the table; also checks the program's output.
   std::vector<std::string> pairs(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "similarity");
     arguments.insert(arguments.end(), {"-o", "pairs.csv"});
     const Outcome outcome = run(arguments, folder_.path());
     EXPECT_EQ(outcome.status, 0) << outcome.err;
-    EXPECT_EQ(outcome.err, "");  // nobody watches: no progress
+    EXPECT_EQ(outcome.err, "");  // not a terminal: no progress
     std::vector<std::string> lines;
     std::istringstream table(read_file(path("pairs.csv")));
     for (std::string line; std::getline(table, line);) lines.push_back(line);

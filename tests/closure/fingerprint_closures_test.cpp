@@ -10,8 +10,7 @@ namespace {
 constexpr double kNear = 0.9, kFar = 0.3, kUntrained = 0.6;
 constexpr double kNearest_m = 0.5, kNear_m = 2, kFar_m = 20;
 
-/// What the similarities above are worth: 2 m, 20 m and nothing. The most similar pairs are half a metre
-/// apart.
+/// Maps the similarities above to 2 m, 20 m and nothing. The most similar pairs are half a metre apart.
 DistanceModel trained_model() {
   std::vector<DistanceSample> samples;
   for (int i = 0; i < 40; ++i) {
@@ -24,13 +23,13 @@ DistanceModel trained_model() {
   return DistanceModel(std::move(samples), params);
 }
 
-/// Fingerprints after so many metres of each robot's way, all equally similar.
-RadioMeasurements measured(const std::vector<std::vector<double>>& walked_m, double similarity) {
+/// Fingerprints at these path lengths of each robot, all equally similar.
+RadioMeasurements measured(const std::vector<std::vector<double>>& travelled_m, double similarity) {
   RadioMeasurements radio{{}, {}, {}, {}, trained_model(), DecayModel{10}};
-  for (std::size_t r = 0; r < walked_m.size(); ++r) {
+  for (std::size_t r = 0; r < travelled_m.size(); ++r) {
     radio.robots.emplace_back();
-    for (std::size_t i = 0; i < walked_m[r].size(); ++i) {
-      radio.robots[r].push_back({{}, SE3(), walked_m[r][i]});
+    for (std::size_t i = 0; i < travelled_m[r].size(); ++i) {
+      radio.robots[r].push_back({{}, SE3(), travelled_m[r][i]});
       radio.nodes.push_back({RobotIndex(r), i});
     }
   }
@@ -48,7 +47,7 @@ Pairs pairs(const std::vector<FingerprintClosure>& closures) {
   return pairs;
 }
 
-/// Robots of which some know their start.
+/// Robots, some with a known start.
 Mission team(const std::vector<bool>& knows_start) {
   Mission mission;
   for (const bool known : knows_start) {
@@ -58,13 +57,13 @@ Mission team(const std::vector<bool>& knows_start) {
   return mission;
 }
 
-TEST(NearClosures, WithinARobotOnlyBeyondTheTrustedWay) {
+TEST(NearClosures, WithinARobotOnlyBeyondTheTrustedPath) {
   const auto radio = measured({{0, 50, 150, 151}}, kNear);
   EXPECT_EQ(pairs(propose_near_closures(radio, 100, {})), Pairs({{0, 2}, {0, 3}, {1, 3}}));
   EXPECT_EQ(pairs(propose_near_closures(radio, 1000, {})), Pairs());
 }
 
-TEST(NearClosures, BetweenRobotsWhateverTheWay) {
+TEST(NearClosures, BetweenRobotsAtAnyPathLength) {
   const auto radio = measured({{0, 10}, {0}}, kNear);
   EXPECT_EQ(pairs(propose_near_closures(radio, 100, {})), Pairs({{0, 2}, {1, 2}}));
 }
@@ -104,8 +103,8 @@ TEST(NearClosures, CarryThePredictedDistance) {
   EXPECT_EQ(closures[0].predicted.samples, 40);
 }
 
-TEST(NearClosures, ShareTheEvidenceOfTheirFingerprints) {
-  // Every fingerprint takes part in six pairs.
+TEST(NearClosures, AreWeightedByThePairsOfTheirFingerprints) {
+  // Every fingerprint is in six pairs.
   const auto radio = measured({{0, 1, 2, 3, 4, 5}, {0, 1, 2, 3, 4, 5}}, kNear);
   FingerprintClosureParams params;
   params.independent_pairs = 0.5;
@@ -119,7 +118,7 @@ TEST(NearClosures, ShareTheEvidenceOfTheirFingerprints) {
   for (const double e : evidence) EXPECT_NEAR(e, 0.5, 1e-9);
 }
 
-TEST(NearClosures, NeverWeighMoreThanTheyAre) {
+TEST(NearClosures, NeverWeighMoreThanOne) {
   FingerprintClosureParams params;
   params.independent_pairs = 3;
   const auto closures = propose_near_closures(measured({{0, 1}, {0}}, kNear), 100, params);
@@ -129,19 +128,19 @@ TEST(NearClosures, NeverWeighMoreThanTheyAre) {
 
 TEST(LayoutClosures, OnlyWhereAStartIsUnknown) {
   const auto radio = measured({{0, 1}, {0}, {0}}, kFar);
-  EXPECT_EQ(pairs(propose_layout_closures(team({true, true, true}), radio, {}, {})), Pairs());
-  EXPECT_EQ(pairs(propose_layout_closures(team({true, true, false}), radio, {}, {})),
+  EXPECT_EQ(pairs(propose_layout_closures(known_starts(team({true, true, true})), radio, {}, {})), Pairs());
+  EXPECT_EQ(pairs(propose_layout_closures(known_starts(team({true, true, false})), radio, {}, {})),
             Pairs({{0, 3}, {1, 3}, {2, 3}}));
-  EXPECT_EQ(pairs(propose_layout_closures(team({false, false, false}), radio, {}, {})),
+  EXPECT_EQ(pairs(propose_layout_closures(known_starts(team({false, false, false})), radio, {}, {})),
             Pairs({{0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}));
 }
 
-TEST(LayoutClosures, CarryTheDistanceThatLaidTheTeamOut) {
+TEST(LayoutClosures, CarryTheDistanceOfTheLayout) {
   const auto radio = measured({{0}, {0}}, std::exp(-1.0));
   LayoutParams layout;
   layout.sigma_m = 3;
   layout.sigma_relative = 0.4;
-  const auto closures = propose_layout_closures(team({false, false}), radio, layout, {});
+  const auto closures = propose_layout_closures(known_starts(team({false, false})), radio, layout, {});
   ASSERT_EQ(closures.size(), 1U);
   EXPECT_NEAR(closures[0].predicted.peak_m, 10, 1e-5);
   EXPECT_NEAR(closures[0].predicted.spread_m, 5, 1e-5);
@@ -151,11 +150,11 @@ TEST(LayoutClosures, CarryTheDistanceThatLaidTheTeamOut) {
 TEST(LayoutClosures, NoneWithoutAModelOrWithHardlyAnythingInCommon) {
   const auto mission = team({false, false});
   LayoutParams layout;
-  layout.least_similarity = 0.35;
-  EXPECT_TRUE(propose_layout_closures(mission, measured({{0}, {0}}, kFar), layout, {}).empty());
+  layout.min_similarity = 0.35;
+  EXPECT_TRUE(propose_layout_closures(known_starts(mission), measured({{0}, {0}}, kFar), layout, {}).empty());
   auto untrained = measured({{0}, {0}}, kNear);
   untrained.layout_model.reset();
-  EXPECT_TRUE(propose_layout_closures(mission, untrained, {}, {}).empty());
+  EXPECT_TRUE(propose_layout_closures(known_starts(mission), untrained, {}, {}).empty());
 }
 
 TEST(LayoutClosures, ThinnedTheyWeighAsMuchTogether) {
@@ -166,21 +165,22 @@ TEST(LayoutClosures, ThinnedTheyWeighAsMuchTogether) {
   FingerprintClosureParams params;
   for (const int most : {1, 7, 100, 1600, 5000}) {
     params.layout_pairs = most;
-    const auto closures = propose_layout_closures(mission, radio, layout, params);
+    const auto closures = propose_layout_closures(known_starts(mission), radio, layout, params);
     EXPECT_LE(closures.size(), static_cast<std::size_t>(most));
     double weight = 0;
     for (const auto& closure : closures) weight += closure.weight;
     EXPECT_NEAR(weight, 1600 * layout.pair_weight, closures.back().weight) << most;
-    EXPECT_EQ(pairs(closures), pairs(propose_layout_closures(mission, radio, layout, params)));
+    EXPECT_EQ(pairs(closures), pairs(propose_layout_closures(known_starts(mission), radio, layout, params)));
   }
   params.layout_pairs = 0;
-  EXPECT_TRUE(propose_layout_closures(mission, radio, layout, params).empty());
+  EXPECT_TRUE(propose_layout_closures(known_starts(mission), radio, layout, params).empty());
 }
 
 TEST(FingerprintClosures, AreTheNearOnesFollowedByThoseOfTheLayout) {
   const auto radio = measured({{0}, {0}}, kNear);
-  EXPECT_EQ(pairs(propose_fingerprint_closures(team({true, true}), radio, 100, {}, {})), Pairs({{0, 1}}));
-  const auto both = propose_fingerprint_closures(team({true, false}), radio, 100, {}, {});
+  EXPECT_EQ(pairs(propose_fingerprint_closures(known_starts(team({true, true})), radio, 100, {}, {})),
+            Pairs({{0, 1}}));
+  const auto both = propose_fingerprint_closures(known_starts(team({true, false})), radio, 100, {}, {});
   ASSERT_EQ(pairs(both), Pairs({{0, 1}, {0, 1}}));
   EXPECT_NEAR(both[0].predicted.mean_m, kNear_m, 1e-9);
   EXPECT_NEAR(both[1].predicted.mean_m, radio.layout_model->distance_m(both[1].similarity), 1e-9);

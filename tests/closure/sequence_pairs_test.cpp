@@ -7,12 +7,12 @@
 namespace radioslam {
 namespace {
 
-/// Points on a bend, each with its true distance to every point of the same bend seen from elsewhere.
+/// Points of a curve, each with its true distance to every point of the same curve seen from another pose.
 std::vector<PredictedPair> exact_pairs(const SE2& T_j_i) {
-  const auto way = bent_way(-6, 0, 0, 7, 1);
+  const auto path = bent_way(-6, 0, 0, 7, 1);
   std::vector<PredictedPair> pairs;
-  for (const SE2& a : way)
-    for (const SE2& b : way) {
+  for (const SE2& a : path)
+    for (const SE2& b : path) {
       const Eigen::Vector2d q = T_j_i * b.translation();
       pairs.push_back({a.translation(), q, (T_j_i * a.translation() - q).norm(), 1.5});
     }
@@ -29,7 +29,7 @@ TEST(SequencePairs, GradientIsThatOfTheCost) {
     const double numerical = (evaluate_pairs(at * SE2::exp(xi), pairs, 2).cost -
                               evaluate_pairs(at * SE2::exp(-xi), pairs, 2).cost) /
                              (2 * step);
-    // The gradient is that of half the cost, as Gauss-Newton has it.
+    // The gradient is that of half the cost, by the convention of Gauss-Newton.
     EXPECT_NEAR(2 * here.gradient[axis], numerical, 1e-5) << axis;
   }
 }

@@ -1,4 +1,4 @@
-// Robots whose fingerprints' similarity is exp(-d / 20 m) of their true distance, exactly, with a model
+// Robots whose fingerprint similarity is exactly exp(-d / 20 m) of their true distance, with a distance model
 // trained on that law and perfect odometry.
 #pragma once
 
@@ -20,17 +20,17 @@ inline DistanceModel lawful_model() {
   return DistanceModel(std::move(samples), {});
 }
 
-/// Robots that made a fingerprint at each of these poses, all told in one frame. Each one's odometry starts
-/// at its first pose.
+/// Robots with a fingerprint at each of these poses, given in one frame. Each robot's odometry starts at its
+/// first pose.
 inline RadioMeasurements lawful_radio(const std::vector<std::vector<SE2>>& robots) {
   RadioMeasurements radio{{}, {}, {}, {}, lawful_model(), {}};
   std::vector<Eigen::Vector2d> places;
   for (std::size_t r = 0; r < robots.size(); ++r) {
     radio.robots.emplace_back();
-    double walked_m = 0;
+    double travelled_m = 0;
     for (std::size_t k = 0; k < robots[r].size(); ++k) {
-      if (k > 0) walked_m += (robots[r][k].translation() - robots[r][k - 1].translation()).norm();
-      PlacedFingerprint placed{{}, lift(robots[r].front().inverse() * robots[r][k]), walked_m};
+      if (k > 0) travelled_m += (robots[r][k].translation() - robots[r][k - 1].translation()).norm();
+      PlacedFingerprint placed{{}, lift(robots[r].front().inverse() * robots[r][k]), travelled_m};
       placed.fingerprint.stamp = Stamp::from_seconds(static_cast<double>(k));
       radio.robots[r].push_back(placed);
       radio.nodes.push_back({RobotIndex(r), k});
@@ -47,22 +47,23 @@ inline RadioMeasurements lawful_radio(const std::vector<std::vector<SE2>>& robot
   return radio;
 }
 
-/// A way from (x, y), headed so, a fingerprint every 2 m; halfway it turns left by `bend_rad` at once.
+/// A path from (x, y) with this heading and a fingerprint every 2 m; halfway it turns left by
+/// `max_deviation_rad`.
 inline std::vector<SE2> bent_way(double x_m, double y_m, double yaw_rad, std::size_t fingerprints,
-                                 double bend_rad) {
+                                 double max_deviation_rad) {
   constexpr double kStep_m = 2;
-  std::vector<SE2> way{SE2({x_m, y_m}, yaw_rad)};
+  std::vector<SE2> path{SE2({x_m, y_m}, yaw_rad)};
   for (std::size_t k = 1; k < fingerprints; ++k) {
-    const double turn = k == fingerprints / 2 ? bend_rad : 0;
-    way.push_back(way.back() * SE2({kStep_m, 0}, turn));
+    const double turn = k == fingerprints / 2 ? max_deviation_rad : 0;
+    path.push_back(path.back() * SE2({kStep_m, 0}, turn));
   }
-  return way;
+  return path;
 }
 
-/// The same places the other way round.
-inline std::vector<SE2> driven_back(const std::vector<SE2>& way) {
+/// The same positions in the opposite direction.
+inline std::vector<SE2> driven_back(const std::vector<SE2>& path) {
   std::vector<SE2> back;
-  for (auto pose = way.rbegin(); pose != way.rend(); ++pose)
+  for (auto pose = path.rbegin(); pose != path.rend(); ++pose)
     back.push_back(SE2(pose->translation(), pose->angle() + 3.14159265358979));
   return back;
 }

@@ -25,7 +25,7 @@ class ConsistentSets : public testing::Test {
 using Poses = testing::Types<SE2, SE3>;
 TYPED_TEST_SUITE(ConsistentSets, Poses);
 
-TYPED_TEST(ConsistentSets, KeepsTheTrueAndSaysWhyNotTheOthers) {
+TYPED_TEST(ConsistentSets, KeepsTheTrueAndReportsWhyNotTheOthers) {
   std::vector<RelativePoseMatch<TypeParam>> matches;
   for (int k = 0; k < 10; ++k) {
     for (int n = 0; n < 4; ++n) matches.push_back(this->wrong());
@@ -36,7 +36,7 @@ TYPED_TEST(ConsistentSets, KeepsTheTrueAndSaysWhyNotTheOthers) {
   const auto set = largest_consistent_set(this->a, this->b, matches, params);
   EXPECT_EQ(set.members, (std::vector<std::size_t>{4, 9, 14, 19, 24, 29, 34, 39, 44, 49}));
   EXPECT_TRUE(set.proven);
-  EXPECT_LE(set.runner_up, 4U);
+  EXPECT_LE(set.second_largest, 4U);
   for (std::size_t k = 0; k < matches.size(); ++k) {
     EXPECT_EQ(set.matches[k].is_in, k % 5 == 4);
     if (set.matches[k].is_in) {
@@ -53,7 +53,7 @@ TYPED_TEST(ConsistentSets, RunnerUpCountsFalseMatchesThatAgree) {
   const Pose aliased = Pose::exp(5 * test::normal_tangent<Pose>(this->rng));
   for (int k = 0; k < 12; ++k) matches.push_back(this->right());
   for (int k = 0; k < 7; ++k) {
-    auto match = this->right();  // seen as if b had walked somewhere else
+    auto match = this->right();  // as if b had taken another path
     match.T_a_b = test::disturbed<Pose>(
         this->rng, this->walks.a[match.pose_a].inverse() * aliased * this->walks.b[match.pose_b],
         match.covariance);
@@ -64,7 +64,7 @@ TYPED_TEST(ConsistentSets, RunnerUpCountsFalseMatchesThatAgree) {
   const auto set = largest_consistent_set(this->a, this->b, matches, params);
   EXPECT_EQ(set.members.size(), 12U);
   EXPECT_EQ(set.members.back(), 11U);
-  EXPECT_EQ(set.runner_up, 7U);
+  EXPECT_EQ(set.second_largest, 7U);
 }
 
 TYPED_TEST(ConsistentSets, OfOneMatchOrNone) {

@@ -70,7 +70,7 @@ TEST(MaximumClique, FindsPlantedCliquesAmong500) {
 }
 
 TEST(MaximumClique, ProvesOptimaThatGreedyStartsMiss) {
-  // Known clique numbers cannot be looked up for our random graphs: two searches with different starts agree.
+  // Known clique numbers cannot be looked up for random graphs: two searches with different starts agree.
   for (std::uint64_t seed = 10; seed < 14; ++seed) {
     Rng rng(seed);
     const auto graph = test::random_graph(rng, 130, 0.6);
@@ -83,11 +83,11 @@ TEST(MaximumClique, ProvesOptimaThatGreedyStartsMiss) {
   }
 }
 
-TEST(MaximumClique, SaysWhenItGaveUp) {
+TEST(MaximumClique, ReportsWhenItGaveUp) {
   Rng rng(4);
   const auto graph = test::random_graph(rng, 200, 0.7);
   MaximumCliqueParams params;
-  params.most_branches = 100;
+  params.max_branches = 100;
   const auto found = maximum_clique(graph, params);
   EXPECT_FALSE(found.proven);
   EXPECT_EQ(found.branches, 100U);

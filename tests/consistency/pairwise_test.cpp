@@ -67,23 +67,25 @@ TYPED_TEST(Pairwise, IncrementsHaveTheCovarianceOfTheirSteps) {
   EXPECT_EQ(chain.increment_covariance(7, 7), Jacobian::Zero());
 }
 
-/// Mean and share above the 99 % gate over many draws of odometry and of two matches `way` poses apart.
+/// Mean and fraction above the 99 % gate over many draws of odometry and of two matches `poses_apart` poses
+/// apart.
 template <class Pose>
-void expect_chi_squared(Rng& rng, int draws, std::size_t way, double sigma_m, double sigma_rad) {
-  const test::TwoWalks<Pose> walks(rng, way + 1, sigma_m, sigma_rad);
+void expect_chi_squared(Rng& rng, int draws, std::size_t poses_apart, double sigma_m, double sigma_rad) {
+  const test::TwoWalks<Pose> walks(rng, poses_apart + 1, sigma_m, sigma_rad);
   const double gate = chi_squared_quantile(0.99, Pose::kDof);
   double sum = 0;
   int above = 0;
   for (int draw = 0; draw < draws; ++draw) {
     const auto a = walks.odometry_a(rng), b = walks.odometry_b(rng);
-    const auto i = walks.true_match(rng, 0, way, 0.2, 0.03), j = walks.true_match(rng, way, 0, 0.2, 0.03);
+    const auto i = walks.true_match(rng, 0, poses_apart, 0.2, 0.03),
+               j = walks.true_match(rng, poses_apart, 0, 0.2, 0.03);
     const double statistic = pair_statistic(a, b, i, j);
     sum += statistic;
     if (statistic > gate) ++above;
   }
   const double sigma_of_mean = std::sqrt(2.0 * Pose::kDof / draws);
-  EXPECT_NEAR(sum / draws, Pose::kDof, 5 * sigma_of_mean + 0.02 * Pose::kDof) << way;
-  EXPECT_NEAR(static_cast<double>(above) / draws, 0.01, 5 * std::sqrt(0.01 * 0.99 / draws)) << way;
+  EXPECT_NEAR(sum / draws, Pose::kDof, 5 * sigma_of_mean + 0.02 * Pose::kDof) << poses_apart;
+  EXPECT_NEAR(static_cast<double>(above) / draws, 0.01, 5 * std::sqrt(0.01 * 0.99 / draws)) << poses_apart;
 }
 
 TYPED_TEST(Pairwise, StatisticOfTruePairsIsChiSquared) {
@@ -91,7 +93,7 @@ TYPED_TEST(Pairwise, StatisticOfTruePairsIsChiSquared) {
   expect_chi_squared<TypeParam>(this->rng, 4000, 10, 0.05, 0.005);
 }
 
-TYPED_TEST(Pairwise, StatisticStaysChiSquaredOverLongWays) {
+TYPED_TEST(Pairwise, StatisticStaysChiSquaredOverLongPaths) {
   expect_chi_squared<TypeParam>(this->rng, 1500, 150, 0.02, 0.002);
 }
 
@@ -115,7 +117,7 @@ TYPED_TEST(Pairwise, OrderAndViewpointDoNotMatter) {
   }
 }
 
-TYPED_TEST(Pairwise, GraphHoldsTheVerdictOfEveryPairForAnyNumberOfThreads) {
+TYPED_TEST(Pairwise, GraphHoldsTheResultOfEveryPairForAnyNumberOfThreads) {
   using Pose = TypeParam;
   const test::TwoWalks<Pose> walks(this->rng, 30, 0.1, 0.02);
   const auto a = walks.odometry_a(this->rng), b = walks.odometry_b(this->rng);

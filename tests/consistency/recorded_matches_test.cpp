@@ -4,9 +4,9 @@
 
 #include "io/recorded_data.hpp"
 #include "radioslam/consistency/consistent_set.hpp"
-#include "radioslam/io/csv.hpp"
-#include "radioslam/io/g2o.hpp"
-#include "radioslam/io/numbers.hpp"
+#include "radioslam/io/graph/g2o.hpp"
+#include "radioslam/io/text/csv.hpp"
+#include "radioslam/io/text/numbers.hpp"
 
 namespace radioslam {
 namespace {
@@ -19,10 +19,11 @@ std::size_t number_of(std::uint64_t id) {
   return static_cast<std::size_t>(id & ((std::uint64_t{1} << kLetterShift) - 1));
 }
 
-/// The file without the piece of a line that stands in one of them.
-Text without_stray_line(Text text) {
-  const std::string stray = "0410268 0.7588833\n";
-  if (const auto at = text.content.find(stray); at != std::string::npos) text.content.erase(at, stray.size());
+/// The file without an incomplete line that one of the files contains.
+Text without_incomplete_line(Text text) {
+  const std::string incomplete_line = "0410268 0.7588833\n";
+  if (const auto at = text.content.find(incomplete_line); at != std::string::npos)
+    text.content.erase(at, incomplete_line.size());
   return text;
 }
 
@@ -40,7 +41,7 @@ struct RobotFile {
   std::vector<std::pair<Edge, RelativePoseMatch<SE3>>> matches;
 
   explicit RobotFile(const std::filesystem::path& path) {
-    const auto file = std::get<G2oGraph<SE3>>(read_g2o(without_stray_line(read_text(path))));
+    const auto file = std::get<G2oGraph<SE3>>(read_g2o(without_incomplete_line(read_text(path))));
     letter = letter_of(file.pose_ids.front());
     for (const auto& factor : file.graph.relative_poses) {
       const Edge edge{file.pose_ids[factor.i.index()], file.pose_ids[factor.j.index()]};
@@ -73,7 +74,7 @@ std::map<Edge, bool> read_labels(const std::filesystem::path& path) {
   return labels;
 }
 
-/// How the matches of robots a and b fare; each is an edge from a to b or the other way round.
+/// Expects that true and false matches of robots a and b are separated; each is an edge in either direction.
 void expect_separated(const RobotFile& a, const RobotFile& b, const std::map<Edge, bool>& labels) {
   std::vector<RelativePoseMatch<SE3>> matches;
   std::vector<std::size_t> expected;
@@ -87,7 +88,7 @@ void expect_separated(const RobotFile& a, const RobotFile& b, const std::map<Edg
   const auto set = largest_consistent_set(a.chain(), b.chain(), matches);
   EXPECT_EQ(set.members, expected);
   EXPECT_TRUE(set.proven);
-  EXPECT_LT(set.runner_up, expected.size()) << "no tie";
+  EXPECT_LT(set.second_largest, expected.size()) << "no tie";
 }
 
 class SpoiledTeam : public testing::TestWithParam<std::size_t> {};

@@ -1,4 +1,4 @@
-// Two robots that walk through one world with noisy odometry, and what true and false matches they get.
+// Two simulated robots with noisy odometry, and true and false matches between them.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -47,7 +47,7 @@ std::vector<Pose> true_walk(Rng& rng, std::size_t poses) {
   return walk;
 }
 
-/// The odometry of a walk, its covariances stated truly.
+/// Odometry of a trajectory with its true covariances.
 template <class Pose>
 OdometryChain<Pose> odometry_of(Rng& rng, const std::vector<Pose>& walk,
                                 const std::vector<typename Pose::Jacobian>& covariances) {

@@ -15,7 +15,7 @@ KeyframeStamps stamps_of(const Trajectory<SE3>& path) {
 
 RobotIndex robot(int i) { return RobotIndex(i); }
 
-/// Robot a walks along x, robot b stands at x = 2 m; one pose per second and metre.
+/// Robot a moves along x, robot b is at rest at x = 2 m; one pose per second and metre.
 Truth walker_and_post() {
   std::vector<StampedPose<SE3>> walker, post;
   for (int i = 0; i < 10; ++i) {
@@ -43,7 +43,7 @@ TEST(CountCandidates, HeightCountsInSpaceOnly) {
   const Truth truth = walker_and_post();
   const std::vector<KeyframeStamps> keyframes{stamps_of(truth.robots[0].poses), {Stamp{}}};
   EXPECT_EQ(count_candidates(keyframes, {}, {truth, 3, reach_for_radius(2, 2)}).true_pairs, 0U);
-  EXPECT_EQ(count_candidates(keyframes, {}, {truth, 3, {70, 30.02}}).true_pairs, 5U);  // 100.02 m reach
+  EXPECT_EQ(count_candidates(keyframes, {}, {truth, 3, {70, 30.02}}).true_pairs, 5U);  // a reach of 100.02 m
 }
 
 TEST(CountCandidates, EqualsTheCountOverAllPairs) {
@@ -71,7 +71,7 @@ TEST(CountCandidates, KeyframesWithoutTruthAreNotCounted) {
                                               {Stamp::from_seconds(3)}};
   EXPECT_EQ(count_candidates(keyframes, {}, {truth, 2, reach_for_radius(2, 2)}).pairs, 1U);
   Truth waypoints = truth;
-  waypoints.robots[0].has_orientation = false;  // hand-pressed: the last one holds for half a second
+  waypoints.robots[0].has_orientation = false;  // stamped by hand: the last one is valid for half a second
   EXPECT_EQ(count_candidates(keyframes, {}, {waypoints, 2, reach_for_radius(2, 2)}).pairs, 2U);
 }
 

@@ -104,7 +104,7 @@ TEST_P(InBothDimensions, MovingOneRobotAloneIsAnError) {
   estimate[1].poses = changed(estimate[1].poses, [](const SE3& pose) { return lift(SE2({8, 0}, 0)) * pose; });
   const auto metrics = evaluate_trajectories(estimate, truth, dimension());
   EXPECT_GT(metrics.ate->rmse_m, 1);
-  EXPECT_LT(metrics.rpe->translation_rmse_m, 1e-9);  // its own motion is still right
+  EXPECT_LT(metrics.rpe->translation_rmse_m, 1e-9);  // relative motion is still correct
 }
 
 TEST_P(InBothDimensions, AMirroredEstimateIsWrong) {
@@ -125,8 +125,8 @@ TEST(TeamMetrics, ThePlaneIgnoresHeightAndTilt) {
 }
 
 TEST(TeamMetrics, ErrorsByHand) {
-  // Two robots on parallel lines; the second is estimated one metre too far to the side at every pose. The
-  // best motion of the whole team shifts it by half of that.
+  // Two robots on parallel lines; every pose of the second is estimated one metre too far to the side. The
+  // best alignment of the team shifts both by half of that.
   const auto line = [](double y, double offset) {
     std::vector<StampedPose<SE3>> poses;
     for (const double x : {0.0, 3.0, 6.0})
@@ -146,7 +146,7 @@ TEST(TeamMetrics, ErrorsByHand) {
 }
 
 TEST(TeamMetrics, RelativeErrorByHand) {
-  // Each step of the estimate is 0.1 m too long and turns 0.02 rad too much.
+  // Each step of the estimate is 0.1 m too long and rotates 0.02 rad too much.
   std::vector<StampedPose<SE3>> truth_poses, estimated;
   SE2 true_pose, pose;
   for (int i = 0; i < 5; ++i) {

@@ -1,4 +1,4 @@
-// Small teams for the tests of this room.
+// Small teams for the evaluation tests.
 #pragma once
 
 #include <string>
@@ -33,7 +33,7 @@ inline Truth winding_team(std::uint64_t seed, std::size_t robots, std::size_t po
   return truth;
 }
 
-/// Every pose changed by `change`.
+/// Applies `change` to every pose.
 template <class Change>
 Trajectory<SE3> changed(const Trajectory<SE3>& path, const Change& change) {
   std::vector<StampedPose<SE3>> poses;
@@ -41,7 +41,7 @@ Trajectory<SE3> changed(const Trajectory<SE3>& path, const Change& change) {
   return Trajectory<SE3>(std::move(poses));
 }
 
-/// The truth as an estimate, every pose changed by `change`.
+/// The truth as an estimate, with `change` applied to every pose.
 template <class Change>
 std::vector<EstimatedTrajectory> estimate_from(const Truth& truth, const Change& change) {
   std::vector<EstimatedTrajectory> estimate;

@@ -1,5 +1,5 @@
 #include "lidar_checks.hpp"
-#include "radioslam/io/carmen.hpp"
+#include "radioslam/io/lidar/carmen.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace radioslam;

@@ -1,6 +1,6 @@
 #include "csi_checks.hpp"
 #include "fuzzed.hpp"
-#include "radioslam/io/csi_capture.hpp"
+#include "radioslam/io/csi/csi_capture.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace radioslam;

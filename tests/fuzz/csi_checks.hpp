@@ -1,4 +1,4 @@
-// What every capture that a reader accepts must be.
+// Properties of every capture that a reader accepts.
 #pragma once
 
 #include "radioslam/base/check.hpp"

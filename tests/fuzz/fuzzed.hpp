@@ -1,4 +1,4 @@
-// What every harness does: hand the bytes to a reader, and let it refuse them in its own way only.
+// Common part of all harnesses: passes the bytes to a reader, which may refuse them only with an InputError.
 #pragma once
 
 #include <cstddef>
@@ -6,11 +6,11 @@
 #include <string>
 
 #include "radioslam/base/input_error.hpp"
-#include "radioslam/io/text.hpp"
+#include "radioslam/io/text/text.hpp"
 
 namespace radioslam {
 
-/// Calls read(text) with the bytes as a file; an InputError is a right answer, anything else is not.
+/// Calls read(text) with the bytes as a file. An InputError is accepted, any other exception is not.
 template <class Reader>
 int fuzz_reader(const std::uint8_t* data, std::size_t size, Reader&& read) {
   try {

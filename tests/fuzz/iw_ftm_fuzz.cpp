@@ -2,7 +2,7 @@
 
 #include "fuzzed.hpp"
 #include "radioslam/base/check.hpp"
-#include "radioslam/io/iw_ftm.hpp"
+#include "radioslam/io/wifi/iw_ftm.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace radioslam;
@@ -12,7 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (std::size_t k = 0; k < log.ranges.size(); ++k) {
       const FtmRange& range = log.ranges[k];
       RADIOSLAM_CHECK(range.range_m >= 0 && range.range_m <= params.furthest_m, "a plausible distance");
-      RADIOSLAM_CHECK(std::isfinite(range.sigma_m) && range.sigma_m >= params.least_sigma_m, "a sigma");
+      RADIOSLAM_CHECK(std::isfinite(range.sigma_m) && range.sigma_m >= params.min_sigma_m, "a sigma");
       RADIOSLAM_CHECK(k == 0 || log.ranges[k - 1].stamp <= range.stamp, "in the order of time");
       RADIOSLAM_CHECK(range.bssid.size() == 17, "an address");
     }

@@ -1,4 +1,4 @@
-#include "radioslam/io/iwlist_scan.hpp"
+#include "radioslam/io/wifi/iwlist_scan.hpp"
 #include "wifi_log_checks.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

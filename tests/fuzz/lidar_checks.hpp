@@ -1,4 +1,4 @@
-// What holds for every scan that a reader gives.
+// Properties of every scan that a reader returns.
 #pragma once
 
 #include "fuzzed.hpp"

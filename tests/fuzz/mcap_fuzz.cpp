@@ -1,4 +1,4 @@
-#include "radioslam/io/mcap.hpp"
+#include "radioslam/io/ros/mcap.hpp"
 #include "ros_checks.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,6 +1,6 @@
 #include "fuzzed.hpp"
 #include "radioslam/base/check.hpp"
-#include "radioslam/io/mission_yaml.hpp"
+#include "radioslam/io/mission/mission_yaml.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace radioslam;

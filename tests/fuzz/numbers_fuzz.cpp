@@ -1,6 +1,6 @@
 #include "fuzzed.hpp"
 #include "radioslam/base/check.hpp"
-#include "radioslam/io/numbers.hpp"
+#include "radioslam/io/text/numbers.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace radioslam;

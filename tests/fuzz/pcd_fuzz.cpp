@@ -1,5 +1,5 @@
 #include "lidar_checks.hpp"
-#include "radioslam/io/pcd.hpp"
+#include "radioslam/io/lidar/pcd.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace radioslam;

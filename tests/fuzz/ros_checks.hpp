@@ -1,12 +1,12 @@
-// Hands a recording's bytes to its reader, and the messages that are found to theirs.
+// Passes a recording's bytes to its reader, and the messages in it to theirs.
 #pragma once
 
 #include "lidar_checks.hpp"
-#include "radioslam/io/ros_types.hpp"
+#include "radioslam/io/ros/ros_types.hpp"
 
 namespace radioslam {
 
-/// Reads a message as what its channel says it is.
+/// Reads a message as the type of its channel.
 inline void read_as_said(const RosMessage& message) {
   const std::string& type = message.channel.type;
   if (is_pose_type(type)) read_ros_pose(message);
@@ -14,7 +14,7 @@ inline void read_as_said(const RosMessage& message) {
   if (is_scan_type(type)) check_scan(read_ros_scan(message).scan);
   if (is_scan_type(type)) read_ros_point_times(message);
   if (type == kFixType) read_ros_fix(message);
-  if (type == kInertialType) read_ros_inertial(message);
+  if (type == kImuType) read_ros_imu(message);
 }
 
 /// Calls visit(name, bytes, visitor) with the bytes as a recording.

@@ -1,7 +1,7 @@
-// The first byte says how a message is encoded and of which type it is; the rest is the message.
+// The first byte selects the encoding and type of a message; the rest is the message.
 #include <array>
 
-#include "radioslam/io/ros_types.hpp"
+#include "radioslam/io/ros/ros_types.hpp"
 #include "ros_checks.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,4 +1,4 @@
-#include "radioslam/io/wifi_capture.hpp"
+#include "radioslam/io/wifi/wifi_capture.hpp"
 #include "wifi_log_checks.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

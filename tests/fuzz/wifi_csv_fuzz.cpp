@@ -1,6 +1,6 @@
 #include "fuzzed.hpp"
 #include "radioslam/base/check.hpp"
-#include "radioslam/io/wifi_csv.hpp"
+#include "radioslam/io/wifi/wifi_csv.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace radioslam;

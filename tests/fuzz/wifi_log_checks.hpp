@@ -1,4 +1,4 @@
-// What holds for the rows of every WiFi log, whatever was in it.
+// Properties of the rows of every WiFi log.
 #pragma once
 
 #include <string>
@@ -7,13 +7,13 @@
 
 #include "fuzzed.hpp"
 #include "radioslam/base/check.hpp"
-#include "radioslam/io/printed_scans.hpp"
-#include "radioslam/io/wifi_csv.hpp"
-#include "radioslam/io/wifi_log.hpp"
+#include "radioslam/io/wifi/wifi_csv.hpp"
+#include "radioslam/io/wifi/wifi_log.hpp"
+#include "radioslam/io/wifi/wifi_scan_log.hpp"
 
 namespace radioslam {
 
-/// In the order of time, and a mission's reader takes them.
+/// The rows are sorted by time, and the reader of missions accepts them.
 inline void check_wifi_log(WifiLog log) {
   std::vector<WifiLog> logs;
   logs.push_back(std::move(log));
@@ -28,15 +28,15 @@ inline void check_wifi_log(WifiLog log) {
   }
 }
 
-/// Hands the bytes to the reader of a printed list, and its lists to what makes rows of them.
+/// Passes the bytes to the reader of a scan list, and its lists to the conversion to rows.
 template <class Reader>
 int fuzz_printed_list(const std::uint8_t* data, std::size_t size, Reader&& read) {
   try {
-    const Text text = make_printed_text("input", std::string(data, data + size));
-    PrintedLog log = read(text);
+    const Text text = make_tool_output("input", std::string(data, data + size));
+    ScanListLog log = read(text);
     time_scans(text, log, std::nullopt);
     for (const bool keep_stale : {false, true}) {
-      PrintedScanParams params;
+      ScanListParams params;
       params.keep_stale = keep_stale;
       params.clock_offset_s = -4e9;
       check_wifi_log(rows_of_scans({log}, params));

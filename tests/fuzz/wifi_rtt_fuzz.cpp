@@ -1,10 +1,10 @@
 #include "fuzzed.hpp"
-#include "radioslam/io/wifi_rtt.hpp"
+#include "radioslam/io/datasets/wifi_rtt.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace radioslam;
   return fuzz_reader(data, size, [](const Text& text) {
-    // The anchors, the phones and what is between them, with lines of '%' between.
+    // The files of the anchors, of the phones and of the ranges between them, separated by lines of '%'.
     WifiRttFiles files;
     std::string content = text.content;
     std::vector<Text> parts;

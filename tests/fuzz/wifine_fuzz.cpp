@@ -1,5 +1,5 @@
 #include "fuzzed.hpp"
-#include "radioslam/io/wifine.hpp"
+#include "radioslam/io/datasets/wifine.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace radioslam;

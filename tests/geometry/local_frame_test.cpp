@@ -11,7 +11,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 
 /// Where the axes of the ellipsoid end.
-TEST(LocalFrame, KnowsTheEarthsAxes) {
+TEST(LocalFrame, ReproducesTheEarthsAxes) {
   const double b = 6356752.314245;
   EXPECT_LT((earth_centred_m({0, 0, 0}) - Eigen::Vector3d(6378137, 0, 0)).norm(), 1e-6);
   EXPECT_LT((earth_centred_m({0, 90 * kDegree, 10}) - Eigen::Vector3d(0, 6378147, 0)).norm(), 1e-6);
@@ -19,8 +19,8 @@ TEST(LocalFrame, KnowsTheEarthsAxes) {
   EXPECT_LT((earth_centred_m({-90 * kDegree, 1, 5}) - Eigen::Vector3d(0, 0, -b - 5)).norm(), 1e-5);
 }
 
-/// A small step to the north is as long as the meridian's curvature says, to the east as the parallel's.
-TEST(LocalFrame, StepsAreAsLongAsTheCurvatureSays) {
+/// A small step to the north has the length given by the meridian's curvature, to the east by the parallel's.
+TEST(LocalFrame, StepLengthsFollowTheCurvature) {
   const double a = 6378137, e2 = 0.00669437999014, step = 1e-6;
   for (const double latitude_deg : {-70.0, 0.0, 48.0, 85.0}) {
     const GeodeticPlace origin{latitude_deg * kDegree, 11 * kDegree, 500};

@@ -29,7 +29,7 @@ TEST(Trajectory, GivesItsOwnPosesAtItsOwnStamps) {
     EXPECT_LT((trajectory.at(stamp)->inverse() * pose).log().norm(), 1e-12);
 }
 
-TEST(Trajectory, KnowsNothingOutsideItsTime) {
+TEST(Trajectory, IsUndefinedOutsideItsTime) {
   EXPECT_FALSE(quarter_turn().at(Stamp::from_seconds(0.999)));
   EXPECT_FALSE(quarter_turn().at(Stamp::from_seconds(4.001)));
   EXPECT_FALSE(Trajectory<SE3>().at(Stamp{}));

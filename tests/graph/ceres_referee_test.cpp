@@ -1,4 +1,4 @@
-// The same optima as Ceres finds, with residuals written anew and differentiated automatically.
+// Optima agree with those of Ceres, with independently written, automatically differentiated residuals.
 // Parameters: [t, angle] in the plane, [t, rotation vector] in space, points and drifts as they are.
 #include <ceres/ceres.h>
 #include <ceres/rotation.h>
@@ -244,7 +244,7 @@ class Referee {
     problem_.Evaluate({}, &cost, nullptr, nullptr, nullptr);
     return 2 * cost;
   }
-  double largest_difference(const PoseGraph<Pose>& graph) const {
+  double max_difference(const PoseGraph<Pose>& graph) const {
     double worst = 0;
     for (std::size_t i = 0; i < graph.poses.size(); ++i)
       worst = std::max(worst, (graph.poses[i].translation() - poses_[i].template head<kDim>()).norm());
@@ -298,7 +298,7 @@ TYPED_TEST(CeresReferee, SameOptimumWithEveryKindOfFactorAndRobustLosses) {
     const auto summary = optimize(graph, {});
     const double expected = referee.solve();
     EXPECT_NEAR(summary.final_cost, expected, 1e-7 * expected);
-    EXPECT_LT(referee.largest_difference(graph), 1e-3);
+    EXPECT_LT(referee.max_difference(graph), 1e-3);
   }
 }
 
@@ -310,7 +310,7 @@ TYPED_TEST(CeresReferee, SameOptimumOfRelativePosesWithTheFirstHeld) {
   const auto summary = optimize(graph, {});
   const double expected = referee.solve();
   EXPECT_NEAR(summary.final_cost, expected, 1e-7 * expected);
-  EXPECT_LT(referee.largest_difference(graph), 1e-4);
+  EXPECT_LT(referee.max_difference(graph), 1e-4);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 namespace radioslam {
 namespace {
 
-/// Two walks, not connected, and a pose alone.
+/// Two unconnected trajectories and an isolated pose.
 template <class Pose>
 PoseGraph<Pose> two_walks(double noise) {
   auto graph = test::draw_graph<Pose>(1, 25, noise, test::Extras::kNone);
@@ -44,14 +44,14 @@ TYPED_TEST(Starts, ChordalIsExactWithoutNoiseInEveryComponent) {
   const auto truth = two_walks<TypeParam>(0);
   auto graph = forget_poses(truth, {0, 25, 40});
   EXPECT_EQ(initialise_chordal(graph), ChordalResult::kDone);
-  EXPECT_LT(test::largest_difference(graph, truth), 1e-9);
+  EXPECT_LT(test::max_difference(graph, truth), 1e-9);
 }
 
 TYPED_TEST(Starts, SpanningTreeIsExactWithoutNoiseInEveryComponent) {
   const auto truth = two_walks<TypeParam>(0);
   auto graph = forget_poses(truth, {0, 25, 40});
   initialise_from_spanning_tree(graph);
-  EXPECT_LT(test::largest_difference(graph, truth), 1e-12);
+  EXPECT_LT(test::max_difference(graph, truth), 1e-12);
 }
 
 TYPED_TEST(Starts, FixedPosesAreKeptAndUsed) {
@@ -61,9 +61,9 @@ TYPED_TEST(Starts, FixedPosesAreKeptAndUsed) {
   graph.pose_fixed[10] = graph.pose_fixed[11] = graph.pose_fixed[30] = true;
   auto tree = graph;
   EXPECT_EQ(initialise_chordal(graph), ChordalResult::kDone);
-  EXPECT_LT(test::largest_difference(graph, truth), 1e-9);
+  EXPECT_LT(test::max_difference(graph, truth), 1e-9);
   initialise_from_spanning_tree(tree);
-  EXPECT_LT(test::largest_difference(tree, truth), 1e-12);
+  EXPECT_LT(test::max_difference(tree, truth), 1e-12);
 }
 
 TYPED_TEST(Starts, TheCheapestStartIsTaken) {
@@ -87,7 +87,7 @@ TYPED_TEST(Starts, WeightsOfZeroFallBackOnTheSpanningTree) {
   for (auto& f : graph.relative_poses) f.weight = 0;
   auto copy = graph;
   EXPECT_EQ(initialise_chordal(copy), ChordalResult::kNotPositiveDefinite);
-  EXPECT_EQ(test::largest_difference(copy, graph), 0);
+  EXPECT_EQ(test::max_difference(copy, graph), 0);
   EXPECT_EQ(initialise(graph, GivenValues::kNone).chosen, InitialValues::kSpanningTree);
 }
 
@@ -98,7 +98,7 @@ TYPED_TEST(Starts, AGraphWithoutMeasurementsKeepsItsPoses) {
   graph.poses.push_back(test::Drawing<TypeParam>(1).pose(1, 1));
   const auto before = graph;
   initialise(graph, GivenValues::kNone);
-  EXPECT_EQ(test::largest_difference(before, graph), 0);
+  EXPECT_EQ(test::max_difference(before, graph), 0);
 }
 
 TEST(Starts2, ChordalReachesTheOptimumOfALargeLoopThatOdometryMisses) {

@@ -7,7 +7,7 @@
 namespace radioslam {
 namespace {
 
-/// A walk whose loops of five are, in 2 of 5 cases, replaced by nonsense.
+/// A trajectory in which 2 of 5 loop closures are replaced by outliers.
 template <class Pose>
 struct Spoiled {
   PoseGraph<Pose> graph, clean;
@@ -46,7 +46,7 @@ TYPED_TEST(Graduated, TruncatedLeastSquaresFindsTheInlierSolutionAmongFortyPerce
     const auto summary = optimize_graduated(graph, mask, GraduatedLoss::kTruncatedLeastSquares, {}, {});
     for (std::size_t k = 0; k < outlier.size(); ++k)
       EXPECT_EQ(summary.weights.relative_poses[k], outlier[k] ? 0 : 1) << k;
-    EXPECT_LT(test::largest_difference(graph, clean), 1e-5);
+    EXPECT_LT(test::max_difference(graph, clean), 1e-5);
   }
 }
 
@@ -57,7 +57,7 @@ TYPED_TEST(Graduated, GemanMcClureEndsNearTheInlierSolution) {
     const auto summary = optimize_graduated(graph, mask, GraduatedLoss::kGemanMcClure, {}, {});
     for (std::size_t k = 0; k < outlier.size(); ++k)
       EXPECT_EQ(summary.weights.relative_poses[k] < 0.5, outlier[k]) << k;
-    EXPECT_LT(test::largest_difference(graph, clean), 0.5);
+    EXPECT_LT(test::max_difference(graph, clean), 0.5);
     EXPECT_NEAR(summary.last.final_cost, total_cost(graph), 1e-9 * total_cost(graph));
   }
 }
@@ -94,7 +94,7 @@ TYPED_TEST(Graduated, WithoutOutliersIsThePlainSolution) {
   for (auto& f : graph.ranges) f.loss.scale = 100;
   const auto summary = optimize_graduated(graph, mask, GraduatedLoss::kTruncatedLeastSquares, {}, {});
   EXPECT_EQ(summary.rounds, 0);
-  EXPECT_LT(test::largest_difference(graph, plain), 1e-6);
+  EXPECT_LT(test::max_difference(graph, plain), 1e-6);
 }
 
 }  // namespace

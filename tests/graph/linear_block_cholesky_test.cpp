@@ -107,7 +107,7 @@ TEST_P(BlockCholeskyOrderings, AgreeWithDenseOnManyComponents) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     Rng rng(seed);
     const auto pattern =
-        random_pattern(rng, {.blocks = 60, .extra_edges = 10, .sizes = {2, 3}, .chain_share = 0.4});
+        random_pattern(rng, {.blocks = 60, .extra_edges = 10, .sizes = {2, 3}, .chain_ratio = 0.4});
     SCOPED_TRACE(seed);
     expect_agrees_with_dense(pattern, {.ordering = GetParam(), .last = {}}, rng);
   }
@@ -160,7 +160,7 @@ TEST(BlockCholesky, ABlockTiedToAllOthersGoesLast) {
   expect_agrees_with_dense(random_matrix(rng, pattern), last, rng);
 }
 
-/// Blocks on a cube, each tied to its neighbours along the axes.
+/// Blocks on a cube, each connected to its neighbours along the axes.
 BlockPattern lattice_pattern(int side, std::int32_t size) {
   std::set<std::pair<int, int>> edges;
   const int blocks = side * side * side;

@@ -13,7 +13,7 @@ struct RandomPatternParams {
   std::size_t blocks = 30;
   std::size_t extra_edges = 40;
   std::vector<std::int32_t> sizes{6};  ///< drawn from
-  double chain_share = 0.9;            ///< of successive blocks that touch
+  double chain_ratio = 0.9;            ///< of successive blocks that touch
 };
 
 inline BlockPattern pattern_of(std::vector<std::int32_t> sizes, const std::set<std::pair<int, int>>& edges) {
@@ -27,7 +27,7 @@ inline BlockPattern random_pattern(Rng& rng, const RandomPatternParams& params) 
   std::set<std::pair<int, int>> edges;
   for (std::size_t i = 0; i < params.blocks; ++i) {
     sizes.push_back(params.sizes[rng.below(params.sizes.size())]);
-    if (i > 0 && rng.uniform() < params.chain_share)
+    if (i > 0 && rng.uniform() < params.chain_ratio)
       edges.emplace(static_cast<int>(i) - 1, static_cast<int>(i));
   }
   for (std::size_t e = 0; e < params.extra_edges && params.blocks > 1; ++e) {

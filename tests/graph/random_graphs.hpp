@@ -146,9 +146,9 @@ class GraphDrawing {
   PoseGraph<Pose> graph_;
 };
 
-/// A walk of `count` poses; a relative pose for every step and for loops of 5; with extras, ranges between
-/// poses, with lever arms, and to points, bearings, sightings, positions, priors, one drift
-/// in the odometry and in every fourth range, and one bias of every other range with another above it.
+/// A trajectory of `count` poses; a relative pose for every step and for loops of 5; with extras, ranges
+/// between poses, with lever arms, and to points, bearings, sightings, positions, priors, one drift in the
+/// odometry and in every fourth range, and one bias of every other range with another above it.
 template <class Pose>
 PoseGraph<Pose> draw_graph(std::uint64_t seed, std::size_t count, double noise, Extras extras) {
   GraphDrawing<Pose> drawing(seed, noise);
@@ -182,7 +182,7 @@ void disturb(PoseGraph<Pose>& graph, std::uint64_t seed, double amount) {
 
 /// The largest difference of any pose, point, drift or bias.
 template <class Pose>
-double largest_difference(const PoseGraph<Pose>& a, const PoseGraph<Pose>& b) {
+double max_difference(const PoseGraph<Pose>& a, const PoseGraph<Pose>& b) {
   double worst = 0;
   for (std::size_t i = 0; i < a.poses.size(); ++i)
     worst = std::max(worst, (a.poses[i].inverse() * b.poses[i]).log().norm());

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kSigmaPosition_m = 0.01, kSigmaRotation_rad = 0.002;
 
-/// Poses at 10 Hz as an odometry tells them: in a frame of its own, which leans, each a little off.
+/// Poses at 10 Hz as measured by an odometry: in a tilted frame of its own, with small errors.
 Trajectory<SE3> leaning_odometry(const test::SmoothMotion& motion, const SE3& T_odometry_world, double end_s,
                                  Rng& rng) {
   std::vector<StampedPose<SE3>> rows;
@@ -22,7 +22,7 @@ Trajectory<SE3> leaning_odometry(const test::SmoothMotion& motion, const SE3& T_
   return Trajectory<SE3>(std::move(rows));
 }
 
-/// The angle between the true up and the one found.
+/// Angle between the true and the estimated vertical.
 double tilt_error(const GravityAlignment& found, const SE3& T_odometry_world) {
   const Eigen::Vector3d up = found.R_world_odometry * T_odometry_world.rotate(Eigen::Vector3d::UnitZ());
   return std::atan2(up.head<2>().norm(), up.z());
@@ -32,11 +32,11 @@ struct Start {
   test::SmoothMotion motion;
   InertialBias bias;
   SE3 T_odometry_world;
-  std::vector<InertialSample> samples;
+  std::vector<ImuSample> samples;
   Trajectory<SE3> odometry;
 };
 
-Start drawn_start(std::uint64_t seed, const test::Liveliness& liveliness, const InertialNoiseParams& noise) {
+Start drawn_start(std::uint64_t seed, const test::Liveliness& liveliness, const ImuNoiseParams& noise) {
   Rng rng = Rng(21).split(seed);
   SE3::Tangent frame;
   frame << test::normal_vector(rng, 1), test::normal_vector(rng, 0.6);
@@ -52,7 +52,7 @@ Start drawn_start(std::uint64_t seed, const test::Liveliness& liveliness, const 
 }
 
 TEST(GravityAlignment, UnderWay) {
-  InertialNoiseParams noise;
+  ImuNoiseParams noise;
   noise.sigma_accelerometer_bias_mps2 = 0.05;
   for (std::uint64_t n = 0; n < 10; ++n) {
     const Start start = drawn_start(n, {}, noise);
@@ -70,9 +70,9 @@ TEST(GravityAlignment, UnderWay) {
   }
 }
 
-/// Here the accelerometer's bias cannot be told from a tilt; what is stated must say so.
-TEST(GravityAlignment, Standing) {
-  InertialNoiseParams noise;
+/// At rest the accelerometer bias cannot be distinguished from tilt; the stated sigma must reflect that.
+TEST(GravityAlignment, AtRest) {
+  ImuNoiseParams noise;
   noise.sigma_accelerometer_bias_mps2 = 0.05;
   test::Liveliness none;
   none.way_m = none.turn_rad = none.speed_mps = none.turning_radps = 0;
@@ -93,7 +93,7 @@ TEST(GravityAlignment, Standing) {
 }
 
 TEST(GravityAlignment, RefusesWhatDoesNotBelongTogether) {
-  const InertialNoiseParams noise;
+  const ImuNoiseParams noise;
   const Start start = drawn_start(1, {}, noise);
   std::vector<StampedPose<SE3>> few(start.odometry.begin(), start.odometry.begin() + 3);
   EXPECT_FALSE(align_gravity(Trajectory<SE3>(few), start.samples, noise, {}));

@@ -23,7 +23,7 @@ InertialState::Tangent drawn_step(Rng& rng, double size) {
 }
 
 TEST(InertialFactor, JacobiansEqualNumericalOnes) {
-  const InertialNoiseParams params;
+  const ImuNoiseParams params;
   Rng rng(1);
   for (int n = 0; n < 30; ++n) {
     const test::SmoothMotion motion(rng.split(static_cast<std::uint64_t>(n)), {});
@@ -50,7 +50,7 @@ TEST(InertialFactor, JacobiansEqualNumericalOnes) {
 }
 
 TEST(InertialFactor, IsZeroAtThePredictedState) {
-  const InertialNoiseParams params;
+  const ImuNoiseParams params;
   Rng rng(2);
   const test::SmoothMotion motion(Rng(3), {});
   const auto samples = test::perfect_readings(motion, 2, 100, params);

@@ -16,7 +16,7 @@ using test::SimulatedDrive;
 using Block = InertialState::Jacobian;
 
 /// The filter at the end of a drive.
-InertialFilter filtered(const SimulatedDrive& sim, const InertialNoiseParams& noise,
+InertialFilter filtered(const SimulatedDrive& sim, const ImuNoiseParams& noise,
                         const InertialSmootherParams& params) {
   InertialFilter filter(start_prior(sim.drive.start, sim.drive.poses[0], noise, params));
   for (std::size_t k = 0; k + 1 < sim.drive.stamps.size(); ++k) {
@@ -31,28 +31,28 @@ InertialFilter filtered(const SimulatedDrive& sim, const InertialNoiseParams& no
 
 constexpr double kNowhere = std::numeric_limits<double>::infinity();
 
-/// How far the filter's last state is from the smoother's, in its sigmas, and its covariance likewise.
+/// Distance of the filter's last state from the smoother's, in standard deviations, and of their covariances.
 struct Difference {
   double state = 0, covariance = 0;
 };
 
-Difference from_the_smoother(const SimulatedDrive& sim, const InertialNoiseParams& noise,
+Difference from_the_smoother(const SimulatedDrive& sim, const ImuNoiseParams& noise,
                              const InertialSmootherParams& params) {
   const InertialFilter filter = filtered(sim, noise, params);
   const auto smoothed = smooth_inertially(sim.drive, sim.samples, noise, params);
   if (!smoothed || !smoothed->converged) return {kNowhere, kNowhere};
   const Block covariance = smoothed->covariance.of(sim.truth.size() - 1);
   const InertialState::Tangent off = smoothed->states.back().step_to(filter.state());
-  const Eigen::LLT<Block> root(covariance);  // the smoother's becomes the unit matrix
+  const Eigen::LLT<Block> root(covariance);  // whitens the smoother's covariance
   const Block half = root.matrixL().solve(filter.covariance());
   const Block whitened = root.matrixL().solve(half.transpose());
   return {root.matrixL().solve(off).norm(), (whitened - Block::Identity()).cwiseAbs().maxCoeff()};
 }
 
-/// The last state has seen everything: filter and smoother say the same of it, where what they leave out
-/// beyond the first order is small. Hardly a turn, and rotations and biases known to begin with.
+/// The last state depends on all measurements: filter and smoother agree on it if higher-order terms are
+/// small, as with little rotation and known initial rotations and biases.
 TEST(InertialFilter, EndsWhereTheSmootherEndsIfTheDriveIsNearlyLinear) {
-  InertialNoiseParams noise;
+  ImuNoiseParams noise;
   noise.sigma_accelerometer_bias_mps2 = 1e-3;
   noise.sigma_gyroscope_bias_radps = 1e-4;
   noise.gyroscope_noise = 5e-5;
@@ -67,14 +67,14 @@ TEST(InertialFilter, EndsWhereTheSmootherEndsIfTheDriveIsNearlyLinear) {
   plan.corridor_end_s = 3;
   for (std::uint64_t n = 0; n < 5; ++n) {
     const auto off = from_the_smoother(simulate_drive(plan, noise, params, Rng(61).split(n)), noise, params);
-    EXPECT_LT(off.state, 0.05) << n;  // the map's metres along the corridor turn with the body
+    EXPECT_LT(off.state, 0.05) << n;  // the map's drift along the corridor rotates with the body
     EXPECT_LT(off.covariance, 0.02) << n;
   }
 }
 
-/// Two states and nothing before them: the same least squares, however far the start leans.
+/// With two states only, both solve the same least squares, for any initial tilt.
 TEST(InertialFilter, TakesOneStepAsTheSmootherDoes) {
-  InertialNoiseParams noise;
+  ImuNoiseParams noise;
   noise.sigma_accelerometer_bias_mps2 = 1e-3;
   noise.sigma_gyroscope_bias_radps = 1e-4;
   InertialSmootherParams params;
@@ -90,9 +90,9 @@ TEST(InertialFilter, TakesOneStepAsTheSmootherDoes) {
   }
 }
 
-/// Turns and unknown biases make the two differ by what lies beyond the first order.
+/// With rotation and unknown biases the two differ by higher-order terms.
 TEST(InertialFilter, EndsNearTheSmootherOnALivelyDrive) {
-  InertialNoiseParams noise;
+  ImuNoiseParams noise;
   noise.sigma_accelerometer_bias_mps2 = 0.05;
   InertialSmootherParams params;
   params.sigma_start_tilt_rad = 0.02;
@@ -101,16 +101,16 @@ TEST(InertialFilter, EndsNearTheSmootherOnALivelyDrive) {
   EXPECT_LT(off.covariance, 0.3);
 }
 
-/// A drive of which no scan ever tells where on the map it is, but for its turns.
-TEST(InertialFilter, GoesOnWhereTheFirstPoseDoesNotTellWhereTheMapLies) {
-  const InertialNoiseParams noise;
+/// Scans that observe rotation only, never the position on the map.
+TEST(InertialFilter, ContinuesIfTheFirstPoseDoesNotObserveTheMap) {
+  const ImuNoiseParams noise;
   const InertialSmootherParams params;
   SimulatedDrive sim = simulate_drive({}, noise, params, Rng(65));
   for (MapPose& pose : sim.drive.poses) {
     pose.information.topRows<3>().setZero();
     pose.information.leftCols<3>().setZero();
   }
-  const InertialFilter filter = filtered(sim, noise, params);  // expects every step to be done
+  const InertialFilter filter = filtered(sim, noise, params);  // expects every step to succeed
   EXPECT_TRUE(filter.covariance().allFinite());
 }
 
@@ -125,10 +125,10 @@ StatePrior drawn_belief(Rng& rng) {
   return prior;
 }
 
-/// Without readings: the pose is the map's less where the map lies, T_j = M_j^-1 Z; the others' walks are
-/// added.
+/// Without IMU samples the pose follows from the map pose, T_j = M_j^-1 Z; velocity and biases perform random
+/// walks.
 TEST(InertialFilter, WithoutReadingsTakesThePoseFromTheMap) {
-  const InertialNoiseParams noise;
+  const ImuNoiseParams noise;
   Rng rng(62);
   const StatePrior start = drawn_belief(rng);
   SE3::Tangent motion;
@@ -165,8 +165,8 @@ TEST(InertialFilter, WithoutReadingsTakesThePoseFromTheMap) {
   EXPECT_LT(there.step_to(filter.state()).norm(), 1e-9);
 }
 
-TEST(InertialFilter, RefusesWhatLeavesSomethingOpenAndStaysWhereItIs) {
-  const InertialNoiseParams noise;
+TEST(InertialFilter, RefusesUndeterminedStepsAndKeepsItsState) {
+  const ImuNoiseParams noise;
   Rng rng(63);
   InertialFilter filter(drawn_belief(rng));
   const InertialState before = filter.state();

@@ -20,14 +20,14 @@ double squared_norm(const InertialState::Tangent& error, const InertialState::Ja
   return error.dot(covariance.llt().solve(error));
 }
 
-/// With little left open between tilt and bias, so that the errors are as small as first order takes them.
-InertialNoiseParams good_unit() {
-  InertialNoiseParams noise;
+/// With little ambiguity between tilt and bias, so that errors stay within the first order.
+ImuNoiseParams good_unit() {
+  ImuNoiseParams noise;
   noise.sigma_accelerometer_bias_mps2 = 0.05;
   return noise;
 }
 
-/// Whether a sum of `dof` squared standard normals may well be this, 95 % of the time.
+/// Whether `sum` is within the 95 % band of chi-squared with `dof` degrees of freedom.
 testing::AssertionResult in_band(double sum, int dof) {
   const double low = chi_squared_quantile(0.025, dof), high = chi_squared_quantile(0.975, dof);
   if (low <= sum && sum <= high) return testing::AssertionSuccess();
@@ -35,9 +35,9 @@ testing::AssertionResult in_band(double sum, int dof) {
                                      << high / dof;
 }
 
-/// The residuals of a drive, each divided by its standard deviation, without a thought for structure.
+/// The whitened residuals of a drive as one dense vector.
 Eigen::VectorXd whitened(const SimulatedDrive& sim, const std::vector<InertialState>& states,
-                         const std::vector<InertialBias>& summed_for, const InertialNoiseParams& noise,
+                         const std::vector<InertialBias>& summed_for, const ImuNoiseParams& noise,
                          const InertialSmootherParams& params) {
   std::vector<double> all;
   const auto add = [&](const Eigen::MatrixXd& information, const Eigen::VectorXd& r) {
@@ -65,9 +65,9 @@ Eigen::VectorXd whitened(const SimulatedDrive& sim, const std::vector<InertialSt
   return Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
 }
 
-/// A dense minimum by numerical derivatives, from the truth on.
+/// Dense minimisation with numerical derivatives, starting from the truth.
 TEST(InertialSmoother, EqualsADenseSolve) {
-  const InertialNoiseParams noise;
+  const ImuNoiseParams noise;
   const InertialSmootherParams params;
   DrivePlan plan;
   plan.duration_s = 0.7;
@@ -117,8 +117,8 @@ TEST(InertialSmoother, EqualsADenseSolve) {
   EXPECT_TRUE(between.isApprox(far, 1e-3));
 }
 
-TEST(InertialSmoother, CovariancesAreHonest) {
-  const InertialNoiseParams noise = good_unit();
+TEST(InertialSmoother, CovariancesAreConsistent) {
+  const ImuNoiseParams noise = good_unit();
   const InertialSmootherParams params;
   constexpr int kRuns = 120;
   double middle = 0, last = 0, step = 0, half = 0;
@@ -147,9 +147,9 @@ TEST(InertialSmoother, CovariancesAreHonest) {
   EXPECT_TRUE(in_band(half, 6 * kRuns));
 }
 
-/// Twenty seconds of a minute without a feature along the way: the scans' odometry stands still there.
+/// Twenty seconds of a minute in a featureless corridor, where scan matching observes no motion.
 TEST(InertialSmoother, BridgesACorridor) {
-  const InertialNoiseParams noise;
+  const ImuNoiseParams noise;
   const InertialSmootherParams params;
   DrivePlan plan;
   plan.duration_s = 60;
@@ -175,7 +175,7 @@ TEST(InertialSmoother, BridgesACorridor) {
 }
 
 TEST(InertialSmoother, GapsInTheReadingsLeaveTheScans) {
-  const InertialNoiseParams noise;
+  const ImuNoiseParams noise;
   const InertialSmootherParams params;
   SimulatedDrive sim = simulate_drive({}, noise, params, Rng(35));
   sim.samples.erase(sim.samples.begin() + 250, sim.samples.begin() + 500);
@@ -183,14 +183,14 @@ TEST(InertialSmoother, GapsInTheReadingsLeaveTheScans) {
   ASSERT_TRUE(smoothed && smoothed->converged);
   const InertialState::Tangent error = smoothed->states[20].step_to(sim.truth[20]);
   EXPECT_LT(error.head<3>().norm(), 0.5);
-  // With neither, nothing holds the next pose.
+  // Without either, the next pose is undetermined.
   sim.drive.poses[21].information.setZero();
   EXPECT_FALSE(smooth_inertially(sim.drive, sim.samples, noise, params));
 }
 
 /// Every twentieth registration wrong by a metre or half a radian.
-TEST(InertialSmoother, BearsWrongRegistrations) {
-  const InertialNoiseParams noise = good_unit();
+TEST(InertialSmoother, ToleratesWrongRegistrations) {
+  const ImuNoiseParams noise = good_unit();
   const InertialSmootherParams params;
   SimulatedDrive sim = simulate_drive({}, noise, params, Rng(36));
   Rng rng(37);
@@ -209,7 +209,7 @@ TEST(InertialSmoother, BearsWrongRegistrations) {
 }
 
 TEST(InertialSmoother, OneStateIsItsPrior) {
-  const InertialNoiseParams noise;
+  const ImuNoiseParams noise;
   const InertialSmootherParams params;
   InertialDrive drive;
   drive.stamps = {Stamp{0}};

@@ -9,10 +9,10 @@
 namespace radioslam {
 namespace {
 
-/// The same reading at 100 Hz for `end_s`.
-std::vector<InertialSample> steady_readings(const Eigen::Vector3d& force_mps2,
-                                            const Eigen::Vector3d& rate_radps, double end_s) {
-  std::vector<InertialSample> samples;
+/// A constant sample at 100 Hz until `end_s`.
+std::vector<ImuSample> steady_readings(const Eigen::Vector3d& force_mps2, const Eigen::Vector3d& rate_radps,
+                                       double end_s) {
+  std::vector<ImuSample> samples;
   for (int k = 0; k <= std::lround(100 * end_s); ++k)
     samples.push_back({Stamp::from_seconds(0.01 * k), force_mps2, rate_radps});
   return samples;
@@ -25,9 +25,9 @@ std::vector<Stamp> every_tenth(double begin_s, double end_s) {
   return stamps;
 }
 
-/// 200 Hz within a scan, off the readings' stamps.
+/// Predicted at 200 Hz within a scan, between the samples' stamps.
 TEST(MotionPrediction, FollowsTheMotion) {
-  const InertialNoiseParams params;
+  const ImuNoiseParams params;
   for (int n = 0; n < 10; ++n) {
     const test::SmoothMotion motion(Rng(5).split(static_cast<std::uint64_t>(n)), {});
     const auto samples = test::perfect_readings(motion, 2, 200, params);
@@ -42,9 +42,9 @@ TEST(MotionPrediction, FollowsTheMotion) {
   }
 }
 
-/// A stone thrown, that feels no force and tumbles.
+/// A thrown body, which tumbles without any specific force.
 TEST(MotionPrediction, OfAThrowIsAParabola) {
-  const InertialNoiseParams params;
+  const ImuNoiseParams params;
   InertialState start;
   start.T_world_body = SE3({1, 2, 3}, Eigen::Quaterniond(Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitY())));
   start.velocity_mps = {2, -1, 5};
@@ -62,10 +62,10 @@ TEST(MotionPrediction, OfAThrowIsAParabola) {
   }
 }
 
-/// A car on a circle of 5 m at 4 m/s: pushed to its left by v^2 / r, it is back after 2 pi r / v seconds.
+/// A car on a circle of 5 m at 4 m/s, accelerated to its left by v^2 / r, returns after 2 pi r / v seconds.
 TEST(MotionPrediction, ClosesACircle) {
   constexpr double kRadius_m = 5, kSpeed_mps = 4, kLap_s = 2 * std::numbers::pi * kRadius_m / kSpeed_mps;
-  const InertialNoiseParams params;
+  const ImuNoiseParams params;
   InertialState start;
   start.velocity_mps = {kSpeed_mps, 0, 0};
   const auto samples = steady_readings({0, kSpeed_mps * kSpeed_mps / kRadius_m, params.gravity_mps2},
@@ -79,9 +79,9 @@ TEST(MotionPrediction, ClosesACircle) {
   EXPECT_LT(start.step_to(states->back()).norm(), 2e-3);
 }
 
-/// What the biases add to the readings is taken off again.
+/// Biases are subtracted from the samples.
 TEST(MotionPrediction, KnowsTheBiases) {
-  const InertialNoiseParams params;
+  const ImuNoiseParams params;
   const test::SmoothMotion motion(Rng(7), {});
   const auto clean = test::perfect_readings(motion, 1, 200, params);
   const InertialBias bias{{0.02, -0.01, 0.03}, {0.1, 0.2, -0.3}};
@@ -104,9 +104,9 @@ TEST(MotionPrediction, KnowsTheBiases) {
   }
 }
 
-/// From a state on the way it goes on as from the first one.
+/// Prediction from an intermediate state continues the same motion.
 TEST(MotionPrediction, GoesOnFromAnyOfItsStates) {
-  const InertialNoiseParams params;
+  const ImuNoiseParams params;
   const test::SmoothMotion motion(Rng(8), {});
   const auto samples = test::perfect_readings(motion, 2, 100, params);
   const auto whole = predict_motion(motion.state(0), Stamp{0}, samples, every_tenth(0, 2), params);
@@ -118,7 +118,7 @@ TEST(MotionPrediction, GoesOnFromAnyOfItsStates) {
 }
 
 TEST(MotionPrediction, RefusesGaps) {
-  const InertialNoiseParams params;
+  const ImuNoiseParams params;
   const test::SmoothMotion motion(Rng(6), {});
   const auto samples = test::perfect_readings(motion, 1, 100, params);
   EXPECT_FALSE(predict_motion({}, Stamp::from_seconds(0.9), samples, {Stamp::from_seconds(1.2)}, params));

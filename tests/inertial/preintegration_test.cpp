@@ -12,8 +12,8 @@ namespace {
 using test::Liveliness;
 using test::SmoothMotion;
 
-InertialNoiseParams quiet_unit() {
-  InertialNoiseParams params;
+ImuNoiseParams quiet_unit() {
+  ImuNoiseParams params;
   params.integration_noise = 1e-8;
   return params;
 }
@@ -26,10 +26,9 @@ InertialResidual between(const FreeMotion& a, const FreeMotion& b) {
   return r;
 }
 
-/// The known poses and velocities of a motion leave no residual, up to the square of the time between
-/// readings.
+/// The known poses and velocities of a motion leave no residual, up to the square of the sampling interval.
 TEST(Preintegration, IsTheMotionItself) {
-  const InertialNoiseParams params;
+  const ImuNoiseParams params;
   for (int n = 0; n < 20; ++n) {
     const SmoothMotion motion(Rng(4).split(static_cast<std::uint64_t>(n)), Liveliness{});
     const auto error = [&](double rate_hz) {
@@ -43,11 +42,11 @@ TEST(Preintegration, IsTheMotionItself) {
   }
 }
 
-/// A body at rest falls, in its own frame, upwards.
+/// Relative to free fall, a body at rest accelerates upwards.
 TEST(Preintegration, AtRestByHand) {
-  InertialNoiseParams params;
+  ImuNoiseParams params;
   params.gravity_mps2 = 10;
-  std::vector<InertialSample> samples;
+  std::vector<ImuSample> samples;
   for (int k = 0; k <= 100; ++k) samples.push_back({Stamp::from_seconds(0.01 * k), {0, 0, 10}, {0, 0, 0}});
   const auto sum = preintegrate(samples, Stamp{0}, Stamp::from_seconds(1), {}, params);
   ASSERT_TRUE(sum);
@@ -58,12 +57,12 @@ TEST(Preintegration, AtRestByHand) {
   EXPECT_NEAR(sum->covariance(8, 8), 25e-6, 1e-9);
   EXPECT_NEAR(sum->covariance(2, 2), 25e-6 / 3 + 1e-8, 1e-9);
   EXPECT_NEAR(sum->covariance(5, 5), 25e-8, 1e-12);
-  // A tilt by the gyroscope's noise pushes gravity sideways: 100 s_g^2 t^3 / 3 on top.
+  // Tilt from gyroscope noise adds horizontal acceleration by gravity: 100 s_g^2 t^3 / 3.
   EXPECT_NEAR(sum->covariance(6, 6), 25e-6 + 25e-6 / 3, 1e-8);
 }
 
 TEST(Preintegration, BiasJacobianEqualsTheNumericalOne) {
-  const InertialNoiseParams params;
+  const ImuNoiseParams params;
   Rng rng(5);
   for (int n = 0; n < 10; ++n) {
     const SmoothMotion motion(rng.split(static_cast<std::uint64_t>(n)), Liveliness{});
@@ -86,9 +85,9 @@ TEST(Preintegration, BiasJacobianEqualsTheNumericalOne) {
   }
 }
 
-/// The first order holds for biases as they are: a hundredth of the change is left.
+/// The first order is accurate for realistic biases: one hundredth of the change is left.
 TEST(Preintegration, FollowsAChangedBias) {
-  const InertialNoiseParams params;
+  const ImuNoiseParams params;
   const SmoothMotion motion(Rng(6), Liveliness{});
   const auto samples = test::perfect_readings(motion, 1, 200, params);
   const InertialBias bias{{0.01, -0.02, 0.015}, {0.1, 0.2, -0.15}};
@@ -100,7 +99,7 @@ TEST(Preintegration, FollowsAChangedBias) {
 }
 
 TEST(Preintegration, CovarianceIsThatOfManyUnits) {
-  const InertialNoiseParams params = quiet_unit();
+  const ImuNoiseParams params = quiet_unit();
   const SmoothMotion motion(Rng(7), Liveliness{});
   const auto clean = test::perfect_readings(motion, 0.5, 200, params);
   const Stamp end = Stamp::from_seconds(0.5);
@@ -109,7 +108,7 @@ TEST(Preintegration, CovarianceIsThatOfManyUnits) {
   constexpr int kUnits = 1500;
   Preintegration::Covariance seen = Preintegration::Covariance::Zero();
   double squared_norm = 0;
-  InertialNoiseParams white = params;
+  ImuNoiseParams white = params;
   white.accelerometer_walk = white.gyroscope_walk = 0;
   Rng rng(8);
   for (int n = 0; n < kUnits; ++n) {
@@ -125,7 +124,7 @@ TEST(Preintegration, CovarianceIsThatOfManyUnits) {
 }
 
 TEST(Preintegration, OfTwoPartsIsThatOfTheWhole) {
-  const InertialNoiseParams params;
+  const ImuNoiseParams params;
   const SmoothMotion motion(Rng(9), Liveliness{});
   const auto samples = test::perfect_readings(motion, 1, 100, params);
   const Stamp middle = Stamp::from_seconds(0.4), end = Stamp::from_seconds(0.9);
@@ -139,7 +138,7 @@ TEST(Preintegration, OfTwoPartsIsThatOfTheWhole) {
 }
 
 TEST(Preintegration, RefusesGaps) {
-  const InertialNoiseParams params;
+  const ImuNoiseParams params;
   const SmoothMotion motion(Rng(10), Liveliness{});
   auto samples = test::perfect_readings(motion, 2, 100, params);
   const auto sum = [&](double from, double to) {

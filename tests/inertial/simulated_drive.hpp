@@ -1,5 +1,4 @@
-// A robot with a laser scanner's poses on a drifting map and an inertial unit, all with the errors that they
-// state.
+// Simulated drive with poses by scan matching on a drifting map and IMU samples, with errors as stated.
 #pragma once
 
 #include <utility>
@@ -11,20 +10,20 @@
 
 namespace radioslam::test {
 
-/// How long the drive is, and how well the scans tell the motion.
+/// Length of the drive, and accuracy of the scans.
 struct DrivePlan {
   double duration_s = 4;
   double states_hz = 10, readings_hz = 200;
-  double sigma_position_m = 0.02, sigma_rotation_rad = 0.003;  ///< of one pose by scans
+  double sigma_position_m = 0.02, sigma_rotation_rad = 0.003;  ///< of one pose by scan matching
   double sigma_drift_m = 0.01, sigma_drift_rad = 0.002;        ///< of the map, from one state to the next
-  double corridor_begin_s = 0, corridor_end_s = 0;  ///< there scans see no motion along the world's x
+  double corridor_begin_s = 0, corridor_end_s = 0;  ///< scans observe no motion along the world's x
   Liveliness liveliness{1, 0.3, 2, 0.5, 0.1};
   Eigen::Vector3d course_mps = Eigen::Vector3d::Zero();
 };
 
 struct SimulatedDrive {
   InertialDrive drive;
-  std::vector<InertialSample> samples;
+  std::vector<ImuSample> samples;
   std::vector<InertialState> truth;  ///< at the drive's stamps
 };
 
@@ -39,8 +38,8 @@ inline SE3::Jacobian diagonal_covariance(double sigma_m, double sigma_rad, const
   return covariance;
 }
 
-/// The world on the map at a state and the next. Where scans do not see the way along `along` (in the body's
-/// frame at the first, zero elsewhere), the map goes along.
+/// Pose of the world on the drifting map. Where scans do not observe motion along `along` (in the body frame,
+/// zero elsewhere), the map moves along with the body.
 struct GrowingMap {
   SE3 T_map_world;
 
@@ -52,7 +51,7 @@ struct GrowingMap {
   }
 };
 
-/// What scans tell of a pose on the map: with noise, or of its way along `along` in the body's frame nothing.
+/// Pose on the map by scan matching: noisy, and without information along `along` in the body frame.
 inline MapPose scan_pose(const SE3& T_map_body, const DrivePlan& plan, const Eigen::Vector3d& along,
                          Rng& rng) {
   SE3::Tangent noise;
@@ -62,8 +61,8 @@ inline MapPose scan_pose(const SE3& T_map_body, const DrivePlan& plan, const Eig
           diagonal_covariance(plan.sigma_position_m, plan.sigma_rotation_rad, kNotSeen_m * along).inverse()};
 }
 
-/// The start's guess is drawn about the truth with the sigmas that the smoother assumes.
-inline SimulatedDrive simulate_drive(const DrivePlan& plan, const InertialNoiseParams& noise,
+/// The initial guess is drawn around the truth with the smoother's prior sigmas.
+inline SimulatedDrive simulate_drive(const DrivePlan& plan, const ImuNoiseParams& noise,
                                      const InertialSmootherParams& smoother, Rng rng) {
   SmoothMotion motion(rng.split("motion"), plan.liveliness);
   motion.add_course(plan.course_mps);

@@ -1,4 +1,4 @@
-// Motions that are known at every time, and what an inertial unit reads along them.
+// Smooth analytic motions, and the samples of an IMU along them.
 #pragma once
 
 #include <array>
@@ -6,19 +6,19 @@
 #include <vector>
 
 #include "radioslam/base/random.hpp"
-#include "radioslam/inertial/inertial_noise.hpp"
+#include "radioslam/inertial/imu_noise.hpp"
 #include "radioslam/inertial/inertial_state.hpp"
 #include "radioslam/mission/inertial.hpp"
 
 namespace radioslam::test {
 
-/// How lively a motion is.
+/// Amplitudes and rates of a motion.
 struct Liveliness {
-  double way_m = 1;            ///< of each sine, per axis
-  double turn_rad = 0.5;       ///< likewise, of yaw, pitch and roll
-  double fastest_radps = 3;    ///< of the sines' angular frequencies
-  double speed_mps = 1;        ///< of the straight motion that they are added to
-  double turning_radps = 0.2;  ///< likewise, at most
+  double way_m = 1;            ///< amplitude of the translational sines, per axis
+  double turn_rad = 0.5;       ///< amplitude of the sines in yaw, pitch and roll
+  double fastest_radps = 3;    ///< largest angular frequency of the sines
+  double speed_mps = 1;        ///< of the linear motion that the sines are added to
+  double turning_radps = 0.2;  ///< largest constant rate of yaw, pitch and roll
 };
 
 /// Each of x, y, z, yaw, pitch, roll a straight line plus three sines.
@@ -34,7 +34,7 @@ class SmoothMotion {
     }
   }
 
-  /// On top of the drawn lines.
+  /// Adds to the random linear motion.
   void add_course(const Eigen::Vector3d& velocity_mps) {
     for (int axis = 0; axis < 3; ++axis) lines_[index(axis)] += velocity_mps[axis];
   }
@@ -47,7 +47,7 @@ class SmoothMotion {
   }
   Eigen::Vector3d velocity(double t) const { return {slope(0, t), slope(1, t), slope(2, t)}; }
   Eigen::Vector3d acceleration(double t) const { return {bend(0, t), bend(1, t), bend(2, t)}; }
-  /// In the body: w = E(pitch, roll) [roll', pitch', yaw'].
+  /// In the body frame: w = E(pitch, roll) [roll', pitch', yaw'].
   Eigen::Vector3d angular_rate(double t) const {
     const double pitch = value(4, t), roll = value(5, t);
     const double yaw_rate = slope(3, t), pitch_rate = slope(4, t), roll_rate = slope(5, t);
@@ -56,7 +56,7 @@ class SmoothMotion {
             -pitch_rate * std::sin(roll) + yaw_rate * std::cos(roll) * std::cos(pitch)};
   }
   InertialState state(double t) const { return {pose(t), velocity(t), {}}; }
-  InertialSample reading(double t, const Eigen::Vector3d& gravity) const {
+  ImuSample reading(double t, const Eigen::Vector3d& gravity) const {
     return {Stamp::from_seconds(t), pose(t).rotation().conjugate() * (acceleration(t) - gravity),
             angular_rate(t)};
   }
@@ -89,28 +89,27 @@ class SmoothMotion {
   std::array<std::array<Sine, kSines>, 6> sines_{};
 };
 
-/// Any three numbers.
+/// Three independent normal variates.
 inline Eigen::Vector3d normal_vector(Rng& rng, double sigma) {
   const double x = rng.normal(0, sigma), y = rng.normal(0, sigma), z = rng.normal(0, sigma);
   return {x, y, z};
 }
 
-/// Readings without error, at `rate_hz`, from 0 to `end_s`.
+/// Error-free samples at `rate_hz`, from 0 to `end_s`.
 template <class Motion>
-std::vector<InertialSample> perfect_readings(const Motion& motion, double end_s, double rate_hz,
-                                             const InertialNoiseParams& params) {
-  std::vector<InertialSample> samples;
+std::vector<ImuSample> perfect_readings(const Motion& motion, double end_s, double rate_hz,
+                                        const ImuNoiseParams& params) {
+  std::vector<ImuSample> samples;
   const auto count = static_cast<int>(std::lround(end_s * rate_hz));
   for (int k = 0; k <= count; ++k) samples.push_back(motion.reading(k / rate_hz, params.gravity()));
   return samples;
 }
 
-/// The same readings with white noise, and with a bias that walks from `bias` on. Returns where it was at
-/// each reading.
-inline std::vector<InertialBias> add_errors(std::vector<InertialSample>& samples, InertialBias bias,
-                                            double rate_hz, const InertialNoiseParams& params, Rng& rng) {
+/// Adds white noise and a bias that performs a random walk from `bias`. Returns the bias at each sample.
+inline std::vector<InertialBias> add_errors(std::vector<ImuSample>& samples, InertialBias bias,
+                                            double rate_hz, const ImuNoiseParams& params, Rng& rng) {
   std::vector<InertialBias> biases;
-  for (InertialSample& sample : samples) {
+  for (ImuSample& sample : samples) {
     biases.push_back(bias);
     sample.angular_rate_radps +=
         bias.gyroscope_radps + normal_vector(rng, params.gyroscope_noise * std::sqrt(rate_hz));

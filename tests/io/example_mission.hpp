@@ -1,4 +1,4 @@
-// A small mission with every table, as files: the valid ground on which tests change one thing.
+// A small valid mission with every table, as files; tests change one thing in it.
 #pragma once
 
 #include <map>

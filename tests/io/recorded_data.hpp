@@ -1,4 +1,4 @@
-// Where recorded data for tests lies: $RADIOSLAM_TEST_DATA, or the folder `shared/data` beside the source.
+// Location of recorded test data: $RADIOSLAM_TEST_DATA, or the folder `shared/data` next to the source.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Runs something that must refuse its input and says where it did.
+// Helpers for tests of input that must be refused.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ std::string refusal(Function&& read) {
   return {};
 }
 
-/// The same; the test fails unless the refusal names `line`, and its text holds `words`.
+/// Expects an InputError that names `line` and contains `words`.
 template <class Function>
 void expect_refusal(Function&& read, std::size_t line, const std::string& words) {
   try {

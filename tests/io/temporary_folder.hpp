@@ -1,4 +1,4 @@
-// A folder that lives as long as the object.
+// A temporary folder that is removed with its object.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ class TemporaryFolder {
 
   const std::filesystem::path& path() const { return path_; }
 
-  /// Writes a file (and its folders) inside.
+  /// Writes a file inside, and creates its parent folders.
   std::filesystem::path write(const std::filesystem::path& name, std::string_view content) const {
     const auto file = path_ / name;
     std::filesystem::create_directories(file.parent_path());

@@ -14,23 +14,22 @@ using namespace test;
 
 constexpr double kMapSpacing_m = 0.25;
 
-/// A scan from `T_room_scan`, to be found on the map of scans from these places.
+/// A scan from `T_room_scan`, to be found on the map of scans from these poses.
 struct SearchedScan {
   LocalMap map;
-  ScanCloud scan;
+  ScanPyramid scan;
 };
 
 SearchedScan searched_scan(const ScannedRoom& room, const std::vector<SE3>& places, const SE3& T_room_scan,
-                           std::uint64_t seed, ScannerKind kind = ScannerKind::kSpatial,
-                           double most_m = 100) {
+                           std::uint64_t seed, ScannerKind kind = ScannerKind::kSpatial, double max_m = 100) {
   Rng rng(seed);
   Scanner scanner = kind == ScannerKind::kPlanar ? planar_scanner() : Scanner();
   if (kind == ScannerKind::kSpatial) scanner.azimuths = 180;
-  scanner.most_m = most_m;
+  scanner.max_m = max_m;
   SearchedScan result{LocalMap(kMapSpacing_m, {}), {}};
   for (const SE3& place : places)
-    result.map.add(cloud_of(sweep(room, scanner, place, rng), kMapSpacing_m, kind), place, 0);
-  result.scan = cloud_of(sweep(room, scanner, T_room_scan, rng), kMapSpacing_m, kind);
+    result.map.add(pyramid_of(sweep(room, scanner, place, rng), kMapSpacing_m, kind), place, 0);
+  result.scan = pyramid_of(sweep(room, scanner, T_room_scan, rng), kMapSpacing_m, kind);
   return result;
 }
 
@@ -63,11 +62,11 @@ TEST(SearchPose, FindsAScanFromMetresAndFortyDegreesOff) {
                                 truth.yaw() + (seed % 2 == 0 ? 40 : -40) * kDegree);
       const auto found = search_pose(map, scan, guess_at(guess, 1.5, 20 * kDegree), kind, {}, {});
       expect_found(found, truth);
-      EXPECT_LT(found.next_share, 0.9 * found.best.matched_share) << seed;
+      EXPECT_LT(found.next_ratio, 0.9 * found.best.inlier_ratio) << seed;
     }
 }
 
-/// Half a furnished room is another than the whole one: what the window does not hold is not found.
+/// The true pose is outside the window and is not found.
 TEST(SearchPose, LooksWithinItsWindow) {
   const SE3 truth = pose_at(0.5, 0.2, 1.2, 0.4);
   const auto [map, scan] = searched_scan(furnished_room(), places_in_furnished_room(), truth, 1);
@@ -81,10 +80,10 @@ TEST(SearchPose, OfAGuessThatIsRightNeedsNoWindow) {
   const auto [map, scan] = searched_scan(furnished_room(), places_in_furnished_room(), truth, 2);
   const auto found = search_pose(map, scan, {truth}, ScannerKind::kSpatial, {}, {});
   expect_found(found, truth);
-  EXPECT_EQ(found.next_share, 0);
+  EXPECT_EQ(found.next_ratio, 0);
 }
 
-/// Pillars every four metres, all alike, and no wall in reach.
+/// Identical pillars every four metres, and no wall in range.
 SearchedScan scan_among_pillars(const SE3& T_hall_scan, ScannerKind kind) {
   ScannedRoom hall;
   hall.boxes = {{{-100, -100, 0}, {100, 100, 4}}};
@@ -96,39 +95,39 @@ SearchedScan scan_among_pillars(const SE3& T_hall_scan, ScannerKind kind) {
   return searched_scan(hall, places, T_hall_scan, 3, kind, 10);
 }
 
-TEST(SearchPose, AmongPillarsThatAreAllAlikeSaysThatAnotherPlaceFitsAsWell) {
+TEST(SearchPose, AmongIdenticalPillarsReportsASimilarAlternative) {
   for (const ScannerKind kind : {ScannerKind::kSpatial, ScannerKind::kPlanar}) {
     const SE3 truth = pose_at(1.5, 1.8, 1.2, 0.2);
     const auto [map, scan] = scan_among_pillars(truth, kind);
     const auto wide = search_pose(map, scan, guess_at(truth, 2, 5 * kDegree), kind, {}, {});
-    EXPECT_GT(wide.next_share, 0.95 * wide.best.matched_share);
+    EXPECT_GT(wide.next_ratio, 0.95 * wide.best.inlier_ratio);
     const auto narrow = search_pose(map, scan, guess_at(truth, 0.3, 5 * kDegree), kind, {}, {});
-    EXPECT_LT(narrow.next_share, 0.9 * narrow.best.matched_share);
+    EXPECT_LT(narrow.next_ratio, 0.9 * narrow.best.inlier_ratio);
     expect_found(narrow, truth);
   }
 }
 
-/// In the middle of a square room four headings look the same, at one place.
-TEST(SearchPose, CountsAnotherHeadingAsAnotherPlace) {
+/// In the middle of a square room four headings look the same at one position.
+TEST(SearchPose, CountsAnotherHeadingAsADistinctPose) {
   ScannedRoom square;
   square.boxes = {{{-5, -5, 0}, {5, 5, 3}}};
   const SE3 truth = pose_at(0, 0, 1.2, 0);
   const auto [map, scan] = searched_scan(square, {truth}, truth, 4);
   const auto found =
       search_pose(map, scan, guess_at(truth, 0.1, 60 * kDegree), ScannerKind::kSpatial, {}, {});
-  EXPECT_GT(found.next_share, 0.9 * found.best.matched_share);
+  EXPECT_GT(found.next_ratio, 0.9 * found.best.inlier_ratio);
 }
 
-/// A window of a thousand kilometres has more starts than an int can count.
-TEST(SearchPose, OfAnEstimateThatKnowsNothingStillEnds) {
+/// A window of a thousand kilometres has more initial poses than an int can count.
+TEST(SearchPose, OfAnUninformativeEstimateStillTerminates) {
   const SE3 truth = pose_at(0, 0, 1.2, 0);
   const auto [map, scan] = searched_scan(furnished_room(), {truth}, truth, 5);
   PoseSearchParams search;
-  search.most_starts = 1000;
+  search.max_starts = 1000;
   for (const double sigma_m : {1e3, 1e6, 1e12, kNothing_m}) {
     const auto found =
         search_pose(map, scan, guess_at(truth, sigma_m, 100), ScannerKind::kSpatial, search, {});
-    EXPECT_LE(found.best.matched_share, 1) << sigma_m;
+    EXPECT_LE(found.best.inlier_ratio, 1) << sigma_m;
   }
 }
 
@@ -145,21 +144,21 @@ TEST(SearchPose, GivesTheSameBytesForAnyNumberOfThreads) {
   EXPECT_EQ(alone.best.T_target_source.rotation().coeffs(),
             together.best.T_target_source.rotation().coeffs());
   EXPECT_EQ(alone.best.information, together.best.information);
-  EXPECT_EQ(alone.next_share, together.next_share);
+  EXPECT_EQ(alone.next_ratio, together.next_ratio);
 }
 
 TEST(RegisterFrom, TakesTheFirstStartThatIsGoodEnoughElseTheBest) {
   const SE3 truth = pose_at(0.5, 0.2, 1.2, 0.4);
   const auto [map, scan] = searched_scan(furnished_room(), places_in_furnished_room(), truth, 7);
   const std::vector<SE3> starts{pose_at(-2, -0.5, 1.2, 2.5), pose_at(0.9, 0, 1.2, 0.5), truth};
-  const auto best = register_from(map, scan, starts, 2, ScannerKind::kSpatial, {});
+  const auto best = register_best_of(map, scan, starts, 2, ScannerKind::kSpatial, {});
   EXPECT_LT(distance_between(best.T_target_source, truth), 0.05);
-  const auto first = register_from(map, scan, starts, 0, ScannerKind::kSpatial, {});
+  const auto first = register_best_of(map, scan, starts, 0, ScannerKind::kSpatial, {});
   EXPECT_GT(distance_between(first.T_target_source, truth), 0.5);
-  EXPECT_EQ(register_from(map, scan, {}, 0, ScannerKind::kSpatial, {}).matched_share, 0);
+  EXPECT_EQ(register_best_of(map, scan, {}, 0, ScannerKind::kSpatial, {}).inlier_ratio, 0);
 }
 
-TEST(RegisterNear, StaysWithThePriorWhereNothingTellsOtherwise) {
+TEST(RegisterNear, KeepsThePriorWhereScansDoNotConstrain) {
   const SE3 truth = pose_at(0.5, 0.2, 1.2, 0.4);
   const auto [map, scan] = searched_scan(furnished_room(), places_in_furnished_room(), truth, 8);
   PosePrior prior{truth * SE3::exp(planar_motion(0.1, 0.1, 0.02))};

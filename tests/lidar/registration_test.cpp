@@ -11,7 +11,7 @@
 #include "lidar/scanned_room.hpp"
 #include "radioslam/base/parallel.hpp"
 #include "radioslam/geometry/so3.hpp"
-#include "radioslam/lidar/surfel_map.hpp"
+#include "radioslam/lidar/surfels/surfel_map.hpp"
 
 namespace radioslam {
 namespace {
@@ -20,7 +20,7 @@ using namespace test;
 
 constexpr double kChiSquared6 = 22.458;  // 99.9 %
 
-/// A look at every surfel.
+/// Exhaustive nearest-neighbour search.
 NearestSurfel nearest_of(const std::vector<Surfel>& surfels) {
   return [&surfels](const Eigen::Vector3f& point, float squared_reach) {
     const Surfel* nearest = nullptr;
@@ -38,16 +38,16 @@ NearestSurfel nearest_on(const SurfelMap& map) {
   return [&map](const Eigen::Vector3f& point, float squared) { return map.nearest(point, squared); };
 }
 
-/// Goes on until steps are tiny, and takes points at their word.
+/// Converges tightly and does not discount normal noise.
 RegistrationParams exact_params() {
   RegistrationParams params;
   params.max_iterations = 200;
   params.translation_tolerance_m = params.rotation_tolerance_rad = 1e-7;
-  params.leak_factor = 0;
+  params.normal_noise_factor = 0;
   return params;
 }
 
-/// Points here and there, each known as well in every direction.
+/// Scattered points with isotropic covariance.
 std::vector<Surfel> scattered_surfels(int count, double sigma_m, std::uint64_t seed) {
   Rng rng(seed);
   std::vector<Surfel> surfels;
@@ -65,15 +65,15 @@ SE3 tilted_pose() {
   return SE3::exp(xi);
 }
 
-/// Two scans in one place, half a metre and some degrees apart.
+/// Two scans of one room, half a metre and some degrees apart.
 struct ScanPair {
   ScannerKind kind;
   SurfelMap map;
   SurfelSource source;
   SE3 T_target_source;
 
-  Registration lay(const SE3& start, const PosePrior& prior = {}) const {
-    return register_surfels(nearest_on(map), source, {start, 0.3, map.reach_m()}, prior, kind, {});
+  Registration align(const SE3& start, const PosePrior& prior = {}) const {
+    return register_surfels(nearest_on(map), source, {start, 0.3, map.max_distance_m()}, prior, kind, {});
   }
 };
 
@@ -88,11 +88,11 @@ ScanPair scan_pair(const ScannedRoom& room, ScannerKind kind, std::uint64_t seed
   const SE3 T_a_b = SE3::exp(planar_motion(forward, aside, places.uniform(-0.2, 0.2)));
   ScanPair pair{kind, SurfelMap(spacing_m, 0.75), {}, T_a_b};
   pair.map.add(surfels_of(sweep(room, scanner, T_room_a, noise), spacing_m, kind), 0);
-  pair.source = cloud_of(sweep(room, scanner, T_room_a * T_a_b, noise), spacing_m, kind).source;
+  pair.source = pyramid_of(sweep(room, scanner, T_room_a * T_a_b, noise), spacing_m, kind).source;
   return pair;
 }
 
-/// Squared error in standard deviations, per degree of freedom that the scanner measures.
+/// Normalised squared error per degree of freedom that the scanner observes.
 double normalised_squares(const ScanPair& pair, const Registration& fit) {
   const SE3::Tangent error = (pair.T_target_source.inverse() * fit.T_target_source).log();
   const std::array<int, 3> plane{0, 1, 5};
@@ -107,33 +107,33 @@ TEST(RegisterSurfels, FindsAPoseFromThirtyCentimetresAndFiveDegreesOff) {
       const double side = 30.0 * static_cast<double>(seed) * kDegree;
       const SE3 off =
           SE3::exp(planar_motion(0.3 * std::cos(side), 0.3 * std::sin(side), seed % 2 == 0 ? 0.087 : -0.087));
-      const Registration fit = pair.lay(pair.T_target_source * off);
-      EXPECT_NE(fit.end, RegistrationEnd::kNoOverlap);
+      const Registration fit = pair.align(pair.T_target_source * off);
+      EXPECT_NE(fit.end, RegistrationStatus::kNoOverlap);
       EXPECT_LT(6 * normalised_squares(pair, fit), kChiSquared6) << seed;
       const SE3 error = pair.T_target_source.inverse() * fit.T_target_source;
       EXPECT_LT(error.translation().head<2>().norm(), 0.02) << seed;
       EXPECT_LT(std::abs(error.yaw()), 0.2 * kDegree) << seed;
-      EXPECT_GT(fit.matched_share, 0.6);
+      EXPECT_GT(fit.inlier_ratio, 0.6);
     }
 }
 
-/// NEES over a hundred pairs: one where the information is the errors', more where it promises too much.
+/// Mean NEES over a hundred pairs: one if the information matches the errors, more if it is overconfident.
 double mean_nees(const ScannedRoom& room, ScannerKind kind) {
   double mean = 0;
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     const ScanPair pair = scan_pair(room, kind, 1000 + seed);
     const SE3 off = SE3::exp(planar_motion(0.1, -0.05, 0.03));
-    mean += normalised_squares(pair, pair.lay(pair.T_target_source * off)) / 100;
+    mean += normalised_squares(pair, pair.align(pair.T_target_source * off)) / 100;
   }
   testing::Test::RecordProperty("mean_nees", std::to_string(mean));
   return mean;
 }
 
-TEST(RegisterSurfels, IsNotSurerThanItIsRightInSpace) {
+TEST(RegisterSurfels, IsNotOverconfidentInSpace) {
   EXPECT_LT(mean_nees(furnished_room(), ScannerKind::kSpatial), 1.5);
 }
 
-TEST(RegisterSurfels, IsNotSurerThanItIsRightInThePlane) {
+TEST(RegisterSurfels, IsNotOverconfidentInThePlane) {
   EXPECT_LT(mean_nees(furnished_room(), ScannerKind::kPlanar), 1.5);
 }
 
@@ -146,23 +146,23 @@ TEST(RegisterSurfels, OfACloudOntoItselfMovedFindsTheMotion) {
     const RegistrationStart start{tilted_pose() * SE3::exp(off), 0.1, 1};
     const auto fit =
         register_surfels(nearest_of(moved), source, start, {}, ScannerKind::kSpatial, exact_params());
-    EXPECT_EQ(fit.end, RegistrationEnd::kConverged);
+    EXPECT_EQ(fit.end, RegistrationStatus::kConverged);
     EXPECT_LT((tilted_pose().inverse() * fit.T_target_source).log().norm(), 1e-4);
-    EXPECT_NEAR(fit.matched_share, 1, 1e-3);
-    EXPECT_LT(fit.rms_m, 1e-2);
+    EXPECT_NEAR(fit.inlier_ratio, 1, 1e-3);
+    EXPECT_LT(fit.normalised_rms, 1e-2);
   }
 }
 
 /// The sum of J' J / (2 sigma^2), J = [I, -[p]x]: two clouds of the same noise, at rest.
-TEST(RegisterSurfels, TellsTheInformationOfKnownPoints) {
+TEST(RegisterSurfels, ReturnsTheInformationOfKnownPoints) {
   const double sigma_m = 0.05;
-  for (const double share : {1.0, 0.25}) {
-    const SurfelSource source{scattered_surfels(300, sigma_m, 7), share};
+  for (const double ratio : {1.0, 0.25}) {
+    const SurfelSource source{scattered_surfels(300, sigma_m, 7), ratio};
     SE3::Jacobian expected = SE3::Jacobian::Zero();
     for (const Surfel& surfel : source.surfels) {
       Eigen::Matrix<double, 3, 6> jacobian;
       jacobian << Eigen::Matrix3d::Identity(), -skew(surfel.position.cast<double>());
-      expected += share / (2 * sigma_m * sigma_m) * jacobian.transpose() * jacobian;
+      expected += ratio / (2 * sigma_m * sigma_m) * jacobian.transpose() * jacobian;
     }
     const auto fit = register_surfels(nearest_of(source.surfels), source, {SE3(), 0, 1}, {},
                                       ScannerKind::kSpatial, exact_params());
@@ -171,8 +171,8 @@ TEST(RegisterSurfels, TellsTheInformationOfKnownPoints) {
   }
 }
 
-/// Two estimates of one place meet where their information weighs the same.
-TEST(RegisterSurfels, MeetsThePriorHalfWay) {
+/// With equal information, the result is half way between the measurement and the prior.
+TEST(RegisterSurfels, IsMidwayBetweenMeasurementAndPriorOfEqualInformation) {
   const SurfelSource source{scattered_surfels(300, 0.05, 8)};
   const auto moved = transformed(SE3::exp(planar_motion(0.06, 0, 0)), source.surfels);
   RegistrationParams params = exact_params();
@@ -205,7 +205,8 @@ TEST(RegisterSurfels, TurnsWithItsSource) {
   const auto target = pair.map.surfels();
   const SE3 start = pair.T_target_source * SE3::exp(planar_motion(0.1, 0.1, 0.04));
   const SE3 B = tilted_pose();
-  const SurfelSource turned{transformed(B.inverse(), pair.source.surfels), pair.source.independent_share};
+  const SurfelSource turned{transformed(B.inverse(), pair.source.surfels),
+                            pair.source.effective_sample_ratio};
   const auto fit =
       register_surfels(nearest_of(target), pair.source, {start, 0.2, 0.75}, {}, pair.kind, exact_params());
   const auto other =
@@ -219,31 +220,31 @@ TEST(RegisterSurfels, TurnsWithItsSource) {
 
 TEST(RegisterSurfels, OfAPlanarScannerLeavesHeightRollAndPitchAsTheyWere) {
   const ScanPair pair = scan_pair(furnished_room(), ScannerKind::kPlanar, 5);
-  const Registration fit = pair.lay(pair.T_target_source * SE3::exp(planar_motion(0.2, -0.1, 0.05)));
+  const Registration fit = pair.align(pair.T_target_source * SE3::exp(planar_motion(0.2, -0.1, 0.05)));
   EXPECT_EQ(fit.T_target_source.translation().z(), 0);
   EXPECT_EQ(fit.T_target_source.rotation().x(), 0);
   EXPECT_EQ(fit.T_target_source.rotation().y(), 0);
   EXPECT_LT(distance_between(fit.T_target_source, pair.T_target_source), 0.03);
 }
 
-TEST(RegisterSurfels, WithoutOverlapSaysSoAndStaysWhereItStarted) {
+TEST(RegisterSurfels, WithoutOverlapReportsItAndKeepsTheInitialPose) {
   const SurfelSource source{scattered_surfels(300, 0.05, 9)};
   const SE3 start = pose_at(100, 0, 0, 0.3);
   const auto expect_refusal = [&](const std::vector<Surfel>& target, const SurfelSource& of) {
     const auto fit = register_surfels(nearest_of(target), of, {start, 0.2, 1}, {}, ScannerKind::kSpatial, {});
-    EXPECT_EQ(fit.end, RegistrationEnd::kNoOverlap);
-    EXPECT_EQ(fit.matched_share, 0);
+    EXPECT_EQ(fit.end, RegistrationStatus::kNoOverlap);
+    EXPECT_EQ(fit.inlier_ratio, 0);
     EXPECT_TRUE(fit.information.isZero(0));
     EXPECT_LT((start.inverse() * fit.T_target_source).log().norm(), 1e-12);
   };
   expect_refusal(source.surfels, source);
   expect_refusal({}, source);
   expect_refusal(source.surfels, {});
-  const SurfelSource few{scattered_surfels(5, 0.05, 9)};  // too few to hold a pose
+  const SurfelSource few{scattered_surfels(5, 0.05, 9)};  // too few to constrain a pose
   expect_refusal(transformed(start, few.surfels), few);
 }
 
-/// A corridor without a feature, and without an end in sight.
+/// A featureless corridor without visible ends.
 struct CorridorScans {
   SurfelMap map{0.1, 0.3};
   SurfelSource source;
@@ -254,16 +255,16 @@ CorridorScans corridor_scans(ScannerKind kind, std::uint64_t seed) {
   ScannedRoom corridor;
   corridor.boxes = {{{-1000, -1.5, 0}, {1000, 1.5, 2.5}}};
   Scanner scanner = kind == ScannerKind::kPlanar ? planar_scanner() : Scanner();
-  scanner.most_m = 25;
+  scanner.max_m = 25;
   Rng rng(seed);
   CorridorScans scans;
   scans.map.add(surfels_of(sweep(corridor, scanner, pose_at(0, 0, 1.2, 0), rng), 0.1, kind), 0);
-  scans.source = cloud_of(sweep(corridor, scanner, pose_at(0.5, 0.1, 1.2, 0), rng), 0.1, kind).source;
+  scans.source = pyramid_of(sweep(corridor, scanner, pose_at(0.5, 0.1, 1.2, 0), rng), 0.1, kind).source;
   return scans;
 }
 
-/// What it says of the way along it is worth nothing, and it says so.
-TEST(RegisterSurfels, TellsNothingAlongACorridor) {
+/// Motion along the corridor is unobservable, and its information reflects that.
+TEST(RegisterSurfels, HasNoInformationAlongACorridor) {
   for (std::uint64_t seed = 0; seed < 4; ++seed)
     for (const double off_m : {-0.2, 0.0, 0.2}) {
       const CorridorScans scans = corridor_scans(ScannerKind::kSpatial, seed);
@@ -277,9 +278,9 @@ TEST(RegisterSurfels, TellsNothingAlongACorridor) {
     }
 }
 
-/// What leaks is taken off and little else; nothing is told that the points do not tell, not of turns and
-/// shifts together either: in a round hall, off its middle, they know neither by itself.
-TEST(RegisterSurfels, TellsNoMoreThanItsPointsInAnyDirection) {
+/// Normal noise is discounted and little else. The information never exceeds that of the points, in combined
+/// rotations and shifts either: off the centre of a round hall, only their combination is unobservable.
+TEST(RegisterSurfels, HasNoMoreInformationThanItsPointsInAnyDirection) {
   ScannedRoom round_hall;
   round_hall.boxes = {{{-20, -20, 0}, {20, 20, 3}}};
   round_hall.pillars = {{{4, 0}, 8}};
@@ -289,33 +290,32 @@ TEST(RegisterSurfels, TellsNoMoreThanItsPointsInAnyDirection) {
     for (std::uint64_t seed = 0; seed < 3; ++seed) {
       Rng rng(seed);
       Scanner scanner;
-      scanner.most_m = 25;
+      scanner.max_m = 25;
       SurfelMap map(0.1, 0.3);
       map.add(surfels_of(sweep(room, scanner, pose_at(0, 0, 1.2, 0), rng), 0.1, ScannerKind::kSpatial), 0);
       const SE3 moved = pose_at(0.05, 0.03, 1.2, 0.3);
       const SurfelSource source =
-          cloud_of(sweep(room, scanner, moved, rng), 0.1, ScannerKind::kSpatial).source;
+          pyramid_of(sweep(room, scanner, moved, rng), 0.1, ScannerKind::kSpatial).source;
       RegistrationParams once;
-      once.max_iterations = 1;  // both of the same pose
-      const auto information_by = [&](double leak_factor) {
-        once.leak_factor = leak_factor;
+      once.max_iterations = 1;  // both at the same pose
+      const auto information_by = [&](double normal_noise_factor) {
+        once.normal_noise_factor = normal_noise_factor;
         return register_surfels(nearest_on(map), source, {pose_at(0.05, 0.03, 0, 0.3), 0, 0.3}, {},
                                 ScannerKind::kSpatial, once)
             .information;
       };
-      const SE3::Jacobian all = information_by(0), told = information_by(2);
+      const SE3::Jacobian all = information_by(0), discounted = information_by(2);
       const auto smallest = [](const SE3::Jacobian& m) {
         return Eigen::SelfAdjointEigenSolver<SE3::Jacobian>(m).eigenvalues()[0];
       };
-      EXPECT_GE(smallest(all - told), -1e-9 * all.norm());
-      EXPECT_GE(smallest(told), -1e-9 * all.norm());
-      EXPECT_GT(told(1, 1), 0.9 * all(1, 1));  // towards the walls
+      EXPECT_GE(smallest(all - discounted), -1e-9 * all.norm());
+      EXPECT_GE(smallest(discounted), -1e-9 * all.norm());
+      EXPECT_GT(discounted(1, 1), 0.9 * all(1, 1));  // towards the walls
     }
 }
 
-/// Its pose stays where it was expected along the corridor: what a hundred thousand leaning normals tell of
-/// that does not draw it.
-TEST(RegisterSurfels, StaysAlongACorridorWhereItWasExpected) {
+/// Along the corridor the pose keeps the prior despite the spurious information of many noisy normals.
+TEST(RegisterSurfels, KeepsThePriorAlongACorridor) {
   for (std::uint64_t seed = 0; seed < 4; ++seed)
     for (const double off_m : {-0.2, 0.0, 0.2}) {
       const CorridorScans scans = corridor_scans(ScannerKind::kSpatial, seed);
@@ -327,8 +327,8 @@ TEST(RegisterSurfels, StaysAlongACorridorWhereItWasExpected) {
     }
 }
 
-/// Points that know of no surface of their own: held to the surfaces of the map that they lie close to.
-TEST(RegisterSurfels, HoldsLonePointsToSurfacesAndToNothingElse) {
+/// Points without normals are matched to nearby planar surfels of the map.
+TEST(RegisterSurfels, MatchesIsolatedPointsToSurfacesOnly) {
   const double spacing_m = 0.1;
   Rng rng(12);
   SurfelMap map(spacing_m, 0.3);
@@ -336,23 +336,24 @@ TEST(RegisterSurfels, HoldsLonePointsToSurfacesAndToNothingElse) {
   Scanner scanner;
   map.add(surfels_of(sweep(furnished_room(), scanner, T_room_a, rng), spacing_m, ScannerKind::kSpatial), 0);
   SurfelSource points =
-      cloud_of(sweep(furnished_room(), scanner, T_room_a * T_a_b, rng), spacing_m, ScannerKind::kSpatial)
+      pyramid_of(sweep(furnished_room(), scanner, T_room_a * T_a_b, rng), spacing_m, ScannerKind::kSpatial)
           .source;
   for (Surfel& surfel : points.surfels)
-    surfel = {surfel.position, 4e-4F * Eigen::Matrix3f::Identity(), 0, SurfelShape::kPoint};
-  const auto lay = [&](const NearestSurfel& target) {
+    surfel = {surfel.position, 4e-4F * Eigen::Matrix3f::Identity(), 0, SurfelShape::kIsolated};
+  const auto align = [&](const NearestSurfel& target) {
     return register_surfels(target, points, {SE3(), 0.05, 0.3}, {}, ScannerKind::kSpatial, {});
   };
-  const Registration fit = lay(nearest_on(map));
+  const Registration fit = align(nearest_on(map));
   const SE3::Tangent error = (T_a_b.inverse() * fit.T_target_source).log();
   EXPECT_LT(error.head<2>().norm(), 0.02);
   EXPECT_LT(error.dot(fit.information * error), kChiSquared6) << error.transpose();
-  for (const int axis : {0, 1, 5}) EXPECT_GT(fit.information(axis, axis), 1000);  // rings tell no height
-  EXPECT_TRUE(lay(nearest_of(points.surfels)).information.isZero(0));
+  // Scan lines on the floor match no surface, so height is not observed.
+  for (const int axis : {0, 1, 5}) EXPECT_GT(fit.information(axis, axis), 1000);
+  EXPECT_TRUE(align(nearest_of(points.surfels)).information.isZero(0));
 }
 
-/// Beams' lines on the ground ahead, of one scan and of the next: known in height, and that as well as ground
-/// is level from the one to the other.
+/// Scan lines on the ground ahead, in successive scans: they constrain height as well as the ground is level
+/// between them.
 TEST(RegisterSurfels, KnowsTheHeightOfLinesAsWellAsGroundIsLevel) {
   const SurfelParams surfel;
   const double variance_m2 = surfel.sigma_range_m * surfel.sigma_range_m;
@@ -368,7 +369,7 @@ TEST(RegisterSurfels, KnowsTheHeightOfLinesAsWellAsGroundIsLevel) {
     const auto before = lines_at(8 + between_m);
     const SurfelSource now{lines_at(8)};
     const auto lines =
-        static_cast<double>(std::ranges::count(now.surfels, SurfelShape::kLine, &Surfel::shape));
+        static_cast<double>(std::ranges::count(now.surfels, SurfelShape::kScanLine, &Surfel::shape));
     ASSERT_GT(lines, 30);
     const SE3::Jacobian information =
         register_surfels(nearest_of(before), now, {SE3(), 0, 0.3}, {}, ScannerKind::kSpatial, once)
@@ -379,8 +380,8 @@ TEST(RegisterSurfels, KnowsTheHeightOfLinesAsWellAsGroundIsLevel) {
   }
 }
 
-/// A plane's scan: the ends of the walls that it sees hold it a little.
-TEST(RegisterSurfels, AlongACorridorTellsFarLessThanAcross) {
+/// For a planar scanner, the visible ends of the walls constrain motion along the corridor a little.
+TEST(RegisterSurfels, HasFarLessInformationAlongACorridorThanAcross) {
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
     const CorridorScans scans = corridor_scans(ScannerKind::kPlanar, seed);
     const auto fit = register_surfels(nearest_on(scans.map), scans.source, {scans.T_target_source, 0.1, 0.3},
@@ -390,45 +391,45 @@ TEST(RegisterSurfels, AlongACorridorTellsFarLessThanAcross) {
   }
 }
 
-/// Along an axis of which next to nothing is left, steps are no longer than elsewhere.
+/// Steps along an axis with almost all information discounted are no longer than elsewhere.
 TEST(RegisterSurfels, DoesNotOvershootWhatItTrustsLess) {
   const SurfelSource source{scattered_surfels(300, 0.05, 10)};
   const auto moved = transformed(SE3::exp(planar_motion(0.03, -0.02, 0.01)), source.surfels);
   RegistrationParams params = exact_params();
-  for (const double leak_factor : {0.0, 0.3, 0.5}) {
-    params.leak_factor = leak_factor;
+  for (const double normal_noise_factor : {0.0, 0.3, 0.5}) {
+    params.normal_noise_factor = normal_noise_factor;
     params.max_iterations = 1;
     const auto step =
         register_surfels(nearest_of(moved), source, {SE3(), 0, 1}, {}, ScannerKind::kSpatial, params);
-    EXPECT_NEAR(step.T_target_source.translation().x(), 0.03, 0.003) << leak_factor;
-    EXPECT_NEAR(step.T_target_source.translation().y(), -0.02, 0.003) << leak_factor;
-    EXPECT_NEAR(step.T_target_source.yaw(), 0.01, 0.003) << leak_factor;
+    EXPECT_NEAR(step.T_target_source.translation().x(), 0.03, 0.003) << normal_noise_factor;
+    EXPECT_NEAR(step.T_target_source.translation().y(), -0.02, 0.003) << normal_noise_factor;
+    EXPECT_NEAR(step.T_target_source.yaw(), 0.01, 0.003) << normal_noise_factor;
   }
 }
 
-/// Six points in a clump can turn a scanner far from them out of their own reach.
-TEST(RegisterSurfels, ThatLosesItsOverlapOnTheWaySaysSoToo) {
+/// Six points in a clump can rotate a scanner far from them out of their correspondence distance.
+TEST(RegisterSurfels, ReportsOverlapLostDuringIterations) {
   int lost = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     Rng rng(seed);
     SurfelSource source;
     std::vector<Surfel> target;
     for (int k = 0; k < 6; ++k) {
-      Eigen::Vector3f at(60, 0, 0), met(60, 0, 0);
+      Eigen::Vector3f at(60, 0, 0), target_point(60, 0, 0);
       for (int axis = 0; axis < 3; ++axis) {
         at[axis] += static_cast<float>(rng.normal(0, 0.3));
-        met[axis] += static_cast<float>(rng.normal(0.2, 0.3));
+        target_point[axis] += static_cast<float>(rng.normal(0.2, 0.3));
       }
       source.surfels.push_back({at, 0.001F * Eigen::Matrix3f::Identity()});
-      target.push_back({met, 0.001F * Eigen::Matrix3f::Identity()});
+      target.push_back({target_point, 0.001F * Eigen::Matrix3f::Identity()});
     }
     const auto fit =
         register_surfels(nearest_of(target), source, {SE3(), 0, 1}, {}, ScannerKind::kSpatial, {});
     EXPECT_TRUE(fit.T_target_source.translation().allFinite());
     EXPECT_TRUE(fit.information.allFinite());
-    if (fit.end != RegistrationEnd::kNoOverlap) continue;
+    if (fit.end != RegistrationStatus::kNoOverlap) continue;
     ++lost;
-    EXPECT_EQ(fit.matched_share, 0) << seed;
+    EXPECT_EQ(fit.inlier_ratio, 0) << seed;
     EXPECT_TRUE(fit.information.isZero(0)) << seed;
     EXPECT_LT(fit.T_target_source.log().norm(), 1e-12) << seed;
   }
@@ -439,15 +440,15 @@ TEST(RegisterSurfels, GivesTheSameBytesForAnyNumberOfThreads) {
   const ScanPair pair = scan_pair(furnished_room(), ScannerKind::kSpatial, 6);
   const SE3 start = pair.T_target_source * SE3::exp(planar_motion(0.2, 0.1, -0.05));
   set_thread_count(1);
-  const Registration alone = pair.lay(start);
+  const Registration alone = pair.align(start);
   for (const std::size_t threads : {2U, 5U}) {
     set_thread_count(threads);
-    const Registration together = pair.lay(start);
+    const Registration together = pair.align(start);
     EXPECT_EQ(together.T_target_source.translation(), alone.T_target_source.translation());
     EXPECT_EQ(together.T_target_source.rotation().coeffs(), alone.T_target_source.rotation().coeffs());
     EXPECT_EQ(together.information, alone.information);
-    EXPECT_EQ(together.matched_share, alone.matched_share);
-    EXPECT_EQ(together.rms_m, alone.rms_m);
+    EXPECT_EQ(together.inlier_ratio, alone.inlier_ratio);
+    EXPECT_EQ(together.normalised_rms, alone.normalised_rms);
   }
   set_thread_count(0);
 }

@@ -1,4 +1,4 @@
-// Drives through scanned rooms, as a robot's scanner records them.
+// Simulated drives of a laser scanner through rooms.
 #pragma once
 
 #include <algorithm>
@@ -7,39 +7,39 @@
 #include <vector>
 
 #include "lidar/scanned_room.hpp"
-#include "radioslam/lidar/scan_odometry.hpp"
+#include "radioslam/lidar/lidar_odometry.hpp"
 
 namespace radioslam::test {
 
-/// Scans with the places at which they began.
+/// Scans with the true poses at their stamps.
 struct ScanDrive {
   std::vector<Stamp> stamps;
   std::vector<SE3> truth;  ///< T_room_body
   std::vector<LidarScan> scans;
 
-  /// As odometry should have it: in the frame of the first scan.
+  /// True pose in the frame of the first scan, which odometry should reproduce.
   SE3 way_to(std::size_t k) const { return truth.front().inverse() * truth[k]; }
   SE3 way() const { return way_to(truth.size() - 1); }
 };
 
-/// Ten scans a second along these poses, each swept on the way past its pose.
+/// Ten scans per second along these poses, each swept while passing its pose.
 inline ScanDrive drive_along(const ScannedRoom& room, const Scanner& scanner, const std::vector<SE3>& poses,
                              std::uint64_t seed) {
   constexpr double kBetweenScans_s = 0.1;
   Rng rng(seed);
   ScanDrive drive;
   for (std::size_t k = 0; k < poses.size(); ++k) {
-    // beyond its ends the drive goes on as it began and ended
+    // the first and last velocities continue beyond the ends
     const std::size_t to = std::min(k + 1, poses.size() - 1), from = std::max<std::size_t>(k, 1) - 1;
     const auto twist = [&](std::size_t i, std::size_t j) {
       return SE3::Tangent((poses[i].inverse() * poses[j]).log() / kBetweenScans_s);
     };
     const SE3::Tangent ahead = to > k ? twist(k, to) : twist(from, k);
     const SE3::Tangent behind = from < k ? twist(from, k) : twist(k, to);
-    const double share = scanner.stamp_at;
+    const double fraction = scanner.stamp_at;
     drive.stamps.push_back(Stamp::from_seconds(kBetweenScans_s * static_cast<double>(k)));
     drive.truth.push_back(poses[k]);
-    drive.scans.push_back(sweep(room, scanner, poses[k], rng, (1 - share) * ahead + share * behind));
+    drive.scans.push_back(sweep(room, scanner, poses[k], rng, (1 - fraction) * ahead + fraction * behind));
   }
   return drive;
 }
@@ -49,14 +49,14 @@ inline LidarLog log_of(const ScanDrive& drive) {
 }
 
 inline std::vector<ScanPose> odometry_of(const ScanDrive& drive, const LidarParams& params = {}) {
-  ScanOdometer odometer(scanner_traits(log_of(drive), params), params);
+  LidarOdometry odometer(scanner_traits(log_of(drive), params), params);
   std::vector<ScanPose> poses;
   for (std::size_t k = 0; k < drive.scans.size(); ++k)
-    poses.push_back(odometer.add(drive.stamps[k], drive.scans[k]));
+    poses.push_back(odometer.register_scan(drive.stamps[k], drive.scans[k]));
   return poses;
 }
 
-/// Points thrown anywhere.
+/// Random points without structure.
 inline LidarScan noise_scan(ScannerKind kind, int count, Rng& rng) {
   LidarScan scan;
   for (int k = 0; k < count; ++k) {
@@ -66,7 +66,7 @@ inline LidarScan noise_scan(ScannerKind kind, int count, Rng& rng) {
   return scan;
 }
 
-/// Once around the furnished room, always looking ahead.
+/// One lap of the furnished room, facing ahead.
 inline std::vector<SE3> around_furnished_room(int steps) {
   std::vector<SE3> poses;
   for (int k = 0; k < steps; ++k) {
@@ -94,7 +94,7 @@ inline ScannedRoom furnished_hall() {
   return hall;
 }
 
-/// Through the hall: 20 m there in a slight bend.
+/// Through the hall: 20 m along a slight curve.
 inline std::vector<SE3> through_furnished_hall(int steps) {
   std::vector<SE3> poses{pose_at(-12, -0.5, 1.2, -0.3)};
   for (int k = 1; k < steps; ++k)

@@ -19,14 +19,14 @@ SE3::Tangent turning_twist() {
   return twist;
 }
 
-/// Points at rest about a body that moves with the twist, each as seen at its own time.
-struct SweptPoints {
+/// Static points around a body that moves with the twist, each as seen at its own time.
+struct DeskewedPoints {
   LidarScan scan;
   std::vector<Eigen::Vector3d> at_stamp;
 };
 
-SweptPoints swept_points(int count, double begin_s, double end_s, Rng& rng) {
-  SweptPoints swept;
+DeskewedPoints swept_points(int count, double begin_s, double end_s, Rng& rng) {
+  DeskewedPoints swept;
   for (int k = 0; k < count; ++k) {
     const double time_s = begin_s + (end_s - begin_s) * k / (count - 1);
     const double x = rng.uniform(-20, 20), y = rng.uniform(1, 20), z = rng.uniform(-2, 5);
@@ -50,7 +50,7 @@ TEST(UsablePoints, CountsWhatItLeavesOut) {
   LidarScan scan;
   scan.points = {{1, 2, 3},    {kNaN, 0, 0}, {0, kNaN, 1},   {0, 0, kInfinite}, {-kInfinite, 1, 1}, {0, 0, 0},
                  {0.1F, 0, 0}, {481, 0, 0},  {0, -300, 300}, {1e30F, 0, 0},     {-5, -6, 0.5F}};
-  const ScanPoints usable = usable_points(scan, SE3::Tangent::Zero(), {0.5, 100});
+  const ScanPoints usable = filter_and_deskew(scan, SE3::Tangent::Zero(), {0.5, 100});
   ASSERT_EQ(usable.points.size(), 2U);
   EXPECT_EQ(usable.points[0], scan.points.front());
   EXPECT_EQ(usable.points[1], scan.points.back());
@@ -73,24 +73,24 @@ TEST(UsablePoints, PutsSweptPointsBackWhereTheStampSawThem) {
   Rng rng(1);
   for (const double begin_s : {0.0, -0.05, -0.1}) {
     const auto [scan, expected] = swept_points(257, begin_s, begin_s + 0.1, rng);
-    EXPECT_LT(worst_error_m(usable_points(scan, turning_twist(), {}), expected), 1e-4) << begin_s;
+    EXPECT_LT(worst_error_m(filter_and_deskew(scan, turning_twist(), {}), expected), 1e-4) << begin_s;
   }
 }
 
-/// Points in between the times at which the motion is worked out: within a millimetre per metre a second.
+/// Points between the tabulated times of the motion are accurate to a millimetre per m/s.
 TEST(UsablePoints, PutsEveryPointBackHoweverManyThereAre) {
   Rng rng(2);
   const auto [scan, expected] = swept_points(6000, 0, 0.1, rng);
   const double fastest = turning_twist().head<3>().norm() + 29 * turning_twist().tail<3>().norm();
-  EXPECT_LT(worst_error_m(usable_points(scan, turning_twist(), {}), expected), 0.0005 * fastest);
-  EXPECT_GT(worst_error_m(usable_points(scan, SE3::Tangent::Zero(), {}), expected), 1);
+  EXPECT_LT(worst_error_m(filter_and_deskew(scan, turning_twist(), {}), expected), 0.0005 * fastest);
+  EXPECT_GT(worst_error_m(filter_and_deskew(scan, SE3::Tangent::Zero(), {}), expected), 1);
 }
 
 TEST(UsablePoints, WithoutTimesLeavesPointsWhereTheyAre) {
   Rng rng(3);
   auto scan = swept_points(50, 0, 0.1, rng).scan;
   scan.times_s.clear();
-  EXPECT_EQ(usable_points(scan, turning_twist(), {}).points, scan.points);
+  EXPECT_EQ(filter_and_deskew(scan, turning_twist(), {}).points, scan.points);
 }
 
 TEST(UsablePoints, TakesTimesThatAreAllTheSame) {
@@ -98,7 +98,7 @@ TEST(UsablePoints, TakesTimesThatAreAllTheSame) {
   scan.points = {{3, 0, 0}, {0, 4, 0}};
   for (const float time_s : {0.0F, 0.05F, -20.0F}) {
     scan.times_s = {time_s, time_s};
-    const ScanPoints usable = usable_points(scan, turning_twist(), {});
+    const ScanPoints usable = filter_and_deskew(scan, turning_twist(), {});
     const SE3 T = SE3::exp(static_cast<double>(time_s) * turning_twist());
     EXPECT_LT(worst_error_m(usable, {T * Eigen::Vector3d(3, 0, 0), T * Eigen::Vector3d(0, 4, 0)}), 1e-4);
   }
@@ -112,21 +112,21 @@ TEST(UsablePoints, LeavesOutPointsWhoseTimeIsNoNumber) {
     scan.points.insert(scan.points.begin(), Eigen::Vector3f(1, 2, 3));
     scan.times_s.insert(scan.times_s.begin(), broken[k]);
   }
-  const ScanPoints usable = usable_points(scan, turning_twist(), {});
+  const ScanPoints usable = filter_and_deskew(scan, turning_twist(), {});
   EXPECT_EQ(usable.counts.not_finite, 3U);
   EXPECT_LT(worst_error_m(usable, expected), 1e-4);
   scan.points.resize(3);
   scan.times_s.resize(3);
-  EXPECT_EQ(usable_points(scan, turning_twist(), {}).counts.not_finite, 3U);
+  EXPECT_EQ(filter_and_deskew(scan, turning_twist(), {}).counts.not_finite, 3U);
 }
 
-/// A time of a thousand years would carry its point out of the world.
+/// A time of a thousand years would move its point beyond any map.
 TEST(UsablePoints, LeavesOutPointsWithImpossibleTimes) {
   for (const float impossible_s : {-3e10F, 3e10F, -3e38F, 3e38F}) {
     LidarScan scan;
     scan.points = {{3, 0, 0}, {0, 4, 0}, {0, 5, 0}};
     scan.times_s = {0, impossible_s, 0.1F};
-    const ScanPoints usable = usable_points(scan, turning_twist(), {});
+    const ScanPoints usable = filter_and_deskew(scan, turning_twist(), {});
     const SE3 T = SE3::exp(0.1 * turning_twist());
     EXPECT_LT(worst_error_m(usable, {{3, 0, 0}, T * Eigen::Vector3d(0, 5, 0)}), 1e-4);
     EXPECT_EQ(usable.counts.off_time, 1U) << impossible_s;
@@ -138,15 +138,17 @@ TEST(UsablePoints, LeavesOutPointsWithImpossibleTimes) {
 
 TEST(UsablePoints, KnowTheMiddleOfTheirTimes) {
   Rng rng(5);
-  EXPECT_NEAR(usable_points(swept_points(257, 0, 0.1, rng).scan, turning_twist(), {}).middle_s, 0.05, 1e-3);
-  EXPECT_NEAR(usable_points(swept_points(257, -0.1, 0, rng).scan, turning_twist(), {}).middle_s, -0.05, 1e-3);
+  EXPECT_NEAR(filter_and_deskew(swept_points(257, 0, 0.1, rng).scan, turning_twist(), {}).middle_s, 0.05,
+              1e-3);
+  EXPECT_NEAR(filter_and_deskew(swept_points(257, -0.1, 0, rng).scan, turning_twist(), {}).middle_s, -0.05,
+              1e-3);
   LidarScan untimed;
   untimed.points = {{3, 0, 0}};
-  EXPECT_EQ(usable_points(untimed, turning_twist(), {}).middle_s, 0);
+  EXPECT_EQ(filter_and_deskew(untimed, turning_twist(), {}).middle_s, 0);
 }
 
 TEST(UsablePoints, OfAnEmptyScanThereAreNone) {
-  const ScanPoints usable = usable_points({}, turning_twist(), {});
+  const ScanPoints usable = filter_and_deskew({}, turning_twist(), {});
   EXPECT_TRUE(usable.points.empty());
   EXPECT_EQ(usable.counts.used + usable.counts.not_finite + usable.counts.near + usable.counts.far, 0U);
 }
@@ -155,7 +157,7 @@ TEST(UsablePointsDeathTest, WantsATimePerPointOrNone) {
   LidarScan scan;
   scan.points = {{3, 0, 0}, {0, 4, 0}};
   scan.times_s = {0};
-  EXPECT_DEATH(usable_points(scan, turning_twist(), {}), "a time per point or none");
+  EXPECT_DEATH(filter_and_deskew(scan, turning_twist(), {}), "one time per point, or none");
 }
 
 }  // namespace

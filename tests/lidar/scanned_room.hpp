@@ -1,4 +1,4 @@
-// Rooms of boxes and upright pillars, and what a laser scanner measures in them: rays cast exactly.
+// Rooms of boxes and vertical pillars, and exact ray casting of a laser scanner in them.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +13,7 @@
 #include "radioslam/geometry/se3.hpp"
 #include "radioslam/lidar/local_map.hpp"
 #include "radioslam/lidar/scan_points.hpp"
-#include "radioslam/lidar/voxel_grid.hpp"
+#include "radioslam/lidar/surfels/voxel_grid.hpp"
 #include "radioslam/mission/lidar.hpp"
 
 namespace radioslam::test {
@@ -21,12 +21,12 @@ namespace radioslam::test {
 inline constexpr double kDegree = std::numbers::pi / 180;
 inline constexpr double kNothing_m = std::numeric_limits<double>::infinity();
 
-/// With its sides along the axes: a room seen from inside, a wall or a crate seen from outside.
+/// Axis-aligned: a room seen from inside, a wall or a crate seen from outside.
 struct Box {
   Eigen::Vector3d low, high;
 };
 
-/// Upright, without end: seen from outside, or a round hall's wall seen from inside.
+/// Vertical and of infinite height: seen from outside, or a round hall's wall from inside.
 struct Pillar {
   Eigen::Vector2d centre;
   double radius_m = 0.3;
@@ -37,7 +37,7 @@ struct ScannedRoom {
   std::vector<Pillar> pillars;
 };
 
-/// Way along the ray to the surface of the box, from outside or from inside.
+/// Distance along the ray to the surface of the box, from outside or from inside.
 inline double distance_to(const Box& box, const Eigen::Vector3d& from, const Eigen::Vector3d& ray) {
   double enters = -kNothing_m, leaves = kNothing_m;
   for (int axis = 0; axis < 3; ++axis) {
@@ -68,15 +68,15 @@ inline double distance_to(const ScannedRoom& room, const Eigen::Vector3d& from, 
   return nearest;
 }
 
-/// Beams one above the other, swept all around; what is too far away is not in the scan.
+/// Stacked beams, swept around the vertical axis; points beyond `max_m` are not in the scan.
 struct Scanner {
   int beams = 16, azimuths = 360;
   double lowest_rad = -15 * kDegree, highest_rad = 15 * kDegree;
   double view_rad = 2 * std::numbers::pi;  ///< about body x
   double sigma_range_m = 0.02;
-  double most_m = 100;
+  double max_m = 100;
   double sweep_s = 0;   ///< > 0: points have times
-  double stamp_at = 0;  ///< share of the sweep at the stamp
+  double stamp_at = 0;  ///< fraction of the sweep before the stamp
 };
 
 inline Scanner planar_scanner(int azimuths = 360, double view_rad = 2 * std::numbers::pi) {
@@ -93,9 +93,9 @@ inline LidarScan sweep(const ScannedRoom& room, const Scanner& scanner, const SE
                        const SE3::Tangent& twist_per_s = SE3::Tangent::Zero()) {
   LidarScan scan;
   for (int a = 0; a < scanner.azimuths; ++a) {
-    const double share = a / static_cast<double>(scanner.azimuths);
-    const double time_s = scanner.sweep_s * (share - scanner.stamp_at),
-                 azimuth = (share - 0.5) * scanner.view_rad;
+    const double fraction = a / static_cast<double>(scanner.azimuths);
+    const double time_s = scanner.sweep_s * (fraction - scanner.stamp_at),
+                 azimuth = (fraction - 0.5) * scanner.view_rad;
     const SE3 T = T_room_body * SE3::exp(time_s * twist_per_s);
     for (int b = 0; b < scanner.beams; ++b) {
       const double rise = b / std::max(1.0, scanner.beams - 1.0);
@@ -104,7 +104,7 @@ inline LidarScan sweep(const ScannedRoom& room, const Scanner& scanner, const SE
       const Eigen::Vector3d ray(std::cos(level) * std::cos(azimuth), std::cos(level) * std::sin(azimuth),
                                 std::sin(level));
       const double range = distance_to(room, T.translation(), T.rotate(ray));
-      if (range > scanner.most_m) continue;
+      if (range > scanner.max_m) continue;
       const double noise = rng.normal(0, scanner.sigma_range_m);
       scan.points.emplace_back(((range + noise) * ray).cast<float>());
       if (scanner.sweep_s > 0) scan.times_s.push_back(static_cast<float>(time_s));
@@ -113,17 +113,17 @@ inline LidarScan sweep(const ScannedRoom& room, const Scanner& scanner, const SE
   return scan;
 }
 
-/// A scan's surfels as the odometry makes them.
+/// A scan's surfels as computed by the odometry.
 inline std::vector<Surfel> surfels_of(const LidarScan& scan, double spacing_m, ScannerKind kind) {
-  const auto points = usable_points(scan, SE3::Tangent::Zero(), {}).points;
-  return measure_surfels(thin_by_voxels(points, spacing_m), spacing_m, kind, {});
+  const auto points = filter_and_deskew(scan, SE3::Tangent::Zero(), {}).points;
+  return measure_surfels(voxel_downsample(points, spacing_m), spacing_m, kind, {});
 }
 
-inline ScanCloud cloud_of(const LidarScan& scan, double spacing_m, ScannerKind kind) {
-  return scan_cloud(surfels_of(scan, spacing_m, kind), spacing_m, kind, {});
+inline ScanPyramid pyramid_of(const LidarScan& scan, double spacing_m, ScannerKind kind) {
+  return scan_pyramid(surfels_of(scan, spacing_m, kind), spacing_m, kind, {});
 }
 
-/// A room that looks the same from nowhere else in it.
+/// A room without self-similar views.
 inline ScannedRoom furnished_room() {
   ScannedRoom room;
   room.boxes = {{{-6, -4, 0}, {6, 4, 3}},        // the room itself
@@ -135,7 +135,7 @@ inline ScannedRoom furnished_room() {
   return room;
 }
 
-/// A tangent by its translation and its turn about z.
+/// Tangent with this translation in the plane and this rotation about z.
 inline SE3::Tangent planar_motion(double x_m, double y_m, double yaw_rad) {
   SE3::Tangent xi = SE3::Tangent::Zero();
   xi[0] = x_m;

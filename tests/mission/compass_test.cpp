@@ -11,7 +11,7 @@ namespace {
 using test::KnownWalk;
 using test::recorded;
 
-/// Largest error of the heading over the walk.
+/// Largest error of the heading over the recording.
 double heading_error(const KnownWalk& walk) {
   const auto motion = recorded(walk);
   const auto level = level_motion(motion, {});
@@ -29,7 +29,7 @@ TEST(FitCompass, FindsEastForEveryStart) {
     KnownWalk walk;
     walk.R_hand_device = test::tilted_hand();
     walk.heading_rad = [start_rad](double t) { return start_rad + std::sin(t); };
-    // The tilted y axis seen from above turns as the walker does, up to a constant.
+    // The tilted y axis seen from above rotates with the walker, up to a constant.
     const auto motion = recorded(walk);
     const auto level = level_motion(motion, {});
     const auto fit = fit_compass(level, motion.orientation, {});
@@ -41,7 +41,7 @@ TEST(FitCompass, FindsEastForEveryStart) {
   }
 }
 
-TEST(FitCompass, SteelAlongAThirdOfTheWayTurnsItLittle) {
+TEST(FitCompass, SteelAlongAThirdOfThePathChangesItLittle) {
   KnownWalk walk;
   walk.compass_error_rad = [](double t) { return t > 8 && t < 18 ? 1.0 : 0.0; };
   EXPECT_LT(heading_error(walk), 0.03);
@@ -54,7 +54,7 @@ TEST(FitCompass, ALongWalkShowsTheGyroscopesBias) {
   EXPECT_LT(heading_error(walk), 0.02);
 }
 
-TEST(FitCompass, AShortWalkPastSteelDoesNotBlameTheGyroscope) {
+TEST(FitCompass, AShortWalkPastSteelLeavesTheDriftAtItsPrior) {
   KnownWalk walk;
   walk.duration_s = 10;
   walk.compass_error_rad = [](double t) { return 0.02 * (t - 5); };  // looks like 0.02 rad/s

@@ -14,7 +14,7 @@ namespace {
 
 Stamp at_second(double t) { return Stamp::from_seconds(t); }
 
-/// A winding walk, rows at 20 Hz.
+/// A winding path with odometry at 20 Hz.
 Robot winding_robot(double end_s) {
   Robot robot;
   std::vector<StampedPose<SE3>> rows;
@@ -37,7 +37,7 @@ typename Pose::Tangent drawn_tangent(Rng& rng, double sigma) {
   return xi;
 }
 
-/// Keyframes a second apart, off the odometry by random steps.
+/// Keyframes one second apart, displaced from the odometry by random steps.
 template <class Pose>
 EstimatedKeyframes<Pose> moved_keyframes(const Robot& robot, double step, Rng& rng) {
   std::vector<StampedPose<Pose>> poses;
@@ -108,7 +108,8 @@ TYPED_TEST(ContinuousTrajectoryOf, AsksForManyTimesAsForEach) {
   }
 }
 
-/// Least squares over three poses k, t, m: two prior poses with their errors and the odometry between each.
+/// Least squares over three poses k, t, m: two pose priors with joint covariance and odometry between
+/// neighbours.
 template <class Pose>
 struct ThreePoses {
   static constexpr int kDof = Pose::kDof;
@@ -153,7 +154,7 @@ struct ThreePoses {
   }
 };
 
-/// The pose in between is what the least squares with it in would have given, covariance and all.
+/// The interpolated pose and covariance equal those of a least squares problem that includes the pose.
 TYPED_TEST(ContinuousTrajectoryOf, IsTheLeastSquaresWithThePoseInBetween) {
   using Pose = TypeParam;
   constexpr int kDof = Pose::kDof;
@@ -191,9 +192,9 @@ TYPED_TEST(ContinuousTrajectoryOf, IsTheLeastSquaresWithThePoseInBetween) {
   }
 }
 
-/// Ten metres straight ahead, known to be 0.1 m more: half of it belongs to the middle, whose error is that
-/// of a Brownian bridge, a quarter of the whole way's variance. A standing robot's correction grows with
-/// time.
+/// Ten metres straight ahead, corrected by 0.1 m: half of it applies at the middle, whose error is that of a
+/// Brownian bridge, a quarter of the whole path's variance. The correction of a robot at rest grows linearly
+/// in time.
 TEST(ContinuousTrajectory, ByHand) {
   Robot robot;
   robot.odometry = Trajectory<SE3>(
@@ -211,12 +212,12 @@ TEST(ContinuousTrajectory, ByHand) {
   EXPECT_TRUE(trajectory.at(at_second(6))->pose.translation().isApprox(Eigen::Vector2d(10.1, 0.01), 1e-9));
 }
 
-/// A constant drift taken out: the way then has the shape that it leaves.
+/// A constant drift is removed: the trajectory then has the shape of the odometry without it.
 TEST(ContinuousTrajectory, TakesAConstantDriftOut) {
   Robot robot;
   std::vector<StampedPose<SE3>> bent;
   for (int k = 0; k <= 100; ++k) {
-    const double yaw = 0.01 * 0.1 * k;  // 0.01 rad/m, rows every 0.1 m
+    const double yaw = 0.01 * 0.1 * k;  // 0.01 rad/m, samples every 0.1 m
     bent.push_back({at_second(0.1 * k), lift(SE2({std::sin(yaw) / 0.01, (1 - std::cos(yaw)) / 0.01}, yaw))});
   }
   robot.odometry = Trajectory<SE3>(std::move(bent));

@@ -12,7 +12,7 @@ using test::kPi;
 using test::recorded;
 using test::walk_stamp;
 
-/// Ten seconds north-east, a turn to the left, ten seconds north-west; noisy sensors, a biased gyroscope.
+/// Ten seconds north-east, a left turn, ten seconds north-west; noisy sensors and a biased gyroscope.
 KnownWalk hook() {
   KnownWalk walk;
   walk.duration_s = 24;
@@ -27,7 +27,7 @@ KnownWalk hook() {
 }
 
 DeadReckoning reckon(const PhoneMotion& motion, double begin_s = 0, double end_s = 24) {
-  return reckon_walk(motion, walk_stamp(begin_s), walk_stamp(end_s), {});
+  return dead_reckon(motion, walk_stamp(begin_s), walk_stamp(end_s), {});
 }
 
 TEST(ReckonWalk, FollowsAHookInEastNorthUp) {
@@ -52,7 +52,7 @@ TEST(ReckonWalk, CoversTheWholeLogAndStartsAtTheOrigin) {
   EXPECT_EQ(walk.odometry.at(walk_stamp(0))->translation(), Eigen::Vector3d(0, 0, 0));
 }
 
-TEST(ReckonWalk, StandsDuringAPause) {
+TEST(ReckonWalk, DoesNotMoveDuringAPause) {
   KnownWalk pause;
   const auto before = test::steps_between(2, 10, 2, 3);
   const auto after = test::steps_between(20, 26, 2, 3);
@@ -65,7 +65,7 @@ TEST(ReckonWalk, StandsDuringAPause) {
   EXPECT_GT(walk.odometry.at(walk_stamp(10))->translation().x(), 6);
 }
 
-TEST(ReckonWalk, ATurnedCompassTurnsTheWay) {
+TEST(ReckonWalk, ARotatedCompassRotatesThePath) {
   auto turned = hook();
   turned.compass_error_rad = [](double) { return 1.0; };
   const auto plain = reckon(recorded(hook())), rotated = reckon(recorded(turned));
@@ -75,7 +75,7 @@ TEST(ReckonWalk, ATurnedCompassTurnsTheWay) {
     EXPECT_LT(((turn * plain.odometry[i].pose).inverse() * rotated.odometry[i].pose).log().norm(), 1e-6);
 }
 
-TEST(ReckonWalk, ATiltedPhoneWalksTheSameWay) {
+TEST(ReckonWalk, ATiltedPhoneGivesTheSamePath) {
   auto tilted = hook();
   tilted.R_hand_device = Eigen::AngleAxisd(0.9, Eigen::Vector3d::UnitX());
   const auto flat = reckon(recorded(hook())), leaning = reckon(recorded(tilted));
@@ -92,14 +92,14 @@ TEST(ReckonWalk, WithoutACompassTheStartsHeadingIsZero) {
   EXPECT_NEAR(walk.odometry.back().pose.yaw(), kPi / 2, 0.05);
 }
 
-TEST(ReckonWalk, WithoutSensorsTheWalkerStands) {
+TEST(ReckonWalk, WithoutSensorsTheWalkerDoesNotMove) {
   const auto walk = reckon({});
   EXPECT_TRUE(walk.steps.empty());
   ASSERT_EQ(walk.odometry.size(), 2U);
   EXPECT_EQ(walk.odometry.back().pose.translation(), Eigen::Vector3d(0, 0, 0));
 }
 
-TEST(ReckonWalkDeathTest, AWalkTakesTime) { EXPECT_DEATH(reckon({}, 1, 1), "takes time"); }
+TEST(ReckonWalkDeathTest, BeginMustPrecedeEnd) { EXPECT_DEATH(reckon({}, 1, 1), "must precede end"); }
 
 }  // namespace
 }  // namespace radioslam

@@ -33,7 +33,7 @@ TEST(SelectKeyframes, TakesOneEveryTenDegrees) {
   EXPECT_EQ(select_keyframes(one_row_per_second(poses), {}), Rows({0, 4, 8, 9}));
 }
 
-TEST(SelectKeyframes, MeasuresFromTheLastKeyframeNotAlongTheWay) {
+TEST(SelectKeyframes, MeasuresFromTheLastKeyframeNotAlongThePath) {
   std::vector<SE2> poses;
   for (int i = 0; i < 20; ++i) poses.emplace_back(Eigen::Vector2d(0.75 * (i % 2), 0), 0);
   EXPECT_EQ(select_keyframes(one_row_per_second(poses), {}), Rows({0, 19}));
@@ -46,13 +46,13 @@ TEST(SelectKeyframes, ObeysItsParameters) {
   EXPECT_EQ(select_keyframes(one_row_per_second(poses), {100, 5 * kDegree}), Rows({0, 2, 4, 6, 8}));
 }
 
-TEST(SelectKeyframes, KeepsTheFirstAndTheLastRowOnce) {
+TEST(SelectKeyframes, KeepsTheFirstAndTheLastSampleOnce) {
   EXPECT_EQ(select_keyframes(one_row_per_second({}), {}), Rows());
   EXPECT_EQ(select_keyframes(one_row_per_second({SE2()}), {}), Rows({0}));
   EXPECT_EQ(select_keyframes(one_row_per_second({SE2(), SE2()}), {}), Rows({0, 1}));
 }
 
-/// One pose at a time, as a robot meets them, the choice is the same but for the last row.
+/// Incremental selection gives the same keyframes except for the last sample.
 TEST(IsNewKeyframe, ChoosesAsSelectKeyframesDoes) {
   Rng rng(4);
   std::vector<SE2> poses{SE2()};
@@ -71,7 +71,7 @@ TEST(IsNewKeyframe, ChoosesAsSelectKeyframesDoes) {
   }
 }
 
-TEST(IsNewKeyframe, CountsTheWayOrTheTurn) {
+TEST(IsNewKeyframe, CountsDistanceOrRotation) {
   const SE3 last = lift(SE2({3, -2}, 0.7));
   const auto at = [&](double way_m, double turn_rad) { return last * lift(SE2({0, way_m}, turn_rad)); };
   const KeyframeParams params{2, 0.5};
@@ -91,15 +91,15 @@ TEST(KeyframeBefore, IsTheLastOneNotLaterThanTheStamp) {
   EXPECT_EQ(keyframe_before(keyframes, {99}), 2U);
 }
 
-TEST(WithBends, LeavesNoRowFarFromTheWayBetweenItsKeyframes) {
+TEST(RefinedKeyframes, LeavesNoSampleFarFromTheInterpolation) {
   Rng rng(3);
   std::vector<SE2> poses{SE2()};
-  for (int i = 0; i < 300; ++i)  // stops, turns and rushes
+  for (int i = 0; i < 300; ++i)  // stops, turns and fast motion
     poses.push_back(poses.back() *
                     SE2({rng.uniform() < 0.3 ? 0 : rng.uniform(0, 0.4), 0}, rng.normal(0, 0.05)));
   const auto odometry = one_row_per_second(poses);
   const KeyframeParams params;
-  const Rows sparse = select_keyframes(odometry, params), dense = with_bends(odometry, sparse, params);
+  const Rows sparse = select_keyframes(odometry, params), dense = refined_keyframes(odometry, sparse, params);
   EXPECT_GT(dense.size(), sparse.size());
   EXPECT_TRUE(std::includes(dense.begin(), dense.end(), sparse.begin(), sparse.end()));
   std::vector<StampedPose<SE3>> kept;
@@ -107,21 +107,21 @@ TEST(WithBends, LeavesNoRowFarFromTheWayBetweenItsKeyframes) {
   const Trajectory<SE3> drawn(std::move(kept));
   for (const auto& row : odometry) {
     const SE3 off = drawn.at(row.stamp)->inverse() * row.pose;
-    EXPECT_LE(off.translation().norm(), params.bend_m + 1e-12);
-    EXPECT_LE(off.log().tail<3>().norm(), params.bend_rad + 1e-12);
+    EXPECT_LE(off.translation().norm(), params.max_deviation_m + 1e-12);
+    EXPECT_LE(off.log().tail<3>().norm(), params.max_deviation_rad + 1e-12);
   }
 }
 
-TEST(WithBends, AddsNothingToAnEvenDriveOrWithoutAllowances) {
+TEST(RefinedKeyframes, AddsNothingToAnEvenDriveOrWithoutAllowances) {
   std::vector<SE2> even{SE2()}, uneven{SE2()};
   for (int i = 0; i < 50; ++i) even.push_back(even.back() * SE2({0.1, 0}, 0.01));
   for (int i = 0; i < 50; ++i) uneven.push_back(uneven.back() * SE2({i % 7 == 0 ? 0.6 : 0, 0}, 0.01));
   const KeyframeParams params, any{1, 0.17, 0, 0};
   const Rows keyframes = select_keyframes(one_row_per_second(even), params);
-  EXPECT_EQ(with_bends(one_row_per_second(even), keyframes, params), keyframes);
+  EXPECT_EQ(refined_keyframes(one_row_per_second(even), keyframes, params), keyframes);
   const Rows others = select_keyframes(one_row_per_second(uneven), any);
-  EXPECT_EQ(with_bends(one_row_per_second(uneven), others, any), others);
-  EXPECT_EQ(with_bends({}, {}, params), Rows());
+  EXPECT_EQ(refined_keyframes(one_row_per_second(uneven), others, any), others);
+  EXPECT_EQ(refined_keyframes({}, {}, params), Rows());
 }
 
 }  // namespace

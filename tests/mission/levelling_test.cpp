@@ -12,7 +12,7 @@ using test::recorded;
 
 class Held : public ::testing::TestWithParam<double> {
  protected:
-  /// A phone whose screen leans back by so much.
+  /// A phone whose screen is tilted back.
   KnownWalk walk() const {
     KnownWalk walk;
     walk.R_hand_device = Eigen::AngleAxisd(GetParam(), Eigen::Vector3d::UnitX());
@@ -47,7 +47,7 @@ TEST(LevelMotion, AGyroscopeBiasTiltsLittleAndTurnsByItsVerticalPart) {
   EXPECT_NEAR(level.back().vertical_mps2, 0, 0.02);  // 9.81 (1 - cos(0.03 sqrt 2)) = 0.009
 }
 
-TEST(LevelMotion, ReadingsOfTheTwoSensorsNeedNotShareTheirTimes) {
+TEST(LevelMotion, TheTwoSensorsMayHaveDifferentStamps) {
   KnownWalk walk;
   walk.heading_rad = [](double t) { return 0.3 * t; };
   walk.vertical_mps2 = [](double t) { return 0.1 * t; };

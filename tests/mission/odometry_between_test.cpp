@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
 
-/// A walk of twenty poses, a second apart, around a bend.
+/// Twenty poses along a curve, one second apart.
 Robot walker() {
   Robot robot;
   std::vector<StampedPose<SE3>> rows;
@@ -55,12 +55,12 @@ TEST(OdometryBetween, SinceTheStartIsThatFromTheFirstPose) {
     EXPECT_TRUE((poses[k].pose.inverse() * recorded).log().isZero(1e-9)) << k;
   }
   const auto whole = odometry_between<SE2>(robot, Stamp{0}, Stamp{19 * kSecond});
-  EXPECT_TRUE(poses[3].covariance.isApprox(whole.covariance, 1e-3));  // up to the floor of an edge's noise
+  EXPECT_TRUE(poses[3].covariance.isApprox(whole.covariance, 1e-3));  // up to the variance floor of an edge
   EXPECT_TRUE(poses[1].covariance.isApprox(poses[2].covariance));
 }
 
-/// Two legs of 3 m with a quarter turn between them, errors told in the body at the first one's end: 0.2 m
-/// ahead stays ahead, which is the frame's y, and 0.1 rad moves the end by 0.3 m sideways.
+/// Two legs of 3 m with a quarter turn between them and an error at the end of the first: 0.2 m forward is
+/// then along y, and 0.1 rad displaces the end by 0.3 m sideways.
 TEST(UncertainPose, ByHand) {
   UncertainPose<SE2> first{SE2({3, 0}, std::numbers::pi / 2), Eigen::Vector3d(0.04, 0, 0.01).asDiagonal()};
   const UncertainPose<SE2> second{SE2({3, 0}, 0), Eigen::Vector3d(0, 0, 0).asDiagonal()};

@@ -26,7 +26,7 @@ OdometryNoise noise() {
 
 using Tangent = SE3::Tangent;
 
-/// The poses that the increments Exp(increment(k)) lead to, one per second.
+/// Trajectory composed of the increments Exp(increment(k)), one pose per second.
 Trajectory<SE3> drive(int increments, const std::function<Tangent(int)>& increment) {
   std::vector<StampedPose<SE3>> rows{{Stamp{}, SE3()}};
   for (int k = 0; k < increments; ++k)
@@ -34,7 +34,7 @@ Trajectory<SE3> drive(int increments, const std::function<Tangent(int)>& increme
   return Trajectory<SE3>(std::move(rows));
 }
 
-/// A winding way; `slope` tilts it out of the plane.
+/// A winding path; `slope` tilts it out of the plane.
 Tangent winding(int k, double slope = 0) {
   Tangent xi;
   xi << 0.1, 0.01 * std::sin(0.3 * k), slope * std::cos(0.2 * k), slope * std::sin(0.1 * k), 0,
@@ -60,7 +60,7 @@ void expect_cuts_agree(const Trajectory<SE3>& odometry) {
   }
 }
 
-TEST(OdometryEdge, CutAnywhereItTellsTheSame) {
+TEST(OdometryEdge, SplitAnywhereItIsTheSame) {
   expect_cuts_agree<SE2>(drive(300, [](int k) { return winding(k); }));
   expect_cuts_agree<SE3>(drive(300, [](int k) { return winding(k, 0.02); }));
 }
@@ -74,8 +74,8 @@ TEST(OdometryEdge, ATurnInPartsIsAsUncertainAsTheWholeTurn) {
   }
 }
 
-/// Yaw noise s per root metre on a straight way L: variances s^2 L of the yaw and s^2 L^3 / 3 across.
-TEST(OdometryEdge, YawErrorsAlongAStraightWaySwingItsEnd) {
+/// Yaw noise s per root metre on a straight path of length L: variance s^2 L of yaw and s^2 L^3 / 3 across.
+TEST(OdometryEdge, YawErrorsAlongAStraightPathDisplaceItsEnd) {
   const auto odometry = drive(1000, [](int) -> Tangent { return 0.05 * Tangent::Unit(0); });
   const auto edge = odometry_edge<SE2>(odometry, 0, 1000, noise());
   const double yaw = 0.003 * 0.003, xy = 0.02 * 0.02, length = 50;
@@ -87,15 +87,15 @@ TEST(OdometryEdge, YawErrorsAlongAStraightWaySwingItsEnd) {
   EXPECT_NEAR(edge.distance_m, length, 1e-9);
 }
 
-/// One drive with the noise that OdometryNoise describes, drawn increment by increment.
+/// End pose of one drive with noise drawn per increment according to OdometryNoise.
 SE2 noisy_end(const Trajectory<SE3>& odometry, Rng& rng) {
   const auto square = [](double x) { return x * x; };
   SE2 end;
   for (std::size_t i = 0; i + 1 < odometry.size(); ++i) {
     const SE2 step = flatten(odometry[i].pose).inverse() * flatten(odometry[i + 1].pose);
-    const double way = step.translation().norm(), turn = std::abs(step.angle());
-    const double sigma_xy = 0.02 * std::sqrt(way);
-    const double sigma_yaw = std::sqrt(square(0.003) * way + square(0.02) * turn);
+    const double distance_m = step.translation().norm(), turn = std::abs(step.angle());
+    const double sigma_xy = 0.02 * std::sqrt(distance_m);
+    const double sigma_yaw = std::sqrt(square(0.003) * distance_m + square(0.02) * turn);
     end = end * step * SE2::exp({rng.normal(0, sigma_xy), rng.normal(0, sigma_xy), rng.normal(0, sigma_yaw)});
   }
   return end;
@@ -111,13 +111,13 @@ TEST(OdometryEdge, CovarianceIsThatOfNoisyDrives) {
     const Eigen::Vector3d error = (edge.T_i_j.inverse() * noisy_end(odometry, rng)).log();
     spread += error * error.transpose() / kDrives;
   }
-  // Mean of chi-square with three degrees of freedom, five standard deviations either way.
+  // Mean of chi-square with three degrees of freedom, within five standard deviations.
   EXPECT_NEAR((edge.covariance.inverse() * spread).trace(), 3, 5 * std::sqrt(6.0 / kDrives));
   for (int i = 0; i < 3; ++i)
     EXPECT_NEAR(spread(i, i) / edge.covariance(i, i), 1, 5 * std::sqrt(2.0 / kDrives)) << i;
 }
 
-/// The motion that odometry with these constant errors would have reported.
+/// Motion reported by odometry with these constant errors.
 template <class Pose>
 Pose drifted_end(const Trajectory<SE3>& odometry, double yaw_drift_per_m_rad, double scale) {
   Pose end;
@@ -139,7 +139,7 @@ void expect_drift_jacobian(const Trajectory<SE3>& odometry) {
     const auto behind = (edge.T_i_j.inverse() * drifted_end<Pose>(odometry, -drift, -scale)).log();
     return (ahead - behind) / 2e-6;
   };
-  // Increments are short: their own curvature, half a milliradian, is all that is left out.
+  // Increments are short: only their own curvature, half a milliradian, is neglected.
   const typename Pose::Tangent drift = slope(1e-6, 0), scale = slope(0, 1e-6);
   EXPECT_LT((edge.drift_jacobian.col(0) - drift).norm(), 1e-3 * drift.norm());
   EXPECT_LT((edge.drift_jacobian.col(1) - scale).norm(), 1e-3 * scale.norm());
@@ -154,7 +154,7 @@ TEST(OdometryEdge, DriftJacobianIsTheSlopeOfTheComposedMotion) {
   expect_drift_jacobian<SE3>(drive(150 * kFiner, finer(0.02)));
 }
 
-/// Noise measured along with the odometry, a step a second, from `drive`'s rows.
+/// Noise recorded with the odometry, one step per second.
 std::vector<OdometryStepNoise> measured_steps(int count, std::uint64_t seed) {
   Rng rng(seed);
   std::vector<OdometryStepNoise> steps;
@@ -166,7 +166,7 @@ std::vector<OdometryStepNoise> measured_steps(int count, std::uint64_t seed) {
   return steps;
 }
 
-/// The same way with rows in between.
+/// The same trajectory with additional samples.
 Trajectory<SE3> with_further_rows(const Trajectory<SE3>& odometry, const std::vector<double>& seconds) {
   std::vector<StampedPose<SE3>> rows(odometry.begin(), odometry.end());
   for (const double s : seconds)
@@ -188,9 +188,9 @@ TEST(OdometryEdge, OfMeasuredStepsIsTheirChain) {
   EXPECT_LT((edge.covariance - floor - chain.covariance).norm(), 1e-9 * chain.covariance.norm());
 }
 
-/// A row in the middle of a step, or at any time, changes nothing: standing still exactly, and on the way but
-/// for the lever of half a step.
-TEST(OdometryEdge, OfAMeasuredStepCutInTwoIsThatOfTheWhole) {
+/// Additional samples leave the covariance unchanged: exactly at rest, and in motion up to the lever arm of
+/// half a step.
+TEST(OdometryEdge, AMeasuredStepSplitInTwoEqualsTheWhole) {
   OdometryNoise noise;
   noise.steps = measured_steps(6, 2);
   const std::vector<double> cuts{0.5, 2.25, 2.75, 5.9};
@@ -208,7 +208,7 @@ TEST(OdometryEdge, OfAMeasuredStepCutInTwoIsThatOfTheWhole) {
   expect_same(drive(6, [](int k) { return winding(k, 0.02); }), 0.05);
 }
 
-TEST(OdometryEdge, OfMeasuredStepsCountsWhatLiesBetweenItsRows) {
+TEST(OdometryEdge, CountsMeasuredStepsBetweenItsSamples) {
   OdometryNoise noise;
   for (const int begin : {2, 4}) {
     SE3::Jacobian per_s = SE3::Jacobian::Zero();
@@ -224,18 +224,18 @@ TEST(OdometryEdge, OfMeasuredStepsCountsWhatLiesBetweenItsRows) {
   EXPECT_TRUE(measured_covariance({}, at(0), at(9)).isZero(0));
 }
 
-TEST(DistanceWalked, FollowsTheWayAndStopsAtItsEnds) {
+TEST(TravelledDistance, FollowsThePathAndIsClampedAtItsEnds) {
   const std::vector<StampedPose<SE3>> rows{{Stamp::from_seconds(1), SE3()},
                                            {Stamp::from_seconds(2), lift(SE2({3, 0}, 0))},
                                            {Stamp::from_seconds(4), lift(SE2({3, 4}, 1))}};
   const Trajectory<SE3> odometry(rows);
-  const auto walked = distance_walked(odometry);
-  EXPECT_EQ(walked, std::vector<double>({0, 3, 7}));
-  EXPECT_EQ(distance_walked_at(odometry, walked, Stamp::from_seconds(0)), 0);
-  EXPECT_NEAR(distance_walked_at(odometry, walked, Stamp::from_seconds(1.5)), 1.5, 1e-12);
-  EXPECT_NEAR(distance_walked_at(odometry, walked, Stamp::from_seconds(3)), 5, 1e-12);
-  EXPECT_EQ(distance_walked_at(odometry, walked, Stamp::from_seconds(9)), 7);
-  EXPECT_TRUE(distance_walked({}).empty());
+  const auto travelled_m = travelled_distance(odometry);
+  EXPECT_EQ(travelled_m, std::vector<double>({0, 3, 7}));
+  EXPECT_EQ(travelled_distance_at(odometry, travelled_m, Stamp::from_seconds(0)), 0);
+  EXPECT_NEAR(travelled_distance_at(odometry, travelled_m, Stamp::from_seconds(1.5)), 1.5, 1e-12);
+  EXPECT_NEAR(travelled_distance_at(odometry, travelled_m, Stamp::from_seconds(3)), 5, 1e-12);
+  EXPECT_EQ(travelled_distance_at(odometry, travelled_m, Stamp::from_seconds(9)), 7);
+  EXPECT_TRUE(travelled_distance({}).empty());
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What a phone's sensors say on a known walk.
+// Simulated phone sensors for known walking trajectories.
 #pragma once
 
 #include <algorithm>
@@ -13,16 +13,16 @@ namespace radioslam::test {
 
 inline constexpr double kPi = std::numbers::pi;
 inline constexpr double kSampleTime_s = 0.02;
-inline constexpr std::int64_t kWalkBegin_ns = 1'574'242'584'992'000'000;  // stamps of the Unix epoch
+inline constexpr std::int64_t kWalkBegin_ns = 1'574'242'584'992'000'000;  // since the Unix epoch
 
 inline Stamp walk_stamp(double t_s) { return {kWalkBegin_ns + Stamp::from_seconds(t_s).ns}; }
 
-/// A walk as the functions of time that a phone can feel.
+/// A walking trajectory as the functions of time that phone sensors measure.
 struct KnownWalk {
   double duration_s = 30;
   std::function<double(double)> heading_rad = [](double) { return 0.0; };    ///< from east
   std::function<double(double)> vertical_mps2 = [](double) { return 0.0; };  ///< upward acceleration
-  /// How the phone lies in the hand: device to a frame with y forward and z up.
+  /// Orientation of the phone in the hand: device to a frame with y forward and z up.
   Eigen::Quaterniond R_hand_device = Eigen::Quaterniond::Identity();
   Eigen::Vector3d gyroscope_bias_radps = Eigen::Vector3d::Zero();
   std::function<double(double)> compass_error_rad = [](double) { return 0.0; };
@@ -30,7 +30,7 @@ struct KnownWalk {
   double sigma_rate_radps = 0;
 };
 
-/// Steps of `amplitude_mps2` and `rate_hz` between two times, a peak in the middle of every period.
+/// Steps of `amplitude_mps2` at `rate_hz` between two times, with a peak in the middle of every period.
 inline std::function<double(double)> steps_between(double begin_s, double end_s, double rate_hz,
                                                    double amplitude_mps2) {
   return [=](double t) {
@@ -39,7 +39,7 @@ inline std::function<double(double)> steps_between(double begin_s, double end_s,
   };
 }
 
-/// From `before_rad` to `after_rad`, turning evenly for a second from `t_s` on.
+/// Heading from `before_rad` to `after_rad` at a constant rate for one second from `t_s`.
 inline std::function<double(double)> turn_at(double t_s, double before_rad, double after_rad) {
   return [=](double t) { return before_rad + (after_rad - before_rad) * std::clamp(t - t_s, 0.0, 1.0); };
 }
@@ -48,7 +48,7 @@ inline Eigen::Vector3d normal_vector(Rng& rng, double sigma) {
   return {rng.normal(0, sigma), rng.normal(0, sigma), rng.normal(0, sigma)};
 }
 
-/// The phone's readings, 50 per second. `seed` draws the noise.
+/// Sensor samples at 50 Hz; `seed` determines the noise.
 inline PhoneMotion recorded(const KnownWalk& walk, std::uint64_t seed = 1) {
   constexpr double kGravity = 9.80665;
   constexpr double kHalf = 1e-4;  // of the interval for derivatives
@@ -71,7 +71,7 @@ inline PhoneMotion recorded(const KnownWalk& walk, std::uint64_t seed = 1) {
   return motion;
 }
 
-/// Screen tilted towards the walker and a little to the side.
+/// Screen tilted towards the walker and slightly to the side.
 inline Eigen::Quaterniond tilted_hand() {
   return Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitX()) * Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitY());
 }

@@ -1,5 +1,5 @@
-// A small town from its radio links to its closures, against the truth.
-#include "radioslam/sim/city.hpp"
+// A small town from its radio links to its closures, compared with the truth.
+#include "radioslam/sim/scenarios/city.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ using test::error_m;
 using test::quick_params;
 using test::small_city;
 
-/// True: both LiDARs together reach from one keyframe to the other.
+/// A candidate is true if both LiDARs together reach from one keyframe to the other.
 PairCounts judge_candidates(const RunResult& result, const Mission& mission, const Truth& truth) {
   std::vector<KeyframeStamps> keyframes;
   PairTruth judge{truth, 2, {}};
@@ -88,8 +88,8 @@ double true_distance_m(const PoseMatch& match, const Truth& truth) {
   return (position(match.robot_i, match.stamp_i) - position(match.robot_j, match.stamp_j)).norm();
 }
 
-/// Matches by what became of them. A false one of two places near each other is nothing pruning could know;
-/// far are those beyond reach and error.
+/// Matches by outcome. Pruning cannot reject false matches of two close positions; far ones are those beyond
+/// range and error.
 struct MatchTally {
   std::size_t true_accepted = 0, false_accepted = 0, false_far = 0, false_far_pruned = 0;
 };
@@ -113,7 +113,7 @@ MatchTally tally(const RunResult& result, const Mission& mission, const Truth& t
   return counts;
 }
 
-/// Without the matches that are false.
+/// The mission with its true matches only.
 Mission only_true_matches(Mission mission, const Truth& truth) {
   std::vector<PoseMatch> kept;
   for (std::size_t k = 0; k < mission.matches.size(); ++k)

@@ -6,15 +6,15 @@
 
 #include "pipeline/small_carpark.hpp"
 #include "radioslam/base/parallel.hpp"
-#include "radioslam/sim/carpark.hpp"
+#include "radioslam/sim/scenarios/carpark.hpp"
 
 namespace radioslam {
 namespace {
 
-/// A small floor that two robots drive all over.
+/// A small floor that two robots cover completely.
 CarparkParams small_carpark() {
   CarparkParams params = short_drives();
-  params.lanes.closed_lane_share = 0;
+  params.lanes.closed_lane_ratio = 0;
   params.drive.path_length_m = 200;
   return params;
 }
@@ -44,7 +44,7 @@ double odometry_error_m(const RunResult& result, const Truth& truth) {
   return rms_error_m(odometry, truth);
 }
 
-/// As CSV would show it: every number of every pose.
+/// Every number of every pose, as a CSV would contain it.
 std::vector<double> numbers(const RunResult& result) {
   std::vector<double> numbers;
   for (const auto& robot : result.robots) {
@@ -113,7 +113,7 @@ TEST(Pipeline, WithoutWifiGivesOdometryBack) {
   }
 }
 
-TEST(Pipeline, RobotsThatNothingTiesAreListedUnplaced) {
+TEST(Pipeline, RobotsWithoutConnectionsAreListedUnplaced) {
   auto params = small_carpark();
   params.known_start = false;
   params.robots = 3;
@@ -125,10 +125,10 @@ TEST(Pipeline, RobotsThatNothingTiesAreListedUnplaced) {
   ASSERT_EQ(result.components.size(), 2U);
   EXPECT_EQ(result.components[0].robots, std::vector<std::string>({"a", "c"}));
   EXPECT_EQ(result.components[1].robots, std::vector<std::string>({"b"}));
-  EXPECT_LT(result.robots[1].estimate.front().pose.log().norm(), 1e-6);  // told from its own start
+  EXPECT_LT(result.robots[1].estimate.front().pose.log().norm(), 1e-6);  // in its own start frame
 }
 
-TEST(Pipeline, TellsUnknownStartsInTheFirstRobotsFrame) {
+TEST(Pipeline, ReportsUnknownStartsInTheFirstRobotsFrame) {
   auto params = small_carpark();
   params.known_start = false;
   const auto [mission, truth] = simulate_carpark(params, 1);

@@ -1,19 +1,19 @@
-// A drive that was recorded, cut in two.
+// A recorded drive, cut in two.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "io/recorded_data.hpp"
 #include "pipeline/town_runs.hpp"
-#include "radioslam/io/kitti_poses.hpp"
-#include "radioslam/io/text.hpp"
-#include "radioslam/sim/kitti.hpp"
+#include "radioslam/io/lidar/kitti_poses.hpp"
+#include "radioslam/io/text/text.hpp"
+#include "radioslam/sim/scenarios/kitti.hpp"
 
 namespace radioslam {
 namespace {
 
-// The links lie at the first robot's start, the matches 200 s on at its end: there the estimate is metres
-// off, forty times the matches' sigma, and the way between bends only in many small steps.
+// The links are at the first robot's start, the matches 200 s later at its end: there the estimate is metres
+// off, forty times the matches' sigma, and the optimiser corrects the trajectory only in many small steps.
 TEST(RecordedDrive, TrueMatchesFarFromTheLinksAreTaken) {
   RADIOSLAM_RECORDED(folder, "kitti");
   const auto poses = [&](const char* source) {

@@ -1,7 +1,7 @@
-// A car park so small that a study of it takes a moment.
+// A car park small enough for a study of it to be quick.
 #pragma once
 
-#include "radioslam/sim/carpark.hpp"
+#include "radioslam/sim/scenarios/carpark.hpp"
 
 namespace radioslam {
 

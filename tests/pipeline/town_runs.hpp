@@ -1,17 +1,17 @@
-// How pipeline tests run small simulated towns, and what they make of them.
+// Runs of small simulated towns for pipeline tests, and their errors.
 #pragma once
 
 #include "radioslam/eval/metrics.hpp"
 #include "radioslam/pipeline/pipeline.hpp"
-#include "radioslam/sim/city.hpp"
+#include "radioslam/sim/scenarios/city.hpp"
 
 namespace radioslam::test {
 
-/// Two robots that drive so far each, odometry rows (and keyframes) 4.4 m apart.
+/// Two robots that drive this far each, odometry samples (and keyframes) 4.4 m apart.
 inline CityParams small_city(double way_m) {
   CityParams params;
   params.path_length_m = way_m;
-  params.least_meeting_s = 10;
+  params.min_contact_s = 10;
   params.streets.blocks_x = 3;
   params.streets.blocks_y = 3;
   params.odometry.odometry_rate_hz = 2.5;
@@ -19,7 +19,7 @@ inline CityParams small_city(double way_m) {
   return params;
 }
 
-/// As good on so small a team, and several times as fast.
+/// As accurate on so small a team, and several times as fast.
 inline RunParams quick_params() {
   RunParams params;
   params.alignment.grid.references = 4;
@@ -29,7 +29,7 @@ inline RunParams quick_params() {
   return params;
 }
 
-/// Of the whole team after one alignment, root mean square.
+/// Root mean square over the whole team after one alignment.
 inline double error_m(const RunResult& result, const Truth& truth) {
   std::vector<EstimatedTrajectory> estimate;
   for (const auto& robot : result.robots) estimate.push_back({robot.id, robot.estimate});

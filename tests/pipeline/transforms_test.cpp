@@ -1,4 +1,4 @@
-// How the robots' frames lie to each other, and how well a run knows it.
+// Transforms between the robots' frames, and their stated uncertainty.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,13 +14,13 @@ SE2 true_start(const Truth& truth, const Mission& mission, std::size_t r) {
   return pose_as<SE2>(truth.robots[r].poses.at(mission.robots[r].odometry.front().stamp).value());
 }
 
-/// The odometry frames start where the robots do, in the simulator.
+/// In the simulator, odometry frames start at the robots' true poses.
 SE2 error_of(const TransformResult& transform, const Truth& truth, const Mission& mission) {
   return (true_start(truth, mission, 0).inverse() * true_start(truth, mission, 1)).inverse() *
          pose_as<SE2>(transform.T_i_j);
 }
 
-TEST(Transforms, AreAsUncertainAsTheySay) {
+TEST(Transforms, HaveCalibratedUncertainty) {
   constexpr int kTeams = 20;
   double sum = 0;
   for (std::uint64_t seed = 1; seed <= kTeams; ++seed) {

@@ -29,20 +29,20 @@ TEST(ReportAccessPoints, TurnWithThePage) {
   EXPECT_NEAR(point["y"].get<double>(), 3, 0.006);
   EXPECT_NEAR(point["major_m"].get<double>(), 3, 0.006);
   EXPECT_NEAR(point["minor_m"].get<double>(), 1, 0.006);
-  // The long axis lies along x now, whichever way it points.
+  // The long axis is along x now, in either direction.
   EXPECT_NEAR(std::abs(std::sin(point["turn_rad"].get<double>())), 0, 0.001);
   EXPECT_NEAR(point["heard"][0][1].get<double>(), 1, 0.006);
   EXPECT_FALSE(point.contains("rival"));
 }
 
-TEST(ReportAccessPoints, OfTooManyTheOnesHeardMostAreDrawn) {
+TEST(ReportAccessPoints, OfTooManyTheMostReceivedAreDrawn) {
   RunResult result;
   for (std::size_t k = 0; k < 10; ++k) {
     result.access_points.push_back(ellipse_along_y());
     result.access_points.back().readings = k;
   }
   ReportParams params;
-  params.maximum_access_points = 3;
+  params.max_access_points = 3;
   const PageData data = access_point_data(result, SE3(), params);
   EXPECT_EQ(data["placed"], 10);
   ASSERT_EQ(data["points"].size(), 3U);
@@ -58,7 +58,7 @@ TEST(ReportAccessPoints, SignalsAreThinnedToTheirBudget) {
   }
   result.signals = {signal, signal};
   ReportParams params;
-  params.maximum_signal_values = 200;
+  params.max_signal_values = 200;
   const PageData data = signal_data(result, Stamp::from_seconds(0), params);
   EXPECT_EQ(data["signals"][0]["t"].size(), 100U);
   EXPECT_EQ(data["signals"][0]["rss_dbm"].size(), 100U);

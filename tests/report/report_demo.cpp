@@ -1,4 +1,4 @@
-// Writes pages of made-up runs into a folder, to be looked at: report_demo FOLDER
+// Writes pages of synthetic runs into a folder for inspection: report_demo FOLDER
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -39,8 +39,8 @@ int main(int argc, char** argv) {
   const std::filesystem::path folder = argc > 1 ? argv[1] : ".";
   std::filesystem::create_directories(folder);
   write(folder / "three.html", with_truth(make_sample({})));
-  write(folder / "directions.html", with_truth(make_sample({.keyframes = 300, .arrivals = 90})));
-  write(folder / "one_direction.html", render_report(make_sample({.arrivals = 1}).result));
+  write(folder / "directions.html", with_truth(make_sample({.keyframes = 300, .aoa_measurements = 90})));
+  write(folder / "one_direction.html", render_report(make_sample({.aoa_measurements = 1}).result));
   write(folder / "alone.html", with_truth(make_sample({.robots = 1, .keyframes = 300, .closures = 40})));
   write(folder / "space.html",
         with_truth(make_sample(

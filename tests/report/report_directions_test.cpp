@@ -5,27 +5,27 @@
 #include <cmath>
 #include <vector>
 
-#include "radioslam/report/arrival_data.hpp"
+#include "radioslam/report/aoa_data.hpp"
 #include "report/sample_page.hpp"
 
 namespace radioslam {
 namespace {
 
 using sample::data_of;
+using sample::evaluated_page;
 using sample::Json;
-using sample::judged_page;
 using sample::make_sample;
 using sample::Sample;
 
 constexpr double kRounding = 0.00051;
 
 TEST(ReportDirections, AreThoseOfTheRun) {
-  const Sample sample = make_sample({.keyframes = 100, .closures = 5, .arrivals = 6});
-  const Json arrivals = data_of(judged_page(sample))["arrivals"];
-  EXPECT_EQ(arrivals["measured"], 6);
-  ASSERT_EQ(arrivals["drawn"].size(), 6u);
-  const auto& measured = sample.result.arrivals[0];  // a's, of b: the first by name and time
-  const Json& shown = arrivals["drawn"][0];
+  const Sample sample = make_sample({.keyframes = 100, .closures = 5, .aoa_measurements = 6});
+  const Json aoa_measurements = data_of(evaluated_page(sample))["arrivals"];
+  EXPECT_EQ(aoa_measurements["measured"], 6);
+  ASSERT_EQ(aoa_measurements["drawn"].size(), 6u);
+  const auto& measured = sample.result.aoa_measurements[0];  // a's, of b: the first by name and time
+  const Json& shown = aoa_measurements["drawn"][0];
   EXPECT_EQ(shown["receiver"], "a");
   EXPECT_EQ(shown["transmitter"], "b");
   EXPECT_NEAR(shown["t"].get<double>(),
@@ -36,13 +36,13 @@ TEST(ReportDirections, AreThoseOfTheRun) {
     EXPECT_NEAR(shown["peaks"][p]["azimuth_rad"].get<double>(), measured.peaks[p].azimuth_rad, kRounding);
     EXPECT_NEAR(shown["peaks"][p]["sigma_rad"].get<double>(), measured.peaks[p].sigma_rad, kRounding);
     EXPECT_NEAR(shown["peaks"][p]["power_db"].get<double>(), measured.peaks[p].power_db, 0.051);
-    EXPECT_EQ(shown["peaks"][p]["ghost"], measured.peaks[p].is_ghost);
+    EXPECT_EQ(shown["peaks"][p]["ghost"], measured.peaks[p].is_cross_term);
   }
 }
 
 TEST(ReportDirections, AreByReceiverTransmitterAndTime) {
-  const Json drawn = data_of(
-      judged_page(make_sample({.keyframes = 300, .closures = 5, .arrivals = 24})))["arrivals"]["drawn"];
+  const Json drawn = data_of(evaluated_page(
+      make_sample({.keyframes = 300, .closures = 5, .aoa_measurements = 24})))["arrivals"]["drawn"];
   const auto key = [](const Json& one) {
     return std::tuple(one["receiver"].get<std::string>(), one["transmitter"].get<std::string>(),
                       one["t"].get<double>());
@@ -52,55 +52,55 @@ TEST(ReportDirections, AreByReceiverTransmitterAndTime) {
 }
 
 TEST(ReportDirections, TheTrueOneIsInTheReceiversBody) {
-  Sample sample = make_sample({.keyframes = 30, .closures = 5, .arrivals = 1});
-  const Stamp stamp = sample.result.arrivals[0].stamp;
+  Sample sample = make_sample({.keyframes = 30, .closures = 5, .aoa_measurements = 1});
+  const Stamp stamp = sample.result.aoa_measurements[0].stamp;
   const auto stand = [&](std::size_t robot, const SE3& pose) {
     const Stamp later{stamp.ns + 1'000'000'000};
     sample.truth.robots[robot].poses = Trajectory<SE3>({{stamp, pose}, {later, pose}});
   };
   stand(0, lift(SE2({1, 1}, M_PI / 2)));
   stand(1, lift(SE2({4, 1}, 0)));
-  const Json shown = data_of(judged_page(sample))["arrivals"]["drawn"][0];
+  const Json shown = data_of(evaluated_page(sample))["arrivals"]["drawn"][0];
   EXPECT_NEAR(shown["true_azimuth_rad"].get<double>(), -M_PI / 2, kRounding);  // east of one who looks north
 }
 
 TEST(ReportDirections, TheTrueOneNeedsTheReceiversHeadingAndBothPlaces) {
   const auto shows_truth = [](const Sample& sample) {
-    return data_of(judged_page(sample))["arrivals"]["drawn"][0].contains("true_azimuth_rad");
+    return data_of(evaluated_page(sample))["arrivals"]["drawn"][0].contains("true_azimuth_rad");
   };
-  Sample sample = make_sample({.keyframes = 100, .closures = 5, .arrivals = 1});
+  Sample sample = make_sample({.keyframes = 100, .closures = 5, .aoa_measurements = 1});
   EXPECT_TRUE(shows_truth(sample));
   sample.truth.robots[1].has_orientation = false;
   EXPECT_TRUE(shows_truth(sample));
   sample.truth.robots[0].has_orientation = false;
   EXPECT_FALSE(shows_truth(sample));
   sample.truth.robots[0].has_orientation = true;
-  sample.result.arrivals[0].transmitter = "an anchor";
+  sample.result.aoa_measurements[0].transmitter = "an anchor";
   EXPECT_FALSE(shows_truth(sample));
   const Json alone = data_of(render_report(sample.result));
   EXPECT_FALSE(alone["arrivals"]["drawn"][0].contains("true_azimuth_rad"));
 }
 
 TEST(ReportDirections, AreAbsentWhereThereAreNone) {
-  EXPECT_FALSE(data_of(judged_page(make_sample({.keyframes = 20, .closures = 5}))).contains("arrivals"));
+  EXPECT_FALSE(data_of(evaluated_page(make_sample({.keyframes = 20, .closures = 5}))).contains("arrivals"));
 }
 
 TEST(ReportDirections, AnUnknownEstimateIsAbsent) {
-  Sample sample = make_sample({.keyframes = 100, .closures = 5, .arrivals = 1});
-  sample.result.arrivals[0].estimated_azimuth_rad.reset();
-  EXPECT_FALSE(data_of(judged_page(sample))["arrivals"]["drawn"][0].contains("estimated_azimuth_rad"));
+  Sample sample = make_sample({.keyframes = 100, .closures = 5, .aoa_measurements = 1});
+  sample.result.aoa_measurements[0].estimated_azimuth_rad.reset();
+  EXPECT_FALSE(data_of(evaluated_page(sample))["arrivals"]["drawn"][0].contains("estimated_azimuth_rad"));
 }
 
 TEST(ReportDirections, AFewOfManyAreDrawnAndAllAreCounted) {
-  const Sample sample = make_sample({.keyframes = 300, .closures = 5, .arrivals = 200});
-  const Json arrivals = data_of(judged_page(sample))["arrivals"];
-  EXPECT_EQ(arrivals["measured"], 200);
-  EXPECT_EQ(arrivals["drawn"].size(), 60u);
-  for (const Json& one : arrivals["drawn"]) EXPECT_EQ(one["profile"].size(), 180u);
+  const Sample sample = make_sample({.keyframes = 300, .closures = 5, .aoa_measurements = 200});
+  const Json aoa_measurements = data_of(evaluated_page(sample))["arrivals"];
+  EXPECT_EQ(aoa_measurements["measured"], 200);
+  EXPECT_EQ(aoa_measurements["drawn"].size(), 60u);
+  for (const Json& one : aoa_measurements["drawn"]) EXPECT_EQ(one["profile"].size(), 180u);
   ReportParams params;
-  params.maximum_arrivals = 10;
-  params.maximum_profile_values = 90;
-  const Json fewer = data_of(judged_page(sample, params))["arrivals"];
+  params.max_aoa_measurements = 10;
+  params.max_profile_values = 90;
+  const Json fewer = data_of(evaluated_page(sample, params))["arrivals"];
   EXPECT_EQ(fewer["drawn"].size(), 10u);
   EXPECT_EQ(fewer["drawn"][9]["profile"].size(), 90u);
 }

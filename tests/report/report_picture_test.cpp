@@ -1,4 +1,4 @@
-// What scans show from above, as the page holds it.
+// Occupancy images on the page.
 #include <gtest/gtest.h>
 
 #include "report/sample_page.hpp"
@@ -11,7 +11,7 @@ using namespace sample;
 TEST(ReportPicture, RowsUnpackToTheCells) {
   RunResult result;
   result.robots.emplace_back().id = "a";
-  ScanPictureResult& picture = result.robots[0].picture.emplace();
+  OccupancyImageResult& picture = result.robots[0].picture.emplace();
   picture.cell_m = 0.25;
   picture.scans = 7;
   picture.cells = {{-3, -1, 1}, {4, -1, 2}, {5, -1, 9}, {0, 2, 100000}};

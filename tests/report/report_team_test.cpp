@@ -1,4 +1,4 @@
-// How the team lies, as the page tells it: frames, other hypotheses, pairs that could overlap.
+// The team alignment on the page: frames, other hypotheses, candidate pairs.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,8 +13,8 @@ namespace radioslam {
 namespace {
 
 using sample::data_of;
+using sample::evaluated_page;
 using sample::Json;
-using sample::judged_page;
 using sample::make_sample;
 using sample::Sample;
 
@@ -42,8 +42,8 @@ std::size_t keyframe_of(const RunResult& result, RobotIndex robot, Stamp stamp) 
 TEST(Report, EveryCandidateIsInItsBin) {
   const Sample sample = make_sample({.keyframes = 100, .closures = 5, .candidates = 900});
   ReportParams params;
-  params.maximum_candidate_cells = 3 * 30 * 30;
-  const Json candidates = data_of(judged_page(sample, params))["candidates"];
+  params.max_candidate_cells = 3 * 30 * 30;
+  const Json candidates = data_of(evaluated_page(sample, params))["candidates"];
   Bins expected;
   for (const auto& c : sample.result.candidates)
     ++expected[{c.robot_i.index(), c.robot_j.index(),
@@ -57,20 +57,20 @@ TEST(Report, EveryCandidateIsInItsBin) {
 
 TEST(Report, CandidatesInAnyOrderOfTheirRobotsAreTheSame) {
   Sample sample = make_sample({.keyframes = 60, .closures = 5, .candidates = 200});
-  const Json before = data_of(judged_page(sample))["candidates"];
+  const Json before = data_of(evaluated_page(sample))["candidates"];
   for (auto& c : sample.result.candidates) {
     std::swap(c.robot_i, c.robot_j);
     std::swap(c.stamp_i, c.stamp_j);
   }
-  EXPECT_EQ(data_of(judged_page(sample))["candidates"], before);
+  EXPECT_EQ(data_of(evaluated_page(sample))["candidates"], before);
 }
 
 TEST(Report, TheFullestMatricesAreShownWithinTheBudget) {
   const Sample sample = make_sample({.robots = 12, .keyframes = 200, .closures = 5, .candidates = 20000});
   ReportParams params;
-  params.maximum_matrices = 10;
-  params.maximum_candidate_cells = 2000;
-  const Json candidates = data_of(judged_page(sample, params))["candidates"];
+  params.max_matrices = 10;
+  params.max_candidate_cells = 2000;
+  const Json candidates = data_of(evaluated_page(sample, params))["candidates"];
   std::map<std::pair<int, int>, std::size_t> per_pair;
   for (const auto& c : sample.result.candidates) ++per_pair[{c.robot_i.value, c.robot_j.value}];
   std::vector<std::size_t> sizes;
@@ -88,12 +88,13 @@ TEST(Report, TheFullestMatricesAreShownWithinTheBudget) {
 }
 
 TEST(Report, WithoutASearchThereAreNoCandidates) {
-  const Json candidates = data_of(judged_page(make_sample({.keyframes = 20, .closures = 5})))["candidates"];
+  const Json candidates =
+      data_of(evaluated_page(make_sample({.keyframes = 20, .closures = 5})))["candidates"];
   EXPECT_TRUE(candidates["pairs"].is_null());
   EXPECT_TRUE(candidates["matrices"].empty());
 }
 
-TEST(Report, FramesAreToldFromTheFirstRobot) {
+TEST(Report, FramesAreRelativeToTheFirstRobot) {
   Sample sample = make_sample({.keyframes = 20, .closures = 5});
   const Eigen::Matrix3d covariance = Eigen::Vector3d(4, 9, 0.0025).asDiagonal();
   const auto add = [&](std::size_t i, std::size_t j) {
@@ -103,7 +104,7 @@ TEST(Report, FramesAreToldFromTheFirstRobot) {
   add(0, 1);
   add(0, 2);
   add(1, 2);
-  const Json frames = data_of(judged_page(sample))["transforms"];
+  const Json frames = data_of(evaluated_page(sample))["transforms"];
   ASSERT_EQ(frames.size(), 2U);
   EXPECT_EQ(frames[1]["robot_j"], sample.result.robots[2].id);
   EXPECT_EQ(frames[1]["translation_m"].dump(), "[3.0,-4.0,0.0]");
@@ -112,9 +113,9 @@ TEST(Report, FramesAreToldFromTheFirstRobot) {
   EXPECT_EQ(frames[1]["sigma_yaw_rad"], 0.05);
 }
 
-TEST(Report, AlternativesStandInThePagesFrameAndAreJudged) {
+TEST(Report, AlternativesAreInThePagesFrameAndEvaluated) {
   const Sample sample = make_sample({.keyframes = 50, .closures = 5, .alternatives = 2});
-  const Json data = data_of(judged_page(sample));
+  const Json data = data_of(evaluated_page(sample));
   ASSERT_EQ(data["alternatives"].size(), 2U);
   EXPECT_EQ(data["weight"], 0.6);
   const auto& other = sample.result.alternatives[1];
@@ -138,9 +139,9 @@ TEST(Report, AlternativesStandInThePagesFrameAndAreJudged) {
 TEST(Report, AlternativesKeepToTheirBudget) {
   const Sample sample = make_sample({.keyframes = 300, .closures = 5, .alternatives = 3});
   ReportParams params;
-  params.maximum_alternative_poses = 180;
+  params.max_alternative_poses = 180;
   std::size_t poses = 0;
-  const Json data = data_of(judged_page(sample, params));
+  const Json data = data_of(evaluated_page(sample, params));
   for (const Json& other : data["alternatives"])
     for (const Json& robot : other["robots"]) poses += robot["x"].size();
   EXPECT_LE(poses, 180U);

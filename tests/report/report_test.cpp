@@ -17,8 +17,8 @@ namespace {
 
 using sample::data_of;
 using sample::data_text;
+using sample::evaluated_page;
 using sample::Json;
-using sample::judged_page;
 using sample::kDataBegins;
 using sample::make_sample;
 using sample::Sample;
@@ -40,12 +40,12 @@ std::string markup(const std::string& page) {
 }
 
 TEST(Report, LoadsNothing) {
-  const std::string page = judged_page(make_sample());
+  const std::string page = evaluated_page(make_sample());
   EXPECT_FALSE(std::regex_search(markup(page), std::regex("(src|href)\\s*=|<link|<iframe|<img|<object")));
   EXPECT_EQ(count_of(page, "@import"), 0u);
   EXPECT_EQ(count_of(page, "url("), 0u);
   EXPECT_EQ(count_of(page, "<script src"), 0u);
-  EXPECT_EQ(count_of(page, "default-src 'none'"), 1u);                     // and the browser sees to it
+  EXPECT_EQ(count_of(page, "default-src 'none'"), 1u);                     // enforced by the browser
   std::set<std::string> allowed{"http://www.w3.org", "https://d3js.org"};  // namespaces, and d3's banner
   const std::regex address("https?://[A-Za-z0-9.]+");
   for (std::sregex_iterator found(page.begin(), page.end(), address), end; found != end; ++found)
@@ -53,7 +53,7 @@ TEST(Report, LoadsNothing) {
 }
 
 TEST(Report, HoldsEveryPartOfThePage) {
-  const std::string page = judged_page(make_sample({.keyframes = 20, .closures = 5}));
+  const std::string page = evaluated_page(make_sample({.keyframes = 20, .closures = 5}));
   for (const char* mark : {"@style@", "@script@", "@d3@", "@licence@", "@data@"})
     EXPECT_EQ(count_of(page, mark), 0u) << mark;
   EXPECT_EQ(count_of(page, "d3js.org v5"), 1u);
@@ -63,7 +63,7 @@ TEST(Report, HoldsEveryPartOfThePage) {
 
 TEST(Report, DataAreTheRunsNumbers) {
   const Sample sample = make_sample({.keyframes = 50, .closures = 30});
-  const Json data = data_of(judged_page(sample));
+  const Json data = data_of(evaluated_page(sample));
   const SE3& T = sample.metrics.T_truth_estimate;
   ASSERT_EQ(data["robots"].size(), 3u);
   EXPECT_EQ(data["frame"], "truth");
@@ -87,24 +87,25 @@ TEST(Report, DataAreTheRunsNumbers) {
 }
 
 TEST(Report, NumbersAreShort) {
-  const std::string text = data_text(judged_page(make_sample({.keyframes = 200})));
+  const std::string text = data_text(evaluated_page(make_sample({.keyframes = 200})));
   EXPECT_FALSE(std::regex_search(text, std::regex("\\.[0-9]{12}")));
   EXPECT_EQ(count_of(text, "-0.0,"), 0u);
 }
 
-TEST(Report, JudgesDeadReckoningUnderTheSameRules) {
+TEST(Report, EvaluatesDeadReckoningUnderTheSameRules) {
   const Sample sample = make_sample();
   std::vector<EstimatedTrajectory> odometry;
   for (const auto& robot : sample.result.robots) odometry.push_back({robot.id, robot.odometry});
   const auto expected = evaluate_trajectories(odometry, sample.truth, 2);
-  const Json accuracy = data_of(judged_page(sample))["accuracy"];
+  const Json accuracy = data_of(evaluated_page(sample))["accuracy"];
   EXPECT_NEAR(accuracy["dead_reckoning"]["rmse_m"].get<double>(), expected.ate->rmse_m, 0.00051);
   EXPECT_NEAR(accuracy["ratio"].get<double>(), sample.metrics.ate->rmse_m / expected.ate->rmse_m, 1e-5);
 }
 
 TEST(Report, QuantilesRunFromTheLeastToTheLargestError) {
   const Sample sample = make_sample();
-  const auto quantiles = data_of(judged_page(sample))["accuracy"]["quantiles_m"].get<std::vector<double>>();
+  const auto quantiles =
+      data_of(evaluated_page(sample))["accuracy"]["quantiles_m"].get<std::vector<double>>();
   double largest = 0;
   for (const auto& robot : sample.metrics.robots)
     for (const auto& error : robot.errors) largest = std::max(largest, error.error_m);
@@ -113,9 +114,9 @@ TEST(Report, QuantilesRunFromTheLeastToTheLargestError) {
   for (std::size_t q = 1; q < quantiles.size(); ++q) EXPECT_LE(quantiles[q - 1], quantiles[q]);
 }
 
-TEST(Report, ClosuresStandAtTheirKeyframes) {
+TEST(Report, ClosuresAreAtTheirKeyframes) {
   const Sample sample = make_sample({.keyframes = 100, .closures = 200});
-  const Json closures = data_of(judged_page(sample))["closures"];
+  const Json closures = data_of(evaluated_page(sample))["closures"];
   const Json& drawn = closures["drawn"];
   ASSERT_EQ(drawn["group"].size(), 200u);
   std::multiset<std::tuple<int, int, int, int>> expected, shown;
@@ -138,10 +139,10 @@ TEST(Report, ClosuresStandAtTheirKeyframes) {
 TEST(Report, ThinningCountsEverything) {
   const Sample sample = make_sample({.keyframes = 500, .closures = 3000});
   ReportParams params;
-  params.maximum_closures = 300;
-  params.maximum_poses = 300;
-  params.maximum_errors = 300;
-  const Json data = data_of(judged_page(sample, params));
+  params.max_closures = 300;
+  params.max_poses = 300;
+  params.max_errors = 300;
+  const Json data = data_of(evaluated_page(sample, params));
   std::size_t count = 0, drawn = 0, by_reason = 0;
   for (const Json& group : data["closures"]["groups"]) {
     count += group["count"].get<std::size_t>();
@@ -165,7 +166,7 @@ TEST(Report, LargeCountsAreExact) {
   Sample sample = make_sample({.keyframes = 20, .closures = 5});
   sample.result.counts["pairs"] = 7167256;
   sample.result.counts["share"] = 0.123456789;
-  const Json counts = data_of(judged_page(sample))["counts"];
+  const Json counts = data_of(evaluated_page(sample))["counts"];
   EXPECT_EQ(counts["pairs"], 7167256);
   EXPECT_EQ(counts["share"], 0.123457);
 }
@@ -173,14 +174,14 @@ TEST(Report, LargeCountsAreExact) {
 TEST(Report, ForeignTextStaysText) {
   const std::string hostile = "</script><script>alert(1)</script><!--\"'&\n\xff";
   Sample sample = make_sample({.keyframes = 20, .closures = 5});
-  const std::string harmless = judged_page(sample);
+  const std::string harmless = evaluated_page(sample);
   sample.result.mission_name = hostile;
   sample.result.robots[0].id = sample.truth.robots[0].id = hostile;
   sample.result.closures[0].reason = hostile;
   sample.result.notes = {hostile};
   sample.result.unplaced = {hostile};
-  sample.result.parameters[0].meaning = hostile;
-  const std::string page = judged_page(sample);
+  sample.result.parameters[0].description = hostile;
+  const std::string page = evaluated_page(sample);
   EXPECT_EQ(count_of(page, "<script"), count_of(harmless, "<script"));
   EXPECT_EQ(count_of(page, "</script"), count_of(harmless, "</script"));
   EXPECT_EQ(data_text(page).find('<'), std::string::npos);
@@ -189,16 +190,16 @@ TEST(Report, ForeignTextStaysText) {
 }
 
 TEST(Report, NothingOnThePageBecomesMarkup) {
-  const std::string page = judged_page(make_sample({.keyframes = 20, .closures = 5}));
+  const std::string page = evaluated_page(make_sample({.keyframes = 20, .closures = 5}));
   const std::string script = page.substr(page.rfind("<script>"));
   for (const char* way :
        {"innerHTML", "outerHTML", "insertAdjacentHTML", "document.write", ".html(", "eval("})
     EXPECT_EQ(count_of(script, way), 0u) << way;
 }
 
-TEST(Report, SameRunSameBytes) { EXPECT_EQ(judged_page(make_sample()), judged_page(make_sample())); }
+TEST(Report, SameRunSameBytes) { EXPECT_EQ(evaluated_page(make_sample()), evaluated_page(make_sample())); }
 
-TEST(Report, WithoutTruthThereIsNoJudgement) {
+TEST(Report, WithoutTruthThereIsNoEvaluation) {
   const Sample sample = make_sample({.keyframes = 50});
   const Json data = data_of(render_report(sample.result));
   EXPECT_EQ(data["frame"], "estimate");
@@ -241,9 +242,10 @@ TEST(Report, WhatIsNotANumberIsNull) {
 
 TEST(Report, SpaceHasHeights) {
   const Json data =
-      data_of(judged_page(make_sample({.robots = 1, .keyframes = 30, .closures = 0, .dimension = 3})));
+      data_of(evaluated_page(make_sample({.robots = 1, .keyframes = 30, .closures = 0, .dimension = 3})));
   EXPECT_EQ(data["robots"][0]["estimate"]["z"].size(), 30u);
-  EXPECT_FALSE(data_of(judged_page(make_sample({.keyframes = 30})))["robots"][0]["estimate"].contains("z"));
+  EXPECT_FALSE(
+      data_of(evaluated_page(make_sample({.keyframes = 30})))["robots"][0]["estimate"].contains("z"));
 }
 
 }  // namespace

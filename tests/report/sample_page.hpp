@@ -1,4 +1,4 @@
-// The page of a sample run, and the data on it.
+// The page of a sample run, and its data.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ inline std::string data_text(const std::string& page) {
 
 inline Json data_of(const std::string& page) { return Json::parse(data_text(page)); }
 
-inline std::string judged_page(const Sample& sample, const ReportParams& params = {}) {
+inline std::string evaluated_page(const Sample& sample, const ReportParams& params = {}) {
   return render_report(sample.result, &sample.truth, sample.metrics, params);
 }
 

@@ -37,7 +37,7 @@ Poses walk(int robot, const SampleParams& params, Rng rng) {
   return poses;
 }
 
-/// The same steps seen by sensors: a constant drift of heading per metre and noise.
+/// The same steps measured by sensors: a constant heading drift per metre, and noise.
 Poses drifted(const Poses& truth, double drift_rad, double sigma, const SE3& T_frame_truth, Rng rng) {
   Poses poses{{truth.front().stamp, T_frame_truth * truth.front().pose}};
   for (std::size_t k = 1; k < truth.size(); ++k) {
@@ -49,7 +49,7 @@ Poses drifted(const Poses& truth, double drift_rad, double sigma, const SE3& T_f
   return poses;
 }
 
-/// Near the truth, with an error that wanders slowly.
+/// Close to the truth, with a slowly varying error.
 Poses near_truth(const Poses& truth, const SE3& T_frame_truth, Rng rng) {
   Poses poses;
   Eigen::Vector2d error = Eigen::Vector2d::Zero();
@@ -95,7 +95,7 @@ ClosureResult random_closure(const SampleParams& params, Rng& rng) {
   return closure;
 }
 
-/// Near pairs are accepted, most of the others are not proposed at all.
+/// Close pairs are accepted, most of the others are not proposed at all.
 void add_closures(Sample& sample, const SampleParams& params, Rng rng) {
   const auto wanted = static_cast<std::size_t>(params.closures);
   const auto position = [&](RobotIndex robot, Stamp stamp) {
@@ -114,7 +114,7 @@ void add_closures(Sample& sample, const SampleParams& params, Rng rng) {
   }
 }
 
-/// Near pairs of different robots, the one listed first in front; some may be there twice.
+/// Close pairs of different robots, the one listed first in front; some may occur twice.
 void add_candidates(Sample& sample, const SampleParams& params, Rng rng) {
   const auto wanted = static_cast<std::size_t>(params.candidates);
   while (sample.result.candidates.size() < wanted) {
@@ -136,7 +136,7 @@ void add_candidates(Sample& sample, const SampleParams& params, Rng rng) {
   sample.result.counts["distances_evaluated"] = 1.25 * params.candidates;
 }
 
-/// The team with all robots but the first turned about their starts, each time further.
+/// The team with all robots but the first rotated about their starts, further for each alternative.
 void add_alternatives(RunResult& result, int count) {
   for (int k = 1; k <= count; ++k) {
     HypothesisResult other{0.3 / k, result.robots};
@@ -168,17 +168,17 @@ void add_similarity(RunResult& result, Rng rng) {
 
 double turned_to(double a_rad, double b_rad) { return std::remainder(a_rad - b_rad, 2 * M_PI); }
 
-/// Lobes around peaks, the direct one first, and what lies between two of them.
-MeasuredArrivalResult arrival_around(double true_azimuth_rad, Rng rng) {
+/// Lobes around peaks, the direct one first, and a cross term between two of them.
+MeasuredAoaResult aoa_around(double true_azimuth_rad, Rng rng) {
   constexpr int kValues = 360;
-  MeasuredArrivalResult arrival;
+  MeasuredAoaResult arrival;
   const double second_rad = true_azimuth_rad + rng.uniform(0.6, 2.4), weaker_db = -rng.uniform(1, 6);
   const double near_rad = rng.normal(true_azimuth_rad, 0.04);
-  const double ghost_rad = near_rad + turned_to(second_rad, near_rad) / 2;
+  const double cross_term_rad = near_rad + turned_to(second_rad, near_rad) / 2;
   const auto wrapped = [](double angle_rad) { return std::remainder(angle_rad, 2 * M_PI); };
   arrival.peaks = {{wrapped(near_rad), 0.05, 0, false},
                    {wrapped(second_rad), 0.09, weaker_db, false},
-                   {wrapped(ghost_rad), 0.16, weaker_db - 3, true}};
+                   {wrapped(cross_term_rad), 0.16, weaker_db - 3, true}};
   for (int k = 0; k < kValues; ++k) {
     const double azimuth_rad = -M_PI + 2 * M_PI * k / kValues;
     double power = 0.03 + 0.02 * std::cos(9 * azimuth_rad);
@@ -192,20 +192,20 @@ MeasuredArrivalResult arrival_around(double true_azimuth_rad, Rng rng) {
   return arrival;
 }
 
-/// Every robot in turn hears one of the others.
-void add_arrivals(Sample& sample, const SampleParams& params, const Rng& rng) {
-  for (int k = 0; k < params.arrivals; ++k) {
+/// Every robot in turn receives one of the others.
+void add_aoa_measurements(Sample& sample, const SampleParams& params, const Rng& rng) {
+  for (int k = 0; k < params.aoa_measurements; ++k) {
     const int receiver = k % params.robots,
               transmitter = (receiver + 1 + (k / params.robots) % 2) % params.robots;
     const auto& here = sample.truth.robots[static_cast<std::size_t>(receiver)];
     const auto& there = sample.truth.robots[static_cast<std::size_t>(transmitter)];
     const Stamp stamp = stamp_of(receiver, 20 + (37 * k) % (params.keyframes - 40));
     const Eigen::Vector3d seen = here.poses.at(stamp)->inverse() * there.poses.at(stamp)->translation();
-    auto arrival = arrival_around(std::atan2(seen.y(), seen.x()), rng.split(static_cast<std::uint64_t>(k)));
+    auto arrival = aoa_around(std::atan2(seen.y(), seen.x()), rng.split(static_cast<std::uint64_t>(k)));
     arrival.receiver = here.id;
     arrival.transmitter = there.id;
     arrival.stamp = stamp;
-    sample.result.arrivals.push_back(std::move(arrival));
+    sample.result.aoa_measurements.push_back(std::move(arrival));
   }
 }
 
@@ -243,7 +243,7 @@ Sample make_sample(const SampleParams& params) {
   add_run(result);
   add_candidates(sample, params, rng.split("candidates"));
   add_alternatives(result, params.alternatives);
-  add_arrivals(sample, params, rng.split("arrivals"));
+  add_aoa_measurements(sample, params, rng.split("arrivals"));
   std::vector<EstimatedTrajectory> estimate;
   for (const auto& robot : result.robots) estimate.push_back({robot.id, robot.estimate});
   sample.metrics = evaluate_trajectories(estimate, sample.truth, params.dimension);

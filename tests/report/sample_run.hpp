@@ -1,4 +1,4 @@
-// Made-up runs to draw: walks around a hall, odometry that drifts, an estimate that hardly does.
+// Synthetic runs to draw: loops around a hall, odometry that drifts, an estimate that hardly does.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ struct SampleParams {
   int candidates = 0;
   int alternatives = 0;
   int dimension = 2;
-  int arrivals = 0;
+  int aoa_measurements = 0;
 };
 
 struct Sample {

@@ -22,9 +22,9 @@ TEST(EvenlySpaced, KeepsBothEndsAndIncreases) {
 }
 
 TEST(ShareOfBudget, IsInProportionAboveTheBudget) {
-  EXPECT_EQ(share_of_budget(30, 100, 100), 30u);
-  EXPECT_EQ(share_of_budget(30, 1000, 100), 3u);
-  EXPECT_EQ(share_of_budget(1, 1000000, 100), 2u);
+  EXPECT_EQ(part_of_budget(30, 100, 100), 30u);
+  EXPECT_EQ(part_of_budget(30, 1000, 100), 3u);
+  EXPECT_EQ(part_of_budget(1, 1000000, 100), 2u);
 }
 
 TEST(NearestKept, IsTheNearest) {

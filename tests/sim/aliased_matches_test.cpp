@@ -1,11 +1,11 @@
-#include "radioslam/sim/aliased_matches.hpp"
+#include "radioslam/sim/sensors/aliased_matches.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "radioslam/sim/city.hpp"
+#include "radioslam/sim/scenarios/city.hpp"
 
 namespace radioslam {
 namespace {
@@ -18,7 +18,7 @@ Town town(int dimension) {
   CityParams params;
   params.dimension = dimension;
   params.path_length_m = 600;
-  params.least_meeting_s = 4;
+  params.min_contact_s = 4;
   params.robots = 3;
   Town result;
   for (auto& robot : simulate_city(params, 5).truth.robots) result.truth.push_back(std::move(robot.poses));
@@ -28,12 +28,12 @@ Town town(int dimension) {
 constexpr double kWithin_m = 60;
 
 LabelledMatches simulate(const Town& town, const AliasedMatchParams& params, int dimension) {
-  return simulate_matches(town.truth, dimension, kWithin_m, place_alias(kWithin_m), params, Rng(3));
+  return simulate_matches(town.truth, dimension, kWithin_m, upright_alias(kWithin_m), params, Rng(3));
 }
 
 SE3 pose_at(const Town& town, RobotIndex robot, Stamp stamp) { return *town.truth[robot.index()].at(stamp); }
 
-TEST(AliasedMatches, TrueOnesAreTheRelativePosesOfNearbyPlaces) {
+TEST(AliasedMatches, TrueOnesAreTheRelativePosesOfNearbyPoses) {
   for (const int dimension : {2, 3}) {
     const Town places = town(dimension);
     AliasedMatchParams params;
@@ -57,7 +57,7 @@ TEST(AliasedMatches, TrueOnesAreTheRelativePosesOfNearbyPlaces) {
   }
 }
 
-/// Log(Z_i F Z_j^-1 E^-1) without noise is zero (theory section 2): the aliased ones agree, and not with the
+/// Without noise, Log(Z_i F Z_j^-1 E^-1) is zero: aliased matches agree with each other, and not with the
 /// truth.
 TEST(AliasedMatches, FalseOnesAgreeWithEachOther) {
   const Town places = town(2);
@@ -80,7 +80,7 @@ TEST(AliasedMatches, FalseOnesAgreeWithEachOther) {
   }
 }
 
-TEST(AliasedMatches, StandInTheOrderOfTimeWhateverTheirLabels) {
+TEST(AliasedMatches, AreInTemporalOrderWhateverTheirLabels) {
   AliasedMatchParams params{40, 120, 3};
   const auto [matches, labels] = simulate(town(3), params, 3);
   ASSERT_EQ(matches.size(), 160U);

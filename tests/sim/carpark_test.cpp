@@ -1,4 +1,4 @@
-#include "radioslam/sim/carpark.hpp"
+#include "radioslam/sim/scenarios/carpark.hpp"
 
 #include <gtest/gtest.h>
 
@@ -54,7 +54,7 @@ std::string bytes(const Simulation& simulation) {
   return out;
 }
 
-TEST(Carpark, StartsWhereTheMissionSays) {
+TEST(Carpark, StartsWhereTheMissionStates) {
   const auto [mission, truth] = simulate_carpark(short_drive(), 1);
   ASSERT_EQ(mission.robots.size(), 2U);
   ASSERT_EQ(truth.robots.size(), 2U);
@@ -127,7 +127,7 @@ TEST(Carpark, DeadReckoningEndsTenToTwentyMetresOff) {
   EXPECT_NEAR(sum / 40, 15, 2.5);
 }
 
-TEST(Carpark, HearsTenToFortyAccessPointsInAScan) {
+TEST(Carpark, DetectsTenToFortyAccessPointsInAScan) {
   const auto [mission, truth] = simulate_carpark(short_drive(), 4);
   EXPECT_EQ(mission.access_points.size(), 70U);
   double readings = 0, scans = 0;
@@ -145,8 +145,8 @@ TEST(Carpark, HearsTenToFortyAccessPointsInAScan) {
 TEST(Carpark, SignalsFallWithDistanceAtTheExponentSet) {
   CarparkParams params = short_drive();
   params.transmitters.sigma_exponent = params.transmitters.sigma_power_at_1m_db = 0;
-  params.transmitters.outside_loss_db = params.transmitters.band_5ghz_share = 0;
-  params.phones.threshold_dbm = params.phones.floor_dbm = -300;  // everything is heard: no selection
+  params.transmitters.outside_loss_db = params.transmitters.band_5ghz_ratio = 0;
+  params.phones.threshold_dbm = params.phones.floor_dbm = -300;  // everything is detected: no selection
   const auto world = make_carpark_world(params, 5);
   const auto [mission, truth] = simulate_carpark(params, 5);
   // Least squares of RSS = P0 - n 10 log10(d) over all readings.

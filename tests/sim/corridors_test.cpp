@@ -1,4 +1,4 @@
-#include "radioslam/sim/corridors.hpp"
+#include "radioslam/sim/scenarios/corridors.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ CorridorsParams without_noise() {
   return params;
 }
 
-/// The scan that begins when the robot is nearest to a place.
+/// The scan that begins when the robot is closest to a position.
 std::size_t scan_nearest(const Simulation& simulation, std::size_t robot, const Eigen::Vector3d& place) {
   const LidarLog& lidar = simulation.mission.robots[robot].lidar;
   std::size_t best = 0;
@@ -31,7 +31,7 @@ std::size_t scan_nearest(const Simulation& simulation, std::size_t robot, const 
   return best;
 }
 
-/// Mean squares of the components of the normals of what a scan sees, each by a ray towards its point.
+/// Mean squares of the components of the normals seen by a scan, each by a ray towards its point.
 Eigen::Vector3d normal_energy(const Simulation& simulation, const CorridorsParams& params, std::size_t k) {
   const RayWorld world(corridor_shapes(params, 1));
   const Robot& robot = simulation.mission.robots[0];
@@ -64,11 +64,11 @@ TEST(Corridors, AreFeaturelessWhereTheEndsAreOutOfSight) {
     EXPECT_NEAR(energy.sum(), 1, 1e-6) << "every point is a surface";
   }
   const Eigen::Vector3d room = normal_energy(simulation, params, scan_nearest(simulation, 0, {0, 0, 0}));
-  EXPECT_GT(room.x(), 0.1) << "a room has walls both ways";
+  EXPECT_GT(room.x(), 0.1) << "a room has walls in both directions";
 }
 
-TEST(Corridors, ThePointsOfAFeaturelessScanSayNothingOfTheWayAlongIt) {
-  // Not by the world's own normals: every point is 1 m aside, on the floor or under the ceiling.
+TEST(Corridors, ThePointsOfAFeaturelessScanDoNotConstrainThePositionAlongIt) {
+  // Independent of the world's own normals: every point is 1 m aside, on the floor or under the ceiling.
   const CorridorsParams params = without_noise();
   const Simulation simulation = simulate_corridors(params, 1);
   const std::size_t k = scan_nearest(simulation, 0, {44, 0, 0});
@@ -120,7 +120,7 @@ TEST(Corridors, BringScansAndInertialReadingsButNoOdometry) {
     EXPECT_GT(robot.lidar.size(), 800U);
     EXPECT_NEAR(static_cast<double>(robot.inertial.size()) / static_cast<double>(robot.lidar.size()), 20,
                 0.1);
-    EXPECT_NEAR(distance_walked(poses).back(), 135, 3);
+    EXPECT_NEAR(travelled_distance(poses).back(), 135, 3);
     for (const Stamp stamp : robot.lidar.stamps) ASSERT_TRUE(poses.covers(stamp));
     const SE3 rest = poses.front().pose.inverse() * *poses.at(Stamp::from_seconds(1.5));
     EXPECT_LT(rest.log().norm(), 1e-9) << "starts at rest";
@@ -128,12 +128,12 @@ TEST(Corridors, BringScansAndInertialReadingsButNoOdometry) {
               1e-4)
         << "and not quite level";
   }
-  // The first ends where the second began.
+  // The first robot ends where the second began.
   const auto &a = truth.robots[0].poses, &b = truth.robots[1].poses;
   EXPECT_LT((a.back().pose.translation() - b.front().pose.translation()).norm(), 10);
 }
 
-TEST(Corridors, WheelsMeasureTheWayOnRequestAndInTheDark) {
+TEST(Corridors, WheelsMeasureThePathOnRequestAndWithoutScans) {
   CorridorsParams params;
   params.wheel_odometry = true;
   const Simulation wheels = simulate_corridors(params, 2);

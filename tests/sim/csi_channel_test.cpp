@@ -1,4 +1,4 @@
-#include "radioslam/sim/csi_channel.hpp"
+#include "radioslam/sim/sensors/csi_channel.hpp"
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ TEST(CsiChannel, OfSeveralPathsIsTheirSum) {
   EXPECT_EQ(channel_of({}, band).norm(), 0);
 }
 
-TEST(CsiChannel, PlaneWavesTurnWithTheWayTowardsTheirSource) {
+TEST(CsiChannel, PlaneWavesTurnWithThePathTowardsTheirSource) {
   const PlaneWave wave{radians_of(40), radians_of(20), -6, 30e-9};
   const auto paths = plane_wave_paths({wave});
   const CsiBand band{5.54e9, {0}, 20e6};
@@ -49,7 +49,7 @@ TEST(CsiChannel, PlaneWavesTurnWithTheWayTowardsTheirSource) {
   EXPECT_NEAR(wrapped(std::arg(origin) + 2 * kPi * 5.54e9 * 30e-9), 0, 1e-6);
 }
 
-/// Power of a direction over snapshots along an arc, as theory has it: a_k = exp(+j 2 pi / lambda delta u).
+/// Power of a direction over snapshots along an arc, by steering vectors a_k = exp(+j 2 pi / lambda delta u).
 double power_from(double azimuth_rad, const std::vector<Eigen::Vector3d>& places,
                   const std::vector<std::complex<double>>& snapshots, double wavelength_m) {
   const Eigen::Vector3d u(std::cos(azimuth_rad), std::sin(azimuth_rad), 0);

@@ -1,4 +1,4 @@
-#include "radioslam/sim/csi_exchange.hpp"
+#include "radioslam/sim/sensors/csi_exchange.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,13 +21,13 @@ CsiCardParams ideal() {
   CsiCardParams cards;
   cards.carrier_offset_hz = cards.carrier_walk_hz_per_sqrt_s = cards.clock_rate_ppm = 0;
   cards.random_phase = cards.quantised = false;
-  cards.detection_delay_ns = cards.loss_share = cards.late_stamp_share = 0;
+  cards.detection_delay_ns = cards.loss_ratio = cards.late_stamp_ratio = 0;
   cards.snr_db = 100;
   cards.snr_distance_m = 1000;
   return cards;
 }
 
-/// An asker that drives along x and an answerer that stands, in the open.
+/// An asker that drives along x and a static answerer, in the open.
 struct Pair {
   CsiCardParams cards = ideal();
   std::vector<Eigen::Vector3d> asker_antennas{{0, 0, 0}};
@@ -49,15 +49,15 @@ struct Pair {
             },
             CsiCard(cards, 10, Rng(2))};
   }
-  CsiAir air() const { return {room_paths({}, {}), {kCarrier_hz, {-5e6, 0, 5e6}, 20e6}, cards}; }
-  HeardPackets exchange(std::uint64_t seed = 3) const {
-    std::vector<AskedPacket> asked;
+  CsiMedium air() const { return {room_paths({}, {}), {kCarrier_hz, {-5e6, 0, 5e6}, 20e6}, cards}; }
+  ReceivedPackets exchange(std::uint64_t seed = 3) const {
+    std::vector<SentPacket> asked;
     for (int k = 0; k < packets; ++k) asked.push_back({0.1 + k / 120.0, static_cast<std::uint32_t>(k)});
     return exchange_packets(asker(), answerer(), asked, air(), Rng(seed));
   }
 };
 
-std::complex<double> centre(const HeardPacket& heard, Eigen::Index row = 0) {
+std::complex<double> centre(const ReceivedPacket& heard, Eigen::Index row = 0) {
   return std::complex<double>(heard.packet.channel(row, kAtTheCarrier));
 }
 
@@ -90,7 +90,7 @@ TEST(CsiExchange, TheProductsPhaseIsTwiceThePathsAfterTheCarriersPart) {
     EXPECT_NEAR(wrapped(paths - 2 * kPi * f_hz * gap_s), 0, 1e-4) << k;
     worst_without = std::max(worst_without, std::abs(wrapped(paths)));
   }
-  EXPECT_GT(worst_without, 1) << "the carriers' part is there";
+  EXPECT_GT(worst_without, 1) << "the carriers' offset is present";
 }
 
 TEST(CsiExchange, TheProductCancelsOscillatorsOfOneFrequency) {
@@ -106,7 +106,7 @@ TEST(CsiExchange, TheProductCancelsOscillatorsOfOneFrequency) {
     alone += turned(centre(heard.by_asker[k]), distance_m(pair, heard.by_asker[k].t_s));
     product += turned(centre(heard.by_asker[k]) * centre(heard.by_answerer[k]), way_m);
   }
-  EXPECT_LT(std::abs(alone) / 400, 0.15) << "one end's phases are at random";
+  EXPECT_LT(std::abs(alone) / 400, 0.15) << "one end's phases are random";
   EXPECT_NEAR(std::abs(product) / 400, 1, 1e-6);
   EXPECT_NEAR(std::arg(product), 0, 1e-4);
 }
@@ -114,7 +114,7 @@ TEST(CsiExchange, TheProductCancelsOscillatorsOfOneFrequency) {
 TEST(CsiExchange, AntennasTurnWithTheBody) {
   Pair pair;
   pair.asker_antennas = {{0, 0, 0}, {0.5, 0, 0}, {0, 0.2, 1}};
-  pair.heading_rad = kPi / 2;  // body x points at the answerer, body y back along the way
+  pair.heading_rad = kPi / 2;  // body x points at the answerer, body y backwards along the path
   const auto heard = pair.exchange();
   const auto& answer = heard.by_asker[60];
   ASSERT_EQ(answer.packet.antennas, 3);
@@ -133,22 +133,22 @@ TEST(CsiExchange, AntennasTurnWithTheBody) {
 TEST(CsiExchange, LateDetectionSlopesThePhaseOverTheSubcarriersOnly) {
   Pair pair;
   pair.cards.detection_delay_ns = 80;
-  double least_s = 1, most_s = 0;
-  for (const HeardPacket& answer : pair.exchange().by_asker) {
+  double min_s = 1, max_s = 0;
+  for (const ReceivedPacket& answer : pair.exchange().by_asker) {
     const auto& h = answer.packet.channel;
     const double slope =
         wrapped(std::arg(std::complex<double>(h(0, 2)) * std::conj(std::complex<double>(h(0, 1)))));
     const double late_s = -slope / (2 * kPi * 5e6) - distance_m(pair, answer.t_s) / 299792458.0;
-    least_s = std::min(least_s, late_s);
-    most_s = std::max(most_s, late_s);
+    min_s = std::min(min_s, late_s);
+    max_s = std::max(max_s, late_s);
     EXPECT_NEAR(wrapped(std::arg(centre(answer)) +
                         2 * kPi * distance_m(pair, answer.t_s) * kCarrier_hz / 299792458.0),
                 0, 1e-4);
   }
-  EXPECT_GT(least_s, -1e-12);
-  EXPECT_LT(least_s, 4e-9);
-  EXPECT_GT(most_s, 76e-9);
-  EXPECT_LT(most_s, 80e-9 + 1e-12);
+  EXPECT_GT(min_s, -1e-12);
+  EXPECT_LT(min_s, 4e-9);
+  EXPECT_GT(max_s, 76e-9);
+  EXPECT_LT(max_s, 80e-9 + 1e-12);
 }
 
 TEST(CsiExchange, AnswersWaitAsLongAsAsked) {
@@ -167,14 +167,14 @@ TEST(CsiExchange, AnswersWaitAsLongAsAsked) {
   EXPECT_NEAR(late / 900.0, 0.05 * std::exp(-130.0 / 200), 0.02);
 }
 
-TEST(CsiExchange, LosesTheShareOfPacketsEachWay) {
+TEST(CsiExchange, LosesTheRatioOfPacketsInEachDirection) {
   Pair pair;
-  pair.cards.loss_share = 0.3;
+  pair.cards.loss_ratio = 0.3;
   pair.packets = 1100;
   const auto heard = pair.exchange();
   std::map<std::uint32_t, int> halves;
   for (const auto* side : {&heard.by_asker, &heard.by_answerer})
-    for (const HeardPacket& packet : *side) ++halves[*packet.packet.counter];
+    for (const ReceivedPacket& packet : *side) ++halves[*packet.packet.counter];
   const auto both = std::count_if(halves.begin(), halves.end(), [](const auto& h) { return h.second == 2; });
   const double sigma = std::sqrt(0.7 * 0.3 / 1100);
   EXPECT_NEAR(static_cast<double>(heard.by_asker.size()) / 1100, 0.7, 4 * sigma);
@@ -182,10 +182,10 @@ TEST(CsiExchange, LosesTheShareOfPacketsEachWay) {
   EXPECT_NEAR(static_cast<double>(both) / 1100, 0.49, 4 * sigma);
 }
 
-/// Mean over packets of the power of what follows the channel over that of what does not.
+/// Mean over packets of the power that follows the channel over that of the rest.
 double measured_snr_db(const Pair& pair) {
   double signal = 0, noise = 0;
-  for (const HeardPacket& heard : pair.exchange().by_answerer) {
+  for (const ReceivedPacket& heard : pair.exchange().by_answerer) {
     const auto paths = pair.air().paths({0.3 * heard.t_s, 0, 0}, {0, pair.distance_m, 0});
     const Eigen::RowVectorXcd h = channel_of(paths, pair.air().band);
     const Eigen::RowVectorXcd c = heard.packet.channel.row(0).cast<std::complex<double>>();
@@ -201,7 +201,7 @@ double measured_snr_db(const Pair& pair) {
 TEST(CsiExchange, HasTheSignalToNoiseThatWasAsked) {
   Pair pair;
   pair.cards.snr_db = 20;
-  pair.cards.snr_distance_m = 5.1;  // about where they are
+  pair.cards.snr_distance_m = 5.1;  // about their distance
   EXPECT_NEAR(measured_snr_db(pair), 20, 0.4);
   pair.cards.quantised = true;
   EXPECT_NEAR(measured_snr_db(pair), 20, 0.4) << "eight bits are enough";
@@ -214,7 +214,7 @@ TEST(CsiExchange, WritesEightBitNumbersWhateverTheDistance) {
     Pair pair;
     pair.cards.quantised = true;
     pair.distance_m = distance_m;
-    for (const HeardPacket& heard : pair.exchange().by_asker) {
+    for (const ReceivedPacket& heard : pair.exchange().by_asker) {
       double largest = 0;
       for (const std::complex<float>& value : heard.packet.channel.reshaped())
         for (const float part : {value.real(), value.imag()}) {
@@ -239,7 +239,7 @@ TEST(CsiCard, CountsMicrosecondsAtItsOwnRate) {
   EXPECT_LT(std::abs(counted - 8e6), 4 * 8e3);
 }
 
-TEST(CsiCard, ItsCarrierWalks) {
+TEST(CsiCard, ItsCarrierIsARandomWalk) {
   CsiCardParams params = ideal();
   params.carrier_walk_hz_per_sqrt_s = 50;
   double squares = 0;
@@ -254,10 +254,10 @@ TEST(CsiCard, ItsCarrierWalks) {
 
 TEST(WriteDown, StampsInOrderMostOnTimeSomeLate) {
   Pair pair;
-  pair.cards.late_stamp_share = 0.2;
+  pair.cards.late_stamp_ratio = 0.2;
   pair.cards.stamp_offset_s = 2;
   const auto heard = pair.exchange().by_asker;
-  const CsiCapture capture = write_down(heard, pair.air(), Rng(4));
+  const CsiCapture capture = record_as_sent(heard, pair.air(), Rng(4));
   ASSERT_EQ(capture.packets.size(), heard.size());
   EXPECT_EQ(capture.subcarrier_hz, pair.air().band.subcarrier_hz);
   int late = 0;

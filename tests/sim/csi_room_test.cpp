@@ -1,4 +1,4 @@
-#include "radioslam/sim/csi_room.hpp"
+#include "radioslam/sim/scenarios/csi_room.hpp"
 
 #include <gtest/gtest.h>
 
@@ -42,13 +42,13 @@ TEST(CsiRoom, SameSeedSameMission) {
   EXPECT_FALSE(same_recordings(one, simulate_csi_room(short_talk(), 4)));
 }
 
-TEST(CsiRoom, EveryLegIsHeardByAllOthersAndAnswered) {
+TEST(CsiRoom, EveryLegIsReceivedByAllOthersAndAnswered) {
   const auto [mission, truth] = simulate_csi_room(short_talk(), 1);
   ASSERT_EQ(mission.robots.size(), 3U);
   EXPECT_EQ(mission.ranges.size(), 18U);
   std::set<std::uint64_t> addresses;
   std::map<std::pair<std::uint64_t, std::uint64_t>, std::set<std::uint32_t>>
-      counters;  // of (sender, heard by)
+      counters;  // of (sender, receiver)
   for (const Robot& robot : mission.robots) {
     ASSERT_TRUE(robot.csi && robot.csi->address);
     EXPECT_TRUE(addresses.insert(robot.csi->address->value).second);
@@ -98,9 +98,9 @@ TEST(CsiRoom, RobotsDriveInTheRoomAndTheOdometryHardlyDrifts) {
   }
 }
 
-/// One parameter at a time at an end of its range, as long as that is not merely long.
+/// One parameter at a time at an end of its range, unless that only makes the mission long.
 TEST(CsiRoom, RunsAtTheEndsOfItsRanges) {
-  const std::set<std::string_view> long_at_the_end{"turns_per_robot", "longest_leg_m",    "shortest_leg_m",
+  const std::set<std::string_view> long_at_the_end{"turns_per_robot", "max_leg_m",        "min_leg_m",
                                                    "robots",          "odometry_rate_hz", "draws",
                                                    "ranges_per_pair", "pause_s"};
   CsiRoomParams params = short_talk();

@@ -1,4 +1,4 @@
-#include "radioslam/sim/drive.hpp"
+#include "radioslam/sim/motion/drive.hpp"
 
 #include <gtest/gtest.h>
 

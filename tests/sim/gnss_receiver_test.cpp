@@ -1,11 +1,11 @@
-// Simulated position fixes: their noise, and the share and length of gross spells.
-#include "radioslam/sim/gnss_receiver.hpp"
+// Simulated position fixes: their noise, and the ratio and duration of episodes of gross errors.
+#include "radioslam/sim/sensors/gnss_receiver.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "radioslam/sim/city.hpp"
+#include "radioslam/sim/scenarios/city.hpp"
 
 namespace radioslam {
 namespace {
@@ -18,7 +18,7 @@ TrueMotion long_drive(double end_s) {
 TEST(GnssReceiver, ErrorsHaveTheStatedSigmaOutsideOfSpells) {
   GnssReceiverParams params;
   params.gnss_hz = 2;
-  params.gnss_gross_share = 0;
+  params.gnss_outlier_ratio = 0;
   const auto motion = long_drive(2000);
   const auto fixes = simulate_gnss(motion, params, Rng(1));
   ASSERT_EQ(fixes.size(), 4001U);
@@ -29,11 +29,11 @@ TEST(GnssReceiver, ErrorsHaveTheStatedSigmaOutsideOfSpells) {
   EXPECT_EQ(fixes.front().sigma_m, params.gnss_sigma_m);
 }
 
-TEST(GnssReceiver, SpellsTakeTheirShareAndLast) {
+TEST(GnssReceiver, EpisodesHaveTheirRatioAndDuration) {
   GnssReceiverParams params;
   params.gnss_hz = 1;
-  params.gnss_gross_share = 0.2;
-  params.gnss_gross_m = 1000;
+  params.gnss_outlier_ratio = 0.2;
+  params.gnss_outlier_m = 1000;
   const auto motion = long_drive(20000);
   const auto fixes = simulate_gnss(motion, params, Rng(2));
   double gross = 0, spells = 0;
@@ -45,13 +45,13 @@ TEST(GnssReceiver, SpellsTakeTheirShareAndLast) {
     inside = far;
   }
   EXPECT_NEAR(gross / static_cast<double>(fixes.size()), 0.2, 0.02);
-  EXPECT_NEAR(gross / spells, params.gnss_gross_s, 0.8);
+  EXPECT_NEAR(gross / spells, params.gnss_outlier_s, 0.8);
 }
 
 TEST(GnssReceiver, ATownHasNoneUnlessAskedAndIsOtherwiseTheSame) {
   CityParams params;
   params.path_length_m = 300;
-  params.least_meeting_s = 0;
+  params.min_contact_s = 0;
   const auto without = simulate_city(params, 1).mission;
   params.gnss.gnss_hz = 1;
   const auto with = simulate_city(params, 1).mission;

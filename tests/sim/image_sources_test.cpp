@@ -1,4 +1,4 @@
-#include "radioslam/sim/image_sources.hpp"
+#include "radioslam/sim/sensors/image_sources.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ TEST(ImageSources, TheStraightPathComesFirst) {
 
 TEST(ImageSources, AWallShowsTheTransmitterBehindItself) {
   const auto paths = image_paths(kTransmitter, kReceiver, {kBelow}, {});
-  ASSERT_EQ(paths.size(), 2U);  // the image lies at (1, -2, 0.5)
+  ASSERT_EQ(paths.size(), 2U);  // the image is at (1, -2, 0.5)
   EXPECT_EQ(paths[1].bounces, 1);
   EXPECT_NEAR(paths[1].length_m, std::sqrt(35.0), 1e-12);
   EXPECT_NEAR(paths[1].amplitude, -0.4 / std::sqrt(35.0), 1e-12);
@@ -56,7 +56,7 @@ TEST(ImageSources, ParallelWallsReflectToAndFro) {
   EXPECT_NEAR(paths[4].length_m, std::sqrt(9 + 121 + 1.0), 1e-12);
 }
 
-TEST(ImageSources, WhatStandsInTheWayTakesItsShare) {
+TEST(ImageSources, WallsInThePathAttenuate) {
   const WallSegment between{{2.5, 0}, {2.5, 50}, 0, 20};
   const auto paths = image_paths(kTransmitter, kReceiver, {kBelow, between}, {1, 6});
   ASSERT_GE(paths.size(), 2U);
@@ -65,7 +65,7 @@ TEST(ImageSources, WhatStandsInTheWayTakesItsShare) {
       << "it passes the wall after its bounce";
 }
 
-TEST(ImageSources, AreTheSameEitherWay) {
+TEST(ImageSources, AreTheSameInBothDirections) {
   const std::vector<WallSegment> walls{
       kBelow, kLeft, {{-50, 5}, {50, 5}, -0.3, 5}, {{2.5, 0}, {2.5, 3}, -0.2, 20}};
   const auto there = image_paths(kTransmitter, kReceiver, walls, {});
@@ -79,7 +79,7 @@ TEST(ImageSources, AreTheSameEitherWay) {
   EXPECT_NEAR(there_sum, back_sum, 1e-12);
 }
 
-TEST(WallSegment, KnowsHowFarAPlaceIs) {
+TEST(WallSegment, MeasuresTheDistanceToAPoint) {
   const WallSegment wall{{0, 0}, {4, 0}};
   EXPECT_NEAR(wall.distance_m({1, -2}), 2, 1e-12);
   EXPECT_NEAR(wall.distance_m({7, 4}), 5, 1e-12);

@@ -1,11 +1,11 @@
-// Inertial readings against an integrator of their own, and their noise against what it says.
-#include "radioslam/sim/inertial_unit.hpp"
+// IMU samples against an independent integrator, and their noise against the stated one.
+#include "radioslam/sim/sensors/inertial_unit.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "radioslam/sim/smooth_ride.hpp"
+#include "radioslam/sim/motion/smooth_motion.hpp"
 
 namespace radioslam {
 namespace {
@@ -29,11 +29,11 @@ TrueMotion curvy_motion() {
                     Eigen::Quaterniond::Identity());
     poses.push_back({Stamp::from_seconds(s), level * lift(SE2({0, 0}, 0.5 * std::cos(0.4 * s)))});
   }
-  SmoothRideParams ride;
+  SmoothMotionParams ride;
   ride.rest_s = 1;
   ride.speed_swing = 0.4;
   ride.sway_rad = 0.05;
-  return TrueMotion(smooth_ride(Trajectory<SE3>(std::move(poses)), ride, Rng(6)));
+  return TrueMotion(smooth_motion(Trajectory<SE3>(std::move(poses)), ride, Rng(6)));
 }
 
 TrueMotion unit_at_rest(double seconds) {
@@ -52,12 +52,12 @@ TEST(InertialUnit, AtRestItFeelsTheGroundPushItUp) {
   EXPECT_TRUE(simulate_inertial(unit_at_rest(2), InertialUnitParams{}, Rng(1)).empty());
 }
 
-/// Readings integrated twice by the midpoint rule, attitude as a rotation matrix.
+/// Samples integrated twice by the midpoint rule, attitude as a rotation matrix.
 struct Integrated {
   Eigen::Matrix3d R;
   Eigen::Vector3d velocity, position;
 
-  void over(const InertialSample& a, const InertialSample& b) {
+  void over(const ImuSample& a, const ImuSample& b) {
     const double step_s = seconds_between(a.stamp, b.stamp);
     const Eigen::Vector3d rate = 0.5 * (a.angular_rate_radps + b.angular_rate_radps);
     const Eigen::Vector3d gravity(0, 0, -9.80665);
@@ -105,7 +105,7 @@ TEST(InertialUnit, ItsNoiseIsAsStated) {
   EXPECT_NEAR(neighbours / force, 0, 4 / std::sqrt(count)) << "white";
 }
 
-TEST(InertialUnit, ItsBiasStartsAnywhereAndWalks) {
+TEST(InertialUnit, ItsBiasStartsAtRandomAndIsARandomWalk) {
   InertialUnitParams params = exact_unit(20);
   params.imu_accelerometer_bias_mps2 = 0.1;
   params.imu_gyroscope_walk = 0.01;

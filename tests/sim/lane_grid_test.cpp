@@ -1,4 +1,4 @@
-#include "radioslam/sim/lane_grid.hpp"
+#include "radioslam/sim/worlds/lane_grid.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ std::size_t reachable(const LaneGrid& lanes) {
 
 TEST(LaneGrid, HasAllLanesWhenNoneIsClosed) {
   LaneGridParams params;
-  params.closed_lane_share = 0;
+  params.closed_lane_ratio = 0;
   const LaneGrid lanes(params, Rng(1));
   EXPECT_EQ(lanes.size(), 24U);
   EXPECT_EQ(lanes.lane_count(), 5U * 4 + 6 * 3);
@@ -29,7 +29,7 @@ TEST(LaneGrid, HasAllLanesWhenNoneIsClosed) {
   EXPECT_EQ(lanes.crossing(23), Eigen::Vector2d(80, 55));
 }
 
-TEST(LaneGrid, ClosesTheShareAskedForAndStaysPassable) {
+TEST(LaneGrid, ClosesTheRequestedRatioAndStaysPassable) {
   const LaneGridParams params;
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     const LaneGrid lanes(params, Rng(seed));
@@ -42,13 +42,13 @@ TEST(LaneGrid, ClosesTheShareAskedForAndStaysPassable) {
 TEST(LaneGrid, ClosesNoMoreThanItCan) {
   LaneGridParams params;
   params.aisles_along_x = params.aisles_along_y = 2;
-  params.closed_lane_share = 0.5;
+  params.closed_lane_ratio = 0.5;
   EXPECT_EQ(LaneGrid(params, Rng(1)).lane_count(), 4U);  // a ring: every lane is needed
 }
 
-TEST(LaneGrid, MeasuresTheWayToTheNearestCentreLine) {
+TEST(LaneGrid, MeasuresTheDistanceToTheNearestCentreLine) {
   LaneGridParams params;
-  params.closed_lane_share = 0;
+  params.closed_lane_ratio = 0;
   const LaneGrid lanes(params, Rng(1));
   EXPECT_DOUBLE_EQ(lanes.distance_to_lane_m({5, 30}), 0);
   EXPECT_DOUBLE_EQ(lanes.distance_to_lane_m({0, 30}), 5);

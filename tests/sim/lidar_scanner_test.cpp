@@ -1,6 +1,5 @@
-// Scans of a moving robot: every point lies on a surface once it is brought there by the pose of its own
-// time.
-#include "radioslam/sim/lidar_scanner.hpp"
+// Scans of a moving robot: every point is on a surface once it is transformed by the pose at its own time.
+#include "radioslam/sim/sensors/lidar_scanner.hpp"
 
 #include <gtest/gtest.h>
 
@@ -90,10 +89,10 @@ TEST(LidarScanner, PointsOfAMovingScanLieOnTheSurfacesAtTheirOwnTimes) {
     EXPECT_GE(scan.times_s.front(), 0.0F);
     EXPECT_LT(scan.times_s.back(), 0.1F);
   }
-  EXPECT_GT(at_the_stamp_m, 0.3) << "raw: the motion is left in";
+  EXPECT_GT(at_the_stamp_m, 0.3) << "raw: the motion distortion is left in";
 }
 
-TEST(LidarScanner, StandingStillItMeasuresWhatAPencilSays) {
+TEST(LidarScanner, AtRestItMeasuresWhatGeometryGives) {
   LidarScannerParams params = scanner_of(1);
   params.lidar_azimuth_steps = 4;  // at -135, -45, 45 and 135 degrees
   params.lidar_sigma_m = 0;
@@ -150,7 +149,7 @@ TEST(LidarScanner, LeavesOutWhatIsTooNearTooFarOrLost) {
     EXPECT_LE(point.head<2>().norm(), 8.001F);
   }
   LidarScannerParams lossy = scanner_of(16);
-  lossy.lidar_dropout_share = 0.2;
+  lossy.lidar_dropout_ratio = 0.2;
   const double left = static_cast<double>(sweep(*room, *motion, lossy, Stamp{}, Rng(1)).points.size());
   EXPECT_NEAR(left / (16 * 900), 0.8, 4 * std::sqrt(0.16 / (16 * 900)));
 }

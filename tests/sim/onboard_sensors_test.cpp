@@ -1,13 +1,13 @@
-// hall and city with scans and inertial readings: what is seen, and what stays as it was.
-#include "radioslam/sim/onboard_sensors.hpp"
+// hall and city with scans and IMU samples: what scans see, and what stays unchanged.
+#include "radioslam/sim/scenarios/onboard_sensors.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "radioslam/sim/scenarios.hpp"
-#include "radioslam/sim/town_houses.hpp"
+#include "radioslam/sim/scenarios/scenarios.hpp"
+#include "radioslam/sim/worlds/town_houses.hpp"
 
 namespace radioslam {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 CityParams short_city() {
   CityParams params;
   params.path_length_m = 250;
-  params.least_meeting_s = 0;
+  params.min_contact_s = 0;
   return params;
 }
 
@@ -128,7 +128,7 @@ TEST(City, ScansShowTheHousesAlongTheStreetsAndTheHills) {
   EXPECT_GT(on_ground, 5000U);
 }
 
-TEST(City, HousesStandClearOfTheStreets) {
+TEST(City, HousesKeepClearOfTheStreets) {
   for (const double block_m : {20.0, 40.0, 100.0}) {
     CityParams params = short_city();
     params.streets.block_m = block_m;
@@ -161,7 +161,7 @@ TEST(OnboardSensors, WithAnInertialUnitEverythingFollowsTheSmoothMotion) {
   EXPECT_EQ(poses[1].stamp.ns, 5000000);
   EXPECT_NEAR(robot.odometry.back().stamp.seconds(), poses.back().stamp.seconds(), 0.11);
   EXPECT_EQ(robot.odometry[1].stamp.ns, 100000000);
-  // Its rate of turn is that of the truth, its specific force that of the truth's second differences.
+  // Its angular rate is that of the truth, its specific force that of the truth's second differences.
   const auto& inertial = robot.inertial;
   Eigen::Vector3d rates = Eigen::Vector3d::Zero(), forces = rates;
   int count = 0;

@@ -1,4 +1,4 @@
-#include "radioslam/sim/phones.hpp"
+#include "radioslam/sim/sensors/phones.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@ namespace {
 
 SE2 standing(double) { return SE2({10, 0}, 0); }
 
-/// One radio, heard with exactly `power_dbm` at the place where the robot stands.
+/// One radio, received with exactly `power_dbm` at the robot's position.
 std::vector<Transmitter> radio_heard_with(double power_dbm) {
   return {Transmitter("02:00:00:00:00:01", {10, 0, 0}, 2437, power_dbm, 2, ShadowingField(0, 7, 1, Rng(1)))};
 }
@@ -17,7 +17,7 @@ std::vector<Transmitter> radio_heard_with(double power_dbm) {
 PhoneParams plain() {
   PhoneParams params;
   params.sigma_phone_offset_db = params.sigma_fading_db = 0;
-  params.missed_scan_share = 0;
+  params.missed_scan_ratio = 0;
   return params;
 }
 
@@ -28,9 +28,9 @@ TEST(Phones, ScanAtTheirRate) {
   EXPECT_LE(scans.back().stamp, Stamp::from_seconds(1000));
 }
 
-TEST(Phones, MissTheShareAskedFor) {
+TEST(Phones, MissTheRequestedRatio) {
   PhoneParams params = plain();
-  params.missed_scan_share = 0.2;
+  params.missed_scan_ratio = 0.2;
   const auto scans = simulate_scans(standing, 0, 1000, radio_heard_with(-40), 0, params, Rng(1));
   EXPECT_NEAR(static_cast<double>(scans.size()), 2000, 5 * std::sqrt(2500 * 0.2 * 0.8) + 5);
 }
@@ -53,7 +53,7 @@ TEST(Phones, ReportWholeDecibels) {
     EXPECT_EQ(scan.readings.at(0).rssi_dbm, -40);
 }
 
-TEST(Phones, HearWeakTransmittersNowAndThen) {
+TEST(Phones, DetectWeakTransmittersNowAndThen) {
   const PhoneParams params = plain();
   const auto heard = [&](double power_dbm) {
     return static_cast<double>(

@@ -1,5 +1,5 @@
-// What links measure agrees with the truth as far as the stated noise says, and the labels are right.
-#include "radioslam/sim/radio_channel.hpp"
+// Radio links: measurements agree with the truth within the stated noise, and the labels are right.
+#include "radioslam/sim/sensors/radio_channel.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,14 +8,14 @@
 
 #include "radioslam/geometry/so3.hpp"
 #include "radioslam/mission/truth.hpp"
-#include "radioslam/sim/arrival_paths.hpp"
+#include "radioslam/sim/sensors/arrival_paths.hpp"
 
 namespace radioslam {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// Two robots on circles that cross, one of them nodding, for 200 s.
+/// Two robots on intersecting circles, one of them pitching, for 200 s.
 std::vector<Trajectory<SE3>> circling_team() {
   std::vector<std::vector<StampedPose<SE3>>> poses(2);
   for (int k = 0; k <= 2000; ++k) {
@@ -41,7 +41,7 @@ RadioLinks simulate(const RadioChannelParams& params, int dimension = 3, std::ui
   return simulate_links(circling_team(), dimension, params, Rng(seed));
 }
 
-Eigen::Vector3d in_body(const std::vector<Trajectory<SE3>>& truth, const ArrivalMeasurement& arrival) {
+Eigen::Vector3d in_body(const std::vector<Trajectory<SE3>>& truth, const AoaMeasurement& arrival) {
   return truth[arrival.receiver.index()].at(arrival.stamp)->inverse() *
          truth[arrival.transmitter.robot.index()].at(arrival.stamp)->translation();
 }
@@ -68,10 +68,10 @@ TEST(RadioChannel, TheLabelledPathsPointToTheTransmitterWithTheStatedNoise) {
   const auto truth = circling_team();
   const auto links = simulate(many_links());
   double across = 0, up = 0, n = 0;
-  for (std::size_t k = 0; k < links.arrivals.size(); ++k) {
+  for (std::size_t k = 0; k < links.aoa_measurements.size(); ++k) {
     if (*links.direct_paths[k] == kNoDirectPath) continue;
-    const auto& path = links.arrivals[k].paths[static_cast<std::size_t>(*links.direct_paths[k])];
-    const Eigen::Vector3d way = in_body(truth, links.arrivals[k]);
+    const auto& path = links.aoa_measurements[k].paths[static_cast<std::size_t>(*links.direct_paths[k])];
+    const Eigen::Vector3d way = in_body(truth, links.aoa_measurements[k]);
     const double azimuth = std::atan2(way.y(), way.x());
     const double elevation = std::asin(way.z() / way.norm());
     across += std::pow(wrap_angle(path.azimuth_rad - azimuth) * std::cos(elevation) / path.sigma_rad, 2);
@@ -80,16 +80,16 @@ TEST(RadioChannel, TheLabelledPathsPointToTheTransmitterWithTheStatedNoise) {
   }
   EXPECT_NEAR(across / n, 1, 4 * std::sqrt(2 / n));
   EXPECT_NEAR(up / n, 1, 4 * std::sqrt(2 / n));
-  EXPECT_NEAR(n / static_cast<double>(links.arrivals.size()), 0.85, 0.03);
+  EXPECT_NEAR(n / static_cast<double>(links.aoa_measurements.size()), 0.85, 0.03);
 }
 
 TEST(RadioChannel, FalsePathsAreAsManyAsAskedForAndComeFromAllAround) {
   RadioChannelParams params = many_links();
-  params.missing_direct_share = 0;
+  params.missing_direct_ratio = 0;
   const auto links = simulate(params);
   double paths = 0, x = 0, y = 0, direct_is_first = 0;
-  for (std::size_t k = 0; k < links.arrivals.size(); ++k) {
-    const auto& all = links.arrivals[k].paths;
+  for (std::size_t k = 0; k < links.aoa_measurements.size(); ++k) {
+    const auto& all = links.aoa_measurements[k].paths;
     EXPECT_GE(all.size(), 1U);
     EXPECT_LE(all.size(), 6U);
     for (std::size_t p = 0; p < all.size(); ++p) {
@@ -102,24 +102,24 @@ TEST(RadioChannel, FalsePathsAreAsManyAsAskedForAndComeFromAllAround) {
     }
     if (*links.direct_paths[k] == 0) ++direct_is_first;
   }
-  const auto n = static_cast<double>(links.arrivals.size());
+  const auto n = static_cast<double>(links.aoa_measurements.size());
   EXPECT_NEAR(paths / n, 2.5, 0.15);
   EXPECT_NEAR(std::hypot(x, y) / paths, 0, 0.04);
   EXPECT_GT(direct_is_first / n, 0.6);  // stronger on average, but
   EXPECT_LT(direct_is_first / n, 0.9);  // the distributions overlap
 }
 
-TEST(RadioChannel, AMirrorImageStandsAtEveryAngle) {
+TEST(RadioChannel, EveryAngleHasAMirrorImage) {
   RadioChannelParams params = many_links();
   params.mirror = true;
   params.max_false_paths = 0;
-  params.missing_direct_share = 0;
+  params.missing_direct_ratio = 0;
   const auto truth = circling_team();
   const auto links = simulate(params);
-  const StreetWalls walls(truth[0], params, Rng(1).split(1).split(std::uint64_t{0}).split("walls"));
+  const MirrorWalls walls(truth[0], params, Rng(1).split(1).split(std::uint64_t{0}).split("walls"));
   double squares = 0;
-  for (std::size_t k = 0; k < links.arrivals.size(); ++k) {
-    const auto& arrival = links.arrivals[k];
+  for (std::size_t k = 0; k < links.aoa_measurements.size(); ++k) {
+    const auto& arrival = links.aoa_measurements[k];
     ASSERT_EQ(arrival.paths.size(), 2U);
     const auto& mirrored = arrival.paths[static_cast<std::size_t>(1 - *links.direct_paths[k])];
     const Eigen::Vector3d image =
@@ -129,7 +129,7 @@ TEST(RadioChannel, AMirrorImageStandsAtEveryAngle) {
     const double error = wrap_angle(mirrored.azimuth_rad - std::atan2(way.y(), way.x()));
     squares += std::pow(error * way.head<2>().norm() / way.norm() / mirrored.sigma_rad, 2);
   }
-  EXPECT_NEAR(squares / static_cast<double>(links.arrivals.size()), 1, 0.12);
+  EXPECT_NEAR(squares / static_cast<double>(links.aoa_measurements.size()), 1, 0.12);
 }
 
 TEST(RadioChannel, AWallShowsAnImageAsFarBehindItself) {
@@ -137,20 +137,20 @@ TEST(RadioChannel, AWallShowsAnImageAsFarBehindItself) {
   EXPECT_EQ(wall.image({1, 2, 3}), Eigen::Vector3d(1, 8, 3));
 }
 
-TEST(RadioChannel, MeasuresWhatItIsToldTo) {
+TEST(RadioChannel, MeasuresWhatIsEnabled) {
   RadioChannelParams params;
   EXPECT_EQ(simulate(params).ranges.size(), 40U);
-  EXPECT_GT(simulate(params).arrivals.size(), 70U);
+  EXPECT_GT(simulate(params).aoa_measurements.size(), 70U);
   params.angle_ends = "one";
   const auto one = simulate(params);
-  EXPECT_LE(one.arrivals.size(), 40U);
-  for (const auto& arrival : one.arrivals) EXPECT_EQ(arrival.receiver, RobotIndex(0));
+  EXPECT_LE(one.aoa_measurements.size(), 40U);
+  for (const auto& arrival : one.aoa_measurements) EXPECT_EQ(arrival.receiver, RobotIndex(0));
   params.angle_ends = "none";
-  EXPECT_TRUE(simulate(params).arrivals.empty());
+  EXPECT_TRUE(simulate(params).aoa_measurements.empty());
   params.ranges = false;
   EXPECT_TRUE(simulate(params).ranges.empty());
   params.angle_ends = "both";
-  for (const auto& arrival : simulate(params, 2).arrivals)
+  for (const auto& arrival : simulate(params, 2).aoa_measurements)
     for (const auto& path : arrival.paths) EXPECT_FALSE(path.elevation_rad);
 }
 
@@ -159,9 +159,9 @@ TEST(RadioChannel, AnglesComeLaterByTheOffset) {
   params.time_offset_s = 0.7;
   params.min_false_paths = 1;  // so that no measurement is empty
   const auto links = simulate(params);
-  ASSERT_EQ(links.arrivals.size(), 2 * links.ranges.size());
+  ASSERT_EQ(links.aoa_measurements.size(), 2 * links.ranges.size());
   for (std::size_t k = 0; k < links.ranges.size(); ++k)
-    EXPECT_NEAR(seconds_between(links.ranges[k].stamp, links.arrivals[2 * k].stamp), 0.7, 1e-12);
+    EXPECT_NEAR(seconds_between(links.ranges[k].stamp, links.aoa_measurements[2 * k].stamp), 0.7, 1e-12);
 }
 
 TEST(RadioChannel, LinksSpreadOverTheTimesInRange) {

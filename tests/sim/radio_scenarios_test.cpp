@@ -1,4 +1,4 @@
-// city, hall and kitti: teams that meet, odometry that drifts as stated, and the same from the same seed.
+// city, hall and kitti: teams in contact, odometry that drifts as stated, and reproducible from the seed.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,9 +7,9 @@
 
 #include "radioslam/geometry/so3.hpp"
 #include "radioslam/mission/odometry_edge.hpp"
-#include "radioslam/sim/hills.hpp"
-#include "radioslam/sim/scenarios.hpp"
-#include "radioslam/sim/surface_odometry.hpp"
+#include "radioslam/sim/scenarios/scenarios.hpp"
+#include "radioslam/sim/sensors/surface_odometry.hpp"
+#include "radioslam/sim/worlds/hills.hpp"
 
 namespace radioslam {
 namespace {
@@ -24,31 +24,31 @@ bool same(const Simulation& a, const Simulation& b) {
   const auto equal_ranges = [](const auto& x, const auto& y) {
     return x.stamp == y.stamp && x.range_m == y.range_m;
   };
-  const auto equal_arrivals = [](const auto& x, const auto& y) {
+  const auto equal_aoa = [](const auto& x, const auto& y) {
     return x.stamp == y.stamp && x.paths.size() == y.paths.size() &&
            x.paths[0].azimuth_rad == y.paths[0].azimuth_rad;
   };
   return std::equal(a.mission.ranges.begin(), a.mission.ranges.end(), b.mission.ranges.begin(),
                     b.mission.ranges.end(), equal_ranges) &&
-         std::equal(a.mission.arrivals.begin(), a.mission.arrivals.end(), b.mission.arrivals.begin(),
-                    b.mission.arrivals.end(), equal_arrivals) &&
+         std::equal(a.mission.aoa_measurements.begin(), a.mission.aoa_measurements.end(),
+                    b.mission.aoa_measurements.begin(), b.mission.aoa_measurements.end(), equal_aoa) &&
          a.truth.direct_paths == b.truth.direct_paths && a.truth.true_matches == b.truth.true_matches;
 }
 
-TEST(City, TeamsMeetAndTheirOdometryIsInFramesOfItsOwn) {
+TEST(City, TeamsAreInContactAndTheirOdometryIsInItsOwnFrames) {
   CityParams params;
   params.robots = 3;
   for (std::uint64_t seed = 1; seed <= 2; ++seed) {
     const auto [mission, truth] = simulate_city(params, seed);
     ASSERT_EQ(mission.robots.size(), 3U);
     EXPECT_GE(mission.ranges.size(), 80U);
-    EXPECT_EQ(truth.direct_paths.size(), mission.arrivals.size());
+    EXPECT_EQ(truth.direct_paths.size(), mission.aoa_measurements.size());
     for (std::size_t r = 0; r < 3; ++r) {
       const Robot& robot = mission.robots[r];
       EXPECT_FALSE(robot.initial_pose);
       EXPECT_EQ(robot.odometry.size(), truth.robots[r].poses.size());
       EXPECT_LT(robot.odometry.front().pose.log().norm(), 1e-12);
-      EXPECT_NEAR(distance_walked(truth.robots[r].poses).back(), 1700, 10);
+      EXPECT_NEAR(travelled_distance(truth.robots[r].poses).back(), 1700, 10);
       EXPECT_EQ(robot.odometry_noise.sigma_yaw_drift_per_m_rad, 0);
     }
   }
@@ -86,7 +86,7 @@ TEST(City, GoesOverHillsInThreeDimensions) {
     highest = std::max(highest, pose.translation().z());
   }
   EXPECT_GT(highest - lowest, 2);
-  for (const auto& arrival : mission.arrivals)
+  for (const auto& arrival : mission.aoa_measurements)
     for (const auto& path : arrival.paths) EXPECT_TRUE(path.elevation_rad);
 }
 
@@ -104,21 +104,22 @@ TEST(City, ACompassGivesTheHeading) {
   }
 }
 
-TEST(Hills, StandUprightOnTheGround) {
+TEST(Hills, PosesAreUprightOnTheGround) {
   const Hills ground(5, Rng(2));
   const SE2 pose({40, -70}, 1.2);
-  const SE3 body = ground.stand(pose);
+  const SE3 body = ground.pose_on_ground(pose);
   EXPECT_NEAR(body.yaw(), 1.2, 1e-12);
   EXPECT_EQ(body.translation().z(), ground.height_m(pose.translation()));
   constexpr double kStep_m = 1e-4;
-  for (const double direction : {0.0, 1.0, 2.0}) {  // every way along the ground is at right angles to body z
+  for (const double direction :
+       {0.0, 1.0, 2.0}) {  // every direction along the ground is at right angles to body z
     const Eigen::Vector2d step = kStep_m * Eigen::Vector2d(std::cos(direction), std::sin(direction));
     const double rise =
         ground.height_m(pose.translation() + step) - ground.height_m(pose.translation() - step);
     const Eigen::Vector3d along(2 * step.x(), 2 * step.y(), rise);
     EXPECT_NEAR(along.normalized().dot(body.rotate(Eigen::Vector3d::UnitZ())), 0, 1e-7);
   }
-  EXPECT_LT((Hills().stand(pose).inverse() * lift(pose)).log().norm(), 1e-12);
+  EXPECT_LT((Hills().pose_on_ground(pose).inverse() * lift(pose)).log().norm(), 1e-12);
 }
 
 TEST(SurfaceOdometry, WithoutNoiseIsTheTruthFromTheStart) {
@@ -143,7 +144,7 @@ TEST(SurfaceOdometry, HeightIsARandomWalk) {
   for (std::uint64_t seed = 0; seed < kWalks; ++seed)
     squares += std::pow(
         drift_over_ground(truth, random_walk_odometry(), 0.1, Rng(seed)).back().pose.translation().z(), 2);
-  EXPECT_NEAR(squares / kWalks / (0.01 * distance_walked(truth).back()), 1, 4 * std::sqrt(2.0 / kWalks));
+  EXPECT_NEAR(squares / kWalks / (0.01 * travelled_distance(truth).back()), 1, 4 * std::sqrt(2.0 / kWalks));
 }
 
 TEST(Hall, IsSmallAndFullOfAliases) {
@@ -152,7 +153,7 @@ TEST(Hall, IsSmallAndFullOfAliases) {
   EXPECT_TRUE(same(simulation, simulate_hall({}, 3)));
   EXPECT_EQ(mission.matches.size(), 1848U);
   EXPECT_EQ(mission.ranges.size(), 4U);
-  EXPECT_EQ(mission.arrivals.size(), 4U);
+  EXPECT_EQ(mission.aoa_measurements.size(), 4U);
   for (const auto& robot : simulation.truth.robots)
     for (const auto& [stamp, pose] : robot.poses) {
       EXPECT_GT(pose.translation().x(), 0);
@@ -161,7 +162,7 @@ TEST(Hall, IsSmallAndFullOfAliases) {
     }
 }
 
-/// A drive along a figure of eight, its frame somewhere, and odometry in another frame that drifts a little.
+/// A drive along a figure of eight in an arbitrary frame, and slightly drifting odometry in another one.
 RecordedDrive figure_of_eight() {
   std::vector<StampedPose<SE3>> truth, odometry;
   const SE3 elsewhere({3, 4, 5}, so3_exp({1, 0.5, -0.7}));
@@ -208,11 +209,11 @@ TEST(Kitti, IsProjectedToThePlane) {
   EXPECT_EQ(mission.dimension, 2);
   for (const auto& robot : truth.robots)
     for (const auto& [stamp, pose] : robot.poses) EXPECT_EQ(pose.translation().z(), 0);
-  for (const auto& arrival : mission.arrivals)
+  for (const auto& arrival : mission.aoa_measurements)
     for (const auto& path : arrival.paths) EXPECT_FALSE(path.elevation_rad);
 }
 
-/// One parameter at a time at an end of its range, as long as that is not merely long.
+/// One parameter at a time at an end of its range, unless that only makes the mission long.
 template <class Params>
 void run_at_the_ends(Params params, const std::set<std::string_view>& long_at_the_end) {
   Params::visit_fields(params, [&](const Field& field, auto& value) {
@@ -225,7 +226,7 @@ void run_at_the_ends(Params params, const std::set<std::string_view>& long_at_th
         const auto [mission, truth] = simulate(ScenarioParams(params), 4, figure_of_eight());
         for (const auto& range : mission.ranges)
           ASSERT_TRUE(std::isfinite(range.range_m)) << field.name << " = " << end;
-        for (const auto& arrival : mission.arrivals)
+        for (const auto& arrival : mission.aoa_measurements)
           for (const auto& path : arrival.paths)
             ASSERT_TRUE(std::isfinite(path.azimuth_rad)) << field.name << " = " << end;
         for (const auto& robot : mission.robots) {
@@ -247,7 +248,7 @@ const std::set<std::string_view> kLong{"robots",   "path_length_m", "odometry_ra
 TEST(City, RunsAtTheEndsOfItsRanges) {
   CityParams params;
   params.path_length_m = 15;
-  params.least_meeting_s = 0;
+  params.min_contact_s = 0;
   params.dimension = 3;
   params.matches = {2, 2};
   auto long_at_the_end = kLong;

@@ -1,5 +1,5 @@
-// Rays against what a pencil says, and the grid against asking every shape.
-#include "radioslam/sim/ray_world.hpp"
+// Rays against hand calculations, and the grid against testing every shape.
+#include "radioslam/sim/worlds/ray_world.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ Eigen::Vector3d random_vector(double reach, Rng& rng) {
   return {x, y, rng.uniform(-reach, reach)};
 }
 
-TEST(RayWorld, MeetsAWallAlongARay) {
+TEST(RayWorld, HitsAWallAlongARay) {
   WorldShapes shapes;
   shapes.boxes.push_back(wall_between({4, -3}, {4, 3}, 0, 2));
   const RayWorld world(shapes);
@@ -40,7 +40,7 @@ TEST(RayWorld, MeetsAWallAlongARay) {
   EXPECT_LT((other_side->normal - Eigen::Vector3d(1, 0, 0)).norm(), 1e-12);
 }
 
-TEST(RayWorld, MeetsTheGroundAtAnElevation) {
+TEST(RayWorld, HitsTheGroundAtAnElevation) {
   const double down_rad = 15 * std::numbers::pi / 180;
   const auto hit =
       RayWorld({}).cast({{7, -2, 1.8}, {0, std::cos(down_rad), -std::sin(down_rad)}}, kFarAway_m);
@@ -50,7 +50,7 @@ TEST(RayWorld, MeetsTheGroundAtAnElevation) {
   EXPECT_FALSE(RayWorld({}).cast({{0, 0, 1}, {1, 0, 0}}, kFarAway_m)) << "level";
 }
 
-TEST(RayWorld, MeetsTheCeiling) {
+TEST(RayWorld, HitsTheCeiling) {
   WorldShapes shapes;
   shapes.ceiling_m = 3;
   const auto hit = RayWorld(shapes).cast(ray_towards({0, 0, 1}, {2, 0, 1}), kFarAway_m);
@@ -59,7 +59,7 @@ TEST(RayWorld, MeetsTheCeiling) {
   EXPECT_LT((hit->normal + Eigen::Vector3d::UnitZ()).norm(), 1e-12);
 }
 
-TEST(RayWorld, MeetsAPillarWhereItsCircleIs) {
+TEST(RayWorld, HitsAPillarWhereItsCircleIs) {
   WorldShapes shapes;
   shapes.pillars.push_back({{5, 0}, 1, 0, 3});
   const RayWorld world(shapes);
@@ -111,10 +111,10 @@ WorldShapes random_world(Rng rng) {
   return shapes;
 }
 
-std::optional<double> nearest_of_all(const WorldShapes& shapes, const Ray& ray, double most_m) {
-  std::optional<double> nearest = shapes.ground.ray_m(ray.origin, ray.direction, most_m);
+std::optional<double> nearest_of_all(const WorldShapes& shapes, const Ray& ray, double max_m) {
+  std::optional<double> nearest = shapes.ground.ray_m(ray.origin, ray.direction, max_m);
   const auto keep = [&](const std::optional<RayHit>& hit) {
-    if (hit && hit->range_m <= nearest.value_or(most_m)) nearest = hit->range_m;
+    if (hit && hit->range_m <= nearest.value_or(max_m)) nearest = hit->range_m;
   };
   for (const auto& box : shapes.boxes) keep(ray_hit(ray, box));
   for (const auto& pillar : shapes.pillars) keep(ray_hit(ray, pillar));
@@ -129,9 +129,9 @@ TEST(RayWorld, TheGridLosesNothing) {
   for (int k = 0; k < 20000; ++k) {
     Ray ray = ray_towards(random_vector(k % 2 == 0 ? 30 : 120, rng), random_vector(1, rng));
     if (k % 10 == 0) ray.direction = Eigen::Vector3d::Unit(k / 10 % 3) * (k / 30 % 2 == 0 ? 1 : -1);
-    const double most_m = rng.uniform(1, 150);
-    const auto hit = world.cast(ray, most_m);
-    const auto expected = nearest_of_all(shapes, ray, most_m);
+    const double max_m = rng.uniform(1, 150);
+    const auto hit = world.cast(ray, max_m);
+    const auto expected = nearest_of_all(shapes, ray, max_m);
     ASSERT_EQ(hit.has_value(), expected.has_value()) << k;
     if (!hit) continue;
     ++hits;
@@ -143,26 +143,26 @@ TEST(RayWorld, TheGridLosesNothing) {
 }
 
 /// The first of many small steps that is not above the ground.
-std::optional<double> march_to_ground_m(const Hills& ground, const Ray& ray, double most_m, double step_m) {
-  for (double way_m = 0; way_m <= most_m; way_m += step_m) {
+std::optional<double> march_to_ground_m(const Hills& ground, const Ray& ray, double max_m, double step_m) {
+  for (double way_m = 0; way_m <= max_m; way_m += step_m) {
     const Eigen::Vector3d place = ray.origin + way_m * ray.direction;
     if (place.z() <= ground.height_m(place.head<2>())) return way_m;
   }
   return std::nullopt;
 }
 
-TEST(Hills, RaysMeetThemFirstWhereSmallStepsDo) {
+TEST(Hills, RaysHitThemFirstWhereSmallStepsDo) {
   const Hills ground(12, Rng(3));
   Rng rng(8);
-  constexpr double kMost_m = 400, kStep_m = 0.2;
+  constexpr double kMax_m = 400, kStep_m = 0.2;
   int hits = 0;
   for (int k = 0; k < 200; ++k) {
     Eigen::Vector3d origin = random_vector(300, rng);
     origin.z() = ground.height_m(origin.head<2>()) + rng.uniform(0.3, 6);
     const double azimuth = rng.uniform(0, 6.28), slope = rng.uniform(-0.15, 0.1);
     const Ray ray = ray_towards(origin, {std::cos(azimuth), std::sin(azimuth), slope});
-    const auto range_m = ground.ray_m(ray.origin, ray.direction, kMost_m);
-    const auto marched_m = march_to_ground_m(ground, ray, kMost_m, kStep_m);
+    const auto range_m = ground.ray_m(ray.origin, ray.direction, kMax_m);
+    const auto marched_m = march_to_ground_m(ground, ray, kMax_m, kStep_m);
     if (marched_m) {
       ASSERT_TRUE(range_m) << k;
     }
@@ -170,14 +170,14 @@ TEST(Hills, RaysMeetThemFirstWhereSmallStepsDo) {
     ++hits;
     const Eigen::Vector3d place = ray.origin + *range_m * ray.direction;
     EXPECT_NEAR(place.z(), ground.height_m(place.head<2>()), 2e-6);
-    // Grazing less than a step's length deep, small steps may pass what is met.
+    // Where the ray is below the ground for less than a step's length, small steps may miss the hit.
     if (marched_m) {
       EXPECT_LE(*range_m, *marched_m + 1e-3) << k;
       EXPECT_FALSE(march_to_ground_m(ground, ray, *range_m - 1e-3, kStep_m)) << k;
     }
   }
   EXPECT_GT(hits, 100);
-  EXPECT_FALSE(ground.ray_m({0, 0, ground.height_m({0, 0}) - 1}, {1, 0, 0}, kMost_m)) << "from below";
+  EXPECT_FALSE(ground.ray_m({0, 0, ground.height_m({0, 0}) - 1}, {1, 0, 0}, kMax_m)) << "from below";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "radioslam/sim/scenarios.hpp"
+#include "radioslam/sim/scenarios/scenarios.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,13 +15,13 @@ TEST(Scenarios, AreFoundByName) {
   EXPECT_EQ(find_scenario("nowhere"), nullptr);
 }
 
-/// Every default lies in its range, and no two parameters of a scenario share a name.
+/// Every default is within its range, and no two parameters of a scenario have the same name.
 TEST(Scenarios, HaveSoundDefaults) {
   for (const auto& scenario : scenarios()) {
     std::set<std::string_view> names;
     visit_scenario_fields(scenario.defaults, [&](const Field& field, const auto& value) {
       EXPECT_TRUE(names.insert(field.name).second) << field.name;
-      EXPECT_FALSE(field.meaning.empty()) << field.name;
+      EXPECT_FALSE(field.description.empty()) << field.name;
       if constexpr (std::is_arithmetic_v<std::decay_t<decltype(value)>>) {
         EXPECT_GE(static_cast<double>(value), field.minimum) << field.name;
         EXPECT_LE(static_cast<double>(value), field.maximum) << field.name;
@@ -31,7 +31,7 @@ TEST(Scenarios, HaveSoundDefaults) {
   }
 }
 
-/// One parameter at a time at an end of its range, as long as that is not merely long.
+/// One parameter at a time at an end of its range, unless that only makes the mission long.
 TEST(Scenarios, RunAtTheEndsOfTheirRanges) {
   const std::set<std::string_view> long_at_the_end{"robots",        "path_length_m",   "odometry_rate_hz",
                                                    "access_points", "shadowing_waves", "phones",

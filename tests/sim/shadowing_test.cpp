@@ -1,4 +1,4 @@
-#include "radioslam/sim/shadowing.hpp"
+#include "radioslam/sim/sensors/shadowing.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ namespace {
 constexpr double kSigma_db = 5;
 constexpr double kLength_m = 7;
 
-/// Mean product of the field at two places `distance_m` apart, over many fields and places, per variance.
+/// Mean product of the field at two points `distance_m` apart, over many fields and points, per variance.
 double correlation(double distance_m) {
   double products = 0;
   int count = 0;

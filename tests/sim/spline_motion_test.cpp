@@ -1,4 +1,4 @@
-#include "radioslam/sim/spline_motion.hpp"
+#include "radioslam/sim/motion/spline_motion.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 namespace radioslam {
 namespace {
 
-std::vector<SE3> wild_controls(Rng rng) {
+std::vector<SE3> outlier_controls(Rng rng) {
   std::vector<SE3> controls;
   SE3 pose;
   for (int k = 0; k < 12; ++k) {
@@ -21,7 +21,7 @@ std::vector<SE3> wild_controls(Rng rng) {
 }
 
 TEST(SplineMotion, ItsDerivativesAreThoseOfItsPoses) {
-  const SplineMotion motion(wild_controls(Rng(4)), 0.3);
+  const SplineMotion motion(outlier_controls(Rng(4)), 0.3);
   EXPECT_NEAR(motion.end_s(), 9 * 0.3, 1e-12);
   constexpr std::int64_t kStep_ns = 100000;
   constexpr double kStep_s = 1e-4;
@@ -40,7 +40,7 @@ TEST(SplineMotion, ItsDerivativesAreThoseOfItsPoses) {
 }
 
 TEST(SplineMotion, VelocityAccelerationAndRateDoNotJumpAtKnots) {
-  const SplineMotion motion(wild_controls(Rng(9)), 0.3);
+  const SplineMotion motion(outlier_controls(Rng(9)), 0.3);
   for (int knot = 1; knot < 9; ++knot) {
     const Stamp at = Stamp::from_seconds(0.3 * knot);
     const MotionState before = motion.at({at.ns - 1}), after = motion.at({at.ns + 1});

@@ -1,4 +1,4 @@
-#include "radioslam/sim/transmitters.hpp"
+#include "radioslam/sim/sensors/transmitters.hpp"
 
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ TEST(PlaceTransmitters, GivesSortedDistinctBssids) {
   }
 }
 
-TEST(PlaceTransmitters, PutsTheShareAskedForOutside) {
+TEST(PlaceTransmitters, PutsTheRequestedRatioOutside) {
   TransmitterParams params;
   params.access_points = 1000;
   int outside = 0;
@@ -49,7 +49,7 @@ TEST(PlaceTransmitters, PutsTheShareAskedForOutside) {
 
 TEST(PlaceTransmitters, PutsTwoBandsInADualBandDevice) {
   TransmitterParams params;
-  params.dual_band_share = 1;
+  params.dual_band_ratio = 1;
   std::map<std::pair<double, double>, std::vector<double>> bands;
   for (const auto& radio : place_transmitters({}, params, Rng(1)))
     bands[{radio.position().x(), radio.position().y()}].push_back(radio.frequency_mhz());

@@ -1,10 +1,10 @@
-#include "radioslam/sim/wheel_odometry.hpp"
+#include "radioslam/sim/sensors/wheel_odometry.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "radioslam/sim/drive.hpp"
+#include "radioslam/sim/motion/drive.hpp"
 
 namespace radioslam {
 namespace {
@@ -34,8 +34,8 @@ TEST(WheelOdometry, WithoutNoiseIsTheTruthFromTheStart) {
     EXPECT_LT((truth[i].inverse() * truth.front() * result.T_start_body[i]).log().norm(), 1e-8);
 }
 
-/// With the drift and the scale error taken back, each increment's error has the stated variance, whatever
-/// the cut: sums of squared normalised errors are chi-square.
+/// With drift and scale error removed, each increment's error has the stated variance, whatever the division
+/// of the path: sums of squared normalised errors are chi-square.
 void expect_chi_square(std::size_t stride) {
   const WheelOdometryParams params;
   const OdometryNoise stated = stated_noise(params);
@@ -71,7 +71,7 @@ void expect_chi_square(std::size_t stride) {
 TEST(WheelOdometry, HasTheStatedNoiseFromRowToRow) { expect_chi_square(1); }
 TEST(WheelOdometry, HasTheStatedNoiseOverFourMetres) { expect_chi_square(50); }
 
-TEST(WheelOdometry, DriftBendsAStraightLine) {
+TEST(WheelOdometry, DriftCurvesAStraightLine) {
   WheelOdometryParams params;
   params.sigma_xy_per_sqrt_m = params.sigma_yaw_per_sqrt_m_rad = params.sigma_yaw_per_rad = 0;
   params.sigma_scale = 0;
@@ -106,7 +106,7 @@ TEST(WheelOdometry, TakesTheNearestWhenNoDrawFits) {
   EXPECT_GT(draw_dead_reckoning(truth, params, Rng(1)).end_error_m, first);
 }
 
-TEST(WheelOdometry, StatesItsNoiseHonestlyOrByAFactor) {
+TEST(WheelOdometry, StatesItsNoiseExactlyOrByAFactor) {
   WheelOdometryParams params;
   EXPECT_EQ(stated_noise(params).sigma_yaw_drift_per_m_rad, params.sigma_yaw_drift_per_m_rad);
   params.stated_noise_factor = 0.5;
@@ -118,7 +118,7 @@ TEST(WheelOdometry, StatesItsNoiseHonestlyOrByAFactor) {
   EXPECT_EQ(noise.sigma_scale, 0.5 * params.sigma_scale);
 }
 
-/// The draws are selected by where they end; what is selected must still have the spread that is stated.
+/// Draws are selected by their end error; the selected ones must still have the stated standard deviation.
 TEST(WheelOdometry, SelectedDriftsHaveTheStatedSpread) {
   const WheelOdometryParams params;
   double drift_squares = 0, scale_squares = 0;

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "radioslam/study/judged_run.hpp"
+#include "radioslam/study/evaluated_run.hpp"
 #include "study/small_town.hpp"
 
 namespace radioslam {
@@ -29,7 +29,7 @@ TEST(Oracle, FindsTheTruthWithoutNoise) {
 
 TEST(Oracle, DoesNotSeeFalsePaths) {
   CityParams town = small_town();
-  town.radio.missing_direct_share = 0;
+  town.radio.missing_direct_ratio = 0;
   town.radio.max_false_paths = 0;
   const double alone = oracle_error_m(town, 2);
   town.radio.min_false_paths = town.radio.max_false_paths = 8;
@@ -54,14 +54,14 @@ TEST(Oracle, KeepsTheLabelledPathsAlone) {
   mission.matches.resize(4);
   truth.direct_paths[0] = kNoDirectPath;
   truth.direct_paths[1] = std::nullopt;
-  truth.direct_paths[2] = static_cast<int>(mission.arrivals[2].paths.size()) - 1;
+  truth.direct_paths[2] = static_cast<int>(mission.aoa_measurements[2].paths.size()) - 1;
   const Mission labelled = with_direct_paths_only(mission, truth);
   EXPECT_TRUE(labelled.matches.empty());
-  EXPECT_LE(labelled.arrivals.size(), mission.arrivals.size() - 2);
-  ASSERT_FALSE(labelled.arrivals.empty());
-  EXPECT_EQ(labelled.arrivals.front().paths.front().azimuth_rad,
-            mission.arrivals[2].paths.back().azimuth_rad);
-  for (const auto& arrival : labelled.arrivals) EXPECT_EQ(arrival.paths.size(), 1U);
+  EXPECT_LE(labelled.aoa_measurements.size(), mission.aoa_measurements.size() - 2);
+  ASSERT_FALSE(labelled.aoa_measurements.empty());
+  EXPECT_EQ(labelled.aoa_measurements.front().paths.front().azimuth_rad,
+            mission.aoa_measurements[2].paths.back().azimuth_rad);
+  for (const auto& arrival : labelled.aoa_measurements) EXPECT_EQ(arrival.paths.size(), 1U);
 }
 
 TEST(Oracle, NeedsATruthToStartFrom) {

@@ -1,4 +1,4 @@
-// The grid finds relative poses that are known, and propagates errors as sampling does.
+// The alignment grid finds known relative poses, and its error propagation agrees with Monte Carlo sampling.
 #include "radioslam/team_frame/alignment_grid.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kHalfTurn_rad = std::numbers::pi;
 
-/// Where the free reference end truly is.
+/// True relative pose of the free reference end.
 struct TruePlace {
   double distance_m, phi_rad, theta_rad;
   SE2 T_placed_free() const {
@@ -189,7 +189,7 @@ TEST(AlignmentGrid, PropagatedVariancesAgreeWithSampling) {
     GridProblem problem;
     problem.ranges = {{placed, free, 1, 1}};
     problem.bearings = {{placed, free, true, {0}, {1}, {1}}, {placed, free, false, {0}, {1}, {1}}};
-    const Inflation predicted = propagated_variances(problem, cell, params);
+    const VarianceInflation predicted = propagated_variances(problem, cell, params);
 
     const SE2 a = pose_of(placed),
               b = TruePlace{cell.distance_m, cell.phi_rad, cell.theta_rad}.T_placed_free() * pose_of(free);

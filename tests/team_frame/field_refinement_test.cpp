@@ -15,9 +15,10 @@ constexpr std::size_t kWalks = 12;
 constexpr Eigen::Index kScans = 10;
 constexpr Eigen::Index kAccessPoints = 60;
 
-/// Straight walks over a hall of 60 m, and what they hear: draws of the field with the walks' common errors.
+/// Straight trajectories across a hall of 60 m with fingerprints drawn from the field, per-robot errors
+/// included.
 struct Hall {
-  std::vector<RigidBody> bodies;  ///< where they truly are
+  std::vector<RigidBody> bodies;  ///< true poses
   std::vector<FieldNode> nodes;
   Eigen::MatrixXd heard;
 };
@@ -104,7 +105,7 @@ TEST(RefineByField, LeavesFixedBodiesAndThoseWithoutPoints) {
   EXPECT_NE(bodies[0].T_layout_body.translation(), before[0].T_layout_body.translation());
 }
 
-TEST(RefineByField, TurnsWithTheLayout) {  // the cost knows no preferred direction, with headings shared
+TEST(RefineByField, TurnsWithTheLayout) {  // with a common heading the cost is rotation invariant
   Rng rng(5);
   const Hall hall = make_hall(rng);
   std::vector<RigidBody> bodies = displaced(hall.bodies, rng);

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "radio/walking_team.hpp"
+#include "radio/fingerprints/walking_team.hpp"
 #include "radioslam/geometry/alignment.hpp"
 
 namespace radioslam {
@@ -10,14 +10,14 @@ namespace {
 
 using test::WalkingTeam;
 
-/// Of some 300 fingerprints 120 are as good, and six times as fast.
+/// 120 of some 300 fingerprints give the same accuracy six times as fast.
 TeamFrame align(const Mission& mission) {
   LayoutParams params;
   params.max_nodes = 120;
-  return align_by_fingerprints(mission, measure_radio(mission, {}, {}), params);
+  return align_by_fingerprints(mission, known_starts(mission), measure_radio(mission, {}, {}), params);
 }
 
-/// Every tenth pose of the robots' walks, true and by the team frame.
+/// Every tenth pose of the trajectories, true and by the team frame.
 struct Places {
   Eigen::Matrix2Xd truth, estimate;
 };
@@ -41,7 +41,7 @@ Places compare(const WalkingTeam& team, const TeamFrame& frame) {
 
 double mean_error_m(const Places& places) { return (places.truth - places.estimate).colwise().norm().mean(); }
 
-/// After the one rigid motion, without mirroring, that fits best.
+/// Mean error after one rigid alignment without mirroring.
 double aligned_error_m(Places places) {
   const SE2 T_truth_estimate = align_points(places.estimate, places.truth);
   places.estimate = T_truth_estimate.rotation_matrix() * places.estimate;
@@ -49,10 +49,10 @@ double aligned_error_m(Places places) {
   return mean_error_m(places);
 }
 
-// Walks cover 60 m by 40 m: robots placed at random would be some 20 m off.
+// Trajectories cover 60 m by 40 m: random placement would be some 20 m off.
 constexpr double kPlaced_m = 4;
 
-TEST(AlignByFingerprints, LaysOutATeamOfUnknownStarts) {
+TEST(AlignByFingerprints, PlacesATeamOfUnknownStarts) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     const auto team = test::walking_team(4, Heading::kRelative, 150, seed);
     const auto frame = align(team.mission);
@@ -66,7 +66,7 @@ SE2 mirror(const SE2& pose) {
   return {Eigen::Vector2d(pose.translation().x(), -pose.translation().y()), -pose.angle()};
 }
 
-/// The same radio, heard on the mirrored walks.
+/// The same radio on mirrored trajectories.
 WalkingTeam mirror(WalkingTeam team) {
   for (std::size_t r = 0; r < team.walks.size(); ++r) {
     for (SE2& pose : team.walks[r]) pose = mirror(pose);
@@ -78,10 +78,10 @@ WalkingTeam mirror(WalkingTeam team) {
   return team;
 }
 
-/// Similarities are blind to mirroring: of a layout and its mirror image the odometry tells which is true.
-TEST(AlignByFingerprints, TellsALayoutFromItsMirrorImage) {
+/// Similarities are invariant to mirroring; odometry distinguishes a layout from its mirror image.
+TEST(AlignByFingerprints, DistinguishesALayoutFromItsMirrorImage) {
   for (std::uint64_t seed = 3; seed <= 6; ++seed) {
-    // Short walks: on long ones a robot turns by itself from the mirrored start into its place.
+    // Short trajectories: on long ones a robot converges from the mirrored start too.
     const auto team = test::walking_team(4, Heading::kRelative, 60, seed);
     const auto mirrored = mirror(team);
     const double error_m = aligned_error_m(compare(team, align(team.mission)));
@@ -136,10 +136,10 @@ TEST(AlignByFingerprints, TeamsWithoutACommonAccessPointAreApart) {
   const auto frame = align(team.mission);
   EXPECT_EQ(frame.component, std::vector<int>({0, 0, 1, 1}));
   EXPECT_EQ(frame.placed, std::vector<bool>(4, true));
-  EXPECT_LT(frame.T_team_start[2].log().norm(), 1e-9);  // the second team's frame is its first robot's
+  EXPECT_LT(frame.T_team_start[2].log().norm(), 1e-9);  // the second group's frame is its first robot's
 }
 
-TEST(AlignByFingerprints, EachOfTwoTeamsIsLaidOut) {
+TEST(AlignByFingerprints, PlacesEachOfTwoTeams) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     WalkingTeam team;
     test::add_walkers(team, 3, Heading::kRelative, 120, Rng(seed));
@@ -178,7 +178,7 @@ TEST(AlignByFingerprints, ARobotWithoutWifiIsPlacedByItsInitialPose) {
   EXPECT_EQ(frame.placed, std::vector<bool>(3, true));
 }
 
-/// A team that hears only its first `access_points` ones.
+/// Keeps only the first `access_points` access points of every fingerprint.
 Mission deafened(Mission mission, std::size_t access_points) {
   for (Robot& robot : mission.robots)
     for (WifiScan& scan : robot.wifi)
@@ -187,7 +187,7 @@ Mission deafened(Mission mission, std::size_t access_points) {
   return mission;
 }
 
-TEST(AlignByFingerprints, TwoAccessPointsTieNobody) {
+TEST(AlignByFingerprints, TwoAccessPointsConnectNoRobots) {
   const auto team = test::walking_team(2, Heading::kRelative, 150, 1);
   EXPECT_EQ(align(deafened(team.mission, 2)).component, (std::vector<int>{0, 1}));
   EXPECT_EQ(align(deafened(team.mission, 6)).component, (std::vector<int>{0, 0}));

@@ -1,4 +1,4 @@
-// A start frame from position fixes: exact where they are, and not bent by those that are wrong.
+// Alignment by position fixes: exact for exact fixes, and robust to outliers.
 #include "radioslam/team_frame/fix_alignment.hpp"
 
 #include <gtest/gtest.h>
@@ -13,20 +13,20 @@ namespace {
 const SE3 kT_fixes_start = lift(SE2(Eigen::Vector2d(400, -30), 2.2), 12);
 
 /// Around a block of 60 m by 40 m, a fix every 2 m, without noise.
-std::vector<FixOfWay> fixes_around_a_block() {
-  std::vector<FixOfWay> fixes;
+std::vector<FixAlongPath> fixes_around_a_block() {
+  std::vector<FixAlongPath> fixes;
   for (int k = 0; k <= 100; ++k) {
-    const double way_m = 2.0 * k;
-    Eigen::Vector3d place(0, 0, 0.01 * way_m);
-    if (way_m <= 60)
-      place.x() = way_m;
-    else if (way_m <= 100)
-      place.head<2>() = Eigen::Vector2d(60, way_m - 60);
-    else if (way_m <= 160)
-      place.head<2>() = Eigen::Vector2d(160 - way_m, 40);
+    const double path_m = 2.0 * k;
+    Eigen::Vector3d place(0, 0, 0.01 * path_m);
+    if (path_m <= 60)
+      place.x() = path_m;
+    else if (path_m <= 100)
+      place.head<2>() = Eigen::Vector2d(60, path_m - 60);
+    else if (path_m <= 160)
+      place.head<2>() = Eigen::Vector2d(160 - path_m, 40);
     else
-      place.head<2>() = Eigen::Vector2d(0, 200 - way_m);
-    fixes.push_back({place, kT_fixes_start * place, 1, way_m});
+      place.head<2>() = Eigen::Vector2d(0, 200 - path_m);
+    fixes.push_back({place, kT_fixes_start * place, 1, path_m});
   }
   return fixes;
 }
@@ -56,7 +56,7 @@ TEST(FixAlignment, FourFixesOfTenThatAreAnywhereDoNotTurnIt) {
 }
 
 TEST(FixAlignment, FixesOfOnePlaceGiveNoHeading) {
-  std::vector<FixOfWay> fixes(20);
+  std::vector<FixAlongPath> fixes(20);
   Rng rng(4);
   for (auto& fix : fixes)
     for (int axis = 0; axis < 2; ++axis) fix.position_m(axis) = rng.normal(0, 1);

@@ -1,4 +1,4 @@
-// The mixtures are densities, their weights posteriors.
+// The mixtures are normalised densities, and their weights are posteriors.
 #include "radioslam/team_frame/measurement_mixture.hpp"
 
 #include <gtest/gtest.h>
@@ -20,12 +20,12 @@ BearingPath<SE3> path(const Eigen::Vector3d& direction, double sigma_rad, double
   return {direction.normalized(), sigma_rad, power_db};
 }
 
-/// A receiver, and a transmitter some way off, heard by these paths; no odometry.
+/// A receiver and a transmitter at a distance, observed along these paths; no odometry.
 template <class Pose>
-TeamGraph<Pose> heard_by(const std::vector<BearingPath<Pose>>& paths) {
+TeamGraph<Pose> received_by(const std::vector<BearingPath<Pose>>& paths) {
   TeamGraph<Pose> team;
   team.graph.poses.resize(2);
-  team.pieces = {{"a", 0, 1, {Stamp{}}}, {"b", 1, 1, {Stamp{}}}};
+  team.segments = {{"a", 0, 1, {Stamp{}}}, {"b", 1, 1, {Stamp{}}}};
   AmbiguousBearing<Pose> bearing;
   bearing.i = PoseId(0);
   bearing.j.pose = PoseId(1);
@@ -35,7 +35,7 @@ TeamGraph<Pose> heard_by(const std::vector<BearingPath<Pose>>& paths) {
 }
 
 TeamGraph<SE2> three_paths() {
-  return heard_by<SE2>({path(0.3, 0.1, -50), path(-2, 0.2, -55), path(2.5, 0.15, -60)});
+  return received_by<SE2>({path(0.3, 0.1, -50), path(-2, 0.2, -55), path(2.5, 0.15, -60)});
 }
 
 void put_transmitter(MixtureGraph<SE2>& mixture, double azimuth_rad) {
@@ -43,7 +43,7 @@ void put_transmitter(MixtureGraph<SE2>& mixture, double azimuth_rad) {
       SE2(kDistance_m * Eigen::Vector2d(std::cos(azimuth_rad), std::sin(azimuth_rad)), 0);
 }
 
-/// The likelihood at the present values: a density over the uniform one.
+/// Likelihood at the current values: a density relative to the uniform one.
 template <class Pose>
 double likelihood(const MixtureGraph<Pose>& mixture) {
   return std::exp(-mixture.cost({}, 0) / 2);
@@ -57,12 +57,12 @@ TEST(MeasurementMixture, AnAnglesDensityIntegratesToOneOverTheCircle) {
     put_transmitter(mixture, 2 * kPi * k / kSteps);
     sum += likelihood(mixture);
   }
-  // The chord's normal density lacks sigma^2 / 8 of von Mises' constant.
+  // The chord's normal density differs from von Mises by a relative sigma^2 / 8 in its constant.
   EXPECT_NEAR(sum / kSteps, 1, 0.2 * 0.2 / 8);
 }
 
 TEST(MeasurementMixture, ADirectionsDensityIntegratesToOneOverTheSphere) {
-  MixtureGraph<SE3> mixture(heard_by<SE3>({path({1, 1, 0.5}, 0.2, -50), path({-1, 0.2, -0.3}, 0.3, -52)}),
+  MixtureGraph<SE3> mixture(received_by<SE3>({path({1, 1, 0.5}, 0.2, -50), path({-1, 0.2, -0.3}, 0.3, -52)}),
                             {});
   constexpr int kRings = 80, kSteps = 160;
   double sum = 0;
@@ -91,7 +91,7 @@ RangeFactor<SE2> range_of(double range_m) {
 MixtureGraph<SE2> ranged(double distance_m, double range_m, const MixtureParams& params) {
   TeamGraph<SE2> team;
   team.graph.poses = {SE2(), SE2({distance_m, 0}, 0)};
-  team.pieces = {{"a", 0, 1, {Stamp{}}}, {"b", 1, 1, {Stamp{}}}};
+  team.segments = {{"a", 0, 1, {Stamp{}}}, {"b", 1, 1, {Stamp{}}}};
   team.graph.ranges = {range_of(100), range_of(range_m)};
   MixtureGraph<SE2> mixture(team, params);
   mixture.graph.ranges.erase(mixture.graph.ranges.begin());
@@ -113,8 +113,8 @@ TEST(MeasurementMixture, ARangesWeightIsThePosteriorOfBeingDirect) {
   MixtureParams params;
   params.false_range_probability = 0.1;
   auto near = ranged(40, 40.5, params), far = ranged(40, 45, params);
-  near.reweigh({}, 0);
-  far.reweigh({}, 0);
+  near.update_weights({}, 0);
+  far.update_weights({}, 0);
   const double direct = 0.9 * std::exp(-0.5) / (std::sqrt(2 * kPi) * 0.5);
   EXPECT_NEAR(near.graph.ranges[0].weight, direct / (direct + 0.1 / 100), 1e-12);
   EXPECT_LT(far.graph.ranges[0].weight, 1e-10);
@@ -126,7 +126,7 @@ TEST(MeasurementMixture, WeightsAndTheNullSumToOne) {
   MixtureGraph<SE2> mixture(three_paths(), params);
   for (const double azimuth : {0.3, 0.6, -1.7, 1.0}) {
     put_transmitter(mixture, azimuth);
-    mixture.reweigh({}, 0);
+    mixture.update_weights({}, 0);
     const double null = (1 - params.direct_probability) / likelihood(mixture);
     EXPECT_NEAR(mixture.direct_weight(0) + null, 1, 1e-12) << azimuth;
     EXPECT_GT(null, 0);
@@ -140,9 +140,9 @@ TEST(MeasurementMixture, PathWeightsArePosteriors) {
   MixtureGraph<SE2> mixture(team, params);
   const double azimuth = 0.45;
   put_transmitter(mixture, azimuth);
-  mixture.reweigh({}, 0);
+  mixture.update_weights({}, 0);
   const auto priors = path_priors(team.bearings[0], params);
-  const double place = params.sigma_place_m / kDistance_m;
+  const double place = params.sigma_antenna_position_m / kDistance_m;
   const double azimuths[] = {0.3, -2, 2.5};
   const double sigmas[] = {std::hypot(0.1, place), std::hypot(0.2, place), std::hypot(0.15, place)};
   std::vector<double> terms;
@@ -169,17 +169,17 @@ TEST(MeasurementMixture, InflationAddsToEveryVariance) {
   team.graph.ranges.push_back(range_of(10));
   MixtureGraph<SE2> mixture(team, {});
   put_transmitter(mixture, 0.3);
-  const double place2 = std::pow(MixtureParams{}.sigma_place_m / kDistance_m, 2);
-  mixture.reweigh({{2}, {0.09}}, 0.5);
+  const double place2 = std::pow(MixtureParams{}.sigma_antenna_position_m / kDistance_m, 2);
+  mixture.update_weights({{2}, {0.09}}, 0.5);
   EXPECT_NEAR(mixture.graph.ranges[0].sigma_m, std::sqrt(0.25 + 1), 1e-12);
   EXPECT_NEAR(mixture.graph.bearings[0].sigma_rad, std::sqrt(0.01 + 0.045 + place2), 1e-12);
-  mixture.reweigh({{2}, {0.09}}, 0);
+  mixture.update_weights({{2}, {0.09}}, 0);
   EXPECT_NEAR(mixture.graph.ranges[0].sigma_m, 0.5, 1e-12);
   EXPECT_NEAR(mixture.graph.bearings[0].sigma_rad, std::sqrt(0.01 + place2), 1e-12);
 }
 
 TEST(MeasurementMixture, AnAngleInflatedBeyondTheCircleSaysNothing) {
-  MixtureGraph<SE2> mixture(heard_by<SE2>({path(0, 0.1, -50)}), {});
+  MixtureGraph<SE2> mixture(received_by<SE2>({path(0, 0.1, -50)}), {});
   put_transmitter(mixture, 0);
   EXPECT_NEAR(mixture.cost({{}, {1e6}}, 1), 0, 1e-9) << "the uniform density at the peak";
   put_transmitter(mixture, 3);
@@ -194,16 +194,16 @@ TEST(MeasurementMixture, CostIsWhatReweighReturnsAndCountsTheOdometry) {
   MixtureGraph<SE2> mixture(team, {});
   mixture.graph.poses[1] = SE2({10, 0}, 0);
   const double with = mixture.cost({}, 0);
-  EXPECT_EQ(mixture.reweigh({}, 0), with);
+  EXPECT_EQ(mixture.update_weights({}, 0), with);
   mixture.graph.relative_poses.clear();
   EXPECT_NEAR(with - mixture.cost({}, 0), 4, 1e-12);
 }
 
 TEST(MeasurementMixture, AnAngleFromBeyondTheReachIsUnlikely) {
-  TeamGraph<SE2> team = heard_by<SE2>({path(0, 0.1, -50)});
+  TeamGraph<SE2> team = received_by<SE2>({path(0, 0.1, -50)});
   MixtureParams params;
-  params.reach_m = 80;
-  params.sigma_place_m = 1e-3;  // or the distance shows within the reach too
+  params.max_range_m = 80;
+  params.sigma_antenna_position_m = 1e-3;  // otherwise the distance matters within the range too
   const auto cost_at = [&](double distance_m) {
     MixtureGraph<SE2> mixture(team, params);
     mixture.graph.poses[1] = SE2({distance_m, 0}, 0);
@@ -215,10 +215,10 @@ TEST(MeasurementMixture, AnAngleFromBeyondTheReachIsUnlikely) {
 }
 
 TEST(MeasurementMixture, TheLongestRangeIsWithinReach) {
-  TeamGraph<SE2> team = heard_by<SE2>({path(0, 0.1, -50)});
+  TeamGraph<SE2> team = received_by<SE2>({path(0, 0.1, -50)});
   MixtureParams params;
-  params.sigma_place_m = 1e-3;
-  params.false_range_probability = 0.5;  // so that the range itself says the same at both
+  params.sigma_antenna_position_m = 1e-3;
+  params.false_range_probability = 0.5;  // so that the range itself has the same likelihood at both
   RangeFactor<SE2> range;
   range.i.pose = PoseId(0);
   range.j.pose = PoseId(1);

@@ -1,5 +1,5 @@
-// Teams placed by their links alone, against maximum likelihood that is told which paths are direct and
-// starts from the truth (the oracle). Bounds: those asked of the whole program, on shorter routes.
+// Alignment of teams by their links alone, compared with an oracle: maximum likelihood that knows which paths
+// are direct and starts from the truth. Bounds are those of the whole program, on shorter trajectories.
 #include "radioslam/team_frame/radio_alignment.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ namespace {
 using test::RadioWorld;
 using test::SimulatedTeam;
 
-/// 600 m of way and 25 links per pair of robots.
+/// 600 m of path and 25 links per pair of robots.
 RadioWorld short_world() {
   RadioWorld world;
   world.route_m = 600;
@@ -30,10 +30,10 @@ RadioWorld short_world() {
   return world;
 }
 
-/// The same search with fewer places tried: as good on so small teams, and several times as fast.
+/// Fewer start poses: as accurate on such small teams, and several times as fast.
 RadioAlignmentParams quick_params() {
   RadioAlignmentParams params;
-  params.mixture.reach_m = 100;  // as in the worlds
+  params.mixture.max_range_m = 100;  // as in the worlds
   params.grid.references = 4;
   params.grid.angle_steps = 36;
   params.beam.tried_places = 24;
@@ -43,7 +43,7 @@ RadioAlignmentParams quick_params() {
 
 RadioAlignment<SE2> align(const TeamGraph<SE2>& team) { return align_by_radio(team, quick_params()); }
 
-/// Root mean square distance of poses [first, first + count) after the one rigid motion that fits best.
+/// RMSE of the positions of poses [first, first + count) after one rigid alignment.
 double aligned_error_m(const std::vector<SE2>& estimate, const std::vector<SE2>& truth, std::size_t first,
                        std::size_t count) {
   const auto n = static_cast<Eigen::Index>(count);
@@ -61,7 +61,7 @@ double aligned_error_m(const std::vector<SE2>& estimate, const std::vector<SE2>&
   return aligned_error_m(estimate, truth, 0, truth.size());
 }
 
-/// The same without any motion.
+/// The same without alignment.
 double error_m(const std::vector<SE2>& estimate, const std::vector<SE2>& truth) {
   double squares = 0;
   for (std::size_t k = 0; k < truth.size(); ++k)
@@ -90,7 +90,7 @@ double oracle_error_m(const SimulatedTeam& simulated) {
   return aligned_error_m(graph.poses, simulated.truth);
 }
 
-/// Of the oracle's error, plus the extra. Two of the cases hold only the bound for the worst single mission.
+/// Bound: factor times the oracle's error plus the extra. Two cases bound only the worst single mission.
 struct Case {
   std::string name;
   RadioWorld world;
@@ -124,7 +124,7 @@ TEST_P(AlignByRadioCases, IsAsGoodAsTheOracle) {
   const double oracle_m = oracle_error_m(simulated);
   EXPECT_LE(best_error_m(alignment, simulated.truth), world.ratio * oracle_m + world.extra_m)
       << "oracle " << oracle_m << " m, " << alignment.hypotheses.size() << " hypotheses";
-  EXPECT_EQ(alignment.components.of_piece, std::vector<int>(simulated.team.pieces.size(), 0));
+  EXPECT_EQ(alignment.components.of_segment, std::vector<int>(simulated.team.segments.size(), 0));
   double weights = 0;
   for (const auto& hypothesis : alignment.hypotheses) weights += hypothesis.weight;
   EXPECT_NEAR(weights, 1, 1e-9);
@@ -137,7 +137,7 @@ std::string name_of(const testing::TestParamInfo<std::tuple<Case, std::uint64_t>
 INSTANTIATE_TEST_SUITE_P(Worlds, AlignByRadioCases,
                          testing::Combine(testing::ValuesIn(cases()), testing::Values(1U, 2U)), name_of);
 
-TEST(AlignByRadio, TellsDirectPathsFromOthers) {
+TEST(AlignByRadio, SeparatesDirectPathsFromMultipath) {
   const auto simulated = test::simulate_team(short_world(), 3);
   const auto best = align(simulated.team).hypotheses.front();
   std::vector<double> direct, other;
@@ -153,14 +153,14 @@ TEST(AlignByRadio, TellsDirectPathsFromOthers) {
   EXPECT_GT(*std::min_element(best.range_weight.begin(), best.range_weight.end()), 0.5) << "all are direct";
 }
 
-/// Without the measurements of one robot.
-void cut_off(TeamGraph<SE2>& team, std::size_t piece) {
-  const auto of = piece_of_poses(team);
+/// Removes the measurements of one robot.
+void cut_off(TeamGraph<SE2>& team, std::size_t segment) {
+  const auto of = segment_of_poses(team);
   std::erase_if(team.graph.ranges, [&](const auto& f) {
-    return of[f.i.pose.index()] == piece || of[f.j.pose.index()] == piece;
+    return of[f.i.pose.index()] == segment || of[f.j.pose.index()] == segment;
   });
   std::erase_if(team.bearings,
-                [&](const auto& f) { return of[f.i.index()] == piece || of[f.j.pose.index()] == piece; });
+                [&](const auto& f) { return of[f.i.index()] == segment || of[f.j.pose.index()] == segment; });
 }
 
 TEST(AlignByRadio, ARobotWithoutLinksStaysInItsOwnComponent) {
@@ -169,15 +169,15 @@ TEST(AlignByRadio, ARobotWithoutLinksStaysInItsOwnComponent) {
   auto simulated = test::simulate_team(world, 4);
   cut_off(simulated.team, 1);
   const auto alignment = align(simulated.team);
-  EXPECT_EQ(alignment.components.of_piece, (std::vector<int>{0, 1, 0}));
+  EXPECT_EQ(alignment.components.of_segment, (std::vector<int>{0, 1, 0}));
   const auto& poses = alignment.hypotheses.front().poses;
-  const Piece& alone = simulated.team.pieces[1];
+  const TrajectorySegment& alone = simulated.team.segments[1];
   for (std::size_t k = alone.first_pose; k < alone.first_pose + alone.pose_count; ++k)
     ASSERT_LT((poses[k].inverse() * simulated.team.graph.poses[k]).log().norm(), 1e-6);
   std::vector<SE2> estimate, truth;
   for (const std::size_t p : {0U, 2U}) {
-    const Piece& piece = simulated.team.pieces[p];
-    for (std::size_t k = piece.first_pose; k < piece.first_pose + piece.pose_count; ++k) {
+    const TrajectorySegment& segment = simulated.team.segments[p];
+    for (std::size_t k = segment.first_pose; k < segment.first_pose + segment.pose_count; ++k) {
       estimate.push_back(poses[k]);
       truth.push_back(simulated.truth[k]);
     }
@@ -185,9 +185,9 @@ TEST(AlignByRadio, ARobotWithoutLinksStaysInItsOwnComponent) {
   EXPECT_LT(aligned_error_m(estimate, truth), 2);
 }
 
-/// The piece stands where it truly started, and a prior says so.
-void tell_start(SimulatedTeam& simulated, std::size_t piece) {
-  Piece& known = simulated.team.pieces[piece];
+/// Puts the segment at its true start, with a prior.
+void add_known_start(SimulatedTeam& simulated, std::size_t segment) {
+  TrajectorySegment& known = simulated.team.segments[segment];
   known.in_common_frame = true;
   auto& graph = simulated.team.graph;
   const SE2 T_common_start = simulated.truth[known.first_pose] * graph.poses[known.first_pose].inverse();
@@ -200,9 +200,9 @@ void tell_start(SimulatedTeam& simulated, std::size_t piece) {
 
 TEST(AlignByRadio, KeepsKnownStartsAndPlacesTheOthersInTheirFrame) {
   auto simulated = test::simulate_team(short_world(), 5);
-  tell_start(simulated, 1);
+  add_known_start(simulated, 1);
   const auto poses = align(simulated.team).hypotheses.front().poses;
-  const std::size_t first = simulated.team.pieces[1].first_pose;
+  const std::size_t first = simulated.team.segments[1].first_pose;
   const SE2::Tangent moved = (simulated.truth[first].inverse() * poses[first]).log();
   EXPECT_LT(moved.head<2>().norm(), 0.15);
   EXPECT_LT(std::abs(moved[2]), 0.03);
@@ -212,10 +212,10 @@ TEST(AlignByRadio, KeepsKnownStartsAndPlacesTheOthersInTheirFrame) {
 /// Odometry along a straight line: `steps` of 2 m from `start`.
 void drive_straight(SimulatedTeam& result, const std::string& robot, const SE2& start, std::size_t steps) {
   auto& graph = result.team.graph;
-  Piece piece{robot, graph.poses.size(), steps + 1, {}};
+  TrajectorySegment segment{robot, graph.poses.size(), steps + 1, {}};
   const SE2 step({2, 0}, 0);
   for (std::size_t k = 0; k <= steps; ++k) {
-    piece.stamps.push_back(Stamp::from_seconds(static_cast<double>(k)));
+    segment.stamps.push_back(Stamp::from_seconds(static_cast<double>(k)));
     graph.poses.push_back(k == 0 ? SE2() : graph.poses.back() * step);
     result.truth.push_back(k == 0 ? start : result.truth.back() * step);
     if (k == 0) continue;
@@ -223,11 +223,11 @@ void drive_straight(SimulatedTeam& result, const std::string& robot, const SE2& 
     factor.information = Eigen::Vector3d(1e3, 1e3, 1e5).asDiagonal();
     graph.relative_poses.push_back(factor);
   }
-  result.team.pieces.push_back(piece);
+  result.team.segments.push_back(segment);
 }
 
-/// b's start and heading in a's frame are told by |c + 2 k w|, w = u(heading) - e_x: both signs of the
-/// heading give the same |w|, and c may be on either side of w.
+/// The ranges depend on b's start and heading in a's frame through |c + 2 k w|, w = u(heading) - e_x: both
+/// signs of the heading give the same |w|, and c may be on either side of w.
 std::vector<SE2> places_with_these_ranges(const SE2& T_a_b) {
   std::vector<SE2> places;
   for (const double sign : {1.0, -1.0}) {

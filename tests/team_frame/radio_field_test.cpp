@@ -61,7 +61,7 @@ TEST_P(RadioFieldOfColumns, CostsWhatTheFormulaSays) {
   const Eigen::MatrixXd heard = random_rows(rng, GetParam());
   const Eigen::Matrix2Xd places = random_places(rng);
   const RadioField field(field_nodes(), heard, kChannels);
-  const FieldKernel kernel = FieldKernel::usual();
+  const FieldKernel kernel = FieldKernel::nominal();
   EXPECT_NEAR(field.cost(places, kernel).value, cost_by_formula(places, kernel, heard), 1e-5);
 }
 
@@ -70,7 +70,7 @@ TEST_P(RadioFieldOfColumns, SlopesAreThoseOfTheCost) {
   Rng rng(4);
   const RadioField field(field_nodes(), random_rows(rng, GetParam()), kChannels);
   const Eigen::Matrix2Xd places = random_places(rng);
-  const FieldKernel kernel = FieldKernel::usual();
+  const FieldKernel kernel = FieldKernel::nominal();
   const FieldCost cost = field.cost(places, kernel);
   const auto numerical = [&](const auto& step) { return (step(kStep) - step(-kStep)) / (2 * kStep); };
   for (Eigen::Index i = 0; i < kNodes; ++i)
@@ -97,9 +97,9 @@ TEST(RadioField, DoesNotDependOnThreads) {
   const RadioField field(field_nodes(), random_rows(rng, 40), kChannels);
   const Eigen::Matrix2Xd places = random_places(rng);
   set_thread_count(1);
-  const FieldCost one = field.cost(places, FieldKernel::usual());
+  const FieldCost one = field.cost(places, FieldKernel::nominal());
   set_thread_count(3);
-  const FieldCost three = field.cost(places, FieldKernel::usual());
+  const FieldCost three = field.cost(places, FieldKernel::nominal());
   set_thread_count(0);
   EXPECT_EQ(one.value, three.value);
   EXPECT_EQ(one.by_position, three.by_position);
@@ -113,14 +113,14 @@ Fingerprint fingerprint(const std::vector<std::pair<std::size_t, float>>& heard)
   return result;
 }
 
-TEST(HeardPowers, RaisesWhatIsAboveSilenceAndForgetsRareAccessPoints) {
+TEST(FingerprintPowers, RaisesWhatIsAboveSilenceAndForgetsRareAccessPoints) {
   const Fingerprint a = fingerprint({{0, -97}, {1, -96}, {7, -40}}), b = fingerprint({{0, -60}, {1, -110}}),
                     c = fingerprint({{0, -90}, {1, -90}}), nothing;
-  const Eigen::MatrixXd heard = heard_powers({&a, &b, &c, &nothing}, 1);
+  const Eigen::MatrixXd heard = fingerprint_powers({&a, &b, &c, &nothing}, 1);
   ASSERT_EQ(heard.cols(), 2);
   EXPECT_NEAR(heard(0, 0), 0.6, 1e-12);  // 3 and 4 dB above -100: the unit vector (0.6, 0.8)
   EXPECT_NEAR(heard(0, 1), 0.8, 1e-12);
-  EXPECT_NEAR(heard(1, 0), 1, 1e-12);  // weaker than silence is silence
+  EXPECT_NEAR(heard(1, 0), 1, 1e-12);  // below the detection threshold counts as undetected
   EXPECT_NEAR(heard(2, 0), std::sqrt(0.5), 1e-12);
   EXPECT_EQ(heard.row(3).norm(), 0);
 }

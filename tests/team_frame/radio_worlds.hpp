@@ -1,5 +1,5 @@
-// Teams that drive along a street grid and hear each other: a small simulator of its own for the aligner's
-// tests, with the truth and the labels of what is direct.
+// Simulator for the alignment tests: teams that drive along a street grid and measure ranges and angles to
+// each other, with ground truth and labels of the direct paths.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,7 @@ struct RadioWorld {
   int robots = 2;
   double route_m = 1700;
   double block_m = 80;
-  int blocks = 6;  ///< of the square in which the robots stay
+  int blocks = 6;  ///< side of the square that contains the trajectories
   double radio_reach_m = 100;
   int links = 40;  ///< per pair of robots
   bool ranges = true;
@@ -23,10 +23,10 @@ struct RadioWorld {
   int angle_ends = 2;  ///< 0, 1 (received by the first of the pair) or 2
   double sigma_angle_rad = 10 * std::numbers::pi / 180;
   int most_false_paths = 5;
-  double missing_direct_share = 0.15;
-  bool mirror = false;        ///< a mirror image at a wall along the street, at every angle
+  double missing_direct_ratio = 0.15;
+  bool mirror = false;        ///< every angle has a reflection at a wall along the street
   int angle_delay_poses = 0;  ///< the angles are measured this many poses after the range
-  double stated_noise = 1;    ///< stated over true odometry noise
+  double stated_noise = 1;    ///< ratio of stated to true odometry noise
 };
 
 struct SimulatedTeam {
@@ -39,7 +39,7 @@ class RadioWorldSimulator {
  public:
   RadioWorldSimulator(const RadioWorld& world, std::uint64_t seed) : world_(world), rng_(seed) {}
 
-  /// Fewest poses at which any two robots were in reach.
+  /// Smallest number of poses at which any two robots were within range.
   std::size_t shortest_encounter() const { return shortest_encounter_; }
 
   SimulatedTeam run() {
@@ -73,17 +73,17 @@ class RadioWorldSimulator {
     graph.relative_poses.push_back(factor);
     result_.truth.push_back(result_.truth.back() * T);
     graph.poses.push_back(graph.poses.back() * factor.T_i_j);
-    auto& piece = result_.team.pieces.back();
-    ++piece.pose_count;
-    piece.stamps.push_back(Stamp{static_cast<std::int64_t>(piece.pose_count) * 250000000});
+    auto& segment = result_.team.segments.back();
+    ++segment.pose_count;
+    segment.stamps.push_back(Stamp{static_cast<std::int64_t>(segment.pose_count) * 250000000});
   }
 
   void drive(int robot) {
     auto& graph = result_.team.graph;
-    Piece piece{"r" + std::to_string(robot), graph.poses.size(), 1, {Stamp{0}}};
-    result_.team.pieces.push_back(piece);
+    TrajectorySegment segment{"r" + std::to_string(robot), graph.poses.size(), 1, {Stamp{0}}};
+    result_.team.segments.push_back(segment);
     const double quarter = std::numbers::pi / 2;
-    // Every number is drawn in a statement of its own: compilers differ in the order of a call's arguments.
+    // Each number is drawn in its own statement: the evaluation order of arguments is unspecified.
     const double heading = quarter * static_cast<double>(rng_.below(4));
     const double x =
         world_.block_m * static_cast<double>(rng_.below(static_cast<std::uint64_t>(world_.blocks)));
@@ -113,8 +113,8 @@ class RadioWorldSimulator {
   }
 
   void link(int a, int b) {
-    const Piece& pa = result_.team.pieces[static_cast<std::size_t>(a)];
-    const Piece& pb = result_.team.pieces[static_cast<std::size_t>(b)];
+    const TrajectorySegment& pa = result_.team.segments[static_cast<std::size_t>(a)];
+    const TrajectorySegment& pb = result_.team.segments[static_cast<std::size_t>(b)];
     const std::size_t count =
         std::min(pa.pose_count, pb.pose_count) - static_cast<std::size_t>(world_.angle_delay_poses);
     std::vector<std::size_t> near;
@@ -153,7 +153,7 @@ class RadioWorldSimulator {
     const Eigen::Vector2d seen = result_.truth[i].inverse() * result_.truth[j].translation();
     const double direct = std::atan2(seen.y(), seen.x());
     int direct_index = -1;
-    if (rng_.uniform() >= world_.missing_direct_share) {
+    if (rng_.uniform() >= world_.missing_direct_ratio) {
       direct_index = 0;
       const double power_db = rng_.normal(-50, 6);
       bearing.paths.push_back(path(direct + rng_.normal(0, world_.sigma_angle_rad), power_db));
@@ -178,7 +178,7 @@ class RadioWorldSimulator {
   std::size_t shortest_encounter_ = 1000000;
 };
 
-/// Drawn again until every two robots met for a while.
+/// Redraws until all pairs of robots were within range for a while.
 inline SimulatedTeam simulate_team(const RadioWorld& world, std::uint64_t seed) {
   for (std::uint64_t draw = 0;; ++draw) {
     RadioWorldSimulator simulator(world, Rng(seed).split(draw).next());

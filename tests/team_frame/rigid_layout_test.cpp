@@ -9,8 +9,8 @@ namespace {
 
 constexpr Eigen::Index kPoints = 12;
 
-SE2 random_pose(Rng& rng, double reach_m, double turn_rad) {
-  const double x = rng.uniform(-reach_m, reach_m), y = rng.uniform(-reach_m, reach_m);
+SE2 random_pose(Rng& rng, double max_range_m, double turn_rad) {
+  const double x = rng.uniform(-max_range_m, max_range_m), y = rng.uniform(-max_range_m, max_range_m);
   return {Eigen::Vector2d(x, y), rng.uniform(-turn_rad, turn_rad)};
 }
 
@@ -24,7 +24,7 @@ std::vector<RigidBody> random_bodies(std::size_t count, Rng& rng) {
   return bodies;
 }
 
-/// The bodies' own distances, equally trusted.
+/// The bodies' true distances with equal weights.
 PairTargets exact_targets(const std::vector<RigidBody>& bodies) {
   const Eigen::Matrix2Xd positions = node_positions(bodies);
   const Eigen::Index n = positions.cols();
@@ -50,8 +50,8 @@ PairTargets random_targets(Eigen::Index n, Rng& rng) {
   return targets;
 }
 
-/// Largest difference between two layouts of the same bodies, told from the first body.
-double largest_difference_m(const std::vector<RigidBody>& a, const std::vector<RigidBody>& b) {
+/// Largest difference between two layouts of the same bodies, in the frame of the first body.
+double max_difference_m(const std::vector<RigidBody>& a, const std::vector<RigidBody>& b) {
   const SE2 T_b_a = b[0].T_layout_body * a[0].T_layout_body.inverse();
   Eigen::Matrix2Xd moved = T_b_a.rotation_matrix() * node_positions(a);
   moved.colwise() += T_b_a.translation();
@@ -61,7 +61,7 @@ double largest_difference_m(const std::vector<RigidBody>& a, const std::vector<R
 TEST(LayoutStress, CountsEveryPairOfDifferentBodiesOnce) {
   std::vector<RigidBody> bodies(2);
   bodies[0].points = Eigen::Matrix2Xd::Zero(2, 2);
-  bodies[0].points(0, 1) = 100;  // its distance from its own body's other point does not count
+  bodies[0].points(0, 1) = 100;  // distances within a body do not count
   bodies[1].first_node = 2;
   bodies[1].points = Eigen::Matrix2Xd::Zero(2, 1);
   bodies[1].T_layout_body = SE2({0, 5}, 1);
@@ -69,7 +69,7 @@ TEST(LayoutStress, CountsEveryPairOfDifferentBodiesOnce) {
   targets.lower_bound.setConstant(3, 3, false);
   targets.weight(0, 2) = targets.weight(2, 0) = 2;
   EXPECT_NEAR(layout_stress(bodies, targets), 2 * 2 * 2, 1e-9);
-  targets.lower_bound(0, 2) = targets.lower_bound(2, 0) = true;  // five metres are at least three
+  targets.lower_bound(0, 2) = targets.lower_bound(2, 0) = true;  // 5 m satisfies a lower bound of 3 m
   EXPECT_EQ(layout_stress(bodies, targets), 0);
   targets.distance_m(0, 2) = targets.distance_m(2, 0) = 6;
   EXPECT_NEAR(layout_stress(bodies, targets), 2, 1e-9);
@@ -100,9 +100,9 @@ TEST(MajoriseStress, RecoversALayoutFromItsDistances) {
     const auto targets = exact_targets(truth);
     auto bodies = truth;
     for (RigidBody& body : bodies) body.T_layout_body = body.T_layout_body * random_pose(rng, 5, 0.7);
-    ASSERT_GT(largest_difference_m(bodies, truth), 4);
+    ASSERT_GT(max_difference_m(bodies, truth), 4);
     majorise_stress(bodies, targets, 300);
-    EXPECT_LT(largest_difference_m(bodies, truth), 0.5) << "seed " << seed;
+    EXPECT_LT(max_difference_m(bodies, truth), 0.5) << "seed " << seed;
   }
 }
 

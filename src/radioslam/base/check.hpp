@@ -1,5 +1,4 @@
-// A broken promise between pieces of this program: always checked, never caught.
-// Bad input is not a broken promise; it is an InputError.
+// Checks of internal invariants: always enabled, never caught. Bad input is an InputError instead.
 #pragma once
 
 #include <string_view>

@@ -1,12 +1,11 @@
 // One list of fields per parameter struct. It feeds the configuration file, `--set`, validation and the
-// report, so that a name, a unit or a range stands in one place only.
+// report, so that name, unit and range are defined in one place only.
 //
 //   struct FingerprintParams {
-//     double window_s = 5;   ///< length of a fingerprint's window
+//     double window_s = 5;
 //     template <class Self, class Visitor>
 //     static void visit_fields(Self& self, Visitor&& visit) {
-//       visit(Field{"window_s", "s", 0.1, 600, "length of a fingerprint's window; seed value"},
-//       self.window_s);
+//       visit(Field{"window_s", "s", 0.1, 600, "length of a fingerprint's window"}, self.window_s);
 //     }
 //   };
 //
@@ -19,14 +18,25 @@
 
 namespace radioslam {
 
-/// What a parameter is called, measured in and allowed to be.
+/// Name, unit, range and description of a parameter.
 struct Field {
+  /// Who needs the parameter: everybody who uses the command, or only who studies one of its algorithms.
+  enum class Level { kBasic, kExpert };
+
   std::string_view name;
   std::string_view unit;          ///< "" for a pure number
   double minimum = 0;             ///< inclusive; ignored for text
   double maximum = 0;             ///< inclusive
-  std::string_view meaning;       ///< one line, with the source of the default
+  std::string_view description;   ///< one self-contained line
   std::string_view choices = {};  ///< for text: the allowed values, separated by '|'
+  Level level = Level::kExpert;
+
+  /// The same field as one of the basic parameters: visit(Field{...}.basic(), self.value).
+  constexpr Field basic() const {
+    Field field = *this;
+    field.level = Level::kBasic;
+    return field;
+  }
 };
 
 }  // namespace radioslam

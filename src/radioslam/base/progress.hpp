@@ -1,4 +1,4 @@
-// How long work tells how far it is. The library never prints: the caller decides what to do with it.
+// Progress reports of long computations. The library never prints; the caller decides what to do with them.
 #pragma once
 
 #include <functional>
@@ -6,7 +6,7 @@
 
 namespace radioslam {
 
-/// Called with a stage's name and the share of it that is done, 0 to 1. May be empty.
+/// Called with a stage's name and the completed fraction, 0 to 1. May be empty.
 using Progress = std::function<void(std::string_view stage, double fraction)>;
 
 inline void report_progress(const Progress& progress, std::string_view stage, double fraction) {

@@ -1,4 +1,4 @@
-// Random numbers that are the same on every machine: xoshiro256++ with our own transforms
+// Random numbers that are the same on every machine: xoshiro256++ with its own transforms
 // (the standard library's distributions differ between vendors).
 #pragma once
 

@@ -21,7 +21,7 @@ struct StrongId {
   constexpr auto operator<=>(const StrongId&) const = default;
 };
 
-/// A robot's place in Mission::robots.
+/// Index into Mission::robots.
 using RobotIndex = StrongId<struct RobotTag>;
 
 }  // namespace radioslam

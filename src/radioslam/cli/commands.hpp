@@ -1,4 +1,4 @@
-// The program's commands: each adds itself, its options and its work to the program.
+// The program's subcommands: each function registers one subcommand with its options and its action.
 #pragma once
 
 #include <CLI/App.hpp>

@@ -1,24 +1,24 @@
-// Where settings come from: a configuration file, then `--set section.key=value`, the later winning.
+// Parameter settings from a configuration file and from `--set section.key=value`; later settings win.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "radioslam/cli/parameters.hpp"
-#include "radioslam/io/text.hpp"
+#include "radioslam/io/text/text.hpp"
 
 namespace radioslam::cli {
 
-/// The settings of a configuration file: YAML, a map per section, values as texts.
+/// Reads the settings of a YAML configuration file, which has one map per section:
 ///   keyframe:
 ///     distance_m: 2
-/// Throws InputError for what is not such a file and for a key given twice.
+/// Throws InputError for any other structure and for a key that appears twice.
 std::vector<Setting> parse_config(const Text& text);
 
-/// "section.key=value". Throws InputError when there is no key or no equals sign.
+/// Parses "section.key=value". Throws InputError if the key or the equals sign is missing.
 Setting parse_set_option(const std::string& text);
 
-/// The file's settings (none without a file), then the options'.
+/// The settings of the file (if a path is given), followed by those of the options.
 std::vector<Setting> collect_settings(const std::string& config_path,
                                       const std::vector<std::string>& set_options);
 

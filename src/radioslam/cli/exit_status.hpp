@@ -1,11 +1,11 @@
-// How the program ends, for scripts.
+// Exit statuses of the program.
 #pragma once
 
 namespace radioslam::cli {
 
 constexpr int kDone = 0;
-constexpr int kOurFailure = 1;     ///< the program is wrong, or the machine failed it
-constexpr int kWrongInput = 2;     ///< the call or an input is wrong
-constexpr int kInterrupted = 130;  ///< ended from outside; no output was touched
+constexpr int kOurFailure = 1;     ///< internal error, or a failure of the system
+constexpr int kWrongInput = 2;     ///< invalid command line or input
+constexpr int kInterrupted = 130;  ///< ended by a signal; outputs are unchanged
 
 }  // namespace radioslam::cli

@@ -1,5 +1,6 @@
-// Parameters by name: texts into the fields of a parameter struct, and the fields into lists.
-// A struct names its fields with visit_fields (base/fields.hpp); a struct of such structs names its sections:
+// Access to parameters by name: sets the fields of a parameter struct from text, and lists them with unit,
+// range and default. A struct names its fields with visit_fields (base/fields.hpp); a struct of such structs
+// names its sections:
 //
 //   template <class Self, class Visitor>
 //   static void visit_sections(Self& self, Visitor&& visit) {
@@ -12,8 +13,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
-#include <type_traits>
-#include <utility>
+#include <variant>
 #include <vector>
 
 #include "radioslam/base/fields.hpp"
@@ -22,50 +22,75 @@
 
 namespace radioslam::cli {
 
-/// A parameter as somebody wrote it.
+/// One parameter setting as the user wrote it.
 struct Setting {
   std::string key;
   std::string value;
-  std::string place;     ///< the file, or the option as it was typed
-  std::size_t line = 0;  ///< in the file; 0 for an option
+  std::string origin;    ///< file name, or the option as typed
+  std::size_t line = 0;  ///< line in the file; 0 for an option
 };
 
-/// One row of the list of parameters.
+/// One entry of the parameter list.
 struct ParameterDescription {
   std::string key;
   std::string unit;
   std::string range;
   std::string default_value;
-  std::string meaning;
+  std::string description;
+  Field::Level level = Field::Level::kExpert;
+  std::vector<std::string> former_keys = {};
 };
 
-template <class Params>
-concept HasSections = requires(Params& params) {
-  Params::visit_sections(params, [](std::string_view, auto&) {});
+/// One parameter of a struct: its key, its field and where its value is.
+struct ParameterRef {
+  std::string key;
+  Field field;
+  std::variant<double*, int*, bool*, std::string*> value;
 };
 
-template <class Params>
-concept HasFields = requires(Params& params) {
-  Params::visit_fields(params, [](const Field&, auto&) {});
-};
+/// Collects the parameters of a struct. One small visitor for everything that is done with parameters keeps
+/// the several hundred fields from being compiled once per purpose.
+class ParameterCollector {
+ public:
+  explicit ParameterCollector(std::vector<ParameterRef>& parameters) : parameters_(parameters) {}
 
-/// Calls visit(key, field, value) for every parameter, in the order of the lists.
-template <class Params, class Visitor>
-void for_each_parameter(Params& params, const Visitor& visit, const std::string& prefix = {}) {
-  using Plain = std::remove_const_t<Params>;
-  if constexpr (HasFields<Plain>) {
-    Plain::visit_fields(params, [&](const Field& field, auto& value) {
-      visit(prefix + std::string(field.name), field, value);
-    });
+  void operator()(const Field& field, double& value) { add(field, &value); }
+  void operator()(const Field& field, int& value) { add(field, &value); }
+  void operator()(const Field& field, bool& value) { add(field, &value); }
+  void operator()(const Field& field, std::string& value) { add(field, &value); }
+
+  template <class Section>
+  void operator()(std::string_view name, Section& section) {
+    const std::size_t outer = prefix_.size();
+    prefix_.append(name).append(1, '.');
+    collect(section);
+    prefix_.resize(outer);
   }
-  if constexpr (HasSections<Plain>) {
-    Plain::visit_sections(params, [&](std::string_view name, auto& section) {
-      for_each_parameter(section, visit, prefix + std::string(name) + ".");
-    });
+
+  template <class Params>
+  void collect(Params& params) {
+    if constexpr (requires(ParameterCollector & visit) { Params::visit_fields(params, visit); })
+      Params::visit_fields(params, *this);
+    if constexpr (requires(ParameterCollector & visit) { Params::visit_sections(params, visit); })
+      Params::visit_sections(params, *this);
   }
+
+ private:
+  void add(const Field& field, std::variant<double*, int*, bool*, std::string*> value);
+
+  std::vector<ParameterRef>& parameters_;
+  std::string prefix_;
+};
+
+/// Every parameter of `params`, in the order of visit_fields and visit_sections; `params` must outlive them.
+template <class Params>
+std::vector<ParameterRef> parameters_in(Params& params) {
+  std::vector<ParameterRef> parameters;
+  ParameterCollector(parameters).collect(params);
+  return parameters;
 }
 
-/// The text as a value of the field. Throws InputError when it is none or out of range.
+/// Parses the setting's text as a value of the field. Throws InputError if it is malformed or out of range.
 template <class Value>
 Value parse_value(const Field& field, const Setting& setting);
 template <>
@@ -77,78 +102,42 @@ bool parse_value<bool>(const Field& field, const Setting& setting);
 template <>
 std::string parse_value<std::string>(const Field& field, const Setting& setting);
 
-/// The shortest text that parse_value reads as the same value.
+/// The shortest text that parse_value reads back as the same value.
 std::string value_text(double value);
 std::string value_text(int value);
 std::string value_text(bool value);
 std::string value_text(const std::string& value);
 
-/// What a field may be, in words: "0.01 to 1000", "true or false", "cosine, slide".
-template <class Value>
-std::string range_text(const Field& field);
-template <>
-std::string range_text<double>(const Field& field);
-template <>
-std::string range_text<int>(const Field& field);
-template <>
-std::string range_text<bool>(const Field& field);
-template <>
-std::string range_text<std::string>(const Field& field);
+/// Applies the settings in order, so the last one for a key wins; former keys are accepted
+/// (former_keys.hpp). Throws InputError for an unknown key, suggesting similar ones, and for a value that is
+/// malformed or out of range.
+void apply_settings(const std::vector<ParameterRef>& parameters, const std::vector<Setting>& settings);
 
-InputError unknown_parameter(const Setting& setting, const std::vector<std::string>& keys);
+/// The values in use; those that differ from `defaults`, the same parameters, are marked as changed.
+std::vector<EffectiveParameter> effective_parameters(const std::vector<ParameterRef>& parameters,
+                                                     const std::vector<ParameterRef>& defaults);
 
-template <class Params>
-std::vector<std::string> parameter_keys(const Params& params) {
-  std::vector<std::string> keys;
-  for_each_parameter(params, [&](const std::string& key, const Field&, const auto&) { keys.push_back(key); });
-  return keys;
-}
+std::vector<ParameterDescription> describe_parameters(const std::vector<ParameterRef>& defaults);
 
-/// `params` with the settings applied in order, the last one winning. Throws InputError for a key that does
-/// not exist, naming its neighbours, and for a value out of range.
 template <class Params>
 Params with_settings(Params params, const std::vector<Setting>& settings) {
-  for (const auto& setting : settings) {
-    bool found = false;
-    for_each_parameter(params, [&](const std::string& key, const Field& field, auto& value) {
-      if (key != setting.key) return;
-      value = parse_value<std::remove_reference_t<decltype(value)>>(field, setting);
-      found = true;
-    });
-    if (!found) throw unknown_parameter(setting, parameter_keys(params));
-  }
+  apply_settings(parameters_in(params), settings);
   return params;
 }
 
-/// Every parameter as it is used, with what differs from the defaults marked.
 template <class Params>
-std::vector<EffectiveParameter> effective_parameters(const Params& params) {
-  std::vector<EffectiveParameter> list;
-  for_each_parameter(params, [&](const std::string& key, const Field& field, const auto& value) {
-    list.push_back({key, value_text(value), std::string(field.unit), std::string(field.meaning), false});
-  });
-  const Params defaults{};
-  std::size_t next = 0;
-  for_each_parameter(defaults, [&](const std::string&, const Field&, const auto& value) {
-    auto& parameter = list[next++];
-    parameter.changed = parameter.value != value_text(value);
-  });
-  return list;
+std::vector<EffectiveParameter> effective_parameters(Params params) {
+  Params defaults{};
+  return effective_parameters(parameters_in(params), parameters_in(defaults));
 }
 
 template <class Params>
 std::vector<ParameterDescription> describe_parameters() {
-  std::vector<ParameterDescription> list;
-  const Params defaults{};
-  for_each_parameter(defaults, [&](const std::string& key, const Field& field, const auto& value) {
-    using Value = std::remove_cvref_t<decltype(value)>;
-    list.push_back({key, std::string(field.unit), range_text<Value>(field), value_text(value),
-                    std::string(field.meaning)});
-  });
-  return list;
+  Params defaults{};
+  return describe_parameters(parameters_in(defaults));
 }
 
-/// The list as text: two lines per parameter.
+/// The list as text, two lines per parameter.
 std::string parameter_list_text(const std::vector<ParameterDescription>& parameters);
 
 }  // namespace radioslam::cli

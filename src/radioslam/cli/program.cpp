@@ -9,8 +9,8 @@
 #include <iostream>
 
 #include "radioslam/base/input_error.hpp"
-#include "radioslam/cli/command_options.hpp"
 #include "radioslam/cli/commands.hpp"
+#include "radioslam/cli/commands/command_options.hpp"
 #include "radioslam/cli/exit_status.hpp"
 #include "radioslam/cli/suggestion.hpp"
 
@@ -20,15 +20,17 @@ namespace {
 constexpr std::size_t kHelpColumn = 30;
 
 constexpr const char* kDescription =
-    "radioslam puts the walks or drives of several robots into one frame, from what their radios heard.";
+    "radioslam estimates the joint trajectory of a robot team from LiDAR, IMU, odometry and radio "
+    "measurements\n"
+    "(WiFi fingerprints, ranges, angles of arrival).";
 
 constexpr const char* kProgramFooter =
-    "Try it:\n"
-    "  radioslam simulate carpark -o carpark          # two robots, their odometry and WiFi scans\n"
+    "Quick start:\n"
+    "  radioslam simulate carpark -o carpark          # two robots with odometry and WiFi scans\n"
     "  radioslam run carpark -o carpark-out           # all trajectories in one frame, and report.html\n"
-    "  radioslam evaluate carpark-out carpark         # how far from the truth\n\n"
-    "radioslam COMMAND --help tells more.\n"
-    "Exit status: 0 done; 2 the call or an input is wrong; 1 a failure of the program's own.";
+    "  radioslam evaluate carpark-out carpark         # trajectory errors against the ground truth\n\n"
+    "`radioslam COMMAND --help` describes a command.\n"
+    "Exit status: 0 success; 1 internal error; 2 invalid command line or input; 130 interrupted.";
 
 void add_commands(CLI::App& program) {
   add_simulate(program);
@@ -71,21 +73,19 @@ std::vector<std::string> option_names(const CLI::App& command) {
   return names;
 }
 
-/// The command's own words where the first argument is none of them.
 std::string unknown_command(const CLI::App& program, const std::string& name) {
-  return "there is no command '" + name + "'" + did_you_mean(name, command_names(program)) +
-         " (radioslam --help lists them)";
+  return "unknown command '" + name + "'" + did_you_mean(name, command_names(program)) +
+         " (`radioslam --help` lists all commands)";
 }
 
 std::string unexpected_argument(const CLI::App& command, const std::string& argument) {
   const bool is_option = argument.size() > 1 && argument.front() == '-';
-  if (!is_option) return command.get_name() + ": one argument too many: '" + argument + "'";
+  if (!is_option) return command.get_name() + ": unexpected argument '" + argument + "'";
   const std::string name = argument.substr(0, argument.find('='));
-  return command.get_name() + ": there is no option '" + name + "'" +
-         did_you_mean(name, option_names(command));
+  return command.get_name() + ": unknown option '" + name + "'" + did_you_mean(name, option_names(command));
 }
 
-/// What was wrong with the call, in one line.
+/// The error in the command line, as one line.
 std::string call_error(const CLI::App& program, const CLI::ParseError& error) {
   const auto parsed = program.get_subcommands();
   const CLI::App& command = parsed.empty() ? program : *parsed.front();
@@ -101,16 +101,16 @@ int fail(int status, const std::string& reason) {
   return status;
 }
 
-/// Whether whoever read our standard output is gone.
-bool reader_left() {
+/// Whether the reader of standard output has closed its end of the pipe.
+bool stdout_is_closed() {
   pollfd output{STDOUT_FILENO, POLLOUT, 0};
   return poll(&output, 1, 0) > 0 && (output.revents & POLLERR) != 0;
 }
 
-/// Standard output may have been full or closed. A reader who left (head) is not worth a word.
+/// Reports output that could not be written, unless the reader closed the pipe (as `head` does).
 int finish_output() {
   std::cout.flush();
-  if (std::cout.good() || reader_left()) return kDone;
+  if (std::cout.good() || stdout_is_closed()) return kDone;
   return fail(kOurFailure, "cannot write to standard output");
 }
 

@@ -1,4 +1,4 @@
-// The whole program, from its arguments to its exit status.
+// The command line program, from its arguments to its exit status.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace radioslam::cli {
 
-/// Runs the command that the arguments (without the program's own name) ask for. Errors become one line on
-/// standard error and a status of exit_status.hpp.
+/// Runs the subcommand that the arguments (without the program's name) select. An error is printed as one
+/// line on standard error. Returns a status of exit_status.hpp.
 int run_program(const std::vector<std::string>& arguments);
 
 }  // namespace radioslam::cli

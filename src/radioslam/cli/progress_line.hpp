@@ -1,4 +1,4 @@
-// Progress as one line on standard error that overwrites itself: only where somebody watches.
+// Progress display: one line on standard error that overwrites itself, shown only on a terminal.
 #pragma once
 
 #include <chrono>
@@ -9,7 +9,7 @@
 
 namespace radioslam::cli {
 
-/// Shows "stage 42 %" on a terminal and nothing anywhere else; clears the line when it goes.
+/// Shows "stage 42 %" if standard error is a terminal, otherwise nothing; clears the line on destruction.
 class ProgressLine {
  public:
   ProgressLine();
@@ -17,7 +17,7 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  /// A function for the library to call; empty where nobody watches. Must not outlive this object.
+  /// Callback for the library; empty if standard error is not a terminal. Must not outlive this object.
   Progress progress();
 
  private:

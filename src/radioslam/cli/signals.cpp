@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "radioslam/cli/exit_status.hpp"
-#include "radioslam/io/atomic_output.hpp"
+#include "radioslam/io/text/atomic_output.hpp"
 
 namespace radioslam::cli {
 namespace {
@@ -17,7 +17,7 @@ bool is_ignored(int signal) {
   return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
-/// SIGINT and SIGTERM, as far as the caller did not ask us to ignore them (nohup, background jobs).
+/// SIGINT and SIGTERM, except those that the caller had set to be ignored (nohup, background jobs).
 sigset_t ending_signals() {
   sigset_t signals{};
   sigemptyset(&signals);
@@ -27,7 +27,7 @@ sigset_t ending_signals() {
   return signals;
 }
 
-/// A thread that waits for the signals is free to do what a handler must not: lock, free and remove files.
+/// Runs in a thread of its own, which may lock, free memory and remove files; a signal handler may not.
 void wait_for_end(sigset_t signals) {
   int signal = 0;
   if (sigwait(&signals, &signal) != 0) return;

@@ -6,8 +6,8 @@
 namespace radioslam::cli {
 namespace {
 
-constexpr std::size_t kMostSuggestions = 3;
-constexpr std::size_t kLettersPerError = 3;  // one letter in three may be wrong
+constexpr std::size_t kMaxSuggestions = 3;
+constexpr std::size_t kLettersPerError = 3;  // one letter in three may differ
 
 std::string_view last_part(std::string_view name) { return name.substr(name.rfind('.') + 1); }
 
@@ -45,7 +45,7 @@ std::vector<std::string> nearest_names(std::string_view name, const std::vector<
     if (is_near(name, candidate, distance)) near.emplace_back(distance, candidate);
   }
   std::sort(near.begin(), near.end());
-  near.resize(std::min(near.size(), kMostSuggestions));
+  near.resize(std::min(near.size(), kMaxSuggestions));
   std::vector<std::string> nearest;
   for (auto& [distance, candidate] : near) nearest.push_back(std::move(candidate));
   return nearest;

@@ -1,4 +1,4 @@
-// What a misspelled name may have meant.
+// Suggestions for misspelled names.
 #pragma once
 
 #include <cstddef>
@@ -8,15 +8,15 @@
 
 namespace radioslam::cli {
 
-/// Fewest insertions, deletions, substitutions and swaps of neighbours that turn one name into the other
-/// (optimal string alignment).
+/// Smallest number of insertions, deletions, substitutions and swaps of adjacent letters that turn one name
+/// into the other (optimal string alignment distance).
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// At most three of `names` that `name` may stand for, the nearest first: a few letters off, or the same
-/// last part after a point.
+/// Up to three of `names` that are similar to `name`, most similar first: they differ in a few letters or
+/// have the same part after the last dot.
 std::vector<std::string> nearest_names(std::string_view name, const std::vector<std::string>& names);
 
-/// "; did you mean a, b or c?", or nothing when no name is near.
+/// "; did you mean a, b or c?", or an empty string if no name is similar.
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& names);
 
 }  // namespace radioslam::cli

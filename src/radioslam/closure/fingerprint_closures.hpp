@@ -1,15 +1,15 @@
-// Pairs of fingerprints that say how far apart two places are.
-// Source: Liu et al., algorithm 1: within a robot where the way between is longer than odometry can be
-// trusted, between robots always; kept where the predicted distance is below nu.
-// Where a robot's start is unknown, near pairs alone let the layout fold: there far pairs take part too, with
-// the distances that laid the team out.
+// Loop closures from pairs of similar WiFi fingerprints: predicted distances between two poses.
+// Source: Liu et al. (2020), algorithm 1: within a robot if the path between them is longer than odometry can
+// be trusted, between robots always; kept if the predicted distance is below nu. If a robot's start is
+// unknown, close pairs alone would let the team layout fold; distant pairs, with the distances that the
+// layout was computed from, are then added.
 #pragma once
 
 #include <cstddef>
 #include <vector>
 
 #include "radioslam/base/fields.hpp"
-#include "radioslam/radio/measurements.hpp"
+#include "radioslam/radio/fingerprints/measurements.hpp"
 #include "radioslam/team_frame/fingerprint_layout.hpp"
 
 namespace radioslam {
@@ -17,50 +17,62 @@ namespace radioslam {
 struct FingerprintClosureParams {
   double within_distance_m = 5;   ///< nu_s
   double between_distance_m = 5;  ///< nu_p
-  double nearest_factor = 1.5;    ///< nu is at least this many times the smallest distance the model predicts
-  double independent_pairs = 0.5;  ///< how many of a fingerprint's pairs count as independent evidence
-  int layout_pairs = 20000;        ///< far pairs at most; more are thinned and the others weigh more
+  double nearest_factor = 1.5;
+  double independent_pairs = 0.5;  ///< pairs of one fingerprint share its error
+  int layout_pairs = 20000;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"within_distance_m", "m", 0, 1000, "largest predicted distance of a pair within a robot"},
+    visit(Field{"within_distance_m", "m", 0, 1000,
+                "largest predicted distance of a fingerprint closure within a robot; higher values keep more "
+                "closures"}
+              .basic(),
           self.within_distance_m);
-    visit(Field{"between_distance_m", "m", 0, 1000, "largest predicted distance of a pair of two robots"},
+    visit(Field{"between_distance_m", "m", 0, 1000,
+                "largest predicted distance of a fingerprint closure between two robots; higher values keep "
+                "more closures"}
+              .basic(),
           self.between_distance_m);
-    visit(Field{"nearest_factor", "", 1, 100,
-                "both limits are at least this many times the smallest prediction"},
-          self.nearest_factor);
+    visit(
+        Field{
+            "nearest_factor", "", 1, 100,
+            "lower bound of both distance limits, as a multiple of the smallest distance the model predicts"},
+        self.nearest_factor);
     visit(Field{"independent_pairs", "", 0.01, 1e6,
-                "pairs of one fingerprint share its error: together they count as this many"},
+                "number of independent measurements that all pairs of one fingerprint together count as"},
           self.independent_pairs);
-    visit(Field{"layout_pairs", "", 0, 1e8, "most pairs that keep robots of unknown starts in the layout"},
+    visit(Field{"layout_pairs", "", 0, 1e8,
+                "largest number of distant pairs that constrain robots with unknown starts; more are thinned "
+                "and weighted up"},
           self.layout_pairs);
   }
 };
 
-/// One tie: the two fingerprints are `predicted` apart.
+/// Closure between two fingerprints with the distance predicted from their similarity.
 struct FingerprintClosure {
   std::size_t node_i = 0, node_j = 0;  ///< RadioMeasurements::nodes, node_i < node_j
   double similarity = 0;
   PredictedDistance predicted;
-  double weight = 1;          ///< share of the pair that is independent evidence
-  bool holds_layout = false;  ///< far apart, between robots of which one has no known start
+  double weight = 1;          ///< fraction of an independent measurement that the pair counts as
+  bool keeps_layout = false;  ///< distant pair of two robots, one of which has no known start
 };
 
-/// Near pairs of fingerprints, predicted distance below nu.
-std::vector<FingerprintClosure> propose_near_closures(const RadioMeasurements& radio, double trusted_way_m,
+/// Close pairs: predicted distance below nu.
+std::vector<FingerprintClosure> propose_near_closures(const RadioMeasurements& radio,
+                                                      double max_trusted_path_m,
                                                       const FingerprintClosureParams& params);
 
-/// Pairs between robots of which at least one has no known start.
-std::vector<FingerprintClosure> propose_layout_closures(const Mission& mission,
+/// Distant pairs between robots of which at least one has no known start.
+std::vector<FingerprintClosure> propose_layout_closures(const KnownStarts& starts,
                                                         const RadioMeasurements& radio,
                                                         const LayoutParams& layout,
                                                         const FingerprintClosureParams& params);
 
-/// Both.
-std::vector<FingerprintClosure> propose_fingerprint_closures(const Mission& mission,
+/// Close pairs, then distant pairs.
+std::vector<FingerprintClosure> propose_fingerprint_closures(const KnownStarts& starts,
                                                              const RadioMeasurements& radio,
-                                                             double trusted_way_m, const LayoutParams& layout,
+                                                             double max_trusted_path_m,
+                                                             const LayoutParams& layout,
                                                              const FingerprintClosureParams& params);
 
 }  // namespace radioslam

@@ -1,50 +1,52 @@
 #include "radioslam/closure/sequence_closures.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <span>
 
 #include "radioslam/base/parallel.hpp"
+#include "radioslam/geometry/linear_algebra.hpp"
 
 namespace radioslam {
 namespace {
 
-constexpr double kPeakShare = 0.25;  // of a window, on either side, that a candidate is the peak of
+constexpr double kPeakRatio =
+    0.25;  // neighbourhood of a similarity peak on either side, as a fraction of the window length
 
-/// Is no fingerprint near `node` along its way more similar to `other`? Of equals the first is the peak.
+/// Whether no fingerprint near `node` along its path is more similar to `other`; of equals the first is the
+/// peak.
 bool is_peak(const RadioMeasurements& radio, std::size_t node, std::size_t other, double within_m) {
   const double own = similarity_of(radio, node, other);
-  for (std::size_t n = node; n-- > 0 && way_between_m(radio, n, node) <= within_m;)
+  for (std::size_t n = node; n-- > 0 && path_between_m(radio, n, node) <= within_m;)
     if (similarity_of(radio, n, other) >= own) return false;
-  for (std::size_t n = node + 1; n < radio.nodes.size() && way_between_m(radio, n, node) <= within_m; ++n)
+  for (std::size_t n = node + 1; n < radio.nodes.size() && path_between_m(radio, n, node) <= within_m; ++n)
     if (similarity_of(radio, n, other) > own) return false;
   return true;
 }
 
-/// The same, as far as pairs found next to each other tell: most are no peaks, and this is quick.
+/// Cheap necessary condition that compares adjacent pairs of a row only; it excludes most pairs.
 bool is_peak_of_row(const RadioMeasurements& radio, std::span<const SimilarPair> row, std::size_t k,
                     double within_m) {
   const auto beside = [&](std::size_t other) {
-    return way_between_m(radio, row[other].j, row[k].j) <= within_m;
+    return path_between_m(radio, row[other].j, row[k].j) <= within_m;
   };
   if (k > 0 && beside(k - 1) && row[k - 1].similarity >= row[k].similarity) return false;
   return k + 1 == row.size() || !beside(k + 1) || row[k + 1].similarity <= row[k].similarity;
 }
 
-/// Do both windows of one closure reach into those of the other one?
+/// Whether both windows of one closure overlap those of the other.
 bool overlap(const RadioMeasurements& radio, const SequenceCandidate& a, const SequenceCandidate& b,
-             double window_way_m) {
-  const auto near = [&](std::size_t x, std::size_t y) { return way_between_m(radio, x, y) < window_way_m; };
+             double window_path_m) {
+  const auto near = [&](std::size_t x, std::size_t y) { return path_between_m(radio, x, y) < window_path_m; };
   return (near(a.node_i, b.node_i) && near(a.node_j, b.node_j)) ||
          (near(a.node_i, b.node_j) && near(a.node_j, b.node_i));
 }
 
-bool accepted(const SequenceClosure& closure) { return closure.fit.verdict == SequenceVerdict::kAccepted; }
+bool accepted(const SequenceClosure& closure) { return closure.fit.status == SequenceStatus::kAccepted; }
 
-/// Leaves the most certain one of accepted closures that overlap.
+/// Keeps only the most precise of accepted closures that overlap.
 void keep_separate(const RadioMeasurements& radio, std::vector<SequenceClosure>& closures,
-                   double window_way_m) {
+                   double window_path_m) {
   std::vector<std::size_t> order;
   for (std::size_t k = 0; k < closures.size(); ++k)
     if (accepted(closures[k])) order.push_back(k);
@@ -54,45 +56,44 @@ void keep_separate(const RadioMeasurements& radio, std::vector<SequenceClosure>&
   std::vector<std::size_t> kept;
   for (const std::size_t k : order) {
     const bool beside = std::any_of(kept.begin(), kept.end(), [&](std::size_t other) {
-      return overlap(radio, closures[k].candidate, closures[other].candidate, window_way_m);
+      return overlap(radio, closures[k].candidate, closures[other].candidate, window_path_m);
     });
     if (beside)
-      closures[k].fit.verdict = SequenceVerdict::kBeside;
+      closures[k].fit.status = SequenceStatus::kSuppressed;
     else
       kept.push_back(k);
   }
 }
 
 bool is_certain(const Eigen::Matrix3d& covariance, const SequenceClosureParams& params) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance.topLeftCorner<2, 2>(),
-                                                            Eigen::EigenvaluesOnly);
-  return std::sqrt(axes.eigenvalues()[1]) <= params.largest_sigma_m &&
-         std::sqrt(covariance(2, 2)) <= params.largest_sigma_yaw_rad;
+  const auto variances = symmetric_eigenvalues<Eigen::Matrix2d>(covariance.topLeftCorner<2, 2>());
+  return std::sqrt(variances[1]) <= params.max_sigma_m &&
+         std::sqrt(covariance(2, 2)) <= params.max_sigma_yaw_rad;
 }
 
 void drop_uncertain(std::vector<SequenceClosure>& closures, const SequenceClosureParams& params) {
   for (SequenceClosure& closure : closures)
     if (accepted(closure) && !is_certain(closure.fit.covariance, params))
-      closure.fit.verdict = SequenceVerdict::kUncertain;
+      closure.fit.status = SequenceStatus::kUncertain;
 }
 
 }  // namespace
 
-std::string_view reason(SequenceVerdict verdict) {
-  switch (verdict) {
-    case SequenceVerdict::kAccepted:
+std::string_view reason(SequenceStatus status) {
+  switch (status) {
+    case SequenceStatus::kAccepted:
       return "";
-    case SequenceVerdict::kTooFewPlaces:
+    case SequenceStatus::kTooFewMatches:
       return "too few nodes";
-    case SequenceVerdict::kNoDistances:
+    case SequenceStatus::kNoDistances:
       return "no distances predicted";
-    case SequenceVerdict::kResidual:
+    case SequenceStatus::kResidual:
       return "residual";
-    case SequenceVerdict::kAmbiguous:
+    case SequenceStatus::kAmbiguous:
       return "another pose fits as well";
-    case SequenceVerdict::kUncertain:
+    case SequenceStatus::kUncertain:
       return "too straight or too coarse";
-    case SequenceVerdict::kBeside:
+    case SequenceStatus::kSuppressed:
       return "a more certain one beside it";
   }
   return "";
@@ -100,17 +101,17 @@ std::string_view reason(SequenceVerdict verdict) {
 
 std::vector<SequenceCandidate> sequence_candidates(const RadioMeasurements& radio,
                                                    const SequenceClosureParams& params) {
-  const double peak_m = kPeakShare * params.window_way_m;
+  const double peak_m = kPeakRatio * params.window_path_m;
   std::vector<SequenceCandidate> candidates;
   const auto take = [&](std::span<const SimilarPair> row) {
     for (std::size_t k = 0; k < row.size(); ++k) {
       const auto [i, j, similarity] = row[k];
-      if (way_between_m(radio, i, j) >= params.least_way_m && is_peak_of_row(radio, row, k, peak_m) &&
+      if (path_between_m(radio, i, j) >= params.min_path_m && is_peak_of_row(radio, row, k, peak_m) &&
           is_peak(radio, i, j, peak_m) && is_peak(radio, j, i, peak_m))
         candidates.push_back({i, j, static_cast<double>(similarity)});
     }
   };
-  radio.near_similarity.for_each_row(std::max(params.least_similarity, kAnySimilarity), take);
+  radio.near_similarity.for_each_row(std::max(params.min_similarity, kAnySimilarity), take);
   return candidates;
 }
 
@@ -119,7 +120,7 @@ std::vector<SequenceClosure> propose_sequence_closures(const RadioMeasurements& 
   std::vector<SequenceClosure> closures;
   for (const SequenceCandidate& candidate : sequence_candidates(radio, params))
     closures.push_back({candidate, {}});
-  const double half_m = params.window_way_m / 2;
+  const double half_m = params.window_path_m / 2;
   parallel_for(closures.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const auto& [node_i, node_j, similarity] = closures[k].candidate;
@@ -128,7 +129,7 @@ std::vector<SequenceClosure> propose_sequence_closures(const RadioMeasurements& 
     }
   });
   drop_uncertain(closures, params);
-  keep_separate(radio, closures, params.window_way_m);
+  keep_separate(radio, closures, params.window_path_m);
   return closures;
 }
 

@@ -1,10 +1,11 @@
-// Closures between two stretches of way that sounded alike, each a relative pose.
-// Candidates are pairs (i, j) of fingerprints, of different robots or a long way apart, that are more alike
-// than any pair near them along either way. Around both, windows are matched (sequence_match.hpp). Accepted
-// is what fits within metres, has no rival and is certain; of accepted ones whose two windows both overlap,
-// the most certain one, so that no pair of fingerprints counts twice. In the plane. Source: Dammalapati and
-// Hajdarpasic, WiFi Assisted Loop Closure Detection. Cost: fingerprints^2 look-ups, and per candidate the
-// square of a window's fingerprints.
+// Loop closures from sequences of WiFi fingerprints: relative poses between two path segments with similar
+// fingerprints, in the plane.
+// Candidates are pairs (i, j) of fingerprints, of different robots or far apart along the path, that are more
+// similar than any neighbouring pair along either path. Windows around both are matched (sequence_match.hpp).
+// A match is accepted if its residual is small, no alternative pose fits as well, and it is precise; of
+// accepted closures whose windows overlap at both ends only the most precise is kept, so that no pair of
+// fingerprints counts twice. Source: Dammalapati and Hajdarpasic, WiFi Assisted Loop Closure Detection. Cost:
+// fingerprints^2 similarity look-ups and, per candidate, the square of a window's fingerprints.
 #pragma once
 
 #include <string_view>
@@ -16,25 +17,34 @@
 namespace radioslam {
 
 struct SequenceClosureParams {
-  double least_way_m = 50;              ///< between the two, within a robot
-  double least_similarity = 0.3;        ///< of the two
-  double window_way_m = 30;             ///< whole length of a window
-  double largest_sigma_m = 3;           ///< of the position, along its loosest axis
-  double largest_sigma_yaw_rad = 0.35;  ///< 20 degrees
+  double min_path_m = 50;
+  double min_similarity = 0.3;
+  double window_path_m = 30;
+  double max_sigma_m = 3;
+  double max_sigma_yaw_rad = 0.35;
   SequenceMatchParams match;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"least_way_m", "m", 0, 1e6, "way between two fingerprints of one robot; the seed's"},
-          self.least_way_m);
-    visit(Field{"least_similarity", "", 0, 1, "similarity of the two fingerprints; the seed's"},
-          self.least_similarity);
-    visit(Field{"window_way_m", "m", 1, 1000, "length of the ways that are matched; ours, swept"},
-          self.window_way_m);
-    visit(Field{"largest_sigma_m", "m", 0.01, 1000, "a closure less certain than this is none; ours"},
-          self.largest_sigma_m);
-    visit(Field{"largest_sigma_yaw_rad", "rad", 0.001, 10, "nor one whose yaw is; ours, 20 degrees"},
-          self.largest_sigma_yaw_rad);
+    visit(
+        Field{"min_path_m", "m", 0, 1e6,
+              "smallest path length between two fingerprints of one robot that may form a sequence closure"},
+        self.min_path_m);
+    visit(Field{"min_similarity", "", 0, 1,
+                "smallest similarity of the two fingerprints of a sequence closure candidate; lower values "
+                "try more candidates"}
+              .basic(),
+          self.min_similarity);
+    visit(Field{"window_path_m", "m", 1, 1000,
+                "path length of the windows that are matched around both fingerprints"},
+          self.window_path_m);
+    visit(Field{"max_sigma_m", "m", 0.01, 1000,
+                "largest position standard deviation of an accepted sequence closure, along its least "
+                "certain axis"},
+          self.max_sigma_m);
+    visit(Field{"max_sigma_yaw_rad", "rad", 0.001, 10,
+                "largest yaw standard deviation of an accepted sequence closure"},
+          self.max_sigma_yaw_rad);
     SequenceMatchParams::visit_fields(self.match, visit);
   }
 };
@@ -45,20 +55,20 @@ struct SequenceCandidate {
   double similarity = 0;
 };
 
-/// A candidate and what became of it.
+/// A candidate and the result of matching its windows.
 struct SequenceClosure {
   SequenceCandidate candidate;
   SequenceFit fit;
 };
 
-/// Why a closure was not accepted; empty for an accepted one.
-std::string_view reason(SequenceVerdict verdict);
+/// Reason for rejection; empty for an accepted closure.
+std::string_view reason(SequenceStatus status);
 
 /// Ordered by node_i, then node_j.
 std::vector<SequenceCandidate> sequence_candidates(const RadioMeasurements& radio,
                                                    const SequenceClosureParams& params);
 
-/// Every candidate with its verdict, in the candidates' order. Uses all threads.
+/// Every candidate with its match and status, in the order of candidates. Multithreaded.
 std::vector<SequenceClosure> propose_sequence_closures(const RadioMeasurements& radio,
                                                        const SequenceClosureParams& params);
 

@@ -1,7 +1,5 @@
 #include "radioslam/closure/sequence_match.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,20 +7,21 @@
 #include <vector>
 
 #include "radioslam/geometry/alignment.hpp"
+#include "radioslam/geometry/linear_algebra.hpp"
 
 namespace radioslam {
 namespace {
 
 using Eigen::Index;
 
-constexpr Index kLeastPlaces = 3;
+constexpr Index kMinPlaces = 3;
 constexpr int kHeadings = 4;
-constexpr double kHopeless = 1.5;  // times the largest residual: no estimate from there comes back
+constexpr double kHopelessRatio = 1.5;  // multiple of max_residual_m beyond which no estimate recovers
 
-/// A row per node of i, a column per node of j.
+/// Similarities, with a row per node of i and a column per node of j.
 Eigen::MatrixXd window_similarities(const RadioMeasurements& radio, const SequenceWindow& i,
                                     const SequenceWindow& j) {
-  Eigen::MatrixXd table(i.place_m.cols(), j.place_m.cols());
+  Eigen::MatrixXd table(i.position_m.cols(), j.position_m.cols());
   for (Index a = 0; a < table.rows(); ++a)
     for (Index b = 0; b < table.cols(); ++b)
       table(a, b) =
@@ -30,12 +29,12 @@ Eigen::MatrixXd window_similarities(const RadioMeasurements& radio, const Sequen
   return table;
 }
 
-/// Places and where each is in the other window, by column.
+/// Positions and their matches in the other window, by column.
 struct Matches {
   Eigen::Matrix2Xd source, target;
 };
 
-/// The mean of the k most similar `places` by their similarity; nothing where none is similar.
+/// Similarity-weighted mean of the k most similar `places`; nothing if none is similar.
 std::optional<Eigen::Vector2d> matched_place(const Eigen::VectorXd& similarity,
                                              const Eigen::Matrix2Xd& places, int nearest) {
   std::vector<Index> order(static_cast<std::size_t>(similarity.size()));
@@ -54,8 +53,8 @@ std::optional<Eigen::Vector2d> matched_place(const Eigen::VectorXd& similarity,
   return Eigen::Vector2d(place / sum);
 }
 
-Matches match_places(const Eigen::MatrixXd& similarity, const Eigen::Matrix2Xd& from,
-                     const Eigen::Matrix2Xd& to, int nearest) {
+Matches match_positions(const Eigen::MatrixXd& similarity, const Eigen::Matrix2Xd& from,
+                        const Eigen::Matrix2Xd& to, int nearest) {
   Matches matches{Eigen::Matrix2Xd(2, from.cols()), Eigen::Matrix2Xd(2, from.cols())};
   Index count = 0;
   for (Index a = 0; a < from.cols(); ++a) {
@@ -85,21 +84,21 @@ double mean_distance_m(const SE2& T, const Matches& matches) {
   return sum / static_cast<double>(matches.source.cols());
 }
 
-/// `points` seen in a mirror along the long axis of `about`.
+/// `points` reflected about the long axis of `about`.
 Eigen::Matrix2Xd reflected(const Eigen::Matrix2Xd& points, const Eigen::Matrix2Xd& about) {
   const Eigen::Vector2d mean = about.rowwise().mean();
   const Eigen::Matrix2Xd spread = about.colwise() - mean;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(spread * spread.transpose());
-  const Eigen::Vector2d across = axes.eigenvectors().col(0);
+  const auto axes = symmetric_eigen<Eigen::Matrix2d>(spread * spread.transpose());
+  const Eigen::Vector2d across = axes.vectors.col(0);
   const Eigen::Matrix2d mirror = Eigen::Matrix2d::Identity() - 2 * across * across.transpose();
   return (mirror * (points.colwise() - mean)).colwise() + mean;
 }
 
-std::vector<SE2> rival_starts(const SE2& T, const SequenceWindow& i, const SequenceWindow& j) {
-  const Eigen::Matrix2Xd lie = (T.rotation_matrix() * i.place_m).colwise() + T.translation();
-  std::vector<SE2> starts{align_points(i.place_m, reflected(lie, j.place_m)),
-                          align_points(i.place_m, reflected(lie, lie))};
-  const SE2 to_middle(i.place_m.rowwise().mean(), 0);
+std::vector<SE2> candidate_starts(const SE2& T, const SequenceWindow& i, const SequenceWindow& j) {
+  const Eigen::Matrix2Xd moved = (T.rotation_matrix() * i.position_m).colwise() + T.translation();
+  std::vector<SE2> starts{align_points(i.position_m, reflected(moved, j.position_m)),
+                          align_points(i.position_m, reflected(moved, moved))};
+  const SE2 to_middle(i.position_m.rowwise().mean(), 0);
   for (int quarter = 1; quarter < kHeadings; ++quarter)
     starts.push_back(T * to_middle *
                      SE2(Eigen::Vector2d::Zero(), quarter * 2 * std::numbers::pi / kHeadings) *
@@ -109,25 +108,26 @@ std::vector<SE2> rival_starts(const SE2& T, const SequenceWindow& i, const Seque
 
 bool is_other(const SE2& a, const SE2& b, const SequenceMatchParams& params) {
   const SE2 gap = a.inverse() * b;
-  return gap.translation().norm() > params.rival_distance_m || std::abs(gap.angle()) > params.rival_angle_rad;
+  return gap.translation().norm() > params.alternative_distance_m ||
+         std::abs(gap.angle()) > params.alternative_angle_rad;
 }
 
-/// Is there another pose that costs hardly more? Of the cost, which sums over all pairs, the share counts
-/// that they are independent evidence for, as in the covariance.
-bool has_rival(const PairFit& fit, const std::vector<PredictedPair>& pairs, const SequenceWindow& i,
-               const SequenceWindow& j, const SequenceMatchParams& params) {
-  for (const SE2& start : rival_starts(fit.T_j_i, i, j)) {
+/// Whether a different pose costs hardly more. The cost, a sum over all pairs, is scaled by the ratio of
+/// independent pairs, as the covariance is.
+bool has_alternative(const PairFit& fit, const std::vector<PredictedPair>& pairs, const SequenceWindow& i,
+                     const SequenceWindow& j, const SequenceMatchParams& params) {
+  for (const SE2& start : candidate_starts(fit.T_j_i, i, j)) {
     const PairFit other = fit_pairs(start, pairs, params.loss_sigmas);
-    const double margin = params.independent_share * (other.at.cost - fit.at.cost);
-    if (is_other(fit.T_j_i, other.T_j_i, params) && margin < params.least_rival_margin) return true;
+    const double margin = params.effective_sample_ratio * (other.at.cost - fit.at.cost);
+    if (is_other(fit.T_j_i, other.T_j_i, params) && margin < params.min_alternative_margin) return true;
   }
   return false;
 }
 
 std::optional<Eigen::Matrix3d> inverse_if_regular(const Eigen::Matrix3d& information) {
-  const Eigen::LLT<Eigen::Matrix3d> cholesky(information);
-  if (cholesky.info() != Eigen::Success) return std::nullopt;
-  const Eigen::Matrix3d inverse = cholesky.solve(Eigen::Matrix3d::Identity());
+  const Cholesky<Eigen::Matrix3d> cholesky(information);
+  if (!cholesky.succeeded()) return std::nullopt;
+  const Eigen::Matrix3d inverse = cholesky.inverse();
   return inverse.allFinite() ? std::optional(inverse) : std::nullopt;
 }
 
@@ -136,26 +136,26 @@ std::optional<Eigen::Matrix3d> inverse_if_regular(const Eigen::Matrix3d& informa
 SequenceFit match_windows(const RadioMeasurements& radio, const SequenceWindow& i, const SequenceWindow& j,
                           const SequenceMatchParams& params) {
   const Eigen::MatrixXd similarity = window_similarities(radio, i, j);
-  const Matches i_in_j = match_places(similarity, i.place_m, j.place_m, params.nearest);
-  const Matches j_in_i = match_places(similarity.transpose(), j.place_m, i.place_m, params.nearest);
-  if (std::min(i_in_j.source.cols(), j_in_i.source.cols()) < kLeastPlaces)
-    return {SequenceVerdict::kTooFewPlaces, 0, {}};
+  const Matches i_in_j = match_positions(similarity, i.position_m, j.position_m, params.nearest);
+  const Matches j_in_i = match_positions(similarity.transpose(), j.position_m, i.position_m, params.nearest);
+  if (std::min(i_in_j.source.cols(), j_in_i.source.cols()) < kMinPlaces)
+    return {SequenceStatus::kTooFewMatches, 0, {}};
   const SE2 start = aligned(i_in_j, j_in_i);
   const double start_residual_m = mean_distance_m(start, i_in_j);
-  if (start_residual_m >= kHopeless * params.largest_residual_m)
-    return {SequenceVerdict::kResidual, start_residual_m, start};
+  if (start_residual_m >= kHopelessRatio * params.max_residual_m)
+    return {SequenceStatus::kResidual, start_residual_m, start};
   const auto pairs = predicted_pairs(radio.near_model, similarity, i, j);
-  if (pairs.empty()) return {SequenceVerdict::kNoDistances, start_residual_m, start};
+  if (pairs.empty()) return {SequenceStatus::kNoDistances, start_residual_m, start};
   const PairFit best = fit_pairs(start, pairs, params.loss_sigmas);
-  SequenceFit fit{SequenceVerdict::kAccepted, mean_distance_m(best.T_j_i, i_in_j), best.T_j_i};
-  if (fit.residual_m >= params.largest_residual_m)
-    fit.verdict = SequenceVerdict::kResidual;
-  else if (has_rival(best, pairs, i, j, params))
-    fit.verdict = SequenceVerdict::kAmbiguous;
-  else if (const auto covariance = inverse_if_regular(params.independent_share * best.at.information))
+  SequenceFit fit{SequenceStatus::kAccepted, mean_distance_m(best.T_j_i, i_in_j), best.T_j_i};
+  if (fit.residual_m >= params.max_residual_m)
+    fit.status = SequenceStatus::kResidual;
+  else if (has_alternative(best, pairs, i, j, params))
+    fit.status = SequenceStatus::kAmbiguous;
+  else if (const auto covariance = inverse_if_regular(params.effective_sample_ratio * best.at.information))
     fit.covariance = *covariance;
   else
-    fit.verdict = SequenceVerdict::kUncertain;
+    fit.status = SequenceStatus::kUncertain;
   return fit;
 }
 

@@ -8,8 +8,8 @@
 namespace radioslam {
 namespace {
 
-constexpr int kMostIterations = 100;  // halving alone reaches the last bit by then
-constexpr double kSettled = 1e-15;    // relative step
+constexpr int kMaxIterations = 100;  // halving alone reaches the last bit by then
+constexpr double kSettled = 1e-15;   // relative step
 
 /// y^(n/2) exp(-y) / Gamma(n/2 + 1).
 double tail_term(double y, int n) {
@@ -49,7 +49,7 @@ double chi_squared_quantile(double probability, int dof) {
   const double tail = 1 - probability;
   double low = 0, value = start_value(tail, dof), high = 2 * value + 1;
   while (chi_squared_tail(high, dof) > tail) high *= 2;
-  for (int i = 0; i < kMostIterations; ++i) {
+  for (int i = 0; i < kMaxIterations; ++i) {
     const double excess = chi_squared_tail(value, dof) - tail;
     (excess > 0 ? low : high) = value;
     const double newton = value + excess / density(value, dof);

@@ -3,19 +3,20 @@
 namespace radioslam {
 namespace {
 
-MatchStanding standing_of(const PairwiseConsistency& pairs, const std::vector<std::size_t>& members,
-                          std::size_t match) {
-  MatchStanding standing;
+MatchConsistency consistency_of(const PairwiseConsistency& pairs, const std::vector<std::size_t>& members,
+                                std::size_t match) {
+  MatchConsistency consistency;
   for (const std::size_t member : members) {
     if (member == match) {
-      standing.is_in = true;
+      consistency.is_in = true;
       continue;
     }
     const double statistic = pairs.statistic(match, member);
-    if (statistic <= pairs.gate) ++standing.consistent;
-    if (!standing.best_statistic || statistic < *standing.best_statistic) standing.best_statistic = statistic;
+    if (statistic <= pairs.gate) ++consistency.consistent;
+    if (!consistency.best_statistic || statistic < *consistency.best_statistic)
+      consistency.best_statistic = statistic;
   }
-  return standing;
+  return consistency;
 }
 
 /// What the matches that are out could agree on among themselves.
@@ -33,8 +34,8 @@ ConsistentSet largest_consistent_set(const PairwiseConsistency& pairs, const Max
   const MaximumClique clique = maximum_clique(pairs.graph, params);
   ConsistentSet set{clique.vertices, {}, 0, pairs.gate, clique.proven};
   for (std::size_t k = 0; k < pairs.graph.size(); ++k)
-    set.matches.push_back(standing_of(pairs, set.members, k));
-  set.runner_up = second_choice(pairs, set, params).vertices.size();
+    set.matches.push_back(consistency_of(pairs, set.members, k));
+  set.second_largest = second_choice(pairs, set, params).vertices.size();
   return set;
 }
 

@@ -1,7 +1,7 @@
 // The largest set of matches between two trajectories that are all consistent with one another: pairwise
 // tests (pairwise.hpp), then the maximum clique of their graph (maximum_clique.hpp). It rejects false loop
 // closures, and, with one match per path, multipath. It trusts numbers: false matches that agree with each
-// other and outnumber the true ones win; `runner_up` below tells how close it was.
+// other and outnumber the true ones win; `second_largest` shows how close it was.
 #pragma once
 
 #include <optional>
@@ -23,19 +23,19 @@ struct ConsistentSetParams {
   }
 };
 
-/// How one match stands to the set.
-struct MatchStanding {
+/// Consistency of one match with the set.
+struct MatchConsistency {
   bool is_in = false;
   std::size_t consistent = 0;  ///< members (itself left out) that it is consistent with
-  /// The smallest statistic against a member; absent where there is no other member. Of a match that is out
-  /// this is what to report: above the gate it agrees with nobody.
+  /// Smallest statistic against a member; absent if there is no other member. To be reported for a rejected
+  /// match: above the gate it is consistent with no member.
   std::optional<double> best_statistic;
 };
 
 struct ConsistentSet {
   std::vector<std::size_t> members;  ///< rising
-  std::vector<MatchStanding> matches;
-  std::size_t runner_up = 0;  ///< size of the largest clique among the matches that are out
+  std::vector<MatchConsistency> matches;
+  std::size_t second_largest = 0;  ///< size of the largest clique among the matches that are out
   double gate = 0;
   bool proven = true;  ///< false when the search for the largest set was cut short
 };

@@ -1,6 +1,6 @@
 // The order in which a graph falls apart when a vertex of the smallest remaining degree is always taken
 // away (Matula & Beck 1983). A vertex's core number is the largest such degree up to its turn; a clique of
-// k vertices lies among vertices of core number k - 1 or more, and in the later neighbours of its first.
+// k vertices is among vertices of core number k - 1 or more, and in the later neighbours of its first.
 // Cost: O(vertices^2 / 64 + edges).
 #pragma once
 

@@ -157,7 +157,7 @@ MaximumClique maximum_clique(const UndirectedGraph& graph, const MaximumCliquePa
   if (graph.size() == 0) return result;
   const Degeneracy order = degeneracy(graph);
   result.vertices = greedy_clique(graph, order, static_cast<std::size_t>(params.greedy_starts));
-  Budget budget{0, static_cast<std::uint64_t>(params.most_branches)};
+  Budget budget{0, static_cast<std::uint64_t>(params.max_branches)};
   for (std::size_t place = graph.size(); place-- > 0 && !budget.exhausted();)
     improve_at(graph, order, place, budget, result.vertices);
   std::sort(result.vertices.begin(), result.vertices.end());

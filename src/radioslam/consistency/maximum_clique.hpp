@@ -3,7 +3,7 @@
 // bitsets (San Segundo et al. 2011, BBMC), vertex by vertex in degeneracy order with the vertices of too
 // small a core number left out (Rossi et al. 2014, PMC), from a greedy clique as first bound.
 // The work is limited by counting, not by the clock: the same answer on every machine. Of several largest
-// cliques the first one met is returned, always the same.
+// cliques the first one found is returned, always the same.
 #pragma once
 
 #include <cstdint>
@@ -15,16 +15,17 @@
 namespace radioslam {
 
 struct MaximumCliqueParams {
-  int greedy_starts = 100;     ///< greedy cliques tried before the proof
-  double most_branches = 2e7;  ///< of the search tree; then the best clique found counts
+  int greedy_starts = 100;
+  double max_branches = 2e7;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"greedy_starts", "", 1, 1e6, "greedy cliques tried before the proof; ours"},
+    visit(Field{"greedy_starts", "", 1, 1e6, "number of greedy cliques tried before the exact search"},
           self.greedy_starts);
-    visit(Field{"most_branches", "", 1, 1e15,
-                "branches of the exact search before it gives up; some ten seconds"},
-          self.most_branches);
+    visit(Field{"max_branches", "", 1, 1e15,
+                "largest number of branches of the exact search (about ten seconds); beyond, the best clique "
+                "found is used"},
+          self.max_branches);
   }
 };
 

@@ -5,7 +5,7 @@
 // either direction, has the right-perturbation covariance Ad(T_j^-1) (S_max - S_min) Ad(T_j^-1)^T.
 // The difference of sums cancels; the frame's origin is moved to the middle of the poses and the sums are
 // compensated, so what is lost is a few units in the last place of (half the extent)^2 * variance of yaw.
-// One chain is one piece of odometry: where it is missing between two poses, a new chain begins.
+// One chain is one gapless segment of odometry: a new chain begins after a gap.
 #pragma once
 
 #include <algorithm>
@@ -15,6 +15,7 @@
 
 #include "radioslam/base/check.hpp"
 #include "radioslam/geometry/compensated_sum.hpp"
+#include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/geometry/se2.hpp"
 #include "radioslam/geometry/se3.hpp"
 
@@ -35,7 +36,7 @@ class OdometryChain {
     sums_.push_back(sum.value());
     for (std::size_t k = 0; k < step_covariances.size(); ++k) {
       const Jacobian ad = poses_[k + 1].adjoint();
-      sum.add(ad * step_covariances[k] * ad.transpose());
+      sum.add(congruence(ad, step_covariances[k]));
       sums_.push_back(sum.value());
     }
   }
@@ -48,7 +49,7 @@ class OdometryChain {
   /// Of T_i_j, right perturbation.
   Jacobian increment_covariance(std::size_t i, std::size_t j) const {
     const Jacobian ad = poses_[j].inverse().adjoint();
-    return ad * (sums_[std::max(i, j)] - sums_[std::min(i, j)]) * ad.transpose();
+    return congruence<Jacobian, Jacobian>(ad, sums_[std::max(i, j)] - sums_[std::min(i, j)]);
   }
 
  private:

@@ -1,20 +1,20 @@
 #include "radioslam/consistency/pairwise.hpp"
 
-#include <Eigen/Cholesky>
 #include <limits>
 
 #include "radioslam/base/parallel.hpp"
 #include "radioslam/consistency/chi_squared.hpp"
+#include "radioslam/geometry/linear_algebra.hpp"
 
 namespace radioslam {
 namespace {
 
-constexpr std::size_t kRowGrain = 8;  // rows of pairs per piece of parallel work
+constexpr std::size_t kRowGrain = 8;  // rows of pairs per task
 
 template <class Pose>
 typename Pose::Jacobian carried(const typename Pose::Jacobian& jacobian,
                                 const typename Pose::Jacobian& covariance) {
-  return jacobian * covariance * jacobian.transpose();
+  return congruence(jacobian, covariance);
 }
 
 template <class Pose>
@@ -48,10 +48,10 @@ double loop_statistic(const UncertainPose<Pose>& z_i, const UncertainPose<Pose>&
   const Jacobian sigma = carried<Pose>(by.z_i, z_i.covariance) +
                          carried<Pose>(by.f, f.covariance + z_j.covariance) +
                          carried<Pose>(by.e, e.covariance);
-  const Eigen::LLT<Jacobian> cholesky(sigma);
-  if (cholesky.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
+  const Cholesky<Jacobian> cholesky(sigma);
+  if (!cholesky.succeeded()) return std::numeric_limits<double>::infinity();
   const typename Pose::Tangent xi = (z_i.pose * f.pose * z_j.pose.inverse() * e.pose.inverse()).log();
-  return cholesky.matrixL().solve(xi).squaredNorm();
+  return cholesky.whitened(xi).squaredNorm();
 }
 
 template <class Pose>

@@ -8,8 +8,8 @@
 // which gives its covariance Sigma. i and j are consistent when xi^T Sigma^-1 xi is at most the chi-squared
 // quantile of 3 (plane) or 6 degrees of freedom. For (j, i) and from robot b's side the
 // statistic is the same to first order; each pair is tested once, as (later, earlier) in the list.
-// Metres and radians. The two ways are taken as independent: of two trajectories of different robots they
-// are. Cost: O(1) per pair of measurements, about two microseconds in space.
+// Metres and radians. The odometry of the two trajectories is assumed independent, as it is for different
+// robots. Cost: O(1) per pair of measurements, about two microseconds in space.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@
 
 namespace radioslam {
 
-/// Someone found pose `pose_b` of trajectory b at T_a_b seen from pose `pose_a` of trajectory a.
+/// Measured relative pose T_a_b of pose `pose_b` of trajectory b from pose `pose_a` of trajectory a.
 template <class Pose>
 struct RelativePoseMatch {
   std::size_t pose_a = 0, pose_b = 0;
@@ -50,16 +50,18 @@ double pair_statistic(const OdometryChain<Pose>& chain_a, const OdometryChain<Po
                       const RelativePoseMatch<Pose>& i, const RelativePoseMatch<Pose>& j);
 
 struct PairwiseParams {
-  double confidence = 0.99;  ///< share of true pairs that pass
+  double confidence = 0.99;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"confidence", "", 0.5, 0.999999, "share of true pairs that pass the test; Wi-Closure"},
+    visit(Field{"confidence", "", 0.5, 0.999999,
+                "probability that a true pair of matches passes the consistency test; higher values reject "
+                "fewer"},
           self.confidence);
   }
 };
 
-/// The verdicts over all pairs of n matches.
+/// Test results of all pairs of n matches.
 struct PairwiseConsistency {
   UndirectedGraph graph;          ///< a vertex per match, an edge per consistent pair
   double gate = 0;                ///< the largest statistic that passes

@@ -1,2 +1,10 @@
-radioslam_room(consistency SOURCES chi_squared.cpp undirected_graph.cpp degeneracy.cpp greedy_clique.cpp
-               maximum_clique.cpp pairwise.cpp consistent_set.cpp ROOMS geometry)
+radioslam_room(consistency
+  SOURCES
+    chi_squared.cpp
+    consistent_set.cpp
+    degeneracy.cpp
+    greedy_clique.cpp
+    maximum_clique.cpp
+    pairwise.cpp
+    undirected_graph.cpp
+  ROOMS geometry)

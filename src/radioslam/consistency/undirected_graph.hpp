@@ -1,4 +1,4 @@
-// Who goes with whom, as one bit per pair: n^2 / 8 bytes. No loops, no double edges.
+// Undirected graph with one bit per pair of vertices: n^2 / 8 bytes. No loops, no double edges.
 #pragma once
 
 #include <bit>

@@ -6,7 +6,7 @@
 namespace radioslam {
 namespace {
 
-/// The pose whose stamp is nearest; the earlier one of two equally near. Needs one pose.
+/// Index of the pose with the nearest stamp; the earlier of two equally near. Needs one pose.
 std::size_t nearest(const Trajectory<SE3>& trajectory, Stamp stamp) {
   if (trajectory.size() == 1) return 0;
   const std::size_t i = trajectory.segment(stamp);
@@ -16,7 +16,7 @@ std::size_t nearest(const Trajectory<SE3>& trajectory, Stamp stamp) {
              : i;
 }
 
-/// Indices (of the shorter, of the longer) whose stamps agree.
+/// Index pairs (shorter, longer) of agreeing stamps.
 std::vector<std::pair<std::size_t, std::size_t>> agreeing_stamps(const Trajectory<SE3>& shorter,
                                                                  const Trajectory<SE3>& longer) {
   std::vector<std::pair<std::size_t, std::size_t>> pairs;

@@ -22,7 +22,7 @@ std::optional<Position> true_position(const PairTruth& truth, std::size_t robot,
   return position;
 }
 
-/// Where one robot truly stood at its keyframes that can be judged, ordered by x.
+/// True positions at the keyframes of one robot that the truth covers, ordered by x.
 Positions true_positions(const PairTruth& truth, std::size_t robot, const KeyframeStamps& keyframes) {
   Positions positions;
   for (const Stamp stamp : keyframes)
@@ -32,7 +32,7 @@ Positions true_positions(const PairTruth& truth, std::size_t robot, const Keyfra
   return positions;
 }
 
-/// Pairs closer than `radius_m`: of `b` only the slab of x that can be in reach is looked at.
+/// Number of pairs closer than `radius_m`; of `b` only the slab of x within reach is visited.
 std::size_t count_close(const Positions& a, const Positions& b, double radius_m) {
   std::size_t close = 0;
   std::size_t slab = 0;
@@ -44,7 +44,7 @@ std::size_t count_close(const Positions& a, const Positions& b, double radius_m)
   return close;
 }
 
-/// Whether the pair is true; nothing when it cannot be judged.
+/// Whether the pair is true; nothing if the truth does not cover it.
 template <class Pair>
 std::optional<bool> is_true_pair(const Pair& pair, const PairTruth& truth) {
   const auto a = true_position(truth, pair.robot_i.index(), pair.stamp_i);

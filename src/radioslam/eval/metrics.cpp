@@ -21,7 +21,7 @@ const Trajectory<SE3>& estimate_of(const std::string& id, const std::vector<Esti
   return none;
 }
 
-/// In the plane only x, y and yaw count.
+/// The pose reduced to x, y and yaw for dimension 2.
 SE3 as_seen(const SE3& pose, int dimension) { return dimension == 2 ? lift(flatten(pose)) : pose; }
 
 std::vector<Matches> match_team(const std::vector<EstimatedTrajectory>& estimate, const Truth& truth,
@@ -37,7 +37,7 @@ std::vector<Matches> match_team(const std::vector<EstimatedTrajectory>& estimate
   return team;
 }
 
-/// T_truth_estimate over all robots' positions at once; identity when there are none.
+/// T_truth_estimate fitted to the positions of all robots; identity if there are none.
 SE3 align_team(const std::vector<Matches>& team, int dimension) {
   Eigen::Index count = 0;
   for (const auto& matches : team) count += static_cast<Eigen::Index>(matches.size());
@@ -72,8 +72,8 @@ std::vector<double> error_values(const std::vector<PointError>& errors) {
   return values;
 }
 
-RobotMetrics judge_robot(const RobotTruth& truth, const Matches& matches, const SE3& T_truth_estimate,
-                         int dimension) {
+RobotMetrics classify_robot(const RobotTruth& truth, const Matches& matches, const SE3& T_truth_estimate,
+                            int dimension) {
   RobotMetrics robot;
   robot.id = truth.id;
   const auto along = distance_along(truth.poses, dimension);
@@ -89,8 +89,8 @@ RobotMetrics judge_robot(const RobotTruth& truth, const Matches& matches, const 
   return robot;
 }
 
-/// Over the team's pairs of consecutive compared poses: E = (Q_i^-1 Q_k)^-1 (P_i^-1 P_k), with Q the truth
-/// and P the estimate.
+/// Relative error E = (Q_i^-1 Q_k)^-1 (P_i^-1 P_k) over consecutive compared poses, with truth Q and estimate
+/// P.
 std::optional<RelativeError> relative_error(const std::vector<Matches>& team, const Truth& truth) {
   double translation = 0, rotation = 0;
   RelativeError result;
@@ -115,7 +115,7 @@ std::optional<RelativeError> relative_error(const std::vector<Matches>& team, co
 
 TeamMetrics evaluate_trajectories(const std::vector<EstimatedTrajectory>& estimate, const Truth& truth,
                                   int dimension, Association association) {
-  RADIOSLAM_CHECK(dimension == 2 || dimension == 3, "the world has two or three dimensions");
+  RADIOSLAM_CHECK(dimension == 2 || dimension == 3, "dimension must be 2 or 3");
   const auto team = match_team(estimate, truth, dimension, association);
   TeamMetrics metrics;
   metrics.T_truth_estimate = align_team(team, dimension);
@@ -125,7 +125,7 @@ TeamMetrics evaluate_trajectories(const std::vector<EstimatedTrajectory>& estima
   double covered = 0;
   std::size_t poses = 0;
   for (std::size_t r = 0; r < team.size(); ++r) {
-    auto robot = judge_robot(truth.robots[r], team[r], metrics.T_truth_estimate, dimension);
+    auto robot = classify_robot(truth.robots[r], team[r], metrics.T_truth_estimate, dimension);
     const auto values = error_values(robot.errors);
     errors.insert(errors.end(), values.begin(), values.end());
     covered += robot.coverage * static_cast<double>(truth.robots[r].poses.size());

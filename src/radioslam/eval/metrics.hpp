@@ -1,4 +1,5 @@
-// How good an estimate is against the truth.
+// Trajectory error metrics: absolute trajectory error after one rigid alignment of the whole team, and
+// relative pose error.
 #pragma once
 
 #include <optional>
@@ -11,19 +12,19 @@
 
 namespace radioslam {
 
-/// One trajectory to be judged; `poses` in a frame shared by the whole team.
+/// Trajectory to be evaluated; `poses` in a frame common to the team.
 struct EstimatedTrajectory {
   std::string id;
   Trajectory<SE3> poses;
 };
 
-/// How an estimate is matched with the truth.
+/// Association of an estimate with the truth.
 enum class Association {
   kInterpolate,  ///< the estimate is interpolated at the truth's stamps
-  kNearest,      ///< evo's: nearest stamps within 0.01 s
+  kNearest,      ///< as in evo: nearest stamps within 0.01 s
 };
 
-/// Position errors in metres. Empty statistics (no truth covered) are absent, not zero.
+/// Statistics of position errors, metres; absent, not zero, if the estimate covers no truth.
 struct ErrorStatistics {
   double rmse_m = 0;
   double mean_m = 0;
@@ -32,11 +33,11 @@ struct ErrorStatistics {
   std::size_t count = 0;
 };
 
-/// One compared position.
+/// Error of one position.
 struct PointError {
   Stamp stamp;
   double error_m = 0;
-  double along_m = 0;  ///< distance walked along the truth
+  double along_m = 0;  ///< path length along the truth
 };
 
 /// Relative pose error over consecutive compared poses (evo's default, one frame apart), pooled over the
@@ -47,7 +48,7 @@ struct RelativeError {
   std::size_t count = 0;
 };
 
-/// One robot's share.
+/// Metrics of one robot.
 struct RobotMetrics {
   std::string id;
   std::optional<ErrorStatistics> ate;
@@ -55,17 +56,17 @@ struct RobotMetrics {
   std::vector<PointError> errors;
 };
 
-/// The team's absolute trajectory error after ONE rigid alignment of the whole team.
+/// Metrics of the team after ONE rigid alignment of all robots together.
 struct TeamMetrics {
   std::optional<ErrorStatistics> ate;
-  std::optional<RelativeError> rpe;  ///< absent where no truth has an orientation
-  double coverage = 0;               ///< share of the truth's poses that the estimate covers
+  std::optional<RelativeError> rpe;  ///< absent if no truth has an orientation
+  double coverage = 0;               ///< fraction of the truth's poses that the estimate covers
   SE3 T_truth_estimate;
   std::vector<RobotMetrics> robots;
 };
 
-/// Compares `estimate` with `truth` (matched by id) after one alignment; `dimension` 2 aligns in the plane
-/// and measures in the plane.
+/// Compares `estimate` with `truth` (matched by id) after one alignment; with `dimension` 2, alignment and
+/// errors are horizontal.
 TeamMetrics evaluate_trajectories(const std::vector<EstimatedTrajectory>& estimate, const Truth& truth,
                                   int dimension, Association association = Association::kInterpolate);
 

@@ -1,1 +1,8 @@
-radioslam_room(eval SOURCES association.cpp statistics.cpp metrics.cpp closures.cpp team_estimate.cpp ROOMS results mission)
+radioslam_room(eval
+  SOURCES
+    association.cpp
+    closures.cpp
+    metrics.cpp
+    statistics.cpp
+    team_estimate.cpp
+  ROOMS results mission)

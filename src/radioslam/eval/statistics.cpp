@@ -7,9 +7,10 @@
 
 namespace radioslam {
 
-double quantile(const std::vector<double>& sorted, double share) {
-  RADIOSLAM_CHECK(!sorted.empty() && share >= 0 && share <= 1, "a quantile needs values and a share");
-  const double position = share * static_cast<double>(sorted.size() - 1);
+double quantile(const std::vector<double>& sorted, double fraction) {
+  RADIOSLAM_CHECK(!sorted.empty() && fraction >= 0 && fraction <= 1,
+                  "a quantile needs values and a fraction in [0, 1]");
+  const double position = fraction * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(position);
   const std::size_t above = std::min(below + 1, sorted.size() - 1);
   return sorted[below] + (position - static_cast<double>(below)) * (sorted[above] - sorted[below]);

@@ -1,4 +1,4 @@
-// Summaries of a set of errors.
+// Summary statistics of a set of errors.
 #pragma once
 
 #include <optional>
@@ -8,11 +8,11 @@
 
 namespace radioslam {
 
-/// The value below which `share` of the sorted values lie, linear between neighbours (numpy's default).
-/// Needs one value; `share` in [0, 1].
-double quantile(const std::vector<double>& sorted, double share);
+/// Quantile of sorted values for a `fraction` in [0, 1], with linear interpolation (numpy's default). Needs
+/// one value.
+double quantile(const std::vector<double>& sorted, double fraction);
 
-/// Nothing for no errors.
+/// Nothing if there are no errors.
 std::optional<ErrorStatistics> summarise_errors(std::vector<double> errors_m);
 
 }  // namespace radioslam

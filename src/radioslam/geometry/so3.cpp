@@ -34,6 +34,10 @@ Eigen::Vector3d so3_log(const Eigen::Quaterniond& q) {
   return factor * v;
 }
 
+Eigen::Quaterniond rotation_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return Eigen::Quaterniond::FromTwoVectors(a, b);
+}
+
 Eigen::Matrix3d so3_left_jacobian(const Eigen::Vector3d& phi) {
   const double t2 = phi.squaredNorm();
   const double t = std::sqrt(t2);

@@ -1,4 +1,4 @@
-// A robot's poses in time order, and where it was in between.
+// Trajectory: stamped poses of a robot, interpolated along geodesics.
 #pragma once
 
 #include <algorithm>
@@ -18,10 +18,10 @@ struct StampedPose {
   Pose pose;
 };
 
-/// T_a_b from a at share 0 to b at share 1 along the geodesic.
+/// Pose from a at fraction 0 to b at fraction 1 along the geodesic.
 template <class Pose>
-Pose interpolate(const Pose& a, const Pose& b, double share) {
-  return a * Pose::exp(share * (a.inverse() * b).log());
+Pose interpolate(const Pose& a, const Pose& b, double fraction) {
+  return a * Pose::exp(fraction * (a.inverse() * b).log());
 }
 
 /// Poses with strictly increasing stamps.
@@ -61,9 +61,9 @@ class Trajectory {
     const std::size_t i = segment(stamp);
     const auto& a = poses_[i];
     const auto& b = poses_[i + 1];
-    const double share =
+    const double fraction =
         static_cast<double>(stamp.ns - a.stamp.ns) / static_cast<double>(b.stamp.ns - a.stamp.ns);
-    return interpolate(a.pose, b.pose, share);
+    return interpolate(a.pose, b.pose, fraction);
   }
 
  private:

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/geometry/se3.hpp"
 
 namespace radioslam {
@@ -15,13 +16,13 @@ struct UncertainPose {
   /// T^-1, whose perturbation is -Ad(T) xi.
   UncertainPose inverse() const {
     const typename Pose::Jacobian carry = pose.adjoint();
-    return {pose.inverse(), carry * covariance * carry.transpose()};
+    return {pose.inverse(), congruence(carry, covariance)};
   }
 
   /// Of two independent ones: T Exp(xi) S Exp(zeta) = T S Exp(Ad(S^-1) xi) Exp(zeta).
   UncertainPose operator*(const UncertainPose& next) const {
     const typename Pose::Jacobian carry = next.pose.inverse().adjoint();
-    return {pose * next.pose, carry * covariance * carry.transpose() + next.covariance};
+    return {pose * next.pose, congruence(carry, covariance) + next.covariance};
   }
 
   /// Of the pose's position, in the frame that it leads to.

@@ -64,10 +64,10 @@ std::optional<Matrices<Pose>> translations(const PoseGraph<Pose>& graph, const M
   for (const auto& f : graph.relative_poses) {
     const Matrix& r_i = rotations[f.i.index()];
     const Matrix r_z_w = (r_i * f.T_i_j.rotation_matrix()).transpose();
-    Matrix way = Matrix::Zero();
-    way.col(0) = r_i * f.T_i_j.translation();
+    Matrix translation = Matrix::Zero();
+    translation.col(0) = r_i * f.T_i_j.translation();
     terms.push_back(
-        {Matrix::Identity(), way,
+        {Matrix::Identity(), translation,
          f.weight * r_z_w.transpose() * f.information.template topLeftCorner<kDim, kDim>() * r_z_w});
   }
   Matrices<Pose> start(graph.poses.size(), Matrix::Zero());

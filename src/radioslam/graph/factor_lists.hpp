@@ -1,4 +1,4 @@
-// Every list of factors of a graph, and which variables a factor ties, for code that treats all alike.
+// Iterates over all factor lists of a graph, and lists the variables of each factor.
 #pragma once
 
 #include <array>

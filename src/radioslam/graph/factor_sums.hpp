@@ -23,7 +23,7 @@ template <std::size_t K, std::size_t pair>
 inline constexpr std::pair<std::size_t, std::size_t> kPair =
     pair == 0 ? std::pair<std::size_t, std::size_t>{0, 1} : std::pair<std::size_t, std::size_t>{pair - 1, 2};
 
-/// Blocks of one factor; `lower` holds, per pair, the one that lies below the diagonal of H.
+/// Blocks of one factor; `lower` holds, per pair, the one below the diagonal of H.
 template <int... Columns>
 struct FactorSums;
 
@@ -102,7 +102,7 @@ void add_to_block(SymmetricBlockMatrix::Block target, const Sum& sum) {
     target += sum.topLeftCorner(target.rows(), target.cols());
 }
 
-/// Adds a factor's sums to H and g where its slots say.
+/// Adds a factor's sums to H and g at its slots.
 template <std::size_t K, class Sums>
 void add_sums(const Sums& sums, const FactorSlots<K>& slots, SymmetricBlockMatrix& matrix,
               Eigen::VectorXd& gradient) {

@@ -1,12 +1,12 @@
 #include "radioslam/graph/gauge.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
 
 #include "radioslam/base/check.hpp"
+#include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/graph/factor_lists.hpp"
 #include "radioslam/graph/linearisation.hpp"
 #include "radioslam/graph/residuals.hpp"
@@ -14,8 +14,9 @@
 namespace radioslam {
 namespace {
 
-/// Below this share of the largest eigenvalue of the scaled information a direction counts as unobserved.
-constexpr double kUnobservedShare = 1e-9;
+/// Eigenvalue of the scaled information, relative to the largest, below which a direction counts as
+/// unobserved.
+constexpr double kUnobservedRatio = 1e-9;
 
 /// Disjoint sets whose representative is their first member.
 class DisjointSets {
@@ -45,7 +46,7 @@ std::int32_t member(const PoseGraph<Pose>& graph, const Variable& v) {
   return -1;
 }
 
-/// What one absolute factor says about a rigid motion of its component, perturbing pose `base`.
+/// Information of one absolute factor about a rigid motion of its component, perturbing pose `base`.
 template <class Pose, class Factor>
 typename Pose::Jacobian absolute_information(const PoseGraph<Pose>& graph, const Factor& factor,
                                              const Pose& where, const Pose& base) {
@@ -90,14 +91,14 @@ typename Pose::Jacobian unobserved_penalty(const typename Pose::Jacobian& inform
   using Tangent = typename Pose::Tangent;
   const double scale = information.diagonal().maxCoeff();
   const Tangent d = information.diagonal().unaryExpr(
-      [&](double x) { return x > kUnobservedShare * scale ? std::sqrt(x) : std::sqrt(scale); });
+      [&](double x) { return x > kUnobservedRatio * scale ? std::sqrt(x) : std::sqrt(scale); });
   const typename Pose::Jacobian scaled =
       d.cwiseInverse().asDiagonal() * information * d.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<typename Pose::Jacobian> eigen(scaled);
+  const auto eigen = symmetric_eigen(scaled);
   typename Pose::Jacobian penalty = Pose::Jacobian::Zero();
   for (int k = 0; k < Pose::kDof; ++k) {
-    if (eigen.eigenvalues()[k] > kUnobservedShare * eigen.eigenvalues()[Pose::kDof - 1]) continue;
-    const Tangent v = d.cwiseProduct(eigen.eigenvectors().col(k));
+    if (eigen.values[k] > kUnobservedRatio * eigen.values[Pose::kDof - 1]) continue;
+    const Tangent v = d.cwiseProduct(eigen.vectors.col(k));
     penalty += v * v.transpose();
   }
   return penalty;

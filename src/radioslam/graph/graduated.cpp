@@ -23,8 +23,8 @@ void for_each_outlier_list(Graph& graph, Body&& body, Parts&... parts) {
 
 double surrogate_weight(GraduatedLoss loss, double mu, double s, double c2) {
   if (loss == GraduatedLoss::kGemanMcClure) {
-    const double share = mu * c2 / (s + mu * c2);
-    return share * share;
+    const double ratio = mu * c2 / (s + mu * c2);
+    return ratio * ratio;
   }
   if (s <= c2 * mu / (mu + 1)) return 1;
   if (s >= c2 * (mu + 1) / mu) return 0;
@@ -50,7 +50,7 @@ class Graduation {
   }
 
   GraduatedSummary run(const Progress& progress) {
-    iterate(round_optimizer_);  // outliers bend the unweighted optimum: not worth solving to the end
+    iterate(round_optimizer_);  // outliers distort the unweighted optimum: not solved to convergence
     start_mu();
     while (!settled() && summary_.rounds < params_.max_rounds) {
       ++summary_.rounds;
@@ -98,7 +98,7 @@ class Graduation {
   }
 
   /// From the last round's values, or from the first ones where these fit the new weights better: an early
-  /// round, bent by outliers, may have left the basin that the first values lie in.
+  /// round, distorted by outliers, may have left the basin of the first values.
   void iterate(const OptimizerParams& params) {
     PoseGraph<Pose> start = work_;
     GraphValues<Pose>(original_).restore(start);

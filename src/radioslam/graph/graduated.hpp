@@ -1,7 +1,7 @@
-// Graduated non-convexity: a robust optimum that does not hang on the start. The surrogate of the loss is
-// nearly convex at first and becomes the loss as mu moves, each round a weighted least squares problem.
-// Source: Yang, Antonante, Tzoumas, Carlone 2020, Graduated non-convexity for robust spatial perception.
-// With s the squared Mahalanobis norm, c the factor's loss scale, per round:
+// Graduated non-convexity (GNC): robust optimisation that does not depend on a good start. The surrogate of
+// the loss is nearly convex at first and becomes the loss as mu moves, each round a weighted least squares
+// problem. Source: Yang, Antonante, Tzoumas, Carlone 2020, Graduated non-convexity for robust spatial
+// perception. With s the squared Mahalanobis norm, c the factor's loss scale, per round:
 //   Geman-McClure  w = (mu c^2 / (s + mu c^2))^2,  mu: 2 max s / c^2 down to 1
 //   truncated      w = 1 up to s = c^2 mu / (mu + 1), 0 from c^2 (mu + 1) / mu on,
 //                  c sqrt(mu (mu + 1) / s) - mu between,  mu: c^2 / (2 max s - c^2) up
@@ -16,24 +16,29 @@ namespace radioslam {
 enum class GraduatedLoss { kGemanMcClure, kTruncatedLeastSquares };
 
 struct GraduatedParams {
-  double mu_factor = 1.4;            ///< change of mu per round; the paper's
-  int max_rounds = 100;              ///< the last round is solved at the loss itself, or at this mu
-  int steps_per_round = 10;          ///< linear solves of a round before the last
-  double settled_weight_gap = 1e-3;  ///< truncated: done when every weight is this close to 0 or 1
+  double mu_factor = 1.4;
+  int max_rounds = 100;  ///< the last round is solved at the loss itself, or at this mu
+  int steps_per_round = 10;
+  double settled_weight_gap = 1e-3;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"mu_factor", "", 1.01, 10, "change of the convexity parameter per round; Yang et al. 2020"},
+    visit(Field{"mu_factor", "", 1.01, 10,
+                "factor by which the convexity parameter changes per round of graduated optimisation (Yang "
+                "et al. 2020)"},
           self.mu_factor);
-    visit(Field{"max_rounds", "", 1, 10000, "rounds at most"}, self.max_rounds);
-    visit(Field{"steps_per_round", "", 1, 1000, "linear solves of a round before the last"},
+    visit(Field{"max_rounds", "", 1, 10000, "largest number of rounds of graduated optimisation"},
+          self.max_rounds);
+    visit(Field{"steps_per_round", "", 1, 1000,
+                "largest number of linear solves per round of graduated optimisation, except the last"},
           self.steps_per_round);
-    visit(Field{"settled_weight_gap", "", 0, 0.5, "done when every weight is this close to 0 or 1"},
+    visit(Field{"settled_weight_gap", "", 0, 0.5,
+                "distance of all weights from 0 or 1 below which truncated graduated optimisation ends"},
           self.settled_weight_gap);
   }
 };
 
-/// One entry per factor of a list; an empty list stands for no factor.
+/// One entry per factor of a list; an empty list selects no factor.
 struct FactorMask {
   std::vector<bool> relative_poses, ranges, bearings, relative_points, positions;
 };

@@ -1,4 +1,4 @@
-// Where to start an optimisation: the best of what is available, by cost.
+// Initial values of an optimisation: the candidate with the lowest cost.
 #pragma once
 
 #include <optional>
@@ -7,7 +7,7 @@
 
 namespace radioslam {
 
-/// Are the graph's poses an estimate, or placeholders?
+/// Whether the graph's poses are an estimate or placeholders.
 enum class GivenValues { kComplete, kNone };
 
 /// Which start was taken.

@@ -58,15 +58,15 @@ Linearisation<Pose::kDof, Pose::kDof, Pose::kDof, 2> linearise(const PoseGraph<P
 template <class Pose>
 Linearisation<1, Pose::kDof, Pose::kDof, 2> linearise(const PoseGraph<Pose>& graph,
                                                       const RangeFactor<Pose>& factor) {
-  const typename Pose::Point way = position(graph, factor.j) - position(graph, factor.i);
-  const typename Pose::Point along = direction_or_zero(way);
+  const typename Pose::Point difference = position(graph, factor.j) - position(graph, factor.i);
+  const typename Pose::Point along = direction_or_zero(difference);
   const double unit = length_unit(graph, factor);
   Linearisation<1, Pose::kDof, Pose::kDof, 2> l;
   l.residual = residual(graph, factor);
   std::get<0>(l.jacobians) = -unit * along.transpose() * position_jacobian(graph, factor.i);
   std::get<1>(l.jacobians) = unit * along.transpose() * position_jacobian(graph, factor.j);
   if (factor.drift.valid())
-    std::get<2>(l.jacobians) << 0, way.norm() * unit * unit;
+    std::get<2>(l.jacobians) << 0, difference.norm() * unit * unit;
   else
     std::get<2>(l.jacobians) << 1, 0;
   return l;

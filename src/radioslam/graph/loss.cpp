@@ -17,8 +17,8 @@ LossValue evaluate(const Loss& loss, double squared_norm) {
     case LossKind::kCauchy:
       return {c2 * std::log1p(s / c2), c2 / (c2 + s)};
     case LossKind::kGemanMcClure: {
-      const double share = c2 / (c2 + s);
-      return {share * s, share * share};
+      const double ratio = c2 / (c2 + s);
+      return {ratio * s, ratio * ratio};
     }
   }
   return {s, 1};

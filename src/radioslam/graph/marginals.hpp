@@ -3,8 +3,8 @@
 // entries where the factor has them and by solving otherwise.
 // Poses: for the right perturbation [translation, rotation] in the graph's own units (m, rad). Robust losses
 // count with their weight at the current residual. Held poses (gauge.hpp) have covariance zero, so all
-// covariances are relative to them; where a gauge penalty stands, directions that nothing observes have the
-// penalty's covariance. Points, drifts and biases that no factor touches have an infinite variance.
+// covariances are relative to them; with a gauge penalty, unobservable directions have the penalty's
+// covariance. Points, drifts and biases that no factor touches have an infinite variance.
 #pragma once
 
 #include <optional>

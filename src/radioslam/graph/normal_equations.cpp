@@ -8,9 +8,10 @@
 namespace radioslam {
 namespace {
 
-/// What an empty diagonal entry counts as when damping, as a share of the largest one.
-constexpr double kEmptyDiagonalShare = 1e-9;
-/// Factors whose sums are computed in parallel before they are added in order, and the share of a thread.
+/// Value of an empty diagonal entry for damping, relative to the largest one.
+constexpr double kEmptyDiagonalRatio = 1e-9;
+/// Number of factors whose sums are computed in parallel before they are added in order, and the number per
+/// task.
 constexpr std::size_t kWave = 2048, kGrain = 256;
 
 /// Drifts and biases touch many poses.
@@ -87,7 +88,7 @@ void NormalEquations<Pose>::add_gauge_penalties() {
 
 template <class Pose>
 Factorization NormalEquations<Pose>::factorize(double damping) {
-  const double least = kEmptyDiagonalShare * diagonal_.maxCoeff();
+  const double least = kEmptyDiagonalRatio * diagonal_.maxCoeff();
   for (std::size_t b = 0; b < matrix_.pattern().blocks(); ++b) {
     auto block = matrix_.diagonal(b);
     const auto d = diagonal_.segment(static_cast<Eigen::Index>(matrix_.offset(b)), block.rows());

@@ -27,11 +27,11 @@ class NormalEquations {
   /// one given to the constructor: values, measurements, informations, weights and losses may differ.
   double linearise(const PoseGraph<Pose>& graph);
 
-  /// Factorises H + damping * diag(H); an empty diagonal entry counts as a small share of the largest.
+  /// Factorises H + damping * diag(H); an empty diagonal entry counts as a small fraction of the largest.
   Factorization factorize(double damping);
   /// The step that solves (H + damping * diag(H)) step = -g.
   Eigen::VectorXd step() const { return cholesky_->solve(-gradient_); }
-  /// How much the model at full trust says the step lowers the cost: -g^T step.
+  /// Cost decrease of the step predicted by the quadratic model: -g^T step.
   double predicted_decrease(const Eigen::VectorXd& step) const { return -gradient_.dot(step); }
   /// Moves the graph's values by a step.
   void apply(const Eigen::VectorXd& step, PoseGraph<Pose>& graph) const;

@@ -13,16 +13,16 @@
 namespace radioslam {
 namespace {
 
-/// Shares of an undamped step that are tried where the whole one fails, and the least gain they are taken
-/// for.
-constexpr std::array kStepShares = {0.6, 0.35, 0.2, 0.1, 0.03};
-constexpr double kWorthwhile = 0.05;
+/// Fractions of an undamped step that are tried if the full step fails, and the smallest relative gain for
+/// which one is accepted.
+constexpr std::array kStepFractions = {0.6, 0.35, 0.2, 0.1, 0.03};
+constexpr double kMinRelativeGain = 0.05;
 
 /// One run: the graph holds the current values, `equations` are linearised at them.
 template <class Pose>
-class Run {
+class LevenbergMarquardt {
  public:
-  Run(PoseGraph<Pose>& graph, NormalEquations<Pose>& equations, const OptimizerParams& params)
+  LevenbergMarquardt(PoseGraph<Pose>& graph, NormalEquations<Pose>& equations, const OptimizerParams& params)
       : graph_(graph), equations_(equations), params_(params), best_(graph) {
     best_cost_ = equations_.linearise(graph_);
     summary_.initial_cost = best_cost_;
@@ -42,16 +42,16 @@ class Run {
   /// One solve and what follows from it; a termination when that was the last.
   std::optional<Termination> iterate() {
     ++summary_.iterations;
-    if (equations_.factorize(damping_) == Factorization::kNotPositiveDefinite) return meet_singular_matrix();
+    if (equations_.factorize(damping_) == Factorization::kNotPositiveDefinite) return on_singular_matrix();
     const Eigen::VectorXd step = equations_.step();
-    if (!step.allFinite()) return meet_singular_matrix();
+    if (!step.allFinite()) return on_singular_matrix();
     const double before = summary_.costs.back();
     const bool last = undamped() && negligible(equations_.predicted_decrease(step), before);
     equations_.apply(step, graph_);
     const double cost = last ? total_cost(graph_) : equations_.linearise(graph_);
     summary_.costs.push_back(cost);
-    if (last) return conclude(cost);
-    return judge(cost);
+    if (last) return try_final_step(cost);
+    return accept_or_reject(cost);
   }
 
   bool undamped() const { return damping_ <= params_.negligible_damping; }
@@ -61,26 +61,26 @@ class Run {
   }
 
   /// The model promises no more: take the step if it helps.
-  std::optional<Termination> conclude(double cost) {
+  std::optional<Termination> try_final_step(double cost) {
     if (cost <= best_cost_) {
       keep(cost);
       return Termination::kConverged;
     }
     // At the best values, a step that fails by rounding is the end; above them, go back.
     if (steps_above_best_ == 0 && negligible(cost - best_cost_, best_cost_)) return Termination::kConverged;
-    return go_back();
+    return restore_best();
   }
 
-  std::optional<Termination> judge(double cost) {
+  std::optional<Termination> accept_or_reject(double cost) {
     if (cost < best_cost_) {
       const bool small = undamped() && negligible(best_cost_ - cost, cost);
       keep(cost);
       lower_damping();
       return small ? std::optional(Termination::kConverged) : std::nullopt;
     }
-    const bool patient = undamped() && steps_above_best_ < params_.nonmonotone_window &&
-                         cost <= params_.nonmonotone_growth * std::abs(best_cost_);
-    if (!patient) return go_back();
+    const bool may_stay_above_best = undamped() && steps_above_best_ < params_.nonmonotone_window &&
+                                     cost <= params_.nonmonotone_growth * std::abs(best_cost_);
+    if (!may_stay_above_best) return restore_best();
     ++steps_above_best_;
     return std::nullopt;
   }
@@ -91,33 +91,33 @@ class Run {
     steps_above_best_ = 0;
   }
 
-  std::optional<Termination> go_back() {
+  std::optional<Termination> restore_best() {
     best_.restore(graph_);
     equations_.linearise(graph_);
     steps_above_best_ = 0;
-    if (undamped() && shorten()) return std::nullopt;
+    if (undamped() && try_shorter_steps()) return std::nullopt;
     return raise_damping(params_.first_damping);
   }
 
-  /// Takes the best share of the undamped step from the best values, if one is worth it. A closure far off at
-  /// the end of a long chain needs all of its poses to move together: a shorter step does that, where
-  /// damping holds each of them back.
-  bool shorten() {
+  /// Takes the best fraction of the undamped step from the best values, if the gain is sufficient. A large
+  /// correction at the end of a long chain needs all its poses to move together: a shorter step does that,
+  /// whereas damping holds each of them back.
+  bool try_shorter_steps() {
     if (equations_.factorize(damping_) == Factorization::kNotPositiveDefinite) return false;
     ++summary_.iterations;
     const Eigen::VectorXd step = equations_.step();
-    double best_share = 0, best_cost = best_cost_;
-    for (const double share : kStepShares) {
-      equations_.apply(share * step, graph_);
+    double best_ratio = 0, best_cost = best_cost_;
+    for (const double fraction : kStepFractions) {
+      equations_.apply(fraction * step, graph_);
       const double cost = total_cost(graph_);
       best_.restore(graph_);
       if (cost >= best_cost) continue;
-      best_share = share;
+      best_ratio = fraction;
       best_cost = cost;
     }
-    const bool worthwhile = best_cost < (1 - kWorthwhile) * best_cost_;
+    const bool worthwhile = best_cost < (1 - kMinRelativeGain) * best_cost_;
     if (worthwhile) {
-      equations_.apply(best_share * step, graph_);
+      equations_.apply(best_ratio * step, graph_);
       equations_.linearise(graph_);
       keep(best_cost);
     }
@@ -126,9 +126,9 @@ class Run {
   }
 
   /// From now on some damping stays: the matrix is singular without.
-  std::optional<Termination> meet_singular_matrix() {
+  std::optional<Termination> on_singular_matrix() {
     summary_.costs.push_back(summary_.costs.back());
-    least_damping_ = params_.negligible_damping;
+    min_damping_ = params_.negligible_damping;
     return raise_damping(params_.negligible_damping);
   }
 
@@ -139,7 +139,7 @@ class Run {
 
   void lower_damping() {
     damping_ /= params_.damping_factor;
-    if (damping_ < params_.negligible_damping) damping_ = least_damping_;
+    if (damping_ < params_.negligible_damping) damping_ = min_damping_;
   }
 
   OptimizerSummary finish(Termination termination) {
@@ -154,7 +154,7 @@ class Run {
   const OptimizerParams& params_;
   GraphValues<Pose> best_;
   double best_cost_ = 0;
-  double damping_ = 0, least_damping_ = 0;
+  double damping_ = 0, min_damping_ = 0;
   int steps_above_best_ = 0;
   OptimizerSummary summary_;
 };
@@ -191,7 +191,7 @@ OptimizerSummary optimize(PoseGraph<Pose>& graph, NormalEquations<Pose>& equatio
     const double cost = total_cost(graph);
     return {cost, cost, 0, Termination::kNothingToDo, {cost}};
   }
-  return Run<Pose>(graph, equations, params).run(progress);
+  return LevenbergMarquardt<Pose>(graph, equations, params).run(progress);
 }
 
 template <class Pose>

@@ -17,35 +17,40 @@ namespace radioslam {
 /// When to stop and how far to trust a step.
 struct OptimizerParams {
   int max_iterations = 100;
-  double relative_cost_tolerance = 1e-9;   ///< stop when a full step lowers the cost by less than this share
-  double absolute_cost_tolerance = 1e-12;  ///< or by less than this
-  int nonmonotone_window = 3;              ///< undamped steps in a row that may stay above the best cost
-  double nonmonotone_growth = 100;         ///< and how many times the best cost they may reach
-  double first_damping = 1e-4;             ///< after the first failed step
-  double damping_factor = 10;              ///< up after a failed step, down after a good one
-  double negligible_damping = 1e-8;        ///< below it a step counts as undamped
-  double max_damping = 1e8;                ///< give up beyond it
+  double relative_cost_tolerance = 1e-9;
+  double absolute_cost_tolerance = 1e-12;
+  int nonmonotone_window = 3;
+  double nonmonotone_growth = 100;
+  double first_damping = 1e-4;
+  double damping_factor = 10;
+  double negligible_damping = 1e-8;
+  double max_damping = 1e8;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"max_iterations", "", 0, 1e6, "steps at most"}, self.max_iterations);
+    visit(Field{"max_iterations", "", 0, 1e6, "largest number of optimiser steps"}.basic(),
+          self.max_iterations);
     visit(Field{"relative_cost_tolerance", "", 0, 1,
-                "stop when a full step lowers the cost by less than this share"},
+                "relative cost decrease of a full step below which the optimiser stops"},
           self.relative_cost_tolerance);
-    visit(Field{"absolute_cost_tolerance", "", 0, 1e6, "stop when a full step lowers the cost by less"},
+    visit(Field{"absolute_cost_tolerance", "", 0, 1e6,
+                "absolute cost decrease of a full step below which the optimiser stops"},
           self.absolute_cost_tolerance);
     visit(Field{"nonmonotone_window", "", 0, 100,
-                "undamped steps in a row that may stay above the best cost; measured on parking-garage"},
+                "largest number of consecutive undamped steps that may stay above the best cost"},
           self.nonmonotone_window);
-    visit(Field{"nonmonotone_growth", "", 1, 1e12, "how many times the best cost such steps may reach"},
+    visit(Field{"nonmonotone_growth", "", 1, 1e12,
+                "largest cost that undamped steps may reach, as a multiple of the best cost"},
           self.nonmonotone_growth);
-    visit(Field{"first_damping", "", 1e-12, 1e6, "damping after the first failed step, times diag(H)"},
+    visit(Field{"first_damping", "", 1e-12, 1e6,
+                "damping after the first failed step, as a multiple of diag(H)"},
           self.first_damping);
-    visit(Field{"damping_factor", "", 1.1, 1000, "damping up after a failed step, down after a good one"},
+    visit(Field{"damping_factor", "", 1.1, 1000,
+                "factor by which damping rises after a failed step and falls after a good one"},
           self.damping_factor);
     visit(Field{"negligible_damping", "", 0, 1, "damping below which a step counts as undamped"},
           self.negligible_damping);
-    visit(Field{"max_damping", "", 1, 1e20, "damping beyond which to give up"}, self.max_damping);
+    visit(Field{"max_damping", "", 1, 1e20, "damping beyond which the optimiser gives up"}, self.max_damping);
   }
 };
 

@@ -1,4 +1,4 @@
-// Variables and factors of a joint estimate. Knows nothing of radios or LiDAR.
+// Pose graph: variables and factors of a joint estimate, independent of sensors.
 // Perturbations are on the right: T <- T Exp(xi), xi = [translation, rotation]; points, drifts and biases
 // add.
 #pragma once
@@ -39,7 +39,7 @@ struct Loss {
 };
 
 /// Constant errors of one robot's odometry, as a variable: [yaw drift per metre (rad/m); relative error of
-/// the distance walked].
+/// the path length].
 using Drift = Eigen::Vector2d;
 
 /// T_i_j was measured as `T_i_j` with `information` in the graph's chart.

@@ -3,7 +3,7 @@
 namespace radioslam {
 namespace {
 
-/// Only the relative poses, with blocks of a translation's size: points stand for the poses.
+/// Only the relative poses, with blocks of a translation's size: poses are represented by points.
 template <class Pose>
 VariableBlocks free_blocks(const PoseGraph<Pose>& graph, const std::vector<bool>& held) {
   VariableBlocks blocks{std::vector<std::int32_t>(graph.poses.size(), -1), {}, {}, {}};

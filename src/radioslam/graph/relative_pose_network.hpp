@@ -1,4 +1,4 @@
-// The relative poses of a graph as a network: who is measured against whom, and which poses hold it.
+// The relative poses of a graph as a network, with its breadth-first trees from fixed poses.
 #pragma once
 
 #include <cstdint>

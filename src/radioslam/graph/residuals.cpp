@@ -14,9 +14,10 @@ typename Pose::Tangent residual(const PoseGraph<Pose>& graph, const RelativePose
 
 template <class Pose>
 Eigen::Matrix<double, 1, 1> residual(const PoseGraph<Pose>& graph, const RangeFactor<Pose>& factor) {
-  const typename Pose::Point way = position(graph, factor.j) - position(graph, factor.i);
+  const typename Pose::Point difference = position(graph, factor.j) - position(graph, factor.i);
   const double bias_m = factor.bias.valid() ? graph.range_biases[factor.bias.index()] : 0;
-  return Eigen::Matrix<double, 1, 1>(length_unit(graph, factor) * way.norm() + bias_m - factor.range_m);
+  return Eigen::Matrix<double, 1, 1>(length_unit(graph, factor) * difference.norm() + bias_m -
+                                     factor.range_m);
 }
 
 template <class Pose>

@@ -36,15 +36,15 @@ typename Pose::Point position(const PoseGraph<Pose>& graph, const RangeEnd<Pose>
   return graph.poses[end.pose.index()] * end.lever_arm;
 }
 
-/// A scale error is never larger in a range's unit: odometries that stretch a step twentyfold are none.
-inline constexpr double kLargestScaleError = 0.95;
+/// Upper limit of the scale error in a range's unit, a step stretched twentyfold.
+inline constexpr double kMaxScaleError = 0.95;
 
-/// A true metre in those that a range was learned in, 1 / (1 - scale error): an odometry's step is its true
-/// length and the scale error's share of its own.
+/// A true metre in the odometry units that a range was learnt in, 1 / (1 - scale error); the scale error is
+/// relative to the odometry's own length.
 template <class Pose>
 double length_unit(const PoseGraph<Pose>& graph, const RangeFactor<Pose>& factor) {
   if (!factor.drift.valid()) return 1;
-  return 1 / (1 - std::min(graph.drifts[factor.drift.index()][1], kLargestScaleError));
+  return 1 / (1 - std::min(graph.drifts[factor.drift.index()][1], kMaxScaleError));
 }
 
 /// v / |v|, or zero where v is too short to have a direction.

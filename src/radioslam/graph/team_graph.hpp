@@ -1,5 +1,5 @@
-// A pose graph whose parts do not yet share a frame: the trajectories of a team, each in a frame of its own,
-// and what ties them together.
+// Pose graph of a team whose trajectories do not share a frame yet: each segment is in its own frame, with
+// the measurements between them.
 #pragma once
 
 #include <cstddef>
@@ -11,20 +11,20 @@
 
 namespace radioslam {
 
-/// Poses of one robot that odometry ties into a chain: pose k + 1 to pose k by a RelativePoseFactor.
-/// Consecutive poses of the graph. Where odometry is missing, a robot has several pieces.
-struct Piece {
+/// Trajectory segment: consecutive poses of one robot, connected by odometry (a RelativePoseFactor from each
+/// to the next). A robot whose odometry has gaps has several segments.
+struct TrajectorySegment {
   std::string robot;
   std::size_t first_pose = 0, pose_count = 0;
   std::vector<Stamp> stamps;     ///< of the poses
-  double sigma_heading_rad = 0;  ///< > 0: the piece's own frame has the common heading up to this error
-  bool in_common_frame = false;  ///< its start is known: values and a prior hold in the common frame
+  double sigma_heading_rad = 0;  ///< > 0: the segment's frame has the common heading up to this error
+  bool in_common_frame = false;  ///< its start is known: values and prior are in the common frame
 };
 
-/// Moves the piece rigidly: its poses <- T * its poses.
+/// Moves the segment rigidly: its poses <- T * its poses.
 template <class Pose>
-void move_piece(std::vector<Pose>& poses, const Piece& piece, const Pose& T) {
-  for (std::size_t k = piece.first_pose; k < piece.first_pose + piece.pose_count; ++k)
+void move_segment(std::vector<Pose>& poses, const TrajectorySegment& segment, const Pose& T) {
+  for (std::size_t k = segment.first_pose; k < segment.first_pose + segment.pose_count; ++k)
     poses[k] = T * poses[k];
 }
 
@@ -44,13 +44,13 @@ struct AmbiguousBearing {
   std::vector<BearingPath<Pose>> paths;
 };
 
-/// Values of poses hold in their piece's own frame (pieces tied by a known start or a prior: in the common
-/// frame); values of points that nothing ties to a frame mean nothing yet.
-/// graph.bearings is empty: the bearings are in `bearings`.
+/// Values of poses are in their segment's own frame (segments with a known start or a prior: in the common
+/// frame); values of points without a connection to a frame are undefined. graph.bearings is empty: bearings
+/// are in `bearings`.
 template <class Pose>
 struct TeamGraph {
   PoseGraph<Pose> graph;
-  std::vector<Piece> pieces;
+  std::vector<TrajectorySegment> segments;
   std::vector<AmbiguousBearing<Pose>> bearings;
 };
 

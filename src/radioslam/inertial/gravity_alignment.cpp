@@ -1,10 +1,10 @@
 #include "radioslam/inertial/gravity_alignment.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/geometry/so3.hpp"
 
 namespace radioslam {
@@ -13,9 +13,9 @@ namespace {
 using Poses = std::vector<StampedPose<SE3>>;
 using Steps = std::vector<Preintegration>;
 
-constexpr int kBiasRounds = 3;    // linear up to the square of a bias times the time between poses
-constexpr int kLengthRounds = 5;  // on the sphere of known length
-constexpr int kGravity = 0, kBias = 3, kVelocities = 6;  // where the unknowns begin
+constexpr int kBiasRounds = 3;    // nearly linear: the error is quadratic in bias times time between poses
+constexpr int kLengthRounds = 5;  // on the sphere of known magnitude
+constexpr int kGravity = 0, kBias = 3, kVelocities = 6;  // offsets of the unknowns
 
 Poses first_poses(const Trajectory<SE3>& odometry, double window_s) {
   Poses poses;
@@ -26,8 +26,8 @@ Poses first_poses(const Trajectory<SE3>& odometry, double window_s) {
   return poses;
 }
 
-std::optional<Steps> preintegrate_steps(const Poses& poses, const std::vector<InertialSample>& samples,
-                                        const InertialBias& bias, const InertialNoiseParams& noise) {
+std::optional<Steps> preintegrate_steps(const Poses& poses, const std::vector<ImuSample>& samples,
+                                        const InertialBias& bias, const ImuNoiseParams& noise) {
   Steps steps;
   for (std::size_t k = 0; k + 1 < poses.size(); ++k) {
     auto step = preintegrate(samples, poses[k].stamp, poses[k + 1].stamp, bias, noise);
@@ -37,7 +37,7 @@ std::optional<Steps> preintegrate_steps(const Poses& poses, const std::vector<In
   return steps;
 }
 
-/// What the gyroscope's bias must change by for its turns to be the odometry's.
+/// Change of the gyroscope bias that best aligns its rotations with the odometry's.
 Eigen::Vector3d bias_change(const Poses& poses, const Steps& steps) {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Eigen::Vector3d pull = Eigen::Vector3d::Zero();
@@ -48,16 +48,16 @@ Eigen::Vector3d bias_change(const Poses& poses, const Steps& steps) {
     information += by_bias.transpose() * by_bias;
     pull += by_bias.transpose() * missing;
   }
-  return information.ldlt().solve(pull);
+  return ldlt_solve(information, pull);
 }
 
-/// H x = pull, x = [gravity, accelerometer's bias, velocities].
+/// H x = pull, x = [gravity, accelerometer bias, velocities].
 struct LinearSystem {
   Eigen::MatrixXd information;
   Eigen::VectorXd pull;
 };
 
-/// Of one step's [position; velocity] residual, linear in [gravity, bias, velocity before, velocity after].
+/// One step's [position; velocity] residual, linear in [gravity, bias, velocity before, velocity after].
 struct StepEquation {
   Eigen::Matrix<double, 6, 12> by_unknowns = Eigen::Matrix<double, 6, 12>::Zero();
   Eigen::Matrix<double, 6, 1> constant;
@@ -65,8 +65,8 @@ struct StepEquation {
 };
 
 StepEquation step_equation(const SE3& from, const SE3& to, const Preintegration& step,
-                           const InertialNoiseParams& noise, const GravityAlignmentParams& params) {
-  constexpr int kAccelerometer = 3;  // column in the bias' Jacobian
+                           const ImuNoiseParams& noise, const GravityAlignmentParams& params) {
+  constexpr int kAccelerometer = 3;  // column in the bias Jacobian
   constexpr int p = Preintegration::kPosition, v = Preintegration::kVelocity;
   const double t = step.motion.duration_s;
   const Eigen::Matrix3d back = from.rotation_matrix().transpose();
@@ -83,14 +83,14 @@ StepEquation step_equation(const SE3& from, const SE3& to, const Preintegration&
   Eigen::Matrix<double, 6, 6> covariance;
   covariance << step.covariance.block<3, 3>(p, p), step.covariance.block<3, 3>(p, v),
       step.covariance.block<3, 3>(v, p), step.covariance.block<3, 3>(v, v);
-  const double sigma_v_mps = params.sigma_rotation_rad * noise.gravity_mps2 * t;  // gravity seen askew
+  const double sigma_v_mps = params.sigma_rotation_rad * noise.gravity_mps2 * t;  // tilted gravity
   covariance.diagonal().head<3>().array() += params.sigma_position_m * params.sigma_position_m;
   covariance.diagonal().tail<3>().array() += sigma_v_mps * sigma_v_mps;
-  e.information = covariance.inverse();
+  e.information = inverse(covariance);
   return e;
 }
 
-LinearSystem gravity_equations(const Poses& poses, const Steps& steps, const InertialNoiseParams& noise,
+LinearSystem gravity_equations(const Poses& poses, const Steps& steps, const ImuNoiseParams& noise,
                                const GravityAlignmentParams& params) {
   const auto size = static_cast<Eigen::Index>(kVelocities + 3 * poses.size());
   LinearSystem sum{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size)};
@@ -111,7 +111,7 @@ LinearSystem gravity_equations(const Poses& poses, const Steps& steps, const Ine
   return sum;
 }
 
-/// Two unit vectors at right angles to `direction` and to each other.
+/// Orthonormal basis of the plane perpendicular to `direction`.
 Eigen::Matrix<double, 3, 2> plane_across(const Eigen::Vector3d& direction) {
   const Eigen::Vector3d first = direction.unitOrthogonal();
   Eigen::Matrix<double, 3, 2> plane;
@@ -119,15 +119,15 @@ Eigen::Matrix<double, 3, 2> plane_across(const Eigen::Vector3d& direction) {
   return plane;
 }
 
-struct KnownLength {
+struct KnownMagnitude {
   Eigen::VectorXd unknowns;
   double sigma_tilt_rad = 0;
 };
 
-/// The solution with gravity of this length, from a first guess of its direction.
-KnownLength solve_with_length(const LinearSystem& system, Eigen::Vector3d down, double length) {
+/// The solution with gravity of this magnitude, from an initial guess of its direction.
+KnownMagnitude solve_with_length(const LinearSystem& system, Eigen::Vector3d down, double length) {
   const Eigen::Index size = system.pull.size(), rest = size - kBias;
-  KnownLength solution;
+  KnownMagnitude solution;
   for (int round = 0; round < kLengthRounds; ++round) {
     Eigen::MatrixXd free = Eigen::MatrixXd::Zero(size, rest + 2);
     free.topLeftCorner<3, 2>() = length * plane_across(down);
@@ -141,8 +141,7 @@ KnownLength solve_with_length(const LinearSystem& system, Eigen::Vector3d down, 
     solution.unknowns.segment<3>(kGravity) = length * down;
     const Eigen::MatrixXd tilt = factor.solve(Eigen::MatrixXd::Identity(rest + 2, 2)).topRows<2>();
     const Eigen::Matrix2d covariance = 0.5 * (tilt + tilt.transpose());
-    solution.sigma_tilt_rad =
-        std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(covariance).eigenvalues().maxCoeff());
+    solution.sigma_tilt_rad = std::sqrt(symmetric_eigen(covariance).values.maxCoeff());
   }
   return solution;
 }
@@ -162,11 +161,11 @@ std::vector<InertialState> turned_states(const Poses& poses, const Eigen::Quater
 }  // namespace
 
 std::optional<GravityAlignment> align_gravity(const Trajectory<SE3>& odometry,
-                                              const std::vector<InertialSample>& samples,
-                                              const InertialNoiseParams& noise,
+                                              const std::vector<ImuSample>& samples,
+                                              const ImuNoiseParams& noise,
                                               const GravityAlignmentParams& params) {
   const Poses poses = first_poses(odometry, params.window_s);
-  if (poses.size() < static_cast<std::size_t>(std::max(params.least_poses, 3))) return std::nullopt;
+  if (poses.size() < static_cast<std::size_t>(std::max(params.min_poses, 3))) return std::nullopt;
   InertialBias bias;
   auto steps = preintegrate_steps(poses, samples, bias, noise);
   for (int round = 0; steps && round < kBiasRounds; ++round) {
@@ -175,13 +174,13 @@ std::optional<GravityAlignment> align_gravity(const Trajectory<SE3>& odometry,
   }
   if (!steps) return std::nullopt;
   const LinearSystem system = gravity_equations(poses, *steps, noise, params);
-  const Eigen::Vector3d gravity = system.information.ldlt().solve(system.pull).segment<3>(kGravity);
+  const Eigen::Vector3d gravity = ldlt_solve(system.information, system.pull).segment<3>(kGravity);
   const double length = gravity.norm();
-  if (!(std::abs(length - noise.gravity_mps2) <= params.largest_gravity_error_mps2)) return std::nullopt;
-  const KnownLength solution = solve_with_length(system, gravity / length, noise.gravity_mps2);
+  if (!(std::abs(length - noise.gravity_mps2) <= params.max_gravity_error_mps2)) return std::nullopt;
+  const KnownMagnitude solution = solve_with_length(system, gravity / length, noise.gravity_mps2);
   const Eigen::Vector3d up = -solution.unknowns.segment<3>(kGravity);
   GravityAlignment result;
-  result.R_world_odometry = Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ());
+  result.R_world_odometry = rotation_between(up, Eigen::Vector3d::UnitZ());
   result.sigma_tilt_rad = solution.sigma_tilt_rad;
   result.measured_gravity_mps2 = length;
   result.states = turned_states(poses, result.R_world_odometry, solution.unknowns, bias.gyroscope_radps);

@@ -7,14 +7,14 @@ namespace {
 
 constexpr int kPosition = Preintegration::kPosition, kRotation = Preintegration::kRotation,
               kVelocity = Preintegration::kVelocity;
-constexpr int kTurn = 3;  // where the rotation begins in a state's tangent
+constexpr int kTurn = 3;  // offset of the rotation in a state's tangent
 
-/// The free motion that leads from one state to the other.
+/// The free motion from one state to the other.
 FreeMotion motion_between(const InertialState& i, const InertialState& j, double t,
                           const Eigen::Vector3d& gravity) {
   const Eigen::Quaterniond back = i.T_world_body.rotation().conjugate();
-  const Eigen::Vector3d way = j.T_world_body.translation() - i.T_world_body.translation();
-  return {t, back * (way - t * i.velocity_mps - 0.5 * t * t * gravity), back * j.T_world_body.rotation(),
+  const Eigen::Vector3d offset = j.T_world_body.translation() - i.T_world_body.translation();
+  return {t, back * (offset - t * i.velocity_mps - 0.5 * t * t * gravity), back * j.T_world_body.rotation(),
           back * (j.velocity_mps - i.velocity_mps - t * gravity)};
 }
 
@@ -25,7 +25,7 @@ InertialResidual difference(const FreeMotion& actual, const FreeMotion& measured
   return r;
 }
 
-/// Of the residual, by the bias of the first state: the measured motion moves.
+/// Derivative of the residual by the bias of the first state, through the measured motion.
 Eigen::Matrix<double, 9, 6> by_bias(const InertialResidual& residual, const Preintegration& measured,
                                     const InertialBias& bias) {
   Eigen::Matrix<double, 6, 1> change;
@@ -42,13 +42,13 @@ Eigen::Matrix<double, 9, 6> by_bias(const InertialResidual& residual, const Prei
 }  // namespace
 
 InertialResidual inertial_residual(const InertialState& i, const InertialState& j,
-                                   const Preintegration& measured, const InertialNoiseParams& params) {
+                                   const Preintegration& measured, const ImuNoiseParams& params) {
   return difference(motion_between(i, j, measured.motion.duration_s, params.gravity()),
                     measured.with_bias(i.bias));
 }
 
 LinearInertialFactor linearise_inertial(const InertialState& i, const InertialState& j,
-                                        const Preintegration& measured, const InertialNoiseParams& params) {
+                                        const Preintegration& measured, const ImuNoiseParams& params) {
   const double t = measured.motion.duration_s;
   const FreeMotion actual = motion_between(i, j, t, params.gravity());
   const Eigen::Matrix3d back = i.T_world_body.rotation_matrix().transpose();

@@ -9,15 +9,15 @@ namespace {
 using States = std::vector<InertialState>;
 using Slopes = std::vector<InertialState::Tangent>;
 
-/// The drive as least squares.
+/// The drive as a least squares problem.
 struct ChainProblem {
   StatePrior prior;
   std::vector<StateStep> steps;
   const InertialDrive& drive;
-  const std::vector<InertialSample>& samples;
-  const InertialNoiseParams& noise;
+  const std::vector<ImuSample>& samples;
+  const ImuNoiseParams& noise;
 
-  /// Step k with the readings summed for this bias.
+  /// Step k with the IMU samples preintegrated for this bias.
   StateStep step_for(std::size_t k, const InertialBias& bias) const {
     const Stamp from = drive.stamps[k], to = drive.stamps[k + 1];
     return state_step(drive.poses[k + 1], drive.map_drifts[k], preintegrate(samples, from, to, bias, noise),
@@ -25,7 +25,7 @@ struct ChainProblem {
   }
 };
 
-/// The filter's states; the readings are summed with the biases known by then.
+/// The filter's states; IMU samples are preintegrated with the biases estimated by then.
 std::optional<States> pass_forward(ChainProblem& problem) {
   InertialFilter filter(problem.prior);
   States states{filter.state()};
@@ -47,7 +47,7 @@ double total_cost(const ChainProblem& problem, const States& states) {
 
 struct LinearChain {
   ChainMatrix matrix;
-  Slopes downhill;  ///< less the slope
+  Slopes downhill;  ///< negative gradient
   double cost = 0;
 };
 
@@ -92,7 +92,7 @@ struct Minimum {
   bool converged = false;
 };
 
-/// Steps of which each lowers the cost, until one promises too little.
+/// Damped Gauss-Newton steps that each lower the cost, until the predicted decrease is below the tolerance.
 Minimum minimise(const ChainProblem& problem, States states, const InertialSmootherParams& params) {
   Minimum result{std::move(states)};
   LinearChain linear = linearise(problem, result.states);
@@ -127,7 +127,7 @@ UncertainPose<SE3> InertialTrajectory::relative_pose(std::size_t i, std::size_t 
   return {T_i_j, by_i * of_i * by_i.transpose() + cross + cross.transpose() + of_j};
 }
 
-StatePrior start_prior(const InertialState& start, const MapPose& pose, const InertialNoiseParams& noise,
+StatePrior start_prior(const InertialState& start, const MapPose& pose, const ImuNoiseParams& noise,
                        const InertialSmootherParams& params) {
   const auto information = [](double sigma) { return 1 / (sigma * sigma); };
   const double tilt = information(params.sigma_start_tilt_rad);
@@ -154,12 +154,12 @@ StatePrior start_prior(const InertialState& start, const MapPose& pose, const In
 }
 
 std::optional<InertialTrajectory> smooth_inertially(const InertialDrive& drive,
-                                                    const std::vector<InertialSample>& samples,
-                                                    const InertialNoiseParams& noise,
+                                                    const std::vector<ImuSample>& samples,
+                                                    const ImuNoiseParams& noise,
                                                     const InertialSmootherParams& params) {
   RADIOSLAM_CHECK(!drive.stamps.empty() && drive.poses.size() == drive.stamps.size() &&
                       drive.map_drifts.size() + 1 == drive.stamps.size(),
-                  "a pose for every state, a drift from each to the next");
+                  "one pose per state and one map drift per step");
   ChainProblem problem{
       start_prior(drive.start, drive.poses.front(), noise, params), {}, drive, samples, noise};
   auto states = pass_forward(problem);

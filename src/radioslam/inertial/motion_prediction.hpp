@@ -1,10 +1,9 @@
-// Where the body goes from a known state by its inertial readings alone: for taking the motion out of a scan,
-// and as the first guess of the next pose.
+// Predicts a body's motion from a known state by IMU samples alone, for deskewing and as an initial pose.
 //
 //   p(t) = p + v t + g t^2 / 2 + R position,  v(t) = v + g t + R velocity,  R(t) = R rotation
 //
-// with the free motion of preintegration.hpp. Refuses where the readings leave too long a gap.
-// Cost: readings between the start and the last time, a binary search per time.
+// with the free motion of preintegration.hpp. Refuses gaps in the samples longer than `max_gap_s`.
+// Cost: samples between the start and the last time, and a binary search per time.
 #pragma once
 
 #include <optional>
@@ -14,14 +13,13 @@
 
 namespace radioslam {
 
-/// The state after a free motion from `state`; the biases stay.
-InertialState state_after(const InertialState& state, const FreeMotion& motion,
-                          const InertialNoiseParams& params);
+/// The state after a free motion from `state`; the biases stay the same.
+InertialState state_after(const InertialState& state, const FreeMotion& motion, const ImuNoiseParams& params);
 
-/// The states at these times, which do not decrease and are not before `start`, when `state` holds.
+/// The states at `stamps`, which do not decrease and are not before `start`, the time of `state`.
 std::optional<std::vector<InertialState>> predict_motion(const InertialState& state, Stamp start,
-                                                         const std::vector<InertialSample>& samples,
+                                                         const std::vector<ImuSample>& samples,
                                                          const std::vector<Stamp>& stamps,
-                                                         const InertialNoiseParams& params);
+                                                         const ImuNoiseParams& params);
 
 }  // namespace radioslam

@@ -2,7 +2,7 @@
 
 #include "radioslam/base/check.hpp"
 #include "radioslam/geometry/so3.hpp"
-#include "radioslam/inertial/reading_intervals.hpp"
+#include "radioslam/inertial/imu_intervals.hpp"
 
 namespace radioslam {
 namespace {
@@ -10,7 +10,7 @@ namespace {
 using ErrorByError = Preintegration::Covariance;
 using ErrorByReading = Eigen::Matrix<double, 9, 6>;  // [rate; force]
 
-/// How the error after one more piece depends on that before and on the piece's readings.
+/// Jacobians of the error after one more interval by the error before and by the interval's sample.
 struct ErrorStep {
   ErrorByError by_error = ErrorByError::Identity();
   ErrorByReading by_reading = ErrorByReading::Zero();
@@ -22,8 +22,8 @@ ErrorStep error_step(const Eigen::Quaterniond& rotation, double dt, const Eigen:
   const Eigen::Quaterniond half = so3_exp(0.5 * turn);
   const Eigen::Matrix3d R = rotation.toRotationMatrix(), H = half.toRotationMatrix();
   const Eigen::Matrix3d middle = R * H;
-  const Eigen::Matrix3d push_by_turn = -R * skew(half * force);       // of middle * force
-  const Eigen::Matrix3d push_by_middle_turn = -middle * skew(force);  // the same for a turn of the middle
+  const Eigen::Matrix3d push_by_turn = -R * skew(half * force);       // derivative of middle * force
+  const Eigen::Matrix3d push_by_middle_turn = -middle * skew(force);  // by a middle rotation
   const Eigen::Matrix3d middle_by_rate = 0.5 * dt * so3_left_jacobian(-0.5 * turn);
   const Eigen::Matrix3d push_by_rate = push_by_middle_turn * middle_by_rate;
   const double half_square = 0.5 * dt * dt;
@@ -40,16 +40,16 @@ ErrorStep error_step(const Eigen::Quaterniond& rotation, double dt, const Eigen:
   return step;
 }
 
-/// Variance of the mean reading over `dt` seconds, [rate; force].
-Eigen::Matrix<double, 6, 1> reading_variance(double dt, const InertialNoiseParams& params) {
+/// Variance of the mean sample over `dt` seconds, [rate; force].
+Eigen::Matrix<double, 6, 1> reading_variance(double dt, const ImuNoiseParams& params) {
   Eigen::Matrix<double, 6, 1> variance;
   variance.head<3>().setConstant(params.gyroscope_noise * params.gyroscope_noise / dt);
   variance.tail<3>().setConstant(params.accelerometer_noise * params.accelerometer_noise / dt);
   return variance;
 }
 
-void append_piece(Preintegration& sum, double dt, const Eigen::Vector3d& rate, const Eigen::Vector3d& force,
-                  const InertialNoiseParams& params) {
+void append_interval(Preintegration& sum, double dt, const Eigen::Vector3d& rate,
+                     const Eigen::Vector3d& force, const ImuNoiseParams& params) {
   const ErrorStep step = error_step(sum.motion.rotation, dt, rate, force);
   sum.bias_jacobian = (step.by_error * sum.bias_jacobian - step.by_reading).eval();
   sum.covariance = (step.by_error * sum.covariance * step.by_error.transpose()).eval();
@@ -79,16 +79,16 @@ FreeMotion Preintegration::with_bias(const InertialBias& other) const {
           motion.velocity_mps + moved.segment<3>(kVelocity)};
 }
 
-std::optional<Preintegration> preintegrate(const std::vector<InertialSample>& samples, Stamp from, Stamp to,
-                                           const InertialBias& bias, const InertialNoiseParams& params) {
+std::optional<Preintegration> preintegrate(const std::vector<ImuSample>& samples, Stamp from, Stamp to,
+                                           const InertialBias& bias, const ImuNoiseParams& params) {
   RADIOSLAM_CHECK(from < to, "a motion needs time");
-  const auto pieces = reading_intervals(samples, from, to, params.longest_gap_s);
-  if (!pieces) return std::nullopt;
+  const auto intervals = imu_intervals(samples, from, to, params.max_gap_s);
+  if (!intervals) return std::nullopt;
   Preintegration sum;
   sum.bias = bias;
-  for (const ReadingInterval& piece : *pieces)
-    append_piece(sum, piece.duration_s, piece.angular_rate_radps - bias.gyroscope_radps,
-                 piece.specific_force_mps2 - bias.accelerometer_mps2, params);
+  for (const ImuInterval& interval : *intervals)
+    append_interval(sum, interval.duration_s, interval.angular_rate_radps - bias.gyroscope_radps,
+                    interval.specific_force_mps2 - bias.accelerometer_mps2, params);
   return sum;
 }
 

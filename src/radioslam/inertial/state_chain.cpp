@@ -1,8 +1,7 @@
 #include "radioslam/inertial/state_chain.hpp"
 
-#include <Eigen/Cholesky>
-
 #include "radioslam/base/check.hpp"
+#include "radioslam/geometry/linear_algebra.hpp"
 
 namespace radioslam {
 namespace {
@@ -32,9 +31,9 @@ std::optional<ChainFactor> ChainFactor::compute(const ChainMatrix& matrix, doubl
           lower(factor.lower_.back()).solve(matrix.below[k - 1].transpose()).transpose());
       rest.noalias() -= factor.coupling_.back() * factor.coupling_.back().transpose();
     }
-    const Eigen::LLT<Block> cholesky(rest);
-    if (cholesky.info() != Eigen::Success) return std::nullopt;
-    factor.lower_.push_back(cholesky.matrixL());
+    const Cholesky<Block> cholesky(rest);
+    if (!cholesky.succeeded()) return std::nullopt;
+    factor.lower_.push_back(cholesky.lower());
   }
   return factor;
 }

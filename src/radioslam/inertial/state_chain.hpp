@@ -1,10 +1,9 @@
-// Normal equations of states of which each is tied to the next one only: block tridiagonal, solved by
-// Cholesky from the first state to the last, and the covariances of all states from the same factor.
+// Block tridiagonal normal equations of a chain of states: Cholesky solution, and covariances of all states.
 //
 //   H = L L^T, L_k = chol(H_k - C_k C_k^T), C_(k+1) = B_k L_k^-T            B_k: row k + 1, column k of H
-//   x_k depends on x_(k+1) alone:  S_k,m = G_k S_(k+1),m for m > k,  G_k = -L_k^-T C_(k+1)^T
+//   x_k given x_(k+1):  S_k,m = G_k S_(k+1),m for m > k,  G_k = -L_k^-T C_(k+1)^T
 //   S_k,k = (L_k L_k^T)^-1 + G_k S_(k+1),(k+1) G_k^T
-// Cost: some 21 x 21 products per state; a covariance between states a and b: products of the states between.
+// Cost: some 21 x 21 products per state; a cross-covariance takes one per state in between.
 #pragma once
 
 #include <cstddef>
@@ -15,10 +14,10 @@
 
 namespace radioslam {
 
-/// H, of which the half above the diagonal is understood.
+/// Symmetric H, stored as diagonal and lower blocks.
 struct ChainMatrix {
   std::vector<InertialState::Jacobian> diagonal;
-  std::vector<InertialState::Jacobian> below;  ///< [k]: row k + 1, column k; one fewer
+  std::vector<InertialState::Jacobian> below;  ///< [k]: row k + 1, column k; one block fewer
 };
 
 /// The covariances of a chain's states.
@@ -30,9 +29,9 @@ class ChainCovariance {
 
   std::size_t size() const { return of_states_.size(); }
   const InertialState::Jacobian& of(std::size_t k) const { return of_states_[k]; }
-  /// G_k: what is to be expected of state k by a deviation of state k + 1.
+  /// G_k: regression of state k's deviation on that of state k + 1.
   const InertialState::Jacobian& by_next(std::size_t k) const { return by_next_[k]; }
-  /// Of state i with state j, i <= j.
+  /// Cross-covariance of state i with state j, i <= j.
   InertialState::Jacobian between(std::size_t i, std::size_t j) const;
 
  private:
@@ -41,7 +40,7 @@ class ChainCovariance {
 
 class ChainFactor {
  public:
-  /// Of H + damping * diag(H); nothing where it is not positive definite.
+  /// Factor of H + damping * diag(H); nothing if that is not positive definite.
   static std::optional<ChainFactor> compute(const ChainMatrix& matrix, double damping);
 
   /// H^-1 b.

@@ -1,7 +1,8 @@
 #include "radioslam/inertial/state_factors.hpp"
 
-#include <Eigen/LU>
 #include <cmath>
+
+#include "radioslam/geometry/linear_algebra.hpp"
 
 namespace radioslam {
 namespace {
@@ -19,14 +20,14 @@ BiasChange bias_between(const InertialState& i, const InertialState& j) {
   return change;
 }
 
-BiasChange bias_information(double duration_s, const InertialNoiseParams& noise) {
+BiasChange bias_information(double duration_s, const ImuNoiseParams& noise) {
   BiasChange information;
   information.head<3>().setConstant(1 / (noise.gyroscope_walk * noise.gyroscope_walk * duration_s));
   information.tail<3>().setConstant(1 / (noise.accelerometer_walk * noise.accelerometer_walk * duration_s));
   return information;
 }
 
-double velocity_information(const StateStep& step, const InertialNoiseParams& params) {
+double velocity_information(const StateStep& step, const ImuNoiseParams& params) {
   if (step.readings) return 0;
   return 1 / (params.unmeasured_velocity_walk * params.unmeasured_velocity_walk * step.duration_s);
 }
@@ -40,7 +41,7 @@ SE3::Tangent drift_residual(const InertialState& i, const InertialState& j) {
   return (T.inverse() * i.T_map_world.inverse() * j.T_map_world * T).log();
 }
 
-/// What a squared norm counts, and by how much of it its residual pulls.
+/// Robust cost of a squared norm, and the weight of its residual.
 struct Robust {
   double cost = 0, weight = 1;
 };
@@ -92,7 +93,7 @@ void add_map_drift(StepTerms& sum, const SE3::Jacobian& information, const Inert
   add_squared_norm(sum, r, by_i, by_j, information);
 }
 
-/// Adds that states differ by `change` in the places from `first` on, with a diagonal information.
+/// Adds a difference `change` of the two states in the components from `first` on, with diagonal information.
 template <class Vector>
 void add_difference(StepTerms& sum, int first, const Vector& change, const Vector& information) {
   for (Eigen::Index k = 0; k < change.size(); ++k) {
@@ -116,9 +117,9 @@ StepTerms no_terms() {
 
 StateStep state_step(const MapPose& pose, const SE3::Jacobian& map_drift,
                      std::optional<Preintegration> readings, double duration_s) {
-  StateStep step{pose, map_drift.inverse(), std::move(readings), Preintegration::Covariance::Zero(),
+  StateStep step{pose, inverse(map_drift), std::move(readings), Preintegration::Covariance::Zero(),
                  duration_s};
-  if (step.readings) step.readings_information = step.readings->covariance.inverse();
+  if (step.readings) step.imu_information = inverse(step.readings->covariance);
   return step;
 }
 
@@ -128,7 +129,7 @@ double cost_of(const StatePrior& prior, const InertialState& state) {
 }
 
 double cost_of(const StateStep& step, const InertialState& i, const InertialState& j,
-               const InertialNoiseParams& params) {
+               const ImuNoiseParams& params) {
   const SE3::Tangent r = pose_residual(step.pose, j), drift = drift_residual(i, j);
   const BiasChange walk = bias_between(i, j);
   double cost = robust(r.dot(step.pose.information * r), step.pose.outlier_sigmas).cost +
@@ -136,7 +137,7 @@ double cost_of(const StateStep& step, const InertialState& i, const InertialStat
                 walk.dot(bias_information(step.duration_s, params).cwiseProduct(walk));
   if (step.readings) {
     const InertialResidual inertial = inertial_residual(i, j, *step.readings, params);
-    return cost + inertial.dot(step.readings_information * inertial);
+    return cost + inertial.dot(step.imu_information * inertial);
   }
   return cost + velocity_information(step, params) * (j.velocity_mps - i.velocity_mps).squaredNorm();
 }
@@ -151,13 +152,13 @@ PriorTerms linearise(const StatePrior& prior, const InertialState& state) {
 }
 
 StepTerms linearise(const StateStep& step, const InertialState& i, const InertialState& j,
-                    const InertialNoiseParams& params) {
+                    const ImuNoiseParams& params) {
   StepTerms sum = no_terms();
   if (!step.pose.information.isZero(0)) add_map_pose(sum, step.pose, j);
   add_map_drift(sum, step.map_information, i, j);
   if (step.readings) {
     const LinearInertialFactor f = linearise_inertial(i, j, *step.readings, params);
-    add_squared_norm(sum, f.residual, f.by_i, f.by_j, step.readings_information);
+    add_squared_norm(sum, f.residual, f.by_i, f.by_j, step.imu_information);
   } else {
     const double information = velocity_information(step, params);
     add_difference(sum, kVelocityAt, Eigen::Vector3d(j.velocity_mps - i.velocity_mps),

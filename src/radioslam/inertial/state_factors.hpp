@@ -1,16 +1,15 @@
-// What ties the states of one robot: what is known of a state beforehand, and what was measured from one
-// state to the next. Squared norms of
+// Factors of the inertial smoother: a prior on a state, and measurements between successive states.
 //
 //   prior            mean^-1 state, of any information
-//   pose on the map  Log(Z^-1 M T), M = T_map_world, of any information, none along a corridor without
-//                    features; beyond c standard deviations a squared norm s counts as c^2 (1 + log(s /
-//                    c^2)): a wrong registration pulls the less the further it is off
-//   map's drift      Log(T_i^-1 M_i^-1 M_j T_i): a map that grows as the body goes is nowhere quite straight
-//   readings         inertial_factor.hpp
-//   biases           b_j - b_i, of the walk's variance
-//   velocity         v_j - v_i where readings are missing, so that it stays defined
+//   pose on the map  Log(Z^-1 M T), M = T_map_world, of any information (none along a featureless corridor);
+//                    beyond c standard deviations a squared norm s counts as c^2 (1 + log(s / c^2)), so that
+//                    a wrong registration pulls less the further it is off
+//   map drift        Log(T_i^-1 M_i^-1 M_j T_i): the map deforms as it grows
+//   IMU              inertial_factor.hpp
+//   biases           b_j - b_i, with the random walk's variance
+//   velocity         v_j - v_i where IMU samples are missing, so that it stays determined
 //
-// Information matrices here, not covariances: where a direction was not measured there is no covariance.
+// Costs are squared norms. Information matrices instead of covariances allow for unmeasured directions.
 #pragma once
 
 #include <limits>
@@ -25,27 +24,27 @@ struct StatePrior {
   InertialState::Jacobian information = InertialState::Jacobian::Zero();
 };
 
-/// A pose as measured from outside, by a laser scan on the map of those before it, say.
+/// A measured pose on the map, for example by scan matching.
 struct MapPose {
   SE3 T_map_body;
-  SE3::Jacobian information = SE3::Jacobian::Zero();  ///< of T_map_body Exp(xi); zero: not measured
-  double outlier_sigmas = std::numeric_limits<double>::infinity();  ///< c; of a norm of six dimensions
+  SE3::Jacobian information = SE3::Jacobian::Zero();  ///< about xi in T_map_body Exp(xi); zero: not measured
+  double outlier_sigmas = std::numeric_limits<double>::infinity();  ///< c, for a norm of six dimensions
 };
 
-/// Everything between two successive states.
+/// All measurements between two successive states.
 struct StateStep {
-  MapPose pose;                                           ///< of the later one
-  SE3::Jacobian map_information = SE3::Jacobian::Zero();  ///< of the map's drift, in the earlier body's frame
+  MapPose pose;                                           ///< of the later state
+  SE3::Jacobian map_information = SE3::Jacobian::Zero();  ///< of the map drift, in the earlier body frame
   std::optional<Preintegration> readings;
-  Preintegration::Covariance readings_information = Preintegration::Covariance::Zero();
+  Preintegration::Covariance imu_information = Preintegration::Covariance::Zero();
   double duration_s = 0;
 };
 
-/// `map_drift`: covariance, positive definite.
+/// `map_drift`: positive definite covariance.
 StateStep state_step(const MapPose& pose, const SE3::Jacobian& map_drift,
                      std::optional<Preintegration> readings, double duration_s);
 
-/// Half the second derivative of a squared norm by one state or two, and half its slope.
+/// Gauss-Newton Hessian and gradient of half a squared norm, by one state or two; its full cost.
 struct PriorTerms {
   InertialState::Jacobian information;
   InertialState::Tangent slope;
@@ -59,9 +58,9 @@ struct StepTerms {
 
 double cost_of(const StatePrior& prior, const InertialState& state);
 double cost_of(const StateStep& step, const InertialState& i, const InertialState& j,
-               const InertialNoiseParams& params);
+               const ImuNoiseParams& params);
 PriorTerms linearise(const StatePrior& prior, const InertialState& state);
 StepTerms linearise(const StateStep& step, const InertialState& i, const InertialState& j,
-                    const InertialNoiseParams& params);
+                    const ImuNoiseParams& params);
 
 }  // namespace radioslam

@@ -1,14 +1,98 @@
-radioslam_room(io SOURCES text.cpp numbers.cpp fields_of_line.cpp csv.cpp information.cpp g2o_read.cpp g2o_vertices.cpp g2o_write.cpp
-                          tum.cpp kitti_poses.cpp mac_address.cpp csi_band.cpp pcap.cpp intel5300.cpp intel5300_write.cpp
-                          nexmon_record.cpp nexmon_csi.cpp esp32_line.cpp esp32_training.cpp esp32_csi.cpp csi_capture.cpp
-                          csi_folder.cpp wsr_trial.cpp wsr_results.cpp csi_yaml.cpp wifi_csv.cpp phone_log.cpp iw_ftm.cpp indoor_location.cpp yaml_map.cpp mission_yaml.cpp
-                          mission_yaml_write.cpp team_tables.cpp team_tables_write.cpp anchor_tables.cpp usable_id.cpp robot_tables.cpp truth_labels.cpp lzf.cpp point_table.cpp point_times.cpp pcd_header.cpp pcd.cpp lidar_folder.cpp mission_folder.cpp atomic_output.cpp
-                          zstd_text.cpp gzip.cpp bzip2.cpp packed_text.cpp carmen.cpp kitti_sequence.cpp
-                          mapped_file.cpp lz4.cpp mcap.cpp ros1_bag.cpp ros_database.cpp ros_recording.cpp ros_message.cpp ros_types.cpp
-                          frame_tree.cpp fixed_transforms.cpp moving_transforms.cpp ros_survey.cpp ros_topics.cpp ros_scans.cpp ros_body.cpp ros_collector.cpp ros_import.cpp pyfg.cpp g2o_team.cpp team_assembly.cpp team_graph_file.cpp
-                          run_tables.cpp metrics_json.cpp run_folder_write.cpp run_folder_read.cpp
-                          wifi_log.cpp printed_time.cpp printed_scans.cpp iw_scan.cpp iwlist_scan.cpp nmcli_list.cpp airodump_csv.cpp
-                          radiotap.cpp wifi_capture.cpp quoted_row.cpp csv_files.cpp wifine.cpp wifi_rtt.cpp
-               ROOMS graph mission radio results eval
-               LIBRARIES nlohmann_json::nlohmann_json
-               PRIVATE_LIBRARIES yaml-cpp Zstd::Zstd BZip2::BZip2 ZLIB::ZLIB Lz4::Lz4 SQLite::SQLite3 Pcap::Pcap)
+radioslam_room(io
+  SOURCES
+    csi/csi_band.cpp
+    csi/csi_capture.cpp
+    csi/csi_folder.cpp
+    csi/csi_yaml.cpp
+    csi/esp32_csi.cpp
+    csi/esp32_line.cpp
+    csi/esp32_training.cpp
+    csi/intel5300.cpp
+    csi/intel5300_write.cpp
+    csi/nexmon_csi.cpp
+    csi/nexmon_record.cpp
+    datasets/indoor_location.cpp
+    datasets/wifi_rtt.cpp
+    datasets/wifine.cpp
+    datasets/wsr_results.cpp
+    datasets/wsr_trial.cpp
+    graph/g2o_information.cpp
+    graph/g2o_read.cpp
+    graph/g2o_team.cpp
+    graph/g2o_vertex_pass.cpp
+    graph/g2o_vertices.cpp
+    graph/g2o_write.cpp
+    graph/information.cpp
+    graph/pyfg.cpp
+    graph/pyfg_vertices.cpp
+    graph/team_assembly.cpp
+    graph/team_graph_file.cpp
+    lidar/carmen.cpp
+    lidar/kitti_poses.cpp
+    lidar/kitti_sequence.cpp
+    lidar/lidar_folder.cpp
+    lidar/lzf.cpp
+    lidar/pcd.cpp
+    lidar/pcd_header.cpp
+    lidar/point_table.cpp
+    lidar/point_times.cpp
+    mission/anchor_tables.cpp
+    mission/mission_folder.cpp
+    mission/mission_yaml.cpp
+    mission/mission_yaml_write.cpp
+    mission/robot_tables.cpp
+    mission/team_tables.cpp
+    mission/team_tables_write.cpp
+    mission/truth_labels.cpp
+    mission/tum.cpp
+    ros/fixed_transforms.cpp
+    ros/frame_tree.cpp
+    ros/mcap.cpp
+    ros/moving_transforms.cpp
+    ros/ros1_bag.cpp
+    ros/ros_body_frame.cpp
+    ros/ros_collector.cpp
+    ros/ros_database.cpp
+    ros/ros_import.cpp
+    ros/ros_message.cpp
+    ros/ros_recording.cpp
+    ros/ros_scans.cpp
+    ros/ros_topic_index.cpp
+    ros/ros_topics.cpp
+    ros/ros_types.cpp
+    run/metrics_json.cpp
+    run/run_folder_read.cpp
+    run/run_folder_write.cpp
+    run/run_tables.cpp
+    text/atomic_output.cpp
+    text/bzip2.cpp
+    text/compressed_text.cpp
+    text/csv.cpp
+    text/csv_files.cpp
+    text/gzip.cpp
+    text/line_fields.cpp
+    text/lz4.cpp
+    text/mac_address.cpp
+    text/mapped_file.cpp
+    text/numbers.cpp
+    text/text.cpp
+    text/time_order.cpp
+    text/valid_id.cpp
+    text/yaml_map.cpp
+    text/zstd_text.cpp
+    wifi/airodump_csv.cpp
+    wifi/iw_ftm.cpp
+    wifi/iw_scan.cpp
+    wifi/iwlist_scan.cpp
+    wifi/log_time.cpp
+    wifi/nmcli_list.cpp
+    wifi/pcap.cpp
+    wifi/phone_log.cpp
+    wifi/radiotap.cpp
+    wifi/wifi_capture.cpp
+    wifi/wifi_csv.cpp
+    wifi/wifi_log.cpp
+    wifi/wifi_scan_log.cpp
+  ROOMS graph mission radio results eval
+  LIBRARIES nlohmann_json::nlohmann_json
+  PRIVATE_LIBRARIES yaml-cpp Zstd::Zstd BZip2::BZip2 ZLIB::ZLIB Lz4::Lz4 SQLite::SQLite3 Pcap::Pcap)

@@ -1,72 +1,100 @@
-// How scans are laid onto each other: what scan_odometry.hpp and scanner_traits.hpp need to know beforehand.
+// Parameters of LiDAR odometry (lidar_odometry.hpp) and of scanner detection (scanner_traits.hpp).
 #pragma once
 
 #include "radioslam/base/fields.hpp"
 #include "radioslam/lidar/local_map.hpp"
 #include "radioslam/lidar/registration.hpp"
-#include "radioslam/lidar/scan_order.hpp"
 #include "radioslam/lidar/scan_points.hpp"
-#include "radioslam/lidar/surfel.hpp"
+#include "radioslam/lidar/scan_structure.hpp"
+#include "radioslam/lidar/surfels/surfel.hpp"
 
 namespace radioslam {
 
-struct ScanOdometryParams {
-  double spacing_m = 0;         ///< of the map's points; 0: by the scans
-  double spacing_share = 0.05;  ///< of the median range, where the scans decide
-  double least_spacing_m = 0.05;
-  double most_spacing_m = 0.5;
-  double first_sigma_m = 0.5;  ///< deviation of the predicted motion before any is known
+struct LidarOdometryParams {
+  double spacing_m = 0;
+  double spacing_ratio = 0.05;
+  double min_spacing_m = 0.05;
+  double max_spacing_m = 0.5;
+  double first_sigma_m = 0.5;
   double first_sigma_rad = 0.2;
-  double least_sigma_m = 0.02;
-  double least_sigma_rad = 0.005;
-  double level_sigma_m = 0.1;  ///< of a robot with a scanner in the plane, from its plane
+  double min_sigma_m = 0.02;
+  double min_sigma_rad = 0.005;
+  double level_sigma_m = 0.1;
   double level_sigma_rad = 0.05;
-  double prior_factor = 10;           ///< the prior's sigma, in deviations
-  double deviation_share = 0.05;      ///< weight of the newest deviation
-  double enough_share = 0.9;          ///< of the usual fit; one worse than that is searched for from afar
-  int most_aligned = 5;               ///< of 21 starts of that search, the most promising
-  double insert_share = 0.8;          ///< of the usual fit; a scan below it does not enter the map
-  double least_matched_share = 0.15;  ///< a scan less of which fits the map is left out
-  double least_usual_share = 0.5;     ///< likewise, of the usual fit: noise reaches 0.4
-  double least_first_share = 0.5;     ///< likewise, of the second scan, when nothing is usual yet
-  int patience = 10;                  ///< after so many left out that fit each other, or times the usual
-                                      ///< interval without any, a new map is begun
+  double prior_factor = 10;  ///< wide: prediction errors are systematic, not independent from scan to scan
+  double error_smoothing = 0.05;
+  double relocalise_below_ratio = 0.9;  ///< also what a deskewed scan must keep of its inlier ratio
+  int max_aligned = 5;
+  double min_insert_ratio = 0.8;
+  double min_inlier_ratio = 0.15;
+  double min_nominal_ratio = 0.5;
+  double min_first_inlier_ratio = 0.5;
+  int max_lost_scans = 10;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"spacing_m", "m", 0, 10, "between points of the map; 0: by the scans"}, self.spacing_m);
-    visit(Field{"spacing_share", "", 0.001, 1, "of the median range, where the scans decide"},
-          self.spacing_share);
-    visit(Field{"least_spacing_m", "m", 0.001, 10, "and not less than this"}, self.least_spacing_m);
-    visit(Field{"most_spacing_m", "m", 0.001, 10, "nor more"}, self.most_spacing_m);
-    visit(Field{"first_sigma_m", "m", 1e-3, 10, "error of the first predicted motion"}, self.first_sigma_m);
-    visit(Field{"first_sigma_rad", "rad", 1e-3, 3, "likewise"}, self.first_sigma_rad);
-    visit(Field{"least_sigma_m", "m", 1e-4, 10, "no predicted motion is trusted to be better"},
-          self.least_sigma_m);
-    visit(Field{"least_sigma_rad", "rad", 1e-5, 3, "likewise"}, self.least_sigma_rad);
-    visit(Field{"level_sigma_m", "m", 1e-4, 100, "of a robot with a scanner in the plane, from its plane"},
+    visit(Field{"spacing_m", "m", 0, 10,
+                "spacing of the map's points; 0 derives it from the scans' median range"}
+              .basic(),
+          self.spacing_m);
+    visit(Field{"spacing_ratio", "", 0.001, 1,
+                "map point spacing as a fraction of the scans' median range, where it is derived from them"},
+          self.spacing_ratio);
+    visit(Field{"min_spacing_m", "m", 0.001, 10, "smallest map point spacing chosen automatically"},
+          self.min_spacing_m);
+    visit(Field{"max_spacing_m", "m", 0.001, 10, "largest map point spacing chosen automatically"},
+          self.max_spacing_m);
+    visit(Field{"first_sigma_m", "m", 1e-3, 10,
+                "standard deviation of the predicted translation before any prediction was tested"},
+          self.first_sigma_m);
+    visit(Field{"first_sigma_rad", "rad", 1e-3, 3,
+                "standard deviation of the predicted rotation before any prediction was tested"},
+          self.first_sigma_rad);
+    visit(Field{"min_sigma_m", "m", 1e-4, 10,
+                "lower bound on the standard deviation of the predicted translation"},
+          self.min_sigma_m);
+    visit(Field{"min_sigma_rad", "rad", 1e-5, 3,
+                "lower bound on the standard deviation of the predicted rotation"},
+          self.min_sigma_rad);
+    visit(Field{"level_sigma_m", "m", 1e-4, 100,
+                "standard deviation of the unobserved height of a robot with a planar scanner"},
           self.level_sigma_m);
-    visit(Field{"level_sigma_rad", "rad", 1e-5, 3, "likewise"}, self.level_sigma_rad);
+    visit(Field{"level_sigma_rad", "rad", 1e-5, 3,
+                "standard deviation of the unobserved roll and pitch of a robot with a planar scanner"},
+          self.level_sigma_rad);
     visit(Field{"prior_factor", "", 1, 1000,
-                "the prior's sigma in deviations: predictions err systematically, and count where scans tell "
-                "nothing"},
+                "standard deviation of the pose prior in prediction errors; higher values trust scans more"},
           self.prior_factor);
-    visit(Field{"deviation_share", "", 1e-3, 1, "weight of the newest in the mean deviation"},
-          self.deviation_share);
-    visit(Field{"enough_share", "", 0, 1,
-                "of the usual fit; a worse one is searched for from afar, and must be so of what is found"},
-          self.enough_share);
-    visit(Field{"most_aligned", "", 1, 21, "of the 21 starts of that search, the most promising"},
-          self.most_aligned);
-    visit(Field{"insert_share", "", 0, 1, "of the usual fit; a scan below it does not enter the map"},
-          self.insert_share);
-    visit(Field{"least_matched_share", "", 0, 1, "a scan less of which fits the map is left out"},
-          self.least_matched_share);
-    visit(Field{"least_usual_share", "", 0, 1, "likewise, of the usual fit"}, self.least_usual_share);
-    visit(Field{"least_first_share", "", 0, 1, "likewise, of the second scan, when nothing is usual yet"},
-          self.least_first_share);
-    visit(Field{"patience", "", 1, 1e6, "after so many left out that fit each other they are the map"},
-          self.patience);
+    visit(Field{"error_smoothing", "", 1e-3, 1,
+                "weight of the newest prediction error in the running mean; higher values adapt faster"},
+          self.error_smoothing);
+    visit(Field{"relocalise_below_ratio", "", 0, 1,
+                "fraction of the nominal inlier ratio below which a scan is relocalised; higher values "
+                "search more often"},
+          self.relocalise_below_ratio);
+    visit(
+        Field{"max_aligned", "", 1, 21, "number of relocalisation hypotheses that are registered, out of 21"},
+        self.max_aligned);
+    visit(Field{"min_insert_ratio", "", 0, 1,
+                "fraction of the nominal inlier ratio that a scan needs to be inserted into the map"},
+          self.min_insert_ratio);
+    visit(Field{"min_inlier_ratio", "", 0, 1,
+                "smallest inlier ratio of a registered scan; scans below it count as lost"}
+              .basic(),
+          self.min_inlier_ratio);
+    visit(
+        Field{
+            "min_nominal_ratio", "", 0, 1,
+            "smallest inlier ratio of a registered scan as a fraction of the nominal one; noise reaches 0.4"},
+        self.min_nominal_ratio);
+    visit(Field{"min_first_inlier_ratio", "", 0, 1,
+                "smallest inlier ratio of the second scan on a map, before a nominal ratio is known"},
+          self.min_first_inlier_ratio);
+    visit(Field{"max_lost_scans", "", 1, 1e6,
+                "number of lost scans that fit each other, or of missed scan intervals, after which a new "
+                "map is started"}
+              .basic(),
+          self.max_lost_scans);
   }
 };
 
@@ -75,8 +103,8 @@ struct LidarParams {
   SurfelParams surfel;
   RegistrationParams registration;
   LocalMapParams map;
-  ScanOrderParams order;
-  ScanOdometryParams odometry;
+  ScanStructureParams order;
+  LidarOdometryParams odometry;
 
   template <class Self, class Visitor>
   static void visit_sections(Self& self, Visitor&& visit) {
@@ -84,7 +112,7 @@ struct LidarParams {
     visit("scan_surfels", self.surfel);
     visit("scan_registration", self.registration);
     visit("scan_map", self.map);
-    visit("scan_order", self.order);
+    visit("scan_structure", self.order);
     visit("scan_odometry", self.odometry);
   }
 };

@@ -3,32 +3,32 @@
 #include <algorithm>
 #include <utility>
 
-#include "radioslam/base/median.hpp"
-#include "radioslam/lidar/voxel_grid.hpp"
+#include "radioslam/base/statistics.hpp"
+#include "radioslam/lidar/surfels/voxel_grid.hpp"
 
 namespace radioslam {
 
 namespace {
 
-/// Of points so far apart, all within one reach of correlation together count as one: of a surface by its
-/// area, of a scan line by its length.
-double independent_share(double apart_m, double correlation_m, ScannerKind kind) {
+/// Points within one correlation distance together count as one: by area on a surface, by length on a planar
+/// scan line.
+double effective_sample_ratio(double apart_m, double correlation_m, ScannerKind kind) {
   const double along = std::min(1.0, apart_m / std::max(correlation_m, 1e-9));
   return kind == ScannerKind::kPlanar ? along : along * along;
 }
 
 }  // namespace
 
-ScanCloud scan_cloud(std::vector<Surfel> surfels, double spacing_m, ScannerKind kind,
-                     const LocalMapParams& params) {
-  ScanCloud cloud;
+ScanPyramid scan_pyramid(std::vector<Surfel> surfels, double spacing_m, ScannerKind kind,
+                         const LocalMapParams& params) {
+  ScanPyramid cloud;
   std::vector<double> ranges;
   for (const Surfel& surfel : surfels) ranges.push_back(static_cast<double>(surfel.position.norm()));
   if (!ranges.empty()) cloud.median_range_m = upper_median(std::move(ranges));
-  const double correlation_m = params.correlation_share * cloud.median_range_m;
+  const double correlation_m = params.correlation_ratio * cloud.median_range_m;
   const auto source = [&](double spacings) {
     const double apart_m = spacings * spacing_m;
-    return SurfelSource{first_per_voxel(surfels, apart_m), independent_share(apart_m, correlation_m, kind)};
+    return SurfelSource{voxel_first(surfels, apart_m), effective_sample_ratio(apart_m, correlation_m, kind)};
   };
   cloud.source = source(params.source_spacings);
   cloud.few = source(params.coarse_spacings);
@@ -47,15 +47,15 @@ std::vector<Surfel> transformed(const SE3& T, const std::vector<Surfel>& surfels
 
 LocalMap::LocalMap(double spacing_m, const LocalMapParams& params)
     : memory_m_(params.memory_m),
-      fine_(spacing_m, params.reach_spacings * spacing_m),
-      coarse_(params.coarse_spacings * spacing_m, params.coarse_reach_spacings * spacing_m) {}
+      fine_(spacing_m, params.max_distance_spacings * spacing_m),
+      coarse_(params.coarse_spacings * spacing_m, params.coarse_max_distance_spacings * spacing_m) {}
 
-double LocalMap::add(const ScanCloud& cloud, const SE3& T_map_body, double way_m) {
+double LocalMap::add(const ScanPyramid& cloud, const SE3& T_map_body, double travelled_m) {
   const std::vector<Surfel> surfels = transformed(T_map_body, cloud.all);
-  const std::size_t taken = fine_.add(surfels, way_m);
-  coarse_.add(surfels, way_m);
-  fine_.forget_before(way_m - memory_m_);
-  coarse_.forget_before(way_m - memory_m_);
+  const std::size_t taken = fine_.add(surfels, travelled_m);
+  coarse_.add(surfels, travelled_m);
+  fine_.forget_before(travelled_m - memory_m_);
+  coarse_.forget_before(travelled_m - memory_m_);
   return static_cast<double>(taken) / static_cast<double>(std::max<std::size_t>(1, surfels.size()));
 }
 

@@ -1,4 +1,4 @@
-// What a scan is laid onto: surfels close together, found nearby, and the same thinner, found from afar.
+// Local map for scan matching: a fine surfel map for registration and a coarse one for relocalisation.
 #pragma once
 
 #include <vector>
@@ -6,48 +6,55 @@
 #include "radioslam/base/fields.hpp"
 #include "radioslam/geometry/se3.hpp"
 #include "radioslam/lidar/registration.hpp"
-#include "radioslam/lidar/surfel.hpp"
-#include "radioslam/lidar/surfel_map.hpp"
+#include "radioslam/lidar/surfels/surfel.hpp"
+#include "radioslam/lidar/surfels/surfel_map.hpp"
 
 namespace radioslam {
 
 struct LocalMapParams {
-  double source_spacings = 2;         ///< a scan is registered by points so far apart
-  double reach_spacings = 3;          ///< no point meets a surface farther than this
-  double coarse_spacings = 3;         ///< of a first alignment where the start may be far off
-  double coarse_reach_spacings = 12;  ///< and its reach
+  double source_spacings = 2;
+  double max_distance_spacings = 3;
+  double coarse_spacings = 3;
+  double coarse_max_distance_spacings = 12;
   double memory_m = 30;
-  double correlation_share = 0.12;  ///< of the median range: points closer together err together
+  double correlation_ratio = 0.12;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"source_spacings", "", 1, 10, "a scan is registered by points so many spacings apart"},
+    visit(Field{"source_spacings", "", 1, 10,
+                "spacing of the scan points that are registered, in map point spacings; higher values are "
+                "faster"},
           self.source_spacings);
-    visit(Field{"reach_spacings", "", 1, 10, "no point meets a surface farther than this"},
-          self.reach_spacings);
-    visit(Field{"coarse_spacings", "", 1, 100, "spacing of a first alignment where the start may be far off"},
+    visit(Field{"max_distance_spacings", "", 1, 10, "largest correspondence distance, in map point spacings"},
+          self.max_distance_spacings);
+    visit(Field{"coarse_spacings", "", 1, 100,
+                "point spacing of the coarse alignment in relocalisation, in map point spacings"},
           self.coarse_spacings);
-    visit(Field{"coarse_reach_spacings", "", 1, 100, "and its reach"}, self.coarse_reach_spacings);
-    visit(Field{"memory_m", "m", 1, 1e6, "what was out of sight for so long a way is forgotten"},
-          self.memory_m);
+    visit(Field{"coarse_max_distance_spacings", "", 1, 100,
+                "largest correspondence distance of the coarse alignment, in map point spacings"},
+          self.coarse_max_distance_spacings);
     visit(
-        Field{"correlation_share", "", 1e-3, 10, "of the median range: points closer together err together"},
-        self.correlation_share);
+        Field{"memory_m", "m", 1, 1e6, "travelled distance after which unseen parts of the map are forgotten"}
+            .basic(),
+        self.memory_m);
+    visit(
+        Field{"correlation_ratio", "", 1e-3, 10,
+              "distance within which point errors are correlated, as a fraction of the scan's median range"},
+        self.correlation_ratio);
   }
 };
 
-/// A scan's surfels in its body frame, ever fewer of them.
-struct ScanCloud {
+/// A scan's surfels in its body frame at three densities.
+struct ScanPyramid {
   std::vector<Surfel> all;  ///< at the map's spacing
-  SurfelSource source;      ///< what is registered
-  SurfelSource few;         ///< for a first alignment
+  SurfelSource source;      ///< for registration
+  SurfelSource few;         ///< for coarse alignment
   double median_range_m = 0;
 };
 
-ScanCloud scan_cloud(std::vector<Surfel> surfels, double spacing_m, ScannerKind kind,
-                     const LocalMapParams& params);
+ScanPyramid scan_pyramid(std::vector<Surfel> surfels, double spacing_m, ScannerKind kind,
+                         const LocalMapParams& params);
 
-/// The surfels in the frame that `T` takes them to.
 std::vector<Surfel> transformed(const SE3& T, const std::vector<Surfel>& surfels);
 
 class LocalMap {
@@ -58,9 +65,9 @@ class LocalMap {
   const SurfelMap& fine() const { return fine_; }
   const SurfelMap& coarse() const { return coarse_; }
 
-  /// A scan from this pose, `way_m` metres into the way; what lies too far back is forgotten. Returns
-  /// which share of the scan is new.
-  double add(const ScanCloud& cloud, const SE3& T_map_body, double way_m);
+  /// Inserts a scan at this pose, after a travelled distance of `travelled_m`, and forgets what was last seen
+  /// more than `memory_m` before. Returns the fraction of the scan's surfels that were new.
+  double add(const ScanPyramid& cloud, const SE3& T_map_body, double travelled_m);
 
  private:
   double memory_m_;

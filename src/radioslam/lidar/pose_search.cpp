@@ -6,11 +6,12 @@
 #include <utility>
 
 #include "radioslam/base/parallel.hpp"
+#include "radioslam/geometry/trajectory.hpp"
 
 namespace radioslam {
 namespace {
 
-constexpr double kHardlyAny = 1e-3;  // information: a prior that decides only what nothing else does
+constexpr double kHardlyAny = 1e-3;  // information of a prior that only decides what is unobservable
 
 NearestSurfel nearest_in(const SurfelMap& map) {
   return [&map](const Eigen::Vector3f& point, float squared) { return map.nearest(point, squared); };
@@ -18,8 +19,9 @@ NearestSurfel nearest_in(const SurfelMap& map) {
 
 RegistrationStart start_at(const SE3& pose, double deviation_m, const LocalMap& map) {
   constexpr double kSigmas = 3;
-  const double reach = std::clamp(kSigmas * deviation_m, map.fine().reach_m() / 3, map.fine().reach_m());
-  return {pose, std::min(deviation_m, reach), reach};
+  const double max_distance_m =
+      std::clamp(kSigmas * deviation_m, map.fine().max_distance_m() / 3, map.fine().max_distance_m());
+  return {pose, std::min(deviation_m, max_distance_m), max_distance_m};
 }
 
 PosePrior hardly_any_prior(const SE3& pose) {
@@ -28,56 +30,59 @@ PosePrior hardly_any_prior(const SE3& pose) {
   return prior;
 }
 
-/// A first alignment need only end within the fine map's reach.
+/// The coarse alignment need only end within the fine map's correspondence distance.
 RegistrationParams rough(const RegistrationParams& params, const LocalMap& map) {
   RegistrationParams result = params;
-  result.translation_tolerance_m = std::max(params.translation_tolerance_m, 0.03 * map.fine().reach_m());
+  result.translation_tolerance_m =
+      std::max(params.translation_tolerance_m, 0.03 * map.fine().max_distance_m());
   result.rotation_tolerance_rad = std::max(params.rotation_tolerance_rad, 0.01);
   return result;
 }
 
-Registration register_far(const LocalMap& map, const ScanCloud& scan, const SE3& start, ScannerKind kind,
+Registration register_far(const LocalMap& map, const ScanPyramid& scan, const SE3& start, ScannerKind kind,
                           const RegistrationParams& params) {
-  const double coarse_reach = map.coarse().reach_m(), reach = map.fine().reach_m();
+  const double coarse_max_distance_m = map.coarse().max_distance_m(),
+               max_distance_m = map.fine().max_distance_m();
   const PosePrior prior = hardly_any_prior(start);
-  const Registration aligned =
-      register_surfels(nearest_in(map.coarse()), scan.few, {start, 0.5 * coarse_reach, coarse_reach}, prior,
-                       kind, rough(params, map));
-  return register_surfels(nearest_in(map.fine()), scan.source, {aligned.T_target_source, reach / 3, reach},
-                          prior, kind, params);
+  const Registration aligned = register_surfels(nearest_in(map.coarse()), scan.few,
+                                                {start, 0.5 * coarse_max_distance_m, coarse_max_distance_m},
+                                                prior, kind, rough(params, map));
+  return register_surfels(nearest_in(map.fine()), scan.source,
+                          {aligned.T_target_source, max_distance_m / 3, max_distance_m}, prior, kind, params);
 }
 
-/// Points within a quarter of the coarse reach count nearly one, at its end nearly nothing.
-double meeting_share(const LocalMap& map, const ScanCloud& scan, const SE3& start) {
-  const auto reach = static_cast<float>(map.coarse().reach_m());
+/// Overlap score: a point within a quarter of the coarse correspondence distance counts at least one half, at
+/// the full distance next to nothing.
+double correspondence_ratio(const LocalMap& map, const ScanPyramid& scan, const SE3& start) {
+  const auto max_distance_m = static_cast<float>(map.coarse().max_distance_m());
   const Eigen::Matrix3f R = start.rotation_matrix().cast<float>();
   const Eigen::Vector3f t = start.translation().cast<float>();
   double sum = 0;
   for (const Surfel& surfel : scan.few.surfels) {
     const Eigen::Vector3f point = R * surfel.position + t;
-    const Surfel* met = map.coarse().nearest(point, reach * reach);
-    if (!met) continue;
-    const float relative = (met->position - point).squaredNorm() / (reach * reach);
+    const Surfel* nearest = map.coarse().nearest(point, max_distance_m * max_distance_m);
+    if (!nearest) continue;
+    const float relative = (nearest->position - point).squaredNorm() / (max_distance_m * max_distance_m);
     sum += static_cast<double>(1 / (1 + 16 * relative));
   }
   return sum / static_cast<double>(std::max<std::size_t>(1, scan.few.surfels.size()));
 }
 
-/// How wide and how finely starts are spread.
+/// Grid of initial poses.
 struct Window {
-  int x = 0, y = 0, yaw = 0;  ///< steps to either side
+  int x = 0, y = 0, yaw = 0;  ///< number of steps to either side
   double step_m = 1, step_rad = 1;
 
   double starts() const { return (2.0 * x + 1) * (2.0 * y + 1) * (2.0 * yaw + 1); }
 };
 
-Window window_of(const LocalMap& map, const ScanCloud& scan, const UncertainPose<SE3>& guess,
+Window window_of(const LocalMap& map, const ScanPyramid& scan, const UncertainPose<SE3>& guess,
                  const PoseSearchParams& search) {
   const Eigen::Matrix3d position = guess.position_covariance();
   Window window;
-  window.step_m = map.coarse().reach_m() / 2;
+  window.step_m = map.coarse().max_distance_m() / 2;
   window.step_rad = window.step_m / std::max(scan.median_range_m, window.step_m);
-  const double widest = search.most_starts * window.step_m;  // that many in a row are too many by far
+  const double widest = search.max_starts * window.step_m;  // a longer row exceeds max_starts
   const double wide_x = std::min(widest, search.sigmas * std::sqrt(position(0, 0)));
   const double wide_y = std::min(widest, search.sigmas * std::sqrt(position(1, 1)));
   const double wide_yaw = std::min(std::numbers::pi, search.sigmas * std::sqrt(guess.covariance(5, 5)));
@@ -86,7 +91,7 @@ Window window_of(const LocalMap& map, const ScanCloud& scan, const UncertainPose
     window.x = std::max(0, steps(wide_x, window.step_m));
     window.y = std::max(0, steps(wide_y, window.step_m));
     window.yaw = std::max(0, steps(wide_yaw, window.step_rad));
-    if (window.starts() <= search.most_starts) break;
+    if (window.starts() <= search.max_starts) break;
     window.step_m *= 1.25;
     window.step_rad *= 1.25;
   } while (true);
@@ -105,68 +110,89 @@ std::vector<SE3> starts_in(const Window& window, const SE3& guess) {
   return starts;
 }
 
-/// Do two poses put a point of the scan, at its median range, farther apart than the fine map's reach?
-bool are_apart(const SE3& a, const SE3& b, const LocalMap& map, const ScanCloud& scan) {
+/// Stopped, half as far, or as predicted; each turned by up to two steps of `step_m` at this range.
+std::vector<SE3> poses_around(const Relocalisation& search, double step_m, double range_m) {
+  const double step_rad = step_m / std::max(range_m, step_m);
+  std::vector<SE3> poses;
+  for (const SE3& guess : {search.predicted, search.last, interpolate(search.last, search.predicted, 0.5)})
+    for (const double steps : {0.0, -0.5, 0.5, -1.0, 1.0, -2.0, 2.0}) {
+      const Eigen::Quaterniond turn(Eigen::AngleAxisd(steps * step_rad, Eigen::Vector3d::UnitZ()));
+      poses.push_back(guess * SE3(Eigen::Vector3d::Zero(), turn));
+    }
+  return poses;
+}
+
+/// Whether two poses displace a point at the scan's median range by more than the fine correspondence
+/// distance.
+bool are_apart(const SE3& a, const SE3& b, const LocalMap& map, const ScanPyramid& scan) {
   const SE3 between = a.inverse() * b;
   const double turn_rad = between.log().tail<3>().norm();
-  return std::max(between.translation().norm(), turn_rad * scan.median_range_m) > map.fine().reach_m();
+  return std::max(between.translation().norm(), turn_rad * scan.median_range_m) > map.fine().max_distance_m();
 }
 
 }  // namespace
 
-std::vector<SE3> most_promising(const LocalMap& map, const ScanCloud& scan, const std::vector<SE3>& starts,
-                                std::size_t count) {
-  std::vector<std::pair<double, std::size_t>> shares(starts.size());
+std::vector<SE3> best_overlapping(const LocalMap& map, const ScanPyramid& scan,
+                                  const std::vector<SE3>& starts, std::size_t count) {
+  std::vector<std::pair<double, std::size_t>> scores(starts.size());
   parallel_for(starts.size(), 16, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) shares[k] = {-meeting_share(map, scan, starts[k]), k};
+    for (std::size_t k = begin; k < end; ++k) scores[k] = {-correspondence_ratio(map, scan, starts[k]), k};
   });
-  count = std::min(count, shares.size());
-  std::partial_sort(shares.begin(), shares.begin() + static_cast<std::ptrdiff_t>(count), shares.end());
+  count = std::min(count, scores.size());
+  std::partial_sort(scores.begin(), scores.begin() + static_cast<std::ptrdiff_t>(count), scores.end());
   std::vector<SE3> best;
-  for (std::size_t k = 0; k < count; ++k) best.push_back(starts[shares[k].second]);
+  for (std::size_t k = 0; k < count; ++k) best.push_back(starts[scores[k].second]);
   return best;
 }
 
-Registration register_near(const LocalMap& map, const ScanCloud& scan, const PosePrior& prior,
+Registration register_near(const LocalMap& map, const ScanPyramid& scan, const PosePrior& prior,
                            double deviation_m, ScannerKind kind, const RegistrationParams& params,
-                           double least_met_share) {
+                           double min_correspondence_ratio) {
   RegistrationStart start = start_at(prior.pose, deviation_m, map);
-  start.least_met_share = least_met_share;
+  start.min_correspondence_ratio = min_correspondence_ratio;
   return register_surfels(nearest_in(map.fine()), scan.source, start, prior, kind, params);
 }
 
-Registration register_at(const LocalMap& map, const ScanCloud& scan, const SE3& start, const PosePrior& prior,
-                         double deviation_m, ScannerKind kind, const RegistrationParams& params) {
+Registration register_at(const LocalMap& map, const ScanPyramid& scan, const SE3& start,
+                         const PosePrior& prior, double deviation_m, ScannerKind kind,
+                         const RegistrationParams& params) {
   return register_surfels(nearest_in(map.fine()), scan.source, start_at(start, deviation_m, map), prior, kind,
                           params);
 }
 
-Registration register_from(const LocalMap& map, const ScanCloud& scan, const std::vector<SE3>& starts,
-                           double enough_share, ScannerKind kind, const RegistrationParams& params) {
+Registration register_best_of(const LocalMap& map, const ScanPyramid& scan, const std::vector<SE3>& starts,
+                              double enough_ratio, ScannerKind kind, const RegistrationParams& params) {
   Registration best;
   for (const SE3& start : starts) {
     const Registration fit = register_far(map, scan, start, kind, params);
-    if (fit.matched_share > best.matched_share) best = fit;
-    if (best.matched_share >= enough_share) break;
+    if (fit.inlier_ratio > best.inlier_ratio) best = fit;
+    if (best.inlier_ratio >= enough_ratio) break;
   }
   return best;
 }
 
-PoseSearch search_pose(const LocalMap& map, const ScanCloud& scan, const UncertainPose<SE3>& guess,
+Registration relocalise(const LocalMap& map, const ScanPyramid& scan, const Relocalisation& search,
+                        ScannerKind kind, const RegistrationParams& params) {
+  const auto hypotheses = poses_around(search, map.coarse().max_distance_m() / 2, scan.median_range_m);
+  const auto promising = best_overlapping(map, scan, hypotheses, search.max_aligned);
+  return register_best_of(map, scan, promising, search.enough_ratio, kind, params);
+}
+
+PoseSearch search_pose(const LocalMap& map, const ScanPyramid& scan, const UncertainPose<SE3>& guess,
                        ScannerKind kind, const PoseSearchParams& search, const RegistrationParams& params) {
   const Window window = window_of(map, scan, guess, search);
-  const auto starts =
-      most_promising(map, scan, starts_in(window, guess.pose), static_cast<std::size_t>(search.most_aligned));
+  const auto starts = best_overlapping(map, scan, starts_in(window, guess.pose),
+                                       static_cast<std::size_t>(search.max_aligned));
   std::vector<Registration> fits(starts.size());
   parallel_for(starts.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) fits[k] = register_far(map, scan, starts[k], kind, params);
   });
   PoseSearch result;
   for (const Registration& fit : fits)
-    if (fit.matched_share > result.best.matched_share) result.best = fit;
+    if (fit.inlier_ratio > result.best.inlier_ratio) result.best = fit;
   for (const Registration& fit : fits)
     if (are_apart(result.best.T_target_source, fit.T_target_source, map, scan))
-      result.next_share = std::max(result.next_share, fit.matched_share);
+      result.next_ratio = std::max(result.next_ratio, fit.inlier_ratio);
   return result;
 }
 

@@ -1,7 +1,8 @@
-// Where a scan lies on a map: from a start that is nearly right, or from many of which one is near enough.
+// Scan-to-map registration: from a good initial pose, from several hypotheses, or by a search over a window.
 //
-// From afar a start is first judged by how many of a few points meet the map at all; the best of them are
-// aligned on the coarse map, then on the fine one, and the one that fits best there is taken.
+// A search scores each hypothesis by how many points of a thinned scan have a surfel of the coarse map
+// nearby, aligns the best ones on the coarse map and then on the fine one, and keeps that with the highest
+// inlier ratio.
 #pragma once
 
 #include <vector>
@@ -12,47 +13,68 @@
 
 namespace radioslam {
 
-/// From `prior.pose`, which may put points wrong by `deviation_m`.
-Registration register_near(const LocalMap& map, const ScanCloud& scan, const PosePrior& prior,
+/// Registration from `prior.pose`, which may displace points by `deviation_m`.
+Registration register_near(const LocalMap& map, const ScanPyramid& scan, const PosePrior& prior,
                            double deviation_m, ScannerKind kind, const RegistrationParams& params,
-                           double least_met_share = 0);
+                           double min_correspondence_ratio = 0);
 
-/// Likewise from a start that is not the prior's.
-Registration register_at(const LocalMap& map, const ScanCloud& scan, const SE3& start, const PosePrior& prior,
-                         double deviation_m, ScannerKind kind, const RegistrationParams& params);
+/// Registration from `start` instead of `prior.pose`.
+Registration register_at(const LocalMap& map, const ScanPyramid& scan, const SE3& start,
+                         const PosePrior& prior, double deviation_m, ScannerKind kind,
+                         const RegistrationParams& params);
 
-/// The starts at which most of a few points meet the map, the best first; of equal ones the earlier.
-std::vector<SE3> most_promising(const LocalMap& map, const ScanCloud& scan, const std::vector<SE3>& starts,
-                                std::size_t count);
+/// The `count` initial poses at which the thinned scan overlaps the map best, best first; ties keep their
+/// order.
+std::vector<SE3> best_overlapping(const LocalMap& map, const ScanPyramid& scan,
+                                  const std::vector<SE3>& starts, std::size_t count);
 
-/// From each of `starts` in turn, until one fits by `enough_share` of the points; else the one that fits
-/// best.
-Registration register_from(const LocalMap& map, const ScanCloud& scan, const std::vector<SE3>& starts,
-                           double enough_share, ScannerKind kind, const RegistrationParams& params);
+/// Registers from each of `starts` in order until one reaches the inlier ratio `enough_ratio`; if none does,
+/// returns the best.
+Registration register_best_of(const LocalMap& map, const ScanPyramid& scan, const std::vector<SE3>& starts,
+                              double enough_ratio, ScannerKind kind, const RegistrationParams& params);
+
+/// Where a scan is searched that does not fit at its predicted pose.
+struct Relocalisation {
+  SE3 last;  ///< pose of the scan before
+  SE3 predicted;
+  std::size_t max_aligned;  ///< number of hypotheses that are registered
+  double enough_ratio;      ///< inlier ratio that ends the search
+};
+
+/// The best registration from poses of a robot that moved otherwise than predicted: it stopped or slowed
+/// down, or turned more or less.
+Registration relocalise(const LocalMap& map, const ScanPyramid& scan, const Relocalisation& search,
+                        ScannerKind kind, const RegistrationParams& params);
 
 struct PoseSearchParams {
-  double sigmas = 3;       ///< of the window
-  int most_starts = 4000;  ///< a wider window is searched in larger steps
-  int most_aligned = 8;    ///< starts that are aligned
+  double sigmas = 3;
+  int max_starts = 4000;
+  int max_aligned = 8;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"sigmas", "", 0.5, 10, "half the window of starts, in standard deviations of the estimate"},
+    visit(Field{"sigmas", "", 0.5, 10,
+                "half width of the search window, in standard deviations of the pose estimate"},
           self.sigmas);
-    visit(Field{"most_starts", "", 1, 1e6, "a wider window is searched in larger steps"}, self.most_starts);
-    visit(Field{"most_aligned", "", 1, 1000, "the best starts, which are aligned"}, self.most_aligned);
+    visit(Field{"max_starts", "", 1, 1e6,
+                "largest number of initial poses scored per search; wider windows use larger steps"},
+          self.max_starts);
+    visit(
+        Field{"max_aligned", "", 1, 1000,
+              "number of initial poses that are registered, the best scores first; higher values are slower"},
+        self.max_aligned);
   }
 };
 
-/// What a search found. Places apart are so by more than the fine map's reach, or turned by as much at the
-/// scan's median range.
+/// Result of a search. Two poses are distinct if they displace the scan, at its median range, by more than
+/// the fine map's correspondence distance.
 struct PoseSearch {
   Registration best;
-  double next_share = 0;  ///< of the points that fit at the best place apart from it
+  double next_ratio = 0;  ///< inlier ratio of the best pose distinct from it
 };
 
-/// Starts within the guess's horizontal and yaw uncertainty.
-PoseSearch search_pose(const LocalMap& map, const ScanCloud& scan, const UncertainPose<SE3>& guess,
+/// Searches the horizontal and yaw uncertainty of `guess`.
+PoseSearch search_pose(const LocalMap& map, const ScanPyramid& scan, const UncertainPose<SE3>& guess,
                        ScannerKind kind, const PoseSearchParams& search, const RegistrationParams& params);
 
 }  // namespace radioslam

@@ -1,108 +1,111 @@
-// Lays a cloud of surfels onto another: generalised ICP (Segal, Haehnel, Thrun 2009) with metric covariances.
+// Scan matching: generalised ICP (Segal, Haehnel, Thrun 2009) of surfels to a map, with metric covariances.
 //
-//   e_k = q_k - T p_k               q_k: the target's surfel nearest to T p_k, within a reach
+//   e_k = q_k - T p_k               q_k: the target's surfel nearest to T p_k, within max_distance_m
 //   cost = sum rho_c(e_k' W_k e_k)  W_k = (C_q + R C_p R' + b^2 I)^-1,  rho_c: Geman, McClure
 //
-// Gauss-Newton on T Exp(xi), xi = [translation; rotation]. The blur b starts as wide as the start may be
-// wrong, where points pull as points do, and narrows to nothing, where they slide along their surfaces.
-// Neighbouring points err together (same surface, same scan line): the information counts `independent_share`
-// of each.
-// A point without a surface of its own is held to a surface of the other cloud that it lies close to, or
-// the other way round; two points tell each other nothing, two in level lines their height (surfel.hpp).
-// The normal of a surface is known to a few degrees only, so that some of what a wall tells across leaks
-// along it: along a corridor, thousands of points promise what none of them knows. How far normals may lean
-// is known (surfel.hpp: s^2; it also makes a match uncertain, by s^2 per squared distance along the surface),
-// and with it what leaks of all information, l = sum w tr(W_k) s_k^2. So much, times `leak_factor`, is taken
-// off along each axis a_i of what is told of the position, H_t = sum h_i a_i a_i', as if the position were
-// known the less along it:
-//   H' = K H,  K = I - sum (min(l, h_i) / h_i^2) H a_i a_i',  H' <= H in every direction.
-// The points' own answer x = -H^-1 g then counts as much as H' says, against the prior (g' = K g): along a
-// corridor the prior stands. (In space; a plane's scan line has its normals from many points.) Where only a
-// turn and a shift together are unknown, in a round hall off its middle, a tenth of the turn's information
-// stays that nothing tells.
+// Gauss-Newton on T Exp(xi), xi = [translation; rotation]. The kernel width b starts at the uncertainty of
+// the initial pose, where correspondences act as point to point, and shrinks to zero, where they act as plane
+// to plane. Errors of neighbouring points are correlated: each counts `effective_sample_ratio`. A point
+// without a normal is only matched to a nearby planar surfel of the other cloud; two scan-line points
+// constrain their height, two isolated points nothing (surfel.hpp).
+//
+// Normals are known to a variance s^2 about either axis (surfel.hpp). It adds s^2 times the squared distance
+// to a correspondence's covariance, and it leaks information into directions that the surfaces do not
+// constrain, such as along a corridor: l = normal_noise_factor sum w tr(W_k) s_k^2. For spatial scanners this
+// is discounted along each axis a_i of the position information H_t = sum h_i a_i a_i',
+//   H' = K H,  K = I - sum (min(l, h_i) / h_i^2) H a_i a_i',  H' <= H in every direction,
+// and g' = K g, so that the solution -H^-1 g of the points is weighted by H' against the prior. Where only a
+// combination of rotation and shift is unobservable (a round hall, off its centre), a tenth of the rotation's
+// spurious information remains.
 #pragma once
 
 #include <Eigen/Core>
-#include <functional>
-#include <optional>
 #include <vector>
 
 #include "radioslam/base/fields.hpp"
 #include "radioslam/geometry/se3.hpp"
-#include "radioslam/lidar/surfel.hpp"
+#include "radioslam/lidar/point_linearisation.hpp"
+#include "radioslam/lidar/surfels/surfel.hpp"
 
 namespace radioslam {
 
 struct RegistrationParams {
   int max_iterations = 30;
-  double loss_scale = 3;      ///< standard deviations beyond which a point counts for little
-  double point_reach = 0.35;  ///< of the reach; farther from a surface a point without its own tells nothing
-  double narrowing = 0.35;    ///< of the blur from one iteration to the next
-  double leak_factor = 2;     ///< times what noisy normals leak
+  double loss_scale = 3;
+  double point_distance_ratio = 0.35;
+  double kernel_decay = 0.35;
+  double normal_noise_factor = 2;
   double translation_tolerance_m = 1e-3;
   double rotation_tolerance_rad = 3e-4;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"max_iterations", "", 1, 1000, "steps of one registration"}, self.max_iterations);
-    visit(Field{"loss_scale", "", 0.5, 100, "standard deviations beyond which a point counts for little"},
+    visit(Field{"max_iterations", "", 1, 1000, "largest number of iterations of one registration"},
+          self.max_iterations);
+    visit(Field{"loss_scale", "", 0.5, 100,
+                "residual, in standard deviations, beyond which a correspondence is down-weighted"},
           self.loss_scale);
-    visit(Field{"point_reach", "", 0, 1,
-                "of the reach; farther from a surface a point without its own tells nothing"},
-          self.point_reach);
-    visit(Field{"narrowing", "", 0.01, 0.99, "of the blur from one step to the next"}, self.narrowing);
-    visit(Field{"leak_factor", "", 0, 100, "times what noisy normals leak of their information elsewhere"},
-          self.leak_factor);
-    visit(Field{"translation_tolerance_m", "m", 1e-9, 1, "a step shorter than this is the last"},
+    visit(
+        Field{
+            "point_distance_ratio", "", 0, 1,
+            "largest distance of a point without a normal from its surface, as a fraction of that of others"},
+        self.point_distance_ratio);
+    visit(Field{"kernel_decay", "", 0.01, 0.99,
+                "factor by which the correspondence kernel narrows per iteration"},
+          self.kernel_decay);
+    visit(Field{"normal_noise_factor", "", 0, 100,
+                "factor on the information from noisy normals that is discounted; higher values trust the "
+                "prior more"},
+          self.normal_noise_factor);
+    visit(Field{"translation_tolerance_m", "m", 1e-9, 1,
+                "translation step below which the registration has converged"},
           self.translation_tolerance_m);
-    visit(Field{"rotation_tolerance_rad", "rad", 1e-9, 1, "and turning less than this"},
+    visit(Field{"rotation_tolerance_rad", "rad", 1e-9, 1,
+                "rotation step below which the registration has converged"},
           self.rotation_tolerance_rad);
   }
 };
 
-enum class RegistrationEnd {
+enum class RegistrationStatus {
   kConverged,
   kMaxIterations,
-  kNoOverlap,  ///< too few points met a surface, at the start or on the way: the pose is the start's
+  kNoOverlap,  ///< too few correspondences in some iteration: the pose is the initial one
 };
 
-/// What is registered.
+/// The surfels to register.
 struct SurfelSource {
   std::vector<Surfel> surfels;
-  double independent_share = 1;  ///< so much of each one's information counts
+  double effective_sample_ratio = 1;  ///< factor on the information of each, for correlated errors
 };
 
-/// What is known of T_target_source beforehand: nothing where the information is zero.
+/// Prior on T_target_source; zero information: none.
 struct PosePrior {
   SE3 pose;
-  SE3::Jacobian information = SE3::Jacobian::Zero();  ///< of xi in pose * Exp(xi)
+  SE3::Jacobian information = SE3::Jacobian::Zero();  ///< about xi in pose * Exp(xi)
 };
 
 struct Registration {
   SE3 T_target_source;
-  /// Of xi in T_target_source * Exp(xi) from the points alone, without the prior.
+  /// About xi in T_target_source * Exp(xi), without the prior.
   SE3::Jacobian information = SE3::Jacobian::Zero();
   SE3::Jacobian posterior = SE3::Jacobian::Zero();  ///< with the prior
-  double matched_share = 0;  ///< of the source's points with a surface within reach and the loss
-  double rms_m = 0;          ///< of their distances across the surface... weighted
+  double inlier_ratio = 0;    ///< robust weights of the correspondences, over all source points
+  double normalised_rms = 0;  ///< weighted rms of the normalised residuals, per axis
   int iterations = 0;
-  RegistrationEnd end = RegistrationEnd::kNoOverlap;
+  RegistrationStatus end = RegistrationStatus::kNoOverlap;
 };
 
-/// The nearest surfel of the target closer than the root of the second argument, or none; thread-safe.
-using NearestSurfel = std::function<const Surfel*(const Eigen::Vector3f& point, float squared_reach)>;
-
-/// Where to start, and how wrong that may be.
+/// The initial pose, and how correspondences are searched from it.
 struct RegistrationStart {
   SE3 T_target_source;
-  double blur_m = 0;           ///< of the first iteration
-  double reach_m = 1;          ///< no point farther from the target counts
-  double least_met_share = 0;  ///< of the points; where fewer meet the target there is no overlap
+  double kernel_width_m = 0;            ///< in the first iteration
+  double max_distance_m = 1;            ///< largest correspondence distance
+  double min_correspondence_ratio = 0;  ///< kNoOverlap if fewer source points have a correspondence
 };
 
-/// The information of a scanner in the plane, with so much about height, and about roll and pitch, which it
-/// does not tell.
-SE3::Jacobian known_off_plane(SE3::Jacobian information, double height, double tilt);
+/// Replaces the information about what a planar scanner does not observe: `height`, and `tilt` for roll and
+/// pitch.
+SE3::Jacobian with_planar_prior(SE3::Jacobian information, double height, double tilt);
 
 Registration register_surfels(const NearestSurfel& target, const SurfelSource& source,
                               const RegistrationStart& start, const PosePrior& prior, ScannerKind kind,

@@ -1,2 +1,27 @@
-radioslam_room(lidar SOURCES scan_points.cpp voxel_grid.cpp surfel.cpp surfel_map.cpp local_map.cpp scan_order.cpp registration.cpp pose_search.cpp scanner_traits.cpp scan_sweep.cpp scan_odometry.cpp scan_loops.cpp
-               ROOMS graph mission PRIVATE_LIBRARIES $<BUILD_INTERFACE:nanoflann::nanoflann>)
+radioslam_room(lidar
+  SOURCES
+    candidate_map.cpp
+    deskew.cpp
+    deskewed_registration.cpp
+    deskewed_scan.cpp
+    lidar_odometry.cpp
+    local_map.cpp
+    loops/loop_candidates.cpp
+    loops/loop_verification.cpp
+    loops/scan_loop.cpp
+    loops/scan_loops.cpp
+    point_linearisation.cpp
+    pose_search.cpp
+    prediction_error.cpp
+    registration.cpp
+    scan_gap.cpp
+    scan_matcher.cpp
+    scan_points.cpp
+    scan_pose.cpp
+    scan_structure.cpp
+    scanner_traits.cpp
+    surfels/surfel.cpp
+    surfels/surfel_map.cpp
+    surfels/voxel_grid.cpp
+  ROOMS graph mission
+  PRIVATE_LIBRARIES $<BUILD_INTERFACE:nanoflann::nanoflann>)

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "radioslam/base/median.hpp"
+#include "radioslam/base/statistics.hpp"
 #include "radioslam/lidar/scan_points.hpp"
 
 namespace radioslam {
@@ -21,17 +21,17 @@ ScannerTraits scanner_traits(const LidarLog& log, const LidarParams& params) {
   traits.kind = ScannerKind::kPlanar;
   const std::size_t stride = std::max<std::size_t>(1, (log.size() + kTraitScans - 1) / kTraitScans);
   for (std::size_t k = 0; k < log.size(); k += stride) {
-    const auto points = usable_points(log.read(k), SE3::Tangent::Zero(), params.points).points;
+    const auto points = filter_and_deskew(log.read(k), SE3::Tangent::Zero(), params.points).points;
     for (const Eigen::Vector3f& point : points) {
       ranges.push_back(static_cast<double>(point.norm()));
       if (std::abs(point.z() - points.front().z()) > kFlat_m) traits.kind = ScannerKind::kSpatial;
     }
   }
-  const ScanOdometryParams& odometry = params.odometry;
+  const LidarOdometryParams& odometry = params.odometry;
   traits.spacing_m = odometry.spacing_m > 0 ? odometry.spacing_m
-                     : ranges.empty()       ? odometry.most_spacing_m
-                                            : std::clamp(odometry.spacing_share * upper_median(ranges),
-                                                         odometry.least_spacing_m, odometry.most_spacing_m);
+                     : ranges.empty()       ? odometry.max_spacing_m
+                                            : std::clamp(odometry.spacing_ratio * upper_median(ranges),
+                                                         odometry.min_spacing_m, odometry.max_spacing_m);
   return traits;
 }
 

@@ -1,5 +1,5 @@
-// What a log of scans tells of its scanner and of the place: whether it measures in a plane, and how far
-// apart the map's points are to lie, a share of the median range. From up to ten scans, spread over the log.
+// Properties of a scanner and its surroundings: planar or spatial, and the map point spacing (a fraction of
+// the median range). Determined from up to ten scans, spread over the log.
 #pragma once
 
 #include "radioslam/lidar/lidar_params.hpp"

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "radioslam/base/median.hpp"
+#include "radioslam/base/statistics.hpp"
+#include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/geometry/se2.hpp"
 
 namespace radioslam {
@@ -13,7 +14,7 @@ namespace {
 
 constexpr int kIterations = 20;
 
-/// Fused minus gyroscope's heading at one stamp, wrapped.
+/// Fused minus gyroscope heading at one stamp, wrapped.
 struct Difference {
   double t_s = 0;  ///< since the middle
   double angle_rad = 0;
@@ -24,7 +25,7 @@ double heading_from_east(const Eigen::Quaterniond& R_enu_device) {
   return std::atan2(forward.y(), forward.x());
 }
 
-/// The gyroscope's heading at a stamp: that of the nearest sample before it.
+/// Gyroscope heading at a stamp: that of the last sample before it.
 double heading_at(const std::vector<LevelSample>& motion, Stamp stamp) {
   const auto after = std::upper_bound(motion.begin(), motion.end(), stamp,
                                       [](Stamp s, const LevelSample& m) { return s < m.stamp; });
@@ -40,7 +41,7 @@ std::vector<Difference> differences(const std::vector<LevelSample>& motion,
   return result;
 }
 
-/// The direction most differences point to, by doubling down on the mean: a start for the fit.
+/// Circular mean of the differences: initial value of the fit.
 double mean_direction(const std::vector<Difference>& differences) {
   double c = 0, s = 0;
   for (const auto& d : differences) {
@@ -70,7 +71,7 @@ CompassFit improved(const std::vector<Difference>& differences, CompassFit fit, 
     h += weight * j * j.transpose();
     g += weight * r * j;
   }
-  const Eigen::Vector2d step = h.inverse() * g;
+  const Eigen::Vector2d step = inverse(h) * g;
   fit.offset_rad = wrap_angle(fit.offset_rad + step[0]);
   fit.drift_radps += step[1];
   return fit;

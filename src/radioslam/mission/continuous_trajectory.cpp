@@ -1,26 +1,26 @@
 #include "radioslam/mission/continuous_trajectory.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <utility>
 
 #include "radioslam/base/check.hpp"
+#include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/mission/odometry_edge.hpp"
 
 namespace radioslam {
 namespace {
 
-/// The odometry from a keyframe to a time after it, and from there to the next keyframe.
+/// Odometry from a keyframe to a time after it, and from there to the next keyframe.
 template <class Pose>
-struct CutWay {
+struct SplitOdometry {
   OdometryEdge<Pose> part, rest;
 };
 
-/// The odometry between two keyframes, to be cut anywhere.
+/// Odometry between two keyframes that can be split at any time.
 template <class Pose>
-class WayBetweenKeyframes {
+class OdometryBetweenKeyframes {
  public:
-  WayBetweenKeyframes(const Robot& robot, Stamp begin, Stamp end)
+  OdometryBetweenKeyframes(const Robot& robot, Stamp begin, Stamp end)
       : robot_(robot), duration_s_(seconds_between(begin, end)) {
     const auto after = [](Stamp s, const auto& row) { return s < row.stamp; };
     const auto first = std::upper_bound(robot.odometry.begin(), robot.odometry.end(), begin, after);
@@ -35,7 +35,7 @@ class WayBetweenKeyframes {
       to_end_[i] = followed_by(step(rows_[i], rows_[i + 1]), to_end_[i + 1]);
   }
 
-  CutWay<Pose> cut_at(Stamp stamp) const {
+  SplitOdometry<Pose> split_at(Stamp stamp) const {
     const auto after = std::upper_bound(rows_.begin() + 1, rows_.end() - 1, stamp,
                                         [](Stamp s, const auto& row) { return s < row.stamp; });
     const auto i = static_cast<std::size_t>(after - rows_.begin()) - 1;
@@ -47,47 +47,47 @@ class WayBetweenKeyframes {
  private:
   OdometryEdge<Pose> step(const StampedPose<SE3>& from, const StampedPose<SE3>& to) const {
     OdometryEdge<Pose> edge;
-    append_row(edge, from, to, robot_.odometry_noise);
-    const double share = seconds_between(from.stamp, to.stamp) / duration_s_;
-    edge.covariance.diagonal() += share * least_edge_variance<Pose>();
+    append_sample(edge, from, to, robot_.odometry_noise);
+    const double fraction = seconds_between(from.stamp, to.stamp) / duration_s_;
+    edge.covariance.diagonal() += fraction * min_edge_variance<Pose>();
     return edge;
   }
 
   const Robot& robot_;
   double duration_s_;
-  std::vector<StampedPose<SE3>> rows_;                   ///< both keyframes' times among them
-  std::vector<OdometryEdge<Pose>> from_begin_, to_end_;  ///< of each row
+  std::vector<StampedPose<SE3>> rows_;                   ///< samples, both keyframes' times included
+  std::vector<OdometryEdge<Pose>> from_begin_, to_end_;  ///< per sample
 };
 
-/// The motion with a constant drift taken out.
+/// Motion with a constant drift removed.
 template <class Pose>
 Pose without_drift(const OdometryEdge<Pose>& edge, const Eigen::Vector2d& drift) {
   return edge.T_i_j * Pose::exp(-edge.drift_jacobian * drift);
 }
 
-/// The formulas of the header.
+/// Evaluates the formulas of the header.
 template <class Pose>
-UncertainPose<Pose> pose_between(const Pose& T_k, const Pose& T_m, const CutWay<Pose>& way,
+UncertainPose<Pose> pose_between(const Pose& T_k, const Pose& T_m, const SplitOdometry<Pose>& odometry,
                                  const Eigen::Vector2d& drift,
                                  const typename EstimatedKeyframes<Pose>::NeighbourCovariance* joint) {
   using Jacobian = typename Pose::Jacobian;
   using Tangent = typename Pose::Tangent;
-  const Pose O_t = without_drift(way.part, drift), O_t_m = without_drift(way.rest, drift);
+  const Pose O_t = without_drift(odometry.part, drift), O_t_m = without_drift(odometry.rest, drift);
   const Pose T_k_m = T_k.inverse() * T_m;
   const Tangent d = ((O_t * O_t_m).inverse() * T_k_m).log();
   const Jacobian A = O_t_m.inverse().adjoint();
-  const Jacobian AQ = A * way.part.covariance;
-  const Jacobian Q_m = AQ * A.transpose() + way.rest.covariance;
-  const Jacobian K = Q_m.llt().solve(AQ).transpose();
+  const Jacobian AQ = A * odometry.part.covariance;
+  const Jacobian Q_m = AQ * A.transpose() + odometry.rest.covariance;
+  const Jacobian K = Cholesky<Jacobian>(Q_m).solve_matrix(AQ).transpose();
   const Tangent correction = K * d;
   const Pose T_k_t = O_t * Pose::exp(correction);
-  const Jacobian bridge = way.part.covariance - K * AQ;
+  const Jacobian bridge = odometry.part.covariance - K * AQ;
   UncertainPose<Pose> result{T_k * T_k_t, 0.5 * (bridge + bridge.transpose())};
   if (!joint) return result;
   const Jacobian M = Pose::right_jacobian(correction) * K * Pose::right_jacobian_inverse(d);
   Eigen::Matrix<double, Pose::kDof, 2 * Pose::kDof> J;
   J << T_k_t.inverse().adjoint() - M * T_k_m.inverse().adjoint(), M;
-  result.covariance += J * *joint * J.transpose();
+  result.covariance += congruence(J, *joint);
   return result;
 }
 
@@ -99,9 +99,9 @@ ContinuousTrajectory<Pose>::ContinuousTrajectory(const Robot& robot, EstimatedKe
   const Trajectory<Pose>& poses = keyframes_.poses;
   RADIOSLAM_CHECK(!poses.empty(), "a trajectory needs a keyframe");
   RADIOSLAM_CHECK(robot.odometry.covers(poses.front().stamp) && robot.odometry.covers(poses.back().stamp),
-                  "odometry covers the keyframes");
+                  "odometry must cover the keyframes");
   RADIOSLAM_CHECK(keyframes_.covariances.empty() || keyframes_.covariances.size() + 1 == poses.size(),
-                  "a covariance of each keyframe with the next");
+                  "one covariance per pair of consecutive keyframes");
 }
 
 template <class Pose>
@@ -112,9 +112,9 @@ std::optional<UncertainPose<Pose>> ContinuousTrajectory<Pose>::at(Stamp stamp) c
 
 template <class Pose>
 std::vector<UncertainPose<Pose>> ContinuousTrajectory<Pose>::at(const std::vector<Stamp>& stamps) const {
-  RADIOSLAM_CHECK(std::is_sorted(stamps.begin(), stamps.end()), "the times do not decrease");
+  RADIOSLAM_CHECK(std::is_sorted(stamps.begin(), stamps.end()), "stamps must not decrease");
   RADIOSLAM_CHECK(stamps.empty() || (covers(stamps.front()) && covers(stamps.back())),
-                  "the keyframes cover the times");
+                  "keyframes must cover the stamps");
   const Trajectory<Pose>& poses = keyframes_.poses;
   std::vector<UncertainPose<Pose>> result;
   if (poses.size() == 1) {
@@ -125,9 +125,10 @@ std::vector<UncertainPose<Pose>> ContinuousTrajectory<Pose>::at(const std::vecto
     const std::size_t k = poses.segment(*next);
     const auto &before = poses[k], &after = poses[k + 1];
     const auto* joint = keyframes_.covariances.empty() ? nullptr : &keyframes_.covariances[k];
-    const WayBetweenKeyframes<Pose> way(*robot_, before.stamp, after.stamp);
+    const OdometryBetweenKeyframes<Pose> odometry(*robot_, before.stamp, after.stamp);
     for (; next != stamps.end() && (*next < after.stamp || k + 2 == poses.size()); ++next)
-      result.push_back(pose_between(before.pose, after.pose, way.cut_at(*next), keyframes_.drift, joint));
+      result.push_back(
+          pose_between(before.pose, after.pose, odometry.split_at(*next), keyframes_.drift, joint));
   }
   return result;
 }

@@ -1,5 +1,4 @@
-// Channel state information: what a WiFi card measured of the packets it heard, before any sense is made of
-// it.
+// Channel state information (CSI): what a WiFi card recorded of received packets, unprocessed.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,42 +15,42 @@
 
 namespace radioslam {
 
-/// A card's address, the first of its six bytes the most significant.
+/// MAC address; the first of its six bytes is the most significant.
 struct MacAddress {
   static constexpr std::size_t kBytes = 6;
   std::uint64_t value = 0;
   friend constexpr auto operator<=>(MacAddress, MacAddress) = default;
 };
 
-/// What one packet's training symbols said of the channel.
+/// Channel estimate of one packet.
 struct CsiPacket {
-  Stamp stamp;                           ///< by the host's clock where the capture has it, else as clock_us
-  std::uint32_t clock_us = 0;            ///< of the card: a 1 MHz counter of its own, which wraps
-  std::optional<MacAddress> sender;      ///< absent where the capture does not tell
-  std::optional<MacAddress> receiver;    ///< likewise
-  std::optional<std::uint32_t> counter;  ///< of the frame; the answer to a frame carries the same
-  std::array<int, 3> rssi{};             ///< per antenna, in the card's own scale; 0: not used
+  Stamp stamp;                           ///< by the host's clock if recorded, else from clock_us
+  std::uint32_t clock_us = 0;            ///< the card's own 1 MHz counter, which wraps around
+  std::optional<MacAddress> sender;      ///< absent if not recorded
+  std::optional<MacAddress> receiver;    ///< absent if not recorded
+  std::optional<std::uint32_t> counter;  ///< of the frame; the reply to a frame carries the same
+  std::array<int, 3> rssi{};             ///< per antenna, in the card's scale; 0: unused
   int noise_dbm = 0;                     ///< -127: not measured
   int gain_control_db = 0;
-  /// Complex channel in the card's own scale, (receiving antennas * streams) x subcarriers; row s * antennas
-  /// + a is what antenna a heard of stream s.
+  /// Complex channel in the card's scale, (receiving antennas * streams) x subcarriers; row s * antennas + a
+  /// is antenna a, stream s.
   Eigen::MatrixXcf channel;
   int antennas = 0, streams = 0;
 };
 
-/// Everything a card wrote down.
+/// Contents of one capture file.
 struct CsiCapture {
   std::vector<CsiPacket> packets;     ///< as recorded
-  std::vector<double> subcarrier_hz;  ///< from the carrier, of every column
-  std::optional<double> carrier_hz;   ///< absent where the capture does not tell
+  std::vector<double> subcarrier_hz;  ///< offset from the carrier, per column
+  std::optional<double> carrier_hz;   ///< absent if not recorded
   double bandwidth_hz = 0;
-  std::vector<std::string> warnings;  ///< what was left out, and where
+  std::vector<std::string> warnings;  ///< skipped records and their positions
 };
 
-/// A robot's WiFi card and all that it wrote down.
+/// A robot's WiFi card and its captures.
 struct CsiRecording {
-  std::optional<MacAddress> address;        ///< by which others know its packets
-  double carrier_hz = 0;                    ///< of the channel it listened on; 0: not known
+  std::optional<MacAddress> address;        ///< sender address of its packets
+  double carrier_hz = 0;                    ///< of the recorded channel; 0: unknown
   std::vector<Eigen::Vector3d> antennas_m;  ///< in the robot's body frame, in the order of the channel's rows
   std::vector<CsiCapture> captures;         ///< one per file, in the order of their names
 };

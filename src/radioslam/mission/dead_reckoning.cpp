@@ -8,7 +8,7 @@
 namespace radioslam {
 namespace {
 
-/// Heading of the walk over time, from the frame's x axis.
+/// Heading over time, from the frame's x axis.
 class Headings {
  public:
   Headings(const std::vector<LevelSample>& motion, const std::optional<CompassFit>& compass)
@@ -17,14 +17,14 @@ class Headings {
       heading_.push_back(sample.heading_rad + (compass ? compass->correction_rad(sample.stamp) : 0));
   }
 
-  /// That of the last sample at or before `stamp`; 0 without any.
+  /// Heading of the last sample at or before `stamp`; 0 without samples.
   double at(Stamp stamp) const {
     if (heading_.empty()) return 0;
     const std::size_t after = first_after(stamp);
     return heading_[after == 0 ? 0 : after - 1];
   }
 
-  /// Direction in which equal ways in every heading between the stamps lead.
+  /// Circular mean of the headings between the stamps.
   double mean(Stamp begin, Stamp end) const {
     double c = std::cos(at(begin)), s = std::sin(at(begin));
     for (std::size_t i = first_after(begin); i < first_after(end); ++i) {
@@ -45,29 +45,29 @@ class Headings {
   std::vector<double> heading_;
 };
 
-/// A pose at the begin, at both ends of every step and at the end.
+/// Trajectory with poses at the beginning, at both ends of every step and at the end.
 Trajectory<SE3> walk_along(const std::vector<Step>& steps, const Headings& headings, Stamp begin, Stamp end) {
   std::vector<StampedPose<SE3>> poses{{begin, lift(SE2({0, 0}, headings.at(begin)))}};
   Eigen::Vector2d position(0, 0);
-  const auto stand_at = [&](Stamp stamp) {
+  const auto append_pose = [&](Stamp stamp) {
     if (poses.back().stamp < stamp) poses.push_back({stamp, lift(SE2(position, headings.at(stamp)))});
   };
   for (const Step& step : steps) {
     if (step.begin < begin || end < step.end) continue;
-    stand_at(step.begin);
+    append_pose(step.begin);
     const double heading = headings.mean(step.begin, step.end);
     position += step.length_m * Eigen::Vector2d(std::cos(heading), std::sin(heading));
-    stand_at(step.end);
+    append_pose(step.end);
   }
-  stand_at(end);
+  append_pose(end);
   return Trajectory<SE3>(std::move(poses));
 }
 
 }  // namespace
 
-DeadReckoning reckon_walk(const PhoneMotion& motion, Stamp begin, Stamp end,
+DeadReckoning dead_reckon(const PhoneMotion& motion, Stamp begin, Stamp end,
                           const DeadReckoningParams& params) {
-  RADIOSLAM_CHECK(begin < end, "a walk takes time");
+  RADIOSLAM_CHECK(begin < end, "begin must precede end");
   const auto level = level_motion(motion, params.levelling);
   DeadReckoning walk;
   walk.steps = find_steps(level, params.steps);

@@ -1,14 +1,14 @@
-// A walker's way from the motion sensors of the phone in the hand: pedestrian dead reckoning.
+// Pedestrian dead reckoning: a walker's trajectory from the motion sensors of a hand-held phone.
 //
-//   levelling   heading since the start from the gyroscope, vertical acceleration   (levelling.hpp)
-//   steps       when a foot came down and how far it went                            (steps.hpp)
-//   compass     where east is                                                        (compass.hpp)
-//   p <- p + length (cos, sin)(heading)     a step goes in its mean heading
+//   levelling   heading from the gyroscope, vertical acceleration                    (levelling.hpp)
+//   steps       time and length of every step                                        (step_detection.hpp)
+//   compass     direction of east                                                    (compass.hpp)
+//   p <- p + length (cos, sin)(heading)     each step points along its mean heading
 //
-// The phone is held in front of the body, its screen up or towards the walker, its y axis in the direction of
-// walking. Body frame of the odometry: x forward, z up; yaw counter-clockwise from the frame's x axis, which
-// is east where the phone knew its orientation and the heading of the start otherwise. A phone turned in the
-// hand turns the way; a turn on the spot without a step is seen in the yaw of the next step.
+// The phone is held in front of the body with its screen up or towards the walker and its y axis in the
+// direction of walking. Body frame of the odometry: x forward, z up; yaw counter-clockwise from the frame's x
+// axis, which is east if the phone recorded its orientation and the initial heading otherwise. Rotating the
+// phone in the hand rotates the path; a turn on the spot appears in the yaw of the next step.
 #pragma once
 
 #include <optional>
@@ -19,7 +19,7 @@
 #include "radioslam/mission/compass.hpp"
 #include "radioslam/mission/levelling.hpp"
 #include "radioslam/mission/phone_motion.hpp"
-#include "radioslam/mission/steps.hpp"
+#include "radioslam/mission/step_detection.hpp"
 
 namespace radioslam {
 
@@ -36,17 +36,16 @@ struct DeadReckoningParams {
   }
 };
 
-/// What the sensors of one walk say about the way.
+/// Dead-reckoned trajectory of one recording.
 struct DeadReckoning {
   Trajectory<SE3> odometry;  ///< starts at the origin; a pose at both ends and at the end of every step
   std::vector<Step> steps;
-  std::optional<CompassFit> compass;  ///< with it, yaw 0 is east
+  std::optional<CompassFit> compass;  ///< if present, yaw 0 is east
 };
 
-/// The way from `begin` to `end`, which may reach beyond the sensors' time: there the walker stands still.
-/// `begin` < `end`. Needs one reading of accelerometer and gyroscope; without, the walker stands all the
-/// time.
-DeadReckoning reckon_walk(const PhoneMotion& motion, Stamp begin, Stamp end,
+/// Trajectory from `begin` to `end` (`begin` < `end`); outside the sensors' recording, and without at least
+/// one sample of accelerometer and gyroscope, the walker does not move.
+DeadReckoning dead_reckon(const PhoneMotion& motion, Stamp begin, Stamp end,
                           const DeadReckoningParams& params);
 
 }  // namespace radioslam

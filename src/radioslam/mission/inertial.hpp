@@ -1,4 +1,4 @@
-// What a robot's inertial measurement unit recorded.
+// IMU samples of a robot.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,10 +7,10 @@
 
 namespace radioslam {
 
-/// One reading, in the robot's body frame, of a unit at the body's origin.
-struct InertialSample {
+/// IMU sample in the robot's body frame; the sensor is at the body's origin.
+struct ImuSample {
   Stamp stamp;
-  /// Acceleration less gravity's: a unit that lies still and level reads (0, 0, +9.81).
+  /// Acceleration minus gravity: (0, 0, +9.81) at rest and level.
   Eigen::Vector3d specific_force_mps2;
   Eigen::Vector3d angular_rate_radps;
 };

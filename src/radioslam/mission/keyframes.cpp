@@ -5,25 +5,25 @@
 namespace radioslam {
 namespace {
 
-/// A row and how far it is from the geodesic, in allowances.
-struct Bend {
+/// An odometry sample and its deviation from the geodesic, relative to the allowed one.
+struct Deviation {
   std::size_t row = 0;
   double allowances = 0;
 };
 
 double allowances(double off, double allowed) { return allowed > 0 ? off / allowed : 0; }
 
-Bend worst_bend(const Trajectory<SE3>& odometry, std::size_t first, std::size_t last,
-                const KeyframeParams& params) {
+Deviation largest_deviation(const Trajectory<SE3>& odometry, std::size_t first, std::size_t last,
+                            const KeyframeParams& params) {
   const auto &a = odometry[first], &b = odometry[last];
-  Bend worst;
+  Deviation worst;
   for (std::size_t row = first + 1; row < last; ++row) {
-    const double share = static_cast<double>(odometry[row].stamp.ns - a.stamp.ns) /
-                         static_cast<double>(b.stamp.ns - a.stamp.ns);
-    const SE3 off = interpolate(a.pose, b.pose, share).inverse() * odometry[row].pose;
-    const double bend = std::max(allowances(off.translation().norm(), params.bend_m),
-                                 allowances(off.log().tail<3>().norm(), params.bend_rad));
-    if (bend > worst.allowances) worst = {row, bend};
+    const double fraction = static_cast<double>(odometry[row].stamp.ns - a.stamp.ns) /
+                            static_cast<double>(b.stamp.ns - a.stamp.ns);
+    const SE3 off = interpolate(a.pose, b.pose, fraction).inverse() * odometry[row].pose;
+    const double deviation = std::max(allowances(off.translation().norm(), params.max_deviation_m),
+                                      allowances(off.log().tail<3>().norm(), params.max_deviation_rad));
+    if (deviation > worst.allowances) worst = {row, deviation};
   }
   return worst;
 }
@@ -47,20 +47,22 @@ std::vector<std::size_t> select_keyframes(const Trajectory<SE3>& odometry, const
   return keyframes;
 }
 
-std::vector<std::size_t> with_bends(const Trajectory<SE3>& odometry,
-                                    const std::vector<std::size_t>& keyframes, const KeyframeParams& params) {
-  std::vector<std::size_t> straight;  // as far as the first of those still to be looked at
+std::vector<std::size_t> refined_keyframes(const Trajectory<SE3>& odometry,
+                                           const std::vector<std::size_t>& keyframes,
+                                           const KeyframeParams& params) {
+  std::vector<std::size_t> refined;  // keyframes up to the first interval still to be checked
   std::vector<std::size_t> ahead(keyframes.rbegin(), keyframes.rend());
   while (!ahead.empty()) {
-    const Bend bend = straight.empty() ? Bend{} : worst_bend(odometry, straight.back(), ahead.back(), params);
-    if (bend.allowances > 1) {
-      ahead.push_back(bend.row);
+    const Deviation deviation =
+        refined.empty() ? Deviation{} : largest_deviation(odometry, refined.back(), ahead.back(), params);
+    if (deviation.allowances > 1) {
+      ahead.push_back(deviation.row);
     } else {
-      straight.push_back(ahead.back());
+      refined.push_back(ahead.back());
       ahead.pop_back();
     }
   }
-  return straight;
+  return refined;
 }
 
 std::size_t keyframe_before(const std::vector<Stamp>& keyframes, Stamp stamp) {

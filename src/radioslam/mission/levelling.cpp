@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/geometry/se2.hpp"
 #include "radioslam/geometry/so3.hpp"
 
@@ -13,31 +14,33 @@ constexpr double kGravity_mps2 = 9.80665;  // standard gravity
 
 using Readings = std::vector<VectorSample>;
 
-/// The reading at a stamp, linear between neighbours, the first (last) one before (after) all others.
+/// Sample at a stamp, linearly interpolated and clamped at both ends.
 Eigen::Vector3d reading_at(const Readings& readings, Stamp stamp) {
   const auto after = std::lower_bound(readings.begin(), readings.end(), stamp,
                                       [](const VectorSample& r, Stamp s) { return r.stamp < s; });
   if (after == readings.begin()) return after->value;
   const auto before = after - 1;
   if (after == readings.end()) return before->value;
-  const double share = seconds_between(before->stamp, stamp) / seconds_between(before->stamp, after->stamp);
-  return before->value + share * (after->value - before->value);
+  const double fraction =
+      seconds_between(before->stamp, stamp) / seconds_between(before->stamp, after->stamp);
+  return before->value + fraction * (after->value - before->value);
 }
 
-/// The device's tilt from the mean of the first readings.
+/// Device tilt from the mean of the first samples.
 Eigen::Quaterniond tilt_at_start(const Readings& specific_force, double duration_s) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const auto& reading : specific_force) {
     if (seconds_between(specific_force.front().stamp, reading.stamp) > duration_s) break;
     sum += reading.value;
   }
-  return Eigen::Quaterniond::FromTwoVectors(sum, Eigen::Vector3d::UnitZ());
+  return rotation_between(sum, Eigen::Vector3d::UnitZ());
 }
 
-/// Turns the level frame a little so that the measured up comes closer to z.
-Eigen::Quaterniond lean_towards_up(const Eigen::Quaterniond& R, const Eigen::Vector3d& force, double share) {
+/// Rotates the level frame so that the measured up moves towards z by the given fraction.
+Eigen::Quaterniond lean_towards_up(const Eigen::Quaterniond& R, const Eigen::Vector3d& force,
+                                   double fraction) {
   const Eigen::Vector3d up = (R * force).normalized();
-  return so3_exp(std::min(share, 1.0) * up.cross(Eigen::Vector3d::UnitZ())) * R;
+  return so3_exp(std::min(fraction, 1.0) * up.cross(Eigen::Vector3d::UnitZ())) * R;
 }
 
 double heading_of(const Eigen::Quaterniond& R) {

@@ -1,5 +1,5 @@
-// What a robot's laser scanner recorded: scans in time order, each read when it is asked for, for a drive's
-// scans do not fit into memory at once.
+// LiDAR recording of a robot: scans in time order, read from disk on demand, since they do not all fit into
+// memory.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,19 +11,19 @@
 
 namespace radioslam {
 
-/// One sweep of a laser scanner, of all around or of a plane.
+/// One scan of a laser scanner, in space or in a plane.
 struct LidarScan {
-  /// In the robot's body frame, each at the time of its own measurement; metres. As recorded: coordinates may
-  /// be NaN, or zero where nothing came back.
+  /// In the robot's body frame at the time of each point's measurement, metres. As recorded: coordinates may
+  /// be NaN, or zero without a return.
   std::vector<Eigen::Vector3f> points;
-  /// Of every point since the scan's stamp, seconds, may be negative; empty where not known.
+  /// Time of every point relative to the scan's stamp, seconds, may be negative; empty if unknown.
   std::vector<float> times_s;
 };
 
 /// A robot's scans.
 struct LidarLog {
   std::vector<Stamp> stamps;  ///< strictly increasing
-  /// Scan k of `stamps`; may be called from several threads. Throws InputError where a file is spoilt.
+  /// Reads scan k of `stamps`; thread-safe. Throws InputError for a corrupted file.
   std::function<LidarScan(std::size_t k)> read;
 
   bool empty() const { return stamps.empty(); }

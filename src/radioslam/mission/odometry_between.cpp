@@ -8,11 +8,11 @@
 namespace radioslam {
 namespace {
 
-/// The edge between two times in order; the odometry's ends are interpolated.
+/// Edge between two ordered times; the poses at both ends are interpolated.
 template <class Pose>
 OdometryEdge<Pose> edge_between(const Robot& robot, Stamp from, Stamp to) {
   const Trajectory<SE3>& odometry = robot.odometry;
-  RADIOSLAM_CHECK(odometry.covers(from) && odometry.covers(to), "odometry covers both times");
+  RADIOSLAM_CHECK(odometry.covers(from) && odometry.covers(to), "odometry must cover both stamps");
   std::vector<StampedPose<SE3>> rows{{from, *odometry.at(from)}};
   const auto first_after = std::upper_bound(odometry.begin(), odometry.end(), from,
                                             [](Stamp s, const auto& row) { return s < row.stamp; });
@@ -41,7 +41,7 @@ UncertainPose<Pose> odometry_between(const Robot& robot, Stamp from, Stamp to) {
 
 template <class Pose>
 std::vector<UncertainPose<Pose>> odometry_since_start(const Robot& robot, const std::vector<Stamp>& stamps) {
-  RADIOSLAM_CHECK(std::is_sorted(stamps.begin(), stamps.end()), "the times do not decrease");
+  RADIOSLAM_CHECK(std::is_sorted(stamps.begin(), stamps.end()), "stamps must not decrease");
   OdometryEdge<Pose> sum;
   sum.T_i_j = pose_as<Pose>(robot.odometry.front().pose);
   Stamp reached = robot.odometry.front().stamp;

@@ -1,5 +1,5 @@
-// What odometry says of a robot's motion between any two times, with everything it states of its errors:
-// the random walk of odometry_edge.hpp and the priors of its constant drift and scale.
+// Odometry between any two times with its full covariance: the random walk of odometry_edge.hpp and the
+// priors of constant drift and scale error.
 #pragma once
 
 #include <vector>
@@ -9,12 +9,13 @@
 
 namespace radioslam {
 
-/// T_from_to with its covariance, in either order of the times, both of which the odometry must cover.
-/// Cost: the rows between them.
+/// T_from_to with its covariance, for either order of the times, both of which the odometry must cover.
+/// Cost: linear in the samples between them.
 template <class Pose>
 UncertainPose<Pose> odometry_between(const Robot& robot, Stamp from, Stamp to);
 
-/// T_start_body at each of these times, which must not decrease and be covered. Cost: rows and times.
+/// T_start_body at each of these times, which must not decrease and be covered. Cost: linear in samples and
+/// times.
 template <class Pose>
 std::vector<UncertainPose<Pose>> odometry_since_start(const Robot& robot, const std::vector<Stamp>& stamps);
 

@@ -1,5 +1,5 @@
-// What the motion sensors of a hand-held phone recorded, in Android's device frame: x to the right, y to the
-// top of the screen, z out of the screen.
+// Motion sensor recordings of a hand-held phone, in Android's device frame: x to the right, y to the top of
+// the screen, z out of the screen.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,21 +10,21 @@
 
 namespace radioslam {
 
-/// One reading of a three-axis sensor in the device frame.
+/// Sample of a three-axis sensor in the device frame.
 struct VectorSample {
   Stamp stamp;
   Eigen::Vector3d value;
 };
 
-/// One fused orientation: R_enu_device, with ENU = x east, y (magnetic) north, z up.
+/// Fused orientation R_enu_device, with ENU = x east, y (magnetic) north, z up.
 struct OrientationSample {
   Stamp stamp;
   Eigen::Quaterniond R_enu_device;
 };
 
-/// The sensors' readings, each in time order (equal stamps may follow each other).
+/// Samples of all sensors, each in time order; equal stamps are allowed.
 struct PhoneMotion {
-  std::vector<VectorSample> specific_force_mps2;  ///< accelerometer: at rest it points up, 9.81
+  std::vector<VectorSample> specific_force_mps2;  ///< accelerometer: at rest 9.81, pointing up
   std::vector<VectorSample> angular_rate_radps;   ///< gyroscope
   std::vector<OrientationSample> orientation;     ///< rotation vector; may be empty
 };

@@ -1,4 +1,4 @@
-// What robots measured of each other by radio, and matches that someone else's place recognition found.
+// Radio measurements between robots and anchors, matches from external place recognition, and position fixes.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,10 +12,10 @@
 
 namespace radioslam {
 
-/// An anchor's place in Mission::anchors.
+/// Index into Mission::anchors.
 using AnchorIndex = StrongId<struct AnchorTag>;
 
-/// A static radio.
+/// Static radio at a known or unknown position.
 struct Anchor {
   std::string id;
   std::optional<Eigen::Vector3d> position_m;  ///< in the common frame; absent when unknown
@@ -23,38 +23,39 @@ struct Anchor {
 };
 
 /// One end of a measurement: a robot's radio or an anchor.
-struct RadioEnd {
+struct LinkEnd {
   RobotIndex robot{};
   AnchorIndex anchor{};                                   ///< used when `robot` is invalid
-  std::string antenna;                                    ///< its name; empty where the robot has one only
-  Eigen::Vector3d lever_arm_m = Eigen::Vector3d::Zero();  ///< the antenna in the robot's body frame
+  std::string antenna;                                    ///< name; empty if the robot has only one
+  Eigen::Vector3d lever_arm_m = Eigen::Vector3d::Zero();  ///< antenna position in the robot's body frame
 };
 
-/// The distance between two ends at one time. At least one is a robot.
+/// Distance between two ends at one time; at least one of them is a robot.
 struct RangeMeasurement {
   Stamp stamp;
-  RadioEnd i, j;
+  LinkEnd i, j;
   double range_m = 0;
   double sigma_m = 1;
 };
 
-/// A direction from which a packet arrived, in the receiver's body frame.
-struct ArrivalPath {
+/// Direction of arrival of one path, in the receiver's body frame.
+struct AoaPath {
   double azimuth_rad = 0;               ///< counter-clockwise from body x
   std::optional<double> elevation_rad;  ///< up from the body's xy-plane; absent when not measured
   double sigma_rad = 1;
   double power_db = 0;
 };
 
-/// The paths by which one transmitter was heard, of which at most one is direct.
-struct ArrivalMeasurement {
+/// Angles of arrival of one transmission, at most one of which is the direct path.
+struct AoaMeasurement {
   Stamp stamp;
   RobotIndex receiver;
-  RadioEnd transmitter;
-  std::vector<ArrivalPath> paths;  ///< at least one
+  LinkEnd transmitter;
+  std::vector<AoaPath> paths;  ///< at least one
 };
 
-/// Robot i at t_i saw robot j at t_j (or itself, at another time) in the relative pose T_i_j.
+/// Relative pose T_i_j of robot j at t_j as seen from robot i at t_i (the same robot for intra-robot
+/// matches).
 struct PoseMatch {
   RobotIndex robot_i, robot_j;
   Stamp stamp_i, stamp_j;
@@ -63,7 +64,7 @@ struct PoseMatch {
   double sigma_r_rad = 1;
 };
 
-/// Where a robot, or the antenna of its receiver, was in the common frame.
+/// Position of a robot, or of its receiver's antenna, in the common frame.
 struct PositionFix {
   Stamp stamp;
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();

@@ -1,4 +1,4 @@
-// What was true. Evaluation and the report read it; no estimator takes it.
+// Ground truth of a mission. Only evaluation and the report read it; no estimator does.
 #pragma once
 
 #include <optional>
@@ -10,25 +10,26 @@
 
 namespace radioslam {
 
-/// One robot's true body poses T_common_body; may be sparse, may be empty.
+/// True body poses T_common_body of one robot; may be sparse or empty.
 struct RobotTruth {
   std::string id;
   Trajectory<SE3> poses;
   bool has_orientation = true;  ///< false where only positions are known (waypoints)
 };
 
-/// Says in Truth::direct_paths that none of the paths is direct.
+/// Entry of Truth::direct_paths for a measurement without a direct path.
 inline constexpr int kNoDirectPath = -1;
 
-/// True poses of the team, in the order of Mission::robots, and what is known of its measurements.
+/// True poses of the team, in the order of Mission::robots, and labels of its measurements.
 struct Truth {
   std::vector<RobotTruth> robots;
-  /// Per Mission::arrivals which path is direct, or kNoDirectPath; nothing where that is not known.
-  /// Empty when it is known of none.
+  /// Index of the direct path per Mission::aoa_measurements, or kNoDirectPath; nothing where unknown. Empty
+  /// if unknown for all.
   std::vector<std::optional<int>> direct_paths = {};
-  /// Per Mission::matches whether the two places are near each other; likewise.
+  /// Per Mission::matches, whether the two places are near each other; nothing where unknown. Empty if
+  /// unknown for all.
   std::vector<std::optional<bool>> true_matches = {};
-  /// Are no poses known?
+  /// Whether no true poses are known.
   bool empty() const {
     for (const auto& robot : robots)
       if (!robot.poses.empty()) return false;

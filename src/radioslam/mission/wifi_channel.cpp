@@ -1,10 +1,11 @@
 #include "radioslam/mission/wifi_channel.hpp"
 
+#include "radioslam/base/units.hpp"
+
 namespace radioslam {
 namespace {
 
-constexpr double kMegahertz_hz = 1e6;
-constexpr double kChannelStep_hz = 5 * kMegahertz_hz;
+constexpr double kChannelStep_hz = 5 * kHzPerMhz;
 constexpr double kSubcarrierSpacing_hz = 312.5e3;
 constexpr std::int64_t kLastOf2GHz = 14, kFirstOf5GHz = 32, kLastOf5GHz = 177;
 
@@ -12,10 +13,10 @@ constexpr std::int64_t kLastOf2GHz = 14, kFirstOf5GHz = 32, kLastOf5GHz = 177;
 
 std::optional<double> carrier_of_channel_hz(std::int64_t channel) {
   const auto above = [&](double base_mhz) {
-    return base_mhz * kMegahertz_hz + static_cast<double>(channel) * kChannelStep_hz;
+    return base_mhz * kHzPerMhz + static_cast<double>(channel) * kChannelStep_hz;
   };
   if (channel >= 1 && channel < kLastOf2GHz) return above(2407);
-  if (channel == kLastOf2GHz) return 2484 * kMegahertz_hz;
+  if (channel == kLastOf2GHz) return 2484 * kHzPerMhz;
   if (channel >= kFirstOf5GHz && channel <= kLastOf5GHz) return above(5000);
   return std::nullopt;
 }

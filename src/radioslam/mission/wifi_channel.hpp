@@ -1,4 +1,4 @@
-// Where in the spectrum a WiFi channel lies.
+// Carrier and subcarrier frequencies of WiFi channels.
 #pragma once
 
 #include <cstdint>
@@ -7,17 +7,17 @@
 
 namespace radioslam {
 
-/// The carrier of a channel by its number: 2407 + 5 n MHz for 1 to 13, 2484 MHz for 14, 5000 + 5 n MHz for 32
-/// to 177. Nothing for other numbers.
+/// Carrier of a channel number: 2407 + 5 n MHz for 1 to 13, 2484 MHz for 14, 5000 + 5 n MHz for 32 to 177.
+/// Nothing for other numbers.
 std::optional<double> carrier_of_channel_hz(std::int64_t channel);
 
-/// The channel with exactly this carrier, if there is one.
+/// Channel with exactly this carrier, if there is one.
 std::optional<std::int64_t> channel_of_carrier(double carrier_hz);
 
 enum class ChannelWidth { k20MHz, k40MHz };
 
-/// The 30 subcarriers that 802.11n reports of a channel in groups of two (20 MHz) or four (40 MHz), from the
-/// carrier; what the Intel 5300 measures.
+/// Offsets from the carrier of the 30 subcarriers that 802.11n reports in groups of two (20 MHz) or four (40
+/// MHz), as measured by the Intel 5300.
 std::vector<double> grouped_subcarriers_hz(ChannelWidth width);
 
 }  // namespace radioslam

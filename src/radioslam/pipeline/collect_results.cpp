@@ -12,7 +12,7 @@
 namespace radioslam {
 namespace {
 
-constexpr std::size_t kMostSamplesShown = 4000;
+constexpr std::size_t kMaxSamplesShown = 4000;
 constexpr double kHalfBin = 0.5;
 constexpr double kSurprise = 3;  // standard deviations
 
@@ -21,7 +21,8 @@ typename Pose::Point end_position(const PoseGraph<Pose>& graph, const RangeEnd<P
   return graph.poses[end.pose.index()] * end.lever_arm;
 }
 
-/// T_report_graph of each component: those without a known pose are told in their first robot's start.
+/// T_report_graph of each component; components without a known pose are reported in their first robot's
+/// start frame.
 template <class Pose>
 std::vector<Pose> component_frames(const JointGraph<Pose>& joint, const std::vector<Pose>& poses,
                                    const TeamPlacement<Pose>& placement) {
@@ -31,14 +32,14 @@ std::vector<Pose> component_frames(const JointGraph<Pose>& joint, const std::vec
     const auto c = static_cast<std::size_t>(placement.component[r]);
     if (seen[c] || placement.absolute[c]) continue;
     seen[c] = true;
-    const JointRobot& robot = joint.robots[r];
+    const RobotVariables& robot = joint.robots[r];
     frames[c] = pose_as<Pose>(robot.odometry.front()) * poses[robot.poses.front().index()].inverse();
   }
   return frames;
 }
 
 template <class Pose>
-RobotResult collect_robot(const JointRobot& robot, const JointGraph<Pose>& joint,
+RobotResult collect_robot(const RobotVariables& robot, const JointGraph<Pose>& joint,
                           const std::vector<Pose>& poses, const Pose& frame) {
   RobotResult result;
   result.id = robot.id;
@@ -61,13 +62,13 @@ RobotResult collect_robot(const JointRobot& robot, const JointGraph<Pose>& joint
   return result;
 }
 
-ClosureResult tie_result(const RadioTie& tie, ClosureKind kind, double statistic, double weight) {
+ClosureResult link_result(const FactorOrigin& origin, ClosureKind kind, double statistic, double weight) {
   constexpr double kHalf = 0.5;
   ClosureResult result;
-  result.robot_i = tie.robot_i;
-  result.stamp_i = tie.stamp_i;
-  result.robot_j = tie.robot_j;
-  result.stamp_j = tie.stamp_j;
+  result.robot_i = origin.robot_i;
+  result.stamp_i = origin.stamp_i;
+  result.robot_j = origin.robot_j;
+  result.stamp_j = origin.stamp_j;
   result.kind = kind;
   result.statistic = statistic;
   if (weight < kHalf) {
@@ -81,7 +82,7 @@ ClosureResult tie_result(const RadioTie& tie, ClosureKind kind, double statistic
 template <class Pose>
 TransformResult transform_between(const JointGraph<Pose>& joint, std::size_t i, std::size_t j,
                                   const Marginals<Pose>& marginals) {
-  const JointRobot &robot_i = joint.robots[i], &robot_j = joint.robots[j];
+  const RobotVariables &robot_i = joint.robots[i], &robot_j = joint.robots[j];
   const PoseId start_i = robot_i.poses.front(), start_j = robot_j.poses.front();
   const auto& poses = joint.team.graph.poses;
   const Pose T_start_i_start_j = poses[start_i.index()].inverse() * poses[start_j.index()];
@@ -90,20 +91,6 @@ TransformResult transform_between(const JointGraph<Pose>& joint, std::size_t i, 
   const auto into_j = T_j_start_j.adjoint();
   return {robot_i.id, robot_j.id, as_se3(Pose(T_i_start_i * T_start_i_start_j * T_j_start_j.inverse()), 0),
           into_j * marginals.relative_pose(start_i, start_j) * into_j.transpose()};
-}
-
-RssiOffset rssi_offset_of(DeviceOffsetStatus status) {
-  switch (status) {
-    case DeviceOffsetStatus::kNotSought:
-      return RssiOffset::kNotSought;
-    case DeviceOffsetStatus::kNotObserved:
-      return RssiOffset::kNotObserved;
-    case DeviceOffsetStatus::kNotShown:
-      return RssiOffset::kNotShown;
-    case DeviceOffsetStatus::kTakenOff:
-      return RssiOffset::kTakenOff;
-  }
-  return RssiOffset::kNotSought;
 }
 
 }  // namespace
@@ -125,45 +112,45 @@ template <class Pose>
 std::vector<ClosureResult> collect_radio_links(const JointGraph<Pose>& joint) {
   const auto& graph = joint.team.graph;
   std::vector<ClosureResult> results;
-  for (std::size_t k = 0; k < joint.range_ties.size(); ++k)
-    if (joint.range_ties[k].robot_i.valid() && joint.range_ties[k].robot_j.valid())
-      results.push_back(tie_result(joint.range_ties[k], ClosureKind::kRange,
-                                   squared_norm(graph, graph.ranges[k]), graph.ranges[k].weight));
-  for (std::size_t k = 0; k < joint.bearing_ties.size(); ++k) {
-    if (!joint.bearing_ties[k].robot_j.valid()) continue;
+  for (std::size_t k = 0; k < joint.origins.ranges.size(); ++k) {
+    const FactorOrigin& origin = joint.origins.ranges[k];
+    if (origin.source == FactorSource::kRange && origin.robot_i.valid() && origin.robot_j.valid())
+      results.push_back(link_result(origin, ClosureKind::kRange, squared_norm(graph, graph.ranges[k]),
+                                    graph.ranges[k].weight));
+  }
+  for (std::size_t k = 0; k < joint.origins.bearings.size(); ++k) {
+    if (!joint.origins.bearings[k].robot_j.valid()) continue;
     const auto& bearing = joint.team.bearings[k];
     double least = std::numeric_limits<double>::infinity();
     for (const auto& path : bearing.paths)
       least = std::min(least,
                        squared_norm(graph, BearingFactor<Pose>{
                                                bearing.i, bearing.j, path.direction, path.sigma_rad, {}, 1}));
-    const BearingVerdict& verdict = joint.bearing_verdicts[k];
-    results.push_back(tie_result(joint.bearing_ties[k], ClosureKind::kAoa, least, verdict.weight));
-    if (verdict.too_near) results.back().reason = "the robots are too near for an angle to count";
+    const BearingWeight& bearing_weight = joint.bearing_weights[k];
+    results.push_back(
+        link_result(joint.origins.bearings[k], ClosureKind::kAoa, least, bearing_weight.weight));
+    if (bearing_weight.too_near) results.back().reason = "the robots are too near for an angle to count";
   }
   return results;
 }
 
 template <class Pose>
-std::vector<ClosureResult> collect_closures(const RadioMeasurements& radio, const JointGraph<Pose>& joint,
-                                            const std::vector<FingerprintClosure>& closures) {
+std::vector<ClosureResult> collect_fingerprint_closures(const JointGraph<Pose>& joint) {
   std::vector<ClosureResult> results;
-  for (std::size_t k = 0; k < closures.size(); ++k) {
-    const auto& range = joint.team.graph.ranges[joint.first_closure_range + k];
-    const auto keyframe_stamp = [&](std::size_t node) {
-      const auto& stamps = joint.robots[radio.nodes[node].robot.index()].stamps;
-      return stamps[keyframe_before(stamps, radio.at(node).fingerprint.stamp)];
-    };
+  for (std::size_t k = 0; k < joint.origins.ranges.size(); ++k) {
+    const FactorOrigin& origin = joint.origins.ranges[k];
+    if (origin.source != FactorSource::kFingerprint) continue;
+    const auto& range = joint.team.graph.ranges[k];
     const double distance =
         (end_position(joint.team.graph, range.j) - end_position(joint.team.graph, range.i)).norm();
     ClosureResult result;
-    result.robot_i = radio.nodes[closures[k].node_i].robot;
-    result.stamp_i = keyframe_stamp(closures[k].node_i);
-    result.robot_j = radio.nodes[closures[k].node_j].robot;
-    result.stamp_j = keyframe_stamp(closures[k].node_j);
+    result.robot_i = origin.robot_i;
+    result.stamp_i = origin.stamp_i;
+    result.robot_j = origin.robot_j;
+    result.stamp_j = origin.stamp_j;
     result.kind = ClosureKind::kFingerprint;
     result.statistic = std::pow((distance - range.range_m) / range.sigma_m, 2);
-    if (result.statistic > kAcceptedStatistic) {
+    if (result.statistic > kMaxAcceptedStatistic) {
       result.status = ClosureStatus::kRejected;
       result.reason = "the estimate disagrees";
     }
@@ -210,32 +197,32 @@ std::vector<std::string> odometry_notes(const Mission& mission, const JointGraph
     const Eigen::Vector2d stated(robot.odometry_noise.sigma_yaw_drift_per_m_rad,
                                  robot.odometry_noise.sigma_scale);
     if (estimated[0] > kSurprise * std::max(stated[0], sigma[0]))
-      notes.push_back("the odometry of " + robot.id + " turns by a constant drift beyond what it states");
-    if (estimated[1] > kSurprise * std::max(stated[1], sigma[1]))
       notes.push_back("the odometry of " + robot.id +
-                      " measures distances with an error beyond what it states");
+                      " has a constant yaw drift larger than its stated noise");
+    if (estimated[1] > kSurprise * std::max(stated[1], sigma[1]))
+      notes.push_back("the odometry of " + robot.id + " has a scale error larger than its stated noise");
   }
   return notes;
 }
 
-void add_device_offsets(std::vector<RobotResult>& robots, const DeviceOffsets& offsets) {
+void add_rssi_offsets(std::vector<RobotResult>& robots, const RssiOffsets& offsets) {
   for (std::size_t r = 0; r < std::min(robots.size(), offsets.robots.size()); ++r) {
-    const DeviceOffset& device = offsets.robots[r];
-    robots[r].rssi_offset = rssi_offset_of(device.status);
+    const RssiOffsetEstimate& device = offsets.robots[r];
+    robots[r].rssi_offset = device.status;
     if (device.pairs == 0) continue;
     robots[r].rssi_offset_db = device.offset_db;
     robots[r].sigma_rssi_offset_db = device.sigma_db;
   }
 }
 
-std::string device_offset_note(const std::vector<RobotResult>& robots) {
+std::string rssi_offset_note(const std::vector<RobotResult>& robots) {
   const auto [weakest, strongest] = std::minmax_element(
       robots.begin(), robots.end(),
       [](const RobotResult& a, const RobotResult& b) { return a.rssi_offset_db < b.rssi_offset_db; });
   std::ostringstream note;
-  note << std::fixed << std::setprecision(1) << "the device of " << strongest->id << " hears "
-       << strongest->rssi_offset_db - weakest->rssi_offset_db << " dB stronger than that of " << weakest->id
-       << ": every robot's offset was taken off (rssi_offset_db in summary.json)";
+  note << std::fixed << std::setprecision(1) << "RSSI measured by " << strongest->id << " is "
+       << strongest->rssi_offset_db - weakest->rssi_offset_db << " dB above that of " << weakest->id
+       << ": every robot's offset was corrected (rssi_offset_db in summary.json)";
   return note.str();
 }
 
@@ -250,7 +237,7 @@ SimilarityModelResult collect_similarity_model(const RadioMeasurements& radio, c
       model.bins.push_back({s, p->mean_m, p->sigma_m, p->samples});
   }
   const auto& samples = radio.near_model.samples();
-  const std::size_t stride = std::max<std::size_t>(1, samples.size() / kMostSamplesShown);
+  const std::size_t stride = std::max<std::size_t>(1, samples.size() / kMaxSamplesShown);
   for (std::size_t i = 0; i < samples.size(); i += stride)
     model.samples.emplace_back(samples[i].similarity, samples[i].distance_m);
   return model;
@@ -277,8 +264,7 @@ std::vector<Component> collect_components(const JointGraph<Pose>& joint,
       const JointGraph<Pose>&, const TeamPlacement<Pose>&, const Marginals<Pose>&);                          \
   template std::vector<std::string> odometry_notes(const Mission&, const JointGraph<Pose>&,                  \
                                                    const Marginals<Pose>&);                                  \
-  template std::vector<ClosureResult> collect_closures(const RadioMeasurements&, const JointGraph<Pose>&,    \
-                                                       const std::vector<FingerprintClosure>&);              \
+  template std::vector<ClosureResult> collect_fingerprint_closures(const JointGraph<Pose>&);                 \
   template std::vector<Component> collect_components(const JointGraph<Pose>&, const TeamPlacement<Pose>&);
 RADIOSLAM_COLLECT(SE2)
 RADIOSLAM_COLLECT(SE3)

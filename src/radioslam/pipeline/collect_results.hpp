@@ -1,4 +1,4 @@
-// From an optimised joint graph to what a run reports.
+// Results of a run, collected from the optimised joint graph.
 #pragma once
 
 #include <string>
@@ -6,27 +6,27 @@
 
 #include "radioslam/closure/fingerprint_closures.hpp"
 #include "radioslam/graph/marginals.hpp"
-#include "radioslam/pipeline/joint_graph.hpp"
-#include "radioslam/pipeline/team_placement.hpp"
-#include "radioslam/radio/measurements.hpp"
+#include "radioslam/joint/joint_graph.hpp"
+#include "radioslam/joint/team_placement.hpp"
+#include "radioslam/radio/fingerprints/measurements.hpp"
 #include "radioslam/results/results.hpp"
 
 namespace radioslam {
 
-/// A closure whose squared residual over its variance exceeds this has not taken part: chi-square, one
-/// degree of freedom, 99 %.
-inline constexpr double kAcceptedStatistic = 6.635;
+/// A closure whose squared residual over its variance exceeds this counts as rejected: 99 % chi-squared
+/// quantile, one degree of freedom.
+inline constexpr double kMaxAcceptedStatistic = 6.635;
 
-/// The robots' trajectories at these poses of the graph.
+/// The robots' trajectories, with the graph's variables at `poses`.
 template <class Pose>
 std::vector<RobotResult> collect_robots(const JointGraph<Pose>& joint, const std::vector<Pose>& poses,
                                         const TeamPlacement<Pose>& placement);
 
+/// Outcomes of the distances that fingerprints predict.
 template <class Pose>
-std::vector<ClosureResult> collect_closures(const RadioMeasurements& radio, const JointGraph<Pose>& joint,
-                                            const std::vector<FingerprintClosure>& closures);
+std::vector<ClosureResult> collect_fingerprint_closures(const JointGraph<Pose>& joint);
 
-/// What became of the ranges and angles between robots: by the weight the alignment gave them.
+/// Outcomes of the ranges and angles between robots, by their weight in the alignment.
 template <class Pose>
 std::vector<ClosureResult> collect_radio_links(const JointGraph<Pose>& joint);
 
@@ -35,24 +35,24 @@ template <class Pose>
 void add_uncertainty(std::vector<RobotResult>& robots, const JointGraph<Pose>& joint,
                      const Marginals<Pose>& marginals);
 
-/// Between every two placed robots of one component.
+/// Transforms between every two placed robots of one component.
 template <class Pose>
 std::vector<TransformResult> collect_transforms(const JointGraph<Pose>& joint,
                                                 const TeamPlacement<Pose>& placement,
                                                 const Marginals<Pose>& marginals);
 
-/// What a user should know: constant odometry errors beyond three times what is stated and what is certain.
+/// Notes on constant odometry errors that exceed three times both their stated and their estimated sigma.
 template <class Pose>
 std::vector<std::string> odometry_notes(const Mission& mission, const JointGraph<Pose>& joint,
                                         const Marginals<Pose>& marginals);
 
-/// Fills RobotResult::rssi_offset_db and its sigma where fingerprints told.
-void add_device_offsets(std::vector<RobotResult>& robots, const DeviceOffsets& offsets);
+/// Fills RobotResult::rssi_offset_db and its sigma where they are observable.
+void add_rssi_offsets(std::vector<RobotResult>& robots, const RssiOffsets& offsets);
 
-/// What a user should know where offsets were taken off: how far apart the devices are.
-std::string device_offset_note(const std::vector<RobotResult>& robots);
+/// Note on corrected RSSI offsets: the largest difference between two robots' devices.
+std::string rssi_offset_note(const std::vector<RobotResult>& robots);
 
-/// The fitted model and at most a few thousand of its samples.
+/// The fitted model, with at most a few thousand of its samples.
 SimilarityModelResult collect_similarity_model(const RadioMeasurements& radio, const RadioParams& params);
 
 /// Components in the order of their numbers.

@@ -1,23 +1,23 @@
-// Every parameter of a run, by section.
+// All parameters of a run, by section.
 #pragma once
 
 #include "radioslam/closure/fingerprint_closures.hpp"
 #include "radioslam/graph/optimizer.hpp"
+#include "radioslam/joint/access_point_stage.hpp"
+#include "radioslam/joint/aoa/aoa_integrity.hpp"
+#include "radioslam/joint/aoa/aoa_match_weights.hpp"
+#include "radioslam/joint/graduated_optimisation.hpp"
+#include "radioslam/joint/joint_graph.hpp"
+#include "radioslam/joint/overlap_stage.hpp"
+#include "radioslam/joint/position_fixes/placement.hpp"
+#include "radioslam/joint/range_biases.hpp"
+#include "radioslam/joint/sequence_stage.hpp"
 #include "radioslam/mission/keyframes.hpp"
-#include "radioslam/pipeline/access_point_stage.hpp"
-#include "radioslam/pipeline/angle_checks.hpp"
-#include "radioslam/pipeline/csi_params.hpp"
-#include "radioslam/pipeline/fix_stage.hpp"
-#include "radioslam/pipeline/joint_graph.hpp"
-#include "radioslam/pipeline/match_angles.hpp"
-#include "radioslam/pipeline/overlap_stage.hpp"
-#include "radioslam/pipeline/range_biases.hpp"
-#include "radioslam/pipeline/robust_solution.hpp"
-#include "radioslam/pipeline/scan_picture.hpp"
-#include "radioslam/pipeline/scan_stage.hpp"
-#include "radioslam/pipeline/sequence_stage.hpp"
-#include "radioslam/radio/arrival_likelihood.hpp"
-#include "radioslam/radio/measurements.hpp"
+#include "radioslam/odometry/scan_stage.hpp"
+#include "radioslam/pipeline/occupancy_image.hpp"
+#include "radioslam/radio/aoa/aoa_likelihood.hpp"
+#include "radioslam/radio/captures/csi_params.hpp"
+#include "radioslam/radio/fingerprints/measurements.hpp"
 #include "radioslam/team_frame/field_refinement.hpp"
 #include "radioslam/team_frame/fingerprint_layout.hpp"
 #include "radioslam/team_frame/radio_alignment.hpp"
@@ -28,7 +28,7 @@ struct RunParams {
   KeyframeParams keyframe;
   RadioParams radio;
   ScanParams scans;
-  ScanPictureParams scan_picture;
+  OccupancyImageParams occupancy_image;
   CsiStageParams csi;
   LayoutParams team_frame;
   FieldParams field;
@@ -37,14 +37,14 @@ struct RunParams {
   SequenceStageParams sequence;
   JointGraphParams graph;
   FixParams fixes;
-  TeamBiasParams range_bias;
+  RangeBiasPriorParams range_bias;
   OverlapStageParams overlap;
   MatchParams matches;
-  ArrivalLikelihoodParams angles;
-  AngleCheckParams angle_check;
+  AoaLikelihoodParams angles;
+  AoaIntegrityParams angle_check;
   AccessPointStageParams access_points;
   RobustParams robust;
-  /// Distances from fingerprints are good to metres: a millionth of the cost decides nothing.
+  /// Predicted fingerprint distances are accurate to metres, so a tighter tolerance changes nothing.
   OptimizerParams optimizer{.max_iterations = 30, .relative_cost_tolerance = 1e-5};
 
   template <class Self, class Visitor>
@@ -52,7 +52,7 @@ struct RunParams {
     visit("keyframe", self.keyframe);
     visit("radio", self.radio);
     ScanParams::visit_sections(self.scans, visit);
-    visit("scan_picture", self.scan_picture);
+    visit("occupancy_image", self.occupancy_image);
     visit("csi", self.csi);
     visit("team_frame", self.team_frame);
     visit("field", self.field);

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "radioslam/pipeline/csi_arrivals.hpp"
-#include "radioslam/pipeline/scan_picture.hpp"
+#include "radioslam/pipeline/occupancy_image.hpp"
 #include "radioslam/pipeline/stage_clock.hpp"
+#include "radioslam/radio/captures/csi_aoa.hpp"
 
 namespace radioslam {
 namespace {
@@ -14,7 +14,7 @@ void count_scans(RunResult& result, const MeasuredScans& scans) {
   result.counts["scans"] = static_cast<double>(scans.scans);
   result.counts["scans_registered"] = static_cast<double>(scans.registered);
   result.counts["scans_of_few_points"] = static_cast<double>(scans.too_few);
-  result.counts["scans_lost"] = static_cast<double>(scans.unmatched);
+  result.counts["scans_lost"] = static_cast<double>(scans.lost);
   result.counts["scan_closures_accepted"] =
       static_cast<double>(std::count_if(result.closures.begin(), result.closures.end(), [](const auto& c) {
         return c.kind == ClosureKind::kLidar && c.status == ClosureStatus::kAccepted;
@@ -26,15 +26,15 @@ bool has_scans(const Mission& mission) {
                      [](const Robot& robot) { return !robot.lidar.empty(); });
 }
 
-/// The angles measured in the mission's captures in place of the captures.
-void add_angles(Mission& mission, const std::vector<ArrivalMeasurement>& measured) {
+/// Replaces the mission's captures by the angles measured from them.
+void add_angles(Mission& mission, const std::vector<AoaMeasurement>& measured) {
   for (Robot& robot : mission.robots) robot.csi.reset();
-  mission.arrivals.insert(mission.arrivals.end(), measured.begin(), measured.end());
-  std::stable_sort(mission.arrivals.begin(), mission.arrivals.end(),
+  mission.aoa_measurements.insert(mission.aoa_measurements.end(), measured.begin(), measured.end());
+  std::stable_sort(mission.aoa_measurements.begin(), mission.aoa_measurements.end(),
                    [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
 }
 
-bool has_something(const MeasuredCsi& csi) { return !csi.arrivals.empty() || !csi.notes.empty(); }
+bool is_not_empty(const MeasuredCsi& csi) { return !csi.aoa_measurements.empty() || !csi.notes.empty(); }
 
 }  // namespace
 
@@ -45,12 +45,13 @@ bool has_raw_recordings(const Mission& mission) {
 
 MeasuredRecordings measure_recordings(Mission& mission, const RunParams& params, const Progress& progress) {
   MeasuredRecordings measured;
-  StageClock clock(measured.timings);
+  StageClock timed;
   measured.scans =
-      clock.time("scans", [&] { return measure_scans(mission, params.scans, params.keyframe, progress); });
-  measured.csi = clock.time("angles", [&] { return measure_csi(mission, params.csi, progress); });
-  add_angles(mission, measured.csi.arrivals);
-  if (!has_something(measured.csi)) measured.timings.pop_back();
+      timed("scans", [&] { return measure_scans(mission, params.scans, params.keyframe, progress); });
+  measured.csi = timed("angles", [&] { return measure_csi(mission, params.csi, progress); });
+  measured.timings = timed.timings();
+  add_angles(mission, measured.csi.aoa_measurements);
+  if (!is_not_empty(measured.csi)) measured.timings.pop_back();
   if (measured.scans.scans == 0) measured.timings.erase(measured.timings.begin());
   return measured;
 }
@@ -61,15 +62,18 @@ void add_recording_results(RunResult& result, MeasuredRecordings measured, const
   MeasuredCsi& csi = measured.csi;
   result.timings.insert(result.timings.begin(), measured.timings.begin(), measured.timings.end());
   if (scans.scans > 0) count_scans(result, scans);
-  if (has_scans(mission) && !options.overlap_only)
-    StageClock(result.timings).time("scan picture", [&] {
-      add_scan_pictures(result, mission, params.scans.lidar, params.scan_picture);
-    });
-  if (has_something(csi)) result.counts["arrivals_measured"] = static_cast<double>(csi.arrivals.size());
+  if (has_scans(mission) && !options.overlap_only) {
+    StageClock timed;
+    timed("scan picture",
+          [&] { add_occupancy_images(result, mission, params.scans.lidar, params.occupancy_image); });
+    result.timings.push_back(timed.timings().front());
+  }
+  if (is_not_empty(csi))
+    result.counts["arrivals_measured"] = static_cast<double>(csi.aoa_measurements.size());
   result.notes.insert(result.notes.end(), scans.notes.begin(), scans.notes.end());
   for (auto& note : csi.notes) result.notes.push_back(std::move(note));
   add_estimated_azimuths(csi.profiles, result.robots);
-  result.arrivals = std::move(csi.profiles);
+  result.aoa_measurements = std::move(csi.profiles);
 }
 
 }  // namespace radioslam

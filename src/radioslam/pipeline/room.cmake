@@ -1,1 +1,9 @@
-radioslam_room(pipeline SOURCES joint_graph.cpp dense_trajectory.cpp joint_graph_of_team.cpp robot_nodes.cpp radio_factors.cpp inertial_odometry.cpp map_drift.cpp inertial_guide.cpp swept_way.cpp scan_guess.cpp sweep_bend.cpp lay_scans.cpp scan_track.cpp scans_as_odometry.cpp scan_stage.cpp scan_closures.cpp scan_picture.cpp csi_windows.cpp csi_captures.cpp csi_notes.cpp csi_tracks.cpp csi_arrivals.cpp csi_stage.cpp team_placement.cpp fix_growth.cpp fix_stage.cpp fix_results.cpp field_stage.cpp measured_links.cpp overlap_stage.cpp angle_predictions.cpp angle_checks.cpp match_angles.cpp match_stage.cpp robust_solution.cpp sequence_stage.cpp access_point_stage.cpp range_biases.cpp collect_results.cpp honest_graph.cpp run_results.cpp recordings_stage.cpp pipeline.cpp ROOMS inertial lidar closure consistency results)
+radioslam_room(pipeline
+  SOURCES
+    collect_results.cpp
+    occupancy_image.cpp
+    pipeline.cpp
+    recordings_stage.cpp
+    run_results.cpp
+    stages.cpp
+  ROOMS joint odometry closure consistency results)

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 
+#include "radioslam/joint/covariance_graph.hpp"
+#include "radioslam/joint/dense_trajectory.hpp"
+#include "radioslam/joint/position_fixes/fix_results.hpp"
+#include "radioslam/joint/scan_closures.hpp"
 #include "radioslam/pipeline/collect_results.hpp"
-#include "radioslam/pipeline/dense_trajectory.hpp"
-#include "radioslam/pipeline/fix_results.hpp"
-#include "radioslam/pipeline/honest_graph.hpp"
 
 namespace radioslam {
 namespace {
@@ -23,14 +24,15 @@ void count(RunResult& result, const RadioMeasurements& radio, const OptimizerSum
   result.counts["optimizer_iterations"] = summary.iterations;
 }
 
-/// What the run says about the estimate, its uncertainty and its alternatives.
+/// Adds the estimate, its uncertainty and its alternatives.
 template <class Pose>
 void add_estimate(RunResult& result, const Mission& mission, const JointGraph<Pose>& joint,
-                  const TeamPlacement<Pose>& placement, const MixtureParams& mixture, StageClock& clock) {
+                  const TeamPlacement<Pose>& placement, const MixtureParams& mixture, StageClock& timed) {
   const auto& graph = joint.team.graph;
   result.robots = collect_robots(joint, graph.poses, placement);
-  const auto marginals =
-      clock.time("uncertainty", [&] { return Marginals<Pose>::compute(honest(joint, mixture).team.graph); });
+  const auto marginals = timed("uncertainty", [&] {
+    return Marginals<Pose>::compute(graph_for_covariances(joint, mixture).team.graph);
+  });
   if (marginals) {
     add_uncertainty(result.robots, joint, *marginals);
     result.transforms = collect_transforms(joint, placement, *marginals);
@@ -48,77 +50,91 @@ void add_estimate(RunResult& result, const Mission& mission, const JointGraph<Po
 void add_notes(RunResult& result, const Mission& mission, const RadioMeasurements& radio,
                const SequenceStageParams& sequence, std::size_t ignored_links) {
   for (const auto& id : result.unplaced)
-    result.notes.push_back("robot " + id + " is not placed: nothing ties it to another robot");
-  for (const auto& file : mission.unused_files)
-    result.notes.push_back(file + " took no part: this version does not use it");
+    result.notes.push_back("robot " + id + " is not placed: no measurement connects it to another robot");
+  for (const auto& file : mission.unused_files) result.notes.push_back(file + " is not used by this version");
   if (ignored_links > 0)
     result.notes.push_back(
         std::to_string(ignored_links) +
-        " links were left out: no odometry at their time, or relative poses between robots");
+        " links are not used: they have no odometry at their time, or are relative poses between robots");
   if (!result.alternatives.empty())
-    result.notes.push_back("the links leave open how the team lies: see hypotheses/");
+    result.notes.push_back("the links leave the team alignment ambiguous: see hypotheses/");
   if (const auto note = sequence_note(mission.dimension, radio, sequence)) result.notes.push_back(*note);
 }
 
-/// Is every robot where it says it is, and where the estimate has it?
+/// Tests self-reported and estimated poses against the angles of arrival.
 template <class Pose>
 void check_angles_into(RunResult& result, const Mission& mission, const JointGraph<Pose>& joint,
                        const TeamPlacement<Pose>& placement, const RunParams& params) {
-  const auto add = [&](const AngleChecks& checks, CheckedPose pose) {
+  const auto add = [&](const AoaIntegrity& checks, CheckedPose pose) {
     result.angle_checks.insert(result.angle_checks.end(), checks.pairs.begin(), checks.pairs.end());
     for (auto& note : angle_notes(checks, pose)) result.notes.push_back(std::move(note));
   };
-  add(check_claims<Pose>(mission, params.graph, params.angles, params.angle_check), CheckedPose::kClaim);
+  add(check_self_reports<Pose>(mission, params.graph, params.angles, params.angle_check),
+      CheckedPose::kSelfReported);
   add(check_estimate(mission, joint, placement, params.angles, params.angle_check), CheckedPose::kEstimate);
 }
 
-/// What became of every link and closure, by kind.
+/// Outcomes of all links and closures, by kind.
 template <class Pose>
 std::vector<ClosureResult> collect_all_closures(const TeamEstimate<Pose>& estimate,
                                                 const std::vector<ScanClosure>& loops) {
   const JointGraph<Pose>& joint = estimate.joint;
   std::vector<ClosureResult> all = collect_radio_links(joint);
-  for (auto& closure : collect_closures(estimate.radio, joint, estimate.closures))
-    all.push_back(std::move(closure));
+  for (auto& closure : collect_fingerprint_closures(joint)) all.push_back(std::move(closure));
   for (auto& closure : collect_sequence_closures(joint, estimate.radio, estimate.sequences))
     all.push_back(std::move(closure));
-  for (auto& closure : collect_scan_closures(joint, loops, estimate.scan_ties))
-    all.push_back(std::move(closure));
+  for (auto& closure : collect_scan_closures(joint, loops)) all.push_back(std::move(closure));
   all.insert(all.end(), estimate.matches.begin(), estimate.matches.end());
   return all;
+}
+
+/// Adds the keyframe pairs with overlapping views and their counts.
+void add_overlaps(RunResult& result, const OverlapStage& overlaps) {
+  if (!overlaps.searched) {
+    result.notes.push_back("overlap search was skipped: the estimate's covariances are singular");
+    return;
+  }
+  result.counts["pairs"] = static_cast<double>(overlaps.counts.pairs);
+  result.counts["candidates"] = static_cast<double>(overlaps.counts.kept);
+  result.counts["distances_evaluated"] = static_cast<double>(overlaps.counts.distances_evaluated);
+  result.candidates = overlaps.candidates;
 }
 
 }  // namespace
 
 template <class Pose>
-void add_run_results(RunResult& result, const Mission& mission, const TeamEstimate<Pose>& estimate,
-                     const std::vector<ScanClosure>& loops, const RunParams& params,
-                     const RunOptions& options, StageClock& clock) {
+RunResult describe_run(const Mission& mission, const TeamEstimate<Pose>& estimate,
+                       const std::vector<ScanClosure>& loops, const std::optional<OverlapStage>& overlaps,
+                       const RunParams& params, const RunOptions& options, StageClock& timed) {
   const RadioMeasurements& radio = estimate.radio;
   const JointGraph<Pose>& joint = estimate.joint;
+  RunResult result;
   result.mission_name = mission.name;
   result.dimension = mission.dimension;
-  add_estimate(result, mission, joint, estimate.placement, params.alignment.mixture, clock);
+  result.range_biases = estimate.range_biases;
+  if (overlaps) add_overlaps(result, *overlaps);
+  add_estimate(result, mission, joint, estimate.placement, params.alignment.mixture, timed);
   for (std::size_t r = 0; r < mission.robots.size() && !options.overlap_only; ++r)
     result.robots[r].dense = dense_trajectory<Pose>(mission, joint, nullptr, r, result.robots[r]).poses;
-  add_device_offsets(result.robots, radio.device_offsets);
-  if (radio.device_offsets.shown) result.notes.push_back(device_offset_note(result.robots));
+  add_rssi_offsets(result.robots, radio.rssi_offsets);
+  if (radio.rssi_offsets.shown) result.notes.push_back(rssi_offset_note(result.robots));
   add_notes(result, mission, radio, params.sequence, joint.ignored_links);
   add_fix_results(result, joint, estimate.fixes);
-  if (!mission.arrivals.empty())
-    clock.time("angle checks",
-               [&] { check_angles_into(result, mission, joint, estimate.placement, params); });
+  if (!mission.aoa_measurements.empty())
+    timed("angle checks", [&] { check_angles_into(result, mission, joint, estimate.placement, params); });
   result.closures = collect_all_closures(estimate, loops);
   result.similarity_model = collect_similarity_model(radio, params.radio);
-  clock.time("access points", [&] { add_access_points(result, mission, radio, params.access_points); });
+  timed("access points", [&] { add_access_points(result, mission, radio, params.access_points); });
   count(result, radio, estimate.solution);
+  result.timings = timed.timings();
+  return result;
 }
 
-template void add_run_results(RunResult&, const Mission&, const TeamEstimate<SE2>&,
-                              const std::vector<ScanClosure>&, const RunParams&, const RunOptions&,
-                              StageClock&);
-template void add_run_results(RunResult&, const Mission&, const TeamEstimate<SE3>&,
-                              const std::vector<ScanClosure>&, const RunParams&, const RunOptions&,
-                              StageClock&);
+template RunResult describe_run(const Mission&, const TeamEstimate<SE2>&, const std::vector<ScanClosure>&,
+                                const std::optional<OverlapStage>&, const RunParams&, const RunOptions&,
+                                StageClock&);
+template RunResult describe_run(const Mission&, const TeamEstimate<SE3>&, const std::vector<ScanClosure>&,
+                                const std::optional<OverlapStage>&, const RunParams&, const RunOptions&,
+                                StageClock&);
 
 }  // namespace radioslam

@@ -1,23 +1,27 @@
-// What a run says of its estimate: trajectories and their uncertainty, transforms, closures and their fates,
-// checks, counts and notes.
+// Results of a run: trajectories with uncertainty, transforms, outcomes of closures, integrity tests, counts
+// and notes.
 //
-// Wants the estimate final. Cost: the marginals of the joint graph, and access points where there are
+// Needs the final estimate. Cost: the marginals of the joint graph, and the access points if there are
 // fingerprints.
 #pragma once
 
+#include <optional>
 #include <vector>
 
-#include "radioslam/pipeline/pipeline.hpp"
+#include "radioslam/joint/overlap_stage.hpp"
+#include "radioslam/joint/team_estimate.hpp"
+#include "radioslam/odometry/scan_closure.hpp"
+#include "radioslam/pipeline/params.hpp"
+#include "radioslam/pipeline/run_options.hpp"
 #include "radioslam/pipeline/stage_clock.hpp"
-#include "radioslam/pipeline/team_estimate.hpp"
 
 namespace radioslam {
 
-/// Fills `result` but for what stages before it have: candidates, range biases, timings. `loops` are those
-/// of the estimate's scan_ties.
+/// The results of the final estimate. `loops`: the robots' own loop closures; `overlaps`: nothing if no
+/// pairs were searched for. `timed` has timed the stages so far, and times those of the results.
 template <class Pose>
-void add_run_results(RunResult& result, const Mission& mission, const TeamEstimate<Pose>& estimate,
-                     const std::vector<ScanClosure>& loops, const RunParams& params,
-                     const RunOptions& options, StageClock& clock);
+RunResult describe_run(const Mission& mission, const TeamEstimate<Pose>& estimate,
+                       const std::vector<ScanClosure>& loops, const std::optional<OverlapStage>& overlaps,
+                       const RunParams& params, const RunOptions& options, StageClock& timed);
 
 }  // namespace radioslam

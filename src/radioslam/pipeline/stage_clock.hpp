@@ -2,43 +2,46 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "radioslam/results/results.hpp"
 
 namespace radioslam {
 
+/// Calls stages and records how long each takes:
+///   StageClock timed;
+///   auto radio = timed("radio", measure_radio, mission, params, progress);
 class StageClock {
  public:
-  /// `timings` must outlive this.
-  explicit StageClock(std::vector<StageTiming>& timings) : timings_(timings) {}
-
-  /// Runs `stage` and notes how long it took.
-  template <class Work>
-  auto time(std::string_view stage, Work&& work) {
+  template <class Stage, class... Arguments>
+  auto operator()(std::string_view name, Stage&& stage, Arguments&&... arguments) {
     const auto begin = Clock::now();
-    if constexpr (std::is_void_v<decltype(work())>) {
-      work();
-      note(stage, begin);
+    if constexpr (std::is_void_v<std::invoke_result_t<Stage, Arguments...>>) {
+      std::invoke(std::forward<Stage>(stage), std::forward<Arguments>(arguments)...);
+      record(name, begin);
     } else {
-      auto result = work();
-      note(stage, begin);
+      auto result = std::invoke(std::forward<Stage>(stage), std::forward<Arguments>(arguments)...);
+      record(name, begin);
       return result;
     }
   }
 
+  const std::vector<StageTiming>& timings() const { return timings_; }
+
  private:
   using Clock = std::chrono::steady_clock;
 
-  void note(std::string_view stage, Clock::time_point begin) {
+  void record(std::string_view name, Clock::time_point begin) {
     const std::chrono::duration<double> spent = Clock::now() - begin;
-    timings_.push_back({std::string(stage), spent.count()});
+    timings_.push_back({std::string(name), spent.count()});
   }
 
-  std::vector<StageTiming>& timings_;
+  std::vector<StageTiming> timings_;
 };
 
 }  // namespace radioslam

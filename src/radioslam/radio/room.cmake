@@ -1,16 +1,64 @@
-radioslam_room(radio SOURCES fingerprint.cpp similarity.cpp similarity_sums.cpp similarity_need.cpp similarity_lanes.cpp
-                       similarity_kernel_narrow.cpp similarity_kernel_wide.cpp place_order.cpp fingerprint_blocks.cpp joined_rows.cpp similarity_join.cpp fingerprint_comparison.cpp team_similarity.cpp
-               distance_model.cpp decay_model.cpp device_offset.cpp measurements.cpp
-               anchor_distances.cpp anchor_frame.cpp anchor_layout.cpp multilateration.cpp range_epochs.cpp range_bias.cpp receiver_track.cpp
-                       two_way_channel.cpp arrival_likelihood.cpp effective_snr.cpp intel5300_power.cpp capture_power.cpp beam_sums.cpp beam_kernel_narrow.cpp beam_kernel_wide.cpp subcarrier_slopes.cpp
-                       square_root_channel.cpp array_beams.cpp path_model.cpp arrival_track.cpp arrival_array.cpp arrival_slopes.cpp
-                       arrival_channel.cpp beam_objective.cpp arrival_peaks.cpp clock_offset.cpp arrival_estimate.cpp path_loss.cpp access_points.cpp ROOMS consistency mission)
+radioslam_room(radio
+  SOURCES
+    aoa/aoa_array.cpp
+    aoa/aoa_channel.cpp
+    aoa/aoa_estimate.cpp
+    aoa/aoa_likelihood.cpp
+    aoa/aoa_peaks.cpp
+    aoa/aoa_track.cpp
+    aoa/beam_kernel_avx2.cpp
+    aoa/beam_kernel_sse2.cpp
+    aoa/beam_objective.cpp
+    aoa/beamforming.cpp
+    aoa/delay_alignment.cpp
+    aoa/multipath_model.cpp
+    aoa/steering_sums.cpp
+    captures/clock_offset.cpp
+    captures/csi_aoa.cpp
+    captures/csi_captures.cpp
+    captures/csi_notes.cpp
+    captures/csi_stage.cpp
+    captures/csi_tracks.cpp
+    captures/csi_windows.cpp
+    channel/capture_power.cpp
+    channel/effective_snr.cpp
+    channel/intel5300_power.cpp
+    channel/square_root_channel.cpp
+    channel/subcarrier_slopes.cpp
+    channel/two_way_channel.cpp
+    fingerprints/access_points.cpp
+    fingerprints/decay_model.cpp
+    fingerprints/distance_model.cpp
+    fingerprints/fingerprint.cpp
+    fingerprints/fingerprint_blocks.cpp
+    fingerprints/fingerprint_comparison.cpp
+    fingerprints/join_rows.cpp
+    fingerprints/locality_order.cpp
+    fingerprints/measurements.cpp
+    fingerprints/path_loss.cpp
+    fingerprints/rssi_offset.cpp
+    fingerprints/similarity.cpp
+    fingerprints/similarity_bounds.cpp
+    fingerprints/similarity_join.cpp
+    fingerprints/similarity_kernel_avx2.cpp
+    fingerprints/similarity_kernel_sse2.cpp
+    fingerprints/similarity_lanes.cpp
+    fingerprints/similarity_sums.cpp
+    fingerprints/team_similarity.cpp
+    ranging/anchor_distances.cpp
+    ranging/anchor_frame.cpp
+    ranging/anchor_layout.cpp
+    ranging/multilateration.cpp
+    ranging/range_bias.cpp
+    ranging/range_epochs.cpp
+    ranging/receiver_track.cpp
+  ROOMS consistency mission results)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-  set_source_files_properties(radio/beam_kernel_wide.cpp radio/similarity_kernel_wide.cpp PROPERTIES COMPILE_OPTIONS "-mavx2;-fno-math-errno")
+  set_source_files_properties(radio/aoa/beam_kernel_avx2.cpp radio/fingerprints/similarity_kernel_avx2.cpp PROPERTIES COMPILE_OPTIONS "-mavx2;-fno-math-errno")
 endif()
-# Their vectors are wider than the registers; none of them leaves its file.
-set_source_files_properties(radio/beam_kernel_narrow.cpp radio/similarity_kernel_narrow.cpp PROPERTIES COMPILE_OPTIONS "-Wno-psabi;-fno-math-errno")
-# One source each on purpose: each defines the same functions for other registers.
-set_source_files_properties(radio/beam_kernel_narrow.cpp radio/beam_kernel_wide.cpp
-                            radio/similarity_kernel_narrow.cpp radio/similarity_kernel_wide.cpp
+# These kernels use vectors wider than the registers, but never pass them across files.
+set_source_files_properties(radio/aoa/beam_kernel_sse2.cpp radio/fingerprints/similarity_kernel_sse2.cpp PROPERTIES COMPILE_OPTIONS "-Wno-psabi;-fno-math-errno")
+# Excluded from unity builds: each file defines the same functions for another instruction set.
+set_source_files_properties(radio/aoa/beam_kernel_sse2.cpp radio/aoa/beam_kernel_avx2.cpp
+                            radio/fingerprints/similarity_kernel_sse2.cpp radio/fingerprints/similarity_kernel_avx2.cpp
                             PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

@@ -1,10 +1,10 @@
 #include "radioslam/report/access_point_data.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
+#include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/report/rounding.hpp"
 #include "radioslam/report/thinning.hpp"
 
@@ -13,27 +13,27 @@ namespace {
 
 constexpr int kPointDecimals = 2, kTurnDecimals = 3, kDecibelDecimals = 1;
 
-const char* word_for(AccessPointKnown known) {
-  switch (known) {
-    case AccessPointKnown::kFound:
+const char* word_for(AccessPointStatus status) {
+  switch (status) {
+    case AccessPointStatus::kFound:
       return "found";
-    case AccessPointKnown::kAmbiguous:
+    case AccessPointStatus::kAmbiguous:
       return "ambiguous";
-    case AccessPointKnown::kLoose:
+    case AccessPointStatus::kPoorlyConstrained:
       return "loose";
   }
   return "loose";
 }
 
-Eigen::Vector2d on_page_m(const SE3& T_page_estimate, const Eigen::Vector2d& place_m) {
-  return (T_page_estimate * Eigen::Vector3d(place_m.x(), place_m.y(), 0)).head<2>();
+Eigen::Vector2d on_page_m(const SE3& T_page_estimate, const Eigen::Vector2d& position_m) {
+  return (T_page_estimate * Eigen::Vector3d(position_m.x(), position_m.y(), 0)).head<2>();
 }
 
-PageData pair_data(const Eigen::Vector2d& place_m) {
-  return {rounded(place_m.x(), kPointDecimals), rounded(place_m.y(), kPointDecimals)};
+PageData pair_data(const Eigen::Vector2d& position_m) {
+  return {rounded(position_m.x(), kPointDecimals), rounded(position_m.y(), kPointDecimals)};
 }
 
-PageData heard_data(const AccessPointResult& point, const SE3& T_page_estimate) {
+PageData readings_data(const AccessPointResult& point, const SE3& T_page_estimate) {
   PageData heard = PageData::array();
   for (const Eigen::Vector3d& reading : point.heard) {
     PageData row = pair_data(on_page_m(T_page_estimate, reading.head<2>()));
@@ -44,14 +44,14 @@ PageData heard_data(const AccessPointResult& point, const SE3& T_page_estimate) 
 }
 
 PageData point_data(const AccessPointResult& point, const SE3& T_page_estimate) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(point.covariance.topLeftCorner<2, 2>());
-  const Eigen::Vector2d sigma = axes.eigenvalues().cwiseMax(0).cwiseSqrt();
-  const Eigen::Vector2d along = axes.eigenvectors().col(1);
+  const auto axes = symmetric_eigen<Eigen::Matrix2d>(point.covariance.topLeftCorner<2, 2>());
+  const Eigen::Vector2d sigma = axes.values.cwiseMax(0).cwiseSqrt();
+  const Eigen::Vector2d along = axes.vectors.col(1);
   const Eigen::Vector2d at = on_page_m(T_page_estimate, point.position_m);
   PageData data{
       {"bssid", point.bssid},
       {"frequency_mhz", rounded(point.frequency_mhz, 0)},
-      {"known", word_for(point.known)},
+      {"known", word_for(point.status)},
       {"x", rounded(at.x(), kPointDecimals)},
       {"y", rounded(at.y(), kPointDecimals)},
       {"major_m", rounded(sigma[1], kPointDecimals)},
@@ -61,12 +61,12 @@ PageData point_data(const AccessPointResult& point, const SE3& T_page_estimate) 
       {"exponent", rounded(point.exponent, kPointDecimals)},
       {"sigma_db", rounded(point.sigma_db, kDecibelDecimals)},
       {"readings", point.readings}};
-  if (point.rival_m) data["rival"] = pair_data(on_page_m(T_page_estimate, *point.rival_m));
-  data["heard"] = heard_data(point, T_page_estimate);
+  if (point.alternative_m) data["rival"] = pair_data(on_page_m(T_page_estimate, *point.alternative_m));
+  data["heard"] = readings_data(point, T_page_estimate);
   return data;
 }
 
-/// Those with the most readings, in the result's order.
+/// Indices of the access points with the most readings, in the result's order.
 std::vector<std::size_t> drawn_points(const std::vector<AccessPointResult>& points, std::size_t limit) {
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -77,7 +77,7 @@ std::vector<std::size_t> drawn_points(const std::vector<AccessPointResult>& poin
   return order;
 }
 
-/// Stamps and values, thinned alike.
+/// Adds stamps and values, thinned to the same indices.
 void add_columns(PageData& data, const char* name, const std::vector<Stamp>& stamps,
                  const std::vector<float>& values, Stamp start, std::size_t limit, int decimals) {
   PageData t = PageData::array(), column = PageData::array();
@@ -94,13 +94,13 @@ void add_columns(PageData& data, const char* name, const std::vector<Stamp>& sta
 PageData access_point_data(const RunResult& result, const SE3& T_page_estimate, const ReportParams& params) {
   PageData points = PageData::array();
   for (const std::size_t k :
-       drawn_points(result.access_points, static_cast<std::size_t>(params.maximum_access_points)))
+       drawn_points(result.access_points, static_cast<std::size_t>(params.max_access_points)))
     points.push_back(point_data(result.access_points[k], T_page_estimate));
   return {{"placed", result.access_points.size()}, {"points", std::move(points)}};
 }
 
 PageData signal_data(const RunResult& result, Stamp start, const ReportParams& params) {
-  const auto budget = static_cast<std::size_t>(params.maximum_signal_values);
+  const auto budget = static_cast<std::size_t>(params.max_signal_values);
   std::size_t total = 0;
   for (const auto& signal : result.signals) total += signal.stamps.size();
   for (const auto& over : result.similarity_over_time) total += over.stamps.size();
@@ -108,13 +108,13 @@ PageData signal_data(const RunResult& result, Stamp start, const ReportParams& p
   for (const auto& signal : result.signals) {
     PageData data{{"robot", signal.robot}, {"bssid", signal.bssid}};
     add_columns(data, "rss_dbm", signal.stamps, signal.rss_dbm, start,
-                share_of_budget(signal.stamps.size(), total, budget), kDecibelDecimals);
+                part_of_budget(signal.stamps.size(), total, budget), kDecibelDecimals);
     signals.push_back(std::move(data));
   }
   for (const auto& over : result.similarity_over_time) {
     PageData data{{"robot", over.robot}, {"of_t", rounded(seconds_between(start, over.of), 1)}};
     add_columns(data, "similarity", over.stamps, over.similarity, start,
-                share_of_budget(over.stamps.size(), total, budget), kTurnDecimals);
+                part_of_budget(over.stamps.size(), total, budget), kTurnDecimals);
     similarity.push_back(std::move(data));
   }
   return {{"signals", std::move(signals)}, {"similarity", std::move(similarity)}};

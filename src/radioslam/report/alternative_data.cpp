@@ -34,13 +34,13 @@ std::size_t poses_of_all(const std::vector<HypothesisResult>& alternatives) {
 
 PageData alternative_data(const RunResult& result, const TrajectoryContext& context,
                           const ReportParams& params) {
-  const auto budget = static_cast<std::size_t>(std::max(params.maximum_alternative_poses, 2));
+  const auto budget = static_cast<std::size_t>(std::max(params.max_alternative_poses, 2));
   const std::size_t total = poses_of_all(result.alternatives);
   PageData list = PageData::array();
   for (const HypothesisResult& other : result.alternatives) {
     PageData robots = PageData::array();
     for (const RobotResult& robot : other.robots)
-      robots.push_back(path(robot.estimate, share_of_budget(robot.estimate.size(), total, budget), context));
+      robots.push_back(path(robot.estimate, part_of_budget(robot.estimate.size(), total, budget), context));
     PageData data{{"weight", rounded(other.weight, 4)}, {"robots", std::move(robots)}};
     if (const Truth* truth = context.judgement.truth) {
       const auto metrics =

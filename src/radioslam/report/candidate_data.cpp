@@ -12,14 +12,14 @@
 namespace radioslam {
 namespace {
 
-constexpr std::size_t kFewestBins = 4;
-constexpr std::size_t kMostBins = 240;  // about a pixel each
+constexpr std::size_t kMinBins = 4;
+constexpr std::size_t kMaxBins = 240;  // about a pixel each
 
 using RobotPair = std::pair<std::size_t, std::size_t>;
 using KeyframePair = std::pair<std::size_t, std::size_t>;
 
-/// Where the keyframe with this stamp stands among a robot's.
-std::optional<std::size_t> place_of(const RunResult& result, RobotIndex robot, Stamp stamp) {
+/// Index of the keyframe with this stamp among a robot's keyframes.
+std::optional<std::size_t> keyframe_index(const RunResult& result, RobotIndex robot, Stamp stamp) {
   if (!robot.valid() || robot.index() >= result.robots.size()) return std::nullopt;
   const auto& estimate = result.robots[robot.index()].estimate;
   const auto found = std::lower_bound(estimate.begin(), estimate.end(), stamp,
@@ -34,7 +34,8 @@ using FilledPair = FilledPairs::value_type;
 FilledPairs by_robots(const RunResult& result) {
   FilledPairs pairs;
   for (const CandidateResult& c : result.candidates) {
-    const auto i = place_of(result, c.robot_i, c.stamp_i), j = place_of(result, c.robot_j, c.stamp_j);
+    const auto i = keyframe_index(result, c.robot_i, c.stamp_i),
+               j = keyframe_index(result, c.robot_j, c.stamp_j);
     if (!i || !j) continue;
     const bool in_order = c.robot_i.index() < c.robot_j.index();
     const RobotPair robots = in_order ? RobotPair(c.robot_i.index(), c.robot_j.index())
@@ -45,10 +46,10 @@ FilledPairs by_robots(const RunResult& result) {
 }
 
 PageData matrix(const RunResult& result, const RobotPair& robots, const std::vector<KeyframePair>& pairs,
-                std::size_t most_bins) {
+                std::size_t max_bins) {
   const std::size_t size_i = result.robots[robots.first].estimate.size();
   const std::size_t size_j = result.robots[robots.second].estimate.size();
-  const std::size_t bins_i = std::min(size_i, most_bins), bins_j = std::min(size_j, most_bins);
+  const std::size_t bins_i = std::min(size_i, max_bins), bins_j = std::min(size_j, max_bins);
   std::map<std::size_t, std::size_t> counts;
   for (const auto& [i, j] : pairs) ++counts[j * bins_j / size_j * bins_i + i * bins_i / size_i];
   PageData cell = PageData::array(), count = cell;
@@ -75,13 +76,13 @@ PageData candidate_data(const RunResult& result, const ReportParams& params) {
   std::stable_sort(fullest.begin(), fullest.end(), [](const FilledPair* a, const FilledPair* b) {
     return a->second.size() > b->second.size();
   });
-  fullest.resize(std::min(fullest.size(), static_cast<std::size_t>(params.maximum_matrices)));
+  fullest.resize(std::min(fullest.size(), static_cast<std::size_t>(params.max_matrices)));
   const double cells_each =
-      params.maximum_candidate_cells / static_cast<double>(std::max<std::size_t>(fullest.size(), 1));
-  const auto most_bins = std::clamp(static_cast<std::size_t>(std::sqrt(cells_each)), kFewestBins, kMostBins);
+      params.max_candidate_cells / static_cast<double>(std::max<std::size_t>(fullest.size(), 1));
+  const auto max_bins = std::clamp(static_cast<std::size_t>(std::sqrt(cells_each)), kMinBins, kMaxBins);
   PageData matrices = PageData::array();
   for (const FilledPair* pair : fullest)
-    matrices.push_back(matrix(result, pair->first, pair->second, most_bins));
+    matrices.push_back(matrix(result, pair->first, pair->second, max_bins));
   return {{"kept", result.candidates.size()},
           {"pairs", counted(result, "pairs")},
           {"distances_evaluated", counted(result, "distances_evaluated")},

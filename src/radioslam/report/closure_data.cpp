@@ -6,7 +6,7 @@
 #include <tuple>
 #include <utility>
 
-#include "radioslam/base/median.hpp"
+#include "radioslam/base/statistics.hpp"
 #include "radioslam/report/rounding.hpp"
 #include "radioslam/report/thinning.hpp"
 
@@ -74,7 +74,7 @@ class DrawnClosures {
   DrawnClosures(const RunResult& result, const DrawnKeyframes& keyframes)
       : result_(result), keyframes_(keyframes) {}
 
-  /// False when an end has no keyframe to stand at.
+  /// False if an end has no drawn keyframe.
   bool add(const ClosureResult& closure, std::size_t group) {
     if (!has_place(closure.robot_i) || !has_place(closure.robot_j)) return false;
     group_.push_back(group);
@@ -110,11 +110,11 @@ class DrawnClosures {
 
 PageData closure_data(const RunResult& result, const DrawnKeyframes& keyframes, const ReportParams& params) {
   const auto& closures = result.closures;
-  const auto budget = static_cast<std::size_t>(std::max(params.maximum_closures, 2));
+  const auto budget = static_cast<std::size_t>(std::max(params.max_closures, 2));
   PageData groups = PageData::array();
   DrawnClosures lines(result, keyframes);
   for (const auto& [group, members] : by_group(closures)) {
-    const std::size_t limit = share_of_budget(members.size(), closures.size(), budget);
+    const std::size_t limit = part_of_budget(members.size(), closures.size(), budget);
     std::size_t drawn = 0;
     for (const std::size_t m : evenly_spaced(members.size(), limit))
       if (lines.add(closures[members[m]], groups.size())) ++drawn;

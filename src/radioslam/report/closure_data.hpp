@@ -1,9 +1,11 @@
-// Closures on the page: every one counted, and as many drawn as the budget allows.
+// Page data of closures: counts of all, and as many lines as the budget allows.
 #pragma once
 
 #include <vector>
 
-#include "radioslam/report/page_data.hpp"
+#include "radioslam/report/page_json.hpp"
+#include "radioslam/report/report_params.hpp"
+#include "radioslam/results/results.hpp"
 
 namespace radioslam {
 
@@ -13,7 +15,7 @@ using DrawnKeyframes = std::vector<std::vector<std::size_t>>;
 /// {"groups": [{"kind", "status", "count", "drawn"}], "reasons": [{"kind", "status", "reason", "count",
 ///   "statistic_median"}], "drawn": {"group", "robot_i", "keyframe_i", "robot_j", "keyframe_j",
 ///   "statistic"}}.
-/// `drawn` refers to places among the drawn keyframes.
+/// Keyframes in `drawn` are indices into the drawn keyframes.
 PageData closure_data(const RunResult& result, const DrawnKeyframes& keyframes, const ReportParams& params);
 
 }  // namespace radioslam

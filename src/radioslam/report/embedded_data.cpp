@@ -3,7 +3,8 @@
 namespace radioslam {
 namespace {
 
-/// Inside a script element only '<' can end or change anything; in JSON it stands in strings alone.
+/// Escapes '<', the only character that can end or change anything in a script element; in JSON it occurs in
+/// strings only.
 std::string escape_for_script(const std::string& json) {
   std::string escaped;
   escaped.reserve(json.size());

@@ -1,4 +1,4 @@
-// Data inside a page that was written beforehand: one JSON element between its head and its tail.
+// Embeds data in a page as one JSON element between its fixed head and tail.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -7,8 +7,7 @@
 
 namespace radioslam {
 
-/// The page. Foreign text stays text: nothing in `data` can end the element it stands in, and bytes that are
-/// no UTF-8 are replaced.
+/// The page. Foreign text remains text: nothing in `data` can end its element, and invalid UTF-8 is replaced.
 std::string embed_data(std::string_view head, const nlohmann::ordered_json& data, std::string_view tail);
 
 }  // namespace radioslam

@@ -7,7 +7,7 @@
 
 #include "radioslam/report/access_point_data.hpp"
 #include "radioslam/report/alternative_data.hpp"
-#include "radioslam/report/arrival_data.hpp"
+#include "radioslam/report/aoa_data.hpp"
 #include "radioslam/report/candidate_data.hpp"
 #include "radioslam/report/closure_data.hpp"
 #include "radioslam/report/rounding.hpp"
@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kQuantileSteps = 200;
 
-/// The earliest stamp of any robot: the page's zero of time.
+/// The earliest stamp of any robot, at which the page's time starts.
 Stamp first_stamp(const RunResult& result) {
   std::optional<Stamp> first;
   for (const auto& robot : result.robots)
@@ -28,9 +28,9 @@ Stamp first_stamp(const RunResult& result) {
   return first.value_or(Stamp{});
 }
 
-/// Dead reckoning under the same rules as the estimate: one alignment of the whole team, its own. Nothing
-/// where a start is unknown: then odometry alone has no common frame.
-TeamMetrics judge_dead_reckoning(const RunResult& result, const Truth& truth) {
+/// Evaluates dead reckoning by the same rules as the estimate, with its own alignment of the whole team.
+/// Empty if a start is unknown, since odometry alone then has no common frame.
+TeamMetrics evaluate_dead_reckoning(const RunResult& result, const Truth& truth) {
   std::vector<EstimatedTrajectory> odometry;
   for (const auto& robot : result.robots) odometry.push_back({robot.id, robot.odometry});
   const auto known = [](const RobotResult& robot) { return robot.start_known; };
@@ -46,7 +46,7 @@ std::size_t component_of(const RobotResult& robot, const std::vector<Component>&
   return 0;
 }
 
-/// The errors at kQuantileSteps + 1 equal steps of their share, from the smallest to the largest.
+/// Error quantiles at kQuantileSteps + 1 equal steps, from the smallest to the largest error.
 PageData error_quantiles(const TeamMetrics& metrics) {
   std::vector<double> errors;
   for (const auto& robot : metrics.robots)
@@ -59,7 +59,7 @@ PageData error_quantiles(const TeamMetrics& metrics) {
   return quantiles;
 }
 
-PageData accuracy_data(const Judgement& judgement) {
+PageData accuracy_data(const Evaluation& judgement) {
   const TeamMetrics& estimate = *judgement.estimate;
   const TeamMetrics& odometry = *judgement.dead_reckoning;
   PageData data{{"ate", statistics_data(estimate.ate)},
@@ -83,7 +83,7 @@ PageData similarity_data(const SimilarityModelResult& model, const ReportParams&
                     {"distance_m", rounded_metres(bin.distance_m)},
                     {"sigma_m", rounded_metres(bin.sigma_m)},
                     {"samples", bin.samples}});
-  const auto limit = static_cast<std::size_t>(std::max(params.maximum_samples, 2));
+  const auto limit = static_cast<std::size_t>(std::max(params.max_samples, 2));
   for (const std::size_t i : evenly_spaced(model.samples.size(), limit)) {
     similarity.push_back(rounded(model.samples[i].first, 4));
     distance.push_back(rounded_metres(model.samples[i].second));
@@ -94,7 +94,7 @@ PageData similarity_data(const SimilarityModelResult& model, const ReportParams&
           {"drawn", {{"similarity", std::move(similarity)}, {"distance_m", std::move(distance)}}}};
 }
 
-void add_robots(PageData& page, const RunResult& result, const Judgement& judgement,
+void add_robots(PageData& page, const RunResult& result, const Evaluation& judgement,
                 const ReportParams& params) {
   TrajectoryContext context{result.dimension, first_stamp(result), SE3(), count_totals(result, judgement),
                             judgement};
@@ -109,12 +109,12 @@ void add_robots(PageData& page, const RunResult& result, const Judgement& judgem
   page["alternatives"] = alternative_data(result, context, params);
 }
 
-/// What is whole stays exact, however large.
+/// Integers stay exact, however large.
 PageData counted(double count) {
   return std::trunc(count) == count ? rounded(count, 0) : rounded_relative(count);
 }
 
-/// From the first robot of each component.
+/// Transforms relative to the first robot of each component.
 PageData transform_data(const RunResult& result) {
   PageData data = PageData::array();
   const auto is_first = [&](const std::string& id) {
@@ -151,10 +151,10 @@ void add_run(PageData& page, const RunResult& result, const ReportParams& params
   for (const auto& check : result.angle_checks)
     page["angle_checks"].push_back({{"receiver", check.receiver},
                                     {"transmitter", check.transmitter},
-                                    {"pose", check.pose == CheckedPose::kClaim ? "claim" : "estimate"},
+                                    {"pose", check.pose == CheckedPose::kSelfReported ? "claim" : "estimate"},
                                     {"measurements", check.measurements},
                                     {"median_weight", rounded(check.median_weight, 3)},
-                                    {"share_beyond", rounded(check.share_beyond, 3)},
+                                    {"share_beyond", rounded(check.outlier_ratio, 3)},
                                     {"contradicted", check.contradicted}});
   page["weight"] = rounded(result.weight, 4);
   page["candidates"] = candidate_data(result, params);
@@ -168,7 +168,7 @@ void add_run(PageData& page, const RunResult& result, const ReportParams& params
     page["parameters"].push_back({{"key", parameter.key},
                                   {"value", parameter.value},
                                   {"unit", parameter.unit},
-                                  {"meaning", parameter.meaning},
+                                  {"meaning", parameter.description},
                                   {"changed", parameter.changed}});
   page["notes"] = result.notes;
 }
@@ -181,22 +181,22 @@ PageData page_data(const RunResult& result, const Truth* truth, const std::optio
                 {"mission", result.mission_name},
                 {"dimension", result.dimension},
                 {"start_s", rounded_seconds(first_stamp(result).seconds())}};
-  const bool judged = truth != nullptr && !truth->empty() && metrics && metrics->ate;
-  page["frame"] = judged ? "truth" : "estimate";
+  const bool evaluated = truth != nullptr && !truth->empty() && metrics && metrics->ate;
+  page["frame"] = evaluated ? "truth" : "estimate";
   std::optional<TeamMetrics> dead_reckoning;
-  Judgement judgement;
-  if (judged) {
-    dead_reckoning = judge_dead_reckoning(result, *truth);
+  Evaluation judgement;
+  if (evaluated) {
+    dead_reckoning = evaluate_dead_reckoning(result, *truth);
     judgement = {truth, &*metrics, &*dead_reckoning};
     page["accuracy"] = accuracy_data(judgement);
   }
   add_robots(page, result, judgement, params);
   if (result.similarity_model) page["similarity"] = similarity_data(*result.similarity_model, params);
-  if (!result.arrivals.empty())
-    page["arrivals"] = arrival_data(result, first_stamp(result), judgement.truth, params);
+  if (!result.aoa_measurements.empty())
+    page["arrivals"] = aoa_data(result, first_stamp(result), judgement.truth, params);
   if (!result.access_points.empty())
     page["access_points"] =
-        access_point_data(result, judged ? judgement.estimate->T_truth_estimate : SE3(), params);
+        access_point_data(result, evaluated ? judgement.estimate->T_truth_estimate : SE3(), params);
   if (!result.signals.empty()) page["signals"] = signal_data(result, first_stamp(result), params);
   add_run(page, result, params);
   return page;

@@ -1,17 +1,18 @@
-// What the page shows, as JSON: one object, keys in a fixed order, numbers rounded to what can be seen.
-// Metres are rounded to 1 mm, times to 1 ms and counted from `start_s`; positions are in the truth's frame
-// where metrics exist, else in the estimate's. Columns rather than rows: {"x": [...], "y": [...]}. What is
-// not known is null or absent.
+// Page data: everything the report page shows as one JSON object, with a fixed key order and rounded numbers.
+// Metres are rounded to 1 mm, times to 1 ms relative to `start_s`; positions are in the truth's frame if
+// there are metrics, else in the estimate's. Columns rather than rows: {"x": [...], "y": [...]}. Unknown
+// values are null or absent.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 
-#include "radioslam/report/report.hpp"
+#include "radioslam/eval/metrics.hpp"
+#include "radioslam/mission/truth.hpp"
+#include "radioslam/report/page_json.hpp"
+#include "radioslam/report/report_params.hpp"
+#include "radioslam/results/results.hpp"
 
 namespace radioslam {
-
-using PageData = nlohmann::ordered_json;
 
 PageData page_data(const RunResult& result, const Truth* truth, const std::optional<TeamMetrics>& metrics,
                    const ReportParams& params);

@@ -9,17 +9,17 @@
 namespace radioslam {
 namespace {
 
-constexpr int kMostDigit = 9;
+constexpr int kMaxDigit = 9;
 
 char hits_digit(int hits) {
   int digit = 1;
-  for (int left = hits; left > 1 && digit < kMostDigit; left /= 2) ++digit;
+  for (int left = hits; left > 1 && digit < kMaxDigit; left /= 2) ++digit;
   return static_cast<char>('0' + digit);
 }
 
 }  // namespace
 
-PageData picture_data(const ScanPictureResult& picture, const SE3& T_page_estimate) {
+PageData picture_data(const OccupancyImageResult& picture, const SE3& T_page_estimate) {
   PageData rows = PageData::array(), hits = PageData::array();
   for (std::size_t begin = 0, end = 0; begin < picture.cells.size(); begin = end) {
     PageData row{picture.cells[begin].y, picture.cells[begin].x};

@@ -1,7 +1,19 @@
 # The page is written once as HTML, CSS and JavaScript in report/page and compiled in, together with d3.
 radioslam_room(report
-  SOURCES report.cpp embedded_data.cpp page_data.cpp trajectory_data.cpp picture_data.cpp closure_data.cpp candidate_data.cpp alternative_data.cpp arrival_data.cpp access_point_data.cpp thinning.cpp
-  ROOMS mission results eval LIBRARIES nlohmann_json::nlohmann_json)
+  SOURCES
+    access_point_data.cpp
+    alternative_data.cpp
+    aoa_data.cpp
+    candidate_data.cpp
+    closure_data.cpp
+    embedded_data.cpp
+    page_data.cpp
+    picture_data.cpp
+    report.cpp
+    thinning.cpp
+    trajectory_data.cpp
+  ROOMS mission results eval
+  LIBRARIES nlohmann_json::nlohmann_json)
 radioslam_page(radioslam_report ${CMAKE_CURRENT_SOURCE_DIR}/report/page radioslam/report/page_parts.hpp radioslam
   data.js format.js colours.js state.js chart.js picture.js map_layers.js map_view.js map_panel.js headline.js errors.js
   hypotheses.js overlap.js directions.js access_points.js signals.js similarity.js tables.js parameters.js main.js)

@@ -1,13 +1,13 @@
-// Numbers as the page keeps them: rounded to decimals, so that their shortest text is short.
+// Rounding of the page's numbers to decimals, so that their shortest text is short.
 #pragma once
 
 #include <cmath>
 
-#include "radioslam/report/page_data.hpp"
+#include "radioslam/report/page_json.hpp"
 
 namespace radioslam {
 
-/// `value` with `decimals` decimals; null when it is not a number.
+/// `value` with `decimals` decimals; null if it is not finite.
 inline PageData rounded(double value, int decimals) {
   if (!std::isfinite(value)) return nullptr;
   const double scale = std::pow(10.0, decimals);

@@ -14,10 +14,10 @@ std::vector<std::size_t> evenly_spaced(std::size_t count, std::size_t limit) {
   return indices;
 }
 
-std::size_t share_of_budget(std::size_t count, std::size_t total, std::size_t budget, std::size_t least) {
+std::size_t part_of_budget(std::size_t count, std::size_t total, std::size_t budget, std::size_t least) {
   if (total <= budget) return std::max(count, least);
-  const double share = static_cast<double>(count) / static_cast<double>(total);
-  return std::max(static_cast<std::size_t>(share * static_cast<double>(budget)), least);
+  const double ratio = static_cast<double>(count) / static_cast<double>(total);
+  return std::max(static_cast<std::size_t>(ratio * static_cast<double>(budget)), least);
 }
 
 std::size_t nearest_kept(const std::vector<std::size_t>& kept, std::size_t index) {

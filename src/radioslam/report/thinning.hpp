@@ -1,4 +1,4 @@
-// Which of many things to draw: evenly spaced, first and last kept, no chance involved.
+// Thinning of data to draw: evenly spaced, first and last kept, deterministic.
 #pragma once
 
 #include <cstddef>
@@ -6,14 +6,14 @@
 
 namespace radioslam {
 
-/// At most `limit` (at least 2) indices into `count` things, increasing, with 0 and count - 1 among them.
+/// At most `limit` (at least 2) indices into `count` items, increasing, with 0 and count - 1 among them.
 std::vector<std::size_t> evenly_spaced(std::size_t count, std::size_t limit);
 
-/// One of several groups' share of a budget: all of it where the total fits, else in proportion to the
-/// group's size, but no less than `least`.
-std::size_t share_of_budget(std::size_t count, std::size_t total, std::size_t budget, std::size_t least = 2);
+/// A group's part of a budget: its whole count if the total fits, else in proportion to its size, but at
+/// least `least`.
+std::size_t part_of_budget(std::size_t count, std::size_t total, std::size_t budget, std::size_t least = 2);
 
-/// The place of original index `index` among thinned indices that came from evenly_spaced: the nearest one.
+/// Position of original index `index` among indices kept by evenly_spaced: that of the nearest one.
 std::size_t nearest_kept(const std::vector<std::size_t>& kept, std::size_t index);
 
 }  // namespace radioslam

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "radioslam/base/median.hpp"
+#include "radioslam/base/statistics.hpp"
 #include "radioslam/report/picture_data.hpp"
 #include "radioslam/report/rounding.hpp"
 #include "radioslam/report/thinning.hpp"
@@ -44,8 +44,7 @@ PageData path_data(const Trajectory<SE3>& path, const std::vector<std::size_t>& 
 PageData error_data(const std::vector<PointError>& errors, const TrajectoryContext& context,
                     const ReportParams& params) {
   PageData t = PageData::array(), along = t, error = t;
-  const std::size_t limit =
-      share_of_budget(errors.size(), context.totals.errors, budget(params.maximum_errors));
+  const std::size_t limit = part_of_budget(errors.size(), context.totals.errors, budget(params.max_errors));
   for (const std::size_t i : evenly_spaced(errors.size(), limit)) {
     t.push_back(rounded_seconds(seconds_between(context.start, errors[i].stamp)));
     along.push_back(rounded_metres(errors[i].along_m));
@@ -69,7 +68,7 @@ void add_paths(PageData& data, const RobotResult& robot, const TrajectoryContext
     data["sigma_median_m"] = rounded_metres(upper_median(robot.sigma_position_m));
   }
   const std::size_t poses = robot.odometry.size();
-  const auto limit = share_of_budget(poses, context.totals.keyframes, budget(params.maximum_poses));
+  const auto limit = part_of_budget(poses, context.totals.keyframes, budget(params.max_poses));
   data["odometry"] = path_data(robot.odometry, evenly_spaced(poses, limit), context.T_page_estimate, context);
 }
 
@@ -77,12 +76,12 @@ PageData fixes_data(const FixResult& fixes) {
   return {{"used", fixes.used}, {"rejected", fixes.rejected}, {"unused", fixes.unused}};
 }
 
-void add_judgement(PageData& data, const RobotResult& robot, const TrajectoryContext& context,
-                   const ReportParams& params) {
-  const Judgement& judgement = context.judgement;
+void add_evaluation(PageData& data, const RobotResult& robot, const TrajectoryContext& context,
+                    const ReportParams& params) {
+  const Evaluation& judgement = context.judgement;
   if (const auto* truth = truth_of(robot.id, judgement.truth); truth != nullptr && !truth->poses.empty()) {
     const std::size_t poses = truth->poses.size();
-    const auto limit = share_of_budget(poses, context.totals.truth_poses, budget(params.maximum_poses));
+    const auto limit = part_of_budget(poses, context.totals.truth_poses, budget(params.max_poses));
     data["truth"] = path_data(truth->poses, evenly_spaced(poses, limit), SE3(), context);
   }
   if (const auto* metrics = metrics_of(robot.id, judgement.estimate)) {
@@ -98,7 +97,7 @@ void add_judgement(PageData& data, const RobotResult& robot, const TrajectoryCon
 
 }  // namespace
 
-TeamTotals count_totals(const RunResult& result, const Judgement& judgement) {
+TeamTotals count_totals(const RunResult& result, const Evaluation& judgement) {
   TeamTotals totals;
   for (const auto& robot : result.robots) totals.keyframes += robot.estimate.size();
   if (judgement.truth != nullptr)
@@ -111,7 +110,7 @@ TeamTotals count_totals(const RunResult& result, const Judgement& judgement) {
 std::vector<std::size_t> drawn_keyframes(const RobotResult& robot, const TeamTotals& totals,
                                          const ReportParams& params) {
   const std::size_t count = robot.estimate.size();
-  return evenly_spaced(count, share_of_budget(count, totals.keyframes, budget(params.maximum_poses)));
+  return evenly_spaced(count, part_of_budget(count, totals.keyframes, budget(params.max_poses)));
 }
 
 PageData robot_data(const RobotResult& robot, std::size_t component, const TrajectoryContext& context,
@@ -128,7 +127,7 @@ PageData robot_data(const RobotResult& robot, std::size_t component, const Traje
                 {"yaw_drift_per_m_rad", rounded_relative(robot.yaw_drift_per_m_rad)},
                 {"scale_error", rounded_relative(robot.scale_error)}};
   add_paths(data, robot, context, params);
-  add_judgement(data, robot, context, params);
+  add_evaluation(data, robot, context, params);
   if (robot.picture) data["picture"] = picture_data(*robot.picture, context.T_page_estimate);
   if (robot.fixes) data["fixes"] = fixes_data(*robot.fixes);
   return data;

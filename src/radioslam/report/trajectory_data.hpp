@@ -1,46 +1,50 @@
-// One robot on the page: its paths, its uncertainty and its errors, thinned to the budget.
+// Page data of one robot: its paths, uncertainty and errors, thinned to the budget.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "radioslam/report/page_data.hpp"
+#include "radioslam/eval/metrics.hpp"
+#include "radioslam/mission/truth.hpp"
+#include "radioslam/report/page_json.hpp"
+#include "radioslam/report/report_params.hpp"
+#include "radioslam/results/results.hpp"
 
 namespace radioslam {
 
-/// What the run is judged by; all three are there, or none.
-struct Judgement {
+/// Truth, metrics and dead reckoning; all three are present, or none.
+struct Evaluation {
   const Truth* truth = nullptr;
   const TeamMetrics* estimate = nullptr;
   const TeamMetrics* dead_reckoning = nullptr;
 };
 
-/// How many poses and errors there are over all robots: what the budgets are shared by.
+/// Numbers of poses and errors over all robots, between which budgets are divided.
 struct TeamTotals {
   std::size_t keyframes = 0;
   std::size_t truth_poses = 0;
   std::size_t errors = 0;
 };
-TeamTotals count_totals(const RunResult& result, const Judgement& judgement);
+TeamTotals count_totals(const RunResult& result, const Evaluation& judgement);
 
-/// Everything the robots of a page have in common.
+/// Data common to all robots of a page.
 struct TrajectoryContext {
   int dimension = 2;
   Stamp start;
-  SE3 T_page_estimate;  ///< into the frame the page is drawn in
+  SE3 T_page_estimate;  ///< into the page's frame
   TeamTotals totals;
-  Judgement judgement;
+  Evaluation judgement;
 };
 
-/// The keyframes of a robot that are drawn, as indices into its estimate.
+/// The drawn keyframes of a robot, as indices into its estimate.
 std::vector<std::size_t> drawn_keyframes(const RobotResult& robot, const TeamTotals& totals,
                                          const ReportParams& params);
 
-/// The robot's object; `component` is its place in RunResult::components.
+/// The robot's object; `component` is its index in RunResult::components.
 PageData robot_data(const RobotResult& robot, std::size_t component, const TrajectoryContext& context,
                     const ReportParams& params);
 
-/// Metres walked along a path.
+/// Length of a path in metres.
 double path_length_m(const Trajectory<SE3>& path, int dimension);
 
 /// {"rmse_m", "mean_m", "median_m", "p90_m", "count"}, or null.

@@ -1,7 +1,41 @@
-radioslam_room(sim SOURCES lane_grid.cpp drive.cpp wheel_odometry.cpp shadowing.cpp transmitters.cpp phones.cpp
-                           carpark.cpp stamps.cpp hills.cpp surface_odometry.cpp street_grid.cpp team_drives.cpp
-                           image_sources.cpp csi_channel.cpp csi_card.cpp csi_exchange.cpp turn_drives.cpp csi_room.cpp
-                           arrival_paths.cpp radio_channel.cpp aliased_matches.cpp radio_mission.cpp city.cpp
-                           hall.cpp corridors.cpp town_houses.cpp upright_shapes.cpp floor_grid.cpp ray_world.cpp
-                           spline_motion.cpp true_motion.cpp smooth_ride.cpp inertial_unit.cpp lidar_scanner.cpp
-                           onboard_sensors.cpp gnss_receiver.cpp kitti.cpp scenarios.cpp ROOMS base geometry mission)
+radioslam_room(sim
+  SOURCES
+    motion/drive.cpp
+    motion/smooth_motion.cpp
+    motion/spline_motion.cpp
+    motion/stamps.cpp
+    motion/take_turns.cpp
+    motion/team_drives.cpp
+    motion/true_motion.cpp
+    scenarios/carpark.cpp
+    scenarios/city.cpp
+    scenarios/corridors.cpp
+    scenarios/csi_room.cpp
+    scenarios/hall.cpp
+    scenarios/kitti.cpp
+    scenarios/onboard_sensors.cpp
+    scenarios/radio_mission.cpp
+    scenarios/scenarios.cpp
+    sensors/aliased_matches.cpp
+    sensors/arrival_paths.cpp
+    sensors/csi_card.cpp
+    sensors/csi_channel.cpp
+    sensors/csi_exchange.cpp
+    sensors/gnss_receiver.cpp
+    sensors/image_sources.cpp
+    sensors/inertial_unit.cpp
+    sensors/lidar_scanner.cpp
+    sensors/phones.cpp
+    sensors/radio_channel.cpp
+    sensors/shadowing.cpp
+    sensors/surface_odometry.cpp
+    sensors/transmitters.cpp
+    sensors/wheel_odometry.cpp
+    worlds/floor_grid.cpp
+    worlds/hills.cpp
+    worlds/lane_grid.cpp
+    worlds/ray_world.cpp
+    worlds/street_grid.cpp
+    worlds/town_houses.cpp
+    worlds/upright_shapes.cpp
+  ROOMS base geometry mission)

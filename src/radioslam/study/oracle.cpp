@@ -5,8 +5,8 @@
 
 #include "radioslam/base/check.hpp"
 #include "radioslam/graph/optimizer.hpp"
-#include "radioslam/pipeline/joint_graph.hpp"
-#include "radioslam/team_frame/level_priors.hpp"
+#include "radioslam/joint/joint_graph.hpp"
+#include "radioslam/team_frame/gravity_priors.hpp"
 
 namespace radioslam {
 namespace {
@@ -25,19 +25,19 @@ bool can_start_from(const Mission& mission, const Truth& truth) {
 
 template <class Pose>
 void start_from(const Truth& truth, JointGraph<Pose>& joint) {
-  for (std::size_t p = 0; p < joint.team.pieces.size(); ++p) {
-    const Piece& piece = joint.team.pieces[p];
-    const auto& poses = truth.robots[joint.robot_of_piece[p]].poses;
+  for (std::size_t p = 0; p < joint.team.segments.size(); ++p) {
+    const TrajectorySegment& piece = joint.team.segments[p];
+    const auto& poses = truth.robots[joint.robot_of_segment[p]].poses;
     for (std::size_t k = 0; k < piece.pose_count; ++k)
       joint.team.graph.poses[piece.first_pose + k] = pose_as<Pose>(*poses.at(piece.stamps[k]));
   }
-  turn_level_priors(joint.team.graph);
+  rotate_gravity_priors(joint.team.graph);
 }
 
 template <class Pose>
 void believe_every_link(JointGraph<Pose>& joint) {
   for (const auto& bearing : joint.team.bearings) {
-    RADIOSLAM_CHECK(bearing.paths.size() == 1, "the oracle's measurements have their direct path alone");
+    RADIOSLAM_CHECK(bearing.paths.size() == 1, "the oracle's measurements contain only their direct path");
     const auto& path = bearing.paths.front();
     joint.team.graph.bearings.push_back({bearing.i, bearing.j, path.direction, path.sigma_rad, {}, 1});
   }
@@ -46,7 +46,7 @@ void believe_every_link(JointGraph<Pose>& joint) {
 template <class Pose>
 std::vector<EstimatedTrajectory> keyframe_poses(const JointGraph<Pose>& joint) {
   std::vector<EstimatedTrajectory> robots;
-  for (const JointRobot& robot : joint.robots) {
+  for (const RobotVariables& robot : joint.robots) {
     std::vector<StampedPose<SE3>> poses;
     for (std::size_t k = 0; k < robot.poses.size(); ++k)
       poses.push_back({robot.stamps[k], as_se3(joint.team.graph.poses[robot.poses[k].index()],
@@ -70,13 +70,13 @@ std::vector<EstimatedTrajectory> estimate(const Mission& labelled, const Truth& 
 
 Mission with_direct_paths_only(const Mission& mission, const Truth& truth) {
   Mission labelled = mission;
-  labelled.arrivals.clear();
+  labelled.aoa_measurements.clear();
   labelled.matches.clear();
   for (std::size_t k = 0; k < truth.direct_paths.size(); ++k) {
     const auto direct = truth.direct_paths[k];
     if (!direct || *direct == kNoDirectPath) continue;
-    ArrivalMeasurement& kept = labelled.arrivals.emplace_back(mission.arrivals[k]);
-    kept.paths = {mission.arrivals[k].paths[static_cast<std::size_t>(*direct)]};
+    AoaMeasurement& kept = labelled.aoa_measurements.emplace_back(mission.aoa_measurements[k]);
+    kept.paths = {mission.aoa_measurements[k].paths[static_cast<std::size_t>(*direct)]};
   }
   return labelled;
 }

@@ -1,9 +1,10 @@
-// The best that could be asked of an estimate: maximum likelihood told which paths are direct, started from
-// the truth. Every range counts fully, every angle measurement has its labelled direct path and no other, and
-// the optimiser starts where the robots really were, so neither a wrong path nor a wrong minimum can spoil
-// it. What is left is the noise. Matches take no part.
+// Oracle estimate, a lower bound on the error: maximum likelihood with known direct paths, started from the
+// truth.
 //
-// Frame: the truth's, as far as the links tell. Cost: one optimisation of the joint graph.
+// Every range has full weight, every angle measurement contains only its labelled direct path, and the
+// optimiser starts at the true poses, so that neither outliers nor local minima matter and only noise
+// remains. Matches are not used. Frame: the truth's, as far as it is observable. Cost: one optimisation of
+// the joint graph.
 #pragma once
 
 #include <optional>
@@ -16,12 +17,13 @@
 
 namespace radioslam {
 
-/// The mission as it would be if every receiver knew: measurements with a labelled direct path keep that
-/// path alone, the others are gone, and so are the matches.
+/// The mission with known direct paths: angle measurements with a labelled direct path keep only that, the
+/// others and all matches are removed.
 Mission with_direct_paths_only(const Mission& mission, const Truth& truth);
 
-/// Keyframes of every robot, by `params`' keyframes and graph; converges to the optimiser's own defaults.
-/// Nothing where the truth does not cover the odometry, has no orientation, or leaves an anchor's place open.
+/// Keyframes of every robot, by `params`' keyframes and graph; with the optimiser's own default tolerances.
+/// Nothing if the truth does not cover the odometry, has no orientation, or leaves an anchor's position
+/// unknown.
 std::optional<std::vector<EstimatedTrajectory>> oracle_estimate(const Mission& mission, const Truth& truth,
                                                                 const RunParams& params);
 

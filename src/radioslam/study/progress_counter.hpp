@@ -1,4 +1,4 @@
-// Counts what is done of a study, from any thread.
+// Thread-safe progress counter of a study.
 #pragma once
 
 #include <cstddef>

@@ -1,8 +1,8 @@
 #include "radioslam/study/study_json.hpp"
 
-#include "radioslam/io/metrics_json.hpp"
-#include "radioslam/study/published_wi_closure.hpp"
-#include "radioslam/study/robustness_summary.hpp"
+#include "radioslam/io/run/metrics_json.hpp"
+#include "radioslam/study/robustness_map/robustness_summary.hpp"
+#include "radioslam/study/wi_closure_kitti/published_wi_closure.hpp"
 
 namespace radioslam {
 namespace {
@@ -11,10 +11,10 @@ using Json = nlohmann::ordered_json;
 
 Json optional_json(std::optional<double> value) { return value ? Json(*value) : Json(); }
 
-Json search_json(const JudgedRun& run) {
+Json search_json(const EvaluatedRun& run) {
   Json json = pair_counts_json(run.candidates);
   json["recall"] = optional_json(recall(run.candidates));
-  json["false_rejected"] = optional_json(false_rejected(run.candidates));
+  json["false_rejected"] = optional_json(rejected_false(run.candidates));
   json["distances_evaluated"] = run.distances_evaluated;
   json["search_s"] = run.search_s;
   json["total_s"] = run.total_s;
@@ -64,8 +64,8 @@ Json cell_json(const RobustnessCell& cell) {
           {"ate_m", optional_json(s.ate_m)},
           {"ate_oracle_m", optional_json(s.ate_oracle_m)},
           {"recall", optional_json(s.recall)},
-          {"least_recall", optional_json(s.least_recall)},
-          {"false_rejected", optional_json(s.false_rejected)},
+          {"least_recall", optional_json(s.min_recall)},
+          {"false_rejected", optional_json(s.rejected_false)},
           {"failed", s.failed},
           {"confidently_wrong", s.confidently_wrong}};
 }
@@ -94,12 +94,12 @@ Json figures_json(const AoaFigures& figures) {
 
 Json link_json(const AoaLink& link) {
   Json peaks = Json::array();
-  for (const ArrivalPeak& peak : link.peaks)
+  for (const AoaPeak& peak : link.peaks)
     peaks.push_back({{"azimuth_rad", peak.azimuth_rad},
                      {"elevation_rad", peak.elevation_rad},
                      {"sigma_rad", peak.sigma_rad},
                      {"power_db", peak.power_db},
-                     {"ghost", peak.is_ghost}});
+                     {"ghost", peak.is_cross_term}});
   const bool measured = !link.peaks.empty();
   return {{"trial", link.trial},
           {"transmitter", link.transmitter},
@@ -146,7 +146,7 @@ nlohmann::ordered_json aoa_json(const std::vector<AoaLink>& links, const std::ve
   for (const AoaGroup& group : group_links(links, published))
     json["groups"].push_back({{"sight", word_for(group.sight)},
                               {"motion", word_for(group.motion)},
-                              {"ours", figures_json(group.ours)},
+                              {"ours", figures_json(group.estimated)},
                               {"authors_same_trials", figures_json(group.published)},
                               {"authors_all", figures_json(group.published_all)}});
   for (const AoaLink& link : links) json["links"].push_back(link_json(link));
@@ -163,7 +163,7 @@ nlohmann::ordered_json aoa_paths_json(const std::vector<AoaPathsCell>& cells) {
                       {"found", run.found},
                       {"direct_error_rad", run.direct_error_rad},
                       {"strongest_error_rad", run.strongest_error_rad},
-                      {"ghosts", run.ghosts}});
+                      {"ghosts", run.cross_terms}});
     json["cells"].push_back(
         {{"profile", cell.profile}, {"cards", word_for(cell.cards)}, {"runs", std::move(runs)}});
   }
@@ -179,8 +179,8 @@ nlohmann::ordered_json sequence_json(const std::vector<SequenceCell>& cells) {
                           {"error_rad", error.angle_rad},
                           {"nees", error.nees},
                           {"right", error.right()}});
-    json["cells"].push_back({{"least_similarity", cell.least_similarity},
-                             {"window_way_m", cell.window_way_m},
+    json["cells"].push_back({{"least_similarity", cell.min_similarity},
+                             {"window_way_m", cell.window_path_m},
                              {"missions", cell.missions},
                              {"candidates", cell.candidates},
                              {"accepted", std::move(accepted)}});

@@ -1,17 +1,17 @@
-// What `reproduce --json` prints. What could not be measured is null.
+// JSON output of `reproduce --json`. Values that could not be measured are null.
 #pragma once
 
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "radioslam/study/aoa_paths.hpp"
-#include "radioslam/study/aoa_table.hpp"
-#include "radioslam/study/fingerprint_tables.hpp"
-#include "radioslam/study/overlap_growth.hpp"
-#include "radioslam/study/robustness_map.hpp"
-#include "radioslam/study/sequence_table.hpp"
-#include "radioslam/study/threshold_sweep.hpp"
-#include "radioslam/study/wi_closure_kitti.hpp"
+#include "radioslam/study/aoa/aoa_paths.hpp"
+#include "radioslam/study/aoa/aoa_table.hpp"
+#include "radioslam/study/fingerprints/fingerprint_tables.hpp"
+#include "radioslam/study/fingerprints/sequence_table.hpp"
+#include "radioslam/study/fingerprints/threshold_sweep.hpp"
+#include "radioslam/study/overlap_growth/overlap_growth.hpp"
+#include "radioslam/study/robustness_map/robustness_map.hpp"
+#include "radioslam/study/wi_closure_kitti/wi_closure_kitti.hpp"
 
 namespace radioslam {
 
@@ -36,7 +36,7 @@ nlohmann::ordered_json aoa_json(const std::vector<AoaLink>& links, const std::ve
 ///   "strongest_error_rad", "ghosts"}]}]}
 nlohmann::ordered_json aoa_paths_json(const std::vector<AoaPathsCell>& cells);
 
-/// {"table", "cells": [{"least_similarity", "window_way_m", "missions", "candidates", "accepted":
+/// {"table", "cells": [{"min_similarity", "window_path_m", "missions", "candidates", "accepted":
 ///   [{"error_m", "error_rad", "nees", "right"}]}]}
 nlohmann::ordered_json sequence_json(const std::vector<SequenceCell>& cells);
 

@@ -1,7 +1,7 @@
 #include "radioslam/study/study_page.hpp"
 
 #include "radioslam/geometry/se2.hpp"
-#include "radioslam/report/arrival_data.hpp"
+#include "radioslam/report/aoa_data.hpp"
 #include "radioslam/report/embedded_data.hpp"
 #include "radioslam/report/rounding.hpp"
 #include "radioslam/study/page_parts.hpp"
@@ -31,11 +31,11 @@ constexpr std::size_t kProfileValues = 180;
 
 Json direction_json(const AoaLink& link) {
   Json peaks = Json::array(), profile = Json::array(), authors = Json::array();
-  for (const ArrivalPeak& peak : link.peaks)
+  for (const AoaPeak& peak : link.peaks)
     peaks.push_back({{"azimuth_rad", rounded(peak.azimuth_rad, kDecimals)}});
   for (const float power : thinned_profile(link.profile, kProfileValues))
     profile.push_back(rounded(static_cast<double>(power), kDecimals));
-  for (const double error_rad : link.published_rad)  // the truth less what they measured
+  for (const double error_rad : link.published_rad)  // the truth minus the authors' measurement
     authors.push_back(rounded(wrap_angle(link.true_azimuth_rad - error_rad), kDecimals));
   return {{"trial", link.trial},
           {"transmitter", link.transmitter},

@@ -1,11 +1,11 @@
-// A study as one self-contained HTML page: data, style, script and d3 in one file, as the report.
+// Study as one self-contained HTML page: data, style, script and d3 in one file, like the report.
 #pragma once
 
 #include <string>
 
-#include "radioslam/study/aoa_table.hpp"
-#include "radioslam/study/overlap_growth.hpp"
-#include "radioslam/study/robustness_map.hpp"
+#include "radioslam/study/aoa/aoa_table.hpp"
+#include "radioslam/study/overlap_growth/overlap_growth.hpp"
+#include "radioslam/study/robustness_map/robustness_map.hpp"
 #include "radioslam/study/study_table.hpp"
 
 namespace radioslam {
@@ -18,7 +18,7 @@ std::string render_robustness_page(const RobustnessMap& map);
 /// Seconds over poses and pairs kept, both axes logarithmic, with the table below.
 std::string render_growth_page(const OverlapGrowth& growth);
 
-/// A polar profile per link, with the truth and the authors' direction, and the table below.
+/// A polar profile per link, with the true and the authors' direction, and the table below.
 std::string render_aoa_page(const StudyTable& table, const std::vector<AoaLink>& links);
 
 }  // namespace radioslam

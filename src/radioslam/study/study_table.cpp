@@ -14,7 +14,7 @@ constexpr std::size_t kLineWidth = 110;
 constexpr const char* kNothing = "–";
 constexpr double kHalf = 0.5;
 
-/// Characters as they are seen: UTF-8's continuation bytes take no room.
+/// Displayed width in characters: UTF-8 continuation bytes take no space.
 std::size_t width_of(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
     constexpr unsigned char kKindBits = 0xC0, kContinuation = 0x80;
@@ -105,10 +105,10 @@ std::string number_text(std::optional<double> value, int decimals) {
   return text;
 }
 
-std::string percent_text(std::optional<double> share, int decimals) {
+std::string percent_text(std::optional<double> ratio, int decimals) {
   constexpr double kPercent = 100;
-  if (!share) return kNothing;
-  return number_text(kPercent * *share, decimals) + " %";
+  if (!ratio) return kNothing;
+  return number_text(kPercent * *ratio, decimals) + " %";
 }
 
 std::optional<double> median_of(std::vector<double> values) {

@@ -1,4 +1,4 @@
-// A table to read: what `reproduce` prints, writes as CSV and shows on a page.
+// Study table: what `reproduce` prints, writes as CSV and shows on a page.
 #pragma once
 
 #include <optional>
@@ -20,17 +20,17 @@ struct StudyTable {
   std::vector<std::string> notes;
 };
 
-/// In lines, the columns aligned; notes below, wrapped.
+/// As text with aligned columns and wrapped notes below.
 std::string table_text(const StudyTable& table);
-/// The rows alone, with a header; texts in double quotes.
+/// Only the rows, with a header; texts in double quotes.
 std::string table_csv(const StudyTable& table);
 
-/// `value` with so many decimals and commas between thousands; "–" where there is none.
+/// `value` with `decimals` decimals and commas between thousands; "–" if missing.
 std::string number_text(std::optional<double> value, int decimals);
-/// A share in percent.
-std::string percent_text(std::optional<double> share, int decimals);
+/// A ratio in percent.
+std::string percent_text(std::optional<double> ratio, int decimals);
 
-/// The middle of the values; the mean of the two in the middle of an even number; nothing of none.
+/// Median; the mean of the two middle values of an even number; nothing if there are none.
 std::optional<double> median_of(std::vector<double> values);
 
 }  // namespace radioslam

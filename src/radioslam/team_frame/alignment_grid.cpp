@@ -11,13 +11,13 @@
 namespace radioslam {
 namespace {
 
-constexpr double kUniformShare = 1 / 12.0;  // variance of a uniform density of width one
-constexpr double kNearest_m = 0.5;          // nearer, directions mean nothing
-constexpr double kHeadingReach = 3;         // sigmas of a known heading that are searched
+constexpr double kUniformRatio = 1 / 12.0;  // variance of a uniform density of unit width
+constexpr double kNearest_m = 0.5;          // below this distance directions are undefined
+constexpr double kHeadingReach = 3;         // searched around a known heading, in sigmas
 
 Eigen::Vector2d quarter_turn(const Eigen::Vector2d& v) { return {-v.y(), v.x()}; }
 
-/// A free end turned by theta into the placed end's orientation.
+/// The free end rotated by theta into the placed frame's orientation.
 GridEnd turned(const GridEnd& end, double theta_rad) {
   const SE2 turn(Eigen::Vector2d::Zero(), theta_rad);
   Eigen::Matrix3d r = Eigen::Matrix3d::Identity();
@@ -26,14 +26,14 @@ GridEnd turned(const GridEnd& end, double theta_rad) {
           r * end.covariance * r.transpose(), end.height_m};
 }
 
-/// One cell, and how far the truth may lie from its middle.
+/// A cell and the variances of the true relative pose about its centre.
 struct Cell {
   Eigen::Vector2d offset;  ///< d (cos phi, sin phi)
   Eigen::Vector2d radial;
   double distance_m, variance_distance, variance_phi, variance_theta;
 };
 
-/// What of v's error lies along a direction, over both ends and the cell; `lever` is the free end's position.
+/// Variance of v along `direction` from both ends' covariances and the cell's size.
 double variance_along(const Eigen::Vector2d& direction, const GridEnd& a, const GridEnd& b,
                       const Cell& cell) {
   const double by_distance = direction.dot(cell.radial);
@@ -68,7 +68,7 @@ class Scorer {
     const Eigen::Vector2d across = quarter_turn(v.normalized()) / distance;
     const double direction = std::atan2(v.y(), v.x());
     const GridEnd& receiver = received_by_placed ? a : b;
-    const double sign = received_by_placed ? -1 : 1;  // of the receiver's own position in v
+    const double sign = received_by_placed ? -1 : 1;  // of the receiver's position in v
     const double value = direction - receiver.heading_rad + (received_by_placed ? 0 : std::numbers::pi);
     double variance = variance_along(across, a, b, cell) + receiver.covariance(2, 2) -
                       2 * sign * across.dot(receiver.covariance.topRightCorner<2, 1>());
@@ -80,9 +80,10 @@ class Scorer {
     const Prediction predicted = range(link.placed, b, cell);
     const double sigma = std::sqrt(predicted.variance + link.sigma_m * link.sigma_m);
     const double error = (predicted.value - link.range_m) / sigma;
-    const double share = problem_.mixture.false_range_probability;
-    return std::log((1 - share) * std::exp(-0.5 * error * error) / (std::sqrt(2 * std::numbers::pi) * sigma) +
-                    share / problem_.span_m);
+    const double false_probability = problem_.mixture.false_range_probability;
+    return std::log((1 - false_probability) * std::exp(-0.5 * error * error) /
+                        (std::sqrt(2 * std::numbers::pi) * sigma) +
+                    false_probability / problem_.span_m);
   }
 
   double log_likelihood(const GridBearing& link, const GridEnd& b, const Cell& cell) const {
@@ -99,7 +100,7 @@ class Scorer {
   }
 
  private:
-  /// theta turns the receiver too: (lever - 1)^2 instead of lever^2.
+  /// Correction where theta also rotates the receiver: (lever - 1)^2 instead of lever^2.
   static double heading_of_cell(double lever, const Cell& cell) {
     return (1 - 2 * lever) * cell.variance_theta;
   }
@@ -115,11 +116,11 @@ Cell make_cell(const GridCell& at, const GridParams& params) {
           radial,
           at.distance_m,
           at.sigma_distance_m * at.sigma_distance_m,
-          step * step * kUniformShare,
-          step * step * kUniformShare};
+          step * step * kUniformRatio,
+          step * step * kUniformRatio};
 }
 
-/// The headings to try.
+/// Headings on the grid that are compatible with a known heading.
 std::vector<double> headings(const GridProblem& problem, const GridParams& params) {
   std::vector<double> result;
   const double step = 2 * std::numbers::pi / params.angle_steps;
@@ -132,7 +133,7 @@ std::vector<double> headings(const GridProblem& problem, const GridParams& param
   return result;
 }
 
-/// Scores of all directions and distances at one heading; index = distance * angle_steps + phi.
+/// Log likelihoods of all directions and distances at one heading; index = distance * angle_steps + phi.
 std::vector<double> score_heading(const GridProblem& problem, const GridParams& params, double theta_rad) {
   const Scorer scorer(problem, params);
   std::vector<GridEnd> range_ends, bearing_ends;
@@ -191,10 +192,11 @@ std::vector<GridCell> best_cells(const GridProblem& problem, const GridParams& p
   return peaks;
 }
 
-Inflation propagated_variances(const GridProblem& problem, const GridCell& at, const GridParams& params) {
+VarianceInflation propagated_variances(const GridProblem& problem, const GridCell& at,
+                                       const GridParams& params) {
   const Scorer scorer(problem, params);
   const Cell cell = make_cell(at, params);
-  Inflation inflation;
+  VarianceInflation inflation;
   for (const auto& link : problem.ranges)
     inflation.ranges_m2.push_back(scorer.range(link.placed, turned(link.free, at.theta_rad), cell).variance);
   for (const auto& link : problem.bearings)

@@ -3,18 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
-#include "radioslam/team_frame/quasi_newton.hpp"
+#include "radioslam/team_frame/lbfgs.hpp"
 
 namespace radioslam {
 namespace {
 
-constexpr double kMedianOfGaussian = 0.6745;  // a Cauchy of this scale has the median of a unit Gaussian
-constexpr double kLeastGain = 1e-3;           // of the cost, a log likelihood
-constexpr double kLeastSigmaScale = 1e-6;     // where none is allowed
-// What the variables are counted in, so that all are of one size.
+constexpr double kMedianOfGaussian =
+    0.6745;                        // scale at which a Cauchy and a unit Gaussian have equal medians of |x|
+constexpr double kMinGain = 1e-3;  // of the cost (negative log likelihood)
+constexpr double kMinSigmaScale = 1e-6;  // replaces sigma_scale = 0
+// Units of the variables, chosen so that all have similar magnitude.
 constexpr double kMove_m = 5, kTurn_rad = 0.1, kStretch = 0.05;
 
-/// A body's four variables: its centre, its turn and the logarithm of its scale.
+/// A body's four variables: centre, rotation and logarithm of the scale.
 struct Placing {
   Eigen::Vector2d centre_m = Eigen::Vector2d::Zero();
   double turn_rad = 0;
@@ -23,7 +24,7 @@ struct Placing {
 
 struct FreeBody {
   std::size_t index = 0;
-  Eigen::Matrix2Xd arms;  ///< points less their mean, in the body's frame
+  Eigen::Matrix2Xd arms;  ///< points minus their mean, in the body frame
   Placing start;
 };
 
@@ -42,11 +43,11 @@ class FieldRefinement {
 
   bool has_free_bodies() const { return !free_.empty(); }
 
-  /// All placings as they are, and the usual kernel.
+  /// Initial values: the layout's placings and the nominal kernel.
   Eigen::VectorXd start() const {
     Eigen::VectorXd x(4 * static_cast<Eigen::Index>(free_.size()) + FieldKernel::kCount);
     for (std::size_t f = 0; f < free_.size(); ++f) put(x, f, free_[f].start);
-    x.tail<FieldKernel::kCount>() = FieldKernel::usual().log;
+    x.tail<FieldKernel::kCount>() = FieldKernel::nominal().log;
     return x;
   }
 
@@ -63,13 +64,13 @@ class FieldRefinement {
     ValueAndGradient result{cost.value, Eigen::VectorXd::Zero(x.size())};
     for (std::size_t f = 0; f < free_.size(); ++f) add_body(f, placing(x, f), cost, result);
     add_headings(x, result);
-    const FieldKernel::Vector off = (kernel.log - FieldKernel::usual().log) / params_.sigma_kernel;
+    const FieldKernel::Vector off = (kernel.log - FieldKernel::nominal().log) / params_.sigma_kernel;
     result.value += off.squaredNorm() / 2;
     result.gradient.tail<FieldKernel::kCount>() = cost.by_kernel + off / params_.sigma_kernel;
     return result;
   }
 
-  /// The rigid pose that keeps the centre where it is.
+  /// Rigid pose with the refined centre and rotation; the scale is dropped.
   SE2 pose(const Eigen::VectorXd& x, std::size_t f) const {
     const Placing p = placing(x, f);
     const SE2 turn(Eigen::Vector2d::Zero(), p.turn_rad);
@@ -101,7 +102,7 @@ class FieldRefinement {
         cost.by_position.middleCols(static_cast<Eigen::Index>(body.first_node), body.points.cols());
     const Eigen::Matrix2Xd arms = places_of(f).colwise() - p.centre_m;
     const Eigen::Vector2d moved = (p.centre_m - free_[f].start.centre_m) / params_.sigma_layout_m;
-    const double sigma_scale = std::max(params_.sigma_scale, kLeastSigmaScale);
+    const double sigma_scale = std::max(params_.sigma_scale, kMinSigmaScale);
     const double stretched = p.log_scale / sigma_scale;
     result.value += (moved.squaredNorm() + stretched * stretched) / 2;
     auto gradient = result.gradient.segment<4>(4 * static_cast<Eigen::Index>(f));
@@ -110,7 +111,7 @@ class FieldRefinement {
     gradient[3] = kStretch * (slopes.cwiseProduct(arms).sum() + stretched / sigma_scale);
   }
 
-  /// Robots that share a heading turn alike, up to their errors; where none is fixed, all may turn together.
+  /// Prior that robots with a common heading rotate alike; the common heading is free unless a body is fixed.
   void add_headings(const Eigen::VectorXd& x, ValueAndGradient& result) const {
     double sine = 0, cosine = 0;
     for (const RigidBody& body : bodies_)
@@ -139,11 +140,11 @@ class FieldRefinement {
       sharing.push_back(f);
     }
     if (anchored) return;
-    const double length2 = sine * sine + cosine * cosine;  // d common / d turn, of the mean's direction
+    const double length2 = sine * sine + cosine * cosine;  // d common / d turn: derivative of a circular mean
     for (const std::size_t f : sharing) {
       const double turn = placing(x, f).turn_rad;
-      const double share = (cosine * std::cos(turn) + sine * std::sin(turn)) / length2;
-      result.gradient[4 * static_cast<Eigen::Index>(f) + 2] -= kTurn_rad * pull * share;
+      const double derivative = (cosine * std::cos(turn) + sine * std::sin(turn)) / length2;
+      result.gradient[4 * static_cast<Eigen::Index>(f) + 2] -= kTurn_rad * pull * derivative;
     }
   }
 
@@ -159,8 +160,8 @@ class FieldRefinement {
 void refine_by_field(std::vector<RigidBody>& bodies, const RadioField& field, const FieldParams& params) {
   FieldRefinement refinement(bodies, field, params);
   if (!refinement.has_free_bodies()) return;
-  const Minimum found = minimise([&](const Eigen::VectorXd& x) { return refinement(x); }, refinement.start(),
-                                 params.iterations, kLeastGain);
+  const Minimum found = minimise_lbfgs([&](const Eigen::VectorXd& x) { return refinement(x); },
+                                       refinement.start(), params.iterations, kMinGain);
   for (std::size_t f = 0; f < refinement.free_bodies().size(); ++f)
     bodies[refinement.free_bodies()[f].index].T_layout_body = refinement.pose(found.x, f);
 }

@@ -6,8 +6,8 @@ namespace radioslam {
 namespace {
 
 /// T_common_start of a robot whose first body pose is known.
-SE2 start_from_initial_pose(const Robot& robot) {
-  return flatten(*robot.initial_pose) * flatten(robot.odometry.front().pose).inverse();
+SE2 start_from_initial_pose(const SE3& initial_pose, const Robot& robot) {
+  return flatten(initial_pose) * flatten(robot.odometry.front().pose).inverse();
 }
 
 }  // namespace
@@ -20,7 +20,8 @@ std::vector<std::size_t> thinned_nodes(std::size_t count, int most) {
   return nodes;
 }
 
-std::vector<RigidBody> fingerprint_bodies(const Mission& mission, const RadioMeasurements& radio,
+std::vector<RigidBody> fingerprint_bodies(const Mission& mission, const KnownStarts& starts,
+                                          const RadioMeasurements& radio,
                                           const std::vector<std::size_t>& nodes) {
   std::vector<RigidBody> bodies(mission.robots.size());
   for (std::size_t r = 0, first = 0; r < bodies.size(); ++r) {
@@ -33,8 +34,8 @@ std::vector<RigidBody> fingerprint_bodies(const Mission& mission, const RadioMea
     bodies[r].points.resize(2, static_cast<Eigen::Index>(points.size()));
     for (std::size_t i = 0; i < points.size(); ++i)
       bodies[r].points.col(static_cast<Eigen::Index>(i)) = points[i];
-    bodies[r].fixed = robot.initial_pose.has_value();
-    if (bodies[r].fixed) bodies[r].T_layout_body = start_from_initial_pose(robot);
+    bodies[r].fixed = starts[r].has_value();
+    if (bodies[r].fixed) bodies[r].T_layout_body = start_from_initial_pose(*starts[r], robot);
     if (robot.heading == Heading::kAbsolute) bodies[r].sigma_heading_rad = robot.sigma_heading_rad;
     first += points.size();
   }

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "radioslam/geometry/alignment.hpp"
-#include "radioslam/radio/shared_access_points.hpp"
+#include "radioslam/radio/fingerprints/shared_access_points.hpp"
 #include "radioslam/team_frame/fingerprint_bodies.hpp"
 #include "radioslam/team_frame/multidimensional_scaling.hpp"
 #include "radioslam/team_frame/rigid_layout.hpp"
@@ -18,7 +18,7 @@
 namespace radioslam {
 namespace {
 
-/// One entry per robot: the smallest robot index it hangs together with.
+/// Union-find over robots; the root is the smallest robot index of a group.
 class Groups {
  public:
   explicit Groups(std::size_t robots) : parent_(robots) { std::iota(parent_.begin(), parent_.end(), 0U); }
@@ -35,14 +35,14 @@ class Groups {
   std::vector<std::size_t> parent_;
 };
 
-/// The access points that two robots heard both, in fingerprints that are alike.
-class SharedHearing {
+/// Access points common to similar fingerprints of two robots.
+class CommonAccessPoints {
  public:
-  /// How many with those of this pair.
+  /// Adds those of this pair; returns how many the two robots have in common so far.
   std::size_t add(std::size_t robot_a, std::size_t robot_b, const Fingerprint& a, const Fingerprint& b) {
     std::set<AccessPointIndex>& shared = shared_[{robot_a, robot_b}];
-    walk_shared(a, b,
-                [&](const FingerprintEntry& x, const FingerprintEntry&) { shared.insert(x.access_point); });
+    for_each_shared(
+        a, b, [&](const FingerprintEntry& x, const FingerprintEntry&) { shared.insert(x.access_point); });
     return shared.size();
   }
 
@@ -50,22 +50,22 @@ class SharedHearing {
   std::map<std::pair<std::size_t, std::size_t>, std::set<AccessPointIndex>> shared_;
 };
 
-Groups group_robots(const Mission& mission, const RadioMeasurements& radio, const LayoutParams& params) {
-  Groups groups(mission.robots.size());
+Groups group_robots(const KnownStarts& starts, const RadioMeasurements& radio, const LayoutParams& params) {
+  Groups groups(starts.size());
   std::optional<std::size_t> known;
-  for (std::size_t r = 0; r < mission.robots.size(); ++r) {
-    if (!mission.robots[r].initial_pose) continue;
+  for (std::size_t r = 0; r < starts.size(); ++r) {
+    if (!starts[r]) continue;
     if (known) groups.join(*known, r);
     known = known.value_or(r);
   }
   if (!radio.layout_model) return groups;
-  SharedHearing hearing;
-  radio.layout_similarity.for_each_pair(params.least_similarity, [&](const SimilarPair& pair) {
+  CommonAccessPoints common;
+  radio.layout_similarity.for_each_pair(params.min_similarity, [&](const SimilarPair& pair) {
     const std::size_t a = radio.nodes[pair.i].robot.index(), b = radio.nodes[pair.j].robot.index();
-    if (groups.root(a) == groups.root(b) || static_cast<double>(pair.similarity) <= params.least_similarity)
+    if (groups.root(a) == groups.root(b) || static_cast<double>(pair.similarity) <= params.min_similarity)
       return;
-    const std::size_t shared = hearing.add(a, b, radio.at(pair.i).fingerprint, radio.at(pair.j).fingerprint);
-    if (shared >= static_cast<std::size_t>(params.least_shared)) groups.join(a, b);
+    const std::size_t shared = common.add(a, b, radio.at(pair.i).fingerprint, radio.at(pair.j).fingerprint);
+    if (shared >= static_cast<std::size_t>(params.min_shared)) groups.join(a, b);
   });
   return groups;
 }
@@ -80,17 +80,17 @@ PairTargets make_targets(const RadioMeasurements& radio, const std::vector<std::
       const std::size_t a = nodes[static_cast<std::size_t>(i)], b = nodes[static_cast<std::size_t>(j)];
       if (radio.nodes[a].robot == radio.nodes[b].robot) continue;
       const double s = static_cast<double>(radio.layout_similarity.of(a, b));
-      const double distance = radio.layout_model->distance_m(std::max(s, params.least_similarity));
+      const double distance = radio.layout_model->distance_m(std::max(s, params.min_similarity));
       const double sigma2 = params.sigma_m * params.sigma_m +
                             params.sigma_relative * params.sigma_relative * distance * distance;
       targets.distance_m(i, j) = static_cast<float>(distance);
       targets.weight(i, j) = static_cast<float>(params.pair_weight / sigma2);
-      targets.lower_bound(i, j) = s <= params.least_similarity;
+      targets.lower_bound(i, j) = s <= params.min_similarity;
     }
   return targets;
 }
 
-/// Distances for the scaling: odometry within a robot, known places between fixed ones, radio elsewhere.
+/// Distances for the scaling: odometry within a robot, known positions between fixed ones, radio elsewhere.
 Eigen::MatrixXd scaling_distances(const std::vector<RigidBody>& bodies, const PairTargets& targets) {
   Eigen::MatrixXd distances = targets.distance_m.cast<double>();
   const Eigen::Matrix2Xd positions = node_positions(bodies);
@@ -107,9 +107,9 @@ Eigen::MatrixXd scaling_distances(const std::vector<RigidBody>& bodies, const Pa
   return distances;
 }
 
-/// The rotation and translation that carry the scaled points into the layout's frame: onto the robots whose
-/// place is known, else to the robots' shared heading, else nowhere.
-SE2 carry_to_frame(const std::vector<RigidBody>& bodies, const Eigen::Matrix2Xd& scaled) {
+/// Transform from the scaled points to the layout's frame: fitted to the robots with known pose, else a
+/// rotation to the common heading, else the identity.
+SE2 alignment_to_frame(const std::vector<RigidBody>& bodies, const Eigen::Matrix2Xd& scaled) {
   std::vector<Eigen::Index> known;
   double sine = 0, cosine = 0;
   const Eigen::Matrix2Xd positions = node_positions(bodies);
@@ -129,16 +129,16 @@ SE2 carry_to_frame(const std::vector<RigidBody>& bodies, const Eigen::Matrix2Xd&
                       Eigen::Matrix2Xd(positions(Eigen::all, known)));
 }
 
-/// Places every free body on the scaled points; returns the squared distance left.
+/// Fits every free body to the scaled points; returns the sum of squared residuals.
 double place_on(std::vector<RigidBody>& bodies, const Eigen::Matrix2Xd& scaled) {
-  const SE2 carry = carry_to_frame(bodies, scaled);
+  const SE2 T_layout_scaled = alignment_to_frame(bodies, scaled);
   double residual = 0;
   for (RigidBody& body : bodies) {
     if (body.points.cols() == 0) continue;
     Eigen::Matrix2Xd wanted =
-        carry.rotation_matrix() *
+        T_layout_scaled.rotation_matrix() *
         scaled.middleCols(static_cast<Eigen::Index>(body.first_node), body.points.cols());
-    wanted.colwise() += carry.translation();
+    wanted.colwise() += T_layout_scaled.translation();
     if (!body.fixed) {
       body.T_layout_body = body.sigma_heading_rad > 0
                                ? SE2(wanted.rowwise().mean() - body.points.rowwise().mean(), 0)
@@ -150,7 +150,7 @@ double place_on(std::vector<RigidBody>& bodies, const Eigen::Matrix2Xd& scaled) 
   return residual;
 }
 
-/// The classical scaling of the distances, those beyond `cap_m` cut to it, and its mirror image.
+/// Layouts from classical scaling, with distances cut at `cap_m`, and from its mirror image.
 std::vector<std::vector<RigidBody>> starts_by_scaling(const std::vector<RigidBody>& bodies,
                                                       const PairTargets& targets, double cap_m) {
   Eigen::Matrix2Xd scaled = classical_scaling(scaling_distances(bodies, targets).cwiseMin(cap_m));
@@ -161,7 +161,7 @@ std::vector<std::vector<RigidBody>> starts_by_scaling(const std::vector<RigidBod
   return starts;
 }
 
-/// Evidence between robots of different groups is a lower bound at most: leave it out.
+/// Between groups there are lower bounds at most; these are left out.
 void drop_pairs_between_groups(PairTargets& targets, const RadioMeasurements& radio,
                                const std::vector<std::size_t>& nodes, const Groups& groups) {
   for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -171,14 +171,15 @@ void drop_pairs_between_groups(PairTargets& targets, const RadioMeasurements& ra
         targets.weight(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = 0;
 }
 
-/// Every group in its own frame: the common one where a pose is known, else its first robot's start.
-TeamFrame express_in_group_frames(const Mission& mission, const std::vector<RigidBody>& bodies,
+/// Expresses every group in its own frame: the common one where a pose is known, else its first robot's
+/// start.
+TeamFrame express_in_group_frames(const KnownStarts& starts, const std::vector<RigidBody>& bodies,
                                   const Groups& groups) {
   TeamFrame frame;
   std::vector<bool> known(bodies.size(), false);
   std::vector<int> members(bodies.size(), 0);
   for (std::size_t r = 0; r < bodies.size(); ++r) {
-    if (mission.robots[r].initial_pose) known[groups.root(r)] = true;
+    if (starts[r]) known[groups.root(r)] = true;
     ++members[groups.root(r)];
   }
   std::vector<int> number(bodies.size(), -1);
@@ -194,21 +195,21 @@ TeamFrame express_in_group_frames(const Mission& mission, const std::vector<Rigi
   return frame;
 }
 
-/// Majorises from several starts and keeps the layout of least stress: which far distances help the scaling
-/// differs between buildings, and so does which of two mirror images fits.
+/// Majorises from several initial layouts and keeps the one of least stress: the cut-off distance that serves
+/// the scaling best differs between buildings, and either mirror image may fit.
 std::vector<RigidBody> best_layout(const std::vector<RigidBody>& bodies, const PairTargets& targets,
                                    const DecayModel& model, const LayoutParams& params,
                                    const Progress& progress) {
   constexpr std::array kCapSimilarities = {0.05, 0.1, 0.2, 0.3};
   std::vector<RigidBody> best;
-  double least_stress = std::numeric_limits<double>::infinity();
+  double min_stress = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < kCapSimilarities.size(); ++c) {
     report_progress(progress, "team frame", static_cast<double>(c) / kCapSimilarities.size());
     for (auto& start : starts_by_scaling(bodies, targets, model.distance_m(kCapSimilarities[c]))) {
       majorise_stress(start, targets, params.sweeps);
       const double stress = layout_stress(start, targets);
-      if (stress >= least_stress) continue;
-      least_stress = stress;
+      if (stress >= min_stress) continue;
+      min_stress = stress;
       best = std::move(start);
     }
   }
@@ -217,18 +218,19 @@ std::vector<RigidBody> best_layout(const std::vector<RigidBody>& bodies, const P
 
 }  // namespace
 
-TeamFrame align_by_fingerprints(const Mission& mission, const RadioMeasurements& radio,
-                                const LayoutParams& params, const Progress& progress) {
-  const Groups groups = group_robots(mission, radio, params);
+TeamFrame align_by_fingerprints(const Mission& mission, const KnownStarts& starts,
+                                const RadioMeasurements& radio, const LayoutParams& params,
+                                const Progress& progress) {
+  const Groups groups = group_robots(starts, radio, params);
   const std::vector<std::size_t> nodes = thinned_nodes(radio.nodes.size(), params.max_nodes);
-  std::vector<RigidBody> bodies = fingerprint_bodies(mission, radio, nodes);
+  std::vector<RigidBody> bodies = fingerprint_bodies(mission, starts, radio, nodes);
   const bool all_known = std::all_of(bodies.begin(), bodies.end(), [](const auto& b) { return b.fixed; });
   if (radio.layout_model && !all_known) {
     PairTargets targets = make_targets(radio, nodes, params);
     drop_pairs_between_groups(targets, radio, nodes, groups);
     bodies = best_layout(bodies, targets, *radio.layout_model, params, progress);
   }
-  return express_in_group_frames(mission, bodies, groups);
+  return express_in_group_frames(starts, bodies, groups);
 }
 
 }  // namespace radioslam

@@ -5,60 +5,61 @@
 #include <limits>
 #include <utility>
 
-#include "radioslam/base/median.hpp"
+#include "radioslam/base/statistics.hpp"
 
 namespace radioslam {
 namespace {
 
-/// At most `most` of them, evenly spread.
-std::vector<FixOfWay> some_fixes(const std::vector<FixOfWay>& fixes, int most) {
+/// At most `most` of the fixes, evenly spread.
+std::vector<FixAlongPath> some_fixes(const std::vector<FixAlongPath>& fixes, int most) {
   const auto n = static_cast<std::size_t>(most);
   if (fixes.size() <= n) return fixes;
-  std::vector<FixOfWay> kept;
+  std::vector<FixAlongPath> kept;
   for (std::size_t k = 0; k < n; ++k) kept.push_back(fixes[k * (fixes.size() - 1) / (n - 1)]);
   return kept;
 }
 
 Eigen::Vector2d plane(const Eigen::Vector3d& point) { return point.head<2>(); }
 
-/// By two fixes; nothing where they contradict the odometry or give no direction.
-std::optional<SE2> place_by_two(const FixOfWay& a, const FixOfWay& b, const FixAlignmentParams& params) {
-  const Eigen::Vector2d walked = plane(b.by_odometry_m) - plane(a.by_odometry_m);
-  const Eigen::Vector2d fixed = plane(b.position_m) - plane(a.position_m);
+/// Alignment by two fixes; nothing if they contradict odometry or are too close to give a direction.
+std::optional<SE2> place_by_two(const FixAlongPath& a, const FixAlongPath& b,
+                                const FixAlignmentParams& params) {
+  const Eigen::Vector2d by_odometry = plane(b.by_odometry_m) - plane(a.by_odometry_m);
+  const Eigen::Vector2d by_fixes = plane(b.position_m) - plane(a.position_m);
   const double noise_m = std::hypot(a.sigma_m, b.sigma_m);
-  const double drift_m = params.drift_share * std::abs(b.way_m - a.way_m);
-  if (walked.norm() < noise_m || fixed.norm() < noise_m ||
-      std::abs(walked.norm() - fixed.norm()) > params.gate_sigma * std::hypot(noise_m, drift_m))
+  const double drift_m = params.max_drift_ratio * std::abs(b.path_m - a.path_m);
+  if (by_odometry.norm() < noise_m || by_fixes.norm() < noise_m ||
+      std::abs(by_odometry.norm() - by_fixes.norm()) > params.gate_sigma * std::hypot(noise_m, drift_m))
     return std::nullopt;
-  const double yaw = std::atan2(fixed.y(), fixed.x()) - std::atan2(walked.y(), walked.x());
+  const double yaw = std::atan2(by_fixes.y(), by_fixes.x()) - std::atan2(by_odometry.y(), by_odometry.x());
   const SE2 turn(Eigen::Vector2d::Zero(), yaw);
-  const Eigen::Vector2d walked_middle = (plane(a.by_odometry_m) + plane(b.by_odometry_m)) / 2;
-  const Eigen::Vector2d fixed_middle = (plane(a.position_m) + plane(b.position_m)) / 2;
-  return SE2(fixed_middle - turn * walked_middle, yaw);
+  const Eigen::Vector2d odometry_middle = (plane(a.by_odometry_m) + plane(b.by_odometry_m)) / 2;
+  const Eigen::Vector2d fixes_middle = (plane(a.position_m) + plane(b.position_m)) / 2;
+  return SE2(fixes_middle - turn * odometry_middle, yaw);
 }
 
-/// The negative logarithm of the likelihood, up to a constant.
-double cost_of(const SE2& T_fixes_start, const FixOfWay& a, const FixOfWay& b,
-               const std::vector<FixOfWay>& fixes, double drift_share) {
+/// Negative log likelihood up to a constant.
+double cost_of(const SE2& T_fixes_start, const FixAlongPath& a, const FixAlongPath& b,
+               const std::vector<FixAlongPath>& fixes, double max_drift_ratio) {
   double cost = 0;
-  for (const FixOfWay& fix : fixes) {
-    const double way_m = std::min(std::abs(fix.way_m - a.way_m), std::abs(fix.way_m - b.way_m));
-    const double width = std::hypot(fix.sigma_m, drift_share * way_m);
+  for (const FixAlongPath& fix : fixes) {
+    const double path_m = std::min(std::abs(fix.path_m - a.path_m), std::abs(fix.path_m - b.path_m));
+    const double width = std::hypot(fix.sigma_m, max_drift_ratio * path_m);
     const Eigen::Vector2d left = plane(fix.position_m) - T_fixes_start * plane(fix.by_odometry_m);
     cost += std::log(width) + std::log1p(left.squaredNorm() / (width * width));
   }
   return cost;
 }
 
-double median_height_m(const std::vector<FixOfWay>& fixes) {
+double median_height_m(const std::vector<FixAlongPath>& fixes) {
   std::vector<double> heights;
-  for (const FixOfWay& fix : fixes) heights.push_back(fix.position_m.z() - fix.by_odometry_m.z());
+  for (const FixAlongPath& fix : fixes) heights.push_back(fix.position_m.z() - fix.by_odometry_m.z());
   return upper_median(std::move(heights));
 }
 
 }  // namespace
 
-std::optional<FixAlignment> align_by_fixes(const std::vector<FixOfWay>& fixes,
+std::optional<FixAlignment> align_by_fixes(const std::vector<FixAlongPath>& fixes,
                                            const FixAlignmentParams& params) {
   const auto tried = some_fixes(fixes, params.tried_fixes);
   const auto scored = some_fixes(fixes, params.scored_fixes);
@@ -69,10 +70,10 @@ std::optional<FixAlignment> align_by_fixes(const std::vector<FixOfWay>& fixes,
     for (std::size_t j = i + 1; j < tried.size(); ++j) {
       const auto place = place_by_two(tried[i], tried[j], params);
       if (!place) continue;
-      const double cost = cost_of(*place, tried[i], tried[j], scored, params.drift_share);
+      const double cost = cost_of(*place, tried[i], tried[j], scored, params.max_drift_ratio);
       if (cost >= least) continue;
       least = cost;
-      best = FixAlignment{lift(*place, height_m), tried[i].way_m, tried[j].way_m};
+      best = FixAlignment{lift(*place, height_m), tried[i].path_m, tried[j].path_m};
     }
   return best;
 }

@@ -15,22 +15,22 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kReachOverItsSigma = 4;
 
-double added(const std::vector<double>& inflation, std::size_t k, double share) {
-  return inflation.empty() ? 0 : share * inflation[k];
+double added(const std::vector<double>& inflation, std::size_t k, double inflation_scale) {
+  return inflation.empty() ? 0 : inflation_scale * inflation[k];
 }
 
 double normal_density(double squared_norm, double sigma) {
   return std::exp(-0.5 * squared_norm) / (std::sqrt(2 * kPi) * sigma);
 }
 
-/// Density of a direction relative to the uniform one.
+/// Density of a direction relative to the uniform density.
 template <class Pose>
 double direction_density(double squared_norm, double sigma) {
   const double peak = Pose::kDim == 2 ? std::sqrt(2 * kPi) / sigma : 2 / (sigma * sigma);
   return peak * std::exp(-0.5 * squared_norm);
 }
 
-/// Direct, and false.
+/// Densities of the direct and the outlier term.
 std::array<double, 2> range_densities(double error_m, double sigma_m, double span_m,
                                       const MixtureParams& params) {
   const double error = error_m / sigma_m;
@@ -80,10 +80,12 @@ MixtureGraph<Pose>::MixtureGraph(const TeamGraph<Pose>& team, const MixtureParam
 
 template <class Pose>
 template <class Visit>
-double MixtureGraph<Pose>::visit_measurements(const Inflation& inflation, double share, Visit&& visit) const {
+double MixtureGraph<Pose>::visit_measurements(const VarianceInflation& inflation, double inflation_scale,
+                                              Visit&& visit) const {
   double log_likelihood = 0;
   for (std::size_t k = 0; k < graph.ranges.size(); ++k) {
-    const double sigma = std::sqrt(range_sigma_[k] * range_sigma_[k] + added(inflation.ranges_m2, k, share));
+    const double sigma =
+        std::sqrt(range_sigma_[k] * range_sigma_[k] + added(inflation.ranges_m2, k, inflation_scale));
     const auto [direct, wrong] =
         range_densities(residual(graph, graph.ranges[k])[0], sigma, span_m_, params_);
     log_likelihood += std::log(direct + wrong);
@@ -93,8 +95,8 @@ double MixtureGraph<Pose>::visit_measurements(const Inflation& inflation, double
     const std::size_t begin = first_path_[b], end = first_path_[b + 1];
     if (begin == end) continue;
     const double distance = distance_m(begin);
-    const double by_places = params_.sigma_place_m / std::max(distance, kMinimumDistance_m);
-    const double inflated = added(inflation.bearings_rad2, b, share) + by_places * by_places;
+    const double by_places = params_.sigma_antenna_position_m / std::max(distance, kMinimumDistance_m);
+    const double inflated = added(inflation.bearings_rad2, b, inflation_scale) + by_places * by_places;
     double total = 1 - params_.direct_probability;
     visit.begin_bearing();
     for (std::size_t p = begin; p < end; ++p) {
@@ -119,8 +121,8 @@ double MixtureGraph<Pose>::distance_m(std::size_t path) const {
 
 template <class Pose>
 double MixtureGraph<Pose>::log_within_reach(double distance_m) const {
-  const double reach_m = std::max(params_.reach_m, span_m_);
-  const double excess = std::max(0.0, distance_m - reach_m) / (reach_m / kReachOverItsSigma);
+  const double max_range_m = std::max(params_.max_range_m, span_m_);
+  const double excess = std::max(0.0, distance_m - max_range_m) / (max_range_m / kReachOverItsSigma);
   return -excess * excess / 2;
 }
 
@@ -136,7 +138,7 @@ double MixtureGraph<Pose>::other_cost() const {
 }
 
 template <class Pose>
-double MixtureGraph<Pose>::reweigh(const Inflation& inflation, double share) {
+double MixtureGraph<Pose>::update_weights(const VarianceInflation& inflation, double inflation_scale) {
   struct Set {
     PoseGraph<Pose>& graph;
     void range(std::size_t k, double sigma, double posterior) {
@@ -152,19 +154,19 @@ double MixtureGraph<Pose>::reweigh(const Inflation& inflation, double share) {
       for (std::size_t p = begin; p < end; ++p) graph.bearings[p].weight /= total;
     }
   };
-  const double log_likelihood = visit_measurements(inflation, share, Set{graph});
+  const double log_likelihood = visit_measurements(inflation, inflation_scale, Set{graph});
   return other_cost() - 2 * log_likelihood;
 }
 
 template <class Pose>
-double MixtureGraph<Pose>::cost(const Inflation& inflation, double share) const {
+double MixtureGraph<Pose>::cost(const VarianceInflation& inflation, double inflation_scale) const {
   struct Ignore {
     void range(std::size_t, double, double) {}
     void begin_bearing() {}
     void path(std::size_t, double, double) {}
     void end_bearing(std::size_t, std::size_t, double) {}
   };
-  return other_cost() - 2 * visit_measurements(inflation, share, Ignore{});
+  return other_cost() - 2 * visit_measurements(inflation, inflation_scale, Ignore{});
 }
 
 template <class Pose>

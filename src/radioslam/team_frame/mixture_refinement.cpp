@@ -9,45 +9,45 @@
 namespace radioslam {
 namespace {
 
-/// Shares of the inflation, from the coarse start to none.
-constexpr std::array kCoarseShares = {1.0, 0.5, 0.25};
-constexpr std::array kFineShares = {0.1, 0.03, 0.0};
-/// Shares of a Gauss-Newton step that are tried. Along a chain of odometry a shorter step bends the whole
-/// way a little less, where damping by diag(H) would hold every pose to its neighbours.
-constexpr std::array kStepShares = {1.0, 0.5, 0.2, 0.05, 0.01};
-constexpr double kCoarseTolerance = 0.1;  // nothing a choice among starts depends on
+/// Scales of the inflation per stage, from coarse to none.
+constexpr std::array kCoarseScales = {1.0, 0.5, 0.25};
+constexpr std::array kFineScales = {0.1, 0.03, 0.0};
+/// Fractions of a Gauss-Newton step that are tried. A shorter step scales the correction of the whole
+/// trajectory, whereas damping by diag(H) would tie every pose to its neighbours.
+constexpr std::array kStepLengths = {1.0, 0.5, 0.2, 0.05, 0.01};
+constexpr double kCoarseTolerance = 0.1;  // sufficient to rank initial values
 constexpr std::array kDampings = {0.0, 1e-6, 1e-3};
 
 template <class Pose>
 class Stage {
  public:
-  Stage(MixtureGraph<Pose>& mixture, NormalEquations<Pose>& equations, const Inflation& inflation)
+  Stage(MixtureGraph<Pose>& mixture, NormalEquations<Pose>& equations, const VarianceInflation& inflation)
       : mixture_(mixture), equations_(equations), inflation_(inflation) {}
 
-  /// At most `steps` steps with this share of the inflation; returns the cost.
-  double run(double share, int steps, double tolerance) {
-    cost_ = mixture_.reweigh(inflation_, share);
+  /// At most `steps` steps at this scale of the inflation; returns the cost.
+  double run(double inflation_scale, int steps, double tolerance) {
+    cost_ = mixture_.update_weights(inflation_, inflation_scale);
     for (int k = 0; k < steps; ++k) {
       const double before = cost_;
-      if (!step(share) || before - cost_ < tolerance) break;
+      if (!step(inflation_scale) || before - cost_ < tolerance) break;
     }
     return cost_;
   }
 
  private:
-  /// One step that lowers the cost; false where none does.
-  bool step(double share) {
+  /// Takes one step that lowers the cost; false if none does.
+  bool step(double inflation_scale) {
     equations_.linearise(mixture_.graph);
     const GraphValues<Pose> start(mixture_.graph);
     for (const double damping : kDampings) {
       if (equations_.factorize(damping) == Factorization::kNotPositiveDefinite) continue;
       const Eigen::VectorXd step = equations_.step();
       if (!step.allFinite()) continue;
-      for (const double length : kStepShares) {
+      for (const double length : kStepLengths) {
         equations_.apply(length * step, mixture_.graph);
-        const double cost = mixture_.cost(inflation_, share);
+        const double cost = mixture_.cost(inflation_, inflation_scale);
         if (cost <= cost_) {
-          cost_ = mixture_.reweigh(inflation_, share);
+          cost_ = mixture_.update_weights(inflation_, inflation_scale);
           return true;
         }
         start.restore(mixture_.graph);
@@ -58,26 +58,29 @@ class Stage {
 
   MixtureGraph<Pose>& mixture_;
   NormalEquations<Pose>& equations_;
-  const Inflation& inflation_;
+  const VarianceInflation& inflation_;
   double cost_ = 0;
 };
 
 }  // namespace
 
 template <class Pose>
-Refinement refine(MixtureGraph<Pose>& mixture, const Inflation& inflation, const RefinementParams& params) {
+Refinement refine(MixtureGraph<Pose>& mixture, const VarianceInflation& inflation,
+                  const RefinementParams& params) {
   NormalEquations<Pose> equations(mixture.graph);
   Refinement result;
   if (equations.empty()) {
-    result.cost = mixture.reweigh(inflation, 0);
+    result.cost = mixture.update_weights(inflation, 0);
     result.log_evidence = -result.cost / 2;
     return result;
   }
   Stage<Pose> stage(mixture, equations, inflation);
-  for (const double share : kCoarseShares) stage.run(share, params.steps_per_share, params.cost_tolerance);
-  for (const double share : kFineShares)
+  for (const double inflation_scale : kCoarseScales)
+    stage.run(inflation_scale, params.steps_per_inflation, params.cost_tolerance);
+  for (const double inflation_scale : kFineScales)
     result.cost =
-        stage.run(share, share > 0 ? params.steps_per_share : params.last_steps, params.cost_tolerance);
+        stage.run(inflation_scale, inflation_scale > 0 ? params.steps_per_inflation : params.last_steps,
+                  params.cost_tolerance);
   equations.linearise(mixture.graph);
   if (equations.factorize(0) == Factorization::kDone)
     result.log_evidence = -result.cost / 2 - equations.cholesky().log_determinant() / 2;
@@ -87,19 +90,20 @@ Refinement refine(MixtureGraph<Pose>& mixture, const Inflation& inflation, const
 }
 
 template <class Pose>
-double refine_coarsely(MixtureGraph<Pose>& mixture, const Inflation& inflation,
+double refine_coarsely(MixtureGraph<Pose>& mixture, const VarianceInflation& inflation,
                        const RefinementParams& params) {
   NormalEquations<Pose> equations(mixture.graph);
-  if (equations.empty()) return mixture.reweigh(inflation, kCoarseShares.back());
+  if (equations.empty()) return mixture.update_weights(inflation, kCoarseScales.back());
   Stage<Pose> stage(mixture, equations, inflation);
   double cost = 0;
-  for (const double share : kCoarseShares) cost = stage.run(share, params.steps_per_share, kCoarseTolerance);
+  for (const double inflation_scale : kCoarseScales)
+    cost = stage.run(inflation_scale, params.steps_per_inflation, kCoarseTolerance);
   return cost;
 }
 
-template double refine_coarsely(MixtureGraph<SE2>&, const Inflation&, const RefinementParams&);
-template double refine_coarsely(MixtureGraph<SE3>&, const Inflation&, const RefinementParams&);
-template Refinement refine(MixtureGraph<SE2>&, const Inflation&, const RefinementParams&);
-template Refinement refine(MixtureGraph<SE3>&, const Inflation&, const RefinementParams&);
+template double refine_coarsely(MixtureGraph<SE2>&, const VarianceInflation&, const RefinementParams&);
+template double refine_coarsely(MixtureGraph<SE3>&, const VarianceInflation&, const RefinementParams&);
+template Refinement refine(MixtureGraph<SE2>&, const VarianceInflation&, const RefinementParams&);
+template Refinement refine(MixtureGraph<SE3>&, const VarianceInflation&, const RefinementParams&);
 
 }  // namespace radioslam

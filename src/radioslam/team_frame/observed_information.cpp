@@ -9,25 +9,26 @@ namespace {
 
 template <class Pose>
 void discount(const PoseGraph<Pose>& graph, auto& factor) {
-  const double share = 1 - (1 - factor.weight) * squared_norm(graph, factor);
-  factor.weight *= std::clamp(share, 0.0, 1.0);
+  const double ratio = 1 - (1 - factor.weight) * squared_norm(graph, factor);
+  factor.weight *= std::clamp(ratio, 0.0, 1.0);
 }
 
 }  // namespace
 
 template <class Pose>
-void discount_uncertain_measurements(PoseGraph<Pose>& graph, std::size_t ranges, double sigma_place_m) {
+void use_observed_information(PoseGraph<Pose>& graph, std::size_t ranges, double sigma_antenna_position_m) {
   for (std::size_t k = 0; k < std::min(ranges, graph.ranges.size()); ++k) discount(graph, graph.ranges[k]);
   for (auto& bearing : graph.bearings) {
     discount(graph, bearing);
     const double distance =
         (position(graph, bearing.j) - graph.poses[bearing.i.index()].translation()).norm();
     const double across = bearing.sigma_rad * distance;
-    bearing.weight *= across * across / (across * across + sigma_place_m * sigma_place_m);
+    bearing.weight *=
+        across * across / (across * across + sigma_antenna_position_m * sigma_antenna_position_m);
   }
 }
 
-template void discount_uncertain_measurements(PoseGraph<SE2>&, std::size_t, double);
-template void discount_uncertain_measurements(PoseGraph<SE3>&, std::size_t, double);
+template void use_observed_information(PoseGraph<SE2>&, std::size_t, double);
+template void use_observed_information(PoseGraph<SE3>&, std::size_t, double);
 
 }  // namespace radioslam

@@ -8,15 +8,15 @@
 
 #include "radioslam/base/check.hpp"
 #include "radioslam/base/parallel.hpp"
-#include "radioslam/radio/similarity_sums.hpp"
+#include "radioslam/radio/fingerprints/similarity_sums.hpp"
 
 namespace radioslam {
 namespace {
 
-constexpr int kLeastFingerprints = 3;  // of an access point that says something about several places
-constexpr double kNearest_m2 = 1e-4;   // added to squared distances: the far term has a corner at zero
-constexpr double kRounding = 1e-9;     // added to S's diagonal where it is factorised
-constexpr Eigen::Index kBlock = 64;    // columns per task, whatever the number of threads
+constexpr int kMinFingerprints = 3;   // with an access point, for it to be used
+constexpr double kNearest_m2 = 1e-4;  // added to squared distances: the far term has a kink at zero
+constexpr double kRounding = 1e-9;    // added to S's diagonal before it is factorised
+constexpr Eigen::Index kBlock = 64;   // columns per task, independent of the number of threads
 
 /// Calls body(first, count) for blocks of the columns [0, columns).
 template <class Body>
@@ -38,7 +38,7 @@ struct Terms {
   double sum() const { return far + near + everywhere + robot + drift; }
 };
 
-/// The parameters out of their logarithms, once per evaluation.
+/// The kernel's parameters, exponentiated once per evaluation.
 struct Parameters {
   double far, far_length, near, near_length, noise, robot, everywhere, drift, drift_time;
   explicit Parameters(const FieldKernel& k)
@@ -68,7 +68,7 @@ struct Parameters {
 
 }  // namespace
 
-FieldKernel FieldKernel::usual() {
+FieldKernel FieldKernel::nominal() {
   FieldKernel kernel;
   kernel.log << 0.3, 40, 0.3, 15, 0.05, 0.05, 0.01, 0.1, 20;
   kernel.log = kernel.log.array().log();
@@ -84,7 +84,7 @@ RadioField::RadioField(std::vector<FieldNode> nodes, const Eigen::MatrixXd& hear
   if (heard.cols() <= n) return;
   Eigen::MatrixXd s = heard * heard.transpose();
   s.diagonal().array() += kRounding;
-  heard_ = s.llt().matrixL();  // as many columns as nodes say the same
+  heard_ = s.llt().matrixL();  // same S with as few columns as nodes
 }
 
 Eigen::MatrixXd RadioField::covariance(const Eigen::Matrix2Xd& places, const FieldKernel& kernel) const {
@@ -103,7 +103,7 @@ Eigen::MatrixXd RadioField::covariance(const Eigen::Matrix2Xd& places, const Fie
   return k;
 }
 
-/// Sums dcost/dK dK/d(place, parameter) over all pairs, column by column and then in their order.
+/// Sums dcost/dK dK/d(position, parameter) over all pairs, column by column, columns in order.
 void RadioField::add_slopes(const Eigen::Matrix2Xd& places, const FieldKernel& kernel,
                             const Eigen::MatrixXd& by_covariance, FieldCost& cost) const {
   const auto n = static_cast<Eigen::Index>(nodes_.size());
@@ -158,13 +158,13 @@ FieldCost RadioField::cost(const Eigen::Matrix2Xd& places, const FieldKernel& ke
   return cost;
 }
 
-Eigen::MatrixXd heard_powers(const std::vector<const Fingerprint*>& fingerprints, double exponent) {
+Eigen::MatrixXd fingerprint_powers(const std::vector<const Fingerprint*>& fingerprints, double exponent) {
   std::map<AccessPointIndex, int> count;
   for (const Fingerprint* fingerprint : fingerprints)
     for (const auto& entry : fingerprint->entries) ++count[entry.access_point];
   std::map<AccessPointIndex, Eigen::Index> column;
   for (const auto& [access_point, fingerprints_with] : count)
-    if (fingerprints_with >= kLeastFingerprints)
+    if (fingerprints_with >= kMinFingerprints)
       column.emplace(access_point, static_cast<Eigen::Index>(column.size()));
   Eigen::MatrixXd heard = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(fingerprints.size()),
                                                 static_cast<Eigen::Index>(column.size()));

@@ -9,7 +9,7 @@ namespace radioslam {
 namespace {
 
 constexpr double kStill_m = 0.01;
-constexpr double kTogether_m = 1e-9;  // nearer, a direction between two points means nothing
+constexpr double kTogether_m = 1e-9;  // below this distance the direction between two points is undefined
 
 Eigen::Matrix2Xd placed_points(const RigidBody& body) {
   Eigen::Matrix2Xd placed = body.T_layout_body.rotation_matrix() * body.points;
@@ -17,11 +17,11 @@ Eigen::Matrix2Xd placed_points(const RigidBody& body) {
   return placed;
 }
 
-bool is_free_of_evidence(float weight, bool lower_bound, double distance, double target) {
+bool exerts_no_pull(float weight, bool lower_bound, double distance, double target) {
   return weight <= 0 || (lower_bound && distance >= target);
 }
 
-/// Where each point of a body is wanted (Guttman's transform) and with what weight.
+/// Target position of each point of a body (Guttman transform) and its weight.
 struct Pull {
   Eigen::Matrix2Xd wanted;
   Eigen::VectorXd weight;
@@ -39,7 +39,7 @@ Pull pull_on(const RigidBody& body, const Eigen::Matrix2Xd& positions, const Pai
         const Eigen::Vector2d apart = positions.col(i) - positions.col(j);
         const double distance = apart.norm(), target = static_cast<double>(targets.distance_m(j, i));
         const double weight = static_cast<double>(targets.weight(j, i));
-        if (is_free_of_evidence(targets.weight(j, i), targets.lower_bound(j, i), distance, target)) continue;
+        if (exerts_no_pull(targets.weight(j, i), targets.lower_bound(j, i), distance, target)) continue;
         const Eigen::Vector2d direction =
             distance > kTogether_m ? Eigen::Vector2d(apart / distance) : Eigen::Vector2d::UnitX();
         pull.wanted.col(k) += weight * (positions.col(j) + target * direction);
@@ -51,8 +51,8 @@ Pull pull_on(const RigidBody& body, const Eigen::Matrix2Xd& positions, const Pai
   return pull;
 }
 
-/// The rigid motion nearest to what is wanted; a heading prior adds to the rotation's evidence.
-SE2 follow(const RigidBody& body, const Pull& pull, double common_heading_rad) {
+/// Rigid motion that fits the targets best, with the heading prior if there is one.
+SE2 fit_to_pull(const RigidBody& body, const Pull& pull, double common_heading_rad) {
   const double total = pull.weight.sum();
   if (total <= 0) return body.T_layout_body;
   const Eigen::Vector2d point_mean = body.points * pull.weight / total;
@@ -100,7 +100,7 @@ double layout_stress(const std::vector<RigidBody>& bodies, const PairTargets& ta
       for (Eigen::Index j = 0; j < first; ++j) {
         const double distance = (positions.col(i) - positions.col(j)).norm();
         const double target = static_cast<double>(targets.distance_m(j, i));
-        if (is_free_of_evidence(targets.weight(j, i), targets.lower_bound(j, i), distance, target)) continue;
+        if (exerts_no_pull(targets.weight(j, i), targets.lower_bound(j, i), distance, target)) continue;
         stress += static_cast<double>(targets.weight(j, i)) * (distance - target) * (distance - target);
       }
   }
@@ -114,7 +114,7 @@ void majorise_stress(std::vector<RigidBody>& bodies, const PairTargets& targets,
     const double heading = common_heading(bodies);
     for (RigidBody& body : bodies) {
       if (body.fixed || body.points.cols() == 0) continue;
-      body.T_layout_body = follow(body, pull_on(body, positions, targets), heading);
+      body.T_layout_body = fit_to_pull(body, pull_on(body, positions, targets), heading);
       auto mine = positions.middleCols(static_cast<Eigen::Index>(body.first_node), body.points.cols());
       const Eigen::Matrix2Xd placed = placed_points(body);
       moved = std::max(moved, (placed - mine).colwise().norm().maxCoeff());

@@ -1,3 +1,26 @@
-radioslam_room(team_frame SOURCES multidimensional_scaling.cpp rigid_layout.cpp fingerprint_bodies.cpp quasi_newton.cpp radio_field.cpp field_refinement.cpp strays.cpp fingerprint_layout.cpp fix_alignment.cpp compressed_team.cpp
-                                  measurement_mixture.cpp mixture_refinement.cpp alignment_grid.cpp tied_team.cpp level_priors.cpp observed_information.cpp
-                                  place_search.cpp fewer_links.cpp radio_alignment.cpp ROOMS radio graph)
+radioslam_room(team_frame
+  SOURCES
+    alignment_grid.cpp
+    beam_search/beam_selection.cpp
+    beam_search/partial_mixture.cpp
+    beam_search/placement_order.cpp
+    beam_search/team_beam_search.cpp
+    connected_measurements.cpp
+    field_refinement.cpp
+    fingerprint_bodies.cpp
+    fingerprint_layout.cpp
+    fix_alignment.cpp
+    gravity_priors.cpp
+    layout_outliers.cpp
+    lbfgs.cpp
+    link_thinning.cpp
+    measurement_mixture.cpp
+    mixture_refinement.cpp
+    multidimensional_scaling.cpp
+    observed_information.cpp
+    odometry_compression.cpp
+    pose_proposals.cpp
+    radio_alignment.cpp
+    radio_field.cpp
+    rigid_layout.cpp
+  ROOMS radio graph)

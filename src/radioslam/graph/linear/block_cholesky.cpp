@@ -34,7 +34,7 @@ void add_columns(const FrontTree& tree, const Front& child, const double* update
   }
 }
 
-/// First run of a child that lies below the parent's pivots.
+/// First run of a child that is below the parent's pivots.
 std::size_t first_run_below(const FrontTree& tree, const Front& child) {
   auto k = child.runs.begin;
   while (k < child.runs.end && tree.runs[k].row < child.below_in_pivots) ++k;
@@ -177,7 +177,7 @@ Eigen::MatrixXd BlockCholesky::inverse_columns(std::size_t j) const {
   Eigen::MatrixXd x = Eigen::MatrixXd::Zero(index(tree.scalars()), columns);
   x.middleRows(index(tree.first_scalar[at_j]), columns).setIdentity();
   FrontSolver solver(tree, impl_->factor);
-  // On the way up, only the path from block j to the root has anything to do.
+  // In the pass up the tree only the path from block j to the root contributes.
   for (auto s = tree.front_of[at_j]; s != kNoParent; s = tree.fronts[s].parent) {
     for (auto column : x.colwise()) solver.forward(tree.fronts[s], column.data());
   }

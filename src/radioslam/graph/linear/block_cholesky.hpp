@@ -25,7 +25,7 @@ enum class Ordering {
 
 struct BlockCholeskyOptions {
   Ordering ordering = Ordering::kBest;
-  /// Blocks that go last, whatever the ordering says: variables tied to nearly everything.
+  /// Blocks eliminated last in any ordering: variables connected to nearly all others.
   std::vector<std::int32_t> last;
 };
 

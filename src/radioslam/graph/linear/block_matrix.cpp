@@ -18,7 +18,7 @@ SymmetricBlockMatrix::SymmetricBlockMatrix(BlockPattern pattern) : pattern_(std:
     scalars += n * n;
   }
   for (const auto& [row, column] : pattern_.lower) {
-    RADIOSLAM_CHECK(column < row, "blocks lie below the diagonal");
+    RADIOSLAM_CHECK(column < row, "blocks must be below the diagonal");
     lower_starts_.push_back(scalars);
     scalars += static_cast<std::size_t>(pattern_.sizes[static_cast<std::size_t>(row)]) *
                static_cast<std::size_t>(pattern_.sizes[static_cast<std::size_t>(column)]);

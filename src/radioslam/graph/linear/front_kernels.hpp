@@ -17,7 +17,7 @@ struct FrontKernels {
   const char* instruction_set;
 
   /// Panel <- [L_PP; L_RP] of its lower trapezoid; update <- -L_RP L_RP^T (r x r, lower triangle).
-  /// What lies above the diagonals is overwritten or left as it was. False when a pivot is not positive;
+  /// Entries above the diagonals are overwritten or left unchanged. False when a pivot is not positive;
   /// the contents are then of no use.
   bool (*eliminate)(FrontShape shape, double* panel, double* update);
 

@@ -140,7 +140,7 @@ void find_runs(FrontTree& tree) {
 
 /// Panels one after another. Update matrices on two stacks, by the parity of the depth, so that a front's own
 /// is never pushed above its children's. Covariances on a stack along the path from the root.
-void lay_out_storage(FrontTree& tree) {
+void assign_storage(FrontTree& tree) {
   const auto count = tree.fronts.size();
   std::vector<std::size_t> depth(count, 0);
   for (auto s = count; s-- > 0;) {
@@ -227,7 +227,7 @@ FrontTree front_tree(const BlockPattern& pattern, const BlockCholeskyOptions& op
   list_children(tree);
   find_rows(tree, graph);
   find_runs(tree);
-  lay_out_storage(tree);
+  assign_storage(tree);
   find_slots(tree, pattern);
   sum_up(tree);
   return tree;

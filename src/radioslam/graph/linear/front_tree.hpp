@@ -14,7 +14,7 @@ namespace radioslam {
 inline Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 /// `length` successive rows of a front's update matrix that are successive rows of the parent front.
-/// A run lies in the parent's pivots or below them, not across.
+/// A run is in the parent's pivots or below them, not across.
 struct RowRun {
   std::uint32_t row = 0;
   std::uint32_t parent_row = 0;
@@ -41,7 +41,7 @@ struct Front {
   std::size_t first_scalar = 0;     ///< first pivot in elimination order
   std::size_t panel = 0;            ///< start of the panel in the factor's storage
   std::size_t update = 0;           ///< start of the update matrix in the stack's storage
-  std::size_t covariance = 0;       ///< start of the covariance of the rows below, on the way down the tree
+  std::size_t covariance = 0;       ///< start of the covariance of the rows below, for the pass down the tree
   Range blocks;                     ///< pivot blocks, by place in the order
   Range rows;                       ///< in FrontTree::row_blocks: blocks below
   Range runs;                       ///< in FrontTree::runs

@@ -1,14 +1,14 @@
-// Where the access points are: on the map with one sigma's ellipse, in a table, and around the readings of a
-// chosen one the circles on which its strength alone would have it.
+// Access points: on the map with a one-sigma ellipse, in a table, and for the readings of a selected one the circles
+// on which its signal strength alone would place it.
 
 const points = report.access_points ? report.access_points.points : [];
-const free_space = { transmitted_dbm: 20, constant_db: 32.44 };  // of an ordinary access point; Friis, km and MHz
+const free_space = { transmitted_dbm: 20, constant_db: 32.44 };  // typical transmit power; Friis, km and MHz
 const table_rows = 200;
 const circles_shown = { of: "law" };
 
 const point_colour = () => (is_dark() ? "#f2f2f2" : "#222222");
 
-/// How far off a reading says the access point is, metres.
+/// Distance of the access point by the strength of one reading, metres.
 function circle_radius(point, dbm) {
   if (circles_shown.of === "law") return 10 ** ((point.p0_dbm - dbm) / (10 * point.exponent));
   const loss = free_space.transmitted_dbm - dbm - 20 * Math.log10(point.frequency_mhz) - free_space.constant_db;
@@ -50,7 +50,7 @@ function draw_circles(context, view, point) {
   }
 }
 
-/// Seen from above only: their height is not estimated.
+/// Only in the view from above: heights are not estimated.
 function draw_access_points(context, view) {
   if (state.axes[0] !== "x" || state.axes[1] !== "y") return;
   const chosen = points[state.access_point];
@@ -94,7 +94,7 @@ function write_points_table() {
       number(`${format.metres(p.major_m)} / ${format.metres(p.minor_m)}`), number(decibels(p.p0_dbm)), number(known(p.exponent) ? d3.format(".2f")(p.exponent) : missing),
       number(decibels(p.sigma_db)), number(format.count(p.readings)), element("td", {}, p.known));
   });
-  const heads = ["access point", "at (m)", "1 σ, long / short (m)", "at 1 m (dBm)", "exponent", "σ (dB)", "readings", ""];
+  const heads = ["access point", "position (m)", "1 σ, long / short (m)", "power at 1 m (dBm)", "exponent", "σ (dB)", "readings", ""];
   by_id("points-table").replaceChildren(element("table", {}, element("thead", {}, element("tr", {}, ...heads.map((h, i) => element("th", { scope: "col", class: i > 0 && i < 7 ? "number" : null }, h)))), element("tbody", {}, ...rows)));
 }
 
@@ -102,15 +102,15 @@ function write_access_points() {
   if (!points.length) return;
   show("points-section");
   const { placed } = report.access_points;
-  by_id("points-controls").append(element("span", {}, "circles around a chosen one's readings"),
-    choice("circles", [["law", "by its own law"], ["free", "in free space"], ["none", "none"]], circles_shown.of, of => { circles_shown.of = of; changes.call("layers"); }));
+  by_id("points-controls").append(element("span", {}, "circles around the selected access point's readings"),
+    choice("circles", [["law", "by its path loss"], ["free", "in free space"], ["none", "none"]], circles_shown.of, of => { circles_shown.of = of; changes.call("layers"); }));
   const loose = points.filter(p => p.known === "loose").length, parts = [
-    `${format.plural(placed, "access point")} heard in enough places; an ellipse is one σ.`,
-    "Choose one to see the circles of its readings: by the power and exponent estimated for it, or in free space for 20 dBm sent."];
-  if (loose) parts.push(`${format.count(loose)} hollow and faint: anywhere around.`);
-  if (points.some(p => p.known === "ambiguous")) parts.push("Ambiguous ones are hollow, tied to the other place that fits.");
+    `${format.plural(placed, "access point")} received in enough places; ellipses are 1 σ.`,
+    "Select one to see the distance circles of its readings: by its estimated path loss, or in free space at 20 dBm transmit power."];
+  if (loose) parts.push(`${format.count(loose)} hollow and faint: poorly constrained.`);
+  if (points.some(p => p.known === "ambiguous")) parts.push("Ambiguous ones are hollow and connected to the alternative position.");
   if (points.length < placed) parts.push(`${format.count(points.length)} are drawn.`);
-  if (points.length > table_rows) parts.push(`The ${table_rows} heard most are listed; all are in access_points.csv.`);
+  if (points.length > table_rows) parts.push(`The ${table_rows} with the most readings are listed; all are in access_points.csv.`);
   if (points.length > 12) by_id("points-table").classList.add("tall");
   by_id("points-caption").textContent = parts.join(" ");
   write_points_table();

@@ -1,4 +1,4 @@
-// A chart: grid and axes in SVG over a canvas for the data. It follows its container's width.
+// Chart: grid and axes in SVG over a canvas for the data. It follows its container's width.
 //   plot: {height, label, x_label, y_label, scales(width, height) -> {x, y}, draw(context, x, y, chart),
 //          ticks_x, ticks_y, marks(svg, x, y), on_pointer(px, py, x, y), on_leave()}
 
@@ -50,7 +50,7 @@ class Chart {
     this.mark();
   }
 
-  /// What lies above the data: redrawn on its own when only that has changed.
+  /// Redraws the marks above the data on their own.
   mark() {
     if (!this.marks || !this.plot.marks) return;
     this.marks.selectAll("*").remove();
@@ -87,7 +87,7 @@ class Chart {
 }
 Chart.count = 0;
 
-/// A line through columns, without the points that would fall onto the last one drawn.
+/// A polyline through columns, without points that coincide with the last one drawn.
 function trace(context, xs, ys, x, y) {
   let px = NaN, py = NaN, begun = false;
   for (let i = 0; i < xs.length; ++i) {
@@ -102,7 +102,7 @@ function trace(context, xs, ys, x, y) {
   }
 }
 
-/// Ticks of a time axis in seconds that fall on round minutes and hours.
+/// Ticks of a time axis in seconds, at round minutes and hours.
 function clock_ticks(x, width) {
   const [from, to] = x.domain(), wanted = (to - from) / Math.max(2, width / 90);
   const steps = [1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200, 14400, 21600, 43200, 86400];
@@ -114,7 +114,7 @@ function clock_label(v) {
   return hours ? `${hours}:${rest(minutes)}:${rest(v % 60)}` : `${minutes}:${rest(v % 60)}`;
 }
 
-/// A row of mutually exclusive choices.
+/// A row of mutually exclusive options.
 function choice(name, options, chosen, on_change) {
   const inputs = options.map(([value, text]) => element("label", {},
     element("input", { type: "radio", name, value, ...(value === chosen ? { checked: true } : {}), onchange: () => on_change(value) }), text));

@@ -1,5 +1,5 @@
-// Colours that stay apart for colour-blind readers. Robots: Okabe and Ito's palette for up to six, viridis in
-// the robots' order above. Closures: after Tol's muted palette by kind, without its reds; rejected ones lean to vermillion.
+// Colours that colour-blind readers can distinguish. Robots: Okabe and Ito's palette for up to six, viridis in
+// the robots' order beyond. Closures: by kind, after Tol's muted palette without its reds; rejected ones tend to vermillion.
 
 const dark_scheme = window.matchMedia("(prefers-color-scheme: dark)");
 let printing = false;

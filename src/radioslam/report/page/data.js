@@ -1,4 +1,4 @@
-// The run's data, as the page uses them: typed columns and a few sums.
+// Data of the run as the page uses them: typed columns and a few sums.
 
 const report = JSON.parse(document.getElementById("data").textContent);
 
@@ -36,7 +36,7 @@ const closures_drawn = total(groups, g => g.drawn);
 const accepted_total = total(groups.filter(g => g.status === "accepted"), g => g.count);
 const seconds_total = total(report.timings, t => t.seconds);
 
-// Which lines end at a keyframe: for the one under the pointer.
+// The lines that end at each keyframe, for the one under the pointer.
 const lines_at = robots.map(() => new Map());
 for (let c = 0; c < lines.group.length; ++c)
   for (const [robot, keyframe] of [[lines.robot_i[c], lines.keyframe_i[c]], [lines.robot_j[c], lines.keyframe_j[c]]]) {

@@ -1,17 +1,17 @@
-// What arrived from where: the profile of one measurement around its receiver, its peaks, and where the
-// transmitter is by the estimate and in truth. Body frame: forward is up, angles count counter-clockwise.
+// Angles of arrival: the profile of one measurement around its receiver, its peaks, and the transmitter's direction by
+// the estimate and the truth. Body frame: forward is up, angles counter-clockwise.
 
 const polar = { size: 460, middle: 230, radius: 172, rim: 190, dot: 9 };
-const ghost_text = "product of two paths";
+const ghost_text = "cross term of two paths";
 const direction_of = { link: 0, place: 0 };
 
-/// Body azimuth to the page: up is 0, to the left is positive.
+/// Body azimuth to the page: up is 0, left is positive.
 const on_page = (azimuth, r) => [polar.middle - r * Math.sin(azimuth), polar.middle - r * Math.cos(azimuth)];
 const whole_degrees = v => `${minus(d3.format(".0f")((v * 180) / Math.PI))}°`;
 const degrees_1 = v => (known(v) ? minus(d3.format(".1f")((v * 180) / Math.PI)) : missing);
 const turned_to = (a, b) => Math.atan2(Math.sin(a - b), Math.cos(a - b));
 
-/// The measurements of every receiver and transmitter: [{receiver, transmitter, measured: [...]}].
+/// Measurements per receiver and transmitter: [{receiver, transmitter, measured: [...]}].
 function links_heard() {
   const links = new Map();
   for (const one of report.arrivals.drawn) {
@@ -46,7 +46,7 @@ function draw_profile(svg, profile) {
   svg.append("path").attr("class", "power").attr("d", d3.line().curve(d3.curveLinearClosed)(points));
 }
 
-/// On the rim: an arc of one sigma to either side, and a numbered dot; the strongest lies on top.
+/// Peaks on the rim: an arc of one sigma to either side, and a numbered dot; the strongest on top.
 function draw_peaks(svg, peaks) {
   peaks.map((peak, i) => [peak, i]).reverse().forEach(([peak, i]) => {
     const kind = peak.ghost ? " ghost" : "", [x, y] = on_page(peak.azimuth_rad, polar.rim);
@@ -63,7 +63,7 @@ const peak_title = peak => `${degrees_1(peak.azimuth_rad)}° ± ${degrees_1(peak
 
 function draw_direction(one) {
   const svg = d3.create("svg").attr("viewBox", `0 0 ${polar.size} ${polar.size}`).attr("role", "img")
-    .attr("aria-label", `Power over direction of what ${one.receiver} heard of ${one.transmitter}; ${one.peaks.map(peak_title).join("; ")}`);
+    .attr("aria-label", `Power over direction at receiver ${one.receiver}, transmitter ${one.transmitter}; ${one.peaks.map(peak_title).join("; ")}`);
   draw_polar_grid(svg);
   draw_ray(svg, "truth", one.true_azimuth_rad);
   draw_profile(svg, one.profile);
@@ -81,7 +81,7 @@ function direction_rows(one) {
   const rows = one.peaks.map((peak, i) => row(String(i + 1), peak.azimuth_rad, degrees_1(peak.sigma_rad), minus(d3.format(".1f")(peak.power_db)), peak.ghost ? ghost_text : ""));
   if (known(one.estimated_azimuth_rad)) rows.push(row("estimate", one.estimated_azimuth_rad, "", "", ""));
   if (known(one.true_azimuth_rad)) rows.push(row("truth", one.true_azimuth_rad, "", "", ""));
-  const heads = ["peak", "azimuth (°)", "σ (°)", "power (dB)", ...(known(compared) ? [`from the ${known(one.true_azimuth_rad) ? "truth" : "estimate"} (°)`] : []), ""];
+  const heads = ["peak", "azimuth (°)", "σ (°)", "power (dB)", ...(known(compared) ? [`error to ${known(one.true_azimuth_rad) ? "truth" : "estimate"} (°)`] : []), ""];
   return element("table", {}, element("thead", {}, element("tr", {}, ...heads.map((h, i) => element("th", { scope: "col", class: i > 0 && h ? "number" : null }, h)))), element("tbody", {}, ...rows));
 }
 
@@ -97,15 +97,15 @@ function direction_key() {
     line(svg, `spread${name}`);
     svg.append("circle").attr("class", `peak${name}`).attr("cx", 13).attr("cy", 5).attr("r", 4.5);
   };
-  const key = [mark("power that arrived, relative to the strongest", "power", (svg, name) => svg.append("rect").attr("class", name).attr("y", 1).attr("width", 26).attr("height", 8)),
-    mark("peak, with one σ to either side", "", dotted)];
-  if (drawn.some(one => one.peaks.some(peak => peak.ghost))) key.push(mark(`${ghost_text}: no direction of its own`, " ghost", dotted));
-  if (drawn.some(one => known(one.estimated_azimuth_rad))) key.push(mark("the transmitter by the final estimate", "estimate", line));
-  if (drawn.some(one => known(one.true_azimuth_rad))) key.push(mark("the transmitter in truth", "truth", line));
+  const key = [mark("received power, relative to the maximum", "power", (svg, name) => svg.append("rect").attr("class", name).attr("y", 1).attr("width", 26).attr("height", 8)),
+    mark("peak, ± 1 σ", "", dotted)];
+  if (drawn.some(one => one.peaks.some(peak => peak.ghost))) key.push(mark(`${ghost_text}: not a physical direction`, " ghost", dotted));
+  if (drawn.some(one => known(one.estimated_azimuth_rad))) key.push(mark("transmitter by the final estimate", "estimate", line));
+  if (drawn.some(one => known(one.true_azimuth_rad))) key.push(mark("true direction of the transmitter", "truth", line));
   return key;
 }
 
-/// A list to choose from, with steps back and forth; nothing where there is no choice.
+/// A drop-down list with previous and next buttons; nothing if there is only one option.
 function direction_chooser(label, texts, chosen, on_change) {
   if (texts.length < 2) return [];
   const list = element("select", { "aria-label": label, onchange: () => on_change(Number(list.value)) }, ...texts.map((text, i) => element("option", { value: i }, text)));
@@ -119,10 +119,10 @@ function show_direction(links) {
   const choose = change => { Object.assign(direction_of, change); show_direction(links); };
   const focused = by_id("directions-controls").contains(document.activeElement) ? document.activeElement.getAttribute("aria-label") : null;
   by_id("directions-controls").replaceChildren(
-    ...direction_chooser("link", links.map(l => `${shortened(l.receiver)} hears ${shortened(l.transmitter)} (${l.measured.length})`), direction_of.link, link => choose({ link, place: 0 })),
+    ...direction_chooser("link", links.map(l => `${shortened(l.receiver)} from ${shortened(l.transmitter)} (${l.measured.length})`), direction_of.link, link => choose({ link, place: 0 })),
     ...direction_chooser("time", measured.map(m => format.clock(m.t)), direction_of.place, place => choose({ place })));
   if (focused) for (const control of by_id("directions-controls").querySelectorAll("[aria-label]")) if (control.getAttribute("aria-label") === focused) control.focus();
-  by_id("directions-name").textContent = `${receiver} hears ${transmitter} at ${format.clock(one.t)}`;
+  by_id("directions-name").textContent = `${receiver} receives ${transmitter} at ${format.clock(one.t)}`;
   draw_direction(one);
   by_id("directions-table").replaceChildren(direction_rows(one));
 }
@@ -132,7 +132,7 @@ function write_directions() {
   show("directions-section");
   const { measured, drawn } = report.arrivals;
   by_id("directions-key").append(...direction_key());
-  by_id("directions-caption").textContent = "Seen from above in the receiver's body frame: forward is up, angles count counter-clockwise; the profile's radius is its power."
-    + (drawn.length < measured ? ` ${format.count(drawn.length)} of ${format.plural(measured, "measurement")} are on this page, evenly chosen; all are in aoa.csv.` : ` ${format.plural(measured, "measurement")}.`);
+  by_id("directions-caption").textContent = "Seen from above in the receiver's body frame: forward is up, angles counter-clockwise; the radius of the profile is its power."
+    + (drawn.length < measured ? ` ${format.count(drawn.length)} of ${format.plural(measured, "measurement")} are on this page, evenly spaced; all are in aoa.csv.` : ` ${format.plural(measured, "measurement")}.`);
   show_direction(links_heard());
 }

@@ -1,4 +1,4 @@
-// Error of the position over time or way, per robot, and its distribution over the team.
+// Position error over time or path length, per robot, and its distribution over the team.
 
 const error_view = { along: "t", scale: "linear", dead_reckoning: robots.length <= few_robots };
 const least_error_m = 0.01;
@@ -13,7 +13,7 @@ function error_scales(width, height) {
   return { x: d3.scaleLinear().domain([start, end]).range([0, width]), y: y.range([height, 0]) };
 }
 
-/// The errors of all robots shown, in steps along the axis: their median and their 90th percentile.
+/// Median and 90th percentile of the errors of all visible robots, in steps along the axis.
 function team_course(x) {
   const [start, end] = x.domain(), steps = 80, errors = d3.range(steps).map(() => []);
   for (const robot of judged())
@@ -88,10 +88,10 @@ function find_moment(px, py, x, y) {
 function quantile_chart(accuracy) {
   const curves = [["dead reckoning", accuracy.dead_reckoning_quantiles_m, "quiet", [4, 3]], ["estimate", accuracy.quantiles_m, "ink", []]]
     .filter(([, values]) => values.length);
-  const share = (_, i, all) => i / (all.length - 1);
+  const ratio = (_, i, all) => i / (all.length - 1);
   return new Chart(by_id("errors-share"), {
-    height: 320, label: "Share of the truth's poses below an error",
-    x_label: () => "error (m)", y_label: () => "share of poses below the error",
+    height: 320, label: "Ratio of true poses below an error",
+    x_label: () => "error (m)", y_label: () => "ratio of poses below the error",
     format_y: v => `${Math.round(v * 100)} %`, format_x: d3.format("~g"),
     ticks_y: () => [0, 0.25, 0.5, 0.75, 0.9, 1],
     ticks_x: x => (error_view.scale === "log" ? decades(x) : x.ticks(4)),
@@ -106,7 +106,7 @@ function quantile_chart(accuracy) {
         context.lineWidth = colour === "ink" ? 2 : 1.3;
         context.setLineDash(dash);
         context.beginPath();
-        trace(context, values, values.map(share), x, y);
+        trace(context, values, values.map(ratio), x, y);
         context.stroke();
       }
       context.setLineDash([]);
@@ -129,7 +129,7 @@ function write_errors() {
   show("errors-section");
   const chart = new Chart(by_id("errors-chart"), {
     height: 320, label: "Error of every robot's position over time",
-    x_label: () => (error_view.along === "t" ? "time (min:s)" : "way walked (m)"), y_label: () => "error (m)",
+    x_label: () => (error_view.along === "t" ? "time (min:s)" : "path length (m)"), y_label: () => "error (m)",
     ticks_x: (x, width) => (error_view.along === "t" ? clock_ticks(x, width) : x.ticks(Math.max(2, width / 90))),
     format_x: v => (error_view.along === "t" ? clock_label(v) : d3.format(",")(v)),
     ticks_y: y => (error_view.scale === "log" ? decades(y) : y.ticks(5)),
@@ -142,12 +142,12 @@ function write_errors() {
   changes.on("moment.errors", once_per_frame(() => chart.mark()));
   const set = (key, value) => { error_view[key] = value; chart.redraw(); shares.redraw(); };
   by_id("errors-controls").append(
-    choice("over", [["t", "time"], ["along_m", "way"]], error_view.along, v => set("along", v)),
+    choice("over", [["t", "time"], ["along_m", "path length"]], error_view.along, v => set("along", v)),
     choice("scale", [["linear", "linear"], ["log", "logarithmic"]], error_view.scale, v => set("scale", v)),
     report.accuracy.dead_reckoning ? check("dead reckoning (dashed)", error_view.dead_reckoning, v => set("dead_reckoning", v)) : "");
   const { rpe } = report.accuracy;
-  by_id("errors-caption").textContent = "Distance of the position from the truth at the truth's stamps, after one rigid alignment of the whole team"
-    + (report.accuracy.dead_reckoning ? "; dead reckoning after its own." : ".")
-    + (robots.length > few_robots ? " Thick: median of the robots shown; dotted: their 90th percentile." : "")
-    + (rpe ? ` Relative error from one compared pose to the next: ${d3.format(".3f")(rpe.translation_rmse_m)} m and ${format.degrees(rpe.rotation_rmse_rad)}° rmse.` : "");
+  by_id("errors-caption").textContent = "Position error at the stamps of the truth, after one rigid alignment of the whole team"
+    + (report.accuracy.dead_reckoning ? "; dead reckoning after an alignment of its own." : ".")
+    + (robots.length > few_robots ? " Thick: median of the visible robots; dotted: their 90th percentile." : "")
+    + (rpe ? ` Relative pose error between successive poses: ${d3.format(".3f")(rpe.translation_rmse_m)} m and ${format.degrees(rpe.rotation_rmse_rad)}° RMSE.` : "");
 }

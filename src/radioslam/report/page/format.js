@@ -1,4 +1,4 @@
-// Numbers and words as they are read; elements from text, never from markup.
+// Formatting of numbers and words; elements from text, never from markup.
 
 const missing = "–";
 const known = v => v !== null && v !== undefined && isFinite(v);

@@ -1,4 +1,4 @@
-// The top of the page: what was run, how good it is, what to know.
+// Top of the page: the mission, its accuracy, and notes.
 
 function figure(name, value, unit, detail) {
   const shown_value = element("dd", { class: "figure" }, value, ...(unit ? [element("small", {}, unit)] : []));
@@ -9,9 +9,9 @@ const spread = s => `median ${format.metres(s.median_m)} · p90 ${format.metres(
 
 function accuracy_figures(accuracy) {
   const figures = [];
-  if (accuracy.ate) figures.push(figure("ATE, rmse", format.metres(accuracy.ate.rmse_m), "m", spread(accuracy.ate)));
+  if (accuracy.ate) figures.push(figure("ATE (RMSE)", format.metres(accuracy.ate.rmse_m), "m", spread(accuracy.ate)));
   if (accuracy.dead_reckoning)
-    figures.push(figure("Dead reckoning, rmse", format.metres(accuracy.dead_reckoning.rmse_m), "m", spread(accuracy.dead_reckoning)));
+    figures.push(figure("Dead reckoning (RMSE)", format.metres(accuracy.dead_reckoning.rmse_m), "m", spread(accuracy.dead_reckoning)));
   if (known(accuracy.ratio))
     figures.push(figure("ATE / dead reckoning", d3.format(accuracy.ratio < 0.1 ? ".3f" : ".2f")(accuracy.ratio), "", `${format.percent(accuracy.coverage)} of the truth covered`));
   return figures;
@@ -20,7 +20,7 @@ function accuracy_figures(accuracy) {
 function walk_figures() {
   if (!robots.length) return [];
   const walked = total(robots, r => r.walked_m || 0), sigmas = robots.map(r => r.sigma_median_m).filter(known);
-  const figures = [figure("Walked", format.metres(walked), "m", `${format.count(total(robots, r => r.keyframes))} keyframes`)];
+  const figures = [figure("Path length", format.metres(walked), "m", `${format.count(total(robots, r => r.keyframes))} keyframes`)];
   if (sigmas.length) figures.push(figure("Position σ, median", format.metres(d3.median(sigmas)), "m", robots.length > 1 ? `worst robot ${format.metres(d3.max(sigmas))} m` : "as estimated"));
   return figures;
 }
@@ -28,7 +28,7 @@ function walk_figures() {
 function run_figures() {
   const figures = [];
   if (alternatives.length)
-    figures.push(figure("Weight of the team shown", format.percent(report.weight), "", format.plural(alternatives.length, "other hypothesis", "other hypotheses")));
+    figures.push(figure("Weight of this hypothesis", format.percent(report.weight), "", format.plural(alternatives.length, "other hypothesis", "other hypotheses")));
   const { kept, pairs, distances_evaluated } = report.candidates;
   if (known(pairs) && pairs > 0)
     figures.push(figure("Pairs kept", format.fine_percent(kept / pairs), "", `${format.count(kept)} of ${format.count(pairs)}; ${format.count(distances_evaluated)} distances evaluated`));
@@ -45,9 +45,9 @@ function run_figures() {
 function write_facts() {
   const facts = [format.plural(robots.length, "robot") + (robots.length > 0 && robots.length <= few_robots ? ` (${robots.map(r => r.id).join(", ")})` : ""),
     report.dimension === 3 ? "in space" : "in the plane", format.plural(total(robots, r => r.keyframes), "keyframe"),
-    `${format.metres(total(robots, r => r.walked_m || 0))} m walked`];
+    `${format.metres(total(robots, r => r.walked_m || 0))} m travelled`];
   const duration = d3.max(robots, r => r.duration_s);
-  if (duration > 0) facts.push(`longest walk ${format.duration(duration)}`);
+  if (duration > 0) facts.push(`longest recording ${format.duration(duration)}`);
   by_id("facts").textContent = facts.join(" · ");
 }
 
@@ -55,9 +55,9 @@ const names = ids => (ids.length > 6 ? `${ids.slice(0, 5).join(", ")} and ${ids.
 
 function write_notes() {
   const notes = [];
-  if (report.unplaced.length) notes.push(`Unplaced, nothing ties ${report.unplaced.length === 1 ? "it" : "them"} to the others: ${report.unplaced.join(", ")}.`);
+  if (report.unplaced.length) notes.push(`Unplaced, with no measurement that connects ${report.unplaced.length === 1 ? "it" : "them"} to the others: ${report.unplaced.join(", ")}.`);
   if (report.components.length > 1)
-    notes.push(`Not joined: nothing measured ties ${report.components.map(names).join(" to ")}. Each of these ${report.components.length} frames stands for itself; distances between them mean nothing.`);
+    notes.push(`Not connected: no measurement links ${report.components.map(names).join(" to ")}. Each of these ${report.components.length} frames is independent; distances between them are meaningless.`);
   by_id("notes").append(...notes.concat(report.notes).map(note => element("li", {}, note)));
 }
 

@@ -1,11 +1,11 @@
-// The map's layers, from the bottom up. A view gives the screen: px = view.ox + view.k x, py = view.oy - view.k y.
+// Layers of the map, from bottom to top. A view maps metres to pixels: px = view.ox + view.k x, py = view.oy - view.k y.
 
 const moving_lines = 4000;    // closures drawn while the view moves
 const moving_points = 30000;  // poses above which a moving view is drawn more coarsely
 const lines_per_path = 400;   // a browser's stroke of n crossing lines costs more than n strokes of one
 const points_per_path = 200;
 
-/// Strokes a path through the plane, without points that fall onto the last one and segments that lie outside.
+/// Strokes a path in the plane, without points that coincide with the last one and segments outside the view.
 function stroke_path(context, xs, ys, view) {
   const { k, ox, oy, width, height } = view, least = view.moving && view.points > moving_points ? 3 : 0.7;
   let last_x = 0, last_y = 0, last_side = 0, begun = false, points = 0;
@@ -65,7 +65,7 @@ function draw_paths(context, view, layer, style) {
   context.globalAlpha = 1;
 }
 
-/// The other hypotheses, the likelier the clearer; the dots tell them from the odometry's dashes.
+/// The other hypotheses, more opaque if more likely; dotted, whereas odometry is dashed.
 function draw_alternatives(context, view) {
   const [a, b] = state.axes;
   context.setLineDash(view.moving ? [] : [1, 3]);
@@ -163,7 +163,7 @@ const nearest_index = (times, t) => {
   return after > 0 && (after === times.length || t - times[after - 1] < times[after] - t) ? after - 1 : after;
 };
 
-/// The keyframe under the pointer: its closures, its distance from the truth, itself.
+/// The keyframe under the pointer, with its closures and its distance from the truth.
 function draw_moment(context, view) {
   const { robot: index, t } = state.moment, robot = robots[index], [a, b] = state.axes;
   if (!robot.estimate || !state.visible[index]) return;

@@ -1,4 +1,4 @@
-// Beside the map: which layers, closures and robots it shows.
+// Panel beside the map: selects layers, closures and robots.
 
 function swatch(draw) {
   const svg = d3.create("svg").attr("viewBox", "0 0 26 10").attr("aria-hidden", "true");
@@ -19,7 +19,7 @@ function layer_rows() {
   const layer = (key, text, sample) => row(text, "", swatch(sample), state.layers[key], on => { state.layers[key] = on; changes.call("layers"); });
   const ink = css("ink"), rows = [layer("estimate", "estimate", line => line.attr("stroke", ink).attr("stroke-width", 2))];
   if (robots.some(r => r.odometry))
-    rows.push(layer("odometry", "odometry alone", line => line.attr("stroke", ink).attr("stroke-width", 1.1).attr("stroke-dasharray", "5 4")));
+    rows.push(layer("odometry", "odometry only", line => line.attr("stroke", ink).attr("stroke-width", 1.1).attr("stroke-dasharray", "5 4")));
   if (robots.some(r => r.truth)) rows.push(layer("truth", "truth", line => line.attr("stroke", css("truth")).attr("stroke-width", 3.5)));
   if (robots.some(r => r.sigma_m))
     rows.push(layer("sigma", "1 σ of position", line => line.attr("stroke", ink).attr("stroke-width", 9).attr("stroke-opacity", 0.16)));
@@ -71,13 +71,13 @@ function plane_chooser(map) {
   if (report.dimension !== 3) return [];
   const planes = { xy: ["x", "y"], xz: ["x", "z"], yz: ["y", "z"] };
   const set = name => { state.axes = planes[name]; map.fit(); changes.call("layers"); };
-  return [group_of_rows("Seen", choice("plane", [["xy", "from above"], ["xz", "x–z"], ["yz", "y–z"]], "xy", set))];
+  return [group_of_rows("View", choice("plane", [["xy", "from above"], ["xz", "x–z"], ["yz", "y–z"]], "xy", set))];
 }
 
 function draw_panel(panel, map) {
   const button = (text, action) => element("button", { type: "button", class: "plain", onclick: action }, text);
   const list = element("div", { class: "robot-list" });
-  const who = group_of_rows(robots.some(r => r.ate) ? "Robots, ATE rmse" : "Robots", ...component_chooser(map),
+  const who = group_of_rows(robots.some(r => r.ate) ? "Robots, ATE RMSE" : "Robots", ...component_chooser(map),
     ...(robots.length > 1 ? [element("div", { class: "panel-buttons" }, button("all", () => show_only(() => true)), button("none", () => show_only(() => false)))] : []), list);
   who.className = "robots";
   const fill = () => {
@@ -100,13 +100,13 @@ function caption_map() {
   if (report.frame === "truth") parts.push("In the truth's frame, after one rigid alignment of the whole team.");
   else if (report.components.length < 2) parts.push("In the team's own frame.");
   if (report.components.length > 1)
-    parts.push(`The team falls into ${report.components.length} components; nothing measured ties one's frame to another's.`);
+    parts.push(`The team has ${report.components.length} components; no measurement connects their frames.`);
   if (robots.length <= few_robots) parts.push("A ring marks a robot's start.");
-  if (alternatives.length) parts.push("Dotted: where the team lies by the other hypotheses, seen from the first robot.");
+  if (alternatives.length) parts.push("Dotted: the other hypotheses, aligned at the first robot.");
   if (closures_drawn < closures_total)
     parts.push(`${format.count(closures_drawn)} of ${format.count(closures_total)} closures are drawn, evenly spaced within each kind and status; all are counted.`);
   if (picture_cells)
-    parts.push(`Grey: walls and whatever else stands upright, in ${format.plural(picture_scans, "scan")} at keyframes${report.dimension === 3 ? "; only seen from above" : ""}.`);
+    parts.push(`Grey: walls and other vertical structures in ${format.plural(picture_scans, "scan")} at keyframes${report.dimension === 3 ? "; only in the view from above" : ""}.`);
   const drawn = total(robots, r => (r.estimate ? r.estimate.t.length : 0)), keyframes = total(robots, r => r.keyframes);
   if (drawn < keyframes) parts.push(`${format.count(drawn)} of ${format.count(keyframes)} keyframes are drawn.`);
   by_id("map-caption").textContent = parts.join(" ");

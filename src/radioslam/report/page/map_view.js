@@ -1,4 +1,4 @@
-// The map: size, zoom, pointer and keys. Metres have the same length on both axes.
+// The map: size, zoom, pointer and keys. Both axes have the same scale.
 
 const scale_bar_px = 44;  // at the bottom, kept free when everything is shown
 
@@ -38,7 +38,7 @@ class MapView {
     this.canvas.addEventListener("keydown", event => this.key(event));
   }
 
-  /// The wheel zooms once the map has been clicked, so that it does not catch a reader who scrolls by; one finger
+  /// The wheel zooms only after the map has been clicked, so that it does not interfere with scrolling; one finger
   /// scrolls the page, two move the map.
   accepts(event) {
     if (event.type === "wheel") return event.ctrlKey || document.activeElement === this.canvas;
@@ -86,7 +86,7 @@ class MapView {
     this.redraw();
   }
 
-  /// Scale and centre that show every layer of the robots that are shown.
+  /// Scale and centre that show every layer of the visible robots.
   measure() {
     const [a, b] = state.axes, span = { a: [Infinity, -Infinity], b: [Infinity, -Infinity] };
     const widen = (range, values) => {
@@ -135,7 +135,7 @@ class MapView {
     this.draw_moment();
   }
 
-  /// On a canvas of its own: it follows the pointer, and the map below may be large.
+  /// On a separate canvas, since it follows the pointer and the map below may be large.
   draw_moment() {
     if (!this.width) return;
     const context = this.overlay.getContext("2d");
@@ -144,7 +144,7 @@ class MapView {
     if (state.moment) draw_moment(context, this.view());
   }
 
-  /// Keyframes of the robots that are shown, for the nearest one to a point.
+  /// Keyframes of the visible robots, for finding the one nearest to a point.
   keyframes() {
     if (this.tree && this.tree.axes === state.axes) return this.tree;
     const [a, b] = state.axes, points = [];
@@ -184,14 +184,14 @@ function describe_keyframe(robot, i) {
   const t = robot.estimate.t[i], rows = [element("b", {}, robot.id)];
   const row = (name, value) => rows.push(element("span", {}, `${name} `), value, element("br"));
   row("time", `${format.clock(t)}  (${d3.format(".3f")(report.start_s + t)} s)`);
-  row("at", `${format.metres(robot.estimate.x[i])}, ${format.metres(robot.estimate.y[i])}${robot.estimate.z ? `, ${format.metres(robot.estimate.z[i])}` : ""} m`);
+  row("position", `${format.metres(robot.estimate.x[i])}, ${format.metres(robot.estimate.y[i])}${robot.estimate.z ? `, ${format.metres(robot.estimate.z[i])}` : ""} m`);
   if (robot.sigma_m && isFinite(robot.sigma_m[i])) row("σ", `${format.metres(robot.sigma_m[i])} m`);
   if (robot.errors) {
     const e = nearest_index(robot.errors.t, t);
     row("error", `${format.metres(robot.errors.error_m[e])} m${Math.abs(robot.errors.t[e] - t) > 1 ? ` (at ${format.clock(robot.errors.t[e])})` : ""}`);
   }
-  const ties = (lines_at[robot.index].get(i) || []).filter(c => groups[lines.group[c]].status === "accepted").length;
-  if (closures_total) row("closures", `${ties} accepted${closures_drawn < closures_total ? " of those drawn" : ""}`);
+  const accepted = (lines_at[robot.index].get(i) || []).filter(c => groups[lines.group[c]].status === "accepted").length;
+  if (closures_total) row("closures", `${accepted} accepted${closures_drawn < closures_total ? " of those drawn" : ""}`);
   rows.pop();
   return rows;
 }

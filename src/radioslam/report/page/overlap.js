@@ -1,12 +1,12 @@
-// The pairs that the overlap search kept: a matrix per pair of robots, keyframes of one across, of the other up.
+// Pairs kept by the overlap search: a matrix per pair of robots, keyframes of one horizontally, of the other vertically.
 
 const dot = { accepted: 2.6, rejected: 1.8, link: 2.4 };
 
-/// How many of n keyframes fall into a bin.
+/// Number of the n keyframes in a bin.
 const bin_size = (bin, bins, n) => Math.ceil(((bin + 1) * n) / bins) - Math.ceil((bin * n) / bins);
 
 function draw_kept(context, matrix, side) {
-  // Edges on whole pixels: seams between neighbours would show as a grid.
+  // Edges are on whole pixels; otherwise seams between cells would be visible as a grid.
   const across = i => Math.round((i * side) / matrix.bins_i), up = j => side - Math.round((j * side) / matrix.bins_j);
   const n_i = robots[matrix.robot_i].keyframes, n_j = robots[matrix.robot_j].keyframes;
   context.fillStyle = css("accent");
@@ -19,7 +19,7 @@ function draw_kept(context, matrix, side) {
   context.globalAlpha = 1;
 }
 
-/// Where a drawn closure stands in the matrix, as shares of both ways; nothing if it belongs to others.
+/// Position of a drawn closure in the matrix, as ratios of both trajectories; null if it belongs to other robots.
 function place_in(matrix, c) {
   const share = (robot, keyframe) => (keyframe + 0.5) / robots[robot].estimate.t.length;
   const i = lines.robot_i[c], j = lines.robot_j[c];
@@ -56,12 +56,12 @@ function draw_matrix(canvas, matrix) {
 function matrix_figure(matrix, index) {
   const i = robots[matrix.robot_i], j = robots[matrix.robot_j], pairs = i.keyframes * j.keyframes;
   const share = format.fine_percent(matrix.kept / pairs), text = `${format.count(matrix.kept)} of ${format.count(pairs)} pairs, ${share}`;
-  const canvas = element("canvas", { role: "img", "aria-label": `Pairs of ${i.id} and ${j.id} that were kept: ${text}` });
+  const canvas = element("canvas", { role: "img", "aria-label": `Kept pairs of ${i.id} and ${j.id}: ${text}` });
   const redraw = once_per_frame(() => draw_matrix(canvas, matrix));
   new ResizeObserver(redraw).observe(canvas);
   changes.on(`theme.matrix${index}`, redraw);
   return element("div", { class: "matrix" }, element("p", {}, element("b", {}, `${shortened(i.id)} × ${shortened(j.id)}`), ` ${format.count(matrix.kept)} kept, ${share}`), canvas,
-    element("div", { class: "across" }, element("span", {}, `across: ${shortened(i.id)}'s way`), element("span", {}, `up: ${shortened(j.id)}'s way`)));
+    element("div", { class: "across" }, element("span", {}, `horizontal: keyframes of ${shortened(i.id)}`), element("span", {}, `vertical: keyframes of ${shortened(j.id)}`)));
 }
 
 function key_of_overlap() {
@@ -72,7 +72,7 @@ function key_of_overlap() {
   };
   const round = (svg, group) => svg.append("circle").attr("cx", 13).attr("cy", 5).attr("r", 3)
     .attr("fill", is_link(group) ? "none" : closure_colour(group)).attr("stroke", closure_colour(group));
-  return [mark("kept: not ruled out by the estimate", svg => svg.append("rect").attr("width", 26).attr("height", 10).attr("fill", css("accent")).attr("opacity", 0.55)),
+  return [mark("kept: not excluded by the estimate", svg => svg.append("rect").attr("width", 26).attr("height", 10).attr("fill", css("accent")).attr("opacity", 0.55)),
     ...groups.filter(g => is_link(g) || is_place(g)).map(g => mark(`${g.kind}, ${g.status}`, svg => round(svg, g)))];
 }
 
@@ -85,9 +85,9 @@ function write_overlap() {
   changes.on("theme.overlap", key);
   by_id("overlap-matrices").append(...matrices.map(matrix_figure));
   const of_robots = (robots.length * (robots.length - 1)) / 2;
-  const parts = [`${format.count(kept)} of ${format.count(pairs)} pairs of keyframes are left for place recognition; the search evaluated ${format.count(distances_evaluated)} distances.`];
+  const parts = [`${format.count(kept)} of ${format.count(pairs)} keyframe pairs remain for place recognition; the search evaluated ${format.count(distances_evaluated)} distances.`];
   if (robot_pairs < of_robots) parts.push(`${format.count(of_robots - robot_pairs)} of ${format.count(of_robots)} pairs of robots have none.`);
-  if (matrices.length < robot_pairs) parts.push(`The ${matrices.length} fullest of ${format.count(robot_pairs)} are shown.`);
-  if (matrices.length) parts.push("A stretch of keyframes is the darker the more of its pairs were kept.");
+  if (matrices.length < robot_pairs) parts.push(`The ${matrices.length} with the most pairs, of ${format.count(robot_pairs)}, are shown.`);
+  if (matrices.length) parts.push("The darker a cell, the more of its pairs were kept.");
   by_id("overlap-caption").textContent = parts.join(" ");
 }

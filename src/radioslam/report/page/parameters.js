@@ -1,4 +1,4 @@
-// Every parameter as it was used; those that differ from their default stand out.
+// All parameters as used; those that differ from their default are highlighted.
 
 function parameter_row(p) {
   return element("tr", { class: p.changed ? "changed" : null }, element("td", {}, p.key), element("td", { class: "text" }, p.value),
@@ -20,7 +20,7 @@ function write_parameters() {
     count.textContent = found.length < all.length ? `${found.length} of ${all.length}` : `${all.length} parameters, ${changed || "none"} changed`;
   };
   by_id("parameters-controls").append(search, ...(changed ? [check("changed only", false, on => { only_changed = on; fill(); })] : []), count);
-  const heads = ["key", "value", "unit", "meaning"].map(name => element("th", { scope: "col" }, name));
+  const heads = ["key", "value", "unit", "description"].map(name => element("th", { scope: "col" }, name));
   const place = by_id("parameters-table");
   if (all.length > 20) place.classList.add("tall");
   place.append(element("table", {}, element("thead", {}, element("tr", {}, ...heads)), body));

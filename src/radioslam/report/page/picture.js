@@ -1,9 +1,9 @@
-// What the robots' scans show from above: cells under the trajectories, the darker the more they were hit.
+// Occupancy image of the robots' scans: cells under the trajectories, darker if hit more often.
 
 const picture_levels = 9;
 const moving_cells = 15000;  // drawn while the view moves
 
-/// Cells as corners in the page's metres, by how much they were hit.
+/// Cell corners in the page's metres, by number of hits.
 function unpack_picture(picture) {
   if (!picture) return null;
   const { cell_m, x, y, yaw } = picture, c = Math.cos(yaw), s = Math.sin(yaw);
@@ -26,13 +26,13 @@ const pictures = robots.map(robot => unpack_picture(robot.picture));
 const picture_cells = total(pictures, picture => (picture ? picture.xs.length : 0));
 const picture_scans = total(robots, robot => (robot.picture ? robot.picture.scans : 0));
 
-/// Between which the middle of the cells lies: a few far ones would make the map small.
+/// 1 % and 99 % quantiles of the cells, so that a few distant ones do not shrink the map.
 const picture_spans = pictures.map(picture => {
   const span = values => (values.length ? [0.01, 0.99].map(q => d3.quantile(Array.from(values).sort(d3.ascending), q)) : []);
   return { x: span(picture ? picture.xs : []), y: span(picture ? picture.ys : []) };
 });
 
-/// From above only.
+/// Only in the view from above.
 function draw_pictures(context, view) {
   if (state.axes[0] !== "x" || state.axes[1] !== "y") return;
   const stride = view.moving ? Math.ceil(picture_cells / moving_cells) : 1;

@@ -1,4 +1,4 @@
-// How strongly the strongest access points were heard over time, and how alike one fingerprint is to the
+// Signal strength of the strongest access points over time, and similarity of one fingerprint to the
 // others of its robot.
 
 const signal_of = { robot: null };
@@ -43,7 +43,7 @@ function write_signals() {
   });
   const likeness = new Chart(by_id("signals-similarity"), {
     height: 220, label: "Similarity of one fingerprint to the others of its robot, over time",
-    x_label: () => "time", y_label: () => "similarity to the one at the line", ticks_x: clock_ticks, format_x: clock_label,
+    x_label: () => "time", y_label: () => "similarity to the marked fingerprint", ticks_x: clock_ticks, format_x: clock_label,
     scales(width, height) {
       const columns = similarity_chosen().length ? similarity_chosen() : [{ t: [0, 1] }];
       return { x: time_scale(columns, width), y: d3.scaleLinear().domain([0, 1]).range([height, 0]) };

@@ -1,4 +1,4 @@
-// What a similarity of fingerprints says about distance: the samples, and the fitted mean with one sigma.
+// Distance over fingerprint similarity: the samples, and the fitted mean with one sigma.
 
 function draw_samples(context, x, y, samples) {
   context.fillStyle = css("accent");
@@ -51,6 +51,6 @@ function write_similarity() {
     draw(context, x, y) { draw_samples(context, x, y, drawn); draw_model(context, x, y, bins); },
   });
   const thinned = drawn.similarity.length < model.samples ? `, ${format.count(drawn.similarity.length)} of them drawn` : "";
-  by_id("similarity-caption").textContent = `${format.count(model.samples)} pairs of fingerprints of one robot each${thinned}.`
+  by_id("similarity-caption").textContent = `${format.count(model.samples)} pairs of fingerprints, each of a single robot${thinned}.`
     + (bins.length ? " Line: fitted mean per bin; band: one σ to either side." : " Too few for a fitted model.");
 }

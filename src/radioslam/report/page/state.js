@@ -1,14 +1,14 @@
-// What the reader has chosen, and who needs to know.
-//   visibility: which robots are shown      layers: which layers are drawn
-//   highlight: one robot stands out         moment: {robot, t} under the pointer, in the map or in a chart
+// State chosen by the reader, and events on its changes.
+//   visibility: visible robots              layers: drawn layers
+//   highlight: one highlighted robot        moment: {robot, t} under the pointer, in the map or in a chart
 //   theme: light, dark or paper
 
 const changes = d3.dispatch("visibility", "layers", "highlight", "moment", "theme");
 const few_robots = 8;
-const many_closures = 10000;  // more would hide the trajectories: the reader may switch them on
+const many_closures = 10000;  // more would hide the trajectories and are off by default
 
 const points_placed = report.access_points ? report.access_points.points.length : 0;
-const many_points = 150;  // likewise
+const many_points = 150;  // the same for access points
 
 const state = {
   visible: robots.map(robot => robot.component === 0 && !robot.stranded),
@@ -16,7 +16,7 @@ const state = {
   groups: groups.map(group => group.status === "accepted" && group.count <= many_closures),
   highlight: null,
   moment: null,
-  access_point: null,  // the chosen one
+  access_point: null,  // the selected one
   axes: ["x", "y"],
 };
 if (!state.visible.some(v => v)) state.visible = robots.map(() => true);
@@ -34,7 +34,7 @@ dark_scheme.addEventListener("change", () => changes.call("theme"));
 window.addEventListener("beforeprint", () => { printing = true; changes.call("theme"); });
 window.addEventListener("afterprint", () => { printing = false; changes.call("theme"); });
 
-/// Calls `draw` once before the next frame, however often it is asked for; at once when printing.
+/// Calls `draw` once before the next frame, however often it is requested; immediately when printing.
 function once_per_frame(draw) {
   let waiting = false;
   return () => {

@@ -1,4 +1,4 @@
-// The team robot by robot, closures by kind and reason, stages by time.
+// Tables: robots, frames, range biases, closures by kind and reason, time per stage.
 
 /// columns: [{name, value(item), text(item) or node(item), number}]
 function sortable_table(columns_shown, items, decorate) {
@@ -34,17 +34,17 @@ function robot_columns() {
   const list = [{ name: "robot", value: r => r.id, id: true, node: r => [element("span", { class: "swatch", style: { background: robot_colour(r.index) } }), r.id] }];
   if (report.components.length > 1) list.push(number("frame", r => (r.stranded ? null : r.component + 1), format.count));
   list.push({ name: "placed", value: r => (r.stranded ? "no" : "yes"), text: r => (r.stranded ? "no" : "yes") },
-    number("keyframes", r => r.keyframes, format.count), number("walked (m)", r => r.walked_m, format.metres));
+    number("keyframes", r => r.keyframes, format.count), number("path length (m)", r => r.walked_m, format.metres));
   if (report.accuracy) {
-    list.push(number("ATE rmse (m)", r => r.ate && r.ate.rmse_m, format.metres), number("median (m)", r => r.ate && r.ate.median_m, format.metres),
+    list.push(number("ATE RMSE (m)", r => r.ate && r.ate.rmse_m, format.metres), number("median (m)", r => r.ate && r.ate.median_m, format.metres),
       number("p90 (m)", r => r.ate && r.ate.p90_m, format.metres),
-      number("dead reckoning (m)", r => r.dead_reckoning && r.dead_reckoning.rmse_m, format.metres, "rmse, after its own alignment"),
-      number("covered", r => r.coverage, format.percent, "share of the truth's poses"));
+      number("dead reckoning (m)", r => r.dead_reckoning && r.dead_reckoning.rmse_m, format.metres, "RMSE, after its own alignment"),
+      number("covered", r => r.coverage, format.percent, "ratio of the true poses"));
   }
   if (some("sigma_median_m")) list.push(number("σ median (m)", r => r.sigma_median_m, format.metres));
   if (some("fixes"))
-    list.push(number("fixes used", r => r.fixes && r.fixes.used, format.count, "position fixes that hold in the estimate"),
-      number("fixes rejected", r => r.fixes && r.fixes.rejected, format.count, "position fixes that contradict it"));
+    list.push(number("fixes used", r => r.fixes && r.fixes.used, format.count, "position fixes that agree with the estimate"),
+      number("fixes rejected", r => r.fixes && r.fixes.rejected, format.count, "position fixes that contradict the estimate"));
   if (robots.some(r => r.yaw_drift_per_m_rad)) list.push(number("yaw drift (°/100 m)", r => r.yaw_drift_per_m_rad * 100, v => minus(d3.format("+.2f")((v * 180) / Math.PI)), "estimated"));
   if (robots.some(r => r.scale_error)) list.push(number("scale error", r => r.scale_error, v => minus(`${d3.format("+.2f")(v * 100)} %`), "estimated"));
   return list;
@@ -75,8 +75,8 @@ function write_frames() {
     column("y (m)", t => t.translation_m[1], d3.format(".2f")),
     ...(report.dimension === 3 ? [column("z (m)", t => t.translation_m[2], d3.format(".2f"))] : []),
     column("heading (°)", t => t.yaw_rad, format.degrees),
-    column("σ of a position (m)", t => t.sigma_position_m, format.metres),
-    column("σ of the heading (°)", t => t.sigma_yaw_rad, format.degrees),
+    column("σ of position (m)", t => t.sigma_position_m, format.metres),
+    column("σ of heading (°)", t => t.sigma_yaw_rad, format.degrees),
   ], report.transforms, line => line);
   by_id("frames-table").append(table);
 }
@@ -88,7 +88,7 @@ function write_range_biases() {
   const { table } = sortable_table([
     { name: "from", value: b => b.end_i, text: b => b.end_i },
     { name: "to", value: b => b.end_j, text: b => b.end_j },
-    { name: "too long by (m)", value: b => b.bias_m, text: b => minus(metres(b.bias_m)), number: true },
+    { name: "bias (m)", value: b => b.bias_m, text: b => minus(metres(b.bias_m)), number: true },
     { name: "σ (m)", value: b => b.sigma_m, text: b => format.metres(b.sigma_m), number: true },
     { name: "ranges", value: b => b.ranges, text: b => format.count(b.ranges), number: true },
   ], report.range_biases, line => line);
@@ -100,13 +100,13 @@ function write_angle_checks() {
   show("angles-section");
   const share = d3.format(".0%");
   const { table } = sortable_table([
-    { name: "hears", value: c => c.receiver, text: c => c.receiver },
-    { name: "whom", value: c => c.transmitter, text: c => c.transmitter },
-    { name: "where", value: c => c.pose, text: c => (c.pose === "claim" ? "both say" : "estimated") },
+    { name: "receiver", value: c => c.receiver, text: c => c.receiver },
+    { name: "transmitter", value: c => c.transmitter, text: c => c.transmitter },
+    { name: "poses", value: c => c.pose, text: c => (c.pose === "claim" ? "self-reported" : "estimated") },
     { name: "angles", value: c => c.measurements, text: c => format.count(c.measurements), number: true },
     { name: "median likelihood", value: c => c.median_weight, text: c => d3.format(".2f")(c.median_weight), number: true },
-    { name: "beyond the threshold", value: c => c.share_beyond, text: c => share(c.share_beyond), number: true },
-    { name: "verdict", value: c => c.contradicted, text: c => (c.contradicted ? "contradicted" : "agrees") },
+    { name: "beyond threshold", value: c => c.share_beyond, text: c => share(c.share_beyond), number: true },
+    { name: "result", value: c => c.contradicted, text: c => (c.contradicted ? "contradicted" : "agrees") },
   ], report.angle_checks, line => line);
   by_id("angles-table").append(table);
 }

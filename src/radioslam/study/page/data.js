@@ -1,4 +1,4 @@
-// The study's data: a table, and for the robustness map the cells behind it.
+// Data of the study: a table, and the cells of the robustness map.
 
 const study = JSON.parse(document.getElementById("data").textContent);
 const cell_key = (sigma, links, paths) => `${sigma}/${links}/${paths}`;

@@ -1,5 +1,5 @@
-// Angles of arrival, a small polar profile per link: power over azimuth, the peaks, the truth and the authors'.
-// Frame of the trajectories: x to the right, angles count counter-clockwise.
+// Angles of arrival, one small polar profile per link: power over azimuth, the peaks, the true and the authors' direction.
+// Frame of the trajectories: x to the right, angles counter-clockwise.
 
 const rose = { size: 220, middle: 110, radius: 84, rim: 92 };
 const rose_at = (azimuth, r) => [rose.middle + r * Math.cos(azimuth), rose.middle - r * Math.sin(azimuth)];
@@ -12,14 +12,14 @@ function draw_rose_ray(svg, name, azimuth) {
 
 function rose_title(link) {
   const theirs = link.authors_azimuth_rad.length ? `, authors ${rose_degrees(link.authors_azimuth_rad[0])}` : "";
-  const ours = link.peaks.length ? `measured ${rose_degrees(link.peaks[0].azimuth_rad)}` : link.reason;
-  return `${link.trial}, ${link.transmitter}: truth ${rose_degrees(link.true_azimuth_rad)}, ${ours}${theirs}`;
+  const measured = link.peaks.length ? `measured ${rose_degrees(link.peaks[0].azimuth_rad)}` : link.reason;
+  return `${link.trial}, ${link.transmitter}: truth ${rose_degrees(link.true_azimuth_rad)}, ${measured}${theirs}`;
 }
 
 function draw_rose(link) {
   const svg = d3.create("svg").attr("viewBox", `0 0 ${rose.size} ${rose.size}`).attr("role", "img").attr("aria-label", rose_title(link));
   svg.append("title").text(rose_title(link));
-  for (const share of [0.5, 1]) svg.append("circle").attr("class", "grid").attr("cx", rose.middle).attr("cy", rose.middle).attr("r", share * rose.radius);
+  for (const ratio of [0.5, 1]) svg.append("circle").attr("class", "grid").attr("cx", rose.middle).attr("cy", rose.middle).attr("r", ratio * rose.radius);
   draw_rose_ray(svg, "truth", link.true_azimuth_rad);
   if (link.authors_azimuth_rad.length) draw_rose_ray(svg, "authors", link.authors_azimuth_rad[0]);
   const points = link.profile.map((power, k) => rose_at(-Math.PI + (2 * Math.PI * k) / link.profile.length, rose.radius * power));

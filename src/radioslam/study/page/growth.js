@@ -1,4 +1,4 @@
-// How long the overlap search takes over the poses and pairs kept.
+// Time of the overlap search over the number of poses and pairs kept.
 
 const frame = { width: 760, height: 420, left: 64, right: 150, top: 14, bottom: 46 };
 const curves = [
@@ -24,7 +24,7 @@ function growth_axes(svg, x, y) {
   svg.append("text").attr("x", frame.width - frame.right).attr("y", frame.height - 8).attr("text-anchor", "end").text("poses of both robots + pairs kept");
 }
 
-/// Where the names stand: beside the lines' ends, not over one another.
+/// Moves the curves' labels apart where they would overlap.
 function spread_labels(ends) {
   ends.sort((a, b) => a.y - b.y).forEach((end, k) => { if (k > 0) end.y = Math.max(end.y, ends[k - 1].y + 16); });
 }
@@ -50,11 +50,11 @@ function write_growth() {
   ends.forEach(end => svg.append("text").attr("class", "name").attr("x", end.x).attr("y", end.y).text(end.name));
 }
 
-/// In words: how steep, and how much is saved.
+/// Growth exponent and saving, as text.
 function growth_summary() {
   const towns = study.growth.joint.towns, compared = towns.filter(town => known(town.all_pairs_s)).pop(), steep = study.growth.joint.exponent;
   const parts = [];
-  if (known(steep)) parts.push(`The search's seconds grow with the poses and pairs kept to the power ${d3.format(".2f")(steep)}.`);
-  if (compared) parts.push(`At ${format.count(compared.poses)} poses a robot it takes ${d3.format(",.0f")(compared.all_pairs_s / compared.search_s)} times less than testing all pairs.`);
+  if (known(steep)) parts.push(`Search time grows with (poses + pairs kept) to the power ${d3.format(".2f")(steep)}.`);
+  if (compared) parts.push(`At ${format.count(compared.poses)} poses per robot the search is ${d3.format(",.0f")(compared.all_pairs_s / compared.search_s)} times faster than testing all pairs.`);
   return parts.join(" ");
 }

@@ -1,4 +1,4 @@
-// A measure as a row of heat maps, one per number of false paths.
+// Heat maps of a measure, one per number of false paths.
 
 const tile = { width: 40, height: 30 }, edge = { left: 30, top: 22, bottom: 34, right: 2 };
 
@@ -7,7 +7,7 @@ function describe(c) {
   return [`${c.links} links, ${c.sigma_angle_deg}° noise, ${c.false_paths} false paths`,
     line("error", c.ate_m, v => `${format.metres(v)} m`), line("oracle", c.ate_oracle_m, v => `${format.metres(v)} m`),
     line("ratio", c.ratio, d3.format(".2f")), line("worst ratio", c.worst_ratio, d3.format(".2f")),
-    line("recall", c.recall, d3.format(".4f")), line("least recall", c.least_recall, d3.format(".4f")),
+    line("recall", c.recall, d3.format(".4f")), line("smallest recall", c.least_recall, d3.format(".4f")),
     line("false pairs rejected", c.false_rejected, d3.format(".4f")),
     line("failed", c.failed, format.percent), line("confidently wrong", c.confidently_wrong, format.percent)].join("\n");
 }
@@ -35,7 +35,7 @@ function draw_panel(parent, measure, paths) {
   });
   sigmas.forEach((sigma, column) => svg.append("text").attr("x", edge.left + tile.width * (column + 0.5)).attr("y", bottom + 15)
     .attr("text-anchor", "middle").text(`${sigma}°`));
-  svg.append("text").attr("x", edge.left + tile.width * sigmas.length).attr("y", bottom + 30).attr("text-anchor", "end").text("noise of angles");
+  svg.append("text").attr("x", edge.left + tile.width * sigmas.length).attr("y", bottom + 30).attr("text-anchor", "end").text("angle noise");
   svg.append("text").attr("x", 0).attr("y", bottom + 15).text("links");
 }
 
@@ -57,10 +57,10 @@ function write_maps() {
   }));
 }
 
-/// In words: how much of the map holds, and where the first cracks are.
+/// Extent of the failures, as text.
 function map_summary() {
   const all = Array.from(cells.values()), breaks = all.filter(c => c.failed >= 0.5), wrong = all.filter(c => c.confidently_wrong > 0);
   const range = (broken, key) => Array.from(new Set(d3.extent(broken, c => c[key]))).join(" to ");
   const where = broken => (broken.length === 0 ? "" : ` (${range(broken, "links")} links, ${range(broken, "sigma_angle_deg")} degrees, ${range(broken, "false_paths")} false paths)`);
-  return `At ${breaks.length} of ${all.length} squares at least half of the towns failed${where(breaks)}; at ${wrong.length} some town was confidently wrong${where(wrong)}.`;
+  return `In ${breaks.length} of ${all.length} cells at least half of the towns failed${where(breaks)}; in ${wrong.length} at least one town was confidently wrong${where(wrong)}.`;
 }

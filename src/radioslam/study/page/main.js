@@ -1,4 +1,4 @@
-// Puts the page together.
+// Builds the page.
 
 document.title = `${study.title} · radioslam`;
 by_id("title").textContent = study.title;

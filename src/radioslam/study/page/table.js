@@ -1,4 +1,4 @@
-// The table as it is printed, and its notes.
+// The table as printed, and its notes.
 
 function write_table() {
   const head = element("tr", {}, element("th", { scope: "col" }, ""), ...study.columns.map(name => element("th", { scope: "col" }, name)));

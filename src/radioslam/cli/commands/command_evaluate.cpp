@@ -1,0 +1,196 @@
+// radioslam evaluate: compares a run with the ground truth of its mission.
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "radioslam/cli/commands.hpp"
+#include "radioslam/cli/commands/command_options.hpp"
+#include "radioslam/cli/commands/evaluation.hpp"
+#include "radioslam/cli/commands/mission_input.hpp"
+#include "radioslam/eval/closures.hpp"
+#include "radioslam/eval/metrics.hpp"
+#include "radioslam/io/run/metrics_json.hpp"
+#include "radioslam/io/run/run_folder.hpp"
+
+namespace radioslam::cli {
+namespace {
+
+constexpr double kMaxRadius_m = 1e6;
+
+struct EvaluateOptions {
+  std::string run;
+  std::string mission;
+  std::optional<double> radius_m;
+  bool evo = false;
+  bool json = false;
+};
+
+/// The results of the comparison.
+struct Evaluation {
+  TeamMetrics metrics;
+  std::optional<TeamMetrics> dead_reckoning;  ///< if every robot's start is known
+  PairCounts candidates;
+  bool looked_for_candidates = false;  ///< whether the run searched for candidates at all
+  PairCounts closures;
+  long accepted = 0;
+  long rejected = 0;
+  std::vector<std::string> notes;
+};
+
+/// The mission's index of each of the run's robots.
+std::vector<RobotIndex> places_in_mission(const RunFolder& run, const Mission& mission,
+                                          const EvaluateOptions& options) {
+  std::vector<RobotIndex> places;
+  for (const auto& robot : run.robots) {
+    const auto same = [&](const Robot& candidate) { return candidate.id == robot.id; };
+    const auto found = std::find_if(mission.robots.begin(), mission.robots.end(), same);
+    if (found == mission.robots.end()) {
+      throw InputError(options.run, 0, "robot '" + robot.id + "' is not in " + options.mission);
+    }
+    places.emplace_back(static_cast<std::size_t>(found - mission.robots.begin()));
+  }
+  return places;
+}
+
+template <class Pair>
+std::vector<Pair> with_places(std::vector<Pair> pairs, const std::vector<RobotIndex>& places) {
+  for (auto& pair : pairs) {
+    pair.robot_i = places[pair.robot_i.index()];
+    pair.robot_j = places[pair.robot_j.index()];
+  }
+  return pairs;
+}
+
+std::vector<KeyframeStamps> keyframe_stamps(const RunFolder& run, const std::vector<RobotIndex>& places,
+                                            std::size_t robots) {
+  std::vector<KeyframeStamps> stamps(robots);
+  for (std::size_t i = 0; i < run.robots.size(); ++i) {
+    for (const auto& row : run.robots[i].poses) stamps[places[i].index()].push_back(row.stamp);
+  }
+  return stamps;
+}
+
+std::vector<double> reach(const Mission& mission, std::optional<double> radius_m) {
+  if (radius_m) return reach_for_radius(mission.robots.size(), *radius_m);
+  std::vector<double> reach_m;
+  for (const auto& robot : mission.robots) reach_m.push_back(robot.lidar_range_m);
+  return reach_m;
+}
+
+using NoCandidates = std::vector<CandidateResult>;
+
+void count_pairs(Evaluation& evaluation, const RunFolder& run, const std::vector<RobotIndex>& places,
+                 const PairTruth& truth) {
+  const auto closures = with_places(run.closures, places);
+  evaluation.candidates =
+      count_candidates(keyframe_stamps(run, places, truth.reach_m.size()),
+                       with_places(run.candidates.value_or(NoCandidates{}), places), truth);
+  evaluation.looked_for_candidates = run.candidates.has_value();
+  evaluation.closures = count_closures(closures, truth);
+  evaluation.accepted = std::count_if(closures.begin(), closures.end(), [](const ClosureResult& closure) {
+    return closure.status == ClosureStatus::kAccepted;
+  });
+  evaluation.rejected = static_cast<long>(closures.size()) - evaluation.accepted;
+}
+
+std::vector<std::string> notes_on(const RunFolder& run, const EvaluateOptions& options) {
+  std::vector<std::string> notes = frame_notes(run.robots, run.components, run.unplaced);
+  if (run.summary.is_null())
+    notes.push_back(options.run +
+                    " has no summary.json: every .tum file is taken as a robot, all in one frame");
+  return notes;
+}
+
+Evaluation evaluate(const EvaluateOptions& options) {
+  const MissionInput input = read_input(options.mission);
+  const Mission& mission = input.mission;
+  const Truth& truth = input.truth;
+  if (truth.empty())
+    throw InputError(options.mission, 0,
+                     "has no ground truth (a robot's groundtruth.tum, or a graph's VERTEX lines)");
+  const RunFolder run = read_run(options.run);
+  const auto places = places_in_mission(run, mission, options);
+  const auto association = options.evo ? Association::kNearest : Association::kInterpolate;
+
+  Evaluation evaluation;
+  evaluation.notes = notes_on(run, options);
+  const auto estimate = in_common_frame(run.robots, run.components, run.unplaced);
+  evaluation.metrics = evaluate_trajectories(estimate, truth, mission.dimension, association);
+  const auto odometry = dead_reckoning(mission);
+  if (!odometry.empty()) {
+    evaluation.dead_reckoning = evaluate_trajectories(odometry, truth, mission.dimension, association);
+  }
+  count_pairs(evaluation, run, places, {truth, mission.dimension, reach(mission, options.radius_m)});
+  return evaluation;
+}
+
+nlohmann::ordered_json json_of(const Evaluation& evaluation) {
+  auto json = metrics_json(evaluation.metrics);
+  json["candidates"] = pair_counts_json(evaluation.candidates);
+  if (!evaluation.looked_for_candidates)
+    for (const char* key : {"kept", "true_kept"}) json["candidates"][key] = nullptr;
+  json["closures"] = pair_counts_json(evaluation.closures);
+  json["closures"]["accepted"] = evaluation.accepted;
+  json["closures"]["rejected"] = evaluation.rejected;
+  json["dead_reckoning"] = nullptr;
+  if (evaluation.dead_reckoning) json["dead_reckoning"] = metrics_json(*evaluation.dead_reckoning);
+  json["notes"] = evaluation.notes;
+  return json;
+}
+
+void print_text(const Evaluation& evaluation) {
+  for (const auto& note : evaluation.notes) std::cout << "note: " << note << '\n';
+  std::cout << metrics_table(evaluation.metrics);
+  if (evaluation.dead_reckoning && evaluation.dead_reckoning->ate) {
+    std::cout << "dead reckoning alone: " << evaluation.dead_reckoning->ate->rmse_m << " m rmse\n";
+  }
+  std::cout << "closures: " << evaluation.accepted << " accepted, " << evaluation.rejected
+            << " rejected; between robots " << evaluation.closures.kept << " accepted, "
+            << evaluation.closures.true_kept << " of them within the radius\n";
+}
+
+void evaluate_run(const EvaluateOptions& options) {
+  const Evaluation evaluation = evaluate(options);
+  if (options.json) {
+    std::cout << json_of(evaluation).dump(2) << '\n';
+  } else {
+    print_text(evaluation);
+  }
+}
+
+}  // namespace
+
+void add_evaluate(CLI::App& program) {
+  const auto options = std::make_shared<EvaluateOptions>();
+  auto* command = program.add_subcommand("evaluate", "Compare a run with the ground truth of its mission");
+  command->add_option("OUT", options->run, "Output folder of `radioslam run`")->required();
+  command
+      ->add_option("MISSION", options->mission,
+                   "Mission folder with robots/<id>/groundtruth.tum, or a factor graph")
+      ->required();
+  command
+      ->add_option("--radius", options->radius_m,
+                   "Keyframe pairs closer than this truly overlap (default: the sum of the two LiDAR ranges)")
+      ->check(number_from(0, kMaxRadius_m))
+      ->type_name("M");
+  command->add_flag(
+      "--evo", options->evo,
+      "Associate poses by the nearest stamp within 0.01 s, as evo does, instead of interpolating");
+  add_json_option(*command, options->json);
+  add_threads_option(*command);
+  command->footer(
+      "The estimate is interpolated at the stamps of the ground truth, after one rigid alignment of the "
+      "whole\n"
+      "team. A groundtruth.tum in which every orientation is the identity is treated as a list of "
+      "waypoints:\n"
+      "its orientations are ignored in the relative error.\n"
+      "In the --json output, candidates.kept is null if the run did not search for candidates.\n\n"
+      "Example:\n  radioslam evaluate carpark-out carpark --json");
+  command->callback([options] { evaluate_run(*options); });
+}
+
+}  // namespace radioslam::cli

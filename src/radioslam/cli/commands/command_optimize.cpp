@@ -1,0 +1,184 @@
+// radioslam optimize: optimises a pose graph in g2o format.
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "radioslam/cli/commands.hpp"
+#include "radioslam/cli/commands/command_options.hpp"
+#include "radioslam/cli/commands/output_path_check.hpp"
+#include "radioslam/cli/config.hpp"
+#include "radioslam/cli/parameters.hpp"
+#include "radioslam/cli/progress_line.hpp"
+#include "radioslam/graph/initial_values.hpp"
+#include "radioslam/graph/optimizer.hpp"
+#include "radioslam/io/graph/g2o.hpp"
+#include "radioslam/io/text/atomic_output.hpp"
+
+namespace radioslam::cli {
+namespace {
+
+struct OptimizeOptions {
+  std::string input;
+  std::string output;
+  ParameterOptions parameters;
+  bool repair_information = false;
+  bool certify = false;
+  bool json = false;
+};
+
+/// Wall times of reading, initialisation and optimisation.
+struct Seconds {
+  double read = 0;
+  double initialise = 0;
+  double optimise = 0;
+};
+
+/// The results to print.
+struct Report {
+  std::size_t poses = 0;
+  std::size_t factors = 0;
+  std::size_t repaired_informations = 0;
+  std::string_view start;
+  double initial_cost = 0;  ///< at the file's vertices; at the start if some are missing
+  OptimizerSummary summary;
+  Seconds seconds;
+};
+
+/// Measures the seconds since the last lap, or since construction.
+class Stopwatch {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const std::chrono::duration<double> passed = now - last_;
+    last_ = now;
+    return passed.count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+template <class Pose>
+std::size_t factor_count(const PoseGraph<Pose>& graph) {
+  return graph.relative_poses.size() + graph.ranges.size() + graph.bearings.size() +
+         graph.relative_points.size() + graph.positions.size() + graph.pose_priors.size();
+}
+
+std::string_view start_name(InitialValues start) {
+  switch (start) {
+    case InitialValues::kGiven:
+      return "file";
+    case InitialValues::kChordal:
+      return "chordal";
+    case InitialValues::kSpanningTree:
+      return "spanning tree";
+  }
+  return "";
+}
+
+/// The file's vertices are used as initial values only if every pose has one.
+template <class Pose>
+GivenValues given_values(const G2oGraph<Pose>& file) {
+  const auto& has_value = file.pose_has_value;
+  const bool complete = std::find(has_value.begin(), has_value.end(), false) == has_value.end();
+  return complete ? GivenValues::kComplete : GivenValues::kNone;
+}
+
+template <class Pose>
+Report optimize_graph(G2oGraph<Pose>& file, const OptimizerParams& params) {
+  Report report;
+  report.poses = file.graph.poses.size();
+  report.factors = factor_count(file.graph);
+  report.repaired_informations = file.repaired_informations;
+  Stopwatch stopwatch;
+  const InitialCosts costs = initialise(file.graph, given_values(file));
+  report.start = start_name(costs.chosen);
+  report.seconds.initialise = stopwatch.lap();
+  ProgressLine line;
+  report.summary = optimize(file.graph, params, line.progress());
+  report.seconds.optimise = stopwatch.lap();
+  report.initial_cost = costs.given.value_or(report.summary.initial_cost);
+  return report;
+}
+
+nlohmann::ordered_json json_of(const Report& report) {
+  return {{"initial_cost", report.initial_cost},
+          {"start_cost", report.summary.initial_cost},
+          {"final_cost", report.summary.final_cost},
+          {"iterations", report.summary.iterations},
+          {"seconds",
+           {{"read", report.seconds.read},
+            {"initialise", report.seconds.initialise},
+            {"optimise", report.seconds.optimise}}},
+          {"termination", to_string(report.summary.termination)},
+          {"certificate", nullptr},
+          {"start", report.start},
+          {"poses", report.poses},
+          {"factors", report.factors},
+          {"repaired_informations", report.repaired_informations},
+          {"costs", report.summary.costs}};
+}
+
+void print_text(const Report& report, const std::string& output) {
+  std::cout << output << ": " << report.poses << " poses, " << report.factors << " factors, cost "
+            << report.initial_cost << " -> " << report.summary.initial_cost << " (" << report.start
+            << " start) -> " << report.summary.final_cost << " in " << report.summary.iterations
+            << " iterations, " << to_string(report.summary.termination) << ", "
+            << report.seconds.initialise + report.seconds.optimise << " s\n";
+  if (report.repaired_informations > 0) {
+    std::cout << "repaired " << report.repaired_informations << " indefinite or zero information matrices\n";
+  }
+}
+
+void optimize_file(const OptimizeOptions& options) {
+  if (options.certify)
+    throw InputError("--certify", 0, "certifying global optimality is not implemented yet");
+  const auto settings = collect_settings(options.parameters.config_path, options.parameters.set);
+  const auto params = with_settings(OptimizerParams{}, settings);
+  Stopwatch stopwatch;
+  refuse_replacing_inputs(options.output, {options.input});
+  OutputFile output(options.output);
+  auto graph = read_g2o(read_text(options.input),
+                        options.repair_information ? RepairInformation::kYes : RepairInformation::kNo);
+  const double read_s = stopwatch.lap();
+  Report report = std::visit([&](auto& file) { return optimize_graph(file, params); }, graph);
+  report.seconds.read = read_s;
+  output.commit(std::visit([](const auto& file) { return format_g2o(file); }, graph));
+  if (options.json) {
+    std::cout << json_of(report).dump(2) << '\n';
+  } else {
+    print_text(report, options.output);
+  }
+}
+
+}  // namespace
+
+void add_optimize(CLI::App& program) {
+  const auto options = std::make_shared<OptimizeOptions>();
+  auto* command = program.add_subcommand("optimize", "Optimise a pose graph in g2o format");
+  command->add_option("GRAPH", options->input, "Pose graph in g2o format, 2D or 3D")->required();
+  add_output_option(*command, options->output, "Optimised graph to write");
+  command->add_flag("--repair-information", options->repair_information,
+                    "Replace indefinite information matrices by the nearest valid ones and accept zero ones");
+  command->add_flag("--certify", options->certify, "Certify global optimality (not implemented yet)");
+  add_json_option(*command, options->json);
+  add_parameter_options(*command, options->parameters);
+  add_threads_option(*command);
+  command->footer(
+      "The cost is g2o's chi2: the sum of squared Mahalanobis norms, without a factor of one half.\n"
+      "Optimisation starts from the cheapest of three initial estimates: the file's VERTEX lines (if "
+      "complete),\n"
+      "a chordal initialisation, and a spanning tree.\n"
+      "In the --json output, start_cost is the cost of the chosen start and initial_cost that of the VERTEX\n"
+      "lines (or of the start, if some are missing).\n"
+      "`radioslam parameters optimize` lists the parameters for --set and --config.\n\n"
+      "Example:\n  radioslam optimize sphere2500.g2o -o optimum.g2o --json");
+  command->callback([options] { optimize_file(*options); });
+}
+
+}  // namespace radioslam::cli

@@ -1,0 +1,100 @@
+// radioslam prune: finds the keyframe pairs of different robots whose views can overlap.
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "radioslam/cli/commands.hpp"
+#include "radioslam/cli/commands/command_options.hpp"
+#include "radioslam/cli/commands/mission_input.hpp"
+#include "radioslam/cli/commands/output_path_check.hpp"
+#include "radioslam/cli/config.hpp"
+#include "radioslam/cli/progress_line.hpp"
+#include "radioslam/cli/run_parameters.hpp"
+#include "radioslam/io/run/run_folder.hpp"
+#include "radioslam/io/text/atomic_output.hpp"
+
+namespace radioslam::cli {
+namespace {
+
+struct PruneOptions {
+  std::string mission;
+  std::string output;
+  std::string mode;
+  ParameterOptions parameters;
+  bool exhaustive = false;
+  bool json = false;
+};
+
+RunOutput search(const PruneOptions& options, const RunParams& params) {
+  MissionInput input = read_input(options.mission);
+  ProgressLine line;
+  RunOptions how;
+  how.overlap_only = true;
+  how.search = options.exhaustive ? SearchMethod::kExhaustive : SearchMethod::kTree;
+  auto run = run_input(std::move(input), params, how, line.progress());
+  run.result.parameters = effective_parameters(params);
+  return run;
+}
+
+void print_text(const RunResult& result, const std::string& output) {
+  for (const auto& note : result.notes) std::cout << "note: " << note << '\n';
+  const auto count = [&](const char* name) {
+    const auto found = result.counts.find(name);
+    return found == result.counts.end() ? 0LL : std::llround(found->second);
+  };
+  std::cout << output << ": " << count("candidates") << " of " << count("pairs")
+            << " keyframe pairs can overlap, " << count("distances_evaluated") << " distances evaluated\n";
+}
+
+void prune(const PruneOptions& options) {
+  const auto settings = collect_settings(options.parameters.config_path, options.parameters.set);
+  auto params = with_settings(RunParams{}, settings);
+  if (!options.mode.empty()) params.overlap.mode = options.mode;
+  refuse_replacing_inputs(options.output, {options.mission});
+  OutputFolder output(options.output, kRunFolder);
+  const RunOutput run = search(options, params);
+  write_run(output.path(), run.result, {});
+  output.commit();
+  if (options.json) {
+    auto summary = summary_json(run.result);
+    for (const char* name : {"pairs", "candidates", "distances_evaluated"})
+      if (summary["counts"].contains(name)) summary[name] = summary["counts"][name];
+    std::cout << summary.dump(2) << '\n';
+  } else {
+    print_text(run.result, options.output);
+  }
+}
+
+}  // namespace
+
+void add_prune(CLI::App& program) {
+  const auto options = std::make_shared<PruneOptions>();
+  auto* command =
+      program.add_subcommand("prune", "Find the keyframe pairs of different robots whose views can overlap");
+  command
+      ->add_option("MISSION", options->mission,
+                   "Mission folder (with mission.yaml), or a factor graph (.g2o or .pyfg, optionally .zst)")
+      ->required();
+  add_output_option(*command, options->output, "Folder to write; the folder of an earlier run is replaced");
+  command
+      ->add_option("--mode", options->mode,
+                   "joint: use covariances of the joint estimate (default); link: chain odometry through the "
+                   "nearest radio link only")
+      ->check(CLI::IsMember({"joint", "link"}));
+  command->add_flag("--exhaustive", options->exhaustive,
+                    "Test every pair instead of searching a tree; slower, with the same result");
+  add_parameter_options(*command, options->parameters);
+  add_json_option(*command, options->json);
+  add_threads_option(*command);
+  command->footer(
+      "The output folder holds candidates.csv, the trajectories used for the search, and summary.json.\n"
+      "This is the part of `run` that precedes place recognition; matches.csv is not used.\n"
+      "`radioslam parameters prune` lists the parameters for --set and --config.\n\n"
+      "Example: candidate pairs for your own place recognition, with a wider margin\n"
+      "  radioslam prune city -o pairs --set overlap.max_mahalanobis=3");
+  command->callback([options] { prune(*options); });
+}
+
+}  // namespace radioslam::cli

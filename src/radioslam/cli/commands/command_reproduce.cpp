@@ -1,0 +1,304 @@
+// radioslam reproduce: reproduces published tables, and runs the project's own studies.
+#include <array>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "radioslam/cli/commands.hpp"
+#include "radioslam/cli/commands/command_options.hpp"
+#include "radioslam/cli/commands/recorded_drive.hpp"
+#include "radioslam/cli/commands/recorded_trials.hpp"
+#include "radioslam/cli/config.hpp"
+#include "radioslam/cli/parameters.hpp"
+#include "radioslam/cli/progress_line.hpp"
+#include "radioslam/cli/suggestion.hpp"
+#include "radioslam/io/text/atomic_output.hpp"
+#include "radioslam/study/study_json.hpp"
+#include "radioslam/study/study_page.hpp"
+
+namespace radioslam::cli {
+namespace {
+
+constexpr int kMaxSeeds = 1000;
+constexpr std::size_t kMaxPoses = 1000000;
+constexpr double kMinCut = 0.01, kMaxCut = 0.99;
+constexpr const char* kStudyFolder = "table.json";
+
+struct ReproduceOptions {
+  std::string table;
+  std::string output;
+  std::string trajectory;
+  std::string odometry;
+  std::string dataset;
+  std::string authors;
+  std::optional<double> cut;
+  std::uint64_t seed = 1;
+  std::optional<int> seeds;
+  std::optional<std::size_t> poses;
+  std::vector<std::string> set;
+  bool json = false;
+};
+
+/// The outputs of one table.
+struct Study {
+  StudyTable table;
+  nlohmann::ordered_json json;
+  std::string page;
+  std::string links_csv = {};  ///< one row per measurement; empty for tables without
+};
+
+[[noreturn]] void refuse(const ReproduceOptions& options, const std::string& reason) {
+  throw InputError("reproduce " + options.table, 0, reason);
+}
+
+Study wi_closure_kitti(const ReproduceOptions& options) {
+  const RecordedDrive drive = read_drive("reproduce " + options.table, options.trajectory, options.odometry);
+  auto scenario = with_settings(wi_closure_drive(), collect_settings({}, options.set));
+  if (options.cut) scenario.cut = *options.cut;
+  ProgressLine line;
+  std::vector<WiClosureKitti> seeds;
+  for (int k = 0; k < options.seeds.value_or(1); ++k)
+    seeds.push_back(reproduce_wi_closure_kitti(drive, scenario, options.seed + static_cast<std::uint64_t>(k),
+                                               line.progress()));
+  StudyTable table = wi_closure_kitti_table(seeds);
+  std::string page = render_table_page(table);
+  return {std::move(table), wi_closure_kitti_json(seeds), std::move(page)};
+}
+
+Study robustness(const ReproduceOptions& options) {
+  constexpr int kSeeds = 3;
+  if (!options.trajectory.empty() || !options.odometry.empty() || options.cut || options.poses)
+    refuse(options, "takes no --trajectory, --odometry, --cut or --poses: its towns are simulated");
+  const auto town = with_settings(robustness_town(), collect_settings({}, options.set));
+  ProgressLine line;
+  const RobustnessMap map =
+      map_robustness(RobustnessGrid{}, town, options.seed, options.seeds.value_or(kSeeds), line.progress());
+  return {robustness_table(map), robustness_json(map), render_robustness_page(map)};
+}
+
+Study overlap_growth(const ReproduceOptions& options) {
+  constexpr std::size_t kPoses = 100000;
+  if (!options.trajectory.empty() || !options.odometry.empty() || options.cut || options.seeds ||
+      !options.set.empty())
+    refuse(options, "takes only --poses and --seed: its towns are generated");
+  ProgressLine line;
+  const OverlapGrowth growth =
+      measure_overlap_growth(options.poses.value_or(kPoses), options.seed, line.progress());
+  return {overlap_growth_table(growth), overlap_growth_json(growth), render_growth_page(growth)};
+}
+
+void refuse_drive(const ReproduceOptions& options) {
+  if (!options.trajectory.empty() || !options.odometry.empty() || options.cut || options.poses)
+    refuse(options, "takes no --trajectory, --odometry, --cut or --poses");
+}
+
+Study aoa(const ReproduceOptions& options) {
+  refuse_drive(options);
+  if (options.seeds) refuse(options, "takes no --seeds: its trials are recordings");
+  const auto params = with_settings(AoaParams{}, collect_settings({}, options.set));
+  const RecordedTrials recorded = find_trials("reproduce " + options.table, options.dataset, options.authors);
+  ProgressLine line;
+  std::vector<AoaLink> links;
+  for (std::size_t k = 0; k < recorded.trials.size(); ++k) {
+    report_progress(line.progress(), recorded.trials[k].name,
+                    static_cast<double>(k) / static_cast<double>(recorded.trials.size()));
+    const WsrTrial trial = read_wsr_trial(recorded.trials[k]);
+    for (const std::string& warning : trial.warnings) std::cerr << "note: " << warning << '\n';
+    for (AoaLink& link : measure_wsr_trial(trial, recorded.published, params)) links.push_back(std::move(link));
+  }
+  StudyTable table = aoa_table(links, recorded.published);
+  std::string page = render_aoa_page(table, links);
+  return {std::move(table), aoa_json(links, recorded.published), std::move(page), aoa_links_csv(links)};
+}
+
+Study aoa_paths(const ReproduceOptions& options) {
+  constexpr int kSeeds = 200;
+  refuse_drive(options);
+  const auto params = with_settings(AoaParams{}, collect_settings({}, options.set));
+  ProgressLine line;
+  const auto cells = measure_aoa_paths(options.seeds.value_or(kSeeds), options.seed, params, line.progress());
+  StudyTable table = aoa_paths_table(cells);
+  std::string page = render_table_page(table);
+  return {std::move(table), aoa_paths_json(cells), std::move(page)};
+}
+
+Study sequence_closures(const ReproduceOptions& options) {
+  constexpr int kSeeds = 3;
+  refuse_drive(options);
+  const auto carpark = with_settings(CarparkParams{}, collect_settings({}, options.set));
+  ProgressLine line;
+  const auto cells =
+      measure_sequence_closures(carpark, options.seed, options.seeds.value_or(kSeeds), line.progress());
+  StudyTable table = sequence_table(cells);
+  std::string page = render_table_page(table);
+  return {std::move(table), sequence_json(cells), std::move(page)};
+}
+
+/// A car park with known starts, which dead reckoning as the baseline requires.
+CarparkParams known_carpark(const ReproduceOptions& options) {
+  refuse_drive(options);
+  const auto carpark = with_settings(CarparkParams{}, collect_settings({}, options.set));
+  if (!carpark.known_start) refuse(options, "needs known starts: known_start=true");
+  return carpark;
+}
+
+Study fingerprint_tables(const ReproduceOptions& options) {
+  constexpr int kSeeds = 3;
+  const auto carpark = known_carpark(options);
+  ProgressLine line;
+  const auto tables =
+      measure_fingerprint_tables(carpark, options.seed, options.seeds.value_or(kSeeds), line.progress());
+  StudyTable table = fingerprint_tables_table(tables);
+  std::string page = render_table_page(table);
+  return {std::move(table), fingerprint_tables_json(tables), std::move(page)};
+}
+
+Study threshold_sweep(const ReproduceOptions& options) {
+  constexpr int kSeeds = 10;
+  const auto carpark = known_carpark(options);
+  ProgressLine line;
+  const auto missions =
+      sweep_thresholds(carpark, {}, options.seed, options.seeds.value_or(kSeeds), line.progress());
+  StudyTable table = threshold_sweep_table(missions);
+  std::string page = render_table_page(table);
+  return {std::move(table), threshold_sweep_json(missions), std::move(page)};
+}
+
+struct Table {
+  std::string_view name;
+  std::string_view description;
+  Study (*reproduce)(const ReproduceOptions&);
+};
+
+constexpr std::array<Table, 8> kTables{
+    {{"wi-closure-kitti",
+      "KITTI 08 cut in two, radio noise of 0.5 m and 10 degrees, compared with Wi-Closure", wi_closure_kitti},
+     {"robustness-map",
+      "error and recall over angle noise, number of links and multipath: where estimation fails", robustness},
+     {"overlap-growth", "run time of the overlap search over the size of the mission, up to a million poses",
+      overlap_growth},
+     {"aoa", "angles of arrival of the WSR data set, compared with its authors' results", aoa},
+     {"aoa-paths", "three simulated paths at once: which of them each AoA profile finds", aoa_paths},
+     {"sequence-closures", "closures from similar fingerprint sequences, over similarity and window length",
+      sequence_closures},
+     {"fingerprint-tables",
+      "fingerprint SLAM over threshold and measure, compared with tables I to III of Liu et al. (2020)",
+      fingerprint_tables},
+     {"threshold-sweep", "the defaults compared with the best threshold and loss of each of ten car parks",
+      threshold_sweep}}};
+
+std::string table_list() {
+  std::string text = "Tables:\n";
+  for (const Table& table : kTables)
+    text += "  " + std::string(table.name) + ": " + std::string(table.description) + "\n";
+  return text;
+}
+
+const Table& table_named(const ReproduceOptions& options) {
+  std::vector<std::string> names;
+  for (const Table& table : kTables) {
+    if (table.name == options.table) return table;
+    names.emplace_back(table.name);
+  }
+  refuse(options, "unknown table" + did_you_mean(options.table, names));
+}
+
+void write_study(const Study& study, OutputFolder& output) {
+  write_file(output.path() / "table.json", study.json.dump(2) + "\n");
+  write_file(output.path() / "table.csv", table_csv(study.table));
+  write_file(output.path() / "table.txt", table_text(study.table));
+  write_file(output.path() / "index.html", study.page);
+  if (!study.links_csv.empty()) write_file(output.path() / "links.csv", study.links_csv);
+  output.commit();
+}
+
+void reproduce(const ReproduceOptions& options) {
+  if (options.table.empty()) {
+    std::cout << table_list();
+    return;
+  }
+  const Table& table = table_named(options);
+  if (table.reproduce != aoa && !(options.dataset.empty() && options.authors.empty()))
+    refuse(options, "takes no --dataset or --authors");
+  std::optional<OutputFolder> output;
+  if (!options.output.empty()) output.emplace(options.output, kStudyFolder);
+  const Study study = table.reproduce(options);
+  if (output) write_study(study, *output);
+  if (options.json) {
+    std::cout << study.json.dump(2) << '\n';
+  } else {
+    std::cout << table_text(study.table);
+  }
+}
+
+void add_table_options(CLI::App& command, ReproduceOptions& options) {
+  command
+      .add_option("--trajectory", options.trajectory, "wi-closure-kitti: true poses of the recorded drive")
+      ->type_name("FILE");
+  command
+      .add_option("--odometry", options.odometry,
+                  "wi-closure-kitti: odometry of the recorded drive, in any frame")
+      ->type_name("FILE");
+  command
+      .add_option("--cut", options.cut,
+                  "wi-closure-kitti: fraction of the drive assigned to the first robot (default: 0.34)")
+      ->check(number_from(kMinCut, kMaxCut))
+      ->type_name("FRACTION");
+  command.add_option("--dataset", options.dataset, "aoa: folder that contains trials of the WSR data set")
+      ->type_name("DIR");
+  command
+      .add_option(
+          "--authors", options.authors,
+          "aoa: folder with the authors' results (default: 2D-Displacement_output_files near the trials)")
+      ->type_name("DIR");
+  command.add_option("--seed", options.seed, "First random seed (default: 1)")
+      ->check(seed_number())
+      ->type_name("N");
+  command
+      .add_option("--poses", options.poses,
+                  "overlap-growth: poses per robot in the largest town (default: 100000)")
+      ->check(CLI::Range(std::size_t{1000}, kMaxPoses))
+      ->type_name("N");
+  command.add_option("--seeds", options.seeds, "Number of seeds; the table shows medians or means over them")
+      ->check(CLI::Range(1, kMaxSeeds))
+      ->type_name("N");
+}
+
+}  // namespace
+
+void add_reproduce(CLI::App& program) {
+  const auto options = std::make_shared<ReproduceOptions>();
+  auto* command =
+      program.add_subcommand("reproduce", "Reproduce a published table, or run one of the project's studies");
+  command->add_option("TABLE", options->table, "Table to compute; without it, the tables are listed");
+  command
+      ->add_option("-o,--output", options->output,
+                   "Folder to write: index.html, table.csv, table.json and table.txt")
+      ->type_name("PATH");
+  add_table_options(*command, *options);
+  add_set_option(*command, options->set);
+  add_json_option(*command, options->json);
+  add_threads_option(*command);
+  command->footer(
+      table_list() +
+      "\n"
+      "Recorded drive (wi-closure-kitti): two files in KITTI format with one pose of the LiDAR per line. "
+      "The\n"
+      "true poses are those of the odometry benchmark (cvlibs.net/datasets/kitti), transformed to the LiDAR\n"
+      "frame. The GitHub repository RobotsRuning/KITTI_odometry_evaluation_tool contains them\n"
+      "(ground_truth_pose/GT_LiDAR) and the odometry of A-LOAM (data/ALOAM_result_pred).\n"
+      "WSR data set (aoa): the GitHub repository Harvard-REACT/WSR-Toolbox-Dataset.\n\n"
+      "--set changes parameters of the simulated scenario; for aoa and aoa-paths it changes those of the\n"
+      "angle estimation. `radioslam parameters TABLE` lists them.\n"
+      "robustness-map, aoa-paths, fingerprint-tables and threshold-sweep take minutes.\n"
+      "overlap-growth needs 1 GiB of memory per half million poses.\n\n"
+      "Example:\n"
+      "  radioslam reproduce wi-closure-kitti --trajectory GT_LiDAR/08.txt --odometry ALOAM/08.txt\n"
+      "Example: the robustness map of a team without ranges\n"
+      "  radioslam reproduce robustness-map --set ranges=false -o map");
+  command->callback([options] { reproduce(*options); });
+}
+
+}  // namespace radioslam::cli

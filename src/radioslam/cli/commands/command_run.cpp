@@ -1,0 +1,128 @@
+// radioslam run: estimates the trajectories of all robots of a mission in one frame.
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <variant>
+
+#include "radioslam/cli/commands.hpp"
+#include "radioslam/cli/commands/command_options.hpp"
+#include "radioslam/cli/commands/evaluation.hpp"
+#include "radioslam/cli/commands/mission_input.hpp"
+#include "radioslam/cli/commands/output_path_check.hpp"
+#include "radioslam/cli/config.hpp"
+#include "radioslam/cli/progress_line.hpp"
+#include "radioslam/cli/run_parameters.hpp"
+#include "radioslam/io/graph/g2o.hpp"
+#include "radioslam/io/run/metrics_json.hpp"
+#include "radioslam/io/run/run_folder.hpp"
+#include "radioslam/io/text/atomic_output.hpp"
+#include "radioslam/pipeline/pipeline.hpp"
+#include "radioslam/report/report.hpp"
+
+namespace radioslam::cli {
+namespace {
+
+struct RunArguments {
+  std::string mission;
+  std::string output;
+  ParameterOptions parameters;
+  bool no_prune = false;
+  bool json = false;
+};
+
+std::optional<TeamMetrics> metrics_of(const RunResult& result, const Truth& truth) {
+  if (truth.empty()) return std::nullopt;
+  return evaluate_trajectories(team_estimate(result), truth, result.dimension);
+}
+
+RunDocuments documents_of(const RunOutput& run, const Truth& truth,
+                          const std::optional<TeamMetrics>& metrics) {
+  RunDocuments documents;
+  if (metrics) documents.metrics = metrics_json(*metrics);
+  documents.graph_g2o =
+      std::visit([](const auto& graph) { return format_g2o(with_default_ids(graph)); }, run.graph);
+  documents.report_html = render_report(run.result, truth.empty() ? nullptr : &truth, metrics);
+  return documents;
+}
+
+/// ", position error 2.1 m rmse", with the coverage of the true poses unless it is complete.
+std::string error_text(const TeamMetrics& metrics) {
+  if (!metrics.ate) return {};
+  std::ostringstream text;
+  text << ", position error " << metrics.ate->rmse_m << " m rmse";
+  // Rounded down, so that an incomplete coverage never reads 100 %.
+  if (metrics.coverage < 1)
+    text << std::fixed << std::setprecision(1) << " over " << std::floor(1000 * metrics.coverage) / 10
+         << " % of the true poses";
+  return text.str();
+}
+
+void print_text(const RunResult& result, const std::optional<TeamMetrics>& metrics,
+                const std::string& output) {
+  for (const auto& note : result.notes) std::cout << "note: " << note << '\n';
+  std::cout << output << ": " << result.robots.size() << " robots, " << result.closures.size()
+            << " closures, " << result.components.size()
+            << (result.components.size() == 1 ? " frame" : " separate frames");
+  if (metrics) std::cout << error_text(*metrics);
+  std::cout << '\n';
+}
+
+RunOutput estimate(MissionInput input, const RunParams& params, bool no_prune) {
+  ProgressLine line;
+  RunOptions options;
+  options.pruning = no_prune ? Pruning::kOff : Pruning::kOn;
+  auto run = run_input(std::move(input), params, options, line.progress());
+  run.result.parameters = effective_parameters(params);
+  return run;
+}
+
+void run_mission(const RunArguments& options) {
+  const auto settings = collect_settings(options.parameters.config_path, options.parameters.set);
+  const auto params = with_settings(RunParams{}, settings);
+  refuse_replacing_inputs(options.output, {options.mission});
+  OutputFolder output(options.output, kRunFolder);
+  MissionInput input = read_input(options.mission);
+  const Truth truth = std::move(input.truth);
+  const RunOutput run = estimate(std::move(input), params, options.no_prune);
+  const auto metrics = metrics_of(run.result, truth);
+  const RunDocuments documents = documents_of(run, truth, metrics);
+  write_run(output.path(), run.result, documents);
+  output.commit();
+  if (options.json) {
+    std::cout << summary_json(run.result, documents.metrics).dump(2) << '\n';
+  } else {
+    print_text(run.result, metrics, options.output);
+  }
+}
+
+}  // namespace
+
+void add_run(CLI::App& program) {
+  const auto options = std::make_shared<RunArguments>();
+  auto* command = program.add_subcommand("run", "Estimate the trajectories of all robots in one frame");
+  command
+      ->add_option("MISSION", options->mission,
+                   "Mission folder (with mission.yaml), or a factor graph (.g2o or .pyfg, optionally .zst)")
+      ->required();
+  add_output_option(*command, options->output, "Folder to write; the folder of an earlier run is replaced");
+  add_parameter_options(*command, options->parameters);
+  command->add_flag("--no-prune", options->no_prune,
+                    "Use all matches, including those between views that cannot overlap");
+  add_json_option(*command, options->json);
+  add_threads_option(*command);
+  command->footer(
+      "The output folder holds <robot>.tum (keyframes), dense/<robot>.tum (every odometry sample or scan),\n"
+      "closures.csv, candidates.csv, graph.g2o, summary.json and report.html.\n"
+      "`radioslam parameters run` lists the parameters for --set and --config.\n\n"
+      "Example:\n"
+      "  radioslam run carpark -o carpark-out --set keyframe.distance_m=2");
+  command->callback([options] { run_mission(*options); });
+}
+
+}  // namespace radioslam::cli

@@ -1,0 +1,71 @@
+#include "radioslam/cli/commands/mission_input.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "radioslam/io/graph/team_graph_file.hpp"
+#include "radioslam/io/mission/mission_folder.hpp"
+
+namespace radioslam::cli {
+namespace {
+
+/// The poses of all segments of one robot, taken from `poses`.
+template <class Pose>
+Trajectory<SE3> trajectory(const TeamGraph<Pose>& team, const std::string& robot,
+                           const std::vector<Pose>& poses) {
+  std::vector<StampedPose<SE3>> rows;
+  for (const TrajectorySegment& segment : team.segments) {
+    if (segment.robot != robot) continue;
+    for (std::size_t k = 0; k < segment.pose_count; ++k)
+      rows.push_back({segment.stamps[k], as_se3(poses[segment.first_pose + k], 0)});
+  }
+  return Trajectory<SE3>(std::move(rows));
+}
+
+template <class Pose>
+MissionInput from_graph(TeamGraphFile<Pose> file, const std::string& path) {
+  MissionInput input;
+  input.mission.name = std::filesystem::path(path).filename().string();
+  input.mission.dimension = Pose::kDim;
+  for (const TrajectorySegment& segment : file.team.segments) {
+    auto& robots = input.mission.robots;
+    const bool known =
+        std::any_of(robots.begin(), robots.end(), [&](const auto& r) { return r.id == segment.robot; });
+    if (known) continue;
+    Robot& robot = robots.emplace_back();
+    robot.id = segment.robot;
+    robot.odometry = trajectory(file.team, segment.robot, file.team.graph.poses);
+    RobotTruth& truth = input.truth.robots.emplace_back();
+    truth.id = segment.robot;
+    if (!file.true_poses.empty()) truth.poses = trajectory(file.team, segment.robot, file.true_poses);
+  }
+  input.graph = std::move(file.team);
+  return input;
+}
+
+}  // namespace
+
+MissionInput read_input(const std::string& path) {
+  if (is_graph_file(path)) {
+    auto graph = read_team_graph(path);
+    return std::visit([&](auto& file) { return from_graph(std::move(file), path); }, graph);
+  }
+  MissionInput input;
+  input.mission = read_mission(path);
+  input.truth = read_truth(path, input.mission);
+  return input;
+}
+
+RunOutput run_input(MissionInput input, const RunParams& params, const RunOptions& options,
+                    const Progress& progress) {
+  return std::visit(
+      [&](const auto& graph) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(graph)>, std::monostate>)
+          return run_pipeline(std::move(input.mission), params, options, progress);
+        else
+          return run_pipeline(input.mission, graph, params, options, progress);
+      },
+      input.graph);
+}
+
+}  // namespace radioslam::cli

@@ -1,0 +1,28 @@
+// Input of run, prune and evaluate: a mission folder, or a team's factor graph (.g2o or .pyfg, optionally
+// .zst).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "radioslam/graph/team_graph.hpp"
+#include "radioslam/mission/mission.hpp"
+#include "radioslam/mission/truth.hpp"
+#include "radioslam/pipeline/pipeline.hpp"
+
+namespace radioslam::cli {
+
+struct MissionInput {
+  Mission mission;  ///< for a graph: its robots with dead reckoning, in the order of their poses
+  Truth truth;      ///< for a graph: its VERTEX lines, if these are the ground truth
+  std::variant<std::monostate, TeamGraph<SE2>, TeamGraph<SE3>> graph;
+};
+
+MissionInput read_input(const std::string& path);
+
+/// Calls run_pipeline with the mission or with the graph.
+RunOutput run_input(MissionInput input, const RunParams& params, const RunOptions& options,
+                    const Progress& progress);
+
+}  // namespace radioslam::cli

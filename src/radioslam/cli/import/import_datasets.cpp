@@ -1,0 +1,56 @@
+#include "radioslam/cli/import/import_datasets.hpp"
+
+#include <iostream>
+#include <string>
+
+#include "radioslam/cli/commands/output_path_check.hpp"
+#include "radioslam/io/datasets/indoor_location.hpp"
+#include "radioslam/io/datasets/wifi_rtt.hpp"
+#include "radioslam/io/datasets/wifine.hpp"
+#include "radioslam/io/mission/mission_folder.hpp"
+#include "radioslam/io/text/atomic_output.hpp"
+
+namespace radioslam::cli {
+namespace {
+
+/// Writes a mission without odometry, with a note about it, and prints a summary.
+void write_study(const ImportOptions& options, OutputFolder& output, const ImportedMission& imported) {
+  const Mission& mission = imported.mission;
+  write_mission(output.path(), mission, imported.truth);
+  output.commit();
+  std::size_t scans = 0;
+  for (const Robot& robot : mission.robots) scans += robot.wifi.size();
+  for (const auto& warning : imported.warnings) std::cout << "note: " << warning << '\n';
+  std::cout << "note: the recording has no odometry: `radioslam run` needs an odometry.tum for each robot\n"
+            << options.output << ": " << mission.robots.size() << " robots, " << scans << " scans, "
+            << mission.access_points.size() << " access points, " << mission.ranges.size() << " ranges\n";
+}
+
+}  // namespace
+
+void import_phone_logs(const ImportOptions& options) {
+  const auto params = params_of<DeadReckoningParams>(options);
+  refuse_replacing_inputs(options.output, options.sources);
+  OutputFolder output(options.output, kMissionFolder);
+  const ImportedMission imported = import_indoor_location(only_source(options), params);
+  write_mission(output.path(), imported.mission, imported.truth);
+  output.commit();
+  for (const auto& warning : imported.warnings) std::cout << "note: " << warning << '\n';
+  std::cout << options.output << ": " << imported.mission.robots.size() << " robots, "
+            << imported.mission.access_points.size() << " access points\n";
+}
+
+void import_wifine_trajectories(const ImportOptions& options) {
+  refuse_replacing_inputs(options.output, options.sources);
+  OutputFolder output(options.output, kMissionFolder);
+  write_study(options, output, import_wifine(only_source(options)));
+}
+
+void import_rtt_walk(const ImportOptions& options) {
+  const auto params = params_of<WifiRttParams>(options);
+  refuse_replacing_inputs(options.output, options.sources);
+  OutputFolder output(options.output, kMissionFolder);
+  write_study(options, output, import_wifi_rtt(only_source(options), params));
+}
+
+}  // namespace radioslam::cli

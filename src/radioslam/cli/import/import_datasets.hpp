@@ -1,0 +1,14 @@
+// radioslam import indoor-location, wifine, wifi-rtt: converts public data sets to missions.
+#pragma once
+
+#include "radioslam/cli/import/import_options.hpp"
+
+namespace radioslam::cli {
+
+void import_phone_logs(const ImportOptions& options);
+
+void import_wifine_trajectories(const ImportOptions& options);
+
+void import_rtt_walk(const ImportOptions& options);
+
+}  // namespace radioslam::cli

@@ -1,0 +1,168 @@
+#include "radioslam/cli/import/import_lidar.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <set>
+
+#include "radioslam/cli/commands/output_path_check.hpp"
+#include "radioslam/io/lidar/carmen.hpp"
+#include "radioslam/io/lidar/kitti_sequence.hpp"
+#include "radioslam/io/lidar/lidar_folder.hpp"
+#include "radioslam/io/mission/mission_folder.hpp"
+#include "radioslam/io/ros/ros_import.hpp"
+#include "radioslam/io/text/atomic_output.hpp"
+#include "radioslam/io/text/compressed_text.hpp"
+
+namespace radioslam::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The robots' names in the order of the sources: those of --robot, or a, b and so on.
+std::vector<std::string> robots_of(const ImportOptions& options) {
+  constexpr std::size_t kLetters = 26;
+  std::vector<std::string> robots = options.robots;
+  if (robots.empty() && options.sources.size() <= kLetters)
+    for (std::size_t k = 0; k < options.sources.size(); ++k)
+      robots.emplace_back(1, static_cast<char>('a' + k));
+  if (robots.size() != options.sources.size())
+    throw InputError("import " + options.kind, 0,
+                     std::to_string(options.sources.size()) + " sources but " +
+                         std::to_string(robots.size()) + " --robot are given");
+  for (const std::string& robot : robots) check_import_id("--robot " + robot, robot);
+  const std::set<std::string> different(robots.begin(), robots.end());
+  if (different.size() != robots.size()) throw InputError("--robot", 0, "two robots have the same name");
+  return robots;
+}
+
+/// A name for a source: "intel" for logs/intel.clf.bz2 and for logs/intel/.
+std::string name_of(const std::string& source) {
+  fs::path path = fs::absolute(source).lexically_normal();
+  if (path.filename().empty()) path = path.parent_path();
+  const std::string name = path.filename().string();
+  return fs::is_directory(path) ? name : name.substr(0, name.find('.', 1));
+}
+
+/// The output folder, after checking that it would replace no input.
+const std::string& folder_apart(const ImportOptions& options) {
+  refuse_replacing_inputs(options.output, options.sources);
+  refuse_replacing_inputs(options.output, options.poses);
+  return options.output;
+}
+
+/// Collects a mission robot by robot and writes its folder.
+class TeamOutput {
+ public:
+  explicit TeamOutput(const ImportOptions& options)
+      : options_(options), folder_(folder_apart(options), kMissionFolder) {
+    team_.mission.dimension = 2;
+    team_.mission.name = name_of(options.sources.size() == 1 ? options.sources.front() : options.output);
+  }
+
+  fs::path scans_of(const std::string& robot) const { return folder_.path() / "robots" / robot / "lidar"; }
+
+  /// `what` is a one-line summary of the robot's data.
+  void add(ImportedMission one, const std::string& what) {
+    team_.mission.dimension = std::max(team_.mission.dimension, one.mission.dimension);
+    std::move(one.mission.robots.begin(), one.mission.robots.end(), std::back_inserter(team_.mission.robots));
+    std::move(one.truth.robots.begin(), one.truth.robots.end(), std::back_inserter(team_.truth.robots));
+    for (const std::string& warning : one.warnings) lines_.push_back("note: " + warning);
+    lines_.push_back(options_.output + ": " + what);
+  }
+
+  void commit() {
+    write_mission(folder_.path(), team_.mission, team_.truth);
+    folder_.commit();
+    for (const std::string& line : lines_) std::cout << line << '\n';
+  }
+
+ private:
+  const ImportOptions& options_;
+  OutputFolder folder_;
+  ImportedMission team_;
+  std::vector<std::string> lines_;
+};
+
+/// The value for source k of an option that may be given once for all sources, or once per source.
+std::string of_source(const ImportOptions& options, const std::vector<std::string>& values,
+                      const char* option, std::size_t k) {
+  if (values.size() <= 1) return values.empty() ? std::string{} : values.front();
+  if (values.size() != options.sources.size())
+    throw InputError(option, 0,
+                     "is given " + std::to_string(values.size()) + " times for " +
+                         std::to_string(options.sources.size()) + " sources");
+  return values[k];
+}
+
+void list_topics(const ImportOptions& options) {
+  for (const std::string& source : options.sources) {
+    const RosTopicIndex survey = index_recording(source);
+    for (const std::string& warning : survey.warnings) std::cout << "note: " << warning << '\n';
+    for (const RosTopic& topic : survey.topics)
+      std::cout << topic.name << "  " << topic.type << "  " << topic.messages << '\n';
+  }
+}
+
+/// A summary of the imported data: "177 scans, 345 odometry samples, ... of a".
+std::string summary_of(const RosImport& imported) {
+  const Robot& robot = imported.imported.mission.robots.front();
+  std::string summary = std::to_string(imported.scans) + " scans, " + std::to_string(robot.odometry.size()) +
+                        " odometry samples, " + std::to_string(robot.inertial.size()) + " IMU samples";
+  if (!robot.fixes.empty()) summary += ", " + std::to_string(robot.fixes.size()) + " position fixes";
+  if (!imported.imported.truth.robots.empty())
+    summary += ", " + std::to_string(imported.imported.truth.robots.front().poses.size()) + " true poses";
+  return summary + " of " + robot.id;
+}
+
+}  // namespace
+
+void import_carmen_logs(const ImportOptions& options) {
+  const auto params = params_of<CarmenParams>(options);
+  const std::vector<std::string> robots = robots_of(options);
+  TeamOutput output(options);
+  for (std::size_t k = 0; k < robots.size(); ++k) {
+    ImportedMission imported = read_carmen(read_compressed_text(options.sources[k]), robots[k], params);
+    const std::size_t scans = imported.mission.robots.front().lidar.size();
+    output.add(std::move(imported), std::to_string(scans) + " scans and odometry of " + robots[k]);
+  }
+  output.commit();
+}
+
+void import_kitti_drives(const ImportOptions& options) {
+  const std::vector<std::string> robots = robots_of(options);
+  TeamOutput output(options);
+  for (std::size_t k = 0; k < robots.size(); ++k) {
+    KittiDrive drive =
+        read_kitti_drive(options.sources[k], robots[k], of_source(options, options.poses, "--poses", k));
+    copy_kitti_scans(drive.scans, output.scans_of(robots[k]));
+    const bool has_truth = !drive.imported.truth.robots.empty();
+    output.add(std::move(drive.imported), std::to_string(drive.scans.size()) + " scans of " + robots[k] +
+                                              (has_truth ? ", with ground truth" : ", without ground truth"));
+  }
+  output.commit();
+}
+
+void import_ros_recordings(const ImportOptions& options) {
+  if (options.list) return list_topics(options);
+  const std::vector<std::string> robots = robots_of(options);
+  TeamOutput output(options);
+  std::optional<GeodeticPlace> fix_origin;  // one frame for all robots
+  for (std::size_t k = 0; k < robots.size(); ++k) {
+    const RosTopicRequest wishes{
+        of_source(options, options.odometry, "--odometry", k),
+        of_source(options, options.scans, "--scans", k), of_source(options, options.imu, "--imu", k),
+        of_source(options, options.truth, "--truth", k), of_source(options, options.gnss, "--gnss", k)};
+    const fs::path folder = output.scans_of(robots[k]);
+    RosImport imported = import_ros_recording(
+        options.sources[k], robots[k], wishes,
+        [&](Stamp stamp, const LidarScan& scan) { write_lidar_scan(folder, stamp, scan); }, fix_origin);
+    fix_origin = imported.fix_origin;
+    const std::string summary = summary_of(imported);
+    output.add(std::move(imported.imported), summary);
+  }
+  output.commit();
+}
+
+}  // namespace radioslam::cli

@@ -1,0 +1,119 @@
+#include "radioslam/cli/import/import_options.hpp"
+
+#include <algorithm>
+
+#include "radioslam/io/text/valid_id.hpp"
+
+namespace radioslam::cli {
+namespace {
+
+/// Adds an option that may be repeated, each time with one value.
+void add_repeated_option(CLI::App& command, const char* name, std::vector<std::string>& values,
+                         const char* type, const char* what) {
+  command.add_option(name, values, what)->type_name(type)->expected(1)->take_all();
+}
+
+void add_time_options(CLI::App& command, ImportOptions& options) {
+  command
+      .add_option("--time", options.time,
+                  "Time of the first scan in a file without times (default: the time in the file's name, or "
+                  "else iw's seconds since boot, or else 0)")
+      ->type_name("SECONDS");
+  command.add_flag("--file-times", options.file_times,
+                   "Take a file's last modification as the time of its last scan, if it has no times");
+}
+
+void add_topic_options(CLI::App& command, ImportOptions& options) {
+  add_repeated_option(command, "--odometry", options.odometry, "TOPIC",
+                      "Topic of Odometry or poses, or /tf:FRAME.CHILD, or none (default: the only Odometry)");
+  add_repeated_option(command, "--scans", options.scans, "TOPIC",
+                      "Topic of PointCloud2 or LaserScan, or none (default: the only one)");
+  add_repeated_option(command, "--imu", options.imu, "TOPIC",
+                      "Topic of Imu, or none (default: the only one)");
+  add_repeated_option(command, "--gnss", options.gnss, "TOPIC",
+                      "Topic of NavSatFix, or none (default: the only one)");
+  add_repeated_option(command, "--truth", options.truth, "TOPIC",
+                      "Topic of the true poses, as for --odometry (default: none)");
+  command.add_flag("--list", options.list,
+                   "Only list the topics with their types and numbers of messages; needs no -o");
+}
+
+void refuse_unless(bool is_fine, const ImportOptions& options, const char* option) {
+  if (!is_fine) throw InputError("import " + options.kind, 0, std::string("takes no ") + option);
+}
+
+}  // namespace
+
+void add_common_options(CLI::App& command, ImportOptions& options) {
+  command.add_option("SOURCE", options.sources, "File or folder to import; some kinds take several")
+      ->required();
+  command
+      .add_option("-o,--output", options.output,
+                  "Mission or table to write (required); an existing one is replaced")
+      ->type_name("PATH");
+  add_threads_option(command);
+}
+
+void add_import_option(CLI::App& command, ImportOptions& options, ImportOption option) {
+  switch (option) {
+    case ImportOption::kRobot:
+      return add_repeated_option(command, "--robot", options.robots, "ID",
+                                 "Name of the robot that made the recording");
+    case ImportOption::kRobots:
+      return add_repeated_option(command, "--robot", options.robots, "ID",
+                                 "Name of a source's robot, once per source (default: a, b, ...)");
+    case ImportOption::kName:
+      return add_repeated_option(command, "--name", options.names, "BSSID=ID",
+                                 "Name of a radio, an anchor's or another robot's (default: its BSSID)");
+    case ImportOption::kFields:
+      command.add_option("--fields", options.fields, "The fields given to nmcli's -f")->type_name("NAME,...");
+      return;
+    case ImportOption::kTime:
+      return add_time_options(command, options);
+    case ImportOption::kPoses:
+      return add_repeated_option(command, "--poses", options.poses, "FILE",
+                                 "True poses, twelve numbers per line, once per source (default: the poses "
+                                 "file next to the scans)");
+    case ImportOption::kTopics:
+      return add_topic_options(command, options);
+    case ImportOption::kParameters:
+      return add_parameter_options(command, options.parameters);
+  }
+}
+
+void add_all_import_options(CLI::App& command, ImportOptions& options) {
+  add_common_options(command, options);
+  const std::size_t common = command.get_options().size();
+  for (const ImportOption option :
+       {ImportOption::kRobots, ImportOption::kName, ImportOption::kFields, ImportOption::kTime,
+        ImportOption::kPoses, ImportOption::kTopics, ImportOption::kParameters})
+    add_import_option(command, options, option);
+  const std::vector<CLI::Option*> all = command.get_options();
+  for (std::size_t k = common; k < all.size(); ++k) all[k]->group("");  // hidden
+}
+
+void refuse_other_options(const ImportOptions& options, const std::vector<ImportOption>& taken) {
+  const auto takes = [&](ImportOption option) {
+    return std::find(taken.begin(), taken.end(), option) != taken.end();
+  };
+  refuse_unless(options.robots.empty() || takes(ImportOption::kRobot) || takes(ImportOption::kRobots),
+                options, "--robot");
+  refuse_unless(options.robots.size() <= 1 || takes(ImportOption::kRobots), options, "second --robot");
+  refuse_unless(options.names.empty() || takes(ImportOption::kName), options, "--name");
+  refuse_unless(options.fields.empty() || takes(ImportOption::kFields), options, "--fields");
+  refuse_unless(options.poses.empty() || takes(ImportOption::kPoses), options, "--poses");
+  const bool has_topics = options.list || !options.odometry.empty() || !options.scans.empty() ||
+                          !options.imu.empty() || !options.gnss.empty() || !options.truth.empty();
+  refuse_unless(!has_topics || takes(ImportOption::kTopics), options, "ROS topics");
+  refuse_unless(options.time.empty() || takes(ImportOption::kTime), options, "--time");
+  const bool has_settings = !options.parameters.set.empty() || !options.parameters.config_path.empty();
+  refuse_unless(!has_settings || takes(ImportOption::kParameters), options, "parameters");
+  refuse_unless(!options.file_times || takes(ImportOption::kTime), options, "--file-times");
+}
+
+void check_import_id(const std::string& option, const std::string& id) {
+  if (!is_valid_id(id))
+    throw InputError(option, 0, "'" + id + "' is not a valid name of a robot or an anchor");
+}
+
+}  // namespace radioslam::cli

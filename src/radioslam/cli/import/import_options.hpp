@@ -1,0 +1,61 @@
+// Command line options of `radioslam import` and helpers shared by all kinds of sources.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "radioslam/cli/commands/command_options.hpp"
+#include "radioslam/cli/config.hpp"
+#include "radioslam/cli/parameters.hpp"
+
+namespace radioslam::cli {
+
+struct ImportOptions {
+  std::string kind;
+  std::vector<std::string> sources;
+  std::string output;
+  std::string robot;                ///< the first of `robots`; empty if none is given
+  std::vector<std::string> robots;  ///< every --robot, in order
+  std::vector<std::string> names;
+  std::string fields;
+  std::string time;
+  std::vector<std::string> poses;
+  std::vector<std::string> odometry, scans, imu, gnss, truth;  ///< names of ROS topics
+  bool file_times = false;
+  bool list = false;
+  ParameterOptions parameters;
+};
+
+/// Options that only some kinds of source take.
+enum class ImportOption { kRobot, kRobots, kName, kFields, kTime, kPoses, kTopics, kParameters };
+
+template <class Params>
+Params params_of(const ImportOptions& options) {
+  return with_settings(Params{}, collect_settings(options.parameters.config_path, options.parameters.set));
+}
+
+/// The source, for kinds that take exactly one.
+inline const std::string& only_source(const ImportOptions& options) {
+  if (options.sources.size() != 1)
+    throw InputError("import " + options.kind, 0,
+                     "takes one source, but " + std::to_string(options.sources.size()) + " are given");
+  return options.sources.front();
+}
+
+/// Adds the options that all kinds take: sources, output and threads.
+void add_common_options(CLI::App& command, ImportOptions& options);
+
+/// Adds the options of this name or group of names.
+void add_import_option(CLI::App& command, ImportOptions& options, ImportOption option);
+
+/// Adds the options of all kinds; only the common ones appear in the help of `command`.
+void add_all_import_options(CLI::App& command, ImportOptions& options);
+
+/// Refuses (InputError) every given option that is not among `taken`.
+void refuse_other_options(const ImportOptions& options, const std::vector<ImportOption>& taken);
+
+/// Refuses (InputError) an invalid name of a robot or an anchor; `option` prefixes the message.
+void check_import_id(const std::string& option, const std::string& id);
+
+}  // namespace radioslam::cli

@@ -1,0 +1,166 @@
+#include "radioslam/cli/import/import_wifi.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <set>
+
+#include "radioslam/cli/commands/output_path_check.hpp"
+#include "radioslam/cli/import/wifi_csv_output.hpp"
+#include "radioslam/io/wifi/airodump_csv.hpp"
+#include "radioslam/io/wifi/iw_scan.hpp"
+#include "radioslam/io/wifi/iwlist_scan.hpp"
+#include "radioslam/io/wifi/log_time.hpp"
+#include "radioslam/io/wifi/nmcli_list.hpp"
+#include "radioslam/io/wifi/wifi_capture.hpp"
+
+namespace radioslam::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// All source files: sources that are files, and the files in sources that are folders, sorted by name. In
+/// folders only files with one of `extensions` count; if it is empty, all do.
+std::vector<fs::path> files_of(const ImportOptions& options, const std::vector<std::string>& extensions) {
+  std::vector<fs::path> files;
+  for (const std::string& source : options.sources) {
+    if (!fs::is_directory(source)) {
+      files.emplace_back(source);
+      continue;
+    }
+    std::vector<fs::path> inside;
+    for (const auto& entry : fs::recursive_directory_iterator(source)) {
+      const std::string extension = entry.path().extension().string();
+      const bool is_meant =
+          extensions.empty() || std::count(extensions.begin(), extensions.end(), extension) > 0;
+      if (entry.is_regular_file() && is_meant && !entry.path().filename().string().starts_with('.'))
+        inside.push_back(entry.path());
+    }
+    std::sort(inside.begin(), inside.end());
+    if (inside.empty()) throw InputError(source, 0, "has no files to import");
+    files.insert(files.end(), inside.begin(), inside.end());
+  }
+  return files;
+}
+
+void print_notes(const WifiLog& log) {
+  for (const std::string& warning : log.warnings) std::cout << "note: " << warning << '\n';
+  for (const auto& [what, count] : log.counts) std::cout << "note: " << count << ' ' << what << '\n';
+}
+
+/// "12 rows, 3 scans, 5 radios", and the robot's name if known.
+std::string summary_of(const WifiLog& log, const WifiCsvOutput& target) {
+  std::set<std::string> radios;
+  std::set<Stamp> scans;
+  for (const WifiRow& row : log.rows) {
+    radios.insert(row.bssid);
+    scans.insert(row.stamp);
+  }
+  const std::string counts = std::to_string(log.rows.size()) + " rows, " + std::to_string(scans.size()) +
+                             " scans, " + std::to_string(radios.size()) + " radios";
+  return counts + (target.robot().empty() ? "" : " of " + target.robot());
+}
+
+void write_wifi(const ImportOptions& options, WifiCsvOutput& target, std::vector<WifiLog> logs) {
+  const WifiLog log = join_wifi_logs(std::move(logs));
+  if (log.rows.empty()) {
+    std::string why;
+    for (const auto& [what, count] : log.counts) why += "; " + std::to_string(count) + " " + what;
+    throw InputError(options.sources.front(), 0, "has no signal strengths" + why);
+  }
+  target.commit(log.rows);
+  print_notes(log);
+  if (const std::string missing = target.missing(); !missing.empty())
+    std::cout << "note: " << missing << '\n';
+  std::cout << options.output << ": " << summary_of(log, target) << '\n';
+}
+
+/// Opens the output. Refuses one that would replace an input.
+std::unique_ptr<WifiCsvOutput> target_of(const ImportOptions& options, const std::vector<fs::path>& files) {
+  auto target = std::make_unique<WifiCsvOutput>(options.output, options.robot, options.sources.front());
+  refuse_replacing_inputs(target->replaced(), {files.begin(), files.end()});
+  return target;
+}
+
+/// The time of a file whose scans have none; nothing if it is unknown.
+std::optional<GivenTime> time_of_file(const ImportOptions& options, const fs::path& file, std::size_t files) {
+  if (!options.time.empty()) {
+    const auto time = parse_time_line(options.time);
+    if (!time)
+      throw InputError("--time " + options.time, 0, "expected seconds, or ISO 8601 with a time zone");
+    if (files > 1) throw InputError("--time " + options.time, 0, "applies to a single file");
+    return GivenTime{*time};
+  }
+  if (options.file_times) return GivenTime{time_of_last_write(file), GivenTime::Of::kLast};
+  const auto time = time_in_name(file.stem().string());
+  return time ? std::optional(GivenTime{*time}) : std::nullopt;
+}
+
+ScanListLog read_list(const ImportOptions& options, const Text& text) {
+  if (options.kind == "iw") return read_iw_scans(text);
+  if (options.kind == "iwlist") return read_iwlist_scans(text);
+  return read_nmcli_lists(
+      text, options.fields.empty() ? default_nmcli_fields() : parse_nmcli_fields(options.fields));
+}
+
+ScanListLog read_list_file(const ImportOptions& options, const fs::path& file, std::size_t files) {
+  if (files > 1 && fs::is_regular_file(file) && fs::is_empty(file))
+    return {{}, {{"empty files of failed scans were skipped", 1}}, {}};
+  const Text text = read_tool_output(file);
+  ScanListLog log = read_list(options, text);
+  const auto time = time_of_file(options, file, files);
+  const bool is_timed = std::all_of(log.scans.begin(), log.scans.end(),
+                                    [](const ScanList& scan) { return scan.stamp.has_value(); });
+  if (files > 1 && !time && !is_timed)
+    text.fail(0,
+              "has no time, neither in a line before the scan nor in its name; --file-times uses its last "
+              "modification");
+  time_scans(text, log, time);
+  return log;
+}
+
+/// Refuses a mix of files with seconds since boot and files with absolute times, which cannot be put in
+/// order.
+void refuse_two_clocks(const std::vector<fs::path>& files, const std::vector<ScanListLog>& logs) {
+  std::optional<std::size_t> absolute, boot;
+  for (std::size_t k = 0; k < logs.size(); ++k)
+    if (const auto clock = clock_of(logs[k])) (clock == ScanListClock::kBoot ? boot : absolute) = k;
+  if (absolute && boot)
+    throw InputError(files[*boot].string(), 0,
+                     "has only times since boot, but " + files[*absolute].string() +
+                         " has absolute ones; give all of them a time by a line before each scan, by the "
+                         "file's name or by --file-times");
+}
+
+}  // namespace
+
+void import_printed_scans(const ImportOptions& options) {
+  const auto params = params_of<ScanListParams>(options);
+  const auto files = files_of(options, {});
+  const auto target = target_of(options, files);
+  std::vector<ScanListLog> logs;
+  for (const fs::path& file : files) logs.push_back(read_list_file(options, file, files.size()));
+  refuse_two_clocks(files, logs);
+  write_wifi(options, *target, {rows_of_scans(std::move(logs), params)});
+}
+
+void import_airodump(const ImportOptions& options) {
+  const auto params = params_of<AirodumpParams>(options);
+  const auto target = target_of(options, {options.sources.begin(), options.sources.end()});
+  std::vector<WifiLog> logs;
+  for (const std::string& source : options.sources)
+    logs.push_back(read_airodump(read_tool_output(source), params));
+  write_wifi(options, *target, std::move(logs));
+}
+
+void import_wifi_captures(const ImportOptions& options) {
+  const auto params = params_of<WifiCaptureParams>(options);
+  const auto files = files_of(options, {".pcap", ".pcapng", ".cap"});
+  const auto target = target_of(options, files);
+  std::vector<WifiLog> logs;
+  for (const fs::path& file : files) logs.push_back(read_wifi_capture(file, params));
+  write_wifi(options, *target, std::move(logs));
+}
+
+}  // namespace radioslam::cli

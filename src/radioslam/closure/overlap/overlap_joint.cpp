@@ -1,0 +1,232 @@
+#include "radioslam/closure/overlap/overlap_joint.hpp"
+
+#include "radioslam/base/check.hpp"
+#include "radioslam/closure/overlap/odometry_prefix_sums.hpp"
+#include "radioslam/geometry/linear_algebra.hpp"
+
+namespace radioslam {
+namespace {
+
+/// Upper bound of the relative error of the skeleton's covariances, from factorisation and solve; about 1e-12
+/// in practice.
+constexpr double kSolveError = 1e-11;
+
+}  // namespace
+
+template <class Pose>
+RelativePosition<Pose> JointView<Pose>::relative(std::size_t, const Record& k, const Record& l) const {
+  constexpr int kDof = Pose::kDof, kSize = 2 * kDof + 2;
+  const auto joint = cross_->between(k.segment, l.segment);
+  // X_l P, then P X_k^T: X = [I - K, K, D].
+  const auto first = joint.template topRows<kDof>();
+  const Eigen::Matrix<double, kDof, kSize> of_l =
+      first + l.share.lazyProduct(joint.template middleRows<kDof>(kDof) - first) +
+      l.by_drift.lazyProduct(joint.template bottomRows<2>());
+  const auto of_first = of_l.template leftCols<kDof>();
+  const Jacobian cross = of_first +
+                         (of_l.template middleCols<kDof>(kDof) - of_first).lazyProduct(k.share.transpose()) +
+                         of_l.template rightCols<2>().lazyProduct(k.by_drift.transpose());
+  const Jacobian between = l.covariance + k.covariance - cross - cross.transpose();
+  const auto at_l = motion_at<Pose>(l.position_m);
+  return {l.position_m - k.position_m, at_l * between * at_l.transpose()};
+}
+
+/// Fills the robots of a JointCovariance from the skeleton.
+template <class Pose>
+class JointCovariance<Pose>::Builder {
+ public:
+  Builder(const PoseGraph<Pose>& graph, const std::vector<ChainOfPoses>& robots)
+      : graph_(graph),
+        chains_(robots),
+        skeleton_(reduce_to_skeleton(graph, robots)),
+        origin_(middle_of(graph.poses)) {}
+
+  std::shared_ptr<const SkeletonCovariance<Pose>> covariance() const {
+    std::vector<std::vector<SegmentVariables>> segments(chains_.size());
+    for (std::size_t c = 0; c < chains_.size(); ++c)
+      for (const ChainSegment& s : skeleton_.chains[c].segments)
+        segments[c].push_back({reduced(c, s.first), reduced(c, s.last), s.drift});
+    return SkeletonCovariance<Pose>::compute(skeleton_.graph, origin_, std::move(segments));
+  }
+
+  Robot robot(std::size_t c, const SkeletonCovariance<Pose>& covariance) const {
+    Robot robot;
+    const auto& chain = skeleton_.chains[c];
+    std::vector<bool> searched(chains_[c].poses.size(), chains_[c].searched.empty());
+    for (const std::size_t k : chains_[c].searched) searched[k] = true;
+    IntervalSums sums;
+    for (std::size_t s = 0; s < chain.segments.size(); ++s) {
+      const ChainSegment& segment = chain.segments[s];
+      const auto joint = covariance.within(covariance.segments(c)[s]);
+      robot.cov_drift.push_back(joint.template bottomRightCorner<2, 2>());
+      if (starts_interval(chain, s)) {
+        sums = {};
+        close_interval(robot);
+        robot.components.push_back(skeleton_.component[chains_[c].poses[segment.first].index()]);
+      }
+      add_segment(c, s, joint, searched, sums, robot);
+    }
+    close_interval(robot);
+    drop_empty_intervals(robot);
+    for (std::size_t k = 0; k < robot.records.size(); ++k) robot.rounding.widen(rounding(robot, k));
+    return robot;
+  }
+
+ private:
+  /// Odometry sums since the beginning of an interval, in the common frame.
+  struct IntervalSums {
+    CompensatedSum<Jacobian> covariance;
+    CompensatedSum<DriftEffect> by_drift;
+  };
+
+  PoseId reduced(std::size_t c, std::size_t k) const {
+    return skeleton_.of_pose[chains_[c].poses[k].index()];
+  }
+  const Pose& pose(std::size_t c, std::size_t k) const { return graph_.poses[chains_[c].poses[k].index()]; }
+
+  static bool starts_interval(const SkeletonChain<Pose>& chain, std::size_t s) {
+    if (s == 0) return true;
+    const ChainSegment &last = chain.segments[s - 1], &segment = chain.segments[s];
+    return last.last != segment.first || last.drift != segment.drift;
+  }
+
+  static void close_interval(Robot& robot) {
+    const std::size_t begin = robot.pieces.empty() ? 0 : robot.pieces.back().end;
+    if (!robot.components.empty()) robot.pieces.push_back({begin, robot.records.size()});
+  }
+  static void drop_empty_intervals(Robot& robot) {
+    for (std::size_t p = robot.pieces.size(); p-- > 0;) {
+      if (robot.pieces[p].size() > 0) continue;
+      robot.pieces.erase(robot.pieces.begin() + static_cast<std::ptrdiff_t>(p));
+      robot.components.erase(robot.components.begin() + static_cast<std::ptrdiff_t>(p));
+    }
+  }
+
+  /// Adds records of a segment's poses; its last one belongs to the segment that begins there, if any.
+  void add_segment(std::size_t c, std::size_t s, const typename SkeletonCovariance<Pose>::Joint& joint,
+                   const std::vector<bool>& searched, IntervalSums& sums, Robot& robot) const {
+    const auto& chain = skeleton_.chains[c];
+    const ChainSegment& segment = chain.segments[s];
+    const Pose T_c1 = shifted(pose(c, segment.first), origin_);
+    const bool next_begins = s + 1 < chain.segments.size() && chain.segments[s + 1].first == segment.last;
+    const SegmentSums<Pose> whole = sum_of(c, segment);
+    const Cholesky<Jacobian> whole_cholesky(whole.covariance());
+    SegmentSums<Pose> here;
+    for (std::size_t k = segment.first; k <= segment.last; ++k) {
+      if (k > segment.first) step(c, k, segment, here, sums);
+      if (!searched[k] || (k == segment.last && next_begins)) continue;
+      Jacobian share = Jacobian::Zero();
+      if (k > segment.first) share = whole_cholesky.solve_matrix(here.covariance()).transpose();
+      if (k > segment.first && k == segment.last) share.setIdentity();
+      robot.poses.push_back(shifted(pose(c, k), origin_));
+      robot.records.push_back(record(robot.poses.back(), T_c1, share, here, whole, joint));
+      robot.records.back().segment = static_cast<std::uint32_t>(s);
+      robot.odometry_sums.push_back({sums.covariance.value(), sums.by_drift.value()});
+    }
+  }
+
+  SegmentSums<Pose> sum_of(std::size_t c, const ChainSegment& segment) const {
+    SegmentSums<Pose> sums;
+    const Pose T_c1_w = pose(c, segment.first).inverse();
+    for (std::size_t k = segment.first; k < segment.last; ++k)
+      sums.add(*skeleton_.chains[c].steps[k], T_c1_w * pose(c, k + 1));
+    return sums;
+  }
+
+  void step(std::size_t c, std::size_t k, const ChainSegment& segment, SegmentSums<Pose>& here,
+            IntervalSums& sums) const {
+    const auto& step = *skeleton_.chains[c].steps[k - 1];
+    here.add(step, pose(c, segment.first).inverse() * pose(c, k));
+    const Jacobian ad = shifted(pose(c, k), origin_).adjoint();
+    sums.covariance.add(congruence(ad, step.covariance));
+    sums.by_drift.add(ad * step.drift_effect);
+  }
+
+  static Record record(const Pose& T_k, const Pose& T_c1, const Jacobian& share,
+                       const SegmentSums<Pose>& here, const SegmentSums<Pose>& whole,
+                       const typename SkeletonCovariance<Pose>::Joint& joint) {
+    constexpr int kDof = Pose::kDof;
+    const Jacobian ad = T_c1.adjoint(), back = T_c1.inverse().adjoint();
+    const Jacobian noise = here.covariance() - share * here.covariance();
+    Record record{T_k.translation(),
+                  heading(T_k),
+                  ad * share * back,
+                  ad * (here.drift_effect() - share * whole.drift_effect()),
+                  {},
+                  0,
+                  0};
+    Eigen::Matrix<double, kDof, 2 * kDof + 2> x;
+    x << Jacobian::Identity() - record.share, record.share, record.by_drift;
+    record.covariance = mirrored<Jacobian>(congruence(x, joint) + congruence(ad, noise));
+    return record;
+  }
+
+  static PoseSpread rounding(const Robot& robot, std::size_t k) {
+    const typename Pose::Point& p = robot.records[k].position_m;
+    const PoseSpread sums = rounding_bound<Pose>(robot.odometry_sums[k].covariance, p, kRoundingOfSums);
+    const PoseSpread solved = rounding_bound<Pose>(robot.records[k].covariance, p, kSolveError);
+    return {sums.sigma_m + solved.sigma_m, sums.sigma_rad + solved.sigma_rad};
+  }
+
+  const PoseGraph<Pose>& graph_;
+  const std::vector<ChainOfPoses>& chains_;
+  Skeleton<Pose> skeleton_;
+  typename Pose::Point origin_;
+};
+
+template <class Pose>
+std::optional<JointCovariance<Pose>> JointCovariance<Pose>::compute(const PoseGraph<Pose>& graph,
+                                                                    const std::vector<ChainOfPoses>& robots,
+                                                                    std::size_t dense_scalars) {
+  const Builder builder(graph, robots);
+  JointCovariance joint;
+  joint.dense_scalars_ = dense_scalars;
+  joint.skeleton_ = builder.covariance();
+  if (!joint.skeleton_) return std::nullopt;
+  for (std::size_t c = 0; c < robots.size(); ++c) joint.robots_.push_back(builder.robot(c, *joint.skeleton_));
+  return joint;
+}
+
+/// Conditioning on measurements never increases a covariance: sigma(eta_k - eta_m) is at most that of the
+/// odometry noise alone plus that of the estimated drift.
+template <class Pose>
+PoseSpread JointCovariance<Pose>::spread(std::size_t robot, std::size_t pose, std::size_t middle) const {
+  const Robot& r = robots_[robot];
+  const Record& record = r.records[pose];
+  const auto [first, last] = std::minmax(pose, middle);
+  const typename Pose::Point& p = record.position_m;
+  const Jacobian at = motion_at<Pose>(p);
+  const Jacobian noise =
+      at * (r.odometry_sums[last].covariance - r.odometry_sums[first].covariance) * at.transpose();
+  const DriftEffect by_drift = at * (r.odometry_sums[last].by_drift - r.odometry_sums[first].by_drift);
+  const Jacobian drift = by_drift * r.cov_drift[record.segment] * by_drift.transpose();
+  const PoseSpread a = spread_of<Pose>(noise), b = spread_of<Pose>(drift);
+  return {a.sigma_m + b.sigma_m + r.rounding.sigma_m, a.sigma_rad + b.sigma_rad + r.rounding.sigma_rad};
+}
+
+template <class Pose>
+JointView<Pose> JointCovariance<Pose>::view(std::size_t a, std::size_t b) const {
+  RADIOSLAM_CHECK(a < b, "the robot listed first comes first");
+  return View(std::make_shared<CrossCovariance<Pose>>(skeleton_, a, b, dense_scalars_));
+}
+
+template <class Pose>
+typename Pose::Jacobian JointCovariance<Pose>::relative_pose(std::size_t a, std::size_t k, std::size_t b,
+                                                             std::size_t l) const {
+  const Record& of_k = robots_[a].records[k];
+  const Record& of_l = robots_[b].records[l];
+  const RelativePosition<Pose> place = view(a, b).relative(0, of_k, of_l);
+  // Right perturbation at l: rotate both parts into l's axes.
+  const Pose turn = Pose(Pose::Point::Zero(), rotation_of(robots_[b].poses[l]));
+  const Jacobian back = turn.inverse().adjoint();
+  return congruence(back, place.covariance);
+}
+
+template class JointView<SE2>;
+template class JointView<SE3>;
+template class JointCovariance<SE2>;
+template class JointCovariance<SE3>;
+
+static_assert(OverlapSource<JointCovariance<SE2>> && OverlapSource<JointCovariance<SE3>>);
+
+}  // namespace radioslam

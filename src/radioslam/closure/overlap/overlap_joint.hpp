@@ -1,0 +1,122 @@
+// Relative pose covariance in mode "joint": between any two poses of a team, under the joint Gaussian of a
+// pose graph at its current values. Equal to Marginals::relative_pose, at O(1) small matrix products per
+// pair.
+//
+// Given its ends c1, c2 and the drift, pose k of a segment (keyframe_skeleton.hpp) is conditionally
+// independent of everything outside. In left perturbations (overlap_relative.hpp):
+//   eta_k = (I - K_k) eta_c1 + K_k eta_c2 + D_k drift + n_k,
+//   K_k = S_k S_c2^-1,   D_k = G_k - K_k G_c2,   Cov(n_k) = S_k - K_k S_k,
+// so Cov(eta_k, eta_l) = X_k P_st X_l^T for poses of two robots, with P the covariance of the ends and drifts
+// of two segments, from the much smaller skeleton graph.
+//
+// Columns of P are solved for when a pair of segments is first visited, so a search pays only for skeleton
+// poses near overlapping boxes. They are kept if all fit into `dense_scalars`; otherwise the most recent ones
+// are, and the search visits robot a's poses in runs whose columns fit. Results are the same either way.
+// Trajectories of different graph components are not compared. Returns nothing if the normal equations are
+// singular. Cost: O(poses), one factorisation of the skeleton, and at most one solve per skeleton pose and
+// pair of robots if all columns fit.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "radioslam/closure/overlap/keyframe_skeleton.hpp"
+#include "radioslam/closure/overlap/overlap_cross_covariance.hpp"
+#include "radioslam/closure/overlap/overlap_relative.hpp"
+
+namespace radioslam {
+
+template <class P>
+class JointView {
+ public:
+  using Pose = P;
+  using Jacobian = typename Pose::Jacobian;
+  struct Record {
+    typename Pose::Point position_m;  ///< in the common, shifted frame
+    double heading_rad = 0;
+    Jacobian share;                                 ///< K
+    Eigen::Matrix<double, Pose::kDof, 2> by_drift;  ///< D
+    Jacobian covariance;                            ///< of eta_k
+    double travelled_m = 0;                         ///< unused: there is no choice of links
+    std::uint32_t segment = 0;
+
+    template <class Self, class Visitor>
+    static void visit(Self& self, Visitor&& visit) {
+      visit(self.position_m), visit(self.heading_rad), visit(self.share), visit(self.by_drift);
+      visit.symmetric(self.covariance), visit(self.segment);
+    }
+  };
+
+  explicit JointView(std::shared_ptr<const CrossCovariance<Pose>> cross) : cross_(std::move(cross)) {}
+
+  std::size_t ties() const { return 1; }
+  double turn_in_a(std::size_t) const { return 0; }
+  const typename Pose::Point& in_a(std::size_t, const typename Pose::Point& p) const { return p; }
+  const typename Pose::Point& half_extent_in_a(std::size_t, const typename Pose::Point& half) const {
+    return half;
+  }
+  double link_travelled_a(std::size_t) const { return 0; }
+  double link_travelled_b(std::size_t) const { return 0; }
+  /// Whether several threads can each cover this range of poses with cached columns.
+  bool cached_columns_fit(const Record& first, const Record& last) const {
+    constexpr std::size_t kThreads = 4;
+    return last.segment - first.segment <= cross_->cached_segments() / kThreads;
+  }
+  RelativePosition<Pose> relative(std::size_t tie, const Record& k, const Record& l) const;
+
+ private:
+  std::shared_ptr<const CrossCovariance<Pose>> cross_;
+};
+
+template <class Pose>
+class JointCovariance {
+ public:
+  using View = JointView<Pose>;
+  using Record = typename View::Record;
+  /// Cache size: 512 MiB of covariances between two robots.
+  static constexpr std::size_t kDenseScalars = std::size_t{1} << 26;
+
+  /// One chain per robot, in the order of the mission.
+  static std::optional<JointCovariance> compute(const PoseGraph<Pose>& graph,
+                                                const std::vector<ChainOfPoses>& robots,
+                                                std::size_t dense_scalars = kDenseScalars);
+
+  std::size_t robots() const { return robots_.size(); }
+  const std::vector<Record>& records(std::size_t robot) const { return robots_[robot].records; }
+  const std::vector<PoseInterval>& pieces(std::size_t robot) const { return robots_[robot].pieces; }
+  bool joined(std::size_t a, std::size_t piece_a, std::size_t b, std::size_t piece_b) const {
+    return robots_[a].components[piece_a] == robots_[b].components[piece_b];
+  }
+  PoseSpread spread(std::size_t robot, std::size_t pose, std::size_t middle) const;
+  View view(std::size_t a, std::size_t b) const;
+
+  /// Covariance of T_k^-1 T_l (right perturbation) between searched poses k, l of robots a < b.
+  typename Pose::Jacobian relative_pose(std::size_t a, std::size_t k, std::size_t b, std::size_t l) const;
+
+ private:
+  using Jacobian = typename Pose::Jacobian;
+  using DriftEffect = Eigen::Matrix<double, Pose::kDof, 2>;
+
+  /// Odometry sums up to a searched pose, from which spreads are computed.
+  struct OdometrySums {
+    Jacobian covariance;
+    DriftEffect by_drift;
+  };
+  struct Robot {
+    std::vector<Pose> poses;  ///< searched, in the shifted frame
+    std::vector<Record> records;
+    std::vector<OdometrySums> odometry_sums;
+    std::vector<Eigen::Matrix2d> cov_drift;  ///< per segment
+    std::vector<PoseInterval> pieces;
+    std::vector<std::int32_t> components;  ///< graph component per interval
+    PoseSpread rounding;
+  };
+  class Builder;
+
+  std::vector<Robot> robots_;
+  std::shared_ptr<const SkeletonCovariance<Pose>> skeleton_;
+  std::size_t dense_scalars_ = kDenseScalars;
+};
+
+}  // namespace radioslam

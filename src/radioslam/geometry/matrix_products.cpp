@@ -1,0 +1,30 @@
+#include "radioslam/geometry/linear_algebra.hpp"
+
+namespace radioslam {
+
+template <class Jacobian, class Matrix>
+Eigen::Matrix<double, Jacobian::RowsAtCompileTime, Jacobian::RowsAtCompileTime> congruence(const Jacobian& j,
+                                                                                           const Matrix& p) {
+  return j * p * j.transpose();
+}
+
+template <class Jacobian, class Matrix>
+Eigen::Matrix<double, Jacobian::ColsAtCompileTime, Jacobian::ColsAtCompileTime> normal_matrix(
+    const Jacobian& j, const Matrix& w) {
+  return j.transpose() * w * j;
+}
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+template <int Rows, int Columns>
+using Fixed = Eigen::Matrix<double, Rows, Columns>;
+
+template Eigen::Matrix3d congruence(const Eigen::Matrix3d&, const Eigen::Matrix3d&);
+template Matrix6 congruence(const Matrix6&, const Matrix6&);
+template Eigen::Matrix3d congruence(const Fixed<3, 6>&, const Matrix6&);
+template Matrix6 congruence(const Fixed<6, 12>&, const Fixed<12, 12>&);
+template Eigen::Matrix3d congruence(const Fixed<3, 8>&, const Fixed<8, 8>&);
+template Matrix6 congruence(const Fixed<6, 14>&, const Fixed<14, 14>&);
+template Eigen::Matrix3d normal_matrix(const Eigen::Matrix3d&, const Eigen::Matrix3d&);
+template Matrix6 normal_matrix(const Matrix6&, const Matrix6&);
+
+}  // namespace radioslam

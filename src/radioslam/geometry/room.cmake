@@ -1,0 +1,16 @@
+radioslam_room(geometry
+  SOURCES
+    alignment.cpp
+    linear_solve.cpp
+    local_frame.cpp
+    matrix_inverse.cpp
+    matrix_products.cpp
+    se2.cpp
+    se3.cpp
+    so3.cpp
+    symmetric_eigen.cpp
+  ROOMS base
+  LIBRARIES Eigen3::Eigen)
+# Large by themselves.
+set_source_files_properties(geometry/linear_solve.cpp geometry/symmetric_eigen.cpp
+                            PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

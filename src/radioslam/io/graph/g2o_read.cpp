@@ -1,0 +1,152 @@
+#include <cmath>
+
+#include "radioslam/io/graph/field_matrices.hpp"
+#include "radioslam/io/graph/g2o.hpp"
+#include "radioslam/io/graph/g2o_entries.hpp"
+#include "radioslam/io/graph/g2o_information.hpp"
+#include "radioslam/io/graph/g2o_tags.hpp"
+#include "radioslam/io/graph/g2o_vertex_pass.hpp"
+#include "radioslam/io/text/line_fields.hpp"
+
+namespace radioslam {
+namespace {
+
+/// Second pass over a file: reads the factors, after all vertices are known.
+template <class Pose>
+class G2oReader {
+ public:
+  G2oReader(const Text& text, RepairInformation repair)
+      : text_(text), lines_(text), vertices_(read_g2o_vertices(text, out_)), informations_(repair) {}
+
+  G2oGraph<Pose> read() {
+    out_.graph.chart = PoseChart::kG2o;
+    while (lines_.next_with_content()) {
+      LineFields fields(lines_);
+      read_entry(fields);
+    }
+    informations_.refuse_indefinite(text_);
+    vertices_.refuse_missing();
+    if (out_.graph.poses.empty()) text_.fail(1, "the graph has no poses");
+    out_.repaired_informations = informations_.repaired();
+    return std::move(out_);
+  }
+
+ private:
+  using Tags = G2oTags<Pose>;
+
+  void read_entry(LineFields& fields) {
+    const std::string_view tag = fields.next("a tag");
+    if (tag == Tags::kVertex || tag == Tags::kPoint) return;
+    read_factor(tag, fields);
+    fields.end();
+  }
+
+  /// The first pass has refused other tags.
+  void read_factor(std::string_view tag, LineFields& fields) {
+    if (tag == Tags::kEdge) return read_edge(fields);
+    if (tag == kG2oRange) return read_range(fields);
+    if (tag == Tags::kSighting) return read_sighting(fields);
+    if (tag == Tags::kPrior) return read_prior(fields);
+    if (tag == kG2oFix) return read_fixed(fields);
+    if (tag == Tags::kOffset) read_offset(fields);
+  }
+
+  PoseId pose_at(G2oVertices::Id id) const { return vertices_.pose_at(id, lines_.number()); }
+
+  void read_edge(LineFields& fields) {
+    const G2oEdgeIds ids = read_g2o_edge_ids(fields);
+    RelativePoseFactor<Pose>& factor = out_.graph.relative_poses.emplace_back();
+    factor.T_i_j = read_g2o_pose<Pose>(fields);
+    factor.information = informations_.read<Pose::kDof>(lines_, fields);
+    factor.i = pose_at(ids.i);
+    factor.j = pose_at(ids.j);
+    out_.relative_pose_lines.push_back(lines_.number());
+  }
+
+  void read_range(LineFields& fields) {
+    const G2oEdgeIds ids = read_g2o_edge_ids(fields);
+    RangeFactor<Pose>& factor = out_.graph.ranges.emplace_back();
+    factor.range_m = fields.coordinate("range");
+    const double information = fields.number("information");
+    factor.sigma_m = 1 / std::sqrt(information);
+    if (!(information > 0) || !std::isfinite(factor.sigma_m)) lines_.fail("the information is not positive");
+    if (!fields.empty()) {
+      factor.i.lever_arm = read_point_fields<Pose>(fields);
+      factor.j.lever_arm = read_point_fields<Pose>(fields);
+    }
+    set_end(factor.i, ids.i);
+    set_end(factor.j, ids.j);
+    out_.range_lines.push_back(lines_.number());
+  }
+
+  void set_end(RangeEnd<Pose>& end, G2oVertices::Id id) const {
+    const G2oVertex vertex = vertices_.at(id, lines_.number());
+    if (vertex.is_point && !end.lever_arm.isZero(0)) lines_.fail("a point cannot have a lever arm");
+    if (vertex.is_point) end.point = PointId(vertex.index);
+    if (!vertex.is_point) end.pose = PoseId(vertex.index);
+  }
+
+  void read_sighting(LineFields& fields) {
+    const G2oEdgeIds ids = read_g2o_edge_ids(fields);
+    if (Pose::kDim == 3) fields.id("offset parameter");
+    RelativePointFactor<Pose>& factor = out_.graph.relative_points.emplace_back();
+    factor.position = read_point_fields<Pose>(fields);
+    factor.information = informations_.read<Pose::kDim>(lines_, fields);
+    factor.i = pose_at(ids.i);
+    set_end(factor.j, ids.j);
+    out_.relative_point_lines.push_back(lines_.number());
+  }
+
+  void read_prior(LineFields& fields) {
+    const G2oVertices::Id id = fields.id("id");
+    if (Pose::kDim == 3) fields.id("offset parameter");
+    PosePriorFactor<Pose>& factor = out_.graph.pose_priors.emplace_back();
+    factor.prior = read_g2o_pose<Pose>(fields);
+    factor.information = informations_.read<Pose::kDof>(lines_, fields);
+    factor.i = pose_at(id);
+    out_.pose_prior_lines.push_back(lines_.number());
+  }
+
+  void read_offset(LineFields& fields) const {
+    fields.id("id");
+    const typename Pose::Tangent offset = read_g2o_pose<Pose>(fields).log();
+    if (!offset.isZero(0)) lines_.fail("offsets other than the identity are not supported");
+  }
+
+  void read_fixed(LineFields& fields) {
+    out_.graph.pose_fixed.resize(out_.graph.poses.size(), false);
+    do {
+      out_.graph.pose_fixed[pose_at(fields.id("id")).index()] = true;
+    } while (!fields.empty());
+  }
+
+  const Text& text_;
+  TextLines lines_;
+  G2oGraph<Pose> out_;
+  G2oVertices vertices_;
+  G2oInformationReader informations_;
+};
+
+enum class Dimension { kPlane, kSpace };
+
+/// Determines the dimension from the first tag that depends on it.
+Dimension dimension_of(const Text& text) {
+  TextLines lines(text);
+  while (lines.next_with_content()) {
+    const std::string_view tag = LineFields(lines).next("a tag");
+    if (is_g2o_tag<SE2>(tag)) return Dimension::kPlane;
+    if (is_g2o_tag<SE3>(tag)) return Dimension::kSpace;
+    if (tag != kG2oRange && tag != kG2oFix)
+      lines.fail("unknown tag '" + std::string(tag.substr(0, 40)) + "'");
+  }
+  text.fail(1, "the graph has no poses");
+}
+
+}  // namespace
+
+AnyG2oGraph read_g2o(const Text& text, RepairInformation repair) {
+  if (dimension_of(text) == Dimension::kPlane) return G2oReader<SE2>(text, repair).read();
+  return G2oReader<SE3>(text, repair).read();
+}
+
+}  // namespace radioslam

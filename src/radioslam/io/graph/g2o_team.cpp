@@ -1,0 +1,147 @@
+#include "radioslam/io/graph/g2o_team.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "radioslam/io/graph/g2o.hpp"
+#include "radioslam/io/graph/team_assembly.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr int kRobotShift = 56;
+/// Bound on the difference of two copies of an edge, which are rounded to typically six digits and whose
+/// quaternions are normalised on reading.
+constexpr double kRounding = 2e-5;
+constexpr std::uint64_t kPlaceMask = (std::uint64_t{1} << kRobotShift) - 1;
+
+bool is_letter(std::uint64_t c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+std::string robot_name(std::uint64_t id) {
+  const std::uint64_t robot = id >> kRobotShift;
+  if (robot == 0) return "a";
+  return is_letter(robot) ? std::string(1, static_cast<char>(robot)) : "robot" + std::to_string(robot);
+}
+
+/// Merges the files' graphs into one, with one pose per id.
+template <class Pose>
+class TeamMerge {
+ public:
+  void add(const G2oGraph<Pose>& file) {
+    const PoseGraph<Pose>& graph = file.graph;
+    graph_.chart = graph.chart;
+    std::vector<PoseId> poses;
+    for (const std::uint64_t id : file.pose_ids) poses.push_back(pose(id));
+    std::vector<PointId> points;
+    for (const std::uint64_t id : file.point_ids) points.push_back(point(id));
+    const auto renamed = [&](RangeEnd<Pose> end) {
+      if (end.pose.valid())
+        end.pose = poses[end.pose.index()];
+      else
+        end.point = points[end.point.index()];
+      return end;
+    };
+    for (auto factor : graph.relative_poses) {
+      factor.i = poses[factor.i.index()];
+      factor.j = poses[factor.j.index()];
+      if (is_new(factor)) graph_.relative_poses.push_back(factor);
+    }
+    end_of_file();
+    for (auto factor : graph.ranges) {
+      factor.i = renamed(factor.i);
+      factor.j = renamed(factor.j);
+      graph_.ranges.push_back(factor);
+    }
+    for (auto factor : graph.relative_points) {
+      factor.i = poses[factor.i.index()];
+      factor.j = renamed(factor.j);
+      graph_.relative_points.push_back(factor);
+    }
+    for (auto factor : graph.pose_priors) {
+      factor.i = poses[factor.i.index()];
+      graph_.pose_priors.push_back(factor);
+    }
+  }
+
+  TeamGraphFile<Pose> assemble() {
+    TeamGraphFile<Pose> out;
+    auto [team, file_index] = assemble_team(std::move(graph_), places_);
+    out.team = std::move(team);
+    for (const std::size_t k : file_index) out.pose_names.push_back(std::to_string(pose_ids_[k]));
+    for (const std::uint64_t id : point_ids_) out.point_names.push_back(std::to_string(id));
+    return out;
+  }
+
+ private:
+  PoseId pose(std::uint64_t id) {
+    const auto [place, is_new_id] = poses_.try_emplace(id, PoseId(pose_ids_.size()));
+    if (is_new_id) {
+      pose_ids_.push_back(id);
+      places_.push_back({robot_name(id), id & kPlaceMask, std::nullopt});
+      graph_.poses.emplace_back();
+    }
+    return place->second;
+  }
+
+  PointId point(std::uint64_t id) {
+    const auto [place, is_new_id] = points_.try_emplace(id, PointId(point_ids_.size()));
+    if (is_new_id) {
+      point_ids_.push_back(id);
+      graph_.points.emplace_back(Pose::Point::Zero());
+    }
+    return place->second;
+  }
+
+  using Ends = std::pair<PoseId, PoseId>;
+
+  /// False for an edge that an earlier file contains, up to rounding.
+  bool is_new(const RelativePoseFactor<Pose>& factor) {
+    const auto [begin, end] = earlier_.equal_range(Ends(factor.i, factor.j));
+    for (auto edge = begin; edge != end; ++edge)
+      if (are_equal(graph_.relative_poses[edge->second], factor)) return false;
+    of_this_file_.emplace_back(Ends(factor.i, factor.j), graph_.relative_poses.size());
+    return true;
+  }
+
+  static bool are_equal(const RelativePoseFactor<Pose>& a, const RelativePoseFactor<Pose>& b) {
+    const double length_m = std::max(1.0, a.T_i_j.translation().norm());
+    return (a.T_i_j.inverse() * b.T_i_j).log().norm() < kRounding * length_m &&
+           (a.information - b.information).norm() <= kRounding * a.information.norm();
+  }
+
+  void end_of_file() {
+    earlier_.insert(of_this_file_.begin(), of_this_file_.end());
+    of_this_file_.clear();
+  }
+
+  PoseGraph<Pose> graph_;
+  std::vector<PoseIndex> places_;
+  std::vector<std::uint64_t> pose_ids_, point_ids_;
+  std::map<std::uint64_t, PoseId> poses_;
+  std::map<std::uint64_t, PointId> points_;
+  std::multimap<Ends, std::size_t> earlier_;  // relative poses of the previous files, by their ends
+  std::vector<std::pair<Ends, std::size_t>> of_this_file_;
+};
+
+template <class Pose>
+TeamGraphFile<Pose> merge(const std::vector<AnyG2oGraph>& files, std::span<const Text> texts) {
+  TeamMerge<Pose> team;
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    const auto* file = std::get_if<G2oGraph<Pose>>(&files[k]);
+    if (file == nullptr) texts[k].fail(1, "the team's files mix 2D and 3D");
+    team.add(*file);
+  }
+  return team.assemble();
+}
+
+}  // namespace
+
+AnyTeamGraphFile read_g2o_team(std::span<const Text> texts) {
+  std::vector<AnyG2oGraph> files;
+  for (const Text& text : texts) files.push_back(read_g2o(text));
+  if (std::holds_alternative<G2oGraph<SE2>>(files.front())) return merge<SE2>(files, texts);
+  return merge<SE3>(files, texts);
+}
+
+}  // namespace radioslam

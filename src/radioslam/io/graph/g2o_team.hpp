@@ -1,0 +1,22 @@
+// Reads a team's pose graph in g2o's format (g2o.hpp), from one file or from one file per robot.
+//
+// The top eight bits of an id are its robot's letter (GTSAM symbols), the rest is the index along its
+// trajectory; ids without a letter belong to a single robot, `a`. Edges between robots remain relative poses.
+// VERTEX values are an initial estimate of unknown origin; they are used neither as ground truth nor as a
+// start. FIX lines are ignored, because the alignment chooses its own frame. A pose's stamp is its index in
+// seconds.
+#pragma once
+
+#include <span>
+
+#include "radioslam/io/graph/team_graph_file.hpp"
+#include "radioslam/io/text/text.hpp"
+
+namespace radioslam {
+
+/// Reads the files of a team, at least one. Edges between robots may appear in the files of both; they count
+/// once if they are equal up to the rounding of printed numbers. Refuses whatever read_g2o refuses, and files
+/// of different dimensions.
+AnyTeamGraphFile read_g2o_team(std::span<const Text> texts);
+
+}  // namespace radioslam

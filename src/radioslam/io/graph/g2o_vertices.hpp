@@ -1,0 +1,62 @@
+// Maps the ids of a g2o file to poses and points, and checks which poses need a VERTEX line.
+// In a file without VERTEX lines, poses are defined by the edges. In the file of one robot of a team, the
+// poses of other robots appear in edges only; a robot's letter is in the top eight bits of its ids (GTSAM
+// symbols). But if a robot has VERTEX lines of poses, all its poses must have one: otherwise the edge is
+// considered corrupt.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "radioslam/graph/pose_graph.hpp"
+#include "radioslam/io/text/text.hpp"
+
+namespace radioslam {
+
+/// A pose or a point, by its index in the graph.
+struct G2oVertex {
+  bool is_point = false;
+  std::int32_t index = 0;
+};
+
+/// The vertices of one file. Errors name the given line.
+class G2oVertices {
+ public:
+  using Id = std::uint64_t;
+
+  explicit G2oVertices(const Text& text) : text_(text) {}
+
+  /// Adds the VERTEX line of an id; refuses a second one.
+  void declare(Id id, G2oVertex vertex, std::size_t line);
+  /// Records that an edge between poses names this id.
+  void mention(Id id, std::size_t line) { mentions_.push_back({id, line}); }
+  /// Adds the poses that appear in edges only, from `first_index` on; returns their ids, sorted and unique.
+  std::vector<Id> add_undeclared(std::size_t first_index);
+  /// Refuses the first of them whose robot has VERTEX lines of other poses.
+  void refuse_missing() const;
+
+  /// The vertex of an id; refuses unknown ids.
+  G2oVertex at(Id id, std::size_t line) const;
+  PoseId pose_at(Id id, std::size_t line) const;
+
+ private:
+  struct Mention {
+    Id id;
+    std::size_t line;
+  };
+
+  const Text& text_;
+  std::unordered_map<Id, G2oVertex> vertices_;  // used for look-up only, never iterated
+  std::set<Id> robots_;                         // robots with VERTEX lines of poses
+  std::vector<Mention> mentions_;
+  std::optional<Mention> missing_;
+};
+
+/// "vertex 7", for messages.
+std::string quoted_vertex(G2oVertices::Id id);
+
+}  // namespace radioslam

@@ -1,0 +1,184 @@
+#include "radioslam/io/graph/team_assembly.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "radioslam/base/check.hpp"
+#include "radioslam/base/units.hpp"
+#include "radioslam/geometry/linear_algebra.hpp"
+#include "radioslam/graph/factor_lists.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+/// Converts an index to seconds, as long as these fit into a stamp.
+constexpr std::uint64_t kMaxPlace = 9000000000;
+
+/// Indices of the poses, sorted by robot and index along the trajectory.
+std::vector<std::size_t> order_of(const std::vector<PoseIndex>& places) {
+  std::map<std::string, std::size_t> ranks;
+  std::vector<std::size_t> rank;
+  for (const PoseIndex& place : places)
+    rank.push_back(ranks.try_emplace(place.robot, ranks.size()).first->second);
+  std::vector<std::size_t> order(places.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::tie(rank[a], places[a].place) < std::tie(rank[b], places[b].place);
+  });
+  return order;
+}
+
+Stamp stamp_of(const PoseIndex& place) {
+  if (place.stamp) return *place.stamp;
+  return {static_cast<std::int64_t>(std::min(place.place, kMaxPlace)) * kNanosecondsPerSecond};
+}
+
+/// The inverse measurement: (Z Exp(xi))^-1 = Z^-1 Exp(-Ad(Z) xi).
+template <class Pose>
+RelativePoseFactor<Pose> reversed(const RelativePoseFactor<Pose>& factor) {
+  RelativePoseFactor<Pose> result = factor;
+  result.i = factor.j;
+  result.j = factor.i;
+  result.T_i_j = factor.T_i_j.inverse();
+  const typename Pose::Jacobian back = factor.T_i_j.inverse().adjoint();
+  result.information = normal_matrix(back, factor.information);
+  return result;
+}
+
+template <class Pose>
+class Assembly {
+ public:
+  Assembly(PoseGraph<Pose> graph, const std::vector<PoseIndex>& places)
+      : graph_(std::move(graph)), places_(places), order_(order_of(places)) {}
+
+  AssembledTeam<Pose> run() {
+    rename_poses();
+    choose_odometry();
+    cut_into_segments();
+    sort_relative_poses();
+    for (TrajectorySegment& segment : team_.segments) reckon(segment);
+    place_points();
+    team_.graph = std::move(graph_);
+    return {std::move(team_), std::move(order_)};
+  }
+
+ private:
+  const PoseIndex& place(std::size_t pose) const { return places_[order_[pose]]; }
+
+  void rename_poses() {
+    std::vector<std::size_t> renamed(order_.size());
+    for (std::size_t k = 0; k < order_.size(); ++k) renamed[order_[k]] = k;
+    const auto rename = [&](PoseId& id) {
+      if (id.valid()) id = PoseId(renamed[id.index()]);
+    };
+    for (auto& factor : graph_.relative_poses) rename(factor.i), rename(factor.j);
+    for (auto& factor : graph_.ranges) rename(factor.i.pose), rename(factor.j.pose);
+    for (auto& factor : graph_.relative_points) rename(factor.i), rename(factor.j.pose);
+    for (auto& factor : graph_.positions) rename(factor.i.pose);
+    for (auto& factor : graph_.pose_priors) rename(factor.i);
+    graph_.poses.assign(order_.size(), Pose());
+    graph_.points.assign(graph_.points.size(), Pose::Point::Zero());
+    graph_.pose_fixed.clear();
+  }
+
+  /// Whether the factor leads from a pose to its robot's next one.
+  bool leads_on(PoseId from, PoseId to) const {
+    return to.value == from.value + 1 && place(from.index()).robot == place(to.index()).robot;
+  }
+
+  void choose_odometry() {
+    odometry_.assign(order_.size(), kNone);
+    for (std::size_t f = 0; f < graph_.relative_poses.size(); ++f) {
+      auto& factor = graph_.relative_poses[f];
+      const bool backward = leads_on(factor.j, factor.i);
+      if (!backward && !leads_on(factor.i, factor.j)) continue;
+      std::size_t& chosen = odometry_[backward ? factor.j.index() : factor.i.index()];
+      if (chosen != kNone) continue;
+      chosen = f;
+      if (backward) factor = reversed(factor);
+    }
+  }
+
+  void cut_into_segments() {
+    for (std::size_t pose = 0; pose < order_.size(); ++pose) {
+      const bool goes_on = pose > 0 && odometry_[pose - 1] != kNone;
+      if (!goes_on) {
+        team_.segments.emplace_back();
+        team_.segments.back().robot = place(pose).robot;
+        team_.segments.back().first_pose = pose;
+      }
+      const bool same_robot = pose > 0 && place(pose - 1).robot == place(pose).robot;
+      Stamp stamp = stamp_of(place(pose));
+      if (same_robot) stamp.ns = std::max(stamp.ns, last_stamp_.ns + 1);
+      last_stamp_ = stamp;
+      ++team_.segments.back().pose_count;
+      team_.segments.back().stamps.push_back(stamp);
+    }
+  }
+
+  void sort_relative_poses() {
+    std::vector<RelativePoseFactor<Pose>> sorted;
+    std::vector<bool> taken(graph_.relative_poses.size(), false);
+    for (std::size_t& factor : odometry_) {
+      if (factor == kNone) continue;
+      taken[factor] = true;
+      sorted.push_back(graph_.relative_poses[factor]);
+      factor = sorted.size() - 1;
+    }
+    for (std::size_t f = 0; f < taken.size(); ++f)
+      if (!taken[f]) sorted.push_back(graph_.relative_poses[f]);
+    graph_.relative_poses = std::move(sorted);
+  }
+
+  void reckon(TrajectorySegment& segment) {
+    const std::size_t begin = segment.first_pose, end = begin + segment.pose_count;
+    for (std::size_t pose = begin + 1; pose < end; ++pose)
+      graph_.poses[pose] = graph_.poses[pose - 1] * graph_.relative_poses[odometry_[pose - 1]].T_i_j;
+    const auto prior =
+        std::find_if(graph_.pose_priors.begin(), graph_.pose_priors.end(),
+                     [&](const auto& factor) { return factor.i.index() >= begin && factor.i.index() < end; });
+    if (prior == graph_.pose_priors.end()) return;
+    segment.in_common_frame = true;
+    move_segment(graph_.poses, segment, prior->prior * graph_.poses[prior->i.index()].inverse());
+  }
+
+  void place_points() {
+    for (auto factor = graph_.positions.rbegin(); factor != graph_.positions.rend(); ++factor)
+      if (!factor->i.pose.valid()) graph_.points[factor->i.point.index()] = factor->position;
+  }
+
+  PoseGraph<Pose> graph_;
+  const std::vector<PoseIndex>& places_;
+  std::vector<std::size_t> order_;
+  std::vector<std::size_t> odometry_;  // per pose: the factor to the next pose, or kNone
+  Stamp last_stamp_;
+  TeamGraph<Pose> team_;
+};
+
+}  // namespace
+
+template <class Pose>
+AssembledTeam<Pose> assemble_team(PoseGraph<Pose> graph, const std::vector<PoseIndex>& places) {
+  RADIOSLAM_CHECK(places.size() == graph.poses.size() && !first_backward_stamp(places),
+                  "one place per pose, in the order of time");
+  return Assembly<Pose>(std::move(graph), places).run();
+}
+
+std::optional<std::size_t> first_backward_stamp(const std::vector<PoseIndex>& places) {
+  const auto order = order_of(places);
+  for (std::size_t k = 1; k < order.size(); ++k) {
+    const PoseIndex& before = places[order[k - 1]];
+    const PoseIndex& after = places[order[k]];
+    if (before.robot == after.robot && stamp_of(after) < stamp_of(before)) return order[k];
+  }
+  return std::nullopt;
+}
+
+template AssembledTeam<SE2> assemble_team(PoseGraph<SE2>, const std::vector<PoseIndex>&);
+template AssembledTeam<SE3> assemble_team(PoseGraph<SE3>, const std::vector<PoseIndex>&);
+
+}  // namespace radioslam

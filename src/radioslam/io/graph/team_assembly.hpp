@@ -1,0 +1,42 @@
+// Assembles the factors of a file to a team graph: groups poses into trajectory segments.
+//
+// Poses are sorted by robot (in the order of first mention) and index. An edge from a pose to the robot's
+// next one is odometry; of several such edges the first one is, the others are loop closures. Where odometry
+// is missing, a new segment begins. Cost: sorting the poses, otherwise linear.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "radioslam/base/stamp.hpp"
+#include "radioslam/graph/team_graph.hpp"
+
+namespace radioslam {
+
+/// The robot of a pose and its index along the trajectory; unique per pose.
+struct PoseIndex {
+  std::string robot;
+  std::uint64_t place = 0;
+  std::optional<Stamp> stamp;  ///< if absent, the index in seconds is used
+};
+
+template <class Pose>
+struct AssembledTeam {
+  TeamGraph<Pose> team;
+  std::vector<std::size_t> file_index;  ///< per pose of the team, its index in the file's graph
+};
+
+/// `graph` has the file's factors, and poses and points without values; `places` is per pose. Among the
+/// relative poses, odometry comes first, in the order of the poses; the others follow in the order of the
+/// file. A pose with the stamp of the previous one is moved one nanosecond later. Stamps must not decrease
+/// along a robot (first_backward_stamp).
+template <class Pose>
+AssembledTeam<Pose> assemble_team(PoseGraph<Pose> graph, const std::vector<PoseIndex>& places);
+
+/// Index in `places` of a pose whose stamp is earlier than that of its robot's previous pose, if there is
+/// one.
+std::optional<std::size_t> first_backward_stamp(const std::vector<PoseIndex>& places);
+
+}  // namespace radioslam

@@ -1,0 +1,49 @@
+#include "radioslam/io/graph/team_graph_file.hpp"
+
+#include <algorithm>
+
+#include "radioslam/io/graph/g2o_team.hpp"
+#include "radioslam/io/graph/pyfg.hpp"
+#include "radioslam/io/text/zstd_text.hpp"
+
+namespace radioslam {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The extension, ignoring .zst.
+std::string kind_of(const fs::path& path) {
+  return (has_zstd_extension(path) ? path.stem() : path).extension().string();
+}
+
+/// The g2o files of a folder, sorted by number (2.g2o before 10.g2o), others by name.
+std::vector<fs::path> g2o_files(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.is_regular_file() && kind_of(entry.path()) == ".g2o") files.push_back(entry.path());
+  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+    const std::string x = a.filename().string(), y = b.filename().string();
+    return x.size() != y.size() ? x.size() < y.size() : x < y;
+  });
+  return files;
+}
+
+}  // namespace
+
+bool is_graph_file(const fs::path& path) { return kind_of(path) == ".g2o" || kind_of(path) == ".pyfg"; }
+
+AnyTeamGraphFile read_team_graph(const fs::path& path) {
+  std::vector<fs::path> files{path};
+  if (fs::is_directory(path)) {
+    files = g2o_files(path);
+    if (files.empty()) throw InputError(path.string(), 0, "the folder has no .g2o files");
+  } else if (!is_graph_file(path)) {
+    throw InputError(path.string(), 0, "is not a factor graph: its name ends in neither .g2o nor .pyfg");
+  }
+  if (kind_of(files.front()) == ".pyfg") return read_pyfg(read_zstd_text(path));
+  std::vector<Text> texts;
+  for (const fs::path& file : files) texts.push_back(read_zstd_text(file));
+  return read_g2o_team(texts);
+}
+
+}  // namespace radioslam

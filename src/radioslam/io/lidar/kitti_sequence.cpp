@@ -1,0 +1,278 @@
+#include "radioslam/io/lidar/kitti_sequence.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+
+#include "radioslam/base/input_error.hpp"
+#include "radioslam/base/units.hpp"
+#include "radioslam/io/lidar/kitti_poses.hpp"
+#include "radioslam/io/lidar/lidar_folder.hpp"
+#include "radioslam/io/text/numbers.hpp"
+
+namespace radioslam {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kMaxScanNumber = 1'000'000'000;
+constexpr std::size_t kEpochDigits = 9;         ///< digits of Unix seconds, from 1973 on
+constexpr std::size_t kMicrosecondDigits = 16;  ///< digits of Unix microseconds, from 2001 on
+constexpr std::int64_t kMaxMicroseconds =
+    std::numeric_limits<std::int64_t>::max() / kNanosecondsPerMicrosecond;
+constexpr const char* kDigits = "0123456789";
+
+/// A scan file, with the number or time in its name.
+struct NamedScan {
+  fs::path file;
+  std::optional<std::uint64_t> number;
+  std::optional<Stamp> time;
+};
+
+/// A list with one line per scan, and its file.
+template <class Value>
+struct ScanList {
+  fs::path file;
+  std::vector<Value> values;
+};
+
+/// The digits at the end: "000123" of "x_000123".
+std::string digits_at_end(const std::string& name) {
+  const std::size_t last_other = name.find_last_not_of(kDigits);
+  return name.substr(last_other == std::string::npos ? 0 : last_other + 1);
+}
+
+/// The text before them: "x_" of "x_000123".
+std::string before_digits(const std::string& name) {
+  return name.substr(0, name.size() - digits_at_end(name).size());
+}
+
+/// The digits before the point: "1630577758" of "x_1630577758.569490".
+std::string digits_before_point(const std::string& name) {
+  const std::string before = before_digits(name);
+  return before.ends_with('.') ? digits_at_end(before.substr(0, before.size() - 1)) : "";
+}
+
+/// The number at the end of a name.
+std::optional<std::uint64_t> number_in_name(const std::string& name) {
+  const auto number = parse_id(digits_at_end(name));
+  return number && *number <= kMaxScanNumber ? number : std::nullopt;
+}
+
+/// Sixteen digits are microseconds, 17 to 19 nanoseconds; neither begins with a zero.
+std::optional<Stamp> whole_time_of(const std::string& digits) {
+  const auto value = parse_integer(digits);
+  if (!value || digits.front() == '0' || digits.size() < kMicrosecondDigits) return std::nullopt;
+  if (digits.size() > kMicrosecondDigits) return Stamp{*value};
+  return *value > kMaxMicroseconds ? std::nullopt : std::optional(Stamp{*value * kNanosecondsPerMicrosecond});
+}
+
+/// The time at the end of a name: decimal seconds, or digits only.
+std::optional<Stamp> time_in_scan_name(const std::string& name) {
+  const std::string digits = digits_at_end(name);
+  const std::string seconds = digits_before_point(name);
+  if (digits.empty()) return std::nullopt;
+  return seconds.empty() ? whole_time_of(digits) : parse_stamp(seconds + '.' + digits);
+}
+
+std::vector<fs::path> bin_files(const fs::path& folder) {
+  std::vector<fs::path> files;
+  if (!fs::is_directory(folder)) return files;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.is_regular_file() && entry.path().extension() == ".bin" &&
+        !entry.path().filename().string().starts_with('.'))
+      files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+fs::path folder_of_scans(const fs::path& source) {
+  if (!fs::exists(source)) throw InputError(source.string(), 0, "no such folder");
+  if (!fs::is_directory(source))
+    throw InputError(source.string(), 0,
+                     "is a file, not a folder with scans (.bin); archives have to be unpacked first");
+  for (const fs::path& folder : {source / "velodyne", source / "bin", source})
+    if (!bin_files(folder).empty()) return folder;
+  throw InputError(
+      source.string(), 0,
+      "contains no scans: no .bin in velodyne/, in bin/ or in the folder itself; archives have to be "
+      "unpacked first");
+}
+
+template <class Key>
+bool sort_by(std::vector<NamedScan>& scans, Key key) {
+  std::stable_sort(scans.begin(), scans.end(),
+                   [&](const NamedScan& a, const NamedScan& b) { return key(a) < key(b); });
+  return std::adjacent_find(scans.begin(), scans.end(),
+                            [&](const auto& a, const auto& b) { return key(a) == key(b); }) == scans.end();
+}
+
+/// Sorts scans by the times in their names, if all names have different ones.
+std::vector<NamedScan> scans_by_time(const std::vector<fs::path>& files) {
+  std::vector<NamedScan> scans;
+  for (const fs::path& file : files)
+    if (const auto time = time_in_scan_name(file.stem().string()))
+      scans.push_back({file, std::nullopt, time});
+  const bool are_all = scans.size() == files.size();
+  return are_all && sort_by(scans, [](const NamedScan& scan) { return *scan.time; })
+             ? scans
+             : std::vector<NamedScan>{};
+}
+
+/// Sorts scans by the numbers in their names, if all names have different ones after the same prefix.
+std::vector<NamedScan> scans_by_number(const std::vector<fs::path>& files) {
+  const std::string before = before_digits(files.front().stem().string());
+  std::vector<NamedScan> scans;
+  for (const fs::path& file : files) {
+    const std::string name = file.stem().string();
+    const auto number = number_in_name(name);
+    if (number && before_digits(name) == before) scans.push_back({file, number, std::nullopt});
+  }
+  const bool are_all = scans.size() == files.size();
+  return are_all && sort_by(scans, [](const NamedScan& scan) { return *scan.number; })
+             ? scans
+             : std::vector<NamedScan>{};
+}
+
+/// Sorts scans by their names. Digits after a point are a number, not a fraction of a second, if all names
+/// have the same prefix and that is too short for a time.
+std::vector<NamedScan> order_scans(const std::vector<fs::path>& files) {
+  const bool has_time = digits_before_point(files.front().stem().string()).size() >= kEpochDigits;
+  if (auto scans = has_time ? std::vector<NamedScan>{} : scans_by_number(files); !scans.empty()) return scans;
+  if (auto scans = scans_by_time(files); !scans.empty()) return scans;
+  std::vector<NamedScan> scans;
+  for (const fs::path& file : files) scans.push_back({file, std::nullopt, std::nullopt});
+  return scans;
+}
+
+/// The first of these files that exists.
+std::optional<fs::path> first_file(const std::vector<fs::path>& candidates) {
+  for (const fs::path& file : candidates)
+    if (fs::is_regular_file(file)) return file;
+  return std::nullopt;
+}
+
+/// The list's value for scan k of `scans`.
+template <class Value>
+const Value& value_of(const ScanList<Value>& list, const std::vector<NamedScan>& scans, std::size_t k) {
+  if (list.values.size() == scans.size()) return list.values[k];
+  if (scans[k].number && *scans[k].number < list.values.size()) return list.values[*scans[k].number];
+  throw InputError(list.file.string(), 0,
+                   "has " + std::to_string(list.values.size()) + " lines for " +
+                       std::to_string(scans.size()) + " scans, but none for " +
+                       scans[k].file.filename().string());
+}
+
+ScanList<Stamp> read_times(const fs::path& file) {
+  ScanList<Stamp> times{file, {}};
+  const Text text = read_text(file);
+  TextLines lines(text);
+  while (lines.next_with_content()) {
+    LineFields fields(lines);
+    const Stamp stamp = fields.stamp("the time");
+    fields.end();
+    if (!times.values.empty() && stamp <= times.values.back()) lines.fail("the time does not increase");
+    times.values.push_back(stamp);
+  }
+  return times;
+}
+
+/// T_camera_lidar, if the calibration file has it.
+std::optional<SE3> read_calibration(const fs::path& file) {
+  if (!fs::exists(file)) return std::nullopt;
+  const Text text = read_text(file);
+  TextLines lines(text);
+  while (lines.next_with_content()) {
+    LineFields fields(lines);
+    const std::string_view name = fields.next("a name");
+    for (const char* known : {"Tr:", "Tr_velo_cam:", "Tr_velo_to_cam:"})
+      if (name == known) return read_kitti_matrix(fields);
+  }
+  return std::nullopt;
+}
+
+/// T_start_lidar for each line of a file of poses.
+ScanList<SE3> read_poses(const fs::path& file, const std::optional<SE3>& T_camera_lidar) {
+  ScanList<SE3> poses{file, {}};
+  const SE3 T_pose_lidar = T_camera_lidar.value_or(SE3());
+  for (const auto& entry : read_kitti_poses(read_text(file)))
+    poses.values.push_back(T_pose_lidar.inverse() * entry.pose * T_pose_lidar);
+  return poses;
+}
+
+/// The folders that may contain lists, that of the drive first.
+std::vector<fs::path> list_folders(const fs::path& scans) {
+  const fs::path folder = fs::absolute(scans).lexically_normal();
+  const std::string name = folder.filename().string();
+  if (name == "velodyne" || name == "bin") return {folder.parent_path(), folder};
+  return {folder};
+}
+
+std::optional<fs::path> find_poses(const std::vector<fs::path>& folders) {
+  std::vector<fs::path> candidates;
+  for (const fs::path& folder : folders)
+    for (const char* name : {"poses_kitti.txt", "poses.txt"}) candidates.push_back(folder / name);
+  const fs::path& drive = folders.front();
+  candidates.push_back(drive.parent_path().parent_path() / "poses" / (drive.filename().string() + ".txt"));
+  return first_file(candidates);
+}
+
+/// The time of scan k: from times.txt, its name or its number.
+Stamp stamp_of_scan(const std::vector<NamedScan>& scans, const std::optional<ScanList<Stamp>>& times,
+                    std::size_t k) {
+  if (times) return value_of(*times, scans, k);
+  if (scans[k].time) return *scans[k].time;
+  return Stamp::from_seconds(static_cast<double>(scans[k].number.value_or(k)) / kKittiFrequency_hz);
+}
+
+std::vector<KittiScan> stamp_scans(const std::vector<NamedScan>& named,
+                                   const std::optional<ScanList<Stamp>>& times) {
+  std::vector<KittiScan> scans;
+  for (std::size_t k = 0; k < named.size(); ++k)
+    scans.push_back({named[k].file, stamp_of_scan(named, times, k)});
+  return scans;
+}
+
+Trajectory<SE3> truth_of(const ScanList<SE3>& poses, const std::vector<NamedScan>& named,
+                         const std::vector<KittiScan>& scans) {
+  std::vector<StampedPose<SE3>> truth;
+  for (std::size_t k = 0; k < scans.size(); ++k) truth.push_back({scans[k].stamp, value_of(poses, named, k)});
+  return Trajectory<SE3>(std::move(truth));
+}
+
+}  // namespace
+
+KittiDrive read_kitti_drive(const fs::path& source, const std::string& robot, const fs::path& poses) {
+  const fs::path folder = folder_of_scans(source.has_filename() ? source : source.parent_path());
+  const std::vector<fs::path> folders = list_folders(folder);
+  const std::vector<NamedScan> named = order_scans(bin_files(folder));
+  for (const NamedScan& scan : named) check_bin_size(scan.file, fs::file_size(scan.file));
+  std::optional<ScanList<Stamp>> times;
+  for (const fs::path& place : folders)
+    if (!times && fs::exists(place / "times.txt")) times = read_times(place / "times.txt");
+  KittiDrive drive;
+  drive.scans = stamp_scans(named, times);
+  drive.imported.mission.dimension = 3;
+  drive.imported.mission.robots.emplace_back().id = robot;
+  if (!times)
+    drive.imported.warnings.emplace_back(named.front().time
+                                             ? "there is no times.txt; the times in the scans' names are used"
+                                             : "there is no times.txt; a rate of 10 Hz is assumed");
+  const auto truth_file = poses.empty() ? find_poses(folders) : poses;
+  if (!truth_file) return drive;
+  const auto T_camera_lidar = read_calibration(folders.front() / "calib.txt");
+  const auto truth = truth_of(read_poses(*truth_file, T_camera_lidar), named, drive.scans);
+  drive.imported.truth.robots.push_back({robot, truth, true});
+  drive.imported.warnings.push_back("the ground truth is " + truth_file->string() + ", with poses of the " +
+                                    (T_camera_lidar ? "camera" : "LiDAR"));
+  return drive;
+}
+
+void copy_kitti_scans(const std::vector<KittiScan>& scans, const fs::path& folder) {
+  fs::create_directories(folder);
+  for (const KittiScan& scan : scans)
+    fs::copy_file(scan.file, folder / (std::to_string(scan.stamp.ns) + ".bin"));
+}
+
+}  // namespace radioslam

@@ -1,0 +1,146 @@
+#include "radioslam/io/lidar/pcd.hpp"
+
+#include <limits>
+
+#include "radioslam/base/check.hpp"
+#include "radioslam/io/lidar/lzf.hpp"
+#include "radioslam/io/lidar/pcd_header.hpp"
+#include "radioslam/io/lidar/point_times.hpp"
+#include "radioslam/io/text/line_fields.hpp"
+#include "radioslam/io/text/little_endian.hpp"
+#include "radioslam/io/text/numbers.hpp"
+
+namespace radioslam {
+namespace {
+
+/// Points stored as records.
+PointTable table_of_records(const PcdHeader& header, std::string_view bytes) {
+  PointTable table{bytes, ByteOrder::kLittle, header.points, {}};
+  std::size_t offset = 0;
+  for (const PcdField& field : header.fields) {
+    if (field.count == 1) table.columns.push_back({field.name, field.type, offset, header.record_bytes()});
+    offset += field.count * bytes_of(field.type);
+  }
+  return table;
+}
+
+/// Points stored as columns.
+PointTable table_of_columns(const PcdHeader& header, std::string_view bytes) {
+  PointTable table{bytes, ByteOrder::kLittle, header.points, {}};
+  std::size_t offset = 0;
+  for (const PcdField& field : header.fields) {
+    const std::size_t field_bytes = field.count * bytes_of(field.type);
+    if (field.count == 1) table.columns.push_back({field.name, field.type, offset, field_bytes});
+    offset += field_bytes * header.points;
+  }
+  return table;
+}
+
+LidarScan checked_points_of(const TextLines& at, const PointTable& table, Stamp stamp) {
+  if (const auto refusal = problem_with(table)) at.fail(*refusal);
+  return {points_of(table), times_of(table, stamp).since_stamp_s};
+}
+
+/// A number, NaN or infinity.
+double floating_in(const TextLines& at, const PcdField& field, std::string_view word) {
+  std::string name = lower_case(word);
+  const bool is_negative = name.starts_with('-');
+  if (is_negative || name.starts_with('+')) name.erase(0, 1);
+  if (name == "nan") return std::numeric_limits<double>::quiet_NaN();
+  if (name != "inf") return number_in(at, word, field.name);
+  return is_negative ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
+}
+
+/// Converts one number of a line to the bytes of a record; fields that are not read may have any content.
+void append_ascii_number(const TextLines& at, std::string& out, const PcdField& field,
+                         std::string_view word) {
+  const bool is_time = is_time_name(field.name);
+  if (!is_time && field.name != "x" && field.name != "y" && field.name != "z") {
+    out.append(bytes_of(field.type), '\0');
+  } else if (field.type == NumberType::kFloat32 || field.type == NumberType::kFloat64) {
+    const double value = floating_in(at, field, word);
+    if (field.type == NumberType::kFloat32)
+      append_f32(out, static_cast<float>(value));
+    else
+      append_f64(out, value);
+  } else {
+    const auto value = parse_integer(word);
+    if (!value) at.fail(field.name + " '" + std::string(word) + "' is not a whole number");
+    append_little_endian(out, static_cast<std::uint64_t>(*value), bytes_of(field.type));
+  }
+}
+
+LidarScan read_ascii(TextLines& lines, const PcdHeader& header, Stamp stamp) {
+  std::string records;
+  for (std::size_t row = 0; row < header.points; ++row) {
+    if (!lines.next_with_content())
+      lines.fail("the points end after " + std::to_string(row) + " of " + std::to_string(header.points));
+    LineFields fields(lines);
+    for (const PcdField& field : header.fields)
+      for (std::size_t k = 0; k < field.count; ++k)
+        append_ascii_number(lines, records, field, fields.next(field.name));
+    fields.end();
+  }
+  return checked_points_of(lines, table_of_records(header, records), stamp);
+}
+
+[[noreturn]] void fail_cut_off(const Text& file, std::size_t needed) {
+  file.fail(0, "is truncated: it ends before the " + std::to_string(needed) +
+                   " bytes of points that the header " + "announces");
+}
+
+LidarScan read_binary(const Text& file, const TextLines& lines, const PcdHeader& header, Stamp stamp) {
+  const std::string_view data = std::string_view(file.content).substr(header.data_begin);
+  const std::size_t record = header.record_bytes();
+  if (record > 0 && header.points > data.size() / record) fail_cut_off(file, header.points * record);
+  return checked_points_of(lines, table_of_records(header, data), stamp);
+}
+
+LidarScan read_compressed(const Text& file, const TextLines& lines, const PcdHeader& header, Stamp stamp) {
+  constexpr std::size_t kSizesBytes = 8;
+  const std::string_view data = std::string_view(file.content).substr(header.data_begin);
+  if (data.size() < kSizesBytes) fail_cut_off(file, kSizesBytes);
+  const ByteView sizes(data, ByteOrder::kLittle);
+  const std::size_t compressed = sizes.u32(0);
+  const std::size_t size = sizes.u32(4);
+  if (data.size() - kSizesBytes < compressed) fail_cut_off(file, kSizesBytes + compressed);
+  const std::size_t record = header.record_bytes();
+  if (record == 0 || size % record != 0 || size / record != header.points)
+    file.fail(0, "the size of the compressed points contradicts the header");
+  const auto columns = decompress_lzf(data.substr(kSizesBytes, compressed), size);
+  if (!columns) file.fail(0, "the points cannot be decompressed");
+  return checked_points_of(lines, table_of_columns(header, *columns), stamp);
+}
+
+std::string pcd_header(const LidarScan& scan) {
+  const std::string points = std::to_string(scan.points.size());
+  const bool has_times = !scan.times_s.empty();
+  return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z intensity" +
+         std::string(has_times ? " t" : "") + "\nSIZE 4 4 4 4" + (has_times ? " 4" : "") + "\nTYPE F F F F" +
+         (has_times ? " F" : "") + "\nCOUNT 1 1 1 1" + (has_times ? " 1" : "") + "\nWIDTH " + points +
+         "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + points + "\nDATA binary\n";
+}
+
+}  // namespace
+
+LidarScan read_pcd(const Text& file, Stamp stamp) {
+  TextLines lines(file);
+  const PcdHeader header = read_pcd_header(file, lines);
+  if (header.encoding == "ascii") return read_ascii(lines, header, stamp);
+  if (header.encoding == "binary") return read_binary(file, lines, header, stamp);
+  if (header.encoding == "binary_compressed") return read_compressed(file, lines, header, stamp);
+  lines.fail("DATA '" + header.encoding + "' is neither ascii, binary nor binary_compressed");
+}
+
+std::string format_pcd(const LidarScan& scan) {
+  RADIOSLAM_CHECK(scan.times_s.empty() || scan.times_s.size() == scan.points.size(), "each point has a time");
+  std::string out = pcd_header(scan);
+  for (std::size_t k = 0; k < scan.points.size(); ++k) {
+    for (const float coordinate : scan.points[k]) append_f32(out, coordinate);
+    append_f32(out, 0);
+    if (!scan.times_s.empty()) append_f32(out, scan.times_s[k]);
+  }
+  return out;
+}
+
+}  // namespace radioslam

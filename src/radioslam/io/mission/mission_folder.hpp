@@ -1,0 +1,26 @@
+// Reads and writes mission folders: mission.yaml, the recordings of each robot, and the tables of the team.
+#pragma once
+
+#include <filesystem>
+
+#include "radioslam/mission/mission.hpp"
+#include "radioslam/mission/truth.hpp"
+
+namespace radioslam {
+
+/// Reads mission.yaml, each robot's odometry.tum, wifi.csv, imu.csv and gnss.csv, radio/*.csv and
+/// matches.csv, and the captures in csi/ of robots with the key `csi` in mission.yaml. Lists the scans in
+/// lidar/, which are read on demand; a robot with scans needs no odometry.tum. Never reads the ground truth.
+/// All errors are InputErrors; those that concern several files name mission.yaml.
+Mission read_mission(const std::filesystem::path& folder);
+
+/// Reads robots/<id>/groundtruth.tum of the mission's robots; a robot without one has no poses. If all
+/// orientations of a robot are the identity, only its positions are used. Also reads the labels of
+/// measurements, if a simulator wrote them (truth_labels.hpp).
+Truth read_truth(const std::filesystem::path& folder, const Mission& mission);
+
+/// Writes a mission's files into an existing folder (see OutputFolder). The truth may be empty. A robot
+/// without odometry gets no odometry.tum, which has to be added before the mission can be read.
+void write_mission(const std::filesystem::path& folder, const Mission& mission, const Truth& truth = {});
+
+}  // namespace radioslam

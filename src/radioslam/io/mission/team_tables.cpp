@@ -1,0 +1,203 @@
+#include "radioslam/io/mission/team_tables.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "radioslam/io/text/csv.hpp"
+
+namespace radioslam {
+namespace {
+
+RobotIndex robot_at(const CsvReader& csv, std::size_t column, const TeamNames& names) {
+  const auto found = names.robots.find(csv.field(column));
+  if (found == names.robots.end()) csv.fail("unknown robot '" + std::string(csv.field(column)) + "'");
+  return found->second;
+}
+
+/// The end of a link: a robot or an anchor.
+LinkEnd end_at(const CsvReader& csv, std::size_t column, const TeamNames& names) {
+  LinkEnd end;
+  const auto anchor = names.anchors.find(csv.field(column));
+  if (anchor != names.anchors.end())
+    end.anchor = anchor->second;
+  else
+    end.robot = robot_at(csv, column, names);
+  return end;
+}
+
+void read_antenna(const CsvReader& csv, std::size_t column, const TeamNames& names, LinkEnd& end) {
+  if (!csv.given(column)) return;
+  end.antenna = csv.field(column);
+  if (!end.robot.valid()) csv.fail("antenna '" + end.antenna + "' of an anchor: only robots have antennas");
+  const Antennas none;
+  const Antennas& antennas =
+      end.robot.index() < names.antennas.size() ? names.antennas[end.robot.index()] : none;
+  const auto found = antennas.find(end.antenna);
+  if (found == antennas.end())
+    csv.fail("unknown antenna '" + end.antenna + "': mission.yaml does not list it for this robot");
+  end.lever_arm_m = found->second;
+}
+
+double distance_at(const CsvReader& csv, std::size_t column) {
+  const double distance_m = csv.coordinate(column);
+  if (distance_m < 0) csv.fail("a distance is negative");
+  return distance_m;
+}
+
+double positive_sigma(const CsvReader& csv, std::size_t column) {
+  const double sigma = csv.sigma(column);
+  if (sigma <= 0) csv.fail("a sigma is zero");
+  return sigma;
+}
+
+/// Refuses a row whose ends, in these columns, are the same robot or anchor.
+void refuse_itself(const CsvReader& csv, std::size_t end_i, std::size_t end_j, const std::string& what) {
+  if (csv.field(end_i) == csv.field(end_j))
+    csv.fail(what + " '" + std::string(csv.field(end_i)) + "' to itself");
+}
+
+template <class Measurement>
+void sort_by_time(std::vector<Measurement>& measurements) {
+  std::stable_sort(measurements.begin(), measurements.end(),
+                   [](const Measurement& a, const Measurement& b) { return a.stamp < b.stamp; });
+}
+
+RangeMeasurement range_at(const CsvReader& csv, const TeamNames& names) {
+  enum : std::size_t { kTime, kI, kJ, kRange, kSigma, kAntennaI, kAntennaJ };
+  RangeMeasurement range;
+  range.stamp = csv.stamp(kTime);
+  range.i = end_at(csv, kI, names);
+  range.j = end_at(csv, kJ, names);
+  if (!range.i.robot.valid() && !range.j.robot.valid()) csv.fail("neither end is a robot");
+  refuse_itself(csv, kI, kJ, "a range from");
+  range.range_m = distance_at(csv, kRange);
+  range.sigma_m = positive_sigma(csv, kSigma);
+  read_antenna(csv, kAntennaI, names, range.i);
+  read_antenna(csv, kAntennaJ, names, range.j);
+  return range;
+}
+
+/// One row of aoa.csv: a path and the key of its measurement.
+struct PathRow {
+  Stamp stamp;
+  RobotIndex receiver;
+  LinkEnd transmitter;
+  double number = 0;
+  AoaPath path;
+};
+
+PathRow path_at(const CsvReader& csv, const TeamNames& names) {
+  enum : std::size_t { kTime, kReceiver, kTransmitter, kPath, kAzimuth, kElevation, kSigma, kPower };
+  PathRow row;
+  row.stamp = csv.stamp(kTime);
+  row.receiver = robot_at(csv, kReceiver, names);
+  row.transmitter = end_at(csv, kTransmitter, names);
+  refuse_itself(csv, kReceiver, kTransmitter, "an angle from");
+  row.number = csv.number(kPath);
+  row.path.azimuth_rad = wrap_angle(csv.number(kAzimuth));
+  if (csv.given(kElevation)) row.path.elevation_rad = wrap_angle(csv.number(kElevation));
+  row.path.sigma_rad = positive_sigma(csv, kSigma);
+  if (csv.given(kPower)) row.path.power_db = csv.number(kPower);
+  return row;
+}
+
+std::vector<PathRow> read_paths(const Text& text, const TeamNames& names) {
+  CsvReader csv(text, {{"t_s", "receiver", "transmitter", "path", "azimuth_rad", "elevation_rad", "sigma_rad",
+                        "power_db"}});
+  std::vector<PathRow> rows;
+  while (csv.next()) rows.push_back(path_at(csv, names));
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const PathRow& a, const PathRow& b) { return a.stamp < b.stamp; });
+  return rows;
+}
+
+std::optional<double> coordinate_or_empty(const CsvReader& csv, std::size_t column) {
+  if (csv.field(column).empty()) return std::nullopt;
+  return csv.coordinate(column);
+}
+
+Anchor anchor_at(const CsvReader& csv, int dimension) {
+  enum : std::size_t { kId, kX, kY, kZ, kSigma };
+  Anchor anchor;
+  anchor.id = csv.field(kId);
+  if (anchor.id.empty()) csv.fail("the id is empty");
+  const auto x = coordinate_or_empty(csv, kX);
+  const auto y = coordinate_or_empty(csv, kY);
+  const auto z = coordinate_or_empty(csv, kZ);
+  if (x && y && (z || dimension == 2)) anchor.position_m = Eigen::Vector3d(*x, *y, z.value_or(0));
+  if (!csv.field(kSigma).empty()) anchor.sigma_m = csv.sigma(kSigma);
+  return anchor;
+}
+
+PoseMatch match_at(const CsvReader& csv, const TeamNames& names) {
+  enum : std::size_t { kI, kTimeI, kJ, kTimeJ, kX, kY, kZ, kRotation, kSigmaT = kRotation + 4, kSigmaR };
+  PoseMatch match;
+  match.robot_i = robot_at(csv, kI, names);
+  match.stamp_i = csv.stamp(kTimeI);
+  match.robot_j = robot_at(csv, kJ, names);
+  match.stamp_j = csv.stamp(kTimeJ);
+  if (match.stamp_i == match.stamp_j) refuse_itself(csv, kI, kJ, "a match at the same time from");
+  const Eigen::Vector3d position(csv.coordinate(kX), csv.coordinate(kY), csv.coordinate(kZ));
+  match.T_i_j = SE3(position, csv.quaternion(kRotation));
+  match.sigma_t_m = positive_sigma(csv, kSigmaT);
+  match.sigma_r_rad = positive_sigma(csv, kSigmaR);
+  return match;
+}
+
+}  // namespace
+
+std::vector<Anchor> read_anchors(const Text& text, const TeamNames& names, int dimension) {
+  CsvReader csv(text, {{"id", "x_m", "y_m", "z_m", "sigma_m"}});
+  std::vector<Anchor> anchors;
+  std::set<std::string> ids;
+  while (csv.next()) {
+    anchors.push_back(anchor_at(csv, dimension));
+    const std::string& id = anchors.back().id;
+    if (names.robots.contains(id)) csv.fail("the anchor '" + id + "' has the id of a robot");
+    if (!ids.insert(id).second) csv.fail("the anchor '" + id + "' appears twice");
+  }
+  return anchors;
+}
+
+std::vector<RangeMeasurement> read_ranges(const Text& text, const TeamNames& names) {
+  CsvReader csv(text, {{"t_s", "robot_i", "robot_j", "range_m", "sigma_m"}, {"antenna_i", "antenna_j"}});
+  std::vector<RangeMeasurement> ranges;
+  while (csv.next()) ranges.push_back(range_at(csv, names));
+  sort_by_time(ranges);
+  return ranges;
+}
+
+std::vector<AoaMeasurement> read_aoa(const Text& text, const TeamNames& names) {
+  std::vector<AoaMeasurement> aoa_measurements;
+  std::vector<std::vector<std::pair<double, AoaPath>>> numbered;
+  std::map<std::tuple<Stamp, RobotIndex, RobotIndex, AnchorIndex>, std::size_t> places;
+  for (const PathRow& row : read_paths(text, names)) {
+    const auto [place, is_new] = places.try_emplace(
+        {row.stamp, row.receiver, row.transmitter.robot, row.transmitter.anchor}, aoa_measurements.size());
+    if (is_new) {
+      aoa_measurements.push_back({row.stamp, row.receiver, row.transmitter, {}});
+      numbered.emplace_back();
+    }
+    numbered[place->second].emplace_back(row.number, row.path);
+  }
+  for (std::size_t k = 0; k < aoa_measurements.size(); ++k) {
+    std::stable_sort(numbered[k].begin(), numbered[k].end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (const auto& [number, path] : numbered[k]) aoa_measurements[k].paths.push_back(path);
+  }
+  return aoa_measurements;
+}
+
+std::vector<PoseMatch> read_matches(const Text& text, const TeamNames& names) {
+  CsvReader csv(text, {{"robot_i", "t_i_s", "robot_j", "t_j_s", "x", "y", "z", "qx", "qy", "qz", "qw",
+                        "sigma_t_m", "sigma_r_rad"}});
+  std::vector<PoseMatch> matches;
+  while (csv.next()) matches.push_back(match_at(csv, names));
+  return matches;
+}
+
+}  // namespace radioslam

@@ -1,0 +1,89 @@
+#include "radioslam/base/check.hpp"
+#include "radioslam/io/mission/team_tables.hpp"
+#include "radioslam/io/text/numbers.hpp"
+
+namespace radioslam {
+namespace {
+
+const std::string& name_of(const Mission& mission, const LinkEnd& end) {
+  return end.robot.valid() ? mission.robots[end.robot.index()].id : mission.anchors[end.anchor.index()].id;
+}
+
+bool any_antenna(const Mission& mission) {
+  for (const RangeMeasurement& range : mission.ranges)
+    if (!range.i.antenna.empty() || !range.j.antenna.empty()) return true;
+  return false;
+}
+
+void append_antenna(std::string& out, const LinkEnd& end) {
+  RADIOSLAM_CHECK(!end.antenna.empty() || end.lever_arm_m.isZero(0),
+                  "an end with a lever arm names its antenna");
+  (out += ',') += end.antenna;
+}
+
+}  // namespace
+
+std::string format_anchors(const Mission& mission) {
+  std::string out = "id,x_m,y_m,z_m,sigma_m\n";
+  for (const Anchor& anchor : mission.anchors) {
+    out += anchor.id;
+    for (int axis = 0; axis < 3; ++axis) {
+      out += ',';
+      if (anchor.position_m) append_number(out, (*anchor.position_m)(axis));
+    }
+    append_number(out += ',', anchor.sigma_m);
+    out += '\n';
+  }
+  return out;
+}
+
+std::string format_ranges(const Mission& mission) {
+  const bool antennas = any_antenna(mission);
+  std::string out = "t_s,robot_i,robot_j,range_m,sigma_m";
+  out += antennas ? ",antenna_i,antenna_j\n" : "\n";
+  for (const RangeMeasurement& range : mission.ranges) {
+    ((out += format_stamp(range.stamp)) += ',') += name_of(mission, range.i);
+    (out += ',') += name_of(mission, range.j);
+    append_number(out += ',', range.range_m);
+    append_number(out += ',', range.sigma_m);
+    if (antennas) append_antenna(out, range.i);
+    if (antennas) append_antenna(out, range.j);
+    out += '\n';
+  }
+  return out;
+}
+
+std::string format_aoa(const Mission& mission) {
+  std::string out = "t_s,receiver,transmitter,path,azimuth_rad,elevation_rad,sigma_rad,power_db\n";
+  for (const AoaMeasurement& arrival : mission.aoa_measurements) {
+    const std::string start = format_stamp(arrival.stamp) + ',' +
+                              mission.robots[arrival.receiver.index()].id + ',' +
+                              name_of(mission, arrival.transmitter) + ',';
+    for (std::size_t p = 0; p < arrival.paths.size(); ++p) {
+      const AoaPath& path = arrival.paths[p];
+      append_number((out += start + std::to_string(p)) += ',', path.azimuth_rad);
+      out += ',';
+      if (path.elevation_rad) append_number(out, *path.elevation_rad);
+      append_number(out += ',', path.sigma_rad);
+      append_number(out += ',', path.power_db);
+      out += '\n';
+    }
+  }
+  return out;
+}
+
+std::string format_matches(const Mission& mission) {
+  std::string out = "robot_i,t_i_s,robot_j,t_j_s,x,y,z,qx,qy,qz,qw,sigma_t_m,sigma_r_rad\n";
+  for (const PoseMatch& match : mission.matches) {
+    out += mission.robots[match.robot_i.index()].id + ',' + format_stamp(match.stamp_i) + ',';
+    out += mission.robots[match.robot_j.index()].id + ',' + format_stamp(match.stamp_j);
+    for (int axis = 0; axis < 3; ++axis) append_number(out += ',', match.T_i_j.translation()(axis));
+    for (int k = 0; k < 4; ++k) append_number(out += ',', match.T_i_j.rotation().coeffs()(k));
+    append_number(out += ',', match.sigma_t_m);
+    append_number(out += ',', match.sigma_r_rad);
+    out += '\n';
+  }
+  return out;
+}
+
+}  // namespace radioslam

@@ -1,0 +1,23 @@
+// Reads MCAP files (mcap.dev/spec): a magic, records of u8 opcode, u64 length and content (little endian),
+// and the magic again. The file is read sequentially without its index and summary, so that a truncated file
+// can be read up to its end.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "radioslam/io/ros/ros_recording.hpp"
+
+namespace radioslam {
+
+inline constexpr std::string_view kMcapMagic = "\x89MCAP0\r\n";
+
+/// Passes the messages of channels encoded as cdr or ros1 to the visitor; others are skipped with a warning.
+/// Chunks may be compressed with lz4 or zstd. Refuses (InputError, with the byte) inconsistent records,
+/// chunks that cannot be decompressed or have a wrong checksum, and messages of unknown channels. Returns the
+/// warnings.
+std::vector<std::string> visit_mcap(const std::string& name, std::string_view bytes,
+                                    const RosVisitor& visitor);
+
+}  // namespace radioslam

@@ -1,0 +1,128 @@
+#include "radioslam/io/ros/ros_import.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "radioslam/base/input_error.hpp"
+#include "radioslam/geometry/so3.hpp"
+#include "radioslam/io/ros/ros_collector.hpp"
+#include "radioslam/io/ros/ros_recording.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr double kPlaneHeight_m = 0.1, kPlaneTilt = 0.05;  ///< the latter is the sine of half the tilt
+constexpr double kMinForce_mps2 = 5;                       ///< a smaller mean specific force is not in m/s^2
+
+/// Poses relative to the first one's position and yaw.
+Trajectory<SE3> from_start(std::vector<StampedPose<SE3>> poses) {
+  if (poses.empty()) return {};
+  const SE3& first = poses.front().pose;
+  const SE3 T_start = SE3(first.translation(), so3_exp({0, 0, first.yaw()})).inverse();
+  for (auto& entry : poses) entry.pose = T_start * entry.pose;
+  return Trajectory<SE3>(std::move(poses));
+}
+
+bool is_plane(const Trajectory<SE3>& poses) {
+  return std::all_of(poses.begin(), poses.end(), [](const StampedPose<SE3>& entry) {
+    const Eigen::Quaterniond& rotation = entry.pose.rotation();
+    return std::abs(entry.pose.translation().z()) < kPlaneHeight_m &&
+           std::hypot(rotation.x(), rotation.y()) < kPlaneTilt;
+  });
+}
+
+std::vector<PositionFix> local_fixes(const std::vector<GeodeticFix>& fixes, const GeodeticPlace& origin) {
+  std::vector<PositionFix> local;
+  for (const GeodeticFix& fix : fixes) {
+    GeodeticPlace place = fix.place;
+    if (!std::isfinite(place.height_m)) place.height_m = origin.height_m;
+    local.push_back({fix.stamp, east_north_up_m(origin, place), fix.sigma_m});
+  }
+  return local;
+}
+
+/// The given origin, or the first fix, with altitude 0 if it has none.
+std::optional<GeodeticPlace> origin_of_fixes(const std::vector<GeodeticFix>& fixes,
+                                             const std::optional<GeodeticPlace>& asked_for) {
+  if (asked_for || fixes.empty()) return asked_for;
+  GeodeticPlace origin = fixes.front().place;
+  if (!std::isfinite(origin.height_m)) origin.height_m = 0;
+  return origin;
+}
+
+/// Whether the forces seem to be in units of g.
+bool is_in_g(const std::vector<ImuSample>& samples) {
+  double sum_mps2 = 0;
+  for (const ImuSample& sample : samples) sum_mps2 += sample.specific_force_mps2.norm();
+  return !samples.empty() && sum_mps2 < kMinForce_mps2 * static_cast<double>(samples.size());
+}
+
+std::string without_poses(const RosPoseTopic& topic) {
+  return topic.topic + " has no valid pose" +
+         (topic.frame.empty()
+              ? ""
+              : ": no transforms connect " + topic.frame + " with " + topic.child + " at any time");
+}
+
+RosImport mission_of(RosCollected& collected, const std::string& robot, bool has_scans) {
+  RosImport result;
+  result.scans = collected.scans.size();
+  Robot& recorded = result.imported.mission.robots.emplace_back();
+  recorded.id = robot;
+  recorded.odometry = from_start(std::move(collected.odometry));
+  recorded.inertial = std::move(collected.inertial);
+  if (collected.range_max_m > 0) recorded.lidar_range_m = collected.range_max_m;
+  const bool moves_in_plane = has_scans ? collected.is_plane_scanner : is_plane(recorded.odometry);
+  result.imported.mission.dimension = moves_in_plane ? 2 : 3;
+  if (!collected.truth.empty())
+    result.imported.truth.robots.push_back({robot, Trajectory<SE3>(std::move(collected.truth)), true});
+  return result;
+}
+
+void add_warnings(const RosCollected& collected, const RosTopicIndex& survey, const RosTopicChoice& choice,
+                  std::vector<std::string>& warnings) {
+  warnings = survey.warnings;
+  warnings.insert(warnings.end(), collected.warnings.begin(), collected.warnings.end());
+  for (const auto& [what, count] : collected.counts) {
+    const std::size_t colon = what.find(": ");
+    warnings.push_back(what.substr(0, colon + 2) + std::to_string(count) + what.substr(colon + 1));
+  }
+  std::vector<RosTopic> poses;
+  for (const RosTopic& topic : survey.topics)
+    if (is_pose_type(topic.type) && topic.type != kOdometryType) poses.push_back(topic);
+  if (!choice.truth && !poses.empty())
+    warnings.push_back("no poses are used as ground truth; --truth TOPIC selects one of " +
+                       list_of_topics(poses));
+}
+
+}  // namespace
+
+RosImport import_ros_recording(const std::filesystem::path& source, const std::string& robot,
+                               const RosTopicRequest& wishes, const RosScanSink& sink,
+                               const std::optional<GeodeticPlace>& fix_origin) {
+  const RosTopicIndex survey = index_recording(source);
+  const RosTopicChoice choice = choose_topics(source.string(), survey, wishes);
+  RosCollector collector(survey, choice, sink);
+  visit_recording(source, {[&](const RosChannel& channel) { return collector.reads(channel); },
+                           [&](const RosMessage& message) { collector.take(message); }});
+  RosCollected collected = collector.finish();
+  if (choice.odometry && collected.odometry.empty() && collected.scans.empty())
+    throw InputError(source.string(), 0, without_poses(*choice.odometry));
+  if (choice.odometry && collected.odometry.empty())
+    collected.warnings.push_back(without_poses(*choice.odometry));
+  if (choice.truth && collected.truth.empty()) collected.warnings.push_back(without_poses(*choice.truth));
+  if (is_in_g(collected.inertial))
+    collected.warnings.push_back(*choice.imu + ": specific forces are far below 9.81 m/s2; are they in g?");
+  RosImport result = mission_of(collected, robot, choice.scans.has_value());
+  result.fix_origin = origin_of_fixes(collected.fixes, fix_origin);
+  if (!collected.fixes.empty()) {
+    Robot& recorded = result.imported.mission.robots.front();
+    recorded.fixes = local_fixes(collected.fixes, *result.fix_origin);
+    recorded.fix_lever_m = collected.fix_lever_m;
+  }
+  add_warnings(collected, survey, choice, result.imported.warnings);
+  return result;
+}
+
+}  // namespace radioslam

@@ -1,0 +1,71 @@
+// Parses the ROS message types that can be imported, for ROS 1 and ROS 2 alike.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "radioslam/geometry/local_frame.hpp"
+#include "radioslam/geometry/se3.hpp"
+#include "radioslam/io/lidar/point_times.hpp"
+#include "radioslam/io/ros/ros_message.hpp"
+#include "radioslam/mission/lidar.hpp"
+
+namespace radioslam {
+
+/// A pose or a transform: T_frame_child.
+struct RosPose {
+  RosHeader header;
+  std::string child;  ///< empty if the type has none
+  /// Nothing if the numbers are not finite or not a rotation.
+  std::optional<SE3> pose;
+};
+
+struct RosScan {
+  RosHeader header;
+  LidarScan scan;          ///< in the sensor's frame
+  double range_max_m = 0;  ///< of a LaserScan; 0 if not stated
+  PointClock clock = PointClock::kScans;
+};
+
+struct RosImu {
+  RosHeader header;
+  Eigen::Vector3d specific_force_mps2;
+  Eigen::Vector3d angular_rate_radps;
+  bool is_complete = true;  ///< both quantities are measured: neither covariance begins with -1
+};
+
+/// sensor_msgs/NavSatFix.
+struct RosFix {
+  RosHeader header;
+  std::optional<GeodeticPlace> place;  ///< nothing without a fix; an unknown altitude is NaN
+  std::optional<double> sigma_m;       ///< of the worst axis; nothing if not stated
+};
+
+/// nav_msgs/Odometry, geometry_msgs/PoseStamped, PoseWithCovarianceStamped, TransformStamped.
+bool is_pose_type(std::string_view type);
+/// tf2_msgs/TFMessage, tf/tfMessage.
+bool is_transforms_type(std::string_view type);
+/// sensor_msgs/PointCloud2, sensor_msgs/LaserScan, livox_ros_driver2/CustomMsg and its forerunners.
+bool is_scan_type(std::string_view type);
+inline constexpr std::string_view kOdometryType = "nav_msgs/Odometry";
+inline constexpr std::string_view kImuType = "sensor_msgs/Imu";
+inline constexpr std::string_view kFixType = "sensor_msgs/NavSatFix";
+inline constexpr std::string_view kLaserScanType = "sensor_msgs/LaserScan";
+inline constexpr std::string_view kPointCloudType = "sensor_msgs/PointCloud2";
+
+/// Each function requires a message of the corresponding type.
+RosPose read_ros_pose(const RosMessage& message);
+std::vector<RosPose> read_ros_transforms(const RosMessage& message);
+/// All points of a PointCloud2 or Livox CustomMsg; for a LaserScan, the readings within its range limits in
+/// the plane z = 0 (a maximum range of 0 means no limit). Times are relative to time_of the message; those of
+/// a PointCloud2 are in `unit` (point_times.hpp), a LaserScan has times if its time increment is set.
+RosScan read_ros_scan(const RosMessage& message, std::optional<PointTimeUnit> unit = std::nullopt);
+/// The raw times of a PointCloud2, for determining their unit; nothing for other scans.
+std::optional<RawPointTimes> read_ros_point_times(const RosMessage& message);
+RosImu read_ros_imu(const RosMessage& message);
+RosFix read_ros_fix(const RosMessage& message);
+
+}  // namespace radioslam

@@ -1,0 +1,44 @@
+#include "radioslam/io/run/metrics_json.hpp"
+
+namespace radioslam {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json ate_json(const std::optional<ErrorStatistics>& ate) {
+  const auto value = [&](double ErrorStatistics::*member) { return ate ? Json((*ate).*member) : Json(); };
+  return {{"ate_rmse_m", value(&ErrorStatistics::rmse_m)},
+          {"ate_mean_m", value(&ErrorStatistics::mean_m)},
+          {"ate_median_m", value(&ErrorStatistics::median_m)},
+          {"ate_p90_m", value(&ErrorStatistics::p90_m)}};
+}
+
+Json rpe_json(const std::optional<RelativeError>& rpe) {
+  if (!rpe) return {};
+  return {{"translation_rmse_m", rpe->translation_rmse_m},
+          {"rotation_rmse_rad", rpe->rotation_rmse_rad},
+          {"count", rpe->count}};
+}
+
+}  // namespace
+
+Json metrics_json(const TeamMetrics& metrics) {
+  Json json = ate_json(metrics.ate);
+  json["rpe"] = rpe_json(metrics.rpe);
+  json["coverage"] = metrics.coverage;
+  json["robots"] = Json::object();
+  for (const RobotMetrics& robot : metrics.robots) {
+    Json& entry = json["robots"][robot.id] = ate_json(robot.ate);
+    entry["coverage"] = robot.coverage;
+  }
+  return json;
+}
+
+Json pair_counts_json(const PairCounts& counts) {
+  return {{"pairs", counts.pairs},
+          {"true", counts.true_pairs},
+          {"kept", counts.kept},
+          {"true_kept", counts.true_kept}};
+}
+
+}  // namespace radioslam

@@ -1,0 +1,188 @@
+#include "radioslam/io/run/run_tables.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "radioslam/base/check.hpp"
+#include "radioslam/io/text/csv.hpp"
+#include "radioslam/io/text/numbers.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr std::array<std::pair<ClosureKind, std::string_view>, 6> kKinds = {
+    {{ClosureKind::kRange, "range"},
+     {ClosureKind::kAoa, "aoa"},
+     {ClosureKind::kFingerprint, "fingerprint"},
+     {ClosureKind::kSequence, "sequence"},
+     {ClosureKind::kLidar, "lidar"},
+     {ClosureKind::kMatch, "match"}}};
+constexpr std::array<std::pair<ClosureStatus, std::string_view>, 2> kStatuses = {
+    {{ClosureStatus::kAccepted, "accepted"}, {ClosureStatus::kRejected, "rejected"}}};
+constexpr std::array<std::pair<AccessPointStatus, std::string_view>, 3> kAccessPointStatus = {
+    {{AccessPointStatus::kFound, "found"},
+     {AccessPointStatus::kAmbiguous, "ambiguous"},
+     {AccessPointStatus::kPoorlyConstrained, "loose"}}};
+
+template <class Words, class Value>
+std::string_view word_for(const Words& words, Value value) {
+  const auto found =
+      std::find_if(words.begin(), words.end(), [&](const auto& w) { return w.first == value; });
+  RADIOSLAM_CHECK(found != words.end(), "every value has a name");
+  return found->second;
+}
+
+template <class Words>
+auto value_of(const CsvReader& csv, std::size_t column, const Words& words) {
+  const std::string_view word = csv.field(column);
+  const auto found =
+      std::find_if(words.begin(), words.end(), [&](const auto& w) { return w.second == word; });
+  if (found == words.end()) csv.fail("unknown word '" + std::string(word) + "'");
+  return found->first;
+}
+
+RobotIndex robot_of(const CsvReader& csv, std::size_t column, std::span<const EstimatedTrajectory> robots) {
+  const std::string_view id = csv.field(column);
+  const auto found = std::find_if(robots.begin(), robots.end(), [&](const auto& r) { return r.id == id; });
+  if (found == robots.end()) csv.fail("unknown robot '" + std::string(id) + "'");
+  return RobotIndex(static_cast<std::size_t>(found - robots.begin()));
+}
+
+Stamp keyframe_of(const CsvReader& csv, std::size_t column, const EstimatedTrajectory& robot) {
+  const Stamp stamp = csv.stamp(column);
+  const auto found = std::lower_bound(robot.poses.begin(), robot.poses.end(), stamp,
+                                      [](const auto& row, Stamp s) { return row.stamp < s; });
+  const bool is_keyframe = found != robot.poses.end() && found->stamp == stamp;
+  if (!is_keyframe && !robot.poses.empty())
+    csv.fail("robot '" + robot.id + "' has no keyframe at " + format_stamp(stamp) + " in " + robot.id +
+             ".tum");
+  return stamp;
+}
+
+/// The first four columns of both tables.
+enum : std::size_t { kRobotI, kTimeI, kRobotJ, kTimeJ, kFirstOwn };
+const std::vector<std::string_view> kPairColumns = {"robot_i", "t_i_s", "robot_j", "t_j_s"};
+
+CsvReader::Columns pair_columns_and(std::initializer_list<std::string_view> own) {
+  CsvReader::Columns columns{kPairColumns};
+  columns.required.insert(columns.required.end(), own);
+  return columns;
+}
+
+template <class Result>
+Result read_pair(const CsvReader& csv, std::span<const EstimatedTrajectory> robots) {
+  Result result;
+  result.robot_i = robot_of(csv, kRobotI, robots);
+  result.stamp_i = keyframe_of(csv, kTimeI, robots[result.robot_i.index()]);
+  result.robot_j = robot_of(csv, kRobotJ, robots);
+  result.stamp_j = keyframe_of(csv, kTimeJ, robots[result.robot_j.index()]);
+  return result;
+}
+
+template <class Result>
+std::string format_pair(const Result& pair, std::span<const std::string> ids) {
+  return ids[pair.robot_i.index()] + "," + format_stamp(pair.stamp_i) + "," + ids[pair.robot_j.index()] +
+         "," + format_stamp(pair.stamp_j);
+}
+
+/// A reason as a single field of a row.
+std::string as_field(std::string text) {
+  for (char& c : text)
+    if (c == ',' || c == '\n' || c == '\r') c = ';';
+  return text;
+}
+
+}  // namespace
+
+std::string format_candidates(const std::vector<CandidateResult>& candidates,
+                              std::span<const std::string> ids) {
+  std::string out = "robot_i,t_i_s,robot_j,t_j_s,distance_m,mahalanobis\n";
+  for (const CandidateResult& candidate : candidates) {
+    out += format_pair(candidate, ids);
+    append_number(out += ',', candidate.distance_m);
+    append_number(out += ',', candidate.mahalanobis);
+    out += '\n';
+  }
+  return out;
+}
+
+std::string format_closures(const std::vector<ClosureResult>& closures, std::span<const std::string> ids) {
+  std::string out = "robot_i,t_i_s,robot_j,t_j_s,kind,status,statistic,reason\n";
+  for (const ClosureResult& closure : closures) {
+    out += format_pair(closure, ids);
+    (out += ',') += word_for(kKinds, closure.kind);
+    (out += ',') += word_for(kStatuses, closure.status);
+    append_number(out += ',', closure.statistic);
+    (out += ',') += as_field(closure.reason);
+    out += '\n';
+  }
+  return out;
+}
+
+std::string format_measured_aoa(const std::vector<MeasuredAoaResult>& aoa_measurements) {
+  std::string out = "t_s,receiver,transmitter,path,azimuth_rad,elevation_rad,sigma_rad,power_db\n";
+  for (const MeasuredAoaResult& arrival : aoa_measurements) {
+    int number = 0;
+    for (const AoaPath& path : arrival.paths) {
+      out += format_stamp(arrival.stamp) + "," + arrival.receiver + "," + arrival.transmitter + "," +
+             std::to_string(number++);
+      append_number(out += ',', path.azimuth_rad);
+      out += ',';
+      if (path.elevation_rad) append_number(out, *path.elevation_rad);
+      append_number(out += ',', path.sigma_rad);
+      append_number(out += ',', path.power_db);
+      out += '\n';
+    }
+  }
+  return out;
+}
+
+std::string format_access_points(const std::vector<AccessPointResult>& access_points) {
+  std::string out =
+      "bssid,x_m,y_m,sigma_x_m,sigma_y_m,cov_xy,p0_dbm,exponent,sigma_db,readings,status,sigma_p0_db,"
+      "sigma_exponent,frequency_mhz,rival_x_m,rival_y_m\n";
+  for (const AccessPointResult& point : access_points) {
+    const Eigen::Vector4d sigma = point.covariance.diagonal().cwiseMax(0).cwiseSqrt();
+    out += as_field(point.bssid);
+    for (const double number :
+         {point.position_m.x(), point.position_m.y(), sigma[0], sigma[1], point.covariance(0, 1),
+          point.power_at_1m_dbm, point.exponent, point.sigma_db})
+      append_number(out += ',', number);
+    (out += ',') += std::to_string(point.readings);
+    (out += ',') += word_for(kAccessPointStatus, point.status);
+    for (const double number : {sigma[2], sigma[3], point.frequency_mhz}) append_number(out += ',', number);
+    out += ',';
+    if (point.alternative_m) append_number(out, point.alternative_m->x());
+    out += ',';
+    if (point.alternative_m) append_number(out, point.alternative_m->y());
+    out += '\n';
+  }
+  return out;
+}
+
+std::vector<CandidateResult> read_candidates(const Text& text, std::span<const EstimatedTrajectory> robots) {
+  CsvReader csv(text, pair_columns_and({"distance_m", "mahalanobis"}));
+  std::vector<CandidateResult> candidates;
+  while (csv.next()) {
+    CandidateResult& candidate = candidates.emplace_back(read_pair<CandidateResult>(csv, robots));
+    candidate.distance_m = csv.number(kFirstOwn);
+    candidate.mahalanobis = csv.number(kFirstOwn + 1);
+  }
+  return candidates;
+}
+
+std::vector<ClosureResult> read_closures(const Text& text, std::span<const EstimatedTrajectory> robots) {
+  CsvReader csv(text, pair_columns_and({"kind", "status", "statistic", "reason"}));
+  std::vector<ClosureResult> closures;
+  while (csv.next()) {
+    ClosureResult& closure = closures.emplace_back(read_pair<ClosureResult>(csv, robots));
+    closure.kind = value_of(csv, kFirstOwn, kKinds);
+    closure.status = value_of(csv, kFirstOwn + 1, kStatuses);
+    closure.statistic = csv.number(kFirstOwn + 2);
+    closure.reason = std::string(csv.field(kFirstOwn + 3));
+  }
+  return closures;
+}
+
+}  // namespace radioslam

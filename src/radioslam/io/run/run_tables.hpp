@@ -1,0 +1,37 @@
+// Reads and writes the tables of a run folder:
+//   candidates.csv   robot_i,t_i_s,robot_j,t_j_s,distance_m,mahalanobis
+//   closures.csv     robot_i,t_i_s,robot_j,t_j_s,kind,status,statistic,reason
+//   aoa.csv          t_s,receiver,transmitter,path,azimuth_rad,elevation_rad,sigma_rad,power_db
+//   access_points.csv   bssid,x_m,y_m,sigma_x_m,sigma_y_m,cov_xy,p0_dbm,exponent,sigma_db,readings,status,
+//                       sigma_p0_db,sigma_exponent,frequency_mhz,rival_x_m,rival_y_m
+// Robots are written by id; stamps are exactly those of <id>.tum.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "radioslam/eval/metrics.hpp"
+#include "radioslam/io/text/text.hpp"
+#include "radioslam/results/results.hpp"
+
+namespace radioslam {
+
+std::string format_candidates(const std::vector<CandidateResult>& candidates,
+                              std::span<const std::string> ids);
+std::string format_closures(const std::vector<ClosureResult>& closures, std::span<const std::string> ids);
+/// Angles in the format of a mission's radio/aoa.csv: the paths that the run used, numbered from 0 per
+/// measurement.
+std::string format_measured_aoa(const std::vector<MeasuredAoaResult>& aoa_measurements);
+
+/// status: found|ambiguous|loose. Positions are in the frame of the first component, p0_dbm is the power at 1
+/// m, sigma_db the standard deviation of a reading from the path loss model. The alternative position
+/// (rival_x_m, rival_y_m) is empty if there is none.
+std::string format_access_points(const std::vector<AccessPointResult>& access_points);
+
+/// Refuse malformed rows, unknown robots, kinds and statuses, and stamps at which a robot has no keyframe
+/// (not checked for robots without poses).
+std::vector<CandidateResult> read_candidates(const Text& text, std::span<const EstimatedTrajectory> robots);
+std::vector<ClosureResult> read_closures(const Text& text, std::span<const EstimatedTrajectory> robots);
+
+}  // namespace radioslam

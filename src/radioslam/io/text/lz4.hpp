@@ -1,0 +1,17 @@
+// Decompression of LZ4 frames.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "radioslam/io/text/zstd_text.hpp"
+
+namespace radioslam {
+
+/// Decompresses one or several frames. `name` is used in error messages. Refuses (InputError) data that are
+/// not LZ4 frames, are truncated, or are larger than `limit` when decompressed.
+std::string decompress_lz4(const std::string& name, std::string_view bytes,
+                           std::size_t limit = kMaxDecompressed);
+
+}  // namespace radioslam

@@ -1,0 +1,123 @@
+#include "radioslam/io/text/text.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <optional>
+
+namespace radioslam {
+namespace {
+
+constexpr std::size_t kReadBytes = 1 << 20;
+
+bool is_control(unsigned char c) { return (c < 0x20 && c != '\t' && c != '\n' && c != '\r') || c == 0x7f; }
+
+unsigned char byte_at(std::string_view s, std::size_t i) { return static_cast<unsigned char>(s[i]); }
+
+/// Number of bytes of the UTF-8 character at `i`, 0 if it is invalid (RFC 3629, table 3-7 of the Unicode
+/// standard).
+std::size_t utf8_length(std::string_view s, std::size_t i) {
+  const unsigned char lead = byte_at(s, i);
+  if (lead < 0x80) return is_control(lead) ? 0 : 1;
+  const std::size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
+  if (lead < 0xc2 || lead > 0xf4 || i + length > s.size()) return 0;
+  for (std::size_t k = 1; k < length; ++k)
+    if ((byte_at(s, i + k) & 0xc0) != 0x80) return 0;
+  const unsigned char second = byte_at(s, i + 1);
+  const bool overlong = (lead == 0xe0 && second < 0xa0) || (lead == 0xf0 && second < 0x90);
+  const bool surrogate_or_beyond = (lead == 0xed && second > 0x9f) || (lead == 0xf4 && second > 0x8f);
+  return overlong || surrogate_or_beyond ? 0 : length;
+}
+
+/// Offset of the first invalid byte.
+std::optional<std::size_t> first_foreign_byte(std::string_view s) {
+  for (std::size_t i = 0; i < s.size();) {
+    const unsigned char c = byte_at(s, i);
+    const std::size_t length = c >= 0x20 && c < 0x7f ? 1 : utf8_length(s, i);
+    if (length == 0) return i;
+    i += length;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Text make_tool_output(std::string name, std::string content) {
+  if (content.starts_with("\xef\xbb\xbf")) content.erase(0, 3);
+  Text text{std::move(name), std::move(content)};
+  if (text.content.empty()) text.fail(1, "the file is empty");
+  return text;
+}
+
+Text make_text(std::string name, std::string content) {
+  Text text = make_tool_output(std::move(name), std::move(content));
+  if (const auto place = first_foreign_byte(text.content)) {
+    const auto end = text.content.begin() + static_cast<std::ptrdiff_t>(*place);
+    text.fail(1 + static_cast<std::size_t>(std::count(text.content.begin(), end, '\n')),
+              "not UTF-8 text (byte " + std::to_string(*place + 1) + " of the file)");
+  }
+  return text;
+}
+
+std::string read_bytes(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) throw InputError(path.string(), 0, "no such file");
+  if (std::filesystem::is_directory(status)) throw InputError(path.string(), 0, "is a folder, not a file");
+  errno = 0;
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
+  if (!file) throw InputError(path.string(), 0, std::string("cannot be opened: ") + std::strerror(errno));
+  std::string content;
+  std::size_t got = kReadBytes;
+  while (got == kReadBytes) {
+    const std::size_t size = content.size();
+    content.resize(size + kReadBytes);
+    got = std::fread(content.data() + size, 1, kReadBytes, file.get());
+    content.resize(size + got);
+  }
+  if (std::ferror(file.get()) != 0)
+    throw InputError(path.string(), 0, std::string("cannot be read: ") + std::strerror(errno));
+  return content;
+}
+
+Text read_text(const std::filesystem::path& path) { return make_text(path.string(), read_bytes(path)); }
+
+Text read_tool_output(const std::filesystem::path& path) {
+  return make_tool_output(path.string(), read_bytes(path));
+}
+
+bool TextLines::next() {
+  if (rest_.empty()) return false;
+  const std::size_t end = rest_.find('\n');
+  terminated_ = end != std::string_view::npos;
+  line_ = rest_.substr(0, end);
+  rest_.remove_prefix(terminated_ ? end + 1 : rest_.size());
+  if (line_.ends_with('\r')) line_.remove_suffix(1);
+  ++number_;
+  return true;
+}
+
+bool TextLines::next_with_content() {
+  while (next()) {
+    const std::size_t first = line_.find_first_not_of(" \t");
+    if (first != std::string_view::npos && line_[first] != '#') return true;
+  }
+  return false;
+}
+
+std::string lower_case(std::string_view s) {
+  std::string result(s);
+  for (char& c : result)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return result;
+}
+
+std::string_view trim(std::string_view s) {
+  const std::size_t first = s.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return s.substr(first, s.find_last_not_of(" \t") - first + 1);
+}
+
+}  // namespace radioslam

@@ -1,0 +1,162 @@
+#include "radioslam/io/wifi/phone_log.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "radioslam/base/units.hpp"
+#include "radioslam/io/text/line_fields.hpp"
+#include "radioslam/io/text/numbers.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr std::int64_t kMaxTime_ms = 9'000'000'000'000;  // the year 2255, which fits in nanoseconds
+constexpr std::string_view kTypePrefix = "TYPE_";
+constexpr std::string_view kStartTime = "startTime:";
+constexpr std::string_view kEndTime = "endTime:";
+constexpr std::size_t kMotionFields = 6;
+constexpr std::size_t kWaypointFields = 4;
+constexpr std::size_t kWifiFields = 7;  // more if the network's name contains tabs
+constexpr double kUnitNormRounding = 1e-3;
+constexpr double kWeakestRssi_dbm = -150;
+constexpr double kStrongestRssi_dbm = 30;
+
+using Fields = std::vector<std::string_view>;
+
+Fields split_at_tabs(std::string_view line) {
+  Fields fields;
+  for (std::size_t begin = 0; begin <= line.size();) {
+    const std::size_t end = std::min(line.find('\t', begin), line.size());
+    fields.push_back(trim(line.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  return fields;
+}
+
+Stamp milliseconds_in(const TextLines& at, std::string_view field, const std::string& what) {
+  const auto ms = parse_integer(field);
+  if (!ms || *ms < 0 || *ms > kMaxTime_ms) at.fail(what + " is not a time in whole milliseconds");
+  return {*ms * kNanosecondsPerMillisecond};
+}
+
+/// Reads one log.
+class PhoneLogReader {
+ public:
+  explicit PhoneLogReader(const Text& text) : text_(text), at_(text) {}
+
+  PhoneLog read() {
+    while (at_.next()) {
+      const std::string_view line = trim(at_.line());
+      if (line.empty()) continue;
+      if (line.front() == '#')
+        read_comment(line.substr(1));
+      else
+        read_record(split_at_tabs(line));
+    }
+    if (!first_) text_.fail(0, "the log contains no records");
+    log_.start = start_time_.value_or(*first_);
+    log_.begin = std::min(log_.start, *first_);
+    if (log_.end <= log_.begin) text_.fail(0, "all records of the log have the same time");
+    if (log_.motion.specific_force_mps2.empty()) text_.fail(0, "the log has no TYPE_ACCELEROMETER records");
+    if (log_.motion.angular_rate_radps.empty()) text_.fail(0, "the log has no TYPE_GYROSCOPE records");
+    return std::move(log_);
+  }
+
+ private:
+  void read_comment(std::string_view comment) {
+    for (const std::string_view field : split_at_tabs(comment)) {
+      if (field.starts_with(kStartTime))
+        start_time_ = milliseconds_in(at_, field.substr(kStartTime.size()), "the start time");
+      if (field.starts_with(kEndTime)) log_.complete = true;
+    }
+  }
+
+  void read_record(const Fields& fields) {
+    stamp_ = milliseconds_in(at_, fields[0], "the first field");
+    if (fields.size() < 2 || !fields[1].starts_with(kTypePrefix))
+      at_.fail("the second field is not a record type (TYPE_...)");
+    const std::string_view type = fields[1].substr(kTypePrefix.size());
+    const bool is_wifi = type == "WIFI";
+    for (std::size_t i = is_wifi ? 3 : 2; i < fields.size(); ++i)
+      if (fields[i].starts_with(kTypePrefix)) at_.fail("two lines without a line break between them");
+
+    if (type == "ACCELEROMETER")
+      log_.motion.specific_force_mps2.push_back(vector_sample(fields, last_force_));
+    if (type == "GYROSCOPE") log_.motion.angular_rate_radps.push_back(vector_sample(fields, last_rate_));
+    if (type == "ROTATION_VECTOR") log_.motion.orientation.push_back(orientation_sample(fields));
+    if (type == "WAYPOINT") log_.waypoints.push_back(waypoint(fields));
+    if (is_wifi) log_.wifi.push_back(scan_entry(fields));
+    log_.end = first_ ? std::max(log_.end, stamp_) : stamp_;
+    first_ = first_ ? std::min(*first_, stamp_) : stamp_;
+  }
+
+  void expect_fields(const Fields& fields, std::size_t count) const {
+    if (fields.size() == count) return;
+    const std::string torn = at_.terminated() ? "" : "; the file ends in this line";
+    at_.fail(std::string(fields[1]) + " has " + std::to_string(fields.size()) + " fields instead of " +
+             std::to_string(count) + torn);
+  }
+
+  Eigen::Vector3d vector_of(const Fields& fields) const {
+    expect_fields(fields, kMotionFields);
+    return {number_in(at_, fields[2], "x"), number_in(at_, fields[3], "y"), number_in(at_, fields[4], "z")};
+  }
+
+  /// Refuses a record that is earlier than the previous one of its kind.
+  void expect_forward(std::optional<Stamp>& last) const {
+    if (last && stamp_ < *last) at_.fail("time runs backwards");
+    last = stamp_;
+  }
+
+  VectorSample vector_sample(const Fields& fields, std::optional<Stamp>& last) const {
+    expect_forward(last);
+    return {stamp_, vector_of(fields)};
+  }
+
+  OrientationSample orientation_sample(const Fields& fields) {
+    expect_forward(last_orientation_);
+    const Eigen::Vector3d v = vector_of(fields);
+    const double square = v.squaredNorm();
+    if (square > 1 + kUnitNormRounding) at_.fail("the rotation vector is longer than 1");
+    const double w = std::sqrt(std::max(0.0, 1 - square));
+    return {stamp_, Eigen::Quaterniond(w, v.x(), v.y(), v.z()).normalized()};
+  }
+
+  Waypoint waypoint(const Fields& fields) const {
+    expect_fields(fields, kWaypointFields);
+    if (!log_.waypoints.empty() && stamp_ <= log_.waypoints.back().stamp) at_.fail("time runs backwards");
+    return {stamp_, {coordinate_in(at_, fields[2], "x"), coordinate_in(at_, fields[3], "y")}};
+  }
+
+  /// Reads from the last field backwards, because a network's name may contain tabs.
+  ScanEntry scan_entry(const Fields& fields) {
+    expect_forward(last_scan_);
+    if (fields.size() < kWifiFields) expect_fields(fields, kWifiFields);
+    const auto from_end = [&fields](std::size_t i) { return fields[fields.size() - i]; };
+    ScanEntry entry;
+    entry.scan = stamp_;
+    entry.last_seen = milliseconds_in(at_, from_end(1), "the last-seen time");
+    entry.frequency_mhz = static_cast<float>(number_in(at_, from_end(2), "frequency"));
+    const double rssi_dbm = number_in(at_, from_end(3), "signal strength");
+    if (rssi_dbm < kWeakestRssi_dbm || rssi_dbm > kStrongestRssi_dbm)
+      at_.fail("the signal strength is not plausible (-150 to 30 dBm)");
+    entry.rssi_dbm = static_cast<float>(rssi_dbm);
+    entry.bssid = lower_case(from_end(4));
+    if (entry.bssid.empty()) at_.fail("the access point has no BSSID");
+    return entry;
+  }
+
+  const Text& text_;
+  TextLines at_;
+  PhoneLog log_;
+  Stamp stamp_;
+  std::optional<Stamp> first_, start_time_, last_force_, last_rate_, last_orientation_, last_scan_;
+};
+
+}  // namespace
+
+PhoneLog read_phone_log(const Text& text) { return PhoneLogReader(text).read(); }
+
+}  // namespace radioslam

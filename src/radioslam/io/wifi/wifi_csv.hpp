@@ -1,0 +1,29 @@
+// Reads and writes wifi.csv: t_s,bssid,frequency_mhz,rssi_dbm, one row per received access point, in any
+// order. Rows with equal t_s form one scan. BSSIDs are converted to lower case. If one appears twice in a
+// scan, its strongest reading is kept.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "radioslam/io/text/text.hpp"
+#include "radioslam/mission/mission.hpp"
+
+namespace radioslam {
+
+/// The WiFi scans of all receivers of a team.
+struct WifiRecordings {
+  std::vector<std::string> access_points;        ///< BSSIDs of all receivers, lower case, sorted
+  std::vector<std::vector<WifiScan>> receivers;  ///< per text, in time order
+};
+
+/// Whether a signal strength is plausible: from -150 to 30 dBm.
+bool is_plausible_rssi(double rssi_dbm);
+
+/// Reads one text per receiver; a text with only a header has no scans. Refuses implausible signal strengths.
+WifiRecordings read_wifi(std::span<const Text> texts);
+
+std::string format_wifi(const std::vector<WifiScan>& scans, const std::vector<std::string>& access_points);
+
+}  // namespace radioslam

@@ -1,0 +1,111 @@
+#include "radioslam/io/wifi/wifi_scan_log.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <set>
+#include <utility>
+
+namespace radioslam {
+namespace {
+
+constexpr const char* kStale = "readings are stale (from an earlier scan) and left out";
+constexpr const char* kKeptStale =
+    "readings are stale (from an earlier scan) and kept at the time they were received";
+constexpr const char* kNoLevel = "readings have no level in dBm and are left out";
+constexpr const char* kBootTimes =
+    ": its times are seconds since boot, because neither a line, nor its name, nor the command line gives "
+    "others";
+constexpr const char* kNothing = "scans are empty";
+
+bool lists_a_radio_twice(const ScanList& scan) {
+  std::set<std::pair<std::string, double>> seen;
+  return std::any_of(scan.readings.begin(), scan.readings.end(), [&](const ScanListReading& reading) {
+    return !seen.emplace(reading.bssid, reading.frequency_mhz).second;
+  });
+}
+
+/// Converts lists, in the order of time, to rows.
+class RowMaker {
+ public:
+  explicit RowMaker(const ScanListParams& params) : params_(params) {}
+
+  void add(const ScanList& scan) {
+    for (const ScanListReading& reading : scan.readings) add(scan, reading);
+    previous_ = scan.stamp;
+  }
+  WifiLog take() { return std::move(log_); }
+
+ private:
+  void add(const ScanList& scan, const ScanListReading& reading) {
+    if (!reading.rssi_dbm) {
+      ++log_.counts[kNoLevel];
+      return;
+    }
+    const bool is_stale =
+        previous_ && *previous_ < *scan.stamp && reading.age_s > seconds_between(*previous_, *scan.stamp);
+    if (is_stale) ++log_.counts[params_.keep_stale ? kKeptStale : kStale];
+    if (is_stale && !params_.keep_stale) return;
+    const double offset_s = params_.clock_offset_s - (is_stale ? reading.age_s : 0);
+    log_.rows.push_back({on_clock_ahead_by(offset_s, *scan.stamp), reading.bssid,
+                         static_cast<float>(reading.frequency_mhz), static_cast<float>(*reading.rssi_dbm)});
+  }
+
+  ScanListParams params_;
+  std::optional<Stamp> previous_;
+  WifiLog log_;
+};
+
+/// Shifts all lists with boot times by the same offset.
+void move_to(ScanListLog& log, const GivenTime& time) {
+  const ScanList& at = time.of == GivenTime::Of::kFirst ? log.scans.front() : log.scans.back();
+  const std::int64_t ahead_ns = time.stamp.ns - at.stamp->ns;
+  for (ScanList& scan : log.scans) {
+    scan.stamp = Stamp{scan.stamp->ns + ahead_ns};
+    scan.clock = ScanListClock::kExplicit;
+  }
+}
+
+}  // namespace
+
+std::optional<ScanListClock> clock_of(const ScanListLog& log) {
+  return log.scans.empty() ? std::nullopt : std::optional(log.scans.front().clock);
+}
+
+void time_scans(const Text& text, ScanListLog& log, const std::optional<GivenTime>& time) {
+  const std::size_t empty =
+      std::erase_if(log.scans, [](const ScanList& scan) { return scan.readings.empty(); });
+  if (empty > 0) log.counts[kNothing] += empty;
+  if (clock_of(log) == ScanListClock::kBoot) {
+    if (time)
+      move_to(log, *time);
+    else
+      log.warnings.push_back(text.name + kBootTimes);
+  }
+  for (ScanList& scan : log.scans) {
+    if (scan.stamp) continue;
+    if (log.scans.size() > 1)
+      text.fail(scan.line, "this scan has no time; a line with the Unix time is needed before each scan");
+    scan.stamp = time ? time->stamp : Stamp{0};
+    if (lists_a_radio_twice(scan))
+      log.warnings.push_back(text.name + ": lists a radio twice; if these are several scans, put a line " +
+                             "with the Unix time before each");
+  }
+}
+
+WifiLog rows_of_scans(std::vector<ScanListLog> logs, const ScanListParams& params) {
+  std::vector<ScanList> scans;
+  std::vector<WifiLog> parts(1);
+  for (ScanListLog& log : logs) {
+    std::move(log.scans.begin(), log.scans.end(), std::back_inserter(scans));
+    parts.push_back({{}, std::move(log.counts), std::move(log.warnings)});
+  }
+  std::stable_sort(scans.begin(), scans.end(),
+                   [](const ScanList& a, const ScanList& b) { return *a.stamp < *b.stamp; });
+  RowMaker maker(params);
+  for (const ScanList& scan : scans) maker.add(scan);
+  parts.front() = maker.take();
+  return join_wifi_logs(std::move(parts));
+}
+
+}  // namespace radioslam

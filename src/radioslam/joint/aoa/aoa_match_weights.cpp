@@ -1,0 +1,78 @@
+#include "radioslam/joint/aoa/aoa_match_weights.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "radioslam/base/statistics.hpp"
+#include "radioslam/joint/aoa/aoa_predictions.hpp"
+#include "radioslam/mission/odometry_between.hpp"
+
+namespace radioslam {
+namespace {
+
+std::pair<RobotIndex, RobotIndex> ordered(RobotIndex a, RobotIndex b) { return std::minmax(a, b); }
+
+template <class Pose>
+UncertainPose<Pose> uncertain(const PoseMatch& match) {
+  typename Pose::Tangent variance = Pose::Tangent::Constant(match.sigma_t_m * match.sigma_t_m);
+  variance.template tail<Pose::kDof - Pose::kDim>().setConstant(match.sigma_r_rad * match.sigma_r_rad);
+  return {pose_as<Pose>(match.T_i_j), variance.asDiagonal()};
+}
+
+}  // namespace
+
+AoaMatchWeights::AoaMatchWeights(const Mission& mission, const MatchParams& params,
+                                 const AoaLikelihoodParams& likelihood)
+    : mission_(mission), params_(params), likelihood_(likelihood) {
+  for (const Robot& robot : mission.robots) travelled_m_.push_back(travelled_distance(robot.odometry));
+  for (std::size_t a = 0; a < mission.aoa_measurements.size(); ++a) {
+    const AoaMeasurement& arrival = mission.aoa_measurements[a];
+    if (is_between_robots(arrival, mission))
+      aoa_measurements_[ordered(arrival.receiver, arrival.transmitter.robot)].push_back(a);
+  }
+}
+
+std::vector<std::size_t> AoaMatchWeights::nearest(const PoseMatch& match) const {
+  const auto between = aoa_measurements_.find(ordered(match.robot_i, match.robot_j));
+  if (between == aoa_measurements_.end()) return {};
+  const auto travelled_m = [&](RobotIndex robot, Stamp stamp) {
+    return travelled_distance_at(mission_.robots[robot.index()].odometry, travelled_m_[robot.index()], stamp);
+  };
+  const double at_i = travelled_m(match.robot_i, match.stamp_i),
+               at_j = travelled_m(match.robot_j, match.stamp_j);
+  std::vector<std::pair<double, std::size_t>> by_distance;
+  for (const std::size_t a : between->second) {
+    const Stamp stamp = mission_.aoa_measurements[a].stamp;
+    const double path_m = std::abs(travelled_m(match.robot_i, stamp) - at_i) +
+                          std::abs(travelled_m(match.robot_j, stamp) - at_j);
+    if (path_m <= params_.max_carried_m) by_distance.emplace_back(path_m, a);
+  }
+  std::sort(by_distance.begin(), by_distance.end());
+  std::vector<std::size_t> aoa_measurements;
+  for (const auto& [path_m, a] : by_distance)
+    if (aoa_measurements.size() < static_cast<std::size_t>(params_.angles)) aoa_measurements.push_back(a);
+  return aoa_measurements;
+}
+
+template <class Pose>
+std::optional<double> AoaMatchWeights::information_scale(const PoseMatch& match) const {
+  const Robot& robot_i = mission_.robots[match.robot_i.index()];
+  const Robot& robot_j = mission_.robots[match.robot_j.index()];
+  std::vector<double> scales;
+  for (const std::size_t a : nearest(match)) {
+    const AoaMeasurement& arrival = mission_.aoa_measurements[a];
+    const UncertainPose<Pose> T_i_j = odometry_between<Pose>(robot_i, arrival.stamp, match.stamp_i) *
+                                      uncertain<Pose>(match) *
+                                      odometry_between<Pose>(robot_j, match.stamp_j, arrival.stamp);
+    const bool i_receives = arrival.receiver == match.robot_i;
+    scales.push_back(check_angles(i_receives ? T_i_j : T_i_j.inverse(), arrival, mission_, likelihood_)
+                         .information_scale());
+  }
+  if (scales.empty()) return std::nullopt;
+  return lower_median(std::move(scales));
+}
+
+template std::optional<double> AoaMatchWeights::information_scale<SE2>(const PoseMatch&) const;
+template std::optional<double> AoaMatchWeights::information_scale<SE3>(const PoseMatch&) const;
+
+}  // namespace radioslam

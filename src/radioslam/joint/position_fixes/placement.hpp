@@ -1,0 +1,110 @@
+// Position fixes (GNSS or other) in the joint graph: they place robots of unknown start and constrain the
+// rest.
+//
+// Every fix is attached to a pose of its own, at its stamp on the interpolated odometry:
+//   r = p + R l - fix,   covariance n sigma^2 per axis,
+// l being the antenna's lever arm and n the number of fixes within correlation_s, whose errors count as one.
+// Fixes are given in the common frame, like known starts and anchors.
+//
+// A robot of unknown start is first aligned with its fixes as a rigid body (team_frame/fix_alignment.hpp);
+// its trajectory is then fitted to the inliers (inlier_growth.hpp), which rejects gross errors. The fixes
+// place it if enough of them agree and their baseline determines a heading. Fixes of other robots are used
+// once something else has put these into the common frame. If a robot of known start disagrees with its
+// fixes, their frame is a foreign one, and none of the team's fixes are used.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "radioslam/base/fields.hpp"
+#include "radioslam/base/progress.hpp"
+#include "radioslam/graph/optimizer.hpp"
+#include "radioslam/joint/joint_graph.hpp"
+#include "radioslam/joint/team_placement.hpp"
+#include "radioslam/team_frame/fix_alignment.hpp"
+
+namespace radioslam {
+
+struct FixParams {
+  double correlation_s = 1;
+  double gate_probability = 0.99;
+  int min_fixes = 5;
+  double min_inlier_ratio = 0.5;
+  double max_sigma_yaw_rad = 0.1;
+  FixAlignmentParams alignment;
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit(Field{"correlation_s", "s", 0, 1e4,
+                "time within which the errors of fixes count as one; higher values reduce their weight"},
+          self.correlation_s);
+    visit(Field{"gate_probability", "", 0.5, 0.999999,
+                "chi-squared quantile beyond which a fix is rejected; higher values keep more fixes but "
+                "admit false ones"}
+              .basic(),
+          self.gate_probability);
+    visit(Field{"min_fixes", "", 3, 1e6, "smallest number of consistent fixes that place a robot"}.basic(),
+          self.min_fixes);
+    visit(Field{"min_inlier_ratio", "", 0, 1, "smallest inlier ratio of a robot's fixes for them to be used"},
+          self.min_inlier_ratio);
+    visit(Field{"max_sigma_yaw_rad", "rad", 0.001, 3,
+                "largest standard deviation of the heading that fixes must determine to place a robot"},
+          self.max_sigma_yaw_rad);
+    FixAlignmentParams::visit_fields(self.alignment, visit);
+  }
+};
+
+/// How a robot's fixes are used.
+enum class FixUse {
+  kNone,             ///< no fixes within its odometry
+  kPlacesRobot,      ///< they put it into the common frame
+  kConstrainsRobot,  ///< used; the robot is in the common frame by other means
+  kTooFew,           ///< too few to place it, and nothing else puts it into the common frame
+  kNoBaseline,       ///< enough, but with too short a baseline for its heading; nothing else places it either
+  kInconsistent,     ///< too few of them agree with each other and the odometry
+  kForeignFrame,     ///< fixes of a robot of known start contradict that start
+};
+
+constexpr bool takes_part(FixUse role) {
+  return role == FixUse::kPlacesRobot || role == FixUse::kConstrainsRobot;
+}
+
+/// The fixes of one robot.
+template <class Pose>
+struct RobotFixes {
+  FixUse role = FixUse::kNone;
+  std::vector<PositionFactor<Pose>> factors;  ///< on poses at the fixes' stamps
+  std::size_t first_factor = 0;               ///< in graph.positions, for kPlacesRobot and kConstrainsRobot
+  std::size_t outside = 0;                    ///< fixes at times without odometry
+  std::optional<SE3> T_common_start = {};     ///< start of the odometry frame, if they place the robot
+};
+
+template <class Pose>
+using TeamFixes = std::vector<RobotFixes<Pose>>;
+
+bool has_fixes(const Mission& mission);
+
+/// Adds the stamps of its fixes to every robot's node stamps.
+void add_fix_stamps(const Mission& mission, std::vector<std::vector<Stamp>>& node_stamps);
+
+/// Moves robots that their fixes can place into the common frame, and adds their fixes and those of robots of
+/// known start to the graph.
+template <class Pose>
+TeamFixes<Pose> place_by_fixes(JointGraph<Pose>& joint, const Mission& mission, const FixParams& params,
+                               const OptimizerParams& optimizer);
+
+/// The mission's known starts, and those that the fixes determined.
+template <class Pose>
+KnownStarts starts_with_fixes(const Mission& mission, const TeamFixes<Pose>& fixes);
+
+/// Adds fixes of robots that other measurements have put into the common frame.
+template <class Pose>
+void constrain_by_fixes(JointGraph<Pose>& joint, TeamFixes<Pose>& fixes,
+                        const TeamPlacement<Pose>& placement);
+
+/// Reclassifies all fixes in the optimised graph, and optimises again until their classes no longer change.
+template <class Pose>
+void update_fix_inliers(JointGraph<Pose>& joint, const TeamFixes<Pose>& fixes,
+                        const OptimizerParams& optimizer, const Progress& progress);
+
+}  // namespace radioslam

@@ -1,0 +1,179 @@
+#include "radioslam/joint/range_biases.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "radioslam/graph/marginals.hpp"
+#include "radioslam/graph/residuals.hpp"
+#include "radioslam/joint/bias_distribution.hpp"
+#include "radioslam/team_frame/observed_information.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr double kProbablyDirect = 0.5;
+constexpr double kConvergedWeightChange =
+    0.01;  // largest change of a weight at which the rounds have converged
+
+template <class Pose>
+class BiasEstimation {
+ public:
+  BiasEstimation(JointGraph<Pose>& joint, const RangeBiasPriorParams& params, const MixtureParams& mixture,
+                 const OptimizerParams& optimizer, const Progress& progress)
+      : joint_(joint),
+        graph_(joint.team.graph),
+        params_(params),
+        mixture_(mixture),
+        optimizer_(optimizer),
+        progress_(progress),
+        radio_ranges_(count_factors(joint.origins.ranges, FactorSource::kRange)) {
+    for (std::size_t k = 0; k < radio_ranges_; ++k) span_m_ = std::max(span_m_, graph_.ranges[k].range_m);
+  }
+
+  std::vector<RangeBiasResult> run() {
+    const PoseGraph<Pose> before = graph_;
+    add_biases();
+    if (graph_.range_biases.empty()) return {};
+    optimise_in_turn();
+    if (const auto population = this->population()) {
+      set_hyperprior(*population);
+      optimise_in_turn();
+      return described();
+    }
+    graph_ = before;
+    return {};
+  }
+
+ private:
+  std::size_t pair_of(std::size_t range) const { return joint_.origins.ranges[range].antenna_pair; }
+
+  void add_biases() {
+    std::vector<std::vector<double>> residuals_m(joint_.antenna_pairs.size());
+    for (std::size_t k = 0; k < radio_ranges_; ++k)
+      residuals_m[pair_of(k)].push_back(-residual(graph_, graph_.ranges[k])[0]);
+    bias_of_pair_.assign(residuals_m.size(), BiasId());
+    for (std::size_t pair = 0; pair < residuals_m.size(); ++pair) {
+      if (residuals_m[pair].size() < static_cast<std::size_t>(params_.min_ranges)) continue;
+      bias_of_pair_[pair] = BiasId(graph_.range_biases.size());
+      graph_.range_bias_priors.push_back({bias_of_pair_[pair], {}, 0, params_.prior_sigma_m});
+      graph_.range_biases.push_back(middle_of_shortest_half(std::move(residuals_m[pair])));
+    }
+    for (std::size_t k = 0; k < radio_ranges_; ++k) graph_.ranges[k].bias = bias_of_pair_[pair_of(k)];
+  }
+
+  /// Updates the weights of ranges with a bias; returns the largest change.
+  double update_weights() {
+    double change = 0;
+    for (std::size_t k = 0; k < radio_ranges_; ++k) {
+      RangeFactor<Pose>& range = graph_.ranges[k];
+      if (!range.bias.valid()) continue;
+      const double weight = range_posterior(residual(graph_, range)[0], range.sigma_m, span_m_, mixture_);
+      change = std::max(change, std::abs(weight - range.weight));
+      range.weight = weight;
+    }
+    return change;
+  }
+
+  void optimise_in_turn() {
+    for (int round = 0; round < params_.max_rounds; ++round) {
+      const bool converged = update_weights() < kConvergedWeightChange;
+      optimize(graph_, optimizer_, progress_);
+      if (converged) return;
+    }
+  }
+
+  /// Factor on the covariance for errors larger than stated or correlated: the residuals' normalised mean
+  /// square, at least 1, times the correlation time within each pair's sequence.
+  double overdispersion() const {
+    std::vector<std::vector<double>> errors(joint_.antenna_pairs.size());
+    double sum = 0, weights = 0;
+    for (std::size_t k = 0; k < radio_ranges_; ++k) {
+      const RangeFactor<Pose>& range = graph_.ranges[k];
+      sum += range.weight * squared_norm(graph_, range);
+      weights += range.weight;
+      if (range.weight > kProbablyDirect)
+        errors[pair_of(k)].push_back(residual(graph_, range)[0] / range.sigma_m);
+    }
+    return std::max(1.0, sum / std::max(weights, 1.0)) * correlation_time(errors);
+  }
+
+  /// Joint covariance of all biases; nothing if singular.
+  std::optional<Eigen::MatrixXd> covariance() const {
+    PoseGraph<Pose> graph_for_covariances = graph_;
+    use_observed_information(graph_for_covariances, radio_ranges_, mixture_.sigma_antenna_position_m);
+    const auto marginals = Marginals<Pose>::compute(graph_for_covariances);
+    if (!marginals) return std::nullopt;
+    const auto n = static_cast<Eigen::Index>(graph_.range_biases.size());
+    Eigen::MatrixXd result(n, n);
+    for (Eigen::Index a = 0; a < n; ++a) {
+      const BiasId bias_a(static_cast<std::size_t>(a));
+      result(a, a) = marginals->range_bias_m2(bias_a);
+      for (Eigen::Index b = 0; b < a; ++b)
+        result(a, b) = result(b, a) =
+            marginals->joint(variable(bias_a), variable(BiasId(static_cast<std::size_t>(b))))(0, 1);
+    }
+    return Eigen::MatrixXd(overdispersion() * result);
+  }
+
+  /// Distribution of the biases; nothing if they are not significant or not observable.
+  std::optional<BiasDistribution> population() const {
+    const auto cov = covariance();
+    if (!cov) return std::nullopt;
+    return bias_distribution(graph_.range_biases, *cov, params_.false_alarm_probability,
+                             params_.min_spread_m);
+  }
+
+  void set_hyperprior(const BiasDistribution& population) {
+    const BiasId mean(graph_.range_biases.size());
+    for (auto& prior : graph_.range_bias_priors) prior.of = mean, prior.sigma_m = population.sigma_m;
+    graph_.range_bias_priors.push_back({mean, {}, 0, params_.prior_sigma_m});
+    graph_.range_biases.push_back(population.mean_m);
+  }
+
+  std::vector<RangeBiasResult> described() const {
+    const auto cov = covariance();
+    std::vector<RangeBiasResult> results;
+    for (std::size_t pair = 0; cov && pair < bias_of_pair_.size(); ++pair) {
+      if (!bias_of_pair_[pair].valid()) continue;
+      const std::size_t bias = bias_of_pair_[pair].index();
+      const auto [end_i, end_j] = joint_.antenna_pairs[pair];
+      std::size_t ranges = 0;
+      for (std::size_t k = 0; k < radio_ranges_; ++k) ranges += pair_of(k) == pair ? 1U : 0U;
+      const auto row = static_cast<Eigen::Index>(bias);
+      results.push_back({end_i, end_j, graph_.range_biases[bias], std::sqrt((*cov)(row, row)), ranges});
+    }
+    return results;
+  }
+
+  JointGraph<Pose>& joint_;
+  PoseGraph<Pose>& graph_;
+  const RangeBiasPriorParams& params_;
+  const MixtureParams& mixture_;
+  const OptimizerParams& optimizer_;
+  const Progress& progress_;
+  std::size_t radio_ranges_;  ///< they come before the ranges of fingerprints
+  double span_m_ = 1;
+  std::vector<BiasId> bias_of_pair_;
+};
+
+}  // namespace
+
+template <class Pose>
+std::vector<RangeBiasResult> estimate_range_biases(JointGraph<Pose>& joint,
+                                                   const RangeBiasPriorParams& params,
+                                                   const MixtureParams& mixture,
+                                                   const OptimizerParams& optimizer,
+                                                   const Progress& progress) {
+  if (params.prior_sigma_m <= 0) return {};
+  return BiasEstimation<Pose>(joint, params, mixture, optimizer, progress).run();
+}
+
+template std::vector<RangeBiasResult> estimate_range_biases(JointGraph<SE2>&, const RangeBiasPriorParams&,
+                                                            const MixtureParams&, const OptimizerParams&,
+                                                            const Progress&);
+template std::vector<RangeBiasResult> estimate_range_biases(JointGraph<SE3>&, const RangeBiasPriorParams&,
+                                                            const MixtureParams&, const OptimizerParams&,
+                                                            const Progress&);
+
+}  // namespace radioslam

@@ -1,0 +1,61 @@
+// Range biases: constant range errors, one per pair of antennas, estimated with the trajectories and kept
+// only if significant. Uncalibrated UWB and WiFi ranges are typically several decimetres too long.
+//
+// Each pair with enough ranges starts from the centre of the shortest interval that contains half of its
+// residuals, which is robust to late paths. Biases and trajectories are then optimised in turn with the
+// ranges' weights, their posterior probabilities of being direct. Biases are kept all or none, since single
+// ones trade off against each other through the trajectories: they are kept if b^T C^-1 b exceeds the
+// chi-squared quantile for their number. C is their joint covariance, inflated by the ranges' overdispersion
+// and correlation time; else hundreds of ranges with one reflection would make any small error significant.
+// Kept biases get a common prior: its spread is estimated from b and C (empirical Bayes; Morris 1983), its
+// mean is a variable, and everything is optimised again, so that pairs whose own bias is unobservable take
+// the value of the others. Metres; measured = distance + bias.
+#pragma once
+
+#include "radioslam/base/fields.hpp"
+#include "radioslam/base/progress.hpp"
+#include "radioslam/graph/optimizer.hpp"
+#include "radioslam/joint/joint_graph.hpp"
+#include "radioslam/team_frame/measurement_mixture.hpp"
+
+namespace radioslam {
+
+struct RangeBiasPriorParams {
+  double prior_sigma_m = 0.5;
+  double false_alarm_probability = 6e-7;
+  double min_spread_m = 0.05;
+  int min_ranges = 10;
+  int max_rounds = 5;
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit(Field{"prior_sigma_m", "m", 0, 100,
+                "prior standard deviation of the constant range error per antenna pair; 0: no biases are "
+                "estimated"}
+              .basic(),
+          self.prior_sigma_m);
+    visit(Field{"false_alarm_probability", "", 1e-9, 0.5,
+                "probability of correcting biases that do not exist (default: five sigma); higher values "
+                "correct smaller ones"},
+          self.false_alarm_probability);
+    visit(Field{"min_spread_m", "m", 1e-4, 100,
+                "lower bound on the estimated spread of biases between antenna pairs"},
+          self.min_spread_m);
+    visit(Field{"min_ranges", "", 2, 1e6, "smallest number of ranges of a pair whose bias is estimated"},
+          self.min_ranges);
+    visit(
+        Field{"max_rounds", "", 1, 100, "largest number of rounds of optimising biases and weights in turn"},
+        self.max_rounds);
+  }
+};
+
+/// Adds significant biases to the graph's ranges and moves its values to the new optimum; without any, the
+/// graph is unchanged. Ranges of closures have no bias. Returns the biases kept, in the order of the pairs.
+template <class Pose>
+std::vector<RangeBiasResult> estimate_range_biases(JointGraph<Pose>& joint,
+                                                   const RangeBiasPriorParams& params,
+                                                   const MixtureParams& mixture,
+                                                   const OptimizerParams& optimizer,
+                                                   const Progress& progress = {});
+
+}  // namespace radioslam

@@ -1,0 +1,27 @@
+radioslam_room(joint
+  SOURCES
+    access_point_stage.cpp
+    aoa/aoa_integrity.cpp
+    aoa/aoa_match_weights.cpp
+    aoa/aoa_predictions.cpp
+    aoa/mutual_bearing_constraints.cpp
+    bias_distribution.cpp
+    covariance_graph.cpp
+    dense_trajectory.cpp
+    factor_origin.cpp
+    field_stage.cpp
+    graduated_optimisation.cpp
+    joint_graph.cpp
+    joint_graph_from_file.cpp
+    match_selection.cpp
+    overlap_stage.cpp
+    position_fixes/fix_results.cpp
+    position_fixes/inlier_growth.cpp
+    position_fixes/placement.cpp
+    radio_factors.cpp
+    range_biases.cpp
+    robot_nodes.cpp
+    scan_closures.cpp
+    sequence_stage.cpp
+    team_placement.cpp
+  ROOMS odometry closure team_frame graph radio results consistency)

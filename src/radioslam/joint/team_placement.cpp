@@ -1,0 +1,146 @@
+#include "radioslam/joint/team_placement.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "radioslam/team_frame/gravity_priors.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr double kMinWeight = 0.05;  // min. weight of a path or range in the final solution
+constexpr double kMaxSigmaByPositions_rad =
+    0.5;  // direction error from antenna positions above which an angle is unused
+constexpr double kMinAlternative = 0.001;  // min. weight of a reported hypothesis
+constexpr std::size_t kMaxAlternatives = 3;
+
+template <class Pose>
+void adopt(JointGraph<Pose>& joint, const TeamHypothesis<Pose>& hypothesis) {
+  auto& graph = joint.team.graph;
+  graph.poses = hypothesis.poses;
+  graph.points = hypothesis.points;
+  graph.drifts = hypothesis.drifts;
+  rotate_gravity_priors(graph);
+  for (std::size_t k = 0; k < hypothesis.range_weight.size(); ++k)
+    graph.ranges[k].weight = hypothesis.range_weight[k] < kMinWeight ? 0 : hypothesis.range_weight[k];
+  for (std::size_t k = 0; k < joint.team.bearings.size(); ++k) {
+    const auto& bearing = joint.team.bearings[k];
+    BearingWeight& bearing_weight = joint.bearing_weights.emplace_back();
+    for (std::size_t p = 0; p < bearing.paths.size(); ++p) {
+      const double weight = hypothesis.path_weight[k][p];
+      const double by_positions2 =
+          std::pow(hypothesis.path_sigma_rad[k][p], 2) - std::pow(bearing.paths[p].sigma_rad, 2);
+      if (by_positions2 > kMaxSigmaByPositions_rad * kMaxSigmaByPositions_rad) bearing_weight.too_near = true;
+      if (weight < kMinWeight || bearing_weight.too_near) continue;
+      bearing_weight.weight += weight;
+      graph.bearings.push_back(
+          {bearing.i, bearing.j, bearing.paths[p].direction, hypothesis.path_sigma_rad[k][p], {}, weight});
+    }
+  }
+}
+
+/// A robot belongs to the component of its longest segment.
+template <class Pose>
+std::vector<int> robot_components(const JointGraph<Pose>& joint, const TeamComponents& components) {
+  std::vector<int> result(joint.robots.size(), -1);
+  std::vector<std::size_t> longest(joint.robots.size(), 0);
+  for (std::size_t p = 0; p < joint.team.segments.size(); ++p) {
+    const std::size_t r = joint.robot_of_segment[p];
+    if (joint.team.segments[p].pose_count <= longest[r]) continue;
+    longest[r] = joint.team.segments[p].pose_count;
+    result[r] = components.of_segment[p];
+  }
+  return result;
+}
+
+/// Renumbers components without gaps, in the order of the robots; returns the new number of each old one.
+std::vector<int> renumber(std::vector<int>& components) {
+  std::vector<int> number;
+  int next = 0;
+  for (int& c : components) {
+    if (static_cast<std::size_t>(c) >= number.size()) number.resize(static_cast<std::size_t>(c) + 1, -1);
+    int& n = number[static_cast<std::size_t>(c)];
+    if (n < 0) n = next++;
+    c = n;
+  }
+  return number;
+}
+
+/// A robot is unplaced if it is alone in a component other than the first robot's and not in the common
+/// frame.
+std::vector<bool> placed_robots(const std::vector<int>& component, const std::vector<bool>& absolute) {
+  std::vector<bool> placed;
+  for (const int c : component)
+    placed.push_back(c == 0 || absolute[static_cast<std::size_t>(c)] ||
+                     std::count(component.begin(), component.end(), c) > 1);
+  return placed;
+}
+
+template <class Pose>
+std::vector<bool> absolute_components(const JointGraph<Pose>& joint, const std::vector<int>& component) {
+  std::vector<bool> absolute(component.size(), false);
+  for (std::size_t r = 0; r < component.size(); ++r)
+    if (joint.robots[r].T_common_start || joint.robots[r].placed_by_fixes)
+      absolute[static_cast<std::size_t>(component[r])] = true;
+  return absolute;
+}
+
+}  // namespace
+
+template <class Pose>
+bool has_radio_links(const JointGraph<Pose>& joint) {
+  return !joint.team.graph.ranges.empty() || !joint.team.bearings.empty() ||
+         !joint.team.graph.relative_points.empty();
+}
+
+template <class Pose>
+TeamPlacement<Pose> place_by_radio(JointGraph<Pose>& joint, const RadioAlignmentParams& params,
+                                   const Progress& progress) {
+  const RadioAlignment<Pose> alignment = align_by_radio(joint.team, params, progress);
+  TeamPlacement<Pose> placement;
+  placement.component = robot_components(joint, alignment.components);
+  const std::vector<int> number = renumber(placement.component);
+  placement.absolute = absolute_components(joint, placement.component);
+  for (const auto& position : joint.team.graph.positions) {
+    if (position.i.pose.valid()) continue;
+    const int c = alignment.components.of_point[position.i.point.index()];
+    const bool has_robot =
+        c >= 0 && static_cast<std::size_t>(c) < number.size() && number[static_cast<std::size_t>(c)] >= 0;
+    if (has_robot) placement.absolute[static_cast<std::size_t>(number[static_cast<std::size_t>(c)])] = true;
+  }
+  placement.placed = placed_robots(placement.component, placement.absolute);
+  adopt(joint, alignment.hypotheses.front());
+  placement.weight = alignment.hypotheses.front().weight;
+  for (std::size_t k = 1; k < std::min(alignment.hypotheses.size(), kMaxAlternatives + 1); ++k) {
+    if (alignment.hypotheses[k].weight < kMinAlternative) break;
+    placement.alternatives.push_back(alignment.hypotheses[k].poses);
+    placement.alternative_weights.push_back(alignment.hypotheses[k].weight);
+  }
+  return placement;
+}
+
+template <class Pose>
+TeamPlacement<Pose> place_by_fingerprints(JointGraph<Pose>& joint, const Mission& mission,
+                                          const KnownStarts& starts, const RadioMeasurements& radio,
+                                          const LayoutParams& params, const Progress& progress) {
+  const TeamFrame frame = align_by_fingerprints(mission, starts, radio, params, progress);
+  place_robots(joint, frame.T_team_start);
+  TeamPlacement<Pose> placement;
+  placement.component = frame.component;
+  placement.placed = frame.placed;
+  placement.absolute = absolute_components(joint, frame.component);
+  return placement;
+}
+
+#define RADIOSLAM_PLACEMENT(Pose)                                                                           \
+  template bool has_radio_links(const JointGraph<Pose>&);                                                   \
+  template TeamPlacement<Pose> place_by_radio(JointGraph<Pose>&, const RadioAlignmentParams&,               \
+                                              const Progress&);                                             \
+  template TeamPlacement<Pose> place_by_fingerprints(JointGraph<Pose>&, const Mission&, const KnownStarts&, \
+                                                     const RadioMeasurements&, const LayoutParams&,         \
+                                                     const Progress&);
+RADIOSLAM_PLACEMENT(SE2)
+RADIOSLAM_PLACEMENT(SE3)
+#undef RADIOSLAM_PLACEMENT
+
+}  // namespace radioslam

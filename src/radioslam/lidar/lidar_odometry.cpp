@@ -1,0 +1,184 @@
+#include "radioslam/lidar/lidar_odometry.hpp"
+
+#include <algorithm>
+#include <numbers>
+#include <utility>
+
+#include "radioslam/geometry/linear_algebra.hpp"
+#include "radioslam/geometry/uncertain_pose.hpp"
+#include "radioslam/lidar/pose_search.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr std::size_t kMinPoints = 20;
+
+/// Information about the pose of a map's only scan.
+SE3::Jacobian tight_information() {
+  constexpr double kExact_m = 1e-4, kExact_rad = 1e-5;
+  return isotropic(1 / (kExact_m * kExact_m), 1 / (kExact_rad * kExact_rad));
+}
+
+void describe(const Registration& fit, ScanPose& result) {
+  result.inlier_ratio = fit.inlier_ratio;
+  result.normalised_rms = fit.normalised_rms;
+  result.iterations = fit.iterations;
+}
+
+}  // namespace
+
+LidarOdometry::LidarOdometry(const ScannerTraits& traits, const LidarParams& params)
+    : matcher_(traits, params),
+      map_(matcher_.empty_map()),
+      error_(params.odometry),
+      structure_(traits.kind, params.order, params.odometry.max_lost_scans),
+      gaps_(params.odometry) {}
+
+ScanPose LidarOdometry::register_scan(Stamp stamp, const LidarScan& scan,
+                                      const std::optional<SE3>& T_previous_body, MotionSource given_by) {
+  const MotionSource source = T_previous_body ? given_by : MotionSource::kConstantVelocity;
+  const Prediction predicted = predict(stamp, T_previous_body);
+  const ScanPoints points = filter_and_deskew(scan, predicted.twist_per_s, matcher_.params().points);
+  ScanPose result{.stamp = stamp, .T_start_body = predicted.T_map_body, .counts = points.counts};
+  if (points.points.size() < kMinPoints) return result;
+
+  const bool is_after_gap = gaps_.is_after_gap(stamp) && last_ && !T_previous_body;
+  if (is_after_gap) result.T_start_body = last_->T_map_body;
+  DeskewedScan deskewed = matcher_.measure(stamp, points, predicted.twist_per_s, source);
+  result.cloud = matcher_.pyramid_of(deskewed);
+  result.status = ScanStatus::kLost;
+  if (!last_) {
+    if (structure_.admits(result.cloud.all)) start_map(deskewed, result);
+    return result;
+  }
+
+  const PosePrior prior = error_.prior_at(result.T_start_body);
+  Registration fit = register_at_prediction(result.cloud, prior);
+  const bool fits = fit.inlier_ratio >= error_.relocalise_below_ratio();
+  const bool is_lost = !fits && structure_.admits(result.cloud.all);
+  if (is_lost && is_after_gap) {
+    start_map_after_gap(deskewed, result);
+    return result;
+  }
+  if (is_lost) fit = relocalised(result.cloud, prior, fit);
+  describe(fit, result);
+  if ((fits || is_lost || error_.is_known()) && fit.inlier_ratio >= error_.min_inlier_ratio())
+    add_to_map({std::move(deskewed), std::move(result.cloud), fit}, prior, result);
+  else if (is_lost)
+    add_to_candidate(deskewed, result);
+  return result;
+}
+
+LidarOdometry::Prediction LidarOdometry::predict(Stamp stamp,
+                                                 const std::optional<SE3>& T_previous_body) const {
+  const double dt_s = last_ ? seconds_between(last_->stamp, stamp) : 0;
+  SE3 motion = T_previous_body ? *T_previous_body : SE3::exp(dt_s * twist_per_s_);
+  if (matcher_.traits().kind == ScannerKind::kPlanar) motion = lift(flatten(motion));  // its map is planar
+  return {last_ ? last_->T_map_body * motion : motion,
+          T_previous_body && dt_s > 0 ? SE3::Tangent(motion.log() / dt_s) : twist_per_s_};
+}
+
+Registration LidarOdometry::register_at_prediction(const ScanPyramid& cloud, const PosePrior& prior) const {
+  return matcher_.register_near(map_, cloud, prior, error_.sigma_at_range_m(cloud.median_range_m),
+                                error_.is_known() ? error_.min_inlier_ratio() : 0);
+}
+
+/// Where the motion is poorly constrained, the previous pose fits slightly better because each beam hits its
+/// own earlier scan line.
+Registration LidarOdometry::relocalised(const ScanPyramid& cloud, const PosePrior& prior,
+                                        const Registration& near) const {
+  const LidarParams& params = matcher_.params();
+  const double better = near.inlier_ratio / params.odometry.relocalise_below_ratio;
+  const Registration far =
+      relocalise(map_, cloud,
+                 {last_->T_map_body, prior.pose, static_cast<std::size_t>(params.odometry.max_aligned),
+                  std::max(error_.relocalise_below_ratio(), better)},
+                 matcher_.traits().kind, params.registration);
+  return far.inlier_ratio > better ? far : near;
+}
+
+void LidarOdometry::start_map(const DeskewedScan& scan, ScanPose& result) {
+  result.status = ScanStatus::kMapStart;
+  result.information = matcher_.observable_information(tight_information());
+  advance(scan.on_map(result.T_start_body));
+  result.novelty_ratio = map_.add(result.cloud, result.T_start_body, travelled_m_);
+  first_ = scan;
+}
+
+void LidarOdometry::start_map_after_gap(const DeskewedScan& scan, ScanPose& result) {
+  const double gap_s = seconds_between(last_->stamp, scan.stamp);
+  const double wide_m = matcher_.params().odometry.first_sigma_m + gap_s * twist_per_s_.head<3>().norm();
+  result.status = ScanStatus::kNewMap;
+  result.covariance = isotropic(wide_m * wide_m, std::numbers::pi * std::numbers::pi);
+  result.information = matcher_.observable_information(tight_information());
+  map_ = matcher_.empty_map();
+  candidate_.reset();
+  last_ = scan.on_map(result.T_start_body);
+  twist_per_s_.setZero();
+  error_.forget();
+  result.novelty_ratio = map_.add(result.cloud, result.T_start_body, travelled_m_);
+  first_ = scan;
+}
+
+void LidarOdometry::add_to_map(MatchedScan matched, const PosePrior& prior, ScanPose& result) {
+  candidate_.reset();
+  structure_.reset();
+  const SE3 prediction_error = prior.pose.inverse() * matched.fit.T_target_source;
+  if (auto start =
+          first_ ? deskew_map_start(*first_, *last_, matched, prior, travelled_m_, matcher_) : std::nullopt) {
+    map_ = std::move(start->map);
+    last_ = start->first;
+    matched = std::move(start->next);
+    result.first_cloud = std::move(start->first_cloud);
+  }
+  first_.reset();
+  matched = deskew_and_match(std::move(matched), map_, *last_, prior, matcher_);
+  describe(matched.fit, result);
+  result.status = ScanStatus::kRegistered;
+  result.T_start_body = matched.fit.T_target_source;
+  result.covariance = inverse(matched.fit.posterior);
+  result.information = matcher_.observable_information(matched.fit.information);
+  result.cloud = std::move(matched.cloud);
+  error_.update(prediction_error, result.inlier_ratio);
+  advance(matched.scan.on_map(result.T_start_body));
+  if (result.inlier_ratio >= matcher_.params().odometry.min_insert_ratio * error_.nominal_inlier_ratio())
+    result.novelty_ratio = map_.add(result.cloud, result.T_start_body, travelled_m_);
+}
+
+void LidarOdometry::add_to_candidate(const DeskewedScan& scan, ScanPose& result) {
+  const SE3 predicted = result.T_start_body;
+  const auto on_candidate =
+      candidate_ ? candidate_->add(scan, result.cloud, predicted, error_, travelled_m_, matcher_)
+                 : std::nullopt;
+  const int max_lost_scans = error_.is_known() ? matcher_.params().odometry.max_lost_scans : 1;
+  if (!on_candidate)
+    candidate_.emplace(scan, result.cloud, predicted, last_->T_map_body, travelled_m_, matcher_);
+  else if (candidate_->scans() > max_lost_scans)
+    promote_candidate(*on_candidate, result);
+}
+
+void LidarOdometry::promote_candidate(const CandidateMap::Fit& on_candidate, ScanPose& result) {
+  const Registration& fit = on_candidate.fit;
+  result.status = ScanStatus::kNewMap;
+  result.novelty_ratio = on_candidate.novelty_ratio;
+  result.information = matcher_.observable_information(fit.information);
+  result.inlier_ratio = fit.inlier_ratio;
+  result.T_start_body = fit.T_target_source;
+  result.covariance = candidate_->step_covariance(matcher_.params().odometry);
+  error_.update(on_candidate.prior.pose.inverse() * fit.T_target_source, fit.inlier_ratio);
+  last_ = candidate_->before_last();
+  advance(candidate_->last());
+  map_ = std::move(*candidate_).take_map();
+  candidate_.reset();
+  first_.reset();
+}
+
+void LidarOdometry::advance(const ScanOnMap& place) {
+  if (last_) {
+    if (last_->middle_stamp < place.middle_stamp) twist_per_s_ = twist_between(*last_, place);
+    travelled_m_ += (last_->T_map_body.inverse() * place.T_map_body).translation().norm();
+  }
+  last_ = place;
+}
+
+}  // namespace radioslam

@@ -1,0 +1,70 @@
+#include "radioslam/lidar/loops/loop_candidates.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+
+namespace radioslam {
+
+std::vector<double> path_lengths(const std::vector<SE3>& poses) {
+  std::vector<double> length_m(poses.size(), 0.0);
+  for (std::size_t k = 1; k < poses.size(); ++k)
+    length_m[k] = length_m[k - 1] + (poses[k - 1].inverse() * poses[k]).translation().norm();
+  return length_m;
+}
+
+std::vector<LoopCandidate> LoopCandidates::find(const PoseGraph<SE3>& graph) {
+  const auto marginals = Marginals<SE3>::compute(graph);
+  std::vector<LoopCandidate> candidates;
+  if (!marginals) return candidates;
+  double next_m = 0;
+  for (std::size_t j = 0; j < graph.poses.size(); ++j) {
+    if (path_m_[j] < next_m || keyframes_.clouds[j].source.surfels.empty()) continue;
+    next_m = path_m_[j] + params_.stride_m;
+    for (const std::size_t i : revisits(j, graph.poses, *marginals)) {
+      if (tried_.contains({i, j})) continue;
+      const auto T_i_j = graph.poses[i].inverse() * graph.poses[j];
+      const SE3::Jacobian covariance = marginals->relative_pose(PoseId(i), PoseId(j));
+      if (!is_candidate({T_i_j, covariance}, radius_of(j))) continue;
+      tried_.insert({i, j});
+      candidates.push_back({i, j, {T_i_j, covariance}});
+    }
+  }
+  return candidates;
+}
+
+std::vector<std::size_t> LoopCandidates::revisits(std::size_t j, const std::vector<SE3>& poses,
+                                                  const Marginals<SE3>& marginals) const {
+  const double sigma_j = std::sqrt(marginals.pose(PoseId(j)).topLeftCorner<3, 3>().trace());
+  const double limit = radius_of(j) + params_.sigmas * sigma_j;
+  std::vector<std::size_t> visits;
+  double nearest = 0;
+  bool inside = false;
+  for (std::size_t i = 0; i < j && path_m_[j] - path_m_[i] >= params_.min_path_m; ++i) {
+    const double distance = (poses[i].translation() - poses[j].translation()).norm();
+    if (keyframes_.clouds[i].source.surfels.empty() || distance > limit) {
+      inside = false;
+      continue;
+    }
+    if (!inside) {
+      visits.push_back(i);
+      nearest = distance;
+    } else if (distance < nearest) {
+      visits.back() = i;
+      nearest = distance;
+    }
+    inside = true;
+  }
+  return visits;
+}
+
+bool LoopCandidates::is_candidate(const UncertainPose<SE3>& T_i_j, double radius_m) const {
+  const Eigen::Matrix3d covariance = T_i_j.position_covariance();
+  const Eigen::Vector3d offset = T_i_j.pose.translation();
+  const double distance = offset.norm();
+  if (std::sqrt(covariance.trace()) < params_.known_sigma_m) return false;
+  if (distance <= radius_m) return true;
+  const Eigen::Vector3d beyond = (distance - radius_m) / distance * offset;
+  return beyond.dot(covariance.inverse() * beyond) <= params_.sigmas * params_.sigmas;
+}
+
+}  // namespace radioslam

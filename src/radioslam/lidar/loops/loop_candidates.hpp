@@ -1,0 +1,51 @@
+// Candidates for intra-robot loop closures: keyframe pairs that may have seen the same place.
+//
+// A candidate is the nearest keyframe of every earlier segment of the trajectory that may pass a keyframe:
+// its distance, less `sigmas` standard deviations of their relative position, is below a radius.
+// Cost: the graph's marginals, and all pairs of keyframes by their distance.
+#pragma once
+
+#include <cstddef>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "radioslam/geometry/uncertain_pose.hpp"
+#include "radioslam/graph/marginals.hpp"
+#include "radioslam/graph/pose_graph.hpp"
+#include "radioslam/lidar/loops/scan_loop.hpp"
+
+namespace radioslam {
+
+/// Path length from the first pose to each.
+std::vector<double> path_lengths(const std::vector<SE3>& poses);
+
+/// A keyframe pair to try, with the current estimate of its relative pose; i is the earlier one.
+struct LoopCandidate {
+  std::size_t i = 0, j = 0;
+  UncertainPose<SE3> T_i_j;
+};
+
+class LoopCandidates {
+ public:
+  /// Keeps a reference to `keyframes`, which must outlive it.
+  LoopCandidates(const ScanKeyframes& keyframes, const ScanLoopParams& params)
+      : keyframes_(keyframes), params_(params), path_m_(path_lengths(keyframes.poses)) {}
+
+  /// By this estimate of the keyframes' poses; pairs that were candidates before are left out.
+  std::vector<LoopCandidate> find(const PoseGraph<SE3>& graph);
+
+ private:
+  double radius_of(std::size_t k) const { return params_.radius_ratio * keyframes_.clouds[k].median_range_m; }
+  /// The nearest keyframe of every earlier segment of the trajectory that may pass keyframe j.
+  std::vector<std::size_t> revisits(std::size_t j, const std::vector<SE3>& poses,
+                                    const Marginals<SE3>& marginals) const;
+  bool is_candidate(const UncertainPose<SE3>& T_i_j, double radius_m) const;
+
+  const ScanKeyframes& keyframes_;
+  ScanLoopParams params_;
+  std::vector<double> path_m_;
+  std::set<std::pair<std::size_t, std::size_t>> tried_;
+};
+
+}  // namespace radioslam

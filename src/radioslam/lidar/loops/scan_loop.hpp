@@ -1,0 +1,107 @@
+// A loop closure of one robot by scan matching; its keyframes, and the parameters of the search.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include "radioslam/base/fields.hpp"
+#include "radioslam/geometry/se3.hpp"
+#include "radioslam/lidar/local_map.hpp"
+#include "radioslam/lidar/surfels/surfel.hpp"
+
+namespace radioslam {
+
+struct ScanLoopParams {
+  bool enabled = true;
+  double radius_ratio = 0.5;
+  double min_path_m = 10;
+  double stride_m = 2;
+  double submap_m = 5;
+  double sigmas = 3;
+  double known_sigma_m = 0.1;
+  double min_fit_ratio = 0.85;
+  double max_alternative_ratio = 0.95;
+  double gate = 22.458;
+  double min_sigma_m = 0.02;
+  double min_sigma_rad = 0.003;
+  int rounds = 5;
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit(Field{"enabled", "", 0, 1, "whether loop closures within each robot are searched by scan matching"}
+              .basic(),
+          self.enabled);
+    visit(Field{"radius_ratio", "", 0.01, 10,
+                "distance at which two keyframes' views overlap, as a fraction of the scan's median range"},
+          self.radius_ratio);
+    visit(Field{"min_path_m", "m", 0, 1e6, "smallest path length between the two keyframes of a closure"}
+              .basic(),
+          self.min_path_m);
+    visit(
+        Field{
+            "stride_m", "m", 0, 1e4,
+            "path length between keyframes that are tried; lower values find more closures but take longer"},
+        self.stride_m);
+    visit(Field{"submap_m", "m", 0, 1e3,
+                "path length to either side of the earlier keyframe that its submap covers"},
+          self.submap_m);
+    visit(Field{"sigmas", "", 0, 10,
+                "standard deviations by which two keyframes may be closer than estimated; higher values try "
+                "more pairs"},
+          self.sigmas);
+    visit(Field{"known_sigma_m", "m", 0, 100,
+                "standard deviation of the relative position below which a pair is not tried"},
+          self.known_sigma_m);
+    visit(Field{"min_fit_ratio", "", 0, 1,
+                "smallest inlier ratio of a closure, as a fraction of the nominal one of odometry"},
+          self.min_fit_ratio);
+    visit(Field{"max_alternative_ratio", "", 0, 1,
+                "largest inlier ratio of an alternative pose, as a fraction of the best; above it, a closure "
+                "is ambiguous"},
+          self.max_alternative_ratio);
+    visit(
+        Field{
+            "gate", "", 0, 1e6,
+            "largest squared Mahalanobis distance of a closure from the estimate; chi-squared of 6, 99.9 %"},
+        self.gate);
+    visit(Field{"min_sigma_m", "m", 1e-6, 10,
+                "lower bound on the standard deviation of a closure's translation, per axis"},
+          self.min_sigma_m);
+    visit(Field{"min_sigma_rad", "rad", 1e-6, 3,
+                "lower bound on the standard deviation of a closure's rotation, per axis"},
+          self.min_sigma_rad);
+    visit(Field{"rounds", "", 1, 100, "largest number of rounds of search and optimisation"}, self.rounds);
+  }
+};
+
+enum class LoopStatus {
+  kAccepted,
+  kLowOverlap,
+  kAmbiguous,            ///< a distinct pose has a similar inlier ratio
+  kContradictsOdometry,  ///< outside the gate of the current estimate
+  kRejectedByGraph,      ///< contradicts other closures
+};
+/// Why a closure was rejected, in words; empty if it was accepted.
+std::string_view reason(LoopStatus status);
+
+/// Pose of keyframe j in the frame of the earlier keyframe i.
+struct ScanLoop {
+  std::size_t i = 0, j = 0;
+  SE3 T_i_j;
+  SE3::Jacobian information = SE3::Jacobian::Zero();  ///< about xi in T_i_j * Exp(xi)
+  double inlier_ratio = 0;
+  LoopStatus status = LoopStatus::kAccepted;
+};
+
+/// One robot's keyframes with their scans.
+struct ScanKeyframes {
+  std::vector<SE3> poses;                       ///< T_start_keyframe, by odometry
+  std::vector<SE3::Jacobian> step_covariances;  ///< of T_k^-1 T_k+1
+  std::vector<ScanPyramid> clouds;              ///< one each, empty for a keyframe without a scan
+  double nominal_inlier_ratio = 1;              ///< mean inlier ratio of the odometry's scans
+  double spacing_m = 0.25;
+  ScannerKind kind = ScannerKind::kSpatial;
+};
+
+}  // namespace radioslam

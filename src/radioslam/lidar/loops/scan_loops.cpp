@@ -1,0 +1,85 @@
+#include "radioslam/lidar/loops/scan_loops.hpp"
+
+#include <algorithm>
+
+#include "radioslam/base/parallel.hpp"
+#include "radioslam/geometry/linear_algebra.hpp"
+#include "radioslam/graph/graduated.hpp"
+#include "radioslam/lidar/loops/loop_candidates.hpp"
+#include "radioslam/lidar/loops/loop_verification.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr double kLossScale = 4.1;  // root of chi-squared of 6 at 99 %
+
+PoseGraph<SE3> odometry_graph(const ScanKeyframes& keyframes) {
+  PoseGraph<SE3> graph;
+  graph.poses = keyframes.poses;
+  for (std::size_t k = 0; k + 1 < keyframes.poses.size(); ++k) {
+    RelativePoseFactor<SE3> factor;
+    factor.i = PoseId(k);
+    factor.j = PoseId(k + 1);
+    factor.T_i_j = keyframes.poses[k].inverse() * keyframes.poses[k + 1];
+    factor.information = inverse(keyframes.step_covariances[k]);
+    graph.relative_poses.push_back(factor);
+  }
+  return graph;
+}
+
+std::vector<ScanLoop> verify(const std::vector<LoopCandidate>& candidates,
+                             const LoopVerification& verification, const std::vector<SE3>& poses) {
+  std::vector<ScanLoop> loops(candidates.size());
+  parallel_for(candidates.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) loops[k] = verification.verify(candidates[k], poses);
+  });
+  return loops;
+}
+
+/// Optimises with all accepted closures and rejects those that contradict the others.
+void optimise_and_prune(PoseGraph<SE3>& graph, std::vector<ScanLoop>& loops, const Progress& progress) {
+  graph.relative_poses.resize(graph.poses.size() - 1);
+  std::vector<std::size_t> loop_of_factor;
+  for (std::size_t k = 0; k < loops.size(); ++k) {
+    if (loops[k].status != LoopStatus::kAccepted) continue;
+    RelativePoseFactor<SE3> factor;
+    factor.i = PoseId(loops[k].i);
+    factor.j = PoseId(loops[k].j);
+    factor.T_i_j = loops[k].T_i_j;
+    factor.information = loops[k].information;
+    factor.loss = {LossKind::kGemanMcClure, kLossScale};
+    graph.relative_poses.push_back(factor);
+    loop_of_factor.push_back(k);
+  }
+  const FactorMask mask = geman_mcclure_factors(graph);
+  const auto summary =
+      optimize_graduated(graph, mask, GraduatedLoss::kTruncatedLeastSquares, {}, {}, progress);
+  apply_weights(summary.weights, mask, graph);
+  for (std::size_t f = graph.poses.size() - 1; f < graph.relative_poses.size(); ++f)
+    if (graph.relative_poses[f].weight < 0.5)
+      loops[loop_of_factor[f - (graph.poses.size() - 1)]].status = LoopStatus::kRejectedByGraph;
+}
+
+}  // namespace
+
+ScanLoops close_scan_loops(const ScanKeyframes& keyframes, const ScanLoopParams& params,
+                           const LocalMapParams& map, const PoseSearchParams& search,
+                           const RegistrationParams& registration, const Progress& progress) {
+  if (!params.enabled || keyframes.poses.size() < 2) return {{}, keyframes.poses};
+  PoseGraph<SE3> graph = odometry_graph(keyframes);
+  LoopCandidates candidates(keyframes, params);
+  const LoopVerification verification(keyframes, params, map, search, registration);
+  ScanLoops result;
+  for (int round = 0; round < params.rounds; ++round) {
+    const auto tried = verify(candidates.find(graph), verification, graph.poses);
+    result.loops.insert(result.loops.end(), tried.begin(), tried.end());
+    if (std::none_of(tried.begin(), tried.end(),
+                     [](const ScanLoop& loop) { return loop.status == LoopStatus::kAccepted; }))
+      break;
+    optimise_and_prune(graph, result.loops, progress);
+  }
+  result.poses = std::move(graph.poses);
+  return result;
+}
+
+}  // namespace radioslam

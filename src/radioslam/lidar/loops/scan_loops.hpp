@@ -1,0 +1,33 @@
+// Intra-robot loop closures by scan matching.
+//
+//   candidates   pairs of keyframes, far apart along the trajectory, whose distance less `sigmas` standard
+//                deviations of their RELATIVE position is below a radius. The covariance admits pairs after
+//                a long drift, which a plain distance would miss, and excludes hopeless ones
+//   search       the later scan is registered to a submap around the earlier keyframe, from initial poses all
+//                over the uncertainty (pose_search.hpp)
+//   tests        the inlier ratio is close to the nominal one, no distinct pose has a similar one, and the
+//                closure lies within the gate of the estimate
+//   estimate     graduated optimisation of the robot's pose graph rejects closures that contradict others;
+//                the smaller covariances lead to new candidates in the next round
+#pragma once
+
+#include <vector>
+
+#include "radioslam/base/progress.hpp"
+#include "radioslam/geometry/se3.hpp"
+#include "radioslam/lidar/local_map.hpp"
+#include "radioslam/lidar/loops/scan_loop.hpp"
+#include "radioslam/lidar/pose_search.hpp"
+
+namespace radioslam {
+
+struct ScanLoops {
+  std::vector<ScanLoop> loops;  ///< all candidates that were tried
+  std::vector<SE3> poses;       ///< of the keyframes, optimised with the accepted closures
+};
+
+ScanLoops close_scan_loops(const ScanKeyframes& keyframes, const ScanLoopParams& params,
+                           const LocalMapParams& map, const PoseSearchParams& search,
+                           const RegistrationParams& registration, const Progress& progress = {});
+
+}  // namespace radioslam

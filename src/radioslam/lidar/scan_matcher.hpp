@@ -1,0 +1,45 @@
+// Scan matching with one scanner: measures the surfels of its scans and registers them to local maps.
+#pragma once
+
+#include "radioslam/base/stamp.hpp"
+#include "radioslam/lidar/deskewed_scan.hpp"
+#include "radioslam/lidar/lidar_params.hpp"
+#include "radioslam/lidar/local_map.hpp"
+#include "radioslam/lidar/registration.hpp"
+#include "radioslam/lidar/scan_points.hpp"
+#include "radioslam/lidar/scanner_traits.hpp"
+
+namespace radioslam {
+
+class ScanMatcher {
+ public:
+  ScanMatcher(const ScannerTraits& traits, const LidarParams& params) : traits_(traits), params_(params) {}
+
+  const ScannerTraits& traits() const { return traits_; }
+  const LidarParams& params() const { return params_; }
+
+  LocalMap empty_map() const { return {traits_.spacing_m, params_.map}; }
+
+  /// The surfels of points that were deskewed by this twist.
+  DeskewedScan measure(Stamp stamp, const ScanPoints& points, const SE3::Tangent& twist_per_s,
+                       MotionSource source) const;
+
+  ScanPyramid pyramid_of(const DeskewedScan& scan) const;
+
+  /// Registration from the prior's pose, which may displace points by `deviation_m`.
+  Registration register_near(const LocalMap& map, const ScanPyramid& cloud, const PosePrior& prior,
+                             double deviation_m, double min_correspondence_ratio = 0) const;
+
+  /// Registration from `start`, which may displace points by `deviation_m`.
+  Registration register_at(const LocalMap& map, const ScanPyramid& cloud, const SE3& start,
+                           const PosePrior& prior, double deviation_m) const;
+
+  /// With the prior on what a planar scanner does not observe: small motions in height, roll and pitch.
+  SE3::Jacobian observable_information(const SE3::Jacobian& information) const;
+
+ private:
+  ScannerTraits traits_;
+  LidarParams params_;
+};
+
+}  // namespace radioslam

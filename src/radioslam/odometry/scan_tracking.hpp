@@ -1,0 +1,49 @@
+// Registers one robot's scans in sequence (lidar/lidar_odometry.hpp) and selects keyframes with their clouds.
+//
+// The motion prior comes from the first of these that covers the time since the previous scan:
+//   IMU                  if enabled by `by`                      (imu_motion_prior.hpp)
+//   recorded odometry
+//   constant velocity
+// The same source deskews the scan, recorded odometry only if its samples are as frequent as the scans
+// (motion_prior.hpp); the remaining distortion is part of each step's covariance (motion_distortion.hpp).
+// Scans that do not match the map, or have too few points, are counted and skipped. If the scans after the
+// first do not match it, the trajectory starts with the new map instead.
+// Cost: the scans' registrations; only the keyframes' clouds are kept.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <vector>
+
+#include "radioslam/base/progress.hpp"
+#include "radioslam/lidar/lidar_odometry.hpp"
+#include "radioslam/lidar/loops/scan_loops.hpp"
+#include "radioslam/mission/keyframes.hpp"
+#include "radioslam/mission/mission.hpp"
+#include "radioslam/odometry/scan_params.hpp"
+
+namespace radioslam {
+
+struct ScanTrajectory {
+  std::vector<ScanPose> poses;  ///< of the registered scans, without their clouds
+  std::vector<std::size_t> keyframes;
+  std::vector<ScanPyramid> clouds;  ///< of the keyframes
+  std::map<ScanStatus, std::size_t> status_counts;
+  PointCounts points;
+  double nominal_inlier_ratio = 0;
+  bool is_level = false;  ///< roll and pitch are aligned with gravity
+};
+
+/// Whether the IMU provides the motion prior.
+enum class ImuUse { kNone, kReadings };
+
+/// Tracks the robot's first `until` scans. Keyframes follow the rule of select_keyframes; the last pose is
+/// one.
+ScanTrajectory track_scans(const Robot& robot, std::size_t until, ImuUse by, const ScannerTraits& traits,
+                           const ScanParams& params, const KeyframeParams& keyframes,
+                           const Progress& progress);
+
+/// The keyframes for loop closing; moves the clouds out of `track`.
+ScanKeyframes extract_keyframes(ScanTrajectory& track, const ScannerTraits& traits);
+
+}  // namespace radioslam

@@ -1,0 +1,15 @@
+// How far a run goes, and what it skips.
+#pragma once
+
+#include "radioslam/closure/overlap/overlap_search.hpp"
+#include "radioslam/joint/match_selection.hpp"
+
+namespace radioslam {
+
+struct RunOptions {
+  Pruning pruning = Pruning::kOn;
+  SearchMethod search = SearchMethod::kTree;
+  bool overlap_only = false;  ///< stop after the overlap search
+};
+
+}  // namespace radioslam

@@ -1,0 +1,152 @@
+#include "radioslam/pipeline/stages.hpp"
+
+#include <utility>
+
+#include "radioslam/joint/covariance_graph.hpp"
+#include "radioslam/joint/field_stage.hpp"
+#include "radioslam/joint/joint_graph_from_file.hpp"
+#include "radioslam/joint/scan_closures.hpp"
+
+namespace radioslam {
+namespace {
+
+/// The graph of the mission, with poses at the stamps of loop closures and position fixes.
+template <class Pose>
+JointGraph<Pose> mission_graph(const Mission& mission, const std::vector<ScanClosure>& loops,
+                               const RunParams& params) {
+  std::vector<std::vector<Stamp>> node_stamps(mission.robots.size());
+  add_closure_stamps(loops, node_stamps);
+  add_fix_stamps(mission, node_stamps);
+  return build_joint_graph<Pose>(mission, params.keyframe, params.graph, std::move(node_stamps));
+}
+
+ClosureResult match_result(const MatchOutcome& outcome) {
+  const FactorOrigin& origin = outcome.origin;
+  return {origin.robot_i,      origin.stamp_i, origin.robot_j,    origin.stamp_j,
+          ClosureKind::kMatch, outcome.status, outcome.statistic, outcome.reason};
+}
+
+}  // namespace
+
+template <class Pose>
+TeamEstimate<Pose> begin_estimate(const Mission& mission, const TeamGraph<Pose>* team,
+                                  const std::vector<ScanClosure>& loops, RadioMeasurements radio,
+                                  const RunParams& params) {
+  TeamEstimate<Pose> estimate{.radio = std::move(radio)};
+  estimate.joint = team ? joint_graph_of(*team, mission) : mission_graph<Pose>(mission, loops, params);
+  estimate.starts = known_starts(mission);
+  add_scan_closures(estimate.joint, loops, params.optimizer);
+  return estimate;
+}
+
+template <class Pose>
+TeamEstimate<Pose> place_robots_by_fixes(TeamEstimate<Pose> estimate, const Mission& mission,
+                                         const RunParams& params) {
+  estimate.fixes = place_by_fixes(estimate.joint, mission, params.fixes, params.optimizer);
+  estimate.starts = starts_with_fixes<Pose>(mission, estimate.fixes);
+  return estimate;
+}
+
+template <class Pose>
+TeamEstimate<Pose> align_team(TeamEstimate<Pose> estimate, const Mission& mission, const RunParams& params,
+                              const Progress& progress) {
+  JointGraph<Pose>& joint = estimate.joint;
+  estimate.placement = has_radio_links(joint)
+                           ? place_by_radio(joint, params.alignment, progress)
+                           : place_by_fingerprints(joint, mission, estimate.starts, estimate.radio,
+                                                   params.team_frame, progress);
+  constrain_by_fixes(joint, estimate.fixes, estimate.placement);
+  return estimate;
+}
+
+template <class Pose>
+TeamEstimate<Pose> close_by_fingerprints(TeamEstimate<Pose> estimate, const RunParams& params) {
+  estimate.closures = propose_fingerprint_closures(estimate.starts, estimate.radio,
+                                                   params.radio.distance_model.max_trusted_path_m,
+                                                   params.team_frame, params.closure);
+  add_fingerprint_closures(estimate.joint, estimate.radio, estimate.closures);
+  return estimate;
+}
+
+template <class Pose>
+TeamEstimate<Pose> close_by_sequences(TeamEstimate<Pose> estimate, const RunParams& params) {
+  estimate.sequences = add_sequence_closures(estimate.joint, estimate.radio, params.sequence);
+  return estimate;
+}
+
+template <class Pose>
+TeamEstimate<Pose> optimise_team(TeamEstimate<Pose> estimate, const RunParams& params,
+                                 const Progress& progress) {
+  estimate.solution = optimize_robustly(estimate.joint, params.robust, params.optimizer, progress);
+  return estimate;
+}
+
+template <class Pose>
+TeamEstimate<Pose> reclassify_fixes(TeamEstimate<Pose> estimate, const RunParams& params,
+                                    const Progress& progress) {
+  update_fix_inliers(estimate.joint, estimate.fixes, params.optimizer, progress);
+  return estimate;
+}
+
+template <class Pose>
+TeamEstimate<Pose> refine_on_field(TeamEstimate<Pose> estimate, const Mission& mission,
+                                   const RunParams& params, const Progress& progress) {
+  if (refine_by_radio_field(estimate.joint, mission, estimate.starts, estimate.radio, estimate.placement,
+                            estimate.closures, params.field, progress))
+    optimize(estimate.joint.team.graph, params.optimizer, progress);
+  return estimate;
+}
+
+template <class Pose>
+TeamEstimate<Pose> correct_range_biases(TeamEstimate<Pose> estimate, const RunParams& params,
+                                        const Progress& progress) {
+  estimate.range_biases = estimate_range_biases(estimate.joint, params.range_bias, params.alignment.mixture,
+                                                params.optimizer, progress);
+  return estimate;
+}
+
+bool needs_overlap_search(const Mission& mission, const RunOptions& options) {
+  return options.overlap_only || !mission.ranges.empty() || !mission.aoa_measurements.empty() ||
+         !mission.matches.empty();
+}
+
+template <class Pose>
+OverlapStage search_overlaps(const TeamEstimate<Pose>& estimate, const RunParams& params,
+                             const RunOptions& options) {
+  return find_overlaps(graph_for_covariances(estimate.joint, params.alignment.mixture), params.overlap,
+                       options.search);
+}
+
+template <class Pose>
+TeamEstimate<Pose> close_by_matches(TeamEstimate<Pose> estimate, const Mission& mission,
+                                    const OverlapStage& overlaps, const RunParams& params,
+                                    const RunOptions& options, const Progress& progress) {
+  auto outcomes = select_matches(estimate.joint, mission, overlaps.candidates, options.pruning,
+                                 params.matches, params.angles);
+  optimise_with_matches(estimate.joint, outcomes, params.matches, params.optimizer, progress);
+  for (const MatchOutcome& outcome : outcomes) estimate.matches.push_back(match_result(outcome));
+  return estimate;
+}
+
+#define RADIOSLAM_STAGES(Pose)                                                                             \
+  template TeamEstimate<Pose> begin_estimate(const Mission&, const TeamGraph<Pose>*,                       \
+                                             const std::vector<ScanClosure>&, RadioMeasurements,           \
+                                             const RunParams&);                                            \
+  template TeamEstimate<Pose> place_robots_by_fixes(TeamEstimate<Pose>, const Mission&, const RunParams&); \
+  template TeamEstimate<Pose> align_team(TeamEstimate<Pose>, const Mission&, const RunParams&,             \
+                                         const Progress&);                                                 \
+  template TeamEstimate<Pose> close_by_fingerprints(TeamEstimate<Pose>, const RunParams&);                 \
+  template TeamEstimate<Pose> close_by_sequences(TeamEstimate<Pose>, const RunParams&);                    \
+  template TeamEstimate<Pose> optimise_team(TeamEstimate<Pose>, const RunParams&, const Progress&);        \
+  template TeamEstimate<Pose> reclassify_fixes(TeamEstimate<Pose>, const RunParams&, const Progress&);     \
+  template TeamEstimate<Pose> refine_on_field(TeamEstimate<Pose>, const Mission&, const RunParams&,        \
+                                              const Progress&);                                            \
+  template TeamEstimate<Pose> correct_range_biases(TeamEstimate<Pose>, const RunParams&, const Progress&); \
+  template OverlapStage search_overlaps(const TeamEstimate<Pose>&, const RunParams&, const RunOptions&);   \
+  template TeamEstimate<Pose> close_by_matches(TeamEstimate<Pose>, const Mission&, const OverlapStage&,    \
+                                               const RunParams&, const RunOptions&, const Progress&);
+RADIOSLAM_STAGES(SE2)
+RADIOSLAM_STAGES(SE3)
+#undef RADIOSLAM_STAGES
+
+}  // namespace radioslam

@@ -1,0 +1,75 @@
+// The stages of a run, in the order in which run_pipeline calls them. Each takes the estimate so far by value
+// and returns the next one.
+#pragma once
+
+#include <vector>
+
+#include "radioslam/base/progress.hpp"
+#include "radioslam/joint/overlap_stage.hpp"
+#include "radioslam/joint/team_estimate.hpp"
+#include "radioslam/odometry/scan_closure.hpp"
+#include "radioslam/pipeline/params.hpp"
+#include "radioslam/pipeline/run_options.hpp"
+
+namespace radioslam {
+
+/// The joint graph of the mission, or of `team` where it comes as a factor graph, with each robot's loop
+/// closures `loops`.
+template <class Pose>
+TeamEstimate<Pose> begin_estimate(const Mission& mission, const TeamGraph<Pose>* team,
+                                  const std::vector<ScanClosure>& loops, RadioMeasurements radio,
+                                  const RunParams& params);
+
+/// Robots with position fixes in the common frame.
+template <class Pose>
+TeamEstimate<Pose> place_robots_by_fixes(TeamEstimate<Pose> estimate, const Mission& mission,
+                                         const RunParams& params);
+
+/// All robots in the team frame: by radio links if there are any, else by fingerprints.
+template <class Pose>
+TeamEstimate<Pose> align_team(TeamEstimate<Pose> estimate, const Mission& mission, const RunParams& params,
+                              const Progress& progress);
+
+/// With the distances that fingerprints predict.
+template <class Pose>
+TeamEstimate<Pose> close_by_fingerprints(TeamEstimate<Pose> estimate, const RunParams& params);
+
+/// With relative poses from similar sequences of fingerprints.
+template <class Pose>
+TeamEstimate<Pose> close_by_sequences(TeamEstimate<Pose> estimate, const RunParams& params);
+
+/// Optimised, with a graduated loss on fingerprint distances.
+template <class Pose>
+TeamEstimate<Pose> optimise_team(TeamEstimate<Pose> estimate, const RunParams& params,
+                                 const Progress& progress);
+
+/// Optimised with the position fixes that agree with the estimate.
+template <class Pose>
+TeamEstimate<Pose> reclassify_fixes(TeamEstimate<Pose> estimate, const RunParams& params,
+                                    const Progress& progress);
+
+/// Refined on the team's radio field, where fingerprints laid out the team.
+template <class Pose>
+TeamEstimate<Pose> refine_on_field(TeamEstimate<Pose> estimate, const Mission& mission,
+                                   const RunParams& params, const Progress& progress);
+
+/// With the constant errors of ranges, per pair of antennas, where they are significant.
+template <class Pose>
+TeamEstimate<Pose> correct_range_biases(TeamEstimate<Pose> estimate, const RunParams& params,
+                                        const Progress& progress);
+
+/// Whether a run uses the keyframe pairs with overlapping views.
+bool needs_overlap_search(const Mission& mission, const RunOptions& options);
+
+/// Keyframe pairs of different robots whose views can overlap.
+template <class Pose>
+OverlapStage search_overlaps(const TeamEstimate<Pose>& estimate, const RunParams& params,
+                             const RunOptions& options);
+
+/// With the matches of an external place recognition that are candidates and consistent.
+template <class Pose>
+TeamEstimate<Pose> close_by_matches(TeamEstimate<Pose> estimate, const Mission& mission,
+                                    const OverlapStage& overlaps, const RunParams& params,
+                                    const RunOptions& options, const Progress& progress);
+
+}  // namespace radioslam

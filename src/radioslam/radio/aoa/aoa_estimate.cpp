@@ -1,0 +1,60 @@
+#include "radioslam/radio/aoa/aoa_estimate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "radioslam/radio/aoa/aoa_channel.hpp"
+#include "radioslam/radio/aoa/aoa_peaks.hpp"
+#include "radioslam/radio/aoa/delay_alignment.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr std::size_t kMinPackets = 16;
+
+void fill_peaks(AoaEstimate& estimate, MovedArray& one_way, AoaParams params) {
+  const AoaProfileKind kind = profile_kind(params);
+  // Only the Bartlett profile is a sum over subarrays; the others use the whole aperture.
+  if (kind != AoaProfileKind::kBartlett) params.subarray_m = std::max(params.subarray_m, 2 * one_way.way_m);
+  std::vector<WavePath> waves;
+  if (!one_way.is_difference) waves = align_delays(one_way, params);
+  const MovedArray even = one_way.is_difference ? amplitude_equalised(one_way) : two_way_product(one_way);
+  const AzimuthProfile profile =
+      kind == AoaProfileKind::kMusic ? music_profile(one_way, params) : bartlett_profile(even, params);
+  const bool is_sparse = kind == AoaProfileKind::kSparse;
+  if (is_sparse && waves.empty())
+    waves = find_paths(one_way.array, grid_for(one_way, params, params.azimuths),
+                       delay_table(one_way.array.subcarrier_hz), params.model_paths);
+  estimate.peaks = is_sparse ? peaks_of_waves(waves, one_way, params)
+                             : find_peaks(profile, kind == AoaProfileKind::kMusic ? one_way : even, params);
+  if (!one_way.is_difference && !is_sparse) mark_cross_terms(estimate.peaks, waves, one_way);
+  const double most = *std::max_element(profile.power.begin(), profile.power.end());
+  for (const double power : profile.power) estimate.profile.push_back(static_cast<float>(power / most));
+  estimate.explained = estimate.peaks.front().explained;
+}
+
+}  // namespace
+
+AoaResult estimate_aoa(const ChannelTrack& track, const Trajectory<SE3>& trajectory, Stamp begin, Stamp end,
+                       const AoaParams& params) {
+  const ChannelTrack part = one_way_channel(track, begin, end);
+  if (part.stamps.empty()) return {std::nullopt, AoaFailure::kTooFewPackets};
+  MovedArray one_way = moved_array(part, trajectory, begin, end, params);
+  if (one_way.rows.empty()) return {std::nullopt, AoaFailure::kNoOdometry};
+  if (!one_way.is_difference && one_way.way_m < params.min_aperture_m)
+    return {std::nullopt, AoaFailure::kNoMotion};
+  if (one_way.extent_m > params.max_aperture_m) return {std::nullopt, AoaFailure::kTooWide};
+  if (one_way.rows.size() < kMinPackets) return {std::nullopt, AoaFailure::kTooFewPackets};
+  if (one_way.array.channel.squaredNorm() == 0) return {std::nullopt, AoaFailure::kZeroChannel};
+  AoaEstimate estimate;
+  const Stamp first = part.stamps[one_way.rows.front()], last = part.stamps[one_way.rows.back()];
+  estimate.stamp = {first.ns + (last.ns - first.ns) / 2};
+  estimate.T_frame_body = *trajectory.at(estimate.stamp);
+  estimate.centre_m = one_way.array.centre_m;
+  estimate.packets = one_way.rows.size();
+  estimate.resolves_height = one_way.shape == ArrayShape::kSpace;
+  fill_peaks(estimate, one_way, params);
+  return {std::move(estimate), {}};
+}
+
+}  // namespace radioslam

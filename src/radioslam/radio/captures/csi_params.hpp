@@ -1,0 +1,34 @@
+// Parameters of the AoA stage (csi_stage.hpp): measurement windows, clock offset, estimator.
+#pragma once
+
+#include "radioslam/base/fields.hpp"
+#include "radioslam/radio/aoa/aoa_types.hpp"
+
+namespace radioslam {
+
+struct CsiStageParams {
+  double window_m = 1;
+  double window_turn_rad = 1.5;
+  double still_m = 0.005;  ///< a tenth of a wavelength at 5 GHz
+  bool clock_offset = true;
+  AoaParams arrival;
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit(Field{"window_m", "m", 0.1, 100, "path length of the receiver per AoA measurement"}.basic(),
+          self.window_m);
+    visit(Field{"window_turn_rad", "rad", 0.1, 7,
+                "rotation of the receiver per AoA measurement with two antennas"},
+          self.window_turn_rad);
+    visit(Field{"still_m", "m", 0, 1,
+                "largest displacement of the transmitter during a measurement with a single receive antenna"},
+          self.still_m);
+    visit(Field{"clock_offset", "", 0, 0,
+                "estimation of each robot's CSI clock offset, corrected where it is significant"}
+              .basic(),
+          self.clock_offset);
+    AoaParams::visit_fields(self.arrival, visit);
+  }
+};
+
+}  // namespace radioslam

@@ -1,0 +1,123 @@
+#include "radioslam/radio/captures/csi_tracks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "radioslam/base/parallel.hpp"
+#include "radioslam/base/units.hpp"
+#include "radioslam/radio/captures/csi_captures.hpp"
+#include "radioslam/radio/captures/csi_notes.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr std::int64_t kHostDelay_ns =
+    kNanosecondsPerSecond;                 // largest delay with which a host stamps a reply
+constexpr double kClockSigmas = 3;         // significance of an offset, in sigmas
+constexpr double kMaxClockSigma_s = 0.05;  // larger sigmas come from slow changes of speed, which bias
+constexpr double kMinClock_s = 0.02;       // smaller offsets do not matter at walking speed
+constexpr std::size_t kMaxClocks = 4;      // estimates per robot
+
+}  // namespace
+
+CsiTracks::CsiTracks(const Mission& mission, const CsiStageParams& params, std::vector<std::string>& notes)
+    : mission_(mission), params_(params) {
+  for (const Robot& robot : mission.robots) {
+    captures_.push_back(robot.csi ? merge_captures(*robot.csi, robot.id, notes) : CsiCapture{});
+    still_.push_back(robot.csi ? still_times(robot.odometry, params.still_m) : std::vector<TimeWindow>{});
+  }
+  for (std::size_t i = 0; i < captures_.size(); ++i)
+    if (!captures_[i].packets.empty()) note_missing_csi(mission, mission.robots[i], captures_[i], notes);
+}
+
+void CsiTracks::set_clocks(std::vector<std::string>& notes) {
+  std::vector<std::optional<ClockOffset>> clocks(captures_.size());
+  parallel_for(captures_.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) clocks[i] = clock_of(i);
+  });
+  for (std::size_t i = 0; i < clocks.size(); ++i)
+    if (clocks[i]) set_clock(i, *clocks[i], notes);
+}
+
+std::vector<CsiAttempt> CsiTracks::attempts() const {
+  std::vector<CsiAttempt> list;
+  for (std::size_t i = 0; i < mission_.robots.size(); ++i)
+    for (std::size_t j = 0; j < mission_.robots.size(); ++j)
+      if (i != j && receives(i, j)) add_attempts(list, i, j);
+  return list;
+}
+
+CsiTrack CsiTracks::track_of(const CsiAttempt& attempt) const {
+  const CsiRecording& receiver = *mission_.robots[attempt.receiver].csi;
+  const CsiRecording& sender = *mission_.robots[attempt.transmitter].csi;
+  const CsiCapture heard =
+      captured_during(captures_[attempt.receiver], attempt.window.begin, attempt.window.end);
+  const double carrier_hz = carrier_hz_of(receiver, heard);
+  if (!attempt.is_two_way)
+    return {antenna_pair_track(heard, sender.address, carrier_hz, receiver.antennas_m, 0, 1),
+            "no packets received by two antennas"};
+  CsiCapture answers =
+      captured_during(captures_[attempt.transmitter], {attempt.window.begin.ns - kHostDelay_ns},
+                      {attempt.window.end.ns + kHostDelay_ns});
+  // Packets that it received from other robots are no replies.
+  std::erase_if(answers.packets, [&](const CsiPacket& packet) {
+    return packet.sender && receiver.address && packet.sender != receiver.address;
+  });
+  auto both = two_way_track(heard, *sender.address, answers, carrier_hz, receiver.antennas_m.front(),
+                            params_.arrival.two_way);
+  return {std::move(both.track), explain(both.reason)};
+}
+
+/// Estimate of smallest sigma over the longest windows in which the robot moved while another stood and
+/// replied.
+std::optional<ClockOffset> CsiTracks::clock_of(std::size_t i) const {
+  std::vector<CsiAttempt> windows;
+  for (std::size_t j = 0; j < mission_.robots.size(); ++j)
+    if (i != j && receives(i, j))
+      for (const TimeWindow& still : still_[j]) windows.push_back({i, j, still, true});
+  std::stable_sort(windows.begin(), windows.end(), [](const CsiAttempt& a, const CsiAttempt& b) {
+    return a.window.end.ns - a.window.begin.ns > b.window.end.ns - b.window.begin.ns;
+  });
+  std::optional<ClockOffset> best;
+  for (std::size_t k = 0; k < std::min(windows.size(), kMaxClocks); ++k) {
+    const CsiTrack candidate = track_of(windows[k]);
+    if (!candidate.track) continue;
+    const auto clock = estimate_clock_offset(*candidate.track, mission_.robots[i].odometry).clock;
+    if (clock && (!best || clock->sigma_s < best->sigma_s)) best = clock;
+  }
+  return best;
+}
+
+void CsiTracks::set_clock(std::size_t i, const ClockOffset& clock, std::vector<std::string>& notes) {
+  const double size_s = std::abs(clock.offset_s);
+  if (clock.sigma_s > kMaxClockSigma_s) return;
+  if (size_s < kMinClock_s || size_s < kClockSigmas * clock.sigma_s) return;
+  const auto offset_ns = std::llround(clock.offset_s * kNanosecondsPerSecond);
+  for (CsiPacket& packet : captures_[i].packets) packet.stamp.ns += offset_ns;
+  notes.push_back(note_of_clock(mission_.robots[i].id, clock));
+}
+
+bool CsiTracks::receives(std::size_t i, std::size_t j) const {
+  const Robot& receiver = mission_.robots[i];
+  const Robot& sender = mission_.robots[j];
+  if (!receiver.csi || !sender.csi || !sender.csi->address || carrier_hz_of(*receiver.csi, captures_[i]) == 0)
+    return false;
+  return std::any_of(captures_[i].packets.begin(), captures_[i].packets.end(),
+                     [&](const CsiPacket& packet) { return packet.sender == sender.csi->address; });
+}
+
+void CsiTracks::add_attempts(std::vector<CsiAttempt>& list, std::size_t i, std::size_t j) const {
+  const Robot& receiver = mission_.robots[i];
+  const bool has_pair = receiver.csi->antennas_m.size() > 1;
+  if (has_pair) {
+    for (const TimeWindow& turn : turns_of(receiver.odometry, params_.window_turn_rad))
+      list.push_back({i, j, turn, false});
+    return;
+  }
+  for (const TimeWindow& still : still_[j])
+    for (const TimeWindow& window :
+         path_windows(receiver.odometry, still, params_.window_m, params_.arrival.min_aperture_m))
+      list.push_back({i, j, window, true});
+}
+
+}  // namespace radioslam

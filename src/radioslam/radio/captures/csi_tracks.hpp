@@ -1,0 +1,59 @@
+// Channel tracks from a mission's CSI captures, one per window of a receiver's motion and transmitter.
+//
+// A receiver with one antenna uses windows of its path in which the transmitter stood still, and the packets
+// of both ends, so that the oscillators' phases cancel (two_way_channel.hpp). A receiver with two antennas
+// uses windows of its rotation, however the transmitter moved (antenna_pair_track). Captures and odometry may
+// have different clocks: where a robot stopped or started while another replied, the offset is estimated, and
+// corrected where it is significant.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "radioslam/mission/mission.hpp"
+#include "radioslam/radio/captures/clock_offset.hpp"
+#include "radioslam/radio/captures/csi_params.hpp"
+#include "radioslam/radio/captures/csi_windows.hpp"
+
+namespace radioslam {
+
+/// A measurement to attempt.
+struct CsiAttempt {
+  std::size_t receiver, transmitter;
+  TimeWindow window;
+  bool is_two_way;
+};
+
+struct CsiTrack {
+  std::optional<ChannelTrack> track;
+  std::string reason;  ///< why there is no track
+};
+
+class CsiTracks {
+ public:
+  /// Both must outlive this. Captures that are not used are added to `notes`.
+  CsiTracks(const Mission& mission, const CsiStageParams& params, std::vector<std::string>& notes);
+
+  /// Shifts captures to the clock of their robot's odometry where the offset is significant.
+  void set_clocks(std::vector<std::string>& notes);
+
+  /// Ordered by receiver, then by transmitter.
+  std::vector<CsiAttempt> attempts() const;
+
+  CsiTrack track_of(const CsiAttempt& attempt) const;
+
+ private:
+  std::optional<ClockOffset> clock_of(std::size_t i) const;
+  void set_clock(std::size_t i, const ClockOffset& clock, std::vector<std::string>& notes);
+  bool receives(std::size_t i, std::size_t j) const;
+  void add_attempts(std::vector<CsiAttempt>& list, std::size_t i, std::size_t j) const;
+
+  const Mission& mission_;
+  const CsiStageParams& params_;
+  std::vector<CsiCapture> captures_;
+  std::vector<std::vector<TimeWindow>> still_;
+};
+
+}  // namespace radioslam

@@ -1,0 +1,77 @@
+// Fingerprint measurements of a mission: fingerprints of every robot at their odometry poses, their
+// similarities, and the distance models trained on the robots' own odometry. Computed before the team frame
+// is known.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "radioslam/base/progress.hpp"
+#include "radioslam/mission/mission.hpp"
+#include "radioslam/radio/fingerprints/decay_model.hpp"
+#include "radioslam/radio/fingerprints/distance_model.hpp"
+#include "radioslam/radio/fingerprints/fingerprint.hpp"
+#include "radioslam/radio/fingerprints/rssi_offset.hpp"
+#include "radioslam/radio/fingerprints/similarity.hpp"
+#include "radioslam/radio/fingerprints/team_similarity.hpp"
+
+namespace radioslam {
+
+struct RadioParams {
+  FingerprintParams fingerprint;
+  SimilarityParams similarity;
+  RssiOffsetParams rssi_offset;
+  DistanceModelParams distance_model;
+  std::string measure = "sorensen";
+  std::string layout_measure = "sorensen";
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    FingerprintParams::visit_fields(self.fingerprint, visit);
+    SimilarityParams::visit_fields(self.similarity, visit);
+    RssiOffsetParams::visit_fields(self.rssi_offset, visit);
+    DistanceModelParams::visit_fields(self.distance_model, visit);
+    visit(Field{"measure", "", 0, 0,
+                "similarity measure for fingerprint closures; the default ranks pairs within 5 m best",
+                "cosine|gaussian|detection|slide|mended|sorensen"}
+              .basic(),
+          self.measure);
+    visit(Field{"layout_measure", "", 0, 0,
+                "similarity measure for the layout of the team; the default ranks distant pairs best",
+                "cosine|gaussian|detection|slide|mended|sorensen"},
+          self.layout_measure);
+  }
+};
+
+/// A fingerprint with the odometry pose at its stamp.
+struct PlacedFingerprint {
+  Fingerprint fingerprint;  ///< RSSI offset removed
+  SE3 T_start_body;         ///< odometry at its stamp
+  double travelled_m = 0;   ///< path length from the robot's start
+};
+
+/// Fingerprint `index` of robot `robot`.
+struct FingerprintIndex {
+  RobotIndex robot;
+  std::size_t index = 0;
+};
+
+/// The team's fingerprints in one list, robot by robot in time order.
+struct RadioMeasurements {
+  std::vector<std::vector<PlacedFingerprint>> robots;
+  std::vector<FingerprintIndex> nodes;  ///< fingerprints of all robots
+  TeamSimilarity near_similarity;       ///< over nodes, by `measure`
+  TeamSimilarity layout_similarity;     ///< over nodes, by `layout_measure`
+  DistanceModel near_model;
+  std::optional<DecayModel> layout_model;  ///< absent with too few training samples
+  RssiOffsets rssi_offsets = {};           ///< per robot; already subtracted from its fingerprints
+
+  const PlacedFingerprint& at(std::size_t node) const {
+    return robots[nodes[node].robot.index()][nodes[node].index];
+  }
+};
+
+RadioMeasurements measure_radio(const Mission& mission, const RadioParams& params, const Progress& progress);
+
+}  // namespace radioslam

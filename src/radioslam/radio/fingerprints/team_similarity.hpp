@@ -1,0 +1,44 @@
+// Similarities among the team's fingerprints: of any two, or of all pairs above a threshold, by the exact
+// join of similarity_join.hpp. Memory does not grow with the number of pairs; time grows with those above the
+// threshold.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "radioslam/radio/fingerprints/fingerprint.hpp"
+#include "radioslam/radio/fingerprints/similarity.hpp"
+#include "radioslam/radio/fingerprints/similarity_join.hpp"
+
+namespace radioslam {
+
+/// Threshold that every pair of positive similarity reaches.
+inline constexpr double kAnySimilarity = static_cast<double>(std::numeric_limits<float>::denorm_min());
+
+/// Copies share their data.
+class TeamSimilarity {
+ public:
+  TeamSimilarity() : TeamSimilarity(std::vector<std::vector<float>>()) {}
+  TeamSimilarity(std::vector<Fingerprint> fingerprints, SimilarityMeasure measure,
+                 const SimilarityParams& params);
+  /// From given similarities: symmetric, one row per fingerprint.
+  explicit TeamSimilarity(std::vector<std::vector<float>> table);
+
+  std::size_t size() const;
+  /// Similarity of fingerprints i and j.
+  float of(std::size_t i, std::size_t j) const;
+  /// Visits, for every i in turn, its pairs i < j of similarity at least `minimum` > 0, ordered by j.
+  void for_each_row(double minimum, const std::function<void(std::span<const SimilarPair>)>& visit) const;
+  /// Visits the pairs i < j of similarity at least `minimum` > 0, ordered by (i, j).
+  void for_each_pair(double minimum, const std::function<void(const SimilarPair&)>& visit) const;
+
+ private:
+  struct Source;
+  std::shared_ptr<const Source> source_;
+};
+
+}  // namespace radioslam

@@ -1,0 +1,66 @@
+// Range biases: constant range error per pair of antennas, from cables, clocks and antennas (decimetres).
+//
+// With known geometry a pair's bias is the robust mean of measured minus true distance. With known anchors
+// and an unknown receiver, biases and positions are estimated jointly: each epoch with more ranges than
+// coordinates constrains the biases. With positions eliminated,
+//   H = sum over epochs of W - W J (J^T W J)^-1 J^T W  + I / sigma_b^2,   H db = sum of P r - b / sigma_b^2,
+// W being 1/sigma^2 times the weight of a Cauchy loss, reduced where successive residuals are correlated.
+// Errors that change with position (reflections) are not constant biases; they bias the estimate and possibly
+// the positions. The prior sigma_b keeps unobservable biases near zero. Metres; measured = true + bias. Cost:
+// O(ranges) per iteration plus (pairs)^3.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "radioslam/base/fields.hpp"
+#include "radioslam/radio/ranging/range_epochs.hpp"
+
+namespace radioslam {
+
+struct RangeBiasParams {
+  double prior_sigma_m = 0.5;
+  int max_iterations = 30;
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit(Field{"prior_sigma_m", "m", 0, 100,
+                "prior standard deviation of a range bias; 0 holds all biases at zero; UWB radios show "
+                "0.2-0.5 m"},
+          self.prior_sigma_m);
+    visit(Field{"max_iterations", "", 0, 1000, "largest number of alternations between biases and positions"},
+          self.max_iterations);
+  }
+};
+
+struct RangeBias {
+  double bias_m = 0;
+  double sigma_m = 0;     ///< of the bias
+  double spread_m = 0;    ///< robust standard deviation of single ranges around it
+  std::size_t count = 0;  ///< ranges used
+};
+
+/// A measured range whose true distance is known.
+struct KnownRange {
+  std::size_t pair = 0;
+  double range_m = 0, distance_m = 0;
+};
+
+/// Bias per pair 0 .. pairs - 1: Huber's mean, started at the median and scaled by the median deviation.
+std::vector<RangeBias> biases_from_known_geometry(const std::vector<KnownRange>& ranges, std::size_t pairs);
+
+/// Positions and biases estimated jointly.
+struct CalibratedPositions {
+  std::vector<std::optional<Multilateration>> epochs;  ///< positions, with the biases removed
+  std::vector<RangeBias> biases;                       ///< per pair
+  double noise_factor = 1;  ///< noise of the ranges relative to their stated sigmas; at least 1
+};
+
+/// `anchors_m` is 2 x n or 3 x n; pairs are numbered 0 .. pairs - 1.
+CalibratedPositions calibrate_positions(const Eigen::MatrixXd& anchors_m,
+                                        const std::vector<RangeEpoch>& epochs, std::size_t pairs,
+                                        const MultilaterationParams& multilateration = {},
+                                        const RangeBiasParams& params = {});
+
+}  // namespace radioslam

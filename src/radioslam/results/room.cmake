@@ -1,0 +1,1 @@
+radioslam_room(results ROOMS mission)

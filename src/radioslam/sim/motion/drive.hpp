@@ -1,0 +1,79 @@
+// A robot's drive over the lanes: its route over crossings, and its pose after any path length.
+//
+// The route is a random walk without U-turns that prefers less used lanes: a lane's probability is
+// proportional to 1 / (1 + times used). A route longer than all lanes together therefore revisits most of
+// them. The robot takes corners on arcs and wanders sideways about the centre line, so that it never follows
+// the same line twice.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "radioslam/base/fields.hpp"
+#include "radioslam/base/random.hpp"
+#include "radioslam/geometry/se2.hpp"
+#include "radioslam/sim/worlds/lane_grid.hpp"
+
+namespace radioslam {
+
+/// Length, speed and lateral accuracy of a drive.
+struct DriveParams {
+  double path_length_m = 600;
+  double speed_mps = 0.4;
+  double corner_radius_m = 2.5;
+  double sigma_wander_m = 0.4;
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit(Field{"path_length_m", "m", 1, 100000, "path length of each robot along the lanes' centre lines"}
+              .basic(),
+          self.path_length_m);
+    visit(Field{"speed_mps", "m/s", 0.01, 10, "driving speed; 0.4 in Liu et al."}.basic(), self.speed_mps);
+    visit(Field{"corner_radius_m", "m", 0.5, 4, "radius of the arcs around corners"}, self.corner_radius_m);
+    visit(Field{"sigma_wander_m", "m", 0, 0.6, "standard deviation of the sideways wander on a lane"},
+          self.sigma_wander_m);
+  }
+};
+
+/// Successive crossings from `start`, until the path is at least `length_m` long.
+std::vector<std::size_t> draw_route(const LaneGrid& lanes, std::size_t start, double length_m, Rng rng);
+
+/// Corners of a drive of `path_length_m` from a crossing: the crossings of a sufficiently long route.
+std::vector<Eigen::Vector2d> draw_corners(const LaneGrid& lanes, std::size_t start, double path_length_m,
+                                          const Rng& rng);
+
+/// Pose on a drive, by path length along the centre lines.
+class Drive {
+ public:
+  /// `corners` as the crossings of a route, no two consecutive ones equal. Between short lanes, corners are
+  /// sharper than requested.
+  Drive(const std::vector<Eigen::Vector2d>& corners, const DriveParams& params, Rng rng);
+
+  double length_m() const { return length_m_; }
+  /// T_floor_body after path length `path_m` in [0, length_m()].
+  SE2 pose_at(double path_m) const;
+
+ private:
+  /// A line (curvature 0) or an arc.
+  struct PathSegment {
+    double begin_m = 0;
+    double length_m = 0;
+    SE2 T_floor_begin;
+    double curvature_per_m = 0;  ///< positive to the left
+  };
+  /// One sine of the sideways wander.
+  struct Wave {
+    double amplitude_m = 0;
+    double wavenumber_per_m = 0;
+    double phase_rad = 0;
+  };
+  void append(const SE2& T_floor_begin, double length_m, double curvature_per_m);
+  void append_line_to(const Eigen::Vector2d& target);
+  void append_corner(double turn_rad, double radius_m);
+
+  double length_m_ = 0;
+  std::vector<PathSegment> segments_;
+  std::array<Wave, 4> waves_;
+};
+
+}  // namespace radioslam

@@ -1,0 +1,70 @@
+// KITTI scenario: a recorded drive, cut into two robots that drive at the same time, with simulated radio
+// links.
+//
+// After the test of Wi-Closure (Wang et al.) on KITTI 08 (Geiger et al. 2012): the first part of the sequence
+// is robot a, the rest is robot b; both start at time 0, each with its own real odometry in its own start
+// frame. Links are simulated from the true poses. The LiDAR's range is half of the 35 m up to which a pair
+// counts as overlapping. The stated odometry noise was fitted to A-LOAM on sequence 00 (docs/defaults.md).
+#pragma once
+
+#include <cstdint>
+
+#include "radioslam/geometry/se3.hpp"
+#include "radioslam/geometry/trajectory.hpp"
+#include "radioslam/mission/mission.hpp"
+#include "radioslam/sim/scenarios/simulation.hpp"
+#include "radioslam/sim/sensors/aliased_matches.hpp"
+#include "radioslam/sim/sensors/radio_channel.hpp"
+
+namespace radioslam {
+
+/// All parameters of such a mission except the recording. Field names are unique over all parts.
+struct KittiParams {
+  double cut = 0.34;
+  int dimension = 3;
+  double lidar_range_m = 17.5;
+  double sigma_xy_per_sqrt_m = 0.05;
+  double sigma_yaw_per_sqrt_m_rad = 0.001;
+  double sigma_yaw_per_rad = 0.005;
+  double sigma_z_per_sqrt_m = 0.05;
+  RadioChannelParams radio;
+  AliasedMatchParams matches;
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit(Field{"cut", "", 0.01, 0.99, "ratio of the poses that are assigned to robot a"}.basic(), self.cut);
+    visit(Field{"dimension", "", 2, 3,
+                "dimension of the mission: 2 for poses projected to the plane, 3 for poses in space"}
+              .basic(),
+          self.dimension);
+    visit(Field{"lidar_range_m", "m", 0.1, 1000,
+                "range of every robot's LiDAR; half of the 35 m in Wi-Closure (Wang et al.)"}
+              .basic(),
+          self.lidar_range_m);
+    visit(Field{"sigma_xy_per_sqrt_m", "m/sqrt(m)", 0, 1,
+                "stated white noise of x and y, per axis (default: A-LOAM on sequence 00)"}
+              .basic(),
+          self.sigma_xy_per_sqrt_m);
+    visit(Field{"sigma_yaw_per_sqrt_m_rad", "rad/sqrt(m)", 0, 1,
+                "stated white noise of the yaw per path length (default: A-LOAM on sequence 00)"},
+          self.sigma_yaw_per_sqrt_m_rad);
+    visit(Field{"sigma_yaw_per_rad", "rad/sqrt(rad)", 0, 1, "stated white noise of the yaw per rotation"},
+          self.sigma_yaw_per_rad);
+    visit(Field{"sigma_z_per_sqrt_m", "m/sqrt(m)", 0, 1,
+                "stated white noise of the height (default: A-LOAM on sequence 00)"},
+          self.sigma_z_per_sqrt_m);
+    RadioChannelParams::visit_fields(self.radio, visit);
+    AliasedMatchParams::visit_fields(self.matches, visit);
+  }
+};
+
+/// A recording: true poses and odometry poses, one for one, each in any frame of their own, x forward, z up.
+struct RecordedDrive {
+  Trajectory<SE3> truth;
+  Trajectory<SE3> odometry;
+};
+
+/// Both trajectories have the same stamps, at least four. The common frame is that of the first true pose.
+Simulation simulate_kitti(const KittiParams& params, const RecordedDrive& drive, std::uint64_t seed);
+
+}  // namespace radioslam

@@ -1,0 +1,115 @@
+// Simulated radio links between moving robots: ranges and angles of arrival.
+//
+// Links are drawn at times when two robots are within radio range, one in each of as many equal parts of
+// those times, so that they are spread over the mission. A range is the true distance plus Gaussian noise. An
+// angle measurement (arrival_paths.hpp) contains the direct path, unless it is missing, and false ones,
+// strongest first. Each receiver and transmitter has its own random stream: enabling or disabling one kind of
+// measurement leaves the noise of the others unchanged.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "radioslam/base/fields.hpp"
+#include "radioslam/base/random.hpp"
+#include "radioslam/geometry/se3.hpp"
+#include "radioslam/geometry/trajectory.hpp"
+#include "radioslam/mission/radio_links.hpp"
+
+namespace radioslam {
+
+/// Which robots of a link measure angles.
+enum class AngleEnds { kBoth, kOne, kNone };
+
+/// Rate and errors of links.
+struct RadioChannelParams {
+  int links = 40;
+  double radio_range_m = 100;
+  bool ranges = true;
+  std::string angle_ends = "both";
+  double sigma_range_m = 0.5;
+  double sigma_angle_deg = 10;
+  double time_offset_s = 0;
+  double missing_direct_ratio = 0.15;
+  int min_false_paths = 0;
+  int max_false_paths = 5;
+  double false_elevation_deg = 20;
+  bool mirror = false;
+  double mirror_section_m = 150;
+  double mirror_distance_m = 12;
+  double sigma_power_db = 4;
+  double false_power_db = -5;
+  double mirror_power_db = -1;
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit(Field{"links", "", 0, 100000, "number of links per pair of robots"}.basic(), self.links);
+    visit(
+        Field{"radio_range_m", "m", 0.1, 1e6, "largest distance at which robots receive each other"}.basic(),
+        self.radio_range_m);
+    visit(Field{"ranges", "", 0, 1, "whether links measure ranges"}, self.ranges);
+    visit(Field{"angle_ends", "", 0, 0, "robots of a link that measure angles; one: the first of the two",
+                "both|one|none"},
+          self.angle_ends);
+    visit(Field{"sigma_range_m", "m", 0.001, 1000,
+                "standard deviation of ranges; 0.5 in Wi-Closure (Wang et al.)"}
+              .basic(),
+          self.sigma_range_m);
+    visit(Field{"sigma_angle_deg", "deg", 0.01, 90,
+                "standard deviation of angles; 10 in Wi-Closure (Wang et al.)"}
+              .basic(),
+          self.sigma_angle_deg);
+    visit(Field{"time_offset_s", "s", 0, 60, "delay of angle measurements after ranges"}, self.time_offset_s);
+    visit(Field{"missing_direct_ratio", "", 0, 1, "ratio of angle measurements without the direct path"}
+              .basic(),
+          self.missing_direct_ratio);
+    visit(Field{"min_false_paths", "", 0, 100, "smallest number of false paths per angle measurement"},
+          self.min_false_paths);
+    visit(Field{"max_false_paths", "", 0, 100, "largest number of false paths per angle measurement"},
+          self.max_false_paths);
+    visit(Field{"false_elevation_deg", "deg", 0, 90, "largest absolute elevation of false paths"},
+          self.false_elevation_deg);
+    visit(Field{"mirror", "", 0, 1,
+                "whether every angle measurement contains a mirror image of the transmitter"},
+          self.mirror);
+    visit(Field{"mirror_section_m", "m", 1, 1e6,
+                "path length of the first robot along which its mirroring wall is the same"},
+          self.mirror_section_m);
+    visit(Field{"mirror_distance_m", "m", 0, 1000,
+                "distance from the first robot's path to the mirroring wall"},
+          self.mirror_distance_m);
+    visit(Field{"sigma_power_db", "dB", 0, 60, "standard deviation of every path's power"},
+          self.sigma_power_db);
+    visit(Field{"false_power_db", "dB", -100, 100, "mean power of false paths relative to direct ones"},
+          self.false_power_db);
+    visit(Field{"mirror_power_db", "dB", -100, 100, "mean power of mirror images relative to direct paths"},
+          self.mirror_power_db);
+  }
+};
+
+inline AngleEnds angle_ends(const RadioChannelParams& params) {
+  if (params.angle_ends == "none") return AngleEnds::kNone;
+  return params.angle_ends == "one" ? AngleEnds::kOne : AngleEnds::kBoth;
+}
+
+/// Measurements of all links of a team, in temporal order, and which paths are direct (see Truth).
+struct RadioLinks {
+  std::vector<RangeMeasurement> ranges;
+  std::vector<AoaMeasurement> aoa_measurements;
+  std::vector<std::optional<int>> direct_paths;
+};
+
+/// Links between all pairs of robots that move along `truth` (T_common_body). Robots that are never within
+/// range have none. Dimension 2 measures no elevation. Cost: one distance per pair and 50 ms.
+RadioLinks simulate_links(const std::vector<Trajectory<SE3>>& truth, int dimension,
+                          const RadioChannelParams& params, const Rng& rng);
+
+/// Time grid on which links are placed, so that no two links of a pair coincide.
+inline constexpr double kTimeInRangeStep_s = 0.05;
+
+/// Times t at which two robots are within `within_m` of each other and both still move at t + offset.
+std::vector<Stamp> times_in_range(const Trajectory<SE3>& a, const Trajectory<SE3>& b, double within_m,
+                                  double offset_s = 0);
+
+}  // namespace radioslam

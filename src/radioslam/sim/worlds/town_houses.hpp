@@ -1,0 +1,43 @@
+// Houses of a town: rows of boxes of random sizes on both sides of every street, closed or not, with gaps
+// between them. Frame: that of the streets (street_grid.hpp).
+#pragma once
+
+#include <vector>
+
+#include "radioslam/base/fields.hpp"
+#include "radioslam/base/random.hpp"
+#include "radioslam/sim/worlds/hills.hpp"
+#include "radioslam/sim/worlds/street_grid.hpp"
+#include "radioslam/sim/worlds/upright_shapes.hpp"
+
+namespace radioslam {
+
+struct TownHouseParams {
+  double street_width_m = 16;
+  double house_setback_m = 2;
+  double house_gap_m = 3;
+  double house_min_m = 7;
+  double house_max_m = 14;
+  double house_min_height_m = 4;
+  double house_max_height_m = 12;
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit(Field{"street_width_m", "m", 2, 100,
+                "smallest distance between the houses on both sides of a street"},
+          self.street_width_m);
+    visit(Field{"house_setback_m", "m", 0, 50, "largest setback of a house from the street"},
+          self.house_setback_m);
+    visit(Field{"house_gap_m", "m", 0, 50, "largest gap between adjacent houses"}, self.house_gap_m);
+    visit(Field{"house_min_m", "m", 1, 100, "smallest side of a house"}, self.house_min_m);
+    visit(Field{"house_max_m", "m", 1, 100, "largest side of a house"}, self.house_max_m);
+    visit(Field{"house_min_height_m", "m", 1, 100, "smallest height of a house"}, self.house_min_height_m);
+    visit(Field{"house_max_height_m", "m", 1, 100, "largest height of a house"}, self.house_max_height_m);
+  }
+};
+
+/// Houses of the whole town, upright on the ground; none if its blocks are smaller than its streets.
+std::vector<UprightBox> build_houses(const StreetGridParams& streets, const TownHouseParams& params,
+                                     const Hills& ground, const Rng& rng);
+
+}  // namespace radioslam

@@ -1,0 +1,92 @@
+#include "radioslam/study/evaluated_run.hpp"
+
+#include <algorithm>
+
+#include "radioslam/eval/team_estimate.hpp"
+
+namespace radioslam {
+namespace {
+
+std::optional<double> share(std::size_t part, std::size_t whole) {
+  if (whole == 0) return std::nullopt;
+  return static_cast<double>(part) / static_cast<double>(whole);
+}
+
+std::vector<KeyframeStamps> keyframe_stamps(const RunResult& result) {
+  std::vector<KeyframeStamps> stamps;
+  for (const RobotResult& robot : result.robots) {
+    auto& of_robot = stamps.emplace_back();
+    for (const auto& keyframe : robot.estimate) of_robot.push_back(keyframe.stamp);
+  }
+  return stamps;
+}
+
+PairTruth pair_truth(const Mission& mission, const Truth& truth) {
+  PairTruth pairs{truth, mission.dimension, {}};
+  for (const Robot& robot : mission.robots) pairs.reach_m.push_back(robot.lidar_range_m);
+  return pairs;
+}
+
+double seconds_of(const RunResult& result, std::string_view stage) {
+  for (const StageTiming& timing : result.timings)
+    if (timing.stage == stage) return timing.seconds;
+  return 0;
+}
+
+std::optional<double> best_ate_m(const RunResult& result, const Truth& truth,
+                                 std::optional<double> likeliest) {
+  std::optional<double> best = likeliest;
+  for (const HypothesisResult& other : result.alternatives) {
+    const auto ate = ate_rmse_m(team_estimate(other.robots, result), truth, result.dimension);
+    if (ate && (!best || *ate < *best)) best = ate;
+  }
+  return best;
+}
+
+}  // namespace
+
+std::optional<double> recall(const PairCounts& counts) { return share(counts.true_kept, counts.true_pairs); }
+
+std::optional<double> rejected_false(const PairCounts& counts) {
+  const std::size_t false_pairs = counts.pairs - counts.true_pairs;
+  const std::size_t false_kept = counts.kept - counts.true_kept;
+  return share(false_pairs - false_kept, false_pairs);
+}
+
+std::optional<double> ate_rmse_m(const std::vector<EstimatedTrajectory>& estimate, const Truth& truth,
+                                 int dimension) {
+  const TeamMetrics metrics = evaluate_trajectories(estimate, truth, dimension);
+  if (!metrics.ate) return std::nullopt;
+  return metrics.ate->rmse_m;
+}
+
+std::optional<double> dead_reckoning_ate_m(const Mission& mission, const Truth& truth) {
+  std::vector<EstimatedTrajectory> robots;
+  for (const Robot& robot : mission.robots) {
+    if (!robot.initial_pose) return std::nullopt;
+    const SE3 T_common_frame = *robot.initial_pose * robot.odometry.front().pose.inverse();
+    std::vector<StampedPose<SE3>> poses(robot.odometry.begin(), robot.odometry.end());
+    for (auto& row : poses) row.pose = T_common_frame * row.pose;
+    robots.push_back({robot.id, Trajectory<SE3>(std::move(poses))});
+  }
+  return ate_rmse_m(robots, truth, mission.dimension);
+}
+
+EvaluatedRun run_and_evaluate(const Mission& mission, const Truth& truth, const RunParams& params,
+                              const RunOptions& options) {
+  const RunResult result = run_pipeline(mission, params, options).result;
+  const TeamMetrics metrics = evaluate_trajectories(team_estimate(result), truth, result.dimension);
+  EvaluatedRun run;
+  if (metrics.ate) run.ate_m = metrics.ate->rmse_m;
+  run.best_ate_m = best_ate_m(result, truth, run.ate_m);
+  run.weight = result.weight;
+  run.coverage = metrics.coverage;
+  run.candidates = count_candidates(keyframe_stamps(result), result.candidates, pair_truth(mission, truth));
+  const auto distances = result.counts.find("distances_evaluated");
+  if (distances != result.counts.end()) run.distances_evaluated = distances->second;
+  run.search_s = seconds_of(result, "overlap");
+  for (const StageTiming& timing : result.timings) run.total_s += timing.seconds;
+  return run;
+}
+
+}  // namespace radioslam

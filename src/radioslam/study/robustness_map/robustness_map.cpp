@@ -1,0 +1,85 @@
+#include "radioslam/study/robustness_map/robustness_map.hpp"
+
+#include "radioslam/base/parallel.hpp"
+#include "radioslam/study/evaluated_run.hpp"
+#include "radioslam/study/oracle.hpp"
+#include "radioslam/study/progress_counter.hpp"
+
+namespace radioslam {
+namespace {
+
+bool is_wrong(std::optional<double> ate_m, std::optional<double> oracle_m) {
+  if (!oracle_m) return false;
+  if (!ate_m) return true;
+  return *ate_m > kFailedRatio * *oracle_m && *ate_m > *oracle_m + kFailedExcess_m;
+}
+
+CityParams town_of(const CityParams& town, const RobustnessCell& cell) {
+  CityParams params = town;
+  params.radio.sigma_angle_deg = cell.sigma_angle_deg;
+  params.radio.links = cell.links;
+  params.radio.min_false_paths = params.radio.max_false_paths = cell.false_paths;
+  return params;
+}
+
+RobustnessSample sample(const CityParams& town, std::uint64_t seed) {
+  const auto [mission, truth] = simulate_city(town, seed);
+  RunOptions search;
+  search.overlap_only = true;
+  const EvaluatedRun run = run_and_evaluate(mission, truth, {}, search);
+  RobustnessSample result;
+  result.ate_m = run.ate_m;
+  result.best_ate_m = run.best_ate_m;
+  result.weight = run.weight;
+  result.recall = recall(run.candidates);
+  result.rejected_false = rejected_false(run.candidates);
+  if (const auto oracle = oracle_estimate(mission, truth, {}))
+    result.ate_oracle_m = ate_rmse_m(*oracle, truth, mission.dimension);
+  return result;
+}
+
+std::vector<RobustnessCell> empty_cells(const RobustnessGrid& grid, std::size_t seeds) {
+  std::vector<RobustnessCell> cells;
+  for (const int paths : grid.false_paths)
+    for (const int links : grid.links)
+      for (const double sigma : grid.sigma_angle_deg)
+        cells.push_back({sigma, links, paths, std::vector<RobustnessSample>(seeds)});
+  return cells;
+}
+
+}  // namespace
+
+CityParams robustness_town() {
+  CityParams town;
+  town.path_length_m = 800;
+  town.streets.blocks_x = town.streets.blocks_y = 4;
+  return town;
+}
+
+std::optional<double> RobustnessSample::ratio() const {
+  if (!ate_m || !ate_oracle_m || *ate_oracle_m <= 0) return std::nullopt;
+  return *ate_m / *ate_oracle_m;
+}
+
+bool RobustnessSample::failed() const { return is_wrong(ate_m, ate_oracle_m); }
+
+bool RobustnessSample::confidently_wrong() const {
+  return failed() && weight >= kConfidentWeight && is_wrong(best_ate_m, ate_oracle_m);
+}
+
+RobustnessMap map_robustness(const RobustnessGrid& grid, const CityParams& town, std::uint64_t first_seed,
+                             int seeds, const Progress& progress) {
+  const auto per_cell = static_cast<std::size_t>(seeds);
+  RobustnessMap map{grid, first_seed, seeds, empty_cells(grid, per_cell)};
+  ProgressCounter counter(progress, "towns", map.cells.size() * per_cell);
+  parallel_for(map.cells.size() * per_cell, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      RobustnessCell& cell = map.cells[k / per_cell];
+      cell.samples[k % per_cell] = sample(town_of(town, cell), first_seed + k % per_cell);
+      counter.one_more();
+    }
+  });
+  return map;
+}
+
+}  // namespace radioslam

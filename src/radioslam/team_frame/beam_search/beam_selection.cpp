@@ -1,0 +1,68 @@
+#include "radioslam/team_frame/beam_search/beam_selection.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace radioslam {
+namespace {
+
+/// Whether all poses agree within tolerance and uncertainty; both teams have the same gauge.
+template <class Pose>
+bool same_alignment(const TeamValues<Pose>& a, const TeamValues<Pose>& b, const std::vector<double>& sigmas_m,
+                    const BeamParams& params) {
+  for (std::size_t k = 0; k < a.poses.size(); ++k)
+    if ((a.poses[k].translation() - b.poses[k].translation()).norm() >
+        params.same_map_m + params.same_map_sigmas * sigmas_m[k])
+      return false;
+  return true;
+}
+
+}  // namespace
+
+template <class Pose>
+std::vector<RefinementStart<Pose>> different_starts(std::vector<RefinementStart<Pose>> starts,
+                                                    const BeamParams& params) {
+  std::stable_sort(starts.begin(), starts.end(),
+                   [](const auto& a, const auto& b) { return a.cost < b.cost; });
+  std::vector<RefinementStart<Pose>> kept;
+  for (auto& start : starts) {
+    if (kept.size() == static_cast<std::size_t>(params.refined_places)) break;
+    const std::vector<double> no_sigmas(start.team.poses.size(), 0);
+    if (std::none_of(kept.begin(), kept.end(), [&](const auto& other) {
+          return same_alignment(other.team, start.team, no_sigmas, params);
+        }))
+      kept.push_back(std::move(start));
+  }
+  return kept;
+}
+
+template <class Pose>
+std::vector<TeamValues<Pose>> different_teams(
+    std::vector<TeamValues<Pose>> teams, const BeamParams& params,
+    const std::function<std::vector<double>(const TeamValues<Pose>&)>& position_sigmas_m) {
+  std::stable_sort(teams.begin(), teams.end(),
+                   [](const auto& a, const auto& b) { return a.log_evidence > b.log_evidence; });
+  std::vector<TeamValues<Pose>> kept;
+  std::vector<std::vector<double>> sigmas_m;
+  for (TeamValues<Pose>& team : teams) {
+    if (kept.size() == static_cast<std::size_t>(params.beam)) break;
+    bool known = false;
+    for (std::size_t k = 0; k < kept.size() && !known; ++k)
+      known = same_alignment(kept[k], team, sigmas_m[k], params);
+    if (known) continue;
+    sigmas_m.push_back(position_sigmas_m(team));
+    kept.push_back(std::move(team));
+  }
+  return kept;
+}
+
+#define RADIOSLAM_BEAM_SELECTION(Pose)                                                             \
+  template std::vector<RefinementStart<Pose>> different_starts(std::vector<RefinementStart<Pose>>, \
+                                                               const BeamParams&);                 \
+  template std::vector<TeamValues<Pose>> different_teams(                                          \
+      std::vector<TeamValues<Pose>>, const BeamParams&,                                            \
+      const std::function<std::vector<double>(const TeamValues<Pose>&)>&)
+RADIOSLAM_BEAM_SELECTION(SE2);
+RADIOSLAM_BEAM_SELECTION(SE3);
+
+}  // namespace radioslam

@@ -1,0 +1,63 @@
+#include "radioslam/team_frame/beam_search/partial_mixture.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "radioslam/graph/marginals.hpp"
+#include "radioslam/team_frame/beam_search/placement_order.hpp"
+#include "radioslam/team_frame/gravity_priors.hpp"
+
+namespace radioslam {
+namespace {
+
+template <class Pose>
+void fix_unplaced(PoseGraph<Pose>& graph, const std::vector<TrajectorySegment>& segments,
+                  const TeamComponents& components) {
+  graph.pose_fixed.assign(graph.poses.size(), false);
+  for (std::size_t p = 0; p < segments.size(); ++p)
+    if (components.of_segment[p] == kUnplaced)
+      std::fill_n(graph.pose_fixed.begin() + static_cast<std::ptrdiff_t>(segments[p].first_pose),
+                  segments[p].pose_count, true);
+}
+
+}  // namespace
+
+template <class Pose>
+MixtureGraph<Pose> partial_mixture(const ConnectedTeam<Pose>& connected, const TeamComponents& components,
+                                   const TeamValues<Pose>& at, const MixtureParams& params) {
+  MixtureGraph<Pose> result(connected.team, params);
+  at.write_to(result.graph);
+  rotate_gravity_priors(result.graph);
+  fix_unplaced(result.graph, connected.team.segments, components);
+  return result;
+}
+
+template <class Pose>
+VarianceInflation inflation_of_connected(const VarianceInflation& all, const ConnectedTeam<Pose>& connected) {
+  VarianceInflation own;
+  for (const std::size_t k : connected.ranges) own.ranges_m2.push_back(all.ranges_m2[k]);
+  for (const std::size_t k : connected.bearings) own.bearings_rad2.push_back(all.bearings_rad2[k]);
+  return own;
+}
+
+template <class Pose>
+std::vector<double> position_sigmas_m(MixtureGraph<Pose> mixture) {
+  mixture.update_weights({}, 0);
+  std::vector<double> sigmas_m(mixture.graph.poses.size(), 0);
+  const auto marginals = Marginals<Pose>::compute(mixture.graph);
+  if (!marginals) return sigmas_m;
+  for (std::size_t k = 0; k < sigmas_m.size(); ++k)
+    sigmas_m[k] =
+        std::sqrt(marginals->pose(PoseId(k)).template topLeftCorner<Pose::kDim, Pose::kDim>().trace());
+  return sigmas_m;
+}
+
+#define RADIOSLAM_PARTIAL_MIXTURE(Pose)                                                                    \
+  template MixtureGraph<Pose> partial_mixture(const ConnectedTeam<Pose>&, const TeamComponents&,           \
+                                              const TeamValues<Pose>&, const MixtureParams&);              \
+  template VarianceInflation inflation_of_connected(const VarianceInflation&, const ConnectedTeam<Pose>&); \
+  template std::vector<double> position_sigmas_m(MixtureGraph<Pose>)
+RADIOSLAM_PARTIAL_MIXTURE(SE2);
+RADIOSLAM_PARTIAL_MIXTURE(SE3);
+
+}  // namespace radioslam

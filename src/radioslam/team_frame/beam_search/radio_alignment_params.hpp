@@ -1,0 +1,58 @@
+// Parameters of the team alignment by ranges and angles of arrival (radio_alignment.hpp).
+#pragma once
+
+#include "radioslam/base/fields.hpp"
+#include "radioslam/team_frame/mixture_refinement.hpp"
+#include "radioslam/team_frame/pose_proposals.hpp"
+
+namespace radioslam {
+
+struct BeamParams {
+  int beam = 4;
+  int tried_places = 80;
+  int refined_places = 48;
+  double same_map_m = 0.5;
+  double same_map_sigmas = 3;
+  double evidence_temperature = 4;
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit(Field{"beam", "", 1, 100,
+                "number of team alignments kept while robots are added; higher values search more broadly"}
+              .basic(),
+          self.beam);
+    visit(Field{"tried_places", "", 1, 10000,
+                "number of start poses refined coarsely per team alignment and robot"},
+          self.tried_places);
+    visit(Field{"refined_places", "", 1, 10000,
+                "number of start poses per robot refined to convergence, over all team alignments kept"},
+          self.refined_places);
+    visit(Field{"same_map_m", "m", 0, 1000,
+                "distance below which all corresponding poses of two alignments count as one hypothesis"},
+          self.same_map_m);
+    visit(Field{"same_map_sigmas", "sigma", 0, 100,
+                "tolerance added to same_map_m when alignments are merged, in standard deviations of a pose"},
+          self.same_map_sigmas);
+    visit(Field{"evidence_temperature", "", 1, 1000,
+                "divisor of the log evidence of a hypothesis, since links share errors; higher values even "
+                "out the weights"},
+          self.evidence_temperature);
+  }
+};
+
+struct RadioAlignmentParams {
+  MixtureParams mixture;
+  GridParams grid;
+  RefinementParams refinement;
+  BeamParams beam;
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    MixtureParams::visit_fields(self.mixture, visit);
+    GridParams::visit_fields(self.grid, visit);
+    RefinementParams::visit_fields(self.refinement, visit);
+    BeamParams::visit_fields(self.beam, visit);
+  }
+};
+
+}  // namespace radioslam

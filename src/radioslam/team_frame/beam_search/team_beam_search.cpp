@@ -1,0 +1,177 @@
+#include "radioslam/team_frame/beam_search/team_beam_search.hpp"
+
+#include "radioslam/base/parallel.hpp"
+#include "radioslam/team_frame/beam_search/placement_order.hpp"
+
+namespace radioslam {
+namespace {
+
+SE2 as_pose(const SE2& T, const SE2*) { return T; }
+SE3 as_pose(const SE2& T, const SE3*) { return lift(T); }
+
+}  // namespace
+
+template <class Pose>
+TeamBeamSearch<Pose>::TeamBeamSearch(const TeamGraph<Pose>& team, const RadioAlignmentParams& params,
+                                     const Progress& progress)
+    : team_(team), params_(params), progress_(progress) {
+  components_.of_segment.assign(team.segments.size(), kUnplaced);
+  components_.of_point.assign(team.graph.points.size(), kUnplaced);
+  TeamValues<Pose> start;
+  start.read_from(team.graph);
+  beam_.push_back(std::move(start));
+}
+
+template <class Pose>
+void TeamBeamSearch<Pose>::run() {
+  int component = 0;
+  if (take_known_starts(component)) grow(component++);
+  while (const auto root = next_root(team_, components_)) {
+    components_.of_segment[*root] = component;
+    adopt_sighted_points(component);
+    grow(component++);
+  }
+  for (int& c : components_.of_segment)
+    if (c == kUnplaced) c = component++;
+  refine_beam();
+  renumber(components_);
+}
+
+template <class Pose>
+bool TeamBeamSearch<Pose>::take_known_starts(int component) {
+  bool any = false;
+  for (std::size_t p = 0; p < team_.segments.size(); ++p)
+    if (team_.segments[p].in_common_frame) components_.of_segment[p] = component, any = true;
+  if (!any) return false;
+  adopt_sighted_points(component);
+  refine_beam();
+  return true;
+}
+
+template <class Pose>
+void TeamBeamSearch<Pose>::grow(int component) {
+  while (const auto unit = next_unit(team_, components_, component)) {
+    add(component, *unit);
+    if (unit->is_segment) adopt_sighted_points(component);
+  }
+}
+
+/// Places the points sighted from a placed pose according to their first sighting.
+template <class Pose>
+void TeamBeamSearch<Pose>::adopt_sighted_points(int component) {
+  const auto segment_of = segment_of_poses(team_);
+  for (const auto& sighting : team_.graph.relative_points) {
+    if (sighting.j.pose.valid()) continue;
+    int& of_point = components_.of_point[sighting.j.point.index()];
+    if (of_point != kUnplaced || components_.of_segment[segment_of[sighting.i.index()]] != component)
+      continue;
+    of_point = component;
+    for (TeamValues<Pose>& team : beam_)
+      team.points[sighting.j.point.index()] = team.poses[sighting.i.index()] * sighting.position;
+  }
+}
+
+template <class Pose>
+void TeamBeamSearch<Pose>::add(int component, const UnplacedNode& unit) {
+  const auto proposals = proposals_for_beam(component, unit);
+  (unit.is_segment ? components_.of_segment : components_.of_point)[unit.index] = component;
+  const Connected connected = connected_team(team_, components_);
+  const Starts starts = different_starts(refined_coarsely(proposals, unit, connected), params_.beam);
+  keep_best(refined(starts, connected));
+  report_progress(progress_, "team frame",
+                  static_cast<double>(unit.index + 1) / static_cast<double>(team_.segments.size()));
+}
+
+/// Start poses of the unit for every team of the beam, as pairs (team, proposal).
+template <class Pose>
+std::vector<std::pair<std::size_t, PoseProposal>> TeamBeamSearch<Pose>::proposals_for_beam(
+    int component, const UnplacedNode& unit) const {
+  std::vector<std::pair<std::size_t, PoseProposal>> all;
+  const Connected connected = connected_team(team_, components_);
+  for (std::size_t b = 0; b < beam_.size(); ++b) {
+    MixtureGraph<Pose> weighted = mixture(connected, beam_[b]);
+    weighted.update_weights({}, 0);
+    auto places =
+        propose_poses(team_, components_, component, unit, weighted.graph, params_.mixture, params_.grid);
+    if (places.size() > static_cast<std::size_t>(params_.beam.tried_places))
+      places.resize(static_cast<std::size_t>(params_.beam.tried_places));
+    for (PoseProposal& place : places) all.emplace_back(b, std::move(place));
+  }
+  return all;
+}
+
+template <class Pose>
+typename TeamBeamSearch<Pose>::Starts TeamBeamSearch<Pose>::refined_coarsely(
+    const std::vector<std::pair<std::size_t, PoseProposal>>& proposals, const UnplacedNode& unit,
+    const Connected& connected) const {
+  Starts starts(proposals.size());
+  parallel_for(proposals.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const auto& [team, proposal] = proposals[k];
+      starts[k] = {beam_[team], inflation_of_connected(proposal.inflation, connected), 0};
+      move_unit(starts[k].team, unit, proposal.T_team_unit);
+      MixtureGraph<Pose> work = mixture(connected, starts[k].team);
+      starts[k].cost = refine_coarsely(work, starts[k].inflation, params_.refinement);
+      starts[k].team.read_from(work.graph);
+    }
+  });
+  return starts;
+}
+
+template <class Pose>
+std::vector<TeamValues<Pose>> TeamBeamSearch<Pose>::refined(const Starts& starts,
+                                                            const Connected& connected) const {
+  std::vector<TeamValues<Pose>> teams(starts.size());
+  parallel_for(starts.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      MixtureGraph<Pose> work = mixture(connected, starts[k].team);
+      const Refinement refinement = refine(work, starts[k].inflation, params_.refinement);
+      teams[k].read_from(work.graph);
+      teams[k].log_evidence = refinement.log_evidence;
+    }
+  });
+  return teams;
+}
+
+template <class Pose>
+void TeamBeamSearch<Pose>::move_unit(TeamValues<Pose>& team, const UnplacedNode& unit,
+                                     const SE2& T_team_unit) const {
+  const Pose T = as_pose(T_team_unit, static_cast<const Pose*>(nullptr));
+  if (!unit.is_segment) {
+    team.points[unit.index] = T * team.points[unit.index];
+    return;
+  }
+  move_segment(team.poses, team_.segments[unit.index], T);
+}
+
+template <class Pose>
+MixtureGraph<Pose> TeamBeamSearch<Pose>::mixture(const Connected& connected,
+                                                 const TeamValues<Pose>& at) const {
+  return partial_mixture(connected, components_, at, params_.mixture);
+}
+
+/// `components_` must be those of `teams` already.
+template <class Pose>
+void TeamBeamSearch<Pose>::keep_best(std::vector<TeamValues<Pose>> teams) {
+  auto kept = different_teams<Pose>(std::move(teams), params_.beam, [&](const TeamValues<Pose>& team) {
+    return position_sigmas_m(mixture(connected_team(team_, components_), team));
+  });
+  if (!kept.empty()) beam_ = std::move(kept);
+}
+
+template <class Pose>
+void TeamBeamSearch<Pose>::refine_beam() {
+  const Connected connected = connected_team(team_, components_);
+  std::vector<TeamValues<Pose>> teams = beam_;
+  for (TeamValues<Pose>& team : teams) {
+    MixtureGraph<Pose> work = mixture(connected, team);
+    team.log_evidence = refine(work, {}, params_.refinement).log_evidence;
+    team.read_from(work.graph);
+  }
+  keep_best(std::move(teams));
+}
+
+template class TeamBeamSearch<SE2>;
+template class TeamBeamSearch<SE3>;
+
+}  // namespace radioslam

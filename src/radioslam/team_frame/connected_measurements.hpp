@@ -1,0 +1,31 @@
+// Selects the measurements of a team whose ends already share a frame, while some trajectory segments are
+// placed and others are not. Poses, points and drifts keep their indices, so that values carry over.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "radioslam/graph/team_graph.hpp"
+
+namespace radioslam {
+
+/// Component (common frame) of every segment and point; -1: not placed yet.
+struct TeamComponents {
+  std::vector<int> of_segment, of_point;
+};
+
+template <class Pose>
+struct ConnectedTeam {
+  TeamGraph<Pose> team;
+  std::vector<std::size_t> ranges, bearings;  ///< indices in the whole team's lists
+};
+
+/// Segment index of every pose.
+template <class Pose>
+std::vector<std::size_t> segment_of_poses(const TeamGraph<Pose>& team);
+
+/// Keeps the measurements within a segment or within a component.
+template <class Pose>
+ConnectedTeam<Pose> connected_team(const TeamGraph<Pose>& team, const TeamComponents& components);
+
+}  // namespace radioslam

@@ -1,0 +1,176 @@
+#include "radioslam/team_frame/odometry_compression.hpp"
+
+#include <algorithm>
+
+#include "radioslam/base/check.hpp"
+#include "radioslam/geometry/linear_algebra.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr std::int32_t kDropped = -1;
+
+/// Index of the odometry factor from the preceding pose to each pose; -1 if there is none.
+template <class Pose>
+std::vector<std::int32_t> odometry_into(const TeamGraph<Pose>& team) {
+  std::vector<std::int32_t> segment_of(team.graph.poses.size(), kDropped);
+  for (std::size_t p = 0; p < team.segments.size(); ++p)
+    std::fill_n(segment_of.begin() + static_cast<std::ptrdiff_t>(team.segments[p].first_pose),
+                team.segments[p].pose_count, static_cast<std::int32_t>(p));
+  std::vector<std::int32_t> into(team.graph.poses.size(), kDropped);
+  for (std::size_t k = 0; k < team.graph.relative_poses.size(); ++k) {
+    const auto& factor = team.graph.relative_poses[k];
+    const std::size_t i = factor.i.index(), j = factor.j.index();
+    if (j == i + 1 && segment_of[i] == segment_of[j] && into[j] == kDropped)
+      into[j] = static_cast<std::int32_t>(k);
+  }
+  return into;
+}
+
+template <class Pose>
+std::vector<bool> kept_poses(const TeamGraph<Pose>& team, const std::vector<std::int32_t>& into) {
+  std::vector<bool> kept(team.graph.poses.size(), false);
+  const auto keep = [&](PoseId id) {
+    if (id.valid()) kept[id.index()] = true;
+  };
+  for (const TrajectorySegment& segment : team.segments) kept[segment.first_pose] = true;
+  for (std::size_t k = 0; k < team.graph.relative_poses.size(); ++k) {
+    const auto& factor = team.graph.relative_poses[k];
+    if (into[factor.j.index()] == static_cast<std::int32_t>(k)) continue;
+    keep(factor.i);
+    keep(factor.j);
+  }
+  for (const auto& f : team.graph.ranges) keep(f.i.pose), keep(f.j.pose);
+  for (const auto& f : team.bearings) keep(f.i), keep(f.j.pose);
+  for (const auto& f : team.graph.relative_points) keep(f.i), keep(f.j.pose);
+  for (const auto& f : team.graph.positions) keep(f.i.pose);
+  for (const auto& f : team.graph.pose_priors) keep(f.i);
+  return kept;
+}
+
+/// Composes consecutive odometry factors.
+template <class Pose>
+class Composition {
+ public:
+  bool empty() const { return empty_; }
+  void append(const RelativePoseFactor<Pose>& factor) {
+    if (empty_) sum_ = RelativePoseFactor<Pose>{factor.i, factor.j, Pose(), {}, {}, 1, factor.drift};
+    if (empty_) covariance_.setZero();
+    empty_ = false;
+    const typename Pose::Jacobian carry = factor.T_i_j.inverse().adjoint();
+    covariance_ = (congruence(carry, covariance_) + inverse(factor.information)).eval();
+    sum_.drift_jacobian = (carry * sum_.drift_jacobian + factor.drift_jacobian).eval();
+    sum_.T_i_j = sum_.T_i_j * factor.T_i_j;
+  }
+  /// The composition so far as a factor between compressed poses i and j; starts a new one.
+  RelativePoseFactor<Pose> take(PoseId i, PoseId j) {
+    sum_.i = i;
+    sum_.j = j;
+    sum_.information = inverse(covariance_);
+    empty_ = true;
+    return sum_;
+  }
+
+ private:
+  bool empty_ = true;
+  RelativePoseFactor<Pose> sum_;
+  typename Pose::Jacobian covariance_ = Pose::Jacobian::Zero();
+};
+
+/// New pose ids, and factors expressed with them.
+template <class Pose>
+class Renumbering {
+ public:
+  explicit Renumbering(std::size_t poses) : new_id_(poses) {}
+  void set(std::size_t old_pose, PoseId id) { new_id_[old_pose] = id; }
+  PoseId operator()(PoseId id) const { return id.valid() ? new_id_[id.index()] : id; }
+  RangeEnd<Pose> operator()(RangeEnd<Pose> end) const {
+    end.pose = (*this)(end.pose);
+    return end;
+  }
+  void copy_others(const TeamGraph<Pose>& full, TeamGraph<Pose>& team) const {
+    for (auto f : full.graph.ranges) f.i = (*this)(f.i), f.j = (*this)(f.j), team.graph.ranges.push_back(f);
+    for (auto f : full.bearings) f.i = (*this)(f.i), f.j = (*this)(f.j), team.bearings.push_back(f);
+    for (auto f : full.graph.relative_points)
+      f.i = (*this)(f.i), f.j = (*this)(f.j), team.graph.relative_points.push_back(f);
+    for (auto f : full.graph.positions) f.i = (*this)(f.i), team.graph.positions.push_back(f);
+    for (auto f : full.graph.pose_priors) f.i = (*this)(f.i), team.graph.pose_priors.push_back(f);
+    team.graph.drift_priors = full.graph.drift_priors;
+  }
+
+ private:
+  std::vector<PoseId> new_id_;
+};
+
+template <class Pose>
+TrajectorySegment compress_segment(const TeamGraph<Pose>& full, const TrajectorySegment& segment,
+                                   const std::vector<std::int32_t>& into, const std::vector<bool>& kept,
+                                   CompressedTeam<Pose>& result, Renumbering<Pose>& ids) {
+  TrajectorySegment shorter{segment.robot,          result.full_pose.size(), 0, {}, segment.sigma_heading_rad,
+                            segment.in_common_frame};
+  Composition<Pose> composition;
+  for (std::size_t n = 0; n < segment.pose_count; ++n) {
+    const std::size_t k = segment.first_pose + n;
+    if (n > 0) {
+      RADIOSLAM_CHECK(into[k] != kDropped, "consecutive poses of a segment need odometry");
+      composition.append(full.graph.relative_poses[static_cast<std::size_t>(into[k])]);
+    }
+    if (!kept[k]) continue;
+    const PoseId id(result.full_pose.size());
+    if (n > 0) result.team.graph.relative_poses.push_back(composition.take(PoseId(id.value - 1), id));
+    ids.set(k, id);
+    result.full_pose.push_back(PoseId(k));
+    result.team.graph.poses.push_back(full.graph.poses[k]);
+    shorter.stamps.push_back(segment.stamps[n]);
+    ++shorter.pose_count;
+  }
+  return shorter;
+}
+
+}  // namespace
+
+template <class Pose>
+CompressedTeam<Pose> compress(const TeamGraph<Pose>& full) {
+  const auto into = odometry_into(full);
+  const auto kept = kept_poses(full, into);
+  CompressedTeam<Pose> result;
+  Renumbering<Pose> ids(full.graph.poses.size());
+  result.team.graph.chart = full.graph.chart;
+  result.team.graph.points = full.graph.points;
+  result.team.graph.drifts = full.graph.drifts;
+  for (const TrajectorySegment& segment : full.segments)
+    result.team.segments.push_back(compress_segment(full, segment, into, kept, result, ids));
+  for (std::size_t k = 0; k < full.graph.relative_poses.size(); ++k) {
+    auto factor = full.graph.relative_poses[k];
+    if (into[factor.j.index()] == static_cast<std::int32_t>(k)) continue;
+    factor.i = ids(factor.i);
+    factor.j = ids(factor.j);
+    result.team.graph.relative_poses.push_back(factor);
+  }
+  ids.copy_others(full, result.team);
+  return result;
+}
+
+template <class Pose>
+void expand_values(const CompressedTeam<Pose>& compressed, TeamGraph<Pose>& full) {
+  const auto into = odometry_into(full);
+  const auto& values = compressed.team.graph;
+  full.graph.points = values.points;
+  full.graph.drifts = values.drifts;
+  std::vector<bool> known(full.graph.poses.size(), false);
+  for (std::size_t k = 0; k < compressed.full_pose.size(); ++k) {
+    full.graph.poses[compressed.full_pose[k].index()] = values.poses[k];
+    known[compressed.full_pose[k].index()] = true;
+  }
+  for (std::size_t k = 0; k < known.size(); ++k)
+    if (!known[k])
+      full.graph.poses[k] =
+          full.graph.poses[k - 1] * full.graph.relative_poses[static_cast<std::size_t>(into[k])].T_i_j;
+}
+
+template CompressedTeam<SE2> compress(const TeamGraph<SE2>&);
+template CompressedTeam<SE3> compress(const TeamGraph<SE3>&);
+template void expand_values(const CompressedTeam<SE2>&, TeamGraph<SE2>&);
+template void expand_values(const CompressedTeam<SE3>&, TeamGraph<SE3>&);
+
+}  // namespace radioslam

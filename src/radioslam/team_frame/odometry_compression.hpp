@@ -1,0 +1,28 @@
+// Compresses a team graph to the poses with measurements other than odometry: the odometry between two kept
+// poses becomes one relative pose with the covariance and drift Jacobian of the composition. For increments Z
+// with covariance S and drift Jacobian D (right perturbations):
+//   (S, D) <- (Ad(Z^-1) S Ad(Z^-1)^T + S_k, Ad(Z^-1) D + D_k).
+#pragma once
+
+#include <vector>
+
+#include "radioslam/graph/team_graph.hpp"
+
+namespace radioslam {
+
+template <class Pose>
+struct CompressedTeam {
+  TeamGraph<Pose> team;           ///< points and drifts in the order of the full graph
+  std::vector<PoseId> full_pose;  ///< pose in the full graph, per compressed pose
+};
+
+/// Keeps the first pose of every segment and all poses with a factor other than the segment's odometry.
+template <class Pose>
+CompressedTeam<Pose> compress(const TeamGraph<Pose>& full);
+
+/// Copies the compressed graph's values to the full graph; poses in between follow from the preceding kept
+/// pose by odometry.
+template <class Pose>
+void expand_values(const CompressedTeam<Pose>& compressed, TeamGraph<Pose>& full);
+
+}  // namespace radioslam

@@ -1,0 +1,214 @@
+// Teams from plain and compressed g2o files, and recorded graphs with the sizes that their sources state.
+#include "radioslam/io/graph/team_graph_file.hpp"
+
+#include <zstd.h>
+
+#include <algorithm>
+
+#include "io/recorded_data.hpp"
+#include "io/refusal.hpp"
+#include "io/temporary_folder.hpp"
+#include "radioslam/io/graph/g2o.hpp"
+#include "radioslam/io/graph/g2o_team.hpp"
+#include "radioslam/io/text/zstd_text.hpp"
+
+namespace radioslam {
+namespace {
+
+std::string id(char robot, int place) {
+  return std::to_string((std::uint64_t{static_cast<unsigned char>(robot)} << 56) +
+                        static_cast<std::uint64_t>(place));
+}
+std::string edge(const std::string& i, const std::string& j, double x) {
+  return "EDGE_SE2 " + i + " " + j + " " + std::to_string(x) + " 0 0 1 0 0 1 0 1\n";
+}
+std::string vertex(const std::string& name, double x) {
+  return "VERTEX_SE2 " + name + " " + std::to_string(x) + " 0 0\n";
+}
+
+TeamGraphFile<SE2> read_graph_lines(const std::vector<std::string>& contents) {
+  std::vector<Text> texts;
+  for (const auto& content : contents) texts.push_back(make_text("t.g2o", content));
+  return std::get<TeamGraphFile<SE2>>(read_g2o_team(texts));
+}
+
+TEST(G2oTeam, LettersAreRobotsAndVerticesAreNoStart) {
+  const auto file = read_graph_lines({vertex(id('a', 0), 5) + vertex(id('a', 1), 50) + vertex(id('b', 0), 7) +
+                                      vertex(id('b', 1), 70) + edge(id('a', 0), id('b', 1), 9) +
+                                      edge(id('a', 0), id('a', 1), 1) + edge(id('b', 0), id('b', 1), 2)});
+  ASSERT_EQ(file.team.segments.size(), 2u);
+  EXPECT_EQ(file.team.segments[1].robot, "b");
+  EXPECT_EQ(file.team.graph.poses[0].translation().x(), 0);
+  EXPECT_EQ(file.team.graph.poses[1].translation().x(), 1);
+  EXPECT_EQ(file.team.graph.poses[3].translation().x(), 2);
+  EXPECT_TRUE(file.true_poses.empty());
+  ASSERT_EQ(file.team.graph.relative_poses.size(), 3u);
+  EXPECT_EQ(file.team.graph.relative_poses[2].T_i_j.translation().x(), 9);
+  EXPECT_EQ(file.team.graph.chart, PoseChart::kG2o);
+  EXPECT_EQ(file.team.segments[0].stamps[1], Stamp::from_seconds(1));
+}
+
+TEST(G2oTeam, PlainIdsAreOneRobot) {
+  const auto file = read_graph_lines({edge("3", "4", 1) + edge("4", "9", 1) + edge("3", "9", 2)});
+  ASSERT_EQ(file.team.segments.size(), 1u);
+  EXPECT_EQ(file.team.segments[0].robot, "a");
+  EXPECT_EQ(file.team.segments[0].pose_count, 3u);
+  EXPECT_EQ(file.pose_names, (std::vector<std::string>{"3", "4", "9"}));
+}
+
+TEST(G2oTeam, EdgesBetweenRobotsInBothFilesCountOnce) {
+  const std::string link = edge(id('a', 1), id('b', 0), 3);
+  const auto file =
+      read_graph_lines({edge(id('a', 0), id('a', 1), 1) + link,
+                        edge(id('b', 0), id('b', 1), 1) + link + edge(id('a', 1), id('b', 0), 4)});
+  EXPECT_EQ(file.team.graph.relative_poses.size(), 4u);
+  EXPECT_EQ(file.team.segments.size(), 2u);
+  const auto within_a_file =
+      read_graph_lines({edge(id('a', 0), id('b', 0), 3) + edge(id('a', 0), id('b', 0), 3)});
+  EXPECT_EQ(within_a_file.team.graph.relative_poses.size(), 2u);
+}
+
+TEST(G2oTeam, SeesLandmarks) {
+  const auto file =
+      read_graph_lines({"VERTEX_XY 9 1 2\n" + edge("0", "1", 1) + "EDGE_SE2_XY 1 9 2 3 4 0 5\n"});
+  ASSERT_EQ(file.team.graph.relative_points.size(), 1u);
+  const auto& sighting = file.team.graph.relative_points[0];
+  EXPECT_EQ(sighting.i, PoseId(1));
+  EXPECT_EQ(sighting.j.point, PointId(0));
+  EXPECT_EQ(sighting.position, Eigen::Vector2d(2, 3));
+  EXPECT_EQ(sighting.information(1, 1), 5);
+  EXPECT_EQ(file.team.graph.points[0], Eigen::Vector2d::Zero());
+}
+
+TEST(G2oTeam, RefusesFilesOfDifferentDimensions) {
+  const std::vector<Text> texts{make_text("0.g2o", edge("0", "1", 1)),
+                                make_text("1.g2o", "VERTEX_SE3:QUAT 0 0 0 0 0 0 0 1\n")};
+  expect_refusal([&] { read_g2o_team(texts); }, 1, "mix 2D and 3D");
+}
+
+TEST(G2oLandmarks, AreWrittenAsTheyAreRead) {
+  const std::string plane = "VERTEX_SE2 0 0 0 0\nVERTEX_XY 9 1 2\nEDGE_SE2_XY 0 9 2 3 4 1 5\n";
+  const std::string space =
+      "VERTEX_SE3:QUAT 0 0 0 0 0 0 0 1\nVERTEX_TRACKXYZ 9 1 2 3\nPARAMS_SE3OFFSET 0 0 0 0 0 0 0 1\n"
+      "EDGE_SE3_TRACKXYZ 0 9 0 2 3 4 1 0 0 1 0 1\n";
+  for (const std::string& content : {plane, space})
+    EXPECT_EQ(std::visit([](const auto& g) { return format_g2o(g); }, read_g2o(make_text("t.g2o", content))),
+              content);
+  expect_refusal([] { read_g2o(make_text("t", "VERTEX_SE2 0 0 0 0\nEDGE_SE2_XY 0 9 2 3 4 1 5\n")); }, 2,
+                 "vertex 9 does not occur");
+}
+
+std::string compressed(const std::string& content) {
+  std::string out(ZSTD_compressBound(content.size()), '\0');
+  out.resize(ZSTD_compress(out.data(), out.size(), content.data(), content.size(), 3));
+  return out;
+}
+
+TEST(Zstd, DecompressesOneFrameOrSeveral) {
+  const std::string content(300000, 'x');
+  EXPECT_EQ(decompress_zstd("f", compressed(content)), content);
+  EXPECT_EQ(decompress_zstd("f", compressed("one") + compressed("two")), "onetwo");
+}
+
+TEST(Zstd, RefusesInvalidTruncatedOrTooLargeData) {
+  const std::string content(300000, 'x');
+  const std::string bytes = compressed(content);
+  expect_refusal([&] { decompress_zstd("f", "plain text, not compressed"); }, 0, "cannot be decompressed");
+  expect_refusal([&] { decompress_zstd("f", bytes.substr(0, bytes.size() - 3)); }, 0, "truncated");
+  expect_refusal([&] { decompress_zstd("f", ""); }, 0, "truncated");
+  expect_refusal([&] { decompress_zstd("f", bytes, 299999); }, 0, "larger than 299999 bytes");
+  EXPECT_EQ(decompress_zstd("f", bytes, 300000).size(), 300000u);
+}
+
+TEST(TeamGraphFile, IsRecognisedByItsName) {
+  EXPECT_TRUE(is_graph_file("a/b.pyfg"));
+  EXPECT_TRUE(is_graph_file("b.g2o.zst"));
+  EXPECT_FALSE(is_graph_file("b.zst"));
+  EXPECT_FALSE(is_graph_file("mission"));
+  const TemporaryFolder folder;
+  const std::string content = edge("0", "1", 1);
+  folder.write("0.g2o", content);
+  folder.write("team.g2o.zst", compressed(content));
+  folder.write("x.txt", "x");
+  EXPECT_EQ(std::get<0>(read_team_graph(folder.path() / "0.g2o")).team.graph.poses.size(), 2u);
+  EXPECT_EQ(std::get<0>(read_team_graph(folder.path() / "team.g2o.zst")).team.graph.poses.size(), 2u);
+  EXPECT_EQ(std::get<0>(read_team_graph(folder.path())).team.graph.relative_poses.size(), 1u);
+  expect_refusal([&] { read_team_graph(folder.path() / "x.txt"); }, 0, "neither .g2o nor .pyfg");
+  expect_refusal([&] { read_team_graph(folder.path() / "none.pyfg"); }, 0, "no such file");
+  const TemporaryFolder empty;
+  expect_refusal([&] { read_team_graph(empty.path()); }, 0, "no .g2o files");
+}
+
+struct KnownTeam {
+  const char* name;
+  const char* path;
+  std::size_t poses, points, relative_poses, ranges, sightings, segments;
+};
+
+class PublishedTeam : public testing::TestWithParam<KnownTeam> {};
+
+TEST_P(PublishedTeam, IsReadWhole) {
+  const KnownTeam& known = GetParam();
+  RADIOSLAM_RECORDED(path, known.path);
+  const AnyTeamGraphFile any = read_team_graph(path);
+  std::visit(
+      [&](const auto& file) {
+        const auto& graph = file.team.graph;
+        EXPECT_EQ(graph.poses.size(), known.poses);
+        EXPECT_EQ(graph.points.size(), known.points);
+        EXPECT_EQ(graph.relative_poses.size(), known.relative_poses);
+        EXPECT_EQ(graph.ranges.size(), known.ranges);
+        EXPECT_EQ(graph.relative_points.size(), known.sightings);
+        EXPECT_EQ(file.team.segments.size(), known.segments);
+        for (const TrajectorySegment& segment : file.team.segments)
+          EXPECT_TRUE(std::is_sorted(segment.stamps.begin(), segment.stamps.end()));
+      },
+      any);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Io, PublishedTeam,
+    testing::Values(
+        KnownTeam{"Tiers", "range_aided/tiers.pyfg.zst", 9768, 1, 9764, 7789, 0, 4},
+        KnownTeam{"Mrclam6", "range_aided/mrclam6.pyfg.zst", 11274, 15, 11269, 3537, 13121, 5},
+        KnownTeam{"Plaza1", "range_aided/plaza1.pyfg.zst", 9658, 4, 9657, 3326, 0, 1},
+        KnownTeam{
+            "Pcm4",
+            "multirobot_pcm/test_data/pairwise_consistency_maximization/spoiled/simulation/example_4robots",
+            84, 0, 128, 0, 0, 4},
+        KnownTeam{
+            "Pcm8",
+            "multirobot_pcm/test_data/pairwise_consistency_maximization/spoiled/simulation/example_8robots",
+            168, 0, 384, 0, 0, 8},
+        KnownTeam{"Argos10", "multirobot_pcm/test_data/argos_simulation/clean/example_10robots", 1070, 0,
+                  1370, 0, 0, 10}),
+    [](const auto& instance) { return instance.param.name; });
+
+/// Residuals of the ranges at the ground truth, 0.000 +- 0.040 m according to the source.
+TEST(PublishedTeams, TiersRangesAgreeWithItsTruth) {
+  RADIOSLAM_RECORDED(path, "range_aided/tiers.pyfg.zst");
+  const auto file = std::get<TeamGraphFile<SE2>>(read_team_graph(path));
+  const auto at = [&](const RangeEnd<SE2>& end) -> Eigen::Vector2d {
+    return end.pose.valid() ? file.true_poses[end.pose.index()].translation()
+                            : file.true_points[end.point.index()];
+  };
+  double sum = 0, squares = 0;
+  for (const auto& range : file.team.graph.ranges) {
+    const double residual = range.range_m - (at(range.j) - at(range.i)).norm();
+    sum += residual;
+    squares += residual * residual;
+  }
+  const auto n = static_cast<double>(file.team.graph.ranges.size());
+  EXPECT_NEAR(sum / n, 0, 0.001);
+  EXPECT_NEAR(std::sqrt(squares / n), 0.040, 0.001);
+}
+
+TEST(PublishedTeams, ACorruptLineIsRefused) {
+  RADIOSLAM_RECORDED(folder,
+                     "multirobot_pcm/test_data/pairwise_consistency_maximization/spoiled/simulation/"
+                     "example_2robots");
+  expect_refusal([&] { read_team_graph(folder); }, 16, "unknown tag '0410268'");
+}
+
+}  // namespace
+}  // namespace radioslam

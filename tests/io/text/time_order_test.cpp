@@ -1,0 +1,50 @@
+#include "radioslam/io/text/time_order.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "radioslam/base/random.hpp"
+
+namespace radioslam {
+namespace {
+
+using Rows = std::vector<std::size_t>;
+
+TEST(TimeOrder, KeepsAllOfAnOrderedLog) {
+  EXPECT_EQ(rows_in_time_order(std::vector<Stamp>{{1}, {2}, {5}}), (Rows{0, 1, 2}));
+  EXPECT_EQ(rows_in_time_order(std::vector<Stamp>{}), Rows{});
+}
+
+TEST(TimeOrder, LeavesOutTheRowsThatAreStampedEarlyLateOrTwice) {
+  EXPECT_EQ(rows_in_time_order(std::vector<Stamp>{{90}, {1}, {2}, {3}}), (Rows{1, 2, 3})) << "late";
+  EXPECT_EQ(rows_in_time_order(std::vector<Stamp>{{1}, {2}, {0}, {3}}), (Rows{0, 1, 3})) << "early";
+  EXPECT_EQ(rows_in_time_order(std::vector<Stamp>{{1}, {2}, {2}, {3}}).size(), 3U) << "twice";
+}
+
+// By trying every subset.
+TEST(TimeOrder, KeepsAsManyRowsAsPossible) {
+  Rng rng(5);
+  for (int repetition = 0; repetition < 200; ++repetition) {
+    std::vector<Stamp> stamps(1 + rng.below(10));
+    for (Stamp& stamp : stamps) stamp.ns = static_cast<std::int64_t>(rng.below(8));
+    std::size_t most = 0;
+    for (unsigned subset = 0; subset < 1U << stamps.size(); ++subset) {
+      std::vector<Stamp> chosen;
+      for (std::size_t row = 0; row < stamps.size(); ++row)
+        if (subset >> row & 1U) chosen.push_back(stamps[row]);
+      if (std::adjacent_find(chosen.begin(), chosen.end(), std::greater_equal<>()) == chosen.end())
+        most = std::max(most, chosen.size());
+    }
+    const auto rows = rows_in_time_order(stamps);
+    EXPECT_EQ(rows.size(), most);
+    for (std::size_t k = 1; k < rows.size(); ++k) {
+      EXPECT_LT(rows[k - 1], rows[k]);
+      EXPECT_LT(stamps[rows[k - 1]], stamps[rows[k]]);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace radioslam

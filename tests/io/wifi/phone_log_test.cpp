@@ -1,0 +1,136 @@
+#include "radioslam/io/wifi/phone_log.hpp"
+
+#include <gtest/gtest.h>
+
+#include "io/refusal.hpp"
+#include "io/wifi/phone_log_text.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr std::int64_t kMs = 1'000'000;
+
+PhoneLog read(const std::vector<std::string>& lines) {
+  return read_phone_log(make_text("walk.txt", joined(lines)));
+}
+
+/// Expects that the log with line `number` replaced is refused at that line.
+void expect_line_refused(std::size_t number, const std::string& line, const std::string& words) {
+  auto lines = phone_log_lines();
+  lines[number - 1] = line;
+  expect_refusal([&] { read(lines); }, number, words);
+}
+
+std::vector<std::string> without(const std::string& type) {
+  std::vector<std::string> kept;
+  for (const auto& line : phone_log_lines())
+    if (line.find(type) == std::string::npos) kept.push_back(line);
+  return kept;
+}
+
+TEST(ReadPhoneLog, ReadsEveryRecord) {
+  const PhoneLog log = read(phone_log_lines());
+  EXPECT_EQ(log.start.ns, 1574242584992 * kMs);
+  EXPECT_EQ(log.begin, log.start);
+  EXPECT_EQ(log.end.ns, 1574242586500 * kMs);
+  EXPECT_TRUE(log.complete);
+  ASSERT_EQ(log.motion.specific_force_mps2.size(), 2U);
+  EXPECT_EQ(log.motion.specific_force_mps2[1].value, Eigen::Vector3d(0.5, -0.25, 9.5));
+  ASSERT_EQ(log.motion.angular_rate_radps.size(), 2U);
+  EXPECT_EQ(log.motion.angular_rate_radps[0].stamp.ns, 1574242585000 * kMs);
+  EXPECT_EQ(log.motion.angular_rate_radps[0].value, Eigen::Vector3d(0.25, 0.375, 0.125));
+  ASSERT_EQ(log.waypoints.size(), 2U);
+  EXPECT_EQ(log.waypoints[0].position_m, Eigen::Vector2d(204.25, 287.5));
+}
+
+TEST(ReadPhoneLog, TheRotationVectorsScalarPartComesFromItsLength) {
+  const PhoneLog log = read(phone_log_lines());
+  ASSERT_EQ(log.motion.orientation.size(), 1U);
+  EXPECT_TRUE(log.motion.orientation[0].R_enu_device.isApprox(Eigen::Quaterniond(0.8, 0, 0, -0.6), 1e-12));
+}
+
+TEST(ReadPhoneLog, ReadsScansEvenWithTabsInANetworksName) {
+  const PhoneLog log = read(phone_log_lines());
+  ASSERT_EQ(log.wifi.size(), 3U);
+  EXPECT_EQ(log.wifi[0].bssid, "0e:74:9c:a7:b2:e4");
+  EXPECT_EQ(log.wifi[0].rssi_dbm, -43);
+  EXPECT_EQ(log.wifi[0].frequency_mhz, 5805);
+  EXPECT_EQ(log.wifi[0].last_seen.ns, 1574242585900 * kMs);
+  EXPECT_EQ(log.wifi[1].bssid, "0a:74:9c:a7:b2:e4");
+  EXPECT_EQ(log.wifi[2].bssid, "02:00:00:00:00:01");
+}
+
+TEST(ReadPhoneLog, WithoutAHeaderTheFirstRecordIsTheStart) {
+  auto lines = phone_log_lines();
+  lines.front() = "";
+  lines.pop_back();
+  const PhoneLog log = read(lines);
+  EXPECT_EQ(log.start.ns, 1574242584999 * kMs);
+  EXPECT_FALSE(log.complete);
+}
+
+TEST(ReadPhoneLog, TakesLineEndsOfWindows) {
+  std::string text = joined(phone_log_lines());
+  for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.insert(at, "\r");
+  EXPECT_EQ(read_phone_log(make_text("walk.txt", text)).waypoints.size(), 2U);
+}
+
+TEST(ReadPhoneLog, RefusesLinesGluedTogether) {
+  const auto lines = phone_log_lines();
+  expect_line_refused(8, lines[7] + lines[8], "without a line break between them");
+  expect_line_refused(5, lines[4] + lines[7], "without a line break between them");
+}
+
+TEST(ReadPhoneLog, RefusesTruncatedLines) {
+  expect_line_refused(8, "1574242585020\tTYPE_ACCELEROMETER\t0.5\t-0.25", "4 fields instead of 6");
+  expect_line_refused(8, "1574242585020\tTYPE_ACCELEROMETER\t0.5\t-0.25\t9.5", "5 fields instead of 6");
+  expect_line_refused(13, "1574242586500\tTYPE_WAYPOINT\t205.5", "3 fields instead of 4");
+  expect_line_refused(10, "1574242586000\tTYPE_WIFI\tcafe\t0e:74:9c:a7:b2:e4\t-43\t5805",
+                      "6 fields instead of 7");
+  expect_line_refused(8, "1574242585020", "not a record type");
+  expect_line_refused(8, "1574242585020\tTY", "not a record type");
+}
+
+TEST(ReadPhoneLog, RefusesALogThatEndsWithinALine) {
+  auto text = joined(phone_log_lines());
+  text.resize(text.find("9.5\t2") + 2);
+  expect_refusal([&] { read_phone_log(make_text("walk.txt", text)); }, 8, "the file ends in this line");
+}
+
+TEST(ReadPhoneLog, RefusesWhatIsNoNumber) {
+  expect_line_refused(4, "1574242585000\tTYPE_ACCELEROMETER\t0.5\tnan\t9.75\t2", "y 'nan'");
+  expect_line_refused(3, "1574242584999\tTYPE_WAYPOINT\t1e9\t287.5", "plausible coordinate");
+  expect_line_refused(4, "15742425850x0\tTYPE_ACCELEROMETER\t0.5\t0\t9.75\t2", "whole milliseconds");
+  expect_line_refused(4, "99999999999999999\tTYPE_ACCELEROMETER\t0.5\t0\t9.75\t2", "whole milliseconds");
+  expect_line_refused(1, "#\tstartTime:soon", "start time");
+  expect_line_refused(10, "1574242586000\tTYPE_WIFI\tcafe\t0e:74:9c:a7:b2:e4\t-430\t5805\t1574242585900",
+                      "signal strength");
+  expect_line_refused(10, "1574242586000\tTYPE_WIFI\tcafe\t\t-43\t5805\t1574242585900", "BSSID");
+}
+
+TEST(ReadPhoneLog, RefusesARotationVectorLongerThanOne) {
+  expect_line_refused(7, "1574242585000\tTYPE_ROTATION_VECTOR\t0.8\t0.0\t-0.7\t3", "longer than 1");
+}
+
+TEST(ReadPhoneLog, RefusesTimeThatRunsBackwards) {
+  expect_line_refused(8, "1574242584999\tTYPE_ACCELEROMETER\t0.5\t-0.25\t9.5\t2", "backwards");
+  expect_line_refused(9, "1574242584999\tTYPE_GYROSCOPE\t0.5\t-0.25\t9.5\t2", "backwards");
+  expect_line_refused(13, "1574242584999\tTYPE_WAYPOINT\t205.5\t288", "backwards");
+  expect_line_refused(11, "1574242585999\tTYPE_WIFI\t\t0a:74:9c:a7:b2:e4\t-60\t2412\t1574242585000",
+                      "backwards");
+}
+
+TEST(ReadPhoneLog, RefusesALogThatIsNoWalk) {
+  expect_refusal([] { read(without("ACCELEROMETER")); }, 0, "TYPE_ACCELEROMETER");
+  expect_refusal([] { read(without("GYROSCOPE")); }, 0, "TYPE_GYROSCOPE");
+  expect_refusal([] { read(without("TYPE")); }, 0, "no records");
+  expect_refusal(
+      [] {
+        read({"1574242585000\tTYPE_ACCELEROMETER\t0.5\t-0.25\t9.75\t2",
+              "1574242585000\tTYPE_GYROSCOPE\t0.25\t0.375\t0.125\t3"});
+      },
+      0, "the same time");
+}
+
+}  // namespace
+}  // namespace radioslam

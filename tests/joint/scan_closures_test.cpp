@@ -1,0 +1,194 @@
+#include "radioslam/joint/scan_closures.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "radioslam/base/random.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr double kSide_m = 20;
+constexpr int kRowsPerSide = 20;
+
+/// Once around a square and back to the starting corner.
+std::vector<SE3> around_a_square() {
+  std::vector<SE3> poses{SE3()};
+  for (int side = 0; side < 4; ++side) {
+    for (int k = 0; k < kRowsPerSide; ++k)
+      poses.push_back(poses.back() * lift(SE2({kSide_m / kRowsPerSide, 0}, 0)));
+    poses.push_back(poses.back() * lift(SE2({0, 0}, std::numbers::pi / 2)));
+  }
+  return poses;
+}
+
+/// A robot whose odometry drifts a little with every sample.
+Mission drifting_mission(const std::vector<SE3>& truth, double yaw_drift_rad, int dimension) {
+  std::vector<StampedPose<SE3>> rows{{Stamp{}, truth.front()}};
+  for (std::size_t k = 1; k < truth.size(); ++k) {
+    const SE3 step = truth[k - 1].inverse() * truth[k] * lift(SE2({0, 0}, yaw_drift_rad));
+    rows.push_back({Stamp::from_seconds(static_cast<double>(k)), rows.back().pose * step});
+  }
+  Mission mission;
+  mission.dimension = dimension;
+  mission.robots.resize(1);
+  mission.robots[0].id = "a";
+  mission.robots[0].odometry = Trajectory<SE3>(std::move(rows));
+  mission.robots[0].odometry_noise.sigma_yaw_per_sqrt_m_rad = 0.01;
+  return mission;
+}
+
+ScanClosure closure_between(const Mission& mission, const std::vector<SE3>& truth, std::size_t i,
+                            std::size_t j) {
+  ScanClosure closure;
+  closure.robot = RobotIndex(0);
+  closure.stamp_i = mission.robots[0].odometry[i].stamp;
+  closure.stamp_j = mission.robots[0].odometry[j].stamp;
+  closure.loop = {i, j, truth[i].inverse() * truth[j]};
+  closure.loop.information.diagonal().setConstant(1 / (0.05 * 0.05));
+  closure.loop.inlier_ratio = 0.7;
+  return closure;
+}
+
+template <class Pose>
+struct ClosedGraph {
+  JointGraph<Pose> joint;
+  std::vector<std::optional<std::size_t>> factors;  ///< of each closure
+};
+
+template <class Pose>
+ClosedGraph<Pose> closed_graph(const Mission& mission, const std::vector<ScanClosure>& closures) {
+  std::vector<std::vector<Stamp>> node_stamps(1);
+  add_closure_stamps(closures, node_stamps);
+  ClosedGraph<Pose> closed{build_joint_graph<Pose>(mission, {}, {}, node_stamps), {}};
+  add_scan_closures(closed.joint, closures, {});
+  closed.factors =
+      factors_by_measurement(closed.joint.origins.relative_poses, FactorSource::kScanLoop, closures.size());
+  return closed;
+}
+
+double end_error_m(const Mission& mission, const std::vector<ScanClosure>& closures,
+                   const std::vector<SE3>& truth) {
+  const auto error_m = [&](const auto& poses) {
+    return (poses.back().translation() - truth.back().translation().head(poses.back().translation().size()))
+        .norm();
+  };
+  if (mission.dimension == 2) return error_m(closed_graph<SE2>(mission, closures).joint.team.graph.poses);
+  return error_m(closed_graph<SE3>(mission, closures).joint.team.graph.poses);
+}
+
+TEST(AddScanClosures, CorrectTheTrajectory) {
+  const auto truth = around_a_square();
+  for (const int dimension : {2, 3}) {
+    const Mission mission = drifting_mission(truth, 0.003, dimension);
+    const std::vector<ScanClosure> closures{closure_between(mission, truth, 0, truth.size() - 1)};
+    EXPECT_GT(end_error_m(mission, {}, truth), 2);
+    EXPECT_LT(end_error_m(mission, closures, truth), 0.1);
+  }
+}
+
+TEST(AddScanClosures, KeepATrajectoryWithoutClosures) {
+  const auto truth = around_a_square();
+  const Mission mission = drifting_mission(truth, 0.003, 2);
+  const auto before = build_joint_graph<SE2>(mission, {}, {}).team.graph;
+  const auto after = closed_graph<SE2>(mission, {}).joint.team.graph;
+  ASSERT_EQ(before.poses.size(), after.poses.size());
+  for (std::size_t k = 0; k < before.poses.size(); ++k)
+    EXPECT_EQ((before.poses[k].inverse() * after.poses[k]).log().norm(), 0);
+  EXPECT_EQ(before.relative_poses.size(), after.relative_poses.size());
+}
+
+TEST(AddScanClosures, OfRejectedLoopsAddNothing) {
+  const auto truth = around_a_square();
+  const Mission mission = drifting_mission(truth, 0.003, 2);
+  auto rejected = closure_between(mission, truth, 0, truth.size() - 1);
+  rejected.loop.status = LoopStatus::kAmbiguous;
+  std::vector<std::vector<Stamp>> node_stamps(1);
+  add_closure_stamps({rejected}, node_stamps);
+  EXPECT_TRUE(node_stamps[0].empty());
+  const auto closed = closed_graph<SE2>(mission, {rejected});
+  ASSERT_EQ(closed.factors.size(), 1U);
+  EXPECT_FALSE(closed.factors[0]);
+  EXPECT_EQ(closed.joint.team.graph.relative_poses.size(),
+            build_joint_graph<SE2>(mission, {}, {}).team.graph.relative_poses.size());
+  const auto results = collect_scan_closures(closed.joint, {rejected});
+  ASSERT_EQ(results.size(), 1U);
+  EXPECT_EQ(results[0].kind, ClosureKind::kLidar);
+  EXPECT_EQ(results[0].status, ClosureStatus::kRejected);
+  EXPECT_EQ(results[0].reason, reason(LoopStatus::kAmbiguous));
+}
+
+/// At any sample, also between two keyframes: there the closure gets a node of its own.
+TEST(AddScanClosures, ConnectTheirOwnStamps) {
+  const auto truth = around_a_square();
+  Mission mission = drifting_mission(truth, 0, 2);
+  KeyframeParams sparse;
+  sparse.distance_m = 7;
+  sparse.angle_rad = 3;
+  const std::vector<ScanClosure> closures{closure_between(mission, truth, 3, 81),
+                                          closure_between(mission, truth, 5, 80)};
+  std::vector<std::vector<Stamp>> node_stamps(1);
+  add_closure_stamps(closures, node_stamps);
+  auto joint = build_joint_graph<SE2>(mission, sparse, {}, node_stamps);
+  add_scan_closures(joint, closures, {});
+  const auto factors =
+      factors_by_measurement(joint.origins.relative_poses, FactorSource::kScanLoop, closures.size());
+  for (std::size_t k = 0; k < closures.size(); ++k) {
+    ASSERT_TRUE(factors[k]);
+    const auto& factor = joint.team.graph.relative_poses[*factors[k]];
+    const auto pose = [&](PoseId id) { return joint.team.graph.poses[id.index()]; };
+    EXPECT_LT((pose(factor.i).inverse() * flatten(truth[closures[k].loop.i])).log().norm(), 1e-3);
+    EXPECT_LT((pose(factor.j).inverse() * flatten(truth[closures[k].loop.j])).log().norm(), 1e-3);
+  }
+}
+
+/// Seen from above: the information on x, y and yaw with height, roll and pitch marginalised.
+TEST(AddScanClosures, AreMarginalisedToThePlane) {
+  const auto truth = around_a_square();
+  const Mission mission = drifting_mission(truth, 0, 2);
+  Rng rng(3);
+  SE3::Jacobian root;
+  for (double& value : root.reshaped()) value = rng.normal();
+  auto closure = closure_between(mission, truth, 0, truth.size() - 1);
+  closure.loop.information = 100 * (root * root.transpose() + SE3::Jacobian::Identity());
+  const auto closed = closed_graph<SE2>(mission, {closure});
+  const auto& factor = closed.joint.team.graph.relative_poses.at(closed.factors.at(0).value());
+  const std::array<int, 3> plane{0, 1, 5};
+  const SE3::Jacobian covariance = closure.loop.information.inverse();
+  const Eigen::Matrix3d expected = Eigen::Matrix3d(covariance(plane, plane)).inverse();
+  EXPECT_LT((factor.information - expected).norm(), 1e-6 * expected.norm());
+}
+
+TEST(CollectScanClosures, AcceptWhatTheEstimateAgreesWith) {
+  const auto truth = around_a_square();
+  const Mission mission = drifting_mission(truth, 0.001, 2);
+  std::vector<ScanClosure> closures{closure_between(mission, truth, 0, truth.size() - 1),
+                                    closure_between(mission, truth, 1, truth.size() - 2),
+                                    closure_between(mission, truth, 0, truth.size() - 3)};
+  closures[1].loop.T_i_j = closures[1].loop.T_i_j * lift(SE2({3, 0}, 0.5));  // wrong, the only one
+  auto closed = closed_graph<SE2>(mission, closures);
+  closed.joint.team.graph.poses.clear();  // as the rest of the run would have found them
+  for (const Stamp stamp : closed.joint.team.segments[0].stamps)
+    closed.joint.team.graph.poses.push_back(
+        flatten(truth[static_cast<std::size_t>(std::llround(stamp.seconds()))]));
+  const auto results = collect_scan_closures(closed.joint, closures);
+  ASSERT_EQ(results.size(), 3U);
+  EXPECT_EQ(results[0].status, ClosureStatus::kAccepted);
+  EXPECT_EQ(results[1].status, ClosureStatus::kRejected);
+  EXPECT_FALSE(results[1].reason.empty());
+  EXPECT_EQ(results[2].status, ClosureStatus::kAccepted);
+  for (const ClosureResult& result : results) {
+    EXPECT_EQ(result.robot_i, RobotIndex(0));
+    EXPECT_EQ(result.robot_j, RobotIndex(0));
+    EXPECT_LT(result.stamp_i, result.stamp_j);
+    EXPECT_EQ(result.statistic > 11.345, result.status == ClosureStatus::kRejected);  // 99 % of chi-squared 3
+  }
+}
+
+}  // namespace
+}  // namespace radioslam
