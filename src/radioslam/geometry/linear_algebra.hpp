@@ -77,6 +77,12 @@ std::optional<Matrix> inverse_if_regular(const Matrix& a, double min_condition);
 template <class Jacobian, class Matrix>
 Eigen::Matrix<double, Jacobian::RowsAtCompileTime, Jacobian::RowsAtCompileTime> congruence(const Jacobian& j,
                                                                                            const Matrix& p);
+/// j p jᵀ + q: carried, with q added. Rounds as that one expression does, and as `q += j * p * j.transpose()`
+/// does, which is not the sum of congruence(j, p) and q.
+template <class Jacobian, class Matrix>
+Eigen::Matrix<double, Jacobian::RowsAtCompileTime, Jacobian::RowsAtCompileTime> congruence(
+    const Jacobian& j, const Matrix& p,
+    const Eigen::Matrix<double, Jacobian::RowsAtCompileTime, Jacobian::RowsAtCompileTime>& q);
 /// jᵀ w j: the information w about what j maps.
 template <class Jacobian, class Matrix>
 Eigen::Matrix<double, Jacobian::ColsAtCompileTime, Jacobian::ColsAtCompileTime> normal_matrix(

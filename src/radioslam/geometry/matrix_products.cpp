@@ -9,6 +9,13 @@ Eigen::Matrix<double, Jacobian::RowsAtCompileTime, Jacobian::RowsAtCompileTime> 
 }
 
 template <class Jacobian, class Matrix>
+Eigen::Matrix<double, Jacobian::RowsAtCompileTime, Jacobian::RowsAtCompileTime> congruence(
+    const Jacobian& j, const Matrix& p,
+    const Eigen::Matrix<double, Jacobian::RowsAtCompileTime, Jacobian::RowsAtCompileTime>& q) {
+  return j * p * j.transpose() + q;
+}
+
+template <class Jacobian, class Matrix>
 Eigen::Matrix<double, Jacobian::ColsAtCompileTime, Jacobian::ColsAtCompileTime> normal_matrix(
     const Jacobian& j, const Matrix& w) {
   return j.transpose() * w * j;
@@ -20,10 +27,10 @@ using Fixed = Eigen::Matrix<double, Rows, Columns>;
 
 template Eigen::Matrix3d congruence(const Eigen::Matrix3d&, const Eigen::Matrix3d&);
 template Matrix6 congruence(const Matrix6&, const Matrix6&);
-template Eigen::Matrix3d congruence(const Fixed<3, 6>&, const Matrix6&);
-template Matrix6 congruence(const Fixed<6, 12>&, const Fixed<12, 12>&);
-template Eigen::Matrix3d congruence(const Fixed<3, 8>&, const Fixed<8, 8>&);
-template Matrix6 congruence(const Fixed<6, 14>&, const Fixed<14, 14>&);
+template Eigen::Matrix3d congruence(const Fixed<3, 6>&, const Matrix6&, const Eigen::Matrix3d&);
+template Matrix6 congruence(const Fixed<6, 12>&, const Fixed<12, 12>&, const Matrix6&);
+template Eigen::Matrix3d congruence(const Eigen::Matrix3d&, const Eigen::Matrix3d&, const Eigen::Matrix3d&);
+template Matrix6 congruence(const Matrix6&, const Matrix6&, const Matrix6&);
 template Eigen::Matrix3d normal_matrix(const Eigen::Matrix3d&, const Eigen::Matrix3d&);
 template Matrix6 normal_matrix(const Matrix6&, const Matrix6&);
 

@@ -38,7 +38,7 @@ void inflate_span(Noise& noise, const InertialTrajectory& trajectory, std::size_
   SE3::Jacobian sum = SE3::Jacobian::Zero();
   for (std::size_t k = a; k < b; ++k) {
     const SE3::Jacobian A = carry(trajectory, b, k + 1);
-    sum += congruence(A, noise[k]);
+    sum = congruence(A, noise[k], sum);
   }
   const NoiseDeficit missing = noise_deficit(sum, trajectory.relative_pose(a, b).covariance);
   if (missing.directions.isZero(0)) return;

@@ -87,7 +87,7 @@ UncertainPose<Pose> pose_between(const Pose& T_k, const Pose& T_m, const SplitOd
   const Jacobian M = Pose::right_jacobian(correction) * K * Pose::right_jacobian_inverse(d);
   Eigen::Matrix<double, Pose::kDof, 2 * Pose::kDof> J;
   J << T_k_t.inverse().adjoint() - M * T_k_m.inverse().adjoint(), M;
-  result.covariance += congruence(J, *joint);
+  result.covariance = congruence(J, *joint, result.covariance);
   return result;
 }
 

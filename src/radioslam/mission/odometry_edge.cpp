@@ -76,7 +76,7 @@ void append_sample(OdometryEdge<Pose>& edge, const StampedPose<SE3>& from, const
 template <class Pose>
 OdometryEdge<Pose> followed_by(const OdometryEdge<Pose>& edge, const OdometryEdge<Pose>& next) {
   const typename Pose::Jacobian carry = next.T_i_j.inverse().adjoint();
-  return {edge.T_i_j * next.T_i_j, congruence(carry, edge.covariance) + next.covariance,
+  return {edge.T_i_j * next.T_i_j, congruence(carry, edge.covariance, next.covariance),
           carry * edge.drift_jacobian + next.drift_jacobian, edge.distance_m + next.distance_m};
 }
 

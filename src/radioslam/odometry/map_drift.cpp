@@ -21,7 +21,7 @@ SE3::Jacobian MapDrift::added_by(const ScanPose& scan) const {
 
 void MapDrift::take(const SE3& T_map_body, const SE3::Jacobian& covariance) {
   const SE3::Jacobian to_from = (T_from_map_ * T_map_body).adjoint();
-  covariance_ += congruence(to_from, covariance);
+  covariance_ = congruence(to_from, covariance, covariance_);
 }
 
 void MapDrift::add(const ScanPose& scan) {

@@ -58,7 +58,7 @@ class Composition {
     if (empty_) covariance_.setZero();
     empty_ = false;
     const typename Pose::Jacobian carry = factor.T_i_j.inverse().adjoint();
-    covariance_ = (congruence(carry, covariance_) + inverse(factor.information)).eval();
+    covariance_ = congruence(carry, covariance_, inverse(factor.information));
     sum_.drift_jacobian = (carry * sum_.drift_jacobian + factor.drift_jacobian).eval();
     sum_.T_i_j = sum_.T_i_j * factor.T_i_j;
   }

@@ -38,7 +38,7 @@ class SegmentSums {
 
   void add(const ChainStep<Pose>& step, const Pose& U_j) {
     const Jacobian ad = U_j.adjoint();
-    covariance_ += congruence(ad, step.covariance);
+    covariance_ = congruence(ad, step.covariance, covariance_);
     drift_effect_ += ad * step.drift_effect;
   }
   const Jacobian& covariance() const { return covariance_; }

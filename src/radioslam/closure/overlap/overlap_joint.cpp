@@ -157,7 +157,7 @@ class JointCovariance<Pose>::Builder {
                   0};
     Eigen::Matrix<double, kDof, 2 * kDof + 2> x;
     x << Jacobian::Identity() - record.share, record.share, record.by_drift;
-    record.covariance = mirrored<Jacobian>(congruence(x, joint) + congruence(ad, noise));
+    record.covariance = mirrored<Jacobian>(x * joint * x.transpose() + ad * noise * ad.transpose());
     return record;
   }
 

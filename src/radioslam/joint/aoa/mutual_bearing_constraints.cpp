@@ -52,7 +52,7 @@ std::vector<KeyframeOdometry<Pose>> odometry_chains(const JointGraph<Pose>& join
     if (i.keyframe >= chains[i.robot].cov_steps.size()) continue;
     auto& sum = chains[i.robot].cov_steps[i.keyframe];
     const typename Pose::Jacobian carry = factor.T_i_j.inverse().adjoint();
-    sum = (congruence(carry, sum) + inverse(factor.information)).eval();
+    sum = congruence(carry, sum, inverse(factor.information));
   }
   return chains;
 }
