@@ -22,7 +22,7 @@ struct UncertainPose {
   /// Of two independent ones: T Exp(xi) S Exp(zeta) = T S Exp(Ad(S^-1) xi) Exp(zeta).
   UncertainPose operator*(const UncertainPose& next) const {
     const typename Pose::Jacobian carry = next.pose.inverse().adjoint();
-    return {pose * next.pose, congruence(carry, covariance) + next.covariance};
+    return {pose * next.pose, congruence(carry, covariance, next.covariance)};
   }
 
   /// Of the pose's position, in the frame that it leads to.

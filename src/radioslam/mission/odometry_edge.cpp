@@ -61,7 +61,7 @@ void append_sample(OdometryEdge<Pose>& edge, const StampedPose<SE3>& from, const
   const double turn = xi.template tail<Pose::kDof - Pose::kDim>().norm();
   const typename Pose::Jacobian carry = step.inverse().adjoint();
 
-  edge.covariance = congruence(carry, edge.covariance);
+  edge.covariance = (carry * edge.covariance * carry.transpose()).eval();
   if (noise.steps.empty())
     edge.covariance.diagonal() += increment_variance<Pose>(distance, turn, noise);
   else
