@@ -59,6 +59,8 @@ class Cholesky {
   ColumnOf<Matrix> solve(const ColumnOf<Matrix>& b) const;
   Matrix solve_matrix(const Matrix& b) const;
   Matrix inverse() const;
+  /// c - b a⁻¹ bᵀ: the information that remains when the variables of `a` are eliminated.
+  Matrix schur_complement(const Matrix& c, const Matrix& b) const;
   /// L⁻¹ b: whitens an error of covariance `a`.
   ColumnOf<Matrix> whitened(const ColumnOf<Matrix>& b) const;
   Matrix whitened_matrix(const Matrix& b) const;

@@ -48,6 +48,15 @@ Matrix Cholesky<Matrix>::inverse() const {
 }
 
 template <class Matrix>
+Matrix Cholesky<Matrix>::schur_complement(const Matrix& c, const Matrix& b) const {
+  Eigen::Matrix<typename Matrix::Scalar, Matrix::ColsAtCompileTime, Matrix::RowsAtCompileTime, Eigen::RowMajor>
+      x = b.transpose();
+  factor_.template triangularView<Eigen::Lower>().solveInPlace(x);
+  factor_.adjoint().template triangularView<Eigen::Upper>().solveInPlace(x);
+  return c - b * x;
+}
+
+template <class Matrix>
 ColumnOf<Matrix> Cholesky<Matrix>::whitened(const ColumnOf<Matrix>& b) const {
   return factor_.template triangularView<Eigen::Lower>().solve(b);
 }

@@ -29,7 +29,7 @@ InertialFilter::Advance InertialFilter::advance(const StateStep& step, const Imu
     const Cholesky<Block> before(known.information + terms.i_i);
     if (!before.succeeded()) return Advance::kUndetermined;
     const InertialState::Tangent slope_i = known.slope + terms.slope_i;
-    information = terms.j_j - terms.j_i * before.solve_matrix(terms.j_i.transpose());
+    information = before.schur_complement(terms.j_j, terms.j_i);
     const Cholesky<Block> after(information);
     if (!after.succeeded()) return Advance::kUndetermined;
     const InertialState::Tangent step_j = -after.solve(terms.slope_j - terms.j_i * before.solve(slope_i));
