@@ -49,7 +49,8 @@ Matrix Cholesky<Matrix>::inverse() const {
 
 template <class Matrix>
 Matrix Cholesky<Matrix>::schur_complement(const Matrix& c, const Matrix& b) const {
-  Eigen::Matrix<typename Matrix::Scalar, Matrix::ColsAtCompileTime, Matrix::RowsAtCompileTime, Eigen::RowMajor>
+  Eigen::Matrix<typename Matrix::Scalar, Matrix::ColsAtCompileTime, Matrix::RowsAtCompileTime,
+                Eigen::RowMajor>
       x = b.transpose();
   factor_.template triangularView<Eigen::Lower>().solveInPlace(x);
   factor_.adjoint().template triangularView<Eigen::Upper>().solveInPlace(x);

@@ -120,7 +120,8 @@ TEST_F(WsrTrialFolder, LeavesOutAFewRowsOutOfOrder) {
   EXPECT_EQ(trial_read.motion_capture.front().pose.translation().x(), 0);
   ASSERT_EQ(trial_read.warnings.size(), 1U);
   EXPECT_NE(trial_read.warnings[0].find("1 row is left out; the first:"), std::string::npos);
-  EXPECT_NE(trial_read.warnings[0].find("rx_trajectory_a_.csv:1: the time does not increase"), std::string::npos);
+  EXPECT_NE(trial_read.warnings[0].find("rx_trajectory_a_.csv:1: the time does not increase"),
+            std::string::npos);
 }
 
 TEST_F(WsrTrialFolder, RefusesIncompletePositions) {

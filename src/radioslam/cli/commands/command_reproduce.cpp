@@ -106,7 +106,8 @@ Study aoa(const ReproduceOptions& options) {
                     static_cast<double>(k) / static_cast<double>(recorded.trials.size()));
     const WsrTrial trial = read_wsr_trial(recorded.trials[k]);
     for (const std::string& warning : trial.warnings) std::cerr << "note: " << warning << '\n';
-    for (AoaLink& link : measure_wsr_trial(trial, recorded.published, params)) links.push_back(std::move(link));
+    for (AoaLink& link : measure_wsr_trial(trial, recorded.published, params))
+      links.push_back(std::move(link));
   }
   StudyTable table = aoa_table(links, recorded.published);
   std::string page = render_aoa_page(table, links);

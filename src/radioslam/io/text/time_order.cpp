@@ -10,9 +10,9 @@ std::vector<std::size_t> rows_in_time_order(std::span<const Stamp> stamps) {
   // last_of[n]: the row with the earliest time that ends an increasing subsequence of n + 1 rows.
   std::vector<std::size_t> last_of, previous(stamps.size(), kNone);
   for (std::size_t row = 0; row < stamps.size(); ++row) {
-    const auto place = std::lower_bound(
-        last_of.begin(), last_of.end(), stamps[row],
-        [&](std::size_t other, const Stamp& stamp) { return stamps[other] < stamp; });
+    const auto place =
+        std::lower_bound(last_of.begin(), last_of.end(), stamps[row],
+                         [&](std::size_t other, const Stamp& stamp) { return stamps[other] < stamp; });
     if (place != last_of.begin()) previous[row] = *(place - 1);
     if (place == last_of.end())
       last_of.push_back(row);

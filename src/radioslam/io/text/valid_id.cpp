@@ -16,7 +16,8 @@ bool is_control_character(char c) { return static_cast<unsigned char>(c) < 0x20 
 bool is_valid_id(const std::string& id) {
   if (id.empty() || id.size() > kMaxId || id.front() == '.' || id.front() == '#') return false;
   if (id.find("..") != std::string::npos || trim(id) != id) return false;
-  return id.find_first_of("/\\,\"") == std::string::npos && std::none_of(id.begin(), id.end(), is_control_character);
+  return id.find_first_of("/\\,\"") == std::string::npos &&
+         std::none_of(id.begin(), id.end(), is_control_character);
 }
 
 }  // namespace radioslam
