@@ -111,6 +111,19 @@ std::optional<RelativeError> relative_error(const std::vector<Matches>& team, co
   return result;
 }
 
+std::optional<double> absolute_rotation_rmse_rad(const std::vector<Matches>& team, const Truth& truth,
+                                                 const SE3& T_truth_estimate) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t r = 0; r < team.size(); ++r) {
+    if (!truth.robots[r].has_orientation) continue;
+    for (const MatchedPose& match : team[r])
+      sum += so3_log((match.truth.inverse() * T_truth_estimate * match.estimate).rotation()).squaredNorm();
+    count += team[r].size();
+  }
+  return count == 0 ? std::nullopt : std::optional(std::sqrt(sum / static_cast<double>(count)));
+}
+
 }  // namespace
 
 TeamMetrics evaluate_trajectories(const std::vector<EstimatedTrajectory>& estimate, const Truth& truth,
@@ -120,6 +133,7 @@ TeamMetrics evaluate_trajectories(const std::vector<EstimatedTrajectory>& estima
   TeamMetrics metrics;
   metrics.T_truth_estimate = align_team(team, dimension);
   metrics.rpe = relative_error(team, truth);
+  metrics.rotation_rmse_rad = absolute_rotation_rmse_rad(team, truth, metrics.T_truth_estimate);
 
   std::vector<double> errors;
   double covered = 0;

@@ -60,7 +60,9 @@ struct RobotMetrics {
 struct TeamMetrics {
   std::optional<ErrorStatistics> ate;
   std::optional<RelativeError> rpe;  ///< absent if no truth has an orientation
-  double coverage = 0;               ///< fraction of the truth's poses that the estimate covers
+  /// Absolute rotation error after the alignment, over the robots whose truth has an orientation.
+  std::optional<double> rotation_rmse_rad;
+  double coverage = 0;  ///< fraction of the truth's poses that the estimate covers
   SE3 T_truth_estimate;
   std::vector<RobotMetrics> robots;
 };

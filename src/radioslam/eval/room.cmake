@@ -2,6 +2,7 @@ radioslam_room(eval
   SOURCES
     association.cpp
     closures.cpp
+    measurement_truth.cpp
     metrics.cpp
     statistics.cpp
     team_estimate.cpp

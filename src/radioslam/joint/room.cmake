@@ -13,7 +13,10 @@ radioslam_room(joint
     graduated_optimisation.cpp
     joint_graph.cpp
     joint_graph_from_file.cpp
-    match_selection.cpp
+    matches/frame_by_matches.cpp
+    matches/match_groups.cpp
+    matches/match_selection.cpp
+    matches/placement_by_matches.cpp
     overlap_stage.cpp
     position_fixes/fix_results.cpp
     position_fixes/inlier_growth.cpp

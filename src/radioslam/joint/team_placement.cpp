@@ -14,31 +14,6 @@ constexpr double kMaxSigmaByPositions_rad =
 constexpr double kMinAlternative = 0.001;  // min. weight of a reported hypothesis
 constexpr std::size_t kMaxAlternatives = 3;
 
-template <class Pose>
-void adopt(JointGraph<Pose>& joint, const TeamHypothesis<Pose>& hypothesis) {
-  auto& graph = joint.team.graph;
-  graph.poses = hypothesis.poses;
-  graph.points = hypothesis.points;
-  graph.drifts = hypothesis.drifts;
-  rotate_gravity_priors(graph);
-  for (std::size_t k = 0; k < hypothesis.range_weight.size(); ++k)
-    graph.ranges[k].weight = hypothesis.range_weight[k] < kMinWeight ? 0 : hypothesis.range_weight[k];
-  for (std::size_t k = 0; k < joint.team.bearings.size(); ++k) {
-    const auto& bearing = joint.team.bearings[k];
-    BearingWeight& bearing_weight = joint.bearing_weights.emplace_back();
-    for (std::size_t p = 0; p < bearing.paths.size(); ++p) {
-      const double weight = hypothesis.path_weight[k][p];
-      const double by_positions2 =
-          std::pow(hypothesis.path_sigma_rad[k][p], 2) - std::pow(bearing.paths[p].sigma_rad, 2);
-      if (by_positions2 > kMaxSigmaByPositions_rad * kMaxSigmaByPositions_rad) bearing_weight.too_near = true;
-      if (weight < kMinWeight || bearing_weight.too_near) continue;
-      bearing_weight.weight += weight;
-      graph.bearings.push_back(
-          {bearing.i, bearing.j, bearing.paths[p].direction, hypothesis.path_sigma_rad[k][p], {}, weight});
-    }
-  }
-}
-
 /// A robot belongs to the component of its longest segment.
 template <class Pose>
 std::vector<int> robot_components(const JointGraph<Pose>& joint, const TeamComponents& components) {
@@ -94,6 +69,47 @@ bool has_radio_links(const JointGraph<Pose>& joint) {
 }
 
 template <class Pose>
+void adopt_alignment(JointGraph<Pose>& joint, const TeamHypothesis<Pose>& hypothesis) {
+  auto& graph = joint.team.graph;
+  graph.bearings.clear();
+  joint.bearing_weights.clear();
+  graph.poses = hypothesis.poses;
+  graph.points = hypothesis.points;
+  graph.drifts = hypothesis.drifts;
+  rotate_gravity_priors(graph);
+  for (std::size_t k = 0; k < hypothesis.range_weight.size(); ++k)
+    graph.ranges[k].weight = hypothesis.range_weight[k] < kMinWeight ? 0 : hypothesis.range_weight[k];
+  for (std::size_t k = 0; k < joint.team.bearings.size(); ++k) {
+    const auto& bearing = joint.team.bearings[k];
+    BearingWeight& bearing_weight = joint.bearing_weights.emplace_back();
+    for (std::size_t p = 0; p < bearing.paths.size(); ++p) {
+      const double weight = hypothesis.path_weight[k][p];
+      const double by_positions2 =
+          std::pow(hypothesis.path_sigma_rad[k][p], 2) - std::pow(bearing.paths[p].sigma_rad, 2);
+      if (by_positions2 > kMaxSigmaByPositions_rad * kMaxSigmaByPositions_rad) bearing_weight.too_near = true;
+      if (weight < kMinWeight || bearing_weight.too_near) continue;
+      bearing_weight.weight += weight;
+      graph.bearings.push_back(
+          {bearing.i, bearing.j, bearing.paths[p].direction, hypothesis.path_sigma_rad[k][p], {}, weight});
+    }
+  }
+}
+
+template <class Pose>
+void set_alternatives(TeamPlacement<Pose>& placement, double weight,
+                      const std::vector<const TeamHypothesis<Pose>*>& alternatives,
+                      const std::vector<double>& weights) {
+  placement.weight = weight;
+  placement.alternatives.clear();
+  placement.alternative_weights.clear();
+  for (std::size_t k = 0; k < std::min(alternatives.size(), kMaxAlternatives); ++k) {
+    if (weights[k] < kMinAlternative) break;
+    placement.alternatives.push_back(alternatives[k]->poses);
+    placement.alternative_weights.push_back(weights[k]);
+  }
+}
+
+template <class Pose>
 TeamPlacement<Pose> place_by_radio(JointGraph<Pose>& joint, const RadioAlignmentParams& params,
                                    const Progress& progress) {
   const RadioAlignment<Pose> alignment = align_by_radio(joint.team, params, progress);
@@ -109,13 +125,16 @@ TeamPlacement<Pose> place_by_radio(JointGraph<Pose>& joint, const RadioAlignment
     if (has_robot) placement.absolute[static_cast<std::size_t>(number[static_cast<std::size_t>(c)])] = true;
   }
   placement.placed = placed_robots(placement.component, placement.absolute);
-  adopt(joint, alignment.hypotheses.front());
-  placement.weight = alignment.hypotheses.front().weight;
-  for (std::size_t k = 1; k < std::min(alignment.hypotheses.size(), kMaxAlternatives + 1); ++k) {
-    if (alignment.hypotheses[k].weight < kMinAlternative) break;
-    placement.alternatives.push_back(alignment.hypotheses[k].poses);
-    placement.alternative_weights.push_back(alignment.hypotheses[k].weight);
+  adopt_alignment(joint, alignment.hypotheses.front());
+  std::vector<const TeamHypothesis<Pose>*> alternatives;
+  std::vector<double> weights;
+  for (std::size_t k = 1; k < alignment.hypotheses.size(); ++k) {
+    alternatives.push_back(&alignment.hypotheses[k]);
+    weights.push_back(alignment.hypotheses[k].weight);
   }
+  set_alternatives(placement, alignment.hypotheses.front().weight, alternatives, weights);
+  placement.segments = alignment.components;
+  placement.without_matches = placement.component;
   return placement;
 }
 
@@ -126,11 +145,20 @@ TeamPlacement<Pose> place_by_fingerprints(JointGraph<Pose>& joint, const Mission
   const TeamFrame frame = align_by_fingerprints(mission, starts, radio, params, progress);
   place_robots(joint, frame.T_team_start);
   TeamPlacement<Pose> placement;
-  placement.component = frame.component;
+  placement.component = placement.without_matches = frame.component;
   placement.placed = frame.placed;
   placement.absolute = absolute_components(joint, frame.component);
   return placement;
 }
+
+#define RADIOSLAM_ADOPT(Pose)                                                     \
+  template void adopt_alignment(JointGraph<Pose>&, const TeamHypothesis<Pose>&);  \
+  template void set_alternatives(TeamPlacement<Pose>&, double,                    \
+                                 const std::vector<const TeamHypothesis<Pose>*>&, \
+                                 const std::vector<double>&);
+RADIOSLAM_ADOPT(SE2)
+RADIOSLAM_ADOPT(SE3)
+#undef RADIOSLAM_ADOPT
 
 #define RADIOSLAM_PLACEMENT(Pose)                                                                           \
   template bool has_radio_links(const JointGraph<Pose>&);                                                   \

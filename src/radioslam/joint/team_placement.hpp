@@ -2,6 +2,7 @@
 // are any, else by fingerprint similarity.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "radioslam/base/progress.hpp"
@@ -13,12 +14,15 @@ namespace radioslam {
 /// Robots with a common frame, and alternative hypotheses of their alignment.
 template <class Pose>
 struct TeamPlacement {
+  TeamComponents segments;                      ///< of the alignment by radio; empty without
   std::vector<int> component;                   ///< per robot; 0 is the first robot's
+  std::vector<int> without_matches;             ///< the component before matches joined any
   std::vector<bool> placed;                     ///< per robot; false: no measurement connects it to others
   std::vector<bool> absolute;                   ///< per component: its frame is the common one
   double weight = 1;                            ///< of the hypothesis that the graph holds
   std::vector<std::vector<Pose>> alternatives;  ///< all poses of the graph, most likely first
   std::vector<double> alternative_weights;
+  std::vector<std::string> notes;  ///< on what the frame stands
 };
 
 /// Whether radio links connect robots to each other or to anchors.
@@ -30,6 +34,17 @@ bool has_radio_links(const JointGraph<Pose>& joint);
 template <class Pose>
 TeamPlacement<Pose> place_by_radio(JointGraph<Pose>& joint, const RadioAlignmentParams& params,
                                    const Progress& progress);
+
+/// Takes the values and weights of an alignment of the team's radio ranges, which come first in the graph,
+/// and bearings. Paths that may be direct become bearing factors, in place of those there were.
+template <class Pose>
+void adopt_alignment(JointGraph<Pose>& joint, const TeamHypothesis<Pose>& hypothesis);
+
+/// Keeps the alternatives that are likely enough to be reported. `weights`: best first, as `alternatives`.
+template <class Pose>
+void set_alternatives(TeamPlacement<Pose>& placement, double weight,
+                      const std::vector<const TeamHypothesis<Pose>*>& alternatives,
+                      const std::vector<double>& weights);
 
 template <class Pose>
 TeamPlacement<Pose> place_by_fingerprints(JointGraph<Pose>& joint, const Mission& mission,

@@ -11,6 +11,12 @@
 namespace radioslam {
 namespace {
 
+/// Whether matches may move the team; without pruning or robustness they show what they do on their own.
+bool uses_matches(const Mission& mission, const RunParams& params, const RunOptions& options) {
+  return !mission.matches.empty() && params.matches.robust && options.pruning == Pruning::kOn &&
+         !options.overlap_only;
+}
+
 /// The whole estimate, stage by stage. `team`: the mission as a factor graph, or null.
 template <class Pose>
 RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const std::vector<ScanClosure>& loops,
@@ -28,6 +34,9 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const std::ve
     estimate = timed("settle fixes", reclassify_fixes<Pose>, std::move(estimate), params, progress);
   estimate = timed("radio field", refine_on_field<Pose>, std::move(estimate), mission, params, progress);
   estimate = timed("range biases", correct_range_biases<Pose>, std::move(estimate), params, progress);
+  if (uses_matches(mission, params, options))
+    estimate = timed("alignment by matches", weigh_alignments_by_matches<Pose>, std::move(estimate), mission,
+                     params, progress);
   std::optional<OverlapStage> overlaps;
   if (needs_overlap_search(mission, options))
     overlaps = timed("overlap", search_overlaps<Pose>, estimate, params, options);

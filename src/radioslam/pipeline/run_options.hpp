@@ -2,7 +2,7 @@
 #pragma once
 
 #include "radioslam/closure/overlap/overlap_search.hpp"
-#include "radioslam/joint/match_selection.hpp"
+#include "radioslam/joint/matches/match_selection.hpp"
 
 namespace radioslam {
 

@@ -119,6 +119,7 @@ RunResult describe_run(const Mission& mission, const TeamEstimate<Pose>& estimat
   add_rssi_offsets(result.robots, radio.rssi_offsets);
   if (radio.rssi_offsets.shown) result.notes.push_back(rssi_offset_note(result.robots));
   add_notes(result, mission, radio, params.sequence, joint.ignored_links);
+  result.notes.insert(result.notes.end(), estimate.placement.notes.begin(), estimate.placement.notes.end());
   add_fix_results(result, joint, estimate.fixes);
   if (!mission.aoa_measurements.empty())
     timed("angle checks", [&] { check_angles_into(result, mission, joint, estimate.placement, params); });

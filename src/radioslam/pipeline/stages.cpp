@@ -5,6 +5,8 @@
 #include "radioslam/joint/covariance_graph.hpp"
 #include "radioslam/joint/field_stage.hpp"
 #include "radioslam/joint/joint_graph_from_file.hpp"
+#include "radioslam/joint/matches/frame_by_matches.hpp"
+#include "radioslam/joint/matches/placement_by_matches.hpp"
 #include "radioslam/joint/scan_closures.hpp"
 
 namespace radioslam {
@@ -105,6 +107,15 @@ TeamEstimate<Pose> correct_range_biases(TeamEstimate<Pose> estimate, const RunPa
   return estimate;
 }
 
+template <class Pose>
+TeamEstimate<Pose> weigh_alignments_by_matches(TeamEstimate<Pose> estimate, const Mission& mission,
+                                               const RunParams& params, const Progress& progress) {
+  place_by_matches(estimate.joint, estimate.placement, mission);
+  if (choose_alignment_by_matches(estimate.joint, estimate.placement, mission, params.alignment))
+    optimize(estimate.joint.team.graph, params.optimizer, progress);
+  return estimate;
+}
+
 bool needs_overlap_search(const Mission& mission, const RunOptions& options) {
   return options.overlap_only || !mission.ranges.empty() || !mission.aoa_measurements.empty() ||
          !mission.matches.empty();
@@ -121,9 +132,14 @@ template <class Pose>
 TeamEstimate<Pose> close_by_matches(TeamEstimate<Pose> estimate, const Mission& mission,
                                     const OverlapStage& overlaps, const RunParams& params,
                                     const RunOptions& options, const Progress& progress) {
-  auto outcomes = select_matches(estimate.joint, mission, overlaps.candidates, options.pruning,
-                                 params.matches, params.angles);
-  optimise_with_matches(estimate.joint, outcomes, params.matches, params.optimizer, progress);
+  const auto radio = radio_covariance(estimate.joint, estimate.placement, params.alignment);
+  auto outcomes = select_matches(estimate.joint, estimate.placement, mission, overlaps.candidates,
+                                 options.pruning, params.matches, params.angles, radio);
+  if (radio && params.matches.robust && options.pruning == Pruning::kOn)
+    optimise_matches_and_radio(estimate.joint, outcomes, estimate.placement, params.matches,
+                               params.alignment.mixture, params.optimizer, progress);
+  else
+    optimise_with_matches(estimate.joint, outcomes, params.matches, params.optimizer, progress);
   for (const MatchOutcome& outcome : outcomes) estimate.matches.push_back(match_result(outcome));
   return estimate;
 }
@@ -142,6 +158,8 @@ TeamEstimate<Pose> close_by_matches(TeamEstimate<Pose> estimate, const Mission& 
   template TeamEstimate<Pose> refine_on_field(TeamEstimate<Pose>, const Mission&, const RunParams&,        \
                                               const Progress&);                                            \
   template TeamEstimate<Pose> correct_range_biases(TeamEstimate<Pose>, const RunParams&, const Progress&); \
+  template TeamEstimate<Pose> weigh_alignments_by_matches(TeamEstimate<Pose>, const Mission&,              \
+                                                          const RunParams&, const Progress&);              \
   template OverlapStage search_overlaps(const TeamEstimate<Pose>&, const RunParams&, const RunOptions&);   \
   template TeamEstimate<Pose> close_by_matches(TeamEstimate<Pose>, const Mission&, const OverlapStage&,    \
                                                const RunParams&, const RunOptions&, const Progress&);

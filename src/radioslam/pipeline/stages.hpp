@@ -58,6 +58,11 @@ template <class Pose>
 TeamEstimate<Pose> correct_range_biases(TeamEstimate<Pose> estimate, const RunParams& params,
                                         const Progress& progress);
 
+/// At the alignment that radio links and groups of consistent matches support best, with the weights of all.
+template <class Pose>
+TeamEstimate<Pose> weigh_alignments_by_matches(TeamEstimate<Pose> estimate, const Mission& mission,
+                                               const RunParams& params, const Progress& progress);
+
 /// Whether a run uses the keyframe pairs with overlapping views.
 bool needs_overlap_search(const Mission& mission, const RunOptions& options);
 

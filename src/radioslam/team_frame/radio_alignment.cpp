@@ -12,23 +12,16 @@
 namespace radioslam {
 namespace {
 
-/// The team's values in the full graph, refined there once more.
+/// Values and weights of the connected measurements' mixture, by the team's lists.
 template <class Pose>
-TeamHypothesis<Pose> hypothesis(const TeamGraph<Pose>& full, CompressedTeam<Pose>& compressed,
-                                const TeamComponents& components, const TeamValues<Pose>& team,
-                                const RadioAlignmentParams& params) {
-  TeamGraph<Pose> values = full;
-  team.write_to(compressed.team.graph);
-  expand_values(compressed, values);
-  const ConnectedTeam<Pose> connected = connected_team(values, components);
-  MixtureGraph<Pose> mixture(connected.team, params.mixture);
-  rotate_gravity_priors(mixture.graph);
+TeamHypothesis<Pose> described(const TeamGraph<Pose>& team, const ConnectedTeam<Pose>& connected,
+                               MixtureGraph<Pose> mixture, double log_evidence) {
   TeamHypothesis<Pose> result;
-  result.log_evidence = refine(mixture, {}, params.refinement).log_evidence;
-  result.range_weight.assign(full.graph.ranges.size(), 0);
+  result.log_evidence = log_evidence;
+  result.range_weight.assign(team.graph.ranges.size(), 0);
   for (std::size_t k = 0; k < connected.ranges.size(); ++k)
     result.range_weight[connected.ranges[k]] = mixture.graph.ranges[k].weight;
-  for (const auto& bearing : full.bearings) {
+  for (const auto& bearing : team.bearings) {
     result.path_weight.emplace_back(bearing.paths.size(), 0.0);
     std::vector<double>& sigmas = result.path_sigma_rad.emplace_back();
     for (const auto& path : bearing.paths) sigmas.push_back(path.sigma_rad);
@@ -43,6 +36,17 @@ TeamHypothesis<Pose> hypothesis(const TeamGraph<Pose>& full, CompressedTeam<Pose
   result.points = std::move(mixture.graph.points);
   result.drifts = std::move(mixture.graph.drifts);
   return result;
+}
+
+/// The team's values in the full graph, refined there once more.
+template <class Pose>
+TeamHypothesis<Pose> hypothesis(const TeamGraph<Pose>& full, CompressedTeam<Pose>& compressed,
+                                const TeamComponents& components, const TeamValues<Pose>& team,
+                                const RadioAlignmentParams& params) {
+  TeamGraph<Pose> values = full;
+  team.write_to(compressed.team.graph);
+  expand_values(compressed, values);
+  return refine_alignment(values, components, params);
 }
 
 /// Sorts hypotheses by evidence and sets their weights.
@@ -62,6 +66,25 @@ void weigh(std::vector<TeamHypothesis<Pose>>& hypotheses, double evidence_temper
 }  // namespace
 
 template <class Pose>
+TeamHypothesis<Pose> refine_alignment(const TeamGraph<Pose>& team, const TeamComponents& components,
+                                      const RadioAlignmentParams& params) {
+  const ConnectedTeam<Pose> connected = connected_team(team, components);
+  MixtureGraph<Pose> mixture(connected.team, params.mixture);
+  rotate_gravity_priors(mixture.graph);
+  const double log_evidence = refine(mixture, {}, params.refinement).log_evidence;
+  return described(team, connected, std::move(mixture), log_evidence);
+}
+
+template <class Pose>
+TeamHypothesis<Pose> weigh_links(const TeamGraph<Pose>& team, const TeamComponents& components,
+                                 const MixtureParams& params) {
+  const ConnectedTeam<Pose> connected = connected_team(team, components);
+  MixtureGraph<Pose> mixture(connected.team, params);
+  const double cost = mixture.update_weights({}, 0);
+  return described(team, connected, std::move(mixture), -cost / 2);
+}
+
+template <class Pose>
 RadioAlignment<Pose> align_by_radio(const TeamGraph<Pose>& team, const RadioAlignmentParams& params,
                                     const Progress& progress) {
   CompressedTeam<Pose> compressed = compress(thin_links(team, params.grid));
@@ -75,6 +98,12 @@ RadioAlignment<Pose> align_by_radio(const TeamGraph<Pose>& team, const RadioAlig
   return result;
 }
 
+template TeamHypothesis<SE2> refine_alignment(const TeamGraph<SE2>&, const TeamComponents&,
+                                              const RadioAlignmentParams&);
+template TeamHypothesis<SE3> refine_alignment(const TeamGraph<SE3>&, const TeamComponents&,
+                                              const RadioAlignmentParams&);
+template TeamHypothesis<SE2> weigh_links(const TeamGraph<SE2>&, const TeamComponents&, const MixtureParams&);
+template TeamHypothesis<SE3> weigh_links(const TeamGraph<SE3>&, const TeamComponents&, const MixtureParams&);
 template RadioAlignment<SE2> align_by_radio(const TeamGraph<SE2>&, const RadioAlignmentParams&,
                                             const Progress&);
 template RadioAlignment<SE3> align_by_radio(const TeamGraph<SE3>&, const RadioAlignmentParams&,

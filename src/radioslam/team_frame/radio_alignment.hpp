@@ -42,4 +42,16 @@ template <class Pose>
 RadioAlignment<Pose> align_by_radio(const TeamGraph<Pose>& team, const RadioAlignmentParams& params,
                                     const Progress& progress = {});
 
+/// The alignment nearest to the team's values, which must be in the frames of `components`. Its evidence is
+/// comparable with that of other alignments of the same team.
+template <class Pose>
+TeamHypothesis<Pose> refine_alignment(const TeamGraph<Pose>& team, const TeamComponents& components,
+                                      const RadioAlignmentParams& params);
+
+/// The team's values as they are, with the weight of every range and path there; the evidence is the log
+/// likelihood.
+template <class Pose>
+TeamHypothesis<Pose> weigh_links(const TeamGraph<Pose>& team, const TeamComponents& components,
+                                 const MixtureParams& params);
+
 }  // namespace radioslam

@@ -1,6 +1,7 @@
 // radioslam evaluate: compares a run with the ground truth of its mission.
 #include <algorithm>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -12,9 +13,11 @@
 #include "radioslam/cli/commands/evaluation.hpp"
 #include "radioslam/cli/commands/mission_input.hpp"
 #include "radioslam/eval/closures.hpp"
+#include "radioslam/eval/measurement_truth.hpp"
 #include "radioslam/eval/metrics.hpp"
 #include "radioslam/io/run/metrics_json.hpp"
 #include "radioslam/io/run/run_folder.hpp"
+#include "radioslam/io/run/run_tables.hpp"
 
 namespace radioslam::cli {
 namespace {
@@ -36,6 +39,7 @@ struct Evaluation {
   PairCounts candidates;
   bool looked_for_candidates = false;  ///< whether the run searched for candidates at all
   PairCounts closures;
+  std::map<ClosureKind, JudgedClosures> by_kind;  ///< judged by their measurements
   long accepted = 0;
   long rejected = 0;
   std::vector<std::string> notes;
@@ -83,8 +87,8 @@ std::vector<double> reach(const Mission& mission, std::optional<double> radius_m
 
 using NoCandidates = std::vector<CandidateResult>;
 
-void count_pairs(Evaluation& evaluation, const RunFolder& run, const std::vector<RobotIndex>& places,
-                 const PairTruth& truth) {
+void count_pairs(Evaluation& evaluation, const RunFolder& run, const Mission& mission,
+                 const std::vector<RobotIndex>& places, const PairTruth& truth) {
   const auto closures = with_places(run.closures, places);
   evaluation.candidates =
       count_candidates(keyframe_stamps(run, places, truth.reach_m.size()),
@@ -95,6 +99,8 @@ void count_pairs(Evaluation& evaluation, const RunFolder& run, const std::vector
     return closure.status == ClosureStatus::kAccepted;
   });
   evaluation.rejected = static_cast<long>(closures.size()) - evaluation.accepted;
+  evaluation.by_kind =
+      judge_closures(closures, keyframe_stamps(run, places, truth.reach_m.size()), mission, truth.truth);
 }
 
 std::vector<std::string> notes_on(const RunFolder& run, const EvaluateOptions& options) {
@@ -124,7 +130,7 @@ Evaluation evaluate(const EvaluateOptions& options) {
   if (!odometry.empty()) {
     evaluation.dead_reckoning = evaluate_trajectories(odometry, truth, mission.dimension, association);
   }
-  count_pairs(evaluation, run, places, {truth, mission.dimension, reach(mission, options.radius_m)});
+  count_pairs(evaluation, run, mission, places, {truth, mission.dimension, reach(mission, options.radius_m)});
   return evaluation;
 }
 
@@ -136,6 +142,11 @@ nlohmann::ordered_json json_of(const Evaluation& evaluation) {
   json["closures"] = pair_counts_json(evaluation.closures);
   json["closures"]["accepted"] = evaluation.accepted;
   json["closures"]["rejected"] = evaluation.rejected;
+  for (const auto& [kind, counts] : evaluation.by_kind)
+    json["closures"][std::string(closure_kind_name(kind))] = {{"accepted", counts.accepted},
+                                                              {"true_accepted", counts.true_accepted},
+                                                              {"rejected", counts.rejected},
+                                                              {"true_rejected", counts.true_rejected}};
   json["dead_reckoning"] = nullptr;
   if (evaluation.dead_reckoning) json["dead_reckoning"] = metrics_json(*evaluation.dead_reckoning);
   json["notes"] = evaluation.notes;
@@ -151,6 +162,10 @@ void print_text(const Evaluation& evaluation) {
   std::cout << "closures: " << evaluation.accepted << " accepted, " << evaluation.rejected
             << " rejected; between robots " << evaluation.closures.kept << " accepted, "
             << evaluation.closures.true_kept << " of them within the radius\n";
+  for (const auto& [kind, counts] : evaluation.by_kind)
+    std::cout << "  " << closure_kind_name(kind) << ": " << counts.accepted << " accepted, "
+              << counts.true_accepted << " of them true; " << counts.rejected << " rejected, "
+              << counts.true_rejected << " of them true\n";
 }
 
 void evaluate_run(const EvaluateOptions& options) {

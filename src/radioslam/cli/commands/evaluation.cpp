@@ -64,6 +64,8 @@ std::string metrics_table(const TeamMetrics& metrics) {
                        metrics.rpe->translation_rmse_m, kDegreesPerRadian * metrics.rpe->rotation_rmse_rad,
                        metrics.rpe->count);
   }
+  if (metrics.rotation_rmse_rad)
+    table += formatted("rotation: %.3f deg rmse\n", kDegreesPerRadian * *metrics.rotation_rmse_rad);
   return table;
 }
 

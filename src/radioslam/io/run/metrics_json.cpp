@@ -25,6 +25,8 @@ Json rpe_json(const std::optional<RelativeError>& rpe) {
 Json metrics_json(const TeamMetrics& metrics) {
   Json json = ate_json(metrics.ate);
   json["rpe"] = rpe_json(metrics.rpe);
+  json["rotation"] = nullptr;
+  if (metrics.rotation_rmse_rad) json["rotation"] = {{"rmse_rad", *metrics.rotation_rmse_rad}};
   json["coverage"] = metrics.coverage;
   json["robots"] = Json::object();
   for (const RobotMetrics& robot : metrics.robots) {

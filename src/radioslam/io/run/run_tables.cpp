@@ -107,6 +107,8 @@ std::string format_candidates(const std::vector<CandidateResult>& candidates,
   return out;
 }
 
+std::string_view closure_kind_name(ClosureKind kind) { return word_for(kKinds, kind); }
+
 std::string format_closures(const std::vector<ClosureResult>& closures, std::span<const std::string> ids) {
   std::string out = "robot_i,t_i_s,robot_j,t_j_s,kind,status,statistic,reason\n";
   for (const ClosureResult& closure : closures) {

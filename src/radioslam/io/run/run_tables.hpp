@@ -9,6 +9,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "radioslam/eval/metrics.hpp"
@@ -19,6 +20,8 @@ namespace radioslam {
 
 std::string format_candidates(const std::vector<CandidateResult>& candidates,
                               std::span<const std::string> ids);
+/// As in closures.csv.
+std::string_view closure_kind_name(ClosureKind kind);
 std::string format_closures(const std::vector<ClosureResult>& closures, std::span<const std::string> ids);
 /// Angles in the format of a mission's radio/aoa.csv: the paths that the run used, numbered from 0 per
 /// measurement.

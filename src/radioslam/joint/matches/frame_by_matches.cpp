@@ -1,0 +1,292 @@
+#include "radioslam/joint/matches/frame_by_matches.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "radioslam/geometry/linear_algebra.hpp"
+#include "radioslam/joint/covariance_graph.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr std::size_t kMaxGroups = 40;  // per pair of robots
+constexpr double kNoTrueGroup = 4;      // weight, in matches, of the case that no group is true
+/// 99.9 % quantile of chi-squared with three degrees of freedom.
+constexpr double kPlanarGate = 16.27;
+
+/// Error of a match under an estimate, with its covariance.
+template <class Pose>
+struct MatchError {
+  typename Pose::Tangent error;
+  typename Pose::Jacobian covariance;
+
+  /// x, y and yaw.
+  std::pair<Eigen::Vector3d, Eigen::Matrix3d> planar() const {
+    if constexpr (Pose::kDim == 2) {
+      return {error, covariance};
+    } else {
+      const std::array<int, 3> kept{0, 1, 5};
+      return {error(kept), covariance(kept, kept)};
+    }
+  }
+};
+
+template <class Pose>
+MatchError<Pose> match_error(const JointGraph<Pose>& joint, const Marginals<Pose>& marginals,
+                             double temperature, const PoseMatch& match, const MatchEnds& ends) {
+  const auto& poses = joint.team.graph.poses;
+  const Pose T_i_j = poses[ends.i.index()].inverse() * poses[ends.j.index()];
+  return {(pose_as<Pose>(match.T_i_j).inverse() * T_i_j).log(),
+          temperature * marginals.relative_pose(ends.i, ends.j) + inverse(match_information<Pose>(match))};
+}
+
+template <class Vector, class Matrix>
+double squared_mahalanobis(const Vector& error, const Matrix& covariance) {
+  return Cholesky<Matrix>(covariance).whitened(error).squaredNorm();
+}
+
+/// The team with its radio links alone.
+template <class Pose>
+TeamGraph<Pose> radio_team(const JointGraph<Pose>& joint) {
+  TeamGraph<Pose> team = joint.team;
+  team.graph.bearings.clear();
+  team.graph.ranges.resize(count_factors(joint.origins.ranges, FactorSource::kRange));
+  return team;
+}
+
+std::size_t matches_of_pair(const std::vector<MatchGroup>& groups, const MatchGroup& of) {
+  std::size_t count = 0;
+  for (const MatchGroup& group : groups)
+    if (group.a == of.a && group.b == of.b) count += group.matches.size();
+  return count;
+}
+
+/// Sum of the diameters of the two trajectories.
+template <class Pose>
+double span_m(const JointGraph<Pose>& joint, const MatchGroup& group) {
+  double sum = 1;
+  for (const RobotIndex robot : {group.a, group.b}) {
+    typename Pose::Point low = Pose::Point::Constant(1e300), high = -low;
+    for (const SE3& pose : joint.robots[robot.index()].odometry) {
+      const typename Pose::Point p = pose.translation().template head<Pose::kDim>();
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+    sum += (high - low).norm();
+  }
+  return sum;
+}
+
+/// One alignment of the team and its weight.
+template <class Pose>
+struct Candidate {
+  TeamHypothesis<Pose> alignment;
+  double log_weight = 0;
+};
+
+template <class Pose>
+class AlignmentChoice {
+ public:
+  AlignmentChoice(const JointGraph<Pose>& joint, const TeamPlacement<Pose>& placement, const Mission& mission,
+                  const RadioAlignmentParams& params)
+      : joint_(joint),
+        placement_(placement),
+        mission_(mission),
+        params_(params),
+        radio_(radio_team(joint)),
+        groups_(consistent_groups(joint, mission, kMaxGroups)) {}
+
+  /// The candidates, best first; the radio's own is the first of equals.
+  std::vector<Candidate<Pose>> run() {
+    add(joint_.team.graph.poses);
+    for (const std::vector<Pose>& poses : placement_.alternatives) add(poses);
+    for (std::size_t round = 1; round < joint_.robots.size(); ++round) {
+      const std::size_t before = candidates_.size();
+      for (const std::vector<Pose>& start : proposals(best())) add(start);
+      if (candidates_.size() == before) break;
+    }
+    std::stable_sort(candidates_.begin(), candidates_.end(),
+                     [](const auto& x, const auto& y) { return x.log_weight > y.log_weight; });
+    return std::move(candidates_);
+  }
+
+ private:
+  /// Refines the alignment from these poses and keeps it unless a candidate is the same.
+  void add(const std::vector<Pose>& poses) {
+    TeamGraph<Pose> start = radio_;
+    start.graph.poses = poses;
+    Candidate<Pose> candidate{refine_alignment(start, placement_.segments, params_)};
+    if (!std::isfinite(candidate.alignment.log_evidence)) return;
+    const auto is_same = [&](const Candidate<Pose>& other) {
+      return same(other.alignment.poses, candidate.alignment.poses);
+    };
+    if (std::any_of(candidates_.begin(), candidates_.end(), is_same)) return;
+    candidate.log_weight = log_weight(candidate.alignment);
+    candidates_.push_back(std::move(candidate));
+  }
+
+  bool same(const std::vector<Pose>& x, const std::vector<Pose>& y) const {
+    for (std::size_t k = 0; k < x.size(); ++k)
+      if ((x[k].translation() - y[k].translation()).norm() > params_.beam.same_map_m) return false;
+    return true;
+  }
+
+  const Candidate<Pose>& best() const {
+    return *std::max_element(candidates_.begin(), candidates_.end(),
+                             [](const auto& x, const auto& y) { return x.log_weight < y.log_weight; });
+  }
+
+  /// The joint graph at an alignment, with its covariances.
+  struct Aligned {
+    JointGraph<Pose> joint;
+    std::optional<Marginals<Pose>> marginals;
+  };
+  Aligned aligned(const TeamHypothesis<Pose>& alignment) const {
+    JointGraph<Pose> joint = joint_;
+    joint.team.graph.ranges.resize(radio_.graph.ranges.size());
+    joint.origins.ranges.resize(radio_.graph.ranges.size());
+    adopt_alignment(joint, alignment);
+    auto marginals = Marginals<Pose>::compute(graph_for_covariances(joint, params_.mixture).team.graph);
+    return {std::move(joint), std::move(marginals)};
+  }
+
+  /// Planar error of the group's middle match.
+  MatchError<Pose> group_error(const Aligned& at, const MatchGroup& group) const {
+    const MatchEnds& middle = group.matches[group.matches.size() / 2];
+    return match_error(at.joint, *at.marginals, params_.beam.evidence_temperature,
+                       mission_.matches[middle.match], middle);
+  }
+
+  double log_weight(const TeamHypothesis<Pose>& alignment) const {
+    double result = alignment.log_evidence / params_.beam.evidence_temperature;
+    const Aligned at = aligned(alignment);
+    if (!at.marginals) return result;
+    std::map<std::pair<RobotIndex, RobotIndex>, double> largest_ratio;
+    for (const MatchGroup& group : groups_) {
+      if (!share_frame(group)) continue;
+      double& ratio = largest_ratio[{group.a, group.b}];
+      ratio = std::max(ratio, std::exp(log_ratio(at, group)));
+    }
+    for (const auto& [robots, ratio] : largest_ratio) result += std::log1p(ratio);
+    return result;
+  }
+
+  /// log r_G.
+  double log_ratio(const Aligned& at, const MatchGroup& group) const {
+    const auto [error, covariance] = group_error(at, group).planar();
+    const Cholesky<Eigen::Matrix3d> root(covariance);
+    if (!root.succeeded()) return 0;
+    const double log_density = -root.whitened(error).squaredNorm() / 2 -
+                               root.lower().diagonal().array().log().sum() -
+                               1.5 * std::log(2 * std::numbers::pi);
+    const double log_uniform = -2 * std::log(span_m(joint_, group)) - std::log(2 * std::numbers::pi);
+    return log_density - log_uniform +
+           std::log(static_cast<double>(group.matches.size()) /
+                    (static_cast<double>(matches_of_pair(groups_, group)) + kNoTrueGroup));
+  }
+
+  bool share_frame(const MatchGroup& group) const {
+    return placement_.without_matches[group.a.index()] == placement_.without_matches[group.b.index()];
+  }
+
+  /// Poses with one robot moved to where a group wants it, for groups that contradict the candidate, of pairs
+  /// of robots whose largest group does.
+  std::vector<std::vector<Pose>> proposals(const Candidate<Pose>& candidate) const {
+    std::vector<std::vector<Pose>> starts;
+    const Aligned at = aligned(candidate.alignment);
+    if (!at.marginals) return starts;
+    std::map<std::pair<RobotIndex, RobotIndex>, bool> is_settled;
+    for (const MatchGroup& group : groups_) {
+      if (!share_frame(group) || both_known(group)) continue;
+      const auto [error, covariance] = group_error(at, group).planar();
+      const bool fits = squared_mahalanobis(error, covariance) <= kPlanarGate;
+      if (!is_settled.try_emplace({group.a, group.b}, fits).first->second && !fits)
+        starts.push_back(moved_by(group, candidate.alignment.poses));
+    }
+    return starts;
+  }
+
+  bool both_known(const MatchGroup& group) const {
+    return joint_.robots[group.a.index()].T_common_start && joint_.robots[group.b.index()].T_common_start;
+  }
+
+  /// Moves robot b, or a if b's start is known.
+  std::vector<Pose> moved_by(const MatchGroup& group, std::vector<Pose> poses) const {
+    const MatchEnds& middle = group.matches[group.matches.size() / 2];
+    const PoseMatch& match = mission_.matches[middle.match];
+    const RobotIndex moved = joint_.robots[group.b.index()].T_common_start ? group.a : group.b;
+    const Pose T_i_j = pose_as<Pose>(match.T_i_j), at_i = poses[middle.i.index()],
+               at_j = poses[middle.j.index()];
+    const Pose T =
+        match.robot_j == moved ? at_i * T_i_j * at_j.inverse() : at_j * T_i_j.inverse() * at_i.inverse();
+    for (std::size_t p = 0; p < joint_.team.segments.size(); ++p)
+      if (joint_.robot_of_segment[p] == moved.index()) move_segment(poses, joint_.team.segments[p], T);
+    return poses;
+  }
+
+  const JointGraph<Pose>& joint_;
+  const TeamPlacement<Pose>& placement_;
+  const Mission& mission_;
+  const RadioAlignmentParams& params_;
+  TeamGraph<Pose> radio_;
+  std::vector<MatchGroup> groups_;
+  std::vector<Candidate<Pose>> candidates_;
+};
+
+}  // namespace
+
+template <class Pose>
+double match_statistic(const JointGraph<Pose>& joint, const Marginals<Pose>& marginals, double temperature,
+                       const PoseMatch& match, const MatchEnds& ends) {
+  const MatchError<Pose> at = match_error(joint, marginals, temperature, match, ends);
+  return squared_mahalanobis(at.error, at.covariance);
+}
+
+template <class Pose>
+bool choose_alignment_by_matches(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement,
+                                 const Mission& mission, const RadioAlignmentParams& params) {
+  if (placement.segments.of_segment.empty() || mission.matches.empty()) return false;
+  const std::vector<Pose> before = joint.team.graph.poses;
+  const auto candidates = AlignmentChoice<Pose>(joint, placement, mission, params).run();
+  if (candidates.empty()) return false;
+  std::vector<const TeamHypothesis<Pose>*> others;
+  std::vector<double> weights;
+  double sum = 0;
+  for (const auto& candidate : candidates)
+    weights.push_back(std::exp(candidate.log_weight - candidates.front().log_weight)), sum += weights.back();
+  for (double& weight : weights) weight /= sum;
+  for (std::size_t k = 1; k < candidates.size(); ++k) others.push_back(&candidates[k].alignment);
+  set_alternatives(placement, weights.front(), others, {weights.begin() + 1, weights.end()});
+  const auto& chosen = candidates.front().alignment;
+  bool is_moved = false;
+  for (std::size_t k = 0; k < before.size(); ++k)
+    is_moved =
+        is_moved || (before[k].translation() - chosen.poses[k].translation()).norm() > params.beam.same_map_m;
+  if (is_moved) adopt_alignment(joint, chosen);
+  return is_moved;
+}
+
+template <class Pose>
+double reweigh_radio_links(JointGraph<Pose>& joint, const TeamPlacement<Pose>& placement,
+                           const MixtureParams& params) {
+  const TeamHypothesis<Pose> weighed = weigh_links(radio_team(joint), placement.segments, params);
+  adopt_alignment(joint, weighed);
+  return weighed.log_evidence;
+}
+
+#define RADIOSLAM_FRAME_BY_MATCHES(Pose)                                                                     \
+  template double reweigh_radio_links(JointGraph<Pose>&, const TeamPlacement<Pose>&, const MixtureParams&);  \
+  template double match_statistic(const JointGraph<Pose>&, const Marginals<Pose>&, double, const PoseMatch&, \
+                                  const MatchEnds&);                                                         \
+  template bool choose_alignment_by_matches(JointGraph<Pose>&, TeamPlacement<Pose>&, const Mission&,         \
+                                            const RadioAlignmentParams&);
+RADIOSLAM_FRAME_BY_MATCHES(SE2)
+RADIOSLAM_FRAME_BY_MATCHES(SE3)
+#undef RADIOSLAM_FRAME_BY_MATCHES
+
+}  // namespace radioslam

@@ -1,0 +1,46 @@
+// Joint likelihood of the radio's alignments of a team and of groups of consistent matches.
+//
+// Each group of consistent matches between two robots (match_groups.hpp) is one measurement of their relative
+// pose, true or an alias; that its members agree does not show which. Alignments are those of the radio and,
+// for groups that contradict the best of them, the one that refinement finds from the group's own relative
+// pose. Each alignment h has the weight
+//   w_h = exp(E_h / T) prod_pairs (1 + max_G r_G),   r_G = n_G / (n + 4) N(e; 0, T P + S) / u
+// with E_h the radio's log evidence, T its temperature, e the planar error (x, y, yaw) of the group's middle
+// match under h, P the covariance of the relative pose under h and S the match's own, u the uniform density
+// of a relative pose over the area of both trajectories, n_G the number of the group's matches and n that of
+// all groups of the pair. So the radio decides between true and false groups whatever their sizes where it
+// distinguishes them, and a group outweighs the radio's best alignment where its own explains the radio
+// nearly as well.
+#pragma once
+
+#include <cstddef>
+
+#include "radioslam/graph/marginals.hpp"
+#include "radioslam/joint/joint_graph.hpp"
+#include "radioslam/joint/matches/match_groups.hpp"
+#include "radioslam/joint/team_placement.hpp"
+#include "radioslam/team_frame/measurement_mixture.hpp"
+
+namespace radioslam {
+
+/// Moves the team to the alignment with the largest weight and updates the placement's weights and
+/// alternatives. `joint` must be optimised and placed by radio links; without them, or without matches
+/// between robots, nothing changes. Returns whether the team was moved to another alignment; it is then to be
+/// optimised.
+template <class Pose>
+bool choose_alignment_by_matches(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement,
+                                 const Mission& mission, const RadioAlignmentParams& params);
+
+/// Recomputes the weight of every range and of every path of every bearing at the joint estimate's values,
+/// which matches may have changed. Returns the log likelihood of all factors there.
+template <class Pose>
+double reweigh_radio_links(JointGraph<Pose>& joint, const TeamPlacement<Pose>& placement,
+                           const MixtureParams& params);
+
+/// Squared Mahalanobis norm of a match under the joint estimate, whose relative poses have the covariances of
+/// `marginals` times `temperature`.
+template <class Pose>
+double match_statistic(const JointGraph<Pose>& joint, const Marginals<Pose>& marginals, double temperature,
+                       const PoseMatch& match, const MatchEnds& ends);
+
+}  // namespace radioslam

@@ -1,0 +1,106 @@
+#include "radioslam/joint/matches/match_groups.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "radioslam/consistency/maximum_clique.hpp"
+#include "radioslam/geometry/linear_algebra.hpp"
+
+namespace radioslam {
+namespace {
+
+/// Robots of a mission have one segment each.
+template <class Pose>
+const TrajectorySegment& segment(const JointGraph<Pose>& joint, RobotIndex robot) {
+  return joint.team.segments[robot.index()];
+}
+
+using MatchesOfPairs = std::map<std::pair<RobotIndex, RobotIndex>, std::vector<MatchEnds>>;
+
+template <class Pose>
+MatchesOfPairs matches_of_pairs(const JointGraph<Pose>& joint, const Mission& mission) {
+  MatchesOfPairs pairs;
+  for (std::size_t m = 0; m < mission.matches.size(); ++m) {
+    const PoseMatch& match = mission.matches[m];
+    if (match.robot_i == match.robot_j) continue;
+    const MatchEnds ends{m, pose_at(joint, match.robot_i, match.stamp_i),
+                         pose_at(joint, match.robot_j, match.stamp_j)};
+    if (ends.i.valid() && ends.j.valid()) pairs[std::minmax(match.robot_i, match.robot_j)].push_back(ends);
+  }
+  return pairs;
+}
+
+}  // namespace
+
+template <class Pose>
+typename Pose::Jacobian match_information(const PoseMatch& match) {
+  constexpr int kRotations = Pose::kDof - Pose::kDim;
+  typename Pose::Tangent diagonal = Pose::Tangent::Constant(1 / (match.sigma_t_m * match.sigma_t_m));
+  diagonal.template tail<kRotations>().setConstant(1 / (match.sigma_r_rad * match.sigma_r_rad));
+  return diagonal.asDiagonal();
+}
+
+template <class Pose>
+OdometryChain<Pose> odometry_chain(const JointGraph<Pose>& joint, RobotIndex robot) {
+  const TrajectorySegment& of = segment(joint, robot);
+  std::vector<Pose> poses{Pose()};
+  std::vector<typename Pose::Jacobian> steps;
+  for (const auto& factor : joint.team.graph.relative_poses) {
+    const bool mine =
+        factor.i.index() == of.first_pose + poses.size() - 1 && factor.j.value == factor.i.value + 1;
+    if (!mine || poses.size() == of.pose_count) continue;
+    poses.push_back(poses.back() * factor.T_i_j);
+    steps.push_back(inverse(factor.information));
+  }
+  return {std::move(poses), steps};
+}
+
+template <class Pose>
+RelativePoseMatch<Pose> oriented_match(const JointGraph<Pose>& joint, const PoseMatch& match,
+                                       const MatchEnds& ends, RobotIndex a) {
+  const Pose T_i_j = pose_as<Pose>(match.T_i_j);
+  const typename Pose::Jacobian covariance = inverse(match_information<Pose>(match));
+  const std::size_t i = ends.i.index() - segment(joint, match.robot_i).first_pose,
+                    j = ends.j.index() - segment(joint, match.robot_j).first_pose;
+  if (match.robot_i == a) return {i, j, T_i_j, covariance};
+  const typename Pose::Jacobian turn = T_i_j.adjoint();
+  return {j, i, T_i_j.inverse(), congruence(turn, covariance)};
+}
+
+template <class Pose>
+std::vector<MatchGroup> consistent_groups(const JointGraph<Pose>& joint, const Mission& mission,
+                                          std::size_t max_groups) {
+  std::vector<MatchGroup> groups;
+  for (const auto& [robots, matches] : matches_of_pairs(joint, mission)) {
+    const auto [a, b] = robots;
+    std::vector<RelativePoseMatch<Pose>> oriented;
+    for (const MatchEnds& ends : matches)
+      oriented.push_back(oriented_match(joint, mission.matches[ends.match], ends, a));
+    const PairwiseConsistency pairs =
+        pairwise_consistency(odometry_chain(joint, a), odometry_chain(joint, b), oriented);
+    std::vector<std::size_t> rest(matches.size());
+    for (std::size_t k = 0; k < rest.size(); ++k) rest[k] = k;
+    for (std::size_t g = 0; g < max_groups && !rest.empty(); ++g) {
+      MatchGroup group{a, b, {}};
+      const MaximumClique clique = maximum_clique(induced_graph(pairs.graph, rest));
+      for (const std::size_t member : clique.vertices) group.matches.push_back(matches[rest[member]]);
+      for (auto it = clique.vertices.rbegin(); it != clique.vertices.rend(); ++it)
+        rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(*it));
+      groups.push_back(std::move(group));
+    }
+  }
+  return groups;
+}
+
+#define RADIOSLAM_MATCH_GROUPS(Pose)                                                         \
+  template Pose::Jacobian match_information<Pose>(const PoseMatch&);                         \
+  template OdometryChain<Pose> odometry_chain(const JointGraph<Pose>&, RobotIndex);          \
+  template RelativePoseMatch<Pose> oriented_match(const JointGraph<Pose>&, const PoseMatch&, \
+                                                  const MatchEnds&, RobotIndex);             \
+  template std::vector<MatchGroup> consistent_groups(const JointGraph<Pose>&, const Mission&, std::size_t);
+RADIOSLAM_MATCH_GROUPS(SE2)
+RADIOSLAM_MATCH_GROUPS(SE3)
+#undef RADIOSLAM_MATCH_GROUPS
+
+}  // namespace radioslam

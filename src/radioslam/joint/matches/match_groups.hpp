@@ -1,0 +1,45 @@
+// Groups of matches between two robots that are consistent with one another: each group is one relative pose
+// of the robots' odometry frames. At most one group per pair of robots can be true; the others are aliases,
+// places that look alike.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "radioslam/consistency/odometry_chain.hpp"
+#include "radioslam/consistency/pairwise.hpp"
+#include "radioslam/joint/joint_graph.hpp"
+
+namespace radioslam {
+
+/// Ends of a match in the joint graph.
+struct MatchEnds {
+  std::size_t match = 0;  ///< index in the mission
+  PoseId i, j;
+};
+
+/// Information of a match's relative pose.
+template <class Pose>
+typename Pose::Jacobian match_information(const PoseMatch& match);
+
+/// Consecutive poses of a robot by its odometry, with covariances. Robots of a mission have one segment each.
+template <class Pose>
+OdometryChain<Pose> odometry_chain(const JointGraph<Pose>& joint, RobotIndex robot);
+
+/// A match of robots a and b as the relative pose of b's end from a's, whichever way it was measured.
+template <class Pose>
+RelativePoseMatch<Pose> oriented_match(const JointGraph<Pose>& joint, const PoseMatch& match,
+                                       const MatchEnds& ends, RobotIndex a);
+
+struct MatchGroup {
+  RobotIndex a, b;                 ///< a < b
+  std::vector<MatchEnds> matches;  ///< at least one
+};
+
+/// The largest groups of every pair of robots, largest first, disjoint, at most `max_groups` per pair.
+/// Matches at times without odometry belong to none.
+template <class Pose>
+std::vector<MatchGroup> consistent_groups(const JointGraph<Pose>& joint, const Mission& mission,
+                                          std::size_t max_groups);
+
+}  // namespace radioslam

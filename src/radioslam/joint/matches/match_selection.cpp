@@ -1,0 +1,340 @@
+#include "radioslam/joint/matches/match_selection.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "radioslam/consistency/consistent_set.hpp"
+#include "radioslam/graph/graduated.hpp"
+#include "radioslam/graph/residuals.hpp"
+#include "radioslam/joint/covariance_graph.hpp"
+#include "radioslam/joint/matches/frame_by_matches.hpp"
+
+namespace radioslam {
+namespace {
+
+using CandidateKey = std::tuple<RobotIndex, Stamp, RobotIndex, Stamp>;
+
+std::set<CandidateKey> keys(const std::vector<CandidateResult>& candidates) {
+  std::set<CandidateKey> result;
+  for (const auto& c : candidates) {
+    result.insert({c.robot_i, c.stamp_i, c.robot_j, c.stamp_j});
+    result.insert({c.robot_j, c.stamp_j, c.robot_i, c.stamp_i});
+  }
+  return result;
+}
+
+MatchOutcome reject(MatchOutcome outcome, std::string reason) {
+  outcome.status = ClosureStatus::kRejected;
+  outcome.reason = std::move(reason);
+  return outcome;
+}
+
+constexpr double kMinRatio = 0.5;  // ratio of its information below which a match counts as rejected
+
+/// Size of a consistent set from which on it admits matches that the joint estimate rejects.
+constexpr std::size_t kMinVouching = 3;
+
+/// 99.9 % quantile of chi-squared: 3 or 6 degrees of freedom.
+template <class Pose>
+inline constexpr double kPoseChiSquared999 = Pose::kDof == 3 ? 16.266 : 22.458;
+
+template <class Pose>
+class MatchSelector {
+ public:
+  MatchSelector(JointGraph<Pose>& joint, const TeamPlacement<Pose>& placement, const Mission& mission,
+                const std::vector<CandidateResult>& candidates, Pruning pruning, const MatchParams& params,
+                const AoaLikelihoodParams& likelihood, const std::optional<RadioCovariance<Pose>>& radio)
+      : joint_(joint),
+        placement_(placement),
+        mission_(mission),
+        candidates_(keys(candidates)),
+        pruning_(pruning),
+        params_(params),
+        radio_(radio) {
+    if (params.angle_weights) angles_.emplace(mission, params, likelihood);
+    for (std::size_t m = 0; m < mission.matches.size(); ++m) outcomes_.push_back(admit(m));
+  }
+
+  std::vector<MatchOutcome> run() {
+    if (params_.robust)
+      for (const auto& [robots, matches] : between_robots_) keep_consistent(matches);
+    for (const MatchEnds& ends : admitted_)
+      if (outcomes_[ends.match].status == ClosureStatus::kAccepted) add_match(ends);
+    return std::move(outcomes_);
+  }
+
+ private:
+  MatchOutcome admit(std::size_t index) {
+    const PoseMatch& match = mission_.matches[index];
+    MatchOutcome outcome;
+    const FactorOrigin& origin = outcome.origin = {FactorSource::kMatch,
+                                                   index,
+                                                   match.robot_i,
+                                                   match.robot_j,
+                                                   keyframe_stamp(joint_, match.robot_i, match.stamp_i),
+                                                   keyframe_stamp(joint_, match.robot_j, match.stamp_j)};
+    const PoseId i = pose_at(joint_, match.robot_i, match.stamp_i);
+    const PoseId j = pose_at(joint_, match.robot_j, match.stamp_j);
+    if (!i.valid() || !j.valid()) return reject(outcome, "no odometry at its time");
+    const MatchEnds ends{index, i, j};
+    const bool other = match.robot_i != match.robot_j;
+    const bool is_tested = other && pruning_ == Pruning::kOn && connected(match.robot_i, match.robot_j);
+    if (is_tested && !candidates_.contains({origin.robot_i, origin.stamp_i, origin.robot_j, origin.stamp_j}))
+      return set_aside(ends, reject(outcome, "the views cannot overlap"));
+    if (is_tested && contradicts_radio(match, ends, outcome.statistic))
+      return set_aside(ends, reject(outcome, "its relative pose contradicts the radio"));
+    if (other) between_robots_[std::minmax(match.robot_i, match.robot_j)].push_back(admitted_.size());
+    admitted_.push_back(ends);
+    return outcome;
+  }
+
+  /// Keeps a match that the joint estimate rejects, in case an accepted set vouches for it.
+  MatchOutcome set_aside(const MatchEnds& ends, MatchOutcome rejected) {
+    const PoseMatch& match = mission_.matches[ends.match];
+    set_aside_[std::minmax(match.robot_i, match.robot_j)].push_back(ends);
+    return rejected;
+  }
+
+  /// Whether other measurements than matches connect the robots.
+  bool connected(RobotIndex i, RobotIndex j) const {
+    return placement_.without_matches[i.index()] == placement_.without_matches[j.index()];
+  }
+
+  /// Sets the statistic where radio links tell the robots' relative pose.
+  bool contradicts_radio(const PoseMatch& match, const MatchEnds& ends, double& statistic) const {
+    if (!radio_ || !params_.robust) return false;
+    statistic = match_statistic(joint_, radio_->marginals, radio_->temperature, match, ends);
+    return statistic > kPoseChiSquared999<Pose>;
+  }
+
+  using Oriented = std::vector<RelativePoseMatch<Pose>>;
+
+  RelativePoseMatch<Pose> oriented(const MatchEnds& ends, RobotIndex a) const {
+    return oriented_match(joint_, mission_.matches[ends.match], ends, a);
+  }
+
+  /// Rejects all matches of a pair of robots except the largest consistent set, and admits those set aside
+  /// that are consistent with all of it: a group of matches is one relative pose of the robots' frames, true
+  /// or false as a whole, while the trajectory that set some aside may be bent.
+  void keep_consistent(const std::vector<std::size_t>& group) {
+    const PoseMatch& first = mission_.matches[admitted_[group.front()].match];
+    const auto [a, b] = std::minmax(first.robot_i, first.robot_j);
+    const auto chain_a = odometry_chain(joint_, a), chain_b = odometry_chain(joint_, b);
+    Oriented matches, members;
+    for (const std::size_t k : group) matches.push_back(oriented(admitted_[k], a));
+    const ConsistentSet set = largest_consistent_set(chain_a, chain_b, matches);
+    for (std::size_t k = 0; k < group.size(); ++k) {
+      if (set.matches[k].is_in) {
+        members.push_back(matches[k]);
+        continue;
+      }
+      MatchOutcome& outcome = outcomes_[admitted_[group[k]].match];
+      outcome.statistic = set.matches[k].best_statistic.value_or(0);
+      outcome = reject(outcome, "not consistent with the largest set of matches");
+    }
+    if (members.size() < kMinVouching) return;
+    std::vector<MatchEnds> vouched_for;
+    Oriented extension;
+    for (const MatchEnds& ends : set_aside_[{a, b}]) {
+      const RelativePoseMatch<Pose> match = oriented(ends, a);
+      if (std::any_of(members.begin(), members.end(), [&](const auto& member) {
+            return pair_statistic(chain_a, chain_b, match, member) > set.gate;
+          }))
+        continue;
+      vouched_for.push_back(ends);
+      extension.push_back(match);
+    }
+    if (extension.empty()) return;
+    for (const std::size_t k : largest_consistent_set(chain_a, chain_b, extension).members) {
+      outcomes_[vouched_for[k].match].status = ClosureStatus::kAccepted;
+      outcomes_[vouched_for[k].match].reason.clear();
+      admitted_.push_back(vouched_for[k]);
+    }
+  }
+
+  void add_match(const MatchEnds& ends) {
+    const PoseMatch& measured = mission_.matches[ends.match];
+    RelativePoseFactor<Pose> factor;
+    factor.i = ends.i;
+    factor.j = ends.j;
+    factor.T_i_j = pose_as<Pose>(measured.T_i_j);
+    factor.information = match_information<Pose>(measured);
+    if (params_.robust) factor.loss = {LossKind::kGemanMcClure, std::sqrt(kPoseChiSquared99<Pose>)};
+    MatchOutcome& outcome = outcomes_[ends.match];
+    if (angles_ && measured.robot_i != measured.robot_j)
+      outcome.angle_scale = angles_->template information_scale<Pose>(measured);
+    if (outcome.angle_scale.value_or(1) < kMinRatio) {
+      outcome = reject(outcome, "the angles of arrival disagree");
+      return;
+    }
+    factor.information *= outcome.angle_scale.value_or(1);
+    add_factor(joint_, factor, outcome.origin);
+  }
+
+  JointGraph<Pose>& joint_;
+  const TeamPlacement<Pose>& placement_;
+  const Mission& mission_;
+  std::set<CandidateKey> candidates_;
+  Pruning pruning_;
+  MatchParams params_;
+  std::optional<AoaMatchWeights> angles_;  ///< only with angle_weights
+  const std::optional<RadioCovariance<Pose>>& radio_;
+  std::vector<MatchEnds> admitted_;
+  std::map<std::pair<RobotIndex, RobotIndex>, std::vector<std::size_t>>
+      between_robots_;  ///< indices into admitted_
+  std::map<std::pair<RobotIndex, RobotIndex>, std::vector<MatchEnds>> set_aside_;
+  std::vector<MatchOutcome> outcomes_;
+};
+
+/// With a redescending loss, under which outliers lose their influence.
+template <class Pose>
+void optimize_graduated_matches(JointGraph<Pose>& joint, const OptimizerParams& optimizer,
+                                const Progress& progress) {
+  auto& graph = joint.team.graph;
+  FactorMask mask;
+  for (const FactorOrigin& origin : joint.origins.relative_poses)
+    mask.relative_poses.push_back(origin.source == FactorSource::kMatch);
+  const auto summary = optimize_graduated(graph, mask, GraduatedLoss::kTruncatedLeastSquares,
+                                          GraduatedParams{}, optimizer, progress);
+  apply_weights(summary.weights, mask, graph);
+}
+
+}  // namespace
+
+template <class Pose>
+std::optional<RadioCovariance<Pose>> radio_covariance(const JointGraph<Pose>& joint,
+                                                      const TeamPlacement<Pose>& placement,
+                                                      const RadioAlignmentParams& params) {
+  if (placement.segments.of_segment.empty()) return std::nullopt;
+  auto marginals = Marginals<Pose>::compute(graph_for_covariances(joint, params.mixture).team.graph);
+  if (!marginals) return std::nullopt;
+  return RadioCovariance<Pose>{std::move(*marginals), params.beam.evidence_temperature};
+}
+
+template <class Pose>
+std::vector<MatchOutcome> select_matches(JointGraph<Pose>& joint, const TeamPlacement<Pose>& placement,
+                                         const Mission& mission,
+                                         const std::vector<CandidateResult>& candidates, Pruning pruning,
+                                         const MatchParams& params, const AoaLikelihoodParams& likelihood,
+                                         const std::optional<RadioCovariance<Pose>>& radio) {
+  return MatchSelector<Pose>(joint, placement, mission, candidates, pruning, params, likelihood, radio).run();
+}
+
+template <class Pose>
+void optimise_with_matches(JointGraph<Pose>& joint, std::vector<MatchOutcome>& outcomes,
+                           const MatchParams& params, const OptimizerParams& optimizer,
+                           const Progress& progress) {
+  auto& graph = joint.team.graph;
+  if (params.robust)
+    optimize_graduated_matches(joint, optimizer, progress);
+  else
+    optimize(graph, optimizer, progress);
+  for (std::size_t k = 0; k < graph.relative_poses.size(); ++k) {
+    const FactorOrigin& origin = joint.origins.relative_poses[k];
+    if (origin.source != FactorSource::kMatch) continue;
+    const auto& factor = graph.relative_poses[k];
+    MatchOutcome& outcome = outcomes[origin.measurement];
+    outcome.statistic = squared_norm(graph, factor);
+    if (factor.weight < kMinRatio) outcome = reject(outcome, "the joint estimate disagrees");
+  }
+}
+
+namespace {
+
+using PairsOfRobots = std::set<std::pair<RobotIndex, RobotIndex>>;
+
+/// Pairs with enough accepted matches to determine their relative pose.
+PairsOfRobots pairs_with_matches(const std::vector<MatchOutcome>& outcomes) {
+  std::map<std::pair<RobotIndex, RobotIndex>, std::size_t> accepted;
+  for (const MatchOutcome& outcome : outcomes)
+    if (outcome.status == ClosureStatus::kAccepted && outcome.origin.robot_i != outcome.origin.robot_j)
+      ++accepted[std::minmax(outcome.origin.robot_i, outcome.origin.robot_j)];
+  PairsOfRobots pairs;
+  for (const auto& [robots, count] : accepted)
+    if (count >= kMinVouching) pairs.insert(robots);
+  return pairs;
+}
+
+/// Gives the links between these robots no weight.
+template <class Pose>
+void silence_links(JointGraph<Pose>& joint, const PairsOfRobots& pairs) {
+  auto& graph = joint.team.graph;
+  const auto is_of_a_pair = [&](RobotIndex i, RobotIndex j) {
+    return i.valid() && j.valid() && pairs.contains(std::minmax(i, j));
+  };
+  for (std::size_t k = 0; k < graph.ranges.size(); ++k) {
+    const FactorOrigin& origin = joint.origins.ranges[k];
+    if (origin.source == FactorSource::kRange && is_of_a_pair(origin.robot_i, origin.robot_j))
+      graph.ranges[k].weight = 0;
+  }
+  std::map<std::int32_t, RobotIndex> robot_of_pose;
+  for (std::size_t p = 0; p < joint.team.segments.size(); ++p)
+    for (std::size_t k = 0; k < joint.team.segments[p].pose_count; ++k)
+      robot_of_pose[PoseId(joint.team.segments[p].first_pose + k).value] =
+          RobotIndex(joint.robot_of_segment[p]);
+  for (auto& bearing : graph.bearings)
+    if (bearing.j.pose.valid() &&
+        is_of_a_pair(robot_of_pose.at(bearing.i.value), robot_of_pose.at(bearing.j.pose.value)))
+      bearing.weight = 0;
+}
+
+/// Log likelihood of the joint estimate, in which a rejected match costs as much as one at its gate.
+template <class Pose>
+double optimise_and_reweigh(JointGraph<Pose>& joint, std::vector<MatchOutcome>& outcomes,
+                            const TeamPlacement<Pose>& placement, const MatchParams& params,
+                            const MixtureParams& mixture, const OptimizerParams& optimizer,
+                            const Progress& progress) {
+  constexpr int kRounds = 3;
+  const auto is_accepted = [](const MatchOutcome& o) { return o.status == ClosureStatus::kAccepted; };
+  const auto before = std::count_if(outcomes.begin(), outcomes.end(), is_accepted);
+  optimise_with_matches(joint, outcomes, params, optimizer, progress);
+  for (int round = 0; round < kRounds; ++round) {
+    reweigh_radio_links(joint, placement, mixture);
+    optimize(joint.team.graph, optimizer, progress);
+  }
+  const auto lost = before - std::count_if(outcomes.begin(), outcomes.end(), is_accepted);
+  return reweigh_radio_links(joint, placement, mixture) -
+         static_cast<double>(lost) * kPoseChiSquared99<Pose> / 2;
+}
+
+}  // namespace
+
+template <class Pose>
+void optimise_matches_and_radio(JointGraph<Pose>& joint, std::vector<MatchOutcome>& outcomes,
+                                const TeamPlacement<Pose>& placement, const MatchParams& params,
+                                const MixtureParams& mixture, const OptimizerParams& optimizer,
+                                const Progress& progress) {
+  JointGraph<Pose> matches_first = joint;
+  std::vector<MatchOutcome> outcomes_of_matches = outcomes;
+  const double by_radio =
+      optimise_and_reweigh(joint, outcomes, placement, params, mixture, optimizer, progress);
+  const PairsOfRobots pairs = pairs_with_matches(outcomes_of_matches);
+  if (pairs.empty()) return;
+  silence_links(matches_first, pairs);
+  if (optimise_and_reweigh(matches_first, outcomes_of_matches, placement, params, mixture, optimizer,
+                           progress) <= by_radio)
+    return;
+  joint = std::move(matches_first);
+  outcomes = std::move(outcomes_of_matches);
+}
+
+#define RADIOSLAM_MATCH_STAGE(Pose)                                                                          \
+  template std::optional<RadioCovariance<Pose>> radio_covariance(                                            \
+      const JointGraph<Pose>&, const TeamPlacement<Pose>&, const RadioAlignmentParams&);                     \
+  template std::vector<MatchOutcome> select_matches(                                                         \
+      JointGraph<Pose>&, const TeamPlacement<Pose>&, const Mission&, const std::vector<CandidateResult>&,    \
+      Pruning, const MatchParams&, const AoaLikelihoodParams&, const std::optional<RadioCovariance<Pose>>&); \
+  template void optimise_matches_and_radio(JointGraph<Pose>&, std::vector<MatchOutcome>&,                    \
+                                           const TeamPlacement<Pose>&, const MatchParams&,                   \
+                                           const MixtureParams&, const OptimizerParams&, const Progress&);   \
+  template void optimise_with_matches(JointGraph<Pose>&, std::vector<MatchOutcome>&, const MatchParams&,     \
+                                      const OptimizerParams&, const Progress&);
+RADIOSLAM_MATCH_STAGE(SE2)
+RADIOSLAM_MATCH_STAGE(SE3)
+#undef RADIOSLAM_MATCH_STAGE
+
+}  // namespace radioslam

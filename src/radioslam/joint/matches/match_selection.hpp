@@ -1,0 +1,77 @@
+// Match selection: decides which matches of an external place recognition enter the joint graph.
+//
+// With pruning, a match between two robots is admitted only if the keyframes before its ends are a candidate
+// pair of the overlap search and, where radio links determine the robots' relative pose, if its own relative
+// pose passes the chi-squared test under the joint estimate. Matches within one robot, and between robots
+// that matches alone connect, are always admitted. The largest pairwise consistent set (PCM, under the
+// odometry's covariance) joins the graph, each match with a robust loss that can still reject it. Optionally,
+// angles of arrival measured near a match scale its information; a match that keeps less than half of it is
+// rejected.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "radioslam/base/progress.hpp"
+#include "radioslam/graph/marginals.hpp"
+#include "radioslam/graph/optimizer.hpp"
+#include "radioslam/joint/aoa/aoa_match_weights.hpp"
+#include "radioslam/joint/joint_graph.hpp"
+#include "radioslam/joint/overlap_stage.hpp"
+#include "radioslam/joint/team_placement.hpp"
+
+namespace radioslam {
+
+enum class Pruning {
+  kOn,
+  kOff,  ///< admits every match, to measure the effect of pruning
+};
+
+/// A match and its outcome.
+struct MatchOutcome {
+  FactorOrigin origin;
+  ClosureStatus status = ClosureStatus::kAccepted;
+  double statistic = 0;
+  std::string reason;
+  std::optional<double> angle_scale = {};  ///< scale of its information; absent without angles near it
+};
+
+/// Covariances of relative poses before any match joins the graph.
+template <class Pose>
+struct RadioCovariance {
+  Marginals<Pose> marginals;
+  double temperature = 1;  ///< factor on covariances, since links share errors
+};
+
+/// Nothing if the team was not placed by radio links or the estimate's covariances are singular.
+template <class Pose>
+std::optional<RadioCovariance<Pose>> radio_covariance(const JointGraph<Pose>& joint,
+                                                      const TeamPlacement<Pose>& placement,
+                                                      const RadioAlignmentParams& params);
+
+/// Tests every match and adds factors for those accepted. `joint` must be optimised and placed.
+template <class Pose>
+std::vector<MatchOutcome> select_matches(JointGraph<Pose>& joint, const TeamPlacement<Pose>& placement,
+                                         const Mission& mission,
+                                         const std::vector<CandidateResult>& candidates, Pruning pruning,
+                                         const MatchParams& params, const AoaLikelihoodParams& likelihood,
+                                         const std::optional<RadioCovariance<Pose>>& radio = {});
+
+/// As optimise_with_matches, for a team placed by radio links. Where the links between two robots contradict
+/// their matches, either may be wrong. So the team is optimised twice: with the radio's weights kept until
+/// the matches have joined, and with the links between such robots left out until then. Both recompute all
+/// weights afterwards, and the likelier solution is the result.
+template <class Pose>
+void optimise_matches_and_radio(JointGraph<Pose>& joint, std::vector<MatchOutcome>& outcomes,
+                                const TeamPlacement<Pose>& placement, const MatchParams& params,
+                                const MixtureParams& mixture, const OptimizerParams& optimizer,
+                                const Progress& progress);
+
+/// Optimises with a graduated loss on the matches, which may still reject some; or, if `robust` is off, by
+/// plain least squares with all of them.
+template <class Pose>
+void optimise_with_matches(JointGraph<Pose>& joint, std::vector<MatchOutcome>& outcomes,
+                           const MatchParams& params, const OptimizerParams& optimizer,
+                           const Progress& progress);
+
+}  // namespace radioslam

@@ -1,0 +1,134 @@
+#include "radioslam/joint/matches/placement_by_matches.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "radioslam/joint/matches/match_groups.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr std::size_t kMinMatches = 3;
+constexpr std::size_t kMinRatioToSecond = 2;
+constexpr std::size_t kGroups = 2;  // the largest and its rival
+
+struct PairOfRobots {
+  MatchGroup largest;
+  std::size_t second = 0;  ///< size of the second group
+  std::size_t matches = 0;
+
+  bool is_clear() const {
+    return largest.matches.size() >= kMinMatches && largest.matches.size() >= kMinRatioToSecond * second;
+  }
+};
+
+template <class Pose>
+std::vector<PairOfRobots> pairs_of_robots(const JointGraph<Pose>& joint, const Mission& mission) {
+  std::map<std::pair<RobotIndex, RobotIndex>, PairOfRobots> pairs;
+  for (MatchGroup& group : consistent_groups(joint, mission, kGroups)) {
+    PairOfRobots& pair = pairs[{group.a, group.b}];
+    if (pair.largest.matches.empty())
+      pair.largest = std::move(group);
+    else
+      pair.second = group.matches.size();
+  }
+  for (const PoseMatch& match : mission.matches) {
+    const auto found = pairs.find(std::minmax(match.robot_i, match.robot_j));
+    if (found != pairs.end()) ++found->second.matches;
+  }
+  std::vector<PairOfRobots> result;
+  for (auto& [robots, pair] : pairs) result.push_back(std::move(pair));
+  std::stable_sort(result.begin(), result.end(), [](const auto& x, const auto& y) {
+    return x.largest.matches.size() > y.largest.matches.size();
+  });
+  return result;
+}
+
+/// Moves the component of the group's robot b to where the middle match wants it.
+template <class Pose>
+void join(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement, const Mission& mission,
+          const MatchGroup& group) {
+  // A component in the common frame stays where it is.
+  const auto absolute = [&](RobotIndex robot) {
+    return static_cast<bool>(
+        placement.absolute[static_cast<std::size_t>(placement.component[robot.index()])]);
+  };
+  const RobotIndex moved = absolute(group.b) ? group.a : group.b,
+                   fixed = absolute(group.b) ? group.b : group.a;
+  const MatchEnds& middle = group.matches[group.matches.size() / 2];
+  const PoseMatch& match = mission.matches[middle.match];
+  auto& poses = joint.team.graph.poses;
+  const Pose T_i_j = pose_as<Pose>(match.T_i_j), at_i = poses[middle.i.index()],
+             at_j = poses[middle.j.index()];
+  const Pose T =
+      match.robot_j == moved ? at_i * T_i_j * at_j.inverse() : at_j * T_i_j.inverse() * at_i.inverse();
+  const int from = placement.component[moved.index()], to = placement.component[fixed.index()];
+  for (std::size_t p = 0; p < joint.team.segments.size(); ++p)
+    if (placement.component[joint.robot_of_segment[p]] == from)
+      move_segment(poses, joint.team.segments[p], T);
+  for (std::size_t r = 0; r < placement.component.size(); ++r)
+    if (placement.component[r] == from || placement.component[r] == to) {
+      placement.component[r] = to;
+      placement.placed[r] = true;
+    }
+}
+
+std::string names(const Mission& mission, const PairOfRobots& pair) {
+  return mission.robots[pair.largest.a.index()].id + " and " + mission.robots[pair.largest.b.index()].id;
+}
+
+std::string counts(const PairOfRobots& pair) {
+  return std::to_string(pair.largest.matches.size()) + " of " + std::to_string(pair.matches) + " matches";
+}
+
+/// Numbers the components in the order of their robots.
+template <class Pose>
+void renumber(TeamPlacement<Pose>& placement) {
+  std::map<int, int> number;
+  std::vector<bool> absolute(placement.absolute.size(), false);
+  for (int& component : placement.component) {
+    const int next = number.try_emplace(component, static_cast<int>(number.size())).first->second;
+    absolute[static_cast<std::size_t>(next)] = placement.absolute[static_cast<std::size_t>(component)];
+    component = next;
+  }
+  placement.absolute = absolute;
+}
+
+}  // namespace
+
+template <class Pose>
+bool place_by_matches(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement, const Mission& mission) {
+  const auto& component = placement.component;
+  if (std::all_of(component.begin(), component.end(), [&](int c) { return c == component.front(); }))
+    return false;
+  const auto share_frame = [&](const PairOfRobots& pair) {
+    return component[pair.largest.a.index()] == component[pair.largest.b.index()];
+  };
+  const auto both_absolute = [&](const PairOfRobots& pair) {
+    return placement.absolute[static_cast<std::size_t>(component[pair.largest.a.index()])] &&
+           placement.absolute[static_cast<std::size_t>(component[pair.largest.b.index()])];
+  };
+  const std::vector<PairOfRobots> pairs = pairs_of_robots(joint, mission);
+  bool is_joined = false;
+  for (const PairOfRobots& pair : pairs) {
+    if (!pair.is_clear() || share_frame(pair) || both_absolute(pair)) continue;
+    placement.notes.push_back("the relative pose of " + names(mission, pair) +
+                              " stands on matches alone: " + counts(pair) + " agree with one another");
+    join(joint, placement, mission, pair.largest);
+    is_joined = true;
+  }
+  for (const PairOfRobots& pair : pairs)
+    if (!pair.is_clear() && !share_frame(pair) && !both_absolute(pair))
+      placement.notes.push_back("matches leave the relative pose of " + names(mission, pair) +
+                                " open: the largest group that agrees has " + counts(pair) + ", the second " +
+                                std::to_string(pair.second));
+  if (is_joined) renumber(placement);
+  return is_joined;
+}
+
+template bool place_by_matches(JointGraph<SE2>&, TeamPlacement<SE2>&, const Mission&);
+template bool place_by_matches(JointGraph<SE3>&, TeamPlacement<SE3>&, const Mission&);
+
+}  // namespace radioslam

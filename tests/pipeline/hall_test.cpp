@@ -1,0 +1,109 @@
+// Two robots between identical pillars: groups of false matches, each larger than the true one, against the
+// radio.
+#include "radioslam/sim/scenarios/hall.hpp"
+
+#include <gtest/gtest.h>
+
+#include "pipeline/town_runs.hpp"
+
+namespace radioslam {
+namespace {
+
+using test::error_m;
+
+/// Enough links to determine the frame; every alias is twice as frequent as the truth.
+HallParams hall_of_aliases() {
+  HallParams params;
+  params.radio.links = 16;
+  params.odometry.odometry_rate_hz = 2;
+  params.matches = AliasedMatchParams{15, 90, 3};
+  return params;
+}
+
+Mission with_true_matches_only(Mission mission, const Truth& truth) {
+  std::vector<PoseMatch> kept;
+  for (std::size_t k = 0; k < mission.matches.size(); ++k)
+    if (truth.true_matches[k].value_or(false)) kept.push_back(mission.matches[k]);
+  mission.matches = kept;
+  return mission;
+}
+
+std::size_t accepted_matches(const RunResult& result) {
+  std::size_t count = 0;
+  for (const auto& closure : result.closures)
+    count += closure.kind == ClosureKind::kMatch && closure.status == ClosureStatus::kAccepted;
+  return count;
+}
+
+TEST(Hall, TheRadioRejectsGroupsOfFalseMatchesLargerThanTheTrueOne) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    const auto [mission, truth] = simulate_hall(hall_of_aliases(), seed);
+    const auto result = run_pipeline(mission, {}).result;
+    const auto by_true = run_pipeline(with_true_matches_only(mission, truth), {}).result;
+    Mission without = mission;
+    without.matches.clear();
+    const auto by_radio = run_pipeline(without, {}).result;
+    EXPECT_LE(error_m(result, truth), 1.2 * error_m(by_true, truth) + 0.05) << "seed " << seed;
+    EXPECT_LE(error_m(result, truth), 1.1 * error_m(by_radio, truth) + 0.05) << "seed " << seed;
+    EXPECT_GE(accepted_matches(result), 10U) << "seed " << seed;
+  }
+}
+
+/// Matches that agree in large groups; few radio links, whose best alignment alone may be wrong.
+TEST(Hall, MatchesAndRadioTogetherFindTheFrameThatNeitherFindsAlone) {
+  for (const std::uint64_t seed : {2U, 4U}) {
+    const auto [mission, truth] = simulate_hall(HallParams{}, seed);
+    EXPECT_LE(error_m(run_pipeline(mission, {}).result, truth), 0.15) << "seed " << seed;
+  }
+}
+
+/// Half of the ranges in a row are those of a signal around a corner.
+TEST(Detours, AreFoundByMatchesEvenIfTheyBentTheRadioAlignment) {
+  CityParams params = test::small_city(600);
+  params.matches = AliasedMatchParams{40, 40, 2};
+  auto [mission, truth] = simulate_city(params, 1);
+  const double undisturbed_m = error_m(run_pipeline(mission, test::quick_params()).result, truth);
+  const std::size_t ranges = mission.ranges.size();
+  for (std::size_t k = ranges / 4; k < 3 * ranges / 4; ++k) mission.ranges[k].range_m += 15;
+  const auto result = run_pipeline(mission, test::quick_params()).result;
+  EXPECT_LE(error_m(result, truth), 1.3 * undisturbed_m + 0.2);
+  std::size_t long_ranges_accepted = 0, k = 0;
+  for (const auto& closure : result.closures)
+    if (closure.kind == ClosureKind::kRange) {
+      const bool is_long = k >= ranges / 4 && k < 3 * ranges / 4;
+      long_ranges_accepted += is_long && closure.status == ClosureStatus::kAccepted;
+      ++k;
+    }
+  EXPECT_EQ(k, ranges);
+  EXPECT_LE(long_ranges_accepted, 1U);
+}
+
+TEST(MatchesAlone, PlaceTheTeamAndSaySo) {
+  CityParams params = test::small_city(600);
+  params.matches = AliasedMatchParams{40, 120, 120};
+  const auto [mission, truth] = simulate_city(params, 1);
+  Mission without_radio = mission;
+  without_radio.ranges.clear();
+  without_radio.aoa_measurements.clear();
+  const auto result = run_pipeline(without_radio, test::quick_params()).result;
+  ASSERT_EQ(result.components.size(), 1U);
+  EXPECT_TRUE(result.unplaced.empty());
+  const auto by_both = run_pipeline(mission, test::quick_params()).result;
+  EXPECT_LE(error_m(result, truth), 1.5 * error_m(by_both, truth));
+  ASSERT_FALSE(result.notes.empty());
+  EXPECT_NE(result.notes.front().find("stands on matches alone"), std::string::npos);
+}
+
+TEST(MatchesAlone, DoNotPlaceATeamWhereTwoGroupsAreAsLarge) {
+  CityParams params = test::small_city(600);
+  params.matches = AliasedMatchParams{20, 20, 1};
+  auto [mission, truth] = simulate_city(params, 1);
+  mission.ranges.clear();
+  mission.aoa_measurements.clear();
+  const auto result = run_pipeline(mission, test::quick_params()).result;
+  EXPECT_EQ(result.unplaced.size(), 1U);
+  EXPECT_NE(result.notes.back().find("leave the relative pose"), std::string::npos) << result.notes.back();
+}
+
+}  // namespace
+}  // namespace radioslam
