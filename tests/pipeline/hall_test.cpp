@@ -102,6 +102,7 @@ TEST(MatchesAlone, DoNotPlaceATeamWhereTwoGroupsAreAsLarge) {
   mission.aoa_measurements.clear();
   const auto result = run_pipeline(mission, test::quick_params()).result;
   EXPECT_EQ(result.unplaced.size(), 1U);
+  EXPECT_EQ(accepted_matches(result), 0U);
   EXPECT_NE(result.notes.back().find("leave the relative pose"), std::string::npos) << result.notes.back();
 }
 

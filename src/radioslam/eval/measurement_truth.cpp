@@ -36,8 +36,9 @@ class MeasurementJudge {
 
   std::optional<bool> range(std::size_t k) const {
     const RangeMeasurement& measured = mission_.ranges[k];
-    const auto i = position_m(measured.i, measured.stamp), j = position_m(measured.j, measured.stamp);
+    auto i = position_m(measured.i, measured.stamp), j = position_m(measured.j, measured.stamp);
     if (!i || !j) return std::nullopt;
+    if (mission_.dimension == 2) i->z() = j->z();
     return std::abs((*i - *j).norm() - measured.range_m) <= kSigmas * measured.sigma_m + kSlack_m;
   }
 
@@ -65,7 +66,6 @@ class MeasurementJudge {
     } else {
       position = mission_.anchors[end.anchor.index()].position_m;
     }
-    if (position && mission_.dimension == 2) position->z() = 0;
     return position;
   }
 
@@ -82,10 +82,11 @@ class MeasurementJudge {
   const Truth& truth_;
 };
 
-/// Stamp of the keyframe at or before `stamp`.
+/// Stamp of the keyframe at or before `stamp`, else of the first, as a run assigns it.
 std::optional<Stamp> keyframe_of(const std::vector<Stamp>& keyframes, Stamp stamp) {
   const auto next = std::upper_bound(keyframes.begin(), keyframes.end(), stamp);
-  return next == keyframes.begin() ? std::nullopt : std::optional(*(next - 1));
+  if (keyframes.empty()) return std::nullopt;
+  return next == keyframes.begin() ? keyframes.front() : *(next - 1);
 }
 
 using Ends = std::tuple<RobotIndex, Stamp, RobotIndex, Stamp>;

@@ -1,12 +1,12 @@
 // Judges the closures of a run by their measurements: whether what was measured agrees with the truth.
-//   match    relative pose within 3 sigma + 0.5 m and 3 sigma + 5 degrees of the true one; in the plane by x,
-//   y
-//            and yaw. Labels of the mission take precedence
-//   range    within 3 sigma + 0.5 m of the true distance of the antennas
-//   aoa      one of its paths within 3 sigma + 5 degrees of the true direction, from above where the path has
+//   match   relative pose within 3 sigma + 0.5 m and 3 sigma + 5 degrees of the true one; by x, y and yaw in
+//           the plane. A label of the mission takes precedence.
+//   range   within 3 sigma + 0.5 m of the true distance of the antennas.
+//   aoa     one of its paths within 3 sigma + 5 degrees of the true direction; azimuth only if the path has
 //   no
-//            elevation; a label without a direct path makes it false
-// Closures of other kinds have no measurement in the mission.
+//           elevation. A label that there is no direct path makes it false.
+// Closures of other kinds have no measurement in the mission; measurements to anchors are not in
+// closures.csv.
 #pragma once
 
 #include <cstddef>

@@ -60,6 +60,13 @@ std::vector<bool> absolute_components(const JointGraph<Pose>& joint, const std::
   return absolute;
 }
 
+template <class Pose>
+void remember_component(TeamPlacement<Pose>& placement) {
+  placement.without_matches = placement.component;
+  for (const int c : placement.component)
+    placement.in_common_frame.push_back(placement.absolute[static_cast<std::size_t>(c)]);
+}
+
 }  // namespace
 
 template <class Pose>
@@ -134,7 +141,7 @@ TeamPlacement<Pose> place_by_radio(JointGraph<Pose>& joint, const RadioAlignment
   }
   set_alternatives(placement, alignment.hypotheses.front().weight, alternatives, weights);
   placement.segments = alignment.components;
-  placement.without_matches = placement.component;
+  remember_component(placement);
   return placement;
 }
 
@@ -145,9 +152,10 @@ TeamPlacement<Pose> place_by_fingerprints(JointGraph<Pose>& joint, const Mission
   const TeamFrame frame = align_by_fingerprints(mission, starts, radio, params, progress);
   place_robots(joint, frame.T_team_start);
   TeamPlacement<Pose> placement;
-  placement.component = placement.without_matches = frame.component;
+  placement.component = frame.component;
   placement.placed = frame.placed;
   placement.absolute = absolute_components(joint, frame.component);
+  remember_component(placement);
   return placement;
 }
 

@@ -17,6 +17,7 @@ struct TeamPlacement {
   TeamComponents segments;                      ///< of the alignment by radio; empty without
   std::vector<int> component;                   ///< per robot; 0 is the first robot's
   std::vector<int> without_matches;             ///< the component before matches joined any
+  std::vector<bool> in_common_frame;            ///< per robot, before matches joined any component
   std::vector<bool> placed;                     ///< per robot; false: no measurement connects it to others
   std::vector<bool> absolute;                   ///< per component: its frame is the common one
   double weight = 1;                            ///< of the hypothesis that the graph holds
@@ -24,6 +25,13 @@ struct TeamPlacement {
   std::vector<double> alternative_weights;
   std::vector<std::string> notes;  ///< on what the frame stands
 };
+
+/// Whether other measurements than matches determine the relative pose of two robots.
+template <class Pose>
+bool connected_without_matches(const TeamPlacement<Pose>& placement, RobotIndex i, RobotIndex j) {
+  const int c_i = placement.without_matches[i.index()], c_j = placement.without_matches[j.index()];
+  return c_i == c_j || (placement.in_common_frame[i.index()] && placement.in_common_frame[j.index()]);
+}
 
 /// Whether radio links connect robots to each other or to anchors.
 template <class Pose>

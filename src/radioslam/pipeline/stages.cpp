@@ -110,9 +110,9 @@ TeamEstimate<Pose> correct_range_biases(TeamEstimate<Pose> estimate, const RunPa
 template <class Pose>
 TeamEstimate<Pose> weigh_alignments_by_matches(TeamEstimate<Pose> estimate, const Mission& mission,
                                                const RunParams& params, const Progress& progress) {
-  place_by_matches(estimate.joint, estimate.placement, mission);
   if (choose_alignment_by_matches(estimate.joint, estimate.placement, mission, params.alignment))
     optimize(estimate.joint.team.graph, params.optimizer, progress);
+  place_by_matches(estimate.joint, estimate.placement, mission);
   return estimate;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -14,8 +15,10 @@
 namespace radioslam {
 namespace {
 
-constexpr std::size_t kMaxGroups = 40;  // per pair of robots
-constexpr double kNoTrueGroup = 4;      // weight, in matches, of the case that no group is true
+constexpr std::size_t kMinProposing = 3;   // matches of a group that proposes an alignment
+constexpr std::size_t kMaxProposals = 24;  // per round
+constexpr std::size_t kMaxGroups = 40;     // per pair of robots
+constexpr double kNoTrueGroup = 4;         // weight, in matches, of the case that no group is true
 /// 99.9 % quantile of chi-squared with three degrees of freedom.
 constexpr double kPlanarGate = 16.27;
 
@@ -82,6 +85,22 @@ double span_m(const JointGraph<Pose>& joint, const MatchGroup& group) {
   return sum;
 }
 
+/// Moves robot b of the group, or a if b's start is known, to where the group's middle match wants it.
+template <class Pose>
+std::vector<Pose> moved_by(const JointGraph<Pose>& joint, const Mission& mission, const MatchGroup& group,
+                           std::vector<Pose> poses) {
+  const MatchEnds& middle = group.matches[group.matches.size() / 2];
+  const PoseMatch& match = mission.matches[middle.match];
+  const RobotIndex moved = joint.robots[group.b.index()].T_common_start ? group.a : group.b;
+  const Pose T_i_j = pose_as<Pose>(match.T_i_j), at_i = poses[middle.i.index()],
+             at_j = poses[middle.j.index()];
+  const Pose T =
+      match.robot_j == moved ? at_i * T_i_j * at_j.inverse() : at_j * T_i_j.inverse() * at_i.inverse();
+  for (std::size_t p = 0; p < joint.team.segments.size(); ++p)
+    if (joint.robot_of_segment[p] == moved.index()) move_segment(poses, joint.team.segments[p], T);
+  return poses;
+}
+
 /// One alignment of the team and its weight.
 template <class Pose>
 struct Candidate {
@@ -105,10 +124,11 @@ class AlignmentChoice {
   std::vector<Candidate<Pose>> run() {
     add(joint_.team.graph.poses);
     for (const std::vector<Pose>& poses : placement_.alternatives) add(poses);
+    if (candidates_.empty()) return {};
     for (std::size_t round = 1; round < joint_.robots.size(); ++round) {
-      const std::size_t before = candidates_.size();
-      for (const std::vector<Pose>& start : proposals(best())) add(start);
-      if (candidates_.size() == before) break;
+      const std::size_t before = best();
+      for (const std::vector<Pose>& start : proposals(candidates_[before])) add(start);
+      if (best() == before) break;
     }
     std::stable_sort(candidates_.begin(), candidates_.end(),
                      [](const auto& x, const auto& y) { return x.log_weight > y.log_weight; });
@@ -136,9 +156,11 @@ class AlignmentChoice {
     return true;
   }
 
-  const Candidate<Pose>& best() const {
-    return *std::max_element(candidates_.begin(), candidates_.end(),
-                             [](const auto& x, const auto& y) { return x.log_weight < y.log_weight; });
+  std::size_t best() const {
+    const auto found =
+        std::max_element(candidates_.begin(), candidates_.end(),
+                         [](const auto& x, const auto& y) { return x.log_weight < y.log_weight; });
+    return static_cast<std::size_t>(found - candidates_.begin());
   }
 
   /// The joint graph at an alignment, with its covariances.
@@ -180,7 +202,7 @@ class AlignmentChoice {
   double log_ratio(const Aligned& at, const MatchGroup& group) const {
     const auto [error, covariance] = group_error(at, group).planar();
     const Cholesky<Eigen::Matrix3d> root(covariance);
-    if (!root.succeeded()) return 0;
+    if (!root.succeeded()) return -std::numeric_limits<double>::infinity();
     const double log_density = -root.whitened(error).squaredNorm() / 2 -
                                root.lower().diagonal().array().log().sum() -
                                1.5 * std::log(2 * std::numbers::pi);
@@ -191,42 +213,31 @@ class AlignmentChoice {
   }
 
   bool share_frame(const MatchGroup& group) const {
-    return placement_.without_matches[group.a.index()] == placement_.without_matches[group.b.index()];
+    return connected_without_matches(placement_, group.a, group.b);
   }
 
-  /// Poses with one robot moved to where a group wants it, for groups that contradict the candidate, of pairs
-  /// of robots whose largest group does.
+  /// Poses with one robot moved to where a group wants it, for the largest groups that contradict the
+  /// candidate.
   std::vector<std::vector<Pose>> proposals(const Candidate<Pose>& candidate) const {
     std::vector<std::vector<Pose>> starts;
     const Aligned at = aligned(candidate.alignment);
     if (!at.marginals) return starts;
-    std::map<std::pair<RobotIndex, RobotIndex>, bool> is_settled;
+    std::vector<const MatchGroup*> contradicting;
     for (const MatchGroup& group : groups_) {
-      if (!share_frame(group) || both_known(group)) continue;
+      if (group.matches.size() < kMinProposing || !share_frame(group) || both_known(group)) continue;
       const auto [error, covariance] = group_error(at, group).planar();
-      const bool fits = squared_mahalanobis(error, covariance) <= kPlanarGate;
-      if (!is_settled.try_emplace({group.a, group.b}, fits).first->second && !fits)
-        starts.push_back(moved_by(group, candidate.alignment.poses));
+      if (squared_mahalanobis(error, covariance) > kPlanarGate) contradicting.push_back(&group);
     }
+    std::stable_sort(contradicting.begin(), contradicting.end(),
+                     [](const auto* x, const auto* y) { return x->matches.size() > y->matches.size(); });
+    if (contradicting.size() > kMaxProposals) contradicting.resize(kMaxProposals);
+    for (const MatchGroup* group : contradicting)
+      starts.push_back(moved_by(joint_, mission_, *group, candidate.alignment.poses));
     return starts;
   }
 
   bool both_known(const MatchGroup& group) const {
     return joint_.robots[group.a.index()].T_common_start && joint_.robots[group.b.index()].T_common_start;
-  }
-
-  /// Moves robot b, or a if b's start is known.
-  std::vector<Pose> moved_by(const MatchGroup& group, std::vector<Pose> poses) const {
-    const MatchEnds& middle = group.matches[group.matches.size() / 2];
-    const PoseMatch& match = mission_.matches[middle.match];
-    const RobotIndex moved = joint_.robots[group.b.index()].T_common_start ? group.a : group.b;
-    const Pose T_i_j = pose_as<Pose>(match.T_i_j), at_i = poses[middle.i.index()],
-               at_j = poses[middle.j.index()];
-    const Pose T =
-        match.robot_j == moved ? at_i * T_i_j * at_j.inverse() : at_j * T_i_j.inverse() * at_i.inverse();
-    for (std::size_t p = 0; p < joint_.team.segments.size(); ++p)
-      if (joint_.robot_of_segment[p] == moved.index()) move_segment(poses, joint_.team.segments[p], T);
-    return poses;
   }
 
   const JointGraph<Pose>& joint_;

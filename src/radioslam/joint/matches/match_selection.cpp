@@ -35,7 +35,7 @@ MatchOutcome reject(MatchOutcome outcome, std::string reason) {
 
 constexpr double kMinRatio = 0.5;  // ratio of its information below which a match counts as rejected
 
-/// Size of a consistent set from which on it admits matches that the joint estimate rejects.
+/// Smallest consistent set that can admit matches which the joint estimate rejects.
 constexpr std::size_t kMinVouching = 3;
 
 /// 99.9 % quantile of chi-squared: 3 or 6 degrees of freedom.
@@ -82,11 +82,15 @@ class MatchSelector {
     if (!i.valid() || !j.valid()) return reject(outcome, "no odometry at its time");
     const MatchEnds ends{index, i, j};
     const bool other = match.robot_i != match.robot_j;
-    const bool is_tested = other && pruning_ == Pruning::kOn && connected(match.robot_i, match.robot_j);
+    const bool is_tested = other && pruning_ == Pruning::kOn &&
+                           connected_without_matches(placement_, match.robot_i, match.robot_j);
     if (is_tested && !candidates_.contains({origin.robot_i, origin.stamp_i, origin.robot_j, origin.stamp_j}))
       return set_aside(ends, reject(outcome, "the views cannot overlap"));
     if (is_tested && contradicts_radio(match, ends, outcome.statistic))
       return set_aside(ends, reject(outcome, "its relative pose contradicts the radio"));
+    if (other && pruning_ == Pruning::kOn && !is_tested &&
+        placement_.component[match.robot_i.index()] != placement_.component[match.robot_j.index()])
+      return reject(outcome, "no group of matches stands out");
     if (other) between_robots_[std::minmax(match.robot_i, match.robot_j)].push_back(admitted_.size());
     admitted_.push_back(ends);
     return outcome;
@@ -97,11 +101,6 @@ class MatchSelector {
     const PoseMatch& match = mission_.matches[ends.match];
     set_aside_[std::minmax(match.robot_i, match.robot_j)].push_back(ends);
     return rejected;
-  }
-
-  /// Whether other measurements than matches connect the robots.
-  bool connected(RobotIndex i, RobotIndex j) const {
-    return placement_.without_matches[i.index()] == placement_.without_matches[j.index()];
   }
 
   /// Sets the statistic where radio links tell the robots' relative pose.
@@ -282,6 +281,22 @@ void silence_links(JointGraph<Pose>& joint, const PairsOfRobots& pairs) {
       bearing.weight = 0;
 }
 
+/// Sets the status of every match in the graph by its error there; rejected ones lose their weight.
+template <class Pose>
+void retest_matches(JointGraph<Pose>& joint, std::vector<MatchOutcome>& outcomes) {
+  auto& graph = joint.team.graph;
+  for (std::size_t k = 0; k < graph.relative_poses.size(); ++k) {
+    const FactorOrigin& origin = joint.origins.relative_poses[k];
+    if (origin.source != FactorSource::kMatch) continue;
+    MatchOutcome& outcome = outcomes[origin.measurement];
+    outcome.statistic = squared_norm(graph, graph.relative_poses[k]);
+    const bool fits = outcome.statistic <= kPoseChiSquared99<Pose>;
+    graph.relative_poses[k].weight = fits ? 1 : 0;
+    outcome.status = fits ? ClosureStatus::kAccepted : ClosureStatus::kRejected;
+    outcome.reason = fits ? "" : "the joint estimate disagrees";
+  }
+}
+
 /// Log likelihood of the joint estimate, in which a rejected match costs as much as one at its gate.
 template <class Pose>
 double optimise_and_reweigh(JointGraph<Pose>& joint, std::vector<MatchOutcome>& outcomes,
@@ -294,8 +309,10 @@ double optimise_and_reweigh(JointGraph<Pose>& joint, std::vector<MatchOutcome>& 
   optimise_with_matches(joint, outcomes, params, optimizer, progress);
   for (int round = 0; round < kRounds; ++round) {
     reweigh_radio_links(joint, placement, mixture);
+    retest_matches(joint, outcomes);
     optimize(joint.team.graph, optimizer, progress);
   }
+  retest_matches(joint, outcomes);
   const auto lost = before - std::count_if(outcomes.begin(), outcomes.end(), is_accepted);
   return reweigh_radio_links(joint, placement, mixture) -
          static_cast<double>(lost) * kPoseChiSquared99<Pose> / 2;

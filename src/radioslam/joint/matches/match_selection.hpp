@@ -3,10 +3,11 @@
 // With pruning, a match between two robots is admitted only if the keyframes before its ends are a candidate
 // pair of the overlap search and, where radio links determine the robots' relative pose, if its own relative
 // pose passes the chi-squared test under the joint estimate. Matches within one robot, and between robots
-// that matches alone connect, are always admitted. The largest pairwise consistent set (PCM, under the
-// odometry's covariance) joins the graph, each match with a robust loss that can still reject it. Optionally,
-// angles of arrival measured near a match scale its information; a match that keeps less than half of it is
-// rejected.
+// that matches alone connect, are not tested so; those between robots that nothing connects are rejected. The
+// largest pairwise consistent set (PCM, under the odometry's covariance) joins the graph; from three members
+// on, it also admits the rejected matches that are consistent with all of it. Each match has a robust loss
+// that can still reject it. Optionally, angles of arrival measured near a match scale its information; a
+// match that keeps less than half of it is rejected.
 #pragma once
 
 #include <optional>

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "radioslam/joint/matches/match_groups.hpp"
+#include "radioslam/team_frame/gravity_priors.hpp"
 
 namespace radioslam {
 namespace {
@@ -59,15 +60,19 @@ void join(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement, const Mission
                    fixed = absolute(group.b) ? group.b : group.a;
   const MatchEnds& middle = group.matches[group.matches.size() / 2];
   const PoseMatch& match = mission.matches[middle.match];
-  auto& poses = joint.team.graph.poses;
-  const Pose T_i_j = pose_as<Pose>(match.T_i_j), at_i = poses[middle.i.index()],
-             at_j = poses[middle.j.index()];
-  const Pose T =
-      match.robot_j == moved ? at_i * T_i_j * at_j.inverse() : at_j * T_i_j.inverse() * at_i.inverse();
   const int from = placement.component[moved.index()], to = placement.component[fixed.index()];
-  for (std::size_t p = 0; p < joint.team.segments.size(); ++p)
-    if (placement.component[joint.robot_of_segment[p]] == from)
-      move_segment(poses, joint.team.segments[p], T);
+  const auto move = [&](std::vector<Pose>& poses) {
+    const Pose T_i_j = pose_as<Pose>(match.T_i_j), at_i = poses[middle.i.index()],
+               at_j = poses[middle.j.index()];
+    const Pose T =
+        match.robot_j == moved ? at_i * T_i_j * at_j.inverse() : at_j * T_i_j.inverse() * at_i.inverse();
+    for (std::size_t p = 0; p < joint.team.segments.size(); ++p)
+      if (placement.component[joint.robot_of_segment[p]] == from)
+        move_segment(poses, joint.team.segments[p], T);
+  };
+  move(joint.team.graph.poses);
+  for (std::vector<Pose>& alternative : placement.alternatives) move(alternative);
+  rotate_gravity_priors(joint.team.graph);
   for (std::size_t r = 0; r < placement.component.size(); ++r)
     if (placement.component[r] == from || placement.component[r] == to) {
       placement.component[r] = to;
