@@ -10,6 +10,7 @@
 #include "radioslam/base/units.hpp"
 #include "radioslam/eval/association.hpp"
 #include "radioslam/geometry/so3.hpp"
+#include "radioslam/mission/keyframes.hpp"
 
 namespace radioslam {
 namespace {
@@ -82,13 +83,6 @@ class MeasurementJudge {
   const Truth& truth_;
 };
 
-/// Stamp of the keyframe at or before `stamp`, else of the first, as a run assigns it.
-std::optional<Stamp> keyframe_of(const std::vector<Stamp>& keyframes, Stamp stamp) {
-  const auto next = std::upper_bound(keyframes.begin(), keyframes.end(), stamp);
-  if (keyframes.empty()) return std::nullopt;
-  return next == keyframes.begin() ? keyframes.front() : *(next - 1);
-}
-
 using Ends = std::tuple<RobotIndex, Stamp, RobotIndex, Stamp>;
 
 /// Measurements of one kind by robots and keyframes, each given out once, in their order.
@@ -100,9 +94,10 @@ class MeasurementsByKeyframes {
     for (std::size_t k = 0; k < count; ++k) {
       const auto [i, stamp_i, j, stamp_j] = ends_of(k);
       if (!i.valid() || !j.valid()) continue;
-      const auto at_i = keyframe_of(keyframes[i.index()], stamp_i),
-                 at_j = keyframe_of(keyframes[j.index()], stamp_j);
-      if (at_i && at_j) by_keyframes_[{i, *at_i, j, *at_j}].push_back(k);
+      const auto &of_i = keyframes[i.index()], &of_j = keyframes[j.index()];
+      if (of_i.empty() || of_j.empty()) continue;
+      by_keyframes_[{i, of_i[keyframe_before(of_i, stamp_i)], j, of_j[keyframe_before(of_j, stamp_j)]}]
+          .push_back(k);
     }
   }
 

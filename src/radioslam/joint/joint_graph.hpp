@@ -93,6 +93,9 @@ void add_factor(JointGraph<Pose>& joint, AmbiguousBearing<Pose> factor, const Fa
 /// 99 % chi-squared quantile for a relative pose: 3 or 6 degrees of freedom.
 template <class Pose>
 inline constexpr double kPoseChiSquared99 = Pose::kDof == 3 ? 11.345 : 16.812;
+/// The same for 99.9 %.
+template <class Pose>
+inline constexpr double kPoseChiSquared999 = Pose::kDof == 3 ? 16.266 : 22.458;
 
 /// Stamp of the robot's keyframe at or before `stamp`.
 template <class Pose>

@@ -28,19 +28,6 @@ std::vector<int> robot_components(const JointGraph<Pose>& joint, const TeamCompo
   return result;
 }
 
-/// Renumbers components without gaps, in the order of the robots; returns the new number of each old one.
-std::vector<int> renumber(std::vector<int>& components) {
-  std::vector<int> number;
-  int next = 0;
-  for (int& c : components) {
-    if (static_cast<std::size_t>(c) >= number.size()) number.resize(static_cast<std::size_t>(c) + 1, -1);
-    int& n = number[static_cast<std::size_t>(c)];
-    if (n < 0) n = next++;
-    c = n;
-  }
-  return number;
-}
-
 /// A robot is unplaced if it is alone in a component other than the first robot's and not in the common
 /// frame.
 std::vector<bool> placed_robots(const std::vector<int>& component, const std::vector<bool>& absolute) {
@@ -68,6 +55,18 @@ void remember_component(TeamPlacement<Pose>& placement) {
 }
 
 }  // namespace
+
+std::vector<int> renumber_components(std::vector<int>& component_of_robot) {
+  std::vector<int> number;
+  int next = 0;
+  for (int& c : component_of_robot) {
+    if (static_cast<std::size_t>(c) >= number.size()) number.resize(static_cast<std::size_t>(c) + 1, -1);
+    int& n = number[static_cast<std::size_t>(c)];
+    if (n < 0) n = next++;
+    c = n;
+  }
+  return number;
+}
 
 template <class Pose>
 bool has_radio_links(const JointGraph<Pose>& joint) {
@@ -103,16 +102,14 @@ void adopt_alignment(JointGraph<Pose>& joint, const TeamHypothesis<Pose>& hypoth
 }
 
 template <class Pose>
-void set_alternatives(TeamPlacement<Pose>& placement, double weight,
-                      const std::vector<const TeamHypothesis<Pose>*>& alternatives,
-                      const std::vector<double>& weights) {
-  placement.weight = weight;
+void set_alternatives(TeamPlacement<Pose>& placement, const std::vector<TeamHypothesis<Pose>>& hypotheses) {
+  placement.weight = hypotheses.front().weight;
   placement.alternatives.clear();
   placement.alternative_weights.clear();
-  for (std::size_t k = 0; k < std::min(alternatives.size(), kMaxAlternatives); ++k) {
-    if (weights[k] < kMinAlternative) break;
-    placement.alternatives.push_back(alternatives[k]->poses);
-    placement.alternative_weights.push_back(weights[k]);
+  for (std::size_t k = 1; k < std::min(hypotheses.size(), kMaxAlternatives + 1); ++k) {
+    if (hypotheses[k].weight < kMinAlternative) break;
+    placement.alternatives.push_back(hypotheses[k].poses);
+    placement.alternative_weights.push_back(hypotheses[k].weight);
   }
 }
 
@@ -122,7 +119,7 @@ TeamPlacement<Pose> place_by_radio(JointGraph<Pose>& joint, const RadioAlignment
   const RadioAlignment<Pose> alignment = align_by_radio(joint.team, params, progress);
   TeamPlacement<Pose> placement;
   placement.component = robot_components(joint, alignment.components);
-  const std::vector<int> number = renumber(placement.component);
+  const std::vector<int> number = renumber_components(placement.component);
   placement.absolute = absolute_components(joint, placement.component);
   for (const auto& position : joint.team.graph.positions) {
     if (position.i.pose.valid()) continue;
@@ -133,13 +130,7 @@ TeamPlacement<Pose> place_by_radio(JointGraph<Pose>& joint, const RadioAlignment
   }
   placement.placed = placed_robots(placement.component, placement.absolute);
   adopt_alignment(joint, alignment.hypotheses.front());
-  std::vector<const TeamHypothesis<Pose>*> alternatives;
-  std::vector<double> weights;
-  for (std::size_t k = 1; k < alignment.hypotheses.size(); ++k) {
-    alternatives.push_back(&alignment.hypotheses[k]);
-    weights.push_back(alignment.hypotheses[k].weight);
-  }
-  set_alternatives(placement, alignment.hypotheses.front().weight, alternatives, weights);
+  set_alternatives(placement, alignment.hypotheses);
   placement.segments = alignment.components;
   remember_component(placement);
   return placement;
@@ -159,16 +150,9 @@ TeamPlacement<Pose> place_by_fingerprints(JointGraph<Pose>& joint, const Mission
   return placement;
 }
 
-#define RADIOSLAM_ADOPT(Pose)                                                     \
-  template void adopt_alignment(JointGraph<Pose>&, const TeamHypothesis<Pose>&);  \
-  template void set_alternatives(TeamPlacement<Pose>&, double,                    \
-                                 const std::vector<const TeamHypothesis<Pose>*>&, \
-                                 const std::vector<double>&);
-RADIOSLAM_ADOPT(SE2)
-RADIOSLAM_ADOPT(SE3)
-#undef RADIOSLAM_ADOPT
-
 #define RADIOSLAM_PLACEMENT(Pose)                                                                           \
+  template void adopt_alignment(JointGraph<Pose>&, const TeamHypothesis<Pose>&);                            \
+  template void set_alternatives(TeamPlacement<Pose>&, const std::vector<TeamHypothesis<Pose>>&);           \
   template bool has_radio_links(const JointGraph<Pose>&);                                                   \
   template TeamPlacement<Pose> place_by_radio(JointGraph<Pose>&, const RadioAlignmentParams&,               \
                                               const Progress&);                                             \

@@ -48,11 +48,14 @@ TeamPlacement<Pose> place_by_radio(JointGraph<Pose>& joint, const RadioAlignment
 template <class Pose>
 void adopt_alignment(JointGraph<Pose>& joint, const TeamHypothesis<Pose>& hypothesis);
 
-/// Keeps the alternatives that are likely enough to be reported. `weights`: best first, as `alternatives`.
+/// Sets the weight of the first of these hypotheses, best first, and the alternatives that are likely enough
+/// to be reported.
 template <class Pose>
-void set_alternatives(TeamPlacement<Pose>& placement, double weight,
-                      const std::vector<const TeamHypothesis<Pose>*>& alternatives,
-                      const std::vector<double>& weights);
+void set_alternatives(TeamPlacement<Pose>& placement, const std::vector<TeamHypothesis<Pose>>& hypotheses);
+
+/// Renumbers components without gaps, in the order of the robots; returns the new number of each old one, -1
+/// where no robot had it.
+std::vector<int> renumber_components(std::vector<int>& component_of_robot);
 
 template <class Pose>
 TeamPlacement<Pose> place_by_fingerprints(JointGraph<Pose>& joint, const Mission& mission,

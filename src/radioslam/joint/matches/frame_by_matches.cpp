@@ -11,6 +11,7 @@
 
 #include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/joint/covariance_graph.hpp"
+#include "radioslam/team_frame/beam_search/beam_selection.hpp"
 
 namespace radioslam {
 namespace {
@@ -19,8 +20,6 @@ constexpr std::size_t kMinProposing = 3;   // matches of a group that proposes a
 constexpr std::size_t kMaxProposals = 24;  // per round
 constexpr std::size_t kMaxGroups = 40;     // per pair of robots
 constexpr double kNoTrueGroup = 4;         // weight, in matches, of the case that no group is true
-/// 99.9 % quantile of chi-squared with three degrees of freedom.
-constexpr double kPlanarGate = 16.27;
 
 /// Error of a match under an estimate, with its covariance.
 template <class Pose>
@@ -89,13 +88,8 @@ double span_m(const JointGraph<Pose>& joint, const MatchGroup& group) {
 template <class Pose>
 std::vector<Pose> moved_by(const JointGraph<Pose>& joint, const Mission& mission, const MatchGroup& group,
                            std::vector<Pose> poses) {
-  const MatchEnds& middle = group.matches[group.matches.size() / 2];
-  const PoseMatch& match = mission.matches[middle.match];
   const RobotIndex moved = joint.robots[group.b.index()].T_common_start ? group.a : group.b;
-  const Pose T_i_j = pose_as<Pose>(match.T_i_j), at_i = poses[middle.i.index()],
-             at_j = poses[middle.j.index()];
-  const Pose T =
-      match.robot_j == moved ? at_i * T_i_j * at_j.inverse() : at_j * T_i_j.inverse() * at_i.inverse();
+  const Pose T = motion_to_match(poses, mission.matches[group.middle().match], group.middle(), moved);
   for (std::size_t p = 0; p < joint.team.segments.size(); ++p)
     if (joint.robot_of_segment[p] == moved.index()) move_segment(poses, joint.team.segments[p], T);
   return poses;
@@ -120,8 +114,8 @@ class AlignmentChoice {
         radio_(radio_team(joint)),
         groups_(consistent_groups(joint, mission, kMaxGroups)) {}
 
-  /// The candidates, best first; the radio's own is the first of equals.
-  std::vector<Candidate<Pose>> run() {
+  /// The alignments with their weights, best first; the radio's own is the first of equals.
+  std::vector<TeamHypothesis<Pose>> run() {
     add(joint_.team.graph.poses);
     for (const std::vector<Pose>& poses : placement_.alternatives) add(poses);
     if (candidates_.empty()) return {};
@@ -132,10 +126,22 @@ class AlignmentChoice {
     }
     std::stable_sort(candidates_.begin(), candidates_.end(),
                      [](const auto& x, const auto& y) { return x.log_weight > y.log_weight; });
-    return std::move(candidates_);
+    return weighted();
   }
 
  private:
+  std::vector<TeamHypothesis<Pose>> weighted() {
+    std::vector<TeamHypothesis<Pose>> result;
+    double sum = 0;
+    for (Candidate<Pose>& candidate : candidates_) {
+      candidate.alignment.weight = std::exp(candidate.log_weight - candidates_.front().log_weight);
+      sum += candidate.alignment.weight;
+      result.push_back(std::move(candidate.alignment));
+    }
+    for (TeamHypothesis<Pose>& alignment : result) alignment.weight /= sum;
+    return result;
+  }
+
   /// Refines the alignment from these poses and keeps it unless a candidate is the same.
   void add(const std::vector<Pose>& poses) {
     TeamGraph<Pose> start = radio_;
@@ -143,17 +149,11 @@ class AlignmentChoice {
     Candidate<Pose> candidate{refine_alignment(start, placement_.segments, params_)};
     if (!std::isfinite(candidate.alignment.log_evidence)) return;
     const auto is_same = [&](const Candidate<Pose>& other) {
-      return same(other.alignment.poses, candidate.alignment.poses);
+      return same_alignment(other.alignment.poses, candidate.alignment.poses, {}, params_.beam);
     };
     if (std::any_of(candidates_.begin(), candidates_.end(), is_same)) return;
     candidate.log_weight = log_weight(candidate.alignment);
     candidates_.push_back(std::move(candidate));
-  }
-
-  bool same(const std::vector<Pose>& x, const std::vector<Pose>& y) const {
-    for (std::size_t k = 0; k < x.size(); ++k)
-      if ((x[k].translation() - y[k].translation()).norm() > params_.beam.same_map_m) return false;
-    return true;
   }
 
   std::size_t best() const {
@@ -179,9 +179,8 @@ class AlignmentChoice {
 
   /// Planar error of the group's middle match.
   MatchError<Pose> group_error(const Aligned& at, const MatchGroup& group) const {
-    const MatchEnds& middle = group.matches[group.matches.size() / 2];
     return match_error(at.joint, *at.marginals, params_.beam.evidence_temperature,
-                       mission_.matches[middle.match], middle);
+                       mission_.matches[group.middle().match], group.middle());
   }
 
   double log_weight(const TeamHypothesis<Pose>& alignment) const {
@@ -226,7 +225,7 @@ class AlignmentChoice {
     for (const MatchGroup& group : groups_) {
       if (group.matches.size() < kMinProposing || !share_frame(group) || both_known(group)) continue;
       const auto [error, covariance] = group_error(at, group).planar();
-      if (squared_mahalanobis(error, covariance) > kPlanarGate) contradicting.push_back(&group);
+      if (squared_mahalanobis(error, covariance) > kPoseChiSquared999<SE2>) contradicting.push_back(&group);
     }
     std::stable_sort(contradicting.begin(), contradicting.end(),
                      [](const auto* x, const auto* y) { return x->matches.size() > y->matches.size(); });
@@ -262,24 +261,13 @@ template <class Pose>
 bool choose_alignment_by_matches(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement,
                                  const Mission& mission, const RadioAlignmentParams& params) {
   if (placement.segments.of_segment.empty() || mission.matches.empty()) return false;
-  const std::vector<Pose> before = joint.team.graph.poses;
-  const auto candidates = AlignmentChoice<Pose>(joint, placement, mission, params).run();
-  if (candidates.empty()) return false;
-  std::vector<const TeamHypothesis<Pose>*> others;
-  std::vector<double> weights;
-  double sum = 0;
-  for (const auto& candidate : candidates)
-    weights.push_back(std::exp(candidate.log_weight - candidates.front().log_weight)), sum += weights.back();
-  for (double& weight : weights) weight /= sum;
-  for (std::size_t k = 1; k < candidates.size(); ++k) others.push_back(&candidates[k].alignment);
-  set_alternatives(placement, weights.front(), others, {weights.begin() + 1, weights.end()});
-  const auto& chosen = candidates.front().alignment;
-  bool is_moved = false;
-  for (std::size_t k = 0; k < before.size(); ++k)
-    is_moved =
-        is_moved || (before[k].translation() - chosen.poses[k].translation()).norm() > params.beam.same_map_m;
-  if (is_moved) adopt_alignment(joint, chosen);
-  return is_moved;
+  const auto alignments = AlignmentChoice<Pose>(joint, placement, mission, params).run();
+  if (alignments.empty()) return false;
+  set_alternatives(placement, alignments);
+  const TeamHypothesis<Pose>& chosen = alignments.front();
+  if (same_alignment(joint.team.graph.poses, chosen.poses, {}, params.beam)) return false;
+  adopt_alignment(joint, chosen);
+  return true;
 }
 
 template <class Pose>

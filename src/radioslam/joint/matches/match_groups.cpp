@@ -69,6 +69,13 @@ RelativePoseMatch<Pose> oriented_match(const JointGraph<Pose>& joint, const Pose
 }
 
 template <class Pose>
+Pose motion_to_match(const std::vector<Pose>& poses, const PoseMatch& match, const MatchEnds& ends,
+                     RobotIndex moved) {
+  const Pose T_i_j = pose_as<Pose>(match.T_i_j), at_i = poses[ends.i.index()], at_j = poses[ends.j.index()];
+  return match.robot_j == moved ? at_i * T_i_j * at_j.inverse() : at_j * T_i_j.inverse() * at_i.inverse();
+}
+
+template <class Pose>
 std::vector<MatchGroup> consistent_groups(const JointGraph<Pose>& joint, const Mission& mission,
                                           std::size_t max_groups) {
   std::vector<MatchGroup> groups;
@@ -93,11 +100,12 @@ std::vector<MatchGroup> consistent_groups(const JointGraph<Pose>& joint, const M
   return groups;
 }
 
-#define RADIOSLAM_MATCH_GROUPS(Pose)                                                         \
-  template Pose::Jacobian match_information<Pose>(const PoseMatch&);                         \
-  template OdometryChain<Pose> odometry_chain(const JointGraph<Pose>&, RobotIndex);          \
-  template RelativePoseMatch<Pose> oriented_match(const JointGraph<Pose>&, const PoseMatch&, \
-                                                  const MatchEnds&, RobotIndex);             \
+#define RADIOSLAM_MATCH_GROUPS(Pose)                                                                       \
+  template Pose motion_to_match(const std::vector<Pose>&, const PoseMatch&, const MatchEnds&, RobotIndex); \
+  template Pose::Jacobian match_information<Pose>(const PoseMatch&);                                       \
+  template OdometryChain<Pose> odometry_chain(const JointGraph<Pose>&, RobotIndex);                        \
+  template RelativePoseMatch<Pose> oriented_match(const JointGraph<Pose>&, const PoseMatch&,               \
+                                                  const MatchEnds&, RobotIndex);                           \
   template std::vector<MatchGroup> consistent_groups(const JointGraph<Pose>&, const Mission&, std::size_t);
 RADIOSLAM_MATCH_GROUPS(SE2)
 RADIOSLAM_MATCH_GROUPS(SE3)

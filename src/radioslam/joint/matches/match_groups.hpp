@@ -34,7 +34,15 @@ RelativePoseMatch<Pose> oriented_match(const JointGraph<Pose>& joint, const Pose
 struct MatchGroup {
   RobotIndex a, b;                 ///< a < b
   std::vector<MatchEnds> matches;  ///< at least one
+
+  /// The match that stands for the group.
+  const MatchEnds& middle() const { return matches[matches.size() / 2]; }
 };
+
+/// Motion T of robot `moved`, one of the match's, after which the match holds: poses <- T * poses.
+template <class Pose>
+Pose motion_to_match(const std::vector<Pose>& poses, const PoseMatch& match, const MatchEnds& ends,
+                     RobotIndex moved);
 
 /// The largest groups of every pair of robots, largest first, disjoint, at most `max_groups` per pair.
 /// Matches at times without odometry belong to none.

@@ -38,10 +38,6 @@ constexpr double kMinRatio = 0.5;  // ratio of its information below which a mat
 /// Smallest consistent set that can admit matches which the joint estimate rejects.
 constexpr std::size_t kMinVouching = 3;
 
-/// 99.9 % quantile of chi-squared: 3 or 6 degrees of freedom.
-template <class Pose>
-inline constexpr double kPoseChiSquared999 = Pose::kDof == 3 ? 16.266 : 22.458;
-
 template <class Pose>
 class MatchSelector {
  public:

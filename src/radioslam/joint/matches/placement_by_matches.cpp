@@ -58,14 +58,10 @@ void join(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement, const Mission
   };
   const RobotIndex moved = absolute(group.b) ? group.a : group.b,
                    fixed = absolute(group.b) ? group.b : group.a;
-  const MatchEnds& middle = group.matches[group.matches.size() / 2];
-  const PoseMatch& match = mission.matches[middle.match];
+  const PoseMatch& match = mission.matches[group.middle().match];
   const int from = placement.component[moved.index()], to = placement.component[fixed.index()];
   const auto move = [&](std::vector<Pose>& poses) {
-    const Pose T_i_j = pose_as<Pose>(match.T_i_j), at_i = poses[middle.i.index()],
-               at_j = poses[middle.j.index()];
-    const Pose T =
-        match.robot_j == moved ? at_i * T_i_j * at_j.inverse() : at_j * T_i_j.inverse() * at_i.inverse();
+    const Pose T = motion_to_match(poses, match, group.middle(), moved);
     for (std::size_t p = 0; p < joint.team.segments.size(); ++p)
       if (placement.component[joint.robot_of_segment[p]] == from)
         move_segment(poses, joint.team.segments[p], T);
@@ -88,26 +84,21 @@ std::string counts(const PairOfRobots& pair) {
   return std::to_string(pair.largest.matches.size()) + " of " + std::to_string(pair.matches) + " matches";
 }
 
-/// Numbers the components in the order of their robots.
 template <class Pose>
 void renumber(TeamPlacement<Pose>& placement) {
-  std::map<int, int> number;
-  std::vector<bool> absolute(placement.absolute.size(), false);
-  for (int& component : placement.component) {
-    const int next = number.try_emplace(component, static_cast<int>(number.size())).first->second;
-    absolute[static_cast<std::size_t>(next)] = placement.absolute[static_cast<std::size_t>(component)];
-    component = next;
-  }
-  placement.absolute = absolute;
+  const std::vector<bool> before = placement.absolute;
+  const std::vector<int> number = renumber_components(placement.component);
+  placement.absolute.assign(before.size(), false);
+  for (std::size_t c = 0; c < number.size(); ++c)
+    if (number[c] >= 0) placement.absolute[static_cast<std::size_t>(number[c])] = before[c];
 }
 
 }  // namespace
 
 template <class Pose>
-bool place_by_matches(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement, const Mission& mission) {
+void place_by_matches(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement, const Mission& mission) {
   const auto& component = placement.component;
-  if (std::all_of(component.begin(), component.end(), [&](int c) { return c == component.front(); }))
-    return false;
+  if (std::all_of(component.begin(), component.end(), [&](int c) { return c == component.front(); })) return;
   const auto share_frame = [&](const PairOfRobots& pair) {
     return component[pair.largest.a.index()] == component[pair.largest.b.index()];
   };
@@ -130,10 +121,9 @@ bool place_by_matches(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement, c
                                 " open: the largest group that agrees has " + counts(pair) + ", the second " +
                                 std::to_string(pair.second));
   if (is_joined) renumber(placement);
-  return is_joined;
 }
 
-template bool place_by_matches(JointGraph<SE2>&, TeamPlacement<SE2>&, const Mission&);
-template bool place_by_matches(JointGraph<SE3>&, TeamPlacement<SE3>&, const Mission&);
+template void place_by_matches(JointGraph<SE2>&, TeamPlacement<SE2>&, const Mission&);
+template void place_by_matches(JointGraph<SE3>&, TeamPlacement<SE3>&, const Mission&);
 
 }  // namespace radioslam

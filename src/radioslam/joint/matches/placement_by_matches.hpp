@@ -11,9 +11,8 @@
 namespace radioslam {
 
 /// Moves the robots of every component that a group joins to another, and notes on what the frame stands and
-/// which pairs of robots stay open because no group is large enough. Returns whether any component was
-/// joined.
+/// which pairs of robots stay open because no group is large enough.
 template <class Pose>
-bool place_by_matches(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement, const Mission& mission);
+void place_by_matches(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement, const Mission& mission);
 
 }  // namespace radioslam

@@ -4,20 +4,16 @@
 #include <utility>
 
 namespace radioslam {
-namespace {
 
-/// Whether all poses agree within tolerance and uncertainty; both teams have the same gauge.
 template <class Pose>
-bool same_alignment(const TeamValues<Pose>& a, const TeamValues<Pose>& b, const std::vector<double>& sigmas_m,
-                    const BeamParams& params) {
-  for (std::size_t k = 0; k < a.poses.size(); ++k)
-    if ((a.poses[k].translation() - b.poses[k].translation()).norm() >
-        params.same_map_m + params.same_map_sigmas * sigmas_m[k])
-      return false;
+bool same_alignment(const std::vector<Pose>& a, const std::vector<Pose>& b,
+                    const std::vector<double>& sigmas_m, const BeamParams& params) {
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    const double uncertainty_m = sigmas_m.empty() ? 0 : params.same_map_sigmas * sigmas_m[k];
+    if ((a[k].translation() - b[k].translation()).norm() > params.same_map_m + uncertainty_m) return false;
+  }
   return true;
 }
-
-}  // namespace
 
 template <class Pose>
 std::vector<RefinementStart<Pose>> different_starts(std::vector<RefinementStart<Pose>> starts,
@@ -27,9 +23,8 @@ std::vector<RefinementStart<Pose>> different_starts(std::vector<RefinementStart<
   std::vector<RefinementStart<Pose>> kept;
   for (auto& start : starts) {
     if (kept.size() == static_cast<std::size_t>(params.refined_places)) break;
-    const std::vector<double> no_sigmas(start.team.poses.size(), 0);
     if (std::none_of(kept.begin(), kept.end(), [&](const auto& other) {
-          return same_alignment(other.team, start.team, no_sigmas, params);
+          return same_alignment(other.team.poses, start.team.poses, {}, params);
         }))
       kept.push_back(std::move(start));
   }
@@ -48,7 +43,7 @@ std::vector<TeamValues<Pose>> different_teams(
     if (kept.size() == static_cast<std::size_t>(params.beam)) break;
     bool known = false;
     for (std::size_t k = 0; k < kept.size() && !known; ++k)
-      known = same_alignment(kept[k], team, sigmas_m[k], params);
+      known = same_alignment(kept[k].poses, team.poses, sigmas_m[k], params);
     if (known) continue;
     sigmas_m.push_back(position_sigmas_m(team));
     kept.push_back(std::move(team));
@@ -57,6 +52,8 @@ std::vector<TeamValues<Pose>> different_teams(
 }
 
 #define RADIOSLAM_BEAM_SELECTION(Pose)                                                             \
+  template bool same_alignment(const std::vector<Pose>&, const std::vector<Pose>&,                 \
+                               const std::vector<double>&, const BeamParams&);                     \
   template std::vector<RefinementStart<Pose>> different_starts(std::vector<RefinementStart<Pose>>, \
                                                                const BeamParams&);                 \
   template std::vector<TeamValues<Pose>> different_teams(                                          \

@@ -18,6 +18,12 @@ struct RefinementStart {
   double cost = 0;
 };
 
+/// Whether all corresponding poses agree within `same_map_m` and their uncertainty; both teams have the same
+/// gauge. `sigmas_m`: standard deviation of every pose's position; empty: none.
+template <class Pose>
+bool same_alignment(const std::vector<Pose>& a, const std::vector<Pose>& b,
+                    const std::vector<double>& sigmas_m, const BeamParams& params);
+
 /// The cheapest starts, at most `refined_places`, each different from all before.
 template <class Pose>
 std::vector<RefinementStart<Pose>> different_starts(std::vector<RefinementStart<Pose>> starts,
