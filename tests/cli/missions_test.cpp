@@ -6,6 +6,8 @@
 #include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
 
 #include "cli/process.hpp"
 
@@ -230,6 +232,93 @@ TEST_F(Missions, SimilarityListsEveryPairOnce) {
     ++rows;
   }
   EXPECT_GT(rows, 100U);
+}
+
+/// The findings of `doctor --json`.
+nlohmann::json findings_of(const fs::path& folder) {
+  const auto outcome = run({"doctor", "m", "--json"}, folder);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  return nlohmann::json::parse(outcome.out).at("findings");
+}
+
+TEST_F(Missions, DoctorHasNoFindingsInASoundMission) {
+  EXPECT_EQ(findings_of(folder()), nlohmann::json::array());
+  EXPECT_EQ(run({"doctor", "m"}, folder()).out, "m: 0 errors, 0 warnings\n");
+}
+
+TEST_F(Missions, RunRefusesWhatDoctorCallsAnError) {
+  edit("robots/a/odometry.tum", [](const std::string& text) {
+    std::istringstream rows(text);
+    std::string changed;
+    double t, x, y, z, qx, qy, qz, qw;
+    while (rows >> t >> x >> y >> z >> qx >> qy >> qz >> qw) {
+      std::ostringstream row;
+      row.precision(12);
+      row << t << ' ' << 1000 * x << ' ' << 1000 * y << " 0 " << qx << ' ' << qy << ' ' << qz << ' ' << qw
+          << '\n';
+      changed += row.str();
+    }
+    return changed;
+  });
+  const auto findings = findings_of(folder());
+  ASSERT_GE(findings.size(), 1U);
+  EXPECT_EQ(findings[0].at("kind"), "unit");
+  EXPECT_EQ(findings[0].at("severity"), "error");
+  EXPECT_EQ(findings[0].at("robot"), "a");
+  EXPECT_EQ(findings[0].at("file"), "robots/a/odometry.tum");
+  const auto outcome = run({"run", "m", "-o", "out"}, folder());
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1);
+  EXPECT_NE(outcome.err.find("odometry.tum: the robot moves at"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(fs::exists(folder() / "out"));
+}
+
+TEST_F(Missions, RunNotesWhatDoctorWarnsOf) {
+  edit("robots/a/wifi.csv", [](const std::string& text) {
+    return std::regex_replace(text, std::regex(",([0-9]{4}),"), ",5.$1,");
+  });
+  const auto findings = findings_of(folder());
+  ASSERT_EQ(findings.size(), 1U) << findings;
+  EXPECT_EQ(findings[0].at("kind"), "unit");
+  EXPECT_EQ(findings[0].at("severity"), "warning");
+  const auto noted = run({"run", "m", "-o", "out"}, folder());
+  EXPECT_EQ(noted.status, 0) << noted.err;
+  EXPECT_NE(noted.out.find("note: robots/a/wifi.csv: the median of frequency_mhz"), std::string::npos)
+      << noted.out;
+  const auto unchecked = run({"run", "m", "-o", "out", "--unchecked"}, folder());
+  EXPECT_EQ(unchecked.out.find("frequency_mhz"), std::string::npos);
+}
+
+TEST_F(Missions, DoctorReportsWhatReadersRefuse) {
+  edit("mission.yaml", [](const std::string& text) { return text + "\n"; });
+  fs::create_directories(mission() / "radio");
+  write_file(mission() / "radio/ranges.csv", "t_s,robot_i,robot_j,range_m,sigma_m\n5,a,B,3,0.1\n");
+  const auto findings = findings_of(folder());
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_EQ(findings[0].at("kind"), "spelling");
+  EXPECT_EQ(findings[0].at("robot"), "b");
+  EXPECT_EQ(findings[0].at("file"), "radio/ranges.csv");
+  EXPECT_NE(findings[0].at("advice").get<std::string>().find("did you mean b"), std::string::npos)
+      << findings;
+  EXPECT_EQ(run({"run", "m", "-o", "out"}, folder()).status, 2);
+}
+
+TEST_F(Missions, AnglesInDegreesAreAnError) {
+  fs::create_directories(mission() / "radio");
+  std::string rows = "t_s,receiver,transmitter,path,azimuth_rad,elevation_rad,sigma_rad,power_db\n";
+  for (int k = 0; k < 40; ++k)
+    rows += std::to_string(5 + k) + ",a,b,0," + std::to_string(9 * k - 180) + ",,0.1,0\n";
+  write_file(mission() / "radio/aoa.csv", rows);
+  const auto findings = findings_of(folder());
+  ASSERT_GE(findings.size(), 1U);
+  EXPECT_EQ(findings[0].at("kind"), "unit");
+  EXPECT_EQ(findings[0].at("file"), "radio/aoa.csv");
+}
+
+TEST_F(Missions, DoctorRefusesAFolderThatIsNoMission) {
+  const auto outcome = run({"doctor", "."}, folder());
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("mission.yaml"), std::string::npos) << outcome.err;
 }
 
 }  // namespace

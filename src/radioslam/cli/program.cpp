@@ -36,6 +36,7 @@ void add_commands(CLI::App& program) {
   add_simulate(program);
   add_run(program);
   add_prune(program);
+  add_doctor(program);
   add_evaluate(program);
   add_import(program);
   add_optimize(program);

@@ -7,6 +7,7 @@ add_library(radioslam_cli STATIC
   cli/commands/aoa_output.cpp
   cli/commands/command_anchors.cpp
   cli/commands/command_aoa.cpp
+  cli/commands/command_doctor.cpp
   cli/commands/command_evaluate.cpp
   cli/commands/command_import.cpp
   cli/commands/command_optimize.cpp
@@ -19,6 +20,7 @@ add_library(radioslam_cli STATIC
   cli/commands/command_simulate.cpp
   cli/commands/csi_channels.cpp
   cli/commands/evaluation.cpp
+  cli/commands/mission_check.cpp
   cli/commands/mission_input.cpp
   cli/commands/output_path_check.cpp
   cli/commands/recorded_drive.cpp
@@ -45,7 +47,7 @@ add_library(radioslam::cli ALIAS radioslam_cli)
 target_include_directories(radioslam_cli PUBLIC ${cli_include})
 target_link_libraries(radioslam_cli
   PUBLIC radioslam_results radioslam_io CLI11::CLI11
-  PRIVATE radioslam_pipeline radioslam_eval radioslam_sim radioslam_report radioslam_study yaml-cpp nlohmann_json::nlohmann_json radioslam_warnings)
+  PRIVATE radioslam_doctor radioslam_pipeline radioslam_eval radioslam_sim radioslam_report radioslam_study yaml-cpp nlohmann_json::nlohmann_json radioslam_warnings)
 target_compile_definitions(radioslam_cli PRIVATE RADIOSLAM_VERSION="${PROJECT_VERSION}")
 radioslam_group_sources(radioslam_cli)
 

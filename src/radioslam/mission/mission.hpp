@@ -11,6 +11,7 @@
 #include "radioslam/geometry/se3.hpp"
 #include "radioslam/geometry/trajectory.hpp"
 #include "radioslam/mission/csi.hpp"
+#include "radioslam/mission/finding.hpp"
 #include "radioslam/mission/inertial.hpp"
 #include "radioslam/mission/lidar.hpp"
 #include "radioslam/mission/radio_links.hpp"
@@ -90,6 +91,7 @@ struct Mission {
   std::vector<AoaMeasurement> aoa_measurements;  ///< in time order, then as recorded
   std::vector<PoseMatch> matches;                ///< as recorded
   std::vector<std::string> unused_files;         ///< recorded and well-formed, but not used by any estimator
+  std::vector<Finding> reading_findings;         ///< what only the readers saw: values that reading changes
 };
 
 /// Per robot its initial pose in the common frame; nothing where it is unknown.

@@ -9,10 +9,12 @@
 #include <sstream>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "radioslam/cli/commands.hpp"
 #include "radioslam/cli/commands/command_options.hpp"
 #include "radioslam/cli/commands/evaluation.hpp"
+#include "radioslam/cli/commands/mission_check.hpp"
 #include "radioslam/cli/commands/mission_input.hpp"
 #include "radioslam/cli/commands/output_path_check.hpp"
 #include "radioslam/cli/config.hpp"
@@ -33,6 +35,7 @@ struct RunArguments {
   std::string output;
   ParameterOptions parameters;
   bool no_prune = false;
+  bool unchecked = false;
   bool json = false;
 };
 
@@ -89,7 +92,11 @@ void run_mission(const RunArguments& options) {
   OutputFolder output(options.output, kRunFolder);
   MissionInput input = read_input(options.mission);
   const Truth truth = std::move(input.truth);
-  const RunOutput run = estimate(std::move(input), params, options.no_prune);
+  const bool is_checked = !options.unchecked && std::holds_alternative<std::monostate>(input.graph);
+  const auto warnings =
+      is_checked ? warnings_about(input.mission, options.mission) : std::vector<std::string>{};
+  RunOutput run = estimate(std::move(input), params, options.no_prune);
+  run.result.notes.insert(run.result.notes.begin(), warnings.begin(), warnings.end());
   const auto metrics = metrics_of(run.result, truth);
   const RunDocuments documents = documents_of(run, truth, metrics);
   write_run(output.path(), run.result, documents);
@@ -114,6 +121,9 @@ void add_run(CLI::App& program) {
   add_parameter_options(*command, options->parameters);
   command->add_flag("--no-prune", options->no_prune,
                     "Use all matches, including those between views that cannot overlap");
+  command->add_flag(
+      "--unchecked", options->unchecked,
+      "Run without the checks of `radioslam doctor`, which refuse missions with certain faults");
   add_json_option(*command, options->json);
   add_threads_option(*command);
   command->footer(

@@ -119,7 +119,10 @@ void read_team_tables(const fs::path& folder, MissionFile& file) {
   TeamNames names = names_of(mission);
   names.antennas = file.antennas;
   with_file(folder / kRanges, [&](const Text& text) { mission.ranges = read_ranges(text, names); });
-  with_file(folder / kAoa, [&](const Text& text) { mission.aoa_measurements = read_aoa(text, names); });
+  with_file(folder / kAoa, [&](const Text& text) {
+    mission.aoa_measurements = read_aoa(text, names);
+    if (auto finding = check_azimuth_unit(text)) mission.reading_findings.push_back(*finding);
+  });
   with_file(folder / kMatches, [&](const Text& text) { mission.matches = read_matches(text, names); });
 }
 

@@ -91,11 +91,27 @@ std::optional<SE3> initial_pose_at(const Text& text, const YAML::Node& node) {
   return SE3(position, so3_exp({0, 0, wrap_angle(yaw)}));
 }
 
+/// A yaw of more than one turn is likely to be in degrees; reading wraps it.
+std::optional<Finding> yaw_finding(const Text& text, const YAML::Node& node) {
+  if (!node.IsSequence() || node.size() != kInitialPoseSize) return std::nullopt;
+  const double yaw = number_at(text, node[kPositionSize], "initial_pose");
+  if (std::abs(yaw) <= 2 * std::numbers::pi) return std::nullopt;
+  const Severity severity = std::abs(yaw) > 4 * std::numbers::pi ? Severity::kError : Severity::kWarning;
+  return Finding{"unit",
+                 severity,
+                 "",
+                 "mission.yaml",
+                 "the yaw of initial_pose is " + format_number(yaw),
+                 "radians",
+                 "multiply it by pi/180 if it is in degrees"};
+}
+
 /// Reads the settings under defaults or under a robot.
 struct RobotSettings {
   Robot robot;
   Antennas antennas;
   std::optional<CsiSettings> csi;
+  std::optional<Finding> finding;
 };
 
 void apply_settings(const Text& text, const YAML::Node& node, const std::string& what,
@@ -110,7 +126,11 @@ void apply_settings(const Text& text, const YAML::Node& node, const std::string&
         [&](const YAML::Node& value) {
           robot.sigma_heading_rad = sigma_at(text, value, "sigma_heading_rad");
         }},
-       {"initial_pose", [&](const YAML::Node& value) { robot.initial_pose = initial_pose_at(text, value); }},
+       {"initial_pose",
+        [&](const YAML::Node& value) {
+          robot.initial_pose = initial_pose_at(text, value);
+          settings.finding = yaw_finding(text, value);
+        }},
        {"antennas", [&](const YAML::Node& value) { read_antennas(text, value, settings.antennas); }},
        {"csi", [&](const YAML::Node& value) {
           if (!settings.csi) settings.csi.emplace();
@@ -140,6 +160,10 @@ void read_robots(const Text& text, const YAML::Node& node, const RobotSettings& 
     if (settings.csi) {
       settings.robot.csi = csi_recording(text, *settings.csi, settings.antennas);
       check_own_address(text, entry, *settings.robot.csi, file.mission.robots);
+    }
+    if (settings.finding) {
+      settings.finding->robot = entry.key;
+      file.mission.reading_findings.push_back(*settings.finding);
     }
     file.mission.robots.push_back(std::move(settings.robot));
     file.antennas.push_back(std::move(settings.antennas));

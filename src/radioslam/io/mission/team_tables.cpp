@@ -1,13 +1,16 @@
 #include "radioslam/io/mission/team_tables.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <tuple>
 #include <utility>
 
 #include "radioslam/io/text/csv.hpp"
+#include "radioslam/io/text/numbers.hpp"
 
 namespace radioslam {
 namespace {
@@ -190,6 +193,26 @@ std::vector<AoaMeasurement> read_aoa(const Text& text, const TeamNames& names) {
     for (const auto& [number, path] : numbered[k]) aoa_measurements[k].paths.push_back(path);
   }
   return aoa_measurements;
+}
+
+std::optional<Finding> check_azimuth_unit(const Text& text) {
+  CsvReader csv(text, {{"azimuth_rad"}});
+  std::size_t rows = 0, beyond = 0;
+  double largest_rad = 0;
+  while (csv.next()) {
+    const double azimuth_rad = std::abs(csv.number(0));
+    ++rows;
+    beyond += azimuth_rad > 2 * std::numbers::pi;
+    largest_rad = std::max(largest_rad, azimuth_rad);
+  }
+  if (20 * beyond <= rows) return std::nullopt;
+  return Finding{"unit",
+                 Severity::kError,
+                 "",
+                 "radio/aoa.csv",
+                 "azimuth_rad is up to " + format_number(largest_rad),
+                 "radians",
+                 "multiply by pi/180: the angles look like degrees"};
 }
 
 std::vector<PoseMatch> read_matches(const Text& text, const TeamNames& names) {

@@ -3,6 +3,7 @@
 // finite, coordinates beyond 1e8 m, and negative distances and sigmas.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,9 @@ std::vector<RangeMeasurement> read_ranges(const Text& text, const TeamNames& nam
 /// by time, then by their first rows. Angles are wrapped; an empty elevation was not measured, an empty power
 /// is 0.
 std::vector<AoaMeasurement> read_aoa(const Text& text, const TeamNames& names);
+
+/// Whether the azimuths are in degrees: a finding if more than one in twenty is beyond a full turn.
+std::optional<Finding> check_azimuth_unit(const Text& text);
 
 /// `robot_i,t_i_s,robot_j,t_j_s,x,y,z,qx,qy,qz,qw,sigma_t_m,sigma_r_rad`, in the order of the rows.
 std::vector<PoseMatch> read_matches(const Text& text, const TeamNames& names);

@@ -1,0 +1,139 @@
+#include "radioslam/cli/commands/mission_check.hpp"
+
+#include <array>
+#include <cctype>
+#include <utility>
+
+#include "radioslam/cli/suggestion.hpp"
+#include "radioslam/doctor/check_mission.hpp"
+#include "radioslam/io/mission/mission_folder.hpp"
+#include "radioslam/io/mission/mission_yaml.hpp"
+
+namespace radioslam::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ReasonKind {
+  const char* part;
+  const char* kind;
+};
+/// What the readers' reasons mean, first match first.
+constexpr std::array kReasonKinds{ReasonKind{"unknown robot", "spelling"},
+                                  ReasonKind{"unknown antenna", "spelling"},
+                                  ReasonKind{"is not listed", "spelling"},
+                                  ReasonKind{"the time", "clock"},
+                                  ReasonKind{"time runs backwards", "clock"},
+                                  ReasonKind{"has no poses", "too-little"},
+                                  ReasonKind{"odometry.tum and no", "too-little"},
+                                  ReasonKind{"has no header", "too-little"},
+                                  ReasonKind{"quaternion", "column-order"},
+                                  ReasonKind{"column '", "column-order"},
+                                  ReasonKind{"rssi_dbm", "unit"},
+                                  ReasonKind{"frequency", "unit"},
+                                  ReasonKind{"plausible", "unit"},
+                                  ReasonKind{"nanosecond", "unit"},
+                                  ReasonKind{"to itself", "duplicate"},
+                                  ReasonKind{"appears twice", "duplicate"},
+                                  ReasonKind{"same mac", "duplicate"}};
+
+std::string kind_of(const std::string& reason) {
+  for (const auto& [part, kind] : kReasonKinds)
+    if (reason.find(part) != std::string::npos) return kind;
+  return "unreadable";
+}
+
+/// The name between the first two quotes, or nothing.
+std::string quoted(const std::string& reason) {
+  const auto begin = reason.find('\''), end = reason.find('\'', begin + 1);
+  return end == std::string::npos ? "" : reason.substr(begin + 1, end - begin - 1);
+}
+
+std::vector<std::string> robots_of(const fs::path& folder) {
+  std::vector<std::string> ids;
+  try {
+    for (const Robot& robot : read_mission_yaml(read_text(folder / "mission.yaml"), "").mission.robots)
+      ids.push_back(robot.id);
+  } catch (const InputError&) {
+    ids.clear();
+  }
+  return ids;
+}
+
+/// Robot whose folder the file lies in, or that the reason names.
+std::string robot_of(const std::string& file, const std::string& reason,
+                     const std::vector<std::string>& ids) {
+  for (const std::string& id : ids)
+    if (file.starts_with("robots/" + id + "/")) return id;
+  const std::string name = quoted(reason);
+  for (const std::string& id : ids)
+    if (id == name) return id;
+  return {};
+}
+
+/// Letters and digits in lower case.
+std::string canonical(const std::string& name) {
+  std::string result;
+  for (const char c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)))
+      result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return result;
+}
+
+/// The robot that a misspelled name is likeliest to mean, or nothing.
+std::string meant_robot(const std::string& name, const std::vector<std::string>& ids) {
+  for (const std::string& id : ids)
+    if (canonical(id) == canonical(name)) return id;
+  const auto near = nearest_names(name, ids);
+  return near.empty() ? "" : near.front();
+}
+
+Finding refused(const InputError& error, const fs::path& folder) {
+  const auto ids = robots_of(folder);
+  Finding finding;
+  finding.severity = Severity::kError;
+  finding.kind = kind_of(error.reason());
+  finding.file = fs::relative(error.file(), folder).string();
+  if (finding.file.starts_with("..")) finding.file = error.file();
+  finding.robot = robot_of(finding.file, error.reason(), ids);
+  finding.found = (error.line() > 0 ? "line " + std::to_string(error.line()) + ": " : "") + error.reason();
+  finding.expected = "a file that can be read";
+  finding.advice = "correct the file";
+  if (finding.kind == "spelling") {
+    finding.expected = "a robot or antenna of mission.yaml";
+    const std::string meant = meant_robot(quoted(error.reason()), ids);
+    if (!meant.empty()) finding.advice += "; did you mean " + meant + "?";
+    if (finding.robot.empty()) finding.robot = meant;
+  }
+  return finding;
+}
+
+}  // namespace
+
+std::vector<Finding> examine_mission(const fs::path& folder) {
+  if (!fs::exists(folder / "mission.yaml")) read_mission(folder);  // refuses, and says why
+  try {
+    return check_mission(read_mission(folder));
+  } catch (const InputError& error) {
+    return {refused(error, folder)};
+  }
+}
+
+std::vector<std::string> warnings_about(const Mission& mission, const std::string& folder) {
+  const std::vector<Finding> findings = check_mission(mission);
+  std::vector<std::string> warnings;
+  std::size_t errors = 0;
+  for (const Finding& finding : findings) {
+    errors += finding.severity == Severity::kError;
+    if (finding.severity == Severity::kWarning) warnings.push_back(text_of(finding));
+  }
+  if (errors == 0) return warnings;
+  Finding first = findings.front();
+  const std::string file = first.file.empty() ? folder : (fs::path(folder) / first.file).string();
+  first.file.clear();
+  throw InputError(file, 0,
+                   text_of(first) + (errors > 1 ? "; and " + std::to_string(errors - 1) + " more" : "") +
+                       " (radioslam doctor lists all findings; --unchecked runs nevertheless)");
+}
+
+}  // namespace radioslam::cli

@@ -1,0 +1,16 @@
+// Plausibility of a mission before anything is estimated: units, clocks, frames, starts, gaps, repetitions,
+// and whether radio, dead reckoning and the other sensors can be true together.
+#pragma once
+
+#include <vector>
+
+#include "radioslam/mission/finding.hpp"
+#include "radioslam/mission/mission.hpp"
+
+namespace radioslam {
+
+/// Errors first, each list in the order of the checks. Deterministic. Work is bounded: a few windows of links
+/// are fitted, and a few scans read.
+std::vector<Finding> check_mission(const Mission& mission);
+
+}  // namespace radioslam

@@ -1,0 +1,300 @@
+#include "radioslam/doctor/link_checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "radioslam/base/parallel.hpp"
+#include "radioslam/base/statistics.hpp"
+#include "radioslam/base/units.hpp"
+#include "radioslam/doctor/corrections.hpp"
+#include "radioslam/doctor/link_fit.hpp"
+#include "radioslam/doctor/team_links.hpp"
+#include "radioslam/doctor/text.hpp"
+#include "radioslam/geometry/se2.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr std::size_t kWindowsOfPair = 3;
+constexpr std::size_t kMaxWindows = 12;
+constexpr double kGoodInlierRatio = 0.95;  // of a window that needs no correction
+constexpr int kMaxCorrections = 3;
+/// Gain in log-likelihood that a correction must bring: at all, and per link that it concerns.
+constexpr double kMinGain = 30;
+constexpr double kMinGainPerLink = 0.15;
+constexpr double kWindowGain = 3;            // by which a window is for or against a correction
+constexpr double kCertainGainPerLink = 0.5;  // of a correction that is refused
+constexpr double kMaxNoiseRatio = 4, kMinNoiseRatio = 0.1;
+constexpr double kMinExplained = 0.3;  // of all links, in a mission without a finding
+constexpr double kClockOffsets_s[] = {0.5, 1,  1.5, 2,  3,  4,  5,  6,  8,  10,
+                                      12,  15, 18,  21, 25, 30, 35, 40, 50, 60};
+constexpr std::size_t kTrialWindows =
+    2;  // on which a correction must gain before all are fitted; the many clocks on one
+
+struct FittedWindow {
+  LinkWindow window;
+  LinkFit fit;
+};
+
+std::size_t ranges_of(const TeamLinks& team, const LinkWindow& window) {
+  return static_cast<std::size_t>(std::count_if(window.links.begin(), window.links.end(), [&](std::size_t k) {
+    return team.links[k].kind == TrackLink::Kind::kRange;
+  }));
+}
+
+/// What a correction brings in the windows that it concerns.
+struct Gain {
+  double log_likelihood = 0;
+  double before = 0, after = 0;  // links explained
+  double links = 0;
+  int gained = 0, lost = 0;  // windows
+
+  bool is_significant() const {
+    return log_likelihood > std::max(kMinGain, kMinGainPerLink * links) &&
+           gained >= std::min(2, gained + lost) && gained > 4 * lost && after > 0.5 * links;
+  }
+  bool is_certain() const { return log_likelihood > kCertainGainPerLink * links && after > 0.7 * links; }
+};
+
+/// Windows that the correction concerns, those with the least likelihood per link first.
+std::vector<const FittedWindow*> concerned(const Correction& correction,
+                                           const std::vector<FittedWindow>& windows) {
+  std::vector<const FittedWindow*> result;
+  for (const FittedWindow& window : windows)
+    if (correction.concerns(window.window.i, window.window.j)) result.push_back(&window);
+  const auto per_link = [](const FittedWindow* w) {
+    return w->fit.log_likelihood / static_cast<double>(w->fit.links);
+  };
+  std::stable_sort(result.begin(), result.end(), [&](auto* x, auto* y) { return per_link(x) < per_link(y); });
+  return result;
+}
+
+/// Whether the correction of one robot has nothing to correct. Heights bend all ranges a little.
+bool is_needless(const Correction& correction, const std::vector<FittedWindow>& windows) {
+  if (correction.finding.robot.empty() || correction.finding.kind == "height") return false;
+  return std::all_of(windows.begin(), windows.end(), [&](const FittedWindow& w) {
+    return w.fit.inlier_ratio >= kGoodInlierRatio || !correction.concerns(w.window.i, w.window.j);
+  });
+}
+
+Gain gain_of(const Correction& correction, const TeamLinks& team, const std::vector<FittedWindow>& windows) {
+  TeamLinks corrected = team;
+  correction.apply(corrected);
+  Gain gain;
+  std::size_t tried = 0;
+  for (const FittedWindow* known : concerned(correction, windows)) {
+    const std::size_t trials = correction.finding.kind == "clock" ? 1 : kTrialWindows;
+    if (tried++ == trials && gain.log_likelihood < kWindowGain) break;
+
+    const auto& [window, fit] = *known;
+    const LinkFit other = fit_links(corrected, window);
+    const double difference = other.log_likelihood - fit.log_likelihood +
+                              correction.log_range_scale * static_cast<double>(ranges_of(team, window));
+    const double links = static_cast<double>(fit.links);
+    gain.log_likelihood += difference;
+    gain.gained += difference > kWindowGain;
+    gain.lost += difference < -kWindowGain;
+    gain.links += links;
+    gain.before += fit.inlier_ratio * links;
+    gain.after += other.inlier_ratio * links;
+  }
+  return gain;
+}
+
+std::vector<FittedWindow> fitted(const TeamLinks& team, const std::vector<LinkWindow>& windows) {
+  std::vector<FittedWindow> result;
+  for (const LinkWindow& window : windows) result.push_back({window, fit_links(team, window)});
+  return result;
+}
+
+struct Chosen {
+  Correction correction;
+  Gain gain;
+};
+
+/// Keeps the better of the two; what is equally good stays with the first.
+void keep_best(std::optional<Chosen>& best, const std::vector<Correction>& corrections, const TeamLinks& team,
+               const std::vector<FittedWindow>& windows) {
+  std::vector<Gain> gains(corrections.size());
+  parallel_for(corrections.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      if (!is_needless(corrections[k], windows)) gains[k] = gain_of(corrections[k], team, windows);
+  });
+  for (std::size_t k = 0; k < corrections.size(); ++k)
+    if (gains[k].is_significant() &&
+        (!best || gains[k].log_likelihood > 1.02 * best->gain.log_likelihood + 2))
+      best = Chosen{corrections[k], gains[k]};
+}
+
+/// Offsets of clocks between half a second and a minute, refined to a tenth of a second.
+void try_clocks(std::optional<Chosen>& best, const Mission& mission, const TeamLinks& team,
+                const std::vector<FittedWindow>& windows) {
+  std::optional<std::pair<Chosen, double>> clock;
+  const auto try_offset = [&](double seconds) {
+    std::optional<Chosen> found;
+    keep_best(found, clock_corrections(mission, team, seconds), team, windows);
+    if (found && (!clock || found->gain.log_likelihood > clock->first.gain.log_likelihood))
+      clock.emplace(*found, seconds);
+  };
+  for (const double magnitude : kClockOffsets_s)
+    for (const double sign : {1., -1.}) try_offset(sign * magnitude);
+  if (!clock) return;
+  for (const double step : {2., 1., 0.5, 0.2, 0.1}) {
+    const double middle = clock->second;
+    try_offset(middle - step);
+    try_offset(middle + step);
+  }
+  if (!best || clock->first.gain.log_likelihood > 1.1 * best->gain.log_likelihood + 6) best = clock->first;
+}
+
+std::optional<Chosen> best_correction(const Mission& mission, const TeamLinks& team,
+                                      const std::vector<FittedWindow>& windows) {
+  std::optional<Chosen> best;
+  keep_best(best, discrete_corrections(mission, team), team, windows);
+  try_clocks(best, mission, team, windows);
+  // Constant errors bend to almost any contradiction a little: they come last.
+  std::optional<Chosen> offset;
+  keep_best(offset, offset_corrections(mission, team), team, windows);
+  if (offset && (!best || offset->gain.log_likelihood > 1.3 * best->gain.log_likelihood + 6)) best = offset;
+  return best;
+}
+
+double explained_ratio(const std::vector<FittedWindow>& windows) {
+  double explained = 0, links = 0;
+  for (const auto& [window, fit] : windows) {
+    explained += fit.inlier_ratio * static_cast<double>(fit.links);
+    links += static_cast<double>(fit.links);
+  }
+  return links > 0 ? explained / links : 1;
+}
+
+/// Corrects one fault after the other; `team` is corrected with them.
+std::vector<Finding> corrected_faults(const Mission& mission, TeamLinks& team,
+                                      std::vector<FittedWindow>& windows) {
+  std::vector<Finding> findings;
+  for (int k = 0; k < kMaxCorrections && !windows.empty(); ++k) {
+    const auto best = best_correction(mission, team, windows);
+    if (!best) break;
+    Finding finding = best->correction.finding;
+    const bool is_certain = best->correction.is_certain && best->gain.is_certain();
+    finding.severity = is_certain ? Severity::kError : Severity::kWarning;
+    finding.found += " (" + number(100 * best->gain.after / best->gain.links) + " % of the links fit then, " +
+                     number(100 * best->gain.before / best->gain.links) + " % as recorded)";
+    findings.push_back(std::move(finding));
+    best->correction.apply(team);
+    std::vector<LinkWindow> same;
+    for (auto& window : windows) same.push_back(std::move(window.window));
+    windows = fitted(team, same);
+  }
+  return findings;
+}
+
+/// T_i_j that two stated starts give; the world's is the common frame.
+std::optional<Eigen::Vector4d> stated_alignment(const Mission& mission, std::size_t i, std::size_t j) {
+  const auto start = [&](std::size_t node) -> std::optional<SE3> {
+    return node < mission.robots.size() ? mission.robots[node].initial_pose : SE3();
+  };
+  const auto a = start(i), b = start(j);
+  if (!a || !b) return std::nullopt;
+  const SE3 T = a->inverse() * *b;
+  return Eigen::Vector4d(T.translation().x(), T.translation().y(), T.translation().z(), T.yaw());
+}
+
+/// Path of the window's robots up to its end, in which their dead reckoning may drift.
+double path_to_end_m(const TeamLinks& team, const LinkWindow& window) {
+  double path_m = window.path_m;
+  for (const std::size_t node : {window.i, window.j})
+    if (node < team.tracks.size())
+      if (const auto row = team.tracks[node].at(team.links[window.links.front()].t_s)) path_m += row->path_m;
+  return path_m;
+}
+
+/// How far the links of a window are from the stated starts: x, y, z and yaw; nothing where they agree.
+std::optional<Eigen::Vector4d> contradiction(const TeamLinks& team, const LinkWindow& window,
+                                             const Eigen::Vector4d& stated) {
+  const double sigma_m = 1 + 0.03 * path_to_end_m(team, window);
+  const LinkFit at_stated = fit_links(team, window, {&stated, sigma_m});
+  const LinkFit sought = fit_links(team, window, {nullptr, sigma_m});
+  const double gain = sought.log_likelihood - at_stated.log_likelihood;
+  if (gain <= std::max(15.0, 0.3 * static_cast<double>(window.links.size()))) return std::nullopt;
+  const Eigen::Vector4d difference = sought.alignment - stated;
+  const bool is_far =
+      difference.head<2>().norm() > 2 * sigma_m + 5 || std::abs(wrap_angle(difference(3))) > 0.3;
+  return is_far ? std::optional(difference) : std::nullopt;
+}
+
+/// The robot whose stated start most of its pairs' first windows contradict.
+std::vector<Finding> check_starts(const Mission& mission, const TeamLinks& team,
+                                  const std::vector<FittedWindow>& windows) {
+  std::map<std::size_t, int> balance;  // pairs that contradict less pairs that agree
+  std::map<std::size_t, Eigen::Vector4d> difference;
+  std::set<std::pair<std::size_t, std::size_t>> seen;
+  for (const auto& [window, fit] : windows) {
+    const auto stated = stated_alignment(mission, window.i, window.j);
+    if (!stated || fit.inlier_ratio < 0.5 || !seen.emplace(window.i, window.j).second) continue;
+    const auto contradicted = contradiction(team, window, *stated);
+    for (const std::size_t node : {window.i, window.j}) {
+      if (node == team.world()) continue;
+      balance[node] += contradicted ? 1 : -1;
+      if (contradicted) difference[node] = *contradicted;
+    }
+  }
+  const auto worst = std::max_element(balance.begin(), balance.end(),
+                                      [](const auto& x, const auto& y) { return x.second < y.second; });
+  if (worst == balance.end() || !difference.contains(worst->first)) return {};
+  const Eigen::Vector4d d = difference[worst->first];
+  return {{"start", Severity::kWarning, mission.robots[worst->first].id, "mission.yaml",
+           "initial_pose contradicts the radio links by about " + number(d.head<2>().norm()) + " m and " +
+               number(degrees(std::abs(wrap_angle(d(3))))) + " degrees",
+           "the start that the links allow", "correct initial_pose, or state it as unknown"}};
+}
+
+/// Robust standard deviation of successive differences, over that of white noise of the stated sigma.
+void check_noise(const std::vector<FittedWindow>& windows, bool of_angles, std::vector<Finding>& findings) {
+  std::vector<double> differences;
+  for (const auto& [window, fit] : windows) {
+    const auto& residuals = of_angles ? fit.angle_residuals : fit.residuals;
+    for (std::size_t k = 1; k < residuals.size() && fit.inlier_ratio > 0.6; ++k)
+      differences.push_back(std::abs(residuals[k] - residuals[k - 1]) / std::sqrt(2.0));
+  }
+  if (differences.size() < 30) return;
+  const double ratio = kMadToSigma * upper_median(std::move(differences));
+  if (ratio < kMaxNoiseRatio && ratio > kMinNoiseRatio) return;
+  findings.push_back(
+      {"noise", Severity::kWarning, "", of_angles ? "radio/aoa.csv" : "radio/ranges.csv",
+       "the measured noise is " + number(ratio) + " times the stated sigma", "a sigma within a factor of two",
+       std::string("multiply ") + (of_angles ? "sigma_rad" : "sigma_m") + " by " + number(ratio)});
+}
+
+std::vector<LinkWindow> windows_to_check(const TeamLinks& team) {
+  std::vector<LinkWindow> windows = link_windows(team, kWindowsOfPair);
+  std::vector<LinkWindow> kept;
+  const std::size_t count = std::min(windows.size(), kMaxWindows);
+  for (std::size_t k = 0; k < count; ++k) kept.push_back(std::move(windows[k * windows.size() / count]));
+  return kept;
+}
+
+}  // namespace
+
+std::vector<Finding> check_links(const Mission& mission) {
+  TeamLinks team = team_links(mission);
+  std::vector<FittedWindow> windows = fitted(team, windows_to_check(team));
+  std::vector<Finding> findings = corrected_faults(mission, team, windows);
+  for (Finding& start : check_starts(mission, team, windows)) findings.push_back(std::move(start));
+  check_noise(windows, false, findings);
+  check_noise(windows, true, findings);
+  const double explained = explained_ratio(windows);
+  if (findings.empty() && explained < kMinExplained)
+    findings.push_back({"frame", Severity::kWarning, "", "",
+                        "the radio links do not fit the trajectories (" + number(100 * explained) + " % do)",
+                        "most links to agree with the odometry of their robots",
+                        "check units, clocks and frames"});
+  return findings;
+}
+
+}  // namespace radioslam

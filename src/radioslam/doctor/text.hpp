@@ -1,0 +1,24 @@
+// Words of findings: numbers and file names.
+#pragma once
+
+#include <cstdio>
+#include <string>
+
+namespace radioslam {
+
+/// Three significant digits, without an exponent below a million.
+inline std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  if (std::string(text).find('e') != std::string::npos && value > -1e9 && value < 1e9 &&
+      (value > 1 || value < -1))
+    std::snprintf(text, sizeof text, "%.0f", value);
+  return text;
+}
+
+inline std::string robot_file(const std::string& robot, const char* name) {
+  return "robots/" + robot + "/" + name;
+}
+inline std::string odometry_file(const std::string& robot) { return robot_file(robot, "odometry.tum"); }
+
+}  // namespace radioslam

@@ -1,0 +1,275 @@
+// Planted faults of a sound mission: every one is named, with the robot or file at fault, and the sound one
+// has none.
+#include "radioslam/doctor/check_mission.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <ostream>
+
+#include "doctor/sound_mission.hpp"
+
+namespace radioslam {
+namespace {
+
+std::string all_of(const std::vector<Finding>& findings) {
+  std::string text;
+  for (const Finding& finding : findings)
+    text += finding.kind + " " + finding.robot + ": " + text_of(finding) + "\n";
+  return text;
+}
+
+TEST(CheckMission, HasNothingToSayOfSoundMissions) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    const auto findings = check_mission(SoundMission::make(seed));
+    EXPECT_TRUE(findings.empty()) << all_of(findings);
+  }
+}
+
+TEST(CheckMission, HasNothingToSayOfAnEmptyMission) { EXPECT_TRUE(check_mission(Mission{}).empty()); }
+
+TEST(CheckMission, IsTheSameEveryTime) {
+  Mission mission = SoundMission::make();
+  for (RangeMeasurement& range : mission.ranges) range.range_m *= 1000;
+  EXPECT_EQ(all_of(check_mission(mission)), all_of(check_mission(mission)));
+}
+
+struct Fault {
+  std::string name, kind, robot, file;
+  std::function<void(Mission&)> plant;
+  friend std::ostream& operator<<(std::ostream& stream, const Fault& fault) { return stream << fault.name; }
+};
+
+void change_odometry(Robot& robot, const std::function<StampedPose<SE3>(const StampedPose<SE3>&)>& change) {
+  std::vector<StampedPose<SE3>> poses;
+  for (const auto& pose : robot.odometry) poses.push_back(change(pose));
+  robot.odometry = Trajectory<SE3>(std::move(poses));
+}
+
+void shift(Stamp& stamp, double seconds) { stamp.ns += Stamp::from_seconds(seconds).ns; }
+
+void shift_robot(Robot& robot, double seconds) {
+  change_odometry(robot, [&](auto pose) {
+    shift(pose.stamp, seconds);
+    return pose;
+  });
+  for (WifiScan& scan : robot.wifi) shift(scan.stamp, seconds);
+  for (ImuSample& sample : robot.inertial) shift(sample.stamp, seconds);
+}
+
+void for_azimuths(Mission& mission, const std::function<double(double)>& change) {
+  for (AoaMeasurement& angle : mission.aoa_measurements)
+    for (AoaPath& path : angle.paths) path.azimuth_rad = wrap_angle(change(path.azimuth_rad));
+}
+
+SE3 with_translation(const SE3& pose, const Eigen::Vector3d& translation) {
+  return {translation, pose.rotation()};
+}
+
+const std::vector<Fault>& faults() {
+  static const std::vector<Fault> all{
+      {"WifiOnTheUnixClock", "clock", "b", "robots/b/wifi.csv",
+       [](Mission& m) {
+         for (auto& scan : m.robots[1].wifi) shift(scan.stamp, 1.7e9);
+       }},
+      {"WifiInMilliseconds", "unit", "b", "robots/b/wifi.csv",
+       [](Mission& m) {
+         for (auto& scan : m.robots[1].wifi) scan.stamp.ns *= 1000;
+       }},
+      {"WifiHalfAMinuteLate", "clock", "b", "robots/b/wifi.csv",
+       [](Mission& m) {
+         for (auto& scan : m.robots[1].wifi) shift(scan.stamp, 30);
+       }},
+      {"ImuThreeSecondsLate", "clock", "c", "robots/c/imu.csv",
+       [](Mission& m) {
+         for (auto& sample : m.robots[2].inertial) shift(sample.stamp, 3);
+       }},
+      {"RobotOnTheUnixClock", "clock", "b", "robots/b/odometry.tum",
+       [](Mission& m) { shift_robot(m.robots[1], 1.7e9); }},
+      {"RobotFiveSecondsLate", "clock", "b", "robots/b/odometry.tum",
+       [](Mission& m) { shift_robot(m.robots[1], 5); }},
+      {"RangesHalfAMinuteLate", "clock", "", "radio/ranges.csv",
+       [](Mission& m) {
+         for (auto& range : m.ranges) shift(range.stamp, 30);
+       }},
+      {"OdometryInMillimetres", "unit", "a", "robots/a/odometry.tum",
+       [](Mission& m) {
+         change_odometry(m.robots[0], [](auto p) {
+           p.pose = with_translation(p.pose, 1000 * p.pose.translation());
+           return p;
+         });
+       }},
+      {"RangesInMillimetres", "unit", "", "radio/ranges.csv",
+       [](Mission& m) {
+         for (auto& range : m.ranges) range.range_m *= 1000, range.sigma_m *= 1000;
+       }},
+      {"RangesInFeet", "unit", "", "radio/ranges.csv",
+       [](Mission& m) {
+         for (auto& range : m.ranges) range.range_m /= 0.3048;
+       }},
+      {"GyroscopeInDegrees", "unit", "a", "robots/a/imu.csv",
+       [](Mission& m) {
+         for (auto& sample : m.robots[0].inertial) sample.angular_rate_radps *= 57.3;
+       }},
+      {"AccelerationInG", "unit", "a", "robots/a/imu.csv",
+       [](Mission& m) {
+         for (auto& sample : m.robots[0].inertial) sample.specific_force_mps2 /= 9.81;
+       }},
+      {"FrequencyInGigahertz", "unit", "b", "robots/b/wifi.csv",
+       [](Mission& m) {
+         for (auto& scan : m.robots[1].wifi)
+           for (auto& reading : scan.readings) reading.frequency_mhz = 2.412F;
+       }},
+      {"YawOfTheOtherSign", "handedness", "b", "robots/b/odometry.tum",
+       [](Mission& m) {
+         change_odometry(m.robots[1], [](auto p) {
+           p.pose = SE3(p.pose.translation(), p.pose.rotation().inverse());
+           return p;
+         });
+       }},
+      {"MirroredWithoutImu", "handedness", "b", "robots/b/odometry.tum",
+       [](Mission& m) {
+         m.robots[1].inertial.clear();
+         change_odometry(m.robots[1], [](auto p) {
+           const auto& t = p.pose.translation();
+           p.pose = SE3({t.x(), -t.y(), t.z()}, p.pose.rotation().inverse());
+           return p;
+         });
+       }},
+      {"AnglesClockwise", "handedness", "", "radio/aoa.csv",
+       [](Mission& m) { for_azimuths(m, [](double a) { return -a; }); }},
+      {"ArrayTurned", "bias", "c", "radio/aoa.csv",
+       [](Mission& m) {
+         for (auto& angle : m.aoa_measurements)
+           if (angle.receiver == RobotIndex(2))
+             for (auto& path : angle.paths) path.azimuth_rad = wrap_angle(path.azimuth_rad + 0.9);
+       }},
+      {"EndsExchanged", "column-order", "", "radio/aoa.csv",
+       [](Mission& m) {
+         for (auto& angle : m.aoa_measurements) std::swap(angle.receiver, angle.transmitter.robot);
+       }},
+      {"QuaternionWFirst", "column-order", "c", "robots/c/odometry.tum",
+       [](Mission& m) {
+         change_odometry(m.robots[2], [](auto p) {
+           const auto& q = p.pose.rotation();
+           p.pose = SE3(p.pose.translation(), Eigen::Quaterniond(q.z(), q.w(), q.x(), q.y()));
+           return p;
+         });
+       }},
+      {"HeightInPlaceOfY", "column-order", "c", "robots/c/odometry.tum",
+       [](Mission& m) {
+         change_odometry(m.robots[2], [](auto p) {
+           const auto& t = p.pose.translation();
+           p.pose = with_translation(p.pose, {t.x(), t.z(), t.y()});
+           return p;
+         });
+       }},
+      {"Jump", "speed", "a", "robots/a/odometry.tum",
+       [](Mission& m) {
+         change_odometry(m.robots[0], [](auto p) {
+           if (p.stamp.seconds() > 120)
+             p.pose = with_translation(p.pose, p.pose.translation() + Eigen::Vector3d(30, 0, 0));
+           return p;
+         });
+       }},
+      {"Gap", "gap", "a", "robots/a/odometry.tum",
+       [](Mission& m) {
+         std::vector<StampedPose<SE3>> poses;
+         for (const auto& p : m.robots[0].odometry)
+           if (p.stamp.seconds() < 100 || p.stamp.seconds() > 130) poses.push_back(p);
+         m.robots[0].odometry = Trajectory<SE3>(std::move(poses));
+       }},
+      {"StartElsewhere", "start", "b", "mission.yaml",
+       [](Mission& m) {
+         for (std::size_t r = 0; r < 3; ++r) m.robots[r].initial_pose = lift(true_pose(r, 0));
+         m.robots[1].initial_pose = with_translation(*m.robots[1].initial_pose, {60, 40, 0});
+       }},
+      {"NotConnected", "not-connected", "c", "",
+       [](Mission& m) {
+         m.robots[2].wifi.clear();
+         std::erase_if(m.ranges, [](const auto& range) { return range.j.robot == RobotIndex(2); });
+         std::erase_if(m.aoa_measurements, [](const auto& angle) {
+           return angle.receiver == RobotIndex(2) || angle.transmitter.robot == RobotIndex(2);
+         });
+       }},
+      {"CarriedAccessPoint", "moving-access-point", "a", "robots/a/wifi.csv",
+       [](Mission& m) {
+         m.access_points.push_back("ff:00:00:00:00:01");
+         for (auto& scan : m.robots[0].wifi)
+           scan.readings.push_back({AccessPointIndex(m.access_points.size() - 1), 2412, -40});
+       }},
+      {"TwoSpellings", "spelling", "", "",
+       [](Mission& m) { m.access_points.push_back("02-00-00-00-00-12"); }},
+      {"OneRecordingTwice", "duplicate", "c", "robots/c/odometry.tum",
+       [](Mission& m) { m.robots[2].odometry = m.robots[0].odometry; }},
+      {"ScansRepeated", "stale", "b", "robots/b/wifi.csv",
+       [](Mission& m) {
+         for (std::size_t k = 1; k < m.robots[1].wifi.size(); k += 2)
+           m.robots[1].wifi[k].readings = m.robots[1].wifi[k - 1].readings;
+       }},
+      {"SigmaTooSmall", "noise", "", "radio/ranges.csv",
+       [](Mission& m) {
+         for (auto& range : m.ranges) range.sigma_m = 0.01;
+       }},
+      {"RangesTooLong", "bias", "", "radio/ranges.csv",
+       [](Mission& m) {
+         for (auto& range : m.ranges) range.range_m += 6;
+       }},
+      {"OneRobotHigher", "height", "b", "radio/ranges.csv",
+       [](Mission& m) {
+         for (auto& range : m.ranges)
+           if (range.i.robot == RobotIndex(1) || range.j.robot == RobotIndex(1))
+             range.range_m = std::hypot(range.range_m, 35);
+       }},
+      {"GyroscopeBias", "bias", "c", "robots/c/imu.csv",
+       [](Mission& m) {
+         for (auto& sample : m.robots[2].inertial) sample.angular_rate_radps.z() += 0.2;
+       }},
+      {"GravityRemoved", "bias", "c", "robots/c/imu.csv",
+       [](Mission& m) {
+         for (auto& sample : m.robots[2].inertial) sample.specific_force_mps2.z() -= 9.6;
+       }},
+      {"UtmCoordinates", "frame", "a", "robots/a/odometry.tum",
+       [](Mission& m) {
+         change_odometry(m.robots[0], [](auto p) {
+           p.pose = with_translation(p.pose, p.pose.translation() + Eigen::Vector3d(5e5, 5.4e6, 0));
+           return p;
+         });
+       }},
+      {"AlmostNothing", "too-little", "b", "robots/b/odometry.tum",
+       [](Mission& m) {
+         m.robots[1].odometry = Trajectory<SE3>({m.robots[1].odometry[0], m.robots[1].odometry[5]});
+       }},
+  };
+  return all;
+}
+
+class PlantedFault : public testing::TestWithParam<Fault> {};
+
+TEST_P(PlantedFault, IsNamed) {
+  const Fault& fault = GetParam();
+  Mission mission = SoundMission::make(7);
+  fault.plant(mission);
+  const auto findings = check_mission(mission);
+  bool is_named = false;
+  for (const Finding& finding : findings)
+    is_named = is_named ||
+               (finding.kind == fault.kind && finding.robot == fault.robot && finding.file == fault.file);
+  EXPECT_TRUE(is_named) << all_of(findings);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, PlantedFault, testing::ValuesIn(faults()),
+                         [](const auto& fault) { return fault.param.name; });
+
+TEST(CheckMission, PutsErrorsFirst) {
+  Mission mission = SoundMission::make();
+  for (RangeMeasurement& range : mission.ranges) range.range_m *= 1000, range.sigma_m *= 1000;
+  mission.access_points.push_back("02-00-00-00-00-12");
+  const auto findings = check_mission(mission);
+  ASSERT_EQ(findings.size(), 2U) << all_of(findings);
+  EXPECT_EQ(findings[0].severity, Severity::kError);
+  EXPECT_EQ(findings[1].kind, "spelling");
+}
+
+}  // namespace
+}  // namespace radioslam
