@@ -27,6 +27,7 @@ constexpr int kMaxCorrections = 3;
 /// Gain in log-likelihood that a correction must bring: at all, and per link that it concerns.
 constexpr double kMinGain = 30;
 constexpr double kMinGainPerLink = 0.15;
+constexpr double kMinGainOfOthers = 12;      // than the window that gains most
 constexpr double kWindowGain = 3;            // by which a window is for or against a correction
 constexpr double kCertainGainPerLink = 0.5;  // of a correction that is refused
 constexpr double kMaxNoiseRatio = 4, kMinNoiseRatio = 0.1;
@@ -52,11 +53,16 @@ struct Gain {
   double log_likelihood = 0;
   double before = 0, after = 0;  // links explained
   double links = 0;
-  int gained = 0, lost = 0;  // windows
+  double most = 0;  // log-likelihood gained in one window
+  int windows = 0, gained = 0, lost = 0;
 
+  /// Enough, and not in one window alone, where dead reckoning may have slipped.
   bool is_significant() const {
-    return log_likelihood > std::max(kMinGain, kMinGainPerLink * links) &&
-           gained >= std::min(2, gained + lost) && gained > 4 * lost && after > 0.5 * links;
+    const bool is_enough =
+        log_likelihood > std::max(kMinGain, kMinGainPerLink * links) && after > 0.5 * links;
+    const bool is_common =
+        gained >= std::min(2, windows) && (windows < 2 || log_likelihood - most > kMinGainOfOthers);
+    return is_enough && is_common && gained > 4 * lost;
   }
   bool is_certain() const { return log_likelihood > kCertainGainPerLink * links && after > 0.7 * links; }
 };
@@ -97,6 +103,8 @@ Gain gain_of(const Correction& correction, const TeamLinks& team, const std::vec
                               correction.log_range_scale * static_cast<double>(ranges_of(team, window));
     const double links = static_cast<double>(fit.links);
     gain.log_likelihood += difference;
+    gain.most = std::max(gain.most, difference);
+    ++gain.windows;
     gain.gained += difference > kWindowGain;
     gain.lost += difference < -kWindowGain;
     gain.links += links;
