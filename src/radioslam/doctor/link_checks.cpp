@@ -34,8 +34,7 @@ constexpr double kMaxNoiseRatio = 4, kMinNoiseRatio = 0.1;
 constexpr double kMinExplained = 0.3;  // of all links, in a mission without a finding
 constexpr double kClockOffsets_s[] = {0.5, 1,  1.5, 2,  3,  4,  5,  6,  8,  10,
                                       12,  15, 18,  21, 25, 30, 35, 40, 50, 60};
-constexpr std::size_t kTrialWindows =
-    2;  // on which a correction must gain before all are fitted; the many clocks on one
+constexpr std::size_t kTrialWindows = 2;  // on which a correction must gain before all are fitted
 
 struct FittedWindow {
   LinkWindow window;
@@ -94,8 +93,7 @@ Gain gain_of(const Correction& correction, const TeamLinks& team, const std::vec
   Gain gain;
   std::size_t tried = 0;
   for (const FittedWindow* known : concerned(correction, windows)) {
-    const std::size_t trials = correction.finding.kind == "clock" ? 1 : kTrialWindows;
-    if (tried++ == trials && gain.log_likelihood < kWindowGain) break;
+    if (tried++ == kTrialWindows && gain.log_likelihood < kWindowGain) break;
 
     const auto& [window, fit] = *known;
     const LinkFit other = fit_links(corrected, window);
