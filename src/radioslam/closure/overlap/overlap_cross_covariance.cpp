@@ -51,6 +51,24 @@ typename SkeletonCovariance<Pose>::Joint SkeletonCovariance<Pose>::within(const 
 }
 
 template <class Pose>
+void SkeletonCovariance<Pose>::keep_columns(std::size_t robot, std::size_t scalars) const {
+  if (kept_robot_ == robot) return;
+  kept_robot_ = robot;
+  kept_.clear();
+  free_scalars_ = scalars;
+}
+
+template <class Pose>
+Eigen::MatrixXd SkeletonCovariance<Pose>::inverse_columns(std::size_t block) const {
+  if (const auto known = kept_.find(block); known != kept_.end()) return known->second;
+  Eigen::MatrixXd columns = equations_.cholesky().inverse_columns(block);
+  const auto scalars = static_cast<std::size_t>(columns.size());
+  if (scalars > free_scalars_) return columns;
+  free_scalars_ -= scalars;
+  return kept_.emplace(block, std::move(columns)).first->second;
+}
+
+template <class Pose>
 Eigen::MatrixXd SkeletonCovariance<Pose>::columns(const Variable& v,
                                                   const std::vector<Variable>& rows) const {
   Eigen::Index height = 2;
@@ -58,8 +76,7 @@ Eigen::MatrixXd SkeletonCovariance<Pose>::columns(const Variable& v,
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(height, size(v));
   const auto block = equations_.blocks().of(v);
   if (block < 0) return columns;
-  const Eigen::MatrixXd solved =
-      equations_.cholesky().inverse_columns(static_cast<std::size_t>(block)) * to_left(v).transpose();
+  const Eigen::MatrixXd solved = inverse_columns(static_cast<std::size_t>(block)) * to_left(v).transpose();
   Eigen::Index at = 0;
   for (const Variable& row : rows) {
     const auto other = equations_.blocks().of(row);
@@ -106,6 +123,7 @@ CrossCovariance<Pose>::CrossCovariance(std::shared_ptr<const SkeletonCovariance<
     height += SkeletonCovariance<Pose>::size(v);
   }
   rows_b_.push_back(height);  // for no drift
+  skeleton_->keep_columns(a, dense_scalars);
   capacity_ = std::max<std::size_t>(2, dense_scalars / static_cast<std::size_t>((height + 2) * kDof));
   all_fit_ = a_.variables.size() <= capacity_;
   solved_ = std::vector<std::atomic<const Eigen::MatrixXd*>>(a_.variables.size() + 1);

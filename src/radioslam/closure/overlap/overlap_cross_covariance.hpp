@@ -39,6 +39,9 @@ class SkeletonCovariance {
   Joint within(const SegmentVariables& segment) const;
   /// Cov(rows, v), stacked, followed by two rows of zeros for segments without a drift.
   Eigen::MatrixXd columns(const Variable& v, const std::vector<Variable>& rows) const;
+  /// Keeps the columns solved from now on, up to so many scalars in all, and forgets those kept before: pairs
+  /// of robots that are searched one after the other often share one.
+  void keep_columns(std::size_t robot, std::size_t scalars) const;
   static constexpr Eigen::Index size(const Variable& v) { return v.kind == VariableKind::kPose ? kDof : 2; }
 
  private:
@@ -47,12 +50,17 @@ class SkeletonCovariance {
 
   Eigen::MatrixXd block(const Variable& a, const Variable& b) const;
   Eigen::MatrixXd to_left(const Variable& v) const;
+  /// Columns of the inverse of the variable with this block.
+  Eigen::MatrixXd inverse_columns(std::size_t block) const;
 
   PoseGraph<Pose> graph_;
   NormalEquations<Pose> equations_;
   std::optional<SelectedInverse> inverse_;
   typename Pose::Point origin_;
   std::vector<std::vector<SegmentVariables>> segments_;
+  mutable std::optional<std::size_t> kept_robot_;
+  mutable std::size_t free_scalars_ = 0;
+  mutable std::unordered_map<std::size_t, Eigen::MatrixXd> kept_;  ///< by block
 };
 
 /// Covariances between robot a's and robot b's segments, solved for on demand. Thread-safe.

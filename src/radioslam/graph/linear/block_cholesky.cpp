@@ -131,7 +131,7 @@ Eigen::MatrixXd BlockCholesky::Impl::in_original_order(const Eigen::MatrixXd& x)
 
 void BlockCholesky::Impl::solve_backward(FrontSolver& solver, Eigen::MatrixXd& x) const {
   for (auto front = tree->fronts.rbegin(); front != tree->fronts.rend(); ++front) {
-    for (auto column : x.colwise()) solver.backward(*front, column.data());
+    solver.backward(*front, x.data(), static_cast<std::size_t>(x.cols()), static_cast<std::size_t>(x.rows()));
   }
 }
 

@@ -47,18 +47,24 @@ void FrontSolver::forward(const Front& front, double* x) {
   });
 }
 
-void FrontSolver::backward(const Front& front, double* x) {
+void FrontSolver::backward(const Front& front, double* x, std::size_t columns, std::size_t stride) {
   const std::size_t p = front.pivots, n = front.scalars();
+  rows_.resize(std::max(rows_.size(), columns * n));
   double* const rows = rows_.data();
-  std::copy_n(x + front.first_scalar, p, rows);
-  for_each_block_below(tree_, front, [&](std::size_t row, std::size_t scalar, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) rows[row + i] = x[scalar + i];
-  });
+  for (std::size_t c = 0; c < columns; ++c) {
+    std::copy_n(x + c * stride + front.first_scalar, p, rows + c * n);
+    for_each_block_below(tree_, front, [&](std::size_t row, std::size_t scalar, std::size_t count) {
+      for (std::size_t i = 0; i < count; ++i) rows[c * n + row + i] = x[c * stride + scalar + i];
+    });
+  }
   for (std::size_t j = p; j-- > 0;) {
     const double* const column = factor_.data() + front.panel + j * n;
-    rows[j] = (rows[j] - dot(column + j + 1, rows + j + 1, n - j - 1)) / column[j];
+    for (std::size_t c = 0; c < columns; ++c) {
+      double* const own = rows + c * n;
+      own[j] = (own[j] - dot(column + j + 1, own + j + 1, n - j - 1)) / column[j];
+    }
   }
-  std::copy_n(rows, p, x + front.first_scalar);
+  for (std::size_t c = 0; c < columns; ++c) std::copy_n(rows + c * n, p, x + c * stride + front.first_scalar);
 }
 
 }  // namespace radioslam

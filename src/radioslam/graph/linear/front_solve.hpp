@@ -1,4 +1,4 @@
-// Substitution with the factor, front by front, on one right-hand side in elimination order.
+// Substitution with the factor, front by front, on right-hand sides in elimination order.
 #pragma once
 
 #include <vector>
@@ -15,8 +15,9 @@ class FrontSolver {
 
   /// The front's part of x <- L^-1 x; its children's parts come before.
   void forward(const Front& front, double* x);
-  /// The front's part of x <- L^-T x; its parent's part comes before.
-  void backward(const Front& front, double* x);
+  /// The front's part of x <- L^-T x for several right-hand sides, the k-th at x + k * stride; its parent's
+  /// part comes before. Each is solved as if alone, but the factor is read once for all.
+  void backward(const Front& front, double* x, std::size_t columns, std::size_t stride);
 
  private:
   const FrontTree& tree_;
