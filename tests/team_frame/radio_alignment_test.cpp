@@ -272,6 +272,37 @@ TEST(AlignByRadio, PlacesThatFitAsWellAreHypothesesOfEqualWeight) {
   for (const auto& hypothesis : alignment.hypotheses) EXPECT_NEAR(hypothesis.weight, 0.25, 0.05);
 }
 
+TEST(AlignByRadio, LargeTeamsPlacedByNeighboursAreWhereTheWholeSearchPutsThem) {
+  RadioWorld world = short_world();
+  world.robots = 5;
+  for (const std::uint64_t seed : {1U, 2U}) {
+    const SimulatedTeam simulated = test::simulate_team(world, seed);
+    RadioAlignmentParams params = quick_params();
+    params.beam.joint_segments = 4;
+    const auto local = align_by_radio(simulated.team, params);
+    params.beam.joint_segments = 5;
+    const auto whole = align_by_radio(simulated.team, params);
+    EXPECT_EQ(local.components.of_segment, std::vector<int>(5, 0));
+    const double difference_m =
+        aligned_error_m(local.hypotheses.front().poses, whole.hypotheses.front().poses);
+    EXPECT_LT(difference_m, 0.3) << "seed " << seed;
+    EXPECT_LT(aligned_error_m(local.hypotheses.front().poses, simulated.truth), 3) << "seed " << seed;
+  }
+}
+
+TEST(AlignByRadio, ALargeTeamWithoutLinksToOneRobotLeavesItInItsOwnComponent) {
+  RadioWorld world = short_world();
+  world.robots = 5;
+  SimulatedTeam simulated = test::simulate_team(world, 3);
+  const TrajectorySegment last = simulated.team.segments.back();
+  const auto of_last = [&](PoseId pose) { return pose.index() >= last.first_pose; };
+  std::erase_if(simulated.team.graph.ranges,
+                [&](const auto& r) { return of_last(r.i.pose) || of_last(r.j.pose); });
+  std::erase_if(simulated.team.bearings, [&](const auto& b) { return of_last(b.i) || of_last(b.j.pose); });
+  const auto alignment = align(simulated.team);
+  EXPECT_EQ(alignment.components.of_segment, (std::vector<int>{0, 0, 0, 0, 1}));
+}
+
 TEST(AlignByRadio, GivesTheSameNumbersForAnyNumberOfThreads) {
   const auto simulated = test::simulate_team(short_world(), 6);
   set_thread_count(1);

@@ -2,8 +2,10 @@ radioslam_room(team_frame
   SOURCES
     alignment_grid.cpp
     beam_search/beam_selection.cpp
+    beam_search/local_placement.cpp
     beam_search/partial_mixture.cpp
     beam_search/placement_order.cpp
+    beam_search/sub_team.cpp
     beam_search/team_beam_search.cpp
     connected_measurements.cpp
     field_refinement.cpp

@@ -4,6 +4,11 @@
 #include <utility>
 
 namespace radioslam {
+namespace {
+
+constexpr double kNegligible = 12;  // logarithm of the ratio of weights
+
+}  // namespace
 
 template <class Pose>
 bool same_alignment(const std::vector<Pose>& a, const std::vector<Pose>& b,
@@ -51,13 +56,25 @@ std::vector<TeamValues<Pose>> different_teams(
   return kept;
 }
 
-#define RADIOSLAM_BEAM_SELECTION(Pose)                                                             \
-  template bool same_alignment(const std::vector<Pose>&, const std::vector<Pose>&,                 \
-                               const std::vector<double>&, const BeamParams&);                     \
-  template std::vector<RefinementStart<Pose>> different_starts(std::vector<RefinementStart<Pose>>, \
-                                                               const BeamParams&);                 \
-  template std::vector<TeamValues<Pose>> different_teams(                                          \
-      std::vector<TeamValues<Pose>>, const BeamParams&,                                            \
+template <class Pose>
+std::vector<TeamValues<Pose>> best_teams(std::vector<TeamValues<Pose>> teams, const BeamParams& params) {
+  std::stable_sort(teams.begin(), teams.end(),
+                   [](const auto& a, const auto& b) { return a.log_evidence > b.log_evidence; });
+  if (teams.size() > static_cast<std::size_t>(params.beam))
+    teams.resize(static_cast<std::size_t>(params.beam));
+  const double least = teams.front().log_evidence - kNegligible * params.evidence_temperature;
+  std::erase_if(teams, [&](const auto& team) { return !(team.log_evidence >= least); });
+  return teams;
+}
+
+#define RADIOSLAM_BEAM_SELECTION(Pose)                                                                 \
+  template std::vector<TeamValues<Pose>> best_teams(std::vector<TeamValues<Pose>>, const BeamParams&); \
+  template bool same_alignment(const std::vector<Pose>&, const std::vector<Pose>&,                     \
+                               const std::vector<double>&, const BeamParams&);                         \
+  template std::vector<RefinementStart<Pose>> different_starts(std::vector<RefinementStart<Pose>>,     \
+                                                               const BeamParams&);                     \
+  template std::vector<TeamValues<Pose>> different_teams(                                              \
+      std::vector<TeamValues<Pose>>, const BeamParams&,                                                \
       const std::function<std::vector<double>(const TeamValues<Pose>&)>&)
 RADIOSLAM_BEAM_SELECTION(SE2);
 RADIOSLAM_BEAM_SELECTION(SE3);

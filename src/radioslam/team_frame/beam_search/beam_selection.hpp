@@ -29,6 +29,11 @@ template <class Pose>
 std::vector<RefinementStart<Pose>> different_starts(std::vector<RefinementStart<Pose>> starts,
                                                     const BeamParams& params);
 
+/// The teams with the most evidence, at most `beam`; those with a negligible weight beside the best are left
+/// out.
+template <class Pose>
+std::vector<TeamValues<Pose>> best_teams(std::vector<TeamValues<Pose>> teams, const BeamParams& params);
+
 /// The teams with the most evidence, at most `beam`, each different from all before within its tolerance and
 /// their uncertainty, the standard deviations `position_sigmas_m(team)`.
 template <class Pose>

@@ -14,6 +14,8 @@ struct BeamParams {
   double same_map_m = 0.5;
   double same_map_sigmas = 3;
   double evidence_temperature = 4;
+  int joint_segments = 4;
+  int neighbours = 3;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -37,6 +39,15 @@ struct BeamParams {
                 "divisor of the log evidence of a hypothesis, since links share errors; higher values even "
                 "out the weights"},
           self.evidence_temperature);
+    visit(
+        Field{
+            "joint_segments", "", 2, 1000,
+            "trajectory segments of the largest team refined as a whole at every step; higher values search "
+            "more thoroughly, at a cost of their fourth power"},
+        self.joint_segments);
+    visit(Field{"neighbours", "", 1, 100,
+                "number of placed segments with which a further segment of a larger team is refined jointly"},
+          self.neighbours);
   }
 };
 

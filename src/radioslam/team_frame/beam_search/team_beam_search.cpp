@@ -1,10 +1,19 @@
 #include "radioslam/team_frame/beam_search/team_beam_search.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "radioslam/base/parallel.hpp"
+#include "radioslam/team_frame/beam_search/local_placement.hpp"
 #include "radioslam/team_frame/beam_search/placement_order.hpp"
 
 namespace radioslam {
 namespace {
+
+/// Up to this number of segments the whole team is refined after every one.
+constexpr std::size_t kRefinedSegments = 12;
+/// By which parts of a team are off when they are put together.
+constexpr double kPartSigma_m = 3, kPartSigma_rad = 0.2;
 
 SE2 as_pose(const SE2& T, const SE2*) { return T; }
 SE3 as_pose(const SE2& T, const SE3*) { return lift(T); }
@@ -72,14 +81,79 @@ void TeamBeamSearch<Pose>::adopt_sighted_points(int component) {
 }
 
 template <class Pose>
+void TeamBeamSearch<Pose>::start_from(TeamValues<Pose> values, TeamComponents components) {
+  components_ = std::move(components);
+  beam_.assign(1, std::move(values));
+}
+
+template <class Pose>
+std::size_t TeamBeamSearch<Pose>::segments_of(int component) const {
+  return static_cast<std::size_t>(
+      std::count(components_.of_segment.begin(), components_.of_segment.end(), component));
+}
+
+template <class Pose>
 void TeamBeamSearch<Pose>::add(int component, const UnplacedNode& unit) {
+  const bool is_large = team_.segments.size() > static_cast<std::size_t>(params_.beam.joint_segments);
+  const bool is_local =
+      is_large && unit.is_segment && team_.graph.points.empty() && segments_of(component) > 1;
+  if (is_local)
+    add_locally(component, unit.index);
+  else
+    add_jointly(component, unit);
+  report_progress(progress_, "team frame",
+                  static_cast<double>(team_.segments.size() - unplaced_nodes(team_, components_).size()) /
+                      static_cast<double>(team_.segments.size()));
+}
+
+/// Keeps the best of the placements of every team of the beam. They are ranked by the evidence of their
+/// parts, then, while that leaves several or the team is small, by that of the whole team.
+template <class Pose>
+void TeamBeamSearch<Pose>::add_locally(int component, std::size_t segment) {
+  std::vector<TeamValues<Pose>> teams;
+  for (const TeamValues<Pose>& team : beam_)
+    for (TeamValues<Pose>& placed : place_locally(team_, components_, component, segment, team, params_))
+      teams.push_back(std::move(placed));
+  components_.of_segment[segment] = component;
+  if (teams.empty()) return;
+  BeamParams wide = params_.beam;
+  wide.beam *= 2;
+  teams = best_teams(std::move(teams), wide);
+  const std::size_t segments = segments_of(component);
+  if (teams.size() == 1 && segments > kRefinedSegments && segments < next_refinement_) {
+    beam_ = std::move(teams);
+    return;
+  }
+  beam_ = best_teams(refined_gradually(std::move(teams)), params_.beam);
+  next_refinement_ = segments * 3 / 2;
+}
+
+/// All links start with wide variances: parts that were placed one after the other do not fit together
+/// exactly.
+template <class Pose>
+std::vector<TeamValues<Pose>> TeamBeamSearch<Pose>::refined_gradually(
+    std::vector<TeamValues<Pose>> teams) const {
+  const Connected connected = connected_team(team_, components_);
+  VarianceInflation inflation;
+  inflation.ranges_m2.assign(connected.ranges.size(), kPartSigma_m * kPartSigma_m);
+  inflation.bearings_rad2.assign(connected.bearings.size(), kPartSigma_rad * kPartSigma_rad);
+  parallel_for(teams.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      MixtureGraph<Pose> work = mixture(connected, teams[k]);
+      teams[k].log_evidence = refine(work, inflation, params_.refinement).log_evidence;
+      teams[k].read_from(work.graph);
+    }
+  });
+  return teams;
+}
+
+template <class Pose>
+void TeamBeamSearch<Pose>::add_jointly(int component, const UnplacedNode& unit) {
   const auto proposals = proposals_for_beam(component, unit);
   (unit.is_segment ? components_.of_segment : components_.of_point)[unit.index] = component;
   const Connected connected = connected_team(team_, components_);
   const Starts starts = different_starts(refined_coarsely(proposals, unit, connected), params_.beam);
   keep_best(refined(starts, connected));
-  report_progress(progress_, "team frame",
-                  static_cast<double>(unit.index + 1) / static_cast<double>(team_.segments.size()));
 }
 
 /// Start poses of the unit for every team of the beam, as pairs (team, proposal).
@@ -153,6 +227,10 @@ MixtureGraph<Pose> TeamBeamSearch<Pose>::mixture(const Connected& connected,
 /// `components_` must be those of `teams` already.
 template <class Pose>
 void TeamBeamSearch<Pose>::keep_best(std::vector<TeamValues<Pose>> teams) {
+  if (teams.size() == 1) {
+    beam_ = std::move(teams);
+    return;
+  }
   auto kept = different_teams<Pose>(std::move(teams), params_.beam, [&](const TeamValues<Pose>& team) {
     return position_sigmas_m(mixture(connected_team(team_, components_), team));
   });
