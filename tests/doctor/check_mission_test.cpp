@@ -4,10 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <ostream>
 
 #include "doctor/sound_mission.hpp"
+#include "radioslam/base/parallel.hpp"
 
 namespace radioslam {
 namespace {
@@ -28,10 +30,81 @@ TEST(CheckMission, HasNothingToSayOfSoundMissions) {
 
 TEST(CheckMission, HasNothingToSayOfAnEmptyMission) { EXPECT_TRUE(check_mission(Mission{}).empty()); }
 
-TEST(CheckMission, IsTheSameEveryTime) {
+TEST(CheckMission, IsTheSameForAnyNumberOfThreads) {
   Mission mission = SoundMission::make();
   for (RangeMeasurement& range : mission.ranges) range.range_m *= 1000;
-  EXPECT_EQ(all_of(check_mission(mission)), all_of(check_mission(mission)));
+  set_thread_count(1);
+  const std::string one = all_of(check_mission(mission));
+  set_thread_count(4);
+  EXPECT_EQ(all_of(check_mission(mission)), one);
+  set_thread_count(0);
+}
+
+bool has_error(const std::vector<Finding>& findings) {
+  return std::any_of(findings.begin(), findings.end(),
+                     [](const auto& f) { return f.severity == Severity::kError; });
+}
+
+/// Odometry of one robot for the first minute only, radio for all four.
+TEST(CheckMission, RadioMayLastLongerThanTheOdometry) {
+  Mission mission = SoundMission::make();
+  std::vector<StampedPose<SE3>> poses;
+  for (const auto& pose : mission.robots[1].odometry)
+    if (pose.stamp.seconds() < 60) poses.push_back(pose);
+  mission.robots[1].odometry = Trajectory<SE3>(std::move(poses));
+  const auto findings = check_mission(mission);
+  EXPECT_FALSE(has_error(findings)) << all_of(findings);
+}
+
+TEST(CheckMission, ARobotMayStandStill) {
+  Mission mission = SoundMission::make();
+  Robot& parked = mission.robots[2];
+  std::vector<StampedPose<SE3>> poses;
+  for (const auto& pose : parked.odometry) poses.push_back({pose.stamp, SE3()});
+  parked.odometry = Trajectory<SE3>(std::move(poses));
+  parked.inertial.clear();
+  parked.wifi.clear();
+  for (RangeMeasurement& range : mission.ranges) {
+    const std::size_t other = range.i.robot.index();
+    if (range.j.robot == RobotIndex(2))
+      range.range_m = distance_to(true_place(2, 0), other, range.stamp.seconds());
+  }
+  std::erase_if(mission.aoa_measurements, [](const auto& angle) {
+    return angle.receiver == RobotIndex(2) || angle.transmitter.robot == RobotIndex(2);
+  });
+  const auto findings = check_mission(mission);
+  EXPECT_TRUE(findings.empty()) << all_of(findings);
+}
+
+/// Half a kilometre along x, three per cent uphill.
+TEST(CheckMission, AStraightRoadMayRise) {
+  Mission mission;
+  mission.robots.resize(1);
+  mission.robots[0].id = "a";
+  std::vector<StampedPose<SE3>> poses;
+  for (int k = 0; k <= 500; ++k)
+    poses.push_back(
+        {Stamp::from_seconds(0.5 * k), SE3({1.0 * k, 0, 0.03 * k}, Eigen::Quaterniond::Identity())});
+  mission.robots[0].odometry = Trajectory<SE3>(std::move(poses));
+  EXPECT_TRUE(check_mission(mission).empty()) << all_of(check_mission(mission));
+}
+
+/// Anchors in the coordinates of a map.
+TEST(CheckMission, AnchorsMayBeFarFromTheOrigin) {
+  Mission mission = SoundMission::make();
+  const Eigen::Vector3d origin(5e5, 5.4e6, 0);
+  for (int k = 0; k < 4; ++k) {
+    const Eigen::Vector2d place(20.0 * (k % 2), 15.0 * k);
+    mission.anchors.push_back(
+        {std::string(1, static_cast<char>('p' + k)), origin + Eigen::Vector3d(place.x(), place.y(), 0), 0.1});
+    for (double t_s = 2; t_s < SoundMission::kDuration_s; t_s += 4) {
+      RangeMeasurement range{Stamp::from_seconds(t_s), {}, {}, distance_to(place, 0, t_s), 0.2};
+      range.i.robot = RobotIndex(0);
+      range.j.anchor = AnchorIndex(static_cast<std::size_t>(k));
+      mission.ranges.push_back(range);
+    }
+  }
+  EXPECT_TRUE(check_mission(mission).empty()) << all_of(check_mission(mission));
 }
 
 struct Fault {

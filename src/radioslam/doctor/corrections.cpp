@@ -79,6 +79,14 @@ void add_ranges(std::vector<Correction>& all) {
          "multiply range_m and sigma_m by two");
 }
 
+/// Whether most angles have an elevation.
+bool has_elevations(const Mission& mission) {
+  std::size_t paths = 0, measured = 0;
+  for (const AoaMeasurement& angle : mission.aoa_measurements)
+    for (const AoaPath& path : angle.paths) ++paths, measured += path.elevation_rad.has_value();
+  return 2 * measured > paths;
+}
+
 /// Corrections of the angles of one receiver, or of all (`r` past the robots).
 void add_angles(const Mission& mission, std::size_t r, std::vector<Correction>& all) {
   const bool is_all = r >= mission.robots.size();
@@ -102,14 +110,11 @@ void add_angles(const Mission& mission, std::size_t r, std::vector<Correction>& 
   changed("handedness", "azimuths turn clockwise from the robot's left or right",
           "counter-clockwise from body x", "replace azimuth_rad by pi/2 - azimuth_rad",
           [](const AoaPath& path, const TeamLinks&, const TrackLink&) { return pi / 2 - path.azimuth_rad; });
-  changed("unit", "azimuths fit the trajectories if they are in degrees", "radians",
-          "multiply azimuth_rad by pi/180", [](const AoaPath& path, const TeamLinks&, const TrackLink&) {
-            return path.azimuth_rad * pi / 180;
-          });
-  changed("column-order", "azimuths and elevations are exchanged", "azimuth_rad before elevation_rad",
-          "exchange the two columns", [](const AoaPath& path, const TeamLinks&, const TrackLink&) {
-            return path.elevation_rad.value_or(0);
-          });
+  if (has_elevations(mission))
+    changed("column-order", "azimuths and elevations are exchanged", "azimuth_rad before elevation_rad",
+            "exchange the two columns", [](const AoaPath& path, const TeamLinks&, const TrackLink&) {
+              return path.elevation_rad.value_or(0);
+            });
   changed("frame", "azimuths are those of the odometry's frame", "the receiver's body frame",
           "subtract the receiver's yaw from azimuth_rad",
           [](const AoaPath& path, const TeamLinks& team, const TrackLink& link) {

@@ -68,7 +68,7 @@ class ClockCheck {
 
   std::vector<ComparedPair> compared_pairs() const {
     std::vector<ComparedPair> pairs;
-    const std::size_t stride = std::max<std::size_t>(1, robot_.wifi.size() / kMaxScans);
+    const std::size_t stride = std::max<std::size_t>(1, (robot_.wifi.size() + kMaxScans - 1) / kMaxScans);
     for (std::size_t a = 0; a < robot_.wifi.size(); a += stride)
       for (std::size_t b = a + stride; b < robot_.wifi.size(); b += stride) {
         const double t_a = robot_.wifi[a].stamp.seconds(), t_b = robot_.wifi[b].stamp.seconds();

@@ -78,6 +78,7 @@ class FrameCheck {
     const Eigen::Vector3d extent = extent_m();
     const double flattest = std::min(extent.x(), extent.y());
     if (extent.z() < 5 || flattest > 0.05 * extent.z()) return;
+    if (extent.z() < 0.5 * std::max(extent.x(), extent.y())) return;  // a straight road with a slope
     add("column-order", is_planar_ ? Severity::kError : Severity::kWarning,
         "the robot moves " + number(extent.z()) + " m along z and " + number(flattest) + " m along " +
             (extent.x() < extent.y() ? "x" : "y"),
@@ -105,7 +106,8 @@ class FrameCheck {
     }
     if (count < 20 || std::abs(yaws) > 0.9 * count) return;  // a straight path looks the same in a mirror
     if (std::abs(mirrored) < 0.85 * count || std::abs(straight) > 0.6 * count) return;
-    add("handedness", Severity::kError, "the path turns to one side while the yaw turns to the other",
+    // Vehicles that reverse may look so, too.
+    add("handedness", Severity::kWarning, "the path turns to one side while the yaw turns to the other",
         "a right-handed frame, y to the left of x and yaw counter-clockwise",
         "change the sign of y, exchange x and y, or change the sign of the yaw");
   }

@@ -88,6 +88,8 @@ class RobotInertial {
 
  private:
   void add(const char* kind, Severity severity, std::string found, std::string expected, std::string advice) {
+    // Only odometry from scans uses the IMU.
+    if (robot_.lidar.empty()) severity = Severity::kWarning;
     findings_.push_back({kind, severity, robot_.id, robot_file(robot_.id, "imu.csv"), std::move(found),
                          std::move(expected), std::move(advice)});
   }
@@ -103,7 +105,7 @@ class RobotInertial {
     const double typical = median(norms);
     const auto is_about = [&](double value) { return typical > 0.8 * value && typical < 1.25 * value; };
     if (is_about(9.81)) return check_up(mean);
-    if (is_about(1))
+    if (is_about(1) && mean.norm() > 0.8)
       return add("unit", Severity::kError, "the specific force is about 1", "about 9.81 m/s^2 at rest",
                  "multiply by 9.81: the values are in g");
     if (is_about(1000) || is_about(9810) || is_about(981))
@@ -169,11 +171,11 @@ class RobotInertial {
 
   std::pair<int, Line> best_lag() const {
     std::pair<int, Line> best{0, line_through(rates_, 2, 2, 0)};
+    const double least_count = 0.3 * best.second.count;
     const int last = static_cast<int>(kMaxLag_s / kStep_s);
     for (int lag = -last; lag <= last; ++lag) {
       const Line line = line_through(rates_, 2, 2, lag);
-      if (line.count > 0.3 * best.second.count &&
-          std::abs(line.correlation) > std::abs(best.second.correlation) + 1e-9)
+      if (line.count > least_count && std::abs(line.correlation) > std::abs(best.second.correlation) + 1e-9)
         best = {lag, line};
     }
     return best;

@@ -21,7 +21,7 @@ namespace radioslam {
 namespace {
 
 constexpr std::size_t kWindowsOfPair = 3;
-constexpr std::size_t kMaxWindows = 12;
+constexpr std::size_t kMinWindows = 12;    // or three per robot
 constexpr double kGoodInlierRatio = 0.95;  // of a window that needs no correction
 constexpr int kMaxCorrections = 3;
 /// Gain in log-likelihood that a correction must bring: at all, and per link that it concerns.
@@ -30,7 +30,7 @@ constexpr double kMinGainPerLink = 0.15;
 constexpr double kMinGainOfOthers = 12;      // than the window that gains most
 constexpr double kWindowGain = 3;            // by which a window is for or against a correction
 constexpr double kCertainGainPerLink = 0.5;  // of a correction that is refused
-constexpr double kMaxNoiseRatio = 4, kMinNoiseRatio = 0.1;
+constexpr double kMaxNoiseRatio = 4;
 constexpr double kMinExplained = 0.3;  // of all links, in a mission without a finding
 constexpr double kClockOffsets_s[] = {0.5, 1,  1.5, 2,  3,  4,  5,  6,  8,  10,
                                       12,  15, 18,  21, 25, 30, 35, 40, 50, 60};
@@ -63,7 +63,9 @@ struct Gain {
         gained >= std::min(2, windows) && (windows < 2 || log_likelihood - most > kMinGainOfOthers);
     return is_enough && is_common && gained > 4 * lost;
   }
-  bool is_certain() const { return log_likelihood > kCertainGainPerLink * links && after > 0.7 * links; }
+  bool is_certain() const {
+    return windows > 1 && log_likelihood > kCertainGainPerLink * links && after > 0.7 * links;
+  }
 };
 
 /// Windows that the correction concerns, those with the least likelihood per link first.
@@ -201,9 +203,11 @@ std::vector<Finding> corrected_faults(const Mission& mission, TeamLinks& team,
 }
 
 /// T_i_j that two stated starts give; the world's is the common frame.
-std::optional<Eigen::Vector4d> stated_alignment(const Mission& mission, std::size_t i, std::size_t j) {
+std::optional<Eigen::Vector4d> stated_alignment(const Mission& mission, const TeamLinks& team, std::size_t i,
+                                                std::size_t j) {
   const auto start = [&](std::size_t node) -> std::optional<SE3> {
-    return node < mission.robots.size() ? mission.robots[node].initial_pose : SE3();
+    if (node < mission.robots.size()) return mission.robots[node].initial_pose;
+    return SE3(team.world_origin_m, Eigen::Quaterniond::Identity());
   };
   const auto a = start(i), b = start(j);
   if (!a || !b) return std::nullopt;
@@ -241,7 +245,7 @@ std::vector<Finding> check_starts(const Mission& mission, const TeamLinks& team,
   std::map<std::size_t, Eigen::Vector4d> difference;
   std::set<std::pair<std::size_t, std::size_t>> seen;
   for (const auto& [window, fit] : windows) {
-    const auto stated = stated_alignment(mission, window.i, window.j);
+    const auto stated = stated_alignment(mission, team, window.i, window.j);
     if (!stated || fit.inlier_ratio < 0.5 || !seen.emplace(window.i, window.j).second) continue;
     const auto contradicted = contradiction(team, window, *stated);
     for (const std::size_t node : {window.i, window.j}) {
@@ -252,12 +256,16 @@ std::vector<Finding> check_starts(const Mission& mission, const TeamLinks& team,
   }
   const auto worst = std::max_element(balance.begin(), balance.end(),
                                       [](const auto& x, const auto& y) { return x.second < y.second; });
-  if (worst == balance.end() || !difference.contains(worst->first)) return {};
+  if (worst == balance.end() || worst->second <= 0) return {};
+  const bool is_unique = std::count_if(balance.begin(), balance.end(),
+                                       [&](const auto& other) { return other.second == worst->second; }) == 1;
   const Eigen::Vector4d d = difference[worst->first];
-  return {{"start", Severity::kWarning, mission.robots[worst->first].id, "mission.yaml",
-           "initial_pose contradicts the radio links by about " + number(d.head<2>().norm()) + " m and " +
-               number(degrees(std::abs(wrap_angle(d(3))))) + " degrees",
-           "the start that the links allow", "correct initial_pose, or state it as unknown"}};
+  return {
+      {"start", Severity::kWarning, is_unique ? mission.robots[worst->first].id : "", "mission.yaml",
+       std::string(is_unique ? "initial_pose contradicts" : "one of two robots' initial_pose contradicts") +
+           " the radio links by about " + number(d.head<2>().norm()) + " m and " +
+           number(degrees(std::abs(wrap_angle(d(3))))) + " degrees",
+       "the start that the links allow", "correct initial_pose, or state it as unknown"}};
 }
 
 /// Robust standard deviation of successive differences, over that of white noise of the stated sigma.
@@ -270,7 +278,7 @@ void check_noise(const std::vector<FittedWindow>& windows, bool of_angles, std::
   }
   if (differences.size() < 30) return;
   const double ratio = kMadToSigma * upper_median(std::move(differences));
-  if (ratio < kMaxNoiseRatio && ratio > kMinNoiseRatio) return;
+  if (ratio < kMaxNoiseRatio) return;
   findings.push_back(
       {"noise", Severity::kWarning, "", of_angles ? "radio/aoa.csv" : "radio/ranges.csv",
        "the measured noise is " + number(ratio) + " times the stated sigma", "a sigma within a factor of two",
@@ -280,7 +288,7 @@ void check_noise(const std::vector<FittedWindow>& windows, bool of_angles, std::
 std::vector<LinkWindow> windows_to_check(const TeamLinks& team) {
   std::vector<LinkWindow> windows = link_windows(team, kWindowsOfPair);
   std::vector<LinkWindow> kept;
-  const std::size_t count = std::min(windows.size(), kMaxWindows);
+  const std::size_t count = std::min(windows.size(), std::max(kMinWindows, 3 * team.tracks.size()));
   for (std::size_t k = 0; k < count; ++k) kept.push_back(std::move(windows[k * windows.size() / count]));
   return kept;
 }
@@ -289,7 +297,9 @@ std::vector<LinkWindow> windows_to_check(const TeamLinks& team) {
 
 std::vector<Finding> check_links(const Mission& mission) {
   TeamLinks team = team_links(mission);
-  std::vector<FittedWindow> windows = fitted(team, windows_to_check(team));
+  std::vector<LinkWindow> chosen = windows_to_check(team);
+  keep_links_of(chosen, team);
+  std::vector<FittedWindow> windows = fitted(team, chosen);
   std::vector<Finding> findings = corrected_faults(mission, team, windows);
   for (Finding& start : check_starts(mission, team, windows)) findings.push_back(std::move(start));
   check_noise(windows, false, findings);

@@ -27,9 +27,10 @@ class AlignmentSearch {
   Alignment sought() const {
     std::pair<double, Alignment> best{-std::numeric_limits<double>::infinity(), Alignment::Zero()};
     for (const auto& [cost, T] : starts()) {
-      const Alignment candidate = refined(T);
-      const double value = model_.log_likelihood(candidate);
-      if (value > best.first) best = {value, candidate};
+      for (const Alignment& candidate : {refined(T), T}) {
+        const double value = model_.log_likelihood(candidate);
+        if (value > best.first) best = {value, candidate};
+      }
     }
     return best.second;
   }
@@ -130,7 +131,8 @@ LinkFit described(const LinkLikelihood& model, const Alignment& T, std::size_t l
     const double r = model.residual(sample, T);
     if (std::abs(r) > kExplainedSigmas * sample.sigma) continue;
     ++explained;
-    (sample.is_angle ? fit.angle_residuals : fit.residuals).push_back(r / sample.own_sigma);
+    if (!sample.is_fix)
+      (sample.is_angle ? fit.angle_residuals : fit.residuals).push_back(r / sample.own_sigma);
   }
   fit.inlier_ratio =
       static_cast<double>(explained) / static_cast<double>(std::max<std::size_t>(1, fit.links));

@@ -19,7 +19,7 @@ struct LinkFit {
   double log_likelihood = 0;                            ///< of all links of the window
   std::size_t links = 0;                                ///< of the window
   double inlier_ratio = 0;                              ///< links explained, of all
-  std::vector<double> residuals;  ///< of explained ranges and fixes over their own sigmas, without drift
+  std::vector<double> residuals;  ///< of explained ranges over their own sigmas, without drift
   std::vector<double> angle_residuals;
 };
 

@@ -55,6 +55,7 @@ void LinkLikelihood::add(const TeamLinks& team, const LinkWindow& window, const 
     return;
   }
   sample.is_angle = link.kind == TrackLink::Kind::kAngle;
+  sample.is_fix = link.kind == TrackLink::Kind::kFix;
   sample.receiver_is_i = a_is_i;
   sample.R_receiver = a_is_i ? R_i : R_j;
   sample.range_m = link.range_m;

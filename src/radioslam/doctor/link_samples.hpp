@@ -14,7 +14,7 @@ namespace radioslam {
 struct LinkSample {
   Eigen::Vector3d p_i, p_j;
   Eigen::Matrix3d R_receiver;
-  bool is_angle = false, receiver_is_i = true;
+  bool is_angle = false, is_fix = false, receiver_is_i = true;
   double range_m = 0, height_m = 0;
   double own_sigma = 1;  ///< as recorded
   double sigma = 1;      ///< with the error of dead reckoning

@@ -38,6 +38,14 @@ double explained_from(const std::vector<Strength>& strengths, const Eigen::Vecto
   return vx > 0 && vy > 0 && vxy < 0 ? vxy * vxy / (vx * vy) : 0;
 }
 
+/// At most about 400 of them, evenly.
+std::vector<Strength> thinned(const std::vector<Strength>& strengths) {
+  const std::size_t stride = strengths.size() / 400 + 1;
+  std::vector<Strength> result;
+  for (std::size_t k = 0; k < strengths.size(); k += stride) result.push_back(strengths[k]);
+  return result;
+}
+
 /// The same for the best place on a grid; nothing where the strengths are too few or too even to tell.
 std::optional<double> explained_by_a_place(const std::vector<Strength>& strengths) {
   if (strengths.size() < kMinStrengths) return std::nullopt;
@@ -110,7 +118,7 @@ class AccessPointCheck {
     std::vector<std::pair<std::size_t, double>> explained;
     std::vector<double> ratios;
     for (const auto& [access_point, strengths] : heard) {
-      const auto ratio = explained_by_a_place(strengths);
+      const auto ratio = explained_by_a_place(thinned(strengths));
       if (!ratio) continue;
       explained.emplace_back(access_point, *ratio);
       ratios.push_back(*ratio);

@@ -78,19 +78,31 @@ class RobotCheck {
         "a recording of at least some minutes", "record it again, or leave the robot out");
   }
 
+  /// Mean speeds over stretches of at least a second in which the robot moves.
+  std::vector<double> speeds_over_a_second() const {
+    std::vector<double> speeds;
+    double dt_s = 0, length_m = 0;
+    for (const Step& step : steps_) {
+      dt_s += step.dt_s;
+      length_m += step.length_m;
+      if (dt_s < 1) continue;
+      if (length_m > 0) speeds.push_back(length_m / dt_s);
+      dt_s = length_m = 0;
+    }
+    return speeds;
+  }
+
   /// Units of time and position; returns whether one is wrong.
   bool check_units() {
-    std::vector<double> speeds;
-    for (const Step& step : steps_)
-      if (step.length_m > 0) speeds.push_back(step.length_m / step.dt_s);
-    if (speeds.empty()) return false;
-    const double typical = median(speeds);
+    const std::vector<double> speeds = speeds_over_a_second();
+    if (speeds.size() < 5) return false;
+    const double typical = median(speeds), fast = quantile(speeds, 0.95);
     const double dt_s = median(collected(steps_, [](const Step& s) { return s.dt_s; }));
     if (typical > kMaxSpeed_mps) {
       const char* unit = typical > 4 * kMaxSpeed_mps ? "millimetres" : "centimetres";
       add("unit", Severity::kError, "the robot moves at " + number(typical) + " m/s", "metres and seconds",
           std::string("positions look like ") + unit + ", or times like another unit");
-    } else if (typical < 0.02 && dt_s >= 8 && path_m(steps_) > 5) {
+    } else if (fast < 0.02 && dt_s >= 8 && path_m(steps_) > 5) {
       add("unit", Severity::kError,
           "the robot moves at " + number(typical) + " m/s, with a pose every " + number(dt_s) + " s",
           "seconds",
@@ -147,8 +159,8 @@ class RobotCheck {
 
 /// Whether the steps of two trajectories are the same, wherever and whenever they begin.
 bool same_recording(const Trajectory<SE3>& a, const Trajectory<SE3>& b) {
+  if (a.size() < 21 || b.size() != a.size()) return false;
   const auto steps_a = steps_of(a), steps_b = steps_of(b);
-  if (steps_a.size() < 20 || steps_b.size() != steps_a.size()) return false;
   std::size_t moving = 0;
   for (std::size_t k = 0; k < steps_a.size(); ++k) {
     if (std::abs(steps_a[k].length_m - steps_b[k].length_m) > 1e-4) return false;
@@ -165,7 +177,7 @@ void check_duplicates(const Mission& mission, std::vector<Finding>& findings) {
     for (std::size_t a = 0; a < b; ++a) {
       if (!same_recording(mission.robots[a].odometry, mission.robots[b].odometry)) continue;
       findings.push_back(
-          {"duplicate", Severity::kError, mission.robots[b].id, odometry_file(mission.robots[b].id),
+          {"duplicate", Severity::kWarning, mission.robots[b].id, odometry_file(mission.robots[b].id),
            "the same motion as that of robot '" + mission.robots[a].id + "'", "a recording of its own",
            "remove one of the two, or replace it by the right recording"});
       break;

@@ -46,7 +46,7 @@ void check_robot(const Robot& robot, std::vector<Finding>& findings) {
   const double typical = medians.empty() ? 1 : median(medians);
   if (typical > kMaxMedianRange_m || typical < 0.05)
     findings.push_back({"unit", Severity::kError, robot.id, folder,
-                        "half of the points are beyond " + number(typical) + " m", "metres",
+                        "the median range of the points is " + number(typical) + " m", "metres",
                         typical > 1 ? "divide the coordinates by 1000 if they are in millimetres"
                                     : "multiply the coordinates by 1000 if they are in kilometres"});
   if (2 * repeated >= count)

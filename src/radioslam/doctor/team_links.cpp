@@ -21,8 +21,12 @@ using Pair = std::pair<std::size_t, std::size_t>;
 
 std::map<Pair, std::vector<std::size_t>> links_of_pairs(const TeamLinks& team) {
   std::map<Pair, std::vector<std::size_t>> pairs;
+  const auto is_placed = [&](const TrackEnd& end, double t_s) {
+    return end.node == team.world() || team.tracks[end.node].at(t_s).has_value();
+  };
   for (std::size_t k = 0; k < team.links.size(); ++k)
-    pairs[std::minmax(team.links[k].a.node, team.links[k].b.node)].push_back(k);
+    if (is_placed(team.links[k].a, team.links[k].t_s) && is_placed(team.links[k].b, team.links[k].t_s))
+      pairs[std::minmax(team.links[k].a.node, team.links[k].b.node)].push_back(k);
   for (auto& [pair, links] : pairs)
     std::stable_sort(links.begin(), links.end(),
                      [&](auto x, auto y) { return team.links[x].t_s < team.links[y].t_s; });
@@ -103,6 +107,22 @@ void add_fixes(const Mission& mission, TeamLinks& team) {
                             0});
 }
 
+/// Moves the world's frame to the middle of its points: numbers stay small where coordinates are those of a
+/// map.
+void centre_world(TeamLinks& team) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double count = 0;
+  const auto for_points = [&](const auto& visit) {
+    for (TrackLink& link : team.links)
+      for (TrackEnd* end : {&link.a, &link.b})
+        if (end->node == team.world()) visit(end->point_m);
+  };
+  for_points([&](const Eigen::Vector3d& point) { sum += point, count += 1; });
+  if (count == 0) return;
+  team.world_origin_m = sum / count;
+  for_points([&](Eigen::Vector3d& point) { point -= team.world_origin_m; });
+}
+
 }  // namespace
 
 Track::Track(const Trajectory<SE3>& odometry) {
@@ -166,6 +186,7 @@ TeamLinks team_links(const Mission& mission) {
   add_ranges(mission, team, end_of);
   add_angles(mission, team, end_of);
   add_fixes(mission, team);
+  centre_world(team);
   return team;
 }
 
@@ -179,6 +200,16 @@ std::vector<LinkWindow> link_windows(const TeamLinks& team, std::size_t per_pair
         result.push_back(std::move(windows[k * windows.size() / count]));
     }
   return result;
+}
+
+void keep_links_of(std::vector<LinkWindow>& windows, TeamLinks& team) {
+  std::vector<TrackLink> kept;
+  for (LinkWindow& window : windows)
+    for (std::size_t& k : window.links) {
+      kept.push_back(team.links[k]);
+      k = kept.size() - 1;
+    }
+  team.links = std::move(kept);
 }
 
 }  // namespace radioslam

@@ -43,8 +43,9 @@ class Track {
 
 /// End of a link: a robot's antenna, or a point of the common frame (an anchor or a position fix).
 struct TrackEnd {
-  std::size_t node = 0;                               ///< robot, or TeamLinks::world()
-  Eigen::Vector3d point_m = Eigen::Vector3d::Zero();  ///< in the body frame, or in the common frame
+  std::size_t node = 0;  ///< robot, or TeamLinks::world()
+  Eigen::Vector3d point_m =
+      Eigen::Vector3d::Zero();  ///< in the body frame, or in the common one about its origin
 };
 
 /// A range, an angle or a position fix (a range of zero).
@@ -62,6 +63,7 @@ struct TeamLinks {
   std::vector<Track> tracks;     ///< one per robot
   std::vector<TrackLink> links;  ///< in time order within each kind
   bool is_planar = true;
+  Eigen::Vector3d world_origin_m = Eigen::Vector3d::Zero();  ///< of the points' frame, in the common frame
 
   std::size_t world() const { return tracks.size(); }
 };
@@ -79,5 +81,8 @@ struct LinkWindow {
 /// Windows spread over the mission, at most `per_pair` (two or more) of every pair of nodes: short ones, in
 /// which dead reckoning is nearly exact, and a long one, in which a constant error of ranges shows.
 std::vector<LinkWindow> link_windows(const TeamLinks& team, std::size_t per_pair);
+
+/// Drops the links that are in no window, so that copies of the team stay small.
+void keep_links_of(std::vector<LinkWindow>& windows, TeamLinks& team);
 
 }  // namespace radioslam

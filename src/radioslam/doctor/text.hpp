@@ -10,7 +10,7 @@ namespace radioslam {
 inline std::string number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", value);
-  if (std::string(text).find('e') != std::string::npos && value > -1e9 && value < 1e9 &&
+  if (std::string(text).find('e') != std::string::npos && value > -1e15 && value < 1e15 &&
       (value > 1 || value < -1))
     std::snprintf(text, sizeof text, "%.0f", value);
   return text;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace radioslam {
 namespace {
 
@@ -46,6 +48,23 @@ TEST(DifferentStarts, KeepsTheCheapestThatDiffer) {
   ASSERT_EQ(kept.size(), 2u);
   EXPECT_EQ(kept[0].cost, 1);
   EXPECT_EQ(kept[1].cost, 2);
+}
+
+TEST(BestTeams, KeepsTheBestWithoutNegligibleOnes) {
+  const BeamParams params{.beam = 3, .evidence_temperature = 1};
+  const std::vector<TeamValues<SE2>> teams{team_at(0, 1), team_at(1, 20), team_at(2, 15), team_at(3, 12),
+                                           team_at(4, 11)};
+  EXPECT_EQ(positions(best_teams(teams, params)), (std::vector<double>{1, 2, 3}));
+  const std::vector<TeamValues<SE2>> far{team_at(0, 1), team_at(1, 20)};
+  EXPECT_EQ(positions(best_teams(far, params)), (std::vector<double>{1}));
+}
+
+/// Of a team whose covariance is singular, say a robot that never moved.
+TEST(BestTeams, KeepTeamsWithoutEvidence) {
+  const double none = -std::numeric_limits<double>::infinity();
+  const std::vector<TeamValues<SE2>> teams{team_at(0, none), team_at(1, none)};
+  EXPECT_EQ(best_teams(teams, BeamParams{}).size(), 2U);
+  EXPECT_TRUE(best_teams(std::vector<TeamValues<SE2>>{}, BeamParams{}).empty());
 }
 
 }  // namespace

@@ -54,7 +54,8 @@ void print_text(const std::vector<Finding>& findings, const std::string& mission
 void examine(const DoctorArguments& options) {
   const std::vector<Finding> findings = examine_mission(options.mission);
   if (options.json)
-    std::cout << findings_json(findings).dump(2) << '\n';
+    std::cout << findings_json(findings).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)
+              << '\n';
   else
     print_text(findings, options.mission);
 }

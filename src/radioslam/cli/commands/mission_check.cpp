@@ -103,7 +103,7 @@ Finding refused(const InputError& error, const fs::path& folder) {
     finding.expected = "a robot or antenna of mission.yaml";
     const std::string meant = meant_robot(quoted(error.reason()), ids);
     if (!meant.empty()) finding.advice += "; did you mean " + meant + "?";
-    if (finding.robot.empty()) finding.robot = meant;
+    if (finding.robot.empty() && canonical(meant) == canonical(quoted(error.reason()))) finding.robot = meant;
   }
   return finding;
 }

@@ -1,6 +1,7 @@
 #include "radioslam/team_frame/beam_search/beam_selection.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace radioslam {
@@ -62,6 +63,7 @@ std::vector<TeamValues<Pose>> best_teams(std::vector<TeamValues<Pose>> teams, co
                    [](const auto& a, const auto& b) { return a.log_evidence > b.log_evidence; });
   if (teams.size() > static_cast<std::size_t>(params.beam))
     teams.resize(static_cast<std::size_t>(params.beam));
+  if (teams.empty() || !std::isfinite(teams.front().log_evidence)) return teams;
   const double least = teams.front().log_evidence - kNegligible * params.evidence_temperature;
   std::erase_if(teams, [&](const auto& team) { return !(team.log_evidence >= least); });
   return teams;

@@ -1,6 +1,7 @@
 #include "radioslam/team_frame/beam_search/local_placement.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -12,7 +13,8 @@
 namespace radioslam {
 namespace {
 
-/// A segment of a large team has links with several others, which leave fewer places open than those of a small one.
+/// A segment of a large team has links with several others, which leave fewer places open than those of a
+/// small one.
 RadioAlignmentParams with_fewer_starts(RadioAlignmentParams params) {
   params.beam.tried_places = std::max(1, params.beam.tried_places / 3);
   params.beam.refined_places = std::max(params.beam.beam, params.beam.refined_places / 4);
@@ -21,8 +23,9 @@ RadioAlignmentParams with_fewer_starts(RadioAlignmentParams params) {
 
 /// Poses of placed segments that have a link with the segment, by segment.
 template <class Pose>
-std::map<std::size_t, std::vector<PoseId>> linked_poses(const TeamGraph<Pose>& team, const TeamComponents& components,
-                                                        int component, std::size_t segment) {
+std::map<std::size_t, std::vector<PoseId>> linked_poses(const TeamGraph<Pose>& team,
+                                                        const TeamComponents& components, int component,
+                                                        std::size_t segment) {
   const auto segment_of = segment_of_poses(team);
   std::map<std::size_t, std::vector<PoseId>> linked;
   const auto add = [&](PoseId i, PoseId j) {
@@ -64,8 +67,9 @@ Neighbours neighbours_of(const TeamGraph<Pose>& team, const TeamComponents& comp
 
 /// The team with the segment's poses from its part, moved so that the reference pose is where it was.
 template <class Pose>
-TeamValues<Pose> with_segment(const TeamGraph<Pose>& team, const TeamValues<Pose>& at, const SubTeam<Pose>& part,
-                              const TeamGraph<Pose>& placed, std::size_t segment, PoseId reference) {
+TeamValues<Pose> with_segment(const TeamGraph<Pose>& team, const TeamValues<Pose>& at,
+                              const SubTeam<Pose>& part, const TeamGraph<Pose>& placed, std::size_t segment,
+                              PoseId reference) {
   const auto pose_in_part = [&](std::size_t whole_pose) {
     for (std::size_t p = 0; p < part.segments.size(); ++p) {
       const TrajectorySegment& own = team.segments[part.segments[p]];
@@ -77,7 +81,8 @@ TeamValues<Pose> with_segment(const TeamGraph<Pose>& team, const TeamValues<Pose
   TeamValues<Pose> result = at;
   const Pose T = at.poses[reference.index()] * pose_in_part(reference.index()).inverse();
   const TrajectorySegment& own = team.segments[segment];
-  for (std::size_t k = own.first_pose; k < own.first_pose + own.pose_count; ++k) result.poses[k] = T * pose_in_part(k);
+  for (std::size_t k = own.first_pose; k < own.first_pose + own.pose_count; ++k)
+    result.poses[k] = T * pose_in_part(k);
   return result;
 }
 
@@ -87,8 +92,8 @@ template <class Pose>
 std::vector<TeamValues<Pose>> place_locally(const TeamGraph<Pose>& team, const TeamComponents& components,
                                             int component, std::size_t segment, const TeamValues<Pose>& at,
                                             const RadioAlignmentParams& params) {
-  const Neighbours neighbours = neighbours_of(team, components, component, segment,
-                                              static_cast<std::size_t>(params.beam.neighbours));
+  const Neighbours neighbours =
+      neighbours_of(team, components, component, segment, static_cast<std::size_t>(params.beam.neighbours));
   if (neighbours.segments.empty()) return {};
   std::vector<std::size_t> segments = neighbours.segments;
   segments.insert(std::upper_bound(segments.begin(), segments.end(), segment), segment);
@@ -119,14 +124,17 @@ std::vector<TeamValues<Pose>> place_locally(const TeamGraph<Pose>& team, const T
     found.write_to(compressed.team.graph);
     expand_values(compressed, values);
     teams.push_back(with_segment(team, at, part, values, segment, neighbours.reference));
-    teams.back().log_evidence = at.log_evidence + found.log_evidence - evidence_without;
+    // Where a part leaves a direction open, its evidence says nothing.
+    const double gain = found.log_evidence - evidence_without;
+    teams.back().log_evidence = at.log_evidence + (std::isfinite(gain) ? gain : 0);
   }
   return teams;
 }
 
-#define RADIOSLAM_LOCAL_PLACEMENT(Pose)                                                                              \
-  template std::vector<TeamValues<Pose>> place_locally(const TeamGraph<Pose>&, const TeamComponents&, int, std::size_t, \
-                                                       const TeamValues<Pose>&, const RadioAlignmentParams&)
+#define RADIOSLAM_LOCAL_PLACEMENT(Pose)                                                                    \
+  template std::vector<TeamValues<Pose>> place_locally(const TeamGraph<Pose>&, const TeamComponents&, int, \
+                                                       std::size_t, const TeamValues<Pose>&,               \
+                                                       const RadioAlignmentParams&)
 RADIOSLAM_LOCAL_PLACEMENT(SE2);
 RADIOSLAM_LOCAL_PLACEMENT(SE3);
 

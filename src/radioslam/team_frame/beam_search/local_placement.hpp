@@ -11,8 +11,8 @@
 namespace radioslam {
 
 /// The team `at` with the unplaced `segment` in `component`, once for every alignment that its links with its
-/// neighbours leave open. The evidence is that of `at` and what the part of the team, refined by itself, gains by
-/// the segment; the other segments stay where they are.
+/// neighbours leave open. The evidence is that of `at` and what the part of the team, refined by itself,
+/// gains by the segment; the other segments stay where they are.
 template <class Pose>
 std::vector<TeamValues<Pose>> place_locally(const TeamGraph<Pose>& team, const TeamComponents& components,
                                             int component, std::size_t segment, const TeamValues<Pose>& at,
