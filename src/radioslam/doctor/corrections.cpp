@@ -12,9 +12,6 @@
 namespace radioslam {
 namespace {
 
-constexpr const char* kRanges = "radio/ranges.csv";
-constexpr const char* kAngles = "radio/aoa.csv";
-
 struct Unit {
   const char* name;
   double metres;
@@ -63,7 +60,7 @@ void add_ranges(std::vector<Correction>& all) {
   const auto scaled = [&](double factor, std::string kind, std::string found, std::string expected,
                           std::string advice) {
     all.push_back(
-        {finding(std::move(kind), "", kRanges, std::move(found), std::move(expected), std::move(advice)),
+        {finding(std::move(kind), "", kRangesFile, std::move(found), std::move(expected), std::move(advice)),
          [factor](TeamLinks& team) {
            for_links(team, TrackLink::Kind::kRange,
                      [&](TrackLink& link) { link.range_m *= factor, link.sigma *= factor; });
@@ -100,7 +97,7 @@ void add_angles(const Mission& mission, std::size_t r, std::vector<Correction>& 
       });
     };
     all.push_back(
-        {finding(std::move(kind), id, kAngles, std::move(found), std::move(expected), std::move(advice)),
+        {finding(std::move(kind), id, kAnglesFile, std::move(found), std::move(expected), std::move(advice)),
          apply, is_all ? std::function<bool(std::size_t, std::size_t)>(every_pair()) : pairs_of(r)});
   };
   using std::numbers::pi;
@@ -125,7 +122,7 @@ void add_angles(const Mission& mission, std::size_t r, std::vector<Correction>& 
 }
 
 Correction exchanged_ends() {
-  return {finding("column-order", "", kAngles,
+  return {finding("column-order", "", kAnglesFile,
                   "angles fit the trajectories with receiver and transmitter exchanged",
                   "the receiver measures the angle", "exchange the columns receiver and transmitter"),
           [](TeamLinks& team) {
@@ -146,7 +143,7 @@ void add_fixes(const Mission& mission, std::size_t r, std::vector<Correction>& a
   const auto concerns = [r, world = mission.robots.size()](std::size_t i, std::size_t j) {
     return i == r && j == world;
   };
-  all.push_back({finding("column-order", id, "robots/" + id + "/gnss.csv",
+  all.push_back({finding("column-order", id, robot_file(id, "gnss.csv"),
                          "position fixes are a mirror image of the odometry", "x to the east, y to the north",
                          "exchange x_m and y_m"),
                  apply, concerns});
@@ -173,7 +170,7 @@ void add_heights(const Mission& mission, const TeamLinks& team, const auto& add)
       const auto robot = [r, world](std::size_t i, std::size_t j) {
         return j != world && (i == r || j == r);
       };
-      add(finding("height", mission.robots[r].id, "radio/ranges.csv",
+      add(finding("height", mission.robots[r].id, kRangesFile,
                   "distances fit the trajectories if the robot is about " + number(height_m) +
                       " m above or below the others",
                   "antennas at the same height in a planar mission", "state the heights and use dimension 3"),
@@ -215,8 +212,8 @@ std::vector<Correction> clock_corrections(const Mission& mission, const TeamLink
                    },
                    every_pair()});
   };
-  file(TrackLink::Kind::kRange, kRanges);
-  file(TrackLink::Kind::kAngle, kAngles);
+  file(TrackLink::Kind::kRange, kRangesFile);
+  file(TrackLink::Kind::kAngle, kAnglesFile);
   for (std::size_t r = 0; r < mission.robots.size(); ++r) {
     const std::string& id = mission.robots[r].id;
     all.push_back({finding("clock", id, odometry_file(id), "times are " + seconds_text(seconds),
@@ -224,7 +221,7 @@ std::vector<Correction> clock_corrections(const Mission& mission, const TeamLink
                            "subtract " + number(seconds) + " s from all times of the robot"),
                    [r, seconds](TeamLinks& links) { links.tracks[r].shift(-seconds); }, pairs_of(r)});
     if (mission.robots[r].fixes.empty()) continue;
-    all.push_back({finding("clock", id, "robots/" + id + "/gnss.csv", "times are " + seconds_text(seconds),
+    all.push_back({finding("clock", id, robot_file(id, "gnss.csv"), "times are " + seconds_text(seconds),
                            "the clock of the odometry", "subtract " + number(seconds) + " s from t_s"),
                    [r, seconds](TeamLinks& links) {
                      for_links(links, TrackLink::Kind::kFix, [&](TrackLink& link) {
@@ -247,7 +244,7 @@ std::vector<Correction> offset_corrections(const Mission& mission, const TeamLin
     if (!has_ranges) break;
     add(
         finding(
-            "bias", "", kRanges,
+            "bias", "", kRangesFile,
             "distances are about " + number(std::abs(bias_m)) + " m too " + (bias_m > 0 ? "long" : "short"),
             "unbiased distances", "subtract the antenna delay, about " + number(bias_m) + " m"),
         [bias_m](TeamLinks& links) {
@@ -260,7 +257,7 @@ std::vector<Correction> offset_corrections(const Mission& mission, const TeamLin
     for (int k = 1; k < 24; ++k) {
       const double bias_rad = wrap_angle(k * std::numbers::pi / 12);
       add(
-          finding("bias", mission.robots[r].id, kAngles,
+          finding("bias", mission.robots[r].id, kAnglesFile,
                   "azimuths are about " + number(degrees(bias_rad)) + " degrees too large",
                   "azimuths from body x",
                   "subtract " + number(bias_rad) + " from azimuth_rad, or check how the array is mounted"),

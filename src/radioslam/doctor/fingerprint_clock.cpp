@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "radioslam/doctor/correlation.hpp"
 #include "radioslam/doctor/text.hpp"
 
 namespace radioslam {
@@ -80,16 +81,15 @@ class ClockCheck {
 
   /// Correlation of similarity with nearness of the places, if the scans are `seconds` late.
   double agreement(const std::vector<ComparedPair>& pairs, double seconds) const {
-    double n = 0, sx = 0, sy = 0, sxx = 0, syy = 0, sxy = 0;
+    CorrelationSums sums;
     for (const ComparedPair& pair : pairs) {
       const auto a = track_.at(pair.t_a_s - seconds), b = track_.at(pair.t_b_s - seconds);
       if (!a || !b) continue;
-      const double x = std::exp(-(a->position_m - b->position_m).norm() / 8), y = pair.similarity;
-      n += 1, sx += x, sy += y, sxx += x * x, syy += y * y, sxy += x * y;
+      sums.add(std::exp(-(a->position_m - b->position_m).norm() / 8), pair.similarity);
     }
-    if (n < 0.5 * static_cast<double>(pairs.size())) return -1;
-    const double spread = (n * sxx - sx * sx) * (n * syy - sy * sy);
-    return spread > 0 ? (n * sxy - sx * sy) / std::sqrt(spread) : 0;
+    if (sums.n < 0.5 * static_cast<double>(pairs.size())) return -1;
+    const double spread = sums.spread_x() * sums.spread_y();
+    return spread > 0 ? sums.spread_xy() / std::sqrt(spread) : 0;
   }
 
   const Robot& robot_;

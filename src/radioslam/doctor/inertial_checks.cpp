@@ -1,11 +1,10 @@
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <string>
 #include <utility>
 
 #include "radioslam/base/statistics.hpp"
-#include "radioslam/base/units.hpp"
+#include "radioslam/doctor/correlation.hpp"
 #include "radioslam/doctor/sensor_checks.hpp"
 #include "radioslam/doctor/text.hpp"
 #include "radioslam/geometry/so3.hpp"
@@ -54,23 +53,23 @@ struct Line {
 };
 
 Line line_through(const Rates& rates, int odometry_axis, int gyroscope_axis, int lag) {
-  double n = 0, sx = 0, sy = 0, sxx = 0, syy = 0, sxy = 0;
+  CorrelationSums sums;
   for (std::size_t k = 0; k < rates.odometry.size(); ++k) {
     const auto at = static_cast<std::ptrdiff_t>(k) + lag;
     if (at < 0 || at >= std::ssize(rates.gyroscope)) continue;
     const double x = rates.odometry[k](odometry_axis),
                  y = rates.gyroscope[static_cast<std::size_t>(at)](gyroscope_axis);
     if (!std::isfinite(x) || !std::isfinite(y)) continue;
-    n += 1, sx += x, sy += y, sxx += x * x, syy += y * y, sxy += x * y;
+    sums.add(x, y);
   }
   Line line;
-  const double vx = n * sxx - sx * sx, vy = n * syy - sy * sy, vxy = n * sxy - sx * sy;
-  if (n < 30 || vx <= 0 || vy <= 0) return line;
-  line.count = n;
+  const double vx = sums.spread_x(), vy = sums.spread_y(), vxy = sums.spread_xy();
+  if (sums.n < 30 || vx <= 0 || vy <= 0) return line;
+  line.count = sums.n;
   line.correlation = vxy / std::sqrt(vx * vy);
   line.slope = vxy / vx;
-  line.intercept = (sy - line.slope * sx) / n;
-  line.sigma_x = std::sqrt(vx) / n;
+  line.intercept = (sums.y - line.slope * sums.x) / sums.n;
+  line.sigma_x = std::sqrt(vx) / sums.n;
   return line;
 }
 

@@ -96,7 +96,6 @@ Gain gain_of(const Correction& correction, const TeamLinks& team, const std::vec
   std::size_t tried = 0;
   for (const FittedWindow* known : concerned(correction, windows)) {
     if (tried++ == kTrialWindows && gain.log_likelihood < kWindowGain) break;
-
     const auto& [window, fit] = *known;
     const LinkFit other = fit_links(corrected, window);
     const double difference = other.log_likelihood - fit.log_likelihood +
@@ -280,7 +279,7 @@ void check_noise(const std::vector<FittedWindow>& windows, bool of_angles, std::
   const double ratio = kMadToSigma * upper_median(std::move(differences));
   if (ratio < kMaxNoiseRatio) return;
   findings.push_back(
-      {"noise", Severity::kWarning, "", of_angles ? "radio/aoa.csv" : "radio/ranges.csv",
+      {"noise", Severity::kWarning, "", of_angles ? kAnglesFile : kRangesFile,
        "the measured noise is " + number(ratio) + " times the stated sigma", "a sigma within a factor of two",
        std::string("multiply ") + (of_angles ? "sigma_rad" : "sigma_m") + " by " + number(ratio)});
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "radioslam/base/statistics.hpp"
+#include "radioslam/doctor/correlation.hpp"
 #include "radioslam/doctor/text.hpp"
 
 namespace radioslam {
@@ -29,12 +30,9 @@ struct Strength {
 /// Share of the variance that a line over the logarithm of the distance to `place` explains; falling ones
 /// only.
 double explained_from(const std::vector<Strength>& strengths, const Eigen::Vector2d& place) {
-  double n = 0, sx = 0, sy = 0, sxx = 0, syy = 0, sxy = 0;
-  for (const Strength& s : strengths) {
-    const double x = std::log10(2 + (s.position_m - place).norm()), y = s.rssi_dbm;
-    n += 1, sx += x, sy += y, sxx += x * x, syy += y * y, sxy += x * y;
-  }
-  const double vx = n * sxx - sx * sx, vy = n * syy - sy * sy, vxy = n * sxy - sx * sy;
+  CorrelationSums sums;
+  for (const Strength& s : strengths) sums.add(std::log10(2 + (s.position_m - place).norm()), s.rssi_dbm);
+  const double vx = sums.spread_x(), vy = sums.spread_y(), vxy = sums.spread_xy();
   return vx > 0 && vy > 0 && vxy < 0 ? vxy * vxy / (vx * vy) : 0;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "radioslam/base/statistics.hpp"
+#include "radioslam/doctor/duplicates.hpp"
 #include "radioslam/doctor/frame_checks.hpp"
 #include "radioslam/doctor/text.hpp"
 
@@ -172,25 +173,17 @@ bool same_recording(const Trajectory<SE3>& a, const Trajectory<SE3>& b) {
   return moving > 10 && *high - *low > 1e-3;
 }
 
-void check_duplicates(const Mission& mission, std::vector<Finding>& findings) {
-  for (std::size_t b = 1; b < mission.robots.size(); ++b)
-    for (std::size_t a = 0; a < b; ++a) {
-      if (!same_recording(mission.robots[a].odometry, mission.robots[b].odometry)) continue;
-      findings.push_back(
-          {"duplicate", Severity::kWarning, mission.robots[b].id, odometry_file(mission.robots[b].id),
-           "the same motion as that of robot '" + mission.robots[a].id + "'", "a recording of its own",
-           "remove one of the two, or replace it by the right recording"});
-      break;
-    }
-}
-
 }  // namespace
 
 std::vector<Finding> check_odometry(const Mission& mission) {
   std::vector<Finding> findings;
   for (const Robot& robot : mission.robots)
     if (!robot.odometry.empty()) RobotCheck(mission, robot, findings).run();
-  check_duplicates(mission, findings);
+  const auto same = [](const Robot& a, const Robot& b) { return same_recording(a.odometry, b.odometry); };
+  add_duplicates(mission, same, odometry_file,
+                 {"duplicate", Severity::kWarning, "", "", "the same motion as that of",
+                  "a recording of its own", "remove one of the two, or replace it by the right recording"},
+                 findings);
   return findings;
 }
 

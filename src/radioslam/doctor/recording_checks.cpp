@@ -5,7 +5,6 @@
 #include <map>
 #include <numeric>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 
@@ -20,6 +19,10 @@ constexpr double kTolerance_s = 3;  // by which sensors begin and end at differe
 struct Interval {
   double begin_s = 0, end_s = 0;
   double length_s() const { return end_s - begin_s; }
+  /// Whether times from `first_s` to `last_s` are all outside.
+  bool is_disjoint(double first_s, double last_s) const {
+    return first_s > end_s + kTolerance_s || last_s < begin_s - kTolerance_s;
+  }
   bool contains(double t_s) const { return begin_s - kTolerance_s <= t_s && t_s <= end_s + kTolerance_s; }
 };
 
@@ -76,12 +79,8 @@ class FileTimes {
       : robot_(robot), motion_(motion), file_(file), findings_(findings) {}
 
   void run() {
-    const double inside = static_cast<double>(
-        std::count_if(file_.t_s.begin(), file_.t_s.end(), [&](double t) { return motion_.contains(t); }));
-    const bool is_disjoint =
-        file_.t_s.front() > motion_.end_s + kTolerance_s || file_.t_s.back() < motion_.begin_s - kTolerance_s;
     if (file_.t_s.size() < 5) return;
-    if (is_disjoint && inside == 0) return report_other_clock();
+    if (motion_.is_disjoint(file_.t_s.front(), file_.t_s.back())) return report_other_clock();
     if (!report_offset()) report_gap();
   }
 
@@ -149,11 +148,8 @@ void check_team_file(const Mission& mission, const std::string& file, const Time
     const auto motion = motion_interval(mission.robots[r]);
     if (times[r].size() < 10 || !motion) continue;
     ++referred;
-    const auto count =
-        std::count_if(times[r].begin(), times[r].end(), [&](double t) { return !motion->contains(t); });
     const auto [first, last] = std::minmax_element(times[r].begin(), times[r].end());
-    const bool is_disjoint = *first > motion->end_s + kTolerance_s || *last < motion->begin_s - kTolerance_s;
-    if (is_disjoint && count == std::ssize(times[r])) outside.push_back(r);
+    if (motion->is_disjoint(*first, *last)) outside.push_back(r);
   }
   const auto add = [&](std::string robot, std::string in, double begin_s, std::string expected) {
     findings.push_back({"clock", Severity::kError, std::move(robot), std::move(in),
@@ -194,8 +190,8 @@ void check_team_files(const Mission& mission, std::vector<Finding>& findings) {
     refer(matches, match.robot_i, match.stamp_i);
     refer(matches, match.robot_j, match.stamp_j);
   }
-  check_team_file(mission, "radio/ranges.csv", ranges, findings);
-  check_team_file(mission, "radio/aoa.csv", angles, findings);
+  check_team_file(mission, kRangesFile, ranges, findings);
+  check_team_file(mission, kAnglesFile, angles, findings);
   check_team_file(mission, "matches.csv", matches, findings);
 }
 

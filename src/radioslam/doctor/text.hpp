@@ -16,6 +16,9 @@ inline std::string number(double value) {
   return text;
 }
 
+inline constexpr const char* kRangesFile = "radio/ranges.csv";
+inline constexpr const char* kAnglesFile = "radio/aoa.csv";
+
 inline std::string robot_file(const std::string& robot, const char* name) {
   return "robots/" + robot + "/" + name;
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "radioslam/base/statistics.hpp"
+#include "radioslam/doctor/duplicates.hpp"
 #include "radioslam/doctor/fingerprint_clock.hpp"
 #include "radioslam/doctor/moving_access_points.hpp"
 #include "radioslam/doctor/sensor_checks.hpp"
@@ -13,6 +14,14 @@
 
 namespace radioslam {
 namespace {
+
+/// The same access points with the same strengths.
+bool same_readings(const WifiScan& a, const WifiScan& b) {
+  return std::equal(a.readings.begin(), a.readings.end(), b.readings.begin(), b.readings.end(),
+                    [](const WifiReading& x, const WifiReading& y) {
+                      return x.access_point == y.access_point && x.rssi_dbm == y.rssi_dbm;
+                    });
+}
 
 class RobotWifi {
  public:
@@ -69,13 +78,9 @@ class RobotWifi {
   void check_repeats() {
     std::size_t compared = 0, repeated = 0;
     for (std::size_t k = 1; k < robot_.wifi.size(); ++k) {
-      const auto &before = robot_.wifi[k - 1].readings, &now = robot_.wifi[k].readings;
-      if (now.size() < 4) continue;
+      if (robot_.wifi[k].readings.size() < 4) continue;
       ++compared;
-      repeated +=
-          std::equal(before.begin(), before.end(), now.begin(), now.end(), [](const auto& x, const auto& y) {
-            return x.access_point == y.access_point && x.rssi_dbm == y.rssi_dbm;
-          });
+      repeated += same_readings(robot_.wifi[k - 1], robot_.wifi[k]);
     }
     if (compared < 10 || static_cast<double>(repeated) < 0.2 * static_cast<double>(compared)) return;
     add("stale", Severity::kWarning,
@@ -105,24 +110,10 @@ void check_spellings(const Mission& mission, std::vector<Finding>& findings) {
   }
 }
 
-/// Robots whose scans are the same row for row.
-void check_same_scans(const Mission& mission, std::vector<Finding>& findings) {
-  const auto same = [](const WifiScan& x, const WifiScan& y) {
-    return std::equal(x.readings.begin(), x.readings.end(), y.readings.begin(), y.readings.end(),
-                      [](const auto& a, const auto& b) {
-                        return a.access_point == b.access_point && a.rssi_dbm == b.rssi_dbm;
-                      });
-  };
-  for (std::size_t b = 1; b < mission.robots.size(); ++b)
-    for (std::size_t a = 0; a < b; ++a) {
-      const auto &x = mission.robots[a].wifi, &y = mission.robots[b].wifi;
-      if (x.size() < 5 || x.size() != y.size() || !std::equal(x.begin(), x.end(), y.begin(), same)) continue;
-      findings.push_back(
-          {"duplicate", Severity::kError, mission.robots[b].id, robot_file(mission.robots[b].id, "wifi.csv"),
-           "the same scans as those of robot '" + mission.robots[a].id + "'", "a recording of its own",
-           "remove one of the two, or replace it by the right recording"});
-      break;
-    }
+/// Whether the scans of two robots are the same row for row.
+bool same_scans(const Robot& a, const Robot& b) {
+  return a.wifi.size() >= 5 &&
+         std::equal(a.wifi.begin(), a.wifi.end(), b.wifi.begin(), b.wifi.end(), same_readings);
 }
 
 }  // namespace
@@ -131,7 +122,11 @@ std::vector<Finding> check_wifi(const Mission& mission) {
   std::vector<Finding> findings;
   for (const Robot& robot : mission.robots) RobotWifi(mission, robot, findings).run();
   check_spellings(mission, findings);
-  check_same_scans(mission, findings);
+  add_duplicates(
+      mission, same_scans, [](const std::string& id) { return robot_file(id, "wifi.csv"); },
+      {"duplicate", Severity::kError, "", "", "the same scans as those of", "a recording of its own",
+       "remove one of the two, or replace it by the right recording"},
+      findings);
   return findings;
 }
 
