@@ -100,6 +100,44 @@ TYPED_TEST(Jacobians, AreFiniteAndZeroAtDistanceZero) {
   EXPECT_TRUE(std::get<1>(linear_bearing.jacobians).isZero(0));
 }
 
+TEST(AzimuthOnly, IsComparedInTheBodysPlaneAndNothingElse) {
+  auto graph = test::draw_graph<SE3>(5, 12, 1, test::Extras::kAll);
+  for (BearingFactor<SE3> factor : graph.bearings) {
+    factor.azimuth_only = true;
+    const Eigen::Vector3d seen = graph.poses[factor.i.index()].inverse() * position(graph, factor.j);
+    const double azimuth_rad = std::atan2(seen.y(), seen.x());
+    factor.direction = {std::cos(azimuth_rad), std::sin(azimuth_rad), 0};
+    EXPECT_LT(residual(graph, factor).norm(), 1e-12);
+    factor.direction = {std::cos(azimuth_rad + 0.3), std::sin(azimuth_rad + 0.3), 0};
+    EXPECT_NEAR(residual(graph, factor).norm(), 2 * std::sin(0.15), 1e-12) << "the chord of the error";
+    EXPECT_LT(jacobian_error(graph, factor), 2e-7);
+  }
+}
+
+TEST(GravityPrior, IsTheTiltAndNoHeading) {
+  const Eigen::Quaterniond tilted(Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ()) *
+                                  Eigen::AngleAxisd(0.4, Eigen::Vector3d(0.6, 0.8, 0)));
+  const auto graph_turned = [&](const Eigen::Vector3d& axis, double angle_rad) {
+    PoseGraph3 graph;
+    graph.poses = {SE3({9, 9, 9}, Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, axis) * tilted))};
+    PosePriorFactor<SE3>& prior = graph.pose_priors.emplace_back();
+    prior.i = PoseId(0);
+    prior.prior = SE3({3, -2, 1}, tilted);
+    prior.gravity_only = true;
+    return graph;
+  };
+  for (const double angle_rad : {0.0, 0.2, -1.0, 3.0}) {
+    const auto turned = graph_turned(Eigen::Vector3d::UnitZ(), angle_rad);
+    EXPECT_LT(residual(turned, turned.pose_priors[0]).norm(), 1e-15);
+    const auto tipped = graph_turned(Eigen::Vector3d::UnitX(), angle_rad);
+    EXPECT_NEAR(residual(tipped, tipped.pose_priors[0]).norm(), std::abs(std::sin(angle_rad)), 1e-12);
+    EXPECT_LT(jacobian_error(tipped, tipped.pose_priors[0]), 2e-7);
+    const auto linear = linearise(tipped, tipped.pose_priors[0]);
+    const Eigen::Vector3d up = vertical_in_body(tipped.poses[0]);
+    EXPECT_LT((std::get<0>(linear.jacobians).rightCols<3>() * up).norm(), 1e-15);
+  }
+}
+
 TEST(Charts, G2oHalvesSmallRotationsInSpaceAndKeepsTheQuaternionsHalf) {
   PoseGraph3 graph;
   graph.chart = PoseChart::kG2o;

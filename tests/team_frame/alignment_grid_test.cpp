@@ -148,6 +148,63 @@ TEST(AlignmentGrid, PeaksAreDifferentPlacesBestFirst) {
     }
 }
 
+/// Links of a free end that is `height_m` above where its odometry has it, on ground that slopes with x.
+GridProblem raised_problem(const TruePlace& truth, double height_m, double slope, Rng& rng) {
+  GridProblem problem = random_problem(truth, 12, rng);
+  problem.bearings.clear();
+  problem.sigma_height_m = 10;
+  for (GridRange& link : problem.ranges) {
+    link.placed.height_m = slope * link.placed.position.x();
+    link.free.height_m = slope * (truth.T_placed_free() * link.free.position).x();
+    link.range_m = std::hypot(link.range_m, height_m + link.free.height_m - link.placed.height_m);
+  }
+  return problem;
+}
+
+GridCell raised_cell(const GridProblem& problem, const TruePlace& truth) {
+  return {problem.ranges.front().range_m, 0.5, truth.phi_rad, truth.theta_rad, 0, 10, 0};
+}
+
+TEST(AlignmentGrid, RangesOverLevelGroundDoNotTellAboveFromBelow) {
+  GridParams params;
+  params.angle_steps = 360;
+  Rng rng(3);
+  const TruePlace truth{40, 1, -2};
+  const GridProblem problem = raised_problem(truth, 14, 0, rng);
+  const auto levels = at_best_heights(problem, raised_cell(problem, truth), params);
+  ASSERT_EQ(levels.size(), 2U);
+  EXPECT_NEAR(std::abs(levels[0].rise_m), 14, 2.5);
+  EXPECT_NEAR(levels[0].rise_m + levels[1].rise_m, 0, 2.5);
+  EXPECT_NEAR(levels[0].distance_m, truth.distance_m, 2);
+}
+
+TEST(AlignmentGrid, ASlopeTellsAboveFromBelow) {
+  GridParams params;
+  params.angle_steps = 360;
+  for (const double height_m : {-14.0, 14.0}) {
+    Rng rng(4);
+    const TruePlace truth{40, 1, -2};
+    const GridProblem problem = raised_problem(truth, height_m, 0.1, rng);
+    const GridCell cell{std::sqrt(truth.distance_m * truth.distance_m + height_m * height_m),
+                        0.5,
+                        truth.phi_rad,
+                        truth.theta_rad,
+                        0,
+                        10,
+                        0};
+    EXPECT_NEAR(at_best_heights(problem, cell, params).front().rise_m, height_m, 2.5);
+  }
+}
+
+TEST(AlignmentGrid, AKnownHeightIsNotSearched) {
+  GridProblem problem;
+  problem.ranges = {{{}, {}, 40, 0.5}};
+  const GridCell cell{40, 0.5, 1, 2, 0, 0, 0};
+  const auto levels = at_best_heights(problem, cell, {});
+  ASSERT_EQ(levels.size(), 1U);
+  EXPECT_EQ(levels[0].distance_m, 40);
+}
+
 /// A position and a heading with correlated errors, both drawn.
 SE2 drawn(const GridEnd& end, Rng& rng) {
   const Eigen::Matrix3d root = end.covariance.llt().matrixL();
@@ -173,7 +230,7 @@ Sample draw(const GridEnd& placed, const GridEnd& free, const GridCell& cell, co
                         cell.phi_rad + rng.uniform(-width, width),
                         cell.theta_rad + rng.uniform(-width, width)};
   const SE2 a = drawn(placed, rng), b = place.T_placed_free() * drawn(free, rng);
-  const double height = rng.normal(free.height_m - placed.height_m, params.sigma_height_m);
+  const double height = rng.normal(free.height_m - placed.height_m, cell.sigma_rise_m);
   return {std::hypot((b.translation() - a.translation()).norm(), height), azimuth(a, b), azimuth(b, a)};
 }
 
@@ -184,8 +241,12 @@ TEST(AlignmentGrid, PropagatedVariancesAgreeWithSampling) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     Rng rng(seed);
     const GridEnd placed = correlated_end(rng), free = correlated_end(rng);
-    const GridCell cell{rng.uniform(100, 180), 1, rng.uniform(-kHalfTurn_rad, kHalfTurn_rad),
-                        rng.uniform(-kHalfTurn_rad, kHalfTurn_rad), 0};
+    const GridCell cell{rng.uniform(100, 180),
+                        1,
+                        rng.uniform(-kHalfTurn_rad, kHalfTurn_rad),
+                        rng.uniform(-kHalfTurn_rad, kHalfTurn_rad),
+                        0,
+                        rng.uniform(1, 10)};
     GridProblem problem;
     problem.ranges = {{placed, free, 1, 1}};
     problem.bearings = {{placed, free, true, {0}, {1}, {1}}, {placed, free, false, {0}, {1}, {1}}};

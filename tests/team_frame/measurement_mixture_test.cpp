@@ -78,6 +78,23 @@ TEST(MeasurementMixture, ADirectionsDensityIntegratesToOneOverTheSphere) {
   EXPECT_NEAR(sum / (kRings * kSteps), 1, 1e-3);
 }
 
+TEST(MeasurementMixture, AnAzimuthInSpaceHasTheDensityOfTheCircleAtAnyElevation) {
+  auto flat = path({1, 1, 0}, 0.2, -50);
+  flat.azimuth_only = true;
+  MixtureGraph<SE3> mixture(received_by<SE3>({flat}), {});
+  for (const double z_m : {-20.0, 0.0, 5.0}) {
+    constexpr int kSteps = 720;
+    double sum = 0;
+    for (int k = 0; k < kSteps; ++k) {
+      const double azimuth = 2 * kPi * k / kSteps;
+      mixture.graph.poses[1] =
+          SE3({10 * std::cos(azimuth), 10 * std::sin(azimuth), z_m}, Eigen::Quaterniond::Identity());
+      sum += likelihood(mixture);
+    }
+    EXPECT_NEAR(sum / kSteps, 1, 0.2 * 0.2 / 8);
+  }
+}
+
 RangeFactor<SE2> range_of(double range_m) {
   RangeFactor<SE2> range;
   range.i.pose = PoseId(0);

@@ -209,6 +209,30 @@ TEST(AlignByRadio, KeepsKnownStartsAndPlacesTheOthersInTheirFrame) {
   EXPECT_LT(error_m(poses, simulated.truth), 4);
 }
 
+TEST(AlignByRadio, KnownStartsDoNotHideLinksAfterLongDrift) {
+  RadioWorld world;
+  world.angle_ends = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    auto simulated = test::simulate_team(world, seed);
+    for (auto& factor : simulated.team.graph.relative_poses)  // 0.06 rad per kilometre
+      factor.T_i_j = factor.T_i_j * SE2({0, 0}, 6e-5 * factor.T_i_j.translation().norm());
+    for (std::size_t p = 0; p < simulated.team.segments.size(); ++p) {
+      const TrajectorySegment& segment = simulated.team.segments[p];
+      for (std::size_t k = segment.first_pose + 1; k < segment.first_pose + segment.pose_count; ++k)
+        simulated.team.graph.poses[k] =
+            simulated.team.graph.poses[k - 1] * simulated.team.graph.relative_poses[k - 1 - p].T_i_j;
+      add_known_start(simulated, p);
+    }
+    std::erase_if(simulated.team.graph.ranges, [&](const auto& range) {
+      return range.i.pose.index() < simulated.team.segments[0].pose_count / 2;
+    });
+    const auto alignment = align(simulated.team);
+    const auto& weights = alignment.hypotheses.front().range_weight;
+    const double direct = std::accumulate(weights.begin(), weights.end(), 0.0);
+    EXPECT_GE(direct, 0.9 * static_cast<double>(weights.size())) << "seed " << seed;
+  }
+}
+
 /// Odometry along a straight line: `steps` of 2 m from `start`.
 void drive_straight(SimulatedTeam& result, const std::string& robot, const SE2& start, std::size_t steps) {
   auto& graph = result.team.graph;

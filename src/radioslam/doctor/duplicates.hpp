@@ -9,8 +9,8 @@
 
 namespace radioslam {
 
-/// Adds `finding` once for every robot that is the `same` as an earlier one, with its id and the other's id quoted at
-/// the end of what was found. `file_of` gives the file of a robot's id.
+/// Adds `finding` once for every robot that is the `same` as an earlier one, with its id and the other's id
+/// quoted at the end of what was found. `file_of` gives the file of a robot's id.
 void add_duplicates(const Mission& mission, const auto& same, const auto& file_of, const Finding& finding,
                     std::vector<Finding>& findings) {
   for (std::size_t b = 1; b < mission.robots.size(); ++b)

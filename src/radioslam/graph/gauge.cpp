@@ -17,6 +17,9 @@ namespace {
 /// Eigenvalue of the scaled information, relative to the largest, below which a direction counts as
 /// unobserved.
 constexpr double kUnobservedRatio = 1e-9;
+/// Information of an unobserved direction, relative to the largest observed one: as good as held, since a
+/// heading known to a hundredth of a radian would add metres to the far end of a drive.
+constexpr double kPenalty = 1e6;
 
 /// Disjoint sets whose representative is their first member.
 class DisjointSets {
@@ -84,14 +87,26 @@ std::map<std::int32_t, typename Pose::Jacobian> rigid_information(const PoseGrap
   return sums;
 }
 
-/// sum over unobserved n of (D n)(D n)^T, with D the square root of the diagonal; the null space is that of
-/// the information scaled to a unit diagonal, so that metres and radians compare.
+/// Square roots of the largest information of a translation and of a rotation, per axis: a tilted frame mixes
+/// the axes of each, so none has a scale of its own.
+template <class Pose>
+typename Pose::Tangent scale_of(const typename Pose::Jacobian& information) {
+  const auto diagonal = information.diagonal();
+  const double scale = diagonal.maxCoeff();
+  const auto root = [&](double x) { return x > kUnobservedRatio * scale ? std::sqrt(x) : std::sqrt(scale); };
+  typename Pose::Tangent d;
+  d.template head<Pose::kDim>().setConstant(root(diagonal.template head<Pose::kDim>().maxCoeff()));
+  d.template tail<Pose::kDof - Pose::kDim>().setConstant(
+      root(diagonal.template tail<Pose::kDof - Pose::kDim>().maxCoeff()));
+  return d;
+}
+
+/// kPenalty sum over unobserved n of (D n)(D n)^T, with D the scale of translations and rotations; the null
+/// space is that of the information scaled by D, so that metres and radians compare.
 template <class Pose>
 typename Pose::Jacobian unobserved_penalty(const typename Pose::Jacobian& information) {
   using Tangent = typename Pose::Tangent;
-  const double scale = information.diagonal().maxCoeff();
-  const Tangent d = information.diagonal().unaryExpr(
-      [&](double x) { return x > kUnobservedRatio * scale ? std::sqrt(x) : std::sqrt(scale); });
+  const Tangent d = scale_of<Pose>(information);
   const typename Pose::Jacobian scaled =
       d.cwiseInverse().asDiagonal() * information * d.cwiseInverse().asDiagonal();
   const auto eigen = symmetric_eigen(scaled);
@@ -101,7 +116,7 @@ typename Pose::Jacobian unobserved_penalty(const typename Pose::Jacobian& inform
     const Tangent v = d.cwiseProduct(eigen.vectors.col(k));
     penalty += v * v.transpose();
   }
-  return penalty;
+  return kPenalty * penalty;
 }
 
 }  // namespace

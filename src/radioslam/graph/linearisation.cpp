@@ -78,9 +78,12 @@ Linearisation<Pose::kDim, Pose::kDof, Pose::kDof> linearise(const PoseGraph<Pose
   using Square = Eigen::Matrix<double, Pose::kDim, Pose::kDim>;
   const Pose& T_w_i = graph.poses[factor.i.index()];
   const typename Pose::Point seen = T_w_i.inverse() * position(graph, factor.j);
-  const typename Pose::Point u = direction_or_zero(seen);
+  const typename Pose::Point compared = seen_by_receiver(graph, factor);
+  const typename Pose::Point u = direction_or_zero(compared);
   Square across = Square::Zero();  // d(v / |v|) / dv
-  if (!u.isZero(0)) across = (Square::Identity() - u * u.transpose()) / seen.norm();
+  if (!u.isZero(0)) across = (Square::Identity() - u * u.transpose()) / compared.norm();
+  if constexpr (Pose::kDim == 3)
+    if (factor.azimuth_only) across.col(2).setZero();
   Linearisation<Pose::kDim, Pose::kDof, Pose::kDof> l;
   l.residual = u - factor.direction;
   std::get<0>(l.jacobians) = across * seen_by_jacobian<Pose>(seen);
@@ -108,6 +111,15 @@ Linearisation<Pose::kDim, Pose::kDof> linearise(const PoseGraph<Pose>& graph,
 template <class Pose>
 Linearisation<Pose::kDof, Pose::kDof> linearise(const PoseGraph<Pose>& graph,
                                                 const PosePriorFactor<Pose>& factor) {
+  if constexpr (Pose::kDim == 3)
+    if (factor.gravity_only) {
+      Linearisation<Pose::kDof, Pose::kDof> l;
+      l.residual = residual(graph, factor);
+      std::get<0>(l.jacobians).setZero();
+      std::get<0>(l.jacobians).template bottomRightCorner<3, 3>() =
+          -skew(vertical_in_body(factor.prior)) * skew(vertical_in_body(graph.poses[factor.i.index()]));
+      return l;
+    }
   const Pose error = factor.prior.inverse() * graph.poses[factor.i.index()];
   return {chart_error(graph.chart, error), {chart_derivative(graph.chart, error)}};
 }

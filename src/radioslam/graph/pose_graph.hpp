@@ -79,6 +79,7 @@ struct RangeFactor {
 
 /// The direction from pose i to a pose or point, as a unit vector in i's body frame:
 /// residual (u - direction) / sigma, the chord, which is von Mises (Fisher) up to a constant.
+/// In space, an azimuth alone is compared within the body's xy-plane: u is the unit vector of the projection.
 template <class Pose>
 struct BearingFactor {
   PoseId i;
@@ -87,6 +88,7 @@ struct BearingFactor {
   double sigma_rad = 1;
   Loss loss{};
   double weight = 1;
+  bool azimuth_only = false;  ///< `direction` is in the body's xy-plane; no meaning in the plane
 };
 
 /// Where a pose or a point is, seen from pose i, in i's body frame: T_i^-1 p_j - position.
@@ -113,6 +115,8 @@ struct PositionFactor {
 };
 
 /// chart(prior^-1 T_i). An information of rank below the full one is allowed (yaw only, ...).
+/// In space, of gravity alone: [0; a x b] with the vertical in the body frame by the estimate, a, and by the
+/// prior, b, which no heading and no position changes.
 template <class Pose>
 struct PosePriorFactor {
   PoseId i;
@@ -120,6 +124,7 @@ struct PosePriorFactor {
   typename Pose::Jacobian information = Pose::Jacobian::Identity();
   Loss loss{};
   double weight = 1;
+  bool gravity_only = false;  ///< no meaning in the plane
 };
 
 /// drift - mean.

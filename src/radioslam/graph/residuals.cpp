@@ -22,8 +22,7 @@ Eigen::Matrix<double, 1, 1> residual(const PoseGraph<Pose>& graph, const RangeFa
 
 template <class Pose>
 typename Pose::Point residual(const PoseGraph<Pose>& graph, const BearingFactor<Pose>& factor) {
-  const typename Pose::Point in_body = graph.poses[factor.i.index()].inverse() * position(graph, factor.j);
-  return direction_or_zero(in_body) - factor.direction;
+  return direction_or_zero(seen_by_receiver(graph, factor)) - factor.direction;
 }
 
 template <class Pose>
@@ -38,7 +37,14 @@ typename Pose::Point residual(const PoseGraph<Pose>& graph, const PositionFactor
 
 template <class Pose>
 typename Pose::Tangent residual(const PoseGraph<Pose>& graph, const PosePriorFactor<Pose>& factor) {
-  return chart_error(graph.chart, factor.prior.inverse() * graph.poses[factor.i.index()]);
+  const Pose& pose = graph.poses[factor.i.index()];
+  if constexpr (Pose::kDim == 3)
+    if (factor.gravity_only) {
+      typename Pose::Tangent r = Pose::Tangent::Zero();
+      r.template tail<3>() = vertical_in_body(pose).cross(vertical_in_body(factor.prior));
+      return r;
+    }
+  return chart_error(graph.chart, factor.prior.inverse() * pose);
 }
 
 template <class Pose>

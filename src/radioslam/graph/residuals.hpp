@@ -54,6 +54,20 @@ Vector direction_or_zero(const Vector& v) {
   return norm < kMinimumDistance_m ? Vector(Vector::Zero()) : Vector(v / norm);
 }
 
+/// The vertical of the graph's frame, in a body's frame.
+inline Eigen::Vector3d vertical_in_body(const SE3& T_frame_body) {
+  return T_frame_body.rotation().conjugate() * Eigen::Vector3d::UnitZ();
+}
+
+/// What a bearing compares: where its end j is in i's body frame, within the xy-plane for an azimuth alone.
+template <class Pose>
+typename Pose::Point seen_by_receiver(const PoseGraph<Pose>& graph, const BearingFactor<Pose>& factor) {
+  typename Pose::Point seen = graph.poses[factor.i.index()].inverse() * position(graph, factor.j);
+  if constexpr (Pose::kDim == 3)
+    if (factor.azimuth_only) seen.z() = 0;
+  return seen;
+}
+
 /// The information of a factor, without weight and loss.
 template <class Pose>
 const typename Pose::Jacobian& information(const RelativePoseFactor<Pose>& factor) {

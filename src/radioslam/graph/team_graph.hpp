@@ -34,6 +34,7 @@ struct BearingPath {
   typename Pose::Point direction = Pose::Point::UnitX();  ///< unit vector in the receiver's body frame
   double sigma_rad = 1;
   double power_db = 0;
+  bool azimuth_only = false;  ///< as BearingFactor::azimuth_only
 };
 
 /// Several directions from pose i of which at most one leads to the end j: BearingFactor with choices.
@@ -43,6 +44,13 @@ struct AmbiguousBearing {
   RangeEnd<Pose> j;
   std::vector<BearingPath<Pose>> paths;
 };
+
+/// Path p of a bearing as a factor of its own.
+template <class Pose>
+BearingFactor<Pose> path_factor(const AmbiguousBearing<Pose>& bearing, std::size_t p) {
+  const BearingPath<Pose>& path = bearing.paths[p];
+  return {bearing.i, bearing.j, path.direction, path.sigma_rad, {}, 1, path.azimuth_only};
+}
 
 /// Values of poses are in their segment's own frame (segments with a known start or a prior: in the common
 /// frame); values of points without a connection to a frame are undefined. graph.bearings is empty: bearings

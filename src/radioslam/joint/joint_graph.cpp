@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "radioslam/geometry/linear_algebra.hpp"
+#include "radioslam/joint/level_priors.hpp"
 #include "radioslam/joint/radio_factors.hpp"
 #include "radioslam/joint/robot_nodes.hpp"
 #include "radioslam/mission/odometry_edge.hpp"
@@ -11,7 +12,6 @@ namespace radioslam {
 namespace {
 
 constexpr double kMinSigmaDistance_m = 1;  // lower bound on the error of a predicted distance
-constexpr double kSigmaLevel_rad = 0.03;   // prior on roll and pitch of a start frame, from gravity
 
 double information(double sigma) { return 1 / (sigma * sigma); }
 
@@ -81,7 +81,7 @@ RobotVariables joint_robot(const Robot& robot, const RobotNodes& nodes, std::siz
   return result;
 }
 
-/// Prior on a robot's first pose: the whole pose (known start), its heading, or only that its frame is level.
+/// Prior on a robot's first pose: the whole pose if its start is known, or its absolute heading.
 template <class Pose>
 void add_start_prior(PoseGraph<Pose>& graph, const Robot& robot, std::size_t first_pose,
                      const JointGraphParams& params) {
@@ -94,10 +94,8 @@ void add_start_prior(PoseGraph<Pose>& graph, const Robot& robot, std::size_t fir
   if (robot.initial_pose) {
     diagonal.setConstant(information(params.sigma_start_m));
     diagonal.template tail<kRotations>().setConstant(information(params.sigma_start_rad));
-  } else {
-    if constexpr (kRotations == 3)
-      diagonal.template segment<2>(Pose::kDim).setConstant(information(kSigmaLevel_rad));
-    if (robot.heading == Heading::kAbsolute) diagonal[Pose::kDof - 1] = information(robot.sigma_heading_rad);
+  } else if (robot.heading == Heading::kAbsolute) {
+    diagonal[Pose::kDof - 1] = information(robot.sigma_heading_rad);
   }
   if (!prior.information.isZero(0)) graph.pose_priors.push_back(prior);
 }
@@ -133,6 +131,7 @@ JointGraph<Pose> build_joint_graph(const Mission& mission, const KeyframeParams&
     joint.robots.push_back(joint_robot(robot, nodes.back(), first_pose, drift));
     joint.robot_of_segment.push_back(r);
     add_start_prior(joint.team.graph, robot, first_pose, params);
+    add_level_priors(joint.team.graph, robot, nodes.back(), first_pose, params.sigma_level_rad);
   }
   add_radio_factors(joint, mission, nodes);
   return joint;

@@ -21,6 +21,7 @@ namespace radioslam {
 struct JointGraphParams {
   double sigma_start_m = 0.05;
   double sigma_start_rad = 0.01;
+  double sigma_level_rad = 0.03;
   double min_sigma_yaw_drift_per_m_rad = 1e-3;
   double min_sigma_scale = 0.02;
 
@@ -32,6 +33,11 @@ struct JointGraphParams {
     visit(
         Field{"sigma_start_rad", "rad", 1e-5, 3, "standard deviation of a known initial orientation"}.basic(),
         self.sigma_start_rad);
+    visit(
+        Field{
+            "sigma_level_rad", "rad", 1e-4, 1,
+            "standard deviation of the odometry's roll and pitch, which are taken from gravity (space only)"},
+        self.sigma_level_rad);
     visit(Field{"min_sigma_yaw_drift_per_m_rad", "rad/m", 0, 1,
                 "lower bound on the prior sigma of constant yaw drift (1e-3: 57 deg/km), for robots with "
                 "WiFi scans or position fixes"},

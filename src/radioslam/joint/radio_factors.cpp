@@ -58,7 +58,8 @@ class RadioFactors {
     bearing.j = end(measured.transmitter, measured.stamp);
     const SE3 T_start_body = *mission_.robots[measured.receiver.index()].odometry.at(measured.stamp);
     for (const AoaPath& path : as_estimated<Pose>(measured, T_start_body).paths)
-      bearing.paths.push_back({unit_vector(path).template head<Pose::kDim>(), path.sigma_rad, path.power_db});
+      bearing.paths.push_back({unit_vector(path).template head<Pose::kDim>(), path.sigma_rad, path.power_db,
+                               !path.elevation_rad});
     add_factor(joint_, std::move(bearing),
                origin(FactorSource::kAoa, index, receiver, measured.transmitter, measured.stamp));
   }

@@ -13,6 +13,7 @@ radioslam_room(joint
     graduated_optimisation.cpp
     joint_graph.cpp
     joint_graph_from_file.cpp
+    level_priors.cpp
     matches/frame_by_matches.cpp
     matches/match_groups.cpp
     matches/match_selection.cpp

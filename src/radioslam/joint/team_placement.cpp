@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "radioslam/team_frame/gravity_priors.hpp"
-
 namespace radioslam {
 namespace {
 
@@ -82,7 +80,6 @@ void adopt_alignment(JointGraph<Pose>& joint, const TeamHypothesis<Pose>& hypoth
   graph.poses = hypothesis.poses;
   graph.points = hypothesis.points;
   graph.drifts = hypothesis.drifts;
-  rotate_gravity_priors(graph);
   for (std::size_t k = 0; k < hypothesis.range_weight.size(); ++k)
     graph.ranges[k].weight = hypothesis.range_weight[k] < kMinWeight ? 0 : hypothesis.range_weight[k];
   for (std::size_t k = 0; k < joint.team.bearings.size(); ++k) {
@@ -95,8 +92,9 @@ void adopt_alignment(JointGraph<Pose>& joint, const TeamHypothesis<Pose>& hypoth
       if (by_positions2 > kMaxSigmaByPositions_rad * kMaxSigmaByPositions_rad) bearing_weight.too_near = true;
       if (weight < kMinWeight || bearing_weight.too_near) continue;
       bearing_weight.weight += weight;
-      graph.bearings.push_back(
-          {bearing.i, bearing.j, bearing.paths[p].direction, hypothesis.path_sigma_rad[k][p], {}, weight});
+      BearingFactor<Pose>& factor = graph.bearings.emplace_back(path_factor(bearing, p));
+      factor.sigma_rad = hypothesis.path_sigma_rad[k][p];
+      factor.weight = weight;
     }
   }
 }

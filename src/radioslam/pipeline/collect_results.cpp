@@ -122,10 +122,8 @@ std::vector<ClosureResult> collect_radio_links(const JointGraph<Pose>& joint) {
     if (!joint.origins.bearings[k].robot_j.valid()) continue;
     const auto& bearing = joint.team.bearings[k];
     double least = std::numeric_limits<double>::infinity();
-    for (const auto& path : bearing.paths)
-      least = std::min(least,
-                       squared_norm(graph, BearingFactor<Pose>{
-                                               bearing.i, bearing.j, path.direction, path.sigma_rad, {}, 1}));
+    for (std::size_t p = 0; p < bearing.paths.size(); ++p)
+      least = std::min(least, squared_norm(graph, path_factor(bearing, p)));
     const BearingWeight& bearing_weight = joint.bearing_weights[k];
     results.push_back(
         link_result(joint.origins.bearings[k], ClosureKind::kAoa, least, bearing_weight.weight));

@@ -6,7 +6,6 @@
 #include "radioslam/base/check.hpp"
 #include "radioslam/graph/optimizer.hpp"
 #include "radioslam/joint/joint_graph.hpp"
-#include "radioslam/team_frame/gravity_priors.hpp"
 
 namespace radioslam {
 namespace {
@@ -31,7 +30,6 @@ void start_from(const Truth& truth, JointGraph<Pose>& joint) {
     for (std::size_t k = 0; k < piece.pose_count; ++k)
       joint.team.graph.poses[piece.first_pose + k] = pose_as<Pose>(*poses.at(piece.stamps[k]));
   }
-  rotate_gravity_priors(joint.team.graph);
 }
 
 template <class Pose>

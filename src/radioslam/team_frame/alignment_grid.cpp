@@ -14,6 +14,9 @@ namespace {
 constexpr double kUniformRatio = 1 / 12.0;  // variance of a uniform density of unit width
 constexpr double kNearest_m = 0.5;          // below this distance directions are undefined
 constexpr double kHeadingReach = 3;         // searched around a known heading, in sigmas
+constexpr double kHeightReach = 4;          // the same around the height by odometry
+constexpr double kHeightSteps = 4;          // heights searched per sigma
+constexpr std::size_t kMaxHeights = 2;
 
 Eigen::Vector2d quarter_turn(const Eigen::Vector2d& v) { return {-v.y(), v.x()}; }
 
@@ -31,6 +34,7 @@ struct Cell {
   Eigen::Vector2d offset;  ///< d (cos phi, sin phi)
   Eigen::Vector2d radial;
   double distance_m, variance_distance, variance_phi, variance_theta;
+  double rise_m = 0, variance_height = 0;
 };
 
 /// Variance of v along `direction` from both ends' covariances and the cell's size.
@@ -50,15 +54,15 @@ struct Prediction {
 
 class Scorer {
  public:
-  Scorer(const GridProblem& problem, const GridParams& params) : problem_(problem), params_(params) {}
+  explicit Scorer(const GridProblem& problem) : problem_(problem) {}
 
   Prediction range(const GridEnd& a, const GridEnd& b, const Cell& cell) const {
     const Eigen::Vector2d v = cell.offset + b.position - a.position;
-    const double height = problem_.height_m + b.height_m - a.height_m, flat = std::max(v.norm(), kNearest_m);
+    const double height = height_between(a, b, cell), flat = std::max(v.norm(), kNearest_m);
     const double distance = std::hypot(flat, height);
-    const double slope = height / distance;
+    const double slope = height / distance, bend = cell.variance_height / distance;
     return {distance, variance_along(v / flat, a, b, cell) * (flat / distance) * (flat / distance) +
-                          slope * slope * params_.sigma_height_m * params_.sigma_height_m};
+                          slope * slope * cell.variance_height + bend * bend / 2};
   }
 
   /// Azimuth of the other end in the receiver's frame.
@@ -76,6 +80,17 @@ class Scorer {
     return {value, variance};
   }
 
+  /// Elevation of the other end in the receiver's levelled frame.
+  Prediction elevation(const GridEnd& a, const GridEnd& b, const Cell& cell, bool received_by_placed) const {
+    const Eigen::Vector2d v = cell.offset + b.position - a.position;
+    const double height = height_between(a, b, cell), flat = std::max(v.norm(), kNearest_m);
+    const double square = flat * flat + height * height;
+    const double by_flat = height / square, by_height = flat / square;
+    const double variance = by_flat * by_flat * variance_along(v / flat, a, b, cell) +
+                            by_height * by_height * cell.variance_height;
+    return {std::atan2(received_by_placed ? height : -height, flat), variance};
+  }
+
   double log_likelihood(const GridRange& link, const GridEnd& b, const Cell& cell) const {
     const Prediction predicted = range(link.placed, b, cell);
     const double sigma = std::sqrt(predicted.variance + link.sigma_m * link.sigma_m);
@@ -88,25 +103,37 @@ class Scorer {
 
   double log_likelihood(const GridBearing& link, const GridEnd& b, const Cell& cell) const {
     const Prediction predicted = bearing(link.placed, b, cell, link.received_by_placed);
+    const Prediction rise = elevation(link.placed, b, cell, link.received_by_placed);
     double density = 1 - problem_.mixture.direct_probability;
     for (std::size_t p = 0; p < link.azimuth_rad.size(); ++p) {
       const double sigma =
-          std::min(kWidest_rad<SE2>, std::sqrt(predicted.variance + link.sigma_rad[p] * link.sigma_rad[p]));
+          std::min(kWidestAzimuth_rad, std::sqrt(predicted.variance + link.sigma_rad[p] * link.sigma_rad[p]));
       const double error = wrap_angle(predicted.value - link.azimuth_rad[p]) / sigma;
       density += problem_.mixture.direct_probability * link.prior[p] * std::sqrt(2 * std::numbers::pi) /
-                 sigma * std::exp(-0.5 * error * error);
+                 sigma * std::exp(-0.5 * error * error) * elevation_ratio(link, p, rise);
     }
     return std::log(density);
   }
 
  private:
+  double height_between(const GridEnd& a, const GridEnd& b, const Cell& cell) const {
+    return problem_.height_m + cell.rise_m + b.height_m - a.height_m;
+  }
+
+  /// Density of a path's elevation relative to that of elevations without information; 1 without elevation.
+  static double elevation_ratio(const GridBearing& link, std::size_t p, const Prediction& predicted) {
+    if (link.elevation_rad.empty() || !link.elevation_rad[p]) return 1;
+    const double sigma = std::sqrt(predicted.variance + link.sigma_rad[p] * link.sigma_rad[p]);
+    const double error = (predicted.value - *link.elevation_rad[p]) / sigma;
+    return std::numbers::pi / (std::sqrt(2 * std::numbers::pi) * sigma) * std::exp(-0.5 * error * error);
+  }
+
   /// Correction where theta also rotates the receiver: (lever - 1)^2 instead of lever^2.
   static double heading_of_cell(double lever, const Cell& cell) {
     return (1 - 2 * lever) * cell.variance_theta;
   }
 
   const GridProblem& problem_;
-  const GridParams& params_;
 };
 
 Cell make_cell(const GridCell& at, const GridParams& params) {
@@ -117,7 +144,18 @@ Cell make_cell(const GridCell& at, const GridParams& params) {
           at.distance_m,
           at.sigma_distance_m * at.sigma_distance_m,
           step * step * kUniformRatio,
-          step * step * kUniformRatio};
+          step * step * kUniformRatio,
+          at.rise_m,
+          at.sigma_rise_m * at.sigma_rise_m};
+}
+
+double log_likelihood(const GridProblem& problem, const Scorer& scorer, const Cell& cell, double theta_rad) {
+  double sum = 0;
+  for (const auto& link : problem.ranges)
+    sum += scorer.log_likelihood(link, turned(link.free, theta_rad), cell);
+  for (const auto& link : problem.bearings)
+    sum += scorer.log_likelihood(link, turned(link.free, theta_rad), cell);
+  return sum;
 }
 
 /// Headings on the grid that are compatible with a known heading.
@@ -135,15 +173,20 @@ std::vector<double> headings(const GridProblem& problem, const GridParams& param
 
 /// Log likelihoods of all directions and distances at one heading; index = distance * angle_steps + phi.
 std::vector<double> score_heading(const GridProblem& problem, const GridParams& params, double theta_rad) {
-  const Scorer scorer(problem, params);
+  const Scorer scorer(problem);
   std::vector<GridEnd> range_ends, bearing_ends;
   for (const auto& link : problem.ranges) range_ends.push_back(turned(link.free, theta_rad));
   for (const auto& link : problem.bearings) bearing_ends.push_back(turned(link.free, theta_rad));
   std::vector<double> scores;
   for (const DistanceCell& distance : problem.distances)
     for (int k = 0; k < params.angle_steps; ++k) {
-      const GridCell at{distance.distance_m, distance.sigma_m, 2 * std::numbers::pi * k / params.angle_steps,
-                        theta_rad, 0};
+      const GridCell at{distance.distance_m,
+                        distance.sigma_m,
+                        2 * std::numbers::pi * k / params.angle_steps,
+                        theta_rad,
+                        0,
+                        problem.sigma_height_m,
+                        0};
       const Cell cell = make_cell(at, params);
       double score = 0;
       for (std::size_t l = 0; l < range_ends.size(); ++l)
@@ -178,7 +221,7 @@ std::vector<GridCell> best_cells(const GridProblem& problem, const GridParams& p
       const DistanceCell& distance = problem.distances[k / steps];
       cells.push_back({distance.distance_m, distance.sigma_m,
                        wrap_angle(2 * std::numbers::pi * static_cast<double>(k % steps) / params.angle_steps),
-                       thetas[t], scores[t][k]});
+                       thetas[t], 0, problem.sigma_height_m, scores[t][k]});
     }
   std::stable_sort(cells.begin(), cells.end(),
                    [](const auto& a, const auto& b) { return a.score > b.score; });
@@ -192,9 +235,47 @@ std::vector<GridCell> best_cells(const GridProblem& problem, const GridParams& p
   return peaks;
 }
 
+namespace {
+
+/// Horizontal distance of a cell whose reference range stays the same when it is raised.
+double level_distance(const GridCell& cell, double height_m, double rise_m) {
+  const double before = std::hypot(cell.distance_m, height_m), after = height_m + rise_m;
+  return std::sqrt(std::max(before * before - after * after, kNearest_m * kNearest_m));
+}
+
+}  // namespace
+
+std::vector<GridCell> at_best_heights(const GridProblem& problem, const GridCell& cell,
+                                      const GridParams& params) {
+  if (problem.sigma_height_m == 0) return {cell};
+  const Scorer scorer(problem);
+  const double step = problem.sigma_height_m / kHeightSteps;
+  constexpr int kSteps = static_cast<int>(kHeightReach * kHeightSteps);
+  std::vector<GridCell> levels;
+  for (int k = -kSteps; k <= kSteps; ++k) {
+    GridCell& level = levels.emplace_back(cell);
+    level.rise_m = k * step;
+    level.sigma_rise_m = step;
+    if (!problem.ranges.empty()) level.distance_m = level_distance(cell, problem.height_m, level.rise_m);
+    const double prior = level.rise_m / problem.sigma_height_m;
+    level.score =
+        log_likelihood(problem, scorer, make_cell(level, params), cell.theta_rad) - prior * prior / 2;
+  }
+  std::vector<GridCell> peaks;
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    const bool below = k > 0 && levels[k - 1].score > levels[k].score;
+    const bool above = k + 1 < levels.size() && levels[k + 1].score >= levels[k].score;
+    if (!below && !above) peaks.push_back(levels[k]);
+  }
+  std::stable_sort(peaks.begin(), peaks.end(),
+                   [](const auto& a, const auto& b) { return a.score > b.score; });
+  if (peaks.size() > kMaxHeights) peaks.resize(kMaxHeights);
+  return peaks;
+}
+
 VarianceInflation propagated_variances(const GridProblem& problem, const GridCell& at,
                                        const GridParams& params) {
-  const Scorer scorer(problem, params);
+  const Scorer scorer(problem);
   const Cell cell = make_cell(at, params);
   VarianceInflation inflation;
   for (const auto& link : problem.ranges)

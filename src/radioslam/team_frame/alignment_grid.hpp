@@ -7,8 +7,10 @@
 // maps a link's free end b_f (in f's frame) next to its placed end a (in p's frame). A range is compared with
 // |v|, an angle of arrival with the direction of v seen from its receiver. Each variance is the measurement's
 // own plus what the covariance of both ends relative to the reference and the size of the cell add. Both
-// likelihoods are mixtures (measurement_mixture.hpp). Links are treated as independent although odometry
-// errors correlate them, so scores only rank start poses for a refinement. Cost: cells x links.
+// likelihoods are mixtures (measurement_mixture.hpp). In space the free end's height z has a standard
+// deviation s_z about that by odometry: to a range it adds s_z^2 (z / |v|)^2 + s_z^4 / (2 d^2), and the best
+// cells are scored again at other heights. Links are treated as independent although odometry errors
+// correlate them, so scores only rank start poses for a refinement. Cost: cells x links.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,7 +26,7 @@ namespace radioslam {
 struct GridParams {
   int angle_steps = 60;
   double distance_ratio = 1.5;
-  double sigma_height_m = 3;
+  double sigma_height_m = 10;
   int references = 8;
   int peaks = 10;
   int max_links = 80;
@@ -73,6 +75,8 @@ struct GridBearing {
   bool received_by_placed = true;
   std::vector<double> azimuth_rad;  ///< of each path, in the receiver's levelled body frame
   std::vector<double> sigma_rad, prior;
+  std::vector<std::optional<double>> elevation_rad =
+      {};  ///< of each path, levelled; empty: none was measured
 };
 
 struct DistanceCell {
@@ -85,17 +89,25 @@ struct GridProblem {
   std::vector<DistanceCell> distances;
   std::optional<std::pair<double, double>> heading;  ///< theta and its standard deviation, where known
   double height_m = 0;                               ///< of the free end above the placed end, by odometry
+  double sigma_height_m = 0;                         ///< of `height_m`; 0: known
   double span_m = 1;                                 ///< width of the uniform density of false ranges
   MixtureParams mixture;
 };
 
 struct GridCell {
   double distance_m = 0, sigma_distance_m = 0, phi_rad = 0, theta_rad = 0;
-  double score = 0;  ///< log likelihood
+  double rise_m = 0, sigma_rise_m = 0;  ///< of the free end above the problem's height_m
+  double score = 0;                     ///< log likelihood
 };
 
 /// Local maxima of the grid, best first.
 std::vector<GridCell> best_cells(const GridProblem& problem, const GridParams& params);
+
+/// The cell at the heights that explain its links best: local maxima of the likelihood, at most two, since
+/// ranges and azimuths on level ground do not distinguish above from below. The cell alone if the height is
+/// known.
+std::vector<GridCell> at_best_heights(const GridProblem& problem, const GridCell& cell,
+                                      const GridParams& params);
 
 /// Variance that the cell's size and the odometry add to every range (m^2) and every bearing (rad^2).
 VarianceInflation propagated_variances(const GridProblem& problem, const GridCell& cell,

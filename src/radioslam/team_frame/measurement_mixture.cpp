@@ -23,11 +23,15 @@ double normal_density(double squared_norm, double sigma) {
   return std::exp(-0.5 * squared_norm) / (std::sqrt(2 * kPi) * sigma);
 }
 
-/// Density of a direction relative to the uniform density.
-template <class Pose>
-double direction_density(double squared_norm, double sigma) {
-  const double peak = Pose::kDim == 2 ? std::sqrt(2 * kPi) / sigma : 2 / (sigma * sigma);
+/// Density of a direction relative to the uniform density, of azimuths or over the sphere.
+double direction_density(double squared_norm, double sigma, bool azimuth_only) {
+  const double peak = azimuth_only ? std::sqrt(2 * kPi) / sigma : 2 / (sigma * sigma);
   return peak * std::exp(-0.5 * squared_norm);
+}
+
+template <class Pose>
+bool is_azimuth(const BearingFactor<Pose>& factor) {
+  return Pose::kDim == 2 || factor.azimuth_only;
 }
 
 /// Densities of the direct and the outlier term.
@@ -69,9 +73,8 @@ MixtureGraph<Pose>::MixtureGraph(const TeamGraph<Pose>& team, const MixtureParam
   for (const auto& bearing : team.bearings) {
     const auto priors = path_priors(bearing, params);
     for (std::size_t p = 0; p < priors.size(); ++p) {
-      const auto& path = bearing.paths[p];
-      graph.bearings.push_back({bearing.i, bearing.j, path.direction, path.sigma_rad, {}, 1});
-      path_sigma_.push_back(path.sigma_rad);
+      graph.bearings.push_back(path_factor(bearing, p));
+      path_sigma_.push_back(bearing.paths[p].sigma_rad);
       path_prior_.push_back(priors[p]);
     }
     first_path_.push_back(graph.bearings.size());
@@ -95,15 +98,20 @@ double MixtureGraph<Pose>::visit_measurements(const VarianceInflation& inflation
     const std::size_t begin = first_path_[b], end = first_path_[b + 1];
     if (begin == end) continue;
     const double distance = distance_m(begin);
-    const double by_places = params_.sigma_antenna_position_m / std::max(distance, kMinimumDistance_m);
-    const double inflated = added(inflation.bearings_rad2, b, inflation_scale) + by_places * by_places;
+    const double inflated = added(inflation.bearings_rad2, b, inflation_scale);
     double total = 1 - params_.direct_probability;
     visit.begin_bearing();
     for (std::size_t p = begin; p < end; ++p) {
-      const double sigma = std::min(kWidest_rad<Pose>, std::sqrt(path_sigma_[p] * path_sigma_[p] + inflated));
+      const bool azimuth = is_azimuth(graph.bearings[p]);
+      const double compared_m =
+          std::max(seen_by_receiver(graph, graph.bearings[p]).norm(), kMinimumDistance_m);
+      const double by_places = params_.sigma_antenna_position_m / compared_m;
+      const double sigma =
+          std::min(azimuth ? kWidestAzimuth_rad : kWidestDirection_rad,
+                   std::sqrt(path_sigma_[p] * path_sigma_[p] + (inflated + by_places * by_places)));
       const double error2 = residual(graph, graph.bearings[p]).squaredNorm() / (sigma * sigma);
       const double density =
-          params_.direct_probability * path_prior_[p] * direction_density<Pose>(error2, sigma);
+          params_.direct_probability * path_prior_[p] * direction_density(error2, sigma, azimuth);
       total += density;
       visit.path(p, sigma, density);
     }

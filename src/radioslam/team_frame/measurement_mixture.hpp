@@ -2,11 +2,11 @@
 //   range:   p = (1 - e) N(r; 0, s^2) + e / span                        e: probability of a false range
 //   angle:   p = [(1 - P) + P sum_p pi_p c / s^m exp(-|u - mu_p|^2 / (2 s^2))] / (2 pi or 4 pi)
 // with the chord |u - mu_p| between the predicted direction and path p (von Mises in the plane, Fisher in
-// space), c / s^m = sqrt(2 pi) / s in the plane and 2 / s^2 in space, P the probability that one of the paths
-// is direct, pi_p the prior of path p, which grows with its power, and s^2 = sigma^2 + (sigma_antenna /
-// distance)^2; without the last term an angle between two adjacent robots would be arbitrarily precise.
-// Source: Wi-Closure (Wang et al.) eq. 5 with a term for "no path is direct". The weights of the factors are
-// the posteriors of the terms.
+// space), c / s^m = sqrt(2 pi) / s in the plane and for azimuths alone, 2 / s^2 in space, P the probability
+// that one of the paths is direct, pi_p the prior of path p, which grows with its power, and s^2 = sigma^2 +
+// (sigma_antenna / distance)^2; without the last term an angle between two adjacent robots would be
+// arbitrarily precise. Source: Wi-Closure (Wang et al.) eq. 5 with a term for "no path is direct". The
+// weights of the factors are the posteriors of the terms.
 //   horizon: an angle between ends further apart than the maximum range also has
 //            N(excess; 0, (max_range / 4)^2) / N(0): angles alone are fitted best by robots at infinity,
 //            where all directions are parallel.
@@ -19,9 +19,10 @@
 
 namespace radioslam {
 
-/// Standard deviation at which the density of a direction becomes uniform; larger ones are cut to it.
-template <class Pose>
-inline constexpr double kWidest_rad = Pose::kDim == 2 ? 2.5066282746310002 : 1.4142135623730951;
+/// Standard deviation at which the density of an azimuth, or of a direction in space, becomes uniform; larger
+/// ones are cut to it.
+inline constexpr double kWidestAzimuth_rad = 2.5066282746310002;
+inline constexpr double kWidestDirection_rad = 1.4142135623730951;
 
 struct MixtureParams {
   double direct_probability = 0.8;        ///< P

@@ -20,9 +20,7 @@ void use_observed_information(PoseGraph<Pose>& graph, std::size_t ranges, double
   for (std::size_t k = 0; k < std::min(ranges, graph.ranges.size()); ++k) discount(graph, graph.ranges[k]);
   for (auto& bearing : graph.bearings) {
     discount(graph, bearing);
-    const double distance =
-        (position(graph, bearing.j) - graph.poses[bearing.i.index()].translation()).norm();
-    const double across = bearing.sigma_rad * distance;
+    const double across = bearing.sigma_rad * seen_by_receiver(graph, bearing).norm();
     bearing.weight *=
         across * across / (across * across + sigma_antenna_position_m * sigma_antenna_position_m);
   }

@@ -86,6 +86,13 @@ double level_azimuth(const SE3& receiver, const Eigen::Vector3d& direction) {
   const Eigen::Vector3d level = receiver.rotation() * direction;
   return std::atan2(level.y(), level.x()) - receiver.yaw();
 }
+std::optional<double> level_elevation(const SE2& /*receiver*/, const BearingPath<SE2>& /*path*/) {
+  return std::nullopt;
+}
+std::optional<double> level_elevation(const SE3& receiver, const BearingPath<SE3>& path) {
+  if (path.azimuth_only) return std::nullopt;
+  return std::asin(std::clamp((receiver.rotation() * path.direction).z(), -1.0, 1.0));
+}
 
 /// Builds the grid problem of one reference link.
 template <class Pose>
@@ -104,11 +111,13 @@ class Reference {
 
   bool usable() const { return marginals_.has_value(); }
 
-  GridProblem problem(const std::vector<CrossLink<Pose>>& links) const {
+  /// With elevations, the problem is for heights alone: over the grid the height is not known.
+  GridProblem problem(const std::vector<CrossLink<Pose>>& links, bool with_elevation) const {
     GridProblem problem;
     problem.mixture = mixture_;
     for (const auto& range : team_.graph.ranges) problem.span_m = std::max(problem.span_m, range.range_m);
     problem.height_m = height(position(values_, link_.free)) - height(position(values_, link_.placed));
+    if (Pose::kDim == 3 && link_.free.pose.valid()) problem.sigma_height_m = params_.sigma_height_m;
     problem.distances = distances(problem.height_m);
     problem.heading = known_heading();
     for (const auto& link : links) {
@@ -117,7 +126,7 @@ class Reference {
         const auto& range = team_.graph.ranges[link.index];
         problem.ranges.push_back({placed, free, range.range_m, range.sigma_m});
       } else {
-        problem.bearings.push_back(bearing(link, placed, free));
+        problem.bearings.push_back(bearing(link, placed, free, with_elevation));
       }
     }
     return problem;
@@ -158,14 +167,17 @@ class Reference {
                                   : Eigen::Matrix2d(Eigen::Matrix2d::Identity() * mixture_.max_range_m);
   }
 
-  GridBearing bearing(const CrossLink<Pose>& link, const GridEnd& placed, const GridEnd& free) const {
+  GridBearing bearing(const CrossLink<Pose>& link, const GridEnd& placed, const GridEnd& free,
+                      bool with_elevation) const {
     const auto& measured = team_.bearings[link.index];
     const Pose& receiver = values_.poses[measured.i.index()];
-    GridBearing result{placed, free, link.received_by_placed, {}, {}, path_priors(measured, mixture_)};
+    GridBearing result{placed, free, link.received_by_placed, {}, {}, path_priors(measured, mixture_), {}};
     for (const auto& path : measured.paths) {
       result.azimuth_rad.push_back(level_azimuth(receiver, path.direction));
       result.sigma_rad.push_back(path.sigma_rad);
     }
+    if (with_elevation)
+      for (const auto& path : measured.paths) result.elevation_rad.push_back(level_elevation(receiver, path));
     return result;
   }
 
@@ -264,11 +276,12 @@ std::vector<PoseProposal> propose_poses(const TeamGraph<Pose>& team, const TeamC
   for (const auto& link : references(cross.links(), static_cast<std::size_t>(params.references))) {
     const Reference<Pose> reference(team, weighted, link, mixture, params);
     if (!reference.usable()) continue;
-    const GridProblem whole = reference.problem(cross.links());
+    const GridProblem whole = reference.problem(cross.links(), true);
     std::vector<PoseProposal>& places = per_reference.emplace_back();
-    for (const GridCell& cell : best_cells(reference.problem(scored), params))
-      places.push_back({reference.place(cell), cell.score,
-                        over_team(team, cross.links(), propagated_variances(whole, cell, params))});
+    for (const GridCell& cell : best_cells(reference.problem(scored, false), params))
+      for (const GridCell& level : at_best_heights(whole, cell, params))
+        places.push_back({reference.place(level), level.rise_m, level.score,
+                          over_team(team, cross.links(), propagated_variances(whole, level, params))});
   }
   return in_turn(std::move(per_reference));
 }

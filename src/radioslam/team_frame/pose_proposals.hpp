@@ -14,6 +14,7 @@ namespace radioslam {
 /// Start pose for a refinement.
 struct PoseProposal {
   SE2 T_team_unit;              ///< from the frame of the unit's values to the component's, seen from above
+  double rise_m = 0;            ///< in space, how far the unit is raised
   double score = 0;             ///< comparable between proposals of one reference only
   VarianceInflation inflation;  ///< of all ranges and bearings of the team
 };

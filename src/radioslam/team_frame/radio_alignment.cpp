@@ -4,8 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "radioslam/team_frame/beam_search/beam_selection.hpp"
+#include "radioslam/team_frame/beam_search/partial_mixture.hpp"
 #include "radioslam/team_frame/beam_search/team_beam_search.hpp"
-#include "radioslam/team_frame/gravity_priors.hpp"
 #include "radioslam/team_frame/link_thinning.hpp"
 #include "radioslam/team_frame/odometry_compression.hpp"
 
@@ -49,11 +50,27 @@ TeamHypothesis<Pose> hypothesis(const TeamGraph<Pose>& full, CompressedTeam<Pose
   return refine_alignment(values, components, params);
 }
 
-/// Sorts hypotheses by evidence and sets their weights.
 template <class Pose>
-void weigh(std::vector<TeamHypothesis<Pose>>& hypotheses, double evidence_temperature) {
+void sort_by_evidence(std::vector<TeamHypothesis<Pose>>& hypotheses) {
   std::stable_sort(hypotheses.begin(), hypotheses.end(),
                    [](const auto& a, const auto& b) { return a.log_evidence > b.log_evidence; });
+}
+
+/// Standard deviation of every pose's position under a hypothesis.
+template <class Pose>
+std::vector<double> position_sigmas_m(const TeamGraph<Pose>& team, const TeamComponents& components,
+                                      const TeamHypothesis<Pose>& hypothesis,
+                                      const RadioAlignmentParams& params) {
+  MixtureGraph<Pose> mixture(connected_team(team, components).team, params.mixture);
+  mixture.graph.poses = hypothesis.poses;
+  mixture.graph.points = hypothesis.points;
+  mixture.graph.drifts = hypothesis.drifts;
+  return position_sigmas_m(std::move(mixture));
+}
+
+/// Sets the weights of hypotheses that are sorted by evidence.
+template <class Pose>
+void weigh(std::vector<TeamHypothesis<Pose>>& hypotheses, double evidence_temperature) {
   const double best = hypotheses.front().log_evidence;
   double sum = 0;
   for (auto& h : hypotheses) {
@@ -63,6 +80,24 @@ void weigh(std::vector<TeamHypothesis<Pose>>& hypotheses, double evidence_temper
   for (auto& h : hypotheses) h.weight /= sum;
 }
 
+/// Removes hypotheses that are, within their uncertainty, the same as a likelier one: the full graph may
+/// bring together what the search took for different teams. Expects them sorted by evidence.
+template <class Pose>
+void remove_repeated(std::vector<TeamHypothesis<Pose>>& hypotheses, const TeamGraph<Pose>& team,
+                     const TeamComponents& components, const RadioAlignmentParams& params) {
+  std::vector<TeamHypothesis<Pose>> kept;
+  std::vector<std::vector<double>> sigmas_m;
+  for (TeamHypothesis<Pose>& hypothesis : hypotheses) {
+    bool is_new = true;
+    for (std::size_t k = 0; k < kept.size() && is_new; ++k)
+      is_new = !same_alignment(kept[k].poses, hypothesis.poses, sigmas_m[k], params.beam);
+    if (!is_new) continue;
+    if (hypotheses.size() > 1) sigmas_m.push_back(position_sigmas_m(team, components, hypothesis, params));
+    kept.push_back(std::move(hypothesis));
+  }
+  hypotheses = std::move(kept);
+}
+
 }  // namespace
 
 template <class Pose>
@@ -70,7 +105,6 @@ TeamHypothesis<Pose> refine_alignment(const TeamGraph<Pose>& team, const TeamCom
                                       const RadioAlignmentParams& params) {
   const ConnectedTeam<Pose> connected = connected_team(team, components);
   MixtureGraph<Pose> mixture(connected.team, params.mixture);
-  rotate_gravity_priors(mixture.graph);
   const double log_evidence = refine(mixture, {}, params.refinement).log_evidence;
   return described(team, connected, std::move(mixture), log_evidence);
 }
@@ -94,6 +128,8 @@ RadioAlignment<Pose> align_by_radio(const TeamGraph<Pose>& team, const RadioAlig
   result.components = search.components();
   for (const TeamValues<Pose>& kept : search.beam())
     result.hypotheses.push_back(hypothesis(team, compressed, result.components, kept, params));
+  sort_by_evidence(result.hypotheses);
+  remove_repeated(result.hypotheses, team, result.components, params);
   weigh(result.hypotheses, params.beam.evidence_temperature);
   return result;
 }

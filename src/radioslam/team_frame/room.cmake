@@ -12,7 +12,6 @@ radioslam_room(team_frame
     fingerprint_bodies.cpp
     fingerprint_layout.cpp
     fix_alignment.cpp
-    gravity_priors.cpp
     layout_outliers.cpp
     lbfgs.cpp
     link_thinning.cpp

@@ -117,8 +117,21 @@ class G2oWriter {
     out_.id(file_.pose_ids[factor.i.index()]);
     if (Pose::kDim == 3) out_.id(0);
     out_.pose(factor.prior);
-    out_.information(factor.information, factor.weight, graph_.chart);
+    out_.information(prior_information(factor), factor.weight, graph_.chart);
     out_.end_line();
+  }
+
+  /// The format has no prior of gravity alone: one without information about the vertical axis.
+  static typename Pose::Jacobian prior_information(const PosePriorFactor<Pose>& factor) {
+    typename Pose::Jacobian result = factor.information;
+    if constexpr (Pose::kDim == 3)
+      if (factor.gravity_only) {
+        typename Pose::Jacobian across = Pose::Jacobian::Identity();
+        const Eigen::Vector3d up = vertical_in_body(factor.prior);
+        across.template bottomRightCorner<3, 3>() -= up * up.transpose();
+        result = across * factor.information * across;
+      }
+    return result;
   }
 
   void write_omission(std::size_t count, std::string_view what) {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "radioslam/joint/matches/match_groups.hpp"
-#include "radioslam/team_frame/gravity_priors.hpp"
 
 namespace radioslam {
 namespace {
@@ -68,7 +67,6 @@ void join(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement, const Mission
   };
   move(joint.team.graph.poses);
   for (std::vector<Pose>& alternative : placement.alternatives) move(alternative);
-  rotate_gravity_priors(joint.team.graph);
   for (std::size_t r = 0; r < placement.component.size(); ++r)
     if (placement.component[r] == from || placement.component[r] == to) {
       placement.component[r] = to;

@@ -9,7 +9,6 @@
 #include "radioslam/graph/residuals.hpp"
 #include "radioslam/joint/position_fixes/inlier_growth.hpp"
 #include "radioslam/mission/odometry_edge.hpp"
-#include "radioslam/team_frame/gravity_priors.hpp"
 
 namespace radioslam {
 namespace {
@@ -69,7 +68,7 @@ std::vector<FixAlongPath> fixes_along_path(const Robot& robot) {
 template <class Pose>
 void drop_heading_prior(PoseGraph<Pose>& graph, PoseId first) {
   for (auto& prior : graph.pose_priors) {
-    if (prior.i != first) continue;
+    if (prior.i != first || prior.gravity_only) continue;
     prior.information.row(Pose::kDof - 1).setZero();
     prior.information.col(Pose::kDof - 1).setZero();
   }
@@ -88,12 +87,10 @@ class FixPlacement {
   TeamFixes<Pose> run(const OptimizerParams& optimizer) {
     for (std::size_t r = 0; r < fixes_.size(); ++r) align_to_fixes(r);
     if (!aligned_.empty()) {
-      rotate_gravity_priors(odometry_graph_);
       fit_to_inliers(optimizer);
       for (const std::size_t r : aligned_) classify(r);
       reject_foreign_frame();
       for (const std::size_t r : aligned_) adopt(r);
-      rotate_gravity_priors(joint_.team.graph);
     }
     return std::move(fixes_);
   }

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "radioslam/graph/marginals.hpp"
+#include "radioslam/graph/residuals.hpp"
 #include "radioslam/team_frame/beam_search/placement_order.hpp"
-#include "radioslam/team_frame/gravity_priors.hpp"
 
 namespace radioslam {
 namespace {
@@ -27,7 +27,6 @@ MixtureGraph<Pose> partial_mixture(const ConnectedTeam<Pose>& connected, const T
                                    const TeamValues<Pose>& at, const MixtureParams& params) {
   MixtureGraph<Pose> result(connected.team, params);
   at.write_to(result.graph);
-  rotate_gravity_priors(result.graph);
   fix_unplaced(result.graph, connected.team.segments, components);
   return result;
 }
@@ -38,6 +37,29 @@ VarianceInflation inflation_of_connected(const VarianceInflation& all, const Con
   for (const std::size_t k : connected.ranges) own.ranges_m2.push_back(all.ranges_m2[k]);
   for (const std::size_t k : connected.bearings) own.bearings_rad2.push_back(all.bearings_rad2[k]);
   return own;
+}
+
+template <class Pose>
+VarianceInflation inflation_by_odometry(const TeamGraph<Pose>& team) {
+  PoseGraph<Pose> odometry = team.graph;
+  odometry.ranges.clear();
+  const auto marginals = Marginals<Pose>::compute(odometry);
+  if (!marginals) return {};
+  const auto position_variance = [&](PoseId pose) {
+    return pose.valid() ? marginals->pose(pose).template topLeftCorner<Pose::kDim, Pose::kDim>().trace() : 0;
+  };
+  VarianceInflation inflation;
+  for (const auto& range : team.graph.ranges)
+    inflation.ranges_m2.push_back(position_variance(range.i.pose) + position_variance(range.j.pose));
+  for (const auto& bearing : team.bearings) {
+    const double distance =
+        std::max((position(team.graph, bearing.j) - team.graph.poses[bearing.i.index()].translation()).norm(),
+                 kMinimumDistance_m);
+    const double across_m2 = position_variance(bearing.i) + position_variance(bearing.j.pose);
+    const double heading = marginals->pose(bearing.i)(Pose::kDof - 1, Pose::kDof - 1);
+    inflation.bearings_rad2.push_back(across_m2 / (distance * distance) + heading);
+  }
+  return inflation;
 }
 
 template <class Pose>
@@ -56,6 +78,7 @@ std::vector<double> position_sigmas_m(MixtureGraph<Pose> mixture) {
   template MixtureGraph<Pose> partial_mixture(const ConnectedTeam<Pose>&, const TeamComponents&,           \
                                               const TeamValues<Pose>&, const MixtureParams&);              \
   template VarianceInflation inflation_of_connected(const VarianceInflation&, const ConnectedTeam<Pose>&); \
+  template VarianceInflation inflation_by_odometry(const TeamGraph<Pose>&);                                \
   template std::vector<double> position_sigmas_m(MixtureGraph<Pose>)
 RADIOSLAM_PARTIAL_MIXTURE(SE2);
 RADIOSLAM_PARTIAL_MIXTURE(SE3);

@@ -19,6 +19,12 @@ MixtureGraph<Pose> partial_mixture(const ConnectedTeam<Pose>& connected, const T
 template <class Pose>
 VarianceInflation inflation_of_connected(const VarianceInflation& all, const ConnectedTeam<Pose>& connected);
 
+/// What the odometry's drift adds to the variance of every range and bearing between trajectories in one
+/// frame: of positions, and of the receiver's heading, by the team's graph without these. None if no
+/// covariance can be computed.
+template <class Pose>
+VarianceInflation inflation_by_odometry(const TeamGraph<Pose>& team);
+
 /// Standard deviation of every pose's position; zero if no covariance can be computed.
 template <class Pose>
 std::vector<double> position_sigmas_m(MixtureGraph<Pose> mixture);

@@ -15,8 +15,11 @@ constexpr std::size_t kRefinedSegments = 12;
 /// By which parts of a team are off when they are put together.
 constexpr double kPartSigma_m = 3, kPartSigma_rad = 0.2;
 
-SE2 as_pose(const SE2& T, const SE2*) { return T; }
-SE3 as_pose(const SE2& T, const SE3*) { return lift(T); }
+SE2 as_pose(const PoseProposal& proposal, const SE2*) { return proposal.T_team_unit; }
+SE3 as_pose(const PoseProposal& proposal, const SE3*) {
+  return SE3(Eigen::Vector3d(0, 0, proposal.rise_m), Eigen::Quaterniond::Identity()) *
+         lift(proposal.T_team_unit);
+}
 
 }  // namespace
 
@@ -53,8 +56,18 @@ bool TeamBeamSearch<Pose>::take_known_starts(int component) {
     if (team_.segments[p].in_common_frame) components_.of_segment[p] = component, any = true;
   if (!any) return false;
   adopt_sighted_points(component);
-  refine_beam();
+  refine_known_starts();
   return true;
+}
+
+/// Refines twice: with the variances of drift, without which links late in a long drive pass for outliers,
+/// and as the values are.
+template <class Pose>
+void TeamBeamSearch<Pose>::refine_known_starts() {
+  const Connected connected = connected_team(team_, components_);
+  TeamGraph<Pose> placed = connected.team;
+  beam_.front().write_to(placed.graph);
+  keep_best(refined({{beam_.front(), inflation_by_odometry(placed), 0}, {beam_.front(), {}, 0}}, connected));
 }
 
 template <class Pose>
@@ -137,14 +150,9 @@ std::vector<TeamValues<Pose>> TeamBeamSearch<Pose>::refined_gradually(
   VarianceInflation inflation;
   inflation.ranges_m2.assign(connected.ranges.size(), kPartSigma_m * kPartSigma_m);
   inflation.bearings_rad2.assign(connected.bearings.size(), kPartSigma_rad * kPartSigma_rad);
-  parallel_for(teams.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      MixtureGraph<Pose> work = mixture(connected, teams[k]);
-      teams[k].log_evidence = refine(work, inflation, params_.refinement).log_evidence;
-      teams[k].read_from(work.graph);
-    }
-  });
-  return teams;
+  Starts starts;
+  for (TeamValues<Pose>& team : teams) starts.push_back({std::move(team), inflation, 0});
+  return refined(starts, connected);
 }
 
 template <class Pose>
@@ -183,7 +191,7 @@ typename TeamBeamSearch<Pose>::Starts TeamBeamSearch<Pose>::refined_coarsely(
     for (std::size_t k = begin; k < end; ++k) {
       const auto& [team, proposal] = proposals[k];
       starts[k] = {beam_[team], inflation_of_connected(proposal.inflation, connected), 0};
-      move_unit(starts[k].team, unit, proposal.T_team_unit);
+      move_unit(starts[k].team, unit, proposal);
       MixtureGraph<Pose> work = mixture(connected, starts[k].team);
       starts[k].cost = refine_coarsely(work, starts[k].inflation, params_.refinement);
       starts[k].team.read_from(work.graph);
@@ -209,8 +217,8 @@ std::vector<TeamValues<Pose>> TeamBeamSearch<Pose>::refined(const Starts& starts
 
 template <class Pose>
 void TeamBeamSearch<Pose>::move_unit(TeamValues<Pose>& team, const UnplacedNode& unit,
-                                     const SE2& T_team_unit) const {
-  const Pose T = as_pose(T_team_unit, static_cast<const Pose*>(nullptr));
+                                     const PoseProposal& proposal) const {
+  const Pose T = as_pose(proposal, static_cast<const Pose*>(nullptr));
   if (!unit.is_segment) {
     team.points[unit.index] = T * team.points[unit.index];
     return;

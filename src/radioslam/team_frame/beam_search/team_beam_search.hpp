@@ -5,7 +5,8 @@
 //
 // In a team of more than `joint_segments` segments and no points, from the third segment of a component on
 // each is placed jointly with its best-linked neighbours only (local_placement.hpp), so that the cost of a
-// segment does not grow with the team; the whole component is refined again whenever it has grown by half.
+// segment does not grow with the team; the whole component is refined after each step while it is small, then
+// when several alignments are left or it has grown by half.
 #pragma once
 
 #include <utility>
@@ -39,6 +40,7 @@ class TeamBeamSearch {
   using Connected = ConnectedTeam<Pose>;
 
   bool take_known_starts(int component);
+  void refine_known_starts();
   void grow(int component);
   void adopt_sighted_points(int component);
   void add(int component, const UnplacedNode& unit);
@@ -50,7 +52,7 @@ class TeamBeamSearch {
   Starts refined_coarsely(const std::vector<std::pair<std::size_t, PoseProposal>>& proposals,
                           const UnplacedNode& unit, const Connected& connected) const;
   std::vector<TeamValues<Pose>> refined(const Starts& starts, const Connected& connected) const;
-  void move_unit(TeamValues<Pose>& team, const UnplacedNode& unit, const SE2& T_team_unit) const;
+  void move_unit(TeamValues<Pose>& team, const UnplacedNode& unit, const PoseProposal& proposal) const;
   MixtureGraph<Pose> mixture(const Connected& connected, const TeamValues<Pose>& at) const;
   void keep_best(std::vector<TeamValues<Pose>> teams);
   void refine_beam();

@@ -1,0 +1,18 @@
+// Gravity along a trajectory in space. Odometry states no noise of roll and pitch: they come from gravity and
+// do not drift. Their error is a Gauss-Markov process of standard deviation sigma_level: the random walk of
+// the edges, of variance q between two priors, and priors of information q / (P (P + q)), P = sigma_level^2,
+// which keep its variance at P. Without them the walk would lift the end of a kilometre by a hundred metres.
+#pragma once
+
+#include "radioslam/joint/joint_graph.hpp"
+#include "radioslam/joint/robot_nodes.hpp"
+
+namespace radioslam {
+
+/// Adds the priors of one robot's trajectory: of its first pose unless the start is known, and of later ones
+/// unless the noise of the odometry was measured step by step, roll and pitch included. None in the plane.
+template <class Pose>
+void add_level_priors(PoseGraph<Pose>& graph, const Robot& robot, const RobotNodes& nodes,
+                      std::size_t first_pose, double sigma_level_rad);
+
+}  // namespace radioslam
