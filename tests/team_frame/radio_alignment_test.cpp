@@ -296,6 +296,31 @@ TEST(AlignByRadio, PlacesThatFitAsWellAreHypothesesOfEqualWeight) {
   for (const auto& hypothesis : alignment.hypotheses) EXPECT_NEAR(hypothesis.weight, 0.25, 0.05);
 }
 
+TEST(AlignByRadio, HypothesesDifferByMoreThanTheirFrame) {
+  RadioWorld world = short_world();
+  world.robots = 3;
+  world.links = 10;
+  world.angle_ends = 1;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    SimulatedTeam simulated = test::simulate_team(world, seed);
+    const std::size_t poses_of_first = simulated.team.segments[0].pose_count;
+    std::size_t links_of_first = 0;
+    const auto every_second = [&](PoseId i) {
+      return i.index() < poses_of_first && ++links_of_first % 2 == 0;
+    };
+    std::erase_if(simulated.team.graph.ranges, [&](const auto& range) { return every_second(range.i.pose); });
+    std::erase_if(simulated.team.bearings, [&](const auto& bearing) { return every_second(bearing.i); });
+    const auto alignment = align(simulated.team);
+    const std::vector<int> together(simulated.team.segments.size(), 0);
+    if (alignment.components.of_segment != together) continue;
+    const auto& found = alignment.hypotheses;
+    for (std::size_t i = 0; i < found.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        EXPECT_GT(aligned_error_m(found[i].poses, found[j].poses), 0.1)
+            << "seed " << seed << ", hypotheses " << j << " and " << i;
+  }
+}
+
 TEST(AlignByRadio, LargeTeamsPlacedByNeighboursAreWhereTheWholeSearchPutsThem) {
   RadioWorld world = short_world();
   world.robots = 5;

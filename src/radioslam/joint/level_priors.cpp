@@ -28,11 +28,9 @@ PosePriorFactor<SE3> gravity_prior(PoseId i, const SE3& T_start_body, double sig
 
 }  // namespace
 
-template <>
 void add_level_priors(PoseGraph<SE2>& /*graph*/, const Robot& /*robot*/, const RobotNodes& /*nodes*/,
                       std::size_t /*first_pose*/, double /*sigma_level_rad*/) {}
 
-template <>
 void add_level_priors(PoseGraph<SE3>& graph, const Robot& robot, const RobotNodes& nodes,
                       std::size_t first_pose, double sigma_level_rad) {
   if (!robot.initial_pose)

@@ -11,8 +11,9 @@ namespace radioslam {
 
 /// Adds the priors of one robot's trajectory: of its first pose unless the start is known, and of later ones
 /// unless the noise of the odometry was measured step by step, roll and pitch included. None in the plane.
-template <class Pose>
-void add_level_priors(PoseGraph<Pose>& graph, const Robot& robot, const RobotNodes& nodes,
+void add_level_priors(PoseGraph<SE2>& graph, const Robot& robot, const RobotNodes& nodes,
+                      std::size_t first_pose, double sigma_level_rad);
+void add_level_priors(PoseGraph<SE3>& graph, const Robot& robot, const RobotNodes& nodes,
                       std::size_t first_pose, double sigma_level_rad);
 
 }  // namespace radioslam

@@ -21,6 +21,13 @@ SE3 as_pose(const PoseProposal& proposal, const SE3*) {
          lift(proposal.T_team_unit);
 }
 
+/// The motion T, in space a translation and a rotation about the vertical, with T * from = to up to tilt.
+SE2 level_motion_between(const SE2& from, const SE2& to) { return to * from.inverse(); }
+SE3 level_motion_between(const SE3& from, const SE3& to) {
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(to.yaw() - from.yaw(), Eigen::Vector3d::UnitZ()));
+  return {to.translation() - turn * from.translation(), turn};
+}
+
 }  // namespace
 
 template <class Pose>
@@ -192,6 +199,7 @@ typename TeamBeamSearch<Pose>::Starts TeamBeamSearch<Pose>::refined_coarsely(
       const auto& [team, proposal] = proposals[k];
       starts[k] = {beam_[team], inflation_of_connected(proposal.inflation, connected), 0};
       move_unit(starts[k].team, unit, proposal);
+      return_first_pose(starts[k].team, unit);
       MixtureGraph<Pose> work = mixture(connected, starts[k].team);
       starts[k].cost = refine_coarsely(work, starts[k].inflation, params_.refinement);
       starts[k].team.read_from(work.graph);
@@ -224,6 +232,28 @@ void TeamBeamSearch<Pose>::move_unit(TeamValues<Pose>& team, const UnplacedNode&
     return;
   }
   move_segment(team.poses, team_.segments[unit.index], T);
+}
+
+/// Moves the unit's component rigidly so that its first pose, which holds the frame while it is refined, is
+/// where the odometry has it: teams whose first poses differ cannot be compared. Not where priors or
+/// positions hold the frame.
+template <class Pose>
+void TeamBeamSearch<Pose>::return_first_pose(TeamValues<Pose>& team, const UnplacedNode& unit) const {
+  if (!team_.graph.positions.empty()) return;
+  const bool is_absolute = std::any_of(team_.graph.pose_priors.begin(), team_.graph.pose_priors.end(),
+                                       [](const auto& prior) { return !prior.gravity_only; });
+  if (is_absolute) return;
+  const int component =
+      unit.is_segment ? components_.of_segment[unit.index] : components_.of_point[unit.index];
+  const auto first = std::find(components_.of_segment.begin(), components_.of_segment.end(), component);
+  if (first == components_.of_segment.end()) return;
+  const std::size_t pose =
+      team_.segments[static_cast<std::size_t>(first - components_.of_segment.begin())].first_pose;
+  const Pose T = level_motion_between(team.poses[pose], team_.graph.poses[pose]);
+  for (std::size_t p = 0; p < team_.segments.size(); ++p)
+    if (components_.of_segment[p] == component) move_segment(team.poses, team_.segments[p], T);
+  for (std::size_t p = 0; p < team.points.size(); ++p)
+    if (components_.of_point[p] == component) team.points[p] = T * team.points[p];
 }
 
 template <class Pose>

@@ -53,6 +53,7 @@ class TeamBeamSearch {
                           const UnplacedNode& unit, const Connected& connected) const;
   std::vector<TeamValues<Pose>> refined(const Starts& starts, const Connected& connected) const;
   void move_unit(TeamValues<Pose>& team, const UnplacedNode& unit, const PoseProposal& proposal) const;
+  void return_first_pose(TeamValues<Pose>& team, const UnplacedNode& unit) const;
   MixtureGraph<Pose> mixture(const Connected& connected, const TeamValues<Pose>& at) const;
   void keep_best(std::vector<TeamValues<Pose>> teams);
   void refine_beam();
