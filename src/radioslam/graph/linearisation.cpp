@@ -78,7 +78,7 @@ Linearisation<Pose::kDim, Pose::kDof, Pose::kDof> linearise(const PoseGraph<Pose
   using Square = Eigen::Matrix<double, Pose::kDim, Pose::kDim>;
   const Pose& T_w_i = graph.poses[factor.i.index()];
   const typename Pose::Point seen = T_w_i.inverse() * position(graph, factor.j);
-  const typename Pose::Point compared = seen_by_receiver(graph, factor);
+  const typename Pose::Point compared = compared_part(factor, seen);
   const typename Pose::Point u = direction_or_zero(compared);
   Square across = Square::Zero();  // d(v / |v|) / dv
   if (!u.isZero(0)) across = (Square::Identity() - u * u.transpose()) / compared.norm();

@@ -59,13 +59,23 @@ inline Eigen::Vector3d vertical_in_body(const SE3& T_frame_body) {
   return T_frame_body.rotation().conjugate() * Eigen::Vector3d::UnitZ();
 }
 
-/// What a bearing compares: where its end j is in i's body frame, within the xy-plane for an azimuth alone.
+/// What a bearing compares of where its end j is in i's body frame: for an azimuth alone, the projection to
+/// the xy-plane.
 template <class Pose>
-typename Pose::Point seen_by_receiver(const PoseGraph<Pose>& graph, const BearingFactor<Pose>& factor) {
-  typename Pose::Point seen = graph.poses[factor.i.index()].inverse() * position(graph, factor.j);
+typename Pose::Point compared_part(const BearingFactor<Pose>& factor, typename Pose::Point seen) {
   if constexpr (Pose::kDim == 3)
     if (factor.azimuth_only) seen.z() = 0;
   return seen;
+}
+template <class Pose>
+typename Pose::Point seen_by_receiver(const PoseGraph<Pose>& graph, const BearingFactor<Pose>& factor) {
+  return compared_part<Pose>(factor, graph.poses[factor.i.index()].inverse() * position(graph, factor.j));
+}
+
+/// Distance from the origin of pose i to an end.
+template <class Pose>
+double distance_m(const PoseGraph<Pose>& graph, PoseId i, const RangeEnd<Pose>& end) {
+  return (position(graph, end) - graph.poses[i.index()].translation()).norm();
 }
 
 /// The information of a factor, without weight and loss.

@@ -36,8 +36,7 @@ template <class Pose>
 void believe_every_link(JointGraph<Pose>& joint) {
   for (const auto& bearing : joint.team.bearings) {
     RADIOSLAM_CHECK(bearing.paths.size() == 1, "the oracle's measurements contain only their direct path");
-    const auto& path = bearing.paths.front();
-    joint.team.graph.bearings.push_back({bearing.i, bearing.j, path.direction, path.sigma_rad, {}, 1});
+    joint.team.graph.bearings.push_back(path_factor(bearing, 0));
   }
 }
 

@@ -103,14 +103,13 @@ class Scorer {
 
   double log_likelihood(const GridBearing& link, const GridEnd& b, const Cell& cell) const {
     const Prediction predicted = bearing(link.placed, b, cell, link.received_by_placed);
-    const Prediction rise = elevation(link.placed, b, cell, link.received_by_placed);
     double density = 1 - problem_.mixture.direct_probability;
     for (std::size_t p = 0; p < link.azimuth_rad.size(); ++p) {
       const double sigma =
           std::min(kWidestAzimuth_rad, std::sqrt(predicted.variance + link.sigma_rad[p] * link.sigma_rad[p]));
       const double error = wrap_angle(predicted.value - link.azimuth_rad[p]) / sigma;
       density += problem_.mixture.direct_probability * link.prior[p] * std::sqrt(2 * std::numbers::pi) /
-                 sigma * std::exp(-0.5 * error * error) * elevation_ratio(link, p, rise);
+                 sigma * std::exp(-0.5 * error * error) * elevation_ratio(link, p, b, cell);
     }
     return std::log(density);
   }
@@ -121,8 +120,9 @@ class Scorer {
   }
 
   /// Density of a path's elevation relative to that of elevations without information; 1 without elevation.
-  static double elevation_ratio(const GridBearing& link, std::size_t p, const Prediction& predicted) {
+  double elevation_ratio(const GridBearing& link, std::size_t p, const GridEnd& b, const Cell& cell) const {
     if (link.elevation_rad.empty() || !link.elevation_rad[p]) return 1;
+    const Prediction predicted = elevation(link.placed, b, cell, link.received_by_placed);
     const double sigma = std::sqrt(predicted.variance + link.sigma_rad[p] * link.sigma_rad[p]);
     const double error = (predicted.value - *link.elevation_rad[p]) / sigma;
     return std::numbers::pi / (std::sqrt(2 * std::numbers::pi) * sigma) * std::exp(-0.5 * error * error);
@@ -149,14 +149,28 @@ Cell make_cell(const GridCell& at, const GridParams& params) {
           at.sigma_rise_m * at.sigma_rise_m};
 }
 
-double log_likelihood(const GridProblem& problem, const Scorer& scorer, const Cell& cell, double theta_rad) {
-  double sum = 0;
-  for (const auto& link : problem.ranges)
-    sum += scorer.log_likelihood(link, turned(link.free, theta_rad), cell);
-  for (const auto& link : problem.bearings)
-    sum += scorer.log_likelihood(link, turned(link.free, theta_rad), cell);
-  return sum;
-}
+/// Scores cells of one heading: the links' free ends are rotated once.
+class HeadingScorer {
+ public:
+  HeadingScorer(const GridProblem& problem, double theta_rad) : problem_(problem), scorer_(problem) {
+    for (const auto& link : problem.ranges) range_ends_.push_back(turned(link.free, theta_rad));
+    for (const auto& link : problem.bearings) bearing_ends_.push_back(turned(link.free, theta_rad));
+  }
+
+  double log_likelihood(const Cell& cell) const {
+    double sum = 0;
+    for (std::size_t l = 0; l < range_ends_.size(); ++l)
+      sum += scorer_.log_likelihood(problem_.ranges[l], range_ends_[l], cell);
+    for (std::size_t l = 0; l < bearing_ends_.size(); ++l)
+      sum += scorer_.log_likelihood(problem_.bearings[l], bearing_ends_[l], cell);
+    return sum;
+  }
+
+ private:
+  const GridProblem& problem_;
+  Scorer scorer_;
+  std::vector<GridEnd> range_ends_, bearing_ends_;
+};
 
 /// Headings on the grid that are compatible with a known heading.
 std::vector<double> headings(const GridProblem& problem, const GridParams& params) {
@@ -173,10 +187,7 @@ std::vector<double> headings(const GridProblem& problem, const GridParams& param
 
 /// Log likelihoods of all directions and distances at one heading; index = distance * angle_steps + phi.
 std::vector<double> score_heading(const GridProblem& problem, const GridParams& params, double theta_rad) {
-  const Scorer scorer(problem);
-  std::vector<GridEnd> range_ends, bearing_ends;
-  for (const auto& link : problem.ranges) range_ends.push_back(turned(link.free, theta_rad));
-  for (const auto& link : problem.bearings) bearing_ends.push_back(turned(link.free, theta_rad));
+  const HeadingScorer scorer(problem, theta_rad);
   std::vector<double> scores;
   for (const DistanceCell& distance : problem.distances)
     for (int k = 0; k < params.angle_steps; ++k) {
@@ -187,15 +198,15 @@ std::vector<double> score_heading(const GridProblem& problem, const GridParams& 
                         0,
                         problem.sigma_height_m,
                         0};
-      const Cell cell = make_cell(at, params);
-      double score = 0;
-      for (std::size_t l = 0; l < range_ends.size(); ++l)
-        score += scorer.log_likelihood(problem.ranges[l], range_ends[l], cell);
-      for (std::size_t l = 0; l < bearing_ends.size(); ++l)
-        score += scorer.log_likelihood(problem.bearings[l], bearing_ends[l], cell);
-      scores.push_back(score);
+      scores.push_back(scorer.log_likelihood(make_cell(at, params)));
     }
   return scores;
+}
+
+/// Horizontal distance of a cell whose reference range stays the same when it is raised.
+double level_distance(const GridCell& cell, double height_m, double rise_m) {
+  const double before = std::hypot(cell.distance_m, height_m), after = height_m + rise_m;
+  return std::sqrt(std::max(before * before - after * after, kNearest_m * kNearest_m));
 }
 
 bool neighbours(const GridCell& a, const GridCell& b, const GridParams& params) {
@@ -235,20 +246,10 @@ std::vector<GridCell> best_cells(const GridProblem& problem, const GridParams& p
   return peaks;
 }
 
-namespace {
-
-/// Horizontal distance of a cell whose reference range stays the same when it is raised.
-double level_distance(const GridCell& cell, double height_m, double rise_m) {
-  const double before = std::hypot(cell.distance_m, height_m), after = height_m + rise_m;
-  return std::sqrt(std::max(before * before - after * after, kNearest_m * kNearest_m));
-}
-
-}  // namespace
-
 std::vector<GridCell> at_best_heights(const GridProblem& problem, const GridCell& cell,
                                       const GridParams& params) {
   if (problem.sigma_height_m == 0) return {cell};
-  const Scorer scorer(problem);
+  const HeadingScorer scorer(problem, cell.theta_rad);
   const double step = problem.sigma_height_m / kHeightSteps;
   constexpr int kSteps = static_cast<int>(kHeightReach * kHeightSteps);
   std::vector<GridCell> levels;
@@ -258,8 +259,7 @@ std::vector<GridCell> at_best_heights(const GridProblem& problem, const GridCell
     level.sigma_rise_m = step;
     if (!problem.ranges.empty()) level.distance_m = level_distance(cell, problem.height_m, level.rise_m);
     const double prior = level.rise_m / problem.sigma_height_m;
-    level.score =
-        log_likelihood(problem, scorer, make_cell(level, params), cell.theta_rad) - prior * prior / 2;
+    level.score = scorer.log_likelihood(make_cell(level, params)) - prior * prior / 2;
   }
   std::vector<GridCell> peaks;
   for (std::size_t k = 0; k < levels.size(); ++k) {

@@ -97,19 +97,19 @@ double MixtureGraph<Pose>::visit_measurements(const VarianceInflation& inflation
   for (std::size_t b = 0; b + 1 < first_path_.size(); ++b) {
     const std::size_t begin = first_path_[b], end = first_path_[b + 1];
     if (begin == end) continue;
-    const double distance = distance_m(begin);
+    const double distance = distance_m(graph, graph.bearings[begin].i, graph.bearings[begin].j);
     const double inflated = added(inflation.bearings_rad2, b, inflation_scale);
     double total = 1 - params_.direct_probability;
     visit.begin_bearing();
     for (std::size_t p = begin; p < end; ++p) {
       const bool azimuth = is_azimuth(graph.bearings[p]);
-      const double compared_m =
-          std::max(seen_by_receiver(graph, graph.bearings[p]).norm(), kMinimumDistance_m);
-      const double by_places = params_.sigma_antenna_position_m / compared_m;
+      const typename Pose::Point seen = seen_by_receiver(graph, graph.bearings[p]);
+      const double by_places = params_.sigma_antenna_position_m / std::max(seen.norm(), kMinimumDistance_m);
       const double sigma =
           std::min(azimuth ? kWidestAzimuth_rad : kWidestDirection_rad,
                    std::sqrt(path_sigma_[p] * path_sigma_[p] + (inflated + by_places * by_places)));
-      const double error2 = residual(graph, graph.bearings[p]).squaredNorm() / (sigma * sigma);
+      const double error2 =
+          (direction_or_zero(seen) - graph.bearings[p].direction).squaredNorm() / (sigma * sigma);
       const double density =
           params_.direct_probability * path_prior_[p] * direction_density(error2, sigma, azimuth);
       total += density;
@@ -119,12 +119,6 @@ double MixtureGraph<Pose>::visit_measurements(const VarianceInflation& inflation
     log_likelihood += std::log(total) + log_within_reach(distance);
   }
   return log_likelihood;
-}
-
-template <class Pose>
-double MixtureGraph<Pose>::distance_m(std::size_t path) const {
-  const auto& bearing = graph.bearings[path];
-  return (position(graph, bearing.j) - graph.poses[bearing.i.index()].translation()).norm();
 }
 
 template <class Pose>

@@ -94,7 +94,6 @@ class MixtureGraph {
   template <class Visit>
   double visit_measurements(const VarianceInflation& inflation, double inflation_scale, Visit&& visit) const;
   double other_cost() const;
-  double distance_m(std::size_t path) const;
   double log_within_reach(double distance_m) const;
 
   MixtureParams params_;

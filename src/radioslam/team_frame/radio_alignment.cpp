@@ -50,24 +50,6 @@ TeamHypothesis<Pose> hypothesis(const TeamGraph<Pose>& full, CompressedTeam<Pose
   return refine_alignment(values, components, params);
 }
 
-template <class Pose>
-void sort_by_evidence(std::vector<TeamHypothesis<Pose>>& hypotheses) {
-  std::stable_sort(hypotheses.begin(), hypotheses.end(),
-                   [](const auto& a, const auto& b) { return a.log_evidence > b.log_evidence; });
-}
-
-/// Standard deviation of every pose's position under a hypothesis.
-template <class Pose>
-std::vector<double> position_sigmas_m(const TeamGraph<Pose>& team, const TeamComponents& components,
-                                      const TeamHypothesis<Pose>& hypothesis,
-                                      const RadioAlignmentParams& params) {
-  MixtureGraph<Pose> mixture(connected_team(team, components).team, params.mixture);
-  mixture.graph.poses = hypothesis.poses;
-  mixture.graph.points = hypothesis.points;
-  mixture.graph.drifts = hypothesis.drifts;
-  return position_sigmas_m(std::move(mixture));
-}
-
 /// Sets the weights of hypotheses that are sorted by evidence.
 template <class Pose>
 void weigh(std::vector<TeamHypothesis<Pose>>& hypotheses, double evidence_temperature) {
@@ -78,24 +60,6 @@ void weigh(std::vector<TeamHypothesis<Pose>>& hypotheses, double evidence_temper
     sum += h.weight;
   }
   for (auto& h : hypotheses) h.weight /= sum;
-}
-
-/// Removes hypotheses that are, within their uncertainty, the same as a likelier one: the full graph may
-/// bring together what the search took for different teams. Expects them sorted by evidence.
-template <class Pose>
-void remove_repeated(std::vector<TeamHypothesis<Pose>>& hypotheses, const TeamGraph<Pose>& team,
-                     const TeamComponents& components, const RadioAlignmentParams& params) {
-  std::vector<TeamHypothesis<Pose>> kept;
-  std::vector<std::vector<double>> sigmas_m;
-  for (TeamHypothesis<Pose>& hypothesis : hypotheses) {
-    bool is_new = true;
-    for (std::size_t k = 0; k < kept.size() && is_new; ++k)
-      is_new = !same_alignment(kept[k].poses, hypothesis.poses, sigmas_m[k], params.beam);
-    if (!is_new) continue;
-    if (hypotheses.size() > 1) sigmas_m.push_back(position_sigmas_m(team, components, hypothesis, params));
-    kept.push_back(std::move(hypothesis));
-  }
-  hypotheses = std::move(kept);
 }
 
 }  // namespace
@@ -126,10 +90,16 @@ RadioAlignment<Pose> align_by_radio(const TeamGraph<Pose>& team, const RadioAlig
   search.run();
   RadioAlignment<Pose> result;
   result.components = search.components();
+  std::vector<TeamHypothesis<Pose>> hypotheses;
   for (const TeamValues<Pose>& kept : search.beam())
-    result.hypotheses.push_back(hypothesis(team, compressed, result.components, kept, params));
-  sort_by_evidence(result.hypotheses);
-  remove_repeated(result.hypotheses, team, result.components, params);
+    hypotheses.push_back(hypothesis(team, compressed, result.components, kept, params));
+  // The full graph may bring together what the search took for different teams.
+  result.hypotheses =
+      different_teams<Pose>(std::move(hypotheses), params.beam, [&](const TeamHypothesis<Pose>& found) {
+        const TeamValues<Pose> values{found.poses, found.points, found.drifts, found.log_evidence};
+        return position_sigmas_m(partial_mixture(connected_team(team, result.components), result.components,
+                                                 values, params.mixture));
+      });
   weigh(result.hypotheses, params.beam.evidence_temperature);
   return result;
 }

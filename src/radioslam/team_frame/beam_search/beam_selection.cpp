@@ -38,26 +38,6 @@ std::vector<RefinementStart<Pose>> different_starts(std::vector<RefinementStart<
 }
 
 template <class Pose>
-std::vector<TeamValues<Pose>> different_teams(
-    std::vector<TeamValues<Pose>> teams, const BeamParams& params,
-    const std::function<std::vector<double>(const TeamValues<Pose>&)>& position_sigmas_m) {
-  std::stable_sort(teams.begin(), teams.end(),
-                   [](const auto& a, const auto& b) { return a.log_evidence > b.log_evidence; });
-  std::vector<TeamValues<Pose>> kept;
-  std::vector<std::vector<double>> sigmas_m;
-  for (TeamValues<Pose>& team : teams) {
-    if (kept.size() == static_cast<std::size_t>(params.beam)) break;
-    bool known = false;
-    for (std::size_t k = 0; k < kept.size() && !known; ++k)
-      known = same_alignment(kept[k].poses, team.poses, sigmas_m[k], params);
-    if (known) continue;
-    sigmas_m.push_back(position_sigmas_m(team));
-    kept.push_back(std::move(team));
-  }
-  return kept;
-}
-
-template <class Pose>
 std::vector<TeamValues<Pose>> best_teams(std::vector<TeamValues<Pose>> teams, const BeamParams& params) {
   std::stable_sort(teams.begin(), teams.end(),
                    [](const auto& a, const auto& b) { return a.log_evidence > b.log_evidence; });
@@ -74,10 +54,7 @@ std::vector<TeamValues<Pose>> best_teams(std::vector<TeamValues<Pose>> teams, co
   template bool same_alignment(const std::vector<Pose>&, const std::vector<Pose>&,                     \
                                const std::vector<double>&, const BeamParams&);                         \
   template std::vector<RefinementStart<Pose>> different_starts(std::vector<RefinementStart<Pose>>,     \
-                                                               const BeamParams&);                     \
-  template std::vector<TeamValues<Pose>> different_teams(                                              \
-      std::vector<TeamValues<Pose>>, const BeamParams&,                                                \
-      const std::function<std::vector<double>(const TeamValues<Pose>&)>&)
+                                                               const BeamParams&)
 RADIOSLAM_BEAM_SELECTION(SE2);
 RADIOSLAM_BEAM_SELECTION(SE3);
 

@@ -2,7 +2,8 @@
 // better one.
 #pragma once
 
-#include <functional>
+#include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "radioslam/team_frame/beam_search/radio_alignment_params.hpp"
@@ -34,11 +35,26 @@ std::vector<RefinementStart<Pose>> different_starts(std::vector<RefinementStart<
 template <class Pose>
 std::vector<TeamValues<Pose>> best_teams(std::vector<TeamValues<Pose>> teams, const BeamParams& params);
 
-/// The teams with the most evidence, at most `beam`, each different from all before within its tolerance and
-/// their uncertainty, the standard deviations `position_sigmas_m(team)`.
-template <class Pose>
-std::vector<TeamValues<Pose>> different_teams(
-    std::vector<TeamValues<Pose>> teams, const BeamParams& params,
-    const std::function<std::vector<double>(const TeamValues<Pose>&)>& position_sigmas_m);
+/// The teams (TeamValues or TeamHypothesis) with the most evidence, at most `beam`, each different from all
+/// before within its tolerance and their uncertainty, the standard deviations `position_sigmas_m(team)`.
+template <class Pose, template <class> class Team>
+std::vector<Team<Pose>> different_teams(std::vector<Team<Pose>> teams, const BeamParams& params,
+                                        const auto& position_sigmas_m) {
+  if (teams.size() < 2) return teams;
+  std::stable_sort(teams.begin(), teams.end(),
+                   [](const auto& a, const auto& b) { return a.log_evidence > b.log_evidence; });
+  std::vector<Team<Pose>> kept;
+  std::vector<std::vector<double>> sigmas_m;
+  for (Team<Pose>& team : teams) {
+    if (kept.size() == static_cast<std::size_t>(params.beam)) break;
+    bool known = false;
+    for (std::size_t k = 0; k < kept.size() && !known; ++k)
+      known = same_alignment(kept[k].poses, team.poses, sigmas_m[k], params);
+    if (known) continue;
+    sigmas_m.push_back(position_sigmas_m(team));
+    kept.push_back(std::move(team));
+  }
+  return kept;
+}
 
 }  // namespace radioslam

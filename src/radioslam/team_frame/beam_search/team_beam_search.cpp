@@ -16,16 +16,13 @@ constexpr std::size_t kRefinedSegments = 12;
 constexpr double kPartSigma_m = 3, kPartSigma_rad = 0.2;
 
 SE2 as_pose(const PoseProposal& proposal, const SE2*) { return proposal.T_team_unit; }
-SE3 as_pose(const PoseProposal& proposal, const SE3*) {
-  return SE3(Eigen::Vector3d(0, 0, proposal.rise_m), Eigen::Quaterniond::Identity()) *
-         lift(proposal.T_team_unit);
-}
+SE3 as_pose(const PoseProposal& proposal, const SE3*) { return lift(proposal.T_team_unit, proposal.rise_m); }
 
 /// The motion T, in space a translation and a rotation about the vertical, with T * from = to up to tilt.
 SE2 level_motion_between(const SE2& from, const SE2& to) { return to * from.inverse(); }
 SE3 level_motion_between(const SE3& from, const SE3& to) {
-  const Eigen::Quaterniond turn(Eigen::AngleAxisd(to.yaw() - from.yaw(), Eigen::Vector3d::UnitZ()));
-  return {to.translation() - turn * from.translation(), turn};
+  return lift(level_motion_between(flatten(from), flatten(to)),
+              to.translation().z() - from.translation().z());
 }
 
 }  // namespace
@@ -265,10 +262,6 @@ MixtureGraph<Pose> TeamBeamSearch<Pose>::mixture(const Connected& connected,
 /// `components_` must be those of `teams` already.
 template <class Pose>
 void TeamBeamSearch<Pose>::keep_best(std::vector<TeamValues<Pose>> teams) {
-  if (teams.size() == 1) {
-    beam_ = std::move(teams);
-    return;
-  }
   auto kept = different_teams<Pose>(std::move(teams), params_.beam, [&](const TeamValues<Pose>& team) {
     return position_sigmas_m(mixture(connected_team(team_, components_), team));
   });
