@@ -72,6 +72,19 @@ TEST(RangeBiases, AreNotSeenInErrorsThatComeInRuns) {
   }
 }
 
+TEST(RangeBiases, AreNotSeenInDetours) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    auto [mission, truth] = simulate_city(ranging_city(), seed);
+    const double direct_m = error_m(run_pipeline(mission, quick_params()).result, truth);
+    Rng rng(seed);
+    for (std::size_t k = 0; k < mission.ranges.size(); ++k)
+      if (k % 5 < 3) mission.ranges[k].range_m += 2 + 20 * rng.uniform();
+    const RunResult result = run_pipeline(mission, quick_params()).result;
+    EXPECT_TRUE(result.range_biases.empty()) << "seed " << seed;
+    EXPECT_LT(error_m(result, truth), 1.5 * direct_m + 0.2) << "seed " << seed;
+  }
+}
+
 constexpr std::size_t kRobots = 4, kPairs = 6;
 constexpr std::array<std::array<std::size_t, 2>, kPairs> kEnds{
     {{3, 0}, {3, 1}, {3, 2}, {2, 1}, {2, 0}, {1, 0}}};

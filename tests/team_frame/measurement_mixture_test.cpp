@@ -104,30 +104,36 @@ RangeFactor<SE2> range_of(double range_m) {
   return range;
 }
 
-/// Two poses `distance_m` apart, one range, and the longest range of the team, 100 m.
+MixtureParams all_in_sight() {
+  MixtureParams params;
+  params.obstructed_share = 0;
+  return params;
+}
+
+/// Two poses `distance_m` apart with one range, and another pair with the longest range of the team, 100 m.
 MixtureGraph<SE2> ranged(double distance_m, double range_m, const MixtureParams& params) {
   TeamGraph<SE2> team;
-  team.graph.poses = {SE2(), SE2({distance_m, 0}, 0)};
-  team.segments = {{"a", 0, 1, {Stamp{}}}, {"b", 1, 1, {Stamp{}}}};
-  team.graph.ranges = {range_of(100), range_of(range_m)};
-  MixtureGraph<SE2> mixture(team, params);
-  mixture.graph.ranges.erase(mixture.graph.ranges.begin());
-  return mixture;
+  team.graph.poses = {SE2(), SE2({distance_m, 0}, 0), SE2(), SE2({100, 0}, 0)};
+  team.segments = {
+      {"a", 0, 1, {Stamp{}}}, {"b", 1, 1, {Stamp{}}}, {"c", 2, 1, {Stamp{}}}, {"d", 3, 1, {Stamp{}}}};
+  team.graph.ranges = {range_of(range_m), range_of(100)};
+  team.graph.ranges[1].i.pose = PoseId(2);
+  team.graph.ranges[1].j.pose = PoseId(3);
+  return {team, params};
 }
 
 TEST(MeasurementMixture, ARangesDensityIntegratesToOneOverTheSpan) {
-  auto mixture = ranged(40, 40, {});
+  const double e = MixtureParams{}.false_range_probability;
+  const double of_the_longest = (1 - e) / (std::sqrt(2 * kPi) * 0.5) + e / 100;
   constexpr double kStep_m = 0.05;
   double sum = 0;
-  for (int k = 0; k < 2000; ++k) {
-    mixture.graph.ranges[0].range_m = kStep_m * (k + 0.5);
-    sum += kStep_m * likelihood(mixture);
-  }
+  for (int k = 0; k < 2000; ++k)
+    sum += kStep_m * likelihood(ranged(40, kStep_m * (k + 0.5), all_in_sight())) / of_the_longest;
   EXPECT_NEAR(sum, 1, 1e-6);
 }
 
 TEST(MeasurementMixture, ARangesWeightIsThePosteriorOfBeingDirect) {
-  MixtureParams params;
+  MixtureParams params = all_in_sight();
   params.false_range_probability = 0.1;
   auto near = ranged(40, 40.5, params), far = ranged(40, 45, params);
   near.update_weights({}, 0);
@@ -138,7 +144,7 @@ TEST(MeasurementMixture, ARangesWeightIsThePosteriorOfBeingDirect) {
 }
 
 TEST(MeasurementMixture, WeightsAndTheNullSumToOne) {
-  MixtureParams params;
+  MixtureParams params = all_in_sight();
   params.direct_probability = 0.7;
   MixtureGraph<SE2> mixture(three_paths(), params);
   for (const double azimuth : {0.3, 0.6, -1.7, 1.0}) {
@@ -153,7 +159,7 @@ TEST(MeasurementMixture, WeightsAndTheNullSumToOne) {
 /// Bayes by hand: no path, or one of three with its prior and the density of its chord.
 TEST(MeasurementMixture, PathWeightsArePosteriors) {
   const auto team = three_paths();
-  const MixtureParams params;
+  const MixtureParams params = all_in_sight();
   MixtureGraph<SE2> mixture(team, params);
   const double azimuth = 0.45;
   put_transmitter(mixture, azimuth);
@@ -179,6 +185,73 @@ TEST(MeasurementMixture, APathTenDecibelsStrongerIsTwiceAsLikely) {
   EXPECT_NEAR(std::accumulate(priors.begin(), priors.end(), 0.0), 1, 1e-12);
   EXPECT_NEAR(priors[0] / priors[2], 2, 1e-12);
   EXPECT_NEAR(priors[0] / priors[1], std::sqrt(2), 1e-12);
+}
+
+TEST(MeasurementMixture, ARangeShorterThanTheDistanceIsNoDetour) {
+  const auto weight_of = [](double range_m) {
+    auto mixture = ranged(40, range_m, {});
+    mixture.update_weights({}, 0);
+    return mixture.range_weight(0);
+  };
+  EXPECT_GT(weight_of(40), 0.9);
+  EXPECT_LT(weight_of(43), 0.001);
+  EXPECT_GT(weight_of(38.4), 2 * weight_of(41.6)) << "longer ranges have one more explanation";
+}
+
+TEST(MeasurementMixture, ADetouredRangeMakesTheAnglesOfItsExchangeUnlikely) {
+  TeamGraph<SE2> team = received_by<SE2>({path(0, 0.1, -50)});
+  const auto angle_weight = [&](double range_m) {
+    team.graph.ranges = {range_of(range_m)};
+    MixtureGraph<SE2> mixture(team, {});
+    put_transmitter(mixture, 0.05);
+    mixture.update_weights({}, 0);
+    return mixture.direct_weight(0);
+  };
+  EXPECT_GT(angle_weight(kDistance_m), 0.9);
+  EXPECT_LT(angle_weight(kDistance_m + 20), 0.5);
+}
+
+/// The weighted factor is a quadratic model of a range's mixture: it has the gradient of the cost.
+TEST(MeasurementMixture, TheGradientOfAWeightedRangeIsThatOfTheCost) {
+  for (const double range_m : {38.0, 39.7, 40.4, 42.0, 60.0}) {
+    auto mixture = ranged(40, range_m, {});
+    mixture.update_weights({}, 0);
+    const auto gradient = [&](const auto& cost) {
+      constexpr double kStep_m = 1e-5;
+      const double more = (mixture.graph.poses[1] = SE2({40 + kStep_m, 0}, 0), cost());
+      const double less = (mixture.graph.poses[1] = SE2({40 - kStep_m, 0}, 0), cost());
+      return (more - less) / (2 * kStep_m);
+    };
+    const double of_cost = gradient([&] { return mixture.cost({}, 0); });
+    const double of_factor = gradient([&] {
+      const auto& range = mixture.graph.ranges[0];
+      const double error = (mixture.graph.poses[1].translation().norm() - range.range_m) / range.sigma_m;
+      return range.weight * error * error;
+    });
+    EXPECT_NEAR(of_factor, of_cost, 1e-4 * std::max(1.0, std::abs(of_cost))) << range_m;
+  }
+}
+
+TEST(MeasurementMixture, TheObstructedShareFollowsFromTheMeasurements) {
+  TeamGraph<SE2> team;
+  constexpr std::size_t kLinks = 100, kObstructed = 70;
+  team.segments = {{"a", 0, kLinks, {}}, {"b", kLinks, kLinks, {}}};
+  for (std::size_t k = 0; k < 2 * kLinks; ++k)
+    team.graph.poses.push_back(SE2({k < kLinks ? 0.0 : 40.0, 0}, 0));
+  for (std::size_t k = 0; k < kLinks; ++k) {
+    for (TrajectorySegment& segment : team.segments)
+      segment.stamps.push_back(Stamp::from_seconds(100.0 * static_cast<double>(k)));
+    RangeFactor<SE2> range = range_of(k < kObstructed ? 50.0 + 0.3 * static_cast<double>(k) : 40.0);
+    range.i.pose = PoseId(k);
+    range.j.pose = PoseId(kLinks + k);
+    team.graph.ranges.push_back(range);
+  }
+  MixtureGraph<SE2> mixture(team, {});
+  mixture.estimate_obstructed_share({}, 0);
+  EXPECT_NEAR(mixture.obstructed_share(), 0.7, 0.03);
+  MixtureGraph<SE2> in_sight(team, all_in_sight());
+  in_sight.estimate_obstructed_share({}, 0);
+  EXPECT_EQ(in_sight.obstructed_share(), 0);
 }
 
 TEST(MeasurementMixture, InflationAddsToEveryVariance) {
@@ -218,7 +291,7 @@ TEST(MeasurementMixture, CostIsWhatReweighReturnsAndCountsTheOdometry) {
 
 TEST(MeasurementMixture, AnAngleFromBeyondTheReachIsUnlikely) {
   TeamGraph<SE2> team = received_by<SE2>({path(0, 0.1, -50)});
-  MixtureParams params;
+  MixtureParams params = all_in_sight();
   params.max_range_m = 80;
   params.sigma_antenna_position_m = 1e-3;  // otherwise the distance matters within the range too
   const auto cost_at = [&](double distance_m) {
@@ -233,7 +306,7 @@ TEST(MeasurementMixture, AnAngleFromBeyondTheReachIsUnlikely) {
 
 TEST(MeasurementMixture, TheLongestRangeIsWithinReach) {
   TeamGraph<SE2> team = received_by<SE2>({path(0, 0.1, -50)});
-  MixtureParams params;
+  MixtureParams params = all_in_sight();
   params.sigma_antenna_position_m = 1e-3;
   params.false_range_probability = 0.5;  // so that the range itself has the same likelihood at both
   RangeFactor<SE2> range;

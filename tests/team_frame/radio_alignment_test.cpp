@@ -79,6 +79,8 @@ double best_error_m(const RadioAlignment<SE2>& alignment, const std::vector<SE2>
 double oracle_error_m(const SimulatedTeam& simulated) {
   auto graph = simulated.team.graph;
   graph.poses = simulated.truth;
+  for (std::size_t k = 0; k < graph.ranges.size(); ++k)
+    graph.ranges[k].weight = simulated.in_sight[k] ? 1 : 0;
   for (std::size_t k = 0; k < simulated.team.bearings.size(); ++k) {
     const auto& bearing = simulated.team.bearings[k];
     const int direct = simulated.direct_path[k];
@@ -151,6 +153,44 @@ TEST(AlignByRadio, SeparatesDirectPathsFromMultipath) {
   EXPECT_GT(mean(direct), 0.7);
   EXPECT_LT(mean(other), 0.1) << "some happen to come from about where the other robot is";
   EXPECT_GT(*std::min_element(best.range_weight.begin(), best.range_weight.end()), 0.5) << "all are direct";
+}
+
+/// 1.2 km of path and 60 links, most of them round corners.
+RadioWorld street_world() {
+  RadioWorld world;
+  world.route_m = 1200;
+  world.blocks = 3;
+  world.links = 60;
+  world.radio_reach_m = 150;
+  world.corners = true;
+  return world;
+}
+
+std::size_t links_in_sight(const SimulatedTeam& simulated) {
+  return static_cast<std::size_t>(std::count(simulated.in_sight.begin(), simulated.in_sight.end(), true));
+}
+
+TEST(AlignByRadio, DetoursRoundCornersAreNotTakenForDirectLinks) {
+  std::size_t missions = 0, as_good = 0, as_good_without = 0;
+  for (std::uint64_t seed = 1; missions < 6; ++seed) {
+    const auto simulated = test::simulate_team(street_world(), seed);
+    const std::size_t in_sight = links_in_sight(simulated);
+    if (in_sight < 12 || in_sight > 30) continue;
+    ++missions;
+    const double oracle_m = oracle_error_m(simulated), bound_m = 1.3 * oracle_m + 0.2;
+    RadioAlignmentParams params;
+    params.mixture.max_range_m = 150;
+    const auto best = align_by_radio(simulated.team, params).hypotheses.front();
+    const double error_m = aligned_error_m(best.poses, simulated.truth);
+    as_good += error_m <= bound_m ? 1U : 0U;
+    EXPECT_LE(error_m, 2 * oracle_m) << "seed " << seed << ", " << in_sight
+                                     << " of 60 links in sight, weight " << best.weight;
+    params.mixture.obstructed_share = 0;
+    const auto naive = align_by_radio(simulated.team, params).hypotheses.front();
+    as_good_without += aligned_error_m(naive.poses, simulated.truth) <= bound_m ? 1U : 0U;
+  }
+  EXPECT_GE(as_good, 4U) << "of 6";
+  EXPECT_LE(as_good_without, 2U) << "or the missions are easy without a model of detours, too";
 }
 
 /// Removes the measurements of one robot.

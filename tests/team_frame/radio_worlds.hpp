@@ -3,7 +3,10 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "radioslam/base/random.hpp"
 #include "radioslam/geometry/se2.hpp"
@@ -27,12 +30,14 @@ struct RadioWorld {
   bool mirror = false;        ///< every angle has a reflection at a wall along the street
   int angle_delay_poses = 0;  ///< the angles are measured this many poses after the range
   double stated_noise = 1;    ///< ratio of stated to true odometry noise
+  bool corners = false;       ///< radio follows the streets: out of a street only round its corners
 };
 
 struct SimulatedTeam {
   TeamGraph<SE2> team;           ///< values: dead reckoning, every robot from the identity
   std::vector<SE2> truth;        ///< of every pose
   std::vector<int> direct_path;  ///< of every bearing; -1: none
+  std::vector<bool> in_sight;    ///< of every range
 };
 
 class RadioWorldSimulator {
@@ -132,14 +137,52 @@ class RadioWorldSimulator {
     }
   }
 
+  /// The way of a signal, and the first point on it: the other end, or a corner.
+  struct Route {
+    double length_m;
+    Eigen::Vector2d first;
+    bool in_sight;
+  };
+
+  /// A street: axis, and the coordinate across it.
+  std::vector<std::pair<int, double>> streets_at(const Eigen::Vector2d& place) const {
+    std::vector<std::pair<int, double>> streets;
+    for (int axis = 0; axis < 2; ++axis) {
+      const double nearest = world_.block_m * std::round(place[axis] / world_.block_m);
+      if (std::abs(place[axis] - nearest) < kStep_m / 2) streets.emplace_back(axis, nearest);
+    }
+    return streets;
+  }
+
+  Route route(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
+    const Route direct{(to - from).norm(), to, true};
+    if (!world_.corners) return direct;
+    Route best{std::numeric_limits<double>::infinity(), to, false};
+    for (const auto& [axis, across] : streets_at(from))
+      for (const auto& [other_axis, other_across] : streets_at(to)) {
+        if (axis == other_axis && across == other_across) return direct;
+        for (int k = 0; k <= world_.blocks; ++k) {  // crossing streets by which parallel ones are connected
+          Eigen::Vector2d first, last;
+          first[axis] = across;
+          last[other_axis] = other_across;
+          first[1 - axis] = axis == other_axis ? world_.block_m * k : other_across;
+          last[1 - other_axis] = axis == other_axis ? world_.block_m * k : across;
+          const double length_m = (first - from).norm() + (last - first).norm() + (to - last).norm();
+          if (length_m < best.length_m) best = {length_m, first, false};
+        }
+      }
+    return best;
+  }
+
   void add_range(std::size_t i, std::size_t j) {
-    const double d = (result_.truth[i].translation() - result_.truth[j].translation()).norm();
+    const Route route = this->route(result_.truth[i].translation(), result_.truth[j].translation());
     RangeFactor<SE2> range;
     range.i.pose = PoseId(i);
     range.j.pose = PoseId(j);
-    range.range_m = std::abs(d + rng_.normal(0, world_.sigma_range_m));
+    range.range_m = std::abs(route.length_m + rng_.normal(0, world_.sigma_range_m));
     range.sigma_m = world_.sigma_range_m;
     result_.team.graph.ranges.push_back(range);
+    result_.in_sight.push_back(route.in_sight);
   }
 
   BearingPath<SE2> path(double azimuth, double power_db) {
@@ -150,11 +193,12 @@ class RadioWorldSimulator {
     AmbiguousBearing<SE2> bearing;
     bearing.i = PoseId(i);
     bearing.j.pose = PoseId(j);
-    const Eigen::Vector2d seen = result_.truth[i].inverse() * result_.truth[j].translation();
+    const Route route = this->route(result_.truth[i].translation(), result_.truth[j].translation());
+    const Eigen::Vector2d seen = result_.truth[i].inverse() * route.first;
     const double direct = std::atan2(seen.y(), seen.x());
     int direct_index = -1;
     if (rng_.uniform() >= world_.missing_direct_ratio) {
-      direct_index = 0;
+      direct_index = route.in_sight ? 0 : -1;
       const double power_db = rng_.normal(-50, 6);
       bearing.paths.push_back(path(direct + rng_.normal(0, world_.sigma_angle_rad), power_db));
     }

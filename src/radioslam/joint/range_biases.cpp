@@ -13,6 +13,7 @@ namespace radioslam {
 namespace {
 
 constexpr double kProbablyDirect = 0.5;
+constexpr double kMaxBiasSigmas = 3;  // a larger error is a detour, even where most ranges of a pair have one
 constexpr double kConvergedWeightChange =
     0.01;  // largest change of a weight at which the rounds have converged
 
@@ -50,8 +51,11 @@ class BiasEstimation {
 
   void add_biases() {
     std::vector<std::vector<double>> residuals_m(joint_.antenna_pairs.size());
-    for (std::size_t k = 0; k < radio_ranges_; ++k)
-      residuals_m[pair_of(k)].push_back(-residual(graph_, graph_.ranges[k])[0]);
+    for (std::size_t k = 0; k < radio_ranges_; ++k) {
+      const double excess_m = -residual(graph_, graph_.ranges[k])[0];
+      const double sigma_m = std::hypot(params_.prior_sigma_m, graph_.ranges[k].sigma_m);
+      if (std::abs(excess_m) < kMaxBiasSigmas * sigma_m) residuals_m[pair_of(k)].push_back(excess_m);
+    }
     bias_of_pair_.assign(residuals_m.size(), BiasId());
     for (std::size_t pair = 0; pair < residuals_m.size(); ++pair) {
       if (residuals_m[pair].size() < static_cast<std::size_t>(params_.min_ranges)) continue;

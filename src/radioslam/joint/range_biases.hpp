@@ -2,11 +2,12 @@
 // only if significant. Uncalibrated UWB and WiFi ranges are typically several decimetres too long.
 //
 // Each pair with enough ranges starts from the centre of the shortest interval that contains half of its
-// residuals, which is robust to late paths. Biases and trajectories are then optimised in turn with the
-// ranges' weights, their posterior probabilities of being direct. Biases are kept all or none, since single
-// ones trade off against each other through the trajectories: they are kept if b^T C^-1 b exceeds the
-// chi-squared quantile for their number. C is their joint covariance, inflated by the ranges' overdispersion
-// and correlation time; else hundreds of ranges with one reflection would make any small error significant.
+// residuals, which is robust to late paths; errors beyond three sigmas of the prior are detours and do not
+// count. Biases and trajectories are then optimised in turn with the ranges' weights, their posterior
+// probabilities of being direct. Biases are kept all or none, since single ones trade off against each other
+// through the trajectories: they are kept if b^T C^-1 b exceeds the chi-squared quantile for their number. C
+// is their joint covariance, inflated by the ranges' overdispersion and correlation time; else hundreds of
+// ranges with one reflection would make any small error significant.
 // Kept biases get a common prior: its spread is estimated from b and C (empirical Bayes; Morris 1983), its
 // mean is a variable, and everything is optimised again, so that pairs whose own bias is unobservable take
 // the value of the others. Metres; measured = distance + bias.

@@ -5,5 +5,6 @@ radioslam_room(pipeline
     pipeline.cpp
     recordings_stage.cpp
     run_results.cpp
+    sight_notes.cpp
     stages.cpp
   ROOMS joint odometry closure consistency results)

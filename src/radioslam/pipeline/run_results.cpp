@@ -7,6 +7,7 @@
 #include "radioslam/joint/position_fixes/fix_results.hpp"
 #include "radioslam/joint/scan_closures.hpp"
 #include "radioslam/pipeline/collect_results.hpp"
+#include "radioslam/pipeline/sight_notes.hpp"
 
 namespace radioslam {
 namespace {
@@ -124,6 +125,8 @@ RunResult describe_run(const Mission& mission, const TeamEstimate<Pose>& estimat
   if (!mission.aoa_measurements.empty())
     timed("angle checks", [&] { check_angles_into(result, mission, joint, estimate.placement, params); });
   result.closures = collect_all_closures(estimate, loops);
+  for (auto& note : notes_on_obstructed_robots(result.robots, result.closures))
+    result.notes.push_back(std::move(note));
   result.similarity_model = collect_similarity_model(radio, params.radio);
   timed("access points", [&] { add_access_points(result, mission, radio, params.access_points); });
   count(result, radio, estimate.solution);

@@ -6,6 +6,7 @@
 
 #include "radioslam/base/parallel.hpp"
 #include "radioslam/geometry/se2.hpp"
+#include "radioslam/team_frame/line_of_sight/obstructed_range.hpp"
 #include "radioslam/team_frame/measurement_mixture.hpp"
 
 namespace radioslam {
@@ -95,21 +96,26 @@ class Scorer {
     const Prediction predicted = range(link.placed, b, cell);
     const double sigma = std::sqrt(predicted.variance + link.sigma_m * link.sigma_m);
     const double error = (predicted.value - link.range_m) / sigma;
-    const double false_probability = problem_.mixture.false_range_probability;
-    return std::log((1 - false_probability) * std::exp(-0.5 * error * error) /
-                        (std::sqrt(2 * std::numbers::pi) * sigma) +
-                    false_probability / problem_.span_m);
+    const MixtureParams& mixture = problem_.mixture;
+    double density = (1 - mixture.obstructed_share) * std::exp(-0.5 * error * error) /
+                     (std::sqrt(2 * std::numbers::pi) * sigma);
+    if (mixture.obstructed_share > 0)
+      density += mixture.obstructed_share *
+                 obstructed_range(link.range_m - predicted.value, sigma).probability / problem_.span_m;
+    return std::log((1 - mixture.false_range_probability) * density +
+                    mixture.false_range_probability / problem_.span_m);
   }
 
   double log_likelihood(const GridBearing& link, const GridEnd& b, const Cell& cell) const {
     const Prediction predicted = bearing(link.placed, b, cell, link.received_by_placed);
-    double density = 1 - problem_.mixture.direct_probability;
+    const double direct = problem_.mixture.direct_probability * (1 - problem_.mixture.obstructed_share);
+    double density = 1 - direct;
     for (std::size_t p = 0; p < link.azimuth_rad.size(); ++p) {
       const double sigma =
           std::min(kWidestAzimuth_rad, std::sqrt(predicted.variance + link.sigma_rad[p] * link.sigma_rad[p]));
       const double error = wrap_angle(predicted.value - link.azimuth_rad[p]) / sigma;
-      density += problem_.mixture.direct_probability * link.prior[p] * std::sqrt(2 * std::numbers::pi) /
-                 sigma * std::exp(-0.5 * error * error) * elevation_ratio(link, p, b, cell);
+      density += direct * link.prior[p] * std::sqrt(2 * std::numbers::pi) / sigma *
+                 std::exp(-0.5 * error * error) * elevation_ratio(link, p, b, cell);
     }
     return std::log(density);
   }

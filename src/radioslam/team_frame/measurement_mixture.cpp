@@ -8,12 +8,18 @@
 #include "radioslam/graph/factor_lists.hpp"
 #include "radioslam/graph/loss.hpp"
 #include "radioslam/graph/residuals.hpp"
+#include "radioslam/team_frame/line_of_sight/detour_continuity.hpp"
+#include "radioslam/team_frame/line_of_sight/obstructed_range.hpp"
 
 namespace radioslam {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kReachOverItsSigma = 4;
+/// Weight of the prior of the obstructed share, in measurements.
+constexpr double kPriorMeasurements = 2;
+constexpr double kMaxObstructedShare = 0.98;
+constexpr int kFitRounds = 10;
 
 double added(const std::vector<double>& inflation, std::size_t k, double inflation_scale) {
   return inflation.empty() ? 0 : inflation_scale * inflation[k];
@@ -32,6 +38,11 @@ double direction_density(double squared_norm, double sigma, bool azimuth_only) {
 template <class Pose>
 bool is_azimuth(const BearingFactor<Pose>& factor) {
   return Pose::kDim == 2 || factor.azimuth_only;
+}
+
+/// A density of this height, or zero, after its variance grew; of a normal density exactly.
+double widened(double density, double added_variance) {
+  return density / std::sqrt(1 + 2 * kPi * density * density * added_variance);
 }
 
 /// Densities of the direct and the outlier term.
@@ -62,11 +73,24 @@ std::vector<double> path_priors(const AmbiguousBearing<Pose>& bearing, const Mix
   return priors;
 }
 
+/// Of all measurements, ranges before bearings.
+template <class Pose>
+struct MixtureGraph<Pose>::Densities {
+  std::vector<SightDensities> sight;
+  std::vector<double> range_sigma;
+  std::vector<double> range_direct, range_longer;  ///< terms of the densities in sight and obstructed
+  std::vector<double> path_sigma, path_direct;
+  std::vector<ObstructedRange> detours;
+  double log_within_reach = 0;
+};
+
 template <class Pose>
 MixtureGraph<Pose>::MixtureGraph(const TeamGraph<Pose>& team, const MixtureParams& params)
-    : graph(team.graph), params_(params) {
+    : graph(team.graph), params_(params), chains_(team), obstructed_share_(params.obstructed_share) {
   for (const auto& range : graph.ranges) {
+    range_m_.push_back(range.range_m);
     range_sigma_.push_back(range.sigma_m);
+    range_weight_.push_back(1);
     span_m_ = std::max(span_m_, range.range_m);
   }
   first_path_.push_back(0);
@@ -79,46 +103,64 @@ MixtureGraph<Pose>::MixtureGraph(const TeamGraph<Pose>& team, const MixtureParam
     }
     first_path_.push_back(graph.bearings.size());
   }
+  if (params.obstructed_share > 0)
+    detour_density_ =
+        detour_densities(team, path_prior_, {span_m_, params.sight_time_s, params.direct_probability});
+  else
+    detour_density_.assign(graph.ranges.size(), 0);
 }
 
 template <class Pose>
-template <class Visit>
-double MixtureGraph<Pose>::visit_measurements(const VarianceInflation& inflation, double inflation_scale,
-                                              Visit&& visit) const {
-  double log_likelihood = 0;
-  for (std::size_t k = 0; k < graph.ranges.size(); ++k) {
+void MixtureGraph<Pose>::add_range(std::size_t k, double inflation_m2, Densities& result) const {
+  const auto& factor = graph.ranges[k];
+  const double sigma = std::sqrt(range_sigma_[k] * range_sigma_[k] + inflation_m2);
+  const double error = residual(graph, factor)[0] + factor.range_m - range_m_[k];
+  const auto [direct, wrong] = range_densities(error, sigma, span_m_, params_);
+  ObstructedRange detour;
+  if (obstructed_share_ > 0) detour = obstructed_range(-error, sigma);
+  const double longer =
+      (1 - params_.false_range_probability) * widened(detour_density_[k], inflation_m2) * detour.probability;
+  result.sight.push_back({direct + wrong, longer + wrong});
+  result.range_longer.push_back(longer);
+  result.range_sigma.push_back(sigma);
+  result.range_direct.push_back(direct);
+  result.detours.push_back(detour);
+}
+
+template <class Pose>
+void MixtureGraph<Pose>::add_bearing(std::size_t b, double inflation_rad2, Densities& result) const {
+  double total = 1 - params_.direct_probability;
+  for (std::size_t p = first_path_[b]; p < first_path_[b + 1]; ++p) {
+    const bool azimuth = is_azimuth(graph.bearings[p]);
+    const typename Pose::Point seen = seen_by_receiver(graph, graph.bearings[p]);
+    const double by_places = params_.sigma_antenna_position_m / std::max(seen.norm(), kMinimumDistance_m);
     const double sigma =
-        std::sqrt(range_sigma_[k] * range_sigma_[k] + added(inflation.ranges_m2, k, inflation_scale));
-    const auto [direct, wrong] =
-        range_densities(residual(graph, graph.ranges[k])[0], sigma, span_m_, params_);
-    log_likelihood += std::log(direct + wrong);
-    visit.range(k, sigma, direct / (direct + wrong));
+        std::min(azimuth ? kWidestAzimuth_rad : kWidestDirection_rad,
+                 std::sqrt(path_sigma_[p] * path_sigma_[p] + (inflation_rad2 + by_places * by_places)));
+    const double error2 =
+        (direction_or_zero(seen) - graph.bearings[p].direction).squaredNorm() / (sigma * sigma);
+    const double density =
+        params_.direct_probability * path_prior_[p] * direction_density(error2, sigma, azimuth);
+    total += density;
+    result.path_sigma.push_back(sigma);
+    result.path_direct.push_back(density);
   }
-  for (std::size_t b = 0; b + 1 < first_path_.size(); ++b) {
-    const std::size_t begin = first_path_[b], end = first_path_[b + 1];
-    if (begin == end) continue;
-    const double distance = distance_m(graph, graph.bearings[begin].i, graph.bearings[begin].j);
-    const double inflated = added(inflation.bearings_rad2, b, inflation_scale);
-    double total = 1 - params_.direct_probability;
-    visit.begin_bearing();
-    for (std::size_t p = begin; p < end; ++p) {
-      const bool azimuth = is_azimuth(graph.bearings[p]);
-      const typename Pose::Point seen = seen_by_receiver(graph, graph.bearings[p]);
-      const double by_places = params_.sigma_antenna_position_m / std::max(seen.norm(), kMinimumDistance_m);
-      const double sigma =
-          std::min(azimuth ? kWidestAzimuth_rad : kWidestDirection_rad,
-                   std::sqrt(path_sigma_[p] * path_sigma_[p] + (inflated + by_places * by_places)));
-      const double error2 =
-          (direction_or_zero(seen) - graph.bearings[p].direction).squaredNorm() / (sigma * sigma);
-      const double density =
-          params_.direct_probability * path_prior_[p] * direction_density(error2, sigma, azimuth);
-      total += density;
-      visit.path(p, sigma, density);
-    }
-    visit.end_bearing(begin, end, total);
-    log_likelihood += std::log(total) + log_within_reach(distance);
-  }
-  return log_likelihood;
+  const bool is_empty = first_path_[b] == first_path_[b + 1];
+  result.sight.push_back({is_empty ? 1 : total, 1});
+  if (is_empty) return;
+  const auto& first = graph.bearings[first_path_[b]];
+  result.log_within_reach += log_within_reach(distance_m(graph, first.i, first.j));
+}
+
+template <class Pose>
+typename MixtureGraph<Pose>::Densities MixtureGraph<Pose>::densities(const VarianceInflation& inflation,
+                                                                     double inflation_scale) const {
+  Densities result;
+  for (std::size_t k = 0; k < graph.ranges.size(); ++k)
+    add_range(k, added(inflation.ranges_m2, k, inflation_scale), result);
+  for (std::size_t b = 0; b < bearing_count(); ++b)
+    add_bearing(b, added(inflation.bearings_rad2, b, inflation_scale), result);
+  return result;
 }
 
 template <class Pose>
@@ -139,36 +181,67 @@ double MixtureGraph<Pose>::other_cost() const {
   return cost;
 }
 
+/// Log prior of the obstructed share, a beta density with its mode at the parameter, relative to the mode.
+template <class Pose>
+double MixtureGraph<Pose>::log_prior() const {
+  if (params_.obstructed_share <= 0) return 0;
+  const double mode = params_.obstructed_share;
+  return kPriorMeasurements * (mode * std::log(obstructed_share_ / mode) +
+                               (1 - mode) * std::log((1 - obstructed_share_) / (1 - mode)));
+}
+
 template <class Pose>
 double MixtureGraph<Pose>::update_weights(const VarianceInflation& inflation, double inflation_scale) {
-  struct Set {
-    PoseGraph<Pose>& graph;
-    void range(std::size_t k, double sigma, double posterior) {
-      graph.ranges[k].sigma_m = sigma;
-      graph.ranges[k].weight = posterior;
+  const Densities found = densities(inflation, inflation_scale);
+  std::vector<double> in_sight;
+  const double log_likelihood = chains_.smooth(found.sight, sight(), in_sight) + found.log_within_reach;
+  for (std::size_t k = 0; k < graph.ranges.size(); ++k) {
+    auto& range = graph.ranges[k];
+    const double sigma = found.range_sigma[k];
+    range_weight_[k] = in_sight[k] * found.range_direct[k] / found.sight[k].in_sight;
+    range.sigma_m = sigma;
+    range.weight = range_weight_[k];
+    const double predicted = residual(graph, range)[0] + range.range_m;  // distance and bias
+    range.range_m = range_m_[k];
+    if (obstructed_share_ <= 0) continue;
+    const ObstructedRange& detour = found.detours[k];
+    const double obstructed = (1 - in_sight[k]) * found.range_longer[k] / found.sight[k].obstructed;
+    const double curvature = std::max(detour.curvature, 1 / (span_m_ * span_m_));
+    const double pull = obstructed * curvature * sigma * sigma;
+    range.weight += pull;
+    if (range.weight > 0)
+      range.range_m += pull * (predicted - detour.slope / curvature - range_m_[k]) / range.weight;
+  }
+  for (std::size_t b = 0; b < bearing_count(); ++b) {
+    const std::size_t measurement = graph.ranges.size() + b;
+    for (std::size_t p = first_path_[b]; p < first_path_[b + 1]; ++p) {
+      graph.bearings[p].sigma_rad = found.path_sigma[p];
+      graph.bearings[p].weight =
+          in_sight[measurement] * found.path_direct[p] / found.sight[measurement].in_sight;
     }
-    void begin_bearing() {}
-    void path(std::size_t p, double sigma, double density) {
-      graph.bearings[p].sigma_rad = sigma;
-      graph.bearings[p].weight = density;
-    }
-    void end_bearing(std::size_t begin, std::size_t end, double total) {
-      for (std::size_t p = begin; p < end; ++p) graph.bearings[p].weight /= total;
-    }
-  };
-  const double log_likelihood = visit_measurements(inflation, inflation_scale, Set{graph});
-  return other_cost() - 2 * log_likelihood;
+  }
+  return other_cost() - 2 * (log_likelihood + log_prior());
 }
 
 template <class Pose>
 double MixtureGraph<Pose>::cost(const VarianceInflation& inflation, double inflation_scale) const {
-  struct Ignore {
-    void range(std::size_t, double, double) {}
-    void begin_bearing() {}
-    void path(std::size_t, double, double) {}
-    void end_bearing(std::size_t, std::size_t, double) {}
-  };
-  return other_cost() - 2 * visit_measurements(inflation, inflation_scale, Ignore{});
+  const Densities found = densities(inflation, inflation_scale);
+  return other_cost() -
+         2 * (chains_.log_likelihood(found.sight, sight()) + found.log_within_reach + log_prior());
+}
+
+template <class Pose>
+void MixtureGraph<Pose>::estimate_obstructed_share(const VarianceInflation& inflation,
+                                                   double inflation_scale) {
+  if (params_.obstructed_share <= 0) return;
+  std::vector<double> in_sight;
+  for (int round = 0; round < kFitRounds; ++round) {
+    const Densities found = densities(inflation, inflation_scale);
+    chains_.smooth(found.sight, sight(), in_sight);
+    double obstructed = kPriorMeasurements * params_.obstructed_share, all = kPriorMeasurements;
+    for (const double probability : in_sight) obstructed += 1 - probability, all += 1;
+    obstructed_share_ = std::min(obstructed / all, kMaxObstructedShare);
+  }
 }
 
 template <class Pose>

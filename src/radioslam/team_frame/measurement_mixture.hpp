@@ -7,6 +7,12 @@
 // (sigma_antenna / distance)^2; without the last term an angle between two adjacent robots would be
 // arbitrarily precise. Source: Wi-Closure (Wang et al.) eq. 5 with a term for "no path is direct". The
 // weights of the factors are the posteriors of the terms.
+//   line of sight: both hold where the direct path is not obstructed. Where it is, a range is the length of a
+//            detour, p = (1 - e) D Phi(r / s) + e / span, and an angle p = 1 / (2 pi or 4 pi). D is the
+//            density of an obstructed exchange (detour_continuity.hpp), and Phi rejects distances longer than
+//            the detour (obstructed_range.hpp). A Markov chain per pair of trajectories connects the
+//            measurements of one exchange, and successive ones (sight_chains.hpp). The share of obstructed
+//            measurements is estimated from all of them.
 //   horizon: an angle between ends further apart than the maximum range also has
 //            N(excess; 0, (max_range / 4)^2) / N(0): angles alone are fitted best by robots at infinity,
 //            where all directions are parallel.
@@ -16,6 +22,7 @@
 
 #include "radioslam/base/fields.hpp"
 #include "radioslam/graph/team_graph.hpp"
+#include "radioslam/team_frame/line_of_sight/sight_chains.hpp"
 
 namespace radioslam {
 
@@ -30,6 +37,8 @@ struct MixtureParams {
   double power_for_double_db = 10;
   double sigma_antenna_position_m = 0.2;
   double max_range_m = 200;  ///< at least the longest measured range
+  double obstructed_share = 0.5;
+  double sight_time_s = 10;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -53,6 +62,18 @@ struct MixtureParams {
                 "distance beyond which angle measurements become unlikely and no relative pose is searched"}
               .basic(),
           self.max_range_m);
+    visit(
+        Field{"obstructed_share", "", 0, 0.9,
+              "share of links without line of sight, assumed before it is estimated from the mission; their "
+              "ranges are too long and their angles arbitrary; 0: all links are in sight"}
+            .basic(),
+        self.obstructed_share);
+    visit(
+        Field{
+            "sight_time_s", "s", 1e-3, 1e5,
+            "time over which the line of sight between two robots mostly stays as it is; higher values make "
+            "successive links share it more"},
+        self.sight_time_s);
   }
 };
 
@@ -62,7 +83,8 @@ struct VarianceInflation {
   std::vector<double> bearings_rad2;  ///< per bearing; empty: none
 };
 
-/// Probability that a range with this error is the direct distance. `span_m`: width of the outlier density.
+/// Probability that a range with this error is the direct distance, the line of sight being free. `span_m`:
+/// width of the outlier density.
 double range_posterior(double error_m, double sigma_m, double span_m, const MixtureParams& params);
 
 /// Priors pi_p of a bearing's paths; their sum is one.
@@ -78,12 +100,20 @@ class MixtureGraph {
   /// The graph and its values; `ranges` and `bearings` hold the latest weights and sigmas.
   PoseGraph<Pose> graph;
 
-  /// Sets every weight and sigma for the current values, with the inflation scaled by `inflation_scale`.
-  /// Returns the cost -2 log L of the mixtures plus the squared norms of all other factors.
+  /// Sets every weight and sigma for the current values, with the inflation scaled by `inflation_scale`. The
+  /// factor of a range is the quadratic that touches the mixture of a direct and an obstructed range from
+  /// above, so its `range_m` and `weight` change, too.
+  /// Returns the cost: -2 log (L * prior of the obstructed share) plus the squared norms of all other
+  /// factors.
   double update_weights(const VarianceInflation& inflation, double inflation_scale);
   /// The same cost; weights and sigmas are unchanged.
   double cost(const VarianceInflation& inflation, double inflation_scale) const;
+  /// Estimates the share of obstructed measurements at the current values by expectation maximisation.
+  void estimate_obstructed_share(const VarianceInflation& inflation, double inflation_scale);
 
+  double obstructed_share() const { return obstructed_share_; }
+  /// Posterior that a range is the direct distance, after update_weights.
+  double range_weight(std::size_t range) const { return range_weight_[range]; }
   /// Posterior that one of a bearing's paths is direct, after update_weights.
   double direct_weight(std::size_t bearing) const;
   /// Index of a bearing's first path in graph.bearings.
@@ -91,15 +121,22 @@ class MixtureGraph {
   std::size_t bearing_count() const { return first_path_.size() - 1; }
 
  private:
-  template <class Visit>
-  double visit_measurements(const VarianceInflation& inflation, double inflation_scale, Visit&& visit) const;
+  struct Densities;
+  Densities densities(const VarianceInflation& inflation, double inflation_scale) const;
+  void add_range(std::size_t range, double inflation_m2, Densities& result) const;
+  void add_bearing(std::size_t bearing, double inflation_rad2, Densities& result) const;
   double other_cost() const;
   double log_within_reach(double distance_m) const;
+  double log_prior() const;
+  SightModel sight() const { return {obstructed_share_, params_.sight_time_s}; }
 
   MixtureParams params_;
-  std::vector<double> range_sigma_, path_sigma_, path_prior_;
+  std::vector<double> range_m_, range_sigma_, range_weight_, path_sigma_, path_prior_;
   std::vector<std::size_t> first_path_;  ///< per bearing, and one past the last
   double span_m_ = 1;
+  SightChains chains_;
+  double obstructed_share_ = 0;
+  std::vector<double> detour_density_;
 };
 
 }  // namespace radioslam

@@ -1,6 +1,7 @@
 #include "radioslam/team_frame/mixture_refinement.hpp"
 
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "radioslam/graph/graph_values.hpp"
@@ -16,6 +17,8 @@ constexpr std::array kFineScales = {0.1, 0.03, 0.0};
 /// trajectory, whereas damping by diag(H) would tie every pose to its neighbours.
 constexpr std::array kStepLengths = {1.0, 0.5, 0.2, 0.05, 0.01};
 constexpr double kCoarseTolerance = 0.1;  // sufficient to rank initial values
+constexpr int kShareRounds = 5;
+constexpr double kShareTolerance = 0.01;
 constexpr std::array kDampings = {0.0, 1e-6, 1e-3};
 
 template <class Pose>
@@ -62,6 +65,19 @@ class Stage {
   double cost_ = 0;
 };
 
+/// Estimates the share of obstructed links and the values in turn; returns the cost.
+template <class Pose>
+double refine_in_turn(MixtureGraph<Pose>& mixture, Stage<Pose>& stage, double cost,
+                      const RefinementParams& params) {
+  for (int round = 0; round < kShareRounds; ++round) {
+    mixture.estimate_obstructed_share({}, 0);
+    const double before = cost;
+    cost = stage.run(0, params.last_steps, params.cost_tolerance);
+    if (std::abs(before - cost) < kShareTolerance) break;
+  }
+  return cost;
+}
+
 }  // namespace
 
 template <class Pose>
@@ -77,10 +93,13 @@ Refinement refine(MixtureGraph<Pose>& mixture, const VarianceInflation& inflatio
   Stage<Pose> stage(mixture, equations, inflation);
   for (const double inflation_scale : kCoarseScales)
     stage.run(inflation_scale, params.steps_per_inflation, params.cost_tolerance);
-  for (const double inflation_scale : kFineScales)
+  for (const double inflation_scale : kFineScales) {
+    mixture.estimate_obstructed_share(inflation, inflation_scale);
     result.cost =
         stage.run(inflation_scale, inflation_scale > 0 ? params.steps_per_inflation : params.last_steps,
                   params.cost_tolerance);
+  }
+  result.cost = refine_in_turn(mixture, stage, result.cost, params);
   equations.linearise(mixture.graph);
   if (equations.factorize(0) == Factorization::kDone)
     result.log_evidence = -result.cost / 2 - equations.cholesky().log_determinant() / 2;

@@ -6,6 +6,7 @@
 
 #include "radioslam/graph/marginals.hpp"
 #include "radioslam/graph/residuals.hpp"
+#include "radioslam/team_frame/level_view.hpp"
 
 namespace radioslam {
 namespace {
@@ -74,18 +75,9 @@ Eigen::Matrix3d plane_covariance(const SE2& /*T_ref_end*/, const Eigen::Matrix<d
   return j * covariance * j.transpose();
 }
 
-SE2 seen_from_above(const SE2& pose) { return pose; }
-SE2 seen_from_above(const SE3& pose) { return flatten(pose); }
 double height(const Eigen::Vector2d& /*point*/) { return 0; }
 double height(const Eigen::Vector3d& point) { return point.z(); }
 
-double level_azimuth(const SE2& /*receiver*/, const Eigen::Vector2d& direction) {
-  return std::atan2(direction.y(), direction.x());
-}
-double level_azimuth(const SE3& receiver, const Eigen::Vector3d& direction) {
-  const Eigen::Vector3d level = receiver.rotation() * direction;
-  return std::atan2(level.y(), level.x()) - receiver.yaw();
-}
 std::optional<double> level_elevation(const SE2& /*receiver*/, const BearingPath<SE2>& /*path*/) {
   return std::nullopt;
 }

@@ -21,7 +21,7 @@ TeamHypothesis<Pose> described(const TeamGraph<Pose>& team, const ConnectedTeam<
   result.log_evidence = log_evidence;
   result.range_weight.assign(team.graph.ranges.size(), 0);
   for (std::size_t k = 0; k < connected.ranges.size(); ++k)
-    result.range_weight[connected.ranges[k]] = mixture.graph.ranges[k].weight;
+    result.range_weight[connected.ranges[k]] = mixture.range_weight(k);
   for (const auto& bearing : team.bearings) {
     result.path_weight.emplace_back(bearing.paths.size(), 0.0);
     std::vector<double>& sigmas = result.path_sigma_rad.emplace_back();
@@ -78,6 +78,7 @@ TeamHypothesis<Pose> weigh_links(const TeamGraph<Pose>& team, const TeamComponen
                                  const MixtureParams& params) {
   const ConnectedTeam<Pose> connected = connected_team(team, components);
   MixtureGraph<Pose> mixture(connected.team, params);
+  mixture.estimate_obstructed_share({}, 0);
   const double cost = mixture.update_weights({}, 0);
   return described(team, connected, std::move(mixture), -cost / 2);
 }

@@ -14,6 +14,9 @@ radioslam_room(team_frame
     fix_alignment.cpp
     layout_outliers.cpp
     lbfgs.cpp
+    line_of_sight/detour_continuity.cpp
+    line_of_sight/obstructed_range.cpp
+    line_of_sight/sight_chains.cpp
     link_thinning.cpp
     measurement_mixture.cpp
     mixture_refinement.cpp

@@ -62,6 +62,7 @@ VarianceInflation inflation_by_odometry(const TeamGraph<Pose>& team) {
 
 template <class Pose>
 std::vector<double> position_sigmas_m(MixtureGraph<Pose> mixture) {
+  mixture.estimate_obstructed_share({}, 0);
   mixture.update_weights({}, 0);
   std::vector<double> sigmas_m(mixture.graph.poses.size(), 0);
   const auto marginals = Marginals<Pose>::compute(mixture.graph);

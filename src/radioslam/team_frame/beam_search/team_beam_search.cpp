@@ -176,6 +176,7 @@ std::vector<std::pair<std::size_t, PoseProposal>> TeamBeamSearch<Pose>::proposal
   const Connected connected = connected_team(team_, components_);
   for (std::size_t b = 0; b < beam_.size(); ++b) {
     MixtureGraph<Pose> weighted = mixture(connected, beam_[b]);
+    weighted.estimate_obstructed_share({}, 0);
     weighted.update_weights({}, 0);
     auto places =
         propose_poses(team_, components_, component, unit, weighted.graph, params_.mixture, params_.grid);
@@ -191,13 +192,15 @@ typename TeamBeamSearch<Pose>::Starts TeamBeamSearch<Pose>::refined_coarsely(
     const std::vector<std::pair<std::size_t, PoseProposal>>& proposals, const UnplacedNode& unit,
     const Connected& connected) const {
   Starts starts(proposals.size());
+  const MixtureGraph<Pose> prototype = mixture(connected, beam_.front());
   parallel_for(proposals.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const auto& [team, proposal] = proposals[k];
       starts[k] = {beam_[team], inflation_of_connected(proposal.inflation, connected), 0};
       move_unit(starts[k].team, unit, proposal);
       return_first_pose(starts[k].team, unit);
-      MixtureGraph<Pose> work = mixture(connected, starts[k].team);
+      MixtureGraph<Pose> work = prototype;
+      starts[k].team.write_to(work.graph);
       starts[k].cost = refine_coarsely(work, starts[k].inflation, params_.refinement);
       starts[k].team.read_from(work.graph);
     }
@@ -209,9 +212,12 @@ template <class Pose>
 std::vector<TeamValues<Pose>> TeamBeamSearch<Pose>::refined(const Starts& starts,
                                                             const Connected& connected) const {
   std::vector<TeamValues<Pose>> teams(starts.size());
+  if (starts.empty()) return teams;
+  const MixtureGraph<Pose> prototype = mixture(connected, starts.front().team);
   parallel_for(starts.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
-      MixtureGraph<Pose> work = mixture(connected, starts[k].team);
+      MixtureGraph<Pose> work = prototype;
+      starts[k].team.write_to(work.graph);
       const Refinement refinement = refine(work, starts[k].inflation, params_.refinement);
       teams[k].read_from(work.graph);
       teams[k].log_evidence = refinement.log_evidence;

@@ -1,0 +1,24 @@
+// Poses and directions as seen from above; in the plane they are what they are.
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+
+#include "radioslam/geometry/se2.hpp"
+#include "radioslam/geometry/se3.hpp"
+
+namespace radioslam {
+
+inline SE2 seen_from_above(const SE2& pose) { return pose; }
+inline SE2 seen_from_above(const SE3& pose) { return flatten(pose); }
+
+/// Azimuth, in the receiver's levelled body frame, of a direction in its body frame.
+inline double level_azimuth(const SE2& /*receiver*/, const Eigen::Vector2d& direction) {
+  return std::atan2(direction.y(), direction.x());
+}
+inline double level_azimuth(const SE3& receiver, const Eigen::Vector3d& direction) {
+  const Eigen::Vector3d level = receiver.rotation() * direction;
+  return std::atan2(level.y(), level.x()) - receiver.yaw();
+}
+
+}  // namespace radioslam

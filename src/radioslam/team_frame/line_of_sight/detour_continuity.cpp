@@ -1,0 +1,234 @@
+#include "radioslam/team_frame/line_of_sight/detour_continuity.hpp"
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "radioslam/geometry/linear_algebra.hpp"
+#include "radioslam/geometry/se2.hpp"
+#include "radioslam/team_frame/level_view.hpp"
+#include "radioslam/team_frame/line_of_sight/sight_chains.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kOdometryError = 0.05;  // of the distance driven between two exchanges
+constexpr double kNearest_m = 0.5;       // below this distance directions are undefined
+
+struct Azimuth {
+  double value_rad = 0, sigma_rad = 1, probability = 0;
+};
+
+/// A range and the angles at the two ends, of two robots.
+struct Exchange {
+  std::size_t range = 0;
+  double range_m = 0, sigma_m = 1;
+  Stamp stamp;
+  SE2 T_a, T_b;  ///< poses in the robots' own frames
+  std::vector<Azimuth> at_a, at_b;
+};
+
+/// Relative pose of an exchange as (range, azimuth at a, azimuth at b).
+Eigen::Vector3d measured_from(const SE2& T_a_b) {
+  const Eigen::Vector2d v = T_a_b.translation();
+  const double azimuth = std::atan2(v.y(), v.x());
+  return {v.norm(), azimuth, azimuth + kPi - T_a_b.angle()};
+}
+SE2 relative_pose(const Eigen::Vector3d& m) {
+  return {m[0] * Eigen::Vector2d(std::cos(m[1]), std::sin(m[1])), m[1] + kPi - m[2]};
+}
+
+struct Prediction {
+  Eigen::Vector3d mean;
+  Eigen::Matrix3d covariance;
+};
+
+/// The exchange after both ends moved.
+Prediction moved(const Eigen::Vector3d& from, const Eigen::Vector3d& sigma, const SE2& T_a_moved,
+                 const SE2& T_b_moved) {
+  const auto predicted = [&](const Eigen::Vector3d& m) {
+    return measured_from(T_a_moved.inverse() * relative_pose(m) * T_b_moved);
+  };
+  Prediction result{predicted(from), Eigen::Matrix3d::Zero()};
+  for (int k = 0; k < 3; ++k) {
+    Eigen::Vector3d shifted = from;
+    shifted[k] += sigma[k];
+    Eigen::Vector3d change = predicted(shifted) - result.mean;
+    for (int n = 1; n < 3; ++n) change[n] = wrap_angle(change[n]);
+    result.covariance += change * change.transpose();
+  }
+  const double odometry_m =
+      kOdometryError * (T_a_moved.translation().norm() + T_b_moved.translation().norm());
+  const double across = odometry_m / std::max(result.mean[0], kNearest_m);
+  result.covariance.diagonal() += Eigen::Vector3d(odometry_m * odometry_m, across * across, across * across);
+  return result;
+}
+
+double normal_density(double error, double variance) {
+  return std::exp(-error * error / (2 * variance)) / std::sqrt(2 * kPi * variance);
+}
+
+/// Density of the components of `error` that are present.
+double normal_density(const Eigen::Vector3d& error, const Eigen::Matrix3d& covariance,
+                      const std::array<bool, 3>& present) {
+  // Components that are absent get a unit variance of their own, and no error.
+  Eigen::Matrix3d c = covariance;
+  Eigen::Vector3d e = error;
+  double dimension = 0;
+  for (int k = 0; k < 3; ++k) {
+    if (present[static_cast<std::size_t>(k)]) {
+      ++dimension;
+      continue;
+    }
+    c.row(k).setZero();
+    c.col(k).setZero();
+    c(k, k) = 1;
+    e[k] = 0;
+  }
+  const double squared = e.dot(inverse(c) * e);
+  return std::exp(-squared / 2) / std::sqrt(std::pow(2 * kPi, dimension) * c.determinant());
+}
+
+/// An angle's paths, and that none of them is the one round the corner.
+std::vector<std::optional<Azimuth>> choices(const std::vector<Azimuth>& paths) {
+  std::vector<std::optional<Azimuth>> all(paths.begin(), paths.end());
+  all.emplace_back();
+  return all;
+}
+double none_probability(const std::vector<Azimuth>& paths) {
+  double none = 1;
+  for (const Azimuth& path : paths) none -= path.probability;
+  return none;
+}
+
+/// Density of an exchange given its prediction, relative to uniform angles.
+double density(const Exchange& exchange, const Prediction& predicted) {
+  double sum = 0;
+  for (const auto& a : choices(exchange.at_a))
+    for (const auto& b : choices(exchange.at_b)) {
+      Eigen::Vector3d error(exchange.range_m - predicted.mean[0], 0, 0);
+      Eigen::Matrix3d covariance = predicted.covariance;
+      covariance(0, 0) += exchange.sigma_m * exchange.sigma_m;
+      double weight = a ? a->probability * 2 * kPi : none_probability(exchange.at_a);
+      weight *= b ? b->probability * 2 * kPi : none_probability(exchange.at_b);
+      if (a) {
+        error[1] = wrap_angle(a->value_rad - predicted.mean[1]);
+        covariance(1, 1) += a->sigma_rad * a->sigma_rad;
+      }
+      if (b) {
+        error[2] = wrap_angle(b->value_rad - predicted.mean[2]);
+        covariance(2, 2) += b->sigma_rad * b->sigma_rad;
+      }
+      sum += weight * normal_density(error, covariance, {true, a.has_value(), b.has_value()});
+    }
+  return sum;
+}
+
+/// Density of an exchange given the preceding one, relative to uniform angles.
+double density(const Exchange& exchange, const Exchange& before) {
+  const SE2 T_a_moved = before.T_a.inverse() * exchange.T_a, T_b_moved = before.T_b.inverse() * exchange.T_b;
+  double sum = 0, unknown = 1;
+  for (const Azimuth& a : before.at_a)
+    for (const Azimuth& b : before.at_b) {
+      const double probability = a.probability * b.probability;
+      unknown -= probability;
+      sum += probability *
+             density(exchange, moved({before.range_m, a.value_rad, b.value_rad},
+                                     {before.sigma_m, a.sigma_rad, b.sigma_rad}, T_a_moved, T_b_moved));
+    }
+  const double motion2 = T_a_moved.translation().squaredNorm() + T_b_moved.translation().squaredNorm();
+  const double variance = motion2 / 2 + std::pow(before.sigma_m, 2) + std::pow(exchange.sigma_m, 2);
+  return sum + unknown * normal_density(exchange.range_m - before.range_m, variance);
+}
+
+/// Exchanges of one pair of robots.
+template <class Pose>
+class Exchanges {
+ public:
+  Exchanges(const TeamGraph<Pose>& team, const std::vector<double>& path_prior, double direct_probability)
+      : team_(team), path_prior_(path_prior), direct_probability_(direct_probability) {
+    first_path_.push_back(0);
+    for (const auto& bearing : team.bearings)
+      first_path_.push_back(first_path_.back() + bearing.paths.size());
+  }
+
+  /// Of successive links between two robots, `at_a` being those at the end with the lower pose.
+  std::vector<Exchange> of(const std::vector<TimedLink>& links) const {
+    std::vector<Exchange> exchanges;
+    for (std::size_t k = 0; k < links.size(); ++k) {
+      if (links[k].measurement >= team_.graph.ranges.size()) continue;
+      Exchange& exchange = exchanges.emplace_back(begin(links[k]));
+      for (std::size_t n = k; n-- > 0 && links[n].stamp == links[k].stamp;) add(links[n], exchange);
+      for (std::size_t n = k + 1; n < links.size() && links[n].stamp == links[k].stamp; ++n)
+        add(links[n], exchange);
+    }
+    return exchanges;
+  }
+
+ private:
+  std::pair<PoseId, PoseId> ends(const RangeFactor<Pose>& range) const {
+    const auto [low, high] = std::minmax(range.i.pose.value, range.j.pose.value);
+    return {PoseId(low), PoseId(high)};
+  }
+
+  Exchange begin(const TimedLink& link) const {
+    const auto& range = team_.graph.ranges[link.measurement];
+    const auto [a, b] = ends(range);
+    Exchange exchange;
+    exchange.range = link.measurement;
+    exchange.range_m = range.range_m;
+    exchange.sigma_m = range.sigma_m;
+    exchange.stamp = link.stamp;
+    exchange.T_a = seen_from_above(team_.graph.poses[a.index()]);
+    exchange.T_b = seen_from_above(team_.graph.poses[b.index()]);
+    return exchange;
+  }
+
+  void add(const TimedLink& link, Exchange& exchange) const {
+    if (link.measurement < team_.graph.ranges.size()) return;
+    const std::size_t b = link.measurement - team_.graph.ranges.size();
+    const auto& bearing = team_.bearings[b];
+    auto& azimuths = bearing.i.value < bearing.j.pose.value ? exchange.at_a : exchange.at_b;
+    if (!azimuths.empty()) return;
+    for (std::size_t p = 0; p < bearing.paths.size(); ++p)
+      azimuths.push_back({level_azimuth(team_.graph.poses[bearing.i.index()], bearing.paths[p].direction),
+                          bearing.paths[p].sigma_rad, direct_probability_ * path_prior_[first_path_[b] + p]});
+  }
+
+  const TeamGraph<Pose>& team_;
+  const std::vector<double>& path_prior_;
+  double direct_probability_;
+  std::vector<std::size_t> first_path_;
+};
+
+}  // namespace
+
+template <class Pose>
+std::vector<double> detour_densities(const TeamGraph<Pose>& team, const std::vector<double>& path_prior,
+                                     const DetourModel& model) {
+  std::vector<double> result(team.graph.ranges.size(), 1 / model.span_m);
+  const Exchanges<Pose> exchanges(team, path_prior, model.direct_probability);
+  for (const auto& links : links_by_pair(team)) {
+    if (!links.is_between_robots) continue;
+    const std::vector<Exchange> own = exchanges.of(links.links);
+    for (std::size_t k = 1; k < own.size(); ++k) {
+      const double continues =
+          std::exp(-seconds_between(own[k - 1].stamp, own[k].stamp) / model.correlation_time_s);
+      result[own[k].range] = (1 - continues) / model.span_m + continues * density(own[k], own[k - 1]);
+    }
+  }
+  return result;
+}
+
+template std::vector<double> detour_densities(const TeamGraph<SE2>&, const std::vector<double>&,
+                                              const DetourModel&);
+template std::vector<double> detour_densities(const TeamGraph<SE3>&, const std::vector<double>&,
+                                              const DetourModel&);
+
+}  // namespace radioslam

@@ -1,0 +1,139 @@
+#include "radioslam/team_frame/line_of_sight/sight_chains.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <utility>
+
+#include "radioslam/team_frame/connected_measurements.hpp"
+
+namespace radioslam {
+namespace {
+
+/// Probability of a change from each state over a gap.
+struct Changes {
+  double to_obstructed, to_sight;
+};
+
+Changes changes(const SightModel& model, double gap_s) {
+  const double forgotten = -std::expm1(-gap_s / model.correlation_time_s);
+  return {model.obstructed_share * forgotten, (1 - model.obstructed_share) * forgotten};
+}
+
+/// Ends of measurements, and when they were taken.
+template <class Pose>
+class Ends {
+ public:
+  explicit Ends(const TeamGraph<Pose>& team) : team_(team), segment_of_(segment_of_poses(team)) {}
+
+  std::int64_t number(PoseId pose) const { return static_cast<std::int64_t>(segment_of_[pose.index()]); }
+  std::int64_t number(const RangeEnd<Pose>& end) const {
+    return end.pose.valid() ? number(end.pose) : -1 - std::int64_t{end.point.value};
+  }
+  Stamp stamp(PoseId pose) const {
+    const TrajectorySegment& segment = team_.segments[segment_of_[pose.index()]];
+    return segment.stamps[pose.index() - segment.first_pose];
+  }
+  Stamp stamp(const RangeEnd<Pose>& i, const RangeEnd<Pose>& j) const {
+    return stamp(i.pose.valid() ? i.pose : j.pose);
+  }
+  Stamp stamp(PoseId i, const RangeEnd<Pose>& /*j*/) const { return stamp(i); }
+
+ private:
+  const TeamGraph<Pose>& team_;
+  std::vector<std::size_t> segment_of_;
+};
+
+}  // namespace
+
+struct SightChains::Forward {
+  double in_sight, obstructed;  ///< given all measurements so far
+  double scale;                 ///< density of this one given those before
+};
+
+template <class Pose>
+std::vector<PairLinks> links_by_pair(const TeamGraph<Pose>& team) {
+  const Ends<Pose> ends(team);
+  std::map<std::pair<std::int64_t, std::int64_t>, std::vector<TimedLink>> by_pair;
+  std::size_t measurement = 0;
+  const auto add = [&](const auto& factor) {
+    by_pair[std::minmax(ends.number(factor.i), ends.number(factor.j))].push_back(
+        {ends.stamp(factor.i, factor.j), measurement++});
+  };
+  for (const auto& range : team.graph.ranges) add(range);
+  for (const auto& bearing : team.bearings) add(bearing);
+  std::vector<PairLinks> result;
+  for (auto& [pair, links] : by_pair) {
+    std::stable_sort(links.begin(), links.end(),
+                     [](const TimedLink& x, const TimedLink& y) { return x.stamp < y.stamp; });
+    result.push_back({pair.first >= 0, std::move(links)});
+  }
+  return result;
+}
+
+template <class Pose>
+SightChains::SightChains(const TeamGraph<Pose>& team) {
+  for (const auto& [is_between_robots, links] : links_by_pair(team)) {
+    std::vector<Link>& chain = chains_.emplace_back();
+    for (std::size_t k = 0; k < links.size(); ++k)
+      chain.push_back(
+          {links[k].measurement, k == 0 ? 0 : seconds_between(links[k - 1].stamp, links[k].stamp)});
+  }
+}
+
+double SightChains::pass_forward(const std::vector<Link>& chain, const std::vector<SightDensities>& densities,
+                                 const SightModel& model, std::vector<Forward>* passed) const {
+  double log_likelihood = 0;
+  double in_sight = 1 - model.obstructed_share, obstructed = model.obstructed_share;
+  for (const Link& link : chain) {
+    const Changes change = changes(model, link.gap_s);
+    const double before = in_sight;
+    in_sight = before * (1 - change.to_obstructed) + obstructed * change.to_sight;
+    obstructed = before * change.to_obstructed + obstructed * (1 - change.to_sight);
+    in_sight *= densities[link.measurement].in_sight;
+    obstructed *= densities[link.measurement].obstructed;
+    const double scale = in_sight + obstructed;
+    in_sight /= scale;
+    obstructed /= scale;
+    log_likelihood += std::log(scale);
+    if (passed) passed->push_back({in_sight, obstructed, scale});
+  }
+  return log_likelihood;
+}
+
+double SightChains::log_likelihood(const std::vector<SightDensities>& densities,
+                                   const SightModel& model) const {
+  double sum = 0;
+  for (const auto& chain : chains_) sum += pass_forward(chain, densities, model, nullptr);
+  return sum;
+}
+
+double SightChains::smooth(const std::vector<SightDensities>& densities, const SightModel& model,
+                           std::vector<double>& in_sight) const {
+  in_sight.assign(densities.size(), 1);
+  double sum = 0;
+  std::vector<Forward> passed;
+  for (const auto& chain : chains_) {
+    passed.clear();
+    sum += pass_forward(chain, densities, model, &passed);
+    double later_in_sight = 1, later_obstructed = 1;  // density of all later measurements, scaled
+    for (std::size_t k = chain.size(); k-- > 0;) {
+      in_sight[chain[k].measurement] = passed[k].in_sight * later_in_sight;
+      const Changes change = changes(model, chain[k].gap_s);
+      const SightDensities& own = densities[chain[k].measurement];
+      const double a = own.in_sight * later_in_sight / passed[k].scale;
+      const double b = own.obstructed * later_obstructed / passed[k].scale;
+      later_in_sight = (1 - change.to_obstructed) * a + change.to_obstructed * b;
+      later_obstructed = change.to_sight * a + (1 - change.to_sight) * b;
+    }
+  }
+  return sum;
+}
+
+template std::vector<PairLinks> links_by_pair(const TeamGraph<SE2>&);
+template std::vector<PairLinks> links_by_pair(const TeamGraph<SE3>&);
+template SightChains::SightChains(const TeamGraph<SE2>&);
+template SightChains::SightChains(const TeamGraph<SE3>&);
+
+}  // namespace radioslam
