@@ -336,6 +336,35 @@ TEST(AlignByRadio, PlacesThatFitAsWellAreHypothesesOfEqualWeight) {
   for (const auto& hypothesis : alignment.hypotheses) EXPECT_NEAR(hypothesis.weight, 0.25, 0.05);
 }
 
+/// One of three paths at either end: nine poses of b, all with the same range.
+TEST(AlignByRadio, OneLinkLeavesEveryPairOfItsPathsOpen) {
+  SimulatedTeam simulated;
+  constexpr std::size_t kSteps = 20, kLinked = 10;
+  drive_straight(simulated, "a", SE2(), kSteps);
+  drive_straight(simulated, "b", SE2({60, 40}, -2.5), kSteps);
+  const PoseId a(kLinked), b(kSteps + 1 + kLinked);
+  const SE2 T_a_b = simulated.truth[a.index()].inverse() * simulated.truth[b.index()];
+  RangeFactor<SE2> range;
+  range.i.pose = a;
+  range.j.pose = b;
+  range.range_m = T_a_b.translation().norm();
+  range.sigma_m = 0.3;
+  simulated.team.graph.ranges.push_back(range);
+  for (const auto& [i, j, seen] : {std::tuple(a, b, T_a_b), std::tuple(b, a, T_a_b.inverse())}) {
+    AmbiguousBearing<SE2> bearing;
+    bearing.i = i;
+    bearing.j.pose = j;
+    const double direct = std::atan2(seen.translation().y(), seen.translation().x());
+    for (const double azimuth : {direct, direct + 1.8, direct - 2})
+      bearing.paths.push_back({{std::cos(azimuth), std::sin(azimuth)}, 0.05, -50});
+    simulated.team.bearings.push_back(bearing);
+  }
+  const auto alignment = align_by_radio(simulated.team, RadioAlignmentParams{});
+  EXPECT_EQ(alignment.hypotheses.size(), 9U);
+  EXPECT_LT(best_error_m(alignment, simulated.truth), 0.5);
+  for (const auto& hypothesis : alignment.hypotheses) EXPECT_NEAR(hypothesis.weight, 1 / 9.0, 0.03);
+}
+
 TEST(AlignByRadio, HypothesesDifferByMoreThanTheirFrame) {
   RadioWorld world = short_world();
   world.robots = 3;

@@ -1,6 +1,9 @@
 #include "radioslam/joint/overlap_stage.hpp"
 
+#include <algorithm>
 #include <map>
+#include <tuple>
+#include <utility>
 
 #include "radioslam/joint/aoa/mutual_bearing_constraints.hpp"
 
@@ -44,6 +47,23 @@ CandidateResult candidate_result(const OverlapCandidate& found, const std::vecto
 }
 
 }  // namespace
+
+void add_candidates(OverlapStage& stage, const OverlapStage& other) {
+  if (!other.searched) return;
+  const auto pair = [](const CandidateResult& c) {
+    return std::tuple(c.robot_i.value, c.robot_j.value, c.stamp_i, c.stamp_j);
+  };
+  stage.candidates.insert(stage.candidates.end(), other.candidates.begin(), other.candidates.end());
+  std::stable_sort(stage.candidates.begin(), stage.candidates.end(), [&](const auto& x, const auto& y) {
+    return std::pair(pair(x), x.mahalanobis) < std::pair(pair(y), y.mahalanobis);
+  });
+  const auto repeated = [&](const auto& x, const auto& y) { return pair(x) == pair(y); };
+  stage.candidates.erase(std::unique(stage.candidates.begin(), stage.candidates.end(), repeated),
+                         stage.candidates.end());
+  stage.counts.kept = stage.candidates.size();
+  stage.counts.distances_evaluated += other.counts.distances_evaluated;
+  ++stage.alignments;
+}
 
 template <class Pose>
 OverlapStage find_overlaps(const JointGraph<Pose>& joint, const OverlapStageParams& params,

@@ -61,8 +61,12 @@ inline OverlapMode overlap_mode(const OverlapStageParams& params) {
 struct OverlapStage {
   std::vector<CandidateResult> candidates;
   OverlapCounts counts;
-  bool searched = false;  ///< false: the estimate's covariances are not computable
+  bool searched = false;       ///< false: the estimate's covariances are not computable
+  std::size_t alignments = 1;  ///< number of team alignments whose candidates these are
 };
+
+/// Adds the candidates of another alignment; of a pair in both, the nearer one stays.
+void add_candidates(OverlapStage& stage, const OverlapStage& other);
 
 /// `joint` must be optimised and placed.
 template <class Pose>

@@ -10,7 +10,7 @@ constexpr double kMinWeight = 0.05;  // min. weight of a path or range in the fi
 constexpr double kMaxSigmaByPositions_rad =
     0.5;  // direction error from antenna positions above which an angle is unused
 constexpr double kMinAlternative = 0.001;  // min. weight of a reported hypothesis
-constexpr std::size_t kMaxAlternatives = 3;
+constexpr std::size_t kMaxAlternatives = 15;
 
 /// A robot belongs to the component of its longest segment.
 template <class Pose>

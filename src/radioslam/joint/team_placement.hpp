@@ -49,7 +49,7 @@ template <class Pose>
 void adopt_alignment(JointGraph<Pose>& joint, const TeamHypothesis<Pose>& hypothesis);
 
 /// Sets the weight of the first of these hypotheses, best first, and the alternatives that are likely enough
-/// to be reported.
+/// to be searched.
 template <class Pose>
 void set_alternatives(TeamPlacement<Pose>& placement, const std::vector<TeamHypothesis<Pose>>& hypotheses);
 

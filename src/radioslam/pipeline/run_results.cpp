@@ -12,6 +12,8 @@
 namespace radioslam {
 namespace {
 
+constexpr std::size_t kMaxReportedAlternatives = 3;
+
 void count(RunResult& result, const RadioMeasurements& radio, const OptimizerSummary& summary) {
   const auto accepted = std::count_if(result.closures.begin(), result.closures.end(),
                                       [](const auto& c) { return c.status == ClosureStatus::kAccepted; });
@@ -40,7 +42,7 @@ void add_estimate(RunResult& result, const Mission& mission, const JointGraph<Po
     for (auto& note : odometry_notes(mission, joint, *marginals)) result.notes.push_back(std::move(note));
   }
   result.weight = placement.weight;
-  for (std::size_t k = 0; k < placement.alternatives.size(); ++k)
+  for (std::size_t k = 0; k < std::min(placement.alternatives.size(), kMaxReportedAlternatives); ++k)
     result.alternatives.push_back(
         {placement.alternative_weights[k], collect_robots(joint, placement.alternatives[k], placement)});
   result.components = collect_components(joint, placement);
@@ -99,6 +101,9 @@ void add_overlaps(RunResult& result, const OverlapStage& overlaps) {
   result.counts["candidates"] = static_cast<double>(overlaps.counts.kept);
   result.counts["distances_evaluated"] = static_cast<double>(overlaps.counts.distances_evaluated);
   result.candidates = overlaps.candidates;
+  if (overlaps.alignments > 1)
+    result.notes.push_back("the candidates are those of any of the " + std::to_string(overlaps.alignments) +
+                           " likely team alignments");
 }
 
 }  // namespace

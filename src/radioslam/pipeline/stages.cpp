@@ -12,6 +12,8 @@
 namespace radioslam {
 namespace {
 
+constexpr double kMinSearchedWeight = 0.01;  // of an alignment whose overlaps are candidates, too
+
 /// The graph of the mission, with poses at the stamps of loop closures and position fixes.
 template <class Pose>
 JointGraph<Pose> mission_graph(const Mission& mission, const std::vector<ScanClosure>& loops,
@@ -124,8 +126,19 @@ bool needs_overlap_search(const Mission& mission, const RunOptions& options) {
 template <class Pose>
 OverlapStage search_overlaps(const TeamEstimate<Pose>& estimate, const RunParams& params,
                              const RunOptions& options) {
-  return find_overlaps(graph_for_covariances(estimate.joint, params.alignment.mixture), params.overlap,
-                       options.search);
+  OverlapStage overlaps = find_overlaps(graph_for_covariances(estimate.joint, params.alignment.mixture),
+                                        params.overlap, options.search);
+  if (!overlaps.searched || overlap_mode(params.overlap) == OverlapMode::kLink) return overlaps;
+  const TeamPlacement<Pose>& placement = estimate.placement;
+  for (std::size_t k = 0; k < placement.alternatives.size(); ++k) {
+    if (placement.alternative_weights[k] < kMinSearchedWeight) break;
+    JointGraph<Pose> alternative = estimate.joint;
+    alternative.team.graph.poses = placement.alternatives[k];
+    reweigh_radio_links(alternative, placement, params.alignment.mixture);
+    add_candidates(overlaps, find_overlaps(graph_for_covariances(alternative, params.alignment.mixture),
+                                           params.overlap, options.search));
+  }
+  return overlaps;
 }
 
 template <class Pose>

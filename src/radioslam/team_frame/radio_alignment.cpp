@@ -95,8 +95,10 @@ RadioAlignment<Pose> align_by_radio(const TeamGraph<Pose>& team, const RadioAlig
   for (const TeamValues<Pose>& kept : search.beam())
     hypotheses.push_back(hypothesis(team, compressed, result.components, kept, params));
   // The full graph may bring together what the search took for different teams.
+  BeamParams all = params.beam;
+  all.beam = static_cast<int>(hypotheses.size());
   result.hypotheses =
-      different_teams<Pose>(std::move(hypotheses), params.beam, [&](const TeamHypothesis<Pose>& found) {
+      different_teams<Pose>(std::move(hypotheses), all, [&](const TeamHypothesis<Pose>& found) {
         const TeamValues<Pose> values{found.poses, found.points, found.drifts, found.log_evidence};
         return position_sigmas_m(partial_mixture(connected_team(team, result.components), result.components,
                                                  values, params.mixture));

@@ -43,6 +43,18 @@ TEST(PlacementOrder, TakesTheSegmentWithMostLinksNext) {
   EXPECT_EQ(next->index, 2u);
 }
 
+TEST(PlacementOrder, TwoLinksPlaceASegmentWhoseHeadingIsKnown) {
+  auto team = ranged_team({{0, end_at_pose(2), 2}});
+  team.segments[1].sigma_heading_rad = 0.05;
+  EXPECT_EQ(next_root(team, kNonePlaced), std::nullopt) << "the other one's is not";
+  EXPECT_FALSE(next_unit(team, kFirstPlaced, 0).has_value());
+  team.segments[0].sigma_heading_rad = 0.05;
+  EXPECT_EQ(next_root(team, kNonePlaced), 0u);
+  const auto next = next_unit(team, kFirstPlaced, 0);
+  ASSERT_TRUE(next.has_value());
+  EXPECT_EQ(next->index, 1u);
+}
+
 TEST(PlacementOrder, TakesAPointWhereNoSegmentHasEnoughLinks) {
   const auto next =
       next_unit(ranged_team({{0, end_at_pose(2), 2}, {0, end_at_point(0), 2}}), kFirstPlaced, 0);

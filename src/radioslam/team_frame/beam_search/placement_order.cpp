@@ -5,11 +5,26 @@
 namespace radioslam {
 namespace {
 
-constexpr std::size_t kMinLinksOfSegment = 3;  // x, y and heading
+constexpr std::size_t kMinLinksOfSegment = 3;   // x, y and heading
+constexpr std::size_t kMinLinksOfOriented = 2;  // x and y
 constexpr std::size_t kMinLinksOfPoint = 2;
 
-std::size_t min_links(const UnplacedNode& unit) {
-  return unit.is_segment ? kMinLinksOfSegment : kMinLinksOfPoint;
+/// Whether the segment and one of the component have a common heading.
+template <class Pose>
+bool has_known_heading(const TeamGraph<Pose>& team, const TeamComponents& components, int component,
+                       std::size_t segment) {
+  if (team.segments[segment].sigma_heading_rad <= 0) return false;
+  for (std::size_t p = 0; p < team.segments.size(); ++p)
+    if (components.of_segment[p] == component && team.segments[p].sigma_heading_rad > 0) return true;
+  return false;
+}
+
+template <class Pose>
+std::size_t min_links(const TeamGraph<Pose>& team, const TeamComponents& components, int component,
+                      const UnplacedNode& unit) {
+  if (!unit.is_segment) return kMinLinksOfPoint;
+  return has_known_heading(team, components, component, unit.index) ? kMinLinksOfOriented
+                                                                    : kMinLinksOfSegment;
 }
 
 }  // namespace
@@ -36,7 +51,7 @@ std::optional<std::size_t> next_root(const TeamGraph<Pose>& team, const TeamComp
     for (const UnplacedNode& unit : unplaced_nodes(team, components)) {
       if (unit.is_segment && unit.index == p) continue;
       const std::size_t links = count_links(team, probe, probe_component, unit);
-      if (links < min_links(unit) || links <= most) continue;
+      if (links < min_links(team, probe, probe_component, unit) || links <= most) continue;
       most = links;
       best = p;
     }
@@ -52,7 +67,7 @@ std::optional<UnplacedNode> next_unit(const TeamGraph<Pose>& team, const TeamCom
   for (const UnplacedNode& unit : unplaced_nodes(team, components)) {
     if (best && best->is_segment && !unit.is_segment) break;
     const std::size_t links = count_links(team, components, component, unit);
-    if (links < min_links(unit) || links <= most) continue;
+    if (links < min_links(team, components, component, unit) || links <= most) continue;
     most = links;
     best = unit;
   }

@@ -12,7 +12,7 @@ struct BeamParams {
   int tried_places = 80;
   int refined_places = 48;
   double same_map_m = 0.5;
-  double same_map_sigmas = 3;
+  double same_map_sigmas = 1;
   double evidence_temperature = 4;
   int joint_segments = 4;
   int neighbours = 3;

@@ -12,6 +12,9 @@ namespace {
 
 /// Up to this number of segments the whole team is refined after every one.
 constexpr std::size_t kRefinedSegments = 12;
+/// Where a unit has fewer links, each of them may be any of its paths, and the beam is wider.
+constexpr std::size_t kFewLinks = 7;
+constexpr int kWiderBeam = 4;
 /// By which parts of a team are off when they are put together.
 constexpr double kPartSigma_m = 3, kPartSigma_rad = 0.2;
 
@@ -30,7 +33,7 @@ SE3 level_motion_between(const SE3& from, const SE3& to) {
 template <class Pose>
 TeamBeamSearch<Pose>::TeamBeamSearch(const TeamGraph<Pose>& team, const RadioAlignmentParams& params,
                                      const Progress& progress)
-    : team_(team), params_(params), progress_(progress) {
+    : team_(team), params_(params), progress_(progress), width_(params.beam.beam) {
   components_.of_segment.assign(team.segments.size(), kUnplaced);
   components_.of_point.assign(team.graph.points.size(), kUnplaced);
   TeamValues<Pose> start;
@@ -161,6 +164,8 @@ std::vector<TeamValues<Pose>> TeamBeamSearch<Pose>::refined_gradually(
 
 template <class Pose>
 void TeamBeamSearch<Pose>::add_jointly(int component, const UnplacedNode& unit) {
+  if (count_links(team_, components_, component, unit) < kFewLinks)
+    width_ = std::max(width_, kWiderBeam * params_.beam.beam);
   const auto proposals = proposals_for_beam(component, unit);
   (unit.is_segment ? components_.of_segment : components_.of_point)[unit.index] = component;
   const Connected connected = connected_team(team_, components_);
@@ -268,7 +273,9 @@ MixtureGraph<Pose> TeamBeamSearch<Pose>::mixture(const Connected& connected,
 /// `components_` must be those of `teams` already.
 template <class Pose>
 void TeamBeamSearch<Pose>::keep_best(std::vector<TeamValues<Pose>> teams) {
-  auto kept = different_teams<Pose>(std::move(teams), params_.beam, [&](const TeamValues<Pose>& team) {
+  BeamParams params = params_.beam;
+  params.beam = width_;
+  auto kept = different_teams<Pose>(std::move(teams), params, [&](const TeamValues<Pose>& team) {
     return position_sigmas_m(mixture(connected_team(team_, components_), team));
   });
   if (!kept.empty()) beam_ = std::move(kept);

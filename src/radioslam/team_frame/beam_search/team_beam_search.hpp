@@ -63,6 +63,7 @@ class TeamBeamSearch {
   const Progress& progress_;
   TeamComponents components_;
   std::vector<TeamValues<Pose>> beam_;
+  int width_;                        ///< of the beam
   std::size_t next_refinement_ = 0;  ///< number of segments at which the whole component is refined again
 };
 
