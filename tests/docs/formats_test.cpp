@@ -108,6 +108,7 @@ std::map<std::string, std::string> headers_of_writers() {
       {"match_labels.csv", format_match_labels(none, {})},
       {"candidates.csv", format_candidates({}, {})},
       {"closures.csv", format_closures({}, {})},
+      {"uncertainty.csv", format_uncertainty({})},
       {"aoa.csv", format_measured_aoa({})},
       {"access_points.csv", format_access_points({})},
       {"profile.csv", cli::profile_rows({})},

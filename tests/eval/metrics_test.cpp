@@ -191,6 +191,37 @@ TEST(TeamMetrics, WithoutAnythingInCommonThereIsNoError) {
   EXPECT_DOUBLE_EQ(evaluate_trajectories({}, {}, 2).coverage, 0);
 }
 
+/// Normal errors of .4 m per axis: 98.9 % are within three standard deviations in the plane.
+TEST(TeamMetrics, CountsErrorsWithinThreeStatedStandardDeviations) {
+  const Truth truth = winding_team(14, 2, 2000);
+  Rng rng(15);
+  auto estimate = estimate_from(truth, noise(rng));
+  EXPECT_FALSE(evaluate_trajectories(estimate, truth, 2).share_within_3_sigma);
+  const auto share = [&](double sigma_m) {
+    for (auto& robot : estimate) robot.sigma_position_m.assign(robot.poses.size(), sigma_m);
+    return *evaluate_trajectories(estimate, truth, 2).share_within_3_sigma;
+  };
+  EXPECT_NEAR(share(0.4), 1 - std::exp(-4.5), 0.01);
+  EXPECT_NEAR(share(0.4 / 3), 1 - std::exp(-0.5), 0.03);
+  EXPECT_EQ(share(100), 1);
+}
+
+TEST(TeamMetrics, StatedStandardDeviationsAreLinearBetweenPoses) {
+  const Truth truth = winding_team(16, 1, 3);
+  auto estimate = estimate_from(truth, kExact);
+  const auto& poses = truth.robots[0].poses;
+  // Only the first and the last pose are estimated; the second, between them, is off by the path's bend.
+  estimate[0].poses = Trajectory<SE3>({{poses[0].stamp, poses[0].pose}, {poses[2].stamp, poses[2].pose}});
+  const double bend_m = evaluate_trajectories(estimate, truth, 2).robots[0].errors[1].error_m;
+  ASSERT_GT(bend_m, 1e-3);
+  const auto share = [&](double last_m) {
+    estimate[0].sigma_position_m = {1e-9, last_m};
+    return *evaluate_trajectories(estimate, truth, 2).share_within_3_sigma;
+  };
+  const double just_enough_m = 2 * bend_m / 3;
+  EXPECT_GT(share(1.01 * just_enough_m), share(0.99 * just_enough_m));
+}
+
 TEST(TeamMetrics, BothAssociationsAgreeOnEqualStamps) {
   const Truth truth = winding_team(12, 2);
   Rng rng(13);

@@ -14,10 +14,11 @@ namespace {
 
 using Matches = std::vector<MatchedPose>;
 
-const Trajectory<SE3>& estimate_of(const std::string& id, const std::vector<EstimatedTrajectory>& estimate) {
-  static const Trajectory<SE3> none;
+const EstimatedTrajectory& estimate_of(const std::string& id,
+                                       const std::vector<EstimatedTrajectory>& estimate) {
+  static const EstimatedTrajectory none;
   for (const auto& robot : estimate)
-    if (robot.id == id) return robot.poses;
+    if (robot.id == id) return robot;
   return none;
 }
 
@@ -28,7 +29,7 @@ std::vector<Matches> match_team(const std::vector<EstimatedTrajectory>& estimate
                                 int dimension, Association association) {
   std::vector<Matches> team;
   for (const auto& robot : truth.robots) {
-    team.push_back(match_poses(estimate_of(robot.id, estimate), robot, association));
+    team.push_back(match_poses(estimate_of(robot.id, estimate).poses, robot, association));
     for (auto& match : team.back()) {
       match.truth = as_seen(match.truth, dimension);
       match.estimate = as_seen(match.estimate, dimension);
@@ -124,6 +125,32 @@ std::optional<double> absolute_rotation_rmse_rad(const std::vector<Matches>& tea
   return count == 0 ? std::nullopt : std::optional(std::sqrt(sum / static_cast<double>(count)));
 }
 
+/// The stated standard deviation at a stamp, linear between poses; the nearest pose's outside.
+double sigma_at(const EstimatedTrajectory& robot, Stamp stamp) {
+  const auto later = std::lower_bound(robot.poses.begin(), robot.poses.end(), stamp,
+                                      [](const auto& row, Stamp at) { return row.stamp < at; });
+  const auto k = static_cast<std::size_t>(later - robot.poses.begin());
+  if (k == 0) return robot.sigma_position_m.front();
+  if (k == robot.poses.size()) return robot.sigma_position_m.back();
+  const double gap_s = seconds_between(robot.poses[k - 1].stamp, robot.poses[k].stamp);
+  const double ratio = seconds_between(robot.poses[k - 1].stamp, stamp) / gap_s;
+  return (1 - ratio) * robot.sigma_position_m[k - 1] + ratio * robot.sigma_position_m[k];
+}
+
+std::optional<double> share_within_3_sigma(const std::vector<RobotMetrics>& robots,
+                                           const std::vector<EstimatedTrajectory>& estimate) {
+  constexpr double kSigmas = 3;
+  std::size_t within = 0, all = 0;
+  for (const RobotMetrics& robot : robots) {
+    const EstimatedTrajectory& own = estimate_of(robot.id, estimate);
+    if (own.sigma_position_m.empty()) continue;
+    for (const PointError& error : robot.errors)
+      within += error.error_m <= kSigmas * sigma_at(own, error.stamp) ? 1U : 0U;
+    all += robot.errors.size();
+  }
+  return all == 0 ? std::nullopt : std::optional(share(within, all));
+}
+
 }  // namespace
 
 TeamMetrics evaluate_trajectories(const std::vector<EstimatedTrajectory>& estimate, const Truth& truth,
@@ -147,6 +174,7 @@ TeamMetrics evaluate_trajectories(const std::vector<EstimatedTrajectory>& estima
     metrics.robots.push_back(std::move(robot));
   }
   metrics.ate = summarise_errors(std::move(errors));
+  metrics.share_within_3_sigma = share_within_3_sigma(metrics.robots, estimate);
   metrics.coverage = poses == 0 ? 0 : covered / static_cast<double>(poses);
   return metrics;
 }

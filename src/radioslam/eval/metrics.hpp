@@ -16,6 +16,8 @@ namespace radioslam {
 struct EstimatedTrajectory {
   std::string id;
   Trajectory<SE3> poses;
+  /// Stated standard deviation of each pose's position, as RobotResult::sigma_position_m; may be empty.
+  std::vector<double> sigma_position_m = {};
 };
 
 /// Association of an estimate with the truth.
@@ -62,6 +64,8 @@ struct TeamMetrics {
   std::optional<RelativeError> rpe;  ///< absent if no truth has an orientation
   /// Absolute rotation error after the alignment, over the robots whose truth has an orientation.
   std::optional<double> rotation_rmse_rad;
+  /// Fraction of the errors within three stated standard deviations; absent if none are stated.
+  std::optional<double> share_within_3_sigma;
   double coverage = 0;  ///< fraction of the truth's poses that the estimate covers
   SE3 T_truth_estimate;
   std::vector<RobotMetrics> robots;

@@ -20,14 +20,14 @@ std::vector<EstimatedTrajectory> in_common_frame(std::vector<EstimatedTrajectory
                                                  const std::vector<Component>& components,
                                                  const std::vector<std::string>& unplaced) {
   for (auto& robot : robots)
-    if (is_elsewhere(robot.id, components) || contains(unplaced, robot.id)) robot.poses = {};
+    if (is_elsewhere(robot.id, components) || contains(unplaced, robot.id)) robot = {robot.id, {}};
   return robots;
 }
 
 std::vector<EstimatedTrajectory> team_estimate(const std::vector<RobotResult>& robots,
                                                const RunResult& result) {
   std::vector<EstimatedTrajectory> team;
-  for (const auto& robot : robots) team.push_back({robot.id, robot.estimate});
+  for (const auto& robot : robots) team.push_back({robot.id, robot.estimate, robot.sigma_position_m});
   return in_common_frame(std::move(team), result.components, result.unplaced);
 }
 

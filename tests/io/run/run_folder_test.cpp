@@ -130,6 +130,19 @@ TEST(RunFolder, HasTheFilesAndColumnsOfTheFormat) {
   EXPECT_FALSE(fs::exists(folder.path() / "lost.tum"));
 }
 
+TEST(RunFolder, HasTheUncertaintyOfEveryKeyframe) {
+  const TemporaryFolder folder;
+  RunResult result = example();
+  result.robots[1].sigma_position_m = {0.25, 1.5};
+  write_run(folder.path(), result, {});
+  EXPECT_EQ(folder.read("uncertainty.csv"), "robot,t_s,sigma_m\nadam,0,0.25\nadam,1.5,1.5\n");
+  const RunFolder run = read_run(folder.path());
+  EXPECT_TRUE(run.robots[0].sigma_position_m.empty());
+  EXPECT_EQ(run.robots[1].sigma_position_m, (std::vector<double>{0.25, 1.5}));
+  EXPECT_EQ(summary_json(result)["robots"]["adam"]["start_sigma_m"], 0.25);
+  EXPECT_FALSE(summary_json(result)["robots"]["zoe"].contains("start_sigma_m"));
+}
+
 TEST(SummaryJson, HasTheKeysOfTheFormat) {
   const Json json = summary_json(example(), {{"ate_rmse_m", 1.5}});
   EXPECT_EQ(json["robots"]["zoe"]["keyframes"], 2);
@@ -215,6 +228,9 @@ TEST(ReadRun, RefusesMalformedFiles) {
   expect_refused("closures.csv", header + "zoe,0,eve,0,range,accepted,1,\n", 2, "unknown robot 'eve'");
   expect_refused("closures.csv", header + "zoe,0,adam,0,magic,accepted,1,\n", 2, "unknown word 'magic'");
   expect_refused("closures.csv", header + "zoe,0.5,adam,0,range,accepted,1,\n", 2, "no keyframe at 0.5");
+  expect_refused("uncertainty.csv", "robot,t_s,sigma_m\nzoe,1.5,1\n", 2, "not those of zoe.tum");
+  expect_refused("uncertainty.csv", "robot,t_s,sigma_m\nzoe,0,-1\n", 2, "must not be negative");
+  expect_refused("uncertainty.csv", "robot,t_s,sigma_m\nzoe,0,1\n", 0, "fewer rows of robot 'zoe'");
   expect_refused("candidates.csv", "robot_i,t_i_s,robot_j,t_j_s,distance_m\n", 1, "'mahalanobis' is missing");
 }
 

@@ -128,7 +128,7 @@ void add_run(CLI::App& program) {
   add_threads_option(*command);
   command->footer(
       "The output folder holds <robot>.tum (keyframes), dense/<robot>.tum (every odometry sample or scan),\n"
-      "closures.csv, candidates.csv, graph.g2o, summary.json and report.html.\n"
+      "closures.csv, candidates.csv, uncertainty.csv, graph.g2o, summary.json and report.html.\n"
       "`radioslam parameters run` lists the parameters for --set and --config.\n\n"
       "Example:\n"
       "  radioslam run carpark -o carpark-out --set keyframe.distance_m=2");

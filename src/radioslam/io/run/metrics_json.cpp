@@ -27,6 +27,9 @@ Json metrics_json(const TeamMetrics& metrics) {
   json["rpe"] = rpe_json(metrics.rpe);
   json["rotation"] = nullptr;
   if (metrics.rotation_rmse_rad) json["rotation"] = {{"rmse_rad", *metrics.rotation_rmse_rad}};
+  json["consistency"] = nullptr;
+  if (metrics.share_within_3_sigma)
+    json["consistency"] = {{"share_within_3_sigma", *metrics.share_within_3_sigma}};
   json["coverage"] = metrics.coverage;
   json["robots"] = Json::object();
   for (const RobotMetrics& robot : metrics.robots) {

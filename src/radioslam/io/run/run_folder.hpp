@@ -1,6 +1,6 @@
 // Reads and writes the output folder of a run: <id>.tum per robot, dense/<id>.tum with all its odometry
-// samples, candidates.csv, closures.csv, aoa.csv (if angles were estimated from CSI), access_points.csv (if
-// access points were located), graph.g2o, summary.json, report.html.
+// samples, candidates.csv, closures.csv, uncertainty.csv, aoa.csv (if angles were estimated from CSI),
+// access_points.csv (if access points were located), graph.g2o, summary.json, report.html.
 #pragma once
 
 #include <filesystem>

@@ -43,7 +43,10 @@ Json robot_json(const RobotResult& robot) {
     json["sigma_rssi_offset_db"] = *robot.sigma_rssi_offset_db;
   }
   if (robot.fixes) json["fixes"] = fixes_json(*robot.fixes);
-  if (!robot.sigma_position_m.empty()) json["sigma_position_end_m"] = robot.sigma_position_m.back();
+  if (!robot.sigma_position_m.empty()) {
+    json["start_sigma_m"] = robot.sigma_position_m.front();
+    json["sigma_position_end_m"] = robot.sigma_position_m.back();
+  }
   return json;
 }
 
@@ -150,6 +153,7 @@ void write_run(const std::filesystem::path& folder, const RunResult& result, con
     write_trajectories(folder / "hypotheses" / std::to_string(k + 1), result.alternatives[k].robots);
   write_file(folder / "candidates.csv", format_candidates(result.candidates, ids));
   write_file(folder / "closures.csv", format_closures(result.closures, ids));
+  write_file(folder / "uncertainty.csv", format_uncertainty(result.robots));
   if (!result.aoa_measurements.empty())
     write_file(folder / "aoa.csv", format_measured_aoa(result.aoa_measurements));
   if (!result.access_points.empty())

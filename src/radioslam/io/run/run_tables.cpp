@@ -122,6 +122,17 @@ std::string format_closures(const std::vector<ClosureResult>& closures, std::spa
   return out;
 }
 
+std::string format_uncertainty(const std::vector<RobotResult>& robots) {
+  std::string out = "robot,t_s,sigma_m\n";
+  for (const RobotResult& robot : robots)
+    for (std::size_t k = 0; k < robot.sigma_position_m.size(); ++k) {
+      out += robot.id + "," + format_stamp(robot.estimate[k].stamp);
+      append_number(out += ',', robot.sigma_position_m[k]);
+      out += '\n';
+    }
+  return out;
+}
+
 std::string format_measured_aoa(const std::vector<MeasuredAoaResult>& aoa_measurements) {
   std::string out = "t_s,receiver,transmitter,path,azimuth_rad,elevation_rad,sigma_rad,power_db\n";
   for (const MeasuredAoaResult& arrival : aoa_measurements) {
@@ -185,6 +196,21 @@ std::vector<ClosureResult> read_closures(const Text& text, std::span<const Estim
     closure.reason = std::string(csv.field(kFirstOwn + 3));
   }
   return closures;
+}
+
+void read_uncertainty(const Text& text, std::span<EstimatedTrajectory> robots) {
+  CsvReader csv(text, CsvReader::Columns{{"robot", "t_s", "sigma_m"}});
+  while (csv.next()) {
+    EstimatedTrajectory& robot = robots[robot_of(csv, 0, robots).index()];
+    const std::size_t k = robot.sigma_position_m.size();
+    if (k >= robot.poses.size() || robot.poses[k].stamp != csv.stamp(1))
+      csv.fail("the stamps of robot '" + robot.id + "' are not those of " + robot.id + ".tum");
+    robot.sigma_position_m.push_back(csv.number(2));
+    if (robot.sigma_position_m.back() < 0) csv.fail("sigma_m must not be negative");
+  }
+  for (const EstimatedTrajectory& robot : robots)
+    if (!robot.sigma_position_m.empty() && robot.sigma_position_m.size() != robot.poses.size())
+      text.fail(0, "has fewer rows of robot '" + robot.id + "' than " + robot.id + ".tum");
 }
 
 }  // namespace radioslam

@@ -1,6 +1,7 @@
 // Reads and writes the tables of a run folder:
 //   candidates.csv   robot_i,t_i_s,robot_j,t_j_s,distance_m,mahalanobis
 //   closures.csv     robot_i,t_i_s,robot_j,t_j_s,kind,status,statistic,reason
+//   uncertainty.csv  robot,t_s,sigma_m
 //   aoa.csv          t_s,receiver,transmitter,path,azimuth_rad,elevation_rad,sigma_rad,power_db
 //   access_points.csv   bssid,x_m,y_m,sigma_x_m,sigma_y_m,cov_xy,p0_dbm,exponent,sigma_db,readings,status,
 //                       sigma_p0_db,sigma_exponent,frequency_mhz,rival_x_m,rival_y_m
@@ -20,6 +21,8 @@ namespace radioslam {
 
 std::string format_candidates(const std::vector<CandidateResult>& candidates,
                               std::span<const std::string> ids);
+/// The stated standard deviation of every keyframe's position, of the robots that have one.
+std::string format_uncertainty(const std::vector<RobotResult>& robots);
 /// As in closures.csv.
 std::string_view closure_kind_name(ClosureKind kind);
 std::string format_closures(const std::vector<ClosureResult>& closures, std::span<const std::string> ids);
@@ -36,5 +39,7 @@ std::string format_access_points(const std::vector<AccessPointResult>& access_po
 /// (not checked for robots without poses).
 std::vector<CandidateResult> read_candidates(const Text& text, std::span<const EstimatedTrajectory> robots);
 std::vector<ClosureResult> read_closures(const Text& text, std::span<const EstimatedTrajectory> robots);
+/// Sets the standard deviations of the robots in the table. Refuses a robot with other stamps than its poses.
+void read_uncertainty(const Text& text, std::span<EstimatedTrajectory> robots);
 
 }  // namespace radioslam
