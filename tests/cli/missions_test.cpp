@@ -58,10 +58,10 @@ TEST_F(Missions, RunWritesWhatItPromisesAndEvaluateReadsIt) {
   const auto outcome = run({"run", "m", "-o", "out"}, folder());
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
-  EXPECT_EQ(
-      files_in(folder() / "out"),
-      (std::vector<std::string>{"a.tum", "access_points.csv", "b.tum", "candidates.csv", "closures.csv",
-                                "dense/a.tum", "dense/b.tum", "graph.g2o", "report.html", "summary.json"}));
+  EXPECT_EQ(files_in(folder() / "out"),
+            (std::vector<std::string>{"a.tum", "access_points.csv", "b.tum", "candidates.csv", "closures.csv",
+                                      "dense/a.tum", "dense/b.tum", "graph.g2o", "report.html",
+                                      "summary.json", "uncertainty.csv"}));
   const auto summary = nlohmann::json::parse(read_file(folder() / "out/summary.json"));
   for (const char* key : {"robots", "counts", "seconds", "parameters", "team_frame", "metrics"}) {
     EXPECT_TRUE(summary.contains(key)) << key;

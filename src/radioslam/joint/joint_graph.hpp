@@ -64,8 +64,9 @@ struct RobotVariables {
 
 /// Weight of a bearing after the team alignment.
 struct BearingWeight {
-  double weight = 0;      ///< sum over the paths in use
-  bool too_near = false;  ///< too close: the antennas' position errors dominate the angle
+  double weight = 0;               ///< sum over the paths in use
+  std::vector<double> paths = {};  ///< posterior of every path
+  bool too_near = false;           ///< too close: the antennas' position errors dominate the angle
 };
 
 template <class Pose>

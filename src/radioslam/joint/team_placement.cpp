@@ -85,6 +85,7 @@ void adopt_alignment(JointGraph<Pose>& joint, const TeamHypothesis<Pose>& hypoth
   for (std::size_t k = 0; k < joint.team.bearings.size(); ++k) {
     const auto& bearing = joint.team.bearings[k];
     BearingWeight& bearing_weight = joint.bearing_weights.emplace_back();
+    bearing_weight.paths = hypothesis.path_weight[k];
     for (std::size_t p = 0; p < bearing.paths.size(); ++p) {
       const double weight = hypothesis.path_weight[k][p];
       const double by_positions2 =

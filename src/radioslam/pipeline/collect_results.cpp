@@ -127,6 +127,7 @@ std::vector<ClosureResult> collect_radio_links(const JointGraph<Pose>& joint) {
     const BearingWeight& bearing_weight = joint.bearing_weights[k];
     results.push_back(
         link_result(joint.origins.bearings[k], ClosureKind::kAoa, least, bearing_weight.weight));
+    results.back().path_weights = bearing_weight.paths;
     if (bearing_weight.too_near) results.back().reason = "the robots are too near for an angle to count";
   }
   return results;

@@ -1,12 +1,15 @@
 #include "radioslam/pipeline/run_results.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 
 #include "radioslam/joint/covariance_graph.hpp"
 #include "radioslam/joint/dense_trajectory.hpp"
 #include "radioslam/joint/position_fixes/fix_results.hpp"
 #include "radioslam/joint/scan_closures.hpp"
 #include "radioslam/pipeline/collect_results.hpp"
+#include "radioslam/pipeline/rejected_stretches.hpp"
 #include "radioslam/pipeline/sight_notes.hpp"
 
 namespace radioslam {
@@ -106,6 +109,24 @@ void add_overlaps(RunResult& result, const OverlapStage& overlaps) {
                            " likely team alignments");
 }
 
+std::string whole_seconds(Stamp stamp) { return std::to_string(std::llround(stamp.seconds())); }
+
+/// Adds the stretches whose evidence was mostly rejected, and a note on each robot that has any.
+void add_uncertain_stretches(RunResult& result) {
+  auto stretches = rejected_stretches(result.robots.size(), result.closures);
+  for (std::size_t r = 0; r < result.robots.size(); ++r) {
+    RobotResult& robot = result.robots[r];
+    robot.uncertain = std::move(stretches[r]);
+    if (robot.uncertain.empty()) continue;
+    std::string note =
+        "the trajectory of robot " + robot.id + " is uncertain where most of its closures were rejected:";
+    for (const auto& [first, last] : robot.uncertain)
+      note += (&first == &robot.uncertain.front().first ? " " : ", ") + whole_seconds(first) + " to " +
+              whole_seconds(last) + " s";
+    result.notes.push_back(std::move(note));
+  }
+}
+
 }  // namespace
 
 template <class Pose>
@@ -132,6 +153,7 @@ RunResult describe_run(const Mission& mission, const TeamEstimate<Pose>& estimat
   result.closures = collect_all_closures(estimate, loops);
   for (auto& note : notes_on_obstructed_robots(result.robots, result.closures))
     result.notes.push_back(std::move(note));
+  add_uncertain_stretches(result);
   result.similarity_model = collect_similarity_model(radio, params.radio);
   timed("access points", [&] { add_access_points(result, mission, radio, params.access_points); });
   count(result, radio, estimate.solution);

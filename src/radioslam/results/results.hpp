@@ -51,10 +51,11 @@ struct RobotResult {
   double rssi_offset_db = 0;                        ///< of its device relative to the team's mean
   std::optional<double> sigma_rssi_offset_db = {};  ///< absent if unobservable
   RssiOffsetStatus rssi_offset = RssiOffsetStatus::kNotSought;
-  bool start_known = false;                          ///< the mission specifies its start
-  bool placed = true;                                ///< false: nothing connects it to its component
-  std::optional<FixResult> fixes = {};               ///< absent if it has none
-  std::optional<OccupancyImageResult> picture = {};  ///< absent if it has no scans
+  std::vector<std::pair<Stamp, Stamp>> uncertain = {};  ///< stretches whose evidence was mostly rejected
+  bool start_known = false;                             ///< the mission specifies its start
+  bool placed = true;                                   ///< false: nothing connects it to its component
+  std::optional<FixResult> fixes = {};                  ///< absent if it has none
+  std::optional<OccupancyImageResult> picture = {};     ///< absent if it has no scans
 };
 
 /// Origin of a closure.
@@ -69,8 +70,9 @@ struct ClosureResult {
   Stamp stamp_j;  ///< of a keyframe
   ClosureKind kind = ClosureKind::kFingerprint;
   ClosureStatus status = ClosureStatus::kAccepted;
-  double statistic = 0;  ///< squared normalised residual that was tested
-  std::string reason;    ///< of a rejection; empty if accepted
+  double statistic = 0;                   ///< squared normalised residual that was tested
+  std::string reason;                     ///< of a rejection; empty if accepted
+  std::vector<double> path_weights = {};  ///< of an angle: posterior that each of its paths is direct
 };
 
 /// Pair of keyframes of different robots whose views may overlap.

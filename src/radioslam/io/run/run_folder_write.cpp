@@ -43,6 +43,9 @@ Json robot_json(const RobotResult& robot) {
     json["sigma_rssi_offset_db"] = *robot.sigma_rssi_offset_db;
   }
   if (robot.fixes) json["fixes"] = fixes_json(*robot.fixes);
+  json["uncertain"] = Json::array();
+  for (const auto& [first, last] : robot.uncertain)
+    json["uncertain"].push_back({first.seconds(), last.seconds()});
   if (!robot.sigma_position_m.empty()) {
     json["start_sigma_m"] = robot.sigma_position_m.front();
     json["sigma_position_end_m"] = robot.sigma_position_m.back();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "radioslam/base/check.hpp"
@@ -93,6 +94,16 @@ std::string as_field(std::string text) {
   return text;
 }
 
+/// Weights as a single field: separated by spaces, to three digits.
+std::string weights_field(const std::vector<double>& weights) {
+  std::string field;
+  for (const double weight : weights) {
+    if (!field.empty()) field += ' ';
+    append_number(field, std::round(weight * 1e3) / 1e3);
+  }
+  return field;
+}
+
 }  // namespace
 
 std::string format_candidates(const std::vector<CandidateResult>& candidates,
@@ -110,13 +121,14 @@ std::string format_candidates(const std::vector<CandidateResult>& candidates,
 std::string_view closure_kind_name(ClosureKind kind) { return word_for(kKinds, kind); }
 
 std::string format_closures(const std::vector<ClosureResult>& closures, std::span<const std::string> ids) {
-  std::string out = "robot_i,t_i_s,robot_j,t_j_s,kind,status,statistic,reason\n";
+  std::string out = "robot_i,t_i_s,robot_j,t_j_s,kind,status,statistic,reason,path_weights\n";
   for (const ClosureResult& closure : closures) {
     out += format_pair(closure, ids);
     (out += ',') += word_for(kKinds, closure.kind);
     (out += ',') += word_for(kStatuses, closure.status);
     append_number(out += ',', closure.statistic);
     (out += ',') += as_field(closure.reason);
+    (out += ',') += weights_field(closure.path_weights);
     out += '\n';
   }
   return out;

@@ -19,6 +19,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kOdometryError = 0.05;  // of the distance driven between two exchanges
+constexpr double kNegligible = 7;        // standard deviations of a range that was not predicted
 constexpr double kNearest_m = 0.5;       // below this distance directions are undefined
 
 struct Azimuth {
@@ -109,6 +110,9 @@ double none_probability(const std::vector<Azimuth>& paths) {
 
 /// Density of an exchange given its prediction, relative to uniform angles.
 double density(const Exchange& exchange, const Prediction& predicted) {
+  const double off_m = exchange.range_m - predicted.mean[0];
+  const double variance = predicted.covariance(0, 0) + exchange.sigma_m * exchange.sigma_m;
+  if (off_m * off_m > kNegligible * kNegligible * variance) return 0;
   double sum = 0;
   for (const auto& a : choices(exchange.at_a))
     for (const auto& b : choices(exchange.at_b)) {
