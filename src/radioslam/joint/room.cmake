@@ -24,8 +24,10 @@ radioslam_room(joint
     position_fixes/placement.cpp
     radio_factors.cpp
     range_biases.cpp
+    rejected_stretches.cpp
     robot_nodes.cpp
     scan_closures.cpp
     sequence_stage.cpp
+    sight_notes.cpp
     team_placement.cpp
   ROOMS odometry closure team_frame graph radio results consistency)

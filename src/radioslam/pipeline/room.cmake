@@ -4,8 +4,6 @@ radioslam_room(pipeline
     occupancy_image.cpp
     pipeline.cpp
     recordings_stage.cpp
-    rejected_stretches.cpp
     run_results.cpp
-    sight_notes.cpp
     stages.cpp
   ROOMS joint odometry closure consistency results)

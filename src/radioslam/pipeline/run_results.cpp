@@ -7,10 +7,10 @@
 #include "radioslam/joint/covariance_graph.hpp"
 #include "radioslam/joint/dense_trajectory.hpp"
 #include "radioslam/joint/position_fixes/fix_results.hpp"
+#include "radioslam/joint/rejected_stretches.hpp"
 #include "radioslam/joint/scan_closures.hpp"
+#include "radioslam/joint/sight_notes.hpp"
 #include "radioslam/pipeline/collect_results.hpp"
-#include "radioslam/pipeline/rejected_stretches.hpp"
-#include "radioslam/pipeline/sight_notes.hpp"
 
 namespace radioslam {
 namespace {

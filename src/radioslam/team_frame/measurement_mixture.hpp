@@ -62,12 +62,12 @@ struct MixtureParams {
                 "distance beyond which angle measurements become unlikely and no relative pose is searched"}
               .basic(),
           self.max_range_m);
-    visit(
-        Field{"obstructed_share", "", 0, 0.9,
-              "share of links without line of sight, assumed before it is estimated from the mission; their "
-              "ranges are too long and their angles arbitrary; 0: all links are in sight"}
-            .basic(),
-        self.obstructed_share);
+    visit(Field{"obstructed_share", "", 0, 0.9,
+                "share of links without line of sight, assumed before it is estimated; their ranges are too "
+                "long, "
+                "their angles arbitrary; 0: all links are in sight"}
+              .basic(),
+          self.obstructed_share);
     visit(
         Field{
             "sight_time_s", "s", 1e-3, 1e5,

@@ -1,4 +1,4 @@
-#include "radioslam/pipeline/sight_notes.hpp"
+#include "radioslam/joint/sight_notes.hpp"
 
 namespace radioslam {
 namespace {

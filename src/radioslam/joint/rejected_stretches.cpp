@@ -1,4 +1,4 @@
-#include "radioslam/pipeline/rejected_stretches.hpp"
+#include "radioslam/joint/rejected_stretches.hpp"
 
 #include <algorithm>
 #include <array>
