@@ -14,7 +14,7 @@ constexpr double kMinScore = 20;  // of a stretch; closures of one scan share er
 constexpr double kMinDuration_s = 30;
 constexpr std::size_t kKinds = 6;
 
-struct Verdict {
+struct ScoredStatus {
   Stamp stamp;
   double score = 0;
 };
@@ -42,10 +42,10 @@ std::array<KindScores, kKinds> kind_scores(const std::vector<ClosureResult>& clo
   return scores;
 }
 
-/// The verdicts on one robot's closures, in time order.
-std::vector<Verdict> verdicts(RobotIndex robot, const std::vector<ClosureResult>& closures,
-                              const std::array<KindScores, kKinds>& scores) {
-  std::vector<Verdict> result;
+/// The statuses of one robot's closures, in time order.
+std::vector<ScoredStatus> scored_statuses(RobotIndex robot, const std::vector<ClosureResult>& closures,
+                                          const std::array<KindScores, kKinds>& scores) {
+  std::vector<ScoredStatus> result;
   for (const ClosureResult& closure : closures) {
     const KindScores& kind = scores[static_cast<std::size_t>(closure.kind)];
     const double score = closure.status == ClosureStatus::kRejected ? kind.rejected : kind.accepted;
@@ -53,12 +53,12 @@ std::vector<Verdict> verdicts(RobotIndex robot, const std::vector<ClosureResult>
     if (closure.robot_j == robot) result.push_back({closure.stamp_j, score});
   }
   std::stable_sort(result.begin(), result.end(),
-                   [](const Verdict& x, const Verdict& y) { return x.stamp < y.stamp; });
+                   [](const ScoredStatus& x, const ScoredStatus& y) { return x.stamp < y.stamp; });
   return result;
 }
 
 /// Adds the interval of largest sum within [begin, end) if it is large enough, and those beside it.
-void add_stretches(const std::vector<Verdict>& of, std::size_t begin, std::size_t end,
+void add_stretches(const std::vector<ScoredStatus>& of, std::size_t begin, std::size_t end,
                    std::vector<std::pair<Stamp, Stamp>>& stretches) {
   double sum = 0, best = 0;
   std::size_t from = begin, best_from = begin, best_to = begin;
@@ -81,7 +81,7 @@ std::vector<std::vector<std::pair<Stamp, Stamp>>> rejected_stretches(
   const auto scores = kind_scores(closures);
   std::vector<std::vector<std::pair<Stamp, Stamp>>> result(robots);
   for (std::size_t r = 0; r < robots; ++r) {
-    const auto of_robot = verdicts(RobotIndex(r), closures, scores);
+    const auto of_robot = scored_statuses(RobotIndex(r), closures, scores);
     add_stretches(of_robot, 0, of_robot.size(), result[r]);
   }
   return result;
