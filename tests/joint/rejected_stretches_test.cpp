@@ -10,7 +10,7 @@ using Stretches = std::vector<std::pair<Stamp, Stamp>>;
 
 Stamp at(double t_s) { return Stamp::from_seconds(t_s); }
 
-/// A closure per second between the robot and itself a hundred seconds later, rejected from `begin_s` to
+/// A closure per second between the robot and another one, rejected from `begin_s` to
 /// `end_s` and every fifth one elsewhere.
 std::vector<ClosureResult> closures(std::size_t robot, int seconds, int begin_s, int end_s,
                                     ClosureKind kind = ClosureKind::kFingerprint) {

@@ -37,8 +37,8 @@ TEST(SightNotes, NameRobotsWithoutLinksInSight) {
   ASSERT_EQ(notes.size(), 1U) << "the start of a is known";
   EXPECT_EQ(
       notes[0],
-      "the place of robot b is uncertain: 2 of its 10 ranges and angles to other robots are in sight, the "
-      "others detours");
+      "the place of robot b is uncertain: 2 of its 10 ranges and angles to other robots agree with it, the "
+      "others are detours or false");
   EXPECT_TRUE(notes_on_obstructed_robots(robots(), ranges(3)).empty());
   EXPECT_TRUE(notes_on_obstructed_robots(robots(), {}).empty());
 }

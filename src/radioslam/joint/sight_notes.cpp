@@ -34,7 +34,7 @@ std::vector<std::string> notes_on_obstructed_robots(const std::vector<RobotResul
     if (counts.links < kMinLinks || counts.in_sight >= kMinInSight || counts.other_closures > 0) continue;
     notes.push_back("the place of robot " + robots[r].id + " is uncertain: " +
                     std::to_string(counts.in_sight) + " of its " + std::to_string(counts.links) +
-                    " ranges and angles to other robots are in sight, the others detours");
+                    " ranges and angles to other robots agree with it, the others are detours or false");
   }
   return notes;
 }

@@ -8,8 +8,8 @@
 
 namespace radioslam {
 
-/// One note for each placed robot of unknown start that has links with other robots, hardly any of them in
-/// sight, and no other closure with another robot.
+/// One note for each placed robot of unknown start that has links with other robots, hardly any of them
+/// accepted, and no other closure with another robot.
 std::vector<std::string> notes_on_obstructed_robots(const std::vector<RobotResult>& robots,
                                                     const std::vector<ClosureResult>& closures);
 

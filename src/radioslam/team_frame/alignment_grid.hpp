@@ -46,10 +46,10 @@ struct GridParams {
     visit(Field{"references", "", 1, 1000, "number of links tried as the reference of an alignment grid"},
           self.references);
     visit(Field{"peaks", "", 1, 1000, "number of best cells kept per alignment grid"}, self.peaks);
-    visit(
-        Field{"max_links", "", 1, 1e6,
-              "largest number of links per pair of robots in the alignment search; more are thinned evenly"},
-        self.max_links);
+    visit(Field{"max_links", "", 1, 1e6,
+                "largest number of ranges per pair of robots, and of angles per receiver, in the alignment "
+                "search; more are thinned evenly"},
+          self.max_links);
     visit(Field{"max_sightings", "", 1, 1e6,
                 "largest number of sightings of one point per robot in the alignment search; more are "
                 "thinned evenly"},

@@ -36,6 +36,8 @@ class Thinning {
     return end.pose.valid() ? number(end.pose) : -1 - std::int64_t{end.point.value};
   }
   Ends ends(const auto& factor) const { return std::minmax(number(factor.i), number(factor.j)); }
+  /// Angles are thinned by receiver, so that those of the exchanges stay whose ranges do.
+  Ends ends(const AmbiguousBearing<Pose>& bearing) const { return {number(bearing.i), number(bearing.j)}; }
 
   std::vector<std::size_t> segment_of_;
 };

@@ -19,7 +19,8 @@ constexpr double kReachOverItsSigma = 4;
 /// Weight of the prior of the obstructed share, in measurements.
 constexpr double kPriorMeasurements = 2;
 constexpr double kMaxObstructedShare = 0.98;
-constexpr int kFitRounds = 10;
+constexpr double kMinObstructedShare = 1e-4;
+constexpr double kShareTolerance = 1e-3;
 
 double added(const std::vector<double>& inflation, std::size_t k, double inflation_scale) {
   return inflation.empty() ? 0 : inflation_scale * inflation[k];
@@ -183,11 +184,11 @@ double MixtureGraph<Pose>::other_cost() const {
 
 /// Log prior of the obstructed share, a beta density with its mode at the parameter, relative to the mode.
 template <class Pose>
-double MixtureGraph<Pose>::log_prior() const {
+double MixtureGraph<Pose>::log_prior(double share) const {
   if (params_.obstructed_share <= 0) return 0;
   const double mode = params_.obstructed_share;
-  return kPriorMeasurements * (mode * std::log(obstructed_share_ / mode) +
-                               (1 - mode) * std::log((1 - obstructed_share_) / (1 - mode)));
+  return kPriorMeasurements *
+         (mode * std::log(share / mode) + (1 - mode) * std::log((1 - share) / (1 - mode)));
 }
 
 template <class Pose>
@@ -220,28 +221,41 @@ double MixtureGraph<Pose>::update_weights(const VarianceInflation& inflation, do
           in_sight[measurement] * found.path_direct[p] / found.sight[measurement].in_sight;
     }
   }
-  return other_cost() - 2 * (log_likelihood + log_prior());
+  return other_cost() - 2 * (log_likelihood + log_prior(obstructed_share_));
 }
 
 template <class Pose>
 double MixtureGraph<Pose>::cost(const VarianceInflation& inflation, double inflation_scale) const {
   const Densities found = densities(inflation, inflation_scale);
-  return other_cost() -
-         2 * (chains_.log_likelihood(found.sight, sight()) + found.log_within_reach + log_prior());
+  return other_cost() - 2 * (chains_.log_likelihood(found.sight, sight()) + found.log_within_reach +
+                             log_prior(obstructed_share_));
 }
 
+/// Golden section search: links of one exchange, and successive ones, are no independent observations of the
+/// share, so that their mean posterior would overstate it.
 template <class Pose>
 void MixtureGraph<Pose>::estimate_obstructed_share(const VarianceInflation& inflation,
                                                    double inflation_scale) {
   if (params_.obstructed_share <= 0) return;
-  std::vector<double> in_sight;
-  for (int round = 0; round < kFitRounds; ++round) {
-    const Densities found = densities(inflation, inflation_scale);
-    chains_.smooth(found.sight, sight(), in_sight);
-    double obstructed = kPriorMeasurements * params_.obstructed_share, all = kPriorMeasurements;
-    for (const double probability : in_sight) obstructed += 1 - probability, all += 1;
-    obstructed_share_ = std::min(obstructed / all, kMaxObstructedShare);
+  const Densities found = densities(inflation, inflation_scale);
+  const auto log_posterior = [&](double share) {
+    return chains_.log_likelihood(found.sight, {share, params_.sight_time_s}) + log_prior(share);
+  };
+  constexpr double kGolden = 0.6180339887498949;
+  double low = kMinObstructedShare, high = kMaxObstructedShare;
+  double left = high - kGolden * (high - low), right = low + kGolden * (high - low);
+  double at_left = log_posterior(left), at_right = log_posterior(right);
+  while (high - low > kShareTolerance) {
+    if (at_left > at_right) {
+      high = right, right = left, at_right = at_left;
+      left = high - kGolden * (high - low), at_left = log_posterior(left);
+    } else {
+      low = left, left = right, at_left = at_right;
+      right = low + kGolden * (high - low), at_right = log_posterior(right);
+    }
   }
+  const double best = (low + high) / 2;
+  if (log_posterior(best) > log_posterior(obstructed_share_)) obstructed_share_ = best;
 }
 
 template <class Pose>

@@ -101,14 +101,14 @@ class MixtureGraph {
   PoseGraph<Pose> graph;
 
   /// Sets every weight and sigma for the current values, with the inflation scaled by `inflation_scale`. The
-  /// factor of a range is the quadratic that touches the mixture of a direct and an obstructed range from
-  /// above, so its `range_m` and `weight` change, too.
+  /// factor of a range has the gradient of the mixture of a direct and an obstructed range, so its `range_m`
+  /// and `weight` change, too.
   /// Returns the cost: -2 log (L * prior of the obstructed share) plus the squared norms of all other
   /// factors.
   double update_weights(const VarianceInflation& inflation, double inflation_scale);
   /// The same cost; weights and sigmas are unchanged.
   double cost(const VarianceInflation& inflation, double inflation_scale) const;
-  /// Estimates the share of obstructed measurements at the current values by expectation maximisation.
+  /// Sets the share of obstructed measurements to the most likely one at the current values.
   void estimate_obstructed_share(const VarianceInflation& inflation, double inflation_scale);
 
   double obstructed_share() const { return obstructed_share_; }
@@ -127,7 +127,7 @@ class MixtureGraph {
   void add_bearing(std::size_t bearing, double inflation_rad2, Densities& result) const;
   double other_cost() const;
   double log_within_reach(double distance_m) const;
-  double log_prior() const;
+  double log_prior(double share) const;
   SightModel sight() const { return {obstructed_share_, params_.sight_time_s}; }
 
   MixtureParams params_;

@@ -192,7 +192,8 @@ TEST(MetricsJson, HasTheKeysOfTheFormatAndNullForWhatWasNotMeasured) {
   metrics.robots[0].id = "a";
   EXPECT_EQ(
       metrics_json(metrics).dump(),
-      R"({"ate_rmse_m":1.0,"ate_mean_m":2.0,"ate_median_m":3.0,"ate_p90_m":4.0,"rpe":null,"rotation":null,"coverage":0.5,)"
+      R"({"ate_rmse_m":1.0,"ate_mean_m":2.0,"ate_median_m":3.0,"ate_p90_m":4.0,"rpe":null,"rotation":null,"consistency":null,)"
+      R"("coverage":0.5,)"
       R"("robots":{"a":{"ate_rmse_m":null,"ate_mean_m":null,"ate_median_m":null,"ate_p90_m":null,)"
       R"("coverage":0.0}}})");
   EXPECT_EQ(pair_counts_json({10, 4, 3, 2}).dump(), R"({"pairs":10,"true":4,"kept":3,"true_kept":2})");

@@ -109,6 +109,42 @@ TEST(DetourContinuity, DoesNotDependOnWhichEndMeasuredTheRange) {
   EXPECT_EQ(densities(team), before);
 }
 
+TEST(DetourContinuity, FurtherRangesOfAnExchangeDoNotCountItsAnglesAgain) {
+  auto team = round_a_corner(3, 2);
+  const auto once = densities(team);
+  for (std::size_t k = 0; k < 3; ++k) {  // by another antenna
+    team.graph.ranges.push_back(team.graph.ranges[k]);
+    team.graph.ranges.back().range_m += 0.3;
+  }
+  const auto twice = densities(team);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(twice[k], once[k]);
+    EXPECT_LT(twice[3 + k], 0.5) << "that of one range";
+    EXPECT_GT(twice[3 + k], 0.1);
+  }
+}
+
+TEST(DetourContinuity, TheLinksOfAnExchangeNeedNotShareATime) {
+  auto team = round_a_corner(3, 2);
+  auto later = team;
+  for (auto& stamp : later.segments[0].stamps) stamp.ns += 200'000'000;
+  const auto together = densities(team), apart = densities(later);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(apart[k], together[k], 1e-9 * together[k]);
+}
+
+TEST(DetourContinuity, DoesNotDependOnTheEstimate) {
+  auto team = round_a_corner(3, 1);
+  for (std::size_t k = 1; k < team.graph.poses.size(); ++k) {
+    if (k == 3) continue;
+    const SE2 T_i_j = team.graph.poses[k - 1].inverse() * team.graph.poses[k];
+    team.graph.relative_poses.push_back({PoseId(k - 1), PoseId(k), T_i_j});
+  }
+  const auto before = densities(team);
+  for (std::size_t k = 1; k < 3; ++k) team.graph.poses[k] = SE2({1, 2}, 0.3) * team.graph.poses[k];
+  const auto bent = densities(team);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(bent[k], before[k], 1e-9 * before[k]);
+}
+
 TEST(DetourContinuity, RangesAloneContinueWithinTheMotion) {
   auto team = round_a_corner(2, 5);
   team.bearings.clear();

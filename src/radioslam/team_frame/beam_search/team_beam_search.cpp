@@ -164,8 +164,8 @@ std::vector<TeamValues<Pose>> TeamBeamSearch<Pose>::refined_gradually(
 
 template <class Pose>
 void TeamBeamSearch<Pose>::add_jointly(int component, const UnplacedNode& unit) {
-  if (count_links(team_, components_, component, unit) < kFewLinks)
-    width_ = std::max(width_, kWiderBeam * params_.beam.beam);
+  const bool is_open = unit.is_segment && count_links(team_, components_, component, unit) < kFewLinks;
+  if (is_open) width_ = kWiderBeam * params_.beam.beam;
   const auto proposals = proposals_for_beam(component, unit);
   (unit.is_segment ? components_.of_segment : components_.of_point)[unit.index] = component;
   const Connected connected = connected_team(team_, components_);

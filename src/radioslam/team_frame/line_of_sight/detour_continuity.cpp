@@ -11,6 +11,7 @@
 
 #include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/geometry/se2.hpp"
+#include "radioslam/team_frame/connected_measurements.hpp"
 #include "radioslam/team_frame/level_view.hpp"
 #include "radioslam/team_frame/line_of_sight/sight_chains.hpp"
 
@@ -19,6 +20,10 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kOdometryError = 0.05;  // of the distance driven between two exchanges
+constexpr double kSameTime_s = 1e-3;     // between the ranges of one exchange
+constexpr double kExchange_s = 0.5;      // between a range and its angles
+constexpr double kWithAngles_s = 2;      // to an earlier exchange with angles, if the last one has none
+constexpr double kWithinExchange_m = 1;  // standard deviation, by antennas and motion
 constexpr double kNegligible = 7;        // standard deviations of a range that was not predicted
 constexpr double kNearest_m = 0.5;       // below this distance directions are undefined
 
@@ -33,6 +38,7 @@ struct Exchange {
   Stamp stamp;
   SE2 T_a, T_b;  ///< poses in the robots' own frames
   std::vector<Azimuth> at_a, at_b;
+  std::vector<std::size_t> further;  ///< ranges of the same exchange
 };
 
 /// Relative pose of an exchange as (range, azimuth at a, azimuth at b).
@@ -151,31 +157,87 @@ double density(const Exchange& exchange, const Exchange& before) {
   return sum + unknown * normal_density(exchange.range_m - before.range_m, variance);
 }
 
+/// The last exchange before k with angles at both ends, unless it is long ago; else the last one.
+std::size_t predecessor(const std::vector<Exchange>& exchanges, std::size_t k) {
+  for (std::size_t n = k; n-- > 0;) {
+    if (seconds_between(exchanges[n].stamp, exchanges[k].stamp) > kWithAngles_s) break;
+    if (!exchanges[n].at_a.empty() && !exchanges[n].at_b.empty()) return n;
+  }
+  return k - 1;
+}
+
+/// Density of a range given another of the same exchange: both have the detour's length.
+double repeated_density(double difference_m, double sigma_m, double other_sigma_m) {
+  return normal_density(difference_m, sigma_m * sigma_m + other_sigma_m * other_sigma_m +
+                                          kWithinExchange_m * kWithinExchange_m);
+}
+
+/// Poses by odometry alone, from the first pose of every segment on: the densities must not depend on the
+/// estimate.
+template <class Pose>
+std::vector<Pose> odometry_poses(const TeamGraph<Pose>& team) {
+  const auto segment_of = segment_of_poses(team);
+  std::vector<const RelativePoseFactor<Pose>*> into(team.graph.poses.size(), nullptr);
+  for (const auto& factor : team.graph.relative_poses) {
+    const std::size_t i = factor.i.index(), j = factor.j.index();
+    if (j == i + 1 && segment_of[i] == segment_of[j] && !into[j]) into[j] = &factor;
+  }
+  std::vector<Pose> poses = team.graph.poses;
+  for (const TrajectorySegment& segment : team.segments)
+    for (std::size_t k = segment.first_pose + 1; k < segment.first_pose + segment.pose_count; ++k)
+      if (into[k]) poses[k] = poses[k - 1] * into[k]->T_i_j;
+  return poses;
+}
+
 /// Exchanges of one pair of robots.
 template <class Pose>
 class Exchanges {
  public:
   Exchanges(const TeamGraph<Pose>& team, const std::vector<double>& path_prior, double direct_probability)
-      : team_(team), path_prior_(path_prior), direct_probability_(direct_probability) {
+      : team_(team),
+        poses_(odometry_poses(team)),
+        path_prior_(path_prior),
+        direct_probability_(direct_probability) {
     first_path_.push_back(0);
     for (const auto& bearing : team.bearings)
       first_path_.push_back(first_path_.back() + bearing.paths.size());
   }
 
-  /// Of successive links between two robots, `at_a` being those at the end with the lower pose.
+  /// Of successive links between two robots, `at_a` being those at the end with the lower pose. Ranges
+  /// shortly after the first of an exchange belong to it, and angles to the nearest exchange.
   std::vector<Exchange> of(const std::vector<TimedLink>& links) const {
     std::vector<Exchange> exchanges;
-    for (std::size_t k = 0; k < links.size(); ++k) {
-      if (links[k].measurement >= team_.graph.ranges.size()) continue;
-      Exchange& exchange = exchanges.emplace_back(begin(links[k]));
-      for (std::size_t n = k; n-- > 0 && links[n].stamp == links[k].stamp;) add(links[n], exchange);
-      for (std::size_t n = k + 1; n < links.size() && links[n].stamp == links[k].stamp; ++n)
-        add(links[n], exchange);
+    for (const TimedLink& link : links) {
+      if (link.measurement >= team_.graph.ranges.size()) continue;
+      const bool is_new =
+          exchanges.empty() || seconds_between(exchanges.back().stamp, link.stamp) > kSameTime_s;
+      if (is_new)
+        exchanges.push_back(begin(link));
+      else
+        exchanges.back().further.push_back(link.measurement);
     }
+    for (const TimedLink& link : links)
+      if (link.measurement >= team_.graph.ranges.size())
+        if (Exchange* nearest = nearest_in_time(exchanges, link.stamp)) add(link, *nearest);
     return exchanges;
   }
 
  private:
+  static Exchange* nearest_in_time(std::vector<Exchange>& exchanges, Stamp stamp) {
+    const auto later =
+        std::lower_bound(exchanges.begin(), exchanges.end(), stamp,
+                         [](const Exchange& exchange, Stamp at) { return exchange.stamp < at; });
+    Exchange* nearest = nullptr;
+    double gap_s = kExchange_s;
+    const auto consider = [&](Exchange& exchange) {
+      const double own_s = std::abs(seconds_between(exchange.stamp, stamp));
+      if (own_s <= gap_s) gap_s = own_s, nearest = &exchange;
+    };
+    if (later != exchanges.begin()) consider(*(later - 1));
+    if (later != exchanges.end()) consider(*later);
+    return nearest;
+  }
+
   std::pair<PoseId, PoseId> ends(const RangeFactor<Pose>& range) const {
     const auto [low, high] = std::minmax(range.i.pose.value, range.j.pose.value);
     return {PoseId(low), PoseId(high)};
@@ -189,23 +251,27 @@ class Exchanges {
     exchange.range_m = range.range_m;
     exchange.sigma_m = range.sigma_m;
     exchange.stamp = link.stamp;
-    exchange.T_a = seen_from_above(team_.graph.poses[a.index()]);
-    exchange.T_b = seen_from_above(team_.graph.poses[b.index()]);
+    exchange.T_a = seen_from_above(poses_[a.index()]);
+    exchange.T_b = seen_from_above(poses_[b.index()]);
     return exchange;
   }
 
+  /// Adds an angle, seen with the receiver's heading at the time of the exchange.
   void add(const TimedLink& link, Exchange& exchange) const {
-    if (link.measurement < team_.graph.ranges.size()) return;
     const std::size_t b = link.measurement - team_.graph.ranges.size();
     const auto& bearing = team_.bearings[b];
-    auto& azimuths = bearing.i.value < bearing.j.pose.value ? exchange.at_a : exchange.at_b;
+    const bool is_at_a = bearing.i.value < bearing.j.pose.value;
+    auto& azimuths = is_at_a ? exchange.at_a : exchange.at_b;
     if (!azimuths.empty()) return;
+    const Pose& receiver = poses_[bearing.i.index()];
+    const double turned = seen_from_above(receiver).angle() - (is_at_a ? exchange.T_a : exchange.T_b).angle();
     for (std::size_t p = 0; p < bearing.paths.size(); ++p)
-      azimuths.push_back({level_azimuth(team_.graph.poses[bearing.i.index()], bearing.paths[p].direction),
+      azimuths.push_back({level_azimuth(receiver, bearing.paths[p].direction) + turned,
                           bearing.paths[p].sigma_rad, direct_probability_ * path_prior_[first_path_[b] + p]});
   }
 
   const TeamGraph<Pose>& team_;
+  std::vector<Pose> poses_;
   const std::vector<double>& path_prior_;
   double direct_probability_;
   std::vector<std::size_t> first_path_;
@@ -222,10 +288,15 @@ std::vector<double> detour_densities(const TeamGraph<Pose>& team, const std::vec
     if (!links.is_between_robots) continue;
     const std::vector<Exchange> own = exchanges.of(links.links);
     for (std::size_t k = 1; k < own.size(); ++k) {
+      const Exchange& before = own[predecessor(own, k)];
       const double continues =
-          std::exp(-seconds_between(own[k - 1].stamp, own[k].stamp) / model.correlation_time_s);
-      result[own[k].range] = (1 - continues) / model.span_m + continues * density(own[k], own[k - 1]);
+          std::exp(-seconds_between(before.stamp, own[k].stamp) / model.correlation_time_s);
+      result[own[k].range] = (1 - continues) / model.span_m + continues * density(own[k], before);
     }
+    for (const Exchange& exchange : own)
+      for (const std::size_t range : exchange.further)
+        result[range] = repeated_density(team.graph.ranges[range].range_m - exchange.range_m,
+                                         team.graph.ranges[range].sigma_m, exchange.sigma_m);
   }
   return result;
 }

@@ -6,6 +6,7 @@
 //   (1 - c) / span + c p(exchange | the preceding one moved by both odometries),   c = exp(-gap / T)
 // relative to uniform angles, with a mixture over the paths of both exchanges and first-order propagation of
 // the range's and the angles' variances. Seen from above.
+// Angles within half a second of a range belong to it; of several ranges at one time the first carries them.
 #pragma once
 
 #include <vector>
