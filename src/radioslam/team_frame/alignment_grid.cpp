@@ -100,8 +100,8 @@ class Scorer {
     double density = (1 - mixture.obstructed_share) * std::exp(-0.5 * error * error) /
                      (std::sqrt(2 * std::numbers::pi) * sigma);
     if (mixture.obstructed_share > 0)
-      density += mixture.obstructed_share *
-                 obstructed_range(link.range_m - predicted.value, sigma).probability / problem_.span_m;
+      density += mixture.obstructed_share * obstructed_probability(link.range_m - predicted.value, sigma) /
+                 problem_.span_m;
     return std::log((1 - mixture.false_range_probability) * density +
                     mixture.false_range_probability / problem_.span_m);
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "radioslam/graph/team_graph.hpp"
@@ -23,6 +24,15 @@ struct ConnectedTeam {
 /// Segment index of every pose.
 template <class Pose>
 std::vector<std::size_t> segment_of_poses(const TeamGraph<Pose>& team);
+
+/// The trajectory or point that an end of a measurement is on: the segment's index, or less than 0.
+inline std::int64_t end_number(const std::vector<std::size_t>& segment_of, PoseId pose) {
+  return static_cast<std::int64_t>(segment_of[pose.index()]);
+}
+template <class Pose>
+std::int64_t end_number(const std::vector<std::size_t>& segment_of, const RangeEnd<Pose>& end) {
+  return end.pose.valid() ? end_number(segment_of, end.pose) : -1 - std::int64_t{end.point.value};
+}
 
 /// Keeps the measurements within a segment or within a component.
 template <class Pose>

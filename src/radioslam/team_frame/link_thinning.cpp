@@ -31,10 +31,7 @@ class Thinning {
 
  private:
   using Ends = std::pair<std::int64_t, std::int64_t>;
-  std::int64_t number(PoseId pose) const { return static_cast<std::int64_t>(segment_of_[pose.index()]); }
-  std::int64_t number(const RangeEnd<Pose>& end) const {
-    return end.pose.valid() ? number(end.pose) : -1 - std::int64_t{end.point.value};
-  }
+  std::int64_t number(const auto& end) const { return end_number(segment_of_, end); }
   Ends ends(const auto& factor) const { return std::minmax(number(factor.i), number(factor.j)); }
   /// Angles are thinned by receiver, so that those of the exchanges stay whose ranges do.
   Ends ends(const AmbiguousBearing<Pose>& bearing) const { return {number(bearing.i), number(bearing.j)}; }

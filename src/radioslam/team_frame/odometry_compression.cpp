@@ -8,25 +8,6 @@
 namespace radioslam {
 namespace {
 
-constexpr std::int32_t kDropped = -1;
-
-/// Index of the odometry factor from the preceding pose to each pose; -1 if there is none.
-template <class Pose>
-std::vector<std::int32_t> odometry_into(const TeamGraph<Pose>& team) {
-  std::vector<std::int32_t> segment_of(team.graph.poses.size(), kDropped);
-  for (std::size_t p = 0; p < team.segments.size(); ++p)
-    std::fill_n(segment_of.begin() + static_cast<std::ptrdiff_t>(team.segments[p].first_pose),
-                team.segments[p].pose_count, static_cast<std::int32_t>(p));
-  std::vector<std::int32_t> into(team.graph.poses.size(), kDropped);
-  for (std::size_t k = 0; k < team.graph.relative_poses.size(); ++k) {
-    const auto& factor = team.graph.relative_poses[k];
-    const std::size_t i = factor.i.index(), j = factor.j.index();
-    if (j == i + 1 && segment_of[i] == segment_of[j] && into[j] == kDropped)
-      into[j] = static_cast<std::int32_t>(k);
-  }
-  return into;
-}
-
 template <class Pose>
 std::vector<bool> kept_poses(const TeamGraph<Pose>& team, const std::vector<std::int32_t>& into) {
   std::vector<bool> kept(team.graph.poses.size(), false);
@@ -112,7 +93,7 @@ TrajectorySegment compress_segment(const TeamGraph<Pose>& full, const Trajectory
   for (std::size_t n = 0; n < segment.pose_count; ++n) {
     const std::size_t k = segment.first_pose + n;
     if (n > 0) {
-      RADIOSLAM_CHECK(into[k] != kDropped, "consecutive poses of a segment need odometry");
+      RADIOSLAM_CHECK(into[k] != kNoOdometry, "consecutive poses of a segment need odometry");
       composition.append(full.graph.relative_poses[static_cast<std::size_t>(into[k])]);
     }
     if (!kept[k]) continue;
@@ -128,6 +109,22 @@ TrajectorySegment compress_segment(const TeamGraph<Pose>& full, const Trajectory
 }
 
 }  // namespace
+
+template <class Pose>
+std::vector<std::int32_t> odometry_into(const TeamGraph<Pose>& team) {
+  std::vector<std::int32_t> segment_of(team.graph.poses.size(), kNoOdometry);
+  for (std::size_t p = 0; p < team.segments.size(); ++p)
+    std::fill_n(segment_of.begin() + static_cast<std::ptrdiff_t>(team.segments[p].first_pose),
+                team.segments[p].pose_count, static_cast<std::int32_t>(p));
+  std::vector<std::int32_t> into(team.graph.poses.size(), kNoOdometry);
+  for (std::size_t k = 0; k < team.graph.relative_poses.size(); ++k) {
+    const auto& factor = team.graph.relative_poses[k];
+    const std::size_t i = factor.i.index(), j = factor.j.index();
+    if (j == i + 1 && segment_of[i] == segment_of[j] && into[j] == kNoOdometry)
+      into[j] = static_cast<std::int32_t>(k);
+  }
+  return into;
+}
 
 template <class Pose>
 CompressedTeam<Pose> compress(const TeamGraph<Pose>& full) {
@@ -168,6 +165,8 @@ void expand_values(const CompressedTeam<Pose>& compressed, TeamGraph<Pose>& full
           full.graph.poses[k - 1] * full.graph.relative_poses[static_cast<std::size_t>(into[k])].T_i_j;
 }
 
+template std::vector<std::int32_t> odometry_into(const TeamGraph<SE2>&);
+template std::vector<std::int32_t> odometry_into(const TeamGraph<SE3>&);
 template CompressedTeam<SE2> compress(const TeamGraph<SE2>&);
 template CompressedTeam<SE3> compress(const TeamGraph<SE3>&);
 template void expand_values(const CompressedTeam<SE2>&, TeamGraph<SE2>&);

@@ -4,11 +4,19 @@
 //   (S, D) <- (Ad(Z^-1) S Ad(Z^-1)^T + S_k, Ad(Z^-1) D + D_k).
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "radioslam/graph/team_graph.hpp"
 
 namespace radioslam {
+
+inline constexpr std::int32_t kNoOdometry = -1;
+
+/// Index of the odometry factor from the preceding pose of its segment to each pose; kNoOdometry if there is
+/// none.
+template <class Pose>
+std::vector<std::int32_t> odometry_into(const TeamGraph<Pose>& team);
 
 template <class Pose>
 struct CompressedTeam {

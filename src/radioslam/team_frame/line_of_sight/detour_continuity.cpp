@@ -11,9 +11,9 @@
 
 #include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/geometry/se2.hpp"
-#include "radioslam/team_frame/connected_measurements.hpp"
 #include "radioslam/team_frame/level_view.hpp"
 #include "radioslam/team_frame/line_of_sight/sight_chains.hpp"
+#include "radioslam/team_frame/odometry_compression.hpp"
 
 namespace radioslam {
 namespace {
@@ -119,12 +119,13 @@ double density(const Exchange& exchange, const Prediction& predicted) {
   const double off_m = exchange.range_m - predicted.mean[0];
   const double variance = predicted.covariance(0, 0) + exchange.sigma_m * exchange.sigma_m;
   if (off_m * off_m > kNegligible * kNegligible * variance) return 0;
+  const auto at_a = choices(exchange.at_a), at_b = choices(exchange.at_b);
   double sum = 0;
-  for (const auto& a : choices(exchange.at_a))
-    for (const auto& b : choices(exchange.at_b)) {
-      Eigen::Vector3d error(exchange.range_m - predicted.mean[0], 0, 0);
+  for (const auto& a : at_a)
+    for (const auto& b : at_b) {
+      Eigen::Vector3d error(off_m, 0, 0);
       Eigen::Matrix3d covariance = predicted.covariance;
-      covariance(0, 0) += exchange.sigma_m * exchange.sigma_m;
+      covariance(0, 0) = variance;
       double weight = a ? a->probability * 2 * kPi : none_probability(exchange.at_a);
       weight *= b ? b->probability * 2 * kPi : none_probability(exchange.at_b);
       if (a) {
@@ -176,16 +177,12 @@ double repeated_density(double difference_m, double sigma_m, double other_sigma_
 /// estimate.
 template <class Pose>
 std::vector<Pose> odometry_poses(const TeamGraph<Pose>& team) {
-  const auto segment_of = segment_of_poses(team);
-  std::vector<const RelativePoseFactor<Pose>*> into(team.graph.poses.size(), nullptr);
-  for (const auto& factor : team.graph.relative_poses) {
-    const std::size_t i = factor.i.index(), j = factor.j.index();
-    if (j == i + 1 && segment_of[i] == segment_of[j] && !into[j]) into[j] = &factor;
-  }
+  const auto into = odometry_into(team);
   std::vector<Pose> poses = team.graph.poses;
   for (const TrajectorySegment& segment : team.segments)
     for (std::size_t k = segment.first_pose + 1; k < segment.first_pose + segment.pose_count; ++k)
-      if (into[k]) poses[k] = poses[k - 1] * into[k]->T_i_j;
+      if (into[k] != kNoOdometry)
+        poses[k] = poses[k - 1] * team.graph.relative_poses[static_cast<std::size_t>(into[k])].T_i_j;
   return poses;
 }
 
@@ -204,7 +201,7 @@ class Exchanges {
   }
 
   /// Of successive links between two robots, `at_a` being those at the end with the lower pose. Ranges
-  /// shortly after the first of an exchange belong to it, and angles to the nearest exchange.
+  /// at the same time are one exchange, and angles belong to the nearest one.
   std::vector<Exchange> of(const std::vector<TimedLink>& links) const {
     std::vector<Exchange> exchanges;
     for (const TimedLink& link : links) {

@@ -19,10 +19,14 @@ double hazard_and_argument(double y, double distribution) {
 
 }  // namespace
 
+double obstructed_probability(double x, double sigma) {
+  return std::erfc(-(x / sigma) / std::numbers::sqrt2) / 2;
+}
+
 ObstructedRange obstructed_range(double x, double sigma) {
   const double y = x / sigma;
   ObstructedRange result;
-  result.probability = std::erfc(-y / std::numbers::sqrt2) / 2;
+  result.probability = obstructed_probability(x, sigma);
   const double sum = hazard_and_argument(y, result.probability), hazard = sum - y;
   result.slope = hazard / sigma;
   result.curvature = hazard * sum / (sigma * sigma);

@@ -14,7 +14,8 @@ struct ObstructedRange {
   double curvature = 0;    ///< -d^2 log Phi / dx^2, in (0, 1 / s^2)
 };
 
-/// Expects sigma > 0.
+/// The probability alone, which costs less. Both expect sigma > 0.
+double obstructed_probability(double x, double sigma);
 ObstructedRange obstructed_range(double x, double sigma);
 
 }  // namespace radioslam

@@ -27,10 +27,7 @@ class Ends {
  public:
   explicit Ends(const TeamGraph<Pose>& team) : team_(team), segment_of_(segment_of_poses(team)) {}
 
-  std::int64_t number(PoseId pose) const { return static_cast<std::int64_t>(segment_of_[pose.index()]); }
-  std::int64_t number(const RangeEnd<Pose>& end) const {
-    return end.pose.valid() ? number(end.pose) : -1 - std::int64_t{end.point.value};
-  }
+  std::int64_t number(const auto& end) const { return end_number(segment_of_, end); }
   Stamp stamp(PoseId pose) const {
     const TrajectorySegment& segment = team_.segments[segment_of_[pose.index()]];
     return segment.stamps[pose.index() - segment.first_pose];
