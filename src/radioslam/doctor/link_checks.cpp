@@ -35,6 +35,8 @@ constexpr double kMinExplained = 0.3;  // of all links, in a mission without a f
 constexpr double kClockOffsets_s[] = {0.5, 1,  1.5, 2,  3,  4,  5,  6,  8,  10,
                                       12,  15, 18,  21, 25, 30, 35, 40, 50, 60};
 constexpr std::size_t kTrialWindows = 2;  // on which a correction must gain before all are fitted
+/// Robots whose own corrections are tried: of a large team those whose links fit worst.
+constexpr std::size_t kSuspects = 6;
 
 struct FittedWindow {
   LinkWindow window;
@@ -81,9 +83,31 @@ std::vector<const FittedWindow*> concerned(const Correction& correction,
   return result;
 }
 
+/// The robots whose windows have the least likelihood per link.
+std::set<std::string> suspects(const Mission& mission, const std::vector<FittedWindow>& windows) {
+  std::vector<std::pair<double, std::size_t>> by_likelihood;
+  for (std::size_t r = 0; r < mission.robots.size(); ++r) {
+    double log_likelihood = 0, links = 0;
+    for (const auto& [window, fit] : windows) {
+      if (window.i != r && window.j != r) continue;
+      log_likelihood += fit.log_likelihood;
+      links += static_cast<double>(fit.links);
+    }
+    if (links > 0) by_likelihood.emplace_back(log_likelihood / links, r);
+  }
+  std::sort(by_likelihood.begin(), by_likelihood.end());
+  std::set<std::string> ids;
+  for (std::size_t k = 0; k < std::min(kSuspects, by_likelihood.size()); ++k)
+    ids.insert(mission.robots[by_likelihood[k].second].id);
+  return ids;
+}
+
 /// Whether the correction of one robot has nothing to correct. Heights bend all ranges a little.
-bool is_needless(const Correction& correction, const std::vector<FittedWindow>& windows) {
-  if (correction.finding.robot.empty() || correction.finding.kind == "height") return false;
+bool is_needless(const Correction& correction, const std::set<std::string>& suspected,
+                 const std::vector<FittedWindow>& windows) {
+  if (correction.finding.robot.empty()) return false;
+  if (!suspected.contains(correction.finding.robot)) return true;
+  if (correction.finding.kind == "height") return false;
   return std::all_of(windows.begin(), windows.end(), [&](const FittedWindow& w) {
     return w.fit.inlier_ratio >= kGoodInlierRatio || !correction.concerns(w.window.i, w.window.j);
   });
@@ -126,11 +150,11 @@ struct Chosen {
 
 /// Keeps the better of the two; what is equally good stays with the first.
 void keep_best(std::optional<Chosen>& best, const std::vector<Correction>& corrections, const TeamLinks& team,
-               const std::vector<FittedWindow>& windows) {
+               const std::set<std::string>& suspected, const std::vector<FittedWindow>& windows) {
   std::vector<Gain> gains(corrections.size());
   parallel_for(corrections.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k)
-      if (!is_needless(corrections[k], windows)) gains[k] = gain_of(corrections[k], team, windows);
+      if (!is_needless(corrections[k], suspected, windows)) gains[k] = gain_of(corrections[k], team, windows);
   });
   for (std::size_t k = 0; k < corrections.size(); ++k)
     if (gains[k].is_significant() &&
@@ -140,11 +164,11 @@ void keep_best(std::optional<Chosen>& best, const std::vector<Correction>& corre
 
 /// Offsets of clocks between half a second and a minute, refined to a tenth of a second.
 void try_clocks(std::optional<Chosen>& best, const Mission& mission, const TeamLinks& team,
-                const std::vector<FittedWindow>& windows) {
+                const std::set<std::string>& suspected, const std::vector<FittedWindow>& windows) {
   std::optional<std::pair<Chosen, double>> clock;
   const auto try_offset = [&](double seconds) {
     std::optional<Chosen> found;
-    keep_best(found, clock_corrections(mission, team, seconds), team, windows);
+    keep_best(found, clock_corrections(mission, team, seconds), team, suspected, windows);
     if (found && (!clock || found->gain.log_likelihood > clock->first.gain.log_likelihood))
       clock.emplace(*found, seconds);
   };
@@ -161,12 +185,13 @@ void try_clocks(std::optional<Chosen>& best, const Mission& mission, const TeamL
 
 std::optional<Chosen> best_correction(const Mission& mission, const TeamLinks& team,
                                       const std::vector<FittedWindow>& windows) {
+  const auto suspected = suspects(mission, windows);
   std::optional<Chosen> best;
-  keep_best(best, discrete_corrections(mission, team), team, windows);
-  try_clocks(best, mission, team, windows);
+  keep_best(best, discrete_corrections(mission, team), team, suspected, windows);
+  try_clocks(best, mission, team, suspected, windows);
   // Constant errors bend to almost any contradiction a little: they come last.
   std::optional<Chosen> offset;
-  keep_best(offset, offset_corrections(mission, team), team, windows);
+  keep_best(offset, offset_corrections(mission, team), team, suspected, windows);
   if (offset && (!best || offset->gain.log_likelihood > 1.3 * best->gain.log_likelihood + 6)) best = offset;
   return best;
 }

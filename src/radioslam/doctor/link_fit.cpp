@@ -13,11 +13,22 @@ namespace radioslam {
 namespace {
 
 using Alignment = LinkLikelihood::Alignment;
+using Motion = LinkLikelihood::Motion;
 constexpr std::size_t kStartLinks = 4;
 constexpr int kStartYaws = 18;
 constexpr std::size_t kRefined = 6;
 constexpr int kIterations = 12;
 constexpr double kExplainedSigmas = 3;
+constexpr double kDifference = 1e-4;  // of numerical derivatives, metres or radians
+
+/// An alignment and those next to it along each of its coordinates.
+struct Neighbourhood {
+  explicit Neighbourhood(const Alignment& T) : centre(T) {
+    for (int k = 0; k < T.size(); ++k) moved.emplace_back(Alignment(T + kDifference * Alignment::Unit(k)));
+  }
+  Motion centre;
+  std::vector<Motion> moved;
+};
 
 /// The alignment of greatest likelihood.
 class AlignmentSearch {
@@ -90,7 +101,8 @@ class AlignmentSearch {
       const double widening = std::max(1.0, 4.0 - iteration);
       Eigen::Matrix4d H = Eigen::Vector4d(1e-6, 1e-6, model_.is_planar() ? 1 : 1e-4, 1e-4).asDiagonal();
       Eigen::Vector4d g = Eigen::Vector4d::Zero();
-      for (const LinkSample& sample : model_.samples()) accumulate(sample, T, widening, H, g);
+      const Neighbourhood at(T);
+      for (const LinkSample& sample : model_.samples()) accumulate(sample, at, widening, H, g);
       const Eigen::Vector4d step = ldlt_solve(H, g);
       T -= step;
       if (model_.is_planar()) T(2) = 0;
@@ -99,20 +111,17 @@ class AlignmentSearch {
     return T;
   }
 
-  void accumulate(const LinkSample& sample, const Alignment& T, double widening, Eigen::Matrix4d& H,
+  void accumulate(const LinkSample& sample, const Neighbourhood& at, double widening, Eigen::Matrix4d& H,
                   Eigen::Vector4d& g) const {
-    const double r = model_.residual(sample, T), sigma = widening * sample.sigma;
+    const double r = model_.residual(sample, at.centre), sigma = widening * sample.sigma;
     const double in = model_.inlier_density(sample, r / widening) / widening,
                  out = model_.outlier_density(sample);
     const double weight = in / (in + out) / (sigma * sigma);
     if (weight < 1e-9) return;
     Eigen::Vector4d J;
-    constexpr double kStep = 1e-4;
     for (int k = 0; k < 4; ++k) {
-      Alignment moved = T;
-      moved(k) += kStep;
-      const double change = model_.residual(sample, moved) - r;
-      J(k) = (sample.is_angle ? wrap_angle(change) : change) / kStep;
+      const double change = model_.residual(sample, at.moved[static_cast<std::size_t>(k)]) - r;
+      J(k) = (sample.is_angle ? wrap_angle(change) : change) / kDifference;
     }
     H += weight * J * J.transpose();
     g += weight * r * J;
@@ -127,8 +136,9 @@ LinkFit described(const LinkLikelihood& model, const Alignment& T, std::size_t l
   fit.links = links;
   fit.log_likelihood = model.log_likelihood(T) + model.log_likelihood_of_unplaced();
   std::size_t explained = 0;
+  const Motion motion(T);
   for (const LinkSample& sample : model.samples()) {
-    const double r = model.residual(sample, T);
+    const double r = model.residual(sample, motion);
     if (std::abs(r) > kExplainedSigmas * sample.sigma) continue;
     ++explained;
     if (!sample.is_fix)

@@ -69,24 +69,25 @@ void LinkLikelihood::add(const TeamLinks& team, const LinkWindow& window, const 
   samples_.push_back(std::move(sample));
 }
 
+LinkLikelihood::Motion::Motion(const Alignment& T)
+    : translation_m(T.head<3>()), cosine(std::cos(T(3))), sine(std::sin(T(3))) {}
+
 /// From i's end to j's, in the frame of node i.
-Eigen::Vector3d LinkLikelihood::direction(const LinkSample& sample, const Alignment& T) const {
-  const double c = std::cos(T(3)), s = std::sin(T(3));
-  const Eigen::Vector3d& p = sample.p_j;
-  Eigen::Vector3d d(c * p.x() - s * p.y() + T(0), s * p.x() + c * p.y() + T(1), p.z() + T(2));
+Eigen::Vector3d LinkLikelihood::direction(const LinkSample& sample, const Motion& T) const {
+  const Eigen::Vector3d &p = sample.p_j, &t = T.translation_m;
+  Eigen::Vector3d d(T.cosine * p.x() - T.sine * p.y() + t.x(), T.sine * p.x() + T.cosine * p.y() + t.y(),
+                    p.z() + t.z());
   d -= sample.p_i;
   if (is_planar_) d.z() = sample.height_m;
   return d;
 }
 
-double LinkLikelihood::residual(const LinkSample& sample, const Alignment& T) const {
+double LinkLikelihood::residual(const LinkSample& sample, const Motion& T) const {
   const Eigen::Vector3d d = direction(sample, T);
   if (!sample.is_angle) return d.norm() - sample.range_m;
   Eigen::Vector3d to = d;
-  if (!sample.receiver_is_i) {
-    const double c = std::cos(T(3)), s = std::sin(T(3));
-    to = -Eigen::Vector3d(c * d.x() + s * d.y(), -s * d.x() + c * d.y(), d.z());
-  }
+  if (!sample.receiver_is_i)
+    to = -Eigen::Vector3d(T.cosine * d.x() + T.sine * d.y(), -T.sine * d.x() + T.cosine * d.y(), d.z());
   const Eigen::Vector3d in_body = sample.R_receiver.transpose() * to;
   const double azimuth_rad = std::atan2(in_body.y(), in_body.x());
   double nearest = std::numbers::pi;
@@ -106,10 +107,11 @@ double LinkLikelihood::outlier_density(const LinkSample& sample) const {
 }
 
 double LinkLikelihood::log_likelihood(const Alignment& T, std::size_t stride) const {
+  const Motion motion(T);
   double sum = 0;
   for (std::size_t k = 0; k < samples_.size(); k += stride) {
     const LinkSample& sample = samples_[k];
-    sum += std::log(inlier_density(sample, residual(sample, T)) + outlier_density(sample));
+    sum += std::log(inlier_density(sample, residual(sample, motion)) + outlier_density(sample));
   }
   return sum;
 }

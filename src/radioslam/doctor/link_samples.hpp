@@ -26,6 +26,12 @@ class LinkLikelihood {
  public:
   /// x, y, z in metres and yaw of node j's frame in node i's.
   using Alignment = Eigen::Vector4d;
+  /// An alignment with the cosine and sine of its yaw.
+  struct Motion {
+    explicit Motion(const Alignment& T);
+    Eigen::Vector3d translation_m;
+    double cosine, sine;
+  };
 
   /// `alignment_sigma_m` is added to the sigmas of ranges.
   LinkLikelihood(const TeamLinks& team, const LinkWindow& window, double alignment_sigma_m);
@@ -34,7 +40,7 @@ class LinkLikelihood {
   const std::vector<LinkSample>& samples() const { return samples_; }
 
   /// In metres or radians; of an angle, that of the nearest path.
-  double residual(const LinkSample& sample, const Alignment& T) const;
+  double residual(const LinkSample& sample, const Motion& T) const;
   double inlier_density(const LinkSample& sample, double residual) const;
   double outlier_density(const LinkSample& sample) const;
   /// Of every `stride`th link.
@@ -44,7 +50,7 @@ class LinkLikelihood {
 
  private:
   void add(const TeamLinks& team, const LinkWindow& window, const TrackLink& link, double alignment_sigma_m);
-  Eigen::Vector3d direction(const LinkSample& sample, const Alignment& T) const;
+  Eigen::Vector3d direction(const LinkSample& sample, const Motion& T) const;
 
   bool is_planar_;
   std::vector<LinkSample> samples_;

@@ -25,9 +25,16 @@ Sincs sincs(double w) {
 double wrap_angle(double angle_rad) {
   constexpr double pi = std::numbers::pi;
   if (angle_rad > -pi && angle_rad <= pi) return angle_rad;
+  // Within a turn and a half the difference is exact, as the remainder is, which takes ten times as long.
+  constexpr double kExact = 9.42;
+  if (angle_rad > pi && angle_rad < kExact) return angle_rad - 2 * pi;
+  if (angle_rad < -pi && angle_rad > -kExact) return angle_rad + 2 * pi;
   const double wrapped = std::remainder(angle_rad, 2 * pi);
   return wrapped <= -pi ? pi : wrapped;
 }
+
+SE2::SE2(const Point& translation, double angle_rad)
+    : t_(translation), angle_(wrap_angle(angle_rad)), cosine_(std::cos(angle_)), sine_(std::sin(angle_)) {}
 
 SE2 SE2::exp(const Tangent& xi) {
   const auto [s, c] = sincs(xi[2]);
@@ -41,24 +48,16 @@ SE2::Tangent SE2::log() const {
   return {a * t_.x() + h * t_.y(), -h * t_.x() + a * t_.y(), angle_};
 }
 
-Eigen::Matrix2d SE2::rotation_matrix() const {
-  const double c = std::cos(angle_), s = std::sin(angle_);
-  Eigen::Matrix2d r;
-  r << c, -s, s, c;
-  return r;
-}
-
 SE2 SE2::inverse() const {
-  const double c = std::cos(angle_), s = std::sin(angle_);
-  return {Point(-c * t_.x() - s * t_.y(), s * t_.x() - c * t_.y()), -angle_};
+  SE2 result;
+  result.t_ = {-cosine_ * t_.x() - sine_ * t_.y(), sine_ * t_.x() - cosine_ * t_.y()};
+  result.angle_ = wrap_angle(-angle_);
+  result.cosine_ = cosine_;
+  result.sine_ = -sine_;
+  return result;
 }
 
 SE2 SE2::operator*(const SE2& other) const { return {*this * other.t_, angle_ + other.angle_}; }
-
-SE2::Point SE2::rotate(const Point& p) const {
-  const double c = std::cos(angle_), s = std::sin(angle_);
-  return {c * p.x() - s * p.y(), s * p.x() + c * p.y()};
-}
 
 SE2::Jacobian SE2::adjoint() const {
   Jacobian ad = Jacobian::Identity();

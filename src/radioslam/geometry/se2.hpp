@@ -9,7 +9,8 @@ namespace radioslam {
 /// Wraps an angle to (-pi, pi].
 double wrap_angle(double angle_rad);
 
-/// A rigid motion of the plane; metres and radians.
+/// A rigid motion of the plane; metres and radians. Keeps the cosine and sine of its angle, since points are
+/// moved and motions inverted more often than motions are made.
 class SE2 {
  public:
   static constexpr int kDim = 2;  ///< of the points it moves
@@ -19,19 +20,23 @@ class SE2 {
   using Point = Eigen::Vector2d;
 
   SE2() = default;
-  SE2(const Point& translation, double angle_rad) : t_(translation), angle_(wrap_angle(angle_rad)) {}
+  SE2(const Point& translation, double angle_rad);
 
   static SE2 exp(const Tangent& xi);
   Tangent log() const;
 
   const Point& translation() const { return t_; }
   double angle() const { return angle_; }
-  Eigen::Matrix2d rotation_matrix() const;
+  Eigen::Matrix2d rotation_matrix() const {
+    return (Eigen::Matrix2d() << cosine_, -sine_, sine_, cosine_).finished();
+  }
 
   SE2 inverse() const;
   SE2 operator*(const SE2& other) const;
   Point operator*(const Point& p) const { return t_ + rotate(p); }
-  Point rotate(const Point& p) const;
+  Point rotate(const Point& p) const {
+    return {cosine_ * p.x() - sine_ * p.y(), sine_ * p.x() + cosine_ * p.y()};
+  }
 
   /// Ad(T): T Exp(xi) T^-1 = Exp(Ad(T) xi).
   Jacobian adjoint() const;
@@ -41,7 +46,7 @@ class SE2 {
 
  private:
   Point t_ = Point::Zero();
-  double angle_ = 0;
+  double angle_ = 0, cosine_ = 1, sine_ = 0;
 };
 
 }  // namespace radioslam
