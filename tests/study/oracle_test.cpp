@@ -36,6 +36,43 @@ TEST(Oracle, DoesNotSeeFalsePaths) {
   EXPECT_NEAR(oracle_error_m(town, 2), alone, 1e-6);
 }
 
+/// The second robot turned by half a turn about a far point.
+Trajectory<SE3> misplaced(const Trajectory<SE3>& poses) {
+  const SE3 T = lift(SE2({300, -200}, 3.1), 0);
+  std::vector<StampedPose<SE3>> moved(poses.begin(), poses.end());
+  for (auto& row : moved) row.pose = T * row.pose;
+  return Trajectory<SE3>(std::move(moved));
+}
+
+std::vector<EstimatedTrajectory> as_start(const Truth& start) {
+  std::vector<EstimatedTrajectory> robots;
+  for (const RobotTruth& robot : start.robots) robots.push_back({robot.id, robot.poses});
+  return robots;
+}
+
+TEST(Oracle, DoesNotDependOnTheOrderOfItsStarts) {
+  const Simulation town = simulate_city(small_town(), 4);
+  const Truth& truth = town.truth;
+  Truth misplaced_truth = truth;
+  misplaced_truth.robots[1].poses = misplaced(truth.robots[1].poses);
+  const auto error_m = [&](const Truth& first, const Truth& second) {
+    return *ate_rmse_m(*oracle_estimate(town.mission, first, {}, as_start(second)), truth, 2);
+  };
+  const double one = error_m(truth, misplaced_truth), other = error_m(misplaced_truth, truth);
+  EXPECT_NE(error_m(truth, truth), error_m(misplaced_truth, misplaced_truth)) << "the starts differ";
+  EXPECT_DOUBLE_EQ(one, other) << "the likelier result counts";
+}
+
+TEST(Oracle, IgnoresAStartThatDoesNotCoverTheOdometry) {
+  const auto [mission, truth] = simulate_city(small_town(), 4);
+  auto part = as_start(truth);
+  part[1].poses = Trajectory<SE3>(
+      std::vector<StampedPose<SE3>>(truth.robots[1].poses.begin() + 10, truth.robots[1].poses.end()));
+  const auto alone = oracle_estimate(mission, truth, {}),
+             with_part = oracle_estimate(mission, truth, {}, part);
+  EXPECT_EQ(*ate_rmse_m(*alone, truth, 2), *ate_rmse_m(*with_part, truth, 2));
+}
+
 TEST(Oracle, IsHelpedByMoreLinks) {
   CityParams town = small_town();
   town.odometry.sigma_yaw_per_sqrt_m_rad = 0.01;

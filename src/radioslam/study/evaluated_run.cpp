@@ -75,8 +75,9 @@ std::optional<double> dead_reckoning_ate_m(const Mission& mission, const Truth& 
 EvaluatedRun run_and_evaluate(const Mission& mission, const Truth& truth, const RunParams& params,
                               const RunOptions& options) {
   const RunResult result = run_pipeline(mission, params, options).result;
-  const TeamMetrics metrics = evaluate_trajectories(team_estimate(result), truth, result.dimension);
   EvaluatedRun run;
+  run.estimate = team_estimate(result);
+  const TeamMetrics metrics = evaluate_trajectories(run.estimate, truth, result.dimension);
   if (metrics.ate) run.ate_m = metrics.ate->rmse_m;
   run.best_ate_m = best_ate_m(result, truth, run.ate_m);
   run.weight = result.weight;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "radioslam/eval/closures.hpp"
 #include "radioslam/eval/metrics.hpp"
@@ -18,8 +19,9 @@ struct EvaluatedRun {
   double coverage = 0;               ///< ratio of the true poses covered by the most likely hypothesis
   PairCounts candidates;             ///< true: closer than the sum of the two LiDAR ranges
   double distances_evaluated = 0;
-  double search_s = 0;  ///< the overlap search, with its covariances
-  double total_s = 0;   ///< all stages
+  double search_s = 0;                        ///< the overlap search, with its covariances
+  double total_s = 0;                         ///< all stages
+  std::vector<EstimatedTrajectory> estimate;  ///< of the most likely hypothesis
 };
 
 /// Ratio of the true pairs that were kept; nothing if there are none.

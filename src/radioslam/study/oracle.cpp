@@ -1,7 +1,7 @@
 #include "radioslam/study/oracle.hpp"
 
 #include <algorithm>
-#include <utility>
+#include <limits>
 
 #include "radioslam/base/check.hpp"
 #include "radioslam/graph/optimizer.hpp"
@@ -10,23 +10,32 @@
 namespace radioslam {
 namespace {
 
-bool can_start_from(const Mission& mission, const Truth& truth) {
+using Trajectories = std::vector<const Trajectory<SE3>*>;
+
+/// Whether the trajectories, one per robot, cover the odometry.
+bool cover(const Trajectories& trajectories, const Mission& mission) {
+  if (trajectories.size() != mission.robots.size()) return false;
   for (std::size_t r = 0; r < mission.robots.size(); ++r) {
     const auto& odometry = mission.robots[r].odometry;
-    const RobotTruth& known = truth.robots[r];
-    if (!known.has_orientation || !known.poses.covers(odometry.front().stamp) ||
-        !known.poses.covers(odometry.back().stamp))
+    if (!trajectories[r]->covers(odometry.front().stamp) || !trajectories[r]->covers(odometry.back().stamp))
       return false;
   }
+  return true;
+}
+
+bool can_start_from(const Truth& truth, const Mission& mission) {
+  if (!std::all_of(truth.robots.begin(), truth.robots.end(),
+                   [](const RobotTruth& robot) { return robot.has_orientation; }))
+    return false;
   return std::all_of(mission.anchors.begin(), mission.anchors.end(),
                      [](const Anchor& anchor) { return anchor.position_m.has_value(); });
 }
 
 template <class Pose>
-void start_from(const Truth& truth, JointGraph<Pose>& joint) {
+void start_from(const Trajectories& trajectories, JointGraph<Pose>& joint) {
   for (std::size_t p = 0; p < joint.team.segments.size(); ++p) {
     const TrajectorySegment& piece = joint.team.segments[p];
-    const auto& poses = truth.robots[joint.robot_of_segment[p]].poses;
+    const Trajectory<SE3>& poses = *trajectories[joint.robot_of_segment[p]];
     for (std::size_t k = 0; k < piece.pose_count; ++k)
       joint.team.graph.poses[piece.first_pose + k] = pose_as<Pose>(*poses.at(piece.stamps[k]));
   }
@@ -53,14 +62,23 @@ std::vector<EstimatedTrajectory> keyframe_poses(const JointGraph<Pose>& joint) {
   return robots;
 }
 
+/// The likeliest estimate over the starts.
 template <class Pose>
-std::vector<EstimatedTrajectory> estimate(const Mission& labelled, const Truth& truth,
+std::vector<EstimatedTrajectory> estimate(const Mission& labelled, const std::vector<Trajectories>& starts,
                                           const RunParams& params) {
   auto joint = build_joint_graph<Pose>(labelled, params.keyframe, params.graph);
-  start_from(truth, joint);
   believe_every_link(joint);
-  optimize(joint.team.graph, OptimizerParams{});
-  return keyframe_poses(joint);
+  std::vector<EstimatedTrajectory> best;
+  double least_cost = std::numeric_limits<double>::infinity();
+  for (const Trajectories& start : starts) {
+    JointGraph<Pose> from_start = joint;
+    start_from(start, from_start);
+    const double cost = optimize(from_start.team.graph, OptimizerParams{}).final_cost;
+    if (cost >= least_cost) continue;
+    least_cost = cost;
+    best = keyframe_poses(from_start);
+  }
+  return best;
 }
 
 }  // namespace
@@ -78,12 +96,18 @@ Mission with_direct_paths_only(const Mission& mission, const Truth& truth) {
   return labelled;
 }
 
-std::optional<std::vector<EstimatedTrajectory>> oracle_estimate(const Mission& mission, const Truth& truth,
-                                                                const RunParams& params) {
-  if (!can_start_from(mission, truth)) return std::nullopt;
+std::optional<std::vector<EstimatedTrajectory>> oracle_estimate(
+    const Mission& mission, const Truth& truth, const RunParams& params,
+    const std::vector<EstimatedTrajectory>& other_start) {
+  if (!can_start_from(truth, mission)) return std::nullopt;
+  std::vector<Trajectories> starts(2);
+  for (const RobotTruth& robot : truth.robots) starts[0].push_back(&robot.poses);
+  for (const EstimatedTrajectory& robot : other_start) starts[1].push_back(&robot.poses);
+  if (!cover(starts[0], mission)) return std::nullopt;
+  if (!cover(starts[1], mission)) starts.pop_back();
   const Mission labelled = with_direct_paths_only(mission, truth);
-  return mission.dimension == 2 ? estimate<SE2>(labelled, truth, params)
-                                : estimate<SE3>(labelled, truth, params);
+  return mission.dimension == 2 ? estimate<SE2>(labelled, starts, params)
+                                : estimate<SE3>(labelled, starts, params);
 }
 
 }  // namespace radioslam

@@ -49,6 +49,8 @@ Json seed_json(const WiClosureKitti& seed) {
           {"links", seed.scenario.radio.links},
           {"joint", mode_json(seed.joint)},
           {"link", mode_json(seed.link)},
+          {"ate_without_radio_m", optional_json(seed.without_radio.ate_m)},
+          {"ate_least_squares_m", optional_json(seed.least_squares.ate_m)},
           {"ate_unpruned_m", optional_json(seed.unpruned.ate_m)},
           {"ate_true_matches_m", optional_json(seed.true_matches.ate_m)},
           {"ate_oracle_m", optional_json(seed.ate_oracle_m)}};

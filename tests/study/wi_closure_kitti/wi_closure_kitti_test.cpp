@@ -43,6 +43,12 @@ TEST_F(WiClosureTable, PruningKeepsTheAliasedMatchesOut) {
   EXPECT_LT(*seed_.joint.aliased.ate_m, 1.2 * *seed_.true_matches.ate_m + 0.05);
 }
 
+TEST_F(WiClosureTable, AliasedMatchesWreckWhatRadioDoesNotCheck) {
+  ASSERT_TRUE(seed_.without_radio.ate_m && seed_.least_squares.ate_m);
+  EXPECT_GT(*seed_.without_radio.ate_m, 5 * *seed_.joint.aliased.ate_m);
+  EXPECT_GT(*seed_.least_squares.ate_m, 5 * *seed_.joint.aliased.ate_m);
+}
+
 TEST_F(WiClosureTable, HoldsThePublishedNumbersAndTheirContradictions) {
   const std::string text = table_text(wi_closure_kitti_table({seed_}));
   for (const char* part : {"1,099,101", "5,544", "7,049", "3,631", "1,913", "65.5 %", "99.69 %", "66.1",

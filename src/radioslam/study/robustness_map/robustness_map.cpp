@@ -33,7 +33,7 @@ RobustnessSample sample(const CityParams& town, std::uint64_t seed) {
   result.weight = run.weight;
   result.recall = recall(run.candidates);
   result.rejected_false = rejected_false(run.candidates);
-  if (const auto oracle = oracle_estimate(mission, truth, {}))
+  if (const auto oracle = oracle_estimate(mission, truth, {}, run.estimate))
     result.ate_oracle_m = ate_rmse_m(*oracle, truth, mission.dimension);
   return result;
 }

@@ -20,6 +20,13 @@ Mission without_matches(const Mission& mission) {
   return result;
 }
 
+Mission without_radio(const Mission& mission) {
+  Mission result = mission;
+  result.ranges.clear();
+  result.aoa_measurements.clear();
+  return result;
+}
+
 RunParams in_mode(const char* mode) {
   RunParams params;
   params.overlap.mode = mode;
@@ -42,25 +49,31 @@ WiClosureKitti reproduce_wi_closure_kitti(const RecordedDrive& drive, const Kitt
   const Truth& truth = simulation.truth;
   const Mission bare = without_matches(mission);
 
-  constexpr int kEstimates = 7;
+  constexpr int kEstimates = 9;
   int done = 0;
-  const auto next = [&](const Mission& recorded, const char* mode, const RunOptions& options) {
+  const auto next = [&](const Mission& recorded, const RunParams& params, const RunOptions& options) {
     report_progress(progress, "estimates", static_cast<double>(done++) / kEstimates);
-    return run_and_evaluate(recorded, truth, in_mode(mode), options);
+    return run_and_evaluate(recorded, truth, params, options);
   };
   RunOptions search, unpruned;
   search.overlap_only = true;
   unpruned.pruning = Pruning::kOff;
 
+  const RunParams joint = in_mode("joint"), link = in_mode("link");
+  RunParams least_squares = joint;
+  least_squares.matches.robust = false;
+
   WiClosureKitti result;
   result.seed = seed;
   result.scenario = scenario;
-  result.joint = {next(bare, "joint", search), next(mission, "joint", {})};
-  result.link = {next(bare, "link", search), next(mission, "link", {})};
-  result.unpruned = next(mission, "joint", unpruned);
-  result.true_matches = next(with_true_matches(mission, truth), "joint", {});
+  result.joint = {next(bare, joint, search), next(mission, joint, {})};
+  result.link = {next(bare, link, search), next(mission, link, {})};
+  result.without_radio = next(without_radio(mission), joint, {});
+  result.unpruned = next(mission, joint, unpruned);
+  result.least_squares = next(mission, least_squares, unpruned);
+  result.true_matches = next(with_true_matches(mission, truth), joint, {});
   report_progress(progress, "estimates", static_cast<double>(done) / kEstimates);
-  if (const auto oracle = oracle_estimate(mission, truth, {}))
+  if (const auto oracle = oracle_estimate(mission, truth, {}, result.joint.search.estimate))
     result.ate_oracle_m = ate_rmse_m(*oracle, truth, mission.dimension);
   return result;
 }

@@ -32,12 +32,14 @@ struct WiClosureKitti {
   std::uint64_t seed = 1;
   KittiParams scenario;
   KittiMode joint, link;
+  EvaluatedRun without_radio;          ///< with the aliased matches, which alone place the robots
   EvaluatedRun unpruned;               ///< with the aliased matches, all admitted
+  EvaluatedRun least_squares;          ///< with the aliased matches, all admitted, without a robust loss
   EvaluatedRun true_matches;           ///< with the true matches only, pruned
   std::optional<double> ate_oracle_m;  ///< without matches
 };
 
-/// Six estimates of the drive and the oracle's. Cost: some seconds for 4000 poses.
+/// Eight estimates of the drive and the oracle's. Cost: some seconds for 4000 poses.
 WiClosureKitti reproduce_wi_closure_kitti(const RecordedDrive& drive, const KittiParams& scenario,
                                           std::uint64_t seed, const Progress& progress = {});
 
