@@ -10,6 +10,7 @@
 #include <tuple>
 #include <vector>
 
+#include "radioslam/eval/team_estimate.hpp"
 #include "report/sample_page.hpp"
 
 namespace radioslam {
@@ -100,6 +101,25 @@ TEST(Report, EvaluatesDeadReckoningUnderTheSameRules) {
   const Json accuracy = data_of(evaluated_page(sample))["accuracy"];
   EXPECT_NEAR(accuracy["dead_reckoning"]["rmse_m"].get<double>(), expected.ate->rmse_m, 0.00051);
   EXPECT_NEAR(accuracy["ratio"].get<double>(), sample.metrics.ate->rmse_m / expected.ate->rmse_m, 1e-5);
+}
+
+TEST(Report, StatedSigmasStandBesideTheErrors) {
+  Sample sample = make_sample({.keyframes = 50});
+  sample.metrics = evaluate_trajectories(team_estimate(sample.result), sample.truth, 2);
+  const Json page = data_of(evaluated_page(sample));
+  for (std::size_t r = 0; r < sample.result.robots.size(); ++r) {
+    const Json& errors = page["robots"][r]["errors"];
+    ASSERT_EQ(errors["sigma_m"].size(), errors["error_m"].size());
+    for (std::size_t k = 0; k < errors["sigma_m"].size(); ++k)
+      EXPECT_NEAR(errors["sigma_m"][k].get<double>(), sample.result.robots[r].sigma_position_m[k], 0.00051);
+  }
+  EXPECT_NEAR(page["accuracy"]["share_within_3_sigma"].get<double>(), *sample.metrics.share_within_3_sigma,
+              0.00006);
+  for (auto& robot : sample.result.robots) robot.sigma_position_m.clear();
+  sample.metrics = evaluate_trajectories(team_estimate(sample.result), sample.truth, 2);
+  const Json without = data_of(evaluated_page(sample));
+  EXPECT_FALSE(without["robots"][0]["errors"].contains("sigma_m"));
+  EXPECT_FALSE(without["accuracy"].contains("share_within_3_sigma"));
 }
 
 TEST(Report, QuantilesRunFromTheLeastToTheLargestError) {

@@ -137,17 +137,20 @@ double sigma_at(const EstimatedTrajectory& robot, Stamp stamp) {
   return (1 - ratio) * robot.sigma_position_m[k - 1] + ratio * robot.sigma_position_m[k];
 }
 
-std::optional<double> share_within_3_sigma(const std::vector<RobotMetrics>& robots,
-                                           const std::vector<EstimatedTrajectory>& estimate) {
+void add_stated_sigmas(std::vector<PointError>& errors, const EstimatedTrajectory& estimate) {
+  if (estimate.sigma_position_m.empty()) return;
+  for (PointError& error : errors) error.sigma_m = sigma_at(estimate, error.stamp);
+}
+
+std::optional<double> share_within_3_sigma(const std::vector<RobotMetrics>& robots) {
   constexpr double kSigmas = 3;
   std::size_t within = 0, all = 0;
-  for (const RobotMetrics& robot : robots) {
-    const EstimatedTrajectory& own = estimate_of(robot.id, estimate);
-    if (own.sigma_position_m.empty()) continue;
-    for (const PointError& error : robot.errors)
-      within += error.error_m <= kSigmas * sigma_at(own, error.stamp) ? 1U : 0U;
-    all += robot.errors.size();
-  }
+  for (const RobotMetrics& robot : robots)
+    for (const PointError& error : robot.errors) {
+      if (!error.sigma_m) continue;
+      within += error.error_m <= kSigmas * *error.sigma_m ? 1U : 0U;
+      ++all;
+    }
   return all == 0 ? std::nullopt : std::optional(share(within, all));
 }
 
@@ -167,6 +170,7 @@ TeamMetrics evaluate_trajectories(const std::vector<EstimatedTrajectory>& estima
   std::size_t poses = 0;
   for (std::size_t r = 0; r < team.size(); ++r) {
     auto robot = classify_robot(truth.robots[r], team[r], metrics.T_truth_estimate, dimension);
+    add_stated_sigmas(robot.errors, estimate_of(robot.id, estimate));
     const auto values = error_values(robot.errors);
     errors.insert(errors.end(), values.begin(), values.end());
     covered += robot.coverage * static_cast<double>(truth.robots[r].poses.size());
@@ -174,7 +178,7 @@ TeamMetrics evaluate_trajectories(const std::vector<EstimatedTrajectory>& estima
     metrics.robots.push_back(std::move(robot));
   }
   metrics.ate = summarise_errors(std::move(errors));
-  metrics.share_within_3_sigma = share_within_3_sigma(metrics.robots, estimate);
+  metrics.share_within_3_sigma = share_within_3_sigma(metrics.robots);
   metrics.coverage = poses == 0 ? 0 : covered / static_cast<double>(poses);
   return metrics;
 }

@@ -39,7 +39,8 @@ struct ErrorStatistics {
 struct PointError {
   Stamp stamp;
   double error_m = 0;
-  double along_m = 0;  ///< path length along the truth
+  double along_m = 0;                  ///< path length along the truth
+  std::optional<double> sigma_m = {};  ///< stated standard deviation of the position, if there is one
 };
 
 /// Relative pose error over consecutive compared poses (evo's default, one frame apart), pooled over the

@@ -43,14 +43,17 @@ PageData path_data(const Trajectory<SE3>& path, const std::vector<std::size_t>& 
 
 PageData error_data(const std::vector<PointError>& errors, const TrajectoryContext& context,
                     const ReportParams& params) {
-  PageData t = PageData::array(), along = t, error = t;
+  PageData t = PageData::array(), along = t, error = t, sigma = t;
   const std::size_t limit = part_of_budget(errors.size(), context.totals.errors, budget(params.max_errors));
   for (const std::size_t i : evenly_spaced(errors.size(), limit)) {
     t.push_back(rounded_seconds(seconds_between(context.start, errors[i].stamp)));
     along.push_back(rounded_metres(errors[i].along_m));
     error.push_back(rounded_metres(errors[i].error_m));
+    if (errors[i].sigma_m) sigma.push_back(rounded_metres(*errors[i].sigma_m));
   }
-  return {{"t", std::move(t)}, {"along_m", std::move(along)}, {"error_m", std::move(error)}};
+  PageData data{{"t", std::move(t)}, {"along_m", std::move(along)}, {"error_m", std::move(error)}};
+  if (!sigma.empty()) data["sigma_m"] = std::move(sigma);
+  return data;
 }
 
 PageData sigma_data(const RobotResult& robot, const std::vector<std::size_t>& kept) {

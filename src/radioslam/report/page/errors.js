@@ -1,13 +1,16 @@
 // Position error over time or path length, per robot, and its distribution over the team.
 
-const error_view = { along: "t", scale: "linear", dead_reckoning: robots.length <= few_robots };
+const stated_sigmas = 3;
+const error_view = { along: "t", scale: "linear", dead_reckoning: robots.length <= few_robots, stated: robots.length <= few_robots };
 const least_error_m = 0.01;
 
 const judged = () => shown().filter(robot => robot.errors);
 
+const stated_layers = () => (error_view.stated ? judged().map(r => r.errors).filter(e => e.sigma_m) : []);
+
 function error_scales(width, height) {
   const layers = judged().map(r => r.errors).concat(error_view.dead_reckoning ? judged().map(r => r.dead_reckoning_errors).filter(e => e) : []);
-  const end = d3.max(layers, e => d3.max(e[error_view.along])) || 1, top = d3.max(layers, e => d3.max(e.error_m)) || 1;
+  const end = d3.max(layers, e => d3.max(e[error_view.along])) || 1, top = d3.max([...layers.map(e => d3.max(e.error_m)), ...stated_layers().map(e => stated_sigmas * d3.max(e.sigma_m))]) || 1;
   const start = Math.min(0, d3.min(layers, e => e[error_view.along][0]) || 0);
   const y = error_view.scale === "log" ? d3.scaleLog().domain([least_error_m, top * 1.1]).clamp(true) : d3.scaleLinear().domain([0, top * 1.04]);
   return { x: d3.scaleLinear().domain([start, end]).range([0, width]), y: y.range([height, 0]) };
@@ -41,18 +44,19 @@ function draw_team_course(context, x, y) {
 
 function draw_errors(context, x, y) {
   const many = robots.length > few_robots;
-  const curve = (robot, errors, width, dash, alpha) => {
+  const curve = (robot, errors, width, dash, alpha, values = errors.error_m) => {
     context.globalAlpha = fades(robot.index) ? 0.1 : state.highlight === robot.index ? 1 : alpha;
     context.strokeStyle = robot_colour(robot.index);
     context.lineWidth = width + (state.highlight === robot.index ? 0.8 : 0);
     context.setLineDash(dash);
     context.beginPath();
-    trace(context, errors[error_view.along], errors.error_m, x, y);
+    trace(context, errors[error_view.along], values, x, y);
     context.stroke();
   };
   context.lineJoin = "round";
   for (const robot of judged()) {
     if (error_view.dead_reckoning && robot.dead_reckoning_errors) curve(robot, robot.dead_reckoning_errors, 1, [4, 3], many ? 0.16 : 0.8);
+    if (error_view.stated && robot.errors.sigma_m) curve(robot, robot.errors, 1, [1, 3], many ? 0.16 : 0.9, robot.errors.sigma_m.map(s => stated_sigmas * s));
     curve(robot, robot.errors, many ? 1 : 1.7, [], many ? 0.16 : 1);
   }
   context.setLineDash([]);
@@ -144,10 +148,12 @@ function write_errors() {
   by_id("errors-controls").append(
     choice("over", [["t", "time"], ["along_m", "path length"]], error_view.along, v => set("along", v)),
     choice("scale", [["linear", "linear"], ["log", "logarithmic"]], error_view.scale, v => set("scale", v)),
-    report.accuracy.dead_reckoning ? check("dead reckoning (dashed)", error_view.dead_reckoning, v => set("dead_reckoning", v)) : "");
-  const { rpe } = report.accuracy;
+    report.accuracy.dead_reckoning ? check("dead reckoning (dashed)", error_view.dead_reckoning, v => set("dead_reckoning", v)) : "",
+    robots.some(r => r.errors && r.errors.sigma_m) ? check(`${stated_sigmas} stated standard deviations (dotted)`, error_view.stated, v => set("stated", v)) : "");
+  const { rpe, share_within_3_sigma: within } = report.accuracy;
   by_id("errors-caption").textContent = "Position error at the stamps of the truth, after one rigid alignment of the whole team"
     + (report.accuracy.dead_reckoning ? "; dead reckoning after an alignment of its own." : ".")
     + (robots.length > few_robots ? " Thick: median of the visible robots; dotted: their 90th percentile." : "")
+    + (within === undefined ? "" : ` ${d3.format(".1f")(100 * within)} % of the errors are within three stated standard deviations.`)
     + (rpe ? ` Relative pose error between successive poses: ${d3.format(".3f")(rpe.translation_rmse_m)} m and ${format.degrees(rpe.rotation_rmse_rad)}° RMSE.` : "");
 }
