@@ -106,7 +106,7 @@ std::map<std::string, std::string> headers_of_writers() {
       {"radio/direct_paths.csv", format_direct_paths(none, {})},
       {"matches.csv", format_matches(none)},
       {"match_labels.csv", format_match_labels(none, {})},
-      {"candidates.csv", format_candidates({}, {})},
+      {"candidates.csv", std::string(kCandidateHeader)},
       {"closures.csv", format_closures({}, {})},
       {"uncertainty.csv", format_uncertainty({})},
       {"aoa.csv", format_measured_aoa({})},

@@ -28,10 +28,14 @@ Truth walker_and_post() {
 TEST(CountCandidates, ByHand) {
   const Truth truth = walker_and_post();
   const std::vector<KeyframeStamps> keyframes{stamps_of(truth.robots[0].poses), {Stamp::from_seconds(0.5)}};
-  const std::vector<CandidateResult> kept{
-      {robot(0), Stamp::from_seconds(1.5), robot(1), Stamp::from_seconds(0.5), 0, 0},  // 0.5 m: true
-      {robot(1), Stamp::from_seconds(0.5), robot(0), Stamp::from_seconds(4), 0, 0},    // 2 m: not closer
-      {robot(0), Stamp::from_seconds(99), robot(1), Stamp::from_seconds(0.5), 0, 0}};  // no truth
+  CandidateList kept;
+  for (const CandidateResult& candidate : {CandidateResult{robot(0), Stamp::from_seconds(1.5), robot(1),
+                                                           Stamp::from_seconds(0.5), 0, 0},  // 0.5 m: true
+                                           CandidateResult{robot(1), Stamp::from_seconds(0.5), robot(0),
+                                                           Stamp::from_seconds(4), 0, 0},  // 2 m: not closer
+                                           CandidateResult{robot(0), Stamp::from_seconds(99), robot(1),
+                                                           Stamp::from_seconds(0.5), 0, 0}})  // no truth
+    kept.push_back(candidate);
   const auto counts = count_candidates(keyframes, kept, {truth, 2, reach_for_radius(2, 2)});
   EXPECT_EQ(counts.pairs, 10U);
   EXPECT_EQ(counts.true_pairs, 3U);  // x = 1, 2, 3

@@ -52,6 +52,28 @@ void expect_inverse_blocks(const SymmetricBlockMatrix& matrix, const SelectedInv
   }
 }
 
+/// Every block of the inverse, put together from parts.
+void expect_inverse_of_parts(const SymmetricBlockMatrix& matrix, const PartitionedInverse& parts,
+                             const Eigen::MatrixXd& inverse) {
+  const auto& sizes = matrix.pattern().sizes;
+  for (std::size_t i = 0; i < sizes.size(); i += 1 + sizes.size() / 40)
+    for (std::size_t j = 0; j < sizes.size(); j += 1 + sizes.size() / 30) {
+      const auto &of_i = parts.boundary(parts.part_of(i)), &of_j = parts.boundary(parts.part_of(j));
+      Eigen::MatrixXd between(of_i.size(), of_j.size());
+      for (std::size_t k = 0; k < of_i.size(); ++k)
+        for (std::size_t l = 0; l < of_j.size(); ++l)
+          between(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(l)) =
+              parts.separators()(of_i[k], of_j[l]);
+      Eigen::MatrixXd block = parts.by_boundary(i).transpose() * between * parts.by_boundary(j);
+      if (parts.part_of(i) == parts.part_of(j) && !parts.is_separator(i) && !parts.is_separator(j))
+        block += parts.local_rows({i}).middleCols(parts.local_column(j), sizes[j]);
+      expect_near(block,
+                  inverse.block(static_cast<Eigen::Index>(matrix.offset(i)),
+                                static_cast<Eigen::Index>(matrix.offset(j)), sizes[i], sizes[j]),
+                  "block by parts");
+    }
+}
+
 /// Everything the class offers, against the dense answer.
 void expect_agrees_with_dense(const SymmetricBlockMatrix& matrix, BlockCholesky& cholesky, Rng& rng) {
   ASSERT_EQ(cholesky.factorize(matrix), Factorization::kDone);
@@ -70,6 +92,19 @@ void expect_agrees_with_dense(const SymmetricBlockMatrix& matrix, BlockCholesky&
                 inverse.middleCols(static_cast<Eigen::Index>(matrix.offset(j)), matrix.pattern().sizes[j]),
                 "inverse columns");
   }
+  std::vector<std::size_t> several;
+  for (std::size_t j = 0; j < matrix.pattern().blocks(); j += 3) several.push_back(j);
+  const Eigen::MatrixXd rows = cholesky.inverse_rows(several);
+  Eigen::Index row = 0;
+  for (const std::size_t j : several) {
+    const Eigen::Index size = matrix.pattern().sizes[j];
+    expect_near(rows.middleRows(row, size),
+                inverse.middleRows(static_cast<Eigen::Index>(matrix.offset(j)), size), "inverse rows");
+    row += size;
+  }
+  EXPECT_EQ(row, rows.rows());
+  for (const std::size_t part_scalars : {std::size_t{0}, std::size_t{1}, 1 + matrix.rows() / 8})
+    expect_inverse_of_parts(matrix, cholesky.partitioned_inverse(part_scalars), inverse);
   expect_inverse_blocks(matrix, cholesky.selected_inverse(), inverse);
 }
 

@@ -20,7 +20,13 @@ struct Front {
 struct Worked {
   bool positive = false;
   Eigen::MatrixXd panel, update, covariance;
+  Eigen::MatrixXd solved;  ///< of right-hand sides of ones
 };
+
+/// Numbers of right-hand sides solved at once differ from front to front.
+Eigen::Index right_sides(const Front& front) {
+  return static_cast<Eigen::Index>(1 + (front.shape.pivots + 3 * front.shape.below) % 50);
+}
 
 Eigen::MatrixXd random_positive(Rng& rng, Eigen::Index size) {
   const Eigen::MatrixXd root = Eigen::MatrixXd::NullaryExpr(size, size, [&] { return rng.uniform(-1, 1); });
@@ -54,6 +60,10 @@ Worked work(const FrontKernels& kernels, const Front& front) {
                  scratch.data());
   clear_above_diagonal(worked.panel.topRows(p));
   clear_above_diagonal(worked.update);
+  const Eigen::MatrixXd below = Eigen::MatrixXd::Ones(right_sides(front), r);
+  worked.solved.setOnes(right_sides(front), p);
+  kernels.solve_back(front.shape, worked.panel.data(), static_cast<std::size_t>(right_sides(front)),
+                     below.data(), worked.solved.data());
   return worked;
 }
 
@@ -71,6 +81,10 @@ void expect_agrees_with_dense(const Front& front, const Worked& worked) {
   const Eigen::MatrixXd L = factor.matrixL();
   const Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(p, p));
   expect_close(worked.panel.topRows(p), L, "L_PP");
+  const Eigen::VectorXd unsolved =
+      Eigen::VectorXd::Ones(p) - worked.panel.bottomRows(r).colwise().sum().transpose();
+  const Eigen::VectorXd solved = L.triangularView<Eigen::Lower>().transpose().solve(unsolved);
+  expect_close(worked.solved, solved.transpose().replicate(right_sides(front), 1), "solved");
   if (r == 0) {
     expect_close(worked.covariance, inverse, "Z_PP");
     return;
@@ -105,6 +119,7 @@ TEST(FrontKernels, AgreeWithDenseAndGiveTheSameBytesForEveryInstructionSet) {
       EXPECT_EQ(first.panel, second.panel) << other.instruction_set;
       EXPECT_EQ(first.update, second.update) << other.instruction_set;
       EXPECT_EQ(first.covariance, second.covariance) << other.instruction_set;
+      EXPECT_EQ(first.solved, second.solved) << other.instruction_set;
     }
   }
 }

@@ -6,14 +6,16 @@
 namespace radioslam {
 namespace {
 
-CandidateResult candidate(double t_i_s, double t_j_s, double mahalanobis) {
+CandidateResult candidate(double t_i_s, double t_j_s, float mahalanobis) {
   return {RobotIndex(0), Stamp::from_seconds(t_i_s), RobotIndex(1), Stamp::from_seconds(t_j_s), 5,
           mahalanobis};
 }
 
-OverlapStage stage(std::vector<CandidateResult> candidates, std::size_t evaluated) {
+OverlapStage stage(const std::vector<CandidateResult>& candidates, std::size_t evaluated) {
+  const std::vector<Stamp> stamps{Stamp::from_seconds(1), Stamp::from_seconds(2)};
   OverlapStage result;
-  result.candidates = std::move(candidates);
+  result.candidates = CandidateList({stamps, stamps});
+  for (const CandidateResult& c : candidates) result.candidates.push_back(c);
   result.counts.pairs = 100;
   result.counts.kept = result.candidates.size();
   result.counts.distances_evaluated = evaluated;
@@ -22,12 +24,11 @@ OverlapStage stage(std::vector<CandidateResult> candidates, std::size_t evaluate
 }
 
 TEST(OverlapStage, CandidatesOfAlignmentsAreTheirUnion) {
-  OverlapStage all = stage({candidate(1, 1, 0.5), candidate(2, 1, 1.5)}, 7);
-  add_candidates(all, stage({candidate(1, 2, 1), candidate(2, 1, 0.2)}, 5));
-  ASSERT_EQ(all.candidates.size(), 3U);
-  EXPECT_EQ(all.candidates[0].mahalanobis, 0.5);
-  EXPECT_EQ(all.candidates[1].mahalanobis, 1);
-  EXPECT_EQ(all.candidates[2].mahalanobis, 0.2) << "the nearer of the two";
+  OverlapStage all = stage({candidate(1, 1, 0.5F), candidate(2, 1, 1.5F)}, 7);
+  add_candidates(all, stage({candidate(1, 2, 1), candidate(2, 1, 0.2F)}, 5));
+  std::vector<float> distances;
+  for (const CandidateResult& c : all.candidates) distances.push_back(c.mahalanobis);
+  EXPECT_EQ(distances, (std::vector<float>{0.5F, 1, 0.2F})) << "of two, the nearer one";
   EXPECT_EQ(all.counts.pairs, 100U);
   EXPECT_EQ(all.counts.kept, 3U);
   EXPECT_EQ(all.counts.distances_evaluated, 12U);
@@ -35,7 +36,7 @@ TEST(OverlapStage, CandidatesOfAlignmentsAreTheirUnion) {
 }
 
 TEST(OverlapStage, AnAlignmentThatCouldNotBeSearchedAddsNothing) {
-  OverlapStage all = stage({candidate(1, 1, 0.5)}, 7);
+  OverlapStage all = stage({candidate(1, 1, 0.5F)}, 7);
   add_candidates(all, {});
   EXPECT_EQ(all.candidates.size(), 1U);
   EXPECT_EQ(all.alignments, 1U);

@@ -63,10 +63,12 @@ TEST(City, TheExhaustiveSearchFindsTheSamePairsInBothModes) {
     const auto all = run_pipeline(mission, params, options).result;
     ASSERT_GT(all.candidates.size(), 50U) << mode;
     ASSERT_EQ(tree.candidates.size(), all.candidates.size()) << mode;
-    for (std::size_t k = 0; k < all.candidates.size(); ++k) {
-      EXPECT_EQ(tree.candidates[k].stamp_i, all.candidates[k].stamp_i);
-      EXPECT_EQ(tree.candidates[k].stamp_j, all.candidates[k].stamp_j);
-      EXPECT_EQ(tree.candidates[k].mahalanobis, all.candidates[k].mahalanobis);
+    auto same = all.candidates.begin();
+    for (const CandidateResult& candidate : tree.candidates) {
+      EXPECT_EQ(candidate.stamp_i, (*same).stamp_i);
+      EXPECT_EQ(candidate.stamp_j, (*same).stamp_j);
+      EXPECT_EQ(candidate.mahalanobis, (*same).mahalanobis);
+      ++same;
     }
     EXPECT_GE(recall(judge_candidates(tree, mission, truth)), 0.95) << mode;
   }

@@ -58,10 +58,10 @@ TEST(Report, EveryCandidateIsInItsBin) {
 TEST(Report, CandidatesInAnyOrderOfTheirRobotsAreTheSame) {
   Sample sample = make_sample({.keyframes = 60, .closures = 5, .candidates = 200});
   const Json before = data_of(evaluated_page(sample))["candidates"];
-  for (auto& c : sample.result.candidates) {
-    std::swap(c.robot_i, c.robot_j);
-    std::swap(c.stamp_i, c.stamp_j);
-  }
+  CandidateList exchanged;
+  for (const CandidateResult& c : sample.result.candidates)
+    exchanged.push_back({c.robot_j, c.stamp_j, c.robot_i, c.stamp_i, c.distance_m, c.mahalanobis});
+  sample.result.candidates = exchanged;
   EXPECT_EQ(data_of(evaluated_page(sample))["candidates"], before);
 }
 

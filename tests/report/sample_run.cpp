@@ -127,7 +127,7 @@ void add_candidates(Sample& sample, const SampleParams& params, Rng rng) {
         (position(drawn.robot_i, drawn.stamp_i) - position(drawn.robot_j, drawn.stamp_j)).norm();
     if (distance_m > 30) continue;
     sample.result.candidates.push_back(
-        {drawn.robot_i, drawn.stamp_i, drawn.robot_j, drawn.stamp_j, distance_m, 0.5});
+        {drawn.robot_i, drawn.stamp_i, drawn.robot_j, drawn.stamp_j, static_cast<float>(distance_m), 0.5F});
   }
   if (wanted == 0) return;
   const double robots = params.robots, keyframes = params.keyframes;

@@ -63,8 +63,8 @@ std::vector<double> reach_for_radius(std::size_t robots, double radius_m) {
   return std::vector<double>(robots, radius_m / 2);
 }
 
-PairCounts count_candidates(const std::vector<KeyframeStamps>& keyframes,
-                            const std::vector<CandidateResult>& candidates, const PairTruth& truth) {
+PairCounts count_candidates(const std::vector<KeyframeStamps>& keyframes, const CandidateList& candidates,
+                            const PairTruth& truth) {
   check_shapes(truth);
   RADIOSLAM_CHECK(keyframes.size() == truth.reach_m.size(), "every robot has keyframes and one truth");
   std::vector<Positions> team;

@@ -36,8 +36,8 @@ struct PairTruth {
 std::vector<double> reach_for_radius(std::size_t robots, double radius_m);
 
 /// Counts over all pairs of keyframes of different robots; `candidates` are the pairs kept.
-PairCounts count_candidates(const std::vector<KeyframeStamps>& keyframes,
-                            const std::vector<CandidateResult>& candidates, const PairTruth& truth);
+PairCounts count_candidates(const std::vector<KeyframeStamps>& keyframes, const CandidateList& candidates,
+                            const PairTruth& truth);
 
 /// Counts over all closures between different robots; the accepted ones are the pairs kept.
 PairCounts count_closures(const std::vector<ClosureResult>& closures, const PairTruth& truth);

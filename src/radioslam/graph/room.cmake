@@ -15,6 +15,7 @@ radioslam_room(graph
     linear/front_tree.cpp
     linear/number_store.cpp
     linear/ordering.cpp
+    linear/partitioned_inverse.cpp
     linear/selected_inverse.cpp
     linear/supernodes.cpp
     linearisation.cpp

@@ -1,8 +1,5 @@
 #include "radioslam/joint/overlap_stage.hpp"
 
-#include <algorithm>
-#include <map>
-#include <tuple>
 #include <utility>
 
 #include "radioslam/joint/aoa/mutual_bearing_constraints.hpp"
@@ -11,10 +8,10 @@ namespace radioslam {
 namespace {
 
 template <class Source>
-OverlapCandidates search(const Source& source, const std::vector<OverlapSensor>& sensors,
-                         const OverlapParams& params, SearchMethod method) {
-  return method == SearchMethod::kTree ? search_overlaps(source, sensors, params)
-                                       : search_overlaps_exhaustively(source, sensors, params);
+OverlapCounts search(const Source& source, const std::vector<OverlapSensor>& sensors,
+                     const OverlapParams& params, SearchMethod method, const TakeOverlaps& take) {
+  return method == SearchMethod::kTree ? search_overlaps(source, sensors, params, take)
+                                       : search_overlaps_exhaustively(source, sensors, params, take);
 }
 
 /// All poses of each robot, and which of them are keyframes.
@@ -36,30 +33,31 @@ std::vector<ChainOfPoses> chains(const JointGraph<Pose>& joint) {
   return result;
 }
 
-CandidateResult candidate_result(const OverlapCandidate& found, const std::vector<Stamp>& stamps_a,
-                                 const std::vector<Stamp>& stamps_b) {
-  return {RobotIndex(static_cast<std::size_t>(found.robot_a)),
-          stamps_a[found.pose_a],
-          RobotIndex(static_cast<std::size_t>(found.robot_b)),
-          stamps_b[found.pose_b],
-          found.distance_m,
-          found.mahalanobis};
+template <class Pose>
+CandidateList without_candidates(const JointGraph<Pose>& joint) {
+  std::vector<std::vector<Stamp>> stamps;
+  for (const RobotVariables& robot : joint.robots) stamps.push_back(robot.stamps);
+  return CandidateList(std::move(stamps));
+}
+
+/// Candidates of one pair of robots.
+CandidateList::Group group_of(const std::vector<OverlapCandidate>& found) {
+  CandidateList::Group group;
+  if (found.empty()) return group;
+  group.robot_i = RobotIndex(static_cast<std::size_t>(found.front().robot_a));
+  group.robot_j = RobotIndex(static_cast<std::size_t>(found.front().robot_b));
+  group.rows.reserve(found.size());
+  for (const OverlapCandidate& pair : found)
+    group.rows.push_back({pair.pose_a, pair.pose_b, static_cast<float>(pair.distance_m),
+                          static_cast<float>(pair.mahalanobis)});
+  return group;
 }
 
 }  // namespace
 
 void add_candidates(OverlapStage& stage, const OverlapStage& other) {
   if (!other.searched) return;
-  const auto pair = [](const CandidateResult& c) {
-    return std::tuple(c.robot_i.value, c.robot_j.value, c.stamp_i, c.stamp_j);
-  };
-  stage.candidates.insert(stage.candidates.end(), other.candidates.begin(), other.candidates.end());
-  std::stable_sort(stage.candidates.begin(), stage.candidates.end(), [&](const auto& x, const auto& y) {
-    return std::pair(pair(x), x.mahalanobis) < std::pair(pair(y), y.mahalanobis);
-  });
-  const auto repeated = [&](const auto& x, const auto& y) { return pair(x) == pair(y); };
-  stage.candidates.erase(std::unique(stage.candidates.begin(), stage.candidates.end(), repeated),
-                         stage.candidates.end());
+  stage.candidates.merge(other.candidates);
   stage.counts.kept = stage.candidates.size();
   stage.counts.distances_evaluated += other.counts.distances_evaluated;
   ++stage.alignments;
@@ -69,24 +67,23 @@ template <class Pose>
 OverlapStage find_overlaps(const JointGraph<Pose>& joint, const OverlapStageParams& params,
                            SearchMethod method) {
   OverlapStage stage;
+  stage.candidates = without_candidates(joint);
+  const auto take = [&](const std::vector<OverlapCandidate>& found) {
+    stage.candidates.append(group_of(found));
+  };
   std::vector<OverlapSensor> sensors;
   for (const RobotVariables& robot : joint.robots)
     sensors.push_back({robot.lidar_range_m, robot.lidar_view_rad});
-  OverlapCandidates found;
   if (overlap_mode(params) == OverlapMode::kLink) {
-    found =
+    stage.counts =
         search(measured_link_covariance(joint, params.pairing_s, static_cast<std::size_t>(params.max_links)),
-               sensors, params.overlap, method);
+               sensors, params.overlap, method, take);
   } else {
     const auto source = JointCovariance<Pose>::compute(joint.team.graph, chains(joint));
     if (!source) return stage;
-    found = search(*source, sensors, params.overlap, method);
+    stage.counts = search(*source, sensors, params.overlap, method, take);
   }
   stage.searched = true;
-  stage.counts = found.counts;
-  for (const OverlapCandidate& pair : found.candidates)
-    stage.candidates.push_back(
-        candidate_result(pair, joint.robots[pair.robot_a].stamps, joint.robots[pair.robot_b].stamps));
   return stage;
 }
 

@@ -59,7 +59,7 @@ inline OverlapMode overlap_mode(const OverlapStageParams& params) {
 }
 
 struct OverlapStage {
-  std::vector<CandidateResult> candidates;
+  CandidateList candidates;
   OverlapCounts counts;
   bool searched = false;       ///< false: the estimate's covariances are not computable
   std::size_t alignments = 1;  ///< number of team alignments whose candidates these are

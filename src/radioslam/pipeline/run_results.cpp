@@ -95,7 +95,7 @@ std::vector<ClosureResult> collect_all_closures(const TeamEstimate<Pose>& estima
 }
 
 /// Adds the keyframe pairs with overlapping views and their counts.
-void add_overlaps(RunResult& result, const OverlapStage& overlaps) {
+void add_overlaps(RunResult& result, OverlapStage overlaps) {
   if (!overlaps.searched) {
     result.notes.push_back("overlap search was skipped: the estimate's covariances are singular");
     return;
@@ -103,7 +103,7 @@ void add_overlaps(RunResult& result, const OverlapStage& overlaps) {
   result.counts["pairs"] = static_cast<double>(overlaps.counts.pairs);
   result.counts["candidates"] = static_cast<double>(overlaps.counts.kept);
   result.counts["distances_evaluated"] = static_cast<double>(overlaps.counts.distances_evaluated);
-  result.candidates = overlaps.candidates;
+  result.candidates = std::move(overlaps.candidates);
   if (overlaps.alignments > 1)
     result.notes.push_back("the candidates are those of any of the " + std::to_string(overlaps.alignments) +
                            " likely team alignments");

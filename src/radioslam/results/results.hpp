@@ -12,6 +12,7 @@
 #include "radioslam/geometry/se3.hpp"
 #include "radioslam/geometry/trajectory.hpp"
 #include "radioslam/mission/radio_links.hpp"
+#include "radioslam/results/candidate_list.hpp"
 #include "radioslam/results/radio_status.hpp"
 
 namespace radioslam {
@@ -73,16 +74,6 @@ struct ClosureResult {
   double statistic = 0;                   ///< squared normalised residual that was tested
   std::string reason;                     ///< of a rejection; empty if accepted
   std::vector<double> path_weights = {};  ///< of an angle: posterior that each of its paths is direct
-};
-
-/// Pair of keyframes of different robots whose views may overlap.
-struct CandidateResult {
-  RobotIndex robot_i;
-  Stamp stamp_i;
-  RobotIndex robot_j;
-  Stamp stamp_j;
-  double distance_m = 0;
-  double mahalanobis = 0;
 };
 
 /// Bin of a fitted similarity-to-distance model.
@@ -216,7 +207,7 @@ struct RunResult {
   std::string mission_name;
   int dimension = 2;
   std::vector<RobotResult> robots;  ///< in the order of the mission
-  std::vector<CandidateResult> candidates;
+  CandidateList candidates;
   std::vector<ClosureResult> closures;
   std::optional<SimilarityModelResult> similarity_model;
   std::vector<RangeBiasResult> range_biases;        ///< those that are significant

@@ -1,1 +1,4 @@
-radioslam_room(results ROOMS mission)
+radioslam_room(results
+  SOURCES
+    candidate_list.cpp
+  ROOMS mission)

@@ -23,7 +23,7 @@ RunResult example() {
   result.unplaced = {"lost"};
   result.components = {{{"zoe", "adam"}}};
   result.transforms = {{"zoe", "adam", lift(SE2({1.5, -2}, 0), 0), Eigen::Matrix2d{{4, 0.5}, {0.5, 1}}}};
-  result.candidates = {{RobotIndex(0), {0}, RobotIndex(1), {1'500'000'000}, 2.5, 0.75}};
+  result.candidates.push_back({RobotIndex(0), {0}, RobotIndex(1), {1'500'000'000}, 2.5F, 0.75F});
   result.closures = {{RobotIndex(0),
                       {0},
                       RobotIndex(1),
@@ -57,9 +57,10 @@ TEST(RunFolder, ReadsBackWhatItWrites) {
   EXPECT_EQ(run.components[0].robots, (std::vector<std::string>{"zoe", "adam"}));
   ASSERT_TRUE(run.candidates);
   ASSERT_EQ(run.candidates->size(), 1u);
-  EXPECT_EQ((*run.candidates)[0].robot_j, RobotIndex(1));
-  EXPECT_EQ((*run.candidates)[0].stamp_j.ns, 1'500'000'000);
-  EXPECT_EQ((*run.candidates)[0].mahalanobis, 0.75);
+  const CandidateResult candidate = *run.candidates->begin();
+  EXPECT_EQ(candidate.robot_j, RobotIndex(1));
+  EXPECT_EQ(candidate.stamp_j.ns, 1'500'000'000);
+  EXPECT_EQ(candidate.mahalanobis, 0.75F);
   ASSERT_EQ(run.closures.size(), 1u);
   EXPECT_EQ(run.closures[0].kind, ClosureKind::kFingerprint);
   EXPECT_EQ(run.closures[0].status, ClosureStatus::kRejected);

@@ -60,8 +60,8 @@ std::vector<RobotIndex> places_in_mission(const RunFolder& run, const Mission& m
   return places;
 }
 
-template <class Pair>
-std::vector<Pair> with_places(std::vector<Pair> pairs, const std::vector<RobotIndex>& places) {
+std::vector<ClosureResult> with_places(std::vector<ClosureResult> pairs,
+                                       const std::vector<RobotIndex>& places) {
   for (auto& pair : pairs) {
     pair.robot_i = places[pair.robot_i.index()];
     pair.robot_j = places[pair.robot_j.index()];
@@ -85,14 +85,13 @@ std::vector<double> reach(const Mission& mission, std::optional<double> radius_m
   return reach_m;
 }
 
-using NoCandidates = std::vector<CandidateResult>;
-
 void count_pairs(Evaluation& evaluation, const RunFolder& run, const Mission& mission,
                  const std::vector<RobotIndex>& places, const PairTruth& truth) {
   const auto closures = with_places(run.closures, places);
+  CandidateList candidates = run.candidates.value_or(CandidateList());
+  candidates.renumber_robots(places);
   evaluation.candidates =
-      count_candidates(keyframe_stamps(run, places, truth.reach_m.size()),
-                       with_places(run.candidates.value_or(NoCandidates{}), places), truth);
+      count_candidates(keyframe_stamps(run, places, truth.reach_m.size()), candidates, truth);
   evaluation.looked_for_candidates = run.candidates.has_value();
   evaluation.closures = count_closures(closures, truth);
   evaluation.accepted = std::count_if(closures.begin(), closures.end(), [](const ClosureResult& closure) {

@@ -49,10 +49,10 @@ class OverlapBoxSearch {
   std::deque<Task> first_tasks(const Source& source) const {
     std::deque<Task> tasks;
     if (pair_.view().ties() == 0) return tasks;
-    for (std::size_t p = 0; p < tree_a_.roots.size(); ++p)
-      for (std::size_t q = 0; q < tree_b_.roots.size(); ++q)
-        if (source.joined(pair_.a(), p, pair_.b(), q))
-          tasks.push_back({tree_a_.roots[p], tree_b_.roots[q], pair_.all_ties()});
+    for (const auto& root_a : tree_a_.roots)
+      for (const auto& root_b : tree_b_.roots)
+        if (source.joined(pair_.a(), root_a.piece, pair_.b(), root_b.piece))
+          tasks.push_back({root_a.node, root_b.node, pair_.all_ties()});
     return tasks;
   }
 
@@ -87,29 +87,16 @@ class OverlapBoxSearch {
     }
   }
 
-  bool columns_cached(const Node& I) const {
-    return I.leaf() ||
-           pair_.view().cached_columns_fit(pair_.records_a()[I.begin], pair_.records_a()[I.end - 1]);
-  }
-
-  /// Expands boxes breadth-first until there are enough tasks and the columns of each fit into the cache;
-  /// pairs decided meanwhile go to `out`. Tasks are in the order of a's poses.
+  /// Expands boxes breadth-first until there are enough tasks; pairs decided meanwhile go to `out`.
   std::vector<Task> open(std::deque<Task> tasks, OverlapCandidates& out) const {
-    std::vector<Task> ready;
-    while (!tasks.empty()) {
+    while (!tasks.empty() && tasks.size() < kTasks) {
       const Task task = std::move(tasks.front());
       tasks.pop_front();
-      const bool is_cached = columns_cached(node_a(task.node_a));
-      if (is_cached && tasks.size() + ready.size() >= kTasks) {
-        ready.push_back(task);
-        continue;
-      }
       std::vector<Bound> ties;
-      BoxStatus status = test_boxes(task.node_a, task.node_b, task.ties, ties, out.counts);
-      if (status == BoxStatus::kInside || status == BoxStatus::kCompare)
+      const BoxStatus status = test_boxes(task.node_a, task.node_b, task.ties, ties, out.counts);
+      if (status == BoxStatus::kInside || status == BoxStatus::kCompare) {
         compare_all(task.node_a, task.node_b, ties, out);
-      if (status == BoxStatus::kSplitB && !is_cached) status = BoxStatus::kSplitA;
-      if (status == BoxStatus::kSplitA) {
+      } else if (status == BoxStatus::kSplitA) {
         tasks.push_back({task.node_a + 1, task.node_b, ties});
         tasks.push_back({node_a(task.node_a).right, task.node_b, ties});
       } else if (status == BoxStatus::kSplitB) {
@@ -117,10 +104,7 @@ class OverlapBoxSearch {
         tasks.push_back({task.node_a, node_b(task.node_b).right, ties});
       }
     }
-    std::stable_sort(ready.begin(), ready.end(), [&](const Task& x, const Task& y) {
-      return node_a(x.node_a).begin < node_a(y.node_a).begin;
-    });
-    return ready;
+    return {std::make_move_iterator(tasks.begin()), std::make_move_iterator(tasks.end())};
   }
 
   const OverlapPair<Source>& pair_;

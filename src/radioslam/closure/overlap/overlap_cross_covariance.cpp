@@ -5,8 +5,14 @@
 #include <map>
 
 #include "radioslam/base/check.hpp"
+#include "radioslam/base/parallel.hpp"
 
 namespace radioslam {
+namespace {
+
+constexpr std::size_t kNoDrift = ~std::size_t{0};
+
+}  // namespace
 
 template <class Pose>
 std::shared_ptr<const SkeletonCovariance<Pose>> SkeletonCovariance<Pose>::compute(
@@ -14,10 +20,15 @@ std::shared_ptr<const SkeletonCovariance<Pose>> SkeletonCovariance<Pose>::comput
     std::vector<std::vector<SegmentVariables>> segments) {
   std::shared_ptr<SkeletonCovariance> s(new SkeletonCovariance(std::move(reduced), origin));
   s->segments_.swap(segments);
-  if (s->equations_.empty()) return s;
+  if (s->equations_.empty()) {
+    s->list_variables();
+    return s;
+  }
   s->equations_.linearise(s->graph_);
   if (s->equations_.factorize(0) != Factorization::kDone) return nullptr;
   s->inverse_ = s->equations_.cholesky().selected_inverse();
+  s->parts_.emplace(s->equations_.cholesky().partitioned_inverse());
+  s->list_variables();
   return s;
 }
 
@@ -51,135 +62,202 @@ typename SkeletonCovariance<Pose>::Joint SkeletonCovariance<Pose>::within(const 
 }
 
 template <class Pose>
-void SkeletonCovariance<Pose>::keep_columns(std::size_t robot, std::size_t scalars) const {
-  if (kept_robot_ == robot) return;
-  kept_robot_ = robot;
-  kept_.clear();
-  free_scalars_ = scalars;
-}
-
-template <class Pose>
-Eigen::MatrixXd SkeletonCovariance<Pose>::inverse_columns(std::size_t block) const {
-  if (const auto known = kept_.find(block); known != kept_.end()) return known->second;
-  Eigen::MatrixXd columns = equations_.cholesky().inverse_columns(block);
-  const auto scalars = static_cast<std::size_t>(columns.size());
-  if (scalars > free_scalars_) return columns;
-  free_scalars_ -= scalars;
-  return kept_.emplace(block, std::move(columns)).first->second;
-}
-
-template <class Pose>
-Eigen::MatrixXd SkeletonCovariance<Pose>::columns(const Variable& v,
-                                                  const std::vector<Variable>& rows) const {
-  Eigen::Index height = 2;
-  for (const Variable& row : rows) height += size(row);
-  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(height, size(v));
-  const auto block = equations_.blocks().of(v);
-  if (block < 0) return columns;
-  const Eigen::MatrixXd solved = inverse_columns(static_cast<std::size_t>(block)) * to_left(v).transpose();
-  Eigen::Index at = 0;
-  for (const Variable& row : rows) {
-    const auto other = equations_.blocks().of(row);
-    if (other >= 0) {
-      const auto from =
-          static_cast<Eigen::Index>(equations_.matrix().offset(static_cast<std::size_t>(other)));
-      columns.middleRows(at, size(row)) = to_left(row) * solved.middleRows(from, size(row));
+void SkeletonCovariance<Pose>::list_variables() {
+  for (const auto& segments : segments_) {
+    std::vector<Listed>& list = listed_.emplace_back();
+    std::vector<SegmentPlaces>& places = places_.emplace_back();
+    std::map<std::pair<int, std::int32_t>, std::size_t> known;
+    const auto place = [&](const Variable& v) {
+      const auto [at, is_new] = known.try_emplace({static_cast<int>(v.kind), v.id}, list.size());
+      if (!is_new) return at->second;
+      Listed& listed = list.emplace_back();
+      listed.variable = v;
+      if (v.kind == VariableKind::kPose) listed.to_left = to_left(v);
+      if (const auto block = equations_.blocks().of(v); block >= 0) {
+        listed.is_free = true;
+        listed.block = static_cast<std::size_t>(block);
+        listed.part = parts_->part_of(listed.block);
+        listed.is_separator = parts_->is_separator(listed.block);
+        listed.by_boundary = parts_->by_boundary(listed.block).data();
+        listed.boundary = static_cast<Eigen::Index>(parts_->boundary(listed.part).size());
+        listed.local_column = parts_->local_column(listed.block);
+      }
+      return at->second;
+    };
+    for (const SegmentVariables& s : segments) {
+      const std::size_t first = place(variable(s.first)), last = place(variable(s.last));
+      places.push_back({first, last, s.drift.valid() ? place(variable(s.drift)) : kNoDrift});
     }
-    at += size(row);
   }
-  return columns;
 }
 
 template <class Pose>
-typename CrossCovariance<Pose>::Listed CrossCovariance<Pose>::list_variables(
-    const std::vector<SegmentVariables>& segments) {
-  Listed listed;
-  std::map<std::pair<int, std::int32_t>, std::size_t> places;
-  const auto place = [&](const Variable& v) {
-    const auto [known, is_new] =
-        places.try_emplace({static_cast<int>(v.kind), v.id}, listed.variables.size());
-    if (is_new) listed.variables.push_back(v);
-    return known->second;
+CovariancesOfRobot<Pose>::CovariancesOfRobot(std::shared_ptr<const SkeletonCovariance<Pose>> skeleton,
+                                             std::size_t a, std::size_t first_segment,
+                                             std::size_t last_segment)
+    : skeleton_(std::move(skeleton)), a_(a), places_(skeleton_->listed(a).size()) {
+  list_batches(first_segment, last_segment);
+  parallel_for(batches_.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) compute(batches_[k]);
+  });
+}
+
+template <class Pose>
+Eigen::Index CovariancesOfRobot<Pose>::size_of(std::size_t u) const {
+  return SkeletonCovariance<Pose>::size(skeleton_->listed(a_)[u].variable);
+}
+
+template <class Pose>
+void CovariancesOfRobot<Pose>::list_batches(std::size_t first_segment, std::size_t last_segment) {
+  const auto& list = skeleton_->listed(a_);
+  std::vector<bool> known(list.size(), false);
+  Eigen::Index column = 0;
+  const auto add = [&](std::size_t u) {
+    if (u == kNoDrift || known[u] || !list[u].is_free) return;
+    known[u] = true;
+    if (batches_.empty() || batches_.back().variables.size() == kBatch) {
+      batches_.emplace_back();
+      column = 0;
+    }
+    places_[u] = {batches_.size() - 1, batches_.back().variables.size(), column};
+    batches_.back().variables.push_back(u);
+    column += size_of(u);
   };
-  for (const SegmentVariables& s : segments) {
-    const std::size_t first = place(variable(s.first)), last = place(variable(s.last));
-    listed.segments.push_back(
-        {first, last, s.drift.valid() ? place(variable(s.drift)) : segments.size() * 3});
+  for (std::size_t s = first_segment; s < last_segment; ++s) {
+    const SegmentPlaces& segment = skeleton_->places(a_, s);
+    for (const std::size_t u : {segment.first, segment.last, segment.drift}) add(u);
   }
-  for (Places& places_of : listed.segments)
-    places_of.drift = std::min(places_of.drift, listed.variables.size());
-  return listed;
 }
 
 template <class Pose>
-CrossCovariance<Pose>::CrossCovariance(std::shared_ptr<const SkeletonCovariance<Pose>> skeleton,
-                                       std::size_t a, std::size_t b, std::size_t dense_scalars)
-    : skeleton_(std::move(skeleton)),
-      a_(list_variables(skeleton_->segments(a))),
-      b_(list_variables(skeleton_->segments(b))) {
-  Eigen::Index height = 0;
-  for (const Variable& v : b_.variables) {
-    rows_b_.push_back(height);
-    height += SkeletonCovariance<Pose>::size(v);
+std::size_t CovariancesOfRobot<Pose>::scalars_per_variable(const SkeletonCovariance<Pose>& skeleton) {
+  if (!skeleton.parts()) return kDof;
+  const PartitionedInverse& parts = *skeleton.parts();
+  std::size_t sum = static_cast<std::size_t>(parts.separators().rows()), largest = 0;
+  for (std::size_t p = 0; p < parts.parts(); ++p) {
+    sum += parts.boundary(p).size();
+    largest = std::max(largest, parts.part_scalars(p));
   }
-  rows_b_.push_back(height);  // for no drift
-  skeleton_->keep_columns(a, dense_scalars);
-  capacity_ = std::max<std::size_t>(2, dense_scalars / static_cast<std::size_t>((height + 2) * kDof));
-  all_fit_ = a_.variables.size() <= capacity_;
-  solved_ = std::vector<std::atomic<const Eigen::MatrixXd*>>(a_.variables.size() + 1);
-  solved_.back() = &store_.emplace_back(Eigen::MatrixXd::Zero(height + 2, 2));
+  return kDof * (sum + largest);
 }
 
-/// Columns that are solved for once and kept: all if they fit, else those of drifts, which every segment
-/// needs.
+/// A^T of variables of one part, in left perturbations, side by side.
 template <class Pose>
-const Eigen::MatrixXd& CrossCovariance<Pose>::kept(std::size_t v) const {
-  if (const auto* known = solved_[v].load(std::memory_order_acquire)) return *known;
-  const std::lock_guard lock(mutex_);
-  if (const auto* known = solved_[v].load(std::memory_order_relaxed)) return *known;
-  const Eigen::MatrixXd& columns = store_.emplace_back(skeleton_->columns(a_.variables[v], b_.variables));
-  solved_[v].store(&columns, std::memory_order_release);
-  return columns;
+Eigen::MatrixXd CovariancesOfRobot<Pose>::maps_of(const std::vector<std::size_t>& variables) const {
+  const auto& list = skeleton_->listed(a_);
+  Eigen::Index columns = 0;
+  for (const std::size_t u : variables) columns += size_of(u);
+  Eigen::MatrixXd maps(list[variables.front()].boundary, columns);
+  Eigen::Index column = 0;
+  for (const std::size_t u : variables) {
+    const Eigen::Map<const Eigen::MatrixXd> map(list[u].by_boundary, list[u].boundary, size_of(u));
+    if (list[u].variable.kind == VariableKind::kPose)
+      maps.middleCols(column, size_of(u)) = map.lazyProduct(list[u].to_left.transpose());
+    else
+      maps.middleCols(column, size_of(u)) = map;
+    column += size_of(u);
+  }
+  return maps;
+}
+
+/// Of the batch's variables at these places, which are of one part.
+template <class Pose>
+void CovariancesOfRobot<Pose>::add_local(Batch& batch, const std::vector<std::size_t>& places) const {
+  const auto& list = skeleton_->listed(a_);
+  std::vector<std::size_t> blocks;
+  for (const std::size_t k : places) blocks.push_back(list[batch.variables[k]].block);
+  const Eigen::MatrixXd rows = skeleton_->parts()->local_rows(blocks);
+  Eigen::Index row = 0;
+  for (const std::size_t k : places) {
+    const Listed& u = list[batch.variables[k]];
+    const Eigen::Index size = size_of(batch.variables[k]);
+    if (u.variable.kind == VariableKind::kPose)
+      batch.local[k] = rows.middleRows(row, size).transpose().lazyProduct(u.to_left.transpose());
+    else
+      batch.local[k] = rows.middleRows(row, size).transpose();
+    row += size;
+  }
+}
+
+/// With the separators: Cov(S, u) = Cov(S, boundary) A_u^T. Within the parts: a part's variables at once.
+template <class Pose>
+void CovariancesOfRobot<Pose>::compute(Batch& batch) const {
+  const auto& list = skeleton_->listed(a_);
+  const PartitionedInverse& parts = *skeleton_->parts();
+  const std::size_t last = batch.variables.back();
+  Eigen::MatrixXd with_separators(parts.separators().rows(), places_[last].column + size_of(last));
+  batch.local.resize(batch.variables.size());
+  std::map<std::size_t, std::vector<std::size_t>> of_parts;  // places in the batch
+  for (std::size_t k = 0; k < batch.variables.size(); ++k)
+    of_parts[list[batch.variables[k]].part].push_back(k);
+  for (const auto& [part, places] : of_parts) {
+    const auto& boundary = parts.boundary(part);
+    Eigen::MatrixXd from(parts.separators().rows(), static_cast<Eigen::Index>(boundary.size()));
+    for (std::size_t k = 0; k < boundary.size(); ++k)
+      from.col(static_cast<Eigen::Index>(k)) = parts.separators().col(boundary[k]);
+    std::vector<std::size_t> variables, inner;
+    for (const std::size_t k : places) {
+      variables.push_back(batch.variables[k]);
+      if (!list[batch.variables[k]].is_separator) inner.push_back(k);
+    }
+    const Eigen::MatrixXd covariances = from * maps_of(variables);
+    Eigen::Index column = 0;
+    for (const std::size_t u : variables) {
+      with_separators.middleCols(places_[u].column, size_of(u)) = covariances.middleCols(column, size_of(u));
+      column += size_of(u);
+    }
+    if (!inner.empty()) add_local(batch, inner);
+  }
+  for (std::size_t p = 0; p < parts.parts(); ++p) {
+    const auto& boundary = parts.boundary(p);
+    Eigen::MatrixXd& with = batch.with_boundary.emplace_back(boundary.size(), with_separators.cols());
+    for (std::size_t k = 0; k < boundary.size(); ++k)
+      with.row(static_cast<Eigen::Index>(k)) = with_separators.row(boundary[k]);
+  }
 }
 
 template <class Pose>
-typename CrossCovariance<Pose>::Columns CrossCovariance<Pose>::latest(std::size_t v) const {
-  const std::lock_guard lock(mutex_);
-  if (const auto known = place_.find(v); known != place_.end()) {
-    latest_.splice(latest_.begin(), latest_, known->second);
-    return known->second->second;
-  }
-  if (latest_.size() >= capacity_) {
-    place_.erase(latest_.back().first);
-    latest_.pop_back();
-  }
-  latest_.emplace_front(v,
-                        std::make_shared<Eigen::MatrixXd>(skeleton_->columns(a_.variables[v], b_.variables)));
-  place_[v] = latest_.begin();
-  return latest_.front().second;
+template <int kRows, int kColumns>
+Eigen::Matrix<double, kRows, kColumns> CovariancesOfRobot<Pose>::with(const Listed& v, std::size_t u) const {
+  using Block = Eigen::Matrix<double, kRows, kColumns>;
+  const Listed& of_a = skeleton_->listed(a_)[u];
+  if (!v.is_free || !of_a.is_free) return Block::Zero();
+  const Place& at = places_[u];
+  const Batch& batch = batches_[at.batch];
+  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, kRows>> map(v.by_boundary, v.boundary, kRows);
+  Block block =
+      map.transpose().lazyProduct(batch.with_boundary[v.part].template middleCols<kColumns>(at.column));
+  if (v.part == of_a.part && !v.is_separator && !of_a.is_separator)
+    block += batch.local[at.variable].template middleRows<kRows>(v.local_column);
+  if constexpr (kRows == kDof) return v.to_left.lazyProduct(block);
+  return block;
 }
 
 template <class Pose>
-typename CrossCovariance<Pose>::Joint CrossCovariance<Pose>::between(std::size_t s, std::size_t t) const {
-  const Places &of_a = a_.segments[s], &of_b = b_.segments[t];
-  const Eigen::Index first = rows_b_[of_b.first], last = rows_b_[of_b.last], drift = rows_b_[of_b.drift];
-  Joint joint;
-  const auto fill = [&](std::size_t variable, auto target) {
-    const bool is_kept = all_fit_ || target.cols() != kDof;
-    const Columns held = is_kept ? nullptr : latest(variable);
-    const Eigen::MatrixXd& columns = is_kept ? kept(variable) : *held;
-    target.template topRows<kDof>() = columns.middleRows<kDof>(first);
-    target.template middleRows<kDof>(kDof) = columns.middleRows<kDof>(last);
-    target.template bottomRows<2>() = columns.middleRows<2>(drift);
+typename CrossCovariance<Pose>::Joint CrossCovariance<Pose>::between(std::size_t s, Ends of_s, std::size_t t,
+                                                                     Ends of_t) const {
+  const SkeletonCovariance<Pose>& skeleton = of_a_->skeleton();
+  const SegmentPlaces &a = skeleton.places(of_a_->robot(), s), &b = skeleton.places(b_, t);
+  const auto& list = skeleton.listed(b_);
+  Joint joint = Joint::Zero();
+  const auto fill = [&](std::size_t u, auto target) {
+    constexpr int kColumns = decltype(target)::ColsAtCompileTime;
+    if (of_t.first) target.template topRows<kDof>() = of_a_->template with<kDof, kColumns>(list[b.first], u);
+    if (of_t.last)
+      target.template middleRows<kDof>(kDof) = of_a_->template with<kDof, kColumns>(list[b.last], u);
+    if (b.drift != kNoDrift)
+      target.template bottomRows<2>() = of_a_->template with<2, kColumns>(list[b.drift], u);
   };
-  fill(of_a.first, joint.template leftCols<kDof>());
-  fill(of_a.last, joint.template middleCols<kDof>(kDof));
-  fill(of_a.drift, joint.template rightCols<2>());
+  if (of_s.first) fill(a.first, joint.template leftCols<kDof>());
+  if (of_s.last) fill(a.last, joint.template middleCols<kDof>(kDof));
+  if (a.drift != kNoDrift) fill(a.drift, joint.template rightCols<2>());
   return joint;
 }
 
 template class SkeletonCovariance<SE2>;
 template class SkeletonCovariance<SE3>;
+template class CovariancesOfRobot<SE2>;
+template class CovariancesOfRobot<SE3>;
 template class CrossCovariance<SE2>;
 template class CrossCovariance<SE3>;
 

@@ -2,13 +2,8 @@
 // perturbations eta = Ad(T) xi in a shifted frame; see overlap_joint.hpp).
 #pragma once
 
-#include <atomic>
-#include <deque>
-#include <list>
 #include <memory>
-#include <mutex>
 #include <optional>
-#include <unordered_map>
 #include <vector>
 
 #include "radioslam/closure/overlap/keyframe_skeleton.hpp"
@@ -17,31 +12,60 @@
 
 namespace radioslam {
 
+/// Variables of a segment as indices into a list; the largest number for a drift that is not there.
+struct SegmentPlaces {
+  std::size_t first = 0, last = 0, drift = 0;
+};
+
 /// Variables of a segment, [eta_c1, eta_c2, drift], in the reduced graph.
 struct SegmentVariables {
   PoseId first, last;
   DriftId drift{};
 };
 
-/// Inverse of the reduced graph's information matrix. Solves must run in one thread at a time.
+/// Variables of a robot's segments, each once.
+struct ListedVariables {
+  /// Variables of a segment as indices into the list; a segment without a drift has the index past the last.
+  struct Places {
+    std::size_t first, last, drift;
+  };
+  std::vector<Variable> variables;
+  std::vector<Places> segments;
+};
+
+/// Inverse of the reduced graph's information matrix. Thread-safe.
 template <class Pose>
 class SkeletonCovariance {
  public:
   static constexpr int kDof = Pose::kDof, kSize = 2 * kDof + 2;  ///< dimension of a segment's variables
   using Joint = Eigen::Matrix<double, kSize, kSize>;
 
+  /// A variable of a robot's segments.
+  struct Listed {
+    Variable variable;
+    std::size_t block = 0, part = 0;
+    const double* by_boundary = nullptr;  ///< boundary of its part x size
+    Eigen::Index boundary = 0, local_column = 0;
+    bool is_free = false, is_separator = false;
+    Eigen::Matrix<double, kDof, kDof> to_left;  ///< of a pose
+  };
+
   /// Nothing if some variable is unobservable. Frames are shifted by `origin`.
   static std::shared_ptr<const SkeletonCovariance> compute(
       PoseGraph<Pose> reduced, const typename Pose::Point& origin,
       std::vector<std::vector<SegmentVariables>> segments);
 
+  std::size_t robots() const { return segments_.size(); }
   const std::vector<SegmentVariables>& segments(std::size_t robot) const { return segments_[robot]; }
+  /// A robot's variables, each once.
+  const std::vector<Listed>& listed(std::size_t robot) const { return listed_[robot]; }
+  /// Those of a segment, as indices into the list.
+  const SegmentPlaces& places(std::size_t robot, std::size_t segment) const {
+    return places_[robot][segment];
+  }
   Joint within(const SegmentVariables& segment) const;
-  /// Cov(rows, v), stacked, followed by two rows of zeros for segments without a drift.
-  Eigen::MatrixXd columns(const Variable& v, const std::vector<Variable>& rows) const;
-  /// Keeps the columns solved from now on, up to so many scalars in all, and forgets those kept before: pairs
-  /// of robots that are searched one after the other often share one.
-  void keep_columns(std::size_t robot, std::size_t scalars) const;
+  /// Nothing if no variable is free.
+  const std::optional<PartitionedInverse>& parts() const { return parts_; }
   static constexpr Eigen::Index size(const Variable& v) { return v.kind == VariableKind::kPose ? kDof : 2; }
 
  private:
@@ -50,62 +74,84 @@ class SkeletonCovariance {
 
   Eigen::MatrixXd block(const Variable& a, const Variable& b) const;
   Eigen::MatrixXd to_left(const Variable& v) const;
-  /// Columns of the inverse of the variable with this block.
-  Eigen::MatrixXd inverse_columns(std::size_t block) const;
+  void list_variables();
 
   PoseGraph<Pose> graph_;
   NormalEquations<Pose> equations_;
   std::optional<SelectedInverse> inverse_;
+  std::optional<PartitionedInverse> parts_;
   typename Pose::Point origin_;
   std::vector<std::vector<SegmentVariables>> segments_;
-  mutable std::optional<std::size_t> kept_robot_;
-  mutable std::size_t free_scalars_ = 0;
-  mutable std::unordered_map<std::size_t, Eigen::MatrixXd> kept_;  ///< by block
+  std::vector<std::vector<Listed>> listed_;
+  std::vector<std::vector<SegmentPlaces>> places_;
 };
 
-/// Covariances between robot a's and robot b's segments, solved for on demand. Thread-safe.
+/// Covariances of robot a's variables, of some of its segments, with the boundaries of all parts and within
+/// their own, from which those with any other robot's variables follow.
+template <class Pose>
+class CovariancesOfRobot {
+ public:
+  static constexpr int kDof = Pose::kDof;
+
+  /// Of the segments [first_segment, last_segment). Computed on several threads.
+  CovariancesOfRobot(std::shared_ptr<const SkeletonCovariance<Pose>> skeleton, std::size_t a,
+                     std::size_t first_segment, std::size_t last_segment);
+
+  const SkeletonCovariance<Pose>& skeleton() const { return *skeleton_; }
+  std::size_t robot() const { return a_; }
+  /// Cov(v, u) for the variable u of robot a's list, of sizes kRows and kColumns.
+  template <int kRows, int kColumns>
+  Eigen::Matrix<double, kRows, kColumns> with(const typename SkeletonCovariance<Pose>::Listed& v,
+                                              std::size_t u) const;
+  /// Numbers kept per variable, at most.
+  static std::size_t scalars_per_variable(const SkeletonCovariance<Pose>& skeleton);
+
+ private:
+  /// Some 48 columns: enough for fast products, few enough to spread over threads.
+  static constexpr std::size_t kBatch = 48 / kDof;
+  struct Batch {
+    std::vector<std::size_t> variables;
+    std::vector<Eigen::MatrixXd> with_boundary;  ///< per part: boundary x columns
+    std::vector<Eigen::MatrixXd> local;  ///< per variable: scalars of its part x size; empty for separators
+  };
+  struct Place {
+    std::size_t batch = 0, variable = 0;
+    Eigen::Index column = 0;
+  };
+  using Listed = typename SkeletonCovariance<Pose>::Listed;
+
+  void list_batches(std::size_t first_segment, std::size_t last_segment);
+  void compute(Batch& batch) const;
+  Eigen::MatrixXd maps_of(const std::vector<std::size_t>& variables) const;
+  void add_local(Batch& batch, const std::vector<std::size_t>& places) const;
+  Eigen::Index size_of(std::size_t u) const;
+
+  std::shared_ptr<const SkeletonCovariance<Pose>> skeleton_;
+  std::size_t a_;
+  std::vector<Place> places_;  ///< per variable of a
+  std::vector<Batch> batches_;
+};
+
+/// Covariances between robot a's and robot b's segments. Thread-safe.
 template <class Pose>
 class CrossCovariance {
  public:
   static constexpr int kDof = Pose::kDof, kSize = 2 * kDof + 2;
   using Joint = Eigen::Matrix<double, kSize, kSize>;
+  /// Which ends of a segment are wanted; the other end's covariances are left at zero.
+  struct Ends {
+    bool first = true, last = true;
+  };
 
-  CrossCovariance(std::shared_ptr<const SkeletonCovariance<Pose>> skeleton, std::size_t a, std::size_t b,
-                  std::size_t dense_scalars);
+  CrossCovariance(std::shared_ptr<const CovariancesOfRobot<Pose>> of_a, std::size_t b)
+      : of_a_(std::move(of_a)), b_(b) {}
 
   /// Cov(variables of segment t of b, variables of segment s of a).
-  Joint between(std::size_t s, std::size_t t) const;
-  /// Number of a's segments whose columns are cached at the same time.
-  std::size_t cached_segments() const { return capacity_; }
+  Joint between(std::size_t s, Ends of_s, std::size_t t, Ends of_t) const;
 
  private:
-  using Columns = std::shared_ptr<const Eigen::MatrixXd>;
-  using Latest = std::list<std::pair<std::size_t, Columns>>;
-  /// Variables of a segment as indices into a list of variables.
-  struct Places {
-    std::size_t first, last, drift;
-  };
-  /// Variables of a robot's segments, each once; a segment without a drift has the index past the last.
-  struct Listed {
-    std::vector<Variable> variables;
-    std::vector<Places> segments;
-  };
-  static Listed list_variables(const std::vector<SegmentVariables>& segments);
-
-  const Eigen::MatrixXd& kept(std::size_t variable) const;
-  Columns latest(std::size_t variable) const;
-
-  std::shared_ptr<const SkeletonCovariance<Pose>> skeleton_;
-  Listed a_, b_;
-  std::vector<Eigen::Index> rows_b_;  ///< of b's variables
-  std::size_t capacity_ = 0;          ///< number of pose columns that fit into the cache
-  bool all_fit_ = false;              ///< no column is ever evicted
-  mutable std::vector<std::atomic<const Eigen::MatrixXd*>>
-      solved_;  ///< per variable of a, and one for no drift
-  mutable std::deque<Eigen::MatrixXd> store_;
-  mutable std::mutex mutex_;
-  mutable Latest latest_;  ///< most recently used first
-  mutable std::unordered_map<std::size_t, typename Latest::iterator> place_;
+  std::shared_ptr<const CovariancesOfRobot<Pose>> of_a_;
+  std::size_t b_;
 };
 
 }  // namespace radioslam

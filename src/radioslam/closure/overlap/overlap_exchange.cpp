@@ -51,7 +51,7 @@ template <OverlapSource Source>
 OverlapMessage OverlapServer<Source>::hello() const {
   WireWriter out;
   out(static_cast<std::uint32_t>(tree_.roots.size()));
-  for (const std::uint32_t root : tree_.roots) {
+  for (const auto& [root, piece] : tree_.roots) {
     out(root);
     write_summary(tree_.nodes[root], records_[tree_.nodes[root].middle], out);
   }
@@ -101,8 +101,8 @@ void OverlapClient<Source>::receive_hello(const OverlapMessage& hello) {
     Summary& summary = summaries_[j];
     visit_node(summary.node, in);
     summary.middle = read_record<Record>(in);
-    for (std::size_t p = 0; p < tree_.roots.size() && !ties.empty(); ++p)
-      if (source_.joined(a_, p, b_, q)) visit_boxes(tree_.roots[p], j, ties);
+    for (const auto& [root, piece] : tree_.roots)
+      if (!ties.empty() && source_.joined(a_, piece, b_, q)) visit_boxes(root, j, ties);
   }
   WireReader::expect(in.at_end());
 }

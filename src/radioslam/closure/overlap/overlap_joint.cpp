@@ -1,5 +1,7 @@
 #include "radioslam/closure/overlap/overlap_joint.hpp"
 
+#include <algorithm>
+
 #include "radioslam/base/check.hpp"
 #include "radioslam/closure/overlap/odometry_prefix_sums.hpp"
 #include "radioslam/geometry/linear_algebra.hpp"
@@ -16,7 +18,10 @@ constexpr double kSolveError = 1e-11;
 template <class Pose>
 RelativePosition<Pose> JointView<Pose>::relative(std::size_t, const Record& k, const Record& l) const {
   constexpr int kDof = Pose::kDof, kSize = 2 * kDof + 2;
-  const auto joint = cross_->between(k.segment, l.segment);
+  const auto ends = [](const Jacobian& share) {
+    return typename CrossCovariance<Pose>::Ends{!share.isIdentity(0), !share.isZero(0)};
+  };
+  const auto joint = cross_->between(k.segment, ends(k.share), l.segment, ends(l.share));
   // X_l P, then P X_k^T: X = [I - K, K, D].
   const auto first = joint.template topRows<kDof>();
   const Eigen::Matrix<double, kDof, kSize> of_l =
@@ -205,9 +210,41 @@ PoseSpread JointCovariance<Pose>::spread(std::size_t robot, std::size_t pose, st
 }
 
 template <class Pose>
-JointView<Pose> JointCovariance<Pose>::view(std::size_t a, std::size_t b) const {
+std::vector<PoseInterval> JointCovariance<Pose>::runs(std::size_t a) const {
+  const std::size_t segments =
+      std::max<std::size_t>(1, dense_scalars_ / CovariancesOfRobot<Pose>::scalars_per_variable(*skeleton_));
+  std::vector<PoseInterval> runs;
+  const std::vector<Record>& records = robots_[a].records;
+  for (std::size_t begin = 0; begin < records.size();) {
+    std::size_t end = begin;
+    while (end < records.size() && records[end].segment < records[begin].segment + segments) ++end;
+    runs.push_back({begin, end});
+    begin = end;
+  }
+  return runs;
+}
+
+template <class Pose>
+typename JointCovariance<Pose>::Columns JointCovariance<Pose>::columns(std::size_t a,
+                                                                       const PoseInterval& run) const {
+  const std::vector<Record>& records = robots_[a].records;
+  std::size_t first = 0, last = 0;
+  if (run.size() > 0) {
+    first = records[run.begin].segment;
+    last = records[run.end - 1].segment + std::size_t{1};
+  }
+  return std::make_shared<const CovariancesOfRobot<Pose>>(skeleton_, a, first, last);
+}
+
+template <class Pose>
+JointView<Pose> JointCovariance<Pose>::view(std::size_t a, std::size_t b, const Columns& columns_of_a) const {
   RADIOSLAM_CHECK(a < b, "the robot listed first comes first");
-  return View(std::make_shared<CrossCovariance<Pose>>(skeleton_, a, b, dense_scalars_));
+  return View(std::make_shared<CrossCovariance<Pose>>(columns_of_a, b));
+}
+
+template <class Pose>
+JointView<Pose> JointCovariance<Pose>::view(std::size_t a, std::size_t b) const {
+  return view(a, b, columns(a, {0, robots_[a].records.size()}));
 }
 
 template <class Pose>
@@ -215,7 +252,7 @@ typename Pose::Jacobian JointCovariance<Pose>::relative_pose(std::size_t a, std:
                                                              std::size_t l) const {
   const Record& of_k = robots_[a].records[k];
   const Record& of_l = robots_[b].records[l];
-  const RelativePosition<Pose> place = view(a, b).relative(0, of_k, of_l);
+  const RelativePosition<Pose> place = view(a, b, columns(a, {k, k + 1})).relative(0, of_k, of_l);
   // Right perturbation at l: rotate both parts into l's axes.
   const Pose turn = Pose(Pose::Point::Zero(), rotation_of(robots_[b].poses[l]));
   const Jacobian back = turn.inverse().adjoint();

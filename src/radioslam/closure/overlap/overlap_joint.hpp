@@ -9,12 +9,12 @@
 // so Cov(eta_k, eta_l) = X_k P_st X_l^T for poses of two robots, with P the covariance of the ends and drifts
 // of two segments, from the much smaller skeleton graph.
 //
-// Columns of P are solved for when a pair of segments is first visited, so a search pays only for skeleton
-// poses near overlapping boxes. They are kept if all fit into `dense_scalars`; otherwise the most recent ones
-// are, and the search visits robot a's poses in runs whose columns fit. Results are the same either way.
+// P comes from a partition of the skeleton's elimination tree (graph/linear/partitioned_inverse.hpp). What it
+// takes of robot a is computed once for all later robots. A search visits a's poses in runs for which that
+// fits into `dense_scalars`, all other robots within a run. Results are the same for any runs.
 // Trajectories of different graph components are not compared. Returns nothing if the normal equations are
-// singular. Cost: O(poses), one factorisation of the skeleton, and at most one solve per skeleton pose and
-// pair of robots if all columns fit.
+// singular. Cost: O(poses), one factorisation of the skeleton, and per pair of poses the product of two maps
+// onto the boundaries of their parts.
 #pragma once
 
 #include <cstdint>
@@ -58,11 +58,6 @@ class JointView {
   }
   double link_travelled_a(std::size_t) const { return 0; }
   double link_travelled_b(std::size_t) const { return 0; }
-  /// Whether several threads can each cover this range of poses with cached columns.
-  bool cached_columns_fit(const Record& first, const Record& last) const {
-    constexpr std::size_t kThreads = 4;
-    return last.segment - first.segment <= cross_->cached_segments() / kThreads;
-  }
   RelativePosition<Pose> relative(std::size_t tie, const Record& k, const Record& l) const;
 
  private:
@@ -74,8 +69,9 @@ class JointCovariance {
  public:
   using View = JointView<Pose>;
   using Record = typename View::Record;
-  /// Cache size: 512 MiB of covariances between two robots.
-  static constexpr std::size_t kDenseScalars = std::size_t{1} << 26;
+  /// Of a run: 128 MiB of covariances.
+  static constexpr std::size_t kDenseScalars = std::size_t{1} << 24;
+  using Columns = std::shared_ptr<const CovariancesOfRobot<Pose>>;
 
   /// One chain per robot, in the order of the mission.
   static std::optional<JointCovariance> compute(const PoseGraph<Pose>& graph,
@@ -89,6 +85,11 @@ class JointCovariance {
     return robots_[a].components[piece_a] == robots_[b].components[piece_b];
   }
   PoseSpread spread(std::size_t robot, std::size_t pose, std::size_t middle) const;
+  /// Runs of robot a's poses, as long as what is kept of them fits into `dense_scalars`.
+  std::vector<PoseInterval> runs(std::size_t a) const;
+  /// What the covariances of a run of robot a's poses with any other robot take.
+  Columns columns(std::size_t a, const PoseInterval& run) const;
+  View view(std::size_t a, std::size_t b, const Columns& columns_of_a) const;
   View view(std::size_t a, std::size_t b) const;
 
   /// Covariance of T_k^-1 T_l (right perturbation) between searched poses k, l of robots a < b.

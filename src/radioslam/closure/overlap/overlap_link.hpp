@@ -70,7 +70,6 @@ class LinkView {
   }
   double link_travelled_a(std::size_t tie) const { return ties_[tie].a.travelled_m; }
   double link_travelled_b(std::size_t tie) const { return ties_[tie].b.travelled_m; }
-  bool cached_columns_fit(const Record&, const Record&) const { return true; }
   RelativePosition<Pose> relative(std::size_t tie, const Record& k, const Record& l) const;
 
  private:
@@ -92,6 +91,11 @@ class LinkCovariance {
   const std::vector<PoseInterval>& pieces(std::size_t robot) const { return robots_[robot].pieces; }
   bool joined(std::size_t, std::size_t, std::size_t, std::size_t) const { return true; }
   PoseSpread spread(std::size_t robot, std::size_t pose, std::size_t middle) const;
+  /// All poses at once: nothing is kept from one pair of robots to the next.
+  struct Columns {};
+  std::vector<PoseInterval> runs(std::size_t a) const { return {{0, records(a).size()}}; }
+  Columns columns(std::size_t, const PoseInterval&) const { return {}; }
+  View view(std::size_t a, std::size_t b, Columns) const { return view(a, b); }
   View view(std::size_t a, std::size_t b) const;
 
   /// Covariance of T_i^-1 T_j along one robot's odometry, right perturbation.

@@ -1,6 +1,7 @@
 // The overlap test between the poses of two robots, for the searches over all their pairs.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "radioslam/base/parallel.hpp"
@@ -17,12 +18,12 @@ class OverlapPair {
   using Bound = LinkBound<Pose>;
   using Records = std::vector<typename View::Record>;
 
-  OverlapPair(const Source& source, std::uint32_t a, std::uint32_t b, const OverlapRule& rule)
+  OverlapPair(const Source& source, std::uint32_t a, std::uint32_t b, View view, const OverlapRule& rule)
       : a_(a),
         b_(b),
         records_a_(source.records(a)),
         records_b_(source.records(b)),
-        view_(source.view(a, b)),
+        view_(std::move(view)),
         test_(view_, rule) {}
   OverlapPair(const OverlapPair&) = delete;
   OverlapPair& operator=(const OverlapPair&) = delete;
@@ -53,6 +54,12 @@ class OverlapPair {
   OverlapTest<View> test_;
 };
 
+/// Adds the results of a part of a search.
+inline void append(OverlapCandidates& all, const OverlapCandidates& part) {
+  all.candidates.insert(all.candidates.end(), part.candidates.begin(), part.candidates.end());
+  all.counts += part.counts;
+}
+
 /// Calls work(task, its own result) for every task in parallel and appends the results to `found` in order.
 template <class Work>
 OverlapCandidates gather_overlaps(std::size_t tasks, OverlapCandidates found, Work&& work) {
@@ -60,10 +67,7 @@ OverlapCandidates gather_overlaps(std::size_t tasks, OverlapCandidates found, Wo
   parallel_for(tasks, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) work(t, parts[t]);
   });
-  for (const auto& part : parts) {
-    found.candidates.insert(found.candidates.end(), part.candidates.begin(), part.candidates.end());
-    found.counts += part.counts;
-  }
+  for (const auto& part : parts) append(found, part);
   return found;
 }
 

@@ -29,6 +29,12 @@ struct PoseInterval {
   std::size_t size() const { return end - begin; }
 };
 
+/// The poses that are in both.
+inline PoseInterval common(const PoseInterval& p, const PoseInterval& q) {
+  const std::size_t begin = std::max(p.begin, q.begin);
+  return {begin, std::max(begin, std::min(p.end, q.end))};
+}
+
 /// Upper bounds of the standard deviations of one pose relative to another of the same robot, rounding
 /// included.
 struct PoseSpread {
@@ -127,9 +133,6 @@ concept OverlapView = requires(const V& view, const typename V::Record& k, std::
     view.link_travelled_a(tie)
     } -> std::convertible_to<double>;  // path length at the link's end on a, metres
   { view.link_travelled_b(tie) } -> std::convertible_to<double>;
-  {
-    view.cached_columns_fit(k, k)
-    } -> std::convertible_to<bool>;  // whether a's poses from first to last can be compared with cached data
 };
 
 /// Estimate of a team as required by the search. Robots are numbered in the order of the mission.
@@ -143,6 +146,11 @@ concept OverlapSource = OverlapView<typename S::View> && requires(const S& sourc
     } -> std::convertible_to<bool>;  // (a, interval of a, b, interval of b)
   { source.spread(robot, robot, robot) } -> std::convertible_to<PoseSpread>;  // (robot, pose, middle pose)
   { source.view(robot, robot) } -> std::convertible_to<typename S::View>;     // of robots a < b
+  // Runs of a's poses that are compared with all later robots, with what is kept meanwhile.
+  { source.runs(robot)[0] } -> std::convertible_to<PoseInterval>;
+  {
+    source.view(robot, robot, source.columns(robot, source.runs(robot)[0]))
+    } -> std::convertible_to<typename S::View>;
 };
 
 }  // namespace radioslam

@@ -9,18 +9,32 @@
 // tasks.
 #pragma once
 
+#include <functional>
+#include <vector>
+
 #include "radioslam/closure/overlap/overlap_joint.hpp"
 #include "radioslam/closure/overlap/overlap_link.hpp"
 #include "radioslam/closure/overlap/overlap_params.hpp"
 
 namespace radioslam {
 
-/// `Source`: LinkCovariance or JointCovariance of SE2 or SE3. One sensor per robot.
+/// Receives the candidates of two robots, sorted by their poses; two robots after the other.
+using TakeOverlaps = std::function<void(std::vector<OverlapCandidate>)>;
+
+/// `Source`: LinkCovariance or JointCovariance of SE2 or SE3. One sensor per robot. Each pair of robots'
+/// candidates are handed over once they are found, so that a large team's are never all in this form.
+template <OverlapSource Source>
+OverlapCounts search_overlaps(const Source& source, const std::vector<OverlapSensor>& sensors,
+                              const OverlapParams& params, const TakeOverlaps& take);
+/// The same in one list.
 template <OverlapSource Source>
 OverlapCandidates search_overlaps(const Source& source, const std::vector<OverlapSensor>& sensors,
                                   const OverlapParams& params);
 
-/// The same result by testing every pair.
+/// The same results by testing every pair.
+template <OverlapSource Source>
+OverlapCounts search_overlaps_exhaustively(const Source& source, const std::vector<OverlapSensor>& sensors,
+                                           const OverlapParams& params, const TakeOverlaps& take);
 template <OverlapSource Source>
 OverlapCandidates search_overlaps_exhaustively(const Source& source,
                                                const std::vector<OverlapSensor>& sensors,

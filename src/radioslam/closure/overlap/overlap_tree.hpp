@@ -29,8 +29,12 @@ struct OverlapNode {
 
 template <class Pose>
 struct OverlapTree {
+  struct Root {
+    std::uint32_t node = 0;
+    std::uint32_t piece = 0;  ///< the interval connected by odometry
+  };
   std::vector<OverlapNode<Pose>> nodes;
-  std::vector<std::uint32_t> roots;  ///< one per interval connected by odometry
+  std::vector<Root> roots;
 };
 
 template <OverlapSource Source>
@@ -46,21 +50,27 @@ class OverlapTreeBuilder {
  public:
   OverlapTreeBuilder(const Source& source, std::size_t robot) : source_(source), robot_(robot) {}
 
-  OverlapTree<Pose> build() {
+  OverlapTree<Pose> build() { return build({0, source_.records(robot_).size()}); }
+  /// Of these poses alone.
+  OverlapTree<Pose> build(const PoseInterval& run) {
     tree_ = {};
-    for (const PoseInterval& piece : source_.pieces(robot_)) tree_.roots.push_back(build(piece));
+    const auto& pieces = source_.pieces(robot_);
+    for (std::uint32_t p = 0; p < pieces.size(); ++p) {
+      const PoseInterval poses = common(pieces[p], run);
+      if (poses.size() > 0) tree_.roots.push_back({build_node(poses), p});
+    }
     return std::move(tree_);
   }
 
  private:
-  std::uint32_t build(const PoseInterval& poses) {
+  std::uint32_t build_node(const PoseInterval& poses) {
     const auto at = static_cast<std::uint32_t>(tree_.nodes.size());
     tree_.nodes.emplace_back();
     const std::size_t middle = poses.begin + poses.size() / 2;
     std::uint32_t right = 0;
     if (poses.size() > kLeaf) {
-      build({poses.begin, middle});
-      right = build({middle, poses.end});
+      build_node({poses.begin, middle});
+      right = build_node({middle, poses.end});
     }
     Node node;
     node.begin = static_cast<std::uint32_t>(poses.begin);

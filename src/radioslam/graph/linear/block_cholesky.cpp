@@ -58,9 +58,11 @@ struct BlockCholesky::Impl {
   ConstPanel panel(const Front& front) const {
     return {factor.data() + front.panel, index(front.scalars()), index(front.pivots)};
   }
-  Eigen::MatrixXd in_elimination_order(const Eigen::MatrixXd& original) const;
-  Eigen::MatrixXd in_original_order(const Eigen::MatrixXd& x) const;
-  void solve_backward(FrontSolver& solver, Eigen::MatrixXd& x) const;
+  Eigen::VectorXd in_elimination_order(const Eigen::VectorXd& original) const;
+  Eigen::VectorXd in_original_order(const Eigen::VectorXd& x) const;
+  Eigen::MatrixXd columns_in_original_order(const Eigen::MatrixXd& x) const;
+  void solve_forward_unit(FrontSolver& solver, std::size_t scalar, std::uint32_t front, Eigen::VectorXd& x,
+                          Eigen::MatrixXd::RowXpr result) const;
   void check_usable() const { RADIOSLAM_CHECK(usable, "there is no factor to use"); }
 };
 
@@ -109,29 +111,44 @@ bool BlockCholesky::Impl::eliminate(const SymmetricBlockMatrix& matrix, const Fr
   return true;
 }
 
-Eigen::MatrixXd BlockCholesky::Impl::in_elimination_order(const Eigen::MatrixXd& original) const {
-  Eigen::MatrixXd x(original.rows(), original.cols());
+Eigen::VectorXd BlockCholesky::Impl::in_elimination_order(const Eigen::VectorXd& original) const {
+  Eigen::VectorXd x(original.size());
   for (std::size_t at = 0; at < tree->blocks(); ++at) {
     const auto size = index(tree->block_size(at));
-    x.middleRows(index(tree->first_scalar[at]), size) =
-        original.middleRows(index(tree->original_scalar[at]), size);
+    x.segment(index(tree->first_scalar[at]), size) = original.segment(index(tree->original_scalar[at]), size);
   }
   return x;
 }
 
-Eigen::MatrixXd BlockCholesky::Impl::in_original_order(const Eigen::MatrixXd& x) const {
-  Eigen::MatrixXd original(x.rows(), x.cols());
+Eigen::VectorXd BlockCholesky::Impl::in_original_order(const Eigen::VectorXd& x) const {
+  Eigen::VectorXd original(x.size());
   for (std::size_t at = 0; at < tree->blocks(); ++at) {
     const auto size = index(tree->block_size(at));
-    original.middleRows(index(tree->original_scalar[at]), size) =
-        x.middleRows(index(tree->first_scalar[at]), size);
+    original.segment(index(tree->original_scalar[at]), size) = x.segment(index(tree->first_scalar[at]), size);
   }
   return original;
 }
 
-void BlockCholesky::Impl::solve_backward(FrontSolver& solver, Eigen::MatrixXd& x) const {
-  for (auto front = tree->fronts.rbegin(); front != tree->fronts.rend(); ++front) {
-    solver.backward(*front, x.data(), static_cast<std::size_t>(x.cols()), static_cast<std::size_t>(x.rows()));
+Eigen::MatrixXd BlockCholesky::Impl::columns_in_original_order(const Eigen::MatrixXd& x) const {
+  Eigen::MatrixXd original(x.rows(), x.cols());
+  for (std::size_t at = 0; at < tree->blocks(); ++at) {
+    const auto size = index(tree->block_size(at));
+    original.middleCols(index(tree->original_scalar[at]), size) =
+        x.middleCols(index(tree->first_scalar[at]), size);
+  }
+  return original;
+}
+
+/// L^-1 times the unit vector of a scalar in this front, in elimination order: only the path from the front
+/// to the root contributes. `x` is zero before and after.
+void BlockCholesky::Impl::solve_forward_unit(FrontSolver& solver, std::size_t scalar, std::uint32_t front,
+                                             Eigen::VectorXd& x, Eigen::MatrixXd::RowXpr result) const {
+  x[index(scalar)] = 1;
+  for (auto s = front; s != kNoParent; s = tree->fronts[s].parent) solver.forward(tree->fronts[s], x.data());
+  for (auto s = front; s != kNoParent; s = tree->fronts[s].parent) {
+    const Eigen::Index first = index(tree->fronts[s].first_scalar), pivots = index(tree->fronts[s].pivots);
+    result.segment(first, pivots) = x.segment(first, pivots).transpose();
+    x.segment(first, pivots).setZero();
   }
 }
 
@@ -162,27 +179,32 @@ Eigen::VectorXd BlockCholesky::solve(const Eigen::VectorXd& b) const {
   impl_->check_usable();
   RADIOSLAM_CHECK(b.size() == index(impl_->tree->scalars()), "the right-hand side has another length");
   FrontSolver solver(*impl_->tree, impl_->factor);
-  Eigen::MatrixXd x = impl_->in_elimination_order(b);
-  for (const auto& front : impl_->tree->fronts) solver.forward(front, x.data());
-  impl_->solve_backward(solver, x);
+  Eigen::VectorXd x = impl_->in_elimination_order(b);
+  const auto& fronts = impl_->tree->fronts;
+  for (const auto& front : fronts) solver.forward(front, x.data());
+  for (auto front = fronts.rbegin(); front != fronts.rend(); ++front) solver.backward(*front, x.data());
   return impl_->in_original_order(x);
 }
 
-Eigen::MatrixXd BlockCholesky::inverse_columns(std::size_t j) const {
+Eigen::MatrixXd BlockCholesky::inverse_rows(const std::vector<std::size_t>& blocks) const {
   impl_->check_usable();
   const auto& tree = *impl_->tree;
-  RADIOSLAM_CHECK(j < tree.blocks(), "no such block");
-  const std::size_t at_j = tree.place[j];
-  const auto columns = index(tree.block_size(at_j));
-  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(index(tree.scalars()), columns);
-  x.middleRows(index(tree.first_scalar[at_j]), columns).setIdentity();
-  FrontSolver solver(tree, impl_->factor);
-  // In the pass up the tree only the path from block j to the root contributes.
-  for (auto s = tree.front_of[at_j]; s != kNoParent; s = tree.fronts[s].parent) {
-    for (auto column : x.colwise()) solver.forward(tree.fronts[s], column.data());
+  Eigen::Index rows = 0;
+  for (const std::size_t block : blocks) {
+    RADIOSLAM_CHECK(block < tree.blocks(), "no such block");
+    rows += index(tree.block_size(tree.place[block]));
   }
-  impl_->solve_backward(solver, x);
-  return impl_->in_original_order(x);
+  FrontSolver solver(tree, impl_->factor);
+  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(rows, index(tree.scalars()));
+  Eigen::VectorXd unit = Eigen::VectorXd::Zero(x.cols());
+  Eigen::Index row = 0;
+  for (const std::size_t block : blocks) {
+    const std::size_t at = tree.place[block];
+    for (std::size_t k = tree.first_scalar[at]; k < tree.first_scalar[at + 1]; ++k)
+      impl_->solve_forward_unit(solver, k, tree.front_of[at], unit, x.row(row++));
+  }
+  for (auto front = tree.fronts.rbegin(); front != tree.fronts.rend(); ++front) solver.backward(*front, x);
+  return impl_->columns_in_original_order(x);
 }
 
 double BlockCholesky::log_determinant() const {
@@ -198,6 +220,11 @@ double BlockCholesky::log_determinant() const {
 SelectedInverse BlockCholesky::selected_inverse() const {
   impl_->check_usable();
   return SelectedInverse(invert(impl_->tree, impl_->factor, impl_->stack));
+}
+
+PartitionedInverse BlockCholesky::partitioned_inverse(std::size_t part_scalars) const {
+  impl_->check_usable();
+  return {*impl_->tree, impl_->factor, part_scalars};
 }
 
 double BlockCholesky::factor_flops() const { return impl_->tree->flops; }

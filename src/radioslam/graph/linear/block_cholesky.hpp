@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "radioslam/graph/linear/block_matrix.hpp"
+#include "radioslam/graph/linear/partitioned_inverse.hpp"
 
 namespace radioslam {
 
@@ -58,10 +59,15 @@ class BlockCholesky {
   /// H^-1 b.
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
   /// Columns of H^-1 for block j: rows() x sizes[j].
-  Eigen::MatrixXd inverse_columns(std::size_t j) const;
+  Eigen::MatrixXd inverse_columns(std::size_t j) const { return inverse_rows({j}).transpose(); }
+  /// Rows of H^-1 for blocks: their sizes' sum x rows(). Some dozen rows at once take a fraction of the time
+  /// of one after the other. May be called from several threads.
+  Eigen::MatrixXd inverse_rows(const std::vector<std::size_t>& blocks) const;
   /// log det H.
   double log_determinant() const;
   SelectedInverse selected_inverse() const;
+  /// Valid until this is factorised again. `part_scalars`: size of its parts; 0: as suits the matrix.
+  PartitionedInverse partitioned_inverse(std::size_t part_scalars = 0) const;
 
   /// Predicted by the analysis.
   double factor_flops() const;

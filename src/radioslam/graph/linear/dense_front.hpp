@@ -127,7 +127,41 @@ struct DenseFront {
     mirror_lower(p, covariance_panel, n);
   }
 
-  static constexpr FrontKernels kernels(const char* name) { return {name, &eliminate, &invert}; }
+  /// Y L = C for a small lower triangular L, from C in place.
+  static void solve_square(std::size_t columns, const double* l, std::size_t stride, std::size_t rows,
+                           double* y) {
+    for (std::size_t j = columns; j-- > 0;) {
+      double* const own = y + j * rows;
+      for (std::size_t i = j + 1; i < columns; ++i) {
+        const double factor = l[i + j * stride];
+        const double* const later = y + i * rows;
+        for (std::size_t t = 0; t < rows; ++t) own[t] -= later[t] * factor;
+      }
+      const double reciprocal = 1 / l[j + j * stride];
+      for (std::size_t t = 0; t < rows; ++t) own[t] *= reciprocal;
+    }
+  }
+
+  static void solve_back(FrontShape shape, const double* panel, std::size_t rows, const double* below,
+                         double* pivots) {
+    constexpr std::size_t kStrip = 6;
+    const std::size_t p = shape.pivots, r = shape.below, n = p + r;
+    if (r > 0)
+      product<Simd, Operation::kSubtract>({rows, p, r}, Shape::kFull, Left::kFull, {below, rows},
+                                          {panel + p, 1, n}, {pivots, rows});
+    for (std::size_t end = p; end > 0;) {
+      const std::size_t width = end < kStrip ? end : kStrip, first = end - width;
+      const double* const strip = panel + first * n;
+      if (end < p)
+        product<Simd, Operation::kSubtract>({rows, width, p - end}, Shape::kFull, Left::kFull,
+                                            {pivots + end * rows, rows}, {strip + end, 1, n},
+                                            {pivots + first * rows, rows});
+      solve_square(width, strip + first, n, rows, pivots + first * rows);
+      end = first;
+    }
+  }
+
+  static constexpr FrontKernels kernels(const char* name) { return {name, &eliminate, &invert, &solve_back}; }
 };
 
 }  // namespace radioslam::dense

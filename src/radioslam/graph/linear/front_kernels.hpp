@@ -26,6 +26,11 @@ struct FrontKernels {
   /// Y = L_RP L_PP^-1. Z_PP is full. `scratch` holds p (p + r) numbers.
   void (*invert)(FrontShape shape, const double* panel, const double* covariance_below,
                  double* covariance_panel, double* scratch);
+
+  /// Back substitution for several right-hand sides, which are rows here: pivots <- (pivots - below L_RP)
+  /// L_PP^-1, with `pivots` a rows x p and `below` a rows x r matrix.
+  void (*solve_back)(FrontShape shape, const double* panel, std::size_t rows, const double* below,
+                     double* pivots);
 };
 
 /// All that this machine can run, the fastest first.

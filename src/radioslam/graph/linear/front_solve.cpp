@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "radioslam/graph/linear/front_kernels.hpp"
+
 namespace radioslam {
 namespace {
 
@@ -47,24 +49,29 @@ void FrontSolver::forward(const Front& front, double* x) {
   });
 }
 
-void FrontSolver::backward(const Front& front, double* x, std::size_t columns, std::size_t stride) {
+void FrontSolver::backward(const Front& front, double* x) {
   const std::size_t p = front.pivots, n = front.scalars();
-  rows_.resize(std::max(rows_.size(), columns * n));
   double* const rows = rows_.data();
-  for (std::size_t c = 0; c < columns; ++c) {
-    std::copy_n(x + c * stride + front.first_scalar, p, rows + c * n);
-    for_each_block_below(tree_, front, [&](std::size_t row, std::size_t scalar, std::size_t count) {
-      for (std::size_t i = 0; i < count; ++i) rows[c * n + row + i] = x[c * stride + scalar + i];
-    });
-  }
+  std::copy_n(x + front.first_scalar, p, rows);
+  for_each_block_below(tree_, front, [&](std::size_t row, std::size_t scalar, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) rows[row + i] = x[scalar + i];
+  });
   for (std::size_t j = p; j-- > 0;) {
     const double* const column = factor_.data() + front.panel + j * n;
-    for (std::size_t c = 0; c < columns; ++c) {
-      double* const own = rows + c * n;
-      own[j] = (own[j] - dot(column + j + 1, own + j + 1, n - j - 1)) / column[j];
-    }
+    rows[j] = (rows[j] - dot(column + j + 1, rows + j + 1, n - j - 1)) / column[j];
   }
-  for (std::size_t c = 0; c < columns; ++c) std::copy_n(rows + c * n, p, x + c * stride + front.first_scalar);
+  std::copy_n(rows, p, x + front.first_scalar);
+}
+
+void FrontSolver::backward(const Front& front, Eigen::MatrixXd& x) {
+  const auto right_sides = static_cast<std::size_t>(x.rows());
+  rows_.resize(std::max(rows_.size(), right_sides * front.below));
+  for_each_block_below(tree_, front, [&](std::size_t row, std::size_t scalar, std::size_t count) {
+    std::copy_n(x.data() + scalar * right_sides, count * right_sides,
+                rows_.data() + (row - front.pivots) * right_sides);
+  });
+  front_kernels().solve_back({front.pivots, front.below}, factor_.data() + front.panel, right_sides,
+                             rows_.data(), x.data() + front.first_scalar * right_sides);
 }
 
 }  // namespace radioslam

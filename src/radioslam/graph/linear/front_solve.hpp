@@ -1,6 +1,7 @@
 // Substitution with the factor, front by front, on right-hand sides in elimination order.
 #pragma once
 
+#include <Eigen/Core>
 #include <vector>
 
 #include "radioslam/graph/linear/front_tree.hpp"
@@ -15,9 +16,10 @@ class FrontSolver {
 
   /// The front's part of x <- L^-1 x; its children's parts come before.
   void forward(const Front& front, double* x);
-  /// The front's part of x <- L^-T x for several right-hand sides, the k-th at x + k * stride; its parent's
-  /// part comes before. Each is solved as if alone, but the factor is read once for all.
-  void backward(const Front& front, double* x, std::size_t columns, std::size_t stride);
+  /// The front's part of x <- L^-T x; its parent's part comes before.
+  void backward(const Front& front, double* x);
+  /// The same for several right-hand sides, the rows of a column-major matrix.
+  void backward(const Front& front, Eigen::MatrixXd& x);
 
  private:
   const FrontTree& tree_;

@@ -154,7 +154,7 @@ void write_run(const std::filesystem::path& folder, const RunResult& result, con
   write_trajectories(folder, result.robots);
   for (std::size_t k = 0; k < result.alternatives.size(); ++k)
     write_trajectories(folder / "hypotheses" / std::to_string(k + 1), result.alternatives[k].robots);
-  write_file(folder / "candidates.csv", format_candidates(result.candidates, ids));
+  write_candidates(folder / "candidates.csv", result.candidates, ids);
   write_file(folder / "closures.csv", format_closures(result.closures, ids));
   write_file(folder / "uncertainty.csv", format_uncertainty(result.robots));
   if (!result.aoa_measurements.empty())

@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "radioslam/base/check.hpp"
+#include "radioslam/base/parallel.hpp"
+#include "radioslam/io/text/atomic_output.hpp"
 #include "radioslam/io/text/csv.hpp"
 #include "radioslam/io/text/numbers.hpp"
 
@@ -104,18 +106,48 @@ std::string weights_field(const std::vector<double>& weights) {
   return field;
 }
 
+/// Rows formatted by one thread, and how many such pieces wait to be written.
+constexpr std::size_t kRowsPerPiece = 8192, kPiecesAtOnce = 8;
+
+void append_candidate(std::string& out, const std::vector<std::string>& ends_i,
+                      const std::vector<std::string>& ends_j, const CandidateList::Row& row) {
+  out += ends_i[row.keyframe_i];
+  (out += ',') += ends_j[row.keyframe_j];
+  append_number(out += ',', row.distance_m);
+  append_number(out += ',', row.mahalanobis);
+  out += '\n';
+}
+
 }  // namespace
 
-std::string format_candidates(const std::vector<CandidateResult>& candidates,
-                              std::span<const std::string> ids) {
-  std::string out = "robot_i,t_i_s,robot_j,t_j_s,distance_m,mahalanobis\n";
-  for (const CandidateResult& candidate : candidates) {
-    out += format_pair(candidate, ids);
-    append_number(out += ',', candidate.distance_m);
-    append_number(out += ',', candidate.mahalanobis);
-    out += '\n';
+void write_candidates(const std::filesystem::path& path, const CandidateList& candidates,
+                      std::span<const std::string> ids) {
+  FileWriter file(path);
+  file.write(kCandidateHeader);
+  std::vector<std::vector<std::string>> ends;  // "id,stamp" per robot and keyframe
+  for (std::size_t r = 0; r < ids.size(); ++r) {
+    std::vector<std::string>& own = ends.emplace_back();
+    for (const Stamp stamp : candidates.stamps(RobotIndex(r)))
+      own.push_back(ids[r] + "," + format_stamp(stamp));
   }
-  return out;
+  std::vector<std::string> pieces(kPiecesAtOnce);
+  for (const CandidateList::Group& group : candidates.groups()) {
+    const auto& of_i = ends[group.robot_i.index()];
+    const auto& of_j = ends[group.robot_j.index()];
+    for (std::size_t start = 0; start < group.rows.size(); start += kPiecesAtOnce * kRowsPerPiece) {
+      parallel_for(kPiecesAtOnce, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t piece = begin; piece < end; ++piece) {
+          const std::size_t first = std::min(group.rows.size(), start + piece * kRowsPerPiece);
+          const std::size_t last = std::min(group.rows.size(), first + kRowsPerPiece);
+          pieces[piece].clear();
+          for (std::size_t k = first; k < last; ++k)
+            append_candidate(pieces[piece], of_i, of_j, group.rows[k]);
+        }
+      });
+      for (const std::string& piece : pieces) file.write(piece);
+    }
+  }
+  file.close();
 }
 
 std::string_view closure_kind_name(ClosureKind kind) { return word_for(kKinds, kind); }
@@ -186,13 +218,17 @@ std::string format_access_points(const std::vector<AccessPointResult>& access_po
   return out;
 }
 
-std::vector<CandidateResult> read_candidates(const Text& text, std::span<const EstimatedTrajectory> robots) {
+CandidateList read_candidates(const Text& text, std::span<const EstimatedTrajectory> robots) {
   CsvReader csv(text, pair_columns_and({"distance_m", "mahalanobis"}));
-  std::vector<CandidateResult> candidates;
+  std::vector<std::vector<Stamp>> stamps(robots.size());
+  for (std::size_t r = 0; r < robots.size(); ++r)
+    for (const auto& row : robots[r].poses) stamps[r].push_back(row.stamp);
+  CandidateList candidates(std::move(stamps));
   while (csv.next()) {
-    CandidateResult& candidate = candidates.emplace_back(read_pair<CandidateResult>(csv, robots));
-    candidate.distance_m = csv.number(kFirstOwn);
-    candidate.mahalanobis = csv.number(kFirstOwn + 1);
+    auto candidate = read_pair<CandidateResult>(csv, robots);
+    candidate.distance_m = static_cast<float>(csv.number(kFirstOwn));
+    candidate.mahalanobis = static_cast<float>(csv.number(kFirstOwn + 1));
+    candidates.push_back(candidate);
   }
   return candidates;
 }

@@ -8,6 +8,7 @@
 // Robots are written by id; stamps are exactly those of <id>.tum.
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,8 +20,10 @@
 
 namespace radioslam {
 
-std::string format_candidates(const std::vector<CandidateResult>& candidates,
-                              std::span<const std::string> ids);
+inline constexpr std::string_view kCandidateHeader = "robot_i,t_i_s,robot_j,t_j_s,distance_m,mahalanobis\n";
+/// Writes the table in pieces, since a large team's has gigabytes.
+void write_candidates(const std::filesystem::path& path, const CandidateList& candidates,
+                      std::span<const std::string> ids);
 /// The stated standard deviation of every keyframe's position, of the robots that have one.
 std::string format_uncertainty(const std::vector<RobotResult>& robots);
 /// As in closures.csv.
@@ -37,7 +40,7 @@ std::string format_access_points(const std::vector<AccessPointResult>& access_po
 
 /// Refuse malformed rows, unknown robots, kinds and statuses, and stamps at which a robot has no keyframe
 /// (not checked for robots without poses).
-std::vector<CandidateResult> read_candidates(const Text& text, std::span<const EstimatedTrajectory> robots);
+CandidateList read_candidates(const Text& text, std::span<const EstimatedTrajectory> robots);
 std::vector<ClosureResult> read_closures(const Text& text, std::span<const EstimatedTrajectory> robots);
 /// Sets the standard deviations of the robots in the table. Refuses a robot with other stamps than its poses.
 void read_uncertainty(const Text& text, std::span<EstimatedTrajectory> robots);

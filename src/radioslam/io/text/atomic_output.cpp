@@ -169,12 +169,24 @@ void OutputFile::commit(std::string_view content) {
   fs::rename(temporary_, target_);
 }
 
-void write_file(const fs::path& path, std::string_view content) {
+FileWriter::FileWriter(const fs::path& path) : path_(path), file_(nullptr, &std::fclose) {
   fs::create_directories(path.parent_path());
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "wb"), &std::fclose);
-  if (!file) fail(errno, path);
-  if (std::fwrite(content.data(), 1, content.size(), file.get()) != content.size()) fail(errno, path);
-  if (std::fclose(file.release()) != 0) fail(errno, path);
+  file_.reset(std::fopen(path.c_str(), "wb"));
+  if (!file_) fail(errno, path);
+}
+
+void FileWriter::write(std::string_view part) {
+  if (std::fwrite(part.data(), 1, part.size(), file_.get()) != part.size()) fail(errno, path_);
+}
+
+void FileWriter::close() {
+  if (std::fclose(file_.release()) != 0) fail(errno, path_);
+}
+
+void write_file(const fs::path& path, std::string_view content) {
+  FileWriter file(path);
+  file.write(content);
+  file.close();
 }
 
 void remove_unfinished_outputs() noexcept {

@@ -61,7 +61,22 @@ class OutputFile : private UnfinishedOutput {
   std::unique_ptr<std::FILE, Close> file_;
 };
 
-/// Writes a file inside an output folder and creates its parent folders; throws std::system_error on failure.
+/// A file inside an output folder that is written piece by piece. Creates its parent folders; throws
+/// std::system_error on failure.
+class FileWriter {
+ public:
+  explicit FileWriter(const std::filesystem::path& path);
+
+  void write(std::string_view part);
+  /// To be called after the last part: only then are all errors known.
+  void close();
+
+ private:
+  std::filesystem::path path_;
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+};
+
+/// The same in one piece.
 void write_file(const std::filesystem::path& path, std::string_view content);
 
 /// Removes all unfinished outputs and prevents any later commit. For the thread that ends an interrupted

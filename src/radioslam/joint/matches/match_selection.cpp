@@ -16,17 +16,6 @@
 namespace radioslam {
 namespace {
 
-using CandidateKey = std::tuple<RobotIndex, Stamp, RobotIndex, Stamp>;
-
-std::set<CandidateKey> keys(const std::vector<CandidateResult>& candidates) {
-  std::set<CandidateKey> result;
-  for (const auto& c : candidates) {
-    result.insert({c.robot_i, c.stamp_i, c.robot_j, c.stamp_j});
-    result.insert({c.robot_j, c.stamp_j, c.robot_i, c.stamp_i});
-  }
-  return result;
-}
-
 MatchOutcome reject(MatchOutcome outcome, std::string reason) {
   outcome.status = ClosureStatus::kRejected;
   outcome.reason = std::move(reason);
@@ -42,12 +31,12 @@ template <class Pose>
 class MatchSelector {
  public:
   MatchSelector(JointGraph<Pose>& joint, const TeamPlacement<Pose>& placement, const Mission& mission,
-                const std::vector<CandidateResult>& candidates, Pruning pruning, const MatchParams& params,
+                const CandidateList& candidates, Pruning pruning, const MatchParams& params,
                 const AoaLikelihoodParams& likelihood, const std::optional<RadioCovariance<Pose>>& radio)
       : joint_(joint),
         placement_(placement),
         mission_(mission),
-        candidates_(keys(candidates)),
+        candidates_(candidates),
         pruning_(pruning),
         params_(params),
         radio_(radio) {
@@ -80,7 +69,7 @@ class MatchSelector {
     const bool other = match.robot_i != match.robot_j;
     const bool is_tested = other && pruning_ == Pruning::kOn &&
                            connected_without_matches(placement_, match.robot_i, match.robot_j);
-    if (is_tested && !candidates_.contains({origin.robot_i, origin.stamp_i, origin.robot_j, origin.stamp_j}))
+    if (is_tested && !candidates_.contains(origin.robot_i, origin.stamp_i, origin.robot_j, origin.stamp_j))
       return set_aside(ends, reject(outcome, "the views cannot overlap"));
     if (is_tested && contradicts_radio(match, ends, outcome.statistic))
       return set_aside(ends, reject(outcome, "its relative pose contradicts the radio"));
@@ -173,7 +162,7 @@ class MatchSelector {
   JointGraph<Pose>& joint_;
   const TeamPlacement<Pose>& placement_;
   const Mission& mission_;
-  std::set<CandidateKey> candidates_;
+  const CandidateList& candidates_;
   Pruning pruning_;
   MatchParams params_;
   std::optional<AoaMatchWeights> angles_;  ///< only with angle_weights
@@ -212,9 +201,9 @@ std::optional<RadioCovariance<Pose>> radio_covariance(const JointGraph<Pose>& jo
 
 template <class Pose>
 std::vector<MatchOutcome> select_matches(JointGraph<Pose>& joint, const TeamPlacement<Pose>& placement,
-                                         const Mission& mission,
-                                         const std::vector<CandidateResult>& candidates, Pruning pruning,
-                                         const MatchParams& params, const AoaLikelihoodParams& likelihood,
+                                         const Mission& mission, const CandidateList& candidates,
+                                         Pruning pruning, const MatchParams& params,
+                                         const AoaLikelihoodParams& likelihood,
                                          const std::optional<RadioCovariance<Pose>>& radio) {
   return MatchSelector<Pose>(joint, placement, mission, candidates, pruning, params, likelihood, radio).run();
 }
@@ -335,16 +324,16 @@ void optimise_matches_and_radio(JointGraph<Pose>& joint, std::vector<MatchOutcom
   outcomes = std::move(outcomes_of_matches);
 }
 
-#define RADIOSLAM_MATCH_STAGE(Pose)                                                                          \
-  template std::optional<RadioCovariance<Pose>> radio_covariance(                                            \
-      const JointGraph<Pose>&, const TeamPlacement<Pose>&, const RadioAlignmentParams&);                     \
-  template std::vector<MatchOutcome> select_matches(                                                         \
-      JointGraph<Pose>&, const TeamPlacement<Pose>&, const Mission&, const std::vector<CandidateResult>&,    \
-      Pruning, const MatchParams&, const AoaLikelihoodParams&, const std::optional<RadioCovariance<Pose>>&); \
-  template void optimise_matches_and_radio(JointGraph<Pose>&, std::vector<MatchOutcome>&,                    \
-                                           const TeamPlacement<Pose>&, const MatchParams&,                   \
-                                           const MixtureParams&, const OptimizerParams&, const Progress&);   \
-  template void optimise_with_matches(JointGraph<Pose>&, std::vector<MatchOutcome>&, const MatchParams&,     \
+#define RADIOSLAM_MATCH_STAGE(Pose)                                                                        \
+  template std::optional<RadioCovariance<Pose>> radio_covariance(                                          \
+      const JointGraph<Pose>&, const TeamPlacement<Pose>&, const RadioAlignmentParams&);                   \
+  template std::vector<MatchOutcome> select_matches(                                                       \
+      JointGraph<Pose>&, const TeamPlacement<Pose>&, const Mission&, const CandidateList&, Pruning,        \
+      const MatchParams&, const AoaLikelihoodParams&, const std::optional<RadioCovariance<Pose>>&);        \
+  template void optimise_matches_and_radio(JointGraph<Pose>&, std::vector<MatchOutcome>&,                  \
+                                           const TeamPlacement<Pose>&, const MatchParams&,                 \
+                                           const MixtureParams&, const OptimizerParams&, const Progress&); \
+  template void optimise_with_matches(JointGraph<Pose>&, std::vector<MatchOutcome>&, const MatchParams&,   \
                                       const OptimizerParams&, const Progress&);
 RADIOSLAM_MATCH_STAGE(SE2)
 RADIOSLAM_MATCH_STAGE(SE3)

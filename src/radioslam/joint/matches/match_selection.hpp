@@ -53,9 +53,9 @@ std::optional<RadioCovariance<Pose>> radio_covariance(const JointGraph<Pose>& jo
 /// Tests every match and adds factors for those accepted. `joint` must be optimised and placed.
 template <class Pose>
 std::vector<MatchOutcome> select_matches(JointGraph<Pose>& joint, const TeamPlacement<Pose>& placement,
-                                         const Mission& mission,
-                                         const std::vector<CandidateResult>& candidates, Pruning pruning,
-                                         const MatchParams& params, const AoaLikelihoodParams& likelihood,
+                                         const Mission& mission, const CandidateList& candidates,
+                                         Pruning pruning, const MatchParams& params,
+                                         const AoaLikelihoodParams& likelihood,
                                          const std::optional<RadioCovariance<Pose>>& radio = {});
 
 /// As optimise_with_matches, for a team placed by radio links. Where the links between two robots contradict
