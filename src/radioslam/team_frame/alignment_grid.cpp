@@ -8,6 +8,7 @@
 #include "radioslam/geometry/se2.hpp"
 #include "radioslam/team_frame/line_of_sight/obstructed_range.hpp"
 #include "radioslam/team_frame/measurement_mixture.hpp"
+#include "radioslam/team_frame/unit_normal.hpp"
 
 namespace radioslam {
 namespace {
@@ -53,6 +54,23 @@ struct Prediction {
   double value = 0, variance = 0;
 };
 
+/// Logarithm of a product of factors between 1e-100 and 1e100; takes a logarithm now and then only.
+class LogOfProduct {
+ public:
+  void multiply_by(double factor) {
+    product_ *= factor;
+    if (product_ > kLarge || product_ < 1 / kLarge) {
+      log_ += std::log(product_);
+      product_ = 1;
+    }
+  }
+  double value() const { return log_ + std::log(product_); }
+
+ private:
+  static constexpr double kLarge = 1e200;
+  double log_ = 0, product_ = 1;
+};
+
 class Scorer {
  public:
   explicit Scorer(const GridProblem& problem) : problem_(problem) {}
@@ -60,7 +78,7 @@ class Scorer {
   Prediction range(const GridEnd& a, const GridEnd& b, const Cell& cell) const {
     const Eigen::Vector2d v = cell.offset + b.position - a.position;
     const double height = height_between(a, b, cell), flat = std::max(v.norm(), kNearest_m);
-    const double distance = std::hypot(flat, height);
+    const double distance = std::sqrt(flat * flat + height * height);
     const double slope = height / distance, bend = cell.variance_height / distance;
     return {distance, variance_along(v / flat, a, b, cell) * (flat / distance) * (flat / distance) +
                           slope * slope * cell.variance_height + bend * bend / 2};
@@ -92,21 +110,21 @@ class Scorer {
     return {std::atan2(received_by_placed ? height : -height, flat), variance};
   }
 
-  double log_likelihood(const GridRange& link, const GridEnd& b, const Cell& cell) const {
+  double likelihood(const GridRange& link, const GridEnd& b, const Cell& cell) const {
     const Prediction predicted = range(link.placed, b, cell);
     const double sigma = std::sqrt(predicted.variance + link.sigma_m * link.sigma_m);
     const double error = (predicted.value - link.range_m) / sigma;
     const MixtureParams& mixture = problem_.mixture;
-    double density = (1 - mixture.obstructed_share) * std::exp(-0.5 * error * error) /
+    double density = (1 - mixture.obstructed_share) * unit_normal(error * error) /
                      (std::sqrt(2 * std::numbers::pi) * sigma);
     if (mixture.obstructed_share > 0)
       density += mixture.obstructed_share * obstructed_probability(link.range_m - predicted.value, sigma) /
                  problem_.span_m;
-    return std::log((1 - mixture.false_range_probability) * density +
-                    mixture.false_range_probability / problem_.span_m);
+    return (1 - mixture.false_range_probability) * density +
+           mixture.false_range_probability / problem_.span_m;
   }
 
-  double log_likelihood(const GridBearing& link, const GridEnd& b, const Cell& cell) const {
+  double likelihood(const GridBearing& link, const GridEnd& b, const Cell& cell) const {
     const Prediction predicted = bearing(link.placed, b, cell, link.received_by_placed);
     const double direct = problem_.mixture.direct_probability * (1 - problem_.mixture.obstructed_share);
     double density = 1 - direct;
@@ -115,9 +133,9 @@ class Scorer {
           std::min(kWidestAzimuth_rad, std::sqrt(predicted.variance + link.sigma_rad[p] * link.sigma_rad[p]));
       const double error = wrap_angle(predicted.value - link.azimuth_rad[p]) / sigma;
       density += direct * link.prior[p] * std::sqrt(2 * std::numbers::pi) / sigma *
-                 std::exp(-0.5 * error * error) * elevation_ratio(link, p, b, cell);
+                 unit_normal(error * error) * elevation_ratio(link, p, b, cell);
     }
-    return std::log(density);
+    return density;
   }
 
  private:
@@ -131,7 +149,7 @@ class Scorer {
     const Prediction predicted = elevation(link.placed, b, cell, link.received_by_placed);
     const double sigma = std::sqrt(predicted.variance + link.sigma_rad[p] * link.sigma_rad[p]);
     const double error = (predicted.value - *link.elevation_rad[p]) / sigma;
-    return std::numbers::pi / (std::sqrt(2 * std::numbers::pi) * sigma) * std::exp(-0.5 * error * error);
+    return std::numbers::pi / (std::sqrt(2 * std::numbers::pi) * sigma) * unit_normal(error * error);
   }
 
   /// Correction where theta also rotates the receiver: (lever - 1)^2 instead of lever^2.
@@ -164,12 +182,12 @@ class HeadingScorer {
   }
 
   double log_likelihood(const Cell& cell) const {
-    double sum = 0;
+    LogOfProduct product;
     for (std::size_t l = 0; l < range_ends_.size(); ++l)
-      sum += scorer_.log_likelihood(problem_.ranges[l], range_ends_[l], cell);
+      product.multiply_by(scorer_.likelihood(problem_.ranges[l], range_ends_[l], cell));
     for (std::size_t l = 0; l < bearing_ends_.size(); ++l)
-      sum += scorer_.log_likelihood(problem_.bearings[l], bearing_ends_[l], cell);
-    return sum;
+      product.multiply_by(scorer_.likelihood(problem_.bearings[l], bearing_ends_[l], cell));
+    return product.value();
   }
 
  private:

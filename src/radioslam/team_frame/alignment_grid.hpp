@@ -30,6 +30,7 @@ struct GridParams {
   int references = 8;
   int peaks = 10;
   int max_links = 80;
+  int max_links_of_robot = 240;
   int max_sightings = 20;
 
   template <class Self, class Visitor>
@@ -50,6 +51,10 @@ struct GridParams {
                 "largest number of ranges per pair of robots, and of angles per receiver, in the alignment "
                 "search; more are thinned evenly"},
           self.max_links);
+    visit(Field{"max_links_of_robot", "", 8, 1e6,
+                "largest number of ranges per robot in the alignment search, over all partners, and of "
+                "angles received; pairs keep 8"},
+          self.max_links_of_robot);
     visit(Field{"max_sightings", "", 1, 1e6,
                 "largest number of sightings of one point per robot in the alignment search; more are "
                 "thinned evenly"},

@@ -10,6 +10,7 @@
 #include "radioslam/graph/residuals.hpp"
 #include "radioslam/team_frame/line_of_sight/detour_continuity.hpp"
 #include "radioslam/team_frame/line_of_sight/obstructed_range.hpp"
+#include "radioslam/team_frame/unit_normal.hpp"
 
 namespace radioslam {
 namespace {
@@ -27,13 +28,13 @@ double added(const std::vector<double>& inflation, std::size_t k, double inflati
 }
 
 double normal_density(double squared_norm, double sigma) {
-  return std::exp(-0.5 * squared_norm) / (std::sqrt(2 * kPi) * sigma);
+  return unit_normal(squared_norm) / (std::sqrt(2 * kPi) * sigma);
 }
 
 /// Density of a direction relative to the uniform density, of azimuths or over the sphere.
 double direction_density(double squared_norm, double sigma, bool azimuth_only) {
   const double peak = azimuth_only ? std::sqrt(2 * kPi) / sigma : 2 / (sigma * sigma);
-  return peak * std::exp(-0.5 * squared_norm);
+  return peak * unit_normal(squared_norm);
 }
 
 template <class Pose>

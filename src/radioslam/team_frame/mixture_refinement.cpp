@@ -48,14 +48,16 @@ class Stage {
       if (!step.allFinite()) continue;
       for (const double length : kStepLengths) {
         equations_.apply(length * step, mixture_.graph);
-        const double cost = mixture_.cost(inflation_, inflation_scale);
+        // Most steps are taken, so their weights are computed with the cost.
+        const double cost = mixture_.update_weights(inflation_, inflation_scale);
         if (cost <= cost_) {
-          cost_ = mixture_.update_weights(inflation_, inflation_scale);
+          cost_ = cost;
           return true;
         }
         start.restore(mixture_.graph);
       }
     }
+    mixture_.update_weights(inflation_, inflation_scale);
     return false;
   }
 
