@@ -73,6 +73,10 @@ TEST(CandidateList, MergesSortedLists) {
   other.append({robot(0), robot(1), {{0, 1, 7, 1.5F}, {1, 0, 4, 0.5F}}});
   other.append({robot(0), robot(2), {{1, 0, 8, 1}}});
   list.merge(other);
+  CandidateList last(stamps);
+  last.append({robot(1), robot(2), {{0, 0, 9, 1}}});
+  last.merge(list);
+  EXPECT_EQ(last.groups().back().robot_i, robot(1)) << "in the order of robots";
   EXPECT_EQ(plain(list), (std::vector<Plain>{{0, at(1).ns, 1, at(1).ns, 5, 1},
                                              {0, at(1).ns, 1, at(2).ns, 7, 1.5F},
                                              {0, at(2).ns, 1, at(1).ns, 4, 0.5F},

@@ -61,6 +61,23 @@ TEST(ThinLinks, LinksOfARobotOfALargeTeamDoNotGrowWithTheTeam) {
   EXPECT_EQ(kept_ranges(40, {}).first, 8U) << "a pair keeps enough to place one robot by the other";
 }
 
+TEST(ThinLinks, AnchorsAreNoPartners) {
+  TeamGraph<SE2> team = dense_team(2);
+  for (std::size_t anchor = 0; anchor < 28; ++anchor) {
+    team.graph.points.emplace_back();
+    team.graph.ranges.push_back({{PoseId(anchor), {}, {}}, {{}, PointId(anchor), {}}, 1, 0.5});
+  }
+  EXPECT_EQ(thin_links(team, {}).graph.ranges.size(), 80U + 28U);
+}
+
+TEST(ThinLinks, RangesAndAnglesHaveThePartnersOfEither) {
+  TeamGraph<SE2> team = dense_team(11);
+  std::erase_if(team.bearings, [](const auto& b) { return b.i.index() >= 200 || b.j.pose.index() >= 200; });
+  std::size_t angles = 0;
+  for (const auto& bearing : thin_links(team, {}).bearings) angles += bearing.i.index() < 100;
+  EXPECT_EQ(angles, 24U) << "as many as ranges of the same two robots";
+}
+
 TEST(ThinLinks, AnglesStayWithTheirRangesAndAreSpread) {
   const TeamGraph<SE2> thinned = thin_links(dense_team(11), {});
   std::map<std::size_t, int> angles_at;

@@ -83,22 +83,22 @@ std::vector<const FittedWindow*> concerned(const Correction& correction,
   return result;
 }
 
-/// The robots whose windows have the least likelihood per link.
+/// The robots of whose links the fewest are explained, by windows.
 std::set<std::string> suspects(const Mission& mission, const std::vector<FittedWindow>& windows) {
-  std::vector<std::pair<double, std::size_t>> by_likelihood;
+  std::vector<std::pair<double, std::size_t>> by_explained;
   for (std::size_t r = 0; r < mission.robots.size(); ++r) {
-    double log_likelihood = 0, links = 0;
+    double explained = 0, links = 0;
     for (const auto& [window, fit] : windows) {
       if (window.i != r && window.j != r) continue;
-      log_likelihood += fit.log_likelihood;
+      explained += fit.inlier_ratio * static_cast<double>(fit.links);
       links += static_cast<double>(fit.links);
     }
-    if (links > 0) by_likelihood.emplace_back(log_likelihood / links, r);
+    if (links > 0) by_explained.emplace_back(explained / links, r);
   }
-  std::sort(by_likelihood.begin(), by_likelihood.end());
+  std::sort(by_explained.begin(), by_explained.end());
   std::set<std::string> ids;
-  for (std::size_t k = 0; k < std::min(kSuspects, by_likelihood.size()); ++k)
-    ids.insert(mission.robots[by_likelihood[k].second].id);
+  for (std::size_t k = 0; k < std::min(kSuspects, by_explained.size()); ++k)
+    ids.insert(mission.robots[by_explained[k].second].id);
   return ids;
 }
 

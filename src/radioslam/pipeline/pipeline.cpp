@@ -43,7 +43,7 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const std::ve
   if (!mission.matches.empty() && !options.overlap_only)
     estimate = timed("matches", close_by_matches<Pose>, std::move(estimate), mission, *overlaps, params,
                      options, progress);
-  RunResult result = describe_run(mission, estimate, loops, overlaps, params, options, timed);
+  RunResult result = describe_run(mission, estimate, loops, std::move(overlaps), params, options, timed);
   return {std::move(result), std::move(estimate.joint.team.graph)};
 }
 

@@ -131,7 +131,7 @@ void add_uncertain_stretches(RunResult& result) {
 
 template <class Pose>
 RunResult describe_run(const Mission& mission, const TeamEstimate<Pose>& estimate,
-                       const std::vector<ScanClosure>& loops, const std::optional<OverlapStage>& overlaps,
+                       const std::vector<ScanClosure>& loops, std::optional<OverlapStage> overlaps,
                        const RunParams& params, const RunOptions& options, StageClock& timed) {
   const RadioMeasurements& radio = estimate.radio;
   const JointGraph<Pose>& joint = estimate.joint;
@@ -139,7 +139,7 @@ RunResult describe_run(const Mission& mission, const TeamEstimate<Pose>& estimat
   result.mission_name = mission.name;
   result.dimension = mission.dimension;
   result.range_biases = estimate.range_biases;
-  if (overlaps) add_overlaps(result, *overlaps);
+  if (overlaps) add_overlaps(result, std::move(*overlaps));
   add_estimate(result, mission, joint, estimate.placement, params.alignment.mixture, timed);
   for (std::size_t r = 0; r < mission.robots.size() && !options.overlap_only; ++r)
     result.robots[r].dense = dense_trajectory<Pose>(mission, joint, nullptr, r, result.robots[r]).poses;
@@ -162,10 +162,10 @@ RunResult describe_run(const Mission& mission, const TeamEstimate<Pose>& estimat
 }
 
 template RunResult describe_run(const Mission&, const TeamEstimate<SE2>&, const std::vector<ScanClosure>&,
-                                const std::optional<OverlapStage>&, const RunParams&, const RunOptions&,
+                                std::optional<OverlapStage>, const RunParams&, const RunOptions&,
                                 StageClock&);
 template RunResult describe_run(const Mission&, const TeamEstimate<SE3>&, const std::vector<ScanClosure>&,
-                                const std::optional<OverlapStage>&, const RunParams&, const RunOptions&,
+                                std::optional<OverlapStage>, const RunParams&, const RunOptions&,
                                 StageClock&);
 
 }  // namespace radioslam

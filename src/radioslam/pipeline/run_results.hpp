@@ -21,7 +21,7 @@ namespace radioslam {
 /// pairs were searched for. `timed` has timed the stages so far, and times those of the results.
 template <class Pose>
 RunResult describe_run(const Mission& mission, const TeamEstimate<Pose>& estimate,
-                       const std::vector<ScanClosure>& loops, const std::optional<OverlapStage>& overlaps,
+                       const std::vector<ScanClosure>& loops, std::optional<OverlapStage> overlaps,
                        const RunParams& params, const RunOptions& options, StageClock& timed);
 
 }  // namespace radioslam

@@ -47,8 +47,12 @@ struct FilledPair {
 
 std::vector<FilledPair> by_robots(const RunResult& result) {
   std::map<RobotPair, FilledPair> pairs;
+  const auto is_drawn = [&](RobotIndex robot) {
+    return robot.valid() && robot.index() < result.robots.size() &&
+           !result.robots[robot.index()].estimate.empty();
+  };
   for (const Group& group : result.candidates.groups()) {
-    if (group.rows.empty()) continue;
+    if (group.rows.empty() || !is_drawn(group.robot_i) || !is_drawn(group.robot_j)) continue;
     const RobotPair robots = std::minmax(group.robot_i.index(), group.robot_j.index());
     FilledPair& pair = pairs.try_emplace(robots, FilledPair{robots, {}, 0}).first->second;
     pair.groups.push_back(&group);

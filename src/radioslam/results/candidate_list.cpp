@@ -23,6 +23,7 @@ std::vector<CandidateList::Row> merged(const std::vector<CandidateList::Row>& a,
   rows.erase(std::unique(rows.begin(), rows.end(),
                          [](const auto& x, const auto& y) { return keyframes_of(x) == keyframes_of(y); }),
              rows.end());
+  rows.shrink_to_fit();
   return rows;
 }
 
@@ -72,6 +73,9 @@ void CandidateList::merge(const CandidateList& other) {
     Group& own = group(more.robot_i, more.robot_j);
     own.rows = merged(own.rows, more.rows);
   }
+  std::sort(groups_.begin(), groups_.end(), [](const Group& x, const Group& y) {
+    return std::pair(x.robot_i, x.robot_j) < std::pair(y.robot_i, y.robot_j);
+  });
 }
 
 void CandidateList::renumber_robots(const std::vector<RobotIndex>& robots) {

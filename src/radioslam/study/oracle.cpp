@@ -74,7 +74,7 @@ std::vector<EstimatedTrajectory> estimate(const Mission& labelled, const std::ve
     JointGraph<Pose> from_start = joint;
     start_from(start, from_start);
     const double cost = optimize(from_start.team.graph, OptimizerParams{}).final_cost;
-    if (cost >= least_cost) continue;
+    if (!(cost < least_cost)) continue;
     least_cost = cost;
     best = keyframe_poses(from_start);
   }

@@ -52,8 +52,8 @@ struct GridParams {
                 "search; more are thinned evenly"},
           self.max_links);
     visit(Field{"max_links_of_robot", "", 8, 1e6,
-                "largest number of ranges per robot in the alignment search, over all partners, and of "
-                "angles received; pairs keep 8"},
+                "largest number of ranges, and of received angles, per trajectory segment in the alignment "
+                "search; every pair keeps at least 8"},
           self.max_links_of_robot);
     visit(Field{"max_sightings", "", 1, 1e6,
                 "largest number of sightings of one point per robot in the alignment search; more are "

@@ -19,7 +19,11 @@ constexpr std::size_t kLeastLinks = 8;
 template <class Pose>
 class Thinning {
  public:
-  explicit Thinning(const TeamGraph<Pose>& team) : segment_of_(segment_of_poses(team)) {}
+  explicit Thinning(const TeamGraph<Pose>& team)
+      : segment_of_(segment_of_poses(team)), partners_(team.segments.size()) {
+    for (const auto& range : team.graph.ranges) connect(number(range.i), number(range.j));
+    for (const auto& bearing : team.bearings) connect(number(bearing.i), number(bearing.j));
+  }
 
   template <class Factor>
   std::vector<Factor> operator()(const std::vector<Factor>& factors, std::size_t most) const {
@@ -29,14 +33,9 @@ class Thinning {
   template <class Factor>
   std::vector<Factor> operator()(const std::vector<Factor>& factors, std::size_t most,
                                  std::size_t most_of_segment) const {
-    std::map<std::int64_t, std::set<std::int64_t>> partners;
-    for (const Factor& f : factors) {
-      partners[number(f.i)].insert(number(f.j));
-      partners[number(f.j)].insert(number(f.i));
-    }
     return kept(factors, [&](const Ends& ends) {
       if (ends.first < 0 || ends.second < 0) return most;  // a point
-      const std::size_t pairs = std::max(partners[ends.first].size(), partners[ends.second].size());
+      const std::size_t pairs = std::max(partners(ends.first), partners(ends.second));
       return std::min(most, std::max(kLeastLinks, most_of_segment / pairs));
     });
   }
@@ -59,7 +58,17 @@ class Thinning {
   /// Angles are thinned by receiver, so that those of the exchanges stay whose ranges do.
   Ends ends(const AmbiguousBearing<Pose>& bearing) const { return {number(bearing.i), number(bearing.j)}; }
 
+  void connect(std::int64_t a, std::int64_t b) {
+    if (a < 0 || b < 0) return;
+    partners_[static_cast<std::size_t>(a)].insert(b);
+    partners_[static_cast<std::size_t>(b)].insert(a);
+  }
+  std::size_t partners(std::int64_t segment) const {
+    return partners_[static_cast<std::size_t>(segment)].size();
+  }
+
   std::vector<std::size_t> segment_of_;
+  std::vector<std::set<std::int64_t>> partners_;  ///< segments with a measurement to each
 };
 
 }  // namespace

@@ -77,6 +77,30 @@ TYPED_TEST(OverlapSearchOf, SameBytesForAnyNumberOfThreads) {
   EXPECT_EQ(one.counts.boxes_visited, seven.counts.boxes_visited);
 }
 
+TYPED_TEST(OverlapSearchOf, RunsOfAnyLengthGiveTheSame) {
+  auto world = test::draw_world<TypeParam>(2, {3, 200, 6});
+  world.graph.relative_poses.erase(world.graph.relative_poses.begin() +
+                                   70);  // the first robot's chain breaks
+  const auto whole = JointCovariance<TypeParam>::compute(world.graph, world.robots);
+  ASSERT_TRUE(whole.has_value());
+  ASSERT_EQ(whole->runs(0).size(), 1U);
+  const auto expected = search_overlaps(*whole, world.sensors, {});
+  ASSERT_GT(expected.candidates.size(), 50U);
+  for (const std::size_t dense_scalars : {1U, 40000U}) {
+    const auto source = JointCovariance<TypeParam>::compute(world.graph, world.robots, dense_scalars);
+    ASSERT_GT(source->runs(0).size(), 1U);
+    const auto found = search_overlaps(*source, world.sensors, {});
+    ASSERT_EQ(found.candidates.size(), expected.candidates.size()) << dense_scalars;
+    EXPECT_EQ(found.counts.pairs, expected.counts.pairs);
+    for (std::size_t k = 0; k < found.candidates.size(); ++k) {
+      EXPECT_EQ(found.candidates[k].robot_b, expected.candidates[k].robot_b);
+      EXPECT_EQ(found.candidates[k].pose_a, expected.candidates[k].pose_a);
+      EXPECT_EQ(found.candidates[k].pose_b, expected.candidates[k].pose_b);
+      EXPECT_NEAR(found.candidates[k].mahalanobis, expected.candidates[k].mahalanobis, 1e-6);
+    }
+  }
+}
+
 TEST(OverlapSearchTest, RobotsWithoutTiesHaveNoCandidates) {
   const auto world = test::draw_world<SE2>(1, {2, 30, 0}, false);
   const auto by_link = search_overlaps(LinkCovariance<SE2>(world.chains, {}), world.sensors, {});

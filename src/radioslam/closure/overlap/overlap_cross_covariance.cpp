@@ -8,11 +8,6 @@
 #include "radioslam/base/parallel.hpp"
 
 namespace radioslam {
-namespace {
-
-constexpr std::size_t kNoDrift = ~std::size_t{0};
-
-}  // namespace
 
 template <class Pose>
 std::shared_ptr<const SkeletonCovariance<Pose>> SkeletonCovariance<Pose>::compute(
@@ -223,6 +218,7 @@ Eigen::Matrix<double, kRows, kColumns> CovariancesOfRobot<Pose>::with(const List
   const Listed& of_a = skeleton_->listed(a_)[u];
   if (!v.is_free || !of_a.is_free) return Block::Zero();
   const Place& at = places_[u];
+  RADIOSLAM_CHECK(at.batch != kNone, "the variable belongs to the segments asked for");
   const Batch& batch = batches_[at.batch];
   const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, kRows>> map(v.by_boundary, v.boundary, kRows);
   Block block =

@@ -12,7 +12,10 @@
 
 namespace radioslam {
 
-/// Variables of a segment as indices into a list; the largest number for a drift that is not there.
+/// The index of a drift that is not there.
+inline constexpr std::size_t kNoDrift = ~std::size_t{0};
+
+/// Variables of a segment as indices into a list.
 struct SegmentPlaces {
   std::size_t first = 0, last = 0, drift = 0;
 };
@@ -21,16 +24,6 @@ struct SegmentPlaces {
 struct SegmentVariables {
   PoseId first, last;
   DriftId drift{};
-};
-
-/// Variables of a robot's segments, each once.
-struct ListedVariables {
-  /// Variables of a segment as indices into the list; a segment without a drift has the index past the last.
-  struct Places {
-    std::size_t first, last, drift;
-  };
-  std::vector<Variable> variables;
-  std::vector<Places> segments;
 };
 
 /// Inverse of the reduced graph's information matrix. Thread-safe.
@@ -114,8 +107,9 @@ class CovariancesOfRobot {
     std::vector<Eigen::MatrixXd> with_boundary;  ///< per part: boundary x columns
     std::vector<Eigen::MatrixXd> local;  ///< per variable: scalars of its part x size; empty for separators
   };
+  static constexpr std::size_t kNone = ~std::size_t{0};
   struct Place {
-    std::size_t batch = 0, variable = 0;
+    std::size_t batch = kNone, variable = 0;
     Eigen::Index column = 0;
   };
   using Listed = typename SkeletonCovariance<Pose>::Listed;

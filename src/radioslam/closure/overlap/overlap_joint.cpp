@@ -211,8 +211,10 @@ PoseSpread JointCovariance<Pose>::spread(std::size_t robot, std::size_t pose, st
 
 template <class Pose>
 std::vector<PoseInterval> JointCovariance<Pose>::runs(std::size_t a) const {
-  const std::size_t segments =
-      std::max<std::size_t>(1, dense_scalars_ / CovariancesOfRobot<Pose>::scalars_per_variable(*skeleton_));
+  constexpr std::size_t kVariablesOfSegment = 3;  // at most; mostly one, since segments share their ends
+  const std::size_t of_segment =
+      kVariablesOfSegment * CovariancesOfRobot<Pose>::scalars_per_variable(*skeleton_);
+  const std::size_t segments = std::max<std::size_t>(1, dense_scalars_ / of_segment);
   std::vector<PoseInterval> runs;
   const std::vector<Record>& records = robots_[a].records;
   for (std::size_t begin = 0; begin < records.size();) {

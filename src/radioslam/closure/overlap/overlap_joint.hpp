@@ -1,6 +1,6 @@
 // Relative pose covariance in mode "joint": between any two poses of a team, under the joint Gaussian of a
-// pose graph at its current values. Equal to Marginals::relative_pose, at O(1) small matrix products per
-// pair.
+// pose graph at its current values. Equal to Marginals::relative_pose, with a product of two
+// small matrices per pair.
 //
 // Given its ends c1, c2 and the drift, pose k of a segment (keyframe_skeleton.hpp) is conditionally
 // independent of everything outside. In left perturbations (overlap_relative.hpp):
@@ -11,10 +11,10 @@
 //
 // P comes from a partition of the skeleton's elimination tree (graph/linear/partitioned_inverse.hpp). What it
 // takes of robot a is computed once for all later robots. A search visits a's poses in runs for which that
-// fits into `dense_scalars`, all other robots within a run. Results are the same for any runs.
-// Trajectories of different graph components are not compared. Returns nothing if the normal equations are
-// singular. Cost: O(poses), one factorisation of the skeleton, and per pair of poses the product of two maps
-// onto the boundaries of their parts.
+// fits into `dense_scalars`, all other robots within a run. Results are the same for any runs, up to
+// rounding. Trajectories of different graph components are not compared. Returns nothing if the normal
+// equations are singular. Cost: O(poses), one factorisation of the skeleton, and per pair of poses the
+// product of two maps onto the boundaries of their parts.
 #pragma once
 
 #include <cstdint>
@@ -69,8 +69,8 @@ class JointCovariance {
  public:
   using View = JointView<Pose>;
   using Record = typename View::Record;
-  /// Of a run: 128 MiB of covariances.
-  static constexpr std::size_t kDenseScalars = std::size_t{1} << 24;
+  /// Of a run: at most 256 MiB of covariances, mostly a third of it.
+  static constexpr std::size_t kDenseScalars = std::size_t{1} << 25;
   using Columns = std::shared_ptr<const CovariancesOfRobot<Pose>>;
 
   /// One chain per robot, in the order of the mission.
@@ -90,6 +90,7 @@ class JointCovariance {
   /// What the covariances of a run of robot a's poses with any other robot take.
   Columns columns(std::size_t a, const PoseInterval& run) const;
   View view(std::size_t a, std::size_t b, const Columns& columns_of_a) const;
+  /// For all of a's poses, whatever that takes.
   View view(std::size_t a, std::size_t b) const;
 
   /// Covariance of T_k^-1 T_l (right perturbation) between searched poses k, l of robots a < b.

@@ -89,7 +89,8 @@ OverlapCounts search_overlaps(const Source& source, const std::vector<OverlapSen
   using Pose = typename Source::View::Pose;
   std::vector<OverlapTree<Pose>> trees(source.robots());
   parallel_for(trees.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t r = begin; r < end; ++r) trees[r] = OverlapTreeBuilder<Source>(source, r).build();
+    for (std::size_t r = std::max<std::size_t>(begin, 1); r < end; ++r)
+      trees[r] = OverlapTreeBuilder<Source>(source, r).build();
   });
   return over_team(source, sensors, params, take, [&](std::uint32_t a, const PoseInterval& run) {
     return [&, tree = OverlapTreeBuilder<Source>(source, a).build(run)](const OverlapPair<Source>& pair) {

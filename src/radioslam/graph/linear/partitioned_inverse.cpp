@@ -12,8 +12,10 @@ namespace {
 
 /// Rows that are solved for at once.
 constexpr std::size_t kRows = 48;
-/// Scalars of a part: at least so many, and about a fraction of all, unless the separators get too many.
-constexpr std::size_t kMinPartScalars = 256, kWantedParts = 16, kMaxSeparatorScalars = 4096;
+/// Scalars of a part: at least so many, and about a fraction of all.
+constexpr std::size_t kMinPartScalars = 256, kWantedParts = 16;
+/// 128 and 256 MiB.
+constexpr std::size_t kMaxSeparatorScalars = 4096, kMaxMapScalars = std::size_t{1} << 25;
 
 /// Scalars of every front and all below it.
 std::vector<std::size_t> subtree_scalars(const FrontTree& tree) {
@@ -25,21 +27,37 @@ std::vector<std::size_t> subtree_scalars(const FrontTree& tree) {
   return scalars;
 }
 
-/// Scalars of the fronts whose subtrees are larger.
-std::size_t separator_count(const FrontTree& tree, const std::vector<std::size_t>& scalars,
-                            std::size_t part_scalars) {
-  std::size_t count = 0;
-  for (std::size_t f = 0; f < tree.fronts.size(); ++f)
-    if (scalars[f] > part_scalars) count += tree.fronts[f].pivots;
-  return count;
+/// What parts of a size take.
+struct PartCosts {
+  std::size_t separator_scalars = 0;
+  std::size_t map_scalars = 0;  ///< of the maps from the parts to their boundaries
+};
+
+PartCosts part_costs(const FrontTree& tree, const std::vector<std::size_t>& scalars,
+                     std::size_t part_scalars) {
+  PartCosts costs;
+  std::vector<std::size_t> boundary(tree.fronts.size());  // of the part that a front belongs to
+  for (std::size_t f = tree.fronts.size(); f-- > 0;) {
+    const Front& front = tree.fronts[f];
+    const bool is_separator = front.parent == kNoParent || scalars[f] > part_scalars;
+    boundary[f] = is_separator ? front.scalars() : boundary[front.parent];
+    costs.map_scalars += front.pivots * boundary[f];
+    if (is_separator) costs.separator_scalars += front.pivots;
+  }
+  return costs;
 }
 
+/// About a fraction of all scalars; more where separators or maps would take too much memory.
 std::size_t wanted_part_scalars(const FrontTree& tree) {
   const auto scalars = subtree_scalars(tree);
-  std::size_t wanted = std::max(kMinPartScalars, tree.scalars() / kWantedParts);
-  while (separator_count(tree, scalars, wanted) > kMaxSeparatorScalars && wanted < tree.scalars())
-    wanted *= 2;
-  return wanted;
+  std::size_t cheapest = tree.scalars(), least = ~std::size_t{0};
+  for (std::size_t size = std::max(kMinPartScalars, tree.scalars() / kWantedParts);; size *= 2) {
+    const PartCosts costs = part_costs(tree, scalars, size);
+    if (costs.separator_scalars <= kMaxSeparatorScalars && costs.map_scalars <= kMaxMapScalars) return size;
+    const std::size_t all = costs.separator_scalars * costs.separator_scalars + costs.map_scalars;
+    if (all < least) least = all, cheapest = size;
+    if (size >= tree.scalars()) return cheapest;
+  }
 }
 
 /// Calls body(first row in the front, first scalar, rows) for the blocks below a front's pivots.

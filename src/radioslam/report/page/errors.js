@@ -56,7 +56,7 @@ function draw_errors(context, x, y) {
   context.lineJoin = "round";
   for (const robot of judged()) {
     if (error_view.dead_reckoning && robot.dead_reckoning_errors) curve(robot, robot.dead_reckoning_errors, 1, [4, 3], many ? 0.16 : 0.8);
-    if (error_view.stated && robot.errors.sigma_m) curve(robot, robot.errors, 1, [1, 3], many ? 0.16 : 0.9, robot.errors.sigma_m.map(s => stated_sigmas * s));
+    if (error_view.stated && robot.errors.sigma_m) curve(robot, robot.errors, 1.2, [6, 3, 1, 3], many ? 0.16 : 0.8, robot.errors.sigma_m.map(s => stated_sigmas * s));
     curve(robot, robot.errors, many ? 1 : 1.7, [], many ? 0.16 : 1);
   }
   context.setLineDash([]);
@@ -149,7 +149,7 @@ function write_errors() {
     choice("over", [["t", "time"], ["along_m", "path length"]], error_view.along, v => set("along", v)),
     choice("scale", [["linear", "linear"], ["log", "logarithmic"]], error_view.scale, v => set("scale", v)),
     report.accuracy.dead_reckoning ? check("dead reckoning (dashed)", error_view.dead_reckoning, v => set("dead_reckoning", v)) : "",
-    robots.some(r => r.errors && r.errors.sigma_m) ? check(`${stated_sigmas} stated standard deviations (dotted)`, error_view.stated, v => set("stated", v)) : "");
+    robots.some(r => r.errors && r.errors.sigma_m) ? check(`${stated_sigmas} stated standard deviations (dash-dotted)`, error_view.stated, v => set("stated", v)) : "");
   const { rpe, share_within_3_sigma: within } = report.accuracy;
   by_id("errors-caption").textContent = "Position error at the stamps of the truth, after one rigid alignment of the whole team"
     + (report.accuracy.dead_reckoning ? "; dead reckoning after an alignment of its own." : ".")

@@ -113,8 +113,8 @@ std::vector<std::string> notes() {
        "reproduced ones do not, since matches are given."),
       ("[3] The thesis's baseline is DiSCo-SLAM with loosened thresholds, which has no radio. The reproduced "
        "matches are drawn; without radio the largest group of consistent matches places the robots."),
-      ("Without pruning, the matches face the largest consistent set, a robust loss and the radio links; by "
-       "least squares, only the links."),
+      ("Without pruning, the largest consistent set, a robust loss and the radio links oppose the false "
+       "matches; in the row of least squares, the radio links alone."),
       ("[4] The printed figure is unreadable ('13'). 1.3 m would be 98 % less than 66.1 m; the claimed 99 % "
        "needs 0.66 m, 1 m when rounded. The thesis does not define its ATE ('average trajectory error'). "
        "Here it is the RMSE after one rigid alignment of the team."),
