@@ -58,11 +58,15 @@ struct BlockCholesky::Impl {
   ConstPanel panel(const Front& front) const {
     return {factor.data() + front.panel, index(front.scalars()), index(front.pivots)};
   }
-  Eigen::VectorXd in_elimination_order(const Eigen::VectorXd& original) const;
-  Eigen::VectorXd in_original_order(const Eigen::VectorXd& x) const;
-  Eigen::MatrixXd columns_in_original_order(const Eigen::MatrixXd& x) const;
-  void solve_forward_unit(FrontSolver& solver, std::size_t scalar, std::uint32_t front, Eigen::VectorXd& x,
-                          Eigen::MatrixXd::RowXpr result) const;
+  /// The columns of x from the blocks' scalars in one order to those in the other.
+  Eigen::MatrixXd in_elimination_order(const Eigen::MatrixXd& x) const {
+    return moved(x, tree->original_scalar, tree->first_scalar);
+  }
+  Eigen::MatrixXd in_original_order(const Eigen::MatrixXd& x) const {
+    return moved(x, tree->first_scalar, tree->original_scalar);
+  }
+  Eigen::MatrixXd moved(const Eigen::MatrixXd& x, const std::vector<std::size_t>& from,
+                        const std::vector<std::size_t>& to) const;
   void check_usable() const { RADIOSLAM_CHECK(usable, "there is no factor to use"); }
 };
 
@@ -111,45 +115,14 @@ bool BlockCholesky::Impl::eliminate(const SymmetricBlockMatrix& matrix, const Fr
   return true;
 }
 
-Eigen::VectorXd BlockCholesky::Impl::in_elimination_order(const Eigen::VectorXd& original) const {
-  Eigen::VectorXd x(original.size());
+Eigen::MatrixXd BlockCholesky::Impl::moved(const Eigen::MatrixXd& x, const std::vector<std::size_t>& from,
+                                           const std::vector<std::size_t>& to) const {
+  Eigen::MatrixXd result(x.rows(), x.cols());
   for (std::size_t at = 0; at < tree->blocks(); ++at) {
     const auto size = index(tree->block_size(at));
-    x.segment(index(tree->first_scalar[at]), size) = original.segment(index(tree->original_scalar[at]), size);
+    result.middleCols(index(to[at]), size) = x.middleCols(index(from[at]), size);
   }
-  return x;
-}
-
-Eigen::VectorXd BlockCholesky::Impl::in_original_order(const Eigen::VectorXd& x) const {
-  Eigen::VectorXd original(x.size());
-  for (std::size_t at = 0; at < tree->blocks(); ++at) {
-    const auto size = index(tree->block_size(at));
-    original.segment(index(tree->original_scalar[at]), size) = x.segment(index(tree->first_scalar[at]), size);
-  }
-  return original;
-}
-
-Eigen::MatrixXd BlockCholesky::Impl::columns_in_original_order(const Eigen::MatrixXd& x) const {
-  Eigen::MatrixXd original(x.rows(), x.cols());
-  for (std::size_t at = 0; at < tree->blocks(); ++at) {
-    const auto size = index(tree->block_size(at));
-    original.middleCols(index(tree->original_scalar[at]), size) =
-        x.middleCols(index(tree->first_scalar[at]), size);
-  }
-  return original;
-}
-
-/// L^-1 times the unit vector of a scalar in this front, in elimination order: only the path from the front
-/// to the root contributes. `x` is zero before and after.
-void BlockCholesky::Impl::solve_forward_unit(FrontSolver& solver, std::size_t scalar, std::uint32_t front,
-                                             Eigen::VectorXd& x, Eigen::MatrixXd::RowXpr result) const {
-  x[index(scalar)] = 1;
-  for (auto s = front; s != kNoParent; s = tree->fronts[s].parent) solver.forward(tree->fronts[s], x.data());
-  for (auto s = front; s != kNoParent; s = tree->fronts[s].parent) {
-    const Eigen::Index first = index(tree->fronts[s].first_scalar), pivots = index(tree->fronts[s].pivots);
-    result.segment(first, pivots) = x.segment(first, pivots).transpose();
-    x.segment(first, pivots).setZero();
-  }
+  return result;
 }
 
 BlockCholesky::BlockCholesky(const BlockPattern& pattern, const BlockCholeskyOptions& options)
@@ -179,11 +152,11 @@ Eigen::VectorXd BlockCholesky::solve(const Eigen::VectorXd& b) const {
   impl_->check_usable();
   RADIOSLAM_CHECK(b.size() == index(impl_->tree->scalars()), "the right-hand side has another length");
   FrontSolver solver(*impl_->tree, impl_->factor);
-  Eigen::VectorXd x = impl_->in_elimination_order(b);
+  Eigen::MatrixXd x = impl_->in_elimination_order(b.transpose());
   const auto& fronts = impl_->tree->fronts;
   for (const auto& front : fronts) solver.forward(front, x.data());
   for (auto front = fronts.rbegin(); front != fronts.rend(); ++front) solver.backward(*front, x.data());
-  return impl_->in_original_order(x);
+  return impl_->in_original_order(x).transpose();
 }
 
 Eigen::MatrixXd BlockCholesky::inverse_rows(const std::vector<std::size_t>& blocks) const {
@@ -194,17 +167,19 @@ Eigen::MatrixXd BlockCholesky::inverse_rows(const std::vector<std::size_t>& bloc
     RADIOSLAM_CHECK(block < tree.blocks(), "no such block");
     rows += index(tree.block_size(tree.place[block]));
   }
+  const auto column = [](std::size_t scalar) { return scalar; };
+  const auto to_the_root = [](std::uint32_t) { return true; };
   FrontSolver solver(tree, impl_->factor);
   Eigen::MatrixXd x = Eigen::MatrixXd::Zero(rows, index(tree.scalars()));
-  Eigen::VectorXd unit = Eigen::VectorXd::Zero(x.cols());
   Eigen::Index row = 0;
   for (const std::size_t block : blocks) {
     const std::size_t at = tree.place[block];
     for (std::size_t k = tree.first_scalar[at]; k < tree.first_scalar[at + 1]; ++k)
-      impl_->solve_forward_unit(solver, k, tree.front_of[at], unit, x.row(row++));
+      solver.forward_unit(k, tree.front_of[at], to_the_root, column, x.row(row++));
   }
-  for (auto front = tree.fronts.rbegin(); front != tree.fronts.rend(); ++front) solver.backward(*front, x);
-  return impl_->columns_in_original_order(x);
+  for (auto front = tree.fronts.rbegin(); front != tree.fronts.rend(); ++front)
+    solver.backward(*front, column, x);
+  return impl_->in_original_order(x);
 }
 
 double BlockCholesky::log_determinant() const {

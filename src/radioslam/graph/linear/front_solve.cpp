@@ -2,19 +2,8 @@
 
 #include <algorithm>
 
-#include "radioslam/graph/linear/front_kernels.hpp"
-
 namespace radioslam {
 namespace {
-
-/// Calls body(first row in the front, first scalar of x, rows) for the blocks below a front's pivots.
-template <class Body>
-void for_each_block_below(const FrontTree& tree, const Front& front, const Body& body) {
-  for (auto k = front.rows.begin; k < front.rows.end; ++k) {
-    const auto at = tree.row_blocks[k];
-    body(tree.row_starts[k], tree.first_scalar[at], tree.block_size(at));
-  }
-}
 
 /// In four interleaved sums, which the processor can add side by side.
 double dot(const double* a, const double* b, std::size_t count) {
@@ -44,7 +33,7 @@ void FrontSolver::forward(const Front& front, double* x) {
     for (std::size_t i = j + 1; i < n; ++i) rows[i] -= column[i] * value;
   }
   std::copy_n(rows, p, x + front.first_scalar);
-  for_each_block_below(tree_, front, [&](std::size_t row, std::size_t scalar, std::size_t count) {
+  for_each_block_below(tree_, front, [&](std::size_t row, std::size_t scalar, std::size_t count, auto) {
     for (std::size_t i = 0; i < count; ++i) x[scalar + i] += rows[row + i];
   });
 }
@@ -53,7 +42,7 @@ void FrontSolver::backward(const Front& front, double* x) {
   const std::size_t p = front.pivots, n = front.scalars();
   double* const rows = rows_.data();
   std::copy_n(x + front.first_scalar, p, rows);
-  for_each_block_below(tree_, front, [&](std::size_t row, std::size_t scalar, std::size_t count) {
+  for_each_block_below(tree_, front, [&](std::size_t row, std::size_t scalar, std::size_t count, auto) {
     for (std::size_t i = 0; i < count; ++i) rows[row + i] = x[scalar + i];
   });
   for (std::size_t j = p; j-- > 0;) {
@@ -61,17 +50,6 @@ void FrontSolver::backward(const Front& front, double* x) {
     rows[j] = (rows[j] - dot(column + j + 1, rows + j + 1, n - j - 1)) / column[j];
   }
   std::copy_n(rows, p, x + front.first_scalar);
-}
-
-void FrontSolver::backward(const Front& front, Eigen::MatrixXd& x) {
-  const auto right_sides = static_cast<std::size_t>(x.rows());
-  rows_.resize(std::max(rows_.size(), right_sides * front.below));
-  for_each_block_below(tree_, front, [&](std::size_t row, std::size_t scalar, std::size_t count) {
-    std::copy_n(x.data() + scalar * right_sides, count * right_sides,
-                rows_.data() + (row - front.pivots) * right_sides);
-  });
-  front_kernels().solve_back({front.pivots, front.below}, factor_.data() + front.panel, right_sides,
-                             rows_.data(), x.data() + front.first_scalar * right_sides);
 }
 
 }  // namespace radioslam

@@ -75,6 +75,16 @@ struct FrontTree {
   std::size_t block_size(std::size_t at) const { return first_scalar[at + 1] - first_scalar[at]; }
 };
 
+/// Calls body(first row in the front, first scalar, rows, front that eliminates them) for the blocks below a
+/// front's pivots.
+template <class Body>
+void for_each_block_below(const FrontTree& tree, const Front& front, const Body& body) {
+  for (auto k = front.rows.begin; k < front.rows.end; ++k) {
+    const auto at = tree.row_blocks[k];
+    body(std::size_t{tree.row_starts[k]}, tree.first_scalar[at], tree.block_size(at), tree.front_of[at]);
+  }
+}
+
 /// First scalar row, in the front, of the block at a place; nothing when the front does not have it.
 std::optional<std::uint32_t> find_row(const FrontTree& tree, const Front& front, std::uint32_t at);
 

@@ -4,7 +4,6 @@
 
 #include "radioslam/base/check.hpp"
 #include "radioslam/base/parallel.hpp"
-#include "radioslam/graph/linear/front_kernels.hpp"
 #include "radioslam/graph/linear/front_solve.hpp"
 
 namespace radioslam {
@@ -60,15 +59,6 @@ std::size_t wanted_part_scalars(const FrontTree& tree) {
   }
 }
 
-/// Calls body(first row in the front, first scalar, rows) for the blocks below a front's pivots.
-template <class Body>
-void for_blocks_below(const FrontTree& tree, const Front& front, const Body& body) {
-  for (auto k = front.rows.begin; k < front.rows.end; ++k) {
-    const auto at = tree.row_blocks[k];
-    body(tree.row_starts[k], tree.first_scalar[at], tree.block_size(at));
-  }
-}
-
 }  // namespace
 
 PartitionedInverse::PartitionedInverse(const FrontTree& tree, const NumberStore& factor,
@@ -90,7 +80,7 @@ void PartitionedInverse::find_parts(std::size_t part_scalars) {
     is_separator_[f] = front.parent == kNoParent || scalars[f] > part_scalars;
     if (is_separator_[f]) {
       part_[f] = static_cast<std::uint32_t>(parts_.size());
-      parts_.emplace_back();
+      parts_.emplace_back().pivots = front.pivots;
       separator_fronts_.push_back(f);
     } else {
       part_[f] = part_[front.parent];
@@ -102,23 +92,22 @@ void PartitionedInverse::find_parts(std::size_t part_scalars) {
 }
 
 void PartitionedInverse::number_scalars() {
-  front_.resize(tree_.scalars());
   column_.resize(tree_.scalars());
   separator_.assign(tree_.scalars(), kNone);
   for (std::uint32_t f = 0; f < tree_.fronts.size(); ++f) {
     const Front& front = tree_.fronts[f];
-    std::fill_n(front_.begin() + static_cast<std::ptrdiff_t>(front.first_scalar), front.pivots, f);
     for (std::size_t k = 0; k < front.pivots && !is_separator_[f]; ++k)
       column_[front.first_scalar + k] = static_cast<std::uint32_t>(parts_[part_[f]].scalars++);
   }
+  std::uint32_t separators = 0;
   for (const std::uint32_t f : separator_fronts_) {
     const Front& front = tree_.fronts[f];
     for (std::size_t k = 0; k < front.pivots; ++k) {
       column_[front.first_scalar + k] = static_cast<std::uint32_t>(parts_[part_[f]].scalars + k);
-      separator_[front.first_scalar + k] = static_cast<std::uint32_t>(separator_scalars_.size());
-      separator_scalars_.push_back(front.first_scalar + k);
+      separator_[front.first_scalar + k] = separators++;
     }
   }
+  separators_.resize(separators, separators);
 }
 
 /// Everything above a separator is one, too.
@@ -127,23 +116,10 @@ void PartitionedInverse::find_boundaries() {
     const Front& front = tree_.fronts[f];
     auto& boundary = parts_[part_[f]].boundary;
     for (std::size_t k = 0; k < front.pivots; ++k) boundary.push_back(separator_[front.first_scalar + k]);
-    for_blocks_below(tree_, front, [&](std::size_t, std::size_t scalar, std::size_t count) {
+    for_each_block_below(tree_, front, [&](std::size_t, std::size_t scalar, std::size_t count, auto) {
       for (std::size_t k = 0; k < count; ++k) boundary.push_back(separator_[scalar + k]);
     });
   }
-}
-
-template <class Column>
-void PartitionedInverse::back_substitute(const Front& front, const Column& column, Eigen::MatrixXd& x,
-                                         std::vector<double>& below) const {
-  const auto rows = static_cast<std::size_t>(x.rows());
-  below.resize(rows * front.below);
-  for_blocks_below(tree_, front, [&](std::size_t row, std::size_t scalar, std::size_t count) {
-    for (std::size_t k = 0; k < count; ++k)
-      std::copy_n(x.data() + column(scalar + k) * rows, rows, below.data() + (row - front.pivots + k) * rows);
-  });
-  front_kernels().solve_back({front.pivots, front.below}, factor_.data() + front.panel, rows, below.data(),
-                             x.data() + column(front.first_scalar) * rows);
 }
 
 void PartitionedInverse::find_maps() {
@@ -155,45 +131,22 @@ void PartitionedInverse::find_maps() {
 /// Back substitution from unit values on the boundary.
 void PartitionedInverse::find_map(Part& part) const {
   const Eigen::Index r = index(part.boundary.size()), n = index(part.scalars);
-  std::vector<std::uint32_t> on_boundary(separator_scalars_.size(), kNone);
-  std::size_t pivots = 0;
-  for (std::size_t k = 0; k < part.boundary.size(); ++k) {
+  std::vector<std::uint32_t> on_boundary(static_cast<std::size_t>(separators_.rows()), kNone);
+  for (std::size_t k = 0; k < part.boundary.size(); ++k)
     on_boundary[part.boundary[k]] = static_cast<std::uint32_t>(part.scalars + k);
-    pivots += &parts_[part_[front_[separator_scalars_[part.boundary[k]]]]] == &part ? 1U : 0U;
-  }
   const auto column = [&](std::size_t scalar) -> std::size_t {
     return separator_[scalar] == kNone ? column_[scalar] : on_boundary[separator_[scalar]];
   };
   Eigen::MatrixXd x = Eigen::MatrixXd::Zero(r, n + r);
   x.rightCols(r).setIdentity();
-  std::vector<double> below;
+  FrontSolver solver(tree_, factor_);
   for (auto f = part.fronts.rbegin(); f != part.fronts.rend(); ++f)
-    back_substitute(tree_.fronts[*f], column, x, below);
-  part.by_boundary = x.leftCols(n + index(pivots));
-}
-
-template <class Column>
-void PartitionedInverse::forward_unit(FrontSolver& solver, std::size_t scalar, bool to_the_root,
-                                      const Column& column, Eigen::VectorXd& unit,
-                                      Eigen::MatrixXd::RowXpr x) const {
-  const auto on_path = [&](std::uint32_t f) { return f != kNoParent && (to_the_root || !is_separator_[f]); };
-  unit[index(scalar)] = 1;
-  for (auto f = front_[scalar]; on_path(f); f = tree_.fronts[f].parent)
-    solver.forward(tree_.fronts[f], unit.data());
-  for (auto f = front_[scalar]; on_path(f); f = tree_.fronts[f].parent) {
-    const Front& front = tree_.fronts[f];
-    for (std::size_t k = 0; k < front.pivots; ++k)
-      x[index(column(front.first_scalar + k))] = unit[index(front.first_scalar + k)];
-    unit.segment(index(front.first_scalar), index(front.pivots)).setZero();
-    for_blocks_below(tree_, front, [&](std::size_t, std::size_t first, std::size_t count) {
-      if (!on_path(front_[first])) unit.segment(index(first), index(count)).setZero();
-    });
-  }
+    solver.backward(tree_.fronts[*f], column, x);
+  part.by_boundary = x.leftCols(n + index(part.pivots));
 }
 
 void PartitionedInverse::invert_separators() {
-  const std::size_t count = separator_scalars_.size();
-  separators_.resize(index(count), index(count));
+  const auto count = static_cast<std::size_t>(separators_.rows());
   parallel_for((count + kRows - 1) / kRows, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t piece = begin; piece < end; ++piece) {
       const std::size_t first = piece * kRows, last = std::min(count, first + kRows);
@@ -205,13 +158,16 @@ void PartitionedInverse::invert_separators() {
 Eigen::MatrixXd PartitionedInverse::separator_rows(std::size_t first, std::size_t last) const {
   const auto column = [&](std::size_t scalar) -> std::size_t { return separator_[scalar]; };
   FrontSolver solver(tree_, factor_);
-  Eigen::VectorXd unit = Eigen::VectorXd::Zero(index(tree_.scalars()));
-  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(index(last - first), index(separator_scalars_.size()));
-  for (std::size_t s = first; s < last; ++s)
-    forward_unit(solver, separator_scalars_[s], true, column, unit, x.row(index(s - first)));
-  std::vector<double> below;
+  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(index(last - first), separators_.cols());
+  const auto to_the_root = [](std::uint32_t) { return true; };
+  for (const std::uint32_t f : separator_fronts_) {
+    const Front& front = tree_.fronts[f];
+    for (std::size_t k = front.first_scalar; k < front.first_scalar + front.pivots; ++k)
+      if (separator_[k] >= first && separator_[k] < last)
+        solver.forward_unit(k, f, to_the_root, column, x.row(index(separator_[k] - first)));
+  }
   for (auto f = separator_fronts_.rbegin(); f != separator_fronts_.rend(); ++f)
-    back_substitute(tree_.fronts[*f], column, x, below);
+    solver.backward(tree_.fronts[*f], column, x);
   return x;
 }
 
@@ -226,18 +182,17 @@ Eigen::MatrixXd PartitionedInverse::local_rows(const std::vector<std::size_t>& b
     RADIOSLAM_CHECK(&parts_[part_of(block)] == &part && !is_separator(block), "blocks are inside one part");
     rows += place_of(block).size;
   }
+  const auto is_inside = [&](std::uint32_t f) { return !is_separator_[f]; };
   FrontSolver solver(tree_, factor_);
-  Eigen::VectorXd unit = Eigen::VectorXd::Zero(index(tree_.scalars()));
   Eigen::MatrixXd x = Eigen::MatrixXd::Zero(rows, index(part.scalars + 1));
   Eigen::Index row = 0;
   for (const std::size_t block : blocks) {
     const std::size_t at = tree_.place[block];
     for (std::size_t scalar = tree_.first_scalar[at]; scalar < tree_.first_scalar[at + 1]; ++scalar)
-      forward_unit(solver, scalar, false, column, unit, x.row(row++));
+      solver.forward_unit(scalar, tree_.front_of[at], is_inside, column, x.row(row++));
   }
-  std::vector<double> below;
   for (auto f = part.fronts.rbegin(); f != part.fronts.rend(); ++f)
-    back_substitute(tree_.fronts[*f], column, x, below);
+    solver.backward(tree_.fronts[*f], column, x);
   return x.leftCols(index(part.scalars));
 }
 

@@ -18,7 +18,6 @@ namespace radioslam {
 
 struct Front;
 struct FrontTree;
-class FrontSolver;
 class NumberStore;
 
 /// Refers to the factor it was made from. Thread-safe.
@@ -51,8 +50,8 @@ class PartitionedInverse {
   struct Part {
     std::vector<std::uint32_t> fronts;  ///< that are no separators, children before parents
     std::vector<std::uint32_t> boundary;
-    std::size_t scalars = 0;
-    Eigen::MatrixXd by_boundary;  ///< A^T of the part's own scalars, then of its separator's
+    std::size_t scalars = 0, pivots = 0;  ///< of those fronts; of the separator
+    Eigen::MatrixXd by_boundary;          ///< A^T of the part's own scalars, then of its separator's
   };
   struct Place {
     std::size_t part = 0;
@@ -68,26 +67,15 @@ class PartitionedInverse {
   void find_map(Part& part) const;
   void invert_separators();
   Eigen::MatrixXd separator_rows(std::size_t first, std::size_t last) const;
-  /// L^-1 times a unit vector on the path from a front upwards, up to the first separator or to the root; the
-  /// result by column(scalar) in a row of x. `unit` is zero before and after.
-  template <class Column>
-  void forward_unit(FrontSolver& solver, std::size_t scalar, bool to_the_root, const Column& column,
-                    Eigen::VectorXd& unit, Eigen::MatrixXd::RowXpr x) const;
-  /// L^-T, a front's part, for the rows of x, where a scalar's values are in column(scalar).
-  template <class Column>
-  void back_substitute(const Front& front, const Column& column, Eigen::MatrixXd& x,
-                       std::vector<double>& below) const;
 
   const FrontTree& tree_;
   const NumberStore& factor_;
   std::vector<bool> is_separator_;   ///< per front
   std::vector<std::uint32_t> part_;  ///< per front
   std::vector<Part> parts_;
-  std::vector<std::uint32_t> front_;      ///< per scalar in elimination order
-  std::vector<std::uint32_t> column_;     ///< the same: in its part's by_boundary
-  std::vector<std::uint32_t> separator_;  ///< the same: in `separators_`, or kNone
+  std::vector<std::uint32_t> column_;     ///< per scalar in elimination order: in its part's by_boundary
+  std::vector<std::uint32_t> separator_;  ///< per scalar in elimination order: in `separators_`, or kNone
   std::vector<std::uint32_t> separator_fronts_;
-  std::vector<std::size_t> separator_scalars_;  ///< in elimination order, by their index in `separators_`
   Eigen::MatrixXd separators_;
 };
 
