@@ -65,7 +65,7 @@ struct CityParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"robots", "", 1, 26, "number of robots in the team"}.basic(), self.robots);
+    visit(Field{"robots", "", 1, 100, "number of robots in the team"}.basic(), self.robots);
     visit(Field{"dimension", "", 2, 3, "dimension of the mission: 2 for a plane, 3 for gentle hills"}.basic(),
           self.dimension);
     visit(Field{"path_length_m", "m", 10, 1e6, "path length of each robot"}.basic(), self.path_length_m);

@@ -59,7 +59,7 @@ struct CorridorsParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"robots", "", 1, 26, "number of robots in the team"}.basic(), self.robots);
+    visit(Field{"robots", "", 1, 100, "number of robots in the team"}.basic(), self.robots);
     visit(Field{"corridor_m", "m", 5, 10000, "length of the two long corridors, from room to room"}.basic(),
           self.corridor_m);
     visit(Field{"cross_corridor_m", "m", 5, 10000, "length of the two short corridors, from room to room"},

@@ -64,7 +64,7 @@ struct CsiRoomParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"robots", "", 1, 26, "number of robots in the team"}.basic(), self.robots);
+    visit(Field{"robots", "", 1, 100, "number of robots in the team"}.basic(), self.robots);
     visit(Field{"room_x_m", "m", 3, 200, "length of the room along x"}.basic(), self.room_x_m);
     visit(Field{"room_y_m", "m", 3, 200, "length of the room along y"}.basic(), self.room_y_m);
     visit(Field{"inner_walls", "", 0, 2, "number of walls that reach halfway into the room"},

@@ -51,7 +51,7 @@ struct HallParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"robots", "", 1, 26, "number of robots in the team"}.basic(), self.robots);
+    visit(Field{"robots", "", 1, 100, "number of robots in the team"}.basic(), self.robots);
     visit(Field{"hall_x_m", "m", 5, 500, "long side of the hall"}.basic(), self.hall_x_m);
     visit(Field{"hall_y_m", "m", 5, 500, "short side of the hall"}.basic(), self.hall_y_m);
     visit(Field{"pillar_spacing_m", "m", 2, 50, "spacing of the pillars"}, self.pillar_spacing_m);
