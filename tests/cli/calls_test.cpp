@@ -19,7 +19,7 @@ bool is_one_line(const std::string& text) {
 }
 
 /// Expects exit status 2, nothing on standard output, no file, and one line with `reason` in it.
-void expect_refused(const std::vector<std::string>& arguments, const std::string& reason) {
+void expect_call_refused(const std::vector<std::string>& arguments, const std::string& reason) {
   const TemporaryFolder folder;
   const auto outcome = run(arguments, folder.path());
   EXPECT_EQ(outcome.status, 2) << outcome.err;
@@ -57,22 +57,22 @@ TEST(Calls, VersionIsOneLine) {
 }
 
 TEST(Calls, MisspellingsAreRefusedWithASuggestion) {
-  expect_refused({"optimise"}, "did you mean optimize?");
-  expect_refused({"--verison"}, "did you mean --version?");
-  expect_refused({"optimize", "g.g2o", "-o", "out.g2o", "--jsn"}, "did you mean --json?");
-  expect_refused({"simulate", "carpak", "-o", "m"}, "did you mean carpark?");
-  expect_refused({"simulate", "carpark", "-o", "m", "--set", "robot=2"}, "did you mean robots?");
-  expect_refused({"run", "m", "-o", "out", "--set", "keyfram.distance_m=1"},
-                 "did you mean keyframe.distance_m?");
-  expect_refused({"import", "indoor", "x", "-o", "m"}, "unknown kind of source");
+  expect_call_refused({"optimise"}, "did you mean optimize?");
+  expect_call_refused({"--verison"}, "did you mean --version?");
+  expect_call_refused({"optimize", "g.g2o", "-o", "out.g2o", "--jsn"}, "did you mean --json?");
+  expect_call_refused({"simulate", "carpak", "-o", "m"}, "did you mean carpark?");
+  expect_call_refused({"simulate", "carpark", "-o", "m", "--set", "robot=2"}, "did you mean robots?");
+  expect_call_refused({"run", "m", "-o", "out", "--set", "keyfram.distance_m=1"},
+                      "did you mean keyframe.distance_m?");
+  expect_call_refused({"import", "indoor", "x", "-o", "m"}, "unknown kind of source");
 }
 
 TEST(Calls, MissingAndSurplusArgumentsAreRefused) {
-  expect_refused({"optimize"}, "GRAPH is required");
-  expect_refused({"optimize", "g.g2o"}, "--output is required");
-  expect_refused({"optimize", "g.g2o", "h.g2o", "-o", "out"}, "unexpected argument 'h.g2o'");
-  expect_refused({"evaluate", "out"}, "MISSION is required");
-  expect_refused({"similarity", "a.csv", "-o", "pairs.csv"}, "--measure is required");
+  expect_call_refused({"optimize"}, "GRAPH is required");
+  expect_call_refused({"optimize", "g.g2o"}, "--output is required");
+  expect_call_refused({"optimize", "g.g2o", "h.g2o", "-o", "out"}, "unexpected argument 'h.g2o'");
+  expect_call_refused({"evaluate", "out"}, "MISSION is required");
+  expect_call_refused({"similarity", "a.csv", "-o", "pairs.csv"}, "--measure is required");
 }
 
 /// Writes `file`, runs the program, and expects an error that leaves the file unchanged.
@@ -109,26 +109,27 @@ TEST(Calls, WhatIsBesideAnInputIsWritten) {
 }
 
 TEST(Calls, ValuesOutOfRangeAreRefused) {
-  expect_refused({"run", "m", "-o", "out", "--set", "keyframe.distance_m=0"}, "0.01 to 1000 m");
-  expect_refused({"run", "m", "-o", "out", "--threads", "0"}, "--threads");
-  expect_refused({"simulate", "carpark", "-o", "m", "--robots", "0"}, "--robots");
-  expect_refused({"simulate", "carpark", "-o", "m", "--seed", "x"}, "--seed");
-  expect_refused({"simulate", "carpark", "-o", "m", "--seed", "-1"}, "--seed: '-1' is not");
-  expect_refused({"simulate", "carpark", "-o", "m", "--seed", "18446744073709551616"}, "--seed");
-  expect_refused({"simulate", "carpark", "-o", "m", "--seed", "1.5"}, "--seed");
+  expect_call_refused({"run", "m", "-o", "out", "--set", "keyframe.distance_m=0"}, "0.01 to 1000 m");
+  expect_call_refused({"run", "m", "-o", "out", "--threads", "0"}, "--threads");
+  expect_call_refused({"simulate", "carpark", "-o", "m", "--robots", "0"}, "--robots");
+  expect_call_refused({"simulate", "carpark", "-o", "m", "--seed", "x"}, "--seed");
+  expect_call_refused({"simulate", "carpark", "-o", "m", "--seed", "-1"}, "--seed: '-1' is not");
+  expect_call_refused({"simulate", "carpark", "-o", "m", "--seed", "18446744073709551616"}, "--seed");
+  expect_call_refused({"simulate", "carpark", "-o", "m", "--seed", "1.5"}, "--seed");
   for (const char* radius : {"-1", "nan", "inf", "1e999", "x", ""})
-    expect_refused({"evaluate", "out", "m", "--radius", radius}, "--radius");
+    expect_call_refused({"evaluate", "out", "m", "--radius", radius}, "--radius");
   for (const char* minimum : {"-0.1", "nan", "1.1", "-inf"})
-    expect_refused({"similarity", "a.csv", "--measure", "cosine", "-o", "p.csv", "--min", minimum}, "--min");
+    expect_call_refused({"similarity", "a.csv", "--measure", "cosine", "-o", "p.csv", "--min", minimum},
+                        "--min");
 }
 
 TEST(Calls, MissingInputsAreNamed) {
-  expect_refused({"run", "nowhere", "-o", "out"}, "nowhere");
-  expect_refused({"evaluate", "nowhere", "nowhere"}, "nowhere");
-  expect_refused({"optimize", "nothing.g2o", "-o", "out.g2o"}, "nothing.g2o");
-  expect_refused({"import", "indoor-location", "nowhere", "-o", "out"}, "nowhere");
-  expect_refused({"similarity", "a.csv", "--measure", "cosine", "-o", "pairs.csv"}, "a.csv");
-  expect_refused({"run", "m", "-o", "out", "--config", "none.yaml"}, "none.yaml");
+  expect_call_refused({"run", "nowhere", "-o", "out"}, "nowhere");
+  expect_call_refused({"evaluate", "nowhere", "nowhere"}, "nowhere");
+  expect_call_refused({"optimize", "nothing.g2o", "-o", "out.g2o"}, "nothing.g2o");
+  expect_call_refused({"import", "indoor-location", "nowhere", "-o", "out"}, "nowhere");
+  expect_call_refused({"similarity", "a.csv", "--measure", "cosine", "-o", "pairs.csv"}, "a.csv");
+  expect_call_refused({"run", "m", "-o", "out", "--config", "none.yaml"}, "none.yaml");
 }
 
 TEST(Calls, SettingsMayFollowOneAnother) {
@@ -190,7 +191,7 @@ TEST(Calls, IndefiniteInformationIsRefusedOrRepairedOnDemand) {
 }
 
 TEST(Calls, CertifyIsRefusedPlainly) {
-  expect_refused({"optimize", "g.g2o", "-o", "o.g2o", "--certify"}, "--certify");
+  expect_call_refused({"optimize", "g.g2o", "-o", "o.g2o", "--certify"}, "--certify");
 }
 
 TEST(Calls, ParametersListUnitsAndRanges) {

@@ -36,10 +36,9 @@ class Missions : public testing::Test {
   }
 
  private:
-  static TemporaryFolder* shared_;
+  inline static TemporaryFolder* shared_ = nullptr;
   TemporaryFolder folder_;
 };
-TemporaryFolder* Missions::shared_ = nullptr;
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const auto at = text.find(from);

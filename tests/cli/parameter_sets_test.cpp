@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kMaxHelpLength = 160;
 
-std::string refusal(const std::string& name) {
+std::string refusal_of_set(const std::string& name) {
   try {
     parameter_set(name);
     return {};
@@ -91,7 +91,7 @@ TEST(ParameterSets, CoverScenariosImportsAndTables) {
     EXPECT_EQ(parameter_set("simulate " + std::string(scenario.name)).name(), scenario.name);
   for (const ImportKind& kind : import_kinds()) {
     const auto taken = std::find(kind.options.begin(), kind.options.end(), ImportOption::kParameters);
-    const std::string refused = refusal(std::string("import ") + kind.name);
+    const std::string refused = refusal_of_set(std::string("import ") + kind.name);
     EXPECT_EQ(taken == kind.options.end(), refused.ends_with("this import has no parameters")) << kind.name;
     EXPECT_EQ(taken != kind.options.end(), refused.empty()) << kind.name << ": " << refused;
   }
@@ -100,7 +100,7 @@ TEST(ParameterSets, CoverScenariosImportsAndTables) {
   int found = 0;
   for (std::string line; std::getline(tables, line);) {
     if (!line.starts_with("  ")) continue;
-    const std::string refused = refusal("reproduce " + line.substr(2, line.find(':') - 2));
+    const std::string refused = refusal_of_set("reproduce " + line.substr(2, line.find(':') - 2));
     EXPECT_TRUE(refused.empty() || refused.ends_with("this table has no parameters")) << refused;
     ++found;
   }
@@ -112,11 +112,11 @@ TEST(ParameterSets, AreFoundByCallAndByName) {
   EXPECT_EQ(parameter_set("aoa").call, "aoa");
   EXPECT_EQ(parameter_set("reproduce aoa").call, "reproduce aoa");
   EXPECT_EQ(parameter_set("kitti").call, "simulate kitti");
-  EXPECT_EQ(refusal("import kitti"), "parameters import kitti: this import has no parameters");
-  EXPECT_EQ(refusal("evaluate"), "parameters evaluate: this command has no parameters");
-  EXPECT_EQ(refusal("overlap-growth"), "parameters overlap-growth: this table has no parameters");
+  EXPECT_EQ(refusal_of_set("import kitti"), "parameters import kitti: this import has no parameters");
+  EXPECT_EQ(refusal_of_set("evaluate"), "parameters evaluate: this command has no parameters");
+  EXPECT_EQ(refusal_of_set("overlap-growth"), "parameters overlap-growth: this table has no parameters");
   EXPECT_EQ(
-      refusal("citty"),
+      refusal_of_set("citty"),
       "parameters citty: unknown command, scenario, kind of import or table; did you mean city or kitti?");
 }
 

@@ -34,12 +34,12 @@ struct TripParams {
   }
 };
 
-Setting option(const std::string& key, const std::string& value) {
+Setting option_of(const std::string& key, const std::string& value) {
   return {key, value, "--set " + key + "=" + value, 0};
 }
 
 /// The error that with_settings reports for the setting; empty if it is accepted.
-std::string refusal(const Setting& setting) {
+std::string refusal_of_setting(const Setting& setting) {
   try {
     with_settings(TripParams{}, {setting});
     return {};
@@ -50,8 +50,8 @@ std::string refusal(const Setting& setting) {
 
 TEST(Parameters, AreSetBySectionAndName) {
   const auto trip =
-      with_settings(TripParams{}, {option("back.step_m", "1.5"), option("there.steps", "7"),
-                                   option("there.backwards", "true"), option("back.gait", "run")});
+      with_settings(TripParams{}, {option_of("back.step_m", "1.5"), option_of("there.steps", "7"),
+                                   option_of("there.backwards", "true"), option_of("back.gait", "run")});
   EXPECT_EQ(trip.back.step_m, 1.5);
   EXPECT_EQ(trip.there.step_m, 0.7);
   EXPECT_EQ(trip.there.steps, 7);
@@ -60,42 +60,43 @@ TEST(Parameters, AreSetBySectionAndName) {
 }
 
 TEST(Parameters, TheLastSettingWins) {
-  EXPECT_EQ(with_settings(WalkParams{}, {option("steps", "7"), option("steps", "8")}).steps, 8);
+  EXPECT_EQ(with_settings(WalkParams{}, {option_of("steps", "7"), option_of("steps", "8")}).steps, 8);
 }
 
 TEST(Parameters, TheEndsOfTheRangeBelongToIt) {
-  EXPECT_EQ(with_settings(WalkParams{}, {option("step_m", "2")}).step_m, 2);
-  EXPECT_EQ(with_settings(WalkParams{}, {option("step_m", "0.1")}).step_m, 0.1);
+  EXPECT_EQ(with_settings(WalkParams{}, {option_of("step_m", "2")}).step_m, 2);
+  EXPECT_EQ(with_settings(WalkParams{}, {option_of("step_m", "0.1")}).step_m, 0.1);
 }
 
 TEST(Parameters, OutOfRangeIsRefusedWithRangeAndUnit) {
-  EXPECT_EQ(refusal(option("there.step_m", "2.5")),
+  EXPECT_EQ(refusal_of_setting(option_of("there.step_m", "2.5")),
             "--set there.step_m=2.5: '2.5' is not a number from 0.1 to 2 m");
-  EXPECT_EQ(refusal(option("there.steps", "0")),
+  EXPECT_EQ(refusal_of_setting(option_of("there.steps", "0")),
             "--set there.steps=0: '0' is not a whole number from 1 to 100");
 }
 
 TEST(Parameters, MalformedValuesAreRefused) {
   for (const char* text : {"", "x", "1x", "nan", "inf", "-inf", "1e999", " 1", "1,5"}) {
-    EXPECT_NE(refusal(option("there.step_m", text)), "") << text;
+    EXPECT_NE(refusal_of_setting(option_of("there.step_m", text)), "") << text;
   }
   for (const char* text : {"1.5", "99999999999999999999", "x", ""}) {
-    EXPECT_NE(refusal(option("there.steps", text)), "") << text;
+    EXPECT_NE(refusal_of_setting(option_of("there.steps", text)), "") << text;
   }
-  EXPECT_NE(refusal(option("there.backwards", "maybe")), "");
-  EXPECT_EQ(refusal(option("there.gait", "fly")), "--set there.gait=fly: 'fly' is not one of walk, run");
+  EXPECT_NE(refusal_of_setting(option_of("there.backwards", "maybe")), "");
+  EXPECT_EQ(refusal_of_setting(option_of("there.gait", "fly")),
+            "--set there.gait=fly: 'fly' is not one of walk, run");
 }
 
 TEST(Parameters, AFileIsNamedWithItsLine) {
-  EXPECT_EQ(refusal({"there.steps", "0", "trip.yaml", 4}),
+  EXPECT_EQ(refusal_of_setting({"there.steps", "0", "trip.yaml", 4}),
             "trip.yaml:4: 'there.steps: 0' is not a whole number from 1 to 100");
 }
 
 TEST(Parameters, AnUnknownNameIsRefusedWithSuggestions) {
   EXPECT_EQ(
-      refusal(option("there.stpes", "3")),
+      refusal_of_setting(option_of("there.stpes", "3")),
       "--set there.stpes=3: unknown parameter 'there.stpes'; did you mean there.steps or there.step_m?");
-  EXPECT_EQ(refusal(option("gait", "run")),
+  EXPECT_EQ(refusal_of_setting(option_of("gait", "run")),
             "--set gait=run: unknown parameter 'gait'; did you mean back.gait or there.gait?");
 }
 
@@ -116,7 +117,7 @@ TEST(Parameters, EffectiveParametersMarkChanges) {
 TEST(Parameters, TextsReadBackAsTheSameNumber) {
   for (const double value : {0.1, 1.0 / 3, 1e-300, 123456789.125, std::nextafter(1.0, 2.0)}) {
     const Field field{"x", "", -1e300, 1e300, ""};
-    EXPECT_EQ(parse_value<double>(field, option("x", value_text(value))), value);
+    EXPECT_EQ(parse_value<double>(field, option_of("x", value_text(value))), value);
   }
 }
 

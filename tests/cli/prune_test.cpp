@@ -38,9 +38,8 @@ class Prune : public testing::Test {
   }
 
  private:
-  static TemporaryFolder* folder_;
+  inline static TemporaryFolder* folder_ = nullptr;
 };
-TemporaryFolder* Prune::folder_ = nullptr;
 
 std::size_t rows(const std::string& csv) {
   return static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')) - 1;

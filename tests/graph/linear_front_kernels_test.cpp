@@ -72,7 +72,7 @@ void expect_close(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const char
   EXPECT_LE((a - b).cwiseAbs().maxCoeff(), 1e-10 * (1 + b.cwiseAbs().maxCoeff())) << what;
 }
 
-void expect_agrees_with_dense(const Front& front, const Worked& worked) {
+void expect_front_agrees_with_dense(const Front& front, const Worked& worked) {
   const auto p = static_cast<Eigen::Index>(front.shape.pivots);
   const auto r = static_cast<Eigen::Index>(front.shape.below);
   const Eigen::MatrixXd pivots = front.matrix.topLeftCorner(p, p),
@@ -113,7 +113,7 @@ TEST(FrontKernels, AgreeWithDenseAndGiveTheSameBytesForEveryInstructionSet) {
     const auto kernels = available_front_kernels();
     const auto first = work(kernels.front(), front);
     ASSERT_TRUE(first.positive);
-    expect_agrees_with_dense(front, first);
+    expect_front_agrees_with_dense(front, first);
     for (const auto& other : kernels) {
       const auto second = work(other, front);
       EXPECT_EQ(first.panel, second.panel) << other.instruction_set;

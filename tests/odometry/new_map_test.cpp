@@ -77,13 +77,13 @@ Mission mission_of_drive(const ScanDrive& drive) {
   return mission;
 }
 
-std::size_t scan_at(const ScanDrive& drive, Stamp stamp) {
+std::size_t scan_number_at(const ScanDrive& drive, Stamp stamp) {
   return static_cast<std::size_t>(std::find(drive.stamps.begin(), drive.stamps.end(), stamp) -
                                   drive.stamps.begin());
 }
 
 SE3 true_step(const ScanDrive& drive, Stamp from, Stamp to) {
-  return drive.truth[scan_at(drive, from)].inverse() * drive.truth[scan_at(drive, to)];
+  return drive.truth[scan_number_at(drive, from)].inverse() * drive.truth[scan_number_at(drive, to)];
 }
 
 bool is_noted(const std::vector<std::string>& notes, const std::string& words) {

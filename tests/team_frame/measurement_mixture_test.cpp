@@ -10,7 +10,6 @@
 namespace radioslam {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kDistance_m = 10;  ///< to the transmitter
 
 BearingPath<SE2> path(double azimuth_rad, double sigma_rad, double power_db) {
@@ -54,7 +53,7 @@ TEST(MeasurementMixture, AnAnglesDensityIntegratesToOneOverTheCircle) {
   constexpr int kSteps = 720;
   double sum = 0;
   for (int k = 0; k < kSteps; ++k) {
-    put_transmitter(mixture, 2 * kPi * k / kSteps);
+    put_transmitter(mixture, 2 * std::numbers::pi * k / kSteps);
     sum += likelihood(mixture);
   }
   // The chord's normal density differs from von Mises by a relative sigma^2 / 8 in its constant.
@@ -69,7 +68,7 @@ TEST(MeasurementMixture, ADirectionsDensityIntegratesToOneOverTheSphere) {
   for (int r = 0; r < kRings; ++r)  // rings of equal area
     for (int k = 0; k < kSteps; ++k) {
       const double z = 2 * (r + 0.5) / kRings - 1, level = std::sqrt(1 - z * z);
-      const double azimuth = 2 * kPi * k / kSteps;
+      const double azimuth = 2 * std::numbers::pi * k / kSteps;
       mixture.graph.poses[1] =
           SE3(10 * Eigen::Vector3d(level * std::cos(azimuth), level * std::sin(azimuth), z),
               Eigen::Quaterniond::Identity());
@@ -86,7 +85,7 @@ TEST(MeasurementMixture, AnAzimuthInSpaceHasTheDensityOfTheCircleAtAnyElevation)
     constexpr int kSteps = 720;
     double sum = 0;
     for (int k = 0; k < kSteps; ++k) {
-      const double azimuth = 2 * kPi * k / kSteps;
+      const double azimuth = 2 * std::numbers::pi * k / kSteps;
       mixture.graph.poses[1] =
           SE3({10 * std::cos(azimuth), 10 * std::sin(azimuth), z_m}, Eigen::Quaterniond::Identity());
       sum += likelihood(mixture);
@@ -124,7 +123,7 @@ MixtureGraph<SE2> ranged(double distance_m, double range_m, const MixtureParams&
 
 TEST(MeasurementMixture, ARangesDensityIntegratesToOneOverTheSpan) {
   const double e = MixtureParams{}.false_range_probability;
-  const double of_the_longest = (1 - e) / (std::sqrt(2 * kPi) * 0.5) + e / 100;
+  const double of_the_longest = (1 - e) / (std::sqrt(2 * std::numbers::pi) * 0.5) + e / 100;
   constexpr double kStep_m = 0.05;
   double sum = 0;
   for (int k = 0; k < 2000; ++k)
@@ -138,7 +137,7 @@ TEST(MeasurementMixture, ARangesWeightIsThePosteriorOfBeingDirect) {
   auto near = ranged(40, 40.5, params), far = ranged(40, 45, params);
   near.update_weights({}, 0);
   far.update_weights({}, 0);
-  const double direct = 0.9 * std::exp(-0.5) / (std::sqrt(2 * kPi) * 0.5);
+  const double direct = 0.9 * std::exp(-0.5) / (std::sqrt(2 * std::numbers::pi) * 0.5);
   EXPECT_NEAR(near.graph.ranges[0].weight, direct / (direct + 0.1 / 100), 1e-12);
   EXPECT_LT(far.graph.ranges[0].weight, 1e-10);
 }
@@ -171,7 +170,7 @@ TEST(MeasurementMixture, PathWeightsArePosteriors) {
   std::vector<double> terms;
   for (std::size_t p = 0; p < 3; ++p) {
     const double chord = 2 * std::sin((azimuth - azimuths[p]) / 2) / sigmas[p];
-    terms.push_back(params.direct_probability * priors[p] * std::sqrt(2 * kPi) / sigmas[p] *
+    terms.push_back(params.direct_probability * priors[p] * std::sqrt(2 * std::numbers::pi) / sigmas[p] *
                     std::exp(-chord * chord / 2));
   }
   const double total = 1 - params.direct_probability + terms[0] + terms[1] + terms[2];

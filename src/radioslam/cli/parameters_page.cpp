@@ -24,14 +24,14 @@ std::string cell(std::string_view text) {
   return escaped;
 }
 
-std::string with_unit(const ParameterDescription& parameter) {
+std::string name_with_unit(const ParameterDescription& parameter) {
   return parameter.default_value + (parameter.unit.empty() ? "" : " " + parameter.unit);
 }
 
 std::string table(const Descriptions& parameters) {
   std::string text = "\n| parameter | default | range | meaning |\n| --- | --- | --- | --- |\n";
   for (const ParameterDescription& parameter : parameters)
-    text += "| `" + parameter.key + "` | " + cell(with_unit(parameter)) + " | " + cell(parameter.range) +
+    text += "| `" + parameter.key + "` | " + cell(name_with_unit(parameter)) + " | " + cell(parameter.range) +
             " | " + cell(parameter.description) + " |\n";
   return text;
 }
@@ -77,7 +77,7 @@ std::string reference(const ParameterSet& set) {
   for (std::size_t k = 0; k < own.size(); ++k)
     if (own[k].default_value != other[k].default_value)
       differences +=
-          (differences.empty() ? ", but with " : ", ") + ("`" + own[k].key + "` = ") + with_unit(own[k]);
+          (differences.empty() ? ", but with " : ", ") + ("`" + own[k].key + "` = ") + name_with_unit(own[k]);
   return "- `" + std::string(set.call) + "`: as `" + std::string(set.like) + "`" + differences + "\n";
 }
 

@@ -87,7 +87,7 @@ PageData matrix(const RunResult& result, const FilledPair& pair, std::size_t max
           {"bins_j", bins_j}, {"cell", std::move(cell)}, {"count", std::move(count)}};
 }
 
-PageData counted(const RunResult& result, const char* key) {
+PageData count_of(const RunResult& result, const char* key) {
   const auto found = result.counts.find(key);
   return found == result.counts.end() ? PageData() : rounded(found->second, 0);
 }
@@ -106,8 +106,8 @@ PageData candidate_data(const RunResult& result, const ReportParams& params) {
   PageData matrices = PageData::array();
   for (const FilledPair& pair : pairs) matrices.push_back(matrix(result, pair, max_bins));
   return {{"kept", result.candidates.size()},
-          {"pairs", counted(result, "pairs")},
-          {"distances_evaluated", counted(result, "distances_evaluated")},
+          {"pairs", count_of(result, "pairs")},
+          {"distances_evaluated", count_of(result, "distances_evaluated")},
           {"robot_pairs", robot_pairs},
           {"matrices", std::move(matrices)}};
 }

@@ -13,7 +13,7 @@
 namespace radioslam {
 namespace {
 
-using Group = std::pair<ClosureKind, ClosureStatus>;
+using ClosureGroup = std::pair<ClosureKind, ClosureStatus>;
 using Reason = std::tuple<ClosureKind, ClosureStatus, std::string>;
 
 const char* name(ClosureKind kind) {
@@ -38,8 +38,8 @@ const char* name(ClosureStatus status) {
   return status == ClosureStatus::kAccepted ? "accepted" : "rejected";
 }
 
-std::map<Group, std::vector<std::size_t>> by_group(const std::vector<ClosureResult>& closures) {
-  std::map<Group, std::vector<std::size_t>> groups;
+std::map<ClosureGroup, std::vector<std::size_t>> by_group(const std::vector<ClosureResult>& closures) {
+  std::map<ClosureGroup, std::vector<std::size_t>> groups;
   for (std::size_t c = 0; c < closures.size(); ++c)
     groups[{closures[c].kind, closures[c].status}].push_back(c);
   return groups;

@@ -15,7 +15,6 @@
 namespace radioslam {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kReachOverItsSigma = 4;
 /// Weight of the prior of the obstructed share, in measurements.
 constexpr double kPriorMeasurements = 2;
@@ -27,13 +26,13 @@ double added(const std::vector<double>& inflation, std::size_t k, double inflati
   return inflation.empty() ? 0 : inflation_scale * inflation[k];
 }
 
-double normal_density(double squared_norm, double sigma) {
-  return unit_normal(squared_norm) / (std::sqrt(2 * kPi) * sigma);
+double density_of_normal(double squared_norm, double sigma) {
+  return unit_normal(squared_norm) / (std::sqrt(2 * std::numbers::pi) * sigma);
 }
 
 /// Density of a direction relative to the uniform density, of azimuths or over the sphere.
 double direction_density(double squared_norm, double sigma, bool azimuth_only) {
-  const double peak = azimuth_only ? std::sqrt(2 * kPi) / sigma : 2 / (sigma * sigma);
+  const double peak = azimuth_only ? std::sqrt(2 * std::numbers::pi) / sigma : 2 / (sigma * sigma);
   return peak * unit_normal(squared_norm);
 }
 
@@ -44,14 +43,14 @@ bool is_azimuth(const BearingFactor<Pose>& factor) {
 
 /// A density of this height, or zero, after its variance grew; of a normal density exactly.
 double widened(double density, double added_variance) {
-  return density / std::sqrt(1 + 2 * kPi * density * density * added_variance);
+  return density / std::sqrt(1 + 2 * std::numbers::pi * density * density * added_variance);
 }
 
 /// Densities of the direct and the outlier term.
 std::array<double, 2> range_densities(double error_m, double sigma_m, double span_m,
                                       const MixtureParams& params) {
   const double error = error_m / sigma_m;
-  return {(1 - params.false_range_probability) * normal_density(error * error, sigma_m),
+  return {(1 - params.false_range_probability) * density_of_normal(error * error, sigma_m),
           params.false_range_probability / span_m};
 }
 

@@ -22,8 +22,8 @@ const std::string kAnchors = "\xef\xbb\xbf,x,y\nAP1,30.84,6.75\nAP2,0,0\n";
 const std::string kBetween =
     "Time Stamp (ms),M1-M2 RTT Distance (m),RTT std (m),RSS (dBm)\n1048,42.851,0.2,-68\n2116,0,0,-69\n";
 
-ImportedMission read(const std::string& first, const std::string& second,
-                     const std::string& between = kBetween) {
+ImportedMission read_trial(const std::string& first, const std::string& second,
+                           const std::string& between = kBetween) {
   WifiRttFiles files;
   files.phones.push_back(make_text("13.csv", first));
   files.phones.push_back(make_text("24.csv", second));
@@ -33,7 +33,7 @@ ImportedMission read(const std::string& first, const std::string& second,
 }
 
 TEST(WifiRtt, ReadsRangesLevelsAndTruth) {
-  const ImportedMission imported = read(
+  const ImportedMission imported = read_trial(
       header("M1") +
           "0,9,12.75,2.5,-83,0,0,0,0,0.1,\"[22.995, 11.15]\"\n275.5,9,0,0.1,-64,3,4,0,-50,0.1,\"[23, 11]\"\n",
       header("M2") + "10,9,12.5,0.1,-83,0,-3,0.1,0,0.1,\"[1, 2]\"\n");
@@ -59,20 +59,20 @@ TEST(WifiRtt, ReadsRangesLevelsAndTruth) {
 
 TEST(WifiRtt, RefusesOtherTables) {
   const std::string good = header("M1") + "0,9,12,2,-83,0,0,0,0,0,\"[2, 1]\"\n";
-  expect_refusal([&] { read(header("M1"), good); }, 1, "no rows");
-  expect_refusal([&] { read("M1 Time Stamp (ms),M1 Ground Truth\n", good); }, 1,
+  expect_refusal([&] { read_trial(header("M1"), good); }, 1, "no rows");
+  expect_refusal([&] { read_trial("M1 Time Stamp (ms),M1 Ground Truth\n", good); }, 1,
                  "no columns of an access point");
-  expect_refusal([&] { read(header("M1") + "0,9,12,2,-83,0,0,0,0,0,2,1\n", good); }, 2, "12 fields");
-  expect_refusal([&] { read(header("M1") + "0,9,12,2,-83,0,0,0,0,0,here\n", good); }, 2,
+  expect_refusal([&] { read_trial(header("M1") + "0,9,12,2,-83,0,0,0,0,0,2,1\n", good); }, 2, "12 fields");
+  expect_refusal([&] { read_trial(header("M1") + "0,9,12,2,-83,0,0,0,0,0,here\n", good); }, 2,
                  "not of the form [x, y]");
-  expect_refusal([&] { read(header("M1") + "0,9,12,2,-183,0,0,0,0,0,\"[2, 1]\"\n", good); }, 2,
+  expect_refusal([&] { read_trial(header("M1") + "0,9,12,2,-183,0,0,0,0,0,\"[2, 1]\"\n", good); }, 2,
                  "implausible");
-  expect_refusal([&] { read(header("M1") + "-1,9,12,2,-83,0,0,0,0,0,\"[2, 1]\"\n", good); }, 2,
+  expect_refusal([&] { read_trial(header("M1") + "-1,9,12,2,-83,0,0,0,0,0,\"[2, 1]\"\n", good); }, 2,
                  "time is implausible");
-  expect_refusal([&] { read(good + "0,far\n", good); }, 3, "2 fields");
+  expect_refusal([&] { read_trial(good + "0,far\n", good); }, 3, "2 fields");
   expect_refusal(
       [&] {
-        read(good, header("M2") + "5,9,1,2,-8,0,0,0,0,0,\"[2, 1]\"\n4,9,1,2,-8,0,0,0,0,0,\"[2, 1]\"\n");
+        read_trial(good, header("M2") + "5,9,1,2,-8,0,0,0,0,0,\"[2, 1]\"\n4,9,1,2,-8,0,0,0,0,0,\"[2, 1]\"\n");
       },
       3, "backwards");
   expect_refusal([] { import_wifi_rtt("/nowhere"); }, 0, "is not a folder");

@@ -13,12 +13,12 @@ const std::string kCovariance = " 0.04 0 0 0.04 0 0.01\n";
 const std::string kOdometry = "EDGE_SE2 1.5 A0 A1 1 0 0.5" + kCovariance + "EDGE_SE2 2.5 A1 A2 2 0 0" +
                               kCovariance + "EDGE_SE2 9 B7 B8 3 0 0" + kCovariance;
 
-TeamGraphFile<SE2> read(const std::string& content) {
+TeamGraphFile<SE2> read_pyfg(const std::string& content) {
   return std::get<TeamGraphFile<SE2>>(read_pyfg(make_text("t.pyfg", content)));
 }
 
 TEST(Pyfg, EachRobotIsAPieceReckonedFromTheIdentity) {
-  const auto file = read(kTwoRobots + kOdometry);
+  const auto file = read_pyfg(kTwoRobots + kOdometry);
   ASSERT_EQ(file.team.segments.size(), 2u);
   const TrajectorySegment& a = file.team.segments[0];
   const TrajectorySegment& b = file.team.segments[1];
@@ -36,7 +36,7 @@ TEST(Pyfg, EachRobotIsAPieceReckonedFromTheIdentity) {
 }
 
 TEST(Pyfg, VertexLinesAreTheTruthAndTheStamps) {
-  const auto file = read(kTwoRobots + kOdometry);
+  const auto file = read_pyfg(kTwoRobots + kOdometry);
   EXPECT_EQ(file.true_poses[1].translation(), Eigen::Vector2d(2, 2));
   EXPECT_EQ(file.true_points[1], Eigen::Vector2d(4, 4));
   EXPECT_EQ(file.team.graph.points[1], Eigen::Vector2d::Zero());
@@ -44,13 +44,13 @@ TEST(Pyfg, VertexLinesAreTheTruthAndTheStamps) {
 }
 
 TEST(Pyfg, EqualStampsAreSeparated) {
-  const auto file = read(kTwoRobots + kOdometry);
+  const auto file = read_pyfg(kTwoRobots + kOdometry);
   const auto& stamps = file.team.segments[1].stamps;
   EXPECT_EQ(stamps[1].ns, stamps[0].ns + 1);
 }
 
 TEST(Pyfg, CovariancesBecomeInformation) {
-  const auto file = read(kTwoRobots + "EDGE_SE2 0 A0 A1 1 0 0 0.04 0.01 0 0.04 0.002 0.01\n");
+  const auto file = read_pyfg(kTwoRobots + "EDGE_SE2 0 A0 A1 1 0 0 0.04 0.01 0 0.04 0.002 0.01\n");
   Eigen::Matrix3d covariance;
   covariance << 0.04, 0.01, 0, 0.01, 0.04, 0.002, 0, 0.002, 0.01;
   EXPECT_LT((file.team.graph.relative_poses[0].information * covariance - Eigen::Matrix3d::Identity()).norm(),
@@ -58,7 +58,7 @@ TEST(Pyfg, CovariancesBecomeInformation) {
 }
 
 TEST(Pyfg, MissingOdometryBeginsANewPiece) {
-  const auto file = read(kTwoRobots + "EDGE_SE2 1 A1 A2 1 0 0" + kCovariance);
+  const auto file = read_pyfg(kTwoRobots + "EDGE_SE2 1 A1 A2 1 0 0" + kCovariance);
   ASSERT_EQ(file.team.segments.size(), 4u);
   EXPECT_EQ(file.team.segments[0].pose_count, 1u);
   EXPECT_EQ(file.team.segments[1].robot, "A");
@@ -68,8 +68,8 @@ TEST(Pyfg, MissingOdometryBeginsANewPiece) {
 }
 
 TEST(Pyfg, OtherEdgesBetweenPosesFollowTheOdometry) {
-  const auto file = read("EDGE_SE2 1 A0 A2 9 0 0" + kCovariance + "EDGE_SE2 1 B7 A0 8 0 0" + kCovariance +
-                         kTwoRobots + kOdometry + "EDGE_SE2 1 A0 A1 7 0 0" + kCovariance);
+  const auto file = read_pyfg("EDGE_SE2 1 A0 A2 9 0 0" + kCovariance + "EDGE_SE2 1 B7 A0 8 0 0" +
+                              kCovariance + kTwoRobots + kOdometry + "EDGE_SE2 1 A0 A1 7 0 0" + kCovariance);
   const auto& factors = file.team.graph.relative_poses;
   ASSERT_EQ(factors.size(), 6u);
   for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(factors[k].j.value, factors[k].i.value + 1);
@@ -80,10 +80,10 @@ TEST(Pyfg, OtherEdgesBetweenPosesFollowTheOdometry) {
 }
 
 TEST(Pyfg, OdometryBackwardsIsTurnedRound) {
-  const auto forward = read(kTwoRobots + "EDGE_SE2 1 A0 A1 1 2 0.5" + kCovariance);
+  const auto forward = read_pyfg(kTwoRobots + "EDGE_SE2 1 A0 A1 1 2 0.5" + kCovariance);
   const SE2 back = SE2({1, 2}, 0.5).inverse();
-  const auto backward = read(kTwoRobots + "EDGE_SE2 1 A1 A0 " + std::to_string(back.translation().x()) + " " +
-                             std::to_string(back.translation().y()) + " -0.5" + kCovariance);
+  const auto backward = read_pyfg(kTwoRobots + "EDGE_SE2 1 A1 A0 " + std::to_string(back.translation().x()) +
+                                  " " + std::to_string(back.translation().y()) + " -0.5" + kCovariance);
   const auto& factor = backward.team.graph.relative_poses[0];
   EXPECT_EQ(factor.i, PoseId(0));
   EXPECT_EQ(factor.j, PoseId(1));
@@ -98,9 +98,9 @@ TEST(Pyfg, OdometryBackwardsIsTurnedRound) {
 }
 
 TEST(Pyfg, RangesAndSightingsReachPosesAndPoints) {
-  const auto file = read(kTwoRobots + kOdometry +
-                         "EDGE_RANGE 1 A1 B8 4 0.04\nEDGE_RANGE 1 A1 L1 5 0.09\n"
-                         "EDGE_SE2_XY 1 B7 L0 2 1 0.25 0 0.16\n");
+  const auto file = read_pyfg(kTwoRobots + kOdometry +
+                              "EDGE_RANGE 1 A1 B8 4 0.04\nEDGE_RANGE 1 A1 L1 5 0.09\n"
+                              "EDGE_SE2_XY 1 B7 L0 2 1 0.25 0 0.16\n");
   const auto& graph = file.team.graph;
   ASSERT_EQ(graph.ranges.size(), 2u);
   EXPECT_EQ(graph.ranges[0].j.pose, PoseId(4));
@@ -114,8 +114,8 @@ TEST(Pyfg, RangesAndSightingsReachPosesAndPoints) {
 }
 
 TEST(Pyfg, APriorPutsAPieceIntoTheCommonFrame) {
-  const auto file = read(kTwoRobots + kOdometry + "VERTEX_SE2:PRIOR 0 A1 10 20 1" + kCovariance +
-                         "VERTEX_XY:PRIOR 0 L1 4 5 1 0 1\n");
+  const auto file = read_pyfg(kTwoRobots + kOdometry + "VERTEX_SE2:PRIOR 0 A1 10 20 1" + kCovariance +
+                              "VERTEX_XY:PRIOR 0 L1 4 5 1 0 1\n");
   EXPECT_TRUE(file.team.segments[0].in_common_frame);
   EXPECT_FALSE(file.team.segments[1].in_common_frame);
   const auto& poses = file.team.graph.poses;
@@ -146,7 +146,7 @@ struct BadLine {
 class MalformedPyfg : public testing::TestWithParam<BadLine> {};
 
 TEST_P(MalformedPyfg, IsRefusedWithItsLine) {
-  expect_refusal([] { read(kTwoRobots + GetParam().line + "\n"); }, 8, GetParam().words);
+  expect_refusal([] { read_pyfg(kTwoRobots + GetParam().line + "\n"); }, 8, GetParam().words);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -173,8 +173,8 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& instance) { return instance.param.name; });
 
 TEST(Pyfg, RefusesAGraphWithoutPoses) {
-  expect_refusal([] { read("VERTEX_XY L0 1 2\n"); }, 1, "no poses");
-  expect_refusal([] { read("# nothing\n"); }, 1, "no poses");
+  expect_refusal([] { read_pyfg("VERTEX_XY L0 1 2\n"); }, 1, "no poses");
+  expect_refusal([] { read_pyfg("# nothing\n"); }, 1, "no poses");
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 namespace radioslam {
 namespace {
 
-ImportedMission read(const std::string& log, const CarmenParams& params = {}) {
+ImportedMission read_carmen(const std::string& log, const CarmenParams& params = {}) {
   return read_carmen(make_text("log.clf", log), "a", params);
 }
 
@@ -22,7 +22,7 @@ std::string flaser(const std::string& readings, const std::string& odometry, con
 }
 
 TEST(Carmen, TurnsReadingsIntoPointsOfTheBody) {
-  const auto imported = read(
+  const auto imported = read_carmen(
       "# a comment\nPARAM robot_frontlaser_offset 0.5 nohost 0\nPARAM robot_rearlaser_offset 7 nohost 0\n"
       "SYNC start 0 nohost 0\n" +
       flaser("1 2 3", "0 0 0", "10.5") + flaser("9 -1 0", "0 0 0", "11"));
@@ -45,7 +45,7 @@ TEST(Carmen, TurnsReadingsIntoPointsOfTheBody) {
 double last_angle_deg(std::size_t n) {
   std::string line = "FLASER " + std::to_string(n);
   for (std::size_t k = 0; k < n; ++k) line += k + 1 < n ? " 0" : " 5";
-  const auto imported = read(line + " 0 0 0 0 0 0 1 h 0\n" + flaser("9 9 9", "0 0 0", "2"));
+  const auto imported = read_carmen(line + " 0 0 0 0 0 0 1 h 0\n" + flaser("9 9 9", "0 0 0", "2"));
   const Eigen::Vector3f point = imported.mission.robots[0].lidar.read(0).points.at(0);
   return static_cast<double>(std::atan2(point.y(), point.x())) * 180 / std::numbers::pi;
 }
@@ -59,8 +59,8 @@ TEST(Carmen, SpreadsReadingsOverHalfACircle) {
 
 TEST(Carmen, OdometryIsTheScansAndBeginsAtTheStart) {
   const auto imported =
-      read("ODOM 5 5 5 0 0 0 9 nohost 0\n" + flaser("1 2 3", "10 20 1.5707963267948966", "10") +
-           flaser("1 2 3", "10 22 1.5707963267948966", "11"));
+      read_carmen("ODOM 5 5 5 0 0 0 9 nohost 0\n" + flaser("1 2 3", "10 20 1.5707963267948966", "10") +
+                  flaser("1 2 3", "10 22 1.5707963267948966", "11"));
   const auto& odometry = imported.mission.robots[0].odometry;
   ASSERT_EQ(odometry.size(), 2U);
   EXPECT_EQ(odometry[0].stamp, Stamp{10'000'000'000});
@@ -70,8 +70,8 @@ TEST(Carmen, OdometryIsTheScansAndBeginsAtTheStart) {
 }
 
 TEST(Carmen, PutsALateLineBeforeThoseThatFollow) {
-  const auto imported = read(flaser("1 2 3", "0 0 0", "10") + flaser("1 2 3", "1 0 0", "12") +
-                             flaser("1 2 3", "2 0 0", "11") + flaser("1 2 3", "3 0 0", "13"));
+  const auto imported = read_carmen(flaser("1 2 3", "0 0 0", "10") + flaser("1 2 3", "1 0 0", "12") +
+                                    flaser("1 2 3", "2 0 0", "11") + flaser("1 2 3", "3 0 0", "13"));
   const Robot& robot = imported.mission.robots[0];
   EXPECT_EQ(robot.lidar.stamps,
             (std::vector<Stamp>{{10'000'000'000}, {10'999'999'000}, {11'000'000'000}, {13'000'000'000}}));
@@ -81,7 +81,7 @@ TEST(Carmen, PutsALateLineBeforeThoseThatFollow) {
 }
 
 TEST(Carmen, ReadsScansThatDescribeThemselves) {
-  const auto imported = read(
+  const auto imported = read_carmen(
       "ROBOTLASER1 0 -0.5 1 0.5 10 0.01 0 3 2 2 10 2 7 8 1 2 1.5707963267948966 1 1 1.5707963267948966 0 0 "
       "0.3 "
       "0.2 0 100.5 host 3\n");
@@ -96,7 +96,7 @@ TEST(Carmen, ReadsScansThatDescribeThemselves) {
 
 TEST(Carmen, ARearScannerLooksBackwards) {
   const auto imported =
-      read("PARAM robot_rearlaser_offset -0.25 nohost 0\nRLASER 3 1 2 99 0 0 0 0 0 0 1 h 0\n");
+      read_carmen("PARAM robot_rearlaser_offset -0.25 nohost 0\nRLASER 3 1 2 99 0 0 0 0 0 0 1 h 0\n");
   const LidarScan scan = imported.mission.robots[0].lidar.read(0);
   ASSERT_EQ(scan.points.size(), 2U);
   EXPECT_LT((scan.points[1] - Eigen::Vector3f(-2.25F, 0, 0)).norm(), 1e-6);
@@ -104,13 +104,15 @@ TEST(Carmen, ARearScannerLooksBackwards) {
 
 TEST(Carmen, RefusesWithTheLine) {
   const std::string good = flaser("1 2 3", "0 0 0", "10");
-  expect_refusal([&] { read("PARAM x y\n"); }, 0, "contains no scans");
-  expect_refusal([&] { read(good + "FLASER 3 1 2 3 0 0 0 0 0\n"); }, 2, "ends before");
-  expect_refusal([&] { read(good + "FLASER 3 1 2 x 0 0 0 0 0 0 1 h 0\n"); }, 2, "a reading 'x'");
-  expect_refusal([&] { read(good + "FLASER 99999999 1\n"); }, 2, "implausibly large");
-  expect_refusal([&] { read(good + flaser("1 2 3", "0 0 0", "1e300")); }, 2, "ipc_timestamp");
-  expect_refusal([&] { read(flaser("1 2 3", "0 0 0", "100") + good); }, 1, "its time 100 is later than");
-  expect_refusal([&] { read("ROBOTLASER1 0 0 1 1 9 0 0 1 1 0 0 0 0 0 0 0 1 2\n"); }, 1, "ends before its");
+  expect_refusal([&] { read_carmen("PARAM x y\n"); }, 0, "contains no scans");
+  expect_refusal([&] { read_carmen(good + "FLASER 3 1 2 3 0 0 0 0 0\n"); }, 2, "ends before");
+  expect_refusal([&] { read_carmen(good + "FLASER 3 1 2 x 0 0 0 0 0 0 1 h 0\n"); }, 2, "a reading 'x'");
+  expect_refusal([&] { read_carmen(good + "FLASER 99999999 1\n"); }, 2, "implausibly large");
+  expect_refusal([&] { read_carmen(good + flaser("1 2 3", "0 0 0", "1e300")); }, 2, "ipc_timestamp");
+  expect_refusal([&] { read_carmen(flaser("1 2 3", "0 0 0", "100") + good); }, 1,
+                 "its time 100 is later than");
+  expect_refusal([&] { read_carmen("ROBOTLASER1 0 0 1 1 9 0 0 1 1 0 0 0 0 0 0 0 1 2\n"); }, 1,
+                 "ends before its");
 }
 
 std::size_t points_of(const LidarLog& log) {

@@ -32,28 +32,28 @@ TEST_P(MalformedMission, IsRefusedWithFileAndLine) {
 std::string print(const testing::TestParamInfo<Malformed>& info) { return info.param.name; }
 
 const std::string kRow = "0 0 0 0 0 0 0 1\n";
-constexpr const char* kOdometry = "robots/a/odometry.tum";
+constexpr const char* kOdometryFile = "robots/a/odometry.tum";
 INSTANTIATE_TEST_SUITE_P(
     Odometry, MalformedMission,
     testing::Values(
-        Malformed{"TornLine", kOdometry, kRow + "1 1 0 0 0", 2, "the file ends in this line"},
-        Malformed{"Nan", kOdometry, kRow + "1 nan 0 0 0 0 0 1\n", 2, "not a finite number"},
-        Malformed{"Infinity", kOdometry, kRow + "1 0 0 0 0 0 0 inf\n", 2, "not a finite number"},
-        Malformed{"TimeNan", kOdometry, kRow + "nan 0 0 0 0 0 0 1\n", 2, "not a time"},
-        Malformed{"TooFewColumns", kOdometry, kRow + "1 1 0 0 0 0 0\n" + "2 " + kRow, 2, "ends before"},
-        Malformed{"TooManyColumns", kOdometry, kRow + "1 1 0 0 0 0 0 1 1\n", 2, "too many"},
-        Malformed{"Backwards", kOdometry, "5 0 0 0 0 0 0 1\n4 0 0 0 0 0 0 1\n", 2, "backwards"},
-        Malformed{"SameTime", kOdometry, kRow + kRow, 2, "twice"},
-        Malformed{"Huge", kOdometry, kRow + "1 1e9 0 0 0 0 0 1\n", 2, "plausible"},
-        Malformed{"ZeroQuaternion", kOdometry, kRow + "1 0 0 0 0 0 0 0\n", 2, "quaternion is zero"},
-        Malformed{"LongQuaternion", kOdometry, kRow + "1 0 0 0 0 0 0 2\n", 2, "norm is 2"},
+        Malformed{"TornLine", kOdometryFile, kRow + "1 1 0 0 0", 2, "the file ends in this line"},
+        Malformed{"Nan", kOdometryFile, kRow + "1 nan 0 0 0 0 0 1\n", 2, "not a finite number"},
+        Malformed{"Infinity", kOdometryFile, kRow + "1 0 0 0 0 0 0 inf\n", 2, "not a finite number"},
+        Malformed{"TimeNan", kOdometryFile, kRow + "nan 0 0 0 0 0 0 1\n", 2, "not a time"},
+        Malformed{"TooFewColumns", kOdometryFile, kRow + "1 1 0 0 0 0 0\n" + "2 " + kRow, 2, "ends before"},
+        Malformed{"TooManyColumns", kOdometryFile, kRow + "1 1 0 0 0 0 0 1 1\n", 2, "too many"},
+        Malformed{"Backwards", kOdometryFile, "5 0 0 0 0 0 0 1\n4 0 0 0 0 0 0 1\n", 2, "backwards"},
+        Malformed{"SameTime", kOdometryFile, kRow + kRow, 2, "twice"},
+        Malformed{"Huge", kOdometryFile, kRow + "1 1e9 0 0 0 0 0 1\n", 2, "plausible"},
+        Malformed{"ZeroQuaternion", kOdometryFile, kRow + "1 0 0 0 0 0 0 0\n", 2, "quaternion is zero"},
+        Malformed{"LongQuaternion", kOdometryFile, kRow + "1 0 0 0 0 0 0 2\n", 2, "norm is 2"},
         Malformed{"TruthLongQuaternion", "robots/b/groundtruth.tum", kRow + "1 0 0 0 0.5 0.5 0 0\n", 2,
                   "norm is 0.7"},
-        Malformed{"Words", kOdometry, kRow + "one two\n", 2, "not a time"},
-        Malformed{"Binary", kOdometry, kRow + std::string("\x00\x01\xfe\xff", 4), 2, "not UTF-8"},
-        Malformed{"TimeOverflow", kOdometry, "1e30 0 0 0 0 0 0 1\n", 1, "not a time"},
-        Malformed{"Empty", kOdometry, "", 1, "empty"},
-        Malformed{"OnlyComments", kOdometry, "# none\n", 1, "no poses"},
+        Malformed{"Words", kOdometryFile, kRow + "one two\n", 2, "not a time"},
+        Malformed{"Binary", kOdometryFile, kRow + std::string("\x00\x01\xfe\xff", 4), 2, "not UTF-8"},
+        Malformed{"TimeOverflow", kOdometryFile, "1e30 0 0 0 0 0 0 1\n", 1, "not a time"},
+        Malformed{"Empty", kOdometryFile, "", 1, "empty"},
+        Malformed{"OnlyComments", kOdometryFile, "# none\n", 1, "no poses"},
         Malformed{"Truth", "robots/b/groundtruth.tum", kRow + "1 2 3\n", 2, "ends before"}),
     print);
 

@@ -13,7 +13,7 @@
 namespace radioslam {
 namespace {
 
-Mission read(const Files& files) {
+Mission read_folder(const Files& files) {
   const TemporaryFolder folder;
   write_files(folder, files);
   return read_mission(folder.path());
@@ -33,7 +33,7 @@ Files written(const Mission& mission, const Truth& truth = {}) {
 }
 
 TEST(ReadMission, MergesDefaultsAndOverrides) {
-  const Mission mission = read(example_mission());
+  const Mission mission = read_folder(example_mission());
   EXPECT_EQ(mission.name, "example");
   EXPECT_EQ(mission.dimension, 2);
   ASSERT_EQ(mission.robots.size(), 2u);
@@ -56,15 +56,15 @@ TEST(ReadMission, MergesDefaultsAndOverrides) {
 }
 
 TEST(ReadMission, SharesAccessPointsBetweenRobots) {
-  const Mission mission = read(example_mission());
+  const Mission mission = read_folder(example_mission());
   EXPECT_EQ(mission.access_points, (std::vector<std::string>{"aa:01", "aa:02"}));
   ASSERT_EQ(mission.robots[1].wifi.size(), 1u);
   EXPECT_EQ(mission.robots[1].wifi[0].readings[0].access_point, AccessPointIndex(1));
 }
 
 TEST(ReadMission, NeedsOnlyMissionYamlAndOdometry) {
-  const Mission mission = read({{"mission.yaml", "format: radioslam-mission/1\nrobots:\n  a:\n"},
-                                {"robots/a/odometry.tum", "0 0 0 0 0 0 0 1\n"}});
+  const Mission mission = read_folder({{"mission.yaml", "format: radioslam-mission/1\nrobots:\n  a:\n"},
+                                       {"robots/a/odometry.tum", "0 0 0 0 0 0 0 1\n"}});
   EXPECT_EQ(mission.dimension, 2);
   EXPECT_FALSE(mission.name.empty());
   EXPECT_EQ(mission.robots[0].odometry.size(), 1u);
@@ -77,7 +77,7 @@ TEST(ReadMission, ReadsByteOrderMarksAndCrLfAlike) {
     std::string& file = windows[name] = "\xef\xbb\xbf";
     for (const char c : content) file += c == '\n' ? std::string("\r\n") : std::string(1, c);
   }
-  EXPECT_EQ(written(read(windows)), written(read(example_mission())));
+  EXPECT_EQ(written(read_folder(windows)), written(read_folder(example_mission())));
 }
 
 TEST(ReadMission, IgnoresFilesOfOtherReaders) {
@@ -86,7 +86,7 @@ TEST(ReadMission, IgnoresFilesOfOtherReaders) {
   files["robots/a/lidar/README.md"] = "anything";
   files["robots/README.md"] = "anything";
   files["robots/.hidden/x"] = "anything";
-  EXPECT_NO_THROW(read(files));
+  EXPECT_NO_THROW(read_folder(files));
 }
 
 TEST(ReadMission, AnAntennaNamedGnssIsWhereFixesAre) {
@@ -94,7 +94,7 @@ TEST(ReadMission, AnAntennaNamedGnssIsWhereFixesAre) {
   std::string& yaml = files["mission.yaml"];
   const std::string before = "front: [0.2, 0, 0.1]";
   yaml.replace(yaml.find(before), before.size(), before + ", gnss: [-0.5, 0.1, 1.5]");
-  const Mission mission = read(files);
+  const Mission mission = read_folder(files);
   EXPECT_EQ(mission.robots[0].fix_lever_m, Eigen::Vector3d(-0.5, 0.1, 1.5));
   EXPECT_EQ(mission.robots[1].fix_lever_m, Eigen::Vector3d::Zero());
   EXPECT_NE(format_mission_yaml(mission).find("[-0.5, 0.1, 1.5]"), std::string::npos);
@@ -131,7 +131,7 @@ Files mission_with_csi() {
 }
 
 TEST(ReadMission, ReadsTheCapturesOfCardsThatItDescribes) {
-  const Mission mission = read(mission_with_csi());
+  const Mission mission = read_folder(mission_with_csi());
   ASSERT_TRUE(mission.robots[0].csi);
   const CsiRecording& csi = *mission.robots[0].csi;
   EXPECT_EQ(csi.address, MacAddress{0x0016ea000001});
@@ -149,33 +149,33 @@ TEST(ReadMission, ReadsTheCapturesOfCardsThatItDescribes) {
 TEST(ReadMission, ACardWithoutAntennasHasOneAtTheBody) {
   Files files = example_mission();
   files["mission.yaml"] += "  csi: {channel: 6}\n";
-  const Mission mission = read(files);
+  const Mission mission = read_folder(files);
   ASSERT_TRUE(mission.robots[1].csi);
   EXPECT_FALSE(mission.robots[1].csi->address);
   EXPECT_EQ(mission.robots[1].csi->carrier_hz, 2.437e9);
   EXPECT_EQ(mission.robots[1].csi->antennas_m, std::vector<Eigen::Vector3d>{Eigen::Vector3d::Zero()});
   EXPECT_TRUE(mission.robots[1].csi->captures.empty());
-  EXPECT_EQ(written(read(written(mission))), written(mission));
+  EXPECT_EQ(written(read_folder(written(mission))), written(mission));
 }
 
 TEST(ReadMission, NamesTheFileThatIsNoCapture) {
   Files files = mission_with_csi();
   files["robots/a/csi/2.dat"] = "anything";
-  EXPECT_NE(refusal([&] { read(files); }).find("robots/a/csi/2.dat: at byte 0"), std::string::npos);
+  EXPECT_NE(refusal([&] { read_folder(files); }).find("robots/a/csi/2.dat: at byte 0"), std::string::npos);
 }
 
 TEST(WriteMission, KeepsCardsAndTheirCaptures) {
   Files files = mission_with_csi();
   files["radio/ranges.csv"] =
       "t_s,robot_i,robot_j,range_m,sigma_m,antenna_i,antenna_j\n0.5,a,b,3,0.1,front,\n";
-  const Mission mission = read(files);
+  const Mission mission = read_folder(files);
   const Files once = written(mission);
   EXPECT_EQ(once.at("robots/a/csi/capture-1.dat"), files.at("robots/a/csi/1.dat"));
   EXPECT_EQ(once.at("robots/a/csi/capture-2.dat"), files.at("robots/a/csi/2.dat"));
   EXPECT_EQ(once.count("robots/b/csi/1.dat"), 0U);
   EXPECT_NE(once.at("mission.yaml").find("antennas: [csi1, front]"), std::string::npos)
       << "no table names the rear one; the front one keeps its name";
-  const Mission again = read(once);
+  const Mission again = read_folder(once);
   EXPECT_EQ(again.robots[0].csi->address, mission.robots[0].csi->address);
   EXPECT_EQ(again.robots[0].csi->antennas_m, mission.robots[0].csi->antennas_m);
   EXPECT_EQ(again.ranges[0].i.antenna, "front");
@@ -186,7 +186,7 @@ TEST(ReadMission, TakesAMatchOfARobotWithItselfAndAnAnchorKnownExactly) {
   Files files = example_mission();
   files["matches.csv"] += "a,1,a,0,1,2,0,0,0,0,1,0.1,0.01\n";
   files["radio/anchors.csv"] += "A3,1,2,3,0\n";
-  EXPECT_NO_THROW(read(files));
+  EXPECT_NO_THROW(read_folder(files));
 }
 
 /// Points in the format of a .bin scan.
@@ -224,10 +224,11 @@ TEST(ReadMission, ReadsScansAndInertialReadings) {
 TEST(ReadMission, TakesScansInPlaceOfOdometry) {
   Files files = example_mission();
   files.erase("robots/b/odometry.tum");
-  EXPECT_NE(refusal([&] { read(files); }).find("mission.yaml:6: robot 'b' has no robots/b/odometry.tum"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal([&] { read_folder(files); }).find("mission.yaml:6: robot 'b' has no robots/b/odometry.tum"),
+      std::string::npos);
   files["robots/b/lidar/1000000000.bin"] = bin_of({{1, 2, 3}});
-  const Mission mission = read(files);
+  const Mission mission = read_folder(files);
   EXPECT_TRUE(mission.robots[1].odometry.empty());
   EXPECT_EQ(mission.robots[1].lidar.size(), 1U);
 }
@@ -246,7 +247,7 @@ LidarLog two_scans() {
 TEST(WriteMission, KeepsScansAndInertialReadings) {
   Files files = example_mission();
   files["robots/b/imu.csv"] = kImu;
-  Mission mission = read(files);
+  Mission mission = read_folder(files);
   mission.robots[0].lidar = two_scans();
   const TemporaryFolder folder;
   write_mission(folder.path(), mission);
@@ -283,12 +284,12 @@ TEST(ReadTruth, MayBeMissing) {
 }
 
 TEST(WriteMission, ReadsBackAsTheSameMission) {
-  Mission mission = read(example_mission());
+  Mission mission = read_folder(example_mission());
   mission.name = "odd: name \"quoted\" # 1";
   mission.robots[0].id = "1";
   mission.robots[1].id = "null";
   const Files files = written(mission);
-  const Mission again = read(files);
+  const Mission again = read_folder(files);
   EXPECT_EQ(again.name, mission.name);
   EXPECT_EQ(again.robots[1].id, "null");
   EXPECT_EQ(again.robots[1].odometry_noise.sigma_yaw_per_rad, 0.3);

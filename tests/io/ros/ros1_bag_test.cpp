@@ -9,7 +9,7 @@
 namespace radioslam {
 namespace {
 
-std::vector<std::string> visit(const std::string& bytes) {
+std::vector<std::string> visit_bag(const std::string& bytes) {
   NotedMessages noted;
   EXPECT_EQ(visit_ros1_bag("x.bag", bytes, noted.visitor()), std::vector<std::string>{});
   return noted.lines;
@@ -24,7 +24,7 @@ std::string bz2_of(std::string content) {
   return packed;
 }
 
-std::string lz4_of(const std::string& content) {
+std::string lz4_chunk(const std::string& content) {
   std::string packed(LZ4F_compressFrameBound(content.size(), nullptr), '\0');
   packed.resize(LZ4F_compressFrame(packed.data(), packed.size(), content.data(), content.size(), nullptr));
   return packed;
@@ -32,11 +32,11 @@ std::string lz4_of(const std::string& content) {
 
 TEST(Ros1Bag, ReadsMessagesInAndOutOfChunks) {
   const std::string records = bag_records(kWrittenMessages);
-  EXPECT_EQ(visit(bag_of(records)), kNotedLines);
+  EXPECT_EQ(visit_bag(bag_of(records)), kNotedLines);
   const std::string index = bag_record({"op=\x04", "ver=" + little(1, 4)}, "12345678");
-  EXPECT_EQ(visit(bag_of(bag_chunk(records, "none", records) + index)), kNotedLines);
-  EXPECT_EQ(visit(bag_of(bag_chunk(records, "bz2", bz2_of(records)))), kNotedLines);
-  EXPECT_EQ(visit(bag_of(bag_chunk(records, "lz4", lz4_of(records)))), kNotedLines);
+  EXPECT_EQ(visit_bag(bag_of(bag_chunk(records, "none", records) + index)), kNotedLines);
+  EXPECT_EQ(visit_bag(bag_of(bag_chunk(records, "bz2", bz2_of(records)))), kNotedLines);
+  EXPECT_EQ(visit_bag(bag_of(bag_chunk(records, "lz4", lz4_chunk(records)))), kNotedLines);
 }
 
 TEST(Ros1Bag, ReadsWhatPrecedesACut) {
@@ -50,7 +50,7 @@ TEST(Ros1Bag, ReadsWhatPrecedesACut) {
 
 TEST(Ros1Bag, RefusesWithTheByte) {
   const auto refuse = [](const std::string& content, const char* words) {
-    expect_refusal([&] { visit(bag_of(content)); }, 0, words);
+    expect_refusal([&] { visit_bag(bag_of(content)); }, 0, words);
   };
   const std::string records = bag_records(kWrittenMessages);
   refuse(bag_record({"op=\x02", "conn=" + little(7, 4), "time=" + little(0, 8)}, ""), "unknown connection");

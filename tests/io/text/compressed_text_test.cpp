@@ -35,7 +35,7 @@ std::string gzip_of(std::string content) {
   return packed;
 }
 
-std::string zstd_of(const std::string& content) {
+std::string zstd_text_of(const std::string& content) {
   std::string packed(ZSTD_compressBound(content.size()), '\0');
   packed.resize(ZSTD_compress(packed.data(), packed.size(), content.data(), content.size(), 1));
   return packed;
@@ -51,7 +51,7 @@ std::string long_text() {
 TEST(PackedText, IsRecognisedByItsFirstBytes) {
   const TemporaryFolder folder;
   const std::string text = long_text();
-  for (const std::string& bytes : {text, bzip2_of(text), gzip_of(text), zstd_of(text)})
+  for (const std::string& bytes : {text, bzip2_of(text), gzip_of(text), zstd_text_of(text)})
     EXPECT_EQ(read_compressed_text(folder.write("log", bytes)).content, text);
   expect_refusal([&] { read_compressed_text(folder.write("log", gzip_of("\xff\xff"))); }, 1, "not UTF-8");
 }

@@ -10,16 +10,16 @@
 namespace radioslam {
 namespace {
 
-using Rows = std::vector<std::size_t>;
+using RowNumbers = std::vector<std::size_t>;
 
 TEST(TimeOrder, KeepsAllOfAnOrderedLog) {
-  EXPECT_EQ(rows_in_time_order(std::vector<Stamp>{{1}, {2}, {5}}), (Rows{0, 1, 2}));
-  EXPECT_EQ(rows_in_time_order(std::vector<Stamp>{}), Rows{});
+  EXPECT_EQ(rows_in_time_order(std::vector<Stamp>{{1}, {2}, {5}}), (RowNumbers{0, 1, 2}));
+  EXPECT_EQ(rows_in_time_order(std::vector<Stamp>{}), RowNumbers{});
 }
 
 TEST(TimeOrder, LeavesOutTheRowsThatAreStampedEarlyLateOrTwice) {
-  EXPECT_EQ(rows_in_time_order(std::vector<Stamp>{{90}, {1}, {2}, {3}}), (Rows{1, 2, 3})) << "late";
-  EXPECT_EQ(rows_in_time_order(std::vector<Stamp>{{1}, {2}, {0}, {3}}), (Rows{0, 1, 3})) << "early";
+  EXPECT_EQ(rows_in_time_order(std::vector<Stamp>{{90}, {1}, {2}, {3}}), (RowNumbers{1, 2, 3})) << "late";
+  EXPECT_EQ(rows_in_time_order(std::vector<Stamp>{{1}, {2}, {0}, {3}}), (RowNumbers{0, 1, 3})) << "early";
   EXPECT_EQ(rows_in_time_order(std::vector<Stamp>{{1}, {2}, {2}, {3}}).size(), 3U) << "twice";
 }
 

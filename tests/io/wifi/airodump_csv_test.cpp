@@ -35,7 +35,7 @@ std::string record(const std::string& last_byte, const char* power, const std::s
          ", WPA2 ,0.000000,0.000000,0.000,0.000," + type + "\r\n";
 }
 
-WifiLog read(const std::string& content, const AirodumpParams& params = {}) {
+WifiLog read_airodump(const std::string& content, const AirodumpParams& params = {}) {
   return read_airodump(make_tool_output("a.csv", content), params);
 }
 
@@ -43,8 +43,8 @@ const std::string kFirst = "1574407123,02:00:00:00:00:01,2437,-50";
 const std::string kSecond = "1574407123,02:00:00:00:00:0f,2437,-60";
 
 TEST(AirodumpCsv, ReadsRadiosAndNoStations) {
-  const WifiLog log = read(kNetworks + network("01", -50, "home") + network("0F", -60, "") +
-                           network("02", -1, "far") + kStations);
+  const WifiLog log = read_airodump(kNetworks + network("01", -50, "home") + network("0F", -60, "") +
+                                    network("02", -1, "far") + kStations);
   EXPECT_EQ(row_texts(log), (Rows{kFirst, kSecond}));
   EXPECT_EQ(log.counts.at("rows have no power and are left out"), 1U);
   EXPECT_TRUE(log.warnings.empty());
@@ -54,27 +54,28 @@ TEST(AirodumpCsv, NamesHoldCommasAndLineEnds) {
   const std::string all = every_byte();
   for (std::size_t begin = 0; begin < all.size(); begin += 32) {
     const std::string name = all.substr(begin, 32);
-    EXPECT_EQ(
-        row_texts(read(kNetworks + network("01", -50, name) + network("0F", -60, "a, b\r\n, c") + kStations)),
-        (Rows{kFirst, kSecond}))
+    EXPECT_EQ(row_texts(read_airodump(kNetworks + network("01", -50, name) +
+                                      network("0F", -60, "a, b\r\n, c") + kStations)),
+              (Rows{kFirst, kSecond}))
         << begin;
-    EXPECT_EQ(
-        row_texts(read(kRecords + record("01", "-50", name, "AP") + record("0F", "-60", "a,b\r\n,c", "AP")))
-            .size(),
-        2U)
+    EXPECT_EQ(row_texts(read_airodump(kRecords + record("01", "-50", name, "AP") +
+                                      record("0F", "-60", "a,b\r\n,c", "AP")))
+                  .size(),
+              2U)
         << begin;
   }
 }
 
 TEST(AirodumpCsv, EscapedNamesAreLongerThanStated) {
-  EXPECT_EQ(
-      row_texts(read(kNetworks + network("01", -50, "\\x01\\x02\\,", 3) + network("0F", -60, "\" a\"", 2))),
-      (Rows{kFirst, kSecond}));
+  EXPECT_EQ(row_texts(read_airodump(kNetworks + network("01", -50, "\\x01\\x02\\,", 3) +
+                                    network("0F", -60, "\" a\"", 2))),
+            (Rows{kFirst, kSecond}));
 }
 
 TEST(AirodumpCsv, ReadsRecordsOfAccessPoints) {
-  EXPECT_EQ(row_texts(read(kRecords + record("01", "-50", "home", "AP") + record("07", "-33", "", "Client") +
-                           record("01", "-1", "home", "AP") + record("0F", "-60", "a,b", "AP"))),
+  EXPECT_EQ(row_texts(read_airodump(kRecords + record("01", "-50", "home", "AP") +
+                                    record("07", "-33", "", "Client") + record("01", "-1", "home", "AP") +
+                                    record("0F", "-60", "a,b", "AP"))),
             (Rows{"1574407123,02:00:00:00:00:01,0,-50", "1574407123,02:00:00:00:00:0f,0,-60"}));
 }
 
@@ -82,39 +83,46 @@ TEST(AirodumpCsv, LocalTimesAreBroughtToOurClock) {
   AirodumpParams params;
   params.utc_offset_h = -8;
   params.clock_offset_s = 0.5;
-  EXPECT_EQ(read(kNetworks + network("01", -50, ""), params).rows.at(0).stamp.ns, 1'574'435'923'500'000'000);
+  EXPECT_EQ(read_airodump(kNetworks + network("01", -50, ""), params).rows.at(0).stamp.ns,
+            1'574'435'923'500'000'000);
 }
 
 TEST(AirodumpCsv, TheFilesEndMayCutARow) {
   const std::string whole = kNetworks + network("01", -50, "home") + network("0F", -60, "home");
   const std::size_t first = kNetworks.size() + network("01", -50, "home").size();
   for (std::size_t length = first; length < whole.size(); ++length) {
-    const WifiLog log = read(whole.substr(0, length));
+    const WifiLog log = read_airodump(whole.substr(0, length));
     ASSERT_GE(log.rows.size(), 1U) << length;
     EXPECT_EQ(row_texts(log).back(), log.rows.size() == 1 ? kFirst : kSecond);
   }
   const std::string records = kRecords + record("01", "-50", "home", "AP");
-  EXPECT_EQ(read(records + "2019-11-22 07:18:43,1900-01").warnings.size(), 1U);
+  EXPECT_EQ(read_airodump(records + "2019-11-22 07:18:43,1900-01").warnings.size(), 1U);
 }
 
 TEST(AirodumpCsv, RefusesMalformedInput) {
-  expect_refusal([] { read("BSSID\n"); }, 1, "neither the header");
-  expect_refusal([] { read("\r\n\r\n"); }, 2, "neither the header");
-  expect_refusal([] { read(kNetworks + "02:00:00:00:00:01, 2019\r\nx\r\n"); }, 3, "ends before its ESSID");
-  expect_refusal([] { read(kNetworks + network("01", -5, "a\nb") + network("0g", -50, "")); }, 5,
+  expect_refusal([] { read_airodump("BSSID\n"); }, 1, "neither the header");
+  expect_refusal([] { read_airodump("\r\n\r\n"); }, 2, "neither the header");
+  expect_refusal([] { read_airodump(kNetworks + "02:00:00:00:00:01, 2019\r\nx\r\n"); }, 3,
+                 "ends before its ESSID");
+  expect_refusal([] { read_airodump(kNetworks + network("01", -5, "a\nb") + network("0g", -50, "")); }, 5,
                  "not a valid BSSID");
-  expect_refusal([] { read(kNetworks + "02:00:00:00:00:01,,now,1,,,,,-5,,,,0,,\r\n"); }, 3,
+  expect_refusal([] { read_airodump(kNetworks + "02:00:00:00:00:01,,now,1,,,,,-5,,,,0,,\r\n"); }, 3,
                  "'now' is not a valid time");
-  expect_refusal([] { read(kNetworks + "02:00:00:00:00:01,,2019-11-22 07:18:43,1,,,,,loud,,,,0,,\r\n"); }, 3,
-                 "not a valid power");
-  expect_refusal([] { read(kNetworks + "02:00:00:00:00:01,,2019-11-22 07:18:43,x,,,,,-5,,,,0,,\r\n"); }, 3,
-                 "not a valid channel");
-  expect_refusal([] { read(kNetworks + "02:00:00:00:00:01,,2019-11-22 07:18:43,1,,,,,-5,,,,long,,\r\n"); }, 3,
-                 "not a valid ID-length");
-  expect_refusal([] { read(kRecords + "what\r\n\r\n"); }, 2, "not a row of airodump's log");
   expect_refusal(
-      [] { read(kRecords + record("01", "-5", "", "AP") + "what\r\n" + record("01", "-5", "", "AP")); }, 3,
-      "not a valid time");
+      [] { read_airodump(kNetworks + "02:00:00:00:00:01,,2019-11-22 07:18:43,1,,,,,loud,,,,0,,\r\n"); }, 3,
+      "not a valid power");
+  expect_refusal(
+      [] { read_airodump(kNetworks + "02:00:00:00:00:01,,2019-11-22 07:18:43,x,,,,,-5,,,,0,,\r\n"); }, 3,
+      "not a valid channel");
+  expect_refusal(
+      [] { read_airodump(kNetworks + "02:00:00:00:00:01,,2019-11-22 07:18:43,1,,,,,-5,,,,long,,\r\n"); }, 3,
+      "not a valid ID-length");
+  expect_refusal([] { read_airodump(kRecords + "what\r\n\r\n"); }, 2, "not a row of airodump's log");
+  expect_refusal(
+      [] {
+        read_airodump(kRecords + record("01", "-5", "", "AP") + "what\r\n" + record("01", "-5", "", "AP"));
+      },
+      3, "not a valid time");
 }
 
 TEST(AirodumpCsv, ReadsRecordedRows) {

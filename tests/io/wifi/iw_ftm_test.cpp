@@ -11,13 +11,13 @@ constexpr double kMetresPerPs = 299'792'458e-12 / 2;
 const std::string kHead = "wlan0 (phy #0): Peer measurements (cookie 1):\n";
 const std::string kGood = "  Peer 02:00:00:00:01:00: status=0 (SUCCESS) @8123456789 tsf=0 (final)\n    FTM\n";
 
-IwFtmLog read(const std::string& text, const IwFtmParams& params = {}) {
+IwFtmLog read_ftm(const std::string& text, const IwFtmParams& params = {}) {
   return read_iw_ftm(make_text("ftm.txt", text), params);
 }
 
 /// A successful answer followed by these lines.
 IwFtmLog answer(const std::string& lines, const IwFtmParams& params = {}) {
-  return read(kHead + kGood + lines, params);
+  return read_ftm(kHead + kGood + lines, params);
 }
 
 TEST(IwFtm, TakesHalfTheRoundTrip) {
@@ -62,7 +62,7 @@ TEST(IwFtm, BelowZeroIsNearUpToALimit) {
 }
 
 TEST(IwFtm, CountsWhatFailed) {
-  const IwFtmLog log = read(
+  const IwFtmLog log = read_ftm(
       kHead + "  Peer 02:00:00:00:01:00: status=2 (TIMEOUT) @81 - no data!\n" +
       "  Peer 02:00:00:00:02:00: no response!\n" +
       "  Peer 02:00:00:00:03:00: status=0 (SUCCESS) @82\n    FTM failed: PEER_BUSY (6) retry after 3s\n" +
@@ -79,9 +79,10 @@ TEST(IwFtm, TheBootClockBecomesTheHostsWithoutTheDelayOfPrinting) {
            "\n    FTM\n      RTT_AVG: 26685\n";
   };
   // Printed 0.3 s and 0.1 s late; the third line has no host time.
-  const IwFtmLog log = read(event("1000.300000", "5000000000") + event("1001.100000", "6000000000") + kHead +
-                            "  Peer 02:00:00:00:01:00: status=0 (SUCCESS) @4000000000\n    FTM\n"
-                            "      RTT_AVG: 26685\n");
+  const IwFtmLog log =
+      read_ftm(event("1000.300000", "5000000000") + event("1001.100000", "6000000000") + kHead +
+               "  Peer 02:00:00:00:01:00: status=0 (SUCCESS) @4000000000\n    FTM\n"
+               "      RTT_AVG: 26685\n");
   ASSERT_EQ(log.ranges.size(), 3U);
   EXPECT_EQ(log.ranges[0].stamp.ns, 999'100'000'000);
   EXPECT_EQ(log.ranges[1].stamp.ns, 1'000'100'000'000);
@@ -96,20 +97,21 @@ TEST(IwFtm, AddsTheOffsetOfTheClock) {
 
 TEST(IwFtm, WithoutATimeThereIsNoRange) {
   const IwFtmLog log =
-      read(kHead + "  Peer 02:00:00:00:01:00: status=0 (SUCCESS)\n    FTM\n      RTT_AVG: 26685\n");
+      read_ftm(kHead + "  Peer 02:00:00:00:01:00: status=0 (SUCCESS)\n    FTM\n      RTT_AVG: 26685\n");
   EXPECT_TRUE(log.ranges.empty());
   EXPECT_EQ(log.timeless, 1U);
 }
 
 TEST(IwFtm, TakesAddressesInCapitals) {
-  EXPECT_EQ(read("Peer 0A:0B:0C:0D:0E:0F: @1\nFTM\nDIST_AVG: 1\n").ranges.at(0).bssid, "0a:0b:0c:0d:0e:0f");
+  EXPECT_EQ(read_ftm("Peer 0A:0B:0C:0D:0E:0F: @1\nFTM\nDIST_AVG: 1\n").ranges.at(0).bssid,
+            "0a:0b:0c:0d:0e:0f");
 }
 
 TEST(IwFtm, RefusesWhatIsNoResult) {
-  expect_refusal([] { read("Scanning\nBSS 02:00:00:00:01:00\n"); }, 0, "contains no result of iw's");
-  expect_refusal([] { read(kHead + "  Peer 02:00:00:00:01: status=0\n"); }, 2, "not a valid address");
-  expect_refusal([] { read(kHead + "  Peer no MAC address\n"); }, 2, "not followed by a colon");
-  expect_refusal([] { read("  Peer 02:00:00:00:01:00: @soon\n"); }, 1, "not a time in nanoseconds");
+  expect_refusal([] { read_ftm("Scanning\nBSS 02:00:00:00:01:00\n"); }, 0, "contains no result of iw's");
+  expect_refusal([] { read_ftm(kHead + "  Peer 02:00:00:00:01: status=0\n"); }, 2, "not a valid address");
+  expect_refusal([] { read_ftm(kHead + "  Peer no MAC address\n"); }, 2, "not followed by a colon");
+  expect_refusal([] { read_ftm("  Peer 02:00:00:00:01:00: @soon\n"); }, 1, "not a time in nanoseconds");
   expect_refusal([] { answer("      RTT_AVG: 12.5\n"); }, 4, "RTT_AVG is not a whole number");
   expect_refusal([] { answer("      RTT_AVG: 1\n      RTT_AVG: 2\n"); }, 5, "appears twice");
   expect_refusal([] { answer("      DIST_AVG: 1\n      DIST_VARIANCE: -1\n"); }, 5, "is negative");

@@ -15,7 +15,7 @@ std::string bss(const std::string& last_byte, const std::string& signal, const s
   return "BSS 02:00:00:00:00:" + last_byte + "(on wlan0)\n\tfreq: 2412\n\tsignal: " + signal + "\n" + more;
 }
 
-WifiLog read(const std::string& content, const ScanListParams& params = {}) {
+WifiLog read_scan(const std::string& content, const ScanListParams& params = {}) {
   const Text text = make_tool_output("scan.txt", content);
   return rows_of_list(text, read_iw_scans(text), params);
 }
@@ -24,17 +24,17 @@ std::string age(int ms) { return "\tlast seen: " + std::to_string(ms) + " ms ago
 
 TEST(IwScan, TakesHundredthsAsIwPrintsThem) {
   EXPECT_EQ(
-      row_texts(read(bss("01", "-53.00 dBm") + bss("02", "-53.-50 dBm") + bss("03", "0.-50 dBm") +
-                     bss("04", "-53.-05 dBm") + bss("05", "-90 dBm"))),
+      row_texts(read_scan(bss("01", "-53.00 dBm") + bss("02", "-53.-50 dBm") + bss("03", "0.-50 dBm") +
+                          bss("04", "-53.-05 dBm") + bss("05", "-90 dBm"))),
       (Rows{"0,02:00:00:00:00:01,2412,-53", "0,02:00:00:00:00:02,2412,-53.5", "0,02:00:00:00:00:03,2412,-0.5",
             "0,02:00:00:00:00:04,2412,-53.05", "0,02:00:00:00:00:05,2412,-90"}));
 }
 
 TEST(IwScan, LinesWithATimeBeginScans) {
-  EXPECT_EQ(row_texts(read("100.5\n" + bss("01", "-53.00 dBm") +
-                           "command failed: Device or resource busy\n"
-                           "104\n" +
-                           bss("0A", "-60.00 dBm") + bss("01", "-54.00 dBm"))),
+  EXPECT_EQ(row_texts(read_scan("100.5\n" + bss("01", "-53.00 dBm") +
+                                "command failed: Device or resource busy\n"
+                                "104\n" +
+                                bss("0A", "-60.00 dBm") + bss("01", "-54.00 dBm"))),
             (Rows{"100.5,02:00:00:00:00:01,2412,-53", "104,02:00:00:00:00:0a,2412,-60",
                   "104,02:00:00:00:00:01,2412,-54"}));
 }
@@ -42,19 +42,19 @@ TEST(IwScan, LinesWithATimeBeginScans) {
 TEST(IwScan, StaleReadingsAreLeftOutOrKeptAtTheirTime) {
   const std::string log = "100\n" + bss("01", "-53.00 dBm", age(200)) + "104\n" +
                           bss("01", "-53.00 dBm", age(4200)) + bss("02", "-60.00 dBm", age(3900));
-  const WifiLog left_out = read(log);
+  const WifiLog left_out = read_scan(log);
   EXPECT_EQ(row_texts(left_out), (Rows{"100,02:00:00:00:00:01,2412,-53", "104,02:00:00:00:00:02,2412,-60"}));
   EXPECT_EQ(left_out.counts.size(), 1U);
   ScanListParams params;
   params.keep_stale = true;
-  EXPECT_EQ(row_texts(read(log, params)),
+  EXPECT_EQ(row_texts(read_scan(log, params)),
             (Rows{"99.8,02:00:00:00:00:01,2412,-53", "100,02:00:00:00:00:01,2412,-53",
                   "104,02:00:00:00:00:02,2412,-60"}));
 }
 
 TEST(IwScan, AnEmptyScanLeavesNoStaleReadings) {
-  const WifiLog log =
-      read("100\n" + bss("01", "-53.00 dBm", age(100)) + "104\n108\n" + bss("02", "-60.00 dBm", age(4500)));
+  const WifiLog log = read_scan("100\n" + bss("01", "-53.00 dBm", age(100)) + "104\n108\n" +
+                                bss("02", "-60.00 dBm", age(4500)));
   EXPECT_EQ(log.rows.size(), 2U);  // the second reading was not in an earlier list
   EXPECT_EQ(log.counts.at("scans are empty"), 1U);
 }
@@ -63,23 +63,23 @@ TEST(IwScan, TheBootClockTimesAndSeparatesScansWithoutOthers) {
   const auto heard = [](const char* boot_s, int ms) {
     return std::string("\tlast seen: ") + boot_s + "s [boottime]\n" + age(ms);
   };
-  EXPECT_EQ(row_texts(read(bss("01", "-53.00 dBm", heard("4206.107", 1410)) +
-                           bss("02", "-54.00 dBm", heard("4207.500", 20)) +
-                           bss("01", "-55.00 dBm", heard("4210.000", 500)))),
+  EXPECT_EQ(row_texts(read_scan(bss("01", "-53.00 dBm", heard("4206.107", 1410)) +
+                                bss("02", "-54.00 dBm", heard("4207.500", 20)) +
+                                bss("01", "-55.00 dBm", heard("4210.000", 500)))),
             (Rows{"4207.517,02:00:00:00:00:01,2412,-53", "4207.517,02:00:00:00:00:02,2412,-54",
                   "4210.5,02:00:00:00:00:01,2412,-55"}));
 }
 
 TEST(IwScan, NamesHoldAnyBytes) {
   const WifiLog log =
-      read(bss("01", "-53.00 dBm", "\tSSID: " + every_byte() + "\n\tSSID: signal: -1.00 dBm\n") +
-           bss("02", "-60.00 dBm"));
+      read_scan(bss("01", "-53.00 dBm", "\tSSID: " + every_byte() + "\n\tSSID: signal: -1.00 dBm\n") +
+                bss("02", "-60.00 dBm"));
   EXPECT_EQ(log.rows.size(), 2U);
 }
 
 TEST(IwScan, LevelsThatAreNoDecibelsAreCounted) {
-  const WifiLog log = read(bss("01", "70/100") + "BSS 02:00:00:00:00:02(on wlan0)\n\tfreq: 5180.0\n" +
-                           bss("03", "-60.00 dBm"));
+  const WifiLog log = read_scan(bss("01", "70/100") + "BSS 02:00:00:00:00:02(on wlan0)\n\tfreq: 5180.0\n" +
+                                bss("03", "-60.00 dBm"));
   EXPECT_EQ(log.rows.size(), 1U);
   EXPECT_EQ(log.counts.at("readings have no level in dBm and are left out"), 2U);
 }
@@ -88,7 +88,7 @@ TEST(IwScan, TheFilesEndMayCutALine) {
   const std::string whole = bss("01", "-53.00 dBm") + bss("02", "-61.50 dBm", age(1234));
   const std::size_t first = bss("01", "-53.00 dBm").size();
   for (std::size_t length = first; length < whole.size(); ++length) {
-    const WifiLog log = read(whole.substr(0, length));
+    const WifiLog log = read_scan(whole.substr(0, length));
     ASSERT_GE(log.rows.size(), 1U) << length;
     if (log.rows.size() > 1) {
       EXPECT_EQ(row_texts(log)[1], "0,02:00:00:00:00:02,2412,-61.5") << length;
@@ -97,16 +97,18 @@ TEST(IwScan, TheFilesEndMayCutALine) {
 }
 
 TEST(IwScan, RefusesMalformedInput) {
-  expect_refusal([] { read("wlan0 (phy #0)\n"); }, 0, "contains no BSS");
-  expect_refusal([] { read("BSS of my neighbour\n"); }, 1, "'of' is not a valid address");
-  expect_refusal([] { read(bss("01", "loud")); }, 3, "not a valid signal");
-  expect_refusal([] { read(bss("01", "-5x.00 dBm")); }, 3, "not a valid signal");
-  expect_refusal([] { read(bss("01", "-50.00 dBm", "\tsignal: -60.00 dBm\n")); }, 4, "second signal");
-  expect_refusal([] { read(bss("01", "-50.00 dBm", "\tfreq: 1\n")); }, 4, "second frequency");
-  expect_refusal([] { read("BSS 02:00:00:00:00:01\n\tfreq: \xff\n"); }, 2, "'?' is not a valid frequency");
-  expect_refusal([] { read(bss("01", "-50.00 dBm", "\tlast seen: -3 ms ago\n")); }, 4,
+  expect_refusal([] { read_scan("wlan0 (phy #0)\n"); }, 0, "contains no BSS");
+  expect_refusal([] { read_scan("BSS of my neighbour\n"); }, 1, "'of' is not a valid address");
+  expect_refusal([] { read_scan(bss("01", "loud")); }, 3, "not a valid signal");
+  expect_refusal([] { read_scan(bss("01", "-5x.00 dBm")); }, 3, "not a valid signal");
+  expect_refusal([] { read_scan(bss("01", "-50.00 dBm", "\tsignal: -60.00 dBm\n")); }, 4, "second signal");
+  expect_refusal([] { read_scan(bss("01", "-50.00 dBm", "\tfreq: 1\n")); }, 4, "second frequency");
+  expect_refusal([] { read_scan("BSS 02:00:00:00:00:01\n\tfreq: \xff\n"); }, 2,
+                 "'?' is not a valid frequency");
+  expect_refusal([] { read_scan(bss("01", "-50.00 dBm", "\tlast seen: -3 ms ago\n")); }, 4,
                  "not a valid 'last seen' time");
-  expect_refusal([] { read(bss("01", "-50.00 dBm") + "100\n" + bss("01", "-50.00 dBm")); }, 1, "no time");
+  expect_refusal([] { read_scan(bss("01", "-50.00 dBm") + "100\n" + bss("01", "-50.00 dBm")); }, 1,
+                 "no time");
 }
 
 /// From the second radio on, jc 1.22 prefixes names with the last heading of the previous radio

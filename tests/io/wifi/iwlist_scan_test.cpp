@@ -8,7 +8,7 @@
 namespace radioslam {
 namespace {
 
-const std::string kHead = "wlan0     Scan completed :\n";
+const std::string kIwlistHead = "wlan0     Scan completed :\n";
 
 std::string cell(const std::string& last_byte, const std::string& lines) {
   return "          Cell 01 - Address: 02:00:00:00:00:" + last_byte + "\n" + lines;
@@ -21,7 +21,7 @@ WifiLog read_list(const std::string& content, const ScanListParams& params = {})
 
 TEST(IwlistScan, ReadsCells) {
   const WifiLog log =
-      read_list(kHead +
+      read_list(kIwlistHead +
                 cell("01",
                      "                    Channel:6\n                    Frequency:2.437 GHz (Channel 6)\n"
                      "                    Quality=58/70  Signal level=-52 dBm  \n"
@@ -42,7 +42,7 @@ TEST(IwlistScan, TakesTheChannelWhereThatIsAll) {
 }
 
 TEST(IwlistScan, LevelsThatAreNoDecibelsAreCounted) {
-  const WifiLog log = read_list(kHead + cell("01", "Quality=58/70  Signal level=60/100\n") +
+  const WifiLog log = read_list(kIwlistHead + cell("01", "Quality=58/70  Signal level=60/100\n") +
                                 cell("02", "Quality=58/70\n") + cell("03", "Quality:0  Signal level:0\n") +
                                 cell("04", "Quality=58/70  Signal level=-52 dBm\n"));
   EXPECT_EQ(row_texts(log), (Rows{"0,02:00:00:00:00:04,0,-52"}));
@@ -51,27 +51,29 @@ TEST(IwlistScan, LevelsThatAreNoDecibelsAreCounted) {
 
 TEST(IwlistScan, LinesWithATimeAndLeftovers) {
   const std::string level = "Frequency:2.412 GHz\nSignal level=-50 dBm\n";
-  const WifiLog log = read_list("100\n" + kHead + cell("01", level) +
-                                "105\nlo        Interface doesn't support scanning.\n\n" + kHead +
+  const WifiLog log = read_list("100\n" + kIwlistHead + cell("01", level) +
+                                "105\nlo        Interface doesn't support scanning.\n\n" + kIwlistHead +
                                 cell("01", level + "Extra: Last beacon: 5100ms ago\n") +
                                 cell("02", level + "Extra: Last beacon: 40ms ago\n"));
   EXPECT_EQ(row_texts(log), (Rows{"100,02:00:00:00:00:01,2412,-50", "105,02:00:00:00:00:02,2412,-50"}));
 }
 
 TEST(IwlistScan, NamesHoldAnyBytes) {
-  const WifiLog log = read_list(kHead + cell("01", "Signal level=-52 dBm\nESSID:\"" + every_byte() +
-                                                       "\"\nESSID:\"Quality=1/1 Signal level=-1 dBm\"\n"));
+  const WifiLog log =
+      read_list(kIwlistHead + cell("01", "Signal level=-52 dBm\nESSID:\"" + every_byte() +
+                                             "\"\nESSID:\"Quality=1/1 Signal level=-1 dBm\"\n"));
   EXPECT_EQ(row_texts(log), (Rows{"0,02:00:00:00:00:01,0,-52"}));
 }
 
 TEST(IwlistScan, RefusesMalformedInput) {
-  expect_refusal([] { read_list(kHead + "wlan0     No scan results\n"); }, 0, "contains no cell");
-  expect_refusal([] { read_list(kHead + cell("0g", "")); }, 2, "not a valid address");
+  expect_refusal([] { read_list(kIwlistHead + "wlan0     No scan results\n"); }, 0, "contains no cell");
+  expect_refusal([] { read_list(kIwlistHead + cell("0g", "")); }, 2, "not a valid address");
   expect_refusal([] { read_list(cell("01", "Signal level=loud dBm\n")); }, 2, "not a valid level");
   expect_refusal([] { read_list(cell("01", "Frequency:2.4 parsec\n")); }, 2, "not a valid frequency");
   expect_refusal([] { read_list(cell("01", "Channel:six\n")); }, 2, "not a valid channel");
   expect_refusal([] { read_list(cell("01", "Extra: Last beacon: soon\n")); }, 2, "not a valid age");
-  expect_refusal([] { read_list(kHead + cell("01", "") + kHead + cell("01", "")); }, 1, "no time");
+  expect_refusal([] { read_list(kIwlistHead + cell("01", "") + kIwlistHead + cell("01", "")); }, 1,
+                 "no time");
 }
 
 }  // namespace

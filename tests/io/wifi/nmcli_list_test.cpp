@@ -13,7 +13,8 @@ namespace {
 
 const std::string kAddress = "02\\:00\\:00\\:00\\:00\\:0";
 
-WifiLog read(const std::string& content, const std::vector<std::string>& fields = default_nmcli_fields()) {
+WifiLog read_nmcli(const std::string& content,
+                   const std::vector<std::string>& fields = default_nmcli_fields()) {
   const Text text = make_tool_output("nmcli.txt", content);
   return rows_of_list(text, read_nmcli_lists(text, fields));
 }
@@ -42,8 +43,9 @@ TEST(NmcliList, OtherSignalsAreOnTheSameLine) {
 }
 
 TEST(NmcliList, ReadsEscapedRows) {
-  const WifiLog log = read("1574407123.5\n" + kAddress + "1:686F6D65:6:2437 MHz:82\n" + kAddress +
-                           "2::36:5180 MHz:100\n\n1574407128\n" + kAddress + "1:686F6D65:6:2437 MHz:80\n");
+  const WifiLog log =
+      read_nmcli("1574407123.5\n" + kAddress + "1:686F6D65:6:2437 MHz:82\n" + kAddress +
+                 "2::36:5180 MHz:100\n\n1574407128\n" + kAddress + "1:686F6D65:6:2437 MHz:80\n");
   EXPECT_EQ(row_texts(log),
             (Rows{"1574407123.5,02:00:00:00:00:01,2437,-51", "1574407123.5,02:00:00:00:00:02,5180,-40",
                   "1574407128,02:00:00:00:00:01,2437,-52"}));
@@ -55,22 +57,26 @@ TEST(NmcliList, OtherFieldsInAnotherOrderAndAnyName) {
   std::erase(name, '\n');
   std::string escaped;
   for (const char c : name) escaped += c == ':' || c == '\\' ? std::string("\\") + c : std::string(1, c);
-  EXPECT_EQ(row_texts(read("*:82:" + escaped + ":11:" + kAddress + "1\r\n",
-                           parse_nmcli_fields("in-use,signal,SSID,chan,BSSID"))),
+  EXPECT_EQ(row_texts(read_nmcli("*:82:" + escaped + ":11:" + kAddress + "1\r\n",
+                                 parse_nmcli_fields("in-use,signal,SSID,chan,BSSID"))),
             (Rows{"0,02:00:00:00:00:01,2462,-51"}));
 }
 
 TEST(NmcliList, RefusesMalformedInput) {
-  expect_refusal([] { read("100\n"); }, 0, "contains no row");
-  expect_refusal([] { read("Error: NetworkManager is not running.\n"); }, 1,
+  expect_refusal([] { read_nmcli("100\n"); }, 0, "contains no row");
+  expect_refusal([] { read_nmcli("Error: NetworkManager is not running.\n"); }, 1,
                  "2 fields, but --fields names 5");
-  expect_refusal([] { read("home:686F6D65:6:2437 MHz:82\n"); }, 1, "not a valid BSSID");
-  expect_refusal([] { read(kAddress + "1:686F6D65:6:2437 MHz:101\n"); }, 1, "not a SIGNAL");
-  expect_refusal([] { read(kAddress + "1:686F6D65:6:2437 m:82\n"); }, 1, "not a FREQ");
-  expect_refusal([] { read(kAddress + "1:82:x\n", {"BSSID", "SIGNAL", "CHAN"}); }, 1, "not a valid CHAN");
+  expect_refusal([] { read_nmcli("home:686F6D65:6:2437 MHz:82\n"); }, 1, "not a valid BSSID");
+  expect_refusal([] { read_nmcli(kAddress + "1:686F6D65:6:2437 MHz:101\n"); }, 1, "not a SIGNAL");
+  expect_refusal([] { read_nmcli(kAddress + "1:686F6D65:6:2437 m:82\n"); }, 1, "not a FREQ");
+  expect_refusal(
+      [] {
+        read_nmcli(kAddress + "1:82:x\n", {"BSSID", "SIGNAL", "CHAN"});
+      },
+      1, "not a valid CHAN");
   expect_refusal([] { parse_nmcli_fields("BSSID,CHAN"); }, 0, "SIGNAL must appear exactly once");
   expect_refusal([] { parse_nmcli_fields("BSSID,SIGNAL,BSSID"); }, 0, "BSSID must appear exactly once");
-  expect_refusal([] { read(kAddress + "1:::0:50\n100\n" + kAddress + "1:::0:50\n"); }, 1, "no time");
+  expect_refusal([] { read_nmcli(kAddress + "1:::0:50\n100\n" + kAddress + "1:::0:50\n"); }, 1, "no time");
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::int64_t kMs = 1'000'000;
 
-PhoneLog read(const std::vector<std::string>& lines) {
+PhoneLog read_phone(const std::vector<std::string>& lines) {
   return read_phone_log(make_text("walk.txt", joined(lines)));
 }
 
@@ -18,7 +18,7 @@ PhoneLog read(const std::vector<std::string>& lines) {
 void expect_line_refused(std::size_t number, const std::string& line, const std::string& words) {
   auto lines = phone_log_lines();
   lines[number - 1] = line;
-  expect_refusal([&] { read(lines); }, number, words);
+  expect_refusal([&] { read_phone(lines); }, number, words);
 }
 
 std::vector<std::string> without(const std::string& type) {
@@ -29,7 +29,7 @@ std::vector<std::string> without(const std::string& type) {
 }
 
 TEST(ReadPhoneLog, ReadsEveryRecord) {
-  const PhoneLog log = read(phone_log_lines());
+  const PhoneLog log = read_phone(phone_log_lines());
   EXPECT_EQ(log.start.ns, 1574242584992 * kMs);
   EXPECT_EQ(log.begin, log.start);
   EXPECT_EQ(log.end.ns, 1574242586500 * kMs);
@@ -44,13 +44,13 @@ TEST(ReadPhoneLog, ReadsEveryRecord) {
 }
 
 TEST(ReadPhoneLog, TheRotationVectorsScalarPartComesFromItsLength) {
-  const PhoneLog log = read(phone_log_lines());
+  const PhoneLog log = read_phone(phone_log_lines());
   ASSERT_EQ(log.motion.orientation.size(), 1U);
   EXPECT_TRUE(log.motion.orientation[0].R_enu_device.isApprox(Eigen::Quaterniond(0.8, 0, 0, -0.6), 1e-12));
 }
 
 TEST(ReadPhoneLog, ReadsScansEvenWithTabsInANetworksName) {
-  const PhoneLog log = read(phone_log_lines());
+  const PhoneLog log = read_phone(phone_log_lines());
   ASSERT_EQ(log.wifi.size(), 3U);
   EXPECT_EQ(log.wifi[0].bssid, "0e:74:9c:a7:b2:e4");
   EXPECT_EQ(log.wifi[0].rssi_dbm, -43);
@@ -64,7 +64,7 @@ TEST(ReadPhoneLog, WithoutAHeaderTheFirstRecordIsTheStart) {
   auto lines = phone_log_lines();
   lines.front() = "";
   lines.pop_back();
-  const PhoneLog log = read(lines);
+  const PhoneLog log = read_phone(lines);
   EXPECT_EQ(log.start.ns, 1574242584999 * kMs);
   EXPECT_FALSE(log.complete);
 }
@@ -121,13 +121,13 @@ TEST(ReadPhoneLog, RefusesTimeThatRunsBackwards) {
 }
 
 TEST(ReadPhoneLog, RefusesALogThatIsNoWalk) {
-  expect_refusal([] { read(without("ACCELEROMETER")); }, 0, "TYPE_ACCELEROMETER");
-  expect_refusal([] { read(without("GYROSCOPE")); }, 0, "TYPE_GYROSCOPE");
-  expect_refusal([] { read(without("TYPE")); }, 0, "no records");
+  expect_refusal([] { read_phone(without("ACCELEROMETER")); }, 0, "TYPE_ACCELEROMETER");
+  expect_refusal([] { read_phone(without("GYROSCOPE")); }, 0, "TYPE_GYROSCOPE");
+  expect_refusal([] { read_phone(without("TYPE")); }, 0, "no records");
   expect_refusal(
       [] {
-        read({"1574242585000\tTYPE_ACCELEROMETER\t0.5\t-0.25\t9.75\t2",
-              "1574242585000\tTYPE_GYROSCOPE\t0.25\t0.375\t0.125\t3"});
+        read_phone({"1574242585000\tTYPE_ACCELEROMETER\t0.5\t-0.25\t9.75\t2",
+                    "1574242585000\tTYPE_GYROSCOPE\t0.25\t0.375\t0.125\t3"});
       },
       0, "the same time");
 }

@@ -30,22 +30,23 @@ std::string heard(const PcapStyle& style = kMicroseconds) {
 
 const Rows kHeard{"100.25,02:00:00:00:00:01,2412,-50", "100.5,02:00:00:00:00:03,2437,-60"};
 
-WifiLog read(const std::string& bytes, const WifiCaptureParams& params = {}) {
+WifiLog read_capture(const std::string& bytes, const WifiCaptureParams& params = {}) {
   return read_wifi_capture("a.pcap", bytes, params);
 }
 
 TEST(WifiCapture, ReadsBeaconsAndProbeResponses) {
-  const WifiLog log = read(kMicroseconds.header() + heard());
+  const WifiLog log = read_capture(kMicroseconds.header() + heard());
   EXPECT_EQ(row_texts(log), kHeard);
   EXPECT_TRUE(log.counts.empty() && log.warnings.empty());
 }
 
 TEST(WifiCapture, ReadsEveryByteOrderAndNanoseconds) {
   const PcapStyle big{ByteOrder::kBig, 0xa1b2c3d4, 127};
-  EXPECT_EQ(row_texts(read(big.header() + heard(big))), kHeard);
+  EXPECT_EQ(row_texts(read_capture(big.header() + heard(big))), kHeard);
   const PcapStyle fine{ByteOrder::kLittle, 0xa1b23c4d, 127};
-  EXPECT_EQ(row_texts(read(fine.header() + fine.packet(100, 1, radiotap(2412, -50) + beacon_bytes(1)))),
-            (Rows{"100.000000001,02:00:00:00:00:01,2412,-50"}));
+  EXPECT_EQ(
+      row_texts(read_capture(fine.header() + fine.packet(100, 1, radiotap(2412, -50) + beacon_bytes(1)))),
+      (Rows{"100.000000001,02:00:00:00:00:01,2412,-50"}));
 }
 
 /// pcapng: a section header, an interface with link type 127 and microseconds, an enhanced packet.
@@ -63,16 +64,16 @@ TEST(WifiCapture, ReadsPcapng) {
       block(1, number_bytes(127, 4) + number_bytes(0, 4)) +
       block(6, number_bytes(0, 4) + number_bytes(us >> 32U, 4) + number_bytes(us & 0xffffffffU, 4) + size +
                    size + packet);
-  EXPECT_EQ(row_texts(read(bytes)), (Rows{kHeard[0]}));
+  EXPECT_EQ(row_texts(read_capture(bytes)), (Rows{kHeard[0]}));
 }
 
 TEST(WifiCapture, CountsWhatItLeavesOut) {
   const auto at = [](const std::string& bytes) { return kMicroseconds.packet(100, 0, bytes); };
-  const WifiLog log =
-      read(kMicroseconds.header() + heard() + at("") + at(radiotap(2412, -50).substr(0, 9)) +
-           at(radiotap(2412, -50) + beacon_bytes(1).substr(0, 21)) + at(radiotap({0}, "") + beacon_bytes(1)) +
-           at(radiotap({0x22}, "\x40\xce") + beacon_bytes(1)) +
-           at(radiotap(2412, -50) + frame_bytes(1, 13, 1, 1)));
+  const WifiLog log = read_capture(
+      kMicroseconds.header() + heard() + at("") + at(radiotap(2412, -50).substr(0, 9)) +
+      at(radiotap(2412, -50) + beacon_bytes(1).substr(0, 21)) + at(radiotap({0}, "") + beacon_bytes(1)) +
+      at(radiotap({0x22}, "\x40\xce") + beacon_bytes(1)) +
+      at(radiotap(2412, -50) + frame_bytes(1, 13, 1, 1)));
   EXPECT_EQ(row_texts(log), kHeard);
   EXPECT_EQ(log.counts,
             (std::map<std::string, std::size_t>{{kMalformed, 3},
@@ -82,8 +83,9 @@ TEST(WifiCapture, CountsWhatItLeavesOut) {
 
 TEST(WifiCapture, InvalidSecondsAreNotTimesBefore1970) {
   const std::string packet = radiotap(2412, -50) + beacon_bytes(1);
-  const WifiLog log = read(kMicroseconds.header() + heard() + kMicroseconds.packet(0xffffffff, 0, packet) +
-                           kMicroseconds.packet(0, 0, packet));
+  const WifiLog log =
+      read_capture(kMicroseconds.header() + heard() + kMicroseconds.packet(0xffffffff, 0, packet) +
+                   kMicroseconds.packet(0, 0, packet));
   EXPECT_EQ(row_texts(log), (Rows{kHeard[0], kHeard[1], "0,02:00:00:00:00:01,2412,-50"}));
   EXPECT_EQ(log.counts,
             (std::map<std::string, std::size_t>{{"packets have an implausible time and are left out", 1}}));
@@ -95,7 +97,7 @@ TEST(WifiCapture, EveryFrameThatNamesItsTransmitter) {
   const auto at = [](unsigned type, unsigned subtype) {
     return kMicroseconds.packet(100, 0, radiotap(2412, -50) + frame_bytes(type, subtype, 7, 8));
   };
-  const WifiLog log = read(
+  const WifiLog log = read_capture(
       kMicroseconds.header() + at(2, 8) + at(1, 11) + at(1, 13) + at(1, 12) + at(0, 4) + at(0, 8), params);
   EXPECT_EQ(row_texts(log), Rows(4, "100,02:00:00:00:00:07,2412,-50"));
 }
@@ -107,9 +109,9 @@ TEST(WifiCapture, AScansLevelIsItsFramesMean) {
   const auto at = [](std::uint32_t s, char bssid, int dbm) {
     return kMicroseconds.packet(s, 0, radiotap(2412, dbm) + beacon_bytes(bssid));
   };
-  EXPECT_EQ(row_texts(read(kMicroseconds.header() + at(101, 1, -50) + at(100, 2, -61) + at(101, 2, -60) +
-                               at(102, 1, -40),
-                           params)),
+  EXPECT_EQ(row_texts(read_capture(kMicroseconds.header() + at(101, 1, -50) + at(100, 2, -61) +
+                                       at(101, 2, -60) + at(102, 1, -40),
+                                   params)),
             (Rows{"0,02:00:00:00:00:01,2412,-50", "0,02:00:00:00:00:02,2412,-60.5",
                   "2,02:00:00:00:00:01,2412,-40"}));
 }
@@ -119,7 +121,7 @@ TEST(WifiCapture, TheFilesEndMayCutAPacket) {
   const std::size_t first =
       kMicroseconds.header().size() + 16 + radiotap(2412, -50).size() + beacon_bytes(1).size();
   for (std::size_t length = first + 1; length < whole.size(); ++length) {
-    const WifiLog log = read(whole.substr(0, length));
+    const WifiLog log = read_capture(whole.substr(0, length));
     EXPECT_EQ(row_texts(log), (Rows{kHeard[0]}));
     ASSERT_EQ(log.warnings.size(), 1U) << length;
     EXPECT_NE(log.warnings[0].find("a.pcap: at byte " + std::to_string(length)), std::string::npos)
@@ -128,16 +130,17 @@ TEST(WifiCapture, TheFilesEndMayCutAPacket) {
 }
 
 TEST(WifiCapture, RefusesWhatIsNoCaptureOfAMonitor) {
-  expect_refusal([] { read(""); }, 0, "is empty");
-  expect_refusal([] { read("radioslam, which is no capture"); }, 0, "at byte 4: unknown file format");
-  expect_refusal([] { read(kMicroseconds.header().substr(0, 20)); }, 0, "at byte 20");
-  expect_refusal([] { read(PcapStyle{}.header()); }, 0, "link type 1 (Ethernet)");
+  expect_refusal([] { read_capture(""); }, 0, "is empty");
+  expect_refusal([] { read_capture("radioslam, which is no capture"); }, 0, "at byte 4: unknown file format");
+  expect_refusal([] { read_capture(kMicroseconds.header().substr(0, 20)); }, 0, "at byte 20");
+  expect_refusal([] { read_capture(PcapStyle{}.header()); }, 0, "link type 1 (Ethernet)");
   expect_refusal(
       [] {
-        read(PcapStyle{ByteOrder::kLittle, 0xa1b2c3d4, 105}.header());
+        read_capture(PcapStyle{ByteOrder::kLittle, 0xa1b2c3d4, 105}.header());
       },
       0, "link type 105 (802.11)");
-  expect_refusal([] { read(kMicroseconds.header() + heard() + std::string(16, '\xff')); }, 0, "at byte");
+  expect_refusal([] { read_capture(kMicroseconds.header() + heard() + std::string(16, '\xff')); }, 0,
+                 "at byte");
   expect_refusal([] { read_wifi_capture(std::filesystem::path("/nowhere.pcap"), {}); }, 0,
                  "cannot be opened");
   expect_refusal([] { read_wifi_capture(std::filesystem::path("/"), {}); }, 0, "is a folder");

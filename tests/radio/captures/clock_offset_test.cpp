@@ -17,7 +17,7 @@ PathsBetween few_waves() {
 }
 
 /// Motion along a circle that stops every two seconds.
-SimulatedExchange stop_and_go() {
+SimulatedExchange stop_and_go_exchange() {
   SimulatedExchange exchange;
   exchange.motion = [](double t_s) {
     return on_circle(0.6, 0.3 * (t_s - std::sin(kTwoPi * t_s / 2) / kTwoPi * 2));
@@ -29,7 +29,7 @@ SimulatedExchange stop_and_go() {
 
 TEST(ClockOffset, OfStopAndGoIsRecovered) {
   for (const double late_s : {0.0, 0.15}) {
-    SimulatedExchange exchange = stop_and_go();
+    SimulatedExchange exchange = stop_and_go_exchange();
     exchange.cards.stamp_offset_s = late_s;
     const auto clock = estimate_clock_offset(exchange.two_way(), exchange.trajectory()).clock;
     ASSERT_TRUE(clock) << late_s;
@@ -40,7 +40,7 @@ TEST(ClockOffset, OfStopAndGoIsRecovered) {
 }
 
 TEST(ClockOffset, OfAConstantSpeedIsNothing) {
-  SimulatedExchange exchange = stop_and_go();
+  SimulatedExchange exchange = stop_and_go_exchange();
   exchange.motion = [](double t_s) { return on_circle(0.6, 0.4 * t_s); };
   const auto result = estimate_clock_offset(exchange.two_way(), exchange.trajectory());
   EXPECT_FALSE(result.clock);
@@ -51,7 +51,7 @@ TEST(ClockOffset, OfAConstantSpeedIsNothing) {
 /// distinguish this from an offset.
 TEST(ClockOffset, OfASpeedThatChangesSlowlyIsNothing) {
   for (const double toward_rad : {0.0, 1.5, 3.0}) {
-    SimulatedExchange exchange = stop_and_go();
+    SimulatedExchange exchange = stop_and_go_exchange();
     exchange.motion = [&](double t_s) {
       return on_circle(0.6, toward_rad + 0.3 * (t_s - std::sin(kTwoPi * t_s / 6) / kTwoPi * 6));
     };
@@ -62,7 +62,7 @@ TEST(ClockOffset, OfASpeedThatChangesSlowlyIsNothing) {
 }
 
 TEST(ClockOffset, WithoutATrajectoryAroundTheCaptureIsNothing) {
-  const SimulatedExchange exchange = stop_and_go();
+  const SimulatedExchange exchange = stop_and_go_exchange();
   for (const auto& trajectory : {exchange.trajectory(100), Trajectory<SE3>()}) {
     const auto result = estimate_clock_offset(exchange.two_way(), trajectory);
     EXPECT_FALSE(result.clock);
@@ -71,15 +71,15 @@ TEST(ClockOffset, WithoutATrajectoryAroundTheCaptureIsNothing) {
 }
 
 TEST(ClockOffset, OfAntennasAgainstEachOtherIsNothing) {
-  ChannelTrack track = stop_and_go().two_way();
+  ChannelTrack track = stop_and_go_exchange().two_way();
   track.is_two_way = false;
-  const auto result = estimate_clock_offset(track, stop_and_go().trajectory());
+  const auto result = estimate_clock_offset(track, stop_and_go_exchange().trajectory());
   EXPECT_FALSE(result.clock);
   EXPECT_EQ(result.reason, ClockOffsetFailure::kNotTwoWay);
 }
 
 TEST(ClockOffset, ShiftingMovesStampsAlone) {
-  const ChannelTrack track = stop_and_go().two_way();
+  const ChannelTrack track = stop_and_go_exchange().two_way();
   const ChannelTrack moved = shifted(track, -0.25);
   ASSERT_EQ(moved.stamps.size(), track.stamps.size());
   for (std::size_t k = 0; k < track.stamps.size(); ++k)

@@ -10,14 +10,13 @@
 #include "radio/aoa/simulated_exchange.hpp"
 #include "radioslam/base/parallel.hpp"
 #include "radioslam/base/random.hpp"
+#include "radioslam/base/units.hpp"
 #include "radioslam/geometry/so3.hpp"
 #include "radioslam/radio/captures/csi_aoa.hpp"
 #include "radioslam/sim/scenarios/csi_room.hpp"
 
 namespace radioslam {
 namespace {
-
-constexpr double kDegree_rad = std::numbers::pi / 180;
 
 CsiRoomParams room_without_walls() {
   CsiRoomParams params;
@@ -55,7 +54,7 @@ TEST(CsiStage, PointsAtTheOtherRobots) {
   std::size_t right = 0;
   for (const AoaMeasurement& measurement : measured.aoa_measurements)
     if (apart_rad(measurement.paths.front().azimuth_rad, true_azimuth_rad(open_mission(), measurement)) <
-        10 * kDegree_rad)
+        10 * kRadiansPerDegree)
       ++right;
   EXPECT_GT(static_cast<double>(right), 0.8 * static_cast<double>(measured.aoa_measurements.size()));
 }
@@ -84,7 +83,7 @@ TEST(CsiStage, ProfilesAreInTheBodyFrame) {
     const double azimuth_rad = -std::numbers::pi + 2 * std::numbers::pi *
                                                        static_cast<double>(most - profile.profile.begin()) /
                                                        static_cast<double>(profile.profile.size());
-    if (apart_rad(azimuth_rad, profile.peaks.front().azimuth_rad) < 8 * kDegree_rad) ++near;
+    if (apart_rad(azimuth_rad, profile.peaks.front().azimuth_rad) < 8 * kRadiansPerDegree) ++near;
     const std::size_t robot = open_measurements().aoa_measurements[k].receiver.index();
     most_turned = std::max(most_turned,
                            std::abs(open_mission().mission.robots[robot].odometry.at(profile.stamp)->yaw()));
@@ -106,13 +105,13 @@ Mission turned(Mission mission, double yaw_rad) {
 
 TEST(CsiStage, DoesNotCareForTheOdometrysFrame) {
   const MeasuredCsi& here = open_measurements();
-  const MeasuredCsi there = measure_csi(turned(open_mission().mission, 90 * kDegree_rad), {}, {});
+  const MeasuredCsi there = measure_csi(turned(open_mission().mission, 90 * kRadiansPerDegree), {}, {});
   ASSERT_EQ(here.aoa_measurements.size(), there.aoa_measurements.size());
   for (std::size_t k = 0; k < here.aoa_measurements.size(); ++k) {
     EXPECT_EQ(here.aoa_measurements[k].stamp, there.aoa_measurements[k].stamp);
     EXPECT_LT(apart_rad(here.aoa_measurements[k].paths.front().azimuth_rad,
                         there.aoa_measurements[k].paths.front().azimuth_rad),
-              1 * kDegree_rad)
+              1 * kRadiansPerDegree)
         << k;
     std::size_t alike = 0;
     const auto& a = here.profiles[k].profile;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kLinks = 6;
 constexpr std::array<double, kLinks> kStamps_s{0, 1, 1, 4, 30, 33};
-constexpr SightModel kModel{0.3, 5};
+constexpr SightModel kSightModel{0.3, 5};
 
 /// Two robots whose ranges have these stamps, listed in another order.
 TeamGraph<SE2> linked_team() {
@@ -47,14 +47,14 @@ std::vector<SightDensities> some_densities() {
 double joint_density(unsigned states, const std::vector<SightDensities>& densities) {
   const auto is_obstructed = [&](std::size_t k) { return (states >> k & 1U) != 0; };
   const auto share = [](bool obstructed) {
-    return obstructed ? kModel.obstructed_share : 1 - kModel.obstructed_share;
+    return obstructed ? kSightModel.obstructed_share : 1 - kSightModel.obstructed_share;
   };
   double density = share(is_obstructed(0));
   for (std::size_t k = 0; k < kLinks; ++k) {
     const SightDensities& own = densities[kLinks - 1 - k];
     density *= is_obstructed(k) ? own.obstructed : own.in_sight;
     if (k == 0) continue;
-    const double kept = std::exp(-(kStamps_s[k] - kStamps_s[k - 1]) / kModel.correlation_time_s);
+    const double kept = std::exp(-(kStamps_s[k] - kStamps_s[k - 1]) / kSightModel.correlation_time_s);
     density *= share(is_obstructed(k)) * (1 - kept) + (is_obstructed(k) == is_obstructed(k - 1) ? kept : 0);
   }
   return density;
@@ -71,9 +71,9 @@ TEST(SightChains, AreTheSumOverAllSequencesOfStates) {
       if ((states >> k & 1U) == 0) in_sight[k] += density;
   }
   const SightChains chains(linked_team());
-  EXPECT_NEAR(chains.log_likelihood(densities, kModel), std::log(all), 1e-12);
+  EXPECT_NEAR(chains.log_likelihood(densities, kSightModel), std::log(all), 1e-12);
   std::vector<double> posterior;
-  EXPECT_NEAR(chains.smooth(densities, kModel, posterior), std::log(all), 1e-12);
+  EXPECT_NEAR(chains.smooth(densities, kSightModel, posterior), std::log(all), 1e-12);
   for (std::size_t k = 0; k < kLinks; ++k)
     EXPECT_NEAR(posterior[kLinks - 1 - k], in_sight[k] / all, 1e-12) << k;
   EXPECT_NEAR(posterior[kLinks - 2], posterior[kLinks - 3], 1e-12) << "the same time, the same state";
@@ -88,9 +88,10 @@ TEST(SightChains, PairsOfRobotsAreIndependent) {
   other.j.pose = PoseId(2 * kLinks);
   team.graph.ranges.push_back(other);
   auto densities = some_densities();
-  const double before = SightChains(linked_team()).log_likelihood(densities, kModel);
+  const double before = SightChains(linked_team()).log_likelihood(densities, kSightModel);
   densities.push_back({1e-3, 0.5});
-  EXPECT_NEAR(SightChains(team).log_likelihood(densities, kModel), before + std::log(0.7e-3 + 0.15), 1e-12);
+  EXPECT_NEAR(SightChains(team).log_likelihood(densities, kSightModel), before + std::log(0.7e-3 + 0.15),
+              1e-12);
 }
 
 TEST(SightChains, WithoutObstructionsEveryLinkIsInSight) {

@@ -153,8 +153,8 @@ Json summary_of(const DistanceTable& table, const AnchorLayout& layout, const Ra
   return summary;
 }
 
-void print_text(const AnchorsOptions& options, const DistanceTable& table, const AnchorLayout& layout,
-                const std::vector<LocatedRobot>& robots) {
+void print_anchors(const AnchorsOptions& options, const DistanceTable& table, const AnchorLayout& layout,
+                   const std::vector<LocatedRobot>& robots) {
   std::cout << options.output << ": " << table.anchors.size() << " anchors from " << table.distances.size()
             << " distances, residual " << layout.rms_m << " m rms";
   if (layout.redundancy == 0) std::cout << " (no redundant distances, so errors cannot be detected)";
@@ -202,7 +202,7 @@ void place_anchors(const AnchorsOptions& options) {
   if (options.json)
     std::cout << summary.dump(2) << '\n';
   else
-    print_text(options, table, layout, robots);
+    print_anchors(options, table, layout, robots);
 }
 
 }  // namespace

@@ -22,13 +22,13 @@ nlohmann::ordered_json text_or_null(const std::string& text) {
   return text.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(text);
 }
 
-const char* name_of(Severity severity) { return severity == Severity::kError ? "error" : "warning"; }
+const char* severity_name(Severity severity) { return severity == Severity::kError ? "error" : "warning"; }
 
 nlohmann::ordered_json findings_json(const std::vector<Finding>& findings) {
   auto list = nlohmann::ordered_json::array();
   for (const Finding& finding : findings)
     list.push_back({{"kind", finding.kind},
-                    {"severity", name_of(finding.severity)},
+                    {"severity", severity_name(finding.severity)},
                     {"robot", text_or_null(finding.robot)},
                     {"file", text_or_null(finding.file)},
                     {"found", finding.found},
@@ -37,9 +37,9 @@ nlohmann::ordered_json findings_json(const std::vector<Finding>& findings) {
   return {{"findings", list}};
 }
 
-void print_text(const std::vector<Finding>& findings, const std::string& mission) {
+void print_findings(const std::vector<Finding>& findings, const std::string& mission) {
   for (const Finding& finding : findings) {
-    std::cout << name_of(finding.severity) << " (" << finding.kind << "): ";
+    std::cout << severity_name(finding.severity) << " (" << finding.kind << "): ";
     if (!finding.robot.empty() && finding.file.find("robots/" + finding.robot + "/") == std::string::npos)
       std::cout << "robot " << finding.robot << ": ";
     std::cout << text_of(finding) << '\n';
@@ -57,7 +57,7 @@ void examine(const DoctorArguments& options) {
     std::cout << findings_json(findings).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)
               << '\n';
   else
-    print_text(findings, options.mission);
+    print_findings(findings, options.mission);
 }
 
 }  // namespace

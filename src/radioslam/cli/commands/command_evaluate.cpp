@@ -133,7 +133,7 @@ Evaluation evaluate(const EvaluateOptions& options) {
   return evaluation;
 }
 
-nlohmann::ordered_json json_of(const Evaluation& evaluation) {
+nlohmann::ordered_json evaluation_json(const Evaluation& evaluation) {
   auto json = metrics_json(evaluation.metrics);
   json["candidates"] = pair_counts_json(evaluation.candidates);
   if (!evaluation.looked_for_candidates)
@@ -152,7 +152,7 @@ nlohmann::ordered_json json_of(const Evaluation& evaluation) {
   return json;
 }
 
-void print_text(const Evaluation& evaluation) {
+void print_evaluation(const Evaluation& evaluation) {
   for (const auto& note : evaluation.notes) std::cout << "note: " << note << '\n';
   std::cout << metrics_table(evaluation.metrics);
   if (evaluation.dead_reckoning && evaluation.dead_reckoning->ate) {
@@ -170,9 +170,9 @@ void print_text(const Evaluation& evaluation) {
 void evaluate_run(const EvaluateOptions& options) {
   const Evaluation evaluation = evaluate(options);
   if (options.json) {
-    std::cout << json_of(evaluation).dump(2) << '\n';
+    std::cout << evaluation_json(evaluation).dump(2) << '\n';
   } else {
-    print_text(evaluation);
+    print_evaluation(evaluation);
   }
 }
 

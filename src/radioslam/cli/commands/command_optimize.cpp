@@ -106,7 +106,7 @@ Report optimize_graph(G2oGraph<Pose>& file, const OptimizerParams& params) {
   return report;
 }
 
-nlohmann::ordered_json json_of(const Report& report) {
+nlohmann::ordered_json optimum_json(const Report& report) {
   return {{"initial_cost", report.initial_cost},
           {"start_cost", report.summary.initial_cost},
           {"final_cost", report.summary.final_cost},
@@ -124,7 +124,7 @@ nlohmann::ordered_json json_of(const Report& report) {
           {"costs", report.summary.costs}};
 }
 
-void print_text(const Report& report, const std::string& output) {
+void print_optimum(const Report& report, const std::string& output) {
   std::cout << output << ": " << report.poses << " poses, " << report.factors << " factors, cost "
             << report.initial_cost << " -> " << report.summary.initial_cost << " (" << report.start
             << " start) -> " << report.summary.final_cost << " in " << report.summary.iterations
@@ -150,9 +150,9 @@ void optimize_file(const OptimizeOptions& options) {
   report.seconds.read = read_s;
   output.commit(std::visit([](const auto& file) { return format_g2o(file); }, graph));
   if (options.json) {
-    std::cout << json_of(report).dump(2) << '\n';
+    std::cout << optimum_json(report).dump(2) << '\n';
   } else {
-    print_text(report, options.output);
+    print_optimum(report, options.output);
   }
 }
 

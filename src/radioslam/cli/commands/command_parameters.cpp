@@ -18,7 +18,7 @@ struct ParametersOptions {
   bool page = false;
 };
 
-std::string name_of(const ParametersOptions& options) {
+std::string set_name(const ParametersOptions& options) {
   std::string name;
   for (const std::string& word : options.command) name += (name.empty() ? "" : " ") + word;
   return name;
@@ -26,7 +26,7 @@ std::string name_of(const ParametersOptions& options) {
 
 const char* level_name(Field::Level level) { return level == Field::Level::kBasic ? "basic" : "expert"; }
 
-nlohmann::ordered_json json_of(const std::vector<ParameterDescription>& parameters) {
+nlohmann::ordered_json parameters_json(const std::vector<ParameterDescription>& parameters) {
   auto object = nlohmann::ordered_json::object();
   for (const auto& parameter : parameters) {
     object[parameter.key] = {{"default", parameter.default_value},
@@ -39,7 +39,8 @@ nlohmann::ordered_json json_of(const std::vector<ParameterDescription>& paramete
   return object;
 }
 
-void print_text(const std::vector<ParameterDescription>& parameters, const std::string& name, bool all) {
+void print_parameters(const std::vector<ParameterDescription>& parameters, const std::string& name,
+                      bool all) {
   const auto shown = all ? parameters : basic_parameters(parameters);
   std::cout << parameter_list_text(shown);
   const std::size_t hidden = parameters.size() - shown.size();
@@ -51,12 +52,12 @@ void list_parameters(const ParametersOptions& options) {
     std::cout << parameters_page();
     return;
   }
-  const std::string name = name_of(options);
+  const std::string name = set_name(options);
   const auto parameters = describe_parameters(parameter_set(name).defaults().parameters);
   if (options.json) {
-    std::cout << json_of(parameters).dump(2) << '\n';
+    std::cout << parameters_json(parameters).dump(2) << '\n';
   } else {
-    print_text(parameters, name, options.all);
+    print_parameters(parameters, name, options.all);
   }
 }
 

@@ -38,7 +38,7 @@ RunOutput search(const PruneOptions& options, const RunParams& params) {
   return run;
 }
 
-void print_text(const RunResult& result, const std::string& output) {
+void print_pruned(const RunResult& result, const std::string& output) {
   for (const auto& note : result.notes) std::cout << "note: " << note << '\n';
   const auto count = [&](const char* name) {
     const auto found = result.counts.find(name);
@@ -63,7 +63,7 @@ void prune(const PruneOptions& options) {
       if (summary["counts"].contains(name)) summary[name] = summary["counts"][name];
     std::cout << summary.dump(2) << '\n';
   } else {
-    print_text(run.result, options.output);
+    print_pruned(run.result, options.output);
   }
 }
 

@@ -66,8 +66,8 @@ std::string error_text(const TeamMetrics& metrics) {
   return text.str();
 }
 
-void print_text(const RunResult& result, const std::optional<TeamMetrics>& metrics,
-                const std::string& output) {
+void print_run(const RunResult& result, const std::optional<TeamMetrics>& metrics,
+               const std::string& output) {
   for (const auto& note : result.notes) std::cout << "note: " << note << '\n';
   std::cout << output << ": " << result.robots.size() << " robots, " << result.closures.size()
             << " closures, " << result.components.size()
@@ -104,7 +104,7 @@ void run_mission(const RunArguments& options) {
   if (options.json) {
     std::cout << summary_json(run.result, documents.metrics).dump(2) << '\n';
   } else {
-    print_text(run.result, metrics, options.output);
+    print_run(run.result, metrics, options.output);
   }
 }
 

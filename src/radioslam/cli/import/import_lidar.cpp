@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The robots' names in the order of the sources: those of --robot, or a, b and so on.
-std::vector<std::string> robots_of(const ImportOptions& options) {
+std::vector<std::string> robots_of_import(const ImportOptions& options) {
   constexpr std::size_t kLetters = 26;
   std::vector<std::string> robots = options.robots;
   if (robots.empty() && options.sources.size() <= kLetters)
@@ -106,7 +106,7 @@ void list_topics(const ImportOptions& options) {
 }
 
 /// A summary of the imported data: "177 scans, 345 odometry samples, ... of a".
-std::string summary_of(const RosImport& imported) {
+std::string ros_summary(const RosImport& imported) {
   const Robot& robot = imported.imported.mission.robots.front();
   std::string summary = std::to_string(imported.scans) + " scans, " + std::to_string(robot.odometry.size()) +
                         " odometry samples, " + std::to_string(robot.inertial.size()) + " IMU samples";
@@ -120,7 +120,7 @@ std::string summary_of(const RosImport& imported) {
 
 void import_carmen_logs(const ImportOptions& options) {
   const auto params = params_of<CarmenParams>(options);
-  const std::vector<std::string> robots = robots_of(options);
+  const std::vector<std::string> robots = robots_of_import(options);
   TeamOutput output(options);
   for (std::size_t k = 0; k < robots.size(); ++k) {
     ImportedMission imported = read_carmen(read_compressed_text(options.sources[k]), robots[k], params);
@@ -131,7 +131,7 @@ void import_carmen_logs(const ImportOptions& options) {
 }
 
 void import_kitti_drives(const ImportOptions& options) {
-  const std::vector<std::string> robots = robots_of(options);
+  const std::vector<std::string> robots = robots_of_import(options);
   TeamOutput output(options);
   for (std::size_t k = 0; k < robots.size(); ++k) {
     KittiDrive drive =
@@ -146,7 +146,7 @@ void import_kitti_drives(const ImportOptions& options) {
 
 void import_ros_recordings(const ImportOptions& options) {
   if (options.list) return list_topics(options);
-  const std::vector<std::string> robots = robots_of(options);
+  const std::vector<std::string> robots = robots_of_import(options);
   TeamOutput output(options);
   std::optional<GeodeticPlace> fix_origin;  // one frame for all robots
   for (std::size_t k = 0; k < robots.size(); ++k) {
@@ -159,7 +159,7 @@ void import_ros_recordings(const ImportOptions& options) {
         options.sources[k], robots[k], wishes,
         [&](Stamp stamp, const LidarScan& scan) { write_lidar_scan(folder, stamp, scan); }, fix_origin);
     fix_origin = imported.fix_origin;
-    const std::string summary = summary_of(imported);
+    const std::string summary = ros_summary(imported);
     output.add(std::move(imported.imported), summary);
   }
   output.commit();

@@ -50,7 +50,7 @@ void print_notes(const WifiLog& log) {
 }
 
 /// "12 rows, 3 scans, 5 radios", and the robot's name if known.
-std::string summary_of(const WifiLog& log, const WifiCsvOutput& target) {
+std::string wifi_summary(const WifiLog& log, const WifiCsvOutput& target) {
   std::set<std::string> radios;
   std::set<Stamp> scans;
   for (const WifiRow& row : log.rows) {
@@ -73,7 +73,7 @@ void write_wifi(const ImportOptions& options, WifiCsvOutput& target, std::vector
   print_notes(log);
   if (const std::string missing = target.missing(); !missing.empty())
     std::cout << "note: " << missing << '\n';
-  std::cout << options.output << ": " << summary_of(log, target) << '\n';
+  std::cout << options.output << ": " << wifi_summary(log, target) << '\n';
 }
 
 /// Opens the output. Refuses one that would replace an input.

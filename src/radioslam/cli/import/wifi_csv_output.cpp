@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> robots_of(const fs::path& mission) {
+std::vector<std::string> robots_in_mission(const fs::path& mission) {
   std::vector<std::string> ids;
   for (const Robot& robot : read_mission_yaml(read_text(mission / kMissionFolder), "").mission.robots)
     ids.push_back(robot.id);
@@ -41,7 +41,7 @@ WifiCsvOutput::WifiCsvOutput(const std::string& output, const std::string& robot
 std::string WifiCsvOutput::replaced() const { return file_ ? table_ : output_; }
 
 void WifiCsvOutput::find_robot_of_mission() {
-  const auto ids = robots_of(output_);
+  const auto ids = robots_in_mission(output_);
   if (robot_.empty() && ids.size() == 1) robot_ = ids.front();
   if (robot_.empty())
     throw InputError(output_, 0,

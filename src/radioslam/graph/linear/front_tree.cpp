@@ -69,7 +69,7 @@ void place_blocks(FrontTree& tree, const BlockGraph& graph, const EliminationTre
   }
 }
 
-void list_children(FrontTree& tree) {
+void list_front_children(FrontTree& tree) {
   std::vector<std::vector<std::uint32_t>> children(tree.fronts.size());
   for (std::uint32_t s = 0; s < tree.fronts.size(); ++s) {
     if (tree.fronts[s].parent != kNoParent) children[tree.fronts[s].parent].push_back(s);
@@ -224,7 +224,7 @@ FrontTree front_tree(const BlockPattern& pattern, const BlockCholeskyOptions& op
   const auto nodes = join_columns(graph, elimination, kFrontCost);
   FrontTree tree;
   place_blocks(tree, graph, elimination, nodes);
-  list_children(tree);
+  list_front_children(tree);
   find_rows(tree, graph);
   find_runs(tree);
   assign_storage(tree);

@@ -61,7 +61,7 @@ std::optional<std::uint32_t> counter_of(const NexmonRecord& record) {
   return record.sequence_control;
 }
 
-CsiPacket packet_of(const NexmonFrame& frame, const NexmonShape& shape) {
+CsiPacket nexmon_packet(const NexmonFrame& frame, const NexmonShape& shape) {
   constexpr int kNoiseNotMeasured = -127;
   const NexmonRecord& first = frame.records.front();
   CsiPacket packet;
@@ -134,7 +134,7 @@ class NexmonReader {
     const NexmonShape& kept = shapes.most_frequent();
     CsiCapture capture = capture_of(kept.band);
     for (const NexmonFrame& frame : frames_)
-      if (shape_of(frame) == kept) capture.packets.push_back(packet_of(frame, kept));
+      if (shape_of(frame) == kept) capture.packets.push_back(nexmon_packet(frame, kept));
     return capture;
   }
 

@@ -14,12 +14,12 @@ namespace {
 constexpr std::size_t kMaxQuotedCharacters = 40;
 constexpr double kMaxPyfgStamp_s = 9e9;  ///< year 2255; leaves room to separate equal stamps
 
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+bool is_robot_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
 /// Splits an id into letters and a number: robot and index.
 PoseIndex place_of(const TextLines& lines, std::string_view name, Stamp stamp) {
   std::size_t letters = 0;
-  while (letters < name.size() && is_letter(name[letters])) ++letters;
+  while (letters < name.size() && is_robot_letter(name[letters])) ++letters;
   const auto place = parse_id(name.substr(letters));
   if (letters == 0 || letters > kMaxQuotedCharacters || !place)
     lines.fail("the pose's id " + quoted_pyfg_word(name) + " is not letters and a number");

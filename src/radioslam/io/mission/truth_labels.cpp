@@ -29,7 +29,7 @@ void check_name(const CsvReader& csv, std::size_t column, const Mission& mission
     csv.fail("unknown robot '" + std::string(csv.field(column)) + "'");
 }
 
-int path_at(const CsvReader& csv, std::size_t column) {
+int path_number_at(const CsvReader& csv, std::size_t column) {
   const auto path = parse_integer(csv.field(column));
   if (!path || *path < kNoDirectPath || *path > std::numeric_limits<int>::max())
     csv.fail("path '" + std::string(csv.field(column)) + "' is neither the index of a path nor -1");
@@ -64,7 +64,7 @@ std::vector<std::optional<int>> read_direct_paths(const Text& text, const Missio
   CsvReader csv(text, {{"t_s", "receiver", "transmitter", "path"}});
   while (csv.next()) {
     for (const std::size_t column : {kReceiver, kTransmitter}) check_name(csv, column, mission);
-    const int path = path_at(csv, kPath);
+    const int path = path_number_at(csv, kPath);
     const auto place = places.find(
         {csv.stamp(kTime), std::string(csv.field(kReceiver)), std::string(csv.field(kTransmitter))});
     if (place == places.end()) continue;

@@ -60,7 +60,7 @@ AoaFigures our_figures(const std::vector<const AoaLink*>& links) {
   return figures;
 }
 
-StudyRow row_of(const std::string& label, const AoaFigures& figures) {
+StudyRow figures_row(const std::string& label, const AoaFigures& figures) {
   const auto degrees = [](std::optional<double> rad) {
     return rad ? std::optional(*rad / kRadiansPerDegree) : std::nullopt;
   };
@@ -138,11 +138,11 @@ StudyTable aoa_table(const std::vector<AoaLink>& links, const std::vector<WsrRes
       notes(links, !published.empty())};
   for (const AoaGroup& group : group_links(links, published)) {
     const std::string name = std::string(word_for(group.sight)) + ", " + word_for(group.motion);
-    table.rows.push_back(row_of(name, group.estimated));
+    table.rows.push_back(figures_row(name, group.estimated));
     if (group.published.links > 0)
-      table.rows.push_back(row_of(name + ": authors, same trials", group.published));
+      table.rows.push_back(figures_row(name + ": authors, same trials", group.published));
     if (group.published_all.links > 0)
-      table.rows.push_back(row_of(name + ": authors, all trials", group.published_all));
+      table.rows.push_back(figures_row(name + ": authors, all trials", group.published_all));
   }
   return table;
 }

@@ -32,7 +32,7 @@ SequenceError error_of(const RadioMeasurements& radio, const Truth& truth, const
           gap.dot(ldlt_solve(closure.fit.covariance, gap))};
 }
 
-std::vector<SequenceCell> empty_cells() {
+std::vector<SequenceCell> empty_sequence_cells() {
   std::vector<SequenceCell> cells;
   for (const double window_path_m : kWindows_m)
     for (int step = 1; step <= kSimilarities; ++step)
@@ -40,7 +40,7 @@ std::vector<SequenceCell> empty_cells() {
   return cells;
 }
 
-void add_mission(SequenceCell& cell, const RadioMeasurements& radio, const Truth& truth) {
+void add_sequences(SequenceCell& cell, const RadioMeasurements& radio, const Truth& truth) {
   SequenceClosureParams params;
   params.min_similarity = cell.min_similarity;
   params.window_path_m = cell.window_path_m;
@@ -57,7 +57,7 @@ std::optional<double> median_over(const SequenceCell& cell, Value&& value) {
   return median_of(std::move(values));
 }
 
-StudyRow row_of(const SequenceCell& cell) {
+StudyRow sequence_row(const SequenceCell& cell) {
   const double missions = static_cast<double>(cell.missions);
   const double accepted = static_cast<double>(cell.accepted.size());
   const auto right = std::count_if(cell.accepted.begin(), cell.accepted.end(),
@@ -86,14 +86,14 @@ std::vector<SequenceError> sequence_errors(const RadioMeasurements& radio, const
 
 std::vector<SequenceCell> measure_sequence_closures(const CarparkParams& carpark, std::uint64_t first_seed,
                                                     int seeds, const Progress& progress) {
-  std::vector<SequenceCell> cells = empty_cells();
+  std::vector<SequenceCell> cells = empty_sequence_cells();
   for (int k = 0; k < seeds; ++k) {
     const auto [mission, truth] = simulate_carpark(carpark, first_seed + static_cast<std::uint64_t>(k));
     const RadioMeasurements radio = measure_radio(mission, RadioParams{}, {});
     for (std::size_t c = 0; c < cells.size(); ++c) {
       const double done = static_cast<double>(c) / static_cast<double>(cells.size());
       report_progress(progress, "car parks", (k + done) / seeds);
-      add_mission(cells[c], radio, truth);
+      add_sequences(cells[c], radio, truth);
     }
   }
   return cells;
@@ -107,7 +107,7 @@ StudyTable sequence_table(const std::vector<SequenceCell>& cells) {
                     "median of NEES / 3"},
                    {},
                    {}};
-  for (const SequenceCell& cell : cells) table.rows.push_back(row_of(cell));
+  for (const SequenceCell& cell : cells) table.rows.push_back(sequence_row(cell));
   table.notes = {
       "The window is the path length that is matched on either side.",
       "Accepted closures have no pair of fingerprints in common, so longer windows leave fewer of them.",

@@ -11,7 +11,7 @@ namespace radioslam {
 namespace {
 
 constexpr double kLeastSquares_sigmas = 1e6;  // a Cauchy loss this wide is quadratic
-constexpr int kMetreDecimals = 2, kRatioDecimals = 3, kScaleDecimals = 1;
+constexpr int kMetreDecimals = 2, kShareDecimals = 3, kScaleDecimals = 1;
 
 RunParams without_access_points() {
   RunParams params;
@@ -53,14 +53,14 @@ std::optional<double> quotient(std::optional<double> part, std::optional<double>
   return *part / *whole;
 }
 
-StudyRow row_of(const SweptMission& mission) {
+StudyRow sweep_row(const SweptMission& mission) {
   const ThresholdCell* best = mission.best();
   return {"mission " + std::to_string(mission.seed),
           {number_text(mission.dead_reckoning_ate_m, kMetreDecimals),
            number_text(mission.default_ate_m, kMetreDecimals),
            number_text(best ? best->ate_m : std::nullopt, kMetreDecimals), best ? label_of(*best) : "–",
-           number_text(mission.default_over_best(), kRatioDecimals),
-           number_text(mission.default_over_dead_reckoning(), kRatioDecimals)}};
+           number_text(mission.default_over_best(), kShareDecimals),
+           number_text(mission.default_over_dead_reckoning(), kShareDecimals)}};
 }
 
 using Summary = std::function<std::optional<double>(std::vector<double>)>;
@@ -72,8 +72,8 @@ StudyRow summary_row(const char* label, const std::vector<SweptMission>& mission
     if (const auto ratio = mission.default_over_dead_reckoning()) over_dead_reckoning.push_back(*ratio);
   }
   return {label,
-          {"", "", "", "", number_text(summary(over_best), kRatioDecimals),
-           number_text(summary(over_dead_reckoning), kRatioDecimals)}};
+          {"", "", "", "", number_text(summary(over_best), kShareDecimals),
+           number_text(summary(over_dead_reckoning), kShareDecimals)}};
 }
 
 std::optional<double> largest_of(const std::vector<double>& values) {
@@ -127,7 +127,7 @@ StudyTable threshold_sweep_table(const std::vector<SweptMission>& missions) {
       {},
       {"nu is the largest predicted distance of a pair, within a robot and between robots.",
        "Everything else, including the closures' weights, has its default value in every cell."}};
-  for (const SweptMission& mission : missions) table.rows.push_back(row_of(mission));
+  for (const SweptMission& mission : missions) table.rows.push_back(sweep_row(mission));
   table.rows.push_back(summary_row("median", missions, median_of));
   table.rows.push_back(summary_row("worst", missions, largest_of));
   return table;

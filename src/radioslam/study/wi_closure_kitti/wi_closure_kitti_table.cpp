@@ -92,7 +92,7 @@ void add_errors(Rows& rows) {
                   [](const WiClosureKitti& seed) { return seed.ate_oracle_m; });
 }
 
-std::string lead_of(const std::vector<WiClosureKitti>& seeds) {
+std::string seeds_lead(const std::vector<WiClosureKitti>& seeds) {
   const std::string which = seeds.size() == 1
                                 ? "Seed " + std::to_string(seeds.front().seed)
                                 : "Medians of " + std::to_string(seeds.size()) + " seeds from " +
@@ -105,7 +105,7 @@ std::string lead_of(const std::vector<WiClosureKitti>& seeds) {
          std::to_string(drive.matches.matches_false) + " aliased matches.";
 }
 
-std::vector<std::string> notes() {
+std::vector<std::string> seeds_notes() {
   return {
       "[1] 1,913 missed of 5,544 are 34.5 %; according to table I of the thesis 1 % were missed.",
       ("[2] The text states 464 s including 53 s for the search, the table 411 s, which excludes the search. "
@@ -133,10 +133,10 @@ StudyTable wi_closure_kitti_table(const std::vector<WiClosureKitti>& seeds) {
   add_seconds(rows);
   add_errors(rows);
   return {"Wi-Closure on a recorded drive (KITTI 08)",
-          lead_of(seeds),
+          seeds_lead(seeds),
           {"thesis", "joint", "link"},
           rows.take(),
-          notes()};
+          seeds_notes()};
 }
 
 }  // namespace radioslam
