@@ -2,6 +2,8 @@
 #
 # Each room is one target and can include only the rooms it links, so that the compiler enforces the order of the rooms
 # in docs/architecture.md: the include directory of a target contains a symbolic link to that room only.
+# BUILD_SHARED_LIBS decides the kind of library. A shared room calls its own copies of inline functions, so that the
+# sanitizer build checks them even where a program brings copies that were compiled without.
 function(radioslam_room NAME)
   cmake_parse_arguments(ROOM "" "" "SOURCES;ROOMS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
   set(room_include ${PROJECT_BINARY_DIR}/rooms/${NAME})
@@ -10,7 +12,7 @@ function(radioslam_room NAME)
 
   list(TRANSFORM ROOM_ROOMS PREPEND radioslam_)
   list(TRANSFORM ROOM_SOURCES PREPEND ${NAME}/)
-  set(kind STATIC)
+  set(kind "")
   set(scope PUBLIC)
   if(NOT ROOM_SOURCES)
     set(kind INTERFACE)
@@ -22,7 +24,10 @@ function(radioslam_room NAME)
   target_include_directories(radioslam_${NAME} ${scope}
     $<BUILD_INTERFACE:${room_include}> $<INSTALL_INTERFACE:include>)
   target_link_libraries(radioslam_${NAME} ${scope} radioslam_settings ${ROOM_ROOMS} ${ROOM_LIBRARIES})
-  if(kind STREQUAL STATIC)
+  if(ROOM_SOURCES)
+    if(BUILD_SHARED_LIBS)
+      target_link_options(radioslam_${NAME} PRIVATE LINKER:-Bsymbolic-functions)
+    endif()
     target_link_libraries(radioslam_${NAME} PRIVATE $<BUILD_INTERFACE:radioslam_warnings>
                                                     ${ROOM_PRIVATE_LIBRARIES})
     radioslam_group_sources(radioslam_${NAME})

@@ -2,6 +2,7 @@
 # Checks how the sources are divided (scripts/check_structure.py). Then builds and tests everything: release with g++,
 # then AddressSanitizer and UndefinedBehaviorSanitizer with clang,
 # then runs every fuzzer of the sanitizer build for two seconds with a fixed seed (scripts/nightly.sh uses random ones).
+# Tests that simulate for long run without sanitizers only; scripts/nightly.sh runs them with.
 # All builds treat warnings as errors and compile sources in groups, which halves the time of a build from scratch.
 #   scripts/test.sh [--quick]     --quick: release only
 set -euo pipefail
@@ -20,8 +21,17 @@ configure_and_build() {
   cmake --build "build/$1" --parallel "$jobs"
 }
 
+# Runs the tests of a preset, all or those that further arguments of ctest select. Counts them: to ctest, a run of a
+# test program is one test.
 run_tests() {
-  ctest --test-dir "build/$1" --parallel "$jobs" --output-on-failure | tee "build/$1/ctest.log"
+  local log=build/$1/ctest.log status=0
+  ctest --test-dir "build/$1" --parallel "$jobs" --output-on-failure "${@:2}" | tee "$log" || status=$?
+  awk '/^\[  PASSED  \] [0-9]+ test/ {passed += $4}
+       /^\[  SKIPPED \] [0-9]+ test/ {skipped += $4}
+       /^\[  FAILED  \] [0-9]+ test/ {failed += $4}
+       END {printf "%d tests passed, %d failed, %d skipped\n", passed, failed, skipped}' \
+    "build/$1/Testing/Temporary/LastTest.log" | tee -a "$log"
+  return "$status"
 }
 
 rm -f build/release/ctest.log
@@ -32,14 +42,14 @@ step "structure"
 scripts/check_structure.py
 
 step "release"
-configure_and_build release -DRADIOSLAM_BUILD_TESTS=ON -DRADIOSLAM_GROUP_SOURCES=ON
+configure_and_build release -DRADIOSLAM_BUILD_TESTS=ON -DRADIOSLAM_GROUP_SOURCES=ON -DRADIOSLAM_TEST_SHARDS=2
 scripts/check_words.sh build/release/radioslam
 run_tests release
 if [[ ${1:-} == --quick ]]; then exit 0; fi
 
 step "sanitizers"
 configure_and_build asan
-run_tests asan
+run_tests asan --label-exclude slow  # scripts/nightly.sh slow
 
 step "fuzzers"
 scripts/fuzz.sh 2 1
