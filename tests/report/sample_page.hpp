@@ -25,7 +25,7 @@ inline std::string data_text(const std::string& page) {
 inline Json data_of(const std::string& page) { return Json::parse(data_text(page)); }
 
 inline std::string evaluated_page(const Sample& sample, const ReportParams& params = {}) {
-  return render_report(sample.result, &sample.truth, sample.metrics, params);
+  return render_report(sample.result, &sample.truth, sample.metrics, {}, params);
 }
 
 }  // namespace radioslam::sample

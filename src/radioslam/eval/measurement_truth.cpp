@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <numbers>
 #include <optional>
 #include <tuple>
 
+#include "radioslam/base/check.hpp"
 #include "radioslam/base/units.hpp"
+#include "radioslam/eval/angle_truth.hpp"
 #include "radioslam/eval/association.hpp"
 #include "radioslam/geometry/so3.hpp"
 #include "radioslam/mission/keyframes.hpp"
@@ -18,6 +19,41 @@ namespace {
 constexpr double kSigmas = 3;
 constexpr double kSlack_m = 0.5;
 constexpr double kSlack_rad = 5 * kRadiansPerDegree;
+
+/// An angle measurement with its label, as in Truth::direct_paths.
+struct LabelledAngle {
+  AoaMeasurement measured;
+  std::optional<int> direct_path;
+};
+
+RobotIndex robot_of(const Mission& mission, const std::string& id) {
+  for (std::size_t r = 0; r < mission.robots.size(); ++r)
+    if (mission.robots[r].id == id) return RobotIndex(r);
+  RADIOSLAM_CHECK(false, "measured angles are between robots of the mission");
+}
+
+/// An angle from CSI; packets are sent by a card's first antenna.
+AoaMeasurement measurement_of(const MeasuredAoaResult& measured, const Mission& mission) {
+  const RobotIndex transmitter = robot_of(mission, measured.transmitter);
+  LinkEnd end;
+  end.robot = transmitter;
+  const auto& csi = mission.robots[transmitter.index()].csi;
+  if (csi && !csi->antennas_m.empty()) end.lever_arm_m = csi->antennas_m.front();
+  return {measured.stamp, robot_of(mission, measured.receiver), end, measured.paths};
+}
+
+/// The angles of a run in its order: by time, those of the mission before those from CSI.
+std::vector<LabelledAngle> angles_of_run(const Mission& mission, const Truth& truth,
+                                         const std::vector<MeasuredAoaResult>& measured_aoa) {
+  std::vector<LabelledAngle> angles;
+  for (std::size_t k = 0; k < mission.aoa_measurements.size(); ++k)
+    angles.push_back(
+        {mission.aoa_measurements[k], k < truth.direct_paths.size() ? truth.direct_paths[k] : std::nullopt});
+  for (const auto& measured : measured_aoa) angles.push_back({measurement_of(measured, mission), {}});
+  std::stable_sort(angles.begin(), angles.end(),
+                   [](const auto& a, const auto& b) { return a.measured.stamp < b.measured.stamp; });
+  return angles;
+}
 
 class MeasurementJudge {
  public:
@@ -43,15 +79,15 @@ class MeasurementJudge {
     return std::abs((*i - *j).norm() - measured.range_m) <= kSigmas * measured.sigma_m + kSlack_m;
   }
 
-  std::optional<bool> aoa(std::size_t k) const {
-    const AoaMeasurement& measured = mission_.aoa_measurements[k];
-    if (k < truth_.direct_paths.size() && truth_.direct_paths[k] == kNoDirectPath) return false;
+  std::optional<AngleTruth> angle(const LabelledAngle& angle, const std::vector<double>& weights) const {
+    const AoaMeasurement& measured = angle.measured;
+    const auto path = likeliest_path(weights, measured.paths.size());
+    if (!path) return std::nullopt;
+    if (angle.direct_path) return judge_path(*path, *angle.direct_path);
     const auto receiver = pose(measured.receiver, measured.stamp);
     const auto transmitter = position_m(measured.transmitter, measured.stamp);
     if (!receiver || !transmitter) return std::nullopt;
-    const Eigen::Vector3d direction = receiver->inverse() * *transmitter;
-    return std::any_of(measured.paths.begin(), measured.paths.end(),
-                       [&](const AoaPath& path) { return points_to(path, direction); });
+    return judge_path(*path, measured.paths, receiver->inverse() * *transmitter);
   }
 
  private:
@@ -63,20 +99,14 @@ class MeasurementJudge {
   std::optional<Eigen::Vector3d> position_m(const LinkEnd& end, Stamp stamp) const {
     std::optional<Eigen::Vector3d> position;
     if (end.robot.valid()) {
-      if (const auto at = pose(end.robot, stamp)) position = *at * end.lever_arm_m;
+      // Where only positions are known, those of antennas are not, unless they are at the body's origin.
+      const RobotTruth& of = truth_.robots[end.robot.index()];
+      if (of.has_orientation || end.lever_arm_m.isZero(0))
+        if (const auto at = pose_at(of.poses, stamp)) position = *at * end.lever_arm_m;
     } else {
       position = mission_.anchors[end.anchor.index()].position_m;
     }
     return position;
-  }
-
-  static bool points_to(const AoaPath& path, const Eigen::Vector3d& direction) {
-    const double horizontal = std::hypot(direction.x(), direction.y());
-    const double azimuth_error =
-        std::remainder(std::atan2(direction.y(), direction.x()) - path.azimuth_rad, 2 * std::numbers::pi);
-    const double elevation_error =
-        path.elevation_rad ? std::atan2(direction.z(), horizontal) - *path.elevation_rad : 0;
-    return std::hypot(azimuth_error, elevation_error) <= kSigmas * path.sigma_rad + kSlack_rad;
   }
 
   const Mission& mission_;
@@ -84,6 +114,16 @@ class MeasurementJudge {
 };
 
 using Ends = std::tuple<RobotIndex, Stamp, RobotIndex, Stamp>;
+
+/// The ends of a link; none where the odometry does not cover both, as the run ignored such links.
+Ends link_ends(RobotIndex i, RobotIndex j, Stamp stamp, const std::vector<std::vector<Stamp>>& keyframes) {
+  const auto covers = [&](RobotIndex robot) {
+    if (!robot.valid() || keyframes[robot.index()].empty()) return false;
+    return keyframes[robot.index()].front() <= stamp && stamp <= keyframes[robot.index()].back();
+  };
+  if (!covers(i) || !covers(j)) return {};
+  return {i, stamp, j, stamp};
+}
 
 /// Measurements of one kind by robots and keyframes, each given out once, in their order.
 class MeasurementsByKeyframes {
@@ -124,44 +164,63 @@ void count(JudgedClosures& counts, ClosureStatus status, bool is_true) {
   }
 }
 
+void count(JudgedClosures& counts, ClosureStatus status, AngleTruth angle) {
+  count(counts, status, angle == AngleTruth::kDirectFound);
+  if (status != ClosureStatus::kAccepted) return;
+  counts.direct_found += angle == AngleTruth::kDirectFound ? 1U : 0U;
+  counts.wrong_path += angle == AngleTruth::kWrongPath ? 1U : 0U;
+  counts.none_direct += angle == AngleTruth::kNoneDirect ? 1U : 0U;
+}
+
+MeasurementsByKeyframes matches_by_keyframes(const Mission& mission,
+                                             const std::vector<std::vector<Stamp>>& keyframes) {
+  const auto ends = [&](std::size_t k) {
+    const PoseMatch& m = mission.matches[k];
+    return Ends{m.robot_i, m.stamp_i, m.robot_j, m.stamp_j};
+  };
+  return {mission.matches.size(), ends, keyframes};
+}
+
+MeasurementsByKeyframes ranges_by_keyframes(const Mission& mission,
+                                            const std::vector<std::vector<Stamp>>& keyframes) {
+  const auto ends = [&](std::size_t k) {
+    const RangeMeasurement& m = mission.ranges[k];
+    return link_ends(m.i.robot, m.j.robot, m.stamp, keyframes);
+  };
+  return {mission.ranges.size(), ends, keyframes};
+}
+
+MeasurementsByKeyframes angles_by_keyframes(const std::vector<LabelledAngle>& angles,
+                                            const std::vector<std::vector<Stamp>>& keyframes) {
+  const auto ends = [&](std::size_t k) {
+    const AoaMeasurement& m = angles[k].measured;
+    return link_ends(m.receiver, m.transmitter.robot, m.stamp, keyframes);
+  };
+  return {angles.size(), ends, keyframes};
+}
+
 }  // namespace
 
-std::map<ClosureKind, JudgedClosures> judge_closures(const std::vector<ClosureResult>& closures,
-                                                     const std::vector<std::vector<Stamp>>& keyframes,
-                                                     const Mission& mission, const Truth& truth) {
+ClosuresByKind judge_closures(const std::vector<ClosureResult>& closures,
+                              const std::vector<std::vector<Stamp>>& keyframes, const Mission& mission,
+                              const Truth& truth, const std::vector<MeasuredAoaResult>& measured_aoa) {
   const MeasurementJudge judge(mission, truth);
-  MeasurementsByKeyframes matches(
-      mission.matches.size(),
-      [&](std::size_t k) {
-        const PoseMatch& m = mission.matches[k];
-        return Ends{m.robot_i, m.stamp_i, m.robot_j, m.stamp_j};
-      },
-      keyframes);
-  MeasurementsByKeyframes ranges(
-      mission.ranges.size(),
-      [&](std::size_t k) {
-        const RangeMeasurement& m = mission.ranges[k];
-        return Ends{m.i.robot, m.stamp, m.j.robot, m.stamp};
-      },
-      keyframes);
-  MeasurementsByKeyframes angles(
-      mission.aoa_measurements.size(),
-      [&](std::size_t k) {
-        const AoaMeasurement& m = mission.aoa_measurements[k];
-        return Ends{m.receiver, m.stamp, m.transmitter.robot, m.stamp};
-      },
-      keyframes);
-  std::map<ClosureKind, JudgedClosures> counts;
-  for (const ClosureResult& closure : closures) {
-    std::optional<bool> is_true;
-    if (closure.kind == ClosureKind::kMatch) {
-      if (const auto k = matches.take(closure)) is_true = judge.match(*k);
-    } else if (closure.kind == ClosureKind::kRange) {
-      if (const auto k = ranges.take(closure)) is_true = judge.range(*k);
-    } else if (closure.kind == ClosureKind::kAoa) {
-      if (const auto k = angles.take(closure)) is_true = judge.aoa(*k);
-    }
+  const std::vector<LabelledAngle> angles = angles_of_run(mission, truth, measured_aoa);
+  auto matches = matches_by_keyframes(mission, keyframes), ranges = ranges_by_keyframes(mission, keyframes),
+       arrivals = angles_by_keyframes(angles, keyframes);
+  ClosuresByKind counts;
+  const auto count_if_covered = [&](const ClosureResult& closure, const auto& is_true) {
     if (is_true) count(counts[closure.kind], closure.status, *is_true);
+  };
+  for (const ClosureResult& closure : closures) {
+    if (closure.kind == ClosureKind::kMatch) {
+      if (const auto k = matches.take(closure)) count_if_covered(closure, judge.match(*k));
+    } else if (closure.kind == ClosureKind::kRange) {
+      if (const auto k = ranges.take(closure)) count_if_covered(closure, judge.range(*k));
+    } else if (closure.kind == ClosureKind::kAoa) {
+      if (const auto k = arrivals.take(closure))
+        count_if_covered(closure, judge.angle(angles[*k], closure.path_weights));
+    }
   }
   return counts;
 }

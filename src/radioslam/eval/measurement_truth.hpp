@@ -2,9 +2,8 @@
 //   match   relative pose within 3 sigma + 0.5 m and 3 sigma + 5 degrees of the true one; by x, y and yaw in
 //           the plane. A label of the mission takes precedence.
 //   range   within 3 sigma + 0.5 m of the true distance of the antennas.
-//   aoa     one of its paths within 3 sigma + 5 degrees of the true direction; azimuth only if the path has
-//   no
-//           elevation. A label that there is no direct path makes it false.
+//   aoa     by its likeliest path, that of the greatest posterior weight, whatever its other paths are
+//           (angle_truth.hpp): the accepted path of an accepted angle. Angles measured from CSI as well.
 // Closures of other kinds have no measurement in the mission; measurements to anchors are not in
 // closures.csv.
 #pragma once
@@ -22,13 +21,17 @@ namespace radioslam {
 /// Accepted and rejected closures of one kind, and those of either whose measurement is true.
 struct JudgedClosures {
   std::size_t accepted = 0, true_accepted = 0, rejected = 0, true_rejected = 0;
+  /// Of the accepted angles; they add up to `accepted`, and direct_found is true_accepted.
+  std::size_t direct_found = 0, wrong_path = 0, none_direct = 0;
 };
+using ClosuresByKind = std::map<ClosureKind, JudgedClosures>;
 
 /// Per kind of measurement that the run has closures of. Robots of `closures` are indices in the mission,
-/// whose measurements they follow in order; `keyframes` are the run's stamps per robot. Closures that the
-/// truth does not cover are not counted.
-std::map<ClosureKind, JudgedClosures> judge_closures(const std::vector<ClosureResult>& closures,
-                                                     const std::vector<std::vector<Stamp>>& keyframes,
-                                                     const Mission& mission, const Truth& truth);
+/// whose measurements they follow in order; `keyframes` are the run's stamps per robot, `measured_aoa` its
+/// angles from CSI. Closures that the truth does not cover, and angles of several paths without path
+/// weights, are not counted.
+ClosuresByKind judge_closures(const std::vector<ClosureResult>& closures,
+                              const std::vector<std::vector<Stamp>>& keyframes, const Mission& mission,
+                              const Truth& truth, const std::vector<MeasuredAoaResult>& measured_aoa = {});
 
 }  // namespace radioslam

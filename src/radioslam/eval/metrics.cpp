@@ -5,8 +5,9 @@
 
 #include "radioslam/base/check.hpp"
 #include "radioslam/eval/association.hpp"
+#include "radioslam/eval/mirror_image.hpp"
+#include "radioslam/eval/position_fit.hpp"
 #include "radioslam/eval/statistics.hpp"
-#include "radioslam/geometry/alignment.hpp"
 #include "radioslam/geometry/so3.hpp"
 
 namespace radioslam {
@@ -36,22 +37,6 @@ std::vector<Matches> match_team(const std::vector<EstimatedTrajectory>& estimate
     }
   }
   return team;
-}
-
-/// T_truth_estimate fitted to the positions of all robots; identity if there are none.
-SE3 align_team(const std::vector<Matches>& team, int dimension) {
-  Eigen::Index count = 0;
-  for (const auto& matches : team) count += static_cast<Eigen::Index>(matches.size());
-  if (count == 0) return {};
-  Eigen::Matrix3Xd source(3, count), target(3, count);
-  Eigen::Index column = 0;
-  for (const auto& matches : team)
-    for (const auto& match : matches) {
-      source.col(column) = match.estimate.translation();
-      target.col(column++) = match.truth.translation();
-    }
-  if (dimension == 3) return align_points(source, target);
-  return lift(align_points(Eigen::Matrix2Xd(source.topRows<2>()), Eigen::Matrix2Xd(target.topRows<2>())));
 }
 
 std::vector<double> distance_along(const Trajectory<SE3>& truth, int dimension) {
@@ -161,7 +146,8 @@ TeamMetrics evaluate_trajectories(const std::vector<EstimatedTrajectory>& estima
   RADIOSLAM_CHECK(dimension == 2 || dimension == 3, "dimension must be 2 or 3");
   const auto team = match_team(estimate, truth, dimension, association);
   TeamMetrics metrics;
-  metrics.T_truth_estimate = align_team(team, dimension);
+  metrics.T_truth_estimate = align_positions(positions_of(team), dimension);
+  metrics.mirror_images = find_mirror_images(truth, team, dimension);
   metrics.rpe = relative_error(team, truth);
   metrics.rotation_rmse_rad = absolute_rotation_rmse_rad(team, truth, metrics.T_truth_estimate);
 

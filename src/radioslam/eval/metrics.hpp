@@ -59,6 +59,13 @@ struct RobotMetrics {
   std::vector<PointError> errors;
 };
 
+/// An estimate that fits the truth only after a reflection.
+struct MirrorImage {
+  std::string robot;  ///< empty: the whole team's
+  double rigid_rmse_m = 0;
+  double reflected_rmse_m = 0;
+};
+
 /// Metrics of the team after ONE rigid alignment of all robots together.
 struct TeamMetrics {
   std::optional<ErrorStatistics> ate;
@@ -70,6 +77,7 @@ struct TeamMetrics {
   double coverage = 0;  ///< fraction of the truth's poses that the estimate covers
   SE3 T_truth_estimate;
   std::vector<RobotMetrics> robots;
+  std::vector<MirrorImage> mirror_images;  ///< as in mirror_image.hpp
 };
 
 /// Compares `estimate` with `truth` (matched by id) after one alignment; with `dimension` 2, alignment and

@@ -126,4 +126,20 @@ PageData closure_data(const RunResult& result, const DrawnKeyframes& keyframes, 
   return {{"groups", groups}, {"reasons", reason_rows(closures)}, {"drawn", lines.data()}};
 }
 
+PageData judged_closure_data(const ClosuresByKind& closures) {
+  PageData rows = PageData::array();
+  for (const auto& [kind, counts] : closures) {
+    rows.push_back({{"kind", name(kind)},
+                    {"accepted", counts.accepted},
+                    {"true_accepted", counts.true_accepted},
+                    {"rejected", counts.rejected},
+                    {"true_rejected", counts.true_rejected}});
+    if (kind != ClosureKind::kAoa) continue;
+    rows.back()["direct_found"] = counts.direct_found;
+    rows.back()["wrong_path"] = counts.wrong_path;
+    rows.back()["none_direct"] = counts.none_direct;
+  }
+  return rows;
+}
+
 }  // namespace radioslam

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "radioslam/eval/measurement_truth.hpp"
 #include "radioslam/report/page_json.hpp"
 #include "radioslam/report/report_params.hpp"
 #include "radioslam/results/results.hpp"
@@ -17,5 +18,9 @@ using DrawnKeyframes = std::vector<std::vector<std::size_t>>;
 ///   "statistic"}}.
 /// Keyframes in `drawn` are indices into the drawn keyframes.
 PageData closure_data(const RunResult& result, const DrawnKeyframes& keyframes, const ReportParams& params);
+
+/// [{"kind", "accepted", "true_accepted", "rejected", "true_rejected", "direct_found", "wrong_path",
+///   "none_direct"}]; the last three of angles only.
+PageData judged_closure_data(const ClosuresByKind& closures);
 
 }  // namespace radioslam

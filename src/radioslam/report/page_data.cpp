@@ -178,7 +178,7 @@ void add_run(PageData& page, const RunResult& result, const ReportParams& params
 }  // namespace
 
 PageData page_data(const RunResult& result, const Truth* truth, const std::optional<TeamMetrics>& metrics,
-                   const ReportParams& params) {
+                   const ClosuresByKind& judged_closures, const ReportParams& params) {
   PageData page{{"format", "radioslam-report/1"},
                 {"mission", result.mission_name},
                 {"dimension", result.dimension},
@@ -193,6 +193,7 @@ PageData page_data(const RunResult& result, const Truth* truth, const std::optio
     page["accuracy"] = accuracy_data(judgement);
   }
   add_robots(page, result, judgement, params);
+  page["closures"]["judged"] = judged_closure_data(judged_closures);
   if (result.similarity_model) page["similarity"] = similarity_data(*result.similarity_model, params);
   if (!result.aoa_measurements.empty())
     page["arrivals"] = aoa_data(result, first_stamp(result), judgement.truth, params);

@@ -6,6 +6,7 @@
 
 #include <optional>
 
+#include "radioslam/eval/measurement_truth.hpp"
 #include "radioslam/eval/metrics.hpp"
 #include "radioslam/mission/truth.hpp"
 #include "radioslam/report/page_json.hpp"
@@ -15,6 +16,6 @@
 namespace radioslam {
 
 PageData page_data(const RunResult& result, const Truth* truth, const std::optional<TeamMetrics>& metrics,
-                   const ReportParams& params);
+                   const ClosuresByKind& judged_closures, const ReportParams& params);
 
 }  // namespace radioslam

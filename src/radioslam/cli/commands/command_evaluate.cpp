@@ -1,11 +1,11 @@
 // radioslam evaluate: compares a run with the ground truth of its mission.
 #include <algorithm>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "radioslam/cli/commands.hpp"
@@ -15,9 +15,9 @@
 #include "radioslam/eval/closures.hpp"
 #include "radioslam/eval/measurement_truth.hpp"
 #include "radioslam/eval/metrics.hpp"
+#include "radioslam/eval/mirror_image.hpp"
 #include "radioslam/io/run/metrics_json.hpp"
 #include "radioslam/io/run/run_folder.hpp"
-#include "radioslam/io/run/run_tables.hpp"
 
 namespace radioslam::cli {
 namespace {
@@ -39,7 +39,7 @@ struct Evaluation {
   PairCounts candidates;
   bool looked_for_candidates = false;  ///< whether the run searched for candidates at all
   PairCounts closures;
-  std::map<ClosureKind, JudgedClosures> by_kind;  ///< judged by their measurements
+  ClosuresByKind by_kind;  ///< judged by their measurements
   long accepted = 0;
   long rejected = 0;
   std::vector<std::string> notes;
@@ -98,8 +98,8 @@ void count_pairs(Evaluation& evaluation, const RunFolder& run, const Mission& mi
     return closure.status == ClosureStatus::kAccepted;
   });
   evaluation.rejected = static_cast<long>(closures.size()) - evaluation.accepted;
-  evaluation.by_kind =
-      judge_closures(closures, keyframe_stamps(run, places, truth.reach_m.size()), mission, truth.truth);
+  evaluation.by_kind = judge_closures(closures, keyframe_stamps(run, places, truth.reach_m.size()), mission,
+                                      truth.truth, run.aoa_measurements);
 }
 
 std::vector<std::string> notes_on(const RunFolder& run, const EvaluateOptions& options) {
@@ -125,6 +125,8 @@ Evaluation evaluate(const EvaluateOptions& options) {
   evaluation.notes = notes_on(run, options);
   const auto estimate = in_common_frame(run.robots, run.components, run.unplaced);
   evaluation.metrics = evaluate_trajectories(estimate, truth, mission.dimension, association);
+  for (auto& note : mirror_notes(evaluation.metrics.mirror_images))
+    evaluation.notes.push_back(std::move(note));
   const auto odometry = dead_reckoning(mission);
   if (!odometry.empty()) {
     evaluation.dead_reckoning = evaluate_trajectories(odometry, truth, mission.dimension, association);
@@ -141,11 +143,7 @@ nlohmann::ordered_json evaluation_json(const Evaluation& evaluation) {
   json["closures"] = pair_counts_json(evaluation.closures);
   json["closures"]["accepted"] = evaluation.accepted;
   json["closures"]["rejected"] = evaluation.rejected;
-  for (const auto& [kind, counts] : evaluation.by_kind)
-    json["closures"][std::string(closure_kind_name(kind))] = {{"accepted", counts.accepted},
-                                                              {"true_accepted", counts.true_accepted},
-                                                              {"rejected", counts.rejected},
-                                                              {"true_rejected", counts.true_rejected}};
+  json["closures"].update(closures_by_kind_json(evaluation.by_kind));
   json["dead_reckoning"] = nullptr;
   if (evaluation.dead_reckoning) json["dead_reckoning"] = metrics_json(*evaluation.dead_reckoning);
   json["notes"] = evaluation.notes;
@@ -161,10 +159,7 @@ void print_evaluation(const Evaluation& evaluation) {
   std::cout << "closures: " << evaluation.accepted << " accepted, " << evaluation.rejected
             << " rejected; between robots " << evaluation.closures.kept << " accepted, "
             << evaluation.closures.true_kept << " of them within the radius\n";
-  for (const auto& [kind, counts] : evaluation.by_kind)
-    std::cout << "  " << closure_kind_name(kind) << ": " << counts.accepted << " accepted, "
-              << counts.true_accepted << " of them true; " << counts.rejected << " rejected, "
-              << counts.true_rejected << " of them true\n";
+  std::cout << closures_by_kind_text(evaluation.by_kind);
 }
 
 void evaluate_run(const EvaluateOptions& options) {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -20,6 +21,7 @@
 #include "radioslam/cli/config.hpp"
 #include "radioslam/cli/progress_line.hpp"
 #include "radioslam/cli/run_parameters.hpp"
+#include "radioslam/eval/mirror_image.hpp"
 #include "radioslam/io/graph/g2o.hpp"
 #include "radioslam/io/run/metrics_json.hpp"
 #include "radioslam/io/run/run_folder.hpp"
@@ -39,18 +41,28 @@ struct RunArguments {
   bool json = false;
 };
 
-std::optional<TeamMetrics> metrics_of(const RunResult& result, const Truth& truth) {
-  if (truth.empty()) return std::nullopt;
-  return evaluate_trajectories(team_estimate(result), truth, result.dimension);
+/// Agreement of a run with the truth; empty without one.
+struct Agreement {
+  std::optional<TeamMetrics> metrics;
+  ClosuresByKind closures;
+};
+
+Agreement evaluate(const RunResult& result, const Mission& mission, const Truth& truth) {
+  if (truth.empty()) return {};
+  return {evaluate_trajectories(team_estimate(result), truth, result.dimension),
+          judge_closures(result, mission, truth)};
 }
 
-RunDocuments documents_of(const RunOutput& run, const Truth& truth,
-                          const std::optional<TeamMetrics>& metrics) {
+RunDocuments documents_of(const RunOutput& run, const Truth& truth, const Agreement& agreement) {
   RunDocuments documents;
-  if (metrics) documents.metrics = metrics_json(*metrics);
+  if (agreement.metrics) {
+    documents.metrics = metrics_json(*agreement.metrics);
+    documents.metrics["closures"] = closures_by_kind_json(agreement.closures);
+  }
   documents.graph_g2o =
       std::visit([](const auto& graph) { return format_g2o(with_default_ids(graph)); }, run.graph);
-  documents.report_html = render_report(run.result, truth.empty() ? nullptr : &truth, metrics);
+  documents.report_html =
+      render_report(run.result, truth.empty() ? nullptr : &truth, agreement.metrics, agreement.closures);
   return documents;
 }
 
@@ -95,16 +107,20 @@ void run_mission(const RunArguments& options) {
   const bool is_checked = !options.unchecked && std::holds_alternative<std::monostate>(input.graph);
   const auto warnings =
       is_checked ? warnings_about(input.mission, options.mission) : std::vector<std::string>{};
+  const Mission links = without_recordings(input.mission);
   RunOutput run = estimate(std::move(input), params, options.no_prune);
-  run.result.notes.insert(run.result.notes.begin(), warnings.begin(), warnings.end());
-  const auto metrics = metrics_of(run.result, truth);
-  const RunDocuments documents = documents_of(run, truth, metrics);
+  auto& notes = run.result.notes;
+  notes.insert(notes.begin(), warnings.begin(), warnings.end());
+  const Agreement agreement = evaluate(run.result, links, truth);
+  if (agreement.metrics)
+    for (auto& note : mirror_notes(agreement.metrics->mirror_images)) notes.push_back(std::move(note));
+  const RunDocuments documents = documents_of(run, truth, agreement);
   write_run(output.path(), run.result, documents);
   output.commit();
   if (options.json) {
     std::cout << summary_json(run.result, documents.metrics).dump(2) << '\n';
   } else {
-    print_run(run.result, metrics, options.output);
+    print_run(run.result, agreement.metrics, options.output);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "radioslam/base/units.hpp"
+#include "radioslam/io/run/run_tables.hpp"
 
 namespace radioslam::cli {
 namespace {
@@ -67,6 +68,45 @@ std::string metrics_table(const TeamMetrics& metrics) {
   if (metrics.rotation_rmse_rad)
     table += formatted("rotation: %.3f deg rmse\n", kDegreesPerRadian * *metrics.rotation_rmse_rad);
   return table;
+}
+
+Mission without_recordings(const Mission& mission) {
+  Mission reduced;
+  reduced.dimension = mission.dimension;
+  for (const Robot& robot : mission.robots) {
+    Robot& kept = reduced.robots.emplace_back();
+    kept.id = robot.id;
+    if (!robot.csi) continue;
+    kept.csi.emplace();
+    kept.csi->antennas_m = robot.csi->antennas_m;
+  }
+  reduced.anchors = mission.anchors;
+  reduced.ranges = mission.ranges;
+  reduced.aoa_measurements = mission.aoa_measurements;
+  reduced.matches = mission.matches;
+  return reduced;
+}
+
+ClosuresByKind judge_closures(const RunResult& result, const Mission& mission, const Truth& truth) {
+  std::vector<std::vector<Stamp>> keyframes;
+  for (const RobotResult& robot : result.robots) {
+    auto& stamps = keyframes.emplace_back();
+    for (const auto& keyframe : robot.estimate) stamps.push_back(keyframe.stamp);
+  }
+  return judge_closures(result.closures, keyframes, mission, truth, result.aoa_measurements);
+}
+
+std::string closures_by_kind_text(const ClosuresByKind& closures) {
+  std::string text;
+  for (const auto& [kind, counts] : closures) {
+    text += formatted("  %s: %zu accepted, %zu of them true; %zu rejected, %zu of them true\n",
+                      std::string(closure_kind_name(kind)).c_str(), counts.accepted, counts.true_accepted,
+                      counts.rejected, counts.true_rejected);
+    if (kind == ClosureKind::kAoa)
+      text += formatted("       accepted path: direct %zu, wrong %zu; no path direct %zu\n",
+                        counts.direct_found, counts.wrong_path, counts.none_direct);
+  }
+  return text;
 }
 
 }  // namespace radioslam::cli

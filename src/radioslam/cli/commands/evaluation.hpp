@@ -1,9 +1,10 @@
-// Text output for an evaluation against ground truth: notes, dead reckoning as a baseline, table of errors.
+// Evaluation against ground truth: notes, dead reckoning as a baseline, closures of a run, text output.
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "radioslam/eval/measurement_truth.hpp"
 #include "radioslam/eval/metrics.hpp"
 #include "radioslam/eval/team_estimate.hpp"
 #include "radioslam/mission/mission.hpp"
@@ -21,5 +22,15 @@ std::vector<EstimatedTrajectory> dead_reckoning(const Mission& mission);
 
 /// Table of position errors per robot and for the team, and the relative error.
 std::string metrics_table(const TeamMetrics& metrics);
+
+/// What of a mission its closures are judged by: links, matches, and the antennas of the robots' cards,
+/// without recordings.
+Mission without_recordings(const Mission& mission);
+
+/// The run's closures judged by their measurements.
+ClosuresByKind judge_closures(const RunResult& result, const Mission& mission, const Truth& truth);
+
+/// A line per kind of closure.
+std::string closures_by_kind_text(const ClosuresByKind& closures);
 
 }  // namespace radioslam::cli

@@ -1,5 +1,7 @@
 #include "radioslam/io/run/metrics_json.hpp"
 
+#include "radioslam/io/run/run_tables.hpp"
+
 namespace radioslam {
 namespace {
 
@@ -44,6 +46,22 @@ Json pair_counts_json(const PairCounts& counts) {
           {"true", counts.true_pairs},
           {"kept", counts.kept},
           {"true_kept", counts.true_kept}};
+}
+
+Json closures_by_kind_json(const ClosuresByKind& closures) {
+  Json json = Json::object();
+  for (const auto& [kind, counts] : closures) {
+    Json& entry = json[std::string(closure_kind_name(kind))];
+    entry = {{"accepted", counts.accepted},
+             {"true_accepted", counts.true_accepted},
+             {"rejected", counts.rejected},
+             {"true_rejected", counts.true_rejected}};
+    if (kind != ClosureKind::kAoa) continue;
+    entry["direct_found"] = counts.direct_found;
+    entry["wrong_path"] = counts.wrong_path;
+    entry["none_direct"] = counts.none_direct;
+  }
+  return json;
 }
 
 }  // namespace radioslam

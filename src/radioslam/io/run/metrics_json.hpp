@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "radioslam/eval/closures.hpp"
+#include "radioslam/eval/measurement_truth.hpp"
 #include "radioslam/eval/metrics.hpp"
 
 namespace radioslam {
@@ -13,5 +14,9 @@ nlohmann::ordered_json metrics_json(const TeamMetrics& metrics);
 
 /// {"pairs", "true", "kept", "true_kept"}
 nlohmann::ordered_json pair_counts_json(const PairCounts& counts);
+
+/// By kind {"accepted", "true_accepted", "rejected", "true_rejected"}, of angles also {"direct_found",
+/// "wrong_path", "none_direct"}.
+nlohmann::ordered_json closures_by_kind_json(const ClosuresByKind& closures);
 
 }  // namespace radioslam

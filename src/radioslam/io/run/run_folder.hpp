@@ -33,9 +33,10 @@ struct RunFolder {
   std::vector<EstimatedTrajectory> robots;  ///< in the order of the summary; without poses if not placed
   std::vector<Component> components;
   std::vector<std::string> unplaced;
-  std::optional<CandidateList> candidates;  ///< nothing if the run did not search for any
-  std::vector<ClosureResult> closures;      ///< here and above, robots are indices of `robots`
-  nlohmann::ordered_json summary;           ///< null if there is no summary.json
+  std::optional<CandidateList> candidates;          ///< nothing if the run did not search for any
+  std::vector<ClosureResult> closures;              ///< here and above, robots are indices of `robots`
+  std::vector<MeasuredAoaResult> aoa_measurements;  ///< from CSI: stamps and paths only
+  nlohmann::ordered_json summary;                   ///< null if there is no summary.json
 };
 
 /// Reads a run's folder; every table is optional. Without summary.json, the robots are those with a .tum

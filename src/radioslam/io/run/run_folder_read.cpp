@@ -107,6 +107,8 @@ RunFolder read_run(const fs::path& folder) {
   read_candidates_of(folder, run);
   if (fs::exists(folder / "closures.csv"))
     run.closures = read_closures(read_text(folder / "closures.csv"), run.robots);
+  if (fs::exists(folder / "aoa.csv"))
+    run.aoa_measurements = read_measured_aoa(read_text(folder / "aoa.csv"), run.robots);
   if (fs::exists(folder / "uncertainty.csv"))
     read_uncertainty(read_text(folder / "uncertainty.csv"), run.robots);
   return run;

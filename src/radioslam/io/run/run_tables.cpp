@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
 #include "radioslam/base/check.hpp"
 #include "radioslam/base/parallel.hpp"
+#include "radioslam/io/mission/team_tables.hpp"
 #include "radioslam/io/text/atomic_output.hpp"
 #include "radioslam/io/text/csv.hpp"
 #include "radioslam/io/text/numbers.hpp"
@@ -96,14 +96,27 @@ std::string as_field(std::string text) {
   return text;
 }
 
-/// Weights as a single field: separated by spaces, to three digits.
+/// Weights as a single field, separated by spaces.
 std::string weights_field(const std::vector<double>& weights) {
   std::string field;
   for (const double weight : weights) {
     if (!field.empty()) field += ' ';
-    append_number(field, std::round(weight * 1e3) / 1e3);
+    append_number(field, weight);
   }
   return field;
+}
+
+std::vector<double> weights_in(const CsvReader& csv, std::size_t column) {
+  std::vector<double> weights;
+  std::string_view rest = csv.given(column) ? csv.field(column) : std::string_view();
+  while (!rest.empty()) {
+    const std::string_view word = rest.substr(0, rest.find(' '));
+    const auto weight = parse_number(word);
+    if (!weight || *weight < 0) csv.fail("path weight '" + std::string(word) + "' is not a weight");
+    weights.push_back(*weight);
+    rest.remove_prefix(std::min(rest.size(), word.size() + 1));
+  }
+  return weights;
 }
 
 /// Rows formatted by one thread, and how many such pieces wait to be written.
@@ -234,7 +247,9 @@ CandidateList read_candidates(const Text& text, std::span<const EstimatedTraject
 }
 
 std::vector<ClosureResult> read_closures(const Text& text, std::span<const EstimatedTrajectory> robots) {
-  CsvReader csv(text, pair_columns_and({"kind", "status", "statistic", "reason"}));
+  CsvReader::Columns columns = pair_columns_and({"kind", "status", "statistic", "reason"});
+  columns.optional = {"path_weights"};
+  CsvReader csv(text, columns);
   std::vector<ClosureResult> closures;
   while (csv.next()) {
     ClosureResult& closure = closures.emplace_back(read_pair<ClosureResult>(csv, robots));
@@ -242,8 +257,24 @@ std::vector<ClosureResult> read_closures(const Text& text, std::span<const Estim
     closure.status = value_of(csv, kFirstOwn + 1, kStatuses);
     closure.statistic = csv.number(kFirstOwn + 2);
     closure.reason = std::string(csv.field(kFirstOwn + 3));
+    closure.path_weights = weights_in(csv, kFirstOwn + 4);
   }
   return closures;
+}
+
+std::vector<MeasuredAoaResult> read_measured_aoa(const Text& text,
+                                                 std::span<const EstimatedTrajectory> robots) {
+  TeamNames names;
+  for (std::size_t r = 0; r < robots.size(); ++r) names.robots.emplace(robots[r].id, RobotIndex(r));
+  std::vector<MeasuredAoaResult> results;
+  for (AoaMeasurement& measured : read_aoa(text, names)) {
+    MeasuredAoaResult& result = results.emplace_back();
+    result.receiver = robots[measured.receiver.index()].id;
+    result.transmitter = robots[measured.transmitter.robot.index()].id;
+    result.stamp = measured.stamp;
+    result.paths = std::move(measured.paths);
+  }
+  return results;
 }
 
 void read_uncertainty(const Text& text, std::span<EstimatedTrajectory> robots) {

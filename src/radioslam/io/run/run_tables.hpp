@@ -38,10 +38,13 @@ std::string format_measured_aoa(const std::vector<MeasuredAoaResult>& aoa_measur
 /// (rival_x_m, rival_y_m) is empty if there is none.
 std::string format_access_points(const std::vector<AccessPointResult>& access_points);
 
-/// Refuse malformed rows, unknown robots, kinds and statuses, and stamps at which a robot has no keyframe
-/// (not checked for robots without poses).
+/// Refuse malformed rows, unknown robots, kinds and statuses, path weights that are no numbers from 0 on, and
+/// stamps at which a robot has no keyframe (not checked for robots without poses).
 CandidateList read_candidates(const Text& text, std::span<const EstimatedTrajectory> robots);
 std::vector<ClosureResult> read_closures(const Text& text, std::span<const EstimatedTrajectory> robots);
+/// In time order, without peaks and profiles. Refuses what a mission's radio/aoa.csv refuses.
+std::vector<MeasuredAoaResult> read_measured_aoa(const Text& text,
+                                                 std::span<const EstimatedTrajectory> robots);
 /// Sets the standard deviations of the robots in the table. Refuses a robot with other stamps than its poses.
 void read_uncertainty(const Text& text, std::span<EstimatedTrajectory> robots);
 
