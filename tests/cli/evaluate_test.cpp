@@ -1,7 +1,11 @@
 // `evaluate` on incomplete runs, and `run` on robots it cannot place.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "cli/process.hpp"
 
@@ -104,6 +108,81 @@ TEST_F(Evaluate, DistinguishesNoCandidatesFromNoSearch) {
 
   write("candidates.csv", "robot_i,t_i_s,robot_j,t_j_s,distance_m,mahalanobis\na,1,b,1,5,1\n");
   EXPECT_EQ(evaluated()["candidates"]["kept"], 1);
+}
+
+/// The fields of a table's rows.
+std::vector<std::vector<std::string>> rows_of(const fs::path& path) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream text(read_file(path));
+  std::string line;
+  std::getline(text, line);
+  while (std::getline(text, line)) {
+    auto& row = rows.emplace_back();
+    std::istringstream fields(line + ",");
+    for (std::string field; std::getline(fields, field, ',');) row.push_back(field);
+  }
+  return rows;
+}
+
+/// Recomputed from the label and the weights alone: the hall's angles have a label each, and their closures
+/// are in the same order as they are all covered.
+nlohmann::json counts_of_paths(const fs::path& mission, const fs::path& out) {
+  const auto labels = rows_of(mission / "radio/direct_paths.csv");
+  std::size_t k = 0;
+  std::map<std::string, int> counts{{"accepted", 0},      {"rejected", 0},     {"true_accepted", 0},
+                                    {"true_rejected", 0}, {"direct_found", 0}, {"wrong_path", 0},
+                                    {"none_direct", 0}};
+  for (const auto& row : rows_of(out / "closures.csv")) {
+    if (row[4] != "aoa") continue;
+    std::istringstream field(row[8]);
+    const std::vector<double> weights{std::istream_iterator<double>(field), {}};
+    const auto likeliest = std::max_element(weights.begin(), weights.end()) - weights.begin();
+    const long direct = std::stol(labels.at(k++)[3]);
+    ++counts[row[5]];
+    counts["true_" + row[5]] += likeliest == direct;
+    if (row[5] == "accepted")
+      ++counts[likeliest == direct ? "direct_found" : direct < 0 ? "none_direct" : "wrong_path"];
+  }
+  EXPECT_EQ(k, labels.size());
+  return counts;
+}
+
+TEST(EvaluateAngles, CountsThePathsThatTheRunAcceptedByTheirLabels) {
+  const TemporaryFolder folder;
+  int wrong = 0, none = 0;
+  for (const char* seed : {"2", "3", "4"}) {
+    ASSERT_EQ(run({"simulate", "hall", "-o", "m", "--seed", seed}, folder.path()).status, 0);
+    ASSERT_EQ(run({"run", "m", "-o", "out"}, folder.path()).status, 0);
+    const auto outcome = run({"evaluate", "out", "m", "--json"}, folder.path());
+    const auto counts = nlohmann::json::parse(outcome.out)["closures"]["aoa"];
+    EXPECT_EQ(counts, counts_of_paths(folder.path() / "m", folder.path() / "out")) << "seed " << seed;
+    const auto summary = nlohmann::json::parse(read_file(folder.path() / "out/summary.json"));
+    EXPECT_EQ(summary["metrics"]["closures"]["aoa"], counts) << "seed " << seed;
+    wrong += counts["wrong_path"].get<int>();
+    none += counts["none_direct"].get<int>();
+  }
+  EXPECT_GT(wrong, 0);  // else the test would not tell the accepted path from any path
+  EXPECT_GT(none, 0);
+}
+
+TEST(EvaluateMirrored, RunAndEvaluateNoteAMirroredTruth) {
+  const TemporaryFolder folder;
+  write_file(folder.path() / "m/mission.yaml", "format: radioslam-mission/1\nrobots:\n  a: {}\n");
+  const auto corner = [&](const std::string& sign) {
+    return "0 0 0 0 0 0 0 1\n1 2 0 0 0 0 0 1\n2 4 0 0 0 0 0 1\n3 4 " + sign + "2 0 0 0 0 1\n4 4 " + sign +
+           "4 0 0 0 0 1\n";
+  };
+  const auto robot = folder.path() / "m/robots/a";
+  write_file(robot / "odometry.tum", corner(""));
+  for (const char* sign : {"", "-"}) {
+    write_file(robot / "groundtruth.tum", corner(sign));
+    const auto ran = run({"run", "m", "-o", "out", "--unchecked"}, folder.path());
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    const auto outcome = run({"evaluate", "out", "m", "--json"}, folder.path());
+    const std::size_t notes = *sign == '-' ? 1 : 0;
+    EXPECT_EQ(nlohmann::json::parse(outcome.out)["notes"].size(), notes) << outcome.out;
+    EXPECT_EQ(ran.out.find("only as a mirror image") != std::string::npos, notes == 1) << ran.out;
+  }
 }
 
 }  // namespace

@@ -3,11 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 namespace radioslam {
 namespace {
 
-/// Robot a stands at the origin, b at (3, 4), turned by a quarter; one keyframe each.
+/// Robot a stands at the origin, b at (3, 4), turned by a quarter; a keyframe each at 0 s and 60 s.
 class MeasurementTruth : public testing::Test {
  protected:
   MeasurementTruth() {
@@ -22,8 +23,9 @@ class MeasurementTruth : public testing::Test {
   void add(ClosureKind kind, ClosureStatus status) {
     closures.push_back({a, Stamp{}, b, Stamp{}, kind, status, 0, ""});
   }
-  std::map<ClosureKind, JudgedClosures> judge() const {
-    return judge_closures(closures, {{Stamp{}}, {Stamp{}}}, mission, truth);
+  ClosuresByKind judge(const std::vector<MeasuredAoaResult>& measured = {}) const {
+    const std::vector<Stamp> stamps{Stamp{}, Stamp::from_seconds(60)};
+    return judge_closures(closures, {stamps, stamps}, mission, truth, measured);
   }
 
   const RobotIndex a{0}, b{1};
@@ -51,23 +53,124 @@ TEST_F(MeasurementTruth, LabelsTakePrecedence) {
   EXPECT_EQ(judge().at(ClosureKind::kMatch).true_rejected, 0U);
 }
 
-TEST_F(MeasurementTruth, RangesAndAnglesAreComparedWithTheTrueAntennas) {
+TEST_F(MeasurementTruth, RangesAreComparedWithTheTrueAntennas) {
   const LinkEnd of_a{a, {}, "", Eigen::Vector3d::Zero()}, of_b{b, {}, "", Eigen::Vector3d(1, 0, 0)};
   const double distance = std::hypot(3, 5);  // b's antenna is at (3, 5)
   mission.ranges.push_back({at, of_a, of_b, distance + 0.7, 0.1});
   mission.ranges.push_back({at, of_a, of_b, distance + 0.9, 0.1});
   add(ClosureKind::kRange, ClosureStatus::kAccepted);
   add(ClosureKind::kRange, ClosureStatus::kRejected);
-  const AoaPath direct{std::atan2(5, 3), {}, 0.02, 0}, reflected{-2, {}, 0.02, 0};
-  mission.aoa_measurements.push_back({at, a, of_b, {reflected, direct}});
-  mission.aoa_measurements.push_back({at, a, of_b, {reflected}});
-  add(ClosureKind::kAoa, ClosureStatus::kAccepted);
-  add(ClosureKind::kAoa, ClosureStatus::kAccepted);
   const auto judged = judge();
   EXPECT_EQ(judged.at(ClosureKind::kRange).true_accepted, 1U);
   EXPECT_EQ(judged.at(ClosureKind::kRange).true_rejected, 0U);
-  EXPECT_EQ(judged.at(ClosureKind::kAoa).accepted, 2U);
-  EXPECT_EQ(judged.at(ClosureKind::kAoa).true_accepted, 1U);
+}
+
+/// Angles at a from b's antenna at (3, 5), with one path that points there and two that do not.
+class AngleTruthOfRun : public MeasurementTruth {
+ protected:
+  void add_angle(std::vector<AoaPath> paths, std::vector<double> weights,
+                 ClosureStatus status = ClosureStatus::kAccepted) {
+    mission.aoa_measurements.push_back({at, a, of_b, std::move(paths)});
+    add(ClosureKind::kAoa, status);
+    closures.back().path_weights = std::move(weights);
+  }
+  JudgedClosures angles() const { return judge().at(ClosureKind::kAoa); }
+
+  const LinkEnd of_b{b, {}, "", Eigen::Vector3d(1, 0, 0)};
+  const AoaPath direct{std::atan2(5, 3), {}, 0.02, 0}, reflected{-2, {}, 0.02, 0}, other{2.5, {}, 0.02, 0};
+};
+
+TEST_F(AngleTruthOfRun, TheLikeliestPathDecidesNotAnyPath) {
+  add_angle({reflected, direct}, {0.1, 0.8});            // found
+  add_angle({reflected, direct}, {0.5, 0.4});            // wrong path
+  add_angle({reflected, direct, other}, {0, 0.4, 0.5});  // wrong path
+  add_angle({reflected, other}, {0.9, 0});               // none direct
+  add_angle({direct}, {});                               // found: no other path
+  const JudgedClosures counts = angles();
+  EXPECT_EQ(counts.accepted, 5U);
+  EXPECT_EQ(counts.true_accepted, 2U);
+  EXPECT_EQ(counts.direct_found, 2U);
+  EXPECT_EQ(counts.wrong_path, 2U);
+  EXPECT_EQ(counts.none_direct, 1U);
+}
+
+TEST_F(AngleTruthOfRun, ARejectedAngleIsTrueIfItsLikeliestPathIsDirect) {
+  add_angle({reflected, direct}, {0.1, 0.2}, ClosureStatus::kRejected);
+  add_angle({reflected, direct}, {0.2, 0.1}, ClosureStatus::kRejected);
+  add_angle({reflected, other}, {0.2, 0.1}, ClosureStatus::kRejected);
+  const JudgedClosures counts = angles();
+  EXPECT_EQ(counts.rejected, 3U);
+  EXPECT_EQ(counts.true_rejected, 1U);
+  EXPECT_EQ(counts.direct_found + counts.wrong_path + counts.none_direct, 0U);
+}
+
+TEST_F(AngleTruthOfRun, LabelsTakePrecedenceOverGeometry) {
+  for (int k = 0; k < 4; ++k) add_angle({reflected, direct}, {0.9, 0.1});
+  truth.direct_paths = {0, 1, kNoDirectPath, std::nullopt};  // the last one by geometry: wrong path
+  const JudgedClosures counts = angles();
+  EXPECT_EQ(counts.direct_found, 1U);
+  EXPECT_EQ(counts.wrong_path, 2U);
+  EXPECT_EQ(counts.none_direct, 1U);
+}
+
+TEST_F(AngleTruthOfRun, ThreeSigmaAndFiveDegreesAreWithinTheDirection) {
+  const double tolerance_rad = 3 * 0.02 + 5 * 3.14159265 / 180;
+  AoaPath near = direct, beyond = direct;
+  near.azimuth_rad += tolerance_rad - 0.001;
+  beyond.azimuth_rad += tolerance_rad + 0.001;
+  add_angle({near}, {1});
+  add_angle({beyond}, {1});
+  EXPECT_EQ(angles().direct_found, 1U);
+  EXPECT_EQ(angles().none_direct, 1U);
+}
+
+TEST_F(AngleTruthOfRun, SeveralPathsWithoutTheirWeightsAreNotJudged) {
+  add_angle({reflected, direct}, {});
+  add_angle({reflected, direct}, {1});
+  EXPECT_TRUE(judge().empty());
+}
+
+TEST_F(AngleTruthOfRun, AnglesFromCsiAreJudgedInTheOrderOfTheRun) {
+  add_angle({reflected, direct}, {0.1, 0.8});  // of the mission, at 1 s
+  mission.robots[0].id = "a";
+  mission.robots[1].id = "b";
+  mission.robots[1].csi.emplace().antennas_m = {Eigen::Vector3d(1, 0, 0)};
+  const auto from_csi = [&](double t_s, std::vector<AoaPath> paths) {
+    MeasuredAoaResult result;
+    result.receiver = "a";
+    result.transmitter = "b";
+    result.stamp = Stamp::from_seconds(t_s);
+    result.paths = std::move(paths);
+    return result;
+  };
+  // By time: wrong path at 0.5 s, the mission's, none direct at 2 s; the truth ends at 9 s.
+  const std::vector<MeasuredAoaResult> measured = {from_csi(2, {reflected, other}),
+                                                   from_csi(0.5, {other, direct, reflected})};
+  closures.front().path_weights = {0.6, 0.3, 0};
+  for (const std::vector<double>& weights : {std::vector{0.1, 0.8}, std::vector{0.7, 0.1}}) {
+    add(ClosureKind::kAoa, ClosureStatus::kAccepted);
+    closures.back().path_weights = weights;
+  }
+  const auto counts = judge(measured).at(ClosureKind::kAoa);
+  EXPECT_EQ(counts.accepted, 3U);
+  EXPECT_EQ(counts.direct_found, 1U);
+  EXPECT_EQ(counts.wrong_path, 1U);
+  EXPECT_EQ(counts.none_direct, 1U);
+}
+
+TEST_F(AngleTruthOfRun, ATransmitterWithoutOrientationIsAPositionIfItsAntennaIsAtTheOrigin) {
+  add_angle({{std::atan2(4, 3), {}, 0.02, 0}}, {1});
+  truth.robots[1].has_orientation = false;
+  EXPECT_TRUE(judge().empty());
+  mission.aoa_measurements[0].transmitter.lever_arm_m.setZero();
+  EXPECT_EQ(angles().direct_found, 1U);
+}
+
+/// The run has no closure of a link at a time without odometry, so that the next one is not its closure.
+TEST_F(AngleTruthOfRun, LinksBeyondTheOdometryHaveNoClosure) {
+  mission.aoa_measurements.push_back({Stamp::from_seconds(-1), a, of_b, {reflected}});
+  add_angle({direct}, {1});
+  EXPECT_EQ(angles().direct_found, 1U);
 }
 
 TEST_F(MeasurementTruth, WhatTheTruthDoesNotCoverIsNotCounted) {

@@ -268,5 +268,17 @@ TEST(Report, SpaceHasHeights) {
       data_of(evaluated_page(make_sample({.keyframes = 30})))["robots"][0]["estimate"].contains("z"));
 }
 
+TEST(Report, ShowsClosuresAgainstTheTruth) {
+  const auto sample = make_sample({});
+  const ClosuresByKind judged{{ClosureKind::kAoa, {6, 3, 2, 1, 3, 2, 1}}};
+  const Json rows =
+      data_of(render_report(sample.result, &sample.truth, sample.metrics, judged))["closures"]["judged"];
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0]["kind"], "aoa");
+  EXPECT_EQ(rows[0]["direct_found"], 3);
+  EXPECT_EQ(rows[0]["wrong_path"], 2);
+  EXPECT_EQ(rows[0]["none_direct"], 1);
+}
+
 }  // namespace
 }  // namespace radioslam

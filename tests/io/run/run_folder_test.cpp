@@ -89,6 +89,25 @@ TEST(RunFolder, MeasuredDirectionsAreAMissionsTable) {
             "0,adam,zoe,0,2,,0.25,0\n");
 }
 
+TEST(RunFolder, WhatAnglesAreJudgedByReadsBackExactly) {
+  const TemporaryFolder folder;
+  RunResult result = example();
+  result.closures[0].path_weights = {0.1, 1.0 / 3, 3e-17};
+  result.aoa_measurements = {
+      {"zoe", "adam", {1'500'000'000}, {}, {}, {}, {{0.25, {}, 0.0625, 0}, {-3, 0.5, 0.125, -4.5}}}};
+  write_run(folder.path(), result, {});
+  const RunFolder run = read_run(folder.path());
+  EXPECT_EQ(run.closures[0].path_weights, result.closures[0].path_weights);
+  ASSERT_EQ(run.aoa_measurements.size(), 1U);
+  const MeasuredAoaResult& angle = run.aoa_measurements[0];
+  EXPECT_EQ(angle.receiver, "zoe");
+  EXPECT_EQ(angle.transmitter, "adam");
+  EXPECT_EQ(angle.stamp.ns, 1'500'000'000);
+  ASSERT_EQ(angle.paths.size(), 2U);
+  EXPECT_EQ(angle.paths[0].azimuth_rad, 0.25);
+  EXPECT_EQ(angle.paths[1].elevation_rad, 0.5);
+}
+
 TEST(RunFolder, AccessPointsAreATableWhereThereAreSome) {
   const TemporaryFolder folder;
   RunResult result = example();
@@ -200,6 +219,15 @@ TEST(MetricsJson, HasTheKeysOfTheFormatAndNullForWhatWasNotMeasured) {
   EXPECT_EQ(pair_counts_json({10, 4, 3, 2}).dump(), R"({"pairs":10,"true":4,"kept":3,"true_kept":2})");
 }
 
+TEST(MetricsJson, OnlyAnglesHaveCountsOfPaths) {
+  EXPECT_EQ(closures_by_kind_json(
+                {{ClosureKind::kRange, {4, 3, 2, 1, 0, 0, 0}}, {ClosureKind::kAoa, {6, 3, 2, 1, 3, 2, 1}}})
+                .dump(),
+            R"({"range":{"accepted":4,"true_accepted":3,"rejected":2,"true_rejected":1},)"
+            R"("aoa":{"accepted":6,"true_accepted":3,"rejected":2,"true_rejected":1,)"
+            R"("direct_found":3,"wrong_path":2,"none_direct":1}})");
+}
+
 TEST(ReadRun, TakesAFolderOfTrajectoriesAlone) {
   const TemporaryFolder folder;
   folder.write("b.tum", "0 0 0 0 0 0 0 1\n");
@@ -230,6 +258,14 @@ TEST(ReadRun, RefusesMalformedFiles) {
   expect_refused("closures.csv", header + "zoe,0,eve,0,range,accepted,1,\n", 2, "unknown robot 'eve'");
   expect_refused("closures.csv", header + "zoe,0,adam,0,magic,accepted,1,\n", 2, "unknown word 'magic'");
   expect_refused("closures.csv", header + "zoe,0.5,adam,0,range,accepted,1,\n", 2, "no keyframe at 0.5");
+  expect_refused("closures.csv",
+                 "robot_i,t_i_s,robot_j,t_j_s,kind,status,statistic,reason,path_weights\n"
+                 "zoe,0,adam,0,aoa,accepted,1,,0.5 x\n",
+                 2, "path weight 'x'");
+  expect_refused("aoa.csv",
+                 "t_s,receiver,transmitter,path,azimuth_rad,elevation_rad,sigma_rad,power_db\n"
+                 "0,zoe,eve,0,1,,0.1,0\n",
+                 2, "eve");
   expect_refused("uncertainty.csv", "robot,t_s,sigma_m\nzoe,1.5,1\n", 2, "not those of zoe.tum");
   expect_refused("uncertainty.csv", "robot,t_s,sigma_m\nzoe,0,-1\n", 2, "must not be negative");
   expect_refused("uncertainty.csv", "robot,t_s,sigma_m\nzoe,0,1\n", 0, "fewer rows of robot 'zoe'");
