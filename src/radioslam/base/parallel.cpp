@@ -17,8 +17,9 @@ std::atomic<std::size_t> g_threads{0};
 void set_thread_count(std::size_t threads) { g_threads = threads; }
 
 std::size_t thread_count() {
+  static const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());  // reads a system file
   const std::size_t chosen = g_threads;
-  return chosen > 0 ? chosen : std::max<std::size_t>(1, std::thread::hardware_concurrency());
+  return chosen > 0 ? chosen : cores;
 }
 
 void parallel_for(std::size_t count, std::size_t grain,

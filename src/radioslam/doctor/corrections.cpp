@@ -62,10 +62,11 @@ void add_ranges(std::vector<Correction>& all) {
     all.push_back(
         {finding(std::move(kind), "", kRangesFile, std::move(found), std::move(expected), std::move(advice)),
          [factor](TeamLinks& team) {
-           for_links(team, TrackLink::Kind::kRange,
-                     [&](TrackLink& link) { link.range_m *= factor, link.sigma *= factor; });
+           for_links(team, TrackLink::Kind::kRange, [&](TrackLink& link) {
+             link.range_m *= factor, link.sigma *= factor, link.log_density += std::log(factor);
+           });
          },
-         every_pair(), std::log(factor)});
+         every_pair()});
   };
   for (const Unit& unit : kUnits)
     scaled(unit.metres, "unit", std::string("distances fit the trajectories if they are in ") + unit.name,
@@ -149,12 +150,24 @@ void add_fixes(const Mission& mission, std::size_t r, std::vector<Correction>& a
                  apply, concerns});
 }
 
+/// The range seen from above, if its ends are so much above each other.
+void flatten(TrackLink& link, double height_m) {
+  constexpr double kMinFlat_m = 0.5, kImpossible = 10, kSigmas = 4;
+  if (link.range_m + kSigmas * link.sigma < height_m) link.log_density -= kImpossible;
+  const double flat_m =
+      std::sqrt(std::max(kMinFlat_m * kMinFlat_m, link.range_m * link.range_m - height_m * height_m));
+  const double factor = link.range_m / flat_m;
+  link.sigma *= factor;
+  link.log_density += std::log(factor);
+  link.range_m = flat_m;
+}
+
 void add_heights(const Mission& mission, const TeamLinks& team, const auto& add) {
   const auto raised = [](auto concerns, double height_m) {
     return [=](TeamLinks& links) {
       for_links(links, TrackLink::Kind::kRange, [&](TrackLink& link) {
         if (concerns(std::min(link.a.node, link.b.node), std::max(link.a.node, link.b.node)))
-          link.height_m = height_m;
+          flatten(link, height_m);
       });
     };
   };
@@ -237,7 +250,7 @@ std::vector<Correction> offset_corrections(const Mission& mission, const TeamLin
   std::vector<Correction> all;
   const auto add = [&](Finding what, std::function<void(TeamLinks&)> apply,
                        std::function<bool(std::size_t, std::size_t)> concerns) {
-    all.push_back({std::move(what), std::move(apply), std::move(concerns), 0, false});
+    all.push_back({std::move(what), std::move(apply), std::move(concerns)});
   };
   const bool has_ranges = has_links(team, TrackLink::Kind::kRange);
   for (const double bias_m : {-20., -10., -5., -3., -2., -1.5, 1.5, 2., 3., 5., 10., 20.}) {
@@ -254,8 +267,8 @@ std::vector<Correction> offset_corrections(const Mission& mission, const TeamLin
         every_pair());
   }
   for (std::size_t r = 0; r < mission.robots.size() && has_links(team, TrackLink::Kind::kAngle); ++r)
-    for (int k = 1; k < 24; ++k) {
-      const double bias_rad = wrap_angle(k * std::numbers::pi / 12);
+    for (const double bias_degrees : {15, -15, 30, -30, 60, -60, 90, -90, 120, -120, 150, -150, 180}) {
+      const double bias_rad = radians(bias_degrees);
       add(
           finding("bias", mission.robots[r].id, kAnglesFile,
                   "azimuths are about " + number(degrees(bias_rad)) + " degrees too large",

@@ -16,10 +16,6 @@ struct Correction {
   std::function<void(TeamLinks&)> apply;
   /// Whether the links between two nodes are changed.
   std::function<bool(std::size_t i, std::size_t j)> concerns;
-  /// Log of the factor by which corrected ranges are smaller than the recorded ones' unit makes them: the
-  /// density of a range changes with its unit.
-  double log_range_scale = 0;
-  bool is_certain = true;  ///< an error if the links bear it out; else a warning
 };
 
 /// Corrections without a magnitude: mirrored or permuted coordinates, units, directions of rotation.

@@ -21,20 +21,22 @@ namespace radioslam {
 namespace {
 
 constexpr std::size_t kWindowsOfPair = 3;
-constexpr std::size_t kMinWindows = 12;    // or three per robot
-constexpr double kGoodInlierRatio = 0.95;  // of a window that needs no correction
+constexpr std::size_t kMinWindows = 12;  // or three per robot
+constexpr double kGoodRatio = 0.8;       // of direct links, in a window that needs no correction
 constexpr int kMaxCorrections = 3;
-/// Gain in log-likelihood that a correction must bring: at all, and per link that it concerns.
+/// Gain in log evidence that a correction must bring: at all, and per link that it concerns.
 constexpr double kMinGain = 30;
 constexpr double kMinGainPerLink = 0.15;
-constexpr double kMinGainOfOthers = 12;      // than the window that gains most
-constexpr double kWindowGain = 3;            // by which a window is for or against a correction
-constexpr double kCertainGainPerLink = 0.5;  // of a correction that is refused
+constexpr double kMinGainOfOthers = 12;  // than the window that gains most
+constexpr double kWindowGain = 3;        // by which a window is for or against a correction
 constexpr double kMaxNoiseRatio = 4;
-constexpr double kMinExplained = 0.3;  // of all links, in a mission without a finding
+constexpr double kMinExplained = 0.1;  // of all links, in a mission without a finding
 constexpr double kClockOffsets_s[] = {0.5, 1,  1.5, 2,  3,  4,  5,  6,  8,  10,
                                       12,  15, 18,  21, 25, 30, 35, 40, 50, 60};
-constexpr std::size_t kTrialWindows = 2;  // on which a correction must gain before all are fitted
+/// Of stated starts, and of dead reckoning up to the window, beyond its stated noise.
+constexpr double kSigmaStart_m = 1, kSigmaStart_rad = 0.05;
+constexpr double kDriftRatio = 0.03, kDriftPerMetre_rad = 0.0005;
+constexpr double kMinGainOfStart = 12;
 /// Robots whose own corrections are tried: of a large team those whose links fit worst.
 constexpr std::size_t kSuspects = 6;
 
@@ -43,15 +45,9 @@ struct FittedWindow {
   LinkFit fit;
 };
 
-std::size_t ranges_of(const TeamLinks& team, const LinkWindow& window) {
-  return static_cast<std::size_t>(std::count_if(window.links.begin(), window.links.end(), [&](std::size_t k) {
-    return team.links[k].kind == TrackLink::Kind::kRange;
-  }));
-}
-
 /// What a correction brings in the windows that it concerns.
 struct Gain {
-  double log_likelihood = 0;
+  double log_evidence = 0;
   double before = 0, after = 0;  // links explained
   double links = 0;
   double most = 0;  // log-likelihood gained in one window
@@ -60,13 +56,10 @@ struct Gain {
   /// Enough, and not in one window alone, where dead reckoning may have slipped.
   bool is_significant() const {
     const bool is_enough =
-        log_likelihood > std::max(kMinGain, kMinGainPerLink * links) && after > 0.5 * links;
+        log_evidence > std::max(kMinGain, kMinGainPerLink * links) && after > before;
     const bool is_common =
-        gained >= std::min(2, windows) && (windows < 2 || log_likelihood - most > kMinGainOfOthers);
+        gained >= std::min(2, windows) && (windows < 2 || log_evidence - most > kMinGainOfOthers);
     return is_enough && is_common && gained > 4 * lost;
-  }
-  bool is_certain() const {
-    return windows > 1 && log_likelihood > kCertainGainPerLink * links && after > 0.7 * links;
   }
 };
 
@@ -77,7 +70,7 @@ std::vector<const FittedWindow*> concerned(const Correction& correction,
   for (const FittedWindow& window : windows)
     if (correction.concerns(window.window.i, window.window.j)) result.push_back(&window);
   const auto per_link = [](const FittedWindow* w) {
-    return w->fit.log_likelihood / static_cast<double>(w->fit.links);
+    return w->fit.log_evidence / static_cast<double>(w->fit.links);
   };
   std::stable_sort(result.begin(), result.end(), [&](auto* x, auto* y) { return per_link(x) < per_link(y); });
   return result;
@@ -90,7 +83,7 @@ std::set<std::string> suspects(const Mission& mission, const std::vector<FittedW
     double explained = 0, links = 0;
     for (const auto& [window, fit] : windows) {
       if (window.i != r && window.j != r) continue;
-      explained += fit.inlier_ratio * static_cast<double>(fit.links);
+      explained += fit.explained;
       links += static_cast<double>(fit.links);
     }
     if (links > 0) by_explained.emplace_back(explained / links, r);
@@ -109,7 +102,7 @@ bool is_needless(const Correction& correction, const std::set<std::string>& susp
   if (!suspected.contains(correction.finding.robot)) return true;
   if (correction.finding.kind == "height") return false;
   return std::all_of(windows.begin(), windows.end(), [&](const FittedWindow& w) {
-    return w.fit.inlier_ratio >= kGoodInlierRatio || !correction.concerns(w.window.i, w.window.j);
+    return w.fit.explained >= kGoodRatio * static_cast<double>(w.fit.links) || !correction.concerns(w.window.i, w.window.j);
   });
 }
 
@@ -119,20 +112,22 @@ Gain gain_of(const Correction& correction, const TeamLinks& team, const std::vec
   Gain gain;
   std::size_t tried = 0;
   for (const FittedWindow* known : concerned(correction, windows)) {
-    if (tried++ == kTrialWindows && gain.log_likelihood < kWindowGain) break;
+    // In the windows that fit worst a correction gains most, or it is none.
+    if (tried == 1 && gain.log_evidence < 0) break;
+    if (tried == 2 && gain.log_evidence < kWindowGain) break;
+    ++tried;
     const auto& [window, fit] = *known;
     const LinkFit other = fit_links(corrected, window);
-    const double difference = other.log_likelihood - fit.log_likelihood +
-                              correction.log_range_scale * static_cast<double>(ranges_of(team, window));
+    const double difference = other.log_evidence - fit.log_evidence;
     const double links = static_cast<double>(fit.links);
-    gain.log_likelihood += difference;
+    gain.log_evidence += difference;
     gain.most = std::max(gain.most, difference);
     ++gain.windows;
     gain.gained += difference > kWindowGain;
     gain.lost += difference < -kWindowGain;
     gain.links += links;
-    gain.before += fit.inlier_ratio * links;
-    gain.after += other.inlier_ratio * links;
+    gain.before += fit.explained;
+    gain.after += other.explained;
   }
   return gain;
 }
@@ -158,7 +153,7 @@ void keep_best(std::optional<Chosen>& best, const std::vector<Correction>& corre
   });
   for (std::size_t k = 0; k < corrections.size(); ++k)
     if (gains[k].is_significant() &&
-        (!best || gains[k].log_likelihood > 1.02 * best->gain.log_likelihood + 2))
+        (!best || gains[k].log_evidence > 1.02 * best->gain.log_evidence + 2))
       best = Chosen{corrections[k], gains[k]};
 }
 
@@ -169,7 +164,7 @@ void try_clocks(std::optional<Chosen>& best, const Mission& mission, const TeamL
   const auto try_offset = [&](double seconds) {
     std::optional<Chosen> found;
     keep_best(found, clock_corrections(mission, team, seconds), team, suspected, windows);
-    if (found && (!clock || found->gain.log_likelihood > clock->first.gain.log_likelihood))
+    if (found && (!clock || found->gain.log_evidence > clock->first.gain.log_evidence))
       clock.emplace(*found, seconds);
   };
   for (const double magnitude : kClockOffsets_s)
@@ -180,7 +175,7 @@ void try_clocks(std::optional<Chosen>& best, const Mission& mission, const TeamL
     try_offset(middle - step);
     try_offset(middle + step);
   }
-  if (!best || clock->first.gain.log_likelihood > 1.1 * best->gain.log_likelihood + 6) best = clock->first;
+  if (!best || clock->first.gain.log_evidence > 1.1 * best->gain.log_evidence + 6) best = clock->first;
 }
 
 std::optional<Chosen> best_correction(const Mission& mission, const TeamLinks& team,
@@ -192,14 +187,14 @@ std::optional<Chosen> best_correction(const Mission& mission, const TeamLinks& t
   // Constant errors bend to almost any contradiction a little: they come last.
   std::optional<Chosen> offset;
   keep_best(offset, offset_corrections(mission, team), team, suspected, windows);
-  if (offset && (!best || offset->gain.log_likelihood > 1.3 * best->gain.log_likelihood + 6)) best = offset;
+  if (offset && (!best || offset->gain.log_evidence > 1.3 * best->gain.log_evidence + 6)) best = offset;
   return best;
 }
 
 double explained_ratio(const std::vector<FittedWindow>& windows) {
   double explained = 0, links = 0;
   for (const auto& [window, fit] : windows) {
-    explained += fit.inlier_ratio * static_cast<double>(fit.links);
+    explained += fit.explained;
     links += static_cast<double>(fit.links);
   }
   return links > 0 ? explained / links : 1;
@@ -213,8 +208,6 @@ std::vector<Finding> corrected_faults(const Mission& mission, TeamLinks& team,
     const auto best = best_correction(mission, team, windows);
     if (!best) break;
     Finding finding = best->correction.finding;
-    const bool is_certain = best->correction.is_certain && best->gain.is_certain();
-    finding.severity = is_certain ? Severity::kError : Severity::kWarning;
     finding.found += " (" + number(100 * best->gain.after / best->gain.links) + " % of the links fit then, " +
                      number(100 * best->gain.before / best->gain.links) + " % as recorded)";
     findings.push_back(std::move(finding));
@@ -227,7 +220,7 @@ std::vector<Finding> corrected_faults(const Mission& mission, TeamLinks& team,
 }
 
 /// T_i_j that two stated starts give; the world's is the common frame.
-std::optional<Eigen::Vector4d> stated_alignment(const Mission& mission, const TeamLinks& team, std::size_t i,
+std::optional<SE3> stated_alignment(const Mission& mission, const TeamLinks& team, std::size_t i,
                                                 std::size_t j) {
   const auto start = [&](std::size_t node) -> std::optional<SE3> {
     if (node < mission.robots.size()) return mission.robots[node].initial_pose;
@@ -235,8 +228,7 @@ std::optional<Eigen::Vector4d> stated_alignment(const Mission& mission, const Te
   };
   const auto a = start(i), b = start(j);
   if (!a || !b) return std::nullopt;
-  const SE3 T = a->inverse() * *b;
-  return Eigen::Vector4d(T.translation().x(), T.translation().y(), T.translation().z(), T.yaw());
+  return a->inverse() * *b;
 }
 
 /// Path of the window's robots up to its end, in which their dead reckoning may drift.
@@ -248,30 +240,34 @@ double path_to_end_m(const TeamLinks& team, const LinkWindow& window) {
   return path_m;
 }
 
-/// How far the links of a window are from the stated starts: x, y, z and yaw; nothing where they agree.
-std::optional<Eigen::Vector4d> contradiction(const TeamLinks& team, const LinkWindow& window,
-                                             const Eigen::Vector4d& stated) {
-  const double sigma_m = 1 + 0.03 * path_to_end_m(team, window);
-  const LinkFit at_stated = fit_links(team, window, {&stated, sigma_m});
-  const LinkFit sought = fit_links(team, window, {nullptr, sigma_m});
-  const double gain = sought.log_likelihood - at_stated.log_likelihood;
-  if (gain <= std::max(15.0, 0.3 * static_cast<double>(window.links.size()))) return std::nullopt;
-  const Eigen::Vector4d difference = sought.alignment - stated;
-  const bool is_far =
-      difference.head<2>().norm() > 2 * sigma_m + 5 || std::abs(wrap_angle(difference(3))) > 0.3;
-  return is_far ? std::optional(difference) : std::nullopt;
+struct Contradiction {
+  double distance_m = 0, turn_rad = 0;
+};
+
+/// How far the links of a window are from the stated starts; nothing where they agree.
+std::optional<Contradiction> contradiction(const TeamLinks& team, const FittedWindow& fitted, const SE3& stated) {
+  const double path_m = path_to_end_m(team, fitted.window);
+  const StatedAlignment near{stated, kSigmaStart_m + kDriftRatio * path_m,
+                             kSigmaStart_rad + kDriftPerMetre_rad * path_m};
+  const LinkFit at_stated = fit_links_near(team, fitted.window, near);
+  if (fitted.fit.log_evidence - at_stated.log_evidence < kMinGainOfStart) return std::nullopt;
+  const SE3 error = stated.inverse() * fitted.fit.T_i_j;
+  const Contradiction found{error.translation().head<2>().norm(), std::abs(error.yaw())};
+  const bool is_far = found.distance_m > 3 * near.sigma_m || found.turn_rad > 3 * near.sigma_rad;
+  return is_far ? std::optional(found) : std::nullopt;
 }
 
 /// The robot whose stated start most of its pairs' first windows contradict.
 std::vector<Finding> check_starts(const Mission& mission, const TeamLinks& team,
                                   const std::vector<FittedWindow>& windows) {
   std::map<std::size_t, int> balance;  // pairs that contradict less pairs that agree
-  std::map<std::size_t, Eigen::Vector4d> difference;
+  std::map<std::size_t, Contradiction> difference;
   std::set<std::pair<std::size_t, std::size_t>> seen;
-  for (const auto& [window, fit] : windows) {
+  for (const FittedWindow& fitted : windows) {
+    const LinkWindow& window = fitted.window;
     const auto stated = stated_alignment(mission, team, window.i, window.j);
-    if (!stated || fit.inlier_ratio < 0.5 || !seen.emplace(window.i, window.j).second) continue;
-    const auto contradicted = contradiction(team, window, *stated);
+    if (!stated || !seen.emplace(window.i, window.j).second) continue;
+    const auto contradicted = contradiction(team, fitted, *stated);
     for (const std::size_t node : {window.i, window.j}) {
       if (node == team.world()) continue;
       balance[node] += contradicted ? 1 : -1;
@@ -283,12 +279,12 @@ std::vector<Finding> check_starts(const Mission& mission, const TeamLinks& team,
   if (worst == balance.end() || worst->second <= 0) return {};
   const bool is_unique = std::count_if(balance.begin(), balance.end(),
                                        [&](const auto& other) { return other.second == worst->second; }) == 1;
-  const Eigen::Vector4d d = difference[worst->first];
+  const Contradiction by = difference[worst->first];
   return {
       {"start", Severity::kWarning, is_unique ? mission.robots[worst->first].id : "", "mission.yaml",
        std::string(is_unique ? "initial_pose contradicts" : "one of two robots' initial_pose contradicts") +
-           " the radio links by about " + number(d.head<2>().norm()) + " m and " +
-           number(degrees(std::abs(wrap_angle(d(3))))) + " degrees",
+           " the radio links by about " + number(by.distance_m) + " m and " +
+           number(degrees(by.turn_rad)) + " degrees",
        "the start that the links allow", "correct initial_pose, or state it as unknown"}};
 }
 
@@ -296,8 +292,8 @@ std::vector<Finding> check_starts(const Mission& mission, const TeamLinks& team,
 void check_noise(const std::vector<FittedWindow>& windows, bool of_angles, std::vector<Finding>& findings) {
   std::vector<double> differences;
   for (const auto& [window, fit] : windows) {
-    const auto& residuals = of_angles ? fit.angle_residuals : fit.residuals;
-    for (std::size_t k = 1; k < residuals.size() && fit.inlier_ratio > 0.6; ++k)
+    const auto& residuals = of_angles ? fit.angle_residuals : fit.range_residuals;
+    for (std::size_t k = 1; k < residuals.size(); ++k)
       differences.push_back(std::abs(residuals[k] - residuals[k - 1]) / std::sqrt(2.0));
   }
   if (differences.size() < 30) return;

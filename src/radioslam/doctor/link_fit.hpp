@@ -1,35 +1,36 @@
-// Best alignment of two dead-reckoned trajectories under the links between them, and how well it explains
-// them.
-//
-// A range r with sigma s is normal about the distance with weight 0.8, else uniform; an angle is normal about
-// one of its paths with weight 0.8, else uniform. Dead reckoning adds its own error to both sigmas. The
-// alignment (x, y, z, yaw of node j's frame in node i's) that maximises the likelihood is sought from many
-// starts.
+// How well the links of a window agree with the dead reckoning of its two nodes: both are aligned by the
+// estimate's own search and likelihood (team_frame/radio_alignment.hpp), under which links may be false or
+// obstructed. The evidence is that of the alignment, the odometry's noise included, so that fits of one window
+// under different corrections, units and stated noise are comparable.
 #pragma once
 
-#include <Eigen/Core>
+#include <cstddef>
 #include <vector>
 
 #include "radioslam/doctor/team_links.hpp"
+#include "radioslam/geometry/se3.hpp"
 
 namespace radioslam {
 
 struct LinkFit {
-  Eigen::Vector4d alignment = Eigen::Vector4d::Zero();  ///< x, y, z in metres and yaw of frame j in frame i
-  double log_likelihood = 0;                            ///< of all links of the window
-  std::size_t links = 0;                                ///< of the window
-  double inlier_ratio = 0;                              ///< links explained, of all
-  std::vector<double> residuals;  ///< of explained ranges over their own sigmas, without drift
+  double log_evidence = 0;  ///< of all links, per unit of the recorded measurements
+  std::size_t links = 0;    ///< of the window
+  double explained = 0;     ///< sum of the links' posteriors of being direct
+  SE3 T_i_j;                ///< of the nodes' own frames
+  std::vector<double> range_residuals;  ///< of direct links over their own sigmas, in the order of time
   std::vector<double> angle_residuals;
 };
 
-struct LinkFitOptions {
-  /// Given instead of sought; null to seek it.
-  const Eigen::Vector4d* alignment = nullptr;
-  double alignment_sigma_m = 0;
+struct StatedAlignment {
+  SE3 T_i_j;  ///< of the nodes' own frames
+  double sigma_m = 1, sigma_rad = 1;
 };
 
-/// Deterministic. A link whose ends have no odometry at its time counts as unexplained.
-LinkFit fit_links(const TeamLinks& team, const LinkWindow& window, const LinkFitOptions& options = {});
+/// Deterministic.
+LinkFit fit_links(const TeamLinks& team, const LinkWindow& window);
+
+/// The same where T_i_j is stated with these standard deviations of each coordinate and of the yaw; the
+/// evidence is comparable with that of `fit_links` where T_i_j may lie anywhere within 200 m.
+LinkFit fit_links_near(const TeamLinks& team, const LinkWindow& window, const StatedAlignment& stated);
 
 }  // namespace radioslam

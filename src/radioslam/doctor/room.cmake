@@ -7,11 +7,11 @@ radioslam_room(doctor
     inertial_checks.cpp
     link_checks.cpp
     link_fit.cpp
-    link_samples.cpp
     moving_access_points.cpp
     odometry_checks.cpp
     recording_checks.cpp
     scan_checks.cpp
     team_links.cpp
     wifi_checks.cpp
-  ROOMS mission)
+    window_team.cpp
+  ROOMS team_frame mission)

@@ -5,6 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "radioslam/radio/aoa/aoa_likelihood.hpp"
+
 namespace radioslam {
 namespace {
 
@@ -78,7 +80,7 @@ void add_ranges(const Mission& mission, TeamLinks& team, const auto& end_of) {
     const auto a = end_of(range.i), b = end_of(range.j);
     if (a && b)
       team.links.push_back(
-          {TrackLink::Kind::kRange, range.stamp.seconds(), *a, *b, range.range_m, range.sigma_m, {}, 0});
+          {TrackLink::Kind::kRange, range.stamp.seconds(), *a, *b, range.range_m, range.sigma_m, {}});
   }
 }
 
@@ -89,8 +91,10 @@ void add_angles(const Mission& mission, TeamLinks& team, const auto& end_of) {
     const TrackEnd a{angle.receiver.index(), Eigen::Vector3d::Zero()};
     const double no_range = std::numeric_limits<double>::quiet_NaN(),
                  sigma_rad = angle.paths.front().sigma_rad;
+    const auto at = team.tracks[angle.receiver.index()].at(angle.stamp.seconds());
+    const auto paths = team.is_planar && at ? levelled(angle, SE3(at->position_m, at->rotation)).paths : angle.paths;
     team.links.push_back(
-        {TrackLink::Kind::kAngle, angle.stamp.seconds(), a, *b, no_range, sigma_rad, angle.paths, 0});
+        {TrackLink::Kind::kAngle, angle.stamp.seconds(), a, *b, no_range, sigma_rad, paths});
   }
 }
 
@@ -103,8 +107,7 @@ void add_fixes(const Mission& mission, TeamLinks& team) {
                             {team.world(), fix.position_m},
                             0,
                             fix.sigma_m,
-                            {},
-                            0});
+                            {}});
 }
 
 /// Moves the world's frame to the middle of its points: numbers stay small where coordinates are those of a
@@ -125,7 +128,8 @@ void centre_world(TeamLinks& team) {
 
 }  // namespace
 
-Track::Track(const Trajectory<SE3>& odometry) {
+Track::Track(const Robot& robot) : noise_(robot.odometry_noise) {
+  const Trajectory<SE3>& odometry = robot.odometry;
   double path_m = 0;
   const StampedPose<SE3>* last = nullptr;
   for (std::size_t k = 0; k < odometry.size(); ++k) {
@@ -166,6 +170,35 @@ void Track::mirror() {
   }
 }
 
+template <class Pose>
+OdometryEdge<Pose> Track::motion(double begin_s, double end_s) const {
+  const auto sample = [](double t_s, const Row& row) {
+    return StampedPose<SE3>{Stamp::from_seconds(t_s), SE3(row.position_m, row.rotation)};
+  };
+  const double begin = begin_s - shift_s_, end = end_s - shift_s_;  // as recorded
+  OdometryEdge<Pose> edge;
+  StampedPose<SE3> last = sample(begin, *at(begin_s));
+  auto row = std::upper_bound(rows_.begin(), rows_.end(), begin,
+                              [](double t, const Row& r) { return t < r.t_s; });
+  for (; row != rows_.end() && row->t_s < end; ++row) {
+    const StampedPose<SE3> next = sample(row->t_s, *row);
+    append_sample(edge, last, next, noise_);
+    last = next;
+  }
+  append_sample(edge, last, sample(end, *at(end_s)), noise_);
+  edge.covariance.diagonal() += min_edge_variance<Pose>();
+  return edge;
+}
+template OdometryEdge<SE2> Track::motion<SE2>(double, double) const;
+template OdometryEdge<SE3> Track::motion<SE3>(double, double) const;
+
+void Track::scale_noise(double factor) {
+  for (double* sigma : {&noise_.sigma_xy_per_sqrt_m, &noise_.sigma_yaw_per_sqrt_m_rad, &noise_.sigma_yaw_per_rad,
+                        &noise_.sigma_z_per_sqrt_m})
+    *sigma *= factor;
+  for (OdometryStepNoise& step : noise_.steps) step.covariance_per_s *= factor * factor;
+}
+
 void Track::scale(double factor) {
   for (Row& row : rows_) row.position_m *= factor, row.path_m *= factor;
 }
@@ -173,7 +206,7 @@ void Track::scale(double factor) {
 TeamLinks team_links(const Mission& mission) {
   TeamLinks team;
   team.is_planar = mission.dimension == 2;
-  for (const Robot& robot : mission.robots) team.tracks.emplace_back(robot.odometry);
+  for (const Robot& robot : mission.robots) team.tracks.emplace_back(robot);
   const auto end_of = [&](const LinkEnd& end) -> std::optional<TrackEnd> {
     if (end.robot.valid()) {
       if (team.tracks[end.robot.index()].empty()) return std::nullopt;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "radioslam/mission/mission.hpp"
+#include "radioslam/mission/odometry_edge.hpp"
 
 namespace radioslam {
 
@@ -17,7 +18,7 @@ namespace radioslam {
 class Track {
  public:
   Track() = default;
-  explicit Track(const Trajectory<SE3>& odometry);
+  explicit Track(const Robot& robot);
 
   struct Row {
     double t_s;
@@ -31,13 +32,18 @@ class Track {
   std::optional<Row> at(double t_s) const;
   double path_m() const { return rows_.empty() ? 0 : rows_.back().path_m; }
   const std::vector<Row>& rows() const { return rows_; }
+  /// Motion between two times covered, with the stated noise of the odometry.
+  template <class Pose>
+  OdometryEdge<Pose> motion(double begin_s, double end_s) const;
 
   void mirror();  ///< y and yaw change sign
   void scale(double factor);
   void shift(double seconds) { shift_s_ += seconds; }
+  void scale_noise(double factor);  ///< multiplies the odometry's standard deviations
 
  private:
   std::vector<Row> rows_;
+  OdometryNoise noise_;
   double shift_s_ = 0;  ///< added to the recorded times
 };
 
@@ -56,7 +62,7 @@ struct TrackLink {
   double range_m = std::numeric_limits<double>::quiet_NaN();
   double sigma = 1;            ///< metres or radians
   std::vector<AoaPath> paths;  ///< of an angle
-  double height_m = 0;         ///< of b over a, in a planar mission
+  double log_density = 0;      ///< log of how many times denser corrected ranges lie than the recorded ones
 };
 
 struct TeamLinks {

@@ -26,7 +26,7 @@ bool same_readings(const WifiScan& a, const WifiScan& b) {
 class RobotWifi {
  public:
   RobotWifi(const Mission& mission, const Robot& robot, std::vector<Finding>& findings)
-      : mission_(mission), robot_(robot), findings_(findings), track_(robot.odometry) {}
+      : mission_(mission), robot_(robot), findings_(findings), track_(robot) {}
 
   void run() {
     if (robot_.wifi.empty()) return;
