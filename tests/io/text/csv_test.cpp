@@ -127,6 +127,20 @@ TEST(ReadWifi, DoesNotDependOnTheOrderOfRows) {
   EXPECT_EQ(written(wifi({kHeader + c + b + a})), expected);
 }
 
+TEST(ReadWifi, CountsWhatOneReceiverSpellsOtherwise) {
+  const std::string colons = kHeader + "1,02:00:00:00:00:0a,2412,-60\n1,02:00:00:00:00:0b,2412,-60\n";
+  const std::string dashes = kHeader + "1,02-00-00-00-00-0A,2412,-50\n1,02-00-00-00-00-0C,2412,-60\n";
+  const auto recordings = wifi({colons, dashes});
+  EXPECT_EQ(recordings.access_points,
+            (std::vector<std::string>{"02:00:00:00:00:0a", "02:00:00:00:00:0b", "02:00:00:00:00:0c"}));
+  EXPECT_EQ(recordings.receivers[1][0].readings[0].access_point, AccessPointIndex(0));
+  EXPECT_EQ(recordings.respelled[0].count, 0u);
+  EXPECT_EQ(recordings.respelled[1].count, 1u);
+  EXPECT_EQ(recordings.respelled[1].example, "02-00-00-00-00-0A");
+  for (const auto& alike : {wifi({colons, colons}), wifi({dashes, dashes})})
+    for (const Respelled& respelled : alike.respelled) EXPECT_EQ(respelled.count, 0u);
+}
+
 TEST(ReadWifi, AcceptsAReceiverWithoutScans) { EXPECT_TRUE(wifi({kHeader}).receivers[0].empty()); }
 
 TEST(ReadWifi, RefusesWhatNoReceiverReports) {

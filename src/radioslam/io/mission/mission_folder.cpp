@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <string>
 
 #include "radioslam/io/csi/csi_folder.hpp"
 #include "radioslam/io/lidar/lidar_folder.hpp"
@@ -11,6 +12,7 @@
 #include "radioslam/io/mission/truth_labels.hpp"
 #include "radioslam/io/mission/tum.hpp"
 #include "radioslam/io/text/atomic_output.hpp"
+#include "radioslam/io/text/mac_address.hpp"
 #include "radioslam/io/wifi/wifi_csv.hpp"
 
 namespace radioslam {
@@ -77,6 +79,17 @@ void read_motion(const fs::path& folder, const Text& yaml, MissionFile& file) {
   }
 }
 
+Finding respelled(const Robot& robot, const Respelled& spellings) {
+  return {"spelling",
+          Severity::kWarning,
+          robot.id,
+          "robots/" + robot.id + "/wifi.csv",
+          std::to_string(spellings.count) + " BSSIDs in another spelling than elsewhere, such as '" +
+              spellings.example + "' for '" + canonical_bssid(spellings.example) + "'",
+          "one spelling of every BSSID",
+          "both were read as one address; write it in lower case with colons"};
+}
+
 void read_wifi_of(const fs::path& folder, Mission& mission) {
   std::vector<Text> texts;
   std::vector<Robot*> receivers;
@@ -87,7 +100,11 @@ void read_wifi_of(const fs::path& folder, Mission& mission) {
     receivers.push_back(&robot);
   }
   WifiRecordings recordings = read_wifi(texts);
-  for (std::size_t k = 0; k < receivers.size(); ++k) receivers[k]->wifi = std::move(recordings.receivers[k]);
+  for (std::size_t k = 0; k < receivers.size(); ++k) {
+    receivers[k]->wifi = std::move(recordings.receivers[k]);
+    if (recordings.respelled[k].count > 0)
+      mission.reading_findings.push_back(respelled(*receivers[k], recordings.respelled[k]));
+  }
   mission.access_points = std::move(recordings.access_points);
 }
 

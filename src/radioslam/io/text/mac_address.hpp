@@ -19,4 +19,8 @@ std::optional<MacAddress> parse_mac_address(std::string_view text);
 /// Formats an address in lower case with ':' as separator.
 std::string format_mac_address(MacAddress address);
 
+/// Formats an address in any common spelling so: six bytes separated by ':' or '-', also without leading
+/// zeros, three groups of four digits separated by '.', or twelve digits. Other texts: in lower case.
+std::string canonical_bssid(std::string_view text);
+
 }  // namespace radioslam

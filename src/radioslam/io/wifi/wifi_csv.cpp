@@ -5,8 +5,10 @@
 #include <functional>
 #include <tuple>
 #include <unordered_map>
+#include <utility>
 
 #include "radioslam/io/text/csv.hpp"
+#include "radioslam/io/text/mac_address.hpp"
 #include "radioslam/io/text/numbers.hpp"
 
 namespace radioslam {
@@ -15,36 +17,17 @@ namespace {
 constexpr double kWeakest_dbm = -150;
 constexpr double kStrongest_dbm = 30;
 
-/// Assigns numbers to BSSIDs; a recording repeats few of them very often.
-class BssidNumbers {
+/// Assigns numbers to BSSIDs as they are spelled; a recording repeats few of them very often.
+class BssidSpellings {
  public:
-  /// Accepts any capitalisation; equal in lower case means the same BSSID.
   std::uint32_t of(std::string_view spelling) {
-    const auto known = by_spelling_.find(spelling);
-    if (known != by_spelling_.end()) return known->second;
-    const std::string lower = lower_case(spelling);
-    const auto [place, is_new] = by_spelling_.try_emplace(lower, static_cast<std::uint32_t>(names_.size()));
-    if (is_new) names_.push_back(lower);
-    const std::uint32_t number = place->second;
-    by_spelling_.emplace(spelling, number);
-    return number;
+    const auto known = numbers_.find(spelling);
+    if (known != numbers_.end()) return known->second;
+    spellings_.emplace_back(spelling);
+    return numbers_.emplace(spelling, static_cast<std::uint32_t>(spellings_.size() - 1)).first->second;
   }
 
-  std::vector<std::string> sorted() const {
-    std::vector<std::string> names = names_;
-    std::sort(names.begin(), names.end());
-    return names;
-  }
-
-  /// Per number, the position in the sorted list.
-  std::vector<AccessPointIndex> places(const std::vector<std::string>& sorted) const {
-    std::vector<AccessPointIndex> places;
-    for (const auto& name : names_) {
-      const auto place = std::lower_bound(sorted.begin(), sorted.end(), name);
-      places.emplace_back(static_cast<std::size_t>(place - sorted.begin()));
-    }
-    return places;
-  }
+  const std::vector<std::string>& by_number() const { return spellings_; }
 
  private:
   struct Hash {
@@ -52,13 +35,34 @@ class BssidNumbers {
     std::size_t operator()(std::string_view s) const { return std::hash<std::string_view>()(s); }
   };
 
-  std::unordered_map<std::string, std::uint32_t, Hash, std::equal_to<>> by_spelling_;
-  std::vector<std::string> names_;  ///< in lower case, by number
+  std::unordered_map<std::string, std::uint32_t, Hash, std::equal_to<>> numbers_;
+  std::vector<std::string> spellings_;
+};
+
+/// The BSSIDs that the spellings mean.
+struct Bssids {
+  std::vector<std::string> sorted;
+  std::vector<AccessPointIndex> places;     ///< per spelling, the position in the sorted list
+  std::vector<std::size_t> spelling_count;  ///< per BSSID
+
+  explicit Bssids(const std::vector<std::string>& spellings) {
+    std::vector<std::string> names;
+    for (const auto& spelling : spellings) names.push_back(canonical_bssid(spelling));
+    sorted = names;
+    std::sort(sorted.begin(), sorted.end());
+    sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+    spelling_count.resize(sorted.size());
+    for (const auto& name : names) {
+      places.emplace_back(
+          static_cast<std::size_t>(std::lower_bound(sorted.begin(), sorted.end(), name) - sorted.begin()));
+      ++spelling_count[places.back().index()];
+    }
+  }
 };
 
 struct Row {
   Stamp stamp;
-  std::uint32_t bssid = 0;  ///< number of the BSSID
+  std::uint32_t bssid = 0;  ///< number of its spelling
   float frequency_mhz = 0;
   float rssi_dbm = 0;
 };
@@ -69,7 +73,7 @@ struct LastStamp {
   Stamp stamp;
 };
 
-Row read_row(const CsvReader& csv, LastStamp& last, BssidNumbers& numbers) {
+Row read_row(const CsvReader& csv, LastStamp& last, BssidSpellings& spellings) {
   enum : std::size_t { kTime, kBssid, kFrequency, kRssi };
   if (csv.field(kTime) != last.text || last.text.empty()) last = {csv.field(kTime), csv.stamp(kTime)};
   const std::string_view bssid = csv.field(kBssid);
@@ -79,14 +83,14 @@ Row read_row(const CsvReader& csv, LastStamp& last, BssidNumbers& numbers) {
   const double rssi_dbm = csv.number(kRssi);
   if (!is_plausible_rssi(rssi_dbm))
     csv.fail("rssi_dbm " + format_number(rssi_dbm) + " is outside -150 to 30 dBm");
-  return {last.stamp, numbers.of(bssid), static_cast<float>(frequency_mhz), static_cast<float>(rssi_dbm)};
+  return {last.stamp, spellings.of(bssid), static_cast<float>(frequency_mhz), static_cast<float>(rssi_dbm)};
 }
 
-std::vector<Row> read_rows(const Text& text, BssidNumbers& numbers) {
+std::vector<Row> read_rows(const Text& text, BssidSpellings& spellings) {
   CsvReader csv(text, {{"t_s", "bssid", "frequency_mhz", "rssi_dbm"}});
   std::vector<Row> rows;
   LastStamp last;
-  while (csv.next()) rows.push_back(read_row(csv, last, numbers));
+  while (csv.next()) rows.push_back(read_row(csv, last, spellings));
   return rows;
 }
 
@@ -98,7 +102,9 @@ void sort_rows(std::vector<Row>& rows, const std::vector<AccessPointIndex>& plac
            std::tie(b.stamp, places[b.bssid], a.rssi_dbm, a.frequency_mhz);
   };
   if (!std::is_sorted(rows.begin(), rows.end(), before)) std::sort(rows.begin(), rows.end(), before);
-  const auto same = [](const Row& a, const Row& b) { return a.stamp == b.stamp && a.bssid == b.bssid; };
+  const auto same = [&](const Row& a, const Row& b) {
+    return a.stamp == b.stamp && places[a.bssid] == places[b.bssid];
+  };
   rows.erase(std::unique(rows.begin(), rows.end(), same), rows.end());
 }
 
@@ -111,21 +117,36 @@ std::vector<WifiScan> scans_of(const std::vector<Row>& rows, const std::vector<A
   return scans;
 }
 
+/// What one receiver spells otherwise than another row of any receiver does.
+Respelled respelled_in(const std::vector<Row>& rows, const std::vector<std::string>& spellings,
+                       const Bssids& bssids) {
+  std::vector<bool> is_used(spellings.size());
+  for (const Row& row : rows) is_used[row.bssid] = true;
+  Respelled respelled;
+  for (std::size_t k = 0; k < spellings.size(); ++k) {
+    const std::size_t bssid = bssids.places[k].index();
+    if (!is_used[k] || bssids.spelling_count[bssid] < 2 || spellings[k] == bssids.sorted[bssid]) continue;
+    if (++respelled.count == 1) respelled.example = spellings[k];
+  }
+  return respelled;
+}
+
 }  // namespace
 
 bool is_plausible_rssi(double rssi_dbm) { return rssi_dbm >= kWeakest_dbm && rssi_dbm <= kStrongest_dbm; }
 
 WifiRecordings read_wifi(std::span<const Text> texts) {
-  BssidNumbers numbers;
+  BssidSpellings spellings;
   std::vector<std::vector<Row>> receivers;
-  for (const Text& text : texts) receivers.push_back(read_rows(text, numbers));
+  for (const Text& text : texts) receivers.push_back(read_rows(text, spellings));
+  Bssids bssids(spellings.by_number());
   WifiRecordings result;
-  result.access_points = numbers.sorted();
-  const std::vector<AccessPointIndex> places = numbers.places(result.access_points);
   for (auto& rows : receivers) {
-    sort_rows(rows, places);
-    result.receivers.push_back(scans_of(rows, places));
+    result.respelled.push_back(respelled_in(rows, spellings.by_number(), bssids));
+    sort_rows(rows, bssids.places);
+    result.receivers.push_back(scans_of(rows, bssids.places));
   }
+  result.access_points = std::move(bssids.sorted);
   return result;
 }
 

@@ -1,8 +1,9 @@
 // Reads and writes wifi.csv: t_s,bssid,frequency_mhz,rssi_dbm, one row per received access point, in any
-// order. Rows with equal t_s form one scan. BSSIDs are converted to lower case. If one appears twice in a
-// scan, its strongest reading is kept.
+// order. Rows with equal t_s form one scan. BSSIDs are written as canonical_bssid does, so that robots may
+// spell one address in different ways. If one appears twice in a scan, its strongest reading is kept.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,10 +13,17 @@
 
 namespace radioslam {
 
+/// BSSIDs of one receiver that it or another one also writes in another way.
+struct Respelled {
+  std::size_t count = 0;
+  std::string example;  ///< as this receiver writes it, not canonical; empty if there is none
+};
+
 /// The WiFi scans of all receivers of a team.
 struct WifiRecordings {
-  std::vector<std::string> access_points;        ///< BSSIDs of all receivers, lower case, sorted
+  std::vector<std::string> access_points;        ///< BSSIDs of all receivers, canonical, sorted
   std::vector<std::vector<WifiScan>> receivers;  ///< per text, in time order
+  std::vector<Respelled> respelled;              ///< per text
 };
 
 /// Whether a signal strength is plausible: from -150 to 30 dBm.
