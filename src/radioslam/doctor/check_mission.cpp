@@ -5,6 +5,8 @@
 
 #include "radioslam/doctor/link_checks.hpp"
 #include "radioslam/doctor/odometry_checks.hpp"
+#include "radioslam/doctor/odometry_coverage.hpp"
+#include "radioslam/doctor/odometry_noise.hpp"
 #include "radioslam/doctor/recording_checks.hpp"
 #include "radioslam/doctor/sensor_checks.hpp"
 
@@ -25,6 +27,8 @@ bool has_error(const std::vector<Finding>& findings) {
 std::vector<Finding> check_mission(const Mission& mission) {
   std::vector<Finding> findings = mission.reading_findings;
   append(findings, check_odometry(mission));
+  append(findings, check_odometry_coverage(mission));
+  append(findings, check_odometry_noise(mission));
   append(findings, check_times(mission));
   append(findings, check_wifi(mission));
   append(findings, check_inertial(mission));

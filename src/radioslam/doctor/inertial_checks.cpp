@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -18,8 +19,13 @@ constexpr double kMaxLag_s = 60;
 constexpr double kMinCorrelation = 0.6;
 constexpr double kMinTurning_radps = 0.02;  // of a robot that shows anything
 
+constexpr double kMinCentripetal_mps2 = 0.15;
+constexpr double kMaxRate_radps = 12;  // of anything that drives or flies steadily
+
 struct Rates {
   std::vector<Eigen::Vector3d> odometry, gyroscope;  ///< body frame, per step; NaN where unknown
+  std::vector<Eigen::Vector3d> force;                ///< mean specific force, likewise
+  std::vector<double> centripetal_mps2;              ///< forward speed times yaw rate of the odometry
 };
 
 /// Mean rate of rotation of the odometry, and of the gyroscope, on one grid of times.
@@ -31,18 +37,22 @@ Rates common_rates(const Robot& robot) {
   const Eigen::Vector3d unknown = Eigen::Vector3d::Constant(std::nan(""));
   std::vector<double> counts(steps, 0);
   rates.gyroscope.assign(steps, Eigen::Vector3d::Zero());
+  rates.force = rates.gyroscope;
   for (const ImuSample& sample : robot.inertial) {
     const double at = (sample.stamp.seconds() - begin) / kStep_s;
     if (at < 0 || at >= static_cast<double>(steps)) continue;
     rates.gyroscope[static_cast<std::size_t>(at)] += sample.angular_rate_radps;
+    rates.force[static_cast<std::size_t>(at)] += sample.specific_force_mps2;
     counts[static_cast<std::size_t>(at)] += 1;
   }
   for (std::size_t k = 0; k < steps; ++k) {
     rates.gyroscope[k] = counts[k] > 0 ? Eigen::Vector3d(rates.gyroscope[k] / counts[k]) : unknown;
+    rates.force[k] = counts[k] > 0 ? Eigen::Vector3d(rates.force[k] / counts[k]) : unknown;
     const auto a = robot.odometry.at(Stamp::from_seconds(begin + kStep_s * static_cast<double>(k)));
     const auto b = robot.odometry.at(Stamp::from_seconds(begin + kStep_s * static_cast<double>(k + 1)));
-    rates.odometry.push_back(
-        a && b ? Eigen::Vector3d(so3_log(a->rotation().inverse() * b->rotation()) / kStep_s) : unknown);
+    const SE3 step = a && b ? a->inverse() * *b : SE3();
+    rates.odometry.push_back(a && b ? Eigen::Vector3d(so3_log(step.rotation()) / kStep_s) : unknown);
+    rates.centripetal_mps2.push_back(step.translation().x() / kStep_s * rates.odometry.back().z());
   }
   return rates;
 }
@@ -73,6 +83,37 @@ Line line_through(const Rates& rates, int odometry_axis, int gyroscope_axis, int
   return line;
 }
 
+struct Centripetal {
+  double forward = 0, left = 0;  ///< correlation of ax and ay with what the odometry lets expect of ay
+};
+
+/// Nothing for a robot that does not drive curves.
+std::optional<Centripetal> centripetal_of(const Rates& rates) {
+  CorrelationSums forward, left;
+  for (std::size_t k = 0; k < rates.force.size(); ++k) {
+    const double expected = rates.centripetal_mps2[k];
+    if (!std::isfinite(expected) || !std::isfinite(rates.force[k].x())) continue;
+    forward.add(expected, rates.force[k].x());
+    left.add(expected, rates.force[k].y());
+  }
+  if (left.n < 100 || std::sqrt(std::max(0.0, left.spread_x())) < kMinCentripetal_mps2 * left.n ||
+      left.spread_y() <= 0 || forward.spread_y() <= 0)
+    return std::nullopt;
+  const auto correlation = [](const CorrelationSums& sums) {
+    return sums.spread_xy() / std::sqrt(sums.spread_x() * sums.spread_y());
+  };
+  return Centripetal{correlation(forward), correlation(left)};
+}
+
+/// Exceeded by a tenth of the samples.
+double fast_rate_radps(const Robot& robot) {
+  std::vector<double> rates;
+  for (const ImuSample& sample : robot.inertial) rates.push_back(sample.angular_rate_radps.norm());
+  const auto fast = rates.end() - static_cast<std::ptrdiff_t>(rates.size() / 10) - 1;
+  std::nth_element(rates.begin(), fast, rates.end());
+  return *fast;
+}
+
 class RobotInertial {
  public:
   RobotInertial(const Robot& robot, std::vector<Finding>& findings) : robot_(robot), findings_(findings) {}
@@ -80,9 +121,10 @@ class RobotInertial {
   void run() {
     if (robot_.inertial.size() < 50) return;
     check_gravity();
-    if (robot_.odometry.size() < 20) return;
+    if (check_rates() || robot_.odometry.size() < 20) return;
     rates_ = common_rates(robot_);
     check_rotation();
+    check_sides();
   }
 
  private:
@@ -116,6 +158,28 @@ class RobotInertial {
                  "about 9.81 m/s^2 at rest", "do not remove gravity from the accelerations");
     add("unit", Severity::kWarning, "the specific force is about " + number(typical) + " m/s^2",
         "about 9.81 m/s^2 at rest", "check the unit of the accelerations");
+  }
+
+  /// Whether the gyroscope measures what nothing survives; also without odometry.
+  bool check_rates() {
+    const double fast = fast_rate_radps(robot_);
+    if (fast < kMaxRate_radps) return false;
+    add("unit", Severity::kError, "a tenth of the angular rates is above " + number(fast), "rad/s",
+        "multiply by pi/180: the values look like degrees per second");
+    return true;
+  }
+
+  /// Centripetal acceleration, which a forward-driving body measures along y.
+  void check_sides() {
+    const auto sides = centripetal_of(rates_);
+    if (!sides) return;
+    if (std::abs(sides->forward) > 0.7 && std::abs(sides->left) < 0.3)
+      add("column-order", Severity::kWarning,
+          "ax measures the centripetal acceleration of curves (correlation " + number(sides->forward) + ")",
+          "ay, to the left of the body", "exchange ax and ay, or turn the readings into the body frame");
+    if (sides->left < -0.7)
+      add("handedness", Severity::kWarning, "ay measures curves with the wrong sign", "y to the left",
+          "change the sign of ay_mps2, or turn the readings into the body frame");
   }
 
   /// Gravity along the body's z, where the odometry's body is level.

@@ -141,7 +141,7 @@ class RobotCheck {
     const double usual_m = quantile(collected(steps_, [](const Step& s) { return s.length_m; }), 0.95);
     const Step* longest = nullptr;
     for (const Step& step : steps_)
-      if (step.dt_s > std::max(kMinGap_s, 15 * dt_s) && step.length_m > std::max(1.0, 4 * usual_m) &&
+      if (step.dt_s > std::max(kMinGap_s, 15 * dt_s) && step.length_m > std::max(1.0, 2 * usual_m) &&
           (!longest || step.dt_s > longest->dt_s))
         longest = &step;
     if (longest)

@@ -9,8 +9,11 @@ radioslam_room(doctor
     link_fit.cpp
     moving_access_points.cpp
     odometry_checks.cpp
+    odometry_coverage.cpp
+    odometry_noise.cpp
     recording_checks.cpp
     scan_checks.cpp
+    stale_scans.cpp
     team_links.cpp
     wifi_checks.cpp
     window_team.cpp

@@ -16,6 +16,13 @@ inline std::string number(double value) {
   return text;
 }
 
+/// A time in seconds, to a tenth: `number` would round Unix times to a thousand days.
+inline std::string time_text(double t_s) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f", t_s);
+  return text;
+}
+
 inline constexpr const char* kRangesFile = "radio/ranges.csv";
 inline constexpr const char* kAnglesFile = "radio/aoa.csv";
 

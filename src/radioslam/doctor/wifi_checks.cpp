@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <cctype>
-#include <map>
 #include <string>
 #include <utility>
 
@@ -9,6 +7,7 @@
 #include "radioslam/doctor/fingerprint_clock.hpp"
 #include "radioslam/doctor/moving_access_points.hpp"
 #include "radioslam/doctor/sensor_checks.hpp"
+#include "radioslam/doctor/stale_scans.hpp"
 #include "radioslam/doctor/team_links.hpp"
 #include "radioslam/doctor/text.hpp"
 
@@ -31,9 +30,9 @@ class RobotWifi {
   void run() {
     if (robot_.wifi.empty()) return;
     if (check_amount() || check_units()) return;
-    check_repeats();
     if (track_.path_m() < 10) return;
     check_access_points(mission_, robot_, track_, findings_);
+    check_stale_scans(robot_, track_, findings_);
     check_fingerprint_clock(robot_, track_, findings_);
   }
 
@@ -74,41 +73,11 @@ class RobotWifi {
     return false;
   }
 
-  /// Scans equal to the one before, although the robot moved: results that the system kept.
-  void check_repeats() {
-    std::size_t compared = 0, repeated = 0;
-    for (std::size_t k = 1; k < robot_.wifi.size(); ++k) {
-      if (robot_.wifi[k].readings.size() < 4) continue;
-      ++compared;
-      repeated += same_readings(robot_.wifi[k - 1], robot_.wifi[k]);
-    }
-    if (compared < 10 || static_cast<double>(repeated) < 0.2 * static_cast<double>(compared)) return;
-    add("stale", Severity::kWarning,
-        std::to_string(repeated) + " of " + std::to_string(compared) + " scans repeat the scan before",
-        "new readings in every scan", "remove repeated scans: they are older than their times say");
-  }
-
   const Mission& mission_;
   const Robot& robot_;
   std::vector<Finding>& findings_;
   Track track_;
 };
-
-/// One address in two spellings, such as aa:bb and aa-bb.
-void check_spellings(const Mission& mission, std::vector<Finding>& findings) {
-  std::map<std::string, std::string> spelled;
-  for (const std::string& address : mission.access_points) {
-    std::string digits;
-    for (const char c : address)
-      if (std::isalnum(static_cast<unsigned char>(c))) digits += c;
-    const auto [entry, is_new] = spelled.try_emplace(digits, address);
-    if (is_new) continue;
-    findings.push_back({"spelling", Severity::kWarning, "", "",
-                        "'" + entry->second + "' and '" + address + "' are one address",
-                        "one spelling of every BSSID", "write it with colons everywhere"});
-    return;
-  }
-}
 
 /// Whether the scans of two robots are the same row for row.
 bool same_scans(const Robot& a, const Robot& b) {
@@ -121,7 +90,6 @@ bool same_scans(const Robot& a, const Robot& b) {
 std::vector<Finding> check_wifi(const Mission& mission) {
   std::vector<Finding> findings;
   for (const Robot& robot : mission.robots) RobotWifi(mission, robot, findings).run();
-  check_spellings(mission, findings);
   add_duplicates(
       mission, same_scans, [](const std::string& id) { return robot_file(id, "wifi.csv"); },
       {"duplicate", Severity::kError, "", "", "the same scans as those of", "a recording of its own",
