@@ -15,8 +15,8 @@ namespace {
 constexpr std::size_t kMaxScans = 400;                  // compared with each other
 constexpr double kCompared_s = 240, kCompared_m = 400;  // within which dead reckoning is exact enough
 constexpr std::size_t kMinScans = 60, kMinPairs = 300;
-constexpr int kMaxLag_s = 30, kMinLag_s = 2;
-constexpr double kMaxLagRatio = 1.0 / 12;  // of the recording: short ones fit a large lag by chance
+constexpr int kMaxLag_s = 40, kMinLag_s = 2;
+constexpr double kMaxLagRatio = 1.0 / 7;  // of the recording: short ones fit a large lag by chance
 constexpr std::size_t kStretches = 12;
 constexpr double kMinGain = 0.08;          // of the sum of squares
 constexpr double kMinStudent = 1.5;        // of the gains of the stretches
@@ -63,11 +63,6 @@ class FingerprintClock {
   }
 
   bool is_enough() const { return pairs_.size() >= kMinPairs; }
-
-  int max_lag_s() const {
-    const double length_s = seconds_between(scans_.front()->stamp, scans_.back()->stamp);
-    return static_cast<int>(std::min(static_cast<double>(kMaxLag_s), kMaxLagRatio * length_s));
-  }
 
   /// Squared residuals of all pairs at this lag; NaN where the odometry does not reach.
   std::vector<float> squares(int lag_s) const {
@@ -129,6 +124,11 @@ class FingerprintClock {
   std::vector<ComparedPair> pairs_;
 };
 
+int largest_lag_s(const Robot& robot) {
+  const double length_s = seconds_between(robot.wifi.front().stamp, robot.wifi.back().stamp);
+  return static_cast<int>(std::min(static_cast<double>(kMaxLag_s), kMaxLagRatio * length_s));
+}
+
 double total(const Gains& gains) {
   double sum = 0;
   for (const double gain : gains) sum += gain;
@@ -150,7 +150,7 @@ void check_fingerprint_clock(const Robot& robot, const Track& track, std::vector
   const auto as_recorded = clock.squares(0);
   Gains best{};
   int best_lag_s = 0;
-  const int max_lag_s = clock.max_lag_s();
+  const int max_lag_s = largest_lag_s(robot);
   for (int lag_s = -max_lag_s; lag_s <= max_lag_s; ++lag_s) {
     const Gains gains = clock.gains(as_recorded, clock.squares(lag_s));
     if (total(gains) > total(best)) best = gains, best_lag_s = lag_s;

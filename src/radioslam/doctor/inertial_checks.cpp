@@ -96,11 +96,11 @@ std::optional<Centripetal> centripetal_of(const Rates& rates) {
     forward.add(expected, rates.force[k].x());
     left.add(expected, rates.force[k].y());
   }
-  if (left.n < 100 || std::sqrt(std::max(0.0, left.spread_x())) < kMinCentripetal_mps2 * left.n ||
-      left.spread_y() <= 0 || forward.spread_y() <= 0)
+  if (left.n < 100 || std::sqrt(std::max(0.0, left.spread_x())) < kMinCentripetal_mps2 * left.n)
     return std::nullopt;
   const auto correlation = [](const CorrelationSums& sums) {
-    return sums.spread_xy() / std::sqrt(sums.spread_x() * sums.spread_y());
+    const double spread = sums.spread_x() * sums.spread_y();
+    return spread > 0 ? sums.spread_xy() / std::sqrt(spread) : 0;
   };
   return Centripetal{correlation(forward), correlation(left)};
 }
