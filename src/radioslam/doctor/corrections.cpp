@@ -42,19 +42,34 @@ Finding finding(std::string kind, std::string robot, std::string file, std::stri
           std::move(found), std::move(expected), std::move(advice)};
 }
 
-void add_odometry(const Mission& mission, std::size_t r, std::vector<Correction>& all) {
+/// Whether a robot may move so: at a speed that something drives at.
+bool can_move_like(const Track& track, double factor) {
+  constexpr double kSlowest_mps = 0.01, kFastest_mps = 60;
+  if (track.empty()) return false;
+  const double duration_s = track.rows().back().t_s - track.rows().front().t_s;
+  const double path_m = factor * track.path_m();
+  return path_m > kSlowest_mps * duration_s && path_m < kFastest_mps * duration_s;
+}
+
+void add_odometry(const Mission& mission, const TeamLinks& team, std::size_t r,
+                  std::vector<Correction>& all) {
   const std::string& id = mission.robots[r].id;
   all.push_back({finding("handedness", id, odometry_file(id),
                          "the trajectory fits the radio links only as its mirror image",
                          "a right-handed frame, y to the left of x and yaw counter-clockwise",
                          "change the sign of y and of the yaw"),
-                 [r](TeamLinks& team) { team.tracks[r].mirror(); }, pairs_of(r)});
-  for (const Unit& unit : kUnits)
+                 [r](TeamLinks& links) { links.tracks[r].mirror(); }, pairs_of(r)});
+  for (const Unit& unit : kUnits) {
+    if (!can_move_like(team.tracks[r], unit.metres)) continue;
     all.push_back({finding("unit", id, odometry_file(id),
                            std::string("positions fit the radio links if they are in ") + unit.name, "metres",
                            "multiply the positions by " + number(unit.metres)),
-                   [r, unit](TeamLinks& team) { team.tracks[r].scale(unit.metres); }, pairs_of(r)});
+                   [r, unit](TeamLinks& links) { links.tracks[r].scale(unit.metres); }, pairs_of(r)});
+  }
 }
+
+/// Of a range between robots; else the sigma was not in the ranges' unit.
+bool is_plausible_sigma_m(double sigma_m) { return sigma_m > 0.01 && sigma_m < 10; }
 
 void add_ranges(std::vector<Correction>& all) {
   const auto scaled = [&](double factor, std::string kind, std::string found, std::string expected,
@@ -63,7 +78,8 @@ void add_ranges(std::vector<Correction>& all) {
         {finding(std::move(kind), "", kRangesFile, std::move(found), std::move(expected), std::move(advice)),
          [factor](TeamLinks& team) {
            for_links(team, TrackLink::Kind::kRange, [&](TrackLink& link) {
-             link.range_m *= factor, link.sigma *= factor, link.log_density += std::log(factor);
+             link.range_m *= factor, link.log_density += std::log(factor);
+             if (is_plausible_sigma_m(factor * link.sigma)) link.sigma *= factor;
            });
          },
          every_pair()});
@@ -162,6 +178,28 @@ void flatten(TrackLink& link, double height_m) {
   link.range_m = flat_m;
 }
 
+/// Stated standard deviations far below those of the data.
+void add_noise(const TeamLinks& team, const auto& add) {
+  const auto noisier = [&](TrackLink::Kind kind, const char* file, const char* column, double factor) {
+    if (!has_links(team, kind)) return;
+    add(
+        finding(
+            "noise", "", file, "the measured noise is about " + number(factor) + " times the stated sigma",
+            "a sigma within a factor of two", std::string("multiply ") + column + " by " + number(factor)),
+        [kind, factor](TeamLinks& links) {
+          for_links(links, kind, [&](TrackLink& link) {
+            link.sigma *= factor;
+            for (AoaPath& path : link.paths) path.sigma_rad *= factor;
+          });
+        },
+        every_pair());
+  };
+  for (const double factor : {5., 12., 30.}) {
+    noisier(TrackLink::Kind::kRange, kRangesFile, "sigma_m", factor);
+    if (factor < 30) noisier(TrackLink::Kind::kAngle, kAnglesFile, "sigma_rad", factor);
+  }
+}
+
 void add_heights(const Mission& mission, const TeamLinks& team, const auto& add) {
   const auto raised = [](auto concerns, double height_m) {
     return [=](TeamLinks& links) {
@@ -208,7 +246,7 @@ std::vector<Correction> discrete_corrections(const Mission& mission, const TeamL
   }
   for (std::size_t r = 0; r < mission.robots.size(); ++r) {
     if (!mission.robots[r].fixes.empty()) add_fixes(mission, r, all);
-    add_odometry(mission, r, all);
+    add_odometry(mission, team, r, all);
     if (has_angles) add_angles(mission, r, all);
   }
   return all;
@@ -253,7 +291,7 @@ std::vector<Correction> offset_corrections(const Mission& mission, const TeamLin
     all.push_back({std::move(what), std::move(apply), std::move(concerns)});
   };
   const bool has_ranges = has_links(team, TrackLink::Kind::kRange);
-  for (const double bias_m : {-20., -10., -5., -3., -2., -1.5, 1.5, 2., 3., 5., 10., 20.}) {
+  for (const double bias_m : {0.7, 1.5, 3., 6., 12., 20., -0.7, -1.5, -3., -6., -12.}) {
     if (!has_ranges) break;
     add(
         finding(
@@ -282,6 +320,7 @@ std::vector<Correction> offset_corrections(const Mission& mission, const TeamLin
           },
           pairs_of(r));
     }
+  add_noise(team, add);
   if (!team.is_planar || !has_ranges) return all;
   add_heights(mission, team, add);
   return all;

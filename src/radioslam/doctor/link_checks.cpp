@@ -27,16 +27,18 @@ constexpr int kMaxCorrections = 3;
 /// Gain in log evidence that a correction must bring: at all, and per link that it concerns.
 constexpr double kMinGain = 30;
 constexpr double kMinGainPerLink = 0.15;
-constexpr double kMinGainOfOthers = 12;  // than the window that gains most
-constexpr double kWindowGain = 3;        // by which a window is for or against a correction
-constexpr double kMaxNoiseRatio = 4;
+constexpr double kMinGainOfOthers = 12;    // than the window that gains most
+constexpr double kWindowGain = 3;          // by which a window is for or against a correction
+constexpr double kMinExplainedMore = 0.1;  // of the links it concerns
+constexpr double kMinExplainedByNoise = 0.88;
 constexpr double kMinExplained = 0.1;  // of all links, in a mission without a finding
 constexpr double kClockOffsets_s[] = {0.5, 1,  1.5, 2,  3,  4,  5,  6,  8,  10,
                                       12,  15, 18,  21, 25, 30, 35, 40, 50, 60};
 /// Of stated starts, and of dead reckoning up to the window, beyond its stated noise.
-constexpr double kSigmaStart_m = 1, kSigmaStart_rad = 0.05;
-constexpr double kDriftRatio = 0.03, kDriftPerMetre_rad = 0.0005;
+constexpr double kSigmaStart_m = 0.5, kSigmaStart_rad = 0.05;
+constexpr double kDriftRatio = 0.01, kDriftPerMetre_rad = 0.0005;
 constexpr double kMinGainOfStart = 12;
+constexpr double kMinDirectOfOneWindow = 0.7;
 /// Robots whose own corrections are tried: of a large team those whose links fit worst.
 constexpr std::size_t kSuspects = 6;
 
@@ -50,29 +52,38 @@ struct Gain {
   double log_evidence = 0;
   double before = 0, after = 0;  // links explained
   double links = 0;
-  double most = 0;  // log-likelihood gained in one window
+  double min_explained = 0, min_explained_after = 0;  // further links and all that it must explain, of all
+  double most = 0;                                    // log evidence gained in one window
   int windows = 0, gained = 0, lost = 0;
 
   /// Enough, and not in one window alone, where dead reckoning may have slipped.
   bool is_significant() const {
-    const bool is_enough =
-        log_evidence > std::max(kMinGain, kMinGainPerLink * links) && after > before;
+    const bool is_enough = log_evidence > std::max(kMinGain, kMinGainPerLink * links) &&
+                           after > std::max(before + min_explained * links, min_explained_after * links);
     const bool is_common =
         gained >= std::min(2, windows) && (windows < 2 || log_evidence - most > kMinGainOfOthers);
     return is_enough && is_common && gained > 4 * lost;
   }
 };
 
-/// Windows that the correction concerns, those with the least likelihood per link first.
+/// Whether links fit at all only after the correction; a constant error bends the trajectories before.
+bool explains_links(const Correction& correction) {
+  const Finding& finding = correction.finding;
+  return finding.kind != "height" && !(finding.kind == "bias" && finding.file == kRangesFile);
+}
+
+/// Windows that the correction concerns, those first in which it should gain most: with the least evidence
+/// per link, or with the longest paths.
 std::vector<const FittedWindow*> concerned(const Correction& correction,
                                            const std::vector<FittedWindow>& windows) {
   std::vector<const FittedWindow*> result;
   for (const FittedWindow& window : windows)
     if (correction.concerns(window.window.i, window.window.j)) result.push_back(&window);
-  const auto per_link = [](const FittedWindow* w) {
-    return w->fit.log_evidence / static_cast<double>(w->fit.links);
+  const auto order = [&](const FittedWindow* w) {
+    return explains_links(correction) ? w->fit.log_evidence / static_cast<double>(w->fit.links)
+                                      : -w->window.path_m;
   };
-  std::stable_sort(result.begin(), result.end(), [&](auto* x, auto* y) { return per_link(x) < per_link(y); });
+  std::stable_sort(result.begin(), result.end(), [&](auto* x, auto* y) { return order(x) < order(y); });
   return result;
 }
 
@@ -102,7 +113,8 @@ bool is_needless(const Correction& correction, const std::set<std::string>& susp
   if (!suspected.contains(correction.finding.robot)) return true;
   if (correction.finding.kind == "height") return false;
   return std::all_of(windows.begin(), windows.end(), [&](const FittedWindow& w) {
-    return w.fit.explained >= kGoodRatio * static_cast<double>(w.fit.links) || !correction.concerns(w.window.i, w.window.j);
+    return w.fit.explained >= kGoodRatio * static_cast<double>(w.fit.links) ||
+           !correction.concerns(w.window.i, w.window.j);
   });
 }
 
@@ -110,9 +122,11 @@ Gain gain_of(const Correction& correction, const TeamLinks& team, const std::vec
   TeamLinks corrected = team;
   correction.apply(corrected);
   Gain gain;
+  gain.min_explained = explains_links(correction) ? kMinExplainedMore : 0;
+  // Wide enough, any noise explains detours.
+  if (correction.finding.kind == "noise") gain.min_explained_after = kMinExplainedByNoise;
   std::size_t tried = 0;
   for (const FittedWindow* known : concerned(correction, windows)) {
-    // In the windows that fit worst a correction gains most, or it is none.
     if (tried == 1 && gain.log_evidence < 0) break;
     if (tried == 2 && gain.log_evidence < kWindowGain) break;
     ++tried;
@@ -152,8 +166,7 @@ void keep_best(std::optional<Chosen>& best, const std::vector<Correction>& corre
       if (!is_needless(corrections[k], suspected, windows)) gains[k] = gain_of(corrections[k], team, windows);
   });
   for (std::size_t k = 0; k < corrections.size(); ++k)
-    if (gains[k].is_significant() &&
-        (!best || gains[k].log_evidence > 1.02 * best->gain.log_evidence + 2))
+    if (gains[k].is_significant() && (!best || gains[k].log_evidence > 1.02 * best->gain.log_evidence + 2))
       best = Chosen{corrections[k], gains[k]};
 }
 
@@ -221,7 +234,7 @@ std::vector<Finding> corrected_faults(const Mission& mission, TeamLinks& team,
 
 /// T_i_j that two stated starts give; the world's is the common frame.
 std::optional<SE3> stated_alignment(const Mission& mission, const TeamLinks& team, std::size_t i,
-                                                std::size_t j) {
+                                    std::size_t j) {
   const auto start = [&](std::size_t node) -> std::optional<SE3> {
     if (node < mission.robots.size()) return mission.robots[node].initial_pose;
     return SE3(team.world_origin_m, Eigen::Quaterniond::Identity());
@@ -241,34 +254,61 @@ double path_to_end_m(const TeamLinks& team, const LinkWindow& window) {
 }
 
 struct Contradiction {
-  double distance_m = 0, turn_rad = 0;
+  SE3 error;  ///< T_stated_found of node j's start in node i's
+  double sigma_m = 0, sigma_rad = 0;
+
+  double distance_m() const { return error.translation().head<2>().norm(); }
+  double turn_rad() const { return std::abs(error.yaw()); }
+  bool is_far() const { return distance_m() > 3 * sigma_m || turn_rad() > 3 * sigma_rad; }
+  bool agrees_with(const Contradiction& other) const {
+    const double apart_m = (error.translation() - other.error.translation()).head<2>().norm();
+    return apart_m < 3 * std::hypot(sigma_m, other.sigma_m) &&
+           std::abs(wrap_angle(error.yaw() - other.error.yaw())) < 3 * std::hypot(sigma_rad, other.sigma_rad);
+  }
 };
 
-/// How far the links of a window are from the stated starts; nothing where they agree.
-std::optional<Contradiction> contradiction(const TeamLinks& team, const FittedWindow& fitted, const SE3& stated) {
+/// Where the links of a window put the starts, if those stated are much less likely.
+std::optional<Contradiction> contradiction(const TeamLinks& team, const FittedWindow& fitted,
+                                           const SE3& stated) {
   const double path_m = path_to_end_m(team, fitted.window);
   const StatedAlignment near{stated, kSigmaStart_m + kDriftRatio * path_m,
                              kSigmaStart_rad + kDriftPerMetre_rad * path_m};
   const LinkFit at_stated = fit_links_near(team, fitted.window, near);
   if (fitted.fit.log_evidence - at_stated.log_evidence < kMinGainOfStart) return std::nullopt;
-  const SE3 error = stated.inverse() * fitted.fit.T_i_j;
-  const Contradiction found{error.translation().head<2>().norm(), std::abs(error.yaw())};
-  const bool is_far = found.distance_m > 3 * near.sigma_m || found.turn_rad > 3 * near.sigma_rad;
-  return is_far ? std::optional(found) : std::nullopt;
+  return Contradiction{stated.inverse() * fitted.fit.T_i_j, near.sigma_m, near.sigma_rad};
 }
 
-/// The robot whose stated start most of its pairs' first windows contradict.
+/// That of all windows of a pair: each contradicts the starts, and by the same error, since detours round
+/// different corners do not agree. Where there is one window, most of its links must be direct.
+std::optional<Contradiction> common_contradiction(const TeamLinks& team,
+                                                  const std::vector<const FittedWindow*>& of_pair,
+                                                  const SE3& stated) {
+  std::optional<Contradiction> common;
+  for (const FittedWindow* fitted : of_pair) {
+    const auto found = contradiction(team, *fitted, stated);
+    if (!found || (common && !common->agrees_with(*found))) return std::nullopt;
+    if (!common || found->sigma_m < common->sigma_m) common = found;
+  }
+  if (!common->is_far()) return std::nullopt;
+  const LinkFit& first = of_pair.front()->fit;
+  const bool is_alone = of_pair.size() == 1;
+  if (is_alone && first.explained < kMinDirectOfOneWindow * static_cast<double>(first.links))
+    return std::nullopt;
+  return common;
+}
+
+/// The robot whose stated start most of its pairs contradict.
 std::vector<Finding> check_starts(const Mission& mission, const TeamLinks& team,
                                   const std::vector<FittedWindow>& windows) {
   std::map<std::size_t, int> balance;  // pairs that contradict less pairs that agree
   std::map<std::size_t, Contradiction> difference;
-  std::set<std::pair<std::size_t, std::size_t>> seen;
-  for (const FittedWindow& fitted : windows) {
-    const LinkWindow& window = fitted.window;
-    const auto stated = stated_alignment(mission, team, window.i, window.j);
-    if (!stated || !seen.emplace(window.i, window.j).second) continue;
-    const auto contradicted = contradiction(team, fitted, *stated);
-    for (const std::size_t node : {window.i, window.j}) {
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<const FittedWindow*>> pairs;
+  for (const FittedWindow& fitted : windows) pairs[{fitted.window.i, fitted.window.j}].push_back(&fitted);
+  for (const auto& [pair, of_pair] : pairs) {
+    const auto stated = stated_alignment(mission, team, pair.first, pair.second);
+    if (!stated) continue;
+    const auto contradicted = common_contradiction(team, of_pair, *stated);
+    for (const std::size_t node : {pair.first, pair.second}) {
       if (node == team.world()) continue;
       balance[node] += contradicted ? 1 : -1;
       if (contradicted) difference[node] = *contradicted;
@@ -283,26 +323,9 @@ std::vector<Finding> check_starts(const Mission& mission, const TeamLinks& team,
   return {
       {"start", Severity::kWarning, is_unique ? mission.robots[worst->first].id : "", "mission.yaml",
        std::string(is_unique ? "initial_pose contradicts" : "one of two robots' initial_pose contradicts") +
-           " the radio links by about " + number(by.distance_m) + " m and " +
-           number(degrees(by.turn_rad)) + " degrees",
+           " the radio links by about " + number(by.distance_m()) + " m and " +
+           number(degrees(by.turn_rad())) + " degrees",
        "the start that the links allow", "correct initial_pose, or state it as unknown"}};
-}
-
-/// Robust standard deviation of successive differences, over that of white noise of the stated sigma.
-void check_noise(const std::vector<FittedWindow>& windows, bool of_angles, std::vector<Finding>& findings) {
-  std::vector<double> differences;
-  for (const auto& [window, fit] : windows) {
-    const auto& residuals = of_angles ? fit.angle_residuals : fit.range_residuals;
-    for (std::size_t k = 1; k < residuals.size(); ++k)
-      differences.push_back(std::abs(residuals[k] - residuals[k - 1]) / std::sqrt(2.0));
-  }
-  if (differences.size() < 30) return;
-  const double ratio = kMadToSigma * upper_median(std::move(differences));
-  if (ratio < kMaxNoiseRatio) return;
-  findings.push_back(
-      {"noise", Severity::kWarning, "", of_angles ? kAnglesFile : kRangesFile,
-       "the measured noise is " + number(ratio) + " times the stated sigma", "a sigma within a factor of two",
-       std::string("multiply ") + (of_angles ? "sigma_rad" : "sigma_m") + " by " + number(ratio)});
 }
 
 std::vector<LinkWindow> windows_to_check(const TeamLinks& team) {
@@ -322,8 +345,6 @@ std::vector<Finding> check_links(const Mission& mission) {
   std::vector<FittedWindow> windows = fitted(team, chosen);
   std::vector<Finding> findings = corrected_faults(mission, team, windows);
   for (Finding& start : check_starts(mission, team, windows)) findings.push_back(std::move(start));
-  check_noise(windows, false, findings);
-  check_noise(windows, true, findings);
   const double explained = explained_ratio(windows);
   if (findings.empty() && explained < kMinExplained)
     findings.push_back({"frame", Severity::kWarning, "", "",

@@ -4,16 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "radioslam/doctor/window_team.hpp"
-#include "radioslam/graph/residuals.hpp"
 #include "radioslam/team_frame/radio_alignment.hpp"
 
 namespace radioslam {
 namespace {
 
 constexpr double kLogAnywhere = 12.435;  // 200 m by 200 m and all headings
-constexpr double kDirect = 0.5;  // posterior from which on a link's residual is one of the noise
 
 /// A window needs less of a search than a mission: its links are few and its trajectories short.
 RadioAlignmentParams window_params() {
@@ -39,23 +38,10 @@ double log_normaliser(const PoseGraph<Pose>& graph) {
 }
 
 template <class Pose>
-void add_residuals(const TeamGraph<Pose>& team, const TeamHypothesis<Pose>& found, LinkFit& fit) {
-  PoseGraph<Pose> at = team.graph;
-  at.poses = found.poses;
-  for (std::size_t k = 0; k < at.ranges.size(); ++k) {
-    fit.explained += found.range_weight[k];
-    if (found.range_weight[k] > kDirect)
-      fit.range_residuals.push_back(residual(at, at.ranges[k])[0] / at.ranges[k].sigma_m);
-  }
-  for (std::size_t b = 0; b < team.bearings.size(); ++b)
-    for (std::size_t p = 0; p < team.bearings[b].paths.size(); ++p) {
-      fit.explained += found.path_weight[b][p];
-      if (found.path_weight[b][p] <= kDirect) continue;
-      const auto seen = direction_or_zero(seen_by_receiver(at, path_factor(team.bearings[b], p)));
-      const auto& measured = team.bearings[b].paths[p].direction;
-      const double side = measured.x() * seen.y() - measured.y() * seen.x();
-      fit.angle_residuals.push_back(side / team.bearings[b].paths[p].sigma_rad);
-    }
+double explained_links(const TeamHypothesis<Pose>& found) {
+  double sum = std::accumulate(found.range_weight.begin(), found.range_weight.end(), 0.0);
+  for (const auto& paths : found.path_weight) sum = std::accumulate(paths.begin(), paths.end(), sum);
+  return sum;
 }
 
 template <class Pose>
@@ -63,7 +49,7 @@ LinkFit described(const WindowTeam<Pose>& window, const TeamHypothesis<Pose>& fo
   LinkFit fit;
   fit.links = window.links;
   fit.log_evidence = window.log_density + found.log_evidence + log_normaliser(window.team.graph);
-  add_residuals(window.team, found, fit);
+  fit.explained = explained_links(found);
   const auto T_frame_node = [&](std::size_t side) {
     const std::size_t first = window.team.segments[side].first_pose;
     return as_se3(found.poses[first] * window.team.graph.poses[first].inverse(), 0);
@@ -82,7 +68,8 @@ LinkFit nothing_explained(const WindowTeam<Pose>& window) {
   LinkFit fit;
   fit.links = window.links;
   fit.log_evidence = window.log_density;
-  for (const auto& range : window.team.graph.ranges) fit.log_evidence -= std::log(std::max(1.0, range.range_m));
+  for (const auto& range : window.team.graph.ranges)
+    fit.log_evidence -= std::log(std::max(1.0, range.range_m));
   return fit;
 }
 

@@ -1,11 +1,10 @@
 // How well the links of a window agree with the dead reckoning of its two nodes: both are aligned by the
 // estimate's own search and likelihood (team_frame/radio_alignment.hpp), under which links may be false or
-// obstructed. The evidence is that of the alignment, the odometry's noise included, so that fits of one window
-// under different corrections, units and stated noise are comparable.
+// obstructed. The evidence is that of the alignment, the odometry's noise included, so that fits of one
+// window under different corrections, units and stated noise are comparable.
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
 #include "radioslam/doctor/team_links.hpp"
 #include "radioslam/geometry/se3.hpp"
@@ -17,8 +16,6 @@ struct LinkFit {
   std::size_t links = 0;    ///< of the window
   double explained = 0;     ///< sum of the links' posteriors of being direct
   SE3 T_i_j;                ///< of the nodes' own frames
-  std::vector<double> range_residuals;  ///< of direct links over their own sigmas, in the order of time
-  std::vector<double> angle_residuals;
 };
 
 struct StatedAlignment {

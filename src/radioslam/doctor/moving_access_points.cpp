@@ -22,10 +22,33 @@ constexpr double kMinVariance_db2 = 16;
 constexpr int kGrid = 20;
 constexpr double kUsuallyExplained = 0.6, kRarelyExplained = 0.42;  // of the variance of strengths
 
+/// Of strengths at one place: those at about one time, and those at times between which a radio may have
+/// moved.
+constexpr double kSamePlace_m = 5, kSameTime_s = 20, kOtherTime_s = 60;
+constexpr std::size_t kMinReturns = 20;
+constexpr double kMinChange_db = 6, kMinChangeRatio = 2;
+
 struct Strength {
+  double t_s;
   Eigen::Vector2d position_m;
   double rssi_dbm;
 };
+
+/// Whether strengths at one place change with time. Walls and shadowing, which no distance law explains, do
+/// not.
+bool change_at_places(const std::vector<Strength>& strengths) {
+  std::vector<double> soon, later;
+  for (std::size_t a = 0; a < strengths.size(); ++a)
+    for (std::size_t b = a + 1; b < strengths.size(); ++b) {
+      const double gap_s = std::abs(strengths[a].t_s - strengths[b].t_s);
+      if (gap_s > kSameTime_s && gap_s < kOtherTime_s) continue;
+      if ((strengths[a].position_m - strengths[b].position_m).norm() > kSamePlace_m) continue;
+      (gap_s > kSameTime_s ? later : soon).push_back(std::abs(strengths[a].rssi_dbm - strengths[b].rssi_dbm));
+    }
+  if (later.size() < kMinReturns) return false;
+  const double noise_db = soon.size() < kMinReturns ? 0 : upper_median(std::move(soon));
+  return upper_median(std::move(later)) > std::max(kMinChange_db, kMinChangeRatio * noise_db);
+}
 
 /// Share of the variance that a line over the logarithm of the distance to `place` explains; falling ones
 /// only.
@@ -103,7 +126,8 @@ class AccessPointCheck {
     }
   }
 
-  /// Strengths that no fixed place of the access point explains, where those of most others are explained.
+  /// Strengths that no fixed place of the access point explains, where those of most others are explained,
+  /// and that differ where the robot returns.
   void check_moved() {
     std::map<std::size_t, std::vector<Strength>> heard;
     for (const WifiScan& scan : robot_.wifi) {
@@ -111,7 +135,7 @@ class AccessPointCheck {
       if (!row) continue;
       for (const WifiReading& reading : scan.readings)
         heard[reading.access_point.index()].push_back(
-            {row->position_m.head<2>(), static_cast<double>(reading.rssi_dbm)});
+            {scan.stamp.seconds(), row->position_m.head<2>(), static_cast<double>(reading.rssi_dbm)});
     }
     std::vector<std::pair<std::size_t, double>> explained;
     std::vector<double> ratios;
@@ -123,7 +147,8 @@ class AccessPointCheck {
     }
     if (ratios.size() < 5 || median(ratios) < kUsuallyExplained) return;
     for (const auto& [access_point, ratio] : explained)
-      if (ratio < std::min(kRarelyExplained, 0.55 * median(ratios)))
+      if (ratio < std::min(kRarelyExplained, 0.55 * median(ratios)) &&
+          change_at_places(thinned(heard[access_point])))
         report_moving(access_point, "has strengths that no fixed place explains (" + number(100 * ratio) +
                                         " % of their variance; usually " + number(100 * median(ratios)) +
                                         " %)");

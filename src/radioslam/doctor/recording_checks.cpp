@@ -236,6 +236,19 @@ void join_by_links(const Mission& mission, std::size_t world, Components& compon
   }
 }
 
+/// Ranges that no radio between robots measures.
+void check_distances(const Mission& mission, std::vector<Finding>& findings) {
+  constexpr double kFarthest_m = 20e3;
+  std::vector<double> ranges_m;
+  for (const RangeMeasurement& range : mission.ranges) ranges_m.push_back(range.range_m);
+  if (ranges_m.empty()) return;
+  const double usual_m = upper_median(std::move(ranges_m));
+  if (usual_m > kFarthest_m)
+    findings.push_back({"unit", Severity::kError, "", kRangesFile,
+                        "the median distance is " + number(usual_m) + " m", "metres",
+                        "multiply range_m and sigma_m by 0.001 if they are in millimetres"});
+}
+
 }  // namespace
 
 std::vector<Finding> check_times(const Mission& mission) {
@@ -246,6 +259,7 @@ std::vector<Finding> check_times(const Mission& mission) {
     for (const Times& file : files_of(robot)) FileTimes(robot, *motion, file, findings).run();
   }
   check_team_files(mission, findings);
+  check_distances(mission, findings);
   return findings;
 }
 

@@ -92,9 +92,9 @@ void add_angles(const Mission& mission, TeamLinks& team, const auto& end_of) {
     const double no_range = std::numeric_limits<double>::quiet_NaN(),
                  sigma_rad = angle.paths.front().sigma_rad;
     const auto at = team.tracks[angle.receiver.index()].at(angle.stamp.seconds());
-    const auto paths = team.is_planar && at ? levelled(angle, SE3(at->position_m, at->rotation)).paths : angle.paths;
-    team.links.push_back(
-        {TrackLink::Kind::kAngle, angle.stamp.seconds(), a, *b, no_range, sigma_rad, paths});
+    const auto paths =
+        team.is_planar && at ? levelled(angle, SE3(at->position_m, at->rotation)).paths : angle.paths;
+    team.links.push_back({TrackLink::Kind::kAngle, angle.stamp.seconds(), a, *b, no_range, sigma_rad, paths});
   }
 }
 
@@ -178,8 +178,8 @@ OdometryEdge<Pose> Track::motion(double begin_s, double end_s) const {
   const double begin = begin_s - shift_s_, end = end_s - shift_s_;  // as recorded
   OdometryEdge<Pose> edge;
   StampedPose<SE3> last = sample(begin, *at(begin_s));
-  auto row = std::upper_bound(rows_.begin(), rows_.end(), begin,
-                              [](double t, const Row& r) { return t < r.t_s; });
+  auto row =
+      std::upper_bound(rows_.begin(), rows_.end(), begin, [](double t, const Row& r) { return t < r.t_s; });
   for (; row != rows_.end() && row->t_s < end; ++row) {
     const StampedPose<SE3> next = sample(row->t_s, *row);
     append_sample(edge, last, next, noise_);
@@ -191,13 +191,6 @@ OdometryEdge<Pose> Track::motion(double begin_s, double end_s) const {
 }
 template OdometryEdge<SE2> Track::motion<SE2>(double, double) const;
 template OdometryEdge<SE3> Track::motion<SE3>(double, double) const;
-
-void Track::scale_noise(double factor) {
-  for (double* sigma : {&noise_.sigma_xy_per_sqrt_m, &noise_.sigma_yaw_per_sqrt_m_rad, &noise_.sigma_yaw_per_rad,
-                        &noise_.sigma_z_per_sqrt_m})
-    *sigma *= factor;
-  for (OdometryStepNoise& step : noise_.steps) step.covariance_per_s *= factor * factor;
-}
 
 void Track::scale(double factor) {
   for (Row& row : rows_) row.position_m *= factor, row.path_m *= factor;

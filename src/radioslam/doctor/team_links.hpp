@@ -39,7 +39,6 @@ class Track {
   void mirror();  ///< y and yaw change sign
   void scale(double factor);
   void shift(double seconds) { shift_s_ += seconds; }
-  void scale_noise(double factor);  ///< multiplies the odometry's standard deviations
 
  private:
   std::vector<Row> rows_;

@@ -100,10 +100,10 @@ class WindowTeamBuilder {
   RangeEnd<Pose> end(const TrackEnd& end, double t_s) const {
     const std::size_t side = end.node == nodes_[0] ? 0 : 1;
     const auto& times = times_[side];
-    const std::size_t n = is_world(end.node)
-                              ? 0
-                              : static_cast<std::size_t>(
-                                    std::lower_bound(times.begin(), times.end(), t_s) - times.begin());
+    const std::size_t n =
+        is_world(end.node)
+            ? 0
+            : static_cast<std::size_t>(std::lower_bound(times.begin(), times.end(), t_s) - times.begin());
     RangeEnd<Pose> result;
     result.pose = PoseId(result_.team.segments[side].first_pose + n);
     result.lever_arm = end.point_m.template head<Pose::kDim>();
