@@ -147,8 +147,10 @@ Gain gain_of(const Correction& correction, const TeamLinks& team, const std::vec
 }
 
 std::vector<FittedWindow> fitted(const TeamLinks& team, const std::vector<LinkWindow>& windows) {
-  std::vector<FittedWindow> result;
-  for (const LinkWindow& window : windows) result.push_back({window, fit_links(team, window)});
+  std::vector<FittedWindow> result(windows.size());
+  parallel_for(windows.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) result[k] = {windows[k], fit_links(team, windows[k])};
+  });
   return result;
 }
 

@@ -45,7 +45,25 @@ double explained_links(const TeamHypothesis<Pose>& found) {
 }
 
 template <class Pose>
+bool has_links(const WindowTeam<Pose>& window) {
+  return !window.team.graph.ranges.empty() || !window.team.bearings.empty();
+}
+
+/// No link explained: ranges of any length, angles of any direction.
+template <class Pose>
+LinkFit nothing_explained(const WindowTeam<Pose>& window) {
+  LinkFit fit;
+  fit.links = window.links;
+  fit.log_evidence = window.log_density;
+  for (const auto& range : window.team.graph.ranges)
+    fit.log_evidence -= std::log(std::max(1.0, range.range_m));
+  return fit;
+}
+
+template <class Pose>
 LinkFit described(const WindowTeam<Pose>& window, const TeamHypothesis<Pose>& found) {
+  if (!std::isfinite(found.log_evidence))
+    return nothing_explained(window);  // the links leave a direction open
   LinkFit fit;
   fit.links = window.links;
   fit.log_evidence = window.log_density + found.log_evidence + log_normaliser(window.team.graph);
@@ -55,21 +73,6 @@ LinkFit described(const WindowTeam<Pose>& window, const TeamHypothesis<Pose>& fo
     return as_se3(found.poses[first] * window.team.graph.poses[first].inverse(), 0);
   };
   fit.T_i_j = T_frame_node(0).inverse() * T_frame_node(1);
-  return fit;
-}
-
-template <class Pose>
-bool has_links(const WindowTeam<Pose>& window) {
-  return !window.team.graph.ranges.empty() || !window.team.bearings.empty();
-}
-
-template <class Pose>
-LinkFit nothing_explained(const WindowTeam<Pose>& window) {
-  LinkFit fit;
-  fit.links = window.links;
-  fit.log_evidence = window.log_density;
-  for (const auto& range : window.team.graph.ranges)
-    fit.log_evidence -= std::log(std::max(1.0, range.range_m));
   return fit;
 }
 
