@@ -40,17 +40,17 @@ ConsistentSet largest_consistent_set(const PairwiseConsistency& pairs, const Max
 }
 
 template <class Pose>
-ConsistentSet largest_consistent_set(const OdometryChain<Pose>& chain_a, const OdometryChain<Pose>& chain_b,
+ConsistentSet largest_consistent_set(const PoseChain<Pose>& chain_a, const PoseChain<Pose>& chain_b,
                                      const std::vector<RelativePoseMatch<Pose>>& matches,
                                      const ConsistentSetParams& params) {
   return largest_consistent_set(pairwise_consistency(chain_a, chain_b, matches, params.pairwise),
                                 params.clique);
 }
 
-template ConsistentSet largest_consistent_set(const OdometryChain<SE2>&, const OdometryChain<SE2>&,
+template ConsistentSet largest_consistent_set(const PoseChain<SE2>&, const PoseChain<SE2>&,
                                               const std::vector<RelativePoseMatch<SE2>>&,
                                               const ConsistentSetParams&);
-template ConsistentSet largest_consistent_set(const OdometryChain<SE3>&, const OdometryChain<SE3>&,
+template ConsistentSet largest_consistent_set(const PoseChain<SE3>&, const PoseChain<SE3>&,
                                               const std::vector<RelativePoseMatch<SE3>>&,
                                               const ConsistentSetParams&);
 

@@ -42,7 +42,7 @@ struct ConsistentSet {
 
 /// Of n matches. A single match is a set of one; no matches, an empty one.
 template <class Pose>
-ConsistentSet largest_consistent_set(const OdometryChain<Pose>& chain_a, const OdometryChain<Pose>& chain_b,
+ConsistentSet largest_consistent_set(const PoseChain<Pose>& chain_a, const PoseChain<Pose>& chain_b,
                                      const std::vector<RelativePoseMatch<Pose>>& matches,
                                      const ConsistentSetParams& params = {});
 

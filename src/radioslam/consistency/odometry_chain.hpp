@@ -14,15 +14,14 @@
 #include <vector>
 
 #include "radioslam/base/check.hpp"
+#include "radioslam/consistency/pose_chain.hpp"
 #include "radioslam/geometry/compensated_sum.hpp"
 #include "radioslam/geometry/linear_algebra.hpp"
-#include "radioslam/geometry/se2.hpp"
-#include "radioslam/geometry/se3.hpp"
 
 namespace radioslam {
 
 template <class Pose>
-class OdometryChain {
+class OdometryChain final : public PoseChain<Pose> {
  public:
   using Jacobian = typename Pose::Jacobian;
 
@@ -41,13 +40,13 @@ class OdometryChain {
     }
   }
 
-  std::size_t size() const { return poses_.size(); }
+  std::size_t size() const override { return poses_.size(); }
 
   /// T_i_j.
-  Pose increment(std::size_t i, std::size_t j) const { return poses_[i].inverse() * poses_[j]; }
+  Pose increment(std::size_t i, std::size_t j) const override { return poses_[i].inverse() * poses_[j]; }
 
   /// Of T_i_j, right perturbation.
-  Jacobian increment_covariance(std::size_t i, std::size_t j) const {
+  Jacobian increment_covariance(std::size_t i, std::size_t j) const override {
     const Jacobian ad = poses_[j].inverse().adjoint();
     return congruence<Jacobian, Jacobian>(ad, sums_[std::max(i, j)] - sums_[std::min(i, j)]);
   }

@@ -18,16 +18,11 @@ typename Pose::Jacobian carried(const typename Pose::Jacobian& jacobian,
 }
 
 template <class Pose>
-void check_matches(const OdometryChain<Pose>& chain_a, const OdometryChain<Pose>& chain_b,
+void check_matches(const PoseChain<Pose>& chain_a, const PoseChain<Pose>& chain_b,
                    const std::vector<RelativePoseMatch<Pose>>& matches) {
   for (const auto& match : matches)
     RADIOSLAM_CHECK(match.pose_a < chain_a.size() && match.pose_b < chain_b.size(),
                     "a match is between poses of the chains");
-}
-
-template <class Pose>
-UncertainPose<Pose> increment(const OdometryChain<Pose>& chain, std::size_t i, std::size_t j) {
-  return {chain.increment(i, j), chain.increment_covariance(i, j)};
 }
 
 }  // namespace
@@ -55,15 +50,14 @@ double loop_statistic(const UncertainPose<Pose>& z_i, const UncertainPose<Pose>&
 }
 
 template <class Pose>
-double pair_statistic(const OdometryChain<Pose>& chain_a, const OdometryChain<Pose>& chain_b,
+double pair_statistic(const PoseChain<Pose>& chain_a, const PoseChain<Pose>& chain_b,
                       const RelativePoseMatch<Pose>& i, const RelativePoseMatch<Pose>& j) {
-  return loop_statistic<Pose>({i.T_a_b, i.covariance}, increment(chain_b, i.pose_b, j.pose_b),
-                              {j.T_a_b, j.covariance}, increment(chain_a, i.pose_a, j.pose_a));
+  return loop_statistic<Pose>({i.T_a_b, i.covariance}, chain_b.between(i.pose_b, j.pose_b),
+                              {j.T_a_b, j.covariance}, chain_a.between(i.pose_a, j.pose_a));
 }
 
 template <class Pose>
-PairwiseConsistency pairwise_consistency(const OdometryChain<Pose>& chain_a,
-                                         const OdometryChain<Pose>& chain_b,
+PairwiseConsistency pairwise_consistency(const PoseChain<Pose>& chain_a, const PoseChain<Pose>& chain_b,
                                          const std::vector<RelativePoseMatch<Pose>>& matches,
                                          const PairwiseParams& params) {
   check_matches(chain_a, chain_b, matches);
@@ -83,14 +77,14 @@ PairwiseConsistency pairwise_consistency(const OdometryChain<Pose>& chain_a,
 }
 
 // NOLINTBEGIN(bugprone-macro-parentheses): Pose is a type.
-#define RADIOSLAM_INSTANTIATE(Pose)                                                                         \
-  template LoopJacobians<Pose> loop_jacobians(const Pose&, const Pose&, const Pose&);                       \
-  template double loop_statistic(const UncertainPose<Pose>&, const UncertainPose<Pose>&,                    \
-                                 const UncertainPose<Pose>&, const UncertainPose<Pose>&);                   \
-  template double pair_statistic(const OdometryChain<Pose>&, const OdometryChain<Pose>&,                    \
-                                 const RelativePoseMatch<Pose>&, const RelativePoseMatch<Pose>&);           \
-  template PairwiseConsistency pairwise_consistency(const OdometryChain<Pose>&, const OdometryChain<Pose>&, \
-                                                    const std::vector<RelativePoseMatch<Pose>>&,            \
+#define RADIOSLAM_INSTANTIATE(Pose)                                                                 \
+  template LoopJacobians<Pose> loop_jacobians(const Pose&, const Pose&, const Pose&);               \
+  template double loop_statistic(const UncertainPose<Pose>&, const UncertainPose<Pose>&,            \
+                                 const UncertainPose<Pose>&, const UncertainPose<Pose>&);           \
+  template double pair_statistic(const PoseChain<Pose>&, const PoseChain<Pose>&,                    \
+                                 const RelativePoseMatch<Pose>&, const RelativePoseMatch<Pose>&);   \
+  template PairwiseConsistency pairwise_consistency(const PoseChain<Pose>&, const PoseChain<Pose>&, \
+                                                    const std::vector<RelativePoseMatch<Pose>>&,    \
                                                     const PairwiseParams&)
 // NOLINTEND(bugprone-macro-parentheses)
 RADIOSLAM_INSTANTIATE(SE2);

@@ -8,7 +8,7 @@
 // which gives its covariance Sigma. i and j are consistent when xi^T Sigma^-1 xi is at most the chi-squared
 // quantile of 3 (plane) or 6 degrees of freedom. For (j, i) and from robot b's side the
 // statistic is the same to first order; each pair is tested once, as (later, earlier) in the list.
-// Metres and radians. The odometry of the two trajectories is assumed independent, as it is for different
+// Metres and radians. The two trajectories are assumed independent, as it is for different
 // robots. Cost: O(1) per pair of measurements, about two microseconds in space.
 #pragma once
 
@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "radioslam/base/fields.hpp"
-#include "radioslam/consistency/odometry_chain.hpp"
+#include "radioslam/consistency/pose_chain.hpp"
 #include "radioslam/consistency/undirected_graph.hpp"
 #include "radioslam/geometry/uncertain_pose.hpp"
 
@@ -46,7 +46,7 @@ double loop_statistic(const UncertainPose<Pose>& z_i, const UncertainPose<Pose>&
 
 /// The statistic of two matches between chains a and b.
 template <class Pose>
-double pair_statistic(const OdometryChain<Pose>& chain_a, const OdometryChain<Pose>& chain_b,
+double pair_statistic(const PoseChain<Pose>& chain_a, const PoseChain<Pose>& chain_b,
                       const RelativePoseMatch<Pose>& i, const RelativePoseMatch<Pose>& j);
 
 struct PairwiseParams {
@@ -75,8 +75,7 @@ struct PairwiseConsistency {
 
 /// Tests every pair, on several threads. Pose numbers must be within the chains.
 template <class Pose>
-PairwiseConsistency pairwise_consistency(const OdometryChain<Pose>& chain_a,
-                                         const OdometryChain<Pose>& chain_b,
+PairwiseConsistency pairwise_consistency(const PoseChain<Pose>& chain_a, const PoseChain<Pose>& chain_b,
                                          const std::vector<RelativePoseMatch<Pose>>& matches,
                                          const PairwiseParams& params = {});
 

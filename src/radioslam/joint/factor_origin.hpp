@@ -11,7 +11,7 @@
 namespace radioslam {
 
 /// Kind of measurement that a factor was made from.
-enum class FactorSource { kOdometry, kRange, kAoa, kFingerprint, kSequence, kScanLoop, kMatch };
+enum class FactorSource { kOdometry, kRange, kAoa, kFingerprint, kSequence, kScanLoop, kLoop, kMatch };
 
 struct FactorOrigin {
   FactorSource source = FactorSource::kOdometry;

@@ -1,10 +1,12 @@
 #include "radioslam/joint/joint_graph_from_file.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "radioslam/base/check.hpp"
+#include "radioslam/geometry/linear_algebra.hpp"
+#include "radioslam/graph/pose_chart.hpp"
 #include "radioslam/joint/antenna_pairs.hpp"
-#include "radioslam/team_frame/connected_measurements.hpp"
 
 namespace radioslam {
 namespace {
@@ -27,6 +29,41 @@ std::vector<FactorOrigin> robots_and_stamps(const JointGraph<Pose>& joint) {
       origin.stamp_i = joint.team.segments[p].stamps[k];
     }
   return of_pose;
+}
+
+/// Odometry comes first in a team that was read from a file: one step from every pose but its segment's last.
+template <class Pose>
+std::size_t odometry_count(const TeamGraph<Pose>& team) {
+  return team.graph.poses.size() - team.segments.size();
+}
+
+/// The information of a relative pose near the measured one, for its logarithm.
+template <class Pose>
+typename Pose::Jacobian of_logarithm(PoseChart chart, const typename Pose::Jacobian& information) {
+  const typename Pose::Jacobian derivative = chart_derivative(chart, Pose());
+  return normal_matrix(derivative, information);
+}
+
+template <class Pose>
+void use_logarithm(PoseGraph<Pose>& graph) {
+  for (auto& factor : graph.relative_poses)
+    factor.information = of_logarithm<Pose>(graph.chart, factor.information);
+  for (auto& prior : graph.pose_priors)
+    prior.information = of_logarithm<Pose>(graph.chart, prior.information);
+  graph.chart = PoseChart::kLogarithm;
+}
+
+/// An information with that of a planar pose in x, y and yaw, and next to none otherwise.
+template <class Pose>
+SE3::Jacobian in_space(const typename Pose::Jacobian& information) {
+  if constexpr (Pose::kDim == 3) {
+    return information;
+  } else {
+    SE3::Jacobian result = SE3::Jacobian::Identity();
+    const std::array<int, 3> kept{0, 1, 5};
+    result(kept, kept) = information;
+    return result;
+  }
 }
 
 }  // namespace
@@ -72,18 +109,36 @@ JointGraph<Pose> joint_graph_of(const TeamGraph<Pose>& team, const Mission& miss
   for (std::size_t k = 0; k < team.bearings.size(); ++k)
     joint.origins.bearings.push_back(
         origin(FactorSource::kAoa, k, team.bearings[k].i, team.bearings[k].j.pose));
-  const auto segment_of = segment_of_poses(team);
-  joint.ignored_links = static_cast<std::size_t>(
-      std::count_if(team.graph.relative_poses.begin(), team.graph.relative_poses.end(),
-                    [&](const auto& f) { return segment_of[f.i.index()] != segment_of[f.j.index()]; }));
-  std::erase_if(joint.team.graph.relative_poses,
-                [&](const auto& f) { return segment_of[f.i.index()] != segment_of[f.j.index()]; });
-  const auto& steps = joint.team.graph.relative_poses;
-  for (std::size_t k = 0; k < steps.size(); ++k)
-    joint.origins.relative_poses.push_back(origin(FactorSource::kOdometry, k, steps[k].i, steps[k].j));
+  joint.team.graph.relative_poses.resize(odometry_count(team));
+  for (std::size_t k = 0; k < joint.team.graph.relative_poses.size(); ++k) {
+    const auto& step = team.graph.relative_poses[k];
+    joint.origins.relative_poses.push_back(origin(FactorSource::kOdometry, k, step.i, step.j));
+  }
+  use_logarithm(joint.team.graph);
   return joint;
 }
 
+template <class Pose>
+std::vector<Closure> closures_of(const TeamGraph<Pose>& team, const JointGraph<Pose>& joint) {
+  const auto of_pose = robots_and_stamps(joint);
+  std::vector<Closure> closures;
+  for (std::size_t k = odometry_count(team); k < team.graph.relative_poses.size(); ++k) {
+    const auto& factor = team.graph.relative_poses[k];
+    const FactorOrigin &i = of_pose[factor.i.index()], &j = of_pose[factor.j.index()];
+    Closure& closure = closures.emplace_back();
+    closure.kind = ClosureKind::kFile;
+    closure.robot_i = i.robot_i;
+    closure.stamp_i = i.stamp_i;
+    closure.robot_j = j.robot_i;
+    closure.stamp_j = j.stamp_i;
+    closure.T_i_j = as_se3(factor.T_i_j, 0);
+    closure.information = in_space<Pose>(of_logarithm<Pose>(team.graph.chart, factor.information));
+  }
+  return closures;
+}
+
+template std::vector<Closure> closures_of(const TeamGraph<SE2>&, const JointGraph<SE2>&);
+template std::vector<Closure> closures_of(const TeamGraph<SE3>&, const JointGraph<SE3>&);
 template JointGraph<SE2> joint_graph_of(const TeamGraph<SE2>&, const Mission&);
 template JointGraph<SE3> joint_graph_of(const TeamGraph<SE3>&, const Mission&);
 

@@ -6,6 +6,12 @@ radioslam_room(joint
     aoa/aoa_predictions.cpp
     aoa/mutual_bearing_constraints.cpp
     bias_distribution.cpp
+    closures/closure.cpp
+    closures/loop_alignment.cpp
+    closures/loop_selection.cpp
+    closures/loop_stage.cpp
+    closures/own_loops.cpp
+    closures/team_loops.cpp
     covariance_graph.cpp
     dense_trajectory.cpp
     factor_origin.cpp

@@ -1,30 +1,15 @@
 #include "radioslam/joint/scan_closures.hpp"
 
-#include <Eigen/LU>
-#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
 
 #include "radioslam/base/check.hpp"
 #include "radioslam/graph/residuals.hpp"
+#include "radioslam/joint/closures/closure.hpp"
 
 namespace radioslam {
 namespace {
-
-/// The closure in the dimension of the estimate; in the plane, height, roll and pitch are marginalised.
-template <class Pose>
-typename Pose::Jacobian information_as(const SE3::Jacobian& information) {
-  if constexpr (Pose::kDim == 3) {
-    return information;
-  } else {
-    const std::array<int, 3> kept{0, 1, 5}, freed{2, 3, 4};
-    constexpr double kMin = 1e-9;
-    const Eigen::Matrix3d of_freed = information(freed, freed) + kMin * Eigen::Matrix3d::Identity();
-    const Eigen::Matrix3d cross = information(kept, freed);
-    return information(kept, kept) - cross * of_freed.inverse() * cross.transpose();
-  }
-}
 
 template <class Pose>
 RelativePoseFactor<Pose> closure_factor(const JointGraph<Pose>& joint, const ScanClosure& closure) {

@@ -5,6 +5,7 @@
 
 #include "radioslam/closure/fingerprint_closures.hpp"
 #include "radioslam/graph/optimizer.hpp"
+#include "radioslam/joint/closures/closure.hpp"
 #include "radioslam/joint/joint_graph.hpp"
 #include "radioslam/joint/position_fixes/placement.hpp"
 #include "radioslam/joint/sequence_stage.hpp"
@@ -21,6 +22,7 @@ struct TeamEstimate {
   KnownStarts starts = {};  ///< as the mission states them, or as position fixes determined them
   TeamFixes<Pose> fixes = {};
   TeamPlacement<Pose> placement = {};
+  std::vector<Closure> loops = {};  ///< relative poses of a graph file that are not odometry
   std::vector<FingerprintClosure> closures = {};
   std::vector<SequenceClosure> sequences = {};
   OptimizerSummary solution = {};

@@ -11,19 +11,14 @@
 namespace radioslam {
 namespace {
 
-/// Whether matches may move the team; without pruning or robustness they show what they do on their own.
-bool uses_matches(const Mission& mission, const RunParams& params, const RunOptions& options) {
-  return !mission.matches.empty() && params.matches.robust && options.pruning == Pruning::kOn &&
-         !options.overlap_only;
-}
-
 /// The whole estimate, stage by stage. `team`: the mission as a factor graph, or null.
 template <class Pose>
 RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const std::vector<ScanClosure>& loops,
               const RunParams& params, const RunOptions& options, const Progress& progress) {
   StageClock timed;
   auto radio = timed("radio", measure_radio, mission, params.radio, progress);
-  auto estimate = timed("graph", begin_estimate<Pose>, mission, team, loops, std::move(radio), params);
+  auto estimate =
+      timed("graph", begin_estimate<Pose>, mission, team, loops, std::move(radio), params, options);
   if (has_fixes(mission))
     estimate = timed("position fixes", place_robots_by_fixes<Pose>, std::move(estimate), mission, params);
   estimate = timed("team frame", align_team<Pose>, std::move(estimate), mission, params, progress);
@@ -34,13 +29,16 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const std::ve
     estimate = timed("settle fixes", reclassify_fixes<Pose>, std::move(estimate), params, progress);
   estimate = timed("radio field", refine_on_field<Pose>, std::move(estimate), mission, params, progress);
   estimate = timed("range biases", correct_range_biases<Pose>, std::move(estimate), params, progress);
-  if (uses_matches(mission, params, options))
+  if (!estimate.loops.empty())
+    estimate = timed("loops", close_by_loops<Pose>, std::move(estimate), params, progress);
+  const bool judges_matches = !mission.matches.empty() && estimate.loops.empty();
+  if (judges_matches && uses_matches(mission, params, options))
     estimate = timed("alignment by matches", weigh_alignments_by_matches<Pose>, std::move(estimate), mission,
                      params, progress);
   std::optional<OverlapStage> overlaps;
   if (needs_overlap_search(mission, options))
     overlaps = timed("overlap", search_overlaps<Pose>, estimate, params, options);
-  if (!mission.matches.empty() && !options.overlap_only)
+  if (judges_matches && !options.overlap_only)
     estimate = timed("matches", close_by_matches<Pose>, std::move(estimate), mission, *overlaps, params,
                      options, progress);
   RunResult result = describe_run(mission, estimate, loops, std::move(overlaps), params, options, timed);

@@ -56,7 +56,8 @@ void add_estimate(RunResult& result, const Mission& mission, const JointGraph<Po
 void add_notes(RunResult& result, const Mission& mission, const RadioMeasurements& radio,
                const SequenceStageParams& sequence, std::size_t ignored_links) {
   for (const auto& id : result.unplaced)
-    result.notes.push_back("robot " + id + " is not placed: no measurement connects it to another robot");
+    result.notes.push_back("robot " + id +
+                           " is not placed: no measurement that can be trusted connects it to another robot");
   for (const auto& file : mission.unused_files) result.notes.push_back(file + " is not used by this version");
   if (ignored_links > 0)
     result.notes.push_back(
@@ -90,6 +91,7 @@ std::vector<ClosureResult> collect_all_closures(const TeamEstimate<Pose>& estima
   for (auto& closure : collect_sequence_closures(joint, estimate.radio, estimate.sequences))
     all.push_back(std::move(closure));
   for (auto& closure : collect_scan_closures(joint, loops)) all.push_back(std::move(closure));
+  for (auto& closure : collect_closures(joint, estimate.loops)) all.push_back(std::move(closure));
   all.insert(all.end(), estimate.matches.begin(), estimate.matches.end());
   return all;
 }

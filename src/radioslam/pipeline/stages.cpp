@@ -1,7 +1,9 @@
 #include "radioslam/pipeline/stages.hpp"
 
+#include <algorithm>
 #include <utility>
 
+#include "radioslam/joint/closures/loop_stage.hpp"
 #include "radioslam/joint/covariance_graph.hpp"
 #include "radioslam/joint/field_stage.hpp"
 #include "radioslam/joint/joint_graph_from_file.hpp"
@@ -32,13 +34,30 @@ ClosureResult match_result(const MatchOutcome& outcome) {
 
 }  // namespace
 
+bool uses_matches(const Mission& mission, const RunParams& params, const RunOptions& options) {
+  return !mission.matches.empty() && params.matches.robust && options.pruning == Pruning::kOn &&
+         !options.overlap_only;
+}
+
+bool stands_on_matches(const Mission& mission, const RunParams& params, const RunOptions& options) {
+  return uses_matches(mission, params, options) && mission.ranges.empty() &&
+         mission.aoa_measurements.empty() && !has_fixes(mission) &&
+         std::all_of(mission.robots.begin(), mission.robots.end(),
+                     [](const Robot& r) { return r.wifi.empty(); });
+}
+
 template <class Pose>
 TeamEstimate<Pose> begin_estimate(const Mission& mission, const TeamGraph<Pose>* team,
                                   const std::vector<ScanClosure>& loops, RadioMeasurements radio,
-                                  const RunParams& params) {
+                                  const RunParams& params, const RunOptions& options) {
   TeamEstimate<Pose> estimate{.radio = std::move(radio)};
   estimate.joint = team ? joint_graph_of(*team, mission) : mission_graph<Pose>(mission, loops, params);
   estimate.starts = known_starts(mission);
+  if (team)
+    estimate.loops = closures_of(*team, estimate.joint);
+  else if (stands_on_matches(mission, params, options))
+    estimate.loops = closures_of_matches(mission);
+  add_own_loops(estimate.joint, estimate.loops, params.optimizer);
   add_scan_closures(estimate.joint, loops, params.optimizer);
   return estimate;
 }
@@ -118,6 +137,13 @@ TeamEstimate<Pose> weigh_alignments_by_matches(TeamEstimate<Pose> estimate, cons
   return estimate;
 }
 
+template <class Pose>
+TeamEstimate<Pose> close_by_loops(TeamEstimate<Pose> estimate, const RunParams& params,
+                                  const Progress& progress) {
+  close_by_loops(estimate.joint, estimate.placement, estimate.loops, params.optimizer, progress);
+  return estimate;
+}
+
 bool needs_overlap_search(const Mission& mission, const RunOptions& options) {
   return options.overlap_only || !mission.ranges.empty() || !mission.aoa_measurements.empty() ||
          !mission.matches.empty();
@@ -160,7 +186,7 @@ TeamEstimate<Pose> close_by_matches(TeamEstimate<Pose> estimate, const Mission& 
 #define RADIOSLAM_STAGES(Pose)                                                                             \
   template TeamEstimate<Pose> begin_estimate(const Mission&, const TeamGraph<Pose>*,                       \
                                              const std::vector<ScanClosure>&, RadioMeasurements,           \
-                                             const RunParams&);                                            \
+                                             const RunParams&, const RunOptions&);                         \
   template TeamEstimate<Pose> place_robots_by_fixes(TeamEstimate<Pose>, const Mission&, const RunParams&); \
   template TeamEstimate<Pose> align_team(TeamEstimate<Pose>, const Mission&, const RunParams&,             \
                                          const Progress&);                                                 \
@@ -173,6 +199,7 @@ TeamEstimate<Pose> close_by_matches(TeamEstimate<Pose> estimate, const Mission& 
   template TeamEstimate<Pose> correct_range_biases(TeamEstimate<Pose>, const RunParams&, const Progress&); \
   template TeamEstimate<Pose> weigh_alignments_by_matches(TeamEstimate<Pose>, const Mission&,              \
                                                           const RunParams&, const Progress&);              \
+  template TeamEstimate<Pose> close_by_loops(TeamEstimate<Pose>, const RunParams&, const Progress&);       \
   template OverlapStage search_overlaps(const TeamEstimate<Pose>&, const RunParams&, const RunOptions&);   \
   template TeamEstimate<Pose> close_by_matches(TeamEstimate<Pose>, const Mission&, const OverlapStage&,    \
                                                const RunParams&, const RunOptions&, const Progress&);

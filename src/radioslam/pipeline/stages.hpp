@@ -13,12 +13,18 @@
 
 namespace radioslam {
 
+/// Whether matches may move the team; without pruning or robustness they show what they do on their own.
+bool uses_matches(const Mission& mission, const RunParams& params, const RunOptions& options);
+
+/// Whether the robots are connected by matches and by nothing else.
+bool stands_on_matches(const Mission& mission, const RunParams& params, const RunOptions& options);
+
 /// The joint graph of the mission, or of `team` where it comes as a factor graph, with each robot's loop
 /// closures `loops`.
 template <class Pose>
 TeamEstimate<Pose> begin_estimate(const Mission& mission, const TeamGraph<Pose>* team,
                                   const std::vector<ScanClosure>& loops, RadioMeasurements radio,
-                                  const RunParams& params);
+                                  const RunParams& params, const RunOptions& options);
 
 /// Robots with position fixes in the common frame.
 template <class Pose>
@@ -62,6 +68,12 @@ TeamEstimate<Pose> correct_range_biases(TeamEstimate<Pose> estimate, const RunPa
 template <class Pose>
 TeamEstimate<Pose> weigh_alignments_by_matches(TeamEstimate<Pose> estimate, const Mission& mission,
                                                const RunParams& params, const Progress& progress);
+
+/// With the loops that hold, of a graph file or of a team that stands on matches; they join robots that
+/// nothing else connects.
+template <class Pose>
+TeamEstimate<Pose> close_by_loops(TeamEstimate<Pose> estimate, const RunParams& params,
+                                  const Progress& progress);
 
 /// Whether a run uses the keyframe pairs with overlapping views.
 bool needs_overlap_search(const Mission& mission, const RunOptions& options);

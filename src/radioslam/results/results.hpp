@@ -60,7 +60,7 @@ struct RobotResult {
 };
 
 /// Origin of a closure.
-enum class ClosureKind { kRange, kAoa, kFingerprint, kSequence, kLidar, kMatch };
+enum class ClosureKind { kRange, kAoa, kFingerprint, kSequence, kLidar, kMatch, kFile };
 enum class ClosureStatus { kAccepted, kRejected };
 
 /// Constraint between two keyframes and its status.

@@ -1,0 +1,51 @@
+// Loop closure: a relative pose that was measured between any two poses of the team, whoever measured it.
+//
+// Scans, an external place recognition, sequences of fingerprints and the edges of a graph file all give
+// closures, of one robot or between two; the judgement of the joint estimate is part of each.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "radioslam/joint/joint_graph.hpp"
+#include "radioslam/mission/mission.hpp"
+#include "radioslam/results/results.hpp"
+
+namespace radioslam {
+
+struct Closure {
+  ClosureKind kind = ClosureKind::kMatch;
+  RobotIndex robot_i, robot_j;
+  Stamp stamp_i, stamp_j;  ///< at poses of the joint graph, or at times without odometry
+  SE3 T_i_j;
+  SE3::Jacobian information = SE3::Jacobian::Identity();  ///< of T_i_j Exp(xi), [translation, rotation]
+  ClosureStatus status = ClosureStatus::kAccepted;
+  double statistic = 0;  ///< squared normalised residual that was tested
+  std::string reason;    ///< of a rejection; empty if accepted
+};
+
+/// Information of a relative pose in the dimension of the estimate; in the plane, height, roll and pitch are
+/// marginalised.
+template <class Pose>
+typename Pose::Jacobian information_as(const SE3::Jacobian& information);
+
+/// Poses of a closure's ends in the joint graph; invalid outside the odometry.
+struct ClosureEnds {
+  PoseId i, j;
+  bool valid() const { return i.valid() && j.valid(); }
+};
+template <class Pose>
+ClosureEnds closure_ends(const JointGraph<Pose>& joint, const Closure& closure);
+
+void reject(Closure& closure, std::string reason);
+
+/// The mission's matches, in their order.
+std::vector<Closure> closures_of_matches(const Mission& mission);
+
+/// Outcomes, at the keyframes before both ends.
+template <class Pose>
+std::vector<ClosureResult> collect_closures(const JointGraph<Pose>& joint,
+                                            const std::vector<Closure>& closures);
+
+}  // namespace radioslam

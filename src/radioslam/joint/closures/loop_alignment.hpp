@@ -1,0 +1,64 @@
+// Alignment of a team by loops between its trajectories.
+//
+// Loops between two trajectories that agree with one another (pairwise consistency, the largest sets) form
+// groups; each group is one relative pose of the two frames, true or an alias, and at most one per pair is
+// true. Which are is decided for the whole team: groups are taken strongest first, and each either joins two
+// components, confirms the frames they have, or contradicts them; a beam of the best choices is kept. So
+// three robots in a cycle decide where a pair cannot. A choice has the weight exp(sum of the evidence of the
+// groups that agree with it).
+// Evidence counts sightings: loops whose ends are near each other along both trajectories see the same place
+// and are wrong together, so a place that looks like another gives many loops and one sighting. A sighting
+// of m loops counts 2 m / (m + 1), and each count multiplies the odds by five.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "radioslam/joint/closures/team_loops.hpp"
+
+namespace radioslam {
+
+struct LoopAlignmentParams {
+  double sighting_m = 10;        ///< path length within which two loops see the same place
+  double sighting_ratio = 0.05;  ///< the same, at most, relative to the length of the shorter trajectory
+};
+
+/// Loops of two segments that agree with one another.
+struct LoopGroup {
+  std::size_t segment_a = 0, segment_b = 0;  ///< a < b
+  std::vector<std::size_t> loops;            ///< at least one, in the order of a's poses
+  double evidence = 0;                       ///< sightings, weighted
+
+  std::size_t middle() const { return loops[loops.size() / 2]; }
+};
+
+template <class Pose>
+std::vector<LoopGroup> loop_groups(const JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>>& loops,
+                                   const std::vector<std::unique_ptr<PoseChain<Pose>>>& chains,
+                                   const LoopAlignmentParams& params);
+
+/// A choice of frames: poses <- T * poses of every segment.
+template <class Pose>
+struct LoopAlignment {
+  std::vector<int> component;         ///< per segment
+  std::vector<Pose> T_frame_segment;  ///< per segment
+  std::vector<bool> group_holds;      ///< per group: it agrees with these frames
+  std::vector<std::size_t> joins;     ///< groups that joined components, a tree per component
+  double log_weight = 0;
+};
+
+/// Whether two choices contradict each other: joins of either do not hold in the other.
+template <class Pose>
+bool are_rivals(const LoopAlignment<Pose>& a, const LoopAlignment<Pose>& b);
+
+/// The best choices, best first, at least one. In the best, a join that less than a sighting and a half
+/// supports is undone, as is one in whose place a rival has two thirds of the evidence that it contests.
+/// `component`: per segment, those with the same number share the frame that the joint graph's poses are in.
+template <class Pose>
+std::vector<LoopAlignment<Pose>> align_by_loops(const JointGraph<Pose>& joint,
+                                                const std::vector<int>& component,
+                                                const std::vector<TeamLoop<Pose>>& loops,
+                                                const std::vector<LoopGroup>& groups,
+                                                const std::vector<std::unique_ptr<PoseChain<Pose>>>& chains);
+
+}  // namespace radioslam

@@ -1,0 +1,299 @@
+#include "radioslam/joint/closures/loop_stage.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "radioslam/joint/closures/loop_alignment.hpp"
+#include "radioslam/joint/closures/loop_selection.hpp"
+#include "radioslam/joint/closures/own_loops.hpp"
+#include "radioslam/joint/closures/team_loops.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr double kMinAlternative = 0.001;  // weight
+constexpr std::size_t kMaxAlternatives = 3;
+constexpr double kNotableScale = 1.5;  // of a standard deviation
+constexpr int kMaxPasses =
+    3;  // with the odometry's sigma, twice and four times that: it is often understated
+
+template <class Pose>
+void erase_loop_factors(JointGraph<Pose>& joint) {
+  auto& factors = joint.team.graph.relative_poses;
+  auto& origins = joint.origins.relative_poses;
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < factors.size(); ++k) {
+    if (origins[k].source == FactorSource::kLoop) continue;
+    factors[kept] = factors[k];
+    origins[kept++] = origins[k];
+  }
+  factors.resize(kept);
+  origins.resize(kept);
+}
+
+template <class Pose>
+void add_accepted(JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>>& loops,
+                  const std::vector<Closure>& closures) {
+  for (const TeamLoop<Pose>& loop : loops) {
+    if (!loop.accepted) continue;
+    const std::size_t first = loop.closures.front();
+    add_factor(joint, loop_factor(loop),
+               {FactorSource::kLoop, first, closures[first].robot_i, closures[first].robot_j,
+                closures[first].stamp_i, closures[first].stamp_j});
+  }
+}
+
+template <class Pose>
+void scale_odometry(JointGraph<Pose>& joint, double scale) {
+  for (std::size_t k = 0; k < joint.team.graph.relative_poses.size(); ++k)
+    if (joint.origins.relative_poses[k].source == FactorSource::kOdometry)
+      joint.team.graph.relative_poses[k].information /= scale * scale;
+}
+
+template <class Pose>
+std::vector<int> segment_components(const JointGraph<Pose>& joint, const TeamPlacement<Pose>& placement) {
+  if (!placement.segments.of_segment.empty()) return placement.segments.of_segment;
+  std::vector<int> component;
+  std::vector<bool> seen(joint.robots.size(), false);
+  int next = static_cast<int>(joint.robots.size());
+  for (std::size_t s = 0; s < joint.team.segments.size(); ++s) {
+    const std::size_t r = joint.robot_of_segment[s];
+    const bool shared = joint.team.segments[s].in_common_frame || !seen[r];
+    component.push_back(shared ? placement.component[r] : next++);
+    seen[r] = true;
+  }
+  return component;
+}
+
+/// A robot belongs to the component of its longest segment.
+template <class Pose>
+void set_components(const JointGraph<Pose>& joint, const std::vector<int>& of_segment,
+                    TeamPlacement<Pose>& placement) {
+  std::vector<std::size_t> longest(joint.robots.size(), 0);
+  std::vector<bool> absolute_before;
+  for (const int c : placement.component)
+    absolute_before.push_back(placement.absolute[static_cast<std::size_t>(c)]);
+  for (std::size_t s = 0; s < of_segment.size(); ++s) {
+    const std::size_t r = joint.robot_of_segment[s];
+    if (joint.team.segments[s].pose_count <= longest[r]) continue;
+    longest[r] = joint.team.segments[s].pose_count;
+    placement.component[r] = of_segment[s];
+  }
+  renumber_components(placement.component);
+  placement.absolute.assign(placement.component.size(), false);
+  for (std::size_t r = 0; r < placement.component.size(); ++r) {
+    const int c = placement.component[r];
+    if (absolute_before[r]) placement.absolute[static_cast<std::size_t>(c)] = true;
+  }
+  for (std::size_t r = 0; r < placement.component.size(); ++r) {
+    const int c = placement.component[r];
+    placement.placed[r] = c == 0 || placement.absolute[static_cast<std::size_t>(c)] ||
+                          std::count(placement.component.begin(), placement.component.end(), c) > 1;
+  }
+}
+
+template <class Pose>
+std::vector<Pose> moved(const JointGraph<Pose>& joint, const LoopAlignment<Pose>& alignment) {
+  std::vector<Pose> poses = joint.team.graph.poses;
+  for (std::size_t s = 0; s < joint.team.segments.size(); ++s)
+    move_segment(poses, joint.team.segments[s], alignment.T_frame_segment[s]);
+  return poses;
+}
+
+/// Whether two solutions accept the same loops between trajectories, but for a tenth.
+template <class Pose>
+bool accept_the_same(const std::vector<TeamLoop<Pose>>& a, const std::vector<TeamLoop<Pose>>& b) {
+  std::size_t accepted = 0, different = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    if (a[k].is_own()) continue;
+    if (a[k].accepted) ++accepted;
+    if (a[k].accepted != b[k].accepted) ++different;
+  }
+  return 10 * different <= accepted;
+}
+
+template <class Pose>
+void accept_groups(const std::vector<LoopGroup>& groups, const LoopAlignment<Pose>& alignment,
+                   std::vector<TeamLoop<Pose>>& loops) {
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    if (alignment.group_holds[g])
+      for (const std::size_t k : groups[g].loops) loops[k].accepted = true;
+}
+
+/// Alignments that join as many robots as the best and are solved to another end, with their weights.
+/// `joint` and `loops`: before the best one is solved; `solved`: after.
+template <class Pose>
+void set_alternatives(const JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>>& loops,
+                      const std::vector<TeamLoop<Pose>>& solved, const std::vector<LoopGroup>& groups,
+                      const std::vector<LoopAlignment<Pose>>& alignments, const OptimizerParams& optimizer,
+                      TeamPlacement<Pose>& placement) {
+  const LoopAlignment<Pose>& best = alignments.front();
+  std::vector<double> weights{1};
+  placement.alternatives.clear();
+  for (std::size_t k = 1; k < alignments.size() && weights.size() <= kMaxAlternatives; ++k) {
+    const double weight = std::exp(alignments[k].log_weight - best.log_weight);
+    if (weight < kMinAlternative) break;
+    if (alignments[k].joins.size() < best.joins.size() || !are_rivals(best, alignments[k])) continue;
+    JointGraph<Pose> rival = joint;
+    std::vector<TeamLoop<Pose>> rival_loops = loops;
+    accept_groups(groups, alignments[k], rival_loops);
+    rival.team.graph.poses = moved(joint, alignments[k]);
+    select_loops(rival, alignments[k].component, rival_loops, optimizer, {});
+    if (accept_the_same(solved, rival_loops)) continue;
+    placement.alternatives.push_back(std::move(rival.team.graph.poses));
+    weights.push_back(weight);
+  }
+  double sum = 0;
+  for (const double w : weights) sum += w;
+  placement.weight = weights.front() / sum;
+  placement.alternative_weights.clear();
+  for (std::size_t k = 1; k < weights.size(); ++k) placement.alternative_weights.push_back(weights[k] / sum);
+}
+
+/// Names of the robots of a group, and what of their loops agrees.
+template <class Pose>
+struct GroupText {
+  std::string robots, counts;
+
+  GroupText(const JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>>& loops, const LoopGroup& group)
+      : robots(robot(joint, group.segment_a) + " and " + robot(joint, group.segment_b)) {
+    const auto all = std::count_if(loops.begin(), loops.end(), [&](const TeamLoop<Pose>& loop) {
+      return std::minmax(loop.segment_i, loop.segment_j) == std::minmax(group.segment_a, group.segment_b);
+    });
+    counts = std::to_string(group.loops.size()) + " of " + std::to_string(all);
+  }
+
+ private:
+  static const std::string& robot(const JointGraph<Pose>& joint, std::size_t segment) {
+    return joint.robots[joint.robot_of_segment[segment]].id;
+  }
+};
+
+/// What the frame stands on, and what loops leave open: the largest group of every pair.
+template <class Pose>
+void note_groups(const JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>>& loops,
+                 const std::vector<LoopGroup>& groups, const LoopAlignment<Pose>& best,
+                 const std::string& measured, TeamPlacement<Pose>& placement) {
+  const LoopGroup* weakest = nullptr;
+  std::set<std::size_t> robots;
+  for (const std::size_t g : best.joins) {
+    const std::size_t a = joint.robot_of_segment[groups[g].segment_a],
+                      b = joint.robot_of_segment[groups[g].segment_b];
+    if (a == b) continue;
+    robots.insert({a, b});
+    if (!weakest || groups[g].evidence < weakest->evidence) weakest = &groups[g];
+  }
+  if (weakest) {
+    const GroupText<Pose> text(joint, loops, *weakest);
+    placement.notes.push_back("the common frame of " + std::to_string(robots.size()) + " robots stands on " +
+                              measured + " alone; least supported is the relative pose of " + text.robots +
+                              ": " + text.counts + " agree with one another");
+  }
+  std::set<std::pair<std::size_t, std::size_t>> noted;
+  for (const LoopGroup& group : groups) {
+    const auto pair = std::make_pair(group.segment_a, group.segment_b);
+    const bool is_open = best.component[pair.first] != best.component[pair.second] &&
+                         joint.robot_of_segment[pair.first] != joint.robot_of_segment[pair.second];
+    if (!is_open || !noted.insert(pair).second) continue;
+    const GroupText<Pose> text(joint, loops, group);
+    placement.notes.push_back(measured + " leave the relative pose of " + text.robots +
+                              " open: the largest group that agrees has " + text.counts);
+  }
+}
+
+std::string factor_text(double scale) {
+  const double rounded = std::round(scale * 10) / 10;
+  std::string text = std::to_string(rounded);
+  text.resize(text.find('.') + 2);
+  return text;
+}
+
+template <class Pose>
+void note_scales(const LoopSelection& selection, TeamPlacement<Pose>& placement) {
+  const auto note = [&](const std::string& what, double scale) {
+    if (scale < kNotableScale && scale > 1 / kNotableScale) return;
+    placement.notes.push_back(
+        "the errors of " + what + " are " + factor_text(scale) +
+        " times as large as their stated covariances allow; the estimate uses the actual ones");
+  };
+  note("the odometry", selection.odometry_scale);
+  note("loop closures", selection.loop_scale);
+}
+
+}  // namespace
+
+template <class Pose>
+void add_own_loops(JointGraph<Pose>& joint, const std::vector<Closure>& closures,
+                   const OptimizerParams& optimizer) {
+  std::vector<TeamLoop<Pose>> loops = team_loops(joint, closures);
+  correct_by_own_loops(joint, loops, optimizer);
+  add_accepted(joint, loops, closures);
+}
+
+template <class Pose>
+void close_by_loops(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement, std::vector<Closure>& closures,
+                    const OptimizerParams& optimizer, const Progress& progress) {
+  std::vector<TeamLoop<Pose>> loops = team_loops(joint, closures);
+  if (loops.empty()) return;
+  for (TeamLoop<Pose>& loop : loops) loop.accepted = false;
+  for (std::size_t k = 0; k < joint.origins.relative_poses.size(); ++k) {
+    const FactorOrigin& origin = joint.origins.relative_poses[k];
+    if (origin.source != FactorSource::kLoop) continue;
+    for (TeamLoop<Pose>& loop : loops)
+      if (loop.closures.front() == origin.measurement) loop.accepted = true;
+  }
+  erase_loop_factors(joint);
+  const std::vector<int> component_before = segment_components(joint, placement);
+  LoopSelection scales;
+  std::vector<int> component;
+  for (int pass = 0; pass < kMaxPasses; ++pass) {
+    const double odometry_scale = std::max(scales.odometry_scale, std::pow(2.0, pass));
+    const auto chains = segment_chains(joint, loops, odometry_scale);
+    const std::vector<LoopGroup> groups = loop_groups(joint, loops, chains, {});
+    const auto alignments = align_by_loops(joint, component_before, loops, groups, chains);
+    const JointGraph<Pose> before = joint;
+    const std::vector<TeamLoop<Pose>> loops_before = loops;
+    component = alignments.front().component;
+    accept_groups(groups, alignments.front(), loops);
+    joint.team.graph.poses = moved(joint, alignments.front());
+    const LoopSelection selection = select_loops(joint, component, loops, optimizer, progress);
+    set_alternatives(before, loops_before, loops, groups, alignments, optimizer, placement);
+    scales.odometry_scale = selection.odometry_scale;
+    scales.loop_scale *= selection.loop_scale;
+    for (TeamLoop<Pose>& loop : loops) loop.covariance *= selection.loop_scale * selection.loop_scale;
+    const bool is_open = std::any_of(loops.begin(), loops.end(), [&](const TeamLoop<Pose>& loop) {
+      return component[loop.segment_i] != component[loop.segment_j];
+    });
+    if (is_open && pass + 1 < kMaxPasses) continue;
+    const std::string measured = closures.front().kind == ClosureKind::kMatch ? "matches" : "loop closures";
+    note_groups(joint, loops, groups, alignments.front(), measured, placement);
+    break;
+  }
+  set_components(joint, component, placement);
+  scale_odometry(joint, scales.odometry_scale);
+  add_accepted(joint, loops, closures);
+  optimize(joint.team.graph, optimizer, progress);
+  for (const TeamLoop<Pose>& loop : loops)
+    for (const std::size_t k : loop.closures) {
+      closures[k].statistic = loop.statistic;
+      if (loop.accepted) continue;
+      const bool open = component[loop.segment_i] != component[loop.segment_j];
+      reject(closures[k], open ? "no group of loops stands out" : "the joint estimate disagrees");
+    }
+  for (Closure& closure : closures)
+    if (!closure_ends(joint, closure).valid()) reject(closure, "no odometry at its time");
+  note_scales(scales, placement);
+}
+
+#define RADIOSLAM_LOOP_STAGE(Pose)                                                                     \
+  template void add_own_loops(JointGraph<Pose>&, const std::vector<Closure>&, const OptimizerParams&); \
+  template void close_by_loops(JointGraph<Pose>&, TeamPlacement<Pose>&, std::vector<Closure>&,         \
+                               const OptimizerParams&, const Progress&);
+RADIOSLAM_LOOP_STAGE(SE2)
+RADIOSLAM_LOOP_STAGE(SE3)
+#undef RADIOSLAM_LOOP_STAGE
+
+}  // namespace radioslam

@@ -1,0 +1,26 @@
+// The loops of a team in its estimate: they correct trajectories, align robots, and are judged together.
+#pragma once
+
+#include <vector>
+
+#include "radioslam/base/progress.hpp"
+#include "radioslam/graph/optimizer.hpp"
+#include "radioslam/joint/closures/closure.hpp"
+#include "radioslam/joint/joint_graph.hpp"
+#include "radioslam/joint/team_placement.hpp"
+
+namespace radioslam {
+
+/// Corrects every trajectory by its robot's own loops, in its own frame; those that fit become factors.
+template <class Pose>
+void add_own_loops(JointGraph<Pose>& joint, const std::vector<Closure>& closures,
+                   const OptimizerParams& optimizer);
+
+/// Joins the components that loops connect, and solves the team with the loops that hold; sets the outcome of
+/// every closure. The placement notes what stands on loops alone, what they leave open, and stated
+/// covariances that do not hold.
+template <class Pose>
+void close_by_loops(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement, std::vector<Closure>& closures,
+                    const OptimizerParams& optimizer, const Progress& progress);
+
+}  // namespace radioslam
