@@ -7,79 +7,13 @@
 #include <optional>
 #include <utility>
 
-#include "radioslam/consistency/maximum_clique.hpp"
-#include "radioslam/consistency/pairwise.hpp"
 #include "radioslam/geometry/linear_algebra.hpp"
 
 namespace radioslam {
 namespace {
 
-constexpr std::size_t kMaxGroups = 6;   // per pair of segments
-constexpr std::size_t kMaxLoops = 600;  // per pair of segments, evenly chosen
-constexpr double kMaxBranches = 2e5;    // of a search for the largest group
-constexpr std::size_t kBeam = 64;       // choices of frames that are kept
+constexpr std::size_t kBeam = 64;  // choices of frames that are kept
 const double kLogOddsPerSighting = std::log(5.0);
-constexpr double kMinSupport = 1.5;       // sightings
-constexpr double kMinRatioToRival = 1.5;  // of the evidence that a rival contests to its own
-
-template <class Pose>
-using Chains = std::vector<std::unique_ptr<PoseChain<Pose>>>;
-
-/// Path length of every pose along its segment.
-template <class Pose>
-std::vector<double> travelled_m(const JointGraph<Pose>& joint) {
-  std::vector<double> travelled(joint.team.graph.poses.size(), 0);
-  for (const TrajectorySegment& segment : joint.team.segments)
-    for (std::size_t k = segment.first_pose + 1; k < segment.first_pose + segment.pose_count; ++k)
-      travelled[k] =
-          travelled[k - 1] +
-          (joint.team.graph.poses[k].translation() - joint.team.graph.poses[k - 1].translation()).norm();
-  return travelled;
-}
-
-/// The loop as seen from segment a, with poses numbered along their segments.
-template <class Pose>
-RelativePoseMatch<Pose> from_segment(const JointGraph<Pose>& joint, const TeamLoop<Pose>& loop,
-                                     std::size_t a) {
-  const auto& segments = joint.team.segments;
-  const std::size_t i = loop.i.index() - segments[loop.segment_i].first_pose,
-                    j = loop.j.index() - segments[loop.segment_j].first_pose;
-  if (loop.segment_i == a) return {i, j, loop.T_i_j, loop.covariance};
-  const UncertainPose<Pose> back = UncertainPose<Pose>{loop.T_i_j, loop.covariance}.inverse();
-  return {j, i, back.pose, back.covariance};
-}
-
-/// Places seen: loops within `sighting_m` of another along both trajectories are one.
-template <class Pose>
-double evidence_of(const std::vector<TeamLoop<Pose>>& loops, const LoopGroup& group,
-                   const std::vector<double>& travelled, double sighting_m) {
-  struct Sighting {
-    double at_a_m, at_b_m, loops;
-  };
-  std::vector<Sighting> sightings;
-  for (const std::size_t k : group.loops) {
-    const bool forward = loops[k].segment_i == group.segment_a;
-    const double at_a_m = travelled[(forward ? loops[k].i : loops[k].j).index()],
-                 at_b_m = travelled[(forward ? loops[k].j : loops[k].i).index()];
-    const auto same = std::find_if(sightings.begin(), sightings.end(), [&](const Sighting& s) {
-      return std::abs(s.at_a_m - at_a_m) < sighting_m && std::abs(s.at_b_m - at_b_m) < sighting_m;
-    });
-    if (same == sightings.end())
-      sightings.push_back({at_a_m, at_b_m, 1});
-    else
-      ++same->loops;
-  }
-  double evidence = 0;
-  for (const Sighting& s : sightings) evidence += 2 * s.loops / (s.loops + 1);
-  return evidence;
-}
-
-std::vector<std::size_t> evenly_chosen(std::vector<std::size_t> of, std::size_t count) {
-  if (of.size() <= count) return of;
-  std::vector<std::size_t> chosen;
-  for (std::size_t k = 0; k < count; ++k) chosen.push_back(of[k * of.size() / count]);
-  return chosen;
-}
 
 /// A measured relative pose that joins two frames.
 template <class Pose>
@@ -87,6 +21,36 @@ struct FrameLink {
   std::size_t segment_a, segment_b;
   RelativePoseMatch<Pose> loop;
 };
+
+/// The pose of b's pose j from a's pose i along the links, to first order; nothing in different components.
+template <class Pose>
+std::optional<UncertainPose<Pose>> relative_pose(const SegmentChains<Pose>& chains,
+                                                 const std::vector<FrameLink<Pose>>& links, std::size_t a,
+                                                 std::size_t i, std::size_t b, std::size_t j) {
+  struct Reached {
+    std::size_t segment, pose;
+    UncertainPose<Pose> from_i;
+  };
+  std::deque<Reached> queue{{a, i, {}}};
+  std::vector<bool> seen(chains.size(), false);
+  seen[a] = true;
+  for (; !queue.empty(); queue.pop_front()) {
+    const Reached at = queue.front();
+    if (at.segment == b) return at.from_i * chains[b]->between(at.pose, j);
+    for (const FrameLink<Pose>& link : links) {
+      const bool forward = link.segment_a == at.segment;
+      const std::size_t other = forward ? link.segment_b : link.segment_a;
+      if ((!forward && link.segment_b != at.segment) || seen[other]) continue;
+      seen[other] = true;
+      const UncertainPose<Pose> step{link.loop.T_a_b, link.loop.covariance};
+      const std::size_t leave = forward ? link.loop.pose_a : link.loop.pose_b;
+      queue.push_back(
+          {other, forward ? link.loop.pose_b : link.loop.pose_a,
+           at.from_i * chains[at.segment]->between(at.pose, leave) * (forward ? step : step.inverse())});
+    }
+  }
+  return std::nullopt;
+}
 
 template <class Pose>
 struct Choice {
@@ -98,7 +62,7 @@ template <class Pose>
 class FrameSearch {
  public:
   FrameSearch(const JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>>& loops,
-              const std::vector<LoopGroup>& groups, const Chains<Pose>& chains)
+              const std::vector<LoopGroup>& groups, const SegmentChains<Pose>& chains)
       : joint_(joint), loops_(loops), groups_(groups), chains_(chains) {}
 
   std::vector<LoopAlignment<Pose>> run(const std::vector<int>& component) {
@@ -118,7 +82,6 @@ class FrameSearch {
       };
       if (std::none_of(result.begin(), result.end(), is_same)) result.push_back(std::move(choice.alignment));
     }
-    undo_weak_joins(result);
     return result;
   }
 
@@ -173,7 +136,7 @@ class FrameSearch {
   void join(Choice<Pose>& choice, std::size_t g) const {
     const LoopGroup& group = groups_[g];
     LoopAlignment<Pose>& alignment = choice.alignment;
-    const RelativePoseMatch<Pose> loop = from_segment(joint_, loops_[group.middle()], group.segment_a);
+    const RelativePoseMatch<Pose> loop = seen_from(joint_, loops_[group.middle()], group.segment_a);
     const auto pose = [&](std::size_t segment, std::size_t k) {
       return alignment.T_frame_segment[segment] *
              joint_.team.graph.poses[joint_.team.segments[segment].first_pose + k];
@@ -190,39 +153,11 @@ class FrameSearch {
     alignment.joins.push_back(g);
   }
 
-  /// The pose of b's pose j from a's pose i along the links, to first order; nothing in different components.
-  std::optional<UncertainPose<Pose>> relative_pose(const std::vector<FrameLink<Pose>>& links, std::size_t a,
-                                                   std::size_t i, std::size_t b, std::size_t j) const {
-    struct Reached {
-      std::size_t segment, pose;
-      UncertainPose<Pose> from_i;
-    };
-    std::deque<Reached> queue{{a, i, {}}};
-    std::vector<bool> seen(chains_.size(), false);
-    seen[a] = true;
-    for (; !queue.empty(); queue.pop_front()) {
-      const Reached at = queue.front();
-      if (at.segment == b) return at.from_i * chains_[b]->between(at.pose, j);
-      for (const FrameLink<Pose>& link : links) {
-        const bool forward = link.segment_a == at.segment;
-        const std::size_t other = forward ? link.segment_b : link.segment_a;
-        if ((!forward && link.segment_b != at.segment) || seen[other]) continue;
-        seen[other] = true;
-        const UncertainPose<Pose> step{link.loop.T_a_b, link.loop.covariance};
-        const std::size_t leave = forward ? link.loop.pose_a : link.loop.pose_b;
-        queue.push_back(
-            {other, forward ? link.loop.pose_b : link.loop.pose_a,
-             at.from_i * chains_[at.segment]->between(at.pose, leave) * (forward ? step : step.inverse())});
-      }
-    }
-    return std::nullopt;
-  }
-
   bool holds(const Choice<Pose>& choice, std::size_t g) const {
     const LoopGroup& group = groups_[g];
-    const auto loop = from_segment(joint_, loops_[group.middle()], group.segment_a);
+    const auto loop = seen_from(joint_, loops_[group.middle()], group.segment_a);
     const auto by_frames =
-        relative_pose(choice.links, group.segment_a, loop.pose_a, group.segment_b, loop.pose_b);
+        relative_pose(chains_, choice.links, group.segment_a, loop.pose_a, group.segment_b, loop.pose_b);
     if (!by_frames) return false;
     const Cholesky<typename Pose::Jacobian> cholesky(by_frames->covariance + loop.covariance);
     const typename Pose::Tangent error = (loop.T_a_b.inverse() * by_frames->pose).log();
@@ -239,77 +174,6 @@ class FrameSearch {
     }
   }
 
-  /// The segments on the side of b when a join of the best choice is undone.
-  std::vector<bool> side_of_b(const LoopAlignment<Pose>& best, std::size_t join) const {
-    std::vector<bool> side(best.component.size(), false);
-    side[groups_[join].segment_b] = true;
-    for (std::size_t round = 0; round < best.joins.size(); ++round)
-      for (const std::size_t g : best.joins) {
-        if (g == join) continue;
-        const bool a = side[groups_[g].segment_a], b = side[groups_[g].segment_b];
-        if (a != b) side[groups_[g].segment_a] = side[groups_[g].segment_b] = true;
-      }
-    return side;
-  }
-
-  bool is_weak(const std::vector<LoopAlignment<Pose>>& alignments, const std::vector<bool>& side) const {
-    const LoopAlignment<Pose>& best = alignments.front();
-    double support = 0;
-    std::vector<std::size_t> crossing;
-    for (std::size_t g = 0; g < groups_.size(); ++g)
-      if (side[groups_[g].segment_a] != side[groups_[g].segment_b] && best.group_holds[g]) {
-        support += groups_[g].evidence;
-        crossing.push_back(g);
-      }
-    if (support < kMinSupport) return true;
-    return std::any_of(alignments.begin() + 1, alignments.end(), [&](const LoopAlignment<Pose>& rival) {
-      const auto holds = [&](std::size_t g) { return rival.group_holds[g]; };
-      return are_rivals(best, rival) && std::none_of(crossing.begin(), crossing.end(), holds) &&
-             joins_sides(rival, side) && contested(best, rival) < kMinRatioToRival * contested(rival, best);
-    });
-  }
-
-  /// Evidence of the groups that hold in `a` and not in `b`.
-  double contested(const LoopAlignment<Pose>& a, const LoopAlignment<Pose>& b) const {
-    double sum = 0;
-    for (std::size_t g = 0; g < groups_.size(); ++g)
-      if (a.group_holds[g] && !b.group_holds[g]) sum += groups_[g].evidence;
-    return sum;
-  }
-
-  bool joins_sides(const LoopAlignment<Pose>& alignment, const std::vector<bool>& side) const {
-    return std::any_of(alignment.joins.begin(), alignment.joins.end(), [&](std::size_t g) {
-      return side[groups_[g].segment_a] != side[groups_[g].segment_b];
-    });
-  }
-
-  void undo_weak_joins(std::vector<LoopAlignment<Pose>>& alignments) const {
-    LoopAlignment<Pose>& best = alignments.front();
-    std::vector<std::vector<bool>> undone;
-    std::vector<std::size_t> kept;
-    for (const std::size_t join : best.joins) {
-      std::vector<bool> side = side_of_b(best, join);
-      if (is_weak(alignments, side))
-        undone.push_back(std::move(side));
-      else
-        kept.push_back(join);
-    }
-    int next = *std::max_element(best.component.begin(), best.component.end()) + 1;
-    for (const std::vector<bool>& side : undone) {
-      std::map<int, int> renamed;
-      for (std::size_t s = 0; s < side.size(); ++s)
-        if (side[s]) {
-          const auto [to, is_new] = renamed.try_emplace(best.component[s], next);
-          if (is_new) ++next;
-          best.component[s] = to->second;
-        }
-    }
-    best.joins = kept;
-    for (std::size_t g = 0; g < groups_.size(); ++g)
-      if (best.component[groups_[g].segment_a] != best.component[groups_[g].segment_b])
-        best.group_holds[g] = false;
-  }
-
   static void keep_best(std::vector<Choice<Pose>>& choices) {
     std::stable_sort(choices.begin(), choices.end(), [](const auto& x, const auto& y) {
       return x.alignment.log_weight > y.alignment.log_weight;
@@ -320,72 +184,24 @@ class FrameSearch {
   const JointGraph<Pose>& joint_;
   const std::vector<TeamLoop<Pose>>& loops_;
   const std::vector<LoopGroup>& groups_;
-  const Chains<Pose>& chains_;
+  const SegmentChains<Pose>& chains_;
 };
 
 }  // namespace
-
-template <class Pose>
-bool are_rivals(const LoopAlignment<Pose>& a, const LoopAlignment<Pose>& b) {
-  const auto all_hold = [](const std::vector<std::size_t>& joins, const std::vector<bool>& holds) {
-    return std::all_of(joins.begin(), joins.end(), [&](std::size_t g) { return holds[g]; });
-  };
-  return !all_hold(a.joins, b.group_holds) && !all_hold(b.joins, a.group_holds);
-}
-
-template <class Pose>
-std::vector<LoopGroup> loop_groups(const JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>>& loops,
-                                   const Chains<Pose>& chains, const LoopAlignmentParams& params) {
-  std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> of_pair;
-  for (std::size_t k = 0; k < loops.size(); ++k)
-    if (!loops[k].is_own()) of_pair[std::minmax(loops[k].segment_i, loops[k].segment_j)].push_back(k);
-  const std::vector<double> travelled = travelled_m(joint);
-  const auto length_m = [&](std::size_t segment) {
-    const TrajectorySegment& of = joint.team.segments[segment];
-    return travelled[of.first_pose + of.pose_count - 1];
-  };
-  std::vector<LoopGroup> groups;
-  for (auto& [pair, all] : of_pair) {
-    const auto [a, b] = pair;
-    std::vector<std::size_t> rest = evenly_chosen(std::move(all), kMaxLoops);
-    std::vector<RelativePoseMatch<Pose>> matches;
-    for (const std::size_t k : rest) matches.push_back(from_segment(joint, loops[k], a));
-    const PairwiseConsistency pairs = pairwise_consistency(*chains[a], *chains[b], matches);
-    const std::vector<std::size_t> loop_of_vertex = rest;
-    const double sighting_m =
-        std::min(params.sighting_m, params.sighting_ratio * std::min(length_m(a), length_m(b)));
-    for (std::size_t k = 0; k < rest.size(); ++k) rest[k] = k;
-    MaximumCliqueParams clique_params;
-    clique_params.max_branches = kMaxBranches;
-    for (std::size_t g = 0; g < kMaxGroups && !rest.empty(); ++g) {
-      const MaximumClique clique = maximum_clique(induced_graph(pairs.graph, rest), clique_params);
-      LoopGroup group{a, b, {}, 0};
-      for (const std::size_t member : clique.vertices) group.loops.push_back(loop_of_vertex[rest[member]]);
-      for (auto it = clique.vertices.rbegin(); it != clique.vertices.rend(); ++it)
-        rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(*it));
-      group.evidence = evidence_of(loops, group, travelled, sighting_m);
-      groups.push_back(std::move(group));
-    }
-  }
-  return groups;
-}
 
 template <class Pose>
 std::vector<LoopAlignment<Pose>> align_by_loops(const JointGraph<Pose>& joint,
                                                 const std::vector<int>& component,
                                                 const std::vector<TeamLoop<Pose>>& loops,
                                                 const std::vector<LoopGroup>& groups,
-                                                const Chains<Pose>& chains) {
+                                                const SegmentChains<Pose>& chains) {
   return FrameSearch<Pose>(joint, loops, groups, chains).run(component);
 }
 
-#define RADIOSLAM_LOOP_ALIGNMENT(Pose)                                                                     \
-  template bool are_rivals(const LoopAlignment<Pose>&, const LoopAlignment<Pose>&);                        \
-  template std::vector<LoopGroup> loop_groups(const JointGraph<Pose>&, const std::vector<TeamLoop<Pose>>&, \
-                                              const Chains<Pose>&, const LoopAlignmentParams&);            \
-  template std::vector<LoopAlignment<Pose>> align_by_loops(                                                \
-      const JointGraph<Pose>&, const std::vector<int>&, const std::vector<TeamLoop<Pose>>&,                \
-      const std::vector<LoopGroup>&, const Chains<Pose>&);
+#define RADIOSLAM_LOOP_ALIGNMENT(Pose)                                                      \
+  template std::vector<LoopAlignment<Pose>> align_by_loops(                                 \
+      const JointGraph<Pose>&, const std::vector<int>&, const std::vector<TeamLoop<Pose>>&, \
+      const std::vector<LoopGroup>&, const SegmentChains<Pose>&);
 RADIOSLAM_LOOP_ALIGNMENT(SE2)
 RADIOSLAM_LOOP_ALIGNMENT(SE3)
 #undef RADIOSLAM_LOOP_ALIGNMENT

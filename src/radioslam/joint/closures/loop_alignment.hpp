@@ -6,36 +6,14 @@
 // components, confirms the frames they have, or contradicts them; a beam of the best choices is kept. So
 // three robots in a cycle decide where a pair cannot. A choice has the weight exp(sum of the evidence of the
 // groups that agree with it).
-// Evidence counts sightings: loops whose ends are near each other along both trajectories see the same place
-// and are wrong together, so a place that looks like another gives many loops and one sighting. A sighting
-// of m loops counts 2 m / (m + 1), and each count multiplies the odds by five.
+// Evidence: loop_groups.hpp; each count of it multiplies the odds by five.
 #pragma once
 
-#include <memory>
 #include <vector>
 
-#include "radioslam/joint/closures/team_loops.hpp"
+#include "radioslam/joint/closures/loop_groups.hpp"
 
 namespace radioslam {
-
-struct LoopAlignmentParams {
-  double sighting_m = 10;        ///< path length within which two loops see the same place
-  double sighting_ratio = 0.05;  ///< the same, at most, relative to the length of the shorter trajectory
-};
-
-/// Loops of two segments that agree with one another.
-struct LoopGroup {
-  std::size_t segment_a = 0, segment_b = 0;  ///< a < b
-  std::vector<std::size_t> loops;            ///< at least one, in the order of a's poses
-  double evidence = 0;                       ///< sightings, weighted
-
-  std::size_t middle() const { return loops[loops.size() / 2]; }
-};
-
-template <class Pose>
-std::vector<LoopGroup> loop_groups(const JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>>& loops,
-                                   const std::vector<std::unique_ptr<PoseChain<Pose>>>& chains,
-                                   const LoopAlignmentParams& params);
 
 /// A choice of frames: poses <- T * poses of every segment.
 template <class Pose>
@@ -47,18 +25,13 @@ struct LoopAlignment {
   double log_weight = 0;
 };
 
-/// Whether two choices contradict each other: joins of either do not hold in the other.
-template <class Pose>
-bool are_rivals(const LoopAlignment<Pose>& a, const LoopAlignment<Pose>& b);
-
-/// The best choices, best first, at least one. In the best, a join that less than a sighting and a half
-/// supports is undone, as is one in whose place a rival has two thirds of the evidence that it contests.
-/// `component`: per segment, those with the same number share the frame that the joint graph's poses are in.
+/// The best choices, best first, at least one. `component`: per segment, those with the same number share the
+/// frame that the joint graph's poses are in.
 template <class Pose>
 std::vector<LoopAlignment<Pose>> align_by_loops(const JointGraph<Pose>& joint,
                                                 const std::vector<int>& component,
                                                 const std::vector<TeamLoop<Pose>>& loops,
                                                 const std::vector<LoopGroup>& groups,
-                                                const std::vector<std::unique_ptr<PoseChain<Pose>>>& chains);
+                                                const SegmentChains<Pose>& chains);
 
 }  // namespace radioslam

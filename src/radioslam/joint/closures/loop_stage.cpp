@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "radioslam/joint/closures/loop_alignment.hpp"
+#include "radioslam/joint/closures/loop_rivals.hpp"
 #include "radioslam/joint/closures/loop_selection.hpp"
 #include "radioslam/joint/closures/own_loops.hpp"
 #include "radioslam/joint/closures/team_loops.hpp"
@@ -253,7 +253,8 @@ void close_by_loops(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement, std
     const double odometry_scale = std::max(scales.odometry_scale, std::pow(2.0, pass));
     const auto chains = segment_chains(joint, loops, odometry_scale);
     const std::vector<LoopGroup> groups = loop_groups(joint, loops, chains, {});
-    const auto alignments = align_by_loops(joint, component_before, loops, groups, chains);
+    auto alignments = align_by_loops(joint, component_before, loops, groups, chains);
+    undo_weak_joins(groups, alignments);
     const JointGraph<Pose> before = joint;
     const std::vector<TeamLoop<Pose>> loops_before = loops;
     component = alignments.front().component;

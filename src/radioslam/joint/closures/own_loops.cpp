@@ -141,9 +141,8 @@ void correct_by_own_loops(JointGraph<Pose>& joint, std::vector<TeamLoop<Pose>>& 
 }
 
 template <class Pose>
-std::vector<std::unique_ptr<PoseChain<Pose>>> segment_chains(const JointGraph<Pose>& joint,
-                                                             const std::vector<TeamLoop<Pose>>& loops,
-                                                             double odometry_scale) {
+SegmentChains<Pose> segment_chains(const JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>>& loops,
+                                   double odometry_scale) {
   PoseGraph<Pose> graph = odometry_graph(joint);
   for (RelativePoseFactor<Pose>& step : graph.relative_poses)
     step.information /= odometry_scale * odometry_scale;
@@ -165,7 +164,7 @@ std::vector<std::unique_ptr<PoseChain<Pose>>> segment_chains(const JointGraph<Po
   equations.linearise(graph);
   const bool has_covariances = equations.factorize(0) == Factorization::kDone;
   const std::vector<std::size_t> step_from = odometry_steps(joint);
-  std::vector<std::unique_ptr<PoseChain<Pose>>> chains;
+  SegmentChains<Pose> chains;
   for (std::size_t s = 0; s < segments.size(); ++s) {
     const TrajectorySegment& segment = segments[s];
     if (!is_corrected[s] || !has_covariances) {
@@ -187,11 +186,11 @@ std::vector<std::unique_ptr<PoseChain<Pose>>> segment_chains(const JointGraph<Po
   return chains;
 }
 
-#define RADIOSLAM_OWN_LOOPS(Pose)                                                     \
-  template void correct_by_own_loops(JointGraph<Pose>&, std::vector<TeamLoop<Pose>>&, \
-                                     const OptimizerParams&);                         \
-  template std::vector<std::unique_ptr<PoseChain<Pose>>> segment_chains(              \
-      const JointGraph<Pose>&, const std::vector<TeamLoop<Pose>>&, double);
+#define RADIOSLAM_OWN_LOOPS(Pose)                                                                          \
+  template void correct_by_own_loops(JointGraph<Pose>&, std::vector<TeamLoop<Pose>>&,                      \
+                                     const OptimizerParams&);                                              \
+  template SegmentChains<Pose> segment_chains(const JointGraph<Pose>&, const std::vector<TeamLoop<Pose>>&, \
+                                              double);
 RADIOSLAM_OWN_LOOPS(SE2)
 RADIOSLAM_OWN_LOOPS(SE3)
 #undef RADIOSLAM_OWN_LOOPS

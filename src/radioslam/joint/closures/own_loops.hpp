@@ -16,12 +16,15 @@ template <class Pose>
 void correct_by_own_loops(JointGraph<Pose>& joint, std::vector<TeamLoop<Pose>>& loops,
                           const OptimizerParams& optimizer);
 
+/// Per segment.
+template <class Pose>
+using SegmentChains = std::vector<std::unique_ptr<PoseChain<Pose>>>;
+
 /// Every segment as a chain between the ends of loops: by odometry where it has no accepted loop of its own,
 /// else corrected by these. The odometry's standard deviations are taken times `odometry_scale`. Cost: a
 /// solve per end of a loop on corrected segments.
 template <class Pose>
-std::vector<std::unique_ptr<PoseChain<Pose>>> segment_chains(const JointGraph<Pose>& joint,
-                                                             const std::vector<TeamLoop<Pose>>& loops,
-                                                             double odometry_scale);
+SegmentChains<Pose> segment_chains(const JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>>& loops,
+                                   double odometry_scale);
 
 }  // namespace radioslam
