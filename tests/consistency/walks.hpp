@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "radioslam/base/random.hpp"
+#include "radioslam/consistency/odometry_chain.hpp"
 #include "radioslam/consistency/pairwise.hpp"
 
 namespace radioslam::test {
