@@ -29,6 +29,7 @@ class MeasurementTruth : public testing::Test {
   }
 
   const RobotIndex a{0}, b{1};
+  const SE3::Jacobian small = isotropic_covariance(0.1, 0.01);
   const SE2 T_a_b{{3, 4}, 1.5707963};
   const Stamp at = Stamp::from_seconds(1);
   Mission mission;
@@ -37,16 +38,27 @@ class MeasurementTruth : public testing::Test {
 };
 
 TEST_F(MeasurementTruth, AMatchIsTrueByItsRelativePoseNotByItsPlaces) {
-  mission.matches.push_back({a, b, at, at, lift(T_a_b * SE2({0.4, 0}, 0)), 0.1, 0.01});
-  mission.matches.push_back({a, b, at, at, lift(T_a_b * SE2({5, 0}, 0)), 0.1, 0.01});    // an alias
-  mission.matches.push_back({a, b, at, at, lift(T_a_b * SE2({0, 0}, 0.2)), 0.1, 0.01});  // 11 degrees
+  mission.matches.push_back({a, b, at, at, lift(T_a_b * SE2({0.4, 0}, 0)), small});
+  mission.matches.push_back({a, b, at, at, lift(T_a_b * SE2({5, 0}, 0)), small});    // an alias
+  mission.matches.push_back({a, b, at, at, lift(T_a_b * SE2({0, 0}, 0.2)), small});  // 11 degrees
   for (int k = 0; k < 3; ++k) add(ClosureKind::kMatch, ClosureStatus::kAccepted);
   EXPECT_EQ(judge().at(ClosureKind::kMatch).accepted, 3U);
   EXPECT_EQ(judge().at(ClosureKind::kMatch).true_accepted, 1U);
 }
 
+/// 0.7 m off is within 3 sigma + 0.5 m along the loose axis only, 0.2 rad about it is not affected.
+TEST_F(MeasurementTruth, AMatchMayErrAlongItsLooseAxis) {
+  SE3::Jacobian loose = isotropic_covariance(0.01, 0.01);
+  loose(0, 0) = 0.1 * 0.1;
+  mission.matches.push_back({a, b, at, at, lift(T_a_b * SE2({0.7, 0}, 0)), loose});
+  mission.matches.push_back({a, b, at, at, lift(T_a_b * SE2({0, 0.7}, 0)), loose});
+  mission.matches.push_back({a, b, at, at, lift(T_a_b * SE2({0.7, 0}, 0.2)), loose});
+  for (int k = 0; k < 3; ++k) add(ClosureKind::kMatch, ClosureStatus::kAccepted);
+  EXPECT_EQ(judge().at(ClosureKind::kMatch).true_accepted, 1U);
+}
+
 TEST_F(MeasurementTruth, LabelsTakePrecedence) {
-  mission.matches.push_back({a, b, at, at, lift(T_a_b), 0.1, 0.01});
+  mission.matches.push_back({a, b, at, at, lift(T_a_b), small});
   truth.true_matches = {false};
   add(ClosureKind::kMatch, ClosureStatus::kRejected);
   EXPECT_EQ(judge().at(ClosureKind::kMatch).rejected, 1U);

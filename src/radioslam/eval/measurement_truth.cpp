@@ -26,6 +26,12 @@ struct LabelledAngle {
   std::optional<int> direct_path;
 };
 
+/// Standard deviation along the direction of an error.
+double sigma_along(const Eigen::Vector3d& error, const Eigen::Matrix3d& covariance) {
+  const Eigen::Vector3d direction = error.stableNormalized();
+  return std::sqrt(direction.dot(covariance * direction));
+}
+
 RobotIndex robot_of(const Mission& mission, const std::string& id) {
   for (std::size_t r = 0; r < mission.robots.size(); ++r)
     if (mission.robots[r].id == id) return RobotIndex(r);
@@ -67,8 +73,11 @@ class MeasurementJudge {
     if (!i || !j) return std::nullopt;
     SE3 error = measured.T_i_j.inverse() * i->inverse() * *j;
     if (mission_.dimension == 2) error = lift(flatten(error));
-    return error.translation().norm() <= kSigmas * measured.sigma_t_m + kSlack_m &&
-           so3_log(error.rotation()).norm() <= kSigmas * measured.sigma_r_rad + kSlack_rad;
+    const Eigen::Vector3d shift_m = error.translation(), turn_rad = so3_log(error.rotation());
+    return shift_m.norm() <=
+               kSigmas * sigma_along(shift_m, measured.covariance.topLeftCorner<3, 3>()) + kSlack_m &&
+           turn_rad.norm() <=
+               kSigmas * sigma_along(turn_rad, measured.covariance.bottomRightCorner<3, 3>()) + kSlack_rad;
   }
 
   std::optional<bool> range(std::size_t k) const {

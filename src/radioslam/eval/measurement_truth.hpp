@@ -1,6 +1,7 @@
 // Judges the closures of a run by their measurements: whether what was measured agrees with the truth.
-//   match   relative pose within 3 sigma + 0.5 m and 3 sigma + 5 degrees of the true one; by x, y and yaw in
-//           the plane. A label of the mission takes precedence.
+//   match   relative pose within 3 sigma + 0.5 m and 3 sigma + 5 degrees of the true one, sigma being along
+//           the direction of the error; by x, y and yaw in the plane. A label of the mission takes
+//           precedence.
 //   range   within 3 sigma + 0.5 m of the true distance of the antennas.
 //   aoa     by its likeliest path, that of the greatest posterior weight, whatever its other paths are
 //           (angle_truth.hpp): the accepted path of an accepted angle. Angles measured from CSI as well.
