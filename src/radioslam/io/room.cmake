@@ -23,6 +23,8 @@ radioslam_room(io
     graph/g2o_vertices.cpp
     graph/g2o_write.cpp
     graph/information.cpp
+    graph/jrl.cpp
+    graph/jrl_object.cpp
     graph/pyfg.cpp
     graph/pyfg_vertices.cpp
     graph/team_assembly.cpp

@@ -37,7 +37,7 @@ TEST(Pyfg, EachRobotIsAPieceReckonedFromTheIdentity) {
 
 TEST(Pyfg, VertexLinesAreTheTruthAndTheStamps) {
   const auto file = read_pyfg(kTwoRobots + kOdometry);
-  EXPECT_EQ(file.true_poses[1].translation(), Eigen::Vector2d(2, 2));
+  EXPECT_EQ(file.true_poses[1]->translation(), Eigen::Vector2d(2, 2));
   EXPECT_EQ(file.true_points[1], Eigen::Vector2d(4, 4));
   EXPECT_EQ(file.team.graph.points[1], Eigen::Vector2d::Zero());
   EXPECT_EQ(file.team.segments[0].stamps[1], Stamp::from_seconds(1.5));

@@ -123,6 +123,7 @@ TEST(Zstd, RefusesInvalidTruncatedOrTooLargeData) {
 TEST(TeamGraphFile, IsRecognisedByItsName) {
   EXPECT_TRUE(is_graph_file("a/b.pyfg"));
   EXPECT_TRUE(is_graph_file("b.g2o.zst"));
+  EXPECT_TRUE(is_graph_file("b.jrl"));
   EXPECT_FALSE(is_graph_file("b.zst"));
   EXPECT_FALSE(is_graph_file("mission"));
   const TemporaryFolder folder;
@@ -133,7 +134,7 @@ TEST(TeamGraphFile, IsRecognisedByItsName) {
   EXPECT_EQ(std::get<0>(read_team_graph(folder.path() / "0.g2o")).team.graph.poses.size(), 2u);
   EXPECT_EQ(std::get<0>(read_team_graph(folder.path() / "team.g2o.zst")).team.graph.poses.size(), 2u);
   EXPECT_EQ(std::get<0>(read_team_graph(folder.path())).team.graph.relative_poses.size(), 1u);
-  expect_refusal([&] { read_team_graph(folder.path() / "x.txt"); }, 0, "neither .g2o nor .pyfg");
+  expect_refusal([&] { read_team_graph(folder.path() / "x.txt"); }, 0, "none of .g2o, .pyfg and .jrl");
   expect_refusal([&] { read_team_graph(folder.path() / "none.pyfg"); }, 0, "no such file");
   const TemporaryFolder empty;
   expect_refusal([&] { read_team_graph(empty.path()); }, 0, "no .g2o files");
@@ -189,7 +190,7 @@ TEST(PublishedTeams, TiersRangesAgreeWithItsTruth) {
   RADIOSLAM_RECORDED(path, "range_aided/tiers.pyfg.zst");
   const auto file = std::get<TeamGraphFile<SE2>>(read_team_graph(path));
   const auto at = [&](const RangeEnd<SE2>& end) -> Eigen::Vector2d {
-    return end.pose.valid() ? file.true_poses[end.pose.index()].translation()
+    return end.pose.valid() ? file.true_poses[end.pose.index()]->translation()
                             : file.true_points[end.point.index()];
   };
   double sum = 0, squares = 0;

@@ -33,7 +33,9 @@ RunOutput search(const PruneOptions& options, const RunParams& params) {
   RunOptions how;
   how.overlap_only = true;
   how.search = options.exhaustive ? SearchMethod::kExhaustive : SearchMethod::kTree;
+  const std::vector<std::string> notes = input.notes;
   auto run = run_input(std::move(input), params, how, line.progress());
+  run.result.notes.insert(run.result.notes.begin(), notes.begin(), notes.end());
   run.result.parameters = effective_parameters(params);
   return run;
 }
@@ -75,7 +77,7 @@ void add_prune(CLI::App& program) {
       program.add_subcommand("prune", "Find the keyframe pairs of different robots whose views can overlap");
   command
       ->add_option("MISSION", options->mission,
-                   "Mission folder (with mission.yaml), or a factor graph (.g2o or .pyfg, optionally .zst)")
+                   "Mission folder (with mission.yaml), or a factor graph (.g2o, .pyfg or .jrl; also .zst)")
       ->required();
   add_output_option(*command, options->output, "Folder to write; the folder of an earlier run is replaced");
   command

@@ -105,8 +105,7 @@ void run_mission(const RunArguments& options) {
   MissionInput input = read_input(options.mission);
   const Truth truth = std::move(input.truth);
   const bool is_checked = !options.unchecked && std::holds_alternative<std::monostate>(input.graph);
-  const auto warnings =
-      is_checked ? warnings_about(input.mission, options.mission) : std::vector<std::string>{};
+  const auto warnings = is_checked ? warnings_about(input.mission, options.mission) : input.notes;
   const Mission links = without_recordings(input.mission);
   RunOutput run = estimate(std::move(input), params, options.no_prune);
   auto& notes = run.result.notes;
@@ -131,7 +130,7 @@ void add_run(CLI::App& program) {
   auto* command = program.add_subcommand("run", "Estimate the trajectories of all robots in one frame");
   command
       ->add_option("MISSION", options->mission,
-                   "Mission folder (with mission.yaml), or a factor graph (.g2o or .pyfg, optionally .zst)")
+                   "Mission folder (with mission.yaml), or a factor graph (.g2o, .pyfg or .jrl; also .zst)")
       ->required();
   add_output_option(*command, options->output, "Folder to write; the folder of an earlier run is replaced");
   add_parameter_options(*command, options->parameters);

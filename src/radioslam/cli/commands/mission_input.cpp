@@ -9,15 +9,15 @@
 namespace radioslam::cli {
 namespace {
 
-/// The poses of all segments of one robot, taken from `poses`.
-template <class Pose>
-Trajectory<SE3> trajectory(const TeamGraph<Pose>& team, const std::string& robot,
-                           const std::vector<Pose>& poses) {
+/// The poses of all segments of one robot, taken from `pose_at` where it has one.
+template <class Pose, class PoseAt>
+Trajectory<SE3> trajectory(const TeamGraph<Pose>& team, const std::string& robot, const PoseAt& pose_at) {
   std::vector<StampedPose<SE3>> rows;
   for (const TrajectorySegment& segment : team.segments) {
     if (segment.robot != robot) continue;
     for (std::size_t k = 0; k < segment.pose_count; ++k)
-      rows.push_back({segment.stamps[k], as_se3(poses[segment.first_pose + k], 0)});
+      if (const std::optional<Pose> pose = pose_at(segment.first_pose + k))
+        rows.push_back({segment.stamps[k], as_se3(*pose, 0)});
   }
   return Trajectory<SE3>(std::move(rows));
 }
@@ -34,11 +34,14 @@ MissionInput from_graph(TeamGraphFile<Pose> file, const std::string& path) {
     if (known) continue;
     Robot& robot = robots.emplace_back();
     robot.id = segment.robot;
-    robot.odometry = trajectory(file.team, segment.robot, file.team.graph.poses);
+    const auto reckoned = [&](std::size_t pose) { return std::optional(file.team.graph.poses[pose]); };
+    robot.odometry = trajectory(file.team, segment.robot, reckoned);
     RobotTruth& truth = input.truth.robots.emplace_back();
     truth.id = segment.robot;
-    if (!file.true_poses.empty()) truth.poses = trajectory(file.team, segment.robot, file.true_poses);
+    const auto true_pose = [&](std::size_t pose) { return file.true_poses[pose]; };
+    if (!file.true_poses.empty()) truth.poses = trajectory(file.team, segment.robot, true_pose);
   }
+  input.notes = std::move(file.notes);
   input.graph = std::move(file.team);
   return input;
 }

@@ -1,10 +1,11 @@
-// Input of run, prune and evaluate: a mission folder, or a team's factor graph (.g2o or .pyfg, optionally
-// .zst).
+// Input of run, prune and evaluate: a mission folder, or a team's factor graph (.g2o, .pyfg or .jrl,
+// optionally .zst).
 #pragma once
 
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "radioslam/graph/team_graph.hpp"
 #include "radioslam/mission/mission.hpp"
@@ -15,7 +16,8 @@ namespace radioslam::cli {
 
 struct MissionInput {
   Mission mission;  ///< for a graph: its robots with dead reckoning, in the order of their poses
-  Truth truth;      ///< for a graph: its VERTEX lines, if these are the ground truth
+  Truth truth;      ///< for a graph: the ground truth of its file, if it has one
+  std::vector<std::string> notes;  ///< on what of a graph's file was left out
   std::variant<std::monostate, TeamGraph<SE2>, TeamGraph<SE3>> graph;
 };
 

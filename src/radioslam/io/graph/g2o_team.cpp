@@ -5,24 +5,15 @@
 #include <utility>
 
 #include "radioslam/io/graph/g2o.hpp"
+#include "radioslam/io/graph/graph_keys.hpp"
 #include "radioslam/io/graph/team_assembly.hpp"
 
 namespace radioslam {
 namespace {
 
-constexpr int kRobotShift = 56;
 /// Bound on the difference of two copies of an edge, which are rounded to typically six digits and whose
 /// quaternions are normalised on reading.
 constexpr double kRounding = 2e-5;
-constexpr std::uint64_t kPlaceMask = (std::uint64_t{1} << kRobotShift) - 1;
-
-bool is_letter(std::uint64_t c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-
-std::string robot_name(std::uint64_t id) {
-  const std::uint64_t robot = id >> kRobotShift;
-  if (robot == 0) return "a";
-  return is_letter(robot) ? std::string(1, static_cast<char>(robot)) : "robot" + std::to_string(robot);
-}
 
 /// Merges the files' graphs into one, with one pose per id.
 template <class Pose>
@@ -66,9 +57,10 @@ class TeamMerge {
 
   TeamGraphFile<Pose> assemble() {
     TeamGraphFile<Pose> out;
-    auto [team, file_index] = assemble_team(std::move(graph_), places_);
-    out.team = std::move(team);
-    for (const std::size_t k : file_index) out.pose_names.push_back(std::to_string(pose_ids_[k]));
+    AssembledTeam<Pose> assembled = assemble_team(std::move(graph_), places_);
+    out.team = std::move(assembled.team);
+    for (const std::size_t k : assembled.file_index) out.pose_ids.push_back(pose_ids_[k]);
+    for (const std::uint64_t id : out.pose_ids) out.pose_names.push_back(std::to_string(id));
     for (const std::uint64_t id : point_ids_) out.point_names.push_back(std::to_string(id));
     return out;
   }
@@ -78,7 +70,7 @@ class TeamMerge {
     const auto [place, is_new_id] = poses_.try_emplace(id, PoseId(pose_ids_.size()));
     if (is_new_id) {
       pose_ids_.push_back(id);
-      places_.push_back({robot_name(id), id & kPlaceMask, std::nullopt});
+      places_.push_back(place_of_key(id));
       graph_.poses.emplace_back();
     }
     return place->second;

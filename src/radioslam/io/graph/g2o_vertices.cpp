@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "radioslam/io/graph/graph_keys.hpp"
+
 namespace radioslam {
 namespace {
-
-constexpr int kKeyRobotShift = 56;
 
 G2oVertices::Id robot_of(G2oVertices::Id id) { return id >> kKeyRobotShift; }
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
-#include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/io/graph/field_matrices.hpp"
+#include "radioslam/io/graph/information.hpp"
 #include "radioslam/io/graph/pyfg_tags.hpp"
 #include "radioslam/io/graph/pyfg_vertices.hpp"
 #include "radioslam/io/graph/team_assembly.hpp"
@@ -103,12 +103,9 @@ class PyfgFactorReader {
   /// Inverts the covariance.
   template <int N>
   Eigen::Matrix<double, N, N> read_information(LineFields& fields) const {
-    const Eigen::Matrix<double, N, N> covariance = read_upper_triangle<N>(fields, "covariance");
-    const Cholesky<Eigen::Matrix<double, N, N>> cholesky(covariance);
-    const Eigen::Matrix<double, N, N> information = cholesky.inverse();
-    if (!cholesky.succeeded() || !information.allFinite())
-      lines_.fail("the covariance is not positive definite");
-    return (information + information.transpose()) / 2;
+    const auto information = information_of<N>(read_upper_triangle<N>(fields, "covariance"));
+    if (!information) lines_.fail("the covariance is not positive definite");
+    return *information;
   }
 
   TextLines lines_;
@@ -125,12 +122,12 @@ TeamGraphFile<Pose> read_pyfg_graph(const Text& text) {
   if (const auto pose = first_backward_stamp(vertices.places))
     text.fail(vertices.pose_lines[*pose],
               "time runs backwards along robot " + quoted_pyfg_word(vertices.places[*pose].robot));
-  auto [team, file_index] = assemble_team(std::move(graph), vertices.places);
+  AssembledTeam<Pose> assembled = assemble_team(std::move(graph), vertices.places);
   TeamGraphFile<Pose> out;
-  out.team = std::move(team);
+  out.team = std::move(assembled.team);
   out.point_names = std::move(vertices.point_names);
   out.true_points = std::move(vertices.true_points);
-  for (const std::size_t k : file_index) {
+  for (const std::size_t k : assembled.file_index) {
     out.pose_names.push_back(std::move(vertices.pose_names[k]));
     out.true_poses.push_back(vertices.true_poses[k]);
   }

@@ -63,7 +63,7 @@ class Assembly {
     for (TrajectorySegment& segment : team_.segments) reckon(segment);
     place_points();
     team_.graph = std::move(graph_);
-    return {std::move(team_), std::move(order_)};
+    return {std::move(team_), std::move(order_), std::move(relative_pose_index_)};
   }
 
  private:
@@ -126,11 +126,12 @@ class Assembly {
     for (std::size_t& factor : odometry_) {
       if (factor == kNone) continue;
       taken[factor] = true;
-      sorted.push_back(graph_.relative_poses[factor]);
-      factor = sorted.size() - 1;
+      relative_pose_index_.push_back(factor);
+      factor = relative_pose_index_.size() - 1;
     }
     for (std::size_t f = 0; f < taken.size(); ++f)
-      if (!taken[f]) sorted.push_back(graph_.relative_poses[f]);
+      if (!taken[f]) relative_pose_index_.push_back(f);
+    for (const std::size_t f : relative_pose_index_) sorted.push_back(graph_.relative_poses[f]);
     graph_.relative_poses = std::move(sorted);
   }
 
@@ -155,6 +156,7 @@ class Assembly {
   const std::vector<PoseIndex>& places_;
   std::vector<std::size_t> order_;
   std::vector<std::size_t> odometry_;  // per pose: the factor to the next pose, or kNone
+  std::vector<std::size_t> relative_pose_index_;
   Stamp last_stamp_;
   TeamGraph<Pose> team_;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "radioslam/io/graph/g2o_team.hpp"
+#include "radioslam/io/graph/jrl.hpp"
 #include "radioslam/io/graph/pyfg.hpp"
 #include "radioslam/io/text/zstd_text.hpp"
 
@@ -30,7 +31,10 @@ std::vector<fs::path> g2o_files(const fs::path& folder) {
 
 }  // namespace
 
-bool is_graph_file(const fs::path& path) { return kind_of(path) == ".g2o" || kind_of(path) == ".pyfg"; }
+bool is_graph_file(const fs::path& path) {
+  const std::string kind = kind_of(path);
+  return kind == ".g2o" || kind == ".pyfg" || kind == ".jrl";
+}
 
 AnyTeamGraphFile read_team_graph(const fs::path& path) {
   std::vector<fs::path> files{path};
@@ -38,9 +42,11 @@ AnyTeamGraphFile read_team_graph(const fs::path& path) {
     files = g2o_files(path);
     if (files.empty()) throw InputError(path.string(), 0, "the folder has no .g2o files");
   } else if (!is_graph_file(path)) {
-    throw InputError(path.string(), 0, "is not a factor graph: its name ends in neither .g2o nor .pyfg");
+    throw InputError(path.string(), 0,
+                     "is not a factor graph: its name ends in none of .g2o, .pyfg and .jrl");
   }
   if (kind_of(files.front()) == ".pyfg") return read_pyfg(read_zstd_text(path));
+  if (kind_of(files.front()) == ".jrl") return read_jrl(read_zstd_text(path));
   std::vector<Text> texts;
   for (const fs::path& file : files) texts.push_back(read_zstd_text(file));
   return read_g2o_team(texts);
