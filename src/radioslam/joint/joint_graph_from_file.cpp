@@ -29,6 +29,15 @@ std::vector<FactorOrigin> robots_and_stamps(const JointGraph<Pose>& joint) {
   return of_pose;
 }
 
+/// Robots all of whose pieces have a known start: their odometry is in the common frame already.
+template <class Pose>
+void mark_known_starts(JointGraph<Pose>& joint) {
+  for (std::size_t r = 0; r < joint.robots.size(); ++r) joint.robots[r].T_common_start = SE3();
+  for (std::size_t p = 0; p < joint.team.segments.size(); ++p)
+    if (!joint.team.segments[p].in_common_frame)
+      joint.robots[joint.robot_of_segment[p]].T_common_start.reset();
+}
+
 }  // namespace
 
 template <class Pose>
@@ -50,6 +59,7 @@ JointGraph<Pose> joint_graph_of(const TeamGraph<Pose>& team, const Mission& miss
       robot.odometry.push_back(as_se3(team.graph.poses[segment.first_pose + k], 0));
     }
   }
+  mark_known_starts(joint);
   const auto of_pose = robots_and_stamps(joint);
   const auto origin = [&](FactorSource source, std::size_t measurement, PoseId i, PoseId j) {
     FactorOrigin result;

@@ -33,6 +33,10 @@ std::string between_factor(const std::string& i, const std::string& j, const std
   return R"({"type":"BetweenFactorPose3","key1":)" + i + R"(,"key2":)" + j + R"(,"measurement":)" + pose +
          R"(,"covariance":)" + covariance + "}";
 }
+std::string prior_factor(const std::string& at, const std::string& pose) {
+  return R"({"type":"PriorFactorPose3","key":)" + at + R"(,"prior":)" + pose + R"(,"covariance":)" +
+         kCovariance + "}";
+}
 std::string log_entry(const std::vector<std::string>& measurements) {
   std::string list;
   for (const std::string& measurement : measurements) list += (list.empty() ? "" : ",") + measurement;
@@ -106,6 +110,20 @@ TEST(Jrl, GroundtruthIsByKeyAndMayLackPoses) {
   EXPECT_FALSE(file.true_poses[0]);
   EXPECT_EQ(file.true_poses[1]->translation().x(), 6);
   EXPECT_EQ(file.true_poses[2]->translation().x(), 7);
+}
+
+TEST(Jrl, PriorsAreStartsOnRequest) {
+  auto entries = small_team();
+  entries.push_back(
+      log_entry({prior_factor(symbol('a', 0), pose3(2)), prior_factor(symbol('b', 0), pose3(8))}));
+  const auto unknown = read_space(log_of(entries));
+  EXPECT_FALSE(unknown.team.segments[0].in_common_frame || unknown.team.segments[1].in_common_frame);
+  EXPECT_EQ(unknown.notes.size(), 1u);
+  const auto known =
+      std::get<TeamGraphFile<SE3>>(read_jrl(make_text("t.jrl", log_of(entries)), StatedStarts::kUsed));
+  EXPECT_TRUE(known.team.segments[0].in_common_frame && known.team.segments[1].in_common_frame);
+  EXPECT_EQ(known.team.graph.poses[1].translation().x(), 3);
+  EXPECT_EQ(known.team.graph.poses[2].translation().x(), 8);
 }
 
 TEST(Jrl, OtherTypesAreSkippedWithANote) {

@@ -26,10 +26,11 @@ std::string vertex(const std::string& name, double x) {
   return "VERTEX_SE2 " + name + " " + std::to_string(x) + " 0 0\n";
 }
 
-TeamGraphFile<SE2> read_graph_lines(const std::vector<std::string>& contents) {
+TeamGraphFile<SE2> read_graph_lines(const std::vector<std::string>& contents,
+                                    StatedStarts starts = StatedStarts::kIgnored) {
   std::vector<Text> texts;
   for (const auto& content : contents) texts.push_back(make_text("t.g2o", content));
-  return std::get<TeamGraphFile<SE2>>(read_g2o_team(texts));
+  return std::get<TeamGraphFile<SE2>>(read_g2o_team(texts, starts));
 }
 
 TEST(G2oTeam, LettersAreRobotsAndVerticesAreNoStart) {
@@ -46,6 +47,22 @@ TEST(G2oTeam, LettersAreRobotsAndVerticesAreNoStart) {
   EXPECT_EQ(file.team.graph.relative_poses[2].T_i_j.translation().x(), 9);
   EXPECT_EQ(file.team.graph.chart, PoseChart::kG2o);
   EXPECT_EQ(file.team.segments[0].stamps[1], Stamp::from_seconds(1));
+}
+
+TEST(G2oTeam, VerticesOfFirstPosesAreStartsOnRequest) {
+  const std::string content = vertex(id('a', 1), 50) + vertex(id('a', 0), 5) + vertex(id('b', 0), 7) +
+                              vertex(id('b', 1), 70) + edge(id('a', 0), id('a', 1), 1) +
+                              edge(id('b', 0), id('b', 1), 2) + edge(id('c', 0), id('c', 1), 2) +
+                              "EDGE_PRIOR_SE2 " + id('b', 1) + " 8 0 0 1 0 0 1 0 1\n";
+  const auto file = read_graph_lines({content}, StatedStarts::kUsed);
+  ASSERT_EQ(file.team.segments.size(), 3u);
+  EXPECT_TRUE(file.team.segments[0].in_common_frame);
+  EXPECT_TRUE(file.team.segments[1].in_common_frame);
+  EXPECT_FALSE(file.team.segments[2].in_common_frame);  // without VERTEX lines
+  EXPECT_EQ(file.team.graph.poses[0].translation().x(), 5);
+  EXPECT_EQ(file.team.graph.poses[1].translation().x(), 6);
+  EXPECT_EQ(file.team.graph.poses[2].translation().x(), 6);  // by its prior
+  EXPECT_EQ(file.team.graph.pose_priors.size(), 2u);
 }
 
 TEST(G2oTeam, PlainIdsAreOneRobot) {

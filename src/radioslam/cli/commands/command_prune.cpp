@@ -23,12 +23,13 @@ struct PruneOptions {
   std::string output;
   std::string mode;
   ParameterOptions parameters;
+  StatedStarts starts = StatedStarts::kIgnored;
   bool exhaustive = false;
   bool json = false;
 };
 
 RunOutput search(const PruneOptions& options, const RunParams& params) {
-  MissionInput input = read_input(options.mission);
+  MissionInput input = read_input(options.mission, options.starts);
   ProgressLine line;
   RunOptions how;
   how.overlap_only = true;
@@ -85,6 +86,7 @@ void add_prune(CLI::App& program) {
                    "joint: use covariances of the joint estimate (default); link: chain odometry through the "
                    "nearest radio link only")
       ->check(CLI::IsMember({"joint", "link"}));
+  add_known_starts_option(*command, options->starts);
   command->add_flag("--exhaustive", options->exhaustive,
                     "Test every pair instead of searching a tree; slower, with the same result");
   add_parameter_options(*command, options->parameters);

@@ -36,6 +36,7 @@ struct RunArguments {
   std::string mission;
   std::string output;
   ParameterOptions parameters;
+  StatedStarts starts = StatedStarts::kIgnored;
   bool no_prune = false;
   bool unchecked = false;
   bool json = false;
@@ -102,7 +103,7 @@ void run_mission(const RunArguments& options) {
   const auto params = with_settings(RunParams{}, settings);
   refuse_replacing_inputs(options.output, {options.mission});
   OutputFolder output(options.output, kRunFolder);
-  MissionInput input = read_input(options.mission);
+  MissionInput input = read_input(options.mission, options.starts);
   const Truth truth = std::move(input.truth);
   const bool is_checked = !options.unchecked && std::holds_alternative<std::monostate>(input.graph);
   const auto warnings = is_checked ? warnings_about(input.mission, options.mission) : input.notes;
@@ -134,6 +135,7 @@ void add_run(CLI::App& program) {
       ->required();
   add_output_option(*command, options->output, "Folder to write; the folder of an earlier run is replaced");
   add_parameter_options(*command, options->parameters);
+  add_known_starts_option(*command, options->starts);
   command->add_flag("--no-prune", options->no_prune,
                     "Use all matches, including those between views that cannot overlap");
   command->add_flag(

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "radioslam/io/graph/team_graph_file.hpp"
+#include "radioslam/base/input_error.hpp"
 #include "radioslam/io/mission/mission_folder.hpp"
 
 namespace radioslam::cli {
@@ -23,7 +23,11 @@ Trajectory<SE3> trajectory(const TeamGraph<Pose>& team, const std::string& robot
 }
 
 template <class Pose>
-MissionInput from_graph(TeamGraphFile<Pose> file, const std::string& path) {
+MissionInput from_graph(TeamGraphFile<Pose> file, const std::string& path, StatedStarts starts) {
+  const auto is_known = [](const TrajectorySegment& segment) { return segment.in_common_frame; };
+  if (starts == StatedStarts::kUsed &&
+      std::none_of(file.team.segments.begin(), file.team.segments.end(), is_known))
+    throw InputError(path, 0, "states no starts (priors, or in g2o VERTEX lines) for --known-starts");
   MissionInput input;
   input.mission.name = std::filesystem::path(path).filename().string();
   input.mission.dimension = Pose::kDim;
@@ -36,6 +40,8 @@ MissionInput from_graph(TeamGraphFile<Pose> file, const std::string& path) {
     robot.id = segment.robot;
     const auto reckoned = [&](std::size_t pose) { return std::optional(file.team.graph.poses[pose]); };
     robot.odometry = trajectory(file.team, segment.robot, reckoned);
+    if (starts == StatedStarts::kUsed && segment.in_common_frame)
+      robot.initial_pose = robot.odometry.front().pose;
     RobotTruth& truth = input.truth.robots.emplace_back();
     truth.id = segment.robot;
     const auto true_pose = [&](std::size_t pose) { return file.true_poses[pose]; };
@@ -48,11 +54,14 @@ MissionInput from_graph(TeamGraphFile<Pose> file, const std::string& path) {
 
 }  // namespace
 
-MissionInput read_input(const std::string& path) {
+MissionInput read_input(const std::string& path, StatedStarts starts) {
   if (is_graph_file(path)) {
-    auto graph = read_team_graph(path);
-    return std::visit([&](auto& file) { return from_graph(std::move(file), path); }, graph);
+    auto graph = read_team_graph(path, starts);
+    return std::visit([&](auto& file) { return from_graph(std::move(file), path, starts); }, graph);
   }
+  if (starts == StatedStarts::kUsed)
+    throw InputError("--known-starts", 0,
+                     "is for factor graphs: a mission states its starts in mission.yaml");
   MissionInput input;
   input.mission = read_mission(path);
   input.truth = read_truth(path, input.mission);

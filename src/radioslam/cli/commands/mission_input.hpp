@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "radioslam/graph/team_graph.hpp"
+#include "radioslam/io/graph/team_graph_file.hpp"
 #include "radioslam/mission/mission.hpp"
 #include "radioslam/mission/truth.hpp"
 #include "radioslam/pipeline/pipeline.hpp"
@@ -21,7 +22,9 @@ struct MissionInput {
   std::variant<std::monostate, TeamGraph<SE2>, TeamGraph<SE3>> graph;
 };
 
-MissionInput read_input(const std::string& path);
+/// Refuses stated starts to be used where the input states none, or is a mission folder, which always uses
+/// them.
+MissionInput read_input(const std::string& path, StatedStarts starts = StatedStarts::kIgnored);
 
 /// Calls run_pipeline with the mission or with the graph.
 RunOutput run_input(MissionInput input, const RunParams& params, const RunOptions& options,

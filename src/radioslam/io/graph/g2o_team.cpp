@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "radioslam/io/graph/g2o.hpp"
@@ -14,6 +15,8 @@ namespace {
 /// Bound on the difference of two copies of an edge, which are rounded to typically six digits and whose
 /// quaternions are normalised on reading.
 constexpr double kRounding = 2e-5;
+/// Standard deviations of a start that a VERTEX line states, as by default those of a mission's known starts.
+constexpr double kSigmaStart_m = 0.05, kSigmaStart_rad = 0.01;
 
 /// Merges the files' graphs into one, with one pose per id.
 template <class Pose>
@@ -23,7 +26,10 @@ class TeamMerge {
     const PoseGraph<Pose>& graph = file.graph;
     graph_.chart = graph.chart;
     std::vector<PoseId> poses;
-    for (const std::uint64_t id : file.pose_ids) poses.push_back(pose(id));
+    for (std::size_t k = 0; k < file.pose_ids.size(); ++k) {
+      poses.push_back(pose(file.pose_ids[k]));
+      if (file.pose_has_value[k]) stated_.try_emplace(file.pose_ids[k], graph.poses[k]);
+    }
     std::vector<PointId> points;
     for (const std::uint64_t id : file.point_ids) points.push_back(point(id));
     const auto renamed = [&](RangeEnd<Pose> end) {
@@ -55,10 +61,12 @@ class TeamMerge {
     }
   }
 
-  TeamGraphFile<Pose> assemble() {
+  TeamGraphFile<Pose> assemble(StatedStarts starts) {
     TeamGraphFile<Pose> out;
-    AssembledTeam<Pose> assembled = assemble_team(std::move(graph_), places_);
+    if (starts == StatedStarts::kUsed) add_start_priors();
+    AssembledTeam<Pose> assembled = assemble_team(std::move(graph_), places_, starts);
     out.team = std::move(assembled.team);
+    out.notes = std::move(assembled.notes);
     for (const std::size_t k : assembled.file_index) out.pose_ids.push_back(pose_ids_[k]);
     for (const std::uint64_t id : out.pose_ids) out.pose_names.push_back(std::to_string(id));
     for (const std::uint64_t id : point_ids_) out.point_names.push_back(std::to_string(id));
@@ -83,6 +91,23 @@ class TeamMerge {
       graph_.points.emplace_back(Pose::Point::Zero());
     }
     return place->second;
+  }
+
+  /// A prior on the first pose of every robot without one, where it has a VERTEX line.
+  void add_start_priors() {
+    std::set<std::string> done;
+    for (const auto& prior : graph_.pose_priors) done.insert(places_[prior.i.index()].robot);
+    for (const auto& [id, pose] : poses_) {  // by id: of a robot, the first pose comes first
+      if (!done.insert(places_[pose.index()].robot).second) continue;
+      const auto stated = stated_.find(id);
+      if (stated == stated_.end()) continue;
+      PosePriorFactor<Pose>& prior = graph_.pose_priors.emplace_back();
+      prior.i = pose;
+      prior.prior = stated->second;
+      typename Pose::Tangent sigmas = Pose::Tangent::Constant(kSigmaStart_m);
+      sigmas.template tail<Pose::kDof - Pose::kDim>().setConstant(kSigmaStart_rad);
+      prior.information = sigmas.cwiseAbs2().cwiseInverse().asDiagonal();
+    }
   }
 
   using Ends = std::pair<PoseId, PoseId>;
@@ -111,29 +136,31 @@ class TeamMerge {
   std::vector<PoseIndex> places_;
   std::vector<std::uint64_t> pose_ids_, point_ids_;
   std::map<std::uint64_t, PoseId> poses_;
+  std::map<std::uint64_t, Pose> stated_;  // VERTEX lines
   std::map<std::uint64_t, PointId> points_;
   std::multimap<Ends, std::size_t> earlier_;  // relative poses of the previous files, by their ends
   std::vector<std::pair<Ends, std::size_t>> of_this_file_;
 };
 
 template <class Pose>
-TeamGraphFile<Pose> merge(const std::vector<AnyG2oGraph>& files, std::span<const Text> texts) {
+TeamGraphFile<Pose> merge(const std::vector<AnyG2oGraph>& files, std::span<const Text> texts,
+                          StatedStarts starts) {
   TeamMerge<Pose> team;
   for (std::size_t k = 0; k < files.size(); ++k) {
     const auto* file = std::get_if<G2oGraph<Pose>>(&files[k]);
     if (file == nullptr) texts[k].fail(1, "the team's files mix 2D and 3D");
     team.add(*file);
   }
-  return team.assemble();
+  return team.assemble(starts);
 }
 
 }  // namespace
 
-AnyTeamGraphFile read_g2o_team(std::span<const Text> texts) {
+AnyTeamGraphFile read_g2o_team(std::span<const Text> texts, StatedStarts starts) {
   std::vector<AnyG2oGraph> files;
   for (const Text& text : texts) files.push_back(read_g2o(text));
-  if (std::holds_alternative<G2oGraph<SE2>>(files.front())) return merge<SE2>(files, texts);
-  return merge<SE3>(files, texts);
+  if (std::holds_alternative<G2oGraph<SE2>>(files.front())) return merge<SE2>(files, texts, starts);
+  return merge<SE3>(files, texts, starts);
 }
 
 }  // namespace radioslam

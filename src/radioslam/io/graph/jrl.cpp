@@ -57,16 +57,18 @@ void visit_measurements(const Text& text, const JrlObject& file, const Visitor& 
 template <class Pose>
 class JrlReader {
  public:
-  JrlReader(const Text& text, const JrlObject& file) : text_(text), file_(file) {}
+  JrlReader(const Text& text, const JrlObject& file, StatedStarts starts)
+      : text_(text), file_(file), starts_(starts) {}
 
   TeamGraphFile<Pose> read() {
     visit_measurements(text_, file_, [this](const FactorName& name, const JrlObject& measurement) {
       read_measurement(name, measurement);
     });
     if (graph_.poses.empty()) text_.fail(0, "the graph has no poses");
-    AssembledTeam<Pose> assembled = assemble_team(std::move(graph_), places_);
+    AssembledTeam<Pose> assembled = assemble_team(std::move(graph_), places_, starts_);
     TeamGraphFile<Pose> out;
     out.team = std::move(assembled.team);
+    out.notes = std::move(assembled.notes);
     for (const std::size_t k : assembled.file_index) out.pose_ids.push_back(keys_[k]);
     for (const std::uint64_t key : out.pose_ids) out.pose_names.push_back(std::to_string(key));
     read_labels(assembled.relative_pose_index, out);
@@ -170,6 +172,7 @@ class JrlReader {
 
   const Text& text_;
   const JrlObject& file_;
+  StatedStarts starts_;
   PoseGraph<Pose> graph_;
   std::vector<FactorName> names_;  // per relative pose
   std::vector<std::uint64_t> keys_;
@@ -193,11 +196,11 @@ int dimension_of(const Text& text, const JrlObject& file) {
 
 }  // namespace
 
-AnyTeamGraphFile read_jrl(const Text& text) {
+AnyTeamGraphFile read_jrl(const Text& text, StatedStarts starts) {
   const Json json = read_json(text);
   const JrlObject file(text, "the log", json);
-  if (dimension_of(text, file) == 2) return JrlReader<SE2>(text, file).read();
-  return JrlReader<SE3>(text, file).read();
+  if (dimension_of(text, file) == 2) return JrlReader<SE2>(text, file, starts).read();
+  return JrlReader<SE3>(text, file, starts).read();
 }
 
 }  // namespace radioslam

@@ -24,6 +24,6 @@
 namespace radioslam {
 
 /// Parses a graph; linear in the text, except for sorting the poses.
-AnyTeamGraphFile read_jrl(const Text& text);
+AnyTeamGraphFile read_jrl(const Text& text, StatedStarts starts = StatedStarts::kIgnored);
 
 }  // namespace radioslam

@@ -115,16 +115,17 @@ class PyfgFactorReader {
 
 /// The file's graph, with the poses of each robot in the order of their indices.
 template <class Pose>
-TeamGraphFile<Pose> read_pyfg_graph(const Text& text) {
+TeamGraphFile<Pose> read_pyfg_graph(const Text& text, StatedStarts starts) {
   PyfgVertices<Pose> vertices = read_pyfg_vertices<Pose>(text);
   if (vertices.true_poses.empty()) text.fail(1, "the graph has no poses");
   PoseGraph<Pose> graph = PyfgFactorReader<Pose>(text, vertices).read();
   if (const auto pose = first_backward_stamp(vertices.places))
     text.fail(vertices.pose_lines[*pose],
               "time runs backwards along robot " + quoted_pyfg_word(vertices.places[*pose].robot));
-  AssembledTeam<Pose> assembled = assemble_team(std::move(graph), vertices.places);
+  AssembledTeam<Pose> assembled = assemble_team(std::move(graph), vertices.places, starts);
   TeamGraphFile<Pose> out;
   out.team = std::move(assembled.team);
+  out.notes = std::move(assembled.notes);
   out.point_names = std::move(vertices.point_names);
   out.true_points = std::move(vertices.true_points);
   for (const std::size_t k : assembled.file_index) {
@@ -136,12 +137,12 @@ TeamGraphFile<Pose> read_pyfg_graph(const Text& text) {
 
 }  // namespace
 
-AnyTeamGraphFile read_pyfg(const Text& text) {
+AnyTeamGraphFile read_pyfg(const Text& text, StatedStarts starts) {
   TextLines lines(text);
   while (lines.next_with_content()) {
     const std::string_view tag = LineFields(lines).next("a tag");
-    if (is_pyfg_tag<SE2>(tag)) return read_pyfg_graph<SE2>(text);
-    if (is_pyfg_tag<SE3>(tag)) return read_pyfg_graph<SE3>(text);
+    if (is_pyfg_tag<SE2>(tag)) return read_pyfg_graph<SE2>(text, starts);
+    if (is_pyfg_tag<SE3>(tag)) return read_pyfg_graph<SE3>(text, starts);
     if (tag != kPyfgRange) lines.fail("unknown tag " + quoted_pyfg_word(tag));
   }
   text.fail(1, "the graph has no poses");

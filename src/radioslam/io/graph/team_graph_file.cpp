@@ -36,7 +36,7 @@ bool is_graph_file(const fs::path& path) {
   return kind == ".g2o" || kind == ".pyfg" || kind == ".jrl";
 }
 
-AnyTeamGraphFile read_team_graph(const fs::path& path) {
+AnyTeamGraphFile read_team_graph(const fs::path& path, StatedStarts starts) {
   std::vector<fs::path> files{path};
   if (fs::is_directory(path)) {
     files = g2o_files(path);
@@ -45,11 +45,11 @@ AnyTeamGraphFile read_team_graph(const fs::path& path) {
     throw InputError(path.string(), 0,
                      "is not a factor graph: its name ends in none of .g2o, .pyfg and .jrl");
   }
-  if (kind_of(files.front()) == ".pyfg") return read_pyfg(read_zstd_text(path));
-  if (kind_of(files.front()) == ".jrl") return read_jrl(read_zstd_text(path));
+  if (kind_of(files.front()) == ".pyfg") return read_pyfg(read_zstd_text(path), starts);
+  if (kind_of(files.front()) == ".jrl") return read_jrl(read_zstd_text(path), starts);
   std::vector<Text> texts;
   for (const fs::path& file : files) texts.push_back(read_zstd_text(file));
-  return read_g2o_team(texts);
+  return read_g2o_team(texts, starts);
 }
 
 }  // namespace radioslam

@@ -13,8 +13,16 @@
 
 namespace radioslam {
 
+/// What becomes of the robots' starts that a file states: priors on poses, and in g2o the VERTEX lines of the
+/// robots' first poses.
+enum class StatedStarts {
+  kIgnored,  ///< they do not place robots: priors on several robots are left out, with a note
+  kUsed,     ///< the robots that have one are in the common frame
+};
+
 /// The team in a file. The values of the graph do not come from the file's VERTEX lines: each segment is dead
-/// reckoning from the identity or from its first prior; points are at the origin or at their first prior.
+/// reckoning from the identity, or from its first prior if this is used; points are at the origin or at their
+/// first prior. Priors on one robot alone are used in any case: they only choose the frame.
 template <class Pose>
 struct TeamGraphFile {
   TeamGraph<Pose> team;
@@ -36,6 +44,7 @@ bool is_graph_file(const std::filesystem::path& path);
 
 /// Reads a file in the format given by its extension, or all g2o files of a folder. Errors are InputErrors
 /// with file and line.
-AnyTeamGraphFile read_team_graph(const std::filesystem::path& path);
+AnyTeamGraphFile read_team_graph(const std::filesystem::path& path,
+                                 StatedStarts starts = StatedStarts::kIgnored);
 
 }  // namespace radioslam
