@@ -85,6 +85,51 @@ TEST(G2oTeam, EdgesBetweenRobotsInBothFilesCountOnce) {
   EXPECT_EQ(within_a_file.team.graph.relative_poses.size(), 2u);
 }
 
+TeamGraphFile<SE2> read_named(const std::vector<std::pair<std::string, std::string>>& files) {
+  std::vector<Text> texts;
+  for (const auto& [name, content] : files) texts.push_back(make_text(name, content));
+  return std::get<TeamGraphFile<SE2>>(read_g2o_team(texts));
+}
+
+TEST(G2oTeam, FilesWithoutLettersAreRobotsByTheirNames) {
+  const auto file = read_named(
+      {{"x/red.g2o", edge("0", "1", 1) + edge("1", "2", 1)}, {"x/blue.g2o.zst", edge("0", "1", 5)}});
+  ASSERT_EQ(file.team.segments.size(), 2u);
+  EXPECT_EQ(file.team.segments[0].robot, "red");
+  EXPECT_EQ(file.team.segments[1].robot, "blue");
+  EXPECT_EQ(file.team.segments[1].pose_count, 2u);
+  EXPECT_EQ(file.team.graph.poses[4].translation().x(), 5);
+  EXPECT_EQ(file.pose_names.back(), id('b', 1));
+  expect_refusal(
+      [] {
+        read_named({{"x/0.g2o", edge("0", "1", 1)}, {"y/0.g2o", edge("0", "1", 1)}});
+      },
+      0, "another file is named '0'");
+}
+
+TEST(G2oTeam, BadLinesAreLeftOutWithANote) {
+  const std::string good = vertex(id('a', 0), 0) + vertex(id('a', 1), 1) + edge(id('a', 0), id('a', 1), 1) +
+                           edge(id('b', 0), id('b', 1), 1) + edge(id('b', 1), id('a', 1), 1);
+  const auto whole = read_graph_lines({good});
+  for (const char* bad :
+       {"0410268 0.7588833", "EDGE_SE2 1 2", "VERTEX_SE2 5 1 x 0", "EDGE_SE2 7 8 1 0 0 1 0 0 1 0 1 9",
+        "EDGE_BEARING_SE2_XY 1 2 0.5 1", "EDGE_SE2 7 8 1 0 0 0 0 0 0 0 0", "EDGE_RANGE 7 8 3 0"}) {
+    const auto file = read_graph_lines({good + bad + "\n"});
+    EXPECT_EQ(file.team.graph.relative_poses.size(), 3u) << bad;
+    ASSERT_EQ(file.notes.size(), 1u) << bad;
+    EXPECT_NE(file.notes[0].find("t.g2o: 1 line is left out; the first: t.g2o:6: "), std::string::npos)
+        << file.notes[0];
+  }
+  // An edge to a pose that its robot does not have adds no pose.
+  const auto unknown = read_graph_lines({good + edge(id('a', 1), id('a', 2), 1)});
+  EXPECT_EQ(unknown.pose_names, whole.pose_names);
+  EXPECT_EQ(unknown.notes.size(), 1u);
+  expect_refusal([] { read_graph_lines({"hello\nworld\n"}); }, 1, "unknown tag 'hello'");
+  expect_refusal([] { read_graph_lines({edge("0", "1", 1) + "x\ny\nz\n"}); }, 2, "unknown tag 'x'");
+  expect_refusal([&] { read_graph_lines({good + "VERTEX_SE3:QUAT 0 0 0 0 0 0 0 1\n"}); }, 6,
+                 "mixes 2D and 3D");
+}
+
 TEST(G2oTeam, SeesLandmarks) {
   const auto file =
       read_graph_lines({"VERTEX_XY 9 1 2\n" + edge("0", "1", 1) + "EDGE_SE2_XY 1 9 2 3 4 0 5\n"});
@@ -150,7 +195,7 @@ TEST(TeamGraphFile, IsRecognisedByItsName) {
   folder.write("x.txt", "x");
   EXPECT_EQ(std::get<0>(read_team_graph(folder.path() / "0.g2o")).team.graph.poses.size(), 2u);
   EXPECT_EQ(std::get<0>(read_team_graph(folder.path() / "team.g2o.zst")).team.graph.poses.size(), 2u);
-  EXPECT_EQ(std::get<0>(read_team_graph(folder.path())).team.graph.relative_poses.size(), 1u);
+  EXPECT_EQ(std::get<0>(read_team_graph(folder.path())).team.segments.size(), 2u);  // a robot per file
   expect_refusal([&] { read_team_graph(folder.path() / "x.txt"); }, 0, "none of .g2o, .pyfg and .jrl");
   expect_refusal([&] { read_team_graph(folder.path() / "none.pyfg"); }, 0, "no such file");
   const TemporaryFolder empty;
@@ -221,11 +266,16 @@ TEST(PublishedTeams, TiersRangesAgreeWithItsTruth) {
   EXPECT_NEAR(std::sqrt(squares / n), 0.040, 0.001);
 }
 
-TEST(PublishedTeams, ACorruptLineIsRefused) {
+TEST(PublishedTeams, ACorruptLineIsLeftOut) {
   RADIOSLAM_RECORDED(folder,
                      "multirobot_pcm/test_data/pairwise_consistency_maximization/spoiled/simulation/"
                      "example_2robots");
-  expect_refusal([&] { read_team_graph(folder); }, 16, "unknown tag '0410268'");
+  const auto file = std::get<TeamGraphFile<SE3>>(read_team_graph(folder));
+  EXPECT_EQ(file.team.graph.poses.size(), 42u);
+  EXPECT_EQ(file.team.graph.relative_poses.size(), 60u);
+  ASSERT_EQ(file.notes.size(), 1u);
+  EXPECT_NE(file.notes[0].find("1 line is left out"), std::string::npos) << file.notes[0];
+  EXPECT_NE(file.notes[0].find(":16: unknown tag '0410268'"), std::string::npos) << file.notes[0];
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ constexpr double kMaxRadius_m = 1e6;
 
 struct EvaluateOptions {
   std::string run;
-  std::string mission;
+  std::vector<std::string> mission;  ///< one path, or several graphs
   std::optional<double> radius_m;
   bool evo = false;
   bool json = false;
@@ -53,7 +53,7 @@ std::vector<RobotIndex> places_in_mission(const RunFolder& run, const Mission& m
     const auto same = [&](const Robot& candidate) { return candidate.id == robot.id; };
     const auto found = std::find_if(mission.robots.begin(), mission.robots.end(), same);
     if (found == mission.robots.end()) {
-      throw InputError(options.run, 0, "robot '" + robot.id + "' is not in " + options.mission);
+      throw InputError(options.run, 0, "robot '" + robot.id + "' is not in " + options.mission.front());
     }
     places.emplace_back(static_cast<std::size_t>(found - mission.robots.begin()));
   }
@@ -115,8 +115,9 @@ Evaluation evaluate(const EvaluateOptions& options) {
   const Mission& mission = input.mission;
   const Truth& truth = input.truth;
   if (truth.empty())
-    throw InputError(options.mission, 0,
-                     "has no ground truth (a robot's groundtruth.tum, or a graph's VERTEX lines)");
+    throw InputError(
+        options.mission.front(), 0,
+        "has no ground truth (a robot's groundtruth.tum, VERTEX lines of .pyfg, groundtruth of .jrl)");
   const RunFolder run = read_run(options.run);
   const auto places = places_in_mission(run, mission, options);
   const auto association = options.evo ? Association::kNearest : Association::kInterpolate;
@@ -179,7 +180,7 @@ void add_evaluate(CLI::App& program) {
   command->add_option("OUT", options->run, "Output folder of `radioslam run`")->required();
   command
       ->add_option("MISSION", options->mission,
-                   "Mission folder with robots/<id>/groundtruth.tum, or a factor graph")
+                   "Mission folder with robots/<id>/groundtruth.tum, or a factor graph (as for `run`)")
       ->required();
   command
       ->add_option("--radius", options->radius_m,

@@ -19,7 +19,7 @@ namespace radioslam::cli {
 namespace {
 
 struct PruneOptions {
-  std::string mission;
+  std::vector<std::string> mission;  ///< one path, or several graphs
   std::string output;
   std::string mode;
   ParameterOptions parameters;
@@ -55,7 +55,7 @@ void prune(const PruneOptions& options) {
   const auto settings = collect_settings(options.parameters.config_path, options.parameters.set);
   auto params = with_settings(RunParams{}, settings);
   if (!options.mode.empty()) params.overlap.mode = options.mode;
-  refuse_replacing_inputs(options.output, {options.mission});
+  refuse_replacing_inputs(options.output, options.mission);
   OutputFolder output(options.output, kRunFolder);
   const RunOutput run = search(options, params);
   write_run(output.path(), run.result, {});
@@ -78,7 +78,9 @@ void add_prune(CLI::App& program) {
       program.add_subcommand("prune", "Find the keyframe pairs of different robots whose views can overlap");
   command
       ->add_option("MISSION", options->mission,
-                   "Mission folder (with mission.yaml), or a factor graph (.g2o, .pyfg or .jrl; also .zst)")
+                   "Mission folder (with mission.yaml), or a factor graph (.g2o, .pyfg or .jrl; also .zst): "
+                   "one file, or a "
+                   "folder or list of g2o files, one per robot")
       ->required();
   add_output_option(*command, options->output, "Folder to write; the folder of an earlier run is replaced");
   command

@@ -33,7 +33,7 @@ namespace radioslam::cli {
 namespace {
 
 struct RunArguments {
-  std::string mission;
+  std::vector<std::string> mission;  ///< one path, or several graphs
   std::string output;
   ParameterOptions parameters;
   StatedStarts starts = StatedStarts::kIgnored;
@@ -101,12 +101,12 @@ RunOutput estimate(MissionInput input, const RunParams& params, bool no_prune) {
 void run_mission(const RunArguments& options) {
   const auto settings = collect_settings(options.parameters.config_path, options.parameters.set);
   const auto params = with_settings(RunParams{}, settings);
-  refuse_replacing_inputs(options.output, {options.mission});
+  refuse_replacing_inputs(options.output, options.mission);
   OutputFolder output(options.output, kRunFolder);
   MissionInput input = read_input(options.mission, options.starts);
   const Truth truth = std::move(input.truth);
   const bool is_checked = !options.unchecked && std::holds_alternative<std::monostate>(input.graph);
-  const auto warnings = is_checked ? warnings_about(input.mission, options.mission) : input.notes;
+  const auto warnings = is_checked ? warnings_about(input.mission, options.mission.front()) : input.notes;
   const Mission links = without_recordings(input.mission);
   RunOutput run = estimate(std::move(input), params, options.no_prune);
   auto& notes = run.result.notes;
@@ -131,7 +131,9 @@ void add_run(CLI::App& program) {
   auto* command = program.add_subcommand("run", "Estimate the trajectories of all robots in one frame");
   command
       ->add_option("MISSION", options->mission,
-                   "Mission folder (with mission.yaml), or a factor graph (.g2o, .pyfg or .jrl; also .zst)")
+                   "Mission folder (with mission.yaml), or a factor graph (.g2o, .pyfg or .jrl; also .zst): "
+                   "one file, or a "
+                   "folder or list of g2o files, one per robot")
       ->required();
   add_output_option(*command, options->output, "Folder to write; the folder of an earlier run is replaced");
   add_parameter_options(*command, options->parameters);

@@ -23,13 +23,16 @@ Trajectory<SE3> trajectory(const TeamGraph<Pose>& team, const std::string& robot
 }
 
 template <class Pose>
-MissionInput from_graph(TeamGraphFile<Pose> file, const std::string& path, StatedStarts starts) {
+MissionInput from_graph(TeamGraphFile<Pose> file, const std::vector<std::string>& paths,
+                        StatedStarts starts) {
   const auto is_known = [](const TrajectorySegment& segment) { return segment.in_common_frame; };
   if (starts == StatedStarts::kUsed &&
       std::none_of(file.team.segments.begin(), file.team.segments.end(), is_known))
-    throw InputError(path, 0, "states no starts (priors, or in g2o VERTEX lines) for --known-starts");
+    throw InputError(paths.front(), 0,
+                     "states no starts (priors, or in g2o VERTEX lines) for --known-starts");
   MissionInput input;
-  input.mission.name = std::filesystem::path(path).filename().string();
+  input.mission.name = std::filesystem::path(paths.front()).filename().string();
+  if (paths.size() > 1) input.mission.name += " and " + std::to_string(paths.size() - 1) + " more";
   input.mission.dimension = Pose::kDim;
   for (const TrajectorySegment& segment : file.team.segments) {
     auto& robots = input.mission.robots;
@@ -54,10 +57,11 @@ MissionInput from_graph(TeamGraphFile<Pose> file, const std::string& path, State
 
 }  // namespace
 
-MissionInput read_input(const std::string& path, StatedStarts starts) {
-  if (is_graph_file(path)) {
-    auto graph = read_team_graph(path, starts);
-    return std::visit([&](auto& file) { return from_graph(std::move(file), path, starts); }, graph);
+MissionInput read_input(const std::vector<std::string>& paths, StatedStarts starts) {
+  const std::string& path = paths.front();
+  if (paths.size() > 1 || is_graph_file(path) || is_graph_folder(path)) {
+    auto graph = read_team_graph(std::vector<std::filesystem::path>(paths.begin(), paths.end()), starts);
+    return std::visit([&](auto& file) { return from_graph(std::move(file), paths, starts); }, graph);
   }
   if (starts == StatedStarts::kUsed)
     throw InputError("--known-starts", 0,

@@ -1,5 +1,5 @@
-// Input of run, prune and evaluate: a mission folder, or a team's factor graph (.g2o, .pyfg or .jrl,
-// optionally .zst).
+// Input of run, prune and evaluate: a mission folder, or a team's factor graph: one file (.g2o, .pyfg or
+// .jrl, optionally .zst), a folder of g2o files, or several of these.
 #pragma once
 
 #include <optional>
@@ -22,9 +22,9 @@ struct MissionInput {
   std::variant<std::monostate, TeamGraph<SE2>, TeamGraph<SE3>> graph;
 };
 
-/// Refuses stated starts to be used where the input states none, or is a mission folder, which always uses
-/// them.
-MissionInput read_input(const std::string& path, StatedStarts starts = StatedStarts::kIgnored);
+/// Reads one path, or several g2o files. Refuses stated starts to be used where the input states none, or is
+/// a mission folder, which always uses them.
+MissionInput read_input(const std::vector<std::string>& paths, StatedStarts starts = StatedStarts::kIgnored);
 
 /// Calls run_pipeline with the mission or with the graph.
 RunOutput run_input(MissionInput input, const RunParams& params, const RunOptions& options,

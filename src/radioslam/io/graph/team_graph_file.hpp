@@ -28,7 +28,8 @@ struct TeamGraphFile {
   TeamGraph<Pose> team;
   std::vector<std::string> pose_names;   ///< per pose, as in the file
   std::vector<std::string> point_names;  ///< per point
-  std::vector<std::uint64_t> pose_ids;   ///< per pose, its key (graph_keys.hpp)
+  std::vector<std::uint64_t> pose_ids;   ///< per pose, its key (graph_keys.hpp); empty if they have none
+  std::vector<std::uint64_t> point_ids;  ///< the same per point
   /// Per pose, in the common frame; nothing where unknown. Empty if unknown for all.
   std::vector<std::optional<Pose>> true_poses;
   /// Per relative pose of the graph, whether it is true; nothing where unknown. Empty if unknown for all.
@@ -42,9 +43,14 @@ using AnyTeamGraphFile = std::variant<TeamGraphFile<SE2>, TeamGraphFile<SE3>>;
 /// Whether the path is that of a graph file: it ends in .g2o, .pyfg or .jrl, and perhaps .zst after it.
 bool is_graph_file(const std::filesystem::path& path);
 
+/// Whether the path is a folder of g2o files and not a mission.
+bool is_graph_folder(const std::filesystem::path& path);
+
 /// Reads a file in the format given by its extension, or all g2o files of a folder. Errors are InputErrors
 /// with file and line.
 AnyTeamGraphFile read_team_graph(const std::filesystem::path& path,
                                  StatedStarts starts = StatedStarts::kIgnored);
+/// Reads a team from several g2o files, at least one, or from one path as above.
+AnyTeamGraphFile read_team_graph(const std::vector<std::filesystem::path>& paths, StatedStarts starts);
 
 }  // namespace radioslam
