@@ -25,7 +25,7 @@ class MeasurementTruth : public testing::Test {
   }
   ClosuresByKind judge(const std::vector<MeasuredAoaResult>& measured = {}) const {
     const std::vector<Stamp> stamps{Stamp{}, Stamp::from_seconds(60)};
-    return judge_closures(closures, {stamps, stamps}, mission, truth, measured);
+    return judge_closures(closures, {stamps, stamps}, mission, truth, measured, file);
   }
 
   const RobotIndex a{0}, b{1};
@@ -34,6 +34,7 @@ class MeasurementTruth : public testing::Test {
   const Stamp at = Stamp::from_seconds(1);
   Mission mission;
   Truth truth;
+  FileLoops file;
   std::vector<ClosureResult> closures;
 };
 
@@ -63,6 +64,40 @@ TEST_F(MeasurementTruth, LabelsTakePrecedence) {
   add(ClosureKind::kMatch, ClosureStatus::kRejected);
   EXPECT_EQ(judge().at(ClosureKind::kMatch).rejected, 1U);
   EXPECT_EQ(judge().at(ClosureKind::kMatch).true_rejected, 0U);
+}
+
+/// The k-th closure of a pair is the k-th loop of the pair, whatever comes between.
+TEST_F(MeasurementTruth, LoopsOfAFileAreJudgedInItsOrder) {
+  const Stamp start{};
+  const auto add_loop = [&](double off_m) {
+    file.loops.push_back({a, b, start, start, lift(T_a_b * SE2({off_m, 0}, 0)), small});
+  };
+  add_loop(0.6);
+  file.loops.push_back({b, a, start, start, lift(T_a_b.inverse()), small});
+  add_loop(9);
+  add_loop(0.1);
+  add(ClosureKind::kFile, ClosureStatus::kAccepted);
+  closures.push_back({b, start, a, start, ClosureKind::kFile, ClosureStatus::kRejected, 0, ""});
+  add(ClosureKind::kFile, ClosureStatus::kRejected);
+  add(ClosureKind::kFile, ClosureStatus::kAccepted);
+  const JudgedClosures counts = judge().at(ClosureKind::kFile);
+  EXPECT_EQ(counts.accepted, 2U);
+  EXPECT_EQ(counts.true_accepted, 2U);
+  EXPECT_EQ(counts.rejected, 2U);
+  EXPECT_EQ(counts.true_rejected, 1U);
+  EXPECT_NEAR(counts.worst_accepted_m.value(), 0.6, 1e-9);
+  EXPECT_NEAR(counts.worst_accepted_rad.value(), 0, 1e-6);
+}
+
+TEST_F(MeasurementTruth, LabelsOfAFileCountWithoutTruth) {
+  truth.robots[1].poses = {};
+  file.loops = {{a, b, Stamp{}, Stamp{}, SE3(), small}, {a, b, Stamp{}, Stamp{}, SE3(), small}};
+  for (int k = 0; k < 2; ++k) add(ClosureKind::kFile, ClosureStatus::kAccepted);
+  EXPECT_TRUE(judge().empty());
+  file.labels = {true, false};
+  EXPECT_EQ(judge().at(ClosureKind::kFile).accepted, 2U);
+  EXPECT_EQ(judge().at(ClosureKind::kFile).true_accepted, 1U);
+  EXPECT_FALSE(judge().at(ClosureKind::kFile).worst_accepted_m);
 }
 
 TEST_F(MeasurementTruth, RangesAreComparedWithTheTrueAntennas) {

@@ -30,6 +30,8 @@ const char* name(ClosureKind kind) {
       return "lidar";
     case ClosureKind::kMatch:
       return "match";
+    case ClosureKind::kFile:
+      return "file";
   }
   return "";
 }

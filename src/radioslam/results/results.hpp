@@ -59,8 +59,8 @@ struct RobotResult {
   std::optional<OccupancyImageResult> picture = {};     ///< absent if it has no scans
 };
 
-/// Origin of a closure.
-enum class ClosureKind { kRange, kAoa, kFingerprint, kSequence, kLidar, kMatch };
+/// Origin of a closure; kFile: a relative pose of a factor graph that is not odometry.
+enum class ClosureKind { kRange, kAoa, kFingerprint, kSequence, kLidar, kMatch, kFile };
 enum class ClosureStatus { kAccepted, kRejected };
 
 /// Constraint between two keyframes and its status.

@@ -130,6 +130,15 @@ TEST(G2oTeam, BadLinesAreLeftOutWithANote) {
                  "mixes 2D and 3D");
 }
 
+TEST(G2oWriter, KeepsGivenIds) {
+  auto file = read_graph_lines({edge(id('b', 3), id('b', 4), 1)});
+  const auto kept = with_ids(file.team.graph, file.pose_ids, {});
+  EXPECT_EQ(std::to_string(kept.pose_ids[1]), id('b', 4));
+  EXPECT_EQ(with_ids(file.team.graph, {}, {}).pose_ids[1], 1u);
+  file.team.graph.points.emplace_back();
+  EXPECT_EQ(std::to_string(with_ids(file.team.graph, file.pose_ids, {}).point_ids[0]), id('b', 5));
+}
+
 TEST(G2oTeam, SeesLandmarks) {
   const auto file =
       read_graph_lines({"VERTEX_XY 9 1 2\n" + edge("0", "1", 1) + "EDGE_SE2_XY 1 9 2 3 4 0 5\n"});

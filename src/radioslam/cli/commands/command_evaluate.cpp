@@ -86,7 +86,7 @@ std::vector<double> reach(const Mission& mission, std::optional<double> radius_m
 }
 
 void count_pairs(Evaluation& evaluation, const RunFolder& run, const Mission& mission,
-                 const std::vector<RobotIndex>& places, const PairTruth& truth) {
+                 const std::vector<RobotIndex>& places, const PairTruth& truth, const FileLoops& file) {
   const auto closures = with_places(run.closures, places);
   CandidateList candidates = run.candidates.value_or(CandidateList());
   candidates.renumber_robots(places);
@@ -99,7 +99,7 @@ void count_pairs(Evaluation& evaluation, const RunFolder& run, const Mission& mi
   });
   evaluation.rejected = static_cast<long>(closures.size()) - evaluation.accepted;
   evaluation.by_kind = judge_closures(closures, keyframe_stamps(run, places, truth.reach_m.size()), mission,
-                                      truth.truth, run.aoa_measurements);
+                                      truth.truth, run.aoa_measurements, file);
 }
 
 std::vector<std::string> notes_on(const RunFolder& run, const EvaluateOptions& options) {
@@ -114,7 +114,7 @@ Evaluation evaluate(const EvaluateOptions& options) {
   const MissionInput input = read_input(options.mission);
   const Mission& mission = input.mission;
   const Truth& truth = input.truth;
-  if (truth.empty())
+  if (truth.empty() && input.loops.labels.empty())
     throw InputError(
         options.mission.front(), 0,
         "has no ground truth (a robot's groundtruth.tum, VERTEX lines of .pyfg, groundtruth of .jrl)");
@@ -132,7 +132,8 @@ Evaluation evaluate(const EvaluateOptions& options) {
   if (!odometry.empty()) {
     evaluation.dead_reckoning = evaluate_trajectories(odometry, truth, mission.dimension, association);
   }
-  count_pairs(evaluation, run, mission, places, {truth, mission.dimension, reach(mission, options.radius_m)});
+  count_pairs(evaluation, run, mission, places, {truth, mission.dimension, reach(mission, options.radius_m)},
+              input.loops);
   return evaluation;
 }
 

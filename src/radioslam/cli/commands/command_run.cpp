@@ -48,22 +48,24 @@ struct Agreement {
   ClosuresByKind closures;
 };
 
-Agreement evaluate(const RunResult& result, const Mission& mission, const Truth& truth) {
-  if (truth.empty()) return {};
-  return {evaluate_trajectories(team_estimate(result), truth, result.dimension),
-          judge_closures(result, mission, truth)};
+Agreement evaluate(const RunResult& result, const MissionInput& given) {
+  if (given.truth.empty()) return {};
+  return {evaluate_trajectories(team_estimate(result), given.truth, result.dimension),
+          judge_closures(result, given.mission, given.truth, given.loops)};
 }
 
-RunDocuments documents_of(const RunOutput& run, const Truth& truth, const Agreement& agreement) {
+/// `given`: the input without its recordings and its graph.
+RunDocuments documents_of(const RunOutput& run, const MissionInput& given, const Agreement& agreement) {
   RunDocuments documents;
   if (agreement.metrics) {
     documents.metrics = metrics_json(*agreement.metrics);
     documents.metrics["closures"] = closures_by_kind_json(agreement.closures);
   }
-  documents.graph_g2o =
-      std::visit([](const auto& graph) { return format_g2o(with_default_ids(graph)); }, run.graph);
-  documents.report_html =
-      render_report(run.result, truth.empty() ? nullptr : &truth, agreement.metrics, agreement.closures);
+  documents.graph_g2o = std::visit(
+      [&](const auto& graph) { return format_g2o(with_ids(graph, given.pose_ids, given.point_ids)); },
+      run.graph);
+  documents.report_html = render_report(run.result, given.truth.empty() ? nullptr : &given.truth,
+                                        agreement.metrics, agreement.closures);
   return documents;
 }
 
@@ -89,6 +91,17 @@ void print_run(const RunResult& result, const std::optional<TeamMetrics>& metric
   std::cout << '\n';
 }
 
+/// What of an input its run is evaluated and written by. Takes the truth from it: no estimator sees it.
+MissionInput for_evaluation(MissionInput& input) {
+  MissionInput given;
+  given.mission = without_recordings(input.mission);
+  given.truth = std::exchange(input.truth, {});
+  given.loops = std::exchange(input.loops, {});
+  given.pose_ids = std::move(input.pose_ids);
+  given.point_ids = std::move(input.point_ids);
+  return given;
+}
+
 RunOutput estimate(MissionInput input, const RunParams& params, bool no_prune) {
   ProgressLine line;
   RunOptions options;
@@ -104,17 +117,16 @@ void run_mission(const RunArguments& options) {
   refuse_replacing_inputs(options.output, options.mission);
   OutputFolder output(options.output, kRunFolder);
   MissionInput input = read_input(options.mission, options.starts);
-  const Truth truth = std::move(input.truth);
   const bool is_checked = !options.unchecked && std::holds_alternative<std::monostate>(input.graph);
   const auto warnings = is_checked ? warnings_about(input.mission, options.mission.front()) : input.notes;
-  const Mission links = without_recordings(input.mission);
+  const MissionInput given = for_evaluation(input);
   RunOutput run = estimate(std::move(input), params, options.no_prune);
   auto& notes = run.result.notes;
   notes.insert(notes.begin(), warnings.begin(), warnings.end());
-  const Agreement agreement = evaluate(run.result, links, truth);
+  const Agreement agreement = evaluate(run.result, given);
   if (agreement.metrics)
     for (auto& note : mirror_notes(agreement.metrics->mirror_images)) notes.push_back(std::move(note));
-  const RunDocuments documents = documents_of(run, truth, agreement);
+  const RunDocuments documents = documents_of(run, given, agreement);
   write_run(output.path(), run.result, documents);
   output.commit();
   if (options.json) {

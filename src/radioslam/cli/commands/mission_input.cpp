@@ -1,9 +1,14 @@
 #include "radioslam/cli/commands/mission_input.hpp"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <utility>
 
 #include "radioslam/base/input_error.hpp"
+#include "radioslam/geometry/linear_algebra.hpp"
+#include "radioslam/graph/pose_chart.hpp"
+#include "radioslam/io/graph/information.hpp"
 #include "radioslam/io/mission/mission_folder.hpp"
 
 namespace radioslam::cli {
@@ -20,6 +25,48 @@ Trajectory<SE3> trajectory(const TeamGraph<Pose>& team, const std::string& robot
         rows.push_back({segment.stamps[k], as_se3(*pose, 0)});
   }
   return Trajectory<SE3>(std::move(rows));
+}
+
+/// Covariance of a relative pose's error at the right, with the axes of space. Directions without information
+/// have a very large variance.
+template <class Pose>
+SE3::Jacobian covariance_of(const RelativePoseFactor<Pose>& factor, PoseChart chart) {
+  using Matrix = typename Pose::Jacobian;
+  const Matrix information = normal_matrix(chart_derivative(chart, Pose()), factor.information);
+  const Matrix covariance = inverse(nearest_information<Pose::kDof>(information));
+  if constexpr (Pose::kDim == 3) {
+    return covariance;
+  } else {
+    SE3::Jacobian in_space = SE3::Jacobian::Zero();
+    const std::array<int, 3> places{0, 1, 5};  // x, y, yaw
+    in_space(places, places) = covariance;
+    return in_space;
+  }
+}
+
+/// The relative poses that are not odometry, which come after it.
+template <class Pose>
+FileLoops loops_of(const TeamGraphFile<Pose>& file, const Mission& mission) {
+  std::vector<std::pair<RobotIndex, Stamp>> keyframes;
+  std::size_t first_loop = 0;
+  for (const TrajectorySegment& segment : file.team.segments) {
+    const auto robot = std::find_if(mission.robots.begin(), mission.robots.end(),
+                                    [&](const Robot& r) { return r.id == segment.robot; });
+    for (const Stamp stamp : segment.stamps)
+      keyframes.emplace_back(static_cast<std::size_t>(robot - mission.robots.begin()), stamp);
+    first_loop += segment.pose_count - 1;
+  }
+  const PoseGraph<Pose>& graph = file.team.graph;
+  FileLoops loops;
+  for (std::size_t f = first_loop; f < graph.relative_poses.size(); ++f) {
+    const RelativePoseFactor<Pose>& factor = graph.relative_poses[f];
+    const auto [robot_i, stamp_i] = keyframes[factor.i.index()];
+    const auto [robot_j, stamp_j] = keyframes[factor.j.index()];
+    loops.loops.push_back(
+        {robot_i, robot_j, stamp_i, stamp_j, as_se3(factor.T_i_j, 0), covariance_of(factor, graph.chart)});
+    if (!file.labels.empty()) loops.labels.push_back(file.labels[f]);
+  }
+  return loops;
 }
 
 template <class Pose>
@@ -50,6 +97,9 @@ MissionInput from_graph(TeamGraphFile<Pose> file, const std::vector<std::string>
     const auto true_pose = [&](std::size_t pose) { return file.true_poses[pose]; };
     if (!file.true_poses.empty()) truth.poses = trajectory(file.team, segment.robot, true_pose);
   }
+  input.loops = loops_of(file, input.mission);
+  input.pose_ids = std::move(file.pose_ids);
+  input.point_ids = std::move(file.point_ids);
   input.notes = std::move(file.notes);
   input.graph = std::move(file.team);
   return input;

@@ -2,11 +2,13 @@
 // .jrl, optionally .zst), a folder of g2o files, or several of these.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "radioslam/eval/measurement_truth.hpp"
 #include "radioslam/graph/team_graph.hpp"
 #include "radioslam/io/graph/team_graph_file.hpp"
 #include "radioslam/mission/mission.hpp"
@@ -18,7 +20,9 @@ namespace radioslam::cli {
 struct MissionInput {
   Mission mission;  ///< for a graph: its robots with dead reckoning, in the order of their poses
   Truth truth;      ///< for a graph: the ground truth of its file, if it has one
-  std::vector<std::string> notes;  ///< on what of a graph's file was left out
+  FileLoops loops;  ///< of a graph, for evaluation
+  std::vector<std::uint64_t> pose_ids, point_ids;  ///< of a graph, as in TeamGraphFile
+  std::vector<std::string> notes;                  ///< on what of a graph's file was left out
   std::variant<std::monostate, TeamGraph<SE2>, TeamGraph<SE3>> graph;
 };
 

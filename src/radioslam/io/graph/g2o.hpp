@@ -65,6 +65,12 @@ AnyG2oGraph read_g2o(const Text& text, RepairInformation repair = RepairInformat
 template <class Pose>
 G2oGraph<Pose> with_default_ids(PoseGraph<Pose> graph);
 
+/// Assigns these ids; where there is not one per pose, those of with_default_ids, and where there is not one
+/// per point, numbers above all ids of poses.
+template <class Pose>
+G2oGraph<Pose> with_ids(PoseGraph<Pose> graph, const std::vector<std::uint64_t>& pose_ids,
+                        const std::vector<std::uint64_t>& point_ids);
+
 /// The text of a graph. Information matrices are multiplied by their factor's weight and converted to g2o's
 /// chart; drifts are applied to their measurements. Elements that the format does not support (losses,
 /// bearings, positions, drift priors) are counted in a comment at the end.

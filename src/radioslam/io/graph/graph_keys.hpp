@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "radioslam/io/graph/team_assembly.hpp"
@@ -22,6 +23,12 @@ inline std::string robot_of_key(std::uint64_t key) {
 
 inline PoseIndex place_of_key(std::uint64_t key) {
   return {robot_of_key(key), key & kKeyPlaceMask, std::nullopt};
+}
+
+/// The key of a robot with one letter; nothing for other names, and places beyond a key's bits.
+inline std::optional<std::uint64_t> key_of(const PoseIndex& place) {
+  if (place.robot.size() != 1 || place.place > kKeyPlaceMask) return std::nullopt;
+  return (std::uint64_t{static_cast<unsigned char>(place.robot.front())} << kKeyRobotShift) | place.place;
 }
 
 }  // namespace radioslam

@@ -9,6 +9,7 @@
 #include "radioslam/io/graph/jrl_object.hpp"
 #include "radioslam/io/graph/team_assembly.hpp"
 #include "radioslam/io/run/run_folder.hpp"
+#include "radioslam/io/text/zstd_text.hpp"
 
 namespace radioslam {
 namespace {
@@ -195,6 +196,10 @@ int dimension_of(const Text& text, const JrlObject& file) {
 }
 
 }  // namespace
+
+bool is_jrl_file(const std::filesystem::path& path) {
+  return (has_zstd_extension(path) ? path.stem() : path).extension() == ".jrl";
+}
 
 AnyTeamGraphFile read_jrl(const Text& text, StatedStarts starts) {
   const Json json = read_json(text);

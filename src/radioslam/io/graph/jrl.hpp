@@ -18,10 +18,15 @@
 // that are not positive definite, edges from a pose to itself, and labels of measurements that do not exist.
 #pragma once
 
+#include <filesystem>
+
 #include "radioslam/io/graph/team_graph_file.hpp"
 #include "radioslam/io/text/text.hpp"
 
 namespace radioslam {
+
+/// Whether the path ends in .jrl, and perhaps .zst after it.
+bool is_jrl_file(const std::filesystem::path& path);
 
 /// Parses a graph; linear in the text, except for sorting the poses.
 AnyTeamGraphFile read_jrl(const Text& text, StatedStarts starts = StatedStarts::kIgnored);

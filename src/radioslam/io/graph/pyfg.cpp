@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "radioslam/io/graph/field_matrices.hpp"
+#include "radioslam/io/graph/graph_keys.hpp"
 #include "radioslam/io/graph/information.hpp"
 #include "radioslam/io/graph/pyfg_tags.hpp"
 #include "radioslam/io/graph/pyfg_vertices.hpp"
@@ -131,7 +132,9 @@ TeamGraphFile<Pose> read_pyfg_graph(const Text& text, StatedStarts starts) {
   for (const std::size_t k : assembled.file_index) {
     out.pose_names.push_back(std::move(vertices.pose_names[k]));
     out.true_poses.push_back(vertices.true_poses[k]);
+    if (const auto key = key_of(vertices.places[k])) out.pose_ids.push_back(*key);
   }
+  if (out.pose_ids.size() != out.pose_names.size()) out.pose_ids.clear();
   return out;
 }
 

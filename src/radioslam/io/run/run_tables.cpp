@@ -14,13 +14,14 @@
 namespace radioslam {
 namespace {
 
-constexpr std::array<std::pair<ClosureKind, std::string_view>, 6> kKinds = {
+constexpr std::array<std::pair<ClosureKind, std::string_view>, 7> kKinds = {
     {{ClosureKind::kRange, "range"},
      {ClosureKind::kAoa, "aoa"},
      {ClosureKind::kFingerprint, "fingerprint"},
      {ClosureKind::kSequence, "sequence"},
      {ClosureKind::kLidar, "lidar"},
-     {ClosureKind::kMatch, "match"}}};
+     {ClosureKind::kMatch, "match"},
+     {ClosureKind::kFile, "file"}}};
 constexpr std::array<std::pair<ClosureStatus, std::string_view>, 2> kStatuses = {
     {{ClosureStatus::kAccepted, "accepted"}, {ClosureStatus::kRejected, "rejected"}}};
 constexpr std::array<std::pair<AccessPointStatus, std::string_view>, 3> kAccessPointStatus = {
