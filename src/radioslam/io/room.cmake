@@ -11,6 +11,7 @@ radioslam_room(io
     csi/intel5300_write.cpp
     csi/nexmon_csi.cpp
     csi/nexmon_record.cpp
+    datasets/dpgo.cpp
     datasets/indoor_location.cpp
     datasets/wifi_rtt.cpp
     datasets/wifine.cpp
