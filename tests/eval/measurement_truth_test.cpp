@@ -25,32 +25,79 @@ class MeasurementTruth : public testing::Test {
   }
   ClosuresByKind judge(const std::vector<MeasuredAoaResult>& measured = {}) const {
     const std::vector<Stamp> stamps{Stamp{}, Stamp::from_seconds(60)};
-    return judge_closures(closures, {stamps, stamps}, mission, truth, measured);
+    return judge_closures(closures, {stamps, stamps}, mission, truth, measured, file);
   }
 
   const RobotIndex a{0}, b{1};
+  const SE3::Jacobian small = isotropic_covariance(0.1, 0.01);
   const SE2 T_a_b{{3, 4}, 1.5707963};
   const Stamp at = Stamp::from_seconds(1);
   Mission mission;
   Truth truth;
+  FileLoops file;
   std::vector<ClosureResult> closures;
 };
 
 TEST_F(MeasurementTruth, AMatchIsTrueByItsRelativePoseNotByItsPlaces) {
-  mission.matches.push_back({a, b, at, at, lift(T_a_b * SE2({0.4, 0}, 0)), 0.1, 0.01});
-  mission.matches.push_back({a, b, at, at, lift(T_a_b * SE2({5, 0}, 0)), 0.1, 0.01});    // an alias
-  mission.matches.push_back({a, b, at, at, lift(T_a_b * SE2({0, 0}, 0.2)), 0.1, 0.01});  // 11 degrees
+  mission.matches.push_back({a, b, at, at, lift(T_a_b * SE2({0.4, 0}, 0)), small});
+  mission.matches.push_back({a, b, at, at, lift(T_a_b * SE2({5, 0}, 0)), small});    // an alias
+  mission.matches.push_back({a, b, at, at, lift(T_a_b * SE2({0, 0}, 0.2)), small});  // 11 degrees
   for (int k = 0; k < 3; ++k) add(ClosureKind::kMatch, ClosureStatus::kAccepted);
   EXPECT_EQ(judge().at(ClosureKind::kMatch).accepted, 3U);
   EXPECT_EQ(judge().at(ClosureKind::kMatch).true_accepted, 1U);
 }
 
+/// 0.7 m off is within 3 sigma + 0.5 m along the loose axis only, 0.2 rad about it is not affected.
+TEST_F(MeasurementTruth, AMatchMayErrAlongItsLooseAxis) {
+  SE3::Jacobian loose = isotropic_covariance(0.01, 0.01);
+  loose(0, 0) = 0.1 * 0.1;
+  mission.matches.push_back({a, b, at, at, lift(T_a_b * SE2({0.7, 0}, 0)), loose});
+  mission.matches.push_back({a, b, at, at, lift(T_a_b * SE2({0, 0.7}, 0)), loose});
+  mission.matches.push_back({a, b, at, at, lift(T_a_b * SE2({0.7, 0}, 0.2)), loose});
+  for (int k = 0; k < 3; ++k) add(ClosureKind::kMatch, ClosureStatus::kAccepted);
+  EXPECT_EQ(judge().at(ClosureKind::kMatch).true_accepted, 1U);
+}
+
 TEST_F(MeasurementTruth, LabelsTakePrecedence) {
-  mission.matches.push_back({a, b, at, at, lift(T_a_b), 0.1, 0.01});
+  mission.matches.push_back({a, b, at, at, lift(T_a_b), small});
   truth.true_matches = {false};
   add(ClosureKind::kMatch, ClosureStatus::kRejected);
   EXPECT_EQ(judge().at(ClosureKind::kMatch).rejected, 1U);
   EXPECT_EQ(judge().at(ClosureKind::kMatch).true_rejected, 0U);
+}
+
+/// The k-th closure of a pair is the k-th loop of the pair, whatever comes between.
+TEST_F(MeasurementTruth, LoopsOfAFileAreJudgedInItsOrder) {
+  const Stamp start{};
+  const auto add_loop = [&](double off_m) {
+    file.loops.push_back({a, b, start, start, lift(T_a_b * SE2({off_m, 0}, 0)), small});
+  };
+  add_loop(0.6);
+  file.loops.push_back({b, a, start, start, lift(T_a_b.inverse()), small});
+  add_loop(9);
+  add_loop(0.1);
+  add(ClosureKind::kFile, ClosureStatus::kAccepted);
+  closures.push_back({b, start, a, start, ClosureKind::kFile, ClosureStatus::kRejected, 0, ""});
+  add(ClosureKind::kFile, ClosureStatus::kRejected);
+  add(ClosureKind::kFile, ClosureStatus::kAccepted);
+  const JudgedClosures counts = judge().at(ClosureKind::kFile);
+  EXPECT_EQ(counts.accepted, 2U);
+  EXPECT_EQ(counts.true_accepted, 2U);
+  EXPECT_EQ(counts.rejected, 2U);
+  EXPECT_EQ(counts.true_rejected, 1U);
+  EXPECT_NEAR(counts.worst_accepted_m.value(), 0.6, 1e-9);
+  EXPECT_NEAR(counts.worst_accepted_rad.value(), 0, 1e-6);
+}
+
+TEST_F(MeasurementTruth, LabelsOfAFileCountWithoutTruth) {
+  truth.robots[1].poses = {};
+  file.loops = {{a, b, Stamp{}, Stamp{}, SE3(), small}, {a, b, Stamp{}, Stamp{}, SE3(), small}};
+  for (int k = 0; k < 2; ++k) add(ClosureKind::kFile, ClosureStatus::kAccepted);
+  EXPECT_TRUE(judge().empty());
+  file.labels = {true, false};
+  EXPECT_EQ(judge().at(ClosureKind::kFile).accepted, 2U);
+  EXPECT_EQ(judge().at(ClosureKind::kFile).true_accepted, 1U);
+  EXPECT_FALSE(judge().at(ClosureKind::kFile).worst_accepted_m);
 }
 
 TEST_F(MeasurementTruth, RangesAreComparedWithTheTrueAntennas) {

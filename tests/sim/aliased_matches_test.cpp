@@ -49,8 +49,7 @@ TEST(AliasedMatches, TrueOnesAreTheRelativePosesOfNearbyPoses) {
           pose_at(places, m.robot_i, m.stamp_i).inverse() * pose_at(places, m.robot_j, m.stamp_j);
       EXPECT_LT(T_i_j.translation().norm(), kWithin_m);
       const SE3::Tangent error = (T_i_j.inverse() * m.T_i_j).log();
-      squares += error.head<3>().squaredNorm() / (m.sigma_t_m * m.sigma_t_m) +
-                 error.tail<3>().squaredNorm() / (m.sigma_r_rad * m.sigma_r_rad);
+      squares += error.cwiseAbs2().cwiseQuotient(m.covariance.diagonal()).sum();
     }
     const double dof = dimension == 2 ? 3 : 6;
     EXPECT_NEAR(squares / 400, dof, 4 * std::sqrt(2 * dof / 400));

@@ -74,6 +74,7 @@ constexpr std::array kParameterSets = std::to_array<ParameterSet>({
     {"import kitti", nullptr, {}, kNoneOfImport},
     {"import rosbag", nullptr, {}, kNoneOfImport},
     {"import wifine", nullptr, {}, kNoneOfImport},
+    {"import dpgo", nullptr, {}, kNoneOfImport},
     {"import", defaults_of<DeadReckoningParams>, "import indoor-location"},
     {"reproduce wi-closure-kitti", wi_closure_defaults, "simulate kitti"},
     {"reproduce robustness-map", robustness_defaults, "simulate city"},

@@ -26,6 +26,18 @@ struct LabelledAngle {
   std::optional<int> direct_path;
 };
 
+/// Standard deviation along the direction of an error.
+double sigma_along(const Eigen::Vector3d& error, const Eigen::Matrix3d& covariance) {
+  const Eigen::Vector3d direction = error.stableNormalized();
+  return std::sqrt(direction.dot(covariance * direction));
+}
+
+/// A relative pose against the truth. Nothing where neither label nor truth is known.
+struct JudgedPose {
+  std::optional<bool> is_true;
+  std::optional<double> error_m, error_rad;
+};
+
 RobotIndex robot_of(const Mission& mission, const std::string& id) {
   for (std::size_t r = 0; r < mission.robots.size(); ++r)
     if (mission.robots[r].id == id) return RobotIndex(r);
@@ -59,18 +71,25 @@ class MeasurementJudge {
  public:
   MeasurementJudge(const Mission& mission, const Truth& truth) : mission_(mission), truth_(truth) {}
 
-  /// Whether the measurement is true; nothing where the truth does not cover it.
-  std::optional<bool> match(std::size_t k) const {
-    if (k < truth_.true_matches.size() && truth_.true_matches[k]) return truth_.true_matches[k];
-    const PoseMatch& measured = mission_.matches[k];
+  JudgedPose relative_pose(const PoseMatch& measured, std::optional<bool> label) const {
     const auto i = pose(measured.robot_i, measured.stamp_i), j = pose(measured.robot_j, measured.stamp_j);
-    if (!i || !j) return std::nullopt;
+    if (!i || !j) return {label, std::nullopt, std::nullopt};
     SE3 error = measured.T_i_j.inverse() * i->inverse() * *j;
     if (mission_.dimension == 2) error = lift(flatten(error));
-    return error.translation().norm() <= kSigmas * measured.sigma_t_m + kSlack_m &&
-           so3_log(error.rotation()).norm() <= kSigmas * measured.sigma_r_rad + kSlack_rad;
+    const Eigen::Vector3d shift_m = error.translation(), turn_rad = so3_log(error.rotation());
+    const double sigma_m = sigma_along(shift_m, measured.covariance.topLeftCorner<3, 3>()),
+                 sigma_rad = sigma_along(turn_rad, measured.covariance.bottomRightCorner<3, 3>());
+    const bool agrees =
+        shift_m.norm() <= kSigmas * sigma_m + kSlack_m && turn_rad.norm() <= kSigmas * sigma_rad + kSlack_rad;
+    return {label.value_or(agrees), shift_m.norm(), turn_rad.norm()};
   }
 
+  JudgedPose match(std::size_t k) const {
+    return relative_pose(mission_.matches[k],
+                         k < truth_.true_matches.size() ? truth_.true_matches[k] : std::nullopt);
+  }
+
+  /// Whether the measurement is true; nothing where the truth does not cover it.
   std::optional<bool> range(std::size_t k) const {
     const RangeMeasurement& measured = mission_.ranges[k];
     auto i = position_m(measured.i, measured.stamp), j = position_m(measured.j, measured.stamp);
@@ -172,13 +191,20 @@ void count(JudgedClosures& counts, ClosureStatus status, AngleTruth angle) {
   counts.none_direct += angle == AngleTruth::kNoneDirect ? 1U : 0U;
 }
 
-MeasurementsByKeyframes matches_by_keyframes(const Mission& mission,
+void count(JudgedClosures& counts, ClosureStatus status, const JudgedPose& judged) {
+  count(counts, status, *judged.is_true);
+  if (!judged.error_m || status != ClosureStatus::kAccepted) return;
+  counts.worst_accepted_m = std::max(counts.worst_accepted_m.value_or(0), *judged.error_m);
+  counts.worst_accepted_rad = std::max(counts.worst_accepted_rad.value_or(0), *judged.error_rad);
+}
+
+MeasurementsByKeyframes matches_by_keyframes(const std::vector<PoseMatch>& matches,
                                              const std::vector<std::vector<Stamp>>& keyframes) {
   const auto ends = [&](std::size_t k) {
-    const PoseMatch& m = mission.matches[k];
+    const PoseMatch& m = matches[k];
     return Ends{m.robot_i, m.stamp_i, m.robot_j, m.stamp_j};
   };
-  return {mission.matches.size(), ends, keyframes};
+  return {matches.size(), ends, keyframes};
 }
 
 MeasurementsByKeyframes ranges_by_keyframes(const Mission& mission,
@@ -203,18 +229,27 @@ MeasurementsByKeyframes angles_by_keyframes(const std::vector<LabelledAngle>& an
 
 ClosuresByKind judge_closures(const std::vector<ClosureResult>& closures,
                               const std::vector<std::vector<Stamp>>& keyframes, const Mission& mission,
-                              const Truth& truth, const std::vector<MeasuredAoaResult>& measured_aoa) {
+                              const Truth& truth, const std::vector<MeasuredAoaResult>& measured_aoa,
+                              const FileLoops& file) {
   const MeasurementJudge judge(mission, truth);
   const std::vector<LabelledAngle> angles = angles_of_run(mission, truth, measured_aoa);
-  auto matches = matches_by_keyframes(mission, keyframes), ranges = ranges_by_keyframes(mission, keyframes),
+  auto matches = matches_by_keyframes(mission.matches, keyframes),
+       loops = matches_by_keyframes(file.loops, keyframes), ranges = ranges_by_keyframes(mission, keyframes),
        arrivals = angles_by_keyframes(angles, keyframes);
   ClosuresByKind counts;
   const auto count_if_covered = [&](const ClosureResult& closure, const auto& is_true) {
     if (is_true) count(counts[closure.kind], closure.status, *is_true);
   };
+  const auto count_pose = [&](const ClosureResult& closure, const JudgedPose& judged) {
+    if (judged.is_true) count(counts[closure.kind], closure.status, judged);
+  };
   for (const ClosureResult& closure : closures) {
     if (closure.kind == ClosureKind::kMatch) {
-      if (const auto k = matches.take(closure)) count_if_covered(closure, judge.match(*k));
+      if (const auto k = matches.take(closure)) count_pose(closure, judge.match(*k));
+    } else if (closure.kind == ClosureKind::kFile) {
+      if (const auto k = loops.take(closure))
+        count_pose(closure, judge.relative_pose(file.loops[*k],
+                                                *k < file.labels.size() ? file.labels[*k] : std::nullopt));
     } else if (closure.kind == ClosureKind::kRange) {
       if (const auto k = ranges.take(closure)) count_if_covered(closure, judge.range(*k));
     } else if (closure.kind == ClosureKind::kAoa) {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 
 #include "radioslam/geometry/se2.hpp"
 
@@ -63,6 +64,17 @@ inline SE2 pose_as<SE2>(const SE3& pose) {
 template <>
 inline SE3 pose_as<SE3>(const SE3& pose) {
   return pose;
+}
+
+/// Covariance of a pose's error, of its x, y and yaw where the estimate's dimension sees it from above.
+template <class Pose>
+typename Pose::Jacobian covariance_as(const SE3::Jacobian& covariance) {
+  if constexpr (Pose::kDim == 3) {
+    return covariance;
+  } else {
+    const std::array<int, 3> kept{0, 1, 5};  // x, y, yaw
+    return covariance(kept, kept);
+  }
 }
 
 /// And back: a pose of the plane keeps `z_m`.

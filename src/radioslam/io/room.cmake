@@ -11,6 +11,7 @@ radioslam_room(io
     csi/intel5300_write.cpp
     csi/nexmon_csi.cpp
     csi/nexmon_record.cpp
+    datasets/dpgo.cpp
     datasets/indoor_location.cpp
     datasets/wifi_rtt.cpp
     datasets/wifine.cpp
@@ -23,6 +24,8 @@ radioslam_room(io
     graph/g2o_vertices.cpp
     graph/g2o_write.cpp
     graph/information.cpp
+    graph/jrl.cpp
+    graph/jrl_object.cpp
     graph/pyfg.cpp
     graph/pyfg_vertices.cpp
     graph/team_assembly.cpp

@@ -66,6 +66,15 @@ SE3::Jacobian in_space(const typename Pose::Jacobian& information) {
   }
 }
 
+/// Robots all of whose pieces have a known start: their odometry is in the common frame already.
+template <class Pose>
+void mark_known_starts(JointGraph<Pose>& joint) {
+  for (std::size_t r = 0; r < joint.robots.size(); ++r) joint.robots[r].T_common_start = SE3();
+  for (std::size_t p = 0; p < joint.team.segments.size(); ++p)
+    if (!joint.team.segments[p].in_common_frame)
+      joint.robots[joint.robot_of_segment[p]].T_common_start.reset();
+}
+
 }  // namespace
 
 template <class Pose>
@@ -87,6 +96,7 @@ JointGraph<Pose> joint_graph_of(const TeamGraph<Pose>& team, const Mission& miss
       robot.odometry.push_back(as_se3(team.graph.poses[segment.first_pose + k], 0));
     }
   }
+  mark_known_starts(joint);
   const auto of_pose = robots_and_stamps(joint);
   const auto origin = [&](FactorSource source, std::size_t measurement, PoseId i, PoseId j) {
     FactorOrigin result;

@@ -1,7 +1,6 @@
 #include "radioslam/mission/odometry_edge.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "radioslam/geometry/linear_algebra.hpp"
@@ -26,17 +25,6 @@ typename Pose::Tangent increment_variance(double distance_m, double turn_rad, co
     typename Pose::Tangent variance;
     variance << xy, xy, square(noise.sigma_z_per_sqrt_m) * distance_m, yaw, yaw, yaw;
     return variance;
-  }
-}
-
-/// Covariance of a spatial motion, projected to the estimate's dimension.
-template <class Pose>
-typename Pose::Jacobian seen_from_above(const SE3::Jacobian& covariance) {
-  if constexpr (Pose::kDim == 3) {
-    return covariance;
-  } else {
-    const std::array<int, 3> kept{0, 1, 5};  // x, y, yaw
-    return covariance(kept, kept);
   }
 }
 
@@ -65,7 +53,7 @@ void append_sample(OdometryEdge<Pose>& edge, const StampedPose<SE3>& from, const
   if (noise.steps.empty())
     edge.covariance.diagonal() += increment_variance<Pose>(distance, turn, noise);
   else
-    edge.covariance += seen_from_above<Pose>(measured_covariance(noise.steps, from.stamp, to.stamp));
+    edge.covariance += covariance_as<Pose>(measured_covariance(noise.steps, from.stamp, to.stamp));
   edge.drift_jacobian = (carry * edge.drift_jacobian).eval();
   edge.drift_jacobian(Pose::kDof - 1, 0) += distance;
   edge.drift_jacobian.template topRightCorner<Pose::kDim, 1>() += xi.template head<Pose::kDim>();

@@ -60,9 +60,15 @@ struct PoseMatch {
   RobotIndex robot_i, robot_j;
   Stamp stamp_i, stamp_j;
   SE3 T_i_j;
-  double sigma_t_m = 1;
-  double sigma_r_rad = 1;
+  SE3::Jacobian covariance = SE3::Jacobian::Identity();  ///< of xi in T_i_j Exp(xi); m^2, rad^2
 };
+
+/// Covariance with the same standard deviation along every axis, and about every axis.
+inline SE3::Jacobian isotropic_covariance(double sigma_t_m, double sigma_r_rad) {
+  SE3::Tangent variance = SE3::Tangent::Constant(sigma_t_m * sigma_t_m);
+  variance.tail<3>().setConstant(sigma_r_rad * sigma_r_rad);
+  return variance.asDiagonal();
+}
 
 /// Position of a robot, or of its receiver's antenna, in the common frame.
 struct PositionFix {

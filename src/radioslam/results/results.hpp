@@ -59,7 +59,7 @@ struct RobotResult {
   std::optional<OccupancyImageResult> picture = {};     ///< absent if it has no scans
 };
 
-/// Origin of a closure.
+/// Origin of a closure; kFile: a relative pose of a factor graph that is not odometry.
 enum class ClosureKind { kRange, kAoa, kFingerprint, kSequence, kLidar, kMatch, kFile };
 enum class ClosureStatus { kAccepted, kRejected };
 

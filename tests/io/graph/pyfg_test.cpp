@@ -13,8 +13,8 @@ const std::string kCovariance = " 0.04 0 0 0.04 0 0.01\n";
 const std::string kOdometry = "EDGE_SE2 1.5 A0 A1 1 0 0.5" + kCovariance + "EDGE_SE2 2.5 A1 A2 2 0 0" +
                               kCovariance + "EDGE_SE2 9 B7 B8 3 0 0" + kCovariance;
 
-TeamGraphFile<SE2> read_pyfg(const std::string& content) {
-  return std::get<TeamGraphFile<SE2>>(read_pyfg(make_text("t.pyfg", content)));
+TeamGraphFile<SE2> read_pyfg(const std::string& content, StatedStarts starts = StatedStarts::kIgnored) {
+  return std::get<TeamGraphFile<SE2>>(read_pyfg(make_text("t.pyfg", content), starts));
 }
 
 TEST(Pyfg, EachRobotIsAPieceReckonedFromTheIdentity) {
@@ -37,7 +37,7 @@ TEST(Pyfg, EachRobotIsAPieceReckonedFromTheIdentity) {
 
 TEST(Pyfg, VertexLinesAreTheTruthAndTheStamps) {
   const auto file = read_pyfg(kTwoRobots + kOdometry);
-  EXPECT_EQ(file.true_poses[1].translation(), Eigen::Vector2d(2, 2));
+  EXPECT_EQ(file.true_poses[1]->translation(), Eigen::Vector2d(2, 2));
   EXPECT_EQ(file.true_points[1], Eigen::Vector2d(4, 4));
   EXPECT_EQ(file.team.graph.points[1], Eigen::Vector2d::Zero());
   EXPECT_EQ(file.team.segments[0].stamps[1], Stamp::from_seconds(1.5));
@@ -123,6 +123,22 @@ TEST(Pyfg, APriorPutsAPieceIntoTheCommonFrame) {
   EXPECT_LT((poses[0].inverse() * poses[1] * SE2({1, 0}, 0.5).inverse()).log().norm(), 1e-12);
   EXPECT_EQ(file.team.graph.pose_priors[0].i, PoseId(1));
   EXPECT_EQ(file.team.graph.points[1], Eigen::Vector2d(4, 5));
+}
+
+TEST(Pyfg, PriorsOnSeveralRobotsPlaceThemOnRequestOnly) {
+  const std::string content = kTwoRobots + kOdometry + "VERTEX_SE2:PRIOR 0 A1 10 20 1" + kCovariance +
+                              "VERTEX_SE2:PRIOR 0 B7 5 6 0" + kCovariance;
+  const auto unknown = read_pyfg(content);
+  for (const TrajectorySegment& segment : unknown.team.segments) EXPECT_FALSE(segment.in_common_frame);
+  EXPECT_TRUE(unknown.team.graph.pose_priors.empty());
+  EXPECT_LT(unknown.team.graph.poses[3].log().norm(), 1e-12);
+  ASSERT_EQ(unknown.notes.size(), 1u);
+  EXPECT_NE(unknown.notes[0].find("2 robots"), std::string::npos);
+  const auto known = read_pyfg(content, StatedStarts::kUsed);
+  for (const TrajectorySegment& segment : known.team.segments) EXPECT_TRUE(segment.in_common_frame);
+  EXPECT_EQ(known.team.graph.pose_priors.size(), 2u);
+  EXPECT_LT((known.team.graph.poses[3].inverse() * SE2({5, 6}, 0)).log().norm(), 1e-12);
+  EXPECT_TRUE(known.notes.empty());
 }
 
 TEST(Pyfg, ReadsSpace) {

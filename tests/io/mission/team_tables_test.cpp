@@ -1,6 +1,7 @@
 // The tables of a team: meaning of their rows, and reading back what was written.
 #include "radioslam/io/mission/team_tables.hpp"
 
+#include <cmath>
 #include <numbers>
 
 #include "io/example_mission.hpp"
@@ -103,9 +104,68 @@ TEST(Matches, AreRelativePoses) {
   EXPECT_EQ(read[0].stamp_j, Stamp::from_seconds(1));
   EXPECT_EQ(read[0].T_i_j.translation(), Eigen::Vector3d(1, 2, 3));
   EXPECT_NEAR(std::abs(read[0].T_i_j.yaw()), std::numbers::pi, 1e-12);
-  EXPECT_EQ(read[0].sigma_r_rad, 0.01);
+  EXPECT_EQ(read[0].covariance, isotropic_covariance(0.1, 0.01));
   expect_refusal([&] { read_matches(make_text("m", header + "b,2,a,1,1,2,3,0,0,0,0,0.1,0.01\n"), names()); },
                  2, "quaternion is zero");
+}
+
+std::string covariance_header() {
+  std::string header = "robot_i,t_i_s,robot_j,t_j_s,x,y,z,qx,qy,qz,qw";
+  for (const std::string row : {"tx", "ty", "tz", "rx", "ry", "rz"})
+    for (const std::string column : {"tx", "ty", "tz", "rx", "ry", "rz"})
+      if (header.find("cov_" + column + "_" + row) == std::string::npos)
+        header += ",cov_" + row + "_" + column;
+  return header + "\n";
+}
+
+std::vector<PoseMatch> with_covariance(const std::string& triangle) {
+  const std::string row = "a,1,b,2,1,2,3,0,0,0,1," + triangle + "\n";
+  return read_matches(make_text("matches.csv", covariance_header() + row), names());
+}
+
+TEST(Matches, MayHaveTheirWholeCovariance) {
+  const SE3::Jacobian covariance =
+      with_covariance("4,0.5,0,0,0,0.25,5,0,0,0,0,6,0,0,0,1,0,0,2,0,3").front().covariance;
+  EXPECT_EQ((SE3::Tangent() << 4, 5, 6, 1, 2, 3).finished(), covariance.diagonal());
+  EXPECT_EQ(covariance(0, 1), 0.5);
+  EXPECT_EQ(covariance(5, 0), 0.25);
+  EXPECT_EQ(covariance, covariance.transpose());
+}
+
+TEST(Matches, RefuseACovarianceThatIsNotPositiveDefinite) {
+  expect_refusal([] { with_covariance("1,0,0,0,0,2,1,0,0,0,0,1,0,0,0,1,0,0,1,0,1"); }, 2,
+                 "not positive definite");
+  expect_refusal([] { with_covariance("1,0,0,0,0,0,1,0,0,0,0,0,0,0,0,1,0,0,1,0,1"); }, 2,
+                 "not positive definite");
+  expect_refusal(
+      [] { read_matches(make_text("m", "robot_i,t_i_s,robot_j,t_j_s,x,y,z,qx,qy,qz,qw\n"), names()); }, 1,
+      "'sigma_t_m' is missing");
+  expect_refusal(
+      [] {
+        read_matches(make_text("m", "robot_i,t_i_s,robot_j,t_j_s,x,y,z,qx,qy,qz,qw,cov_tx_tx\n"), names());
+      },
+      1, "'cov_tx_ty' is missing");
+}
+
+/// With sigmas that square and root do not restore, or with correlations, 21 columns are written.
+TEST(Matches, ReadBackBitForBit) {
+  Mission mission;
+  mission.robots.resize(2);
+  mission.robots[0].id = "a";
+  mission.robots[1].id = "b";
+  PoseMatch match{kA, kB, Stamp{1}, Stamp{2}, SE3(), isotropic_covariance(0.1, 0.3)};
+  const auto read_back = [&] { return read_matches(make_text("m", format_matches(mission)), names()); };
+  mission.matches = {match};
+  EXPECT_NE(format_matches(mission).find("sigma_t_m,sigma_r_rad\n"), std::string::npos);
+  EXPECT_EQ(read_back().front().covariance, match.covariance);
+  match.covariance(0, 5) = match.covariance(5, 0) = 0.01 / 3;
+  mission.matches.push_back(match);
+  EXPECT_NE(format_matches(mission).find("cov_tx_tx,cov_tx_ty"), std::string::npos);
+  for (std::size_t k = 0; k < 2; ++k) EXPECT_EQ(read_back()[k].covariance, mission.matches[k].covariance);
+  mission.matches = {match};
+  mission.matches[0].covariance = 0.7 * SE3::Jacobian::Identity();
+  mission.matches[0].covariance(0, 0) = std::nextafter(0.7, 1);
+  EXPECT_EQ(read_back().front().covariance, mission.matches[0].covariance);
 }
 
 TEST(Fixes, AreSortedByTime) {

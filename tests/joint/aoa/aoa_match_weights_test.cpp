@@ -43,8 +43,7 @@ PoseMatch match(double t_i_s, double t_j_s, const Eigen::Vector2d& position) {
   result.stamp_i = Stamp{static_cast<std::int64_t>(t_i_s * kSecond)};
   result.stamp_j = Stamp{static_cast<std::int64_t>(t_j_s * kSecond)};
   result.T_i_j = lift(SE2(position, 0));
-  result.sigma_t_m = 0.1;
-  result.sigma_r_rad = 0.01;
+  result.covariance = isotropic_covariance(0.1, 0.01);
   return result;
 }
 

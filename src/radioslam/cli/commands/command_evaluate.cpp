@@ -26,7 +26,7 @@ constexpr double kMaxRadius_m = 1e6;
 
 struct EvaluateOptions {
   std::string run;
-  std::string mission;
+  std::vector<std::string> mission;  ///< one path, or several graphs
   std::optional<double> radius_m;
   bool evo = false;
   bool json = false;
@@ -53,7 +53,7 @@ std::vector<RobotIndex> places_in_mission(const RunFolder& run, const Mission& m
     const auto same = [&](const Robot& candidate) { return candidate.id == robot.id; };
     const auto found = std::find_if(mission.robots.begin(), mission.robots.end(), same);
     if (found == mission.robots.end()) {
-      throw InputError(options.run, 0, "robot '" + robot.id + "' is not in " + options.mission);
+      throw InputError(options.run, 0, "robot '" + robot.id + "' is not in " + options.mission.front());
     }
     places.emplace_back(static_cast<std::size_t>(found - mission.robots.begin()));
   }
@@ -86,7 +86,7 @@ std::vector<double> reach(const Mission& mission, std::optional<double> radius_m
 }
 
 void count_pairs(Evaluation& evaluation, const RunFolder& run, const Mission& mission,
-                 const std::vector<RobotIndex>& places, const PairTruth& truth) {
+                 const std::vector<RobotIndex>& places, const PairTruth& truth, const FileLoops& file) {
   const auto closures = with_places(run.closures, places);
   CandidateList candidates = run.candidates.value_or(CandidateList());
   candidates.renumber_robots(places);
@@ -99,7 +99,7 @@ void count_pairs(Evaluation& evaluation, const RunFolder& run, const Mission& mi
   });
   evaluation.rejected = static_cast<long>(closures.size()) - evaluation.accepted;
   evaluation.by_kind = judge_closures(closures, keyframe_stamps(run, places, truth.reach_m.size()), mission,
-                                      truth.truth, run.aoa_measurements);
+                                      truth.truth, run.aoa_measurements, file);
 }
 
 std::vector<std::string> notes_on(const RunFolder& run, const EvaluateOptions& options) {
@@ -114,9 +114,10 @@ Evaluation evaluate(const EvaluateOptions& options) {
   const MissionInput input = read_input(options.mission);
   const Mission& mission = input.mission;
   const Truth& truth = input.truth;
-  if (truth.empty())
-    throw InputError(options.mission, 0,
-                     "has no ground truth (a robot's groundtruth.tum, or a graph's VERTEX lines)");
+  if (truth.empty() && input.loops.labels.empty())
+    throw InputError(
+        options.mission.front(), 0,
+        "has no ground truth (a robot's groundtruth.tum, VERTEX lines of .pyfg, groundtruth of .jrl)");
   const RunFolder run = read_run(options.run);
   const auto places = places_in_mission(run, mission, options);
   const auto association = options.evo ? Association::kNearest : Association::kInterpolate;
@@ -131,7 +132,8 @@ Evaluation evaluate(const EvaluateOptions& options) {
   if (!odometry.empty()) {
     evaluation.dead_reckoning = evaluate_trajectories(odometry, truth, mission.dimension, association);
   }
-  count_pairs(evaluation, run, mission, places, {truth, mission.dimension, reach(mission, options.radius_m)});
+  count_pairs(evaluation, run, mission, places, {truth, mission.dimension, reach(mission, options.radius_m)},
+              input.loops);
   return evaluation;
 }
 
@@ -179,7 +181,7 @@ void add_evaluate(CLI::App& program) {
   command->add_option("OUT", options->run, "Output folder of `radioslam run`")->required();
   command
       ->add_option("MISSION", options->mission,
-                   "Mission folder with robots/<id>/groundtruth.tum, or a factor graph")
+                   "Mission folder with robots/<id>/groundtruth.tum, or a factor graph (as for `run`)")
       ->required();
   command
       ->add_option("--radius", options->radius_m,

@@ -1,4 +1,4 @@
-// radioslam optimize: optimises a pose graph in g2o format.
+// radioslam optimize: optimises a pose graph in g2o or JRL format.
 #include <algorithm>
 #include <chrono>
 #include <iostream>
@@ -17,7 +17,9 @@
 #include "radioslam/graph/initial_values.hpp"
 #include "radioslam/graph/optimizer.hpp"
 #include "radioslam/io/graph/g2o.hpp"
+#include "radioslam/io/graph/jrl.hpp"
 #include "radioslam/io/text/atomic_output.hpp"
+#include "radioslam/io/text/zstd_text.hpp"
 
 namespace radioslam::cli {
 namespace {
@@ -135,6 +137,23 @@ void print_optimum(const Report& report, const std::string& output) {
   }
 }
 
+/// A JRL has no initial values that are read: they are computed.
+AnyG2oGraph without_values(const AnyTeamGraphFile& any) {
+  return std::visit(
+      [](const auto& file) -> AnyG2oGraph {
+        auto graph = with_ids(file.team.graph, file.pose_ids, file.point_ids);
+        graph.pose_has_value.assign(graph.pose_ids.size(), false);
+        return graph;
+      },
+      any);
+}
+
+AnyG2oGraph read_graph(const OptimizeOptions& options) {
+  const Text text = read_zstd_text(options.input);
+  if (is_jrl_file(options.input)) return without_values(read_jrl(text, StatedStarts::kUsed));
+  return read_g2o(text, options.repair_information ? RepairInformation::kYes : RepairInformation::kNo);
+}
+
 void optimize_file(const OptimizeOptions& options) {
   if (options.certify)
     throw InputError("--certify", 0, "certifying global optimality is not implemented yet");
@@ -143,8 +162,7 @@ void optimize_file(const OptimizeOptions& options) {
   Stopwatch stopwatch;
   refuse_replacing_inputs(options.output, {options.input});
   OutputFile output(options.output);
-  auto graph = read_g2o(read_text(options.input),
-                        options.repair_information ? RepairInformation::kYes : RepairInformation::kNo);
+  auto graph = read_graph(options);
   const double read_s = stopwatch.lap();
   Report report = std::visit([&](auto& file) { return optimize_graph(file, params); }, graph);
   report.seconds.read = read_s;
@@ -160,9 +178,9 @@ void optimize_file(const OptimizeOptions& options) {
 
 void add_optimize(CLI::App& program) {
   const auto options = std::make_shared<OptimizeOptions>();
-  auto* command = program.add_subcommand("optimize", "Optimise a pose graph in g2o format");
-  command->add_option("GRAPH", options->input, "Pose graph in g2o format, 2D or 3D")->required();
-  add_output_option(*command, options->output, "Optimised graph to write");
+  auto* command = program.add_subcommand("optimize", "Optimise a pose graph in g2o or JRL format");
+  command->add_option("GRAPH", options->input, "Pose graph, 2D or 3D: .g2o or .jrl, also .zst")->required();
+  add_output_option(*command, options->output, "Optimised graph to write, in g2o format");
   command->add_flag("--repair-information", options->repair_information,
                     "Replace indefinite information matrices by the nearest valid ones and accept zero ones");
   command->add_flag("--certify", options->certify, "Certify global optimality (not implemented yet)");

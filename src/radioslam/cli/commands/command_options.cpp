@@ -67,6 +67,12 @@ CLI::Validator seed_number() {
   return CLI::Validator(check, "");
 }
 
+void add_known_starts_option(CLI::App& command, StatedStarts& starts) {
+  command.add_flag_callback(
+      "--known-starts", [&starts] { starts = StatedStarts::kUsed; },
+      "Take the starts that a factor graph states (priors, or the VERTEX lines of a g2o file) as known");
+}
+
 void add_threads_option(CLI::App& command) {
   command
       .add_option_function<int>(

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "radioslam/io/graph/team_graph_file.hpp"
+
 namespace radioslam::cli {
 
 /// The options that set a command's parameters.
@@ -31,6 +33,9 @@ CLI::Validator number_from(double minimum, double maximum);
 
 /// Accepts whole numbers from 0 to 2^64 - 1 (without it, a negative number would wrap around).
 CLI::Validator seed_number();
+
+/// `--known-starts`; sets `starts` when the command line is parsed.
+void add_known_starts_option(CLI::App& command, StatedStarts& starts);
 
 /// `--threads N`; takes effect when the command line is parsed.
 void add_threads_option(CLI::App& command);

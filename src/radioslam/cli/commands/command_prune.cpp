@@ -19,21 +19,24 @@ namespace radioslam::cli {
 namespace {
 
 struct PruneOptions {
-  std::string mission;
+  std::vector<std::string> mission;  ///< one path, or several graphs
   std::string output;
   std::string mode;
   ParameterOptions parameters;
+  StatedStarts starts = StatedStarts::kIgnored;
   bool exhaustive = false;
   bool json = false;
 };
 
 RunOutput search(const PruneOptions& options, const RunParams& params) {
-  MissionInput input = read_input(options.mission);
+  MissionInput input = read_input(options.mission, options.starts);
   ProgressLine line;
   RunOptions how;
   how.overlap_only = true;
   how.search = options.exhaustive ? SearchMethod::kExhaustive : SearchMethod::kTree;
+  const std::vector<std::string> notes = input.notes;
   auto run = run_input(std::move(input), params, how, line.progress());
+  run.result.notes.insert(run.result.notes.begin(), notes.begin(), notes.end());
   run.result.parameters = effective_parameters(params);
   return run;
 }
@@ -52,7 +55,7 @@ void prune(const PruneOptions& options) {
   const auto settings = collect_settings(options.parameters.config_path, options.parameters.set);
   auto params = with_settings(RunParams{}, settings);
   if (!options.mode.empty()) params.overlap.mode = options.mode;
-  refuse_replacing_inputs(options.output, {options.mission});
+  refuse_replacing_inputs(options.output, options.mission);
   OutputFolder output(options.output, kRunFolder);
   const RunOutput run = search(options, params);
   write_run(output.path(), run.result, {});
@@ -75,7 +78,9 @@ void add_prune(CLI::App& program) {
       program.add_subcommand("prune", "Find the keyframe pairs of different robots whose views can overlap");
   command
       ->add_option("MISSION", options->mission,
-                   "Mission folder (with mission.yaml), or a factor graph (.g2o or .pyfg, optionally .zst)")
+                   "Mission folder (with mission.yaml), or a factor graph (.g2o, .pyfg or .jrl; also .zst): "
+                   "one file, or a "
+                   "folder or list of g2o files, one per robot")
       ->required();
   add_output_option(*command, options->output, "Folder to write; the folder of an earlier run is replaced");
   command
@@ -83,6 +88,7 @@ void add_prune(CLI::App& program) {
                    "joint: use covariances of the joint estimate (default); link: chain odometry through the "
                    "nearest radio link only")
       ->check(CLI::IsMember({"joint", "link"}));
+  add_known_starts_option(*command, options->starts);
   command->add_flag("--exhaustive", options->exhaustive,
                     "Test every pair instead of searching a tree; slower, with the same result");
   add_parameter_options(*command, options->parameters);

@@ -33,9 +33,10 @@ namespace radioslam::cli {
 namespace {
 
 struct RunArguments {
-  std::string mission;
+  std::vector<std::string> mission;  ///< one path, or several graphs
   std::string output;
   ParameterOptions parameters;
+  StatedStarts starts = StatedStarts::kIgnored;
   bool no_prune = false;
   bool unchecked = false;
   bool json = false;
@@ -47,22 +48,24 @@ struct Agreement {
   ClosuresByKind closures;
 };
 
-Agreement evaluate(const RunResult& result, const Mission& mission, const Truth& truth) {
-  if (truth.empty()) return {};
-  return {evaluate_trajectories(team_estimate(result), truth, result.dimension),
-          judge_closures(result, mission, truth)};
+Agreement evaluate(const RunResult& result, const MissionInput& given) {
+  if (given.truth.empty()) return {};
+  return {evaluate_trajectories(team_estimate(result), given.truth, result.dimension),
+          judge_closures(result, given.mission, given.truth, given.loops)};
 }
 
-RunDocuments documents_of(const RunOutput& run, const Truth& truth, const Agreement& agreement) {
+/// `given`: the input without its recordings and its graph.
+RunDocuments documents_of(const RunOutput& run, const MissionInput& given, const Agreement& agreement) {
   RunDocuments documents;
   if (agreement.metrics) {
     documents.metrics = metrics_json(*agreement.metrics);
     documents.metrics["closures"] = closures_by_kind_json(agreement.closures);
   }
-  documents.graph_g2o =
-      std::visit([](const auto& graph) { return format_g2o(with_default_ids(graph)); }, run.graph);
-  documents.report_html =
-      render_report(run.result, truth.empty() ? nullptr : &truth, agreement.metrics, agreement.closures);
+  documents.graph_g2o = std::visit(
+      [&](const auto& graph) { return format_g2o(with_ids(graph, given.pose_ids, given.point_ids)); },
+      run.graph);
+  documents.report_html = render_report(run.result, given.truth.empty() ? nullptr : &given.truth,
+                                        agreement.metrics, agreement.closures);
   return documents;
 }
 
@@ -88,6 +91,17 @@ void print_run(const RunResult& result, const std::optional<TeamMetrics>& metric
   std::cout << '\n';
 }
 
+/// What of an input its run is evaluated and written by. Takes the truth from it: no estimator sees it.
+MissionInput for_evaluation(MissionInput& input) {
+  MissionInput given;
+  given.mission = without_recordings(input.mission);
+  given.truth = std::exchange(input.truth, {});
+  given.loops = std::exchange(input.loops, {});
+  given.pose_ids = std::move(input.pose_ids);
+  given.point_ids = std::move(input.point_ids);
+  return given;
+}
+
 RunOutput estimate(MissionInput input, const RunParams& params, bool no_prune) {
   ProgressLine line;
   RunOptions options;
@@ -100,21 +114,19 @@ RunOutput estimate(MissionInput input, const RunParams& params, bool no_prune) {
 void run_mission(const RunArguments& options) {
   const auto settings = collect_settings(options.parameters.config_path, options.parameters.set);
   const auto params = with_settings(RunParams{}, settings);
-  refuse_replacing_inputs(options.output, {options.mission});
+  refuse_replacing_inputs(options.output, options.mission);
   OutputFolder output(options.output, kRunFolder);
-  MissionInput input = read_input(options.mission);
-  const Truth truth = std::move(input.truth);
+  MissionInput input = read_input(options.mission, options.starts);
   const bool is_checked = !options.unchecked && std::holds_alternative<std::monostate>(input.graph);
-  const auto warnings =
-      is_checked ? warnings_about(input.mission, options.mission) : std::vector<std::string>{};
-  const Mission links = without_recordings(input.mission);
+  const auto warnings = is_checked ? warnings_about(input.mission, options.mission.front()) : input.notes;
+  const MissionInput given = for_evaluation(input);
   RunOutput run = estimate(std::move(input), params, options.no_prune);
   auto& notes = run.result.notes;
   notes.insert(notes.begin(), warnings.begin(), warnings.end());
-  const Agreement agreement = evaluate(run.result, links, truth);
+  const Agreement agreement = evaluate(run.result, given);
   if (agreement.metrics)
     for (auto& note : mirror_notes(agreement.metrics->mirror_images)) notes.push_back(std::move(note));
-  const RunDocuments documents = documents_of(run, truth, agreement);
+  const RunDocuments documents = documents_of(run, given, agreement);
   write_run(output.path(), run.result, documents);
   output.commit();
   if (options.json) {
@@ -131,10 +143,13 @@ void add_run(CLI::App& program) {
   auto* command = program.add_subcommand("run", "Estimate the trajectories of all robots in one frame");
   command
       ->add_option("MISSION", options->mission,
-                   "Mission folder (with mission.yaml), or a factor graph (.g2o or .pyfg, optionally .zst)")
+                   "Mission folder (with mission.yaml), or a factor graph (.g2o, .pyfg or .jrl; also .zst): "
+                   "one file, or a "
+                   "folder or list of g2o files, one per robot")
       ->required();
   add_output_option(*command, options->output, "Folder to write; the folder of an earlier run is replaced");
   add_parameter_options(*command, options->parameters);
+  add_known_starts_option(*command, options->starts);
   command->add_flag("--no-prune", options->no_prune,
                     "Use all matches, including those between views that cannot overlap");
   command->add_flag(

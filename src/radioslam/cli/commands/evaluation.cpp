@@ -87,13 +87,14 @@ Mission without_recordings(const Mission& mission) {
   return reduced;
 }
 
-ClosuresByKind judge_closures(const RunResult& result, const Mission& mission, const Truth& truth) {
+ClosuresByKind judge_closures(const RunResult& result, const Mission& mission, const Truth& truth,
+                              const FileLoops& file) {
   std::vector<std::vector<Stamp>> keyframes;
   for (const RobotResult& robot : result.robots) {
     auto& stamps = keyframes.emplace_back();
     for (const auto& keyframe : robot.estimate) stamps.push_back(keyframe.stamp);
   }
-  return judge_closures(result.closures, keyframes, mission, truth, result.aoa_measurements);
+  return judge_closures(result.closures, keyframes, mission, truth, result.aoa_measurements, file);
 }
 
 std::string closures_by_kind_text(const ClosuresByKind& closures) {
@@ -102,6 +103,9 @@ std::string closures_by_kind_text(const ClosuresByKind& closures) {
     text += formatted("  %s: %zu accepted, %zu of them true; %zu rejected, %zu of them true\n",
                       std::string(closure_kind_name(kind)).c_str(), counts.accepted, counts.true_accepted,
                       counts.rejected, counts.true_rejected);
+    if (counts.worst_accepted_m)
+      text += formatted("       largest error of an accepted one: %.3f m, %.3f deg\n",
+                        *counts.worst_accepted_m, kDegreesPerRadian * counts.worst_accepted_rad.value_or(0));
     if (kind == ClosureKind::kAoa)
       text += formatted("       accepted path: direct %zu, wrong %zu; no path direct %zu\n",
                         counts.direct_found, counts.wrong_path, counts.none_direct);

@@ -28,7 +28,8 @@ std::string metrics_table(const TeamMetrics& metrics);
 Mission without_recordings(const Mission& mission);
 
 /// The run's closures judged by their measurements.
-ClosuresByKind judge_closures(const RunResult& result, const Mission& mission, const Truth& truth);
+ClosuresByKind judge_closures(const RunResult& result, const Mission& mission, const Truth& truth,
+                              const FileLoops& file);
 
 /// A line per kind of closure.
 std::string closures_by_kind_text(const ClosuresByKind& closures);

@@ -1,12 +1,16 @@
-// Input of run, prune and evaluate: a mission folder, or a team's factor graph (.g2o or .pyfg, optionally
-// .zst).
+// Input of run, prune and evaluate: a mission folder, or a team's factor graph: one file (.g2o, .pyfg or
+// .jrl, optionally .zst), a folder of g2o files, or several of these.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
+#include "radioslam/eval/measurement_truth.hpp"
 #include "radioslam/graph/team_graph.hpp"
+#include "radioslam/io/graph/team_graph_file.hpp"
 #include "radioslam/mission/mission.hpp"
 #include "radioslam/mission/truth.hpp"
 #include "radioslam/pipeline/pipeline.hpp"
@@ -15,11 +19,16 @@ namespace radioslam::cli {
 
 struct MissionInput {
   Mission mission;  ///< for a graph: its robots with dead reckoning, in the order of their poses
-  Truth truth;      ///< for a graph: its VERTEX lines, if these are the ground truth
+  Truth truth;      ///< for a graph: the ground truth of its file, if it has one
+  FileLoops loops;  ///< of a graph, for evaluation
+  std::vector<std::uint64_t> pose_ids, point_ids;  ///< of a graph, as in TeamGraphFile
+  std::vector<std::string> notes;                  ///< on what of a graph's file was left out
   std::variant<std::monostate, TeamGraph<SE2>, TeamGraph<SE3>> graph;
 };
 
-MissionInput read_input(const std::string& path);
+/// Reads one path, or several g2o files. Refuses stated starts to be used where the input states none, or is
+/// a mission folder, which always uses them.
+MissionInput read_input(const std::vector<std::string>& paths, StatedStarts starts = StatedStarts::kIgnored);
 
 /// Calls run_pipeline with the mission or with the graph.
 RunOutput run_input(MissionInput input, const RunParams& params, const RunOptions& options,

@@ -1,12 +1,16 @@
 #include "radioslam/cli/import/import_datasets.hpp"
 
+#include <filesystem>
 #include <iostream>
+#include <set>
 #include <string>
 
 #include "radioslam/cli/commands/output_path_check.hpp"
+#include "radioslam/io/datasets/dpgo.hpp"
 #include "radioslam/io/datasets/indoor_location.hpp"
 #include "radioslam/io/datasets/wifi_rtt.hpp"
 #include "radioslam/io/datasets/wifine.hpp"
+#include "radioslam/io/graph/g2o.hpp"
 #include "radioslam/io/mission/mission_folder.hpp"
 #include "radioslam/io/text/atomic_output.hpp"
 
@@ -24,6 +28,14 @@ void write_study(const ImportOptions& options, OutputFolder& output, const Impor
   std::cout << "note: the recording has no odometry: `radioslam run` needs an odometry.tum for each robot\n"
             << options.output << ": " << mission.robots.size() << " robots, " << scans << " scans, "
             << mission.access_points.size() << " access points, " << mission.ranges.size() << " ranges\n";
+}
+
+void print_team(const TeamGraphFile<SE3>& file, const std::string& output) {
+  std::set<std::string> robots;
+  for (const TrajectorySegment& segment : file.team.segments) robots.insert(segment.robot);
+  for (const auto& note : file.notes) std::cout << "note: " << note << '\n';
+  std::cout << output << ": " << robots.size() << " robots, " << file.pose_ids.size() << " poses, "
+            << file.team.graph.relative_poses.size() << " relative poses\n";
 }
 
 }  // namespace
@@ -51,6 +63,24 @@ void import_rtt_walk(const ImportOptions& options) {
   refuse_replacing_inputs(options.output, options.sources);
   OutputFolder output(options.output, kMissionFolder);
   write_study(options, output, import_wifi_rtt(only_source(options), params));
+}
+
+void import_dpgo_tables(const ImportOptions& options) {
+  refuse_replacing_inputs(options.output, options.sources);
+  const auto read = [&] { return import_dpgo({options.sources.begin(), options.sources.end()}); };
+  if (std::filesystem::path(options.output).extension() == ".g2o") {
+    OutputFile output(options.output);
+    const auto file = read();
+    output.commit(format_g2o(with_ids(file.team.graph, file.pose_ids, {})));
+    print_team(file, options.output);
+  } else {
+    OutputFolder output(options.output, kMissionFolder);
+    const auto file = read();
+    const ImportedMission imported = mission_of_team(file, options.sources.front());
+    write_mission(output.path(), imported.mission, imported.truth);
+    output.commit();
+    print_team(file, options.output);
+  }
 }
 
 }  // namespace radioslam::cli

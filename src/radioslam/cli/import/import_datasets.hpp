@@ -1,4 +1,4 @@
-// radioslam import indoor-location, wifine, wifi-rtt: converts public data sets to missions.
+// radioslam import indoor-location, wifine, wifi-rtt, dpgo: converts public data sets to missions.
 #pragma once
 
 #include "radioslam/cli/import/import_options.hpp"
@@ -10,5 +10,8 @@ void import_phone_logs(const ImportOptions& options);
 void import_wifine_trajectories(const ImportOptions& options);
 
 void import_rtt_walk(const ImportOptions& options);
+
+/// Writes a g2o file if the output ends in .g2o, else a mission.
+void import_dpgo_tables(const ImportOptions& options);
 
 }  // namespace radioslam::cli

@@ -100,6 +100,16 @@ constexpr const char* kWifiRttNotes =
     "M1 and M2, to six access points and to each other, with ground truth and the access points'\n"
     "positions. There is no odometry. Ranges are not corrected for the phones' bias.";
 
+constexpr const char* kDpgoNotes =
+    "Reads the measurement tables of dpgo (robot_src,pose_src,robot_dst,pose_dst,qx,...,tau): one or\n"
+    "several tables, or a folder with robotN/measurements.csv. Robot 0 becomes a, 1 becomes b, ... Rows\n"
+    "between robots stand in the tables of both and count once. `weight` and `is_known_inlier` are not\n"
+    "read.\n"
+    "\n"
+    "The output is NAME.g2o, a team's graph for `run`, or a mission: odometry with a pose per second, and\n"
+    "matches.csv for all other measurements. A mission takes roll and pitch from gravity, and its odometry\n"
+    "noise is a random walk; the g2o file has the measurements alone.";
+
 /// Notes on a tool that prints scan lists: what is particular to it, then what all of them have in common.
 std::string scan_list_notes(const std::string& particular, const std::string& command) {
   return particular + kLogBegins + command + kLogContinues + kWifiOutput;
@@ -195,6 +205,12 @@ std::vector<ImportKind> dataset_kinds() {
        {ImportOption::kParameters},
        kWifiRttNotes,
        {"radioslam import wifi-rtt corridor/ -o mission"}},
+      {"dpgo",
+       "measurement tables of dpgo, as a g2o file or a mission",
+       import_dpgo_tables,
+       {},
+       kDpgoNotes,
+       {"radioslam import dpgo tunnels/ -o tunnels.g2o"}},
   };
 }
 

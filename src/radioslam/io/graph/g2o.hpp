@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "radioslam/graph/pose_graph.hpp"
+#include "radioslam/io/text/skipped_records.hpp"
 #include "radioslam/io/text/text.hpp"
 
 namespace radioslam {
@@ -30,6 +31,13 @@ namespace radioslam {
 enum class RepairInformation {
   kNo,   ///< refuse the file, with the first such line and their number
   kYes,  ///< use the nearest positive definite matrix (zero stays zero) and count it
+};
+
+/// Treatment of lines that cannot be read.
+enum class BadLines {
+  kRefuse,  ///< refuse the file, with the first one
+  kSkip,    ///< leave them out and count them; refuse a file that mixes dimensions or has more bad lines than
+            ///< good
 };
 
 /// A file's graph. Poses are in the order of their VERTEX lines, followed by those without one, sorted by id.
@@ -44,16 +52,24 @@ struct G2oGraph {
   std::vector<std::size_t> relative_point_lines;
   std::vector<std::size_t> pose_prior_lines;
   std::size_t repaired_informations = 0;
+  SkippedRecords skipped_lines;
 };
 
 using AnyG2oGraph = std::variant<G2oGraph<SE2>, G2oGraph<SE3>>;
 
 /// Parses a graph in linear time. All errors are InputErrors with their line.
-AnyG2oGraph read_g2o(const Text& text, RepairInformation repair = RepairInformation::kNo);
+AnyG2oGraph read_g2o(const Text& text, RepairInformation repair = RepairInformation::kNo,
+                     BadLines bad_lines = BadLines::kRefuse);
 
 /// Assigns ids 0, 1, ... to the poses and then to the points.
 template <class Pose>
 G2oGraph<Pose> with_default_ids(PoseGraph<Pose> graph);
+
+/// Assigns these ids; where there is not one per pose, those of with_default_ids, and where there is not one
+/// per point, numbers above all ids of poses.
+template <class Pose>
+G2oGraph<Pose> with_ids(PoseGraph<Pose> graph, const std::vector<std::uint64_t>& pose_ids,
+                        const std::vector<std::uint64_t>& point_ids);
 
 /// The text of a graph. Information matrices are multiplied by their factor's weight and converted to g2o's
 /// chart; drifts are applied to their measurements. Elements that the format does not support (losses,

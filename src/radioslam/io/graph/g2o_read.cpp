@@ -15,17 +15,21 @@ namespace {
 template <class Pose>
 class G2oReader {
  public:
-  G2oReader(const Text& text, RepairInformation repair)
-      : text_(text), lines_(text), vertices_(read_g2o_vertices(text, out_)), informations_(repair) {}
+  G2oReader(const Text& text, RepairInformation repair, BadLines bad_lines)
+      : text_(text),
+        lines_(text),
+        bad_lines_(bad_lines),
+        pass_(read_g2o_vertices(text, bad_lines, out_)),
+        informations_(repair) {}
 
   G2oGraph<Pose> read() {
     out_.graph.chart = PoseChart::kG2o;
-    while (lines_.next_with_content()) {
-      LineFields fields(lines_);
-      read_entry(fields);
-    }
+    std::size_t lines = 0;
+    for (; lines_.next_with_content(); ++lines)
+      if (!pass_.bad_lines.contains(lines_.number())) read_or_skip_entry();
+    if (2 * out_.skipped_lines.count() > lines) out_.skipped_lines.throw_first();
     informations_.refuse_indefinite(text_);
-    vertices_.refuse_missing();
+    vertices().refuse_missing();
     if (out_.graph.poses.empty()) text_.fail(1, "the graph has no poses");
     out_.repaired_informations = informations_.repaired();
     return std::move(out_);
@@ -33,6 +37,18 @@ class G2oReader {
 
  private:
   using Tags = G2oTags<Pose>;
+
+  const G2oVertices& vertices() const { return pass_.vertices; }
+
+  void read_or_skip_entry() {
+    LineFields fields(lines_);
+    try {
+      read_entry(fields);
+    } catch (const InputError& error) {
+      if (bad_lines_ == BadLines::kRefuse) throw;
+      out_.skipped_lines.add(error);
+    }
+  }
 
   void read_entry(LineFields& fields) {
     const std::string_view tag = fields.next("a tag");
@@ -51,21 +67,23 @@ class G2oReader {
     if (tag == Tags::kOffset) read_offset(fields);
   }
 
-  PoseId pose_at(G2oVertices::Id id) const { return vertices_.pose_at(id, lines_.number()); }
+  PoseId pose_at(G2oVertices::Id id) const { return vertices().pose_at(id, lines_.number()); }
 
   void read_edge(LineFields& fields) {
     const G2oEdgeIds ids = read_g2o_edge_ids(fields);
-    RelativePoseFactor<Pose>& factor = out_.graph.relative_poses.emplace_back();
+    RelativePoseFactor<Pose> factor;
     factor.T_i_j = read_g2o_pose<Pose>(fields);
     factor.information = informations_.read<Pose::kDof>(lines_, fields);
     factor.i = pose_at(ids.i);
     factor.j = pose_at(ids.j);
+    fields.end();
+    out_.graph.relative_poses.push_back(factor);
     out_.relative_pose_lines.push_back(lines_.number());
   }
 
   void read_range(LineFields& fields) {
     const G2oEdgeIds ids = read_g2o_edge_ids(fields);
-    RangeFactor<Pose>& factor = out_.graph.ranges.emplace_back();
+    RangeFactor<Pose> factor;
     factor.range_m = fields.coordinate("range");
     const double information = fields.number("information");
     factor.sigma_m = 1 / std::sqrt(information);
@@ -76,11 +94,13 @@ class G2oReader {
     }
     set_end(factor.i, ids.i);
     set_end(factor.j, ids.j);
+    fields.end();
+    out_.graph.ranges.push_back(factor);
     out_.range_lines.push_back(lines_.number());
   }
 
   void set_end(RangeEnd<Pose>& end, G2oVertices::Id id) const {
-    const G2oVertex vertex = vertices_.at(id, lines_.number());
+    const G2oVertex vertex = vertices().at(id, lines_.number());
     if (vertex.is_point && !end.lever_arm.isZero(0)) lines_.fail("a point cannot have a lever arm");
     if (vertex.is_point) end.point = PointId(vertex.index);
     if (!vertex.is_point) end.pose = PoseId(vertex.index);
@@ -89,21 +109,25 @@ class G2oReader {
   void read_sighting(LineFields& fields) {
     const G2oEdgeIds ids = read_g2o_edge_ids(fields);
     if (Pose::kDim == 3) fields.id("offset parameter");
-    RelativePointFactor<Pose>& factor = out_.graph.relative_points.emplace_back();
+    RelativePointFactor<Pose> factor;
     factor.position = read_point_fields<Pose>(fields);
     factor.information = informations_.read<Pose::kDim>(lines_, fields);
     factor.i = pose_at(ids.i);
     set_end(factor.j, ids.j);
+    fields.end();
+    out_.graph.relative_points.push_back(factor);
     out_.relative_point_lines.push_back(lines_.number());
   }
 
   void read_prior(LineFields& fields) {
     const G2oVertices::Id id = fields.id("id");
     if (Pose::kDim == 3) fields.id("offset parameter");
-    PosePriorFactor<Pose>& factor = out_.graph.pose_priors.emplace_back();
+    PosePriorFactor<Pose> factor;
     factor.prior = read_g2o_pose<Pose>(fields);
     factor.information = informations_.read<Pose::kDof>(lines_, fields);
     factor.i = pose_at(id);
+    fields.end();
+    out_.graph.pose_priors.push_back(factor);
     out_.pose_prior_lines.push_back(lines_.number());
   }
 
@@ -123,30 +147,36 @@ class G2oReader {
   const Text& text_;
   TextLines lines_;
   G2oGraph<Pose> out_;
-  G2oVertices vertices_;
+  BadLines bad_lines_;
+  G2oVertexPass pass_;
   G2oInformationReader informations_;
 };
 
 enum class Dimension { kPlane, kSpace };
 
 /// Determines the dimension from the first tag that depends on it.
-Dimension dimension_of(const Text& text) {
+Dimension dimension_of(const Text& text, BadLines bad_lines) {
   TextLines lines(text);
+  SkippedRecords unknown;
   while (lines.next_with_content()) {
     const std::string_view tag = LineFields(lines).next("a tag");
     if (is_g2o_tag<SE2>(tag)) return Dimension::kPlane;
     if (is_g2o_tag<SE3>(tag)) return Dimension::kSpace;
-    if (tag != kG2oRange && tag != kG2oFix)
-      lines.fail("unknown tag '" + std::string(tag.substr(0, 40)) + "'");
+    if (tag == kG2oRange || tag == kG2oFix) continue;
+    unknown.add(
+        InputError(text.name, lines.number(), "unknown tag '" + std::string(tag.substr(0, 40)) + "'"));
+    if (bad_lines == BadLines::kRefuse) unknown.throw_first();
   }
+  unknown.throw_first();
   text.fail(1, "the graph has no poses");
 }
 
 }  // namespace
 
-AnyG2oGraph read_g2o(const Text& text, RepairInformation repair) {
-  if (dimension_of(text) == Dimension::kPlane) return G2oReader<SE2>(text, repair).read();
-  return G2oReader<SE3>(text, repair).read();
+AnyG2oGraph read_g2o(const Text& text, RepairInformation repair, BadLines bad_lines) {
+  if (dimension_of(text, bad_lines) == Dimension::kPlane)
+    return G2oReader<SE2>(text, repair, bad_lines).read();
+  return G2oReader<SE3>(text, repair, bad_lines).read();
 }
 
 }  // namespace radioslam

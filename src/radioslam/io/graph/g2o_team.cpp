@@ -1,40 +1,80 @@
 #include "radioslam/io/graph/g2o_team.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
+#include <optional>
+#include <set>
 #include <utility>
 
 #include "radioslam/io/graph/g2o.hpp"
+#include "radioslam/io/graph/graph_keys.hpp"
 #include "radioslam/io/graph/team_assembly.hpp"
+#include "radioslam/io/text/valid_id.hpp"
+#include "radioslam/io/text/zstd_text.hpp"
 
 namespace radioslam {
 namespace {
 
-constexpr int kRobotShift = 56;
 /// Bound on the difference of two copies of an edge, which are rounded to typically six digits and whose
 /// quaternions are normalised on reading.
 constexpr double kRounding = 2e-5;
-constexpr std::uint64_t kPlaceMask = (std::uint64_t{1} << kRobotShift) - 1;
+constexpr std::uint64_t kMaxLetter = 255;
+/// Standard deviations of a start that a VERTEX line states, as by default those of a mission's known starts.
+constexpr double kSigmaStart_m = 0.05, kSigmaStart_rad = 0.01;
 
-bool is_letter(std::uint64_t c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+/// A robot whose file has ids without letters: the name comes from the file, the letter is chosen.
+struct NamedRobot {
+  std::string name;
+  std::uint64_t letter = 0;
+};
 
-std::string robot_name(std::uint64_t id) {
-  const std::uint64_t robot = id >> kRobotShift;
-  if (robot == 0) return "a";
-  return is_letter(robot) ? std::string(1, static_cast<char>(robot)) : "robot" + std::to_string(robot);
+bool has_letters(const AnyG2oGraph& any) {
+  return std::visit(
+      [](const auto& file) {
+        const auto has_letter = [](std::uint64_t id) { return id >> kKeyRobotShift != 0; };
+        return std::any_of(file.pose_ids.begin(), file.pose_ids.end(), has_letter);
+      },
+      any);
+}
+
+/// Names of the robots by their files, or nothing where one file or letters make them robots.
+std::vector<std::optional<NamedRobot>> robots_of(const std::vector<AnyG2oGraph>& files,
+                                                 std::span<const Text> texts) {
+  std::vector<std::optional<NamedRobot>> robots(files.size());
+  if (files.size() == 1 || std::any_of(files.begin(), files.end(), has_letters)) return robots;
+  std::set<std::string> names;
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    std::filesystem::path path = texts[k].name;
+    if (has_zstd_extension(path)) path = path.stem();
+    robots[k] = NamedRobot{path.stem().string(), 'a' + k};
+    const std::string& name = robots[k]->name;
+    if (!is_valid_id(name)) texts[k].fail(0, "its name is not valid as that of a robot");
+    if (!names.insert(name).second)
+      texts[k].fail(0, "another file is named '" + name + "' too: each is a robot");
+    if (robots[k]->letter > kMaxLetter) texts[k].fail(0, "too many files whose ids have no letters");
+  }
+  return robots;
 }
 
 /// Merges the files' graphs into one, with one pose per id.
 template <class Pose>
 class TeamMerge {
  public:
-  void add(const G2oGraph<Pose>& file) {
+  /// `robot` names the file's only robot where ids have no letters.
+  void add(const G2oGraph<Pose>& file, const Text& text, const std::optional<NamedRobot>& robot) {
     const PoseGraph<Pose>& graph = file.graph;
+    robot_ = robot;
+    if (file.skipped_lines.count() > 0) notes_.push_back(file.skipped_lines.warning(text.name, "line"));
     graph_.chart = graph.chart;
     std::vector<PoseId> poses;
-    for (const std::uint64_t id : file.pose_ids) poses.push_back(pose(id));
+    for (std::size_t k = 0; k < file.pose_ids.size(); ++k) {
+      const std::uint64_t id = key_of(file.pose_ids[k]);
+      poses.push_back(pose(id));
+      if (file.pose_has_value[k]) stated_.try_emplace(id, graph.poses[k]);
+    }
     std::vector<PointId> points;
-    for (const std::uint64_t id : file.point_ids) points.push_back(point(id));
+    for (const std::uint64_t id : file.point_ids) points.push_back(point(key_of(id)));
     const auto renamed = [&](RangeEnd<Pose> end) {
       if (end.pose.valid())
         end.pose = poses[end.pose.index()];
@@ -64,21 +104,32 @@ class TeamMerge {
     }
   }
 
-  TeamGraphFile<Pose> assemble() {
+  TeamGraphFile<Pose> assemble(StatedStarts starts) {
     TeamGraphFile<Pose> out;
-    auto [team, file_index] = assemble_team(std::move(graph_), places_);
-    out.team = std::move(team);
-    for (const std::size_t k : file_index) out.pose_names.push_back(std::to_string(pose_ids_[k]));
+    if (starts == StatedStarts::kUsed) add_start_priors();
+    AssembledTeam<Pose> assembled = assemble_team(std::move(graph_), places_, starts);
+    out.team = std::move(assembled.team);
+    out.notes = std::move(notes_);
+    out.notes.insert(out.notes.end(), assembled.notes.begin(), assembled.notes.end());
+    for (const std::size_t k : assembled.file_index) out.pose_ids.push_back(pose_ids_[k]);
+    for (const std::uint64_t id : out.pose_ids) out.pose_names.push_back(std::to_string(id));
     for (const std::uint64_t id : point_ids_) out.point_names.push_back(std::to_string(id));
+    out.point_ids = point_ids_;
     return out;
   }
 
  private:
+  /// The key of a pose or point of the current file: with the robot's letter.
+  std::uint64_t key_of(std::uint64_t id) const {
+    return robot_ ? (robot_->letter << kKeyRobotShift) | id : id;
+  }
+
   PoseId pose(std::uint64_t id) {
     const auto [place, is_new_id] = poses_.try_emplace(id, PoseId(pose_ids_.size()));
     if (is_new_id) {
       pose_ids_.push_back(id);
-      places_.push_back({robot_name(id), id & kPlaceMask, std::nullopt});
+      places_.push_back(place_of_key(id));
+      if (robot_) places_.back().robot = robot_->name;
       graph_.poses.emplace_back();
     }
     return place->second;
@@ -91,6 +142,23 @@ class TeamMerge {
       graph_.points.emplace_back(Pose::Point::Zero());
     }
     return place->second;
+  }
+
+  /// A prior on the first pose of every robot without one, where it has a VERTEX line.
+  void add_start_priors() {
+    std::set<std::string> done;
+    for (const auto& prior : graph_.pose_priors) done.insert(places_[prior.i.index()].robot);
+    for (const auto& [id, pose] : poses_) {  // by id: of a robot, the first pose comes first
+      if (!done.insert(places_[pose.index()].robot).second) continue;
+      const auto stated = stated_.find(id);
+      if (stated == stated_.end()) continue;
+      PosePriorFactor<Pose>& prior = graph_.pose_priors.emplace_back();
+      prior.i = pose;
+      prior.prior = stated->second;
+      typename Pose::Tangent sigmas = Pose::Tangent::Constant(kSigmaStart_m);
+      sigmas.template tail<Pose::kDof - Pose::kDim>().setConstant(kSigmaStart_rad);
+      prior.information = sigmas.cwiseAbs2().cwiseInverse().asDiagonal();
+    }
   }
 
   using Ends = std::pair<PoseId, PoseId>;
@@ -116,32 +184,37 @@ class TeamMerge {
   }
 
   PoseGraph<Pose> graph_;
+  std::optional<NamedRobot> robot_;
+  std::vector<std::string> notes_;
   std::vector<PoseIndex> places_;
   std::vector<std::uint64_t> pose_ids_, point_ids_;
   std::map<std::uint64_t, PoseId> poses_;
+  std::map<std::uint64_t, Pose> stated_;  // VERTEX lines
   std::map<std::uint64_t, PointId> points_;
   std::multimap<Ends, std::size_t> earlier_;  // relative poses of the previous files, by their ends
   std::vector<std::pair<Ends, std::size_t>> of_this_file_;
 };
 
 template <class Pose>
-TeamGraphFile<Pose> merge(const std::vector<AnyG2oGraph>& files, std::span<const Text> texts) {
+TeamGraphFile<Pose> merge(const std::vector<AnyG2oGraph>& files, std::span<const Text> texts,
+                          StatedStarts starts) {
   TeamMerge<Pose> team;
+  const auto robots = robots_of(files, texts);
   for (std::size_t k = 0; k < files.size(); ++k) {
     const auto* file = std::get_if<G2oGraph<Pose>>(&files[k]);
     if (file == nullptr) texts[k].fail(1, "the team's files mix 2D and 3D");
-    team.add(*file);
+    team.add(*file, texts[k], robots[k]);
   }
-  return team.assemble();
+  return team.assemble(starts);
 }
 
 }  // namespace
 
-AnyTeamGraphFile read_g2o_team(std::span<const Text> texts) {
+AnyTeamGraphFile read_g2o_team(std::span<const Text> texts, StatedStarts starts) {
   std::vector<AnyG2oGraph> files;
-  for (const Text& text : texts) files.push_back(read_g2o(text));
-  if (std::holds_alternative<G2oGraph<SE2>>(files.front())) return merge<SE2>(files, texts);
-  return merge<SE3>(files, texts);
+  for (const Text& text : texts) files.push_back(read_g2o(text, RepairInformation::kNo, BadLines::kSkip));
+  if (std::holds_alternative<G2oGraph<SE2>>(files.front())) return merge<SE2>(files, texts, starts);
+  return merge<SE3>(files, texts, starts);
 }
 
 }  // namespace radioslam

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "radioslam/io/graph/graph_keys.hpp"
+
 namespace radioslam {
 namespace {
-
-constexpr int kKeyRobotShift = 56;
 
 G2oVertices::Id robot_of(G2oVertices::Id id) { return id >> kKeyRobotShift; }
 
@@ -18,11 +18,13 @@ void G2oVertices::declare(Id id, G2oVertex vertex, std::size_t line) {
   if (!vertex.is_point) robots_.insert(robot_of(id));
 }
 
-std::vector<G2oVertices::Id> G2oVertices::add_undeclared(std::size_t first_index) {
+std::vector<G2oVertices::Id> G2oVertices::add_undeclared(std::size_t first_index, BadLines bad_lines) {
   std::vector<Id> undeclared;
   for (const Mention& mention : mentions_) {
     if (vertices_.contains(mention.id)) continue;
-    if (!missing_ && robots_.contains(robot_of(mention.id))) missing_ = mention;
+    const bool is_missing = robots_.contains(robot_of(mention.id));
+    if (is_missing && bad_lines == BadLines::kSkip) continue;
+    if (is_missing && !missing_) missing_ = mention;
     undeclared.push_back(mention.id);
   }
   std::sort(undeclared.begin(), undeclared.end());

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "radioslam/graph/pose_graph.hpp"
+#include "radioslam/io/graph/g2o.hpp"
 #include "radioslam/io/text/text.hpp"
 
 namespace radioslam {
@@ -35,7 +36,8 @@ class G2oVertices {
   /// Records that an edge between poses names this id.
   void mention(Id id, std::size_t line) { mentions_.push_back({id, line}); }
   /// Adds the poses that appear in edges only, from `first_index` on; returns their ids, sorted and unique.
-  std::vector<Id> add_undeclared(std::size_t first_index);
+  /// Where bad lines are skipped, those of robots with VERTEX lines are not added: their edges are bad lines.
+  std::vector<Id> add_undeclared(std::size_t first_index, BadLines bad_lines);
   /// Refuses the first of them whose robot has VERTEX lines of other poses.
   void refuse_missing() const;
 

@@ -176,12 +176,28 @@ G2oGraph<Pose> with_default_ids(PoseGraph<Pose> graph) {
 }
 
 template <class Pose>
+G2oGraph<Pose> with_ids(PoseGraph<Pose> graph, const std::vector<std::uint64_t>& pose_ids,
+                        const std::vector<std::uint64_t>& point_ids) {
+  G2oGraph<Pose> file = with_default_ids(std::move(graph));
+  if (pose_ids.empty() || pose_ids.size() != file.pose_ids.size()) return file;
+  file.pose_ids = pose_ids;
+  std::iota(file.point_ids.begin(), file.point_ids.end(),
+            *std::max_element(pose_ids.begin(), pose_ids.end()) + 1);
+  if (point_ids.size() == file.point_ids.size()) file.point_ids = point_ids;
+  return file;
+}
+
+template <class Pose>
 std::string format_g2o(const G2oGraph<Pose>& graph) {
   return G2oWriter<Pose>(graph).write();
 }
 
 template G2oGraph<SE2> with_default_ids(PoseGraph2);
 template G2oGraph<SE3> with_default_ids(PoseGraph3);
+template G2oGraph<SE2> with_ids(PoseGraph2, const std::vector<std::uint64_t>&,
+                                const std::vector<std::uint64_t>&);
+template G2oGraph<SE3> with_ids(PoseGraph3, const std::vector<std::uint64_t>&,
+                                const std::vector<std::uint64_t>&);
 template std::string format_g2o(const G2oGraph<SE2>&);
 template std::string format_g2o(const G2oGraph<SE3>&);
 

@@ -39,6 +39,14 @@ Eigen::Matrix<double, N, N> nearest_information(const Eigen::Matrix<double, N, N
   return 0.5 * (nearest + nearest.transpose());
 }
 
+template <int N>
+std::optional<Eigen::Matrix<double, N, N>> information_of(const Eigen::Matrix<double, N, N>& covariance) {
+  const Cholesky<Eigen::Matrix<double, N, N>> cholesky(covariance);
+  const Eigen::Matrix<double, N, N> information = cholesky.inverse();
+  if (!cholesky.succeeded() || !information.allFinite()) return std::nullopt;
+  return (information + information.transpose()) / 2;
+}
+
 template double relative_smallest_eigenvalue(const Eigen::Matrix2d&);
 template double relative_smallest_eigenvalue(const Eigen::Matrix3d&);
 template double relative_smallest_eigenvalue(const Eigen::Matrix<double, 6, 6>&);
@@ -48,5 +56,8 @@ template bool is_information(const Eigen::Matrix<double, 6, 6>&);
 template Eigen::Matrix2d nearest_information(const Eigen::Matrix2d&);
 template Eigen::Matrix3d nearest_information(const Eigen::Matrix3d&);
 template Eigen::Matrix<double, 6, 6> nearest_information(const Eigen::Matrix<double, 6, 6>&);
+template std::optional<Eigen::Matrix2d> information_of(const Eigen::Matrix2d&);
+template std::optional<Eigen::Matrix3d> information_of(const Eigen::Matrix3d&);
+template std::optional<Eigen::Matrix<double, 6, 6>> information_of(const Eigen::Matrix<double, 6, 6>&);
 
 }  // namespace radioslam

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 namespace radioslam {
 
@@ -23,5 +24,9 @@ bool is_information(const Eigen::Matrix<double, N, N>& symmetric);
 /// The nearest positive definite matrix.
 template <int N>
 Eigen::Matrix<double, N, N> nearest_information(const Eigen::Matrix<double, N, N>& symmetric);
+
+/// Inverse of a covariance; nothing if it is not positive definite.
+template <int N>
+std::optional<Eigen::Matrix<double, N, N>> information_of(const Eigen::Matrix<double, N, N>& covariance);
 
 }  // namespace radioslam

@@ -3,8 +3,9 @@
 #include <cmath>
 #include <utility>
 
-#include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/io/graph/field_matrices.hpp"
+#include "radioslam/io/graph/graph_keys.hpp"
+#include "radioslam/io/graph/information.hpp"
 #include "radioslam/io/graph/pyfg_tags.hpp"
 #include "radioslam/io/graph/pyfg_vertices.hpp"
 #include "radioslam/io/graph/team_assembly.hpp"
@@ -103,12 +104,9 @@ class PyfgFactorReader {
   /// Inverts the covariance.
   template <int N>
   Eigen::Matrix<double, N, N> read_information(LineFields& fields) const {
-    const Eigen::Matrix<double, N, N> covariance = read_upper_triangle<N>(fields, "covariance");
-    const Cholesky<Eigen::Matrix<double, N, N>> cholesky(covariance);
-    const Eigen::Matrix<double, N, N> information = cholesky.inverse();
-    if (!cholesky.succeeded() || !information.allFinite())
-      lines_.fail("the covariance is not positive definite");
-    return (information + information.transpose()) / 2;
+    const auto information = information_of<N>(read_upper_triangle<N>(fields, "covariance"));
+    if (!information) lines_.fail("the covariance is not positive definite");
+    return *information;
   }
 
   TextLines lines_;
@@ -118,33 +116,36 @@ class PyfgFactorReader {
 
 /// The file's graph, with the poses of each robot in the order of their indices.
 template <class Pose>
-TeamGraphFile<Pose> read_pyfg_graph(const Text& text) {
+TeamGraphFile<Pose> read_pyfg_graph(const Text& text, StatedStarts starts) {
   PyfgVertices<Pose> vertices = read_pyfg_vertices<Pose>(text);
   if (vertices.true_poses.empty()) text.fail(1, "the graph has no poses");
   PoseGraph<Pose> graph = PyfgFactorReader<Pose>(text, vertices).read();
   if (const auto pose = first_backward_stamp(vertices.places))
     text.fail(vertices.pose_lines[*pose],
               "time runs backwards along robot " + quoted_pyfg_word(vertices.places[*pose].robot));
-  auto [team, file_index] = assemble_team(std::move(graph), vertices.places);
+  AssembledTeam<Pose> assembled = assemble_team(std::move(graph), vertices.places, starts);
   TeamGraphFile<Pose> out;
-  out.team = std::move(team);
+  out.team = std::move(assembled.team);
+  out.notes = std::move(assembled.notes);
   out.point_names = std::move(vertices.point_names);
   out.true_points = std::move(vertices.true_points);
-  for (const std::size_t k : file_index) {
+  for (const std::size_t k : assembled.file_index) {
     out.pose_names.push_back(std::move(vertices.pose_names[k]));
     out.true_poses.push_back(vertices.true_poses[k]);
+    if (const auto key = key_of(vertices.places[k])) out.pose_ids.push_back(*key);
   }
+  if (out.pose_ids.size() != out.pose_names.size()) out.pose_ids.clear();
   return out;
 }
 
 }  // namespace
 
-AnyTeamGraphFile read_pyfg(const Text& text) {
+AnyTeamGraphFile read_pyfg(const Text& text, StatedStarts starts) {
   TextLines lines(text);
   while (lines.next_with_content()) {
     const std::string_view tag = LineFields(lines).next("a tag");
-    if (is_pyfg_tag<SE2>(tag)) return read_pyfg_graph<SE2>(text);
-    if (is_pyfg_tag<SE3>(tag)) return read_pyfg_graph<SE3>(text);
+    if (is_pyfg_tag<SE2>(tag)) return read_pyfg_graph<SE2>(text, starts);
+    if (is_pyfg_tag<SE3>(tag)) return read_pyfg_graph<SE3>(text, starts);
     if (tag != kPyfgRange) lines.fail("unknown tag " + quoted_pyfg_word(tag));
   }
   text.fail(1, "the graph has no poses");

@@ -22,6 +22,6 @@
 namespace radioslam {
 
 /// Parses a graph; linear in the text, except for sorting the poses.
-AnyTeamGraphFile read_pyfg(const Text& text);
+AnyTeamGraphFile read_pyfg(const Text& text, StatedStarts starts = StatedStarts::kIgnored);
 
 }  // namespace radioslam

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -52,8 +53,10 @@ RelativePoseFactor<Pose> reversed(const RelativePoseFactor<Pose>& factor) {
 template <class Pose>
 class Assembly {
  public:
-  Assembly(PoseGraph<Pose> graph, const std::vector<PoseIndex>& places)
-      : graph_(std::move(graph)), places_(places), order_(order_of(places)) {}
+  Assembly(PoseGraph<Pose> graph, const std::vector<PoseIndex>& places, StatedStarts starts)
+      : graph_(std::move(graph)), places_(places), order_(order_of(places)) {
+    if (starts == StatedStarts::kIgnored) drop_priors_on_several_robots();
+  }
 
   AssembledTeam<Pose> run() {
     rename_poses();
@@ -63,11 +66,20 @@ class Assembly {
     for (TrajectorySegment& segment : team_.segments) reckon(segment);
     place_points();
     team_.graph = std::move(graph_);
-    return {std::move(team_), std::move(order_)};
+    return {std::move(team_), std::move(order_), std::move(relative_pose_index_), std::move(notes_)};
   }
 
  private:
   const PoseIndex& place(std::size_t pose) const { return places_[order_[pose]]; }
+
+  void drop_priors_on_several_robots() {
+    std::set<std::string> robots;
+    for (const auto& prior : graph_.pose_priors) robots.insert(places_[prior.i.index()].robot);
+    if (robots.size() < 2) return;
+    notes_.push_back("the priors on poses of " + std::to_string(robots.size()) +
+                     " robots are not used: starts count as unknown without --known-starts");
+    graph_.pose_priors.clear();
+  }
 
   void rename_poses() {
     std::vector<std::size_t> renamed(order_.size());
@@ -126,11 +138,12 @@ class Assembly {
     for (std::size_t& factor : odometry_) {
       if (factor == kNone) continue;
       taken[factor] = true;
-      sorted.push_back(graph_.relative_poses[factor]);
-      factor = sorted.size() - 1;
+      relative_pose_index_.push_back(factor);
+      factor = relative_pose_index_.size() - 1;
     }
     for (std::size_t f = 0; f < taken.size(); ++f)
-      if (!taken[f]) sorted.push_back(graph_.relative_poses[f]);
+      if (!taken[f]) relative_pose_index_.push_back(f);
+    for (const std::size_t f : relative_pose_index_) sorted.push_back(graph_.relative_poses[f]);
     graph_.relative_poses = std::move(sorted);
   }
 
@@ -155,6 +168,8 @@ class Assembly {
   const std::vector<PoseIndex>& places_;
   std::vector<std::size_t> order_;
   std::vector<std::size_t> odometry_;  // per pose: the factor to the next pose, or kNone
+  std::vector<std::size_t> relative_pose_index_;
+  std::vector<std::string> notes_;
   Stamp last_stamp_;
   TeamGraph<Pose> team_;
 };
@@ -162,10 +177,11 @@ class Assembly {
 }  // namespace
 
 template <class Pose>
-AssembledTeam<Pose> assemble_team(PoseGraph<Pose> graph, const std::vector<PoseIndex>& places) {
+AssembledTeam<Pose> assemble_team(PoseGraph<Pose> graph, const std::vector<PoseIndex>& places,
+                                  StatedStarts starts) {
   RADIOSLAM_CHECK(places.size() == graph.poses.size() && !first_backward_stamp(places),
                   "one place per pose, in the order of time");
-  return Assembly<Pose>(std::move(graph), places).run();
+  return Assembly<Pose>(std::move(graph), places, starts).run();
 }
 
 std::optional<std::size_t> first_backward_stamp(const std::vector<PoseIndex>& places) {
@@ -178,7 +194,7 @@ std::optional<std::size_t> first_backward_stamp(const std::vector<PoseIndex>& pl
   return std::nullopt;
 }
 
-template AssembledTeam<SE2> assemble_team(PoseGraph<SE2>, const std::vector<PoseIndex>&);
-template AssembledTeam<SE3> assemble_team(PoseGraph<SE3>, const std::vector<PoseIndex>&);
+template AssembledTeam<SE2> assemble_team(PoseGraph<SE2>, const std::vector<PoseIndex>&, StatedStarts);
+template AssembledTeam<SE3> assemble_team(PoseGraph<SE3>, const std::vector<PoseIndex>&, StatedStarts);
 
 }  // namespace radioslam

@@ -12,6 +12,7 @@
 
 #include "radioslam/base/stamp.hpp"
 #include "radioslam/graph/team_graph.hpp"
+#include "radioslam/io/graph/team_graph_file.hpp"
 
 namespace radioslam {
 
@@ -25,7 +26,9 @@ struct PoseIndex {
 template <class Pose>
 struct AssembledTeam {
   TeamGraph<Pose> team;
-  std::vector<std::size_t> file_index;  ///< per pose of the team, its index in the file's graph
+  std::vector<std::size_t> file_index;           ///< per pose of the team, its index in the file's graph
+  std::vector<std::size_t> relative_pose_index;  ///< the same per relative pose
+  std::vector<std::string> notes;                ///< on priors that are not used
 };
 
 /// `graph` has the file's factors, and poses and points without values; `places` is per pose. Among the
@@ -33,7 +36,8 @@ struct AssembledTeam {
 /// file. A pose with the stamp of the previous one is moved one nanosecond later. Stamps must not decrease
 /// along a robot (first_backward_stamp).
 template <class Pose>
-AssembledTeam<Pose> assemble_team(PoseGraph<Pose> graph, const std::vector<PoseIndex>& places);
+AssembledTeam<Pose> assemble_team(PoseGraph<Pose> graph, const std::vector<PoseIndex>& places,
+                                  StatedStarts starts);
 
 /// Index in `places` of a pose whose stamp is earlier than that of its robot's previous pose, if there is
 /// one.

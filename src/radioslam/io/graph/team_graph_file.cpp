@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "radioslam/io/graph/g2o_team.hpp"
+#include "radioslam/io/graph/jrl.hpp"
 #include "radioslam/io/graph/pyfg.hpp"
 #include "radioslam/io/text/zstd_text.hpp"
 
@@ -28,22 +29,43 @@ std::vector<fs::path> g2o_files(const fs::path& folder) {
   return files;
 }
 
-}  // namespace
-
-bool is_graph_file(const fs::path& path) { return kind_of(path) == ".g2o" || kind_of(path) == ".pyfg"; }
-
-AnyTeamGraphFile read_team_graph(const fs::path& path) {
-  std::vector<fs::path> files{path};
-  if (fs::is_directory(path)) {
-    files = g2o_files(path);
-    if (files.empty()) throw InputError(path.string(), 0, "the folder has no .g2o files");
-  } else if (!is_graph_file(path)) {
-    throw InputError(path.string(), 0, "is not a factor graph: its name ends in neither .g2o nor .pyfg");
-  }
-  if (kind_of(files.front()) == ".pyfg") return read_pyfg(read_zstd_text(path));
+AnyTeamGraphFile read_files(const std::vector<fs::path>& files, StatedStarts starts) {
   std::vector<Text> texts;
   for (const fs::path& file : files) texts.push_back(read_zstd_text(file));
-  return read_g2o_team(texts);
+  return read_g2o_team(texts, starts);
+}
+
+}  // namespace
+
+bool is_graph_file(const fs::path& path) {
+  const std::string kind = kind_of(path);
+  return kind == ".g2o" || kind == ".pyfg" || kind == ".jrl";
+}
+
+bool is_graph_folder(const fs::path& path) {
+  return fs::is_directory(path) && !fs::exists(path / "mission.yaml") && !g2o_files(path).empty();
+}
+
+AnyTeamGraphFile read_team_graph(const fs::path& path, StatedStarts starts) {
+  if (fs::is_directory(path)) {
+    const std::vector<fs::path> files = g2o_files(path);
+    if (files.empty()) throw InputError(path.string(), 0, "the folder has no .g2o files");
+    return read_files(files, starts);
+  }
+  const std::string kind = kind_of(path);
+  if (kind == ".pyfg") return read_pyfg(read_zstd_text(path), starts);
+  if (kind == ".jrl") return read_jrl(read_zstd_text(path), starts);
+  if (kind == ".g2o") return read_files({path}, starts);
+  throw InputError(path.string(), 0, "is not a factor graph: its name ends in none of .g2o, .pyfg and .jrl");
+}
+
+AnyTeamGraphFile read_team_graph(const std::vector<fs::path>& paths, StatedStarts starts) {
+  if (paths.size() == 1) return read_team_graph(paths.front(), starts);
+  for (const fs::path& path : paths)
+    if (kind_of(path) != ".g2o" || fs::is_directory(path))
+      throw InputError(path.string(), 0,
+                       "is not a .g2o file: only these are read several at a time, a robot each");
+  return read_files(paths, starts);
 }
 
 }  // namespace radioslam

@@ -9,6 +9,8 @@
 #include <tuple>
 #include <utility>
 
+#include "radioslam/geometry/linear_algebra.hpp"
+#include "radioslam/io/mission/match_columns.hpp"
 #include "radioslam/io/text/csv.hpp"
 #include "radioslam/io/text/numbers.hpp"
 
@@ -136,8 +138,22 @@ Anchor anchor_at(const CsvReader& csv, int dimension) {
   return anchor;
 }
 
-PoseMatch match_at(const CsvReader& csv, const TeamNames& names) {
-  enum : std::size_t { kI, kTimeI, kJ, kTimeJ, kX, kY, kZ, kRotation, kSigmaT = kRotation + 4, kSigmaR };
+/// The upper triangle in 21 columns from `first` on.
+SE3::Jacobian covariance_at(const CsvReader& csv, std::size_t first) {
+  SE3::Jacobian covariance;
+  for (int row = 0; row < 6; ++row)
+    for (int column = row; column < 6; ++column)
+      covariance(row, column) = covariance(column, row) = csv.number(first++);
+  const Cholesky<SE3::Jacobian> cholesky(covariance);
+  if (!cholesky.succeeded() || !cholesky.inverse().allFinite())
+    csv.fail("the covariance is not positive definite");
+  return covariance;
+}
+
+enum class MatchNoise { kSigmas, kCovariance };
+
+PoseMatch match_at(const CsvReader& csv, const TeamNames& names, MatchNoise noise) {
+  enum : std::size_t { kI, kTimeI, kJ, kTimeJ, kX, kY, kZ, kRotation, kNoise = kRotation + 4 };
   PoseMatch match;
   match.robot_i = robot_at(csv, kI, names);
   match.stamp_i = csv.stamp(kTimeI);
@@ -146,8 +162,9 @@ PoseMatch match_at(const CsvReader& csv, const TeamNames& names) {
   if (match.stamp_i == match.stamp_j) refuse_itself(csv, kI, kJ, "a match at the same time from");
   const Eigen::Vector3d position(csv.coordinate(kX), csv.coordinate(kY), csv.coordinate(kZ));
   match.T_i_j = SE3(position, csv.quaternion(kRotation));
-  match.sigma_t_m = positive_sigma(csv, kSigmaT);
-  match.sigma_r_rad = positive_sigma(csv, kSigmaR);
+  match.covariance = noise == MatchNoise::kCovariance
+                         ? covariance_at(csv, kNoise)
+                         : isotropic_covariance(positive_sigma(csv, kNoise), positive_sigma(csv, kNoise + 1));
   return match;
 }
 
@@ -216,10 +233,19 @@ std::optional<Finding> check_azimuth_unit(const Text& text) {
 }
 
 std::vector<PoseMatch> read_matches(const Text& text, const TeamNames& names) {
-  CsvReader csv(text, {{"robot_i", "t_i_s", "robot_j", "t_j_s", "x", "y", "z", "qx", "qy", "qz", "qw",
-                        "sigma_t_m", "sigma_r_rad"}});
+  const std::vector<std::string> covariance = match_covariance_columns();
+  const CsvReader header(text);
+  const bool full = std::any_of(header.names().begin(), header.names().end(),
+                                [](std::string_view name) { return name.starts_with("cov_"); });
+  CsvReader::Columns columns{{"robot_i", "t_i_s", "robot_j", "t_j_s", "x", "y", "z", "qx", "qy", "qz", "qw"}};
+  if (full)
+    columns.required.insert(columns.required.end(), covariance.begin(), covariance.end());
+  else
+    columns.required.insert(columns.required.end(), {"sigma_t_m", "sigma_r_rad"});
+  CsvReader csv(text, columns);
   std::vector<PoseMatch> matches;
-  while (csv.next()) matches.push_back(match_at(csv, names));
+  while (csv.next())
+    matches.push_back(match_at(csv, names, full ? MatchNoise::kCovariance : MatchNoise::kSigmas));
   return matches;
 }
 

@@ -31,10 +31,13 @@ std::vector<AoaMeasurement> read_aoa(const Text& text, const TeamNames& names);
 /// Whether the azimuths are in degrees: a finding if more than one in twenty is beyond a full turn.
 std::optional<Finding> check_azimuth_unit(const Text& text);
 
-/// `robot_i,t_i_s,robot_j,t_j_s,x,y,z,qx,qy,qz,qw,sigma_t_m,sigma_r_rad`, in the order of the rows.
+/// `robot_i,t_i_s,robot_j,t_j_s,x,y,z,qx,qy,qz,qw,sigma_t_m,sigma_r_rad`, in the order of the rows. The 21
+/// columns `cov_tx_tx` ... `cov_rz_rz`, the upper triangle of the covariance row by row, take the place of
+/// the two sigmas where the table has them; refuses a covariance that is not positive definite.
 std::vector<PoseMatch> read_matches(const Text& text, const TeamNames& names);
 
 /// The tables as text, which read back as the same values. An end with a lever arm must name its antenna.
+/// Matches have two sigmas if all their covariances are isotropic, else the 21 columns.
 std::string format_anchors(const Mission& mission);
 std::string format_ranges(const Mission& mission);
 std::string format_aoa(const Mission& mission);

@@ -1,4 +1,8 @@
+#include <algorithm>
+#include <cmath>
+
 #include "radioslam/base/check.hpp"
+#include "radioslam/io/mission/match_columns.hpp"
 #include "radioslam/io/mission/team_tables.hpp"
 #include "radioslam/io/text/numbers.hpp"
 
@@ -19,6 +23,21 @@ void append_antenna(std::string& out, const LinkEnd& end) {
   RADIOSLAM_CHECK(!end.antenna.empty() || end.lever_arm_m.isZero(0),
                   "an end with a lever arm names its antenna");
   (out += ',') += end.antenna;
+}
+
+/// Whether two sigmas make exactly this covariance.
+bool is_isotropic(const SE3::Jacobian& covariance) {
+  return isotropic_covariance(std::sqrt(covariance(0, 0)), std::sqrt(covariance(3, 3))) == covariance;
+}
+
+void append_sigmas(std::string& out, const SE3::Jacobian& covariance) {
+  append_number(out += ',', std::sqrt(covariance(0, 0)));
+  append_number(out += ',', std::sqrt(covariance(3, 3)));
+}
+
+void append_covariance(std::string& out, const SE3::Jacobian& covariance) {
+  for (int row = 0; row < 6; ++row)
+    for (int column = row; column < 6; ++column) append_number(out += ',', covariance(row, column));
 }
 
 }  // namespace
@@ -73,14 +92,22 @@ std::string format_aoa(const Mission& mission) {
 }
 
 std::string format_matches(const Mission& mission) {
-  std::string out = "robot_i,t_i_s,robot_j,t_j_s,x,y,z,qx,qy,qz,qw,sigma_t_m,sigma_r_rad\n";
+  const bool isotropic = std::all_of(mission.matches.begin(), mission.matches.end(),
+                                     [](const PoseMatch& match) { return is_isotropic(match.covariance); });
+  std::string out(kMatchPoseColumns);
+  if (isotropic) (out += ',') += kMatchSigmaColumns;
+  if (!isotropic)
+    for (const std::string& name : match_covariance_columns()) (out += ',') += name;
+  out += '\n';
   for (const PoseMatch& match : mission.matches) {
     out += mission.robots[match.robot_i.index()].id + ',' + format_stamp(match.stamp_i) + ',';
     out += mission.robots[match.robot_j.index()].id + ',' + format_stamp(match.stamp_j);
     for (int axis = 0; axis < 3; ++axis) append_number(out += ',', match.T_i_j.translation()(axis));
     for (int k = 0; k < 4; ++k) append_number(out += ',', match.T_i_j.rotation().coeffs()(k));
-    append_number(out += ',', match.sigma_t_m);
-    append_number(out += ',', match.sigma_r_rad);
+    if (isotropic)
+      append_sigmas(out, match.covariance);
+    else
+      append_covariance(out, match.covariance);
     out += '\n';
   }
   return out;

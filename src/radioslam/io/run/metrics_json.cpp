@@ -15,6 +15,8 @@ Json ate_json(const std::optional<ErrorStatistics>& ate) {
           {"ate_p90_m", value(&ErrorStatistics::p90_m)}};
 }
 
+Json number_or_null(const std::optional<double>& number) { return number ? Json(*number) : Json(); }
+
 Json rpe_json(const std::optional<RelativeError>& rpe) {
   if (!rpe) return {};
   return {{"translation_rmse_m", rpe->translation_rmse_m},
@@ -56,6 +58,10 @@ Json closures_by_kind_json(const ClosuresByKind& closures) {
              {"true_accepted", counts.true_accepted},
              {"rejected", counts.rejected},
              {"true_rejected", counts.true_rejected}};
+    if (kind == ClosureKind::kMatch || kind == ClosureKind::kFile) {
+      entry["worst_accepted_m"] = number_or_null(counts.worst_accepted_m);
+      entry["worst_accepted_rad"] = number_or_null(counts.worst_accepted_rad);
+    }
     if (kind != ClosureKind::kAoa) continue;
     entry["direct_found"] = counts.direct_found;
     entry["wrong_path"] = counts.wrong_path;

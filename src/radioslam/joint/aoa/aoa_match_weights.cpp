@@ -14,9 +14,7 @@ std::pair<RobotIndex, RobotIndex> ordered(RobotIndex a, RobotIndex b) { return s
 
 template <class Pose>
 UncertainPose<Pose> uncertain(const PoseMatch& match) {
-  typename Pose::Tangent variance = Pose::Tangent::Constant(match.sigma_t_m * match.sigma_t_m);
-  variance.template tail<Pose::kDof - Pose::kDim>().setConstant(match.sigma_r_rad * match.sigma_r_rad);
-  return {pose_as<Pose>(match.T_i_j), variance.asDiagonal()};
+  return {pose_as<Pose>(match.T_i_j), covariance_as<Pose>(match.covariance)};
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -53,17 +54,21 @@ void scale_odometry(JointGraph<Pose>& joint, double scale) {
       joint.team.graph.relative_poses[k].information /= scale * scale;
 }
 
+/// Segments whose starts are known share a frame; further segments of a robot have their own.
 template <class Pose>
 std::vector<int> segment_components(const JointGraph<Pose>& joint, const TeamPlacement<Pose>& placement) {
   if (!placement.segments.of_segment.empty()) return placement.segments.of_segment;
   std::vector<int> component;
   std::vector<bool> seen(joint.robots.size(), false);
+  std::optional<int> common;
   int next = static_cast<int>(joint.robots.size());
   for (std::size_t s = 0; s < joint.team.segments.size(); ++s) {
     const std::size_t r = joint.robot_of_segment[s];
-    const bool shared = joint.team.segments[s].in_common_frame || !seen[r];
-    component.push_back(shared ? placement.component[r] : next++);
+    component.push_back(seen[r] ? next++ : placement.component[r]);
     seen[r] = true;
+    if (!joint.team.segments[s].in_common_frame) continue;
+    if (!common) common = component.back();
+    component.back() = *common;
   }
   return component;
 }

@@ -35,10 +35,9 @@ MatchesOfPairs matches_of_pairs(const JointGraph<Pose>& joint, const Mission& mi
 
 template <class Pose>
 typename Pose::Jacobian match_information(const PoseMatch& match) {
-  constexpr int kRotations = Pose::kDof - Pose::kDim;
-  typename Pose::Tangent diagonal = Pose::Tangent::Constant(1 / (match.sigma_t_m * match.sigma_t_m));
-  diagonal.template tail<kRotations>().setConstant(1 / (match.sigma_r_rad * match.sigma_r_rad));
-  return diagonal.asDiagonal();
+  using Matrix = typename Pose::Jacobian;
+  const Matrix information = Cholesky<Matrix>(covariance_as<Pose>(match.covariance)).inverse();
+  return (information + information.transpose()) / 2;
 }
 
 template <class Pose>
@@ -60,7 +59,7 @@ template <class Pose>
 RelativePoseMatch<Pose> oriented_match(const JointGraph<Pose>& joint, const PoseMatch& match,
                                        const MatchEnds& ends, RobotIndex a) {
   const Pose T_i_j = pose_as<Pose>(match.T_i_j);
-  const typename Pose::Jacobian covariance = inverse(match_information<Pose>(match));
+  const typename Pose::Jacobian covariance = covariance_as<Pose>(match.covariance);
   const std::size_t i = ends.i.index() - segment(joint, match.robot_i).first_pose,
                     j = ends.j.index() - segment(joint, match.robot_j).first_pose;
   if (match.robot_i == a) return {i, j, T_i_j, covariance};

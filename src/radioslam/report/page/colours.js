@@ -10,8 +10,8 @@ const robot_palette = {
   dark: ["#4aa8e0", "#f0b429", "#22b98d", "#dd8fb9", "#9ad4f5", "#ee8044"],
 };
 const kind_palette = {
-  light: { range: "#117733", aoa: "#999933", fingerprint: "#43359f", sequence: "#44aa99", lidar: "#3d93bd", match: "#5b6168" },
-  dark: { range: "#5cb87a", aoa: "#c9c95a", fingerprint: "#a497f5", sequence: "#6fd3c3", lidar: "#7cc4e8", match: "#a7adb3" },
+  light: { range: "#117733", aoa: "#999933", fingerprint: "#43359f", sequence: "#44aa99", lidar: "#3d93bd", match: "#5b6168", file: "#5b6168" },
+  dark: { range: "#5cb87a", aoa: "#c9c95a", fingerprint: "#a497f5", sequence: "#6fd3c3", lidar: "#7cc4e8", match: "#a7adb3", file: "#a7adb3" },
 };
 const rejected_colour = { light: "#d55e00", dark: "#ee8044" };
 

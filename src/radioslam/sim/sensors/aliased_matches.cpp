@@ -66,8 +66,7 @@ DrawnMatch measure(const std::vector<Trajectory<SE3>>& truth, const PosePair& pa
   drawn.match.stamp_i = at_i.stamp;
   drawn.match.stamp_j = at_j.stamp;
   drawn.match.T_i_j = at_i.pose.inverse() * S * at_j.pose * SE3::exp(draw_noise(dimension, params, rng));
-  drawn.match.sigma_t_m = params.sigma_match_t_m;
-  drawn.match.sigma_r_rad = radians(params.sigma_match_r_deg);
+  drawn.match.covariance = isotropic_covariance(params.sigma_match_t_m, radians(params.sigma_match_r_deg));
   return drawn;
 }
 

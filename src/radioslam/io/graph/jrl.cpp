@@ -1,0 +1,211 @@
+#include "radioslam/io/graph/jrl.hpp"
+
+#include <map>
+#include <set>
+#include <tuple>
+#include <unordered_map>
+
+#include "radioslam/io/graph/graph_keys.hpp"
+#include "radioslam/io/graph/jrl_object.hpp"
+#include "radioslam/io/graph/team_assembly.hpp"
+#include "radioslam/io/run/run_folder.hpp"
+#include "radioslam/io/text/zstd_text.hpp"
+
+namespace radioslam {
+namespace {
+
+using Json = JrlObject::Json;
+
+template <class Pose>
+struct JrlTypes;
+template <>
+struct JrlTypes<SE2> {
+  static constexpr const char *kRelativePose = "BetweenFactorPose2", *kPrior = "PriorFactorPose2",
+                              *kRange = "RangeFactorPose2", *kPose = "Pose2";
+};
+template <>
+struct JrlTypes<SE3> {
+  static constexpr const char *kRelativePose = "BetweenFactorPose3", *kPrior = "PriorFactorPose3",
+                              *kRange = "RangeFactorPose3", *kPose = "Pose3";
+};
+
+/// A measurement's place in the file: its robot, entry and number.
+using FactorName = std::tuple<std::string, std::size_t, std::size_t>;
+
+std::string text_of(const FactorName& name) {
+  const auto& [robot, entry, number] = name;
+  return "measurement " + std::to_string(number) + " of entry " + std::to_string(entry) + " of robot " +
+         robot.substr(0, 40);
+}
+
+/// Calls `visit` with the name and the object of every measurement, in the order of the file.
+template <class Visitor>
+void visit_measurements(const Text& text, const JrlObject& file, const Visitor& visit) {
+  for (const auto& [robot, entries] : file.members("measurements").items()) {
+    if (!entries.is_array()) text.fail(0, "the measurements of robot " + robot + " are not a list");
+    for (std::size_t e = 0; e < entries.size(); ++e) {
+      const JrlObject entry(text, "entry " + std::to_string(e) + " of robot " + robot, entries[e]);
+      if (!entry.has("measurements")) continue;
+      const Json& measurements = entry.array("measurements");
+      for (std::size_t m = 0; m < measurements.size(); ++m) {
+        const FactorName name(robot, e, m);
+        visit(name, JrlObject(text, text_of(name), measurements[m]));
+      }
+    }
+  }
+}
+
+template <class Pose>
+class JrlReader {
+ public:
+  JrlReader(const Text& text, const JrlObject& file, StatedStarts starts)
+      : text_(text), file_(file), starts_(starts) {}
+
+  TeamGraphFile<Pose> read() {
+    visit_measurements(text_, file_, [this](const FactorName& name, const JrlObject& measurement) {
+      read_measurement(name, measurement);
+    });
+    if (graph_.poses.empty()) text_.fail(0, "the graph has no poses");
+    AssembledTeam<Pose> assembled = assemble_team(std::move(graph_), places_, starts_);
+    TeamGraphFile<Pose> out;
+    out.team = std::move(assembled.team);
+    out.notes = std::move(assembled.notes);
+    for (const std::size_t k : assembled.file_index) out.pose_ids.push_back(keys_[k]);
+    for (const std::uint64_t key : out.pose_ids) out.pose_names.push_back(std::to_string(key));
+    read_labels(assembled.relative_pose_index, out);
+    read_truth(out);
+    for (const auto& [type, count] : skipped_)
+      out.notes.push_back(text_.name + ": " + std::to_string(count) + " measurements of type " + type +
+                          " are not used");
+    return out;
+  }
+
+ private:
+  using Types = JrlTypes<Pose>;
+
+  void read_measurement(const FactorName& name, const JrlObject& measurement) {
+    const std::string type = measurement.word("type");
+    if (type == Types::kRelativePose) return read_relative_pose(name, measurement);
+    if (type == Types::kPrior) return read_prior(measurement);
+    if (type == Types::kRange) return read_range(measurement);
+    using Other = JrlTypes<std::conditional_t<Pose::kDim == 2, SE3, SE2>>;
+    if (type == Other::kRelativePose || type == Other::kPrior || type == Other::kRange)
+      measurement.fail(type + ": the graph mixes 2D and 3D");
+    ++skipped_[type.substr(0, 40)];
+  }
+
+  void read_relative_pose(const FactorName& name, const JrlObject& measurement) {
+    RelativePoseFactor<Pose> factor;
+    factor.i = pose(measurement.key("key1"));
+    factor.j = pose(measurement.key("key2"));
+    if (factor.i == factor.j) measurement.fail("an edge from a pose to itself");
+    factor.T_i_j = measurement.object("measurement").template pose<Pose>();
+    factor.information = measurement.information<Pose>();
+    graph_.relative_poses.push_back(factor);
+    names_.push_back(name);
+  }
+
+  void read_prior(const JrlObject& measurement) {
+    PosePriorFactor<Pose>& factor = graph_.pose_priors.emplace_back();
+    factor.i = pose(measurement.key("key"));
+    factor.prior = measurement.object("prior").template pose<Pose>();
+    factor.information = measurement.information<Pose>();
+  }
+
+  void read_range(const JrlObject& measurement) {
+    RangeFactor<Pose>& factor = graph_.ranges.emplace_back();
+    factor.i.pose = pose(measurement.key("key1"));
+    factor.j.pose = pose(measurement.key("key2"));
+    if (factor.i.pose == factor.j.pose) measurement.fail("a range from a pose to itself");
+    factor.range_m = measurement.coordinate("measurement");
+    if (factor.range_m < 0) measurement.fail("the range is negative");
+    factor.sigma_m = measurement.sigma();
+  }
+
+  PoseId pose(std::uint64_t key) {
+    const auto [found, is_new] = poses_.try_emplace(key, PoseId(keys_.size()));
+    if (is_new) {
+      keys_.push_back(key);
+      places_.push_back(place_of_key(key));
+      graph_.poses.emplace_back();
+    }
+    return found->second;
+  }
+
+  void read_labels(const std::vector<std::size_t>& file_index, TeamGraphFile<Pose>& out) const {
+    if (!file_.has("outlier_factors")) return;
+    const std::set<FactorName> wrong = outliers();
+    for (const std::size_t f : file_index) out.labels.emplace_back(!wrong.contains(names_[f]));
+  }
+
+  std::set<FactorName> outliers() const {
+    std::set<FactorName> wrong;
+    for (const auto& [robot, list] : file_.members("outlier_factors").items())
+      for (const Json& entry : list) {
+        const auto is_index = [](const Json& index) { return index.is_number_unsigned(); };
+        if (!entry.is_array() || entry.size() != 2 || !is_index(entry[0]) || !is_index(entry[1]))
+          text_.fail(0, "an outlier factor of robot " + robot + " is not [entry, measurement]");
+        wrong.emplace(robot, entry[0].get<std::size_t>(), entry[1].get<std::size_t>());
+      }
+    refuse_unknown(wrong);
+    return wrong;
+  }
+
+  void refuse_unknown(std::set<FactorName> wrong) const {
+    visit_measurements(text_, file_, [&](const FactorName& name, const JrlObject&) { wrong.erase(name); });
+    if (!wrong.empty())
+      text_.fail(0, "an outlier factor is " + text_of(*wrong.begin()) + ", which does not exist");
+  }
+
+  void read_truth(TeamGraphFile<Pose>& out) const {
+    if (!file_.has("groundtruth")) return;
+    std::unordered_map<std::uint64_t, Pose> truth;  // used for look-up only, never iterated
+    for (const auto& [robot, values] : file_.members("groundtruth").items())
+      for (const Json& json : values) {
+        const JrlObject value(text_, "the groundtruth of robot " + robot, json);
+        if (value.word("type") == Types::kPose) truth.try_emplace(value.key("key"), value.pose<Pose>());
+      }
+    for (const std::uint64_t key : out.pose_ids) {
+      const auto found = truth.find(key);
+      out.true_poses.push_back(found == truth.end() ? std::nullopt : std::optional<Pose>(found->second));
+    }
+  }
+
+  const Text& text_;
+  const JrlObject& file_;
+  StatedStarts starts_;
+  PoseGraph<Pose> graph_;
+  std::vector<FactorName> names_;  // per relative pose
+  std::vector<std::uint64_t> keys_;
+  std::vector<PoseIndex> places_;
+  std::unordered_map<std::uint64_t, PoseId> poses_;  // used for look-up only, never iterated
+  std::map<std::string, std::size_t> skipped_;       // measurements by type
+};
+
+/// By the first measurement of a type that is read.
+int dimension_of(const Text& text, const JrlObject& file) {
+  int dimension = 0;
+  visit_measurements(text, file, [&](const FactorName&, const JrlObject& measurement) {
+    if (dimension != 0) return;
+    const std::string type = measurement.word("type");
+    if (type.ends_with("Pose2")) dimension = 2;
+    if (type.ends_with("Pose3")) dimension = 3;
+  });
+  if (dimension == 0) text.fail(0, "the graph has no measurements of poses");
+  return dimension;
+}
+
+}  // namespace
+
+bool is_jrl_file(const std::filesystem::path& path) {
+  return (has_zstd_extension(path) ? path.stem() : path).extension() == ".jrl";
+}
+
+AnyTeamGraphFile read_jrl(const Text& text, StatedStarts starts) {
+  const Json json = read_json(text);
+  const JrlObject file(text, "the log", json);
+  if (dimension_of(text, file) == 2) return JrlReader<SE2>(text, file, starts).read();
+  return JrlReader<SE3>(text, file, starts).read();
+}
+
+}  // namespace radioslam

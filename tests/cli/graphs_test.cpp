@@ -1,0 +1,166 @@
+// Factor graphs as inputs: JRL logs, several g2o files, stated starts, kept keys, and the judgement of their
+// loops.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/process.hpp"
+
+namespace radioslam::cli {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kPoses = 6;
+
+std::uint64_t key(char robot, int place) {
+  return (std::uint64_t{static_cast<unsigned char>(robot)} << 56) + static_cast<std::uint64_t>(place);
+}
+
+json pose(double x, double y) {
+  return {{"type", "Pose3"}, {"translation", {x, y, 0}}, {"rotation", {1, 0, 0, 0}}};
+}
+
+std::vector<double> covariance(double variance) {
+  std::vector<double> entries(36, 0.0);
+  for (std::size_t k = 0; k < 6; ++k) entries[7 * k] = variance;
+  return entries;
+}
+
+json between(std::uint64_t i, std::uint64_t j, const json& measured) {
+  return {{"type", "BetweenFactorPose3"},
+          {"key1", i},
+          {"key2", j},
+          {"measurement", measured},
+          {"covariance", covariance(1e-4)}};
+}
+
+json prior(std::uint64_t at, const json& stated) {
+  return {{"type", "PriorFactorPose3"}, {"key", at}, {"prior", stated}, {"covariance", covariance(1e-4)}};
+}
+
+/// Robots a and b drive along x, b 2 m to the left; two loops from a to b, the second of them wrong.
+json team_log() {
+  json log{{"name", "team"}, {"robots", {97, 98}}};
+  for (const char robot : {'a', 'b'}) {
+    const std::string name(1, robot);
+    log["measurements"][name] = json::array();
+    for (int k = 0; k < kPoses; ++k) {
+      json value = pose(k, robot == 'a' ? 0 : 2);
+      value["key"] = key(robot, k);
+      log["groundtruth"][name].push_back(value);
+      json entry{{"stamp", k}, {"measurements", json::array()}};
+      if (k > 0) entry["measurements"].push_back(between(key(robot, k - 1), key(robot, k), pose(1, 0)));
+      log["measurements"][name].push_back(entry);
+    }
+  }
+  for (const double off : {0.0, 7.0})
+    log["measurements"]["a"].push_back(
+        {{"stamp", 9}, {"measurements", {between(key('a', 3), key('b', 2), pose(-1 + off, 2))}}});
+  log["outlier_factors"] = {{"a", {{kPoses + 1, 0}}}};
+  return log;
+}
+
+struct TeamGraphs : testing::Test {
+  Outcome run_in(const std::vector<std::string>& arguments) const { return run(arguments, folder.path()); }
+  json summary() const { return json::parse(read_file(folder.path() / "out/summary.json")); }
+  void write(const std::string& name, const std::string& content) const {
+    write_file(folder.path() / name, content);
+  }
+  void expect_refused(const std::vector<std::string>& arguments, const std::string& reason) const {
+    const Outcome outcome = run_in(arguments);
+    EXPECT_EQ(outcome.status, 2) << outcome.err;
+    EXPECT_NE(outcome.err.find(reason), std::string::npos) << outcome.err;
+  }
+
+  TemporaryFolder folder;
+};
+
+TEST_F(TeamGraphs, ARunKeepsTheKeysOfItsFile) {
+  json log = team_log();
+  log["measurements"]["b"][0]["measurements"].push_back({{"type", "CombinedIMUFactor"}});
+  write("team.jrl", log.dump());
+  const Outcome outcome = run_in({"run", "team.jrl", "-o", "out"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("note: team.jrl: 1 measurements of type CombinedIMUFactor are not used"),
+            std::string::npos)
+      << outcome.out;
+  const std::string graph = read_file(folder.path() / "out/graph.g2o");
+  for (const char robot : {'a', 'b'})
+    EXPECT_NE(graph.find("VERTEX_SE3:QUAT " + std::to_string(key(robot, kPoses - 1)) + " "),
+              std::string::npos);
+  EXPECT_NE(graph.find("EDGE_SE3:QUAT " + std::to_string(key('a', 0)) + " "), std::string::npos);
+}
+
+TEST_F(TeamGraphs, LoopsAreJudgedByTheLabelsOfTheFile) {
+  write("team.jrl", team_log().dump());
+  ASSERT_EQ(run_in({"run", "team.jrl", "-o", "out"}).status, 0);
+  write("out/closures.csv",
+        "robot_i,t_i_s,robot_j,t_j_s,kind,status,statistic,reason\na,3,b,2,file,accepted,1,\n"
+        "a,3,b,2,file,rejected,99,wrong\n");
+  const Outcome outcome = run_in({"evaluate", "out", "team.jrl", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json file = json::parse(outcome.out)["closures"]["file"];
+  EXPECT_EQ(file["accepted"], 1);
+  EXPECT_EQ(file["true_accepted"], 1);
+  EXPECT_EQ(file["rejected"], 1);
+  EXPECT_EQ(file["true_rejected"], 0);
+  EXPECT_NEAR(file["worst_accepted_m"].get<double>(), 0, 1e-9);
+}
+
+TEST_F(TeamGraphs, StatedStartsAreUsedOnRequest) {
+  json log = team_log();
+  write("unknown.jrl", log.dump());
+  expect_refused({"run", "unknown.jrl", "-o", "out", "--known-starts"}, "unknown.jrl: states no starts");
+  for (const char robot : {'a', 'b'})
+    log["measurements"][std::string(1, robot)][0]["measurements"].push_back(
+        prior(key(robot, 0), pose(0, robot == 'a' ? 0 : 2)));
+  write("team.jrl", log.dump());
+  const Outcome without = run_in({"run", "team.jrl", "-o", "out"});
+  ASSERT_EQ(without.status, 0) << without.err;
+  EXPECT_NE(without.out.find("without --known-starts"), std::string::npos) << without.out;
+  const Outcome with = run_in({"run", "team.jrl", "-o", "out", "--known-starts"});
+  ASSERT_EQ(with.status, 0) << with.err;
+  EXPECT_EQ(summary()["team_frame"]["components"].size(), 1U);
+  EXPECT_EQ(with.out.find("without --known-starts"), std::string::npos) << with.out;
+  const Outcome evaluated = run_in({"evaluate", "out", "team.jrl", "--json"});
+  EXPECT_LT(json::parse(evaluated.out)["ate_rmse_m"].get<double>(), 0.01);
+  write("m/mission.yaml", "format: radioslam-mission/1\nrobots: {a: {}}\n");
+  expect_refused({"run", "m", "-o", "out", "--known-starts"}, "mission.yaml");
+}
+
+std::string edge(std::uint64_t i, std::uint64_t j) {
+  return "EDGE_SE2 " + std::to_string(i) + " " + std::to_string(j) + " 1 0 0 100 0 0 100 0 100\n";
+}
+
+TEST_F(TeamGraphs, ATeamMayBeSeveralFilesOrAFolderOfThem) {
+  write("team/1.g2o", edge(key('a', 0), key('a', 1)) + "0410268 0.7588833\n");
+  write("team/2.g2o", edge(key('b', 0), key('b', 1)));
+  for (const auto& inputs : {std::vector<std::string>{"team/1.g2o", "team/2.g2o"}, {"team"}}) {
+    std::vector<std::string> call{"run"};
+    call.insert(call.end(), inputs.begin(), inputs.end());
+    call.insert(call.end(), {"-o", "out"});
+    const Outcome outcome = run_in(call);
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(summary()["robots"].size(), 2U);
+    EXPECT_NE(outcome.out.find("1 line is left out; the first: "), std::string::npos) << outcome.out;
+  }
+  expect_refused({"run", "team/1.g2o", "team", "-o", "out"}, "team: is not a .g2o file");
+  expect_refused({"run", "team/1.g2o", "team/2.g2o", "-o", "team"}, "contains the input");
+}
+
+TEST_F(TeamGraphs, OptimizeReadsALogWhole) {
+  json log = team_log();
+  log["measurements"]["a"].erase(kPoses + 1);
+  log.erase("outlier_factors");
+  write("team.jrl", log.dump());
+  const Outcome outcome = run_in({"optimize", "team.jrl", "-o", "team.g2o", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(json::parse(outcome.out)["poses"], 2 * kPoses);
+  EXPECT_LT(json::parse(outcome.out)["final_cost"].get<double>(), 1e-9);
+  EXPECT_NE(read_file(folder.path() / "team.g2o").find("VERTEX_SE3:QUAT " + std::to_string(key('b', 0))),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace radioslam::cli
