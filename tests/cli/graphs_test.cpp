@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/process.hpp"
+#include "io/recorded_data.hpp"
 
 namespace radioslam::cli {
 namespace {
@@ -161,6 +162,39 @@ TEST_F(TeamGraphs, OptimizeReadsALogWhole) {
   EXPECT_NE(read_file(folder.path() / "team.g2o").find("VERTEX_SE3:QUAT " + std::to_string(key('b', 0))),
             std::string::npos);
 }
+
+/// Teams of three robots with real odometry and loops, starts unknown, wrong loops labelled.
+struct RecordedTeam {
+  const char* file;
+  double limit_m;  ///< of least squares over all true factors
+};
+
+class RecordedTeams : public testing::TestWithParam<RecordedTeam> {};
+
+TEST_P(RecordedTeams, AreSolvedWithoutStarts) {
+  RADIOSLAM_RECORDED(log, std::filesystem::path("cosmo") / GetParam().file);
+  const TemporaryFolder folder;
+  const Outcome outcome = run({"run", log.string(), "-o", "out"}, folder.path());
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Outcome evaluated = run({"evaluate", "out", log.string(), "--json"}, folder.path());
+  ASSERT_EQ(evaluated.status, 0) << evaluated.err;
+  const json metrics = json::parse(evaluated.out);
+  EXPECT_EQ(metrics["coverage"], 1);
+  EXPECT_LE(metrics["ate_rmse_m"].get<double>(), 1.2 * GetParam().limit_m);
+  const json loops = metrics["closures"]["file"];
+  const double true_loops = loops["true_accepted"].get<double>() + loops["true_rejected"].get<double>();
+  EXPECT_GE(loops["true_accepted"].get<double>(), 0.95 * true_loops);
+  EXPECT_LE(loops["accepted"].get<int>() - loops["true_accepted"].get<int>(), 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cosmo, RecordedTeams,
+                         testing::Values(RecordedTeam{"kth_r3_00_d06_d09_d10_wifi.jrl.zst", 1.88},
+                                         RecordedTeam{"ntu_r3_02_d02_n04_n13_wifi.jrl.zst", 2.26},
+                                         RecordedTeam{"ntu_r3_02_d02_n04_n13_proradio.jrl.zst", 2.32}),
+                         [](const auto& test) {
+                           const std::string name = test.param.file;
+                           return name.substr(0, 3) + (name.find("wifi") == std::string::npos ? "Radio" : "Wifi");
+                         });
 
 }  // namespace
 }  // namespace radioslam::cli
