@@ -99,6 +99,7 @@ TEST_F(Evaluate, DistinguishesNoCandidatesFromNoSearch) {
   auto json = evaluated();
   EXPECT_TRUE(json["candidates"]["kept"].is_null());
   EXPECT_TRUE(json["candidates"]["true_kept"].is_null());
+  EXPECT_TRUE(json["candidates"]["found"].is_null());
   EXPECT_EQ(json["candidates"]["pairs"], 27);
 
   auto summary = nlohmann::json::parse(read_file(folder() / "out/summary.json"));

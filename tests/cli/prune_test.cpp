@@ -80,6 +80,35 @@ TEST_F(Prune, ExhaustiveGivesTheSameBytesInBothModes) {
   }
 }
 
+TEST_F(Prune, ListsAllWhereRunListsTheMostProbable) {
+  const std::vector<std::string> ten{"--set", "overlap.max_listed_candidates=10"};
+  ASSERT_EQ(prune("all", {}).status, 0);
+  ASSERT_EQ(prune("pruned", ten).status, 0);
+  const std::string all = read_file(folder() / "all/candidates.csv");
+  EXPECT_GT(rows(all), 50U);
+  EXPECT_EQ(read_file(folder() / "pruned/candidates.csv"), all);
+  const auto counts = nlohmann::json::parse(read_file(folder() / "pruned/summary.json"))["counts"];
+  EXPECT_EQ(counts["candidates"], rows(all));
+  EXPECT_EQ(counts["candidates_listed"], rows(all));
+
+  const auto ran =
+      run({"run", "m", "-o", "ran", "--set", "alignment.references=3", "alignment.tried_places=12",
+           "alignment.refined_places=4", "overlap.max_listed_candidates=10"},
+          folder());
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_NE(ran.out.find("note: candidates.csv lists the most probable 10 of "), std::string::npos)
+      << ran.out;
+  EXPECT_EQ(rows(read_file(folder() / "ran/candidates.csv")), 10U);
+  const auto evaluated = run({"evaluate", "ran", "m", "--json"}, folder());
+  ASSERT_EQ(evaluated.status, 0) << evaluated.err;
+  const auto json = nlohmann::json::parse(evaluated.out);
+  EXPECT_EQ(json["candidates"]["kept"], 10);
+  EXPECT_EQ(json["candidates"]["listed"], 10);
+  EXPECT_EQ(json["candidates"]["found"], rows(all));
+  ASSERT_EQ(json["notes"].size(), 1U);
+  EXPECT_NE(json["notes"][0].get<std::string>().find("lists the most probable 10 of"), std::string::npos);
+}
+
 TEST_F(Prune, AnUnknownModeIsRefused) {
   const auto outcome = prune("none", {"--mode", "both"});
   EXPECT_EQ(outcome.status, 2);

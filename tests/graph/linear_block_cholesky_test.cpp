@@ -3,6 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -103,6 +104,22 @@ void expect_agrees_with_dense(const SymmetricBlockMatrix& matrix, BlockCholesky&
     row += size;
   }
   EXPECT_EQ(row, rows.rows());
+  std::reverse(several.begin(), several.end());
+  const Eigen::MatrixXd between = cholesky.inverse_between(several);
+  Eigen::Index first = 0;
+  for (const std::size_t i : several) {
+    Eigen::Index second = 0;
+    for (const std::size_t j : several) {
+      const Eigen::Index size_i = matrix.pattern().sizes[i], size_j = matrix.pattern().sizes[j];
+      expect_near(between.block(first, second, size_i, size_j),
+                  inverse.block(static_cast<Eigen::Index>(matrix.offset(i)),
+                                static_cast<Eigen::Index>(matrix.offset(j)), size_i, size_j),
+                  "inverse between blocks");
+      second += size_j;
+    }
+    first += matrix.pattern().sizes[i];
+  }
+  EXPECT_EQ(first, between.rows());
   for (const std::size_t part_scalars : {std::size_t{0}, std::size_t{1}, 1 + matrix.rows() / 8})
     expect_inverse_of_parts(matrix, cholesky.partitioned_inverse(part_scalars), inverse);
   expect_inverse_blocks(matrix, cholesky.selected_inverse(), inverse);

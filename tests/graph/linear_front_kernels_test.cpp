@@ -3,8 +3,12 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <array>
+#include <vector>
 
+#include "radioslam/base/parallel.hpp"
 #include "radioslam/base/random.hpp"
+#include "radioslam/graph/linear/front_elimination.hpp"
 #include "radioslam/graph/linear/front_kernels.hpp"
 
 namespace radioslam {
@@ -121,6 +125,72 @@ TEST(FrontKernels, AgreeWithDenseAndGiveTheSameBytesForEveryInstructionSet) {
       EXPECT_EQ(first.covariance, second.covariance) << other.instruction_set;
       EXPECT_EQ(first.solved, second.solved) << other.instruction_set;
     }
+  }
+}
+
+/// The panel and update matrix of the kernels' steps, with zeros above the diagonals.
+Worked eliminated_in_steps(const FrontKernels& kernels, const Front& front) {
+  const auto p = static_cast<Eigen::Index>(front.shape.pivots);
+  Worked worked;
+  worked.panel = front.matrix.leftCols(p);
+  clear_above_diagonal(worked.panel.topRows(p));
+  worked.update.setZero(front.matrix.rows() - p, front.matrix.rows() - p);
+  worked.positive = eliminate_front_in_steps(kernels, front.shape, worked.panel.data(), worked.update.data());
+  clear_above_diagonal(worked.panel.topRows(p));
+  clear_above_diagonal(worked.update);
+  return worked;
+}
+
+TEST(FrontKernels, GiveTheSameBytesInStepsOnAnyNumberOfThreads) {
+  Rng rng(3);
+  const std::vector<std::pair<std::size_t, std::size_t>> shapes = {
+      {1, 0}, {1, 1}, {5, 3}, {96, 0}, {97, 1}, {60, 259}, {193, 96}, {200, 500}, {500, 200}};
+  for (const auto& [p, r] : shapes) {
+    SCOPED_TRACE(testing::Message() << p << " pivots, " << r << " below");
+    const auto front = random_front(rng, p, r);
+    for (const auto& kernels : available_front_kernels()) {
+      const auto whole = work(kernels, front);
+      for (const std::size_t threads : {1U, 3U}) {
+        set_thread_count(threads);
+        const auto steps = eliminated_in_steps(kernels, front);
+        EXPECT_TRUE(steps.positive);
+        EXPECT_EQ(steps.panel, whole.panel) << kernels.instruction_set << ", threads " << threads;
+        EXPECT_EQ(steps.update, whole.update) << kernels.instruction_set << ", threads " << threads;
+      }
+      set_thread_count(0);
+    }
+  }
+}
+
+TEST(FrontKernels, MultiplyPickedColumnsWithTheSameBytesForEveryInstructionSet) {
+  Rng rng(5);
+  for (const auto& [rows, picked, columns] :
+       {std::array<Eigen::Index, 3>{1, 1, 1}, {7, 0, 3}, {30, 12, 5}, {400, 300, 49}, {193, 145, 7}}) {
+    const Eigen::MatrixXd a = Eigen::MatrixXd::NullaryExpr(rows, picked + 9, [&] { return rng.normal(); });
+    const Eigen::MatrixXd b = Eigen::MatrixXd::NullaryExpr(picked, columns, [&] { return rng.normal(); });
+    std::vector<std::uint32_t> which;
+    Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(rows, columns);
+    for (Eigen::Index k = 0; k < picked; ++k) {
+      which.push_back(static_cast<std::uint32_t>(rng.below(static_cast<std::uint64_t>(picked) + 9)));
+      expected += a.col(which.back()) * b.row(k);
+    }
+    std::vector<Eigen::MatrixXd> products;
+    for (const auto& kernels : available_front_kernels()) {
+      Eigen::MatrixXd& c = products.emplace_back(rows, columns);
+      kernels.multiply({a.data(), static_cast<std::size_t>(rows), which.data(), which.size()},
+                       static_cast<std::size_t>(columns), b.data(), c.data());
+      expect_close(c, expected, kernels.instruction_set);
+      EXPECT_EQ(c, products.front()) << kernels.instruction_set;
+    }
+  }
+}
+
+TEST(FrontKernels, RefuseAPivotInSteps) {
+  Rng rng(4);
+  for (Eigen::Index bad = 0; bad < 150; bad += 7) {
+    auto front = random_front(rng, 150, 120);
+    front.matrix(bad, bad) = -1;
+    EXPECT_FALSE(eliminated_in_steps(front_kernels(), front).positive) << bad;
   }
 }
 

@@ -118,6 +118,22 @@ TYPED_TEST(MarginalLaws, ARelativePoseOnAChainHasItsMeasurementsCovariance) {
   EXPECT_TRUE(marginals->pose(PoseId(0)).isZero(0)) << "the pose that holds the gauge is certain";
 }
 
+TYPED_TEST(MarginalLaws, AllRelativePosesAtOnceAreThoseOfPairs) {
+  auto graph = test::draw_graph<TypeParam>(6, 30, 12, test::Extras::kNone);
+  const auto marginals = Marginals<TypeParam>::compute(graph);
+  ASSERT_TRUE(marginals.has_value());
+  const std::vector<PoseId> of{PoseId(7), PoseId(0), PoseId(29), PoseId(7), PoseId(12)};  // 0 holds the gauge
+  const auto all = marginals->relative_poses(of);
+  std::size_t pair = 0;
+  for (std::size_t a = 0; a < of.size(); ++a)
+    for (std::size_t b = a + 1; b < of.size(); ++b) {
+      ASSERT_LT(pair, all.size());
+      const auto expected = marginals->relative_pose(of[a], of[b]);
+      EXPECT_LT((all[pair++] - expected).norm(), 1e-9 * (1 + expected.norm())) << a << " " << b;
+    }
+  EXPECT_EQ(pair, all.size());
+}
+
 TYPED_TEST(MarginalLaws, NothingWhenSomethingIsNotObserved) {
   PoseGraph<TypeParam> graph;
   graph.poses.resize(1);

@@ -147,6 +147,25 @@ TEST_F(CityWithAliases, PruningRejectsThemAndTheMapStaysAsGood) {
   EXPECT_LE(error_m(result, truth), 1.2 * error_m(clean, truth));
 }
 
+TEST_F(CityWithAliases, AreJudgedAmongAllCandidatesHoweverFewAreListed) {
+  const auto [mission, truth] = simulate();
+  const auto full = run_pipeline(mission, quick_params()).result;
+  RunParams params = quick_params();
+  params.overlap.max_listed_candidates = 7;
+  const auto few = run_pipeline(mission, params).result;
+  EXPECT_EQ(few.candidates.size(), 7U);
+  EXPECT_EQ(few.counts.at("candidates"), full.counts.at("candidates"));
+  EXPECT_EQ(few.counts.at("candidates_listed"), 7);
+  EXPECT_EQ(full.counts.at("candidates_listed"), full.counts.at("candidates"));
+  EXPECT_EQ(few.notes.size(), full.notes.size() + 1) << "it says so";
+  const auto of_few = matches_of(few), of_full = matches_of(full);
+  ASSERT_EQ(of_few.size(), of_full.size());
+  for (std::size_t k = 0; k < of_full.size(); ++k) {
+    EXPECT_EQ(of_few[k].status, of_full[k].status);
+    EXPECT_EQ(of_few[k].reason, of_full[k].reason);
+  }
+}
+
 TEST_F(CityWithAliases, WithoutPruningTheyAreAdmitted) {
   const auto [mission, truth] = simulate();
   RunOptions options;

@@ -7,6 +7,9 @@
 #include <numbers>
 #include <numeric>
 
+#include "radioslam/base/parallel.hpp"
+#include "radioslam/base/random.hpp"
+
 namespace radioslam {
 namespace {
 
@@ -321,6 +324,62 @@ TEST(MeasurementMixture, TheLongestRangeIsWithinReach) {
   };
   EXPECT_NEAR(cost_at(20), cost_at(4900), 1e-4);
   EXPECT_GT(cost_at(20000), cost_at(20) + 100);
+}
+
+/// Two robots side by side with more links than one thread computes at a time.
+TeamGraph<SE2> team_of_many_links() {
+  constexpr std::size_t kPoses = 900;
+  Rng rng(8);
+  TeamGraph<SE2> team;
+  for (std::size_t robot = 0; robot < 2; ++robot) {
+    team.segments.push_back({robot == 0 ? "a" : "b", robot * kPoses, kPoses, {}});
+    for (std::size_t k = 0; k < kPoses; ++k) {
+      team.graph.poses.emplace_back(
+          Eigen::Vector2d(static_cast<double>(k), 30 * static_cast<double>(robot) + rng.normal()),
+          rng.uniform(-1, 1));
+      team.segments.back().stamps.push_back(Stamp::from_seconds(static_cast<double>(k)));
+      if (k == 0) continue;
+      RelativePoseFactor<SE2> step;
+      step.i = PoseId(robot * kPoses + k - 1);
+      step.j = PoseId(robot * kPoses + k);
+      step.T_i_j = SE2({1, 0}, 0);
+      team.graph.relative_poses.push_back(step);
+    }
+  }
+  for (std::size_t k = 0; k < kPoses; ++k) {
+    RangeFactor<SE2> range;
+    range.i.pose = PoseId(k);
+    range.j.pose = PoseId(kPoses + k);
+    range.range_m = rng.uniform(20, 60);
+    team.graph.ranges.push_back(range);
+    AmbiguousBearing<SE2> bearing;
+    bearing.i = PoseId(k);
+    bearing.j.pose = PoseId(kPoses + k);
+    bearing.paths = {path(rng.uniform(0, 3), 0.1, -50), path(rng.uniform(-3, 0), 0.2, -55)};
+    team.bearings.push_back(bearing);
+  }
+  return team;
+}
+
+TEST(MeasurementMixture, HasTheSameBytesOnAnyNumberOfThreads) {
+  const TeamGraph<SE2> team = team_of_many_links();
+  const auto weighed_by = [&](std::size_t threads, double& cost) {
+    set_thread_count(threads);
+    MixtureGraph<SE2> mixture(team, {});
+    mixture.estimate_obstructed_share({}, 0);
+    cost = mixture.update_weights({}, 0);
+    EXPECT_EQ(mixture.cost({}, 0), cost);
+    std::vector<double> weights{mixture.obstructed_share()};
+    for (const auto& range : mixture.graph.ranges)
+      weights.insert(weights.end(), {range.weight, range.range_m, range.sigma_m});
+    for (const auto& bearing : mixture.graph.bearings)
+      weights.insert(weights.end(), {bearing.weight, bearing.sigma_rad});
+    set_thread_count(0);
+    return weights;
+  };
+  double by_one = 0, by_three = 0;
+  EXPECT_EQ(weighed_by(1, by_one), weighed_by(3, by_three));
+  EXPECT_EQ(by_one, by_three);
 }
 
 }  // namespace

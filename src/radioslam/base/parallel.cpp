@@ -11,6 +11,17 @@ namespace radioslam {
 namespace {
 
 std::atomic<std::size_t> g_threads{0};
+std::atomic<std::ptrdiff_t> g_helpers{0};  // threads at work in loops, less those that called one
+
+/// Takes as many helpers for a loop as are wanted and free: a loop within another one gets what that leaves.
+std::size_t take_helpers(std::size_t wanted) {
+  const auto limit = static_cast<std::ptrdiff_t>(thread_count()) - 1;
+  std::ptrdiff_t busy = g_helpers, taken = 0;
+  do {
+    taken = std::clamp<std::ptrdiff_t>(limit - busy, 0, static_cast<std::ptrdiff_t>(wanted));
+  } while (!g_helpers.compare_exchange_weak(busy, busy + taken));
+  return static_cast<std::size_t>(taken);
+}
 
 }  // namespace
 
@@ -26,11 +37,9 @@ void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t begin, std::size_t end)>& body) {
   const std::size_t chunk = std::max<std::size_t>({std::size_t{1}, grain});
   const std::size_t chunks = (count + chunk - 1) / chunk;
-  const std::size_t workers = std::min(thread_count(), chunks);
-  if (workers <= 1) {
-    if (count > 0) body(0, count);
-    return;
-  }
+  if (count == 0) return;
+  const std::size_t helpers = take_helpers(chunks - 1);
+  if (helpers == 0) return body(0, count);
   std::atomic<std::size_t> next_chunk{0};
   std::exception_ptr failure;
   std::mutex failure_mutex;
@@ -44,10 +53,16 @@ void parallel_for(std::size_t count, std::size_t grain,
       }
     }
   };
+  // Who runs out of chunks, the caller too, leaves its place to loops within the chunks that remain.
+  const auto work_and_leave = [&] {
+    work();
+    --g_helpers;
+  };
   std::vector<std::jthread> threads;
-  for (std::size_t i = 1; i < workers; ++i) threads.emplace_back(work);
-  work();
+  for (std::size_t i = 0; i < helpers; ++i) threads.emplace_back(work_and_leave);
+  work_and_leave();
   threads.clear();
+  ++g_helpers;
   if (failure) std::rethrow_exception(failure);
 }
 

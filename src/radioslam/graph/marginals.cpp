@@ -59,10 +59,43 @@ Eigen::MatrixXd Marginals<Pose>::joint(const Variable& a, const Variable& b) con
 template <class Pose>
 typename Marginals<Pose>::PoseCovariance Marginals<Pose>::relative_pose(PoseId i, PoseId j) const {
   if (i == j) return PoseCovariance::Zero();
+  return relative_pose(i, j, pose(i), pose(j), block(variable(i), variable(j)));
+}
+
+template <class Pose>
+typename Marginals<Pose>::PoseCovariance Marginals<Pose>::relative_pose(
+    PoseId i, PoseId j, const PoseCovariance& of_i, const PoseCovariance& of_j,
+    const PoseCovariance& of_i_with_j) const {
   // T_i_j Exp(xi_j - Ad(T_j_i) xi_i).
   const PoseCovariance by_i = -(poses_[j.index()].inverse() * poses_[i.index()]).adjoint();
-  const PoseCovariance cross = by_i * block(variable(i), variable(j));
-  return by_i * pose(i) * by_i.transpose() + pose(j) + cross + cross.transpose();
+  const PoseCovariance cross = by_i * of_i_with_j;
+  return by_i * of_i * by_i.transpose() + of_j + cross + cross.transpose();
+}
+
+template <class Pose>
+std::vector<typename Marginals<Pose>::PoseCovariance> Marginals<Pose>::relative_poses(
+    const std::vector<PoseId>& of) const {
+  std::vector<std::size_t> blocks;
+  std::vector<std::optional<Eigen::Index>> rows;  // nothing for a held pose
+  for (const PoseId i : of) {
+    const std::int32_t block = equations_.blocks().of(variable(i));
+    rows.push_back(block < 0 ? std::nullopt
+                             : std::optional(static_cast<Eigen::Index>(Pose::kDof * blocks.size())));
+    if (block >= 0) blocks.push_back(static_cast<std::size_t>(block));
+  }
+  const Eigen::MatrixXd joint =
+      blocks.empty() ? Eigen::MatrixXd() : equations_.cholesky().inverse_between(blocks);
+  const auto covariance = [&](std::size_t a, std::size_t b) -> PoseCovariance {
+    if (!rows[a] || !rows[b]) return PoseCovariance::Zero();
+    return joint.block<Pose::kDof, Pose::kDof>(*rows[a], *rows[b]);
+  };
+  std::vector<PoseCovariance> result;
+  for (std::size_t a = 0; a < of.size(); ++a)
+    for (std::size_t b = a + 1; b < of.size(); ++b)
+      result.push_back(
+          of[a] == of[b] ? PoseCovariance(PoseCovariance::Zero())
+                         : relative_pose(of[a], of[b], covariance(a, a), covariance(b, b), covariance(a, b)));
+  return result;
 }
 
 template class Marginals<SE2>;

@@ -33,11 +33,16 @@ class Marginals {
 
   /// Covariance of T_i_j = T_i^-1 T_j for a right perturbation.
   PoseCovariance relative_pose(PoseId i, PoseId j) const;
+  /// The same for all pairs of these poses, (0, 1), (0, 2), ..., (1, 2), ...: for many pairs, at the cost of
+  /// one solution for each pose.
+  std::vector<PoseCovariance> relative_poses(const std::vector<PoseId>& of) const;
 
  private:
   Marginals(NormalEquations<Pose> equations, std::optional<SelectedInverse> inverse, std::vector<Pose> poses)
       : equations_(std::move(equations)), inverse_(std::move(inverse)), poses_(std::move(poses)) {}
 
+  PoseCovariance relative_pose(PoseId i, PoseId j, const PoseCovariance& of_i, const PoseCovariance& of_j,
+                               const PoseCovariance& of_i_with_j) const;
   /// The covariance of a with b.
   Eigen::MatrixXd block(const Variable& a, const Variable& b) const;
 

@@ -8,6 +8,7 @@ radioslam_room(graph
     linear/block_cholesky.cpp
     linear/block_matrix.cpp
     linear/elimination_tree.cpp
+    linear/front_elimination.cpp
     linear/front_kernels.cpp
     linear/front_kernels_avx2.cpp
     linear/front_kernels_sse2.cpp

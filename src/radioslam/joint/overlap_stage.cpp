@@ -1,18 +1,16 @@
 #include "radioslam/joint/overlap_stage.hpp"
 
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
 #include <utility>
 
 #include "radioslam/joint/aoa/mutual_bearing_constraints.hpp"
+#include "radioslam/results/most_probable_candidates.hpp"
 
 namespace radioslam {
 namespace {
-
-template <class Source>
-OverlapCounts search(const Source& source, const std::vector<OverlapSensor>& sensors,
-                     const OverlapParams& params, SearchMethod method, const TakeOverlaps& take) {
-  return method == SearchMethod::kTree ? search_overlaps(source, sensors, params, take)
-                                       : search_overlaps_exhaustively(source, sensors, params, take);
-}
 
 /// All poses of each robot, and which of them are keyframes.
 template <class Pose>
@@ -53,41 +51,122 @@ CandidateList::Group group_of(const std::vector<OverlapCandidate>& found) {
   return group;
 }
 
-}  // namespace
+/// Picks those that were asked for out of all candidates.
+class AskedCandidates {
+ public:
+  /// `keyframes`: the stamps of all robots' keyframes.
+  AskedCandidates(const std::vector<KeyframePair>& asked, const CandidateList& keyframes) {
+    for (KeyframePair pair : asked) {
+      if (pair.robot_j < pair.robot_i) {
+        std::swap(pair.robot_i, pair.robot_j);
+        std::swap(pair.stamp_i, pair.stamp_j);
+      }
+      const auto i = keyframe(keyframes.stamps(pair.robot_i), pair.stamp_i);
+      const auto j = keyframe(keyframes.stamps(pair.robot_j), pair.stamp_j);
+      if (i && j) asked_[{pair.robot_i, pair.robot_j}].emplace(*i, *j);
+    }
+  }
 
-void add_candidates(OverlapStage& stage, const OverlapStage& other) {
-  if (!other.searched) return;
-  stage.candidates.merge(other.candidates);
-  stage.counts.kept = stage.candidates.size();
-  stage.counts.distances_evaluated += other.counts.distances_evaluated;
-  ++stage.alignments;
+  void pick(const CandidateList::Group& group, CandidateList& picked) const {
+    const auto asked = asked_.find({group.robot_i, group.robot_j});
+    if (asked == asked_.end()) return;
+    CandidateList::Group found{group.robot_i, group.robot_j, {}};
+    for (const Keyframes& pair : asked->second) {
+      const auto row = std::lower_bound(
+          group.rows.begin(), group.rows.end(), pair,
+          [](const auto& r, const Keyframes& p) { return Keyframes(r.keyframe_i, r.keyframe_j) < p; });
+      if (row != group.rows.end() && Keyframes(row->keyframe_i, row->keyframe_j) == pair)
+        found.rows.push_back(*row);
+    }
+    picked.append(std::move(found));
+  }
+
+ private:
+  using Keyframes = std::pair<std::uint32_t, std::uint32_t>;
+
+  static std::optional<std::uint32_t> keyframe(const std::vector<Stamp>& stamps, Stamp stamp) {
+    const auto found = std::lower_bound(stamps.begin(), stamps.end(), stamp);
+    if (found == stamps.end() || *found != stamp) return std::nullopt;
+    return static_cast<std::uint32_t>(found - stamps.begin());
+  }
+
+  std::map<std::pair<RobotIndex, RobotIndex>, std::set<Keyframes>> asked_;
+};
+
+/// Hands over the candidates of any of the sources, which are of one team's alignments; returns their counts.
+template <class Source>
+OverlapCounts search_all(const std::vector<Source>& sources, const std::vector<OverlapSensor>& sensors,
+                         const OverlapParams& params, SearchMethod method,
+                         const std::function<void(const CandidateList::Group&)>& take) {
+  std::vector<TeamOverlapSearch<Source>> searches;
+  for (const Source& source : sources) searches.emplace_back(source, sensors, params, method);
+  OverlapCounts counts;
+  for (std::uint32_t a = 0; a < sensors.size(); ++a) {
+    std::vector<CandidateList::Group> groups(sensors.size());
+    for (const auto& search : searches) {
+      OverlapCounts own = search.search(a, [&](const std::vector<OverlapCandidate>& found) {
+        if (found.empty()) return;
+        CandidateList::Group& group = groups[found.front().robot_b];
+        if (group.rows.empty())
+          group = group_of(found);
+        else
+          merge(group, group_of(found));
+      });
+      if (&search != &searches.front()) own.pairs = 0;
+      own.kept = 0;
+      counts += own;
+    }
+    for (const CandidateList::Group& group : groups) {
+      if (group.rows.empty()) continue;
+      counts.kept += group.rows.size();
+      take(group);
+    }
+  }
+  return counts;
 }
 
+}  // namespace
+
 template <class Pose>
-OverlapStage find_overlaps(const JointGraph<Pose>& joint, const OverlapStageParams& params,
-                           SearchMethod method) {
+OverlapStage find_overlaps(const std::vector<JointGraph<Pose>>& alignments, const OverlapStageParams& params,
+                           const OverlapRequest& request) {
+  const JointGraph<Pose>& first = alignments.front();
   OverlapStage stage;
-  stage.candidates = without_candidates(joint);
-  const auto take = [&](const std::vector<OverlapCandidate>& found) {
-    stage.candidates.append(group_of(found));
-  };
+  stage.listed = stage.of_asked = without_candidates(first);
   std::vector<OverlapSensor> sensors;
-  for (const RobotVariables& robot : joint.robots)
+  for (const RobotVariables& robot : first.robots)
     sensors.push_back({robot.lidar_range_m, robot.lidar_view_rad});
+  const AskedCandidates asked(request.asked, stage.listed);
+  MostProbableCandidates most_probable(request.max_listed);
+  const auto take = [&](const CandidateList::Group& group) {
+    most_probable.add(group);
+    asked.pick(group, stage.of_asked);
+    if (request.take) request.take(group, stage.listed);
+  };
   if (overlap_mode(params) == OverlapMode::kLink) {
-    stage.counts =
-        search(measured_link_covariance(joint, params.pairing_s, static_cast<std::size_t>(params.max_links)),
-               sensors, params.overlap, method, take);
+    std::vector<LinkCovariance<Pose>> sources;
+    sources.push_back(
+        measured_link_covariance(first, params.pairing_s, static_cast<std::size_t>(params.max_links)));
+    stage.counts = search_all(sources, sensors, params.overlap, request.method, take);
   } else {
-    const auto source = JointCovariance<Pose>::compute(joint.team.graph, chains(joint));
-    if (!source) return stage;
-    stage.counts = search(*source, sensors, params.overlap, method, take);
+    std::vector<JointCovariance<Pose>> sources;
+    for (const JointGraph<Pose>& joint : alignments) {
+      if (auto source = JointCovariance<Pose>::compute(joint.team.graph, chains(joint)))
+        sources.push_back(std::move(*source));
+      else if (sources.empty())
+        return stage;
+    }
+    stage.alignments = sources.size();
+    stage.counts = search_all(sources, sensors, params.overlap, request.method, take);
   }
+  most_probable.move_to(stage.listed);
   stage.searched = true;
   return stage;
 }
 
-template OverlapStage find_overlaps(const JointGraph<SE2>&, const OverlapStageParams&, SearchMethod);
-template OverlapStage find_overlaps(const JointGraph<SE3>&, const OverlapStageParams&, SearchMethod);
+template OverlapStage find_overlaps(const std::vector<JointGraph<SE2>>&, const OverlapStageParams&,
+                                    const OverlapRequest&);
+template OverlapStage find_overlaps(const std::vector<JointGraph<SE3>>&, const OverlapStageParams&,
+                                    const OverlapRequest&);
 
 }  // namespace radioslam

@@ -9,6 +9,8 @@
 //           relative poses at their radio links instead.
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,11 +21,6 @@
 #include "radioslam/results/results.hpp"
 
 namespace radioslam {
-
-enum class SearchMethod {
-  kTree,
-  kExhaustive,  ///< tests every pair; same result
-};
 
 /// Source of the relative covariances.
 enum class OverlapMode {
@@ -36,6 +33,7 @@ struct OverlapStageParams {
   std::string mode = "joint";
   double pairing_s = 1;
   int max_links = 200;
+  int max_listed_candidates = 1000000;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -51,6 +49,10 @@ struct OverlapStageParams {
     visit(Field{"max_links", "", 1, 1e6,
                 "largest number of links per pair of robots in mode link; more are thinned evenly"},
           self.max_links);
+    visit(Field{"max_listed_candidates", "", 0, 2e9,
+                "largest number of candidates that `run` lists and draws: the most probable ones; prune "
+                "lists all"},
+          self.max_listed_candidates);
   }
 };
 
@@ -58,19 +60,40 @@ inline OverlapMode overlap_mode(const OverlapStageParams& params) {
   return params.mode == "link" ? OverlapMode::kLink : OverlapMode::kJoint;
 }
 
+/// Keyframes of two robots.
+struct KeyframePair {
+  RobotIndex robot_i;
+  Stamp stamp_i;
+  RobotIndex robot_j;
+  Stamp stamp_j;
+};
+
+/// Receives all candidates, by robots, then keyframes; `keyframes` has the stamps that a group's rows refer
+/// to.
+using TakeCandidates = std::function<void(const CandidateList::Group& group, const CandidateList& keyframes)>;
+
+/// What becomes of the candidates, which may be too many to be kept.
+struct OverlapRequest {
+  SearchMethod method = SearchMethod::kTree;
+  std::size_t max_listed = 0;       ///< the most probable ones are listed
+  std::vector<KeyframePair> asked;  ///< pairs of which it must be known whether they are candidates
+  TakeCandidates take;              ///< receives every candidate; may be empty
+};
+
 struct OverlapStage {
-  CandidateList candidates;
-  OverlapCounts counts;
+  CandidateList listed;
+  CandidateList of_asked;      ///< candidates, listed or not, that were asked for
+  OverlapCounts counts;        ///< of all candidates
   bool searched = false;       ///< false: the estimate's covariances are not computable
   std::size_t alignments = 1;  ///< number of team alignments whose candidates these are
 };
 
-/// Adds the candidates of another alignment; of a pair in both, the nearer one stays.
-void add_candidates(OverlapStage& stage, const OverlapStage& other);
-
-/// `joint` must be optimised and placed.
+/// `alignments`: the likely ones, optimised and placed, the likeliest first. Candidates are those of any of
+/// them; of a pair in several, the nearest one in standard deviations. An alignment whose covariances are not
+/// computable is left out; if that is the first one, nothing is searched. In mode link all are one, the
+/// first.
 template <class Pose>
-OverlapStage find_overlaps(const JointGraph<Pose>& joint, const OverlapStageParams& params,
-                           SearchMethod method);
+OverlapStage find_overlaps(const std::vector<JointGraph<Pose>>& alignments, const OverlapStageParams& params,
+                           const OverlapRequest& request);
 
 }  // namespace radioslam

@@ -81,7 +81,7 @@ ClosureResult link_result(const FactorOrigin& origin, ClosureKind kind, double s
 
 template <class Pose>
 TransformResult transform_between(const JointGraph<Pose>& joint, std::size_t i, std::size_t j,
-                                  const Marginals<Pose>& marginals) {
+                                  const typename Pose::Jacobian& cov_start_i_start_j) {
   const RobotVariables &robot_i = joint.robots[i], &robot_j = joint.robots[j];
   const PoseId start_i = robot_i.poses.front(), start_j = robot_j.poses.front();
   const auto& poses = joint.team.graph.poses;
@@ -90,7 +90,7 @@ TransformResult transform_between(const JointGraph<Pose>& joint, std::size_t i, 
   const Pose T_j_start_j = pose_as<Pose>(robot_j.odometry.front());
   const auto into_j = T_j_start_j.adjoint();
   return {robot_i.id, robot_j.id, as_se3(Pose(T_i_start_i * T_start_i_start_j * T_j_start_j.inverse()), 0),
-          into_j * marginals.relative_pose(start_i, start_j) * into_j.transpose()};
+          into_j * cov_start_i_start_j * into_j.transpose()};
 }
 
 }  // namespace
@@ -177,9 +177,13 @@ std::vector<TransformResult> collect_transforms(const JointGraph<Pose>& joint,
   const auto placed_with = [&](std::size_t i, std::size_t j) {
     return placement.placed[i] && placement.placed[j] && placement.component[i] == placement.component[j];
   };
+  std::vector<PoseId> starts;
+  for (const RobotVariables& robot : joint.robots) starts.push_back(robot.poses.front());
+  const auto covariances = marginals.relative_poses(starts);
+  auto covariance = covariances.begin();
   for (std::size_t i = 0; i < joint.robots.size(); ++i)
-    for (std::size_t j = i + 1; j < joint.robots.size(); ++j)
-      if (placed_with(i, j)) transforms.push_back(transform_between(joint, i, j, marginals));
+    for (std::size_t j = i + 1; j < joint.robots.size(); ++j, ++covariance)
+      if (placed_with(i, j)) transforms.push_back(transform_between(joint, i, j, *covariance));
   return transforms;
 }
 

@@ -37,7 +37,7 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const std::ve
                      params, progress);
   std::optional<OverlapStage> overlaps;
   if (needs_overlap_search(mission, options))
-    overlaps = timed("overlap", search_overlaps<Pose>, estimate, params, options);
+    overlaps = timed("overlap", search_overlaps<Pose>, estimate, mission, params, options);
   if (judges_matches && !options.overlap_only)
     estimate = timed("matches", close_by_matches<Pose>, std::move(estimate), mission, *overlaps, params,
                      options, progress);

@@ -10,6 +10,8 @@ struct RunOptions {
   Pruning pruning = Pruning::kOn;
   SearchMethod search = SearchMethod::kTree;
   bool overlap_only = false;  ///< stop after the overlap search
+  /// Receives every candidate as the search finds it; then none is listed in the result.
+  TakeCandidates take_candidates = nullptr;
 };
 
 }  // namespace radioslam

@@ -96,16 +96,23 @@ std::vector<ClosureResult> collect_all_closures(const TeamEstimate<Pose>& estima
   return all;
 }
 
-/// Adds the keyframe pairs with overlapping views and their counts.
-void add_overlaps(RunResult& result, OverlapStage overlaps) {
+/// Adds the keyframe pairs with overlapping views and their counts. `streamed`: they have all been handed
+/// over.
+void add_overlaps(RunResult& result, OverlapStage overlaps, bool streamed) {
   if (!overlaps.searched) {
     result.notes.push_back("overlap search was skipped: the estimate's covariances are singular");
     return;
   }
   result.counts["pairs"] = static_cast<double>(overlaps.counts.pairs);
   result.counts["candidates"] = static_cast<double>(overlaps.counts.kept);
+  const std::size_t listed = streamed ? overlaps.counts.kept : overlaps.listed.size();
+  result.counts["candidates_listed"] = static_cast<double>(listed);
   result.counts["distances_evaluated"] = static_cast<double>(overlaps.counts.distances_evaluated);
-  result.candidates = std::move(overlaps.candidates);
+  if (listed < overlaps.counts.kept)
+    result.notes.push_back("candidates.csv lists the most probable " + std::to_string(listed) + " of " +
+                           std::to_string(overlaps.counts.kept) +
+                           " candidates (overlap.max_listed_candidates); prune lists all");
+  result.candidates = std::move(overlaps.listed);
   if (overlaps.alignments > 1)
     result.notes.push_back("the candidates are those of any of the " + std::to_string(overlaps.alignments) +
                            " likely team alignments");
@@ -141,7 +148,7 @@ RunResult describe_run(const Mission& mission, const TeamEstimate<Pose>& estimat
   result.mission_name = mission.name;
   result.dimension = mission.dimension;
   result.range_biases = estimate.range_biases;
-  if (overlaps) add_overlaps(result, std::move(*overlaps));
+  if (overlaps) add_overlaps(result, std::move(*overlaps), options.take_candidates != nullptr);
   add_estimate(result, mission, joint, estimate.placement, params.alignment.mixture, timed);
   for (std::size_t r = 0; r < mission.robots.size() && !options.overlap_only; ++r)
     result.robots[r].dense = dense_trajectory<Pose>(mission, joint, nullptr, r, result.robots[r]).poses;

@@ -150,21 +150,23 @@ bool needs_overlap_search(const Mission& mission, const RunOptions& options) {
 }
 
 template <class Pose>
-OverlapStage search_overlaps(const TeamEstimate<Pose>& estimate, const RunParams& params,
-                             const RunOptions& options) {
-  OverlapStage overlaps = find_overlaps(graph_for_covariances(estimate.joint, params.alignment.mixture),
-                                        params.overlap, options.search);
-  if (!overlaps.searched || overlap_mode(params.overlap) == OverlapMode::kLink) return overlaps;
+OverlapStage search_overlaps(const TeamEstimate<Pose>& estimate, const Mission& mission,
+                             const RunParams& params, const RunOptions& options) {
+  std::vector<JointGraph<Pose>> alignments{graph_for_covariances(estimate.joint, params.alignment.mixture)};
   const TeamPlacement<Pose>& placement = estimate.placement;
   for (std::size_t k = 0; k < placement.alternatives.size(); ++k) {
+    if (overlap_mode(params.overlap) == OverlapMode::kLink) break;
     if (placement.alternative_weights[k] < kMinSearchedWeight) break;
     JointGraph<Pose> alternative = estimate.joint;
     alternative.team.graph.poses = placement.alternatives[k];
-    reweigh_radio_links(alternative, placement, params.alignment.mixture);
-    add_candidates(overlaps, find_overlaps(graph_for_covariances(alternative, params.alignment.mixture),
-                                           params.overlap, options.search));
+    if (!placement.segments.of_segment.empty())
+      reweigh_radio_links(alternative, placement, params.alignment.mixture);
+    alignments.push_back(graph_for_covariances(alternative, params.alignment.mixture));
   }
-  return overlaps;
+  const auto listed = static_cast<std::size_t>(params.overlap.max_listed_candidates);
+  return find_overlaps(alignments, params.overlap,
+                       {options.search, options.take_candidates ? 0 : listed,
+                        keyframes_of_matches(estimate.joint, mission), options.take_candidates});
 }
 
 template <class Pose>
@@ -172,7 +174,7 @@ TeamEstimate<Pose> close_by_matches(TeamEstimate<Pose> estimate, const Mission& 
                                     const OverlapStage& overlaps, const RunParams& params,
                                     const RunOptions& options, const Progress& progress) {
   const auto radio = radio_covariance(estimate.joint, estimate.placement, params.alignment);
-  auto outcomes = select_matches(estimate.joint, estimate.placement, mission, overlaps.candidates,
+  auto outcomes = select_matches(estimate.joint, estimate.placement, mission, overlaps.of_asked,
                                  options.pruning, params.matches, params.angles, radio);
   if (radio && params.matches.robust && options.pruning == Pruning::kOn)
     optimise_matches_and_radio(estimate.joint, outcomes, estimate.placement, params.matches,
@@ -200,7 +202,8 @@ TeamEstimate<Pose> close_by_matches(TeamEstimate<Pose> estimate, const Mission& 
   template TeamEstimate<Pose> weigh_alignments_by_matches(TeamEstimate<Pose>, const Mission&,              \
                                                           const RunParams&, const Progress&);              \
   template TeamEstimate<Pose> close_by_loops(TeamEstimate<Pose>, const RunParams&, const Progress&);       \
-  template OverlapStage search_overlaps(const TeamEstimate<Pose>&, const RunParams&, const RunOptions&);   \
+  template OverlapStage search_overlaps(const TeamEstimate<Pose>&, const Mission&, const RunParams&,       \
+                                        const RunOptions&);                                                \
   template TeamEstimate<Pose> close_by_matches(TeamEstimate<Pose>, const Mission&, const OverlapStage&,    \
                                                const RunParams&, const RunOptions&, const Progress&);
 RADIOSLAM_STAGES(SE2)

@@ -80,8 +80,8 @@ bool needs_overlap_search(const Mission& mission, const RunOptions& options);
 
 /// Keyframe pairs of different robots whose views can overlap.
 template <class Pose>
-OverlapStage search_overlaps(const TeamEstimate<Pose>& estimate, const RunParams& params,
-                             const RunOptions& options);
+OverlapStage search_overlaps(const TeamEstimate<Pose>& estimate, const Mission& mission,
+                             const RunParams& params, const RunOptions& options);
 
 /// With the matches of an external place recognition that are candidates and consistent.
 template <class Pose>

@@ -105,11 +105,14 @@ PageData candidate_data(const RunResult& result, const ReportParams& params) {
   const auto max_bins = std::clamp(static_cast<std::size_t>(std::sqrt(cells_each)), kMinBins, kMaxBins);
   PageData matrices = PageData::array();
   for (const FilledPair& pair : pairs) matrices.push_back(matrix(result, pair, max_bins));
-  return {{"kept", result.candidates.size()},
-          {"pairs", count_of(result, "pairs")},
-          {"distances_evaluated", count_of(result, "distances_evaluated")},
-          {"robot_pairs", robot_pairs},
-          {"matrices", std::move(matrices)}};
+  const auto kept = result.counts.find("candidates");
+  return {
+      {"kept", kept == result.counts.end() ? PageData(result.candidates.size()) : rounded(kept->second, 0)},
+      {"listed", result.candidates.size()},
+      {"pairs", count_of(result, "pairs")},
+      {"distances_evaluated", count_of(result, "distances_evaluated")},
+      {"robot_pairs", robot_pairs},
+      {"matrices", std::move(matrices)}};
 }
 
 }  // namespace radioslam

@@ -29,6 +29,10 @@ std::vector<CandidateList::Row> merged(const std::vector<CandidateList::Row>& a,
 
 }  // namespace
 
+void merge(CandidateList::Group& group, const CandidateList::Group& other) {
+  group.rows = merged(group.rows, other.rows);
+}
+
 CandidateList::CandidateList(std::vector<std::vector<Stamp>> stamps)
     : stamps_(std::move(stamps)), keyframes_(stamps_.size()), latest_(stamps_.size(), 0) {
   for (std::size_t r = 0; r < stamps_.size(); ++r)
@@ -66,16 +70,6 @@ void CandidateList::push_back(const CandidateResult& c) {
 
 void CandidateList::append(Group group) {
   if (!group.rows.empty()) groups_.push_back(std::move(group));
-}
-
-void CandidateList::merge(const CandidateList& other) {
-  for (const Group& more : other.groups_) {
-    Group& own = group(more.robot_i, more.robot_j);
-    own.rows = merged(own.rows, more.rows);
-  }
-  std::sort(groups_.begin(), groups_.end(), [](const Group& x, const Group& y) {
-    return std::pair(x.robot_i, x.robot_j) < std::pair(y.robot_i, y.robot_j);
-  });
 }
 
 void CandidateList::renumber_robots(const std::vector<RobotIndex>& robots) {

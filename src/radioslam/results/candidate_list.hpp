@@ -1,5 +1,5 @@
-// Candidates of the overlap search, of which a large team has tens of millions: 16 bytes each, grouped by
-// pair of robots.
+// Candidates of the overlap search: 16 bytes each, grouped by pair of robots. A large team has tens of
+// millions, of which a run lists the most probable (most_probable_candidates.hpp).
 #pragma once
 
 #include <cstddef>
@@ -44,9 +44,6 @@ class CandidateList {
   void push_back(const CandidateResult& candidate);
   /// Appends a group of new robots whose rows refer to the stamps given to the constructor.
   void append(Group group);
-  /// Adds the candidates of another list over the same stamps; of a pair in both, the nearer one in
-  /// standard deviations stays. Both must be sorted.
-  void merge(const CandidateList& other);
   /// Gives every robot another index.
   void renumber_robots(const std::vector<RobotIndex>& robots);
 
@@ -72,6 +69,10 @@ class CandidateList {
   std::vector<std::uint32_t> latest_;  ///< keyframe per robot that was found last
   std::vector<Group> groups_;
 };
+
+/// Adds another group of the same robots, over the same stamps; of a pair in both, the nearer one in standard
+/// deviations stays. Both must be sorted.
+void merge(CandidateList::Group& group, const CandidateList::Group& other);
 
 /// Over all groups, by value.
 class CandidateList::Iterator {

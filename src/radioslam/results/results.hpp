@@ -207,7 +207,7 @@ struct RunResult {
   std::string mission_name;
   int dimension = 2;
   std::vector<RobotResult> robots;  ///< in the order of the mission
-  CandidateList candidates;
+  CandidateList candidates;         ///< those that are listed; counts["candidates"] is the number of all
   std::vector<ClosureResult> closures;
   std::optional<SimilarityModelResult> similarity_model;
   std::vector<RangeBiasResult> range_biases;        ///< those that are significant

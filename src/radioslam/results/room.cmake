@@ -1,4 +1,5 @@
 radioslam_room(results
   SOURCES
     candidate_list.cpp
+    most_probable_candidates.cpp
   ROOMS mission)

@@ -1,6 +1,7 @@
 #include "radioslam/study/evaluated_run.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "radioslam/eval/team_estimate.hpp"
 
@@ -74,7 +75,9 @@ std::optional<double> dead_reckoning_ate_m(const Mission& mission, const Truth& 
 
 EvaluatedRun run_and_evaluate(const Mission& mission, const Truth& truth, const RunParams& params,
                               const RunOptions& options) {
-  const RunResult result = run_pipeline(mission, params, options).result;
+  RunParams with_all_candidates = params;
+  with_all_candidates.overlap.max_listed_candidates = std::numeric_limits<int>::max();
+  const RunResult result = run_pipeline(mission, with_all_candidates, options).result;
   EvaluatedRun run;
   run.estimate = team_estimate(result);
   const TeamMetrics metrics = evaluate_trajectories(run.estimate, truth, result.dimension);

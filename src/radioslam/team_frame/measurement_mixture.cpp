@@ -4,7 +4,11 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <tuple>
+#include <type_traits>
 
+#include "radioslam/base/parallel.hpp"
 #include "radioslam/graph/factor_lists.hpp"
 #include "radioslam/graph/loss.hpp"
 #include "radioslam/graph/residuals.hpp"
@@ -21,6 +25,8 @@ constexpr double kPriorMeasurements = 2;
 constexpr double kMaxObstructedShare = 0.98;
 constexpr double kMinObstructedShare = 1e-4;
 constexpr double kShareTolerance = 1e-3;
+/// Links, or other factors, per task: some tenth of a millisecond.
+constexpr std::size_t kLinksPerTask = 512;
 
 double added(const std::vector<double>& inflation, std::size_t k, double inflation_scale) {
   return inflation.empty() ? 0 : inflation_scale * inflation[k];
@@ -74,20 +80,37 @@ std::vector<double> path_priors(const AmbiguousBearing<Pose>& bearing, const Mix
   return priors;
 }
 
-/// Of all measurements, ranges before bearings.
+/// Of all measurements, ranges before bearings; of all paths of the bearings.
 template <class Pose>
 struct MixtureGraph<Pose>::Densities {
+  Densities(std::size_t ranges, std::size_t bearings, std::size_t paths)
+      : sight(ranges + bearings),
+        range_sigma(ranges),
+        range_direct(ranges),
+        range_longer(ranges),
+        path_sigma(paths),
+        path_direct(paths),
+        detours(ranges),
+        log_within_reach(bearings) {}
+
   std::vector<SightDensities> sight;
   std::vector<double> range_sigma;
   std::vector<double> range_direct, range_longer;  ///< terms of the densities in sight and obstructed
   std::vector<double> path_sigma, path_direct;
   std::vector<ObstructedRange> detours;
-  double log_within_reach = 0;
+  std::vector<double> log_within_reach;  ///< per bearing
+
+  double sum_within_reach() const {
+    return std::accumulate(log_within_reach.begin(), log_within_reach.end(), 0.0);
+  }
 };
 
 template <class Pose>
 MixtureGraph<Pose>::MixtureGraph(const TeamGraph<Pose>& team, const MixtureParams& params)
-    : graph(team.graph), params_(params), chains_(team), obstructed_share_(params.obstructed_share) {
+    : graph(team.graph),
+      params_(params),
+      chains_(team, params.sight_time_s),
+      obstructed_share_(params.obstructed_share) {
   for (const auto& range : graph.ranges) {
     range_m_.push_back(range.range_m);
     range_sigma_.push_back(range.sigma_m);
@@ -112,7 +135,7 @@ MixtureGraph<Pose>::MixtureGraph(const TeamGraph<Pose>& team, const MixtureParam
 }
 
 template <class Pose>
-void MixtureGraph<Pose>::add_range(std::size_t k, double inflation_m2, Densities& result) const {
+void MixtureGraph<Pose>::weigh_range(std::size_t k, double inflation_m2, Densities& result) const {
   const auto& factor = graph.ranges[k];
   const double sigma = std::sqrt(range_sigma_[k] * range_sigma_[k] + inflation_m2);
   const double error = residual(graph, factor)[0] + factor.range_m - range_m_[k];
@@ -121,15 +144,15 @@ void MixtureGraph<Pose>::add_range(std::size_t k, double inflation_m2, Densities
   if (obstructed_share_ > 0) detour = obstructed_range(-error, sigma);
   const double longer =
       (1 - params_.false_range_probability) * widened(detour_density_[k], inflation_m2) * detour.probability;
-  result.sight.push_back({direct + wrong, longer + wrong});
-  result.range_longer.push_back(longer);
-  result.range_sigma.push_back(sigma);
-  result.range_direct.push_back(direct);
-  result.detours.push_back(detour);
+  result.sight[k] = {direct + wrong, longer + wrong};
+  result.range_longer[k] = longer;
+  result.range_sigma[k] = sigma;
+  result.range_direct[k] = direct;
+  result.detours[k] = detour;
 }
 
 template <class Pose>
-void MixtureGraph<Pose>::add_bearing(std::size_t b, double inflation_rad2, Densities& result) const {
+void MixtureGraph<Pose>::weigh_bearing(std::size_t b, double inflation_rad2, Densities& result) const {
   double total = 1 - params_.direct_probability;
   for (std::size_t p = first_path_[b]; p < first_path_[b + 1]; ++p) {
     const bool azimuth = is_azimuth(graph.bearings[p]);
@@ -143,24 +166,27 @@ void MixtureGraph<Pose>::add_bearing(std::size_t b, double inflation_rad2, Densi
     const double density =
         params_.direct_probability * path_prior_[p] * direction_density(error2, sigma, azimuth);
     total += density;
-    result.path_sigma.push_back(sigma);
-    result.path_direct.push_back(density);
+    result.path_sigma[p] = sigma;
+    result.path_direct[p] = density;
   }
   const bool is_empty = first_path_[b] == first_path_[b + 1];
-  result.sight.push_back({is_empty ? 1 : total, 1});
+  result.sight[graph.ranges.size() + b] = {is_empty ? 1 : total, 1};
   if (is_empty) return;
   const auto& first = graph.bearings[first_path_[b]];
-  result.log_within_reach += log_within_reach(distance_m(graph, first.i, first.j));
+  result.log_within_reach[b] = log_within_reach(distance_m(graph, first.i, first.j));
 }
 
 template <class Pose>
 typename MixtureGraph<Pose>::Densities MixtureGraph<Pose>::densities(const VarianceInflation& inflation,
                                                                      double inflation_scale) const {
-  Densities result;
-  for (std::size_t k = 0; k < graph.ranges.size(); ++k)
-    add_range(k, added(inflation.ranges_m2, k, inflation_scale), result);
-  for (std::size_t b = 0; b < bearing_count(); ++b)
-    add_bearing(b, added(inflation.bearings_rad2, b, inflation_scale), result);
+  const std::size_t ranges = graph.ranges.size();
+  Densities result(ranges, bearing_count(), graph.bearings.size());
+  parallel_for(ranges + bearing_count(), kLinksPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < std::min(end, ranges); ++k)
+      weigh_range(k, added(inflation.ranges_m2, k, inflation_scale), result);
+    for (std::size_t k = std::max(begin, ranges); k < end; ++k)
+      weigh_bearing(k - ranges, added(inflation.bearings_rad2, k - ranges, inflation_scale), result);
+  });
   return result;
 }
 
@@ -174,11 +200,19 @@ double MixtureGraph<Pose>::log_within_reach(double distance_m) const {
 template <class Pose>
 double MixtureGraph<Pose>::other_cost() const {
   double cost = 0;
-  for_each_factor(graph, [&](const auto& factor) {
-    using Factor = std::decay_t<decltype(factor)>;
-    if constexpr (!std::is_same_v<Factor, RangeFactor<Pose>> && !std::is_same_v<Factor, BearingFactor<Pose>>)
-      cost += evaluate(loss(factor), weight(factor) * squared_norm(graph, factor)).cost;
-  });
+  const auto add = [&](const auto& factors) {
+    using Factor = typename std::decay_t<decltype(factors)>::value_type;
+    if constexpr (!std::is_same_v<Factor, RangeFactor<Pose>> &&
+                  !std::is_same_v<Factor, BearingFactor<Pose>>) {
+      std::vector<double> costs(factors.size());
+      parallel_for(factors.size(), kLinksPerTask, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k)
+          costs[k] = evaluate(loss(factors[k]), weight(factors[k]) * squared_norm(graph, factors[k])).cost;
+      });
+      cost = std::accumulate(costs.begin(), costs.end(), cost);
+    }
+  };
+  std::apply([&](const auto&... lists) { (add(lists), ...); }, factor_lists(graph));
   return cost;
 }
 
@@ -191,44 +225,55 @@ double MixtureGraph<Pose>::log_prior(double share) const {
          (mode * std::log(share / mode) + (1 - mode) * std::log((1 - share) / (1 - mode)));
 }
 
+/// Sets the factor of a range.
+template <class Pose>
+void MixtureGraph<Pose>::set_range(std::size_t k, const Densities& found, double in_sight) {
+  auto& range = graph.ranges[k];
+  const double sigma = found.range_sigma[k];
+  range_weight_[k] = in_sight * found.range_direct[k] / found.sight[k].in_sight;
+  range.sigma_m = sigma;
+  range.weight = range_weight_[k];
+  const double predicted = residual(graph, range)[0] + range.range_m;  // distance and bias
+  range.range_m = range_m_[k];
+  if (obstructed_share_ <= 0) return;
+  const ObstructedRange& detour = found.detours[k];
+  const double obstructed = (1 - in_sight) * found.range_longer[k] / found.sight[k].obstructed;
+  const double curvature = std::max(detour.curvature, 1 / (span_m_ * span_m_));
+  const double pull = obstructed * curvature * sigma * sigma;
+  range.weight += pull;
+  if (range.weight > 0)
+    range.range_m += pull * (predicted - detour.slope / curvature - range_m_[k]) / range.weight;
+}
+
+/// Sets the factors of a bearing's paths.
+template <class Pose>
+void MixtureGraph<Pose>::set_bearing(std::size_t b, const Densities& found, double in_sight) {
+  for (std::size_t p = first_path_[b]; p < first_path_[b + 1]; ++p) {
+    graph.bearings[p].sigma_rad = found.path_sigma[p];
+    graph.bearings[p].weight =
+        in_sight * found.path_direct[p] / found.sight[graph.ranges.size() + b].in_sight;
+  }
+}
+
 template <class Pose>
 double MixtureGraph<Pose>::update_weights(const VarianceInflation& inflation, double inflation_scale) {
   const Densities found = densities(inflation, inflation_scale);
   std::vector<double> in_sight;
-  const double log_likelihood = chains_.smooth(found.sight, sight(), in_sight) + found.log_within_reach;
-  for (std::size_t k = 0; k < graph.ranges.size(); ++k) {
-    auto& range = graph.ranges[k];
-    const double sigma = found.range_sigma[k];
-    range_weight_[k] = in_sight[k] * found.range_direct[k] / found.sight[k].in_sight;
-    range.sigma_m = sigma;
-    range.weight = range_weight_[k];
-    const double predicted = residual(graph, range)[0] + range.range_m;  // distance and bias
-    range.range_m = range_m_[k];
-    if (obstructed_share_ <= 0) continue;
-    const ObstructedRange& detour = found.detours[k];
-    const double obstructed = (1 - in_sight[k]) * found.range_longer[k] / found.sight[k].obstructed;
-    const double curvature = std::max(detour.curvature, 1 / (span_m_ * span_m_));
-    const double pull = obstructed * curvature * sigma * sigma;
-    range.weight += pull;
-    if (range.weight > 0)
-      range.range_m += pull * (predicted - detour.slope / curvature - range_m_[k]) / range.weight;
-  }
-  for (std::size_t b = 0; b < bearing_count(); ++b) {
-    const std::size_t measurement = graph.ranges.size() + b;
-    for (std::size_t p = first_path_[b]; p < first_path_[b + 1]; ++p) {
-      graph.bearings[p].sigma_rad = found.path_sigma[p];
-      graph.bearings[p].weight =
-          in_sight[measurement] * found.path_direct[p] / found.sight[measurement].in_sight;
-    }
-  }
+  const double log_likelihood =
+      chains_.smooth(found.sight, obstructed_share_, in_sight) + found.sum_within_reach();
+  const std::size_t ranges = graph.ranges.size();
+  parallel_for(ranges + bearing_count(), kLinksPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < std::min(end, ranges); ++k) set_range(k, found, in_sight[k]);
+    for (std::size_t k = std::max(begin, ranges); k < end; ++k) set_bearing(k - ranges, found, in_sight[k]);
+  });
   return other_cost() - 2 * (log_likelihood + log_prior(obstructed_share_));
 }
 
 template <class Pose>
 double MixtureGraph<Pose>::cost(const VarianceInflation& inflation, double inflation_scale) const {
   const Densities found = densities(inflation, inflation_scale);
-  return other_cost() - 2 * (chains_.log_likelihood(found.sight, sight()) + found.log_within_reach +
-                             log_prior(obstructed_share_));
+  return other_cost() - 2 * (chains_.log_likelihood(found.sight, obstructed_share_) +
+                             found.sum_within_reach() + log_prior(obstructed_share_));
 }
 
 /// Golden section search: links of one exchange, and successive ones, are no independent observations of the
@@ -239,7 +284,7 @@ void MixtureGraph<Pose>::estimate_obstructed_share(const VarianceInflation& infl
   if (params_.obstructed_share <= 0) return;
   const Densities found = densities(inflation, inflation_scale);
   const auto log_posterior = [&](double share) {
-    return chains_.log_likelihood(found.sight, {share, params_.sight_time_s}) + log_prior(share);
+    return chains_.log_likelihood(found.sight, share) + log_prior(share);
   };
   constexpr double kGolden = 0.6180339887498949;
   double low = kMinObstructedShare, high = kMaxObstructedShare;

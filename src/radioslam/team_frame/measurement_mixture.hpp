@@ -92,6 +92,7 @@ template <class Pose>
 std::vector<double> path_priors(const AmbiguousBearing<Pose>& bearing, const MixtureParams& params);
 
 /// The team's ranges and all paths of its bearings as factors of a pose graph with posterior weights.
+/// Computed on several threads, with the same bytes for any number of them.
 template <class Pose>
 class MixtureGraph {
  public:
@@ -123,12 +124,13 @@ class MixtureGraph {
  private:
   struct Densities;
   Densities densities(const VarianceInflation& inflation, double inflation_scale) const;
-  void add_range(std::size_t range, double inflation_m2, Densities& result) const;
-  void add_bearing(std::size_t bearing, double inflation_rad2, Densities& result) const;
+  void weigh_range(std::size_t range, double inflation_m2, Densities& result) const;
+  void weigh_bearing(std::size_t bearing, double inflation_rad2, Densities& result) const;
+  void set_range(std::size_t range, const Densities& found, double in_sight);
+  void set_bearing(std::size_t bearing, const Densities& found, double in_sight);
   double other_cost() const;
   double log_within_reach(double distance_m) const;
   double log_prior(double share) const;
-  SightModel sight() const { return {obstructed_share_, params_.sight_time_s}; }
 
   MixtureParams params_;
   std::vector<double> range_m_, range_sigma_, range_weight_, path_sigma_, path_prior_;

@@ -18,6 +18,7 @@ constexpr std::array kFineScales = {0.1, 0.03, 0.0};
 constexpr std::array kStepLengths = {1.0, 0.5, 0.2, 0.05, 0.01};
 constexpr double kCoarseTolerance = 0.1;  // sufficient to rank initial values
 constexpr int kShareRounds = 5;
+constexpr int kStagesAlike = 2;  // fine stages that without an inflation are rounds like the others
 constexpr double kShareTolerance = 0.01;
 constexpr std::array kDampings = {0.0, 1e-6, 1e-3};
 
@@ -67,11 +68,36 @@ class Stage {
   double cost_ = 0;
 };
 
+/// The stages of an inflation, from coarse to none; returns the cost.
+template <class Pose>
+double refine_by_inflation(MixtureGraph<Pose>& mixture, Stage<Pose>& stage,
+                           const VarianceInflation& inflation, const RefinementParams& params) {
+  double cost = 0;
+  for (const double inflation_scale : kCoarseScales)
+    stage.run(inflation_scale, params.steps_per_inflation, params.cost_tolerance);
+  for (const double inflation_scale : kFineScales) {
+    mixture.estimate_obstructed_share(inflation, inflation_scale);
+    cost = stage.run(inflation_scale, inflation_scale > 0 ? params.steps_per_inflation : params.last_steps,
+                     params.cost_tolerance);
+  }
+  return cost;
+}
+
+/// As many steps without an inflation, which makes its stages all alike: they end where they have converged.
+template <class Pose>
+double refine_without_inflation(MixtureGraph<Pose>& mixture, Stage<Pose>& stage,
+                                const RefinementParams& params) {
+  const int coarse = static_cast<int>(kCoarseScales.size()) * params.steps_per_inflation;
+  stage.run(0, coarse, params.cost_tolerance);
+  mixture.estimate_obstructed_share({}, 0);
+  return stage.run(0, params.last_steps, params.cost_tolerance);
+}
+
 /// Estimates the share of obstructed links and the values in turn; returns the cost.
 template <class Pose>
-double refine_in_turn(MixtureGraph<Pose>& mixture, Stage<Pose>& stage, double cost,
+double refine_in_turn(MixtureGraph<Pose>& mixture, Stage<Pose>& stage, double cost, int rounds,
                       const RefinementParams& params) {
-  for (int round = 0; round < kShareRounds; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     mixture.estimate_obstructed_share({}, 0);
     const double before = cost;
     cost = stage.run(0, params.last_steps, params.cost_tolerance);
@@ -93,15 +119,11 @@ Refinement refine(MixtureGraph<Pose>& mixture, const VarianceInflation& inflatio
     return result;
   }
   Stage<Pose> stage(mixture, equations, inflation);
-  for (const double inflation_scale : kCoarseScales)
-    stage.run(inflation_scale, params.steps_per_inflation, params.cost_tolerance);
-  for (const double inflation_scale : kFineScales) {
-    mixture.estimate_obstructed_share(inflation, inflation_scale);
-    result.cost =
-        stage.run(inflation_scale, inflation_scale > 0 ? params.steps_per_inflation : params.last_steps,
-                  params.cost_tolerance);
-  }
-  result.cost = refine_in_turn(mixture, stage, result.cost, params);
+  const bool is_inflated = !inflation.ranges_m2.empty() || !inflation.bearings_rad2.empty();
+  result.cost = is_inflated ? refine_by_inflation(mixture, stage, inflation, params)
+                            : refine_without_inflation(mixture, stage, params);
+  result.cost = refine_in_turn(mixture, stage, result.cost,
+                               is_inflated ? kShareRounds : kShareRounds + kStagesAlike, params);
   equations.linearise(mixture.graph);
   if (equations.factorize(0) == Factorization::kDone)
     result.log_evidence = -result.cost / 2 - equations.cholesky().log_determinant() / 2;

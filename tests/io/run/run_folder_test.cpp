@@ -3,6 +3,7 @@
 #include "io/refusal.hpp"
 #include "io/temporary_folder.hpp"
 #include "radioslam/io/run/metrics_json.hpp"
+#include "radioslam/io/run/run_tables.hpp"
 
 namespace radioslam {
 namespace {
@@ -32,7 +33,7 @@ RunResult example() {
                       ClosureStatus::kRejected,
                       17.5,
                       "too far, by half"}};
-  result.counts = {{"closures", 1}, {"share", 0.5}};
+  result.counts = {{"closures", 1}, {"candidates", 1e6}, {"share", 0.5}};
   result.timings = {{"read", 0.25}};
   result.parameters = {{"keyframe.distance_m", "1", "m", "", false},
                        {"prune.enabled", "true", "", "", false},
@@ -150,6 +151,25 @@ TEST(RunFolder, HasTheFilesAndColumnsOfTheFormat) {
   EXPECT_FALSE(fs::exists(folder.path() / "lost.tum"));
 }
 
+TEST(RunFolder, CandidatesWrittenAsTheyComeAreTheTableOfAList) {
+  const TemporaryFolder folder;
+  const RunResult result = example();
+  {
+    CandidateWriter writer(folder.path() / "candidates.csv", {"zoe", "adam", "lost"});
+    for (const auto& group : result.candidates.groups()) writer.write(group, result.candidates);
+    writer.close();
+  }
+  const std::string streamed = folder.read("candidates.csv");
+  RunDocuments documents;
+  documents.candidates = CandidateTable::kWritten;
+  RunResult without = result;
+  without.candidates = {};
+  write_run(folder.path(), without, documents);
+  EXPECT_EQ(folder.read("candidates.csv"), streamed) << "the table is left as it is";
+  write_run(folder.path(), result, {});
+  EXPECT_EQ(folder.read("candidates.csv"), streamed);
+}
+
 TEST(RunFolder, HasTheUncertaintyOfEveryKeyframe) {
   const TemporaryFolder folder;
   RunResult result = example();
@@ -167,7 +187,7 @@ TEST(SummaryJson, HasTheKeysOfTheFormat) {
   const Json json = summary_json(example(), {{"ate_rmse_m", 1.5}});
   EXPECT_EQ(json["robots"]["zoe"]["keyframes"], 2);
   EXPECT_EQ(json["robots"]["lost"]["placed"], false);
-  EXPECT_EQ(json["counts"].dump(), R"({"closures":1,"share":0.5})");
+  EXPECT_EQ(json["counts"].dump(), R"({"candidates":1000000,"closures":1,"share":0.5})");
   EXPECT_EQ(json["seconds"].dump(), R"({"read":0.25})");
   EXPECT_EQ(
       json["parameters"].dump(),

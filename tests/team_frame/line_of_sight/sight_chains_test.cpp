@@ -5,7 +5,9 @@
 
 #include <array>
 #include <cmath>
+#include <string>
 
+#include "radioslam/base/parallel.hpp"
 #include "radioslam/base/random.hpp"
 
 namespace radioslam {
@@ -13,7 +15,7 @@ namespace {
 
 constexpr std::size_t kLinks = 6;
 constexpr std::array<double, kLinks> kStamps_s{0, 1, 1, 4, 30, 33};
-constexpr SightModel kSightModel{0.3, 5};
+constexpr double kObstructedShare = 0.3, kCorrelationTime_s = 5;
 
 /// Two robots whose ranges have these stamps, listed in another order.
 TeamGraph<SE2> linked_team() {
@@ -46,15 +48,13 @@ std::vector<SightDensities> some_densities() {
 /// measurements.
 double joint_density(unsigned states, const std::vector<SightDensities>& densities) {
   const auto is_obstructed = [&](std::size_t k) { return (states >> k & 1U) != 0; };
-  const auto share = [](bool obstructed) {
-    return obstructed ? kSightModel.obstructed_share : 1 - kSightModel.obstructed_share;
-  };
+  const auto share = [](bool obstructed) { return obstructed ? kObstructedShare : 1 - kObstructedShare; };
   double density = share(is_obstructed(0));
   for (std::size_t k = 0; k < kLinks; ++k) {
     const SightDensities& own = densities[kLinks - 1 - k];
     density *= is_obstructed(k) ? own.obstructed : own.in_sight;
     if (k == 0) continue;
-    const double kept = std::exp(-(kStamps_s[k] - kStamps_s[k - 1]) / kSightModel.correlation_time_s);
+    const double kept = std::exp(-(kStamps_s[k] - kStamps_s[k - 1]) / kCorrelationTime_s);
     density *= share(is_obstructed(k)) * (1 - kept) + (is_obstructed(k) == is_obstructed(k - 1) ? kept : 0);
   }
   return density;
@@ -70,10 +70,10 @@ TEST(SightChains, AreTheSumOverAllSequencesOfStates) {
     for (std::size_t k = 0; k < kLinks; ++k)
       if ((states >> k & 1U) == 0) in_sight[k] += density;
   }
-  const SightChains chains(linked_team());
-  EXPECT_NEAR(chains.log_likelihood(densities, kSightModel), std::log(all), 1e-12);
+  const SightChains chains(linked_team(), kCorrelationTime_s);
+  EXPECT_NEAR(chains.log_likelihood(densities, kObstructedShare), std::log(all), 1e-12);
   std::vector<double> posterior;
-  EXPECT_NEAR(chains.smooth(densities, kSightModel, posterior), std::log(all), 1e-12);
+  EXPECT_NEAR(chains.smooth(densities, kObstructedShare, posterior), std::log(all), 1e-12);
   for (std::size_t k = 0; k < kLinks; ++k)
     EXPECT_NEAR(posterior[kLinks - 1 - k], in_sight[k] / all, 1e-12) << k;
   EXPECT_NEAR(posterior[kLinks - 2], posterior[kLinks - 3], 1e-12) << "the same time, the same state";
@@ -88,10 +88,34 @@ TEST(SightChains, PairsOfRobotsAreIndependent) {
   other.j.pose = PoseId(2 * kLinks);
   team.graph.ranges.push_back(other);
   auto densities = some_densities();
-  const double before = SightChains(linked_team()).log_likelihood(densities, kSightModel);
+  const double before =
+      SightChains(linked_team(), kCorrelationTime_s).log_likelihood(densities, kObstructedShare);
   densities.push_back({1e-3, 0.5});
-  EXPECT_NEAR(SightChains(team).log_likelihood(densities, kSightModel), before + std::log(0.7e-3 + 0.15),
-              1e-12);
+  EXPECT_NEAR(SightChains(team, kCorrelationTime_s).log_likelihood(densities, kObstructedShare),
+              before + std::log(0.7e-3 + 0.15), 1e-12);
+}
+
+TEST(SightChains, GiveTheSameBytesOnAnyNumberOfThreads) {
+  TeamGraph<SE2> team = linked_team();
+  for (std::size_t robot = 2; robot < 300; ++robot) {
+    team.segments.push_back({"c" + std::to_string(robot), team.graph.poses.size(), 1, {Stamp{}}});
+    team.graph.ranges.push_back({});
+    team.graph.ranges.back().i.pose = PoseId(robot % kLinks);
+    team.graph.ranges.back().j.pose = PoseId(team.graph.poses.size());
+    team.graph.poses.emplace_back();
+  }
+  Rng rng(5);
+  std::vector<SightDensities> densities(team.graph.ranges.size());
+  for (SightDensities& d : densities) d = {rng.uniform(0.01, 2), rng.uniform(0.01, 2)};
+  const SightChains chains(team, kCorrelationTime_s);
+  std::vector<double> alone, together;
+  set_thread_count(1);
+  const double by_one = chains.smooth(densities, kObstructedShare, alone);
+  set_thread_count(3);
+  EXPECT_EQ(chains.smooth(densities, kObstructedShare, together), by_one);
+  EXPECT_EQ(chains.log_likelihood(densities, kObstructedShare), by_one);
+  EXPECT_EQ(together, alone);
+  set_thread_count(0);
 }
 
 TEST(SightChains, WithoutObstructionsEveryLinkIsInSight) {
@@ -99,7 +123,8 @@ TEST(SightChains, WithoutObstructionsEveryLinkIsInSight) {
   std::vector<double> posterior;
   double expected = 0;
   for (const auto& d : densities) expected += std::log(d.in_sight);
-  EXPECT_NEAR(SightChains(linked_team()).smooth(densities, {0, 5}, posterior), expected, 1e-12);
+  EXPECT_NEAR(SightChains(linked_team(), kCorrelationTime_s).smooth(densities, 0, posterior), expected,
+              1e-12);
   for (const double p : posterior) EXPECT_EQ(p, 1);
 }
 

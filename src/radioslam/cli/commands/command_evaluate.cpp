@@ -38,6 +38,8 @@ struct Evaluation {
   std::optional<TeamMetrics> dead_reckoning;  ///< if every robot's start is known
   PairCounts candidates;
   bool looked_for_candidates = false;  ///< whether the run searched for candidates at all
+  nlohmann::ordered_json found,
+      listed;  ///< how many candidates the run says it found and listed; null: it does not
   PairCounts closures;
   ClosuresByKind by_kind;  ///< judged by their measurements
   long accepted = 0;
@@ -102,6 +104,14 @@ void count_pairs(Evaluation& evaluation, const RunFolder& run, const Mission& mi
                                       truth.truth, run.aoa_measurements, file);
 }
 
+/// A number in the run's summary; null if it is not there.
+nlohmann::ordered_json count_in(const RunFolder& run, const char* name) {
+  const auto counts = run.summary.is_object() ? run.summary.find("counts") : run.summary.end();
+  if (!run.summary.is_object() || counts == run.summary.end() || !counts->is_object()) return nullptr;
+  const auto count = counts->find(name);
+  return count != counts->end() && count->is_number() ? *count : nlohmann::ordered_json();
+}
+
 std::vector<std::string> notes_on(const RunFolder& run, const EvaluateOptions& options) {
   std::vector<std::string> notes = frame_notes(run.robots, run.components, run.unplaced);
   if (run.summary.is_null())
@@ -124,6 +134,12 @@ Evaluation evaluate(const EvaluateOptions& options) {
 
   Evaluation evaluation;
   evaluation.notes = notes_on(run, options);
+  evaluation.found = count_in(run, "candidates");
+  evaluation.listed = count_in(run, "candidates_listed");
+  if (evaluation.listed.is_number() && evaluation.listed < evaluation.found)
+    evaluation.notes.push_back("candidates.csv lists the most probable " + evaluation.listed.dump() + " of " +
+                               evaluation.found.dump() +
+                               " candidates: kept and true_kept count these alone, not what the run found");
   const auto estimate = in_common_frame(run.robots, run.components, run.unplaced);
   evaluation.metrics = evaluate_trajectories(estimate, truth, mission.dimension, association);
   for (auto& note : mirror_notes(evaluation.metrics.mirror_images))
@@ -142,6 +158,8 @@ nlohmann::ordered_json evaluation_json(const Evaluation& evaluation) {
   json["candidates"] = pair_counts_json(evaluation.candidates);
   if (!evaluation.looked_for_candidates)
     for (const char* key : {"kept", "true_kept"}) json["candidates"][key] = nullptr;
+  json["candidates"]["found"] = evaluation.found;
+  json["candidates"]["listed"] = evaluation.listed;
   json["closures"] = pair_counts_json(evaluation.closures);
   json["closures"]["accepted"] = evaluation.accepted;
   json["closures"]["rejected"] = evaluation.rejected;

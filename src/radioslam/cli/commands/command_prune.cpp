@@ -1,9 +1,12 @@
 // radioslam prune: finds the keyframe pairs of different robots whose views can overlap.
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "radioslam/cli/commands.hpp"
 #include "radioslam/cli/commands/command_options.hpp"
@@ -13,6 +16,7 @@
 #include "radioslam/cli/progress_line.hpp"
 #include "radioslam/cli/run_parameters.hpp"
 #include "radioslam/io/run/run_folder.hpp"
+#include "radioslam/io/run/run_tables.hpp"
 #include "radioslam/io/text/atomic_output.hpp"
 
 namespace radioslam::cli {
@@ -28,14 +32,22 @@ struct PruneOptions {
   bool json = false;
 };
 
-RunOutput search(const PruneOptions& options, const RunParams& params) {
+/// Writes candidates.csv while it searches.
+RunOutput search(const PruneOptions& options, const RunParams& params, const std::filesystem::path& folder) {
   MissionInput input = read_input(options.mission, options.starts);
   ProgressLine line;
+  std::vector<std::string> ids;
+  for (const Robot& robot : input.mission.robots) ids.push_back(robot.id);
+  CandidateWriter candidates(folder / "candidates.csv", std::move(ids));
   RunOptions how;
   how.overlap_only = true;
   how.search = options.exhaustive ? SearchMethod::kExhaustive : SearchMethod::kTree;
+  how.take_candidates = [&](const CandidateList::Group& group, const CandidateList& keyframes) {
+    candidates.write(group, keyframes);
+  };
   const std::vector<std::string> notes = input.notes;
   auto run = run_input(std::move(input), params, how, line.progress());
+  candidates.close();
   run.result.notes.insert(run.result.notes.begin(), notes.begin(), notes.end());
   run.result.parameters = effective_parameters(params);
   return run;
@@ -57,8 +69,10 @@ void prune(const PruneOptions& options) {
   if (!options.mode.empty()) params.overlap.mode = options.mode;
   refuse_replacing_inputs(options.output, options.mission);
   OutputFolder output(options.output, kRunFolder);
-  const RunOutput run = search(options, params);
-  write_run(output.path(), run.result, {});
+  const RunOutput run = search(options, params, output.path());
+  RunDocuments documents;
+  documents.candidates = CandidateTable::kWritten;
+  write_run(output.path(), run.result, documents);
   output.commit();
   if (options.json) {
     auto summary = summary_json(run.result);
@@ -95,7 +109,8 @@ void add_prune(CLI::App& program) {
   add_json_option(*command, options->json);
   add_threads_option(*command);
   command->footer(
-      "The output folder holds candidates.csv, the trajectories used for the search, and summary.json.\n"
+      "The output folder holds candidates.csv, with all candidates whatever overlap.max_listed_candidates,\n"
+      "the trajectories used for the search, and summary.json.\n"
       "This is the part of `run` that precedes place recognition; matches.csv is not used.\n"
       "`radioslam parameters prune` lists the parameters for --set and --config.\n\n"
       "Example: candidate pairs for your own place recognition, with a wider margin\n"

@@ -6,6 +6,7 @@
 
 #include "radioslam/base/check.hpp"
 #include "radioslam/base/parallel.hpp"
+#include "radioslam/graph/linear/front_kernels.hpp"
 
 namespace radioslam {
 
@@ -92,6 +93,7 @@ CovariancesOfRobot<Pose>::CovariancesOfRobot(std::shared_ptr<const SkeletonCovar
                                              std::size_t last_segment)
     : skeleton_(std::move(skeleton)), a_(a), places_(skeleton_->listed(a).size()) {
   list_batches(first_segment, last_segment);
+  find_parts_of_later();
   parallel_for(batches_.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) compute(batches_[k]);
   });
@@ -102,26 +104,42 @@ Eigen::Index CovariancesOfRobot<Pose>::size_of(std::size_t u) const {
   return SkeletonCovariance<Pose>::size(skeleton_->listed(a_)[u].variable);
 }
 
+/// Variables of one part are together.
 template <class Pose>
 void CovariancesOfRobot<Pose>::list_batches(std::size_t first_segment, std::size_t last_segment) {
   const auto& list = skeleton_->listed(a_);
   std::vector<bool> known(list.size(), false);
-  Eigen::Index column = 0;
-  const auto add = [&](std::size_t u) {
-    if (u == kNoDrift || known[u] || !list[u].is_free) return;
-    known[u] = true;
-    if (batches_.empty() || batches_.back().variables.size() == kBatch) {
-      batches_.emplace_back();
-      column = 0;
-    }
-    places_[u] = {batches_.size() - 1, batches_.back().variables.size(), column};
-    batches_.back().variables.push_back(u);
-    column += size_of(u);
-  };
+  std::vector<std::size_t> variables;
   for (std::size_t s = first_segment; s < last_segment; ++s) {
     const SegmentPlaces& segment = skeleton_->places(a_, s);
-    for (const std::size_t u : {segment.first, segment.last, segment.drift}) add(u);
+    for (const std::size_t u : {segment.first, segment.last, segment.drift}) {
+      if (u == kNoDrift || known[u] || !list[u].is_free) continue;
+      known[u] = true;
+      variables.push_back(u);
+    }
   }
+  std::stable_sort(variables.begin(), variables.end(),
+                   [&](std::size_t u, std::size_t v) { return list[u].part < list[v].part; });
+  for (std::size_t begin = 0; begin < variables.size(); begin += kBatch) {
+    Batch& batch = batches_.emplace_back();
+    Eigen::Index column = 0;
+    for (std::size_t k = begin; k < std::min(variables.size(), begin + kBatch); ++k) {
+      places_[variables[k]] = {batches_.size() - 1, batch.variables.size(), column};
+      batch.variables.push_back(variables[k]);
+      column += size_of(variables[k]);
+    }
+  }
+}
+
+template <class Pose>
+void CovariancesOfRobot<Pose>::find_parts_of_later() {
+  if (!skeleton_->parts()) return;
+  std::vector<bool> found(skeleton_->parts()->parts(), false);
+  for (std::size_t b = a_ + 1; b < skeleton_->robots(); ++b)
+    for (const Listed& v : skeleton_->listed(b))
+      if (v.is_free) found[v.part] = true;
+  for (std::size_t p = 0; p < found.size(); ++p)
+    if (found[p]) parts_of_later_.push_back(p);
 }
 
 template <class Pose>
@@ -179,35 +197,33 @@ template <class Pose>
 void CovariancesOfRobot<Pose>::compute(Batch& batch) const {
   const auto& list = skeleton_->listed(a_);
   const PartitionedInverse& parts = *skeleton_->parts();
-  const std::size_t last = batch.variables.back();
-  Eigen::MatrixXd with_separators(parts.separators().rows(), places_[last].column + size_of(last));
-  batch.local.resize(batch.variables.size());
-  std::map<std::size_t, std::vector<std::size_t>> of_parts;  // places in the batch
-  for (std::size_t k = 0; k < batch.variables.size(); ++k)
-    of_parts[list[batch.variables[k]].part].push_back(k);
-  for (const auto& [part, places] : of_parts) {
-    const auto& boundary = parts.boundary(part);
-    Eigen::MatrixXd from(parts.separators().rows(), static_cast<Eigen::Index>(boundary.size()));
-    for (std::size_t k = 0; k < boundary.size(); ++k)
-      from.col(static_cast<Eigen::Index>(k)) = parts.separators().col(boundary[k]);
+  const Eigen::MatrixXd& separators = parts.separators();
+  const std::size_t count = batch.variables.size(), last = batch.variables.back();
+  Eigen::MatrixXd with_separators(separators.rows(), places_[last].column + size_of(last));
+  batch.local.resize(count);
+  for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
+    const std::size_t part = list[batch.variables[begin]].part;
     std::vector<std::size_t> variables, inner;
-    for (const std::size_t k : places) {
-      variables.push_back(batch.variables[k]);
-      if (!list[batch.variables[k]].is_separator) inner.push_back(k);
+    for (; end < count && list[batch.variables[end]].part == part; ++end) {
+      variables.push_back(batch.variables[end]);
+      if (!list[batch.variables[end]].is_separator) inner.push_back(end);
     }
-    const Eigen::MatrixXd covariances = from * maps_of(variables);
-    Eigen::Index column = 0;
-    for (const std::size_t u : variables) {
-      with_separators.middleCols(places_[u].column, size_of(u)) = covariances.middleCols(column, size_of(u));
-      column += size_of(u);
-    }
+    const auto& boundary = parts.boundary(part);
+    const Eigen::MatrixXd maps = maps_of(variables);
+    front_kernels().multiply(
+        {separators.data(), static_cast<std::size_t>(separators.rows()), boundary.data(), boundary.size()},
+        static_cast<std::size_t>(maps.cols()), maps.data(),
+        with_separators.col(places_[variables.front()].column).data());
     if (!inner.empty()) add_local(batch, inner);
   }
-  for (std::size_t p = 0; p < parts.parts(); ++p) {
+  batch.with_boundary.resize(parts.parts());
+  for (const std::size_t p : parts_of_later_) {
     const auto& boundary = parts.boundary(p);
-    Eigen::MatrixXd& with = batch.with_boundary.emplace_back(boundary.size(), with_separators.cols());
-    for (std::size_t k = 0; k < boundary.size(); ++k)
-      with.row(static_cast<Eigen::Index>(k)) = with_separators.row(boundary[k]);
+    Eigen::MatrixXd& with = batch.with_boundary[p];
+    with.resize(static_cast<Eigen::Index>(boundary.size()), with_separators.cols());
+    for (Eigen::Index column = 0; column < with.cols(); ++column)
+      for (std::size_t k = 0; k < boundary.size(); ++k)
+        with(static_cast<Eigen::Index>(k), column) = with_separators(boundary[k], column);
   }
 }
 

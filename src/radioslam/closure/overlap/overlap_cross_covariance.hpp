@@ -79,8 +79,8 @@ class SkeletonCovariance {
   std::vector<std::vector<SegmentPlaces>> places_;
 };
 
-/// Covariances of robot a's variables, of some of its segments, with the boundaries of all parts and within
-/// their own, from which those with any other robot's variables follow.
+/// Covariances of robot a's variables, of some of its segments, with the boundaries of other robots' parts
+/// and within their own, from which those with the variables of any robot listed later follow.
 template <class Pose>
 class CovariancesOfRobot {
  public:
@@ -100,11 +100,12 @@ class CovariancesOfRobot {
   static std::size_t scalars_per_variable(const SkeletonCovariance<Pose>& skeleton);
 
  private:
-  /// Some 48 columns: enough for fast products, few enough to spread over threads.
-  static constexpr std::size_t kBatch = 48 / kDof;
+  /// Some 96 columns: enough for fast products, few enough to spread over threads.
+  static constexpr std::size_t kBatch = 96 / kDof;
   struct Batch {
     std::vector<std::size_t> variables;
-    std::vector<Eigen::MatrixXd> with_boundary;  ///< per part: boundary x columns
+    std::vector<Eigen::MatrixXd>
+        with_boundary;                   ///< per part: boundary x columns; empty if no later robot is in it
     std::vector<Eigen::MatrixXd> local;  ///< per variable: scalars of its part x size; empty for separators
   };
   static constexpr std::size_t kNone = ~std::size_t{0};
@@ -115,6 +116,7 @@ class CovariancesOfRobot {
   using Listed = typename SkeletonCovariance<Pose>::Listed;
 
   void list_batches(std::size_t first_segment, std::size_t last_segment);
+  void find_parts_of_later();
   void compute(Batch& batch) const;
   Eigen::MatrixXd maps_of(const std::vector<std::size_t>& variables) const;
   void add_local(Batch& batch, const std::vector<std::size_t>& places) const;
@@ -124,6 +126,7 @@ class CovariancesOfRobot {
   std::size_t a_;
   std::vector<Place> places_;  ///< per variable of a
   std::vector<Batch> batches_;
+  std::vector<std::size_t> parts_of_later_;  ///< with variables of robots listed later
 };
 
 /// Covariances between robot a's and robot b's segments. Thread-safe.

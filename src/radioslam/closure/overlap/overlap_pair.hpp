@@ -55,9 +55,12 @@ class OverlapPair {
 };
 
 /// Adds the results of a part of a search.
-inline void append(OverlapCandidates& all, const OverlapCandidates& part) {
-  all.candidates.insert(all.candidates.end(), part.candidates.begin(), part.candidates.end());
+inline void append(OverlapCandidates& all, OverlapCandidates&& part) {
   all.counts += part.counts;
+  if (all.candidates.capacity() == 0)
+    all.candidates = std::move(part.candidates);
+  else
+    all.candidates.insert(all.candidates.end(), part.candidates.begin(), part.candidates.end());
 }
 
 /// Calls work(task, its own result) for every task in parallel and appends the results to `found` in order.
@@ -67,7 +70,10 @@ OverlapCandidates gather_overlaps(std::size_t tasks, OverlapCandidates found, Wo
   parallel_for(tasks, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) work(t, parts[t]);
   });
-  for (const auto& part : parts) append(found, part);
+  std::size_t kept = found.candidates.size();
+  for (const auto& part : parts) kept += part.candidates.size();
+  found.candidates.reserve(kept);
+  for (auto& part : parts) append(found, std::move(part));
   return found;
 }
 

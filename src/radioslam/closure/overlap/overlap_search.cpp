@@ -1,6 +1,7 @@
 #include "radioslam/closure/overlap/overlap_search.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "radioslam/base/check.hpp"
 #include "radioslam/base/parallel.hpp"
@@ -40,92 +41,79 @@ OverlapCandidates compare_all_pairs(const OverlapPair<Source>& pair, const Sourc
   return found;
 }
 
-/// For every run of a robot's poses calls search_run(robot, run), and what that returns with the OverlapPair
-/// of every later robot. Hands over the sorted results.
-template <OverlapSource Source, class SearchRun>
-OverlapCounts over_team(const Source& source, const std::vector<OverlapSensor>& sensors,
-                        const OverlapParams& params, const TakeOverlaps& take, SearchRun&& search_run) {
-  RADIOSLAM_CHECK(sensors.size() == source.robots(), "every robot has a sensor");
-  const auto robots = static_cast<std::uint32_t>(source.robots());
-  OverlapCounts counts;
-  for (std::uint32_t a = 0; a + 1 < robots; ++a) {
-    std::vector<OverlapCandidates> found(robots);
-    for (const PoseInterval& run : source.runs(a)) {
-      const auto columns = source.columns(a, run);
-      const auto search = search_run(a, run);
-      for (std::uint32_t b = a + 1; b < robots; ++b) {
-        const OverlapRule rule{params.max_mahalanobis, overlap_distance(params), sensors[a], sensors[b]};
-        const OverlapPair<Source> pair(source, a, b, source.view(a, b, columns), rule);
-        append(found[b], search(pair));
-      }
-    }
-    for (std::uint32_t b = a + 1; b < robots; ++b) {
-      found[b].counts.pairs = std::uint64_t{source.records(a).size()} * source.records(b).size();
-      std::sort(found[b].candidates.begin(), found[b].candidates.end(), [](const auto& x, const auto& y) {
-        return std::pair(x.pose_a, x.pose_b) < std::pair(y.pose_a, y.pose_b);
-      });
-      counts += found[b].counts;
-      take(std::move(found[b].candidates));
-    }
-  }
-  return counts;
-}
-
-/// The results of a search in one list.
-template <class Search>
-OverlapCandidates collected(Search&& search) {
+/// The whole team's candidates in one list.
+template <OverlapSource Source>
+OverlapCandidates collected(const TeamOverlapSearch<Source>& search, std::size_t robots) {
   OverlapCandidates all;
-  all.counts = search([&](std::vector<OverlapCandidate> found) {
-    all.candidates.insert(all.candidates.end(), found.begin(), found.end());
-  });
+  for (std::uint32_t a = 0; a < robots; ++a)
+    all.counts += search.search(a, [&](std::vector<OverlapCandidate> found) {
+      all.candidates.insert(all.candidates.end(), found.begin(), found.end());
+    });
   return all;
 }
 
 }  // namespace
 
 template <OverlapSource Source>
-OverlapCounts search_overlaps(const Source& source, const std::vector<OverlapSensor>& sensors,
-                              const OverlapParams& params, const TakeOverlaps& take) {
-  using Pose = typename Source::View::Pose;
-  std::vector<OverlapTree<Pose>> trees(source.robots());
-  parallel_for(trees.size(), 1, [&](std::size_t begin, std::size_t end) {
+TeamOverlapSearch<Source>::TeamOverlapSearch(const Source& source, std::vector<OverlapSensor> sensors,
+                                             const OverlapParams& params, SearchMethod method)
+    : source_(source), sensors_(std::move(sensors)), params_(params), method_(method) {
+  RADIOSLAM_CHECK(sensors_.size() == source.robots(), "every robot has a sensor");
+  if (method == SearchMethod::kExhaustive) return;
+  trees_.resize(source.robots());
+  parallel_for(trees_.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t r = std::max<std::size_t>(begin, 1); r < end; ++r)
-      trees[r] = OverlapTreeBuilder<Source>(source, r).build();
-  });
-  return over_team(source, sensors, params, take, [&](std::uint32_t a, const PoseInterval& run) {
-    return [&, tree = OverlapTreeBuilder<Source>(source, a).build(run)](const OverlapPair<Source>& pair) {
-      return OverlapBoxSearch<Source>(pair, tree, trees[pair.b()]).run(source);
-    };
+      trees_[r] = OverlapTreeBuilder<Source>(source, r).build();
   });
 }
 
 template <OverlapSource Source>
-OverlapCounts search_overlaps_exhaustively(const Source& source, const std::vector<OverlapSensor>& sensors,
-                                           const OverlapParams& params, const TakeOverlaps& take) {
-  return over_team(source, sensors, params, take, [&](std::uint32_t, const PoseInterval& run) {
-    return [&](const OverlapPair<Source>& pair) { return compare_all_pairs(pair, source, run); };
+OverlapCounts TeamOverlapSearch<Source>::search(std::uint32_t a, const TakeOverlaps& take) const {
+  const auto robots = static_cast<std::uint32_t>(source_.robots());
+  std::vector<OverlapCandidates> found(robots);
+  if (a + 1 == robots) return {};
+  for (const PoseInterval& run : source_.runs(a)) {
+    const auto columns = source_.columns(a, run);
+    const bool by_tree = method_ == SearchMethod::kTree;
+    const Tree tree = by_tree ? OverlapTreeBuilder<Source>(source_, a).build(run) : Tree();
+    for (std::uint32_t b = a + 1; b < robots; ++b) {
+      const OverlapRule rule{params_.max_mahalanobis, overlap_distance(params_), sensors_[a], sensors_[b]};
+      const OverlapPair<Source> pair(source_, a, b, source_.view(a, b, columns), rule);
+      append(found[b], by_tree ? OverlapBoxSearch<Source>(pair, tree, trees_[b]).run(source_)
+                               : compare_all_pairs(pair, source_, run));
+    }
+  }
+  parallel_for(robots, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b)
+      std::sort(found[b].candidates.begin(), found[b].candidates.end(), [](const auto& x, const auto& y) {
+        return std::pair(x.pose_a, x.pose_b) < std::pair(y.pose_a, y.pose_b);
+      });
   });
+  OverlapCounts counts;
+  for (std::uint32_t b = a + 1; b < robots; ++b) {
+    found[b].counts.pairs = std::uint64_t{source_.records(a).size()} * source_.records(b).size();
+    counts += found[b].counts;
+    take(std::move(found[b].candidates));
+  }
+  return counts;
 }
 
 template <OverlapSource Source>
 OverlapCandidates search_overlaps(const Source& source, const std::vector<OverlapSensor>& sensors,
                                   const OverlapParams& params) {
-  return collected([&](const TakeOverlaps& take) { return search_overlaps(source, sensors, params, take); });
+  return collected(TeamOverlapSearch<Source>(source, sensors, params, SearchMethod::kTree), source.robots());
 }
 
 template <OverlapSource Source>
 OverlapCandidates search_overlaps_exhaustively(const Source& source,
                                                const std::vector<OverlapSensor>& sensors,
                                                const OverlapParams& params) {
-  return collected(
-      [&](const TakeOverlaps& take) { return search_overlaps_exhaustively(source, sensors, params, take); });
+  return collected(TeamOverlapSearch<Source>(source, sensors, params, SearchMethod::kExhaustive),
+                   source.robots());
 }
 
 #define RADIOSLAM_OVERLAP_SEARCH(Source)                                                                    \
-  template OverlapCounts search_overlaps(const Source&, const std::vector<OverlapSensor>&,                  \
-                                         const OverlapParams&, const TakeOverlaps&);                        \
-  template OverlapCounts search_overlaps_exhaustively(const Source&, const std::vector<OverlapSensor>&,     \
-                                                      const OverlapParams&, const TakeOverlaps&);           \
+  template class TeamOverlapSearch<Source>;                                                                 \
   template OverlapCandidates search_overlaps(const Source&, const std::vector<OverlapSensor>&,              \
                                              const OverlapParams&);                                         \
   template OverlapCandidates search_overlaps_exhaustively(const Source&, const std::vector<OverlapSensor>&, \

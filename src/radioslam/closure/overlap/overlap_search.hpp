@@ -15,26 +15,46 @@
 #include "radioslam/closure/overlap/overlap_joint.hpp"
 #include "radioslam/closure/overlap/overlap_link.hpp"
 #include "radioslam/closure/overlap/overlap_params.hpp"
+#include "radioslam/closure/overlap/overlap_tree.hpp"
 
 namespace radioslam {
 
-/// Receives the candidates of two robots, sorted by their poses; two robots after the other.
+enum class SearchMethod {
+  kTree,
+  kExhaustive,  ///< tests every pair; same result
+};
+
+/// Receives the candidates of two robots, sorted by their poses.
 using TakeOverlaps = std::function<void(std::vector<OverlapCandidate>)>;
 
-/// `Source`: LinkCovariance or JointCovariance of SE2 or SE3. One sensor per robot. Each pair of robots'
-/// candidates are handed over once they are found, so that a large team's are never all in this form.
+/// A team's search, one robot at a time: a large team's candidates are too many to hold at once. `Source`:
+/// LinkCovariance or JointCovariance of SE2 or SE3. Refers to the source.
 template <OverlapSource Source>
-OverlapCounts search_overlaps(const Source& source, const std::vector<OverlapSensor>& sensors,
-                              const OverlapParams& params, const TakeOverlaps& take);
-/// The same in one list.
+class TeamOverlapSearch {
+ public:
+  /// One sensor per robot.
+  TeamOverlapSearch(const Source& source, std::vector<OverlapSensor> sensors, const OverlapParams& params,
+                    SearchMethod method);
+
+  /// Searches robot a against every robot listed later, and hands over the candidates pair of robots by pair
+  /// of robots.
+  OverlapCounts search(std::uint32_t a, const TakeOverlaps& take) const;
+
+ private:
+  using Tree = OverlapTree<typename Source::View::Pose>;
+
+  const Source& source_;
+  std::vector<OverlapSensor> sensors_;
+  OverlapParams params_;
+  SearchMethod method_;
+  std::vector<Tree> trees_;  ///< of all poses of each robot but the first
+};
+
+/// The whole team's, in one list.
 template <OverlapSource Source>
 OverlapCandidates search_overlaps(const Source& source, const std::vector<OverlapSensor>& sensors,
                                   const OverlapParams& params);
-
 /// The same results by testing every pair.
-template <OverlapSource Source>
-OverlapCounts search_overlaps_exhaustively(const Source& source, const std::vector<OverlapSensor>& sensors,
-                                           const OverlapParams& params, const TakeOverlaps& take);
 template <OverlapSource Source>
 OverlapCandidates search_overlaps_exhaustively(const Source& source,
                                                const std::vector<OverlapSensor>& sensors,

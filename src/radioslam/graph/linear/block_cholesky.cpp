@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "radioslam/base/check.hpp"
+#include "radioslam/graph/linear/front_elimination.hpp"
 #include "radioslam/graph/linear/front_kernels.hpp"
 #include "radioslam/graph/linear/front_solve.hpp"
 #include "radioslam/graph/linear/front_tree.hpp"
@@ -108,9 +109,9 @@ bool BlockCholesky::Impl::eliminate(const SymmetricBlockMatrix& matrix, const Fr
   std::fill_n(panel_begin, front.scalars() * front.pivots, 0.0);
   load_blocks(matrix, front);
   add_children_to_pivots(front);
-  if (!front_kernels().eliminate({front.pivots, front.below}, panel_begin, stack.data() + front.update)) {
+  if (!eliminate_front(front_kernels(), {front.pivots, front.below}, panel_begin,
+                       stack.data() + front.update))
     return false;
-  }
   add_children_to_update(front);
   return true;
 }
@@ -180,6 +181,43 @@ Eigen::MatrixXd BlockCholesky::inverse_rows(const std::vector<std::size_t>& bloc
   for (auto front = tree.fronts.rbegin(); front != tree.fronts.rend(); ++front)
     solver.backward(*front, column, x);
   return impl_->in_original_order(x);
+}
+
+Eigen::MatrixXd BlockCholesky::inverse_between(const std::vector<std::size_t>& blocks) const {
+  impl_->check_usable();
+  const FrontTree& tree = *impl_->tree;
+  std::vector<bool> is_on_way(tree.fronts.size(), false);
+  Eigen::Index rows = 0;
+  for (const std::size_t block : blocks) {
+    RADIOSLAM_CHECK(block < tree.blocks(), "no such block");
+    rows += index(tree.block_size(tree.place[block]));
+    for (auto f = tree.front_of[tree.place[block]]; f != kNoParent && !is_on_way[f];
+         f = tree.fronts[f].parent)
+      is_on_way[f] = true;
+  }
+  std::vector<std::size_t> columns(tree.scalars());
+  std::size_t used = 0;
+  for (std::size_t f = 0; f < tree.fronts.size(); ++f)
+    for (std::size_t k = 0; is_on_way[f] && k < tree.fronts[f].pivots; ++k)
+      columns[tree.fronts[f].first_scalar + k] = used++;
+  const auto column = [&](std::size_t scalar) { return columns[scalar]; };
+  const auto to_the_root = [](std::uint32_t) { return true; };
+  FrontSolver solver(tree, impl_->factor);
+  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(rows, index(used));
+  std::vector<std::size_t> scalars;
+  for (const std::size_t block : blocks) {
+    const std::size_t at = tree.place[block];
+    for (std::size_t k = tree.first_scalar[at]; k < tree.first_scalar[at + 1]; ++k) {
+      solver.forward_unit(k, tree.front_of[at], to_the_root, column, x.row(index(scalars.size())));
+      scalars.push_back(k);
+    }
+  }
+  for (std::size_t f = tree.fronts.size(); f-- > 0;)
+    if (is_on_way[f]) solver.backward(tree.fronts[f], column, x);
+  Eigen::MatrixXd result(rows, rows);
+  for (Eigen::Index k = 0; k < rows; ++k)
+    result.col(k) = x.col(index(column(scalars[static_cast<std::size_t>(k)])));
+  return result;
 }
 
 double BlockCholesky::log_determinant() const {

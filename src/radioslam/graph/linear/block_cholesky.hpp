@@ -63,6 +63,9 @@ class BlockCholesky {
   /// Rows of H^-1 for blocks: their sizes' sum x rows(). Some dozen rows at once take a fraction of the time
   /// of one after the other. May be called from several threads.
   Eigen::MatrixXd inverse_rows(const std::vector<std::size_t>& blocks) const;
+  /// H^-1 between these blocks, in their order: their sizes' sum, squared. Visits only what is on the way
+  /// from them to the root of the elimination tree.
+  Eigen::MatrixXd inverse_between(const std::vector<std::size_t>& blocks) const;
   /// log det H.
   double log_determinant() const;
   SelectedInverse selected_inverse() const;

@@ -8,9 +8,6 @@ namespace radioslam::dense {
 
 template <class Simd>
 struct DenseFront {
-  /// Columns eliminated before what is right of them is brought up to date.
-  static constexpr std::size_t kPanelColumns = 96;
-
   /// Cholesky of a kColumns x kColumns lower triangle. False when a pivot is not positive or not finite.
   template <std::size_t kColumns>
   static bool factor_triangle(double* l, std::size_t stride, double* reciprocals) {
@@ -55,8 +52,8 @@ struct DenseFront {
 
   static bool eliminate(FrontShape shape, double* panel, double* update) {
     const std::size_t p = shape.pivots, r = shape.below, n = p + r;
-    for (std::size_t k = 0; k < p; k += kPanelColumns) {
-      const std::size_t width = p - k < kPanelColumns ? p - k : kPanelColumns;
+    for (std::size_t k = 0; k < p; k += kEliminatedTogether) {
+      const std::size_t width = p - k < kEliminatedTogether ? p - k : kEliminatedTogether;
       const std::size_t next = k + width;
       if (!factor_panel(n - k, width, panel + k + k * n, n)) return false;
       const double* const done = panel + next + k * n;
@@ -66,6 +63,41 @@ struct DenseFront {
     product<Simd, Operation::kAssignNegative>({r, r, p}, Shape::kLowerResult, Left::kFull, {panel + p, n},
                                               {panel + p, n, 1}, {update, r});
     return true;
+  }
+
+  /// The steps of `eliminate` for pivots [k, k + width), whose columns are up to date; see FrontKernels.
+  static bool eliminate_pivots(FrontShape shape, FrontRange pivots, double* panel) {
+    const std::size_t n = shape.pivots + shape.below, width = pivots.end - pivots.begin;
+    return factor_panel(width, width, panel + pivots.begin + pivots.begin * n, n);
+  }
+
+  static void solve_rows(FrontShape shape, FrontRange pivots, FrontRange rows, double* panel) {
+    const std::size_t n = shape.pivots + shape.below;
+    double* const left = panel + pivots.begin * n;
+    for_each_strip(pivots.end - pivots.begin, [&](std::size_t j, auto width) {
+      constexpr std::size_t kColumns = decltype(width)::value;
+      const double* const diagonal = left + pivots.begin + j + j * n;
+      double reciprocals[kColumns];
+      for (std::size_t t = 0; t < kColumns; ++t) reciprocals[t] = 1 / diagonal[t + t * n];
+      compute_strip<Simd, Operation::kSubtractAndSolve, kColumns>(
+          0, {rows.end - rows.begin, kColumns, j}, Left::kFull, {left + rows.begin, n},
+          {left + pivots.begin + j, n, 1}, {left + rows.begin + j * n, n}, {diagonal, n, reciprocals});
+    });
+  }
+
+  static void update_panel(FrontShape shape, FrontRange pivots, FrontRange rows, double* panel) {
+    const std::size_t n = shape.pivots + shape.below, next = pivots.end;
+    const double* const done = panel + next + pivots.begin * n;
+    product_of_rows<Simd, Operation::kSubtract>(
+        rows.begin - next, rows.end - next, {n - next, shape.pivots - next, next - pivots.begin},
+        Shape::kLowerResult, Left::kFull, Columns{done, n}, {done, n, 1}, {panel + next + next * n, n});
+  }
+
+  static void update_below(FrontShape shape, FrontRange rows, const double* panel, double* update) {
+    const std::size_t p = shape.pivots, r = shape.below, n = p + r;
+    product_of_rows<Simd, Operation::kAssignNegative>(rows.begin, rows.end, {r, r, p}, Shape::kLowerResult,
+                                                      Left::kFull, Columns{panel + p, n}, {panel + p, n, 1},
+                                                      {update, r});
   }
 
   /// Columns [first, first + columns) of W = L_PP^-T, where -W L^T of the columns before is already in the
@@ -95,8 +127,8 @@ struct DenseFront {
     const std::size_t p = shape.pivots, n = p + shape.below;
     for (std::size_t i = 0; i < p * p; ++i) w[i] = 0;
     for (std::size_t i = 0; i < p; ++i) w[i + i * p] = 1;
-    for (std::size_t k = 0; k < p; k += kPanelColumns) {
-      const std::size_t columns = p - k < kPanelColumns ? p - k : kPanelColumns;
+    for (std::size_t k = 0; k < p; k += kEliminatedTogether) {
+      const std::size_t columns = p - k < kEliminatedTogether ? p - k : kEliminatedTogether;
       product<Simd, Operation::kAssignNegative>({k, columns, k}, Shape::kFull, Left::kUpper, {w, p},
                                                 {panel + k, n, 1}, {w + k * p, p});
       invert_columns(k, columns, panel, n, w, p);
@@ -161,7 +193,16 @@ struct DenseFront {
     }
   }
 
-  static constexpr FrontKernels kernels(const char* name) { return {name, &eliminate, &invert, &solve_back}; }
+  static void multiply(PickedMatrix a, std::size_t columns, const double* b, double* c) {
+    product_of_rows<Simd, Operation::kAssign>(0, a.rows, {a.rows, columns, a.columns}, Shape::kFull,
+                                              Left::kFull, PickedColumns{a.data, a.rows, a.which},
+                                              {b, 1, a.columns}, {c, a.rows});
+  }
+
+  static constexpr FrontKernels kernels(const char* name) {
+    return {name,          &eliminate, &eliminate_pivots, &solve_rows, &update_panel,
+            &update_below, &invert,    &solve_back,       &multiply};
+  }
 };
 
 }  // namespace radioslam::dense

@@ -64,19 +64,34 @@ void product_in_place(Extent extent, Shape shape, Left left, Columns a, Strided 
 inline constexpr std::size_t kPackedRows = 192;
 inline constexpr std::size_t kPackedDepth = 144;
 
-/// Rows of A, a tile's rows at a time: entry (i, k) of a group of T rows is at k * T + i.
+/// A from row i and column k on, and its entry (i, k). In templates, as everything here (dense_tile.hpp).
 template <class Simd>
+struct Access {
+  static Columns moved(Columns a, std::size_t i, std::size_t k) {
+    return {a.data + i + k * a.stride, a.stride};
+  }
+  static PickedColumns moved(PickedColumns a, std::size_t i, std::size_t k) {
+    return {a.data + i, a.stride, a.which + k};
+  }
+  static const double* entry(Columns a, std::size_t i, std::size_t k) { return a.data + i + k * a.stride; }
+  static const double* entry(PickedColumns a, std::size_t i, std::size_t k) {
+    return a.data + i + a.which[k] * a.stride;
+  }
+};
+
+/// Rows of A, a tile's rows at a time: entry (i, k) of a group of T rows is at k * T + i.
+template <class Simd, class Matrix>
 class PackedRows {
   static constexpr std::size_t kRows = kTileVectors * Simd::kWidth;
   static_assert(kPackedRows % kRows == 0);
 
  public:
-  PackedRows(std::size_t rows, std::size_t depth, Columns a) : depth_(depth) {
+  PackedRows(std::size_t rows, std::size_t depth, Matrix a) : depth_(depth) {
     for (std::size_t i = 0; i < rows; i += kRows) {
       const std::size_t count = rows - i < kRows ? rows - i : kRows;
       double* const group = values_ + i * depth;
       for (std::size_t k = 0; k < depth; ++k) {
-        const double* const column = a.data + i + k * a.stride;
+        const double* const column = Access<Simd>::entry(a, i, k);
         for (std::size_t t = 0; t < count; ++t) group[k * kRows + t] = column[t];
       }
     }
@@ -107,11 +122,11 @@ class PackedStrip {
 };
 
 /// Rows [first, first + extent.rows) of C, with an inner extent that begins at `inner_begin` of A's columns.
-template <class Simd, Operation kOperation>
+template <class Simd, Operation kOperation, class Matrix>
 void product_of_block(std::size_t first, std::size_t inner_begin, Extent extent, Shape shape, Left left,
-                      Columns a, Strided b, Target c) {
+                      Matrix a, Strided b, Target c) {
   constexpr std::size_t kRows = kTileVectors * Simd::kWidth;
-  const PackedRows<Simd> rows(extent.rows, extent.inner, a);
+  const PackedRows<Simd, Matrix> rows(extent.rows, extent.inner, a);
   const std::size_t last = first + extent.rows;
   const std::size_t columns = shape == Shape::kFull || extent.columns < last ? extent.columns : last;
   for_each_strip(columns, [&](std::size_t j, auto width) {
@@ -136,14 +151,16 @@ constexpr Operation continued(Operation operation) {
                                                                          : Operation::kSubtract;
 }
 
-template <class Simd, Operation kOperation>
-void product_in_blocks(Extent extent, Shape shape, Left left, Columns a, Strided b, Target c) {
+/// Rows [first, last) of C.
+template <class Simd, Operation kOperation, class Matrix>
+void product_of_rows(std::size_t first, std::size_t last, Extent extent, Shape shape, Left left, Matrix a,
+                     Strided b, Target c) {
   for (std::size_t k = 0; k < extent.inner || k == 0; k += kPackedDepth) {
     const std::size_t depth = extent.inner - k < kPackedDepth ? extent.inner - k : kPackedDepth;
-    for (std::size_t i = 0; i < extent.rows; i += kPackedRows) {
-      const std::size_t rows = extent.rows - i < kPackedRows ? extent.rows - i : kPackedRows;
+    for (std::size_t i = first; i < last; i += kPackedRows) {
+      const std::size_t rows = last - i < kPackedRows ? last - i : kPackedRows;
       const Extent block{rows, extent.columns, depth};
-      const Columns a_block{a.data + i + k * a.stride, a.stride};
+      const Matrix a_block = Access<Simd>::moved(a, i, k);
       const Strided b_block{b.data + k * b.row_stride, b.row_stride, b.column_stride};
       if (k == 0) {
         product_of_block<Simd, kOperation>(i, k, block, shape, left, a_block, b_block, c);
@@ -160,7 +177,7 @@ void product(Extent extent, Shape shape, Left left, Columns a, Strided b, Target
   /// Copying A pays from about here; measured.
   constexpr std::size_t kLargeRows = 192, kManyColumns = 24;
   if (extent.rows >= kLargeRows && extent.columns >= kManyColumns) {
-    product_in_blocks<Simd, kOperation>(extent, shape, left, a, b, c);
+    product_of_rows<Simd, kOperation>(0, extent.rows, extent, shape, left, a, b, c);
   } else {
     product_in_place<Simd, kOperation>(extent, shape, left, a, b, c);
   }

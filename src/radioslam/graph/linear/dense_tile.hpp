@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 namespace radioslam::dense {
 
@@ -14,6 +15,13 @@ namespace radioslam::dense {
 struct Columns {
   const double* data = nullptr;
   std::size_t stride = 0;
+};
+
+/// Column k is column `which[k]` of another matrix.
+struct PickedColumns {
+  const double* data = nullptr;
+  std::size_t stride = 0;
+  const std::uint32_t* which = nullptr;
 };
 
 /// Entry (k, j) is at data[k * row_stride + j * column_stride].

@@ -15,11 +15,17 @@
 
 namespace radioslam {
 
+enum class CandidateTable {
+  kOfResult,
+  kWritten,  ///< the folder has it already, by a CandidateWriter
+};
+
 /// Documents of a run besides its result. Empty texts are not written; null metrics are omitted.
 struct RunDocuments {
   nlohmann::ordered_json metrics = nullptr;
   std::string graph_g2o;
   std::string report_html;
+  CandidateTable candidates = CandidateTable::kOfResult;
 };
 
 /// summary.json: robots, counts, seconds, parameters, team_frame, metrics; and mission, dimension, notes.

@@ -1,3 +1,6 @@
+#include <cmath>
+#include <cstdint>
+
 #include "radioslam/io/mission/tum.hpp"
 #include "radioslam/io/run/run_folder.hpp"
 #include "radioslam/io/run/run_tables.hpp"
@@ -63,8 +66,9 @@ Json parameter_json(const std::string& value) {
 
 /// A count as an integer if it is one.
 Json count_json(double count) {
-  const auto whole = parse_integer(format_number(count));
-  return whole ? Json(*whole) : Json(count);
+  constexpr double kLargestExact = 9e15;  // below it every integer is a double
+  const bool is_whole = std::abs(count) < kLargestExact && std::trunc(count) == count;
+  return is_whole ? Json(static_cast<std::int64_t>(count)) : Json(count);
 }
 
 Json transform_json(const TransformResult& transform) {
@@ -154,7 +158,8 @@ void write_run(const std::filesystem::path& folder, const RunResult& result, con
   write_trajectories(folder, result.robots);
   for (std::size_t k = 0; k < result.alternatives.size(); ++k)
     write_trajectories(folder / "hypotheses" / std::to_string(k + 1), result.alternatives[k].robots);
-  write_candidates(folder / "candidates.csv", result.candidates, ids);
+  if (documents.candidates == CandidateTable::kOfResult)
+    write_candidates(folder / "candidates.csv", result.candidates, ids);
   write_file(folder / "closures.csv", format_closures(result.closures, ids));
   write_file(folder / "uncertainty.csv", format_uncertainty(result.robots));
   if (!result.aoa_measurements.empty())

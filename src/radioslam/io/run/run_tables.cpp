@@ -7,7 +7,6 @@
 #include "radioslam/base/check.hpp"
 #include "radioslam/base/parallel.hpp"
 #include "radioslam/io/mission/team_tables.hpp"
-#include "radioslam/io/text/atomic_output.hpp"
 #include "radioslam/io/text/csv.hpp"
 #include "radioslam/io/text/numbers.hpp"
 
@@ -134,34 +133,42 @@ void append_candidate(std::string& out, const std::vector<std::string>& ends_i,
 
 }  // namespace
 
+CandidateWriter::CandidateWriter(const std::filesystem::path& path, std::vector<std::string> ids)
+    : file_(path), ids_(std::move(ids)), pieces_(kPiecesAtOnce) {
+  file_.write(kCandidateHeader);
+}
+
+void CandidateWriter::name_ends(const CandidateList& keyframes) {
+  for (std::size_t r = 0; r < ids_.size(); ++r) {
+    std::vector<std::string>& own = ends_.emplace_back();
+    for (const Stamp stamp : keyframes.stamps(RobotIndex(r)))
+      own.push_back(ids_[r] + "," + format_stamp(stamp));
+  }
+}
+
+void CandidateWriter::write(const CandidateList::Group& group, const CandidateList& keyframes) {
+  if (ends_.empty()) name_ends(keyframes);
+  const auto& of_i = ends_[group.robot_i.index()];
+  const auto& of_j = ends_[group.robot_j.index()];
+  for (std::size_t start = 0; start < group.rows.size(); start += kPiecesAtOnce * kRowsPerPiece) {
+    parallel_for(kPiecesAtOnce, 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t piece = begin; piece < end; ++piece) {
+        const std::size_t first = std::min(group.rows.size(), start + piece * kRowsPerPiece);
+        const std::size_t last = std::min(group.rows.size(), first + kRowsPerPiece);
+        pieces_[piece].clear();
+        for (std::size_t k = first; k < last; ++k)
+          append_candidate(pieces_[piece], of_i, of_j, group.rows[k]);
+      }
+    });
+    for (const std::string& piece : pieces_) file_.write(piece);
+  }
+}
+
 void write_candidates(const std::filesystem::path& path, const CandidateList& candidates,
                       std::span<const std::string> ids) {
-  FileWriter file(path);
-  file.write(kCandidateHeader);
-  std::vector<std::vector<std::string>> ends;  // "id,stamp" per robot and keyframe
-  for (std::size_t r = 0; r < ids.size(); ++r) {
-    std::vector<std::string>& own = ends.emplace_back();
-    for (const Stamp stamp : candidates.stamps(RobotIndex(r)))
-      own.push_back(ids[r] + "," + format_stamp(stamp));
-  }
-  std::vector<std::string> pieces(kPiecesAtOnce);
-  for (const CandidateList::Group& group : candidates.groups()) {
-    const auto& of_i = ends[group.robot_i.index()];
-    const auto& of_j = ends[group.robot_j.index()];
-    for (std::size_t start = 0; start < group.rows.size(); start += kPiecesAtOnce * kRowsPerPiece) {
-      parallel_for(kPiecesAtOnce, 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t piece = begin; piece < end; ++piece) {
-          const std::size_t first = std::min(group.rows.size(), start + piece * kRowsPerPiece);
-          const std::size_t last = std::min(group.rows.size(), first + kRowsPerPiece);
-          pieces[piece].clear();
-          for (std::size_t k = first; k < last; ++k)
-            append_candidate(pieces[piece], of_i, of_j, group.rows[k]);
-        }
-      });
-      for (const std::string& piece : pieces) file.write(piece);
-    }
-  }
-  file.close();
+  CandidateWriter writer(path, {ids.begin(), ids.end()});
+  for (const CandidateList::Group& group : candidates.groups()) writer.write(group, candidates);
+  writer.close();
 }
 
 std::string_view closure_kind_name(ClosureKind kind) { return word_for(kKinds, kind); }

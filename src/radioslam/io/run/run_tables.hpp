@@ -15,13 +15,34 @@
 #include <vector>
 
 #include "radioslam/eval/metrics.hpp"
+#include "radioslam/io/text/atomic_output.hpp"
 #include "radioslam/io/text/text.hpp"
 #include "radioslam/results/results.hpp"
 
 namespace radioslam {
 
 inline constexpr std::string_view kCandidateHeader = "robot_i,t_i_s,robot_j,t_j_s,distance_m,mahalanobis\n";
-/// Writes the table in pieces, since a large team's has gigabytes.
+
+/// Writes candidates.csv as the candidates come, since a large team's has gigabytes.
+class CandidateWriter {
+ public:
+  /// `ids`: of all robots.
+  CandidateWriter(const std::filesystem::path& path, std::vector<std::string> ids);
+
+  /// `keyframes` has the stamps of all robots, the same at every call.
+  void write(const CandidateList::Group& group, const CandidateList& keyframes);
+  /// To be called after the last group.
+  void close() { file_.close(); }
+
+ private:
+  void name_ends(const CandidateList& keyframes);
+
+  FileWriter file_;
+  std::vector<std::string> ids_;
+  std::vector<std::vector<std::string>> ends_;  ///< "id,stamp" per robot and keyframe
+  std::vector<std::string> pieces_;
+};
+/// A list in one call.
 void write_candidates(const std::filesystem::path& path, const CandidateList& candidates,
                       std::span<const std::string> ids);
 /// The stated standard deviation of every keyframe's position, of the robots that have one.

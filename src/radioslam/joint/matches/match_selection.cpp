@@ -199,6 +199,16 @@ std::optional<RadioCovariance<Pose>> radio_covariance(const JointGraph<Pose>& jo
 }
 
 template <class Pose>
+std::vector<KeyframePair> keyframes_of_matches(const JointGraph<Pose>& joint, const Mission& mission) {
+  std::vector<KeyframePair> pairs;
+  for (const PoseMatch& match : mission.matches)
+    if (match.robot_i != match.robot_j)
+      pairs.push_back({match.robot_i, keyframe_stamp(joint, match.robot_i, match.stamp_i), match.robot_j,
+                       keyframe_stamp(joint, match.robot_j, match.stamp_j)});
+  return pairs;
+}
+
+template <class Pose>
 std::vector<MatchOutcome> select_matches(JointGraph<Pose>& joint, const TeamPlacement<Pose>& placement,
                                          const Mission& mission, const CandidateList& candidates,
                                          Pruning pruning, const MatchParams& params,
@@ -326,6 +336,7 @@ void optimise_matches_and_radio(JointGraph<Pose>& joint, std::vector<MatchOutcom
 #define RADIOSLAM_MATCH_STAGE(Pose)                                                                        \
   template std::optional<RadioCovariance<Pose>> radio_covariance(                                          \
       const JointGraph<Pose>&, const TeamPlacement<Pose>&, const RadioAlignmentParams&);                   \
+  template std::vector<KeyframePair> keyframes_of_matches(const JointGraph<Pose>&, const Mission&);        \
   template std::vector<MatchOutcome> select_matches(                                                       \
       JointGraph<Pose>&, const TeamPlacement<Pose>&, const Mission&, const CandidateList&, Pruning,        \
       const MatchParams&, const AoaLikelihoodParams&, const std::optional<RadioCovariance<Pose>>&);        \

@@ -50,7 +50,12 @@ std::optional<RadioCovariance<Pose>> radio_covariance(const JointGraph<Pose>& jo
                                                       const TeamPlacement<Pose>& placement,
                                                       const RadioAlignmentParams& params);
 
-/// Tests every match and adds factors for those accepted. `joint` must be optimised and placed.
+/// The keyframes before the ends of every match between two robots.
+template <class Pose>
+std::vector<KeyframePair> keyframes_of_matches(const JointGraph<Pose>& joint, const Mission& mission);
+
+/// Tests every match and adds factors for those accepted. `joint` must be optimised and placed. `candidates`:
+/// all that are keyframes of a match.
 template <class Pose>
 std::vector<MatchOutcome> select_matches(JointGraph<Pose>& joint, const TeamPlacement<Pose>& placement,
                                          const Mission& mission, const CandidateList& candidates,

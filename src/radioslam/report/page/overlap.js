@@ -77,7 +77,7 @@ function key_of_overlap() {
 }
 
 function write_overlap() {
-  const { matrices, robot_pairs, kept, pairs, distances_evaluated } = report.candidates;
+  const { matrices, robot_pairs, kept, listed, pairs, distances_evaluated } = report.candidates;
   if (!known(pairs) && !matrices.length) return;
   show("overlap-section");
   const key = () => by_id("overlap-key").replaceChildren(...key_of_overlap());
@@ -86,7 +86,8 @@ function write_overlap() {
   by_id("overlap-matrices").append(...matrices.map(matrix_figure));
   const of_robots = (robots.length * (robots.length - 1)) / 2;
   const parts = [`${format.count(kept)} of ${format.count(pairs)} keyframe pairs remain for place recognition; the search evaluated ${format.count(distances_evaluated)} distances.`];
-  if (robot_pairs < of_robots) parts.push(`${format.count(of_robots - robot_pairs)} of ${format.count(of_robots)} pairs of robots have none.`);
+  if (listed < kept) parts.push(`Only the ${format.count(listed)} most probable, which candidates.csv lists, are drawn and counted below.`);
+  if (robot_pairs < of_robots) parts.push(`${format.count(of_robots - robot_pairs)} of ${format.count(of_robots)} pairs of robots have none${listed < kept ? " of these" : ""}.`);
   if (matrices.length < robot_pairs) parts.push(`The ${matrices.length} with the most pairs, of ${format.count(robot_pairs)}, are shown.`);
   if (matrices.length) parts.push("The darker a cell, the more of its pairs were kept.");
   by_id("overlap-caption").textContent = parts.join(" ");

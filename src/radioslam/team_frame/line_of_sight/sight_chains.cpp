@@ -4,8 +4,10 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <numeric>
 #include <utility>
 
+#include "radioslam/base/parallel.hpp"
 #include "radioslam/team_frame/connected_measurements.hpp"
 
 namespace radioslam {
@@ -16,9 +18,21 @@ struct Changes {
   double to_obstructed, to_sight;
 };
 
-Changes changes(const SightModel& model, double gap_s) {
-  const double forgotten = -std::expm1(-gap_s / model.correlation_time_s);
-  return {model.obstructed_share * forgotten, (1 - model.obstructed_share) * forgotten};
+Changes changes(double obstructed_share, double forgotten) {
+  return {obstructed_share * forgotten, (1 - obstructed_share) * forgotten};
+}
+
+/// Chains per task: some thousand links.
+constexpr std::size_t kChainsPerTask = 32;
+
+/// The sum of log_likelihood(chain) over all chains, computed on several threads.
+template <class LogLikelihood>
+double sum_over_chains(std::size_t chains, const LogLikelihood& log_likelihood) {
+  std::vector<double> of_chains(chains);
+  parallel_for(chains, kChainsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c) of_chains[c] = log_likelihood(c);
+  });
+  return std::accumulate(of_chains.begin(), of_chains.end(), 0.0);
 }
 
 /// Ends of measurements, and when they were taken.
@@ -70,21 +84,22 @@ std::vector<PairLinks> links_by_pair(const TeamGraph<Pose>& team) {
 }
 
 template <class Pose>
-SightChains::SightChains(const TeamGraph<Pose>& team) {
+SightChains::SightChains(const TeamGraph<Pose>& team, double correlation_time_s) {
   for (const auto& [is_between_robots, links] : links_by_pair(team)) {
     std::vector<Link>& chain = chains_.emplace_back();
-    for (std::size_t k = 0; k < links.size(); ++k)
-      chain.push_back(
-          {links[k].measurement, k == 0 ? 0 : seconds_between(links[k - 1].stamp, links[k].stamp)});
+    for (std::size_t k = 0; k < links.size(); ++k) {
+      const double gap_s = k == 0 ? 0 : seconds_between(links[k - 1].stamp, links[k].stamp);
+      chain.push_back({links[k].measurement, -std::expm1(-gap_s / correlation_time_s)});
+    }
   }
 }
 
 double SightChains::pass_forward(const std::vector<Link>& chain, const std::vector<SightDensities>& densities,
-                                 const SightModel& model, std::vector<Forward>* passed) const {
+                                 double obstructed_share, std::vector<Forward>* passed) {
   double log_likelihood = 0;
-  double in_sight = 1 - model.obstructed_share, obstructed = model.obstructed_share;
+  double in_sight = 1 - obstructed_share, obstructed = obstructed_share;
   for (const Link& link : chain) {
-    const Changes change = changes(model, link.gap_s);
+    const Changes change = changes(obstructed_share, link.forgotten);
     const double before = in_sight;
     in_sight = before * (1 - change.to_obstructed) + obstructed * change.to_sight;
     obstructed = before * change.to_obstructed + obstructed * (1 - change.to_sight);
@@ -99,38 +114,43 @@ double SightChains::pass_forward(const std::vector<Link>& chain, const std::vect
   return log_likelihood;
 }
 
-double SightChains::log_likelihood(const std::vector<SightDensities>& densities,
-                                   const SightModel& model) const {
-  double sum = 0;
-  for (const auto& chain : chains_) sum += pass_forward(chain, densities, model, nullptr);
-  return sum;
+void SightChains::pass_backward(const std::vector<Link>& chain, const std::vector<SightDensities>& densities,
+                                double obstructed_share, const std::vector<Forward>& passed,
+                                std::vector<double>& in_sight) {
+  double later_in_sight = 1, later_obstructed = 1;  // density of all later measurements, scaled
+  for (std::size_t k = chain.size(); k-- > 0;) {
+    in_sight[chain[k].measurement] = passed[k].in_sight * later_in_sight;
+    const Changes change = changes(obstructed_share, chain[k].forgotten);
+    const SightDensities& own = densities[chain[k].measurement];
+    const double a = own.in_sight * later_in_sight / passed[k].scale;
+    const double b = own.obstructed * later_obstructed / passed[k].scale;
+    later_in_sight = (1 - change.to_obstructed) * a + change.to_obstructed * b;
+    later_obstructed = change.to_sight * a + (1 - change.to_sight) * b;
+  }
 }
 
-double SightChains::smooth(const std::vector<SightDensities>& densities, const SightModel& model,
+double SightChains::log_likelihood(const std::vector<SightDensities>& densities,
+                                   double obstructed_share) const {
+  return sum_over_chains(chains_.size(), [&](std::size_t c) {
+    return pass_forward(chains_[c], densities, obstructed_share, nullptr);
+  });
+}
+
+double SightChains::smooth(const std::vector<SightDensities>& densities, double obstructed_share,
                            std::vector<double>& in_sight) const {
   in_sight.assign(densities.size(), 1);
-  double sum = 0;
-  std::vector<Forward> passed;
-  for (const auto& chain : chains_) {
-    passed.clear();
-    sum += pass_forward(chain, densities, model, &passed);
-    double later_in_sight = 1, later_obstructed = 1;  // density of all later measurements, scaled
-    for (std::size_t k = chain.size(); k-- > 0;) {
-      in_sight[chain[k].measurement] = passed[k].in_sight * later_in_sight;
-      const Changes change = changes(model, chain[k].gap_s);
-      const SightDensities& own = densities[chain[k].measurement];
-      const double a = own.in_sight * later_in_sight / passed[k].scale;
-      const double b = own.obstructed * later_obstructed / passed[k].scale;
-      later_in_sight = (1 - change.to_obstructed) * a + change.to_obstructed * b;
-      later_obstructed = change.to_sight * a + (1 - change.to_sight) * b;
-    }
-  }
-  return sum;
+  return sum_over_chains(chains_.size(), [&](std::size_t c) {
+    std::vector<Forward> passed;
+    passed.reserve(chains_[c].size());
+    const double log_likelihood = pass_forward(chains_[c], densities, obstructed_share, &passed);
+    pass_backward(chains_[c], densities, obstructed_share, passed, in_sight);
+    return log_likelihood;
+  });
 }
 
 template std::vector<PairLinks> links_by_pair(const TeamGraph<SE2>&);
 template std::vector<PairLinks> links_by_pair(const TeamGraph<SE3>&);
-template SightChains::SightChains(const TeamGraph<SE2>&);
-template SightChains::SightChains(const TeamGraph<SE3>&);
+template SightChains::SightChains(const TeamGraph<SE2>&, double);
+template SightChains::SightChains(const TeamGraph<SE3>&, double);
 
 }  // namespace radioslam
