@@ -150,6 +150,26 @@ TEST_F(TeamGraphs, ATeamMayBeSeveralFilesOrAFolderOfThem) {
   expect_refused({"run", "team/1.g2o", "team/2.g2o", "-o", "team"}, "contains the input");
 }
 
+TEST_F(TeamGraphs, TablesOfDpgoBecomeAGraphOrAMission) {
+  const std::string header = "robot_src,pose_src,robot_dst,pose_dst,qx,qy,qz,qw,tx,ty,tz,kappa,tau\n";
+  const std::string step = ",0,0,0,1,2,0,0,10000,100\n", loop = "0,1,1,0,0,0,0,1,0,3,0,10000,100\n";
+  write("tables/robot0/measurements.csv", header + "0,0,0,1" + step + loop);
+  write("tables/robot1/measurements.csv", header + "1,0,1,1" + step + loop);
+  const Outcome graph = run_in({"import", "dpgo", "tables", "-o", "team.g2o"});
+  ASSERT_EQ(graph.status, 0) << graph.err;
+  EXPECT_EQ(graph.out, "team.g2o: 2 robots, 4 poses, 3 relative poses\n");
+  ASSERT_EQ(run_in({"import", "dpgo", "tables/robot0/measurements.csv", "tables/robot1/measurements.csv",
+                    "-o", "mission"})
+                .status,
+            0);
+  for (const char* input : {"team.g2o", "mission"}) {
+    const Outcome outcome = run_in({"run", input, "-o", "out"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(summary()["robots"].size(), 2U);
+  }
+  expect_refused({"import", "dpgo", "out", "-o", "other.g2o"}, "is missing");
+}
+
 TEST_F(TeamGraphs, OptimizeReadsALogWhole) {
   json log = team_log();
   log["measurements"]["a"].erase(kPoses + 1);
