@@ -59,6 +59,12 @@ TEST(BestTeams, KeepsTheBestWithoutNegligibleOnes) {
   EXPECT_EQ(positions(best_teams(far, params)), (std::vector<double>{1}));
 }
 
+TEST(BestTeams, AreDifferentMaps) {
+  const BeamParams params{.beam = 3, .same_map_m = 0.5};
+  const std::vector<TeamValues<SE2>> teams{team_at(0, 1), team_at(0.3, 2), team_at(7, 1.5), team_at(7.4, 1)};
+  EXPECT_EQ(positions(best_teams(teams, params)), (std::vector<double>{0.3, 7}));
+}
+
 /// Of a team whose covariance is singular, say a robot that never moved.
 TEST(BestTeams, KeepTeamsWithoutEvidence) {
   const double none = -std::numeric_limits<double>::infinity();

@@ -39,10 +39,7 @@ std::vector<RefinementStart<Pose>> different_starts(std::vector<RefinementStart<
 
 template <class Pose>
 std::vector<TeamValues<Pose>> best_teams(std::vector<TeamValues<Pose>> teams, const BeamParams& params) {
-  std::stable_sort(teams.begin(), teams.end(),
-                   [](const auto& a, const auto& b) { return a.log_evidence > b.log_evidence; });
-  if (teams.size() > static_cast<std::size_t>(params.beam))
-    teams.resize(static_cast<std::size_t>(params.beam));
+  teams = different_teams<Pose>(std::move(teams), params, [](const auto&) { return std::vector<double>(); });
   if (teams.empty() || !std::isfinite(teams.front().log_evidence)) return teams;
   const double least = teams.front().log_evidence - kNegligible * params.evidence_temperature;
   std::erase_if(teams, [&](const auto& team) { return !(team.log_evidence >= least); });

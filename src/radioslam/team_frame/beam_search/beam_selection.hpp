@@ -30,11 +30,6 @@ template <class Pose>
 std::vector<RefinementStart<Pose>> different_starts(std::vector<RefinementStart<Pose>> starts,
                                                     const BeamParams& params);
 
-/// The teams with the most evidence, at most `beam`; those with a negligible weight beside the best are left
-/// out.
-template <class Pose>
-std::vector<TeamValues<Pose>> best_teams(std::vector<TeamValues<Pose>> teams, const BeamParams& params);
-
 /// The teams (TeamValues or TeamHypothesis) with the most evidence, at most `beam`, each different from all
 /// before within its tolerance and their uncertainty, the standard deviations `position_sigmas_m(team)`.
 template <class Pose, template <class> class Team>
@@ -56,5 +51,10 @@ std::vector<Team<Pose>> different_teams(std::vector<Team<Pose>> teams, const Bea
   }
   return kept;
 }
+
+/// The teams with the most evidence, at most `beam`. Left out are those within `same_map_m` of a better one,
+/// which would be refined to the same again and again, and those with a negligible weight beside the best.
+template <class Pose>
+std::vector<TeamValues<Pose>> best_teams(std::vector<TeamValues<Pose>> teams, const BeamParams& params);
 
 }  // namespace radioslam
