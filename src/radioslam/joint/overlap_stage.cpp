@@ -128,7 +128,7 @@ OverlapCounts search_all(const std::vector<Source>& sources, const std::vector<O
 }  // namespace
 
 template <class Pose>
-OverlapStage find_overlaps(const std::vector<JointGraph<Pose>>& alignments, const OverlapStageParams& params,
+OverlapStage find_overlaps(std::vector<JointGraph<Pose>> alignments, const OverlapStageParams& params,
                            const OverlapRequest& request) {
   const JointGraph<Pose>& first = alignments.front();
   OverlapStage stage;
@@ -150,11 +150,12 @@ OverlapStage find_overlaps(const std::vector<JointGraph<Pose>>& alignments, cons
     stage.counts = search_all(sources, sensors, params.overlap, request.method, take);
   } else {
     std::vector<JointCovariance<Pose>> sources;
-    for (const JointGraph<Pose>& joint : alignments) {
+    for (JointGraph<Pose>& joint : alignments) {
       if (auto source = JointCovariance<Pose>::compute(joint.team.graph, chains(joint)))
         sources.push_back(std::move(*source));
       else if (sources.empty())
         return stage;
+      joint = {};
     }
     stage.alignments = sources.size();
     stage.counts = search_all(sources, sensors, params.overlap, request.method, take);
@@ -164,9 +165,9 @@ OverlapStage find_overlaps(const std::vector<JointGraph<Pose>>& alignments, cons
   return stage;
 }
 
-template OverlapStage find_overlaps(const std::vector<JointGraph<SE2>>&, const OverlapStageParams&,
+template OverlapStage find_overlaps(std::vector<JointGraph<SE2>>, const OverlapStageParams&,
                                     const OverlapRequest&);
-template OverlapStage find_overlaps(const std::vector<JointGraph<SE3>>&, const OverlapStageParams&,
+template OverlapStage find_overlaps(std::vector<JointGraph<SE3>>, const OverlapStageParams&,
                                     const OverlapRequest&);
 
 }  // namespace radioslam

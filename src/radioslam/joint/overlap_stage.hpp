@@ -93,7 +93,7 @@ struct OverlapStage {
 /// computable is left out; if that is the first one, nothing is searched. In mode link all are one, the
 /// first.
 template <class Pose>
-OverlapStage find_overlaps(const std::vector<JointGraph<Pose>>& alignments, const OverlapStageParams& params,
+OverlapStage find_overlaps(std::vector<JointGraph<Pose>> alignments, const OverlapStageParams& params,
                            const OverlapRequest& request);
 
 }  // namespace radioslam

@@ -164,7 +164,7 @@ OverlapStage search_overlaps(const TeamEstimate<Pose>& estimate, const Mission& 
     alignments.push_back(graph_for_covariances(alternative, params.alignment.mixture));
   }
   const auto listed = static_cast<std::size_t>(params.overlap.max_listed_candidates);
-  return find_overlaps(alignments, params.overlap,
+  return find_overlaps(std::move(alignments), params.overlap,
                        {options.search, options.take_candidates ? 0 : listed,
                         keyframes_of_matches(estimate.joint, mission), options.take_candidates});
 }

@@ -11,7 +11,7 @@
 namespace radioslam {
 
 template <class Pose>
-std::shared_ptr<const SkeletonCovariance<Pose>> SkeletonCovariance<Pose>::compute(
+std::shared_ptr<SkeletonCovariance<Pose>> SkeletonCovariance<Pose>::compute(
     PoseGraph<Pose> reduced, const typename Pose::Point& origin,
     std::vector<std::vector<SegmentVariables>> segments) {
   std::shared_ptr<SkeletonCovariance> s(new SkeletonCovariance(std::move(reduced), origin));
@@ -91,9 +91,11 @@ template <class Pose>
 CovariancesOfRobot<Pose>::CovariancesOfRobot(std::shared_ptr<const SkeletonCovariance<Pose>> skeleton,
                                              std::size_t a, std::size_t first_segment,
                                              std::size_t last_segment)
-    : skeleton_(std::move(skeleton)), a_(a), places_(skeleton_->listed(a).size()) {
+    : skeleton_(std::move(skeleton)),
+      a_(a),
+      places_(skeleton_->listed(a).size()),
+      parts_of_later_(parts_of_later(*skeleton_, a)) {
   list_batches(first_segment, last_segment);
-  find_parts_of_later();
   parallel_for(batches_.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) compute(batches_[k]);
   });
@@ -132,26 +134,39 @@ void CovariancesOfRobot<Pose>::list_batches(std::size_t first_segment, std::size
 }
 
 template <class Pose>
-void CovariancesOfRobot<Pose>::find_parts_of_later() {
-  if (!skeleton_->parts()) return;
-  std::vector<bool> found(skeleton_->parts()->parts(), false);
-  for (std::size_t b = a_ + 1; b < skeleton_->robots(); ++b)
-    for (const Listed& v : skeleton_->listed(b))
+std::vector<std::size_t> CovariancesOfRobot<Pose>::parts_of_later(const SkeletonCovariance<Pose>& skeleton,
+                                                                  std::size_t a) {
+  std::vector<std::size_t> parts;
+  if (!skeleton.parts()) return parts;
+  std::vector<bool> found(skeleton.parts()->parts(), false);
+  for (std::size_t b = a + 1; b < skeleton.robots(); ++b)
+    for (const Listed& v : skeleton.listed(b))
       if (v.is_free) found[v.part] = true;
   for (std::size_t p = 0; p < found.size(); ++p)
-    if (found[p]) parts_of_later_.push_back(p);
+    if (found[p]) parts.push_back(p);
+  return parts;
 }
 
 template <class Pose>
-std::size_t CovariancesOfRobot<Pose>::scalars_per_variable(const SkeletonCovariance<Pose>& skeleton) {
-  if (!skeleton.parts()) return kDof;
-  const PartitionedInverse& parts = *skeleton.parts();
-  std::size_t sum = static_cast<std::size_t>(parts.separators().rows()), largest = 0;
-  for (std::size_t p = 0; p < parts.parts(); ++p) {
-    sum += parts.boundary(p).size();
-    largest = std::max(largest, parts.part_scalars(p));
+std::size_t CovariancesOfRobot<Pose>::segments_within(const SkeletonCovariance<Pose>& skeleton, std::size_t a,
+                                                      std::size_t first_segment, std::size_t scalars) {
+  std::size_t of_boundaries = 0;
+  for (const std::size_t p : parts_of_later(skeleton, a))
+    of_boundaries += skeleton.parts()->boundary(p).size();
+  const auto& list = skeleton.listed(a);
+  std::vector<bool> known(list.size(), false);
+  std::size_t taken = 0, end = first_segment;
+  for (; end < skeleton.segments(a).size(); ++end) {
+    const SegmentPlaces& segment = skeleton.places(a, end);
+    for (const std::size_t u : {segment.first, segment.last, segment.drift}) {
+      if (u == kNoDrift || known[u] || !list[u].is_free) continue;
+      known[u] = true;
+      const std::size_t local = list[u].is_separator ? 0 : skeleton.parts()->part_scalars(list[u].part);
+      taken += kDof * (of_boundaries + local);
+    }
+    if (taken > scalars && end > first_segment) break;
   }
-  return kDof * (sum + largest);
+  return end;
 }
 
 /// A^T of variables of one part, in left perturbations, side by side.

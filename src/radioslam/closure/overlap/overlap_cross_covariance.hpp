@@ -44,9 +44,9 @@ class SkeletonCovariance {
   };
 
   /// Nothing if some variable is unobservable. Frames are shifted by `origin`.
-  static std::shared_ptr<const SkeletonCovariance> compute(
-      PoseGraph<Pose> reduced, const typename Pose::Point& origin,
-      std::vector<std::vector<SegmentVariables>> segments);
+  static std::shared_ptr<SkeletonCovariance> compute(PoseGraph<Pose> reduced,
+                                                     const typename Pose::Point& origin,
+                                                     std::vector<std::vector<SegmentVariables>> segments);
 
   std::size_t robots() const { return segments_.size(); }
   const std::vector<SegmentVariables>& segments(std::size_t robot) const { return segments_[robot]; }
@@ -57,6 +57,8 @@ class SkeletonCovariance {
     return places_[robot][segment];
   }
   Joint within(const SegmentVariables& segment) const;
+  /// Frees what `within` takes, which must not be called any more.
+  void forget_segments() { inverse_.reset(); }
   /// Nothing if no variable is free.
   const std::optional<PartitionedInverse>& parts() const { return parts_; }
   static constexpr Eigen::Index size(const Variable& v) { return v.kind == VariableKind::kPose ? kDof : 2; }
@@ -96,8 +98,10 @@ class CovariancesOfRobot {
   template <int kRows, int kColumns>
   Eigen::Matrix<double, kRows, kColumns> with(const typename SkeletonCovariance<Pose>::Listed& v,
                                               std::size_t u) const;
-  /// Numbers kept per variable, at most.
-  static std::size_t scalars_per_variable(const SkeletonCovariance<Pose>& skeleton);
+  /// Of the segments from `first_segment` on, as many as take at most `scalars` numbers, but at least one;
+  /// returns the first segment after them.
+  static std::size_t segments_within(const SkeletonCovariance<Pose>& skeleton, std::size_t a,
+                                     std::size_t first_segment, std::size_t scalars);
 
  private:
   /// Some 96 columns: enough for fast products, few enough to spread over threads.
@@ -116,7 +120,7 @@ class CovariancesOfRobot {
   using Listed = typename SkeletonCovariance<Pose>::Listed;
 
   void list_batches(std::size_t first_segment, std::size_t last_segment);
-  void find_parts_of_later();
+  static std::vector<std::size_t> parts_of_later(const SkeletonCovariance<Pose>& skeleton, std::size_t a);
   void compute(Batch& batch) const;
   Eigen::MatrixXd maps_of(const std::vector<std::size_t>& variables) const;
   void add_local(Batch& batch, const std::vector<std::size_t>& places) const;

@@ -46,7 +46,7 @@ class JointCovariance<Pose>::Builder {
         skeleton_(reduce_to_skeleton(graph, robots)),
         origin_(middle_of(graph.poses)) {}
 
-  std::shared_ptr<const SkeletonCovariance<Pose>> covariance() const {
+  std::shared_ptr<SkeletonCovariance<Pose>> covariance() const {
     std::vector<std::vector<SegmentVariables>> segments(chains_.size());
     for (std::size_t c = 0; c < chains_.size(); ++c)
       for (const ChainSegment& s : skeleton_.chains[c].segments)
@@ -186,9 +186,11 @@ std::optional<JointCovariance<Pose>> JointCovariance<Pose>::compute(const PoseGr
   const Builder builder(graph, robots);
   JointCovariance joint;
   joint.dense_scalars_ = dense_scalars;
-  joint.skeleton_ = builder.covariance();
-  if (!joint.skeleton_) return std::nullopt;
-  for (std::size_t c = 0; c < robots.size(); ++c) joint.robots_.push_back(builder.robot(c, *joint.skeleton_));
+  const auto skeleton = builder.covariance();
+  if (!skeleton) return std::nullopt;
+  for (std::size_t c = 0; c < robots.size(); ++c) joint.robots_.push_back(builder.robot(c, *skeleton));
+  skeleton->forget_segments();
+  joint.skeleton_ = skeleton;
   return joint;
 }
 
@@ -211,15 +213,13 @@ PoseSpread JointCovariance<Pose>::spread(std::size_t robot, std::size_t pose, st
 
 template <class Pose>
 std::vector<PoseInterval> JointCovariance<Pose>::runs(std::size_t a) const {
-  constexpr std::size_t kVariablesOfSegment = 3;  // at most; mostly one, since segments share their ends
-  const std::size_t of_segment =
-      kVariablesOfSegment * CovariancesOfRobot<Pose>::scalars_per_variable(*skeleton_);
-  const std::size_t segments = std::max<std::size_t>(1, dense_scalars_ / of_segment);
   std::vector<PoseInterval> runs;
   const std::vector<Record>& records = robots_[a].records;
   for (std::size_t begin = 0; begin < records.size();) {
+    const std::size_t last =
+        CovariancesOfRobot<Pose>::segments_within(*skeleton_, a, records[begin].segment, dense_scalars_);
     std::size_t end = begin;
-    while (end < records.size() && records[end].segment < records[begin].segment + segments) ++end;
+    while (end < records.size() && records[end].segment < last) ++end;
     runs.push_back({begin, end});
     begin = end;
   }

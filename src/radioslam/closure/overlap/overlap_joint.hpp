@@ -69,7 +69,7 @@ class JointCovariance {
  public:
   using View = JointView<Pose>;
   using Record = typename View::Record;
-  /// Of a run: at most 256 MiB of covariances, mostly a third of it.
+  /// Of a run: at most 256 MiB of covariances.
   static constexpr std::size_t kDenseScalars = std::size_t{1} << 25;
   using Columns = std::shared_ptr<const CovariancesOfRobot<Pose>>;
 

@@ -48,7 +48,7 @@ struct BlockCholesky::Impl {
   BlockPattern pattern;
   std::shared_ptr<const FrontTree> tree;
   NumberStore factor;
-  NumberStore stack;  ///< update matrices while factorising, covariances while inverting
+  NumberStore stack;  ///< update matrices while factorising, covariances while inverting; empty until then
   bool usable = false;
 
   void load_blocks(const SymmetricBlockMatrix& matrix, const Front& front);
@@ -68,6 +68,9 @@ struct BlockCholesky::Impl {
   }
   Eigen::MatrixXd moved(const Eigen::MatrixXd& x, const std::vector<std::size_t>& from,
                         const std::vector<std::size_t>& to) const;
+  void provide_stack() {
+    if (stack.size() == 0) stack = NumberStore(std::max(tree->stack_scalars, tree->covariance_scalars));
+  }
   void check_usable() const { RADIOSLAM_CHECK(usable, "there is no factor to use"); }
 };
 
@@ -131,7 +134,6 @@ BlockCholesky::BlockCholesky(const BlockPattern& pattern, const BlockCholeskyOpt
   impl_->pattern = pattern;
   impl_->tree = std::make_shared<const FrontTree>(front_tree(pattern, options));
   impl_->factor = NumberStore(impl_->tree->factor_scalars);
-  impl_->stack = NumberStore(std::max(impl_->tree->stack_scalars, impl_->tree->covariance_scalars));
 }
 BlockCholesky::~BlockCholesky() = default;
 BlockCholesky::BlockCholesky(BlockCholesky&&) noexcept = default;
@@ -142,6 +144,7 @@ Factorization BlockCholesky::factorize(const SymmetricBlockMatrix& matrix) {
       matrix.pattern().sizes == impl_->pattern.sizes && matrix.pattern().lower == impl_->pattern.lower,
       "the matrix has another pattern than was analysed");
   impl_->usable = false;
+  impl_->provide_stack();
   for (const auto& front : impl_->tree->fronts) {
     if (!impl_->eliminate(matrix, front)) return Factorization::kNotPositiveDefinite;
   }
@@ -232,11 +235,13 @@ double BlockCholesky::log_determinant() const {
 
 SelectedInverse BlockCholesky::selected_inverse() const {
   impl_->check_usable();
+  impl_->provide_stack();
   return SelectedInverse(invert(impl_->tree, impl_->factor, impl_->stack));
 }
 
 PartitionedInverse BlockCholesky::partitioned_inverse(std::size_t part_scalars) const {
   impl_->check_usable();
+  impl_->stack = {};  // a partition is kept for long, and takes none of it
   return {*impl_->tree, impl_->factor, part_scalars};
 }
 
