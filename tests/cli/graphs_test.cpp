@@ -213,7 +213,8 @@ INSTANTIATE_TEST_SUITE_P(Cosmo, RecordedTeams,
                                          RecordedTeam{"ntu_r3_02_d02_n04_n13_proradio.jrl.zst", 2.32}),
                          [](const auto& test) {
                            const std::string name = test.param.file;
-                           return name.substr(0, 3) + (name.find("wifi") == std::string::npos ? "Radio" : "Wifi");
+                           return name.substr(0, 3) +
+                                  (name.find("wifi") == std::string::npos ? "Radio" : "Wifi");
                          });
 
 }  // namespace

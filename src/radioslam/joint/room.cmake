@@ -8,8 +8,8 @@ radioslam_room(joint
     bias_distribution.cpp
     closures/closure.cpp
     closures/loop_alignment.cpp
+    closures/loop_alternatives.cpp
     closures/loop_groups.cpp
-    closures/loop_rivals.cpp
     closures/loop_selection.cpp
     closures/loop_stage.cpp
     closures/own_loops.cpp

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "radioslam/joint/closures/loop_rivals.hpp"
+#include "radioslam/joint/closures/loop_alternatives.hpp"
 #include "radioslam/joint/closures/loop_selection.hpp"
 #include "radioslam/joint/closures/own_loops.hpp"
 #include "radioslam/joint/closures/team_loops.hpp"
@@ -141,7 +141,8 @@ void set_alternatives(const JointGraph<Pose>& joint, const std::vector<TeamLoop<
   for (std::size_t k = 1; k < alignments.size() && weights.size() <= kMaxAlternatives; ++k) {
     const double weight = std::exp(alignments[k].log_weight - best.log_weight);
     if (weight < kMinAlternative) break;
-    if (alignments[k].joins.size() < best.joins.size() || !are_rivals(best, alignments[k])) continue;
+    if (alignments[k].joins.size() < best.joins.size() || !contradict_each_other(best, alignments[k]))
+      continue;
     JointGraph<Pose> rival = joint;
     std::vector<TeamLoop<Pose>> rival_loops = loops;
     accept_groups(groups, alignments[k], rival_loops);

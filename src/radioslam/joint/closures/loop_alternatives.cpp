@@ -1,4 +1,4 @@
-#include "radioslam/joint/closures/loop_rivals.hpp"
+#include "radioslam/joint/closures/loop_alternatives.hpp"
 
 #include <algorithm>
 #include <map>
@@ -6,8 +6,8 @@
 namespace radioslam {
 namespace {
 
-constexpr double kMinSupport = 1.5;       // sightings
-constexpr double kMinRatioToRival = 1.5;  // of the evidence that a rival contests to its own
+constexpr double kMinSupport = 1.5;             // sightings
+constexpr double kMinRatioToAlternative = 1.5;  // of the evidence that a alternative contests to its own
 
 /// The segments on the side of b when a join of the best choice is undone.
 template <class Pose>
@@ -53,18 +53,19 @@ bool is_weak(const std::vector<LoopGroup>& groups, const std::vector<LoopAlignme
       crossing.push_back(g);
     }
   if (support < kMinSupport) return true;
-  return std::any_of(alignments.begin() + 1, alignments.end(), [&](const LoopAlignment<Pose>& rival) {
-    const auto holds = [&](std::size_t g) { return rival.group_holds[g]; };
-    return are_rivals(best, rival) && std::none_of(crossing.begin(), crossing.end(), holds) &&
-           joins_sides(groups, rival, side) &&
-           contested(groups, best, rival) < kMinRatioToRival * contested(groups, rival, best);
+  return std::any_of(alignments.begin() + 1, alignments.end(), [&](const LoopAlignment<Pose>& alternative) {
+    const auto holds = [&](std::size_t g) { return alternative.group_holds[g]; };
+    return contradict_each_other(best, alternative) &&
+           std::none_of(crossing.begin(), crossing.end(), holds) && joins_sides(groups, alternative, side) &&
+           contested(groups, best, alternative) <
+               kMinRatioToAlternative * contested(groups, alternative, best);
   });
 }
 
 }  // namespace
 
 template <class Pose>
-bool are_rivals(const LoopAlignment<Pose>& a, const LoopAlignment<Pose>& b) {
+bool contradict_each_other(const LoopAlignment<Pose>& a, const LoopAlignment<Pose>& b) {
   const auto all_hold = [](const std::vector<std::size_t>& joins, const std::vector<bool>& holds) {
     return std::all_of(joins.begin(), joins.end(), [&](std::size_t g) { return holds[g]; });
   };
@@ -99,11 +100,11 @@ void undo_weak_joins(const std::vector<LoopGroup>& groups, std::vector<LoopAlign
       best.group_holds[g] = false;
 }
 
-#define RADIOSLAM_LOOP_RIVALS(Pose)                                                 \
-  template bool are_rivals(const LoopAlignment<Pose>&, const LoopAlignment<Pose>&); \
+#define RADIOSLAM_LOOP_ALTERNATIVES(Pose)                                                      \
+  template bool contradict_each_other(const LoopAlignment<Pose>&, const LoopAlignment<Pose>&); \
   template void undo_weak_joins(const std::vector<LoopGroup>&, std::vector<LoopAlignment<Pose>>&);
-RADIOSLAM_LOOP_RIVALS(SE2)
-RADIOSLAM_LOOP_RIVALS(SE3)
-#undef RADIOSLAM_LOOP_RIVALS
+RADIOSLAM_LOOP_ALTERNATIVES(SE2)
+RADIOSLAM_LOOP_ALTERNATIVES(SE3)
+#undef RADIOSLAM_LOOP_ALTERNATIVES
 
 }  // namespace radioslam
