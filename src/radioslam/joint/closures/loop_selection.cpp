@@ -148,14 +148,11 @@ class LoopSelector {
                                             : squared_norm(graph_, factor));
   }
 
+  /// Statistics in the final solution, in units of the stated covariances.
   void finish() {
-    for (std::size_t k = 0; k < loops_.size(); ++k) {
+    for (std::size_t k = 0; k < loops_.size(); ++k)
       loops_[k].statistic =
           squared(result_.loop_scale) * squared_norm(graph_, graph_.relative_poses[first_loop_ + k]);
-      result_.cost += std::min(loops_[k].statistic, loops_[k].gate);
-    }
-    for (std::size_t k = 0; k < first_loop_; ++k)
-      if (is_odometry(k)) result_.cost += squared_norm(graph_, graph_.relative_poses[k]);
   }
 
   const JointGraph<Pose>& joint_;

@@ -22,7 +22,6 @@ namespace radioslam {
 struct LoopSelection {
   double odometry_scale = 1;  ///< actual over stated standard deviation of the odometry
   double loop_scale = 1;      ///< and of accepted loops
-  double cost = 0;            ///< sum of squared norms, at most the gate's per loop
 };
 
 /// Moves the team, which must be aligned as far as `component` says (per segment), to the optimum of its

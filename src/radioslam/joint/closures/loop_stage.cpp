@@ -18,8 +18,8 @@ namespace {
 constexpr double kMinAlternative = 0.001;  // weight
 constexpr std::size_t kMaxAlternatives = 3;
 constexpr double kNotableScale = 1.5;  // of a standard deviation
-constexpr int kMaxPasses =
-    3;  // with the odometry's sigma, twice and four times that: it is often understated
+/// With the odometry's sigma, twice and four times that: it is often understated.
+constexpr int kMaxPasses = 3;
 
 template <class Pose>
 void erase_loop_factors(JointGraph<Pose>& joint) {
@@ -143,13 +143,13 @@ void set_alternatives(const JointGraph<Pose>& joint, const std::vector<TeamLoop<
     if (weight < kMinAlternative) break;
     if (alignments[k].joins.size() < best.joins.size() || !contradict_each_other(best, alignments[k]))
       continue;
-    JointGraph<Pose> rival = joint;
-    std::vector<TeamLoop<Pose>> rival_loops = loops;
-    accept_groups(groups, alignments[k], rival_loops);
-    rival.team.graph.poses = moved(joint, alignments[k]);
-    select_loops(rival, alignments[k].component, rival_loops, optimizer, {});
-    if (accept_the_same(solved, rival_loops)) continue;
-    placement.alternatives.push_back(std::move(rival.team.graph.poses));
+    JointGraph<Pose> other = joint;
+    std::vector<TeamLoop<Pose>> its_loops = loops;
+    accept_groups(groups, alignments[k], its_loops);
+    other.team.graph.poses = moved(joint, alignments[k]);
+    select_loops(other, alignments[k].component, its_loops, optimizer, {});
+    if (accept_the_same(solved, its_loops)) continue;
+    placement.alternatives.push_back(std::move(other.team.graph.poses));
     weights.push_back(weight);
   }
   double sum = 0;
@@ -244,7 +244,6 @@ void close_by_loops(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement, std
                     const OptimizerParams& optimizer, const Progress& progress) {
   std::vector<TeamLoop<Pose>> loops = team_loops(joint, closures);
   if (loops.empty()) return;
-  for (TeamLoop<Pose>& loop : loops) loop.accepted = false;
   for (std::size_t k = 0; k < joint.origins.relative_poses.size(); ++k) {
     const FactorOrigin& origin = joint.origins.relative_poses[k];
     if (origin.source != FactorSource::kLoop) continue;
