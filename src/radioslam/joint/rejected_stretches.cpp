@@ -12,7 +12,6 @@ constexpr double kMaxUsualShare = 0.75;  // a kind rejected more often says noth
 constexpr double kMinUsualShare = 0.05;
 constexpr double kMinScore = 20;  // of a stretch; closures of one scan share errors
 constexpr double kMinDuration_s = 30;
-constexpr std::size_t kKinds = 6;
 
 struct ScoredStatus {
   Stamp stamp;
@@ -24,15 +23,15 @@ struct KindScores {
   double rejected = 0, accepted = 0;
 };
 
-std::array<KindScores, kKinds> kind_scores(const std::vector<ClosureResult>& closures) {
-  std::array<std::size_t, kKinds> all{}, rejected{};
+std::array<KindScores, kClosureKinds> kind_scores(const std::vector<ClosureResult>& closures) {
+  std::array<std::size_t, kClosureKinds> all{}, rejected{};
   for (const ClosureResult& closure : closures) {
     const auto kind = static_cast<std::size_t>(closure.kind);
     ++all[kind];
     rejected[kind] += closure.status == ClosureStatus::kRejected ? 1U : 0U;
   }
-  std::array<KindScores, kKinds> scores;
-  for (std::size_t kind = 0; kind < kKinds; ++kind) {
+  std::array<KindScores, kClosureKinds> scores;
+  for (std::size_t kind = 0; kind < kClosureKinds; ++kind) {
     if (all[kind] == 0) continue;
     const double usual =
         std::max(kMinUsualShare, static_cast<double>(rejected[kind]) / static_cast<double>(all[kind]));
@@ -44,7 +43,7 @@ std::array<KindScores, kKinds> kind_scores(const std::vector<ClosureResult>& clo
 
 /// The statuses of one robot's closures, in time order.
 std::vector<ScoredStatus> scored_statuses(RobotIndex robot, const std::vector<ClosureResult>& closures,
-                                          const std::array<KindScores, kKinds>& scores) {
+                                          const std::array<KindScores, kClosureKinds>& scores) {
   std::vector<ScoredStatus> result;
   for (const ClosureResult& closure : closures) {
     const KindScores& kind = scores[static_cast<std::size_t>(closure.kind)];

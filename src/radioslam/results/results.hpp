@@ -61,6 +61,7 @@ struct RobotResult {
 
 /// Origin of a closure; kFile: a relative pose of a factor graph that is not odometry.
 enum class ClosureKind { kRange, kAoa, kFingerprint, kSequence, kLidar, kMatch, kFile };
+inline constexpr std::size_t kClosureKinds = 7;
 enum class ClosureStatus { kAccepted, kRejected };
 
 /// Constraint between two keyframes and its status.
