@@ -62,7 +62,8 @@ struct ClosedGraph {
 };
 
 template <class Pose>
-ClosedGraph<Pose> closed_graph(const Mission& mission, const std::vector<ScanClosure>& closures) {
+ClosedGraph<Pose> closed_graph(const Mission& mission, const std::vector<ScanClosure>& scans) {
+  const std::vector<Closure> closures = closures_of_scans(scans);
   std::vector<std::vector<Stamp>> node_stamps(1);
   add_closure_stamps(closures, node_stamps);
   ClosedGraph<Pose> closed{build_joint_graph<Pose>(mission, {}, {}, node_stamps), {}};
@@ -108,15 +109,17 @@ TEST(AddScanClosures, OfRejectedLoopsAddNothing) {
   const Mission mission = drifting_mission(truth, 0.003, 2);
   auto rejected = closure_between(mission, truth, 0, truth.size() - 1);
   rejected.loop.status = LoopStatus::kAmbiguous;
+  std::vector<Closure> closures = closures_of_scans({rejected});
   std::vector<std::vector<Stamp>> node_stamps(1);
-  add_closure_stamps({rejected}, node_stamps);
+  add_closure_stamps(closures, node_stamps);
   EXPECT_TRUE(node_stamps[0].empty());
   const auto closed = closed_graph<SE2>(mission, {rejected});
   ASSERT_EQ(closed.factors.size(), 1U);
   EXPECT_FALSE(closed.factors[0]);
   EXPECT_EQ(closed.joint.team.graph.relative_poses.size(),
             build_joint_graph<SE2>(mission, {}, {}).team.graph.relative_poses.size());
-  const auto results = collect_scan_closures(closed.joint, {rejected});
+  test_closures(closed.joint, FactorSource::kScanLoop, closures);
+  const auto results = collect_closures(closed.joint, closures);
   ASSERT_EQ(results.size(), 1U);
   EXPECT_EQ(results[0].kind, ClosureKind::kLidar);
   EXPECT_EQ(results[0].status, ClosureStatus::kRejected);
@@ -130,8 +133,9 @@ TEST(AddScanClosures, ConnectTheirOwnStamps) {
   KeyframeParams sparse;
   sparse.distance_m = 7;
   sparse.angle_rad = 3;
-  const std::vector<ScanClosure> closures{closure_between(mission, truth, 3, 81),
-                                          closure_between(mission, truth, 5, 80)};
+  const std::vector<ScanClosure> scans{closure_between(mission, truth, 3, 81),
+                                       closure_between(mission, truth, 5, 80)};
+  const std::vector<Closure> closures = closures_of_scans(scans);
   std::vector<std::vector<Stamp>> node_stamps(1);
   add_closure_stamps(closures, node_stamps);
   auto joint = build_joint_graph<SE2>(mission, sparse, {}, node_stamps);
@@ -142,8 +146,8 @@ TEST(AddScanClosures, ConnectTheirOwnStamps) {
     ASSERT_TRUE(factors[k]);
     const auto& factor = joint.team.graph.relative_poses[*factors[k]];
     const auto pose = [&](PoseId id) { return joint.team.graph.poses[id.index()]; };
-    EXPECT_LT((pose(factor.i).inverse() * flatten(truth[closures[k].loop.i])).log().norm(), 1e-3);
-    EXPECT_LT((pose(factor.j).inverse() * flatten(truth[closures[k].loop.j])).log().norm(), 1e-3);
+    EXPECT_LT((pose(factor.i).inverse() * flatten(truth[scans[k].loop.i])).log().norm(), 1e-3);
+    EXPECT_LT((pose(factor.j).inverse() * flatten(truth[scans[k].loop.j])).log().norm(), 1e-3);
   }
 }
 
@@ -164,7 +168,7 @@ TEST(AddScanClosures, AreMarginalisedToThePlane) {
   EXPECT_LT((factor.information - expected).norm(), 1e-6 * expected.norm());
 }
 
-TEST(CollectScanClosures, AcceptWhatTheEstimateAgreesWith) {
+TEST(TestClosures, AcceptWhatTheEstimateAgreesWith) {
   const auto truth = around_a_square();
   const Mission mission = drifting_mission(truth, 0.001, 2);
   std::vector<ScanClosure> closures{closure_between(mission, truth, 0, truth.size() - 1),
@@ -176,7 +180,9 @@ TEST(CollectScanClosures, AcceptWhatTheEstimateAgreesWith) {
   for (const Stamp stamp : closed.joint.team.segments[0].stamps)
     closed.joint.team.graph.poses.push_back(
         flatten(truth[static_cast<std::size_t>(std::llround(stamp.seconds()))]));
-  const auto results = collect_scan_closures(closed.joint, closures);
+  std::vector<Closure> tested = closures_of_scans(closures);
+  test_closures(closed.joint, FactorSource::kScanLoop, tested);
+  const auto results = collect_closures(closed.joint, tested);
   ASSERT_EQ(results.size(), 3U);
   EXPECT_EQ(results[0].status, ClosureStatus::kAccepted);
   EXPECT_EQ(results[1].status, ClosureStatus::kRejected);

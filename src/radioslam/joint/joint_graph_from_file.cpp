@@ -1,7 +1,6 @@
 #include "radioslam/joint/joint_graph_from_file.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "radioslam/base/check.hpp"
 #include "radioslam/geometry/linear_algebra.hpp"
@@ -51,19 +50,6 @@ void use_logarithm(PoseGraph<Pose>& graph) {
   for (auto& prior : graph.pose_priors)
     prior.information = of_logarithm<Pose>(graph.chart, prior.information);
   graph.chart = PoseChart::kLogarithm;
-}
-
-/// An information with that of a planar pose in x, y and yaw, and next to none otherwise.
-template <class Pose>
-SE3::Jacobian in_space(const typename Pose::Jacobian& information) {
-  if constexpr (Pose::kDim == 3) {
-    return information;
-  } else {
-    SE3::Jacobian result = SE3::Jacobian::Identity();
-    const std::array<int, 3> kept{0, 1, 5};
-    result(kept, kept) = information;
-    return result;
-  }
 }
 
 /// Robots all of whose pieces have a known start: their odometry is in the common frame already.
@@ -142,7 +128,8 @@ std::vector<Closure> closures_of(const TeamGraph<Pose>& team, const JointGraph<P
     closure.robot_j = j.robot_i;
     closure.stamp_j = j.stamp_i;
     closure.T_i_j = as_se3(factor.T_i_j, 0);
-    closure.information = in_space<Pose>(of_logarithm<Pose>(team.graph.chart, factor.information));
+    closure.information =
+        information_in_space<Pose>(of_logarithm<Pose>(team.graph.chart, factor.information));
   }
   return closures;
 }

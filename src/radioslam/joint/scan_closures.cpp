@@ -4,24 +4,8 @@
 #include <string>
 #include <utility>
 
-#include "radioslam/base/check.hpp"
-#include "radioslam/graph/residuals.hpp"
-#include "radioslam/joint/closures/closure.hpp"
-
 namespace radioslam {
 namespace {
-
-template <class Pose>
-RelativePoseFactor<Pose> closure_factor(const JointGraph<Pose>& joint, const ScanClosure& closure) {
-  RelativePoseFactor<Pose> factor;
-  factor.i = pose_at(joint, closure.robot, closure.stamp_i);
-  factor.j = pose_at(joint, closure.robot, closure.stamp_j);
-  RADIOSLAM_CHECK(factor.i.valid() && factor.j.valid(), "a closure's stamps are nodes");
-  factor.T_i_j = pose_as<Pose>(closure.loop.T_i_j);
-  factor.information = information_as<Pose>(closure.loop.information);
-  factor.loss = {LossKind::kGemanMcClure, std::sqrt(kPoseChiSquared99<Pose>)};
-  return factor;
-}
 
 /// Optimises every robot's trajectory by its own odometry and closures, without links between robots.
 template <class Pose>
@@ -39,64 +23,43 @@ void apply_loop_closures(JointGraph<Pose>& joint, const OptimizerParams& optimiz
 
 }  // namespace
 
-void add_closure_stamps(const std::vector<ScanClosure>& closures,
-                        std::vector<std::vector<Stamp>>& node_stamps) {
-  for (const ScanClosure& closure : closures) {
-    if (closure.loop.status != LoopStatus::kAccepted) continue;
-    auto& of_robot = node_stamps[closure.robot.index()];
-    of_robot.insert(of_robot.end(), {closure.stamp_i, closure.stamp_j});
+std::vector<Closure> closures_of_scans(const std::vector<ScanClosure>& scans) {
+  std::vector<Closure> closures;
+  for (const auto& [robot, stamp_i, stamp_j, loop] : scans) {
+    Closure& closure = closures.emplace_back();
+    closure.kind = ClosureKind::kLidar;
+    closure.robot_i = closure.robot_j = robot;
+    closure.stamp_i = stamp_i;
+    closure.stamp_j = stamp_j;
+    closure.T_i_j = loop.T_i_j;
+    closure.information = loop.information;
+    closure.statistic = loop.inlier_ratio;
+    if (loop.status != LoopStatus::kAccepted) reject(closure, std::string(reason(loop.status)));
+  }
+  return closures;
+}
+
+void add_closure_stamps(const std::vector<Closure>& closures, std::vector<std::vector<Stamp>>& node_stamps) {
+  for (const Closure& closure : closures) {
+    if (closure.status != ClosureStatus::kAccepted) continue;
+    node_stamps[closure.robot_i.index()].push_back(closure.stamp_i);
+    node_stamps[closure.robot_j.index()].push_back(closure.stamp_j);
   }
 }
 
 template <class Pose>
-void add_scan_closures(JointGraph<Pose>& joint, const std::vector<ScanClosure>& closures,
+void add_scan_closures(JointGraph<Pose>& joint, const std::vector<Closure>& closures,
                        const OptimizerParams& optimizer) {
   for (std::size_t k = 0; k < closures.size(); ++k) {
-    const auto& [robot, stamp_i, stamp_j, loop] = closures[k];
-    if (loop.status == LoopStatus::kAccepted)
-      add_factor(joint, closure_factor(joint, closures[k]),
-                 {FactorSource::kScanLoop, k, robot, robot, keyframe_stamp(joint, robot, stamp_i),
-                  keyframe_stamp(joint, robot, stamp_j)});
+    if (closures[k].status != ClosureStatus::kAccepted) continue;
+    RelativePoseFactor<Pose> factor = closure_factor(joint, closures[k]);
+    factor.loss = {LossKind::kGemanMcClure, std::sqrt(kPoseChiSquared99<Pose>)};
+    add_closure(joint, closures[k], std::move(factor), FactorSource::kScanLoop, k);
   }
   if (!closures.empty()) apply_loop_closures(joint, optimizer);
 }
 
-template <class Pose>
-std::vector<ClosureResult> collect_scan_closures(const JointGraph<Pose>& joint,
-                                                 const std::vector<ScanClosure>& closures) {
-  const auto factors =
-      factors_by_measurement(joint.origins.relative_poses, FactorSource::kScanLoop, closures.size());
-  std::vector<ClosureResult> results;
-  for (std::size_t k = 0; k < closures.size(); ++k) {
-    const auto& [robot, stamp_i, stamp_j, loop] = closures[k];
-    ClosureResult result{robot,
-                         keyframe_stamp(joint, robot, stamp_i),
-                         robot,
-                         keyframe_stamp(joint, robot, stamp_j),
-                         ClosureKind::kLidar,
-                         ClosureStatus::kRejected,
-                         loop.inlier_ratio,
-                         std::string(reason(loop.status))};
-    if (factors[k]) {
-      const auto& graph = joint.team.graph;
-      result.statistic = squared_norm(graph, graph.relative_poses[*factors[k]]);
-      if (result.statistic > kPoseChiSquared99<Pose>)
-        result.reason = "the joint estimate disagrees";
-      else
-        result.status = ClosureStatus::kAccepted;
-    }
-    results.push_back(std::move(result));
-  }
-  return results;
-}
-
-#define RADIOSLAM_SCAN_CLOSURES(Pose)                                                 \
-  template void add_scan_closures(JointGraph<Pose>&, const std::vector<ScanClosure>&, \
-                                  const OptimizerParams&);                            \
-  template std::vector<ClosureResult> collect_scan_closures(const JointGraph<Pose>&,  \
-                                                            const std::vector<ScanClosure>&);
-RADIOSLAM_SCAN_CLOSURES(SE2)
-RADIOSLAM_SCAN_CLOSURES(SE3)
-#undef RADIOSLAM_SCAN_CLOSURES
+template void add_scan_closures(JointGraph<SE2>&, const std::vector<Closure>&, const OptimizerParams&);
+template void add_scan_closures(JointGraph<SE3>&, const std::vector<Closure>&, const OptimizerParams&);
 
 }  // namespace radioslam

@@ -1,11 +1,10 @@
 #include "radioslam/joint/sequence_stage.hpp"
 
-#include <Eigen/LU>
 #include <string>
+#include <utility>
 
 #include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/geometry/uncertain_pose.hpp"
-#include "radioslam/graph/residuals.hpp"
 
 namespace radioslam {
 namespace {
@@ -21,29 +20,32 @@ const RobotVariables& robot_of_node(const JointGraph<Pose>& joint, const RadioMe
   return joint.robots[radio.nodes[node].robot.index()];
 }
 
-template <class Pose>
-Stamp stamp_of_node(const JointGraph<Pose>& joint, const RadioMeasurements& radio, std::size_t node) {
-  return keyframe_stamp(joint, radio.nodes[node].robot, radio.at(node).fingerprint.stamp);
-}
-
-/// The closure moved to keyframes, T_l_k = T_l_j T_j_i T_i_k, over the odometry to either fingerprint.
-RelativePoseFactor<SE2> keyframe_factor(const JointGraph<SE2>& joint, const RadioMeasurements& radio,
-                                        const SequenceClosure& closure, double loss_sigmas) {
-  const auto [node_i, node_j, similarity] = closure.candidate;
+/// The closure moved to keyframes, T_k_l = T_k_i T_i_j T_j_l, over the odometry to either fingerprint.
+Closure at_keyframes(const JointGraph<SE2>& joint, const RadioMeasurements& radio,
+                     const SequenceClosure& sequence) {
+  const auto [node_i, node_j, similarity] = sequence.candidate;
   const RobotVariables &robot_i = robot_of_node(joint, radio, node_i),
                        &robot_j = robot_of_node(joint, radio, node_j);
   const std::size_t k = keyframe_of_node(robot_i, radio, node_i);
   const std::size_t l = keyframe_of_node(robot_j, radio, node_j);
-  const UncertainPose<SE2> T_l_j{flatten(robot_j.odometry[l].inverse() * radio.at(node_j).T_start_body)};
-  const UncertainPose<SE2> T_i_k{flatten(radio.at(node_i).T_start_body.inverse() * robot_i.odometry[k])};
-  const auto T_l_k = T_l_j * UncertainPose<SE2>{closure.fit.T_j_i, closure.fit.covariance} * T_i_k;
-  RelativePoseFactor<SE2> factor;
-  factor.i = robot_j.poses[l];
-  factor.j = robot_i.poses[k];
-  factor.T_i_j = T_l_k.pose;
-  factor.information = inverse(T_l_k.covariance);
-  factor.loss = {LossKind::kCauchy, loss_sigmas};
-  return factor;
+  Closure closure;
+  closure.kind = ClosureKind::kSequence;
+  closure.robot_i = radio.nodes[node_i].robot;
+  closure.robot_j = radio.nodes[node_j].robot;
+  closure.stamp_i = robot_i.stamps[k];
+  closure.stamp_j = robot_j.stamps[l];
+  closure.statistic = sequence.fit.residual_m;
+  if (sequence.fit.status != SequenceStatus::kAccepted) {
+    reject(closure, std::string(reason(sequence.fit.status)));
+    return closure;
+  }
+  const UncertainPose<SE2> T_k_i{flatten(robot_i.odometry[k].inverse() * radio.at(node_i).T_start_body)};
+  const UncertainPose<SE2> T_j_l{flatten(radio.at(node_j).T_start_body.inverse() * robot_j.odometry[l])};
+  const UncertainPose<SE2> T_j_i{sequence.fit.T_j_i, sequence.fit.covariance};
+  const auto T_k_l = T_k_i * T_j_i.inverse() * T_j_l;
+  closure.T_i_j = lift(T_k_l.pose);
+  closure.information = information_in_space<SE2>(inverse(T_k_l.covariance));
+  return closure;
 }
 
 }  // namespace
@@ -55,56 +57,25 @@ std::optional<std::string> sequence_note(int dimension, const RadioMeasurements&
 }
 
 template <class Pose>
-std::vector<SequenceClosure> add_sequence_closures(JointGraph<Pose>& joint, const RadioMeasurements& radio,
-                                                   const SequenceStageParams& params) {
-  std::vector<SequenceClosure> closures;
+std::vector<Closure> add_sequence_closures(JointGraph<Pose>& joint, const RadioMeasurements& radio,
+                                           const SequenceStageParams& params) {
+  std::vector<Closure> closures;
   if constexpr (Pose::kDim == 2) {
     if (!params.enabled) return closures;
-    closures = propose_sequence_closures(radio, params.closure);
-    for (std::size_t k = 0; k < closures.size(); ++k) {
-      if (closures[k].fit.status != SequenceStatus::kAccepted) continue;
-      const auto [i, j, similarity] = closures[k].candidate;
-      add_factor(joint, keyframe_factor(joint, radio, closures[k], params.loss_sigmas),
-                 {FactorSource::kSequence, k, radio.nodes[i].robot, radio.nodes[j].robot,
-                  stamp_of_node(joint, radio, i), stamp_of_node(joint, radio, j)});
+    for (const SequenceClosure& sequence : propose_sequence_closures(radio, params.closure)) {
+      closures.push_back(at_keyframes(joint, radio, sequence));
+      if (closures.back().status != ClosureStatus::kAccepted) continue;
+      RelativePoseFactor<Pose> factor = closure_factor(joint, closures.back());
+      factor.loss = {LossKind::kCauchy, params.loss_sigmas};
+      add_closure(joint, closures.back(), std::move(factor), FactorSource::kSequence, closures.size() - 1);
     }
   }
   return closures;
 }
 
-template <class Pose>
-std::vector<ClosureResult> collect_sequence_closures(const JointGraph<Pose>& joint,
-                                                     const RadioMeasurements& radio,
-                                                     const std::vector<SequenceClosure>& closures) {
-  const auto factors =
-      factors_by_measurement(joint.origins.relative_poses, FactorSource::kSequence, closures.size());
-  std::vector<ClosureResult> results;
-  for (std::size_t k = 0; k < closures.size(); ++k) {
-    const auto& [candidate, fit] = closures[k];
-    const auto [i, j, similarity] = candidate;
-    ClosureResult result{radio.nodes[i].robot,   stamp_of_node(joint, radio, i),
-                         radio.nodes[j].robot,   stamp_of_node(joint, radio, j),
-                         ClosureKind::kSequence, ClosureStatus::kRejected,
-                         fit.residual_m,         std::string(reason(fit.status))};
-    if (factors[k]) {
-      const auto& graph = joint.team.graph;
-      if (squared_norm(graph, graph.relative_poses[*factors[k]]) > kPoseChiSquared99<SE2>)
-        result.reason = "the estimate disagrees";
-      else
-        result.status = ClosureStatus::kAccepted;
-    }
-    results.push_back(std::move(result));
-  }
-  return results;
-}
-
-#define RADIOSLAM_SEQUENCE_STAGE(Pose)                                                                     \
-  template std::vector<SequenceClosure> add_sequence_closures(JointGraph<Pose>&, const RadioMeasurements&, \
-                                                              const SequenceStageParams&);                 \
-  template std::vector<ClosureResult> collect_sequence_closures(                                           \
-      const JointGraph<Pose>&, const RadioMeasurements&, const std::vector<SequenceClosure>&);
-RADIOSLAM_SEQUENCE_STAGE(SE2)
-RADIOSLAM_SEQUENCE_STAGE(SE3)
-#undef RADIOSLAM_SEQUENCE_STAGE
+template std::vector<Closure> add_sequence_closures(JointGraph<SE2>&, const RadioMeasurements&,
+                                                    const SequenceStageParams&);
+template std::vector<Closure> add_sequence_closures(JointGraph<SE3>&, const RadioMeasurements&,
+                                                    const SequenceStageParams&);
 
 }  // namespace radioslam

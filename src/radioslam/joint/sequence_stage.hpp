@@ -2,14 +2,13 @@
 // keyframes before their centres. In the plane only.
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "radioslam/base/fields.hpp"
 #include "radioslam/closure/sequence_closures.hpp"
-#include "radioslam/joint/joint_graph.hpp"
+#include "radioslam/joint/closures/closure.hpp"
 
 namespace radioslam {
 
@@ -38,15 +37,10 @@ struct SequenceStageParams {
 std::optional<std::string> sequence_note(int dimension, const RadioMeasurements& radio,
                                          const SequenceStageParams& params);
 
-/// Finds sequence closures and adds the accepted ones to the graph; returns all candidates.
+/// Finds sequence closures, at keyframes, and adds the accepted ones to the graph; returns all candidates.
+/// The statistic of those rejected is their mean residual in metres.
 template <class Pose>
-std::vector<SequenceClosure> add_sequence_closures(JointGraph<Pose>& joint, const RadioMeasurements& radio,
-                                                   const SequenceStageParams& params);
-
-/// Outcomes after optimisation of the graph; the statistic is the mean residual in metres.
-template <class Pose>
-std::vector<ClosureResult> collect_sequence_closures(const JointGraph<Pose>& joint,
-                                                     const RadioMeasurements& radio,
-                                                     const std::vector<SequenceClosure>& closures);
+std::vector<Closure> add_sequence_closures(JointGraph<Pose>& joint, const RadioMeasurements& radio,
+                                           const SequenceStageParams& params);
 
 }  // namespace radioslam

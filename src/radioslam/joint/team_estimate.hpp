@@ -22,12 +22,13 @@ struct TeamEstimate {
   KnownStarts starts = {};  ///< as the mission states them, or as position fixes determined them
   TeamFixes<Pose> fixes = {};
   TeamPlacement<Pose> placement = {};
-  std::vector<Closure> loops = {};  ///< relative poses of a graph file that are not odometry
-  std::vector<FingerprintClosure> closures = {};
-  std::vector<SequenceClosure> sequences = {};
+  std::vector<Closure> scans = {};    ///< each robot's own, by scan matching
+  std::vector<Closure> loops = {};    ///< of a graph file, or the matches of a team that stands on them
+  std::vector<Closure> matches = {};  ///< the mission's, otherwise
+  std::vector<Closure> sequences = {};
+  std::vector<FingerprintClosure> fingerprints = {};
   OptimizerSummary solution = {};
   std::vector<RangeBiasResult> range_biases = {};
-  std::vector<ClosureResult> matches = {};  ///< outcomes of the mission's matches
 };
 
 }  // namespace radioslam

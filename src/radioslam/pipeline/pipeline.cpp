@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "radioslam/joint/scan_closures.hpp"
 #include "radioslam/pipeline/recordings_stage.hpp"
 #include "radioslam/pipeline/run_results.hpp"
 #include "radioslam/pipeline/stage_clock.hpp"
@@ -13,12 +14,12 @@ namespace {
 
 /// The whole estimate, stage by stage. `team`: the mission as a factor graph, or null.
 template <class Pose>
-RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const std::vector<ScanClosure>& loops,
+RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, std::vector<Closure> scans,
               const RunParams& params, const RunOptions& options, const Progress& progress) {
   StageClock timed;
   auto radio = timed("radio", measure_radio, mission, params.radio, progress);
-  auto estimate =
-      timed("graph", begin_estimate<Pose>, mission, team, loops, std::move(radio), params, options);
+  auto estimate = timed("graph", begin_estimate<Pose>, mission, team, std::move(scans), std::move(radio),
+                        params, options);
   if (has_fixes(mission))
     estimate = timed("position fixes", place_robots_by_fixes<Pose>, std::move(estimate), mission, params);
   estimate = timed("team frame", align_team<Pose>, std::move(estimate), mission, params, progress);
@@ -31,24 +32,25 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, const std::ve
   estimate = timed("range biases", correct_range_biases<Pose>, std::move(estimate), params, progress);
   if (!estimate.loops.empty())
     estimate = timed("loops", close_by_loops<Pose>, std::move(estimate), params, progress);
-  const bool judges_matches = !mission.matches.empty() && estimate.loops.empty();
-  if (judges_matches && uses_matches(mission, params, options))
-    estimate = timed("alignment by matches", weigh_alignments_by_matches<Pose>, std::move(estimate), mission,
-                     params, progress);
+  const bool has_matches = !estimate.matches.empty();
+  if (has_matches && weighs_matches(params, options))
+    estimate = timed("alignment by matches", weigh_alignments_by_matches<Pose>, std::move(estimate), params,
+                     progress);
   std::optional<OverlapStage> overlaps;
   if (needs_overlap_search(mission, options))
-    overlaps = timed("overlap", search_overlaps<Pose>, estimate, mission, params, options);
-  if (judges_matches && !options.overlap_only)
+    overlaps = timed("overlap", search_overlaps<Pose>, estimate, params, options);
+  if (has_matches && !options.overlap_only)
     estimate = timed("matches", close_by_matches<Pose>, std::move(estimate), mission, *overlaps, params,
                      options, progress);
-  RunResult result = describe_run(mission, estimate, loops, std::move(overlaps), params, options, timed);
+  estimate = test_closures(std::move(estimate));
+  RunResult result = describe_run(mission, estimate, std::move(overlaps), params, options, timed);
   return {std::move(result), std::move(estimate.joint.team.graph)};
 }
 
-RunOutput run_for_dimension(const Mission& mission, const std::vector<ScanClosure>& loops,
-                            const RunParams& params, const RunOptions& options, const Progress& progress) {
-  return mission.dimension == 2 ? run<SE2>(mission, nullptr, loops, params, options, progress)
-                                : run<SE3>(mission, nullptr, loops, params, options, progress);
+RunOutput run_for_dimension(const Mission& mission, std::vector<Closure> scans, const RunParams& params,
+                            const RunOptions& options, const Progress& progress) {
+  return mission.dimension == 2 ? run<SE2>(mission, nullptr, std::move(scans), params, options, progress)
+                                : run<SE3>(mission, nullptr, std::move(scans), params, options, progress);
 }
 
 }  // namespace
@@ -57,7 +59,8 @@ RunOutput run_pipeline(Mission mission, const RunParams& params, const RunOption
                        const Progress& progress) {
   if (!has_raw_recordings(mission)) return run_for_dimension(mission, {}, params, options, progress);
   MeasuredRecordings measured = measure_recordings(mission, params, progress);
-  RunOutput output = run_for_dimension(mission, measured.scans.closures, params, options, progress);
+  RunOutput output =
+      run_for_dimension(mission, closures_of_scans(measured.scans.closures), params, options, progress);
   add_recording_results(output.result, std::move(measured), mission, params, options);
   return output;
 }

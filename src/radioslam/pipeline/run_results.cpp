@@ -8,7 +8,6 @@
 #include "radioslam/joint/dense_trajectory.hpp"
 #include "radioslam/joint/position_fixes/fix_results.hpp"
 #include "radioslam/joint/rejected_stretches.hpp"
-#include "radioslam/joint/scan_closures.hpp"
 #include "radioslam/joint/sight_notes.hpp"
 #include "radioslam/pipeline/collect_results.hpp"
 
@@ -83,16 +82,12 @@ void check_angles_into(RunResult& result, const Mission& mission, const JointGra
 
 /// Outcomes of all links and closures, by kind.
 template <class Pose>
-std::vector<ClosureResult> collect_all_closures(const TeamEstimate<Pose>& estimate,
-                                                const std::vector<ScanClosure>& loops) {
+std::vector<ClosureResult> collect_all_closures(const TeamEstimate<Pose>& estimate) {
   const JointGraph<Pose>& joint = estimate.joint;
   std::vector<ClosureResult> all = collect_radio_links(joint);
   for (auto& closure : collect_fingerprint_closures(joint)) all.push_back(std::move(closure));
-  for (auto& closure : collect_sequence_closures(joint, estimate.radio, estimate.sequences))
-    all.push_back(std::move(closure));
-  for (auto& closure : collect_scan_closures(joint, loops)) all.push_back(std::move(closure));
-  for (auto& closure : collect_closures(joint, estimate.loops)) all.push_back(std::move(closure));
-  all.insert(all.end(), estimate.matches.begin(), estimate.matches.end());
+  for (const auto* closures : {&estimate.sequences, &estimate.scans, &estimate.loops, &estimate.matches})
+    for (auto& closure : collect_closures(joint, *closures)) all.push_back(std::move(closure));
   return all;
 }
 
@@ -140,8 +135,8 @@ void add_uncertain_stretches(RunResult& result) {
 
 template <class Pose>
 RunResult describe_run(const Mission& mission, const TeamEstimate<Pose>& estimate,
-                       const std::vector<ScanClosure>& loops, std::optional<OverlapStage> overlaps,
-                       const RunParams& params, const RunOptions& options, StageClock& timed) {
+                       std::optional<OverlapStage> overlaps, const RunParams& params,
+                       const RunOptions& options, StageClock& timed) {
   const RadioMeasurements& radio = estimate.radio;
   const JointGraph<Pose>& joint = estimate.joint;
   RunResult result;
@@ -159,7 +154,7 @@ RunResult describe_run(const Mission& mission, const TeamEstimate<Pose>& estimat
   add_fix_results(result, joint, estimate.fixes);
   if (!mission.aoa_measurements.empty())
     timed("angle checks", [&] { check_angles_into(result, mission, joint, estimate.placement, params); });
-  result.closures = collect_all_closures(estimate, loops);
+  result.closures = collect_all_closures(estimate);
   for (auto& note : notes_on_obstructed_robots(result.robots, result.closures))
     result.notes.push_back(std::move(note));
   add_uncertain_stretches(result);
@@ -170,11 +165,9 @@ RunResult describe_run(const Mission& mission, const TeamEstimate<Pose>& estimat
   return result;
 }
 
-template RunResult describe_run(const Mission&, const TeamEstimate<SE2>&, const std::vector<ScanClosure>&,
-                                std::optional<OverlapStage>, const RunParams&, const RunOptions&,
-                                StageClock&);
-template RunResult describe_run(const Mission&, const TeamEstimate<SE3>&, const std::vector<ScanClosure>&,
-                                std::optional<OverlapStage>, const RunParams&, const RunOptions&,
-                                StageClock&);
+template RunResult describe_run(const Mission&, const TeamEstimate<SE2>&, std::optional<OverlapStage>,
+                                const RunParams&, const RunOptions&, StageClock&);
+template RunResult describe_run(const Mission&, const TeamEstimate<SE3>&, std::optional<OverlapStage>,
+                                const RunParams&, const RunOptions&, StageClock&);
 
 }  // namespace radioslam

@@ -10,18 +10,17 @@
 
 #include "radioslam/joint/overlap_stage.hpp"
 #include "radioslam/joint/team_estimate.hpp"
-#include "radioslam/odometry/scan_closure.hpp"
 #include "radioslam/pipeline/params.hpp"
 #include "radioslam/pipeline/run_options.hpp"
 #include "radioslam/pipeline/stage_clock.hpp"
 
 namespace radioslam {
 
-/// The results of the final estimate. `loops`: the robots' own loop closures; `overlaps`: nothing if no
+/// The results of the final estimate. `overlaps`: nothing if no
 /// pairs were searched for. `timed` has timed the stages so far, and times those of the results.
 template <class Pose>
 RunResult describe_run(const Mission& mission, const TeamEstimate<Pose>& estimate,
-                       const std::vector<ScanClosure>& loops, std::optional<OverlapStage> overlaps,
-                       const RunParams& params, const RunOptions& options, StageClock& timed);
+                       std::optional<OverlapStage> overlaps, const RunParams& params,
+                       const RunOptions& options, StageClock& timed);
 
 }  // namespace radioslam

@@ -1,6 +1,7 @@
 #include "radioslam/pipeline/stages.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "radioslam/joint/closures/loop_stage.hpp"
@@ -18,47 +19,41 @@ constexpr double kMinSearchedWeight = 0.01;  // of an alignment whose overlaps a
 
 /// The graph of the mission, with poses at the stamps of loop closures and position fixes.
 template <class Pose>
-JointGraph<Pose> mission_graph(const Mission& mission, const std::vector<ScanClosure>& loops,
+JointGraph<Pose> mission_graph(const Mission& mission, const std::vector<Closure>& scans,
                                const RunParams& params) {
   std::vector<std::vector<Stamp>> node_stamps(mission.robots.size());
-  add_closure_stamps(loops, node_stamps);
+  add_closure_stamps(scans, node_stamps);
   add_fix_stamps(mission, node_stamps);
   return build_joint_graph<Pose>(mission, params.keyframe, params.graph, std::move(node_stamps));
 }
 
-ClosureResult match_result(const MatchOutcome& outcome) {
-  const FactorOrigin& origin = outcome.origin;
-  return {origin.robot_i,      origin.stamp_i, origin.robot_j,    origin.stamp_j,
-          ClosureKind::kMatch, outcome.status, outcome.statistic, outcome.reason};
-}
-
-}  // namespace
-
-bool uses_matches(const Mission& mission, const RunParams& params, const RunOptions& options) {
-  return !mission.matches.empty() && params.matches.robust && options.pruning == Pruning::kOn &&
-         !options.overlap_only;
-}
-
+/// Whether the robots are connected by matches and by nothing else.
 bool stands_on_matches(const Mission& mission, const RunParams& params, const RunOptions& options) {
-  return uses_matches(mission, params, options) && mission.ranges.empty() &&
+  return weighs_matches(params, options) && !mission.matches.empty() && mission.ranges.empty() &&
          mission.aoa_measurements.empty() && !has_fixes(mission) &&
          std::all_of(mission.robots.begin(), mission.robots.end(),
                      [](const Robot& r) { return r.wifi.empty(); });
 }
 
+}  // namespace
+
+bool weighs_matches(const RunParams& params, const RunOptions& options) {
+  return params.matches.robust && options.pruning == Pruning::kOn && !options.overlap_only;
+}
+
 template <class Pose>
 TeamEstimate<Pose> begin_estimate(const Mission& mission, const TeamGraph<Pose>* team,
-                                  const std::vector<ScanClosure>& loops, RadioMeasurements radio,
+                                  std::vector<Closure> scans, RadioMeasurements radio,
                                   const RunParams& params, const RunOptions& options) {
-  TeamEstimate<Pose> estimate{.radio = std::move(radio)};
-  estimate.joint = team ? joint_graph_of(*team, mission) : mission_graph<Pose>(mission, loops, params);
+  TeamEstimate<Pose> estimate{.radio = std::move(radio), .scans = std::move(scans)};
+  estimate.joint =
+      team ? joint_graph_of(*team, mission) : mission_graph<Pose>(mission, estimate.scans, params);
   estimate.starts = known_starts(mission);
-  if (team)
-    estimate.loops = closures_of(*team, estimate.joint);
-  else if (stands_on_matches(mission, params, options))
-    estimate.loops = closures_of_matches(mission);
+  const bool are_loops = !team && stands_on_matches(mission, params, options);
+  estimate.loops = team ? closures_of(*team, estimate.joint) : std::vector<Closure>();
+  (are_loops ? estimate.loops : estimate.matches) = closures_of_matches(mission);
   add_own_loops(estimate.joint, estimate.loops, params.optimizer);
-  add_scan_closures(estimate.joint, loops, params.optimizer);
+  add_scan_closures(estimate.joint, estimate.scans, params.optimizer);
   return estimate;
 }
 
@@ -84,10 +79,10 @@ TeamEstimate<Pose> align_team(TeamEstimate<Pose> estimate, const Mission& missio
 
 template <class Pose>
 TeamEstimate<Pose> close_by_fingerprints(TeamEstimate<Pose> estimate, const RunParams& params) {
-  estimate.closures = propose_fingerprint_closures(estimate.starts, estimate.radio,
-                                                   params.radio.distance_model.max_trusted_path_m,
-                                                   params.team_frame, params.closure);
-  add_fingerprint_closures(estimate.joint, estimate.radio, estimate.closures);
+  estimate.fingerprints = propose_fingerprint_closures(estimate.starts, estimate.radio,
+                                                       params.radio.distance_model.max_trusted_path_m,
+                                                       params.team_frame, params.closure);
+  add_fingerprint_closures(estimate.joint, estimate.radio, estimate.fingerprints);
   return estimate;
 }
 
@@ -115,7 +110,7 @@ template <class Pose>
 TeamEstimate<Pose> refine_on_field(TeamEstimate<Pose> estimate, const Mission& mission,
                                    const RunParams& params, const Progress& progress) {
   if (refine_by_radio_field(estimate.joint, mission, estimate.starts, estimate.radio, estimate.placement,
-                            estimate.closures, params.field, progress))
+                            estimate.fingerprints, params.field, progress))
     optimize(estimate.joint.team.graph, params.optimizer, progress);
   return estimate;
 }
@@ -129,11 +124,11 @@ TeamEstimate<Pose> correct_range_biases(TeamEstimate<Pose> estimate, const RunPa
 }
 
 template <class Pose>
-TeamEstimate<Pose> weigh_alignments_by_matches(TeamEstimate<Pose> estimate, const Mission& mission,
-                                               const RunParams& params, const Progress& progress) {
-  if (choose_alignment_by_matches(estimate.joint, estimate.placement, mission, params.alignment))
+TeamEstimate<Pose> weigh_alignments_by_matches(TeamEstimate<Pose> estimate, const RunParams& params,
+                                               const Progress& progress) {
+  if (choose_alignment_by_matches(estimate.joint, estimate.placement, estimate.matches, params.alignment))
     optimize(estimate.joint.team.graph, params.optimizer, progress);
-  place_by_matches(estimate.joint, estimate.placement, mission);
+  place_by_matches(estimate.joint, estimate.placement, estimate.matches);
   return estimate;
 }
 
@@ -150,8 +145,8 @@ bool needs_overlap_search(const Mission& mission, const RunOptions& options) {
 }
 
 template <class Pose>
-OverlapStage search_overlaps(const TeamEstimate<Pose>& estimate, const Mission& mission,
-                             const RunParams& params, const RunOptions& options) {
+OverlapStage search_overlaps(const TeamEstimate<Pose>& estimate, const RunParams& params,
+                             const RunOptions& options) {
   std::vector<JointGraph<Pose>> alignments{graph_for_covariances(estimate.joint, params.alignment.mixture)};
   const TeamPlacement<Pose>& placement = estimate.placement;
   for (std::size_t k = 0; k < placement.alternatives.size(); ++k) {
@@ -166,7 +161,7 @@ OverlapStage search_overlaps(const TeamEstimate<Pose>& estimate, const Mission& 
   const auto listed = static_cast<std::size_t>(params.overlap.max_listed_candidates);
   return find_overlaps(std::move(alignments), params.overlap,
                        {options.search, options.take_candidates ? 0 : listed,
-                        keyframes_of_matches(estimate.joint, mission), options.take_candidates});
+                        keyframes_of_matches(estimate.joint, estimate.matches), options.take_candidates});
 }
 
 template <class Pose>
@@ -174,21 +169,28 @@ TeamEstimate<Pose> close_by_matches(TeamEstimate<Pose> estimate, const Mission& 
                                     const OverlapStage& overlaps, const RunParams& params,
                                     const RunOptions& options, const Progress& progress) {
   const auto radio = radio_covariance(estimate.joint, estimate.placement, params.alignment);
-  auto outcomes = select_matches(estimate.joint, estimate.placement, mission, overlaps.of_asked,
-                                 options.pruning, params.matches, params.angles, radio);
+  std::optional<AoaMatchWeights> angles;
+  if (params.matches.angle_weights) angles.emplace(mission, params.matches, params.angles);
+  select_matches(estimate.joint, estimate.placement, estimate.matches, overlaps.of_asked, options.pruning,
+                 params.matches, angles ? &*angles : nullptr, radio);
   if (radio && params.matches.robust && options.pruning == Pruning::kOn)
-    optimise_matches_and_radio(estimate.joint, outcomes, estimate.placement, params.matches,
+    optimise_matches_and_radio(estimate.joint, estimate.matches, estimate.placement, params.matches,
                                params.alignment.mixture, params.optimizer, progress);
   else
-    optimise_with_matches(estimate.joint, outcomes, params.matches, params.optimizer, progress);
-  for (const MatchOutcome& outcome : outcomes) estimate.matches.push_back(match_result(outcome));
+    optimise_with_matches(estimate.joint, estimate.matches, params.matches, params.optimizer, progress);
+  return estimate;
+}
+
+template <class Pose>
+TeamEstimate<Pose> test_closures(TeamEstimate<Pose> estimate) {
+  test_closures(estimate.joint, FactorSource::kScanLoop, estimate.scans);
+  test_closures(estimate.joint, FactorSource::kSequence, estimate.sequences);
   return estimate;
 }
 
 #define RADIOSLAM_STAGES(Pose)                                                                             \
-  template TeamEstimate<Pose> begin_estimate(const Mission&, const TeamGraph<Pose>*,                       \
-                                             const std::vector<ScanClosure>&, RadioMeasurements,           \
-                                             const RunParams&, const RunOptions&);                         \
+  template TeamEstimate<Pose> begin_estimate(const Mission&, const TeamGraph<Pose>*, std::vector<Closure>, \
+                                             RadioMeasurements, const RunParams&, const RunOptions&);      \
   template TeamEstimate<Pose> place_robots_by_fixes(TeamEstimate<Pose>, const Mission&, const RunParams&); \
   template TeamEstimate<Pose> align_team(TeamEstimate<Pose>, const Mission&, const RunParams&,             \
                                          const Progress&);                                                 \
@@ -199,13 +201,13 @@ TeamEstimate<Pose> close_by_matches(TeamEstimate<Pose> estimate, const Mission& 
   template TeamEstimate<Pose> refine_on_field(TeamEstimate<Pose>, const Mission&, const RunParams&,        \
                                               const Progress&);                                            \
   template TeamEstimate<Pose> correct_range_biases(TeamEstimate<Pose>, const RunParams&, const Progress&); \
-  template TeamEstimate<Pose> weigh_alignments_by_matches(TeamEstimate<Pose>, const Mission&,              \
-                                                          const RunParams&, const Progress&);              \
+  template TeamEstimate<Pose> weigh_alignments_by_matches(TeamEstimate<Pose>, const RunParams&,            \
+                                                          const Progress&);                                \
   template TeamEstimate<Pose> close_by_loops(TeamEstimate<Pose>, const RunParams&, const Progress&);       \
-  template OverlapStage search_overlaps(const TeamEstimate<Pose>&, const Mission&, const RunParams&,       \
-                                        const RunOptions&);                                                \
+  template OverlapStage search_overlaps(const TeamEstimate<Pose>&, const RunParams&, const RunOptions&);   \
   template TeamEstimate<Pose> close_by_matches(TeamEstimate<Pose>, const Mission&, const OverlapStage&,    \
-                                               const RunParams&, const RunOptions&, const Progress&);
+                                               const RunParams&, const RunOptions&, const Progress&);      \
+  template TeamEstimate<Pose> test_closures(TeamEstimate<Pose>);
 RADIOSLAM_STAGES(SE2)
 RADIOSLAM_STAGES(SE3)
 #undef RADIOSLAM_STAGES

@@ -7,23 +7,19 @@
 #include "radioslam/base/progress.hpp"
 #include "radioslam/joint/overlap_stage.hpp"
 #include "radioslam/joint/team_estimate.hpp"
-#include "radioslam/odometry/scan_closure.hpp"
 #include "radioslam/pipeline/params.hpp"
 #include "radioslam/pipeline/run_options.hpp"
 
 namespace radioslam {
 
 /// Whether matches may move the team; without pruning or robustness they show what they do on their own.
-bool uses_matches(const Mission& mission, const RunParams& params, const RunOptions& options);
+bool weighs_matches(const RunParams& params, const RunOptions& options);
 
-/// Whether the robots are connected by matches and by nothing else.
-bool stands_on_matches(const Mission& mission, const RunParams& params, const RunOptions& options);
-
-/// The joint graph of the mission, or of `team` where it comes as a factor graph, with each robot's loop
-/// closures `loops`.
+/// The joint graph of the mission, or of `team` where it comes as a factor graph, with each robot's own loop
+/// closures; `scans` are those of its scans.
 template <class Pose>
 TeamEstimate<Pose> begin_estimate(const Mission& mission, const TeamGraph<Pose>* team,
-                                  const std::vector<ScanClosure>& loops, RadioMeasurements radio,
+                                  std::vector<Closure> scans, RadioMeasurements radio,
                                   const RunParams& params, const RunOptions& options);
 
 /// Robots with position fixes in the common frame.
@@ -66,8 +62,8 @@ TeamEstimate<Pose> correct_range_biases(TeamEstimate<Pose> estimate, const RunPa
 
 /// At the alignment that radio links and groups of consistent matches support best, with the weights of all.
 template <class Pose>
-TeamEstimate<Pose> weigh_alignments_by_matches(TeamEstimate<Pose> estimate, const Mission& mission,
-                                               const RunParams& params, const Progress& progress);
+TeamEstimate<Pose> weigh_alignments_by_matches(TeamEstimate<Pose> estimate, const RunParams& params,
+                                               const Progress& progress);
 
 /// With the loops that hold, of a graph file or of a team that stands on matches; they join robots that
 /// nothing else connects.
@@ -80,13 +76,18 @@ bool needs_overlap_search(const Mission& mission, const RunOptions& options);
 
 /// Keyframe pairs of different robots whose views can overlap.
 template <class Pose>
-OverlapStage search_overlaps(const TeamEstimate<Pose>& estimate, const Mission& mission,
-                             const RunParams& params, const RunOptions& options);
+OverlapStage search_overlaps(const TeamEstimate<Pose>& estimate, const RunParams& params,
+                             const RunOptions& options);
 
 /// With the matches of an external place recognition that are candidates and consistent.
 template <class Pose>
 TeamEstimate<Pose> close_by_matches(TeamEstimate<Pose> estimate, const Mission& mission,
                                     const OverlapStage& overlaps, const RunParams& params,
                                     const RunOptions& options, const Progress& progress);
+
+/// With the closures of scans and sequences that the estimate agrees with; their losses have settled the
+/// weights.
+template <class Pose>
+TeamEstimate<Pose> test_closures(TeamEstimate<Pose> estimate);
 
 }  // namespace radioslam

@@ -36,18 +36,18 @@ AoaMeasurement heard(std::size_t receiver, double t_s, double azimuth_deg) {
 }
 
 /// b at t_j as a saw it at t_i.
-PoseMatch match(double t_i_s, double t_j_s, const Eigen::Vector2d& position) {
-  PoseMatch result;
+Closure match(double t_i_s, double t_j_s, const Eigen::Vector2d& position) {
+  Closure result;
   result.robot_i = RobotIndex(std::size_t{0});
   result.robot_j = RobotIndex(std::size_t{1});
   result.stamp_i = Stamp{static_cast<std::int64_t>(t_i_s * kSecond)};
   result.stamp_j = Stamp{static_cast<std::int64_t>(t_j_s * kSecond)};
   result.T_i_j = lift(SE2(position, 0));
-  result.covariance = isotropic_covariance(0.1, 0.01);
+  result.information = isotropic_covariance(10, 100);
   return result;
 }
 
-std::optional<double> scale(const Mission& mission, const PoseMatch& match, const MatchParams& params = {}) {
+std::optional<double> scale(const Mission& mission, const Closure& match, const MatchParams& params = {}) {
   return AoaMatchWeights(mission, params, {}).information_scale<SE2>(match);
 }
 

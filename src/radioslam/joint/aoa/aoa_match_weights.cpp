@@ -13,8 +13,8 @@ namespace {
 std::pair<RobotIndex, RobotIndex> ordered(RobotIndex a, RobotIndex b) { return std::minmax(a, b); }
 
 template <class Pose>
-UncertainPose<Pose> uncertain(const PoseMatch& match) {
-  return {pose_as<Pose>(match.T_i_j), covariance_as<Pose>(match.covariance)};
+UncertainPose<Pose> uncertain(const Closure& match) {
+  return {pose_as<Pose>(match.T_i_j), covariance_of<Pose>(match)};
 }
 
 }  // namespace
@@ -30,7 +30,7 @@ AoaMatchWeights::AoaMatchWeights(const Mission& mission, const MatchParams& para
   }
 }
 
-std::vector<std::size_t> AoaMatchWeights::nearest(const PoseMatch& match) const {
+std::vector<std::size_t> AoaMatchWeights::nearest(const Closure& match) const {
   const auto between = aoa_measurements_.find(ordered(match.robot_i, match.robot_j));
   if (between == aoa_measurements_.end()) return {};
   const auto travelled_m = [&](RobotIndex robot, Stamp stamp) {
@@ -53,7 +53,7 @@ std::vector<std::size_t> AoaMatchWeights::nearest(const PoseMatch& match) const 
 }
 
 template <class Pose>
-std::optional<double> AoaMatchWeights::information_scale(const PoseMatch& match) const {
+std::optional<double> AoaMatchWeights::information_scale(const Closure& match) const {
   const Robot& robot_i = mission_.robots[match.robot_i.index()];
   const Robot& robot_j = mission_.robots[match.robot_j.index()];
   std::vector<double> scales;
@@ -70,7 +70,7 @@ std::optional<double> AoaMatchWeights::information_scale(const PoseMatch& match)
   return lower_median(std::move(scales));
 }
 
-template std::optional<double> AoaMatchWeights::information_scale<SE2>(const PoseMatch&) const;
-template std::optional<double> AoaMatchWeights::information_scale<SE3>(const PoseMatch&) const;
+template std::optional<double> AoaMatchWeights::information_scale<SE2>(const Closure&) const;
+template std::optional<double> AoaMatchWeights::information_scale<SE3>(const Closure&) const;
 
 }  // namespace radioslam

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "radioslam/base/fields.hpp"
+#include "radioslam/joint/closures/closure.hpp"
 #include "radioslam/mission/mission.hpp"
 #include "radioslam/radio/aoa/aoa_likelihood.hpp"
 
@@ -53,11 +54,11 @@ class AoaMatchWeights {
 
   /// Scale of a match's information; nothing if no angles were measured near it.
   template <class Pose>
-  std::optional<double> information_scale(const PoseMatch& match) const;
+  std::optional<double> information_scale(const Closure& match) const;
 
  private:
   /// The measurements between the match's robots that are nearest along their odometry.
-  std::vector<std::size_t> nearest(const PoseMatch& match) const;
+  std::vector<std::size_t> nearest(const Closure& match) const;
 
   const Mission& mission_;
   MatchParams params_;

@@ -4,7 +4,9 @@
 #include <array>
 #include <utility>
 
-#include "radioslam/joint/matches/match_groups.hpp"
+#include "radioslam/base/check.hpp"
+#include "radioslam/geometry/linear_algebra.hpp"
+#include "radioslam/graph/residuals.hpp"
 
 namespace radioslam {
 
@@ -19,6 +21,23 @@ typename Pose::Jacobian information_as(const SE3::Jacobian& information) {
     const Eigen::Matrix3d cross = information(kept, freed);
     return information(kept, kept) - cross * of_freed.inverse() * cross.transpose();
   }
+}
+
+template <class Pose>
+SE3::Jacobian information_in_space(const typename Pose::Jacobian& information) {
+  if constexpr (Pose::kDim == 3) {
+    return information;
+  } else {
+    SE3::Jacobian result = SE3::Jacobian::Identity();
+    const std::array<int, 3> kept{0, 1, 5};
+    result(kept, kept) = information;
+    return result;
+  }
+}
+
+template <class Pose>
+typename Pose::Jacobian covariance_of(const Closure& closure) {
+  return inverse(information_as<Pose>(closure.information));
 }
 
 template <class Pose>
@@ -41,9 +60,45 @@ std::vector<Closure> closures_of_matches(const Mission& mission) {
     closure.stamp_i = match.stamp_i;
     closure.stamp_j = match.stamp_j;
     closure.T_i_j = match.T_i_j;
-    closure.information = match_information<SE3>(match);
+    const SE3::Jacobian information = inverse(match.covariance);
+    closure.information = (information + information.transpose()) / 2;
   }
   return closures;
+}
+
+template <class Pose>
+RelativePoseFactor<Pose> closure_factor(const JointGraph<Pose>& joint, const Closure& closure) {
+  const ClosureEnds ends = closure_ends(joint, closure);
+  RADIOSLAM_CHECK(ends.valid(), "both ends of a closure are poses");
+  RelativePoseFactor<Pose> factor;
+  factor.i = ends.i;
+  factor.j = ends.j;
+  factor.T_i_j = pose_as<Pose>(closure.T_i_j);
+  factor.information = information_as<Pose>(closure.information);
+  return factor;
+}
+
+template <class Pose>
+void add_closure(JointGraph<Pose>& joint, const Closure& closure, RelativePoseFactor<Pose> factor,
+                 FactorSource source, std::size_t index) {
+  add_factor(joint, std::move(factor),
+             {source, index, closure.robot_i, closure.robot_j,
+              keyframe_stamp(joint, closure.robot_i, closure.stamp_i),
+              keyframe_stamp(joint, closure.robot_j, closure.stamp_j)});
+}
+
+template <class Pose>
+void test_closures(const JointGraph<Pose>& joint, FactorSource source, std::vector<Closure>& closures) {
+  const auto& factors = joint.team.graph.relative_poses;
+  for (std::size_t k = 0; k < factors.size(); ++k) {
+    const FactorOrigin& origin = joint.origins.relative_poses[k];
+    if (origin.source != source) continue;
+    Closure& closure = closures[origin.measurement];
+    closure.statistic = squared_norm(joint.team.graph, factors[k]);
+    closure.status = ClosureStatus::kAccepted;
+    closure.reason.clear();
+    if (closure.statistic > kPoseChiSquared99<Pose>) reject(closure, "the joint estimate disagrees");
+  }
 }
 
 template <class Pose>
@@ -64,11 +119,18 @@ std::vector<ClosureResult> collect_closures(const JointGraph<Pose>& joint,
   return results;
 }
 
-template SE2::Jacobian information_as<SE2>(const SE3::Jacobian&);
-template SE3::Jacobian information_as<SE3>(const SE3::Jacobian&);
-template ClosureEnds closure_ends(const JointGraph<SE2>&, const Closure&);
-template ClosureEnds closure_ends(const JointGraph<SE3>&, const Closure&);
-template std::vector<ClosureResult> collect_closures(const JointGraph<SE2>&, const std::vector<Closure>&);
-template std::vector<ClosureResult> collect_closures(const JointGraph<SE3>&, const std::vector<Closure>&);
+#define RADIOSLAM_CLOSURE(Pose)                                                                        \
+  template Pose::Jacobian information_as<Pose>(const SE3::Jacobian&);                                  \
+  template SE3::Jacobian information_in_space<Pose>(const Pose::Jacobian&);                            \
+  template Pose::Jacobian covariance_of<Pose>(const Closure&);                                         \
+  template ClosureEnds closure_ends(const JointGraph<Pose>&, const Closure&);                          \
+  template RelativePoseFactor<Pose> closure_factor(const JointGraph<Pose>&, const Closure&);           \
+  template void add_closure(JointGraph<Pose>&, const Closure&, RelativePoseFactor<Pose>, FactorSource, \
+                            std::size_t);                                                              \
+  template void test_closures(const JointGraph<Pose>&, FactorSource, std::vector<Closure>&);           \
+  template std::vector<ClosureResult> collect_closures(const JointGraph<Pose>&, const std::vector<Closure>&);
+RADIOSLAM_CLOSURE(SE2)
+RADIOSLAM_CLOSURE(SE3)
+#undef RADIOSLAM_CLOSURE
 
 }  // namespace radioslam

@@ -30,6 +30,15 @@ struct Closure {
 template <class Pose>
 typename Pose::Jacobian information_as(const SE3::Jacobian& information);
 
+/// Information of a relative pose of the estimate; of one in the plane, next to none on height, roll and
+/// pitch.
+template <class Pose>
+SE3::Jacobian information_in_space(const typename Pose::Jacobian& information);
+
+/// Covariance of T_i_j in the dimension of the estimate.
+template <class Pose>
+typename Pose::Jacobian covariance_of(const Closure& closure);
+
 /// Poses of a closure's ends in the joint graph; invalid outside the odometry.
 struct ClosureEnds {
   PoseId i, j;
@@ -42,6 +51,20 @@ void reject(Closure& closure, std::string reason);
 
 /// The mission's matches, in their order.
 std::vector<Closure> closures_of_matches(const Mission& mission);
+
+/// The closure as a factor between its ends, which must be valid; without a loss.
+template <class Pose>
+RelativePoseFactor<Pose> closure_factor(const JointGraph<Pose>& joint, const Closure& closure);
+
+/// Adds a factor of a closure; its origin's measurement is `index`.
+template <class Pose>
+void add_closure(JointGraph<Pose>& joint, const Closure& closure, RelativePoseFactor<Pose> factor,
+                 FactorSource source, std::size_t index);
+
+/// Accepts, of the closures whose factors are in the graph, those whose residual there passes the chi-squared
+/// test; the others stay as they are.
+template <class Pose>
+void test_closures(const JointGraph<Pose>& joint, FactorSource source, std::vector<Closure>& closures);
 
 /// Outcomes, at the keyframes before both ends.
 template <class Pose>

@@ -41,9 +41,7 @@ void add_accepted(JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>>& lo
   for (const TeamLoop<Pose>& loop : loops) {
     if (!loop.accepted) continue;
     const std::size_t first = loop.closures.front();
-    add_factor(joint, loop_factor(loop),
-               {FactorSource::kLoop, first, closures[first].robot_i, closures[first].robot_j,
-                closures[first].stamp_i, closures[first].stamp_j});
+    add_closure(joint, closures[first], loop_factor(loop), FactorSource::kLoop, first);
   }
 }
 

@@ -40,11 +40,11 @@ struct MatchError {
 
 template <class Pose>
 MatchError<Pose> match_error(const JointGraph<Pose>& joint, const Marginals<Pose>& marginals,
-                             double temperature, const PoseMatch& match, const MatchEnds& ends) {
+                             double temperature, const Closure& match, const MatchEnds& ends) {
   const auto& poses = joint.team.graph.poses;
   const Pose T_i_j = poses[ends.i.index()].inverse() * poses[ends.j.index()];
   return {(pose_as<Pose>(match.T_i_j).inverse() * T_i_j).log(),
-          temperature * marginals.relative_pose(ends.i, ends.j) + inverse(match_information<Pose>(match))};
+          temperature * marginals.relative_pose(ends.i, ends.j) + covariance_of<Pose>(match)};
 }
 
 template <class Vector, class Matrix>
@@ -86,10 +86,10 @@ double span_m(const JointGraph<Pose>& joint, const MatchGroup& group) {
 
 /// Moves robot b of the group, or a if b's start is known, to where the group's middle match wants it.
 template <class Pose>
-std::vector<Pose> moved_by(const JointGraph<Pose>& joint, const Mission& mission, const MatchGroup& group,
-                           std::vector<Pose> poses) {
+std::vector<Pose> moved_by(const JointGraph<Pose>& joint, const std::vector<Closure>& matches,
+                           const MatchGroup& group, std::vector<Pose> poses) {
   const RobotIndex moved = joint.robots[group.b.index()].T_common_start ? group.a : group.b;
-  const Pose T = motion_to_match(poses, mission.matches[group.middle().match], group.middle(), moved);
+  const Pose T = motion_to_match(poses, matches[group.middle().match], group.middle(), moved);
   for (std::size_t p = 0; p < joint.team.segments.size(); ++p)
     if (joint.robot_of_segment[p] == moved.index()) move_segment(poses, joint.team.segments[p], T);
   return poses;
@@ -105,14 +105,14 @@ struct Candidate {
 template <class Pose>
 class AlignmentChoice {
  public:
-  AlignmentChoice(const JointGraph<Pose>& joint, const TeamPlacement<Pose>& placement, const Mission& mission,
-                  const RadioAlignmentParams& params)
+  AlignmentChoice(const JointGraph<Pose>& joint, const TeamPlacement<Pose>& placement,
+                  const std::vector<Closure>& matches, const RadioAlignmentParams& params)
       : joint_(joint),
         placement_(placement),
-        mission_(mission),
+        matches_(matches),
         params_(params),
         radio_(radio_team(joint)),
-        groups_(consistent_groups(joint, mission, kMaxGroups)) {}
+        groups_(consistent_groups(joint, matches, kMaxGroups)) {}
 
   /// The alignments with their weights, best first; the radio's own is the first of equals.
   std::vector<TeamHypothesis<Pose>> run() {
@@ -180,7 +180,7 @@ class AlignmentChoice {
   /// Planar error of the group's middle match.
   MatchError<Pose> group_error(const Aligned& at, const MatchGroup& group) const {
     return match_error(at.joint, *at.marginals, params_.beam.evidence_temperature,
-                       mission_.matches[group.middle().match], group.middle());
+                       matches_[group.middle().match], group.middle());
   }
 
   double log_weight(const TeamHypothesis<Pose>& alignment) const {
@@ -231,7 +231,7 @@ class AlignmentChoice {
                      [](const auto* x, const auto* y) { return x->matches.size() > y->matches.size(); });
     if (contradicting.size() > kMaxProposals) contradicting.resize(kMaxProposals);
     for (const MatchGroup* group : contradicting)
-      starts.push_back(moved_by(joint_, mission_, *group, candidate.alignment.poses));
+      starts.push_back(moved_by(joint_, matches_, *group, candidate.alignment.poses));
     return starts;
   }
 
@@ -241,7 +241,7 @@ class AlignmentChoice {
 
   const JointGraph<Pose>& joint_;
   const TeamPlacement<Pose>& placement_;
-  const Mission& mission_;
+  const std::vector<Closure>& matches_;
   const RadioAlignmentParams& params_;
   TeamGraph<Pose> radio_;
   std::vector<MatchGroup> groups_;
@@ -252,16 +252,16 @@ class AlignmentChoice {
 
 template <class Pose>
 double match_statistic(const JointGraph<Pose>& joint, const Marginals<Pose>& marginals, double temperature,
-                       const PoseMatch& match, const MatchEnds& ends) {
+                       const Closure& match, const MatchEnds& ends) {
   const MatchError<Pose> at = match_error(joint, marginals, temperature, match, ends);
   return squared_mahalanobis(at.error, at.covariance);
 }
 
 template <class Pose>
 bool choose_alignment_by_matches(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement,
-                                 const Mission& mission, const RadioAlignmentParams& params) {
-  if (placement.segments.of_segment.empty() || mission.matches.empty()) return false;
-  const auto alignments = AlignmentChoice<Pose>(joint, placement, mission, params).run();
+                                 const std::vector<Closure>& matches, const RadioAlignmentParams& params) {
+  if (placement.segments.of_segment.empty() || matches.empty()) return false;
+  const auto alignments = AlignmentChoice<Pose>(joint, placement, matches, params).run();
   if (alignments.empty()) return false;
   set_alternatives(placement, alignments);
   const TeamHypothesis<Pose>& chosen = alignments.front();
@@ -278,12 +278,12 @@ double reweigh_radio_links(JointGraph<Pose>& joint, const TeamPlacement<Pose>& p
   return weighed.log_evidence;
 }
 
-#define RADIOSLAM_FRAME_BY_MATCHES(Pose)                                                                     \
-  template double reweigh_radio_links(JointGraph<Pose>&, const TeamPlacement<Pose>&, const MixtureParams&);  \
-  template double match_statistic(const JointGraph<Pose>&, const Marginals<Pose>&, double, const PoseMatch&, \
-                                  const MatchEnds&);                                                         \
-  template bool choose_alignment_by_matches(JointGraph<Pose>&, TeamPlacement<Pose>&, const Mission&,         \
-                                            const RadioAlignmentParams&);
+#define RADIOSLAM_FRAME_BY_MATCHES(Pose)                                                                    \
+  template double reweigh_radio_links(JointGraph<Pose>&, const TeamPlacement<Pose>&, const MixtureParams&); \
+  template double match_statistic(const JointGraph<Pose>&, const Marginals<Pose>&, double, const Closure&,  \
+                                  const MatchEnds&);                                                        \
+  template bool choose_alignment_by_matches(JointGraph<Pose>&, TeamPlacement<Pose>&,                        \
+                                            const std::vector<Closure>&, const RadioAlignmentParams&);
 RADIOSLAM_FRAME_BY_MATCHES(SE2)
 RADIOSLAM_FRAME_BY_MATCHES(SE3)
 #undef RADIOSLAM_FRAME_BY_MATCHES

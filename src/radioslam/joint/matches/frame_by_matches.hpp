@@ -29,7 +29,7 @@ namespace radioslam {
 /// optimised.
 template <class Pose>
 bool choose_alignment_by_matches(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement,
-                                 const Mission& mission, const RadioAlignmentParams& params);
+                                 const std::vector<Closure>& matches, const RadioAlignmentParams& params);
 
 /// Recomputes the weight of every range and of every path of every bearing at the joint estimate's values,
 /// which matches may have changed. Returns the log likelihood of all factors there.
@@ -41,6 +41,6 @@ double reweigh_radio_links(JointGraph<Pose>& joint, const TeamPlacement<Pose>& p
 /// `marginals` times `temperature`.
 template <class Pose>
 double match_statistic(const JointGraph<Pose>& joint, const Marginals<Pose>& marginals, double temperature,
-                       const PoseMatch& match, const MatchEnds& ends);
+                       const Closure& match, const MatchEnds& ends);
 
 }  // namespace radioslam

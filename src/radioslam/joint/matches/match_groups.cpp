@@ -19,10 +19,10 @@ const TrajectorySegment& segment(const JointGraph<Pose>& joint, RobotIndex robot
 using MatchesOfPairs = std::map<std::pair<RobotIndex, RobotIndex>, std::vector<MatchEnds>>;
 
 template <class Pose>
-MatchesOfPairs matches_of_pairs(const JointGraph<Pose>& joint, const Mission& mission) {
+MatchesOfPairs matches_of_pairs(const JointGraph<Pose>& joint, const std::vector<Closure>& matches) {
   MatchesOfPairs pairs;
-  for (std::size_t m = 0; m < mission.matches.size(); ++m) {
-    const PoseMatch& match = mission.matches[m];
+  for (std::size_t m = 0; m < matches.size(); ++m) {
+    const Closure& match = matches[m];
     if (match.robot_i == match.robot_j) continue;
     const MatchEnds ends{m, pose_at(joint, match.robot_i, match.stamp_i),
                          pose_at(joint, match.robot_j, match.stamp_j)};
@@ -32,13 +32,6 @@ MatchesOfPairs matches_of_pairs(const JointGraph<Pose>& joint, const Mission& mi
 }
 
 }  // namespace
-
-template <class Pose>
-typename Pose::Jacobian match_information(const PoseMatch& match) {
-  using Matrix = typename Pose::Jacobian;
-  const Matrix information = Cholesky<Matrix>(covariance_as<Pose>(match.covariance)).inverse();
-  return (information + information.transpose()) / 2;
-}
 
 template <class Pose>
 OdometryChain<Pose> odometry_chain(const JointGraph<Pose>& joint, RobotIndex robot) {
@@ -56,10 +49,10 @@ OdometryChain<Pose> odometry_chain(const JointGraph<Pose>& joint, RobotIndex rob
 }
 
 template <class Pose>
-RelativePoseMatch<Pose> oriented_match(const JointGraph<Pose>& joint, const PoseMatch& match,
+RelativePoseMatch<Pose> oriented_match(const JointGraph<Pose>& joint, const Closure& match,
                                        const MatchEnds& ends, RobotIndex a) {
   const Pose T_i_j = pose_as<Pose>(match.T_i_j);
-  const typename Pose::Jacobian covariance = covariance_as<Pose>(match.covariance);
+  const typename Pose::Jacobian covariance = covariance_of<Pose>(match);
   const std::size_t i = ends.i.index() - segment(joint, match.robot_i).first_pose,
                     j = ends.j.index() - segment(joint, match.robot_j).first_pose;
   if (match.robot_i == a) return {i, j, T_i_j, covariance};
@@ -68,29 +61,29 @@ RelativePoseMatch<Pose> oriented_match(const JointGraph<Pose>& joint, const Pose
 }
 
 template <class Pose>
-Pose motion_to_match(const std::vector<Pose>& poses, const PoseMatch& match, const MatchEnds& ends,
+Pose motion_to_match(const std::vector<Pose>& poses, const Closure& match, const MatchEnds& ends,
                      RobotIndex moved) {
   const Pose T_i_j = pose_as<Pose>(match.T_i_j), at_i = poses[ends.i.index()], at_j = poses[ends.j.index()];
   return match.robot_j == moved ? at_i * T_i_j * at_j.inverse() : at_j * T_i_j.inverse() * at_i.inverse();
 }
 
 template <class Pose>
-std::vector<MatchGroup> consistent_groups(const JointGraph<Pose>& joint, const Mission& mission,
+std::vector<MatchGroup> consistent_groups(const JointGraph<Pose>& joint, const std::vector<Closure>& matches,
                                           std::size_t max_groups) {
   std::vector<MatchGroup> groups;
-  for (const auto& [robots, matches] : matches_of_pairs(joint, mission)) {
+  for (const auto& [robots, ends_of_pair] : matches_of_pairs(joint, matches)) {
     const auto [a, b] = robots;
     std::vector<RelativePoseMatch<Pose>> oriented;
-    for (const MatchEnds& ends : matches)
-      oriented.push_back(oriented_match(joint, mission.matches[ends.match], ends, a));
+    for (const MatchEnds& ends : ends_of_pair)
+      oriented.push_back(oriented_match(joint, matches[ends.match], ends, a));
     const PairwiseConsistency pairs =
         pairwise_consistency(odometry_chain(joint, a), odometry_chain(joint, b), oriented);
-    std::vector<std::size_t> rest(matches.size());
+    std::vector<std::size_t> rest(ends_of_pair.size());
     for (std::size_t k = 0; k < rest.size(); ++k) rest[k] = k;
     for (std::size_t g = 0; g < max_groups && !rest.empty(); ++g) {
       MatchGroup group{a, b, {}};
       const MaximumClique clique = maximum_clique(induced_graph(pairs.graph, rest));
-      for (const std::size_t member : clique.vertices) group.matches.push_back(matches[rest[member]]);
+      for (const std::size_t member : clique.vertices) group.matches.push_back(ends_of_pair[rest[member]]);
       for (auto it = clique.vertices.rbegin(); it != clique.vertices.rend(); ++it)
         rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(*it));
       groups.push_back(std::move(group));
@@ -99,13 +92,13 @@ std::vector<MatchGroup> consistent_groups(const JointGraph<Pose>& joint, const M
   return groups;
 }
 
-#define RADIOSLAM_MATCH_GROUPS(Pose)                                                                       \
-  template Pose motion_to_match(const std::vector<Pose>&, const PoseMatch&, const MatchEnds&, RobotIndex); \
-  template Pose::Jacobian match_information<Pose>(const PoseMatch&);                                       \
-  template OdometryChain<Pose> odometry_chain(const JointGraph<Pose>&, RobotIndex);                        \
-  template RelativePoseMatch<Pose> oriented_match(const JointGraph<Pose>&, const PoseMatch&,               \
-                                                  const MatchEnds&, RobotIndex);                           \
-  template std::vector<MatchGroup> consistent_groups(const JointGraph<Pose>&, const Mission&, std::size_t);
+#define RADIOSLAM_MATCH_GROUPS(Pose)                                                                         \
+  template Pose motion_to_match(const std::vector<Pose>&, const Closure&, const MatchEnds&, RobotIndex);     \
+  template OdometryChain<Pose> odometry_chain(const JointGraph<Pose>&, RobotIndex);                          \
+  template RelativePoseMatch<Pose> oriented_match(const JointGraph<Pose>&, const Closure&, const MatchEnds&, \
+                                                  RobotIndex);                                               \
+  template std::vector<MatchGroup> consistent_groups(const JointGraph<Pose>&, const std::vector<Closure>&,   \
+                                                     std::size_t);
 RADIOSLAM_MATCH_GROUPS(SE2)
 RADIOSLAM_MATCH_GROUPS(SE3)
 #undef RADIOSLAM_MATCH_GROUPS

@@ -8,19 +8,15 @@
 
 #include "radioslam/consistency/odometry_chain.hpp"
 #include "radioslam/consistency/pairwise.hpp"
-#include "radioslam/joint/joint_graph.hpp"
+#include "radioslam/joint/closures/closure.hpp"
 
 namespace radioslam {
 
 /// Ends of a match in the joint graph.
 struct MatchEnds {
-  std::size_t match = 0;  ///< index in the mission
+  std::size_t match = 0;  ///< index in the list
   PoseId i, j;
 };
-
-/// Information of a match's relative pose.
-template <class Pose>
-typename Pose::Jacobian match_information(const PoseMatch& match);
 
 /// Consecutive poses of a robot by its odometry, with covariances. Robots of a mission have one segment each.
 template <class Pose>
@@ -28,7 +24,7 @@ OdometryChain<Pose> odometry_chain(const JointGraph<Pose>& joint, RobotIndex rob
 
 /// A match of robots a and b as the relative pose of b's end from a's, whichever way it was measured.
 template <class Pose>
-RelativePoseMatch<Pose> oriented_match(const JointGraph<Pose>& joint, const PoseMatch& match,
+RelativePoseMatch<Pose> oriented_match(const JointGraph<Pose>& joint, const Closure& match,
                                        const MatchEnds& ends, RobotIndex a);
 
 struct MatchGroup {
@@ -41,13 +37,13 @@ struct MatchGroup {
 
 /// Motion T of robot `moved`, one of the match's, after which the match holds: poses <- T * poses.
 template <class Pose>
-Pose motion_to_match(const std::vector<Pose>& poses, const PoseMatch& match, const MatchEnds& ends,
+Pose motion_to_match(const std::vector<Pose>& poses, const Closure& match, const MatchEnds& ends,
                      RobotIndex moved);
 
 /// The largest groups of every pair of robots, largest first, disjoint, at most `max_groups` per pair.
 /// Matches at times without odometry belong to none.
 template <class Pose>
-std::vector<MatchGroup> consistent_groups(const JointGraph<Pose>& joint, const Mission& mission,
+std::vector<MatchGroup> consistent_groups(const JointGraph<Pose>& joint, const std::vector<Closure>& matches,
                                           std::size_t max_groups);
 
 }  // namespace radioslam

@@ -15,12 +15,6 @@
 namespace radioslam {
 namespace {
 
-MatchOutcome reject(MatchOutcome outcome, std::string reason) {
-  outcome.status = ClosureStatus::kRejected;
-  outcome.reason = std::move(reason);
-  return outcome;
-}
-
 constexpr double kMinRatio = 0.5;  // ratio of its information below which a match counts as rejected
 
 /// Smallest consistent set that can admit matches which the joint estimate rejects.
@@ -29,82 +23,75 @@ constexpr std::size_t kMinVouching = 3;
 template <class Pose>
 class MatchSelector {
  public:
-  MatchSelector(JointGraph<Pose>& joint, const TeamPlacement<Pose>& placement, const Mission& mission,
+  MatchSelector(JointGraph<Pose>& joint, const TeamPlacement<Pose>& placement, std::vector<Closure>& matches,
                 const CandidateList& candidates, Pruning pruning, const MatchParams& params,
-                const AoaLikelihoodParams& likelihood, const std::optional<RadioCovariance<Pose>>& radio)
+                const AoaMatchWeights* angles, const std::optional<RadioCovariance<Pose>>& radio)
       : joint_(joint),
         placement_(placement),
-        mission_(mission),
+        matches_(matches),
         candidates_(candidates),
         pruning_(pruning),
         params_(params),
-        radio_(radio) {
-    if (params.angle_weights) angles_.emplace(mission, params, likelihood);
-    for (std::size_t m = 0; m < mission.matches.size(); ++m) outcomes_.push_back(admit(m));
-  }
+        angles_(angles),
+        radio_(radio) {}
 
-  std::vector<MatchOutcome> run() {
+  void run() {
+    for (std::size_t m = 0; m < matches_.size(); ++m) admit(m);
     if (params_.robust)
-      for (const auto& [robots, matches] : between_robots_) keep_consistent(matches);
+      for (const auto& [robots, group] : between_robots_) keep_consistent(group);
     for (const MatchEnds& ends : admitted_)
-      if (outcomes_[ends.match].status == ClosureStatus::kAccepted) add_match(ends);
-    return std::move(outcomes_);
+      if (matches_[ends.match].status == ClosureStatus::kAccepted) add_match(ends);
   }
 
  private:
-  MatchOutcome admit(std::size_t index) {
-    const PoseMatch& match = mission_.matches[index];
-    MatchOutcome outcome;
-    const FactorOrigin& origin = outcome.origin = {FactorSource::kMatch,
-                                                   index,
-                                                   match.robot_i,
-                                                   match.robot_j,
-                                                   keyframe_stamp(joint_, match.robot_i, match.stamp_i),
-                                                   keyframe_stamp(joint_, match.robot_j, match.stamp_j)};
-    const PoseId i = pose_at(joint_, match.robot_i, match.stamp_i);
-    const PoseId j = pose_at(joint_, match.robot_j, match.stamp_j);
-    if (!i.valid() || !j.valid()) return reject(outcome, "no odometry at its time");
+  void admit(std::size_t index) {
+    Closure& match = matches_[index];
+    const auto [i, j] = closure_ends(joint_, match);
+    if (!i.valid() || !j.valid()) return reject(match, "no odometry at its time");
     const MatchEnds ends{index, i, j};
     const bool other = match.robot_i != match.robot_j;
     const bool is_tested = other && pruning_ == Pruning::kOn &&
                            connected_without_matches(placement_, match.robot_i, match.robot_j);
-    if (is_tested && !candidates_.contains(origin.robot_i, origin.stamp_i, origin.robot_j, origin.stamp_j))
-      return set_aside(ends, reject(outcome, "the views cannot overlap"));
-    if (is_tested && contradicts_radio(match, ends, outcome.statistic))
-      return set_aside(ends, reject(outcome, "its relative pose contradicts the radio"));
+    if (is_tested && !is_candidate(match)) return set_aside(ends, "the views cannot overlap");
+    if (is_tested && contradicts_radio(match, ends))
+      return set_aside(ends, "its relative pose contradicts the radio");
     if (other && pruning_ == Pruning::kOn && !is_tested &&
         placement_.component[match.robot_i.index()] != placement_.component[match.robot_j.index()])
-      return reject(outcome, "no group of matches stands out");
+      return reject(match, "no group of matches stands out");
     if (other) between_robots_[std::minmax(match.robot_i, match.robot_j)].push_back(admitted_.size());
     admitted_.push_back(ends);
-    return outcome;
+  }
+
+  bool is_candidate(const Closure& match) const {
+    return candidates_.contains(match.robot_i, keyframe_stamp(joint_, match.robot_i, match.stamp_i),
+                                match.robot_j, keyframe_stamp(joint_, match.robot_j, match.stamp_j));
   }
 
   /// Keeps a match that the joint estimate rejects, in case an accepted set vouches for it.
-  MatchOutcome set_aside(const MatchEnds& ends, MatchOutcome rejected) {
-    const PoseMatch& match = mission_.matches[ends.match];
+  void set_aside(const MatchEnds& ends, std::string reason) {
+    Closure& match = matches_[ends.match];
     set_aside_[std::minmax(match.robot_i, match.robot_j)].push_back(ends);
-    return rejected;
+    reject(match, std::move(reason));
   }
 
   /// Sets the statistic where radio links tell the robots' relative pose.
-  bool contradicts_radio(const PoseMatch& match, const MatchEnds& ends, double& statistic) const {
+  bool contradicts_radio(Closure& match, const MatchEnds& ends) const {
     if (!radio_ || !params_.robust) return false;
-    statistic = match_statistic(joint_, radio_->marginals, radio_->temperature, match, ends);
-    return statistic > kPoseChiSquared999<Pose>;
+    match.statistic = match_statistic(joint_, radio_->marginals, radio_->temperature, match, ends);
+    return match.statistic > kPoseChiSquared999<Pose>;
   }
 
   using Oriented = std::vector<RelativePoseMatch<Pose>>;
 
   RelativePoseMatch<Pose> oriented(const MatchEnds& ends, RobotIndex a) const {
-    return oriented_match(joint_, mission_.matches[ends.match], ends, a);
+    return oriented_match(joint_, matches_[ends.match], ends, a);
   }
 
   /// Rejects all matches of a pair of robots except the largest consistent set, and admits those set aside
   /// that are consistent with all of it: a group of matches is one relative pose of the robots' frames, true
   /// or false as a whole, while the trajectory that set some aside may be bent.
   void keep_consistent(const std::vector<std::size_t>& group) {
-    const PoseMatch& first = mission_.matches[admitted_[group.front()].match];
+    const Closure& first = matches_[admitted_[group.front()].match];
     const auto [a, b] = std::minmax(first.robot_i, first.robot_j);
     const auto chain_a = odometry_chain(joint_, a), chain_b = odometry_chain(joint_, b);
     Oriented matches, members;
@@ -115,9 +102,9 @@ class MatchSelector {
         members.push_back(matches[k]);
         continue;
       }
-      MatchOutcome& outcome = outcomes_[admitted_[group[k]].match];
-      outcome.statistic = set.matches[k].best_statistic.value_or(0);
-      outcome = reject(outcome, "not consistent with the largest set of matches");
+      Closure& match = matches_[admitted_[group[k]].match];
+      match.statistic = set.matches[k].best_statistic.value_or(0);
+      reject(match, "not consistent with the largest set of matches");
     }
     if (members.size() < kMinVouching) return;
     std::vector<MatchEnds> vouched_for;
@@ -133,44 +120,35 @@ class MatchSelector {
     }
     if (extension.empty()) return;
     for (const std::size_t k : largest_consistent_set(chain_a, chain_b, extension).members) {
-      outcomes_[vouched_for[k].match].status = ClosureStatus::kAccepted;
-      outcomes_[vouched_for[k].match].reason.clear();
+      matches_[vouched_for[k].match].status = ClosureStatus::kAccepted;
+      matches_[vouched_for[k].match].reason.clear();
       admitted_.push_back(vouched_for[k]);
     }
   }
 
   void add_match(const MatchEnds& ends) {
-    const PoseMatch& measured = mission_.matches[ends.match];
-    RelativePoseFactor<Pose> factor;
-    factor.i = ends.i;
-    factor.j = ends.j;
-    factor.T_i_j = pose_as<Pose>(measured.T_i_j);
-    factor.information = match_information<Pose>(measured);
+    Closure& match = matches_[ends.match];
+    std::optional<double> scale;
+    if (angles_ && match.robot_i != match.robot_j) scale = angles_->template information_scale<Pose>(match);
+    if (scale.value_or(1) < kMinRatio) return reject(match, "the angles of arrival disagree");
+    RelativePoseFactor<Pose> factor = closure_factor(joint_, match);
+    factor.information *= scale.value_or(1);
     if (params_.robust) factor.loss = {LossKind::kGemanMcClure, std::sqrt(kPoseChiSquared99<Pose>)};
-    MatchOutcome& outcome = outcomes_[ends.match];
-    if (angles_ && measured.robot_i != measured.robot_j)
-      outcome.angle_scale = angles_->template information_scale<Pose>(measured);
-    if (outcome.angle_scale.value_or(1) < kMinRatio) {
-      outcome = reject(outcome, "the angles of arrival disagree");
-      return;
-    }
-    factor.information *= outcome.angle_scale.value_or(1);
-    add_factor(joint_, factor, outcome.origin);
+    add_closure(joint_, match, std::move(factor), FactorSource::kMatch, ends.match);
   }
 
   JointGraph<Pose>& joint_;
   const TeamPlacement<Pose>& placement_;
-  const Mission& mission_;
+  std::vector<Closure>& matches_;
   const CandidateList& candidates_;
   Pruning pruning_;
   MatchParams params_;
-  std::optional<AoaMatchWeights> angles_;  ///< only with angle_weights
+  const AoaMatchWeights* angles_;
   const std::optional<RadioCovariance<Pose>>& radio_;
   std::vector<MatchEnds> admitted_;
   std::map<std::pair<RobotIndex, RobotIndex>, std::vector<std::size_t>>
       between_robots_;  ///< indices into admitted_
   std::map<std::pair<RobotIndex, RobotIndex>, std::vector<MatchEnds>> set_aside_;
-  std::vector<MatchOutcome> outcomes_;
 };
 
 /// With a redescending loss, under which outliers lose their influence.
@@ -199,9 +177,10 @@ std::optional<RadioCovariance<Pose>> radio_covariance(const JointGraph<Pose>& jo
 }
 
 template <class Pose>
-std::vector<KeyframePair> keyframes_of_matches(const JointGraph<Pose>& joint, const Mission& mission) {
+std::vector<KeyframePair> keyframes_of_matches(const JointGraph<Pose>& joint,
+                                               const std::vector<Closure>& matches) {
   std::vector<KeyframePair> pairs;
-  for (const PoseMatch& match : mission.matches)
+  for (const Closure& match : matches)
     if (match.robot_i != match.robot_j)
       pairs.push_back({match.robot_i, keyframe_stamp(joint, match.robot_i, match.stamp_i), match.robot_j,
                        keyframe_stamp(joint, match.robot_j, match.stamp_j)});
@@ -209,18 +188,16 @@ std::vector<KeyframePair> keyframes_of_matches(const JointGraph<Pose>& joint, co
 }
 
 template <class Pose>
-std::vector<MatchOutcome> select_matches(JointGraph<Pose>& joint, const TeamPlacement<Pose>& placement,
-                                         const Mission& mission, const CandidateList& candidates,
-                                         Pruning pruning, const MatchParams& params,
-                                         const AoaLikelihoodParams& likelihood,
-                                         const std::optional<RadioCovariance<Pose>>& radio) {
-  return MatchSelector<Pose>(joint, placement, mission, candidates, pruning, params, likelihood, radio).run();
+void select_matches(JointGraph<Pose>& joint, const TeamPlacement<Pose>& placement,
+                    std::vector<Closure>& matches, const CandidateList& candidates, Pruning pruning,
+                    const MatchParams& params, const AoaMatchWeights* angles,
+                    const std::optional<RadioCovariance<Pose>>& radio) {
+  MatchSelector<Pose>(joint, placement, matches, candidates, pruning, params, angles, radio).run();
 }
 
 template <class Pose>
-void optimise_with_matches(JointGraph<Pose>& joint, std::vector<MatchOutcome>& outcomes,
-                           const MatchParams& params, const OptimizerParams& optimizer,
-                           const Progress& progress) {
+void optimise_with_matches(JointGraph<Pose>& joint, std::vector<Closure>& matches, const MatchParams& params,
+                           const OptimizerParams& optimizer, const Progress& progress) {
   auto& graph = joint.team.graph;
   if (params.robust)
     optimize_graduated_matches(joint, optimizer, progress);
@@ -230,9 +207,9 @@ void optimise_with_matches(JointGraph<Pose>& joint, std::vector<MatchOutcome>& o
     const FactorOrigin& origin = joint.origins.relative_poses[k];
     if (origin.source != FactorSource::kMatch) continue;
     const auto& factor = graph.relative_poses[k];
-    MatchOutcome& outcome = outcomes[origin.measurement];
-    outcome.statistic = squared_norm(graph, factor);
-    if (factor.weight < kMinRatio) outcome = reject(outcome, "the joint estimate disagrees");
+    Closure& match = matches[origin.measurement];
+    match.statistic = squared_norm(graph, factor);
+    if (factor.weight < kMinRatio) reject(match, "the joint estimate disagrees");
   }
 }
 
@@ -241,11 +218,11 @@ namespace {
 using PairsOfRobots = std::set<std::pair<RobotIndex, RobotIndex>>;
 
 /// Pairs with enough accepted matches to determine their relative pose.
-PairsOfRobots pairs_with_matches(const std::vector<MatchOutcome>& outcomes) {
+PairsOfRobots pairs_with_matches(const std::vector<Closure>& matches) {
   std::map<std::pair<RobotIndex, RobotIndex>, std::size_t> accepted;
-  for (const MatchOutcome& outcome : outcomes)
-    if (outcome.status == ClosureStatus::kAccepted && outcome.origin.robot_i != outcome.origin.robot_j)
-      ++accepted[std::minmax(outcome.origin.robot_i, outcome.origin.robot_j)];
+  for (const Closure& match : matches)
+    if (match.status == ClosureStatus::kAccepted && match.robot_i != match.robot_j)
+      ++accepted[std::minmax(match.robot_i, match.robot_j)];
   PairsOfRobots pairs;
   for (const auto& [robots, count] : accepted)
     if (count >= kMinVouching) pairs.insert(robots);
@@ -277,37 +254,33 @@ void silence_links(JointGraph<Pose>& joint, const PairsOfRobots& pairs) {
 
 /// Sets the status of every match in the graph by its error there; rejected ones lose their weight.
 template <class Pose>
-void retest_matches(JointGraph<Pose>& joint, std::vector<MatchOutcome>& outcomes) {
-  auto& graph = joint.team.graph;
-  for (std::size_t k = 0; k < graph.relative_poses.size(); ++k) {
+void retest_matches(JointGraph<Pose>& joint, std::vector<Closure>& matches) {
+  test_closures(joint, FactorSource::kMatch, matches);
+  for (std::size_t k = 0; k < joint.origins.relative_poses.size(); ++k) {
     const FactorOrigin& origin = joint.origins.relative_poses[k];
     if (origin.source != FactorSource::kMatch) continue;
-    MatchOutcome& outcome = outcomes[origin.measurement];
-    outcome.statistic = squared_norm(graph, graph.relative_poses[k]);
-    const bool fits = outcome.statistic <= kPoseChiSquared99<Pose>;
-    graph.relative_poses[k].weight = fits ? 1 : 0;
-    outcome.status = fits ? ClosureStatus::kAccepted : ClosureStatus::kRejected;
-    outcome.reason = fits ? "" : "the joint estimate disagrees";
+    const bool fits = matches[origin.measurement].status == ClosureStatus::kAccepted;
+    joint.team.graph.relative_poses[k].weight = fits ? 1 : 0;
   }
 }
 
 /// Log likelihood of the joint estimate, in which a rejected match costs as much as one at its gate.
 template <class Pose>
-double optimise_and_reweigh(JointGraph<Pose>& joint, std::vector<MatchOutcome>& outcomes,
+double optimise_and_reweigh(JointGraph<Pose>& joint, std::vector<Closure>& matches,
                             const TeamPlacement<Pose>& placement, const MatchParams& params,
                             const MixtureParams& mixture, const OptimizerParams& optimizer,
                             const Progress& progress) {
   constexpr int kRounds = 3;
-  const auto is_accepted = [](const MatchOutcome& o) { return o.status == ClosureStatus::kAccepted; };
-  const auto before = std::count_if(outcomes.begin(), outcomes.end(), is_accepted);
-  optimise_with_matches(joint, outcomes, params, optimizer, progress);
+  const auto is_accepted = [](const Closure& o) { return o.status == ClosureStatus::kAccepted; };
+  const auto before = std::count_if(matches.begin(), matches.end(), is_accepted);
+  optimise_with_matches(joint, matches, params, optimizer, progress);
   for (int round = 0; round < kRounds; ++round) {
     reweigh_radio_links(joint, placement, mixture);
-    retest_matches(joint, outcomes);
+    retest_matches(joint, matches);
     optimize(joint.team.graph, optimizer, progress);
   }
-  retest_matches(joint, outcomes);
-  const auto lost = before - std::count_if(outcomes.begin(), outcomes.end(), is_accepted);
+  retest_matches(joint, matches);
+  const auto lost = before - std::count_if(matches.begin(), matches.end(), is_accepted);
   return reweigh_radio_links(joint, placement, mixture) -
          static_cast<double>(lost) * kPoseChiSquared99<Pose> / 2;
 }
@@ -315,35 +288,36 @@ double optimise_and_reweigh(JointGraph<Pose>& joint, std::vector<MatchOutcome>& 
 }  // namespace
 
 template <class Pose>
-void optimise_matches_and_radio(JointGraph<Pose>& joint, std::vector<MatchOutcome>& outcomes,
+void optimise_matches_and_radio(JointGraph<Pose>& joint, std::vector<Closure>& matches,
                                 const TeamPlacement<Pose>& placement, const MatchParams& params,
                                 const MixtureParams& mixture, const OptimizerParams& optimizer,
                                 const Progress& progress) {
   JointGraph<Pose> matches_first = joint;
-  std::vector<MatchOutcome> outcomes_of_matches = outcomes;
+  std::vector<Closure> matches_alone = matches;
   const double by_radio =
-      optimise_and_reweigh(joint, outcomes, placement, params, mixture, optimizer, progress);
-  const PairsOfRobots pairs = pairs_with_matches(outcomes_of_matches);
+      optimise_and_reweigh(joint, matches, placement, params, mixture, optimizer, progress);
+  const PairsOfRobots pairs = pairs_with_matches(matches_alone);
   if (pairs.empty()) return;
   silence_links(matches_first, pairs);
-  if (optimise_and_reweigh(matches_first, outcomes_of_matches, placement, params, mixture, optimizer,
-                           progress) <= by_radio)
+  if (optimise_and_reweigh(matches_first, matches_alone, placement, params, mixture, optimizer, progress) <=
+      by_radio)
     return;
   joint = std::move(matches_first);
-  outcomes = std::move(outcomes_of_matches);
+  matches = std::move(matches_alone);
 }
 
 #define RADIOSLAM_MATCH_STAGE(Pose)                                                                        \
   template std::optional<RadioCovariance<Pose>> radio_covariance(                                          \
       const JointGraph<Pose>&, const TeamPlacement<Pose>&, const RadioAlignmentParams&);                   \
-  template std::vector<KeyframePair> keyframes_of_matches(const JointGraph<Pose>&, const Mission&);        \
-  template std::vector<MatchOutcome> select_matches(                                                       \
-      JointGraph<Pose>&, const TeamPlacement<Pose>&, const Mission&, const CandidateList&, Pruning,        \
-      const MatchParams&, const AoaLikelihoodParams&, const std::optional<RadioCovariance<Pose>>&);        \
-  template void optimise_matches_and_radio(JointGraph<Pose>&, std::vector<MatchOutcome>&,                  \
+  template std::vector<KeyframePair> keyframes_of_matches(const JointGraph<Pose>&,                         \
+                                                          const std::vector<Closure>&);                    \
+  template void select_matches(JointGraph<Pose>&, const TeamPlacement<Pose>&, std::vector<Closure>&,       \
+                               const CandidateList&, Pruning, const MatchParams&, const AoaMatchWeights*,  \
+                               const std::optional<RadioCovariance<Pose>>&);                               \
+  template void optimise_matches_and_radio(JointGraph<Pose>&, std::vector<Closure>&,                       \
                                            const TeamPlacement<Pose>&, const MatchParams&,                 \
                                            const MixtureParams&, const OptimizerParams&, const Progress&); \
-  template void optimise_with_matches(JointGraph<Pose>&, std::vector<MatchOutcome>&, const MatchParams&,   \
+  template void optimise_with_matches(JointGraph<Pose>&, std::vector<Closure>&, const MatchParams&,        \
                                       const OptimizerParams&, const Progress&);
 RADIOSLAM_MATCH_STAGE(SE2)
 RADIOSLAM_MATCH_STAGE(SE3)

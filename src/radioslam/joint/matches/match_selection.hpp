@@ -28,15 +28,6 @@ enum class Pruning {
   kOff,  ///< admits every match, to measure the effect of pruning
 };
 
-/// A match and its outcome.
-struct MatchOutcome {
-  FactorOrigin origin;
-  ClosureStatus status = ClosureStatus::kAccepted;
-  double statistic = 0;
-  std::string reason;
-  std::optional<double> angle_scale = {};  ///< scale of its information; absent without angles near it
-};
-
 /// Covariances of relative poses before any match joins the graph.
 template <class Pose>
 struct RadioCovariance {
@@ -52,23 +43,23 @@ std::optional<RadioCovariance<Pose>> radio_covariance(const JointGraph<Pose>& jo
 
 /// The keyframes before the ends of every match between two robots.
 template <class Pose>
-std::vector<KeyframePair> keyframes_of_matches(const JointGraph<Pose>& joint, const Mission& mission);
+std::vector<KeyframePair> keyframes_of_matches(const JointGraph<Pose>& joint,
+                                               const std::vector<Closure>& matches);
 
 /// Tests every match and adds factors for those accepted. `joint` must be optimised and placed. `candidates`:
-/// all that are keyframes of a match.
+/// all that are keyframes of a match. `angles`: scales each match's information, if given.
 template <class Pose>
-std::vector<MatchOutcome> select_matches(JointGraph<Pose>& joint, const TeamPlacement<Pose>& placement,
-                                         const Mission& mission, const CandidateList& candidates,
-                                         Pruning pruning, const MatchParams& params,
-                                         const AoaLikelihoodParams& likelihood,
-                                         const std::optional<RadioCovariance<Pose>>& radio = {});
+void select_matches(JointGraph<Pose>& joint, const TeamPlacement<Pose>& placement,
+                    std::vector<Closure>& matches, const CandidateList& candidates, Pruning pruning,
+                    const MatchParams& params, const AoaMatchWeights* angles = nullptr,
+                    const std::optional<RadioCovariance<Pose>>& radio = {});
 
 /// As optimise_with_matches, for a team placed by radio links. Where the links between two robots contradict
 /// their matches, either may be wrong. So the team is optimised twice: with the radio's weights kept until
 /// the matches have joined, and with the links between such robots left out until then. Both recompute all
 /// weights afterwards, and the likelier solution is the result.
 template <class Pose>
-void optimise_matches_and_radio(JointGraph<Pose>& joint, std::vector<MatchOutcome>& outcomes,
+void optimise_matches_and_radio(JointGraph<Pose>& joint, std::vector<Closure>& matches,
                                 const TeamPlacement<Pose>& placement, const MatchParams& params,
                                 const MixtureParams& mixture, const OptimizerParams& optimizer,
                                 const Progress& progress);
@@ -76,8 +67,7 @@ void optimise_matches_and_radio(JointGraph<Pose>& joint, std::vector<MatchOutcom
 /// Optimises with a graduated loss on the matches, which may still reject some; or, if `robust` is off, by
 /// plain least squares with all of them.
 template <class Pose>
-void optimise_with_matches(JointGraph<Pose>& joint, std::vector<MatchOutcome>& outcomes,
-                           const MatchParams& params, const OptimizerParams& optimizer,
-                           const Progress& progress);
+void optimise_with_matches(JointGraph<Pose>& joint, std::vector<Closure>& matches, const MatchParams& params,
+                           const OptimizerParams& optimizer, const Progress& progress);
 
 }  // namespace radioslam

@@ -25,16 +25,17 @@ struct PairOfRobots {
 };
 
 template <class Pose>
-std::vector<PairOfRobots> pairs_of_robots(const JointGraph<Pose>& joint, const Mission& mission) {
+std::vector<PairOfRobots> pairs_of_robots(const JointGraph<Pose>& joint,
+                                          const std::vector<Closure>& matches) {
   std::map<std::pair<RobotIndex, RobotIndex>, PairOfRobots> pairs;
-  for (MatchGroup& group : consistent_groups(joint, mission, kGroups)) {
+  for (MatchGroup& group : consistent_groups(joint, matches, kGroups)) {
     PairOfRobots& pair = pairs[{group.a, group.b}];
     if (pair.largest.matches.empty())
       pair.largest = std::move(group);
     else
       pair.second = group.matches.size();
   }
-  for (const PoseMatch& match : mission.matches) {
+  for (const Closure& match : matches) {
     const auto found = pairs.find(std::minmax(match.robot_i, match.robot_j));
     if (found != pairs.end()) ++found->second.matches;
   }
@@ -48,7 +49,7 @@ std::vector<PairOfRobots> pairs_of_robots(const JointGraph<Pose>& joint, const M
 
 /// Moves the component of the group's robot b to where the middle match wants it.
 template <class Pose>
-void join(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement, const Mission& mission,
+void join(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement, const std::vector<Closure>& matches,
           const MatchGroup& group) {
   // A component in the common frame stays where it is.
   const auto absolute = [&](RobotIndex robot) {
@@ -57,7 +58,7 @@ void join(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement, const Mission
   };
   const RobotIndex moved = absolute(group.b) ? group.a : group.b,
                    fixed = absolute(group.b) ? group.b : group.a;
-  const PoseMatch& match = mission.matches[group.middle().match];
+  const Closure& match = matches[group.middle().match];
   const int from = placement.component[moved.index()], to = placement.component[fixed.index()];
   const auto move = [&](std::vector<Pose>& poses) {
     const Pose T = motion_to_match(poses, match, group.middle(), moved);
@@ -74,8 +75,9 @@ void join(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement, const Mission
     }
 }
 
-std::string names(const Mission& mission, const PairOfRobots& pair) {
-  return mission.robots[pair.largest.a.index()].id + " and " + mission.robots[pair.largest.b.index()].id;
+template <class Pose>
+std::string names(const JointGraph<Pose>& joint, const PairOfRobots& pair) {
+  return joint.robots[pair.largest.a.index()].id + " and " + joint.robots[pair.largest.b.index()].id;
 }
 
 std::string counts(const PairOfRobots& pair) {
@@ -94,7 +96,8 @@ void renumber(TeamPlacement<Pose>& placement) {
 }  // namespace
 
 template <class Pose>
-void place_by_matches(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement, const Mission& mission) {
+void place_by_matches(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement,
+                      const std::vector<Closure>& matches) {
   const auto& component = placement.component;
   if (std::all_of(component.begin(), component.end(), [&](int c) { return c == component.front(); })) return;
   const auto share_frame = [&](const PairOfRobots& pair) {
@@ -104,24 +107,24 @@ void place_by_matches(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement, c
     return placement.absolute[static_cast<std::size_t>(component[pair.largest.a.index()])] &&
            placement.absolute[static_cast<std::size_t>(component[pair.largest.b.index()])];
   };
-  const std::vector<PairOfRobots> pairs = pairs_of_robots(joint, mission);
+  const std::vector<PairOfRobots> pairs = pairs_of_robots(joint, matches);
   bool is_joined = false;
   for (const PairOfRobots& pair : pairs) {
     if (!pair.is_clear() || share_frame(pair) || both_absolute(pair)) continue;
-    placement.notes.push_back("the relative pose of " + names(mission, pair) +
+    placement.notes.push_back("the relative pose of " + names(joint, pair) +
                               " stands on matches alone: " + counts(pair) + " agree with one another");
-    join(joint, placement, mission, pair.largest);
+    join(joint, placement, matches, pair.largest);
     is_joined = true;
   }
   for (const PairOfRobots& pair : pairs)
     if (!pair.is_clear() && !share_frame(pair) && !both_absolute(pair))
-      placement.notes.push_back("matches leave the relative pose of " + names(mission, pair) +
+      placement.notes.push_back("matches leave the relative pose of " + names(joint, pair) +
                                 " open: the largest group that agrees has " + counts(pair) + ", the second " +
                                 std::to_string(pair.second));
   if (is_joined) renumber(placement);
 }
 
-template void place_by_matches(JointGraph<SE2>&, TeamPlacement<SE2>&, const Mission&);
-template void place_by_matches(JointGraph<SE3>&, TeamPlacement<SE3>&, const Mission&);
+template void place_by_matches(JointGraph<SE2>&, TeamPlacement<SE2>&, const std::vector<Closure>&);
+template void place_by_matches(JointGraph<SE3>&, TeamPlacement<SE3>&, const std::vector<Closure>&);
 
 }  // namespace radioslam

@@ -13,6 +13,7 @@ namespace radioslam {
 /// Moves the robots of every component that a group joins to another, and notes on what the frame stands and
 /// which pairs of robots stay open because no group is large enough.
 template <class Pose>
-void place_by_matches(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement, const Mission& mission);
+void place_by_matches(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement,
+                      const std::vector<Closure>& matches);
 
 }  // namespace radioslam
