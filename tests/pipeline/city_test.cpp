@@ -147,6 +147,14 @@ TEST_F(CityWithAliases, PruningRejectsThemAndTheMapStaysAsGood) {
   EXPECT_LE(error_m(result, truth), 1.2 * error_m(clean, truth));
 }
 
+TEST_F(CityWithAliases, AreNoResultOfARunThatOnlySearchesOverlaps) {
+  const Mission mission = simulate().mission;
+  ASSERT_FALSE(mission.matches.empty());
+  RunOptions options;
+  options.overlap_only = true;
+  EXPECT_TRUE(matches_of(run_pipeline(mission, quick_params(), options).result).empty());
+}
+
 TEST_F(CityWithAliases, AreJudgedAmongAllCandidatesHoweverFewAreListed) {
   const auto [mission, truth] = simulate();
   const auto full = run_pipeline(mission, quick_params()).result;

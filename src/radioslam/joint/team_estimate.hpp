@@ -24,7 +24,7 @@ struct TeamEstimate {
   TeamPlacement<Pose> placement = {};
   std::vector<Closure> scans = {};    ///< each robot's own, by scan matching
   std::vector<Closure> loops = {};    ///< of a graph file, or the matches of a team that stands on them
-  std::vector<Closure> matches = {};  ///< the mission's, otherwise
+  std::vector<Closure> matches = {};  ///< the mission's otherwise, if they are asked for
   std::vector<Closure> sequences = {};
   std::vector<FingerprintClosure> fingerprints = {};
   OptimizerSummary solution = {};

@@ -39,7 +39,7 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, std::vector<C
   std::optional<OverlapStage> overlaps;
   if (needs_overlap_search(mission, options))
     overlaps = timed("overlap", search_overlaps<Pose>, estimate, params, options);
-  if (has_matches && !options.overlap_only)
+  if (has_matches)
     estimate = timed("matches", close_by_matches<Pose>, std::move(estimate), mission, *overlaps, params,
                      options, progress);
   estimate = test_closures(std::move(estimate));

@@ -51,7 +51,7 @@ TeamEstimate<Pose> begin_estimate(const Mission& mission, const TeamGraph<Pose>*
   estimate.starts = known_starts(mission);
   const bool are_loops = !team && stands_on_matches(mission, params, options);
   estimate.loops = team ? closures_of(*team, estimate.joint) : std::vector<Closure>();
-  (are_loops ? estimate.loops : estimate.matches) = closures_of_matches(mission);
+  if (!options.overlap_only) (are_loops ? estimate.loops : estimate.matches) = closures_of_matches(mission);
   add_own_loops(estimate.joint, estimate.loops, params.optimizer);
   add_scan_closures(estimate.joint, estimate.scans, params.optimizer);
   return estimate;
