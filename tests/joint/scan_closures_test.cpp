@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "joint/factors_by_measurement.hpp"
 #include "radioslam/base/random.hpp"
 
 namespace radioslam {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "joint/factors_by_measurement.hpp"
 #include "pipeline/small_carpark.hpp"
 #include "radioslam/graph/residuals.hpp"
 #include "radioslam/pipeline/pipeline.hpp"

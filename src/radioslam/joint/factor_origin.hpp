@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 #include "radioslam/base/stamp.hpp"
@@ -29,10 +28,6 @@ struct FactorOrigins {
   std::vector<FactorOrigin> ranges;          ///< of team.graph.ranges
   std::vector<FactorOrigin> bearings;        ///< of team.bearings
 };
-
-/// The factor of each of `count` measurements of one source; nothing for those without a factor.
-std::vector<std::optional<std::size_t>> factors_by_measurement(const std::vector<FactorOrigin>& origins,
-                                                               FactorSource source, std::size_t count);
 
 /// Number of factors of one source.
 std::size_t count_factors(const std::vector<FactorOrigin>& origins, FactorSource source);

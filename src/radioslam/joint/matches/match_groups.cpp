@@ -24,9 +24,8 @@ MatchesOfPairs matches_of_pairs(const JointGraph<Pose>& joint, const std::vector
   for (std::size_t m = 0; m < matches.size(); ++m) {
     const Closure& match = matches[m];
     if (match.robot_i == match.robot_j) continue;
-    const MatchEnds ends{m, pose_at(joint, match.robot_i, match.stamp_i),
-                         pose_at(joint, match.robot_j, match.stamp_j)};
-    if (ends.i.valid() && ends.j.valid()) pairs[std::minmax(match.robot_i, match.robot_j)].push_back(ends);
+    const ClosureEnds ends = closure_ends(joint, match);
+    if (ends.valid()) pairs[std::minmax(match.robot_i, match.robot_j)].push_back({m, ends.i, ends.j});
   }
   return pairs;
 }
