@@ -110,33 +110,43 @@ std::optional<double> absolute_rotation_rmse_rad(const std::vector<Matches>& tea
   return count == 0 ? std::nullopt : std::optional(std::sqrt(sum / static_cast<double>(count)));
 }
 
-/// The stated standard deviation at a stamp, linear between poses; the nearest pose's outside.
-double sigma_at(const EstimatedTrajectory& robot, Stamp stamp) {
-  const auto later = std::lower_bound(robot.poses.begin(), robot.poses.end(), stamp,
+/// Value of the poses at a stamp, linear between them; the nearest pose's outside.
+double value_at(const Trajectory<SE3>& poses, const std::vector<double>& values, Stamp stamp) {
+  const auto later = std::lower_bound(poses.begin(), poses.end(), stamp,
                                       [](const auto& row, Stamp at) { return row.stamp < at; });
-  const auto k = static_cast<std::size_t>(later - robot.poses.begin());
-  if (k == 0) return robot.sigma_position_m.front();
-  if (k == robot.poses.size()) return robot.sigma_position_m.back();
-  const double gap_s = seconds_between(robot.poses[k - 1].stamp, robot.poses[k].stamp);
-  const double ratio = seconds_between(robot.poses[k - 1].stamp, stamp) / gap_s;
-  return (1 - ratio) * robot.sigma_position_m[k - 1] + ratio * robot.sigma_position_m[k];
+  const auto k = static_cast<std::size_t>(later - poses.begin());
+  if (k == 0) return values.front();
+  if (k == poses.size()) return values.back();
+  const double gap_s = seconds_between(poses[k - 1].stamp, poses[k].stamp);
+  const double ratio = seconds_between(poses[k - 1].stamp, stamp) / gap_s;
+  return (1 - ratio) * values[k - 1] + ratio * values[k];
 }
 
 void add_stated_sigmas(std::vector<PointError>& errors, const EstimatedTrajectory& estimate) {
-  if (estimate.sigma_position_m.empty()) return;
-  for (PointError& error : errors) error.sigma_m = sigma_at(estimate, error.stamp);
+  const auto stated = [&](const std::vector<double>& sigmas, Stamp stamp) {
+    return sigmas.empty() ? std::nullopt : std::optional(value_at(estimate.poses, sigmas, stamp));
+  };
+  for (PointError& error : errors) {
+    error.sigma_m = stated(estimate.sigma_position_m, error.stamp);
+    error.sigma_team_m = stated(estimate.sigma_team_m, error.stamp);
+  }
 }
 
-std::optional<double> share_within_3_sigma(const std::vector<RobotMetrics>& robots) {
+std::optional<Consistency> consistency(const std::vector<RobotMetrics>& robots, int dimension,
+                                       std::optional<double> PointError::*sigma_m) {
   constexpr double kSigmas = 3;
   std::size_t within = 0, all = 0;
+  double sum = 0;
   for (const RobotMetrics& robot : robots)
     for (const PointError& error : robot.errors) {
-      if (!error.sigma_m) continue;
-      within += error.error_m <= kSigmas * *error.sigma_m ? 1U : 0U;
+      if (!(error.*sigma_m)) continue;
+      const double sigma = *(error.*sigma_m);
+      within += error.error_m <= kSigmas * sigma ? 1U : 0U;
+      sum += error.error_m == 0 ? 0 : std::pow(error.error_m / sigma, 2);
       ++all;
     }
-  return all == 0 ? std::nullopt : std::optional(share(within, all));
+  if (all == 0) return std::nullopt;
+  return Consistency{share(within, all), sum / static_cast<double>(all) / dimension};
 }
 
 }  // namespace
@@ -164,7 +174,8 @@ TeamMetrics evaluate_trajectories(const std::vector<EstimatedTrajectory>& estima
     metrics.robots.push_back(std::move(robot));
   }
   metrics.ate = summarise_errors(std::move(errors));
-  metrics.share_within_3_sigma = share_within_3_sigma(metrics.robots);
+  metrics.consistency = consistency(metrics.robots, dimension, &PointError::sigma_m);
+  metrics.team_consistency = consistency(metrics.robots, dimension, &PointError::sigma_team_m);
   metrics.coverage = poses == 0 ? 0 : covered / static_cast<double>(poses);
   return metrics;
 }

@@ -16,8 +16,8 @@ namespace radioslam {
 struct EstimatedTrajectory {
   std::string id;
   Trajectory<SE3> poses;
-  /// Stated standard deviation of each pose's position, as RobotResult::sigma_position_m; may be empty.
-  std::vector<double> sigma_position_m = {};
+  /// Stated standard deviation of each pose's position, as in RobotResult; may be empty.
+  std::vector<double> sigma_position_m = {}, sigma_team_m = {};
 };
 
 /// Association of an estimate with the truth.
@@ -40,7 +40,8 @@ struct PointError {
   Stamp stamp;
   double error_m = 0;
   double along_m = 0;                  ///< path length along the truth
-  std::optional<double> sigma_m = {};  ///< stated standard deviation of the position, if there is one
+  std::optional<double> sigma_m = {};       ///< stated standard deviation of the position, if there is one
+  std::optional<double> sigma_team_m = {};  ///< the same in the gauge of the team, that of the error
 };
 
 /// Relative pose error over consecutive compared poses (evo's default, one frame apart), pooled over the
@@ -49,6 +50,12 @@ struct RelativeError {
   double translation_rmse_m = 0;
   double rotation_rmse_rad = 0;
   std::size_t count = 0;
+};
+
+/// Errors over the standard deviations that were stated for them.
+struct Consistency {
+  double share_within_3_sigma = 0;
+  double mean_square = 0;  ///< of the errors over sigma, per axis: 1 where sigma holds
 };
 
 /// Metrics of one robot.
@@ -72,8 +79,8 @@ struct TeamMetrics {
   std::optional<RelativeError> rpe;  ///< absent if no truth has an orientation
   /// Absolute rotation error after the alignment, over the robots whose truth has an orientation.
   std::optional<double> rotation_rmse_rad;
-  /// Fraction of the errors within three stated standard deviations; absent if none are stated.
-  std::optional<double> share_within_3_sigma;
+  /// With the uncertainty relative to what holds the frame, and in the gauge of the team; absent if not stated.
+  std::optional<Consistency> consistency, team_consistency;
   double coverage = 0;  ///< fraction of the truth's poses that the estimate covers
   SE3 T_truth_estimate;
   std::vector<RobotMetrics> robots;

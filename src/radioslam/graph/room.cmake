@@ -29,6 +29,7 @@ radioslam_room(graph
     relative_pose_network.cpp
     residuals.cpp
     spanning_tree.cpp
+    team_gauge.cpp
   ROOMS geometry
   PRIVATE_LIBRARIES Metis::Metis Amd::Amd)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")

@@ -159,17 +159,6 @@ std::vector<ClosureResult> collect_fingerprint_closures(const JointGraph<Pose>& 
 }
 
 template <class Pose>
-void add_uncertainty(std::vector<RobotResult>& robots, const JointGraph<Pose>& joint,
-                     const Marginals<Pose>& marginals) {
-  for (std::size_t r = 0; r < robots.size(); ++r)
-    for (std::size_t k = 0; k < robots[r].estimate.size(); ++k) {
-      const auto covariance = marginals.pose(joint.robots[r].poses[k]);
-      const double trace = covariance.template topLeftCorner<Pose::kDim, Pose::kDim>().trace();
-      robots[r].sigma_position_m.push_back(std::sqrt(std::max(0.0, trace) / Pose::kDim));
-    }
-}
-
-template <class Pose>
 std::vector<TransformResult> collect_transforms(const JointGraph<Pose>& joint,
                                                 const TeamPlacement<Pose>& placement,
                                                 const Marginals<Pose>& marginals) {
@@ -262,7 +251,6 @@ std::vector<Component> collect_components(const JointGraph<Pose>& joint,
   template std::vector<RobotResult> collect_robots(const JointGraph<Pose>&, const std::vector<Pose>&,        \
                                                    const TeamPlacement<Pose>&);                              \
   template std::vector<ClosureResult> collect_radio_links(const JointGraph<Pose>&);                          \
-  template void add_uncertainty(std::vector<RobotResult>&, const JointGraph<Pose>&, const Marginals<Pose>&); \
   template std::vector<TransformResult> collect_transforms(                                                  \
       const JointGraph<Pose>&, const TeamPlacement<Pose>&, const Marginals<Pose>&);                          \
   template std::vector<std::string> odometry_notes(const Mission&, const JointGraph<Pose>&,                  \

@@ -30,11 +30,6 @@ std::vector<ClosureResult> collect_fingerprint_closures(const JointGraph<Pose>& 
 template <class Pose>
 std::vector<ClosureResult> collect_radio_links(const JointGraph<Pose>& joint);
 
-/// Fills RobotResult::sigma_position_m from the marginal covariances.
-template <class Pose>
-void add_uncertainty(std::vector<RobotResult>& robots, const JointGraph<Pose>& joint,
-                     const Marginals<Pose>& marginals);
-
 /// Transforms between every two placed robots of one component.
 template <class Pose>
 std::vector<TransformResult> collect_transforms(const JointGraph<Pose>& joint,

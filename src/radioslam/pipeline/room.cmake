@@ -6,4 +6,5 @@ radioslam_room(pipeline
     recordings_stage.cpp
     run_results.cpp
     stages.cpp
+    uncertainty.cpp
   ROOMS joint odometry closure consistency results)

@@ -10,6 +10,7 @@
 #include "radioslam/joint/rejected_stretches.hpp"
 #include "radioslam/joint/sight_notes.hpp"
 #include "radioslam/pipeline/collect_results.hpp"
+#include "radioslam/pipeline/uncertainty.hpp"
 
 namespace radioslam {
 namespace {
@@ -39,7 +40,7 @@ void add_estimate(RunResult& result, const Mission& mission, const JointGraph<Po
     return Marginals<Pose>::compute(graph_for_covariances(joint, mixture).team.graph);
   });
   if (marginals) {
-    add_uncertainty(result.robots, joint, *marginals);
+    add_uncertainty(result.robots, joint, placement, *marginals);
     result.transforms = collect_transforms(joint, placement, *marginals);
     for (auto& note : odometry_notes(mission, joint, *marginals)) result.notes.push_back(std::move(note));
   }
@@ -158,6 +159,8 @@ RunResult describe_run(const Mission& mission, const TeamEstimate<Pose>& estimat
   for (auto& note : notes_on_obstructed_robots(result.robots, result.closures))
     result.notes.push_back(std::move(note));
   add_uncertain_stretches(result);
+  widen_by_alternatives(result.robots, joint, estimate.placement);
+  widen_by_rejected_closures(result.robots, result.closures, result.dimension);
   result.similarity_model = collect_similarity_model(radio, params.radio);
   timed("access points", [&] { add_access_points(result, mission, radio, params.access_points); });
   count(result, radio, estimate.solution);

@@ -69,8 +69,8 @@ PageData accuracy_data(const Evaluation& judgement) {
                 {"dead_reckoning_quantiles_m", error_quantiles(odometry)}};
   if (estimate.ate && odometry.ate && odometry.ate->rmse_m > 0)
     data["ratio"] = rounded_relative(estimate.ate->rmse_m / odometry.ate->rmse_m);
-  if (estimate.share_within_3_sigma)
-    data["share_within_3_sigma"] = rounded(*estimate.share_within_3_sigma, 4);
+  if (estimate.team_consistency)
+    data["share_within_3_sigma"] = rounded(estimate.team_consistency->share_within_3_sigma, 4);
   if (estimate.rpe)
     data["rpe"] = {{"translation_rmse_m", rounded(estimate.rpe->translation_rmse_m, 4)},
                    {"rotation_rmse_rad", rounded(estimate.rpe->rotation_rmse_rad, 5)},

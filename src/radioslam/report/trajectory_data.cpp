@@ -49,16 +49,16 @@ PageData error_data(const std::vector<PointError>& errors, const TrajectoryConte
     t.push_back(rounded_seconds(seconds_between(context.start, errors[i].stamp)));
     along.push_back(rounded_metres(errors[i].along_m));
     error.push_back(rounded_metres(errors[i].error_m));
-    if (errors[i].sigma_m) sigma.push_back(rounded_metres(*errors[i].sigma_m));
+    if (errors[i].sigma_team_m) sigma.push_back(rounded_metres(*errors[i].sigma_team_m));
   }
   PageData data{{"t", std::move(t)}, {"along_m", std::move(along)}, {"error_m", std::move(error)}};
   if (!sigma.empty()) data["sigma_m"] = std::move(sigma);
   return data;
 }
 
-PageData sigma_data(const RobotResult& robot, const std::vector<std::size_t>& kept) {
+PageData sigma_data(const std::vector<double>& sigma_m, const std::vector<std::size_t>& kept) {
   PageData sigma = PageData::array();
-  for (const std::size_t i : kept) sigma.push_back(rounded_metres(robot.sigma_position_m[i]));
+  for (const std::size_t i : kept) sigma.push_back(rounded_metres(sigma_m[i]));
   return sigma;
 }
 
@@ -67,8 +67,9 @@ void add_paths(PageData& data, const RobotResult& robot, const TrajectoryContext
   const auto kept = drawn_keyframes(robot, context.totals, params);
   data["estimate"] = path_data(robot.estimate, kept, context.T_page_estimate, context);
   if (robot.sigma_position_m.size() == robot.estimate.size() && !robot.sigma_position_m.empty()) {
-    data["sigma_m"] = sigma_data(robot, kept);
-    data["sigma_median_m"] = rounded_metres(upper_median(robot.sigma_position_m));
+    data["sigma_m"] = sigma_data(robot.sigma_position_m, kept);
+    data["sigma_team_m"] = sigma_data(robot.sigma_team_m, kept);
+    data["sigma_median_m"] = rounded_metres(upper_median(robot.sigma_team_m));
   }
   const std::size_t poses = robot.odometry.size();
   const auto limit = part_of_budget(poses, context.totals.keyframes, budget(params.max_poses));

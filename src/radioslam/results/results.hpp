@@ -47,6 +47,7 @@ struct RobotResult {
                              ///< estimated pose
   std::vector<double>
       sigma_position_m;  ///< per keyframe, sqrt of the mean variance per axis; empty if not computed
+  std::vector<double> sigma_team_m = {};  ///< the same in the gauge of the team (graph/team_gauge.hpp)
   double yaw_drift_per_m_rad = 0;                   ///< estimated
   double scale_error = 0;                           ///< estimated
   double rssi_offset_db = 0;                        ///< of its device relative to the team's mean

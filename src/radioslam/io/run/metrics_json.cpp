@@ -1,5 +1,7 @@
 #include "radioslam/io/run/metrics_json.hpp"
 
+#include <cmath>
+
 #include "radioslam/io/run/run_tables.hpp"
 
 namespace radioslam {
@@ -24,6 +26,13 @@ Json rpe_json(const std::optional<RelativeError>& rpe) {
           {"count", rpe->count}};
 }
 
+/// An error whose standard deviation is zero has no mean square.
+Json consistency_json(const Consistency& consistency) {
+  Json json = {{"share_within_3_sigma", consistency.share_within_3_sigma}, {"mean_square", nullptr}};
+  if (std::isfinite(consistency.mean_square)) json["mean_square"] = consistency.mean_square;
+  return json;
+}
+
 }  // namespace
 
 Json metrics_json(const TeamMetrics& metrics) {
@@ -32,8 +41,8 @@ Json metrics_json(const TeamMetrics& metrics) {
   json["rotation"] = nullptr;
   if (metrics.rotation_rmse_rad) json["rotation"] = {{"rmse_rad", *metrics.rotation_rmse_rad}};
   json["consistency"] = nullptr;
-  if (metrics.share_within_3_sigma)
-    json["consistency"] = {{"share_within_3_sigma", *metrics.share_within_3_sigma}};
+  if (metrics.consistency) json["consistency"] = consistency_json(*metrics.consistency);
+  if (metrics.team_consistency) json["consistency"]["team"] = consistency_json(*metrics.team_consistency);
   json["coverage"] = metrics.coverage;
   json["robots"] = Json::object();
   for (const RobotMetrics& robot : metrics.robots) {

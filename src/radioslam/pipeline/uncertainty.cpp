@@ -1,0 +1,166 @@
+#include "radioslam/pipeline/uncertainty.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "radioslam/base/statistics.hpp"
+#include "radioslam/geometry/alignment.hpp"
+#include "radioslam/graph/team_gauge.hpp"
+#include "radioslam/pipeline/collect_results.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr double kMaxAcceptedRatio = 6.635;  // 99 % chi-squared quantile, one degree of freedom
+
+/// Share of the time that each keyframe stands for: trajectories are compared at equal steps of time.
+std::vector<double> time_weights(const std::vector<Stamp>& stamps) {
+  constexpr double kLeast_s = 1e-6, kHalf = 0.5;
+  std::vector<double> weights;
+  for (std::size_t k = 0; k < stamps.size(); ++k) {
+    const Stamp first = stamps[k == 0 ? 0 : k - 1], last = stamps[std::min(k + 1, stamps.size() - 1)];
+    weights.push_back(std::max(kLeast_s, kHalf * seconds_between(first, last)));
+  }
+  return weights;
+}
+
+/// The keyframes of the robots of one component, in their order.
+struct ComponentKeyframes {
+  std::vector<std::size_t> robots;
+  std::vector<PoseId> poses;
+  std::vector<double> weights;
+};
+
+template <class Pose>
+std::vector<ComponentKeyframes> component_keyframes(const JointGraph<Pose>& joint,
+                                                    const TeamPlacement<Pose>& placement) {
+  std::vector<ComponentKeyframes> components;
+  for (std::size_t r = 0; r < joint.robots.size(); ++r) {
+    const auto c = static_cast<std::size_t>(placement.component[r]);
+    if (components.size() <= c) components.resize(c + 1);
+    const RobotVariables& robot = joint.robots[r];
+    const std::vector<double> weights = time_weights(robot.stamps);
+    components[c].robots.push_back(r);
+    components[c].poses.insert(components[c].poses.end(), robot.poses.begin(), robot.poses.end());
+    components[c].weights.insert(components[c].weights.end(), weights.begin(), weights.end());
+  }
+  return components;
+}
+
+/// Root of the mean variance per axis.
+template <class Matrix>
+double sigma_of(const Matrix& covariance) {
+  return std::sqrt(std::max(0.0, covariance.trace()) / static_cast<double>(covariance.rows()));
+}
+
+/// Positions of the poses, one column each.
+template <class Pose>
+Eigen::Matrix<double, Pose::kDim, Eigen::Dynamic> positions(const std::vector<Pose>& poses,
+                                                            const std::vector<PoseId>& of) {
+  Eigen::Matrix<double, Pose::kDim, Eigen::Dynamic> result(Pose::kDim, static_cast<Eigen::Index>(of.size()));
+  for (std::size_t k = 0; k < of.size(); ++k)
+    result.col(static_cast<Eigen::Index>(k)) = poses[of[k].index()].translation();
+  return result;
+}
+
+/// Adds to each keyframe's variance; `added` in the order of the component's keyframes.
+void add_variances(std::vector<RobotResult>& robots, const ComponentKeyframes& component,
+                   const Eigen::VectorXd& added_m2) {
+  Eigen::Index k = 0;
+  for (const std::size_t r : component.robots)
+    for (double& sigma : robots[r].sigma_team_m) sigma = std::sqrt(sigma * sigma + added_m2[k++]);
+}
+
+/// The alternative's positions moved onto the estimate's, as squared distances per axis.
+template <class Pose>
+Eigen::VectorXd squared_distances(const std::vector<Pose>& estimate, const std::vector<Pose>& alternative,
+                                  const ComponentKeyframes& component) {
+  const auto target = positions(estimate, component.poses), source = positions(alternative, component.poses);
+  const Eigen::VectorXd weights = Eigen::Map<const Eigen::VectorXd>(
+      component.weights.data(), static_cast<Eigen::Index>(component.weights.size()));
+  const Pose T = align_points(source, target, weights);
+  Eigen::VectorXd result(source.cols());
+  for (Eigen::Index k = 0; k < source.cols(); ++k)
+    result[k] = (target.col(k) - T * typename Pose::Point(source.col(k))).squaredNorm() / Pose::kDim;
+  return result;
+}
+
+/// The factor by which residuals at a robot's keyframes in a stretch exceed what is stated, at least 1.
+double birge_ratio(RobotIndex robot, const std::pair<Stamp, Stamp>& stretch,
+                   const std::vector<ClosureResult>& closures, int dimension) {
+  const auto [first, last] = stretch;
+  std::vector<double> ratios;
+  for (const ClosureResult& closure : closures) {
+    const auto lies = [&](RobotIndex r, Stamp t) { return r == robot && !(t < first) && !(last < t); };
+    if (!lies(closure.robot_i, closure.stamp_i) && !lies(closure.robot_j, closure.stamp_j)) continue;
+    const bool one = closure.kind == ClosureKind::kRange || closure.kind == ClosureKind::kAoa ||
+                     closure.kind == ClosureKind::kFingerprint;
+    const double ratio = closure.statistic / (one ? 1 : dimension == 2 ? 3 : 6);
+    if (closure.status == ClosureStatus::kRejected && ratio > kMaxAcceptedRatio) ratios.push_back(ratio);
+  }
+  return ratios.empty() ? 1 : std::sqrt(upper_median(std::move(ratios)));
+}
+
+}  // namespace
+
+template <class Pose>
+void add_uncertainty(std::vector<RobotResult>& robots, const JointGraph<Pose>& joint,
+                     const TeamPlacement<Pose>& placement, const Marginals<Pose>& marginals) {
+  for (std::size_t r = 0; r < robots.size(); ++r)
+    for (const PoseId i : joint.robots[r].poses)
+      robots[r].sigma_position_m.push_back(
+          sigma_of(marginals.pose(i).template topLeftCorner<Pose::kDim, Pose::kDim>()));
+  for (const ComponentKeyframes& component : component_keyframes(joint, placement)) {
+    const auto covariances = position_covariances_in_team_gauge(marginals, joint.team.graph.poses,
+                                                                component.poses, component.weights);
+    auto covariance = covariances.begin();
+    for (const std::size_t r : component.robots)
+      for (std::size_t k = 0; k < joint.robots[r].poses.size(); ++k)
+        robots[r].sigma_team_m.push_back(sigma_of(*covariance++));
+  }
+}
+
+template <class Pose>
+void widen_by_alternatives(std::vector<RobotResult>& robots, const JointGraph<Pose>& joint,
+                           const TeamPlacement<Pose>& placement) {
+  double weights = placement.weight;
+  for (const double weight : placement.alternative_weights) weights += weight;
+  const auto components = component_keyframes(joint, placement);
+  std::vector<Eigen::VectorXd> added;
+  for (const ComponentKeyframes& component : components)
+    added.push_back(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(component.poses.size())));
+  for (std::size_t h = 0; h < placement.alternatives.size(); ++h) {
+    const double weight = placement.alternative_weights[h] / weights;
+    for (std::size_t c = 0; c < components.size(); ++c)
+      added[c] +=
+          weight * squared_distances(joint.team.graph.poses, placement.alternatives[h], components[c]);
+  }
+  for (std::size_t c = 0; c < components.size(); ++c) add_variances(robots, components[c], added[c]);
+}
+
+void widen_by_rejected_closures(std::vector<RobotResult>& robots, const std::vector<ClosureResult>& closures,
+                                int dimension) {
+  for (std::size_t r = 0; r < robots.size(); ++r) {
+    RobotResult& robot = robots[r];
+    for (const auto& stretch : robot.uncertain) {
+      const double ratio = birge_ratio(RobotIndex(r), stretch, closures, dimension);
+      for (std::size_t k = 0; k < robot.sigma_position_m.size(); ++k) {
+        const Stamp t = robot.estimate[k].stamp;
+        if (t < stretch.first || stretch.second < t) continue;
+        robot.sigma_position_m[k] *= ratio;
+        robot.sigma_team_m[k] *= ratio;
+      }
+    }
+  }
+}
+
+#define RADIOSLAM_UNCERTAINTY(Pose)                                                                           \
+  template void add_uncertainty(std::vector<RobotResult>&, const JointGraph<Pose>&, const TeamPlacement<Pose>&, \
+                                const Marginals<Pose>&);                                                      \
+  template void widen_by_alternatives(std::vector<RobotResult>&, const JointGraph<Pose>&,                     \
+                                      const TeamPlacement<Pose>&);
+RADIOSLAM_UNCERTAINTY(SE2)
+RADIOSLAM_UNCERTAINTY(SE3)
+#undef RADIOSLAM_UNCERTAINTY
+
+}  // namespace radioslam
