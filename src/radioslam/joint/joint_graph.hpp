@@ -12,6 +12,7 @@
 #include "radioslam/closure/fingerprint_closures.hpp"
 #include "radioslam/graph/team_graph.hpp"
 #include "radioslam/joint/factor_origin.hpp"
+#include "radioslam/joint/robot_nodes.hpp"
 #include "radioslam/mission/keyframes.hpp"
 #include "radioslam/mission/mission.hpp"
 #include "radioslam/results/results.hpp"
@@ -97,6 +98,21 @@ void add_factor(JointGraph<Pose>& joint, AmbiguousBearing<Pose> factor, const Fa
   joint.origins.bearings.push_back(origin);
 }
 
+/// Erases the relative poses of which this holds of the origin.
+template <class Pose, class Predicate>
+void erase_relative_poses(JointGraph<Pose>& joint, const Predicate& is_erased) {
+  auto& factors = joint.team.graph.relative_poses;
+  auto& origins = joint.origins.relative_poses;
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < factors.size(); ++k) {
+    if (is_erased(origins[k])) continue;
+    factors[kept] = factors[k];
+    origins[kept++] = origins[k];
+  }
+  factors.resize(kept);
+  origins.resize(kept);
+}
+
 /// 99 % chi-squared quantile for a relative pose: 3 or 6 degrees of freedom.
 template <class Pose>
 inline constexpr double kPoseChiSquared99 = Pose::kDof == 3 ? 11.345 : 16.812;
@@ -118,6 +134,11 @@ PoseId pose_at(const JointGraph<Pose>& joint, RobotIndex robot, Stamp stamp);
 /// Start of the odometry frame in the common frame, from the mission's known start; its first pose has the
 /// known height.
 std::optional<SE3> common_from_start(const Robot& robot);
+
+/// Adds the motion between the robot's nodes, which are the poses from `first_pose` on.
+template <class Pose>
+void add_odometry(JointGraph<Pose>& joint, RobotIndex index, const Robot& robot, const RobotNodes& nodes,
+                  std::size_t first_pose, DriftId drift);
 
 /// Graph without closures. Trajectories are in their own start frames, or in the common frame if their start
 /// is known. `node_stamps`: per robot, further stamps within its odometry that become poses; may be empty.

@@ -25,7 +25,7 @@ namespace radioslam {
 /// Source of the relative covariances.
 enum class OverlapMode {
   kJoint,
-  kLink,  ///< reproduces Wi-Closure
+  kLink,  ///< reproduces Wi-Closure where ranges have angles at both ends
 };
 
 struct OverlapStageParams {
@@ -40,7 +40,8 @@ struct OverlapStageParams {
     OverlapParams::visit_fields(self.overlap, visit);
     visit(Field{"mode", "", 0, 0,
                 "source of relative covariances; joint: marginals of the joint estimate; link: odometry over "
-                "the nearest link, reproduces Wi-Closure (Wang et al.)",
+                "the nearest link, as in Wi-Closure (Wang et al.): a range with angles at both ends, or, where "
+                "there is none, the joint estimate's relative pose at a link (a note says so)",
                 "joint|link"},
           self.mode);
     visit(Field{"pairing_s", "s", 0, 1e6,
@@ -86,6 +87,8 @@ struct OverlapStage {
   OverlapCounts counts;        ///< of all candidates
   bool searched = false;       ///< false: the estimate's covariances are not computable
   std::size_t alignments = 1;  ///< number of team alignments whose candidates these are
+  bool estimated_links = false;  ///< mode link: no range had angles at both ends
+  std::vector<std::pair<RobotIndex, RobotIndex>> unlinked;  ///< mode link: not compared, for want of a link
 };
 
 /// `alignments`: the likely ones, optimised and placed, the likeliest first. Candidates are those of any of

@@ -25,20 +25,25 @@ std::size_t RobotNodes::node_at(Stamp stamp) const {
   return static_cast<std::size_t>(found - stamps.begin());
 }
 
+RobotNodes nodes_at(const Trajectory<SE3>& odometry, std::vector<Stamp> stamps) {
+  std::sort(stamps.begin(), stamps.end());
+  stamps.erase(std::unique(stamps.begin(), stamps.end()), stamps.end());
+  RobotNodes nodes;
+  nodes.odometry = with_stamps(odometry, stamps);
+  nodes.stamps = std::move(stamps);
+  for (std::size_t row = 0, n = 0; n < nodes.stamps.size(); ++row)
+    if (nodes.odometry[row].stamp == nodes.stamps[n]) nodes.rows.push_back(row), ++n;
+  return nodes;
+}
+
 RobotNodes select_nodes(const Trajectory<SE3>& odometry, std::vector<Stamp> node_stamps,
                         const KeyframeParams& params) {
   std::erase_if(node_stamps, [&](Stamp node_stamp) { return !odometry.covers(node_stamp); });
   std::vector<Stamp> keyframes;
   for (const std::size_t row : refined_keyframes(odometry, select_keyframes(odometry, params), params))
     keyframes.push_back(odometry[row].stamp);
-  RobotNodes nodes;
-  nodes.odometry = with_stamps(odometry, node_stamps);
-  nodes.stamps = std::move(node_stamps);
-  nodes.stamps.insert(nodes.stamps.end(), keyframes.begin(), keyframes.end());
-  std::sort(nodes.stamps.begin(), nodes.stamps.end());
-  nodes.stamps.erase(std::unique(nodes.stamps.begin(), nodes.stamps.end()), nodes.stamps.end());
-  for (std::size_t row = 0, n = 0; n < nodes.stamps.size(); ++row)
-    if (nodes.odometry[row].stamp == nodes.stamps[n]) nodes.rows.push_back(row), ++n;
+  node_stamps.insert(node_stamps.end(), keyframes.begin(), keyframes.end());
+  RobotNodes nodes = nodes_at(odometry, std::move(node_stamps));
   for (const Stamp keyframe : keyframes) nodes.keyframes.push_back(nodes.node_at(keyframe));
   return nodes;
 }

@@ -19,7 +19,10 @@ struct RobotNodes {
   std::size_t node_at(Stamp stamp) const;
 };
 
-/// `node_stamps` that the odometry does not cover are ignored.
+/// Nodes at these stamps, which the odometry covers; none is a keyframe.
+RobotNodes nodes_at(const Trajectory<SE3>& odometry, std::vector<Stamp> stamps);
+
+/// Nodes at the robot's keyframes and at `node_stamps`; those that the odometry does not cover are ignored.
 RobotNodes select_nodes(const Trajectory<SE3>& odometry, std::vector<Stamp> node_stamps,
                         const KeyframeParams& params);
 

@@ -21,6 +21,7 @@ radioslam_room(joint
     graduated_optimisation.cpp
     joint_graph.cpp
     joint_graph_from_file.cpp
+    late_nodes.cpp
     level_priors.cpp
     matches/frame_by_matches.cpp
     matches/match_groups.cpp

@@ -123,7 +123,8 @@ std::size_t unreachable_samples(const Trajectory<SE3>& recorded, const ScanTraje
   return static_cast<std::size_t>(std::count_if(recorded.begin(), recorded.end(), is_out_of_reach));
 }
 
-void replace_odometry(Robot& robot, ScanTrajectory& track, const ScanStageParams& params) {
+MeasuredOdometry odometry_from_scans(const Robot& robot, ScanTrajectory& track,
+                                     const ScanStageParams& params) {
   constexpr Stamp kEver{std::numeric_limits<std::int64_t>::max()},
       kNever{std::numeric_limits<std::int64_t>::min()};
   const SE3 T_start_scans = start_of_scans(robot.odometry, track);
@@ -137,8 +138,7 @@ void replace_odometry(Robot& robot, ScanTrajectory& track, const ScanStageParams
   by.extend({{first.stamp, first.T_start_body}}, stated);
   by.add_scans(track.poses, fill_gaps(robot, track.poses, max_scan_step_s(track, params)));
   by.extend(extended_by_odometry(robot.odometry, last.stamp, kEver, last.stamp, last.T_start_body), stated);
-  robot.odometry = Trajectory<SE3>(std::move(by.rows));
-  robot.odometry_noise = {0, 0, 0, 0, 0, 0, std::move(by.steps)};
+  return {Trajectory<SE3>(std::move(by.rows)), {0, 0, 0, 0, 0, 0, std::move(by.steps)}};
 }
 
 }  // namespace radioslam

@@ -1,4 +1,4 @@
-// Replaces odometry by the poses of scans, with recorded odometry where there are no scans.
+// Odometry from the poses of scans, with recorded odometry where there are no scans.
 //
 //   before, after   recorded samples, moved rigidly to join the first or last scan, with their stated noise
 //   between scans   the scans' steps, each with its covariance spread evenly in time
@@ -19,10 +19,17 @@
 
 namespace radioslam {
 
-/// Number of recorded samples that replace_odometry would drop.
+/// Motion of a robot with the noise of every step.
+struct MeasuredOdometry {
+  Trajectory<SE3> samples;  ///< T_start_body
+  OdometryNoise noise;
+};
+
+/// Number of recorded samples that odometry_from_scans would drop.
 std::size_t unreachable_samples(const Trajectory<SE3>& recorded, const ScanTrajectory& track);
 
-/// Replaces the robot's odometry and moves `track`, which has at least one pose, into its frame.
-void replace_odometry(Robot& robot, ScanTrajectory& track, const ScanStageParams& params);
+/// Moves `track`, which has at least one pose, into the frame of the robot's recorded odometry.
+MeasuredOdometry odometry_from_scans(const Robot& robot, ScanTrajectory& track,
+                                     const ScanStageParams& params);
 
 }  // namespace radioslam

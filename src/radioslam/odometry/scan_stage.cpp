@@ -8,11 +8,11 @@ namespace radioslam {
 namespace {
 
 /// A robot without odometry and registered scans stays at the origin from its first scan on.
-void assume_static(Robot& robot) {
-  if (robot.odometry.empty()) robot.odometry = Trajectory<SE3>({{robot.lidar.stamps.front(), SE3()}});
+ScanOdometry static_odometry(const Robot& robot) {
+  return {{Trajectory<SE3>({{robot.lidar.stamps.front(), SE3()}}), robot.odometry_noise}, {}, {}};
 }
 
-/// Counts the robot's scans and notes problems, before its odometry is replaced.
+/// Counts the robot's scans and notes problems.
 void report_scans(MeasuredScans& measured, const Robot& robot, const ScanTrajectory& track) {
   const auto note = [&](std::size_t count, const std::string& what) {
     if (count > 0) measured.notes.push_back("robot " + robot.id + ": " + std::to_string(count) + ' ' + what);
@@ -37,36 +37,53 @@ void report_scans(MeasuredScans& measured, const Robot& robot, const ScanTraject
        "rows of recorded odometry could not be connected to its scans and were dropped");
 }
 
-void close_loops(MeasuredScans& measured, RobotIndex robot, const ScanTrajectory& track,
-                 const ScanKeyframes& keyframes, const ScanParams& params, const Progress& progress) {
-  const ScanLoops loops = close_scan_loops(keyframes, params.loops, params.lidar.map, params.search,
+void close_loops(MeasuredScans& measured, RobotIndex robot, const ScanOdometry& scans, const ScanParams& params,
+                 const Progress& progress) {
+  const ScanLoops loops = close_scan_loops(scans.keyframes, params.loops, params.lidar.map, params.search,
                                            params.lidar.registration, progress);
   for (const ScanLoop& loop : loops.loops)
-    measured.closures.push_back({robot, track.poses[track.keyframes[loop.i]].stamp,
-                                 track.poses[track.keyframes[loop.j]].stamp, loop});
+    measured.closures.push_back({robot, scans.keyframe_stamps[loop.i], scans.keyframe_stamps[loop.j], loop});
+}
+
+/// Whether the robot's odometry is that of its scans.
+bool is_tracked(const Robot& robot, const ScanParams& params) {
+  const bool is_recorded =
+      odometry_source(params.stage) == OdometrySource::kRecorded && !robot.odometry.empty();
+  return !robot.lidar.empty() && !is_recorded;
 }
 
 }  // namespace
 
-MeasuredScans measure_scans(Mission& mission, const ScanParams& params, const KeyframeParams& keyframes,
+MeasuredScans measure_scans(const Mission& mission, const ScanParams& params, const KeyframeParams& keyframes,
                             const Progress& progress) {
   MeasuredScans measured;
   for (std::size_t r = 0; r < mission.robots.size(); ++r) {
-    Robot& robot = mission.robots[r];
-    if (robot.lidar.empty()) continue;
-    if (odometry_source(params.stage) == OdometrySource::kRecorded && !robot.odometry.empty()) continue;
+    std::optional<ScanOdometry>& scans = measured.robots.emplace_back();
+    if (!is_tracked(mission.robots[r], params)) continue;
+    Robot robot = mission.robots[r];
     const ScannerTraits traits = scanner_traits(robot.lidar, params.lidar);
     ScanTrajectory track = track_scans_with_imu(robot, traits, params, keyframes, progress, measured.notes);
     report_scans(measured, robot, track);
     if (track.poses.empty()) {
-      assume_static(robot);
+      if (robot.odometry.empty()) scans = static_odometry(robot);
       continue;
     }
-    const ScanKeyframes scans = extract_keyframes(track, traits);
-    replace_odometry(robot, track, params.stage);
-    close_loops(measured, RobotIndex(r), track, scans, params, progress);
+    scans.emplace();
+    scans->keyframes = extract_keyframes(track, traits);
+    scans->odometry = odometry_from_scans(robot, track, params.stage);
+    for (const std::size_t k : track.keyframes) scans->keyframe_stamps.push_back(track.poses[k].stamp);
+    close_loops(measured, RobotIndex(r), *scans, params, progress);
   }
   return measured;
+}
+
+Mission with_odometry(Mission mission, const MeasuredScans& measured) {
+  for (std::size_t r = 0; r < mission.robots.size(); ++r) {
+    if (!measured.robots[r]) continue;
+    mission.robots[r].odometry = measured.robots[r]->odometry.samples;
+    mission.robots[r].odometry_noise = measured.robots[r]->odometry.noise;
+  }
+  return mission;
 }
 
 }  // namespace radioslam

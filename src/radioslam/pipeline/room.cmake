@@ -5,6 +5,5 @@ radioslam_room(pipeline
     pipeline.cpp
     recordings_stage.cpp
     run_results.cpp
-    stages.cpp
     uncertainty.cpp
   ROOMS joint odometry closure consistency results)

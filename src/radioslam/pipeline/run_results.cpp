@@ -87,14 +87,15 @@ std::vector<ClosureResult> collect_all_closures(const TeamEstimate<Pose>& estima
   const JointGraph<Pose>& joint = estimate.joint;
   std::vector<ClosureResult> all = collect_radio_links(joint);
   for (auto& closure : collect_fingerprint_closures(joint)) all.push_back(std::move(closure));
-  for (const auto* closures : {&estimate.sequences, &estimate.scans, &estimate.loops, &estimate.matches})
+  const TeamClosures& judged = estimate.closures;
+  for (const auto* closures : {&judged.sequences, &judged.scans, &judged.loops, &judged.matches})
     for (auto& closure : collect_closures(joint, *closures)) all.push_back(std::move(closure));
   return all;
 }
 
 /// Adds the keyframe pairs with overlapping views and their counts. `streamed`: they have all been handed
 /// over.
-void add_overlaps(RunResult& result, OverlapStage overlaps, bool streamed) {
+void add_overlaps(RunResult& result, const Mission& mission, OverlapStage overlaps, bool streamed) {
   if (!overlaps.searched) {
     result.notes.push_back("overlap search was skipped: the estimate's covariances are singular");
     return;
@@ -109,6 +110,12 @@ void add_overlaps(RunResult& result, OverlapStage overlaps, bool streamed) {
                            std::to_string(overlaps.counts.kept) +
                            " candidates (overlap.max_listed_candidates); prune lists all");
   result.candidates = std::move(overlaps.listed);
+  if (overlaps.estimated_links)
+    result.notes.push_back("mode link used relative poses of the joint estimate at the links: no range has a direct "
+                           "angle of arrival at both ends, in the plane, within overlap.pairing_s");
+  for (const auto& [i, j] : overlaps.unlinked)
+    result.notes.push_back("mode link did not compare " + mission.robots[i.index()].id + " and " +
+                           mission.robots[j.index()].id + ": no link between them gives a relative pose");
   if (overlaps.alignments > 1)
     result.notes.push_back("the candidates are those of any of the " + std::to_string(overlaps.alignments) +
                            " likely team alignments");
@@ -135,16 +142,15 @@ void add_uncertain_stretches(RunResult& result) {
 }  // namespace
 
 template <class Pose>
-RunResult describe_run(const Mission& mission, const TeamEstimate<Pose>& estimate,
+RunResult describe_run(const Mission& mission, const RadioMeasurements& radio, const TeamEstimate<Pose>& estimate,
                        std::optional<OverlapStage> overlaps, const RunParams& params,
                        const RunOptions& options, StageClock& timed) {
-  const RadioMeasurements& radio = estimate.radio;
   const JointGraph<Pose>& joint = estimate.joint;
   RunResult result;
   result.mission_name = mission.name;
   result.dimension = mission.dimension;
   result.range_biases = estimate.range_biases;
-  if (overlaps) add_overlaps(result, std::move(*overlaps), options.take_candidates != nullptr);
+  if (overlaps) add_overlaps(result, mission, std::move(*overlaps), options.take_candidates != nullptr);
   add_estimate(result, mission, joint, estimate.placement, params.alignment.mixture, timed);
   for (std::size_t r = 0; r < mission.robots.size() && !options.overlap_only; ++r)
     result.robots[r].dense = dense_trajectory<Pose>(mission, joint, nullptr, r, result.robots[r]).poses;
@@ -164,13 +170,12 @@ RunResult describe_run(const Mission& mission, const TeamEstimate<Pose>& estimat
   result.similarity_model = collect_similarity_model(radio, params.radio);
   timed("access points", [&] { add_access_points(result, mission, radio, params.access_points); });
   count(result, radio, estimate.solution);
-  result.timings = timed.timings();
   return result;
 }
 
-template RunResult describe_run(const Mission&, const TeamEstimate<SE2>&, std::optional<OverlapStage>,
+template RunResult describe_run(const Mission&, const RadioMeasurements&, const TeamEstimate<SE2>&, std::optional<OverlapStage>,
                                 const RunParams&, const RunOptions&, StageClock&);
-template RunResult describe_run(const Mission&, const TeamEstimate<SE3>&, std::optional<OverlapStage>,
+template RunResult describe_run(const Mission&, const RadioMeasurements&, const TeamEstimate<SE3>&, std::optional<OverlapStage>,
                                 const RunParams&, const RunOptions&, StageClock&);
 
 }  // namespace radioslam

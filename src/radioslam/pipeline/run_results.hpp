@@ -16,10 +16,9 @@
 
 namespace radioslam {
 
-/// The results of the final estimate. `overlaps`: nothing if no
-/// pairs were searched for. `timed` has timed the stages so far, and times those of the results.
+/// The results of the final estimate, without timings. `overlaps`: nothing if no pairs were searched for.
 template <class Pose>
-RunResult describe_run(const Mission& mission, const TeamEstimate<Pose>& estimate,
+RunResult describe_run(const Mission& mission, const RadioMeasurements& radio, const TeamEstimate<Pose>& estimate,
                        std::optional<OverlapStage> overlaps, const RunParams& params,
                        const RunOptions& options, StageClock& timed);
 

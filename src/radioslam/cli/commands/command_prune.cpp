@@ -100,7 +100,8 @@ void add_prune(CLI::App& program) {
   command
       ->add_option("--mode", options->mode,
                    "joint: use covariances of the joint estimate (default); link: chain odometry through the "
-                   "nearest radio link only")
+                   "nearest radio link only; where no range has angles at both ends, links are relative poses "
+                   "of the joint estimate, and a note says so")
       ->check(CLI::IsMember({"joint", "link"}));
   add_known_starts_option(*command, options->starts);
   command->add_flag("--exhaustive", options->exhaustive,

@@ -22,20 +22,6 @@ constexpr double kNotableScale = 1.5;  // of a standard deviation
 constexpr int kMaxPasses = 3;
 
 template <class Pose>
-void erase_loop_factors(JointGraph<Pose>& joint) {
-  auto& factors = joint.team.graph.relative_poses;
-  auto& origins = joint.origins.relative_poses;
-  std::size_t kept = 0;
-  for (std::size_t k = 0; k < factors.size(); ++k) {
-    if (origins[k].source == FactorSource::kLoop) continue;
-    factors[kept] = factors[k];
-    origins[kept++] = origins[k];
-  }
-  factors.resize(kept);
-  origins.resize(kept);
-}
-
-template <class Pose>
 void add_accepted(JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>>& loops,
                   const std::vector<Closure>& closures) {
   for (const TeamLoop<Pose>& loop : loops) {
@@ -248,7 +234,7 @@ void close_by_loops(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement, std
     for (TeamLoop<Pose>& loop : loops)
       if (loop.closures.front() == origin.measurement) loop.accepted = true;
   }
-  erase_loop_factors(joint);
+  erase_relative_poses(joint, [](const FactorOrigin& o) { return o.source == FactorSource::kLoop; });
   const std::vector<int> component_before = segment_components(joint, placement);
   LoopSelection scales;
   std::vector<int> component;
