@@ -23,6 +23,7 @@ radioslam_room(joint
     joint_graph_from_file.cpp
     late_nodes.cpp
     level_priors.cpp
+    link_weights.cpp
     matches/frame_by_matches.cpp
     matches/match_groups.cpp
     matches/match_selection.cpp

@@ -1,14 +1,12 @@
 #include "radioslam/joint/team_placement.hpp"
 
 #include <algorithm>
-#include <cmath>
+
+#include "radioslam/joint/link_weights.hpp"
 
 namespace radioslam {
 namespace {
 
-constexpr double kMinWeight = 0.05;  // min. weight of a path or range in the final solution
-constexpr double kMaxSigmaByPositions_rad =
-    0.5;  // direction error from antenna positions above which an angle is unused
 constexpr double kMinAlternative = 0.001;  // min. weight of a reported hypothesis
 constexpr std::size_t kMaxAlternatives = 15;
 
@@ -73,34 +71,6 @@ bool has_radio_links(const JointGraph<Pose>& joint) {
 }
 
 template <class Pose>
-void adopt_alignment(JointGraph<Pose>& joint, const TeamHypothesis<Pose>& hypothesis) {
-  auto& graph = joint.team.graph;
-  graph.bearings.clear();
-  joint.bearing_weights.clear();
-  graph.poses = hypothesis.poses;
-  graph.points = hypothesis.points;
-  graph.drifts = hypothesis.drifts;
-  for (std::size_t k = 0; k < hypothesis.range_weight.size(); ++k)
-    graph.ranges[k].weight = hypothesis.range_weight[k] < kMinWeight ? 0 : hypothesis.range_weight[k];
-  for (std::size_t k = 0; k < joint.team.bearings.size(); ++k) {
-    const auto& bearing = joint.team.bearings[k];
-    BearingWeight& bearing_weight = joint.bearing_weights.emplace_back();
-    bearing_weight.paths = hypothesis.path_weight[k];
-    for (std::size_t p = 0; p < bearing.paths.size(); ++p) {
-      const double weight = hypothesis.path_weight[k][p];
-      const double by_positions2 =
-          std::pow(hypothesis.path_sigma_rad[k][p], 2) - std::pow(bearing.paths[p].sigma_rad, 2);
-      if (by_positions2 > kMaxSigmaByPositions_rad * kMaxSigmaByPositions_rad) bearing_weight.too_near = true;
-      if (weight < kMinWeight || bearing_weight.too_near) continue;
-      bearing_weight.weight += weight;
-      BearingFactor<Pose>& factor = graph.bearings.emplace_back(path_factor(bearing, p));
-      factor.sigma_rad = hypothesis.path_sigma_rad[k][p];
-      factor.weight = weight;
-    }
-  }
-}
-
-template <class Pose>
 void set_alternatives(TeamPlacement<Pose>& placement, const std::vector<TeamHypothesis<Pose>>& hypotheses) {
   placement.weight = hypotheses.front().weight;
   placement.alternatives.clear();
@@ -150,7 +120,6 @@ TeamPlacement<Pose> place_by_fingerprints(JointGraph<Pose>& joint, const Mission
 }
 
 #define RADIOSLAM_PLACEMENT(Pose)                                                                           \
-  template void adopt_alignment(JointGraph<Pose>&, const TeamHypothesis<Pose>&);                            \
   template void set_alternatives(TeamPlacement<Pose>&, const std::vector<TeamHypothesis<Pose>>&);           \
   template bool has_radio_links(const JointGraph<Pose>&);                                                   \
   template TeamPlacement<Pose> place_by_radio(JointGraph<Pose>&, const RadioAlignmentParams&,               \

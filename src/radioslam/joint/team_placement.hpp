@@ -43,11 +43,6 @@ template <class Pose>
 TeamPlacement<Pose> place_by_radio(JointGraph<Pose>& joint, const RadioAlignmentParams& params,
                                    const Progress& progress);
 
-/// Takes the values and weights of an alignment of the team's radio ranges, which come first in the graph,
-/// and bearings. Paths that may be direct become bearing factors, in place of those there were.
-template <class Pose>
-void adopt_alignment(JointGraph<Pose>& joint, const TeamHypothesis<Pose>& hypothesis);
-
 /// Sets the weight of the first of these hypotheses, best first, and the alternatives that are likely enough
 /// to be searched.
 template <class Pose>

@@ -8,6 +8,7 @@
 #include "radioslam/joint/field_stage.hpp"
 #include "radioslam/joint/joint_graph_from_file.hpp"
 #include "radioslam/joint/late_nodes.hpp"
+#include "radioslam/joint/link_weights.hpp"
 #include "radioslam/joint/matches/frame_by_matches.hpp"
 #include "radioslam/joint/matches/placement_by_matches.hpp"
 #include "radioslam/joint/scan_closures.hpp"

@@ -11,6 +11,7 @@
 
 #include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/joint/covariance_graph.hpp"
+#include "radioslam/joint/link_weights.hpp"
 #include "radioslam/team_frame/beam_search/beam_selection.hpp"
 
 namespace radioslam {
@@ -50,15 +51,6 @@ MatchError<Pose> match_error(const JointGraph<Pose>& joint, const Marginals<Pose
 template <class Vector, class Matrix>
 double squared_mahalanobis(const Vector& error, const Matrix& covariance) {
   return Cholesky<Matrix>(covariance).whitened(error).squaredNorm();
-}
-
-/// The team with its radio links alone.
-template <class Pose>
-TeamGraph<Pose> radio_team(const JointGraph<Pose>& joint) {
-  TeamGraph<Pose> team = joint.team;
-  team.graph.bearings.clear();
-  team.graph.ranges.resize(count_factors(joint.origins.ranges, FactorSource::kRange));
-  return team;
 }
 
 std::size_t matches_of_pair(const std::vector<MatchGroup>& groups, const MatchGroup& of) {
@@ -270,16 +262,7 @@ bool choose_alignment_by_matches(JointGraph<Pose>& joint, TeamPlacement<Pose>& p
   return true;
 }
 
-template <class Pose>
-double reweigh_radio_links(JointGraph<Pose>& joint, const TeamPlacement<Pose>& placement,
-                           const MixtureParams& params) {
-  const TeamHypothesis<Pose> weighed = weigh_links(radio_team(joint), placement.segments, params);
-  adopt_alignment(joint, weighed);
-  return weighed.log_evidence;
-}
-
 #define RADIOSLAM_FRAME_BY_MATCHES(Pose)                                                                    \
-  template double reweigh_radio_links(JointGraph<Pose>&, const TeamPlacement<Pose>&, const MixtureParams&); \
   template double match_statistic(const JointGraph<Pose>&, const Marginals<Pose>&, double, const Closure&,  \
                                   const MatchEnds&);                                                        \
   template bool choose_alignment_by_matches(JointGraph<Pose>&, TeamPlacement<Pose>&,                        \

@@ -31,12 +31,6 @@ template <class Pose>
 bool choose_alignment_by_matches(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement,
                                  const std::vector<Closure>& matches, const RadioAlignmentParams& params);
 
-/// Recomputes the weight of every range and of every path of every bearing at the joint estimate's values,
-/// which matches may have changed. Returns the log likelihood of all factors there.
-template <class Pose>
-double reweigh_radio_links(JointGraph<Pose>& joint, const TeamPlacement<Pose>& placement,
-                           const MixtureParams& params);
-
 /// Squared Mahalanobis norm of a match under the joint estimate, whose relative poses have the covariances of
 /// `marginals` times `temperature`.
 template <class Pose>

@@ -10,6 +10,7 @@
 #include "radioslam/graph/graduated.hpp"
 #include "radioslam/graph/residuals.hpp"
 #include "radioslam/joint/covariance_graph.hpp"
+#include "radioslam/joint/link_weights.hpp"
 #include "radioslam/joint/matches/frame_by_matches.hpp"
 
 namespace radioslam {
@@ -215,8 +216,6 @@ void optimise_with_matches(JointGraph<Pose>& joint, std::vector<Closure>& matche
 
 namespace {
 
-using PairsOfRobots = std::set<std::pair<RobotIndex, RobotIndex>>;
-
 /// Pairs with enough accepted matches to determine their relative pose.
 PairsOfRobots pairs_with_matches(const std::vector<Closure>& matches) {
   std::map<std::pair<RobotIndex, RobotIndex>, std::size_t> accepted;
@@ -227,29 +226,6 @@ PairsOfRobots pairs_with_matches(const std::vector<Closure>& matches) {
   for (const auto& [robots, count] : accepted)
     if (count >= kMinVouching) pairs.insert(robots);
   return pairs;
-}
-
-/// Gives the links between these robots no weight.
-template <class Pose>
-void silence_links(JointGraph<Pose>& joint, const PairsOfRobots& pairs) {
-  auto& graph = joint.team.graph;
-  const auto is_of_a_pair = [&](RobotIndex i, RobotIndex j) {
-    return i.valid() && j.valid() && pairs.contains(std::minmax(i, j));
-  };
-  for (std::size_t k = 0; k < graph.ranges.size(); ++k) {
-    const FactorOrigin& origin = joint.origins.ranges[k];
-    if (origin.source == FactorSource::kRange && is_of_a_pair(origin.robot_i, origin.robot_j))
-      graph.ranges[k].weight = 0;
-  }
-  std::map<std::int32_t, RobotIndex> robot_of_pose;
-  for (std::size_t p = 0; p < joint.team.segments.size(); ++p)
-    for (std::size_t k = 0; k < joint.team.segments[p].pose_count; ++k)
-      robot_of_pose[PoseId(joint.team.segments[p].first_pose + k).value] =
-          RobotIndex(joint.robot_of_segment[p]);
-  for (auto& bearing : graph.bearings)
-    if (bearing.j.pose.valid() &&
-        is_of_a_pair(robot_of_pose.at(bearing.i.value), robot_of_pose.at(bearing.j.pose.value)))
-      bearing.weight = 0;
 }
 
 /// Sets the status of every match in the graph by its error there; rejected ones lose their weight.
