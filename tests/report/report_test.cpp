@@ -113,8 +113,8 @@ TEST(Report, StatedSigmasStandBesideTheErrors) {
     for (std::size_t k = 0; k < errors["sigma_m"].size(); ++k)
       EXPECT_NEAR(errors["sigma_m"][k].get<double>(), sample.result.robots[r].sigma_team_m[k], 0.00051);
   }
-  EXPECT_NEAR(page["accuracy"]["share_within_3_sigma"].get<double>(), sample.metrics.team_consistency->share_within_3_sigma,
-              0.00006);
+  EXPECT_NEAR(page["accuracy"]["share_within_3_sigma"].get<double>(),
+              sample.metrics.team_consistency->share_within_3_sigma, 0.00006);
   for (auto& robot : sample.result.robots) robot.sigma_position_m.clear(), robot.sigma_team_m.clear();
   sample.metrics = evaluate_trajectories(team_estimate(sample.result), sample.truth, 2);
   const Json without = data_of(evaluated_page(sample));

@@ -39,7 +39,7 @@ struct ErrorStatistics {
 struct PointError {
   Stamp stamp;
   double error_m = 0;
-  double along_m = 0;                  ///< path length along the truth
+  double along_m = 0;                       ///< path length along the truth
   std::optional<double> sigma_m = {};       ///< stated standard deviation of the position, if there is one
   std::optional<double> sigma_team_m = {};  ///< the same in the gauge of the team, that of the error
 };
@@ -79,7 +79,8 @@ struct TeamMetrics {
   std::optional<RelativeError> rpe;  ///< absent if no truth has an orientation
   /// Absolute rotation error after the alignment, over the robots whose truth has an orientation.
   std::optional<double> rotation_rmse_rad;
-  /// With the uncertainty relative to what holds the frame, and in the gauge of the team; absent if not stated.
+  /// With the uncertainty relative to what holds the frame, and in the gauge of the team; absent if not
+  /// stated.
   std::optional<Consistency> consistency, team_consistency;
   double coverage = 0;  ///< fraction of the truth's poses that the estimate covers
   SE3 T_truth_estimate;

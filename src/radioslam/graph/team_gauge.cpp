@@ -49,9 +49,10 @@ std::vector<typename Marginals<Pose>::PointCovariance> position_covariances_in_t
   }
   const Square inverse = Eigen::CompleteOrthogonalDecomposition<Square>(normal).pseudoInverse();
 
-  // The motion that is removed, as functions of the poses; a position's error is R times a pose's translation.
-  std::vector<typename Marginals<Pose>::PoseColumns> motion(
-      of.size(), Marginals<Pose>::PoseColumns::Zero(kDof, kDof));
+  // The motion that is removed, as functions of the poses; a position's error is R times a pose's
+  // translation.
+  std::vector<typename Marginals<Pose>::PoseColumns> motion(of.size(),
+                                                            Marginals<Pose>::PoseColumns::Zero(kDof, kDof));
   const auto rotation = [&](std::size_t k) {
     return Eigen::Matrix<double, kDim, kDim>(poses[of[k].index()].rotation_matrix());
   };
@@ -73,9 +74,10 @@ std::vector<typename Marginals<Pose>::PointCovariance> position_covariances_in_t
   return result;
 }
 
-#define RADIOSLAM_TEAM_GAUGE(Pose)                                                                          \
-  template std::vector<Marginals<Pose>::PointCovariance> position_covariances_in_team_gauge(                \
-      const Marginals<Pose>&, const std::vector<Pose>&, const std::vector<PoseId>&, const std::vector<double>&);
+#define RADIOSLAM_TEAM_GAUGE(Pose)                                                           \
+  template std::vector<Marginals<Pose>::PointCovariance> position_covariances_in_team_gauge( \
+      const Marginals<Pose>&, const std::vector<Pose>&, const std::vector<PoseId>&,          \
+      const std::vector<double>&);
 RADIOSLAM_TEAM_GAUGE(SE2)
 RADIOSLAM_TEAM_GAUGE(SE3)
 #undef RADIOSLAM_TEAM_GAUGE

@@ -209,15 +209,16 @@ void add_fingerprint_closures(JointGraph<Pose>& joint, const RadioMeasurements& 
   }
 }
 
-#define RADIOSLAM_JOINT_GRAPH(Pose)                                                                     \
-  template JointGraph<Pose> build_joint_graph<Pose>(                                                    \
-      const Mission&, const KeyframeParams&, const JointGraphParams&, std::vector<std::vector<Stamp>>); \
-  template void add_odometry(JointGraph<Pose>&, RobotIndex, const Robot&, const RobotNodes&, std::size_t, DriftId); \
-  template PoseId pose_at(const JointGraph<Pose>&, RobotIndex, Stamp);                                  \
-  template void place_robots(JointGraph<Pose>&, const std::vector<SE2>&);                               \
-  template RangeEnd<Pose> fingerprint_anchor(const JointGraph<Pose>&, const RadioMeasurements&,         \
-                                             std::size_t);                                              \
-  template void add_fingerprint_closures(JointGraph<Pose>&, const RadioMeasurements&,                   \
+#define RADIOSLAM_JOINT_GRAPH(Pose)                                                                       \
+  template JointGraph<Pose> build_joint_graph<Pose>(                                                      \
+      const Mission&, const KeyframeParams&, const JointGraphParams&, std::vector<std::vector<Stamp>>);   \
+  template void add_odometry(JointGraph<Pose>&, RobotIndex, const Robot&, const RobotNodes&, std::size_t, \
+                             DriftId);                                                                    \
+  template PoseId pose_at(const JointGraph<Pose>&, RobotIndex, Stamp);                                    \
+  template void place_robots(JointGraph<Pose>&, const std::vector<SE2>&);                                 \
+  template RangeEnd<Pose> fingerprint_anchor(const JointGraph<Pose>&, const RadioMeasurements&,           \
+                                             std::size_t);                                                \
+  template void add_fingerprint_closures(JointGraph<Pose>&, const RadioMeasurements&,                     \
                                          const std::vector<FingerprintClosure>&);
 RADIOSLAM_JOINT_GRAPH(SE2)
 RADIOSLAM_JOINT_GRAPH(SE3)

@@ -1,7 +1,8 @@
 // Poses at further stamps of a joint graph that exists already, for closures that come late.
 //
-// A new pose divides the odometry edge that it lies on, with the noise of either part; every other factor, weight
-// and value stays. So a graph that was extended has the optimum of one that was built with these poses.
+// A new pose divides the odometry edge that it lies on, with the noise of either part; every other factor,
+// weight and value stays. So a graph that was extended has the optimum of one that was built with these
+// poses.
 #pragma once
 
 #include <vector>

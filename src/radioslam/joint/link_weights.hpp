@@ -1,7 +1,8 @@
 // Weights of radio links in the joint graph: the one place that sets them.
 //
-// The weight of a range or of a path of an angle is its posterior under the team's mixture of direct, obstructed and
-// false measurements (team_frame/measurement_mixture.hpp) at the graph's values, range biases included.
+// The weight of a range or of a path of an angle is its posterior under the team's mixture of direct,
+// obstructed and false measurements (team_frame/measurement_mixture.hpp) at the graph's values, range biases
+// included.
 #pragma once
 
 #include <set>

@@ -38,12 +38,13 @@ struct OverlapStageParams {
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
     OverlapParams::visit_fields(self.overlap, visit);
-    visit(Field{"mode", "", 0, 0,
-                "source of relative covariances; joint: marginals of the joint estimate; link: odometry over "
-                "the nearest link, as in Wi-Closure (Wang et al.): a range with angles at both ends, or, where "
-                "there is none, the joint estimate's relative pose at a link (a note says so)",
-                "joint|link"},
-          self.mode);
+    visit(
+        Field{"mode", "", 0, 0,
+              "source of relative covariances; joint: marginals of the joint estimate; link: odometry over "
+              "the nearest link, as in Wi-Closure (Wang et al.): a range with angles at both ends, or, where "
+              "there is none, the joint estimate's relative pose at a link (a note says so)",
+              "joint|link"},
+        self.mode);
     visit(Field{"pairing_s", "s", 0, 1e6,
                 "largest time difference between a range and its angles, in mode link"},
           self.pairing_s);
@@ -83,10 +84,10 @@ struct OverlapRequest {
 
 struct OverlapStage {
   CandidateList listed;
-  CandidateList of_asked;      ///< candidates, listed or not, that were asked for
-  OverlapCounts counts;        ///< of all candidates
-  bool searched = false;       ///< false: the estimate's covariances are not computable
-  std::size_t alignments = 1;  ///< number of team alignments whose candidates these are
+  CandidateList of_asked;        ///< candidates, listed or not, that were asked for
+  OverlapCounts counts;          ///< of all candidates
+  bool searched = false;         ///< false: the estimate's covariances are not computable
+  std::size_t alignments = 1;    ///< number of team alignments whose candidates these are
   bool estimated_links = false;  ///< mode link: no range had angles at both ends
   std::vector<std::pair<RobotIndex, RobotIndex>> unlinked;  ///< mode link: not compared, for want of a link
 };

@@ -7,6 +7,7 @@
 #include "radioslam/graph/marginals.hpp"
 #include "radioslam/graph/residuals.hpp"
 #include "radioslam/joint/bias_distribution.hpp"
+#include "radioslam/joint/link_weights.hpp"
 #include "radioslam/team_frame/observed_information.hpp"
 
 namespace radioslam {
@@ -20,20 +21,20 @@ constexpr double kConvergedWeightChange =
 template <class Pose>
 class BiasEstimation {
  public:
-  BiasEstimation(JointGraph<Pose>& joint, const RangeBiasPriorParams& params, const MixtureParams& mixture,
+  BiasEstimation(JointGraph<Pose>& joint, const TeamPlacement<Pose>& placement,
+                 const RangeBiasPriorParams& params, const MixtureParams& mixture,
                  const OptimizerParams& optimizer, const Progress& progress)
       : joint_(joint),
+        placement_(placement),
         graph_(joint.team.graph),
         params_(params),
         mixture_(mixture),
         optimizer_(optimizer),
         progress_(progress),
-        radio_ranges_(count_factors(joint.origins.ranges, FactorSource::kRange)) {
-    for (std::size_t k = 0; k < radio_ranges_; ++k) span_m_ = std::max(span_m_, graph_.ranges[k].range_m);
-  }
+        radio_ranges_(count_factors(joint.origins.ranges, FactorSource::kRange)) {}
 
   std::vector<RangeBiasResult> run() {
-    const PoseGraph<Pose> before = graph_;
+    const JointGraph<Pose> before = joint_;
     add_biases();
     if (graph_.range_biases.empty()) return {};
     optimise_in_turn();
@@ -42,7 +43,7 @@ class BiasEstimation {
       optimise_in_turn();
       return described();
     }
-    graph_ = before;
+    joint_ = before;
     return {};
   }
 
@@ -66,16 +67,15 @@ class BiasEstimation {
     for (std::size_t k = 0; k < radio_ranges_; ++k) graph_.ranges[k].bias = bias_of_pair_[pair_of(k)];
   }
 
-  /// Updates the weights of ranges with a bias; returns the largest change.
+  /// Updates the weights of all links; returns the largest change of a range with a bias.
   double update_weights() {
+    std::vector<double> before;
+    for (std::size_t k = 0; k < radio_ranges_; ++k) before.push_back(graph_.ranges[k].weight);
+    reweigh_radio_links(joint_, placement_, mixture_);
     double change = 0;
-    for (std::size_t k = 0; k < radio_ranges_; ++k) {
-      RangeFactor<Pose>& range = graph_.ranges[k];
-      if (!range.bias.valid()) continue;
-      const double weight = range_posterior(residual(graph_, range)[0], range.sigma_m, span_m_, mixture_);
-      change = std::max(change, std::abs(weight - range.weight));
-      range.weight = weight;
-    }
+    for (std::size_t k = 0; k < radio_ranges_; ++k)
+      if (graph_.ranges[k].bias.valid())
+        change = std::max(change, std::abs(graph_.ranges[k].weight - before[k]));
     return change;
   }
 
@@ -151,33 +151,32 @@ class BiasEstimation {
   }
 
   JointGraph<Pose>& joint_;
+  const TeamPlacement<Pose>& placement_;
   PoseGraph<Pose>& graph_;
   const RangeBiasPriorParams& params_;
   const MixtureParams& mixture_;
   const OptimizerParams& optimizer_;
   const Progress& progress_;
   std::size_t radio_ranges_;  ///< they come before the ranges of fingerprints
-  double span_m_ = 1;
   std::vector<BiasId> bias_of_pair_;
 };
 
 }  // namespace
 
 template <class Pose>
-std::vector<RangeBiasResult> estimate_range_biases(JointGraph<Pose>& joint,
-                                                   const RangeBiasPriorParams& params,
-                                                   const MixtureParams& mixture,
-                                                   const OptimizerParams& optimizer,
-                                                   const Progress& progress) {
-  if (params.prior_sigma_m <= 0) return {};
-  return BiasEstimation<Pose>(joint, params, mixture, optimizer, progress).run();
+std::vector<RangeBiasResult> estimate_range_biases(
+    JointGraph<Pose>& joint, const TeamPlacement<Pose>& placement, const RangeBiasPriorParams& params,
+    const MixtureParams& mixture, const OptimizerParams& optimizer, const Progress& progress) {
+  if (params.prior_sigma_m <= 0 || placement.segments.of_segment.empty()) return {};
+  return BiasEstimation<Pose>(joint, placement, params, mixture, optimizer, progress).run();
 }
 
-template std::vector<RangeBiasResult> estimate_range_biases(JointGraph<SE2>&, const RangeBiasPriorParams&,
-                                                            const MixtureParams&, const OptimizerParams&,
-                                                            const Progress&);
-template std::vector<RangeBiasResult> estimate_range_biases(JointGraph<SE3>&, const RangeBiasPriorParams&,
-                                                            const MixtureParams&, const OptimizerParams&,
-                                                            const Progress&);
+#define RADIOSLAM_RANGE_BIASES(Pose)                                                                    \
+  template std::vector<RangeBiasResult> estimate_range_biases(                                          \
+      JointGraph<Pose>&, const TeamPlacement<Pose>&, const RangeBiasPriorParams&, const MixtureParams&, \
+      const OptimizerParams&, const Progress&);
+RADIOSLAM_RANGE_BIASES(SE2)
+RADIOSLAM_RANGE_BIASES(SE3)
+#undef RADIOSLAM_RANGE_BIASES
 
 }  // namespace radioslam

@@ -17,6 +17,7 @@
 #include "radioslam/base/progress.hpp"
 #include "radioslam/graph/optimizer.hpp"
 #include "radioslam/joint/joint_graph.hpp"
+#include "radioslam/joint/team_placement.hpp"
 #include "radioslam/team_frame/measurement_mixture.hpp"
 
 namespace radioslam {
@@ -53,10 +54,8 @@ struct RangeBiasPriorParams {
 /// Adds significant biases to the graph's ranges and moves its values to the new optimum; without any, the
 /// graph is unchanged. Ranges of closures have no bias. Returns the biases kept, in the order of the pairs.
 template <class Pose>
-std::vector<RangeBiasResult> estimate_range_biases(JointGraph<Pose>& joint,
-                                                   const RangeBiasPriorParams& params,
-                                                   const MixtureParams& mixture,
-                                                   const OptimizerParams& optimizer,
-                                                   const Progress& progress = {});
+std::vector<RangeBiasResult> estimate_range_biases(
+    JointGraph<Pose>& joint, const TeamPlacement<Pose>& placement, const RangeBiasPriorParams& params,
+    const MixtureParams& mixture, const OptimizerParams& optimizer, const Progress& progress = {});
 
 }  // namespace radioslam

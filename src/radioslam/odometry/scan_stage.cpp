@@ -37,8 +37,8 @@ void report_scans(MeasuredScans& measured, const Robot& robot, const ScanTraject
        "rows of recorded odometry could not be connected to its scans and were dropped");
 }
 
-void close_loops(MeasuredScans& measured, RobotIndex robot, const ScanOdometry& scans, const ScanParams& params,
-                 const Progress& progress) {
+void close_loops(MeasuredScans& measured, RobotIndex robot, const ScanOdometry& scans,
+                 const ScanParams& params, const Progress& progress) {
   const ScanLoops loops = close_scan_loops(scans.keyframes, params.loops, params.lidar.map, params.search,
                                            params.lidar.registration, progress);
   for (const ScanLoop& loop : loops.loops)

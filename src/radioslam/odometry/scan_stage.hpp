@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "radioslam/base/progress.hpp"
+#include "radioslam/lidar/loops/scan_loop.hpp"
 #include "radioslam/mission/keyframes.hpp"
 #include "radioslam/mission/mission.hpp"
-#include "radioslam/lidar/loops/scan_loop.hpp"
 #include "radioslam/odometry/odometry_from_scans.hpp"
 #include "radioslam/odometry/scan_closure.hpp"
 #include "radioslam/odometry/scan_params.hpp"
@@ -23,7 +23,7 @@ namespace radioslam {
 /// What a robot's scans say of its motion, and the keyframes that other robots' scans can be compared with.
 struct ScanOdometry {
   MeasuredOdometry odometry;
-  ScanKeyframes keyframes;            ///< with their clouds
+  ScanKeyframes keyframes;  ///< with their clouds
   std::vector<Stamp> keyframe_stamps;
 };
 

@@ -247,15 +247,15 @@ std::vector<Component> collect_components(const JointGraph<Pose>& joint,
   return components;
 }
 
-#define RADIOSLAM_COLLECT(Pose)                                                                              \
-  template std::vector<RobotResult> collect_robots(const JointGraph<Pose>&, const std::vector<Pose>&,        \
-                                                   const TeamPlacement<Pose>&);                              \
-  template std::vector<ClosureResult> collect_radio_links(const JointGraph<Pose>&);                          \
-  template std::vector<TransformResult> collect_transforms(                                                  \
-      const JointGraph<Pose>&, const TeamPlacement<Pose>&, const Marginals<Pose>&);                          \
-  template std::vector<std::string> odometry_notes(const Mission&, const JointGraph<Pose>&,                  \
-                                                   const Marginals<Pose>&);                                  \
-  template std::vector<ClosureResult> collect_fingerprint_closures(const JointGraph<Pose>&);                 \
+#define RADIOSLAM_COLLECT(Pose)                                                                       \
+  template std::vector<RobotResult> collect_robots(const JointGraph<Pose>&, const std::vector<Pose>&, \
+                                                   const TeamPlacement<Pose>&);                       \
+  template std::vector<ClosureResult> collect_radio_links(const JointGraph<Pose>&);                   \
+  template std::vector<TransformResult> collect_transforms(                                           \
+      const JointGraph<Pose>&, const TeamPlacement<Pose>&, const Marginals<Pose>&);                   \
+  template std::vector<std::string> odometry_notes(const Mission&, const JointGraph<Pose>&,           \
+                                                   const Marginals<Pose>&);                           \
+  template std::vector<ClosureResult> collect_fingerprint_closures(const JointGraph<Pose>&);          \
   template std::vector<Component> collect_components(const JointGraph<Pose>&, const TeamPlacement<Pose>&);
 RADIOSLAM_COLLECT(SE2)
 RADIOSLAM_COLLECT(SE3)

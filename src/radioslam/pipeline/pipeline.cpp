@@ -61,9 +61,9 @@ void align_by_links_or_fingerprints(const RunSetup& run, TeamEstimate<Pose>& tea
 
 template <class Pose>
 void close_by_fingerprints(const RunSetup& run, TeamEstimate<Pose>& team) {
-  team.closures.fingerprints = propose_fingerprint_closures(
-      team.starts, run.radio, run.params.radio.distance_model.max_trusted_path_m, run.params.team_frame,
-      run.params.closure);
+  team.closures.fingerprints =
+      propose_fingerprint_closures(team.starts, run.radio, run.params.radio.distance_model.max_trusted_path_m,
+                                   run.params.team_frame, run.params.closure);
   add_fingerprint_closures(team.joint, run.radio, team.closures.fingerprints);
 }
 
@@ -115,9 +115,10 @@ OverlapStage search_overlaps(const RunSetup& run, const TeamEstimate<Pose>& team
     alignments.push_back(graph_for_covariances(alternative, mixture));
   }
   const auto listed = static_cast<std::size_t>(overlap.max_listed_candidates);
-  return find_overlaps(std::move(alignments), overlap,
-                       {run.options.search, run.options.take_candidates ? 0 : listed,
-                        keyframes_of_matches(team.joint, team.closures.matches), run.options.take_candidates});
+  return find_overlaps(
+      std::move(alignments), overlap,
+      {run.options.search, run.options.take_candidates ? 0 : listed,
+       keyframes_of_matches(team.joint, team.closures.matches), run.options.take_candidates});
 }
 
 /// Selects the matches that are candidates and consistent, and solves the team with them.
@@ -163,13 +164,15 @@ TeamEstimate<Pose> align_team(const RunSetup& run, TeamEstimate<Pose> team) {
   if (has_fixes(run.mission)) timed("position fixes", align_by_fixes<Pose>, run, team);
   timed("team frame", align_by_links_or_fingerprints<Pose>, run, team);
   timed("closures", close_by_fingerprints<Pose>, run, team);
-  team.closures.sequences = timed("sequences", add_sequence_closures<Pose>, joint, run.radio, params.sequence);
-  team.solution = timed("optimise", optimize_robustly<Pose>, joint, params.robust, params.optimizer, run.progress);
+  team.closures.sequences =
+      timed("sequences", add_sequence_closures<Pose>, joint, run.radio, params.sequence);
+  team.solution =
+      timed("optimise", optimize_robustly<Pose>, joint, params.robust, params.optimizer, run.progress);
   if (has_fixes(run.mission))
     timed("settle fixes", update_fix_inliers<Pose>, joint, team.fixes, params.optimizer, run.progress);
   timed("radio field", refine_on_field<Pose>, run, team);
-  team.range_biases = timed("range biases", estimate_range_biases<Pose>, joint, params.range_bias,
-                            params.alignment.mixture, params.optimizer, run.progress);
+  team.range_biases = timed("range biases", estimate_range_biases<Pose>, joint, team.placement,
+                            params.range_bias, params.alignment.mixture, params.optimizer, run.progress);
   return team;
 }
 
@@ -184,7 +187,8 @@ JudgedTeam<Pose> judge_closures(const RunSetup& run, TeamEstimate<Pose> aligned,
     run.timed("loops", close_by_loops<Pose>, team.joint, team.placement, closures.loops, run.params.optimizer,
               run.progress);
   const bool has_matches = !closures.matches.empty();
-  if (has_matches && weighs_matches(run)) run.timed("alignment by matches", align_by_matches<Pose>, run, team);
+  if (has_matches && weighs_matches(run))
+    run.timed("alignment by matches", align_by_matches<Pose>, run, team);
   if (needs_overlap_search(run, closures))
     judged.overlaps = run.timed("overlap", search_overlaps<Pose>, run, team);
   if (has_matches) run.timed("matches", close_by_matches<Pose>, run, team, *judged.overlaps);
@@ -207,7 +211,8 @@ RunOutput run(const MeasuredRecordings& recordings, const TeamGraph<Pose>* graph
   auto aligned = align_team(run, std::move(built));
   auto judged = judge_closures(run, std::move(aligned));
 
-  RunResult result = describe_run(mission, radio, judged.team, std::move(judged.overlaps), params, options, timed);
+  RunResult result =
+      describe_run(mission, radio, judged.team, std::move(judged.overlaps), params, options, timed);
   return {std::move(result), std::move(judged.team.joint.team.graph)};
 }
 
@@ -234,11 +239,11 @@ RunOutput run_pipeline(const Mission& mission, const TeamGraph<Pose>& team, cons
   return output;
 }
 
-#define RADIOSLAM_PIPELINE(Pose)                                                                              \
-  template RunOutput run_pipeline(const Mission&, const TeamGraph<Pose>&, const RunParams&, const RunOptions&, \
-                                  const Progress&);                                                           \
-  template TeamEstimate<Pose> build_team(const RunSetup&, const TeamGraph<Pose>*, std::vector<Closure>);      \
-  template TeamEstimate<Pose> align_team(const RunSetup&, TeamEstimate<Pose>);                                \
+#define RADIOSLAM_PIPELINE(Pose)                                                                         \
+  template RunOutput run_pipeline(const Mission&, const TeamGraph<Pose>&, const RunParams&,              \
+                                  const RunOptions&, const Progress&);                                   \
+  template TeamEstimate<Pose> build_team(const RunSetup&, const TeamGraph<Pose>*, std::vector<Closure>); \
+  template TeamEstimate<Pose> align_team(const RunSetup&, TeamEstimate<Pose>);                           \
   template JudgedTeam<Pose> judge_closures(const RunSetup&, TeamEstimate<Pose>, const std::vector<Closure>&);
 RADIOSLAM_PIPELINE(SE2)
 RADIOSLAM_PIPELINE(SE3)

@@ -3,7 +3,8 @@
 //   measure    scans give odometry and loop closures of each robot, captures angles, WiFi scans fingerprints
 //   build      the joint graph: odometry, known starts, radio links, each robot's own closures
 //   align      all robots in one frame, and the team optimised there
-//   judge      closures between robots: propose where views overlap, select those that hold, solve. Judging again
+//   judge      closures between robots: propose where views overlap, select those that hold, solve. Judging
+//   again
 //              with closures that were found since begins at the same aligned team, so nothing depends on the
 //              order in which they came
 //   describe   trajectories, uncertainty, outcomes, notes
@@ -50,13 +51,13 @@ struct RunSetup {
   StageClock& timed;
 };
 
-/// The joint graph of the mission, or of `graph` where the team comes as one, without any relation of the robots
-/// that is not measured directly. `scans`: closures of their scans.
+/// The joint graph of the mission, or of `graph` where the team comes as one, without any relation of the
+/// robots that is not measured directly. `scans`: closures of their scans.
 template <class Pose>
 TeamEstimate<Pose> build_team(const RunSetup& run, const TeamGraph<Pose>* graph, std::vector<Closure> scans);
 
-/// All robots in one frame: by position fixes, by radio links if there are any, else by fingerprints; optimised
-/// with all but the closures that are judged.
+/// All robots in one frame: by position fixes, by radio links if there are any, else by fingerprints;
+/// optimised with all but the closures that are judged.
 template <class Pose>
 TeamEstimate<Pose> align_team(const RunSetup& run, TeamEstimate<Pose> team);
 
@@ -66,8 +67,8 @@ struct JudgedTeam {
   std::optional<OverlapStage> overlaps;  ///< nothing if no pairs were searched for
 };
 
-/// The aligned team with those of its closures that hold, and of `found`: closures that came later, between any
-/// two stamps that have odometry.
+/// The aligned team with those of its closures that hold, and of `found`: closures that came later, between
+/// any two stamps that have odometry.
 template <class Pose>
 JudgedTeam<Pose> judge_closures(const RunSetup& run, TeamEstimate<Pose> aligned,
                                 const std::vector<Closure>& found = {});

@@ -1,5 +1,5 @@
-// What raw recordings measure, before anything else: laser scans the odometry and loop closures of each robot,
-// CSI captures angles of arrival between robots. The mission stays as it was recorded.
+// What raw recordings measure, before anything else: laser scans the odometry and loop closures of each
+// robot, CSI captures angles of arrival between robots. The mission stays as it was recorded.
 #pragma once
 
 #include <vector>

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 #include <string>
 
 #include "radioslam/joint/covariance_graph.hpp"
@@ -53,6 +55,20 @@ void add_estimate(RunResult& result, const Mission& mission, const JointGraph<Po
     if (!robot.placed) result.unplaced.push_back(robot.id);
 }
 
+/// Note on the constant errors of ranges that the estimate corrects: the largest one.
+void note_range_biases(RunResult& result) {
+  const auto size = [](const RangeBiasResult& bias) { return std::abs(bias.bias_m); };
+  const auto largest = std::max_element(result.range_biases.begin(), result.range_biases.end(),
+                                        [&](const auto& a, const auto& b) { return size(a) < size(b); });
+  if (largest == result.range_biases.end()) return;
+  std::ostringstream note;
+  note << std::fixed << std::setprecision(2)
+       << "ranges have constant errors, which the estimate corrects: those between " << largest->end_i
+       << " and " << largest->end_j << " are " << size(*largest) << " m too "
+       << (largest->bias_m > 0 ? "long" : "short") << " (range_biases in summary.json)";
+  result.notes.push_back(note.str());
+}
+
 void add_notes(RunResult& result, const Mission& mission, const RadioMeasurements& radio,
                const SequenceStageParams& sequence, std::size_t ignored_links) {
   for (const auto& id : result.unplaced)
@@ -63,6 +79,7 @@ void add_notes(RunResult& result, const Mission& mission, const RadioMeasurement
     result.notes.push_back(
         std::to_string(ignored_links) +
         " links are not used: they have no odometry at their time, or are relative poses between robots");
+  note_range_biases(result);
   if (!result.alternatives.empty())
     result.notes.push_back("the links leave the team alignment ambiguous: see hypotheses/");
   if (const auto note = sequence_note(mission.dimension, radio, sequence)) result.notes.push_back(*note);
@@ -111,8 +128,9 @@ void add_overlaps(RunResult& result, const Mission& mission, OverlapStage overla
                            " candidates (overlap.max_listed_candidates); prune lists all");
   result.candidates = std::move(overlaps.listed);
   if (overlaps.estimated_links)
-    result.notes.push_back("mode link used relative poses of the joint estimate at the links: no range has a direct "
-                           "angle of arrival at both ends, in the plane, within overlap.pairing_s");
+    result.notes.push_back(
+        "mode link used relative poses of the joint estimate at the links: no range has a direct "
+        "angle of arrival at both ends, in the plane, within overlap.pairing_s");
   for (const auto& [i, j] : overlaps.unlinked)
     result.notes.push_back("mode link did not compare " + mission.robots[i.index()].id + " and " +
                            mission.robots[j.index()].id + ": no link between them gives a relative pose");
@@ -142,9 +160,9 @@ void add_uncertain_stretches(RunResult& result) {
 }  // namespace
 
 template <class Pose>
-RunResult describe_run(const Mission& mission, const RadioMeasurements& radio, const TeamEstimate<Pose>& estimate,
-                       std::optional<OverlapStage> overlaps, const RunParams& params,
-                       const RunOptions& options, StageClock& timed) {
+RunResult describe_run(const Mission& mission, const RadioMeasurements& radio,
+                       const TeamEstimate<Pose>& estimate, std::optional<OverlapStage> overlaps,
+                       const RunParams& params, const RunOptions& options, StageClock& timed) {
   const JointGraph<Pose>& joint = estimate.joint;
   RunResult result;
   result.mission_name = mission.name;
@@ -173,9 +191,11 @@ RunResult describe_run(const Mission& mission, const RadioMeasurements& radio, c
   return result;
 }
 
-template RunResult describe_run(const Mission&, const RadioMeasurements&, const TeamEstimate<SE2>&, std::optional<OverlapStage>,
-                                const RunParams&, const RunOptions&, StageClock&);
-template RunResult describe_run(const Mission&, const RadioMeasurements&, const TeamEstimate<SE3>&, std::optional<OverlapStage>,
-                                const RunParams&, const RunOptions&, StageClock&);
+template RunResult describe_run(const Mission&, const RadioMeasurements&, const TeamEstimate<SE2>&,
+                                std::optional<OverlapStage>, const RunParams&, const RunOptions&,
+                                StageClock&);
+template RunResult describe_run(const Mission&, const RadioMeasurements&, const TeamEstimate<SE3>&,
+                                std::optional<OverlapStage>, const RunParams&, const RunOptions&,
+                                StageClock&);
 
 }  // namespace radioslam

@@ -18,8 +18,8 @@ namespace radioslam {
 
 /// The results of the final estimate, without timings. `overlaps`: nothing if no pairs were searched for.
 template <class Pose>
-RunResult describe_run(const Mission& mission, const RadioMeasurements& radio, const TeamEstimate<Pose>& estimate,
-                       std::optional<OverlapStage> overlaps, const RunParams& params,
-                       const RunOptions& options, StageClock& timed);
+RunResult describe_run(const Mission& mission, const RadioMeasurements& radio,
+                       const TeamEstimate<Pose>& estimate, std::optional<OverlapStage> overlaps,
+                       const RunParams& params, const RunOptions& options, StageClock& timed);
 
 }  // namespace radioslam

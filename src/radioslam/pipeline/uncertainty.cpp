@@ -154,10 +154,10 @@ void widen_by_rejected_closures(std::vector<RobotResult>& robots, const std::vec
   }
 }
 
-#define RADIOSLAM_UNCERTAINTY(Pose)                                                                           \
-  template void add_uncertainty(std::vector<RobotResult>&, const JointGraph<Pose>&, const TeamPlacement<Pose>&, \
-                                const Marginals<Pose>&);                                                      \
-  template void widen_by_alternatives(std::vector<RobotResult>&, const JointGraph<Pose>&,                     \
+#define RADIOSLAM_UNCERTAINTY(Pose)                                                       \
+  template void add_uncertainty(std::vector<RobotResult>&, const JointGraph<Pose>&,       \
+                                const TeamPlacement<Pose>&, const Marginals<Pose>&);      \
+  template void widen_by_alternatives(std::vector<RobotResult>&, const JointGraph<Pose>&, \
                                       const TeamPlacement<Pose>&);
 RADIOSLAM_UNCERTAINTY(SE2)
 RADIOSLAM_UNCERTAINTY(SE3)

@@ -1,9 +1,9 @@
-// Stated uncertainty of positions: RobotResult::sigma_position_m relative to what holds the frame, sigma_team_m in
-// the gauge of the team.
+// Stated uncertainty of positions: RobotResult::sigma_position_m relative to what holds the frame,
+// sigma_team_m in the gauge of the team.
 //
-// The marginal covariances are those of one alignment whose accepted evidence is right. Two things widen them:
-// likely alternatives, by the spread of the mixture of all; and, where most closures were rejected, the factor by
-// which their residuals exceed what is stated (Birge ratio).
+// The marginal covariances are those of one alignment whose accepted evidence is right. Two things widen
+// them: likely alternatives, by the spread of the mixture of all; and, where most closures were rejected, the
+// factor by which their residuals exceed what is stated (Birge ratio).
 #pragma once
 
 #include <vector>

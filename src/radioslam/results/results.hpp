@@ -48,9 +48,9 @@ struct RobotResult {
   std::vector<double>
       sigma_position_m;  ///< per keyframe, sqrt of the mean variance per axis; empty if not computed
   std::vector<double> sigma_team_m = {};  ///< the same in the gauge of the team (graph/team_gauge.hpp)
-  double yaw_drift_per_m_rad = 0;                   ///< estimated
-  double scale_error = 0;                           ///< estimated
-  double rssi_offset_db = 0;                        ///< of its device relative to the team's mean
+  double yaw_drift_per_m_rad = 0;         ///< estimated
+  double scale_error = 0;                 ///< estimated
+  double rssi_offset_db = 0;              ///< of its device relative to the team's mean
   std::optional<double> sigma_rssi_offset_db = {};  ///< absent if unobservable
   RssiOffsetStatus rssi_offset = RssiOffsetStatus::kNotSought;
   std::vector<std::pair<Stamp, Stamp>> uncertain = {};  ///< stretches whose evidence was mostly rejected

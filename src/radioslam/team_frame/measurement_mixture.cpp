@@ -62,11 +62,6 @@ std::array<double, 2> range_densities(double error_m, double sigma_m, double spa
 
 }  // namespace
 
-double range_posterior(double error_m, double sigma_m, double span_m, const MixtureParams& params) {
-  const auto [direct, wrong] = range_densities(error_m, sigma_m, span_m, params);
-  return direct / (direct + wrong);
-}
-
 template <class Pose>
 std::vector<double> path_priors(const AmbiguousBearing<Pose>& bearing, const MixtureParams& params) {
   std::vector<double> priors;

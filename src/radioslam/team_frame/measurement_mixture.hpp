@@ -83,10 +83,6 @@ struct VarianceInflation {
   std::vector<double> bearings_rad2;  ///< per bearing; empty: none
 };
 
-/// Probability that a range with this error is the direct distance, the line of sight being free. `span_m`:
-/// width of the outlier density.
-double range_posterior(double error_m, double sigma_m, double span_m, const MixtureParams& params);
-
 /// Priors pi_p of a bearing's paths; their sum is one.
 template <class Pose>
 std::vector<double> path_priors(const AmbiguousBearing<Pose>& bearing, const MixtureParams& params);

@@ -98,10 +98,11 @@ void add_prune(CLI::App& program) {
       ->required();
   add_output_option(*command, options->output, "Folder to write; the folder of an earlier run is replaced");
   command
-      ->add_option("--mode", options->mode,
-                   "joint: use covariances of the joint estimate (default); link: chain odometry through the "
-                   "nearest radio link only; where no range has angles at both ends, links are relative poses "
-                   "of the joint estimate, and a note says so")
+      ->add_option(
+          "--mode", options->mode,
+          "joint: use covariances of the joint estimate (default); link: chain odometry through the "
+          "nearest radio link only; where no range has angles at both ends, links are relative poses "
+          "of the joint estimate, and a note says so")
       ->check(CLI::IsMember({"joint", "link"}));
   add_known_starts_option(*command, options->starts);
   command->add_flag("--exhaustive", options->exhaustive,

@@ -1,7 +1,5 @@
 #include "radioslam/io/run/metrics_json.hpp"
 
-#include <cmath>
-
 #include "radioslam/io/run/run_tables.hpp"
 
 namespace radioslam {
@@ -26,13 +24,6 @@ Json rpe_json(const std::optional<RelativeError>& rpe) {
           {"count", rpe->count}};
 }
 
-/// An error whose standard deviation is zero has no mean square.
-Json consistency_json(const Consistency& consistency) {
-  Json json = {{"share_within_3_sigma", consistency.share_within_3_sigma}, {"mean_square", nullptr}};
-  if (std::isfinite(consistency.mean_square)) json["mean_square"] = consistency.mean_square;
-  return json;
-}
-
 }  // namespace
 
 Json metrics_json(const TeamMetrics& metrics) {
@@ -41,8 +32,11 @@ Json metrics_json(const TeamMetrics& metrics) {
   json["rotation"] = nullptr;
   if (metrics.rotation_rmse_rad) json["rotation"] = {{"rmse_rad", *metrics.rotation_rmse_rad}};
   json["consistency"] = nullptr;
-  if (metrics.consistency) json["consistency"] = consistency_json(*metrics.consistency);
-  if (metrics.team_consistency) json["consistency"]["team"] = consistency_json(*metrics.team_consistency);
+  if (metrics.consistency)
+    json["consistency"] = {{"share_within_3_sigma", metrics.consistency->share_within_3_sigma}};
+  if (metrics.team_consistency)
+    json["consistency"]["team"] = {{"share_within_3_sigma", metrics.team_consistency->share_within_3_sigma},
+                                   {"mean_square", metrics.team_consistency->mean_square}};
   json["coverage"] = metrics.coverage;
   json["robots"] = Json::object();
   for (const RobotMetrics& robot : metrics.robots) {

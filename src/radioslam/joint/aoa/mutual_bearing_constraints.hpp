@@ -24,7 +24,8 @@ SE2::Jacobian relative_pose_covariance(const MutualBearing& measured);
 template <class Pose>
 struct MeasuredLinks {
   LinkCovariance<Pose> covariance;
-  bool estimated = false;  ///< no range has angles at both ends: relative poses are those of the joint estimate
+  bool estimated =
+      false;  ///< no range has angles at both ends: relative poses are those of the joint estimate
 };
 template <class Pose>
 MeasuredLinks<Pose> measured_links(const JointGraph<Pose>& joint, double pairing_s, std::size_t max_links);

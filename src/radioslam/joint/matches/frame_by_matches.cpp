@@ -262,10 +262,10 @@ bool choose_alignment_by_matches(JointGraph<Pose>& joint, TeamPlacement<Pose>& p
   return true;
 }
 
-#define RADIOSLAM_FRAME_BY_MATCHES(Pose)                                                                    \
-  template double match_statistic(const JointGraph<Pose>&, const Marginals<Pose>&, double, const Closure&,  \
-                                  const MatchEnds&);                                                        \
-  template bool choose_alignment_by_matches(JointGraph<Pose>&, TeamPlacement<Pose>&,                        \
+#define RADIOSLAM_FRAME_BY_MATCHES(Pose)                                                                   \
+  template double match_statistic(const JointGraph<Pose>&, const Marginals<Pose>&, double, const Closure&, \
+                                  const MatchEnds&);                                                       \
+  template bool choose_alignment_by_matches(JointGraph<Pose>&, TeamPlacement<Pose>&,                       \
                                             const std::vector<Closure>&, const RadioAlignmentParams&);
 RADIOSLAM_FRAME_BY_MATCHES(SE2)
 RADIOSLAM_FRAME_BY_MATCHES(SE3)
