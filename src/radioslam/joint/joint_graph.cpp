@@ -4,7 +4,7 @@
 
 #include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/joint/level_priors.hpp"
-#include "radioslam/joint/radio_factors.hpp"
+#include "radioslam/joint/links/radio_factors.hpp"
 #include "radioslam/joint/robot_nodes.hpp"
 #include "radioslam/mission/odometry_edge.hpp"
 

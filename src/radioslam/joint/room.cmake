@@ -5,7 +5,6 @@ radioslam_room(joint
     aoa/aoa_match_weights.cpp
     aoa/aoa_predictions.cpp
     aoa/mutual_bearing_constraints.cpp
-    bias_distribution.cpp
     closures/closure.cpp
     closures/loop_alignment.cpp
     closures/loop_alternatives.cpp
@@ -14,7 +13,6 @@ radioslam_room(joint
     closures/loop_stage.cpp
     closures/own_loops.cpp
     closures/team_loops.cpp
-    covariance_graph.cpp
     dense_trajectory.cpp
     factor_origin.cpp
     field_stage.cpp
@@ -23,7 +21,11 @@ radioslam_room(joint
     joint_graph_from_file.cpp
     late_nodes.cpp
     level_priors.cpp
-    link_weights.cpp
+    links/bias_distribution.cpp
+    links/link_weights.cpp
+    links/radio_factors.cpp
+    links/range_biases.cpp
+    links/sight_notes.cpp
     matches/frame_by_matches.cpp
     matches/match_groups.cpp
     matches/match_selection.cpp
@@ -32,12 +34,11 @@ radioslam_room(joint
     position_fixes/fix_results.cpp
     position_fixes/inlier_growth.cpp
     position_fixes/placement.cpp
-    radio_factors.cpp
-    range_biases.cpp
-    rejected_stretches.cpp
     robot_nodes.cpp
     scan_closures.cpp
     sequence_stage.cpp
-    sight_notes.cpp
     team_placement.cpp
+    uncertainty/covariance_graph.cpp
+    uncertainty/position_uncertainty.cpp
+    uncertainty/rejected_stretches.cpp
   ROOMS odometry closure team_frame graph radio results consistency)

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "radioslam/joint/link_weights.hpp"
+#include "radioslam/joint/links/link_weights.hpp"
 
 namespace radioslam {
 namespace {

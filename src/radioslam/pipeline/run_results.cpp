@@ -6,13 +6,13 @@
 #include <sstream>
 #include <string>
 
-#include "radioslam/joint/covariance_graph.hpp"
 #include "radioslam/joint/dense_trajectory.hpp"
+#include "radioslam/joint/links/sight_notes.hpp"
 #include "radioslam/joint/position_fixes/fix_results.hpp"
-#include "radioslam/joint/rejected_stretches.hpp"
-#include "radioslam/joint/sight_notes.hpp"
+#include "radioslam/joint/uncertainty/covariance_graph.hpp"
+#include "radioslam/joint/uncertainty/position_uncertainty.hpp"
+#include "radioslam/joint/uncertainty/rejected_stretches.hpp"
 #include "radioslam/pipeline/collect_results.hpp"
-#include "radioslam/pipeline/uncertainty.hpp"
 
 namespace radioslam {
 namespace {

@@ -10,7 +10,7 @@
 #include "radioslam/base/statistics.hpp"
 #include "radioslam/consistency/chi_squared.hpp"
 #include "radioslam/joint/aoa/aoa_predictions.hpp"
-#include "radioslam/joint/radio_factors.hpp"
+#include "radioslam/joint/links/radio_factors.hpp"
 #include "radioslam/mission/odometry_between.hpp"
 
 namespace radioslam {

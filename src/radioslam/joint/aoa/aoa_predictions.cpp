@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "radioslam/joint/radio_factors.hpp"
+#include "radioslam/joint/links/radio_factors.hpp"
 
 namespace radioslam {
 namespace {

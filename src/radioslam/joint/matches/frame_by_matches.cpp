@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "radioslam/geometry/linear_algebra.hpp"
-#include "radioslam/joint/covariance_graph.hpp"
-#include "radioslam/joint/link_weights.hpp"
+#include "radioslam/joint/links/link_weights.hpp"
+#include "radioslam/joint/uncertainty/covariance_graph.hpp"
 #include "radioslam/team_frame/beam_search/beam_selection.hpp"
 
 namespace radioslam {

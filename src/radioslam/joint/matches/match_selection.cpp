@@ -9,9 +9,9 @@
 #include "radioslam/consistency/consistent_set.hpp"
 #include "radioslam/graph/graduated.hpp"
 #include "radioslam/graph/residuals.hpp"
-#include "radioslam/joint/covariance_graph.hpp"
-#include "radioslam/joint/link_weights.hpp"
+#include "radioslam/joint/links/link_weights.hpp"
 #include "radioslam/joint/matches/frame_by_matches.hpp"
+#include "radioslam/joint/uncertainty/covariance_graph.hpp"
 
 namespace radioslam {
 namespace {

@@ -1,5 +1,5 @@
 // Which robots are said to rest on detours.
-#include "radioslam/joint/sight_notes.hpp"
+#include "radioslam/joint/links/sight_notes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "radioslam/joint/link_weights.hpp"
+#include "radioslam/joint/links/link_weights.hpp"
 
 #include <cmath>
 #include <map>

@@ -1,4 +1,4 @@
-#include "radioslam/pipeline/uncertainty.hpp"
+#include "radioslam/joint/uncertainty/position_uncertainty.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,6 @@
 #include "radioslam/base/statistics.hpp"
 #include "radioslam/geometry/alignment.hpp"
 #include "radioslam/graph/team_gauge.hpp"
-#include "radioslam/pipeline/collect_results.hpp"
 
 namespace radioslam {
 namespace {

@@ -1,4 +1,4 @@
-#include "radioslam/joint/covariance_graph.hpp"
+#include "radioslam/joint/uncertainty/covariance_graph.hpp"
 
 #include "radioslam/team_frame/observed_information.hpp"
 

@@ -1,4 +1,4 @@
-#include "radioslam/joint/range_biases.hpp"
+#include "radioslam/joint/links/range_biases.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 
 #include "radioslam/graph/marginals.hpp"
 #include "radioslam/graph/residuals.hpp"
-#include "radioslam/joint/bias_distribution.hpp"
-#include "radioslam/joint/link_weights.hpp"
+#include "radioslam/joint/links/bias_distribution.hpp"
+#include "radioslam/joint/links/link_weights.hpp"
 #include "radioslam/team_frame/observed_information.hpp"
 
 namespace radioslam {

@@ -1,4 +1,4 @@
-#include "radioslam/joint/rejected_stretches.hpp"
+#include "radioslam/joint/uncertainty/rejected_stretches.hpp"
 
 #include <algorithm>
 #include <array>

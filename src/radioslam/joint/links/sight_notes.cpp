@@ -1,4 +1,4 @@
-#include "radioslam/joint/sight_notes.hpp"
+#include "radioslam/joint/links/sight_notes.hpp"
 
 namespace radioslam {
 namespace {

@@ -1,9 +1,9 @@
-#include "radioslam/joint/radio_factors.hpp"
+#include "radioslam/joint/links/radio_factors.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "radioslam/joint/antenna_pairs.hpp"
+#include "radioslam/joint/links/antenna_pairs.hpp"
 #include "radioslam/radio/aoa/aoa_likelihood.hpp"
 
 namespace radioslam {

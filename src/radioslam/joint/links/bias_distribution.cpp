@@ -1,4 +1,4 @@
-#include "radioslam/joint/bias_distribution.hpp"
+#include "radioslam/joint/links/bias_distribution.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Where the evidence of a robot was mostly rejected.
-#include "radioslam/joint/rejected_stretches.hpp"
+#include "radioslam/joint/uncertainty/rejected_stretches.hpp"
 
 #include <gtest/gtest.h>
 
