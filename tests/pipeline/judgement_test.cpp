@@ -6,14 +6,27 @@
 namespace radioslam {
 namespace {
 
-/// A town with true matches whose stamps lie between odometry samples.
-Simulation town(int dimension) {
+/// A town with true matches; they are moved along the odometry to stamps between its samples.
+Mission town(int dimension) {
+  constexpr std::int64_t kShift_ns = 170'000'000;
   CityParams params = test::small_city(600);
   params.dimension = dimension;
   params.matches.matches_true = 20;
   params.matches.matches_false = 0;
-  Simulation simulation = simulate_city(params, 4);
-  return simulation;
+  Mission mission = simulate_city(params, 4).mission;
+  for (PoseMatch& match : mission.matches) {
+    const auto shift = [&](RobotIndex robot, Stamp& stamp) {
+      const Trajectory<SE3>& odometry = mission.robots[robot.index()].odometry;
+      const Stamp later{stamp.ns + kShift_ns};
+      if (!odometry.covers(later)) return SE3();
+      const SE3 step = odometry.at(stamp)->inverse() * *odometry.at(later);
+      stamp = later;
+      return step;
+    };
+    match.T_i_j =
+        shift(match.robot_i, match.stamp_i).inverse() * match.T_i_j * shift(match.robot_j, match.stamp_j);
+  }
+  return mission;
 }
 
 template <class Pose>
@@ -25,7 +38,7 @@ class Judgement : public testing::Test {
     params = test::quick_params();
     params.optimizer.max_iterations = 100;
     params.optimizer.relative_cost_tolerance = 1e-12;
-    mission = town(kDimension).mission;
+    mission = town(kDimension);
     late = mission;
     late.matches.clear();
     ASSERT_GT(mission.matches.size(), 10U);
@@ -41,8 +54,8 @@ class Judgement : public testing::Test {
   RunOptions options;
   Progress progress;
   StageClock timed;
-  RadioMeasurements radio;
   Mission mission, late;
+  RadioMeasurements radio = measure_radio({}, params.radio, {});
 };
 using Poses = testing::Types<SE2, SE3>;
 TYPED_TEST_SUITE(Judgement, Poses);

@@ -273,13 +273,13 @@ void optimise_matches_and_radio(JointGraph<Pose>& joint, std::vector<Closure>& m
   const double by_radio =
       optimise_and_reweigh(joint, matches, placement, params, mixture, optimizer, progress);
   const PairsOfRobots pairs = pairs_with_matches(matches_alone);
-  if (pairs.empty()) return;
   silence_links(matches_first, pairs);
-  if (optimise_and_reweigh(matches_first, matches_alone, placement, params, mixture, optimizer, progress) <=
-      by_radio)
-    return;
-  joint = std::move(matches_first);
-  matches = std::move(matches_alone);
+  if (!pairs.empty() && optimise_and_reweigh(matches_first, matches_alone, placement, params, mixture,
+                                             optimizer, progress) > by_radio) {
+    joint = std::move(matches_first);
+    matches = std::move(matches_alone);
+  }
+  optimize(joint.team.graph, optimizer, progress);  // with the weights that were set last
 }
 
 #define RADIOSLAM_MATCH_STAGE(Pose)                                                                        \
