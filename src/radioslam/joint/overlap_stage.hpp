@@ -39,11 +39,11 @@ struct OverlapStageParams {
   static void visit_fields(Self& self, Visitor&& visit) {
     OverlapParams::visit_fields(self.overlap, visit);
     visit(
-        Field{"mode", "", 0, 0,
-              "source of relative covariances; joint: marginals of the joint estimate; link: odometry over "
-              "the nearest link, as in Wi-Closure (Wang et al.): a range with angles at both ends, or, where "
-              "there is none, the joint estimate's relative pose at a link (a note says so)",
-              "joint|link"},
+        Field{
+            "mode", "", 0, 0,
+            "relative covariances; joint: of the joint estimate; link: odometry over the nearest range with "
+            "angles at both ends (Wang et al.), else the joint pose at a link",
+            "joint|link"},
         self.mode);
     visit(Field{"pairing_s", "s", 0, 1e6,
                 "largest time difference between a range and its angles, in mode link"},
