@@ -123,6 +123,7 @@ double value_at(const Trajectory<SE3>& poses, const std::vector<double>& values,
 }
 
 void add_stated_sigmas(std::vector<PointError>& errors, const EstimatedTrajectory& estimate) {
+  if (errors.empty()) return;
   const auto stated = [&](const std::vector<double>& sigmas, Stamp stamp) {
     return sigmas.empty() ? std::nullopt : std::optional(value_at(estimate.poses, sigmas, stamp));
   };
@@ -130,16 +131,28 @@ void add_stated_sigmas(std::vector<PointError>& errors, const EstimatedTrajector
     error.sigma_m = stated(estimate.sigma_position_m, error.stamp);
     error.sigma_team_m = stated(estimate.sigma_team_m, error.stamp);
   }
+  const auto distance_s = [](const PointError& error, Stamp stamp) {
+    return std::abs(seconds_between(error.stamp, stamp));
+  };
+  for (const auto& [stamp, pose] : estimate.poses) {
+    auto nearest = std::lower_bound(errors.begin(), errors.end(), stamp,
+                                    [](const PointError& error, Stamp at) { return error.stamp < at; });
+    if (nearest == errors.end() ||
+        (nearest != errors.begin() && distance_s(*std::prev(nearest), stamp) < distance_s(*nearest, stamp)))
+      --nearest;
+    nearest->at_keyframe = true;
+  }
 }
 
+template <class Counts>
 std::optional<Consistency> consistency(const std::vector<RobotMetrics>& robots, int dimension,
-                                       std::optional<double> PointError::*sigma_m) {
+                                       std::optional<double> PointError::*sigma_m, const Counts& counts) {
   constexpr double kSigmas = 3;
   std::size_t within = 0, all = 0;
   double sum = 0;
   for (const RobotMetrics& robot : robots)
     for (const PointError& error : robot.errors) {
-      if (!(error.*sigma_m)) continue;
+      if (!(error.*sigma_m) || !counts(error)) continue;
       const double sigma = *(error.*sigma_m);
       within += error.error_m <= kSigmas * sigma ? 1U : 0U;
       sum += error.error_m == 0 ? 0 : std::pow(error.error_m / sigma, 2);
@@ -174,8 +187,10 @@ TeamMetrics evaluate_trajectories(const std::vector<EstimatedTrajectory>& estima
     metrics.robots.push_back(std::move(robot));
   }
   metrics.ate = summarise_errors(std::move(errors));
-  metrics.consistency = consistency(metrics.robots, dimension, &PointError::sigma_m);
-  metrics.team_consistency = consistency(metrics.robots, dimension, &PointError::sigma_team_m);
+  metrics.consistency =
+      consistency(metrics.robots, dimension, &PointError::sigma_m, [](const auto&) { return true; });
+  metrics.team_consistency = consistency(metrics.robots, dimension, &PointError::sigma_team_m,
+                                         [](const PointError& error) { return error.at_keyframe; });
   metrics.coverage = poses == 0 ? 0 : covered / static_cast<double>(poses);
   return metrics;
 }

@@ -42,6 +42,7 @@ struct PointError {
   double along_m = 0;                       ///< path length along the truth
   std::optional<double> sigma_m = {};       ///< stated standard deviation of the position, if there is one
   std::optional<double> sigma_team_m = {};  ///< the same in the gauge of the team, that of the error
+  bool at_keyframe = false;                 ///< the nearest one to a pose of the estimate
 };
 
 /// Relative pose error over consecutive compared poses (evo's default, one frame apart), pooled over the
@@ -79,9 +80,10 @@ struct TeamMetrics {
   std::optional<RelativeError> rpe;  ///< absent if no truth has an orientation
   /// Absolute rotation error after the alignment, over the robots whose truth has an orientation.
   std::optional<double> rotation_rmse_rad;
-  /// With the uncertainty relative to what holds the frame, and in the gauge of the team; absent if not
-  /// stated.
-  std::optional<Consistency> consistency, team_consistency;
+  /// Of all errors, with the uncertainty relative to what holds the frame; absent if not stated.
+  std::optional<Consistency> consistency;
+  /// In the gauge of the team, of the errors at keyframes: those between them are of the interpolation, too.
+  std::optional<Consistency> team_consistency;
   double coverage = 0;  ///< fraction of the truth's poses that the estimate covers
   SE3 T_truth_estimate;
   std::vector<RobotMetrics> robots;
