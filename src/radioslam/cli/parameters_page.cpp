@@ -4,7 +4,6 @@
 #include <string_view>
 #include <vector>
 
-#include "radioslam/cli/former_keys.hpp"
 #include "radioslam/cli/parameter_sets.hpp"
 
 namespace radioslam::cli {
@@ -81,14 +80,6 @@ std::string reference(const ParameterSet& set) {
   return "- `" + std::string(set.call) + "`: as `" + std::string(set.like) + "`" + differences + "\n";
 }
 
-std::string former_names() {
-  std::string text =
-      "\n## Names of version 0.1\n\nThey are still accepted.\n\n| name | formerly |\n| --- | --- |\n";
-  for (const FormerKey& key : all_former_keys())
-    text += "| `" + std::string(key.current) + "` | `" + std::string(key.former) + "` |\n";
-  return text;
-}
-
 }  // namespace
 
 std::string parameters_page() {
@@ -100,7 +91,7 @@ std::string parameters_page() {
     else if (!set.like.starts_with(std::string(set.call) + " "))  // "simulate" needs a scenario
       references += reference(set);
   }
-  return std::string(kOpening) + chapters + references + former_names();
+  return std::string(kOpening) + chapters + references;
 }
 
 }  // namespace radioslam::cli

@@ -27,7 +27,6 @@ add_library(radioslam_cli STATIC
   cli/commands/recorded_trials.cpp
   cli/commands/similarity_table.cpp
   cli/config.cpp
-  cli/former_keys.cpp
   cli/import/import_datasets.cpp
   cli/import/import_help.cpp
   cli/import/import_kinds.cpp
