@@ -20,12 +20,10 @@ struct MaximumCliqueParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"greedy_starts", "", 1, 1e6, "number of greedy cliques tried before the exact search"},
-          self.greedy_starts);
-    visit(Field{"max_branches", "", 1, 1e15,
-                "largest number of branches of the exact search (about ten seconds); beyond, the best clique "
-                "found is used"},
-          self.max_branches);
+    RADIOSLAM_FIELD(greedy_starts, "", 1, 1e6, "number of greedy cliques tried before the exact search");
+    RADIOSLAM_FIELD(max_branches, "", 1, 1e15,
+                    "largest number of branches of the exact search (about ten seconds); beyond, the best "
+                    "clique found is used");
   }
 };
 

@@ -25,31 +25,22 @@ struct ImuNoiseParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"accelerometer_noise", "m/s^2/sqrt(Hz)", 1e-6, 10, "noise density of the accelerometer"}
-              .basic(),
-          self.accelerometer_noise);
-    visit(Field{"gyroscope_noise", "rad/s/sqrt(Hz)", 1e-8, 1, "noise density of the gyroscope"}.basic(),
-          self.gyroscope_noise);
-    visit(Field{"accelerometer_walk", "m/s^2/sqrt(s)", 1e-6, 1, "random walk of the accelerometer's bias"},
-          self.accelerometer_walk);
-    visit(Field{"gyroscope_walk", "rad/s/sqrt(s)", 1e-7, 1, "random walk of the gyroscope's bias"},
-          self.gyroscope_walk);
-    visit(Field{"sigma_accelerometer_bias_mps2", "m/s^2", 1e-6, 10,
-                "prior standard deviation of the accelerometer's initial bias, per axis"},
-          self.sigma_accelerometer_bias_mps2);
-    visit(Field{"sigma_gyroscope_bias_radps", "rad/s", 1e-8, 1,
-                "prior standard deviation of the gyroscope's initial bias, per axis"},
-          self.sigma_gyroscope_bias_radps);
-    visit(Field{"integration_noise", "m/sqrt(s)", 1e-8, 1,
-                "random walk of the position from integrating samples of a finite rate"},
-          self.integration_noise);
-    visit(Field{"gravity_mps2", "m/s^2", 0, 30, "magnitude of gravity"}, self.gravity_mps2);
-    visit(Field{"max_gap_s", "s", 1e-3, 10,
-                "longest gap between IMU samples; motion over longer gaps counts as unmeasured"},
-          self.max_gap_s);
-    visit(Field{"unmeasured_velocity_walk", "m/s/sqrt(s)", 1e-3, 1000,
-                "random walk of the velocity while IMU samples are missing"},
-          self.unmeasured_velocity_walk);
+    RADIOSLAM_BASIC_FIELD(accelerometer_noise, "m/s^2/sqrt(Hz)", 1e-6, 10,
+                          "noise density of the accelerometer");
+    RADIOSLAM_BASIC_FIELD(gyroscope_noise, "rad/s/sqrt(Hz)", 1e-8, 1, "noise density of the gyroscope");
+    RADIOSLAM_FIELD(accelerometer_walk, "m/s^2/sqrt(s)", 1e-6, 1, "random walk of the accelerometer's bias");
+    RADIOSLAM_FIELD(gyroscope_walk, "rad/s/sqrt(s)", 1e-7, 1, "random walk of the gyroscope's bias");
+    RADIOSLAM_FIELD(sigma_accelerometer_bias_mps2, "m/s^2", 1e-6, 10,
+                    "prior standard deviation of the accelerometer's initial bias, per axis");
+    RADIOSLAM_FIELD(sigma_gyroscope_bias_radps, "rad/s", 1e-8, 1,
+                    "prior standard deviation of the gyroscope's initial bias, per axis");
+    RADIOSLAM_FIELD(integration_noise, "m/sqrt(s)", 1e-8, 1,
+                    "random walk of the position from integrating samples of a finite rate");
+    RADIOSLAM_FIELD(gravity_mps2, "m/s^2", 0, 30, "magnitude of gravity");
+    RADIOSLAM_FIELD(max_gap_s, "s", 1e-3, 10,
+                    "longest gap between IMU samples; motion over longer gaps counts as unmeasured");
+    RADIOSLAM_FIELD(unmeasured_velocity_walk, "m/s/sqrt(s)", 1e-3, 1000,
+                    "random walk of the velocity while IMU samples are missing");
   }
 
   /// Gravity's acceleration in a frame whose z points up.

@@ -36,37 +36,28 @@ struct InertialSmootherParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"sigma_start_m", "m", 1e-6, 100,
-                "prior standard deviation of the first position, the frame's origin"},
-          self.sigma_start_m);
-    visit(Field{"sigma_start_yaw_rad", "rad", 1e-7, 3, "prior standard deviation of the first heading"},
-          self.sigma_start_yaw_rad);
-    visit(Field{"sigma_start_tilt_rad", "rad", 1e-4, 3,
-                "prior standard deviation of the first roll and pitch; weak, because the IMU observes them"},
-          self.sigma_start_tilt_rad);
-    visit(Field{"sigma_start_velocity_mps", "m/s", 1e-3, 1000,
-                "prior standard deviation of the first velocity"},
-          self.sigma_start_velocity_mps);
-    visit(Field{"sigma_start_map_m", "m", 1e-3, 1e6,
-                "prior standard deviation of the map's initial position, where the first scan does not "
-                "observe it"},
-          self.sigma_start_map_m);
-    visit(Field{"sigma_start_map_rad", "rad", 1e-3, 100,
-                "prior standard deviation of the map's initial orientation, where the first scan does not "
-                "observe it"},
-          self.sigma_start_map_rad);
-    visit(Field{"max_iterations", "", 1, 1000, "largest number of iterations of the smoother"},
-          self.max_iterations);
-    visit(Field{"cost_tolerance", "", 1e-12, 1,
-                "predicted cost decrease below which the smoother has converged"},
-          self.cost_tolerance);
-    visit(Field{"first_damping", "", 1e-12, 1, "damping after the first failed step, as a factor on diag(H)"},
-          self.first_damping);
-    visit(Field{"damping_factor", "", 1.1, 1000,
-                "factor on the damping after a failed step, and its divisor after a successful one"},
-          self.damping_factor);
-    visit(Field{"max_damping", "", 1e-3, 1e10, "damping beyond which the smoother gives up"},
-          self.max_damping);
+    RADIOSLAM_FIELD(sigma_start_m, "m", 1e-6, 100,
+                    "prior standard deviation of the first position, the frame's origin");
+    RADIOSLAM_FIELD(sigma_start_yaw_rad, "rad", 1e-7, 3, "prior standard deviation of the first heading");
+    RADIOSLAM_FIELD(
+        sigma_start_tilt_rad, "rad", 1e-4, 3,
+        "prior standard deviation of the first roll and pitch; weak, because the IMU observes them");
+    RADIOSLAM_FIELD(sigma_start_velocity_mps, "m/s", 1e-3, 1000,
+                    "prior standard deviation of the first velocity");
+    RADIOSLAM_FIELD(
+        sigma_start_map_m, "m", 1e-3, 1e6,
+        "prior standard deviation of the map's initial position, where the first scan does not observe it");
+    RADIOSLAM_FIELD(sigma_start_map_rad, "rad", 1e-3, 100,
+                    "prior standard deviation of the map's initial orientation, where the first scan does "
+                    "not observe it");
+    RADIOSLAM_FIELD(max_iterations, "", 1, 1000, "largest number of iterations of the smoother");
+    RADIOSLAM_FIELD(cost_tolerance, "", 1e-12, 1,
+                    "predicted cost decrease below which the smoother has converged");
+    RADIOSLAM_FIELD(first_damping, "", 1e-12, 1,
+                    "damping after the first failed step, as a factor on diag(H)");
+    RADIOSLAM_FIELD(damping_factor, "", 1.1, 1000,
+                    "factor on the damping after a failed step, and its divisor after a successful one");
+    RADIOSLAM_FIELD(max_damping, "", 1e-3, 1e10, "damping beyond which the smoother gives up");
   }
 };
 

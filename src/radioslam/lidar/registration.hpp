@@ -40,29 +40,21 @@ struct RegistrationParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"max_iterations", "", 1, 1000, "largest number of iterations of one registration"},
-          self.max_iterations);
-    visit(Field{"loss_scale", "", 0.5, 100,
-                "residual, in standard deviations, beyond which a correspondence is down-weighted"},
-          self.loss_scale);
-    visit(
-        Field{
-            "point_distance_ratio", "", 0, 1,
-            "largest distance of a point without a normal from its surface, as a fraction of that of others"},
-        self.point_distance_ratio);
-    visit(Field{"kernel_decay", "", 0.01, 0.99,
-                "factor by which the correspondence kernel narrows per iteration"},
-          self.kernel_decay);
-    visit(Field{"normal_noise_factor", "", 0, 100,
-                "factor on the information from noisy normals that is discounted; higher values trust the "
-                "prior more"},
-          self.normal_noise_factor);
-    visit(Field{"translation_tolerance_m", "m", 1e-9, 1,
-                "translation step below which the registration has converged"},
-          self.translation_tolerance_m);
-    visit(Field{"rotation_tolerance_rad", "rad", 1e-9, 1,
-                "rotation step below which the registration has converged"},
-          self.rotation_tolerance_rad);
+    RADIOSLAM_FIELD(max_iterations, "", 1, 1000, "largest number of iterations of one registration");
+    RADIOSLAM_FIELD(loss_scale, "", 0.5, 100,
+                    "residual, in standard deviations, beyond which a correspondence is down-weighted");
+    RADIOSLAM_FIELD(
+        point_distance_ratio, "", 0, 1,
+        "largest distance of a point without a normal from its surface, as a fraction of that of others");
+    RADIOSLAM_FIELD(kernel_decay, "", 0.01, 0.99,
+                    "factor by which the correspondence kernel narrows per iteration");
+    RADIOSLAM_FIELD(normal_noise_factor, "", 0, 100,
+                    "factor on the information from noisy normals that is discounted; higher values trust "
+                    "the prior more");
+    RADIOSLAM_FIELD(translation_tolerance_m, "m", 1e-9, 1,
+                    "translation step below which the registration has converged");
+    RADIOSLAM_FIELD(rotation_tolerance_rad, "rad", 1e-9, 1,
+                    "rotation step below which the registration has converged");
   }
 };
 

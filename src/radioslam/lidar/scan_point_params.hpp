@@ -12,15 +12,11 @@ struct ScanPointParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"min_range_m", "m", 0, 100,
-                "smallest range of a point; nearer ones are taken for the robot itself"}
-              .basic(),
-          self.min_range_m);
-    visit(Field{"max_range_m", "m", 0.1, 1000, "largest range of a point; farther ones are ignored"}.basic(),
-          self.max_range_m);
-    visit(Field{"max_time_s", "s", 1e-3, 1e6,
-                "largest time between a point and its scan's stamp; points beyond it are ignored"},
-          self.max_time_s);
+    RADIOSLAM_BASIC_FIELD(min_range_m, "m", 0, 100,
+                          "smallest range of a point; nearer ones are taken for the robot itself");
+    RADIOSLAM_BASIC_FIELD(max_range_m, "m", 0.1, 1000, "largest range of a point; farther ones are ignored");
+    RADIOSLAM_FIELD(max_time_s, "s", 1e-3, 1e6,
+                    "largest time between a point and its scan's stamp; points beyond it are ignored");
   }
 };
 

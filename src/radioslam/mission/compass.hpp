@@ -23,21 +23,16 @@ struct CompassParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(
-        Field{"cauchy_scale_rad", "rad", 0.001, 3,
-              "scale of the Cauchy loss on compass errors; lower values suppress magnetic disturbances more"},
-        self.cauchy_scale_rad);
-    visit(
-        Field{
-            "independent_s", "s", 0.01, 1000,
-            "time after which compass errors are independent; higher values lower the weight of the compass"},
-        self.independent_s);
-    visit(
-        Field{"sigma_heading_rad", "rad", 0.001, 3, "standard deviation of one independent compass heading"},
-        self.sigma_heading_rad);
-    visit(Field{"sigma_drift_radps", "rad/s", 1e-9, 1,
-                "prior standard deviation of the calibrated gyroscope's bias about the vertical"},
-          self.sigma_drift_radps);
+    RADIOSLAM_FIELD(
+        cauchy_scale_rad, "rad", 0.001, 3,
+        "scale of the Cauchy loss on compass errors; lower values suppress magnetic disturbances more");
+    RADIOSLAM_FIELD(
+        independent_s, "s", 0.01, 1000,
+        "time after which compass errors are independent; higher values lower the weight of the compass");
+    RADIOSLAM_FIELD(sigma_heading_rad, "rad", 0.001, 3,
+                    "standard deviation of one independent compass heading");
+    RADIOSLAM_FIELD(sigma_drift_radps, "rad/s", 1e-9, 1,
+                    "prior standard deviation of the calibrated gyroscope's bias about the vertical");
   }
 };
 

@@ -21,13 +21,11 @@ struct LevellingParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"gravity_time_s", "s", 0.1, 100,
-                "time constant of the tilt correction by the accelerometer; higher values suppress step "
-                "accelerations"},
-          self.gravity_time_s);
-    visit(Field{"gravity_start_s", "s", 0.02, 60,
-                "duration of the first accelerometer samples averaged for the initial tilt"},
-          self.gravity_start_s);
+    RADIOSLAM_FIELD(gravity_time_s, "s", 0.1, 100,
+                    "time constant of the tilt correction by the accelerometer; higher values suppress step "
+                    "accelerations");
+    RADIOSLAM_FIELD(gravity_start_s, "s", 0.02, 60,
+                    "duration of the first accelerometer samples averaged for the initial tilt");
   }
 };
 

@@ -29,30 +29,24 @@ struct StepParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"smooth_s", "s", 0.001, 1,
-                "standard deviation of the Gaussian average that smooths the vertical acceleration"},
-          self.smooth_s);
-    visit(Field{"detrend_s", "s", 0.01, 10,
-                "standard deviation of the Gaussian average subtracted from the vertical acceleration"},
-          self.detrend_s);
-    visit(Field{"rms_window_s", "s", 0.1, 100,
-                "standard deviation of the window of the local root mean square of vertical acceleration"},
-          self.rms_window_s);
-    visit(Field{"peak_rms_ratio", "", 0, 5,
-                "smallest height of a step's peak relative to the local root mean square; higher values find "
-                "fewer steps"},
-          self.peak_rms_ratio);
-    visit(Field{"peak_floor_mps2", "m/s^2", 0, 20,
-                "smallest height of a step's peak; higher values find fewer steps"},
-          self.peak_floor_mps2);
-    visit(Field{"min_step_s", "s", 0.05, 2, "shortest time between two steps"}, self.min_step_s);
-    visit(Field{"nominal_step_s", "s", 0.05, 2, "assumed duration of the first step after a pause"},
-          self.nominal_step_s);
-    visit(Field{"max_step_s", "s", 0.1, 5,
-                "longest time between consecutive steps; after a longer pause a step counts as the first"},
-          self.max_step_s);
-    visit(Field{"weinberg_k", "", 0.1, 1, "factor K of the step length K (a_max - a_min)^(1/4)"},
-          self.weinberg_k);
+    RADIOSLAM_FIELD(smooth_s, "s", 0.001, 1,
+                    "standard deviation of the Gaussian average that smooths the vertical acceleration");
+    RADIOSLAM_FIELD(detrend_s, "s", 0.01, 10,
+                    "standard deviation of the Gaussian average subtracted from the vertical acceleration");
+    RADIOSLAM_FIELD(
+        rms_window_s, "s", 0.1, 100,
+        "standard deviation of the window of the local root mean square of vertical acceleration");
+    RADIOSLAM_FIELD(peak_rms_ratio, "", 0, 5,
+                    "smallest height of a step's peak relative to the local root mean square; higher values "
+                    "find fewer steps");
+    RADIOSLAM_FIELD(peak_floor_mps2, "m/s^2", 0, 20,
+                    "smallest height of a step's peak; higher values find fewer steps");
+    RADIOSLAM_FIELD(min_step_s, "s", 0.05, 2, "shortest time between two steps");
+    RADIOSLAM_FIELD(nominal_step_s, "s", 0.05, 2, "assumed duration of the first step after a pause");
+    RADIOSLAM_FIELD(
+        max_step_s, "s", 0.1, 5,
+        "longest time between consecutive steps; after a longer pause a step counts as the first");
+    RADIOSLAM_FIELD(weinberg_k, "", 0.1, 1, "factor K of the step length K (a_max - a_min)^(1/4)");
   }
 };
 

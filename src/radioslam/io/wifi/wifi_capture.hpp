@@ -27,16 +27,14 @@ struct WifiCaptureParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"every_frame", "", 0, 1,
-                "use every frame that names its transmitter, including stations, not only beacons and probe "
-                "responses"},
-          self.every_frame);
-    visit(Field{"scan_s", "s", 0, 3600,
-                "duration of a scan, over which each radio's level is averaged; 0 makes every frame a scan"},
-          self.scan_s);
-    visit(Field{"clock_offset_s", "s", -4e9, 4e9,
-                "offset added to every time, from the log's clock to the mission's"},
-          self.clock_offset_s);
+    RADIOSLAM_FIELD(every_frame, "", 0, 1,
+                    "use every frame that names its transmitter, including stations, not only beacons and "
+                    "probe responses");
+    RADIOSLAM_FIELD(
+        scan_s, "s", 0, 3600,
+        "duration of a scan, over which each radio's level is averaged; 0 makes every frame a scan");
+    RADIOSLAM_FIELD(clock_offset_s, "s", -4e9, 4e9,
+                    "offset added to every time, from the log's clock to the mission's");
   }
 };
 

@@ -21,19 +21,15 @@ struct DistanceModelParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"bin_width", "", 0.001, 1,
-                "width r of the similarity window over which distances are averaged (Liu et al. 2020)"},
-          self.bin_width);
-    visit(Field{"min_samples", "", 2, 1e6,
-                "smallest number of training samples in a similarity window that predicts a distance"},
-          self.min_samples);
-    visit(Field{"max_trusted_path_m", "m", 1, 1e6,
-                "largest path length between fingerprints whose odometry distance trains the model"}
-              .basic(),
-          self.max_trusted_path_m);
-    visit(Field{"even_distances", "", 0, 1,
-                "weighting of training samples so that all distances are equally common"},
-          self.even_distances);
+    RADIOSLAM_FIELD(bin_width, "", 0.001, 1,
+                    "width r of the similarity window over which distances are averaged (Liu et al. 2020)");
+    RADIOSLAM_FIELD(min_samples, "", 2, 1e6,
+                    "smallest number of training samples in a similarity window that predicts a distance");
+    RADIOSLAM_BASIC_FIELD(
+        max_trusted_path_m, "m", 1, 1e6,
+        "largest path length between fingerprints whose odometry distance trains the model");
+    RADIOSLAM_FIELD(even_distances, "", 0, 1,
+                    "weighting of training samples so that all distances are equally common");
   }
 };
 

@@ -25,12 +25,11 @@ struct RangeBiasParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"prior_sigma_m", "m", 0, 100,
-                "prior standard deviation of a range bias; 0 holds all biases at zero; UWB radios show "
-                "0.2-0.5 m"},
-          self.prior_sigma_m);
-    visit(Field{"max_iterations", "", 0, 1000, "largest number of alternations between biases and positions"},
-          self.max_iterations);
+    RADIOSLAM_FIELD(
+        prior_sigma_m, "m", 0, 100,
+        "prior standard deviation of a range bias; 0 holds all biases at zero; UWB radios show 0.2-0.5 m");
+    RADIOSLAM_FIELD(max_iterations, "", 0, 1000,
+                    "largest number of alternations between biases and positions");
   }
 };
 

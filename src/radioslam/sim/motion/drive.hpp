@@ -25,13 +25,11 @@ struct DriveParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"path_length_m", "m", 1, 100000, "path length of each robot along the lanes' centre lines"}
-              .basic(),
-          self.path_length_m);
-    visit(Field{"speed_mps", "m/s", 0.01, 10, "driving speed; 0.4 in Liu et al."}.basic(), self.speed_mps);
-    visit(Field{"corner_radius_m", "m", 0.5, 4, "radius of the arcs around corners"}, self.corner_radius_m);
-    visit(Field{"sigma_wander_m", "m", 0, 0.6, "standard deviation of the sideways wander on a lane"},
-          self.sigma_wander_m);
+    RADIOSLAM_BASIC_FIELD(path_length_m, "m", 1, 100000,
+                          "path length of each robot along the lanes' centre lines");
+    RADIOSLAM_BASIC_FIELD(speed_mps, "m/s", 0.01, 10, "driving speed; 0.4 in Liu et al.");
+    RADIOSLAM_FIELD(corner_radius_m, "m", 0.5, 4, "radius of the arcs around corners");
+    RADIOSLAM_FIELD(sigma_wander_m, "m", 0, 0.6, "standard deviation of the sideways wander on a lane");
   }
 };
 

@@ -16,12 +16,11 @@ struct StreetGridParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"blocks_x", "", 1, 49, "number of blocks of houses along x"}, self.blocks_x);
-    visit(Field{"blocks_y", "", 1, 49, "number of blocks of houses along y"}, self.blocks_y);
-    visit(Field{"block_m", "m", 20, 1000, "distance between adjacent streets"}, self.block_m);
-    visit(Field{"closed_street_ratio", "", 0, 0.5,
-                "ratio of street sections between crossings that are not driven"},
-          self.closed_street_ratio);
+    RADIOSLAM_FIELD(blocks_x, "", 1, 49, "number of blocks of houses along x");
+    RADIOSLAM_FIELD(blocks_y, "", 1, 49, "number of blocks of houses along y");
+    RADIOSLAM_FIELD(block_m, "m", 20, 1000, "distance between adjacent streets");
+    RADIOSLAM_FIELD(closed_street_ratio, "", 0, 0.5,
+                    "ratio of street sections between crossings that are not driven");
   }
 };
 

@@ -23,16 +23,14 @@ struct TownHouseParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"street_width_m", "m", 2, 100,
-                "smallest distance between the houses on both sides of a street"},
-          self.street_width_m);
-    visit(Field{"house_setback_m", "m", 0, 50, "largest setback of a house from the street"},
-          self.house_setback_m);
-    visit(Field{"house_gap_m", "m", 0, 50, "largest gap between adjacent houses"}, self.house_gap_m);
-    visit(Field{"house_min_m", "m", 1, 100, "smallest side of a house"}, self.house_min_m);
-    visit(Field{"house_max_m", "m", 1, 100, "largest side of a house"}, self.house_max_m);
-    visit(Field{"house_min_height_m", "m", 1, 100, "smallest height of a house"}, self.house_min_height_m);
-    visit(Field{"house_max_height_m", "m", 1, 100, "largest height of a house"}, self.house_max_height_m);
+    RADIOSLAM_FIELD(street_width_m, "m", 2, 100,
+                    "smallest distance between the houses on both sides of a street");
+    RADIOSLAM_FIELD(house_setback_m, "m", 0, 50, "largest setback of a house from the street");
+    RADIOSLAM_FIELD(house_gap_m, "m", 0, 50, "largest gap between adjacent houses");
+    RADIOSLAM_FIELD(house_min_m, "m", 1, 100, "smallest side of a house");
+    RADIOSLAM_FIELD(house_max_m, "m", 1, 100, "largest side of a house");
+    RADIOSLAM_FIELD(house_min_height_m, "m", 1, 100, "smallest height of a house");
+    RADIOSLAM_FIELD(house_max_height_m, "m", 1, 100, "largest height of a house");
   }
 };
 
