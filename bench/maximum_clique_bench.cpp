@@ -5,7 +5,6 @@
 
 #include "consistency/graphs.hpp"
 #include "radioslam/consistency/degeneracy.hpp"
-#include "radioslam/consistency/greedy_clique.hpp"
 #include "radioslam/consistency/maximum_clique.hpp"
 
 namespace radioslam {

@@ -24,17 +24,13 @@ add_library(radioslam_cli STATIC
   cli/commands/mission_input.cpp
   cli/commands/output_path_check.cpp
   cli/commands/recorded_drive.cpp
-  cli/commands/recorded_trials.cpp
-  cli/commands/similarity_table.cpp
   cli/config.cpp
   cli/import/import_datasets.cpp
-  cli/import/import_help.cpp
   cli/import/import_kinds.cpp
   cli/import/import_lidar.cpp
   cli/import/import_options.cpp
   cli/import/import_ranges.cpp
   cli/import/import_wifi.cpp
-  cli/import/wifi_csv_output.cpp
   cli/parameter_sets.cpp
   cli/parameters.cpp
   cli/parameters_page.cpp

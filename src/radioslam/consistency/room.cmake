@@ -3,7 +3,6 @@ radioslam_room(consistency
     chi_squared.cpp
     consistent_set.cpp
     degeneracy.cpp
-    greedy_clique.cpp
     maximum_clique.cpp
     pairwise.cpp
     undirected_graph.cpp

@@ -5,7 +5,6 @@
 
 #include "radioslam/doctor/link_checks.hpp"
 #include "radioslam/doctor/odometry_checks.hpp"
-#include "radioslam/doctor/odometry_coverage.hpp"
 #include "radioslam/doctor/odometry_noise.hpp"
 #include "radioslam/doctor/recording_checks.hpp"
 #include "radioslam/doctor/sensor_checks.hpp"

@@ -6,7 +6,6 @@
 #include "radioslam/base/check.hpp"
 #include "radioslam/eval/association.hpp"
 #include "radioslam/eval/mirror_image.hpp"
-#include "radioslam/eval/position_fit.hpp"
 #include "radioslam/eval/statistics.hpp"
 #include "radioslam/geometry/so3.hpp"
 

@@ -7,7 +7,6 @@ radioslam_room(graph
     initial_values.cpp
     linear/block_cholesky.cpp
     linear/block_matrix.cpp
-    linear/elimination_tree.cpp
     linear/front_elimination.cpp
     linear/front_kernels.cpp
     linear/front_kernels_avx2.cpp
@@ -25,10 +24,8 @@ radioslam_room(graph
     normal_equations.cpp
     optimizer.cpp
     pose_chart.cpp
-    pose_network_solver.cpp
     relative_pose_network.cpp
     residuals.cpp
-    spanning_tree.cpp
   ROOMS geometry
   PRIVATE_LIBRARIES Metis::Metis Amd::Amd)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")

@@ -2,7 +2,7 @@
 //
 //   predict     constant velocity or a given motion, by which the points are deskewed     (deskew.hpp)
 //   register    generalised ICP to the map, from other poses if the scan fits badly       (pose_search.hpp)
-//   deskew      by the registered motion; then registered again              (deskewed_registration.hpp)
+//   deskew      by the registered motion; then registered again                      (candidate_map.hpp)
 //   adapt       thresholds to the prediction's error                              (prediction_error.hpp)
 //   map         insert what is new; scans that fit only each other replace the map     (candidate_map.hpp)
 //
@@ -13,7 +13,6 @@
 
 #include "radioslam/lidar/candidate_map.hpp"
 #include "radioslam/lidar/prediction_error.hpp"
-#include "radioslam/lidar/scan_gap.hpp"
 #include "radioslam/lidar/scan_matcher.hpp"
 #include "radioslam/lidar/scan_pose.hpp"
 #include "radioslam/lidar/scan_structure.hpp"

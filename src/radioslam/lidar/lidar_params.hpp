@@ -1,4 +1,4 @@
-// Parameters of LiDAR odometry (lidar_odometry.hpp) and of scanner detection (scanner_traits.hpp).
+// Parameters of LiDAR odometry (lidar_odometry.hpp) and of scanner detection (scan_matcher.hpp).
 #pragma once
 
 #include "radioslam/base/fields.hpp"

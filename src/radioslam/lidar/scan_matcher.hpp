@@ -7,9 +7,18 @@
 #include "radioslam/lidar/local_map.hpp"
 #include "radioslam/lidar/registration.hpp"
 #include "radioslam/lidar/scan_points.hpp"
-#include "radioslam/lidar/scanner_traits.hpp"
+#include "radioslam/mission/lidar.hpp"
 
 namespace radioslam {
+
+/// Properties of a scanner and its surroundings: planar or spatial, and the map point spacing (a fraction of
+/// the median range). Determined from up to ten scans, spread over the log.
+struct ScannerTraits {
+  double spacing_m = 0.25;
+  ScannerKind kind = ScannerKind::kSpatial;
+};
+
+ScannerTraits scanner_traits(const LidarLog& log, const LidarParams& params);
 
 class ScanMatcher {
  public:

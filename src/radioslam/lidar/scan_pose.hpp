@@ -7,10 +7,25 @@
 #include "radioslam/base/stamp.hpp"
 #include "radioslam/geometry/se3.hpp"
 #include "radioslam/geometry/trajectory.hpp"
+#include "radioslam/lidar/lidar_params.hpp"
 #include "radioslam/lidar/local_map.hpp"
 #include "radioslam/lidar/scan_points.hpp"
 
 namespace radioslam {
+
+/// Detects gaps in a sequence of scans: intervals many times as long as the nominal one, a running mean.
+class ScanGapDetector {
+ public:
+  explicit ScanGapDetector(const LidarOdometryParams& params) : params_(params) {}
+
+  /// Adds the next scan; whether it is more than `max_lost_scans` nominal intervals after the last one.
+  bool is_after_gap(Stamp stamp);
+
+ private:
+  LidarOdometryParams params_;
+  std::optional<Stamp> newest_;
+  double interval_s_ = 0;  ///< nominal; 0: not known yet
+};
 
 enum class ScanStatus {
   kRegistered,

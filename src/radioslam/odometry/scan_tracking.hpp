@@ -5,7 +5,7 @@
 //   recorded odometry
 //   constant velocity
 // The same source deskews the scan, recorded odometry only if its samples are as frequent as the scans
-// (motion_prior.hpp); the remaining distortion is part of each step's covariance (motion_distortion.hpp).
+// (imu_motion_prior.hpp); the remaining distortion is part of each step's covariance (motion_distortion.hpp).
 // Scans that do not match the map, or have too few points, are counted and skipped. If the scans after the
 // first do not match it, the trajectory starts with the new map instead.
 // Cost: the scans' registrations; only the keyframes' clouds are kept.

@@ -2,13 +2,10 @@
 radioslam_room(report
   SOURCES
     access_point_data.cpp
-    alternative_data.cpp
     aoa_data.cpp
     candidate_data.cpp
     closure_data.cpp
     embedded_data.cpp
-    page_data.cpp
-    picture_data.cpp
     report.cpp
     thinning.cpp
     trajectory_data.cpp

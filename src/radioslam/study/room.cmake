@@ -1,6 +1,5 @@
 radioslam_room(study
   SOURCES
-    aoa/aoa_links.cpp
     aoa/aoa_paths.cpp
     aoa/aoa_table.cpp
     evaluated_run.cpp
@@ -11,7 +10,6 @@ radioslam_room(study
     fingerprints/threshold_sweep.cpp
     oracle.cpp
     overlap_growth/overlap_growth.cpp
-    overlap_growth/overlap_town.cpp
     robustness_map/robustness_map.cpp
     robustness_map/robustness_summary.cpp
     study_json.cpp

@@ -1,6 +1,6 @@
-#include "radioslam/radio/fingerprints/path_loss.hpp"
-
 #include <gtest/gtest.h>
+
+#include "radioslam/radio/fingerprints/access_points.hpp"
 
 namespace radioslam {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "radioslam/radio/ranging/anchor_layout.hpp"
-#include "radioslam/radio/ranging/receiver_track.hpp"
+#include "radioslam/radio/ranging/range_bias.hpp"
 
 namespace radioslam::cli {
 

@@ -4,7 +4,7 @@
 #include <set>
 #include <string>
 
-#include "radioslam/io/csi/csi_folder.hpp"
+#include "radioslam/io/csi/csi_capture.hpp"
 #include "radioslam/io/lidar/lidar_folder.hpp"
 #include "radioslam/io/mission/mission_yaml.hpp"
 #include "radioslam/io/mission/robot_tables.hpp"

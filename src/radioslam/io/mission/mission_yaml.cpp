@@ -7,7 +7,6 @@
 #include "radioslam/base/units.hpp"
 #include "radioslam/geometry/so3.hpp"
 #include "radioslam/io/csi/csi_yaml.hpp"
-#include "radioslam/io/mission/odometry_noise_fields.hpp"
 #include "radioslam/io/text/mac_address.hpp"
 #include "radioslam/io/text/numbers.hpp"
 #include "radioslam/io/text/valid_id.hpp"

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "radioslam/geometry/linear_algebra.hpp"
-#include "radioslam/io/mission/match_columns.hpp"
 #include "radioslam/io/text/csv.hpp"
 #include "radioslam/io/text/numbers.hpp"
 

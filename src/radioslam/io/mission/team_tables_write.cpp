@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "radioslam/base/check.hpp"
-#include "radioslam/io/mission/match_columns.hpp"
 #include "radioslam/io/mission/team_tables.hpp"
 #include "radioslam/io/text/numbers.hpp"
 

@@ -1,7 +1,7 @@
 // Collects the measurements of the chosen topics of a ROS recording, transformed to the body frame.
 //
 // Points: p_body = T_body_sensor p_sensor; IMU samples: v_body = R_body_sensor v_sensor; extrinsics from
-// ros_body_frame.hpp. Messages that are left out or changed are counted per topic: repeated stamps, missing
+// ros_import.hpp. Messages that are left out or changed are counted per topic: repeated stamps, missing
 // stamps, invalid poses and samples. Scans are passed on immediately, everything else is kept in memory.
 #pragma once
 
@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "radioslam/geometry/local_frame.hpp"
-#include "radioslam/io/ros/moving_transforms.hpp"
 #include "radioslam/io/ros/ros_scans.hpp"
 #include "radioslam/io/ros/ros_topics.hpp"
+#include "radioslam/io/ros/transforms.hpp"
 #include "radioslam/mission/inertial.hpp"
 
 namespace radioslam {

@@ -5,7 +5,6 @@
 #include <cstdint>
 
 #include "radioslam/base/check.hpp"
-#include "radioslam/lidar/surfels/voxel_key.hpp"
 
 namespace radioslam {
 namespace {

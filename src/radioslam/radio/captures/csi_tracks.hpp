@@ -15,9 +15,25 @@
 #include "radioslam/mission/mission.hpp"
 #include "radioslam/radio/captures/clock_offset.hpp"
 #include "radioslam/radio/captures/csi_params.hpp"
-#include "radioslam/radio/captures/csi_windows.hpp"
 
 namespace radioslam {
+
+/// Time windows for AoA measurements: windows of a receiver's path or rotation, and when a transmitter stood
+/// still.
+struct TimeWindow {
+  Stamp begin, end;
+};
+
+/// Windows in which the body stayed within `reach_m` of its position at their begin.
+std::vector<TimeWindow> still_times(const Trajectory<SE3>& odometry, double reach_m);
+
+/// Windows of equal path length within `during`, each about `length_m` long; none if the path is shorter than
+/// `min_m`.
+std::vector<TimeWindow> path_windows(const Trajectory<SE3>& odometry, const TimeWindow& during,
+                                     double length_m, double min_m);
+
+/// Windows in which the body turned by about `turn_rad`, however it moved.
+std::vector<TimeWindow> turns_of(const Trajectory<SE3>& odometry, double turn_rad);
 
 /// A measurement to attempt.
 struct CsiAttempt {

@@ -9,7 +9,6 @@
 
 #include "radioslam/base/progress.hpp"
 #include "radioslam/mission/mission.hpp"
-#include "radioslam/radio/fingerprints/decay_model.hpp"
 #include "radioslam/radio/fingerprints/distance_model.hpp"
 #include "radioslam/radio/fingerprints/fingerprint.hpp"
 #include "radioslam/radio/fingerprints/rssi_offset.hpp"

@@ -198,6 +198,21 @@ class Calibration {
   std::vector<std::optional<Multilateration>> fixes_;
 };
 
+PositionFix fix_of(const RangeEpoch& epoch, const Multilateration& found) {
+  PositionFix fix{epoch.stamp, Eigen::Vector3d::Zero(), found.sigma_m};
+  fix.position_m.head(found.position_m.size()) = found.position_m;
+  return fix;
+}
+
+double rms_of(const std::vector<std::optional<Multilateration>>& epochs) {
+  double sum = 0, count = 0;
+  for (const auto& epoch : epochs) {
+    if (!epoch) continue;
+    for (const double residual : epoch->residuals_m) sum += residual * residual, ++count;
+  }
+  return count > 0 ? std::sqrt(sum / count) : 0;
+}
+
 }  // namespace
 
 std::vector<RangeBias> biases_from_known_geometry(const std::vector<KnownRange>& ranges, std::size_t pairs) {
@@ -213,6 +228,20 @@ CalibratedPositions calibrate_positions(const Eigen::MatrixXd& anchors_m,
                                         const MultilaterationParams& multilateration,
                                         const RangeBiasParams& params) {
   return Calibration(anchors_m, epochs, pairs, multilateration, params).run();
+}
+
+ReceiverTrack track_receiver(const Eigen::MatrixXd& anchors_m, const std::vector<AnchorRange>& ranges,
+                             std::size_t pairs, const ReceiverTrackParams& params) {
+  const auto epochs = range_epochs(ranges, params.epochs);
+  const auto found = calibrate_positions(anchors_m, epochs, pairs, params.position, params.bias);
+  std::vector<PositionFix> fixes;
+  for (std::size_t k = 0; k < epochs.size(); ++k) {
+    if (!found.epochs[k]) continue;
+    const bool same_time = !fixes.empty() && fixes.back().stamp >= epochs[k].stamp;
+    if (!same_time) fixes.push_back(fix_of(epochs[k], *found.epochs[k]));
+  }
+  return {moving_median(fixes, params.epochs), found.biases, epochs.size(), found.noise_factor,
+          rms_of(found.epochs)};
 }
 
 }  // namespace radioslam

@@ -17,7 +17,6 @@
 #include "radioslam/sim/sensors/gnss_receiver.hpp"
 #include "radioslam/sim/sensors/radio_channel.hpp"
 #include "radioslam/sim/sensors/wheel_odometry.hpp"
-#include "radioslam/sim/worlds/street_grid.hpp"
 #include "radioslam/sim/worlds/town_houses.hpp"
 
 namespace radioslam {

@@ -2,18 +2,42 @@
 //
 //   P(p) = P0 - 20 log10(f / 2437 MHz) - 10 n log10(max(d, 1 m) / 1 m) - loss + s(p)      [dBm]
 // with P0 and n drawn per device, d the distance in space from device to phone, the loss that of the outer
-// wall for devices outside, and s the shadowing of each radio (shadowing.hpp).
+// wall for devices outside, and s the shadowing of each radio.
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
 #include "radioslam/base/fields.hpp"
 #include "radioslam/base/random.hpp"
-#include "radioslam/sim/sensors/shadowing.hpp"
 #include "radioslam/sim/worlds/lane_grid.hpp"
 
 namespace radioslam {
+
+// Shadowing: spatially correlated deviation of received power from the path loss model.
+//
+// A Gaussian random field over the floor with correlation exp(-distance / length) (Gudmundson 1991), as a sum
+// of plane waves (Rahimi, Recht 2007): s(p) = sigma sqrt(2/m) sum cos(k_i . p + phase_i). The spectrum of
+// that correlation in the plane is proportional to (1 + (k length)^2)^(-3/2), so the quantile u of the
+// wavenumber is k = sqrt((1 - u)^-2 - 1) / length.
+
+/// One transmitter's shadowing; decibels over metres.
+class ShadowingField {
+ public:
+  ShadowingField(double sigma_db, double correlation_length_m, int waves, Rng rng);
+
+  /// Cost: one cosine per wave.
+  double at_db(const Eigen::Vector2d& position) const;
+
+ private:
+  struct PlaneWave {
+    Eigen::Vector2d wavenumber_per_m;
+    double phase_rad = 0;
+  };
+  double amplitude_db_ = 0;
+  std::vector<PlaneWave> waves_;
+};
 
 /// Number, positions and propagation of access points.
 struct TransmitterParams {

@@ -1,4 +1,4 @@
-#include "radioslam/io/ros/moving_transforms.hpp"
+#include "radioslam/io/ros/transforms.hpp"
 
 #include <algorithm>
 #include <deque>
@@ -17,7 +17,38 @@ Trajectory<SE3> in_order_of_time(std::vector<StampedPose<SE3>> poses) {
   return Trajectory<SE3>(std::move(poses));
 }
 
+constexpr double kSameTransform = 1e-6;  ///< m and rad
+
 }  // namespace
+
+void FrameTree::add(const std::string& parent, const std::string& child, const SE3& T_parent_child) {
+  parents_[child] = {parent, T_parent_child};
+}
+
+bool FrameTree::knows(const std::string& frame) const {
+  return parents_.contains(frame) || std::any_of(parents_.begin(), parents_.end(), [&](const auto& link) {
+           return link.second.parent == frame;
+         });
+}
+
+std::map<std::string, SE3> FrameTree::ancestors_of(const std::string& frame) const {
+  std::map<std::string, SE3> ancestors{{frame, SE3()}};
+  SE3 T_ancestor_frame;
+  for (auto link = parents_.find(frame); link != parents_.end(); link = parents_.find(link->second.parent)) {
+    T_ancestor_frame = link->second.T_parent_child * T_ancestor_frame;
+    if (!ancestors.emplace(link->second.parent, T_ancestor_frame).second) break;
+  }
+  return ancestors;
+}
+
+std::optional<SE3> FrameTree::find(const std::string& a, const std::string& b) const {
+  const auto of_a = ancestors_of(a);
+  const auto of_b = ancestors_of(b);
+  for (const auto& [frame, T_frame_b] : of_b)
+    if (const auto common = of_a.find(frame); common != of_a.end())
+      return common->second.inverse() * T_frame_b;
+  return std::nullopt;
+}
 
 void MovingTransforms::take(const RosMessage& message) {
   for (const RosPose& transform : read_ros_transforms(message)) {
@@ -88,6 +119,30 @@ TransformedPoses MovingTransforms::find(const FrameTree& fixed, const std::strin
       ++found.alone;
   }
   return found;
+}
+
+void FixedTransforms::take(const RosMessage& message) {
+  const bool is_static = message.channel.topic.ends_with("tf_static");
+  for (RosPose& transform : read_ros_transforms(message)) {
+    if (!transform.pose) continue;
+    if (is_static) {
+      static_.push_back(std::move(transform));
+      continue;
+    }
+    Repeated& pair = repeated_[{transform.header.frame, transform.child}];
+    if (pair.times++ == 0) pair.T_parent_child = *transform.pose;
+    if (!pair.moves)
+      pair.moves = (pair.T_parent_child.inverse() * *transform.pose).log().norm() > kSameTransform;
+  }
+}
+
+FrameTree FixedTransforms::tree() const {
+  FrameTree frames;
+  for (const auto& [pair, repeated] : repeated_)
+    if (repeated.times > 1 && !repeated.moves) frames.add(pair.first, pair.second, repeated.T_parent_child);
+  for (const RosPose& transform : static_)
+    frames.add(transform.header.frame, transform.child, *transform.pose);
+  return frames;
 }
 
 }  // namespace radioslam
