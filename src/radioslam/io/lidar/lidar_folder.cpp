@@ -25,7 +25,9 @@ struct ScanFile {
 
 Stamp stamp_in_name(const fs::path& file) {
   const auto ns = parse_integer(file.stem().string());
-  if (!ns) throw InputError(file.string(), 0, "a scan must be named by its time in whole nanoseconds");
+  if (!ns)
+    throw InputError(file.string(), 0, "a scan must be named by its time in whole nanoseconds",
+                     InputError::Kind::kUnit);
   return {*ns};
 }
 

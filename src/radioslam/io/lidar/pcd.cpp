@@ -62,7 +62,7 @@ PcdEntries read_entries(TextLines& lines) {
     const std::string keyword(fields.next("a keyword"));
     if (!is_pcd_keyword(keyword)) lines.fail("not a line of a PCD header");
     auto [entry, is_new] = entries.try_emplace(keyword);
-    if (!is_new) lines.fail(keyword + " appears twice");
+    if (!is_new) lines.fail(keyword + " appears twice", InputError::Kind::kDuplicate);
     while (!fields.empty()) entry->second.emplace_back(fields.next("a value"));
   }
   return entries;
@@ -122,7 +122,8 @@ std::size_t points_in(const TextLines& at, const PcdEntries& entries) {
   if (!points && !width) at.fail("the header has neither POINTS nor WIDTH");
   if (!width) return *points;
   const std::size_t height = count_in(at, entries, "HEIGHT").value_or(1);
-  if (height > 0 && *width > kMaxPointCount / height) at.fail("WIDTH and HEIGHT are implausible");
+  if (height > 0 && *width > kMaxPointCount / height)
+    at.fail("WIDTH and HEIGHT are implausible", InputError::Kind::kUnit);
   if (points && *points != *width * height) at.fail("POINTS is not WIDTH times HEIGHT");
   return *width * height;
 }

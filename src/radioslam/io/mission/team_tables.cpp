@@ -18,7 +18,8 @@ namespace {
 
 RobotIndex robot_at(const CsvReader& csv, std::size_t column, const TeamNames& names) {
   const auto found = names.robots.find(csv.field(column));
-  if (found == names.robots.end()) csv.fail("unknown robot '" + std::string(csv.field(column)) + "'");
+  if (found == names.robots.end())
+    csv.fail("unknown robot '" + std::string(csv.field(column)) + "'", InputError::Kind::kSpelling);
   return found->second;
 }
 
@@ -42,7 +43,8 @@ void read_antenna(const CsvReader& csv, std::size_t column, const TeamNames& nam
       end.robot.index() < names.antennas.size() ? names.antennas[end.robot.index()] : none;
   const auto found = antennas.find(end.antenna);
   if (found == antennas.end())
-    csv.fail("unknown antenna '" + end.antenna + "': mission.yaml does not list it for this robot");
+    csv.fail("unknown antenna '" + end.antenna + "': mission.yaml does not list it for this robot",
+             InputError::Kind::kSpelling);
   end.lever_arm_m = found->second;
 }
 
@@ -61,7 +63,7 @@ double positive_sigma(const CsvReader& csv, std::size_t column) {
 /// Refuses a row whose ends, in these columns, are the same robot or anchor.
 void refuse_itself(const CsvReader& csv, std::size_t end_i, std::size_t end_j, const std::string& what) {
   if (csv.field(end_i) == csv.field(end_j))
-    csv.fail(what + " '" + std::string(csv.field(end_i)) + "' to itself");
+    csv.fail(what + " '" + std::string(csv.field(end_i)) + "' to itself", InputError::Kind::kDuplicate);
 }
 
 template <class Measurement>
@@ -177,7 +179,8 @@ std::vector<Anchor> read_anchors(const Text& text, const TeamNames& names, int d
     anchors.push_back(anchor_at(csv, dimension));
     const std::string& id = anchors.back().id;
     if (names.robots.contains(id)) csv.fail("the anchor '" + id + "' has the id of a robot");
-    if (!ids.insert(id).second) csv.fail("the anchor '" + id + "' appears twice");
+    if (!ids.insert(id).second)
+      csv.fail("the anchor '" + id + "' appears twice", InputError::Kind::kDuplicate);
   }
   return anchors;
 }

@@ -53,7 +53,7 @@ CsvReader::CsvReader(const Text& text, const Columns& columns) : lines_(text) {
 }
 
 void CsvReader::read_header(const Text& text) {
-  if (!lines_.next_with_content()) text.fail(1, "the file has no header line");
+  if (!lines_.next_with_content()) text.fail(1, "the file has no header line", InputError::Kind::kTooLittle);
   split(lines_.line());
   width_ = fields_.size();
 }
@@ -75,14 +75,16 @@ void CsvReader::split(std::string_view line) {
 
 std::size_t CsvReader::column(std::string_view name) const {
   const auto place = std::find(names_.begin(), names_.end(), name);
-  if (place == names_.end()) fail("the column '" + std::string(name) + "' is missing");
+  if (place == names_.end())
+    fail("the column '" + std::string(name) + "' is missing", InputError::Kind::kColumnOrder);
   return static_cast<std::size_t>(place - names_.begin());
 }
 
 void CsvReader::find(std::string_view name, bool required) {
   const auto count = std::count(fields_.begin(), fields_.end(), name);
-  if (count > 1) fail("the column '" + std::string(name) + "' appears twice");
-  if (count == 0 && required) fail("the column '" + std::string(name) + "' is missing");
+  if (count > 1 || (count == 0 && required))
+    fail("the column '" + std::string(name) + (count > 1 ? "' appears twice" : "' is missing"),
+         InputError::Kind::kColumnOrder);
   names_.push_back(name);
   places_.emplace_back();
   if (count == 1)

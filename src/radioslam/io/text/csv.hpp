@@ -51,7 +51,10 @@ class CsvReader {
 
   /// The current line, for errors.
   const TextLines& at() const { return lines_; }
-  [[noreturn]] void fail(const std::string& reason) const { lines_.fail(reason); }
+  [[noreturn]] void fail(const std::string& reason,
+                         InputError::Kind kind = InputError::Kind::kUnreadable) const {
+    lines_.fail(reason, kind);
+  }
 
  private:
   void read_header(const Text& text);

@@ -16,9 +16,12 @@ namespace radioslam {
 /// columns do not.
 inline constexpr double kUnitQuaternionTolerance = 0.02;
 
-/// The value of one field; throws InputError if it is malformed. `what` names the field in the message.
-double number_in(const TextLines& at, std::string_view field, std::string_view what);
-double coordinate_in(const TextLines& at, std::string_view field, std::string_view what);
+/// The value of one field; throws InputError of `kind` if it is malformed. `what` names the field in the
+/// message.
+double number_in(const TextLines& at, std::string_view field, std::string_view what,
+                 InputError::Kind kind = InputError::Kind::kUnreadable);
+double coordinate_in(const TextLines& at, std::string_view field, std::string_view what,
+                     InputError::Kind kind = InputError::Kind::kUnreadable);
 Stamp stamp_in(const TextLines& at, std::string_view field, std::string_view what);
 /// A standard deviation; refuses negative values.
 double sigma_in(const TextLines& at, std::string_view field, std::string_view what);
@@ -51,7 +54,10 @@ class LineFields {
   /// Refuses remaining fields.
   void end() const;
 
-  [[noreturn]] void fail(const std::string& reason) const { at_->fail(reason); }
+  [[noreturn]] void fail(const std::string& reason,
+                         InputError::Kind kind = InputError::Kind::kUnreadable) const {
+    at_->fail(reason, kind);
+  }
 
  private:
   void skip_blanks();

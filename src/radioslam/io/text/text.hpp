@@ -16,8 +16,9 @@ struct Text {
   std::string name;
   std::string content;
 
-  [[noreturn]] void fail(std::size_t line, const std::string& reason) const {
-    throw InputError(name, line, reason);
+  [[noreturn]] void fail(std::size_t line, const std::string& reason,
+                         InputError::Kind kind = InputError::Kind::kUnreadable) const {
+    throw InputError(name, line, reason, kind);
   }
 };
 
@@ -50,7 +51,10 @@ class TextLines {
   std::size_t number() const { return number_; }
   /// False for a last line without line end, which may be truncated.
   bool terminated() const { return terminated_; }
-  [[noreturn]] void fail(const std::string& reason) const { text_->fail(number_, reason); }
+  [[noreturn]] void fail(const std::string& reason,
+                         InputError::Kind kind = InputError::Kind::kUnreadable) const {
+    text_->fail(number_, reason, kind);
+  }
 
  private:
   const Text* text_;
