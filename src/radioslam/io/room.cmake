@@ -54,20 +54,16 @@ radioslam_room(io
     run/run_folder_write.cpp
     run/run_tables.cpp
     text/atomic_output.cpp
-    text/bzip2.cpp
     text/compressed_text.cpp
     text/csv.cpp
     text/csv_files.cpp
-    text/gzip.cpp
     text/line_fields.cpp
-    text/lz4.cpp
     text/mac_address.cpp
     text/numbers.cpp
     text/text.cpp
     text/time_order.cpp
     text/valid_id.cpp
     text/yaml_map.cpp
-    text/zstd_text.cpp
     wifi/airodump_csv.cpp
     wifi/iw_ftm.cpp
     wifi/iw_scan.cpp

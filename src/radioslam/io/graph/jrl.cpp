@@ -18,10 +18,10 @@
 #include "radioslam/io/graph/information.hpp"
 #include "radioslam/io/graph/team_assembly.hpp"
 #include "radioslam/io/run/run_folder.hpp"
+#include "radioslam/io/text/compressed_text.hpp"
 #include "radioslam/io/text/line_fields.hpp"
 #include "radioslam/io/text/numbers.hpp"
 #include "radioslam/io/text/text.hpp"
-#include "radioslam/io/text/zstd_text.hpp"
 
 namespace radioslam {
 namespace {

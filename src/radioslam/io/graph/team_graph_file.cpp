@@ -5,7 +5,7 @@
 #include "radioslam/io/graph/g2o_team.hpp"
 #include "radioslam/io/graph/jrl.hpp"
 #include "radioslam/io/graph/pyfg.hpp"
-#include "radioslam/io/text/zstd_text.hpp"
+#include "radioslam/io/text/compressed_text.hpp"
 
 namespace radioslam {
 namespace {
