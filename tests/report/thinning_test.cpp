@@ -1,4 +1,4 @@
-#include "radioslam/report/thinning.hpp"
+#include "radioslam/report/rounding.hpp"
 
 #include <gtest/gtest.h>
 

@@ -23,10 +23,8 @@ radioslam_room(io
     graph/team_assembly.cpp
     graph/team_graph_file.cpp
     lidar/carmen.cpp
-    lidar/kitti_poses.cpp
     lidar/kitti_sequence.cpp
     lidar/lidar_folder.cpp
-    lidar/lzf.cpp
     lidar/pcd.cpp
     lidar/point_table.cpp
     lidar/point_times.cpp
@@ -46,7 +44,6 @@ radioslam_room(io
     ros/ros_database.cpp
     ros/ros_import.cpp
     ros/ros_recording.cpp
-    ros/ros_scans.cpp
     ros/ros_topics.cpp
     ros/ros_types.cpp
     run/metrics_json.cpp
@@ -62,7 +59,6 @@ radioslam_room(io
     text/numbers.cpp
     text/text.cpp
     text/time_order.cpp
-    text/valid_id.cpp
     text/yaml_map.cpp
     wifi/airodump_csv.cpp
     wifi/iw_ftm.cpp

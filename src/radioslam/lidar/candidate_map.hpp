@@ -7,7 +7,6 @@
 
 #include <optional>
 
-#include "radioslam/lidar/deskewed_scan.hpp"
 #include "radioslam/lidar/prediction_error.hpp"
 #include "radioslam/lidar/scan_matcher.hpp"
 

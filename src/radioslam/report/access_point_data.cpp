@@ -6,7 +6,6 @@
 
 #include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/report/rounding.hpp"
-#include "radioslam/report/thinning.hpp"
 
 namespace radioslam {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "radioslam/geometry/se3.hpp"
-#include "radioslam/report/page_json.hpp"
+#include "radioslam/report/rounding.hpp"
 #include "radioslam/report/report_params.hpp"
 #include "radioslam/results/results.hpp"
 

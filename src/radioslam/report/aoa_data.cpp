@@ -7,7 +7,6 @@
 #include <tuple>
 
 #include "radioslam/report/rounding.hpp"
-#include "radioslam/report/thinning.hpp"
 
 namespace radioslam {
 namespace {

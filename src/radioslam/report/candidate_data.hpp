@@ -3,7 +3,7 @@
 // small for millions of pairs while counting every one.
 #pragma once
 
-#include "radioslam/report/page_json.hpp"
+#include "radioslam/report/rounding.hpp"
 #include "radioslam/report/report_params.hpp"
 #include "radioslam/results/results.hpp"
 

@@ -8,7 +8,6 @@
 
 #include "radioslam/base/statistics.hpp"
 #include "radioslam/report/rounding.hpp"
-#include "radioslam/report/thinning.hpp"
 
 namespace radioslam {
 namespace {

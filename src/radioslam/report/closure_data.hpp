@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "radioslam/eval/measurement_truth.hpp"
-#include "radioslam/report/page_json.hpp"
+#include "radioslam/report/rounding.hpp"
 #include "radioslam/report/report_params.hpp"
 #include "radioslam/results/results.hpp"
 

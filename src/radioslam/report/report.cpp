@@ -16,11 +16,9 @@
 #include "radioslam/report/candidate_data.hpp"
 #include "radioslam/report/closure_data.hpp"
 #include "radioslam/report/embedded_data.hpp"
-#include "radioslam/report/page_json.hpp"
 #include "radioslam/report/page_parts.hpp"
 #include "radioslam/report/report_params.hpp"
 #include "radioslam/report/rounding.hpp"
-#include "radioslam/report/thinning.hpp"
 #include "radioslam/report/trajectory_data.hpp"
 #include "radioslam/results/results.hpp"
 

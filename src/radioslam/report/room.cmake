@@ -7,7 +7,7 @@ radioslam_room(report
     closure_data.cpp
     embedded_data.cpp
     report.cpp
-    thinning.cpp
+    rounding.cpp
     trajectory_data.cpp
   ROOMS mission results eval
   LIBRARIES nlohmann_json::nlohmann_json)

@@ -5,9 +5,7 @@
 #include <string>
 
 #include "radioslam/base/statistics.hpp"
-#include "radioslam/report/page_json.hpp"
 #include "radioslam/report/rounding.hpp"
-#include "radioslam/report/thinning.hpp"
 #include "radioslam/results/results.hpp"
 
 namespace radioslam {

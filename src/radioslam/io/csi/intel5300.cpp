@@ -10,7 +10,7 @@
 #include "radioslam/base/input_error.hpp"
 #include "radioslam/base/units.hpp"
 #include "radioslam/io/csi/intel5300_layout.hpp"
-#include "radioslam/io/text/little_endian.hpp"
+#include "radioslam/io/text/byte_view.hpp"
 #include "radioslam/mission/wifi_channel.hpp"
 
 namespace radioslam {

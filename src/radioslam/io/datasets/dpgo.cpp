@@ -9,7 +9,7 @@
 
 #include "radioslam/base/statistics.hpp"
 #include "radioslam/geometry/linear_algebra.hpp"
-#include "radioslam/io/graph/graph_keys.hpp"
+#include "radioslam/io/graph/team_assembly.hpp"
 #include "radioslam/io/text/csv.hpp"
 #include "radioslam/io/text/numbers.hpp"
 #include "radioslam/io/text/skipped_records.hpp"

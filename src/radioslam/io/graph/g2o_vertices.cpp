@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "radioslam/io/graph/g2o_entries.hpp"
-#include "radioslam/io/graph/graph_keys.hpp"
+#include "radioslam/io/graph/team_assembly.hpp"
 #include "radioslam/io/text/line_fields.hpp"
 
 namespace radioslam {

@@ -14,7 +14,6 @@
 #include <utility>
 
 #include "radioslam/geometry/se3.hpp"
-#include "radioslam/io/graph/graph_keys.hpp"
 #include "radioslam/io/graph/information.hpp"
 #include "radioslam/io/graph/team_assembly.hpp"
 #include "radioslam/io/run/run_folder.hpp"

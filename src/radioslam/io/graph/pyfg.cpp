@@ -11,7 +11,6 @@
 #include "radioslam/geometry/se2.hpp"
 #include "radioslam/geometry/se3.hpp"
 #include "radioslam/graph/pose_graph.hpp"
-#include "radioslam/io/graph/graph_keys.hpp"
 #include "radioslam/io/graph/information.hpp"
 #include "radioslam/io/graph/team_assembly.hpp"
 #include "radioslam/io/text/line_fields.hpp"

@@ -8,7 +8,6 @@
 #include "radioslam/io/lidar/pcd.hpp"
 #include "radioslam/io/text/atomic_output.hpp"
 #include "radioslam/io/text/byte_view.hpp"
-#include "radioslam/io/text/little_endian.hpp"
 #include "radioslam/io/text/numbers.hpp"
 
 namespace radioslam {

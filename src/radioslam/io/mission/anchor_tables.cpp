@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "radioslam/io/text/csv.hpp"
-#include "radioslam/io/text/valid_id.hpp"
+#include "radioslam/io/text/text.hpp"
 
 namespace radioslam {
 namespace {

@@ -22,7 +22,7 @@
 
 #include "radioslam/geometry/local_frame.hpp"
 #include "radioslam/io/mission/imported_mission.hpp"
-#include "radioslam/io/ros/ros_scans.hpp"
+#include "radioslam/io/ros/ros_collector.hpp"
 #include "radioslam/io/ros/ros_topics.hpp"
 
 namespace radioslam {

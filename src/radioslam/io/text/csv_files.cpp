@@ -4,7 +4,7 @@
 #include <set>
 
 #include "radioslam/base/input_error.hpp"
-#include "radioslam/io/text/valid_id.hpp"
+#include "radioslam/io/text/text.hpp"
 
 namespace radioslam {
 

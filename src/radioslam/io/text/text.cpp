@@ -42,6 +42,10 @@ std::optional<std::size_t> first_foreign_byte(std::string_view s) {
   return std::nullopt;
 }
 
+constexpr std::size_t kMaxId = 200;  // file names have at most 255 bytes
+
+bool is_control_character(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
+
 }  // namespace
 
 Text make_tool_output(std::string name, std::string content) {
@@ -118,6 +122,13 @@ std::string_view trim(std::string_view s) {
   const std::size_t first = s.find_first_not_of(" \t");
   if (first == std::string_view::npos) return {};
   return s.substr(first, s.find_last_not_of(" \t") - first + 1);
+}
+
+bool is_valid_id(const std::string& id) {
+  if (id.empty() || id.size() > kMaxId || id.front() == '.' || id.front() == '#') return false;
+  if (id.find("..") != std::string::npos || trim(id) != id) return false;
+  return id.find_first_of("/\\,\"") == std::string::npos &&
+         std::none_of(id.begin(), id.end(), is_control_character);
 }
 
 }  // namespace radioslam

@@ -70,4 +70,10 @@ std::string_view trim(std::string_view s);
 /// The text with A to Z converted to lower case.
 std::string lower_case(std::string_view s);
 
+// Validity of names of robots and anchors, which are used as file names and in tables.
+
+/// Whether the name is not empty, short enough for a file name, without path separators, commas, quotes or
+/// control characters, without a leading '.' or '#', and without leading or trailing blanks.
+bool is_valid_id(const std::string& id);
+
 }  // namespace radioslam

@@ -4,7 +4,7 @@
 #include <iomanip>
 #include <sstream>
 
-#include "radioslam/radio/captures/csi_captures.hpp"
+#include "radioslam/radio/captures/csi_tracks.hpp"
 
 namespace radioslam {
 namespace {
