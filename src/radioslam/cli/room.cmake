@@ -46,7 +46,7 @@ target_link_libraries(radioslam_cli
 target_compile_definitions(radioslam_cli PRIVATE RADIOSLAM_VERSION="${PROJECT_VERSION}")
 radioslam_group_sources(radioslam_cli)
 
-add_executable(radioslam_program cli/main.cpp cli/signals.cpp)
+add_executable(radioslam_program cli/main.cpp)
 target_link_libraries(radioslam_program PRIVATE radioslam_cli radioslam_io radioslam_warnings)
 set_target_properties(radioslam_program PROPERTIES
   OUTPUT_NAME radioslam RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})

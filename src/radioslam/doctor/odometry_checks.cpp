@@ -1,5 +1,3 @@
-#include "radioslam/doctor/odometry_checks.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -10,7 +8,7 @@
 
 #include "radioslam/base/statistics.hpp"
 #include "radioslam/base/units.hpp"
-#include "radioslam/doctor/duplicates.hpp"
+#include "radioslam/doctor/checks.hpp"
 #include "radioslam/doctor/text.hpp"
 #include "radioslam/mission/finding.hpp"
 #include "radioslam/mission/mission.hpp"

@@ -3,8 +3,8 @@
 // small for millions of pairs while counting every one.
 #pragma once
 
-#include "radioslam/report/rounding.hpp"
 #include "radioslam/report/report_params.hpp"
+#include "radioslam/report/rounding.hpp"
 #include "radioslam/results/results.hpp"
 
 namespace radioslam {

@@ -1,5 +1,3 @@
-#include "radioslam/cli/import/import_wifi.hpp"
-
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "radioslam/cli/commands/output_path_check.hpp"
+#include "radioslam/cli/import/import_commands.hpp"
 #include "radioslam/cli/import/import_options.hpp"
 #include "radioslam/cli/suggestion.hpp"
 #include "radioslam/io/mission/mission_folder.hpp"

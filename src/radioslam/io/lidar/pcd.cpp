@@ -11,8 +11,8 @@
 #include "radioslam/base/check.hpp"
 #include "radioslam/io/lidar/point_table.hpp"
 #include "radioslam/io/lidar/point_times.hpp"
-#include "radioslam/io/text/line_fields.hpp"
 #include "radioslam/io/text/byte_view.hpp"
+#include "radioslam/io/text/line_fields.hpp"
 #include "radioslam/io/text/numbers.hpp"
 #include "radioslam/io/text/text.hpp"
 
