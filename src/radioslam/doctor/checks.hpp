@@ -32,11 +32,12 @@ std::vector<Finding> check_inertial(const Mission& mission);
 std::vector<Finding> check_scans(const Mission& mission);
 
 /// Holds the radio links and position fixes of a team against its dead reckoning: what does not fit is
-/// explained by the likeliest correction, by a wrong start, or by a stated noise that is not the measured one.
+/// explained by the likeliest correction, by a wrong start, or by a stated noise that is not the measured
+/// one.
 std::vector<Finding> check_links(const Mission& mission);
 
-/// Access points that move: carried by the robot itself, or heard with strengths that no fixed place explains.
-/// Adds a finding for every one in the robot's scans. `track`: its dead reckoning, here and below.
+/// Access points that move: carried by the robot itself, or heard with strengths that no fixed place
+/// explains. Adds a finding for every one in the robot's scans. `track`: its dead reckoning, here and below.
 void check_access_points(const Mission& mission, const Robot& robot, const Track& track,
                          std::vector<Finding>& findings);
 

@@ -17,7 +17,6 @@ radioslam_room(io
     graph/g2o_team.cpp
     graph/g2o_vertices.cpp
     graph/g2o_write.cpp
-    graph/information.cpp
     graph/jrl.cpp
     graph/pyfg.cpp
     graph/team_assembly.cpp

@@ -124,7 +124,6 @@ class G2oReader {
     factor.j = pose_at(ids.j);
     fields.end();
     out_.graph.relative_poses.push_back(factor);
-    out_.relative_pose_lines.push_back(lines_.number());
   }
 
   void read_range(LineFields& fields) {
@@ -142,7 +141,6 @@ class G2oReader {
     set_end(factor.j, ids.j);
     fields.end();
     out_.graph.ranges.push_back(factor);
-    out_.range_lines.push_back(lines_.number());
   }
 
   void set_end(RangeEnd<Pose>& end, G2oVertices::Id id) const {
@@ -162,7 +160,6 @@ class G2oReader {
     set_end(factor.j, ids.j);
     fields.end();
     out_.graph.relative_points.push_back(factor);
-    out_.relative_point_lines.push_back(lines_.number());
   }
 
   void read_prior(LineFields& fields) {
@@ -174,7 +171,6 @@ class G2oReader {
     factor.i = pose_at(id);
     fields.end();
     out_.graph.pose_priors.push_back(factor);
-    out_.pose_prior_lines.push_back(lines_.number());
   }
 
   void read_offset(LineFields& fields) const {

@@ -13,9 +13,7 @@
 namespace radioslam {
 namespace {
 
-constexpr double kMetresPerKilometre = 1000;
-constexpr double kFriis_db = 32.44;  // 20 log10(4 pi km MHz / c)
-constexpr double kAmplitude_db = 20, kPower_db = 10;
+constexpr double kPower_db = 10;
 
 using Eigen::Index;
 
@@ -345,16 +343,6 @@ AccessPointFit described(const std::vector<Refined>& found, const WhitenedSites&
 }
 
 }  // namespace
-
-double free_space_loss_db(double distance_m, double frequency_mhz) {
-  return kAmplitude_db * std::log10(distance_m / kMetresPerKilometre) +
-         kAmplitude_db * std::log10(frequency_mhz) + kFriis_db;
-}
-
-double free_space_distance_m(double loss_db, double frequency_mhz) {
-  const double over_1_km_db = kAmplitude_db * std::log10(frequency_mhz) + kFriis_db;
-  return kMetresPerKilometre * std::pow(10, (loss_db - over_1_km_db) / kAmplitude_db);
-}
 
 double PathLoss::power_dbm(double distance_m) const {
   return power_at_1m_dbm - kPower_db * exponent * std::log10(distance_m);

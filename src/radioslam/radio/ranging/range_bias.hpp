@@ -1,8 +1,7 @@
 // Range biases: constant range error per pair of antennas, from cables, clocks and antennas (decimetres).
 //
-// With known geometry a pair's bias is the robust mean of measured minus true distance. With known anchors
-// and an unknown receiver, biases and positions are estimated jointly: each epoch with more ranges than
-// coordinates constrains the biases. With positions eliminated,
+// With known anchors and an unknown receiver, biases and positions are estimated jointly: each epoch with
+// more ranges than coordinates constrains the biases. With positions eliminated,
 //   H = sum over epochs of W - W J (J^T W J)^-1 J^T W  + I / sigma_b^2,   H db = sum of P r - b / sigma_b^2,
 // W being 1/sigma^2 times the weight of a Cauchy loss, reduced where successive residuals are correlated.
 // Errors that change with position (reflections) are not constant biases; they bias the estimate and possibly
@@ -39,15 +38,6 @@ struct RangeBias {
   double spread_m = 0;    ///< robust standard deviation of single ranges around it
   std::size_t count = 0;  ///< ranges used
 };
-
-/// A measured range whose true distance is known.
-struct KnownRange {
-  std::size_t pair = 0;
-  double range_m = 0, distance_m = 0;
-};
-
-/// Bias per pair 0 .. pairs - 1: Huber's mean, started at the median and scaled by the median deviation.
-std::vector<RangeBias> biases_from_known_geometry(const std::vector<KnownRange>& ranges, std::size_t pairs);
 
 /// Positions and biases estimated jointly.
 struct CalibratedPositions {
