@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "inertial/smooth_motion.hpp"
-#include "radioslam/inertial/motion_prediction.hpp"
+#include "radioslam/inertial/preintegration.hpp"
 #include "radioslam/inertial/state_factors.hpp"
 
 namespace radioslam {

@@ -1,4 +1,4 @@
-#include "radioslam/mission/step_detection.hpp"
+#include "radioslam/mission/dead_reckoning.hpp"
 
 #include <gtest/gtest.h>
 

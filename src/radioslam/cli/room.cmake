@@ -33,7 +33,6 @@ add_library(radioslam_cli STATIC
   cli/import/import_wifi.cpp
   cli/parameter_sets.cpp
   cli/parameters.cpp
-  cli/parameters_page.cpp
   cli/program.cpp
   cli/progress_line.cpp
   cli/run_parameters.cpp

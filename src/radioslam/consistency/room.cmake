@@ -2,7 +2,6 @@ radioslam_room(consistency
   SOURCES
     chi_squared.cpp
     consistent_set.cpp
-    degeneracy.cpp
     maximum_clique.cpp
     pairwise.cpp
     undirected_graph.cpp

@@ -5,6 +5,5 @@ radioslam_room(eval
     measurement_truth.cpp
     metrics.cpp
     mirror_image.cpp
-    statistics.cpp
     team_estimate.cpp
   ROOMS results mission)

@@ -7,7 +7,6 @@
 
 #include "radioslam/graph/block_structure.hpp"
 #include "radioslam/graph/linear/block_cholesky.hpp"
-#include "radioslam/graph/relative_pose_network.hpp"
 
 namespace radioslam {
 namespace {
@@ -195,6 +194,61 @@ std::optional<Matrices<Pose>> translations(const PoseGraph<Pose>& graph, const M
 }
 
 }  // namespace
+
+template <class Pose>
+RelativePoseNetwork relative_pose_network(const PoseGraph<Pose>& graph) {
+  RelativePoseNetwork n{std::vector<std::size_t>(graph.poses.size() + 1, 0), {}};
+  for (const auto& f : graph.relative_poses) {
+    ++n.starts[f.i.index() + 1];
+    ++n.starts[f.j.index() + 1];
+  }
+  for (std::size_t p = 0; p < graph.poses.size(); ++p) n.starts[p + 1] += n.starts[p];
+  n.factors.resize(2 * graph.relative_poses.size());
+  auto next = n.starts;
+  for (std::size_t k = 0; k < graph.relative_poses.size(); ++k) {
+    n.factors[next[graph.relative_poses[k].i.index()]++] = k;
+    n.factors[next[graph.relative_poses[k].j.index()]++] = k;
+  }
+  return n;
+}
+
+template <class Pose>
+std::vector<TreeStep> breadth_first_tree(const PoseGraph<Pose>& graph) {
+  const auto network = relative_pose_network(graph);
+  std::vector<bool> reached(graph.poses.size(), false);
+  std::vector<TreeStep> steps;
+  const auto add_root = [&](std::size_t pose) {
+    reached[pose] = true;
+    steps.push_back({pose, pose, 0});
+  };
+  std::size_t done = 0;
+  const auto spread = [&] {
+    for (; done < steps.size(); ++done) {
+      const std::size_t pose = steps[done].pose;
+      for (std::size_t k = network.starts[pose]; k < network.starts[pose + 1]; ++k) {
+        const auto& f = graph.relative_poses[network.factors[k]];
+        const std::size_t other = f.i.index() == pose ? f.j.index() : f.i.index();
+        if (reached[other]) continue;
+        reached[other] = true;
+        steps.push_back({other, pose, network.factors[k]});
+      }
+    }
+  };
+  for (std::size_t p = 0; p < graph.pose_fixed.size(); ++p)
+    if (graph.pose_fixed[p]) add_root(p);
+  spread();
+  for (std::size_t p = 0; p < graph.poses.size(); ++p)
+    if (!reached[p]) {
+      add_root(p);
+      spread();
+    }
+  return steps;
+}
+
+template RelativePoseNetwork relative_pose_network(const PoseGraph<SE2>&);
+template RelativePoseNetwork relative_pose_network(const PoseGraph<SE3>&);
+template std::vector<TreeStep> breadth_first_tree(const PoseGraph<SE2>&);
+template std::vector<TreeStep> breadth_first_tree(const PoseGraph<SE3>&);
 
 template <class Pose>
 ChordalResult initialise_chordal(PoseGraph<Pose>& graph) {

@@ -4,7 +4,6 @@
 
 #include "radioslam/graph/chordal.hpp"
 #include "radioslam/graph/optimizer.hpp"
-#include "radioslam/graph/relative_pose_network.hpp"
 
 namespace radioslam {
 namespace {

@@ -14,7 +14,6 @@ radioslam_room(graph
     linear/front_solve.cpp
     linear/front_tree.cpp
     linear/number_store.cpp
-    linear/ordering.cpp
     linear/partitioned_inverse.cpp
     linear/selected_inverse.cpp
     linear/supernodes.cpp
@@ -24,7 +23,6 @@ radioslam_room(graph
     normal_equations.cpp
     optimizer.cpp
     pose_chart.cpp
-    relative_pose_network.cpp
     residuals.cpp
   ROOMS geometry
   PRIVATE_LIBRARIES Metis::Metis Amd::Amd)

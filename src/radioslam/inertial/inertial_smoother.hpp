@@ -17,7 +17,7 @@
 
 #include "radioslam/base/fields.hpp"
 #include "radioslam/geometry/uncertain_pose.hpp"
-#include "radioslam/inertial/inertial_state.hpp"
+#include "radioslam/inertial/preintegration.hpp"
 #include "radioslam/inertial/state_factors.hpp"
 
 namespace radioslam {

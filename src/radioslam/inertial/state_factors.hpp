@@ -26,7 +26,7 @@ namespace radioslam {
 //   velocity   R_i^T (v_j - v_i - g t) - velocity(b_i)
 //
 // Order and covariance as in preintegration.hpp. The bias is the first state's; its random walk is another
-// factor. Jacobians are for the tangents of inertial_state.hpp.
+// factor. Jacobians are for the tangents of preintegration.hpp.
 
 using InertialResidual = Preintegration::Error;
 using InertialResidualByState =

@@ -52,7 +52,6 @@ radioslam_room(io
     text/atomic_output.cpp
     text/compressed_text.cpp
     text/csv.cpp
-    text/csv_files.cpp
     text/line_fields.cpp
     text/mac_address.cpp
     text/numbers.cpp
@@ -67,7 +66,6 @@ radioslam_room(io
     wifi/nmcli_list.cpp
     wifi/pcap.cpp
     wifi/phone_log.cpp
-    wifi/radiotap.cpp
     wifi/wifi_capture.cpp
     wifi/wifi_csv.cpp
     wifi/wifi_log.cpp

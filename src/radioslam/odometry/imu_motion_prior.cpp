@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "radioslam/inertial/motion_prediction.hpp"
+#include "radioslam/inertial/preintegration.hpp"
 
 namespace radioslam {
 namespace {

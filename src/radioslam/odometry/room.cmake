@@ -3,7 +3,6 @@ radioslam_room(odometry
     imu_motion_prior.cpp
     map_drift.cpp
     motion_distortion.cpp
-    odometry_from_scans.cpp
     scan_stage.cpp
     scan_tracking.cpp
   ROOMS lidar inertial mission)

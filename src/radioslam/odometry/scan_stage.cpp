@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "radioslam/base/progress.hpp"
-#include "radioslam/inertial/motion_prediction.hpp"
+#include "radioslam/inertial/preintegration.hpp"
 #include "radioslam/lidar/lidar_odometry.hpp"
 #include "radioslam/mission/inertial.hpp"
 #include "radioslam/mission/keyframes.hpp"
@@ -16,7 +16,6 @@
 #include "radioslam/mission/odometry_edge.hpp"
 #include "radioslam/odometry/inertial_params.hpp"
 #include "radioslam/odometry/map_drift.hpp"
-#include "radioslam/odometry/odometry_from_scans.hpp"
 #include "radioslam/odometry/scan_params.hpp"
 #include "radioslam/odometry/scan_tracking.hpp"
 

@@ -14,7 +14,6 @@ radioslam_room(radio
     aoa/steering_sums.cpp
     captures/clock_offset.cpp
     captures/csi_aoa.cpp
-    captures/csi_notes.cpp
     captures/csi_stage.cpp
     captures/csi_tracks.cpp
     channel/capture_power.cpp

@@ -13,7 +13,6 @@
 #include "radioslam/mission/truth.hpp"
 #include "radioslam/report/access_point_data.hpp"
 #include "radioslam/report/aoa_data.hpp"
-#include "radioslam/report/candidate_data.hpp"
 #include "radioslam/report/closure_data.hpp"
 #include "radioslam/report/embedded_data.hpp"
 #include "radioslam/report/page_parts.hpp"

@@ -3,7 +3,6 @@ radioslam_room(report
   SOURCES
     access_point_data.cpp
     aoa_data.cpp
-    candidate_data.cpp
     closure_data.cpp
     embedded_data.cpp
     report.cpp

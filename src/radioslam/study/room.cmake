@@ -11,7 +11,6 @@ radioslam_room(study
     oracle.cpp
     overlap_growth/overlap_growth.cpp
     robustness_map/robustness_map.cpp
-    robustness_map/robustness_summary.cpp
     study_json.cpp
     study_page.cpp
     study_table.cpp

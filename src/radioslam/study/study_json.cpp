@@ -1,7 +1,7 @@
 #include "radioslam/study/study_json.hpp"
 
 #include "radioslam/io/run/metrics_json.hpp"
-#include "radioslam/study/robustness_map/robustness_summary.hpp"
+#include "radioslam/study/robustness_map/robustness_map.hpp"
 #include "radioslam/study/wi_closure_kitti/published_wi_closure.hpp"
 
 namespace radioslam {

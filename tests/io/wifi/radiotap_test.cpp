@@ -1,4 +1,4 @@
-#include "radioslam/io/wifi/radiotap.hpp"
+#include "radioslam/io/wifi/wifi_capture.hpp"
 
 #include <gtest/gtest.h>
 

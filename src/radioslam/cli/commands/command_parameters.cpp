@@ -6,7 +6,6 @@
 #include "radioslam/cli/commands.hpp"
 #include "radioslam/cli/commands/command_options.hpp"
 #include "radioslam/cli/parameter_sets.hpp"
-#include "radioslam/cli/parameters_page.hpp"
 
 namespace radioslam::cli {
 namespace {

@@ -14,7 +14,7 @@
 #include "radioslam/io/mission/mission_folder.hpp"
 #include "radioslam/io/mission/mission_yaml.hpp"
 #include "radioslam/io/text/atomic_output.hpp"
-#include "radioslam/io/text/csv_files.hpp"
+#include "radioslam/io/text/csv.hpp"
 #include "radioslam/io/text/text.hpp"
 #include "radioslam/io/wifi/airodump_csv.hpp"
 #include "radioslam/io/wifi/iw_scan.hpp"

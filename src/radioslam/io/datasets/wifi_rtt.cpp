@@ -6,7 +6,6 @@
 
 #include "radioslam/base/units.hpp"
 #include "radioslam/io/text/csv.hpp"
-#include "radioslam/io/text/csv_files.hpp"
 #include "radioslam/io/text/line_fields.hpp"
 #include "radioslam/io/wifi/wifi_csv.hpp"
 
