@@ -1,8 +1,8 @@
 // Pedestrian dead reckoning: a walker's trajectory from the motion sensors of a hand-held phone.
 //
 //   levelling   heading from the gyroscope, vertical acceleration                    (levelling.hpp)
-//   steps       time and length of every step                                        (step_detection.hpp)
-//   compass     direction of east                                                    (compass.hpp)
+//   steps       time and length of every step
+//   compass     direction of east
 //   p <- p + length (cos, sin)(heading)     each step points along its mean heading
 //
 // The phone is held in front of the body with its screen up or towards the walker and its y axis in the

@@ -59,4 +59,10 @@ std::string format_ranges(const Mission& mission);
 std::string format_aoa(const Mission& mission);
 std::string format_matches(const Mission& mission);
 
+/// aoa.csv row by row: the paths of one measurement, numbered from 0.
+inline constexpr std::string_view kAoaHeader =
+    "t_s,receiver,transmitter,path,azimuth_rad,elevation_rad,sigma_rad,power_db\n";
+void append_aoa_rows(std::string& out, Stamp stamp, const std::string& receiver,
+                     const std::string& transmitter, const std::vector<AoaPath>& paths);
+
 }  // namespace radioslam

@@ -71,22 +71,24 @@ std::string format_ranges(const Mission& mission) {
   return out;
 }
 
-std::string format_aoa(const Mission& mission) {
-  std::string out = "t_s,receiver,transmitter,path,azimuth_rad,elevation_rad,sigma_rad,power_db\n";
-  for (const AoaMeasurement& arrival : mission.aoa_measurements) {
-    const std::string start = format_stamp(arrival.stamp) + ',' +
-                              mission.robots[arrival.receiver.index()].id + ',' +
-                              name_of(mission, arrival.transmitter) + ',';
-    for (std::size_t p = 0; p < arrival.paths.size(); ++p) {
-      const AoaPath& path = arrival.paths[p];
-      append_number((out += start + std::to_string(p)) += ',', path.azimuth_rad);
-      out += ',';
-      if (path.elevation_rad) append_number(out, *path.elevation_rad);
-      append_number(out += ',', path.sigma_rad);
-      append_number(out += ',', path.power_db);
-      out += '\n';
-    }
+void append_aoa_rows(std::string& out, Stamp stamp, const std::string& receiver,
+                     const std::string& transmitter, const std::vector<AoaPath>& paths) {
+  const std::string start = format_stamp(stamp) + ',' + receiver + ',' + transmitter + ',';
+  for (std::size_t p = 0; p < paths.size(); ++p) {
+    append_number((out += start + std::to_string(p)) += ',', paths[p].azimuth_rad);
+    out += ',';
+    if (paths[p].elevation_rad) append_number(out, *paths[p].elevation_rad);
+    append_number(out += ',', paths[p].sigma_rad);
+    append_number(out += ',', paths[p].power_db);
+    out += '\n';
   }
+}
+
+std::string format_aoa(const Mission& mission) {
+  std::string out(kAoaHeader);
+  for (const AoaMeasurement& arrival : mission.aoa_measurements)
+    append_aoa_rows(out, arrival.stamp, mission.robots[arrival.receiver.index()].id,
+                    name_of(mission, arrival.transmitter), arrival.paths);
   return out;
 }
 
