@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "radioslam/base/random.hpp"
-#include "radioslam/inertial/imu_noise.hpp"
 #include "radioslam/inertial/preintegration.hpp"
 #include "radioslam/mission/inertial.hpp"
 

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <set>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 #include "radioslam/cli/commands/anchors_params.hpp"
 #include "radioslam/cli/commands/similarity_params.hpp"

@@ -40,8 +40,7 @@ std::vector<ParameterDescription> basic_parameters(const std::vector<ParameterDe
 
 // The page docs/parameters.md: every parameter of every command, as tables in Markdown.
 
-/// For each call of the program its basic parameters, then all of them by section; at the end the names of
-/// version 0.1.
+/// For each call of the program its basic parameters, then all of them by section.
 std::string parameters_page();
 
 }  // namespace radioslam::cli

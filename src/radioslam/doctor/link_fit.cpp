@@ -4,13 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <numbers>
 #include <numeric>
 #include <string>
 #include <vector>
 
-#include "radioslam/doctor/team_links.hpp"
 #include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/graph/team_graph.hpp"
 #include "radioslam/radio/aoa/aoa_likelihood.hpp"

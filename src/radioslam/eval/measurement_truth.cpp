@@ -3,12 +3,9 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <deque>
 #include <numbers>
-#include <optional>
 #include <tuple>
-#include <vector>
 
 #include "radioslam/base/check.hpp"
 #include "radioslam/base/units.hpp"
@@ -16,7 +13,6 @@
 #include "radioslam/geometry/so3.hpp"
 #include "radioslam/mission/keyframes.hpp"
 #include "radioslam/mission/radio_links.hpp"
-#include "radioslam/mission/truth.hpp"
 
 namespace radioslam {
 namespace {

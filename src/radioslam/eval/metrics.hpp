@@ -12,15 +12,6 @@
 
 namespace radioslam {
 
-// Summary statistics of a set of errors.
-
-/// Quantile of sorted values for a `fraction` in [0, 1], with linear interpolation (numpy's default). Needs
-/// one value.
-double quantile(const std::vector<double>& sorted, double fraction);
-
-/// Nothing if there are no errors.
-std::optional<ErrorStatistics> summarise_errors(std::vector<double> errors_m);
-
 /// Trajectory to be evaluated; `poses` in a frame common to the team.
 struct EstimatedTrajectory {
   std::string id;
@@ -43,6 +34,13 @@ struct ErrorStatistics {
   double p90_m = 0;
   std::size_t count = 0;
 };
+
+/// Quantile of sorted values for a `fraction` in [0, 1], with linear interpolation (numpy's default). Needs
+/// one value.
+double quantile(const std::vector<double>& sorted, double fraction);
+
+/// Nothing if there are no errors.
+std::optional<ErrorStatistics> summarise_errors(std::vector<double> errors_m);
 
 /// Error of one position.
 struct PointError {

@@ -3,7 +3,6 @@
 #include <Eigen/SVD>
 #include <cmath>
 #include <optional>
-#include <vector>
 
 #include "radioslam/graph/block_structure.hpp"
 #include "radioslam/graph/linear/block_cholesky.hpp"
@@ -29,11 +28,49 @@ class PoseNetworkSolver {
 
   /// `values` holds X_p in its first `columns` columns; `terms` one per relative pose. Nothing when the
   /// problem is singular.
-  std::optional<std::vector<Matrix>> solve(Eigen::Index columns, std::vector<Matrix> values,
-                                           const std::vector<Term>& terms);
+  auto solve(Eigen::Index columns, std::vector<Matrix> values, const std::vector<Term>& terms)
+      -> std::optional<std::vector<Matrix>> {
+    if (matrix_.rows() == 0) return values;
+    matrix_.set_zero();
+    right_side_ = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(matrix_.rows()), columns);
+    for (std::size_t k = 0; k < terms.size(); ++k)
+      if (ends_[k][0] != ends_[k][1]) add_term(k, terms[k], values);
+    if (cholesky_->factorize(matrix_) != Factorization::kDone) return std::nullopt;
+    for (Eigen::Index c = 0; c < columns; ++c) {
+      const Eigen::VectorXd x = cholesky_->solve(right_side_.col(c));
+      if (!x.allFinite()) return std::nullopt;
+      for (std::size_t p = 0; p < values.size(); ++p)
+        if (blocks_.poses[p] >= 0)
+          values[p].col(c) = x.segment<Pose::kDim>(
+              static_cast<Eigen::Index>(matrix_.offset(static_cast<std::size_t>(blocks_.poses[p]))));
+    }
+    return values;
+  }
 
  private:
-  void add_term(std::size_t factor, const Term& term, const std::vector<Matrix>& values);
+  void add_term(std::size_t factor, const Term& term, const std::vector<Matrix>& values) {
+    const auto& [i, j] = ends_[factor];
+    const auto& slots = slots_[factor];
+    const Matrix wa = term.w * term.a, wb = term.w * term.b;
+    const auto add_at = [&](std::int32_t block, const Matrix& diagonal, const Matrix& right_side) {
+      if (block < 0) return;
+      const auto b = static_cast<std::size_t>(block);
+      matrix_.diagonal(b) += diagonal;
+      right_side_.middleRows<Pose::kDim>(static_cast<Eigen::Index>(matrix_.offset(b))) +=
+          right_side.leftCols(right_side_.cols());
+    };
+    const auto [block_i, block_j] = slots.blocks;
+    add_at(block_j, term.w, block_i < 0 ? Matrix(wb + wa * values[i]) : wb);
+    add_at(block_i, term.a.transpose() * wa,
+           block_j < 0 ? Matrix(wa.transpose() * values[j] - term.a.transpose() * wb)
+                       : Matrix(-term.a.transpose() * wb));
+    if (slots.lower[0] < 0) return;
+    auto lower = matrix_.lower(static_cast<std::size_t>(slots.lower[0]));
+    if (block_j > block_i)
+      lower -= wa;
+    else
+      lower -= wa.transpose();
+  }
 
   std::vector<std::array<std::size_t, 2>> ends_;  ///< i and j of every relative pose
   VariableBlocks blocks_;
@@ -79,52 +116,6 @@ PoseNetworkSolver<Pose>::PoseNetworkSolver(const PoseGraph<Pose>& graph, const s
     slots_.push_back(factor_slots(matrix_, blocks_, pose_ends(f)));
   }
   if (matrix_.rows() > 0) cholesky_.emplace(matrix_.pattern());
-}
-
-template <class Pose>
-void PoseNetworkSolver<Pose>::add_term(std::size_t factor, const Term& term,
-                                       const std::vector<Matrix>& values) {
-  const auto& [i, j] = ends_[factor];
-  const auto& slots = slots_[factor];
-  const Matrix wa = term.w * term.a, wb = term.w * term.b;
-  const auto add_at = [&](std::int32_t block, const Matrix& diagonal, const Matrix& right_side) {
-    if (block < 0) return;
-    const auto b = static_cast<std::size_t>(block);
-    matrix_.diagonal(b) += diagonal;
-    right_side_.middleRows<Pose::kDim>(static_cast<Eigen::Index>(matrix_.offset(b))) +=
-        right_side.leftCols(right_side_.cols());
-  };
-  const auto [block_i, block_j] = slots.blocks;
-  add_at(block_j, term.w, block_i < 0 ? Matrix(wb + wa * values[i]) : wb);
-  add_at(block_i, term.a.transpose() * wa,
-         block_j < 0 ? Matrix(wa.transpose() * values[j] - term.a.transpose() * wb)
-                     : Matrix(-term.a.transpose() * wb));
-  if (slots.lower[0] < 0) return;
-  auto lower = matrix_.lower(static_cast<std::size_t>(slots.lower[0]));
-  if (block_j > block_i)
-    lower -= wa;
-  else
-    lower -= wa.transpose();
-}
-
-template <class Pose>
-auto PoseNetworkSolver<Pose>::solve(Eigen::Index columns, std::vector<Matrix> values,
-                                    const std::vector<Term>& terms) -> std::optional<std::vector<Matrix>> {
-  if (matrix_.rows() == 0) return values;
-  matrix_.set_zero();
-  right_side_ = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(matrix_.rows()), columns);
-  for (std::size_t k = 0; k < terms.size(); ++k)
-    if (ends_[k][0] != ends_[k][1]) add_term(k, terms[k], values);
-  if (cholesky_->factorize(matrix_) != Factorization::kDone) return std::nullopt;
-  for (Eigen::Index c = 0; c < columns; ++c) {
-    const Eigen::VectorXd x = cholesky_->solve(right_side_.col(c));
-    if (!x.allFinite()) return std::nullopt;
-    for (std::size_t p = 0; p < values.size(); ++p)
-      if (blocks_.poses[p] >= 0)
-        values[p].col(c) = x.segment<Pose::kDim>(
-            static_cast<Eigen::Index>(matrix_.offset(static_cast<std::size_t>(blocks_.poses[p]))));
-  }
-  return values;
 }
 
 template <class Pose>

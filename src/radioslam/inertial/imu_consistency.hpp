@@ -19,7 +19,7 @@
 #include "radioslam/base/fields.hpp"
 #include "radioslam/geometry/se3.hpp"
 #include "radioslam/geometry/trajectory.hpp"
-#include "radioslam/inertial/imu_noise.hpp"
+#include "radioslam/inertial/preintegration.hpp"
 #include "radioslam/mission/inertial.hpp"
 
 namespace radioslam {

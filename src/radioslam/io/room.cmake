@@ -46,7 +46,6 @@ radioslam_room(io
     ros/ros_topics.cpp
     ros/ros_types.cpp
     run/metrics_json.cpp
-    run/run_folder_read.cpp
     run/run_folder_write.cpp
     run/run_tables.cpp
     text/atomic_output.cpp

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 #include "radioslam/base/statistics.hpp"
 #include "radioslam/lidar/pose_search.hpp"
-#include "radioslam/lidar/scan_points.hpp"
 #include "radioslam/lidar/surfels/voxel_grid.hpp"
 
 namespace radioslam {

@@ -3,20 +3,14 @@
 #include <algorithm>
 #include <optional>
 #include <span>
-#include <string>
 #include <utility>
-#include <vector>
 
-#include "radioslam/base/progress.hpp"
 #include "radioslam/inertial/preintegration.hpp"
 #include "radioslam/lidar/lidar_odometry.hpp"
 #include "radioslam/mission/inertial.hpp"
-#include "radioslam/mission/keyframes.hpp"
-#include "radioslam/mission/mission.hpp"
 #include "radioslam/mission/odometry_edge.hpp"
 #include "radioslam/odometry/inertial_params.hpp"
 #include "radioslam/odometry/map_drift.hpp"
-#include "radioslam/odometry/scan_params.hpp"
 #include "radioslam/odometry/scan_tracking.hpp"
 
 namespace radioslam {

@@ -4,7 +4,6 @@
 #include <limits>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "radioslam/base/stamp_intervals.hpp"
 #include "radioslam/geometry/uncertain_pose.hpp"

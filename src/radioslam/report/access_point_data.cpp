@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "radioslam/geometry/linear_algebra.hpp"
-#include "radioslam/report/rounding.hpp"
 
 namespace radioslam {
 namespace {

@@ -6,8 +6,6 @@
 #include <numeric>
 #include <tuple>
 
-#include "radioslam/report/rounding.hpp"
-
 namespace radioslam {
 namespace {
 

@@ -7,10 +7,8 @@
 #include <string>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 #include "radioslam/base/statistics.hpp"
-#include "radioslam/report/rounding.hpp"
 
 namespace radioslam {
 namespace {

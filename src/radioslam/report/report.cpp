@@ -2,24 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
-#include "radioslam/eval/measurement_truth.hpp"
-#include "radioslam/eval/metrics.hpp"
 #include "radioslam/eval/team_estimate.hpp"
-#include "radioslam/mission/truth.hpp"
 #include "radioslam/report/access_point_data.hpp"
 #include "radioslam/report/aoa_data.hpp"
 #include "radioslam/report/closure_data.hpp"
 #include "radioslam/report/embedded_data.hpp"
 #include "radioslam/report/page_parts.hpp"
-#include "radioslam/report/report_params.hpp"
 #include "radioslam/report/rounding.hpp"
 #include "radioslam/report/trajectory_data.hpp"
-#include "radioslam/results/results.hpp"
 
 namespace radioslam {
 namespace {

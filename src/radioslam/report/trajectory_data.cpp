@@ -2,11 +2,8 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <string>
 
 #include "radioslam/base/statistics.hpp"
-#include "radioslam/report/rounding.hpp"
-#include "radioslam/results/results.hpp"
 
 namespace radioslam {
 namespace {

@@ -27,39 +27,6 @@
 namespace radioslam::cli {
 namespace {
 
-// Output of imported WiFi scans: a wifi.csv alone, or the wifi.csv of a robot in a mission.
-
-/// One of three targets, depending on the output path:
-///   NAME.csv              the table alone
-///   an existing mission   robots/<robot>/wifi.csv; the robot need not be named if there is only one
-///   any other folder      a new mission of one robot without odometry; without a name, the robot is named
-///   after
-///                         the source
-class WifiCsvOutput {
- public:
-  /// Refuses (InputError) a robot that the mission does not have, and invalid names.
-  WifiCsvOutput(const std::string& output, const std::string& robot, const std::string& source);
-
-  void commit(const std::vector<WifiRow>& rows);
-
-  /// The path that commit() replaces.
-  std::string replaced() const;
-  /// The robot's name; empty for a table alone.
-  const std::string& robot() const { return robot_; }
-  /// A note on what the mission still lacks before it can be run; empty if nothing is known to be missing.
-  std::string missing() const;
-
- private:
-  void find_robot_of_mission();
-  void name_robot_after(const std::string& source);
-  std::string file_of_robot(const char* name) const;
-
-  std::string output_, robot_;
-  std::string table_;  ///< the path of file_
-  std::optional<OutputFile> file_;
-  std::optional<OutputFolder> folder_;
-};
-
 namespace fs = std::filesystem;
 
 std::vector<std::string> robots_in_mission(const fs::path& mission) {
@@ -68,6 +35,70 @@ std::vector<std::string> robots_in_mission(const fs::path& mission) {
     ids.push_back(robot.id);
   return ids;
 }
+
+// Output of imported WiFi scans: a wifi.csv alone, or the wifi.csv of a robot in a mission.
+
+/// One of three targets, depending on the output path:
+///   NAME.csv              the table alone
+///   an existing mission   robots/<robot>/wifi.csv; the robot need not be named if there is only one
+///   any other folder      a new mission of one robot without odometry; without a name, the robot is named
+///                         after the source
+class WifiCsvOutput {
+ public:
+  /// Refuses (InputError) a robot that the mission does not have, and invalid names.
+  WifiCsvOutput(const std::string& output, const std::string& robot, const std::string& source);
+
+  void commit(const std::vector<WifiRow>& rows) {
+    const std::string table = format_wifi_rows(rows);
+    if (file_) return file_->commit(table);
+    Mission mission;
+    mission.name = name_of_source(output_);
+    mission.robots.emplace_back().id = robot_;
+    write_mission(folder_->path(), mission);
+    write_file(folder_->path() / "robots" / robot_ / "wifi.csv", table);
+    folder_->commit();
+  }
+
+  /// The path that commit() replaces.
+  std::string replaced() const { return file_ ? table_ : output_; }
+
+  /// The robot's name; empty for a table alone.
+  const std::string& robot() const { return robot_; }
+  /// A note on what the mission still lacks before it can be run; empty if nothing is known to be missing.
+  std::string missing() const {
+    if (robot_.empty() || output_.ends_with(".csv")) return {};
+    const std::string odometry = file_of_robot("odometry.tum");
+    return fs::exists(odometry) ? "" : odometry + " is missing; `radioslam run` needs it";
+  }
+
+ private:
+  void find_robot_of_mission() {
+    const auto ids = robots_in_mission(output_);
+    if (robot_.empty() && ids.size() == 1) robot_ = ids.front();
+    if (robot_.empty())
+      throw InputError(output_, 0,
+                       "this mission has " + std::to_string(ids.size()) +
+                           " robots; --robot selects the one that recorded this");
+    if (std::find(ids.begin(), ids.end(), robot_) == ids.end())
+      throw InputError("--robot " + robot_, 0,
+                       "the mission " + output_ + " has no such robot" + did_you_mean(robot_, ids));
+  }
+
+  void name_robot_after(const std::string& source) {
+    robot_ = name_of_source(source);
+    if (!is_valid_id(robot_))
+      throw InputError(source, 0, "its name is not a valid robot name; --robot sets another one");
+  }
+
+  std::string file_of_robot(const char* name) const {
+    return (fs::path(output_) / "robots" / robot_ / name).string();
+  }
+
+  std::string output_, robot_;
+  std::string table_;  ///< the path of file_
+  std::optional<OutputFile> file_;
+  std::optional<OutputFolder> folder_;
+};
 
 WifiCsvOutput::WifiCsvOutput(const std::string& output, const std::string& robot, const std::string& source)
     : output_(output), robot_(robot) {
@@ -81,47 +112,6 @@ WifiCsvOutput::WifiCsvOutput(const std::string& output, const std::string& robot
     if (robot_.empty()) name_robot_after(source);
     folder_.emplace(output, kMissionFolder);
   }
-}
-
-std::string WifiCsvOutput::replaced() const { return file_ ? table_ : output_; }
-
-void WifiCsvOutput::find_robot_of_mission() {
-  const auto ids = robots_in_mission(output_);
-  if (robot_.empty() && ids.size() == 1) robot_ = ids.front();
-  if (robot_.empty())
-    throw InputError(output_, 0,
-                     "this mission has " + std::to_string(ids.size()) +
-                         " robots; --robot selects the one that recorded this");
-  if (std::find(ids.begin(), ids.end(), robot_) == ids.end())
-    throw InputError("--robot " + robot_, 0,
-                     "the mission " + output_ + " has no such robot" + did_you_mean(robot_, ids));
-}
-
-void WifiCsvOutput::name_robot_after(const std::string& source) {
-  robot_ = name_of_source(source);
-  if (!is_valid_id(robot_))
-    throw InputError(source, 0, "its name is not a valid robot name; --robot sets another one");
-}
-
-std::string WifiCsvOutput::file_of_robot(const char* name) const {
-  return (fs::path(output_) / "robots" / robot_ / name).string();
-}
-
-void WifiCsvOutput::commit(const std::vector<WifiRow>& rows) {
-  const std::string table = format_wifi_rows(rows);
-  if (file_) return file_->commit(table);
-  Mission mission;
-  mission.name = name_of_source(output_);
-  mission.robots.emplace_back().id = robot_;
-  write_mission(folder_->path(), mission);
-  write_file(folder_->path() / "robots" / robot_ / "wifi.csv", table);
-  folder_->commit();
-}
-
-std::string WifiCsvOutput::missing() const {
-  if (robot_.empty() || output_.ends_with(".csv")) return {};
-  const std::string odometry = file_of_robot("odometry.tum");
-  return fs::exists(odometry) ? "" : odometry + " is missing; `radioslam run` needs it";
 }
 
 /// All source files: sources that are files, and the files in sources that are folders, sorted by name. In

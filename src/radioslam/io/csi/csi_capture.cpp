@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <string>
 
 #include "radioslam/base/input_error.hpp"
 #include "radioslam/io/csi/esp32_csi.hpp"

@@ -9,14 +9,21 @@
 #include "radioslam/base/check.hpp"
 #include "radioslam/base/input_error.hpp"
 #include "radioslam/base/units.hpp"
-#include "radioslam/io/csi/intel5300_layout.hpp"
 #include "radioslam/io/text/byte_view.hpp"
 #include "radioslam/mission/wifi_channel.hpp"
 
 namespace radioslam {
 namespace {
 
-using namespace intel5300;
+constexpr std::uint8_t kChannelCode = 187;
+constexpr std::size_t kSubcarriers = 30, kSkippedBits = 3, kBitsPerValue = 16;
+constexpr std::size_t kStockHeader = 20, kLongHeader = 38;
+constexpr std::size_t kMaxAntennas = 3;
+constexpr unsigned kWideChannelFlag = 0x800;
+
+constexpr std::size_t bytes_of_channel(std::size_t antennas, std::size_t streams) {
+  return (kSubcarriers * (antennas * streams * kBitsPerValue + kSkippedBits) + 7) / 8;
+}
 
 /// Little endian numbers, without bounds checks.
 class Bytes {
@@ -158,8 +165,6 @@ class Reader {
   std::size_t other_width_ = 0;
   CsiCapture capture_;
 };
-
-using namespace intel5300;
 
 constexpr unsigned kAntennasInOrder = 0b100100;  ///< two bits per chain: chain k uses antenna k
 constexpr unsigned kRateAndFlags = 0x101;        ///< as in recorded files: legacy rate, antenna A

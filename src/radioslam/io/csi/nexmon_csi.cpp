@@ -7,8 +7,6 @@
 #include <cstdint>
 #include <optional>
 #include <set>
-#include <string>
-#include <string_view>
 #include <utility>
 
 #include "radioslam/base/input_error.hpp"

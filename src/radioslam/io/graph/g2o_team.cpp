@@ -10,7 +10,6 @@
 #include "radioslam/io/graph/g2o.hpp"
 #include "radioslam/io/graph/team_assembly.hpp"
 #include "radioslam/io/text/compressed_text.hpp"
-#include "radioslam/io/text/text.hpp"
 
 namespace radioslam {
 namespace {

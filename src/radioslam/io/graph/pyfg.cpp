@@ -80,9 +80,18 @@ struct PyfgVertices {
   std::unordered_map<std::string, RangeEnd<Pose>> by_name;  ///< used for look-up only, never iterated
 
   /// The pose or point with this name; `at` is the line that names it. Refuses unknown names.
-  RangeEnd<Pose> find(const TextLines& at, std::string_view name) const;
+  RangeEnd<Pose> find(const TextLines& at, std::string_view name) const {
+    const auto found = by_name.find(std::string(name));
+    if (found == by_name.end()) at.fail(quoted_pyfg_word(name) + " has no VERTEX line");
+    return found->second;
+  }
+
   /// Also refuses points.
-  PoseId find_pose(const TextLines& at, std::string_view name) const;
+  PoseId find_pose(const TextLines& at, std::string_view name) const {
+    const RangeEnd<Pose> end = find(at, name);
+    if (!end.pose.valid()) at.fail(quoted_pyfg_word(name) + " is a point, not a pose");
+    return end.pose;
+  }
 };
 
 constexpr double kMaxPyfgStamp_s = 9e9;  ///< year 2255; leaves room to separate equal stamps
@@ -160,20 +169,6 @@ class PyfgVertexReader {
   PyfgVertices<Pose> out_;
   std::set<std::pair<std::string, std::uint64_t>> taken_;
 };
-
-template <class Pose>
-RangeEnd<Pose> PyfgVertices<Pose>::find(const TextLines& at, std::string_view name) const {
-  const auto found = by_name.find(std::string(name));
-  if (found == by_name.end()) at.fail(quoted_pyfg_word(name) + " has no VERTEX line");
-  return found->second;
-}
-
-template <class Pose>
-PoseId PyfgVertices<Pose>::find_pose(const TextLines& at, std::string_view name) const {
-  const RangeEnd<Pose> end = find(at, name);
-  if (!end.pose.valid()) at.fail(quoted_pyfg_word(name) + " is a point, not a pose");
-  return end.pose;
-}
 
 /// Refuses malformed lines, implausible times, ids that are not letters and a number, and repeated names.
 template <class Pose>

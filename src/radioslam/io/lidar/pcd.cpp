@@ -1,11 +1,8 @@
 #include "radioslam/io/lidar/pcd.hpp"
 
-#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <map>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "radioslam/base/check.hpp"
@@ -14,7 +11,6 @@
 #include "radioslam/io/text/byte_view.hpp"
 #include "radioslam/io/text/line_fields.hpp"
 #include "radioslam/io/text/numbers.hpp"
-#include "radioslam/io/text/text.hpp"
 
 namespace radioslam {
 namespace {

@@ -9,7 +9,6 @@
 #include "radioslam/io/csi/csi_yaml.hpp"
 #include "radioslam/io/text/mac_address.hpp"
 #include "radioslam/io/text/numbers.hpp"
-#include "radioslam/io/text/text.hpp"
 #include "radioslam/io/text/yaml_map.hpp"
 
 namespace radioslam {

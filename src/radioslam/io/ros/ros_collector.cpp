@@ -1,14 +1,11 @@
 #include "radioslam/io/ros/ros_collector.hpp"
 
 #include <algorithm>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "radioslam/base/statistics.hpp"
 #include "radioslam/base/units.hpp"
 #include "radioslam/geometry/se3.hpp"
-#include "radioslam/io/ros/ros_topics.hpp"
 
 namespace radioslam {
 namespace {

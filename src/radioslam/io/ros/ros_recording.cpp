@@ -8,8 +8,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
-#include <string_view>
 
 #include "radioslam/base/input_error.hpp"
 #include "radioslam/io/ros/mcap.hpp"

@@ -6,7 +6,6 @@
 #include "radioslam/base/input_error.hpp"
 #include "radioslam/io/ros/ros_recording.hpp"
 #include "radioslam/io/ros/ros_types.hpp"
-#include "radioslam/io/ros/transforms.hpp"
 
 namespace radioslam {
 namespace {

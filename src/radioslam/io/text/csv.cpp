@@ -5,7 +5,6 @@
 
 #include "radioslam/base/input_error.hpp"
 #include "radioslam/io/text/line_fields.hpp"
-#include "radioslam/io/text/text.hpp"
 
 namespace radioslam {
 namespace {

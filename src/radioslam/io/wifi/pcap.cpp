@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "radioslam/base/input_error.hpp"
 #include "radioslam/base/units.hpp"
 
 namespace radioslam {

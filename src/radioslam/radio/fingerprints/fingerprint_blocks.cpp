@@ -1,14 +1,11 @@
 #include "radioslam/radio/fingerprints/fingerprint_blocks.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <numeric>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "radioslam/base/parallel.hpp"
-#include "radioslam/radio/fingerprints/fingerprint.hpp"
 
 namespace radioslam {
 namespace {

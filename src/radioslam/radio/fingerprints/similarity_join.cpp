@@ -2,14 +2,11 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstdint>
 #include <limits>
 #include <numeric>
-#include <vector>
 
 #include "radioslam/base/check.hpp"
 #include "radioslam/base/parallel.hpp"
-#include "radioslam/radio/fingerprints/fingerprint_blocks.hpp"
 #include "radioslam/radio/fingerprints/similarity_lanes.hpp"
 #include "radioslam/radio/fingerprints/similarity_sums.hpp"
 

@@ -1,9 +1,7 @@
 #include "radioslam/radio/ranging/anchor_layout.hpp"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "radioslam/base/check.hpp"
 #include "radioslam/geometry/linear_algebra.hpp"

@@ -1,7 +1,6 @@
 #include "radioslam/sim/motion/drive.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>

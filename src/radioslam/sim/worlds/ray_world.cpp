@@ -1,6 +1,5 @@
 #include "radioslam/sim/worlds/ray_world.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
