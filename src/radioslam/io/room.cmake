@@ -46,7 +46,7 @@ radioslam_room(io
     ros/ros_topics.cpp
     ros/ros_types.cpp
     run/metrics_json.cpp
-    run/run_folder_write.cpp
+    run/run_folder.cpp
     run/run_tables.cpp
     text/atomic_output.cpp
     text/compressed_text.cpp

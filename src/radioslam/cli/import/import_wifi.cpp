@@ -123,15 +123,11 @@ std::vector<fs::path> files_of(const ImportOptions& options, const std::vector<s
       files.emplace_back(source);
       continue;
     }
-    std::vector<fs::path> inside;
-    for (const auto& entry : fs::recursive_directory_iterator(source)) {
-      const std::string extension = entry.path().extension().string();
-      const bool is_meant =
-          extensions.empty() || std::count(extensions.begin(), extensions.end(), extension) > 0;
-      if (entry.is_regular_file() && is_meant && !entry.path().filename().string().starts_with('.'))
-        inside.push_back(entry.path());
-    }
-    std::sort(inside.begin(), inside.end());
+    const std::vector<fs::path> inside = files_in(source, Depth::kBelow, [&](const fs::path& file) {
+      const bool is_meant = extensions.empty() ||
+                            std::count(extensions.begin(), extensions.end(), file.extension().string()) > 0;
+      return is_meant && !is_hidden(file);
+    });
     if (inside.empty()) throw InputError(source, 0, "has no files to import");
     files.insert(files.end(), inside.begin(), inside.end());
   }

@@ -97,14 +97,11 @@ CsiCapture read_csi_capture(const std::string& name, std::string_view bytes) {
 CsiCapture read_csi_capture(const std::string& path) { return read_csi_capture(path, read_bytes(path)); }
 
 std::vector<CsiCapture> read_csi_folder(const fs::path& folder) {
-  std::vector<fs::path> files;
-  if (fs::is_directory(folder))
-    for (const auto& entry : fs::directory_iterator(folder))
-      if (entry.is_regular_file() && !entry.path().filename().string().starts_with('.'))
-        files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
   std::vector<CsiCapture> captures;
-  for (const fs::path& file : files) captures.push_back(read_csi_capture(file.string()));
+  if (!fs::is_directory(folder)) return captures;
+  for (const fs::path& file :
+       files_in(folder, Depth::kFolder, [](const fs::path& candidate) { return !is_hidden(candidate); }))
+    captures.push_back(read_csi_capture(file.string()));
   return captures;
 }
 

@@ -79,14 +79,9 @@ std::optional<Stamp> time_in_scan_name(const std::string& name) {
 }
 
 std::vector<fs::path> bin_files(const fs::path& folder) {
-  std::vector<fs::path> files;
-  if (!fs::is_directory(folder)) return files;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.is_regular_file() && entry.path().extension() == ".bin" &&
-        !entry.path().filename().string().starts_with('.'))
-      files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  return files;
+  if (!fs::is_directory(folder)) return {};
+  return files_in(folder, Depth::kFolder,
+                  [](const fs::path& file) { return file.extension() == ".bin" && !is_hidden(file); });
 }
 
 fs::path folder_of_scans(const fs::path& source) {

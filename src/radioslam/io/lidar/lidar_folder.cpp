@@ -32,14 +32,9 @@ Stamp stamp_in_name(const fs::path& file) {
 
 /// Order by stamp, then by name.
 std::vector<ScanFile> list_scans(const fs::path& folder) {
-  std::vector<fs::path> paths;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const std::string extension = entry.path().extension().string();
-    const bool is_hidden = entry.path().filename().string().starts_with('.');
-    if (entry.is_regular_file() && !is_hidden && (extension == ".bin" || extension == ".pcd"))
-      paths.push_back(entry.path());
-  }
-  std::sort(paths.begin(), paths.end());
+  const std::vector<fs::path> paths = files_in(folder, Depth::kFolder, [](const fs::path& file) {
+    return !is_hidden(file) && (file.extension() == ".bin" || file.extension() == ".pcd");
+  });
   std::vector<ScanFile> scans;
   for (const fs::path& path : paths) {
     scans.push_back({path, stamp_in_name(path)});

@@ -13,6 +13,7 @@
 #include "radioslam/io/ros/mcap.hpp"
 #include "radioslam/io/ros/ros1_bag.hpp"
 #include "radioslam/io/ros/ros_database.hpp"
+#include "radioslam/io/text/text.hpp"
 
 namespace radioslam {
 namespace {
@@ -82,10 +83,7 @@ bool is_recording_name(const fs::path& file) {
 std::vector<fs::path> recording_files(const fs::path& source) {
   if (!fs::exists(source)) throw InputError(source.string(), 0, "no such file or folder");
   if (!fs::is_directory(source)) return {source};
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(source))
-    if (entry.is_regular_file() && is_recording_name(entry.path())) files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
+  std::vector<fs::path> files = files_in(source, Depth::kFolder, is_recording_name);
   if (files.empty())
     throw InputError(source.string(), 0,
                      "contains no recording: no .bag, .mcap or .db3 (files that end in .zstd have to be "

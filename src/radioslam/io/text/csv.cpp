@@ -119,13 +119,10 @@ Eigen::Quaterniond CsvReader::quaternion(std::size_t column) const {
 }
 
 std::vector<std::filesystem::path> find_csv_files(const std::filesystem::path& source) {
-  std::vector<std::filesystem::path> files;
-  if (!std::filesystem::is_directory(source))
-    files = {source};
-  else
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(source))
-      if (entry.is_regular_file() && entry.path().extension() == ".csv") files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
+  std::vector<std::filesystem::path> files{source};
+  if (std::filesystem::is_directory(source))
+    files = files_in(source, Depth::kBelow,
+                     [](const std::filesystem::path& file) { return file.extension() == ".csv"; });
   if (files.empty()) throw InputError(source.string(), 0, "contains no *.csv");
   std::set<std::string> names;
   for (const auto& file : files) {

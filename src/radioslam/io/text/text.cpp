@@ -92,6 +92,21 @@ Text read_tool_output(const std::filesystem::path& path) {
   return make_tool_output(path.string(), read_bytes(path));
 }
 
+std::vector<std::filesystem::path> files_in(
+    const std::filesystem::path& folder, Depth depth,
+    const std::function<bool(const std::filesystem::path&)>& is_wanted) {
+  std::vector<std::filesystem::path> files;
+  for (auto entry = std::filesystem::recursive_directory_iterator(folder);
+       entry != std::filesystem::recursive_directory_iterator(); ++entry) {
+    if (depth == Depth::kFolder) entry.disable_recursion_pending();
+    if (entry->is_regular_file() && is_wanted(entry->path())) files.push_back(entry->path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+bool is_hidden(const std::filesystem::path& file) { return file.filename().string().starts_with('.'); }
+
 bool TextLines::next() {
   if (rest_.empty()) return false;
   const std::size_t end = rest_.find('\n');

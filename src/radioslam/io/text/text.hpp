@@ -4,8 +4,10 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "radioslam/base/input_error.hpp"
 
@@ -36,6 +38,16 @@ Text read_text(const std::filesystem::path& path);
 /// content.
 Text make_tool_output(std::string name, std::string content);
 Text read_tool_output(const std::filesystem::path& path);
+
+enum class Depth { kFolder, kBelow };
+
+/// The files in a folder, or also in those below it, that are wanted; sorted by path.
+std::vector<std::filesystem::path> files_in(
+    const std::filesystem::path& folder, Depth depth,
+    const std::function<bool(const std::filesystem::path&)>& is_wanted);
+
+/// Whether the file's name begins with a point.
+bool is_hidden(const std::filesystem::path& file);
 
 /// Iterates over the lines of a text: `while (lines.next()) use(lines.line())`.
 class TextLines {

@@ -1,9 +1,10 @@
+#include "radioslam/io/run/run_folder.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
 #include "radioslam/io/mission/tum.hpp"
-#include "radioslam/io/run/run_folder.hpp"
 #include "radioslam/io/run/run_tables.hpp"
 #include "radioslam/io/text/atomic_output.hpp"
 #include "radioslam/io/text/numbers.hpp"
