@@ -33,7 +33,6 @@ radioslam_room(io
     mission/mission_yaml_write.cpp
     mission/robot_tables.cpp
     mission/team_tables.cpp
-    mission/team_tables_write.cpp
     mission/truth_labels.cpp
     mission/tum.cpp
     ros/mcap.cpp
@@ -55,7 +54,7 @@ radioslam_room(io
     text/mac_address.cpp
     text/numbers.cpp
     text/text.cpp
-    text/time_order.cpp
+    text/skipped_records.cpp
     text/yaml_map.cpp
     wifi/airodump_csv.cpp
     wifi/iw_ftm.cpp

@@ -17,20 +17,6 @@ namespace {
 
 // Help pages of `radioslam import`: one that lists all kinds of source, and one for each kind.
 
-/// Prints the page of the kind on the command line, or the command's own page without a known kind.
-class ImportFormatter : public CLI::Formatter {
- public:
-  explicit ImportFormatter(const ImportOptions& options) : options_(options) {}
-
-  std::string make_help(const CLI::App* command, std::string name, CLI::AppFormatMode mode) const override {
-    if (const ImportKind* kind = find_import_kind(options_.kind)) return help_page(*kind, column_width_);
-    return CLI::Formatter::make_help(command, std::move(name), mode);
-  }
-
- private:
-  const ImportOptions& options_;
-};
-
 std::string list_of_kinds() {
   constexpr int kNameWidth = 18;
   std::ostringstream list;
@@ -67,6 +53,20 @@ std::string help_page(const ImportKind& kind, std::size_t column_width) {
   page.footer(footer_of(kind));
   return page.help();
 }
+
+/// Prints the page of the kind on the command line, or the command's own page without a known kind.
+class ImportFormatter : public CLI::Formatter {
+ public:
+  explicit ImportFormatter(const ImportOptions& options) : options_(options) {}
+
+  std::string make_help(const CLI::App* command, std::string name, CLI::AppFormatMode mode) const override {
+    if (const ImportKind* kind = find_import_kind(options_.kind)) return help_page(*kind, column_width_);
+    return CLI::Formatter::make_help(command, std::move(name), mode);
+  }
+
+ private:
+  const ImportOptions& options_;
+};
 
 /// Gives `command` both help pages; `options.kind`, which must outlive it, selects one of them.
 void set_import_help(CLI::App& command, const ImportOptions& options) {

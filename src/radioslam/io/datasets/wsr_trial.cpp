@@ -13,7 +13,6 @@
 #include "radioslam/io/text/line_fields.hpp"
 #include "radioslam/io/text/numbers.hpp"
 #include "radioslam/io/text/skipped_records.hpp"
-#include "radioslam/io/text/time_order.hpp"
 #include "radioslam/mission/wifi_channel.hpp"
 
 namespace radioslam {

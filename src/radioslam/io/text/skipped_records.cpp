@@ -1,4 +1,4 @@
-#include "radioslam/io/text/time_order.hpp"
+#include "radioslam/io/text/skipped_records.hpp"
 
 #include <algorithm>
 #include <limits>
