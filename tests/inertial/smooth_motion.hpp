@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "radioslam/base/random.hpp"
-#include "radioslam/inertial/imu_noise.hpp"
-#include "radioslam/inertial/inertial_state.hpp"
+#include "radioslam/inertial/preintegration.hpp"
 #include "radioslam/mission/inertial.hpp"
 
 namespace radioslam::test {

@@ -5,7 +5,7 @@
 
 #include "io/recorded_data.hpp"
 #include "pipeline/town_runs.hpp"
-#include "radioslam/io/lidar/kitti_poses.hpp"
+#include "radioslam/io/lidar/kitti_sequence.hpp"
 #include "radioslam/io/text/text.hpp"
 #include "radioslam/sim/scenarios/kitti.hpp"
 

@@ -33,29 +33,22 @@ struct SequenceMatchParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"nearest", "", 1, 100, "number of most similar fingerprints averaged for one match"},
-          self.nearest);
-    visit(Field{"loss_sigmas", "", 0.1, 1e6,
-                "scale of the Cauchy loss on predicted distances, in standard deviations"},
-          self.loss_sigmas);
-    visit(Field{"max_residual_m", "m", 0, 1000,
-                "largest mean distance of fingerprints from their matches; higher values keep more closures "
-                "but admit false ones"},
-          self.max_residual_m);
-    visit(Field{"alternative_distance_m", "m", 0.01, 1000,
-                "distance from the best pose beyond which another solution counts as an alternative"},
-          self.alternative_distance_m);
-    visit(Field{"alternative_angle_rad", "rad", 0.01, 7,
-                "rotation from the best pose beyond which another solution counts as an alternative"},
-          self.alternative_angle_rad);
-    visit(Field{"min_alternative_margin", "", 0, 1e6,
-                "smallest cost margin over alternative poses (chi-squared, 3 dof); higher values reject more "
-                "closures as ambiguous"},
-          self.min_alternative_margin);
-    visit(Field{"effective_sample_ratio", "", 1e-3, 1,
-                "fraction of the pairs of two windows that counts as independent; lower values inflate the "
-                "covariance"},
-          self.effective_sample_ratio);
+    RADIOSLAM_FIELD(nearest, "", 1, 100, "number of most similar fingerprints averaged for one match");
+    RADIOSLAM_FIELD(loss_sigmas, "", 0.1, 1e6,
+                    "scale of the Cauchy loss on predicted distances, in standard deviations");
+    RADIOSLAM_FIELD(max_residual_m, "m", 0, 1000,
+                    "largest mean distance of fingerprints from their matches; higher values keep more "
+                    "closures but admit false ones");
+    RADIOSLAM_FIELD(alternative_distance_m, "m", 0.01, 1000,
+                    "distance from the best pose beyond which another solution counts as an alternative");
+    RADIOSLAM_FIELD(alternative_angle_rad, "rad", 0.01, 7,
+                    "rotation from the best pose beyond which another solution counts as an alternative");
+    RADIOSLAM_FIELD(min_alternative_margin, "", 0, 1e6,
+                    "smallest cost margin over alternative poses (chi-squared, 3 dof); higher values reject "
+                    "more closures as ambiguous");
+    RADIOSLAM_FIELD(effective_sample_ratio, "", 1e-3, 1,
+                    "fraction of the pairs of two windows that counts as independent; lower values inflate "
+                    "the covariance");
   }
 };
 

@@ -35,6 +35,13 @@ struct ErrorStatistics {
   std::size_t count = 0;
 };
 
+/// Quantile of sorted values for a `fraction` in [0, 1], with linear interpolation (numpy's default). Needs
+/// one value.
+double quantile(const std::vector<double>& sorted, double fraction);
+
+/// Nothing if there are no errors.
+std::optional<ErrorStatistics> summarise_errors(std::vector<double> errors_m);
+
 /// Error of one position.
 struct PointError {
   Stamp stamp;

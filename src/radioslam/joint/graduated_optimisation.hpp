@@ -19,15 +19,12 @@ struct RobustParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"first_scale", "sigma", 0.1, 1e6,
-                "Cauchy loss scale of closures in the first stage; higher values converge from further away "
-                "but take more stages"},
-          self.first_scale);
-    visit(Field{"final_scale", "sigma", 0.1, 1e6,
-                "Cauchy loss scale of closures in the last stage; lower values reject more outliers"},
-          self.final_scale);
-    visit(Field{"step", "", 0.01, 0.99, "ratio of successive loss scales; higher values take more stages"},
-          self.step);
+    RADIOSLAM_FIELD(first_scale, "sigma", 0.1, 1e6,
+                    "Cauchy loss scale of closures in the first stage; higher values converge from further "
+                    "away but take more stages");
+    RADIOSLAM_FIELD(final_scale, "sigma", 0.1, 1e6,
+                    "Cauchy loss scale of closures in the last stage; lower values reject more outliers");
+    RADIOSLAM_FIELD(step, "", 0.01, 0.99, "ratio of successive loss scales; higher values take more stages");
   }
 };
 

@@ -28,25 +28,19 @@ struct JointGraphParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"sigma_start_m", "m", 1e-4, 100, "standard deviation of a known initial position, per axis"}
-              .basic(),
-          self.sigma_start_m);
-    visit(
-        Field{"sigma_start_rad", "rad", 1e-5, 3, "standard deviation of a known initial orientation"}.basic(),
-        self.sigma_start_rad);
-    visit(
-        Field{
-            "sigma_level_rad", "rad", 1e-4, 1,
-            "standard deviation of the odometry's roll and pitch, which are taken from gravity (space only)"},
-        self.sigma_level_rad);
-    visit(Field{"min_sigma_yaw_drift_per_m_rad", "rad/m", 0, 1,
-                "lower bound on the prior sigma of constant yaw drift (1e-3: 57 deg/km), for robots with "
-                "WiFi scans or position fixes"},
-          self.min_sigma_yaw_drift_per_m_rad);
-    visit(Field{"min_sigma_scale", "", 0, 1,
-                "lower bound on the prior sigma of the odometry scale error, for robots with WiFi scans or "
-                "position fixes"},
-          self.min_sigma_scale);
+    RADIOSLAM_BASIC_FIELD(sigma_start_m, "m", 1e-4, 100,
+                          "standard deviation of a known initial position, per axis");
+    RADIOSLAM_BASIC_FIELD(sigma_start_rad, "rad", 1e-5, 3,
+                          "standard deviation of a known initial orientation");
+    RADIOSLAM_FIELD(
+        sigma_level_rad, "rad", 1e-4, 1,
+        "standard deviation of the odometry's roll and pitch, which are taken from gravity (space only)");
+    RADIOSLAM_FIELD(min_sigma_yaw_drift_per_m_rad, "rad/m", 0, 1,
+                    "lower bound on the prior sigma of constant yaw drift (1e-3: 57 deg/km), for robots with "
+                    "WiFi scans or position fixes");
+    RADIOSLAM_FIELD(min_sigma_scale, "", 0, 1,
+                    "lower bound on the prior sigma of the odometry scale error, for robots with WiFi scans "
+                    "or position fixes");
   }
 };
 

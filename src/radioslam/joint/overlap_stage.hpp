@@ -38,23 +38,17 @@ struct OverlapStageParams {
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
     OverlapParams::visit_fields(self.overlap, visit);
-    visit(
-        Field{
-            "mode", "", 0, 0,
-            "relative covariances; joint: of the joint estimate; link: odometry over the nearest range with "
-            "angles at both ends (Wang et al.), else the joint pose at a link",
-            "joint|link"},
-        self.mode);
-    visit(Field{"pairing_s", "s", 0, 1e6,
-                "largest time difference between a range and its angles, in mode link"},
-          self.pairing_s);
-    visit(Field{"max_links", "", 1, 1e6,
-                "largest number of links per pair of robots in mode link; more are thinned evenly"},
-          self.max_links);
-    visit(Field{"max_listed_candidates", "", 0, 2e9,
-                "largest number of candidates that `run` lists and draws: the most probable ones; prune "
-                "lists all"},
-          self.max_listed_candidates);
+    RADIOSLAM_FIELD(mode, "", 0, 0,
+                    "relative covariances; joint: of the joint estimate; link: odometry over the nearest "
+                    "range with angles at both ends (Wang et al.), else the joint pose at a link",
+                    "joint|link");
+    RADIOSLAM_FIELD(pairing_s, "s", 0, 1e6,
+                    "largest time difference between a range and its angles, in mode link");
+    RADIOSLAM_FIELD(max_links, "", 1, 1e6,
+                    "largest number of links per pair of robots in mode link; more are thinned evenly");
+    RADIOSLAM_FIELD(
+        max_listed_candidates, "", 0, 2e9,
+        "largest number of candidates that `run` lists and draws: the most probable ones; prune lists all");
   }
 };
 

@@ -14,9 +14,9 @@
 #include "radioslam/lidar/loops/scan_loop.hpp"
 #include "radioslam/mission/keyframes.hpp"
 #include "radioslam/mission/mission.hpp"
-#include "radioslam/odometry/odometry_from_scans.hpp"
 #include "radioslam/odometry/scan_closure.hpp"
 #include "radioslam/odometry/scan_params.hpp"
+#include "radioslam/odometry/scan_tracking.hpp"
 
 namespace radioslam {
 

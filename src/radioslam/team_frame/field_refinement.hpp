@@ -30,29 +30,23 @@ struct FieldParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"enabled", "", 0, 1, "refinement of fingerprint layouts by the radio field (0: off, 1: on)"}
-              .basic(),
-          self.enabled);
-    visit(Field{"exponent", "", 0.5, 10, "power applied to the shifted RSS before the radio field is fitted"},
-          self.exponent);
-    visit(Field{"channels", "", 1, 1000,
-                "effective number of independent access points; higher values weight the radio field more"},
-          self.channels);
-    visit(Field{"sigma_layout_m", "m", 0.1, 1e4,
-                "standard deviation of the layout's positions before the radio field refines them"},
-          self.sigma_layout_m);
-    visit(Field{"sigma_scale", "", 0, 1,
-                "standard deviation of the odometry's scale error in the radio field fit"},
-          self.sigma_scale);
-    visit(Field{"sigma_kernel", "", 0.01, 10,
-                "prior standard deviation of the logarithms of the radio field's kernel parameters"},
-          self.sigma_kernel);
-    visit(Field{"max_nodes", "", 10, 5000,
-                "largest number of fingerprints in the radio field fit; more are thinned evenly (time grows "
-                "with the cube)"},
-          self.max_nodes);
-    visit(Field{"iterations", "", 1, 10000, "largest number of L-BFGS iterations of the radio field fit"},
-          self.iterations);
+    RADIOSLAM_BASIC_FIELD(enabled, "", 0, 1,
+                          "refinement of fingerprint layouts by the radio field (0: off, 1: on)");
+    RADIOSLAM_FIELD(exponent, "", 0.5, 10,
+                    "power applied to the shifted RSS before the radio field is fitted");
+    RADIOSLAM_FIELD(
+        channels, "", 1, 1000,
+        "effective number of independent access points; higher values weight the radio field more");
+    RADIOSLAM_FIELD(sigma_layout_m, "m", 0.1, 1e4,
+                    "standard deviation of the layout's positions before the radio field refines them");
+    RADIOSLAM_FIELD(sigma_scale, "", 0, 1,
+                    "standard deviation of the odometry's scale error in the radio field fit");
+    RADIOSLAM_FIELD(sigma_kernel, "", 0.01, 10,
+                    "prior standard deviation of the logarithms of the radio field's kernel parameters");
+    RADIOSLAM_FIELD(max_nodes, "", 10, 5000,
+                    "largest number of fingerprints in the radio field fit; more are thinned evenly (time "
+                    "grows with the cube)");
+    RADIOSLAM_FIELD(iterations, "", 1, 10000, "largest number of L-BFGS iterations of the radio field fit");
   }
 };
 

@@ -32,26 +32,19 @@ struct LayoutParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"min_similarity", "", 0.001, 0.9,
-                "similarity below which a predicted distance is only a lower bound in the layout"},
-          self.min_similarity);
-    visit(Field{"sigma_m", "m", 0.1, 100, "standard deviation of a predicted fingerprint distance near zero"}
-              .basic(),
-          self.sigma_m);
-    visit(Field{"sigma_relative", "", 0, 2,
-                "relative standard deviation of a predicted fingerprint distance at long range"},
-          self.sigma_relative);
-    visit(Field{"pair_weight", "", 1e-4, 1,
-                "weight of one fingerprint pair relative to an independent measurement"},
-          self.pair_weight);
-    visit(Field{"min_shared", "", 1, 1000,
-                "number of access points that two robots must both observe to be placed together"},
-          self.min_shared);
-    visit(Field{"sweeps", "", 1, 10000, "largest number of majorisation passes over the robots"},
-          self.sweeps);
-    visit(Field{"max_nodes", "", 10, 20000,
-                "largest number of fingerprints in the layout; more are thinned evenly"},
-          self.max_nodes);
+    RADIOSLAM_FIELD(min_similarity, "", 0.001, 0.9,
+                    "similarity below which a predicted distance is only a lower bound in the layout");
+    RADIOSLAM_BASIC_FIELD(sigma_m, "m", 0.1, 100,
+                          "standard deviation of a predicted fingerprint distance near zero");
+    RADIOSLAM_FIELD(sigma_relative, "", 0, 2,
+                    "relative standard deviation of a predicted fingerprint distance at long range");
+    RADIOSLAM_FIELD(pair_weight, "", 1e-4, 1,
+                    "weight of one fingerprint pair relative to an independent measurement");
+    RADIOSLAM_FIELD(min_shared, "", 1, 1000,
+                    "number of access points that two robots must both observe to be placed together");
+    RADIOSLAM_FIELD(sweeps, "", 1, 10000, "largest number of majorisation passes over the robots");
+    RADIOSLAM_FIELD(max_nodes, "", 10, 20000,
+                    "largest number of fingerprints in the layout; more are thinned evenly");
   }
 };
 

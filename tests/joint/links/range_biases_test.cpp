@@ -5,10 +5,10 @@
 
 #include "io/recorded_data.hpp"
 #include "pipeline/town_runs.hpp"
+#include "radio/ranging/known_biases.hpp"
 #include "radioslam/base/random.hpp"
 #include "radioslam/geometry/trajectory.hpp"
 #include "radioslam/io/text/csv.hpp"
-#include "radioslam/radio/ranging/range_bias.hpp"
 
 namespace radioslam {
 namespace {
@@ -102,7 +102,7 @@ Recording read_turtlebots(const std::filesystem::path& path) {
                         "range_5_1", "range_5_3", "range_5_4", "range_4_3", "range_4_1", "range_3_1"}});
   constexpr double kStep_s = 0.1;
   std::array<std::vector<StampedPose<SE3>>, kRobots> truth, odometry;
-  std::vector<KnownRange> known;
+  std::vector<test::KnownRange> known;
   Recording recording;
   Rng rng(7);
   for (std::size_t row = 0; csv.next(); ++row) {
@@ -132,7 +132,7 @@ Recording read_turtlebots(const std::filesystem::path& path) {
       if (row % 5 == 0) recording.mission.ranges.push_back(range);
     }
   }
-  const auto biases = biases_from_known_geometry(known, kPairs);
+  const auto biases = test::known_biases(known, kPairs);
   for (std::size_t pair = 0; pair < kPairs; ++pair) recording.bias_m[pair] = biases[pair].bias_m;
   for (std::size_t r = 0; r < kRobots; ++r) {
     Robot robot;

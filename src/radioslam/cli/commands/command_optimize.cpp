@@ -19,7 +19,7 @@
 #include "radioslam/io/graph/g2o.hpp"
 #include "radioslam/io/graph/jrl.hpp"
 #include "radioslam/io/text/atomic_output.hpp"
-#include "radioslam/io/text/zstd_text.hpp"
+#include "radioslam/io/text/compressed_text.hpp"
 
 namespace radioslam::cli {
 namespace {

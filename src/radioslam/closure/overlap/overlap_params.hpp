@@ -17,16 +17,13 @@ struct OverlapParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"max_mahalanobis", "", 0.001, 1000,
-                "largest distance of two views from overlapping, in standard deviations; higher values keep "
-                "more pairs"}
-              .basic(),
-          self.max_mahalanobis);
-    visit(Field{"distance", "", 0, 0,
-                "kind of overlap distance; minimum: to the nearest point (Mahalanobis metric); seed: along "
-                "the line of sight, reproduces Wi-Closure (Wang et al.)",
-                "minimum|seed"},
-          self.distance);
+    RADIOSLAM_BASIC_FIELD(max_mahalanobis, "", 0.001, 1000,
+                          "largest distance of two views from overlapping, in standard deviations; higher "
+                          "values keep more pairs");
+    RADIOSLAM_FIELD(distance, "", 0, 0,
+                    "kind of overlap distance; minimum: to the nearest point (Mahalanobis metric); seed: "
+                    "along the line of sight, reproduces Wi-Closure (Wang et al.)",
+                    "minimum|seed");
   }
 };
 

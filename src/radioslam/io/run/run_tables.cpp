@@ -200,20 +200,9 @@ std::string format_uncertainty(const std::vector<RobotResult>& robots) {
 }
 
 std::string format_measured_aoa(const std::vector<MeasuredAoaResult>& aoa_measurements) {
-  std::string out = "t_s,receiver,transmitter,path,azimuth_rad,elevation_rad,sigma_rad,power_db\n";
-  for (const MeasuredAoaResult& arrival : aoa_measurements) {
-    int number = 0;
-    for (const AoaPath& path : arrival.paths) {
-      out += format_stamp(arrival.stamp) + "," + arrival.receiver + "," + arrival.transmitter + "," +
-             std::to_string(number++);
-      append_number(out += ',', path.azimuth_rad);
-      out += ',';
-      if (path.elevation_rad) append_number(out, *path.elevation_rad);
-      append_number(out += ',', path.sigma_rad);
-      append_number(out += ',', path.power_db);
-      out += '\n';
-    }
-  }
+  std::string out(kAoaHeader);
+  for (const MeasuredAoaResult& arrival : aoa_measurements)
+    append_aoa_rows(out, arrival.stamp, arrival.receiver, arrival.transmitter, arrival.paths);
   return out;
 }
 

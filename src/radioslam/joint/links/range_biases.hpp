@@ -31,23 +31,17 @@ struct RangeBiasPriorParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"prior_sigma_m", "m", 0, 100,
-                "prior standard deviation of the constant range error per antenna pair; 0: no biases are "
-                "estimated"}
-              .basic(),
-          self.prior_sigma_m);
-    visit(Field{"false_alarm_probability", "", 1e-9, 0.5,
-                "probability of correcting biases that do not exist (default: five sigma); higher values "
-                "correct smaller ones"},
-          self.false_alarm_probability);
-    visit(Field{"min_spread_m", "m", 1e-4, 100,
-                "lower bound on the estimated spread of biases between antenna pairs"},
-          self.min_spread_m);
-    visit(Field{"min_ranges", "", 2, 1e6, "smallest number of ranges of a pair whose bias is estimated"},
-          self.min_ranges);
-    visit(
-        Field{"max_rounds", "", 1, 100, "largest number of rounds of optimising biases and weights in turn"},
-        self.max_rounds);
+    RADIOSLAM_BASIC_FIELD(
+        prior_sigma_m, "m", 0, 100,
+        "prior standard deviation of the constant range error per antenna pair; 0: no biases are estimated");
+    RADIOSLAM_FIELD(false_alarm_probability, "", 1e-9, 0.5,
+                    "probability of correcting biases that do not exist (default: five sigma); higher values "
+                    "correct smaller ones");
+    RADIOSLAM_FIELD(min_spread_m, "m", 1e-4, 100,
+                    "lower bound on the estimated spread of biases between antenna pairs");
+    RADIOSLAM_FIELD(min_ranges, "", 2, 1e6, "smallest number of ranges of a pair whose bias is estimated");
+    RADIOSLAM_FIELD(max_rounds, "", 1, 100,
+                    "largest number of rounds of optimising biases and weights in turn");
   }
 };
 

@@ -35,21 +35,16 @@ struct FixParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"correlation_s", "s", 0, 1e4,
-                "time within which the errors of fixes count as one; higher values reduce their weight"},
-          self.correlation_s);
-    visit(Field{"gate_probability", "", 0.5, 0.999999,
-                "chi-squared quantile beyond which a fix is rejected; higher values keep more fixes but "
-                "admit false ones"}
-              .basic(),
-          self.gate_probability);
-    visit(Field{"min_fixes", "", 3, 1e6, "smallest number of consistent fixes that place a robot"}.basic(),
-          self.min_fixes);
-    visit(Field{"min_inlier_ratio", "", 0, 1, "smallest inlier ratio of a robot's fixes for them to be used"},
-          self.min_inlier_ratio);
-    visit(Field{"max_sigma_yaw_rad", "rad", 0.001, 3,
-                "largest standard deviation of the heading that fixes must determine to place a robot"},
-          self.max_sigma_yaw_rad);
+    RADIOSLAM_FIELD(correlation_s, "s", 0, 1e4,
+                    "time within which the errors of fixes count as one; higher values reduce their weight");
+    RADIOSLAM_BASIC_FIELD(gate_probability, "", 0.5, 0.999999,
+                          "chi-squared quantile beyond which a fix is rejected; higher values keep more "
+                          "fixes but admit false ones");
+    RADIOSLAM_BASIC_FIELD(min_fixes, "", 3, 1e6, "smallest number of consistent fixes that place a robot");
+    RADIOSLAM_FIELD(min_inlier_ratio, "", 0, 1,
+                    "smallest inlier ratio of a robot's fixes for them to be used");
+    RADIOSLAM_FIELD(max_sigma_yaw_rad, "rad", 0.001, 3,
+                    "largest standard deviation of the heading that fixes must determine to place a robot");
     FixAlignmentParams::visit_fields(self.alignment, visit);
   }
 };

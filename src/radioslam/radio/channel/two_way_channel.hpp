@@ -34,31 +34,23 @@ struct TwoWayParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"drift_degree", "", 0, 10,
-                "degree of the polynomial in time that models the drift between the two cards' clocks"},
-          self.drift_degree);
-    visit(Field{"undelayed_ratio", "", 0.01, 0.99,
-                "fraction of the replies below the fitted clock drift, i.e. sent without waiting for a free "
-                "channel"},
-          self.undelayed_ratio);
-    visit(Field{"max_jitter_us", "us", 1, 1e6,
-                "largest deviation of a reply from the fitted clock drift; later replies belong to another "
-                "transmission attempt"},
-          self.max_jitter_us);
-    visit(Field{"max_offset_hz", "Hz", 100, 1e6, "largest carrier frequency offset searched"},
-          self.max_offset_hz);
-    visit(
-        Field{
-            "max_pause_s", "s", 1e-4, 10,
-            "largest pause between exchanges whose phases are compared; at least 1.5 times the median pause"},
-        self.max_pause_s);
-    visit(Field{"min_coherence", "", 0, 1,
-                "smallest phase coherence at which replies are accepted; lower values admit replies to "
-                "another robot"},
-          self.min_coherence);
-    visit(Field{"centre_subcarriers", "", 1, 1000,
-                "number of subcarriers around the carrier whose mean phase is compared"},
-          self.centre_subcarriers);
+    RADIOSLAM_FIELD(drift_degree, "", 0, 10,
+                    "degree of the polynomial in time that models the drift between the two cards' clocks");
+    RADIOSLAM_FIELD(
+        undelayed_ratio, "", 0.01, 0.99,
+        "fraction of the replies below the fitted clock drift, i.e. sent without waiting for a free channel");
+    RADIOSLAM_FIELD(max_jitter_us, "us", 1, 1e6,
+                    "largest deviation of a reply from the fitted clock drift; later replies belong to "
+                    "another transmission attempt");
+    RADIOSLAM_FIELD(max_offset_hz, "Hz", 100, 1e6, "largest carrier frequency offset searched");
+    RADIOSLAM_FIELD(
+        max_pause_s, "s", 1e-4, 10,
+        "largest pause between exchanges whose phases are compared; at least 1.5 times the median pause");
+    RADIOSLAM_FIELD(min_coherence, "", 0, 1,
+                    "smallest phase coherence at which replies are accepted; lower values admit replies to "
+                    "another robot");
+    RADIOSLAM_FIELD(centre_subcarriers, "", 1, 1000,
+                    "number of subcarriers around the carrier whose mean phase is compared");
   }
 };
 
