@@ -1,4 +1,4 @@
-// Initial values of an optimisation: the candidate with the lowest cost.
+// Initial values of an optimization: the candidate with the lowest cost.
 #pragma once
 
 #include <optional>

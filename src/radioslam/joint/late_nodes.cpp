@@ -23,7 +23,7 @@ class NodeInsertion {
     if (nodes.stamps.size() == of.stamps.size()) return;
 
     insert_values(of, nodes, joint_.team.graph.poses);
-    for (std::vector<Pose>& alternative : team_.placement.alternatives) insert_values(of, nodes, alternative);
+    for (std::vector<Pose>& alternative : team_.alignment.alternatives) insert_values(of, nodes, alternative);
     renumber(of, nodes);
     of.stamps = nodes.stamps;
     of.pose_count = nodes.stamps.size();

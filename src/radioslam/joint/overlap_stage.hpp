@@ -17,7 +17,7 @@
 #include "radioslam/base/fields.hpp"
 #include "radioslam/closure/overlap/overlap_search.hpp"
 #include "radioslam/joint/joint_graph.hpp"
-#include "radioslam/joint/team_placement.hpp"
+#include "radioslam/joint/team_alignment.hpp"
 #include "radioslam/results/results.hpp"
 
 namespace radioslam {
@@ -86,7 +86,7 @@ struct OverlapStage {
   std::vector<std::pair<RobotIndex, RobotIndex>> unlinked;  ///< mode link: not compared, for want of a link
 };
 
-/// `alignments`: the likely ones, optimised and placed, the likeliest first. Candidates are those of any of
+/// `alignments`: the likely ones, optimized and placed, the likeliest first. Candidates are those of any of
 /// them; of a pair in several, the nearest one in standard deviations. An alignment whose covariances are not
 /// computable is left out; if that is the first one, nothing is searched. In mode link all are one, the
 /// first.

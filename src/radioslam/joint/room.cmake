@@ -16,7 +16,7 @@ radioslam_room(joint
     dense_trajectory.cpp
     factor_origin.cpp
     field_stage.cpp
-    graduated_optimisation.cpp
+    graduated_optimization.cpp
     joint_graph.cpp
     joint_graph_from_file.cpp
     late_nodes.cpp
@@ -26,10 +26,10 @@ radioslam_room(joint
     links/radio_factors.cpp
     links/range_biases.cpp
     links/sight_notes.cpp
-    matches/frame_by_matches.cpp
+    matches/alignment_by_matches.cpp
+    matches/joining_by_matches.cpp
     matches/match_groups.cpp
     matches/match_selection.cpp
-    matches/placement_by_matches.cpp
     overlap_stage.cpp
     position_fixes/fix_results.cpp
     position_fixes/inlier_growth.cpp
@@ -37,7 +37,7 @@ radioslam_room(joint
     robot_nodes.cpp
     scan_closures.cpp
     sequence_stage.cpp
-    team_placement.cpp
+    team_alignment.cpp
     uncertainty/covariance_graph.cpp
     uncertainty/position_uncertainty.cpp
     uncertainty/rejected_stretches.cpp

@@ -7,7 +7,7 @@
 namespace radioslam {
 namespace {
 
-/// Optimises every robot's trajectory by its own odometry and closures, without links between robots.
+/// Optimizes every robot's trajectory by its own odometry and closures, without links between robots.
 template <class Pose>
 void apply_loop_closures(JointGraph<Pose>& joint, const OptimizerParams& optimizer) {
   PoseGraph<Pose> odometry_and_closures;

@@ -8,7 +8,7 @@
 #include "radioslam/joint/closures/closure.hpp"
 #include "radioslam/joint/joint_graph.hpp"
 #include "radioslam/joint/position_fixes/placement.hpp"
-#include "radioslam/joint/team_placement.hpp"
+#include "radioslam/joint/team_alignment.hpp"
 #include "radioslam/results/results.hpp"
 
 namespace radioslam {
@@ -27,7 +27,7 @@ struct TeamEstimate {
   JointGraph<Pose> joint = {};
   KnownStarts starts = {};  ///< as the mission states them, or as position fixes determined them
   TeamFixes<Pose> fixes = {};
-  TeamPlacement<Pose> placement = {};
+  TeamAlignment<Pose> alignment = {};
   TeamClosures closures = {};
   OptimizerSummary solution = {};
   std::vector<RangeBiasResult> range_biases = {};

@@ -25,12 +25,12 @@ typename Pose::Point end_position(const PoseGraph<Pose>& graph, const RangeEnd<P
 /// start frame.
 template <class Pose>
 std::vector<Pose> component_frames(const JointGraph<Pose>& joint, const std::vector<Pose>& poses,
-                                   const TeamPlacement<Pose>& placement) {
+                                   const TeamAlignment<Pose>& alignment) {
   std::vector<Pose> frames(joint.robots.size());
   std::vector<bool> seen(joint.robots.size(), false);
   for (std::size_t r = 0; r < joint.robots.size(); ++r) {
-    const auto c = static_cast<std::size_t>(placement.component[r]);
-    if (seen[c] || placement.absolute[c]) continue;
+    const auto c = static_cast<std::size_t>(alignment.component[r]);
+    if (seen[c] || alignment.absolute[c]) continue;
     seen[c] = true;
     const RobotVariables& robot = joint.robots[r];
     frames[c] = pose_as<Pose>(robot.odometry.front()) * poses[robot.poses.front().index()].inverse();
@@ -97,13 +97,13 @@ TransformResult transform_between(const JointGraph<Pose>& joint, std::size_t i, 
 
 template <class Pose>
 std::vector<RobotResult> collect_robots(const JointGraph<Pose>& joint, const std::vector<Pose>& poses,
-                                        const TeamPlacement<Pose>& placement) {
-  const std::vector<Pose> frames = component_frames(joint, poses, placement);
+                                        const TeamAlignment<Pose>& alignment) {
+  const std::vector<Pose> frames = component_frames(joint, poses, alignment);
   std::vector<RobotResult> robots;
   for (std::size_t r = 0; r < joint.robots.size(); ++r) {
-    const auto component = static_cast<std::size_t>(placement.component[r]);
+    const auto component = static_cast<std::size_t>(alignment.component[r]);
     robots.push_back(collect_robot(joint.robots[r], joint, poses, frames[component]));
-    robots.back().placed = placement.placed[r];
+    robots.back().placed = alignment.placed[r];
   }
   return robots;
 }
@@ -160,11 +160,11 @@ std::vector<ClosureResult> collect_fingerprint_closures(const JointGraph<Pose>& 
 
 template <class Pose>
 std::vector<TransformResult> collect_transforms(const JointGraph<Pose>& joint,
-                                                const TeamPlacement<Pose>& placement,
+                                                const TeamAlignment<Pose>& alignment,
                                                 const Marginals<Pose>& marginals) {
   std::vector<TransformResult> transforms;
   const auto placed_with = [&](std::size_t i, std::size_t j) {
-    return placement.placed[i] && placement.placed[j] && placement.component[i] == placement.component[j];
+    return alignment.placed[i] && alignment.placed[j] && alignment.component[i] == alignment.component[j];
   };
   std::vector<PoseId> starts;
   for (const RobotVariables& robot : joint.robots) starts.push_back(robot.poses.front());
@@ -237,10 +237,10 @@ SimilarityModelResult collect_similarity_model(const RadioMeasurements& radio, c
 
 template <class Pose>
 std::vector<Component> collect_components(const JointGraph<Pose>& joint,
-                                          const TeamPlacement<Pose>& placement) {
+                                          const TeamAlignment<Pose>& alignment) {
   std::vector<Component> components;
   for (std::size_t r = 0; r < joint.robots.size(); ++r) {
-    const auto c = static_cast<std::size_t>(placement.component[r]);
+    const auto c = static_cast<std::size_t>(alignment.component[r]);
     if (components.size() <= c) components.resize(c + 1);
     components[c].robots.push_back(joint.robots[r].id);
   }
@@ -249,14 +249,14 @@ std::vector<Component> collect_components(const JointGraph<Pose>& joint,
 
 #define RADIOSLAM_COLLECT(Pose)                                                                       \
   template std::vector<RobotResult> collect_robots(const JointGraph<Pose>&, const std::vector<Pose>&, \
-                                                   const TeamPlacement<Pose>&);                       \
+                                                   const TeamAlignment<Pose>&);                       \
   template std::vector<ClosureResult> collect_radio_links(const JointGraph<Pose>&);                   \
   template std::vector<TransformResult> collect_transforms(                                           \
-      const JointGraph<Pose>&, const TeamPlacement<Pose>&, const Marginals<Pose>&);                   \
+      const JointGraph<Pose>&, const TeamAlignment<Pose>&, const Marginals<Pose>&);                   \
   template std::vector<std::string> odometry_notes(const Mission&, const JointGraph<Pose>&,           \
                                                    const Marginals<Pose>&);                           \
   template std::vector<ClosureResult> collect_fingerprint_closures(const JointGraph<Pose>&);          \
-  template std::vector<Component> collect_components(const JointGraph<Pose>&, const TeamPlacement<Pose>&);
+  template std::vector<Component> collect_components(const JointGraph<Pose>&, const TeamAlignment<Pose>&);
 RADIOSLAM_COLLECT(SE2)
 RADIOSLAM_COLLECT(SE3)
 #undef RADIOSLAM_COLLECT

@@ -1,4 +1,4 @@
-// Results of a run, collected from the optimised joint graph.
+// Results of a run, collected from the optimized joint graph.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 #include "radioslam/closure/fingerprint_closures.hpp"
 #include "radioslam/graph/marginals.hpp"
 #include "radioslam/joint/joint_graph.hpp"
-#include "radioslam/joint/team_placement.hpp"
+#include "radioslam/joint/team_alignment.hpp"
 #include "radioslam/radio/fingerprints/measurements.hpp"
 #include "radioslam/results/results.hpp"
 
@@ -20,7 +20,7 @@ inline constexpr double kMaxAcceptedStatistic = 6.635;
 /// The robots' trajectories, with the graph's variables at `poses`.
 template <class Pose>
 std::vector<RobotResult> collect_robots(const JointGraph<Pose>& joint, const std::vector<Pose>& poses,
-                                        const TeamPlacement<Pose>& placement);
+                                        const TeamAlignment<Pose>& alignment);
 
 /// Outcomes of the distances that fingerprints predict.
 template <class Pose>
@@ -33,7 +33,7 @@ std::vector<ClosureResult> collect_radio_links(const JointGraph<Pose>& joint);
 /// Transforms between every two placed robots of one component.
 template <class Pose>
 std::vector<TransformResult> collect_transforms(const JointGraph<Pose>& joint,
-                                                const TeamPlacement<Pose>& placement,
+                                                const TeamAlignment<Pose>& alignment,
                                                 const Marginals<Pose>& marginals);
 
 /// Notes on constant odometry errors that exceed three times both their stated and their estimated sigma.
@@ -53,6 +53,6 @@ SimilarityModelResult collect_similarity_model(const RadioMeasurements& radio, c
 /// Components in the order of their numbers.
 template <class Pose>
 std::vector<Component> collect_components(const JointGraph<Pose>& joint,
-                                          const TeamPlacement<Pose>& placement);
+                                          const TeamAlignment<Pose>& alignment);
 
 }  // namespace radioslam

@@ -6,7 +6,7 @@
 #include "radioslam/joint/access_point_stage.hpp"
 #include "radioslam/joint/aoa/aoa_integrity.hpp"
 #include "radioslam/joint/aoa/aoa_match_weights.hpp"
-#include "radioslam/joint/graduated_optimisation.hpp"
+#include "radioslam/joint/graduated_optimization.hpp"
 #include "radioslam/joint/joint_graph.hpp"
 #include "radioslam/joint/links/range_biases.hpp"
 #include "radioslam/joint/overlap_stage.hpp"

@@ -8,8 +8,8 @@
 #include "radioslam/joint/joint_graph_from_file.hpp"
 #include "radioslam/joint/late_nodes.hpp"
 #include "radioslam/joint/links/link_weights.hpp"
-#include "radioslam/joint/matches/frame_by_matches.hpp"
-#include "radioslam/joint/matches/placement_by_matches.hpp"
+#include "radioslam/joint/matches/alignment_by_matches.hpp"
+#include "radioslam/joint/matches/joining_by_matches.hpp"
 #include "radioslam/joint/scan_closures.hpp"
 #include "radioslam/joint/uncertainty/covariance_graph.hpp"
 #include "radioslam/pipeline/recordings_stage.hpp"
@@ -52,11 +52,11 @@ void align_by_fixes(const RunSetup& run, TeamEstimate<Pose>& team) {
 
 template <class Pose>
 void align_by_links_or_fingerprints(const RunSetup& run, TeamEstimate<Pose>& team) {
-  team.placement = has_radio_links(team.joint)
-                       ? place_by_radio(team.joint, run.params.alignment, run.progress)
-                       : place_by_fingerprints(team.joint, run.mission, team.starts, run.radio,
-                                               run.params.team_frame, run.progress);
-  constrain_by_fixes(team.joint, team.fixes, team.placement);
+  team.alignment = has_radio_links(team.joint)
+                       ? align_by_links(team.joint, run.params.alignment, run.progress)
+                       : align_robots_by_fingerprints(team.joint, run.mission, team.starts, run.radio,
+                                                      run.params.team_frame, run.progress);
+  constrain_by_fixes(team.joint, team.fixes, team.alignment);
 }
 
 template <class Pose>
@@ -69,7 +69,7 @@ void close_by_fingerprints(const RunSetup& run, TeamEstimate<Pose>& team) {
 
 template <class Pose>
 void refine_on_field(const RunSetup& run, TeamEstimate<Pose>& team) {
-  if (refine_by_radio_field(team.joint, run.mission, team.starts, run.radio, team.placement,
+  if (refine_by_radio_field(team.joint, run.mission, team.starts, run.radio, team.alignment,
                             team.closures.fingerprints, run.params.field, run.progress))
     optimize(team.joint.team.graph, run.params.optimizer, run.progress);
 }
@@ -89,9 +89,9 @@ void add_found(const RunSetup& run, TeamEstimate<Pose>& team, const std::vector<
 /// components that matches alone connect.
 template <class Pose>
 void align_by_matches(const RunSetup& run, TeamEstimate<Pose>& team) {
-  if (choose_alignment_by_matches(team.joint, team.placement, team.closures.matches, run.params.alignment))
+  if (choose_alignment_by_matches(team.joint, team.alignment, team.closures.matches, run.params.alignment))
     optimize(team.joint.team.graph, run.params.optimizer, run.progress);
-  place_by_matches(team.joint, team.placement, team.closures.matches);
+  join_by_matches(team.joint, team.alignment, team.closures.matches);
 }
 
 bool needs_overlap_search(const RunSetup& run, const TeamClosures& closures) {
@@ -105,13 +105,13 @@ OverlapStage search_overlaps(const RunSetup& run, const TeamEstimate<Pose>& team
   const MixtureParams& mixture = run.params.alignment.mixture;
   const OverlapStageParams& overlap = run.params.overlap;
   std::vector<JointGraph<Pose>> alignments{graph_for_covariances(team.joint, mixture)};
-  const TeamPlacement<Pose>& placement = team.placement;
-  for (std::size_t k = 0; k < placement.alternatives.size(); ++k) {
+  const TeamAlignment<Pose>& alignment = team.alignment;
+  for (std::size_t k = 0; k < alignment.alternatives.size(); ++k) {
     if (overlap_mode(overlap) == OverlapMode::kLink) break;
-    if (placement.alternative_weights[k] < kMinSearchedWeight) break;
+    if (alignment.alternative_weights[k] < kMinSearchedWeight) break;
     JointGraph<Pose> alternative = team.joint;
-    alternative.team.graph.poses = placement.alternatives[k];
-    if (!placement.segments.of_segment.empty()) reweigh_radio_links(alternative, placement, mixture);
+    alternative.team.graph.poses = alignment.alternatives[k];
+    if (!alignment.segments.of_segment.empty()) reweigh_radio_links(alternative, alignment, mixture);
     alignments.push_back(graph_for_covariances(alternative, mixture));
   }
   const auto listed = static_cast<std::size_t>(overlap.max_listed_candidates);
@@ -126,16 +126,16 @@ template <class Pose>
 void close_by_matches(const RunSetup& run, TeamEstimate<Pose>& team, const OverlapStage& overlaps) {
   const RunParams& params = run.params;
   std::vector<Closure>& matches = team.closures.matches;
-  const auto radio = radio_covariance(team.joint, team.placement, params.alignment);
+  const auto radio = radio_covariance(team.joint, team.alignment, params.alignment);
   std::optional<AoaMatchWeights> angles;
   if (params.matches.angle_weights) angles.emplace(run.mission, params.matches, params.angles);
-  select_matches(team.joint, team.placement, matches, overlaps.of_asked, run.options.pruning, params.matches,
+  select_matches(team.joint, team.alignment, matches, overlaps.of_asked, run.options.pruning, params.matches,
                  angles ? &*angles : nullptr, radio);
   if (radio && params.matches.robust && run.options.pruning == Pruning::kOn)
-    optimise_matches_and_radio(team.joint, matches, team.placement, params.matches, params.alignment.mixture,
+    optimize_matches_and_radio(team.joint, matches, team.alignment, params.matches, params.alignment.mixture,
                                params.optimizer, run.progress);
   else
-    optimise_with_matches(team.joint, matches, params.matches, params.optimizer, run.progress);
+    optimize_with_matches(team.joint, matches, params.matches, params.optimizer, run.progress);
 }
 
 }  // namespace
@@ -169,9 +169,9 @@ TeamEstimate<Pose> align_team(const RunSetup& run, TeamEstimate<Pose> team) {
   team.solution =
       timed("optimise", optimize_robustly<Pose>, joint, params.robust, params.optimizer, run.progress);
   if (has_fixes(run.mission))
-    timed("settle fixes", update_fix_inliers<Pose>, joint, team.fixes, params.optimizer, run.progress);
+    timed("reclassify fixes", reclassify_fixes<Pose>, joint, team.fixes, params.optimizer, run.progress);
   timed("radio field", refine_on_field<Pose>, run, team);
-  team.range_biases = timed("range biases", estimate_range_biases<Pose>, joint, team.placement,
+  team.range_biases = timed("range biases", estimate_range_biases<Pose>, joint, team.alignment,
                             params.range_bias, params.alignment.mixture, params.optimizer, run.progress);
   return team;
 }
@@ -184,7 +184,7 @@ JudgedTeam<Pose> judge_closures(const RunSetup& run, TeamEstimate<Pose> aligned,
   TeamClosures& closures = team.closures;
   add_found(run, team, found);
   if (!closures.loops.empty())
-    run.timed("loops", close_by_loops<Pose>, team.joint, team.placement, closures.loops, run.params.optimizer,
+    run.timed("loops", close_by_loops<Pose>, team.joint, team.alignment, closures.loops, run.params.optimizer,
               run.progress);
   const bool has_matches = !closures.matches.empty();
   if (has_matches && weighs_matches(run))

@@ -2,7 +2,7 @@
 //
 //   measure    scans give odometry and loop closures of each robot, captures angles, WiFi scans fingerprints
 //   build      the joint graph: odometry, known starts, radio links, each robot's own closures
-//   align      all robots in one frame, and the team optimised there
+//   align      all robots in one frame, and the team optimized there
 //   judge      closures between robots: propose where views overlap, select those that hold, solve. Judging
 //   again
 //              with closures that were found since begins at the same aligned team, so nothing depends on the
@@ -57,7 +57,7 @@ template <class Pose>
 TeamEstimate<Pose> build_team(const RunSetup& run, const TeamGraph<Pose>* graph, std::vector<Closure> scans);
 
 /// All robots in one frame: by position fixes, by radio links if there are any, else by fingerprints;
-/// optimised with all but the closures that are judged.
+/// optimized with all but the closures that are judged.
 template <class Pose>
 TeamEstimate<Pose> align_team(const RunSetup& run, TeamEstimate<Pose> team);
 

@@ -35,22 +35,22 @@ void count(RunResult& result, const RadioMeasurements& radio, const OptimizerSum
 /// Adds the estimate, its uncertainty and its alternatives.
 template <class Pose>
 void add_estimate(RunResult& result, const Mission& mission, const JointGraph<Pose>& joint,
-                  const TeamPlacement<Pose>& placement, const MixtureParams& mixture, StageClock& timed) {
+                  const TeamAlignment<Pose>& alignment, const MixtureParams& mixture, StageClock& timed) {
   const auto& graph = joint.team.graph;
-  result.robots = collect_robots(joint, graph.poses, placement);
+  result.robots = collect_robots(joint, graph.poses, alignment);
   const auto marginals = timed("uncertainty", [&] {
     return Marginals<Pose>::compute(graph_for_covariances(joint, mixture).team.graph);
   });
   if (marginals) {
-    add_uncertainty(result.robots, joint, placement, *marginals);
-    result.transforms = collect_transforms(joint, placement, *marginals);
+    add_uncertainty(result.robots, joint, alignment, *marginals);
+    result.transforms = collect_transforms(joint, alignment, *marginals);
     for (auto& note : odometry_notes(mission, joint, *marginals)) result.notes.push_back(std::move(note));
   }
-  result.weight = placement.weight;
-  for (std::size_t k = 0; k < std::min(placement.alternatives.size(), kMaxReportedAlternatives); ++k)
+  result.weight = alignment.weight;
+  for (std::size_t k = 0; k < std::min(alignment.alternatives.size(), kMaxReportedAlternatives); ++k)
     result.alternatives.push_back(
-        {placement.alternative_weights[k], collect_robots(joint, placement.alternatives[k], placement)});
-  result.components = collect_components(joint, placement);
+        {alignment.alternative_weights[k], collect_robots(joint, alignment.alternatives[k], alignment)});
+  result.components = collect_components(joint, alignment);
   for (const auto& robot : result.robots)
     if (!robot.placed) result.unplaced.push_back(robot.id);
 }
@@ -88,14 +88,14 @@ void add_notes(RunResult& result, const Mission& mission, const RadioMeasurement
 /// Tests self-reported and estimated poses against the angles of arrival.
 template <class Pose>
 void check_angles_into(RunResult& result, const Mission& mission, const JointGraph<Pose>& joint,
-                       const TeamPlacement<Pose>& placement, const RunParams& params) {
+                       const TeamAlignment<Pose>& alignment, const RunParams& params) {
   const auto add = [&](const AoaIntegrity& checks, CheckedPose pose) {
     result.angle_checks.insert(result.angle_checks.end(), checks.pairs.begin(), checks.pairs.end());
     for (auto& note : angle_notes(checks, pose)) result.notes.push_back(std::move(note));
   };
   add(check_self_reports<Pose>(mission, params.graph, params.angles, params.angle_check),
       CheckedPose::kSelfReported);
-  add(check_estimate(mission, joint, placement, params.angles, params.angle_check), CheckedPose::kEstimate);
+  add(check_estimate(mission, joint, alignment, params.angles, params.angle_check), CheckedPose::kEstimate);
 }
 
 /// Outcomes of all links and closures, by kind.
@@ -169,21 +169,21 @@ RunResult describe_run(const Mission& mission, const RadioMeasurements& radio,
   result.dimension = mission.dimension;
   result.range_biases = estimate.range_biases;
   if (overlaps) add_overlaps(result, mission, std::move(*overlaps), options.take_candidates != nullptr);
-  add_estimate(result, mission, joint, estimate.placement, params.alignment.mixture, timed);
+  add_estimate(result, mission, joint, estimate.alignment, params.alignment.mixture, timed);
   for (std::size_t r = 0; r < mission.robots.size() && !options.overlap_only; ++r)
     result.robots[r].dense = dense_trajectory<Pose>(mission, joint, nullptr, r, result.robots[r]).poses;
   add_rssi_offsets(result.robots, radio.rssi_offsets);
   if (radio.rssi_offsets.shown) result.notes.push_back(rssi_offset_note(result.robots));
   add_notes(result, mission, radio, params.sequence, joint.ignored_links);
-  result.notes.insert(result.notes.end(), estimate.placement.notes.begin(), estimate.placement.notes.end());
+  result.notes.insert(result.notes.end(), estimate.alignment.notes.begin(), estimate.alignment.notes.end());
   add_fix_results(result, joint, estimate.fixes);
   if (!mission.aoa_measurements.empty())
-    timed("angle checks", [&] { check_angles_into(result, mission, joint, estimate.placement, params); });
+    timed("angle checks", [&] { check_angles_into(result, mission, joint, estimate.alignment, params); });
   result.closures = collect_all_closures(estimate);
   for (auto& note : notes_on_obstructed_robots(result.robots, result.closures))
     result.notes.push_back(std::move(note));
   add_uncertain_stretches(result);
-  widen_by_alternatives(result.robots, joint, estimate.placement);
+  widen_by_alternatives(result.robots, joint, estimate.alignment);
   widen_by_rejected_closures(result.robots, result.closures, result.dimension);
   result.similarity_model = collect_similarity_model(radio, params.radio);
   timed("access points", [&] { add_access_points(result, mission, radio, params.access_points); });

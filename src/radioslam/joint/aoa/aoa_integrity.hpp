@@ -24,7 +24,7 @@
 
 #include "radioslam/base/fields.hpp"
 #include "radioslam/joint/joint_graph.hpp"
-#include "radioslam/joint/team_placement.hpp"
+#include "radioslam/joint/team_alignment.hpp"
 #include "radioslam/radio/aoa/aoa_likelihood.hpp"
 #include "radioslam/results/results.hpp"
 
@@ -63,7 +63,7 @@ AoaIntegrity check_self_reports(const Mission& mission, const JointGraphParams& 
 /// Tests the estimate of `mission` in `joint`, for robots with a common frame.
 template <class Pose>
 AoaIntegrity check_estimate(const Mission& mission, const JointGraph<Pose>& joint,
-                            const TeamPlacement<Pose>& placement, const AoaLikelihoodParams& likelihood,
+                            const TeamAlignment<Pose>& alignment, const AoaLikelihoodParams& likelihood,
                             const AoaIntegrityParams& params);
 
 /// Notes for the user, one per group of suspects.

@@ -49,9 +49,9 @@ void adopt_alignment(JointGraph<Pose>& joint, const TeamHypothesis<Pose>& hypoth
 }
 
 template <class Pose>
-double reweigh_radio_links(JointGraph<Pose>& joint, const TeamPlacement<Pose>& placement,
+double reweigh_radio_links(JointGraph<Pose>& joint, const TeamAlignment<Pose>& alignment,
                            const MixtureParams& params) {
-  const TeamHypothesis<Pose> weighed = weigh_links(radio_team(joint), placement.segments, params);
+  const TeamHypothesis<Pose> weighed = weigh_links(radio_team(joint), alignment.segments, params);
   adopt_alignment(joint, weighed);
   return weighed.log_evidence;
 }
@@ -81,7 +81,7 @@ void silence_links(JointGraph<Pose>& joint, const PairsOfRobots& pairs) {
 #define RADIOSLAM_LINK_WEIGHTS(Pose)                                                                        \
   template TeamGraph<Pose> radio_team(const JointGraph<Pose>&);                                             \
   template void adopt_alignment(JointGraph<Pose>&, const TeamHypothesis<Pose>&);                            \
-  template double reweigh_radio_links(JointGraph<Pose>&, const TeamPlacement<Pose>&, const MixtureParams&); \
+  template double reweigh_radio_links(JointGraph<Pose>&, const TeamAlignment<Pose>&, const MixtureParams&); \
   template void silence_links(JointGraph<Pose>&, const PairsOfRobots&);
 RADIOSLAM_LINK_WEIGHTS(SE2)
 RADIOSLAM_LINK_WEIGHTS(SE3)

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "radioslam/joint/joint_graph.hpp"
-#include "radioslam/joint/team_placement.hpp"
+#include "radioslam/joint/team_alignment.hpp"
 #include "radioslam/team_frame/measurement_mixture.hpp"
 
 namespace radioslam {
@@ -26,7 +26,7 @@ void adopt_alignment(JointGraph<Pose>& joint, const TeamHypothesis<Pose>& hypoth
 /// Recomputes the weight of every range and of every path of every bearing at the joint estimate's values,
 /// which matches may have changed. Returns the log likelihood of all factors there.
 template <class Pose>
-double reweigh_radio_links(JointGraph<Pose>& joint, const TeamPlacement<Pose>& placement,
+double reweigh_radio_links(JointGraph<Pose>& joint, const TeamAlignment<Pose>& alignment,
                            const MixtureParams& params);
 
 using PairsOfRobots = std::set<std::pair<RobotIndex, RobotIndex>>;

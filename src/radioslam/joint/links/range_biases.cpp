@@ -21,11 +21,11 @@ constexpr double kConvergedWeightChange =
 template <class Pose>
 class BiasEstimation {
  public:
-  BiasEstimation(JointGraph<Pose>& joint, const TeamPlacement<Pose>& placement,
+  BiasEstimation(JointGraph<Pose>& joint, const TeamAlignment<Pose>& alignment,
                  const RangeBiasPriorParams& params, const MixtureParams& mixture,
                  const OptimizerParams& optimizer, const Progress& progress)
       : joint_(joint),
-        placement_(placement),
+        alignment_(alignment),
         graph_(joint.team.graph),
         params_(params),
         mixture_(mixture),
@@ -37,10 +37,10 @@ class BiasEstimation {
     const JointGraph<Pose> before = joint_;
     add_biases();
     if (graph_.range_biases.empty()) return {};
-    optimise_in_turn();
+    optimize_in_turn();
     if (const auto population = this->population()) {
       set_hyperprior(*population);
-      optimise_in_turn();
+      optimize_in_turn();
       return described();
     }
     joint_ = before;
@@ -71,7 +71,7 @@ class BiasEstimation {
   double update_weights() {
     std::vector<double> before;
     for (std::size_t k = 0; k < radio_ranges_; ++k) before.push_back(graph_.ranges[k].weight);
-    reweigh_radio_links(joint_, placement_, mixture_);
+    reweigh_radio_links(joint_, alignment_, mixture_);
     double change = 0;
     for (std::size_t k = 0; k < radio_ranges_; ++k)
       if (graph_.ranges[k].bias.valid())
@@ -79,7 +79,7 @@ class BiasEstimation {
     return change;
   }
 
-  void optimise_in_turn() {
+  void optimize_in_turn() {
     for (int round = 0; round < params_.max_rounds; ++round) {
       const bool converged = update_weights() < kConvergedWeightChange;
       optimize(graph_, optimizer_, progress_);
@@ -151,7 +151,7 @@ class BiasEstimation {
   }
 
   JointGraph<Pose>& joint_;
-  const TeamPlacement<Pose>& placement_;
+  const TeamAlignment<Pose>& alignment_;
   PoseGraph<Pose>& graph_;
   const RangeBiasPriorParams& params_;
   const MixtureParams& mixture_;
@@ -165,15 +165,15 @@ class BiasEstimation {
 
 template <class Pose>
 std::vector<RangeBiasResult> estimate_range_biases(
-    JointGraph<Pose>& joint, const TeamPlacement<Pose>& placement, const RangeBiasPriorParams& params,
+    JointGraph<Pose>& joint, const TeamAlignment<Pose>& alignment, const RangeBiasPriorParams& params,
     const MixtureParams& mixture, const OptimizerParams& optimizer, const Progress& progress) {
-  if (params.prior_sigma_m <= 0 || placement.segments.of_segment.empty()) return {};
-  return BiasEstimation<Pose>(joint, placement, params, mixture, optimizer, progress).run();
+  if (params.prior_sigma_m <= 0 || alignment.segments.of_segment.empty()) return {};
+  return BiasEstimation<Pose>(joint, alignment, params, mixture, optimizer, progress).run();
 }
 
 #define RADIOSLAM_RANGE_BIASES(Pose)                                                                    \
   template std::vector<RangeBiasResult> estimate_range_biases(                                          \
-      JointGraph<Pose>&, const TeamPlacement<Pose>&, const RangeBiasPriorParams&, const MixtureParams&, \
+      JointGraph<Pose>&, const TeamAlignment<Pose>&, const RangeBiasPriorParams&, const MixtureParams&, \
       const OptimizerParams&, const Progress&);
 RADIOSLAM_RANGE_BIASES(SE2)
 RADIOSLAM_RANGE_BIASES(SE3)

@@ -3,13 +3,13 @@
 //
 // Each pair with enough ranges starts from the centre of the shortest interval that contains half of its
 // residuals, which is robust to late paths; errors beyond three sigmas of the prior are detours and do not
-// count. Biases and trajectories are then optimised in turn with the ranges' weights, their posterior
+// count. Biases and trajectories are then optimized in turn with the ranges' weights, their posterior
 // probabilities of being direct. Biases are kept all or none, since single ones trade off against each other
 // through the trajectories: they are kept if b^T C^-1 b exceeds the chi-squared quantile for their number. C
 // is their joint covariance, inflated by the ranges' overdispersion and correlation time; else hundreds of
 // ranges with one reflection would make any small error significant.
 // Kept biases get a common prior: its spread is estimated from b and C (empirical Bayes; Morris 1983), its
-// mean is a variable, and everything is optimised again, so that pairs whose own bias is unobservable take
+// mean is a variable, and everything is optimized again, so that pairs whose own bias is unobservable take
 // the value of the others. Metres; measured = distance + bias.
 #pragma once
 
@@ -17,7 +17,7 @@
 #include "radioslam/base/progress.hpp"
 #include "radioslam/graph/optimizer.hpp"
 #include "radioslam/joint/joint_graph.hpp"
-#include "radioslam/joint/team_placement.hpp"
+#include "radioslam/joint/team_alignment.hpp"
 #include "radioslam/team_frame/measurement_mixture.hpp"
 
 namespace radioslam {
@@ -41,7 +41,7 @@ struct RangeBiasPriorParams {
                     "lower bound on the estimated spread of biases between antenna pairs");
     RADIOSLAM_FIELD(min_ranges, "", 2, 1e6, "smallest number of ranges of a pair whose bias is estimated");
     RADIOSLAM_FIELD(max_rounds, "", 1, 100,
-                    "largest number of rounds of optimising biases and weights in turn");
+                    "largest number of rounds of optimizing biases and weights in turn");
   }
 };
 
@@ -49,7 +49,7 @@ struct RangeBiasPriorParams {
 /// graph is unchanged. Ranges of closures have no bias. Returns the biases kept, in the order of the pairs.
 template <class Pose>
 std::vector<RangeBiasResult> estimate_range_biases(
-    JointGraph<Pose>& joint, const TeamPlacement<Pose>& placement, const RangeBiasPriorParams& params,
+    JointGraph<Pose>& joint, const TeamAlignment<Pose>& alignment, const RangeBiasPriorParams& params,
     const MixtureParams& mixture, const OptimizerParams& optimizer, const Progress& progress = {});
 
 }  // namespace radioslam

@@ -1,13 +1,13 @@
 // Inlier growth for position fixes: starts from seeds and follows the path, so that fixes near inliers are
 // classified first, while the odometry in between is still accurate.
 //
-// Optimising with all fixes at once would pull the trajectory towards a run of wrong fixes until it fits
+// Optimizing with all fixes at once would pull the trajectory towards a run of wrong fixes until it fits
 // them. Instead, each round fits the trajectory to the current inliers (Geman-McClure loss); a fix then
 // passes if
 //   r^2 <= gate (sigma^2 + u^2),   u = max_drift_ratio * path length to the nearest inlier.
 // Inliers that do not pass are removed. Fixes that pass are added if u < sigma, or if u <= reach times the
 // smallest u of those that pass: a gap in the fixes is crossed from its edge. Ends when the inliers no longer
-// change, or after max_rounds. Cost: one optimisation of all robots per round.
+// change, or after max_rounds. Cost: one optimization of all robots per round.
 #pragma once
 
 #include <vector>

@@ -260,12 +260,12 @@ KnownStarts starts_with_fixes(const Mission& mission, const TeamFixes<Pose>& fix
 
 template <class Pose>
 void constrain_by_fixes(JointGraph<Pose>& joint, TeamFixes<Pose>& fixes,
-                        const TeamPlacement<Pose>& placement) {
+                        const TeamAlignment<Pose>& alignment) {
   auto& positions = joint.team.graph.positions;
   for (std::size_t r = 0; r < fixes.size(); ++r) {
-    const auto component = static_cast<std::size_t>(placement.component[r]);
+    const auto component = static_cast<std::size_t>(alignment.component[r]);
     if (fixes[r].role != FixUse::kTooFew && fixes[r].role != FixUse::kNoBaseline) continue;
-    if (!placement.absolute[component] || !placement.placed[r]) continue;
+    if (!alignment.absolute[component] || !alignment.placed[r]) continue;
     fixes[r].role = FixUse::kConstrainsRobot;
     fixes[r].first_factor = positions.size();
     for (auto factor : fixes[r].factors) {
@@ -277,8 +277,8 @@ void constrain_by_fixes(JointGraph<Pose>& joint, TeamFixes<Pose>& fixes,
 }
 
 template <class Pose>
-void update_fix_inliers(JointGraph<Pose>& joint, const TeamFixes<Pose>& fixes,
-                        const OptimizerParams& optimizer, const Progress& progress) {
+void reclassify_fixes(JointGraph<Pose>& joint, const TeamFixes<Pose>& fixes, const OptimizerParams& optimizer,
+                      const Progress& progress) {
   for (int round = 0; round < kMaxReclassifications; ++round) {
     bool changed = false;
     for (const RobotFixes<Pose>& robot : fixes)
@@ -288,13 +288,13 @@ void update_fix_inliers(JointGraph<Pose>& joint, const TeamFixes<Pose>& fixes,
   }
 }
 
-#define RADIOSLAM_FIX_STAGE(Pose)                                                                     \
-  template TeamFixes<Pose> place_by_fixes(JointGraph<Pose>&, const Mission&, const FixParams&,        \
-                                          const OptimizerParams&);                                    \
-  template KnownStarts starts_with_fixes<Pose>(const Mission&, const TeamFixes<Pose>&);               \
-  template void constrain_by_fixes(JointGraph<Pose>&, TeamFixes<Pose>&, const TeamPlacement<Pose>&);  \
-  template void update_fix_inliers(JointGraph<Pose>&, const TeamFixes<Pose>&, const OptimizerParams&, \
-                                   const Progress&);
+#define RADIOSLAM_FIX_STAGE(Pose)                                                                    \
+  template TeamFixes<Pose> place_by_fixes(JointGraph<Pose>&, const Mission&, const FixParams&,       \
+                                          const OptimizerParams&);                                   \
+  template KnownStarts starts_with_fixes<Pose>(const Mission&, const TeamFixes<Pose>&);              \
+  template void constrain_by_fixes(JointGraph<Pose>&, TeamFixes<Pose>&, const TeamAlignment<Pose>&); \
+  template void reclassify_fixes(JointGraph<Pose>&, const TeamFixes<Pose>&, const OptimizerParams&,  \
+                                 const Progress&);
 RADIOSLAM_FIX_STAGE(SE2)
 RADIOSLAM_FIX_STAGE(SE3)
 #undef RADIOSLAM_FIX_STAGE

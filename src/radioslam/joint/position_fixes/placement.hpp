@@ -20,7 +20,7 @@
 #include "radioslam/base/progress.hpp"
 #include "radioslam/graph/optimizer.hpp"
 #include "radioslam/joint/joint_graph.hpp"
-#include "radioslam/joint/team_placement.hpp"
+#include "radioslam/joint/team_alignment.hpp"
 #include "radioslam/team_frame/fix_alignment.hpp"
 
 namespace radioslam {
@@ -95,11 +95,11 @@ KnownStarts starts_with_fixes(const Mission& mission, const TeamFixes<Pose>& fix
 /// Adds fixes of robots that other measurements have put into the common frame.
 template <class Pose>
 void constrain_by_fixes(JointGraph<Pose>& joint, TeamFixes<Pose>& fixes,
-                        const TeamPlacement<Pose>& placement);
+                        const TeamAlignment<Pose>& alignment);
 
-/// Reclassifies all fixes in the optimised graph, and optimises again until their classes no longer change.
+/// Reclassifies all fixes in the optimized graph, and optimizes again until their classes no longer change.
 template <class Pose>
-void update_fix_inliers(JointGraph<Pose>& joint, const TeamFixes<Pose>& fixes,
-                        const OptimizerParams& optimizer, const Progress& progress);
+void reclassify_fixes(JointGraph<Pose>& joint, const TeamFixes<Pose>& fixes, const OptimizerParams& optimizer,
+                      const Progress& progress);
 
 }  // namespace radioslam

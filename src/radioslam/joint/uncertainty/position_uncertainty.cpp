@@ -32,10 +32,10 @@ struct ComponentKeyframes {
 
 template <class Pose>
 std::vector<ComponentKeyframes> component_keyframes(const JointGraph<Pose>& joint,
-                                                    const TeamPlacement<Pose>& placement) {
+                                                    const TeamAlignment<Pose>& alignment) {
   std::vector<ComponentKeyframes> components;
   for (std::size_t r = 0; r < joint.robots.size(); ++r) {
-    const auto c = static_cast<std::size_t>(placement.component[r]);
+    const auto c = static_cast<std::size_t>(alignment.component[r]);
     if (components.size() <= c) components.resize(c + 1);
     const RobotVariables& robot = joint.robots[r];
     const std::vector<double> weights = time_weights(robot.stamps);
@@ -104,12 +104,12 @@ double birge_ratio(RobotIndex robot, const std::pair<Stamp, Stamp>& stretch,
 
 template <class Pose>
 void add_uncertainty(std::vector<RobotResult>& robots, const JointGraph<Pose>& joint,
-                     const TeamPlacement<Pose>& placement, const Marginals<Pose>& marginals) {
+                     const TeamAlignment<Pose>& alignment, const Marginals<Pose>& marginals) {
   for (std::size_t r = 0; r < robots.size(); ++r)
     for (const PoseId i : joint.robots[r].poses)
       robots[r].sigma_position_m.push_back(
           sigma_of(marginals.pose(i).template topLeftCorner<Pose::kDim, Pose::kDim>()));
-  for (const ComponentKeyframes& component : component_keyframes(joint, placement)) {
+  for (const ComponentKeyframes& component : component_keyframes(joint, alignment)) {
     const auto covariances = position_covariances_in_team_gauge(marginals, joint.team.graph.poses,
                                                                 component.poses, component.weights);
     auto covariance = covariances.begin();
@@ -121,18 +121,18 @@ void add_uncertainty(std::vector<RobotResult>& robots, const JointGraph<Pose>& j
 
 template <class Pose>
 void widen_by_alternatives(std::vector<RobotResult>& robots, const JointGraph<Pose>& joint,
-                           const TeamPlacement<Pose>& placement) {
-  double weights = placement.weight;
-  for (const double weight : placement.alternative_weights) weights += weight;
-  const auto components = component_keyframes(joint, placement);
+                           const TeamAlignment<Pose>& alignment) {
+  double weights = alignment.weight;
+  for (const double weight : alignment.alternative_weights) weights += weight;
+  const auto components = component_keyframes(joint, alignment);
   std::vector<Eigen::VectorXd> added;
   for (const ComponentKeyframes& component : components)
     added.push_back(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(component.poses.size())));
-  for (std::size_t h = 0; h < placement.alternatives.size(); ++h) {
-    const double weight = placement.alternative_weights[h] / weights;
+  for (std::size_t h = 0; h < alignment.alternatives.size(); ++h) {
+    const double weight = alignment.alternative_weights[h] / weights;
     for (std::size_t c = 0; c < components.size(); ++c)
       added[c] +=
-          weight * squared_distances(joint.team.graph.poses, placement.alternatives[h], components[c]);
+          weight * squared_distances(joint.team.graph.poses, alignment.alternatives[h], components[c]);
   }
   for (std::size_t c = 0; c < components.size(); ++c) add_variances(robots, components[c], added[c]);
 }
@@ -155,9 +155,9 @@ void widen_by_rejected_closures(std::vector<RobotResult>& robots, const std::vec
 
 #define RADIOSLAM_UNCERTAINTY(Pose)                                                       \
   template void add_uncertainty(std::vector<RobotResult>&, const JointGraph<Pose>&,       \
-                                const TeamPlacement<Pose>&, const Marginals<Pose>&);      \
+                                const TeamAlignment<Pose>&, const Marginals<Pose>&);      \
   template void widen_by_alternatives(std::vector<RobotResult>&, const JointGraph<Pose>&, \
-                                      const TeamPlacement<Pose>&);
+                                      const TeamAlignment<Pose>&);
 RADIOSLAM_UNCERTAINTY(SE2)
 RADIOSLAM_UNCERTAINTY(SE3)
 #undef RADIOSLAM_UNCERTAINTY

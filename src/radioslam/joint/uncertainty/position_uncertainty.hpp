@@ -10,7 +10,7 @@
 
 #include "radioslam/graph/marginals.hpp"
 #include "radioslam/joint/joint_graph.hpp"
-#include "radioslam/joint/team_placement.hpp"
+#include "radioslam/joint/team_alignment.hpp"
 #include "radioslam/results/results.hpp"
 
 namespace radioslam {
@@ -18,12 +18,12 @@ namespace radioslam {
 /// From the marginal covariances. The gauge is that of the robots of each component.
 template <class Pose>
 void add_uncertainty(std::vector<RobotResult>& robots, const JointGraph<Pose>& joint,
-                     const TeamPlacement<Pose>& placement, const Marginals<Pose>& marginals);
+                     const TeamAlignment<Pose>& alignment, const Marginals<Pose>& marginals);
 
 /// Adds the squared distances to the alternatives, by weight.
 template <class Pose>
 void widen_by_alternatives(std::vector<RobotResult>& robots, const JointGraph<Pose>& joint,
-                           const TeamPlacement<Pose>& placement);
+                           const TeamAlignment<Pose>& alignment);
 
 /// In the robots' uncertain stretches.
 void widen_by_rejected_closures(std::vector<RobotResult>& robots, const std::vector<ClosureResult>& closures,

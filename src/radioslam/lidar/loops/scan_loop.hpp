@@ -58,7 +58,7 @@ struct ScanLoopParams {
                     "lower bound on the standard deviation of a closure's translation, per axis");
     RADIOSLAM_FIELD(min_sigma_rad, "rad", 1e-6, 3,
                     "lower bound on the standard deviation of a closure's rotation, per axis");
-    RADIOSLAM_FIELD(rounds, "", 1, 100, "largest number of rounds of search and optimisation");
+    RADIOSLAM_FIELD(rounds, "", 1, 100, "largest number of rounds of search and optimization");
   }
 };
 

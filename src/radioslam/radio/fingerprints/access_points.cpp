@@ -267,7 +267,7 @@ double variance_ratio(double cost, Index places, const AccessPointParams& params
   return (params.sigma_weight + cost) / (params.sigma_weight + static_cast<double>(places));
 }
 
-/// Cost at a fixed position with P0 and n optimised, starting from their values in `from`.
+/// Cost at a fixed position with P0 and n optimized, starting from their values in `from`.
 double profile_cost(const Unknowns& from, const Eigen::Vector2d& a, const WhitenedSites& places,
                     const AccessPointParams& params) {
   constexpr int kSteps = 2;

@@ -1,4 +1,4 @@
-#include "radioslam/joint/graduated_optimisation.hpp"
+#include "radioslam/joint/graduated_optimization.hpp"
 
 #include <algorithm>
 

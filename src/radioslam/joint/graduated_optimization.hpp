@@ -1,4 +1,4 @@
-// Graduated optimisation of a joint graph with outlier closures (Blake and Zisserman 1987): the closures'
+// Graduated optimization of a joint graph with outlier closures (Blake and Zisserman 1987): the closures'
 // loss starts nearly quadratic, which widens the basin of convergence, and is narrowed stage by stage to its
 // final scale, where outliers have no influence.
 #pragma once

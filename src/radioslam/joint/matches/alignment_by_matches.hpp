@@ -18,17 +18,17 @@
 #include "radioslam/graph/marginals.hpp"
 #include "radioslam/joint/joint_graph.hpp"
 #include "radioslam/joint/matches/match_groups.hpp"
-#include "radioslam/joint/team_placement.hpp"
+#include "radioslam/joint/team_alignment.hpp"
 #include "radioslam/team_frame/measurement_mixture.hpp"
 
 namespace radioslam {
 
-/// Moves the team to the alignment with the largest weight and updates the placement's weights and
-/// alternatives. `joint` must be optimised and placed by radio links; without them, or without matches
+/// Moves the team to the alignment with the largest weight and updates the alignment's weights and
+/// alternatives. `joint` must be optimized and placed by radio links; without them, or without matches
 /// between robots, nothing changes. Returns whether the team was moved to another alignment; it is then to be
-/// optimised.
+/// optimized.
 template <class Pose>
-bool choose_alignment_by_matches(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement,
+bool choose_alignment_by_matches(JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment,
                                  const std::vector<Closure>& matches, const RadioAlignmentParams& params);
 
 /// Squared Mahalanobis norm of a match under the joint estimate, whose relative poses have the covariances of

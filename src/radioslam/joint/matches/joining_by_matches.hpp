@@ -6,14 +6,14 @@
 #pragma once
 
 #include "radioslam/joint/joint_graph.hpp"
-#include "radioslam/joint/team_placement.hpp"
+#include "radioslam/joint/team_alignment.hpp"
 
 namespace radioslam {
 
 /// Moves the robots of every component that a group joins to another, and notes on what the frame stands and
 /// which pairs of robots stay open because no group is large enough.
 template <class Pose>
-void place_by_matches(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement,
-                      const std::vector<Closure>& matches);
+void join_by_matches(JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment,
+                     const std::vector<Closure>& matches);
 
 }  // namespace radioslam

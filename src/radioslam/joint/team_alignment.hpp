@@ -13,7 +13,7 @@ namespace radioslam {
 
 /// Robots with a common frame, and alternative hypotheses of their alignment.
 template <class Pose>
-struct TeamPlacement {
+struct TeamAlignment {
   TeamComponents segments;                      ///< of the alignment by radio; empty without
   std::vector<int> component;                   ///< per robot; 0 is the first robot's
   std::vector<int> without_matches;             ///< the component before matches joined any
@@ -28,9 +28,9 @@ struct TeamPlacement {
 
 /// Whether other measurements than matches determine the relative pose of two robots.
 template <class Pose>
-bool connected_without_matches(const TeamPlacement<Pose>& placement, RobotIndex i, RobotIndex j) {
-  const int c_i = placement.without_matches[i.index()], c_j = placement.without_matches[j.index()];
-  return c_i == c_j || (placement.in_common_frame[i.index()] && placement.in_common_frame[j.index()]);
+bool connected_without_matches(const TeamAlignment<Pose>& alignment, RobotIndex i, RobotIndex j) {
+  const int c_i = alignment.without_matches[i.index()], c_j = alignment.without_matches[j.index()];
+  return c_i == c_j || (alignment.in_common_frame[i.index()] && alignment.in_common_frame[j.index()]);
 }
 
 /// Whether radio links connect robots to each other or to anchors.
@@ -40,21 +40,21 @@ bool has_radio_links(const JointGraph<Pose>& joint);
 /// Aligns robots by their links, assigns weights to all links, and adds paths of angles that may be direct as
 /// bearing factors.
 template <class Pose>
-TeamPlacement<Pose> place_by_radio(JointGraph<Pose>& joint, const RadioAlignmentParams& params,
+TeamAlignment<Pose> align_by_links(JointGraph<Pose>& joint, const RadioAlignmentParams& params,
                                    const Progress& progress);
 
 /// Sets the weight of the first of these hypotheses, best first, and the alternatives that are likely enough
 /// to be searched.
 template <class Pose>
-void set_alternatives(TeamPlacement<Pose>& placement, const std::vector<TeamHypothesis<Pose>>& hypotheses);
+void set_alternatives(TeamAlignment<Pose>& alignment, const std::vector<TeamHypothesis<Pose>>& hypotheses);
 
 /// Renumbers components without gaps, in the order of the robots; returns the new number of each old one, -1
 /// where no robot had it.
 std::vector<int> renumber_components(std::vector<int>& component_of_robot);
 
 template <class Pose>
-TeamPlacement<Pose> place_by_fingerprints(JointGraph<Pose>& joint, const Mission& mission,
-                                          const KnownStarts& starts, const RadioMeasurements& radio,
-                                          const LayoutParams& params, const Progress& progress);
+TeamAlignment<Pose> align_robots_by_fingerprints(JointGraph<Pose>& joint, const Mission& mission,
+                                                 const KnownStarts& starts, const RadioMeasurements& radio,
+                                                 const LayoutParams& params, const Progress& progress);
 
 }  // namespace radioslam

@@ -1,4 +1,4 @@
-#include "radioslam/joint/matches/frame_by_matches.hpp"
+#include "radioslam/joint/matches/alignment_by_matches.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -97,10 +97,10 @@ struct Candidate {
 template <class Pose>
 class AlignmentChoice {
  public:
-  AlignmentChoice(const JointGraph<Pose>& joint, const TeamPlacement<Pose>& placement,
+  AlignmentChoice(const JointGraph<Pose>& joint, const TeamAlignment<Pose>& alignment,
                   const std::vector<Closure>& matches, const RadioAlignmentParams& params)
       : joint_(joint),
-        placement_(placement),
+        alignment_(alignment),
         matches_(matches),
         params_(params),
         radio_(radio_team(joint)),
@@ -109,7 +109,7 @@ class AlignmentChoice {
   /// The alignments with their weights, best first; the radio's own is the first of equals.
   std::vector<TeamHypothesis<Pose>> run() {
     add(joint_.team.graph.poses);
-    for (const std::vector<Pose>& poses : placement_.alternatives) add(poses);
+    for (const std::vector<Pose>& poses : alignment_.alternatives) add(poses);
     if (candidates_.empty()) return {};
     for (std::size_t round = 1; round < joint_.robots.size(); ++round) {
       const std::size_t before = best();
@@ -138,7 +138,7 @@ class AlignmentChoice {
   void add(const std::vector<Pose>& poses) {
     TeamGraph<Pose> start = radio_;
     start.graph.poses = poses;
-    Candidate<Pose> candidate{refine_alignment(start, placement_.segments, params_)};
+    Candidate<Pose> candidate{refine_alignment(start, alignment_.segments, params_)};
     if (!std::isfinite(candidate.alignment.log_evidence)) return;
     const auto is_same = [&](const Candidate<Pose>& other) {
       return same_alignment(other.alignment.poses, candidate.alignment.poses, {}, params_.beam);
@@ -204,7 +204,7 @@ class AlignmentChoice {
   }
 
   bool share_frame(const MatchGroup& group) const {
-    return connected_without_matches(placement_, group.a, group.b);
+    return connected_without_matches(alignment_, group.a, group.b);
   }
 
   /// Poses with one robot moved to where a group wants it, for the largest groups that contradict the
@@ -232,7 +232,7 @@ class AlignmentChoice {
   }
 
   const JointGraph<Pose>& joint_;
-  const TeamPlacement<Pose>& placement_;
+  const TeamAlignment<Pose>& alignment_;
   const std::vector<Closure>& matches_;
   const RadioAlignmentParams& params_;
   TeamGraph<Pose> radio_;
@@ -250,25 +250,25 @@ double match_statistic(const JointGraph<Pose>& joint, const Marginals<Pose>& mar
 }
 
 template <class Pose>
-bool choose_alignment_by_matches(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement,
+bool choose_alignment_by_matches(JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment,
                                  const std::vector<Closure>& matches, const RadioAlignmentParams& params) {
-  if (placement.segments.of_segment.empty() || matches.empty()) return false;
-  const auto alignments = AlignmentChoice<Pose>(joint, placement, matches, params).run();
+  if (alignment.segments.of_segment.empty() || matches.empty()) return false;
+  const auto alignments = AlignmentChoice<Pose>(joint, alignment, matches, params).run();
   if (alignments.empty()) return false;
-  set_alternatives(placement, alignments);
+  set_alternatives(alignment, alignments);
   const TeamHypothesis<Pose>& chosen = alignments.front();
   if (same_alignment(joint.team.graph.poses, chosen.poses, {}, params.beam)) return false;
   adopt_alignment(joint, chosen);
   return true;
 }
 
-#define RADIOSLAM_FRAME_BY_MATCHES(Pose)                                                                   \
+#define RADIOSLAM_ALIGNMENT_BY_MATCHES(Pose)                                                               \
   template double match_statistic(const JointGraph<Pose>&, const Marginals<Pose>&, double, const Closure&, \
                                   const MatchEnds&);                                                       \
-  template bool choose_alignment_by_matches(JointGraph<Pose>&, TeamPlacement<Pose>&,                       \
+  template bool choose_alignment_by_matches(JointGraph<Pose>&, TeamAlignment<Pose>&,                       \
                                             const std::vector<Closure>&, const RadioAlignmentParams&);
-RADIOSLAM_FRAME_BY_MATCHES(SE2)
-RADIOSLAM_FRAME_BY_MATCHES(SE3)
-#undef RADIOSLAM_FRAME_BY_MATCHES
+RADIOSLAM_ALIGNMENT_BY_MATCHES(SE2)
+RADIOSLAM_ALIGNMENT_BY_MATCHES(SE3)
+#undef RADIOSLAM_ALIGNMENT_BY_MATCHES
 
 }  // namespace radioslam

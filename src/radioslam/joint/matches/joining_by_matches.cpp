@@ -1,4 +1,4 @@
-#include "radioslam/joint/matches/placement_by_matches.hpp"
+#include "radioslam/joint/matches/joining_by_matches.hpp"
 
 #include <algorithm>
 #include <map>
@@ -49,29 +49,29 @@ std::vector<PairOfRobots> pairs_of_robots(const JointGraph<Pose>& joint,
 
 /// Moves the component of the group's robot b to where the middle match wants it.
 template <class Pose>
-void join(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement, const std::vector<Closure>& matches,
+void join(JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment, const std::vector<Closure>& matches,
           const MatchGroup& group) {
   // A component in the common frame stays where it is.
   const auto absolute = [&](RobotIndex robot) {
     return static_cast<bool>(
-        placement.absolute[static_cast<std::size_t>(placement.component[robot.index()])]);
+        alignment.absolute[static_cast<std::size_t>(alignment.component[robot.index()])]);
   };
   const RobotIndex moved = absolute(group.b) ? group.a : group.b,
                    fixed = absolute(group.b) ? group.b : group.a;
   const Closure& match = matches[group.middle().match];
-  const int from = placement.component[moved.index()], to = placement.component[fixed.index()];
+  const int from = alignment.component[moved.index()], to = alignment.component[fixed.index()];
   const auto move = [&](std::vector<Pose>& poses) {
     const Pose T = motion_to_match(poses, match, group.middle(), moved);
     for (std::size_t p = 0; p < joint.team.segments.size(); ++p)
-      if (placement.component[joint.robot_of_segment[p]] == from)
+      if (alignment.component[joint.robot_of_segment[p]] == from)
         move_segment(poses, joint.team.segments[p], T);
   };
   move(joint.team.graph.poses);
-  for (std::vector<Pose>& alternative : placement.alternatives) move(alternative);
-  for (std::size_t r = 0; r < placement.component.size(); ++r)
-    if (placement.component[r] == from || placement.component[r] == to) {
-      placement.component[r] = to;
-      placement.placed[r] = true;
+  for (std::vector<Pose>& alternative : alignment.alternatives) move(alternative);
+  for (std::size_t r = 0; r < alignment.component.size(); ++r)
+    if (alignment.component[r] == from || alignment.component[r] == to) {
+      alignment.component[r] = to;
+      alignment.placed[r] = true;
     }
 }
 
@@ -85,46 +85,46 @@ std::string counts(const PairOfRobots& pair) {
 }
 
 template <class Pose>
-void renumber(TeamPlacement<Pose>& placement) {
-  const std::vector<bool> before = placement.absolute;
-  const std::vector<int> number = renumber_components(placement.component);
-  placement.absolute.assign(before.size(), false);
+void renumber(TeamAlignment<Pose>& alignment) {
+  const std::vector<bool> before = alignment.absolute;
+  const std::vector<int> number = renumber_components(alignment.component);
+  alignment.absolute.assign(before.size(), false);
   for (std::size_t c = 0; c < number.size(); ++c)
-    if (number[c] >= 0) placement.absolute[static_cast<std::size_t>(number[c])] = before[c];
+    if (number[c] >= 0) alignment.absolute[static_cast<std::size_t>(number[c])] = before[c];
 }
 
 }  // namespace
 
 template <class Pose>
-void place_by_matches(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement,
-                      const std::vector<Closure>& matches) {
-  const auto& component = placement.component;
+void join_by_matches(JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment,
+                     const std::vector<Closure>& matches) {
+  const auto& component = alignment.component;
   if (std::all_of(component.begin(), component.end(), [&](int c) { return c == component.front(); })) return;
   const auto share_frame = [&](const PairOfRobots& pair) {
     return component[pair.largest.a.index()] == component[pair.largest.b.index()];
   };
   const auto both_absolute = [&](const PairOfRobots& pair) {
-    return placement.absolute[static_cast<std::size_t>(component[pair.largest.a.index()])] &&
-           placement.absolute[static_cast<std::size_t>(component[pair.largest.b.index()])];
+    return alignment.absolute[static_cast<std::size_t>(component[pair.largest.a.index()])] &&
+           alignment.absolute[static_cast<std::size_t>(component[pair.largest.b.index()])];
   };
   const std::vector<PairOfRobots> pairs = pairs_of_robots(joint, matches);
   bool is_joined = false;
   for (const PairOfRobots& pair : pairs) {
     if (!pair.is_clear() || share_frame(pair) || both_absolute(pair)) continue;
-    placement.notes.push_back("the relative pose of " + names(joint, pair) +
+    alignment.notes.push_back("the relative pose of " + names(joint, pair) +
                               " stands on matches alone: " + counts(pair) + " agree with one another");
-    join(joint, placement, matches, pair.largest);
+    join(joint, alignment, matches, pair.largest);
     is_joined = true;
   }
   for (const PairOfRobots& pair : pairs)
     if (!pair.is_clear() && !share_frame(pair) && !both_absolute(pair))
-      placement.notes.push_back("matches leave the relative pose of " + names(joint, pair) +
+      alignment.notes.push_back("matches leave the relative pose of " + names(joint, pair) +
                                 " open: the largest group that agrees has " + counts(pair) + ", the second " +
                                 std::to_string(pair.second));
-  if (is_joined) renumber(placement);
+  if (is_joined) renumber(alignment);
 }
 
-template void place_by_matches(JointGraph<SE2>&, TeamPlacement<SE2>&, const std::vector<Closure>&);
-template void place_by_matches(JointGraph<SE3>&, TeamPlacement<SE3>&, const std::vector<Closure>&);
+template void join_by_matches(JointGraph<SE2>&, TeamAlignment<SE2>&, const std::vector<Closure>&);
+template void join_by_matches(JointGraph<SE3>&, TeamAlignment<SE3>&, const std::vector<Closure>&);
 
 }  // namespace radioslam
