@@ -10,6 +10,7 @@
 
 #include "radioslam/base/fields.hpp"
 #include "radioslam/closure/fingerprint_closures.hpp"
+#include "radioslam/consistency/chi_squared.hpp"
 #include "radioslam/graph/team_graph.hpp"
 #include "radioslam/joint/factor_origin.hpp"
 #include "radioslam/joint/robot_nodes.hpp"
@@ -106,13 +107,6 @@ void erase_relative_poses(JointGraph<Pose>& joint, const Predicate& is_erased) {
   factors.resize(kept);
   origins.resize(kept);
 }
-
-/// 99 % chi-squared quantile for a relative pose: 3 or 6 degrees of freedom.
-template <class Pose>
-inline constexpr double kPoseChiSquared99 = Pose::kDof == 3 ? 11.345 : 16.812;
-/// The same for 99.9 %.
-template <class Pose>
-inline constexpr double kPoseChiSquared999 = Pose::kDof == 3 ? 16.266 : 22.458;
 
 /// Stamp of the robot's keyframe at or before `stamp`.
 template <class Pose>

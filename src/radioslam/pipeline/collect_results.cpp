@@ -1,5 +1,6 @@
 #include "radioslam/pipeline/collect_results.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
@@ -149,7 +150,7 @@ std::vector<ClosureResult> collect_fingerprint_closures(const JointGraph<Pose>& 
     result.stamp_j = origin.stamp_j;
     result.kind = ClosureKind::kFingerprint;
     result.statistic = std::pow((distance - range.range_m) / range.sigma_m, 2);
-    if (result.statistic > kMaxAcceptedStatistic) {
+    if (result.statistic > kChiSquared99) {
       result.status = ClosureStatus::kRejected;
       result.reason = "the estimate disagrees";
     }
@@ -195,6 +196,45 @@ std::vector<std::string> odometry_notes(const Mission& mission, const JointGraph
       notes.push_back("the odometry of " + robot.id + " has a scale error larger than its stated noise");
   }
   return notes;
+}
+
+/// How much a prior's residual r exceeds what everything else allows, by the modes of its covariance L^-1 - P
+/// with the prior's information L, which is diagonal, and the marginal covariance P; 1 is significant.
+template <class Pose>
+double contradiction(const PosePriorFactor<Pose>& prior, const Pose& estimate,
+                     const typename Pose::Jacobian& covariance) {
+  constexpr double kMinVariance = 0.01;  // over the prior's own: below, nothing else measures the mode
+  constexpr double kFalseAlarm = 1e-5;
+  const typename Pose::Tangent scale = prior.information.diagonal().cwiseSqrt();
+  const typename Pose::Tangent r = scale.cwiseProduct((prior.prior.inverse() * estimate).log());
+  const typename Pose::Jacobian variance =
+      Pose::Jacobian::Identity() - scale.asDiagonal() * covariance * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<typename Pose::Jacobian> modes(variance);
+  double statistic = 0;
+  int dof = 0;
+  for (int k = 0; k < Pose::kDof; ++k) {
+    if (modes.eigenvalues()[k] < kMinVariance) continue;
+    statistic += std::pow(modes.eigenvectors().col(k).dot(r), 2) / modes.eigenvalues()[k];
+    ++dof;
+  }
+  return dof == 0 ? 0 : statistic / chi_squared_quantile(1 - kFalseAlarm, dof);
+}
+
+template <class Pose>
+std::optional<std::string> start_note(const JointGraph<Pose>& joint, const Marginals<Pose>& marginals) {
+  double largest = 1;
+  const RobotVariables* contradicted = nullptr;
+  for (const PosePriorFactor<Pose>& prior : joint.team.graph.pose_priors) {
+    const auto robot = std::find_if(joint.robots.begin(), joint.robots.end(),
+                                    [&](const RobotVariables& r) { return r.poses.front() == prior.i; });
+    if (prior.gravity_only || robot == joint.robots.end() || !robot->T_common_start) continue;
+    const double ratio =
+        contradiction(prior, joint.team.graph.poses[prior.i.index()], marginals.pose(prior.i));
+    if (ratio > largest) largest = ratio, contradicted = &*robot;
+  }
+  if (!contradicted) return std::nullopt;
+  return "the stated start of robot " + contradicted->id +
+         " contradicts odometry and links of the team: it is wrong, or that of a robot it has links with";
 }
 
 void add_rssi_offsets(std::vector<RobotResult>& robots, const RssiOffsets& offsets) {
@@ -253,6 +293,7 @@ std::vector<Component> collect_components(const JointGraph<Pose>& joint,
   template std::vector<ClosureResult> collect_radio_links(const JointGraph<Pose>&);                   \
   template std::vector<TransformResult> collect_transforms(                                           \
       const JointGraph<Pose>&, const TeamAlignment<Pose>&, const Marginals<Pose>&);                   \
+  template std::optional<std::string> start_note(const JointGraph<Pose>&, const Marginals<Pose>&);    \
   template std::vector<std::string> odometry_notes(const Mission&, const JointGraph<Pose>&,           \
                                                    const Marginals<Pose>&);                           \
   template std::vector<ClosureResult> collect_fingerprint_closures(const JointGraph<Pose>&);          \

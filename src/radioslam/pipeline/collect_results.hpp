@@ -1,6 +1,7 @@
 // Results of a run, collected from the optimized joint graph.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,10 +13,6 @@
 #include "radioslam/results/results.hpp"
 
 namespace radioslam {
-
-/// A closure whose squared residual over its variance exceeds this counts as rejected: 99 % chi-squared
-/// quantile, one degree of freedom.
-inline constexpr double kMaxAcceptedStatistic = 6.635;
 
 /// The robots' trajectories, with the graph's variables at `poses`.
 template <class Pose>
@@ -40,6 +37,10 @@ std::vector<TransformResult> collect_transforms(const JointGraph<Pose>& joint,
 template <class Pose>
 std::vector<std::string> odometry_notes(const Mission& mission, const JointGraph<Pose>& joint,
                                         const Marginals<Pose>& marginals);
+
+/// Note on the stated start that everything else contradicts most, if significantly.
+template <class Pose>
+std::optional<std::string> start_note(const JointGraph<Pose>& joint, const Marginals<Pose>& marginals);
 
 /// Fills RobotResult::rssi_offset_db and its sigma where they are observable.
 void add_rssi_offsets(std::vector<RobotResult>& robots, const RssiOffsets& offsets);

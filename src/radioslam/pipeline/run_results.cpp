@@ -45,6 +45,7 @@ void add_estimate(RunResult& result, const Mission& mission, const JointGraph<Po
     add_uncertainty(result.robots, joint, alignment, *marginals);
     result.transforms = collect_transforms(joint, alignment, *marginals);
     for (auto& note : odometry_notes(mission, joint, *marginals)) result.notes.push_back(std::move(note));
+    if (auto note = start_note(joint, *marginals)) result.notes.push_back(std::move(*note));
   }
   result.weight = alignment.weight;
   for (std::size_t k = 0; k < std::min(alignment.alternatives.size(), kMaxReportedAlternatives); ++k)

@@ -10,8 +10,6 @@
 namespace radioslam {
 namespace {
 
-constexpr double kMaxAcceptedRatio = 6.635;  // 99 % chi-squared quantile, one degree of freedom
-
 /// Share of the time that each keyframe stands for: trajectories are compared at equal steps of time.
 std::vector<double> time_weights(const std::vector<Stamp>& stamps) {
   constexpr double kLeast_s = 1e-6, kHalf = 0.5;
@@ -95,7 +93,7 @@ double birge_ratio(RobotIndex robot, const std::pair<Stamp, Stamp>& stretch,
     const bool one = closure.kind == ClosureKind::kRange || closure.kind == ClosureKind::kAoa ||
                      closure.kind == ClosureKind::kFingerprint;
     const double ratio = closure.statistic / (one ? 1 : dimension == 2 ? 3 : 6);
-    if (closure.status == ClosureStatus::kRejected && ratio > kMaxAcceptedRatio) ratios.push_back(ratio);
+    if (closure.status == ClosureStatus::kRejected && ratio > kChiSquared99) ratios.push_back(ratio);
   }
   return ratios.empty() ? 1 : std::sqrt(upper_median(std::move(ratios)));
 }
