@@ -85,7 +85,7 @@ Eigen::VectorXd squared_distances(const std::vector<Pose>& estimate, const std::
 /// The factor by which residuals at a robot's keyframes in a stretch exceed what is stated, at least 1.
 double birge_ratio(RobotIndex robot, const std::pair<Stamp, Stamp>& stretch,
                    const std::vector<ClosureResult>& closures, int dimension) {
-  const auto [first, last] = stretch;
+  const Stamp first = stretch.first, last = stretch.second;
   std::vector<double> ratios;
   for (const ClosureResult& closure : closures) {
     const auto lies = [&](RobotIndex r, Stamp t) { return r == robot && !(t < first) && !(last < t); };
