@@ -4,8 +4,8 @@
 #include <cstddef>
 
 #include "radioslam/geometry/alignment.hpp"
-#include "radioslam/team_frame/fingerprint_bodies.hpp"
-#include "radioslam/team_frame/layout_outliers.hpp"
+#include "radioslam/team_frame/field_refinement.hpp"
+#include "radioslam/team_frame/fingerprint_layout.hpp"
 
 namespace radioslam {
 namespace {

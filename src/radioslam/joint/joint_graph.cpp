@@ -3,12 +3,16 @@
 #include <algorithm>
 
 #include "radioslam/geometry/linear_algebra.hpp"
-#include "radioslam/joint/level_priors.hpp"
 #include "radioslam/joint/links/radio_factors.hpp"
 #include "radioslam/joint/robot_nodes.hpp"
 #include "radioslam/mission/odometry_edge.hpp"
 
 namespace radioslam {
+std::size_t count_factors(const std::vector<FactorOrigin>& origins, FactorSource source) {
+  return static_cast<std::size_t>(std::count_if(
+      origins.begin(), origins.end(), [&](const FactorOrigin& origin) { return origin.source == source; }));
+}
+
 namespace {
 
 constexpr double kMinSigmaDistance_m = 1;  // lower bound on the error of a predicted distance

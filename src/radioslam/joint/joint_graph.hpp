@@ -9,16 +9,41 @@
 #include <vector>
 
 #include "radioslam/base/fields.hpp"
+#include "radioslam/base/stamp.hpp"
 #include "radioslam/closure/fingerprint_closures.hpp"
 #include "radioslam/consistency/chi_squared.hpp"
 #include "radioslam/graph/team_graph.hpp"
-#include "radioslam/joint/factor_origin.hpp"
 #include "radioslam/joint/robot_nodes.hpp"
 #include "radioslam/mission/keyframes.hpp"
 #include "radioslam/mission/mission.hpp"
 #include "radioslam/results/results.hpp"
 
 namespace radioslam {
+
+// Where each factor of the joint graph came from: which measurement, robots and keyframes.
+
+/// Kind of measurement that a factor was made from.
+enum class FactorSource { kOdometry, kRange, kAoa, kFingerprint, kSequence, kScanLoop, kLoop, kMatch };
+
+struct FactorOrigin {
+  FactorSource source = FactorSource::kOdometry;
+  /// Index among the measurements of its source: ranges, angles of arrival and matches of the mission,
+  /// proposed closures, or the robot's odometry steps.
+  std::size_t measurement = 0;
+  RobotIndex robot_i, robot_j;   ///< invalid for an anchor
+  Stamp stamp_i, stamp_j;        ///< of the keyframes at or before both ends
+  std::size_t antenna_pair = 0;  ///< of a range: index into JointGraph::antenna_pairs
+};
+
+/// The origins of a joint graph's factors: one entry per factor of each list, in the same order.
+struct FactorOrigins {
+  std::vector<FactorOrigin> relative_poses;  ///< of team.graph.relative_poses
+  std::vector<FactorOrigin> ranges;          ///< of team.graph.ranges
+  std::vector<FactorOrigin> bearings;        ///< of team.bearings
+};
+
+/// Number of factors of one source.
+std::size_t count_factors(const std::vector<FactorOrigin>& origins, FactorSource source);
 
 struct JointGraphParams {
   double sigma_start_m = 0.05;

@@ -1,7 +1,7 @@
 #include "radioslam/joint/late_nodes.hpp"
 
 #include "radioslam/base/check.hpp"
-#include "radioslam/joint/level_priors.hpp"
+#include "radioslam/joint/robot_nodes.hpp"
 
 namespace radioslam {
 namespace {

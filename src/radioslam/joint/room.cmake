@@ -3,42 +3,30 @@ radioslam_room(joint
     access_point_stage.cpp
     aoa/aoa_integrity.cpp
     aoa/aoa_match_weights.cpp
-    aoa/aoa_predictions.cpp
     aoa/mutual_bearing_constraints.cpp
     closures/closure.cpp
     closures/loop_alignment.cpp
-    closures/loop_alternatives.cpp
-    closures/loop_groups.cpp
     closures/loop_selection.cpp
     closures/loop_stage.cpp
     closures/own_loops.cpp
     closures/team_loops.cpp
     dense_trajectory.cpp
-    factor_origin.cpp
     field_stage.cpp
     graduated_optimization.cpp
     joint_graph.cpp
     joint_graph_from_file.cpp
     late_nodes.cpp
-    level_priors.cpp
-    links/bias_distribution.cpp
     links/link_weights.cpp
     links/radio_factors.cpp
     links/range_biases.cpp
     links/sight_notes.cpp
     matches/alignment_by_matches.cpp
-    matches/joining_by_matches.cpp
     matches/match_groups.cpp
     matches/match_selection.cpp
     overlap_stage.cpp
-    position_fixes/fix_results.cpp
-    position_fixes/inlier_growth.cpp
     position_fixes/placement.cpp
     robot_nodes.cpp
-    scan_closures.cpp
     sequence_stage.cpp
     team_alignment.cpp
-    uncertainty/covariance_graph.cpp
     uncertainty/position_uncertainty.cpp
-    uncertainty/rejected_stretches.cpp
   ROOMS odometry closure team_frame graph radio results consistency)

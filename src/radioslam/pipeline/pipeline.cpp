@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <utility>
 
+#include "radioslam/joint/closures/closure.hpp"
 #include "radioslam/joint/closures/loop_stage.hpp"
 #include "radioslam/joint/field_stage.hpp"
 #include "radioslam/joint/joint_graph_from_file.hpp"
 #include "radioslam/joint/late_nodes.hpp"
 #include "radioslam/joint/links/link_weights.hpp"
 #include "radioslam/joint/matches/alignment_by_matches.hpp"
-#include "radioslam/joint/matches/joining_by_matches.hpp"
-#include "radioslam/joint/scan_closures.hpp"
-#include "radioslam/joint/uncertainty/covariance_graph.hpp"
+#include "radioslam/joint/uncertainty/position_uncertainty.hpp"
 #include "radioslam/pipeline/recordings_stage.hpp"
 #include "radioslam/pipeline/run_results.hpp"
 

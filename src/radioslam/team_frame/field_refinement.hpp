@@ -10,6 +10,9 @@
 // field alone pushes rooms outwards.
 #pragma once
 
+#include <Eigen/Core>
+#include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "radioslam/base/fields.hpp"
@@ -17,6 +20,41 @@
 #include "radioslam/team_frame/rigid_layout.hpp"
 
 namespace radioslam {
+
+// Finds and corrects robots that a fingerprint layout placed far from where similar fingerprints were
+// measured.
+//
+// Fingerprints with few access points have low similarity to all others, which a distance-based layout
+// interprets as large distances, although their most similar fingerprints are mostly right. An outlier is a
+// robot whose fingerprints are further from their most similar ones of three other robots than is typical for
+// the team; it is translated, without rotation, to where its fingerprints agree best with their most similar
+// ones.
+
+/// Moves the outliers among the free bodies, the worst first, and returns their indices. `similarity`: nodes
+/// x nodes of the bodies' points; only its order counts, and zero means nothing in common. Outliers exceed
+/// the team's median distance by three robust standard deviations (1.48 median absolute deviations).
+std::vector<std::size_t> relocate_outliers(std::vector<RigidBody>& bodies, const Eigen::MatrixXd& similarity);
+
+// Minimises a smooth function by limited-memory BFGS (Nocedal 1980; Liu and Nocedal 1989) with a backtracking
+// line search (Armijo condition); pairs of negative curvature are dropped.
+
+struct ValueAndGradient {
+  double value = 0;
+  Eigen::VectorXd gradient;
+};
+
+using SmoothFunction = std::function<ValueAndGradient(const Eigen::VectorXd& x)>;
+
+struct Minimum {
+  Eigen::VectorXd x;
+  double value = 0;
+  int iterations = 0;
+};
+
+/// Stops after `max_iterations` or when an iteration lowers the value by less than `min_gain`. Variables
+/// should be scaled to similar magnitude. A value that is not finite counts as infinitely high.
+Minimum minimise_lbfgs(const SmoothFunction& function, const Eigen::VectorXd& start, int max_iterations,
+                       double min_gain);
 
 struct FieldParams {
   bool enabled = true;

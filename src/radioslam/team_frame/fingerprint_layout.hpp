@@ -10,6 +10,8 @@
 // bound.
 #pragma once
 
+#include <Eigen/Core>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -18,8 +20,26 @@
 #include "radioslam/geometry/se2.hpp"
 #include "radioslam/mission/mission.hpp"
 #include "radioslam/radio/fingerprints/measurements.hpp"
+#include "radioslam/team_frame/rigid_layout.hpp"
 
 namespace radioslam {
+
+// The team's odometry trajectories as rigid bodies whose points are the fingerprints' positions.
+
+/// Indices of at most `most` of `count` nodes, evenly thinned.
+std::vector<std::size_t> thinned_nodes(std::size_t count, int most);
+
+/// A body per robot with its points among `nodes` (of RadioMeasurements::nodes, increasing); robots with a
+/// known start are fixed there, the others are in their own start frame.
+std::vector<RigidBody> fingerprint_bodies(const Mission& mission, const KnownStarts& starts,
+                                          const RadioMeasurements& radio,
+                                          const std::vector<std::size_t>& nodes);
+
+// Classical multidimensional scaling: points of the plane from their mutual distances (Torgerson 1952).
+
+/// 2 x n coordinates whose distances approximate the symmetric n x n `distances_m`, centred at the origin.
+/// Rotation and handedness are arbitrary but deterministic.
+Eigen::Matrix2Xd classical_scaling(const Eigen::MatrixXd& distances_m);
 
 struct LayoutParams {
   double min_similarity = 0.1;

@@ -18,13 +18,25 @@
 //            where all directions are parallel.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "radioslam/base/fields.hpp"
+#include "radioslam/graph/pose_graph.hpp"
 #include "radioslam/graph/team_graph.hpp"
 #include "radioslam/team_frame/line_of_sight/sight_chains.hpp"
 
 namespace radioslam {
+
+// Observed information of mixture measurements, for covariances: the posterior weights of a mixture overstate
+// the information, since which term is true remains uncertain. For one measurement with posterior w and
+// squared norm s (Louis 1982, one dominant term) the weight becomes w (1 - (1 - w) s) instead of w.
+
+/// Lowers the weights of the first `ranges` ranges and of all bearings accordingly, never below zero.
+/// Bearings are also discounted for the angular error that `sigma_antenna_position_m` causes at the current
+/// distance. For covariances only: the estimate itself is optimal for the original weights.
+template <class Pose>
+void use_observed_information(PoseGraph<Pose>& graph, std::size_t ranges, double sigma_antenna_position_m);
 
 /// Standard deviation at which the density of an azimuth, or of a direction in space, becomes uniform; larger
 /// ones are cut to it.

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "joint/closures/block_team.hpp"
-#include "radioslam/joint/matches/joining_by_matches.hpp"
+#include "radioslam/joint/matches/alignment_by_matches.hpp"
 #include "radioslam/joint/matches/match_groups.hpp"
 
 namespace radioslam {

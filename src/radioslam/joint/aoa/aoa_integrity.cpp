@@ -9,7 +9,7 @@
 
 #include "radioslam/base/statistics.hpp"
 #include "radioslam/consistency/chi_squared.hpp"
-#include "radioslam/joint/aoa/aoa_predictions.hpp"
+#include "radioslam/joint/aoa/aoa_match_weights.hpp"
 #include "radioslam/joint/links/radio_factors.hpp"
 #include "radioslam/mission/odometry_between.hpp"
 

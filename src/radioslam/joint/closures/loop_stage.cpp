@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "radioslam/joint/closures/loop_alternatives.hpp"
+#include "radioslam/joint/closures/loop_alignment.hpp"
 #include "radioslam/joint/closures/loop_selection.hpp"
 #include "radioslam/joint/closures/own_loops.hpp"
 #include "radioslam/joint/closures/team_loops.hpp"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "radioslam/joint/links/antenna_pairs.hpp"
 #include "radioslam/radio/aoa/aoa_likelihood.hpp"
 
 namespace radioslam {

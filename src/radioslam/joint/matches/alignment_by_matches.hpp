@@ -23,6 +23,18 @@
 
 namespace radioslam {
 
+// Placement by matches alone: joins robots that neither radio links nor fingerprints connect.
+//
+// The largest group of consistent matches (match_groups.hpp) of a pair of robots is their relative pose if it
+// has at least three matches and twice as many as the second group; a smaller one could be an alias.
+// Components are joined by their largest such group first, as a spanning tree.
+
+/// Moves the robots of every component that a group joins to another, and notes on what the frame stands and
+/// which pairs of robots stay open because no group is large enough.
+template <class Pose>
+void join_by_matches(JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment,
+                     const std::vector<Closure>& matches);
+
 /// Moves the team to the alignment with the largest weight and updates the alignment's weights and
 /// alternatives. `joint` must be optimized and placed by radio links; without them, or without matches
 /// between robots, nothing changes. Returns whether the team was moved to another alignment; it is then to be

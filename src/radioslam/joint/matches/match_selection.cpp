@@ -11,7 +11,7 @@
 #include "radioslam/graph/residuals.hpp"
 #include "radioslam/joint/links/link_weights.hpp"
 #include "radioslam/joint/matches/alignment_by_matches.hpp"
-#include "radioslam/joint/uncertainty/covariance_graph.hpp"
+#include "radioslam/joint/uncertainty/position_uncertainty.hpp"
 
 namespace radioslam {
 namespace {
