@@ -7,7 +7,7 @@
 
 #include "radioslam/base/random.hpp"
 #include "radioslam/inertial/preintegration.hpp"
-#include "radioslam/mission/inertial.hpp"
+#include "radioslam/mission/mission.hpp"
 
 namespace radioslam::test {
 

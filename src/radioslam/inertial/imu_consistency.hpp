@@ -20,7 +20,7 @@
 #include "radioslam/geometry/se3.hpp"
 #include "radioslam/geometry/trajectory.hpp"
 #include "radioslam/inertial/preintegration.hpp"
-#include "radioslam/mission/inertial.hpp"
+#include "radioslam/mission/mission.hpp"
 
 namespace radioslam {
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "radioslam/base/fields.hpp"
-#include "radioslam/mission/inertial.hpp"
+#include "radioslam/mission/mission.hpp"
 
 namespace radioslam {
 

@@ -20,7 +20,7 @@
 
 #include "radioslam/base/fields.hpp"
 #include "radioslam/geometry/se3.hpp"
-#include "radioslam/mission/inertial.hpp"
+#include "radioslam/mission/mission.hpp"
 
 namespace radioslam {
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "radioslam/joint/aoa/mutual_bearing_constraints.hpp"
-#include "radioslam/results/most_probable_candidates.hpp"
+#include "radioslam/results/candidate_list.hpp"
 
 namespace radioslam {
 namespace {

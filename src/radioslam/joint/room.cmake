@@ -10,7 +10,6 @@ radioslam_room(joint
     closures/loop_stage.cpp
     closures/own_loops.cpp
     closures/team_loops.cpp
-    dense_trajectory.cpp
     field_stage.cpp
     graduated_optimization.cpp
     joint_graph.cpp
@@ -19,7 +18,6 @@ radioslam_room(joint
     links/link_weights.cpp
     links/radio_factors.cpp
     links/range_biases.cpp
-    links/sight_notes.cpp
     matches/alignment_by_matches.cpp
     matches/match_groups.cpp
     matches/match_selection.cpp

@@ -3,7 +3,6 @@ radioslam_room(mission
     continuous_trajectory.cpp
     dead_reckoning.cpp
     keyframes.cpp
-    odometry_between.cpp
     odometry_edge.cpp
     wifi_channel.cpp
   ROOMS geometry)

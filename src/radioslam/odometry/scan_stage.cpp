@@ -7,7 +7,7 @@
 
 #include "radioslam/inertial/preintegration.hpp"
 #include "radioslam/lidar/lidar_odometry.hpp"
-#include "radioslam/mission/inertial.hpp"
+#include "radioslam/mission/mission.hpp"
 #include "radioslam/mission/odometry_edge.hpp"
 #include "radioslam/odometry/inertial_params.hpp"
 #include "radioslam/odometry/map_drift.hpp"

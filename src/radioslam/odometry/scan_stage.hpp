@@ -11,14 +11,24 @@
 #include <vector>
 
 #include "radioslam/base/progress.hpp"
+#include "radioslam/base/stamp.hpp"
 #include "radioslam/lidar/loops/scan_loop.hpp"
+#include "radioslam/lidar/loops/scan_loops.hpp"
 #include "radioslam/mission/keyframes.hpp"
 #include "radioslam/mission/mission.hpp"
-#include "radioslam/odometry/scan_closure.hpp"
 #include "radioslam/odometry/scan_params.hpp"
 #include "radioslam/odometry/scan_tracking.hpp"
 
 namespace radioslam {
+
+// Intra-robot loop closure by scan matching, to be added to the joint graph as a factor.
+
+/// The joint graph has nodes at both stamps.
+struct ScanClosure {
+  RobotIndex robot;
+  Stamp stamp_i, stamp_j;
+  ScanLoop loop;
+};
 
 /// What a robot's scans say of its motion, and the keyframes that other robots' scans can be compared with.
 struct ScanOdometry {

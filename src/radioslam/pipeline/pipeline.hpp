@@ -19,7 +19,6 @@
 #include "radioslam/joint/team_estimate.hpp"
 #include "radioslam/mission/mission.hpp"
 #include "radioslam/pipeline/params.hpp"
-#include "radioslam/pipeline/run_options.hpp"
 #include "radioslam/pipeline/stage_clock.hpp"
 #include "radioslam/results/results.hpp"
 

@@ -8,7 +8,6 @@
 #include "radioslam/mission/mission.hpp"
 #include "radioslam/odometry/scan_stage.hpp"
 #include "radioslam/pipeline/params.hpp"
-#include "radioslam/pipeline/run_options.hpp"
 #include "radioslam/pipeline/stage_clock.hpp"
 #include "radioslam/radio/captures/csi_stage.hpp"
 #include "radioslam/results/results.hpp"

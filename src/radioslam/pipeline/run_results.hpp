@@ -11,7 +11,6 @@
 #include "radioslam/joint/overlap_stage.hpp"
 #include "radioslam/joint/team_estimate.hpp"
 #include "radioslam/pipeline/params.hpp"
-#include "radioslam/pipeline/run_options.hpp"
 #include "radioslam/pipeline/stage_clock.hpp"
 
 namespace radioslam {

@@ -17,8 +17,6 @@ radioslam_room(radio
     captures/csi_stage.cpp
     captures/csi_tracks.cpp
     channel/capture_power.cpp
-    channel/square_root_channel.cpp
-    channel/subcarrier_slopes.cpp
     channel/two_way_channel.cpp
     fingerprints/access_points.cpp
     fingerprints/distance_model.cpp

@@ -16,7 +16,7 @@
 #include "radioslam/io/ros/ros_topics.hpp"
 #include "radioslam/io/ros/ros_types.hpp"
 #include "radioslam/io/ros/transforms.hpp"
-#include "radioslam/mission/inertial.hpp"
+#include "radioslam/mission/mission.hpp"
 
 namespace radioslam {
 

@@ -11,7 +11,7 @@
 #include "radioslam/consistency/chi_squared.hpp"
 #include "radioslam/joint/aoa/aoa_match_weights.hpp"
 #include "radioslam/joint/links/radio_factors.hpp"
-#include "radioslam/mission/odometry_between.hpp"
+#include "radioslam/mission/odometry_edge.hpp"
 
 namespace radioslam {
 namespace {

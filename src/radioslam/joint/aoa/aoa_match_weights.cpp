@@ -5,7 +5,7 @@
 
 #include "radioslam/base/statistics.hpp"
 #include "radioslam/joint/links/radio_factors.hpp"
-#include "radioslam/mission/odometry_between.hpp"
+#include "radioslam/mission/odometry_edge.hpp"
 
 namespace radioslam {
 namespace {

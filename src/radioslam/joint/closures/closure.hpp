@@ -11,7 +11,7 @@
 #include "radioslam/graph/optimizer.hpp"
 #include "radioslam/joint/joint_graph.hpp"
 #include "radioslam/mission/mission.hpp"
-#include "radioslam/odometry/scan_closure.hpp"
+#include "radioslam/odometry/scan_stage.hpp"
 #include "radioslam/results/results.hpp"
 
 namespace radioslam {

@@ -7,8 +7,7 @@
 #include "radioslam/radio/aoa/aoa_array.hpp"
 #include "radioslam/radio/aoa/aoa_peaks.hpp"
 #include "radioslam/radio/aoa/delay_alignment.hpp"
-#include "radioslam/radio/channel/square_root_channel.hpp"
-#include "radioslam/radio/channel/subcarrier_slopes.hpp"
+#include "radioslam/radio/channel/two_way_channel.hpp"
 
 namespace radioslam {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "radioslam/radio/aoa/aoa_array.hpp"
 #include "radioslam/radio/aoa/synthetic_array.hpp"
-#include "radioslam/radio/channel/subcarrier_slopes.hpp"
+#include "radioslam/radio/channel/two_way_channel.hpp"
 
 namespace radioslam {
 

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "radioslam/base/fields.hpp"
-#include "radioslam/results/radio_status.hpp"
+#include "radioslam/results/results.hpp"
 
 namespace radioslam {
 

@@ -12,7 +12,7 @@
 
 #include "radioslam/base/fields.hpp"
 #include "radioslam/base/random.hpp"
-#include "radioslam/mission/inertial.hpp"
+#include "radioslam/mission/mission.hpp"
 #include "radioslam/sim/motion/true_motion.hpp"
 
 namespace radioslam {

@@ -6,12 +6,33 @@
 #include <utility>
 #include <vector>
 
+#include "radioslam/graph/pose_graph.hpp"
 #include "radioslam/team_frame/beam_search/radio_alignment_params.hpp"
-#include "radioslam/team_frame/beam_search/team_values.hpp"
 #include "radioslam/team_frame/connected_measurements.hpp"
 #include "radioslam/team_frame/measurement_mixture.hpp"
 
 namespace radioslam {
+
+// The values of a team's graph, whose segments may be placed only in part, with the evidence for them.
+
+template <class Pose>
+struct TeamValues {
+  std::vector<Pose> poses;
+  std::vector<typename Pose::Point> points;
+  std::vector<Drift> drifts;
+  double log_evidence = 0;
+
+  void read_from(const PoseGraph<Pose>& graph) {
+    poses = graph.poses;
+    points = graph.points;
+    drifts = graph.drifts;
+  }
+  void write_to(PoseGraph<Pose>& graph) const {
+    graph.poses = poses;
+    graph.points = points;
+    graph.drifts = drifts;
+  }
+};
 
 // The mixture likelihood of a team whose segments are placed only in part: measurements within a component,
 // at given values, with all other segments fixed.

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "radioslam/graph/team_graph.hpp"
+#include "radioslam/team_frame/beam_search/beam_selection.hpp"
 #include "radioslam/team_frame/beam_search/radio_alignment_params.hpp"
-#include "radioslam/team_frame/beam_search/team_values.hpp"
 #include "radioslam/team_frame/connected_measurements.hpp"
 
 namespace radioslam {
