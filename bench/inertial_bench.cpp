@@ -3,8 +3,8 @@
 #include <benchmark/benchmark.h>
 
 #include "inertial/simulated_drive.hpp"
-#include "radioslam/inertial/motion_prediction.hpp"
 #include "radioslam/inertial/odometry_noise_inflation.hpp"
+#include "radioslam/inertial/preintegration.hpp"
 
 namespace radioslam {
 namespace {

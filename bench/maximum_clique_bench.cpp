@@ -4,8 +4,6 @@
 #include <benchmark/benchmark.h>
 
 #include "consistency/graphs.hpp"
-#include "radioslam/consistency/degeneracy.hpp"
-#include "radioslam/consistency/greedy_clique.hpp"
 #include "radioslam/consistency/maximum_clique.hpp"
 
 namespace radioslam {

@@ -7,7 +7,7 @@
 #include <benchmark/benchmark.h>
 
 #include "radioslam/base/parallel.hpp"
-#include "radioslam/study/overlap_growth/overlap_town.hpp"
+#include "radioslam/study/overlap_growth/overlap_growth.hpp"
 
 namespace radioslam {
 namespace {

@@ -7,9 +7,8 @@ OLD and NEW are two `radioslam` programs. OLD makes the missions; NEW must simul
 mission with every number of threads:
 
   *.tum, *.csv, graph.g2o           must be equal byte for byte
-  summary.json, report.html (data)  must be equal once times are left out and renamed parameters are mapped
-                                    (`parameters KIND --all --json` of NEW names the former keys); texts may be
-                                    reworded, but the numbers in them must be the same, in the same order
+  summary.json, report.html (data)  must be equal once times are left out; texts may be reworded, but the
+                                    numbers in them must be the same, in the same order
 
 --data is a folder with recordings, laid out as below; without one, or where a recording is missing, the case is
 skipped, and says so. Exit status: 0 all equal, 1 something differs, 2 wrong call.
@@ -25,7 +24,7 @@ import tempfile
 
 SCENARIOS = ["carpark", "city", "hall", "corridors", "csi"]
 TIMES = {"seconds", "timings"}
-WORDING = {"description", "meaning", "formerly", "level"}
+WORDING = {"description", "meaning", "level"}
 NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 
 
@@ -88,19 +87,6 @@ def cases(seeds):
 
 # ---- comparison ---------------------------------------------------------------------------------------------------------
 
-def former_keys(program):
-    """{old parameter key: new key}, as NEW states them."""
-    renamed = {}
-    try:
-        listed = json.loads(call(program, "parameters", "run", "--all", "--json"))
-    except (RuntimeError, json.JSONDecodeError):
-        return renamed
-    for key, entry in listed.items():
-        for old in entry.get("formerly", []):
-            renamed[old] = key
-    return renamed
-
-
 def page_data(path):
     text = path.read_text(encoding="utf-8")
     found = re.search(r'<script type="application/json" id="data">(.*?)</script>', text, re.S)
@@ -108,8 +94,7 @@ def page_data(path):
 
 
 class Differences:
-    def __init__(self, renamed):
-        self.renamed = renamed
+    def __init__(self):
         self.lines = []
         self.reworded = 0
 
@@ -118,7 +103,7 @@ class Differences:
 
     def compare(self, where, old, new):
         if isinstance(old, dict) and isinstance(new, dict):
-            old = {self.renamed.get(k, k): v for k, v in old.items() if k not in TIMES | WORDING}
+            old = {k: v for k, v in old.items() if k not in TIMES | WORDING}
             new = {k: v for k, v in new.items() if k not in TIMES | WORDING}
             for key in old.keys() | new.keys():
                 if key not in old or key not in new:
@@ -136,7 +121,7 @@ class Differences:
             self.add(where, f"{old!r}, now {new!r}")
 
     def compare_text(self, where, old, new):
-        if self.renamed.get(old, old) == new:
+        if old == new:
             return
         if NUMBER.findall(old) == NUMBER.findall(new) and " " in new:
             self.reworded += 1
@@ -158,7 +143,7 @@ def compare_folders(old, new, differences, bytes_alone=False):
             differences.add(name, "other bytes")
 
 
-def run_case(name, make, arguments, renamed, folder):
+def run_case(name, make, arguments, folder):
     missions = {}
     for label, program in (("old", arguments.old), ("new", arguments.new)):
         (folder / label).mkdir(parents=True)
@@ -166,7 +151,7 @@ def run_case(name, make, arguments, renamed, folder):
     if missions["old"] is None:
         print(f"{name}: SKIPPED, no recording", flush=True)
         return True
-    differences = Differences(renamed)
+    differences = Differences()
     if missions["old"].is_dir():
         compare_folders(missions["old"], missions["new"], differences, bytes_alone=True)
     runs = []
@@ -231,14 +216,13 @@ def main():
     arguments = parser.parse_args()
     arguments.threads = [int(n) for n in arguments.threads.split(",")]
     wanted = [n for n in arguments.only.split(",") if n]
-    renamed = former_keys(arguments.new)
     root = arguments.keep or pathlib.Path(tempfile.mkdtemp())
     root.mkdir(parents=True, exist_ok=True)
     good = True
     try:
         for name, make in cases([int(n) for n in arguments.seeds.split(",")]):
             if not wanted or any(name.startswith(w) for w in wanted):
-                good = run_case(name, make, arguments, renamed, root / name) and good
+                good = run_case(name, make, arguments, root / name) and good
         if not wanted or "wsr" in wanted:
             good = run_angles(arguments, root / "wsr") and good
     finally:

@@ -3,7 +3,7 @@
 #   test    scripts/test.sh: release and sanitizer builds, all tests, two seconds of every fuzzer
 #   slow    with sanitizers, the tests that simulate for long
 #   fuzz    the fuzzers from random seeds, each for the same share of the part's time
-#   clang   an optimised clang build of everything, and its tests
+#   clang   an optimized clang build of everything, and its tests
 #   sweep   trajectory errors of car parks over ten seeds
 #   tidy    clang-format and clang-tidy, sources changed last first
 #   bench   the benchmarks

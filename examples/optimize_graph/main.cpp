@@ -1,4 +1,4 @@
-// Pose graph optimisation: a robot drives three sides of a square, then its radio measures the distance to
+// Pose graph optimization: a robot drives three sides of a square, then its radio measures the distance to
 // its start. Prints the poses with their standard deviations before and after adding that distance.
 #include <cstdio>
 #include <numbers>

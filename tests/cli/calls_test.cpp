@@ -223,35 +223,11 @@ TEST(Calls, ParametersListTheBasicOnesUnlessAllAreWanted) {
   EXPECT_NE(angles.out.find("model_passes"), std::string::npos);
 }
 
-TEST(Calls, ParametersAsJsonHaveLevelsAndFormerNames) {
+TEST(Calls, ParametersAsJsonHaveLevels) {
   const TemporaryFolder folder;
   const auto json = nlohmann::json::parse(run({"parameters", "run", "--json"}, folder.path()).out);
   EXPECT_EQ(json["keyframe.distance_m"]["level"], "basic");
-  EXPECT_TRUE(json["keyframe.distance_m"]["formerly"].empty());
   EXPECT_EQ(json["scan_structure.elongation"]["level"], "expert");
-  EXPECT_EQ(json["scan_structure.elongation"]["formerly"], nlohmann::json({"scan_order.elongation"}));
-}
-
-TEST(Calls, FormerNamesGiveTheSameBytes) {
-  const TemporaryFolder folder;
-  const auto simulate = [&](const std::string& output, const std::vector<std::string>& settings) {
-    std::vector<std::string> call{"simulate", "carpark", "-o", output, "--set", "path_length_m=30"};
-    call.insert(call.end(), settings.begin(), settings.end());
-    const auto outcome = run(call, folder.path());
-    EXPECT_EQ(outcome.status, 0) << outcome.err;
-  };
-  simulate("now", {"outside_ratio=0.6", "missed_scan_ratio=0.3"});
-  simulate("former", {"outside_share=0.6", "missed_scan_share=0.3"});
-  write_file(folder.path() / "former.yaml", "outside_share: 0.6\nmissed_scan_share: 0.2\n");
-  simulate("both", {"--config", "former.yaml", "--set", "missed_scan_ratio=0.3"});
-  simulate("other", {"outside_ratio=0.1", "missed_scan_ratio=0.3"});
-  const auto wifi = [&](const char* mission) {
-    return read_file(folder.path() / mission / "robots" / "a" / "wifi.csv");
-  };
-  EXPECT_FALSE(wifi("now").empty());
-  EXPECT_TRUE(wifi("former") == wifi("now"));
-  EXPECT_TRUE(wifi("both") == wifi("now"));
-  EXPECT_FALSE(wifi("other") == wifi("now"));
 }
 
 }  // namespace

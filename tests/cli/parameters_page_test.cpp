@@ -1,8 +1,7 @@
-#include "radioslam/cli/parameters_page.hpp"
-
 #include <gtest/gtest.h>
 
 #include "cli/process.hpp"
+#include "radioslam/cli/parameter_sets.hpp"
 
 namespace radioslam::cli {
 namespace {

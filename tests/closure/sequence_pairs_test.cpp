@@ -1,8 +1,7 @@
-#include "radioslam/closure/sequence_pairs.hpp"
-
 #include <gtest/gtest.h>
 
 #include "closure/sequence_world.hpp"
+#include "radioslam/closure/sequence_match.hpp"
 
 namespace radioslam {
 namespace {

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "consistency/graphs.hpp"
-#include "radioslam/consistency/degeneracy.hpp"
 
 namespace radioslam {
 namespace {

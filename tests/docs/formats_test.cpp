@@ -159,7 +159,7 @@ std::set<std::string> accepted_keys() {
     const std::regex key(R"re(\{\s*"(\w+)",\s*\[&)re");
     for (std::sregex_iterator k(source.begin(), source.end(), key), end; k != end; ++k) keys.insert((*k)[1]);
   }
-  const std::string noise = source_file("src/radioslam/io/mission/odometry_noise_fields.hpp");
+  const std::string noise = source_file("src/radioslam/io/mission/mission_yaml.hpp");
   const std::regex field(R"re(\{"(\w+)", &OdometryNoise)re");
   for (std::sregex_iterator k(noise.begin(), noise.end(), field), end; k != end; ++k) keys.insert((*k)[1]);
   return keys;

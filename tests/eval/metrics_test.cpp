@@ -196,14 +196,21 @@ TEST(TeamMetrics, CountsErrorsWithinThreeStatedStandardDeviations) {
   const Truth truth = winding_team(14, 2, 2000);
   Rng rng(15);
   auto estimate = estimate_from(truth, noise(rng));
-  EXPECT_FALSE(evaluate_trajectories(estimate, truth, 2).share_within_3_sigma);
-  const auto share = [&](double sigma_m) {
-    for (auto& robot : estimate) robot.sigma_position_m.assign(robot.poses.size(), sigma_m);
-    return *evaluate_trajectories(estimate, truth, 2).share_within_3_sigma;
+  EXPECT_FALSE(evaluate_trajectories(estimate, truth, 2).consistency);
+  EXPECT_FALSE(evaluate_trajectories(estimate, truth, 2).team_consistency);
+  const auto with = [&](double sigma_m) {
+    for (auto& robot : estimate) {
+      robot.sigma_position_m.assign(robot.poses.size(), sigma_m);
+      robot.sigma_team_m.assign(robot.poses.size(), sigma_m / 2);
+    }
+    return evaluate_trajectories(estimate, truth, 2);
   };
+  const auto share = [&](double sigma_m) { return with(sigma_m).consistency->share_within_3_sigma; };
   EXPECT_NEAR(share(0.4), 1 - std::exp(-4.5), 0.01);
   EXPECT_NEAR(share(0.4 / 3), 1 - std::exp(-0.5), 0.03);
   EXPECT_EQ(share(100), 1);
+  EXPECT_NEAR(with(0.4).consistency->mean_square, 1, 0.05);
+  EXPECT_NEAR(with(0.4).team_consistency->mean_square, 4, 0.2);
 }
 
 TEST(TeamMetrics, StatedStandardDeviationsAreLinearBetweenPoses) {
@@ -216,7 +223,7 @@ TEST(TeamMetrics, StatedStandardDeviationsAreLinearBetweenPoses) {
   ASSERT_GT(bend_m, 1e-3);
   const auto share = [&](double last_m) {
     estimate[0].sigma_position_m = {1e-9, last_m};
-    return *evaluate_trajectories(estimate, truth, 2).share_within_3_sigma;
+    return evaluate_trajectories(estimate, truth, 2).consistency->share_within_3_sigma;
   };
   const double just_enough_m = 2 * bend_m / 3;
   EXPECT_GT(share(1.01 * just_enough_m), share(0.99 * just_enough_m));

@@ -1,8 +1,8 @@
-#include "radioslam/eval/statistics.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "radioslam/eval/metrics.hpp"
 
 namespace radioslam {
 namespace {

@@ -2,7 +2,6 @@
 #include "fuzzed.hpp"
 #include "radioslam/base/check.hpp"
 #include "radioslam/io/csi/intel5300.hpp"
-#include "radioslam/io/csi/intel5300_write.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace radioslam;

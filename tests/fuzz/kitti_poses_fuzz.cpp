@@ -1,5 +1,5 @@
 #include "fuzzed.hpp"
-#include "radioslam/io/lidar/kitti_poses.hpp"
+#include "radioslam/io/lidar/kitti_sequence.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace radioslam;

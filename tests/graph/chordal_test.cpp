@@ -7,7 +7,6 @@
 #include "graph/random_graphs.hpp"
 #include "radioslam/graph/initial_values.hpp"
 #include "radioslam/graph/optimizer.hpp"
-#include "radioslam/graph/spanning_tree.hpp"
 
 namespace radioslam {
 namespace {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "graph/random_graphs.hpp"
-#include "radioslam/graph/factor_sums.hpp"
+#include "radioslam/graph/normal_equations.hpp"
 
 namespace radioslam {
 namespace {

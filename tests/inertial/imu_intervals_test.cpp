@@ -1,9 +1,9 @@
-#include "radioslam/inertial/imu_intervals.hpp"
-
 #include <gtest/gtest.h>
 
 #include <array>
 #include <utility>
+
+#include "radioslam/inertial/preintegration.hpp"
 
 namespace radioslam {
 namespace {

@@ -1,9 +1,8 @@
-#include "radioslam/inertial/inertial_factor.hpp"
-
 #include <gtest/gtest.h>
 
 #include "inertial/smooth_motion.hpp"
-#include "radioslam/inertial/motion_prediction.hpp"
+#include "radioslam/inertial/preintegration.hpp"
+#include "radioslam/inertial/state_factors.hpp"
 
 namespace radioslam {
 namespace {

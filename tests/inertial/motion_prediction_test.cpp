@@ -1,10 +1,9 @@
-#include "radioslam/inertial/motion_prediction.hpp"
-
 #include <gtest/gtest.h>
 
 #include <numbers>
 
 #include "inertial/smooth_motion.hpp"
+#include "radioslam/inertial/preintegration.hpp"
 
 namespace radioslam {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "inertial/smooth_motion.hpp"
 #include "radioslam/geometry/so3.hpp"
-#include "radioslam/inertial/inertial_factor.hpp"
+#include "radioslam/inertial/state_factors.hpp"
 
 namespace radioslam {
 namespace {

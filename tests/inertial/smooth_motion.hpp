@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "radioslam/base/random.hpp"
-#include "radioslam/inertial/imu_noise.hpp"
-#include "radioslam/inertial/inertial_state.hpp"
-#include "radioslam/mission/inertial.hpp"
+#include "radioslam/inertial/preintegration.hpp"
+#include "radioslam/mission/mission.hpp"
 
 namespace radioslam::test {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "radioslam/joint/factor_origin.hpp"
+#include "radioslam/joint/joint_graph.hpp"
 
 namespace radioslam {
 

@@ -1,5 +1,3 @@
-#include "radioslam/joint/scan_closures.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -10,6 +8,7 @@
 
 #include "joint/factors_by_measurement.hpp"
 #include "radioslam/base/random.hpp"
+#include "radioslam/joint/closures/closure.hpp"
 
 namespace radioslam {
 namespace {

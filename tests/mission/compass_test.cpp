@@ -1,9 +1,8 @@
-#include "radioslam/mission/compass.hpp"
-
 #include <gtest/gtest.h>
 
 #include "mission/phone_walks.hpp"
 #include "radioslam/geometry/se2.hpp"
+#include "radioslam/mission/dead_reckoning.hpp"
 
 namespace radioslam {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "radioslam/base/random.hpp"
-#include "radioslam/mission/odometry_between.hpp"
+#include "radioslam/mission/odometry_edge.hpp"
 
 namespace radioslam {
 namespace {

@@ -1,8 +1,7 @@
-#include "radioslam/mission/levelling.hpp"
-
 #include <gtest/gtest.h>
 
 #include "mission/phone_walks.hpp"
+#include "radioslam/mission/dead_reckoning.hpp"
 
 namespace radioslam {
 namespace {

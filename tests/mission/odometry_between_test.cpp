@@ -1,9 +1,9 @@
-#include "radioslam/mission/odometry_between.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
+
+#include "radioslam/mission/odometry_edge.hpp"
 
 namespace radioslam {
 namespace {

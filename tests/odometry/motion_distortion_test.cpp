@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "radioslam/odometry/motion_prior.hpp"
+#include "radioslam/odometry/imu_motion_prior.hpp"
 
 namespace radioslam {
 namespace {

@@ -115,9 +115,10 @@ void expect_steps(const Trajectory<SE3>& rows, const BrokenDrive& broken,
 
 /// Checks both the odometry and the estimate.
 void expect_known_unknown(const BrokenDrive& broken, std::size_t lost) {
-  Mission mission = mission_of_drive(broken.drive);
-  const RunResult result = run_pipeline(mission, {}).result;
-  const MeasuredScans measured = measure_scans(mission, {}, {}, {});
+  const Mission recorded = mission_of_drive(broken.drive);
+  const RunResult result = run_pipeline(recorded, {}).result;
+  const MeasuredScans measured = measure_scans(recorded, {}, {}, {});
+  const Mission mission = with_odometry(recorded, measured);
   EXPECT_EQ(measured.lost, lost);
   EXPECT_EQ(measured.registered + lost, broken.drive.scans.size());
   for (const auto& notes : {measured.notes, result.notes}) {

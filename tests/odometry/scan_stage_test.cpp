@@ -56,8 +56,11 @@ Trajectory<SE3> recorded_odometry(const ScanDrive& drive, const SE3& T_start_fir
   return Trajectory<SE3>(std::move(rows));
 }
 
+/// Gives the mission the odometry of its scans.
 MeasuredScans measure(Mission& mission, const ScanParams& params = {}) {
-  return measure_scans(mission, params, {}, {});
+  MeasuredScans measured = measure_scans(mission, params, {}, {});
+  mission = with_odometry(std::move(mission), measured);
+  return measured;
 }
 
 SE3 step_between(const Trajectory<SE3>& odometry, Stamp from, Stamp to) {

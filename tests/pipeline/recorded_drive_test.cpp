@@ -5,7 +5,7 @@
 
 #include "io/recorded_data.hpp"
 #include "pipeline/town_runs.hpp"
-#include "radioslam/io/lidar/kitti_poses.hpp"
+#include "radioslam/io/lidar/kitti_sequence.hpp"
 #include "radioslam/io/text/text.hpp"
 #include "radioslam/sim/scenarios/kitti.hpp"
 
@@ -13,7 +13,7 @@ namespace radioslam {
 namespace {
 
 // The links are at the first robot's start, the matches 200 s later at its end: there the estimate is metres
-// off, forty times the matches' sigma, and the optimiser corrects the trajectory only in many small steps.
+// off, forty times the matches' sigma, and the optimizer corrects the trajectory only in many small steps.
 TEST(RecordedDrive, TrueMatchesFarFromTheLinksAreTaken) {
   RADIOSLAM_RECORDED(folder, "kitti");
   const auto poses = [&](const char* source) {

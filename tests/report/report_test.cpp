@@ -111,11 +111,11 @@ TEST(Report, StatedSigmasStandBesideTheErrors) {
     const Json& errors = page["robots"][r]["errors"];
     ASSERT_EQ(errors["sigma_m"].size(), errors["error_m"].size());
     for (std::size_t k = 0; k < errors["sigma_m"].size(); ++k)
-      EXPECT_NEAR(errors["sigma_m"][k].get<double>(), sample.result.robots[r].sigma_position_m[k], 0.00051);
+      EXPECT_NEAR(errors["sigma_m"][k].get<double>(), sample.result.robots[r].sigma_team_m[k], 0.00051);
   }
-  EXPECT_NEAR(page["accuracy"]["share_within_3_sigma"].get<double>(), *sample.metrics.share_within_3_sigma,
-              0.00006);
-  for (auto& robot : sample.result.robots) robot.sigma_position_m.clear();
+  EXPECT_NEAR(page["accuracy"]["share_within_3_sigma"].get<double>(),
+              sample.metrics.team_consistency->share_within_3_sigma, 0.00006);
+  for (auto& robot : sample.result.robots) robot.sigma_position_m.clear(), robot.sigma_team_m.clear();
   sample.metrics = evaluate_trajectories(team_estimate(sample.result), sample.truth, 2);
   const Json without = data_of(evaluated_page(sample));
   EXPECT_FALSE(without["robots"][0]["errors"].contains("sigma_m"));
@@ -243,6 +243,7 @@ TEST(Report, RobotsWithoutPosesHaveNoClosuresDrawn) {
   sample.result.robots[1].estimate = {};
   sample.result.robots[1].odometry = {};
   sample.result.robots[1].sigma_position_m.clear();
+  sample.result.robots[1].sigma_team_m.clear();
   const Json data = data_of(render_report(sample.result));
   EXPECT_TRUE(data["robots"][1]["estimate"]["x"].empty());
   for (std::size_t c = 0; c < data["closures"]["drawn"]["group"].size(); ++c) {

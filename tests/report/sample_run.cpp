@@ -77,7 +77,10 @@ void add_robot(Sample& sample, int r, const SampleParams& params, const Rng& rng
   robot.estimate = Trajectory<SE3>(near_truth(truth, T_frame_truth, rng.split("estimate").split(index)));
   robot.odometry = Trajectory<SE3>(
       drifted(truth, robot.yaw_drift_per_m_rad, 0.03, T_frame_truth, rng.split("odometry").split(index)));
-  for (int k = 0; k < params.keyframes; ++k) robot.sigma_position_m.push_back(0.5 + 0.3 * std::sin(0.05 * k));
+  for (int k = 0; k < params.keyframes; ++k) {
+    robot.sigma_position_m.push_back(0.5 + 0.3 * std::sin(0.05 * k));
+    robot.sigma_team_m.push_back(0.5 * robot.sigma_position_m.back());
+  }
   sample.result.robots.push_back(std::move(robot));
   sample.truth.robots.push_back({id, Trajectory<SE3>(truth), true});
 }

@@ -1,6 +1,6 @@
-#include "radioslam/report/thinning.hpp"
-
 #include <gtest/gtest.h>
+
+#include "radioslam/report/rounding.hpp"
 
 namespace radioslam {
 namespace {

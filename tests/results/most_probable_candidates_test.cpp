@@ -1,11 +1,10 @@
-#include "radioslam/results/most_probable_candidates.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <tuple>
 
 #include "radioslam/base/random.hpp"
+#include "radioslam/results/candidate_list.hpp"
 
 namespace radioslam {
 namespace {

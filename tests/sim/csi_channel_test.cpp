@@ -1,11 +1,10 @@
-#include "radioslam/sim/sensors/csi_channel.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <complex>
 
 #include "phases.hpp"
+#include "radioslam/sim/sensors/csi_exchange.hpp"
 
 namespace radioslam {
 namespace {

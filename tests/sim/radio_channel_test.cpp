@@ -8,7 +8,6 @@
 
 #include "radioslam/geometry/so3.hpp"
 #include "radioslam/mission/truth.hpp"
-#include "radioslam/sim/sensors/arrival_paths.hpp"
 
 namespace radioslam {
 namespace {

@@ -1,9 +1,9 @@
-#include "radioslam/sim/sensors/shadowing.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
+
+#include "radioslam/sim/sensors/transmitters.hpp"
 
 namespace radioslam {
 namespace {

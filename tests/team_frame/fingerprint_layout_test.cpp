@@ -49,7 +49,7 @@ double aligned_error_m(Places places) {
   return mean_error_m(places);
 }
 
-// Trajectories cover 60 m by 40 m: random placement would be some 20 m off.
+// Trajectories cover 60 m by 40 m: random alignment would be some 20 m off.
 constexpr double kPlaced_m = 4;
 
 TEST(AlignByFingerprints, PlacesATeamOfUnknownStarts) {

@@ -1,10 +1,9 @@
-#include "radioslam/team_frame/layout_outliers.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "radioslam/base/random.hpp"
+#include "radioslam/team_frame/field_refinement.hpp"
 
 namespace radioslam {
 namespace {

@@ -1,9 +1,9 @@
-#include "radioslam/team_frame/lbfgs.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
+
+#include "radioslam/team_frame/field_refinement.hpp"
 
 namespace radioslam {
 namespace {

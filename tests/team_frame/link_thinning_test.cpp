@@ -1,8 +1,8 @@
-#include "radioslam/team_frame/link_thinning.hpp"
-
 #include <gtest/gtest.h>
 
 #include <map>
+
+#include "radioslam/team_frame/odometry_compression.hpp"
 
 namespace radioslam {
 namespace {

@@ -1,8 +1,7 @@
-#include "radioslam/team_frame/multidimensional_scaling.hpp"
-
 #include <gtest/gtest.h>
 
 #include "radioslam/base/random.hpp"
+#include "radioslam/team_frame/fingerprint_layout.hpp"
 
 namespace radioslam {
 namespace {

@@ -5,11 +5,12 @@
 //     double window_s = 5;
 //     template <class Self, class Visitor>
 //     static void visit_fields(Self& self, Visitor&& visit) {
-//       visit(Field{"window_s", "s", 0.1, 600, "length of a fingerprint's window"}, self.window_s);
+//       RADIOSLAM_FIELD(window_s, "s", 0.1, 600, "length of a fingerprint's window");
 //     }
 //   };
 //
-// A visitor is called as visit(const Field&, value&) with value a double, int, bool or std::string.
+// The macro calls visit(Field{"window_s", "s", 0.1, 600, "length of a fingerprint's window"}, self.window_s):
+// a visitor gets a const Field& and a value&, which is a double, int, bool or std::string.
 // A struct of such structs names them: static void visit_sections(Self& self, Visitor&& visit) calls
 // visit("fingerprint", self.fingerprint), which makes the key "fingerprint.window_s".
 #pragma once
@@ -31,7 +32,7 @@ struct Field {
   std::string_view choices = {};  ///< for text: the allowed values, separated by '|'
   Level level = Level::kExpert;
 
-  /// The same field as one of the basic parameters: visit(Field{...}.basic(), self.value).
+  /// The same field as one of the basic parameters.
   constexpr Field basic() const {
     Field field = *this;
     field.level = Level::kBasic;
@@ -40,3 +41,10 @@ struct Field {
 };
 
 }  // namespace radioslam
+
+/// In visit_fields: a field with the name of the member `member`; the other arguments are those of Field.
+/// A field with another name than its member is visited without the macro.
+#define RADIOSLAM_FIELD(member, ...) visit(::radioslam::Field{#member, __VA_ARGS__}, self.member)
+/// The same for one of the basic parameters.
+#define RADIOSLAM_BASIC_FIELD(member, ...) \
+  visit(::radioslam::Field{#member, __VA_ARGS__}.basic(), self.member)

@@ -38,4 +38,9 @@ const ParameterSet& parameter_set(const std::string& name);
 /// The basic ones of a call's parameters; all of them where the list is short or none is basic.
 std::vector<ParameterDescription> basic_parameters(const std::vector<ParameterDescription>& parameters);
 
+// The page docs/parameters.md: every parameter of every command, as tables in Markdown.
+
+/// For each call of the program its basic parameters, then all of them by section.
+std::string parameters_page();
+
 }  // namespace radioslam::cli

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "radioslam/base/check.hpp"
-#include "radioslam/cli/former_keys.hpp"
 #include "radioslam/cli/suggestion.hpp"
 #include "radioslam/io/text/numbers.hpp"
 
@@ -67,11 +66,9 @@ const ParameterRef* find_parameter(const std::vector<ParameterRef>& parameters, 
   return found == parameters.end() ? nullptr : &*found;
 }
 
-/// The parameter that the setting names by its key or by a former one.
+/// The parameter that the setting names.
 const ParameterRef& parameter_named(const std::vector<ParameterRef>& parameters, const Setting& setting) {
   if (const ParameterRef* parameter = find_parameter(parameters, setting.key)) return *parameter;
-  for (const std::string_view key : current_keys(setting.key))
-    if (const ParameterRef* parameter = find_parameter(parameters, key)) return *parameter;
   std::vector<std::string> keys;
   for (const ParameterRef& parameter : parameters) keys.push_back(parameter.key);
   throw InputError(setting.origin, setting.line,
@@ -152,7 +149,7 @@ std::vector<ParameterDescription> describe_parameters(const std::vector<Paramete
   for (const ParameterRef& parameter : defaults) {
     const Field& field = parameter.field;
     list.push_back({parameter.key, std::string(field.unit), range_text(parameter), value_text(parameter),
-                    std::string(field.description), field.level, former_keys(parameter.key)});
+                    std::string(field.description), field.level});
   }
   return list;
 }

@@ -38,7 +38,6 @@ struct ParameterDescription {
   std::string default_value;
   std::string description;
   Field::Level level = Field::Level::kExpert;
-  std::vector<std::string> former_keys = {};
 };
 
 /// One parameter of a struct: its key, its field and where its value is.
@@ -108,9 +107,8 @@ std::string value_text(int value);
 std::string value_text(bool value);
 std::string value_text(const std::string& value);
 
-/// Applies the settings in order, so the last one for a key wins; former keys are accepted
-/// (former_keys.hpp). Throws InputError for an unknown key, suggesting similar ones, and for a value that is
-/// malformed or out of range.
+/// Applies the settings in order, so the last one for a key wins. Throws InputError for an unknown key,
+/// suggesting similar ones, and for a value that is malformed or out of range.
 void apply_settings(const std::vector<ParameterRef>& parameters, const std::vector<Setting>& settings);
 
 /// The values in use; those that differ from `defaults`, the same parameters, are marked as changed.

@@ -11,7 +11,6 @@
 #include "radioslam/base/input_error.hpp"
 #include "radioslam/cli/commands.hpp"
 #include "radioslam/cli/commands/command_options.hpp"
-#include "radioslam/cli/exit_status.hpp"
 #include "radioslam/cli/suggestion.hpp"
 
 namespace radioslam::cli {

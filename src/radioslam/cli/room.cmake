@@ -24,21 +24,15 @@ add_library(radioslam_cli STATIC
   cli/commands/mission_input.cpp
   cli/commands/output_path_check.cpp
   cli/commands/recorded_drive.cpp
-  cli/commands/recorded_trials.cpp
-  cli/commands/similarity_table.cpp
   cli/config.cpp
-  cli/former_keys.cpp
   cli/import/import_datasets.cpp
-  cli/import/import_help.cpp
   cli/import/import_kinds.cpp
   cli/import/import_lidar.cpp
   cli/import/import_options.cpp
   cli/import/import_ranges.cpp
   cli/import/import_wifi.cpp
-  cli/import/wifi_csv_output.cpp
   cli/parameter_sets.cpp
   cli/parameters.cpp
-  cli/parameters_page.cpp
   cli/program.cpp
   cli/progress_line.cpp
   cli/run_parameters.cpp
@@ -51,7 +45,7 @@ target_link_libraries(radioslam_cli
 target_compile_definitions(radioslam_cli PRIVATE RADIOSLAM_VERSION="${PROJECT_VERSION}")
 radioslam_group_sources(radioslam_cli)
 
-add_executable(radioslam_program cli/main.cpp cli/signals.cpp)
+add_executable(radioslam_program cli/main.cpp)
 target_link_libraries(radioslam_program PRIVATE radioslam_cli radioslam_io radioslam_warnings)
 set_target_properties(radioslam_program PROPERTIES
   OUTPUT_NAME radioslam RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})

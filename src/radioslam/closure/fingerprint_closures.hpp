@@ -23,28 +23,20 @@ struct FingerprintClosureParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"within_distance_m", "m", 0, 1000,
-                "largest predicted distance of a fingerprint closure within a robot; higher values keep more "
-                "closures"}
-              .basic(),
-          self.within_distance_m);
-    visit(Field{"between_distance_m", "m", 0, 1000,
-                "largest predicted distance of a fingerprint closure between two robots; higher values keep "
-                "more closures"}
-              .basic(),
-          self.between_distance_m);
-    visit(
-        Field{
-            "nearest_factor", "", 1, 100,
-            "lower bound of both distance limits, as a multiple of the smallest distance the model predicts"},
-        self.nearest_factor);
-    visit(Field{"independent_pairs", "", 0.01, 1e6,
-                "number of independent measurements that all pairs of one fingerprint together count as"},
-          self.independent_pairs);
-    visit(Field{"layout_pairs", "", 0, 1e8,
-                "largest number of distant pairs that constrain robots with unknown starts; more are thinned "
-                "and weighted up"},
-          self.layout_pairs);
+    RADIOSLAM_BASIC_FIELD(within_distance_m, "m", 0, 1000,
+                          "largest predicted distance of a fingerprint closure within a robot; higher values "
+                          "keep more closures");
+    RADIOSLAM_BASIC_FIELD(between_distance_m, "m", 0, 1000,
+                          "largest predicted distance of a fingerprint closure between two robots; higher "
+                          "values keep more closures");
+    RADIOSLAM_FIELD(
+        nearest_factor, "", 1, 100,
+        "lower bound of both distance limits, as a multiple of the smallest distance the model predicts");
+    RADIOSLAM_FIELD(independent_pairs, "", 0.01, 1e6,
+                    "number of independent measurements that all pairs of one fingerprint together count as");
+    RADIOSLAM_FIELD(layout_pairs, "", 0, 1e8,
+                    "largest number of distant pairs that constrain robots with unknown starts; more are "
+                    "thinned and weighted up");
   }
 };
 

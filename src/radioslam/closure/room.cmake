@@ -12,6 +12,5 @@ radioslam_room(closure
     overlap/overlap_view.cpp
     sequence_closures.cpp
     sequence_match.cpp
-    sequence_pairs.cpp
     sequence_window.cpp
   ROOMS team_frame graph)

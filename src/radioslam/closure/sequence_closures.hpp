@@ -26,25 +26,19 @@ struct SequenceClosureParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(
-        Field{"min_path_m", "m", 0, 1e6,
-              "smallest path length between two fingerprints of one robot that may form a sequence closure"},
-        self.min_path_m);
-    visit(Field{"min_similarity", "", 0, 1,
-                "smallest similarity of the two fingerprints of a sequence closure candidate; lower values "
-                "try more candidates"}
-              .basic(),
-          self.min_similarity);
-    visit(Field{"window_path_m", "m", 1, 1000,
-                "path length of the windows that are matched around both fingerprints"},
-          self.window_path_m);
-    visit(Field{"max_sigma_m", "m", 0.01, 1000,
-                "largest position standard deviation of an accepted sequence closure, along its least "
-                "certain axis"},
-          self.max_sigma_m);
-    visit(Field{"max_sigma_yaw_rad", "rad", 0.001, 10,
-                "largest yaw standard deviation of an accepted sequence closure"},
-          self.max_sigma_yaw_rad);
+    RADIOSLAM_FIELD(
+        min_path_m, "m", 0, 1e6,
+        "smallest path length between two fingerprints of one robot that may form a sequence closure");
+    RADIOSLAM_BASIC_FIELD(min_similarity, "", 0, 1,
+                          "smallest similarity of the two fingerprints of a sequence closure candidate; "
+                          "lower values try more candidates");
+    RADIOSLAM_FIELD(window_path_m, "m", 1, 1000,
+                    "path length of the windows that are matched around both fingerprints");
+    RADIOSLAM_FIELD(
+        max_sigma_m, "m", 0.01, 1000,
+        "largest position standard deviation of an accepted sequence closure, along its least certain axis");
+    RADIOSLAM_FIELD(max_sigma_yaw_rad, "rad", 0.001, 10,
+                    "largest yaw standard deviation of an accepted sequence closure");
     SequenceMatchParams::visit_fields(self.match, visit);
   }
 };

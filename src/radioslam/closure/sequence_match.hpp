@@ -16,11 +16,48 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
 #include "radioslam/base/fields.hpp"
-#include "radioslam/closure/sequence_pairs.hpp"
+#include "radioslam/closure/sequence_window.hpp"
+#include "radioslam/geometry/se2.hpp"
 
 namespace radioslam {
+
+// Likelihood of the relative pose of two path segments from fingerprint pairs, and its maximum.
+// Every pair of fingerprints p (of window i) and q (of window j) whose similarity s predicts a distance adds
+//   rho((|T p - q| - peak(s)) / spread(s)),   rho(r) = c^2 log(1 + r^2 / c^2)   (Cauchy)
+// with T = T_j_i and the Gaussian over distance that the team's model predicts for s (PredictedDistance).
+// Metres and radians; T is perturbed as T Exp(xi), xi = [translation, yaw].
+
+/// Positions of two fingerprints, each in its window, and the distance predicted from their similarity.
+struct PredictedPair {
+  Eigen::Vector2d p, q;
+  double peak_m = 0;
+  double spread_m = 1;
+};
+
+/// Pairs of two windows whose similarity predicts a distance; `similarity` has a row per node of i and a
+/// column per node of j.
+std::vector<PredictedPair> predicted_pairs(const DistanceModel& model, const Eigen::MatrixXd& similarity,
+                                           const SequenceWindow& i, const SequenceWindow& j);
+
+struct PairCost {
+  double cost = 0;
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< as if all pairs were independent
+};
+
+/// Cost O(pairs).
+PairCost evaluate_pairs(const SE2& T_j_i, const std::vector<PredictedPair>& pairs, double loss_sigmas);
+
+struct PairFit {
+  SE2 T_j_i;
+  PairCost at;
+};
+
+/// Local minimum from `start`, by Levenberg-Marquardt.
+PairFit fit_pairs(const SE2& start, const std::vector<PredictedPair>& pairs, double loss_sigmas);
 
 struct SequenceMatchParams {
   int nearest = 3;  ///< k
@@ -33,29 +70,22 @@ struct SequenceMatchParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"nearest", "", 1, 100, "number of most similar fingerprints averaged for one match"},
-          self.nearest);
-    visit(Field{"loss_sigmas", "", 0.1, 1e6,
-                "scale of the Cauchy loss on predicted distances, in standard deviations"},
-          self.loss_sigmas);
-    visit(Field{"max_residual_m", "m", 0, 1000,
-                "largest mean distance of fingerprints from their matches; higher values keep more closures "
-                "but admit false ones"},
-          self.max_residual_m);
-    visit(Field{"alternative_distance_m", "m", 0.01, 1000,
-                "distance from the best pose beyond which another solution counts as an alternative"},
-          self.alternative_distance_m);
-    visit(Field{"alternative_angle_rad", "rad", 0.01, 7,
-                "rotation from the best pose beyond which another solution counts as an alternative"},
-          self.alternative_angle_rad);
-    visit(Field{"min_alternative_margin", "", 0, 1e6,
-                "smallest cost margin over alternative poses (chi-squared, 3 dof); higher values reject more "
-                "closures as ambiguous"},
-          self.min_alternative_margin);
-    visit(Field{"effective_sample_ratio", "", 1e-3, 1,
-                "fraction of the pairs of two windows that counts as independent; lower values inflate the "
-                "covariance"},
-          self.effective_sample_ratio);
+    RADIOSLAM_FIELD(nearest, "", 1, 100, "number of most similar fingerprints averaged for one match");
+    RADIOSLAM_FIELD(loss_sigmas, "", 0.1, 1e6,
+                    "scale of the Cauchy loss on predicted distances, in standard deviations");
+    RADIOSLAM_FIELD(max_residual_m, "m", 0, 1000,
+                    "largest mean distance of fingerprints from their matches; higher values keep more "
+                    "closures but admit false ones");
+    RADIOSLAM_FIELD(alternative_distance_m, "m", 0.01, 1000,
+                    "distance from the best pose beyond which another solution counts as an alternative");
+    RADIOSLAM_FIELD(alternative_angle_rad, "rad", 0.01, 7,
+                    "rotation from the best pose beyond which another solution counts as an alternative");
+    RADIOSLAM_FIELD(min_alternative_margin, "", 0, 1e6,
+                    "smallest cost margin over alternative poses (chi-squared, 3 dof); higher values reject "
+                    "more closures as ambiguous");
+    RADIOSLAM_FIELD(effective_sample_ratio, "", 1e-3, 1,
+                    "fraction of the pairs of two windows that counts as independent; lower values inflate "
+                    "the covariance");
   }
 };
 

@@ -13,4 +13,13 @@ double chi_squared_tail(double value, int dof);
 /// probabilities from 0.001 to 1 - 1e-9.
 double chi_squared_quantile(double probability, int dof);
 
+/// 99 % quantile for one degree of freedom.
+inline constexpr double kChiSquared99 = 6.635;
+/// 99 % chi-squared quantile for a relative pose: 3 or 6 degrees of freedom.
+template <class Pose>
+inline constexpr double kPoseChiSquared99 = Pose::kDof == 3 ? 11.345 : 16.812;
+/// The same for 99.9 %.
+template <class Pose>
+inline constexpr double kPoseChiSquared999 = Pose::kDof == 3 ? 16.266 : 22.458;
+
 }  // namespace radioslam

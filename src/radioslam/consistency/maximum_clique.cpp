@@ -1,12 +1,62 @@
 #include "radioslam/consistency/maximum_clique.hpp"
 
 #include <algorithm>
-
-#include "radioslam/consistency/degeneracy.hpp"
-#include "radioslam/consistency/greedy_clique.hpp"
+#include <utility>
 
 namespace radioslam {
 namespace {
+
+/// Vertices sorted by degree, in bins, so that one can lose a neighbour in O(1) (Batagelj & Zaversnik 2003).
+class DegreeBins {
+ public:
+  explicit DegreeBins(const UndirectedGraph& graph)
+      : degrees_(graph.size()), order_(graph.size()), places_(graph.size()), bin_starts_(graph.size() + 1) {
+    for (std::size_t v = 0; v < graph.size(); ++v) ++bin_starts_[degrees_[v] = graph.degree(v)];
+    std::size_t start = 0;
+    for (std::size_t& bin : bin_starts_) start += std::exchange(bin, start);
+    for (std::size_t v = 0; v < graph.size(); ++v) order_[places_[v] = bin_starts_[degrees_[v]]++] = v;
+    for (std::size_t d = graph.size(); d > 0; --d) bin_starts_[d] = bin_starts_[d - 1];
+    bin_starts_[0] = 0;
+  }
+
+  std::size_t at(std::size_t place) const { return order_[place]; }
+  std::size_t degree(std::size_t v) const { return degrees_[v]; }
+  const std::vector<std::size_t>& order() const { return order_; }
+
+  /// Moves `v` to the front of its bin and the bin's start past it.
+  void lose_neighbour(std::size_t v) {
+    const std::size_t place = places_[v], front = bin_starts_[degrees_[v]]++;
+    const std::size_t other = order_[front];
+    std::swap(order_[place], order_[front]);
+    places_[other] = place, places_[v] = front;
+    --degrees_[v];
+  }
+
+ private:
+  std::vector<std::size_t> degrees_, order_, places_, bin_starts_;
+};
+
+/// The candidate with most neighbours among the candidates, the lowest number of equal ones.
+std::size_t best_connected(const UndirectedGraph& graph, std::span<const BitWord> candidates) {
+  std::size_t best = graph.size(), most = 0;
+  for_each_bit(candidates, [&](std::size_t v) {
+    const std::size_t common = count_common_bits(graph.neighbours(v), candidates);
+    if (best == graph.size() || common > most) best = v, most = common;
+  });
+  return best;
+}
+
+std::vector<std::size_t> clique_from(const UndirectedGraph& graph, std::size_t start) {
+  std::vector<std::size_t> clique{start};
+  const auto row = graph.neighbours(start);
+  std::vector<BitWord> candidates(row.begin(), row.end());
+  while (true) {
+    const std::size_t v = best_connected(graph, candidates);
+    if (v == graph.size()) return clique;
+    clique.push_back(v);
+    for (std::size_t w = 0; w < candidates.size(); ++w) candidates[w] &= graph.neighbours(v)[w];
+  }
+}
 
 /// Counts branches up to a limit, over all searches of one call.
 struct Budget {
@@ -151,6 +201,33 @@ void improve_at(const UndirectedGraph& graph, const Degeneracy& degeneracy, std:
 }
 
 }  // namespace
+
+Degeneracy degeneracy(const UndirectedGraph& graph) {
+  DegreeBins bins(graph);
+  for (std::size_t place = 0; place < graph.size(); ++place) {
+    const std::size_t v = bins.at(place);
+    for_each_bit(graph.neighbours(v), [&](std::size_t u) {
+      if (bins.degree(u) > bins.degree(v)) bins.lose_neighbour(u);
+    });
+  }
+  Degeneracy result{bins.order(), std::vector<std::size_t>(graph.size())};
+  for (std::size_t v = 0; v < graph.size(); ++v) result.core[v] = bins.degree(v);
+  return result;
+}
+
+std::vector<std::size_t> greedy_clique(const UndirectedGraph& graph, const Degeneracy& degeneracy,
+                                       std::size_t starts) {
+  std::vector<std::size_t> best;
+  const auto is_known = [&](std::size_t v) { return std::find(best.begin(), best.end(), v) != best.end(); };
+  for (std::size_t k = 0; k < std::min(starts, graph.size()); ++k) {
+    const std::size_t start = degeneracy.order[graph.size() - 1 - k];
+    if (degeneracy.core[start] < best.size()) break;  // no later start has a larger core number
+    if (is_known(start)) continue;                    // would most likely lead to the same
+    auto clique = clique_from(graph, start);
+    if (clique.size() > best.size()) best = std::move(clique);
+  }
+  return best;
+}
 
 MaximumClique maximum_clique(const UndirectedGraph& graph, const MaximumCliqueParams& params) {
   MaximumClique result;

@@ -54,10 +54,9 @@ struct PairwiseParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"confidence", "", 0.5, 0.999999,
-                "probability that a true pair of matches passes the consistency test; higher values reject "
-                "fewer"},
-          self.confidence);
+    RADIOSLAM_FIELD(
+        confidence, "", 0.5, 0.999999,
+        "probability that a true pair of matches passes the consistency test; higher values reject fewer");
   }
 };
 

@@ -2,8 +2,6 @@ radioslam_room(consistency
   SOURCES
     chi_squared.cpp
     consistent_set.cpp
-    degeneracy.cpp
-    greedy_clique.cpp
     maximum_clique.cpp
     pairwise.cpp
     undirected_graph.cpp

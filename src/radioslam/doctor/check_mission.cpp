@@ -3,12 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "radioslam/doctor/link_checks.hpp"
-#include "radioslam/doctor/odometry_checks.hpp"
-#include "radioslam/doctor/odometry_coverage.hpp"
+#include "radioslam/doctor/checks.hpp"
 #include "radioslam/doctor/odometry_noise.hpp"
-#include "radioslam/doctor/recording_checks.hpp"
-#include "radioslam/doctor/sensor_checks.hpp"
 
 namespace radioslam {
 namespace {

@@ -1,5 +1,10 @@
-#include "radioslam/doctor/fingerprint_clock.hpp"
-
+// Whether a robot's fingerprints are on the clock of its odometry: how similar two scans are should depend on
+// how far apart the odometry has them.
+//
+// For every lag of the scans, similarity is fitted by a step function of distance; the lag with the least sum
+// of squares is the likeliest. Turns, stops and places passed in both directions make distances depend on the
+// lag; a straight path at constant speed does not. Pairs of scans share noise, so the gain over no lag must
+// be found in most stretches of the recording, besides being large.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +12,7 @@
 #include <limits>
 #include <string>
 
+#include "radioslam/doctor/checks.hpp"
 #include "radioslam/doctor/text.hpp"
 
 namespace radioslam {
@@ -26,18 +32,10 @@ constexpr std::array kDistances_m{2.0F, 4.0F, 7.0F, 10.0F, 14.0F, 20.0F, 28.0F, 
 /// Share of common access points, times a falling function of the mean difference of their levels.
 double similarity(const WifiScan& a, const WifiScan& b) {
   double both = 0, difference = 0;
-  auto x = a.readings.begin(), y = b.readings.begin();
-  while (x != a.readings.end() && y != b.readings.end()) {
-    if (x->access_point < y->access_point) {
-      ++x;
-    } else if (y->access_point < x->access_point) {
-      ++y;
-    } else {
-      both += 1;
-      difference += std::abs(static_cast<double>(x->rssi_dbm) - static_cast<double>(y->rssi_dbm));
-      ++x, ++y;
-    }
-  }
+  for_common_readings(a, b, [&](const WifiReading& x, const WifiReading& y) {
+    both += 1;
+    difference += std::abs(static_cast<double>(x.rssi_dbm) - static_cast<double>(y.rssi_dbm));
+  });
   const double any = static_cast<double>(a.readings.size() + b.readings.size()) - both;
   return both > 0 ? both / any * std::exp(-difference / both / 6) : 0;
 }

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "radioslam/base/statistics.hpp"
+#include "radioslam/doctor/checks.hpp"
 #include "radioslam/doctor/correlation.hpp"
-#include "radioslam/doctor/sensor_checks.hpp"
 #include "radioslam/doctor/text.hpp"
 #include "radioslam/geometry/so3.hpp"
 

@@ -1,5 +1,3 @@
-#include "radioslam/doctor/link_checks.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -11,6 +9,7 @@
 #include "radioslam/base/parallel.hpp"
 #include "radioslam/base/statistics.hpp"
 #include "radioslam/base/units.hpp"
+#include "radioslam/doctor/checks.hpp"
 #include "radioslam/doctor/corrections.hpp"
 #include "radioslam/doctor/link_fit.hpp"
 #include "radioslam/doctor/team_links.hpp"

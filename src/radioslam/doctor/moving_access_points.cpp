@@ -1,5 +1,3 @@
-#include "radioslam/doctor/moving_access_points.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -8,6 +6,7 @@
 #include <utility>
 
 #include "radioslam/base/statistics.hpp"
+#include "radioslam/doctor/checks.hpp"
 #include "radioslam/doctor/correlation.hpp"
 #include "radioslam/doctor/text.hpp"
 

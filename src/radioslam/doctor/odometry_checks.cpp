@@ -1,17 +1,145 @@
-#include "radioslam/doctor/odometry_checks.hpp"
-
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "radioslam/base/statistics.hpp"
-#include "radioslam/doctor/duplicates.hpp"
-#include "radioslam/doctor/frame_checks.hpp"
+#include "radioslam/base/units.hpp"
+#include "radioslam/doctor/checks.hpp"
 #include "radioslam/doctor/text.hpp"
+#include "radioslam/mission/finding.hpp"
+#include "radioslam/mission/mission.hpp"
 
 namespace radioslam {
 namespace {
+
+// Whether a trajectory is in the frame that a mission asks for: right-handed, z up, quaternions with qw last,
+// from the robot's start.
+
+constexpr double kPlanarTilt_rad = 0.5;
+
+class FrameCheck {
+ public:
+  FrameCheck(const Mission& mission, const Robot& robot, std::vector<Finding>& findings)
+      : robot_(robot), is_planar_(mission.dimension == 2), findings_(findings) {}
+
+  void run() {
+    if (check_quaternions()) return;
+    check_axes();
+    check_heading();
+    check_start();
+  }
+
+ private:
+  void add(std::string kind, Severity severity, std::string found, std::string expected, std::string advice) {
+    findings_.push_back({std::move(kind), severity, robot_.id, odometry_file(robot_.id), std::move(found),
+                         std::move(expected), std::move(advice)});
+  }
+
+  static double tilt(const Eigen::Quaterniond& start, const Eigen::Quaterniond& q) {
+    const Eigen::Vector3d up = start.inverse() * (q * Eigen::Vector3d::UnitZ());
+    return std::atan2(up.head<2>().norm(), up.z());
+  }
+
+  double tilted_ratio(auto quaternion) const {
+    const Eigen::Quaterniond start = quaternion(robot_.odometry.front().pose.rotation());
+    double tilted = 0;
+    for (const auto& row : robot_.odometry)
+      tilted += tilt(start, quaternion(row.pose.rotation())) > kPlanarTilt_rad;
+    return tilted / static_cast<double>(robot_.odometry.size());
+  }
+
+  /// Whether the quaternions are wrong.
+  bool check_quaternions() {
+    const double stated = tilted_ratio([](const auto& q) { return q; });
+    const double w_first =
+        tilted_ratio([](const auto& q) { return Eigen::Quaterniond(q.x(), q.y(), q.z(), q.w()); });
+    if (stated < 0.2) return false;
+    if (w_first < 0.02) {
+      add("column-order", Severity::kError,
+          "the robot is upside down or on its side in " + number(100 * stated) +
+              " % of the poses, and level with qw first",
+          "qx qy qz qw", "move the column qw behind qz");
+      return true;
+    }
+    if (is_planar_)
+      add("frame", Severity::kWarning, "the robot is tilted in " + number(100 * stated) + " % of the poses",
+          "a level robot in a planar mission", "use dimension 3, or a body frame with z up");
+    return false;
+  }
+
+  Eigen::Vector3d extent_m() const {
+    Eigen::Vector3d low = robot_.odometry.front().pose.translation(), high = low;
+    for (const auto& row : robot_.odometry) {
+      low = low.cwiseMin(row.pose.translation());
+      high = high.cwiseMax(row.pose.translation());
+    }
+    return high - low;
+  }
+
+  /// Vertical motion where the vehicle moves on the ground.
+  void check_axes() {
+    const Eigen::Vector3d extent = extent_m();
+    const double flattest = std::min(extent.x(), extent.y());
+    if (extent.z() < 5 || flattest > 0.05 * extent.z()) return;
+    if (extent.z() < 0.5 * std::max(extent.x(), extent.y())) return;  // a straight road with a slope
+    add("column-order", is_planar_ ? Severity::kError : Severity::kWarning,
+        "the robot moves " + number(extent.z()) + " m along z and " + number(flattest) + " m along " +
+            (extent.x() < extent.y() ? "x" : "y"),
+        "z up", "exchange the columns, or turn the frame: cameras have z forward and y down");
+  }
+
+  /// Resultant length of the direction of motion in the body frame, |mean exp(i (direction -+ yaw))|.
+  void check_heading() {
+    std::complex<double> straight, mirrored, yaws;
+    double count = 0;
+    std::size_t from = 0;
+    for (std::size_t k = 1; k < robot_.odometry.size(); ++k) {
+      const Eigen::Vector3d step =
+          robot_.odometry[k].pose.translation() - robot_.odometry[from].pose.translation();
+      if (step.head<2>().norm() < 0.5) continue;
+      const double turn = wrap_angle(robot_.odometry[k].pose.yaw() - robot_.odometry[from].pose.yaw());
+      const double yaw = robot_.odometry[from].pose.yaw() + 0.5 * turn;
+      const double direction = std::atan2(step.y(), step.x());
+      from = k;
+      if (std::abs(turn) > 0.8) continue;
+      straight += std::polar(1.0, direction - yaw);
+      mirrored += std::polar(1.0, direction + yaw);
+      yaws += std::polar(1.0, 2 * yaw);
+      count += 1;
+    }
+    if (count < 20 || std::abs(yaws) > 0.9 * count) return;  // a straight path looks the same in a mirror
+    if (std::abs(mirrored) < 0.85 * count || std::abs(straight) > 0.6 * count) return;
+    // Vehicles that reverse may look so, too.
+    add("handedness", Severity::kWarning, "the path turns to one side while the yaw turns to the other",
+        "a right-handed frame, y to the left of x and yaw counter-clockwise",
+        "change the sign of y, exchange x and y, or change the sign of the yaw");
+  }
+
+  void check_start() {
+    const SE3& first = robot_.odometry.front().pose;
+    const double away_m = first.translation().norm();
+    if (away_m < 1 && std::abs(first.yaw()) < 0.1) return;
+    if (!robot_.initial_pose && away_m < 1e5) return;
+    add("frame", Severity::kWarning,
+        "the trajectory begins at " + number(away_m) + " m and " + number(degrees(first.yaw())) +
+            " degrees from its frame's origin" +
+            (robot_.initial_pose ? ", and mission.yaml states where it starts" : ""),
+        "the robot's own start frame", "express the trajectory in the frame of its first pose");
+  }
+
+  const Robot& robot_;
+  bool is_planar_;
+  std::vector<Finding>& findings_;
+};
+
+/// Adds findings about a robot with odometry.
+void check_frame(const Mission& mission, const Robot& robot, std::vector<Finding>& findings) {
+  FrameCheck(mission, robot, findings).run();
+}
 
 constexpr double kMaxSpeed_mps = 60;  // of anything that drives
 constexpr double kMinJump_m = 3;
@@ -173,6 +301,72 @@ bool same_recording(const Trajectory<SE3>& a, const Trajectory<SE3>& b) {
   return moving > 10 && *high - *low > 1e-3;
 }
 
+constexpr double kMinMissing_s = 20, kMinMissingRatio = 0.25;
+constexpr std::size_t kMinRows = 10;
+
+/// First and last row of one recording that a robot takes part in.
+struct Recording {
+  std::string file;
+  double first_s = 0, last_s = 0;
+  std::size_t rows = 0;
+
+  void add(Stamp stamp) {
+    const double t_s = stamp.seconds();
+    first_s = rows == 0 ? t_s : std::min(first_s, t_s);
+    last_s = rows == 0 ? t_s : std::max(last_s, t_s);
+    ++rows;
+  }
+};
+
+template <class Rows>
+Recording recording_of(std::string file, const Rows& rows) {
+  Recording recording{std::move(file)};
+  for (const auto& row : rows) recording.add(row.stamp);
+  return recording;
+}
+
+std::vector<Recording> recordings_of(const Mission& mission, std::size_t r) {
+  const Robot& robot = mission.robots[r];
+  std::vector<Recording> recordings{recording_of(robot_file(robot.id, "wifi.csv"), robot.wifi),
+                                    recording_of(robot_file(robot.id, "imu.csv"), robot.inertial),
+                                    recording_of(robot_file(robot.id, "gnss.csv"), robot.fixes)};
+  Recording scans{robot_file(robot.id, "lidar")}, ranges{kRangesFile}, angles{kAnglesFile};
+  for (const Stamp stamp : robot.lidar.stamps) scans.add(stamp);
+  const RobotIndex index(r);
+  for (const auto& range : mission.ranges)
+    if (range.i.robot == index || range.j.robot == index) ranges.add(range.stamp);
+  for (const auto& angle : mission.aoa_measurements)
+    if (angle.receiver == index || angle.transmitter.robot == index) angles.add(angle.stamp);
+  recordings.insert(recordings.end(), {scans, ranges, angles});
+  return recordings;
+}
+
+/// The one of which most is outside the odometry; disjoint ones are on another clock.
+void check_robot(const Mission& mission, std::size_t r, std::vector<Finding>& findings) {
+  const Robot& robot = mission.robots[r];
+  if (robot.odometry.size() < 2) return;
+  const double begin_s = robot.odometry.front().stamp.seconds(),
+               end_s = robot.odometry.back().stamp.seconds();
+  double most_s = kMinMissing_s;
+  std::optional<Recording> longest;
+  for (Recording& recording : recordings_of(mission, r)) {
+    const double missing_s =
+        std::max(0.0, begin_s - recording.first_s) + std::max(0.0, recording.last_s - end_s);
+    if (recording.rows < kMinRows || recording.first_s > end_s || recording.last_s < begin_s ||
+        missing_s < kMinMissingRatio * (recording.last_s - recording.first_s) || missing_s < most_s)
+      continue;
+    most_s = missing_s;
+    longest = std::move(recording);
+  }
+  if (!longest) return;
+  findings.push_back(
+      {"gap", Severity::kWarning, robot.id, odometry_file(robot.id),
+       "poses from " + time_text(begin_s) + " to " + time_text(end_s) + " s only, while " + longest->file +
+           " has rows from " + time_text(longest->first_s) + " to " + time_text(longest->last_s) + " s",
+       "odometry for the whole recording",
+       "check whether it was cut: " + number(most_s) + " s of what the robot recorded cannot be placed"});
+}
+
 }  // namespace
 
 std::vector<Finding> check_odometry(const Mission& mission) {
@@ -184,6 +378,12 @@ std::vector<Finding> check_odometry(const Mission& mission) {
                  {"duplicate", Severity::kWarning, "", "", "the same motion as that of",
                   "a recording of its own", "remove one of the two, or replace it by the right recording"},
                  findings);
+  return findings;
+}
+
+std::vector<Finding> check_odometry_coverage(const Mission& mission) {
+  std::vector<Finding> findings;
+  for (std::size_t r = 0; r < mission.robots.size(); ++r) check_robot(mission, r, findings);
   return findings;
 }
 

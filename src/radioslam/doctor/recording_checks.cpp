@@ -1,5 +1,3 @@
-#include "radioslam/doctor/recording_checks.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -9,6 +7,7 @@
 #include <utility>
 
 #include "radioslam/base/statistics.hpp"
+#include "radioslam/doctor/checks.hpp"
 #include "radioslam/doctor/text.hpp"
 
 namespace radioslam {

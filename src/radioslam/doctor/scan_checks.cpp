@@ -2,7 +2,7 @@
 #include <string>
 
 #include "radioslam/base/statistics.hpp"
-#include "radioslam/doctor/sensor_checks.hpp"
+#include "radioslam/doctor/checks.hpp"
 #include "radioslam/doctor/text.hpp"
 
 namespace radioslam {

@@ -1,5 +1,12 @@
-#include "radioslam/doctor/stale_scans.hpp"
-
+// WiFi scans that repeat older ones: readings that a phone or driver kept and listed again while the robot
+// moved on.
+//
+// A reading in two scans at different places has the same value by chance; levels are whole dBm, so chance is
+// not rare. Whole scans: with probability p of one equal reading, which the other pairs of scans show, a scan
+// of n readings has at least 0.9 n equal ones with the tail of Bin(n, p); the number of repeats is tested
+// against the sum of those (Poisson, Chernoff bound). Single readings: differences between scans have a
+// smooth density, so that the number of zeros follows from those of one and two steps as of a Gaussian; kept
+// readings add zeros to it.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +15,7 @@
 #include <utility>
 
 #include "radioslam/base/statistics.hpp"
+#include "radioslam/doctor/checks.hpp"
 #include "radioslam/doctor/text.hpp"
 
 namespace radioslam {
@@ -34,21 +42,13 @@ struct Comparison {
 };
 
 void compare(const WifiScan& a, const WifiScan& b, Comparison& result) {
-  auto x = a.readings.begin(), y = b.readings.begin();
-  while (x != a.readings.end() && y != b.readings.end()) {
-    if (x->access_point < y->access_point) {
-      ++x;
-    } else if (y->access_point < x->access_point) {
-      ++y;
-    } else {
-      const double difference = std::abs(static_cast<double>(x->rssi_dbm) - static_cast<double>(y->rssi_dbm));
-      result.common += 1;
-      result.equal += difference < 1e-6;
-      if (std::round(difference) < kDifferences)
-        result.differences[static_cast<std::size_t>(std::lround(difference))] += 1;
-      ++x, ++y;
-    }
-  }
+  for_common_readings(a, b, [&](const WifiReading& x, const WifiReading& y) {
+    const double difference = std::abs(static_cast<double>(x.rssi_dbm) - static_cast<double>(y.rssi_dbm));
+    result.common += 1;
+    result.equal += difference < 1e-6;
+    if (std::round(difference) < kDifferences)
+      result.differences[static_cast<std::size_t>(std::lround(difference))] += 1;
+  });
   result.any = static_cast<double>(a.readings.size() + b.readings.size()) - result.common;
 }
 

@@ -3,11 +3,7 @@
 #include <utility>
 
 #include "radioslam/base/statistics.hpp"
-#include "radioslam/doctor/duplicates.hpp"
-#include "radioslam/doctor/fingerprint_clock.hpp"
-#include "radioslam/doctor/moving_access_points.hpp"
-#include "radioslam/doctor/sensor_checks.hpp"
-#include "radioslam/doctor/stale_scans.hpp"
+#include "radioslam/doctor/checks.hpp"
 #include "radioslam/doctor/team_links.hpp"
 #include "radioslam/doctor/text.hpp"
 

@@ -1,24 +1,67 @@
 #include "radioslam/eval/measurement_truth.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <optional>
+#include <numbers>
 #include <tuple>
 
 #include "radioslam/base/check.hpp"
 #include "radioslam/base/units.hpp"
-#include "radioslam/eval/angle_truth.hpp"
 #include "radioslam/eval/association.hpp"
 #include "radioslam/geometry/so3.hpp"
 #include "radioslam/mission/keyframes.hpp"
+#include "radioslam/mission/radio_links.hpp"
 
 namespace radioslam {
 namespace {
 
+// Whether the likeliest path of an angle measurement is the direct one.
+//
+// By the simulator's label where there is one, else by geometry: a path is direct if it is within 3 sigma + 5
+// degrees of the true direction of the transmitter; by azimuth only if it has no elevation.
+
+enum class AngleTruth {
+  kDirectFound,  ///< the likeliest path is direct
+  kWrongPath,    ///< another one is
+  kNoneDirect,   ///< none is
+};
+
 constexpr double kSigmas = 3;
 constexpr double kSlack_m = 0.5;
 constexpr double kSlack_rad = 5 * kRadiansPerDegree;
+
+bool points_to(const AoaPath& path, const Eigen::Vector3d& direction) {
+  const double horizontal = std::hypot(direction.x(), direction.y());
+  const double azimuth_error =
+      std::remainder(std::atan2(direction.y(), direction.x()) - path.azimuth_rad, 2 * std::numbers::pi);
+  const double elevation_error =
+      path.elevation_rad ? std::atan2(direction.z(), horizontal) - *path.elevation_rad : 0;
+  return std::hypot(azimuth_error, elevation_error) <= kSigmas * path.sigma_rad + kSlack_rad;
+}
+
+/// Index of the greatest weight, the first of equal ones. Nothing unless every path has a weight; a single
+/// path needs none.
+std::optional<std::size_t> likeliest_path(const std::vector<double>& weights, std::size_t paths) {
+  if (paths == 1) return 0;
+  if (weights.size() != paths || paths == 0) return std::nullopt;
+  return static_cast<std::size_t>(std::max_element(weights.begin(), weights.end()) - weights.begin());
+}
+
+/// `direct_path`: the label, as in Truth::direct_paths.
+AngleTruth judge_path(std::size_t path, int direct_path) {
+  if (direct_path == kNoDirectPath) return AngleTruth::kNoneDirect;
+  return static_cast<int>(path) == direct_path ? AngleTruth::kDirectFound : AngleTruth::kWrongPath;
+}
+
+/// `direction`: of the transmitter, in the receiver's body frame; of any length.
+AngleTruth judge_path(std::size_t path, const std::vector<AoaPath>& paths, const Eigen::Vector3d& direction) {
+  if (points_to(paths[path], direction)) return AngleTruth::kDirectFound;
+  const bool other_is_direct =
+      std::any_of(paths.begin(), paths.end(), [&](const AoaPath& p) { return points_to(p, direction); });
+  return other_is_direct ? AngleTruth::kWrongPath : AngleTruth::kNoneDirect;
+}
 
 /// An angle measurement with its label, as in Truth::direct_paths.
 struct LabelledAngle {

@@ -5,8 +5,8 @@
 //   file    relative poses of a factor graph that are not odometry: as matches, with the labels of the file.
 //           The k-th closure between two keyframes is the k-th such relative pose of the file.
 //   range   within 3 sigma + 0.5 m of the true distance of the antennas.
-//   aoa     by its likeliest path, that of the greatest posterior weight, whatever its other paths are
-//           (angle_truth.hpp): the accepted path of an accepted angle. Angles measured from CSI as well.
+//   aoa     by its likeliest path, that of the greatest posterior weight, whatever its other paths are:
+//           the accepted path of an accepted angle. Angles measured from CSI as well.
 // Closures of other kinds have no measurement in the mission; measurements to anchors are not in
 // closures.csv.
 #pragma once

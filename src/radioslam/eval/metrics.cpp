@@ -6,8 +6,6 @@
 #include "radioslam/base/check.hpp"
 #include "radioslam/eval/association.hpp"
 #include "radioslam/eval/mirror_image.hpp"
-#include "radioslam/eval/position_fit.hpp"
-#include "radioslam/eval/statistics.hpp"
 #include "radioslam/geometry/so3.hpp"
 
 namespace radioslam {
@@ -110,36 +108,85 @@ std::optional<double> absolute_rotation_rmse_rad(const std::vector<Matches>& tea
   return count == 0 ? std::nullopt : std::optional(std::sqrt(sum / static_cast<double>(count)));
 }
 
-/// The stated standard deviation at a stamp, linear between poses; the nearest pose's outside.
-double sigma_at(const EstimatedTrajectory& robot, Stamp stamp) {
-  const auto later = std::lower_bound(robot.poses.begin(), robot.poses.end(), stamp,
+/// Value of the poses at a stamp, linear between them; the nearest pose's outside.
+double value_at(const Trajectory<SE3>& poses, const std::vector<double>& values, Stamp stamp) {
+  const auto later = std::lower_bound(poses.begin(), poses.end(), stamp,
                                       [](const auto& row, Stamp at) { return row.stamp < at; });
-  const auto k = static_cast<std::size_t>(later - robot.poses.begin());
-  if (k == 0) return robot.sigma_position_m.front();
-  if (k == robot.poses.size()) return robot.sigma_position_m.back();
-  const double gap_s = seconds_between(robot.poses[k - 1].stamp, robot.poses[k].stamp);
-  const double ratio = seconds_between(robot.poses[k - 1].stamp, stamp) / gap_s;
-  return (1 - ratio) * robot.sigma_position_m[k - 1] + ratio * robot.sigma_position_m[k];
+  const auto k = static_cast<std::size_t>(later - poses.begin());
+  if (k == 0) return values.front();
+  if (k == poses.size()) return values.back();
+  const double gap_s = seconds_between(poses[k - 1].stamp, poses[k].stamp);
+  const double ratio = seconds_between(poses[k - 1].stamp, stamp) / gap_s;
+  return (1 - ratio) * values[k - 1] + ratio * values[k];
 }
 
 void add_stated_sigmas(std::vector<PointError>& errors, const EstimatedTrajectory& estimate) {
-  if (estimate.sigma_position_m.empty()) return;
-  for (PointError& error : errors) error.sigma_m = sigma_at(estimate, error.stamp);
+  if (errors.empty()) return;
+  const auto stated = [&](const std::vector<double>& sigmas, Stamp stamp) {
+    return sigmas.empty() ? std::nullopt : std::optional(value_at(estimate.poses, sigmas, stamp));
+  };
+  for (PointError& error : errors) {
+    error.sigma_m = stated(estimate.sigma_position_m, error.stamp);
+    error.sigma_team_m = stated(estimate.sigma_team_m, error.stamp);
+  }
+  const auto distance_s = [](const PointError& error, Stamp stamp) {
+    return std::abs(seconds_between(error.stamp, stamp));
+  };
+  for (const auto& [stamp, pose] : estimate.poses) {
+    auto nearest = std::lower_bound(errors.begin(), errors.end(), stamp,
+                                    [](const PointError& error, Stamp at) { return error.stamp < at; });
+    if (nearest == errors.end() ||
+        (nearest != errors.begin() && distance_s(*std::prev(nearest), stamp) < distance_s(*nearest, stamp)))
+      --nearest;
+    nearest->at_keyframe = true;
+  }
 }
 
-std::optional<double> share_within_3_sigma(const std::vector<RobotMetrics>& robots) {
+template <class Counts>
+std::optional<Consistency> consistency(const std::vector<RobotMetrics>& robots, int dimension,
+                                       std::optional<double> PointError::*sigma_m, const Counts& counts) {
   constexpr double kSigmas = 3;
   std::size_t within = 0, all = 0;
+  double sum = 0;
   for (const RobotMetrics& robot : robots)
     for (const PointError& error : robot.errors) {
-      if (!error.sigma_m) continue;
-      within += error.error_m <= kSigmas * *error.sigma_m ? 1U : 0U;
+      if (!(error.*sigma_m) || !counts(error)) continue;
+      const double sigma = *(error.*sigma_m);
+      within += error.error_m <= kSigmas * sigma ? 1U : 0U;
+      sum += error.error_m == 0 ? 0 : std::pow(error.error_m / sigma, 2);
       ++all;
     }
-  return all == 0 ? std::nullopt : std::optional(share(within, all));
+  if (all == 0) return std::nullopt;
+  return Consistency{share(within, all), sum / static_cast<double>(all) / dimension};
 }
 
 }  // namespace
+
+double quantile(const std::vector<double>& sorted, double fraction) {
+  RADIOSLAM_CHECK(!sorted.empty() && fraction >= 0 && fraction <= 1,
+                  "a quantile needs values and a fraction in [0, 1]");
+  const double position = fraction * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(position);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  return sorted[below] + (position - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+}
+
+std::optional<ErrorStatistics> summarise_errors(std::vector<double> errors_m) {
+  if (errors_m.empty()) return std::nullopt;
+  std::sort(errors_m.begin(), errors_m.end());
+  ErrorStatistics statistics;
+  statistics.count = errors_m.size();
+  for (const double error : errors_m) {
+    statistics.mean_m += error;
+    statistics.rmse_m += error * error;
+  }
+  const auto count = static_cast<double>(errors_m.size());
+  statistics.mean_m /= count;
+  statistics.rmse_m = std::sqrt(statistics.rmse_m / count);
+  statistics.median_m = quantile(errors_m, 0.5);
+  statistics.p90_m = quantile(errors_m, 0.9);
+  return statistics;
+}
 
 TeamMetrics evaluate_trajectories(const std::vector<EstimatedTrajectory>& estimate, const Truth& truth,
                                   int dimension, Association association) {
@@ -164,7 +211,10 @@ TeamMetrics evaluate_trajectories(const std::vector<EstimatedTrajectory>& estima
     metrics.robots.push_back(std::move(robot));
   }
   metrics.ate = summarise_errors(std::move(errors));
-  metrics.share_within_3_sigma = share_within_3_sigma(metrics.robots);
+  metrics.consistency =
+      consistency(metrics.robots, dimension, &PointError::sigma_m, [](const auto&) { return true; });
+  metrics.team_consistency = consistency(metrics.robots, dimension, &PointError::sigma_team_m,
+                                         [](const PointError& error) { return error.at_keyframe; });
   metrics.coverage = poses == 0 ? 0 : covered / static_cast<double>(poses);
   return metrics;
 }

@@ -16,8 +16,8 @@ namespace radioslam {
 struct EstimatedTrajectory {
   std::string id;
   Trajectory<SE3> poses;
-  /// Stated standard deviation of each pose's position, as RobotResult::sigma_position_m; may be empty.
-  std::vector<double> sigma_position_m = {};
+  /// Stated standard deviation of each pose's position, as in RobotResult; may be empty.
+  std::vector<double> sigma_position_m = {}, sigma_team_m = {};
 };
 
 /// Association of an estimate with the truth.
@@ -35,12 +35,21 @@ struct ErrorStatistics {
   std::size_t count = 0;
 };
 
+/// Quantile of sorted values for a `fraction` in [0, 1], with linear interpolation (numpy's default). Needs
+/// one value.
+double quantile(const std::vector<double>& sorted, double fraction);
+
+/// Nothing if there are no errors.
+std::optional<ErrorStatistics> summarise_errors(std::vector<double> errors_m);
+
 /// Error of one position.
 struct PointError {
   Stamp stamp;
   double error_m = 0;
-  double along_m = 0;                  ///< path length along the truth
-  std::optional<double> sigma_m = {};  ///< stated standard deviation of the position, if there is one
+  double along_m = 0;                       ///< path length along the truth
+  std::optional<double> sigma_m = {};       ///< stated standard deviation of the position, if there is one
+  std::optional<double> sigma_team_m = {};  ///< the same in the gauge of the team, that of the error
+  bool at_keyframe = false;                 ///< the nearest one to a pose of the estimate
 };
 
 /// Relative pose error over consecutive compared poses (evo's default, one frame apart), pooled over the
@@ -49,6 +58,12 @@ struct RelativeError {
   double translation_rmse_m = 0;
   double rotation_rmse_rad = 0;
   std::size_t count = 0;
+};
+
+/// Errors over the standard deviations that were stated for them.
+struct Consistency {
+  double share_within_3_sigma = 0;
+  double mean_square = 0;  ///< of the errors over sigma, per axis: 1 where sigma holds
 };
 
 /// Metrics of one robot.
@@ -72,8 +87,10 @@ struct TeamMetrics {
   std::optional<RelativeError> rpe;  ///< absent if no truth has an orientation
   /// Absolute rotation error after the alignment, over the robots whose truth has an orientation.
   std::optional<double> rotation_rmse_rad;
-  /// Fraction of the errors within three stated standard deviations; absent if none are stated.
-  std::optional<double> share_within_3_sigma;
+  /// Of all errors, with the uncertainty relative to what holds the frame; absent if not stated.
+  std::optional<Consistency> consistency;
+  /// In the gauge of the team, of the errors at keyframes: those between them are of the interpolation, too.
+  std::optional<Consistency> team_consistency;
   double coverage = 0;  ///< fraction of the truth's poses that the estimate covers
   SE3 T_truth_estimate;
   std::vector<RobotMetrics> robots;

@@ -27,7 +27,8 @@ std::vector<EstimatedTrajectory> in_common_frame(std::vector<EstimatedTrajectory
 std::vector<EstimatedTrajectory> team_estimate(const std::vector<RobotResult>& robots,
                                                const RunResult& result) {
   std::vector<EstimatedTrajectory> team;
-  for (const auto& robot : robots) team.push_back({robot.id, robot.estimate, robot.sigma_position_m});
+  for (const auto& robot : robots)
+    team.push_back({robot.id, robot.estimate, robot.sigma_position_m, robot.sigma_team_m});
   return in_common_frame(std::move(team), result.components, result.unplaced);
 }
 

@@ -1,3 +1,5 @@
+#include <Eigen/LU>
+
 #include "radioslam/geometry/linear_algebra.hpp"
 
 namespace radioslam {
@@ -21,7 +23,13 @@ Eigen::Matrix<double, Jacobian::ColsAtCompileTime, Jacobian::ColsAtCompileTime> 
   return j.transpose() * w * j;
 }
 
+template <class Matrix>
+Matrix inverse(const Matrix& a) {
+  return a.inverse();
+}
+
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Matrix9 = Eigen::Matrix<double, 9, 9>;
 template <int Rows, int Columns>
 using Fixed = Eigen::Matrix<double, Rows, Columns>;
 
@@ -33,5 +41,11 @@ template Eigen::Matrix3d congruence(const Eigen::Matrix3d&, const Eigen::Matrix3
 template Matrix6 congruence(const Matrix6&, const Matrix6&, const Matrix6&);
 template Eigen::Matrix3d normal_matrix(const Eigen::Matrix3d&, const Eigen::Matrix3d&);
 template Matrix6 normal_matrix(const Matrix6&, const Matrix6&);
+template Eigen::Matrix2d inverse(const Eigen::Matrix2d&);
+template Eigen::Matrix3d inverse(const Eigen::Matrix3d&);
+template Matrix6 inverse(const Matrix6&);
+template Matrix9 inverse(const Matrix9&);
+template Eigen::MatrixXd inverse(const Eigen::MatrixXd&);
+template Eigen::MatrixXcd inverse(const Eigen::MatrixXcd&);
 
 }  // namespace radioslam

@@ -3,7 +3,6 @@ radioslam_room(geometry
     alignment.cpp
     linear_solve.cpp
     local_frame.cpp
-    matrix_inverse.cpp
     matrix_products.cpp
     se2.cpp
     se3.cpp

@@ -4,7 +4,7 @@
 //  - without absolute information (pose priors, positions), its first pose is held where it is;
 //  - with absolute information of too low a rank, the unobserved motions of its first pose are penalised
 //    in the normal equations' matrix, not in the gradient, which leaves the optimum where it is.
-// A range-only component has more freedom than a rigid body's; the optimiser's damping deals with that.
+// A range-only component has more freedom than a rigid body's; the optimizer's damping deals with that.
 #pragma once
 
 #include <vector>

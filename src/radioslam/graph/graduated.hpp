@@ -1,4 +1,4 @@
-// Graduated non-convexity (GNC): robust optimisation that does not depend on a good start. The surrogate of
+// Graduated non-convexity (GNC): robust optimization that does not depend on a good start. The surrogate of
 // the loss is nearly convex at first and becomes the loss as mu moves, each round a weighted least squares
 // problem. Source: Yang, Antonante, Tzoumas, Carlone 2020, Graduated non-convexity for robust spatial
 // perception. With s the squared Mahalanobis norm, c the factor's loss scale, per round:
@@ -23,18 +23,14 @@ struct GraduatedParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"mu_factor", "", 1.01, 10,
-                "factor by which the convexity parameter changes per round of graduated optimisation (Yang "
-                "et al. 2020)"},
-          self.mu_factor);
-    visit(Field{"max_rounds", "", 1, 10000, "largest number of rounds of graduated optimisation"},
-          self.max_rounds);
-    visit(Field{"steps_per_round", "", 1, 1000,
-                "largest number of linear solves per round of graduated optimisation, except the last"},
-          self.steps_per_round);
-    visit(Field{"settled_weight_gap", "", 0, 0.5,
-                "distance of all weights from 0 or 1 below which truncated graduated optimisation ends"},
-          self.settled_weight_gap);
+    RADIOSLAM_FIELD(mu_factor, "", 1.01, 10,
+                    "factor by which the convexity parameter changes per round of graduated optimization "
+                    "(Yang et al. 2020)");
+    RADIOSLAM_FIELD(max_rounds, "", 1, 10000, "largest number of rounds of graduated optimization");
+    RADIOSLAM_FIELD(steps_per_round, "", 1, 1000,
+                    "largest number of linear solves per round of graduated optimization, except the last");
+    RADIOSLAM_FIELD(settled_weight_gap, "", 0, 0.5,
+                    "distance of all weights from 0 or 1 below which truncated graduated optimization ends");
   }
 };
 

@@ -4,7 +4,6 @@
 
 #include "radioslam/graph/chordal.hpp"
 #include "radioslam/graph/optimizer.hpp"
-#include "radioslam/graph/spanning_tree.hpp"
 
 namespace radioslam {
 namespace {
@@ -32,6 +31,19 @@ class Choice {
 };
 
 }  // namespace
+
+template <class Pose>
+void initialise_from_spanning_tree(PoseGraph<Pose>& graph) {
+  for (const auto& [pose, from, factor] : breadth_first_tree(graph)) {
+    if (pose == from) continue;
+    const auto& f = graph.relative_poses[factor];
+    const bool forward = f.i.index() == from;
+    graph.poses[pose] = graph.poses[from] * (forward ? f.T_i_j : f.T_i_j.inverse());
+  }
+}
+
+template void initialise_from_spanning_tree(PoseGraph<SE2>&);
+template void initialise_from_spanning_tree(PoseGraph<SE3>&);
 
 template <class Pose>
 InitialCosts initialise(PoseGraph<Pose>& graph, GivenValues given) {

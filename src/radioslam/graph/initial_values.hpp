@@ -1,4 +1,4 @@
-// Initial values of an optimisation: the candidate with the lowest cost.
+// Initial values of an optimization: the candidate with the lowest cost.
 #pragma once
 
 #include <optional>
@@ -6,6 +6,14 @@
 #include "radioslam/graph/pose_graph.hpp"
 
 namespace radioslam {
+
+// Poses from relative measurements alone, by composing them along a breadth-first tree of every component.
+// Uses the fewest measurements per pose; no measurement is checked against another. Cost: linear.
+
+/// Sets graph.poses. Fixed poses and the first pose of a component without one keep their values, as do
+/// poses without relative measurements. Points and drifts are left as they are.
+template <class Pose>
+void initialise_from_spanning_tree(PoseGraph<Pose>& graph);
 
 /// Whether the graph's poses are an estimate or placeholders.
 enum class GivenValues { kComplete, kNone };

@@ -98,6 +98,28 @@ std::vector<typename Marginals<Pose>::PoseCovariance> Marginals<Pose>::relative_
   return result;
 }
 
+template <class Pose>
+std::vector<typename Marginals<Pose>::PoseColumns> Marginals<Pose>::with_functions(
+    const std::vector<PoseId>& of, const std::vector<PoseColumns>& coefficients) const {
+  RADIOSLAM_CHECK(of.size() == coefficients.size() && !of.empty(), "every pose has coefficients");
+  const Eigen::Index functions = coefficients.front().cols();
+  const auto rows = [&](PoseId i) -> std::optional<Eigen::Index> {
+    const std::int32_t block = equations_.blocks().of(variable(i));
+    if (block < 0) return std::nullopt;
+    return static_cast<Eigen::Index>(equations_.matrix().offset(static_cast<std::size_t>(block)));
+  };
+  Eigen::MatrixXd values =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(equations_.matrix().rows()), functions);
+  for (std::size_t k = 0; k < of.size(); ++k)
+    if (const auto row = rows(of[k])) values.middleRows<Pose::kDof>(*row) += coefficients[k];
+  for (Eigen::Index c = 0; c < functions && !equations_.empty(); ++c)
+    values.col(c) = equations_.cholesky().solve(values.col(c));
+  std::vector<PoseColumns> result(of.size(), PoseColumns::Zero(Pose::kDof, functions));
+  for (std::size_t k = 0; k < of.size(); ++k)
+    if (const auto row = rows(of[k])) result[k] = values.middleRows<Pose::kDof>(*row);
+  return result;
+}
+
 template class Marginals<SE2>;
 template class Marginals<SE3>;
 

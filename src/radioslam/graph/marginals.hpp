@@ -18,6 +18,7 @@ class Marginals {
  public:
   using PoseCovariance = typename Pose::Jacobian;
   using PointCovariance = Eigen::Matrix<double, Pose::kDim, Pose::kDim>;
+  using PoseColumns = Eigen::Matrix<double, Pose::kDof, Eigen::Dynamic>;
 
   /// Nothing when H is singular: something in the graph is not observed.
   static std::optional<Marginals> compute(const PoseGraph<Pose>& graph);
@@ -36,6 +37,10 @@ class Marginals {
   /// The same for all pairs of these poses, (0, 1), (0, 2), ..., (1, 2), ...: for many pairs, at the cost of
   /// one solution for each pose.
   std::vector<PoseCovariance> relative_poses(const std::vector<PoseId>& of) const;
+  /// Covariance of each of these poses with the linear functions sum_k coefficients[k]^T xi_k of all of them,
+  /// a column each: at the cost of one solution for each function.
+  std::vector<PoseColumns> with_functions(const std::vector<PoseId>& of,
+                                          const std::vector<PoseColumns>& coefficients) const;
 
  private:
   Marginals(NormalEquations<Pose> equations, std::optional<SelectedInverse> inverse, std::vector<Pose> poses)

@@ -28,33 +28,25 @@ struct OptimizerParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"max_iterations", "", 0, 1e6, "largest number of optimiser steps"}.basic(),
-          self.max_iterations);
-    visit(Field{"relative_cost_tolerance", "", 0, 1,
-                "relative cost decrease of a full step below which the optimiser stops"},
-          self.relative_cost_tolerance);
-    visit(Field{"absolute_cost_tolerance", "", 0, 1e6,
-                "absolute cost decrease of a full step below which the optimiser stops"},
-          self.absolute_cost_tolerance);
-    visit(Field{"nonmonotone_window", "", 0, 100,
-                "largest number of consecutive undamped steps that may stay above the best cost"},
-          self.nonmonotone_window);
-    visit(Field{"nonmonotone_growth", "", 1, 1e12,
-                "largest cost that undamped steps may reach, as a multiple of the best cost"},
-          self.nonmonotone_growth);
-    visit(Field{"first_damping", "", 1e-12, 1e6,
-                "damping after the first failed step, as a multiple of diag(H)"},
-          self.first_damping);
-    visit(Field{"damping_factor", "", 1.1, 1000,
-                "factor by which damping rises after a failed step and falls after a good one"},
-          self.damping_factor);
-    visit(Field{"negligible_damping", "", 0, 1, "damping below which a step counts as undamped"},
-          self.negligible_damping);
-    visit(Field{"max_damping", "", 1, 1e20, "damping beyond which the optimiser gives up"}, self.max_damping);
+    RADIOSLAM_BASIC_FIELD(max_iterations, "", 0, 1e6, "largest number of optimizer steps");
+    RADIOSLAM_FIELD(relative_cost_tolerance, "", 0, 1,
+                    "relative cost decrease of a full step below which the optimizer stops");
+    RADIOSLAM_FIELD(absolute_cost_tolerance, "", 0, 1e6,
+                    "absolute cost decrease of a full step below which the optimizer stops");
+    RADIOSLAM_FIELD(nonmonotone_window, "", 0, 100,
+                    "largest number of consecutive undamped steps that may stay above the best cost");
+    RADIOSLAM_FIELD(nonmonotone_growth, "", 1, 1e12,
+                    "largest cost that undamped steps may reach, as a multiple of the best cost");
+    RADIOSLAM_FIELD(first_damping, "", 1e-12, 1e6,
+                    "damping after the first failed step, as a multiple of diag(H)");
+    RADIOSLAM_FIELD(damping_factor, "", 1.1, 1000,
+                    "factor by which damping rises after a failed step and falls after a good one");
+    RADIOSLAM_FIELD(negligible_damping, "", 0, 1, "damping below which a step counts as undamped");
+    RADIOSLAM_FIELD(max_damping, "", 1, 1e20, "damping beyond which the optimizer gives up");
   }
 };
 
-/// How an optimisation ended.
+/// How an optimization ended.
 enum class Termination {
   kConverged,      ///< the last step changed the cost by less than the tolerance
   kMaxIterations,  ///< the estimate is the best seen, and may still improve
@@ -84,7 +76,7 @@ OptimizerSummary optimize(PoseGraph<Pose>& graph, const OptimizerParams& params,
 template <class Pose>
 class NormalEquations;
 
-/// The same with normal equations made for this graph's structure, for a row of optimisations that differ in
+/// The same with normal equations made for this graph's structure, for a row of optimizations that differ in
 /// values, weights and losses only.
 template <class Pose>
 OptimizerSummary optimize(PoseGraph<Pose>& graph, NormalEquations<Pose>& equations,

@@ -7,7 +7,6 @@ radioslam_room(graph
     initial_values.cpp
     linear/block_cholesky.cpp
     linear/block_matrix.cpp
-    linear/elimination_tree.cpp
     linear/front_elimination.cpp
     linear/front_kernels.cpp
     linear/front_kernels_avx2.cpp
@@ -15,7 +14,6 @@ radioslam_room(graph
     linear/front_solve.cpp
     linear/front_tree.cpp
     linear/number_store.cpp
-    linear/ordering.cpp
     linear/partitioned_inverse.cpp
     linear/selected_inverse.cpp
     linear/supernodes.cpp
@@ -25,10 +23,8 @@ radioslam_room(graph
     normal_equations.cpp
     optimizer.cpp
     pose_chart.cpp
-    pose_network_solver.cpp
-    relative_pose_network.cpp
     residuals.cpp
-    spanning_tree.cpp
+    team_gauge.cpp
   ROOMS geometry
   PRIVATE_LIBRARIES Metis::Metis Amd::Amd)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")

@@ -32,21 +32,16 @@ struct GravityAlignmentParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"window_s", "s", 0.2, 30,
-                "initial part of the odometry from which gravity is estimated; longer windows are slower but "
-                "more accurate"},
-          self.window_s);
-    visit(Field{"min_poses", "", 3, 1000,
-                "smallest number of poses in the window from which gravity is estimated"},
-          self.min_poses);
-    visit(Field{"sigma_position_m", "m", 1e-6, 10,
-                "standard deviation of the odometry's translation between successive poses"},
-          self.sigma_position_m);
-    visit(Field{"sigma_rotation_rad", "rad", 1e-6, 1, "standard deviation of the odometry's rotations"},
-          self.sigma_rotation_rad);
-    visit(Field{"max_gravity_error_mps2", "m/s^2", 0.01, 10,
-                "largest error of gravity's estimated magnitude; alignments beyond it are refused"},
-          self.max_gravity_error_mps2);
+    RADIOSLAM_FIELD(window_s, "s", 0.2, 30,
+                    "initial part of the odometry from which gravity is estimated; longer windows are slower "
+                    "but more accurate");
+    RADIOSLAM_FIELD(min_poses, "", 3, 1000,
+                    "smallest number of poses in the window from which gravity is estimated");
+    RADIOSLAM_FIELD(sigma_position_m, "m", 1e-6, 10,
+                    "standard deviation of the odometry's translation between successive poses");
+    RADIOSLAM_FIELD(sigma_rotation_rad, "rad", 1e-6, 1, "standard deviation of the odometry's rotations");
+    RADIOSLAM_FIELD(max_gravity_error_mps2, "m/s^2", 0.01, 10,
+                    "largest error of gravity's estimated magnitude; alignments beyond it are refused");
   }
 };
 

@@ -8,7 +8,7 @@
 #include "radioslam/base/stamp_intervals.hpp"
 #include "radioslam/base/statistics.hpp"
 #include "radioslam/geometry/so3.hpp"
-#include "radioslam/inertial/imu_intervals.hpp"
+#include "radioslam/inertial/preintegration.hpp"
 
 namespace radioslam {
 namespace {

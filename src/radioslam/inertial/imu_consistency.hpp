@@ -19,8 +19,8 @@
 #include "radioslam/base/fields.hpp"
 #include "radioslam/geometry/se3.hpp"
 #include "radioslam/geometry/trajectory.hpp"
-#include "radioslam/inertial/imu_noise.hpp"
-#include "radioslam/mission/inertial.hpp"
+#include "radioslam/inertial/preintegration.hpp"
+#include "radioslam/mission/mission.hpp"
 
 namespace radioslam {
 
@@ -39,36 +39,25 @@ struct ImuConsistencyParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"window_s", "s", 0.01, 100,
-                "duration over which rotations of gyroscope and scans are compared"},
-          self.window_s);
-    visit(Field{"force_window_s", "s", 0.01, 100, "duration over which the accelerometer is averaged"},
-          self.force_window_s);
-    visit(Field{"sigma_turn_rad", "rad", 1e-4, 1, "standard deviation of the rotation of a scan's pose"},
-          self.sigma_turn_rad);
-    visit(Field{"sigma_rotation_ratio", "", 0, 1,
-                "standard deviation of a rotation between scans as a fraction of its angle"},
-          self.sigma_rotation_ratio);
-    visit(Field{"sigmas", "", 1, 1000,
-                "standard deviations that rotation errors and the gyroscope bias may have; higher values "
-                "accept more"},
-          self.sigmas);
-    visit(Field{"min_rotation_windows", "", 1, 1e6,
-                "smallest number of windows with rotation; with fewer the gyroscope is not tested"},
-          self.min_rotation_windows);
-    visit(Field{"max_gravity_error_mps2", "m/s^2", 0.01, 100,
-                "largest difference between the mean specific force and gravity, in magnitude"},
-          self.max_gravity_error_mps2);
-    visit(
-        Field{"max_time_offset_s", "s", 0, 60, "largest time offset between IMU and scans that is searched"},
-        self.max_time_offset_s);
-    visit(Field{"time_offset_step_s", "s", 1e-3, 10, "step of the time offset search"},
-          self.time_offset_step_s);
-    visit(Field{"max_ignored_offset_s", "s", 0, 60, "time offset between IMU and scans that is tolerated"},
-          self.max_ignored_offset_s);
-    visit(Field{"max_ignored_offset_steps", "", 0, 100,
-                "tolerated time offset in intervals between poses, where that is larger"},
-          self.max_ignored_offset_steps);
+    RADIOSLAM_FIELD(window_s, "s", 0.01, 100,
+                    "duration over which rotations of gyroscope and scans are compared");
+    RADIOSLAM_FIELD(force_window_s, "s", 0.01, 100, "duration over which the accelerometer is averaged");
+    RADIOSLAM_FIELD(sigma_turn_rad, "rad", 1e-4, 1, "standard deviation of the rotation of a scan's pose");
+    RADIOSLAM_FIELD(sigma_rotation_ratio, "", 0, 1,
+                    "standard deviation of a rotation between scans as a fraction of its angle");
+    RADIOSLAM_FIELD(sigmas, "", 1, 1000,
+                    "standard deviations that rotation errors and the gyroscope bias may have; higher values "
+                    "accept more");
+    RADIOSLAM_FIELD(min_rotation_windows, "", 1, 1e6,
+                    "smallest number of windows with rotation; with fewer the gyroscope is not tested");
+    RADIOSLAM_FIELD(max_gravity_error_mps2, "m/s^2", 0.01, 100,
+                    "largest difference between the mean specific force and gravity, in magnitude");
+    RADIOSLAM_FIELD(max_time_offset_s, "s", 0, 60,
+                    "largest time offset between IMU and scans that is searched");
+    RADIOSLAM_FIELD(time_offset_step_s, "s", 1e-3, 10, "step of the time offset search");
+    RADIOSLAM_FIELD(max_ignored_offset_s, "s", 0, 60, "time offset between IMU and scans that is tolerated");
+    RADIOSLAM_FIELD(max_ignored_offset_steps, "", 0, 100,
+                    "tolerated time offset in intervals between poses, where that is larger");
   }
 };
 

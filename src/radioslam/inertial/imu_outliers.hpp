@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "radioslam/base/fields.hpp"
-#include "radioslam/mission/inertial.hpp"
+#include "radioslam/mission/mission.hpp"
 
 namespace radioslam {
 
@@ -26,24 +26,18 @@ struct ImuOutlierParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"max_force_mps2", "m/s^2", 20, 1e6,
-                "largest specific force that an IMU measures; the default is about 200 g"},
-          self.max_force_mps2);
-    visit(Field{"max_rate_radps", "rad/s", 1, 1e5, "largest angular rate that an IMU measures"},
-          self.max_rate_radps);
-    visit(Field{"max_jump_mps2", "m/s^2", 0, 1e6,
-                "largest plausible difference of a specific force from its neighbours' median"},
-          self.max_jump_mps2);
-    visit(Field{"max_jump_radps", "rad/s", 0, 1e5,
-                "largest plausible difference of an angular rate from its neighbours' median"},
-          self.max_jump_radps);
-    visit(Field{"max_jump_mads", "", 0, 1e6,
-                "median absolute deviations of the neighbours that are added to the largest plausible "
-                "differences"},
-          self.max_jump_mads);
-    visit(Field{"max_outlier_ratio", "", 0, 1,
-                "largest fraction of samples removed as outliers; with more, all samples are kept"},
-          self.max_outlier_ratio);
+    RADIOSLAM_FIELD(max_force_mps2, "m/s^2", 20, 1e6,
+                    "largest specific force that an IMU measures; the default is about 200 g");
+    RADIOSLAM_FIELD(max_rate_radps, "rad/s", 1, 1e5, "largest angular rate that an IMU measures");
+    RADIOSLAM_FIELD(max_jump_mps2, "m/s^2", 0, 1e6,
+                    "largest plausible difference of a specific force from its neighbours' median");
+    RADIOSLAM_FIELD(max_jump_radps, "rad/s", 0, 1e5,
+                    "largest plausible difference of an angular rate from its neighbours' median");
+    RADIOSLAM_FIELD(
+        max_jump_mads, "", 0, 1e6,
+        "median absolute deviations of the neighbours that are added to the largest plausible differences");
+    RADIOSLAM_FIELD(max_outlier_ratio, "", 0, 1,
+                    "largest fraction of samples removed as outliers; with more, all samples are kept");
   }
 };
 

@@ -1,7 +1,7 @@
 #include "radioslam/inertial/inertial_filter.hpp"
 
 #include "radioslam/geometry/linear_algebra.hpp"
-#include "radioslam/inertial/motion_prediction.hpp"
+#include "radioslam/inertial/preintegration.hpp"
 
 namespace radioslam {
 namespace {

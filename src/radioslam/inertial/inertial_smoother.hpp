@@ -1,7 +1,7 @@
 // Batch smoother of one robot's states from poses on a map (measured by scan matching, say) and IMU samples.
 //
 // Least squares of state_factors.hpp over the whole drive by damped Gauss-Newton on the chain
-// (state_chain.hpp), initialised by the filter (inertial_filter.hpp); afterwards the IMU is preintegrated
+// (below), initialised by the filter (inertial_filter.hpp); afterwards the IMU is preintegrated
 // again with the estimated biases and the minimisation repeated. Motion that the poses do not constrain -
 // along a featureless corridor, or roll and pitch after a long distance - follows the IMU.
 //
@@ -11,15 +11,60 @@
 // Cost: linear in states and IMU samples, some 60 us per state and step.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
 #include "radioslam/base/fields.hpp"
 #include "radioslam/geometry/uncertain_pose.hpp"
-#include "radioslam/inertial/state_chain.hpp"
+#include "radioslam/inertial/preintegration.hpp"
 #include "radioslam/inertial/state_factors.hpp"
 
 namespace radioslam {
+
+// Block tridiagonal normal equations of a chain of states: Cholesky solution, and covariances of all states.
+//
+//   H = L L^T, L_k = chol(H_k - C_k C_k^T), C_(k+1) = B_k L_k^-T            B_k: row k + 1, column k of H
+//   x_k given x_(k+1):  S_k,m = G_k S_(k+1),m for m > k,  G_k = -L_k^-T C_(k+1)^T
+//   S_k,k = (L_k L_k^T)^-1 + G_k S_(k+1),(k+1) G_k^T
+// Cost: some 21 x 21 products per state; a cross-covariance takes one per state in between.
+
+/// Symmetric H, stored as diagonal and lower blocks.
+struct ChainMatrix {
+  std::vector<InertialState::Jacobian> diagonal;
+  std::vector<InertialState::Jacobian> below;  ///< [k]: row k + 1, column k; one block fewer
+};
+
+/// The covariances of a chain's states.
+class ChainCovariance {
+ public:
+  ChainCovariance(std::vector<InertialState::Jacobian> of_states,
+                  std::vector<InertialState::Jacobian> by_next)
+      : of_states_(std::move(of_states)), by_next_(std::move(by_next)) {}
+
+  std::size_t size() const { return of_states_.size(); }
+  const InertialState::Jacobian& of(std::size_t k) const { return of_states_[k]; }
+  /// G_k: regression of state k's deviation on that of state k + 1.
+  const InertialState::Jacobian& by_next(std::size_t k) const { return by_next_[k]; }
+  /// Cross-covariance of state i with state j, i <= j.
+  InertialState::Jacobian between(std::size_t i, std::size_t j) const;
+
+ private:
+  std::vector<InertialState::Jacobian> of_states_, by_next_;
+};
+
+class ChainFactor {
+ public:
+  /// Factor of H + damping * diag(H); nothing if that is not positive definite.
+  static std::optional<ChainFactor> compute(const ChainMatrix& matrix, double damping);
+
+  /// H^-1 b.
+  std::vector<InertialState::Tangent> solve(std::vector<InertialState::Tangent> b) const;
+  ChainCovariance covariance() const;
+
+ private:
+  std::vector<InertialState::Jacobian> lower_, coupling_;  ///< L_k, C_(k+1)
+};
 
 struct InertialSmootherParams {
   double sigma_start_m = 1e-3;
@@ -36,37 +81,28 @@ struct InertialSmootherParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"sigma_start_m", "m", 1e-6, 100,
-                "prior standard deviation of the first position, the frame's origin"},
-          self.sigma_start_m);
-    visit(Field{"sigma_start_yaw_rad", "rad", 1e-7, 3, "prior standard deviation of the first heading"},
-          self.sigma_start_yaw_rad);
-    visit(Field{"sigma_start_tilt_rad", "rad", 1e-4, 3,
-                "prior standard deviation of the first roll and pitch; weak, because the IMU observes them"},
-          self.sigma_start_tilt_rad);
-    visit(Field{"sigma_start_velocity_mps", "m/s", 1e-3, 1000,
-                "prior standard deviation of the first velocity"},
-          self.sigma_start_velocity_mps);
-    visit(Field{"sigma_start_map_m", "m", 1e-3, 1e6,
-                "prior standard deviation of the map's initial position, where the first scan does not "
-                "observe it"},
-          self.sigma_start_map_m);
-    visit(Field{"sigma_start_map_rad", "rad", 1e-3, 100,
-                "prior standard deviation of the map's initial orientation, where the first scan does not "
-                "observe it"},
-          self.sigma_start_map_rad);
-    visit(Field{"max_iterations", "", 1, 1000, "largest number of iterations of the smoother"},
-          self.max_iterations);
-    visit(Field{"cost_tolerance", "", 1e-12, 1,
-                "predicted cost decrease below which the smoother has converged"},
-          self.cost_tolerance);
-    visit(Field{"first_damping", "", 1e-12, 1, "damping after the first failed step, as a factor on diag(H)"},
-          self.first_damping);
-    visit(Field{"damping_factor", "", 1.1, 1000,
-                "factor on the damping after a failed step, and its divisor after a successful one"},
-          self.damping_factor);
-    visit(Field{"max_damping", "", 1e-3, 1e10, "damping beyond which the smoother gives up"},
-          self.max_damping);
+    RADIOSLAM_FIELD(sigma_start_m, "m", 1e-6, 100,
+                    "prior standard deviation of the first position, the frame's origin");
+    RADIOSLAM_FIELD(sigma_start_yaw_rad, "rad", 1e-7, 3, "prior standard deviation of the first heading");
+    RADIOSLAM_FIELD(
+        sigma_start_tilt_rad, "rad", 1e-4, 3,
+        "prior standard deviation of the first roll and pitch; weak, because the IMU observes them");
+    RADIOSLAM_FIELD(sigma_start_velocity_mps, "m/s", 1e-3, 1000,
+                    "prior standard deviation of the first velocity");
+    RADIOSLAM_FIELD(
+        sigma_start_map_m, "m", 1e-3, 1e6,
+        "prior standard deviation of the map's initial position, where the first scan does not observe it");
+    RADIOSLAM_FIELD(sigma_start_map_rad, "rad", 1e-3, 100,
+                    "prior standard deviation of the map's initial orientation, where the first scan does "
+                    "not observe it");
+    RADIOSLAM_FIELD(max_iterations, "", 1, 1000, "largest number of iterations of the smoother");
+    RADIOSLAM_FIELD(cost_tolerance, "", 1e-12, 1,
+                    "predicted cost decrease below which the smoother has converged");
+    RADIOSLAM_FIELD(first_damping, "", 1e-12, 1,
+                    "damping after the first failed step, as a factor on diag(H)");
+    RADIOSLAM_FIELD(damping_factor, "", 1.1, 1000,
+                    "factor on the damping after a failed step, and its divisor after a successful one");
+    RADIOSLAM_FIELD(max_damping, "", 1e-3, 1e10, "damping beyond which the smoother gives up");
   }
 };
 

@@ -29,10 +29,9 @@ struct OdometryNoiseInflationParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"max_span_s", "s", 0, 1e6,
-                "longest span over which odometry noise is inflated to add up to the smoothed states' "
-                "covariance"},
-          self.max_span_s);
+    RADIOSLAM_FIELD(
+        max_span_s, "s", 0, 1e6,
+        "longest span over which odometry noise is inflated to add up to the smoothed states' covariance");
   }
 };
 

@@ -1,11 +1,38 @@
 #include "radioslam/inertial/preintegration.hpp"
 
+#include <algorithm>
+
 #include "radioslam/base/check.hpp"
 #include "radioslam/geometry/so3.hpp"
-#include "radioslam/inertial/imu_intervals.hpp"
 
 namespace radioslam {
 namespace {
+
+using SampleIterator = std::vector<ImuSample>::const_iterator;
+
+/// The first sample after `stamp`.
+SampleIterator first_after(const std::vector<ImuSample>& samples, Stamp stamp) {
+  return std::upper_bound(samples.begin(), samples.end(), stamp,
+                          [](Stamp s, const ImuSample& sample) { return s < sample.stamp; });
+}
+
+/// The interpolated sample at `stamp`; nothing if its neighbours are too far apart.
+std::optional<ImuSample> sample_at(const std::vector<ImuSample>& samples, Stamp stamp, double max_gap_s) {
+  const auto after = first_after(samples, stamp);
+  const ImuSample& b = after == samples.end() ? samples.back() : *after;
+  const ImuSample& a = after == samples.begin() ? samples.front() : *(after - 1);
+  const double gap = seconds_between(std::min(a.stamp, stamp), std::max(b.stamp, stamp));
+  if (stamp != a.stamp && gap > max_gap_s) return std::nullopt;
+  const double fraction =
+      a.stamp < b.stamp ? seconds_between(a.stamp, stamp) / seconds_between(a.stamp, b.stamp) : 0;
+  return ImuSample{stamp, a.specific_force_mps2 + fraction * (b.specific_force_mps2 - a.specific_force_mps2),
+                   a.angular_rate_radps + fraction * (b.angular_rate_radps - a.angular_rate_radps)};
+}
+
+ImuInterval between(const ImuSample& a, const ImuSample& b) {
+  return {seconds_between(a.stamp, b.stamp), 0.5 * (a.angular_rate_radps + b.angular_rate_radps),
+          0.5 * (a.specific_force_mps2 + b.specific_force_mps2)};
+}
 
 using ErrorByError = Preintegration::Covariance;
 using ErrorByReading = Eigen::Matrix<double, 9, 6>;  // [rate; force]
@@ -60,6 +87,41 @@ void append_interval(Preintegration& sum, double dt, const Eigen::Vector3d& rate
 
 }  // namespace
 
+std::optional<std::vector<ImuInterval>> imu_intervals(const std::vector<ImuSample>& samples, Stamp from,
+                                                      Stamp to, double max_gap_s) {
+  RADIOSLAM_CHECK(from <= to, "the motion runs forward in time");
+  if (samples.empty()) return std::nullopt;
+  const auto first = sample_at(samples, from, max_gap_s), last = sample_at(samples, to, max_gap_s);
+  if (!first || !last) return std::nullopt;
+  std::vector<ImuInterval> intervals;
+  ImuSample before = *first;
+  for (auto next = first_after(samples, from); next != samples.end() && next->stamp < to; ++next) {
+    if (seconds_between(before.stamp, next->stamp) > max_gap_s) return std::nullopt;
+    intervals.push_back(between(before, *next));
+    before = *next;
+  }
+  if (seconds_between(before.stamp, to) > max_gap_s) return std::nullopt;
+  if (before.stamp < to) intervals.push_back(between(before, *last));
+  return intervals;
+}
+
+InertialState InertialState::moved_by(const Tangent& step) const {
+  return {T_world_body * SE3::exp(step.head<SE3::kDof>()),
+          velocity_mps + step.segment<3>(kVelocity),
+          {bias.gyroscope_radps + step.segment<3>(kGyroscope),
+           bias.accelerometer_mps2 + step.segment<3>(kAccelerometer)},
+          T_map_world * SE3::exp(step.segment<SE3::kDof>(kMap))};
+}
+
+InertialState::Tangent InertialState::step_to(const InertialState& there) const {
+  Tangent step;
+  step << (T_world_body.inverse() * there.T_world_body).log(), there.velocity_mps - velocity_mps,
+      there.bias.gyroscope_radps - bias.gyroscope_radps,
+      there.bias.accelerometer_mps2 - bias.accelerometer_mps2,
+      (T_map_world.inverse() * there.T_map_world).log();
+  return step;
+}
+
 void FreeMotion::append(double duration, const Eigen::Vector3d& rate_radps,
                         const Eigen::Vector3d& force_mps2) {
   const Eigen::Vector3d turn = rate_radps * duration;
@@ -90,6 +152,37 @@ std::optional<Preintegration> preintegrate(const std::vector<ImuSample>& samples
     append_interval(sum, interval.duration_s, interval.angular_rate_radps - bias.gyroscope_radps,
                     interval.specific_force_mps2 - bias.accelerometer_mps2, params);
   return sum;
+}
+
+InertialState state_after(const InertialState& state, const FreeMotion& motion,
+                          const ImuNoiseParams& params) {
+  const SE3& T = state.T_world_body;
+  const double t = motion.duration_s;
+  const Eigen::Vector3d g = params.gravity();
+  const Eigen::Vector3d position =
+      T.translation() + t * state.velocity_mps + 0.5 * t * t * g + T.rotate(motion.position_m);
+  return {SE3(position, T.rotation() * motion.rotation),
+          state.velocity_mps + t * g + T.rotate(motion.velocity_mps), state.bias, state.T_map_world};
+}
+
+std::optional<std::vector<InertialState>> predict_motion(const InertialState& state, Stamp start,
+                                                         const std::vector<ImuSample>& samples,
+                                                         const std::vector<Stamp>& stamps,
+                                                         const ImuNoiseParams& params) {
+  std::vector<InertialState> states;
+  FreeMotion motion;
+  Stamp reached = start;
+  for (const Stamp stamp : stamps) {
+    RADIOSLAM_CHECK(reached <= stamp, "the times do not decrease");
+    const auto intervals = imu_intervals(samples, reached, stamp, params.max_gap_s);
+    if (!intervals) return std::nullopt;
+    for (const ImuInterval& interval : *intervals)
+      motion.append(interval.duration_s, interval.angular_rate_radps - state.bias.gyroscope_radps,
+                    interval.specific_force_mps2 - state.bias.accelerometer_mps2);
+    states.push_back(state_after(state, motion, params));
+    reached = stamp;
+  }
+  return states;
 }
 
 }  // namespace radioslam

@@ -5,7 +5,7 @@
 //                    beyond c standard deviations a squared norm s counts as c^2 (1 + log(s / c^2)), so that
 //                    a wrong registration pulls less the further it is off
 //   map drift        Log(T_i^-1 M_i^-1 M_j T_i): the map deforms as it grows
-//   IMU              inertial_factor.hpp
+//   IMU              the preintegrated motion, below
 //   biases           b_j - b_i, with the random walk's variance
 //   velocity         v_j - v_i where IMU samples are missing, so that it stays determined
 //
@@ -15,9 +15,33 @@
 #include <limits>
 #include <optional>
 
-#include "radioslam/inertial/inertial_factor.hpp"
+#include "radioslam/inertial/preintegration.hpp"
 
 namespace radioslam {
+
+// Preintegrated IMU factor between two states (Forster et al. 2017, eq. 45):
+//
+//   position   R_i^T (p_j - p_i - v_i t - g t^2 / 2) - position(b_i)
+//   rotation   Log(rotation(b_i)^T R_i^T R_j)
+//   velocity   R_i^T (v_j - v_i - g t) - velocity(b_i)
+//
+// Order and covariance as in preintegration.hpp. The bias is the first state's; its random walk is another
+// factor. Jacobians are for the tangents of preintegration.hpp.
+
+using InertialResidual = Preintegration::Error;
+using InertialResidualByState =
+    Eigen::Matrix<double, InertialResidual::RowsAtCompileTime, InertialState::kDof>;
+
+struct LinearInertialFactor {
+  InertialResidual residual;
+  InertialResidualByState by_i, by_j;
+};
+
+InertialResidual inertial_residual(const InertialState& i, const InertialState& j,
+                                   const Preintegration& measured, const ImuNoiseParams& params);
+
+LinearInertialFactor linearise_inertial(const InertialState& i, const InertialState& j,
+                                        const Preintegration& measured, const ImuNoiseParams& params);
 
 struct StatePrior {
   InertialState mean;

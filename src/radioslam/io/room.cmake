@@ -2,41 +2,29 @@ radioslam_room(io
   SOURCES
     csi/csi_band.cpp
     csi/csi_capture.cpp
-    csi/csi_folder.cpp
     csi/csi_yaml.cpp
     csi/esp32_csi.cpp
     csi/esp32_line.cpp
-    csi/esp32_training.cpp
     csi/intel5300.cpp
-    csi/intel5300_write.cpp
     csi/nexmon_csi.cpp
-    csi/nexmon_record.cpp
     datasets/dpgo.cpp
     datasets/indoor_location.cpp
     datasets/wifi_rtt.cpp
     datasets/wifine.cpp
     datasets/wsr_results.cpp
     datasets/wsr_trial.cpp
-    graph/g2o_information.cpp
     graph/g2o_read.cpp
     graph/g2o_team.cpp
-    graph/g2o_vertex_pass.cpp
     graph/g2o_vertices.cpp
     graph/g2o_write.cpp
-    graph/information.cpp
     graph/jrl.cpp
-    graph/jrl_object.cpp
     graph/pyfg.cpp
-    graph/pyfg_vertices.cpp
     graph/team_assembly.cpp
     graph/team_graph_file.cpp
     lidar/carmen.cpp
-    lidar/kitti_poses.cpp
     lidar/kitti_sequence.cpp
     lidar/lidar_folder.cpp
-    lidar/lzf.cpp
     lidar/pcd.cpp
-    lidar/pcd_header.cpp
     lidar/point_table.cpp
     lidar/point_times.cpp
     mission/anchor_tables.cpp
@@ -45,44 +33,29 @@ radioslam_room(io
     mission/mission_yaml_write.cpp
     mission/robot_tables.cpp
     mission/team_tables.cpp
-    mission/team_tables_write.cpp
     mission/truth_labels.cpp
     mission/tum.cpp
-    ros/fixed_transforms.cpp
-    ros/frame_tree.cpp
     ros/mcap.cpp
-    ros/moving_transforms.cpp
+    ros/transforms.cpp
     ros/ros1_bag.cpp
-    ros/ros_body_frame.cpp
     ros/ros_collector.cpp
     ros/ros_database.cpp
     ros/ros_import.cpp
-    ros/ros_message.cpp
     ros/ros_recording.cpp
-    ros/ros_scans.cpp
-    ros/ros_topic_index.cpp
     ros/ros_topics.cpp
     ros/ros_types.cpp
     run/metrics_json.cpp
-    run/run_folder_read.cpp
-    run/run_folder_write.cpp
+    run/run_folder.cpp
     run/run_tables.cpp
     text/atomic_output.cpp
-    text/bzip2.cpp
     text/compressed_text.cpp
     text/csv.cpp
-    text/csv_files.cpp
-    text/gzip.cpp
     text/line_fields.cpp
-    text/lz4.cpp
     text/mac_address.cpp
-    text/mapped_file.cpp
     text/numbers.cpp
     text/text.cpp
-    text/time_order.cpp
-    text/valid_id.cpp
+    text/skipped_records.cpp
     text/yaml_map.cpp
-    text/zstd_text.cpp
     wifi/airodump_csv.cpp
     wifi/iw_ftm.cpp
     wifi/iw_scan.cpp
@@ -91,7 +64,6 @@ radioslam_room(io
     wifi/nmcli_list.cpp
     wifi/pcap.cpp
     wifi/phone_log.cpp
-    wifi/radiotap.cpp
     wifi/wifi_capture.cpp
     wifi/wifi_csv.cpp
     wifi/wifi_log.cpp

@@ -17,16 +17,12 @@ struct AccessPointStageParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"enabled", "", 0, 0, "whether positions of access points are estimated"}.basic(),
-          self.enabled);
-    visit(Field{"signals", "", 0, 1000,
-                "number of access points, strongest first, whose signal strength is reported over time"},
-          self.signals);
-    visit(
-        Field{
-            "min_detection", "", 0, 1,
-            "smallest detection rate of a reading within its fingerprint; higher values drop weak readings"},
-        self.min_detection);
+    RADIOSLAM_BASIC_FIELD(enabled, "", 0, 0, "whether positions of access points are estimated");
+    RADIOSLAM_FIELD(signals, "", 0, 1000,
+                    "number of access points, strongest first, whose signal strength is reported over time");
+    RADIOSLAM_FIELD(
+        min_detection, "", 0, 1,
+        "smallest detection rate of a reading within its fingerprint; higher values drop weak readings");
     AccessPointParams::visit_fields(self.fit, visit);
   }
 };

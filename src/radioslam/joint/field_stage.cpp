@@ -4,8 +4,8 @@
 #include <cstddef>
 
 #include "radioslam/geometry/alignment.hpp"
-#include "radioslam/team_frame/fingerprint_bodies.hpp"
-#include "radioslam/team_frame/layout_outliers.hpp"
+#include "radioslam/team_frame/field_refinement.hpp"
+#include "radioslam/team_frame/fingerprint_layout.hpp"
 
 namespace radioslam {
 namespace {
@@ -25,20 +25,20 @@ std::vector<std::size_t> nodes_of(const RadioMeasurements& radio, const std::vec
   return kept;
 }
 
-/// Every robot's odometry as a rigid body, aligned with its optimised trajectory.
+/// Every robot's odometry as a rigid body, aligned with its optimized trajectory.
 template <class Pose>
 std::vector<RigidBody> bodies_of(const JointGraph<Pose>& joint, const Mission& mission,
                                  const KnownStarts& starts, const RadioMeasurements& radio,
                                  const std::vector<std::size_t>& nodes) {
   std::vector<RigidBody> bodies = fingerprint_bodies(mission, starts, radio, nodes);
   for (RigidBody& body : bodies) {
-    Eigen::Matrix2Xd optimised(2, body.points.cols());
-    for (Eigen::Index k = 0; k < optimised.cols(); ++k) {
+    Eigen::Matrix2Xd optimized(2, body.points.cols());
+    for (Eigen::Index k = 0; k < optimized.cols(); ++k) {
       const std::size_t node = nodes[body.first_node + static_cast<std::size_t>(k)];
-      optimised.col(k) = place(joint, fingerprint_anchor(joint, radio, node)).template head<2>();
+      optimized.col(k) = place(joint, fingerprint_anchor(joint, radio, node)).template head<2>();
     }
-    if (optimised.cols() == 1) body.T_layout_body = SE2(optimised.col(0) - body.points.col(0), 0);
-    if (optimised.cols() > 1) body.T_layout_body = align_points(body.points, optimised);
+    if (optimized.cols() == 1) body.T_layout_body = SE2(optimized.col(0) - body.points.col(0), 0);
+    if (optimized.cols() > 1) body.T_layout_body = align_points(body.points, optimized);
   }
   return bodies;
 }
@@ -74,22 +74,22 @@ void reset_layout_distances(JointGraph<Pose>& joint, std::vector<FingerprintClos
 
 template <class Pose>
 bool refine_by_radio_field(JointGraph<Pose>& joint, const Mission& mission, const KnownStarts& starts,
-                           const RadioMeasurements& radio, const TeamPlacement<Pose>& placement,
+                           const RadioMeasurements& radio, const TeamAlignment<Pose>& alignment,
                            std::vector<FingerprintClosure>& closures, const FieldParams& params,
                            const Progress& progress) {
   if (!params.enabled ||
       std::none_of(closures.begin(), closures.end(), [](const auto& c) { return c.keeps_layout; }))
     return false;
   std::vector<SE2> moves(mission.robots.size());
-  const int components = 1 + *std::max_element(placement.component.begin(), placement.component.end());
+  const int components = 1 + *std::max_element(alignment.component.begin(), alignment.component.end());
   for (int c = 0; c < components; ++c) {
     report_progress(progress, "radio field", static_cast<double>(c) / components);
-    const auto nodes = nodes_of(radio, placement.component, c, params.max_nodes);
+    const auto nodes = nodes_of(radio, alignment.component, c, params.max_nodes);
     std::vector<RigidBody> bodies = bodies_of(joint, mission, starts, radio, nodes);
     const std::vector<RigidBody> before = bodies;
     refine(bodies, radio, nodes, params);
     for (std::size_t r = 0; r < bodies.size(); ++r)
-      if (placement.component[r] == c) moves[r] = bodies[r].T_layout_body * before[r].T_layout_body.inverse();
+      if (alignment.component[r] == c) moves[r] = bodies[r].T_layout_body * before[r].T_layout_body.inverse();
   }
   place_robots(joint, moves);
   reset_layout_distances(joint, closures);
@@ -97,10 +97,10 @@ bool refine_by_radio_field(JointGraph<Pose>& joint, const Mission& mission, cons
 }
 
 template bool refine_by_radio_field(JointGraph<SE2>&, const Mission&, const KnownStarts&,
-                                    const RadioMeasurements&, const TeamPlacement<SE2>&,
+                                    const RadioMeasurements&, const TeamAlignment<SE2>&,
                                     std::vector<FingerprintClosure>&, const FieldParams&, const Progress&);
 template bool refine_by_radio_field(JointGraph<SE3>&, const Mission&, const KnownStarts&,
-                                    const RadioMeasurements&, const TeamPlacement<SE3>&,
+                                    const RadioMeasurements&, const TeamAlignment<SE3>&,
                                     std::vector<FingerprintClosure>&, const FieldParams&, const Progress&);
 
 }  // namespace radioslam

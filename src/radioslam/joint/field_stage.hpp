@@ -6,17 +6,17 @@
 
 #include "radioslam/base/progress.hpp"
 #include "radioslam/joint/joint_graph.hpp"
-#include "radioslam/joint/team_placement.hpp"
+#include "radioslam/joint/team_alignment.hpp"
 #include "radioslam/team_frame/field_refinement.hpp"
 
 namespace radioslam {
 
-/// Moves robots of unknown start rigidly, from their optimised trajectories, component by component.
+/// Moves robots of unknown start rigidly, from their optimized trajectories, component by component.
 /// Distances of layout closures, in the graph and in `closures`, become those between the new positions.
 /// `closures` are those of the graph, in order. False if there is nothing to refine.
 template <class Pose>
 bool refine_by_radio_field(JointGraph<Pose>& joint, const Mission& mission, const KnownStarts& starts,
-                           const RadioMeasurements& radio, const TeamPlacement<Pose>& placement,
+                           const RadioMeasurements& radio, const TeamAlignment<Pose>& alignment,
                            std::vector<FingerprintClosure>& closures, const FieldParams& params,
                            const Progress& progress);
 

@@ -3,12 +3,16 @@
 #include <algorithm>
 
 #include "radioslam/geometry/linear_algebra.hpp"
-#include "radioslam/joint/level_priors.hpp"
-#include "radioslam/joint/radio_factors.hpp"
+#include "radioslam/joint/links/radio_factors.hpp"
 #include "radioslam/joint/robot_nodes.hpp"
 #include "radioslam/mission/odometry_edge.hpp"
 
 namespace radioslam {
+std::size_t count_factors(const std::vector<FactorOrigin>& origins, FactorSource source) {
+  return static_cast<std::size_t>(std::count_if(
+      origins.begin(), origins.end(), [&](const FactorOrigin& origin) { return origin.source == source; }));
+}
+
 namespace {
 
 constexpr double kMinSigmaDistance_m = 1;  // lower bound on the error of a predicted distance
@@ -36,8 +40,8 @@ DriftId add_drift(PoseGraph<Pose>& graph, const Robot& robot, const JointGraphPa
 }
 
 template <class Pose>
-TrajectorySegment add_odometry(JointGraph<Pose>& joint, RobotIndex index, const Robot& robot,
-                               const RobotNodes& nodes, DriftId drift) {
+TrajectorySegment add_trajectory(JointGraph<Pose>& joint, RobotIndex index, const Robot& robot,
+                                 const RobotNodes& nodes, DriftId drift) {
   PoseGraph<Pose>& graph = joint.team.graph;
   TrajectorySegment segment{robot.id,
                             graph.poses.size(),
@@ -46,22 +50,9 @@ TrajectorySegment add_odometry(JointGraph<Pose>& joint, RobotIndex index, const 
                             robot.heading == Heading::kAbsolute ? robot.sigma_heading_rad : 0,
                             robot.initial_pose.has_value()};
   const Pose T_frame_start = pose_as<Pose>(common_from_start(robot).value_or(SE3()));
-  for (std::size_t n = 0; n < nodes.rows.size(); ++n) {
-    graph.poses.push_back(T_frame_start * pose_as<Pose>(nodes.odometry[nodes.rows[n]].pose));
-    if (n == 0) continue;
-    const auto edge =
-        odometry_edge<Pose>(nodes.odometry, nodes.rows[n - 1], nodes.rows[n], robot.odometry_noise);
-    RelativePoseFactor<Pose> factor;
-    factor.i = PoseId(segment.first_pose + n - 1);
-    factor.j = PoseId(segment.first_pose + n);
-    factor.T_i_j = edge.T_i_j;
-    factor.information = inverse(edge.covariance);
-    factor.drift = drift;
-    factor.drift_jacobian =
-        -edge.drift_jacobian;  // the odometry contains the drift, the true motion does not
-    add_factor(joint, factor,
-               {FactorSource::kOdometry, n - 1, index, index, nodes.stamps[n - 1], nodes.stamps[n]});
-  }
+  for (const std::size_t row : nodes.rows)
+    graph.poses.push_back(T_frame_start * pose_as<Pose>(nodes.odometry[row].pose));
+  add_odometry(joint, index, robot, nodes, segment.first_pose, drift);
   return segment;
 }
 
@@ -115,6 +106,25 @@ std::optional<SE3> common_from_start(const Robot& robot) {
 }
 
 template <class Pose>
+void add_odometry(JointGraph<Pose>& joint, RobotIndex index, const Robot& robot, const RobotNodes& nodes,
+                  std::size_t first_pose, DriftId drift) {
+  for (std::size_t n = 1; n < nodes.rows.size(); ++n) {
+    const auto edge =
+        odometry_edge<Pose>(nodes.odometry, nodes.rows[n - 1], nodes.rows[n], robot.odometry_noise);
+    RelativePoseFactor<Pose> factor;
+    factor.i = PoseId(first_pose + n - 1);
+    factor.j = PoseId(first_pose + n);
+    factor.T_i_j = edge.T_i_j;
+    factor.information = inverse(edge.covariance);
+    factor.drift = drift;
+    factor.drift_jacobian =
+        -edge.drift_jacobian;  // the odometry contains the drift, the true motion does not
+    add_factor(joint, factor,
+               {FactorSource::kOdometry, n - 1, index, index, nodes.stamps[n - 1], nodes.stamps[n]});
+  }
+}
+
+template <class Pose>
 JointGraph<Pose> build_joint_graph(const Mission& mission, const KeyframeParams& keyframes,
                                    const JointGraphParams& params,
                                    std::vector<std::vector<Stamp>> node_stamps) {
@@ -126,7 +136,7 @@ JointGraph<Pose> build_joint_graph(const Mission& mission, const KeyframeParams&
     const Robot& robot = mission.robots[r];
     nodes.push_back(select_nodes(robot.odometry, node_stamps[r], keyframe_rule(robot, keyframes)));
     const DriftId drift = add_drift(joint.team.graph, robot, params);
-    joint.team.segments.push_back(add_odometry(joint, RobotIndex(r), robot, nodes.back(), drift));
+    joint.team.segments.push_back(add_trajectory(joint, RobotIndex(r), robot, nodes.back(), drift));
     const std::size_t first_pose = joint.team.segments.back().first_pose;
     joint.robots.push_back(joint_robot(robot, nodes.back(), first_pose, drift));
     joint.robot_of_segment.push_back(r);
@@ -203,14 +213,16 @@ void add_fingerprint_closures(JointGraph<Pose>& joint, const RadioMeasurements& 
   }
 }
 
-#define RADIOSLAM_JOINT_GRAPH(Pose)                                                                     \
-  template JointGraph<Pose> build_joint_graph<Pose>(                                                    \
-      const Mission&, const KeyframeParams&, const JointGraphParams&, std::vector<std::vector<Stamp>>); \
-  template PoseId pose_at(const JointGraph<Pose>&, RobotIndex, Stamp);                                  \
-  template void place_robots(JointGraph<Pose>&, const std::vector<SE2>&);                               \
-  template RangeEnd<Pose> fingerprint_anchor(const JointGraph<Pose>&, const RadioMeasurements&,         \
-                                             std::size_t);                                              \
-  template void add_fingerprint_closures(JointGraph<Pose>&, const RadioMeasurements&,                   \
+#define RADIOSLAM_JOINT_GRAPH(Pose)                                                                       \
+  template JointGraph<Pose> build_joint_graph<Pose>(                                                      \
+      const Mission&, const KeyframeParams&, const JointGraphParams&, std::vector<std::vector<Stamp>>);   \
+  template void add_odometry(JointGraph<Pose>&, RobotIndex, const Robot&, const RobotNodes&, std::size_t, \
+                             DriftId);                                                                    \
+  template PoseId pose_at(const JointGraph<Pose>&, RobotIndex, Stamp);                                    \
+  template void place_robots(JointGraph<Pose>&, const std::vector<SE2>&);                                 \
+  template RangeEnd<Pose> fingerprint_anchor(const JointGraph<Pose>&, const RadioMeasurements&,           \
+                                             std::size_t);                                                \
+  template void add_fingerprint_closures(JointGraph<Pose>&, const RadioMeasurements&,                     \
                                          const std::vector<FingerprintClosure>&);
 RADIOSLAM_JOINT_GRAPH(SE2)
 RADIOSLAM_JOINT_GRAPH(SE3)

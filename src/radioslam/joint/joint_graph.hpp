@@ -9,14 +9,41 @@
 #include <vector>
 
 #include "radioslam/base/fields.hpp"
+#include "radioslam/base/stamp.hpp"
 #include "radioslam/closure/fingerprint_closures.hpp"
+#include "radioslam/consistency/chi_squared.hpp"
 #include "radioslam/graph/team_graph.hpp"
-#include "radioslam/joint/factor_origin.hpp"
+#include "radioslam/joint/robot_nodes.hpp"
 #include "radioslam/mission/keyframes.hpp"
 #include "radioslam/mission/mission.hpp"
 #include "radioslam/results/results.hpp"
 
 namespace radioslam {
+
+// Where each factor of the joint graph came from: which measurement, robots and keyframes.
+
+/// Kind of measurement that a factor was made from.
+enum class FactorSource { kOdometry, kRange, kAoa, kFingerprint, kSequence, kScanLoop, kLoop, kMatch };
+
+struct FactorOrigin {
+  FactorSource source = FactorSource::kOdometry;
+  /// Index among the measurements of its source: ranges, angles of arrival and matches of the mission,
+  /// proposed closures, or the robot's odometry steps.
+  std::size_t measurement = 0;
+  RobotIndex robot_i, robot_j;   ///< invalid for an anchor
+  Stamp stamp_i, stamp_j;        ///< of the keyframes at or before both ends
+  std::size_t antenna_pair = 0;  ///< of a range: index into JointGraph::antenna_pairs
+};
+
+/// The origins of a joint graph's factors: one entry per factor of each list, in the same order.
+struct FactorOrigins {
+  std::vector<FactorOrigin> relative_poses;  ///< of team.graph.relative_poses
+  std::vector<FactorOrigin> ranges;          ///< of team.graph.ranges
+  std::vector<FactorOrigin> bearings;        ///< of team.bearings
+};
+
+/// Number of factors of one source.
+std::size_t count_factors(const std::vector<FactorOrigin>& origins, FactorSource source);
 
 struct JointGraphParams {
   double sigma_start_m = 0.05;
@@ -27,25 +54,19 @@ struct JointGraphParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"sigma_start_m", "m", 1e-4, 100, "standard deviation of a known initial position, per axis"}
-              .basic(),
-          self.sigma_start_m);
-    visit(
-        Field{"sigma_start_rad", "rad", 1e-5, 3, "standard deviation of a known initial orientation"}.basic(),
-        self.sigma_start_rad);
-    visit(
-        Field{
-            "sigma_level_rad", "rad", 1e-4, 1,
-            "standard deviation of the odometry's roll and pitch, which are taken from gravity (space only)"},
-        self.sigma_level_rad);
-    visit(Field{"min_sigma_yaw_drift_per_m_rad", "rad/m", 0, 1,
-                "lower bound on the prior sigma of constant yaw drift (1e-3: 57 deg/km), for robots with "
-                "WiFi scans or position fixes"},
-          self.min_sigma_yaw_drift_per_m_rad);
-    visit(Field{"min_sigma_scale", "", 0, 1,
-                "lower bound on the prior sigma of the odometry scale error, for robots with WiFi scans or "
-                "position fixes"},
-          self.min_sigma_scale);
+    RADIOSLAM_BASIC_FIELD(sigma_start_m, "m", 1e-4, 100,
+                          "standard deviation of a known initial position, per axis");
+    RADIOSLAM_BASIC_FIELD(sigma_start_rad, "rad", 1e-5, 3,
+                          "standard deviation of a known initial orientation");
+    RADIOSLAM_FIELD(
+        sigma_level_rad, "rad", 1e-4, 1,
+        "standard deviation of the odometry's roll and pitch, which are taken from gravity (space only)");
+    RADIOSLAM_FIELD(min_sigma_yaw_drift_per_m_rad, "rad/m", 0, 1,
+                    "lower bound on the prior sigma of constant yaw drift (1e-3: 57 deg/km), for robots with "
+                    "WiFi scans or position fixes");
+    RADIOSLAM_FIELD(min_sigma_scale, "", 0, 1,
+                    "lower bound on the prior sigma of the odometry scale error, for robots with WiFi scans "
+                    "or position fixes");
   }
 };
 
@@ -97,12 +118,20 @@ void add_factor(JointGraph<Pose>& joint, AmbiguousBearing<Pose> factor, const Fa
   joint.origins.bearings.push_back(origin);
 }
 
-/// 99 % chi-squared quantile for a relative pose: 3 or 6 degrees of freedom.
-template <class Pose>
-inline constexpr double kPoseChiSquared99 = Pose::kDof == 3 ? 11.345 : 16.812;
-/// The same for 99.9 %.
-template <class Pose>
-inline constexpr double kPoseChiSquared999 = Pose::kDof == 3 ? 16.266 : 22.458;
+/// Erases the relative poses of which this holds of the origin.
+template <class Pose, class Predicate>
+void erase_relative_poses(JointGraph<Pose>& joint, const Predicate& is_erased) {
+  auto& factors = joint.team.graph.relative_poses;
+  auto& origins = joint.origins.relative_poses;
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < factors.size(); ++k) {
+    if (is_erased(origins[k])) continue;
+    factors[kept] = factors[k];
+    origins[kept++] = origins[k];
+  }
+  factors.resize(kept);
+  origins.resize(kept);
+}
 
 /// Stamp of the robot's keyframe at or before `stamp`.
 template <class Pose>
@@ -118,6 +147,11 @@ PoseId pose_at(const JointGraph<Pose>& joint, RobotIndex robot, Stamp stamp);
 /// Start of the odometry frame in the common frame, from the mission's known start; its first pose has the
 /// known height.
 std::optional<SE3> common_from_start(const Robot& robot);
+
+/// Adds the motion between the robot's nodes, which are the poses from `first_pose` on.
+template <class Pose>
+void add_odometry(JointGraph<Pose>& joint, RobotIndex index, const Robot& robot, const RobotNodes& nodes,
+                  std::size_t first_pose, DriftId drift);
 
 /// Graph without closures. Trajectories are in their own start frames, or in the common frame if their start
 /// is known. `node_stamps`: per robot, further stamps within its odometry that become poses; may be empty.

@@ -5,7 +5,7 @@
 #include "radioslam/base/check.hpp"
 #include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/graph/pose_chart.hpp"
-#include "radioslam/joint/antenna_pairs.hpp"
+#include "radioslam/joint/links/radio_factors.hpp"
 
 namespace radioslam {
 namespace {

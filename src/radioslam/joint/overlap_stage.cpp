@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "radioslam/joint/aoa/mutual_bearing_constraints.hpp"
-#include "radioslam/results/most_probable_candidates.hpp"
+#include "radioslam/results/candidate_list.hpp"
 
 namespace radioslam {
 namespace {
@@ -145,8 +145,13 @@ OverlapStage find_overlaps(std::vector<JointGraph<Pose>> alignments, const Overl
   };
   if (overlap_mode(params) == OverlapMode::kLink) {
     std::vector<LinkCovariance<Pose>> sources;
-    sources.push_back(
-        measured_link_covariance(first, params.pairing_s, static_cast<std::size_t>(params.max_links)));
+    auto links = measured_links(first, params.pairing_s, static_cast<std::size_t>(params.max_links));
+    stage.estimated_links = links.estimated;
+    for (std::size_t a = 0; a < sensors.size(); ++a)
+      for (std::size_t b = a + 1; b < sensors.size(); ++b)
+        if (links.covariance.view(a, b).ties() == 0)
+          stage.unlinked.emplace_back(RobotIndex(a), RobotIndex(b));
+    sources.push_back(std::move(links.covariance));
     stage.counts = search_all(sources, sensors, params.overlap, request.method, take);
   } else {
     std::vector<JointCovariance<Pose>> sources;

@@ -17,7 +17,7 @@
 #include "radioslam/base/fields.hpp"
 #include "radioslam/closure/overlap/overlap_search.hpp"
 #include "radioslam/joint/joint_graph.hpp"
-#include "radioslam/joint/team_placement.hpp"
+#include "radioslam/joint/team_alignment.hpp"
 #include "radioslam/results/results.hpp"
 
 namespace radioslam {
@@ -25,7 +25,7 @@ namespace radioslam {
 /// Source of the relative covariances.
 enum class OverlapMode {
   kJoint,
-  kLink,  ///< reproduces Wi-Closure
+  kLink,  ///< reproduces Wi-Closure where ranges have angles at both ends
 };
 
 struct OverlapStageParams {
@@ -38,21 +38,17 @@ struct OverlapStageParams {
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
     OverlapParams::visit_fields(self.overlap, visit);
-    visit(Field{"mode", "", 0, 0,
-                "source of relative covariances; joint: marginals of the joint estimate; link: odometry over "
-                "the nearest link, reproduces Wi-Closure (Wang et al.)",
-                "joint|link"},
-          self.mode);
-    visit(Field{"pairing_s", "s", 0, 1e6,
-                "largest time difference between a range and its angles, in mode link"},
-          self.pairing_s);
-    visit(Field{"max_links", "", 1, 1e6,
-                "largest number of links per pair of robots in mode link; more are thinned evenly"},
-          self.max_links);
-    visit(Field{"max_listed_candidates", "", 0, 2e9,
-                "largest number of candidates that `run` lists and draws: the most probable ones; prune "
-                "lists all"},
-          self.max_listed_candidates);
+    RADIOSLAM_FIELD(mode, "", 0, 0,
+                    "relative covariances; joint: of the joint estimate; link: odometry over the nearest "
+                    "range with angles at both ends (Wang et al.), else the joint pose at a link",
+                    "joint|link");
+    RADIOSLAM_FIELD(pairing_s, "s", 0, 1e6,
+                    "largest time difference between a range and its angles, in mode link");
+    RADIOSLAM_FIELD(max_links, "", 1, 1e6,
+                    "largest number of links per pair of robots in mode link; more are thinned evenly");
+    RADIOSLAM_FIELD(
+        max_listed_candidates, "", 0, 2e9,
+        "largest number of candidates that `run` lists and draws: the most probable ones; prune lists all");
   }
 };
 
@@ -82,13 +78,15 @@ struct OverlapRequest {
 
 struct OverlapStage {
   CandidateList listed;
-  CandidateList of_asked;      ///< candidates, listed or not, that were asked for
-  OverlapCounts counts;        ///< of all candidates
-  bool searched = false;       ///< false: the estimate's covariances are not computable
-  std::size_t alignments = 1;  ///< number of team alignments whose candidates these are
+  CandidateList of_asked;        ///< candidates, listed or not, that were asked for
+  OverlapCounts counts;          ///< of all candidates
+  bool searched = false;         ///< false: the estimate's covariances are not computable
+  std::size_t alignments = 1;    ///< number of team alignments whose candidates these are
+  bool estimated_links = false;  ///< mode link: no range had angles at both ends
+  std::vector<std::pair<RobotIndex, RobotIndex>> unlinked;  ///< mode link: not compared, for want of a link
 };
 
-/// `alignments`: the likely ones, optimised and placed, the likeliest first. Candidates are those of any of
+/// `alignments`: the likely ones, optimized and placed, the likeliest first. Candidates are those of any of
 /// them; of a pair in several, the nearest one in standard deviations. An alignment whose covariances are not
 /// computable is left out; if that is the first one, nothing is searched. In mode link all are one, the
 /// first.

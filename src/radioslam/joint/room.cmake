@@ -3,39 +3,28 @@ radioslam_room(joint
     access_point_stage.cpp
     aoa/aoa_integrity.cpp
     aoa/aoa_match_weights.cpp
-    aoa/aoa_predictions.cpp
     aoa/mutual_bearing_constraints.cpp
-    bias_distribution.cpp
     closures/closure.cpp
     closures/loop_alignment.cpp
-    closures/loop_alternatives.cpp
-    closures/loop_groups.cpp
     closures/loop_selection.cpp
     closures/loop_stage.cpp
     closures/own_loops.cpp
     closures/team_loops.cpp
-    covariance_graph.cpp
-    dense_trajectory.cpp
-    factor_origin.cpp
     field_stage.cpp
-    graduated_optimisation.cpp
+    graduated_optimization.cpp
     joint_graph.cpp
     joint_graph_from_file.cpp
-    level_priors.cpp
-    matches/frame_by_matches.cpp
+    late_nodes.cpp
+    links/link_weights.cpp
+    links/radio_factors.cpp
+    links/range_biases.cpp
+    matches/alignment_by_matches.cpp
     matches/match_groups.cpp
     matches/match_selection.cpp
-    matches/placement_by_matches.cpp
     overlap_stage.cpp
-    position_fixes/fix_results.cpp
-    position_fixes/inlier_growth.cpp
     position_fixes/placement.cpp
-    radio_factors.cpp
-    range_biases.cpp
-    rejected_stretches.cpp
     robot_nodes.cpp
-    scan_closures.cpp
     sequence_stage.cpp
-    sight_notes.cpp
-    team_placement.cpp
+    team_alignment.cpp
+    uncertainty/position_uncertainty.cpp
   ROOMS odometry closure team_frame graph radio results consistency)

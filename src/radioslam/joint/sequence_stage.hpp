@@ -19,11 +19,9 @@ struct SequenceStageParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(
-        Field{"enabled", "", 0, 0,
-              "whether similar sequences of fingerprints are added as relative poses (planar estimates only)"}
-            .basic(),
-        self.enabled);
+    RADIOSLAM_BASIC_FIELD(
+        enabled, "", 0, 0,
+        "whether similar sequences of fingerprints are added as relative poses (planar estimates only)");
     visit(
         Field{"closure_loss_sigmas", "", 0.1, 1e6,
               "Cauchy loss scale of sequence closures; higher values keep more of them but admit false ones"},

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "radioslam/geometry/se3.hpp"
-#include "radioslam/lidar/scan_point_params.hpp"
+#include "radioslam/lidar/scan_points.hpp"
 #include "radioslam/lidar/surfels/surfel.hpp"
 #include "radioslam/mission/lidar.hpp"
 

@@ -1,4 +1,4 @@
-// Parameters of LiDAR odometry (lidar_odometry.hpp) and of scanner detection (scanner_traits.hpp).
+// Parameters of LiDAR odometry (lidar_odometry.hpp) and of scanner detection (scan_matcher.hpp).
 #pragma once
 
 #include "radioslam/base/fields.hpp"
@@ -33,68 +33,47 @@ struct LidarOdometryParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"spacing_m", "m", 0, 10,
-                "spacing of the map's points; 0 derives it from the scans' median range"}
-              .basic(),
-          self.spacing_m);
-    visit(Field{"spacing_ratio", "", 0.001, 1,
-                "map point spacing as a fraction of the scans' median range, where it is derived from them"},
-          self.spacing_ratio);
-    visit(Field{"min_spacing_m", "m", 0.001, 10, "smallest map point spacing chosen automatically"},
-          self.min_spacing_m);
-    visit(Field{"max_spacing_m", "m", 0.001, 10, "largest map point spacing chosen automatically"},
-          self.max_spacing_m);
-    visit(Field{"first_sigma_m", "m", 1e-3, 10,
-                "standard deviation of the predicted translation before any prediction was tested"},
-          self.first_sigma_m);
-    visit(Field{"first_sigma_rad", "rad", 1e-3, 3,
-                "standard deviation of the predicted rotation before any prediction was tested"},
-          self.first_sigma_rad);
-    visit(Field{"min_sigma_m", "m", 1e-4, 10,
-                "lower bound on the standard deviation of the predicted translation"},
-          self.min_sigma_m);
-    visit(Field{"min_sigma_rad", "rad", 1e-5, 3,
-                "lower bound on the standard deviation of the predicted rotation"},
-          self.min_sigma_rad);
-    visit(Field{"level_sigma_m", "m", 1e-4, 100,
-                "standard deviation of the unobserved height of a robot with a planar scanner"},
-          self.level_sigma_m);
-    visit(Field{"level_sigma_rad", "rad", 1e-5, 3,
-                "standard deviation of the unobserved roll and pitch of a robot with a planar scanner"},
-          self.level_sigma_rad);
-    visit(Field{"prior_factor", "", 1, 1000,
-                "standard deviation of the pose prior in prediction errors; higher values trust scans more"},
-          self.prior_factor);
-    visit(Field{"error_smoothing", "", 1e-3, 1,
-                "weight of the newest prediction error in the running mean; higher values adapt faster"},
-          self.error_smoothing);
-    visit(Field{"relocalise_below_ratio", "", 0, 1,
-                "fraction of the nominal inlier ratio below which a scan is relocalised; higher values "
-                "search more often"},
-          self.relocalise_below_ratio);
-    visit(
-        Field{"max_aligned", "", 1, 21, "number of relocalisation hypotheses that are registered, out of 21"},
-        self.max_aligned);
-    visit(Field{"min_insert_ratio", "", 0, 1,
-                "fraction of the nominal inlier ratio that a scan needs to be inserted into the map"},
-          self.min_insert_ratio);
-    visit(Field{"min_inlier_ratio", "", 0, 1,
-                "smallest inlier ratio of a registered scan; scans below it count as lost"}
-              .basic(),
-          self.min_inlier_ratio);
-    visit(
-        Field{
-            "min_nominal_ratio", "", 0, 1,
-            "smallest inlier ratio of a registered scan as a fraction of the nominal one; noise reaches 0.4"},
-        self.min_nominal_ratio);
-    visit(Field{"min_first_inlier_ratio", "", 0, 1,
-                "smallest inlier ratio of the second scan on a map, before a nominal ratio is known"},
-          self.min_first_inlier_ratio);
-    visit(Field{"max_lost_scans", "", 1, 1e6,
-                "number of lost scans that fit each other, or of missed scan intervals, after which a new "
-                "map is started"}
-              .basic(),
-          self.max_lost_scans);
+    RADIOSLAM_BASIC_FIELD(spacing_m, "m", 0, 10,
+                          "spacing of the map's points; 0 derives it from the scans' median range");
+    RADIOSLAM_FIELD(
+        spacing_ratio, "", 0.001, 1,
+        "map point spacing as a fraction of the scans' median range, where it is derived from them");
+    RADIOSLAM_FIELD(min_spacing_m, "m", 0.001, 10, "smallest map point spacing chosen automatically");
+    RADIOSLAM_FIELD(max_spacing_m, "m", 0.001, 10, "largest map point spacing chosen automatically");
+    RADIOSLAM_FIELD(first_sigma_m, "m", 1e-3, 10,
+                    "standard deviation of the predicted translation before any prediction was tested");
+    RADIOSLAM_FIELD(first_sigma_rad, "rad", 1e-3, 3,
+                    "standard deviation of the predicted rotation before any prediction was tested");
+    RADIOSLAM_FIELD(min_sigma_m, "m", 1e-4, 10,
+                    "lower bound on the standard deviation of the predicted translation");
+    RADIOSLAM_FIELD(min_sigma_rad, "rad", 1e-5, 3,
+                    "lower bound on the standard deviation of the predicted rotation");
+    RADIOSLAM_FIELD(level_sigma_m, "m", 1e-4, 100,
+                    "standard deviation of the unobserved height of a robot with a planar scanner");
+    RADIOSLAM_FIELD(level_sigma_rad, "rad", 1e-5, 3,
+                    "standard deviation of the unobserved roll and pitch of a robot with a planar scanner");
+    RADIOSLAM_FIELD(
+        prior_factor, "", 1, 1000,
+        "standard deviation of the pose prior in prediction errors; higher values trust scans more");
+    RADIOSLAM_FIELD(error_smoothing, "", 1e-3, 1,
+                    "weight of the newest prediction error in the running mean; higher values adapt faster");
+    RADIOSLAM_FIELD(relocalise_below_ratio, "", 0, 1,
+                    "fraction of the nominal inlier ratio below which a scan is relocalised; higher values "
+                    "search more often");
+    RADIOSLAM_FIELD(max_aligned, "", 1, 21,
+                    "number of relocalisation hypotheses that are registered, out of 21");
+    RADIOSLAM_FIELD(min_insert_ratio, "", 0, 1,
+                    "fraction of the nominal inlier ratio that a scan needs to be inserted into the map");
+    RADIOSLAM_BASIC_FIELD(min_inlier_ratio, "", 0, 1,
+                          "smallest inlier ratio of a registered scan; scans below it count as lost");
+    RADIOSLAM_FIELD(
+        min_nominal_ratio, "", 0, 1,
+        "smallest inlier ratio of a registered scan as a fraction of the nominal one; noise reaches 0.4");
+    RADIOSLAM_FIELD(min_first_inlier_ratio, "", 0, 1,
+                    "smallest inlier ratio of the second scan on a map, before a nominal ratio is known");
+    RADIOSLAM_BASIC_FIELD(max_lost_scans, "", 1, 1e6,
+                          "number of lost scans that fit each other, or of missed scan intervals, after "
+                          "which a new map is started");
   }
 };
 

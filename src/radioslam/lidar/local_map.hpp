@@ -21,26 +21,20 @@ struct LocalMapParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"source_spacings", "", 1, 10,
-                "spacing of the scan points that are registered, in map point spacings; higher values are "
-                "faster"},
-          self.source_spacings);
-    visit(Field{"max_distance_spacings", "", 1, 10, "largest correspondence distance, in map point spacings"},
-          self.max_distance_spacings);
-    visit(Field{"coarse_spacings", "", 1, 100,
-                "point spacing of the coarse alignment in relocalisation, in map point spacings"},
-          self.coarse_spacings);
-    visit(Field{"coarse_max_distance_spacings", "", 1, 100,
-                "largest correspondence distance of the coarse alignment, in map point spacings"},
-          self.coarse_max_distance_spacings);
-    visit(
-        Field{"memory_m", "m", 1, 1e6, "travelled distance after which unseen parts of the map are forgotten"}
-            .basic(),
-        self.memory_m);
-    visit(
-        Field{"correlation_ratio", "", 1e-3, 10,
-              "distance within which point errors are correlated, as a fraction of the scan's median range"},
-        self.correlation_ratio);
+    RADIOSLAM_FIELD(
+        source_spacings, "", 1, 10,
+        "spacing of the scan points that are registered, in map point spacings; higher values are faster");
+    RADIOSLAM_FIELD(max_distance_spacings, "", 1, 10,
+                    "largest correspondence distance, in map point spacings");
+    RADIOSLAM_FIELD(coarse_spacings, "", 1, 100,
+                    "point spacing of the coarse alignment in relocalisation, in map point spacings");
+    RADIOSLAM_FIELD(coarse_max_distance_spacings, "", 1, 100,
+                    "largest correspondence distance of the coarse alignment, in map point spacings");
+    RADIOSLAM_BASIC_FIELD(memory_m, "m", 1, 1e6,
+                          "travelled distance after which unseen parts of the map are forgotten");
+    RADIOSLAM_FIELD(
+        correlation_ratio, "", 1e-3, 10,
+        "distance within which point errors are correlated, as a fraction of the scan's median range");
   }
 };
 

@@ -53,16 +53,13 @@ struct PoseSearchParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"sigmas", "", 0.5, 10,
-                "half width of the search window, in standard deviations of the pose estimate"},
-          self.sigmas);
-    visit(Field{"max_starts", "", 1, 1e6,
-                "largest number of initial poses scored per search; wider windows use larger steps"},
-          self.max_starts);
-    visit(
-        Field{"max_aligned", "", 1, 1000,
-              "number of initial poses that are registered, the best scores first; higher values are slower"},
-        self.max_aligned);
+    RADIOSLAM_FIELD(sigmas, "", 0.5, 10,
+                    "half width of the search window, in standard deviations of the pose estimate");
+    RADIOSLAM_FIELD(max_starts, "", 1, 1e6,
+                    "largest number of initial poses scored per search; wider windows use larger steps");
+    RADIOSLAM_FIELD(
+        max_aligned, "", 1, 1000,
+        "number of initial poses that are registered, the best scores first; higher values are slower");
   }
 };
 

@@ -1,12 +1,110 @@
 #include "radioslam/lidar/registration.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "radioslam/base/parallel.hpp"
 #include "radioslam/geometry/linear_algebra.hpp"
+#include "radioslam/geometry/so3.hpp"
 
 namespace radioslam {
 namespace {
+
+constexpr std::size_t kPointsPerBlock = 256;
+
+bool has_no_normal(const Surfel& surfel) { return surfel.shape < SurfelShape::kUnstructured; }
+
+/// Uncertainty of the offset between two surfels, in the source's frame.
+struct Correspondence {
+  Eigen::Matrix3f covariance;
+  float tilt_rad2;          ///< variance of the normal of the pair about either axis
+  float normal_noise_rad2;  ///< part of it that measurement noise causes
+};
+
+/// The terms of single points at one pose.
+class PointLinearisation {
+ public:
+  PointLinearisation(const NearestSurfel& target, const SE3& T, const CorrespondenceSearch& search)
+      : target_(target),
+        R_(T.rotation_matrix().cast<float>()),
+        t_(T.translation().cast<float>()),
+        squared_max_distance_(static_cast<float>(search.max_distance_m * search.max_distance_m)),
+        squared_kernel_width_(static_cast<float>(search.kernel_width_m * search.kernel_width_m)),
+        squared_point_distance_(squared_max_distance_ * static_cast<float>(search.point_distance_ratio *
+                                                                           search.point_distance_ratio)),
+        squared_scale_(search.loss_scale * search.loss_scale) {}
+
+  /// Adds one point's terms. With e' = R' e and W' = R' W R the error's Jacobian is [-I, [p]x].
+  void add(const Surfel& surfel, LinearisedPoints& sums) const {
+    const Eigen::Vector3f moved = R_ * surfel.position + t_;
+    const Surfel* nearest = target_(moved, squared_max_distance_);
+    if (!nearest) return;
+    const Eigen::Vector3f offset = nearest->position - moved;
+    const float squared_distance = offset.squaredNorm();
+    ++sums.matches;
+    std::optional<Correspondence> correspondence = correspond(*nearest, surfel, squared_distance);
+    if (!correspondence) {
+      ++sums.weights;
+      return;
+    }
+    correspondence->covariance.diagonal().array() +=
+        squared_kernel_width_ + correspondence->tilt_rad2 * squared_distance;
+    const Eigen::Matrix3d information = correspondence->covariance.cast<double>().inverse();
+    const Eigen::Vector3d error = (R_.transpose() * offset).cast<double>();
+    const Eigen::Vector3d pull = information * error;
+    const double squares = error.dot(pull);
+    const double root = squared_scale_ / (squared_scale_ + squares);
+    const double weight = root * root;
+    const Eigen::Matrix3d arm = skew(surfel.position.cast<double>());
+    const Eigen::Matrix3d turned = information * arm;
+    sums.hessian.topLeftCorner<3, 3>() += weight * information;
+    sums.hessian.topRightCorner<3, 3>() -= weight * turned;
+    sums.hessian.bottomRightCorner<3, 3>() -= weight * (arm * turned);
+    sums.gradient.head<3>() -= weight * pull;
+    sums.gradient.tail<3>() -= weight * (arm * pull);
+    sums.normal_noise_information +=
+        weight * information.trace() * static_cast<double>(correspondence->normal_noise_rad2);
+    sums.weights += weight;
+    sums.weighted_squares += weight * squares;
+  }
+
+ private:
+  /// A point without a normal is matched only to a certainly planar surfel and only close by, since it may
+  /// belong to another surface; it scatters about it as the surface's own points do. Two scan lines are on
+  /// the same ground, which slopes between them; neither normal is measured.
+  std::optional<Correspondence> correspond(const Surfel& target, const Surfel& surfel,
+                                           float squared_distance) const {
+    const bool matched_isolated = has_no_normal(target), alone = has_no_normal(surfel);
+    if (matched_isolated && alone) {
+      if (target.shape != SurfelShape::kScanLine || surfel.shape != SurfelShape::kScanLine)
+        return std::nullopt;
+      const float tilt_rad2 = std::max(target.tilt_rad2, surfel.tilt_rad2);
+      return Correspondence{rotated_into_source(target.covariance) + surfel.covariance, tilt_rad2, 0};
+    }
+    if (matched_isolated || alone) {
+      const Surfel& surface = alone ? target : surfel;
+      if (surface.shape != SurfelShape::kSurface || squared_distance >= squared_point_distance_)
+        return std::nullopt;
+      const Eigen::Matrix3f covariance =
+          2 * (alone ? rotated_into_source(target.covariance) : surfel.covariance);
+      return Correspondence{covariance, surface.tilt_rad2, surface.tilt_rad2};
+    }
+    const float tilt_rad2 = 0.25F * (target.tilt_rad2 + surfel.tilt_rad2);
+    return Correspondence{rotated_into_source(target.covariance) + surfel.covariance, tilt_rad2, tilt_rad2};
+  }
+
+  Eigen::Matrix3f rotated_into_source(const Eigen::Matrix3f& covariance) const {
+    return R_.transpose() * covariance * R_;
+  }
+
+  const NearestSurfel& target_;
+  Eigen::Matrix3f R_;
+  Eigen::Vector3f t_;
+  float squared_max_distance_, squared_kernel_width_, squared_point_distance_;
+  double squared_scale_;
+};
 
 constexpr double kMinCorrespondences = 6;
 constexpr double kPlanarInformation = 1e8;  // fixes height, roll and pitch for a planar scanner
@@ -75,6 +173,31 @@ double next_kernel_width(double kernel_width_m, double kernel_decay) {
 }
 
 }  // namespace
+
+void LinearisedPoints::operator+=(const LinearisedPoints& other) {
+  hessian += other.hessian;
+  gradient += other.gradient;
+  normal_noise_information += other.normal_noise_information;
+  weights += other.weights;
+  weighted_squares += other.weighted_squares;
+  matches += other.matches;
+}
+
+LinearisedPoints linearise_correspondences(const NearestSurfel& target, const std::vector<Surfel>& source,
+                                           const SE3& T, const CorrespondenceSearch& search) {
+  const PointLinearisation points(target, T, search);
+  const std::size_t blocks = (source.size() + kPointsPerBlock - 1) / kPointsPerBlock;
+  std::vector<LinearisedPoints> partial(blocks);
+  parallel_for(blocks, 2, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b)
+      for (std::size_t k = b * kPointsPerBlock; k < std::min(source.size(), (b + 1) * kPointsPerBlock); ++k)
+        points.add(source[k], partial[b]);
+  });
+  LinearisedPoints total;
+  for (const LinearisedPoints& sums : partial) total += sums;
+  total.hessian.bottomLeftCorner<3, 3>() = total.hessian.topRightCorner<3, 3>().transpose();
+  return total;
+}
 
 SE3::Jacobian with_planar_prior(SE3::Jacobian information, double height, double tilt) {
   information.middleRows<3>(2).setZero();

@@ -20,14 +20,48 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "radioslam/base/fields.hpp"
 #include "radioslam/geometry/se3.hpp"
-#include "radioslam/lidar/point_linearisation.hpp"
 #include "radioslam/lidar/surfels/surfel.hpp"
 
 namespace radioslam {
+
+// Correspondences of a scan's surfels at one pose, and the sums of their Gauss-Newton normal equations.
+//
+//   e_k = q_k - T p_k                q_k: the target's surfel nearest to T p_k, within max_distance_m
+//   W_k = (C_q + R C_p R' + b^2 I)^-1, with the variance of the normals times the squared distance in C
+//   H = sum w J' W J,  g = sum w J' W e,  w = rho_c'    c: loss_scale, Geman, McClure;  b: kernel_width_m
+//
+// Both are found in one pass over the points, block by block: the sums do not depend on the number of
+// threads.
+
+/// The target's nearest surfel closer than the root of the second argument, or null; thread-safe.
+using NearestSurfel = std::function<const Surfel*(const Eigen::Vector3f& point, float squared_max_distance)>;
+
+struct CorrespondenceSearch {
+  double max_distance_m = 1;
+  double point_distance_ratio = 1;  ///< max. distance of points without a normal, over that of others
+  double kernel_width_m = 0;
+  double loss_scale = 3;
+};
+
+struct LinearisedPoints {
+  SE3::Jacobian hessian = SE3::Jacobian::Zero();
+  SE3::Tangent gradient = SE3::Tangent::Zero();
+  double normal_noise_information = 0;  ///< sum of w tr(W) s^2, s^2: variance of noisy normals
+  double weights = 0, weighted_squares = 0;
+  std::size_t matches = 0;  ///< points with a correspondence
+
+  void operator+=(const LinearisedPoints& other);
+};
+
+/// About xi in T Exp(xi).
+LinearisedPoints linearise_correspondences(const NearestSurfel& target, const std::vector<Surfel>& source,
+                                           const SE3& T, const CorrespondenceSearch& search);
 
 struct RegistrationParams {
   int max_iterations = 30;
@@ -40,29 +74,21 @@ struct RegistrationParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"max_iterations", "", 1, 1000, "largest number of iterations of one registration"},
-          self.max_iterations);
-    visit(Field{"loss_scale", "", 0.5, 100,
-                "residual, in standard deviations, beyond which a correspondence is down-weighted"},
-          self.loss_scale);
-    visit(
-        Field{
-            "point_distance_ratio", "", 0, 1,
-            "largest distance of a point without a normal from its surface, as a fraction of that of others"},
-        self.point_distance_ratio);
-    visit(Field{"kernel_decay", "", 0.01, 0.99,
-                "factor by which the correspondence kernel narrows per iteration"},
-          self.kernel_decay);
-    visit(Field{"normal_noise_factor", "", 0, 100,
-                "factor on the information from noisy normals that is discounted; higher values trust the "
-                "prior more"},
-          self.normal_noise_factor);
-    visit(Field{"translation_tolerance_m", "m", 1e-9, 1,
-                "translation step below which the registration has converged"},
-          self.translation_tolerance_m);
-    visit(Field{"rotation_tolerance_rad", "rad", 1e-9, 1,
-                "rotation step below which the registration has converged"},
-          self.rotation_tolerance_rad);
+    RADIOSLAM_FIELD(max_iterations, "", 1, 1000, "largest number of iterations of one registration");
+    RADIOSLAM_FIELD(loss_scale, "", 0.5, 100,
+                    "residual, in standard deviations, beyond which a correspondence is down-weighted");
+    RADIOSLAM_FIELD(
+        point_distance_ratio, "", 0, 1,
+        "largest distance of a point without a normal from its surface, as a fraction of that of others");
+    RADIOSLAM_FIELD(kernel_decay, "", 0.01, 0.99,
+                    "factor by which the correspondence kernel narrows per iteration");
+    RADIOSLAM_FIELD(normal_noise_factor, "", 0, 100,
+                    "factor on the information from noisy normals that is discounted; higher values trust "
+                    "the prior more");
+    RADIOSLAM_FIELD(translation_tolerance_m, "m", 1e-9, 1,
+                    "translation step below which the registration has converged");
+    RADIOSLAM_FIELD(rotation_tolerance_rad, "rad", 1e-9, 1,
+                    "rotation step below which the registration has converged");
   }
 };
 

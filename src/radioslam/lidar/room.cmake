@@ -2,24 +2,18 @@ radioslam_room(lidar
   SOURCES
     candidate_map.cpp
     deskew.cpp
-    deskewed_registration.cpp
-    deskewed_scan.cpp
     lidar_odometry.cpp
     local_map.cpp
     loops/loop_candidates.cpp
     loops/loop_verification.cpp
     loops/scan_loop.cpp
     loops/scan_loops.cpp
-    point_linearisation.cpp
     pose_search.cpp
     prediction_error.cpp
     registration.cpp
-    scan_gap.cpp
     scan_matcher.cpp
     scan_points.cpp
-    scan_pose.cpp
     scan_structure.cpp
-    scanner_traits.cpp
     surfels/surfel.cpp
     surfels/surfel_map.cpp
     surfels/voxel_grid.cpp

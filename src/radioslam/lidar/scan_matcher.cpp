@@ -1,11 +1,50 @@
 #include "radioslam/lidar/scan_matcher.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "radioslam/base/statistics.hpp"
 #include "radioslam/lidar/pose_search.hpp"
 #include "radioslam/lidar/surfels/voxel_grid.hpp"
 
 namespace radioslam {
+namespace {
+
+constexpr std::size_t kTraitScans = 10;
+constexpr float kFlat_m = 1e-3F;
+
+}  // namespace
+
+SE3::Tangent twist_between(const ScanOnMap& from, const ScanOnMap& to) {
+  const double dt_s = seconds_between(from.middle_stamp, to.middle_stamp);
+  return (from.T_map_middle.inverse() * to.T_map_middle).log() / dt_s;
+}
+
+void DeskewedScan::deskew_with(const SE3::Tangent& is_per_s) {
+  surfels = re_deskew(surfels, times_s, twist_per_s, is_per_s);
+  twist_per_s = is_per_s;
+}
+
+ScannerTraits scanner_traits(const LidarLog& log, const LidarParams& params) {
+  std::vector<double> ranges;
+  ScannerTraits traits;
+  traits.kind = ScannerKind::kPlanar;
+  const std::size_t stride = std::max<std::size_t>(1, (log.size() + kTraitScans - 1) / kTraitScans);
+  for (std::size_t k = 0; k < log.size(); k += stride) {
+    const auto points = filter_and_deskew(log.read(k), SE3::Tangent::Zero(), params.points).points;
+    for (const Eigen::Vector3f& point : points) {
+      ranges.push_back(static_cast<double>(point.norm()));
+      if (std::abs(point.z() - points.front().z()) > kFlat_m) traits.kind = ScannerKind::kSpatial;
+    }
+  }
+  const LidarOdometryParams& odometry = params.odometry;
+  traits.spacing_m = odometry.spacing_m > 0 ? odometry.spacing_m
+                     : ranges.empty()       ? odometry.max_spacing_m
+                                            : std::clamp(odometry.spacing_ratio * upper_median(ranges),
+                                                         odometry.min_spacing_m, odometry.max_spacing_m);
+  return traits;
+}
 
 DeskewedScan ScanMatcher::measure(Stamp stamp, const ScanPoints& points, const SE3::Tangent& twist_per_s,
                                   MotionSource source) const {

@@ -1,15 +1,57 @@
 // Scan matching with one scanner: measures the surfels of its scans and registers them to local maps.
 #pragma once
 
+#include <vector>
+
 #include "radioslam/base/stamp.hpp"
-#include "radioslam/lidar/deskewed_scan.hpp"
+#include "radioslam/geometry/se3.hpp"
+#include "radioslam/lidar/deskew.hpp"
 #include "radioslam/lidar/lidar_params.hpp"
 #include "radioslam/lidar/local_map.hpp"
 #include "radioslam/lidar/registration.hpp"
 #include "radioslam/lidar/scan_points.hpp"
-#include "radioslam/lidar/scanner_traits.hpp"
+#include "radioslam/lidar/surfels/surfel.hpp"
+#include "radioslam/mission/lidar.hpp"
 
 namespace radioslam {
+
+// A deskewed scan: its surfels, when each was measured, and the motion it was deskewed by.
+
+/// A scan's pose on a map.
+struct ScanOnMap {
+  Stamp stamp, middle_stamp;
+  SE3 T_map_body, T_map_middle;  ///< at the stamp and in the middle of the sweep
+};
+
+/// Mean twist per second from the middle of one sweep to that of a later one.
+SE3::Tangent twist_between(const ScanOnMap& from, const ScanOnMap& to);
+
+struct DeskewedScan {
+  Stamp stamp;
+  MotionSource source = MotionSource::kConstantVelocity;
+  SE3::Tangent twist_per_s = SE3::Tangent::Zero();  ///< by which it was deskewed
+  std::vector<Surfel> surfels;                      ///< in the body frame at the stamp
+  std::vector<float> times_s;                       ///< of the surfels; empty if unknown
+  double middle_s = 0;
+
+  SE3 T_body_middle() const { return SE3::exp(middle_s * twist_per_s); }
+  Stamp middle() const { return {stamp.ns + Stamp::from_seconds(middle_s).ns}; }
+  ScanOnMap on_map(const SE3& T_map_body) const {
+    return {stamp, middle(), T_map_body, T_map_body * T_body_middle()};
+  }
+
+  /// Deskews again, by this motion.
+  void deskew_with(const SE3::Tangent& is_per_s);
+};
+
+/// Properties of a scanner and its surroundings: planar or spatial, and the map point spacing (a fraction of
+/// the median range). Determined from up to ten scans, spread over the log.
+struct ScannerTraits {
+  double spacing_m = 0.25;
+  ScannerKind kind = ScannerKind::kSpatial;
+};
+
+ScannerTraits scanner_traits(const LidarLog& log, const LidarParams& params);
 
 class ScanMatcher {
  public:

@@ -24,18 +24,13 @@ struct ScanStructureParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"neighbours", "", 4, 50,
-                "number of nearest points by which a point is tested for lying on a surface"},
-          self.neighbours);
-    visit(Field{"elongation", "", 1, 1e6, "smallest ratio of the variances along and across a surface"},
-          self.elongation);
-    visit(Field{"max_points", "", 1, 1e6, "number of points of a scan that are tested, evenly spread"},
-          self.max_points);
-    visit(
-        Field{
-            "min_structured_ratio", "", 0, 1,
-            "smallest fraction of a scan's points that lie on surfaces; scans below it are taken for noise"},
-        self.min_structured_ratio);
+    RADIOSLAM_FIELD(neighbours, "", 4, 50,
+                    "number of nearest points by which a point is tested for lying on a surface");
+    RADIOSLAM_FIELD(elongation, "", 1, 1e6, "smallest ratio of the variances along and across a surface");
+    RADIOSLAM_FIELD(max_points, "", 1, 1e6, "number of points of a scan that are tested, evenly spread");
+    RADIOSLAM_FIELD(
+        min_structured_ratio, "", 0, 1,
+        "smallest fraction of a scan's points that lie on surfaces; scans below it are taken for noise");
   }
 };
 

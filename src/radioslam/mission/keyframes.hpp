@@ -19,24 +19,18 @@ struct KeyframeParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(
-        Field{"distance_m", "m", 0.01, 1000,
-              "distance from the last keyframe at which a new one is added; lower values add more keyframes"}
-            .basic(),
-        self.distance_m);
-    visit(
-        Field{"angle_rad", "rad", 0.001, 10,
-              "rotation from the last keyframe at which a new one is added; lower values add more keyframes"}
-            .basic(),
-        self.angle_rad);
-    visit(Field{"max_deviation_m", "m", 0, 1000,
-                "deviation of LiDAR odometry from the interpolation between keyframes beyond which a "
-                "keyframe is added; 0: off"},
-          self.max_deviation_m);
-    visit(Field{"max_deviation_rad", "rad", 0, 10,
-                "angular deviation of LiDAR odometry from the interpolation between keyframes beyond which "
-                "one is added; 0: off"},
-          self.max_deviation_rad);
+    RADIOSLAM_BASIC_FIELD(
+        distance_m, "m", 0.01, 1000,
+        "distance from the last keyframe at which a new one is added; lower values add more keyframes");
+    RADIOSLAM_BASIC_FIELD(
+        angle_rad, "rad", 0.001, 10,
+        "rotation from the last keyframe at which a new one is added; lower values add more keyframes");
+    RADIOSLAM_FIELD(max_deviation_m, "m", 0, 1000,
+                    "deviation of LiDAR odometry from the interpolation between keyframes beyond which a "
+                    "keyframe is added; 0: off");
+    RADIOSLAM_FIELD(max_deviation_rad, "rad", 0, 10,
+                    "angular deviation of LiDAR odometry from the interpolation between keyframes beyond "
+                    "which one is added; 0: off");
   }
 };
 

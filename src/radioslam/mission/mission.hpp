@@ -1,22 +1,33 @@
 // Recordings of a robot team, in time order. Parsing is in io/, ground truth in truth.hpp.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "radioslam/base/stamp.hpp"
 #include "radioslam/base/strong_id.hpp"
 #include "radioslam/geometry/se3.hpp"
 #include "radioslam/geometry/trajectory.hpp"
 #include "radioslam/mission/csi.hpp"
 #include "radioslam/mission/finding.hpp"
-#include "radioslam/mission/inertial.hpp"
 #include "radioslam/mission/lidar.hpp"
 #include "radioslam/mission/radio_links.hpp"
 
 namespace radioslam {
+
+// IMU samples of a robot.
+
+/// IMU sample in the robot's body frame; the sensor is at the body's origin.
+struct ImuSample {
+  Stamp stamp;
+  /// Acceleration minus gravity: (0, 0, +9.81) at rest and level.
+  Eigen::Vector3d specific_force_mps2;
+  Eigen::Vector3d angular_rate_radps;
+};
 
 /// Noise recorded with the odometry, between two consecutive samples.
 struct OdometryStepNoise {

@@ -11,6 +11,7 @@
 #include "radioslam/geometry/se2.hpp"
 #include "radioslam/geometry/se3.hpp"
 #include "radioslam/geometry/trajectory.hpp"
+#include "radioslam/geometry/uncertain_pose.hpp"
 #include "radioslam/mission/mission.hpp"
 
 namespace radioslam {
@@ -53,5 +54,18 @@ std::vector<double> travelled_distance(const Trajectory<SE3>& odometry);
 /// Path length at a stamp, interpolated and clamped to the ends.
 double travelled_distance_at(const Trajectory<SE3>& odometry, const std::vector<double>& travelled_m,
                              Stamp stamp);
+
+// Odometry between any two times with its full covariance: the random walk of odometry_edge.hpp and the
+// priors of constant drift and scale error.
+
+/// T_from_to with its covariance, for either order of the times, both of which the odometry must cover.
+/// Cost: linear in the samples between them.
+template <class Pose>
+UncertainPose<Pose> odometry_between(const Robot& robot, Stamp from, Stamp to);
+
+/// T_start_body at each of these times, which must not decrease and be covered. Cost: linear in samples and
+/// times.
+template <class Pose>
+std::vector<UncertainPose<Pose>> odometry_since_start(const Robot& robot, const std::vector<Stamp>& stamps);
 
 }  // namespace radioslam

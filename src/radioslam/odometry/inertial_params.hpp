@@ -21,28 +21,23 @@ struct InertialStageParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"enabled", "", 0, 1, "whether imu.csv is used together with the scans"}.basic(),
-          self.enabled);
-    visit(
-        Field{"outlier_sigmas", "", 1, 1e6,
-              "standard deviations beyond which a scan's pose is down-weighted in LiDAR-inertial smoothing"},
-        self.outlier_sigmas);
-    visit(Field{"node_s", "s", 0, 100,
-                "time between the states of LiDAR-inertial smoothing; higher values are faster but less "
-                "detailed"},
-          self.node_s);
-    visit(Field{"unmeasured_m", "m", 1e-2, 1e6,
-                "standard deviation of a scan's position in directions that the scan does not constrain"},
-          self.unmeasured_m);
-    visit(Field{"unmeasured_rad", "rad", 1e-3, 100,
-                "standard deviation of a scan's orientation in directions that the scan does not constrain"},
-          self.unmeasured_rad);
-    visit(Field{"check_s", "s", 1, 1e6,
-                "duration of the initial scans, registered without IMU, that the IMU is tested against"},
-          self.check_s);
-    visit(Field{"max_cost_per_step", "", 1, 1e9,
-                "largest smoothing cost per step, expected to be at most 15; above it the IMU is ignored"},
-          self.max_cost_per_step);
+    RADIOSLAM_BASIC_FIELD(enabled, "", 0, 1, "whether imu.csv is used together with the scans");
+    RADIOSLAM_FIELD(
+        outlier_sigmas, "", 1, 1e6,
+        "standard deviations beyond which a scan's pose is down-weighted in LiDAR-inertial smoothing");
+    RADIOSLAM_FIELD(
+        node_s, "s", 0, 100,
+        "time between the states of LiDAR-inertial smoothing; higher values are faster but less detailed");
+    RADIOSLAM_FIELD(unmeasured_m, "m", 1e-2, 1e6,
+                    "standard deviation of a scan's position in directions that the scan does not constrain");
+    RADIOSLAM_FIELD(
+        unmeasured_rad, "rad", 1e-3, 100,
+        "standard deviation of a scan's orientation in directions that the scan does not constrain");
+    RADIOSLAM_FIELD(check_s, "s", 1, 1e6,
+                    "duration of the initial scans, registered without IMU, that the IMU is tested against");
+    RADIOSLAM_FIELD(
+        max_cost_per_step, "", 1, 1e9,
+        "largest smoothing cost per step, expected to be at most 15; above it the IMU is ignored");
   }
 };
 

@@ -21,22 +21,18 @@ struct ScanStageParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"odometry", "", 0, 0, "source of odometry for robots with both scans and recorded odometry",
-                "scans|recorded"}
-              .basic(),
-          self.odometry);
-    visit(Field{"max_scan_gap_ratio", "", 1, 1e9,
-                "longest gap bridged by scan matching, in nominal scan intervals; recorded odometry fills "
-                "longer ones"},
-          self.max_scan_gap_ratio);
-    visit(Field{"max_odometry_gap_ratio", "", 0, 1e9,
-                "longest gap in recorded odometry used to deskew or predict scans, in nominal scan or sample "
-                "intervals"},
-          self.max_odometry_gap_ratio);
-    visit(Field{"acceleration_smoothing", "", 1e-3, 1,
-                "weight of the newest value in the mean acceleration, which sets the motion distortion "
-                "covariance"},
-          self.acceleration_smoothing);
+    RADIOSLAM_BASIC_FIELD(odometry, "", 0, 0,
+                          "source of odometry for robots with both scans and recorded odometry",
+                          "scans|recorded");
+    RADIOSLAM_FIELD(max_scan_gap_ratio, "", 1, 1e9,
+                    "longest gap bridged by scan matching, in nominal scan intervals; recorded odometry "
+                    "fills longer ones");
+    RADIOSLAM_FIELD(max_odometry_gap_ratio, "", 0, 1e9,
+                    "longest gap in recorded odometry used to deskew or predict scans, in nominal scan or "
+                    "sample intervals");
+    RADIOSLAM_FIELD(
+        acceleration_smoothing, "", 1e-3, 1,
+        "weight of the newest value in the mean acceleration, which sets the motion distortion covariance");
   }
 };
 

@@ -1,31 +1,55 @@
 // LiDAR(-inertial) odometry and intra-robot loop closures of all robots with laser scans.
 //
-// The scans' poses and their covariances become the robot's odometry. Recorded odometry initialises scan
+// The scans' poses and their covariances are the robot's odometry. Recorded odometry initialises scan
 // matching, deskews scans, and extends the odometry before, after and between them; an IMU does the first two
-// better and constrains motion that the scans do not. Robots without scans stay unchanged.
+// better and constrains motion that the scans do not. The mission stays as it was recorded.
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "radioslam/base/progress.hpp"
+#include "radioslam/base/stamp.hpp"
+#include "radioslam/lidar/loops/scan_loop.hpp"
+#include "radioslam/lidar/loops/scan_loops.hpp"
 #include "radioslam/mission/keyframes.hpp"
 #include "radioslam/mission/mission.hpp"
-#include "radioslam/odometry/scan_closure.hpp"
 #include "radioslam/odometry/scan_params.hpp"
+#include "radioslam/odometry/scan_tracking.hpp"
 
 namespace radioslam {
 
+// Intra-robot loop closure by scan matching, to be added to the joint graph as a factor.
+
+/// The joint graph has nodes at both stamps.
+struct ScanClosure {
+  RobotIndex robot;
+  Stamp stamp_i, stamp_j;
+  ScanLoop loop;
+};
+
+/// What a robot's scans say of its motion, and the keyframes that other robots' scans can be compared with.
+struct ScanOdometry {
+  MeasuredOdometry odometry;
+  ScanKeyframes keyframes;  ///< with their clouds
+  std::vector<Stamp> keyframe_stamps;
+};
+
 struct MeasuredScans {
+  /// Per robot; nothing where its odometry is used as recorded.
+  std::vector<std::optional<ScanOdometry>> robots;
   std::vector<ScanClosure> closures;
   std::vector<std::string> notes;
   std::size_t scans = 0, registered = 0;
   std::size_t too_few = 0, lost = 0;  ///< skipped: too few points; no match with the map
 };
 
-/// Replaces the odometry of robots with scans; returns their closures.
-MeasuredScans measure_scans(Mission& mission, const ScanParams& params, const KeyframeParams& keyframes,
+MeasuredScans measure_scans(const Mission& mission, const ScanParams& params, const KeyframeParams& keyframes,
                             const Progress& progress);
+
+/// The mission with the odometry of its scans.
+Mission with_odometry(Mission mission, const MeasuredScans& measured);
 
 }  // namespace radioslam

@@ -1,5 +1,6 @@
 #include "radioslam/pipeline/collect_results.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
@@ -25,12 +26,12 @@ typename Pose::Point end_position(const PoseGraph<Pose>& graph, const RangeEnd<P
 /// start frame.
 template <class Pose>
 std::vector<Pose> component_frames(const JointGraph<Pose>& joint, const std::vector<Pose>& poses,
-                                   const TeamPlacement<Pose>& placement) {
+                                   const TeamAlignment<Pose>& alignment) {
   std::vector<Pose> frames(joint.robots.size());
   std::vector<bool> seen(joint.robots.size(), false);
   for (std::size_t r = 0; r < joint.robots.size(); ++r) {
-    const auto c = static_cast<std::size_t>(placement.component[r]);
-    if (seen[c] || placement.absolute[c]) continue;
+    const auto c = static_cast<std::size_t>(alignment.component[r]);
+    if (seen[c] || alignment.absolute[c]) continue;
     seen[c] = true;
     const RobotVariables& robot = joint.robots[r];
     frames[c] = pose_as<Pose>(robot.odometry.front()) * poses[robot.poses.front().index()].inverse();
@@ -97,13 +98,13 @@ TransformResult transform_between(const JointGraph<Pose>& joint, std::size_t i, 
 
 template <class Pose>
 std::vector<RobotResult> collect_robots(const JointGraph<Pose>& joint, const std::vector<Pose>& poses,
-                                        const TeamPlacement<Pose>& placement) {
-  const std::vector<Pose> frames = component_frames(joint, poses, placement);
+                                        const TeamAlignment<Pose>& alignment) {
+  const std::vector<Pose> frames = component_frames(joint, poses, alignment);
   std::vector<RobotResult> robots;
   for (std::size_t r = 0; r < joint.robots.size(); ++r) {
-    const auto component = static_cast<std::size_t>(placement.component[r]);
+    const auto component = static_cast<std::size_t>(alignment.component[r]);
     robots.push_back(collect_robot(joint.robots[r], joint, poses, frames[component]));
-    robots.back().placed = placement.placed[r];
+    robots.back().placed = alignment.placed[r];
   }
   return robots;
 }
@@ -149,7 +150,7 @@ std::vector<ClosureResult> collect_fingerprint_closures(const JointGraph<Pose>& 
     result.stamp_j = origin.stamp_j;
     result.kind = ClosureKind::kFingerprint;
     result.statistic = std::pow((distance - range.range_m) / range.sigma_m, 2);
-    if (result.statistic > kMaxAcceptedStatistic) {
+    if (result.statistic > kChiSquared99) {
       result.status = ClosureStatus::kRejected;
       result.reason = "the estimate disagrees";
     }
@@ -159,23 +160,12 @@ std::vector<ClosureResult> collect_fingerprint_closures(const JointGraph<Pose>& 
 }
 
 template <class Pose>
-void add_uncertainty(std::vector<RobotResult>& robots, const JointGraph<Pose>& joint,
-                     const Marginals<Pose>& marginals) {
-  for (std::size_t r = 0; r < robots.size(); ++r)
-    for (std::size_t k = 0; k < robots[r].estimate.size(); ++k) {
-      const auto covariance = marginals.pose(joint.robots[r].poses[k]);
-      const double trace = covariance.template topLeftCorner<Pose::kDim, Pose::kDim>().trace();
-      robots[r].sigma_position_m.push_back(std::sqrt(std::max(0.0, trace) / Pose::kDim));
-    }
-}
-
-template <class Pose>
 std::vector<TransformResult> collect_transforms(const JointGraph<Pose>& joint,
-                                                const TeamPlacement<Pose>& placement,
+                                                const TeamAlignment<Pose>& alignment,
                                                 const Marginals<Pose>& marginals) {
   std::vector<TransformResult> transforms;
   const auto placed_with = [&](std::size_t i, std::size_t j) {
-    return placement.placed[i] && placement.placed[j] && placement.component[i] == placement.component[j];
+    return alignment.placed[i] && alignment.placed[j] && alignment.component[i] == alignment.component[j];
   };
   std::vector<PoseId> starts;
   for (const RobotVariables& robot : joint.robots) starts.push_back(robot.poses.front());
@@ -206,6 +196,45 @@ std::vector<std::string> odometry_notes(const Mission& mission, const JointGraph
       notes.push_back("the odometry of " + robot.id + " has a scale error larger than its stated noise");
   }
   return notes;
+}
+
+/// How much a prior's residual r exceeds what everything else allows, by the modes of its covariance L^-1 - P
+/// with the prior's information L, which is diagonal, and the marginal covariance P; 1 is significant.
+template <class Pose>
+double contradiction(const PosePriorFactor<Pose>& prior, const Pose& estimate,
+                     const typename Pose::Jacobian& covariance) {
+  constexpr double kMinVariance = 0.01;  // over the prior's own: below, nothing else measures the mode
+  constexpr double kFalseAlarm = 1e-5;
+  const typename Pose::Tangent scale = prior.information.diagonal().cwiseSqrt();
+  const typename Pose::Tangent r = scale.cwiseProduct((prior.prior.inverse() * estimate).log());
+  const typename Pose::Jacobian variance =
+      Pose::Jacobian::Identity() - scale.asDiagonal() * covariance * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<typename Pose::Jacobian> modes(variance);
+  double statistic = 0;
+  int dof = 0;
+  for (int k = 0; k < Pose::kDof; ++k) {
+    if (modes.eigenvalues()[k] < kMinVariance) continue;
+    statistic += std::pow(modes.eigenvectors().col(k).dot(r), 2) / modes.eigenvalues()[k];
+    ++dof;
+  }
+  return dof == 0 ? 0 : statistic / chi_squared_quantile(1 - kFalseAlarm, dof);
+}
+
+template <class Pose>
+std::optional<std::string> start_note(const JointGraph<Pose>& joint, const Marginals<Pose>& marginals) {
+  double largest = 1;
+  const RobotVariables* contradicted = nullptr;
+  for (const PosePriorFactor<Pose>& prior : joint.team.graph.pose_priors) {
+    const auto robot = std::find_if(joint.robots.begin(), joint.robots.end(),
+                                    [&](const RobotVariables& r) { return r.poses.front() == prior.i; });
+    if (prior.gravity_only || robot == joint.robots.end() || !robot->T_common_start) continue;
+    const double ratio =
+        contradiction(prior, joint.team.graph.poses[prior.i.index()], marginals.pose(prior.i));
+    if (ratio > largest) largest = ratio, contradicted = &*robot;
+  }
+  if (!contradicted) return std::nullopt;
+  return "the stated start of robot " + contradicted->id +
+         " contradicts odometry and links of the team: it is wrong, or that of a robot it has links with";
 }
 
 void add_rssi_offsets(std::vector<RobotResult>& robots, const RssiOffsets& offsets) {
@@ -248,27 +277,27 @@ SimilarityModelResult collect_similarity_model(const RadioMeasurements& radio, c
 
 template <class Pose>
 std::vector<Component> collect_components(const JointGraph<Pose>& joint,
-                                          const TeamPlacement<Pose>& placement) {
+                                          const TeamAlignment<Pose>& alignment) {
   std::vector<Component> components;
   for (std::size_t r = 0; r < joint.robots.size(); ++r) {
-    const auto c = static_cast<std::size_t>(placement.component[r]);
+    const auto c = static_cast<std::size_t>(alignment.component[r]);
     if (components.size() <= c) components.resize(c + 1);
     components[c].robots.push_back(joint.robots[r].id);
   }
   return components;
 }
 
-#define RADIOSLAM_COLLECT(Pose)                                                                              \
-  template std::vector<RobotResult> collect_robots(const JointGraph<Pose>&, const std::vector<Pose>&,        \
-                                                   const TeamPlacement<Pose>&);                              \
-  template std::vector<ClosureResult> collect_radio_links(const JointGraph<Pose>&);                          \
-  template void add_uncertainty(std::vector<RobotResult>&, const JointGraph<Pose>&, const Marginals<Pose>&); \
-  template std::vector<TransformResult> collect_transforms(                                                  \
-      const JointGraph<Pose>&, const TeamPlacement<Pose>&, const Marginals<Pose>&);                          \
-  template std::vector<std::string> odometry_notes(const Mission&, const JointGraph<Pose>&,                  \
-                                                   const Marginals<Pose>&);                                  \
-  template std::vector<ClosureResult> collect_fingerprint_closures(const JointGraph<Pose>&);                 \
-  template std::vector<Component> collect_components(const JointGraph<Pose>&, const TeamPlacement<Pose>&);
+#define RADIOSLAM_COLLECT(Pose)                                                                       \
+  template std::vector<RobotResult> collect_robots(const JointGraph<Pose>&, const std::vector<Pose>&, \
+                                                   const TeamAlignment<Pose>&);                       \
+  template std::vector<ClosureResult> collect_radio_links(const JointGraph<Pose>&);                   \
+  template std::vector<TransformResult> collect_transforms(                                           \
+      const JointGraph<Pose>&, const TeamAlignment<Pose>&, const Marginals<Pose>&);                   \
+  template std::optional<std::string> start_note(const JointGraph<Pose>&, const Marginals<Pose>&);    \
+  template std::vector<std::string> odometry_notes(const Mission&, const JointGraph<Pose>&,           \
+                                                   const Marginals<Pose>&);                           \
+  template std::vector<ClosureResult> collect_fingerprint_closures(const JointGraph<Pose>&);          \
+  template std::vector<Component> collect_components(const JointGraph<Pose>&, const TeamAlignment<Pose>&);
 RADIOSLAM_COLLECT(SE2)
 RADIOSLAM_COLLECT(SE3)
 #undef RADIOSLAM_COLLECT

@@ -26,22 +26,17 @@ struct OccupancyImageParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(
-        Field{"max_scans", "", 1, 1e6, "largest number of scans drawn on the report's map, over all robots"},
-        self.max_scans);
-    visit(Field{"max_points", "", 1, 1e8, "largest number of points used per scan"}, self.max_points);
-    visit(Field{"max_cells", "", 1, 1e7,
-                "largest number of cells on the report's map, over all robots; fewer cells are wider"},
-          self.max_cells);
-    visit(Field{"height_step_m", "m", 0.01, 100, "height step within which hits of a cell count as one"},
-          self.height_step_m);
-    visit(Field{"min_heights", "", 1, 100,
-                "smallest number of distinct heights at which a cell is hit; lower values keep floors"},
-          self.min_heights);
-    visit(Field{"min_height_ratio", "", 0, 1,
-                "smallest number of heights of a cell, relative to that of the highest cells"},
-          self.min_height_ratio);
-    visit(Field{"cell_spacings", "", 0.01, 100, "cell width, in map point spacings"}, self.cell_spacings);
+    RADIOSLAM_FIELD(max_scans, "", 1, 1e6,
+                    "largest number of scans drawn on the report's map, over all robots");
+    RADIOSLAM_FIELD(max_points, "", 1, 1e8, "largest number of points used per scan");
+    RADIOSLAM_FIELD(max_cells, "", 1, 1e7,
+                    "largest number of cells on the report's map, over all robots; fewer cells are wider");
+    RADIOSLAM_FIELD(height_step_m, "m", 0.01, 100, "height step within which hits of a cell count as one");
+    RADIOSLAM_FIELD(min_heights, "", 1, 100,
+                    "smallest number of distinct heights at which a cell is hit; lower values keep floors");
+    RADIOSLAM_FIELD(min_height_ratio, "", 0, 1,
+                    "smallest number of heights of a cell, relative to that of the highest cells");
+    RADIOSLAM_FIELD(cell_spacings, "", 0.01, 100, "cell width, in map point spacings");
   }
 };
 

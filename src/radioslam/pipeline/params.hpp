@@ -2,15 +2,17 @@
 #pragma once
 
 #include "radioslam/closure/fingerprint_closures.hpp"
+#include "radioslam/closure/overlap/overlap_search.hpp"
 #include "radioslam/graph/optimizer.hpp"
 #include "radioslam/joint/access_point_stage.hpp"
 #include "radioslam/joint/aoa/aoa_integrity.hpp"
 #include "radioslam/joint/aoa/aoa_match_weights.hpp"
-#include "radioslam/joint/graduated_optimisation.hpp"
+#include "radioslam/joint/graduated_optimization.hpp"
 #include "radioslam/joint/joint_graph.hpp"
+#include "radioslam/joint/links/range_biases.hpp"
+#include "radioslam/joint/matches/match_selection.hpp"
 #include "radioslam/joint/overlap_stage.hpp"
 #include "radioslam/joint/position_fixes/placement.hpp"
-#include "radioslam/joint/range_biases.hpp"
 #include "radioslam/joint/sequence_stage.hpp"
 #include "radioslam/mission/keyframes.hpp"
 #include "radioslam/odometry/scan_stage.hpp"
@@ -70,6 +72,16 @@ struct RunParams {
     visit("robust", self.robust);
     visit("optimizer", self.optimizer);
   }
+};
+
+// How far a run goes, and what it skips.
+
+struct RunOptions {
+  Pruning pruning = Pruning::kOn;
+  SearchMethod search = SearchMethod::kTree;
+  bool overlap_only = false;  ///< stop after the overlap search
+  /// Receives every candidate as the search finds it; then none is listed in the result.
+  TakeCandidates take_candidates = nullptr;
 };
 
 }  // namespace radioslam

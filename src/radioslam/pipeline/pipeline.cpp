@@ -1,79 +1,251 @@
 #include "radioslam/pipeline/pipeline.hpp"
 
-#include <optional>
+#include <algorithm>
 #include <utility>
 
-#include "radioslam/joint/scan_closures.hpp"
+#include "radioslam/joint/closures/closure.hpp"
+#include "radioslam/joint/closures/loop_stage.hpp"
+#include "radioslam/joint/field_stage.hpp"
+#include "radioslam/joint/joint_graph_from_file.hpp"
+#include "radioslam/joint/late_nodes.hpp"
+#include "radioslam/joint/links/link_weights.hpp"
+#include "radioslam/joint/matches/alignment_by_matches.hpp"
+#include "radioslam/joint/uncertainty/position_uncertainty.hpp"
 #include "radioslam/pipeline/recordings_stage.hpp"
 #include "radioslam/pipeline/run_results.hpp"
-#include "radioslam/pipeline/stage_clock.hpp"
-#include "radioslam/pipeline/stages.hpp"
 
 namespace radioslam {
 namespace {
 
-/// The whole estimate, stage by stage. `team`: the mission as a factor graph, or null.
-template <class Pose>
-RunOutput run(const Mission& mission, const TeamGraph<Pose>* team, std::vector<Closure> scans,
-              const RunParams& params, const RunOptions& options, const Progress& progress) {
-  StageClock timed;
-  auto radio = timed("radio", measure_radio, mission, params.radio, progress);
-  auto estimate = timed("graph", begin_estimate<Pose>, mission, team, std::move(scans), std::move(radio),
-                        params, options);
-  if (has_fixes(mission))
-    estimate = timed("position fixes", place_robots_by_fixes<Pose>, std::move(estimate), mission, params);
-  estimate = timed("team frame", align_team<Pose>, std::move(estimate), mission, params, progress);
-  estimate = timed("closures", close_by_fingerprints<Pose>, std::move(estimate), params);
-  estimate = timed("sequences", close_by_sequences<Pose>, std::move(estimate), params);
-  estimate = timed("optimise", optimise_team<Pose>, std::move(estimate), params, progress);
-  if (has_fixes(mission))
-    estimate = timed("settle fixes", reclassify_fixes<Pose>, std::move(estimate), params, progress);
-  estimate = timed("radio field", refine_on_field<Pose>, std::move(estimate), mission, params, progress);
-  estimate = timed("range biases", correct_range_biases<Pose>, std::move(estimate), params, progress);
-  if (!estimate.loops.empty())
-    estimate = timed("loops", close_by_loops<Pose>, std::move(estimate), params, progress);
-  const bool has_matches = !estimate.matches.empty();
-  if (has_matches && weighs_matches(params, options))
-    estimate = timed("alignment by matches", weigh_alignments_by_matches<Pose>, std::move(estimate), params,
-                     progress);
-  std::optional<OverlapStage> overlaps;
-  if (needs_overlap_search(mission, options))
-    overlaps = timed("overlap", search_overlaps<Pose>, estimate, params, options);
-  if (has_matches)
-    estimate = timed("matches", close_by_matches<Pose>, std::move(estimate), mission, *overlaps, params,
-                     options, progress);
-  estimate = test_closures(std::move(estimate));
-  RunResult result = describe_run(mission, estimate, std::move(overlaps), params, options, timed);
-  return {std::move(result), std::move(estimate.joint.team.graph)};
+constexpr double kMinSearchedWeight = 0.01;  // of an alignment whose overlaps are candidates, too
+
+/// Whether matches may move the team; without pruning or robustness they show what they do on their own.
+bool weighs_matches(const RunSetup& run) {
+  return run.params.matches.robust && run.options.pruning == Pruning::kOn && !run.options.overlap_only;
 }
 
-RunOutput run_for_dimension(const Mission& mission, std::vector<Closure> scans, const RunParams& params,
-                            const RunOptions& options, const Progress& progress) {
-  return mission.dimension == 2 ? run<SE2>(mission, nullptr, std::move(scans), params, options, progress)
-                                : run<SE3>(mission, nullptr, std::move(scans), params, options, progress);
+/// Whether the robots are connected by matches and by nothing else.
+bool stands_on_matches(const RunSetup& run) {
+  const Mission& mission = run.mission;
+  return weighs_matches(run) && !mission.matches.empty() && mission.ranges.empty() &&
+         mission.aoa_measurements.empty() && !has_fixes(mission) &&
+         std::all_of(mission.robots.begin(), mission.robots.end(),
+                     [](const Robot& robot) { return robot.wifi.empty(); });
+}
+
+/// The graph of the mission, with poses at the stamps of loop closures and position fixes.
+template <class Pose>
+JointGraph<Pose> mission_graph(const RunSetup& run, const std::vector<Closure>& scans) {
+  std::vector<std::vector<Stamp>> node_stamps(run.mission.robots.size());
+  add_closure_stamps(scans, node_stamps);
+  add_fix_stamps(run.mission, node_stamps);
+  return build_joint_graph<Pose>(run.mission, run.params.keyframe, run.params.graph, std::move(node_stamps));
+}
+
+/// Robots with position fixes, in the common frame.
+template <class Pose>
+void align_by_fixes(const RunSetup& run, TeamEstimate<Pose>& team) {
+  team.fixes = place_by_fixes(team.joint, run.mission, run.params.fixes, run.params.optimizer);
+  team.starts = starts_with_fixes<Pose>(run.mission, team.fixes);
+}
+
+template <class Pose>
+void align_by_links_or_fingerprints(const RunSetup& run, TeamEstimate<Pose>& team) {
+  team.alignment = has_radio_links(team.joint)
+                       ? align_by_links(team.joint, run.params.alignment, run.progress)
+                       : align_robots_by_fingerprints(team.joint, run.mission, team.starts, run.radio,
+                                                      run.params.team_frame, run.progress);
+  constrain_by_fixes(team.joint, team.fixes, team.alignment);
+}
+
+template <class Pose>
+void close_by_fingerprints(const RunSetup& run, TeamEstimate<Pose>& team) {
+  team.closures.fingerprints =
+      propose_fingerprint_closures(team.starts, run.radio, run.params.radio.distance_model.max_trusted_path_m,
+                                   run.params.team_frame, run.params.closure);
+  add_fingerprint_closures(team.joint, run.radio, team.closures.fingerprints);
+}
+
+template <class Pose>
+void refine_on_field(const RunSetup& run, TeamEstimate<Pose>& team) {
+  if (refine_by_radio_field(team.joint, run.mission, team.starts, run.radio, team.alignment,
+                            team.closures.fingerprints, run.params.field, run.progress))
+    optimize(team.joint.team.graph, run.params.optimizer, run.progress);
+}
+
+/// Makes closures that came late part of the team.
+template <class Pose>
+void add_found(const RunSetup& run, TeamEstimate<Pose>& team, const std::vector<Closure>& found) {
+  if (found.empty()) return;
+  std::vector<std::vector<Stamp>> stamps(run.mission.robots.size());
+  add_closure_stamps(found, stamps);
+  add_nodes(team, run.mission, run.params.graph, stamps);
+  auto& closures = team.closures.loops.empty() ? team.closures.matches : team.closures.loops;
+  closures.insert(closures.end(), found.begin(), found.end());
+}
+
+/// Moves the team to the alignment that radio links and groups of consistent matches support best, and joins
+/// components that matches alone connect.
+template <class Pose>
+void align_by_matches(const RunSetup& run, TeamEstimate<Pose>& team) {
+  if (choose_alignment_by_matches(team.joint, team.alignment, team.closures.matches, run.params.alignment))
+    optimize(team.joint.team.graph, run.params.optimizer, run.progress);
+  join_by_matches(team.joint, team.alignment, team.closures.matches);
+}
+
+bool needs_overlap_search(const RunSetup& run, const TeamClosures& closures) {
+  return run.options.overlap_only || !run.mission.ranges.empty() || !run.mission.aoa_measurements.empty() ||
+         !run.mission.matches.empty() || !closures.matches.empty();
+}
+
+/// Keyframe pairs of different robots whose views can overlap, in any of the likely alignments.
+template <class Pose>
+OverlapStage search_overlaps(const RunSetup& run, const TeamEstimate<Pose>& team) {
+  const MixtureParams& mixture = run.params.alignment.mixture;
+  const OverlapStageParams& overlap = run.params.overlap;
+  std::vector<JointGraph<Pose>> alignments{graph_for_covariances(team.joint, mixture)};
+  const TeamAlignment<Pose>& alignment = team.alignment;
+  for (std::size_t k = 0; k < alignment.alternatives.size(); ++k) {
+    if (overlap_mode(overlap) == OverlapMode::kLink) break;
+    if (alignment.alternative_weights[k] < kMinSearchedWeight) break;
+    JointGraph<Pose> alternative = team.joint;
+    alternative.team.graph.poses = alignment.alternatives[k];
+    if (!alignment.segments.of_segment.empty()) reweigh_radio_links(alternative, alignment, mixture);
+    alignments.push_back(graph_for_covariances(alternative, mixture));
+  }
+  const auto listed = static_cast<std::size_t>(overlap.max_listed_candidates);
+  return find_overlaps(
+      std::move(alignments), overlap,
+      {run.options.search, run.options.take_candidates ? 0 : listed,
+       keyframes_of_matches(team.joint, team.closures.matches), run.options.take_candidates});
+}
+
+/// Selects the matches that are candidates and consistent, and solves the team with them.
+template <class Pose>
+void close_by_matches(const RunSetup& run, TeamEstimate<Pose>& team, const OverlapStage& overlaps) {
+  const RunParams& params = run.params;
+  std::vector<Closure>& matches = team.closures.matches;
+  const auto radio = radio_covariance(team.joint, team.alignment, params.alignment);
+  std::optional<AoaMatchWeights> angles;
+  if (params.matches.angle_weights) angles.emplace(run.mission, params.matches, params.angles);
+  select_matches(team.joint, team.alignment, matches, overlaps.of_asked, run.options.pruning, params.matches,
+                 angles ? &*angles : nullptr, radio);
+  if (radio && params.matches.robust && run.options.pruning == Pruning::kOn)
+    optimize_matches_and_radio(team.joint, matches, team.alignment, params.matches, params.alignment.mixture,
+                               params.optimizer, run.progress);
+  else
+    optimize_with_matches(team.joint, matches, params.matches, params.optimizer, run.progress);
 }
 
 }  // namespace
 
-RunOutput run_pipeline(Mission mission, const RunParams& params, const RunOptions& options,
+template <class Pose>
+TeamEstimate<Pose> build_team(const RunSetup& run, const TeamGraph<Pose>* graph, std::vector<Closure> scans) {
+  TeamEstimate<Pose> team;
+  team.joint = graph ? joint_graph_of(*graph, run.mission) : mission_graph<Pose>(run, scans);
+  team.starts = known_starts(run.mission);
+  team.closures.scans = std::move(scans);
+  if (graph) team.closures.loops = closures_of(*graph, team.joint);
+  if (!run.options.overlap_only) {
+    const bool are_loops = !graph && stands_on_matches(run);
+    (are_loops ? team.closures.loops : team.closures.matches) = closures_of_matches(run.mission);
+  }
+  add_own_loops(team.joint, team.closures.loops, run.params.optimizer);
+  add_scan_closures(team.joint, team.closures.scans, run.params.optimizer);
+  return team;
+}
+
+template <class Pose>
+TeamEstimate<Pose> align_team(const RunSetup& run, TeamEstimate<Pose> team) {
+  const RunParams& params = run.params;
+  JointGraph<Pose>& joint = team.joint;
+  StageClock& timed = run.timed;
+  if (has_fixes(run.mission)) timed("position fixes", align_by_fixes<Pose>, run, team);
+  timed("team frame", align_by_links_or_fingerprints<Pose>, run, team);
+  timed("closures", close_by_fingerprints<Pose>, run, team);
+  team.closures.sequences =
+      timed("sequences", add_sequence_closures<Pose>, joint, run.radio, params.sequence);
+  team.solution =
+      timed("optimise", optimize_robustly<Pose>, joint, params.robust, params.optimizer, run.progress);
+  if (has_fixes(run.mission))
+    timed("reclassify fixes", reclassify_fixes<Pose>, joint, team.fixes, params.optimizer, run.progress);
+  timed("radio field", refine_on_field<Pose>, run, team);
+  team.range_biases = timed("range biases", estimate_range_biases<Pose>, joint, team.alignment,
+                            params.range_bias, params.alignment.mixture, params.optimizer, run.progress);
+  return team;
+}
+
+template <class Pose>
+JudgedTeam<Pose> judge_closures(const RunSetup& run, TeamEstimate<Pose> aligned,
+                                const std::vector<Closure>& found) {
+  JudgedTeam<Pose> judged{std::move(aligned), std::nullopt};
+  TeamEstimate<Pose>& team = judged.team;
+  TeamClosures& closures = team.closures;
+  add_found(run, team, found);
+  if (!closures.loops.empty())
+    run.timed("loops", close_by_loops<Pose>, team.joint, team.alignment, closures.loops, run.params.optimizer,
+              run.progress);
+  const bool has_matches = !closures.matches.empty();
+  if (has_matches && weighs_matches(run))
+    run.timed("alignment by matches", align_by_matches<Pose>, run, team);
+  if (needs_overlap_search(run, closures))
+    judged.overlaps = run.timed("overlap", search_overlaps<Pose>, run, team);
+  if (has_matches) run.timed("matches", close_by_matches<Pose>, run, team, *judged.overlaps);
+  test_closures(team.joint, FactorSource::kScanLoop, closures.scans);
+  test_closures(team.joint, FactorSource::kSequence, closures.sequences);
+  return judged;
+}
+
+namespace {
+
+/// The whole estimate. `graph`: the team as a factor graph, or null.
+template <class Pose>
+RunOutput run(const MeasuredRecordings& recordings, const TeamGraph<Pose>* graph, const RunParams& params,
+              const RunOptions& options, const Progress& progress, StageClock& timed) {
+  const Mission& mission = recordings.mission;
+  const RadioMeasurements radio = timed("radio", measure_radio, mission, params.radio, progress);
+  const RunSetup run{mission, radio, params, options, progress, timed};
+
+  auto built = timed("graph", build_team<Pose>, run, graph, closures_of_scans(recordings.scans.closures));
+  auto aligned = align_team(run, std::move(built));
+  auto judged = judge_closures(run, std::move(aligned));
+
+  RunResult result =
+      describe_run(mission, radio, judged.team, std::move(judged.overlaps), params, options, timed);
+  return {std::move(result), std::move(judged.team.joint.team.graph)};
+}
+
+}  // namespace
+
+RunOutput run_pipeline(const Mission& recorded, const RunParams& params, const RunOptions& options,
                        const Progress& progress) {
-  if (!has_raw_recordings(mission)) return run_for_dimension(mission, {}, params, options, progress);
-  MeasuredRecordings measured = measure_recordings(mission, params, progress);
-  RunOutput output =
-      run_for_dimension(mission, closures_of_scans(measured.scans.closures), params, options, progress);
-  add_recording_results(output.result, std::move(measured), mission, params, options);
+  StageClock timed;
+  MeasuredRecordings recordings = measure_recordings(recorded, params, timed, progress);
+  RunOutput output = recorded.dimension == 2
+                         ? run<SE2>(recordings, nullptr, params, options, progress, timed)
+                         : run<SE3>(recordings, nullptr, params, options, progress, timed);
+  add_recording_results(output.result, std::move(recordings), params, options, timed);
+  output.result.timings = timed.timings();
   return output;
 }
 
 template <class Pose>
 RunOutput run_pipeline(const Mission& mission, const TeamGraph<Pose>& team, const RunParams& params,
                        const RunOptions& options, const Progress& progress) {
-  return run(mission, &team, {}, params, options, progress);
+  StageClock timed;
+  RunOutput output = run({mission, {}, {}}, &team, params, options, progress, timed);
+  output.result.timings = timed.timings();
+  return output;
 }
 
-template RunOutput run_pipeline(const Mission&, const TeamGraph<SE2>&, const RunParams&, const RunOptions&,
-                                const Progress&);
-template RunOutput run_pipeline(const Mission&, const TeamGraph<SE3>&, const RunParams&, const RunOptions&,
-                                const Progress&);
+#define RADIOSLAM_PIPELINE(Pose)                                                                         \
+  template RunOutput run_pipeline(const Mission&, const TeamGraph<Pose>&, const RunParams&,              \
+                                  const RunOptions&, const Progress&);                                   \
+  template TeamEstimate<Pose> build_team(const RunSetup&, const TeamGraph<Pose>*, std::vector<Closure>); \
+  template TeamEstimate<Pose> align_team(const RunSetup&, TeamEstimate<Pose>);                           \
+  template JudgedTeam<Pose> judge_closures(const RunSetup&, TeamEstimate<Pose>, const std::vector<Closure>&);
+RADIOSLAM_PIPELINE(SE2)
+RADIOSLAM_PIPELINE(SE3)
+#undef RADIOSLAM_PIPELINE
 
 }  // namespace radioslam

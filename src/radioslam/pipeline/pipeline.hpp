@@ -1,13 +1,25 @@
 // Offline pipeline: estimates the joint trajectory of a team from its recorded mission.
+//
+//   measure    scans give odometry and loop closures of each robot, captures angles, WiFi scans fingerprints
+//   build      the joint graph: odometry, known starts, radio links, each robot's own closures
+//   align      all robots in one frame, and the team optimized there
+//   judge      closures between robots: propose where views overlap, select those that hold, solve. Judging
+//   again
+//              with closures that were found since begins at the same aligned team, so nothing depends on the
+//              order in which they came
+//   describe   trajectories, uncertainty, outcomes, notes
 #pragma once
 
+#include <optional>
 #include <variant>
+#include <vector>
 
 #include "radioslam/base/progress.hpp"
 #include "radioslam/graph/pose_graph.hpp"
+#include "radioslam/joint/team_estimate.hpp"
 #include "radioslam/mission/mission.hpp"
 #include "radioslam/pipeline/params.hpp"
-#include "radioslam/pipeline/run_options.hpp"
+#include "radioslam/pipeline/stage_clock.hpp"
 #include "radioslam/results/results.hpp"
 
 namespace radioslam {
@@ -20,12 +32,44 @@ struct RunOutput {
 
 /// Estimates the joint trajectory of the team. Deterministic: the same mission and parameters give identical
 /// numbers for any number of threads. RunResult::parameters is left for the caller to fill.
-RunOutput run_pipeline(Mission mission, const RunParams& params, const RunOptions& options = {},
+RunOutput run_pipeline(const Mission& recorded, const RunParams& params, const RunOptions& options = {},
                        const Progress& progress = {});
 
 /// The same for a team given as a factor graph; `mission` contains its robots and no other measurements.
 template <class Pose>
 RunOutput run_pipeline(const Mission& mission, const TeamGraph<Pose>& team, const RunParams& params,
                        const RunOptions& options = {}, const Progress& progress = {});
+
+/// A run under way: what it is made from, and the wall time of its stages so far.
+struct RunSetup {
+  const Mission& mission;  ///< with the odometry and angles of its raw recordings
+  const RadioMeasurements& radio;
+  const RunParams& params;
+  const RunOptions& options;
+  const Progress& progress;
+  StageClock& timed;
+};
+
+/// The joint graph of the mission, or of `graph` where the team comes as one, without any relation of the
+/// robots that is not measured directly. `scans`: closures of their scans.
+template <class Pose>
+TeamEstimate<Pose> build_team(const RunSetup& run, const TeamGraph<Pose>* graph, std::vector<Closure> scans);
+
+/// All robots in one frame: by position fixes, by radio links if there are any, else by fingerprints;
+/// optimized with all but the closures that are judged.
+template <class Pose>
+TeamEstimate<Pose> align_team(const RunSetup& run, TeamEstimate<Pose> team);
+
+template <class Pose>
+struct JudgedTeam {
+  TeamEstimate<Pose> team;               ///< its closures have their outcomes
+  std::optional<OverlapStage> overlaps;  ///< nothing if no pairs were searched for
+};
+
+/// The aligned team with those of its closures that hold, and of `found`: closures that came later, between
+/// any two stamps that have odometry.
+template <class Pose>
+JudgedTeam<Pose> judge_closures(const RunSetup& run, TeamEstimate<Pose> aligned,
+                                const std::vector<Closure>& found = {});
 
 }  // namespace radioslam

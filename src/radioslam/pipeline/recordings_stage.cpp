@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "radioslam/pipeline/occupancy_image.hpp"
-#include "radioslam/pipeline/stage_clock.hpp"
 #include "radioslam/radio/captures/csi_aoa.hpp"
 
 namespace radioslam {
@@ -26,9 +25,13 @@ bool has_scans(const Mission& mission) {
                      [](const Robot& robot) { return !robot.lidar.empty(); });
 }
 
-/// Replaces the mission's captures by the angles measured from them.
+bool has_captures(const Mission& mission) {
+  return std::any_of(mission.robots.begin(), mission.robots.end(),
+                     [](const Robot& robot) { return robot.csi.has_value(); });
+}
+
+/// With the angles measured from captures beside those that were recorded.
 void add_angles(Mission& mission, const std::vector<AoaMeasurement>& measured) {
-  for (Robot& robot : mission.robots) robot.csi.reset();
   mission.aoa_measurements.insert(mission.aoa_measurements.end(), measured.begin(), measured.end());
   std::stable_sort(mission.aoa_measurements.begin(), mission.aoa_measurements.end(),
                    [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
@@ -38,36 +41,28 @@ bool is_not_empty(const MeasuredCsi& csi) { return !csi.aoa_measurements.empty()
 
 }  // namespace
 
-bool has_raw_recordings(const Mission& mission) {
-  return std::any_of(mission.robots.begin(), mission.robots.end(),
-                     [](const Robot& robot) { return !robot.lidar.empty() || robot.csi; });
-}
-
-MeasuredRecordings measure_recordings(Mission& mission, const RunParams& params, const Progress& progress) {
-  MeasuredRecordings measured;
-  StageClock timed;
-  measured.scans =
-      timed("scans", [&] { return measure_scans(mission, params.scans, params.keyframe, progress); });
-  measured.csi = timed("angles", [&] { return measure_csi(mission, params.csi, progress); });
-  measured.timings = timed.timings();
-  add_angles(mission, measured.csi.aoa_measurements);
-  if (!is_not_empty(measured.csi)) measured.timings.pop_back();
-  if (measured.scans.scans == 0) measured.timings.erase(measured.timings.begin());
+MeasuredRecordings measure_recordings(const Mission& recorded, const RunParams& params, StageClock& timed,
+                                      const Progress& progress) {
+  MeasuredRecordings measured{recorded, {}, {}};
+  if (has_scans(recorded)) {
+    measured.scans = timed("scans", measure_scans, recorded, params.scans, params.keyframe, progress);
+    measured.mission = with_odometry(std::move(measured.mission), measured.scans);
+  }
+  if (has_captures(recorded)) {
+    measured.csi = timed("angles", measure_csi, measured.mission, params.csi, progress);
+    add_angles(measured.mission, measured.csi.aoa_measurements);
+  }
   return measured;
 }
 
-void add_recording_results(RunResult& result, MeasuredRecordings measured, const Mission& mission,
-                           const RunParams& params, const RunOptions& options) {
+void add_recording_results(RunResult& result, MeasuredRecordings measured, const RunParams& params,
+                           const RunOptions& options, StageClock& timed) {
   const MeasuredScans& scans = measured.scans;
   MeasuredCsi& csi = measured.csi;
-  result.timings.insert(result.timings.begin(), measured.timings.begin(), measured.timings.end());
   if (scans.scans > 0) count_scans(result, scans);
-  if (has_scans(mission) && !options.overlap_only) {
-    StageClock timed;
-    timed("scan picture",
-          [&] { add_occupancy_images(result, mission, params.scans.lidar, params.occupancy_image); });
-    result.timings.push_back(timed.timings().front());
-  }
+  if (has_scans(measured.mission) && !options.overlap_only)
+    timed("scan picture", add_occupancy_images, result, measured.mission, params.scans.lidar,
+          params.occupancy_image);
   if (is_not_empty(csi))
     result.counts["arrivals_measured"] = static_cast<double>(csi.aoa_measurements.size());
   result.notes.insert(result.notes.end(), scans.notes.begin(), scans.notes.end());

@@ -1,7 +1,5 @@
-// Processing of raw recordings before all other stages: laser scans become odometry and loop closures of each
-// robot, CSI captures become angles of arrival between robots.
-//
-// Afterwards the mission contains odometry and angles and no captures; later stages need nothing else.
+// What raw recordings measure, before anything else: laser scans the odometry and loop closures of each
+// robot, CSI captures angles of arrival between robots. The mission stays as it was recorded.
 #pragma once
 
 #include <vector>
@@ -10,26 +8,23 @@
 #include "radioslam/mission/mission.hpp"
 #include "radioslam/odometry/scan_stage.hpp"
 #include "radioslam/pipeline/params.hpp"
-#include "radioslam/pipeline/pipeline.hpp"
+#include "radioslam/pipeline/stage_clock.hpp"
 #include "radioslam/radio/captures/csi_stage.hpp"
 #include "radioslam/results/results.hpp"
 
 namespace radioslam {
 
 struct MeasuredRecordings {
+  Mission mission;  ///< as recorded, with the odometry of its scans and the angles of its captures
   MeasuredScans scans;
   MeasuredCsi csi;
-  std::vector<StageTiming> timings;  ///< of the steps that had input
 };
 
-/// Whether there are scans or captures to process.
-bool has_raw_recordings(const Mission& mission);
-
-/// Adds odometry to robots with scans and replaces captures by angles of arrival.
-MeasuredRecordings measure_recordings(Mission& mission, const RunParams& params, const Progress& progress);
+MeasuredRecordings measure_recordings(const Mission& recorded, const RunParams& params, StageClock& timed,
+                                      const Progress& progress);
 
 /// Adds the results of these recordings to those of a run on the same mission.
-void add_recording_results(RunResult& result, MeasuredRecordings measured, const Mission& mission,
-                           const RunParams& params, const RunOptions& options);
+void add_recording_results(RunResult& result, MeasuredRecordings measured, const RunParams& params,
+                           const RunOptions& options, StageClock& timed);
 
 }  // namespace radioslam

@@ -5,5 +5,4 @@ radioslam_room(pipeline
     pipeline.cpp
     recordings_stage.cpp
     run_results.cpp
-    stages.cpp
   ROOMS joint odometry closure consistency results)

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 #include <string>
 
-#include "radioslam/joint/covariance_graph.hpp"
-#include "radioslam/joint/dense_trajectory.hpp"
-#include "radioslam/joint/position_fixes/fix_results.hpp"
-#include "radioslam/joint/rejected_stretches.hpp"
-#include "radioslam/joint/sight_notes.hpp"
+#include "radioslam/joint/position_fixes/placement.hpp"
+#include "radioslam/joint/uncertainty/position_uncertainty.hpp"
 #include "radioslam/pipeline/collect_results.hpp"
 
 namespace radioslam {
@@ -32,24 +31,39 @@ void count(RunResult& result, const RadioMeasurements& radio, const OptimizerSum
 /// Adds the estimate, its uncertainty and its alternatives.
 template <class Pose>
 void add_estimate(RunResult& result, const Mission& mission, const JointGraph<Pose>& joint,
-                  const TeamPlacement<Pose>& placement, const MixtureParams& mixture, StageClock& timed) {
+                  const TeamAlignment<Pose>& alignment, const MixtureParams& mixture, StageClock& timed) {
   const auto& graph = joint.team.graph;
-  result.robots = collect_robots(joint, graph.poses, placement);
+  result.robots = collect_robots(joint, graph.poses, alignment);
   const auto marginals = timed("uncertainty", [&] {
     return Marginals<Pose>::compute(graph_for_covariances(joint, mixture).team.graph);
   });
   if (marginals) {
-    add_uncertainty(result.robots, joint, *marginals);
-    result.transforms = collect_transforms(joint, placement, *marginals);
+    add_uncertainty(result.robots, joint, alignment, *marginals);
+    result.transforms = collect_transforms(joint, alignment, *marginals);
     for (auto& note : odometry_notes(mission, joint, *marginals)) result.notes.push_back(std::move(note));
+    if (auto note = start_note(joint, *marginals)) result.notes.push_back(std::move(*note));
   }
-  result.weight = placement.weight;
-  for (std::size_t k = 0; k < std::min(placement.alternatives.size(), kMaxReportedAlternatives); ++k)
+  result.weight = alignment.weight;
+  for (std::size_t k = 0; k < std::min(alignment.alternatives.size(), kMaxReportedAlternatives); ++k)
     result.alternatives.push_back(
-        {placement.alternative_weights[k], collect_robots(joint, placement.alternatives[k], placement)});
-  result.components = collect_components(joint, placement);
+        {alignment.alternative_weights[k], collect_robots(joint, alignment.alternatives[k], alignment)});
+  result.components = collect_components(joint, alignment);
   for (const auto& robot : result.robots)
     if (!robot.placed) result.unplaced.push_back(robot.id);
+}
+
+/// Note on the constant errors of ranges that the estimate corrects: the largest one.
+void note_range_biases(RunResult& result) {
+  const auto size = [](const RangeBiasResult& bias) { return std::abs(bias.bias_m); };
+  const auto largest = std::max_element(result.range_biases.begin(), result.range_biases.end(),
+                                        [&](const auto& a, const auto& b) { return size(a) < size(b); });
+  if (largest == result.range_biases.end()) return;
+  std::ostringstream note;
+  note << std::fixed << std::setprecision(2)
+       << "ranges have constant errors, which the estimate corrects: those between " << largest->end_i
+       << " and " << largest->end_j << " are " << size(*largest) << " m too "
+       << (largest->bias_m > 0 ? "long" : "short") << " (range_biases in summary.json)";
+  result.notes.push_back(note.str());
 }
 
 void add_notes(RunResult& result, const Mission& mission, const RadioMeasurements& radio,
@@ -62,6 +76,7 @@ void add_notes(RunResult& result, const Mission& mission, const RadioMeasurement
     result.notes.push_back(
         std::to_string(ignored_links) +
         " links are not used: they have no odometry at their time, or are relative poses between robots");
+  note_range_biases(result);
   if (!result.alternatives.empty())
     result.notes.push_back("the links leave the team alignment ambiguous: see hypotheses/");
   if (const auto note = sequence_note(mission.dimension, radio, sequence)) result.notes.push_back(*note);
@@ -70,14 +85,14 @@ void add_notes(RunResult& result, const Mission& mission, const RadioMeasurement
 /// Tests self-reported and estimated poses against the angles of arrival.
 template <class Pose>
 void check_angles_into(RunResult& result, const Mission& mission, const JointGraph<Pose>& joint,
-                       const TeamPlacement<Pose>& placement, const RunParams& params) {
+                       const TeamAlignment<Pose>& alignment, const RunParams& params) {
   const auto add = [&](const AoaIntegrity& checks, CheckedPose pose) {
     result.angle_checks.insert(result.angle_checks.end(), checks.pairs.begin(), checks.pairs.end());
     for (auto& note : angle_notes(checks, pose)) result.notes.push_back(std::move(note));
   };
   add(check_self_reports<Pose>(mission, params.graph, params.angles, params.angle_check),
       CheckedPose::kSelfReported);
-  add(check_estimate(mission, joint, placement, params.angles, params.angle_check), CheckedPose::kEstimate);
+  add(check_estimate(mission, joint, alignment, params.angles, params.angle_check), CheckedPose::kEstimate);
 }
 
 /// Outcomes of all links and closures, by kind.
@@ -86,14 +101,15 @@ std::vector<ClosureResult> collect_all_closures(const TeamEstimate<Pose>& estima
   const JointGraph<Pose>& joint = estimate.joint;
   std::vector<ClosureResult> all = collect_radio_links(joint);
   for (auto& closure : collect_fingerprint_closures(joint)) all.push_back(std::move(closure));
-  for (const auto* closures : {&estimate.sequences, &estimate.scans, &estimate.loops, &estimate.matches})
+  const TeamClosures& judged = estimate.closures;
+  for (const auto* closures : {&judged.sequences, &judged.scans, &judged.loops, &judged.matches})
     for (auto& closure : collect_closures(joint, *closures)) all.push_back(std::move(closure));
   return all;
 }
 
 /// Adds the keyframe pairs with overlapping views and their counts. `streamed`: they have all been handed
 /// over.
-void add_overlaps(RunResult& result, OverlapStage overlaps, bool streamed) {
+void add_overlaps(RunResult& result, const Mission& mission, OverlapStage overlaps, bool streamed) {
   if (!overlaps.searched) {
     result.notes.push_back("overlap search was skipped: the estimate's covariances are singular");
     return;
@@ -108,6 +124,13 @@ void add_overlaps(RunResult& result, OverlapStage overlaps, bool streamed) {
                            std::to_string(overlaps.counts.kept) +
                            " candidates (overlap.max_listed_candidates); prune lists all");
   result.candidates = std::move(overlaps.listed);
+  if (overlaps.estimated_links)
+    result.notes.push_back(
+        "mode link used relative poses of the joint estimate at the links: no range has a direct "
+        "angle of arrival at both ends, in the plane, within overlap.pairing_s");
+  for (const auto& [i, j] : overlaps.unlinked)
+    result.notes.push_back("mode link did not compare " + mission.robots[i.index()].id + " and " +
+                           mission.robots[j.index()].id + ": no link between them gives a relative pose");
   if (overlaps.alignments > 1)
     result.notes.push_back("the candidates are those of any of the " + std::to_string(overlaps.alignments) +
                            " likely team alignments");
@@ -134,40 +157,42 @@ void add_uncertain_stretches(RunResult& result) {
 }  // namespace
 
 template <class Pose>
-RunResult describe_run(const Mission& mission, const TeamEstimate<Pose>& estimate,
-                       std::optional<OverlapStage> overlaps, const RunParams& params,
-                       const RunOptions& options, StageClock& timed) {
-  const RadioMeasurements& radio = estimate.radio;
+RunResult describe_run(const Mission& mission, const RadioMeasurements& radio,
+                       const TeamEstimate<Pose>& estimate, std::optional<OverlapStage> overlaps,
+                       const RunParams& params, const RunOptions& options, StageClock& timed) {
   const JointGraph<Pose>& joint = estimate.joint;
   RunResult result;
   result.mission_name = mission.name;
   result.dimension = mission.dimension;
   result.range_biases = estimate.range_biases;
-  if (overlaps) add_overlaps(result, std::move(*overlaps), options.take_candidates != nullptr);
-  add_estimate(result, mission, joint, estimate.placement, params.alignment.mixture, timed);
+  if (overlaps) add_overlaps(result, mission, std::move(*overlaps), options.take_candidates != nullptr);
+  add_estimate(result, mission, joint, estimate.alignment, params.alignment.mixture, timed);
   for (std::size_t r = 0; r < mission.robots.size() && !options.overlap_only; ++r)
     result.robots[r].dense = dense_trajectory<Pose>(mission, joint, nullptr, r, result.robots[r]).poses;
   add_rssi_offsets(result.robots, radio.rssi_offsets);
   if (radio.rssi_offsets.shown) result.notes.push_back(rssi_offset_note(result.robots));
   add_notes(result, mission, radio, params.sequence, joint.ignored_links);
-  result.notes.insert(result.notes.end(), estimate.placement.notes.begin(), estimate.placement.notes.end());
+  result.notes.insert(result.notes.end(), estimate.alignment.notes.begin(), estimate.alignment.notes.end());
   add_fix_results(result, joint, estimate.fixes);
   if (!mission.aoa_measurements.empty())
-    timed("angle checks", [&] { check_angles_into(result, mission, joint, estimate.placement, params); });
+    timed("angle checks", [&] { check_angles_into(result, mission, joint, estimate.alignment, params); });
   result.closures = collect_all_closures(estimate);
   for (auto& note : notes_on_obstructed_robots(result.robots, result.closures))
     result.notes.push_back(std::move(note));
   add_uncertain_stretches(result);
+  widen_by_alternatives(result.robots, joint, estimate.alignment);
+  widen_by_rejected_closures(result.robots, result.closures, result.dimension);
   result.similarity_model = collect_similarity_model(radio, params.radio);
   timed("access points", [&] { add_access_points(result, mission, radio, params.access_points); });
   count(result, radio, estimate.solution);
-  result.timings = timed.timings();
   return result;
 }
 
-template RunResult describe_run(const Mission&, const TeamEstimate<SE2>&, std::optional<OverlapStage>,
-                                const RunParams&, const RunOptions&, StageClock&);
-template RunResult describe_run(const Mission&, const TeamEstimate<SE3>&, std::optional<OverlapStage>,
-                                const RunParams&, const RunOptions&, StageClock&);
+template RunResult describe_run(const Mission&, const RadioMeasurements&, const TeamEstimate<SE2>&,
+                                std::optional<OverlapStage>, const RunParams&, const RunOptions&,
+                                StageClock&);
+template RunResult describe_run(const Mission&, const RadioMeasurements&, const TeamEstimate<SE3>&,
+                                std::optional<OverlapStage>, const RunParams&, const RunOptions&,
+                                StageClock&);
 
 }  // namespace radioslam

@@ -11,16 +11,14 @@
 #include "radioslam/joint/overlap_stage.hpp"
 #include "radioslam/joint/team_estimate.hpp"
 #include "radioslam/pipeline/params.hpp"
-#include "radioslam/pipeline/run_options.hpp"
 #include "radioslam/pipeline/stage_clock.hpp"
 
 namespace radioslam {
 
-/// The results of the final estimate. `overlaps`: nothing if no
-/// pairs were searched for. `timed` has timed the stages so far, and times those of the results.
+/// The results of the final estimate, without timings. `overlaps`: nothing if no pairs were searched for.
 template <class Pose>
-RunResult describe_run(const Mission& mission, const TeamEstimate<Pose>& estimate,
-                       std::optional<OverlapStage> overlaps, const RunParams& params,
-                       const RunOptions& options, StageClock& timed);
+RunResult describe_run(const Mission& mission, const RadioMeasurements& radio,
+                       const TeamEstimate<Pose>& estimate, std::optional<OverlapStage> overlaps,
+                       const RunParams& params, const RunOptions& options, StageClock& timed);
 
 }  // namespace radioslam

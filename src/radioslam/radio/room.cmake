@@ -1,7 +1,6 @@
 radioslam_room(radio
   SOURCES
     aoa/aoa_array.cpp
-    aoa/aoa_channel.cpp
     aoa/aoa_estimate.cpp
     aoa/aoa_likelihood.cpp
     aoa/aoa_peaks.cpp
@@ -15,30 +14,18 @@ radioslam_room(radio
     aoa/steering_sums.cpp
     captures/clock_offset.cpp
     captures/csi_aoa.cpp
-    captures/csi_captures.cpp
-    captures/csi_notes.cpp
     captures/csi_stage.cpp
     captures/csi_tracks.cpp
-    captures/csi_windows.cpp
     channel/capture_power.cpp
-    channel/effective_snr.cpp
-    channel/intel5300_power.cpp
-    channel/square_root_channel.cpp
-    channel/subcarrier_slopes.cpp
     channel/two_way_channel.cpp
     fingerprints/access_points.cpp
-    fingerprints/decay_model.cpp
     fingerprints/distance_model.cpp
     fingerprints/fingerprint.cpp
     fingerprints/fingerprint_blocks.cpp
     fingerprints/fingerprint_comparison.cpp
-    fingerprints/join_rows.cpp
-    fingerprints/locality_order.cpp
     fingerprints/measurements.cpp
-    fingerprints/path_loss.cpp
     fingerprints/rssi_offset.cpp
     fingerprints/similarity.cpp
-    fingerprints/similarity_bounds.cpp
     fingerprints/similarity_join.cpp
     fingerprints/similarity_kernel_avx2.cpp
     fingerprints/similarity_kernel_sse2.cpp
@@ -46,12 +33,10 @@ radioslam_room(radio
     fingerprints/similarity_sums.cpp
     fingerprints/team_similarity.cpp
     ranging/anchor_distances.cpp
-    ranging/anchor_frame.cpp
     ranging/anchor_layout.cpp
     ranging/multilateration.cpp
     ranging/range_bias.cpp
     ranging/range_epochs.cpp
-    ranging/receiver_track.cpp
   ROOMS consistency mission results)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   set_source_files_properties(radio/aoa/beam_kernel_avx2.cpp radio/fingerprints/similarity_kernel_avx2.cpp PROPERTIES COMPILE_OPTIONS "-mavx2;-fno-math-errno")

@@ -5,8 +5,6 @@
 #include <numeric>
 
 #include "radioslam/geometry/linear_algebra.hpp"
-#include "radioslam/report/rounding.hpp"
-#include "radioslam/report/thinning.hpp"
 
 namespace radioslam {
 namespace {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "radioslam/geometry/se3.hpp"
-#include "radioslam/report/page_json.hpp"
 #include "radioslam/report/report_params.hpp"
+#include "radioslam/report/rounding.hpp"
 #include "radioslam/results/results.hpp"
 
 namespace radioslam {

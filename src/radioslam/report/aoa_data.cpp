@@ -6,9 +6,6 @@
 #include <numeric>
 #include <tuple>
 
-#include "radioslam/report/rounding.hpp"
-#include "radioslam/report/thinning.hpp"
-
 namespace radioslam {
 namespace {
 

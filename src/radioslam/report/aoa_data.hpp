@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "radioslam/mission/truth.hpp"
-#include "radioslam/report/page_json.hpp"
 #include "radioslam/report/report_params.hpp"
+#include "radioslam/report/rounding.hpp"
 #include "radioslam/results/results.hpp"
 
 namespace radioslam {

@@ -4,11 +4,23 @@
 #include <vector>
 
 #include "radioslam/eval/measurement_truth.hpp"
-#include "radioslam/report/page_json.hpp"
 #include "radioslam/report/report_params.hpp"
+#include "radioslam/report/rounding.hpp"
 #include "radioslam/results/results.hpp"
 
 namespace radioslam {
+
+// Page data of the pairs kept by the overlap search: a matrix per pair of robots, with bins of keyframes of
+// robot i horizontally and of robot j vertically, each with its number of kept pairs. Binning keeps the page
+// small for millions of pairs while counting every one.
+
+/// {"kept", "pairs", "distances_evaluated", "robot_pairs", "matrices": [{"robot_i", "robot_j", "kept",
+///   "bins_i", "bins_j", "cell": [...], "count": [...]}]}, robot_i listed before robot_j. Only the matrices
+///   with the
+///   most pairs, in decreasing order; "robot_pairs" counts the pairs of robots with any kept pair.
+/// cell = bin_j * bins_i + bin_i, increasing; keyframe k of n is in bin floor(k bins / n). "pairs" and
+/// "distances_evaluated" are null if the run did not search.
+PageData candidate_data(const RunResult& result, const ReportParams& params);
 
 /// Per robot, the drawn keyframes as indices into its estimate.
 using DrawnKeyframes = std::vector<std::vector<std::size_t>>;

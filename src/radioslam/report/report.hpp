@@ -1,5 +1,5 @@
 // Report of a run as one self-contained HTML page: data, style, script and d3 in one file that opens offline.
-// The data are one JSON element (see page_data.hpp); the same input gives the same bytes. Ids, names and
+// The data are one JSON element; the same input gives the same bytes. Ids, names and
 // reasons are foreign text and reach the page as data only, never as markup.
 #pragma once
 

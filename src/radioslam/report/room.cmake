@@ -2,15 +2,11 @@
 radioslam_room(report
   SOURCES
     access_point_data.cpp
-    alternative_data.cpp
     aoa_data.cpp
-    candidate_data.cpp
     closure_data.cpp
     embedded_data.cpp
-    page_data.cpp
-    picture_data.cpp
     report.cpp
-    thinning.cpp
+    rounding.cpp
     trajectory_data.cpp
   ROOMS mission results eval
   LIBRARIES nlohmann_json::nlohmann_json)

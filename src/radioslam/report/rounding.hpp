@@ -2,10 +2,15 @@
 #pragma once
 
 #include <cmath>
-
-#include "radioslam/report/page_json.hpp"
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <vector>
 
 namespace radioslam {
+
+// JSON of the report page: an object with the keys in the order of their insertion.
+
+using PageData = nlohmann::ordered_json;
 
 /// `value` with `decimals` decimals; null if it is not finite.
 inline PageData rounded(double value, int decimals) {
@@ -24,5 +29,17 @@ inline PageData rounded_relative(double value) {
   if (value == 0 || !std::isfinite(value)) return rounded(value, 0);
   return rounded(value, 5 - static_cast<int>(std::floor(std::log10(std::abs(value)))));
 }
+
+// Thinning of data to draw: evenly spaced, first and last kept, deterministic.
+
+/// At most `limit` (at least 2) indices into `count` items, increasing, with 0 and count - 1 among them.
+std::vector<std::size_t> evenly_spaced(std::size_t count, std::size_t limit);
+
+/// A group's part of a budget: its whole count if the total fits, else in proportion to its size, but at
+/// least `least`.
+std::size_t part_of_budget(std::size_t count, std::size_t total, std::size_t budget, std::size_t least = 2);
+
+/// Position of original index `index` among indices kept by evenly_spaced: that of the nearest one.
+std::size_t nearest_kept(const std::vector<std::size_t>& kept, std::size_t index);
 
 }  // namespace radioslam

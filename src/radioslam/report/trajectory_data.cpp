@@ -1,14 +1,43 @@
 #include "radioslam/report/trajectory_data.hpp"
 
 #include <algorithm>
+#include <cstdint>
 
 #include "radioslam/base/statistics.hpp"
-#include "radioslam/report/picture_data.hpp"
-#include "radioslam/report/rounding.hpp"
-#include "radioslam/report/thinning.hpp"
 
 namespace radioslam {
 namespace {
+
+// Page data of a robot's occupancy image: {"cell_m", "scans", "cells", "x", "y", "yaw", "rows", "hits"}.
+
+constexpr int kMaxDigit = 9;
+
+char hits_digit(int hits) {
+  int digit = 1;
+  for (int left = hits; left > 1 && digit < kMaxDigit; left /= 2) ++digit;
+  return static_cast<char>('0' + digit);
+}
+
+/// Cell (i, j) is at T (i cell_m, j cell_m), T = [x, y, yaw] into the page's frame. Per row of cells, "rows"
+/// contains [j, i of the first cell, increments of i to each of the others]; "hits" contains a string per row
+/// with a digit per cell: 1 + floor(log2(hits)), at most 9.
+PageData picture_data(const OccupancyImageResult& picture, const SE3& T_page_estimate) {
+  PageData rows = PageData::array(), hits = PageData::array();
+  for (std::size_t begin = 0, end = 0; begin < picture.cells.size(); begin = end) {
+    PageData row{picture.cells[begin].y, picture.cells[begin].x};
+    std::string digits;
+    for (end = begin; end < picture.cells.size() && picture.cells[end].y == picture.cells[begin].y; ++end) {
+      if (end > begin) row.push_back(picture.cells[end].x - picture.cells[end - 1].x);
+      digits += hits_digit(picture.cells[end].hits);
+    }
+    rows.push_back(std::move(row));
+    hits.push_back(std::move(digits));
+  }
+  const Eigen::Vector3d t = T_page_estimate.translation();
+  return {{"cell_m", picture.cell_m}, {"scans", picture.scans}, {"cells", picture.cells.size()},
+          {"x", rounded(t.x(), 3)},   {"y", rounded(t.y(), 3)}, {"yaw", rounded(T_page_estimate.yaw(), 6)},
+          {"rows", std::move(rows)},  {"hits", std::move(hits)}};
+}
 
 std::size_t budget(int maximum) { return static_cast<std::size_t>(std::max(maximum, 2)); }
 
@@ -49,16 +78,16 @@ PageData error_data(const std::vector<PointError>& errors, const TrajectoryConte
     t.push_back(rounded_seconds(seconds_between(context.start, errors[i].stamp)));
     along.push_back(rounded_metres(errors[i].along_m));
     error.push_back(rounded_metres(errors[i].error_m));
-    if (errors[i].sigma_m) sigma.push_back(rounded_metres(*errors[i].sigma_m));
+    if (errors[i].sigma_team_m) sigma.push_back(rounded_metres(*errors[i].sigma_team_m));
   }
   PageData data{{"t", std::move(t)}, {"along_m", std::move(along)}, {"error_m", std::move(error)}};
   if (!sigma.empty()) data["sigma_m"] = std::move(sigma);
   return data;
 }
 
-PageData sigma_data(const RobotResult& robot, const std::vector<std::size_t>& kept) {
+PageData sigma_data(const std::vector<double>& sigma_m, const std::vector<std::size_t>& kept) {
   PageData sigma = PageData::array();
-  for (const std::size_t i : kept) sigma.push_back(rounded_metres(robot.sigma_position_m[i]));
+  for (const std::size_t i : kept) sigma.push_back(rounded_metres(sigma_m[i]));
   return sigma;
 }
 
@@ -67,8 +96,9 @@ void add_paths(PageData& data, const RobotResult& robot, const TrajectoryContext
   const auto kept = drawn_keyframes(robot, context.totals, params);
   data["estimate"] = path_data(robot.estimate, kept, context.T_page_estimate, context);
   if (robot.sigma_position_m.size() == robot.estimate.size() && !robot.sigma_position_m.empty()) {
-    data["sigma_m"] = sigma_data(robot, kept);
-    data["sigma_median_m"] = rounded_metres(upper_median(robot.sigma_position_m));
+    data["sigma_m"] = sigma_data(robot.sigma_position_m, kept);
+    data["sigma_team_m"] = sigma_data(robot.sigma_team_m, kept);
+    data["sigma_median_m"] = rounded_metres(upper_median(robot.sigma_team_m));
   }
   const std::size_t poses = robot.odometry.size();
   const auto limit = part_of_budget(poses, context.totals.keyframes, budget(params.max_poses));

@@ -6,8 +6,8 @@
 
 #include "radioslam/eval/metrics.hpp"
 #include "radioslam/mission/truth.hpp"
-#include "radioslam/report/page_json.hpp"
 #include "radioslam/report/report_params.hpp"
+#include "radioslam/report/rounding.hpp"
 #include "radioslam/results/results.hpp"
 
 namespace radioslam {

@@ -13,9 +13,25 @@
 #include "radioslam/geometry/trajectory.hpp"
 #include "radioslam/mission/radio_links.hpp"
 #include "radioslam/results/candidate_list.hpp"
-#include "radioslam/results/radio_status.hpp"
 
 namespace radioslam {
+
+// What a run found out about a device's RSSI offset, and about an access point's position.
+
+/// Status of the RSSI offset of a robot's device from the team's mean.
+enum class RssiOffsetStatus {
+  kNotSought,       ///< disabled, or no fingerprints of this robot or of any other
+  kNotObserved,     ///< too few pairs of fingerprints with every other robot
+  kNotSignificant,  ///< estimated, but the team's offsets are within their errors
+  kCorrected,
+};
+
+/// Status of an access point's position.
+enum class AccessPointStatus {
+  kFound,
+  kAmbiguous,          ///< an alternative position fits nearly as well
+  kPoorlyConstrained,  ///< its standard deviation is too large
+};
 
 /// Use of a robot's position fixes.
 struct FixResult {
@@ -47,9 +63,10 @@ struct RobotResult {
                              ///< estimated pose
   std::vector<double>
       sigma_position_m;  ///< per keyframe, sqrt of the mean variance per axis; empty if not computed
-  double yaw_drift_per_m_rad = 0;                   ///< estimated
-  double scale_error = 0;                           ///< estimated
-  double rssi_offset_db = 0;                        ///< of its device relative to the team's mean
+  std::vector<double> sigma_team_m = {};  ///< the same in the gauge of the team (graph/team_gauge.hpp)
+  double yaw_drift_per_m_rad = 0;         ///< estimated
+  double scale_error = 0;                 ///< estimated
+  double rssi_offset_db = 0;              ///< of its device relative to the team's mean
   std::optional<double> sigma_rssi_offset_db = {};  ///< absent if unobservable
   RssiOffsetStatus rssi_offset = RssiOffsetStatus::kNotSought;
   std::vector<std::pair<Stamp, Stamp>> uncertain = {};  ///< stretches whose evidence was mostly rejected

@@ -5,7 +5,6 @@ radioslam_room(sim
     motion/spline_motion.cpp
     motion/stamps.cpp
     motion/take_turns.cpp
-    motion/team_drives.cpp
     motion/true_motion.cpp
     scenarios/carpark.cpp
     scenarios/city.cpp
@@ -17,9 +16,7 @@ radioslam_room(sim
     scenarios/radio_mission.cpp
     scenarios/scenarios.cpp
     sensors/aliased_matches.cpp
-    sensors/arrival_paths.cpp
     sensors/csi_card.cpp
-    sensors/csi_channel.cpp
     sensors/csi_exchange.cpp
     sensors/gnss_receiver.cpp
     sensors/image_sources.cpp
@@ -27,15 +24,12 @@ radioslam_room(sim
     sensors/lidar_scanner.cpp
     sensors/phones.cpp
     sensors/radio_channel.cpp
-    sensors/shadowing.cpp
     sensors/surface_odometry.cpp
     sensors/transmitters.cpp
     sensors/wheel_odometry.cpp
-    worlds/floor_grid.cpp
     worlds/hills.cpp
     worlds/lane_grid.cpp
     worlds/ray_world.cpp
-    worlds/street_grid.cpp
     worlds/town_houses.cpp
     worlds/upright_shapes.cpp
   ROOMS base geometry mission)

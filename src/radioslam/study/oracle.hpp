@@ -2,10 +2,10 @@
 // truth and, where one is given, from an estimate; the likelier result counts.
 //
 // Every range has full weight, every angle measurement contains only its labelled direct path, and the
-// optimiser starts at the true poses, so that neither outliers nor local minima matter and only noise
+// optimizer starts at the true poses, so that neither outliers nor local minima matter and only noise
 // remains. With few links the true poses may still lie beside a local minimum, hence the second start.
 // Matches are not used. Frame: the truth's or the estimate's, as far as it is observable. Cost: one
-// optimisation of the joint graph per start.
+// optimization of the joint graph per start.
 #pragma once
 
 #include <optional>
@@ -22,7 +22,7 @@ namespace radioslam {
 /// others and all matches are removed.
 Mission with_direct_paths_only(const Mission& mission, const Truth& truth);
 
-/// Keyframes of every robot, by `params`' keyframes and graph; with the optimiser's own default tolerances.
+/// Keyframes of every robot, by `params`' keyframes and graph; with the optimizer's own default tolerances.
 /// `other_start` is used if it covers the odometry of every robot. Nothing if the truth does not cover the
 /// odometry, has no orientation, or leaves an anchor's position unknown.
 std::optional<std::vector<EstimatedTrajectory>> oracle_estimate(

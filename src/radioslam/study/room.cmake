@@ -1,24 +1,18 @@
 radioslam_room(study
   SOURCES
-    aoa/aoa_links.cpp
     aoa/aoa_paths.cpp
     aoa/aoa_table.cpp
     evaluated_run.cpp
-    fingerprints/fingerprint_json.cpp
     fingerprints/fingerprint_tables.cpp
-    fingerprints/fingerprint_tables_table.cpp
     fingerprints/sequence_table.cpp
     fingerprints/threshold_sweep.cpp
     oracle.cpp
     overlap_growth/overlap_growth.cpp
-    overlap_growth/overlap_town.cpp
     robustness_map/robustness_map.cpp
-    robustness_map/robustness_summary.cpp
     study_json.cpp
     study_page.cpp
     study_table.cpp
     wi_closure_kitti/wi_closure_kitti.cpp
-    wi_closure_kitti/wi_closure_kitti_table.cpp
   ROOMS radio pipeline eval sim io report
   LIBRARIES nlohmann_json::nlohmann_json)
 radioslam_page(radioslam_study ${CMAKE_CURRENT_SOURCE_DIR}/study/page radioslam/study/page_parts.hpp

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <sstream>
 
-#include "radioslam/eval/statistics.hpp"
+#include "radioslam/eval/metrics.hpp"
 
 namespace radioslam {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "radioslam/base/parallel.hpp"
 #include "radioslam/geometry/se2.hpp"
-#include "radioslam/team_frame/line_of_sight/obstructed_range.hpp"
+#include "radioslam/team_frame/level_view.hpp"
+#include "radioslam/team_frame/line_of_sight/detour_continuity.hpp"
 #include "radioslam/team_frame/measurement_mixture.hpp"
-#include "radioslam/team_frame/unit_normal.hpp"
 
 namespace radioslam {
 namespace {

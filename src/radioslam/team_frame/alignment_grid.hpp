@@ -35,30 +35,23 @@ struct GridParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"angle_steps", "", 8, 720,
-                "number of directions, and of headings, tried per full turn in the alignment grid"},
-          self.angle_steps);
-    visit(Field{"distance_ratio", "", 1.05, 10,
-                "ratio of successive distances tried between two robots where no range was measured"},
-          self.distance_ratio);
-    visit(Field{"sigma_height_m", "m", 0, 1e4,
-                "standard deviation of the unknown height difference between two robots' start frames"},
-          self.sigma_height_m);
-    visit(Field{"references", "", 1, 1000, "number of links tried as the reference of an alignment grid"},
-          self.references);
-    visit(Field{"peaks", "", 1, 1000, "number of best cells kept per alignment grid"}, self.peaks);
-    visit(Field{"max_links", "", 1, 1e6,
-                "largest number of ranges per pair of robots, and of angles per receiver, in the alignment "
-                "search; more are thinned evenly"},
-          self.max_links);
-    visit(Field{"max_links_of_robot", "", 8, 1e6,
-                "largest number of ranges, and of received angles, per trajectory segment in the alignment "
-                "search; every pair keeps at least 8"},
-          self.max_links_of_robot);
-    visit(Field{"max_sightings", "", 1, 1e6,
-                "largest number of sightings of one point per robot in the alignment search; more are "
-                "thinned evenly"},
-          self.max_sightings);
+    RADIOSLAM_FIELD(angle_steps, "", 8, 720,
+                    "number of directions, and of headings, tried per full turn in the alignment grid");
+    RADIOSLAM_FIELD(distance_ratio, "", 1.05, 10,
+                    "ratio of successive distances tried between two robots where no range was measured");
+    RADIOSLAM_FIELD(sigma_height_m, "m", 0, 1e4,
+                    "standard deviation of the unknown height difference between two robots' start frames");
+    RADIOSLAM_FIELD(references, "", 1, 1000, "number of links tried as the reference of an alignment grid");
+    RADIOSLAM_FIELD(peaks, "", 1, 1000, "number of best cells kept per alignment grid");
+    RADIOSLAM_FIELD(max_links, "", 1, 1e6,
+                    "largest number of ranges per pair of robots, and of angles per receiver, in the "
+                    "alignment search; more are thinned evenly");
+    RADIOSLAM_FIELD(max_links_of_robot, "", 8, 1e6,
+                    "largest number of ranges, and of received angles, per trajectory segment in the "
+                    "alignment search; every pair keeps at least 8");
+    RADIOSLAM_FIELD(max_sightings, "", 1, 1e6,
+                    "largest number of sightings of one point per robot in the alignment search; more are "
+                    "thinned evenly");
   }
 };
 

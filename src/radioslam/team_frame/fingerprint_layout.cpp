@@ -1,5 +1,6 @@
 #include "radioslam/team_frame/fingerprint_layout.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,13 +10,96 @@
 #include <set>
 #include <utility>
 
+#include "radioslam/base/random.hpp"
 #include "radioslam/geometry/alignment.hpp"
+#include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/radio/fingerprints/shared_access_points.hpp"
-#include "radioslam/team_frame/fingerprint_bodies.hpp"
-#include "radioslam/team_frame/multidimensional_scaling.hpp"
 #include "radioslam/team_frame/rigid_layout.hpp"
 
 namespace radioslam {
+namespace {
+
+/// T_common_start of a robot whose first body pose is known.
+SE2 start_from_initial_pose(const SE3& initial_pose, const Robot& robot) {
+  return flatten(initial_pose) * flatten(robot.odometry.front().pose).inverse();
+}
+
+}  // namespace
+
+std::vector<std::size_t> thinned_nodes(std::size_t count, int most) {
+  const auto kept = static_cast<std::size_t>(most);
+  const std::size_t stride = std::max<std::size_t>(1, (count + kept - 1) / kept);
+  std::vector<std::size_t> nodes;
+  for (std::size_t i = 0; i < count; i += stride) nodes.push_back(i);
+  return nodes;
+}
+
+std::vector<RigidBody> fingerprint_bodies(const Mission& mission, const KnownStarts& starts,
+                                          const RadioMeasurements& radio,
+                                          const std::vector<std::size_t>& nodes) {
+  std::vector<RigidBody> bodies(mission.robots.size());
+  for (std::size_t r = 0, first = 0; r < bodies.size(); ++r) {
+    const Robot& robot = mission.robots[r];
+    std::vector<Eigen::Vector2d> points;
+    for (const std::size_t node : nodes)
+      if (radio.nodes[node].robot.index() == r)
+        points.emplace_back(radio.at(node).T_start_body.translation().head<2>());
+    bodies[r].first_node = first;
+    bodies[r].points.resize(2, static_cast<Eigen::Index>(points.size()));
+    for (std::size_t i = 0; i < points.size(); ++i)
+      bodies[r].points.col(static_cast<Eigen::Index>(i)) = points[i];
+    bodies[r].fixed = starts[r].has_value();
+    if (bodies[r].fixed) bodies[r].T_layout_body = start_from_initial_pose(*starts[r], robot);
+    if (robot.heading == Heading::kAbsolute) bodies[r].sigma_heading_rad = robot.sigma_heading_rad;
+    first += points.size();
+  }
+  return bodies;
+}
+
+namespace {
+
+constexpr Eigen::Index kSubspace = 6;  // two, and a guard against near-equal eigenvalues
+constexpr int kIterations = 100;
+
+/// -1/2 J D^2 J with J = I - 1/n.
+Eigen::MatrixXd doubly_centred(const Eigen::MatrixXd& distances) {
+  Eigen::MatrixXd b = -0.5 * distances.array().square().matrix();
+  const Eigen::RowVectorXd column_means = b.colwise().mean();
+  b.rowwise() -= column_means;
+  const Eigen::VectorXd row_means = b.rowwise().mean();
+  b.colwise() -= row_means;
+  return b;
+}
+
+Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& m) {
+  return Eigen::HouseholderQR<Eigen::MatrixXd>(m).householderQ() *
+         Eigen::MatrixXd::Identity(m.rows(), m.cols());
+}
+
+}  // namespace
+
+Eigen::Matrix2Xd classical_scaling(const Eigen::MatrixXd& distances_m) {
+  const Eigen::Index n = distances_m.rows();
+  const Eigen::Index k = std::min(kSubspace, n);
+  if (n < 2) return Eigen::Matrix2Xd::Zero(2, n);
+  const Eigen::MatrixXd b = doubly_centred(distances_m);
+
+  // Subspace iteration from a fixed start. Only the two largest positive eigenvalues are used; distances that
+  // no planar configuration realises also give negative ones.
+  Rng rng(1);
+  Eigen::MatrixXd q = Eigen::MatrixXd::NullaryExpr(n, k, [&] { return rng.normal(); });
+  q = orthonormal(q);
+  for (int i = 0; i < kIterations; ++i) q = orthonormal(b * q);
+  const auto small = symmetric_eigen<Eigen::MatrixXd>(q.transpose() * b * q);
+  Eigen::Matrix2Xd points = Eigen::Matrix2Xd::Zero(2, n);
+  for (Eigen::Index axis = 0; axis < std::min<Eigen::Index>(2, k); ++axis) {
+    const Eigen::Index e = k - 1 - axis;
+    const double scale = std::sqrt(std::max(0.0, small.values[e]));
+    points.row(axis) = scale * (q * small.vectors.col(e)).transpose();
+  }
+  return points;
+}
+
 namespace {
 
 /// Union-find over robots; the root is the smallest robot index of a group.

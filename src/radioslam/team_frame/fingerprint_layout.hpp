@@ -10,6 +10,8 @@
 // bound.
 #pragma once
 
+#include <Eigen/Core>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -18,8 +20,26 @@
 #include "radioslam/geometry/se2.hpp"
 #include "radioslam/mission/mission.hpp"
 #include "radioslam/radio/fingerprints/measurements.hpp"
+#include "radioslam/team_frame/rigid_layout.hpp"
 
 namespace radioslam {
+
+// The team's odometry trajectories as rigid bodies whose points are the fingerprints' positions.
+
+/// Indices of at most `most` of `count` nodes, evenly thinned.
+std::vector<std::size_t> thinned_nodes(std::size_t count, int most);
+
+/// A body per robot with its points among `nodes` (of RadioMeasurements::nodes, increasing); robots with a
+/// known start are fixed there, the others are in their own start frame.
+std::vector<RigidBody> fingerprint_bodies(const Mission& mission, const KnownStarts& starts,
+                                          const RadioMeasurements& radio,
+                                          const std::vector<std::size_t>& nodes);
+
+// Classical multidimensional scaling: points of the plane from their mutual distances (Torgerson 1952).
+
+/// 2 x n coordinates whose distances approximate the symmetric n x n `distances_m`, centred at the origin.
+/// Rotation and handedness are arbitrary but deterministic.
+Eigen::Matrix2Xd classical_scaling(const Eigen::MatrixXd& distances_m);
 
 struct LayoutParams {
   double min_similarity = 0.1;
@@ -32,26 +52,19 @@ struct LayoutParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"min_similarity", "", 0.001, 0.9,
-                "similarity below which a predicted distance is only a lower bound in the layout"},
-          self.min_similarity);
-    visit(Field{"sigma_m", "m", 0.1, 100, "standard deviation of a predicted fingerprint distance near zero"}
-              .basic(),
-          self.sigma_m);
-    visit(Field{"sigma_relative", "", 0, 2,
-                "relative standard deviation of a predicted fingerprint distance at long range"},
-          self.sigma_relative);
-    visit(Field{"pair_weight", "", 1e-4, 1,
-                "weight of one fingerprint pair relative to an independent measurement"},
-          self.pair_weight);
-    visit(Field{"min_shared", "", 1, 1000,
-                "number of access points that two robots must both observe to be placed together"},
-          self.min_shared);
-    visit(Field{"sweeps", "", 1, 10000, "largest number of majorisation passes over the robots"},
-          self.sweeps);
-    visit(Field{"max_nodes", "", 10, 20000,
-                "largest number of fingerprints in the layout; more are thinned evenly"},
-          self.max_nodes);
+    RADIOSLAM_FIELD(min_similarity, "", 0.001, 0.9,
+                    "similarity below which a predicted distance is only a lower bound in the layout");
+    RADIOSLAM_BASIC_FIELD(sigma_m, "m", 0.1, 100,
+                          "standard deviation of a predicted fingerprint distance near zero");
+    RADIOSLAM_FIELD(sigma_relative, "", 0, 2,
+                    "relative standard deviation of a predicted fingerprint distance at long range");
+    RADIOSLAM_FIELD(pair_weight, "", 1e-4, 1,
+                    "weight of one fingerprint pair relative to an independent measurement");
+    RADIOSLAM_FIELD(min_shared, "", 1, 1000,
+                    "number of access points that two robots must both observe to be placed together");
+    RADIOSLAM_FIELD(sweeps, "", 1, 10000, "largest number of majorisation passes over the robots");
+    RADIOSLAM_FIELD(max_nodes, "", 10, 20000,
+                    "largest number of fingerprints in the layout; more are thinned evenly");
   }
 };
 

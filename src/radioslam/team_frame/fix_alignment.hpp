@@ -26,19 +26,16 @@ struct FixAlignmentParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"tried_fixes", "", 2, 1000,
-                "number of position fixes per robot from which all pairs are tried as alignment hypotheses"},
-          self.tried_fixes);
-    visit(Field{"scored_fixes", "", 2, 100000,
-                "number of position fixes per robot on which alignment hypotheses are scored"},
-          self.scored_fixes);
-    visit(Field{"max_drift_ratio", "", 0, 1,
-                "largest odometry drift between position fixes, as a fraction of the path length"},
-          self.max_drift_ratio);
-    visit(Field{"gate_sigma", "sigma", 0.1, 100,
-                "largest difference between fix distance and odometry distance of a pair; higher values try "
-                "more pairs"},
-          self.gate_sigma);
+    RADIOSLAM_FIELD(
+        tried_fixes, "", 2, 1000,
+        "number of position fixes per robot from which all pairs are tried as alignment hypotheses");
+    RADIOSLAM_FIELD(scored_fixes, "", 2, 100000,
+                    "number of position fixes per robot on which alignment hypotheses are scored");
+    RADIOSLAM_FIELD(max_drift_ratio, "", 0, 1,
+                    "largest odometry drift between position fixes, as a fraction of the path length");
+    RADIOSLAM_FIELD(gate_sigma, "sigma", 0.1, 100,
+                    "largest difference between fix distance and odometry distance of a pair; higher values "
+                    "try more pairs");
   }
 };
 

@@ -12,11 +12,34 @@
 #include "radioslam/graph/factor_lists.hpp"
 #include "radioslam/graph/loss.hpp"
 #include "radioslam/graph/residuals.hpp"
+#include "radioslam/team_frame/level_view.hpp"
 #include "radioslam/team_frame/line_of_sight/detour_continuity.hpp"
-#include "radioslam/team_frame/line_of_sight/obstructed_range.hpp"
-#include "radioslam/team_frame/unit_normal.hpp"
 
 namespace radioslam {
+namespace {
+
+template <class Pose>
+void discount(const PoseGraph<Pose>& graph, auto& factor) {
+  const double ratio = 1 - (1 - factor.weight) * squared_norm(graph, factor);
+  factor.weight *= std::clamp(ratio, 0.0, 1.0);
+}
+
+}  // namespace
+
+template <class Pose>
+void use_observed_information(PoseGraph<Pose>& graph, std::size_t ranges, double sigma_antenna_position_m) {
+  for (std::size_t k = 0; k < std::min(ranges, graph.ranges.size()); ++k) discount(graph, graph.ranges[k]);
+  for (auto& bearing : graph.bearings) {
+    discount(graph, bearing);
+    const double across = bearing.sigma_rad * seen_by_receiver(graph, bearing).norm();
+    bearing.weight *=
+        across * across / (across * across + sigma_antenna_position_m * sigma_antenna_position_m);
+  }
+}
+
+template void use_observed_information(PoseGraph<SE2>&, std::size_t, double);
+template void use_observed_information(PoseGraph<SE3>&, std::size_t, double);
+
 namespace {
 
 constexpr double kReachOverItsSigma = 4;
@@ -61,11 +84,6 @@ std::array<double, 2> range_densities(double error_m, double sigma_m, double spa
 }
 
 }  // namespace
-
-double range_posterior(double error_m, double sigma_m, double span_m, const MixtureParams& params) {
-  const auto [direct, wrong] = range_densities(error_m, sigma_m, span_m, params);
-  return direct / (direct + wrong);
-}
 
 template <class Pose>
 std::vector<double> path_priors(const AmbiguousBearing<Pose>& bearing, const MixtureParams& params) {

@@ -18,13 +18,25 @@
 //            where all directions are parallel.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "radioslam/base/fields.hpp"
+#include "radioslam/graph/pose_graph.hpp"
 #include "radioslam/graph/team_graph.hpp"
 #include "radioslam/team_frame/line_of_sight/sight_chains.hpp"
 
 namespace radioslam {
+
+// Observed information of mixture measurements, for covariances: the posterior weights of a mixture overstate
+// the information, since which term is true remains uncertain. For one measurement with posterior w and
+// squared norm s (Louis 1982, one dominant term) the weight becomes w (1 - (1 - w) s) instead of w.
+
+/// Lowers the weights of the first `ranges` ranges and of all bearings accordingly, never below zero.
+/// Bearings are also discounted for the angular error that `sigma_antenna_position_m` causes at the current
+/// distance. For covariances only: the estimate itself is optimal for the original weights.
+template <class Pose>
+void use_observed_information(PoseGraph<Pose>& graph, std::size_t ranges, double sigma_antenna_position_m);
 
 /// Standard deviation at which the density of an azimuth, or of a direction in space, becomes uniform; larger
 /// ones are cut to it.
@@ -42,38 +54,25 @@ struct MixtureParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"direct_probability", "", 0.01, 0.999,
-                "probability that an angle measurement contains the direct path"}
-              .basic(),
-          self.direct_probability);
-    visit(Field{"false_range_probability", "", 1e-6, 0.9,
-                "probability that a range is not the direct distance; higher values reject more ranges"}
-              .basic(),
-          self.false_range_probability);
-    visit(Field{"power_for_double_db", "dB", 0.1, 1e6,
-                "power difference at which the stronger path is twice as likely to be the direct one"},
-          self.power_for_double_db);
-    visit(
-        Field{"sigma_antenna_position_m", "m", 1e-3, 100,
-              "standard deviation of antenna positions; divided by the distance, it adds to an angle's error"}
-            .basic(),
-        self.sigma_antenna_position_m);
-    visit(Field{"max_range_m", "m", 1, 1e6,
-                "distance beyond which angle measurements become unlikely and no relative pose is searched"}
-              .basic(),
-          self.max_range_m);
-    visit(Field{"obstructed_share", "", 0, 0.9,
-                "share of links without line of sight, assumed before it is estimated; their ranges are too "
-                "long, "
-                "their angles arbitrary; 0: all links are in sight"}
-              .basic(),
-          self.obstructed_share);
-    visit(
-        Field{
-            "sight_time_s", "s", 1e-3, 1e5,
-            "time over which the line of sight between two robots mostly stays as it is; higher values make "
-            "successive links share it more"},
-        self.sight_time_s);
+    RADIOSLAM_BASIC_FIELD(direct_probability, "", 0.01, 0.999,
+                          "probability that an angle measurement contains the direct path");
+    RADIOSLAM_BASIC_FIELD(
+        false_range_probability, "", 1e-6, 0.9,
+        "probability that a range is not the direct distance; higher values reject more ranges");
+    RADIOSLAM_FIELD(power_for_double_db, "dB", 0.1, 1e6,
+                    "power difference at which the stronger path is twice as likely to be the direct one");
+    RADIOSLAM_BASIC_FIELD(
+        sigma_antenna_position_m, "m", 1e-3, 100,
+        "standard deviation of antenna positions; divided by the distance, it adds to an angle's error");
+    RADIOSLAM_BASIC_FIELD(
+        max_range_m, "m", 1, 1e6,
+        "distance beyond which angle measurements become unlikely and no relative pose is searched");
+    RADIOSLAM_BASIC_FIELD(obstructed_share, "", 0, 0.9,
+                          "share of links without line of sight, assumed before it is estimated; their "
+                          "ranges are too long, their angles arbitrary; 0: all links are in sight");
+    RADIOSLAM_FIELD(sight_time_s, "s", 1e-3, 1e5,
+                    "time over which the line of sight between two robots mostly stays as it is; higher "
+                    "values make successive links share it more");
   }
 };
 
@@ -82,10 +81,6 @@ struct VarianceInflation {
   std::vector<double> ranges_m2;      ///< per range; empty: none
   std::vector<double> bearings_rad2;  ///< per bearing; empty: none
 };
-
-/// Probability that a range with this error is the direct distance, the line of sight being free. `span_m`:
-/// width of the outlier density.
-double range_posterior(double error_m, double sigma_m, double span_m, const MixtureParams& params);
 
 /// Priors pi_p of a bearing's paths; their sum is one.
 template <class Pose>

@@ -16,14 +16,11 @@ struct RefinementParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"steps_per_inflation", "", 1, 1000,
-                "largest number of steps at each inflation of the measurement variances except the last"},
-          self.steps_per_inflation);
-    visit(Field{"last_steps", "", 1, 10000, "largest number of steps without variance inflation"},
-          self.last_steps);
-    visit(
-        Field{"cost_tolerance", "", 0, 100, "smallest decrease of -2 log L per step; a stage ends below it"},
-        self.cost_tolerance);
+    RADIOSLAM_FIELD(steps_per_inflation, "", 1, 1000,
+                    "largest number of steps at each inflation of the measurement variances except the last");
+    RADIOSLAM_FIELD(last_steps, "", 1, 10000, "largest number of steps without variance inflation");
+    RADIOSLAM_FIELD(cost_tolerance, "", 0, 100,
+                    "smallest decrease of -2 log L per step; a stage ends below it");
   }
 };
 

@@ -5,9 +5,7 @@
 #include <utility>
 
 #include "radioslam/team_frame/beam_search/beam_selection.hpp"
-#include "radioslam/team_frame/beam_search/partial_mixture.hpp"
 #include "radioslam/team_frame/beam_search/team_beam_search.hpp"
-#include "radioslam/team_frame/link_thinning.hpp"
 #include "radioslam/team_frame/odometry_compression.hpp"
 
 namespace radioslam {

@@ -71,7 +71,7 @@ struct Parameters {
 FieldKernel FieldKernel::nominal() {
   FieldKernel kernel;
   kernel.log << 0.3, 40, 0.3, 15, 0.05, 0.05, 0.01, 0.1, 20;
-  kernel.log = kernel.log.array().log();
+  for (double& value : kernel.log) value = std::log(value);  // Eigen's would depend on the vector's alignment
   return kernel;
 }
 

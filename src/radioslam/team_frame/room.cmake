@@ -3,25 +3,16 @@ radioslam_room(team_frame
     alignment_grid.cpp
     beam_search/beam_selection.cpp
     beam_search/local_placement.cpp
-    beam_search/partial_mixture.cpp
     beam_search/placement_order.cpp
-    beam_search/sub_team.cpp
     beam_search/team_beam_search.cpp
     connected_measurements.cpp
     field_refinement.cpp
-    fingerprint_bodies.cpp
     fingerprint_layout.cpp
     fix_alignment.cpp
-    layout_outliers.cpp
-    lbfgs.cpp
     line_of_sight/detour_continuity.cpp
-    line_of_sight/obstructed_range.cpp
     line_of_sight/sight_chains.cpp
-    link_thinning.cpp
     measurement_mixture.cpp
     mixture_refinement.cpp
-    multidimensional_scaling.cpp
-    observed_information.cpp
     odometry_compression.cpp
     pose_proposals.cpp
     radio_alignment.cpp

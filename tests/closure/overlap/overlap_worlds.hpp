@@ -9,7 +9,7 @@
 #include "graph/random_graphs.hpp"
 #include "radioslam/closure/overlap/overlap_joint.hpp"
 #include "radioslam/closure/overlap/overlap_link.hpp"
-#include "radioslam/closure/overlap/overlap_params.hpp"
+#include "radioslam/closure/overlap/overlap_search.hpp"
 
 namespace radioslam::test {
 

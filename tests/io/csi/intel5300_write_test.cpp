@@ -1,4 +1,3 @@
-#include "radioslam/io/csi/intel5300_write.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,6 @@
 #include "io/temporary_folder.hpp"
 #include "io/wifi/phone_log_text.hpp"
 #include "radioslam/eval/metrics.hpp"
-#include "radioslam/eval/statistics.hpp"
 #include "radioslam/io/mission/mission_folder.hpp"
 
 namespace radioslam {

@@ -5,7 +5,7 @@
 #include "io/recorded_data.hpp"
 #include "io/refusal.hpp"
 #include "io/temporary_folder.hpp"
-#include "radioslam/io/csi/intel5300_write.hpp"
+#include "radioslam/io/csi/intel5300.hpp"
 #include "radioslam/mission/wifi_channel.hpp"
 
 namespace radioslam {

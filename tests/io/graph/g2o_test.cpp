@@ -42,7 +42,6 @@ TEST(ReadG2o, TakesAPlanarGraph) {
   EXPECT_EQ(edge.T_i_j.translation(), Eigen::Vector2d(0.1, 0.2));
   EXPECT_EQ(edge.T_i_j.angle(), 0.3);
   EXPECT_EQ(edge.information, (Eigen::Matrix3d() << 11, 12, 13, 12, 22, 23, 13, 23, 333).finished());
-  EXPECT_EQ(file.relative_pose_lines, (std::vector<std::size_t>{6}));
 }
 
 TEST(ReadG2o, TakesAGraphInSpaceAndNormalisesQuaternions) {

@@ -10,7 +10,7 @@
 #include "io/temporary_folder.hpp"
 #include "radioslam/io/graph/g2o.hpp"
 #include "radioslam/io/graph/g2o_team.hpp"
-#include "radioslam/io/text/zstd_text.hpp"
+#include "radioslam/io/text/compressed_text.hpp"
 
 namespace radioslam {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "io/refusal.hpp"
 #include "io/temporary_folder.hpp"
-#include "radioslam/io/text/little_endian.hpp"
+#include "radioslam/io/text/byte_view.hpp"
 
 namespace radioslam {
 namespace {

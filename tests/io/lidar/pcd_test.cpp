@@ -4,8 +4,7 @@
 #include <limits>
 
 #include "io/refusal.hpp"
-#include "radioslam/io/lidar/lzf.hpp"
-#include "radioslam/io/text/little_endian.hpp"
+#include "radioslam/io/text/byte_view.hpp"
 
 namespace radioslam {
 namespace {

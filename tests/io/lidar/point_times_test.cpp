@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "radioslam/io/text/little_endian.hpp"
+#include "radioslam/io/text/byte_view.hpp"
 
 namespace radioslam {
 namespace {

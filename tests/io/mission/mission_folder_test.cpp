@@ -5,9 +5,9 @@
 
 #include "io/example_mission.hpp"
 #include "io/refusal.hpp"
-#include "radioslam/io/csi/intel5300_write.hpp"
+#include "radioslam/io/csi/intel5300.hpp"
 #include "radioslam/io/mission/mission_yaml.hpp"
-#include "radioslam/io/text/little_endian.hpp"
+#include "radioslam/io/text/byte_view.hpp"
 #include "radioslam/mission/wifi_channel.hpp"
 
 namespace radioslam {

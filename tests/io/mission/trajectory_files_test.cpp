@@ -1,6 +1,6 @@
 #include "io/recorded_data.hpp"
 #include "io/refusal.hpp"
-#include "radioslam/io/lidar/kitti_poses.hpp"
+#include "radioslam/io/lidar/kitti_sequence.hpp"
 #include "radioslam/io/mission/tum.hpp"
 
 namespace radioslam {

@@ -8,7 +8,6 @@
 
 #include "radioslam/io/ros/ros_recording.hpp"
 #include "radioslam/io/text/byte_view.hpp"
-#include "radioslam/io/text/little_endian.hpp"
 
 namespace radioslam {
 

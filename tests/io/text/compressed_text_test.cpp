@@ -6,8 +6,6 @@
 
 #include "io/refusal.hpp"
 #include "io/temporary_folder.hpp"
-#include "radioslam/io/text/bzip2.hpp"
-#include "radioslam/io/text/gzip.hpp"
 
 namespace radioslam {
 namespace {

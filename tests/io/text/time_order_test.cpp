@@ -1,11 +1,10 @@
-#include "radioslam/io/text/time_order.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <functional>
 
 #include "radioslam/base/random.hpp"
+#include "radioslam/io/text/skipped_records.hpp"
 
 namespace radioslam {
 namespace {

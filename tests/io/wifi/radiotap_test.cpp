@@ -1,8 +1,7 @@
-#include "radioslam/io/wifi/radiotap.hpp"
-
 #include <gtest/gtest.h>
 
 #include "io/wifi/radiotap_bytes.hpp"
+#include "radioslam/io/wifi/wifi_capture.hpp"
 
 namespace radioslam {
 namespace {

@@ -106,7 +106,8 @@ JointGraph<SE2> aligned(const Mission& mission) {
 TEST(MutualBearings, ARangeWithAnglesAtBothEndsIsALink) {
   for (const double delay_s : {0.0, 0.3}) {
     const auto joint = aligned(two_robots(delay_s));
-    const auto links = measured_link_covariance(joint, 0.5, 100);
+    const auto [links, is_estimated] = measured_links(joint, 0.5, 100);
+    EXPECT_FALSE(is_estimated);
     const auto view = links.view(0, 1);
     ASSERT_EQ(view.ties(), 1U);
     // At 5.5 s each is 40 m to the left of the other: opposite headings. Keyframes are 2 m apart.
@@ -128,7 +129,8 @@ TEST(MutualBearings, ARangeWithAnglesAtBothEndsIsALink) {
 TEST(MutualBearings, AnglesOfAnotherTimeDoNotCount) {
   const auto joint = aligned(two_robots(0.3));
   // Then the joint estimate's relative poses are used instead: 12 m of odometry each, no angle in the link.
-  const auto estimated = measured_link_covariance(joint, 0.2, 100);
+  const auto [estimated, is_estimated] = measured_links(joint, 0.2, 100);
+  EXPECT_TRUE(is_estimated);
   ASSERT_EQ(estimated.view(0, 1).ties(), 1U);
   EXPECT_GT(std::abs(estimated.view(0, 1).turn_in_a(0) - kPi), 1) << "the graph's poses are not aligned here";
 }
@@ -147,8 +149,8 @@ TEST(MutualBearings, MoreThanAskedForAreThinnedEvenly) {
     }
   }
   const auto joint = aligned(mission);
-  EXPECT_EQ(measured_link_covariance(joint, 0.01, 100).view(0, 1).ties(), 20U);
-  EXPECT_EQ(measured_link_covariance(joint, 0.01, 7).view(0, 1).ties(), 7U);
+  EXPECT_EQ(measured_links(joint, 0.01, 100).covariance.view(0, 1).ties(), 20U);
+  EXPECT_EQ(measured_links(joint, 0.01, 7).covariance.view(0, 1).ties(), 7U);
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ class BlockTeam {
 
   struct Outcome {
     JointGraph<SE2> joint;
-    TeamPlacement<SE2> placement;
+    TeamAlignment<SE2> alignment;
     std::vector<Closure> closures;
   };
 
@@ -64,19 +64,19 @@ class BlockTeam {
     Outcome out{joint_graph_of(team, mission_), {}, {}};
     out.closures = closures_of(team, out.joint);
     for (std::size_t r = 0; r < truth_.size(); ++r) {
-      out.placement.component.push_back(static_cast<int>(r));
-      out.placement.placed.push_back(r == 0);
-      out.placement.absolute.push_back(false);
-      out.placement.in_common_frame.push_back(false);
+      out.alignment.component.push_back(static_cast<int>(r));
+      out.alignment.placed.push_back(r == 0);
+      out.alignment.absolute.push_back(false);
+      out.alignment.in_common_frame.push_back(false);
     }
-    out.placement.without_matches = out.placement.component;
+    out.alignment.without_matches = out.alignment.component;
     return out;
   }
 
   Outcome solve() const {
     Outcome out = measured();
     add_own_loops(out.joint, out.closures, {});
-    close_by_loops(out.joint, out.placement, out.closures, {}, {});
+    close_by_loops(out.joint, out.alignment, out.closures, {}, {});
     return out;
   }
 

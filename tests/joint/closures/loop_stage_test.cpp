@@ -23,8 +23,8 @@ TEST(CloseByLoops, AlignsTwoRobotsAndRejectsWhatContradicts) {
   for (std::size_t k = 40; k < 160; k += 20) team.see(0, k, 1, k - 40);
   for (std::size_t k = 0; k < 3; ++k) team.mistake(0, 20 + 7 * k, 1, 90 - k, kElsewhere);
   const auto out = team.solve();
-  EXPECT_EQ(out.placement.component, (std::vector<int>{0, 0}));
-  EXPECT_TRUE(out.placement.placed[1]);
+  EXPECT_EQ(out.alignment.component, (std::vector<int>{0, 0}));
+  EXPECT_TRUE(out.alignment.placed[1]);
   EXPECT_EQ(accepted(out, 0, 6), 6u);
   EXPECT_EQ(accepted(out, 6, 9), 0u);
   for (std::size_t k = 40; k < 160; k += 10) EXPECT_LT(team.relative_error_m(out, 0, k, 1, k - 40), 0.7);
@@ -47,8 +47,8 @@ TEST(CloseByLoops, RepetitionsAloneDoNotPlaceARobot) {
   team.see(0, 100, 1, 60);
   team.repeat_last(219);
   const auto out = team.solve();
-  EXPECT_EQ(out.placement.component, (std::vector<int>{0, 1}));
-  EXPECT_FALSE(out.placement.placed[1]);
+  EXPECT_EQ(out.alignment.component, (std::vector<int>{0, 1}));
+  EXPECT_FALSE(out.alignment.placed[1]);
   EXPECT_EQ(accepted(out, 0, out.closures.size()), 0u);
   EXPECT_EQ(out.closures.front().reason, "no group of loops stands out");
 }
@@ -68,7 +68,7 @@ TEST(CloseByLoops, LeavesRobotsApartWhereGroupsAreEquallyStrong) {
   for (const std::size_t k : {40u, 100u}) team.see(0, k, 1, k - 40);
   for (const std::size_t k : {60u, 130u}) team.mistake(0, k, 1, k - 40, kElsewhere);
   const auto out = team.solve();
-  EXPECT_EQ(out.placement.component, (std::vector<int>{0, 1}));
+  EXPECT_EQ(out.alignment.component, (std::vector<int>{0, 1}));
   EXPECT_EQ(accepted(out, 0, 4), 0u);
 }
 
@@ -79,7 +79,7 @@ TEST(CloseByLoops, ACycleOfThreeRobotsDecidesBetweenGroups) {
   for (const std::size_t k : {85u, 120u, 160u}) team.see(0, k, 2, k - 80);
   for (const std::size_t k : {50u, 90u, 140u}) team.see(1, k, 2, k - 40);
   const auto out = team.solve();
-  EXPECT_EQ(out.placement.component, (std::vector<int>{0, 0, 0}));
+  EXPECT_EQ(out.alignment.component, (std::vector<int>{0, 0, 0}));
   EXPECT_EQ(accepted(out, 0, 2), 2u);
   EXPECT_EQ(accepted(out, 2, 5), 0u);
   EXPECT_EQ(accepted(out, 5, 11), 6u);
@@ -90,9 +90,9 @@ TEST(CloseByLoops, KeepsTrueLoopsWhoseCovariancesAreTooSmallAndSaysSo) {
   BlockTeam team(2);
   for (std::size_t k = 40; k < 199; k += 3) team.see(0, k, 1, k - 40, 3);
   const auto out = team.solve();
-  EXPECT_EQ(out.placement.component, (std::vector<int>{0, 0}));
+  EXPECT_EQ(out.alignment.component, (std::vector<int>{0, 0}));
   EXPECT_GE(accepted(out, 0, out.closures.size()), out.closures.size() * 95 / 100);
-  const auto& notes = out.placement.notes;
+  const auto& notes = out.alignment.notes;
   EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
     return note.starts_with("the errors of loop closures are 3.") ||
            note.starts_with("the errors of loop closures are 2.");

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "joint/closures/block_team.hpp"
+#include "radioslam/joint/matches/alignment_by_matches.hpp"
 #include "radioslam/joint/matches/match_groups.hpp"
-#include "radioslam/joint/matches/placement_by_matches.hpp"
 
 namespace radioslam {
 namespace {
@@ -52,34 +52,34 @@ TEST(ConsistentGroups, AreDisjointAndLargestFirst) {
 TEST(PlaceByMatches, JoinsRobotsByAGroupThatStandsOut) {
   const BlockTeam team = two_robots(6, 3);
   auto out = team.measured();
-  place_by_matches(out.joint, out.placement, out.closures);
-  EXPECT_EQ(out.placement.component, (std::vector<int>{0, 0}));
-  EXPECT_TRUE(out.placement.placed[1]);
+  join_by_matches(out.joint, out.alignment, out.closures);
+  EXPECT_EQ(out.alignment.component, (std::vector<int>{0, 0}));
+  EXPECT_TRUE(out.alignment.placed[1]);
   EXPECT_LT(team.relative_error_m(out, 0, 85, 1, 45), 2);  // the odometry's drift since the middle match
-  EXPECT_TRUE(mentions(out.placement.notes, "6 of 9 matches agree with one another"));
+  EXPECT_TRUE(mentions(out.alignment.notes, "6 of 9 matches agree with one another"));
 }
 
 TEST(PlaceByMatches, LeavesRobotsApartWhereNoGroupStandsOut) {
   auto out = two_robots(4, 3).measured();
-  place_by_matches(out.joint, out.placement, out.closures);
-  EXPECT_EQ(out.placement.component, (std::vector<int>{0, 1}));
-  EXPECT_FALSE(out.placement.placed[1]);
+  join_by_matches(out.joint, out.alignment, out.closures);
+  EXPECT_EQ(out.alignment.component, (std::vector<int>{0, 1}));
+  EXPECT_FALSE(out.alignment.placed[1]);
   EXPECT_TRUE(
-      mentions(out.placement.notes, "the largest group that agrees has 4 of 7 matches, the second 3"));
-  select_matches(out.joint, out.placement, out.closures, no_candidates(out.joint), Pruning::kOn, {});
+      mentions(out.alignment.notes, "the largest group that agrees has 4 of 7 matches, the second 3"));
+  select_matches(out.joint, out.alignment, out.closures, no_candidates(out.joint), Pruning::kOn, {});
   for (const std::string& reason : reasons(out.closures)) EXPECT_EQ(reason, "no group of matches stands out");
 }
 
 TEST(SelectMatches, KeepsTheLargestConsistentSet) {
   const BlockTeam team = two_robots(6, 3);
   auto out = team.measured();
-  place_by_matches(out.joint, out.placement, out.closures);
+  join_by_matches(out.joint, out.alignment, out.closures);
   const std::size_t before = out.joint.team.graph.relative_poses.size();
-  select_matches(out.joint, out.placement, out.closures, no_candidates(out.joint), Pruning::kOn, {});
+  select_matches(out.joint, out.alignment, out.closures, no_candidates(out.joint), Pruning::kOn, {});
   EXPECT_EQ(out.joint.team.graph.relative_poses.size(), before + 6);
   for (std::size_t k = 0; k < 9; ++k)
     EXPECT_EQ(out.closures[k].reason, k < 6 ? "" : "not consistent with the largest set of matches");
-  optimise_with_matches(out.joint, out.closures, {}, {}, {});
+  optimize_with_matches(out.joint, out.closures, {}, {}, {});
   for (std::size_t k = 0; k < 6; ++k) {
     EXPECT_EQ(out.closures[k].status, ClosureStatus::kAccepted);
     EXPECT_LT(out.closures[k].statistic, kPoseChiSquared99<SE2>);
@@ -89,9 +89,9 @@ TEST(SelectMatches, KeepsTheLargestConsistentSet) {
 
 TEST(SelectMatches, RejectsThoseWithoutOdometryAtTheirTime) {
   auto out = two_robots(6, 0).measured();
-  place_by_matches(out.joint, out.placement, out.closures);
+  join_by_matches(out.joint, out.alignment, out.closures);
   out.closures[2].stamp_j = Stamp{1000 * kNanosecondsPerSecond};
-  select_matches(out.joint, out.placement, out.closures, no_candidates(out.joint), Pruning::kOn, {});
+  select_matches(out.joint, out.alignment, out.closures, no_candidates(out.joint), Pruning::kOn, {});
   EXPECT_EQ(out.closures[2].reason, "no odometry at its time");
   EXPECT_EQ(std::count_if(out.closures.begin(), out.closures.end(),
                           [](const Closure& c) { return c.status == ClosureStatus::kAccepted; }),
@@ -103,14 +103,14 @@ TEST(SelectMatches, RejectsThoseWithoutOdometryAtTheirTime) {
 TEST(SelectMatches, AdmitsCandidatesAndWhatTheyVouchFor) {
   for (const std::size_t candidates : {2u, 3u}) {
     auto out = two_robots(6, 1).measured();
-    place_by_matches(out.joint, out.placement, out.closures);
-    out.placement.without_matches = {0, 0};
+    join_by_matches(out.joint, out.alignment, out.closures);
+    out.alignment.without_matches = {0, 0};
     CandidateList list = no_candidates(out.joint);
     for (std::size_t k = 0; k < candidates; ++k) {
       const Closure& match = out.closures[k];
       list.push_back({match.robot_i, match.stamp_i, match.robot_j, match.stamp_j});
     }
-    select_matches(out.joint, out.placement, out.closures, list, Pruning::kOn, {});
+    select_matches(out.joint, out.alignment, out.closures, list, Pruning::kOn, {});
     for (std::size_t k = 0; k < 7; ++k) {
       const bool enters = k < candidates || (candidates == 3 && k < 6);
       EXPECT_EQ(out.closures[k].reason, enters ? "" : "the views cannot overlap") << candidates << " " << k;
@@ -119,13 +119,13 @@ TEST(SelectMatches, AdmitsCandidatesAndWhatTheyVouchFor) {
 }
 
 /// Matches of one robot with itself are not compared with each other; the graduated loss judges them.
-TEST(OptimiseWithMatches, RejectsWhatTheEstimateContradicts) {
+TEST(OptimizeWithMatches, RejectsWhatTheEstimateContradicts) {
   BlockTeam team(1);
   for (std::size_t k = 0; k < 4; ++k) team.see(0, 5 * k, 0, BlockTeam::kRound + 5 * k);
   team.mistake(0, 10, 0, 100, kElsewhere);
   auto out = team.measured();
-  select_matches(out.joint, out.placement, out.closures, no_candidates(out.joint), Pruning::kOn, {});
-  optimise_with_matches(out.joint, out.closures, {}, {}, {});
+  select_matches(out.joint, out.alignment, out.closures, no_candidates(out.joint), Pruning::kOn, {});
+  optimize_with_matches(out.joint, out.closures, {}, {}, {});
   EXPECT_EQ(reasons(out.closures),
             (std::vector<std::string>{"", "", "", "", "the joint estimate disagrees"}));
 }

@@ -69,8 +69,9 @@ TEST(FixStage, TakesItsTimeInTheReport) {
     return names;
   };
   std::vector<std::string> with = stages();
-  EXPECT_EQ(std::erase_if(with, [](const auto& s) { return s == "position fixes" || s == "settle fixes"; }),
-            2U);
+  EXPECT_EQ(
+      std::erase_if(with, [](const auto& s) { return s == "position fixes" || s == "reclassify fixes"; }),
+      2U);
   for (Robot& robot : mission.robots) robot.fixes.clear();
   EXPECT_EQ(with, stages());
 }

@@ -1,5 +1,3 @@
-#include "radioslam/radio/captures/csi_windows.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <numbers>
 
 #include "radioslam/geometry/so3.hpp"
+#include "radioslam/radio/captures/csi_tracks.hpp"
 
 namespace radioslam {
 namespace {

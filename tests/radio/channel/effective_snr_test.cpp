@@ -1,5 +1,3 @@
-#include "radioslam/radio/channel/effective_snr.hpp"
-
 #include <gtest/gtest.h>
 
 #include <array>
@@ -7,6 +5,7 @@
 #include <limits>
 
 #include "radioslam/base/random.hpp"
+#include "radioslam/radio/channel/capture_power.hpp"
 
 namespace radioslam {
 namespace {

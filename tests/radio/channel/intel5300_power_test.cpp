@@ -1,4 +1,3 @@
-#include "radioslam/radio/channel/intel5300_power.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +7,6 @@
 #include "radioslam/io/csi/intel5300.hpp"
 #include "radioslam/io/text/text.hpp"
 #include "radioslam/radio/channel/capture_power.hpp"
-#include "radioslam/radio/channel/effective_snr.hpp"
 
 namespace radioslam {
 namespace {

@@ -1,10 +1,9 @@
-#include "radioslam/radio/channel/square_root_channel.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "radio/aoa/waves.hpp"
+#include "radioslam/radio/channel/two_way_channel.hpp"
 
 namespace radioslam {
 namespace {

@@ -1,9 +1,8 @@
-#include "radioslam/radio/channel/subcarrier_slopes.hpp"
-
 #include <gtest/gtest.h>
 
 #include "radio/aoa/waves.hpp"
 #include "radioslam/radio/aoa/delay_alignment.hpp"
+#include "radioslam/radio/channel/two_way_channel.hpp"
 
 namespace radioslam {
 namespace {

@@ -1,10 +1,9 @@
-#include "radioslam/radio/fingerprints/decay_model.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "radioslam/base/random.hpp"
+#include "radioslam/radio/fingerprints/distance_model.hpp"
 
 namespace radioslam {
 namespace {

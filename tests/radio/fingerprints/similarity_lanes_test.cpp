@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "radioslam/base/random.hpp"
-#include "radioslam/radio/fingerprints/similarity_bounds.hpp"
+#include "radioslam/radio/fingerprints/similarity_join.hpp"
 #include "radioslam/radio/fingerprints/similarity_sums.hpp"
 
 namespace radioslam {

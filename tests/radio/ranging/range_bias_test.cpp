@@ -7,23 +7,6 @@
 namespace radioslam {
 namespace {
 
-TEST(RangeBias, OfKnownGeometryIsTheMeanDespiteReflections) {
-  Rng rng(1);
-  std::vector<KnownRange> ranges;
-  for (int k = 0; k < 2000; ++k) {
-    const double distance_m = rng.uniform(1, 20);
-    const double reflected_m = rng.uniform() < 0.1 ? rng.uniform(1, 10) : 0;
-    ranges.push_back({0, distance_m + 0.3 + rng.normal(0, 0.05) + reflected_m, distance_m});
-    ranges.push_back({2, distance_m - 0.2 + rng.normal(0, 0.1), distance_m});
-  }
-  const auto biases = biases_from_known_geometry(ranges, 3);
-  EXPECT_NEAR(biases[0].bias_m, 0.3, 0.015);
-  EXPECT_NEAR(biases[0].spread_m, 0.05, 0.01);
-  EXPECT_EQ(biases[1].count, 0U);
-  EXPECT_NEAR(biases[2].bias_m, -0.2, 4 * biases[2].sigma_m);
-  EXPECT_NEAR(biases[2].sigma_m, 0.1 / std::sqrt(2000), 0.0005);
-}
-
 TEST(RangeBias, IsFoundTogetherWithUnknownPositions) {
   Rng rng(2);
   Eigen::VectorXd truth(5);

@@ -2,8 +2,8 @@
 #include <array>
 
 #include "io/recorded_data.hpp"
+#include "radio/ranging/known_biases.hpp"
 #include "radioslam/io/text/csv.hpp"
-#include "radioslam/radio/ranging/range_bias.hpp"
 
 namespace radioslam {
 namespace {
@@ -16,7 +16,7 @@ TEST(RecordedRanges, BiasesOfTurtlebotPairsAreTwoToFiveDecimetres) {
   constexpr std::array<std::array<std::size_t, 2>, 6> kPairs{
       {{3, 0}, {3, 1}, {3, 2}, {2, 1}, {2, 0}, {1, 0}}};
   constexpr std::size_t kFirstRange = 8;
-  std::vector<KnownRange> ranges;
+  std::vector<test::KnownRange> ranges;
   while (csv.next()) {
     const auto place = [&](std::size_t robot) {
       return Eigen::Vector2d(csv.number(2 * robot), csv.number(2 * robot + 1));
@@ -27,7 +27,7 @@ TEST(RecordedRanges, BiasesOfTurtlebotPairsAreTwoToFiveDecimetres) {
       ranges.push_back({pair, range_m, (place(kPairs[pair][0]) - place(kPairs[pair][1])).norm()});
     }
   }
-  const auto biases = biases_from_known_geometry(ranges, kPairs.size());
+  const auto biases = test::known_biases(ranges, kPairs.size());
   for (std::size_t pair = 0; pair < biases.size(); ++pair) {
     const RangeBias& bias = biases[pair];
     RecordProperty("pair_" + std::to_string(pair),

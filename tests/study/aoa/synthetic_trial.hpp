@@ -9,7 +9,7 @@
 #include <string>
 
 #include "radioslam/geometry/so3.hpp"
-#include "radioslam/io/csi/intel5300_write.hpp"
+#include "radioslam/io/csi/intel5300.hpp"
 #include "radioslam/io/text/numbers.hpp"
 #include "radioslam/sim/sensors/csi_exchange.hpp"
 

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "radioslam/base/parallel.hpp"
-#include "radioslam/study/robustness_map/robustness_summary.hpp"
 #include "radioslam/study/study_json.hpp"
 #include "radioslam/study/study_page.hpp"
 #include "study/small_town.hpp"

@@ -1,7 +1,6 @@
-#include "radioslam/team_frame/beam_search/sub_team.hpp"
-
 #include <gtest/gtest.h>
 
+#include "radioslam/team_frame/beam_search/local_placement.hpp"
 #include "team_frame/radio_worlds.hpp"
 
 namespace radioslam {

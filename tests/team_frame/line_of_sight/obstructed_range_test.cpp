@@ -1,9 +1,9 @@
 // The likelihood of a distance under a detour: its derivatives, and both tails.
-#include "radioslam/team_frame/line_of_sight/obstructed_range.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "radioslam/team_frame/line_of_sight/detour_continuity.hpp"
 
 namespace radioslam {
 namespace {

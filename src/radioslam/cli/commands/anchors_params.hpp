@@ -2,7 +2,7 @@
 #pragma once
 
 #include "radioslam/radio/ranging/anchor_layout.hpp"
-#include "radioslam/radio/ranging/receiver_track.hpp"
+#include "radioslam/radio/ranging/range_bias.hpp"
 
 namespace radioslam::cli {
 
@@ -13,9 +13,9 @@ struct AnchorsParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"distance_sigma_m", "m", 1e-6, 100,
-                "standard deviation of distances without sigma_m; the default suits a laser distance meter"},
-          self.distance_sigma_m);
+    RADIOSLAM_FIELD(
+        distance_sigma_m, "m", 1e-6, 100,
+        "standard deviation of distances without sigma_m; the default suits a laser distance meter");
   }
   template <class Self, class Visitor>
   static void visit_sections(Self& self, Visitor&& visit) {

@@ -1,4 +1,4 @@
-// radioslam optimize: optimises a pose graph in g2o or JRL format.
+// radioslam optimize: optimizes a pose graph in g2o or JRL format.
 #include <algorithm>
 #include <chrono>
 #include <iostream>
@@ -19,7 +19,7 @@
 #include "radioslam/io/graph/g2o.hpp"
 #include "radioslam/io/graph/jrl.hpp"
 #include "radioslam/io/text/atomic_output.hpp"
-#include "radioslam/io/text/zstd_text.hpp"
+#include "radioslam/io/text/compressed_text.hpp"
 
 namespace radioslam::cli {
 namespace {
@@ -33,11 +33,11 @@ struct OptimizeOptions {
   bool json = false;
 };
 
-/// Wall times of reading, initialisation and optimisation.
+/// Wall times of reading, initialisation and optimization.
 struct Seconds {
   double read = 0;
   double initialise = 0;
-  double optimise = 0;
+  double optimize = 0;
 };
 
 /// The results to print.
@@ -103,7 +103,7 @@ Report optimize_graph(G2oGraph<Pose>& file, const OptimizerParams& params) {
   report.seconds.initialise = stopwatch.lap();
   ProgressLine line;
   report.summary = optimize(file.graph, params, line.progress());
-  report.seconds.optimise = stopwatch.lap();
+  report.seconds.optimize = stopwatch.lap();
   report.initial_cost = costs.given.value_or(report.summary.initial_cost);
   return report;
 }
@@ -116,7 +116,7 @@ nlohmann::ordered_json optimum_json(const Report& report) {
           {"seconds",
            {{"read", report.seconds.read},
             {"initialise", report.seconds.initialise},
-            {"optimise", report.seconds.optimise}}},
+            {"optimise", report.seconds.optimize}}},
           {"termination", to_string(report.summary.termination)},
           {"certificate", nullptr},
           {"start", report.start},
@@ -131,7 +131,7 @@ void print_optimum(const Report& report, const std::string& output) {
             << report.initial_cost << " -> " << report.summary.initial_cost << " (" << report.start
             << " start) -> " << report.summary.final_cost << " in " << report.summary.iterations
             << " iterations, " << to_string(report.summary.termination) << ", "
-            << report.seconds.initialise + report.seconds.optimise << " s\n";
+            << report.seconds.initialise + report.seconds.optimize << " s\n";
   if (report.repaired_informations > 0) {
     std::cout << "repaired " << report.repaired_informations << " indefinite or zero information matrices\n";
   }
@@ -178,9 +178,9 @@ void optimize_file(const OptimizeOptions& options) {
 
 void add_optimize(CLI::App& program) {
   const auto options = std::make_shared<OptimizeOptions>();
-  auto* command = program.add_subcommand("optimize", "Optimise a pose graph in g2o or JRL format");
+  auto* command = program.add_subcommand("optimize", "Optimize a pose graph in g2o or JRL format");
   command->add_option("GRAPH", options->input, "Pose graph, 2D or 3D: .g2o or .jrl, also .zst")->required();
-  add_output_option(*command, options->output, "Optimised graph to write, in g2o format");
+  add_output_option(*command, options->output, "Optimized graph to write, in g2o format");
   command->add_flag("--repair-information", options->repair_information,
                     "Replace indefinite information matrices by the nearest valid ones and accept zero ones");
   command->add_flag("--certify", options->certify, "Certify global optimality (not implemented yet)");
@@ -189,7 +189,7 @@ void add_optimize(CLI::App& program) {
   add_threads_option(*command);
   command->footer(
       "The cost is g2o's chi2: the sum of squared Mahalanobis norms, without a factor of one half.\n"
-      "Optimisation starts from the cheapest of three initial estimates: the file's VERTEX lines (if "
+      "Optimization starts from the cheapest of three initial estimates: the file's VERTEX lines (if "
       "complete),\n"
       "a chordal initialisation, and a spanning tree.\n"
       "In the --json output, start_cost is the cost of the chosen start and initial_cost that of the VERTEX\n"

@@ -67,6 +67,15 @@ CLI::Validator seed_number() {
   return CLI::Validator(check, "");
 }
 
+void add_mission_option(CLI::App& command, std::vector<std::string>& paths) {
+  command
+      .add_option(
+          "MISSION", paths,
+          "Mission folder (with mission.yaml), or a factor graph (.g2o, .pyfg or .jrl; also .zst): one "
+          "file, or a folder or list of g2o files, one per robot")
+      ->required();
+}
+
 void add_known_starts_option(CLI::App& command, StatedStarts& starts) {
   command.add_flag_callback(
       "--known-starts", [&starts] { starts = StatedStarts::kUsed; },

@@ -34,6 +34,9 @@ CLI::Validator number_from(double minimum, double maximum);
 /// Accepts whole numbers from 0 to 2^64 - 1 (without it, a negative number would wrap around).
 CLI::Validator seed_number();
 
+/// MISSION: one path, or several graphs.
+void add_mission_option(CLI::App& command, std::vector<std::string>& paths);
+
 /// `--known-starts`; sets `starts` when the command line is parsed.
 void add_known_starts_option(CLI::App& command, StatedStarts& starts);
 

@@ -6,7 +6,6 @@
 #include "radioslam/cli/commands.hpp"
 #include "radioslam/cli/commands/command_options.hpp"
 #include "radioslam/cli/parameter_sets.hpp"
-#include "radioslam/cli/parameters_page.hpp"
 
 namespace radioslam::cli {
 namespace {
@@ -33,8 +32,7 @@ nlohmann::ordered_json parameters_json(const std::vector<ParameterDescription>& 
                              {"unit", parameter.unit},
                              {"range", parameter.range},
                              {"meaning", parameter.description},
-                             {"level", level_name(parameter.level)},
-                             {"formerly", parameter.former_keys}};
+                             {"level", level_name(parameter.level)}};
   }
   return object;
 }
@@ -78,7 +76,6 @@ void add_parameters(CLI::App& program) {
                     "Print all parameters of all commands as one page in Markdown, and nothing else");
   add_json_option(*command, options->json);
   command->footer(
-      "Names of version 0.1 are still accepted; --json lists them as \"formerly\".\n\n"
       "Examples:\n"
       "  radioslam parameters\n"
       "  radioslam parameters run --all | less\n"

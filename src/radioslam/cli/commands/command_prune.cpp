@@ -90,17 +90,14 @@ void add_prune(CLI::App& program) {
   const auto options = std::make_shared<PruneOptions>();
   auto* command =
       program.add_subcommand("prune", "Find the keyframe pairs of different robots whose views can overlap");
-  command
-      ->add_option("MISSION", options->mission,
-                   "Mission folder (with mission.yaml), or a factor graph (.g2o, .pyfg or .jrl; also .zst): "
-                   "one file, or a "
-                   "folder or list of g2o files, one per robot")
-      ->required();
+  add_mission_option(*command, options->mission);
   add_output_option(*command, options->output, "Folder to write; the folder of an earlier run is replaced");
   command
-      ->add_option("--mode", options->mode,
-                   "joint: use covariances of the joint estimate (default); link: chain odometry through the "
-                   "nearest radio link only")
+      ->add_option(
+          "--mode", options->mode,
+          "joint: use covariances of the joint estimate (default); link: chain odometry through the "
+          "nearest radio link only; where no range has angles at both ends, links are relative poses "
+          "of the joint estimate, and a note says so")
       ->check(CLI::IsMember({"joint", "link"}));
   add_known_starts_option(*command, options->starts);
   command->add_flag("--exhaustive", options->exhaustive,

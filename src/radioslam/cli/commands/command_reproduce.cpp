@@ -1,25 +1,57 @@
 // radioslam reproduce: reproduces published tables, and runs the project's own studies.
 #include <array>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "radioslam/base/input_error.hpp"
 #include "radioslam/cli/commands.hpp"
 #include "radioslam/cli/commands/command_options.hpp"
 #include "radioslam/cli/commands/recorded_drive.hpp"
-#include "radioslam/cli/commands/recorded_trials.hpp"
 #include "radioslam/cli/config.hpp"
 #include "radioslam/cli/parameters.hpp"
 #include "radioslam/cli/progress_line.hpp"
 #include "radioslam/cli/suggestion.hpp"
+#include "radioslam/io/datasets/wsr_results.hpp"
+#include "radioslam/io/datasets/wsr_trial.hpp"
 #include "radioslam/io/text/atomic_output.hpp"
 #include "radioslam/study/study_json.hpp"
 #include "radioslam/study/study_page.hpp"
 
 namespace radioslam::cli {
 namespace {
+
+/// Recorded trials of the WSR data set and the results that its authors published for them.
+struct RecordedTrials {
+  std::vector<WsrTrialFiles> trials;
+  std::vector<WsrResult> published;  ///< empty if the results are not available
+};
+
+namespace fs = std::filesystem;
+
+constexpr int kFoldersAbove = 2;
+
+std::optional<fs::path> results_beside(const std::string& dataset) {
+  fs::path place = fs::weakly_canonical(fs::absolute(dataset));
+  for (int above = 0; above <= kFoldersAbove; ++above) {
+    if (fs::path results = place / "2D-Displacement_output_files"; fs::is_directory(results)) return results;
+    place = place.parent_path();
+  }
+  return std::nullopt;
+}
+
+/// Refuses (InputError, prefixed by `call`) an empty `dataset`. If `authors` is empty, the results are
+/// searched in 2D-Displacement_output_files within the data set's folder or up to two folders above it.
+RecordedTrials find_trials(const std::string& call, const std::string& dataset, const std::string& authors) {
+  if (dataset.empty()) throw InputError(call, 0, "needs recorded trials: --dataset DIR");
+  RecordedTrials recorded{find_wsr_trials(dataset), {}};
+  const auto results = authors.empty() ? results_beside(dataset) : std::optional<fs::path>(authors);
+  if (results) recorded.published = read_wsr_results(*results);
+  return recorded;
+}
 
 constexpr int kMaxSeeds = 1000;
 constexpr std::size_t kMaxPoses = 1000000;

@@ -141,12 +141,7 @@ void run_mission(const RunArguments& options) {
 void add_run(CLI::App& program) {
   const auto options = std::make_shared<RunArguments>();
   auto* command = program.add_subcommand("run", "Estimate the trajectories of all robots in one frame");
-  command
-      ->add_option("MISSION", options->mission,
-                   "Mission folder (with mission.yaml), or a factor graph (.g2o, .pyfg or .jrl; also .zst): "
-                   "one file, or a "
-                   "folder or list of g2o files, one per robot")
-      ->required();
+  add_mission_option(*command, options->mission);
   add_output_option(*command, options->output, "Folder to write; the folder of an earlier run is replaced");
   add_parameter_options(*command, options->parameters);
   add_known_starts_option(*command, options->starts);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cctype>
+#include <cstddef>
 #include <utility>
 
 #include "radioslam/cli/suggestion.hpp"
@@ -14,34 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct ReasonKind {
-  const char* part;
-  const char* kind;
-};
-/// What the readers' reasons mean, first match first.
-constexpr std::array kReasonKinds{ReasonKind{"unknown robot", "spelling"},
-                                  ReasonKind{"unknown antenna", "spelling"},
-                                  ReasonKind{"is not listed", "spelling"},
-                                  ReasonKind{"the time", "clock"},
-                                  ReasonKind{"time runs backwards", "clock"},
-                                  ReasonKind{"has no poses", "too-little"},
-                                  ReasonKind{"odometry.tum and no", "too-little"},
-                                  ReasonKind{"has no header", "too-little"},
-                                  ReasonKind{"quaternion", "column-order"},
-                                  ReasonKind{"column '", "column-order"},
-                                  ReasonKind{"rssi_dbm", "unit"},
-                                  ReasonKind{"frequency", "unit"},
-                                  ReasonKind{"plausible", "unit"},
-                                  ReasonKind{"nanosecond", "unit"},
-                                  ReasonKind{"to itself", "duplicate"},
-                                  ReasonKind{"appears twice", "duplicate"},
-                                  ReasonKind{"same mac", "duplicate"}};
-
-std::string kind_of(const std::string& reason) {
-  for (const auto& [part, kind] : kReasonKinds)
-    if (reason.find(part) != std::string::npos) return kind;
-  return "unreadable";
-}
+/// Kinds of findings, in the order of InputError::Kind.
+constexpr std::array kKinds{"unreadable",   "spelling", "clock",    "too-little",
+                            "column-order", "unit",     "duplicate"};
 
 /// The name between the first two quotes, or nothing.
 std::string quoted(const std::string& reason) {
@@ -92,14 +68,14 @@ Finding refused(const InputError& error, const fs::path& folder) {
   const auto ids = robots_of(folder);
   Finding finding;
   finding.severity = Severity::kError;
-  finding.kind = kind_of(error.reason());
+  finding.kind = kKinds.at(static_cast<std::size_t>(error.kind()));
   finding.file = fs::relative(error.file(), folder).string();
   if (finding.file.starts_with("..")) finding.file = error.file();
   finding.robot = robot_of(finding.file, error.reason(), ids);
   finding.found = (error.line() > 0 ? "line " + std::to_string(error.line()) + ": " : "") + error.reason();
   finding.expected = "a file that can be read";
   finding.advice = "correct the file";
-  if (finding.kind == "spelling") {
+  if (error.kind() == InputError::Kind::kSpelling) {
     finding.expected = "a robot or antenna of mission.yaml";
     const std::string meant = meant_robot(quoted(error.reason()), ids);
     if (!meant.empty()) finding.advice += "; did you mean " + meant + "?";

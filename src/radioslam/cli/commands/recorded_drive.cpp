@@ -1,7 +1,7 @@
 #include "radioslam/cli/commands/recorded_drive.hpp"
 
 #include "radioslam/base/input_error.hpp"
-#include "radioslam/io/lidar/kitti_poses.hpp"
+#include "radioslam/io/lidar/kitti_sequence.hpp"
 #include "radioslam/io/text/text.hpp"
 
 namespace radioslam::cli {

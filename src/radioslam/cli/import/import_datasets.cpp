@@ -1,11 +1,10 @@
-#include "radioslam/cli/import/import_datasets.hpp"
-
 #include <filesystem>
 #include <iostream>
 #include <set>
 #include <string>
 
 #include "radioslam/cli/commands/output_path_check.hpp"
+#include "radioslam/cli/import/import_commands.hpp"
 #include "radioslam/io/datasets/dpgo.hpp"
 #include "radioslam/io/datasets/indoor_location.hpp"
 #include "radioslam/io/datasets/wifi_rtt.hpp"

@@ -2,10 +2,7 @@
 
 #include <algorithm>
 
-#include "radioslam/cli/import/import_datasets.hpp"
-#include "radioslam/cli/import/import_lidar.hpp"
-#include "radioslam/cli/import/import_ranges.hpp"
-#include "radioslam/cli/import/import_wifi.hpp"
+#include "radioslam/cli/import/import_commands.hpp"
 
 namespace radioslam::cli {
 namespace {

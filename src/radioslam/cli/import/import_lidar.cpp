@@ -1,5 +1,3 @@
-#include "radioslam/cli/import/import_lidar.hpp"
-
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -7,6 +5,7 @@
 #include <set>
 
 #include "radioslam/cli/commands/output_path_check.hpp"
+#include "radioslam/cli/import/import_commands.hpp"
 #include "radioslam/io/lidar/carmen.hpp"
 #include "radioslam/io/lidar/kitti_sequence.hpp"
 #include "radioslam/io/lidar/lidar_folder.hpp"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "radioslam/io/text/valid_id.hpp"
+#include "radioslam/io/text/text.hpp"
 
 namespace radioslam::cli {
 namespace {

@@ -1,10 +1,9 @@
-#include "radioslam/cli/import/import_ranges.hpp"
-
 #include <iostream>
 #include <map>
 #include <string>
 
 #include "radioslam/cli/commands/output_path_check.hpp"
+#include "radioslam/cli/import/import_commands.hpp"
 #include "radioslam/io/mission/team_tables.hpp"
 #include "radioslam/io/text/atomic_output.hpp"
 #include "radioslam/io/text/text.hpp"

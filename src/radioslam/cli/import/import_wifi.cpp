@@ -1,24 +1,118 @@
-#include "radioslam/cli/import/import_wifi.hpp"
-
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "radioslam/cli/commands/output_path_check.hpp"
-#include "radioslam/cli/import/wifi_csv_output.hpp"
+#include "radioslam/cli/import/import_commands.hpp"
+#include "radioslam/cli/import/import_options.hpp"
+#include "radioslam/cli/suggestion.hpp"
+#include "radioslam/io/mission/mission_folder.hpp"
+#include "radioslam/io/mission/mission_yaml.hpp"
+#include "radioslam/io/text/atomic_output.hpp"
+#include "radioslam/io/text/csv.hpp"
+#include "radioslam/io/text/text.hpp"
 #include "radioslam/io/wifi/airodump_csv.hpp"
 #include "radioslam/io/wifi/iw_scan.hpp"
 #include "radioslam/io/wifi/iwlist_scan.hpp"
 #include "radioslam/io/wifi/log_time.hpp"
 #include "radioslam/io/wifi/nmcli_list.hpp"
 #include "radioslam/io/wifi/wifi_capture.hpp"
+#include "radioslam/io/wifi/wifi_log.hpp"
 
 namespace radioslam::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+std::vector<std::string> robots_in_mission(const fs::path& mission) {
+  std::vector<std::string> ids;
+  for (const Robot& robot : read_mission_yaml(read_text(mission / kMissionFolder), "").mission.robots)
+    ids.push_back(robot.id);
+  return ids;
+}
+
+// Output of imported WiFi scans: a wifi.csv alone, or the wifi.csv of a robot in a mission.
+
+/// One of three targets, depending on the output path:
+///   NAME.csv              the table alone
+///   an existing mission   robots/<robot>/wifi.csv; the robot need not be named if there is only one
+///   any other folder      a new mission of one robot without odometry; without a name, the robot is named
+///                         after the source
+class WifiCsvOutput {
+ public:
+  /// Refuses (InputError) a robot that the mission does not have, and invalid names.
+  WifiCsvOutput(const std::string& output, const std::string& robot, const std::string& source);
+
+  void commit(const std::vector<WifiRow>& rows) {
+    const std::string table = format_wifi_rows(rows);
+    if (file_) return file_->commit(table);
+    Mission mission;
+    mission.name = name_of_source(output_);
+    mission.robots.emplace_back().id = robot_;
+    write_mission(folder_->path(), mission);
+    write_file(folder_->path() / "robots" / robot_ / "wifi.csv", table);
+    folder_->commit();
+  }
+
+  /// The path that commit() replaces.
+  std::string replaced() const { return file_ ? table_ : output_; }
+
+  /// The robot's name; empty for a table alone.
+  const std::string& robot() const { return robot_; }
+  /// A note on what the mission still lacks before it can be run; empty if nothing is known to be missing.
+  std::string missing() const {
+    if (robot_.empty() || output_.ends_with(".csv")) return {};
+    const std::string odometry = file_of_robot("odometry.tum");
+    return fs::exists(odometry) ? "" : odometry + " is missing; `radioslam run` needs it";
+  }
+
+ private:
+  void find_robot_of_mission() {
+    const auto ids = robots_in_mission(output_);
+    if (robot_.empty() && ids.size() == 1) robot_ = ids.front();
+    if (robot_.empty())
+      throw InputError(output_, 0,
+                       "this mission has " + std::to_string(ids.size()) +
+                           " robots; --robot selects the one that recorded this");
+    if (std::find(ids.begin(), ids.end(), robot_) == ids.end())
+      throw InputError("--robot " + robot_, 0,
+                       "the mission " + output_ + " has no such robot" + did_you_mean(robot_, ids));
+  }
+
+  void name_robot_after(const std::string& source) {
+    robot_ = name_of_source(source);
+    if (!is_valid_id(robot_))
+      throw InputError(source, 0, "its name is not a valid robot name; --robot sets another one");
+  }
+
+  std::string file_of_robot(const char* name) const {
+    return (fs::path(output_) / "robots" / robot_ / name).string();
+  }
+
+  std::string output_, robot_;
+  std::string table_;  ///< the path of file_
+  std::optional<OutputFile> file_;
+  std::optional<OutputFolder> folder_;
+};
+
+WifiCsvOutput::WifiCsvOutput(const std::string& output, const std::string& robot, const std::string& source)
+    : output_(output), robot_(robot) {
+  if (!robot.empty()) check_import_id("--robot " + robot, robot);
+  if (output.ends_with(".csv")) {
+    file_.emplace(table_ = output);
+  } else if (fs::exists(fs::path(output) / kMissionFolder)) {
+    find_robot_of_mission();
+    file_.emplace(table_ = file_of_robot("wifi.csv"));
+  } else {
+    if (robot_.empty()) name_robot_after(source);
+    folder_.emplace(output, kMissionFolder);
+  }
+}
 
 /// All source files: sources that are files, and the files in sources that are folders, sorted by name. In
 /// folders only files with one of `extensions` count; if it is empty, all do.
@@ -29,15 +123,11 @@ std::vector<fs::path> files_of(const ImportOptions& options, const std::vector<s
       files.emplace_back(source);
       continue;
     }
-    std::vector<fs::path> inside;
-    for (const auto& entry : fs::recursive_directory_iterator(source)) {
-      const std::string extension = entry.path().extension().string();
-      const bool is_meant =
-          extensions.empty() || std::count(extensions.begin(), extensions.end(), extension) > 0;
-      if (entry.is_regular_file() && is_meant && !entry.path().filename().string().starts_with('.'))
-        inside.push_back(entry.path());
-    }
-    std::sort(inside.begin(), inside.end());
+    const std::vector<fs::path> inside = files_in(source, Depth::kBelow, [&](const fs::path& file) {
+      const bool is_meant = extensions.empty() ||
+                            std::count(extensions.begin(), extensions.end(), file.extension().string()) > 0;
+      return is_meant && !is_hidden(file);
+    });
     if (inside.empty()) throw InputError(source, 0, "has no files to import");
     files.insert(files.end(), inside.begin(), inside.end());
   }

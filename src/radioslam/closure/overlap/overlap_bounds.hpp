@@ -22,7 +22,7 @@
 #include <optional>
 #include <span>
 
-#include "radioslam/closure/overlap/overlap_params.hpp"
+#include "radioslam/closure/overlap/overlap_search.hpp"
 #include "radioslam/closure/overlap/overlap_tree.hpp"
 #include "radioslam/closure/overlap/overlap_view.hpp"
 

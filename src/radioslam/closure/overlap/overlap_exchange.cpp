@@ -5,7 +5,6 @@
 #include "radioslam/base/check.hpp"
 #include "radioslam/closure/overlap/overlap_joint.hpp"
 #include "radioslam/closure/overlap/overlap_link.hpp"
-#include "radioslam/closure/overlap/overlap_wire.hpp"
 
 namespace radioslam {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "radioslam/base/check.hpp"
-#include "radioslam/closure/overlap/odometry_prefix_sums.hpp"
+#include "radioslam/closure/overlap/overlap_link.hpp"
 #include "radioslam/geometry/linear_algebra.hpp"
 
 namespace radioslam {

@@ -1,6 +1,6 @@
 // Elimination of a front's pivots on several threads: the kernels' steps, with the rows of each divided among
 // the threads. Every entry is the same chain of operations as in the kernel that does all at once
-// (dense_tile.hpp), so the bytes are its, for any number of threads.
+// (dense_product.hpp), so the bytes are its, for any number of threads.
 #pragma once
 
 #include "radioslam/graph/linear/front_kernels.hpp"

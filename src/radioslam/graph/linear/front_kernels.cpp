@@ -1,7 +1,5 @@
 #include "radioslam/graph/linear/front_kernels.hpp"
 
-#include "radioslam/graph/linear/front_kernel_sets.hpp"
-
 namespace radioslam {
 
 std::vector<FrontKernels> available_front_kernels() {

@@ -67,4 +67,9 @@ std::vector<FrontKernels> available_front_kernels();
 /// The fastest of them.
 const FrontKernels& front_kernels();
 
+// The sets of kernels this program was built with.
+
+FrontKernels front_kernels_two_doubles();
+FrontKernels front_kernels_four_doubles();  ///< x86-64 only
+
 }  // namespace radioslam

@@ -1,6 +1,6 @@
 // Kernels for AVX2. This file alone is compiled for it, so nothing that other files could share may be here.
 #include "radioslam/graph/linear/dense_front.hpp"
-#include "radioslam/graph/linear/front_kernel_sets.hpp"
+#include "radioslam/graph/linear/front_kernels.hpp"
 #include "radioslam/graph/linear/simd.hpp"
 
 namespace radioslam {

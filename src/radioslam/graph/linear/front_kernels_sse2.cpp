@@ -1,6 +1,6 @@
 // Kernels for any 64-bit machine.
 #include "radioslam/graph/linear/dense_front.hpp"
-#include "radioslam/graph/linear/front_kernel_sets.hpp"
+#include "radioslam/graph/linear/front_kernels.hpp"
 #include "radioslam/graph/linear/simd.hpp"
 
 namespace radioslam {

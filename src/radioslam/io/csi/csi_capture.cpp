@@ -7,6 +7,7 @@
 #include "radioslam/io/csi/esp32_csi.hpp"
 #include "radioslam/io/csi/intel5300.hpp"
 #include "radioslam/io/csi/nexmon_csi.hpp"
+#include "radioslam/io/text/atomic_output.hpp"
 #include "radioslam/io/text/byte_view.hpp"
 #include "radioslam/io/text/text.hpp"
 #include "radioslam/io/wifi/pcap.hpp"
@@ -72,6 +73,14 @@ constexpr std::array kFileKinds{
     CsiFileKind{"an Intel 5300's records", is_intel5300, read_intel5300},
 };
 
+namespace fs = std::filesystem;
+
+/// "01" of 12: padded with zeros so that names sort as numbers.
+std::string numbered(std::size_t number, std::size_t last) {
+  const std::string digits = std::to_string(number);
+  return std::string(std::to_string(last).size() - digits.size(), '0') + digits;
+}
+
 }  // namespace
 
 CsiCapture read_csi_capture(const std::string& name, std::string_view bytes) {
@@ -86,5 +95,24 @@ CsiCapture read_csi_capture(const std::string& name, std::string_view bytes) {
 }
 
 CsiCapture read_csi_capture(const std::string& path) { return read_csi_capture(path, read_bytes(path)); }
+
+std::vector<CsiCapture> read_csi_folder(const fs::path& folder) {
+  std::vector<CsiCapture> captures;
+  if (!fs::is_directory(folder)) return captures;
+  for (const fs::path& file :
+       files_in(folder, Depth::kFolder, [](const fs::path& candidate) { return !is_hidden(candidate); }))
+    captures.push_back(read_csi_capture(file.string()));
+  return captures;
+}
+
+void write_csi_folder(const fs::path& folder, const std::vector<CsiCapture>& captures) {
+  std::vector<const CsiCapture*> written;
+  for (const CsiCapture& capture : captures)
+    if (!capture.packets.empty()) written.push_back(&capture);
+  for (std::size_t k = 0; k < written.size(); ++k) {
+    const std::string number = written.size() > 1 ? "-" + numbered(k + 1, written.size()) : "";
+    write_file(folder / ("capture" + number + ".dat"), write_intel5300(*written[k]));
+  }
+}
 
 }  // namespace radioslam

@@ -33,7 +33,9 @@ std::vector<CsiSettings::NamedAntenna> antennas_at(const Text& text, const YAML:
   for (const auto& entry : node) {
     const std::string name = scalar_at(text, entry, "an antenna's name");
     for (const auto& [other, line] : antennas)
-      if (other == name) text.fail(line_of(entry), "antenna '" + name + "' appears twice in csi");
+      if (other == name)
+        text.fail(line_of(entry), "antenna '" + name + "' appears twice in csi",
+                  InputError::Kind::kDuplicate);
     antennas.push_back({name, line_of(entry)});
   }
   return antennas;
@@ -61,7 +63,8 @@ CsiRecording csi_recording(const Text& text, const CsiSettings& settings, const 
   csi.carrier_hz = settings.carrier_hz;
   for (const auto& [name, line] : settings.antennas) {
     const auto found = antennas.find(name);
-    if (found == antennas.end()) text.fail(line, "unknown antenna '" + name + "' in csi");
+    if (found == antennas.end())
+      text.fail(line, "unknown antenna '" + name + "' in csi", InputError::Kind::kSpelling);
     csi.antennas_m.push_back(found->second);
   }
   if (csi.antennas_m.empty()) csi.antennas_m.emplace_back(0, 0, 0);

@@ -1,11 +1,107 @@
 #include "radioslam/io/csi/esp32_csi.hpp"
 
+#include <cstddef>
+#include <vector>
+
 #include "radioslam/base/units.hpp"
-#include "radioslam/io/csi/esp32_training.hpp"
+#include "radioslam/io/csi/csi_band.hpp"
+#include "radioslam/io/csi/esp32_line.hpp"
 #include "radioslam/io/text/skipped_records.hpp"
+#include "radioslam/mission/wifi_channel.hpp"
 
 namespace radioslam {
 namespace {
+
+// Maps the CSI values of an ESP32 packet to subcarriers (ESP-IDF, "Wi-Fi Channel State Information"). The
+// legacy training field comes first, then, for 802.11n, the high throughput field of one stream, or of two
+// streams with space-time block code. The subcarriers of a 20 MHz field are ordered 0..31, -32..-1 from the
+// carrier, or, if there is a secondary channel below or above, cover the half 0..63 or -64..-1 of both
+// channels together. Those of a 40 MHz field are ordered 0..63, -64..-1, or 0..60, -60..-1 with block code.
+
+/// The used subcarriers of one training field.
+struct TrainingField {
+  CapturedBand band;                ///< the carrier is the centre of the field's 20 or 40 MHz
+  std::vector<std::size_t> places;  ///< index of each subcarrier's value among the packet's complex values
+};
+
+constexpr std::size_t kLegacyValues = 64;
+constexpr double kNarrow_hz = 20e6, kWide_hz = 40e6;
+constexpr int kNarrowCentre = 32;  ///< centre of either half of 40 MHz
+
+double primary_carrier_hz(const TextLines& at, int channel) {
+  if (const auto carrier_hz = carrier_of_channel_hz(channel)) return *carrier_hz;
+  at.fail("channel " + std::to_string(channel) + " is not a channel of 2.4 or 5 GHz");
+}
+
+/// Number of complex values in the high throughput field of one stream.
+int high_throughput_values(const Esp32Packet& packet) {
+  if (packet.is_wide) return packet.is_stbc ? 121 : 128;
+  if (!packet.is_stbc || packet.secondary == SecondaryChannel::kNone) return 64;
+  return packet.secondary == SecondaryChannel::kBelow ? 63 : 62;
+}
+
+/// A field ordered from the carrier up, continued from the lowest subcarrier.
+int wrapped_place(int subcarrier, int values) { return subcarrier < 0 ? subcarrier + values : subcarrier; }
+
+/// A field of 20 MHz, alone or as the upper or lower half of 40 MHz; the lower half ends with subcarrier -1.
+int narrow_place(const Esp32Packet& packet, int subcarrier, int values) {
+  switch (packet.secondary) {
+    case SecondaryChannel::kBelow:
+      return subcarrier + kNarrowCentre;
+    case SecondaryChannel::kAbove:
+      return subcarrier - kNarrowCentre + values;
+    default:
+      return wrapped_place(subcarrier, values);
+  }
+}
+
+template <class PlaceOf>
+TrainingField field_of(const CapturedBand& band, std::size_t begin, const Esp32Packet& packet,
+                       PlaceOf&& place_of) {
+  constexpr std::size_t kInvalidValues = 2;
+  TrainingField field{{band.carrier_hz, band.bandwidth_hz, {}}, {}};
+  for (const int subcarrier : band.subcarriers) {
+    const std::size_t place = begin + static_cast<std::size_t>(place_of(subcarrier));
+    if (packet.is_first_word_invalid && place < kInvalidValues) continue;
+    field.band.subcarriers.push_back(subcarrier);
+    field.places.push_back(place);
+  }
+  return field;
+}
+
+TrainingField legacy_field(const Esp32Packet& packet, double primary_hz) {
+  return field_of({primary_hz, kNarrow_hz, subcarriers_on_both_sides(1, 26)}, 0, packet,
+                  [&](int k) { return narrow_place(packet, k, int{kLegacyValues}); });
+}
+
+TrainingField high_throughput_field(const Esp32Packet& packet, double primary_hz) {
+  const int values = high_throughput_values(packet);
+  if (!packet.is_wide)
+    return field_of({primary_hz, kNarrow_hz, subcarriers_on_both_sides(1, 28)}, kLegacyValues, packet,
+                    [&](int k) { return narrow_place(packet, k, values); });
+  const double shift_hz = packet.secondary == SecondaryChannel::kAbove ? kNarrow_hz / 2 : -kNarrow_hz / 2;
+  return field_of({primary_hz + shift_hz, kWide_hz, subcarriers_on_both_sides(2, 58)}, kLegacyValues, packet,
+                  [&](int k) { return wrapped_place(k, values); });
+}
+
+/// The legacy field and, if present, the (first) high throughput field. The first two values are left out if
+/// the chip marks them as invalid or does not state their validity. Refuses (InputError with the line)
+/// numbers of values that do not match these fields, and unknown channels. Chips configured to omit the
+/// legacy field are not recognised.
+std::vector<TrainingField> training_fields(const TextLines& at, const Esp32Packet& packet) {
+  const double primary_hz = primary_carrier_hz(at, packet.channel);
+  if (packet.is_high_throughput && packet.is_wide && packet.secondary == SecondaryChannel::kNone)
+    at.fail("a 40 MHz packet on a channel without a secondary channel");
+  std::vector<TrainingField> fields{legacy_field(packet, primary_hz)};
+  const std::size_t values = packet.values.size() / 2;
+  if (packet.values.size() == 2 * kLegacyValues) return fields;
+  const auto more = static_cast<std::size_t>(high_throughput_values(packet));
+  const bool fits = values == kLegacyValues + more || (packet.is_stbc && values == kLegacyValues + 2 * more);
+  if (!packet.is_high_throughput || !fits || packet.values.size() % 2 != 0)
+    at.fail(std::to_string(packet.values.size()) + " values do not match any packet of this kind");
+  fields.push_back(high_throughput_field(packet, primary_hz));
+  return fields;
+}
 
 /// A packet and its training fields.
 struct Esp32Measurement {

@@ -1,5 +1,5 @@
-// Reads captures (tcpdump -w, port 5500) of Broadcom chips with the Nexmon CSI firmware (nexmon_record.hpp
-// describes the records). The records of one frame, from several cores and streams, form one packet: its
+// Reads captures (tcpdump -w, port 5500) of Broadcom chips with the Nexmon CSI firmware (nexmon_csi.cpp
+// describes their records). The records of one frame, from several cores and streams, form one packet: its
 // antennas are the cores, its counter is the frame's sequence number (control frames have none). The chips do
 // not report their clock, so clock_us is the host's. rssi[0] is that of the frame, in dBm.
 #pragma once

@@ -9,7 +9,7 @@
 
 #include "radioslam/base/statistics.hpp"
 #include "radioslam/geometry/linear_algebra.hpp"
-#include "radioslam/io/graph/graph_keys.hpp"
+#include "radioslam/io/graph/team_assembly.hpp"
 #include "radioslam/io/text/csv.hpp"
 #include "radioslam/io/text/numbers.hpp"
 #include "radioslam/io/text/skipped_records.hpp"
@@ -122,10 +122,8 @@ class DpgoReader {
 
 std::vector<fs::path> tables_in(const fs::path& source) {
   if (!fs::is_directory(source)) return {source};
-  std::vector<fs::path> tables;
-  for (const auto& entry : fs::recursive_directory_iterator(source))
-    if (entry.is_regular_file() && entry.path().extension() == ".csv") tables.push_back(entry.path());
-  std::sort(tables.begin(), tables.end());
+  std::vector<fs::path> tables =
+      files_in(source, Depth::kBelow, [](const fs::path& file) { return file.extension() == ".csv"; });
   if (tables.empty()) throw InputError(source.string(), 0, "the folder has no .csv files");
   return tables;
 }

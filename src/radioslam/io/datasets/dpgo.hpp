@@ -1,4 +1,4 @@
-// Imports the measurement tables of dpgo (distributed pose graph optimisation, Tian et al.;
+// Imports the measurement tables of dpgo (distributed pose graph optimization, Tian et al.;
 // mit-acl/dpgo_ros):
 //
 //   robot_src,pose_src,robot_dst,pose_dst,qx,qy,qz,qw,tx,ty,tz,kappa,tau

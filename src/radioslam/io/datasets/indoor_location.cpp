@@ -41,14 +41,10 @@ bool can_name_a_folder(const std::string& id) {
 
 std::vector<fs::path> find_logs(const fs::path& source) {
   if (!fs::is_directory(source)) return {source};
-  std::vector<fs::path> logs;
-  for (const auto& entry : fs::recursive_directory_iterator(source)) {
-    const fs::path path = fs::absolute(entry.path()).lexically_normal();
-    if (entry.is_regular_file() && path.extension() == kLogExtension &&
-        path.parent_path().filename() == kLogFolder)
-      logs.push_back(entry.path());
-  }
-  std::sort(logs.begin(), logs.end());
+  std::vector<fs::path> logs = files_in(source, Depth::kBelow, [](const fs::path& file) {
+    const fs::path path = fs::absolute(file).lexically_normal();
+    return path.extension() == kLogExtension && path.parent_path().filename() == kLogFolder;
+  });
   if (logs.empty()) throw InputError(source.string(), 0, "contains no log .../path_data_files/*.txt");
   return logs;
 }

@@ -6,7 +6,6 @@
 
 #include "radioslam/base/units.hpp"
 #include "radioslam/io/text/csv.hpp"
-#include "radioslam/io/text/csv_files.hpp"
 #include "radioslam/io/text/line_fields.hpp"
 #include "radioslam/io/wifi/wifi_csv.hpp"
 
@@ -152,11 +151,8 @@ class RttMission {
 };
 
 std::vector<std::filesystem::path> csv_files_in(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.is_regular_file() && entry.path().extension() == ".csv") files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  return files;
+  return files_in(folder, Depth::kFolder,
+                  [](const std::filesystem::path& file) { return file.extension() == ".csv"; });
 }
 
 std::string_view first_line(const Text& text) {

@@ -31,14 +31,11 @@ struct WifiRttParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"nominal_sigma_m", "m", 1e-3, 1000,
-                "standard deviation of distances reported without a spread; phones show 1 m"},
-          self.nominal_sigma_m);
-    visit(Field{"min_sigma_m", "m", 1e-3, 1000,
-                "lower bound on the standard deviation; pulses scatter less than their mean errs"},
-          self.min_sigma_m);
-    visit(Field{"max_range_m", "m", 1, 1e8, "largest plausible distance; longer ones are left out"},
-          self.max_range_m);
+    RADIOSLAM_FIELD(nominal_sigma_m, "m", 1e-3, 1000,
+                    "standard deviation of distances reported without a spread; phones show 1 m");
+    RADIOSLAM_FIELD(min_sigma_m, "m", 1e-3, 1000,
+                    "lower bound on the standard deviation; pulses scatter less than their mean errs");
+    RADIOSLAM_FIELD(max_range_m, "m", 1, 1e8, "largest plausible distance; longer ones are left out");
   }
 };
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "radioslam/io/text/csv.hpp"
-#include "radioslam/io/text/csv_files.hpp"
 #include "radioslam/io/text/line_fields.hpp"
 #include "radioslam/io/text/numbers.hpp"
 #include "radioslam/io/wifi/wifi_csv.hpp"

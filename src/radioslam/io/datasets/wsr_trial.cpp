@@ -13,7 +13,6 @@
 #include "radioslam/io/text/line_fields.hpp"
 #include "radioslam/io/text/numbers.hpp"
 #include "radioslam/io/text/skipped_records.hpp"
-#include "radioslam/io/text/time_order.hpp"
 #include "radioslam/mission/wifi_channel.hpp"
 
 namespace radioslam {
@@ -33,14 +32,6 @@ struct KnownCard {
 constexpr std::array<KnownCard, 3> kCards{{{"tx2", MacAddress{0x00216A3F175A}},
                                            {"tx3", MacAddress{0x00216A30D23C}},
                                            {"tx4", MacAddress{0x00216AB26EFA}}}};
-
-std::vector<fs::path> sorted_files(const fs::path& folder) {
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.is_regular_file()) files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  return files;
-}
 
 /// The part of a name between the given beginning and end, without trailing underscores; nothing for other
 /// names.
@@ -101,7 +92,7 @@ WsrTrialFiles trial_at(const fs::path& folder, const std::vector<fs::path>& file
 
 void add_trials(const fs::path& folder, std::vector<WsrTrialFiles>& trials) {
   if (!fs::exists(folder / kPositions)) return;
-  const std::vector<fs::path> files = sorted_files(folder);
+  const std::vector<fs::path> files = files_in(folder, Depth::kFolder, [](const fs::path&) { return true; });
   std::vector<fs::path> receivers;
   for (const fs::path& file : files)
     if (time_in(file, kReceiver, ".dat")) receivers.push_back(file);

@@ -44,13 +44,9 @@ enum class BadLines {
 template <class Pose>
 struct G2oGraph {
   PoseGraph<Pose> graph;
-  std::vector<std::uint64_t> pose_ids;           ///< per pose
-  std::vector<std::uint64_t> point_ids;          ///< per point
-  std::vector<bool> pose_has_value;              ///< per pose: whether it has a VERTEX line
-  std::vector<std::size_t> relative_pose_lines;  ///< per factor: line in the file
-  std::vector<std::size_t> range_lines;
-  std::vector<std::size_t> relative_point_lines;
-  std::vector<std::size_t> pose_prior_lines;
+  std::vector<std::uint64_t> pose_ids;   ///< per pose
+  std::vector<std::uint64_t> point_ids;  ///< per point
+  std::vector<bool> pose_has_value;      ///< per pose: whether it has a VERTEX line
   std::size_t repaired_informations = 0;
   SkippedRecords skipped_lines;
 };

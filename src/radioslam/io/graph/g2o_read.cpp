@@ -1,15 +1,61 @@
 #include <cmath>
+#include <cstddef>
 
-#include "radioslam/io/graph/field_matrices.hpp"
 #include "radioslam/io/graph/g2o.hpp"
 #include "radioslam/io/graph/g2o_entries.hpp"
-#include "radioslam/io/graph/g2o_information.hpp"
-#include "radioslam/io/graph/g2o_tags.hpp"
-#include "radioslam/io/graph/g2o_vertex_pass.hpp"
+#include "radioslam/io/graph/g2o_vertices.hpp"
+#include "radioslam/io/graph/information.hpp"
 #include "radioslam/io/text/line_fields.hpp"
+#include "radioslam/io/text/numbers.hpp"
 
 namespace radioslam {
 namespace {
+
+/// Reads the information matrices of a g2o file, and repairs or refuses those that are zero or indefinite.
+/// Indefinite ones are counted first and refused together, because a file has either none or many.
+class G2oInformationReader {
+ public:
+  explicit G2oInformationReader(RepairInformation repair) : repair_(repair) {}
+
+  /// Reads the upper triangle at the end of a line. Refuses a zero matrix unless it is to be repaired.
+  template <int N>
+  Eigen::Matrix<double, N, N> read(const TextLines& lines, LineFields& fields) {
+    Eigen::Matrix<double, N, N> information = read_upper_triangle<N>(fields, "information");
+    ++count_;
+    if (information.isZero(0) && repair_ == RepairInformation::kNo)
+      lines.fail("the information matrix is zero; --repair-information accepts such edges without effect");
+    if (!information.isZero(0) && is_information(information)) return information;
+    if (repair_ == RepairInformation::kYes) {
+      ++repaired_;
+      return nearest_information(information);
+    }
+    if (indefinite_++ == 0) {
+      first_indefinite_line_ = lines.number();
+      first_eigenvalue_ = relative_smallest_eigenvalue(information);
+    }
+    return information;
+  }
+
+  /// Refuses the file if any matrix was indefinite and not repaired.
+  void refuse_indefinite(const Text& text) const {
+    if (indefinite_ == 0) return;
+    text.fail(first_indefinite_line_, "the information matrix is indefinite (its smallest eigenvalue is " +
+                                          format_number(first_eigenvalue_) +
+                                          " of the largest), the first such of " +
+                                          std::to_string(indefinite_) + " among " + std::to_string(count_) +
+                                          "; --repair-information uses the nearest positive definite ones");
+  }
+
+  std::size_t repaired() const { return repaired_; }
+
+ private:
+  RepairInformation repair_;
+  std::size_t repaired_ = 0;
+  std::size_t count_ = 0;
+  std::size_t indefinite_ = 0;
+  std::size_t first_indefinite_line_ = 0;
+  double first_eigenvalue_ = 0;
+};
 
 /// Second pass over a file: reads the factors, after all vertices are known.
 template <class Pose>
@@ -78,7 +124,6 @@ class G2oReader {
     factor.j = pose_at(ids.j);
     fields.end();
     out_.graph.relative_poses.push_back(factor);
-    out_.relative_pose_lines.push_back(lines_.number());
   }
 
   void read_range(LineFields& fields) {
@@ -96,7 +141,6 @@ class G2oReader {
     set_end(factor.j, ids.j);
     fields.end();
     out_.graph.ranges.push_back(factor);
-    out_.range_lines.push_back(lines_.number());
   }
 
   void set_end(RangeEnd<Pose>& end, G2oVertices::Id id) const {
@@ -116,7 +160,6 @@ class G2oReader {
     set_end(factor.j, ids.j);
     fields.end();
     out_.graph.relative_points.push_back(factor);
-    out_.relative_point_lines.push_back(lines_.number());
   }
 
   void read_prior(LineFields& fields) {
@@ -128,7 +171,6 @@ class G2oReader {
     factor.i = pose_at(id);
     fields.end();
     out_.graph.pose_priors.push_back(factor);
-    out_.pose_prior_lines.push_back(lines_.number());
   }
 
   void read_offset(LineFields& fields) const {

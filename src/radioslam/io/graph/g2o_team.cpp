@@ -8,10 +8,8 @@
 #include <utility>
 
 #include "radioslam/io/graph/g2o.hpp"
-#include "radioslam/io/graph/graph_keys.hpp"
 #include "radioslam/io/graph/team_assembly.hpp"
-#include "radioslam/io/text/valid_id.hpp"
-#include "radioslam/io/text/zstd_text.hpp"
+#include "radioslam/io/text/compressed_text.hpp"
 
 namespace radioslam {
 namespace {

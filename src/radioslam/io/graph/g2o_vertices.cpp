@@ -2,12 +2,83 @@
 
 #include <algorithm>
 
-#include "radioslam/io/graph/graph_keys.hpp"
+#include "radioslam/io/graph/g2o_entries.hpp"
+#include "radioslam/io/graph/team_assembly.hpp"
+#include "radioslam/io/text/line_fields.hpp"
 
 namespace radioslam {
 namespace {
 
 G2oVertices::Id robot_of(G2oVertices::Id id) { return id >> kKeyRobotShift; }
+
+template <class Pose>
+void read_pose_vertex(const TextLines& lines, LineFields& fields, G2oVertices& vertices,
+                      G2oGraph<Pose>& out) {
+  const G2oVertices::Id id = fields.id("id");
+  const Pose pose = read_g2o_pose<Pose>(fields);
+  fields.end();
+  vertices.declare(id, {false, static_cast<std::int32_t>(out.graph.poses.size())}, lines.number());
+  out.graph.poses.push_back(pose);
+  out.pose_ids.push_back(id);
+  out.pose_has_value.push_back(true);
+}
+
+template <class Pose>
+void read_point_vertex(const TextLines& lines, LineFields& fields, G2oVertices& vertices,
+                       G2oGraph<Pose>& out) {
+  const G2oVertices::Id id = fields.id("id");
+  const typename Pose::Point point = read_point_fields<Pose>(fields);
+  fields.end();
+  vertices.declare(id, {true, static_cast<std::int32_t>(out.graph.points.size())}, lines.number());
+  out.graph.points.push_back(point);
+  out.point_ids.push_back(id);
+}
+
+template <class Pose>
+void refuse_other_dimension(const TextLines& lines, std::string_view tag) {
+  using OtherPose = std::conditional_t<Pose::kDim == 2, SE3, SE2>;
+  if (is_g2o_tag<OtherPose>(tag)) lines.fail(std::string(tag) + ": the graph mixes 2D and 3D");
+}
+
+/// Refuses tags other than those of lines that can be read.
+template <class Pose>
+void check_tag(const TextLines& lines, std::string_view tag) {
+  if (tag == kG2oRange || tag == kG2oFix) return;
+  if (is_g2o_tag<Pose>(tag) && tag != G2oTags<Pose>::kUnsupported) return;
+  const std::string name(tag.substr(0, 40));
+  if (is_g2o_tag<Pose>(tag)) lines.fail(name + ": such landmark edges are not supported");
+  lines.fail("unknown tag '" + name + "'");
+}
+
+template <class Pose>
+void mention_ends(const TextLines& lines, LineFields& fields, BadLines bad_lines, G2oVertices& vertices) {
+  const G2oEdgeIds ids = read_g2o_edge_ids(fields);
+  if (bad_lines == BadLines::kSkip) {
+    read_g2o_pose<Pose>(fields);
+    read_upper_triangle<Pose::kDof>(fields, "information");
+    fields.end();
+  }
+  for (const G2oVertices::Id id : {ids.i, ids.j}) vertices.mention(id, lines.number());
+}
+
+template <class Pose>
+void add_undeclared_poses(BadLines bad_lines, G2oVertices& vertices, G2oGraph<Pose>& out) {
+  for (const G2oVertices::Id id : vertices.add_undeclared(out.graph.poses.size(), bad_lines)) {
+    out.graph.poses.emplace_back();
+    out.pose_ids.push_back(id);
+    out.pose_has_value.push_back(false);
+  }
+}
+
+template <class Pose>
+void read_line(const TextLines& lines, std::string_view tag, LineFields& fields, BadLines bad_lines,
+               G2oVertices& vertices, G2oGraph<Pose>& out) {
+  using Tags = G2oTags<Pose>;
+  check_tag<Pose>(lines, tag);
+  if (tag == Tags::kEdge) mention_ends<Pose>(lines, fields, bad_lines, vertices);
+  if (tag == Tags::kVertex) read_pose_vertex(lines, fields, vertices, out);
+  if (tag == Tags::kPoint) read_point_vertex(lines, fields, vertices, out);
+}
 
 }  // namespace
 
@@ -52,5 +123,28 @@ PoseId G2oVertices::pose_at(Id id, std::size_t line) const {
   if (vertex.is_point) text_.fail(line, quoted_vertex(id) + " is a point, not a pose");
   return PoseId(vertex.index);
 }
+
+template <class Pose>
+G2oVertexPass read_g2o_vertices(const Text& text, BadLines bad_lines, G2oGraph<Pose>& out) {
+  G2oVertexPass pass{G2oVertices(text), {}};
+  TextLines lines(text);
+  while (lines.next_with_content()) {
+    LineFields fields(lines);
+    const std::string_view tag = fields.next("a tag");
+    refuse_other_dimension<Pose>(lines, tag);
+    try {
+      read_line(lines, tag, fields, bad_lines, pass.vertices, out);
+    } catch (const InputError& error) {
+      if (bad_lines == BadLines::kRefuse) throw;
+      out.skipped_lines.add(error);
+      pass.bad_lines.insert(lines.number());
+    }
+  }
+  add_undeclared_poses(bad_lines, pass.vertices, out);
+  return pass;
+}
+
+template G2oVertexPass read_g2o_vertices(const Text&, BadLines, G2oGraph<SE2>&);
+template G2oVertexPass read_g2o_vertices(const Text&, BadLines, G2oGraph<SE3>&);
 
 }  // namespace radioslam

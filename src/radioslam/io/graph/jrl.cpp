@@ -1,18 +1,156 @@
 #include "radioslam/io/graph/jrl.hpp"
 
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
+#include <string>
 #include <tuple>
 #include <unordered_map>
+#include <utility>
 
-#include "radioslam/io/graph/graph_keys.hpp"
-#include "radioslam/io/graph/jrl_object.hpp"
+#include "radioslam/geometry/se3.hpp"
+#include "radioslam/io/graph/information.hpp"
 #include "radioslam/io/graph/team_assembly.hpp"
 #include "radioslam/io/run/run_folder.hpp"
-#include "radioslam/io/text/zstd_text.hpp"
+#include "radioslam/io/text/compressed_text.hpp"
+#include "radioslam/io/text/line_fields.hpp"
+#include "radioslam/io/text/numbers.hpp"
 
 namespace radioslam {
 namespace {
+
+std::string quoted(const char* member) { return "'" + std::string(member) + "'"; }
+
+/// Places of [translation, rotation] in a tangent of the file.
+template <class Pose>
+constexpr auto kPlacesInFile = std::array<int, 3>{0, 1, 2};
+template <>
+constexpr auto kPlacesInFile<SE3> = std::array<int, 6>{3, 4, 5, 0, 1, 2};
+
+/// Members of the JSON objects of a JRL file; errors name the object.
+class JrlObject {
+ public:
+  using Json = nlohmann::ordered_json;
+
+  /// `name` is for error messages: "measurement 2 of entry 5 of robot a". Refuses other values than objects.
+  JrlObject(const Text& text, std::string name, const Json& json);
+
+  bool has(const char* member) const { return json_->contains(member); }
+  /// Each of these refuses a missing member, and one of another kind.
+  const Json& array(const char* member) const {
+    const Json& value = at(member);
+    if (!value.is_array()) fail(quoted(member) + " is not a list");
+    return value;
+  }
+
+  const Json& members(const char* member) const {
+    const Json& value = at(member);
+    if (!value.is_object()) fail(quoted(member) + " is not an object");
+    return value;
+  }
+
+  JrlObject object(const char* member) const { return {*text_, name_ + ", " + quoted(member), at(member)}; }
+
+  std::string word(const char* member) const {
+    const Json& value = at(member);
+    if (!value.is_string()) fail(quoted(member) + " is not a text");
+    return value.get<std::string>();
+  }
+
+  double number(const char* member) const {
+    const Json& value = at(member);
+    if (!value.is_number()) fail(quoted(member) + " is not a number");
+    return value.get<double>();
+  }
+
+  /// Metres, at most kMaxCoordinate_m.
+  double coordinate(const char* member) const {
+    const double value = number(member);
+    if (std::abs(value) > kMaxCoordinate_m) fail(quoted(member) + " is not plausible");
+    return value;
+  }
+
+  std::uint64_t key(const char* member) const {
+    const Json& value = at(member);
+    if (!value.is_number_unsigned()) fail(quoted(member) + " is not a key");
+    return value.get<std::uint64_t>();
+  }
+
+  /// The members of an object of type Pose2 or Pose3.
+  template <class Pose>
+  Pose pose() const;
+  /// Inverse of `covariance`, in the order [translation, rotation]; refuses one that is not positive
+  /// definite.
+  template <class Pose>
+  typename Pose::Jacobian information() const {
+    using Matrix = typename Pose::Jacobian;
+    const Matrix stated(numbers<Pose::kDof * Pose::kDof>("covariance").data());
+    const Matrix covariance = (stated + stated.transpose()) / 2;
+    const auto& places = kPlacesInFile<Pose>;
+    const auto information = information_of<Pose::kDof>(covariance(places, places));
+    if (!information) fail("the covariance is not positive definite");
+    return *information;
+  }
+
+  /// Root of a `covariance` of one number; refuses one that is not positive.
+  double sigma() const {
+    const double variance = numbers<1>("covariance")[0];
+    if (!(variance > 0)) fail("the covariance is not positive");
+    return std::sqrt(variance);
+  }
+
+  [[noreturn]] void fail(const std::string& reason) const { text_->fail(0, name_ + ": " + reason); }
+
+ private:
+  const Json& at(const char* member) const {
+    const auto found = json_->find(member);
+    if (found == json_->end()) fail(quoted(member) + " is missing");
+    return *found;
+  }
+
+  /// The numbers of an array of this length.
+  template <int N>
+  Eigen::Matrix<double, N, 1> numbers(const char* member) const {
+    const Json& list = array(member);
+    const auto is_number = [](const Json& entry) { return entry.is_number(); };
+    if (list.size() != N || !std::all_of(list.begin(), list.end(), is_number))
+      fail(quoted(member) + " is not a list of " + std::to_string(N) + " numbers");
+    Eigen::Matrix<double, N, 1> result;
+    for (std::size_t k = 0; k < N; ++k) result[static_cast<Eigen::Index>(k)] = list[k].get<double>();
+    return result;
+  }
+
+  const Text* text_;
+  std::string name_;
+  const Json* json_;
+};
+
+JrlObject::JrlObject(const Text& text, std::string name, const Json& json)
+    : text_(&text), name_(std::move(name)), json_(&json) {
+  if (!json.is_object()) fail("expected an object");
+}
+
+template <>
+SE2 JrlObject::pose() const {
+  if (word("type") != "Pose2") fail("its type is not Pose2");
+  return {{coordinate("x"), coordinate("y")}, number("theta")};
+}
+
+template <>
+SE3 JrlObject::pose() const {
+  if (word("type") != "Pose3") fail("its type is not Pose3");
+  const Eigen::Vector3d position = numbers<3>("translation");
+  if (position.cwiseAbs().maxCoeff() > kMaxCoordinate_m) fail("'translation' is not plausible");
+  const Eigen::Vector4d wxyz = numbers<4>("rotation");
+  const double norm = wxyz.stableNorm();
+  if (std::abs(norm - 1) > kUnitQuaternionTolerance) fail(not_a_unit_quaternion(norm));
+  return {position, Eigen::Quaterniond(wxyz[0], wxyz[1], wxyz[2], wxyz[3])};
+}
 
 using Json = JrlObject::Json;
 

@@ -11,11 +11,12 @@
 //                 "type": "Pose2", "x", "y", "theta"
 //
 // Covariances are whole matrices row by row, of the error at the right: [rotation, translation] in space,
-// [x, y, theta] in the plane. Keys are those of graph_keys.hpp. `groundtruth` is the truth, and the factors
-// that `outlier_factors` does not name are labelled true. Measurements of other types are skipped, with a
-// note. `initialization` is not read. Stamps of entries have no unit and name no pose: a pose's stamp is its
-// index in seconds, as in g2o. Refused (InputError) are malformed measurements of these types, covariances
-// that are not positive definite, edges from a pose to itself, and labels of measurements that do not exist.
+// [x, y, theta] in the plane. Keys are those of team_assembly.hpp. `groundtruth` is the truth, and the
+// factors that `outlier_factors` does not name are labelled true. Measurements of other types are skipped,
+// with a note. `initialization` is not read. Stamps of entries have no unit and name no pose: a pose's stamp
+// is its index in seconds, as in g2o. Refused (InputError) are malformed measurements of these types,
+// covariances that are not positive definite, edges from a pose to itself, and labels of measurements that do
+// not exist.
 #pragma once
 
 #include <filesystem>

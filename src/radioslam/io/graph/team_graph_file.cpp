@@ -5,7 +5,7 @@
 #include "radioslam/io/graph/g2o_team.hpp"
 #include "radioslam/io/graph/jrl.hpp"
 #include "radioslam/io/graph/pyfg.hpp"
-#include "radioslam/io/text/zstd_text.hpp"
+#include "radioslam/io/text/compressed_text.hpp"
 
 namespace radioslam {
 namespace {
@@ -19,9 +19,8 @@ std::string kind_of(const fs::path& path) {
 
 /// The g2o files of a folder, sorted by number (2.g2o before 10.g2o), others by name.
 std::vector<fs::path> g2o_files(const fs::path& folder) {
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.is_regular_file() && kind_of(entry.path()) == ".g2o") files.push_back(entry.path());
+  std::vector<fs::path> files =
+      files_in(folder, Depth::kFolder, [](const fs::path& file) { return kind_of(file) == ".g2o"; });
   std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
     const std::string x = a.filename().string(), y = b.filename().string();
     return x.size() != y.size() ? x.size() < y.size() : x < y;

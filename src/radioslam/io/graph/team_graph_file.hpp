@@ -28,7 +28,7 @@ struct TeamGraphFile {
   TeamGraph<Pose> team;
   std::vector<std::string> pose_names;   ///< per pose, as in the file
   std::vector<std::string> point_names;  ///< per point
-  std::vector<std::uint64_t> pose_ids;   ///< per pose, its key (graph_keys.hpp); empty if they have none
+  std::vector<std::uint64_t> pose_ids;   ///< per pose, its key (team_assembly.hpp); empty if they have none
   std::vector<std::uint64_t> point_ids;  ///< the same per point
   /// Per pose, in the common frame; nothing where unknown. Empty if unknown for all.
   std::vector<std::optional<Pose>> true_poses;

@@ -41,24 +41,19 @@ struct CarmenParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"field_of_view_deg", "deg", 1, 360, "field of view of scanners whose lines do not state it"},
-          self.field_of_view_deg);
-    visit(Field{"no_return_m", "m", 0.1, 1e6,
-                "readings from this range on are missing returns (scanners report 81.83 m)"},
-          self.no_return_m);
-    visit(Field{"max_delay_s", "s", 0, 1e9,
-                "largest delay of a line's time stamp; a log with a longer one is refused"},
-          self.max_delay_s);
-    visit(Field{"sigma_xy_per_sqrt_m", "m/sqrt(m)", 0, 10,
-                "wheel odometry noise in x and y per square root of distance, for mission.yaml"},
-          self.sigma_xy_per_sqrt_m);
-    visit(
-        Field{"sigma_yaw_per_sqrt_m_rad", "rad/sqrt(m)", 0, 10,
-              "wheel odometry noise in yaw per square root of distance; measured on 325 m of the log `aces`"},
-        self.sigma_yaw_per_sqrt_m_rad);
-    visit(Field{"sigma_yaw_per_rad", "rad/sqrt(rad)", 0, 10,
-                "wheel odometry noise in yaw per square root of rotation, for mission.yaml"},
-          self.sigma_yaw_per_rad);
+    RADIOSLAM_FIELD(field_of_view_deg, "deg", 1, 360,
+                    "field of view of scanners whose lines do not state it");
+    RADIOSLAM_FIELD(no_return_m, "m", 0.1, 1e6,
+                    "readings from this range on are missing returns (scanners report 81.83 m)");
+    RADIOSLAM_FIELD(max_delay_s, "s", 0, 1e9,
+                    "largest delay of a line's time stamp; a log with a longer one is refused");
+    RADIOSLAM_FIELD(sigma_xy_per_sqrt_m, "m/sqrt(m)", 0, 10,
+                    "wheel odometry noise in x and y per square root of distance, for mission.yaml");
+    RADIOSLAM_FIELD(
+        sigma_yaw_per_sqrt_m_rad, "rad/sqrt(m)", 0, 10,
+        "wheel odometry noise in yaw per square root of distance; measured on 325 m of the log `aces`");
+    RADIOSLAM_FIELD(sigma_yaw_per_rad, "rad/sqrt(rad)", 0, 10,
+                    "wheel odometry noise in yaw per square root of rotation, for mission.yaml");
   }
 };
 

@@ -1,5 +1,6 @@
 #include "radioslam/io/lidar/kitti_sequence.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -7,12 +8,13 @@
 
 #include "radioslam/base/input_error.hpp"
 #include "radioslam/base/units.hpp"
-#include "radioslam/io/lidar/kitti_poses.hpp"
 #include "radioslam/io/lidar/lidar_folder.hpp"
 #include "radioslam/io/text/numbers.hpp"
 
 namespace radioslam {
 namespace {
+
+constexpr double kRotationTolerance = 1e-2;  ///< bound on |R^T R - I|; published files reach 1e-5
 
 namespace fs = std::filesystem;
 
@@ -77,14 +79,9 @@ std::optional<Stamp> time_in_scan_name(const std::string& name) {
 }
 
 std::vector<fs::path> bin_files(const fs::path& folder) {
-  std::vector<fs::path> files;
-  if (!fs::is_directory(folder)) return files;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.is_regular_file() && entry.path().extension() == ".bin" &&
-        !entry.path().filename().string().starts_with('.'))
-      files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  return files;
+  if (!fs::is_directory(folder)) return {};
+  return files_in(folder, Depth::kFolder,
+                  [](const fs::path& file) { return file.extension() == ".bin" && !is_hidden(file); });
 }
 
 fs::path folder_of_scans(const fs::path& source) {
@@ -242,6 +239,32 @@ Trajectory<SE3> truth_of(const ScanList<SE3>& poses, const std::vector<NamedScan
 }
 
 }  // namespace
+
+SE3 read_kitti_matrix(LineFields& fields) {
+  Eigen::Matrix3d rotation;
+  Eigen::Vector3d translation;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) rotation(row, column) = fields.number("a rotation's entry");
+    translation(row) = fields.coordinate("a translation's entry");
+  }
+  const double defect = (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).norm();
+  if (!(defect < kRotationTolerance) || rotation.determinant() < 0)
+    fields.fail("the first three columns are not a rotation matrix");
+  return {translation, Eigen::Quaterniond(rotation)};
+}
+
+Trajectory<SE3> read_kitti_poses(const Text& text) {
+  std::vector<StampedPose<SE3>> poses;
+  TextLines lines(text);
+  while (lines.next_with_content()) {
+    const double seconds = static_cast<double>(poses.size()) / kKittiFrequency_hz;
+    LineFields fields(lines);
+    poses.push_back({Stamp::from_seconds(seconds), read_kitti_matrix(fields)});
+    fields.end();
+  }
+  if (poses.empty()) text.fail(1, "the file has no poses");
+  return Trajectory<SE3>(std::move(poses));
+}
 
 KittiDrive read_kitti_drive(const fs::path& source, const std::string& robot, const fs::path& poses) {
   const fs::path folder = folder_of_scans(source.has_filename() ? source : source.parent_path());

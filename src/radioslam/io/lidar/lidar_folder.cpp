@@ -8,7 +8,6 @@
 #include "radioslam/io/lidar/pcd.hpp"
 #include "radioslam/io/text/atomic_output.hpp"
 #include "radioslam/io/text/byte_view.hpp"
-#include "radioslam/io/text/little_endian.hpp"
 #include "radioslam/io/text/numbers.hpp"
 
 namespace radioslam {
@@ -25,20 +24,17 @@ struct ScanFile {
 
 Stamp stamp_in_name(const fs::path& file) {
   const auto ns = parse_integer(file.stem().string());
-  if (!ns) throw InputError(file.string(), 0, "a scan must be named by its time in whole nanoseconds");
+  if (!ns)
+    throw InputError(file.string(), 0, "a scan must be named by its time in whole nanoseconds",
+                     InputError::Kind::kUnit);
   return {*ns};
 }
 
 /// Order by stamp, then by name.
 std::vector<ScanFile> list_scans(const fs::path& folder) {
-  std::vector<fs::path> paths;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const std::string extension = entry.path().extension().string();
-    const bool is_hidden = entry.path().filename().string().starts_with('.');
-    if (entry.is_regular_file() && !is_hidden && (extension == ".bin" || extension == ".pcd"))
-      paths.push_back(entry.path());
-  }
-  std::sort(paths.begin(), paths.end());
+  const std::vector<fs::path> paths = files_in(folder, Depth::kFolder, [](const fs::path& file) {
+    return !is_hidden(file) && (file.extension() == ".bin" || file.extension() == ".pcd");
+  });
   std::vector<ScanFile> scans;
   for (const fs::path& path : paths) {
     scans.push_back({path, stamp_in_name(path)});

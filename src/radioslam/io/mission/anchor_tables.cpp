@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "radioslam/io/text/csv.hpp"
-#include "radioslam/io/text/valid_id.hpp"
 
 namespace radioslam {
 namespace {

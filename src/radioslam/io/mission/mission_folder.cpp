@@ -4,7 +4,7 @@
 #include <set>
 #include <string>
 
-#include "radioslam/io/csi/csi_folder.hpp"
+#include "radioslam/io/csi/csi_capture.hpp"
 #include "radioslam/io/lidar/lidar_folder.hpp"
 #include "radioslam/io/mission/mission_yaml.hpp"
 #include "radioslam/io/mission/robot_tables.hpp"
@@ -75,7 +75,8 @@ void read_motion(const fs::path& folder, const Text& yaml, MissionFile& file) {
       robot.odometry = read_tum(read_text(path));
     else if (robot.lidar.empty())
       yaml.fail(file.robot_lines[k],
-                "robot '" + robot.id + "' has no robots/" + robot.id + "/odometry.tum and no LiDAR scans");
+                "robot '" + robot.id + "' has no robots/" + robot.id + "/odometry.tum and no LiDAR scans",
+                InputError::Kind::kTooLittle);
   }
 }
 
@@ -196,7 +197,8 @@ Mission read_mission(const fs::path& folder) {
   MissionFile file = read_mission_yaml(yaml, name);
   for (const std::string& unknown : unknown_robot_folders(folder, file.mission))
     yaml.fail(file.robots_line,
-              "unknown robot '" + unknown + "': it has a folder under robots/ but is not listed");
+              "unknown robot '" + unknown + "': it has a folder under robots/ but is not listed",
+              InputError::Kind::kSpelling);
   read_motion(folder, yaml, file);
   read_wifi_of(folder, file.mission);
   read_robot_tables(folder, file.mission);

@@ -7,10 +7,8 @@
 #include "radioslam/base/units.hpp"
 #include "radioslam/geometry/so3.hpp"
 #include "radioslam/io/csi/csi_yaml.hpp"
-#include "radioslam/io/mission/odometry_noise_fields.hpp"
 #include "radioslam/io/text/mac_address.hpp"
 #include "radioslam/io/text/numbers.hpp"
-#include "radioslam/io/text/valid_id.hpp"
 #include "radioslam/io/text/yaml_map.hpp"
 
 namespace radioslam {
@@ -58,7 +56,8 @@ Eigen::Vector3d position_at(const Text& text, const YAML::Node& node, const std:
   for (std::size_t k = 0; k < kPositionSize; ++k) {
     const double value = number_at(text, node[k], what);
     if (std::abs(value) > kMaxCoordinate_m)
-      text.fail(line_of(node[k]), what + " is not a plausible coordinate (more than 1e8 m)");
+      text.fail(line_of(node[k]), what + " is not a plausible coordinate (more than 1e8 m)",
+                InputError::Kind::kUnit);
     position(static_cast<Eigen::Index>(k)) = value;
   }
   return position;
@@ -143,8 +142,10 @@ void check_own_address(const Text& text, const YamlEntry& entry, const CsiRecord
                        const std::vector<Robot>& others) {
   for (const Robot& other : others)
     if (csi.address && other.csi && other.csi->address == csi.address)
-      text.fail(entry.line, "robot '" + entry.key + "' has the same mac " + format_mac_address(*csi.address) +
-                                " as robot '" + other.id + "'");
+      text.fail(entry.line,
+                "robot '" + entry.key + "' has the same mac " + format_mac_address(*csi.address) +
+                    " as robot '" + other.id + "'",
+                InputError::Kind::kDuplicate);
 }
 
 void read_robots(const Text& text, const YAML::Node& node, const RobotSettings& defaults, MissionFile& file) {

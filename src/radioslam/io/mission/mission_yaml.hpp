@@ -15,8 +15,10 @@
 //     csi: {mac: "00:16:ea:00:00:01", channel: 108, antennas: [front]}    # WiFi card (csi_yaml.hpp)
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "radioslam/io/mission/team_names.hpp"
@@ -24,6 +26,16 @@
 #include "radioslam/mission/mission.hpp"
 
 namespace radioslam {
+
+// Keys of the odometry noise in mission.yaml.
+
+inline constexpr std::array<std::pair<std::string_view, double OdometryNoise::*>, 6> kOdometryNoiseFields = {
+    {{"sigma_xy_per_sqrt_m", &OdometryNoise::sigma_xy_per_sqrt_m},
+     {"sigma_yaw_per_sqrt_m_rad", &OdometryNoise::sigma_yaw_per_sqrt_m_rad},
+     {"sigma_yaw_per_rad", &OdometryNoise::sigma_yaw_per_rad},
+     {"sigma_z_per_sqrt_m", &OdometryNoise::sigma_z_per_sqrt_m},
+     {"sigma_yaw_drift_per_m_rad", &OdometryNoise::sigma_yaw_drift_per_m_rad},
+     {"sigma_scale", &OdometryNoise::sigma_scale}}};
 
 /// Name of the antenna whose positions are in a robot's gnss.csv; without it, they are those of the body's
 /// origin.

@@ -4,7 +4,6 @@
 #include "radioslam/base/units.hpp"
 #include "radioslam/io/csi/csi_yaml.hpp"
 #include "radioslam/io/mission/mission_yaml.hpp"
-#include "radioslam/io/mission/odometry_noise_fields.hpp"
 #include "radioslam/io/text/mac_address.hpp"
 #include "radioslam/io/text/numbers.hpp"
 #include "radioslam/io/text/text.hpp"

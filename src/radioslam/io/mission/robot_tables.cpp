@@ -13,7 +13,8 @@ std::vector<ImuSample> read_imu(const Text& text) {
   std::vector<ImuSample> samples;
   while (csv.next()) {
     const Stamp stamp = csv.stamp(kTime);
-    if (!samples.empty() && stamp <= samples.back().stamp) csv.fail("the time does not increase");
+    if (!samples.empty() && stamp <= samples.back().stamp)
+      csv.fail("the time does not increase", InputError::Kind::kClock);
     samples.push_back({stamp,
                        {csv.number(kAx), csv.number(kAy), csv.number(kAz)},
                        {csv.number(kWx), csv.number(kWy), csv.number(kWz)}});

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "radioslam/io/text/text.hpp"
-#include "radioslam/mission/inertial.hpp"
+#include "radioslam/mission/mission.hpp"
 #include "radioslam/mission/radio_links.hpp"
 
 namespace radioslam {

@@ -4,13 +4,12 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <optional>
 #include <set>
 #include <tuple>
 #include <utility>
 
+#include "radioslam/base/check.hpp"
 #include "radioslam/geometry/linear_algebra.hpp"
-#include "radioslam/io/mission/match_columns.hpp"
 #include "radioslam/io/text/csv.hpp"
 #include "radioslam/io/text/numbers.hpp"
 
@@ -19,7 +18,8 @@ namespace {
 
 RobotIndex robot_at(const CsvReader& csv, std::size_t column, const TeamNames& names) {
   const auto found = names.robots.find(csv.field(column));
-  if (found == names.robots.end()) csv.fail("unknown robot '" + std::string(csv.field(column)) + "'");
+  if (found == names.robots.end())
+    csv.fail("unknown robot '" + std::string(csv.field(column)) + "'", InputError::Kind::kSpelling);
   return found->second;
 }
 
@@ -43,7 +43,8 @@ void read_antenna(const CsvReader& csv, std::size_t column, const TeamNames& nam
       end.robot.index() < names.antennas.size() ? names.antennas[end.robot.index()] : none;
   const auto found = antennas.find(end.antenna);
   if (found == antennas.end())
-    csv.fail("unknown antenna '" + end.antenna + "': mission.yaml does not list it for this robot");
+    csv.fail("unknown antenna '" + end.antenna + "': mission.yaml does not list it for this robot",
+             InputError::Kind::kSpelling);
   end.lever_arm_m = found->second;
 }
 
@@ -62,7 +63,7 @@ double positive_sigma(const CsvReader& csv, std::size_t column) {
 /// Refuses a row whose ends, in these columns, are the same robot or anchor.
 void refuse_itself(const CsvReader& csv, std::size_t end_i, std::size_t end_j, const std::string& what) {
   if (csv.field(end_i) == csv.field(end_j))
-    csv.fail(what + " '" + std::string(csv.field(end_i)) + "' to itself");
+    csv.fail(what + " '" + std::string(csv.field(end_i)) + "' to itself", InputError::Kind::kDuplicate);
 }
 
 template <class Measurement>
@@ -168,6 +169,37 @@ PoseMatch match_at(const CsvReader& csv, const TeamNames& names, MatchNoise nois
   return match;
 }
 
+const std::string& name_of(const Mission& mission, const LinkEnd& end) {
+  return end.robot.valid() ? mission.robots[end.robot.index()].id : mission.anchors[end.anchor.index()].id;
+}
+
+bool any_antenna(const Mission& mission) {
+  for (const RangeMeasurement& range : mission.ranges)
+    if (!range.i.antenna.empty() || !range.j.antenna.empty()) return true;
+  return false;
+}
+
+void append_antenna(std::string& out, const LinkEnd& end) {
+  RADIOSLAM_CHECK(!end.antenna.empty() || end.lever_arm_m.isZero(0),
+                  "an end with a lever arm names its antenna");
+  (out += ',') += end.antenna;
+}
+
+/// Whether two sigmas make exactly this covariance.
+bool is_isotropic(const SE3::Jacobian& covariance) {
+  return isotropic_covariance(std::sqrt(covariance(0, 0)), std::sqrt(covariance(3, 3))) == covariance;
+}
+
+void append_sigmas(std::string& out, const SE3::Jacobian& covariance) {
+  append_number(out += ',', std::sqrt(covariance(0, 0)));
+  append_number(out += ',', std::sqrt(covariance(3, 3)));
+}
+
+void append_covariance(std::string& out, const SE3::Jacobian& covariance) {
+  for (int row = 0; row < 6; ++row)
+    for (int column = row; column < 6; ++column) append_number(out += ',', covariance(row, column));
+}
+
 }  // namespace
 
 std::vector<Anchor> read_anchors(const Text& text, const TeamNames& names, int dimension) {
@@ -178,7 +210,8 @@ std::vector<Anchor> read_anchors(const Text& text, const TeamNames& names, int d
     anchors.push_back(anchor_at(csv, dimension));
     const std::string& id = anchors.back().id;
     if (names.robots.contains(id)) csv.fail("the anchor '" + id + "' has the id of a robot");
-    if (!ids.insert(id).second) csv.fail("the anchor '" + id + "' appears twice");
+    if (!ids.insert(id).second)
+      csv.fail("the anchor '" + id + "' appears twice", InputError::Kind::kDuplicate);
   }
   return anchors;
 }
@@ -247,6 +280,79 @@ std::vector<PoseMatch> read_matches(const Text& text, const TeamNames& names) {
   while (csv.next())
     matches.push_back(match_at(csv, names, full ? MatchNoise::kCovariance : MatchNoise::kSigmas));
   return matches;
+}
+
+std::string format_anchors(const Mission& mission) {
+  std::string out = "id,x_m,y_m,z_m,sigma_m\n";
+  for (const Anchor& anchor : mission.anchors) {
+    out += anchor.id;
+    for (int axis = 0; axis < 3; ++axis) {
+      out += ',';
+      if (anchor.position_m) append_number(out, (*anchor.position_m)(axis));
+    }
+    append_number(out += ',', anchor.sigma_m);
+    out += '\n';
+  }
+  return out;
+}
+
+std::string format_ranges(const Mission& mission) {
+  const bool antennas = any_antenna(mission);
+  std::string out = "t_s,robot_i,robot_j,range_m,sigma_m";
+  out += antennas ? ",antenna_i,antenna_j\n" : "\n";
+  for (const RangeMeasurement& range : mission.ranges) {
+    ((out += format_stamp(range.stamp)) += ',') += name_of(mission, range.i);
+    (out += ',') += name_of(mission, range.j);
+    append_number(out += ',', range.range_m);
+    append_number(out += ',', range.sigma_m);
+    if (antennas) append_antenna(out, range.i);
+    if (antennas) append_antenna(out, range.j);
+    out += '\n';
+  }
+  return out;
+}
+
+void append_aoa_rows(std::string& out, Stamp stamp, const std::string& receiver,
+                     const std::string& transmitter, const std::vector<AoaPath>& paths) {
+  const std::string start = format_stamp(stamp) + ',' + receiver + ',' + transmitter + ',';
+  for (std::size_t p = 0; p < paths.size(); ++p) {
+    append_number((out += start + std::to_string(p)) += ',', paths[p].azimuth_rad);
+    out += ',';
+    if (paths[p].elevation_rad) append_number(out, *paths[p].elevation_rad);
+    append_number(out += ',', paths[p].sigma_rad);
+    append_number(out += ',', paths[p].power_db);
+    out += '\n';
+  }
+}
+
+std::string format_aoa(const Mission& mission) {
+  std::string out(kAoaHeader);
+  for (const AoaMeasurement& arrival : mission.aoa_measurements)
+    append_aoa_rows(out, arrival.stamp, mission.robots[arrival.receiver.index()].id,
+                    name_of(mission, arrival.transmitter), arrival.paths);
+  return out;
+}
+
+std::string format_matches(const Mission& mission) {
+  const bool isotropic = std::all_of(mission.matches.begin(), mission.matches.end(),
+                                     [](const PoseMatch& match) { return is_isotropic(match.covariance); });
+  std::string out(kMatchPoseColumns);
+  if (isotropic) (out += ',') += kMatchSigmaColumns;
+  if (!isotropic)
+    for (const std::string& name : match_covariance_columns()) (out += ',') += name;
+  out += '\n';
+  for (const PoseMatch& match : mission.matches) {
+    out += mission.robots[match.robot_i.index()].id + ',' + format_stamp(match.stamp_i) + ',';
+    out += mission.robots[match.robot_j.index()].id + ',' + format_stamp(match.stamp_j);
+    for (int axis = 0; axis < 3; ++axis) append_number(out += ',', match.T_i_j.translation()(axis));
+    for (int k = 0; k < 4; ++k) append_number(out += ',', match.T_i_j.rotation().coeffs()(k));
+    if (isotropic)
+      append_sigmas(out, match.covariance);
+    else
+      append_covariance(out, match.covariance);
+    out += '\n';
+  }
+  return out;
 }
 
 }  // namespace radioslam

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "radioslam/io/mission/team_names.hpp"
@@ -12,6 +13,21 @@
 #include "radioslam/mission/mission.hpp"
 
 namespace radioslam {
+
+// Names of the columns of matches.csv.
+
+inline constexpr std::string_view kMatchPoseColumns = "robot_i,t_i_s,robot_j,t_j_s,x,y,z,qx,qy,qz,qw";
+inline constexpr std::string_view kMatchSigmaColumns = "sigma_t_m,sigma_r_rad";
+
+/// cov_tx_tx, cov_tx_ty, ..., cov_rz_rz: the upper triangle of a match's covariance, row by row.
+inline std::vector<std::string> match_covariance_columns() {
+  constexpr std::string_view kAxes[] = {"tx", "ty", "tz", "rx", "ry", "rz"};
+  std::vector<std::string> names;
+  for (std::size_t row = 0; row < 6; ++row)
+    for (std::size_t column = row; column < 6; ++column)
+      names.push_back("cov_" + std::string(kAxes[row]) + "_" + std::string(kAxes[column]));
+  return names;
+}
 
 /// `id,x_m,y_m,z_m,sigma_m`. A position is known if x and y are given, and also z unless the mission is
 /// planar (z = 0). Refuses an id that appears twice or is a robot's.
@@ -42,5 +58,11 @@ std::string format_anchors(const Mission& mission);
 std::string format_ranges(const Mission& mission);
 std::string format_aoa(const Mission& mission);
 std::string format_matches(const Mission& mission);
+
+/// aoa.csv row by row: the paths of one measurement, numbered from 0.
+inline constexpr std::string_view kAoaHeader =
+    "t_s,receiver,transmitter,path,azimuth_rad,elevation_rad,sigma_rad,power_db\n";
+void append_aoa_rows(std::string& out, Stamp stamp, const std::string& receiver,
+                     const std::string& transmitter, const std::vector<AoaPath>& paths);
 
 }  // namespace radioslam

@@ -16,8 +16,10 @@ StampedPose<SE3> read_row(const TextLines& lines) {
 }
 
 void refuse_unless_forward(const TextLines& lines, Stamp last, Stamp now) {
-  if (now == last) lines.fail("the time " + format_stamp(now) + " appears twice");
-  if (now < last) lines.fail("time runs backwards, from " + format_stamp(last) + " to " + format_stamp(now));
+  if (now == last) lines.fail("the time " + format_stamp(now) + " appears twice", InputError::Kind::kClock);
+  if (now < last)
+    lines.fail("time runs backwards, from " + format_stamp(last) + " to " + format_stamp(now),
+               InputError::Kind::kClock);
 }
 
 }  // namespace
@@ -30,7 +32,7 @@ Trajectory<SE3> read_tum(const Text& text) {
     if (!poses.empty()) refuse_unless_forward(lines, poses.back().stamp, row.stamp);
     poses.push_back(row);
   }
-  if (poses.empty()) text.fail(1, "the file has no poses");
+  if (poses.empty()) text.fail(1, "the file has no poses", InputError::Kind::kTooLittle);
   return Trajectory<SE3>(std::move(poses));
 }
 

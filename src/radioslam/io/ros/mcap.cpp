@@ -8,8 +8,7 @@
 #include <set>
 
 #include "radioslam/io/text/byte_cursor.hpp"
-#include "radioslam/io/text/lz4.hpp"
-#include "radioslam/io/text/zstd_text.hpp"
+#include "radioslam/io/text/compressed_text.hpp"
 
 namespace radioslam {
 namespace {

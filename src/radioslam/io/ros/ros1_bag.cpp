@@ -5,8 +5,7 @@
 
 #include "radioslam/base/units.hpp"
 #include "radioslam/io/text/byte_cursor.hpp"
-#include "radioslam/io/text/bzip2.hpp"
-#include "radioslam/io/text/lz4.hpp"
+#include "radioslam/io/text/compressed_text.hpp"
 
 namespace radioslam {
 namespace {

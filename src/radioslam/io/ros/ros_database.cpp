@@ -8,7 +8,7 @@
 #include <set>
 
 #include "radioslam/base/input_error.hpp"
-#include "radioslam/io/text/zstd_text.hpp"
+#include "radioslam/io/text/compressed_text.hpp"
 
 namespace radioslam {
 namespace {

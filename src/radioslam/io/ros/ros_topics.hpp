@@ -1,12 +1,39 @@
 // Chooses the topics of a ROS recording to import.
 #pragma once
 
+#include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "radioslam/io/ros/ros_topic_index.hpp"
+#include "radioslam/io/ros/transforms.hpp"
 
 namespace radioslam {
+
+/// Index of a ROS recording: its topics with their frames, and its static transforms.
+struct RosTopic {
+  std::string name;
+  std::string type;
+  std::size_t messages = 0;
+  std::string frame = {};  ///< frame of its first message, for importable types
+  std::string child = {};  ///< child frame of its first message, for nav_msgs/Odometry
+};
+
+struct RosTopicIndex {
+  std::vector<RosTopic> topics;  ///< topics with messages, sorted by name
+  FrameTree frames;              ///< static transforms (FixedTransforms)
+  std::vector<std::string> warnings;
+
+  /// The topic of this name; null if there is none.
+  const RosTopic* find(const std::string& name) const;
+};
+
+/// Reads the recording once. Refuses whatever visit_recording and the readers of the messages refuse.
+RosTopicIndex index_recording(const std::filesystem::path& source);
+
+/// "/odom (nav_msgs/Odometry, 345), ...", for messages.
+std::string list_of_topics(const std::vector<RosTopic>& topics);
 
 /// The user's choice of topics: a topic; a topic of transforms with two frames, "/tf:odom.base_link"; "none";
 /// or empty. If it is empty, the only topic of the kind is used for odometry, scans, IMU samples and position

@@ -32,8 +32,11 @@ Json metrics_json(const TeamMetrics& metrics) {
   json["rotation"] = nullptr;
   if (metrics.rotation_rmse_rad) json["rotation"] = {{"rmse_rad", *metrics.rotation_rmse_rad}};
   json["consistency"] = nullptr;
-  if (metrics.share_within_3_sigma)
-    json["consistency"] = {{"share_within_3_sigma", *metrics.share_within_3_sigma}};
+  if (metrics.consistency)
+    json["consistency"] = {{"share_within_3_sigma", metrics.consistency->share_within_3_sigma}};
+  if (metrics.team_consistency)
+    json["consistency"]["team"] = {{"share_within_3_sigma", metrics.team_consistency->share_within_3_sigma},
+                                   {"mean_square", metrics.team_consistency->mean_square}};
   json["coverage"] = metrics.coverage;
   json["robots"] = Json::object();
   for (const RobotMetrics& robot : metrics.robots) {

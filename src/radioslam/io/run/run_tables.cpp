@@ -188,31 +188,21 @@ std::string format_closures(const std::vector<ClosureResult>& closures, std::spa
 }
 
 std::string format_uncertainty(const std::vector<RobotResult>& robots) {
-  std::string out = "robot,t_s,sigma_m\n";
+  std::string out = "robot,t_s,sigma_m,sigma_team_m\n";
   for (const RobotResult& robot : robots)
     for (std::size_t k = 0; k < robot.sigma_position_m.size(); ++k) {
       out += robot.id + "," + format_stamp(robot.estimate[k].stamp);
       append_number(out += ',', robot.sigma_position_m[k]);
+      append_number(out += ',', robot.sigma_team_m[k]);
       out += '\n';
     }
   return out;
 }
 
 std::string format_measured_aoa(const std::vector<MeasuredAoaResult>& aoa_measurements) {
-  std::string out = "t_s,receiver,transmitter,path,azimuth_rad,elevation_rad,sigma_rad,power_db\n";
-  for (const MeasuredAoaResult& arrival : aoa_measurements) {
-    int number = 0;
-    for (const AoaPath& path : arrival.paths) {
-      out += format_stamp(arrival.stamp) + "," + arrival.receiver + "," + arrival.transmitter + "," +
-             std::to_string(number++);
-      append_number(out += ',', path.azimuth_rad);
-      out += ',';
-      if (path.elevation_rad) append_number(out, *path.elevation_rad);
-      append_number(out += ',', path.sigma_rad);
-      append_number(out += ',', path.power_db);
-      out += '\n';
-    }
-  }
+  std::string out(kAoaHeader);
+  for (const MeasuredAoaResult& arrival : aoa_measurements)
+    append_aoa_rows(out, arrival.stamp, arrival.receiver, arrival.transmitter, arrival.paths);
   return out;
 }
 
@@ -286,14 +276,16 @@ std::vector<MeasuredAoaResult> read_measured_aoa(const Text& text,
 }
 
 void read_uncertainty(const Text& text, std::span<EstimatedTrajectory> robots) {
-  CsvReader csv(text, CsvReader::Columns{{"robot", "t_s", "sigma_m"}});
+  CsvReader csv(text, CsvReader::Columns{{"robot", "t_s", "sigma_m"}, {"sigma_team_m"}});
   while (csv.next()) {
     EstimatedTrajectory& robot = robots[robot_of(csv, 0, robots).index()];
     const std::size_t k = robot.sigma_position_m.size();
     if (k >= robot.poses.size() || robot.poses[k].stamp != csv.stamp(1))
       csv.fail("the stamps of robot '" + robot.id + "' are not those of " + robot.id + ".tum");
     robot.sigma_position_m.push_back(csv.number(2));
+    if (csv.has(3)) robot.sigma_team_m.push_back(csv.number(3));
     if (robot.sigma_position_m.back() < 0) csv.fail("sigma_m must not be negative");
+    if (csv.has(3) && robot.sigma_team_m.back() < 0) csv.fail("sigma_team_m must not be negative");
   }
   for (const EstimatedTrajectory& robot : robots)
     if (!robot.sigma_position_m.empty() && robot.sigma_position_m.size() != robot.poses.size())

@@ -1,7 +1,9 @@
 #include "radioslam/io/text/csv.hpp"
 
 #include <algorithm>
+#include <set>
 
+#include "radioslam/base/input_error.hpp"
 #include "radioslam/io/text/line_fields.hpp"
 
 namespace radioslam {
@@ -53,7 +55,7 @@ CsvReader::CsvReader(const Text& text, const Columns& columns) : lines_(text) {
 }
 
 void CsvReader::read_header(const Text& text) {
-  if (!lines_.next_with_content()) text.fail(1, "the file has no header line");
+  if (!lines_.next_with_content()) text.fail(1, "the file has no header line", InputError::Kind::kTooLittle);
   split(lines_.line());
   width_ = fields_.size();
 }
@@ -75,14 +77,16 @@ void CsvReader::split(std::string_view line) {
 
 std::size_t CsvReader::column(std::string_view name) const {
   const auto place = std::find(names_.begin(), names_.end(), name);
-  if (place == names_.end()) fail("the column '" + std::string(name) + "' is missing");
+  if (place == names_.end())
+    fail("the column '" + std::string(name) + "' is missing", InputError::Kind::kColumnOrder);
   return static_cast<std::size_t>(place - names_.begin());
 }
 
 void CsvReader::find(std::string_view name, bool required) {
   const auto count = std::count(fields_.begin(), fields_.end(), name);
-  if (count > 1) fail("the column '" + std::string(name) + "' appears twice");
-  if (count == 0 && required) fail("the column '" + std::string(name) + "' is missing");
+  if (count > 1 || (count == 0 && required))
+    fail("the column '" + std::string(name) + (count > 1 ? "' appears twice" : "' is missing"),
+         InputError::Kind::kColumnOrder);
   names_.push_back(name);
   places_.emplace_back();
   if (count == 1)
@@ -112,6 +116,26 @@ Stamp CsvReader::stamp(std::size_t column) const { return stamp_in(lines_, field
 Eigen::Quaterniond CsvReader::quaternion(std::size_t column) const {
   return quaternion_in(lines_, {number(column), number(column + 1), number(column + 2), number(column + 3)},
                        kUnitQuaternionTolerance);
+}
+
+std::vector<std::filesystem::path> find_csv_files(const std::filesystem::path& source) {
+  std::vector<std::filesystem::path> files{source};
+  if (std::filesystem::is_directory(source))
+    files = files_in(source, Depth::kBelow,
+                     [](const std::filesystem::path& file) { return file.extension() == ".csv"; });
+  if (files.empty()) throw InputError(source.string(), 0, "contains no *.csv");
+  std::set<std::string> names;
+  for (const auto& file : files) {
+    const std::string name = file.stem().string();
+    if (!is_valid_id(name)) throw InputError(file.string(), 0, "its name is not a valid robot name");
+    if (!names.insert(name).second) throw InputError(file.string(), 0, "another file has the same name");
+  }
+  return files;
+}
+
+std::string name_of_source(const std::filesystem::path& source) {
+  const std::filesystem::path path = std::filesystem::absolute(source).lexically_normal();
+  return (path.filename().empty() ? path.parent_path() : path).stem().string();
 }
 
 }  // namespace radioslam

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -51,7 +52,10 @@ class CsvReader {
 
   /// The current line, for errors.
   const TextLines& at() const { return lines_; }
-  [[noreturn]] void fail(const std::string& reason) const { lines_.fail(reason); }
+  [[noreturn]] void fail(const std::string& reason,
+                         InputError::Kind kind = InputError::Kind::kUnreadable) const {
+    lines_.fail(reason, kind);
+  }
 
  private:
   void read_header(const Text& text);
@@ -64,5 +68,14 @@ class CsvReader {
   std::vector<std::string_view> fields_;
   std::size_t width_ = 0;
 };
+
+// Finds the CSV files of an external data set.
+
+/// The file itself, or every *.csv below the folder, sorted by name. Refuses (InputError) a source without
+/// CSV files, and file names that are not valid robot names or appear twice.
+std::vector<std::filesystem::path> find_csv_files(const std::filesystem::path& source);
+
+/// Name of a data set: that of its folder, or of its file without the extension.
+std::string name_of_source(const std::filesystem::path& source);
 
 }  // namespace radioslam

@@ -26,8 +26,9 @@ std::string shown(std::string_view field) {
 }
 
 [[noreturn]] void fail_field(const TextLines& at, std::string_view what, std::string_view field,
-                             const std::string& reason) {
-  at.fail(std::string(what) + " " + shown(field) + " " + reason);
+                             const std::string& reason,
+                             InputError::Kind kind = InputError::Kind::kUnreadable) {
+  at.fail(std::string(what) + " " + shown(field) + " " + reason, kind);
 }
 
 double quaternion_norm(const Eigen::Vector4d& xyzw) {
@@ -36,16 +37,17 @@ double quaternion_norm(const Eigen::Vector4d& xyzw) {
 
 }  // namespace
 
-double number_in(const TextLines& at, std::string_view field, std::string_view what) {
+double number_in(const TextLines& at, std::string_view field, std::string_view what, InputError::Kind kind) {
   const auto value = parse_number(field);
-  if (!value) fail_field(at, what, field, "is not a finite number");
+  if (!value) fail_field(at, what, field, "is not a finite number", kind);
   return *value;
 }
 
-double coordinate_in(const TextLines& at, std::string_view field, std::string_view what) {
-  const double value = number_in(at, field, what);
+double coordinate_in(const TextLines& at, std::string_view field, std::string_view what,
+                     InputError::Kind kind) {
+  const double value = number_in(at, field, what, kind);
   if (std::abs(value) > kMaxCoordinate_m)
-    fail_field(at, what, field, "is not a plausible coordinate (more than 1e8 m)");
+    fail_field(at, what, field, "is not a plausible coordinate (more than 1e8 m)", InputError::Kind::kUnit);
   return value;
 }
 
@@ -66,10 +68,11 @@ std::string not_a_unit_quaternion(double norm) {
 }
 
 Eigen::Quaterniond quaternion_in(const TextLines& at, const Eigen::Vector4d& xyzw, double norm_tolerance) {
+  constexpr auto kKind = InputError::Kind::kColumnOrder;
   const double norm = quaternion_norm(xyzw);
-  if (norm < kSmallestQuaternionNorm) at.fail("the quaternion is zero");
-  if (!std::isfinite(norm)) at.fail("the quaternion is too large to be normalised");
-  if (std::abs(norm - 1) > norm_tolerance) at.fail(not_a_unit_quaternion(norm));
+  if (norm < kSmallestQuaternionNorm) at.fail("the quaternion is zero", kKind);
+  if (!std::isfinite(norm)) at.fail("the quaternion is too large to be normalised", kKind);
+  if (std::abs(norm - 1) > norm_tolerance) at.fail(not_a_unit_quaternion(norm), kKind);
   return {xyzw.w() / norm, xyzw.x() / norm, xyzw.y() / norm, xyzw.z() / norm};
 }
 
@@ -114,7 +117,8 @@ Eigen::Quaterniond LineFields::normalised_quaternion(double norm_tolerance) {
   const double norm = quaternion_norm({x, y, z, w});
   const bool may_be_torn = !at_->terminated() && empty() && norm >= kSmallestQuaternionNorm;
   if (may_be_torn && std::abs(norm - 1) > kTornQuaternionTolerance)
-    fail("the line is truncated: the file ends in it, and its quaternion is not of unit length");
+    fail("the line is truncated: the file ends in it, and its quaternion is not of unit length",
+         InputError::Kind::kColumnOrder);
   return quaternion_in(*at_, {x, y, z, w}, norm_tolerance);
 }
 

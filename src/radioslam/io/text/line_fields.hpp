@@ -1,6 +1,7 @@
 // Reader of the fields of one line, from left to right; errors name file, line and field.
 #pragma once
 
+#include <Eigen/Core>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -15,9 +16,12 @@ namespace radioslam {
 /// columns do not.
 inline constexpr double kUnitQuaternionTolerance = 0.02;
 
-/// The value of one field; throws InputError if it is malformed. `what` names the field in the message.
-double number_in(const TextLines& at, std::string_view field, std::string_view what);
-double coordinate_in(const TextLines& at, std::string_view field, std::string_view what);
+/// The value of one field; throws InputError of `kind` if it is malformed. `what` names the field in the
+/// message.
+double number_in(const TextLines& at, std::string_view field, std::string_view what,
+                 InputError::Kind kind = InputError::Kind::kUnreadable);
+double coordinate_in(const TextLines& at, std::string_view field, std::string_view what,
+                     InputError::Kind kind = InputError::Kind::kUnreadable);
 Stamp stamp_in(const TextLines& at, std::string_view field, std::string_view what);
 /// A standard deviation; refuses negative values.
 double sigma_in(const TextLines& at, std::string_view field, std::string_view what);
@@ -50,7 +54,10 @@ class LineFields {
   /// Refuses remaining fields.
   void end() const;
 
-  [[noreturn]] void fail(const std::string& reason) const { at_->fail(reason); }
+  [[noreturn]] void fail(const std::string& reason,
+                         InputError::Kind kind = InputError::Kind::kUnreadable) const {
+    at_->fail(reason, kind);
+  }
 
  private:
   void skip_blanks();
@@ -59,5 +66,24 @@ class LineFields {
   const TextLines* at_;
   std::string_view rest_;
 };
+
+// Reads the points and symmetric matrices of pose graph files field by field.
+
+/// The coordinates of a point, as many as the pose's space has dimensions.
+template <class Pose>
+typename Pose::Point read_point_fields(LineFields& fields) {
+  typename Pose::Point point;
+  for (int axis = 0; axis < Pose::kDim; ++axis) point(axis) = fields.coordinate("coordinate");
+  return point;
+}
+
+/// A symmetric matrix, given by its upper triangle row by row; `what` names its entries in error messages.
+template <int N>
+Eigen::Matrix<double, N, N> read_upper_triangle(LineFields& fields, std::string_view what) {
+  Eigen::Matrix<double, N, N> m;
+  for (int row = 0; row < N; ++row)
+    for (int column = row; column < N; ++column) m(row, column) = m(column, row) = fields.number(what);
+  return m;
+}
 
 }  // namespace radioslam

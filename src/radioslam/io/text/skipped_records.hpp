@@ -4,9 +4,12 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "radioslam/base/input_error.hpp"
+#include "radioslam/base/stamp.hpp"
 
 namespace radioslam {
 
@@ -50,5 +53,11 @@ class MeasuredShapes {
  private:
   std::map<Shape, std::size_t> values_;
 };
+
+// Rows of a log in the order of their times: the longest strictly increasing subsequence of their stamps.
+
+/// Indices of the most rows, in their order, whose times strictly increase; what a log keeps if a few rows
+/// were stamped early, late or twice. Of rows with the same time, the first. O(n log n).
+std::vector<std::size_t> rows_in_time_order(std::span<const Stamp> stamps);
 
 }  // namespace radioslam

@@ -42,6 +42,10 @@ std::optional<std::size_t> first_foreign_byte(std::string_view s) {
   return std::nullopt;
 }
 
+constexpr std::size_t kMaxId = 200;  // file names have at most 255 bytes
+
+bool is_control_character(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
+
 }  // namespace
 
 Text make_tool_output(std::string name, std::string content) {
@@ -88,6 +92,21 @@ Text read_tool_output(const std::filesystem::path& path) {
   return make_tool_output(path.string(), read_bytes(path));
 }
 
+std::vector<std::filesystem::path> files_in(
+    const std::filesystem::path& folder, Depth depth,
+    const std::function<bool(const std::filesystem::path&)>& is_wanted) {
+  std::vector<std::filesystem::path> files;
+  for (auto entry = std::filesystem::recursive_directory_iterator(folder);
+       entry != std::filesystem::recursive_directory_iterator(); ++entry) {
+    if (depth == Depth::kFolder) entry.disable_recursion_pending();
+    if (entry->is_regular_file() && is_wanted(entry->path())) files.push_back(entry->path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+bool is_hidden(const std::filesystem::path& file) { return file.filename().string().starts_with('.'); }
+
 bool TextLines::next() {
   if (rest_.empty()) return false;
   const std::size_t end = rest_.find('\n');
@@ -118,6 +137,13 @@ std::string_view trim(std::string_view s) {
   const std::size_t first = s.find_first_not_of(" \t");
   if (first == std::string_view::npos) return {};
   return s.substr(first, s.find_last_not_of(" \t") - first + 1);
+}
+
+bool is_valid_id(const std::string& id) {
+  if (id.empty() || id.size() > kMaxId || id.front() == '.' || id.front() == '#') return false;
+  if (id.find("..") != std::string::npos || trim(id) != id) return false;
+  return id.find_first_of("/\\,\"") == std::string::npos &&
+         std::none_of(id.begin(), id.end(), is_control_character);
 }
 
 }  // namespace radioslam

@@ -4,8 +4,10 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "radioslam/base/input_error.hpp"
 
@@ -16,8 +18,9 @@ struct Text {
   std::string name;
   std::string content;
 
-  [[noreturn]] void fail(std::size_t line, const std::string& reason) const {
-    throw InputError(name, line, reason);
+  [[noreturn]] void fail(std::size_t line, const std::string& reason,
+                         InputError::Kind kind = InputError::Kind::kUnreadable) const {
+    throw InputError(name, line, reason, kind);
   }
 };
 
@@ -36,6 +39,16 @@ Text read_text(const std::filesystem::path& path);
 Text make_tool_output(std::string name, std::string content);
 Text read_tool_output(const std::filesystem::path& path);
 
+enum class Depth { kFolder, kBelow };
+
+/// The files in a folder, or also in those below it, that are wanted; sorted by path.
+std::vector<std::filesystem::path> files_in(
+    const std::filesystem::path& folder, Depth depth,
+    const std::function<bool(const std::filesystem::path&)>& is_wanted);
+
+/// Whether the file's name begins with a point.
+bool is_hidden(const std::filesystem::path& file);
+
 /// Iterates over the lines of a text: `while (lines.next()) use(lines.line())`.
 class TextLines {
  public:
@@ -50,7 +63,10 @@ class TextLines {
   std::size_t number() const { return number_; }
   /// False for a last line without line end, which may be truncated.
   bool terminated() const { return terminated_; }
-  [[noreturn]] void fail(const std::string& reason) const { text_->fail(number_, reason); }
+  [[noreturn]] void fail(const std::string& reason,
+                         InputError::Kind kind = InputError::Kind::kUnreadable) const {
+    text_->fail(number_, reason, kind);
+  }
 
  private:
   const Text* text_;
@@ -65,5 +81,11 @@ std::string_view trim(std::string_view s);
 
 /// The text with A to Z converted to lower case.
 std::string lower_case(std::string_view s);
+
+// Validity of names of robots and anchors, which are used as file names and in tables.
+
+/// Whether the name is not empty, short enough for a file name, without path separators, commas, quotes or
+/// control characters, without a leading '.' or '#', and without leading or trailing blanks.
+bool is_valid_id(const std::string& id);
 
 }  // namespace radioslam

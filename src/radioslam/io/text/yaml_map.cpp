@@ -31,7 +31,8 @@ void for_each_key(const Text& text, const YAML::Node& map, std::string_view what
   for (const auto& entry : map) {
     const YamlEntry found{scalar_at(text, entry.first, "a key"), line_of(entry.first), entry.second};
     if (!seen.insert(found.key).second)
-      text.fail(found.line, "'" + found.key + "' appears twice in " + std::string(what));
+      text.fail(found.line, "'" + found.key + "' appears twice in " + std::string(what),
+                InputError::Kind::kDuplicate);
     use(found);
   }
 }

@@ -25,12 +25,10 @@ struct AirodumpParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"utc_offset_h", "h", -26, 26,
-                "offset of the recording machine's local time from UTC; positive east of Greenwich"},
-          self.utc_offset_h);
-    visit(Field{"clock_offset_s", "s", -4e9, 4e9,
-                "offset added to every time, from the log's clock to the mission's"},
-          self.clock_offset_s);
+    RADIOSLAM_FIELD(utc_offset_h, "h", -26, 26,
+                    "offset of the recording machine's local time from UTC; positive east of Greenwich");
+    RADIOSLAM_FIELD(clock_offset_s, "s", -4e9, 4e9,
+                    "offset added to every time, from the log's clock to the mission's");
   }
 };
 

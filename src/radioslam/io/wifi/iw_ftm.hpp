@@ -39,20 +39,15 @@ struct IwFtmParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"clock_offset_s", "s", -4e9, 4e9,
-                "offset added to every time, from the log's clock to the mission's"},
-          self.clock_offset_s);
-    visit(Field{"nominal_sigma_m", "m", 1e-3, 1000,
-                "standard deviation of distances reported without a variance; phones show 1 m"},
-          self.nominal_sigma_m);
-    visit(Field{"min_sigma_m", "m", 1e-3, 1000,
-                "lower bound on the standard deviation; bursts scatter less than their mean errs"},
-          self.min_sigma_m);
-    visit(Field{"max_negative_m", "m", 0, 1000,
-                "largest magnitude of a negative distance that is taken as 0; others are left out"},
-          self.max_negative_m);
-    visit(Field{"max_range_m", "m", 1, 1e8, "largest plausible distance; longer ones are left out"},
-          self.max_range_m);
+    RADIOSLAM_FIELD(clock_offset_s, "s", -4e9, 4e9,
+                    "offset added to every time, from the log's clock to the mission's");
+    RADIOSLAM_FIELD(nominal_sigma_m, "m", 1e-3, 1000,
+                    "standard deviation of distances reported without a variance; phones show 1 m");
+    RADIOSLAM_FIELD(min_sigma_m, "m", 1e-3, 1000,
+                    "lower bound on the standard deviation; bursts scatter less than their mean errs");
+    RADIOSLAM_FIELD(max_negative_m, "m", 0, 1000,
+                    "largest magnitude of a negative distance that is taken as 0; others are left out");
+    RADIOSLAM_FIELD(max_range_m, "m", 1, 1e8, "largest plausible distance; longer ones are left out");
   }
 };
 

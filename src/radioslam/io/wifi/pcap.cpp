@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "radioslam/base/input_error.hpp"
 #include "radioslam/base/units.hpp"
 
 namespace radioslam {
@@ -68,7 +67,8 @@ std::optional<PcapPacket> PcapReader::next() {
   torn_ = left > 0 && left < kPacketHeader;
   if (left < kPacketHeader) return std::nullopt;
   const std::size_t length = view_.u32(at_ + 8);
-  if (length > kMaxPacket) fail("implausible packet length of " + std::to_string(length) + " bytes");
+  if (length > kMaxPacket)
+    fail("implausible packet length of " + std::to_string(length) + " bytes", InputError::Kind::kUnit);
   const std::int64_t fraction_ns = view_.u32(at_ + 4) * fraction_ns_;
   if (fraction_ns >= kNanosecondsPerSecond)
     fail("the fraction of the stamp, " + std::to_string(fraction_ns) + " ns, exceeds one second");
@@ -88,8 +88,8 @@ std::optional<std::string_view> PcapReader::udp_payload(const PcapPacket& packet
   return payload_of_ipv4(packet.bytes.substr(link_header_), port);
 }
 
-void PcapReader::fail(const std::string& reason) const {
-  throw InputError(name_, 0, "at byte " + std::to_string(at_) + ": " + reason);
+void PcapReader::fail(const std::string& reason, InputError::Kind kind) const {
+  throw InputError(name_, 0, "at byte " + std::to_string(at_) + ": " + reason, kind);
 }
 
 }  // namespace radioslam

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "radioslam/base/input_error.hpp"
 #include "radioslam/base/stamp.hpp"
 #include "radioslam/io/text/byte_view.hpp"
 
@@ -39,7 +40,8 @@ class PcapReader {
   std::optional<std::string_view> udp_payload(const PcapPacket& packet, std::uint16_t port) const;
 
  private:
-  [[noreturn]] void fail(const std::string& reason) const;
+  [[noreturn]] void fail(const std::string& reason,
+                         InputError::Kind kind = InputError::Kind::kUnreadable) const;
 
   std::string name_;
   ByteView view_;

@@ -11,7 +11,10 @@
 // packet at the end of the file is left out with a warning.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -20,6 +23,27 @@
 
 namespace radioslam {
 
+// Reads radiotap headers, which WiFi drivers put before captured packets (radiotap.org); little endian:
+//
+//   u8 version 0, u8 -, u16 length, u32 present [, u32 present ...], the fields that are present
+//
+// Bit k of `present` means that field k is present; fields are aligned to their size from the start of the
+// header. Bit 31: another word follows. Bit 29: that word counts from field 0 again (values per antenna after
+// those of the packet). Bit 30: that word belongs to a vendor, whose fields state their length. Reading stops
+// at a field of unknown size. (libtins 4.0 reads only the first word reliably: it does not know fields from
+// 22 on and misplaces the fields after a vendor's.)
+
+/// The fields that are read; for repeated fields the first value.
+struct Radiotap {
+  std::size_t length = 0;  ///< offset of the 802.11 frame
+  std::optional<int> signal_dbm;
+  std::optional<int> frequency_mhz;
+  bool bad_checksum = false;  ///< the card reported a wrong frame checksum
+};
+
+/// Nothing if the header is incomplete or its fields exceed its length.
+std::optional<Radiotap> read_radiotap(std::string_view packet);
+
 struct WifiCaptureParams {
   bool every_frame = false;
   double scan_s = 0;
@@ -27,16 +51,14 @@ struct WifiCaptureParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"every_frame", "", 0, 1,
-                "use every frame that names its transmitter, including stations, not only beacons and probe "
-                "responses"},
-          self.every_frame);
-    visit(Field{"scan_s", "s", 0, 3600,
-                "duration of a scan, over which each radio's level is averaged; 0 makes every frame a scan"},
-          self.scan_s);
-    visit(Field{"clock_offset_s", "s", -4e9, 4e9,
-                "offset added to every time, from the log's clock to the mission's"},
-          self.clock_offset_s);
+    RADIOSLAM_FIELD(every_frame, "", 0, 1,
+                    "use every frame that names its transmitter, including stations, not only beacons and "
+                    "probe responses");
+    RADIOSLAM_FIELD(
+        scan_s, "s", 0, 3600,
+        "duration of a scan, over which each radio's level is averaged; 0 makes every frame a scan");
+    RADIOSLAM_FIELD(clock_offset_s, "s", -4e9, 4e9,
+                    "offset added to every time, from the log's clock to the mission's");
   }
 };
 

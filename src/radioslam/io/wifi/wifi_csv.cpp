@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "radioslam/io/text/csv.hpp"
+#include "radioslam/io/text/line_fields.hpp"
 #include "radioslam/io/text/mac_address.hpp"
 #include "radioslam/io/text/numbers.hpp"
 
@@ -78,11 +79,12 @@ Row read_row(const CsvReader& csv, LastStamp& last, BssidSpellings& spellings) {
   if (csv.field(kTime) != last.text || last.text.empty()) last = {csv.field(kTime), csv.stamp(kTime)};
   const std::string_view bssid = csv.field(kBssid);
   if (bssid.empty()) csv.fail("the bssid is empty");
-  const double frequency_mhz = csv.coordinate(kFrequency);
-  if (frequency_mhz < 0) csv.fail("the frequency is negative");
-  const double rssi_dbm = csv.number(kRssi);
+  constexpr auto kUnit = InputError::Kind::kUnit;
+  const double frequency_mhz = coordinate_in(csv.at(), csv.field(kFrequency), "frequency_mhz", kUnit);
+  if (frequency_mhz < 0) csv.fail("the frequency is negative", kUnit);
+  const double rssi_dbm = number_in(csv.at(), csv.field(kRssi), "rssi_dbm", kUnit);
   if (!is_plausible_rssi(rssi_dbm))
-    csv.fail("rssi_dbm " + format_number(rssi_dbm) + " is outside -150 to 30 dBm");
+    csv.fail("rssi_dbm " + format_number(rssi_dbm) + " is outside -150 to 30 dBm", kUnit);
   return {last.stamp, spellings.of(bssid), static_cast<float>(frequency_mhz), static_cast<float>(rssi_dbm)};
 }
 

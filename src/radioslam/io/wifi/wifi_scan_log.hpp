@@ -29,12 +29,10 @@ struct ScanListParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"clock_offset_s", "s", -4e9, 4e9,
-                "offset added to every time, from the log's clock to the mission's"},
-          self.clock_offset_s);
-    visit(Field{"keep_stale", "", 0, 1,
-                "keep readings received before the previous scan, at the time they were received"},
-          self.keep_stale);
+    RADIOSLAM_FIELD(clock_offset_s, "s", -4e9, 4e9,
+                    "offset added to every time, from the log's clock to the mission's");
+    RADIOSLAM_FIELD(keep_stale, "", 0, 1,
+                    "keep readings received before the previous scan, at the time they were received");
   }
 };
 

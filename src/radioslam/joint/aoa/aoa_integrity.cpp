@@ -9,9 +9,9 @@
 
 #include "radioslam/base/statistics.hpp"
 #include "radioslam/consistency/chi_squared.hpp"
-#include "radioslam/joint/aoa/aoa_predictions.hpp"
-#include "radioslam/joint/radio_factors.hpp"
-#include "radioslam/mission/odometry_between.hpp"
+#include "radioslam/joint/aoa/aoa_match_weights.hpp"
+#include "radioslam/joint/links/radio_factors.hpp"
+#include "radioslam/mission/odometry_edge.hpp"
 
 namespace radioslam {
 namespace {
@@ -232,16 +232,16 @@ AoaIntegrity check_self_reports(const Mission& mission, const JointGraphParams& 
 
 template <class Pose>
 AoaIntegrity check_estimate(const Mission& mission, const JointGraph<Pose>& joint,
-                            const TeamPlacement<Pose>& placement, const AoaLikelihoodParams& likelihood,
+                            const TeamAlignment<Pose>& alignment, const AoaLikelihoodParams& likelihood,
                             const AoaIntegrityParams& params) {
   const auto& graph = joint.team.graph;
   std::vector<CheckedAngle> angles;
   for (std::size_t k = 0; k < joint.origins.bearings.size(); ++k) {
     const FactorOrigin& origin = joint.origins.bearings[k];
     const RobotIndex receiver = origin.robot_i, transmitter = origin.robot_j;
-    if (!transmitter.valid() || !placement.placed[receiver.index()] ||
-        !placement.placed[transmitter.index()] ||
-        placement.component[receiver.index()] != placement.component[transmitter.index()])
+    if (!transmitter.valid() || !alignment.placed[receiver.index()] ||
+        !alignment.placed[transmitter.index()] ||
+        alignment.component[receiver.index()] != alignment.component[transmitter.index()])
       continue;
     const auto& ends = joint.team.bearings[k];
     const UncertainPose<Pose> T_r_t{graph.poses[ends.i.index()].inverse() * graph.poses[ends.j.pose.index()]};
@@ -268,7 +268,7 @@ std::vector<std::string> angle_notes(const AoaIntegrity& checks, CheckedPose pos
 #define RADIOSLAM_ANGLE_CHECKS(Pose)                                                                        \
   template AoaIntegrity check_self_reports<Pose>(const Mission&, const JointGraphParams&,                   \
                                                  const AoaLikelihoodParams&, const AoaIntegrityParams&);    \
-  template AoaIntegrity check_estimate(const Mission&, const JointGraph<Pose>&, const TeamPlacement<Pose>&, \
+  template AoaIntegrity check_estimate(const Mission&, const JointGraph<Pose>&, const TeamAlignment<Pose>&, \
                                        const AoaLikelihoodParams&, const AoaIntegrityParams&);
 RADIOSLAM_ANGLE_CHECKS(SE2)
 RADIOSLAM_ANGLE_CHECKS(SE3)

@@ -24,7 +24,7 @@
 
 #include "radioslam/base/fields.hpp"
 #include "radioslam/joint/joint_graph.hpp"
-#include "radioslam/joint/team_placement.hpp"
+#include "radioslam/joint/team_alignment.hpp"
 #include "radioslam/radio/aoa/aoa_likelihood.hpp"
 #include "radioslam/results/results.hpp"
 
@@ -37,18 +37,15 @@ struct AoaIntegrityParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"false_alarm_probability", "", 1e-12, 0.5,
-                "probability of a false suspect in a team of correct poses, for self-reported and for "
-                "estimated poses each"},
-          self.false_alarm_probability);
-    visit(Field{"direct_probability", "", 0.01, 0.999,
-                "lower bound on the ratio of angle measurements that contain the direct path; lower values "
-                "weaken the test"},
-          self.direct_probability);
-    visit(Field{"odometry_margin", "", 0, 100,
-                "factor on the stated odometry noise when self-reported poses are tested; higher values "
-                "accuse less"},
-          self.odometry_margin);
+    RADIOSLAM_FIELD(false_alarm_probability, "", 1e-12, 0.5,
+                    "probability of a false suspect in a team of correct poses, for self-reported and for "
+                    "estimated poses each");
+    RADIOSLAM_FIELD(direct_probability, "", 0.01, 0.999,
+                    "lower bound on the ratio of angle measurements that contain the direct path; lower "
+                    "values weaken the test");
+    RADIOSLAM_FIELD(
+        odometry_margin, "", 0, 100,
+        "factor on the stated odometry noise when self-reported poses are tested; higher values accuse less");
   }
 };
 
@@ -66,7 +63,7 @@ AoaIntegrity check_self_reports(const Mission& mission, const JointGraphParams& 
 /// Tests the estimate of `mission` in `joint`, for robots with a common frame.
 template <class Pose>
 AoaIntegrity check_estimate(const Mission& mission, const JointGraph<Pose>& joint,
-                            const TeamPlacement<Pose>& placement, const AoaLikelihoodParams& likelihood,
+                            const TeamAlignment<Pose>& alignment, const AoaLikelihoodParams& likelihood,
                             const AoaIntegrityParams& params);
 
 /// Notes for the user, one per group of suspects.

@@ -15,11 +15,26 @@
 #include <vector>
 
 #include "radioslam/base/fields.hpp"
+#include "radioslam/geometry/uncertain_pose.hpp"
 #include "radioslam/joint/closures/closure.hpp"
 #include "radioslam/mission/mission.hpp"
 #include "radioslam/radio/aoa/aoa_likelihood.hpp"
 
 namespace radioslam {
+
+// Predicted angles of arrival: compares measured angles with relative poses of known covariance.
+
+/// Standard deviation of the direction to the other robot, from the relative pose's covariance.
+template <class Pose>
+DirectionSigma direction_sigma(const UncertainPose<Pose>& T_i_j);
+
+/// Compares the measurement with the predicted direction from receiver to transmitter.
+template <class Pose>
+AoaAgreement check_angles(const UncertainPose<Pose>& T_receiver_transmitter, const AoaMeasurement& measured,
+                          const Mission& mission, const AoaLikelihoodParams& params);
+
+/// Whether both ends are robots whose odometry covers the measurement's stamp.
+bool is_between_robots(const AoaMeasurement& measured, const Mission& mission);
 
 /// How matches of an external place recognition enter the estimate.
 struct MatchParams {
@@ -30,21 +45,17 @@ struct MatchParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"robust", "", 0, 0,
-                "whether to keep only the largest consistent set of matches, under a graduated loss; false: "
-                "least squares on all"}
-              .basic(),
-          self.robust);
-    visit(Field{"angle_weights", "", 0, 0,
-                "whether angles of arrival near a match scale its information; true reproduces active "
-                "rendezvous (Wang et al., eq. 7)"},
-          self.angle_weights);
-    visit(Field{"angles", "", 1, 1000,
-                "largest number of angle measurements per match; the median of their scales applies"},
-          self.angles);
-    visit(Field{"max_carried_m", "m", 0, 1e6,
-                "longest path, of both robots together, between a match and the angles used to weight it"},
-          self.max_carried_m);
+    RADIOSLAM_BASIC_FIELD(robust, "", 0, 0,
+                          "whether to keep only the largest consistent set of matches, under a graduated "
+                          "loss; false: least squares on all");
+    RADIOSLAM_FIELD(angle_weights, "", 0, 0,
+                    "whether angles of arrival near a match scale its information; true reproduces active "
+                    "rendezvous (Wang et al., eq. 7)");
+    RADIOSLAM_FIELD(angles, "", 1, 1000,
+                    "largest number of angle measurements per match; the median of their scales applies");
+    RADIOSLAM_FIELD(
+        max_carried_m, "m", 0, 1e6,
+        "longest path, of both robots together, between a match and the angles used to weight it");
   }
 };
 

@@ -208,16 +208,16 @@ SE2::Jacobian relative_pose_covariance(const MutualBearing& m) {
 }
 
 template <class Pose>
-LinkCovariance<Pose> measured_link_covariance(const JointGraph<Pose>& joint, double pairing_s,
-                                              std::size_t max_links) {
+MeasuredLinks<Pose> measured_links(const JointGraph<Pose>& joint, double pairing_s, std::size_t max_links) {
   const PoseOrigins<Pose> origins(joint);
   const MutualBearings<Pose> measured(joint, origins, pairing_s);
   auto links = measured.from_mutual_bearings();
-  if (links.empty()) links = measured.estimated();
-  return {odometry_chains(joint, origins), thinned(links, max_links)};
+  const bool estimated = links.empty();
+  if (estimated) links = measured.estimated();
+  return {{odometry_chains(joint, origins), thinned(links, max_links)}, estimated};
 }
 
-template LinkCovariance<SE2> measured_link_covariance(const JointGraph<SE2>&, double, std::size_t);
-template LinkCovariance<SE3> measured_link_covariance(const JointGraph<SE3>&, double, std::size_t);
+template MeasuredLinks<SE2> measured_links(const JointGraph<SE2>&, double, std::size_t);
+template MeasuredLinks<SE3> measured_links(const JointGraph<SE3>&, double, std::size_t);
 
 }  // namespace radioslam

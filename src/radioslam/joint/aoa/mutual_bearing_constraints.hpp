@@ -22,7 +22,12 @@ SE2::Jacobian relative_pose_covariance(const MutualBearing& measured);
 
 /// Keyframe odometry of all robots and links between keyframes; see overlap_stage.hpp.
 template <class Pose>
-LinkCovariance<Pose> measured_link_covariance(const JointGraph<Pose>& joint, double pairing_s,
-                                              std::size_t max_links);
+struct MeasuredLinks {
+  LinkCovariance<Pose> covariance;
+  bool estimated =
+      false;  ///< no range has angles at both ends: relative poses are those of the joint estimate
+};
+template <class Pose>
+MeasuredLinks<Pose> measured_links(const JointGraph<Pose>& joint, double pairing_s, std::size_t max_links);
 
 }  // namespace radioslam

@@ -8,8 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "radioslam/graph/optimizer.hpp"
 #include "radioslam/joint/joint_graph.hpp"
 #include "radioslam/mission/mission.hpp"
+#include "radioslam/odometry/scan_stage.hpp"
 #include "radioslam/results/results.hpp"
 
 namespace radioslam {
@@ -70,5 +72,19 @@ void test_closures(const JointGraph<Pose>& joint, FactorSource source, std::vect
 template <class Pose>
 std::vector<ClosureResult> collect_closures(const JointGraph<Pose>& joint,
                                             const std::vector<Closure>& closures);
+
+// LiDAR loop closures within each robot, as factors of the joint graph.
+
+/// In their order; the statistic of those that scan matching rejected is the inlier ratio.
+std::vector<Closure> closures_of_scans(const std::vector<ScanClosure>& scans);
+
+/// Adds the stamps of the accepted closures to every robot's node stamps.
+void add_closure_stamps(const std::vector<Closure>& closures, std::vector<std::vector<Stamp>>& node_stamps);
+
+/// Adds the accepted closures of robots with themselves, each with a loss, and corrects every robot's
+/// trajectory by them; poses stay in their frames.
+template <class Pose>
+void add_scan_closures(JointGraph<Pose>& joint, const std::vector<Closure>& closures,
+                       const OptimizerParams& optimizer);
 
 }  // namespace radioslam

@@ -7,9 +7,117 @@
 #include <optional>
 #include <utility>
 
+#include "radioslam/consistency/maximum_clique.hpp"
 #include "radioslam/geometry/linear_algebra.hpp"
 
 namespace radioslam {
+namespace {
+
+constexpr std::size_t kMaxGroups = 6;   // per pair of segments
+constexpr std::size_t kMaxLoops = 600;  // per pair of segments, evenly chosen
+constexpr double kMaxBranches = 2e5;    // of a search for the largest group
+
+/// Path length of every pose along its segment.
+template <class Pose>
+std::vector<double> travelled_m(const JointGraph<Pose>& joint) {
+  std::vector<double> travelled(joint.team.graph.poses.size(), 0);
+  for (const TrajectorySegment& segment : joint.team.segments)
+    for (std::size_t k = segment.first_pose + 1; k < segment.first_pose + segment.pose_count; ++k)
+      travelled[k] =
+          travelled[k - 1] +
+          (joint.team.graph.poses[k].translation() - joint.team.graph.poses[k - 1].translation()).norm();
+  return travelled;
+}
+
+/// Places seen: loops within `sighting_m` of another along both trajectories are one.
+template <class Pose>
+double evidence_of(const std::vector<TeamLoop<Pose>>& loops, const LoopGroup& group,
+                   const std::vector<double>& travelled, double sighting_m) {
+  struct Sighting {
+    double at_a_m, at_b_m, loops;
+  };
+  std::vector<Sighting> sightings;
+  for (const std::size_t k : group.loops) {
+    const bool forward = loops[k].segment_i == group.segment_a;
+    const double at_a_m = travelled[(forward ? loops[k].i : loops[k].j).index()],
+                 at_b_m = travelled[(forward ? loops[k].j : loops[k].i).index()];
+    const auto same = std::find_if(sightings.begin(), sightings.end(), [&](const Sighting& s) {
+      return std::abs(s.at_a_m - at_a_m) < sighting_m && std::abs(s.at_b_m - at_b_m) < sighting_m;
+    });
+    if (same == sightings.end())
+      sightings.push_back({at_a_m, at_b_m, 1});
+    else
+      ++same->loops;
+  }
+  double evidence = 0;
+  for (const Sighting& s : sightings) evidence += 2 * s.loops / (s.loops + 1);
+  return evidence;
+}
+
+std::vector<std::size_t> evenly_chosen(std::vector<std::size_t> of, std::size_t count) {
+  if (of.size() <= count) return of;
+  std::vector<std::size_t> chosen;
+  for (std::size_t k = 0; k < count; ++k) chosen.push_back(of[k * of.size() / count]);
+  return chosen;
+}
+
+}  // namespace
+
+template <class Pose>
+RelativePoseMatch<Pose> seen_from(const JointGraph<Pose>& joint, const TeamLoop<Pose>& loop, std::size_t a) {
+  const auto& segments = joint.team.segments;
+  const std::size_t i = loop.i.index() - segments[loop.segment_i].first_pose,
+                    j = loop.j.index() - segments[loop.segment_j].first_pose;
+  if (loop.segment_i == a) return {i, j, loop.T_i_j, loop.covariance};
+  const UncertainPose<Pose> back = UncertainPose<Pose>{loop.T_i_j, loop.covariance}.inverse();
+  return {j, i, back.pose, back.covariance};
+}
+
+template <class Pose>
+std::vector<LoopGroup> loop_groups(const JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>>& loops,
+                                   const SegmentChains<Pose>& chains, const LoopGroupParams& params) {
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> of_pair;
+  for (std::size_t k = 0; k < loops.size(); ++k)
+    if (!loops[k].is_own()) of_pair[std::minmax(loops[k].segment_i, loops[k].segment_j)].push_back(k);
+  const std::vector<double> travelled = travelled_m(joint);
+  const auto length_m = [&](std::size_t segment) {
+    const TrajectorySegment& of = joint.team.segments[segment];
+    return travelled[of.first_pose + of.pose_count - 1];
+  };
+  std::vector<LoopGroup> groups;
+  for (auto& [pair, all] : of_pair) {
+    const auto [a, b] = pair;
+    std::vector<std::size_t> rest = evenly_chosen(std::move(all), kMaxLoops);
+    std::vector<RelativePoseMatch<Pose>> matches;
+    for (const std::size_t k : rest) matches.push_back(seen_from(joint, loops[k], a));
+    const PairwiseConsistency pairs = pairwise_consistency(*chains[a], *chains[b], matches);
+    const std::vector<std::size_t> loop_of_vertex = rest;
+    const double sighting_m =
+        std::min(params.sighting_m, params.sighting_ratio * std::min(length_m(a), length_m(b)));
+    for (std::size_t k = 0; k < rest.size(); ++k) rest[k] = k;
+    MaximumCliqueParams clique_params;
+    clique_params.max_branches = kMaxBranches;
+    for (std::size_t g = 0; g < kMaxGroups && !rest.empty(); ++g) {
+      const MaximumClique clique = maximum_clique(induced_graph(pairs.graph, rest), clique_params);
+      LoopGroup group{a, b, {}, 0};
+      for (const std::size_t member : clique.vertices) group.loops.push_back(loop_of_vertex[rest[member]]);
+      for (auto it = clique.vertices.rbegin(); it != clique.vertices.rend(); ++it)
+        rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(*it));
+      group.evidence = evidence_of(loops, group, travelled, sighting_m);
+      groups.push_back(std::move(group));
+    }
+  }
+  return groups;
+}
+
+#define RADIOSLAM_LOOP_GROUPS(Pose)                                                                        \
+  template RelativePoseMatch<Pose> seen_from(const JointGraph<Pose>&, const TeamLoop<Pose>&, std::size_t); \
+  template std::vector<LoopGroup> loop_groups(const JointGraph<Pose>&, const std::vector<TeamLoop<Pose>>&, \
+                                              const SegmentChains<Pose>&, const LoopGroupParams&);
+RADIOSLAM_LOOP_GROUPS(SE2)
+RADIOSLAM_LOOP_GROUPS(SE3)
+#undef RADIOSLAM_LOOP_GROUPS
+
 namespace {
 
 constexpr std::size_t kBeam = 64;  // choices of frames that are kept
@@ -205,5 +313,108 @@ std::vector<LoopAlignment<Pose>> align_by_loops(const JointGraph<Pose>& joint,
 RADIOSLAM_LOOP_ALIGNMENT(SE2)
 RADIOSLAM_LOOP_ALIGNMENT(SE3)
 #undef RADIOSLAM_LOOP_ALIGNMENT
+
+namespace {
+
+constexpr double kMinSupport = 1.5;             // sightings
+constexpr double kMinRatioToAlternative = 1.5;  // of the evidence that a alternative contests to its own
+
+/// The segments on the side of b when a join of the best choice is undone.
+template <class Pose>
+std::vector<bool> side_of_b(const std::vector<LoopGroup>& groups, const LoopAlignment<Pose>& best,
+                            std::size_t join) {
+  std::vector<bool> side(best.component.size(), false);
+  side[groups[join].segment_b] = true;
+  for (std::size_t round = 0; round < best.joins.size(); ++round)
+    for (const std::size_t g : best.joins) {
+      if (g == join) continue;
+      const bool a = side[groups[g].segment_a], b = side[groups[g].segment_b];
+      if (a != b) side[groups[g].segment_a] = side[groups[g].segment_b] = true;
+    }
+  return side;
+}
+
+/// Evidence of the groups that hold in `a` and not in `b`.
+template <class Pose>
+double contested(const std::vector<LoopGroup>& groups, const LoopAlignment<Pose>& a,
+                 const LoopAlignment<Pose>& b) {
+  double sum = 0;
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    if (a.group_holds[g] && !b.group_holds[g]) sum += groups[g].evidence;
+  return sum;
+}
+
+template <class Pose>
+bool joins_sides(const std::vector<LoopGroup>& groups, const LoopAlignment<Pose>& alignment,
+                 const std::vector<bool>& side) {
+  return std::any_of(alignment.joins.begin(), alignment.joins.end(),
+                     [&](std::size_t g) { return side[groups[g].segment_a] != side[groups[g].segment_b]; });
+}
+
+template <class Pose>
+bool is_weak(const std::vector<LoopGroup>& groups, const std::vector<LoopAlignment<Pose>>& alignments,
+             const std::vector<bool>& side) {
+  const LoopAlignment<Pose>& best = alignments.front();
+  double support = 0;
+  std::vector<std::size_t> crossing;
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    if (side[groups[g].segment_a] != side[groups[g].segment_b] && best.group_holds[g]) {
+      support += groups[g].evidence;
+      crossing.push_back(g);
+    }
+  if (support < kMinSupport) return true;
+  return std::any_of(alignments.begin() + 1, alignments.end(), [&](const LoopAlignment<Pose>& alternative) {
+    const auto holds = [&](std::size_t g) { return alternative.group_holds[g]; };
+    return contradict_each_other(best, alternative) &&
+           std::none_of(crossing.begin(), crossing.end(), holds) && joins_sides(groups, alternative, side) &&
+           contested(groups, best, alternative) <
+               kMinRatioToAlternative * contested(groups, alternative, best);
+  });
+}
+
+}  // namespace
+
+template <class Pose>
+bool contradict_each_other(const LoopAlignment<Pose>& a, const LoopAlignment<Pose>& b) {
+  const auto all_hold = [](const std::vector<std::size_t>& joins, const std::vector<bool>& holds) {
+    return std::all_of(joins.begin(), joins.end(), [&](std::size_t g) { return holds[g]; });
+  };
+  return !all_hold(a.joins, b.group_holds) && !all_hold(b.joins, a.group_holds);
+}
+
+template <class Pose>
+void undo_weak_joins(const std::vector<LoopGroup>& groups, std::vector<LoopAlignment<Pose>>& alignments) {
+  LoopAlignment<Pose>& best = alignments.front();
+  std::vector<std::vector<bool>> undone;
+  std::vector<std::size_t> kept;
+  for (const std::size_t join : best.joins) {
+    std::vector<bool> side = side_of_b(groups, best, join);
+    if (is_weak(groups, alignments, side))
+      undone.push_back(std::move(side));
+    else
+      kept.push_back(join);
+  }
+  int next = *std::max_element(best.component.begin(), best.component.end()) + 1;
+  for (const std::vector<bool>& side : undone) {
+    std::map<int, int> renamed;
+    for (std::size_t s = 0; s < side.size(); ++s)
+      if (side[s]) {
+        const auto [to, is_new] = renamed.try_emplace(best.component[s], next);
+        if (is_new) ++next;
+        best.component[s] = to->second;
+      }
+  }
+  best.joins = kept;
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    if (best.component[groups[g].segment_a] != best.component[groups[g].segment_b])
+      best.group_holds[g] = false;
+}
+
+#define RADIOSLAM_LOOP_ALTERNATIVES(Pose)                                                      \
+  template bool contradict_each_other(const LoopAlignment<Pose>&, const LoopAlignment<Pose>&); \
+  template void undo_weak_joins(const std::vector<LoopGroup>&, std::vector<LoopAlignment<Pose>>&);
+RADIOSLAM_LOOP_ALTERNATIVES(SE2)
+RADIOSLAM_LOOP_ALTERNATIVES(SE3)
+#undef RADIOSLAM_LOOP_ALTERNATIVES
 
 }  // namespace radioslam

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "radioslam/joint/closures/loop_alternatives.hpp"
+#include "radioslam/joint/closures/loop_alignment.hpp"
 #include "radioslam/joint/closures/loop_selection.hpp"
 #include "radioslam/joint/closures/own_loops.hpp"
 #include "radioslam/joint/closures/team_loops.hpp"
@@ -20,20 +20,6 @@ constexpr std::size_t kMaxAlternatives = 3;
 constexpr double kNotableScale = 1.5;  // of a standard deviation
 /// With the odometry's sigma, twice and four times that: it is often understated.
 constexpr int kMaxPasses = 3;
-
-template <class Pose>
-void erase_loop_factors(JointGraph<Pose>& joint) {
-  auto& factors = joint.team.graph.relative_poses;
-  auto& origins = joint.origins.relative_poses;
-  std::size_t kept = 0;
-  for (std::size_t k = 0; k < factors.size(); ++k) {
-    if (origins[k].source == FactorSource::kLoop) continue;
-    factors[kept] = factors[k];
-    origins[kept++] = origins[k];
-  }
-  factors.resize(kept);
-  origins.resize(kept);
-}
 
 template <class Pose>
 void add_accepted(JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>>& loops,
@@ -54,15 +40,15 @@ void scale_odometry(JointGraph<Pose>& joint, double scale) {
 
 /// Segments whose starts are known share a frame; further segments of a robot have their own.
 template <class Pose>
-std::vector<int> segment_components(const JointGraph<Pose>& joint, const TeamPlacement<Pose>& placement) {
-  if (!placement.segments.of_segment.empty()) return placement.segments.of_segment;
+std::vector<int> segment_components(const JointGraph<Pose>& joint, const TeamAlignment<Pose>& alignment) {
+  if (!alignment.segments.of_segment.empty()) return alignment.segments.of_segment;
   std::vector<int> component;
   std::vector<bool> seen(joint.robots.size(), false);
   std::optional<int> common;
   int next = static_cast<int>(joint.robots.size());
   for (std::size_t s = 0; s < joint.team.segments.size(); ++s) {
     const std::size_t r = joint.robot_of_segment[s];
-    component.push_back(seen[r] ? next++ : placement.component[r]);
+    component.push_back(seen[r] ? next++ : alignment.component[r]);
     seen[r] = true;
     if (!joint.team.segments[s].in_common_frame) continue;
     if (!common) common = component.back();
@@ -74,27 +60,27 @@ std::vector<int> segment_components(const JointGraph<Pose>& joint, const TeamPla
 /// A robot belongs to the component of its longest segment.
 template <class Pose>
 void set_components(const JointGraph<Pose>& joint, const std::vector<int>& of_segment,
-                    TeamPlacement<Pose>& placement) {
+                    TeamAlignment<Pose>& alignment) {
   std::vector<std::size_t> longest(joint.robots.size(), 0);
   std::vector<bool> absolute_before;
-  for (const int c : placement.component)
-    absolute_before.push_back(placement.absolute[static_cast<std::size_t>(c)]);
+  for (const int c : alignment.component)
+    absolute_before.push_back(alignment.absolute[static_cast<std::size_t>(c)]);
   for (std::size_t s = 0; s < of_segment.size(); ++s) {
     const std::size_t r = joint.robot_of_segment[s];
     if (joint.team.segments[s].pose_count <= longest[r]) continue;
     longest[r] = joint.team.segments[s].pose_count;
-    placement.component[r] = of_segment[s];
+    alignment.component[r] = of_segment[s];
   }
-  renumber_components(placement.component);
-  placement.absolute.assign(placement.component.size(), false);
-  for (std::size_t r = 0; r < placement.component.size(); ++r) {
-    const int c = placement.component[r];
-    if (absolute_before[r]) placement.absolute[static_cast<std::size_t>(c)] = true;
+  renumber_components(alignment.component);
+  alignment.absolute.assign(alignment.component.size(), false);
+  for (std::size_t r = 0; r < alignment.component.size(); ++r) {
+    const int c = alignment.component[r];
+    if (absolute_before[r]) alignment.absolute[static_cast<std::size_t>(c)] = true;
   }
-  for (std::size_t r = 0; r < placement.component.size(); ++r) {
-    const int c = placement.component[r];
-    placement.placed[r] = c == 0 || placement.absolute[static_cast<std::size_t>(c)] ||
-                          std::count(placement.component.begin(), placement.component.end(), c) > 1;
+  for (std::size_t r = 0; r < alignment.component.size(); ++r) {
+    const int c = alignment.component[r];
+    alignment.placed[r] = c == 0 || alignment.absolute[static_cast<std::size_t>(c)] ||
+                          std::count(alignment.component.begin(), alignment.component.end(), c) > 1;
   }
 }
 
@@ -132,10 +118,10 @@ template <class Pose>
 void set_alternatives(const JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>>& loops,
                       const std::vector<TeamLoop<Pose>>& solved, const std::vector<LoopGroup>& groups,
                       const std::vector<LoopAlignment<Pose>>& alignments, const OptimizerParams& optimizer,
-                      TeamPlacement<Pose>& placement) {
+                      TeamAlignment<Pose>& alignment) {
   const LoopAlignment<Pose>& best = alignments.front();
   std::vector<double> weights{1};
-  placement.alternatives.clear();
+  alignment.alternatives.clear();
   for (std::size_t k = 1; k < alignments.size() && weights.size() <= kMaxAlternatives; ++k) {
     const double weight = std::exp(alignments[k].log_weight - best.log_weight);
     if (weight < kMinAlternative) break;
@@ -147,14 +133,14 @@ void set_alternatives(const JointGraph<Pose>& joint, const std::vector<TeamLoop<
     other.team.graph.poses = moved(joint, alignments[k]);
     select_loops(other, alignments[k].component, its_loops, optimizer, {});
     if (accept_the_same(solved, its_loops)) continue;
-    placement.alternatives.push_back(std::move(other.team.graph.poses));
+    alignment.alternatives.push_back(std::move(other.team.graph.poses));
     weights.push_back(weight);
   }
   double sum = 0;
   for (const double w : weights) sum += w;
-  placement.weight = weights.front() / sum;
-  placement.alternative_weights.clear();
-  for (std::size_t k = 1; k < weights.size(); ++k) placement.alternative_weights.push_back(weights[k] / sum);
+  alignment.weight = weights.front() / sum;
+  alignment.alternative_weights.clear();
+  for (std::size_t k = 1; k < weights.size(); ++k) alignment.alternative_weights.push_back(weights[k] / sum);
 }
 
 /// Names of the robots of a group, and what of their loops agrees.
@@ -180,7 +166,7 @@ struct GroupText {
 template <class Pose>
 void note_groups(const JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>>& loops,
                  const std::vector<LoopGroup>& groups, const LoopAlignment<Pose>& best,
-                 const std::string& measured, TeamPlacement<Pose>& placement) {
+                 const std::string& measured, TeamAlignment<Pose>& alignment) {
   const LoopGroup* weakest = nullptr;
   std::set<std::size_t> robots;
   for (const std::size_t g : best.joins) {
@@ -192,7 +178,7 @@ void note_groups(const JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>
   }
   if (weakest) {
     const GroupText<Pose> text(joint, loops, *weakest);
-    placement.notes.push_back("the common frame of " + std::to_string(robots.size()) + " robots stands on " +
+    alignment.notes.push_back("the common frame of " + std::to_string(robots.size()) + " robots stands on " +
                               measured + " alone; least supported is the relative pose of " + text.robots +
                               ": " + text.counts + " agree with one another");
   }
@@ -203,7 +189,7 @@ void note_groups(const JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>
                          joint.robot_of_segment[pair.first] != joint.robot_of_segment[pair.second];
     if (!is_open || !noted.insert(pair).second) continue;
     const GroupText<Pose> text(joint, loops, group);
-    placement.notes.push_back(measured + " leave the relative pose of " + text.robots +
+    alignment.notes.push_back(measured + " leave the relative pose of " + text.robots +
                               " open: the largest group that agrees has " + text.counts);
   }
 }
@@ -216,10 +202,10 @@ std::string factor_text(double scale) {
 }
 
 template <class Pose>
-void note_scales(const LoopSelection& selection, TeamPlacement<Pose>& placement) {
+void note_scales(const LoopSelection& selection, TeamAlignment<Pose>& alignment) {
   const auto note = [&](const std::string& what, double scale) {
     if (scale < kNotableScale && scale > 1 / kNotableScale) return;
-    placement.notes.push_back(
+    alignment.notes.push_back(
         "the errors of " + what + " are " + factor_text(scale) +
         " times as large as their stated covariances allow; the estimate uses the actual ones");
   };
@@ -238,7 +224,7 @@ void add_own_loops(JointGraph<Pose>& joint, const std::vector<Closure>& closures
 }
 
 template <class Pose>
-void close_by_loops(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement, std::vector<Closure>& closures,
+void close_by_loops(JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment, std::vector<Closure>& closures,
                     const OptimizerParams& optimizer, const Progress& progress) {
   std::vector<TeamLoop<Pose>> loops = team_loops(joint, closures);
   if (loops.empty()) return;
@@ -248,8 +234,8 @@ void close_by_loops(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement, std
     for (TeamLoop<Pose>& loop : loops)
       if (loop.closures.front() == origin.measurement) loop.accepted = true;
   }
-  erase_loop_factors(joint);
-  const std::vector<int> component_before = segment_components(joint, placement);
+  erase_relative_poses(joint, [](const FactorOrigin& o) { return o.source == FactorSource::kLoop; });
+  const std::vector<int> component_before = segment_components(joint, alignment);
   LoopSelection scales;
   std::vector<int> component;
   for (int pass = 0; pass < kMaxPasses; ++pass) {
@@ -264,7 +250,7 @@ void close_by_loops(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement, std
     accept_groups(groups, alignments.front(), loops);
     joint.team.graph.poses = moved(joint, alignments.front());
     const LoopSelection selection = select_loops(joint, component, loops, optimizer, progress);
-    set_alternatives(before, loops_before, loops, groups, alignments, optimizer, placement);
+    set_alternatives(before, loops_before, loops, groups, alignments, optimizer, alignment);
     scales.odometry_scale = selection.odometry_scale;
     scales.loop_scale *= selection.loop_scale;
     for (TeamLoop<Pose>& loop : loops) loop.covariance *= selection.loop_scale * selection.loop_scale;
@@ -273,10 +259,10 @@ void close_by_loops(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement, std
     });
     if (is_open && pass + 1 < kMaxPasses) continue;
     const std::string measured = closures.front().kind == ClosureKind::kMatch ? "matches" : "loop closures";
-    note_groups(joint, loops, groups, alignments.front(), measured, placement);
+    note_groups(joint, loops, groups, alignments.front(), measured, alignment);
     break;
   }
-  set_components(joint, component, placement);
+  set_components(joint, component, alignment);
   scale_odometry(joint, scales.odometry_scale);
   add_accepted(joint, loops, closures);
   optimize(joint.team.graph, optimizer, progress);
@@ -289,12 +275,12 @@ void close_by_loops(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement, std
     }
   for (Closure& closure : closures)
     if (!closure_ends(joint, closure).valid()) reject(closure, "no odometry at its time");
-  note_scales(scales, placement);
+  note_scales(scales, alignment);
 }
 
 #define RADIOSLAM_LOOP_STAGE(Pose)                                                                     \
   template void add_own_loops(JointGraph<Pose>&, const std::vector<Closure>&, const OptimizerParams&); \
-  template void close_by_loops(JointGraph<Pose>&, TeamPlacement<Pose>&, std::vector<Closure>&,         \
+  template void close_by_loops(JointGraph<Pose>&, TeamAlignment<Pose>&, std::vector<Closure>&,         \
                                const OptimizerParams&, const Progress&);
 RADIOSLAM_LOOP_STAGE(SE2)
 RADIOSLAM_LOOP_STAGE(SE3)

@@ -7,7 +7,7 @@
 #include "radioslam/graph/optimizer.hpp"
 #include "radioslam/joint/closures/closure.hpp"
 #include "radioslam/joint/joint_graph.hpp"
-#include "radioslam/joint/team_placement.hpp"
+#include "radioslam/joint/team_alignment.hpp"
 
 namespace radioslam {
 
@@ -17,10 +17,10 @@ void add_own_loops(JointGraph<Pose>& joint, const std::vector<Closure>& closures
                    const OptimizerParams& optimizer);
 
 /// Joins the components that loops connect, and solves the team with the loops that hold; sets the outcome of
-/// every closure. The placement notes what stands on loops alone, what they leave open, and stated
+/// every closure. The alignment notes what stands on loops alone, what they leave open, and stated
 /// covariances that do not hold.
 template <class Pose>
-void close_by_loops(JointGraph<Pose>& joint, TeamPlacement<Pose>& placement, std::vector<Closure>& closures,
+void close_by_loops(JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment, std::vector<Closure>& closures,
                     const OptimizerParams& optimizer, const Progress& progress);
 
 }  // namespace radioslam

@@ -9,8 +9,9 @@
 #include "radioslam/consistency/consistent_set.hpp"
 #include "radioslam/graph/graduated.hpp"
 #include "radioslam/graph/residuals.hpp"
-#include "radioslam/joint/covariance_graph.hpp"
-#include "radioslam/joint/matches/frame_by_matches.hpp"
+#include "radioslam/joint/links/link_weights.hpp"
+#include "radioslam/joint/matches/alignment_by_matches.hpp"
+#include "radioslam/joint/uncertainty/position_uncertainty.hpp"
 
 namespace radioslam {
 namespace {
@@ -23,11 +24,11 @@ constexpr std::size_t kMinVouching = 3;
 template <class Pose>
 class MatchSelector {
  public:
-  MatchSelector(JointGraph<Pose>& joint, const TeamPlacement<Pose>& placement, std::vector<Closure>& matches,
+  MatchSelector(JointGraph<Pose>& joint, const TeamAlignment<Pose>& alignment, std::vector<Closure>& matches,
                 const CandidateList& candidates, Pruning pruning, const MatchParams& params,
                 const AoaMatchWeights* angles, const std::optional<RadioCovariance<Pose>>& radio)
       : joint_(joint),
-        placement_(placement),
+        alignment_(alignment),
         matches_(matches),
         candidates_(candidates),
         pruning_(pruning),
@@ -51,12 +52,12 @@ class MatchSelector {
     const MatchEnds ends{index, i, j};
     const bool other = match.robot_i != match.robot_j;
     const bool is_tested = other && pruning_ == Pruning::kOn &&
-                           connected_without_matches(placement_, match.robot_i, match.robot_j);
+                           connected_without_matches(alignment_, match.robot_i, match.robot_j);
     if (is_tested && !is_candidate(match)) return set_aside(ends, "the views cannot overlap");
     if (is_tested && contradicts_radio(match, ends))
       return set_aside(ends, "its relative pose contradicts the radio");
     if (other && pruning_ == Pruning::kOn && !is_tested &&
-        placement_.component[match.robot_i.index()] != placement_.component[match.robot_j.index()])
+        alignment_.component[match.robot_i.index()] != alignment_.component[match.robot_j.index()])
       return reject(match, "no group of matches stands out");
     if (other) between_robots_[std::minmax(match.robot_i, match.robot_j)].push_back(admitted_.size());
     admitted_.push_back(ends);
@@ -138,7 +139,7 @@ class MatchSelector {
   }
 
   JointGraph<Pose>& joint_;
-  const TeamPlacement<Pose>& placement_;
+  const TeamAlignment<Pose>& alignment_;
   std::vector<Closure>& matches_;
   const CandidateList& candidates_;
   Pruning pruning_;
@@ -168,9 +169,9 @@ void optimize_graduated_matches(JointGraph<Pose>& joint, const OptimizerParams& 
 
 template <class Pose>
 std::optional<RadioCovariance<Pose>> radio_covariance(const JointGraph<Pose>& joint,
-                                                      const TeamPlacement<Pose>& placement,
+                                                      const TeamAlignment<Pose>& alignment,
                                                       const RadioAlignmentParams& params) {
-  if (placement.segments.of_segment.empty()) return std::nullopt;
+  if (alignment.segments.of_segment.empty()) return std::nullopt;
   auto marginals = Marginals<Pose>::compute(graph_for_covariances(joint, params.mixture).team.graph);
   if (!marginals) return std::nullopt;
   return RadioCovariance<Pose>{std::move(*marginals), params.beam.evidence_temperature};
@@ -188,15 +189,15 @@ std::vector<KeyframePair> keyframes_of_matches(const JointGraph<Pose>& joint,
 }
 
 template <class Pose>
-void select_matches(JointGraph<Pose>& joint, const TeamPlacement<Pose>& placement,
+void select_matches(JointGraph<Pose>& joint, const TeamAlignment<Pose>& alignment,
                     std::vector<Closure>& matches, const CandidateList& candidates, Pruning pruning,
                     const MatchParams& params, const AoaMatchWeights* angles,
                     const std::optional<RadioCovariance<Pose>>& radio) {
-  MatchSelector<Pose>(joint, placement, matches, candidates, pruning, params, angles, radio).run();
+  MatchSelector<Pose>(joint, alignment, matches, candidates, pruning, params, angles, radio).run();
 }
 
 template <class Pose>
-void optimise_with_matches(JointGraph<Pose>& joint, std::vector<Closure>& matches, const MatchParams& params,
+void optimize_with_matches(JointGraph<Pose>& joint, std::vector<Closure>& matches, const MatchParams& params,
                            const OptimizerParams& optimizer, const Progress& progress) {
   auto& graph = joint.team.graph;
   if (params.robust)
@@ -215,8 +216,6 @@ void optimise_with_matches(JointGraph<Pose>& joint, std::vector<Closure>& matche
 
 namespace {
 
-using PairsOfRobots = std::set<std::pair<RobotIndex, RobotIndex>>;
-
 /// Pairs with enough accepted matches to determine their relative pose.
 PairsOfRobots pairs_with_matches(const std::vector<Closure>& matches) {
   std::map<std::pair<RobotIndex, RobotIndex>, std::size_t> accepted;
@@ -227,29 +226,6 @@ PairsOfRobots pairs_with_matches(const std::vector<Closure>& matches) {
   for (const auto& [robots, count] : accepted)
     if (count >= kMinVouching) pairs.insert(robots);
   return pairs;
-}
-
-/// Gives the links between these robots no weight.
-template <class Pose>
-void silence_links(JointGraph<Pose>& joint, const PairsOfRobots& pairs) {
-  auto& graph = joint.team.graph;
-  const auto is_of_a_pair = [&](RobotIndex i, RobotIndex j) {
-    return i.valid() && j.valid() && pairs.contains(std::minmax(i, j));
-  };
-  for (std::size_t k = 0; k < graph.ranges.size(); ++k) {
-    const FactorOrigin& origin = joint.origins.ranges[k];
-    if (origin.source == FactorSource::kRange && is_of_a_pair(origin.robot_i, origin.robot_j))
-      graph.ranges[k].weight = 0;
-  }
-  std::map<std::int32_t, RobotIndex> robot_of_pose;
-  for (std::size_t p = 0; p < joint.team.segments.size(); ++p)
-    for (std::size_t k = 0; k < joint.team.segments[p].pose_count; ++k)
-      robot_of_pose[PoseId(joint.team.segments[p].first_pose + k).value] =
-          RobotIndex(joint.robot_of_segment[p]);
-  for (auto& bearing : graph.bearings)
-    if (bearing.j.pose.valid() &&
-        is_of_a_pair(robot_of_pose.at(bearing.i.value), robot_of_pose.at(bearing.j.pose.value)))
-      bearing.weight = 0;
 }
 
 /// Sets the status of every match in the graph by its error there; rejected ones lose their weight.
@@ -266,58 +242,58 @@ void retest_matches(JointGraph<Pose>& joint, std::vector<Closure>& matches) {
 
 /// Log likelihood of the joint estimate, in which a rejected match costs as much as one at its gate.
 template <class Pose>
-double optimise_and_reweigh(JointGraph<Pose>& joint, std::vector<Closure>& matches,
-                            const TeamPlacement<Pose>& placement, const MatchParams& params,
+double optimize_and_reweigh(JointGraph<Pose>& joint, std::vector<Closure>& matches,
+                            const TeamAlignment<Pose>& alignment, const MatchParams& params,
                             const MixtureParams& mixture, const OptimizerParams& optimizer,
                             const Progress& progress) {
   constexpr int kRounds = 3;
   const auto is_accepted = [](const Closure& o) { return o.status == ClosureStatus::kAccepted; };
   const auto before = std::count_if(matches.begin(), matches.end(), is_accepted);
-  optimise_with_matches(joint, matches, params, optimizer, progress);
+  optimize_with_matches(joint, matches, params, optimizer, progress);
   for (int round = 0; round < kRounds; ++round) {
-    reweigh_radio_links(joint, placement, mixture);
+    reweigh_radio_links(joint, alignment, mixture);
     retest_matches(joint, matches);
     optimize(joint.team.graph, optimizer, progress);
   }
   retest_matches(joint, matches);
   const auto lost = before - std::count_if(matches.begin(), matches.end(), is_accepted);
-  return reweigh_radio_links(joint, placement, mixture) -
+  return reweigh_radio_links(joint, alignment, mixture) -
          static_cast<double>(lost) * kPoseChiSquared99<Pose> / 2;
 }
 
 }  // namespace
 
 template <class Pose>
-void optimise_matches_and_radio(JointGraph<Pose>& joint, std::vector<Closure>& matches,
-                                const TeamPlacement<Pose>& placement, const MatchParams& params,
+void optimize_matches_and_radio(JointGraph<Pose>& joint, std::vector<Closure>& matches,
+                                const TeamAlignment<Pose>& alignment, const MatchParams& params,
                                 const MixtureParams& mixture, const OptimizerParams& optimizer,
                                 const Progress& progress) {
   JointGraph<Pose> matches_first = joint;
   std::vector<Closure> matches_alone = matches;
   const double by_radio =
-      optimise_and_reweigh(joint, matches, placement, params, mixture, optimizer, progress);
+      optimize_and_reweigh(joint, matches, alignment, params, mixture, optimizer, progress);
   const PairsOfRobots pairs = pairs_with_matches(matches_alone);
-  if (pairs.empty()) return;
   silence_links(matches_first, pairs);
-  if (optimise_and_reweigh(matches_first, matches_alone, placement, params, mixture, optimizer, progress) <=
-      by_radio)
-    return;
-  joint = std::move(matches_first);
-  matches = std::move(matches_alone);
+  if (!pairs.empty() && optimize_and_reweigh(matches_first, matches_alone, alignment, params, mixture,
+                                             optimizer, progress) > by_radio) {
+    joint = std::move(matches_first);
+    matches = std::move(matches_alone);
+  }
+  optimize(joint.team.graph, optimizer, progress);  // with the weights that were set last
 }
 
 #define RADIOSLAM_MATCH_STAGE(Pose)                                                                        \
   template std::optional<RadioCovariance<Pose>> radio_covariance(                                          \
-      const JointGraph<Pose>&, const TeamPlacement<Pose>&, const RadioAlignmentParams&);                   \
+      const JointGraph<Pose>&, const TeamAlignment<Pose>&, const RadioAlignmentParams&);                   \
   template std::vector<KeyframePair> keyframes_of_matches(const JointGraph<Pose>&,                         \
                                                           const std::vector<Closure>&);                    \
-  template void select_matches(JointGraph<Pose>&, const TeamPlacement<Pose>&, std::vector<Closure>&,       \
+  template void select_matches(JointGraph<Pose>&, const TeamAlignment<Pose>&, std::vector<Closure>&,       \
                                const CandidateList&, Pruning, const MatchParams&, const AoaMatchWeights*,  \
                                const std::optional<RadioCovariance<Pose>>&);                               \
-  template void optimise_matches_and_radio(JointGraph<Pose>&, std::vector<Closure>&,                       \
-                                           const TeamPlacement<Pose>&, const MatchParams&,                 \
+  template void optimize_matches_and_radio(JointGraph<Pose>&, std::vector<Closure>&,                       \
+                                           const TeamAlignment<Pose>&, const MatchParams&,                 \
                                            const MixtureParams&, const OptimizerParams&, const Progress&); \
-  template void optimise_with_matches(JointGraph<Pose>&, std::vector<Closure>&, const MatchParams&,        \
+  template void optimize_with_matches(JointGraph<Pose>&, std::vector<Closure>&, const MatchParams&,        \
                                       const OptimizerParams&, const Progress&);
 RADIOSLAM_MATCH_STAGE(SE2)
 RADIOSLAM_MATCH_STAGE(SE3)

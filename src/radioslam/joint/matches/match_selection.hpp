@@ -19,7 +19,7 @@
 #include "radioslam/joint/aoa/aoa_match_weights.hpp"
 #include "radioslam/joint/joint_graph.hpp"
 #include "radioslam/joint/overlap_stage.hpp"
-#include "radioslam/joint/team_placement.hpp"
+#include "radioslam/joint/team_alignment.hpp"
 
 namespace radioslam {
 
@@ -38,7 +38,7 @@ struct RadioCovariance {
 /// Nothing if the team was not placed by radio links or the estimate's covariances are singular.
 template <class Pose>
 std::optional<RadioCovariance<Pose>> radio_covariance(const JointGraph<Pose>& joint,
-                                                      const TeamPlacement<Pose>& placement,
+                                                      const TeamAlignment<Pose>& alignment,
                                                       const RadioAlignmentParams& params);
 
 /// The keyframes before the ends of every match between two robots.
@@ -46,28 +46,28 @@ template <class Pose>
 std::vector<KeyframePair> keyframes_of_matches(const JointGraph<Pose>& joint,
                                                const std::vector<Closure>& matches);
 
-/// Tests every match and adds factors for those accepted. `joint` must be optimised and placed. `candidates`:
+/// Tests every match and adds factors for those accepted. `joint` must be optimized and placed. `candidates`:
 /// all that are keyframes of a match. `angles`: scales each match's information, if given.
 template <class Pose>
-void select_matches(JointGraph<Pose>& joint, const TeamPlacement<Pose>& placement,
+void select_matches(JointGraph<Pose>& joint, const TeamAlignment<Pose>& alignment,
                     std::vector<Closure>& matches, const CandidateList& candidates, Pruning pruning,
                     const MatchParams& params, const AoaMatchWeights* angles = nullptr,
                     const std::optional<RadioCovariance<Pose>>& radio = {});
 
-/// As optimise_with_matches, for a team placed by radio links. Where the links between two robots contradict
-/// their matches, either may be wrong. So the team is optimised twice: with the radio's weights kept until
+/// As optimize_with_matches, for a team placed by radio links. Where the links between two robots contradict
+/// their matches, either may be wrong. So the team is optimized twice: with the radio's weights kept until
 /// the matches have joined, and with the links between such robots left out until then. Both recompute all
 /// weights afterwards, and the likelier solution is the result.
 template <class Pose>
-void optimise_matches_and_radio(JointGraph<Pose>& joint, std::vector<Closure>& matches,
-                                const TeamPlacement<Pose>& placement, const MatchParams& params,
+void optimize_matches_and_radio(JointGraph<Pose>& joint, std::vector<Closure>& matches,
+                                const TeamAlignment<Pose>& alignment, const MatchParams& params,
                                 const MixtureParams& mixture, const OptimizerParams& optimizer,
                                 const Progress& progress);
 
-/// Optimises with a graduated loss on the matches, which may still reject some; or, if `robust` is off, by
+/// Optimizes with a graduated loss on the matches, which may still reject some; or, if `robust` is off, by
 /// plain least squares with all of them.
 template <class Pose>
-void optimise_with_matches(JointGraph<Pose>& joint, std::vector<Closure>& matches, const MatchParams& params,
+void optimize_with_matches(JointGraph<Pose>& joint, std::vector<Closure>& matches, const MatchParams& params,
                            const OptimizerParams& optimizer, const Progress& progress);
 
 }  // namespace radioslam

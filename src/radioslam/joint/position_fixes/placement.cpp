@@ -2,15 +2,92 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string>
 #include <utility>
 
 #include "radioslam/consistency/chi_squared.hpp"
 #include "radioslam/geometry/alignment.hpp"
 #include "radioslam/graph/residuals.hpp"
-#include "radioslam/joint/position_fixes/inlier_growth.hpp"
 #include "radioslam/mission/odometry_edge.hpp"
 
 namespace radioslam {
+namespace {
+
+constexpr double kNowhere_m = std::numeric_limits<double>::infinity();
+
+/// Path length from every fix to the nearest other inlier, or to a seed while there are no inliers.
+template <class Pose>
+std::vector<double> distances_to_inliers(const FixInliers<Pose>& fixes) {
+  const auto& along_path = fixes.along_path;
+  std::vector<double> path_m(along_path.size(), kNowhere_m);
+  if (std::none_of(fixes.holds.begin(), fixes.holds.end(), [](bool holds) { return holds; })) {
+    for (std::size_t k = 0; k < along_path.size(); ++k)
+      for (const double seed_m : fixes.seeds_m)
+        path_m[k] = std::min(path_m[k], std::abs(along_path[k].path_m - seed_m));
+    return path_m;
+  }
+  double before_m = -kNowhere_m, after_m = kNowhere_m;
+  for (std::size_t k = 0; k < along_path.size(); ++k) {
+    path_m[k] = std::min(path_m[k], along_path[k].path_m - before_m);
+    if (fixes.holds[k]) before_m = along_path[k].path_m;
+  }
+  for (std::size_t k = along_path.size(); k-- > 0;) {
+    path_m[k] = std::min(path_m[k], after_m - along_path[k].path_m);
+    if (fixes.holds[k]) after_m = along_path[k].path_m;
+  }
+  return path_m;
+}
+
+/// Classifies a robot's fixes at the graph's values and sets their loss scales. Returns whether the inliers
+/// changed.
+template <class Pose>
+bool classify_fixes(const PoseGraph<Pose>& graph, FixInliers<Pose>& fixes, const FixGrowthParams& params) {
+  const std::vector<double> path_m = distances_to_inliers(fixes);
+  std::vector<bool> passes(path_m.size());
+  double min_m = kNowhere_m;
+  for (std::size_t k = 0; k < path_m.size(); ++k) {
+    const double sigma_m = fixes.along_path[k].sigma_m, drift_m = params.max_drift_ratio * path_m[k];
+    const double variance = sigma_m * sigma_m + drift_m * drift_m;
+    const double residual2 = residual(graph, fixes.factors[k]).squaredNorm();
+    passes[k] = residual2 <= params.gate * variance;
+    if (passes[k] && !fixes.holds[k]) min_m = std::min(min_m, drift_m);
+    fixes.factors[k].loss = {LossKind::kGemanMcClure,
+                             std::sqrt(params.gate * variance * fixes.factors[k].information(0, 0))};
+  }
+  bool changed = false;
+  for (std::size_t k = 0; k < path_m.size(); ++k) {
+    const double near_m = std::max(fixes.along_path[k].sigma_m, params.reach * min_m);
+    const bool holds = passes[k] && (fixes.holds[k] || params.max_drift_ratio * path_m[k] <= near_m);
+    changed = changed || holds != fixes.holds[k];
+    fixes.holds[k] = holds;
+  }
+  return changed;
+}
+
+}  // namespace
+
+template <class Pose>
+void grow_inliers(PoseGraph<Pose>& graph, std::vector<FixInliers<Pose>>& team, const FixGrowthParams& params,
+                  const OptimizerParams& optimizer) {
+  for (auto& fixes : team) fixes.holds.assign(fixes.factors.size(), false);
+  for (int round = 0; round < params.max_rounds; ++round) {
+    bool changed = false;
+    for (auto& fixes : team) changed = classify_fixes(graph, fixes, params) || changed;
+    if (!changed) return;
+    for (const auto& fixes : team)
+      for (std::size_t k = 0; k < fixes.factors.size(); ++k)
+        if (fixes.holds[k]) graph.positions.push_back(fixes.factors[k]);
+    optimize(graph, optimizer);
+    graph.positions.clear();
+  }
+}
+
+template void grow_inliers(PoseGraph<SE2>&, std::vector<FixInliers<SE2>>&, const FixGrowthParams&,
+                           const OptimizerParams&);
+template void grow_inliers(PoseGraph<SE3>&, std::vector<FixInliers<SE3>>&, const FixGrowthParams&,
+                           const OptimizerParams&);
+
 namespace {
 
 constexpr int kMaxReclassifications = 5;
@@ -260,12 +337,12 @@ KnownStarts starts_with_fixes(const Mission& mission, const TeamFixes<Pose>& fix
 
 template <class Pose>
 void constrain_by_fixes(JointGraph<Pose>& joint, TeamFixes<Pose>& fixes,
-                        const TeamPlacement<Pose>& placement) {
+                        const TeamAlignment<Pose>& alignment) {
   auto& positions = joint.team.graph.positions;
   for (std::size_t r = 0; r < fixes.size(); ++r) {
-    const auto component = static_cast<std::size_t>(placement.component[r]);
+    const auto component = static_cast<std::size_t>(alignment.component[r]);
     if (fixes[r].role != FixUse::kTooFew && fixes[r].role != FixUse::kNoBaseline) continue;
-    if (!placement.absolute[component] || !placement.placed[r]) continue;
+    if (!alignment.absolute[component] || !alignment.placed[r]) continue;
     fixes[r].role = FixUse::kConstrainsRobot;
     fixes[r].first_factor = positions.size();
     for (auto factor : fixes[r].factors) {
@@ -277,8 +354,8 @@ void constrain_by_fixes(JointGraph<Pose>& joint, TeamFixes<Pose>& fixes,
 }
 
 template <class Pose>
-void update_fix_inliers(JointGraph<Pose>& joint, const TeamFixes<Pose>& fixes,
-                        const OptimizerParams& optimizer, const Progress& progress) {
+void reclassify_fixes(JointGraph<Pose>& joint, const TeamFixes<Pose>& fixes, const OptimizerParams& optimizer,
+                      const Progress& progress) {
   for (int round = 0; round < kMaxReclassifications; ++round) {
     bool changed = false;
     for (const RobotFixes<Pose>& robot : fixes)
@@ -288,15 +365,72 @@ void update_fix_inliers(JointGraph<Pose>& joint, const TeamFixes<Pose>& fixes,
   }
 }
 
-#define RADIOSLAM_FIX_STAGE(Pose)                                                                     \
-  template TeamFixes<Pose> place_by_fixes(JointGraph<Pose>&, const Mission&, const FixParams&,        \
-                                          const OptimizerParams&);                                    \
-  template KnownStarts starts_with_fixes<Pose>(const Mission&, const TeamFixes<Pose>&);               \
-  template void constrain_by_fixes(JointGraph<Pose>&, TeamFixes<Pose>&, const TeamPlacement<Pose>&);  \
-  template void update_fix_inliers(JointGraph<Pose>&, const TeamFixes<Pose>&, const OptimizerParams&, \
-                                   const Progress&);
+#define RADIOSLAM_FIX_STAGE(Pose)                                                                    \
+  template TeamFixes<Pose> place_by_fixes(JointGraph<Pose>&, const Mission&, const FixParams&,       \
+                                          const OptimizerParams&);                                   \
+  template KnownStarts starts_with_fixes<Pose>(const Mission&, const TeamFixes<Pose>&);              \
+  template void constrain_by_fixes(JointGraph<Pose>&, TeamFixes<Pose>&, const TeamAlignment<Pose>&); \
+  template void reclassify_fixes(JointGraph<Pose>&, const TeamFixes<Pose>&, const OptimizerParams&,  \
+                                 const Progress&);
 RADIOSLAM_FIX_STAGE(SE2)
 RADIOSLAM_FIX_STAGE(SE3)
 #undef RADIOSLAM_FIX_STAGE
+
+namespace {
+
+/// Why a robot's fixes are not used; empty if they are.
+std::string reason_unused(FixUse role) {
+  switch (role) {
+    case FixUse::kNone:
+    case FixUse::kPlacesRobot:
+    case FixUse::kConstrainsRobot:
+      return "";
+    case FixUse::kTooFew:
+      return "too few to place it";
+    case FixUse::kNoBaseline:
+      return "too close together to give its heading";
+    case FixUse::kInconsistent:
+      return "too few of them agree with each other and the odometry";
+    case FixUse::kForeignFrame:
+      return "their frame is not that of the known starts";
+  }
+  return "";
+}
+
+std::string fixes_text(std::size_t count) {
+  return std::to_string(count) + (count == 1 ? " position fix" : " position fixes");
+}
+
+}  // namespace
+
+template <class Pose>
+void add_fix_results(RunResult& result, const JointGraph<Pose>& joint, const TeamFixes<Pose>& fixes) {
+  for (std::size_t r = 0; r < fixes.size(); ++r) {
+    const std::size_t all = fixes[r].factors.size() + fixes[r].outside;
+    if (all == 0) continue;
+    FixResult& robot = result.robots[r].fixes.emplace();
+    robot.unused = reason_unused(fixes[r].role);
+    robot.place = fixes[r].role == FixUse::kPlacesRobot;
+    robot.outside = fixes[r].outside;
+    for (std::size_t k = 0; k < fixes[r].factors.size() && takes_part(fixes[r].role); ++k)
+      ++(joint.team.graph.positions[fixes[r].first_factor + k].weight > 0 ? robot.used : robot.rejected);
+    result.counts["fixes"] += static_cast<double>(all);
+    result.counts["fixes_used"] += static_cast<double>(robot.used);
+    result.counts["fixes_rejected"] += static_cast<double>(robot.rejected);
+    if (!robot.unused.empty())
+      result.notes.push_back("robot " + result.robots[r].id + ": its " + fixes_text(all) +
+                             " are not used: " + robot.unused);
+    else if (robot.rejected > 0)
+      result.notes.push_back("robot " + result.robots[r].id + ": " + std::to_string(robot.rejected) + " of " +
+                             fixes_text(robot.used + robot.rejected) +
+                             " contradict the estimate and were rejected");
+    if (robot.outside > 0 && robot.unused.empty())
+      result.notes.push_back("robot " + result.robots[r].id + ": " + fixes_text(robot.outside) +
+                             " have no odometry at their time");
+  }
+}
+
+template void add_fix_results(RunResult&, const JointGraph<SE2>&, const TeamFixes<SE2>&);
+template void add_fix_results(RunResult&, const JointGraph<SE3>&, const TeamFixes<SE3>&);
 
 }  // namespace radioslam

@@ -19,11 +19,47 @@
 #include "radioslam/base/fields.hpp"
 #include "radioslam/base/progress.hpp"
 #include "radioslam/graph/optimizer.hpp"
+#include "radioslam/graph/pose_graph.hpp"
 #include "radioslam/joint/joint_graph.hpp"
-#include "radioslam/joint/team_placement.hpp"
+#include "radioslam/joint/team_alignment.hpp"
+#include "radioslam/results/results.hpp"
 #include "radioslam/team_frame/fix_alignment.hpp"
 
 namespace radioslam {
+
+// Inlier growth for position fixes: starts from seeds and follows the path, so that fixes near inliers are
+// classified first, while the odometry in between is still accurate.
+//
+// Optimizing with all fixes at once would pull the trajectory towards a run of wrong fixes until it fits
+// them. Instead, each round fits the trajectory to the current inliers (Geman-McClure loss); a fix then
+// passes if
+//   r^2 <= gate (sigma^2 + u^2),   u = max_drift_ratio * path length to the nearest inlier.
+// Inliers that do not pass are removed. Fixes that pass are added if u < sigma, or if u <= reach times the
+// smallest u of those that pass: a gap in the fixes is crossed from its edge. Ends when the inliers no longer
+// change, or after max_rounds. Cost: one optimization of all robots per round.
+
+/// A robot's fixes in temporal order, with their inliers.
+template <class Pose>
+struct FixInliers {
+  std::vector<PositionFactor<Pose>> factors;
+  std::vector<FixAlongPath> along_path;  ///< same order as factors
+  std::vector<double> seeds_m;           ///< path lengths at which the initial values are right
+  std::vector<bool> holds;               ///< is an inlier; initially none is
+};
+
+/// Parameters of the growth only.
+struct FixGrowthParams {
+  double gate = 9.21;             ///< chi-squared
+  double max_drift_ratio = 0.03;  ///< odometry drift per path length
+  double reach = 1.25;            ///< see above
+  int max_rounds = 200;
+};
+
+/// Fits graph.poses and drifts to the inliers, and finds these. graph.positions must be empty and is left
+/// empty. Initial values must be close to the fixes at every robot's seeds.
+template <class Pose>
+void grow_inliers(PoseGraph<Pose>& graph, std::vector<FixInliers<Pose>>& team, const FixGrowthParams& params,
+                  const OptimizerParams& optimizer);
 
 struct FixParams {
   double correlation_s = 1;
@@ -35,21 +71,16 @@ struct FixParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"correlation_s", "s", 0, 1e4,
-                "time within which the errors of fixes count as one; higher values reduce their weight"},
-          self.correlation_s);
-    visit(Field{"gate_probability", "", 0.5, 0.999999,
-                "chi-squared quantile beyond which a fix is rejected; higher values keep more fixes but "
-                "admit false ones"}
-              .basic(),
-          self.gate_probability);
-    visit(Field{"min_fixes", "", 3, 1e6, "smallest number of consistent fixes that place a robot"}.basic(),
-          self.min_fixes);
-    visit(Field{"min_inlier_ratio", "", 0, 1, "smallest inlier ratio of a robot's fixes for them to be used"},
-          self.min_inlier_ratio);
-    visit(Field{"max_sigma_yaw_rad", "rad", 0.001, 3,
-                "largest standard deviation of the heading that fixes must determine to place a robot"},
-          self.max_sigma_yaw_rad);
+    RADIOSLAM_FIELD(correlation_s, "s", 0, 1e4,
+                    "time within which the errors of fixes count as one; higher values reduce their weight");
+    RADIOSLAM_BASIC_FIELD(gate_probability, "", 0.5, 0.999999,
+                          "chi-squared quantile beyond which a fix is rejected; higher values keep more "
+                          "fixes but admit false ones");
+    RADIOSLAM_BASIC_FIELD(min_fixes, "", 3, 1e6, "smallest number of consistent fixes that place a robot");
+    RADIOSLAM_FIELD(min_inlier_ratio, "", 0, 1,
+                    "smallest inlier ratio of a robot's fixes for them to be used");
+    RADIOSLAM_FIELD(max_sigma_yaw_rad, "rad", 0.001, 3,
+                    "largest standard deviation of the heading that fixes must determine to place a robot");
     FixAlignmentParams::visit_fields(self.alignment, visit);
   }
 };
@@ -100,11 +131,17 @@ KnownStarts starts_with_fixes(const Mission& mission, const TeamFixes<Pose>& fix
 /// Adds fixes of robots that other measurements have put into the common frame.
 template <class Pose>
 void constrain_by_fixes(JointGraph<Pose>& joint, TeamFixes<Pose>& fixes,
-                        const TeamPlacement<Pose>& placement);
+                        const TeamAlignment<Pose>& alignment);
 
-/// Reclassifies all fixes in the optimised graph, and optimises again until their classes no longer change.
+/// Reclassifies all fixes in the optimized graph, and optimizes again until their classes no longer change.
 template <class Pose>
-void update_fix_inliers(JointGraph<Pose>& joint, const TeamFixes<Pose>& fixes,
-                        const OptimizerParams& optimizer, const Progress& progress);
+void reclassify_fixes(JointGraph<Pose>& joint, const TeamFixes<Pose>& fixes, const OptimizerParams& optimizer,
+                      const Progress& progress);
+
+// Results of position fixes: counts and notes of a run.
+
+/// Adds the robots' fixes, their counts, and notes on those that are not used.
+template <class Pose>
+void add_fix_results(RunResult& result, const JointGraph<Pose>& joint, const TeamFixes<Pose>& fixes);
 
 }  // namespace radioslam

@@ -29,49 +29,36 @@ struct ScanLoopParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"enabled", "", 0, 1, "whether loop closures within each robot are searched by scan matching"}
-              .basic(),
-          self.enabled);
-    visit(Field{"radius_ratio", "", 0.01, 10,
-                "distance at which two keyframes' views overlap, as a fraction of the scan's median range"},
-          self.radius_ratio);
-    visit(Field{"min_path_m", "m", 0, 1e6, "smallest path length between the two keyframes of a closure"}
-              .basic(),
-          self.min_path_m);
-    visit(
-        Field{
-            "stride_m", "m", 0, 1e4,
-            "path length between keyframes that are tried; lower values find more closures but take longer"},
-        self.stride_m);
-    visit(Field{"submap_m", "m", 0, 1e3,
-                "path length to either side of the earlier keyframe that its submap covers"},
-          self.submap_m);
-    visit(Field{"sigmas", "", 0, 10,
-                "standard deviations by which two keyframes may be closer than estimated; higher values try "
-                "more pairs"},
-          self.sigmas);
-    visit(Field{"known_sigma_m", "m", 0, 100,
-                "standard deviation of the relative position below which a pair is not tried"},
-          self.known_sigma_m);
-    visit(Field{"min_fit_ratio", "", 0, 1,
-                "smallest inlier ratio of a closure, as a fraction of the nominal one of odometry"},
-          self.min_fit_ratio);
-    visit(Field{"max_alternative_ratio", "", 0, 1,
-                "largest inlier ratio of an alternative pose, as a fraction of the best; above it, a closure "
-                "is ambiguous"},
-          self.max_alternative_ratio);
-    visit(
-        Field{
-            "gate", "", 0, 1e6,
-            "largest squared Mahalanobis distance of a closure from the estimate; chi-squared of 6, 99.9 %"},
-        self.gate);
-    visit(Field{"min_sigma_m", "m", 1e-6, 10,
-                "lower bound on the standard deviation of a closure's translation, per axis"},
-          self.min_sigma_m);
-    visit(Field{"min_sigma_rad", "rad", 1e-6, 3,
-                "lower bound on the standard deviation of a closure's rotation, per axis"},
-          self.min_sigma_rad);
-    visit(Field{"rounds", "", 1, 100, "largest number of rounds of search and optimisation"}, self.rounds);
+    RADIOSLAM_BASIC_FIELD(enabled, "", 0, 1,
+                          "whether loop closures within each robot are searched by scan matching");
+    RADIOSLAM_FIELD(
+        radius_ratio, "", 0.01, 10,
+        "distance at which two keyframes' views overlap, as a fraction of the scan's median range");
+    RADIOSLAM_BASIC_FIELD(min_path_m, "m", 0, 1e6,
+                          "smallest path length between the two keyframes of a closure");
+    RADIOSLAM_FIELD(
+        stride_m, "m", 0, 1e4,
+        "path length between keyframes that are tried; lower values find more closures but take longer");
+    RADIOSLAM_FIELD(submap_m, "m", 0, 1e3,
+                    "path length to either side of the earlier keyframe that its submap covers");
+    RADIOSLAM_FIELD(sigmas, "", 0, 10,
+                    "standard deviations by which two keyframes may be closer than estimated; higher values "
+                    "try more pairs");
+    RADIOSLAM_FIELD(known_sigma_m, "m", 0, 100,
+                    "standard deviation of the relative position below which a pair is not tried");
+    RADIOSLAM_FIELD(min_fit_ratio, "", 0, 1,
+                    "smallest inlier ratio of a closure, as a fraction of the nominal one of odometry");
+    RADIOSLAM_FIELD(max_alternative_ratio, "", 0, 1,
+                    "largest inlier ratio of an alternative pose, as a fraction of the best; above it, a "
+                    "closure is ambiguous");
+    RADIOSLAM_FIELD(
+        gate, "", 0, 1e6,
+        "largest squared Mahalanobis distance of a closure from the estimate; chi-squared of 6, 99.9 %");
+    RADIOSLAM_FIELD(min_sigma_m, "m", 1e-6, 10,
+                    "lower bound on the standard deviation of a closure's translation, per axis");
+    RADIOSLAM_FIELD(min_sigma_rad, "rad", 1e-6, 3,
+                    "lower bound on the standard deviation of a closure's rotation, per axis");
+    RADIOSLAM_FIELD(rounds, "", 1, 100, "largest number of rounds of search and optimization");
   }
 };
 

@@ -36,8 +36,8 @@ std::vector<ScanLoop> verify(const std::vector<LoopCandidate>& candidates,
   return loops;
 }
 
-/// Optimises with all accepted closures and rejects those that contradict the others.
-void optimise_and_prune(PoseGraph<SE3>& graph, std::vector<ScanLoop>& loops, const Progress& progress) {
+/// Optimizes with all accepted closures and rejects those that contradict the others.
+void optimize_and_prune(PoseGraph<SE3>& graph, std::vector<ScanLoop>& loops, const Progress& progress) {
   graph.relative_poses.resize(graph.poses.size() - 1);
   std::vector<std::size_t> loop_of_factor;
   for (std::size_t k = 0; k < loops.size(); ++k) {
@@ -76,7 +76,7 @@ ScanLoops close_scan_loops(const ScanKeyframes& keyframes, const ScanLoopParams&
     if (std::none_of(tried.begin(), tried.end(),
                      [](const ScanLoop& loop) { return loop.status == LoopStatus::kAccepted; }))
       break;
-    optimise_and_prune(graph, result.loops, progress);
+    optimize_and_prune(graph, result.loops, progress);
   }
   result.poses = std::move(graph.poses);
   return result;

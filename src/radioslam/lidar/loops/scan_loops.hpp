@@ -7,7 +7,7 @@
 //                over the uncertainty (pose_search.hpp)
 //   tests        the inlier ratio is close to the nominal one, no distinct pose has a similar one, and the
 //                closure lies within the gate of the estimate
-//   estimate     graduated optimisation of the robot's pose graph rejects closures that contradict others;
+//   estimate     graduated optimization of the robot's pose graph rejects closures that contradict others;
 //                the smaller covariances lead to new candidates in the next round
 #pragma once
 
@@ -23,7 +23,7 @@ namespace radioslam {
 
 struct ScanLoops {
   std::vector<ScanLoop> loops;  ///< all candidates that were tried
-  std::vector<SE3> poses;       ///< of the keyframes, optimised with the accepted closures
+  std::vector<SE3> poses;       ///< of the keyframes, optimized with the accepted closures
 };
 
 ScanLoops close_scan_loops(const ScanKeyframes& keyframes, const ScanLoopParams& params,

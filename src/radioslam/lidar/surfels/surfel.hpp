@@ -53,32 +53,23 @@ struct SurfelParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"neighbours", "", 4, 50,
-                "number of nearest points from which a surfel's covariance is computed"},
-          self.neighbours);
-    visit(Field{"min_neighbours", "", 4, 50,
-                "smallest number of neighbours of a surfel with a normal, for scanners in space"},
-          self.min_neighbours);
-    visit(Field{"max_distance_spacings", "", 1, 20, "largest distance of a neighbour, in point spacings"},
-          self.max_distance_spacings);
-    visit(Field{"flatness", "", 1, 1000,
-                "ratio to the smallest variance from which a variance is taken to be along a surface"},
-          self.flatness);
-    visit(
-        Field{"sigma_along_m", "m", 1e-3, 30,
-              "largest standard deviation of a surfel along its surface, where it hardly constrains motion"},
-        self.sigma_along_m);
-    visit(Field{"sigma_range_m", "m", 1e-4, 1,
-                "standard deviation of a single range measurement; data sheets say 2 to 3 cm"}
-              .basic(),
-          self.sigma_range_m);
-    visit(Field{"line_slope_rad", "rad", 1e-3, 1.5,
-                "standard deviation of the slope of ground on which a beam draws a level line"},
-          self.line_slope_rad);
-    visit(Field{"clearly_flat", "", 1, 1000,
-                "ratio to the smallest variance from which a neighbourhood is certainly planar; higher "
-                "values trust fewer"},
-          self.clearly_flat);
+    RADIOSLAM_FIELD(neighbours, "", 4, 50,
+                    "number of nearest points from which a surfel's covariance is computed");
+    RADIOSLAM_FIELD(min_neighbours, "", 4, 50,
+                    "smallest number of neighbours of a surfel with a normal, for scanners in space");
+    RADIOSLAM_FIELD(max_distance_spacings, "", 1, 20, "largest distance of a neighbour, in point spacings");
+    RADIOSLAM_FIELD(flatness, "", 1, 1000,
+                    "ratio to the smallest variance from which a variance is taken to be along a surface");
+    RADIOSLAM_FIELD(
+        sigma_along_m, "m", 1e-3, 30,
+        "largest standard deviation of a surfel along its surface, where it hardly constrains motion");
+    RADIOSLAM_BASIC_FIELD(sigma_range_m, "m", 1e-4, 1,
+                          "standard deviation of a single range measurement; data sheets say 2 to 3 cm");
+    RADIOSLAM_FIELD(line_slope_rad, "rad", 1e-3, 1.5,
+                    "standard deviation of the slope of ground on which a beam draws a level line");
+    RADIOSLAM_FIELD(clearly_flat, "", 1, 1000,
+                    "ratio to the smallest variance from which a neighbourhood is certainly planar; higher "
+                    "values trust fewer");
   }
 };
 

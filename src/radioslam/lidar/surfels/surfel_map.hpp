@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "radioslam/lidar/surfels/surfel.hpp"
-#include "radioslam/lidar/surfels/voxel_key.hpp"
+#include "radioslam/lidar/surfels/voxel_grid.hpp"
 
 namespace radioslam {
 

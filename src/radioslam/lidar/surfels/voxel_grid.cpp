@@ -2,10 +2,8 @@
 
 #include <bit>
 #include <cstddef>
-#include <cstdint>
 
 #include "radioslam/base/check.hpp"
-#include "radioslam/lidar/surfels/voxel_key.hpp"
 
 namespace radioslam {
 namespace {

@@ -2,15 +2,35 @@
 // trajectory, and the grid of sources that the array's extent calls for.
 #pragma once
 
+#include <numbers>
 #include <optional>
 #include <vector>
 
 #include "radioslam/geometry/se3.hpp"
 #include "radioslam/geometry/trajectory.hpp"
 #include "radioslam/radio/aoa/aoa_types.hpp"
-#include "radioslam/radio/aoa/source_grid.hpp"
+#include "radioslam/radio/aoa/synthetic_array.hpp"
 
 namespace radioslam {
+
+/// Grid of wave sources over which profiles are computed: azimuth x elevation x wavefront curvature.
+struct WaveGrid {
+  int azimuths = 360;  ///< evenly spaced, from -pi
+  std::vector<double> elevations_rad{0};
+  std::vector<double> curvatures_per_m{0};
+
+  double azimuth_rad(int k) const { return -std::numbers::pi + 2 * std::numbers::pi * k / azimuths; }
+  std::size_t size() const {
+    return static_cast<std::size_t>(azimuths) * elevations_rad.size() * curvatures_per_m.size();
+  }
+  /// Index order is elevation, curvature, azimuth; azimuth varies fastest.
+  WaveSource source(std::size_t index) const {
+    const auto around = static_cast<std::size_t>(azimuths);
+    const std::size_t row = index / around;
+    return {azimuth_rad(static_cast<int>(index % around)), elevations_rad[row / curvatures_per_m.size()],
+            curvatures_per_m[row % curvatures_per_m.size()]};
+  }
+};
 
 /// Which directions an array resolves, by the phase differences over its extent along each axis: an axis with
 /// less than a fraction of a radian is dominated by the trajectory's errors.

@@ -39,20 +39,16 @@ struct AoaLikelihoodParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"form", "", 0, 0,
-                "weight of an angle error; gaussian: in its standard deviations; capped: at 1, reproduces "
-                "Wang et al. (eq. 5)",
-                "gaussian|capped"},
-          self.form);
-    visit(
-        Field{
-            "threshold_rad", "rad", 0, 3.2,
-            "angle error below which a relative pose keeps its full information; 8.5 degrees in Wang et al."},
-        self.threshold_rad);
-    visit(
-        Field{"sigma_antenna_position_m", "m", 0, 100,
-              "standard deviation of antenna positions; divided by the distance, it adds to the angle error"},
-        self.sigma_antenna_position_m);
+    RADIOSLAM_FIELD(form, "", 0, 0,
+                    "weight of an angle error; gaussian: in its standard deviations; capped: at 1, "
+                    "reproduces Wang et al. (eq. 5)",
+                    "gaussian|capped");
+    RADIOSLAM_FIELD(
+        threshold_rad, "rad", 0, 3.2,
+        "angle error below which a relative pose keeps its full information; 8.5 degrees in Wang et al.");
+    RADIOSLAM_FIELD(
+        sigma_antenna_position_m, "m", 0, 100,
+        "standard deviation of antenna positions; divided by the distance, it adds to the angle error");
   }
 };
 

@@ -33,39 +33,32 @@ struct AoaParams {
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
     TwoWayParams::visit_fields(self.two_way, visit);
-    visit(Field{"profile", "", 0, 0, "method that computes the AoA profile", "bartlett|music|sparse"}.basic(),
-          self.profile);
-    visit(Field{"azimuths", "", 36, 3600,
-                "number of azimuths of the profile's grid; peaks are refined below its step"},
-          self.azimuths);
-    visit(Field{"max_elevation_rad", "rad", 0, 1.57,
-                "largest elevation searched, upwards and, where the motion is not planar, downwards"}
-              .basic(),
-          self.max_elevation_rad);
-    visit(Field{"min_source_distance_m", "m", 0.5, 1e6,
-                "smallest source distance for which spherical wavefronts are tried"},
-          self.min_source_distance_m);
-    visit(Field{"subarray_m", "m", 0.05, 1e6,
-                "length of the subarrays whose profiles are added; higher values resolve better but tolerate "
-                "less odometry drift"},
-          self.subarray_m);
-    visit(Field{"min_step_m", "m", 0, 0.1, "smallest antenna displacement between two packets that are used"},
-          self.min_step_m);
-    visit(Field{"min_aperture_m", "m", 0.01, 100, "shortest antenna path for which directions are estimated"},
-          self.min_aperture_m);
-    visit(Field{"max_aperture_m", "m", 0.1, 30,
-                "largest aperture for which directions are estimated; computing time grows with its cube"},
-          self.max_aperture_m);
-    visit(Field{"model_paths", "", 1, 32,
-                "largest number of paths in the multipath model that packet delays are estimated against"},
-          self.model_paths);
-    visit(Field{"model_passes", "", 0, 20,
-                "number of rounds that fit the multipath model and align the packet delays to it"},
-          self.model_passes);
-    visit(Field{"peaks", "", 1, 16, "largest number of directions per measurement"}.basic(), self.peaks);
-    visit(Field{"sigma_floor_rad", "rad", 0, 1,
-                "standard deviation added to every direction for errors of antenna positions and clocks"},
-          self.sigma_floor_rad);
+    RADIOSLAM_BASIC_FIELD(profile, "", 0, 0, "method that computes the AoA profile", "bartlett|music|sparse");
+    RADIOSLAM_FIELD(azimuths, "", 36, 3600,
+                    "number of azimuths of the profile's grid; peaks are refined below its step");
+    RADIOSLAM_BASIC_FIELD(
+        max_elevation_rad, "rad", 0, 1.57,
+        "largest elevation searched, upwards and, where the motion is not planar, downwards");
+    RADIOSLAM_FIELD(min_source_distance_m, "m", 0.5, 1e6,
+                    "smallest source distance for which spherical wavefronts are tried");
+    RADIOSLAM_FIELD(subarray_m, "m", 0.05, 1e6,
+                    "length of the subarrays whose profiles are added; higher values resolve better but "
+                    "tolerate less odometry drift");
+    RADIOSLAM_FIELD(min_step_m, "m", 0, 0.1,
+                    "smallest antenna displacement between two packets that are used");
+    RADIOSLAM_FIELD(min_aperture_m, "m", 0.01, 100,
+                    "shortest antenna path for which directions are estimated");
+    RADIOSLAM_FIELD(
+        max_aperture_m, "m", 0.1, 30,
+        "largest aperture for which directions are estimated; computing time grows with its cube");
+    RADIOSLAM_FIELD(
+        model_paths, "", 1, 32,
+        "largest number of paths in the multipath model that packet delays are estimated against");
+    RADIOSLAM_FIELD(model_passes, "", 0, 20,
+                    "number of rounds that fit the multipath model and align the packet delays to it");
+    RADIOSLAM_BASIC_FIELD(peaks, "", 1, 16, "largest number of directions per measurement");
+    RADIOSLAM_FIELD(sigma_floor_rad, "rad", 0, 1,
+                    "standard deviation added to every direction for errors of antenna positions and clocks");
   }
 };
 

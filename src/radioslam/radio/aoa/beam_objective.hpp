@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "radioslam/radio/aoa/synthetic_array.hpp"
-#include "radioslam/radio/channel/subcarrier_slopes.hpp"
+#include "radioslam/radio/channel/two_way_channel.hpp"
 
 namespace radioslam {
 

@@ -9,9 +9,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "radioslam/radio/aoa/source_grid.hpp"
+#include "radioslam/radio/aoa/aoa_array.hpp"
 #include "radioslam/radio/aoa/synthetic_array.hpp"
-#include "radioslam/radio/channel/subcarrier_slopes.hpp"
+#include "radioslam/radio/channel/two_way_channel.hpp"
 
 namespace radioslam {
 

@@ -15,18 +15,14 @@ struct CsiStageParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"window_m", "m", 0.1, 100, "path length of the receiver per AoA measurement"}.basic(),
-          self.window_m);
-    visit(Field{"window_turn_rad", "rad", 0.1, 7,
-                "rotation of the receiver per AoA measurement with two antennas"},
-          self.window_turn_rad);
-    visit(Field{"still_m", "m", 0, 1,
-                "largest displacement of the transmitter during a measurement with a single receive antenna"},
-          self.still_m);
-    visit(Field{"clock_offset", "", 0, 0,
-                "estimation of each robot's CSI clock offset, corrected where it is significant"}
-              .basic(),
-          self.clock_offset);
+    RADIOSLAM_BASIC_FIELD(window_m, "m", 0.1, 100, "path length of the receiver per AoA measurement");
+    RADIOSLAM_FIELD(window_turn_rad, "rad", 0.1, 7,
+                    "rotation of the receiver per AoA measurement with two antennas");
+    RADIOSLAM_FIELD(
+        still_m, "m", 0, 1,
+        "largest displacement of the transmitter during a measurement with a single receive antenna");
+    RADIOSLAM_BASIC_FIELD(clock_offset, "", 0, 0,
+                          "estimation of each robot's CSI clock offset, corrected where it is significant");
     AoaParams::visit_fields(self.arrival, visit);
   }
 };

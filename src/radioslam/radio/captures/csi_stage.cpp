@@ -5,7 +5,6 @@
 
 #include "radioslam/base/parallel.hpp"
 #include "radioslam/radio/captures/csi_aoa.hpp"
-#include "radioslam/radio/captures/csi_notes.hpp"
 #include "radioslam/radio/captures/csi_tracks.hpp"
 
 namespace radioslam {

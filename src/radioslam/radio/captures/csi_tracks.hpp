@@ -8,16 +8,67 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "radioslam/mission/mission.hpp"
+#include "radioslam/radio/aoa/aoa_estimate.hpp"
 #include "radioslam/radio/captures/clock_offset.hpp"
 #include "radioslam/radio/captures/csi_params.hpp"
-#include "radioslam/radio/captures/csi_windows.hpp"
 
 namespace radioslam {
+
+// Notes for the user about CSI captures: which were ignored, which were shifted to the odometry's clock, and
+// where no angle of arrival was measured, with the reason.
+
+std::string explain(TwoWayFailure reason);
+std::string explain(AoaFailure reason);
+
+/// Notes a missing WiFi channel, a missing MAC address, and packets whose sender is no robot of the mission.
+void note_missing_csi(const Mission& mission, const Robot& robot, const CsiCapture& capture,
+                      std::vector<std::string>& notes);
+
+/// Note that the robot's captures were shifted to its odometry's clock.
+std::string note_of_clock(const std::string& robot, const ClockOffset& clock);
+
+/// Number of windows without an AoA estimate, by receiver, transmitter and reason.
+using CsiRefusals = std::map<std::tuple<std::size_t, std::size_t, std::string>, std::size_t>;
+
+void note_refusals(const Mission& mission, const CsiRefusals& refusals, std::vector<std::string>& notes);
+
+// Merges a robot's CSI captures into one in time order, and extracts time ranges of it.
+//
+// Captures whose subcarriers differ from the first one's are skipped with a note. Merging sorts the packets;
+// a time range is found in logarithmic time and copied.
+
+/// A robot's packets in time order; captures with other subcarriers than the first are skipped.
+CsiCapture merge_captures(const CsiRecording& csi, const std::string& robot, std::vector<std::string>& notes);
+
+/// The packets between `begin` and `end`, both included.
+CsiCapture captured_during(const CsiCapture& capture, Stamp begin, Stamp end);
+
+/// Carrier frequency by the mission, else by the capture; 0 where neither has it.
+double carrier_hz_of(const CsiRecording& csi, const CsiCapture& capture);
+
+/// Time windows for AoA measurements: windows of a receiver's path or rotation, and when a transmitter stood
+/// still.
+struct TimeWindow {
+  Stamp begin, end;
+};
+
+/// Windows in which the body stayed within `reach_m` of its position at their begin.
+std::vector<TimeWindow> still_times(const Trajectory<SE3>& odometry, double reach_m);
+
+/// Windows of equal path length within `during`, each about `length_m` long; none if the path is shorter than
+/// `min_m`.
+std::vector<TimeWindow> path_windows(const Trajectory<SE3>& odometry, const TimeWindow& during,
+                                     double length_m, double min_m);
+
+/// Windows in which the body turned by about `turn_rad`, however it moved.
+std::vector<TimeWindow> turns_of(const Trajectory<SE3>& odometry, double turn_rad);
 
 /// A measurement to attempt.
 struct CsiAttempt {

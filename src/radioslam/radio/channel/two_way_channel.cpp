@@ -3,15 +3,144 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <cstdint>
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <vector>
 
+#include "radioslam/base/parabola.hpp"
 #include "radioslam/base/stamp_intervals.hpp"
 #include "radioslam/base/units.hpp"
 #include "radioslam/geometry/linear_algebra.hpp"
 
 namespace radioslam {
+DelayTable::DelayTable(const std::vector<double>& subcarrier_hz, double max_s, double step_s)
+    : max_s_(max_s),
+      step_s_(step_s),
+      turns_(static_cast<Eigen::Index>(subcarrier_hz.size()),
+             2 * static_cast<Eigen::Index>(std::ceil(max_s / step_s)) + 1) {
+  for (Eigen::Index s = 0; s < turns_.rows(); ++s)
+    for (Eigen::Index t = 0; t < turns_.cols(); ++t)
+      turns_(s, t) =
+          std::polar(1.0, 2 * std::numbers::pi * subcarrier_hz[static_cast<std::size_t>(s)] * delay_s(t));
+}
+
+double DelayTable::best_delay_s(const Eigen::RowVectorXcd& product) const {
+  const Eigen::RowVectorXd size = (product * turns_).cwiseAbs();
+  Eigen::Index best = 0;
+  size.maxCoeff(&best);
+  if (best == 0 || best + 1 == size.cols()) return delay_s(best);
+  return delay_s(best) + step_s_ * parabola_peak(size[best - 1], size[best], size[best + 1]);
+}
+
+void advance(Eigen::Ref<Eigen::RowVectorXcd> row, const std::vector<double>& subcarrier_hz, double delay_s) {
+  for (Eigen::Index s = 0; s < row.size(); ++s)
+    row[s] *= std::polar(1.0, 2 * std::numbers::pi * subcarrier_hz[static_cast<std::size_t>(s)] * delay_s);
+}
+
+namespace {
+
+void align_row(Eigen::MatrixXcd& channel, Eigen::Index k, const Eigen::RowVectorXcd& reference,
+               const std::vector<double>& subcarrier_hz, const DelayTable& delays) {
+  Eigen::RowVectorXcd row = channel.row(k);
+  advance(row, subcarrier_hz, delays.best_delay_s(row.cwiseProduct(reference.conjugate())));
+  channel.row(k) = row;
+}
+
+}  // namespace
+
+void align_to_predecessors(Eigen::MatrixXcd& channel, const std::vector<double>& subcarrier_hz,
+                           const DelayTable& delays, double newest_ratio) {
+  Eigen::RowVectorXcd reference = Eigen::RowVectorXcd::Ones(channel.cols());
+  for (Eigen::Index k = 0; k < channel.rows(); ++k) {
+    align_row(channel, k, reference, subcarrier_hz, delays);
+    const double size = channel.row(k).cwiseAbs().mean();
+    if (size == 0) continue;
+    const Eigen::RowVectorXcd unit = channel.row(k) / size;
+    reference = k == 0 ? unit : Eigen::RowVectorXcd((1 - newest_ratio) * reference + newest_ratio * unit);
+  }
+}
+
+void align_to_model(Eigen::MatrixXcd& channel, const std::vector<double>& subcarrier_hz,
+                    const DelayTable& delays, const Eigen::MatrixXcd& model) {
+  for (Eigen::Index k = 0; k < channel.rows(); ++k)
+    align_row(channel, k, model.row(k), subcarrier_hz, delays);
+}
+
+namespace {
+
+struct Link {
+  float agreement;  ///< Re(h_a conj h_b)
+  std::uint32_t a, b;
+};
+
+/// Disjoint sets of cells, each cell with its sign relative to the root of its set.
+class SignedSets {
+ public:
+  explicit SignedSets(std::size_t count) : parent_(count), sign_(count, 1) {
+    std::iota(parent_.begin(), parent_.end(), std::uint32_t{0});
+  }
+
+  /// Root of the cell's set, and the cell's sign relative to it.
+  std::pair<std::uint32_t, signed char> find(std::uint32_t cell) {
+    std::uint32_t root = cell;
+    signed char sign = 1;
+    for (; parent_[root] != root; root = parent_[root]) sign = static_cast<signed char>(sign * sign_[root]);
+    const signed char whole = sign;
+    while (parent_[cell] != root && cell != root) {
+      const std::uint32_t next = parent_[cell];
+      const auto rest = static_cast<signed char>(sign * sign_[cell]);
+      parent_[cell] = root;
+      sign_[cell] = sign;
+      sign = rest;
+      cell = next;
+    }
+    return {root, whole};
+  }
+
+  void join(const Link& link) {
+    const auto [root_a, sign_a] = find(link.a);
+    const auto [root_b, sign_b] = find(link.b);
+    if (root_a == root_b) return;
+    parent_[root_b] = root_a;
+    sign_[root_b] = static_cast<signed char>((link.agreement >= 0 ? 1 : -1) * sign_a * sign_b);
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+  std::vector<signed char> sign_;  ///< relative to the parent
+};
+
+}  // namespace
+
+Eigen::MatrixXcd square_root_channel(const Eigen::MatrixXcd& product) {
+  Eigen::MatrixXcd h = product.cwiseSqrt();
+  std::vector<Link> links;
+  const auto cell = [&](Eigen::Index k, Eigen::Index s) {
+    return static_cast<std::uint32_t>(k * h.cols() + s);
+  };
+  const auto link = [&](Eigen::Index k, Eigen::Index s, Eigen::Index later, Eigen::Index above) {
+    if (k + later >= h.rows() || s + above >= h.cols()) return;
+    links.push_back({static_cast<float>((h(k, s) * std::conj(h(k + later, s + above))).real()), cell(k, s),
+                     cell(k + later, s + above)});
+  };
+  for (Eigen::Index k = 0; k < h.rows(); ++k)
+    for (Eigen::Index s = 0; s < h.cols(); ++s) {
+      link(k, s, 1, 0);
+      link(k, s, 2, 0);
+      link(k, s, 0, 1);
+    }
+  std::stable_sort(links.begin(), links.end(), [](const Link& a, const Link& b) {
+    return std::abs(a.agreement) > std::abs(b.agreement);
+  });
+  SignedSets sets(static_cast<std::size_t>(h.size()));
+  for (const Link& one : links) sets.join(one);
+  for (Eigen::Index k = 0; k < h.rows(); ++k)
+    for (Eigen::Index s = 0; s < h.cols(); ++s) h(k, s) *= sets.find(cell(k, s)).second;
+  return h;
+}
+
 namespace {
 
 constexpr std::size_t kMinExchanges = 3;

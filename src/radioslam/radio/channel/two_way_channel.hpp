@@ -23,6 +23,56 @@
 
 namespace radioslam {
 
+// Packet detection delays: estimates and removes the linear phase slope over the subcarriers.
+//
+// A card detects each packet slightly early or late, which adds a delay of its own to the channel. It is
+// estimated against a reference m,
+//   t_k = argmax_t |sum_s h(k, s) conj(m(k, s)) exp(j 2 pi f_s t)|,
+// over a table of delays with parabolic interpolation. Only the paths' relative delays remain.
+
+/// exp(j 2 pi f_s t) for evenly spaced delays t from -max_s to max_s.
+class DelayTable {
+ public:
+  DelayTable(const std::vector<double>& subcarrier_hz, double max_s, double step_s);
+
+  /// subcarriers x delays
+  const Eigen::MatrixXcd& turns() const { return turns_; }
+  double delay_s(Eigen::Index column) const { return -max_s_ + step_s_ * static_cast<double>(column); }
+  /// Delay at which |product turns()| is largest, interpolated between the columns.
+  double best_delay_s(const Eigen::RowVectorXcd& product) const;
+
+ private:
+  double max_s_, step_s_;
+  Eigen::MatrixXcd turns_;
+};
+
+/// Advances a row by a delay: h(s) exp(j 2 pi f_s t).
+void advance(Eigen::Ref<Eigen::RowVectorXcd> row, const std::vector<double>& subcarrier_hz, double delay_s);
+
+/// Weight of the newest row in the running mean that the next row is aligned with: an averaging time in which
+/// a walking robot moves a fifth of a wavelength, at 120 packets per second.
+inline constexpr double kNewestRatio = 0.15;
+
+/// Aligns each row with an exponential mean of the rows before it, the latest with weight `newest_ratio`.
+void align_to_predecessors(Eigen::MatrixXcd& channel, const std::vector<double>& subcarrier_hz,
+                           const DelayTable& delays, double newest_ratio);
+
+/// Aligns each row with the same row of `model`.
+void align_to_model(Eigen::MatrixXcd& channel, const std::vector<double>& subcarrier_hz,
+                    const DelayTable& delays, const Eigen::MatrixXcd& model);
+
+// One-way channel as the square root of the two-way product.
+//
+// By reciprocity the product is h^2 (docs/decisions): under multipath it contains the product of every
+// pair of paths, while its square root contains the paths only, up to a sign per exchange and subcarrier. As
+// the channel changes little between neighbours, their relative signs are known; they are propagated along a
+// maximum spanning tree of |Re(h_a conj h_b)| over the grid of exchanges and subcarriers. A deep fade may
+// flip the sign of what is behind it, unless the tree leads around the fade. Cost: N log N for N exchanges x
+// subcarriers.
+
+/// h with h^2 = product, up to one global sign.
+Eigen::MatrixXcd square_root_channel(const Eigen::MatrixXcd& product);
+
 struct TwoWayParams {
   int drift_degree = 3;
   double undelayed_ratio = 0.15;
@@ -34,31 +84,23 @@ struct TwoWayParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"drift_degree", "", 0, 10,
-                "degree of the polynomial in time that models the drift between the two cards' clocks"},
-          self.drift_degree);
-    visit(Field{"undelayed_ratio", "", 0.01, 0.99,
-                "fraction of the replies below the fitted clock drift, i.e. sent without waiting for a free "
-                "channel"},
-          self.undelayed_ratio);
-    visit(Field{"max_jitter_us", "us", 1, 1e6,
-                "largest deviation of a reply from the fitted clock drift; later replies belong to another "
-                "transmission attempt"},
-          self.max_jitter_us);
-    visit(Field{"max_offset_hz", "Hz", 100, 1e6, "largest carrier frequency offset searched"},
-          self.max_offset_hz);
-    visit(
-        Field{
-            "max_pause_s", "s", 1e-4, 10,
-            "largest pause between exchanges whose phases are compared; at least 1.5 times the median pause"},
-        self.max_pause_s);
-    visit(Field{"min_coherence", "", 0, 1,
-                "smallest phase coherence at which replies are accepted; lower values admit replies to "
-                "another robot"},
-          self.min_coherence);
-    visit(Field{"centre_subcarriers", "", 1, 1000,
-                "number of subcarriers around the carrier whose mean phase is compared"},
-          self.centre_subcarriers);
+    RADIOSLAM_FIELD(drift_degree, "", 0, 10,
+                    "degree of the polynomial in time that models the drift between the two cards' clocks");
+    RADIOSLAM_FIELD(
+        undelayed_ratio, "", 0.01, 0.99,
+        "fraction of the replies below the fitted clock drift, i.e. sent without waiting for a free channel");
+    RADIOSLAM_FIELD(max_jitter_us, "us", 1, 1e6,
+                    "largest deviation of a reply from the fitted clock drift; later replies belong to "
+                    "another transmission attempt");
+    RADIOSLAM_FIELD(max_offset_hz, "Hz", 100, 1e6, "largest carrier frequency offset searched");
+    RADIOSLAM_FIELD(
+        max_pause_s, "s", 1e-4, 10,
+        "largest pause between exchanges whose phases are compared; at least 1.5 times the median pause");
+    RADIOSLAM_FIELD(min_coherence, "", 0, 1,
+                    "smallest phase coherence at which replies are accepted; lower values admit replies to "
+                    "another robot");
+    RADIOSLAM_FIELD(centre_subcarriers, "", 1, 1000,
+                    "number of subcarriers around the carrier whose mean phase is compared");
   }
 };
 

@@ -13,6 +13,8 @@
 namespace radioslam {
 namespace {
 
+constexpr double kPower_db = 10;
+
 using Eigen::Index;
 
 constexpr double kGrowth = 1.4;  // of cells while there are too many
@@ -265,7 +267,7 @@ double variance_ratio(double cost, Index places, const AccessPointParams& params
   return (params.sigma_weight + cost) / (params.sigma_weight + static_cast<double>(places));
 }
 
-/// Cost at a fixed position with P0 and n optimised, starting from their values in `from`.
+/// Cost at a fixed position with P0 and n optimized, starting from their values in `from`.
 double profile_cost(const Unknowns& from, const Eigen::Vector2d& a, const WhitenedSites& places,
                     const AccessPointParams& params) {
   constexpr int kSteps = 2;
@@ -341,6 +343,14 @@ AccessPointFit described(const std::vector<Refined>& found, const WhitenedSites&
 }
 
 }  // namespace
+
+double PathLoss::power_dbm(double distance_m) const {
+  return power_at_1m_dbm - kPower_db * exponent * std::log10(distance_m);
+}
+
+double PathLoss::distance_m(double power_dbm) const {
+  return std::pow(10, (power_at_1m_dbm - power_dbm) / (kPower_db * exponent));
+}
 
 std::optional<AccessPointFit> fit_access_point(const RssAlongPath& heard, const AccessPointParams& params) {
   const HeardPlaces means = heard_places(heard.readings, params);

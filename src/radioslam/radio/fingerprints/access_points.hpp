@@ -18,10 +18,19 @@
 #include <vector>
 
 #include "radioslam/base/fields.hpp"
-#include "radioslam/radio/fingerprints/path_loss.hpp"
-#include "radioslam/results/radio_status.hpp"
+#include "radioslam/results/results.hpp"
 
 namespace radioslam {
+
+/// Log-distance path loss of one transmitter: P(d) = P0 - 10 n log10(d / d0) + N(0, sigma^2), d0 = 1 m.
+struct PathLoss {
+  double power_at_1m_dbm = -40;  ///< P0
+  double exponent = 3;           ///< n
+
+  double power_dbm(double distance_m) const;
+  /// Distance at which this power is expected.
+  double distance_m(double power_dbm) const;
+};
 
 struct AccessPointParams {
   int min_places = 8;
@@ -48,66 +57,47 @@ struct AccessPointParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"min_places", "", 4, 1e6,
-                "smallest number of sites that detected the access point; with fewer it is not localised"},
-          self.min_places);
-    visit(Field{"cell_m", "m", 0.01, 1000,
-                "size of the cells within which readings are averaged into one site"},
-          self.cell_m);
-    visit(Field{"max_places", "", 10, 10000,
-                "largest number of sites; cells grow until there are no more; computing time grows with its "
-                "cube"},
-          self.max_places);
-    visit(Field{"height_m", "m", 0.1, 100, "height of access points above the receivers"}, self.height_m);
-    visit(Field{"prior_exponent", "", 1, 8,
-                "prior mean of the path loss exponent: 2 in free space, up to 4 through walls"}
-              .basic(),
-          self.prior_exponent);
-    visit(Field{"prior_sigma_exponent", "", 1e-3, 10, "prior standard deviation of the path loss exponent"},
-          self.prior_sigma_exponent);
-    visit(Field{"prior_power_dbm", "dBm", -200, 100,
-                "prior mean of the received power at 1 m: 20 dBm minus 40 dB at 2.4 GHz, minus losses"},
-          self.prior_power_dbm);
-    visit(Field{"prior_sigma_power_db", "dB", 1e-3, 100,
-                "prior standard deviation of the received power at 1 m"},
-          self.prior_sigma_power_db);
-    visit(Field{"sigma_shadowing_db", "dB", 0.01, 100,
-                "standard deviation of shadowing; 3 to 8 dB in the literature"},
-          self.sigma_shadowing_db);
-    visit(
-        Field{"shadowing_length_m", "m", 0.01, 1000, "correlation length of shadowing; a few metres indoors"},
-        self.shadowing_length_m);
-    visit(Field{"sigma_fading_db", "dB", 0.01, 100, "standard deviation of the fading of one reading"},
-          self.sigma_fading_db);
-    visit(Field{"sigma_weight", "", 0.1, 1e6,
-                "number of sites that the stated shadowing and fading count as; higher values rely less on "
-                "the residuals"},
-          self.sigma_weight);
-    visit(Field{"loss_sigmas", "", 0.1, 1e6, "scale of Huber's loss, in standard deviations"},
-          self.loss_sigmas);
-    visit(Field{"undetected_cell_m", "m", 0.1, 1000,
-                "size of the cells within which sites without detection count as one"},
-          self.undetected_cell_m);
-    visit(Field{"around_m", "m", 0.1, 1000,
-                "half-width of the square around the estimate over which the posterior is summed"},
-          self.around_m);
-    visit(Field{"around_places", "", 3, 1000,
-                "number of points along each side of the square over which the posterior is summed"},
-          self.around_places);
-    visit(Field{"margin_m", "m", 0, 1e5,
-                "margin around the paths' bounding box within which the access point is searched"},
-          self.margin_m);
-    visit(Field{"grid", "", 2, 1000, "number of points along each side of the search grid"}, self.grid);
-    visit(Field{"alternative_distance_m", "m", 0.01, 1e5,
-                "smallest distance between an alternative position and the estimate"},
-          self.alternative_distance_m);
-    visit(Field{"alternative_margin", "", 0, 1e6,
-                "largest excess cost of an alternative position; 6 is chi-squared with 2 degrees of freedom "
-                "at 5 %"},
-          self.alternative_margin);
-    visit(Field{"max_sigma_m", "m", 0.1, 1e5,
-                "largest standard deviation of a localised access point along its weakest axis"},
-          self.max_sigma_m);
+    RADIOSLAM_FIELD(
+        min_places, "", 4, 1e6,
+        "smallest number of sites that detected the access point; with fewer it is not localised");
+    RADIOSLAM_FIELD(cell_m, "m", 0.01, 1000,
+                    "size of the cells within which readings are averaged into one site");
+    RADIOSLAM_FIELD(
+        max_places, "", 10, 10000,
+        "largest number of sites; cells grow until there are no more; computing time grows with its cube");
+    RADIOSLAM_FIELD(height_m, "m", 0.1, 100, "height of access points above the receivers");
+    RADIOSLAM_BASIC_FIELD(prior_exponent, "", 1, 8,
+                          "prior mean of the path loss exponent: 2 in free space, up to 4 through walls");
+    RADIOSLAM_FIELD(prior_sigma_exponent, "", 1e-3, 10, "prior standard deviation of the path loss exponent");
+    RADIOSLAM_FIELD(prior_power_dbm, "dBm", -200, 100,
+                    "prior mean of the received power at 1 m: 20 dBm minus 40 dB at 2.4 GHz, minus losses");
+    RADIOSLAM_FIELD(prior_sigma_power_db, "dB", 1e-3, 100,
+                    "prior standard deviation of the received power at 1 m");
+    RADIOSLAM_FIELD(sigma_shadowing_db, "dB", 0.01, 100,
+                    "standard deviation of shadowing; 3 to 8 dB in the literature");
+    RADIOSLAM_FIELD(shadowing_length_m, "m", 0.01, 1000,
+                    "correlation length of shadowing; a few metres indoors");
+    RADIOSLAM_FIELD(sigma_fading_db, "dB", 0.01, 100, "standard deviation of the fading of one reading");
+    RADIOSLAM_FIELD(sigma_weight, "", 0.1, 1e6,
+                    "number of sites that the stated shadowing and fading count as; higher values rely less "
+                    "on the residuals");
+    RADIOSLAM_FIELD(loss_sigmas, "", 0.1, 1e6, "scale of Huber's loss, in standard deviations");
+    RADIOSLAM_FIELD(undetected_cell_m, "m", 0.1, 1000,
+                    "size of the cells within which sites without detection count as one");
+    RADIOSLAM_FIELD(around_m, "m", 0.1, 1000,
+                    "half-width of the square around the estimate over which the posterior is summed");
+    RADIOSLAM_FIELD(around_places, "", 3, 1000,
+                    "number of points along each side of the square over which the posterior is summed");
+    RADIOSLAM_FIELD(margin_m, "m", 0, 1e5,
+                    "margin around the paths' bounding box within which the access point is searched");
+    RADIOSLAM_FIELD(grid, "", 2, 1000, "number of points along each side of the search grid");
+    RADIOSLAM_FIELD(alternative_distance_m, "m", 0.01, 1e5,
+                    "smallest distance between an alternative position and the estimate");
+    RADIOSLAM_FIELD(
+        alternative_margin, "", 0, 1e6,
+        "largest excess cost of an alternative position; 6 is chi-squared with 2 degrees of freedom at 5 %");
+    RADIOSLAM_FIELD(max_sigma_m, "m", 0.1, 1e5,
+                    "largest standard deviation of a localised access point along its weakest axis");
   }
 };
 

@@ -21,19 +21,15 @@ struct DistanceModelParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"bin_width", "", 0.001, 1,
-                "width r of the similarity window over which distances are averaged (Liu et al. 2020)"},
-          self.bin_width);
-    visit(Field{"min_samples", "", 2, 1e6,
-                "smallest number of training samples in a similarity window that predicts a distance"},
-          self.min_samples);
-    visit(Field{"max_trusted_path_m", "m", 1, 1e6,
-                "largest path length between fingerprints whose odometry distance trains the model"}
-              .basic(),
-          self.max_trusted_path_m);
-    visit(Field{"even_distances", "", 0, 1,
-                "weighting of training samples so that all distances are equally common"},
-          self.even_distances);
+    RADIOSLAM_FIELD(bin_width, "", 0.001, 1,
+                    "width r of the similarity window over which distances are averaged (Liu et al. 2020)");
+    RADIOSLAM_FIELD(min_samples, "", 2, 1e6,
+                    "smallest number of training samples in a similarity window that predicts a distance");
+    RADIOSLAM_BASIC_FIELD(
+        max_trusted_path_m, "m", 1, 1e6,
+        "largest path length between fingerprints whose odometry distance trains the model");
+    RADIOSLAM_FIELD(even_distances, "", 0, 1,
+                    "weighting of training samples so that all distances are equally common");
   }
 };
 
@@ -79,5 +75,23 @@ class DistanceModel {
   std::vector<double> weight_, sum_, sum_of_squares_;    ///< prefix sums over the samples, starting with 0
   std::vector<std::optional<PredictedDistance>> steps_;  ///< predictions for similarities from 0 to 1
 };
+
+// Exponential decay of similarity with distance, d = -L ln s, with one decay length for the whole mission.
+// Sørensen similarity follows this law from a few metres to several times L, far beyond the distances for
+// which a short path can train DistanceModel, so it can place robots whose starts are unknown.
+
+/// d = -length_m ln s.
+struct DecayModel {
+  double length_m = 0;
+
+  /// Distance at similarity `s` in (0, 1]; at least `kNearest_m`, below which similarity is uninformative.
+  double distance_m(double s) const;
+
+  static constexpr double kNearest_m = 1;
+};
+
+/// Decay length as the median of d / -ln s over samples of informative similarity (0.02 to 0.9) whose
+/// positions are at least 2 m apart; nothing with fewer than `min_samples` of them.
+std::optional<DecayModel> fit_decay(const std::vector<DistanceSample>& samples, int min_samples);
 
 }  // namespace radioslam

@@ -16,14 +16,10 @@ struct FingerprintParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(
-        Field{"window_s", "s", 0, 3600, "duration of the window whose scans are merged into one fingerprint"}
-            .basic(),
-        self.window_s);
-    visit(Field{"window_path_m", "m", 0, 1e6,
-                "path length of the window whose scans are merged into one fingerprint"}
-              .basic(),
-          self.window_path_m);
+    RADIOSLAM_BASIC_FIELD(window_s, "s", 0, 3600,
+                          "duration of the window whose scans are merged into one fingerprint");
+    RADIOSLAM_BASIC_FIELD(window_path_m, "m", 0, 1e6,
+                          "path length of the window whose scans are merged into one fingerprint");
   }
 };
 

@@ -9,7 +9,6 @@
 
 #include "radioslam/base/progress.hpp"
 #include "radioslam/mission/mission.hpp"
-#include "radioslam/radio/fingerprints/decay_model.hpp"
 #include "radioslam/radio/fingerprints/distance_model.hpp"
 #include "radioslam/radio/fingerprints/fingerprint.hpp"
 #include "radioslam/radio/fingerprints/rssi_offset.hpp"
@@ -32,15 +31,13 @@ struct RadioParams {
     SimilarityParams::visit_fields(self.similarity, visit);
     RssiOffsetParams::visit_fields(self.rssi_offset, visit);
     DistanceModelParams::visit_fields(self.distance_model, visit);
-    visit(Field{"measure", "", 0, 0,
-                "similarity measure for fingerprint closures; the default ranks pairs within 5 m best",
-                "cosine|gaussian|detection|slide|mended|sorensen"}
-              .basic(),
-          self.measure);
-    visit(Field{"layout_measure", "", 0, 0,
-                "similarity measure for the layout of the team; the default ranks distant pairs best",
-                "cosine|gaussian|detection|slide|mended|sorensen"},
-          self.layout_measure);
+    RADIOSLAM_BASIC_FIELD(
+        measure, "", 0, 0,
+        "similarity measure for fingerprint closures; the default ranks pairs within 5 m best",
+        "cosine|gaussian|detection|slide|mended|sorensen");
+    RADIOSLAM_FIELD(layout_measure, "", 0, 0,
+                    "similarity measure for the layout of the team; the default ranks distant pairs best",
+                    "cosine|gaussian|detection|slide|mended|sorensen");
   }
 };
 

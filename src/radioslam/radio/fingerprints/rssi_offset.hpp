@@ -22,7 +22,7 @@
 #include "radioslam/base/fields.hpp"
 #include "radioslam/radio/fingerprints/fingerprint.hpp"
 #include "radioslam/radio/fingerprints/similarity.hpp"
-#include "radioslam/results/radio_status.hpp"
+#include "radioslam/results/results.hpp"
 
 namespace radioslam {
 

@@ -33,20 +33,15 @@ struct SimilarityParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"sigma_rss_db", "dB", 0.1, 100,
-                "standard deviation of RSS at one position; 6 dB in Liu et al. (2020)"}
-              .basic(),
-          self.sigma_rss_db);
-    visit(
-        Field{
-            "sigma_detection", "", 0.01, 1000,
-            "tolerance of the detection measure to unshared access points; higher values penalise them less"},
-        self.sigma_detection);
-    visit(Field{"sorensen_exponent", "", 0.1, 10,
-                "exponent of the shifted RSS in the sorensen measure; e in Torres-Sospedra et al. (2015)"},
-          self.sorensen_exponent);
-    visit(Field{"min_shared", "", 1, 1000, "smallest number of shared access points in the mended measure"},
-          self.min_shared);
+    RADIOSLAM_BASIC_FIELD(sigma_rss_db, "dB", 0.1, 100,
+                          "standard deviation of RSS at one position; 6 dB in Liu et al. (2020)");
+    RADIOSLAM_FIELD(
+        sigma_detection, "", 0.01, 1000,
+        "tolerance of the detection measure to unshared access points; higher values penalise them less");
+    RADIOSLAM_FIELD(
+        sorensen_exponent, "", 0.1, 10,
+        "exponent of the shifted RSS in the sorensen measure; e in Torres-Sospedra et al. (2015)");
+    RADIOSLAM_FIELD(min_shared, "", 1, 1000, "smallest number of shared access points in the mended measure");
   }
 };
 

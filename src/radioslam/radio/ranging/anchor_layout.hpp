@@ -28,17 +28,14 @@ struct AnchorLayoutParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"dimension", "", 2, 3,
-                "dimension of the layout: 2 for horizontal distances, 3 for spatial ones"},
-          self.dimension);
-    visit(
-        Field{
-            "outlier_sigmas", "", 2, 100,
-            "deletion residual above which a distance is rejected as an outlier; higher values reject fewer"},
-        self.outlier_sigmas);
-    visit(Field{"flatness_sigmas", "", 1, 100,
-                "significance, in sigmas, with which the anchors must not be collinear (in 3D: coplanar)"},
-          self.flatness_sigmas);
+    RADIOSLAM_FIELD(dimension, "", 2, 3,
+                    "dimension of the layout: 2 for horizontal distances, 3 for spatial ones");
+    RADIOSLAM_FIELD(
+        outlier_sigmas, "", 2, 100,
+        "deletion residual above which a distance is rejected as an outlier; higher values reject fewer");
+    RADIOSLAM_FIELD(
+        flatness_sigmas, "", 1, 100,
+        "significance, in sigmas, with which the anchors must not be collinear (in 3D: coplanar)");
   }
 };
 

@@ -28,11 +28,10 @@ struct MultilaterationParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"loss_sigmas", "", 0.1, 1e6,
-                "scale of the Cauchy loss on ranges, in standard deviations; 2.4 is a common choice"},
-          self.loss_sigmas);
-    visit(Field{"max_sigma_m", "m", 1e-3, 1e6, "largest standard deviation per axis of an accepted position"},
-          self.max_sigma_m);
+    RADIOSLAM_FIELD(loss_sigmas, "", 0.1, 1e6,
+                    "scale of the Cauchy loss on ranges, in standard deviations; 2.4 is a common choice");
+    RADIOSLAM_FIELD(max_sigma_m, "m", 1e-3, 1e6,
+                    "largest standard deviation per axis of an accepted position");
   }
 };
 

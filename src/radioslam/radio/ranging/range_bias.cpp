@@ -12,8 +12,6 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kHuberSigmas = 1.345;  // 95 % efficiency (Huber 1981)
-constexpr int kHuberSteps = 50;
 constexpr double kBiasSettled_m = 1e-5;
 constexpr double kClipSigmas = 3;  // keeps single reflections from dominating the correlation
 constexpr double kMostCorrelated = 0.99;
@@ -26,25 +24,6 @@ double median_of(std::vector<double> values) {
 double deviation_around(std::vector<double> values, double centre) {
   for (double& value : values) value = std::abs(value - centre);
   return kMadToSigma * median_of(std::move(values));
-}
-
-RangeBias bias_of(const std::vector<double>& excess_m) {
-  RangeBias bias;
-  bias.count = excess_m.size();
-  if (excess_m.empty()) return bias;
-  bias.bias_m = median_of(excess_m);
-  bias.spread_m = deviation_around(excess_m, bias.bias_m);
-  for (int step = 0; step < kHuberSteps; ++step) {
-    double sum = 0, weights = 0;
-    for (const double excess : excess_m) {
-      const double away = std::abs(excess - bias.bias_m), bar = kHuberSigmas * bias.spread_m;
-      const double weight = away <= bar ? 1 : bar / away;
-      sum += weight * excess, weights += weight;
-    }
-    if (weights > 0) bias.bias_m = sum / weights;
-  }
-  bias.sigma_m = bias.spread_m / std::sqrt(static_cast<double>(bias.count));
-  return bias;
 }
 
 /// The ranges of an epoch with the biases removed and the sigmas scaled to the estimated noise.
@@ -198,21 +177,42 @@ class Calibration {
   std::vector<std::optional<Multilateration>> fixes_;
 };
 
-}  // namespace
-
-std::vector<RangeBias> biases_from_known_geometry(const std::vector<KnownRange>& ranges, std::size_t pairs) {
-  std::vector<std::vector<double>> excess_m(pairs);
-  for (const auto& range : ranges) excess_m[range.pair].push_back(range.range_m - range.distance_m);
-  std::vector<RangeBias> biases;
-  for (const auto& of_pair : excess_m) biases.push_back(bias_of(of_pair));
-  return biases;
+PositionFix fix_of(const RangeEpoch& epoch, const Multilateration& found) {
+  PositionFix fix{epoch.stamp, Eigen::Vector3d::Zero(), found.sigma_m};
+  fix.position_m.head(found.position_m.size()) = found.position_m;
+  return fix;
 }
+
+double rms_of(const std::vector<std::optional<Multilateration>>& epochs) {
+  double sum = 0, count = 0;
+  for (const auto& epoch : epochs) {
+    if (!epoch) continue;
+    for (const double residual : epoch->residuals_m) sum += residual * residual, ++count;
+  }
+  return count > 0 ? std::sqrt(sum / count) : 0;
+}
+
+}  // namespace
 
 CalibratedPositions calibrate_positions(const Eigen::MatrixXd& anchors_m,
                                         const std::vector<RangeEpoch>& epochs, std::size_t pairs,
                                         const MultilaterationParams& multilateration,
                                         const RangeBiasParams& params) {
   return Calibration(anchors_m, epochs, pairs, multilateration, params).run();
+}
+
+ReceiverTrack track_receiver(const Eigen::MatrixXd& anchors_m, const std::vector<AnchorRange>& ranges,
+                             std::size_t pairs, const ReceiverTrackParams& params) {
+  const auto epochs = range_epochs(ranges, params.epochs);
+  const auto found = calibrate_positions(anchors_m, epochs, pairs, params.position, params.bias);
+  std::vector<PositionFix> fixes;
+  for (std::size_t k = 0; k < epochs.size(); ++k) {
+    if (!found.epochs[k]) continue;
+    const bool same_time = !fixes.empty() && fixes.back().stamp >= epochs[k].stamp;
+    if (!same_time) fixes.push_back(fix_of(epochs[k], *found.epochs[k]));
+  }
+  return {moving_median(fixes, params.epochs), found.biases, epochs.size(), found.noise_factor,
+          rms_of(found.epochs)};
 }
 
 }  // namespace radioslam

@@ -1,8 +1,7 @@
 // Range biases: constant range error per pair of antennas, from cables, clocks and antennas (decimetres).
 //
-// With known geometry a pair's bias is the robust mean of measured minus true distance. With known anchors
-// and an unknown receiver, biases and positions are estimated jointly: each epoch with more ranges than
-// coordinates constrains the biases. With positions eliminated,
+// With known anchors and an unknown receiver, biases and positions are estimated jointly: each epoch with
+// more ranges than coordinates constrains the biases. With positions eliminated,
 //   H = sum over epochs of W - W J (J^T W J)^-1 J^T W  + I / sigma_b^2,   H db = sum of P r - b / sigma_b^2,
 // W being 1/sigma^2 times the weight of a Cauchy loss, reduced where successive residuals are correlated.
 // Errors that change with position (reflections) are not constant biases; they bias the estimate and possibly
@@ -25,12 +24,11 @@ struct RangeBiasParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"prior_sigma_m", "m", 0, 100,
-                "prior standard deviation of a range bias; 0 holds all biases at zero; UWB radios show "
-                "0.2-0.5 m"},
-          self.prior_sigma_m);
-    visit(Field{"max_iterations", "", 0, 1000, "largest number of alternations between biases and positions"},
-          self.max_iterations);
+    RADIOSLAM_FIELD(
+        prior_sigma_m, "m", 0, 100,
+        "prior standard deviation of a range bias; 0 holds all biases at zero; UWB radios show 0.2-0.5 m");
+    RADIOSLAM_FIELD(max_iterations, "", 0, 1000,
+                    "largest number of alternations between biases and positions");
   }
 };
 
@@ -40,15 +38,6 @@ struct RangeBias {
   double spread_m = 0;    ///< robust standard deviation of single ranges around it
   std::size_t count = 0;  ///< ranges used
 };
-
-/// A measured range whose true distance is known.
-struct KnownRange {
-  std::size_t pair = 0;
-  double range_m = 0, distance_m = 0;
-};
-
-/// Bias per pair 0 .. pairs - 1: Huber's mean, started at the median and scaled by the median deviation.
-std::vector<RangeBias> biases_from_known_geometry(const std::vector<KnownRange>& ranges, std::size_t pairs);
 
 /// Positions and biases estimated jointly.
 struct CalibratedPositions {
@@ -62,5 +51,33 @@ CalibratedPositions calibrate_positions(const Eigen::MatrixXd& anchors_m,
                                         const std::vector<RangeEpoch>& epochs, std::size_t pairs,
                                         const MultilaterationParams& multilateration = {},
                                         const RangeBiasParams& params = {});
+
+/// Trajectory of a receiver from its ranges to known anchors: epochs (range_epochs.hpp), joint estimation of
+/// positions and range biases (range_bias.hpp), and a moving median. All antennas of a receiver are assumed
+/// at one point; the anchors are assumed exact.
+struct ReceiverTrackParams {
+  RangeEpochParams epochs;
+  MultilaterationParams position;
+  RangeBiasParams bias;
+
+  template <class Self, class Visitor>
+  static void visit_sections(Self& self, Visitor&& visit) {
+    visit("epochs", self.epochs);
+    visit("position", self.position);
+    visit("bias", self.bias);
+  }
+};
+
+struct ReceiverTrack {
+  std::vector<PositionFix> fixes;  ///< in time order, at most one per stamp; z = 0 in 2D
+  std::vector<RangeBias> biases;   ///< per pair of antennas
+  std::size_t epochs = 0;          ///< number of epochs, with or without a position
+  double noise_factor = 1;         ///< noise of the ranges relative to their stated sigmas; at least 1
+  double rms_m = 0;                ///< of the ranges, before the median, biases removed
+};
+
+/// `anchors_m` is 2 x n or 3 x n. Ranges must be in time order, with pairs numbered 0 .. pairs - 1.
+ReceiverTrack track_receiver(const Eigen::MatrixXd& anchors_m, const std::vector<AnchorRange>& ranges,
+                             std::size_t pairs, const ReceiverTrackParams& params = {});
 
 }  // namespace radioslam

@@ -30,15 +30,13 @@ struct RangeEpochParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(
-        Field{"epoch_s", "s", 0, 60,
-              "duration within which ranges share one position; default: one cycle of five radios at 25 Hz"},
-        self.epoch_s);
-    visit(Field{"median_samples", "", 1, 1000, "number of positions in the moving median; 10 in Wi-Closure"},
-          self.median_samples);
-    visit(Field{"max_gap_s", "s", 0, 1e6,
-                "largest time gap between successive positions within the moving median"},
-          self.max_gap_s);
+    RADIOSLAM_FIELD(
+        epoch_s, "s", 0, 60,
+        "duration within which ranges share one position; default: one cycle of five radios at 25 Hz");
+    RADIOSLAM_FIELD(median_samples, "", 1, 1000,
+                    "number of positions in the moving median; 10 in Wi-Closure");
+    RADIOSLAM_FIELD(max_gap_s, "s", 0, 1e6,
+                    "largest time gap between successive positions within the moving median");
   }
 };
 

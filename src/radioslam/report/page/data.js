@@ -18,6 +18,7 @@ const robots = report.robots.map((robot, index) => ({
   odometry: columns(robot.odometry),
   truth: columns(robot.truth),
   sigma_m: robot.sigma_m ? column(robot.sigma_m) : null,
+  sigma_team_m: robot.sigma_team_m ? column(robot.sigma_team_m) : null,
   errors: columns(robot.errors),
   dead_reckoning_errors: columns(robot.dead_reckoning_errors),
   stranded: !robot.placed || report.unplaced.includes(robot.id),

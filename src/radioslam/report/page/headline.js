@@ -21,7 +21,7 @@ function walk_figures() {
   if (!robots.length) return [];
   const walked = total(robots, r => r.walked_m || 0), sigmas = robots.map(r => r.sigma_median_m).filter(known);
   const figures = [figure("Path length", format.metres(walked), "m", `${format.count(total(robots, r => r.keyframes))} keyframes`)];
-  if (sigmas.length) figures.push(figure("Position σ, median", format.metres(d3.median(sigmas)), "m", robots.length > 1 ? `worst robot ${format.metres(d3.max(sigmas))} m` : "as estimated"));
+  if (sigmas.length) figures.push(figure("Position σ within the team, median", format.metres(d3.median(sigmas)), "m", robots.length > 1 ? `worst robot ${format.metres(d3.max(sigmas))} m` : "as estimated"));
   return figures;
 }
 

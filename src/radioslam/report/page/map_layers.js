@@ -85,18 +85,18 @@ function draw_alternatives(context, view) {
   context.globalAlpha = 1;
 }
 
-/// One filled area per robot: the union of discs of one sigma about its keyframes.
+/// One filled area per robot: the union of discs of one sigma, in the gauge of the team, about its keyframes.
 function draw_sigma(context, view) {
   const [a, b] = state.axes;
   context.globalAlpha = 0.16;
   for (const robot of shown()) {
-    if (!robot.sigma_m || !robot.estimate || fades(robot.index)) continue;
+    if (!robot.sigma_team_m || !robot.estimate || fades(robot.index)) continue;
     const xs = robot.estimate[a], ys = robot.estimate[b];
     let last_x = NaN, last_y = NaN;
     context.fillStyle = robot_colour(robot.index);
     context.beginPath();
     for (let i = 0; i < xs.length; ++i) {
-      const px = view.ox + view.k * xs[i], py = view.oy - view.k * ys[i], radius = view.k * robot.sigma_m[i];
+      const px = view.ox + view.k * xs[i], py = view.oy - view.k * ys[i], radius = view.k * robot.sigma_team_m[i];
       if (!isFinite(radius) || Math.hypot(px - last_x, py - last_y) < Math.max(2, radius / 4)) continue;
       context.moveTo(px + radius, py);
       context.arc(px, py, radius, 0, 2 * Math.PI);

@@ -185,7 +185,7 @@ function describe_keyframe(robot, i) {
   const row = (name, value) => rows.push(element("span", {}, `${name} `), value, element("br"));
   row("time", `${format.clock(t)}  (${d3.format(".3f")(report.start_s + t)} s)`);
   row("position", `${format.metres(robot.estimate.x[i])}, ${format.metres(robot.estimate.y[i])}${robot.estimate.z ? `, ${format.metres(robot.estimate.z[i])}` : ""} m`);
-  if (robot.sigma_m && isFinite(robot.sigma_m[i])) row("σ", `${format.metres(robot.sigma_m[i])} m`);
+  if (robot.sigma_m && isFinite(robot.sigma_m[i])) row("σ", `${format.metres(robot.sigma_team_m[i])} m within the team, ${format.metres(robot.sigma_m[i])} m from what holds the frame`);
   if (robot.errors) {
     const e = nearest_index(robot.errors.t, t);
     row("error", `${format.metres(robot.errors.error_m[e])} m${Math.abs(robot.errors.t[e] - t) > 1 ? ` (at ${format.clock(robot.errors.t[e])})` : ""}`);

@@ -41,7 +41,7 @@ function robot_columns() {
       number("dead reckoning (m)", r => r.dead_reckoning && r.dead_reckoning.rmse_m, format.metres, "RMSE, after its own alignment"),
       number("covered", r => r.coverage, format.percent, "ratio of the true poses"));
   }
-  if (some("sigma_median_m")) list.push(number("σ median (m)", r => r.sigma_median_m, format.metres));
+  if (some("sigma_median_m")) list.push(number("σ median (m)", r => r.sigma_median_m, format.metres, "of position, after the best rigid motion of the whole team"));
   if (some("fixes"))
     list.push(number("fixes used", r => r.fixes && r.fixes.used, format.count, "position fixes that agree with the estimate"),
       number("fixes rejected", r => r.fixes && r.fixes.rejected, format.count, "position fixes that contradict the estimate"));

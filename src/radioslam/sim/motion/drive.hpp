@@ -12,6 +12,9 @@
 #include "radioslam/base/fields.hpp"
 #include "radioslam/base/random.hpp"
 #include "radioslam/geometry/se2.hpp"
+#include "radioslam/geometry/se3.hpp"
+#include "radioslam/geometry/trajectory.hpp"
+#include "radioslam/sim/worlds/hills.hpp"
 #include "radioslam/sim/worlds/lane_grid.hpp"
 
 namespace radioslam {
@@ -25,13 +28,11 @@ struct DriveParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"path_length_m", "m", 1, 100000, "path length of each robot along the lanes' centre lines"}
-              .basic(),
-          self.path_length_m);
-    visit(Field{"speed_mps", "m/s", 0.01, 10, "driving speed; 0.4 in Liu et al."}.basic(), self.speed_mps);
-    visit(Field{"corner_radius_m", "m", 0.5, 4, "radius of the arcs around corners"}, self.corner_radius_m);
-    visit(Field{"sigma_wander_m", "m", 0, 0.6, "standard deviation of the sideways wander on a lane"},
-          self.sigma_wander_m);
+    RADIOSLAM_BASIC_FIELD(path_length_m, "m", 1, 100000,
+                          "path length of each robot along the lanes' centre lines");
+    RADIOSLAM_BASIC_FIELD(speed_mps, "m/s", 0.01, 10, "driving speed; 0.4 in Liu et al.");
+    RADIOSLAM_FIELD(corner_radius_m, "m", 0.5, 4, "radius of the arcs around corners");
+    RADIOSLAM_FIELD(sigma_wander_m, "m", 0, 0.6, "standard deviation of the sideways wander on a lane");
   }
 };
 
@@ -75,5 +76,24 @@ class Drive {
   std::vector<PathSegment> segments_;
   std::array<Wave, 4> waves_;
 };
+
+/// Drives of a team over a grid of lanes, such that its robots come into range of each other.
+///
+/// Each robot drives its own route (drive.hpp) from its own crossing. Routes are drawn until the robot is
+/// within `contact_range_m` of an earlier one for `min_contact_s`, a quarter of that in every quarter of the
+/// mission; if no draw is, the one with the longest contact is used. So the team is connected by contacts
+/// spread over the mission, and its routes partly overlap.
+struct TeamDriveParams {
+  int robots = 2;
+  DriveParams drive;
+  double rate_hz = 10;  ///< poses per second
+  double contact_range_m = 100;
+  double min_contact_s = 0;
+  int draws = 100;
+};
+
+/// T_common_body of each robot, all from time 0. A larger team keeps the drives of its first robots.
+std::vector<Trajectory<SE3>> drive_team(const LaneGrid& lanes, const Hills& ground,
+                                        const TeamDriveParams& params, const Rng& rng);
 
 }  // namespace radioslam

@@ -26,20 +26,15 @@ struct SmoothMotionParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"rest_s", "s", 0, 1000, "time at rest at the start, for robots with an inertial unit"},
-          self.rest_s);
-    visit(Field{"accelerate_s", "s", 0.1, 1000,
-                "duration of the acceleration to full speed, for robots with an inertial unit"},
-          self.accelerate_s);
-    visit(Field{"speed_swing", "", 0, 0.9,
-                "largest relative variation of the speed, for robots with an inertial unit"},
-          self.speed_swing);
-    visit(Field{"sway_rad", "rad", 0, 0.2,
-                "standard deviation of roll and pitch while moving, for robots with an inertial unit"},
-          self.sway_rad);
-    visit(Field{"knot_s", "s", 0.01, 2,
-                "knot interval of the spline that smooths the motion; higher values cut corners more"},
-          self.knot_s);
+    RADIOSLAM_FIELD(rest_s, "s", 0, 1000, "time at rest at the start, for robots with an inertial unit");
+    RADIOSLAM_FIELD(accelerate_s, "s", 0.1, 1000,
+                    "duration of the acceleration to full speed, for robots with an inertial unit");
+    RADIOSLAM_FIELD(speed_swing, "", 0, 0.9,
+                    "largest relative variation of the speed, for robots with an inertial unit");
+    RADIOSLAM_FIELD(sway_rad, "rad", 0, 0.2,
+                    "standard deviation of roll and pitch while moving, for robots with an inertial unit");
+    RADIOSLAM_FIELD(knot_s, "s", 0.01, 2,
+                    "knot interval of the spline that smooths the motion; higher values cut corners more");
   }
 };
 

@@ -27,14 +27,12 @@ struct TurnDriveParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"turns_per_robot", "", 0, 1000, "number of legs per robot"}.basic(), self.turns_per_robot);
-    visit(Field{"min_leg_m", "m", 0.1, 20, "smallest path length of a leg"}, self.min_leg_m);
-    visit(Field{"max_leg_m", "m", 0.1, 20, "largest path length of a leg"}, self.max_leg_m);
-    visit(Field{"mean_speed_mps", "m/s", 0.02, 2, "mean speed over a leg; twice that in its middle"},
-          self.mean_speed_mps);
-    visit(Field{"pause_s", "s", 0.1, 60, "pause between the legs of successive robots"}, self.pause_s);
-    visit(Field{"clearance_m", "m", 0, 5, "smallest distance of a leg from walls and robots"},
-          self.clearance_m);
+    RADIOSLAM_BASIC_FIELD(turns_per_robot, "", 0, 1000, "number of legs per robot");
+    RADIOSLAM_FIELD(min_leg_m, "m", 0.1, 20, "smallest path length of a leg");
+    RADIOSLAM_FIELD(max_leg_m, "m", 0.1, 20, "largest path length of a leg");
+    RADIOSLAM_FIELD(mean_speed_mps, "m/s", 0.02, 2, "mean speed over a leg; twice that in its middle");
+    RADIOSLAM_FIELD(pause_s, "s", 0.1, 60, "pause between the legs of successive robots");
+    RADIOSLAM_FIELD(clearance_m, "m", 0, 5, "smallest distance of a leg from walls and robots");
   }
 };
 

@@ -30,10 +30,9 @@ struct CarparkParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"robots", "", 1, 100, "number of robots in the team"}.basic(), self.robots);
-    visit(Field{"known_start", "", 0, 1, "whether the mission contains each robot's start pose"}.basic(),
-          self.known_start);
-    visit(Field{"truth_rate_hz", "Hz", 0.01, 1000, "rate of the true poses"}, self.truth_rate_hz);
+    RADIOSLAM_BASIC_FIELD(robots, "", 1, 100, "number of robots in the team");
+    RADIOSLAM_BASIC_FIELD(known_start, "", 0, 1, "whether the mission contains each robot's start pose");
+    RADIOSLAM_FIELD(truth_rate_hz, "Hz", 0.01, 1000, "rate of the true poses");
     LaneGridParams::visit_fields(self.lanes, visit);
     DriveParams::visit_fields(self.drive, visit);
     WheelOdometryParams::visit_fields(self.odometry, visit);

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "radioslam/sim/motion/team_drives.hpp"
+#include "radioslam/sim/motion/drive.hpp"
 #include "radioslam/sim/scenarios/radio_mission.hpp"
 #include "radioslam/sim/sensors/surface_odometry.hpp"
 #include "radioslam/sim/worlds/hills.hpp"

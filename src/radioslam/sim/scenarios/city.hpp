@@ -17,7 +17,6 @@
 #include "radioslam/sim/sensors/gnss_receiver.hpp"
 #include "radioslam/sim/sensors/radio_channel.hpp"
 #include "radioslam/sim/sensors/wheel_odometry.hpp"
-#include "radioslam/sim/worlds/street_grid.hpp"
 #include "radioslam/sim/worlds/town_houses.hpp"
 
 namespace radioslam {
@@ -65,29 +64,21 @@ struct CityParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"robots", "", 1, 100, "number of robots in the team"}.basic(), self.robots);
-    visit(Field{"dimension", "", 2, 3, "dimension of the mission: 2 for a plane, 3 for gentle hills"}.basic(),
-          self.dimension);
-    visit(Field{"path_length_m", "m", 10, 1e6, "path length of each robot"}.basic(), self.path_length_m);
-    visit(Field{"speed_mps", "m/s", 0.1, 50, "driving speed; 11 gives one keyframe per odometry sample"},
-          self.speed_mps);
-    visit(Field{"corner_radius_m", "m", 1, 20, "radius of the arcs around corners"}, self.corner_radius_m);
-    visit(Field{"sigma_wander_m", "m", 0, 0.6, "standard deviation of the sideways wander on a street"},
-          self.sigma_wander_m);
-    visit(Field{"min_contact_s", "s", 0, 1e6,
-                "smallest time, spread over the mission, that each robot's route is in range of an earlier "
-                "robot's"},
-          self.min_contact_s);
-    visit(Field{"lidar_range_m", "m", 0.1, 1000, "range of every robot's LiDAR"}.basic(), self.lidar_range_m);
-    visit(Field{"absolute_heading", "", 0, 1, "whether a compass measures each robot's initial heading"},
-          self.absolute_heading);
-    visit(Field{"sigma_heading_rad", "rad", 0.0001, 3,
-                "standard deviation of the compass heading, constant per robot"},
-          self.sigma_heading_rad);
-    visit(Field{"sigma_height_m", "m", 0, 20, "standard deviation of the ground's height, in 3D"},
-          self.sigma_height_m);
-    visit(Field{"sigma_z_per_sqrt_m", "m/sqrt(m)", 0, 1, "white noise of the odometry's height, in 3D"},
-          self.sigma_z_per_sqrt_m);
+    RADIOSLAM_BASIC_FIELD(robots, "", 1, 100, "number of robots in the team");
+    RADIOSLAM_BASIC_FIELD(dimension, "", 2, 3, "dimension of the mission: 2 for a plane, 3 for gentle hills");
+    RADIOSLAM_BASIC_FIELD(path_length_m, "m", 10, 1e6, "path length of each robot");
+    RADIOSLAM_FIELD(speed_mps, "m/s", 0.1, 50, "driving speed; 11 gives one keyframe per odometry sample");
+    RADIOSLAM_FIELD(corner_radius_m, "m", 1, 20, "radius of the arcs around corners");
+    RADIOSLAM_FIELD(sigma_wander_m, "m", 0, 0.6, "standard deviation of the sideways wander on a street");
+    RADIOSLAM_FIELD(
+        min_contact_s, "s", 0, 1e6,
+        "smallest time, spread over the mission, that each robot's route is in range of an earlier robot's");
+    RADIOSLAM_BASIC_FIELD(lidar_range_m, "m", 0.1, 1000, "range of every robot's LiDAR");
+    RADIOSLAM_FIELD(absolute_heading, "", 0, 1, "whether a compass measures each robot's initial heading");
+    RADIOSLAM_FIELD(sigma_heading_rad, "rad", 0.0001, 3,
+                    "standard deviation of the compass heading, constant per robot");
+    RADIOSLAM_FIELD(sigma_height_m, "m", 0, 20, "standard deviation of the ground's height, in 3D");
+    RADIOSLAM_FIELD(sigma_z_per_sqrt_m, "m/sqrt(m)", 0, 1, "white noise of the odometry's height, in 3D");
     OnboardParams::visit_fields(self.onboard, visit);
     GnssReceiverParams::visit_fields(self.gnss, visit);
     StreetGridParams::visit_fields(self.streets, visit);

@@ -59,26 +59,20 @@ struct CorridorsParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"robots", "", 1, 100, "number of robots in the team"}.basic(), self.robots);
-    visit(Field{"corridor_m", "m", 5, 10000, "length of the two long corridors, from room to room"}.basic(),
-          self.corridor_m);
-    visit(Field{"cross_corridor_m", "m", 5, 10000, "length of the two short corridors, from room to room"},
-          self.cross_corridor_m);
-    visit(Field{"corridor_width_m", "m", 1.5, 5, "width of the corridors"}, self.corridor_width_m);
-    visit(Field{"room_m", "m", 6, 100, "side of the square rooms at the corners"}, self.room_m);
-    visit(Field{"ceiling_m", "m", 1, 100, "height of the ceiling"}, self.ceiling_m);
-    visit(Field{"things_per_room", "", 0, 1000, "number of crates and pillars in each room"},
-          self.things_per_room);
-    visit(Field{"path_length_m", "m", 5, 1e6, "path length of each robot"}.basic(), self.path_length_m);
-    visit(Field{"speed_mps", "m/s", 0.05, 10, "mean driving speed"}.basic(), self.speed_mps);
-    visit(Field{"sigma_wander_m", "m", 0, 0.2, "standard deviation of the sideways wander"},
-          self.sigma_wander_m);
-    visit(Field{"lidar_range_m", "m", 0.1, 1000, "range of every robot's LiDAR"}.basic(), self.lidar_range_m);
-    visit(Field{"wheel_odometry", "", 0, 1, "whether there is wheel odometry; always if there are no scans"}
-              .basic(),
-          self.wheel_odometry);
-    visit(Field{"sigma_z_per_sqrt_m", "m/sqrt(m)", 0, 1, "white noise of the wheel odometry's height"},
-          self.sigma_z_per_sqrt_m);
+    RADIOSLAM_BASIC_FIELD(robots, "", 1, 100, "number of robots in the team");
+    RADIOSLAM_BASIC_FIELD(corridor_m, "m", 5, 10000, "length of the two long corridors, from room to room");
+    RADIOSLAM_FIELD(cross_corridor_m, "m", 5, 10000, "length of the two short corridors, from room to room");
+    RADIOSLAM_FIELD(corridor_width_m, "m", 1.5, 5, "width of the corridors");
+    RADIOSLAM_FIELD(room_m, "m", 6, 100, "side of the square rooms at the corners");
+    RADIOSLAM_FIELD(ceiling_m, "m", 1, 100, "height of the ceiling");
+    RADIOSLAM_FIELD(things_per_room, "", 0, 1000, "number of crates and pillars in each room");
+    RADIOSLAM_BASIC_FIELD(path_length_m, "m", 5, 1e6, "path length of each robot");
+    RADIOSLAM_BASIC_FIELD(speed_mps, "m/s", 0.05, 10, "mean driving speed");
+    RADIOSLAM_FIELD(sigma_wander_m, "m", 0, 0.2, "standard deviation of the sideways wander");
+    RADIOSLAM_BASIC_FIELD(lidar_range_m, "m", 0.1, 1000, "range of every robot's LiDAR");
+    RADIOSLAM_BASIC_FIELD(wheel_odometry, "", 0, 1,
+                          "whether there is wheel odometry; always if there are no scans");
+    RADIOSLAM_FIELD(sigma_z_per_sqrt_m, "m/sqrt(m)", 0, 1, "white noise of the wheel odometry's height");
     OnboardParams::visit_fields(self.onboard, visit);
     WheelOdometryParams::visit_fields(self.odometry, visit);
     RadioChannelParams::visit_fields(self.radio, visit);

@@ -64,44 +64,30 @@ struct CsiRoomParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"robots", "", 1, 100, "number of robots in the team"}.basic(), self.robots);
-    visit(Field{"room_x_m", "m", 3, 200, "length of the room along x"}.basic(), self.room_x_m);
-    visit(Field{"room_y_m", "m", 3, 200, "length of the room along y"}.basic(), self.room_y_m);
-    visit(Field{"inner_walls", "", 0, 2, "number of walls that reach halfway into the room"},
-          self.inner_walls);
-    visit(Field{"wall_reflection", "", -1, 1,
-                "amplitude reflection coefficient of walls; -0.4 for plasterboard or concrete"},
-          self.wall_reflection);
-    visit(Field{"wall_loss_db", "dB", 0, 60, "transmission loss of a wall"}, self.wall_loss_db);
-    visit(Field{"max_bounces", "", 0, 2, "largest number of wall reflections of a path"}.basic(),
-          self.max_bounces);
-    visit(Field{"obstruction_db", "dB", 0, 100, "loss of every direct path in addition to that of walls"}
-              .basic(),
-          self.obstruction_db);
-    visit(Field{"channel", "", 0, 0, "WiFi channel (default: that of published recordings)", kCsiChannels},
-          self.channel);
-    visit(Field{"antennas", "", 1, 3, "number of antennas of every card; the first one sends"}.basic(),
-          self.antennas);
-    visit(Field{"antenna_forward_m", "m", -5, 5, "x of the antenna row in the body frame"},
-          self.antenna_forward_m);
-    visit(Field{"antenna_height_m", "m", 0, 5, "z of the antenna row in the body frame"},
-          self.antenna_height_m);
-    visit(Field{"antenna_spacing_m", "m", 0.001, 1,
-                "spacing of adjacent antennas (default: half a wavelength)"},
-          self.antenna_spacing_m);
-    visit(Field{"packet_rate_hz", "Hz", 1, 300, "packet rate to every robot; 120 in published recordings"}
-              .basic(),
-          self.packet_rate_hz);
-    visit(
-        Field{"packet_margin_s", "s", 0, 5, "time before and after a leg during which packets are also sent"},
-        self.packet_margin_s);
-    visit(Field{"ranges_per_pair", "", 0, 1000,
-                "number of ranges per pair of robots, between their body origins"}
-              .basic(),
-          self.ranges_per_pair);
-    visit(Field{"sigma_range_m", "m", 0.001, 100, "standard deviation of ranges"}.basic(),
-          self.sigma_range_m);
-    visit(Field{"lidar_range_m", "m", 0.1, 1000, "range of every robot's LiDAR"}, self.lidar_range_m);
+    RADIOSLAM_BASIC_FIELD(robots, "", 1, 100, "number of robots in the team");
+    RADIOSLAM_BASIC_FIELD(room_x_m, "m", 3, 200, "length of the room along x");
+    RADIOSLAM_BASIC_FIELD(room_y_m, "m", 3, 200, "length of the room along y");
+    RADIOSLAM_FIELD(inner_walls, "", 0, 2, "number of walls that reach halfway into the room");
+    RADIOSLAM_FIELD(wall_reflection, "", -1, 1,
+                    "amplitude reflection coefficient of walls; -0.4 for plasterboard or concrete");
+    RADIOSLAM_FIELD(wall_loss_db, "dB", 0, 60, "transmission loss of a wall");
+    RADIOSLAM_BASIC_FIELD(max_bounces, "", 0, 2, "largest number of wall reflections of a path");
+    RADIOSLAM_BASIC_FIELD(obstruction_db, "dB", 0, 100,
+                          "loss of every direct path in addition to that of walls");
+    RADIOSLAM_FIELD(channel, "", 0, 0, "WiFi channel (default: that of published recordings)", kCsiChannels);
+    RADIOSLAM_BASIC_FIELD(antennas, "", 1, 3, "number of antennas of every card; the first one sends");
+    RADIOSLAM_FIELD(antenna_forward_m, "m", -5, 5, "x of the antenna row in the body frame");
+    RADIOSLAM_FIELD(antenna_height_m, "m", 0, 5, "z of the antenna row in the body frame");
+    RADIOSLAM_FIELD(antenna_spacing_m, "m", 0.001, 1,
+                    "spacing of adjacent antennas (default: half a wavelength)");
+    RADIOSLAM_BASIC_FIELD(packet_rate_hz, "Hz", 1, 300,
+                          "packet rate to every robot; 120 in published recordings");
+    RADIOSLAM_FIELD(packet_margin_s, "s", 0, 5,
+                    "time before and after a leg during which packets are also sent");
+    RADIOSLAM_BASIC_FIELD(ranges_per_pair, "", 0, 1000,
+                          "number of ranges per pair of robots, between their body origins");
+    RADIOSLAM_BASIC_FIELD(sigma_range_m, "m", 0.001, 100, "standard deviation of ranges");
+    RADIOSLAM_FIELD(lidar_range_m, "m", 0.1, 1000, "range of every robot's LiDAR");
     TurnDriveParams::visit_fields(self.drives, visit);
     WheelOdometryParams::visit_fields(self.odometry, visit);
     CsiCardParams::visit_fields(self.cards, visit);

@@ -51,17 +51,15 @@ struct HallParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"robots", "", 1, 100, "number of robots in the team"}.basic(), self.robots);
-    visit(Field{"hall_x_m", "m", 5, 500, "long side of the hall"}.basic(), self.hall_x_m);
-    visit(Field{"hall_y_m", "m", 5, 500, "short side of the hall"}.basic(), self.hall_y_m);
-    visit(Field{"pillar_spacing_m", "m", 2, 50, "spacing of the pillars"}, self.pillar_spacing_m);
-    visit(Field{"pillar_radius_m", "m", 0.05, 0.5, "radius of the pillars, if they are scanned"},
-          self.pillar_radius_m);
-    visit(Field{"hall_height_m", "m", 2, 100, "height of walls, pillars and ceiling, if they are scanned"},
-          self.hall_height_m);
-    visit(Field{"path_length_m", "m", 5, 1e5, "path length of each robot"}.basic(), self.path_length_m);
-    visit(Field{"speed_mps", "m/s", 0.05, 10, "driving speed"}, self.speed_mps);
-    visit(Field{"lidar_range_m", "m", 0.1, 1000, "range of every robot's LiDAR"}.basic(), self.lidar_range_m);
+    RADIOSLAM_BASIC_FIELD(robots, "", 1, 100, "number of robots in the team");
+    RADIOSLAM_BASIC_FIELD(hall_x_m, "m", 5, 500, "long side of the hall");
+    RADIOSLAM_BASIC_FIELD(hall_y_m, "m", 5, 500, "short side of the hall");
+    RADIOSLAM_FIELD(pillar_spacing_m, "m", 2, 50, "spacing of the pillars");
+    RADIOSLAM_FIELD(pillar_radius_m, "m", 0.05, 0.5, "radius of the pillars, if they are scanned");
+    RADIOSLAM_FIELD(hall_height_m, "m", 2, 100, "height of walls, pillars and ceiling, if they are scanned");
+    RADIOSLAM_BASIC_FIELD(path_length_m, "m", 5, 1e5, "path length of each robot");
+    RADIOSLAM_FIELD(speed_mps, "m/s", 0.05, 10, "driving speed");
+    RADIOSLAM_BASIC_FIELD(lidar_range_m, "m", 0.1, 1000, "range of every robot's LiDAR");
     OnboardParams::visit_fields(self.onboard, visit);
     WheelOdometryParams::visit_fields(self.odometry, visit);
     RadioChannelParams::visit_fields(self.radio, visit);

@@ -32,27 +32,19 @@ struct KittiParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"cut", "", 0.01, 0.99, "ratio of the poses that are assigned to robot a"}.basic(), self.cut);
-    visit(Field{"dimension", "", 2, 3,
-                "dimension of the mission: 2 for poses projected to the plane, 3 for poses in space"}
-              .basic(),
-          self.dimension);
-    visit(Field{"lidar_range_m", "m", 0.1, 1000,
-                "range of every robot's LiDAR; half of the 35 m in Wi-Closure (Wang et al.)"}
-              .basic(),
-          self.lidar_range_m);
-    visit(Field{"sigma_xy_per_sqrt_m", "m/sqrt(m)", 0, 1,
-                "stated white noise of x and y, per axis (default: A-LOAM on sequence 00)"}
-              .basic(),
-          self.sigma_xy_per_sqrt_m);
-    visit(Field{"sigma_yaw_per_sqrt_m_rad", "rad/sqrt(m)", 0, 1,
-                "stated white noise of the yaw per path length (default: A-LOAM on sequence 00)"},
-          self.sigma_yaw_per_sqrt_m_rad);
-    visit(Field{"sigma_yaw_per_rad", "rad/sqrt(rad)", 0, 1, "stated white noise of the yaw per rotation"},
-          self.sigma_yaw_per_rad);
-    visit(Field{"sigma_z_per_sqrt_m", "m/sqrt(m)", 0, 1,
-                "stated white noise of the height (default: A-LOAM on sequence 00)"},
-          self.sigma_z_per_sqrt_m);
+    RADIOSLAM_BASIC_FIELD(cut, "", 0.01, 0.99, "ratio of the poses that are assigned to robot a");
+    RADIOSLAM_BASIC_FIELD(
+        dimension, "", 2, 3,
+        "dimension of the mission: 2 for poses projected to the plane, 3 for poses in space");
+    RADIOSLAM_BASIC_FIELD(lidar_range_m, "m", 0.1, 1000,
+                          "range of every robot's LiDAR; half of the 35 m in Wi-Closure (Wang et al.)");
+    RADIOSLAM_BASIC_FIELD(sigma_xy_per_sqrt_m, "m/sqrt(m)", 0, 1,
+                          "stated white noise of x and y, per axis (default: A-LOAM on sequence 00)");
+    RADIOSLAM_FIELD(sigma_yaw_per_sqrt_m_rad, "rad/sqrt(m)", 0, 1,
+                    "stated white noise of the yaw per path length (default: A-LOAM on sequence 00)");
+    RADIOSLAM_FIELD(sigma_yaw_per_rad, "rad/sqrt(rad)", 0, 1, "stated white noise of the yaw per rotation");
+    RADIOSLAM_FIELD(sigma_z_per_sqrt_m, "m/sqrt(m)", 0, 1,
+                    "stated white noise of the height (default: A-LOAM on sequence 00)");
     RadioChannelParams::visit_fields(self.radio, visit);
     AliasedMatchParams::visit_fields(self.matches, visit);
   }

@@ -27,7 +27,7 @@ struct OnboardParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"truth_hz", "Hz", 0, 1000, "rate of the true poses; 0: that of the odometry"}, self.truth_hz);
+    RADIOSLAM_FIELD(truth_hz, "Hz", 0, 1000, "rate of the true poses; 0: that of the odometry");
     LidarScannerParams::visit_fields(self.lidar, visit);
     InertialUnitParams::visit_fields(self.inertial, visit);
     SmoothMotionParams::visit_fields(self.ride, visit);

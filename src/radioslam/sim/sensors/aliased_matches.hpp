@@ -28,20 +28,14 @@ struct AliasedMatchParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"matches_true", "", 0, 1e6,
-                "number of true matches between robots; 40 in the standard hard case"}
-              .basic(),
-          self.matches_true);
-    visit(Field{"matches_false", "", 0, 1e6,
-                "number of aliased matches between robots; 120 in the standard hard case"}
-              .basic(),
-          self.matches_false);
-    visit(Field{"aliases", "", 1, 10000, "number of groups of aliased matches; each is consistent in itself"},
-          self.aliases);
-    visit(Field{"sigma_match_t_m", "m", 0.001, 100, "standard deviation of a match's position, per axis"},
-          self.sigma_match_t_m);
-    visit(Field{"sigma_match_r_deg", "deg", 0.01, 90, "standard deviation of a match's rotation, per axis"},
-          self.sigma_match_r_deg);
+    RADIOSLAM_BASIC_FIELD(matches_true, "", 0, 1e6,
+                          "number of true matches between robots; 40 in the standard hard case");
+    RADIOSLAM_BASIC_FIELD(matches_false, "", 0, 1e6,
+                          "number of aliased matches between robots; 120 in the standard hard case");
+    RADIOSLAM_FIELD(aliases, "", 1, 10000,
+                    "number of groups of aliased matches; each is consistent in itself");
+    RADIOSLAM_FIELD(sigma_match_t_m, "m", 0.001, 100, "standard deviation of a match's position, per axis");
+    RADIOSLAM_FIELD(sigma_match_r_deg, "deg", 0.01, 90, "standard deviation of a match's rotation, per axis");
   }
 };
 

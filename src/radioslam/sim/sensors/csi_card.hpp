@@ -39,45 +39,31 @@ struct CsiCardParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"carrier_offset_hz", "Hz", 0, 1e5,
-                "standard deviation of the cards' carrier offset (default: 1 ppm)"},
-          self.carrier_offset_hz);
-    visit(
-        Field{"carrier_walk_hz_per_sqrt_s", "Hz/sqrt(s)", 0, 1e4, "random walk of every carrier's frequency"},
-        self.carrier_walk_hz_per_sqrt_s);
-    visit(Field{"clock_rate_ppm", "1e-6", 0, 1000, "standard deviation of the clocks' rate errors"},
-          self.clock_rate_ppm);
-    visit(Field{"random_phase", "", 0, 1, "whether every exchange draws a new oscillator phase"},
-          self.random_phase);
-    visit(Field{"sigma_chain_phase_rad", "rad", 0, 100,
-                "standard deviation of the constant phase of every receive chain; 0: calibrated antennas"},
-          self.sigma_chain_phase_rad);
-    visit(Field{"answer_delay_us", "us", 0, 1e4, "smallest delay from a packet to its answer"},
-          self.answer_delay_us);
-    visit(Field{"answer_jitter_us", "us", 0, 1e4, "mean additional delay of an answer"},
-          self.answer_jitter_us);
-    visit(Field{"late_answer_ratio", "", 0, 1, "ratio of answers delayed by a busy channel"},
-          self.late_answer_ratio);
-    visit(Field{"late_answer_us", "us", 0, 1e4, "mean additional delay of answers on a busy channel"},
-          self.late_answer_us);
-    visit(Field{"detection_delay_ns", "ns", 0, 1600,
-                "largest detection delay of a packet; 1600: guard interval"},
-          self.detection_delay_ns);
-    visit(
-        Field{"snr_db", "dB", -20, 100,
-              "signal-to-noise ratio per subcarrier of an unobstructed direct path of length snr_distance_m"}
-            .basic(),
-        self.snr_db);
-    visit(Field{"snr_distance_m", "m", 0.1, 1000, "path length at which snr_db holds"}, self.snr_distance_m);
-    visit(Field{"quantised", "", 0, 1, "whether channels are rounded to 8 bits after the automatic gain"},
-          self.quantised);
-    visit(Field{"loss_ratio", "", 0, 1, "ratio of packets that are lost, in each direction"}.basic(),
-          self.loss_ratio);
-    visit(Field{"late_stamp_ratio", "", 0, 1, "ratio of packets that the host stamps late"},
-          self.late_stamp_ratio);
-    visit(Field{"late_stamp_ms", "ms", 0, 1000, "mean delay of late host stamps"}, self.late_stamp_ms);
-    visit(Field{"stamp_offset_s", "s", 0, 10, "time by which the host's stamps are ahead of the odometry's"},
-          self.stamp_offset_s);
+    RADIOSLAM_FIELD(carrier_offset_hz, "Hz", 0, 1e5,
+                    "standard deviation of the cards' carrier offset (default: 1 ppm)");
+    RADIOSLAM_FIELD(carrier_walk_hz_per_sqrt_s, "Hz/sqrt(s)", 0, 1e4,
+                    "random walk of every carrier's frequency");
+    RADIOSLAM_FIELD(clock_rate_ppm, "1e-6", 0, 1000, "standard deviation of the clocks' rate errors");
+    RADIOSLAM_FIELD(random_phase, "", 0, 1, "whether every exchange draws a new oscillator phase");
+    RADIOSLAM_FIELD(
+        sigma_chain_phase_rad, "rad", 0, 100,
+        "standard deviation of the constant phase of every receive chain; 0: calibrated antennas");
+    RADIOSLAM_FIELD(answer_delay_us, "us", 0, 1e4, "smallest delay from a packet to its answer");
+    RADIOSLAM_FIELD(answer_jitter_us, "us", 0, 1e4, "mean additional delay of an answer");
+    RADIOSLAM_FIELD(late_answer_ratio, "", 0, 1, "ratio of answers delayed by a busy channel");
+    RADIOSLAM_FIELD(late_answer_us, "us", 0, 1e4, "mean additional delay of answers on a busy channel");
+    RADIOSLAM_FIELD(detection_delay_ns, "ns", 0, 1600,
+                    "largest detection delay of a packet; 1600: guard interval");
+    RADIOSLAM_BASIC_FIELD(
+        snr_db, "dB", -20, 100,
+        "signal-to-noise ratio per subcarrier of an unobstructed direct path of length snr_distance_m");
+    RADIOSLAM_FIELD(snr_distance_m, "m", 0.1, 1000, "path length at which snr_db holds");
+    RADIOSLAM_FIELD(quantised, "", 0, 1, "whether channels are rounded to 8 bits after the automatic gain");
+    RADIOSLAM_BASIC_FIELD(loss_ratio, "", 0, 1, "ratio of packets that are lost, in each direction");
+    RADIOSLAM_FIELD(late_stamp_ratio, "", 0, 1, "ratio of packets that the host stamps late");
+    RADIOSLAM_FIELD(late_stamp_ms, "ms", 0, 1000, "mean delay of late host stamps");
+    RADIOSLAM_FIELD(stamp_offset_s, "s", 0, 10,
+                    "time by which the host's stamps are ahead of the odometry's");
   }
 };
 

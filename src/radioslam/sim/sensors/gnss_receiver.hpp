@@ -26,17 +26,13 @@ struct GnssReceiverParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"gnss_hz", "Hz", 0, 100, "position fixes per second and robot; 0: none"}.basic(),
-          self.gnss_hz);
-    visit(Field{"gnss_sigma_m", "m", 0.001, 1000, "standard deviation of a fix per axis, as it is stated"},
-          self.gnss_sigma_m);
-    visit(Field{"gnss_outlier_ratio", "", 0, 0.9, "ratio of fixes with gross errors, which come in episodes"},
-          self.gnss_outlier_ratio);
-    visit(Field{"gnss_outlier_m", "m", 0, 1e5,
-                "standard deviation of the gross error per axis, constant over an episode"},
-          self.gnss_outlier_m);
-    visit(Field{"gnss_outlier_s", "s", 0.01, 1e5, "mean duration of an episode of gross errors"},
-          self.gnss_outlier_s);
+    RADIOSLAM_BASIC_FIELD(gnss_hz, "Hz", 0, 100, "position fixes per second and robot; 0: none");
+    RADIOSLAM_FIELD(gnss_sigma_m, "m", 0.001, 1000, "standard deviation of a fix per axis, as it is stated");
+    RADIOSLAM_FIELD(gnss_outlier_ratio, "", 0, 0.9,
+                    "ratio of fixes with gross errors, which come in episodes");
+    RADIOSLAM_FIELD(gnss_outlier_m, "m", 0, 1e5,
+                    "standard deviation of the gross error per axis, constant over an episode");
+    RADIOSLAM_FIELD(gnss_outlier_s, "s", 0.01, 1e5, "mean duration of an episode of gross errors");
   }
 };
 

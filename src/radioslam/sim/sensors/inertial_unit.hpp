@@ -12,7 +12,7 @@
 
 #include "radioslam/base/fields.hpp"
 #include "radioslam/base/random.hpp"
-#include "radioslam/mission/inertial.hpp"
+#include "radioslam/mission/mission.hpp"
 #include "radioslam/sim/motion/true_motion.hpp"
 
 namespace radioslam {
@@ -28,26 +28,19 @@ struct InertialUnitParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"imu_hz", "Hz", 0, 1000,
-                "IMU samples per second; 0: no IMU. With an IMU the true motion is smoothed"}
-              .basic(),
-          self.imu_hz);
-    visit(Field{"imu_accelerometer_density", "m/s^2/sqrt(Hz)", 0, 1,
-                "white noise density of the accelerometer (default: ADIS16448)"},
-          self.imu_accelerometer_density);
-    visit(Field{"imu_gyroscope_density", "rad/s/sqrt(Hz)", 0, 1,
-                "white noise density of the gyroscope (default: ADIS16448)"},
-          self.imu_gyroscope_density);
-    visit(Field{"imu_accelerometer_bias_mps2", "m/s^2", 0, 10,
-                "standard deviation of the accelerometer's initial bias, per axis"},
-          self.imu_accelerometer_bias_mps2);
-    visit(Field{"imu_gyroscope_bias_radps", "rad/s", 0, 1,
-                "standard deviation of the gyroscope's initial bias, per axis"},
-          self.imu_gyroscope_bias_radps);
-    visit(Field{"imu_accelerometer_walk", "m/s^3/sqrt(Hz)", 0, 1, "random walk of the accelerometer's bias"},
-          self.imu_accelerometer_walk);
-    visit(Field{"imu_gyroscope_walk", "rad/s^2/sqrt(Hz)", 0, 1, "random walk of the gyroscope's bias"},
-          self.imu_gyroscope_walk);
+    RADIOSLAM_BASIC_FIELD(imu_hz, "Hz", 0, 1000,
+                          "IMU samples per second; 0: no IMU. With an IMU the true motion is smoothed");
+    RADIOSLAM_FIELD(imu_accelerometer_density, "m/s^2/sqrt(Hz)", 0, 1,
+                    "white noise density of the accelerometer (default: ADIS16448)");
+    RADIOSLAM_FIELD(imu_gyroscope_density, "rad/s/sqrt(Hz)", 0, 1,
+                    "white noise density of the gyroscope (default: ADIS16448)");
+    RADIOSLAM_FIELD(imu_accelerometer_bias_mps2, "m/s^2", 0, 10,
+                    "standard deviation of the accelerometer's initial bias, per axis");
+    RADIOSLAM_FIELD(imu_gyroscope_bias_radps, "rad/s", 0, 1,
+                    "standard deviation of the gyroscope's initial bias, per axis");
+    RADIOSLAM_FIELD(imu_accelerometer_walk, "m/s^3/sqrt(Hz)", 0, 1,
+                    "random walk of the accelerometer's bias");
+    RADIOSLAM_FIELD(imu_gyroscope_walk, "rad/s^2/sqrt(Hz)", 0, 1, "random walk of the gyroscope's bias");
   }
 };
 

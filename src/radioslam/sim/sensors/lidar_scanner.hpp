@@ -35,29 +35,20 @@ struct LidarScannerParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"lidar_beams", "", 0, 128,
-                "number of LiDAR beams; 0: no scans, 1: planar scanner, 16: VLP-16, 64: HDL-64E"}
-              .basic(),
-          self.lidar_beams);
-    visit(Field{"lidar_lowest_deg", "deg", -90, 90,
-                "elevation of the lowest beam; if not below the highest: -15 to 15 deg up to 32 beams, -24.8 "
-                "to 2 deg beyond"},
-          self.lidar_lowest_deg);
-    visit(Field{"lidar_highest_deg", "deg", -90, 90, "elevation of the highest beam; see lidar_lowest_deg"},
-          self.lidar_highest_deg);
-    visit(Field{"lidar_azimuth_steps", "", 1, 100000,
-                "number of azimuths over the field of view; a VLP-16 has 1800"},
-          self.lidar_azimuth_steps);
-    visit(Field{"lidar_rotation_hz", "Hz", 0.1, 100, "scans per second"}, self.lidar_rotation_hz);
-    visit(Field{"lidar_view_deg", "deg", 1, 360, "horizontal field of view about body x"},
-          self.lidar_view_deg);
-    visit(Field{"lidar_min_range_m", "m", 0, 100, "smallest measurable range"}, self.lidar_min_range_m);
-    visit(Field{"lidar_sigma_m", "m", 0, 10, "standard deviation of ranges; 0.02 for an HDL-64E"},
-          self.lidar_sigma_m);
-    visit(Field{"lidar_dropout_ratio", "", 0, 1, "ratio of points that are not returned"},
-          self.lidar_dropout_ratio);
-    visit(Field{"lidar_height_m", "m", 0, 100, "height of the LiDAR above the body's origin"},
-          self.lidar_height_m);
+    RADIOSLAM_BASIC_FIELD(lidar_beams, "", 0, 128,
+                          "number of LiDAR beams; 0: no scans, 1: planar scanner, 16: VLP-16, 64: HDL-64E");
+    RADIOSLAM_FIELD(lidar_lowest_deg, "deg", -90, 90,
+                    "elevation of the lowest beam; if not below the highest: -15 to 15 deg up to 32 beams, "
+                    "-24.8 to 2 deg beyond");
+    RADIOSLAM_FIELD(lidar_highest_deg, "deg", -90, 90, "elevation of the highest beam; see lidar_lowest_deg");
+    RADIOSLAM_FIELD(lidar_azimuth_steps, "", 1, 100000,
+                    "number of azimuths over the field of view; a VLP-16 has 1800");
+    RADIOSLAM_FIELD(lidar_rotation_hz, "Hz", 0.1, 100, "scans per second");
+    RADIOSLAM_FIELD(lidar_view_deg, "deg", 1, 360, "horizontal field of view about body x");
+    RADIOSLAM_FIELD(lidar_min_range_m, "m", 0, 100, "smallest measurable range");
+    RADIOSLAM_FIELD(lidar_sigma_m, "m", 0, 10, "standard deviation of ranges; 0.02 for an HDL-64E");
+    RADIOSLAM_FIELD(lidar_dropout_ratio, "", 0, 1, "ratio of points that are not returned");
+    RADIOSLAM_FIELD(lidar_height_m, "m", 0, 100, "height of the LiDAR above the body's origin");
   }
 };
 

@@ -31,25 +31,17 @@ struct PhoneParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"phones", "", 1, 100, "number of phones per robot; five in Liu et al."}.basic(), self.phones);
-    visit(Field{"scan_rate_hz", "Hz", 0.001, 10, "scans per second and phone; 0.5 in Liu et al."}.basic(),
-          self.scan_rate_hz);
-    visit(Field{"scan_jitter_s", "s", 0, 10, "largest delay of a scan after its scheduled time"},
-          self.scan_jitter_s);
-    visit(Field{"missed_scan_ratio", "", 0, 1, "ratio of scans that fail as a whole"}.basic(),
-          self.missed_scan_ratio);
-    visit(Field{"sigma_phone_offset_db", "dB", 0, 30,
-                "standard deviation of the constant RSSI offset of phones"},
-          self.sigma_phone_offset_db);
-    visit(Field{"sigma_fading_db", "dB", 0, 30,
-                "standard deviation of fast fading, independent for each reading"}
-              .basic(),
-          self.sigma_fading_db);
-    visit(Field{"threshold_dbm", "dBm", -300, 0, "power that is detected in half of the scans"}.basic(),
-          self.threshold_dbm);
-    visit(Field{"threshold_softness_db", "dB", 0.01, 30, "width of the logistic detection threshold"},
-          self.threshold_softness_db);
-    visit(Field{"floor_dbm", "dBm", -300, 0, "weakest power that a phone reports"}, self.floor_dbm);
+    RADIOSLAM_BASIC_FIELD(phones, "", 1, 100, "number of phones per robot; five in Liu et al.");
+    RADIOSLAM_BASIC_FIELD(scan_rate_hz, "Hz", 0.001, 10, "scans per second and phone; 0.5 in Liu et al.");
+    RADIOSLAM_FIELD(scan_jitter_s, "s", 0, 10, "largest delay of a scan after its scheduled time");
+    RADIOSLAM_BASIC_FIELD(missed_scan_ratio, "", 0, 1, "ratio of scans that fail as a whole");
+    RADIOSLAM_FIELD(sigma_phone_offset_db, "dB", 0, 30,
+                    "standard deviation of the constant RSSI offset of phones");
+    RADIOSLAM_BASIC_FIELD(sigma_fading_db, "dB", 0, 30,
+                          "standard deviation of fast fading, independent for each reading");
+    RADIOSLAM_BASIC_FIELD(threshold_dbm, "dBm", -300, 0, "power that is detected in half of the scans");
+    RADIOSLAM_FIELD(threshold_softness_db, "dB", 0.01, 30, "width of the logistic detection threshold");
+    RADIOSLAM_FIELD(floor_dbm, "dBm", -300, 0, "weakest power that a phone reports");
   }
 };
 

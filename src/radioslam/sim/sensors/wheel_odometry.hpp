@@ -37,27 +37,19 @@ struct WheelOdometryParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"odometry_rate_hz", "Hz", 0.1, 1000, "odometry poses per second; 10 in Liu et al."},
-          self.odometry_rate_hz);
-    visit(Field{"sigma_xy_per_sqrt_m", "m/sqrt(m)", 0, 1, "white noise of x and y, per axis"}.basic(),
-          self.sigma_xy_per_sqrt_m);
-    visit(Field{"sigma_yaw_per_sqrt_m_rad", "rad/sqrt(m)", 0, 1, "white noise of the yaw per path length"},
-          self.sigma_yaw_per_sqrt_m_rad);
-    visit(Field{"sigma_yaw_per_rad", "rad/sqrt(rad)", 0, 1,
-                "white noise of the yaw after one radian of turning"},
-          self.sigma_yaw_per_rad);
-    visit(Field{"sigma_yaw_drift_per_m_rad", "rad/m", 0, 1,
-                "standard deviation of the yaw drift, constant per robot"},
-          self.sigma_yaw_drift_per_m_rad);
-    visit(Field{"sigma_scale", "", 0, 0.5, "standard deviation of the scale error, constant per robot"},
-          self.sigma_scale);
-    visit(Field{"end_error_min_m", "m", 0, 1e6, "smallest end error of dead reckoning"},
-          self.end_error_min_m);
-    visit(Field{"end_error_max_m", "m", 0, 1e6, "largest end error of dead reckoning"}, self.end_error_max_m);
-    visit(Field{"draws", "", 1, 1e6, "largest number of draws until the end error fits"}, self.draws);
-    visit(Field{"stated_noise_factor", "", 0.01, 100,
-                "ratio of stated to true noise; below 1 the odometry is overconfident"},
-          self.stated_noise_factor);
+    RADIOSLAM_FIELD(odometry_rate_hz, "Hz", 0.1, 1000, "odometry poses per second; 10 in Liu et al.");
+    RADIOSLAM_BASIC_FIELD(sigma_xy_per_sqrt_m, "m/sqrt(m)", 0, 1, "white noise of x and y, per axis");
+    RADIOSLAM_FIELD(sigma_yaw_per_sqrt_m_rad, "rad/sqrt(m)", 0, 1, "white noise of the yaw per path length");
+    RADIOSLAM_FIELD(sigma_yaw_per_rad, "rad/sqrt(rad)", 0, 1,
+                    "white noise of the yaw after one radian of turning");
+    RADIOSLAM_FIELD(sigma_yaw_drift_per_m_rad, "rad/m", 0, 1,
+                    "standard deviation of the yaw drift, constant per robot");
+    RADIOSLAM_FIELD(sigma_scale, "", 0, 0.5, "standard deviation of the scale error, constant per robot");
+    RADIOSLAM_FIELD(end_error_min_m, "m", 0, 1e6, "smallest end error of dead reckoning");
+    RADIOSLAM_FIELD(end_error_max_m, "m", 0, 1e6, "largest end error of dead reckoning");
+    RADIOSLAM_FIELD(draws, "", 1, 1e6, "largest number of draws until the end error fits");
+    RADIOSLAM_FIELD(stated_noise_factor, "", 0.01, 100,
+                    "ratio of stated to true noise; below 1 the odometry is overconfident");
   }
 };
 

@@ -24,18 +24,14 @@ struct LaneGridParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"floor_x_m", "m", 20, 1000, "long side of the floor (5,100 m^2 in Liu et al.)"}.basic(),
-          self.floor_x_m);
-    visit(Field{"floor_y_m", "m", 20, 1000, "short side of the floor"}.basic(), self.floor_y_m);
-    visit(Field{"aisles_along_y", "", 2, 50,
-                "number of aisles along y (default: every 15 m, with two rows of 4.5 m bays between)"},
-          self.aisles_along_y);
-    visit(Field{"aisles_along_x", "", 2, 50, "number of aisles along x"}, self.aisles_along_x);
-    visit(Field{"margin_m", "m", 2, 9, "distance from the outer aisles' centre lines to the outer walls"},
-          self.margin_m);
-    visit(Field{"closed_lane_ratio", "", 0, 0.5,
-                "ratio of lanes between crossings that are closed by a wall or stairwell"},
-          self.closed_lane_ratio);
+    RADIOSLAM_BASIC_FIELD(floor_x_m, "m", 20, 1000, "long side of the floor (5,100 m^2 in Liu et al.)");
+    RADIOSLAM_BASIC_FIELD(floor_y_m, "m", 20, 1000, "short side of the floor");
+    RADIOSLAM_FIELD(aisles_along_y, "", 2, 50,
+                    "number of aisles along y (default: every 15 m, with two rows of 4.5 m bays between)");
+    RADIOSLAM_FIELD(aisles_along_x, "", 2, 50, "number of aisles along x");
+    RADIOSLAM_FIELD(margin_m, "m", 2, 9, "distance from the outer aisles' centre lines to the outer walls");
+    RADIOSLAM_FIELD(closed_lane_ratio, "", 0, 0.5,
+                    "ratio of lanes between crossings that are closed by a wall or stairwell");
   }
 };
 

@@ -1,5 +1,5 @@
 // Houses of a town: rows of boxes of random sizes on both sides of every street, closed or not, with gaps
-// between them. Frame: that of the streets (street_grid.hpp).
+// between them. Frame: that of the streets.
 #pragma once
 
 #include <vector>
@@ -7,10 +7,31 @@
 #include "radioslam/base/fields.hpp"
 #include "radioslam/base/random.hpp"
 #include "radioslam/sim/worlds/hills.hpp"
-#include "radioslam/sim/worlds/street_grid.hpp"
+#include "radioslam/sim/worlds/lane_grid.hpp"
 #include "radioslam/sim/worlds/upright_shapes.hpp"
 
 namespace radioslam {
+
+/// Street grid of a town: square blocks, with some streets closed between two crossings. Frame: origin at a
+/// corner crossing, x and y along the streets; metres.
+struct StreetGridParams {
+  int blocks_x = 5;
+  int blocks_y = 5;
+  double block_m = 100;
+  double closed_street_ratio = 0.1;
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    RADIOSLAM_FIELD(blocks_x, "", 1, 49, "number of blocks of houses along x");
+    RADIOSLAM_FIELD(blocks_y, "", 1, 49, "number of blocks of houses along y");
+    RADIOSLAM_FIELD(block_m, "m", 20, 1000, "distance between adjacent streets");
+    RADIOSLAM_FIELD(closed_street_ratio, "", 0, 0.5,
+                    "ratio of street sections between crossings that are not driven");
+  }
+};
+
+/// The streets as lanes to drive.
+LaneGrid make_streets(const StreetGridParams& params, Rng rng);
 
 struct TownHouseParams {
   double street_width_m = 16;
@@ -23,16 +44,14 @@ struct TownHouseParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"street_width_m", "m", 2, 100,
-                "smallest distance between the houses on both sides of a street"},
-          self.street_width_m);
-    visit(Field{"house_setback_m", "m", 0, 50, "largest setback of a house from the street"},
-          self.house_setback_m);
-    visit(Field{"house_gap_m", "m", 0, 50, "largest gap between adjacent houses"}, self.house_gap_m);
-    visit(Field{"house_min_m", "m", 1, 100, "smallest side of a house"}, self.house_min_m);
-    visit(Field{"house_max_m", "m", 1, 100, "largest side of a house"}, self.house_max_m);
-    visit(Field{"house_min_height_m", "m", 1, 100, "smallest height of a house"}, self.house_min_height_m);
-    visit(Field{"house_max_height_m", "m", 1, 100, "largest height of a house"}, self.house_max_height_m);
+    RADIOSLAM_FIELD(street_width_m, "m", 2, 100,
+                    "smallest distance between the houses on both sides of a street");
+    RADIOSLAM_FIELD(house_setback_m, "m", 0, 50, "largest setback of a house from the street");
+    RADIOSLAM_FIELD(house_gap_m, "m", 0, 50, "largest gap between adjacent houses");
+    RADIOSLAM_FIELD(house_min_m, "m", 1, 100, "smallest side of a house");
+    RADIOSLAM_FIELD(house_max_m, "m", 1, 100, "largest side of a house");
+    RADIOSLAM_FIELD(house_min_height_m, "m", 1, 100, "smallest height of a house");
+    RADIOSLAM_FIELD(house_max_height_m, "m", 1, 100, "largest height of a house");
   }
 };
 

@@ -65,4 +65,15 @@ RobustnessMap map_robustness(const RobustnessGrid& grid, const CityParams& town,
 /// A row per cell: medians, worst cases and failure ratios.
 StudyTable robustness_table(const RobustnessMap& map);
 
+/// Summary statistics of a cell of the robustness map.
+struct RobustnessSummary {
+  std::optional<double> ratio, worst_ratio;   ///< error relative to the oracle's: median, largest
+  std::optional<double> ate_m, ate_oracle_m;  ///< medians
+  std::optional<double> recall, min_recall;
+  std::optional<double> rejected_false;
+  double failed = 0, confidently_wrong = 0;  ///< ratios of the seeds
+};
+
+RobustnessSummary summarise(const RobustnessCell& cell);
+
 }  // namespace radioslam

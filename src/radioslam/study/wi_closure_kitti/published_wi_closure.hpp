@@ -1,5 +1,5 @@
 // Published results of Wi-Closure (Wang et al.), table I and section V-A: KITTI 08, pairs within 35 m are
-// true. Contradictions within the publication are noted in wi_closure_kitti_table.cpp.
+// true. Contradictions within the publication are noted in wi_closure_kitti.cpp.
 #pragma once
 
 namespace radioslam::published_wi_closure {

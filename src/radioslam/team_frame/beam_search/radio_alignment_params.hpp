@@ -19,35 +19,27 @@ struct BeamParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"beam", "", 1, 100,
-                "number of team alignments kept while robots are added; higher values search more broadly"}
-              .basic(),
-          self.beam);
-    visit(Field{"tried_places", "", 1, 10000,
-                "number of start poses refined coarsely per team alignment and robot"},
-          self.tried_places);
-    visit(Field{"refined_places", "", 1, 10000,
-                "number of start poses per robot refined to convergence, over all team alignments kept"},
-          self.refined_places);
-    visit(Field{"same_map_m", "m", 0, 1000,
-                "distance below which all corresponding poses of two alignments count as one hypothesis"},
-          self.same_map_m);
-    visit(Field{"same_map_sigmas", "sigma", 0, 100,
-                "tolerance added to same_map_m when alignments are merged, in standard deviations of a pose"},
-          self.same_map_sigmas);
-    visit(Field{"evidence_temperature", "", 1, 1000,
-                "divisor of the log evidence of a hypothesis, since links share errors; higher values even "
-                "out the weights"},
-          self.evidence_temperature);
-    visit(
-        Field{
-            "joint_segments", "", 2, 1000,
-            "trajectory segments of the largest team refined as a whole at every step; higher values search "
-            "more thoroughly, at a cost of their fourth power"},
-        self.joint_segments);
-    visit(Field{"neighbours", "", 1, 100,
-                "number of placed segments with which a further segment of a larger team is refined jointly"},
-          self.neighbours);
+    RADIOSLAM_BASIC_FIELD(
+        beam, "", 1, 100,
+        "number of team alignments kept while robots are added; higher values search more broadly");
+    RADIOSLAM_FIELD(tried_places, "", 1, 10000,
+                    "number of start poses refined coarsely per team alignment and robot");
+    RADIOSLAM_FIELD(refined_places, "", 1, 10000,
+                    "number of start poses per robot refined to convergence, over all team alignments kept");
+    RADIOSLAM_FIELD(same_map_m, "m", 0, 1000,
+                    "distance below which all corresponding poses of two alignments count as one hypothesis");
+    RADIOSLAM_FIELD(
+        same_map_sigmas, "sigma", 0, 100,
+        "tolerance added to same_map_m when alignments are merged, in standard deviations of a pose");
+    RADIOSLAM_FIELD(evidence_temperature, "", 1, 1000,
+                    "divisor of the log evidence of a hypothesis, since links share errors; higher values "
+                    "even out the weights");
+    RADIOSLAM_FIELD(joint_segments, "", 2, 1000,
+                    "trajectory segments of the largest team refined as a whole at every step; higher values "
+                    "search more thoroughly, at a cost of their fourth power");
+    RADIOSLAM_FIELD(
+        neighbours, "", 1, 100,
+        "number of placed segments with which a further segment of a larger team is refined jointly");
   }
 };
 

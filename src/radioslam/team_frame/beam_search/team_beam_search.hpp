@@ -14,7 +14,6 @@
 
 #include "radioslam/base/progress.hpp"
 #include "radioslam/team_frame/beam_search/beam_selection.hpp"
-#include "radioslam/team_frame/beam_search/partial_mixture.hpp"
 
 namespace radioslam {
 

@@ -1,0 +1,60 @@
+// Team alignment: puts all robots of the joint graph into one frame, by ranges and angles of arrival if there
+// are any, else by fingerprint similarity.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "radioslam/base/progress.hpp"
+#include "radioslam/joint/joint_graph.hpp"
+#include "radioslam/team_frame/radio_alignment.hpp"
+
+namespace radioslam {
+
+/// Robots with a common frame, and alternative hypotheses of their alignment.
+template <class Pose>
+struct TeamAlignment {
+  TeamComponents segments;                      ///< of the alignment by radio; empty without
+  std::vector<int> component;                   ///< per robot; 0 is the first robot's
+  std::vector<int> without_matches;             ///< the component before matches joined any
+  std::vector<bool> in_common_frame;            ///< per robot, before matches joined any component
+  std::vector<bool> placed;                     ///< per robot; false: no measurement connects it to others
+  std::vector<bool> absolute;                   ///< per component: its frame is the common one
+  double weight = 1;                            ///< of the hypothesis that the graph holds
+  std::vector<std::vector<Pose>> alternatives;  ///< all poses of the graph, most likely first
+  std::vector<double> alternative_weights;
+  std::vector<std::string> notes;  ///< on what the frame stands
+};
+
+/// Whether other measurements than matches determine the relative pose of two robots.
+template <class Pose>
+bool connected_without_matches(const TeamAlignment<Pose>& alignment, RobotIndex i, RobotIndex j) {
+  const int c_i = alignment.without_matches[i.index()], c_j = alignment.without_matches[j.index()];
+  return c_i == c_j || (alignment.in_common_frame[i.index()] && alignment.in_common_frame[j.index()]);
+}
+
+/// Whether radio links connect robots to each other or to anchors.
+template <class Pose>
+bool has_radio_links(const JointGraph<Pose>& joint);
+
+/// Aligns robots by their links, assigns weights to all links, and adds paths of angles that may be direct as
+/// bearing factors.
+template <class Pose>
+TeamAlignment<Pose> align_by_links(JointGraph<Pose>& joint, const RadioAlignmentParams& params,
+                                   const Progress& progress);
+
+/// Sets the weight of the first of these hypotheses, best first, and the alternatives that are likely enough
+/// to be searched.
+template <class Pose>
+void set_alternatives(TeamAlignment<Pose>& alignment, const std::vector<TeamHypothesis<Pose>>& hypotheses);
+
+/// Renumbers components without gaps, in the order of the robots; returns the new number of each old one, -1
+/// where no robot had it.
+std::vector<int> renumber_components(std::vector<int>& component_of_robot);
+
+template <class Pose>
+TeamAlignment<Pose> align_robots_by_fingerprints(JointGraph<Pose>& joint, const Mission& mission,
+                                                 const KnownStarts& starts, const RadioMeasurements& radio,
+                                                 const LayoutParams& params, const Progress& progress);
+
+}  // namespace radioslam
