@@ -213,8 +213,13 @@ TeamMetrics evaluate_trajectories(const std::vector<EstimatedTrajectory>& estima
   metrics.ate = summarise_errors(std::move(errors));
   metrics.consistency =
       consistency(metrics.robots, dimension, &PointError::sigma_m, [](const auto&) { return true; });
-  metrics.team_consistency = consistency(metrics.robots, dimension, &PointError::sigma_team_m,
-                                         [](const PointError& error) { return error.at_keyframe; });
+  const bool all_known = std::all_of(estimate.begin(), estimate.end(), [&](const EstimatedTrajectory& robot) {
+    const auto is_it = [&](const RobotMetrics& of) { return of.id == robot.id && !of.errors.empty(); };
+    return robot.poses.empty() || std::any_of(metrics.robots.begin(), metrics.robots.end(), is_it);
+  });
+  if (all_known)
+    metrics.team_consistency = consistency(metrics.robots, dimension, &PointError::sigma_team_m,
+                                           [](const PointError& error) { return error.at_keyframe; });
   metrics.coverage = poses == 0 ? 0 : covered / static_cast<double>(poses);
   return metrics;
 }

@@ -90,6 +90,7 @@ struct TeamMetrics {
   /// Of all errors, with the uncertainty relative to what holds the frame; absent if not stated.
   std::optional<Consistency> consistency;
   /// In the gauge of the team, of the errors at keyframes: those between them are of the interpolation, too.
+  /// Absent if a robot has no truth, since the alignment is not that of the gauge then.
   std::optional<Consistency> team_consistency;
   double coverage = 0;  ///< fraction of the truth's poses that the estimate covers
   SE3 T_truth_estimate;

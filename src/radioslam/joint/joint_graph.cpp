@@ -8,9 +8,12 @@
 #include "radioslam/mission/odometry_edge.hpp"
 
 namespace radioslam {
-std::size_t count_factors(const std::vector<FactorOrigin>& origins, FactorSource source) {
-  return static_cast<std::size_t>(std::count_if(
-      origins.begin(), origins.end(), [&](const FactorOrigin& origin) { return origin.source == source; }));
+
+std::vector<std::size_t> factors_of(const std::vector<FactorOrigin>& origins, FactorSource source) {
+  std::vector<std::size_t> indices;
+  for (std::size_t k = 0; k < origins.size(); ++k)
+    if (origins[k].source == source) indices.push_back(k);
+  return indices;
 }
 
 namespace {

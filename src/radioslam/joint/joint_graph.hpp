@@ -42,8 +42,8 @@ struct FactorOrigins {
   std::vector<FactorOrigin> bearings;        ///< of team.bearings
 };
 
-/// Number of factors of one source.
-std::size_t count_factors(const std::vector<FactorOrigin>& origins, FactorSource source);
+/// Indices of the factors of one source.
+std::vector<std::size_t> factors_of(const std::vector<FactorOrigin>& origins, FactorSource source);
 
 struct JointGraphParams {
   double sigma_start_m = 0.05;

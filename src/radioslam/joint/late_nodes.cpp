@@ -1,5 +1,7 @@
 #include "radioslam/joint/late_nodes.hpp"
 
+#include <algorithm>
+
 #include "radioslam/base/check.hpp"
 #include "radioslam/joint/robot_nodes.hpp"
 
@@ -116,7 +118,11 @@ void add_nodes(TeamEstimate<Pose>& team, const Mission& mission, const JointGrap
   NodeInsertion<Pose> insertion(team, mission, params);
   for (std::size_t p = 0; p < team.joint.team.segments.size(); ++p) {
     const std::size_t r = team.joint.robot_of_segment[p];
-    if (!mission.robots[r].odometry.empty() && !stamps[r].empty()) insertion.insert(p, stamps[r]);
+    if (mission.robots[r].odometry.empty() || stamps[r].empty()) continue;
+    RADIOSLAM_CHECK(
+        std::count(team.joint.robot_of_segment.begin(), team.joint.robot_of_segment.end(), r) == 1,
+        "a robot of a mission has one segment");
+    insertion.insert(p, stamps[r]);
   }
 }
 

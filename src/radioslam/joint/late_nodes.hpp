@@ -1,8 +1,8 @@
 // Poses at further stamps of a joint graph that exists already, for closures that come late.
 //
-// A new pose divides the odometry edge that it lies on, with the noise of either part; every other factor,
+// A new pose divides the odometry edge that it lies on into two, each with its own noise; every other factor,
 // weight and value stays. So a graph that was extended has the optimum of one that was built with these
-// poses.
+// poses. The poses of a graph file are all there are: its robots have no odometry between them.
 #pragma once
 
 #include <vector>

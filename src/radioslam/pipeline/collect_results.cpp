@@ -1,5 +1,6 @@
 #include "radioslam/pipeline/collect_results.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -198,17 +199,19 @@ std::vector<std::string> odometry_notes(const Mission& mission, const JointGraph
   return notes;
 }
 
-/// How much a prior's residual r exceeds what everything else allows, by the modes of its covariance L^-1 - P
-/// with the prior's information L, which is diagonal, and the marginal covariance P; 1 is significant.
+/// How much a prior's residual exceeds what everything else allows; 1 is significant. With the prior's
+/// information L L^T and the marginal covariance P, the residual L^T r has the covariance I - L^T P L.
 template <class Pose>
 double contradiction(const PosePriorFactor<Pose>& prior, const Pose& estimate,
                      const typename Pose::Jacobian& covariance) {
-  constexpr double kMinVariance = 0.01;  // over the prior's own: below, nothing else measures the mode
+  constexpr double kMinVariance = 0.01;  // below, nothing else measures the mode
   constexpr double kFalseAlarm = 1e-5;
-  const typename Pose::Tangent scale = prior.information.diagonal().cwiseSqrt();
-  const typename Pose::Tangent r = scale.cwiseProduct((prior.prior.inverse() * estimate).log());
+  const Eigen::LLT<typename Pose::Jacobian> root(prior.information);
+  if (root.info() != Eigen::Success) return 0;
+  const typename Pose::Jacobian upper = root.matrixU();
+  const typename Pose::Tangent r = upper * (prior.prior.inverse() * estimate).log();
   const typename Pose::Jacobian variance =
-      Pose::Jacobian::Identity() - scale.asDiagonal() * covariance * scale.asDiagonal();
+      Pose::Jacobian::Identity() - upper * covariance * upper.transpose();
   const Eigen::SelfAdjointEigenSolver<typename Pose::Jacobian> modes(variance);
   double statistic = 0;
   int dof = 0;

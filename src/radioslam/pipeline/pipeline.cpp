@@ -24,11 +24,11 @@ bool weighs_matches(const RunSetup& run) {
   return run.params.matches.robust && run.options.pruning == Pruning::kOn && !run.options.overlap_only;
 }
 
-/// Whether the robots are connected by matches and by nothing else.
+/// Whether nothing but matches can connect the robots.
 bool stands_on_matches(const RunSetup& run) {
   const Mission& mission = run.mission;
-  return weighs_matches(run) && !mission.matches.empty() && mission.ranges.empty() &&
-         mission.aoa_measurements.empty() && !has_fixes(mission) &&
+  return weighs_matches(run) && mission.ranges.empty() && mission.aoa_measurements.empty() &&
+         !has_fixes(mission) &&
          std::all_of(mission.robots.begin(), mission.robots.end(),
                      [](const Robot& robot) { return robot.wifi.empty(); });
 }
@@ -80,7 +80,8 @@ void add_found(const RunSetup& run, TeamEstimate<Pose>& team, const std::vector<
   std::vector<std::vector<Stamp>> stamps(run.mission.robots.size());
   add_closure_stamps(found, stamps);
   add_nodes(team, run.mission, run.params.graph, stamps);
-  auto& closures = team.closures.loops.empty() ? team.closures.matches : team.closures.loops;
+  const bool are_loops = !team.closures.loops.empty() || stands_on_matches(run);
+  auto& closures = are_loops ? team.closures.loops : team.closures.matches;
   closures.insert(closures.end(), found.begin(), found.end());
 }
 

@@ -4,9 +4,8 @@
 //   build      the joint graph: odometry, known starts, radio links, each robot's own closures
 //   align      all robots in one frame, and the team optimized there
 //   judge      closures between robots: propose where views overlap, select those that hold, solve. Judging
-//   again
-//              with closures that were found since begins at the same aligned team, so nothing depends on the
-//              order in which they came
+//   again,
+//              with closures found since, starts from the same aligned team: their order does not matter
 //   describe   trajectories, uncertainty, outcomes, notes
 #pragma once
 
@@ -66,8 +65,8 @@ struct JudgedTeam {
   std::optional<OverlapStage> overlaps;  ///< nothing if no pairs were searched for
 };
 
-/// The aligned team with those of its closures that hold, and of `found`: closures that came later, between
-/// any two stamps that have odometry.
+/// The aligned team with those closures that hold: its own, and `found`, all that came later. These lie
+/// between any two stamps that have odometry or, in a graph file, a pose.
 template <class Pose>
 JudgedTeam<Pose> judge_closures(const RunSetup& run, TeamEstimate<Pose> aligned,
                                 const std::vector<Closure>& found = {});

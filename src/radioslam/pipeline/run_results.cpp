@@ -138,6 +138,16 @@ void add_overlaps(RunResult& result, const Mission& mission, OverlapStage overla
 
 std::string whole_seconds(Stamp stamp) { return std::to_string(std::llround(stamp.seconds())); }
 
+/// Whether nothing but the similarity of fingerprints says where robots of unknown start are.
+template <class Pose>
+bool is_laid_out_by_fingerprints(const TeamEstimate<Pose>& team, const RadioMeasurements& radio) {
+  const auto& robots = team.joint.robots;
+  return !radio.nodes.empty() && robots.size() > 1 && team.alignment.segments.of_segment.empty() &&
+         std::any_of(robots.begin(), robots.end(), [](const RobotVariables& robot) {
+           return !robot.T_common_start && !robot.placed_by_fixes;
+         });
+}
+
 /// Adds the stretches whose evidence was mostly rejected, and a note on each robot that has any.
 void add_uncertain_stretches(RunResult& result) {
   auto stretches = rejected_stretches(result.robots.size(), result.closures);
@@ -170,6 +180,9 @@ RunResult describe_run(const Mission& mission, const RadioMeasurements& radio,
   for (std::size_t r = 0; r < mission.robots.size() && !options.overlap_only; ++r)
     result.robots[r].dense = dense_trajectory<Pose>(mission, joint, nullptr, r, result.robots[r]).poses;
   add_rssi_offsets(result.robots, radio.rssi_offsets);
+  if (is_laid_out_by_fingerprints(estimate, radio))
+    result.notes.push_back(
+        "robots were placed by fingerprints alone: sigma_m and sigma_team_m take their layout as right");
   if (radio.rssi_offsets.shown) result.notes.push_back(rssi_offset_note(result.robots));
   add_notes(result, mission, radio, params.sequence, joint.ignored_links);
   result.notes.insert(result.notes.end(), estimate.alignment.notes.begin(), estimate.alignment.notes.end());
@@ -181,7 +194,7 @@ RunResult describe_run(const Mission& mission, const RadioMeasurements& radio,
     result.notes.push_back(std::move(note));
   add_uncertain_stretches(result);
   widen_by_alternatives(result.robots, joint, estimate.alignment);
-  widen_by_rejected_closures(result.robots, result.closures, result.dimension);
+  widen_by_rejected_closures(result.robots, result.closures);
   result.similarity_model = collect_similarity_model(radio, params.radio);
   timed("access points", [&] { add_access_points(result, mission, radio, params.access_points); });
   count(result, radio, estimate.solution);

@@ -27,8 +27,9 @@ void discount(const PoseGraph<Pose>& graph, auto& factor) {
 }  // namespace
 
 template <class Pose>
-void use_observed_information(PoseGraph<Pose>& graph, std::size_t ranges, double sigma_antenna_position_m) {
-  for (std::size_t k = 0; k < std::min(ranges, graph.ranges.size()); ++k) discount(graph, graph.ranges[k]);
+void use_observed_information(PoseGraph<Pose>& graph, const std::vector<std::size_t>& ranges,
+                              double sigma_antenna_position_m) {
+  for (const std::size_t k : ranges) discount(graph, graph.ranges[k]);
   for (auto& bearing : graph.bearings) {
     discount(graph, bearing);
     const double across = bearing.sigma_rad * seen_by_receiver(graph, bearing).norm();
@@ -37,8 +38,8 @@ void use_observed_information(PoseGraph<Pose>& graph, std::size_t ranges, double
   }
 }
 
-template void use_observed_information(PoseGraph<SE2>&, std::size_t, double);
-template void use_observed_information(PoseGraph<SE3>&, std::size_t, double);
+template void use_observed_information(PoseGraph<SE2>&, const std::vector<std::size_t>&, double);
+template void use_observed_information(PoseGraph<SE3>&, const std::vector<std::size_t>&, double);
 
 namespace {
 

@@ -32,11 +32,12 @@ namespace radioslam {
 // the information, since which term is true remains uncertain. For one measurement with posterior w and
 // squared norm s (Louis 1982, one dominant term) the weight becomes w (1 - (1 - w) s) instead of w.
 
-/// Lowers the weights of the first `ranges` ranges and of all bearings accordingly, never below zero.
+/// Lowers the weights of these ranges and of all bearings accordingly, never below zero.
 /// Bearings are also discounted for the angular error that `sigma_antenna_position_m` causes at the current
 /// distance. For covariances only: the estimate itself is optimal for the original weights.
 template <class Pose>
-void use_observed_information(PoseGraph<Pose>& graph, std::size_t ranges, double sigma_antenna_position_m);
+void use_observed_information(PoseGraph<Pose>& graph, const std::vector<std::size_t>& ranges,
+                              double sigma_antenna_position_m);
 
 /// Standard deviation at which the density of an azimuth, or of a direction in space, becomes uniform; larger
 /// ones are cut to it.

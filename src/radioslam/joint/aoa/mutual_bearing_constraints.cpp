@@ -46,9 +46,9 @@ std::vector<KeyframeOdometry<Pose>> odometry_chains(const JointGraph<Pose>& join
     for (const SE3& pose : joint.robots[r].odometry) chains[r].poses.push_back(pose_as<Pose>(pose));
   for (auto& chain : chains)
     chain.cov_steps.resize(chain.poses.empty() ? 0 : chain.poses.size() - 1, Pose::Jacobian::Zero());
-  for (const auto& factor : joint.team.graph.relative_poses) {
-    const PoseOrigin &i = origins.of(factor.i), &j = origins.of(factor.j);
-    if (factor.j.value != factor.i.value + 1 || i.robot != j.robot) continue;
+  for (const std::size_t k : factors_of(joint.origins.relative_poses, FactorSource::kOdometry)) {
+    const auto& factor = joint.team.graph.relative_poses[k];
+    const PoseOrigin& i = origins.of(factor.i);
     if (i.keyframe >= chains[i.robot].cov_steps.size()) continue;
     auto& sum = chains[i.robot].cov_steps[i.keyframe];
     const typename Pose::Jacobian carry = factor.T_i_j.inverse().adjoint();
@@ -80,7 +80,7 @@ class MutualBearings {
     std::vector<OverlapLink<Pose>> links;
     if constexpr (Pose::kDim == 2) {
       const auto& graph = joint_.team.graph;
-      for (std::size_t k = 0; k < radio_ranges(); ++k) {
+      for (const std::size_t k : radio_ranges()) {
         const auto& range = graph.ranges[k];
         if (!range.i.pose.valid() || !range.j.pose.valid() || range.weight < kDirectWeight) continue;
         const auto* seen_by_i = nearest_bearing(range.i.pose, range.j.pose);
@@ -102,16 +102,17 @@ class MutualBearings {
       links.push_back(at_keyframes(i, j, graph.poses[i.index()].inverse() * graph.poses[j.index()],
                                    marginals->relative_pose(i, j)));
     };
-    for (std::size_t k = 0; k < radio_ranges(); ++k)
+    for (const std::size_t k : radio_ranges())
       add(joint_.team.graph.ranges[k].i.pose, joint_.team.graph.ranges[k].j.pose);
-    if (radio_ranges() == 0)
+    if (radio_ranges().empty())
       for (const auto& bearing : joint_.team.bearings) add(bearing.i, bearing.j.pose);
     return links;
   }
 
  private:
-  /// Radio ranges come before those of fingerprints.
-  std::size_t radio_ranges() const { return count_factors(joint_.origins.ranges, FactorSource::kRange); }
+  std::vector<std::size_t> radio_ranges() const {
+    return factors_of(joint_.origins.ranges, FactorSource::kRange);
+  }
 
   /// The direct angle between two robots that is closest in time to a range between them.
   const BearingFactor<Pose>* nearest_bearing(PoseId receiver, PoseId transmitter) const {

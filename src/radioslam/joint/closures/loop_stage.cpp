@@ -226,6 +226,8 @@ void add_own_loops(JointGraph<Pose>& joint, const std::vector<Closure>& closures
 template <class Pose>
 void close_by_loops(JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment, std::vector<Closure>& closures,
                     const OptimizerParams& optimizer, const Progress& progress) {
+  for (Closure& closure : closures)
+    if (!closure_ends(joint, closure).valid()) reject(closure, "no odometry at its time");
   std::vector<TeamLoop<Pose>> loops = team_loops(joint, closures);
   if (loops.empty()) return;
   for (std::size_t k = 0; k < joint.origins.relative_poses.size(); ++k) {
@@ -273,8 +275,6 @@ void close_by_loops(JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment, std
       const bool open = component[loop.segment_i] != component[loop.segment_j];
       reject(closures[k], open ? "no group of loops stands out" : "the joint estimate disagrees");
     }
-  for (Closure& closure : closures)
-    if (!closure_ends(joint, closure).valid()) reject(closure, "no odometry at its time");
   note_scales(scales, alignment);
 }
 

@@ -16,7 +16,9 @@ template <class Pose>
 TeamGraph<Pose> radio_team(const JointGraph<Pose>& joint) {
   TeamGraph<Pose> team = joint.team;
   team.graph.bearings.clear();
-  team.graph.ranges.resize(count_factors(joint.origins.ranges, FactorSource::kRange));
+  team.graph.ranges.clear();
+  for (const std::size_t k : factors_of(joint.origins.ranges, FactorSource::kRange))
+    team.graph.ranges.push_back(joint.team.graph.ranges[k]);
   return team;
 }
 
@@ -28,8 +30,9 @@ void adopt_alignment(JointGraph<Pose>& joint, const TeamHypothesis<Pose>& hypoth
   graph.poses = hypothesis.poses;
   graph.points = hypothesis.points;
   graph.drifts = hypothesis.drifts;
-  for (std::size_t k = 0; k < hypothesis.range_weight.size(); ++k)
-    graph.ranges[k].weight = hypothesis.range_weight[k] < kMinWeight ? 0 : hypothesis.range_weight[k];
+  const auto ranges = factors_of(joint.origins.ranges, FactorSource::kRange);
+  for (std::size_t k = 0; k < ranges.size(); ++k)
+    graph.ranges[ranges[k]].weight = hypothesis.range_weight[k] < kMinWeight ? 0 : hypothesis.range_weight[k];
   for (std::size_t k = 0; k < joint.team.bearings.size(); ++k) {
     const auto& bearing = joint.team.bearings[k];
     BearingWeight& bearing_weight = joint.bearing_weights.emplace_back();

@@ -18,8 +18,8 @@ namespace radioslam {
 template <class Pose>
 TeamGraph<Pose> radio_team(const JointGraph<Pose>& joint);
 
-/// Takes the values and weights of an alignment of the team's radio ranges, which come first in the graph,
-/// and bearings. Paths that may be direct become bearing factors, in place of those there were.
+/// Takes the values and weights of an alignment of the team's radio ranges and bearings (radio_team). Paths
+/// that may be direct become bearing factors, in place of those there were.
 template <class Pose>
 void adopt_alignment(JointGraph<Pose>& joint, const TeamHypothesis<Pose>& hypothesis);
 

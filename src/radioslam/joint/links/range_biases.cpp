@@ -11,6 +11,7 @@
 #include "radioslam/graph/marginals.hpp"
 #include "radioslam/graph/residuals.hpp"
 #include "radioslam/joint/links/link_weights.hpp"
+#include "radioslam/joint/uncertainty/position_uncertainty.hpp"
 #include "radioslam/team_frame/measurement_mixture.hpp"
 
 namespace radioslam {
@@ -93,7 +94,7 @@ class BiasEstimation {
         mixture_(mixture),
         optimizer_(optimizer),
         progress_(progress),
-        radio_ranges_(count_factors(joint.origins.ranges, FactorSource::kRange)) {}
+        radio_ranges_(factors_of(joint.origins.ranges, FactorSource::kRange)) {}
 
   std::vector<RangeBiasResult> run() {
     const JointGraph<Pose> before = joint_;
@@ -114,7 +115,7 @@ class BiasEstimation {
 
   void add_biases() {
     std::vector<std::vector<double>> residuals_m(joint_.antenna_pairs.size());
-    for (std::size_t k = 0; k < radio_ranges_; ++k) {
+    for (const std::size_t k : radio_ranges_) {
       const double excess_m = -residual(graph_, graph_.ranges[k])[0];
       const double sigma_m = std::hypot(params_.prior_sigma_m, graph_.ranges[k].sigma_m);
       if (std::abs(excess_m) < kMaxBiasSigmas * sigma_m) residuals_m[pair_of(k)].push_back(excess_m);
@@ -126,18 +127,17 @@ class BiasEstimation {
       graph_.range_bias_priors.push_back({bias_of_pair_[pair], {}, 0, params_.prior_sigma_m});
       graph_.range_biases.push_back(middle_of_shortest_half(std::move(residuals_m[pair])));
     }
-    for (std::size_t k = 0; k < radio_ranges_; ++k) graph_.ranges[k].bias = bias_of_pair_[pair_of(k)];
+    for (const std::size_t k : radio_ranges_) graph_.ranges[k].bias = bias_of_pair_[pair_of(k)];
   }
 
   /// Updates the weights of all links; returns the largest change of a range with a bias.
   double update_weights() {
-    std::vector<double> before;
-    for (std::size_t k = 0; k < radio_ranges_; ++k) before.push_back(graph_.ranges[k].weight);
+    const std::vector<RangeFactor<Pose>> before = graph_.ranges;
     reweigh_radio_links(joint_, alignment_, mixture_);
     double change = 0;
-    for (std::size_t k = 0; k < radio_ranges_; ++k)
+    for (const std::size_t k : radio_ranges_)
       if (graph_.ranges[k].bias.valid())
-        change = std::max(change, std::abs(graph_.ranges[k].weight - before[k]));
+        change = std::max(change, std::abs(graph_.ranges[k].weight - before[k].weight));
     return change;
   }
 
@@ -154,7 +154,7 @@ class BiasEstimation {
   double overdispersion() const {
     std::vector<std::vector<double>> errors(joint_.antenna_pairs.size());
     double sum = 0, weights = 0;
-    for (std::size_t k = 0; k < radio_ranges_; ++k) {
+    for (const std::size_t k : radio_ranges_) {
       const RangeFactor<Pose>& range = graph_.ranges[k];
       sum += range.weight * squared_norm(graph_, range);
       weights += range.weight;
@@ -166,9 +166,7 @@ class BiasEstimation {
 
   /// Joint covariance of all biases; nothing if singular.
   std::optional<Eigen::MatrixXd> covariance() const {
-    PoseGraph<Pose> graph_for_covariances = graph_;
-    use_observed_information(graph_for_covariances, radio_ranges_, mixture_.sigma_antenna_position_m);
-    const auto marginals = Marginals<Pose>::compute(graph_for_covariances);
+    const auto marginals = Marginals<Pose>::compute(graph_for_covariances(joint_, mixture_).team.graph);
     if (!marginals) return std::nullopt;
     const auto n = static_cast<Eigen::Index>(graph_.range_biases.size());
     Eigen::MatrixXd result(n, n);
@@ -205,7 +203,7 @@ class BiasEstimation {
       const std::size_t bias = bias_of_pair_[pair].index();
       const auto [end_i, end_j] = joint_.antenna_pairs[pair];
       std::size_t ranges = 0;
-      for (std::size_t k = 0; k < radio_ranges_; ++k) ranges += pair_of(k) == pair ? 1U : 0U;
+      for (const std::size_t k : radio_ranges_) ranges += pair_of(k) == pair ? 1U : 0U;
       const auto row = static_cast<Eigen::Index>(bias);
       results.push_back({end_i, end_j, graph_.range_biases[bias], std::sqrt((*cov)(row, row)), ranges});
     }
@@ -219,7 +217,7 @@ class BiasEstimation {
   const MixtureParams& mixture_;
   const OptimizerParams& optimizer_;
   const Progress& progress_;
-  std::size_t radio_ranges_;  ///< they come before the ranges of fingerprints
+  std::vector<std::size_t> radio_ranges_;
   std::vector<BiasId> bias_of_pair_;
 };
 

@@ -282,8 +282,9 @@ class AlignmentChoice {
   };
   Aligned aligned(const TeamHypothesis<Pose>& alignment) const {
     JointGraph<Pose> joint = joint_;
-    joint.team.graph.ranges.resize(radio_.graph.ranges.size());
-    joint.origins.ranges.resize(radio_.graph.ranges.size());
+    joint.team.graph.ranges = radio_.graph.ranges;
+    std::erase_if(joint.origins.ranges,
+                  [](const FactorOrigin& o) { return o.source != FactorSource::kRange; });
     adopt_alignment(joint, alignment);
     auto marginals = Marginals<Pose>::compute(graph_for_covariances(joint, params_.mixture).team.graph);
     return {std::move(joint), std::move(marginals)};

@@ -37,9 +37,9 @@ OdometryChain<Pose> odometry_chain(const JointGraph<Pose>& joint, RobotIndex rob
   const TrajectorySegment& of = segment(joint, robot);
   std::vector<Pose> poses{Pose()};
   std::vector<typename Pose::Jacobian> steps;
-  for (const auto& factor : joint.team.graph.relative_poses) {
-    const bool mine =
-        factor.i.index() == of.first_pose + poses.size() - 1 && factor.j.value == factor.i.value + 1;
+  for (const std::size_t k : factors_of(joint.origins.relative_poses, FactorSource::kOdometry)) {
+    const auto& factor = joint.team.graph.relative_poses[k];
+    const bool mine = factor.i.index() == of.first_pose + poses.size() - 1;
     if (!mine || poses.size() == of.pose_count) continue;
     poses.push_back(poses.back() * factor.T_i_j);
     steps.push_back(inverse(factor.information));

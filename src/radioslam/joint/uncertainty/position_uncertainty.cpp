@@ -133,7 +133,7 @@ std::vector<std::vector<std::pair<Stamp, Stamp>>> rejected_stretches(
 template <class Pose>
 JointGraph<Pose> graph_for_covariances(const JointGraph<Pose>& joint, const MixtureParams& mixture) {
   JointGraph<Pose> result = joint;
-  use_observed_information(result.team.graph, count_factors(joint.origins.ranges, FactorSource::kRange),
+  use_observed_information(result.team.graph, factors_of(joint.origins.ranges, FactorSource::kRange),
                            mixture.sigma_antenna_position_m);
   return result;
 }
@@ -215,20 +215,20 @@ Eigen::VectorXd squared_distances(const std::vector<Pose>& estimate, const std::
   return result;
 }
 
-/// The factor by which residuals at a robot's keyframes in a stretch exceed what is stated, at least 1.
-double birge_ratio(RobotIndex robot, const std::pair<Stamp, Stamp>& stretch,
-                   const std::vector<ClosureResult>& closures, int dimension) {
+/// The factor by which distances and angles at a robot's keyframes in a stretch miss what is stated: the root
+/// of their median squared residual, at least 1.
+double excess_of_residuals(RobotIndex robot, const std::pair<Stamp, Stamp>& stretch,
+                           const std::vector<ClosureResult>& closures) {
   const Stamp first = stretch.first, last = stretch.second;
-  std::vector<double> ratios;
+  std::vector<double> squares{1};
   for (const ClosureResult& closure : closures) {
+    const bool is_scalar = closure.kind == ClosureKind::kRange || closure.kind == ClosureKind::kAoa ||
+                           closure.kind == ClosureKind::kFingerprint;
     const auto lies = [&](RobotIndex r, Stamp t) { return r == robot && !(t < first) && !(last < t); };
-    if (!lies(closure.robot_i, closure.stamp_i) && !lies(closure.robot_j, closure.stamp_j)) continue;
-    const bool one = closure.kind == ClosureKind::kRange || closure.kind == ClosureKind::kAoa ||
-                     closure.kind == ClosureKind::kFingerprint;
-    const double ratio = closure.statistic / (one ? 1 : dimension == 2 ? 3 : 6);
-    if (closure.status == ClosureStatus::kRejected && ratio > kChiSquared99) ratios.push_back(ratio);
+    if (is_scalar && (lies(closure.robot_i, closure.stamp_i) || lies(closure.robot_j, closure.stamp_j)))
+      squares.push_back(closure.statistic);
   }
-  return ratios.empty() ? 1 : std::sqrt(upper_median(std::move(ratios)));
+  return std::max(1.0, std::sqrt(upper_median(std::move(squares))));
 }
 
 }  // namespace
@@ -268,12 +268,12 @@ void widen_by_alternatives(std::vector<RobotResult>& robots, const JointGraph<Po
   for (std::size_t c = 0; c < components.size(); ++c) add_variances(robots, components[c], added[c]);
 }
 
-void widen_by_rejected_closures(std::vector<RobotResult>& robots, const std::vector<ClosureResult>& closures,
-                                int dimension) {
+void widen_by_rejected_closures(std::vector<RobotResult>& robots,
+                                const std::vector<ClosureResult>& closures) {
   for (std::size_t r = 0; r < robots.size(); ++r) {
     RobotResult& robot = robots[r];
     for (const auto& stretch : robot.uncertain) {
-      const double ratio = birge_ratio(RobotIndex(r), stretch, closures, dimension);
+      const double ratio = excess_of_residuals(RobotIndex(r), stretch, closures);
       for (std::size_t k = 0; k < robot.sigma_position_m.size(); ++k) {
         const Stamp t = robot.estimate[k].stamp;
         if (t < stretch.first || stretch.second < t) continue;
@@ -297,7 +297,7 @@ namespace {
 
 /// The robot's only segment; null if gaps in its odometry split its trajectory.
 template <class Pose>
-const TrajectorySegment* only_piece(const JointGraph<Pose>& joint, std::size_t robot) {
+const TrajectorySegment* only_segment(const JointGraph<Pose>& joint, std::size_t robot) {
   const auto& owners = joint.robot_of_segment;
   if (std::count(owners.begin(), owners.end(), robot) != 1) return nullptr;
   return &joint.team.segments[static_cast<std::size_t>(std::find(owners.begin(), owners.end(), robot) -
@@ -334,7 +334,7 @@ std::optional<ContinuousTrajectory<Pose>> continuous_trajectory(const Mission& m
                                                                 const Marginals<Pose>* marginals,
                                                                 std::size_t robot,
                                                                 const RobotResult& estimate) {
-  const TrajectorySegment* segment = only_piece(joint, robot);
+  const TrajectorySegment* segment = only_segment(joint, robot);
   const Robot& recorded = mission.robots[robot];
   const RobotVariables& of = joint.robots[robot];
   if (!segment || of.poses.empty() || !recorded.odometry.covers(segment->stamps.front()) ||

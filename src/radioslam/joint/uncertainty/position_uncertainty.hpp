@@ -1,9 +1,9 @@
 // Stated uncertainty of positions: RobotResult::sigma_position_m relative to what holds the frame,
 // sigma_team_m in the gauge of the team.
 //
-// The marginal covariances are those of one alignment whose accepted evidence is right. Two things widen
-// them: likely alternatives, by the spread of the mixture of all; and, where most closures were rejected, the
-// factor by which their residuals exceed what is stated (Birge ratio).
+// The marginal covariances are those of one alignment whose accepted evidence is right. Likely alternatives
+// widen sigma_team_m by the spread of the mixture of all. Where most closures were rejected, both are widened
+// by the factor by which the residuals of distances and angles there exceed what is stated.
 #pragma once
 
 #include <string>
@@ -51,14 +51,13 @@ template <class Pose>
 void add_uncertainty(std::vector<RobotResult>& robots, const JointGraph<Pose>& joint,
                      const TeamAlignment<Pose>& alignment, const Marginals<Pose>& marginals);
 
-/// Adds the squared distances to the alternatives, by weight.
+/// Adds the squared distances to the alternatives, by weight, to sigma_team_m.
 template <class Pose>
 void widen_by_alternatives(std::vector<RobotResult>& robots, const JointGraph<Pose>& joint,
                            const TeamAlignment<Pose>& alignment);
 
 /// In the robots' uncertain stretches.
-void widen_by_rejected_closures(std::vector<RobotResult>& robots, const std::vector<ClosureResult>& closures,
-                                int dimension);
+void widen_by_rejected_closures(std::vector<RobotResult>& robots, const std::vector<ClosureResult>& closures);
 
 // Estimated trajectory of a robot between its keyframes: at every odometry sample, or at given stamps.
 //
