@@ -3,6 +3,5 @@ radioslam_room(pipeline
     collect_results.cpp
     occupancy_image.cpp
     pipeline.cpp
-    recordings_stage.cpp
     run_results.cpp
   ROOMS joint odometry closure consistency results)
