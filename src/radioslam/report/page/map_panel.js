@@ -22,7 +22,7 @@ function layer_rows() {
     rows.push(layer("odometry", "odometry only", line => line.attr("stroke", ink).attr("stroke-width", 1.1).attr("stroke-dasharray", "5 4")));
   if (robots.some(r => r.truth)) rows.push(layer("truth", "truth", line => line.attr("stroke", css("truth")).attr("stroke-width", 3.5)));
   if (robots.some(r => r.sigma_team_m))
-    rows.push(layer("sigma", "1 σ of position within the team", line => line.attr("stroke", ink).attr("stroke-width", 9).attr("stroke-opacity", 0.16)));
+    rows.push(layer("sigma", "1 σ within the team", line => line.attr("stroke", ink).attr("stroke-width", 9).attr("stroke-opacity", 0.16)));
   if (picture_cells) rows.push(layer("picture", "scans", line => line.attr("stroke", css("walls")).attr("stroke-width", 8)));
   if (alternatives.length)
     rows.push(layer("alternatives", format.plural(alternatives.length, "other hypothesis", "other hypotheses"),
