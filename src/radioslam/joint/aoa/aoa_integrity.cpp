@@ -256,11 +256,12 @@ std::vector<std::string> angle_notes(const AoaIntegrity& checks, CheckedPose pos
   for (const auto& group : checks.suspects) {
     std::string who = group.front();
     for (std::size_t k = 1; k < group.size(); ++k) who += " or " + group[k];
-    notes.push_back(pose == CheckedPose::kSelfReported
-                        ? "the angles of arrival contradict the pose of " + who +
-                              " as reported by its known start and odometry: one of these is wrong"
-                        : "the angles of arrival contradict the pose of " + who +
-                              " as estimated: its odometry or the team alignment is wrong");
+    notes.push_back(
+        pose == CheckedPose::kSelfReported
+            ? "the angles of arrival contradict the pose of " + who +
+                  " as reported by its known start and odometry: one of these is wrong"
+            : "the angles of arrival contradict the pose of " + who +
+                  " as estimated: its links are detours, or its odometry or the team alignment is wrong");
   }
   return notes;
 }
