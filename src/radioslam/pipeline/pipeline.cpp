@@ -1,6 +1,7 @@
 #include "radioslam/pipeline/pipeline.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "radioslam/joint/closures/closure.hpp"
@@ -25,7 +26,8 @@ constexpr double kMinSearchedWeight = 0.01;  // of an alignment whose overlaps a
 /// What raw recordings measure: laser scans the odometry and loop closures of each robot, CSI captures angles
 /// of arrival.
 struct MeasuredRecordings {
-  Mission mission;  ///< as recorded, with the odometry of its scans and the angles of its captures
+  /// As recorded, with the odometry of its scans and the angles of its captures; nothing if it has neither.
+  std::optional<Mission> mission;
   MeasuredScans scans;
   MeasuredCsi csi;
 };
@@ -62,27 +64,26 @@ bool is_not_empty(const MeasuredCsi& csi) { return !csi.aoa_measurements.empty()
 
 MeasuredRecordings measure_recordings(const Mission& recorded, const RunParams& params, StageClock& timed,
                                       const Progress& progress) {
-  MeasuredRecordings measured{recorded, {}, {}};
+  MeasuredRecordings measured;
   if (has_scans(recorded)) {
     measured.scans = timed("scans", measure_scans, recorded, params.scans, params.keyframe, progress);
-    measured.mission = with_odometry(std::move(measured.mission), measured.scans);
+    measured.mission = with_odometry(recorded, measured.scans);
   }
   if (has_captures(recorded)) {
-    measured.csi = timed("angles", measure_csi, measured.mission, params.csi, progress);
-    add_angles(measured.mission, measured.csi.aoa_measurements);
+    if (!measured.mission) measured.mission = recorded;
+    measured.csi = timed("angles", measure_csi, *measured.mission, params.csi, progress);
+    add_angles(*measured.mission, measured.csi.aoa_measurements);
   }
   return measured;
 }
 
 /// Adds the results of these recordings to those of a run on the same mission.
-void add_recording_results(RunResult& result, MeasuredRecordings measured, const RunParams& params,
-                           const RunOptions& options, StageClock& timed) {
-  const MeasuredScans& scans = measured.scans;
-  MeasuredCsi& csi = measured.csi;
+void add_recording_results(RunResult& result, const Mission& mission, const MeasuredScans& scans,
+                           MeasuredCsi csi, const RunParams& params, const RunOptions& options,
+                           StageClock& timed) {
   if (scans.scans > 0) count_scans(result, scans);
-  if (has_scans(measured.mission) && !options.overlap_only)
-    timed("scan picture", add_occupancy_images, result, measured.mission, params.scans.lidar,
-          params.occupancy_image);
+  if (has_scans(mission) && !options.overlap_only)
+    timed("scan picture", add_occupancy_images, result, mission, params.scans.lidar, params.occupancy_image);
   if (is_not_empty(csi))
     result.counts["arrivals_measured"] = static_cast<double>(csi.aoa_measurements.size());
   result.notes.insert(result.notes.end(), scans.notes.begin(), scans.notes.end());
@@ -273,13 +274,13 @@ namespace {
 
 /// The whole estimate. `graph`: the team as a factor graph, or null.
 template <class Pose>
-RunOutput run(const MeasuredRecordings& recordings, const TeamGraph<Pose>* graph, const RunParams& params,
-              const RunOptions& options, const Progress& progress, StageClock& timed) {
-  const Mission& mission = recordings.mission;
+RunOutput run(const Mission& mission, const TeamGraph<Pose>* graph, const std::vector<ScanClosure>& scans,
+              const RunParams& params, const RunOptions& options, const Progress& progress,
+              StageClock& timed) {
   const RadioMeasurements radio = timed("radio", measure_radio, mission, params.radio, progress);
   const RunSetup run{mission, radio, params, options, progress, timed};
 
-  auto built = timed("graph", build_team<Pose>, run, graph, closures_of_scans(recordings.scans.closures));
+  auto built = timed("graph", build_team<Pose>, run, graph, closures_of_scans(scans));
   auto aligned = align_team(run, std::move(built));
   auto judged = judge_closures(run, std::move(aligned));
 
@@ -294,10 +295,12 @@ RunOutput run_pipeline(const Mission& recorded, const RunParams& params, const R
                        const Progress& progress) {
   StageClock timed;
   MeasuredRecordings recordings = measure_recordings(recorded, params, timed, progress);
-  RunOutput output = recorded.dimension == 2
-                         ? run<SE2>(recordings, nullptr, params, options, progress, timed)
-                         : run<SE3>(recordings, nullptr, params, options, progress, timed);
-  add_recording_results(output.result, std::move(recordings), params, options, timed);
+  const Mission& mission = recordings.mission ? *recordings.mission : recorded;
+  const MeasuredScans& scans = recordings.scans;
+  RunOutput output = mission.dimension == 2
+                         ? run<SE2>(mission, nullptr, scans.closures, params, options, progress, timed)
+                         : run<SE3>(mission, nullptr, scans.closures, params, options, progress, timed);
+  add_recording_results(output.result, mission, scans, std::move(recordings.csi), params, options, timed);
   output.result.timings = timed.timings();
   return output;
 }
@@ -306,7 +309,7 @@ template <class Pose>
 RunOutput run_pipeline(const Mission& mission, const TeamGraph<Pose>& team, const RunParams& params,
                        const RunOptions& options, const Progress& progress) {
   StageClock timed;
-  RunOutput output = run({mission, {}, {}}, &team, params, options, progress, timed);
+  RunOutput output = run(mission, &team, {}, params, options, progress, timed);
   output.result.timings = timed.timings();
   return output;
 }
