@@ -1,3 +1,5 @@
+#include "radioslam/joint/dense_trajectory.hpp"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
@@ -6,7 +8,6 @@
 #include "radioslam/base/random.hpp"
 #include "radioslam/consistency/chi_squared.hpp"
 #include "radioslam/graph/optimizer.hpp"
-#include "radioslam/joint/uncertainty/position_uncertainty.hpp"
 
 namespace radioslam {
 namespace {

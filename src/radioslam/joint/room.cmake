@@ -10,6 +10,7 @@ radioslam_room(joint
     closures/loop_stage.cpp
     closures/own_loops.cpp
     closures/team_loops.cpp
+    dense_trajectory.cpp
     field_stage.cpp
     graduated_optimization.cpp
     joint_graph.cpp
@@ -18,6 +19,7 @@ radioslam_room(joint
     links/link_weights.cpp
     links/radio_factors.cpp
     links/range_biases.cpp
+    links/sight_notes.cpp
     matches/alignment_by_matches.cpp
     matches/match_groups.cpp
     matches/match_selection.cpp
@@ -27,4 +29,5 @@ radioslam_room(joint
     sequence_stage.cpp
     team_alignment.cpp
     uncertainty/position_uncertainty.cpp
+    uncertainty/rejected_stretches.cpp
   ROOMS odometry closure team_frame graph radio results consistency)

@@ -6,8 +6,11 @@
 #include <sstream>
 #include <string>
 
+#include "radioslam/joint/dense_trajectory.hpp"
+#include "radioslam/joint/links/sight_notes.hpp"
 #include "radioslam/joint/position_fixes/placement.hpp"
 #include "radioslam/joint/uncertainty/position_uncertainty.hpp"
+#include "radioslam/joint/uncertainty/rejected_stretches.hpp"
 #include "radioslam/pipeline/collect_results.hpp"
 
 namespace radioslam {

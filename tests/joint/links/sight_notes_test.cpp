@@ -1,7 +1,7 @@
 // Which robots are said to rest on detours.
-#include <gtest/gtest.h>
+#include "radioslam/joint/links/sight_notes.hpp"
 
-#include "radioslam/joint/uncertainty/position_uncertainty.hpp"
+#include <gtest/gtest.h>
 
 namespace radioslam {
 namespace {

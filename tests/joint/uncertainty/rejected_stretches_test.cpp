@@ -1,7 +1,7 @@
 // Where the evidence of a robot was mostly rejected.
-#include <gtest/gtest.h>
+#include "radioslam/joint/uncertainty/rejected_stretches.hpp"
 
-#include "radioslam/joint/uncertainty/position_uncertainty.hpp"
+#include <gtest/gtest.h>
 
 namespace radioslam {
 namespace {
