@@ -111,6 +111,21 @@ TEST_F(Evaluate, DistinguishesNoCandidatesFromNoSearch) {
   EXPECT_EQ(evaluated()["candidates"]["kept"], 1);
 }
 
+/// All robots are at x = 0, 2 and 4 m, with LiDARs of 30 m.
+TEST_F(Evaluate, TruePairsShareWhatTheRunAskedFor) {
+  EXPECT_EQ(evaluated()["candidates"]["true"], 27);
+  auto summary = nlohmann::json::parse(read_file(folder() / "out/summary.json"));
+  ASSERT_EQ(summary["parameters"]["overlap.min_shared_view"], 0);
+  summary["parameters"]["overlap.min_shared_view"] = 0.9;
+  write("summary.json", summary.dump());
+  EXPECT_EQ(evaluated()["candidates"]["true"], 21) << "up to 2.4 m apart";
+  const auto within_a_metre = evaluate({"--radius", "1", "--json"});
+  EXPECT_EQ(nlohmann::json::parse(within_a_metre.out)["candidates"]["true"], 9) << "a radius overrides it";
+  summary["parameters"].erase("overlap.min_shared_view");
+  write("summary.json", summary.dump());
+  EXPECT_EQ(evaluated()["candidates"]["true"], 27) << "a folder of an earlier version";
+}
+
 /// The fields of a table's rows.
 std::vector<std::vector<std::string>> rows_of(const fs::path& path) {
   std::vector<std::vector<std::string>> rows;

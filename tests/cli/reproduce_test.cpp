@@ -47,7 +47,8 @@ class Reproduce : public testing::Test {
 TEST_F(Reproduce, WithoutATableListsThem) {
   const auto outcome = run({"reproduce"}, folder());
   EXPECT_EQ(outcome.status, 0);
-  for (const char* name : {"wi-closure-kitti", "robustness-map", "fingerprint-tables", "threshold-sweep"})
+  for (const char* name :
+       {"wi-closure-kitti", "wi-closure-hall", "robustness-map", "fingerprint-tables", "threshold-sweep"})
     EXPECT_NE(outcome.out.find(name), std::string::npos) << name;
 }
 
@@ -79,6 +80,25 @@ TEST_F(Reproduce, RefusesInvalidCalls) {
   EXPECT_NE(refusal({"wi-closure-kitti", "--trajectory", "truth.txt", "--odometry", "short.txt"})
                 .find("short.txt: has 1 poses"),
             std::string::npos);
+}
+
+TEST_F(Reproduce, ComparesAHallWithAndWithoutRadio) {
+  const auto outcome = run(
+      {"reproduce", "wi-closure-hall", "--seeds", "1", "--seed", "2", "--json", "-o", "out", "--set",
+       "path_length_m=8", "speed_mps=1", "lidar_beams=8", "lidar_azimuth_steps=120", "lidar_rotation_hz=3"},
+      folder());
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(files_in(folder() / "out"),
+            (std::vector<std::string>{"index.html", "links.csv", "table.csv", "table.json", "table.txt"}));
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json["published"]["pairs"], 1848);
+  ASSERT_EQ(json["seeds"].size(), 1U);
+  EXPECT_GE(json["seeds"][0]["disco"]["unpruned"]["place_pairs_allowed"],
+            json["seeds"][0]["disco"]["pruned"]["place_pairs_allowed"]);
+  EXPECT_NE(read_file(folder() / "out" / "table.txt").find("Paths of the angles"), std::string::npos);
+  EXPECT_NE(refusal({"wi-closure-hall", "--set", "lidar_beams=0"}).find("lidar_beams"), std::string::npos);
+  EXPECT_NE(refusal({"wi-closure-hall", "--cut", "0.5"}).find("--cut"), std::string::npos);
 }
 
 /// The error message of a call in an empty folder.

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "eval/teams.hpp"
 
 namespace radioslam {
@@ -47,23 +49,25 @@ TEST(CountCandidates, HeightCountsInSpaceOnly) {
   const Truth truth = walker_and_post();
   const std::vector<KeyframeStamps> keyframes{stamps_of(truth.robots[0].poses), {Stamp{}}};
   EXPECT_EQ(count_candidates(keyframes, {}, {truth, 3, reach_for_radius(2, 2)}).true_pairs, 0U);
-  EXPECT_EQ(count_candidates(keyframes, {}, {truth, 3, {70, 30.02}}).true_pairs, 5U);  // a reach of 100.02 m
+  EXPECT_EQ(count_candidates(keyframes, {}, {truth, 3, {{70}, {30.02}}}).true_pairs,
+            5U);  // a reach of 100.02 m
 }
 
 TEST(CountCandidates, EqualsTheCountOverAllPairs) {
   const Truth truth = test::winding_team(1, 4, 60);
   std::vector<KeyframeStamps> keyframes;
   for (const auto& path : truth.robots) keyframes.push_back(stamps_of(path.poses));
-  const std::vector<double> reach{1, 2, 4, 8};
+  const std::vector<OverlapSensor> views{{1}, {2}, {4}, {8}};
   std::size_t close = 0, pairs = 0;
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t j = 0; j < i; ++j)
       for (const auto& a : truth.robots[i].poses)
         for (const auto& b : truth.robots[j].poses) {
           ++pairs;
-          if ((a.pose.translation() - b.pose.translation()).norm() < reach[i] + reach[j]) ++close;
+          if ((a.pose.translation() - b.pose.translation()).norm() < views[i].range_m + views[j].range_m)
+            ++close;
         }
-  const auto counts = count_candidates(keyframes, {}, {truth, 3, reach});
+  const auto counts = count_candidates(keyframes, {}, {truth, 3, views});
   EXPECT_EQ(counts.pairs, pairs);
   EXPECT_EQ(counts.true_pairs, close);
   EXPECT_GT(close, 0U);
@@ -77,6 +81,44 @@ TEST(CountCandidates, KeyframesWithoutTruthAreNotCounted) {
   Truth waypoints = truth;
   waypoints.robots[0].has_orientation = false;  // stamped by hand: the last one is valid for half a second
   EXPECT_EQ(count_candidates(keyframes, {}, {waypoints, 2, reach_for_radius(2, 2)}).pairs, 2U);
+}
+
+/// True pairs of the walker at x = 0 to 9 m and the post at 2 m.
+std::size_t true_pairs(const Truth& truth, const std::vector<OverlapSensor>& views, double min_shared_view) {
+  const std::vector<KeyframeStamps> keyframes{stamps_of(truth.robots[0].poses), {Stamp{}}};
+  return count_candidates(keyframes, {}, {truth, 2, views, min_shared_view}).true_pairs;
+}
+
+TEST(CountCandidates, TruePairsShareEnoughOfTheirViews) {
+  const Truth truth = walker_and_post();
+  EXPECT_EQ(true_pairs(truth, {{2}, {2}}, 0), 6U) << "closer than 4 m";
+  EXPECT_EQ(true_pairs(truth, {{2}, {2}}, 0.18), 5U) << "two discs of 2 m share 0.18 at 2.3 m";
+  EXPECT_EQ(true_pairs(truth, {{5}, {2}}, 0.18), 0U) << "a disc in one of six times its area";
+  EXPECT_EQ(true_pairs(truth, reach_for_radius(2, 2.3), 0), 5U);
+}
+
+TEST(CountCandidates, HeadingsOfLimitedViewsCountWhereTheyMustShare) {
+  Truth truth = walker_and_post();
+  const std::vector<OverlapSensor> half_discs(2, {3, std::numbers::pi});
+  EXPECT_EQ(true_pairs(truth, half_discs, 0), 8U) << "closer than 6 m, whatever the headings";
+  EXPECT_EQ(true_pairs(truth, half_discs, 0.18), 3U) << "both look east: 0.41 at 1 m, 0.12 at 2 m";
+  truth.robots[1].poses = test::changed(truth.robots[1].poses, [](const SE3& pose) {
+    return SE3(pose.translation(), lift(SE2({0, 0}, std::numbers::pi)).rotation());
+  });
+  EXPECT_EQ(true_pairs(truth, half_discs, 0.18), 2U) << "face to face at 0 and 1 m: 0.57, 0.26";
+  for (RobotTruth& robot : truth.robots) robot.has_orientation = false;
+  EXPECT_EQ(true_pairs(truth, half_discs, 0.18), 6U) << "unknown headings: discs, 3.5 m";
+}
+
+TEST(CountCandidates, OfExactKeyframesTheCandidatesThatShareEnoughAreTrue) {
+  const Truth truth = walker_and_post();
+  CandidateList kept;
+  for (const double t_s : {0.0, 3.0, 4.9})
+    kept.push_back({robot(1), Stamp{}, robot(0), Stamp::from_seconds(t_s), 0, 0});
+  const std::vector<KeyframeStamps> keyframes{stamps_of(truth.robots[0].poses), {Stamp{}}};
+  const auto counts = count_candidates(keyframes, kept, {truth, 2, {{2}, {2}}, 0.18});
+  EXPECT_EQ(counts.kept, 3U);
+  EXPECT_EQ(counts.true_kept, 2U) << "2 and 1 m apart, not 2.9";
 }
 
 TEST(CountClosures, TheAcceptedOnesAreKept) {
@@ -101,9 +143,9 @@ TEST(CountClosures, TheAcceptedOnesAreKept) {
   EXPECT_EQ(counts.true_kept, 1U);
 }
 
-TEST(CountClosuresDeathTest, EveryRobotNeedsAReach) {
+TEST(CountClosuresDeathTest, EveryRobotNeedsAView) {
   const Truth truth = walker_and_post();
-  EXPECT_DEATH(count_closures({}, {truth, 2, {1}}), "one reach");
+  EXPECT_DEATH(count_closures({}, {truth, 2, {{1}}}), "one view");
 }
 
 }  // namespace

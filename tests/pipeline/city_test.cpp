@@ -18,13 +18,11 @@ using test::small_city;
 /// A candidate is true if both LiDARs together reach from one keyframe to the other.
 PairCounts judge_candidates(const RunResult& result, const Mission& mission, const Truth& truth) {
   std::vector<KeyframeStamps> keyframes;
-  PairTruth judge{truth, 2, {}};
   for (std::size_t r = 0; r < result.robots.size(); ++r) {
     keyframes.emplace_back();
     for (const auto& row : result.robots[r].estimate) keyframes.back().push_back(row.stamp);
-    judge.reach_m.push_back(mission.robots[r].lidar_range_m);
   }
-  return count_candidates(keyframes, result.candidates, judge);
+  return count_candidates(keyframes, result.candidates, {truth, 2, lidar_views(mission)});
 }
 
 double recall(const PairCounts& counts) {

@@ -276,6 +276,9 @@ TEST(Kitti, RunsAtTheEndsOfItsRanges) {
   KittiParams params;
   params.radio.links = 3;
   run_at_the_ends(params, kLong);
+  params.lidar.lidar_beams = 2;
+  params.lidar.lidar_azimuth_steps = 10;
+  run_at_the_ends(params, kLong);
 }
 
 }  // namespace

@@ -112,7 +112,7 @@ WorldShapes random_world(Rng rng) {
 }
 
 std::optional<double> nearest_of_all(const WorldShapes& shapes, const Ray& ray, double max_m) {
-  std::optional<double> nearest = shapes.ground.ray_m(ray.origin, ray.direction, max_m);
+  std::optional<double> nearest = std::get<Hills>(shapes.ground).ray_m(ray.origin, ray.direction, max_m);
   const auto keep = [&](const std::optional<RayHit>& hit) {
     if (hit && hit->range_m <= nearest.value_or(max_m)) nearest = hit->range_m;
   };

@@ -19,6 +19,7 @@
 #include "radioslam/radio/aoa/aoa_estimate.hpp"
 #include "radioslam/sim/scenarios/scenarios.hpp"
 #include "radioslam/study/robustness_map/robustness_map.hpp"
+#include "radioslam/study/wi_closure_hall/wi_closure_hall.hpp"
 #include "radioslam/study/wi_closure_kitti/wi_closure_kitti.hpp"
 
 namespace radioslam::cli {
@@ -37,6 +38,7 @@ DefaultParameters defaults_of() {
 }
 
 DefaultParameters wi_closure_defaults() { return defaults_in(wi_closure_drive()); }
+DefaultParameters scanned_hall_defaults() { return defaults_in(scanned_hall()); }
 DefaultParameters robustness_defaults() { return defaults_in(robustness_town()); }
 
 /// Lists of no more parameters than this are not shortened.
@@ -77,6 +79,7 @@ constexpr std::array kParameterSets = std::to_array<ParameterSet>({
     {"import dpgo", nullptr, {}, kNoneOfImport},
     {"import", defaults_of<DeadReckoningParams>, "import indoor-location"},
     {"reproduce wi-closure-kitti", wi_closure_defaults, "simulate kitti"},
+    {"reproduce wi-closure-hall", scanned_hall_defaults, "simulate hall"},
     {"reproduce robustness-map", robustness_defaults, "simulate city"},
     {"reproduce overlap-growth", nullptr, {}, kNoneOfTable},
     {"reproduce aoa", defaults_of<AoaParams>, "aoa"},

@@ -1,7 +1,8 @@
 // Precision and recall of candidates and closures: precision = true_kept / kept, recall = true_kept /
 // true_pairs. A pair of keyframes of two robots is true if its true positions are closer than the sum of the
-// two robots' ranges. Truth is interpolated linearly between its poses; keyframes outside the truth, and
-// pairs with such keyframes, are not evaluated.
+// two robots' ranges, or, with min_shared_view, if the views share that much at its true poses
+// (closure/overlap/overlap_view.hpp). Truth is interpolated linearly between its poses; keyframes outside the
+// truth, and pairs with such keyframes, are not evaluated.
 #pragma once
 
 #include <cstddef>
@@ -9,6 +10,8 @@
 
 #include "radioslam/base/stamp.hpp"
 #include "radioslam/base/strong_id.hpp"
+#include "radioslam/closure/overlap/overlap_view.hpp"
+#include "radioslam/mission/mission.hpp"
 #include "radioslam/mission/truth.hpp"
 #include "radioslam/results/results.hpp"
 
@@ -25,15 +28,21 @@ struct PairCounts {
 /// Stamps of a robot's keyframes, in time order.
 using KeyframeStamps = std::vector<Stamp>;
 
-/// Truth and the criterion for true pairs; all in the order of Mission::robots.
+/// Truth and the criterion for true pairs; robots in the order of Mission::robots.
 struct PairTruth {
   const Truth& truth;
-  int dimension = 2;            ///< 2: horizontal distances
-  std::vector<double> reach_m;  ///< per robot; a pair's radius is the sum of its two robots'
+  int dimension = 2;                 ///< 2: horizontal distances
+  std::vector<OverlapSensor> views;  ///< per robot; all round where the truth has no orientations
+  /// Smallest intersection over union of a true pair's views; 0: the pair is closer than the sum of the
+  /// ranges, whatever its headings.
+  double min_shared_view = 0;
 };
 
-/// Reach per robot that gives every pair the same radius.
-std::vector<double> reach_for_radius(std::size_t robots, double radius_m);
+/// The LiDARs' views.
+std::vector<OverlapSensor> lidar_views(const Mission& mission);
+
+/// Views that give every pair the same radius, with min_shared_view 0.
+std::vector<OverlapSensor> reach_for_radius(std::size_t robots, double radius_m);
 
 /// Counts over all pairs of keyframes of different robots; `candidates` are the pairs kept.
 PairCounts count_candidates(const std::vector<KeyframeStamps>& keyframes, const CandidateList& candidates,

@@ -293,6 +293,11 @@ ClosuresByKind judge_closures(const std::vector<ClosureResult>& closures,
       if (const auto k = loops.take(closure))
         count_pose(closure, judge.relative_pose(file.loops[*k],
                                                 *k < file.labels.size() ? file.labels[*k] : std::nullopt));
+    } else if (closure.kind == ClosureKind::kLidar) {
+      if (closure.T_i_j && closure.robot_i != closure.robot_j)
+        count_pose(closure, judge.relative_pose({closure.robot_i, closure.robot_j, closure.stamp_i,
+                                                 closure.stamp_j, *closure.T_i_j, SE3::Jacobian::Zero()},
+                                                std::nullopt));
     } else if (closure.kind == ClosureKind::kRange) {
       if (const auto k = ranges.take(closure)) count_if_covered(closure, judge.range(*k));
     } else if (closure.kind == ClosureKind::kAoa) {

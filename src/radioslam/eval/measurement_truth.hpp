@@ -4,6 +4,7 @@
 //           precedence.
 //   file    relative poses of a factor graph that are not odometry: as matches, with the labels of the file.
 //           The k-th closure between two keyframes is the k-th such relative pose of the file.
+//   lidar   between robots, by scans: within 0.5 m and 5 degrees of the true relative pose.
 //   range   within 3 sigma + 0.5 m of the true distance of the antennas.
 //   aoa     by its likeliest path, that of the greatest posterior weight, whatever its other paths are:
 //           the accepted path of an accepted angle. Angles measured from CSI as well.
@@ -27,7 +28,7 @@ struct JudgedClosures {
   std::size_t accepted = 0, true_accepted = 0, rejected = 0, true_rejected = 0;
   /// Of the accepted angles; they add up to `accepted`, and direct_found is true_accepted.
   std::size_t direct_found = 0, wrong_path = 0, none_direct = 0;
-  /// Largest error of an accepted match or relative pose of a file, where the truth has both its poses.
+  /// Largest error of an accepted relative pose, where the truth has both its poses.
   std::optional<double> worst_accepted_m = {}, worst_accepted_rad = {};
 };
 using ClosuresByKind = std::map<ClosureKind, JudgedClosures>;

@@ -6,4 +6,4 @@ radioslam_room(eval
     metrics.cpp
     mirror_image.cpp
     team_estimate.cpp
-  ROOMS results mission)
+  ROOMS closure results mission)

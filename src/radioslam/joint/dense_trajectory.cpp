@@ -70,7 +70,9 @@ DenseTrajectory dense_trajectory(const Mission& mission, const JointGraph<Pose>&
   for (std::size_t k = 0; k < covered.size(); ++k) {
     const double z_m = mission.robots[robot].odometry.at(covered[k])->translation().z();
     rows.push_back({covered[k], as_se3(poses[k].pose, z_m)});
-    if (marginals) dense.sigma_position_m.push_back(sigma_of(poses[k].covariance.template topLeftCorner<Pose::kDim, Pose::kDim>()));
+    if (marginals)
+      dense.sigma_position_m.push_back(
+          sigma_of(poses[k].covariance.template topLeftCorner<Pose::kDim, Pose::kDim>()));
   }
   dense.poses = Trajectory<SE3>(std::move(rows));
   return dense;

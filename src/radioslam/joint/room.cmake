@@ -24,10 +24,13 @@ radioslam_room(joint
     matches/match_groups.cpp
     matches/match_selection.cpp
     overlap_stage.cpp
+    places/place_proposals.cpp
+    places/place_recognition.cpp
+    places/scanned_robot.cpp
     position_fixes/placement.cpp
     robot_nodes.cpp
     sequence_stage.cpp
     team_alignment.cpp
     uncertainty/position_uncertainty.cpp
     uncertainty/rejected_stretches.cpp
-  ROOMS odometry closure team_frame graph radio results consistency)
+  ROOMS odometry places closure team_frame graph radio results consistency)

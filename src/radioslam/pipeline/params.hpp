@@ -12,6 +12,7 @@
 #include "radioslam/joint/links/range_biases.hpp"
 #include "radioslam/joint/matches/match_selection.hpp"
 #include "radioslam/joint/overlap_stage.hpp"
+#include "radioslam/joint/places/place_recognition.hpp"
 #include "radioslam/joint/position_fixes/placement.hpp"
 #include "radioslam/joint/sequence_stage.hpp"
 #include "radioslam/mission/keyframes.hpp"
@@ -41,6 +42,7 @@ struct RunParams {
   FixParams fixes;
   RangeBiasPriorParams range_bias;
   OverlapStageParams overlap;
+  PlaceParams places;
   MatchParams matches;
   AoaLikelihoodParams angles;
   AoaIntegrityParams angle_check;
@@ -65,6 +67,7 @@ struct RunParams {
     visit("fixes", self.fixes);
     visit("range_bias", self.range_bias);
     visit("overlap", self.overlap);
+    visit("places", self.places);
     visit("matches", self.matches);
     visit("angles", self.angles);
     visit("angle_check", self.angle_check);

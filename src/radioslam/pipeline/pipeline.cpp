@@ -11,6 +11,7 @@
 #include "radioslam/joint/late_nodes.hpp"
 #include "radioslam/joint/links/link_weights.hpp"
 #include "radioslam/joint/matches/alignment_by_matches.hpp"
+#include "radioslam/joint/places/place_recognition.hpp"
 #include "radioslam/joint/uncertainty/position_uncertainty.hpp"
 #include "radioslam/odometry/scan_stage.hpp"
 #include "radioslam/pipeline/occupancy_image.hpp"
@@ -41,6 +42,16 @@ void count_scans(RunResult& result, const MeasuredScans& scans) {
       static_cast<double>(std::count_if(result.closures.begin(), result.closures.end(), [](const auto& c) {
         return c.kind == ClosureKind::kLidar && c.status == ClosureStatus::kAccepted;
       }));
+}
+
+void count_places(RunResult& result, const PlaceCounts& places) {
+  if (places.pairs == 0) return;
+  const auto count = [&](const char* key, std::size_t of) { result.counts[key] = static_cast<double>(of); };
+  count("place_pairs", places.pairs);
+  count("place_pairs_allowed", places.allowed);
+  count("descriptor_pairs", places.compared);
+  count("registrations", places.registrations);
+  count("registrations_verified", places.verified);
 }
 
 bool has_scans(const Mission& mission) {
@@ -154,8 +165,11 @@ void add_found(const RunSetup& run, TeamEstimate<Pose>& team, const std::vector<
   add_closure_stamps(found, stamps);
   add_nodes(team, run.mission, run.params.graph, stamps);
   const bool are_loops = !team.closures.loops.empty() || stands_on_matches(run);
-  auto& closures = are_loops ? team.closures.loops : team.closures.matches;
-  closures.insert(closures.end(), found.begin(), found.end());
+  for (const Closure& closure : found) {
+    const bool holds = closure.status == ClosureStatus::kAccepted;
+    auto& judged = are_loops ? team.closures.loops : team.closures.matches;
+    (holds ? judged : team.closures.scans).push_back(closure);
+  }
 }
 
 /// Moves the team to the alignment that radio links and groups of consistent matches support best, and joins
@@ -174,9 +188,9 @@ bool needs_overlap_search(const RunSetup& run, const TeamClosures& closures) {
 
 /// Keyframe pairs of different robots whose views can overlap, in any of the likely alignments.
 template <class Pose>
-OverlapStage search_overlaps(const RunSetup& run, const TeamEstimate<Pose>& team) {
+OverlapStage search_overlaps(const RunSetup& run, const TeamEstimate<Pose>& team,
+                             const OverlapStageParams& overlap, const OverlapRequest& request) {
   const MixtureParams& mixture = run.params.alignment.mixture;
-  const OverlapStageParams& overlap = run.params.overlap;
   std::vector<JointGraph<Pose>> alignments{graph_for_covariances(team.joint, mixture)};
   const TeamAlignment<Pose>& alignment = team.alignment;
   for (std::size_t k = 0; k < alignment.alternatives.size(); ++k) {
@@ -187,11 +201,37 @@ OverlapStage search_overlaps(const RunSetup& run, const TeamEstimate<Pose>& team
     if (!alignment.segments.of_segment.empty()) reweigh_radio_links(alternative, alignment, mixture);
     alignments.push_back(graph_for_covariances(alternative, mixture));
   }
-  const auto listed = static_cast<std::size_t>(overlap.max_listed_candidates);
-  return find_overlaps(
-      std::move(alignments), overlap,
+  return find_overlaps(std::move(alignments), overlap, request);
+}
+
+/// The pairs that a run lists, and those of matches.
+template <class Pose>
+OverlapStage list_overlaps(const RunSetup& run, const TeamEstimate<Pose>& team) {
+  const auto listed = static_cast<std::size_t>(run.params.overlap.max_listed_candidates);
+  return search_overlaps(
+      run, team, run.params.overlap,
       {run.options.search, run.options.take_candidates ? 0 : listed,
        keyframes_of_matches(team.joint, team.closures.matches), run.options.take_candidates});
+}
+
+/// Closures between robots by their scans, where the team as estimated so far may have met.
+template <class Pose>
+RecognisedPlaces find_places(const RunSetup& run, const TeamEstimate<Pose>& team, const MeasuredScans& scans,
+                             const RecognisedPlaces& before = {}) {
+  if (!run.params.places.enabled || run.options.overlap_only || !has_comparable_scans(scans)) return {};
+  std::vector<CandidateList::Group> allowed;
+  PlaceInput<Pose> input{team, run.mission, scans, nullptr, before.attempts};
+  if (run.options.pruning == Pruning::kOn) {
+    const auto keep = [&](const CandidateList::Group& group, const auto&) { allowed.push_back(group); };
+    OverlapStageParams overlap = run.params.overlap;
+    double& shared_view = overlap.overlap.min_shared_view;
+    shared_view = std::max(shared_view, run.params.places.min_shared_view);
+    run.timed("overlap", search_overlaps<Pose>, run, team, overlap,
+              OverlapRequest{run.options.search, 0, {}, keep});
+    input.allowed = &allowed;
+  }
+  return run.timed("places", recognise_places<Pose>, input, run.params.places, run.params.scans,
+                   run.params.alignment, run.progress);
 }
 
 /// Selects the matches that are candidates and consistent, and solves the team with them.
@@ -263,7 +303,7 @@ JudgedTeam<Pose> judge_closures(const RunSetup& run, TeamEstimate<Pose> aligned,
   if (has_matches && weighs_matches(run))
     run.timed("alignment by matches", align_by_matches<Pose>, run, team);
   if (needs_overlap_search(run, closures))
-    judged.overlaps = run.timed("overlap", search_overlaps<Pose>, run, team);
+    judged.overlaps = run.timed("overlap", list_overlaps<Pose>, run, team);
   if (has_matches) run.timed("matches", close_by_matches<Pose>, run, team, *judged.overlaps);
   test_closures(team.joint, FactorSource::kScanLoop, closures.scans);
   test_closures(team.joint, FactorSource::kSequence, closures.sequences);
@@ -274,18 +314,27 @@ namespace {
 
 /// The whole estimate. `graph`: the team as a factor graph, or null.
 template <class Pose>
-RunOutput run(const Mission& mission, const TeamGraph<Pose>* graph, const std::vector<ScanClosure>& scans,
+RunOutput run(const Mission& mission, const TeamGraph<Pose>* graph, const MeasuredScans& scans,
               const RunParams& params, const RunOptions& options, const Progress& progress,
               StageClock& timed) {
   const RadioMeasurements radio = timed("radio", measure_radio, mission, params.radio, progress);
   const RunSetup run{mission, radio, params, options, progress, timed};
 
-  auto built = timed("graph", build_team<Pose>, run, graph, closures_of_scans(scans));
+  auto built = timed("graph", build_team<Pose>, run, graph, closures_of_scans(scans.closures));
   auto aligned = align_team(run, std::move(built));
-  auto judged = judge_closures(run, std::move(aligned));
+  auto places = find_places(run, aligned, scans);
+  auto judged = judge_closures(run, aligned, places.closures);
+  for (int round = 1; round < params.places.rounds && places.has_verified(); ++round) {
+    auto more = find_places(run, judged.team, scans, places);
+    const bool has_more = more.has_verified();
+    places.append(std::move(more));
+    if (!has_more) break;
+    judged = judge_closures(run, aligned, places.closures);
+  }
 
   RunResult result =
       describe_run(mission, radio, judged.team, std::move(judged.overlaps), params, options, timed);
+  count_places(result, places.counts);
   return {std::move(result), std::move(judged.team.joint.team.graph)};
 }
 
@@ -298,8 +347,8 @@ RunOutput run_pipeline(const Mission& recorded, const RunParams& params, const R
   const Mission& mission = recordings.mission ? *recordings.mission : recorded;
   const MeasuredScans& scans = recordings.scans;
   RunOutput output = mission.dimension == 2
-                         ? run<SE2>(mission, nullptr, scans.closures, params, options, progress, timed)
-                         : run<SE3>(mission, nullptr, scans.closures, params, options, progress, timed);
+                         ? run<SE2>(mission, nullptr, scans, params, options, progress, timed)
+                         : run<SE3>(mission, nullptr, scans, params, options, progress, timed);
   add_recording_results(output.result, mission, scans, std::move(recordings.csi), params, options, timed);
   output.result.timings = timed.timings();
   return output;

@@ -95,6 +95,7 @@ PageData count_of(const RunResult& result, const char* key) {
 
 using ClosureGroup = std::pair<ClosureKind, ClosureStatus>;
 using Reason = std::tuple<ClosureKind, ClosureStatus, std::string>;
+using StatisticsByReason = std::map<Reason, std::vector<double>>;
 
 const char* name(ClosureKind kind) {
   switch (kind) {
@@ -127,10 +128,15 @@ std::map<ClosureGroup, std::vector<std::size_t>> by_group(const std::vector<Clos
   return groups;
 }
 
-PageData reason_rows(const std::vector<ClosureResult>& closures) {
-  std::map<Reason, std::vector<double>> statistics;
-  for (const auto& closure : closures)
-    statistics[{closure.kind, closure.status, closure.reason}].push_back(closure.statistic);
+Reason reason_of(const ClosureResult& closure) { return {closure.kind, closure.status, closure.reason}; }
+
+StatisticsByReason by_reason(const std::vector<ClosureResult>& closures) {
+  StatisticsByReason statistics;
+  for (const auto& closure : closures) statistics[reason_of(closure)].push_back(closure.statistic);
+  return statistics;
+}
+
+PageData reason_rows(const StatisticsByReason& statistics) {
   PageData rows = PageData::array();
   for (const auto& [reason, values] : statistics) {
     rows.push_back({{"kind", name(std::get<0>(reason))},
@@ -153,24 +159,29 @@ std::size_t keyframe_at(const Trajectory<SE3>& estimate, Stamp stamp) {
 /// The lines on the map, column by column.
 class DrawnClosures {
  public:
-  DrawnClosures(const RunResult& result, const DrawnKeyframes& keyframes)
-      : result_(result), keyframes_(keyframes) {}
+  DrawnClosures(const RunResult& result, const DrawnKeyframes& keyframes,
+                const StatisticsByReason& statistics)
+      : result_(result), keyframes_(keyframes) {
+    for (const auto& [reason, values] : statistics) reason_rows_.emplace(reason, reason_rows_.size());
+  }
 
   /// False if an end has no drawn keyframe.
   bool add(const ClosureResult& closure, std::size_t group) {
     if (!has_place(closure.robot_i) || !has_place(closure.robot_j)) return false;
     group_.push_back(group);
+    reason_.push_back(reason_rows_.at(reason_of(closure)));
     robot_i_.push_back(closure.robot_i.value);
     keyframe_i_.push_back(place(closure.robot_i, closure.stamp_i));
     robot_j_.push_back(closure.robot_j.value);
     keyframe_j_.push_back(place(closure.robot_j, closure.stamp_j));
-    statistic_.push_back(rounded(closure.statistic, 2));
+    statistic_.push_back(rounded(closure.statistic, 3));
     return true;
   }
 
   PageData data() const {
-    return {{"group", group_},     {"robot_i", robot_i_},       {"keyframe_i", keyframe_i_},
-            {"robot_j", robot_j_}, {"keyframe_j", keyframe_j_}, {"statistic", statistic_}};
+    return {{"group", group_},           {"reason", reason_},   {"robot_i", robot_i_},
+            {"keyframe_i", keyframe_i_}, {"robot_j", robot_j_}, {"keyframe_j", keyframe_j_},
+            {"statistic", statistic_}};
   }
 
  private:
@@ -184,8 +195,9 @@ class DrawnClosures {
 
   const RunResult& result_;
   const DrawnKeyframes& keyframes_;
-  PageData group_ = PageData::array(), robot_i_ = group_, keyframe_i_ = group_, robot_j_ = group_,
-           keyframe_j_ = group_, statistic_ = group_;
+  std::map<Reason, std::size_t> reason_rows_;
+  PageData group_ = PageData::array(), reason_ = group_, robot_i_ = group_, keyframe_i_ = group_,
+           robot_j_ = group_, keyframe_j_ = group_, statistic_ = group_;
 };
 
 }  // namespace
@@ -214,8 +226,9 @@ PageData candidate_data(const RunResult& result, const ReportParams& params) {
 PageData closure_data(const RunResult& result, const DrawnKeyframes& keyframes, const ReportParams& params) {
   const auto& closures = result.closures;
   const auto budget = static_cast<std::size_t>(std::max(params.max_closures, 2));
+  const StatisticsByReason statistics = by_reason(closures);
   PageData groups = PageData::array();
-  DrawnClosures lines(result, keyframes);
+  DrawnClosures lines(result, keyframes, statistics);
   for (const auto& [group, members] : by_group(closures)) {
     const std::size_t limit = part_of_budget(members.size(), closures.size(), budget);
     std::size_t drawn = 0;
@@ -226,7 +239,7 @@ PageData closure_data(const RunResult& result, const DrawnKeyframes& keyframes, 
                       {"count", members.size()},
                       {"drawn", drawn}});
   }
-  return {{"groups", groups}, {"reasons", reason_rows(closures)}, {"drawn", lines.data()}};
+  return {{"groups", groups}, {"reasons", reason_rows(statistics)}, {"drawn", lines.data()}};
 }
 
 PageData judged_closure_data(const ClosuresByKind& closures) {
@@ -243,6 +256,27 @@ PageData judged_closure_data(const ClosuresByKind& closures) {
     rows.back()["none_direct"] = counts.none_direct;
   }
   return rows;
+}
+
+PageData place_data(const RunResult& result, const ClosuresByKind& judged_closures) {
+  const auto pairs = result.counts.find("place_pairs");
+  if (pairs == result.counts.end() || pairs->second <= 0) return {};
+  const auto accepted =
+      std::count_if(result.closures.begin(), result.closures.end(), [](const ClosureResult& closure) {
+        return closure.kind == ClosureKind::kLidar && closure.robot_i != closure.robot_j &&
+               closure.status == ClosureStatus::kAccepted;
+      });
+  PageData data{{"pairs", count_of(result, "place_pairs")},
+                {"allowed", count_of(result, "place_pairs_allowed")},
+                {"compared", count_of(result, "descriptor_pairs")},
+                {"registered", count_of(result, "registrations")},
+                {"verified", count_of(result, "registrations_verified")},
+                {"accepted", accepted}};
+  if (const auto judged = judged_closures.find(ClosureKind::kLidar); judged != judged_closures.end()) {
+    data["true"] = judged->second.true_accepted;
+    data["false"] = judged->second.accepted - judged->second.true_accepted;
+  }
+  return data;
 }
 
 }  // namespace radioslam

@@ -26,13 +26,18 @@ PageData candidate_data(const RunResult& result, const ReportParams& params);
 using DrawnKeyframes = std::vector<std::vector<std::size_t>>;
 
 /// {"groups": [{"kind", "status", "count", "drawn"}], "reasons": [{"kind", "status", "reason", "count",
-///   "statistic_median"}], "drawn": {"group", "robot_i", "keyframe_i", "robot_j", "keyframe_j",
-///   "statistic"}}.
-/// Keyframes in `drawn` are indices into the drawn keyframes.
+///   "statistic_median"}], "drawn": {"group", "reason", "robot_i", "keyframe_i", "robot_j",
+///   "keyframe_j", "statistic"}}.
+/// Keyframes in `drawn` are indices into the drawn keyframes, reasons into `reasons`.
 PageData closure_data(const RunResult& result, const DrawnKeyframes& keyframes, const ReportParams& params);
 
 /// [{"kind", "accepted", "true_accepted", "rejected", "true_rejected", "direct_found", "wrong_path",
 ///   "none_direct"}]; the last three of angles only.
 PageData judged_closure_data(const ClosuresByKind& closures);
+
+/// {"pairs", "allowed", "compared", "registered", "verified", "accepted", "true", "false"}: how many pairs of
+/// keyframes of different robots came how far by their scans. "true" and "false" are those accepted ones that
+/// the truth covers, absent without it. Null if no scans of different robots were compared.
+PageData place_data(const RunResult& result, const ClosuresByKind& judged_closures);
 
 }  // namespace radioslam

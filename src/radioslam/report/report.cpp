@@ -242,6 +242,7 @@ PageData page_data(const RunResult& result, const Truth* truth, const std::optio
   }
   add_robots(page, result, judgement, params);
   page["closures"]["judged"] = judged_closure_data(judged_closures);
+  page["places"] = place_data(result, judged_closures);
   if (result.similarity_model) page["similarity"] = similarity_data(*result.similarity_model, params);
   if (!result.aoa_measurements.empty())
     page["arrivals"] = aoa_data(result, first_stamp(result), judgement.truth, params);

@@ -92,6 +92,7 @@ struct ClosureResult {
   double statistic = 0;                   ///< squared normalised residual that was tested
   std::string reason;                     ///< of a rejection; empty if accepted
   std::vector<double> path_weights = {};  ///< of an angle: posterior that each of its paths is direct
+  std::optional<SE3> T_i_j = {};          ///< measured, between the keyframes; absent if it is no pose
 };
 
 /// Bin of a fitted similarity-to-distance model.

@@ -27,9 +27,12 @@ radioslam_room(sim
     sensors/surface_odometry.cpp
     sensors/transmitters.cpp
     sensors/wheel_odometry.cpp
+    worlds/height_grid.cpp
     worlds/hills.cpp
     worlds/lane_grid.cpp
+    worlds/path_ground.cpp
     worlds/ray_world.cpp
+    worlds/roadside.cpp
     worlds/town_houses.cpp
     worlds/upright_shapes.cpp
   ROOMS base geometry mission)

@@ -22,12 +22,6 @@ std::vector<KeyframeStamps> keyframe_stamps(const RunResult& result) {
   return stamps;
 }
 
-PairTruth pair_truth(const Mission& mission, const Truth& truth) {
-  PairTruth pairs{truth, mission.dimension, {}};
-  for (const Robot& robot : mission.robots) pairs.reach_m.push_back(robot.lidar_range_m);
-  return pairs;
-}
-
 double seconds_of(const RunResult& result, std::string_view stage) {
   for (const StageTiming& timing : result.timings)
     if (timing.stage == stage) return timing.seconds;
@@ -85,7 +79,9 @@ EvaluatedRun run_and_evaluate(const Mission& mission, const Truth& truth, const 
   run.best_ate_m = best_ate_m(result, truth, run.ate_m);
   run.weight = result.weight;
   run.coverage = metrics.coverage;
-  run.candidates = count_candidates(keyframe_stamps(result), result.candidates, pair_truth(mission, truth));
+  const PairTruth true_pairs{truth, mission.dimension, lidar_views(mission),
+                             params.overlap.overlap.min_shared_view};
+  run.candidates = count_candidates(keyframe_stamps(result), result.candidates, true_pairs);
   const auto distances = result.counts.find("distances_evaluated");
   if (distances != result.counts.end()) run.distances_evaluated = distances->second;
   run.search_s = seconds_of(result, "overlap");

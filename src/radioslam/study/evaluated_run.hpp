@@ -17,7 +17,7 @@ struct EvaluatedRun {
   std::optional<double> best_ate_m;  ///< RMSE of the best hypothesis
   double weight = 1;                 ///< of the most likely hypothesis
   double coverage = 0;               ///< ratio of the true poses covered by the most likely hypothesis
-  PairCounts candidates;             ///< true: closer than the sum of the two LiDAR ranges
+  PairCounts candidates;             ///< true: the views overlap by the run's own min_shared_view
   double distances_evaluated = 0;
   double search_s = 0;                        ///< the overlap search, with its covariances
   double total_s = 0;                         ///< all stages

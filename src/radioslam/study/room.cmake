@@ -12,6 +12,9 @@ radioslam_room(study
     study_json.cpp
     study_page.cpp
     study_table.cpp
+    wi_closure_hall/hall_tables.cpp
+    wi_closure_hall/hall_truth.cpp
+    wi_closure_hall/wi_closure_hall.cpp
     wi_closure_kitti/wi_closure_kitti.cpp
   ROOMS radio pipeline eval sim io report
   LIBRARIES nlohmann_json::nlohmann_json)

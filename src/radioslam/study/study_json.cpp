@@ -1,6 +1,10 @@
 #include "radioslam/study/study_json.hpp"
 
+#include <array>
+
 #include "radioslam/io/run/metrics_json.hpp"
+#include "radioslam/study/wi_closure_hall/hall_tables.hpp"
+#include "radioslam/study/wi_closure_hall/published_hall.hpp"
 #include "radioslam/study/wi_closure_kitti/published_wi_closure.hpp"
 
 namespace radioslam {
@@ -53,6 +57,58 @@ Json seed_json(const WiClosureKitti& seed) {
           {"ate_unpruned_m", optional_json(seed.unpruned.ate_m)},
           {"ate_true_matches_m", optional_json(seed.true_matches.ate_m)},
           {"ate_oracle_m", optional_json(seed.ate_oracle_m)}};
+}
+
+Json published_hall_json() {
+  using namespace published_wi_closure_hall;
+  return {{"pairs", kPairs},
+          {"kept", kKept},
+          {"true_kept", kTrueKept},
+          {"recall", kRecall},
+          {"false_rejected", kFalseRejected},
+          {"search_s", kSearch_s},
+          {"total_s", kWithSearch_s},
+          {"baseline_s", kBaseline_s},
+          {"ate_m", kAte_m},
+          {"ate_baseline_m", kBaselineAte_m},
+          {"angles", kAngles},
+          {"direct_paths", kDirectPaths},
+          {"false_paths", kFalsePaths}};
+}
+
+Json hall_run_json(const HallRun& run) {
+  return {{"place_pairs", run.places.pairs},
+          {"place_pairs_allowed", run.places.allowed},
+          {"descriptor_pairs", run.places.compared},
+          {"registrations", run.places.registrations},
+          {"registrations_verified", run.places.verified},
+          {"closures_accepted", run.closures.accepted},
+          {"closures_true_accepted", run.closures.true_accepted},
+          {"in_one_frame", run.in_one_frame},
+          {"ate_m", optional_json(run.ate_m)},
+          {"scans_s", run.scans_s},
+          {"overlap_s", run.overlap_s},
+          {"places_s", run.places_s},
+          {"total_s", run.total_s}};
+}
+
+Json hall_runs_json(const HallRuns& runs) {
+  return {{"without_radio", hall_run_json(runs.without_radio)},
+          {"unpruned", hall_run_json(runs.unpruned)},
+          {"pruned", hall_run_json(runs.pruned)}};
+}
+
+Json hall_json(const WiClosureHall& hall) {
+  constexpr std::array<const char*, kAllPlaceSettings.size()> kNames{"defaults", "disco", "loosened_disco"};
+  Json json{{"seed", hall.seed}, {"search", search_json(hall.search)}};
+  for (std::size_t k = 0; k < hall.runs.size(); ++k) json[kNames[k]] = hall_runs_json(hall.runs[k]);
+  json["angles"] = Json::array();
+  for (const AnglePaths& angle : hall.angles)
+    json["angles"].push_back({{"paths", angle.paths},
+                              {"direct_path", angle.direct_path ? Json(*angle.direct_path) : Json()},
+                              {"path_weights", angle.weights},
+                              {"accepted", angle.accepted}});
+  return json;
 }
 
 Json cell_json(const RobustnessCell& cell) {
@@ -144,6 +200,20 @@ Json swept_json(const SweptMission& mission) {
 Json wi_closure_kitti_json(const std::vector<WiClosureKitti>& seeds) {
   Json json{{"table", "wi-closure-kitti"}, {"published", published_json()}, {"seeds", Json::array()}};
   for (const auto& seed : seeds) json["seeds"].push_back(seed_json(seed));
+  return json;
+}
+
+Json wi_closure_hall_json(const std::vector<WiClosureHall>& halls) {
+  const AngleCounts angles = count_angles(halls);
+  Json json{{"table", "wi-closure-hall"},
+            {"published", published_hall_json()},
+            {"angles",
+             {{"measurements", angles.angles},
+              {"with_direct", angles.with_direct},
+              {"direct_found", angles.direct_found},
+              {"paths", angles.paths}}},
+            {"seeds", Json::array()}};
+  for (const WiClosureHall& hall : halls) json["seeds"].push_back(hall_json(hall));
   return json;
 }
 

@@ -11,12 +11,19 @@
 #include "radioslam/study/fingerprints/threshold_sweep.hpp"
 #include "radioslam/study/overlap_growth/overlap_growth.hpp"
 #include "radioslam/study/robustness_map/robustness_map.hpp"
+#include "radioslam/study/wi_closure_hall/wi_closure_hall.hpp"
 #include "radioslam/study/wi_closure_kitti/wi_closure_kitti.hpp"
 
 namespace radioslam {
 
 /// {"table", "published": {...}, "seeds": [{"seed", "cut", "links", "joint": {...}, "link": {...}, ...}]}
 nlohmann::ordered_json wi_closure_kitti_json(const std::vector<WiClosureKitti>& seeds);
+
+/// {"table", "published": {...}, "angles": {...}, "seeds": [{"seed", "search": {...}, "defaults":
+///   {"without_radio": {...}, "unpruned": {...}, "pruned": {...}}, "disco": {...}, "loosened_disco": {...},
+///   "angles": [{"paths", "direct_path", "path_weights", "accepted"}]}]}; paths count from 0, a direct path
+/// of -1 is that of an angle without one.
+nlohmann::ordered_json wi_closure_hall_json(const std::vector<WiClosureHall>& halls);
 
 /// {"table", "axes": {...}, "first_seed", "seeds", "cells": [{"sigma_angle_deg", "links", "false_paths",
 ///   "ratio", ...}]}: a cell's summary.

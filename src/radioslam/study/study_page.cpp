@@ -50,7 +50,11 @@ Json direction_json(const AoaLink& link) {
 
 }  // namespace
 
-std::string render_table_page(const StudyTable& table) { return page(table_json(table)); }
+std::string render_table_page(const StudyTable& table, const std::vector<StudyTable>& further) {
+  Json data = table_json(table);
+  for (const StudyTable& other : further) data["further"].push_back(table_json(other));
+  return page(data);
+}
 
 std::string render_robustness_page(const RobustnessMap& map) {
   Json data = table_json(robustness_table(map));

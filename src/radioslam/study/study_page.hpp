@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "radioslam/study/aoa/aoa_table.hpp"
 #include "radioslam/study/overlap_growth/overlap_growth.hpp"
@@ -10,7 +11,8 @@
 
 namespace radioslam {
 
-std::string render_table_page(const StudyTable& table);
+/// `further`: tables below the first, each with its title, lead and notes.
+std::string render_table_page(const StudyTable& table, const std::vector<StudyTable>& further = {});
 
 /// Heat maps of error, recall and failures, a column per number of false paths, with the table below.
 std::string render_robustness_page(const RobustnessMap& map);

@@ -13,9 +13,10 @@ class OverlapExchangeOf : public testing::Test {};
 TYPED_TEST_SUITE(OverlapExchangeOf, test::PoseTypes);
 
 template <class Source>
-std::uint64_t equals_central(const Source& source, const std::vector<OverlapSensor>& sensors) {
-  const auto central = search_overlaps(source, sensors, {});
-  const auto exchange = exchange_overlaps(source, 0, 1, sensors, {});
+std::uint64_t equals_central(const Source& source, const std::vector<OverlapSensor>& sensors,
+                             const OverlapParams& params = {}) {
+  const auto central = search_overlaps(source, sensors, params);
+  const auto exchange = exchange_overlaps(source, 0, 1, sensors, params);
   EXPECT_EQ(exchange.found.candidates, central.candidates);
   EXPECT_EQ(exchange.found.counts.pairs, central.counts.pairs);
   EXPECT_EQ(exchange.cost.final_message, 4 + 24 * central.counts.kept);
@@ -31,6 +32,7 @@ TYPED_TEST(OverlapExchangeOf, FindsWhatTheCentralSearchFinds) {
     const auto joint = JointCovariance<TypeParam>::compute(world.graph, world.robots);
     ASSERT_TRUE(joint.has_value());
     kept += equals_central(*joint, world.sensors);
+    equals_central(*joint, world.sensors, {.min_shared_view = 0.18});
   }
   EXPECT_GT(kept, 1000U);
 }

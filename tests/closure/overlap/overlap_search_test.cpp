@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "closure/overlap/overlap_worlds.hpp"
 #include "radioslam/base/parallel.hpp"
@@ -32,7 +34,7 @@ void equals_exhaustive(const Source& source, const std::vector<OverlapSensor>& s
 }
 
 template <class Pose>
-void worlds_agree(const char* distance, bool with_cones, bool joint) {
+void worlds_agree(const char* distance, bool with_cones, bool joint, double min_shared_view = 0) {
   Tally tally;
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     test::WorldSize size{2 + seed % 2, 120, 1 + seed % 5};
@@ -43,6 +45,7 @@ void worlds_agree(const char* distance, bool with_cones, bool joint) {
     OverlapParams params;
     params.distance = distance;
     params.max_mahalanobis = seed % 2 == 0 ? 2 : 0.7;
+    params.min_shared_view = min_shared_view;
     if (joint) {
       const auto source = JointCovariance<Pose>::compute(world.graph, world.robots, seed == 3 ? 1 : 1 << 24);
       ASSERT_TRUE(source.has_value());
@@ -62,6 +65,18 @@ TYPED_TEST(OverlapSearchOf, JointConesEqualExhaustive) { worlds_agree<TypeParam>
 TYPED_TEST(OverlapSearchOf, LinkEqualsExhaustive) { worlds_agree<TypeParam>("minimum", false, false); }
 TYPED_TEST(OverlapSearchOf, LinkSeedEqualsExhaustive) { worlds_agree<TypeParam>("seed", false, false); }
 TYPED_TEST(OverlapSearchOf, LinkConesEqualExhaustive) { worlds_agree<TypeParam>("minimum", true, false); }
+TYPED_TEST(OverlapSearchOf, JointSharedEqualsExhaustive) {
+  worlds_agree<TypeParam>("minimum", false, true, 0.18);
+}
+TYPED_TEST(OverlapSearchOf, JointSharedConesEqualExhaustive) {
+  worlds_agree<TypeParam>("minimum", true, true, 0.18);
+}
+TYPED_TEST(OverlapSearchOf, LinkSharedSeedEqualsExhaustive) {
+  worlds_agree<TypeParam>("seed", false, false, 0.18);
+}
+TYPED_TEST(OverlapSearchOf, LinkSharedConesEqualExhaustive) {
+  worlds_agree<TypeParam>("minimum", true, false, 0.18);
+}
 
 TYPED_TEST(OverlapSearchOf, SameBytesForAnyNumberOfThreads) {
   const auto world = test::draw_world<TypeParam>(1, {3, 200, 4});
@@ -133,6 +148,63 @@ TEST(OverlapSearchTest, KnownTeam) {
     EXPECT_NEAR(found.candidates[k].mahalanobis, 3, 1e-9);
   }
   EXPECT_EQ(search_overlaps(source, {{8.0}, {7.0}}, {2}).candidates.size(), 11U) << "inside the ball";
+}
+
+/// One pose of each robot, exactly known.
+LinkCovariance<SE2> two_poses(double distance_m) {
+  const KeyframeOdometry<SE2> chain{{SE2()}, {}, {}};
+  return {{chain, chain}, {{0, 0, 1, 0, SE2({distance_m, 0}, 0), SE2::Jacobian::Zero()}}};
+}
+
+TEST(OverlapSearchTest, TwoScannersOf30mShareEnoughUpTo35m) {
+  const OverlapParams published{.min_shared_view = 0.18};
+  EXPECT_EQ(search_overlaps(two_poses(34.8), {{30}, {30}}, published).candidates.size(), 1U);
+  EXPECT_EQ(search_overlaps(two_poses(35), {{30}, {30}}, published).candidates.size(), 0U);
+  EXPECT_EQ(search_overlaps(two_poses(35), {{30}, {30}}, {}).candidates.size(), 1U) << "they touch";
+}
+
+TEST(OverlapSearchTest, ViewsThatNeverShareEnoughHaveNoCandidates) {
+  const auto source = two_poses(0);
+  for (const std::vector<OverlapSensor>& sensors :
+       {std::vector<OverlapSensor>{{30}, {12}}, std::vector<OverlapSensor>{{30, 6}, {30, 1}}}) {
+    const OverlapParams params{.max_mahalanobis = 1000, .min_shared_view = 0.18};
+    const auto found = search_overlaps(source, sensors, params);
+    EXPECT_TRUE(found.candidates.empty());
+    EXPECT_EQ(found.counts.pairs, 1U);
+    EXPECT_TRUE(search_overlaps_exhaustively(source, sensors, params).candidates.empty());
+    EXPECT_EQ(search_overlaps(source, sensors, {}).candidates.size(), 1U) << "but they touch";
+  }
+}
+
+/// Pairs of poses whose views share at least `min_shared_view` at the poses themselves.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> sharing_pairs(const test::OverlapWorld<SE2>& world,
+                                                                   double min_shared_view) {
+  const auto view = [&](std::size_t robot, std::size_t k) {
+    const SE2& pose = world.chains[robot].poses[k];
+    const OverlapSensor& sensor = world.sensors[robot];
+    return ViewSector{pose.translation(), pose.angle(), sensor.view_rad / 2, sensor.range_m};
+  };
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  for (std::uint32_t k = 0; k < world.chains[0].poses.size(); ++k)
+    for (std::uint32_t l = 0; l < world.chains[1].poses.size(); ++l)
+      if (shared_view(view(0, k), view(1, l)) >= min_shared_view) pairs.emplace_back(k, l);
+  return pairs;
+}
+
+TEST(OverlapSearchTest, OfExactPosesFindsAllPairsThatShareEnoughAndNoOthers) {
+  for (const double view_rad : {2 * std::numbers::pi, 4.0, 1.5}) {
+    auto world = test::draw_world<SE2>(5, {2, 150, 1});
+    world.sensors = {{9, view_rad}, {8, view_rad}};
+    for (auto& chain : world.chains) chain.cov_steps.assign(149, SE2::Jacobian::Zero());
+    const SE2 T_a_b = world.chains[0].poses[40].inverse() * world.chains[1].poses[90];
+    const LinkCovariance<SE2> source(world.chains, {{0, 40, 1, 90, T_a_b, SE2::Jacobian::Zero()}});
+    const OverlapParams params{.min_shared_view = 0.18};
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> found;
+    for (const auto& pair : search_overlaps(source, world.sensors, params).candidates)
+      found.emplace_back(pair.pose_a, pair.pose_b);
+    EXPECT_EQ(found, sharing_pairs(world, 0.18)) << view_rad;
+    EXPECT_GT(found.size(), 10U) << view_rad;
+  }
 }
 
 }  // namespace

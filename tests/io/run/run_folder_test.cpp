@@ -143,8 +143,8 @@ TEST(RunFolder, HasTheFilesAndColumnsOfTheFormat) {
   EXPECT_EQ(folder.read("candidates.csv"),
             "robot_i,t_i_s,robot_j,t_j_s,distance_m,mahalanobis\nzoe,0,adam,1.5,2.5,0.75\n");
   EXPECT_EQ(folder.read("closures.csv"),
-            "robot_i,t_i_s,robot_j,t_j_s,kind,status,statistic,reason,path_weights\n"
-            "zoe,0,adam,1.5,fingerprint,rejected,17.5,too far; by half,\n");
+            "robot_i,t_i_s,robot_j,t_j_s,kind,status,statistic,reason,path_weights,x,y,z,qx,qy,qz,qw\n"
+            "zoe,0,adam,1.5,fingerprint,rejected,17.5,too far; by half,,,,,,,,\n");
   EXPECT_EQ(folder.read("zoe.tum").substr(0, 18), "0 0 0 0 0 0 0 1\n1.");
   EXPECT_EQ(folder.read("graph.g2o"), "VERTEX_SE2 0 0 0 0\n");
   EXPECT_EQ(folder.read("report.html"), "<html></html>");

@@ -80,11 +80,22 @@ std::vector<KeyframeStamps> keyframe_stamps(const RunFolder& run, const std::vec
   return stamps;
 }
 
-std::vector<double> reach(const Mission& mission, std::optional<double> radius_m) {
-  if (radius_m) return reach_for_radius(mission.robots.size(), *radius_m);
-  std::vector<double> reach_m;
-  for (const auto& robot : mission.robots) reach_m.push_back(robot.lidar_range_m);
-  return reach_m;
+/// A number of a section of the run's summary; null if it is not there.
+nlohmann::ordered_json number_in(const RunFolder& run, const char* section, const char* name) {
+  if (!run.summary.is_object()) return nullptr;
+  const auto numbers = run.summary.find(section);
+  if (numbers == run.summary.end() || !numbers->is_object()) return nullptr;
+  const auto number = numbers->find(name);
+  return number != numbers->end() && number->is_number() ? *number : nlohmann::ordered_json();
+}
+
+/// The run's own criterion, unless a radius is given.
+PairTruth pair_truth(const Mission& mission, const Truth& truth, const RunFolder& run,
+                     std::optional<double> radius_m) {
+  if (radius_m) return {truth, mission.dimension, reach_for_radius(mission.robots.size(), *radius_m)};
+  const auto min_shared_view = number_in(run, "parameters", "overlap.min_shared_view");
+  return {truth, mission.dimension, lidar_views(mission),
+          min_shared_view.is_number() ? min_shared_view.get<double>() : 0};
 }
 
 void count_pairs(Evaluation& evaluation, const RunFolder& run, const Mission& mission,
@@ -93,23 +104,15 @@ void count_pairs(Evaluation& evaluation, const RunFolder& run, const Mission& mi
   CandidateList candidates = run.candidates.value_or(CandidateList());
   candidates.renumber_robots(places);
   evaluation.candidates =
-      count_candidates(keyframe_stamps(run, places, truth.reach_m.size()), candidates, truth);
+      count_candidates(keyframe_stamps(run, places, truth.views.size()), candidates, truth);
   evaluation.looked_for_candidates = run.candidates.has_value();
   evaluation.closures = count_closures(closures, truth);
   evaluation.accepted = std::count_if(closures.begin(), closures.end(), [](const ClosureResult& closure) {
     return closure.status == ClosureStatus::kAccepted;
   });
   evaluation.rejected = static_cast<long>(closures.size()) - evaluation.accepted;
-  evaluation.by_kind = judge_closures(closures, keyframe_stamps(run, places, truth.reach_m.size()), mission,
+  evaluation.by_kind = judge_closures(closures, keyframe_stamps(run, places, truth.views.size()), mission,
                                       truth.truth, run.aoa_measurements, file);
-}
-
-/// A number in the run's summary; null if it is not there.
-nlohmann::ordered_json count_in(const RunFolder& run, const char* name) {
-  const auto counts = run.summary.is_object() ? run.summary.find("counts") : run.summary.end();
-  if (!run.summary.is_object() || counts == run.summary.end() || !counts->is_object()) return nullptr;
-  const auto count = counts->find(name);
-  return count != counts->end() && count->is_number() ? *count : nlohmann::ordered_json();
 }
 
 std::vector<std::string> notes_on(const RunFolder& run, const EvaluateOptions& options) {
@@ -134,8 +137,8 @@ Evaluation evaluate(const EvaluateOptions& options) {
 
   Evaluation evaluation;
   evaluation.notes = notes_on(run, options);
-  evaluation.found = count_in(run, "candidates");
-  evaluation.listed = count_in(run, "candidates_listed");
+  evaluation.found = number_in(run, "counts", "candidates");
+  evaluation.listed = number_in(run, "counts", "candidates_listed");
   if (evaluation.listed.is_number() && evaluation.listed < evaluation.found)
     evaluation.notes.push_back("candidates.csv lists the most probable " + evaluation.listed.dump() + " of " +
                                evaluation.found.dump() +
@@ -148,7 +151,7 @@ Evaluation evaluate(const EvaluateOptions& options) {
   if (!odometry.empty()) {
     evaluation.dead_reckoning = evaluate_trajectories(odometry, truth, mission.dimension, association);
   }
-  count_pairs(evaluation, run, mission, places, {truth, mission.dimension, reach(mission, options.radius_m)},
+  count_pairs(evaluation, run, mission, places, pair_truth(mission, truth, run, options.radius_m),
               input.loops);
   return evaluation;
 }
@@ -178,7 +181,7 @@ void print_evaluation(const Evaluation& evaluation) {
   }
   std::cout << "closures: " << evaluation.accepted << " accepted, " << evaluation.rejected
             << " rejected; between robots " << evaluation.closures.kept << " accepted, "
-            << evaluation.closures.true_kept << " of them within the radius\n";
+            << evaluation.closures.true_kept << " of them of true pairs\n";
   std::cout << closures_by_kind_text(evaluation.by_kind);
 }
 
@@ -202,8 +205,10 @@ void add_evaluate(CLI::App& program) {
                    "Mission folder with robots/<id>/groundtruth.tum, or a factor graph (as for `run`)")
       ->required();
   command
-      ->add_option("--radius", options->radius_m,
-                   "Keyframe pairs closer than this truly overlap (default: the sum of the two LiDAR ranges)")
+      ->add_option(
+          "--radius", options->radius_m,
+          "Keyframe pairs closer than this truly overlap (default: as in the run, those whose views "
+          "share overlap.min_shared_view; if that is 0, closer than the sum of the two LiDAR ranges)")
       ->check(number_from(0, kMaxRadius_m))
       ->type_name("M");
   command->add_flag(

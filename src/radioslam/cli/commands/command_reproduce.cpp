@@ -20,6 +20,7 @@
 #include "radioslam/io/text/atomic_output.hpp"
 #include "radioslam/study/study_json.hpp"
 #include "radioslam/study/study_page.hpp"
+#include "radioslam/study/wi_closure_hall/hall_tables.hpp"
 
 namespace radioslam::cli {
 namespace {
@@ -78,7 +79,8 @@ struct Study {
   StudyTable table;
   nlohmann::ordered_json json;
   std::string page;
-  std::string links_csv = {};  ///< one row per measurement; empty for tables without
+  std::string links_csv = {};            ///< one row per measurement; empty for tables without
+  std::vector<StudyTable> further = {};  ///< printed below the table
 };
 
 [[noreturn]] void refuse(const ReproduceOptions& options, const std::string& reason) {
@@ -97,6 +99,28 @@ Study wi_closure_kitti(const ReproduceOptions& options) {
   StudyTable table = wi_closure_kitti_table(seeds);
   std::string page = render_table_page(table);
   return {std::move(table), wi_closure_kitti_json(seeds), std::move(page)};
+}
+
+void refuse_drive(const ReproduceOptions& options) {
+  if (!options.trajectory.empty() || !options.odometry.empty() || options.cut || options.poses)
+    refuse(options, "takes no --trajectory, --odometry, --cut or --poses");
+}
+
+Study wi_closure_hall(const ReproduceOptions& options) {
+  constexpr int kSeeds = 3;
+  refuse_drive(options);
+  const auto scenario = with_settings(scanned_hall(), collect_settings({}, options.set));
+  if (scenario.onboard.lidar.lidar_beams == 0) refuse(options, "needs scans: lidar_beams of at least 1");
+  if (scenario.robots < 2) refuse(options, "needs robots of at least 2");
+  ProgressLine line;
+  std::vector<WiClosureHall> halls;
+  for (int k = 0; k < options.seeds.value_or(kSeeds); ++k)
+    halls.push_back(
+        reproduce_wi_closure_hall(scenario, options.seed + static_cast<std::uint64_t>(k), line.progress()));
+  StudyTable table = wi_closure_hall_table(halls), angles = hall_angles_table(halls);
+  std::string page = render_table_page(table, {angles}), csv = table_csv(angles);
+  return {
+      std::move(table), wi_closure_hall_json(halls), std::move(page), std::move(csv), {std::move(angles)}};
 }
 
 Study robustness(const ReproduceOptions& options) {
@@ -119,11 +143,6 @@ Study overlap_growth(const ReproduceOptions& options) {
   const OverlapGrowth growth =
       measure_overlap_growth(options.poses.value_or(kPoses), options.seed, line.progress());
   return {overlap_growth_table(growth), overlap_growth_json(growth), render_growth_page(growth)};
-}
-
-void refuse_drive(const ReproduceOptions& options) {
-  if (!options.trajectory.empty() || !options.odometry.empty() || options.cut || options.poses)
-    refuse(options, "takes no --trajectory, --odometry, --cut or --poses");
 }
 
 Study aoa(const ReproduceOptions& options) {
@@ -205,9 +224,12 @@ struct Table {
   Study (*reproduce)(const ReproduceOptions&);
 };
 
-constexpr std::array<Table, 8> kTables{
+constexpr std::array<Table, 9> kTables{
     {{"wi-closure-kitti",
       "KITTI 08 cut in two, radio noise of 0.5 m and 10 degrees, compared with Wi-Closure", wi_closure_kitti},
+     {"wi-closure-hall",
+      "two scanning robots between identical pillars, with and without radio, compared with Wi-Closure",
+      wi_closure_hall},
      {"robustness-map",
       "error and recall over angle noise, number of links and multipath: where estimation fails", robustness},
      {"overlap-growth", "run time of the overlap search over the size of the mission, up to a million poses",
@@ -238,10 +260,16 @@ const Table& table_named(const ReproduceOptions& options) {
   refuse(options, "unknown table" + did_you_mean(options.table, names));
 }
 
+std::string tables_text(const Study& study) {
+  std::string text = table_text(study.table);
+  for (const StudyTable& table : study.further) text += '\n' + table_text(table);
+  return text;
+}
+
 void write_study(const Study& study, OutputFolder& output) {
   write_file(output.path() / "table.json", study.json.dump(2) + "\n");
   write_file(output.path() / "table.csv", table_csv(study.table));
-  write_file(output.path() / "table.txt", table_text(study.table));
+  write_file(output.path() / "table.txt", tables_text(study));
   write_file(output.path() / "index.html", study.page);
   if (!study.links_csv.empty()) write_file(output.path() / "links.csv", study.links_csv);
   output.commit();
@@ -262,7 +290,7 @@ void reproduce(const ReproduceOptions& options) {
   if (options.json) {
     std::cout << study.json.dump(2) << '\n';
   } else {
-    std::cout << table_text(study.table);
+    std::cout << tables_text(study);
   }
 }
 
@@ -325,7 +353,7 @@ void add_reproduce(CLI::App& program) {
       "WSR data set (aoa): the GitHub repository Harvard-REACT/WSR-Toolbox-Dataset.\n\n"
       "--set changes parameters of the simulated scenario; for aoa and aoa-paths it changes those of the\n"
       "angle estimation. `radioslam parameters TABLE` lists them.\n"
-      "robustness-map, aoa-paths, fingerprint-tables and threshold-sweep take minutes.\n"
+      "wi-closure-hall, robustness-map, aoa-paths, fingerprint-tables and threshold-sweep take minutes.\n"
       "overlap-growth needs 1 GiB of memory per half million poses.\n\n"
       "Example:\n"
       "  radioslam reproduce wi-closure-kitti --trajectory GT_LiDAR/08.txt --odometry ALOAM/08.txt\n"

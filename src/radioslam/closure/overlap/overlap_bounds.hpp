@@ -1,7 +1,8 @@
 // Overlap tests for one pair of poses and for all pairs of two intervals of poses (boxes) at once.
 //
 // A pair (k, l) is kept if its distance (overlap_distance.hpp) over the nearest link is below D and, for
-// sensors with a limited field of view, its views can overlap (overlap_view.hpp).
+// sensors with a limited field of view, its views can overlap and share min_shared_view (overlap_view.hpp).
+// The radius r of the distance is the sum of the ranges, or the distance beyond which the views share less.
 //
 // Box I of robot a against box J of robot b, with middle poses i and j and the covariance of j seen from i:
 // for any unit vector u, every pair has
@@ -33,10 +34,16 @@ struct OverlapRule {
   double max_mahalanobis = 2;
   OverlapDistance distance = OverlapDistance::kMinimum;
   OverlapSensor a, b;
+  double min_shared_view = 0;
 
-  double radius_m() const { return a.range_m + b.range_m; }
+  /// r; nothing if the views never share enough.
+  std::optional<double> radius_m() const { return max_distance_of_shared_view(a, b, min_shared_view); }
   bool all_round() const { return std::min(a.view_rad, b.view_rad) >= 2 * std::numbers::pi; }
 };
+
+inline OverlapRule overlap_rule(const OverlapParams& params, const OverlapSensor& a, const OverlapSensor& b) {
+  return {params.max_mahalanobis, overlap_distance(params), a, b, params.min_shared_view};
+}
 
 /// Bounds over one link for all pairs of two boxes.
 template <class Pose>
@@ -70,12 +77,17 @@ class OverlapTest {
     double distance_m = 0, mahalanobis = 0;
   };
 
-  OverlapTest(const View& view, const OverlapRule& rule) : view_(view), rule_(rule) {}
+  OverlapTest(const View& view, const OverlapRule& rule)
+      : view_(view),
+        rule_(rule),
+        is_attainable_(rule.radius_m().has_value()),
+        radius_m_(rule.radius_m().value_or(0)) {}
 
   /// Distances of a pair that is kept; nothing otherwise.
   std::optional<Overlap> pair(std::size_t tie, const Record& k, const Record& l) const {
+    if (!is_attainable_) return std::nullopt;
     const double distance_m = difference(tie, k, l).norm();
-    if (rule_.all_round() && distance_m <= rule_.radius_m()) return Overlap{distance_m, 0};
+    if (rule_.all_round() && distance_m <= radius_m_) return Overlap{distance_m, 0};
     const RelativePosition<Pose> place = view_.relative(tie, k, l);
     const double mahalanobis = distance(place);
     if (!(mahalanobis < rule_.max_mahalanobis)) return std::nullopt;
@@ -118,6 +130,7 @@ class OverlapTest {
   BoxStatus box(const Box& I, const Box& J, std::span<const Bound> from, std::vector<Bound>& to,
                 OverlapCounts& counts) const {
     ++counts.boxes_visited;
+    if (!is_attainable_) return BoxStatus::kOutside;
     const std::size_t first = to.size();
     keep_near(I.node, J.node, from, to);
     const bool at_leaves = I.node.leaf() && J.node.leaf();
@@ -137,7 +150,7 @@ class OverlapTest {
 
   /// Whether a box's bound alone excludes the pair.
   bool is_excluded(const Bound& bound, const Point& difference_m) const {
-    return bound.normal.dot(difference_m) - rule_.radius_m() > reach(bound.sigma_m);
+    return bound.normal.dot(difference_m) - radius_m_ > reach(bound.sigma_m);
   }
 
  private:
@@ -158,8 +171,8 @@ class OverlapTest {
     constexpr int kDim = Pose::kDim;
     const Eigen::Matrix<double, kDim, kDim> covariance = position_block<Pose>(place.covariance);
     if (rule_.distance == OverlapDistance::kLineOfSight)
-      return line_of_sight_distance<kDim>(place.difference_m, covariance, rule_.radius_m());
-    return minimum_distance<kDim>(place.difference_m, covariance, rule_.radius_m()).mahalanobis;
+      return line_of_sight_distance<kDim>(place.difference_m, covariance, radius_m_);
+    return minimum_distance<kDim>(place.difference_m, covariance, radius_m_).mahalanobis;
   }
 
   ViewSector sector_a(const Record& k, double widening_rad) const {
@@ -181,8 +194,12 @@ class OverlapTest {
                          const RelativePosition<Pose>& place) const {
     const double D = rule_.max_mahalanobis;
     const double yaw_variance = place.covariance(Pose::kDof - 1, Pose::kDof - 1);
-    const ViewSector of_l = sector_b(tie, l, D * std::sqrt(std::max(0.0, yaw_variance)));
-    return sector_distance(sector_a(k, 0), of_l) <= D * horizontal_sigma(place.covariance);
+    const double turn_rad = D * std::sqrt(std::max(0.0, yaw_variance));
+    const double offset_m = D * horizontal_sigma(place.covariance);
+    const ViewSector of_k = sector_a(k, 0);
+    const bool can_touch = sector_distance(of_k, sector_b(tie, l, turn_rad)) <= offset_m;
+    if (!can_touch || rule_.min_shared_view <= 0) return can_touch;
+    return can_share_view(of_k, sector_b(tie, l, 0), offset_m, turn_rad, rule_.min_shared_view);
   }
 
   /// Drops links for which another one is nearer for every pair of the boxes.
@@ -214,14 +231,13 @@ class OverlapTest {
   void compute_bound(const Box& I, const Box& J, bool at_leaves, Bound& bound, OverlapCounts& counts) const {
     const Point between = view_.in_a(bound.tie, J.node.centre_m) - I.node.centre_m;
     const Point half = I.node.half_extent_m + view_.half_extent_in_a(bound.tie, J.node.half_extent_m);
-    const double radius = rule_.radius_m();
     const double gap = (between.cwiseAbs() - half).cwiseMax(0.0).norm();
     if (rule_.all_round()) {
-      if ((between.cwiseAbs() + half).norm() + kRounding_m <= radius) {
+      if ((between.cwiseAbs() + half).norm() + kRounding_m <= radius_m_) {
         bound.state = Bound::State::kInside;
         return;
       }
-      if (gap <= radius && !at_leaves) return;
+      if (gap <= radius_m_ && !at_leaves) return;
     }
     ++counts.distances_evaluated;
     const RelativePosition<Pose> place = view_.relative(bound.tie, I.middle, J.middle);
@@ -229,7 +245,7 @@ class OverlapTest {
     set_normal(place, slack, bound);
     const double along = bound.normal.dot(between) - bound.normal.cwiseAbs().dot(half);
     const double sigma_m = sigma_bound(position_block<Pose>(place.covariance)) + slack;
-    if (along - radius > reach(bound.sigma_m) || gap - radius > reach(sigma_m) ||
+    if (along - radius_m_ > reach(bound.sigma_m) || gap - radius_m_ > reach(sigma_m) ||
         (!rule_.all_round() && !box_views_can_overlap(I, J, bound.tie, place, sigma_m)))
       bound.state = Bound::State::kOutside;
   }
@@ -244,11 +260,12 @@ class OverlapTest {
   void set_normal(const RelativePosition<Pose>& place, double slack, Bound& bound) const {
     constexpr int kDim = Pose::kDim;
     const Eigen::Matrix<double, kDim, kDim> covariance = position_block<Pose>(place.covariance);
-    bound.normal = minimum_distance<kDim>(place.difference_m, covariance, rule_.radius_m()).normal;
+    bound.normal = minimum_distance<kDim>(place.difference_m, covariance, radius_m_).normal;
     if (bound.normal.isZero(0)) bound.normal = place.difference_m.stableNormalized();
     bound.sigma_m = std::sqrt(std::max(0.0, bound.normal.dot(covariance * bound.normal))) + slack;
   }
 
+  /// Whether views of the boxes can touch; how much they share is left to their pairs.
   bool box_views_can_overlap(const Box& I, const Box& J, std::size_t tie, const RelativePosition<Pose>& place,
                              double sigma_m) const {
     const double sigma_rad = sigma_bound(rotation_block<Pose>(place.covariance)) + I.node.spread.sigma_rad +
@@ -261,6 +278,8 @@ class OverlapTest {
 
   const View& view_;
   OverlapRule rule_;
+  bool is_attainable_;  ///< whether any two poses' views share enough
+  double radius_m_;
 };
 
 }  // namespace radioslam

@@ -4,14 +4,14 @@
 //   r line of sight  d*    = sqrt(q^T S^-1 q), q = (|dp| - r) u, u = dp / |dp|   (Wi-Closure, Wang et al.,
 //   eq. 4.2-4.3)
 //
-// dp (m) is the position of pose l seen from pose k, S (m^2) its covariance in the same axes, r = r_a + r_b
-// the sum of the two sensor ranges. Both are 0 for |dp| <= r, d_min <= d*, and both are invariant to rotation
-// of the axes. Duality: d_min = max over unit u of (u^T dp - r) / sqrt(u^T S u). The maximising u is the
-// normal of the plane that touches the ball at its nearest point; the search bounds whole boxes of poses with
-// it. S may be singular: along directions of zero variance the distance is infinite. Negative eigenvalues
-// (rounding) count as 0. Cost: one small eigendecomposition; the root mu by Newton's method on 1 / |x|, which
-// is concave in mu (a power mean of affine functions), so that the iteration increases from mu = 0 without
-// overshooting.
+// dp (m) is the position of pose l seen from pose k, S (m^2) its covariance in the same axes, r the distance
+// up to which views overlap: the sum of the two sensor ranges, or less (overlap_view.hpp). Both are 0 for
+// |dp| <= r, d_min <= d*, and both are invariant to rotation of the axes. Duality: d_min = max over unit u
+// of (u^T dp - r) / sqrt(u^T S u). The maximising u is the normal of the plane that touches the ball at its
+// nearest point; the search bounds whole boxes of poses with it. S may be singular: along directions of zero
+// variance the distance is infinite. Negative eigenvalues (rounding) count as 0. Cost: one small
+// eigendecomposition; the root mu by Newton's method on 1 / |x|, which is concave in mu (a power mean of
+// affine functions), so that the iteration increases from mu = 0 without overshooting.
 #pragma once
 
 #include <Eigen/Core>

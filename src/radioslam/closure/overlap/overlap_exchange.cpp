@@ -197,8 +197,7 @@ OverlapExchange exchange_overlaps(const Source& source, std::uint32_t a, std::ui
                                   const std::vector<OverlapSensor>& sensors, const OverlapParams& params) {
   RADIOSLAM_CHECK(a < b && sensors.size() == source.robots(), "every robot has a sensor, a is listed first");
   const OverlapServer<Source> server(source, b);
-  OverlapClient<Source> client(source, a, b,
-                               {params.max_mahalanobis, overlap_distance(params), sensors[a], sensors[b]});
+  OverlapClient<Source> client(source, a, b, overlap_rule(params, sensors[a], sensors[b]));
   ExchangeCost cost;
   OverlapMessage message = server.hello();
   cost.answers = message.size();

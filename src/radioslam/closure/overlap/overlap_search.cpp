@@ -78,7 +78,7 @@ OverlapCounts TeamOverlapSearch<Source>::search(std::uint32_t a, const TakeOverl
     const Tree tree = by_tree ? OverlapTreeBuilder<Source>(source_, a).build(run) : Tree();
     parallel_for(robots - a - 1, 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t b = a + 1 + begin; b < a + 1 + end; ++b) {
-        const OverlapRule rule{params_.max_mahalanobis, overlap_distance(params_), sensors_[a], sensors_[b]};
+        const OverlapRule rule = overlap_rule(params_, sensors_[a], sensors_[b]);
         const auto other = static_cast<std::uint32_t>(b);
         const OverlapPair<Source> pair(source_, a, other, source_.view(a, b, columns), rule);
         append(found[b], by_tree ? OverlapBoxSearch<Source>(pair, tree, trees_[b]).run(source_)

@@ -1,7 +1,7 @@
-// Overlap search: all pairs of poses of different robots whose views could overlap. The result is exactly
-// that of testing every pair, by branch and bound over both robots' trees of pose intervals
-// (overlap_tree.hpp), which excludes or accepts whole pairs of intervals (overlap_bounds.hpp). Source:
-// Wi-Closure (Wang et al., III-B), which splits boxes with one global bound.
+// Overlap search: all pairs of poses of different robots whose views could overlap: touch, or share a given
+// part of their area. The result is exactly that of testing every pair, by branch and bound over both robots'
+// trees of pose intervals (overlap_tree.hpp), which excludes or accepts whole pairs of intervals
+// (overlap_bounds.hpp). Source: Wi-Closure (Wang et al., III-B), which splits boxes with one global bound.
 //
 // Frame k is that of the robot listed first. Robots without any connection have no candidates. Cost:
 // near-linear in poses plus pairs kept for crossing trajectories; n_a n_b if every pair is close. The output
@@ -11,7 +11,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -20,6 +19,7 @@
 #include "radioslam/closure/overlap/overlap_joint.hpp"
 #include "radioslam/closure/overlap/overlap_link.hpp"
 #include "radioslam/closure/overlap/overlap_tree.hpp"
+#include "radioslam/closure/overlap/overlap_view.hpp"
 
 namespace radioslam {
 
@@ -27,6 +27,7 @@ namespace radioslam {
 
 struct OverlapParams {
   double max_mahalanobis = 1.5;      ///< D
+  double min_shared_view = 0;        ///< intersection over union; 0: the views touch (overlap_view.hpp)
   std::string distance = "minimum";  ///< minimum: d_min; seed: d* (overlap_distance.hpp)
 
   template <class Self, class Visitor>
@@ -34,6 +35,9 @@ struct OverlapParams {
     RADIOSLAM_BASIC_FIELD(max_mahalanobis, "", 0.001, 1000,
                           "largest distance of two views from overlapping, in standard deviations; higher "
                           "values keep more pairs");
+    RADIOSLAM_BASIC_FIELD(min_shared_view, "", 0, 1,
+                          "smallest intersection over union of two views that overlap; 0: they touch; 0.18: "
+                          "two scanners of 30 m within 35 m");
     RADIOSLAM_FIELD(distance, "", 0, 0,
                     "kind of overlap distance; minimum: to the nearest point (Mahalanobis metric); seed: "
                     "along the line of sight, reproduces Wi-Closure (Wang et al.)",
@@ -44,12 +48,6 @@ struct OverlapParams {
 inline OverlapDistance overlap_distance(const OverlapParams& params) {
   return params.distance == "seed" ? OverlapDistance::kLineOfSight : OverlapDistance::kMinimum;
 }
-
-/// Range of a robot's sensor and its horizontal field of view about body x.
-struct OverlapSensor {
-  double range_m = 30;
-  double view_rad = 2 * std::numbers::pi;
-};
 
 /// A pair of poses of different robots, robot_a listed before robot_b, whose views could overlap.
 struct OverlapCandidate {

@@ -61,7 +61,7 @@ Json closures_by_kind_json(const ClosuresByKind& closures) {
              {"true_accepted", counts.true_accepted},
              {"rejected", counts.rejected},
              {"true_rejected", counts.true_rejected}};
-    if (kind == ClosureKind::kMatch || kind == ClosureKind::kFile) {
+    if (kind == ClosureKind::kMatch || kind == ClosureKind::kFile || kind == ClosureKind::kLidar) {
       entry["worst_accepted_m"] = number_or_null(counts.worst_accepted_m);
       entry["worst_accepted_rad"] = number_or_null(counts.worst_accepted_rad);
     }

@@ -106,6 +106,28 @@ std::string weights_field(const std::vector<double>& weights) {
   return field;
 }
 
+/// Seven fields, empty without a pose.
+void append_pose_fields(std::string& out, const std::optional<SE3>& pose) {
+  if (!pose) {
+    out.append(7, ',');
+    return;
+  }
+  const Eigen::Vector3d& p = pose->translation();
+  const Eigen::Quaterniond& q = pose->rotation();
+  for (const double number : {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()})
+    append_number(out += ',', number);
+}
+
+std::optional<SE3> pose_in(const CsvReader& csv, std::size_t column) {
+  for (std::size_t k = 0; k < 7; ++k)
+    if (!csv.given(column + k)) return std::nullopt;
+  std::array<double, 7> n{};
+  for (std::size_t k = 0; k < n.size(); ++k) n[k] = csv.number(column + k);
+  const Eigen::Quaterniond q(n[6], n[3], n[4], n[5]);
+  if (q.norm() < 0.5) csv.fail("qx, qy, qz, qw are not a rotation");
+  return SE3(Eigen::Vector3d(n[0], n[1], n[2]), q.normalized());
+}
+
 std::vector<double> weights_in(const CsvReader& csv, std::size_t column) {
   std::vector<double> weights;
   std::string_view rest = csv.given(column) ? csv.field(column) : std::string_view();
@@ -174,7 +196,8 @@ void write_candidates(const std::filesystem::path& path, const CandidateList& ca
 std::string_view closure_kind_name(ClosureKind kind) { return word_for(kKinds, kind); }
 
 std::string format_closures(const std::vector<ClosureResult>& closures, std::span<const std::string> ids) {
-  std::string out = "robot_i,t_i_s,robot_j,t_j_s,kind,status,statistic,reason,path_weights\n";
+  std::string out =
+      "robot_i,t_i_s,robot_j,t_j_s,kind,status,statistic,reason,path_weights,x,y,z,qx,qy,qz,qw\n";
   for (const ClosureResult& closure : closures) {
     out += format_pair(closure, ids);
     (out += ',') += word_for(kKinds, closure.kind);
@@ -182,6 +205,7 @@ std::string format_closures(const std::vector<ClosureResult>& closures, std::spa
     append_number(out += ',', closure.statistic);
     (out += ',') += as_field(closure.reason);
     (out += ',') += weights_field(closure.path_weights);
+    append_pose_fields(out, closure.T_i_j);
     out += '\n';
   }
   return out;
@@ -246,7 +270,7 @@ CandidateList read_candidates(const Text& text, std::span<const EstimatedTraject
 
 std::vector<ClosureResult> read_closures(const Text& text, std::span<const EstimatedTrajectory> robots) {
   CsvReader::Columns columns = pair_columns_and({"kind", "status", "statistic", "reason"});
-  columns.optional = {"path_weights"};
+  columns.optional = {"path_weights", "x", "y", "z", "qx", "qy", "qz", "qw"};
   CsvReader csv(text, columns);
   std::vector<ClosureResult> closures;
   while (csv.next()) {
@@ -256,6 +280,7 @@ std::vector<ClosureResult> read_closures(const Text& text, std::span<const Estim
     closure.statistic = csv.number(kFirstOwn + 2);
     closure.reason = std::string(csv.field(kFirstOwn + 3));
     closure.path_weights = weights_in(csv, kFirstOwn + 4);
+    closure.T_i_j = pose_in(csv, kFirstOwn + 5);
   }
   return closures;
 }

@@ -103,6 +103,19 @@ void test_closures(const JointGraph<Pose>& joint, FactorSource source, std::vect
   }
 }
 
+namespace {
+
+/// The pose of the keyframe before `stamp` in the frame of the pose there.
+template <class Pose>
+SE3 to_keyframe(const JointGraph<Pose>& joint, RobotIndex robot, Stamp stamp, PoseId at) {
+  const auto& poses = joint.team.graph.poses;
+  const RobotVariables& of = joint.robots[robot.index()];
+  const PoseId keyframe = of.poses[keyframe_before(of.stamps, stamp)];
+  return as_se3(Pose(poses[at.index()].inverse() * poses[keyframe.index()]), 0);
+}
+
+}  // namespace
+
 template <class Pose>
 std::vector<ClosureResult> collect_closures(const JointGraph<Pose>& joint,
                                             const std::vector<Closure>& closures) {
@@ -117,6 +130,9 @@ std::vector<ClosureResult> collect_closures(const JointGraph<Pose>& joint,
     result.status = closure.status;
     result.statistic = closure.statistic;
     result.reason = closure.reason;
+    if (const auto [i, j] = closure_ends(joint, closure); i.valid() && j.valid())
+      result.T_i_j = to_keyframe(joint, closure.robot_i, closure.stamp_i, i).inverse() * closure.T_i_j *
+                     to_keyframe(joint, closure.robot_j, closure.stamp_j, j);
   }
   return results;
 }

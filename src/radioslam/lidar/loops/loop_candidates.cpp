@@ -5,13 +5,6 @@
 
 namespace radioslam {
 
-std::vector<double> path_lengths(const std::vector<SE3>& poses) {
-  std::vector<double> length_m(poses.size(), 0.0);
-  for (std::size_t k = 1; k < poses.size(); ++k)
-    length_m[k] = length_m[k - 1] + (poses[k - 1].inverse() * poses[k]).translation().norm();
-  return length_m;
-}
-
 std::vector<LoopCandidate> LoopCandidates::find(const PoseGraph<SE3>& graph) {
   const auto marginals = Marginals<SE3>::compute(graph);
   std::vector<LoopCandidate> candidates;

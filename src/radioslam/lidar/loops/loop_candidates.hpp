@@ -13,12 +13,10 @@
 #include "radioslam/geometry/uncertain_pose.hpp"
 #include "radioslam/graph/marginals.hpp"
 #include "radioslam/graph/pose_graph.hpp"
+#include "radioslam/lidar/loops/loop_verification.hpp"
 #include "radioslam/lidar/loops/scan_loop.hpp"
 
 namespace radioslam {
-
-/// Path length from the first pose to each.
-std::vector<double> path_lengths(const std::vector<SE3>& poses);
 
 /// A keyframe pair to try, with the current estimate of its relative pose; i is the earlier one.
 struct LoopCandidate {
@@ -34,6 +32,7 @@ class LoopCandidates {
 
   /// By this estimate of the keyframes' poses; pairs that were candidates before are left out.
   std::vector<LoopCandidate> find(const PoseGraph<SE3>& graph);
+  const std::vector<double>& path_m() const { return path_m_; }
 
  private:
   double radius_of(std::size_t k) const { return params_.radius_ratio * keyframes_.clouds[k].median_range_m; }

@@ -28,10 +28,13 @@ PoseGraph<SE3> odometry_graph(const ScanKeyframes& keyframes) {
 }
 
 std::vector<ScanLoop> verify(const std::vector<LoopCandidate>& candidates,
-                             const LoopVerification& verification, const std::vector<SE3>& poses) {
+                             const LoopVerification& verification, const PlacedKeyframes& robot) {
   std::vector<ScanLoop> loops(candidates.size());
   parallel_for(candidates.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) loops[k] = verification.verify(candidates[k], poses);
+    for (std::size_t k = begin; k < end; ++k) {
+      const auto& [i, j, T_i_j] = candidates[k];
+      loops[k] = verification.verify(robot, i, robot, j, T_i_j);
+    }
   });
   return loops;
 }
@@ -68,10 +71,11 @@ ScanLoops close_scan_loops(const ScanKeyframes& keyframes, const ScanLoopParams&
   if (!params.enabled || keyframes.poses.size() < 2) return {{}, keyframes.poses};
   PoseGraph<SE3> graph = odometry_graph(keyframes);
   LoopCandidates candidates(keyframes, params);
-  const LoopVerification verification(keyframes, params, map, search, registration);
+  const LoopVerification verification(params, {params.submap_m}, map, search, registration);
   ScanLoops result;
   for (int round = 0; round < params.rounds; ++round) {
-    const auto tried = verify(candidates.find(graph), verification, graph.poses);
+    const auto tried =
+        verify(candidates.find(graph), verification, {keyframes, graph.poses, candidates.path_m()});
     result.loops.insert(result.loops.end(), tried.begin(), tried.end());
     if (std::none_of(tried.begin(), tried.end(),
                      [](const ScanLoop& loop) { return loop.status == LoopStatus::kAccepted; }))

@@ -7,6 +7,7 @@ write_robots();
 write_frames();
 write_hypotheses();
 write_overlap();
+write_places();
 write_directions();
 write_access_points();
 write_signals();

@@ -1,6 +1,7 @@
 // The map: size, zoom, pointer and keys. Both axes have the same scale.
 
 const scale_bar_px = 44;  // at the bottom, kept free when everything is shown
+const described_closures = 6;  // in the tooltip of a keyframe
 
 class MapView {
   constructor(parent) {
@@ -166,10 +167,10 @@ class MapView {
     highlight(at.robot);
     this.tooltip.replaceChildren(...describe_keyframe(robot, at.i));
     this.tooltip.hidden = false;
-    const right = event.offsetX > this.width - 240;
+    const { offsetWidth: width, offsetHeight: height } = this.tooltip, right = event.offsetX + 16 + width > this.width;
     Object.assign(this.tooltip.style, {
-      left: right ? "auto" : `${event.offsetX + 16}px`, right: right ? `${this.width - event.offsetX + 16}px` : "auto",
-      top: `${Math.max(4, Math.min(event.offsetY + 12, this.height - 130))}px`,
+      left: `${right ? Math.max(4, event.offsetX - 16 - width) : event.offsetX + 16}px`,
+      top: `${Math.max(4, Math.min(event.offsetY + 12, this.height - height - 4))}px`,
     });
   }
 
@@ -190,10 +191,20 @@ function describe_keyframe(robot, i) {
     const e = nearest_index(robot.errors.t, t);
     row("error", `${format.metres(robot.errors.error_m[e])} m${Math.abs(robot.errors.t[e] - t) > 1 ? ` (at ${format.clock(robot.errors.t[e])})` : ""}`);
   }
-  const accepted = (lines_at[robot.index].get(i) || []).filter(c => groups[lines.group[c]].status === "accepted").length;
+  const closures = lines_at[robot.index].get(i) || [], accepted = closures.filter(c => groups[lines.group[c]].status === "accepted").length;
   if (closures_total) row("closures", `${accepted} accepted${closures_drawn < closures_total ? " of those drawn" : ""}`);
+  const places = closures.filter(c => line_shown(c) && is_place(groups[lines.group[c]]));
+  for (const c of places.slice(0, described_closures)) row(...describe_closure(robot, c));
+  if (places.length > described_closures) row(`and ${places.length - described_closures} more`, "");
   rows.pop();
   return rows;
+}
+
+/// The other robot, and what became of the closure.
+function describe_closure(robot, c) {
+  const other = lines.robot_i[c] === robot.index ? lines.robot_j[c] : lines.robot_i[c];
+  const { kind, status, reason } = report.closures.reasons[lines.reason[c]];
+  return [`${kind} with ${other === robot.index ? "itself" : shortened(robots[other].id)}`, `${reason || status}, statistic ${d3.format(".3~g")(lines.statistic[c])}`];
 }
 
 function map_description() {

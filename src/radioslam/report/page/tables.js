@@ -133,7 +133,7 @@ function write_closures() {
     { name: "status", value: r => r.status, text: r => r.status },
     { name: "reason", value: r => r.reason, text: r => r.reason || missing, long: true },
     { name: "count", value: r => r.count, text: r => format.count(r.count), number: true },
-    { name: "median statistic", value: r => r.statistic_median, text: r => (known(r.statistic_median) ? d3.format(".3~g")(r.statistic_median) : missing), number: true, title: "squared normalised residual" },
+    { name: "median statistic", value: r => r.statistic_median, text: r => (known(r.statistic_median) ? d3.format(".3~g")(r.statistic_median) : missing), number: true, title: "squared normalised residual; rejected before the joint estimate: lidar, inlier ratio; sequence, mean residual in metres" },
   ], report.closures.reasons, line => line);
   by_id("closures-table").append(table);
 }

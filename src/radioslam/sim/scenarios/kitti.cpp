@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <utility>
 
 #include "radioslam/base/check.hpp"
+#include "radioslam/sim/scenarios/onboard_sensors.hpp"
 #include "radioslam/sim/scenarios/radio_mission.hpp"
 
 namespace radioslam {
@@ -32,6 +34,22 @@ OdometryNoise noise_of(const KittiParams& params) {
   return noise;
 }
 
+/// The scans of all robots, which together drive through one world.
+void add_scans(Simulation& simulation, const KittiParams& params, const Rng& rng) {
+  OnboardParams onboard;
+  onboard.lidar = params.lidar;
+  onboard.lidar.range_m = params.lidar_range_m;
+  std::vector<std::shared_ptr<const TrueMotion>> motions;
+  std::vector<Eigen::Vector3d> path;
+  for (const auto& robot : simulation.truth.robots) {
+    motions.push_back(std::make_shared<const TrueMotion>(robot.poses));
+    for (const auto& [stamp, pose] : robot.poses)
+      path.push_back(pose.translation() - params.body_height_m * Eigen::Vector3d::UnitZ());
+  }
+  WorldShapes shapes = build_roadside(path, params.roadside, params.lidar_range_m, rng.split("roadside"));
+  add_onboard_sensors(simulation, motions, std::move(shapes), onboard, rng.split("onboard"));
+}
+
 }  // namespace
 
 Simulation simulate_kitti(const KittiParams& params, const RecordedDrive& drive, std::uint64_t seed) {
@@ -51,10 +69,14 @@ Simulation simulate_kitti(const KittiParams& params, const RecordedDrive& drive,
   std::vector<DrivenRobot> robots;
   robots.push_back(robot(0, cut));
   robots.push_back(robot(cut, size));
-  return make_radio_mission(std::move(robots),
-                            {"kitti-" + std::to_string(seed), params.dimension, params.lidar_range_m,
-                             params.radio, params.matches, upright_alias(2 * params.lidar_range_m)},
-                            Rng(seed).split("kitti"));
+  const Rng rng = Rng(seed).split("kitti");
+  Simulation simulation =
+      make_radio_mission(std::move(robots),
+                         {"kitti-" + std::to_string(seed), params.dimension, params.lidar_range_m,
+                          params.radio, params.matches, upright_alias(2 * params.lidar_range_m)},
+                         rng);
+  if (params.lidar.lidar_beams > 0) add_scans(simulation, params, rng);
+  return simulation;
 }
 
 }  // namespace radioslam

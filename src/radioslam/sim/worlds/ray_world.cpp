@@ -115,10 +115,13 @@ std::optional<RayHit> RayWorld::cast(const Ray& ray, double max_m) const {
 }
 
 std::optional<RayHit> RayWorld::cast_at_ground(const Ray& ray, double max_m) const {
-  const auto range_m = shapes_.ground.ray_m(ray.origin, ray.direction, max_m);
-  if (!range_m) return std::nullopt;
-  const Eigen::Vector2d slope = shapes_.ground.gradient((ray.origin + *range_m * ray.direction).head<2>());
-  return RayHit{*range_m, Eigen::Vector3d(-slope.x(), -slope.y(), 1).normalized()};
+  const auto cast = [&](const auto& ground) -> std::optional<RayHit> {
+    const auto range_m = ground.ray_m(ray.origin, ray.direction, max_m);
+    if (!range_m) return std::nullopt;
+    const Eigen::Vector2d slope = ground.gradient((ray.origin + *range_m * ray.direction).template head<2>());
+    return RayHit{*range_m, Eigen::Vector3d(-slope.x(), -slope.y(), 1).normalized()};
+  };
+  return std::visit(cast, shapes_.ground);
 }
 
 std::optional<RayHit> RayWorld::cast_at_ceiling(const Ray& ray, double max_m) const {

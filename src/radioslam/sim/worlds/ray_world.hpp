@@ -12,8 +12,10 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <variant>
 #include <vector>
 
+#include "radioslam/sim/worlds/height_grid.hpp"
 #include "radioslam/sim/worlds/hills.hpp"
 #include "radioslam/sim/worlds/upright_shapes.hpp"
 
@@ -70,8 +72,8 @@ class FloorGrid {
 
 /// All surfaces of a world.
 struct WorldShapes {
-  Hills ground;                     ///< z = 0 by default
-  std::optional<double> ceiling_m;  ///< an infinite horizontal plane
+  std::variant<Hills, HeightGrid> ground;  ///< z = 0 by default
+  std::optional<double> ceiling_m;         ///< an infinite horizontal plane
   std::vector<UprightBox> boxes;
   std::vector<UprightPillar> pillars;
 };

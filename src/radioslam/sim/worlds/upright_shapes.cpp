@@ -65,6 +65,12 @@ Eigen::Vector3d level(const Eigen::Vector2d& v) { return {v.x(), v.y(), 0}; }
 
 Eigen::Vector2d left_of(const Eigen::Vector2d& forward) { return {-forward.y(), forward.x()}; }
 
+/// Half of the box's size on the floor along a unit vector.
+double half_size_along_m(const UprightBox& box, const Eigen::Vector2d& axis) {
+  return box.half_size_m.x() * std::abs(box.forward.dot(axis)) +
+         box.half_size_m.y() * std::abs(left_of(box.forward).dot(axis));
+}
+
 }  // namespace
 
 UprightBox wall_between(const Eigen::Vector2d& begin_m, const Eigen::Vector2d& end_m, double bottom_m,
@@ -107,6 +113,24 @@ Eigen::AlignedBox2d footprint(const UprightBox& box) {
 Eigen::AlignedBox2d footprint(const UprightPillar& pillar) {
   const Eigen::Vector2d reach = Eigen::Vector2d::Constant(pillar.radius_m);
   return {Eigen::Vector2d(pillar.centre_m - reach), Eigen::Vector2d(pillar.centre_m + reach)};
+}
+
+double floor_distance_m(const UprightBox& box, const Eigen::Vector2d& place) {
+  const Eigen::Vector2d offset = place - box.centre_m;
+  const Eigen::Vector2d across(offset.dot(box.forward), offset.dot(left_of(box.forward)));
+  return (across.cwiseAbs() - box.half_size_m).cwiseMax(0).norm();
+}
+
+double floor_distance_m(const UprightPillar& pillar, const Eigen::Vector2d& place) {
+  return std::max(0.0, (place - pillar.centre_m).norm() - pillar.radius_m);
+}
+
+bool overlap(const UprightBox& a, const UprightBox& b) {
+  const Eigen::Vector2d offset = b.centre_m - a.centre_m;
+  const std::array axes{a.forward, left_of(a.forward), b.forward, left_of(b.forward)};
+  return std::all_of(axes.begin(), axes.end(), [&](const Eigen::Vector2d& axis) {
+    return std::abs(offset.dot(axis)) <= half_size_along_m(a, axis) + half_size_along_m(b, axis);
+  });
 }
 
 }  // namespace radioslam

@@ -52,4 +52,11 @@ std::optional<RayHit> ray_hit(const Ray& ray, const UprightPillar& pillar);
 Eigen::AlignedBox2d footprint(const UprightBox& box);
 Eigen::AlignedBox2d footprint(const UprightPillar& pillar);
 
+/// Distance on the floor from a place to the shape, 0 inside.
+double floor_distance_m(const UprightBox& box, const Eigen::Vector2d& place);
+double floor_distance_m(const UprightPillar& pillar, const Eigen::Vector2d& place);
+
+/// Whether two boxes overlap or touch on the floor.
+bool overlap(const UprightBox& a, const UprightBox& b);
+
 }  // namespace radioslam

@@ -1,0 +1,224 @@
+#include "radioslam/joint/places/place_proposals.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "radioslam/graph/marginals.hpp"
+#include "radioslam/joint/uncertainty/position_uncertainty.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr double kMinSearchedWeight = 0.01;  // of an alignment that proposes pairs of its own
+constexpr double kSigmaHeight_m = 0.1, kSigmaTilt_rad = 0.03;  // of an estimate in the plane
+constexpr double kDescriptorScale = 0.1;  // difference of descriptors as telling as one standard deviation
+/// How far from the described place a scan may have been taken, in its median range.
+constexpr double kSigmaPlace = 1.0 / 3;
+constexpr double kMuchWorse = 2;        // standard deviation of a prediction worth another trial
+
+UncertainPose<SE3> in_space(const SE3& T, const SE3::Jacobian& covariance) { return {T, covariance}; }
+UncertainPose<SE3> in_space(const SE3& T, const SE2::Jacobian& covariance) {
+  UncertainPose<SE3> result{T};
+  result.covariance.diagonal() << 0, 0, kSigmaHeight_m * kSigmaHeight_m, kSigmaTilt_rad * kSigmaTilt_rad,
+      kSigmaTilt_rad * kSigmaTilt_rad, 0;
+  const std::array<int, 3> kept{0, 1, 5};
+  result.covariance(kept, kept) = covariance;
+  return result;
+}
+
+/// Per keyframe of robot b, those of robot a that it may be compared with.
+class AllowedPairs {
+ public:
+  AllowedPairs(const CandidateList::Group* group, std::size_t keyframes_b) : with_(keyframes_b) {
+    for (const CandidateList::Row& row : group ? group->rows : std::vector<CandidateList::Row>{}) with_[row.keyframe_j].push_back(row.keyframe_i);
+  }
+  bool contains(std::size_t i, std::size_t j) const {
+    return std::binary_search(with_[j].begin(), with_[j].end(), static_cast<std::uint32_t>(i));
+  }
+
+ private:
+  std::vector<std::vector<std::uint32_t>> with_;
+};
+
+template <class Pose>
+bool are_aligned(const TeamAlignment<Pose>& alignment, std::size_t a, std::size_t b) {
+  return alignment.component[a] == alignment.component[b] ||
+         connected_without_matches(alignment, RobotIndex(a), RobotIndex(b));
+}
+
+bool was_tried(const std::vector<PlaceAttempt>& tried, const Proposal& pair) {
+  const double worse_m = kMuchWorse * horizontal_sigma(pair.T_i_j);
+  return std::any_of(tried.begin(), tried.end(), [&](const PlaceAttempt& attempt) {
+    return attempt.robot_i == RobotIndex(pair.a) && attempt.robot_j == RobotIndex(pair.b) &&
+           attempt.i == pair.i && attempt.j == pair.j &&
+           (attempt.verified || attempt.sigma_m < worse_m);
+  });
+}
+
+/// Where b's body is in the frame of a's keyframe, by the similarity of their descriptors.
+UncertainPose<SE3> described(const ScannedRobot& a, const Neighbour& found) {
+  const double sigma_m = kSigmaPlace * a.cloud(found.index).median_range_m;
+  const double sigma_rad = 2 * std::numbers::pi / a.contexts[found.index].sectors();
+  // compare(query, context): p_query = Rz(yaw) p_context.
+  const Eigen::AngleAxisd turn(-found.match.yaw_rad, Eigen::Vector3d::UnitZ());
+  UncertainPose<SE3> result{SE3(Eigen::Vector3d::Zero(), Eigen::Quaterniond(turn))};
+  result.covariance.diagonal() << sigma_m * sigma_m, sigma_m * sigma_m, sigma_m * sigma_m,
+      sigma_rad * sigma_rad, sigma_rad * sigma_rad, sigma_rad * sigma_rad;
+  return result;
+}
+
+template <class Pose>
+class PlaceSearch {
+ public:
+  PlaceSearch(const PlaceInput<Pose>& input, const PlaceParams& params, double submap_m,
+                 const RadioAlignmentParams& alignment)
+      : input_(input), params_(params) {
+    const JointGraph<Pose>& joint = input.team.joint;
+    marginals_ = Marginals<Pose>::compute(graph_for_covariances(joint, alignment.mixture).team.graph);
+    if (!input.team.alignment.segments.of_segment.empty()) temperature_ = alignment.beam.evidence_temperature;
+    for (std::size_t r = 0; r < joint.robots.size(); ++r)
+      robots_.push_back(input.scans.robots[r]
+                            ? scanned_robot(*input.scans.robots[r], joint.robots[r],
+                                            input.mission.robots[r].odometry)
+                            : ScannedRobot{});
+    add_contexts(robots_, ScannerKind::kSpatial, params.context, submap_m);
+    add_contexts(robots_, ScannerKind::kPlanar, params.context, submap_m);
+  }
+
+  PlaceProposals run() {
+    for (std::size_t a = 0; a < robots_.size(); ++a)
+      for (std::size_t b = a + 1; b < robots_.size(); ++b) {
+        if (robots_[a].size() == 0 || robots_[b].size() == 0) continue;
+        if (robots_[a].kind() != robots_[b].kind()) continue;
+        counts_.pairs += robots_[a].size() * robots_[b].strides(params_.stride_m).size();
+        if (are_aligned(input_.team.alignment, a, b) && marginals_ && input_.allowed)
+          propose_by_prediction(a, b);
+        else
+          propose_by_descriptor(a, b);
+      }
+    return {std::move(robots_), std::move(proposals_), counts_};
+  }
+
+ private:
+  using Poses = std::vector<Pose>;
+
+  SE3 predicted(const Poses& poses, const ScannedRobot& robot, std::size_t k) const {
+    return as_se3(poses[robot.nodes[k].index()], 0) * robot.T_node_scan[k];
+  }
+
+  UncertainPose<SE3> predicted(const Poses& poses, const Proposal& pair) const {
+    const ScannedRobot &a = robots_[pair.a], &b = robots_[pair.b];
+    const typename Pose::Jacobian covariance =
+        temperature_ * marginals_->relative_pose(a.nodes[pair.i], b.nodes[pair.j]);
+    return in_space(predicted(poses, a, pair.i).inverse() * predicted(poses, b, pair.j), covariance);
+  }
+
+  const CandidateList::Group* group(std::size_t a, std::size_t b) const {
+    for (const CandidateList::Group& group : *input_.allowed)
+      if (group.robot_i == RobotIndex(a) && group.robot_j == RobotIndex(b)) return &group;
+    return nullptr;
+  }
+
+  void propose_by_prediction(std::size_t a, std::size_t b) {
+    const TeamAlignment<Pose>& alignment = input_.team.alignment;
+    const AllowedPairs allowed(group(a, b), input_.team.joint.robots[b].stamps.size());
+    for (const std::size_t j : robots_[b].strides(params_.stride_m)) {
+      std::vector<std::size_t> with;
+      for (std::size_t i = 0; i < robots_[a].size(); ++i)
+        if (robots_[a].has_cloud(i) && allowed.contains(robots_[a].keyframes[i], robots_[b].keyframes[j]))
+          with.push_back(i);
+      counts_.allowed += with.size();
+      if (with.empty()) continue;
+      propose_best({a, b, 0, j, {}}, with, input_.team.joint.team.graph.poses);
+      const std::size_t others = std::min(alignment.alternatives.size(),
+                                          static_cast<std::size_t>(params_.candidates - 1));
+      for (std::size_t k = 0; k < others; ++k)
+        if (alignment.alternative_weights[k] >= kMinSearchedWeight)
+          propose_best({a, b, 0, j, {}}, with, alignment.alternatives[k]);
+    }
+  }
+
+  /// Proposes keyframe j of the pair with the best of `with` in this alignment.
+  void propose_best(Proposal pair, const std::vector<std::size_t>& with, const Poses& poses) {
+    const SE3 at_j = predicted(poses, robots_[pair.b], pair.j);
+    std::vector<double> distances_m;
+    for (const std::size_t i : with)
+      distances_m.push_back(
+          (predicted(poses, robots_[pair.a], i).translation() - at_j.translation()).norm());
+    const auto nearest = std::min_element(distances_m.begin(), distances_m.end());
+    pair.i = with[static_cast<std::size_t>(nearest - distances_m.begin())];
+    const double sigma_m = horizontal_sigma(predicted(poses, pair));
+    double best = -std::numeric_limits<double>::infinity();
+    for (std::size_t n = 0; n < with.size(); ++n) {
+      const double farther_m2 = distances_m[n] * distances_m[n] - *nearest * *nearest;
+      const double prior = -farther_m2 / (2 * sigma_m * sigma_m);
+      if (prior < -1 / kDescriptorScale) continue;
+      const double score = prior - compare_descriptors(pair, with[n]).distance / kDescriptorScale;
+      if (score > best) best = score, pair.i = with[n];
+    }
+    pair.T_i_j = predicted(poses, pair);
+    if (!was_tried(input_.tried, pair)) proposals_.push_back(std::move(pair));
+  }
+
+  ContextMatch compare_descriptors(const Proposal& pair, std::size_t i) {
+    ++counts_.compared;
+    return compare(robots_[pair.a].contexts[i], robots_[pair.b].contexts[pair.j]);
+  }
+
+  /// Proposes, for every stride of b, the keyframes of a with the most similar descriptors, not two of one
+  /// stride.
+  void propose_by_descriptor(std::size_t a, std::size_t b) {
+    const ScannedRobot& of_a = robots_[a];
+    ScanContextIndex index(params_.index);
+    for (const ScanContext& context : of_a.contexts) index.add(context);
+    for (const std::size_t j : robots_[b].strides(params_.stride_m)) {
+      const auto wanted = static_cast<std::size_t>(4 * params_.candidates);
+      std::vector<std::size_t> taken;
+      counts_.compared += of_a.size();
+      counts_.allowed += of_a.size();
+      for (const Neighbour& found : index.nearest(robots_[b].contexts[j], wanted)) {
+        const auto is_same = [&](std::size_t i) {
+          return std::abs(of_a.path_m[i] - of_a.path_m[found.index]) < params_.stride_m;
+        };
+        if (found.match.distance > params_.max_descriptor_distance || !of_a.has_cloud(found.index)) continue;
+        if (taken.size() == static_cast<std::size_t>(params_.candidates)) break;
+        if (std::any_of(taken.begin(), taken.end(), is_same)) continue;
+        taken.push_back(found.index);
+        Proposal pair{a, b, found.index, j, described(of_a, found)};
+        if (!was_tried(input_.tried, pair)) proposals_.push_back(std::move(pair));
+      }
+    }
+  }
+
+  const PlaceInput<Pose>& input_;
+  PlaceParams params_;
+  std::optional<Marginals<Pose>> marginals_;
+  double temperature_ = 1;
+  std::vector<ScannedRobot> robots_;
+  std::vector<Proposal> proposals_;
+  PlaceCounts counts_;
+};
+
+}  // namespace
+
+double horizontal_sigma(const UncertainPose<SE3>& T) {
+  return std::sqrt(T.position_covariance().topLeftCorner<2, 2>().trace() / 2);
+}
+
+template <class Pose>
+PlaceProposals propose_places(const PlaceInput<Pose>& input, const PlaceParams& params, double submap_m,
+                              const RadioAlignmentParams& alignment) {
+  return PlaceSearch<Pose>(input, params, submap_m, alignment).run();
+}
+
+template PlaceProposals propose_places(const PlaceInput<SE2>&, const PlaceParams&, double,
+                                       const RadioAlignmentParams&);
+template PlaceProposals propose_places(const PlaceInput<SE3>&, const PlaceParams&, double,
+                                       const RadioAlignmentParams&);
+
+}  // namespace radioslam

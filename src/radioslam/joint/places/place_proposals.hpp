@@ -1,0 +1,105 @@
+// Keyframe pairs of different robots that may have seen the same place (place_recognition.hpp).
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "radioslam/base/fields.hpp"
+#include "radioslam/geometry/uncertain_pose.hpp"
+#include "radioslam/joint/places/scanned_robot.hpp"
+#include "radioslam/joint/team_estimate.hpp"
+#include "radioslam/mission/mission.hpp"
+#include "radioslam/places/scan_context_index.hpp"
+#include "radioslam/results/candidate_list.hpp"
+#include "radioslam/team_frame/radio_alignment.hpp"
+
+namespace radioslam {
+
+struct PlaceParams {
+  bool enabled = true;
+  double stride_m = 2;
+  double min_shared_view = 0.18;
+  int candidates = 3;
+  double submap_m = 10;
+  double source_m = 3;
+  int rounds = 2;
+  double max_descriptor_distance = 0.7;
+  ScanContextParams context;
+  ScanContextIndexParams index;
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    RADIOSLAM_FIELD(enabled, "", 0, 1, "whether scans of different robots are compared");
+    RADIOSLAM_FIELD(stride_m, "m", 0, 1e4,
+                    "path length between keyframes that are compared with another robot's; lower values find "
+                    "more closures but take longer");
+    RADIOSLAM_FIELD(min_shared_view, "", 0, 1,
+                    "smallest share of their views that the compared scans have in common; see overlap.min_shared_view");
+    RADIOSLAM_FIELD(submap_m, "m", 0, 1e3,
+                    "path length to either side of a keyframe that the submap covers to which others are "
+                    "registered");
+    RADIOSLAM_FIELD(source_m, "m", 0, 1e3,
+                    "path length to either side of a keyframe whose scans are registered together, of planar "
+                    "scanners; 0: its scan alone");
+    RADIOSLAM_FIELD(rounds, "", 1, 100,
+                          "largest number of rounds of search and judgement; a round ends with a better "
+                          "prediction for the next");
+    RADIOSLAM_FIELD(candidates, "", 1, 1000,
+                    "largest number of keyframes of another robot that a keyframe is registered to");
+    RADIOSLAM_FIELD(max_descriptor_distance, "", 0, 1,
+                    "largest distance of two descriptors of the same place, where nothing else aligns the "
+                    "robots; DiSCo-SLAM: 0.2");
+    ScanContextParams::visit_fields(self.context, visit);
+    ScanContextIndexParams::visit_fields(self.index, visit);
+  }
+};
+
+/// How many pairs of keyframes of different robots came how far.
+struct PlaceCounts {
+  std::size_t pairs = 0;          ///< all, with the strides of one robot
+  std::size_t allowed = 0;        ///< of these, left by pruning in the first round
+  std::size_t compared = 0;       ///< descriptors compared
+  std::size_t registrations = 0;  ///< proposed, and registered
+  std::size_t verified = 0;       ///< registered with success
+};
+
+/// A pair of keyframes that was registered.
+struct PlaceAttempt {
+  RobotIndex robot_i, robot_j;
+  std::size_t i = 0, j = 0;  ///< of the robots' scanned keyframes
+  double sigma_m = 0;        ///< of the predicted relative position, per axis
+  bool verified = false;
+};
+
+/// What place recognition works on.
+template <class Pose>
+struct PlaceInput {
+  const TeamEstimate<Pose>& team;
+  const Mission& mission;
+  const MeasuredScans& scans;
+  /// The pairs of the joint graph's keyframes that may be compared, by robots; null: all, without pruning.
+  const std::vector<CandidateList::Group>* allowed = nullptr;
+  std::vector<PlaceAttempt> tried = {};  ///< in earlier rounds
+};
+
+/// A pair to register: keyframe j of robot b on a submap around keyframe i of robot a.
+struct Proposal {
+  std::size_t a = 0, b = 0, i = 0, j = 0;
+  UncertainPose<SE3> T_i_j;
+};
+
+/// Standard deviation of the relative position in the plane, per axis.
+double horizontal_sigma(const UncertainPose<SE3>& T);
+
+struct PlaceProposals {
+  std::vector<ScannedRobot> robots;  ///< without keyframes where they have no scans
+  std::vector<Proposal> pairs;
+  PlaceCounts counts;
+};
+
+/// `submap_m`: extent of a planar scanner's descriptors, to either side of a keyframe.
+template <class Pose>
+PlaceProposals propose_places(const PlaceInput<Pose>& input, const PlaceParams& params, double submap_m,
+                              const RadioAlignmentParams& alignment);
+
+}  // namespace radioslam

@@ -1,0 +1,110 @@
+#include "radioslam/joint/places/place_recognition.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
+
+#include "radioslam/base/parallel.hpp"
+#include "radioslam/lidar/loops/loop_verification.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr double kSamePose_m = 0.1, kSamePose_rad = 0.05;
+
+Closure closure_of(const Proposal& proposal, const ScanLoop& loop, const ScannedRobot& a,
+                   const ScannedRobot& b) {
+  Closure closure;
+  closure.kind = ClosureKind::kLidar;
+  closure.robot_i = RobotIndex(proposal.a);
+  closure.robot_j = RobotIndex(proposal.b);
+  closure.stamp_i = a.scans->keyframe_stamps[proposal.i];
+  closure.stamp_j = b.scans->keyframe_stamps[proposal.j];
+  closure.T_i_j = loop.T_i_j;
+  closure.information = loop.information;
+  closure.statistic = loop.inlier_ratio;
+  if (loop.status != LoopStatus::kAccepted) reject(closure, std::string(reason(loop.status)));
+  return closure;
+}
+
+/// Several alignments may lead a pair to one and the same pose.
+void reject_repetitions(const std::vector<Proposal>& proposals, std::vector<Closure>& closures) {
+  std::map<std::array<std::size_t, 4>, std::vector<std::size_t>> of_pair;
+  for (std::size_t k = 0; k < proposals.size(); ++k) {
+    if (closures[k].status != ClosureStatus::kAccepted) continue;
+    const Proposal& pair = proposals[k];
+    auto& others = of_pair[{pair.a, pair.b, pair.i, pair.j}];
+    const auto is_same = [&](std::size_t other) {
+      const SE3::Tangent off = (closures[other].T_i_j.inverse() * closures[k].T_i_j).log();
+      return off.head<3>().norm() < kSamePose_m && off.tail<3>().norm() < kSamePose_rad;
+    };
+    if (std::any_of(others.begin(), others.end(), is_same)) reject(closures[k], "measured before");
+    others.push_back(k);
+  }
+}
+
+}  // namespace
+
+bool has_comparable_scans(const MeasuredScans& scans) {
+  int spatial = 0, planar = 0;
+  for (const auto& robot : scans.robots)
+    if (robot && !robot->keyframes.poses.empty())
+      ++(robot->keyframes.kind == ScannerKind::kPlanar ? planar : spatial);
+  return spatial > 1 || planar > 1;
+}
+
+void RecognisedPlaces::append(RecognisedPlaces more) {
+  closures.insert(closures.end(), more.closures.begin(), more.closures.end());
+  attempts.insert(attempts.end(), more.attempts.begin(), more.attempts.end());
+  counts.compared += more.counts.compared;
+  counts.registrations += more.counts.registrations;
+  counts.verified += more.counts.verified;
+}
+
+template <class Pose>
+RecognisedPlaces recognise_places(const PlaceInput<Pose>& input, const PlaceParams& params,
+                                  const ScanParams& scan_params, const RadioAlignmentParams& alignment,
+                                  const Progress& progress) {
+  const PlaceProposals proposed = propose_places(input, params, scan_params.loops.submap_m, alignment);
+  const std::vector<Proposal>& proposals = proposed.pairs;
+  RecognisedPlaces found{{}, {}, proposed.counts};
+  const auto verification = [&](double source_m) {
+    return LoopVerification(scan_params.loops, {params.submap_m, source_m}, scan_params.lidar.map,
+                            scan_params.search, scan_params.lidar.registration);
+  };
+  const LoopVerification spatial = verification(0), planar = verification(params.source_m);
+  found.closures.resize(proposals.size());
+  report_progress(progress, "places", 0);
+  parallel_for(proposals.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const Proposal& proposal = proposals[k];
+      const ScannedRobot &a = proposed.robots[proposal.a], &b = proposed.robots[proposal.b];
+      const ScanLoop loop =
+          (b.kind() == ScannerKind::kPlanar ? planar : spatial)
+              .verify(a.placed(), proposal.i, b.placed(), proposal.j, proposal.T_i_j);
+      found.closures[k] = closure_of(proposal, loop, a, b);
+    }
+  });
+  reject_repetitions(proposals, found.closures);
+  for (std::size_t k = 0; k < proposals.size(); ++k)
+    found.attempts.push_back({RobotIndex(proposals[k].a), RobotIndex(proposals[k].b), proposals[k].i,
+                              proposals[k].j, horizontal_sigma(proposals[k].T_i_j),
+                              found.closures[k].status == ClosureStatus::kAccepted});
+  found.counts.registrations = proposals.size();
+  found.counts.verified = static_cast<std::size_t>(
+      std::count_if(found.closures.begin(), found.closures.end(),
+                    [](const Closure& c) { return c.status == ClosureStatus::kAccepted; }));
+  report_progress(progress, "places", 1);
+  return found;
+}
+
+#define RADIOSLAM_PLACES(Pose)                                                              \
+  template RecognisedPlaces recognise_places(const PlaceInput<Pose>&, const PlaceParams&,   \
+                                             const ScanParams&, const RadioAlignmentParams&, \
+                                             const Progress&);
+RADIOSLAM_PLACES(SE2)
+RADIOSLAM_PLACES(SE3)
+#undef RADIOSLAM_PLACES
+
+}  // namespace radioslam

@@ -1,0 +1,48 @@
+// Place recognition between robots with laser scans: keyframe pairs are proposed, then verified by scan
+// matching; the joint estimate judges what is found (pipeline.hpp).
+//
+//   propose   For every `stride_m` of one robot's path, keyframes of the other that may be the same place.
+//             Where other measurements align the two, these are among the pairs that the overlap search keeps:
+//             the best one in each likely alignment, by
+//               -d^2 / (2 sigma^2) - D / 0.1,    d, sigma: predicted distance and its standard deviation,
+//                                                D: distance of the descriptors (places/scan_context.hpp),
+//             which is computed only where it can decide. Without pruning, and for robots that nothing aligns,
+//             they are those with the most similar descriptors of all, at most `max_descriptor_distance`.
+//   verify    The scan is registered to a submap around the proposed keyframe, all over the uncertainty of
+//             the predicted relative pose (lidar/loops/loop_verification.hpp). A planar scanner sees little
+//             from one place: its scan is registered together with those just before and after it.
+//
+// Once a team was judged, it predicts better, and another round finds more; what was verified, or tried
+// under a prediction that was hardly worse, is not tried again.
+//
+// Robots whose scanners are of different kinds, in space and in a plane, are not compared.
+#pragma once
+
+#include <vector>
+
+#include "radioslam/base/progress.hpp"
+#include "radioslam/joint/closures/closure.hpp"
+#include "radioslam/joint/places/place_proposals.hpp"
+#include "radioslam/odometry/scan_stage.hpp"
+#include "radioslam/team_frame/radio_alignment.hpp"
+
+namespace radioslam {
+
+struct RecognisedPlaces {
+  std::vector<Closure> closures;       ///< every registration; accepted: verified
+  std::vector<PlaceAttempt> attempts;  ///< the same registrations
+  PlaceCounts counts;
+
+  bool has_verified() const { return counts.verified > 0; }
+  void append(RecognisedPlaces more);
+};
+
+/// Whether two robots have scans that can be compared.
+bool has_comparable_scans(const MeasuredScans& scans);
+
+template <class Pose>
+RecognisedPlaces recognise_places(const PlaceInput<Pose>& input, const PlaceParams& params,
+                                  const ScanParams& scan_params, const RadioAlignmentParams& alignment,
+                                  const Progress& progress);
+
+}  // namespace radioslam

@@ -1,0 +1,50 @@
+// A robot's scanned keyframes in the joint graph, with descriptors by which places are recognised.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "radioslam/joint/joint_graph.hpp"
+#include "radioslam/lidar/loops/loop_verification.hpp"
+#include "radioslam/odometry/scan_stage.hpp"
+#include "radioslam/places/scan_context.hpp"
+
+namespace radioslam {
+
+/// Per keyframe: its node, the last keyframe of the graph before it; the motion from there; its descriptor.
+struct ScannedRobot {
+  const ScanOdometry* scans = nullptr;
+  std::vector<double> path_m = {};
+  std::vector<std::size_t> keyframes = {};  ///< of the joint graph
+  std::vector<PoseId> nodes = {};
+  std::vector<SE3> T_node_scan = {};
+  std::vector<ScanContext> contexts = {};
+
+  std::size_t size() const { return nodes.size(); }
+  ScannerKind kind() const { return scans->keyframes.kind; }
+  const ScanPyramid& cloud(std::size_t k) const { return scans->keyframes.clouds[k]; }
+  bool has_cloud(std::size_t k) const { return !cloud(k).source.surfels.empty(); }
+  PlacedKeyframes placed() const { return {scans->keyframes, scans->keyframes.poses, path_m}; }
+
+  /// Keyframes with a scan, at least `stride_m` apart.
+  std::vector<std::size_t> strides(double stride_m) const {
+    std::vector<std::size_t> result;
+    double next_m = 0;
+    for (std::size_t k = 0; k < size(); ++k) {
+      if (path_m[k] < next_m || !has_cloud(k)) continue;
+      next_m = path_m[k] + stride_m;
+      result.push_back(k);
+    }
+    return result;
+  }
+};
+
+ScannedRobot scanned_robot(const ScanOdometry& scans, const RobotVariables& variables,
+                           const Trajectory<SE3>& odometry);
+
+/// Of robots with this kind of scanner; grids of one range can be compared. A planar scanner sees little at
+/// once: its grids are of all scans within `submap_m`.
+void add_contexts(std::vector<ScannedRobot>& robots, ScannerKind kind, const ScanContextParams& params,
+                  double submap_m);
+
+}  // namespace radioslam

@@ -1,0 +1,182 @@
+#include "radioslam/joint/places/place_recognition.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "lidar/scanned_room.hpp"
+#include "radioslam/base/parallel.hpp"
+#include "radioslam/joint/joint_graph.hpp"
+
+namespace radioslam {
+namespace {
+
+using namespace test;
+
+constexpr double kSpacing_m = 0.2;
+
+/// A hall with different things along its walls.
+ScannedRoom furnished_hall() {
+  ScannedRoom hall;
+  hall.boxes = {{{-10, -6, 0}, {10, 6, 3}},     {{-9, -6, 0}, {-7, -5, 2}},  {{-3, -6, 0}, {-2.2, -4.6, 3}},
+                {{2, -6, 0}, {5, -5.4, 1.5}},   {{8, -3, 0}, {10, -1, 2.5}}, {{6, 4, 0}, {7, 6, 3}},
+                {{-1, 4.8, 0}, {2.5, 6, 1.2}},  {{-6, 4, 0}, {-5, 6, 2}},    {{-10, 1, 0}, {-9, 3, 2.8}}};
+  hall.pillars = {{{-4, 0.5}, 0.3}, {{3.5, 1.5}, 0.4}};
+  return hall;
+}
+
+/// Poses a metre apart along y = `y_m`, towards +x or -x.
+std::vector<SE3> along_the_hall(double y_m, bool forward) {
+  std::vector<SE3> poses;
+  for (int k = 0; k <= 14; ++k)
+    poses.push_back(forward ? pose_at(-7.0 + k, y_m, 1, 0) : pose_at(7.0 - k, y_m, 1, std::numbers::pi));
+  return poses;
+}
+
+ScanOdometry scans_along(const ScannedRoom& room, const std::vector<SE3>& truth, ScannerKind kind,
+                         std::uint64_t seed) {
+  Rng rng(seed);
+  Scanner scanner = kind == ScannerKind::kPlanar ? planar_scanner() : Scanner();
+  if (kind == ScannerKind::kSpatial) scanner.azimuths = 180;
+  ScanOdometry scans;
+  scans.keyframes.kind = kind;
+  scans.keyframes.spacing_m = kSpacing_m;
+  scans.keyframes.nominal_inlier_ratio = 0.85;
+  std::vector<StampedPose<SE3>> rows;
+  for (std::size_t k = 0; k < truth.size(); ++k) {
+    const Stamp stamp = Stamp::from_seconds(static_cast<double>(k));
+    const SE3 pose = truth.front().inverse() * truth[k];
+    scans.keyframes.poses.push_back(pose);
+    scans.keyframes.clouds.push_back(pyramid_of(sweep(room, scanner, truth[k], rng), kSpacing_m, kind));
+    scans.keyframe_stamps.push_back(stamp);
+    rows.push_back({stamp, pose});
+    if (k > 0) scans.keyframes.step_covariances.push_back(SE3::Jacobian::Identity() * 1e-6);
+  }
+  scans.odometry.samples = Trajectory<SE3>(std::move(rows));
+  return scans;
+}
+
+/// Two robots that pass through the hall in opposite directions.
+struct Hall {
+  std::vector<std::vector<SE3>> truth{along_the_hall(-1, true), along_the_hall(-2, false)};
+  MeasuredScans scans;
+  Mission mission;
+  TeamEstimate<SE3> team;
+  std::vector<CandidateList::Group> allowed;
+
+  explicit Hall(ScannerKind kind_a = ScannerKind::kSpatial, ScannerKind kind_b = ScannerKind::kSpatial) {
+    const ScannedRoom room = furnished_hall();
+    scans.robots = {scans_along(room, truth[0], kind_a, 1), scans_along(room, truth[1], kind_b, 2)};
+    mission.dimension = 3;
+    mission.robots.resize(2);
+    mission.robots[0].id = "a";
+    mission.robots[1].id = "b";
+    mission = with_odometry(std::move(mission), scans);
+    team.joint = build_joint_graph<SE3>(mission, {.distance_m = 0.9}, {});
+    team.alignment.component = team.alignment.without_matches = {0, 1};
+    team.alignment.in_common_frame = {false, false};
+  }
+
+  /// Puts robot b where it is, but for an error, and allows these pairs of keyframes.
+  void align(double error_m, const std::function<bool(std::uint32_t, std::uint32_t)>& is_allowed) {
+    team.alignment.component = team.alignment.without_matches = {0, 0};
+    const SE3 T = truth[0].front().inverse() * pose_at(error_m, 0, 0, 0) * truth[1].front();
+    for (const PoseId id : team.joint.robots[1].poses)
+      team.joint.team.graph.poses[id.index()] = T * team.joint.team.graph.poses[id.index()];
+    RelativePoseFactor<SE3> known;
+    known.i = team.joint.robots[0].poses.front();
+    known.j = team.joint.robots[1].poses.front();
+    known.T_i_j = T;
+    known.information = isotropic(1, 100);
+    add_factor(team.joint, known, {FactorSource::kMatch, 0, RobotIndex(0), RobotIndex(1), {}, {}});
+    CandidateList::Group group{RobotIndex(0), RobotIndex(1), {}};
+    for (std::uint32_t i = 0; i < truth[0].size(); ++i)
+      for (std::uint32_t j = 0; j < truth[1].size(); ++j)
+        if (is_allowed(i, j)) group.rows.push_back({i, j, 0, 0});
+    allowed = {group};
+  }
+
+  RecognisedPlaces recognise(bool pruned, std::vector<PlaceAttempt> tried = {}) const {
+    return recognise_places<SE3>({team, mission, scans, pruned ? &allowed : nullptr, std::move(tried)}, {},
+                                 {}, {}, {});
+  }
+  double error_m(const Closure& closure) const {
+    const auto k = [](Stamp stamp) { return static_cast<std::size_t>(std::lround(stamp.seconds())); };
+    return distance_between(closure.T_i_j, truth[0][k(closure.stamp_i)].inverse() * truth[1][k(closure.stamp_j)]);
+  }
+};
+
+void expect_right(const Hall& hall, const RecognisedPlaces& found, std::size_t at_least) {
+  EXPECT_GE(found.counts.verified, at_least);
+  for (const Closure& closure : found.closures)
+    if (closure.status == ClosureStatus::kAccepted) {
+      EXPECT_LT(hall.error_m(closure), 0.1);
+    }
+}
+
+TEST(RecognisePlaces, OfRobotsThatNothingAligns) {
+  const Hall hall;
+  const RecognisedPlaces found = hall.recognise(true);
+  expect_right(hall, found, 3);
+  EXPECT_EQ(found.counts.compared, found.counts.pairs) << "all descriptors are compared";
+  EXPECT_EQ(found.counts.registrations, found.closures.size());
+}
+
+TEST(RecognisePlaces, OfPlanarScanners) {
+  const Hall hall(ScannerKind::kPlanar, ScannerKind::kPlanar);
+  expect_right(hall, hall.recognise(true), 3);
+}
+
+TEST(RecognisePlaces, AmongAllowedPairsOnly) {
+  Hall hall;
+  const auto near = [](std::uint32_t i, std::uint32_t j) { return std::abs(14.0 - i - j) < 4; };
+  hall.align(0.5, near);
+  const RecognisedPlaces found = hall.recognise(true);
+  expect_right(hall, found, 3);
+  for (const PlaceAttempt& attempt : found.attempts)
+    EXPECT_TRUE(near(static_cast<std::uint32_t>(attempt.i), static_cast<std::uint32_t>(attempt.j)));
+  EXPECT_LT(found.counts.allowed, found.counts.pairs);
+  EXPECT_LE(found.counts.compared, found.counts.allowed) << "only where descriptors can decide";
+  const RecognisedPlaces all = hall.recognise(false);
+  EXPECT_LE(2 * found.counts.compared, all.counts.compared);
+  EXPECT_LE(found.counts.registrations, all.counts.registrations);
+}
+
+TEST(RecognisePlaces, NotWhereNoPairIsAllowed) {
+  Hall hall;
+  hall.align(0.5, [](std::uint32_t, std::uint32_t) { return false; });
+  EXPECT_TRUE(hall.recognise(true).closures.empty());
+}
+
+TEST(RecognisePlaces, AreNotTriedAgain) {
+  const Hall hall;
+  RecognisedPlaces found = hall.recognise(true);
+  const RecognisedPlaces again = hall.recognise(true, found.attempts);
+  EXPECT_EQ(again.counts.registrations, 0U);
+  const std::size_t registrations = found.counts.registrations;
+  found.append(again);
+  EXPECT_EQ(found.counts.registrations, registrations);
+}
+
+TEST(RecognisePlaces, OfDifferentScannersAreNotCompared) {
+  const Hall hall(ScannerKind::kSpatial, ScannerKind::kPlanar);
+  EXPECT_FALSE(has_comparable_scans(hall.scans));
+  EXPECT_TRUE(hall.recognise(true).closures.empty());
+}
+
+TEST(RecognisePlaces, AreTheSameForAnyNumberOfThreads) {
+  const Hall hall;
+  set_thread_count(1);
+  const RecognisedPlaces alone = hall.recognise(true);
+  set_thread_count(4);
+  const RecognisedPlaces together = hall.recognise(true);
+  set_thread_count(0);
+  ASSERT_EQ(alone.closures.size(), together.closures.size());
+  for (std::size_t k = 0; k < alone.closures.size(); ++k)
+    EXPECT_EQ(alone.closures[k].T_i_j.translation(), together.closures[k].T_i_j.translation());
+}
+
+}  // namespace
+}  // namespace radioslam
