@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <sstream>
 
 #include "cli/process.hpp"
@@ -12,15 +13,14 @@ namespace radioslam::cli {
 namespace {
 
 /// Two rounds of a circle in KITTI format, one pose per metre; the radius varies by `wobble_m`.
-std::string circle(double wobble_m) {
-  constexpr int kPoses = 240;
-  constexpr double kRadius_m = 19;
+std::string circle(double wobble_m, double mean_radius_m = 19) {
+  const long poses = std::lround(4 * std::numbers::pi * mean_radius_m) + 1;
   std::ostringstream lines;
-  for (int k = 0; k < kPoses; ++k) {
-    const double angle = k / kRadius_m, c = std::cos(angle), s = std::sin(angle);
-    const double radius_m = kRadius_m + wobble_m * std::sin(0.1 * k);
+  for (int k = 0; k < poses; ++k) {
+    const double angle = k / mean_radius_m, c = std::cos(angle), s = std::sin(angle);
+    const double radius_m = mean_radius_m + wobble_m * std::sin(0.1 * k);
     lines << c << ' ' << -s << " 0 " << radius_m * s << ' ' << s << ' ' << c << " 0 "
-          << kRadius_m - radius_m * c << " 0 0 1 0\n";
+          << mean_radius_m - radius_m * c << " 0 0 1 0\n";
   }
   return lines.str();
 }
@@ -32,6 +32,16 @@ class Reproduce : public testing::Test {
     write_file(folder() / "odometry.txt", circle(0.2));
   }
   const std::filesystem::path& folder() const { return folder_.path(); }
+  /// The JSON that a call with `--json -o out` prints and writes.
+  nlohmann::json reproduced(const std::vector<std::string>& arguments) const {
+    const auto outcome = run(arguments, folder());
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+    EXPECT_EQ(files_in(folder() / "out"),
+              (std::vector<std::string>{"index.html", "table.csv", "table.json", "table.txt"}));
+    EXPECT_EQ(read_file(folder() / "out" / "table.json"), outcome.out);
+    return nlohmann::json::parse(outcome.out);
+  }
   std::string refusal(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), "reproduce");
     const auto outcome = run(arguments, folder());
@@ -47,22 +57,15 @@ class Reproduce : public testing::Test {
 TEST_F(Reproduce, WithoutATableListsThem) {
   const auto outcome = run({"reproduce"}, folder());
   EXPECT_EQ(outcome.status, 0);
-  for (const char* name :
-       {"wi-closure-kitti", "wi-closure-hall", "robustness-map", "fingerprint-tables", "threshold-sweep"})
+  for (const char* name : {"wi-closure-kitti", "wi-closure-table1", "wi-closure-hall", "robustness-map",
+                           "fingerprint-tables", "threshold-sweep"})
     EXPECT_NE(outcome.out.find(name), std::string::npos) << name;
 }
 
 TEST_F(Reproduce, WritesTheTableThatItPrints) {
-  const auto outcome =
-      run({"reproduce", "wi-closure-kitti", "--trajectory", "truth.txt", "--odometry", "odometry.txt",
-           "--cut", "0.5", "--set", "links=6", "dimension=2", "--json", "-o", "out"},
-          folder());
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_EQ(outcome.err, "");
-  EXPECT_EQ(files_in(folder() / "out"),
-            (std::vector<std::string>{"index.html", "table.csv", "table.json", "table.txt"}));
-  EXPECT_EQ(read_file(folder() / "out" / "table.json"), outcome.out);
-  const auto json = nlohmann::json::parse(outcome.out);
+  const auto json =
+      reproduced({"reproduce", "wi-closure-kitti", "--trajectory", "truth.txt", "--odometry", "odometry.txt",
+                  "--cut", "0.5", "--set", "links=6", "dimension=2", "--json", "-o", "out"});
   EXPECT_EQ(json["published"]["kept"], 7049);
   EXPECT_EQ(json["seeds"][0]["cut"], 0.5);
   EXPECT_EQ(json["seeds"][0]["links"], 6);
@@ -99,6 +102,25 @@ TEST_F(Reproduce, ComparesAHallWithAndWithoutRadio) {
   EXPECT_NE(read_file(folder() / "out" / "table.txt").find("Paths of the angles"), std::string::npos);
   EXPECT_NE(refusal({"wi-closure-hall", "--set", "lidar_beams=0"}).find("lidar_beams"), std::string::npos);
   EXPECT_NE(refusal({"wi-closure-hall", "--cut", "0.5"}).find("--cut"), std::string::npos);
+}
+
+TEST_F(Reproduce, ComparesADriveWithAndWithoutRadio) {
+  write_file(folder() / "small.txt", circle(0, 10));
+  write_file(folder() / "wobbling.txt", circle(0.2, 10));
+  const auto json = reproduced({"reproduce", "wi-closure-table1", "--trajectory", "small.txt", "--odometry",
+                                "wobbling.txt", "--cut", "0.5", "--json", "-o", "out", "--set", "links=6",
+                                "lidar_range_m=10", "lidar_beams=8", "lidar_azimuth_steps=120"});
+  EXPECT_EQ(json["published"]["true_kept"], 3631);
+  ASSERT_EQ(json["seeds"].size(), 1U);
+  EXPECT_EQ(json["seeds"][0]["cut"], 0.5);
+  EXPECT_EQ(json["seeds"][0]["links"], 6);
+  EXPECT_GT(json["seeds"][0]["defaults"]["without_radio"]["descriptor_pairs"], 0);
+  EXPECT_NE(refusal({"wi-closure-table1", "--odometry", "odometry.txt"}).find("--trajectory"),
+            std::string::npos);
+  EXPECT_NE(refusal({"wi-closure-table1", "--trajectory", "truth.txt", "--odometry", "odometry.txt", "--set",
+                     "lidar_beams=0"})
+                .find("lidar_beams"),
+            std::string::npos);
 }
 
 /// The error message of a call in an empty folder.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "consistency/walks.hpp"
+#include "radioslam/consistency/consistency_params.hpp"
 
 namespace radioslam {
 namespace {
@@ -65,6 +66,17 @@ TYPED_TEST(ConsistentSets, RunnerUpCountsFalseMatchesThatAgree) {
   EXPECT_EQ(set.members.size(), 12U);
   EXPECT_EQ(set.members.back(), 11U);
   EXPECT_EQ(set.second_largest, 7U);
+}
+
+TEST(ConsistencyParams, GateByCovariancesUnlessTheyAreTheIdentity) {
+  ConsistencyParams params;
+  EXPECT_FALSE(pairwise_params(params).max_norm);
+  EXPECT_EQ(pairwise_params(params).confidence, PairwiseParams{}.confidence);
+  EXPECT_TRUE(are_enough(1, params));
+  params.covariance = "identity";
+  EXPECT_EQ(pairwise_params(params).max_norm, 100);
+  EXPECT_FALSE(are_enough(4, params));
+  EXPECT_TRUE(are_enough(5, params));
 }
 
 TYPED_TEST(ConsistentSets, OfOneMatchOrNone) {

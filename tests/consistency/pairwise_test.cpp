@@ -142,6 +142,42 @@ TYPED_TEST(Pairwise, GraphHoldsTheResultOfEveryPairForAnyNumberOfThreads) {
     }
 }
 
+/// Two matches of robots that stand still, the second off by `error`.
+template <class Pose>
+PairwiseConsistency off_by(const typename Pose::Tangent& error, const PairwiseParams& params) {
+  const OdometryChain<Pose> chain({Pose()}, {});
+  return pairwise_consistency<Pose>(chain, chain, {{0, 0, Pose()}, {0, 0, Pose::exp(error)}}, params);
+}
+
+TYPED_TEST(Pairwise, WithUnitWeightsAMetreAndARadianCountAlike) {
+  using Tangent = typename TypeParam::Tangent;
+  const Tangent metre = Tangent::Unit(0), radian = Tangent::Unit(TypeParam::kDof - 1);
+  PairwiseParams params;
+  params.max_norm = 1.2;
+  for (const Tangent& error : {metre, radian, Tangent(0.8 * metre - 0.6 * radian)}) {
+    const auto pairs = off_by<TypeParam>(error, params);
+    EXPECT_NEAR(pairs.statistic(0, 1), 1, 1e-6);
+    EXPECT_DOUBLE_EQ(pairs.gate, 1.44);
+    EXPECT_TRUE(pairs.graph.connected(0, 1));
+  }
+  EXPECT_NEAR(off_by<TypeParam>(metre + radian, params).statistic(0, 1), 2, 1e-6);
+  EXPECT_FALSE(off_by<TypeParam>(metre + radian, params).graph.connected(0, 1));
+}
+
+TYPED_TEST(Pairwise, WithUnitWeightsTheOdometryIsFollowedAndNoCovarianceMatters) {
+  using Pose = TypeParam;
+  const test::TwoWalks<Pose> walks(this->rng, 30, 0.1, 0.02);
+  const auto a = walks.odometry_a(this->rng), b = walks.odometry_b(this->rng);
+  auto i = walks.true_match(this->rng, 3, 25, 0.2, 0.03), j = walks.true_match(this->rng, 20, 1, 0.2, 0.03);
+  const typename Pose::Tangent error =
+      (i.T_a_b * b.increment(25, 1) * j.T_a_b.inverse() * a.increment(3, 20).inverse()).log();
+  i.covariance.setZero(), j.covariance *= 100;
+  PairwiseParams params;
+  params.max_norm = 1;
+  const auto pairs = pairwise_consistency<Pose>(a, b, {j, i}, params);
+  EXPECT_NEAR(pairs.statistic(0, 1), error.squaredNorm(), 1e-5 * error.squaredNorm());
+}
+
 TEST(PairwiseDeathTest, RefusesPosesThatAreNotThere) {
   const OdometryChain<SE2> chain({SE2(), SE2()}, {SE2::Jacobian::Identity()});
   EXPECT_DEATH(pairwise_consistency<SE2>(chain, chain, {{0, 2, SE2()}}), "poses of the chains");

@@ -63,5 +63,17 @@ TEST(TableCsv, QuotesItsTexts) {
   EXPECT_EQ(table_csv(table), "\"what\",\"a,b\"\n\"say 'x'\",\"1,000\"\n");
 }
 
+TEST(StudyTable, SeedsWithoutAValueDoNotCount) {
+  const std::vector<std::optional<double>> seeds{5, std::nullopt, 1, 2};
+  const auto value = [](const std::optional<double>& seed) { return seed; };
+  EXPECT_EQ(median_over(seeds, value), 2);
+  EXPECT_FALSE(median_over(std::vector<std::optional<double>>{std::nullopt}, value));
+}
+
+TEST(StudyTable, SeedsAreNamed) {
+  EXPECT_EQ(seeds_text(3, 1), "Seed 3");
+  EXPECT_EQ(seeds_text(3, 5), "Medians of 5 seeds from 3 on");
+}
+
 }  // namespace
 }  // namespace radioslam

@@ -21,6 +21,7 @@
 #include "radioslam/study/robustness_map/robustness_map.hpp"
 #include "radioslam/study/wi_closure_hall/wi_closure_hall.hpp"
 #include "radioslam/study/wi_closure_kitti/wi_closure_kitti.hpp"
+#include "radioslam/study/wi_closure_table1/wi_closure_table1.hpp"
 
 namespace radioslam::cli {
 namespace {
@@ -38,6 +39,7 @@ DefaultParameters defaults_of() {
 }
 
 DefaultParameters wi_closure_defaults() { return defaults_in(wi_closure_drive()); }
+DefaultParameters scanned_drive_defaults() { return defaults_in(scanned_drive()); }
 DefaultParameters scanned_hall_defaults() { return defaults_in(scanned_hall()); }
 DefaultParameters robustness_defaults() { return defaults_in(robustness_town()); }
 
@@ -79,6 +81,7 @@ constexpr std::array kParameterSets = std::to_array<ParameterSet>({
     {"import dpgo", nullptr, {}, kNoneOfImport},
     {"import", defaults_of<DeadReckoningParams>, "import indoor-location"},
     {"reproduce wi-closure-kitti", wi_closure_defaults, "simulate kitti"},
+    {"reproduce wi-closure-table1", scanned_drive_defaults, "simulate kitti"},
     {"reproduce wi-closure-hall", scanned_hall_defaults, "simulate hall"},
     {"reproduce robustness-map", robustness_defaults, "simulate city"},
     {"reproduce overlap-growth", nullptr, {}, kNoneOfTable},

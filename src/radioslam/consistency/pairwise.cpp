@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "radioslam/base/check.hpp"
 #include "radioslam/base/parallel.hpp"
 #include "radioslam/consistency/chi_squared.hpp"
 #include "radioslam/geometry/linear_algebra.hpp"
@@ -15,6 +16,27 @@ template <class Pose>
 typename Pose::Jacobian carried(const typename Pose::Jacobian& jacobian,
                                 const typename Pose::Jacobian& covariance) {
   return congruence(jacobian, covariance);
+}
+
+/// xi.
+template <class Pose>
+typename Pose::Tangent loop_error(const Pose& z_i, const Pose& f, const Pose& z_j, const Pose& e) {
+  return (z_i * f * z_j.inverse() * e.inverse()).log();
+}
+
+/// xi^T xi.
+template <class Pose>
+double pair_squared_error(const PoseChain<Pose>& chain_a, const PoseChain<Pose>& chain_b,
+                          const RelativePoseMatch<Pose>& i, const RelativePoseMatch<Pose>& j) {
+  return loop_error(i.T_a_b, chain_b.increment(i.pose_b, j.pose_b), j.T_a_b,
+                    chain_a.increment(i.pose_a, j.pose_a))
+      .squaredNorm();
+}
+
+template <class Pose>
+double largest_statistic(const PairwiseParams& params) {
+  return params.max_norm ? *params.max_norm * *params.max_norm
+                         : chi_squared_quantile(params.confidence, Pose::kDof);
 }
 
 template <class Pose>
@@ -45,8 +67,7 @@ double loop_statistic(const UncertainPose<Pose>& z_i, const UncertainPose<Pose>&
                          carried<Pose>(by.e, e.covariance);
   const Cholesky<Jacobian> cholesky(sigma);
   if (!cholesky.succeeded()) return std::numeric_limits<double>::infinity();
-  const typename Pose::Tangent xi = (z_i.pose * f.pose * z_j.pose.inverse() * e.pose.inverse()).log();
-  return cholesky.whitened(xi).squaredNorm();
+  return cholesky.whitened(loop_error(z_i.pose, f.pose, z_j.pose, e.pose)).squaredNorm();
 }
 
 template <class Pose>
@@ -62,13 +83,14 @@ PairwiseConsistency pairwise_consistency(const PoseChain<Pose>& chain_a, const P
                                          const PairwiseParams& params) {
   check_matches(chain_a, chain_b, matches);
   const std::size_t n = matches.size();
-  PairwiseConsistency result{UndirectedGraph(n), chi_squared_quantile(params.confidence, Pose::kDof), {}};
+  PairwiseConsistency result{UndirectedGraph(n), largest_statistic<Pose>(params), {}};
+  const auto statistic = params.max_norm ? pair_squared_error<Pose> : pair_statistic<Pose>;
   result.statistics.resize(n < 2 ? 0 : n * (n - 1) / 2);
   parallel_for(n, kRowGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       for (std::size_t j = 0; j < i; ++j)
         result.statistics[i * (i - 1) / 2 + j] =
-            static_cast<float>(pair_statistic(chain_a, chain_b, matches[i], matches[j]));
+            static_cast<float>(statistic(chain_a, chain_b, matches[i], matches[j]));
   });
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < i; ++j)

@@ -8,11 +8,14 @@
 // which gives its covariance Sigma. i and j are consistent when xi^T Sigma^-1 xi is at most the chi-squared
 // quantile of 3 (plane) or 6 degrees of freedom. For (j, i) and from robot b's side the
 // statistic is the same to first order; each pair is tested once, as (later, earlier) in the list.
+// For comparison with systems that do so, the test can be xi^T xi instead, which adds metres to radians.
 // Metres and radians. The two trajectories are assumed independent, as it is for different
 // robots. Cost: O(1) per pair of measurements, about two microseconds in space.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "radioslam/base/fields.hpp"
@@ -51,6 +54,8 @@ double pair_statistic(const PoseChain<Pose>& chain_a, const PoseChain<Pose>& cha
 
 struct PairwiseParams {
   double confidence = 0.99;
+  /// If set, a pair passes up to this sqrt(xi^T xi), whatever the covariances; its statistic is xi^T xi.
+  std::optional<double> max_norm;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {

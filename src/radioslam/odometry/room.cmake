@@ -5,4 +5,5 @@ radioslam_room(odometry
     motion_distortion.cpp
     scan_stage.cpp
     scan_tracking.cpp
+    scans_on_odometry.cpp
   ROOMS lidar inertial mission)

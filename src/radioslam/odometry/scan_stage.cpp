@@ -12,6 +12,7 @@
 #include "radioslam/odometry/inertial_params.hpp"
 #include "radioslam/odometry/map_drift.hpp"
 #include "radioslam/odometry/scan_tracking.hpp"
+#include "radioslam/odometry/scans_on_odometry.hpp"
 
 namespace radioslam {
 namespace {
@@ -176,7 +177,15 @@ ScanTrajectory track_scans_with_imu(Robot& robot, const ScannerTraits& traits, c
 
 /// A robot without odometry and registered scans stays at the origin from its first scan on.
 ScanOdometry static_odometry(const Robot& robot) {
-  return {{Trajectory<SE3>({{robot.lidar.stamps.front(), SE3()}}), robot.odometry_noise}, {}, {}};
+  return {
+      MeasuredOdometry{Trajectory<SE3>({{robot.lidar.stamps.front(), SE3()}}), robot.odometry_noise}, {}, {}};
+}
+
+ScanOdometry recorded_odometry_with_scans(const Robot& robot, const ScanParams& params,
+                                          const KeyframeParams& keyframes) {
+  const ScannerTraits traits = scanner_traits(robot.lidar, params.lidar);
+  ScansOnOdometry scans = scans_on_odometry(robot, traits, params.lidar, keyframes);
+  return {std::nullopt, std::move(scans.keyframes), std::move(scans.stamps)};
 }
 
 /// Counts the robot's scans and notes problems.
@@ -222,11 +231,15 @@ bool is_tracked(const Robot& robot, const ScanParams& params) {
 }  // namespace
 
 MeasuredScans measure_scans(const Mission& mission, const ScanParams& params, const KeyframeParams& keyframes,
-                            const Progress& progress) {
+                            const Progress& progress, ScansOfRecorded recorded) {
   MeasuredScans measured;
   for (std::size_t r = 0; r < mission.robots.size(); ++r) {
     std::optional<ScanOdometry>& scans = measured.robots.emplace_back();
-    if (!is_tracked(mission.robots[r], params)) continue;
+    if (!is_tracked(mission.robots[r], params)) {
+      if (recorded == ScansOfRecorded::kForPlaces && !mission.robots[r].lidar.empty())
+        scans = recorded_odometry_with_scans(mission.robots[r], params, keyframes);
+      continue;
+    }
     Robot robot = mission.robots[r];
     const ScannerTraits traits = scanner_traits(robot.lidar, params.lidar);
     ScanTrajectory track = track_scans_with_imu(robot, traits, params, keyframes, progress, measured.notes);
@@ -246,9 +259,9 @@ MeasuredScans measure_scans(const Mission& mission, const ScanParams& params, co
 
 Mission with_odometry(Mission mission, const MeasuredScans& measured) {
   for (std::size_t r = 0; r < mission.robots.size(); ++r) {
-    if (!measured.robots[r]) continue;
-    mission.robots[r].odometry = measured.robots[r]->odometry.samples;
-    mission.robots[r].odometry_noise = measured.robots[r]->odometry.noise;
+    if (!measured.robots[r] || !measured.robots[r]->odometry) continue;
+    mission.robots[r].odometry = measured.robots[r]->odometry->samples;
+    mission.robots[r].odometry_noise = measured.robots[r]->odometry->noise;
   }
   return mission;
 }

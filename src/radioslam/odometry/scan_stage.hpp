@@ -32,13 +32,13 @@ struct ScanClosure {
 
 /// What a robot's scans say of its motion, and the keyframes that other robots' scans can be compared with.
 struct ScanOdometry {
-  MeasuredOdometry odometry;
-  ScanKeyframes keyframes;  ///< with their clouds
+  std::optional<MeasuredOdometry> odometry;  ///< nothing where it is used as recorded
+  ScanKeyframes keyframes;                   ///< with their clouds
   std::vector<Stamp> keyframe_stamps;
 };
 
 struct MeasuredScans {
-  /// Per robot; nothing where its odometry is used as recorded.
+  /// Per robot; nothing without scans, or where its odometry is used as recorded and nothing else is asked.
   std::vector<std::optional<ScanOdometry>> robots;
   std::vector<ScanClosure> closures;
   std::vector<std::string> notes;
@@ -46,8 +46,11 @@ struct MeasuredScans {
   std::size_t too_few = 0, lost = 0;  ///< skipped: too few points; no match with the map
 };
 
+/// Whether a robot whose odometry is used as recorded gets keyframes with scans, too.
+enum class ScansOfRecorded { kIgnored, kForPlaces };
+
 MeasuredScans measure_scans(const Mission& mission, const ScanParams& params, const KeyframeParams& keyframes,
-                            const Progress& progress);
+                            const Progress& progress, ScansOfRecorded recorded = ScansOfRecorded::kIgnored);
 
 /// The mission with the odometry of its scans.
 Mission with_odometry(Mission mission, const MeasuredScans& measured);

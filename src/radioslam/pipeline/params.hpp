@@ -3,6 +3,7 @@
 
 #include "radioslam/closure/fingerprint_closures.hpp"
 #include "radioslam/closure/overlap/overlap_search.hpp"
+#include "radioslam/consistency/consistency_params.hpp"
 #include "radioslam/graph/optimizer.hpp"
 #include "radioslam/joint/access_point_stage.hpp"
 #include "radioslam/joint/aoa/aoa_integrity.hpp"
@@ -44,6 +45,7 @@ struct RunParams {
   OverlapStageParams overlap;
   PlaceParams places;
   MatchParams matches;
+  ConsistencyParams consistency;
   AoaLikelihoodParams angles;
   AoaIntegrityParams angle_check;
   AccessPointStageParams access_points;
@@ -69,6 +71,7 @@ struct RunParams {
     visit("overlap", self.overlap);
     visit("places", self.places);
     visit("matches", self.matches);
+    visit("consistency", self.consistency);
     visit("angles", self.angles);
     visit("angle_check", self.angle_check);
     visit("access_points", self.access_points);

@@ -73,11 +73,14 @@ void add_angles(Mission& mission, const std::vector<AoaMeasurement>& measured) {
 
 bool is_not_empty(const MeasuredCsi& csi) { return !csi.aoa_measurements.empty() || !csi.notes.empty(); }
 
-MeasuredRecordings measure_recordings(const Mission& recorded, const RunParams& params, StageClock& timed,
+MeasuredRecordings measure_recordings(const Mission& recorded, const RunParams& params,
+                                      const RunOptions& options, StageClock& timed,
                                       const Progress& progress) {
   MeasuredRecordings measured;
   if (has_scans(recorded)) {
-    measured.scans = timed("scans", measure_scans, recorded, params.scans, params.keyframe, progress);
+    const bool is_compared = params.places.enabled && !options.overlap_only && recorded.robots.size() > 1;
+    measured.scans = timed("scans", measure_scans, recorded, params.scans, params.keyframe, progress,
+                           is_compared ? ScansOfRecorded::kForPlaces : ScansOfRecorded::kIgnored);
     measured.mission = with_odometry(recorded, measured.scans);
   }
   if (has_captures(recorded)) {
@@ -243,7 +246,7 @@ void close_by_matches(const RunSetup& run, TeamEstimate<Pose>& team, const Overl
   std::optional<AoaMatchWeights> angles;
   if (params.matches.angle_weights) angles.emplace(run.mission, params.matches, params.angles);
   select_matches(team.joint, team.alignment, matches, overlaps.of_asked, run.options.pruning, params.matches,
-                 angles ? &*angles : nullptr, radio);
+                 angles ? &*angles : nullptr, radio, params.consistency);
   if (radio && params.matches.robust && run.options.pruning == Pruning::kOn)
     optimize_matches_and_radio(team.joint, matches, team.alignment, params.matches, params.alignment.mixture,
                                params.optimizer, run.progress);
@@ -298,7 +301,7 @@ JudgedTeam<Pose> judge_closures(const RunSetup& run, TeamEstimate<Pose> aligned,
   add_found(run, team, found);
   if (!closures.loops.empty())
     run.timed("loops", close_by_loops<Pose>, team.joint, team.alignment, closures.loops, run.params.optimizer,
-              run.progress);
+              run.progress, run.params.consistency);
   const bool has_matches = !closures.matches.empty();
   if (has_matches && weighs_matches(run))
     run.timed("alignment by matches", align_by_matches<Pose>, run, team);
@@ -343,7 +346,7 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* graph, const Measur
 RunOutput run_pipeline(const Mission& recorded, const RunParams& params, const RunOptions& options,
                        const Progress& progress) {
   StageClock timed;
-  MeasuredRecordings recordings = measure_recordings(recorded, params, timed, progress);
+  MeasuredRecordings recordings = measure_recordings(recorded, params, options, timed, progress);
   const Mission& mission = recordings.mission ? *recordings.mission : recorded;
   const MeasuredScans& scans = recordings.scans;
   RunOutput output = mission.dimension == 2

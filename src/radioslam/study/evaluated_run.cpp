@@ -55,6 +55,13 @@ std::optional<double> ate_rmse_m(const std::vector<EstimatedTrajectory>& estimat
   return metrics.ate->rmse_m;
 }
 
+Mission without_radio(const Mission& mission) {
+  Mission result = mission;
+  result.ranges.clear();
+  result.aoa_measurements.clear();
+  return result;
+}
+
 std::optional<double> dead_reckoning_ate_m(const Mission& mission, const Truth& truth) {
   std::vector<EstimatedTrajectory> robots;
   for (const Robot& robot : mission.robots) {

@@ -32,6 +32,9 @@ std::optional<double> rejected_false(const PairCounts& counts);
 EvaluatedRun run_and_evaluate(const Mission& mission, const Truth& truth, const RunParams& params,
                               const RunOptions& options);
 
+/// The mission without its ranges and angles.
+Mission without_radio(const Mission& mission);
+
 /// ATE of odometry alone, every robot from its known start; nothing if a start is unknown.
 std::optional<double> dead_reckoning_ate_m(const Mission& mission, const Truth& truth);
 

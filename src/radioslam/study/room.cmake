@@ -12,10 +12,15 @@ radioslam_room(study
     study_json.cpp
     study_page.cpp
     study_table.cpp
+    wi_closure/angle_paths.cpp
+    wi_closure/place_settings.cpp
+    wi_closure/place_study.cpp
+    wi_closure/place_table.cpp
+    wi_closure/place_truth.cpp
     wi_closure_hall/hall_tables.cpp
-    wi_closure_hall/hall_truth.cpp
     wi_closure_hall/wi_closure_hall.cpp
     wi_closure_kitti/wi_closure_kitti.cpp
+    wi_closure_table1/wi_closure_table1.cpp
   ROOMS radio pipeline eval sim io report
   LIBRARIES nlohmann_json::nlohmann_json)
 radioslam_page(radioslam_study ${CMAKE_CURRENT_SOURCE_DIR}/study/page radioslam/study/page_parts.hpp

@@ -1,11 +1,9 @@
 #include "radioslam/study/study_json.hpp"
 
-#include <array>
-
 #include "radioslam/io/run/metrics_json.hpp"
+#include "radioslam/study/wi_closure/published_wi_closure.hpp"
 #include "radioslam/study/wi_closure_hall/hall_tables.hpp"
 #include "radioslam/study/wi_closure_hall/published_hall.hpp"
-#include "radioslam/study/wi_closure_kitti/published_wi_closure.hpp"
 
 namespace radioslam {
 namespace {
@@ -76,7 +74,7 @@ Json published_hall_json() {
           {"false_paths", kFalsePaths}};
 }
 
-Json hall_run_json(const HallRun& run) {
+Json place_run_json(const PlaceRun& run) {
   return {{"place_pairs", run.places.pairs},
           {"place_pairs_allowed", run.places.allowed},
           {"descriptor_pairs", run.places.compared},
@@ -92,22 +90,37 @@ Json hall_run_json(const HallRun& run) {
           {"total_s", run.total_s}};
 }
 
-Json hall_runs_json(const HallRuns& runs) {
-  return {{"without_radio", hall_run_json(runs.without_radio)},
-          {"unpruned", hall_run_json(runs.unpruned)},
-          {"pruned", hall_run_json(runs.pruned)}};
+const char* key_for(PlaceSettings settings) {
+  switch (settings) {
+    case PlaceSettings::kDefaults:
+      return "defaults";
+    case PlaceSettings::kDisco:
+      return "disco";
+    case PlaceSettings::kLoosenedDisco:
+      return "loosened_disco";
+  }
+  return "";
 }
 
-Json hall_json(const WiClosureHall& hall) {
-  constexpr std::array<const char*, kAllPlaceSettings.size()> kNames{"defaults", "disco", "loosened_disco"};
-  Json json{{"seed", hall.seed}, {"search", search_json(hall.search)}};
-  for (std::size_t k = 0; k < hall.runs.size(); ++k) json[kNames[k]] = hall_runs_json(hall.runs[k]);
+Json place_study_json(const PlaceStudy& study) {
+  Json json{{"seed", study.seed}, {"search", search_json(study.search)}};
+  for (const PlaceRuns& runs : study.runs)
+    json[key_for(runs.settings)] = {{"without_radio", place_run_json(runs.without_radio)},
+                                    {"unpruned", place_run_json(runs.unpruned)},
+                                    {"pruned", place_run_json(runs.pruned)}};
   json["angles"] = Json::array();
-  for (const AnglePaths& angle : hall.angles)
+  for (const AnglePaths& angle : study.angles)
     json["angles"].push_back({{"paths", angle.paths},
                               {"direct_path", angle.direct_path ? Json(*angle.direct_path) : Json()},
                               {"path_weights", angle.weights},
                               {"accepted", angle.accepted}});
+  return json;
+}
+
+Json table1_seed_json(const WiClosureTable1& seed) {
+  Json json = place_study_json(seed.places);
+  json["cut"] = seed.scenario.cut;
+  json["links"] = seed.scenario.radio.links;
   return json;
 }
 
@@ -203,6 +216,12 @@ Json wi_closure_kitti_json(const std::vector<WiClosureKitti>& seeds) {
   return json;
 }
 
+Json wi_closure_table1_json(const std::vector<WiClosureTable1>& seeds) {
+  Json json{{"table", "wi-closure-table1"}, {"published", published_json()}, {"seeds", Json::array()}};
+  for (const WiClosureTable1& seed : seeds) json["seeds"].push_back(table1_seed_json(seed));
+  return json;
+}
+
 Json wi_closure_hall_json(const std::vector<WiClosureHall>& halls) {
   const AngleCounts angles = count_angles(halls);
   Json json{{"table", "wi-closure-hall"},
@@ -213,7 +232,7 @@ Json wi_closure_hall_json(const std::vector<WiClosureHall>& halls) {
               {"direct_found", angles.direct_found},
               {"paths", angles.paths}}},
             {"seeds", Json::array()}};
-  for (const WiClosureHall& hall : halls) json["seeds"].push_back(hall_json(hall));
+  for (const WiClosureHall& hall : halls) json["seeds"].push_back(place_study_json(hall.places));
   return json;
 }
 

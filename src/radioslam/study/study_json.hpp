@@ -13,6 +13,7 @@
 #include "radioslam/study/robustness_map/robustness_map.hpp"
 #include "radioslam/study/wi_closure_hall/wi_closure_hall.hpp"
 #include "radioslam/study/wi_closure_kitti/wi_closure_kitti.hpp"
+#include "radioslam/study/wi_closure_table1/wi_closure_table1.hpp"
 
 namespace radioslam {
 
@@ -24,6 +25,10 @@ nlohmann::ordered_json wi_closure_kitti_json(const std::vector<WiClosureKitti>& 
 ///   "angles": [{"paths", "direct_path", "path_weights", "accepted"}]}]}; paths count from 0, a direct path
 /// of -1 is that of an angle without one.
 nlohmann::ordered_json wi_closure_hall_json(const std::vector<WiClosureHall>& halls);
+
+/// {"table", "published": {...}, "seeds": [{"cut", "links", ...}]}; a seed has the keys of a hall's, without
+/// "disco".
+nlohmann::ordered_json wi_closure_table1_json(const std::vector<WiClosureTable1>& seeds);
 
 /// {"table", "axes": {...}, "first_seed", "seeds", "cells": [{"sigma_angle_deg", "links", "false_paths",
 ///   "ratio", ...}]}: a cell's summary.

@@ -117,4 +117,9 @@ std::optional<double> median_of(std::vector<double> values) {
   return quantile(values, kHalf);
 }
 
+std::string seeds_text(std::uint64_t first, std::size_t count) {
+  if (count == 1) return "Seed " + std::to_string(first);
+  return "Medians of " + std::to_string(count) + " seeds from " + std::to_string(first) + " on";
+}
+
 }  // namespace radioslam

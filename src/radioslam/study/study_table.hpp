@@ -1,8 +1,10 @@
 // Study table: what `reproduce` prints, writes as CSV and shows on a page.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace radioslam {
@@ -32,5 +34,17 @@ std::string percent_text(std::optional<double> ratio, int decimals);
 
 /// Median; the mean of the two middle values of an even number; nothing if there are none.
 std::optional<double> median_of(std::vector<double> values);
+
+/// Median over the seeds for which `value` returns one.
+template <class Seed, class Value>
+std::optional<double> median_over(const std::vector<Seed>& seeds, const Value& value) {
+  std::vector<double> values;
+  for (const Seed& seed : seeds)
+    if (const std::optional<double> v = value(seed)) values.push_back(*v);
+  return median_of(std::move(values));
+}
+
+/// "Seed 3", or "Medians of 5 seeds from 3 on".
+std::string seeds_text(std::uint64_t first, std::size_t count);
 
 }  // namespace radioslam

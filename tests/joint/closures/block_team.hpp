@@ -73,10 +73,10 @@ class BlockTeam {
     return out;
   }
 
-  Outcome solve() const {
+  Outcome solve(const ConsistencyParams& consistency = {}) const {
     Outcome out = measured();
     add_own_loops(out.joint, out.closures, {});
-    close_by_loops(out.joint, out.alignment, out.closures, {}, {});
+    close_by_loops(out.joint, out.alignment, out.closures, {}, {}, consistency);
     return out;
   }
 

@@ -72,6 +72,17 @@ TEST(CloseByLoops, LeavesRobotsApartWhereGroupsAreEquallyStrong) {
   EXPECT_EQ(accepted(out, 0, 4), 0u);
 }
 
+TEST(CloseByLoops, WithUnitWeightsTheLargestSetJoinsRobotsHoweverWeak) {
+  BlockTeam team(2);
+  for (const std::size_t k : {40u, 100u}) team.see(0, k, 1, k - 40);
+  for (const std::size_t k : {60u, 130u}) team.mistake(0, k, 1, k - 40, kElsewhere);
+  const auto few = team.solve({"identity", 100, 5});
+  EXPECT_EQ(few.alignment.component, (std::vector<int>{0, 1}));
+  EXPECT_EQ(few.closures.front().reason, "no group of loops stands out");
+  EXPECT_EQ(team.solve({"identity", 100, 4}).alignment.component, (std::vector<int>{0, 0}));
+  EXPECT_EQ(team.solve({"identity", 1e-6, 4}).alignment.component, (std::vector<int>{0, 1}));
+}
+
 TEST(CloseByLoops, ACycleOfThreeRobotsDecidesBetweenGroups) {
   BlockTeam team(3);
   for (const std::size_t k : {45u, 100u}) team.see(0, k, 1, k - 40);

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
+#include <utility>
 
 #include "joint/closures/block_team.hpp"
 #include "radioslam/joint/matches/alignment_by_matches.hpp"
@@ -116,6 +118,51 @@ TEST(SelectMatches, AdmitsCandidatesAndWhatTheyVouchFor) {
       EXPECT_EQ(out.closures[k].reason, enters ? "" : "the views cannot overlap") << candidates << " " << k;
     }
   }
+}
+
+ConsistencyParams unit_weights(double threshold) { return {"identity", threshold, 5}; }
+
+TEST(SelectMatches, WithUnitWeightsMatches50MetresApartAreConsistentAt100AndNotAt20) {
+  for (const auto& [threshold, admits] : {std::pair(100.0, true), std::pair(20.0, false)}) {
+    BlockTeam team = two_robots(6, 0);
+    team.mistake(0, 60, 1, 20, SE2({50, 0}, 0));
+    auto out = team.measured();
+    join_by_matches(out.joint, out.alignment, out.closures);
+    select_matches(out.joint, out.alignment, out.closures, no_candidates(out.joint), Pruning::kOn, {},
+                   nullptr, {}, unit_weights(threshold));
+    for (std::size_t k = 0; k < 6; ++k) EXPECT_EQ(out.closures[k].reason, "") << threshold << " " << k;
+    const Closure& wrong = out.closures[6];
+    EXPECT_EQ(wrong.reason, admits ? "" : "not consistent with the largest set of matches");
+    if (!admits) {
+      EXPECT_NEAR(std::sqrt(wrong.statistic), 50, 5);
+    }
+  }
+}
+
+TEST(SelectMatches, WithUnitWeightsFewMatchesAreNotAdmitted) {
+  for (const std::size_t count : {4u, 5u}) {
+    auto out = two_robots(count, 0).measured();
+    join_by_matches(out.joint, out.alignment, out.closures);
+    select_matches(out.joint, out.alignment, out.closures, no_candidates(out.joint), Pruning::kOn, {},
+                   nullptr, {}, unit_weights(100));
+    for (const std::string& reason : reasons(out.closures))
+      EXPECT_EQ(reason, count == 5 ? "" : "too few matches between the robots");
+  }
+}
+
+TEST(SelectMatches, WithUnitWeightsNoSetVouchesForMatchesThatPruningRejects) {
+  auto out = two_robots(6, 0).measured();
+  join_by_matches(out.joint, out.alignment, out.closures);
+  out.alignment.without_matches = {0, 0};
+  CandidateList list = no_candidates(out.joint);
+  for (std::size_t k = 0; k < 5; ++k) {
+    const Closure& match = out.closures[k];
+    list.push_back({match.robot_i, match.stamp_i, match.robot_j, match.stamp_j});
+  }
+  select_matches(out.joint, out.alignment, out.closures, list, Pruning::kOn, {}, nullptr, {},
+                 unit_weights(100));
+  EXPECT_EQ(reasons(out.closures),
+            (std::vector<std::string>{"", "", "", "", "", "the views cannot overlap"}));
 }
 
 /// Matches of one robot with itself are not compared with each other; the graduated loss judges them.

@@ -20,9 +20,9 @@ constexpr double kSpacing_m = 0.2;
 /// A hall with different things along its walls.
 ScannedRoom furnished_hall() {
   ScannedRoom hall;
-  hall.boxes = {{{-10, -6, 0}, {10, 6, 3}},     {{-9, -6, 0}, {-7, -5, 2}},  {{-3, -6, 0}, {-2.2, -4.6, 3}},
-                {{2, -6, 0}, {5, -5.4, 1.5}},   {{8, -3, 0}, {10, -1, 2.5}}, {{6, 4, 0}, {7, 6, 3}},
-                {{-1, 4.8, 0}, {2.5, 6, 1.2}},  {{-6, 4, 0}, {-5, 6, 2}},    {{-10, 1, 0}, {-9, 3, 2.8}}};
+  hall.boxes = {{{-10, -6, 0}, {10, 6, 3}},    {{-9, -6, 0}, {-7, -5, 2}},  {{-3, -6, 0}, {-2.2, -4.6, 3}},
+                {{2, -6, 0}, {5, -5.4, 1.5}},  {{8, -3, 0}, {10, -1, 2.5}}, {{6, 4, 0}, {7, 6, 3}},
+                {{-1, 4.8, 0}, {2.5, 6, 1.2}}, {{-6, 4, 0}, {-5, 6, 2}},    {{-10, 1, 0}, {-9, 3, 2.8}}};
   hall.pillars = {{{-4, 0.5}, 0.3}, {{3.5, 1.5}, 0.4}};
   return hall;
 }
@@ -54,7 +54,8 @@ ScanOdometry scans_along(const ScannedRoom& room, const std::vector<SE3>& truth,
     rows.push_back({stamp, pose});
     if (k > 0) scans.keyframes.step_covariances.push_back(SE3::Jacobian::Identity() * 1e-6);
   }
-  scans.odometry.samples = Trajectory<SE3>(std::move(rows));
+  scans.odometry.emplace();
+  scans.odometry->samples = Trajectory<SE3>(std::move(rows));
   return scans;
 }
 
@@ -104,7 +105,8 @@ struct Hall {
   }
   double error_m(const Closure& closure) const {
     const auto k = [](Stamp stamp) { return static_cast<std::size_t>(std::lround(stamp.seconds())); };
-    return distance_between(closure.T_i_j, truth[0][k(closure.stamp_i)].inverse() * truth[1][k(closure.stamp_j)]);
+    return distance_between(closure.T_i_j,
+                            truth[0][k(closure.stamp_i)].inverse() * truth[1][k(closure.stamp_j)]);
   }
 };
 

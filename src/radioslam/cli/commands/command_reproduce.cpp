@@ -87,18 +87,52 @@ struct Study {
   throw InputError("reproduce " + options.table, 0, reason);
 }
 
-Study wi_closure_kitti(const ReproduceOptions& options) {
-  const RecordedDrive drive = read_drive("reproduce " + options.table, options.trajectory, options.odometry);
-  auto scenario = with_settings(wi_closure_drive(), collect_settings({}, options.set));
-  if (options.cut) scenario.cut = *options.cut;
+/// Results of every seed.
+template <class Reproduce>
+auto for_seeds(const ReproduceOptions& options, int default_seeds, const Reproduce& reproduce) {
   ProgressLine line;
-  std::vector<WiClosureKitti> seeds;
-  for (int k = 0; k < options.seeds.value_or(1); ++k)
-    seeds.push_back(reproduce_wi_closure_kitti(drive, scenario, options.seed + static_cast<std::uint64_t>(k),
-                                               line.progress()));
+  std::vector<decltype(reproduce(options.seed, line.progress()))> results;
+  for (int k = 0; k < options.seeds.value_or(default_seeds); ++k)
+    results.push_back(reproduce(options.seed + static_cast<std::uint64_t>(k), line.progress()));
+  return results;
+}
+
+RecordedDrive recorded_drive(const ReproduceOptions& options) {
+  return read_drive("reproduce " + options.table, options.trajectory, options.odometry);
+}
+
+/// The parameters of a drive, cut as asked.
+KittiParams drive_params(const ReproduceOptions& options, const KittiParams& defaults) {
+  auto scenario = with_settings(defaults, collect_settings({}, options.set));
+  if (options.cut) scenario.cut = *options.cut;
+  return scenario;
+}
+
+void refuse_without_scans(const ReproduceOptions& options, const LidarScannerParams& lidar) {
+  if (lidar.lidar_beams == 0) refuse(options, "needs scans: lidar_beams of at least 1");
+}
+
+Study wi_closure_kitti(const ReproduceOptions& options) {
+  const RecordedDrive drive = recorded_drive(options);
+  const KittiParams scenario = drive_params(options, wi_closure_drive());
+  const auto seeds = for_seeds(options, 1, [&](std::uint64_t seed, const Progress& progress) {
+    return reproduce_wi_closure_kitti(drive, scenario, seed, progress);
+  });
   StudyTable table = wi_closure_kitti_table(seeds);
   std::string page = render_table_page(table);
   return {std::move(table), wi_closure_kitti_json(seeds), std::move(page)};
+}
+
+Study wi_closure_table1(const ReproduceOptions& options) {
+  const RecordedDrive drive = recorded_drive(options);
+  const KittiParams scenario = drive_params(options, scanned_drive());
+  refuse_without_scans(options, scenario.lidar);
+  const auto seeds = for_seeds(options, 1, [&](std::uint64_t seed, const Progress& progress) {
+    return reproduce_wi_closure_table1(drive, scenario, seed, progress);
+  });
+  StudyTable table = wi_closure_table1_table(seeds);
+  std::string page = render_table_page(table);
+  return {std::move(table), wi_closure_table1_json(seeds), std::move(page)};
 }
 
 void refuse_drive(const ReproduceOptions& options) {
@@ -110,13 +144,11 @@ Study wi_closure_hall(const ReproduceOptions& options) {
   constexpr int kSeeds = 3;
   refuse_drive(options);
   const auto scenario = with_settings(scanned_hall(), collect_settings({}, options.set));
-  if (scenario.onboard.lidar.lidar_beams == 0) refuse(options, "needs scans: lidar_beams of at least 1");
+  refuse_without_scans(options, scenario.onboard.lidar);
   if (scenario.robots < 2) refuse(options, "needs robots of at least 2");
-  ProgressLine line;
-  std::vector<WiClosureHall> halls;
-  for (int k = 0; k < options.seeds.value_or(kSeeds); ++k)
-    halls.push_back(
-        reproduce_wi_closure_hall(scenario, options.seed + static_cast<std::uint64_t>(k), line.progress()));
+  const auto halls = for_seeds(options, kSeeds, [&](std::uint64_t seed, const Progress& progress) {
+    return reproduce_wi_closure_hall(scenario, seed, progress);
+  });
   StudyTable table = wi_closure_hall_table(halls), angles = hall_angles_table(halls);
   std::string page = render_table_page(table, {angles}), csv = table_csv(angles);
   return {
@@ -224,9 +256,12 @@ struct Table {
   Study (*reproduce)(const ReproduceOptions&);
 };
 
-constexpr std::array<Table, 9> kTables{
+constexpr std::array<Table, 10> kTables{
     {{"wi-closure-kitti",
       "KITTI 08 cut in two, radio noise of 0.5 m and 10 degrees, compared with Wi-Closure", wi_closure_kitti},
+     {"wi-closure-table1",
+      "the same drive by the whole pipeline, with recorded odometry and scans of streets made around it",
+      wi_closure_table1},
      {"wi-closure-hall",
       "two scanning robots between identical pillars, with and without radio, compared with Wi-Closure",
       wi_closure_hall},
@@ -296,15 +331,17 @@ void reproduce(const ReproduceOptions& options) {
 
 void add_table_options(CLI::App& command, ReproduceOptions& options) {
   command
-      .add_option("--trajectory", options.trajectory, "wi-closure-kitti: true poses of the recorded drive")
+      .add_option("--trajectory", options.trajectory,
+                  "wi-closure-kitti, wi-closure-table1: true poses of the recorded drive")
       ->type_name("FILE");
   command
       .add_option("--odometry", options.odometry,
-                  "wi-closure-kitti: odometry of the recorded drive, in any frame")
+                  "wi-closure-kitti, wi-closure-table1: odometry of the recorded drive, in any frame")
       ->type_name("FILE");
   command
       .add_option("--cut", options.cut,
-                  "wi-closure-kitti: fraction of the drive assigned to the first robot (default: 0.34)")
+                  "wi-closure-kitti, wi-closure-table1: fraction of the drive assigned to the first robot "
+                  "(default: 0.34)")
       ->check(number_from(kMinCut, kMaxCut))
       ->type_name("FRACTION");
   command.add_option("--dataset", options.dataset, "aoa: folder that contains trials of the WSR data set")
@@ -345,15 +382,16 @@ void add_reproduce(CLI::App& program) {
   command->footer(
       table_list() +
       "\n"
-      "Recorded drive (wi-closure-kitti): two files in KITTI format with one pose of the LiDAR per line. "
-      "The\n"
-      "true poses are those of the odometry benchmark (cvlibs.net/datasets/kitti), transformed to the LiDAR\n"
-      "frame. The GitHub repository RobotsRuning/KITTI_odometry_evaluation_tool contains them\n"
-      "(ground_truth_pose/GT_LiDAR) and the odometry of A-LOAM (data/ALOAM_result_pred).\n"
+      "Recorded drive (wi-closure-kitti, wi-closure-table1): two files in KITTI format with one pose of the\n"
+      "LiDAR per line. The true poses are those of the odometry benchmark (cvlibs.net/datasets/kitti),\n"
+      "transformed to the LiDAR frame. The GitHub repository RobotsRuning/KITTI_odometry_evaluation_tool\n"
+      "contains them (ground_truth_pose/GT_LiDAR) and the odometry of A-LOAM (data/ALOAM_result_pred).\n"
       "WSR data set (aoa): the GitHub repository Harvard-REACT/WSR-Toolbox-Dataset.\n\n"
       "--set changes parameters of the simulated scenario; for aoa and aoa-paths it changes those of the\n"
       "angle estimation. `radioslam parameters TABLE` lists them.\n"
-      "wi-closure-hall, robustness-map, aoa-paths, fingerprint-tables and threshold-sweep take minutes.\n"
+      "wi-closure-table1, wi-closure-hall, robustness-map, aoa-paths, fingerprint-tables and "
+      "threshold-sweep\n"
+      "take minutes. wi-closure-table1 holds all scans in memory, 0.5 GB for KITTI 08.\n"
       "overlap-growth needs 1 GiB of memory per half million poses.\n\n"
       "Example:\n"
       "  radioslam reproduce wi-closure-kitti --trajectory GT_LiDAR/08.txt --odometry ALOAM/08.txt\n"

@@ -13,9 +13,10 @@
 namespace radioslam {
 namespace {
 
-constexpr std::size_t kMaxGroups = 6;   // per pair of segments
-constexpr std::size_t kMaxLoops = 600;  // per pair of segments, evenly chosen
-constexpr double kMaxBranches = 2e5;    // of a search for the largest group
+constexpr std::size_t kMaxGroups = 6;      // per pair of segments
+constexpr std::size_t kMinUnweighted = 2;  // loops of a group with unit weights
+constexpr std::size_t kMaxLoops = 600;     // per pair of segments, evenly chosen
+constexpr double kMaxBranches = 2e5;       // of a search for the largest group
 
 /// Path length of every pose along its segment.
 template <class Pose>
@@ -84,21 +85,26 @@ std::vector<LoopGroup> loop_groups(const JointGraph<Pose>& joint, const std::vec
     const TrajectorySegment& of = joint.team.segments[segment];
     return travelled[of.first_pose + of.pose_count - 1];
   };
+  const bool is_unweighted = has_unit_weights(params.consistency);
+  const std::size_t max_groups = is_unweighted ? 1 : kMaxGroups;
   std::vector<LoopGroup> groups;
   for (auto& [pair, all] : of_pair) {
     const auto [a, b] = pair;
+    if (!are_enough(all.size(), params.consistency)) continue;
     std::vector<std::size_t> rest = evenly_chosen(std::move(all), kMaxLoops);
     std::vector<RelativePoseMatch<Pose>> matches;
     for (const std::size_t k : rest) matches.push_back(seen_from(joint, loops[k], a));
-    const PairwiseConsistency pairs = pairwise_consistency(*chains[a], *chains[b], matches);
+    const PairwiseConsistency pairs =
+        pairwise_consistency(*chains[a], *chains[b], matches, pairwise_params(params.consistency));
     const std::vector<std::size_t> loop_of_vertex = rest;
     const double sighting_m =
         std::min(params.sighting_m, params.sighting_ratio * std::min(length_m(a), length_m(b)));
     for (std::size_t k = 0; k < rest.size(); ++k) rest[k] = k;
     MaximumCliqueParams clique_params;
     clique_params.max_branches = kMaxBranches;
-    for (std::size_t g = 0; g < kMaxGroups && !rest.empty(); ++g) {
+    for (std::size_t g = 0; g < max_groups && !rest.empty(); ++g) {
       const MaximumClique clique = maximum_clique(induced_graph(pairs.graph, rest), clique_params);
+      if (is_unweighted && clique.vertices.size() < kMinUnweighted) break;
       LoopGroup group{a, b, {}, 0};
       for (const std::size_t member : clique.vertices) group.loops.push_back(loop_of_vertex[rest[member]]);
       for (auto it = clique.vertices.rbegin(); it != clique.vertices.rend(); ++it)

@@ -11,7 +11,7 @@
 
 #include <vector>
 
-#include "radioslam/consistency/pairwise.hpp"
+#include "radioslam/consistency/consistency_params.hpp"
 #include "radioslam/joint/closures/own_loops.hpp"
 
 namespace radioslam {
@@ -21,10 +21,12 @@ namespace radioslam {
 // true. Evidence counts sightings: loops whose ends are near each other along both trajectories see the same
 // place and are wrong together, so a place that looks like another gives many loops and one sighting. A
 // sighting of m loops counts 2 m / (m + 1).
+// With unit weights (consistency_params.hpp) a pair has one group, the largest set, of two loops at least.
 
 struct LoopGroupParams {
   double sighting_m = 10;        ///< path length within which two loops see the same place
   double sighting_ratio = 0.05;  ///< the same, at most, relative to the length of the shorter trajectory
+  ConsistencyParams consistency;
 };
 
 /// Loops of two segments that agree with one another.

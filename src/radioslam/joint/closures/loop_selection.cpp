@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/graph/graduated.hpp"
@@ -15,6 +16,7 @@ namespace {
 constexpr int kMaxRounds = 15;
 constexpr double kMinRedundancy = 30;  // below which a variance cannot be estimated
 constexpr double kSettledScale = 0.02;
+constexpr double kMinGain = 1e-3;  // of the truncated cost
 constexpr double kMinScale = 0.1, kMaxScale = 10;
 
 /// Errors that neighbouring measurements have in common leave small residuals: only residuals less than half
@@ -30,6 +32,23 @@ struct VarianceComponent {
   /// Actual over assumed standard deviation.
   double ratio() const { return redundancy < kMinRedundancy ? 1 : std::sqrt(squares / redundancy); }
 };
+
+template <class Pose>
+bool is_comparable(const TeamLoop<Pose>& loop, const std::vector<int>& component) {
+  return component[loop.segment_i] == component[loop.segment_j];
+}
+
+/// Squared norms of relative poses, of which those from `first_loop` on are loops: these up to their gates.
+template <class Pose>
+double truncated_cost(const PoseGraph<Pose>& graph, std::size_t first_loop,
+                      const std::vector<TeamLoop<Pose>>& loops, const std::vector<int>& component) {
+  double cost = 0;
+  for (std::size_t k = 0; k < first_loop; ++k) cost += squared_norm(graph, graph.relative_poses[k]);
+  for (std::size_t k = 0; k < loops.size(); ++k)
+    if (is_comparable(loops[k], component))
+      cost += std::min(loops[k].gate, squared_norm(graph, graph.relative_poses[first_loop + k]));
+  return cost;
+}
 
 template <class Pose>
 class LoopSelector {
@@ -63,16 +82,38 @@ class LoopSelector {
  private:
   static double squared(double x) { return x * x; }
 
-  /// By a graduated truncated loss on all loops at once, from the alignment.
+  /// The better one, in the truncated cost, of two local optima: by a graduated truncated loss on all loops
+  /// at once, which may lose a minority that is right, and from those loops that the alignment stands on.
   void choose_jointly(const OptimizerParams& optimizer, const Progress& progress) {
+    const PoseGraph<Pose> start = graph_;
+    std::vector<bool> of_alignment;
+    for (const TeamLoop<Pose>& loop : loops_) of_alignment.push_back(loop.accepted);
+    choose_gradually(optimizer, progress);
+    const double cost = truncated_cost(graph_, first_loop_, loops_, component_);
+    std::vector<bool> of_all;
+    for (const TeamLoop<Pose>& loop : loops_) of_all.push_back(loop.accepted);
+    if (of_all == of_alignment) return;
+    const PoseGraph<Pose> by_all = std::exchange(graph_, start);
+    accept(of_alignment);
+    set_weights();
+    optimize(graph_, optimizer);
+    if (truncated_cost(graph_, first_loop_, loops_, component_) < cost - kMinGain) return;
+    graph_ = by_all;
+    accept(of_all);
+  }
+
+  void accept(const std::vector<bool>& accepted) {
+    for (std::size_t k = 0; k < loops_.size(); ++k) loops_[k].accepted = accepted[k];
+  }
+
+  void choose_gradually(const OptimizerParams& optimizer, const Progress& progress) {
     FactorMask mask;
     mask.relative_poses.assign(graph_.relative_poses.size(), false);
     for (std::size_t k = 0; k < loops_.size(); ++k) {
       RelativePoseFactor<Pose>& factor = graph_.relative_poses[first_loop_ + k];
-      const bool comparable = component_[loops_[k].segment_i] == component_[loops_[k].segment_j];
-      factor.weight = comparable ? 1 : 0;
+      factor.weight = is_comparable(loops_[k], component_) ? 1 : 0;
       factor.loss = {LossKind::kNone, std::sqrt(loops_[k].gate)};
-      mask.relative_poses[first_loop_ + k] = comparable;
+      mask.relative_poses[first_loop_ + k] = is_comparable(loops_[k], component_);
     }
     const auto weights = optimize_graduated(graph_, mask, GraduatedLoss::kTruncatedLeastSquares,
                                             GraduatedParams{}, optimizer, progress)
@@ -122,8 +163,7 @@ class LoopSelector {
     for (std::size_t k = 0; k < loops_.size(); ++k) {
       TeamLoop<Pose>& loop = loops_[k];
       loop.statistic = statistic(k, marginals);
-      const bool holds =
-          component_[loop.segment_i] == component_[loop.segment_j] && loop.statistic <= gate(loop);
+      const bool holds = is_comparable(loop, component_) && loop.statistic <= gate(loop);
       changed = changed || holds != loop.accepted;
       loop.accepted = holds;
     }

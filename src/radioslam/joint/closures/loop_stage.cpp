@@ -225,7 +225,8 @@ void add_own_loops(JointGraph<Pose>& joint, const std::vector<Closure>& closures
 
 template <class Pose>
 void close_by_loops(JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment, std::vector<Closure>& closures,
-                    const OptimizerParams& optimizer, const Progress& progress) {
+                    const OptimizerParams& optimizer, const Progress& progress,
+                    const ConsistencyParams& consistency) {
   for (Closure& closure : closures)
     if (!closure_ends(joint, closure).valid()) reject(closure, "no odometry at its time");
   std::vector<TeamLoop<Pose>> loops = team_loops(joint, closures);
@@ -243,9 +244,9 @@ void close_by_loops(JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment, std
   for (int pass = 0; pass < kMaxPasses; ++pass) {
     const double odometry_scale = std::max(scales.odometry_scale, std::pow(2.0, pass));
     const auto chains = segment_chains(joint, loops, odometry_scale);
-    const std::vector<LoopGroup> groups = loop_groups(joint, loops, chains, {});
+    const std::vector<LoopGroup> groups = loop_groups(joint, loops, chains, {.consistency = consistency});
     auto alignments = align_by_loops(joint, component_before, loops, groups, chains);
-    undo_weak_joins(groups, alignments);
+    if (!has_unit_weights(consistency)) undo_weak_joins(groups, alignments);
     const JointGraph<Pose> before = joint;
     const std::vector<TeamLoop<Pose>> loops_before = loops;
     component = alignments.front().component;
@@ -281,7 +282,7 @@ void close_by_loops(JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment, std
 #define RADIOSLAM_LOOP_STAGE(Pose)                                                                     \
   template void add_own_loops(JointGraph<Pose>&, const std::vector<Closure>&, const OptimizerParams&); \
   template void close_by_loops(JointGraph<Pose>&, TeamAlignment<Pose>&, std::vector<Closure>&,         \
-                               const OptimizerParams&, const Progress&);
+                               const OptimizerParams&, const Progress&, const ConsistencyParams&);
 RADIOSLAM_LOOP_STAGE(SE2)
 RADIOSLAM_LOOP_STAGE(SE3)
 #undef RADIOSLAM_LOOP_STAGE

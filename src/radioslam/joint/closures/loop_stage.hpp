@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "radioslam/base/progress.hpp"
+#include "radioslam/consistency/consistency_params.hpp"
 #include "radioslam/graph/optimizer.hpp"
 #include "radioslam/joint/closures/closure.hpp"
 #include "radioslam/joint/joint_graph.hpp"
@@ -18,9 +19,11 @@ void add_own_loops(JointGraph<Pose>& joint, const std::vector<Closure>& closures
 
 /// Joins the components that loops connect, and solves the team with the loops that hold; sets the outcome of
 /// every closure. The alignment notes what stands on loops alone, what they leave open, and stated
-/// covariances that do not hold.
+/// covariances that do not hold. With unit weights every pair of robots that has a consistent set is joined
+/// by its largest, however weak; the joint estimate still judges each loop under its covariance.
 template <class Pose>
 void close_by_loops(JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment, std::vector<Closure>& closures,
-                    const OptimizerParams& optimizer, const Progress& progress);
+                    const OptimizerParams& optimizer, const Progress& progress,
+                    const ConsistencyParams& consistency = {});
 
 }  // namespace radioslam

@@ -26,7 +26,8 @@ class MatchSelector {
  public:
   MatchSelector(JointGraph<Pose>& joint, const TeamAlignment<Pose>& alignment, std::vector<Closure>& matches,
                 const CandidateList& candidates, Pruning pruning, const MatchParams& params,
-                const AoaMatchWeights* angles, const std::optional<RadioCovariance<Pose>>& radio)
+                const AoaMatchWeights* angles, const std::optional<RadioCovariance<Pose>>& radio,
+                const ConsistencyParams& consistency)
       : joint_(joint),
         alignment_(alignment),
         matches_(matches),
@@ -34,7 +35,8 @@ class MatchSelector {
         pruning_(pruning),
         params_(params),
         angles_(angles),
-        radio_(radio) {}
+        radio_(radio),
+        consistency_(consistency) {}
 
   void run() {
     for (std::size_t m = 0; m < matches_.size(); ++m) admit(m);
@@ -92,12 +94,14 @@ class MatchSelector {
   /// that are consistent with all of it: a group of matches is one relative pose of the robots' frames, true
   /// or false as a whole, while the trajectory that set some aside may be bent.
   void keep_consistent(const std::vector<std::size_t>& group) {
+    if (!are_enough(group.size(), consistency_)) return reject_group(group);
     const Closure& first = matches_[admitted_[group.front()].match];
     const auto [a, b] = std::minmax(first.robot_i, first.robot_j);
     const auto chain_a = odometry_chain(joint_, a), chain_b = odometry_chain(joint_, b);
     Oriented matches, members;
     for (const std::size_t k : group) matches.push_back(oriented(admitted_[k], a));
-    const ConsistentSet set = largest_consistent_set(chain_a, chain_b, matches);
+    const ConsistentSet set =
+        largest_consistent_set(chain_a, chain_b, matches, {pairwise_params(consistency_), {}});
     for (std::size_t k = 0; k < group.size(); ++k) {
       if (set.matches[k].is_in) {
         members.push_back(matches[k]);
@@ -107,7 +111,7 @@ class MatchSelector {
       match.statistic = set.matches[k].best_statistic.value_or(0);
       reject(match, "not consistent with the largest set of matches");
     }
-    if (members.size() < kMinVouching) return;
+    if (members.size() < kMinVouching || has_unit_weights(consistency_)) return;
     std::vector<MatchEnds> vouched_for;
     Oriented extension;
     for (const MatchEnds& ends : set_aside_[{a, b}]) {
@@ -125,6 +129,11 @@ class MatchSelector {
       matches_[vouched_for[k].match].reason.clear();
       admitted_.push_back(vouched_for[k]);
     }
+  }
+
+  void reject_group(const std::vector<std::size_t>& group) {
+    for (const std::size_t k : group)
+      reject(matches_[admitted_[k].match], "too few matches between the robots");
   }
 
   void add_match(const MatchEnds& ends) {
@@ -146,6 +155,7 @@ class MatchSelector {
   MatchParams params_;
   const AoaMatchWeights* angles_;
   const std::optional<RadioCovariance<Pose>>& radio_;
+  const ConsistencyParams& consistency_;
   std::vector<MatchEnds> admitted_;
   std::map<std::pair<RobotIndex, RobotIndex>, std::vector<std::size_t>>
       between_robots_;  ///< indices into admitted_
@@ -192,8 +202,9 @@ template <class Pose>
 void select_matches(JointGraph<Pose>& joint, const TeamAlignment<Pose>& alignment,
                     std::vector<Closure>& matches, const CandidateList& candidates, Pruning pruning,
                     const MatchParams& params, const AoaMatchWeights* angles,
-                    const std::optional<RadioCovariance<Pose>>& radio) {
-  MatchSelector<Pose>(joint, alignment, matches, candidates, pruning, params, angles, radio).run();
+                    const std::optional<RadioCovariance<Pose>>& radio, const ConsistencyParams& consistency) {
+  MatchSelector<Pose>(joint, alignment, matches, candidates, pruning, params, angles, radio, consistency)
+      .run();
 }
 
 template <class Pose>
@@ -289,7 +300,7 @@ void optimize_matches_and_radio(JointGraph<Pose>& joint, std::vector<Closure>& m
                                                           const std::vector<Closure>&);                    \
   template void select_matches(JointGraph<Pose>&, const TeamAlignment<Pose>&, std::vector<Closure>&,       \
                                const CandidateList&, Pruning, const MatchParams&, const AoaMatchWeights*,  \
-                               const std::optional<RadioCovariance<Pose>>&);                               \
+                               const std::optional<RadioCovariance<Pose>>&, const ConsistencyParams&);     \
   template void optimize_matches_and_radio(JointGraph<Pose>&, std::vector<Closure>&,                       \
                                            const TeamAlignment<Pose>&, const MatchParams&,                 \
                                            const MixtureParams&, const OptimizerParams&, const Progress&); \

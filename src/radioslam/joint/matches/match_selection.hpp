@@ -5,15 +5,16 @@
 // pose passes the chi-squared test under the joint estimate. Matches within one robot, and between robots
 // that matches alone connect, are not tested so; those between robots that nothing connects are rejected. The
 // largest pairwise consistent set (PCM, under the odometry's covariance) joins the graph; from three members
-// on, it also admits the rejected matches that are consistent with all of it. Each match has a robust loss
-// that can still reject it. Optionally, angles of arrival measured near a match scale its information; a
-// match that keeps less than half of it is rejected.
+// on, it also admits the rejected matches that are consistent with all of it, except with unit weights
+// (consistency_params.hpp). Each match has a robust loss that can still reject it. Optionally, angles of
+// arrival measured near a match scale its information; a match that keeps less than half of it is rejected.
 #pragma once
 
 #include <optional>
 #include <vector>
 
 #include "radioslam/base/progress.hpp"
+#include "radioslam/consistency/consistency_params.hpp"
 #include "radioslam/graph/marginals.hpp"
 #include "radioslam/graph/optimizer.hpp"
 #include "radioslam/joint/aoa/aoa_match_weights.hpp"
@@ -52,7 +53,8 @@ template <class Pose>
 void select_matches(JointGraph<Pose>& joint, const TeamAlignment<Pose>& alignment,
                     std::vector<Closure>& matches, const CandidateList& candidates, Pruning pruning,
                     const MatchParams& params, const AoaMatchWeights* angles = nullptr,
-                    const std::optional<RadioCovariance<Pose>>& radio = {});
+                    const std::optional<RadioCovariance<Pose>>& radio = {},
+                    const ConsistencyParams& consistency = {});
 
 /// As optimize_with_matches, for a team placed by radio links. Where the links between two robots contradict
 /// their matches, either may be wrong. So the team is optimized twice: with the radio's weights kept until

@@ -19,7 +19,8 @@ constexpr double kSigmaHeight_m = 0.1, kSigmaTilt_rad = 0.03;  // of an estimate
 constexpr double kDescriptorScale = 0.1;  // difference of descriptors as telling as one standard deviation
 /// How far from the described place a scan may have been taken, in its median range.
 constexpr double kSigmaPlace = 1.0 / 3;
-constexpr double kMuchWorse = 2;        // standard deviation of a prediction worth another trial
+constexpr double kStrideRatio = 0.2;  // path length between compared keyframes, in the descriptors' range
+constexpr double kMuchWorse = 2;      // standard deviation of a prediction worth another trial
 
 UncertainPose<SE3> in_space(const SE3& T, const SE3::Jacobian& covariance) { return {T, covariance}; }
 UncertainPose<SE3> in_space(const SE3& T, const SE2::Jacobian& covariance) {
@@ -35,7 +36,8 @@ UncertainPose<SE3> in_space(const SE3& T, const SE2::Jacobian& covariance) {
 class AllowedPairs {
  public:
   AllowedPairs(const CandidateList::Group* group, std::size_t keyframes_b) : with_(keyframes_b) {
-    for (const CandidateList::Row& row : group ? group->rows : std::vector<CandidateList::Row>{}) with_[row.keyframe_j].push_back(row.keyframe_i);
+    for (const CandidateList::Row& row : group ? group->rows : std::vector<CandidateList::Row>{})
+      with_[row.keyframe_j].push_back(row.keyframe_i);
   }
   bool contains(std::size_t i, std::size_t j) const {
     return std::binary_search(with_[j].begin(), with_[j].end(), static_cast<std::uint32_t>(i));
@@ -55,8 +57,7 @@ bool was_tried(const std::vector<PlaceAttempt>& tried, const Proposal& pair) {
   const double worse_m = kMuchWorse * horizontal_sigma(pair.T_i_j);
   return std::any_of(tried.begin(), tried.end(), [&](const PlaceAttempt& attempt) {
     return attempt.robot_i == RobotIndex(pair.a) && attempt.robot_j == RobotIndex(pair.b) &&
-           attempt.i == pair.i && attempt.j == pair.j &&
-           (attempt.verified || attempt.sigma_m < worse_m);
+           attempt.i == pair.i && attempt.j == pair.j && (attempt.verified || attempt.sigma_m < worse_m);
   });
 }
 
@@ -76,16 +77,15 @@ template <class Pose>
 class PlaceSearch {
  public:
   PlaceSearch(const PlaceInput<Pose>& input, const PlaceParams& params, double submap_m,
-                 const RadioAlignmentParams& alignment)
+              const RadioAlignmentParams& alignment)
       : input_(input), params_(params) {
     const JointGraph<Pose>& joint = input.team.joint;
     marginals_ = Marginals<Pose>::compute(graph_for_covariances(joint, alignment.mixture).team.graph);
     if (!input.team.alignment.segments.of_segment.empty()) temperature_ = alignment.beam.evidence_temperature;
     for (std::size_t r = 0; r < joint.robots.size(); ++r)
-      robots_.push_back(input.scans.robots[r]
-                            ? scanned_robot(*input.scans.robots[r], joint.robots[r],
-                                            input.mission.robots[r].odometry)
-                            : ScannedRobot{});
+      robots_.push_back(input.scans.robots[r] ? scanned_robot(*input.scans.robots[r], joint.robots[r],
+                                                              input.mission.robots[r].odometry)
+                                              : ScannedRobot{});
     add_contexts(robots_, ScannerKind::kSpatial, params.context, submap_m);
     add_contexts(robots_, ScannerKind::kPlanar, params.context, submap_m);
   }
@@ -95,7 +95,7 @@ class PlaceSearch {
       for (std::size_t b = a + 1; b < robots_.size(); ++b) {
         if (robots_[a].size() == 0 || robots_[b].size() == 0) continue;
         if (robots_[a].kind() != robots_[b].kind()) continue;
-        counts_.pairs += robots_[a].size() * robots_[b].strides(params_.stride_m).size();
+        counts_.pairs += robots_[a].size() * robots_[b].strides(stride_m(robots_[b])).size();
         if (are_aligned(input_.team.alignment, a, b) && marginals_ && input_.allowed)
           propose_by_prediction(a, b);
         else
@@ -106,6 +106,10 @@ class PlaceSearch {
 
  private:
   using Poses = std::vector<Pose>;
+
+  double stride_m(const ScannedRobot& robot) const {
+    return params_.stride_m > 0 ? params_.stride_m : kStrideRatio * robot.context_range_m;
+  }
 
   SE3 predicted(const Poses& poses, const ScannedRobot& robot, std::size_t k) const {
     return as_se3(poses[robot.nodes[k].index()], 0) * robot.T_node_scan[k];
@@ -127,7 +131,7 @@ class PlaceSearch {
   void propose_by_prediction(std::size_t a, std::size_t b) {
     const TeamAlignment<Pose>& alignment = input_.team.alignment;
     const AllowedPairs allowed(group(a, b), input_.team.joint.robots[b].stamps.size());
-    for (const std::size_t j : robots_[b].strides(params_.stride_m)) {
+    for (const std::size_t j : robots_[b].strides(stride_m(robots_[b]))) {
       std::vector<std::size_t> with;
       for (std::size_t i = 0; i < robots_[a].size(); ++i)
         if (robots_[a].has_cloud(i) && allowed.contains(robots_[a].keyframes[i], robots_[b].keyframes[j]))
@@ -135,8 +139,8 @@ class PlaceSearch {
       counts_.allowed += with.size();
       if (with.empty()) continue;
       propose_best({a, b, 0, j, {}}, with, input_.team.joint.team.graph.poses);
-      const std::size_t others = std::min(alignment.alternatives.size(),
-                                          static_cast<std::size_t>(params_.candidates - 1));
+      const std::size_t others =
+          std::min(alignment.alternatives.size(), static_cast<std::size_t>(params_.candidates - 1));
       for (std::size_t k = 0; k < others; ++k)
         if (alignment.alternative_weights[k] >= kMinSearchedWeight)
           propose_best({a, b, 0, j, {}}, with, alignment.alternatives[k]);
@@ -148,8 +152,7 @@ class PlaceSearch {
     const SE3 at_j = predicted(poses, robots_[pair.b], pair.j);
     std::vector<double> distances_m;
     for (const std::size_t i : with)
-      distances_m.push_back(
-          (predicted(poses, robots_[pair.a], i).translation() - at_j.translation()).norm());
+      distances_m.push_back((predicted(poses, robots_[pair.a], i).translation() - at_j.translation()).norm());
     const auto nearest = std::min_element(distances_m.begin(), distances_m.end());
     pair.i = with[static_cast<std::size_t>(nearest - distances_m.begin())];
     const double sigma_m = horizontal_sigma(predicted(poses, pair));
@@ -176,14 +179,14 @@ class PlaceSearch {
     const ScannedRobot& of_a = robots_[a];
     ScanContextIndex index(params_.index);
     for (const ScanContext& context : of_a.contexts) index.add(context);
-    for (const std::size_t j : robots_[b].strides(params_.stride_m)) {
+    for (const std::size_t j : robots_[b].strides(stride_m(robots_[b]))) {
       const auto wanted = static_cast<std::size_t>(4 * params_.candidates);
       std::vector<std::size_t> taken;
       counts_.compared += of_a.size();
       counts_.allowed += of_a.size();
       for (const Neighbour& found : index.nearest(robots_[b].contexts[j], wanted)) {
         const auto is_same = [&](std::size_t i) {
-          return std::abs(of_a.path_m[i] - of_a.path_m[found.index]) < params_.stride_m;
+          return std::abs(of_a.path_m[i] - of_a.path_m[found.index]) < stride_m(of_a);
         };
         if (found.match.distance > params_.max_descriptor_distance || !of_a.has_cloud(found.index)) continue;
         if (taken.size() == static_cast<std::size_t>(params_.candidates)) break;

@@ -17,7 +17,7 @@ namespace radioslam {
 
 struct PlaceParams {
   bool enabled = true;
-  double stride_m = 2;
+  double stride_m = 0;
   double min_shared_view = 0.18;
   int candidates = 3;
   double submap_m = 10;
@@ -31,10 +31,11 @@ struct PlaceParams {
   static void visit_fields(Self& self, Visitor&& visit) {
     RADIOSLAM_FIELD(enabled, "", 0, 1, "whether scans of different robots are compared");
     RADIOSLAM_FIELD(stride_m, "m", 0, 1e4,
-                    "path length between keyframes that are compared with another robot's; lower values find "
-                    "more closures but take longer");
-    RADIOSLAM_FIELD(min_shared_view, "", 0, 1,
-                    "smallest share of their views that the compared scans have in common; see overlap.min_shared_view");
+                    "path length between keyframes that are compared with another robot's; 0: a fifth of the "
+                    "descriptors' range");
+    RADIOSLAM_FIELD(
+        min_shared_view, "", 0, 1,
+        "smallest share of their views that the compared scans have in common; see overlap.min_shared_view");
     RADIOSLAM_FIELD(submap_m, "m", 0, 1e3,
                     "path length to either side of a keyframe that the submap covers to which others are "
                     "registered");
@@ -42,8 +43,8 @@ struct PlaceParams {
                     "path length to either side of a keyframe whose scans are registered together, of planar "
                     "scanners; 0: its scan alone");
     RADIOSLAM_FIELD(rounds, "", 1, 100,
-                          "largest number of rounds of search and judgement; a round ends with a better "
-                          "prediction for the next");
+                    "largest number of rounds of search and judgement; a round ends with a better "
+                    "prediction for the next");
     RADIOSLAM_FIELD(candidates, "", 1, 1000,
                     "largest number of keyframes of another robot that a keyframe is registered to");
     RADIOSLAM_FIELD(max_descriptor_distance, "", 0, 1,

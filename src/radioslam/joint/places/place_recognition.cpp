@@ -11,6 +11,7 @@
 namespace radioslam {
 namespace {
 
+constexpr double kApart_m = 2;  // between scans of a submap in space, each of which shows most of it
 constexpr double kSamePose_m = 0.1, kSamePose_rad = 0.05;
 
 Closure closure_of(const Proposal& proposal, const ScanLoop& loop, const ScannedRobot& a,
@@ -69,20 +70,19 @@ RecognisedPlaces recognise_places(const PlaceInput<Pose>& input, const PlacePara
   const PlaceProposals proposed = propose_places(input, params, scan_params.loops.submap_m, alignment);
   const std::vector<Proposal>& proposals = proposed.pairs;
   RecognisedPlaces found{{}, {}, proposed.counts};
-  const auto verification = [&](double source_m) {
-    return LoopVerification(scan_params.loops, {params.submap_m, source_m}, scan_params.lidar.map,
+  const auto verification = [&](double source_m, double apart_m) {
+    return LoopVerification(scan_params.loops, {params.submap_m, source_m, apart_m}, scan_params.lidar.map,
                             scan_params.search, scan_params.lidar.registration);
   };
-  const LoopVerification spatial = verification(0), planar = verification(params.source_m);
+  const LoopVerification spatial = verification(0, kApart_m), planar = verification(params.source_m, 0);
   found.closures.resize(proposals.size());
   report_progress(progress, "places", 0);
   parallel_for(proposals.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const Proposal& proposal = proposals[k];
       const ScannedRobot &a = proposed.robots[proposal.a], &b = proposed.robots[proposal.b];
-      const ScanLoop loop =
-          (b.kind() == ScannerKind::kPlanar ? planar : spatial)
-              .verify(a.placed(), proposal.i, b.placed(), proposal.j, proposal.T_i_j);
+      const ScanLoop loop = (b.kind() == ScannerKind::kPlanar ? planar : spatial)
+                                .verify(a.placed(), proposal.i, b.placed(), proposal.j, proposal.T_i_j);
       found.closures[k] = closure_of(proposal, loop, a, b);
     }
   });
@@ -99,10 +99,9 @@ RecognisedPlaces recognise_places(const PlaceInput<Pose>& input, const PlacePara
   return found;
 }
 
-#define RADIOSLAM_PLACES(Pose)                                                              \
-  template RecognisedPlaces recognise_places(const PlaceInput<Pose>&, const PlaceParams&,   \
-                                             const ScanParams&, const RadioAlignmentParams&, \
-                                             const Progress&);
+#define RADIOSLAM_PLACES(Pose)                                                                               \
+  template RecognisedPlaces recognise_places(const PlaceInput<Pose>&, const PlaceParams&, const ScanParams&, \
+                                             const RadioAlignmentParams&, const Progress&);
 RADIOSLAM_PLACES(SE2)
 RADIOSLAM_PLACES(SE3)
 #undef RADIOSLAM_PLACES

@@ -2,12 +2,13 @@
 // matching; the joint estimate judges what is found (pipeline.hpp).
 //
 //   propose   For every `stride_m` of one robot's path, keyframes of the other that may be the same place.
-//             Where other measurements align the two, these are among the pairs that the overlap search keeps:
-//             the best one in each likely alignment, by
+//             Where other measurements align the two, these are among the pairs that the overlap search
+//             keeps: the best one in each likely alignment, by
 //               -d^2 / (2 sigma^2) - D / 0.1,    d, sigma: predicted distance and its standard deviation,
 //                                                D: distance of the descriptors (places/scan_context.hpp),
-//             which is computed only where it can decide. Without pruning, and for robots that nothing aligns,
-//             they are those with the most similar descriptors of all, at most `max_descriptor_distance`.
+//             which is computed only where it can decide. Without pruning, and for robots that nothing
+//             aligns, they are those with the most similar descriptors of all, at most
+//             `max_descriptor_distance`.
 //   verify    The scan is registered to a submap around the proposed keyframe, all over the uncertainty of
 //             the predicted relative pose (lidar/loops/loop_verification.hpp). A planar scanner sees little
 //             from one place: its scan is registered together with those just before and after it.

@@ -31,8 +31,8 @@ std::vector<Eigen::Vector3f> points_around(const ScannedRobot& robot, std::size_
   std::vector<Eigen::Vector3f> points;
   const std::vector<SE3>& poses = robot.scans->keyframes.poses;
   for (std::size_t n = 0; n < robot.size(); ++n) {
-    if (n != k && (robot.kind() == ScannerKind::kSpatial ||
-                   std::abs(robot.path_m[n] - robot.path_m[k]) > submap_m))
+    if (n != k &&
+        (robot.kind() == ScannerKind::kSpatial || std::abs(robot.path_m[n] - robot.path_m[k]) > submap_m))
       continue;
     const SE3 T = poses[k].inverse() * poses[n];
     for (const Surfel& surfel : transformed(T, robot.cloud(n).all)) points.push_back(surfel.position);
@@ -71,6 +71,7 @@ void add_contexts(std::vector<ScannedRobot>& robots, ScannerKind kind, const Sca
       for (std::size_t k = begin; k < end; ++k)
         contexts[k] = make_scan_context(points_around(robot, k, submap_m), range_m, context_kind, params);
     });
+    robot.context_range_m = range_m;
     for (auto& context : contexts) robot.contexts.push_back(std::move(*context));
   }
 }

@@ -19,6 +19,7 @@ struct ScannedRobot {
   std::vector<PoseId> nodes = {};
   std::vector<SE3> T_node_scan = {};
   std::vector<ScanContext> contexts = {};
+  double context_range_m = 0;
 
   std::size_t size() const { return nodes.size(); }
   ScannerKind kind() const { return scans->keyframes.kind; }

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "radioslam/geometry/linear_algebra.hpp"
 
@@ -37,9 +38,13 @@ ScanPyramid LoopVerification::source_around(const PlacedKeyframes& robot, std::s
 LocalMap LoopVerification::submap_around(const PlacedKeyframes& robot, std::size_t i, double extent_m) const {
   LocalMap map(robot.keyframes.spacing_m, map_params_);
   const SE3 T_i_frame = robot.poses[i].inverse();
-  for (std::size_t k = 0; k < robot.poses.size(); ++k)
-    if (std::abs(robot.path_m[k] - robot.path_m[i]) <= extent_m)
-      map.add(robot.keyframes.clouds[k], T_i_frame * robot.poses[k], 0);
+  std::optional<double> last_m;
+  for (std::size_t k = 0; k < robot.poses.size(); ++k) {
+    if (std::abs(robot.path_m[k] - robot.path_m[i]) > extent_m) continue;
+    if (k != i && last_m && robot.path_m[k] - *last_m < extents_.apart_m) continue;
+    map.add(robot.keyframes.clouds[k], T_i_frame * robot.poses[k], 0);
+    last_m = robot.path_m[k];
+  }
   return map;
 }
 

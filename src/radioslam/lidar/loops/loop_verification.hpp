@@ -28,6 +28,7 @@ struct PlacedKeyframes {
 struct SubmapExtents {
   double target_m = 0;
   double source_m = 0;  ///< 0: the scan alone
+  double apart_m = 0;   ///< path length between scans of a submap; 0: all
 };
 
 class LoopVerification {

@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "radioslam/study/oracle.hpp"
-#include "radioslam/study/wi_closure_kitti/published_wi_closure.hpp"
+#include "radioslam/study/wi_closure/published_wi_closure.hpp"
 
 namespace radioslam {
 namespace {
@@ -23,13 +23,6 @@ Mission without_matches(const Mission& mission) {
   return result;
 }
 
-Mission without_radio(const Mission& mission) {
-  Mission result = mission;
-  result.ranges.clear();
-  result.aoa_measurements.clear();
-  return result;
-}
-
 RunParams in_mode(const char* mode) {
   RunParams params;
   params.overlap.mode = mode;
@@ -38,13 +31,6 @@ RunParams in_mode(const char* mode) {
 
 using Value = std::function<std::optional<double>(const WiClosureKitti&)>;
 using OfMode = std::function<std::optional<double>(const KittiMode&)>;
-
-std::optional<double> middle(const std::vector<WiClosureKitti>& seeds, const Value& value) {
-  std::vector<double> values;
-  for (const auto& seed : seeds)
-    if (const auto v = value(seed)) values.push_back(*v);
-  return median_of(std::move(values));
-}
 
 double as_number(std::size_t count) { return static_cast<double>(count); }
 
@@ -65,14 +51,14 @@ class Rows {
   }
   /// A row with the same value in both modes.
   void add_common(const char* label, std::string thesis, const Value& value) {
-    const std::string text = number_text(middle(seeds_, value), 2);
+    const std::string text = number_text(median_over(seeds_, value), 2);
     rows_.push_back({label, {std::move(thesis), text, text}});
   }
   std::vector<StudyRow> take() { return std::move(rows_); }
 
  private:
   std::optional<double> of(KittiMode WiClosureKitti::*mode, const OfMode& value) const {
-    return middle(seeds_, [&](const WiClosureKitti& seed) { return value(seed.*mode); });
+    return median_over(seeds_, [&](const WiClosureKitti& seed) { return value(seed.*mode); });
   }
 
   const std::vector<WiClosureKitti>& seeds_;
@@ -100,19 +86,22 @@ void add_pairs(Rows& rows) {
 }
 
 void add_seconds(Rows& rows) {
-  rows.add("search, s", number_text(published_wi_closure::kSearch_s, 0), 3,
+  using namespace published_wi_closure;
+  rows.add("search, s", number_text(kSearch_s, 0), 3,
            [](const KittiMode& mode) { return mode.search.search_s; });
-  rows.add("whole run, s", "464 or 411 [2]", 2, [](const KittiMode& mode) { return mode.aliased.total_s; });
+  rows.add("whole run, s", kWithSearchText + std::string(" [2]"), 2,
+           [](const KittiMode& mode) { return mode.aliased.total_s; });
 }
 
 void add_errors(Rows& rows) {
-  rows.add_common("ATE of the matches without radio, m", "66.1 [3]",
+  using namespace published_wi_closure;
+  rows.add_common("ATE of the matches without radio, m", number_text(kBaselineAte_m, 1) + " [3]",
                   [](const WiClosureKitti& seed) { return seed.without_radio.ate_m; });
   rows.add_common("ATE with radio, without pruning, by least squares, m", number_text(std::nullopt, 0),
                   [](const WiClosureKitti& seed) { return seed.least_squares.ate_m; });
   rows.add_common("ATE with radio, without pruning, m", number_text(std::nullopt, 0),
                   [](const WiClosureKitti& seed) { return seed.unpruned.ate_m; });
-  rows.add("ATE with pruning, m", "1.3 or less [4]", 2,
+  rows.add("ATE with pruning, m", kAteText + std::string(" [4]"), 2,
            [](const KittiMode& mode) { return mode.aliased.ate_m; });
   rows.add_common("ATE with the true matches alone, m", number_text(std::nullopt, 0),
                   [](const WiClosureKitti& seed) { return seed.true_matches.ate_m; });
@@ -123,39 +112,37 @@ void add_errors(Rows& rows) {
 }
 
 std::string seeds_lead(const std::vector<WiClosureKitti>& seeds) {
-  const std::string which = seeds.size() == 1
-                                ? "Seed " + std::to_string(seeds.front().seed)
-                                : "Medians of " + std::to_string(seeds.size()) + " seeds from " +
-                                      std::to_string(seeds.front().seed) + " on";
   const KittiParams& drive = seeds.front().scenario;
-  return which + ". A drive cut at " + percent_text(drive.cut, 0) + ", " + std::to_string(drive.radio.links) +
-         " links of " + number_text(drive.radio.sigma_range_m, 1) + " m and " +
-         number_text(drive.radio.sigma_angle_deg, 0) + " degrees with false paths, " +
+  return seeds_text(seeds.front().seed, seeds.size()) + ". " + drive_text(drive) + ", " +
          std::to_string(drive.matches.matches_true) + " true and " +
          std::to_string(drive.matches.matches_false) + " aliased matches.";
 }
 
 std::vector<std::string> seeds_notes() {
+  using namespace published_wi_closure;
   return {
-      "[1] 1,913 missed of 5,544 are 34.5 %; according to table I of the thesis 1 % were missed.",
-      ("[2] The text states 464 s including 53 s for the search, the table 411 s, which excludes the search. "
-       "The baseline took 896 s; so 48 % are saved. The thesis's times include the whole LiDAR pipeline; the "
-       "reproduced ones do not, since matches are given."),
+      "[1] " + std::string(kMissedNote),
+      ("[2] " + std::string(kTimesNote) +
+       " The thesis's times include the whole LiDAR pipeline; the reproduced ones do not, since matches are "
+       "given."),
       ("[3] The thesis's baseline is DiSCo-SLAM with loosened thresholds, which has no radio. The reproduced "
        "matches are drawn; without radio the largest group of consistent matches places the robots."),
       ("Without pruning, the largest consistent set, a robust loss and the radio links oppose the false "
        "matches; in the row of least squares, the radio links alone."),
-      ("[4] The printed figure is unreadable ('13'). 1.3 m would be 98 % less than 66.1 m; the claimed 99 % "
-       "needs 0.66 m, 1 m when rounded. The thesis does not define its ATE ('average trajectory error'). "
-       "Here it is the RMSE after one rigid alignment of the team."),
-      ("The thesis's drive is DiSCo-SLAM's version of KITTI 08, whose cut and keyframes are not published: "
-       "the counts of pairs and true pairs depend on them, recall and rejection less so."),
+      "[4] " + std::string(kAteNote),
+      kDriveNote,
       ("In three dimensions, mode link takes the relative poses at the links from the joint estimate, since "
        "a range and two angles determine a full pose in the plane only."),
       "The oracle is the maximum likelihood estimate with known direct paths, started from the truth."};
 }
 
 }  // namespace
+
+std::string drive_text(const KittiParams& drive) {
+  return "A drive cut at " + percent_text(drive.cut, 0) + ", " + std::to_string(drive.radio.links) +
+         " links of " + number_text(drive.radio.sigma_range_m, 1) + " m and " +
+         number_text(drive.radio.sigma_angle_deg, 0) + " degrees with false paths";
+}
 
 KittiParams wi_closure_drive() {
   KittiParams scenario;

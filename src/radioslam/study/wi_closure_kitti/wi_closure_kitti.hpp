@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "radioslam/base/progress.hpp"
@@ -20,6 +21,9 @@ namespace radioslam {
 
 /// The test's drive: forty true matches, and 120 false ones that are consistent with each other.
 KittiParams wi_closure_drive();
+
+/// "A drive cut at 34 %, 40 links of ..."
+std::string drive_text(const KittiParams& drive);
 
 /// One of the overlap search's modes.
 struct KittiMode {

@@ -1,29 +1,15 @@
-// Which results of a run are true: closures between robots by their scans, and the paths of angles.
-//
-// A closure is true within 0.3 m and 3 degrees of the true relative pose of its keyframes, by x, y and yaw in
-// the plane. A path of an angle is direct by the simulator's label.
+// What a run makes of the paths of angles. A path is direct by the simulator's label.
 #pragma once
 
 #include <cstddef>
 #include <optional>
 #include <vector>
 
-#include "radioslam/base/units.hpp"
 #include "radioslam/mission/mission.hpp"
 #include "radioslam/mission/truth.hpp"
 #include "radioslam/results/results.hpp"
 
 namespace radioslam {
-
-inline constexpr double kTruePlace_m = 0.3;
-inline constexpr double kTruePlace_rad = 3 * kRadiansPerDegree;
-
-/// Accepted closures between robots by their scans, and those of them that are true. Closures that the truth
-/// does not cover are not counted.
-struct PlaceClosures {
-  std::size_t accepted = 0, true_accepted = 0;
-};
-PlaceClosures count_place_closures(const RunResult& result, const Truth& truth);
 
 /// An angle measurement and what a run made of its paths.
 struct AnglePaths {

@@ -1,0 +1,100 @@
+#include "radioslam/study/wi_closure/place_study.hpp"
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "radioslam/base/check.hpp"
+#include "radioslam/base/parallel.hpp"
+#include "radioslam/eval/team_estimate.hpp"
+
+namespace radioslam {
+namespace {
+
+/// Simulated scans are computed when they are read, which would count as time of every run.
+LidarLog held_in_memory(const LidarLog& log) {
+  const auto scans = std::make_shared<std::vector<LidarScan>>(log.size());
+  parallel_for(log.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      LidarScan& scan = (*scans)[k] = log.read(k);
+      scan.points.shrink_to_fit();
+      scan.times_s.shrink_to_fit();
+    }
+  });
+  return {log.stamps, [scans](std::size_t k) { return (*scans)[k]; }};
+}
+
+PlaceCounts place_counts(const RunResult& result) {
+  const auto count = [&](const char* key) {
+    const auto found = result.counts.find(key);
+    return found == result.counts.end() ? std::size_t{0} : static_cast<std::size_t>(found->second);
+  };
+  return {count("place_pairs"), count("place_pairs_allowed"), count("descriptor_pairs"),
+          count("registrations"), count("registrations_verified")};
+}
+
+/// Of all stages, or of those with this name.
+double stage_seconds(const RunResult& result, const std::string& stage = {}) {
+  double sum_s = 0;
+  for (const StageTiming& timing : result.timings)
+    if (stage.empty() || timing.stage == stage) sum_s += timing.seconds;
+  return sum_s;
+}
+
+PlaceRun place_run(const RunResult& result, const Truth& truth) {
+  PlaceRun run;
+  run.places = place_counts(result);
+  run.closures = count_place_closures(result, truth);
+  run.in_one_frame = result.components.size() == 1 && result.unplaced.empty();
+  if (run.in_one_frame) run.ate_m = ate_rmse_m(team_estimate(result), truth, result.dimension);
+  run.scans_s = stage_seconds(result, "scans");
+  run.overlap_s = stage_seconds(result, "overlap");
+  run.places_s = stage_seconds(result, "places");
+  run.total_s = stage_seconds(result);
+  return run;
+}
+
+}  // namespace
+
+PlaceStudy study_places(Simulation simulation, std::uint64_t seed, const std::vector<PlaceSettings>& settings,
+                        const RunParams& params, const Progress& progress) {
+  RADIOSLAM_CHECK(!settings.empty(), "a study of places has parameters of place recognition");
+  const std::size_t runs = 1 + 3 * settings.size();
+  std::size_t done = 0;
+  const auto next = [&] {
+    report_progress(progress, "runs", static_cast<double>(done++) / static_cast<double>(runs));
+  };
+  for (Robot& robot : simulation.mission.robots) robot.lidar = held_in_memory(robot.lidar);
+  const auto& [mission, truth] = simulation;
+  const Mission scans_alone = without_radio(mission);
+
+  PlaceStudy study;
+  study.seed = seed;
+  RunOptions search, unpruned;
+  search.overlap_only = true;
+  unpruned.pruning = Pruning::kOff;
+  RunParams searched = params;
+  searched.overlap.overlap.min_shared_view = params.places.min_shared_view;
+  next();
+  study.search = run_and_evaluate(mission, truth, searched, search);
+
+  for (const PlaceSettings set : settings) {
+    RunParams of_set = params;
+    of_set.places = place_params(set, mission.robots.front().lidar_range_m);
+    of_set.consistency = consistency_params(set);
+    PlaceRuns& of = study.runs.emplace_back();
+    of.settings = set;
+    next();
+    of.without_radio = place_run(run_pipeline(scans_alone, of_set).result, truth);
+    next();
+    of.unpruned = place_run(run_pipeline(mission, of_set, unpruned).result, truth);
+    next();
+    const RunResult pruned = run_pipeline(mission, of_set).result;
+    of.pruned = place_run(pruned, truth);
+    if (study.runs.size() == 1) study.angles = judge_angle_paths(pruned, mission, truth);
+  }
+  report_progress(progress, "runs", 1);
+  return study;
+}
+
+}  // namespace radioslam
