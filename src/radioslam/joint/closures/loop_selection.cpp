@@ -33,6 +33,8 @@ struct VarianceComponent {
   double ratio() const { return redundancy < kMinRedundancy ? 1 : std::sqrt(squares / redundancy); }
 };
 
+double squared(double x) { return x * x; }
+
 template <class Pose>
 bool is_comparable(const TeamLoop<Pose>& loop, const std::vector<int>& component) {
   return component[loop.segment_i] == component[loop.segment_j];
@@ -80,8 +82,6 @@ class LoopSelector {
   const PoseGraph<Pose>& graph() const { return graph_; }
 
  private:
-  static double squared(double x) { return x * x; }
-
   /// The better one, in the truncated cost, of two local optima: by a graduated truncated loss on all loops
   /// at once, which may lose a minority that is right, and from those loops that the alignment stands on.
   void choose_jointly(const OptimizerParams& optimizer, const Progress& progress) {
