@@ -15,7 +15,7 @@ namespace radioslam {
 
 /// The closures of a team, by origin; measured at first, with their outcomes once they were judged.
 struct TeamClosures {
-  std::vector<Closure> scans = {};    ///< each robot's own, by scan matching
+  std::vector<Closure> scans = {};    ///< each robot's own, by scan matching; of two, those that do not fit
   std::vector<Closure> loops = {};    ///< of a graph file, or the matches of a team that stands on them
   std::vector<Closure> matches = {};  ///< the mission's otherwise, if they are asked for
   std::vector<Closure> sequences = {};

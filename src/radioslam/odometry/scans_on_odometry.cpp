@@ -6,12 +6,15 @@
 
 #include "radioslam/base/parallel.hpp"
 #include "radioslam/base/stamp_intervals.hpp"
+#include "radioslam/base/statistics.hpp"
+#include "radioslam/geometry/uncertain_pose.hpp"
 
 namespace radioslam {
 namespace {
 
 constexpr std::size_t kTrials = 20, kBefore = 5;  // registrations; keyframes of their maps
-constexpr double kDeviation_m = 0.3;              // of a keyframe from its place among those before
+constexpr double kMinNominal = 0.6;   // inlier ratio below which steps were too uncertain to measure it
+constexpr double kDeviation_m = 0.3;  // of a keyframe from its place among those before
 
 /// Body twist per second over a scan that begins at `stamp`.
 SE3::Tangent twist_at(const Trajectory<SE3>& odometry, Stamp stamp, double scan_s) {
@@ -20,21 +23,35 @@ SE3::Tangent twist_at(const Trajectory<SE3>& odometry, Stamp stamp, double scan_
   return (begin->inverse() * *end).log() / scan_s;
 }
 
-/// Mean inlier ratio of keyframes on the map of those before; one without enough keyframes.
+/// Median inlier ratio of keyframes on the map of those before, as far as their steps let them be registered.
 double nominal_inlier_ratio(const ScanKeyframes& of, const ScanMatcher& matcher) {
   const std::size_t count = of.poses.size();
   const std::size_t stride = std::max<std::size_t>(1, count / kTrials);
-  double sum = 0;
-  std::size_t trials = 0;
+  std::vector<double> ratios;
   for (std::size_t k = kBefore; k < count; k += stride) {
     LocalMap map = matcher.empty_map();
     for (std::size_t n = k - kBefore; n < k; ++n) map.add(of.clouds[n], of.poses[n], 0);
     PosePrior prior{of.poses[k]};
     prior.information = isotropic(1 / (kDeviation_m * kDeviation_m), 100);
-    sum += matcher.register_near(map, of.clouds[k], prior, kDeviation_m).inlier_ratio;
-    ++trials;
+    const Registration fit = matcher.register_near(map, of.clouds[k], prior, kDeviation_m);
+    if (fit.end == RegistrationStatus::kConverged) ratios.push_back(fit.inlier_ratio);
   }
-  return trials > 0 ? sum / static_cast<double>(trials) : 1;
+  return std::max(kMinNominal, ratios.empty() ? 1 : upper_median(std::move(ratios)));
+}
+
+/// Keyframes whose scan has no usable points.
+void drop_empty(ScansOnOdometry& scans) {
+  std::size_t kept = 0;
+  ScanKeyframes& of = scans.keyframes;
+  for (std::size_t k = 0; k < of.clouds.size(); ++k) {
+    if (of.clouds[k].source.surfels.empty()) continue;
+    std::swap(of.clouds[kept], of.clouds[k]);
+    of.poses[kept] = of.poses[k];
+    scans.stamps[kept++] = scans.stamps[k];
+  }
+  of.clouds.resize(kept);
+  of.poses.resize(kept);
+  scans.stamps.resize(kept);
 }
 
 }  // namespace
@@ -64,6 +81,7 @@ ScansOnOdometry scans_on_odometry(const Robot& robot, const ScannerTraits& trait
       scans.clouds[n] = matcher.pyramid_of(matcher.measure(stamp, points, twist, MotionSource::kOdometry));
     }
   });
+  drop_empty(result);
   scans.nominal_inlier_ratio = nominal_inlier_ratio(scans, matcher);
   return result;
 }

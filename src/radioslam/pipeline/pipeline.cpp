@@ -328,11 +328,13 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* graph, const Measur
   auto places = find_places(run, aligned, scans);
   auto judged = judge_closures(run, aligned, places.closures);
   for (int round = 1; round < params.places.rounds && places.has_verified(); ++round) {
+    for (const auto* closures : {&judged.team.closures.loops, &judged.team.closures.matches})
+      if (!closures->empty()) places.note_judgement(*closures);
     auto more = find_places(run, judged.team, scans, places);
     const bool has_more = more.has_verified();
     places.append(std::move(more));
-    if (!has_more) break;
     judged = judge_closures(run, aligned, places.closures);
+    if (!has_more) break;
   }
 
   RunResult result =

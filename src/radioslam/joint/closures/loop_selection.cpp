@@ -35,20 +35,23 @@ struct VarianceComponent {
 
 double squared(double x) { return x * x; }
 
+bool is_from_odometry(const FactorOrigin& origin) { return origin.source == FactorSource::kOdometry; }
+
 template <class Pose>
 bool is_comparable(const TeamLoop<Pose>& loop, const std::vector<int>& component) {
   return component[loop.segment_i] == component[loop.segment_j];
 }
 
-/// Squared norms of relative poses, of which those from `first_loop` on are loops: these up to their gates.
+/// The graph's cost, in which the accepted loops have weight 1, with the gates or norms of the others.
 template <class Pose>
 double truncated_cost(const PoseGraph<Pose>& graph, std::size_t first_loop,
                       const std::vector<TeamLoop<Pose>>& loops, const std::vector<int>& component) {
-  double cost = 0;
-  for (std::size_t k = 0; k < first_loop; ++k) cost += squared_norm(graph, graph.relative_poses[k]);
-  for (std::size_t k = 0; k < loops.size(); ++k)
-    if (is_comparable(loops[k], component))
-      cost += std::min(loops[k].gate, squared_norm(graph, graph.relative_poses[first_loop + k]));
+  double cost = total_cost(graph);
+  for (std::size_t k = 0; k < loops.size(); ++k) {
+    if (!is_comparable(loops[k], component)) continue;
+    const double norm = squared_norm(graph, graph.relative_poses[first_loop + k]);
+    cost += std::min(loops[k].gate, norm) - (loops[k].accepted ? norm : 0);
+  }
   return cost;
 }
 
@@ -87,8 +90,10 @@ class LoopSelector {
   void choose_jointly(const OptimizerParams& optimizer, const Progress& progress) {
     const PoseGraph<Pose> start = graph_;
     std::vector<bool> of_alignment;
-    for (const TeamLoop<Pose>& loop : loops_) of_alignment.push_back(loop.accepted);
+    for (const TeamLoop<Pose>& loop : loops_)
+      of_alignment.push_back(loop.accepted && is_comparable(loop, component_));
     choose_gradually(optimizer, progress);
+    set_weights();
     const double cost = truncated_cost(graph_, first_loop_, loops_, component_);
     std::vector<bool> of_all;
     for (const TeamLoop<Pose>& loop : loops_) of_all.push_back(loop.accepted);
@@ -134,9 +139,7 @@ class LoopSelector {
     }
   }
 
-  bool is_odometry(std::size_t factor) const {
-    return joint_.origins.relative_poses[factor].source == FactorSource::kOdometry;
-  }
+  bool is_odometry(std::size_t k) const { return is_from_odometry(joint_.origins.relative_poses[k]); }
 
   void add(VarianceComponent& to, const RelativePoseFactor<Pose>& factor,
            const Marginals<Pose>& marginals) const {

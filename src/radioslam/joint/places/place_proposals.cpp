@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "radioslam/graph/marginals.hpp"
@@ -14,8 +16,10 @@
 namespace radioslam {
 namespace {
 
-constexpr double kMinSearchedWeight = 0.01;  // of an alignment that proposes pairs of its own
-constexpr double kSigmaHeight_m = 0.1, kSigmaTilt_rad = 0.03;  // of an estimate in the plane
+constexpr double kMinSearchedWeight = 0.01;                 // of an alignment that proposes pairs of its own
+constexpr double kSigmaHeight_m = 2, kSigmaTilt_rad = 0.2;  // of a body, which a plane leaves out
+constexpr double kMostDifferent =
+    0.5;  // largest difference of descriptors that is compared with the prediction
 constexpr double kDescriptorScale = 0.1;  // difference of descriptors as telling as one standard deviation
 /// How far from the described place a scan may have been taken, in its median range.
 constexpr double kSigmaPlace = 1.0 / 3;
@@ -36,8 +40,8 @@ UncertainPose<SE3> in_space(const SE3& T, const SE2::Jacobian& covariance) {
 class AllowedPairs {
  public:
   AllowedPairs(const CandidateList::Group* group, std::size_t keyframes_b) : with_(keyframes_b) {
-    for (const CandidateList::Row& row : group ? group->rows : std::vector<CandidateList::Row>{})
-      with_[row.keyframe_j].push_back(row.keyframe_i);
+    if (!group) return;
+    for (const CandidateList::Row& row : group->rows) with_[row.keyframe_j].push_back(row.keyframe_i);
   }
   bool contains(std::size_t i, std::size_t j) const {
     return std::binary_search(with_[j].begin(), with_[j].end(), static_cast<std::uint32_t>(i));
@@ -53,13 +57,32 @@ bool are_aligned(const TeamAlignment<Pose>& alignment, std::size_t a, std::size_
          connected_without_matches(alignment, RobotIndex(a), RobotIndex(b));
 }
 
-bool was_tried(const std::vector<PlaceAttempt>& tried, const Proposal& pair) {
-  const double worse_m = kMuchWorse * horizontal_sigma(pair.T_i_j);
-  return std::any_of(tried.begin(), tried.end(), [&](const PlaceAttempt& attempt) {
-    return attempt.robot_i == RobotIndex(pair.a) && attempt.robot_j == RobotIndex(pair.b) &&
-           attempt.i == pair.i && attempt.j == pair.j && (attempt.verified || attempt.sigma_m < worse_m);
-  });
-}
+/// Attempts of earlier rounds, by robots and keyframes.
+class Attempts {
+ public:
+  explicit Attempts(const std::vector<PlaceAttempt>& tried) {
+    for (const PlaceAttempt& attempt : tried) {
+      const std::size_t a = attempt.robot_i.index(), b = attempt.robot_j.index();
+      of_pair_[{a, b, attempt.i, attempt.j}].push_back(&attempt);
+      robots_.emplace(a, b);
+    }
+  }
+
+  /// Whether the pair is known to hold, or was tried under a prediction that was hardly worse.
+  bool has(const Proposal& pair) const {
+    const auto found = of_pair_.find({pair.a, pair.b, pair.i, pair.j});
+    if (found == of_pair_.end()) return false;
+    const double worse_m = kMuchWorse * horizontal_sigma(pair.T_i_j);
+    return std::any_of(found->second.begin(), found->second.end(), [&](const PlaceAttempt* attempt) {
+      return attempt->holds || attempt->sigma_m < worse_m;
+    });
+  }
+  bool has_robots(std::size_t a, std::size_t b) const { return robots_.contains({a, b}); }
+
+ private:
+  std::map<std::array<std::size_t, 4>, std::vector<const PlaceAttempt*>> of_pair_;
+  std::set<std::pair<std::size_t, std::size_t>> robots_;
+};
 
 /// Where b's body is in the frame of a's keyframe, by the similarity of their descriptors.
 UncertainPose<SE3> described(const ScannedRobot& a, const Neighbour& found) {
@@ -78,7 +101,7 @@ class PlaceSearch {
  public:
   PlaceSearch(const PlaceInput<Pose>& input, const PlaceParams& params, double submap_m,
               const RadioAlignmentParams& alignment)
-      : input_(input), params_(params) {
+      : input_(input), params_(params), tried_(input.tried) {
     const JointGraph<Pose>& joint = input.team.joint;
     marginals_ = Marginals<Pose>::compute(graph_for_covariances(joint, alignment.mixture).team.graph);
     if (!input.team.alignment.segments.of_segment.empty()) temperature_ = alignment.beam.evidence_temperature;
@@ -95,11 +118,12 @@ class PlaceSearch {
       for (std::size_t b = a + 1; b < robots_.size(); ++b) {
         if (robots_[a].size() == 0 || robots_[b].size() == 0) continue;
         if (robots_[a].kind() != robots_[b].kind()) continue;
+        if (!robots_[a].has_any_cloud() || !robots_[b].has_any_cloud()) continue;
         counts_.pairs += robots_[a].size() * robots_[b].strides(stride_m(robots_[b])).size();
-        if (are_aligned(input_.team.alignment, a, b) && marginals_ && input_.allowed)
-          propose_by_prediction(a, b);
-        else
+        if (!are_aligned(input_.team.alignment, a, b) || !input_.allowed)
           propose_by_descriptor(a, b);
+        else if (marginals_)
+          propose_by_prediction(a, b);
       }
     return {std::move(robots_), std::move(proposals_), counts_};
   }
@@ -131,6 +155,10 @@ class PlaceSearch {
   void propose_by_prediction(std::size_t a, std::size_t b) {
     const TeamAlignment<Pose>& alignment = input_.team.alignment;
     const AllowedPairs allowed(group(a, b), input_.team.joint.robots[b].stamps.size());
+    const std::vector<double>& weights = alignment.alternative_weights;
+    const auto others = static_cast<std::size_t>(std::count_if(
+        weights.begin(), weights.end(), [](double weight) { return weight >= kMinSearchedWeight; }));
+    std::size_t turn = 0;
     for (const std::size_t j : robots_[b].strides(stride_m(robots_[b]))) {
       std::vector<std::size_t> with;
       for (std::size_t i = 0; i < robots_[a].size(); ++i)
@@ -139,11 +167,8 @@ class PlaceSearch {
       counts_.allowed += with.size();
       if (with.empty()) continue;
       propose_best({a, b, 0, j, {}}, with, input_.team.joint.team.graph.poses);
-      const std::size_t others =
-          std::min(alignment.alternatives.size(), static_cast<std::size_t>(params_.candidates - 1));
-      for (std::size_t k = 0; k < others; ++k)
-        if (alignment.alternative_weights[k] >= kMinSearchedWeight)
-          propose_best({a, b, 0, j, {}}, with, alignment.alternatives[k]);
+      if (others > 0 && params_.candidates > 1)
+        propose_best({a, b, 0, j, {}}, with, alignment.alternatives[turn++ % others]);
     }
   }
 
@@ -155,17 +180,19 @@ class PlaceSearch {
       distances_m.push_back((predicted(poses, robots_[pair.a], i).translation() - at_j.translation()).norm());
     const auto nearest = std::min_element(distances_m.begin(), distances_m.end());
     pair.i = with[static_cast<std::size_t>(nearest - distances_m.begin())];
-    const double sigma_m = horizontal_sigma(predicted(poses, pair));
+    const std::size_t nearest_i = pair.i;
+    pair.T_i_j = predicted(poses, pair);
+    const double sigma_m = horizontal_sigma(pair.T_i_j);
     double best = -std::numeric_limits<double>::infinity();
     for (std::size_t n = 0; n < with.size(); ++n) {
       const double farther_m2 = distances_m[n] * distances_m[n] - *nearest * *nearest;
       const double prior = -farther_m2 / (2 * sigma_m * sigma_m);
-      if (prior < -1 / kDescriptorScale) continue;
+      if (prior < -kMostDifferent / kDescriptorScale) continue;
       const double score = prior - compare_descriptors(pair, with[n]).distance / kDescriptorScale;
       if (score > best) best = score, pair.i = with[n];
     }
-    pair.T_i_j = predicted(poses, pair);
-    if (!was_tried(input_.tried, pair)) proposals_.push_back(std::move(pair));
+    if (pair.i != nearest_i) pair.T_i_j = predicted(poses, pair);
+    if (!tried_.has(pair)) proposals_.push_back(std::move(pair));
   }
 
   ContextMatch compare_descriptors(const Proposal& pair, std::size_t i) {
@@ -176,30 +203,33 @@ class PlaceSearch {
   /// Proposes, for every stride of b, the keyframes of a with the most similar descriptors, not two of one
   /// stride.
   void propose_by_descriptor(std::size_t a, std::size_t b) {
+    if (tried_.has_robots(a, b)) return;  // descriptors alone would only repeat themselves
     const ScannedRobot& of_a = robots_[a];
     ScanContextIndex index(params_.index);
     for (const ScanContext& context : of_a.contexts) index.add(context);
+    const auto compared =
+        static_cast<std::size_t>(std::min(params_.index.nearest_keys, params_.index.shortlist));
     for (const std::size_t j : robots_[b].strides(stride_m(robots_[b]))) {
-      const auto wanted = static_cast<std::size_t>(4 * params_.candidates);
-      std::vector<std::size_t> taken;
-      counts_.compared += of_a.size();
+      counts_.compared += std::min(of_a.size(), compared);
       counts_.allowed += of_a.size();
-      for (const Neighbour& found : index.nearest(robots_[b].contexts[j], wanted)) {
-        const auto is_same = [&](std::size_t i) {
-          return std::abs(of_a.path_m[i] - of_a.path_m[found.index]) < stride_m(of_a);
-        };
-        if (found.match.distance > params_.max_descriptor_distance || !of_a.has_cloud(found.index)) continue;
-        if (taken.size() == static_cast<std::size_t>(params_.candidates)) break;
-        if (std::any_of(taken.begin(), taken.end(), is_same)) continue;
-        taken.push_back(found.index);
-        Proposal pair{a, b, found.index, j, described(of_a, found)};
-        if (!was_tried(input_.tried, pair)) proposals_.push_back(std::move(pair));
+      std::vector<std::size_t> taken;
+      const auto is_new = [&](std::size_t i) {
+        return of_a.has_cloud(i) && std::none_of(taken.begin(), taken.end(), [&](std::size_t other) {
+                 return std::abs(of_a.path_m[i] - of_a.path_m[other]) < stride_m(of_a);
+               });
+      };
+      for (int n = 0; n < params_.candidates; ++n) {
+        const auto found = index.nearest(robots_[b].contexts[j], 1, is_new);
+        if (found.empty() || found.front().match.distance > params_.max_descriptor_distance) break;
+        taken.push_back(found.front().index);
+        proposals_.push_back({a, b, taken.back(), j, described(of_a, found.front())});
       }
     }
   }
 
   const PlaceInput<Pose>& input_;
   PlaceParams params_;
+  Attempts tried_;
   std::optional<Marginals<Pose>> marginals_;
   double temperature_ = 1;
   std::vector<ScannedRobot> robots_;

@@ -69,7 +69,7 @@ struct PlaceAttempt {
   RobotIndex robot_i, robot_j;
   std::size_t i = 0, j = 0;  ///< of the robots' scanned keyframes
   double sigma_m = 0;        ///< of the predicted relative position, per axis
-  bool verified = false;
+  bool holds = false;        ///< accepted by the joint estimate
 };
 
 /// What place recognition works on.

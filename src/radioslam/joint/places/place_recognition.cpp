@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
+#include <string>
+#include <tuple>
 #include <utility>
 
 #include "radioslam/base/parallel.hpp"
@@ -25,7 +28,10 @@ Closure closure_of(const Proposal& proposal, const ScanLoop& loop, const Scanned
   closure.T_i_j = loop.T_i_j;
   closure.information = loop.information;
   closure.statistic = loop.inlier_ratio;
-  if (loop.status != LoopStatus::kAccepted) reject(closure, std::string(reason(loop.status)));
+  if (loop.status == LoopStatus::kContradictsOdometry)
+    reject(closure, "it is not where it is predicted");
+  else if (loop.status != LoopStatus::kAccepted)
+    reject(closure, std::string(reason(loop.status)));
   return closure;
 }
 
@@ -63,6 +69,17 @@ void RecognisedPlaces::append(RecognisedPlaces more) {
   counts.verified += more.counts.verified;
 }
 
+void RecognisedPlaces::note_judgement(const std::vector<Closure>& judged) {
+  const auto key = [](const Closure& closure) {
+    return std::make_tuple(closure.robot_i, closure.stamp_i, closure.robot_j, closure.stamp_j);
+  };
+  std::set<std::tuple<RobotIndex, Stamp, RobotIndex, Stamp>> accepted;
+  for (const Closure& closure : judged)
+    if (closure.kind == ClosureKind::kLidar && closure.status == ClosureStatus::kAccepted)
+      accepted.insert(key(closure));
+  for (std::size_t k = 0; k < closures.size(); ++k) attempts[k].holds = accepted.contains(key(closures[k]));
+}
+
 template <class Pose>
 RecognisedPlaces recognise_places(const PlaceInput<Pose>& input, const PlaceParams& params,
                                   const ScanParams& scan_params, const RadioAlignmentParams& alignment,
@@ -89,8 +106,7 @@ RecognisedPlaces recognise_places(const PlaceInput<Pose>& input, const PlacePara
   reject_repetitions(proposals, found.closures);
   for (std::size_t k = 0; k < proposals.size(); ++k)
     found.attempts.push_back({RobotIndex(proposals[k].a), RobotIndex(proposals[k].b), proposals[k].i,
-                              proposals[k].j, horizontal_sigma(proposals[k].T_i_j),
-                              found.closures[k].status == ClosureStatus::kAccepted});
+                              proposals[k].j, horizontal_sigma(proposals[k].T_i_j)});
   found.counts.registrations = proposals.size();
   found.counts.verified = static_cast<std::size_t>(
       std::count_if(found.closures.begin(), found.closures.end(),

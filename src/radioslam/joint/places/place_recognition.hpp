@@ -13,7 +13,7 @@
 //             the predicted relative pose (lidar/loops/loop_verification.hpp). A planar scanner sees little
 //             from one place: its scan is registered together with those just before and after it.
 //
-// Once a team was judged, it predicts better, and another round finds more; what was verified, or tried
+// Once a team was judged, it predicts better, and another round finds more; what was accepted, or tried
 // under a prediction that was hardly worse, is not tried again.
 //
 // Robots whose scanners are of different kinds, in space and in a plane, are not compared.
@@ -36,6 +36,8 @@ struct RecognisedPlaces {
 
   bool has_verified() const { return counts.verified > 0; }
   void append(RecognisedPlaces more);
+  /// Notes which attempts the joint estimate accepted, of all closures that it judged.
+  void note_judgement(const std::vector<Closure>& judged);
 };
 
 /// Whether two robots have scans that can be compared.

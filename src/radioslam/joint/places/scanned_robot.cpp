@@ -11,9 +11,9 @@ namespace radioslam {
 namespace {
 
 constexpr double kRangeQuantile = 0.9;  // of the points' ranges: that of the descriptors
-constexpr double kMaxRange_m = 80;
+constexpr double kMinRange_m = 3, kMaxRange_m = 80;
 
-/// Horizontal range within which most points lie.
+/// Horizontal range within which most points lie; 0 without points.
 double range_of(const ScannedRobot& robot) {
   std::vector<float> ranges_m;
   for (std::size_t k = 0; k < robot.size(); ++k)
@@ -22,7 +22,7 @@ double range_of(const ScannedRobot& robot) {
   const auto at = ranges_m.begin() +
                   static_cast<std::ptrdiff_t>(kRangeQuantile * static_cast<double>(ranges_m.size() - 1));
   std::nth_element(ranges_m.begin(), at, ranges_m.end());
-  return *at;
+  return static_cast<double>(*at);
 }
 
 /// Points of the keyframe's scan; of a planar scanner, which sees little at once, with those of the scans
@@ -61,7 +61,8 @@ void add_contexts(std::vector<ScannedRobot>& robots, ScannerKind kind, const Sca
   double range_m = params.max_range_m > 0 ? params.max_range_m : kMaxRange_m;
   for (const ScannedRobot& robot : robots)
     if (robot.size() > 0 && robot.kind() == kind && params.max_range_m == 0)
-      range_m = std::min(range_m, range_of(robot));
+      if (const double own_m = range_of(robot); own_m > 0)
+        range_m = std::min(range_m, std::max(own_m, kMinRange_m));
   const auto context_kind =
       kind == ScannerKind::kSpatial ? ScanContextKind::kHeight : ScanContextKind::kOccupancy;
   for (ScannedRobot& robot : robots) {

@@ -25,6 +25,11 @@ struct ScannedRobot {
   ScannerKind kind() const { return scans->keyframes.kind; }
   const ScanPyramid& cloud(std::size_t k) const { return scans->keyframes.clouds[k]; }
   bool has_cloud(std::size_t k) const { return !cloud(k).source.surfels.empty(); }
+  bool has_any_cloud() const {
+    for (std::size_t k = 0; k < size(); ++k)
+      if (has_cloud(k)) return true;
+    return false;
+  }
   PlacedKeyframes placed() const { return {scans->keyframes, scans->keyframes.poses, path_m}; }
 
   /// Keyframes with a scan, at least `stride_m` apart.

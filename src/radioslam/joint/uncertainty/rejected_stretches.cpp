@@ -23,9 +23,15 @@ struct KindScores {
   double rejected = 0, accepted = 0;
 };
 
+/// Scans of two robots that were compared: that most do not fit says nothing of the trajectories.
+bool is_trial(const ClosureResult& closure) {
+  return closure.kind == ClosureKind::kLidar && closure.robot_i != closure.robot_j;
+}
+
 std::array<KindScores, kClosureKinds> kind_scores(const std::vector<ClosureResult>& closures) {
   std::array<std::size_t, kClosureKinds> all{}, rejected{};
   for (const ClosureResult& closure : closures) {
+    if (is_trial(closure)) continue;
     const auto kind = static_cast<std::size_t>(closure.kind);
     ++all[kind];
     rejected[kind] += closure.status == ClosureStatus::kRejected ? 1U : 0U;
@@ -46,6 +52,7 @@ std::vector<ScoredStatus> scored_statuses(RobotIndex robot, const std::vector<Cl
                                           const std::array<KindScores, kClosureKinds>& scores) {
   std::vector<ScoredStatus> result;
   for (const ClosureResult& closure : closures) {
+    if (is_trial(closure)) continue;
     const KindScores& kind = scores[static_cast<std::size_t>(closure.kind)];
     const double score = closure.status == ClosureStatus::kRejected ? kind.rejected : kind.accepted;
     if (closure.robot_i == robot) result.push_back({closure.stamp_i, score});

@@ -1,7 +1,7 @@
 // From pairs to closures: how many pairs of keyframes each step of place recognition with scans leaves.
 
 function place_steps(places) {
-  const steps = [["pairs of keyframes", places.pairs], ["left by pruning and stride", places.allowed], ["descriptors compared", places.compared],
+  const steps = [["pairs of keyframes", places.pairs], ["left by pruning", places.allowed], ["descriptors compared", places.compared],
     ["scans registered", places.registered], ["verified by their fit", places.verified], ["accepted by the joint estimate", places.accepted]]
     .map(([name, count], k, all) => ({ name, count, of: k ? all[k - 1][1] : null, colour: "bar" }));
   if (!known(places.true) || !places.accepted) return steps;
@@ -20,10 +20,9 @@ function write_places() {
     element("span", { class: "number" }, format.count(s.count)), element("span", { class: "number" }, s.of === null ? "" : format.fine_percent(s.count / s.of))]);
   const heads = ["", "", "count", "of the step before"].map(text => element("span", { class: "number quiet" }, text));
   by_id("places-steps").append(element("div", { class: "stages funnel" }, ...heads, ...rows));
-  const stride = report.parameters.find(p => p.key === "places.stride_m");
   const parts = ["Keyframes of different robots with scans; bar lengths are logarithmic.",
-    `Pruning leaves pairs whose views could overlap; of one robot of each pair, the stride takes one keyframe ${stride ? `every ${stride.value} m` : "per stride"}.`,
-    "A pair counts again in every round, and its comparison in every likely alignment."];
+    "Pruning leaves pairs whose views could overlap; of one robot of each pair, one keyframe per stride of path counts.",
+    "Comparisons and registrations are those of all rounds."];
   if (known(places.true)) parts.push("True: within 0.5 m and 5° of the true relative pose.");
   by_id("places-caption").textContent = parts.join(" ");
 }

@@ -106,9 +106,12 @@ void add_outcome_rows(const PlaceTableText& text, PlaceRunRows& rows) {
 
 std::vector<std::string> notes_on_places() {
   return {
-      "[2] Of one robot, a keyframe every places.stride_m (by default a fifth of the range) is compared with those of the other that "
-      "pruning leaves; a pair counts once per round (places.rounds; with DiSCo-SLAM's parameters there is "
-      "one). Without radio nothing aligns the robots at first, and all pairs are compared by descriptor.",
+      "[2] Of one robot, a keyframe every places.stride_m (by default a fifth of the range) is compared with "
+      "those of the other that "
+      "pruning leaves; comparisons and registrations are those of all rounds (places.rounds; with "
+      "DiSCo-SLAM's "
+      "parameters one). Without radio nothing aligns the robots at first, and all pairs are compared by "
+      "descriptor.",
       "No radio: the same recordings without ranges and angles. No pruning: `run --no-prune`, which also "
       "trusts the closures without weighing them against the radio.",
       "A closure is true within 0.3 m and 3 degrees of the true relative pose.",
