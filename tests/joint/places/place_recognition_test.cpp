@@ -60,22 +60,26 @@ ScanOdometry scans_along(const ScannedRoom& room, const std::vector<SE3>& truth,
 }
 
 /// Two robots that pass through the hall in opposite directions.
-struct Hall {
+template <class Pose>
+struct HallOf {
   std::vector<std::vector<SE3>> truth{along_the_hall(-1, true), along_the_hall(-2, false)};
   MeasuredScans scans;
   Mission mission;
-  TeamEstimate<SE3> team;
+  TeamEstimate<Pose> team;
   std::vector<CandidateList::Group> allowed;
 
-  explicit Hall(ScannerKind kind_a = ScannerKind::kSpatial, ScannerKind kind_b = ScannerKind::kSpatial) {
+  /// Robot b's body stands this much higher than a's.
+  explicit HallOf(ScannerKind kind_a = ScannerKind::kSpatial, ScannerKind kind_b = ScannerKind::kSpatial,
+                  double higher_m = 0) {
+    for (SE3& pose : truth[1]) pose = pose_at(0, 0, higher_m, 0) * pose;
     const ScannedRoom room = furnished_hall();
     scans.robots = {scans_along(room, truth[0], kind_a, 1), scans_along(room, truth[1], kind_b, 2)};
-    mission.dimension = 3;
+    mission.dimension = Pose::kDim;
     mission.robots.resize(2);
     mission.robots[0].id = "a";
     mission.robots[1].id = "b";
     mission = with_odometry(std::move(mission), scans);
-    team.joint = build_joint_graph<SE3>(mission, {.distance_m = 0.9}, {});
+    team.joint = build_joint_graph<Pose>(mission, {.distance_m = 0.9}, {});
     team.alignment.component = team.alignment.without_matches = {0, 1};
     team.alignment.in_common_frame = {false, false};
   }
@@ -85,12 +89,12 @@ struct Hall {
     team.alignment.component = team.alignment.without_matches = {0, 0};
     const SE3 T = truth[0].front().inverse() * pose_at(error_m, 0, 0, 0) * truth[1].front();
     for (const PoseId id : team.joint.robots[1].poses)
-      team.joint.team.graph.poses[id.index()] = T * team.joint.team.graph.poses[id.index()];
-    RelativePoseFactor<SE3> known;
+      team.joint.team.graph.poses[id.index()] = pose_as<Pose>(T) * team.joint.team.graph.poses[id.index()];
+    RelativePoseFactor<Pose> known;
     known.i = team.joint.robots[0].poses.front();
     known.j = team.joint.robots[1].poses.front();
-    known.T_i_j = T;
-    known.information = isotropic(1, 100);
+    known.T_i_j = pose_as<Pose>(T);
+    known.information = information_as<Pose>(isotropic(1, 100));
     add_factor(team.joint, known, {FactorSource::kMatch, 0, RobotIndex(0), RobotIndex(1), {}, {}});
     CandidateList::Group group{RobotIndex(0), RobotIndex(1), {}};
     for (std::uint32_t i = 0; i < truth[0].size(); ++i)
@@ -100,8 +104,8 @@ struct Hall {
   }
 
   RecognisedPlaces recognise(bool pruned, std::vector<PlaceAttempt> tried = {}) const {
-    return recognise_places<SE3>({team, mission, scans, pruned ? &allowed : nullptr, std::move(tried)}, {},
-                                 {}, {}, {});
+    return recognise_places<Pose>({team, mission, scans, pruned ? &allowed : nullptr, std::move(tried)}, {},
+                                  {}, {}, {});
   }
   double error_m(const Closure& closure) const {
     const auto k = [](Stamp stamp) { return static_cast<std::size_t>(std::lround(stamp.seconds())); };
@@ -110,7 +114,10 @@ struct Hall {
   }
 };
 
-void expect_right(const Hall& hall, const RecognisedPlaces& found, std::size_t at_least) {
+using Hall = HallOf<SE3>;
+
+template <class Pose>
+void expect_right(const HallOf<Pose>& hall, const RecognisedPlaces& found, std::size_t at_least) {
   EXPECT_GE(found.counts.verified, at_least);
   for (const Closure& closure : found.closures)
     if (closure.status == ClosureStatus::kAccepted) {
@@ -146,6 +153,18 @@ TEST(RecognisePlaces, AmongAllowedPairsOnly) {
   EXPECT_LE(found.counts.registrations, all.counts.registrations);
 }
 
+TEST(RecognisePlaces, InAPlaneBodiesMayStandAtDifferentHeights) {
+  HallOf<SE2> hall(ScannerKind::kSpatial, ScannerKind::kSpatial, 0.5);
+  hall.align(0.5, [](std::uint32_t, std::uint32_t) { return true; });
+  expect_right(hall, hall.recognise(true), 3);
+}
+
+TEST(RecognisePlaces, OfARobotWithoutPointsThereAreNone) {
+  Hall hall;
+  for (ScanPyramid& cloud : hall.scans.robots[1]->keyframes.clouds) cloud = {};
+  EXPECT_TRUE(hall.recognise(true).closures.empty());
+}
+
 TEST(RecognisePlaces, NotWhereNoPairIsAllowed) {
   Hall hall;
   hall.align(0.5, [](std::uint32_t, std::uint32_t) { return false; });
@@ -153,7 +172,8 @@ TEST(RecognisePlaces, NotWhereNoPairIsAllowed) {
 }
 
 TEST(RecognisePlaces, AreNotTriedAgain) {
-  const Hall hall;
+  Hall hall;
+  hall.align(0.5, [](std::uint32_t, std::uint32_t) { return true; });
   RecognisedPlaces found = hall.recognise(true);
   const RecognisedPlaces again = hall.recognise(true, found.attempts);
   EXPECT_EQ(again.counts.registrations, 0U);

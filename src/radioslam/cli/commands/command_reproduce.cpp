@@ -391,7 +391,7 @@ void add_reproduce(CLI::App& program) {
       "angle estimation. `radioslam parameters TABLE` lists them.\n"
       "wi-closure-table1, wi-closure-hall, robustness-map, aoa-paths, fingerprint-tables and "
       "threshold-sweep\n"
-      "take minutes. wi-closure-table1 holds all scans in memory, 0.5 GB for KITTI 08.\n"
+      "take minutes. wi-closure-table1 needs 1.4 GB of memory for KITTI 08.\n"
       "overlap-growth needs 1 GiB of memory per half million poses.\n\n"
       "Example:\n"
       "  radioslam reproduce wi-closure-kitti --trajectory GT_LiDAR/08.txt --odometry ALOAM/08.txt\n"

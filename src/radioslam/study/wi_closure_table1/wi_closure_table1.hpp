@@ -27,7 +27,8 @@ struct WiClosureTable1 {
   PlaceStudy places;  ///< with the defaults and the loosened set of DiSCo-SLAM, which the thesis ran
 };
 
-/// Runs on one drive, whose scans are held in memory meanwhile (0.5 GB for KITTI 08). Cost: some minutes.
+/// Runs on one drive, whose scans are held in memory meanwhile. Cost for KITTI 08: ten minutes to half an
+/// hour, 1.4 GB of memory.
 WiClosureTable1 reproduce_wi_closure_table1(const RecordedDrive& drive, const KittiParams& scenario,
                                             std::uint64_t seed, const Progress& progress = {});
 
