@@ -143,6 +143,16 @@ void set_alternatives(const JointGraph<Pose>& joint, const std::vector<TeamLoop<
   for (std::size_t k = 1; k < weights.size(); ++k) alignment.alternative_weights.push_back(weights[k] / sum);
 }
 
+/// Components of segments that were apart, joined by the accepted loops between them.
+template <class Pose>
+std::vector<int> joined_by_accepted(std::vector<int> component, const std::vector<TeamLoop<Pose>>& loops) {
+  for (const TeamLoop<Pose>& loop : loops)
+    if (loop.accepted)
+      std::replace(component.begin(), component.end(), int(component[loop.segment_j]),
+                   int(component[loop.segment_i]));
+  return component;
+}
+
 /// Names of the robots of a group, and what of their loops agrees.
 template <class Pose>
 struct GroupText {
@@ -172,7 +182,7 @@ void note_groups(const JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>
   for (const std::size_t g : best.joins) {
     const std::size_t a = joint.robot_of_segment[groups[g].segment_a],
                       b = joint.robot_of_segment[groups[g].segment_b];
-    if (a == b) continue;
+    if (a == b || best.component[groups[g].segment_a] != best.component[groups[g].segment_b]) continue;
     robots.insert({a, b});
     if (!weakest || groups[g].evidence < weakest->evidence) weakest = &groups[g];
   }
@@ -261,6 +271,7 @@ void close_by_loops(JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment, std
       return component[loop.segment_i] != component[loop.segment_j];
     });
     if (is_open && pass + 1 < kMaxPasses) continue;
+    component = alignments.front().component = joined_by_accepted(component_before, loops);
     const std::string measured = closures.front().kind == ClosureKind::kMatch ? "matches" : "loop closures";
     note_groups(joint, loops, groups, alignments.front(), measured, alignment);
     break;
