@@ -332,9 +332,11 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* graph, const Measur
       if (!closures->empty()) places.note_judgement(*closures);
     auto more = find_places(run, judged.team, scans, places);
     const bool has_more = more.has_verified();
+    auto& unfit = judged.team.closures.scans;
+    if (!has_more) unfit.insert(unfit.end(), more.closures.begin(), more.closures.end());
     places.append(std::move(more));
-    judged = judge_closures(run, aligned, places.closures);
     if (!has_more) break;
+    judged = judge_closures(run, aligned, places.closures);
   }
 
   RunResult result =

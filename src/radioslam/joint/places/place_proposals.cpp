@@ -116,9 +116,8 @@ class PlaceSearch {
   PlaceProposals run() {
     for (std::size_t a = 0; a < robots_.size(); ++a)
       for (std::size_t b = a + 1; b < robots_.size(); ++b) {
-        if (robots_[a].size() == 0 || robots_[b].size() == 0) continue;
-        if (robots_[a].kind() != robots_[b].kind()) continue;
         if (!robots_[a].has_any_cloud() || !robots_[b].has_any_cloud()) continue;
+        if (robots_[a].kind() != robots_[b].kind()) continue;
         counts_.pairs += robots_[a].size() * robots_[b].strides(stride_m(robots_[b])).size();
         if (!are_aligned(input_.team.alignment, a, b) || !input_.allowed)
           propose_by_descriptor(a, b);
