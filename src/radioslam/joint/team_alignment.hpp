@@ -26,6 +26,9 @@ struct TeamAlignment {
   std::vector<std::string> notes;  ///< on what the frame stands
 };
 
+/// Weight of an alternative from which its overlaps and places are searched, too.
+inline constexpr double kMinSearchedWeight = 0.01;
+
 /// Whether other measurements than matches determine the relative pose of two robots.
 template <class Pose>
 bool connected_without_matches(const TeamAlignment<Pose>& alignment, RobotIndex i, RobotIndex j) {

@@ -22,8 +22,6 @@
 namespace radioslam {
 namespace {
 
-constexpr double kMinSearchedWeight = 0.01;  // of an alignment whose overlaps are candidates, too
-
 /// What raw recordings measure: laser scans the odometry and loop closures of each robot, CSI captures angles
 /// of arrival.
 struct MeasuredRecordings {

@@ -169,19 +169,25 @@ void apply_loop_closures(JointGraph<Pose>& joint, const OptimizerParams& optimiz
 
 }  // namespace
 
+Closure closure_of_scan(RobotIndex robot_i, Stamp stamp_i, RobotIndex robot_j, Stamp stamp_j,
+                        const ScanLoop& loop) {
+  Closure closure;
+  closure.kind = ClosureKind::kLidar;
+  closure.robot_i = robot_i;
+  closure.robot_j = robot_j;
+  closure.stamp_i = stamp_i;
+  closure.stamp_j = stamp_j;
+  closure.T_i_j = loop.T_i_j;
+  closure.information = loop.information;
+  closure.statistic = loop.inlier_ratio;
+  if (loop.status != LoopStatus::kAccepted) reject(closure, std::string(reason(loop.status)));
+  return closure;
+}
+
 std::vector<Closure> closures_of_scans(const std::vector<ScanClosure>& scans) {
   std::vector<Closure> closures;
-  for (const auto& [robot, stamp_i, stamp_j, loop] : scans) {
-    Closure& closure = closures.emplace_back();
-    closure.kind = ClosureKind::kLidar;
-    closure.robot_i = closure.robot_j = robot;
-    closure.stamp_i = stamp_i;
-    closure.stamp_j = stamp_j;
-    closure.T_i_j = loop.T_i_j;
-    closure.information = loop.information;
-    closure.statistic = loop.inlier_ratio;
-    if (loop.status != LoopStatus::kAccepted) reject(closure, std::string(reason(loop.status)));
-  }
+  for (const auto& [robot, stamp_i, stamp_j, loop] : scans)
+    closures.push_back(closure_of_scan(robot, stamp_i, robot, stamp_j, loop));
   return closures;
 }
 

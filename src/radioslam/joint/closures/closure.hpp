@@ -75,6 +75,10 @@ std::vector<ClosureResult> collect_closures(const JointGraph<Pose>& joint,
 
 // LiDAR loop closures within each robot, as factors of the joint graph.
 
+/// A loop by scan matching between the scans at these stamps; the statistic is its inlier ratio.
+Closure closure_of_scan(RobotIndex robot_i, Stamp stamp_i, RobotIndex robot_j, Stamp stamp_j,
+                        const ScanLoop& loop);
+
 /// In their order; the statistic of those that scan matching rejected is the inlier ratio.
 std::vector<Closure> closures_of_scans(const std::vector<ScanClosure>& scans);
 

@@ -16,7 +16,6 @@
 namespace radioslam {
 namespace {
 
-constexpr double kMinSearchedWeight = 0.01;                 // of an alignment that proposes pairs of its own
 constexpr double kSigmaHeight_m = 2, kSigmaTilt_rad = 0.2;  // of a body, which a plane leaves out
 constexpr double kMostDifferent =
     0.5;  // largest difference of descriptors that is compared with the prediction

@@ -4,7 +4,6 @@
 #include <array>
 #include <map>
 #include <set>
-#include <string>
 #include <tuple>
 #include <utility>
 
@@ -19,19 +18,9 @@ constexpr double kSamePose_m = 0.1, kSamePose_rad = 0.05;
 
 Closure closure_of(const Proposal& proposal, const ScanLoop& loop, const ScannedRobot& a,
                    const ScannedRobot& b) {
-  Closure closure;
-  closure.kind = ClosureKind::kLidar;
-  closure.robot_i = RobotIndex(proposal.a);
-  closure.robot_j = RobotIndex(proposal.b);
-  closure.stamp_i = a.scans->keyframe_stamps[proposal.i];
-  closure.stamp_j = b.scans->keyframe_stamps[proposal.j];
-  closure.T_i_j = loop.T_i_j;
-  closure.information = loop.information;
-  closure.statistic = loop.inlier_ratio;
-  if (loop.status == LoopStatus::kContradictsOdometry)
-    reject(closure, "it is not where it is predicted");
-  else if (loop.status != LoopStatus::kAccepted)
-    reject(closure, std::string(reason(loop.status)));
+  Closure closure = closure_of_scan(RobotIndex(proposal.a), a.scans->keyframe_stamps[proposal.i],
+                                    RobotIndex(proposal.b), b.scans->keyframe_stamps[proposal.j], loop);
+  if (loop.status == LoopStatus::kContradictsOdometry) reject(closure, "it is not where it is predicted");
   return closure;
 }
 
