@@ -177,15 +177,17 @@ ScanTrajectory track_scans_with_imu(Robot& robot, const ScannerTraits& traits, c
 
 /// A robot without odometry and registered scans stays at the origin from its first scan on.
 ScanOdometry static_odometry(const Robot& robot) {
-  return {
-      MeasuredOdometry{Trajectory<SE3>({{robot.lidar.stamps.front(), SE3()}}), robot.odometry_noise}, {}, {}};
+  return {MeasuredOdometry{Trajectory<SE3>({{robot.lidar.stamps.front(), SE3()}}), robot.odometry_noise},
+          {},
+          {},
+          {}};
 }
 
 ScanOdometry recorded_odometry_with_scans(const Robot& robot, const ScanParams& params,
                                           const KeyframeParams& keyframes) {
   const ScannerTraits traits = scanner_traits(robot.lidar, params.lidar);
   ScansOnOdometry scans = scans_on_odometry(robot, traits, params.lidar, keyframes);
-  return {std::nullopt, std::move(scans.keyframes), std::move(scans.stamps)};
+  return {std::nullopt, std::move(scans.keyframes), std::move(scans.stamps), {}};
 }
 
 /// Counts the robot's scans and notes problems.
@@ -213,12 +215,13 @@ void report_scans(MeasuredScans& measured, const Robot& robot, const ScanTraject
        "rows of recorded odometry could not be connected to its scans and were dropped");
 }
 
-void close_loops(MeasuredScans& measured, RobotIndex robot, const ScanOdometry& scans,
-                 const ScanParams& params, const Progress& progress) {
-  const ScanLoops loops = close_scan_loops(scans.keyframes, params.loops, params.lidar.map, params.search,
-                                           params.lidar.registration, progress);
+void close_loops(MeasuredScans& measured, RobotIndex robot, ScanOdometry& scans, const ScanParams& params,
+                 const Progress& progress) {
+  ScanLoops loops = close_scan_loops(scans.keyframes, params.loops, params.lidar.map, params.search,
+                                     params.lidar.registration, progress);
   for (const ScanLoop& loop : loops.loops)
     measured.closures.push_back({robot, scans.keyframe_stamps[loop.i], scans.keyframe_stamps[loop.j], loop});
+  if (!loops.loops.empty()) scans.corrected = std::move(loops.poses);
 }
 
 /// Whether the robot's odometry is that of its scans.

@@ -35,6 +35,7 @@ struct ScanOdometry {
   std::optional<MeasuredOdometry> odometry;  ///< nothing where it is used as recorded
   ScanKeyframes keyframes;                   ///< with their clouds
   std::vector<Stamp> keyframe_stamps;
+  std::vector<SE3> corrected = {};  ///< keyframes.poses with the robot's loop closures; empty without any
 };
 
 struct MeasuredScans {

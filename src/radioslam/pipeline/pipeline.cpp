@@ -255,18 +255,19 @@ void close_by_matches(const RunSetup& run, TeamEstimate<Pose>& team, const Overl
 }  // namespace
 
 template <class Pose>
-TeamEstimate<Pose> build_team(const RunSetup& run, const TeamGraph<Pose>* graph, std::vector<Closure> scans) {
+TeamEstimate<Pose> build_team(const RunSetup& run, const TeamGraph<Pose>* graph, const MeasuredScans& scans) {
   TeamEstimate<Pose> team;
-  team.joint = graph ? joint_graph_of(*graph, run.mission) : mission_graph<Pose>(run, scans);
+  team.closures.scans = closures_of_scans(scans.closures);
+  team.joint = graph ? joint_graph_of(*graph, run.mission) : mission_graph<Pose>(run, team.closures.scans);
   team.starts = known_starts(run.mission);
-  team.closures.scans = std::move(scans);
   if (graph) team.closures.loops = closures_of(*graph, team.joint);
   if (!run.options.overlap_only) {
     const bool are_loops = !graph && stands_on_matches(run);
     (are_loops ? team.closures.loops : team.closures.matches) = closures_of_matches(run.mission);
   }
+  correct_by_scans(team.joint, run.mission, scans);
+  add_scan_closures(team.joint, team.closures.scans);
   add_own_loops(team.joint, team.closures.loops, run.params.optimizer);
-  add_scan_closures(team.joint, team.closures.scans, run.params.optimizer);
   return team;
 }
 
@@ -321,7 +322,7 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* graph, const Measur
   const RadioMeasurements radio = timed("radio", measure_radio, mission, params.radio, progress);
   const RunSetup run{mission, radio, params, options, progress, timed};
 
-  auto built = timed("graph", build_team<Pose>, run, graph, closures_of_scans(scans.closures));
+  auto built = timed("graph", build_team<Pose>, run, graph, scans);
   auto aligned = align_team(run, std::move(built));
   auto places = find_places(run, aligned, scans);
   auto judged = judge_closures(run, aligned, places.closures);
@@ -371,7 +372,7 @@ RunOutput run_pipeline(const Mission& mission, const TeamGraph<Pose>& team, cons
 #define RADIOSLAM_PIPELINE(Pose)                                                                         \
   template RunOutput run_pipeline(const Mission&, const TeamGraph<Pose>&, const RunParams&,              \
                                   const RunOptions&, const Progress&);                                   \
-  template TeamEstimate<Pose> build_team(const RunSetup&, const TeamGraph<Pose>*, std::vector<Closure>); \
+  template TeamEstimate<Pose> build_team(const RunSetup&, const TeamGraph<Pose>*, const MeasuredScans&); \
   template TeamEstimate<Pose> align_team(const RunSetup&, TeamEstimate<Pose>);                           \
   template JudgedTeam<Pose> judge_closures(const RunSetup&, TeamEstimate<Pose>, const std::vector<Closure>&);
 RADIOSLAM_PIPELINE(SE2)

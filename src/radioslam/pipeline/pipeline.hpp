@@ -52,7 +52,7 @@ struct RunSetup {
 /// The joint graph of the mission, or of `graph` where the team comes as one, without any relation of the
 /// robots that is not measured directly. `scans`: closures of their scans.
 template <class Pose>
-TeamEstimate<Pose> build_team(const RunSetup& run, const TeamGraph<Pose>* graph, std::vector<Closure> scans);
+TeamEstimate<Pose> build_team(const RunSetup& run, const TeamGraph<Pose>* graph, const MeasuredScans& scans);
 
 /// All robots in one frame: by position fixes, by radio links if there are any, else by fingerprints;
 /// optimized with all but the closures that are judged.

@@ -151,24 +151,6 @@ RADIOSLAM_CLOSURE(SE2)
 RADIOSLAM_CLOSURE(SE3)
 #undef RADIOSLAM_CLOSURE
 
-namespace {
-
-/// Optimizes every robot's trajectory by its own odometry and closures, without links between robots.
-template <class Pose>
-void apply_loop_closures(JointGraph<Pose>& joint, const OptimizerParams& optimizer) {
-  PoseGraph<Pose> odometry_and_closures;
-  odometry_and_closures.poses = joint.team.graph.poses;
-  odometry_and_closures.drifts = joint.team.graph.drifts;
-  odometry_and_closures.relative_poses = joint.team.graph.relative_poses;
-  odometry_and_closures.drift_priors = joint.team.graph.drift_priors;
-  for (RelativePoseFactor<Pose>& factor : odometry_and_closures.relative_poses)
-    factor.loss.kind = LossKind::kNone;
-  optimize(odometry_and_closures, optimizer);
-  joint.team.graph.poses = std::move(odometry_and_closures.poses);
-}
-
-}  // namespace
-
 Closure closure_of_scan(RobotIndex robot_i, Stamp stamp_i, RobotIndex robot_j, Stamp stamp_j,
                         const ScanLoop& loop) {
   Closure closure;
@@ -200,18 +182,38 @@ void add_closure_stamps(const std::vector<Closure>& closures, std::vector<std::v
 }
 
 template <class Pose>
-void add_scan_closures(JointGraph<Pose>& joint, const std::vector<Closure>& closures,
-                       const OptimizerParams& optimizer) {
+void add_scan_closures(JointGraph<Pose>& joint, const std::vector<Closure>& closures) {
   for (std::size_t k = 0; k < closures.size(); ++k) {
     if (closures[k].status != ClosureStatus::kAccepted) continue;
     RelativePoseFactor<Pose> factor = closure_factor(joint, closures[k]);
     factor.loss = {LossKind::kGemanMcClure, std::sqrt(kPoseChiSquared99<Pose>)};
     add_closure(joint, closures[k], std::move(factor), FactorSource::kScanLoop, k);
   }
-  if (!closures.empty()) apply_loop_closures(joint, optimizer);
 }
 
-template void add_scan_closures(JointGraph<SE2>&, const std::vector<Closure>&, const OptimizerParams&);
-template void add_scan_closures(JointGraph<SE3>&, const std::vector<Closure>&, const OptimizerParams&);
+template <class Pose>
+void correct_by_scans(JointGraph<Pose>& joint, const Mission& mission, const MeasuredScans& scans) {
+  for (std::size_t s = 0; s < joint.team.segments.size(); ++s) {
+    const std::size_t r = joint.robot_of_segment[s];
+    if (r >= scans.robots.size() || !scans.robots[r] || scans.robots[r]->corrected.empty()) continue;
+    const ScanOdometry& scanned = *scans.robots[r];
+    const Trajectory<SE3>& odometry = mission.robots[r].odometry;
+    const auto at = [&](Stamp stamp) { return odometry.at(stamp).value_or(SE3()); };
+    const SE3 T_frame_first = joint.robots[r].T_common_start.value_or(SE3()) *
+                              at(scanned.keyframe_stamps.front()) * scanned.corrected.front().inverse();
+    const TrajectorySegment& segment = joint.team.segments[s];
+    for (std::size_t n = 0; n < segment.pose_count; ++n) {
+      const std::size_t k = keyframe_before(scanned.keyframe_stamps, segment.stamps[n]);
+      const SE3 T_keyframe_node = at(scanned.keyframe_stamps[k]).inverse() * at(segment.stamps[n]);
+      joint.team.graph.poses[segment.first_pose + n] =
+          pose_as<Pose>(T_frame_first * scanned.corrected[k] * T_keyframe_node);
+    }
+  }
+}
+
+template void add_scan_closures(JointGraph<SE2>&, const std::vector<Closure>&);
+template void add_scan_closures(JointGraph<SE3>&, const std::vector<Closure>&);
+template void correct_by_scans(JointGraph<SE2>&, const Mission&, const MeasuredScans&);
+template void correct_by_scans(JointGraph<SE3>&, const Mission&, const MeasuredScans&);
 
 }  // namespace radioslam

@@ -85,10 +85,12 @@ std::vector<Closure> closures_of_scans(const std::vector<ScanClosure>& scans);
 /// Adds the stamps of the accepted closures to every robot's node stamps.
 void add_closure_stamps(const std::vector<Closure>& closures, std::vector<std::vector<Stamp>>& node_stamps);
 
-/// Adds the accepted closures of robots with themselves, each with a loss, and corrects every robot's
-/// trajectory by them; poses stay in their frames.
+/// Adds the accepted closures of robots with themselves, each with a loss.
 template <class Pose>
-void add_scan_closures(JointGraph<Pose>& joint, const std::vector<Closure>& closures,
-                       const OptimizerParams& optimizer);
+void add_scan_closures(JointGraph<Pose>& joint, const std::vector<Closure>& closures);
+
+/// Moves every robot's trajectory as its loop closures moved its scanned keyframes; it stays in its frame.
+template <class Pose>
+void correct_by_scans(JointGraph<Pose>& joint, const Mission& mission, const MeasuredScans& scans);
 
 }  // namespace radioslam

@@ -17,16 +17,20 @@ namespace {
 
 constexpr std::size_t kRowsAtOnce = 16;  // blocks of rows of the inverse per solve
 
-/// The trajectories by odometry alone, each in its own frame.
+/// The trajectories by odometry and the closures of their scans, each in its own frame.
 template <class Pose>
-PoseGraph<Pose> odometry_graph(const JointGraph<Pose>& joint) {
+PoseGraph<Pose> trajectory_graph(const JointGraph<Pose>& joint, double odometry_scale = 1) {
   PoseGraph<Pose> graph;
   graph.poses = joint.team.graph.poses;
   graph.drifts = joint.team.graph.drifts;
   graph.drift_priors = joint.team.graph.drift_priors;
-  for (std::size_t k = 0; k < joint.team.graph.relative_poses.size(); ++k)
-    if (joint.origins.relative_poses[k].source == FactorSource::kOdometry)
-      graph.relative_poses.push_back(joint.team.graph.relative_poses[k]);
+  for (std::size_t k = 0; k < joint.team.graph.relative_poses.size(); ++k) {
+    const FactorSource source = joint.origins.relative_poses[k].source;
+    if (source != FactorSource::kOdometry && source != FactorSource::kScanLoop) continue;
+    graph.relative_poses.push_back(joint.team.graph.relative_poses[k]);
+    if (source == FactorSource::kOdometry)
+      graph.relative_poses.back().information /= odometry_scale * odometry_scale;
+  }
   return graph;
 }
 
@@ -119,7 +123,7 @@ std::vector<std::size_t> odometry_steps(const JointGraph<Pose>& joint) {
 template <class Pose>
 void correct_by_own_loops(JointGraph<Pose>& joint, std::vector<TeamLoop<Pose>>& loops,
                           const OptimizerParams& optimizer) {
-  PoseGraph<Pose> graph = odometry_graph(joint);
+  PoseGraph<Pose> graph = trajectory_graph(joint);
   std::vector<std::size_t> own;
   FactorMask mask;
   mask.relative_poses.assign(graph.relative_poses.size(), false);
@@ -143,17 +147,12 @@ void correct_by_own_loops(JointGraph<Pose>& joint, std::vector<TeamLoop<Pose>>& 
 template <class Pose>
 SegmentChains<Pose> segment_chains(const JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>>& loops,
                                    double odometry_scale) {
-  PoseGraph<Pose> graph = odometry_graph(joint);
-  for (RelativePoseFactor<Pose>& step : graph.relative_poses)
-    step.information /= odometry_scale * odometry_scale;
+  PoseGraph<Pose> graph = trajectory_graph(joint, odometry_scale);
   const auto& segments = joint.team.segments;
   std::vector<bool> is_corrected(segments.size(), false), is_end(graph.poses.size(), false);
   const auto segment_of = segment_of_poses(joint.team);
-  for (std::size_t k = 0; k < joint.team.graph.relative_poses.size(); ++k) {
-    if (joint.origins.relative_poses[k].source != FactorSource::kScanLoop) continue;
-    graph.relative_poses.push_back(joint.team.graph.relative_poses[k]);
-    is_corrected[segment_of[graph.relative_poses.back().i.index()]] = true;
-  }
+  for (const std::size_t k : factors_of(joint.origins.relative_poses, FactorSource::kScanLoop))
+    is_corrected[segment_of[joint.team.graph.relative_poses[k].i.index()]] = true;
   for (const TeamLoop<Pose>& loop : loops) {
     if (!loop.is_own()) is_end[loop.i.index()] = is_end[loop.j.index()] = true;
     if (!loop.is_own() || !loop.accepted) continue;
