@@ -63,7 +63,7 @@ struct ClosedGraph {
 
 template <class Pose>
 ClosedGraph<Pose> closed_graph(const Mission& mission, const std::vector<ScanClosure>& scans) {
-  const std::vector<Closure> closures = closures_of_scans(scans);
+  const auto closures = closures_of_scans(scans);
   std::vector<std::vector<Stamp>> node_stamps(1);
   add_closure_stamps(closures, node_stamps);
   ClosedGraph<Pose> closed{build_joint_graph<Pose>(mission, {}, {}, node_stamps), {}};
@@ -71,6 +71,14 @@ ClosedGraph<Pose> closed_graph(const Mission& mission, const std::vector<ScanClo
   closed.factors =
       factors_by_measurement(closed.joint.origins.relative_poses, FactorSource::kScanLoop, closures.size());
   return closed;
+}
+
+std::vector<ClosureResult> tested(const JointGraph<SE2>& joint, const std::vector<ScanClosure>& scans) {
+  std::vector<Closure> closures;
+  std::vector<ClosureJudgement> judgements;
+  append(closures_of_scans(scans), closures, judgements);
+  test_closures(joint, FactorSource::kScanLoop, judgements);
+  return collect_closures(joint, closures, judgements);
 }
 
 double end_error_m(const Mission& mission, const std::vector<ScanClosure>& closures,
@@ -139,17 +147,15 @@ TEST(AddScanClosures, OfRejectedLoopsAddNothing) {
   const Mission mission = drifting_mission(truth, 0.003, 2);
   auto rejected = closure_between(mission, truth, 0, truth.size() - 1);
   rejected.loop.status = LoopStatus::kAmbiguous;
-  std::vector<Closure> closures = closures_of_scans({rejected});
   std::vector<std::vector<Stamp>> node_stamps(1);
-  add_closure_stamps(closures, node_stamps);
+  add_closure_stamps(closures_of_scans({rejected}), node_stamps);
   EXPECT_TRUE(node_stamps[0].empty());
   const auto closed = closed_graph<SE2>(mission, {rejected});
   ASSERT_EQ(closed.factors.size(), 1U);
   EXPECT_FALSE(closed.factors[0]);
   EXPECT_EQ(closed.joint.team.graph.relative_poses.size(),
             build_joint_graph<SE2>(mission, {}, {}).team.graph.relative_poses.size());
-  test_closures(closed.joint, FactorSource::kScanLoop, closures);
-  const auto results = collect_closures(closed.joint, closures);
+  const auto results = tested(closed.joint, {rejected});
   ASSERT_EQ(results.size(), 1U);
   EXPECT_EQ(results[0].kind, ClosureKind::kLidar);
   EXPECT_EQ(results[0].status, ClosureStatus::kRejected);
@@ -165,7 +171,7 @@ TEST(AddScanClosures, ConnectTheirOwnStamps) {
   sparse.angle_rad = 3;
   const std::vector<ScanClosure> scans{closure_between(mission, truth, 3, 81),
                                        closure_between(mission, truth, 5, 80)};
-  const std::vector<Closure> closures = closures_of_scans(scans);
+  const auto closures = closures_of_scans(scans);
   std::vector<std::vector<Stamp>> node_stamps(1);
   add_closure_stamps(closures, node_stamps);
   auto joint = build_joint_graph<SE2>(mission, sparse, {}, node_stamps);
@@ -210,9 +216,7 @@ TEST(TestClosures, AcceptWhatTheEstimateAgreesWith) {
   for (const Stamp stamp : closed.joint.team.segments[0].stamps)
     closed.joint.team.graph.poses.push_back(
         flatten(truth[static_cast<std::size_t>(std::llround(stamp.seconds()))]));
-  std::vector<Closure> tested = closures_of_scans(closures);
-  test_closures(closed.joint, FactorSource::kScanLoop, tested);
-  const auto results = collect_closures(closed.joint, tested);
+  const auto results = tested(closed.joint, closures);
   ASSERT_EQ(results.size(), 3U);
   EXPECT_EQ(results[0].status, ClosureStatus::kAccepted);
   EXPECT_EQ(results[1].status, ClosureStatus::kRejected);

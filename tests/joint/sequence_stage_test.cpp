@@ -41,7 +41,7 @@ TEST(SequenceStage, AcceptedOnesHoldInTruth) {
     const auto factors =
         factors_by_measurement(joint.origins.relative_poses, FactorSource::kSequence, closures.size());
     for (std::size_t c = 0; c < closures.size(); ++c) {
-      ASSERT_EQ(factors[c].has_value(), closures[c].status == ClosureStatus::kAccepted);
+      ASSERT_EQ(factors[c].has_value(), closures[c].judgement.status == ClosureStatus::kAccepted);
       if (!factors[c]) continue;
       // The factor's own measurement, between keyframes.
       const auto& factor = joint.team.graph.relative_poses[*factors[c]];

@@ -29,6 +29,12 @@ Mission town(int dimension) {
   return mission;
 }
 
+std::vector<VerifiedClosure> found_matches(const Mission& mission) {
+  std::vector<VerifiedClosure> found;
+  for (const Closure& match : closures_of_matches(mission)) found.push_back({match});
+  return found;
+}
+
 template <class Pose>
 class Judgement : public testing::Test {
  protected:
@@ -54,7 +60,7 @@ class Judgement : public testing::Test {
   void expect_the_same() {
     const auto known = judge_closures(setup(mission), aligned(mission));
     const TeamEstimate<Pose> without = aligned(late);
-    const auto later = judge_closures(setup(late), without, closures_of_matches(mission));
+    const auto later = judge_closures(setup(late), without, found_matches(mission));
     const auto& graph = later.team.joint.team.graph;
     ASSERT_GT(graph.poses.size(), without.joint.team.graph.poses.size()) << "no match lies between two poses";
     ASSERT_EQ(graph.poses.size(), known.team.joint.team.graph.poses.size());
@@ -62,12 +68,13 @@ class Judgement : public testing::Test {
     EXPECT_NEAR(total_cost(graph), cost, 1e-6 * cost);
     for (std::size_t k = 0; k < graph.poses.size(); ++k)
       EXPECT_LT((graph.poses[k].inverse() * known.team.joint.team.graph.poses[k]).log().norm(), 1e-3) << k;
-    for (const auto list : {&TeamClosures::matches, &TeamClosures::loops}) {
-      const auto &closures = later.team.closures.*list, &expected = known.team.closures.*list;
-      ASSERT_EQ(closures.size(), expected.size());
-      for (std::size_t k = 0; k < closures.size(); ++k) {
-        EXPECT_EQ(closures[k].status, expected[k].status) << k;
-        EXPECT_EQ(closures[k].reason, expected[k].reason) << k;
+    for (const auto list : {&ByOrigin<ClosureJudgement>::matches, &ByOrigin<ClosureJudgement>::loops}) {
+      const auto &judged = later.team.judgement.closures.*list,
+                 &expected = known.team.judgement.closures.*list;
+      ASSERT_EQ(judged.size(), expected.size());
+      for (std::size_t k = 0; k < judged.size(); ++k) {
+        EXPECT_EQ(judged[k].status, expected[k].status) << k;
+        EXPECT_EQ(judged[k].reason, expected[k].reason) << k;
       }
     }
   }
@@ -106,11 +113,11 @@ TYPED_TEST(Judgement, ChangesNothingWhenNothingIsNew) {
 }
 
 TYPED_TEST(Judgement, RejectsALateClosureOutsideTheOdometryAndSaysSo) {
-  std::vector<Closure> found = closures_of_matches(this->mission);
+  std::vector<VerifiedClosure> found = found_matches(this->mission);
   found.resize(5);
-  found[2].stamp_i = Stamp::from_seconds(1e6);
+  found[2].closure.stamp_i = Stamp::from_seconds(1e6);
   const auto judged = judge_closures(this->setup(this->late), this->aligned(this->late), found);
-  EXPECT_EQ(judged.team.closures.matches[2].reason, "no odometry at its time");
+  EXPECT_EQ(judged.team.judgement.closures.matches[2].reason, "no odometry at its time");
 }
 
 }  // namespace

@@ -59,14 +59,12 @@ void refine(std::vector<RigidBody>& bodies, const RadioMeasurements& radio,
 }
 
 template <class Pose>
-void reset_layout_distances(JointGraph<Pose>& joint, std::vector<FingerprintClosure>& closures) {
+void reset_layout_distances(JointGraph<Pose>& joint, const std::vector<FingerprintClosure>& closures) {
   for (std::size_t f = 0; f < joint.origins.ranges.size(); ++f) {
     const FactorOrigin& origin = joint.origins.ranges[f];
     if (origin.source != FactorSource::kFingerprint || !closures[origin.measurement].keeps_layout) continue;
     RangeFactor<Pose>& range = joint.team.graph.ranges[f];
     range.range_m = (place(joint, range.i) - place(joint, range.j)).norm();
-    auto& predicted = closures[origin.measurement].predicted;
-    predicted.mean_m = predicted.peak_m = range.range_m;
   }
 }
 
@@ -75,7 +73,7 @@ void reset_layout_distances(JointGraph<Pose>& joint, std::vector<FingerprintClos
 template <class Pose>
 bool refine_by_radio_field(JointGraph<Pose>& joint, const Mission& mission, const KnownStarts& starts,
                            const RadioMeasurements& radio, const TeamAlignment<Pose>& alignment,
-                           std::vector<FingerprintClosure>& closures, const FieldParams& params,
+                           const std::vector<FingerprintClosure>& closures, const FieldParams& params,
                            const Progress& progress) {
   if (!params.enabled ||
       std::none_of(closures.begin(), closures.end(), [](const auto& c) { return c.keeps_layout; }))
@@ -98,9 +96,11 @@ bool refine_by_radio_field(JointGraph<Pose>& joint, const Mission& mission, cons
 
 template bool refine_by_radio_field(JointGraph<SE2>&, const Mission&, const KnownStarts&,
                                     const RadioMeasurements&, const TeamAlignment<SE2>&,
-                                    std::vector<FingerprintClosure>&, const FieldParams&, const Progress&);
+                                    const std::vector<FingerprintClosure>&, const FieldParams&,
+                                    const Progress&);
 template bool refine_by_radio_field(JointGraph<SE3>&, const Mission&, const KnownStarts&,
                                     const RadioMeasurements&, const TeamAlignment<SE3>&,
-                                    std::vector<FingerprintClosure>&, const FieldParams&, const Progress&);
+                                    const std::vector<FingerprintClosure>&, const FieldParams&,
+                                    const Progress&);
 
 }  // namespace radioslam

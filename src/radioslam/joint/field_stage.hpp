@@ -12,12 +12,12 @@
 namespace radioslam {
 
 /// Moves robots of unknown start rigidly, from their optimized trajectories, component by component.
-/// Distances of layout closures, in the graph and in `closures`, become those between the new positions.
-/// `closures` are those of the graph, in order. False if there is nothing to refine.
+/// Distances of layout closures in the graph become those between the new positions. `closures` are those of
+/// the graph, in order. False if there is nothing to refine.
 template <class Pose>
 bool refine_by_radio_field(JointGraph<Pose>& joint, const Mission& mission, const KnownStarts& starts,
                            const RadioMeasurements& radio, const TeamAlignment<Pose>& alignment,
-                           std::vector<FingerprintClosure>& closures, const FieldParams& params,
+                           const std::vector<FingerprintClosure>& closures, const FieldParams& params,
                            const Progress& progress);
 
 }  // namespace radioslam

@@ -70,7 +70,7 @@ class NodeInsertion {
     pair(joint_.team.bearings);
     pair(graph.relative_points);
     for (auto& factor : graph.positions) visit(factor.i, pose);
-    for (RobotFixes<Pose>& fixes : team_.fixes)
+    for (RobotFixes<Pose>& fixes : team_.judgement.fixes)
       for (auto& factor : fixes.factors) visit(factor.i, pose);
     for (auto& factor : graph.pose_priors) visit(factor.i, pose);
     for (RobotVariables& robot : joint_.robots)

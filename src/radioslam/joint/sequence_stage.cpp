@@ -21,23 +21,24 @@ const RobotVariables& robot_of_node(const JointGraph<Pose>& joint, const RadioMe
 }
 
 /// The closure moved to keyframes, T_k_l = T_k_i T_i_j T_j_l, over the odometry to either fingerprint.
-Closure at_keyframes(const JointGraph<SE2>& joint, const RadioMeasurements& radio,
-                     const SequenceClosure& sequence) {
+VerifiedClosure at_keyframes(const JointGraph<SE2>& joint, const RadioMeasurements& radio,
+                             const SequenceClosure& sequence) {
   const auto [node_i, node_j, similarity] = sequence.candidate;
   const RobotVariables &robot_i = robot_of_node(joint, radio, node_i),
                        &robot_j = robot_of_node(joint, radio, node_j);
   const std::size_t k = keyframe_of_node(robot_i, radio, node_i);
   const std::size_t l = keyframe_of_node(robot_j, radio, node_j);
-  Closure closure;
+  VerifiedClosure verified;
+  auto& [closure, judgement] = verified;
   closure.kind = ClosureKind::kSequence;
   closure.robot_i = radio.nodes[node_i].robot;
   closure.robot_j = radio.nodes[node_j].robot;
   closure.stamp_i = robot_i.stamps[k];
   closure.stamp_j = robot_j.stamps[l];
-  closure.statistic = sequence.fit.residual_m;
+  judgement.statistic = sequence.fit.residual_m;
   if (sequence.fit.status != SequenceStatus::kAccepted) {
-    reject(closure, std::string(reason(sequence.fit.status)));
-    return closure;
+    reject(judgement, std::string(reason(sequence.fit.status)));
+    return verified;
   }
   const UncertainPose<SE2> T_k_i{flatten(robot_i.odometry[k].inverse() * radio.at(node_i).T_start_body)};
   const UncertainPose<SE2> T_j_l{flatten(radio.at(node_j).T_start_body.inverse() * robot_j.odometry[l])};
@@ -45,7 +46,7 @@ Closure at_keyframes(const JointGraph<SE2>& joint, const RadioMeasurements& radi
   const auto T_k_l = T_k_i * T_j_i.inverse() * T_j_l;
   closure.T_i_j = lift(T_k_l.pose);
   closure.information = information_in_space<SE2>(inverse(T_k_l.covariance));
-  return closure;
+  return verified;
 }
 
 }  // namespace
@@ -57,25 +58,26 @@ std::optional<std::string> sequence_note(int dimension, const RadioMeasurements&
 }
 
 template <class Pose>
-std::vector<Closure> add_sequence_closures(JointGraph<Pose>& joint, const RadioMeasurements& radio,
-                                           const SequenceStageParams& params) {
-  std::vector<Closure> closures;
+std::vector<VerifiedClosure> add_sequence_closures(JointGraph<Pose>& joint, const RadioMeasurements& radio,
+                                                   const SequenceStageParams& params) {
+  std::vector<VerifiedClosure> closures;
   if constexpr (Pose::kDim == 2) {
     if (!params.enabled) return closures;
     for (const SequenceClosure& sequence : propose_sequence_closures(radio, params.closure)) {
       closures.push_back(at_keyframes(joint, radio, sequence));
-      if (closures.back().status != ClosureStatus::kAccepted) continue;
-      RelativePoseFactor<Pose> factor = closure_factor(joint, closures.back());
+      const auto& [closure, judgement] = closures.back();
+      if (judgement.status != ClosureStatus::kAccepted) continue;
+      RelativePoseFactor<Pose> factor = closure_factor(joint, closure);
       factor.loss = {LossKind::kCauchy, params.loss_sigmas};
-      add_closure(joint, closures.back(), std::move(factor), FactorSource::kSequence, closures.size() - 1);
+      add_closure(joint, closure, std::move(factor), FactorSource::kSequence, closures.size() - 1);
     }
   }
   return closures;
 }
 
-template std::vector<Closure> add_sequence_closures(JointGraph<SE2>&, const RadioMeasurements&,
-                                                    const SequenceStageParams&);
-template std::vector<Closure> add_sequence_closures(JointGraph<SE3>&, const RadioMeasurements&,
-                                                    const SequenceStageParams&);
+template std::vector<VerifiedClosure> add_sequence_closures(JointGraph<SE2>&, const RadioMeasurements&,
+                                                            const SequenceStageParams&);
+template std::vector<VerifiedClosure> add_sequence_closures(JointGraph<SE3>&, const RadioMeasurements&,
+                                                            const SequenceStageParams&);
 
 }  // namespace radioslam

@@ -38,7 +38,7 @@ std::optional<std::string> sequence_note(int dimension, const RadioMeasurements&
 /// Finds sequence closures, at keyframes, and adds the accepted ones to the graph; returns all candidates.
 /// The statistic of those rejected is their mean residual in metres.
 template <class Pose>
-std::vector<Closure> add_sequence_closures(JointGraph<Pose>& joint, const RadioMeasurements& radio,
-                                           const SequenceStageParams& params);
+std::vector<VerifiedClosure> add_sequence_closures(JointGraph<Pose>& joint, const RadioMeasurements& radio,
+                                                   const SequenceStageParams& params);
 
 }  // namespace radioslam

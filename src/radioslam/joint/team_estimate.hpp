@@ -13,24 +13,37 @@
 
 namespace radioslam {
 
-/// The closures of a team, by origin; measured at first, with their outcomes once they were judged.
-struct TeamClosures {
-  std::vector<Closure> scans = {};    ///< each robot's own, by scan matching; of two, those that do not fit
-  std::vector<Closure> loops = {};    ///< of a graph file, or the matches of a team that stands on them
-  std::vector<Closure> matches = {};  ///< the mission's otherwise, if they are asked for
-  std::vector<Closure> sequences = {};
-  std::vector<FingerprintClosure> fingerprints = {};
+/// A list for each origin of closures.
+template <class T>
+struct ByOrigin {
+  std::vector<T> scans = {};    ///< each robot's own, by scan matching; of two, those that do not fit
+  std::vector<T> loops = {};    ///< of a graph file, or the matches of a team that stands on them
+  std::vector<T> matches = {};  ///< the mission's otherwise, if they are asked for
+  std::vector<T> sequences = {};
+};
+
+/// What was measured; no judgement changes it.
+struct TeamMeasurements {
+  KnownStarts starts = {};  ///< as the mission states them
+  ByOrigin<Closure> closures = {};
+  std::vector<FingerprintClosure> fingerprint_closures = {};
+};
+
+/// What the estimate says of the measurements.
+template <class Pose>
+struct TeamJudgement {
+  ByOrigin<ClosureJudgement> closures = {};  ///< in the order of the measured ones
+  TeamFixes<Pose> fixes = {};                ///< how those of each robot are used
+  std::vector<RangeBiasResult> range_biases = {};
 };
 
 template <class Pose>
 struct TeamEstimate {
-  JointGraph<Pose> joint = {};
-  KnownStarts starts = {};  ///< as the mission states them, or as position fixes determined them
-  TeamFixes<Pose> fixes = {};
+  TeamMeasurements measured = {};
   TeamAlignment<Pose> alignment = {};
-  TeamClosures closures = {};
+  TeamJudgement<Pose> judgement = {};
+  JointGraph<Pose> joint = {};
   OptimizerSummary solution = {};
-  std::vector<RangeBiasResult> range_biases = {};
 };
 
 }  // namespace radioslam

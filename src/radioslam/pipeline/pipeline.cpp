@@ -120,71 +120,80 @@ bool stands_on_matches(const RunSetup& run) {
 
 /// The graph of the mission, with poses at the stamps of loop closures and position fixes.
 template <class Pose>
-JointGraph<Pose> mission_graph(const RunSetup& run, const std::vector<Closure>& scans) {
+JointGraph<Pose> mission_graph(const RunSetup& run, const std::vector<VerifiedClosure>& scans) {
   std::vector<std::vector<Stamp>> node_stamps(run.mission.robots.size());
   add_closure_stamps(scans, node_stamps);
   add_fix_stamps(run.mission, node_stamps);
   return build_joint_graph<Pose>(run.mission, run.params.keyframe, run.params.graph, std::move(node_stamps));
 }
 
+template <class Pose>
+KnownStarts starts_of(const RunSetup& run, const TeamEstimate<Pose>& team) {
+  return starts_with_fixes<Pose>(team.measured.starts, run.mission, team.judgement.fixes);
+}
+
 /// Robots with position fixes, in the common frame.
 template <class Pose>
 void align_by_fixes(const RunSetup& run, TeamEstimate<Pose>& team) {
-  team.fixes = place_by_fixes(team.joint, run.mission, run.params.fixes, run.params.optimizer);
-  team.starts = starts_with_fixes<Pose>(run.mission, team.fixes);
+  team.judgement.fixes = place_by_fixes(team.joint, run.mission, run.params.fixes, run.params.optimizer);
 }
 
 template <class Pose>
 void align_by_links_or_fingerprints(const RunSetup& run, TeamEstimate<Pose>& team) {
   team.alignment = has_radio_links(team.joint)
                        ? align_by_links(team.joint, run.params.alignment, run.progress)
-                       : align_robots_by_fingerprints(team.joint, run.mission, team.starts, run.radio,
-                                                      run.params.team_frame, run.progress);
-  constrain_by_fixes(team.joint, team.fixes, team.alignment);
+                       : align_robots_by_fingerprints(team.joint, run.mission, starts_of(run, team),
+                                                      run.radio, run.params.team_frame, run.progress);
+  constrain_by_fixes(team.joint, team.judgement.fixes, team.alignment);
 }
 
 template <class Pose>
 void close_by_fingerprints(const RunSetup& run, TeamEstimate<Pose>& team) {
-  team.closures.fingerprints =
-      propose_fingerprint_closures(team.starts, run.radio, run.params.radio.distance_model.max_trusted_path_m,
-                                   run.params.team_frame, run.params.closure);
-  add_fingerprint_closures(team.joint, run.radio, team.closures.fingerprints);
+  team.measured.fingerprint_closures = propose_fingerprint_closures(
+      starts_of(run, team), run.radio, run.params.radio.distance_model.max_trusted_path_m,
+      run.params.team_frame, run.params.closure);
+  add_fingerprint_closures(team.joint, run.radio, team.measured.fingerprint_closures);
 }
 
 template <class Pose>
 void refine_on_field(const RunSetup& run, TeamEstimate<Pose>& team) {
-  if (refine_by_radio_field(team.joint, run.mission, team.starts, run.radio, team.alignment,
-                            team.closures.fingerprints, run.params.field, run.progress))
+  if (refine_by_radio_field(team.joint, run.mission, starts_of(run, team), run.radio, team.alignment,
+                            team.measured.fingerprint_closures, run.params.field, run.progress))
     optimize(team.joint.team.graph, run.params.optimizer, run.progress);
 }
 
 /// Makes closures that came late part of the team.
 template <class Pose>
-void add_found(const RunSetup& run, TeamEstimate<Pose>& team, const std::vector<Closure>& found) {
+void add_found(const RunSetup& run, TeamEstimate<Pose>& team, const std::vector<VerifiedClosure>& found) {
   if (found.empty()) return;
   std::vector<std::vector<Stamp>> stamps(run.mission.robots.size());
   add_closure_stamps(found, stamps);
   add_nodes(team, run.mission, run.params.graph, stamps);
-  const bool are_loops = !team.closures.loops.empty() || stands_on_matches(run);
-  for (const Closure& closure : found) {
-    const bool holds = closure.status == ClosureStatus::kAccepted;
-    auto& judged = are_loops ? team.closures.loops : team.closures.matches;
-    (holds ? judged : team.closures.scans).push_back(closure);
-  }
+  auto& closures = team.measured.closures;
+  auto& judgements = team.judgement.closures;
+  const bool are_loops = !closures.loops.empty() || stands_on_matches(run);
+  for (const VerifiedClosure& closure : found)
+    if (closure.judgement.status != ClosureStatus::kAccepted)
+      append({closure}, closures.scans, judgements.scans);
+    else if (are_loops)
+      append({closure}, closures.loops, judgements.loops);
+    else
+      append({closure}, closures.matches, judgements.matches);
 }
 
 /// Moves the team to the alignment that radio links and groups of consistent matches support best, and joins
 /// components that matches alone connect.
 template <class Pose>
 void align_by_matches(const RunSetup& run, TeamEstimate<Pose>& team) {
-  if (choose_alignment_by_matches(team.joint, team.alignment, team.closures.matches, run.params.alignment))
+  const std::vector<Closure>& matches = team.measured.closures.matches;
+  if (choose_alignment_by_matches(team.joint, team.alignment, matches, run.params.alignment))
     optimize(team.joint.team.graph, run.params.optimizer, run.progress);
-  join_by_matches(team.joint, team.alignment, team.closures.matches);
+  join_by_matches(team.joint, team.alignment, matches);
 }
 
-bool needs_overlap_search(const RunSetup& run, const TeamClosures& closures) {
+bool needs_overlap_search(const RunSetup& run, const std::vector<Closure>& matches) {
   return run.options.overlap_only || !run.mission.ranges.empty() || !run.mission.aoa_measurements.empty() ||
-         !run.mission.matches.empty() || !closures.matches.empty();
+         !run.mission.matches.empty() || !matches.empty();
 }
 
 /// Keyframe pairs of different robots whose views can overlap, in any of the likely alignments.
@@ -212,7 +221,7 @@ OverlapStage list_overlaps(const RunSetup& run, const TeamEstimate<Pose>& team) 
   return search_overlaps(
       run, team, run.params.overlap,
       {run.options.search, run.options.take_candidates ? 0 : listed,
-       keyframes_of_matches(team.joint, team.closures.matches), run.options.take_candidates});
+       keyframes_of_matches(team.joint, team.measured.closures.matches), run.options.take_candidates});
 }
 
 /// Closures between robots by their scans, where the team as estimated so far may have met.
@@ -239,17 +248,18 @@ RecognisedPlaces find_places(const RunSetup& run, const TeamEstimate<Pose>& team
 template <class Pose>
 void close_by_matches(const RunSetup& run, TeamEstimate<Pose>& team, const OverlapStage& overlaps) {
   const RunParams& params = run.params;
-  std::vector<Closure>& matches = team.closures.matches;
+  const std::vector<Closure>& matches = team.measured.closures.matches;
+  std::vector<ClosureJudgement>& judgements = team.judgement.closures.matches;
   const auto radio = radio_covariance(team.joint, team.alignment, params.alignment);
   std::optional<AoaMatchWeights> angles;
   if (params.matches.angle_weights) angles.emplace(run.mission, params.matches, params.angles);
-  select_matches(team.joint, team.alignment, matches, overlaps.of_asked, run.options.pruning, params.matches,
-                 angles ? &*angles : nullptr, radio, params.consistency);
+  select_matches(team.joint, team.alignment, matches, judgements, overlaps.of_asked, run.options.pruning,
+                 params.matches, angles ? &*angles : nullptr, radio, params.consistency);
   if (radio && params.matches.robust && run.options.pruning == Pruning::kOn)
-    optimize_matches_and_radio(team.joint, matches, team.alignment, params.matches, params.alignment.mixture,
-                               params.optimizer, run.progress);
+    optimize_matches_and_radio(team.joint, matches, judgements, team.alignment, params.matches,
+                               params.alignment.mixture, params.optimizer, run.progress);
   else
-    optimize_with_matches(team.joint, matches, params.matches, params.optimizer, run.progress);
+    optimize_with_matches(team.joint, judgements, params.matches, params.optimizer, run.progress);
 }
 
 }  // namespace
@@ -257,17 +267,22 @@ void close_by_matches(const RunSetup& run, TeamEstimate<Pose>& team, const Overl
 template <class Pose>
 TeamEstimate<Pose> build_team(const RunSetup& run, const TeamGraph<Pose>* graph, const MeasuredScans& scans) {
   TeamEstimate<Pose> team;
-  team.closures.scans = closures_of_scans(scans.closures);
-  team.joint = graph ? joint_graph_of(*graph, run.mission) : mission_graph<Pose>(run, team.closures.scans);
-  team.starts = known_starts(run.mission);
-  if (graph) team.closures.loops = closures_of(*graph, team.joint);
+  auto& closures = team.measured.closures;
+  auto& judgements = team.judgement.closures;
+  const std::vector<VerifiedClosure> of_scans = closures_of_scans(scans.closures);
+  append(of_scans, closures.scans, judgements.scans);
+  team.joint = graph ? joint_graph_of(*graph, run.mission) : mission_graph<Pose>(run, of_scans);
+  team.measured.starts = known_starts(run.mission);
+  if (graph) closures.loops = closures_of(*graph, team.joint);
   if (!run.options.overlap_only) {
     const bool are_loops = !graph && stands_on_matches(run);
-    (are_loops ? team.closures.loops : team.closures.matches) = closures_of_matches(run.mission);
+    (are_loops ? closures.loops : closures.matches) = closures_of_matches(run.mission);
   }
+  judgements.loops.resize(closures.loops.size());
+  judgements.matches.resize(closures.matches.size());
   correct_by_scans(team.joint, run.mission, scans);
-  add_scan_closures(team.joint, team.closures.scans);
-  add_own_loops(team.joint, team.closures.loops, run.params.optimizer);
+  add_scan_closures(team.joint, of_scans);
+  add_own_loops(team.joint, closures.loops, run.params.optimizer);
   return team;
 }
 
@@ -279,36 +294,39 @@ TeamEstimate<Pose> align_team(const RunSetup& run, TeamEstimate<Pose> team) {
   if (has_fixes(run.mission)) timed("position fixes", align_by_fixes<Pose>, run, team);
   timed("team frame", align_by_links_or_fingerprints<Pose>, run, team);
   timed("closures", close_by_fingerprints<Pose>, run, team);
-  team.closures.sequences =
-      timed("sequences", add_sequence_closures<Pose>, joint, run.radio, params.sequence);
+  append(timed("sequences", add_sequence_closures<Pose>, joint, run.radio, params.sequence),
+         team.measured.closures.sequences, team.judgement.closures.sequences);
   team.solution =
       timed("optimise", optimize_robustly<Pose>, joint, params.robust, params.optimizer, run.progress);
   if (has_fixes(run.mission))
-    timed("reclassify fixes", reclassify_fixes<Pose>, joint, team.fixes, params.optimizer, run.progress);
+    timed("reclassify fixes", reclassify_fixes<Pose>, joint, team.judgement.fixes, params.optimizer,
+          run.progress);
   timed("radio field", refine_on_field<Pose>, run, team);
-  team.range_biases = timed("range biases", estimate_range_biases<Pose>, joint, team.alignment,
-                            params.range_bias, params.alignment.mixture, params.optimizer, run.progress);
+  team.judgement.range_biases =
+      timed("range biases", estimate_range_biases<Pose>, joint, team.alignment, params.range_bias,
+            params.alignment.mixture, params.optimizer, run.progress);
   return team;
 }
 
 template <class Pose>
 JudgedTeam<Pose> judge_closures(const RunSetup& run, TeamEstimate<Pose> aligned,
-                                const std::vector<Closure>& found) {
+                                const std::vector<VerifiedClosure>& found) {
   JudgedTeam<Pose> judged{std::move(aligned), std::nullopt};
   TeamEstimate<Pose>& team = judged.team;
-  TeamClosures& closures = team.closures;
+  const auto& closures = team.measured.closures;
+  auto& judgements = team.judgement.closures;
   add_found(run, team, found);
   if (!closures.loops.empty())
-    run.timed("loops", close_by_loops<Pose>, team.joint, team.alignment, closures.loops, run.params.optimizer,
-              run.progress, run.params.consistency);
+    run.timed("loops", close_by_loops<Pose>, team.joint, team.alignment, closures.loops, judgements.loops,
+              run.params.optimizer, run.progress, run.params.consistency);
   const bool has_matches = !closures.matches.empty();
   if (has_matches && weighs_matches(run))
     run.timed("alignment by matches", align_by_matches<Pose>, run, team);
-  if (needs_overlap_search(run, closures))
+  if (needs_overlap_search(run, closures.matches))
     judged.overlaps = run.timed("overlap", list_overlaps<Pose>, run, team);
   if (has_matches) run.timed("matches", close_by_matches<Pose>, run, team, *judged.overlaps);
-  test_closures(team.joint, FactorSource::kScanLoop, closures.scans);
-  test_closures(team.joint, FactorSource::kSequence, closures.sequences);
+  test_closures(team.joint, FactorSource::kScanLoop, judgements.scans);
+  test_closures(team.joint, FactorSource::kSequence, judgements.sequences);
   return judged;
 }
 
@@ -327,12 +345,13 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* graph, const Measur
   auto places = find_places(run, aligned, scans);
   auto judged = judge_closures(run, aligned, places.closures);
   for (int round = 1; round < params.places.rounds && places.has_verified(); ++round) {
-    for (const auto* closures : {&judged.team.closures.loops, &judged.team.closures.matches})
-      if (!closures->empty()) places.note_judgement(*closures);
+    auto& closures = judged.team.measured.closures;
+    auto& judgements = judged.team.judgement.closures;
+    if (!closures.loops.empty()) places.note_judgement(closures.loops, judgements.loops);
+    if (!closures.matches.empty()) places.note_judgement(closures.matches, judgements.matches);
     auto more = find_places(run, judged.team, scans, places);
     const bool has_more = more.has_verified();
-    auto& unfit = judged.team.closures.scans;
-    if (!has_more) unfit.insert(unfit.end(), more.closures.begin(), more.closures.end());
+    if (!has_more) append(more.closures, closures.scans, judgements.scans);
     places.append(std::move(more));
     if (!has_more) break;
     judged = judge_closures(run, aligned, places.closures);
@@ -374,7 +393,8 @@ RunOutput run_pipeline(const Mission& mission, const TeamGraph<Pose>& team, cons
                                   const RunOptions&, const Progress&);                                   \
   template TeamEstimate<Pose> build_team(const RunSetup&, const TeamGraph<Pose>*, const MeasuredScans&); \
   template TeamEstimate<Pose> align_team(const RunSetup&, TeamEstimate<Pose>);                           \
-  template JudgedTeam<Pose> judge_closures(const RunSetup&, TeamEstimate<Pose>, const std::vector<Closure>&);
+  template JudgedTeam<Pose> judge_closures(const RunSetup&, TeamEstimate<Pose>,                          \
+                                           const std::vector<VerifiedClosure>&);
 RADIOSLAM_PIPELINE(SE2)
 RADIOSLAM_PIPELINE(SE3)
 #undef RADIOSLAM_PIPELINE

@@ -61,7 +61,7 @@ TeamEstimate<Pose> align_team(const RunSetup& run, TeamEstimate<Pose> team);
 
 template <class Pose>
 struct JudgedTeam {
-  TeamEstimate<Pose> team;               ///< its closures have their outcomes
+  TeamEstimate<Pose> team;               ///< its closures are judged
   std::optional<OverlapStage> overlaps;  ///< nothing if no pairs were searched for
 };
 
@@ -69,6 +69,6 @@ struct JudgedTeam {
 /// between any two stamps that have odometry or, in a graph file, a pose.
 template <class Pose>
 JudgedTeam<Pose> judge_closures(const RunSetup& run, TeamEstimate<Pose> aligned,
-                                const std::vector<Closure>& found = {});
+                                const std::vector<VerifiedClosure>& found = {});
 
 }  // namespace radioslam

@@ -104,9 +104,15 @@ std::vector<ClosureResult> collect_all_closures(const TeamEstimate<Pose>& estima
   const JointGraph<Pose>& joint = estimate.joint;
   std::vector<ClosureResult> all = collect_radio_links(joint);
   for (auto& closure : collect_fingerprint_closures(joint)) all.push_back(std::move(closure));
-  const TeamClosures& judged = estimate.closures;
-  for (const auto* closures : {&judged.sequences, &judged.scans, &judged.loops, &judged.matches})
-    for (auto& closure : collect_closures(joint, *closures)) all.push_back(std::move(closure));
+  const auto& closures = estimate.measured.closures;
+  const auto& judgements = estimate.judgement.closures;
+  const auto add = [&](const auto& of_origin, const auto& judged) {
+    for (auto& closure : collect_closures(joint, of_origin, judged)) all.push_back(std::move(closure));
+  };
+  add(closures.sequences, judgements.sequences);
+  add(closures.scans, judgements.scans);
+  add(closures.loops, judgements.loops);
+  add(closures.matches, judgements.matches);
   return all;
 }
 
@@ -177,7 +183,7 @@ RunResult describe_run(const Mission& mission, const RadioMeasurements& radio,
   RunResult result;
   result.mission_name = mission.name;
   result.dimension = mission.dimension;
-  result.range_biases = estimate.range_biases;
+  result.range_biases = estimate.judgement.range_biases;
   if (overlaps) add_overlaps(result, mission, std::move(*overlaps), options.take_candidates != nullptr);
   add_estimate(result, mission, joint, estimate.alignment, params.alignment.mixture, timed);
   for (std::size_t r = 0; r < mission.robots.size() && !options.overlap_only; ++r)
@@ -189,7 +195,7 @@ RunResult describe_run(const Mission& mission, const RadioMeasurements& radio,
   if (radio.rssi_offsets.shown) result.notes.push_back(rssi_offset_note(result.robots));
   add_notes(result, mission, radio, params.sequence, joint.ignored_links);
   result.notes.insert(result.notes.end(), estimate.alignment.notes.begin(), estimate.alignment.notes.end());
-  add_fix_results(result, joint, estimate.fixes);
+  add_fix_results(result, joint, estimate.judgement.fixes);
   if (!mission.aoa_measurements.empty())
     timed("angle checks", [&] { check_angles_into(result, mission, joint, estimate.alignment, params); });
   result.closures = collect_all_closures(estimate);

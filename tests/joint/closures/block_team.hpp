@@ -55,14 +55,16 @@ class BlockTeam {
     JointGraph<SE2> joint;
     TeamAlignment<SE2> alignment;
     std::vector<Closure> closures;
+    std::vector<ClosureJudgement> judgements;
   };
 
   /// Every robot in its own frame, with the measurements that the others may join by.
   Outcome measured() const {
     TeamGraph<SE2> team = team_;
     team.graph.relative_poses.insert(team.graph.relative_poses.end(), loops_.begin(), loops_.end());
-    Outcome out{joint_graph_of(team, mission_), {}, {}};
+    Outcome out{joint_graph_of(team, mission_), {}, {}, {}};
     out.closures = closures_of(team, out.joint);
+    out.judgements.resize(out.closures.size());
     for (std::size_t r = 0; r < truth_.size(); ++r) {
       out.alignment.component.push_back(static_cast<int>(r));
       out.alignment.placed.push_back(r == 0);
@@ -76,7 +78,7 @@ class BlockTeam {
   Outcome solve(const ConsistencyParams& consistency = {}) const {
     Outcome out = measured();
     add_own_loops(out.joint, out.closures, {});
-    close_by_loops(out.joint, out.alignment, out.closures, {}, {}, consistency);
+    close_by_loops(out.joint, out.alignment, out.closures, out.judgements, {}, {}, consistency);
     return out;
   }
 

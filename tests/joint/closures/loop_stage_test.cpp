@@ -11,9 +11,9 @@ namespace {
 
 std::size_t accepted(const BlockTeam::Outcome& out, std::size_t begin, std::size_t end) {
   return static_cast<std::size_t>(
-      std::count_if(out.closures.begin() + static_cast<std::ptrdiff_t>(begin),
-                    out.closures.begin() + static_cast<std::ptrdiff_t>(end),
-                    [](const Closure& c) { return c.status == ClosureStatus::kAccepted; }));
+      std::count_if(out.judgements.begin() + static_cast<std::ptrdiff_t>(begin),
+                    out.judgements.begin() + static_cast<std::ptrdiff_t>(end),
+                    [](const ClosureJudgement& j) { return j.status == ClosureStatus::kAccepted; }));
 }
 
 const SE2 kElsewhere({20, -35}, 0.8);
@@ -50,7 +50,7 @@ TEST(CloseByLoops, RepetitionsAloneDoNotPlaceARobot) {
   EXPECT_EQ(out.alignment.component, (std::vector<int>{0, 1}));
   EXPECT_FALSE(out.alignment.placed[1]);
   EXPECT_EQ(accepted(out, 0, out.closures.size()), 0u);
-  EXPECT_EQ(out.closures.front().reason, "no group of loops stands out");
+  EXPECT_EQ(out.judgements.front().reason, "no group of loops stands out");
 }
 
 TEST(CloseByLoops, CorrectsTrajectoriesByTheirOwnLoops) {
@@ -78,7 +78,7 @@ TEST(CloseByLoops, WithUnitWeightsTheLargestSetJoinsRobotsHoweverWeak) {
   for (const std::size_t k : {60u, 130u}) team.mistake(0, k, 1, k - 40, kElsewhere);
   const auto few = team.solve({"identity", 100, 5});
   EXPECT_EQ(few.alignment.component, (std::vector<int>{0, 1}));
-  EXPECT_EQ(few.closures.front().reason, "no group of loops stands out");
+  EXPECT_EQ(few.judgements.front().reason, "no group of loops stands out");
   EXPECT_EQ(team.solve({"identity", 100, 4}).alignment.component, (std::vector<int>{0, 0}));
   EXPECT_EQ(team.solve({"identity", 1e-6, 4}).alignment.component, (std::vector<int>{0, 1}));
 }

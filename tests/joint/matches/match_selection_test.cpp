@@ -35,9 +35,9 @@ bool mentions(const std::vector<std::string>& notes, const std::string& words) {
                      [&](const std::string& note) { return note.find(words) != std::string::npos; });
 }
 
-std::vector<std::string> reasons(const std::vector<Closure>& closures) {
+std::vector<std::string> reasons(const std::vector<ClosureJudgement>& judgements) {
   std::vector<std::string> result;
-  for (const Closure& closure : closures) result.push_back(closure.reason);
+  for (const ClosureJudgement& judgement : judgements) result.push_back(judgement.reason);
   return result;
 }
 
@@ -68,8 +68,10 @@ TEST(PlaceByMatches, LeavesRobotsApartWhereNoGroupStandsOut) {
   EXPECT_FALSE(out.alignment.placed[1]);
   EXPECT_TRUE(
       mentions(out.alignment.notes, "the largest group that agrees has 4 of 7 matches, the second 3"));
-  select_matches(out.joint, out.alignment, out.closures, no_candidates(out.joint), Pruning::kOn, {});
-  for (const std::string& reason : reasons(out.closures)) EXPECT_EQ(reason, "no group of matches stands out");
+  select_matches(out.joint, out.alignment, out.closures, out.judgements, no_candidates(out.joint),
+                 Pruning::kOn, {});
+  for (const std::string& reason : reasons(out.judgements))
+    EXPECT_EQ(reason, "no group of matches stands out");
 }
 
 TEST(SelectMatches, KeepsTheLargestConsistentSet) {
@@ -77,14 +79,15 @@ TEST(SelectMatches, KeepsTheLargestConsistentSet) {
   auto out = team.measured();
   join_by_matches(out.joint, out.alignment, out.closures);
   const std::size_t before = out.joint.team.graph.relative_poses.size();
-  select_matches(out.joint, out.alignment, out.closures, no_candidates(out.joint), Pruning::kOn, {});
+  select_matches(out.joint, out.alignment, out.closures, out.judgements, no_candidates(out.joint),
+                 Pruning::kOn, {});
   EXPECT_EQ(out.joint.team.graph.relative_poses.size(), before + 6);
   for (std::size_t k = 0; k < 9; ++k)
-    EXPECT_EQ(out.closures[k].reason, k < 6 ? "" : "not consistent with the largest set of matches");
-  optimize_with_matches(out.joint, out.closures, {}, {}, {});
+    EXPECT_EQ(out.judgements[k].reason, k < 6 ? "" : "not consistent with the largest set of matches");
+  optimize_with_matches(out.joint, out.judgements, {}, {}, {});
   for (std::size_t k = 0; k < 6; ++k) {
-    EXPECT_EQ(out.closures[k].status, ClosureStatus::kAccepted);
-    EXPECT_LT(out.closures[k].statistic, kPoseChiSquared99<SE2>);
+    EXPECT_EQ(out.judgements[k].status, ClosureStatus::kAccepted);
+    EXPECT_LT(out.judgements[k].statistic, kPoseChiSquared99<SE2>);
   }
   for (std::size_t k = 40; k < 115; k += 5) EXPECT_LT(team.relative_error_m(out, 0, k, 1, k - 40), 0.7);
 }
@@ -93,10 +96,11 @@ TEST(SelectMatches, RejectsThoseWithoutOdometryAtTheirTime) {
   auto out = two_robots(6, 0).measured();
   join_by_matches(out.joint, out.alignment, out.closures);
   out.closures[2].stamp_j = Stamp{1000 * kNanosecondsPerSecond};
-  select_matches(out.joint, out.alignment, out.closures, no_candidates(out.joint), Pruning::kOn, {});
-  EXPECT_EQ(out.closures[2].reason, "no odometry at its time");
-  EXPECT_EQ(std::count_if(out.closures.begin(), out.closures.end(),
-                          [](const Closure& c) { return c.status == ClosureStatus::kAccepted; }),
+  select_matches(out.joint, out.alignment, out.closures, out.judgements, no_candidates(out.joint),
+                 Pruning::kOn, {});
+  EXPECT_EQ(out.judgements[2].reason, "no odometry at its time");
+  EXPECT_EQ(std::count_if(out.judgements.begin(), out.judgements.end(),
+                          [](const ClosureJudgement& j) { return j.status == ClosureStatus::kAccepted; }),
             5);
 }
 
@@ -112,10 +116,10 @@ TEST(SelectMatches, AdmitsCandidatesAndWhatTheyVouchFor) {
       const Closure& match = out.closures[k];
       list.push_back({match.robot_i, match.stamp_i, match.robot_j, match.stamp_j});
     }
-    select_matches(out.joint, out.alignment, out.closures, list, Pruning::kOn, {});
+    select_matches(out.joint, out.alignment, out.closures, out.judgements, list, Pruning::kOn, {});
     for (std::size_t k = 0; k < 7; ++k) {
       const bool enters = k < candidates || (candidates == 3 && k < 6);
-      EXPECT_EQ(out.closures[k].reason, enters ? "" : "the views cannot overlap") << candidates << " " << k;
+      EXPECT_EQ(out.judgements[k].reason, enters ? "" : "the views cannot overlap") << candidates << " " << k;
     }
   }
 }
@@ -128,10 +132,10 @@ TEST(SelectMatches, WithUnitWeightsMatches50MetresApartAreConsistentAt100AndNotA
     team.mistake(0, 60, 1, 20, SE2({50, 0}, 0));
     auto out = team.measured();
     join_by_matches(out.joint, out.alignment, out.closures);
-    select_matches(out.joint, out.alignment, out.closures, no_candidates(out.joint), Pruning::kOn, {},
-                   nullptr, {}, unit_weights(threshold));
-    for (std::size_t k = 0; k < 6; ++k) EXPECT_EQ(out.closures[k].reason, "") << threshold << " " << k;
-    const Closure& wrong = out.closures[6];
+    select_matches(out.joint, out.alignment, out.closures, out.judgements, no_candidates(out.joint),
+                   Pruning::kOn, {}, nullptr, {}, unit_weights(threshold));
+    for (std::size_t k = 0; k < 6; ++k) EXPECT_EQ(out.judgements[k].reason, "") << threshold << " " << k;
+    const ClosureJudgement& wrong = out.judgements[6];
     EXPECT_EQ(wrong.reason, admits ? "" : "not consistent with the largest set of matches");
     if (!admits) {
       EXPECT_NEAR(std::sqrt(wrong.statistic), 50, 5);
@@ -143,9 +147,9 @@ TEST(SelectMatches, WithUnitWeightsFewMatchesAreNotAdmitted) {
   for (const std::size_t count : {4u, 5u}) {
     auto out = two_robots(count, 0).measured();
     join_by_matches(out.joint, out.alignment, out.closures);
-    select_matches(out.joint, out.alignment, out.closures, no_candidates(out.joint), Pruning::kOn, {},
-                   nullptr, {}, unit_weights(100));
-    for (const std::string& reason : reasons(out.closures))
+    select_matches(out.joint, out.alignment, out.closures, out.judgements, no_candidates(out.joint),
+                   Pruning::kOn, {}, nullptr, {}, unit_weights(100));
+    for (const std::string& reason : reasons(out.judgements))
       EXPECT_EQ(reason, count == 5 ? "" : "too few matches between the robots");
   }
 }
@@ -159,9 +163,9 @@ TEST(SelectMatches, WithUnitWeightsNoSetVouchesForMatchesThatPruningRejects) {
     const Closure& match = out.closures[k];
     list.push_back({match.robot_i, match.stamp_i, match.robot_j, match.stamp_j});
   }
-  select_matches(out.joint, out.alignment, out.closures, list, Pruning::kOn, {}, nullptr, {},
+  select_matches(out.joint, out.alignment, out.closures, out.judgements, list, Pruning::kOn, {}, nullptr, {},
                  unit_weights(100));
-  EXPECT_EQ(reasons(out.closures),
+  EXPECT_EQ(reasons(out.judgements),
             (std::vector<std::string>{"", "", "", "", "", "the views cannot overlap"}));
 }
 
@@ -171,9 +175,10 @@ TEST(OptimizeWithMatches, RejectsWhatTheEstimateContradicts) {
   for (std::size_t k = 0; k < 4; ++k) team.see(0, 5 * k, 0, BlockTeam::kRound + 5 * k);
   team.mistake(0, 10, 0, 100, kElsewhere);
   auto out = team.measured();
-  select_matches(out.joint, out.alignment, out.closures, no_candidates(out.joint), Pruning::kOn, {});
-  optimize_with_matches(out.joint, out.closures, {}, {}, {});
-  EXPECT_EQ(reasons(out.closures),
+  select_matches(out.joint, out.alignment, out.closures, out.judgements, no_candidates(out.joint),
+                 Pruning::kOn, {});
+  optimize_with_matches(out.joint, out.judgements, {}, {}, {});
+  EXPECT_EQ(reasons(out.judgements),
             (std::vector<std::string>{"", "", "", "", "the joint estimate disagrees"}));
 }
 

@@ -119,8 +119,8 @@ using Hall = HallOf<SE3>;
 template <class Pose>
 void expect_right(const HallOf<Pose>& hall, const RecognisedPlaces& found, std::size_t at_least) {
   EXPECT_GE(found.counts.verified, at_least);
-  for (const Closure& closure : found.closures)
-    if (closure.status == ClosureStatus::kAccepted) {
+  for (const auto& [closure, judgement] : found.closures)
+    if (judgement.status == ClosureStatus::kAccepted) {
       EXPECT_LT(hall.error_m(closure), 0.1);
     }
 }
@@ -197,7 +197,8 @@ TEST(RecognisePlaces, AreTheSameForAnyNumberOfThreads) {
   set_thread_count(0);
   ASSERT_EQ(alone.closures.size(), together.closures.size());
   for (std::size_t k = 0; k < alone.closures.size(); ++k)
-    EXPECT_EQ(alone.closures[k].T_i_j.translation(), together.closures[k].T_i_j.translation());
+    EXPECT_EQ(alone.closures[k].closure.T_i_j.translation(),
+              together.closures[k].closure.T_i_j.translation());
 }
 
 }  // namespace

@@ -47,9 +47,17 @@ ClosureEnds closure_ends(const JointGraph<Pose>& joint, const Closure& closure) 
   return {pose_at(joint, closure.robot_i, closure.stamp_i), pose_at(joint, closure.robot_j, closure.stamp_j)};
 }
 
-void reject(Closure& closure, std::string reason) {
-  closure.status = ClosureStatus::kRejected;
-  closure.reason = std::move(reason);
+void append(const std::vector<VerifiedClosure>& verified, std::vector<Closure>& closures,
+            std::vector<ClosureJudgement>& judgements) {
+  for (const auto& [closure, judgement] : verified) {
+    closures.push_back(closure);
+    judgements.push_back(judgement);
+  }
+}
+
+void reject(ClosureJudgement& judgement, std::string reason) {
+  judgement.status = ClosureStatus::kRejected;
+  judgement.reason = std::move(reason);
 }
 
 std::vector<Closure> closures_of_matches(const Mission& mission) {
@@ -90,16 +98,15 @@ void add_closure(JointGraph<Pose>& joint, const Closure& closure, RelativePoseFa
 }
 
 template <class Pose>
-void test_closures(const JointGraph<Pose>& joint, FactorSource source, std::vector<Closure>& closures) {
+void test_closures(const JointGraph<Pose>& joint, FactorSource source,
+                   std::vector<ClosureJudgement>& judgements) {
   const auto& factors = joint.team.graph.relative_poses;
   for (std::size_t k = 0; k < factors.size(); ++k) {
     const FactorOrigin& origin = joint.origins.relative_poses[k];
     if (origin.source != source) continue;
-    Closure& closure = closures[origin.measurement];
-    closure.statistic = squared_norm(joint.team.graph, factors[k]);
-    closure.status = ClosureStatus::kAccepted;
-    closure.reason.clear();
-    if (closure.statistic > kPoseChiSquared99<Pose>) reject(closure, "the joint estimate disagrees");
+    ClosureJudgement& judgement = judgements[origin.measurement];
+    judgement = {ClosureStatus::kAccepted, squared_norm(joint.team.graph, factors[k]), {}};
+    if (judgement.statistic > kPoseChiSquared99<Pose>) reject(judgement, "the joint estimate disagrees");
   }
 }
 
@@ -118,18 +125,20 @@ SE3 to_keyframe(const JointGraph<Pose>& joint, RobotIndex robot, Stamp stamp, Po
 
 template <class Pose>
 std::vector<ClosureResult> collect_closures(const JointGraph<Pose>& joint,
-                                            const std::vector<Closure>& closures) {
+                                            const std::vector<Closure>& closures,
+                                            const std::vector<ClosureJudgement>& judgements) {
   std::vector<ClosureResult> results;
-  for (const Closure& closure : closures) {
+  for (std::size_t k = 0; k < closures.size(); ++k) {
+    const Closure& closure = closures[k];
     ClosureResult& result = results.emplace_back();
     result.robot_i = closure.robot_i;
     result.stamp_i = keyframe_stamp(joint, closure.robot_i, closure.stamp_i);
     result.robot_j = closure.robot_j;
     result.stamp_j = keyframe_stamp(joint, closure.robot_j, closure.stamp_j);
     result.kind = closure.kind;
-    result.status = closure.status;
-    result.statistic = closure.statistic;
-    result.reason = closure.reason;
+    result.status = judgements[k].status;
+    result.statistic = judgements[k].statistic;
+    result.reason = judgements[k].reason;
     if (const auto [i, j] = closure_ends(joint, closure); i.valid() && j.valid())
       result.T_i_j = to_keyframe(joint, closure.robot_i, closure.stamp_i, i).inverse() * closure.T_i_j *
                      to_keyframe(joint, closure.robot_j, closure.stamp_j, j);
@@ -137,23 +146,25 @@ std::vector<ClosureResult> collect_closures(const JointGraph<Pose>& joint,
   return results;
 }
 
-#define RADIOSLAM_CLOSURE(Pose)                                                                        \
-  template Pose::Jacobian information_as<Pose>(const SE3::Jacobian&);                                  \
-  template SE3::Jacobian information_in_space<Pose>(const Pose::Jacobian&);                            \
-  template Pose::Jacobian covariance_of<Pose>(const Closure&);                                         \
-  template ClosureEnds closure_ends(const JointGraph<Pose>&, const Closure&);                          \
-  template RelativePoseFactor<Pose> closure_factor(const JointGraph<Pose>&, const Closure&);           \
-  template void add_closure(JointGraph<Pose>&, const Closure&, RelativePoseFactor<Pose>, FactorSource, \
-                            std::size_t);                                                              \
-  template void test_closures(const JointGraph<Pose>&, FactorSource, std::vector<Closure>&);           \
-  template std::vector<ClosureResult> collect_closures(const JointGraph<Pose>&, const std::vector<Closure>&);
+#define RADIOSLAM_CLOSURE(Pose)                                                                              \
+  template Pose::Jacobian information_as<Pose>(const SE3::Jacobian&);                                        \
+  template SE3::Jacobian information_in_space<Pose>(const Pose::Jacobian&);                                  \
+  template Pose::Jacobian covariance_of<Pose>(const Closure&);                                               \
+  template ClosureEnds closure_ends(const JointGraph<Pose>&, const Closure&);                                \
+  template RelativePoseFactor<Pose> closure_factor(const JointGraph<Pose>&, const Closure&);                 \
+  template void add_closure(JointGraph<Pose>&, const Closure&, RelativePoseFactor<Pose>, FactorSource,       \
+                            std::size_t);                                                                    \
+  template void test_closures(const JointGraph<Pose>&, FactorSource, std::vector<ClosureJudgement>&);        \
+  template std::vector<ClosureResult> collect_closures(const JointGraph<Pose>&, const std::vector<Closure>&, \
+                                                       const std::vector<ClosureJudgement>&);
 RADIOSLAM_CLOSURE(SE2)
 RADIOSLAM_CLOSURE(SE3)
 #undef RADIOSLAM_CLOSURE
 
-Closure closure_of_scan(RobotIndex robot_i, Stamp stamp_i, RobotIndex robot_j, Stamp stamp_j,
-                        const ScanLoop& loop) {
-  Closure closure;
+VerifiedClosure closure_of_scan(RobotIndex robot_i, Stamp stamp_i, RobotIndex robot_j, Stamp stamp_j,
+                                const ScanLoop& loop) {
+  VerifiedClosure verified;
+  auto& [closure, judgement] = verified;
   closure.kind = ClosureKind::kLidar;
   closure.robot_i = robot_i;
   closure.robot_j = robot_j;
@@ -161,33 +172,35 @@ Closure closure_of_scan(RobotIndex robot_i, Stamp stamp_i, RobotIndex robot_j, S
   closure.stamp_j = stamp_j;
   closure.T_i_j = loop.T_i_j;
   closure.information = loop.information;
-  closure.statistic = loop.inlier_ratio;
-  if (loop.status != LoopStatus::kAccepted) reject(closure, std::string(reason(loop.status)));
-  return closure;
+  judgement.statistic = loop.inlier_ratio;
+  if (loop.status != LoopStatus::kAccepted) reject(judgement, std::string(reason(loop.status)));
+  return verified;
 }
 
-std::vector<Closure> closures_of_scans(const std::vector<ScanClosure>& scans) {
-  std::vector<Closure> closures;
+std::vector<VerifiedClosure> closures_of_scans(const std::vector<ScanClosure>& scans) {
+  std::vector<VerifiedClosure> closures;
   for (const auto& [robot, stamp_i, stamp_j, loop] : scans)
     closures.push_back(closure_of_scan(robot, stamp_i, robot, stamp_j, loop));
   return closures;
 }
 
-void add_closure_stamps(const std::vector<Closure>& closures, std::vector<std::vector<Stamp>>& node_stamps) {
-  for (const Closure& closure : closures) {
-    if (closure.status != ClosureStatus::kAccepted) continue;
+void add_closure_stamps(const std::vector<VerifiedClosure>& closures,
+                        std::vector<std::vector<Stamp>>& node_stamps) {
+  for (const auto& [closure, judgement] : closures) {
+    if (judgement.status != ClosureStatus::kAccepted) continue;
     node_stamps[closure.robot_i.index()].push_back(closure.stamp_i);
     node_stamps[closure.robot_j.index()].push_back(closure.stamp_j);
   }
 }
 
 template <class Pose>
-void add_scan_closures(JointGraph<Pose>& joint, const std::vector<Closure>& closures) {
+void add_scan_closures(JointGraph<Pose>& joint, const std::vector<VerifiedClosure>& closures) {
   for (std::size_t k = 0; k < closures.size(); ++k) {
-    if (closures[k].status != ClosureStatus::kAccepted) continue;
-    RelativePoseFactor<Pose> factor = closure_factor(joint, closures[k]);
+    const auto& [closure, judgement] = closures[k];
+    if (judgement.status != ClosureStatus::kAccepted) continue;
+    RelativePoseFactor<Pose> factor = closure_factor(joint, closure);
     factor.loss = {LossKind::kGemanMcClure, std::sqrt(kPoseChiSquared99<Pose>)};
-    add_closure(joint, closures[k], std::move(factor), FactorSource::kScanLoop, k);
+    add_closure(joint, closure, std::move(factor), FactorSource::kScanLoop, k);
   }
 }
 
@@ -211,8 +224,8 @@ void correct_by_scans(JointGraph<Pose>& joint, const Mission& mission, const Mea
   }
 }
 
-template void add_scan_closures(JointGraph<SE2>&, const std::vector<Closure>&);
-template void add_scan_closures(JointGraph<SE3>&, const std::vector<Closure>&);
+template void add_scan_closures(JointGraph<SE2>&, const std::vector<VerifiedClosure>&);
+template void add_scan_closures(JointGraph<SE3>&, const std::vector<VerifiedClosure>&);
 template void correct_by_scans(JointGraph<SE2>&, const Mission&, const MeasuredScans&);
 template void correct_by_scans(JointGraph<SE3>&, const Mission&, const MeasuredScans&);
 

@@ -1,7 +1,7 @@
 // Loop closure: a relative pose that was measured between any two poses of the team, whoever measured it.
 //
 // Scans, an external place recognition, sequences of fingerprints and the edges of a graph file all give
-// closures, of one robot or between two; the judgement of the joint estimate is part of each.
+// closures, of one robot or between two; what an estimate says of each is kept apart.
 #pragma once
 
 #include <optional>
@@ -22,10 +22,23 @@ struct Closure {
   Stamp stamp_i, stamp_j;  ///< at poses of the joint graph, or at times without odometry
   SE3 T_i_j;
   SE3::Jacobian information = SE3::Jacobian::Identity();  ///< of T_i_j Exp(xi), [translation, rotation]
+};
+
+struct ClosureJudgement {
   ClosureStatus status = ClosureStatus::kAccepted;
   double statistic = 0;  ///< squared normalised residual that was tested
   std::string reason;    ///< of a rejection; empty if accepted
 };
+
+/// A closure and what its verification says of it, the first judgement.
+struct VerifiedClosure {
+  Closure closure;
+  ClosureJudgement judgement = {};
+};
+
+/// Appends to lists of the same order.
+void append(const std::vector<VerifiedClosure>& verified, std::vector<Closure>& closures,
+            std::vector<ClosureJudgement>& judgements);
 
 /// Information of a relative pose in the dimension of the estimate; in the plane, height, roll and pitch are
 /// marginalised.
@@ -49,7 +62,7 @@ struct ClosureEnds {
 template <class Pose>
 ClosureEnds closure_ends(const JointGraph<Pose>& joint, const Closure& closure);
 
-void reject(Closure& closure, std::string reason);
+void reject(ClosureJudgement& judgement, std::string reason);
 
 /// The mission's matches, in their order.
 std::vector<Closure> closures_of_matches(const Mission& mission);
@@ -66,28 +79,31 @@ void add_closure(JointGraph<Pose>& joint, const Closure& closure, RelativePoseFa
 /// Accepts, of the closures whose factors are in the graph, those whose residual there passes the chi-squared
 /// test; the others stay as they are.
 template <class Pose>
-void test_closures(const JointGraph<Pose>& joint, FactorSource source, std::vector<Closure>& closures);
+void test_closures(const JointGraph<Pose>& joint, FactorSource source,
+                   std::vector<ClosureJudgement>& judgements);
 
 /// Outcomes, at the keyframes before both ends.
 template <class Pose>
 std::vector<ClosureResult> collect_closures(const JointGraph<Pose>& joint,
-                                            const std::vector<Closure>& closures);
+                                            const std::vector<Closure>& closures,
+                                            const std::vector<ClosureJudgement>& judgements);
 
 // LiDAR loop closures within each robot, as factors of the joint graph.
 
 /// A loop by scan matching between the scans at these stamps; the statistic is its inlier ratio.
-Closure closure_of_scan(RobotIndex robot_i, Stamp stamp_i, RobotIndex robot_j, Stamp stamp_j,
-                        const ScanLoop& loop);
+VerifiedClosure closure_of_scan(RobotIndex robot_i, Stamp stamp_i, RobotIndex robot_j, Stamp stamp_j,
+                                const ScanLoop& loop);
 
 /// In their order; the statistic of those that scan matching rejected is the inlier ratio.
-std::vector<Closure> closures_of_scans(const std::vector<ScanClosure>& scans);
+std::vector<VerifiedClosure> closures_of_scans(const std::vector<ScanClosure>& scans);
 
 /// Adds the stamps of the accepted closures to every robot's node stamps.
-void add_closure_stamps(const std::vector<Closure>& closures, std::vector<std::vector<Stamp>>& node_stamps);
+void add_closure_stamps(const std::vector<VerifiedClosure>& closures,
+                        std::vector<std::vector<Stamp>>& node_stamps);
 
 /// Adds the accepted closures of robots with themselves, each with a loss.
 template <class Pose>
-void add_scan_closures(JointGraph<Pose>& joint, const std::vector<Closure>& closures);
+void add_scan_closures(JointGraph<Pose>& joint, const std::vector<VerifiedClosure>& closures);
 
 /// Moves every robot's trajectory as its loop closures moved its scanned keyframes; it stays in its frame.
 template <class Pose>

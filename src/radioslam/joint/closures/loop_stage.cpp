@@ -234,11 +234,12 @@ void add_own_loops(JointGraph<Pose>& joint, const std::vector<Closure>& closures
 }
 
 template <class Pose>
-void close_by_loops(JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment, std::vector<Closure>& closures,
+void close_by_loops(JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment,
+                    const std::vector<Closure>& closures, std::vector<ClosureJudgement>& judgements,
                     const OptimizerParams& optimizer, const Progress& progress,
                     const ConsistencyParams& consistency) {
-  for (Closure& closure : closures)
-    if (!closure_ends(joint, closure).valid()) reject(closure, "no odometry at its time");
+  for (std::size_t k = 0; k < closures.size(); ++k)
+    if (!closure_ends(joint, closures[k]).valid()) reject(judgements[k], "no odometry at its time");
   std::vector<TeamLoop<Pose>> loops = team_loops(joint, closures);
   if (loops.empty()) return;
   for (std::size_t k = 0; k < joint.origins.relative_poses.size(); ++k) {
@@ -282,18 +283,19 @@ void close_by_loops(JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment, std
   optimize(joint.team.graph, optimizer, progress);
   for (const TeamLoop<Pose>& loop : loops)
     for (const std::size_t k : loop.closures) {
-      closures[k].statistic = loop.statistic;
+      judgements[k].statistic = loop.statistic;
       if (loop.accepted) continue;
       const bool open = component[loop.segment_i] != component[loop.segment_j];
-      reject(closures[k], open ? "no group of loops stands out" : "the joint estimate disagrees");
+      reject(judgements[k], open ? "no group of loops stands out" : "the joint estimate disagrees");
     }
   note_scales(scales, alignment);
 }
 
-#define RADIOSLAM_LOOP_STAGE(Pose)                                                                     \
-  template void add_own_loops(JointGraph<Pose>&, const std::vector<Closure>&, const OptimizerParams&); \
-  template void close_by_loops(JointGraph<Pose>&, TeamAlignment<Pose>&, std::vector<Closure>&,         \
-                               const OptimizerParams&, const Progress&, const ConsistencyParams&);
+#define RADIOSLAM_LOOP_STAGE(Pose)                                                                      \
+  template void add_own_loops(JointGraph<Pose>&, const std::vector<Closure>&, const OptimizerParams&);  \
+  template void close_by_loops(JointGraph<Pose>&, TeamAlignment<Pose>&, const std::vector<Closure>&,    \
+                               std::vector<ClosureJudgement>&, const OptimizerParams&, const Progress&, \
+                               const ConsistencyParams&);
 RADIOSLAM_LOOP_STAGE(SE2)
 RADIOSLAM_LOOP_STAGE(SE3)
 #undef RADIOSLAM_LOOP_STAGE

@@ -17,12 +17,13 @@ template <class Pose>
 void add_own_loops(JointGraph<Pose>& joint, const std::vector<Closure>& closures,
                    const OptimizerParams& optimizer);
 
-/// Joins the components that loops connect, and solves the team with the loops that hold; sets the outcome of
-/// every closure. The alignment notes what stands on loops alone, what they leave open, and stated
+/// Joins the components that loops connect, and solves the team with the loops that hold; judges every
+/// closure. The alignment notes what stands on loops alone, what they leave open, and stated
 /// covariances that do not hold. With unit weights every pair of robots that has a consistent set is joined
 /// by its largest, however weak; the joint estimate still judges each loop under its covariance.
 template <class Pose>
-void close_by_loops(JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment, std::vector<Closure>& closures,
+void close_by_loops(JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment,
+                    const std::vector<Closure>& closures, std::vector<ClosureJudgement>& judgements,
                     const OptimizerParams& optimizer, const Progress& progress,
                     const ConsistencyParams& consistency = {});
 

@@ -67,7 +67,7 @@ std::vector<TeamLoop<Pose>> team_loops(const JointGraph<Pose>& joint, const std:
   std::multimap<std::pair<PoseId, PoseId>, std::size_t> by_ends;
   for (std::size_t k = 0; k < closures.size(); ++k) {
     const ClosureEnds ends = closure_ends(joint, closures[k]);
-    if (!ends.valid() || ends.i == ends.j || closures[k].status == ClosureStatus::kRejected) continue;
+    if (!ends.valid() || ends.i == ends.j) continue;
     const auto [begin, end] = by_ends.equal_range(std::minmax(ends.i, ends.j));
     auto same = begin;
     for (; same != end; ++same) {

@@ -32,8 +32,7 @@ struct TeamLoop {
   bool is_own() const { return segment_i == segment_j; }
 };
 
-/// The loops of those closures that have both ends in the graph and are not rejected yet, in the order of
-/// their first closures.
+/// The loops of those closures that have both ends in the graph, in the order of their first closures.
 template <class Pose>
 std::vector<TeamLoop<Pose>> team_loops(const JointGraph<Pose>& joint, const std::vector<Closure>& closures);
 

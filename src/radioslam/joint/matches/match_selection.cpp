@@ -24,13 +24,15 @@ constexpr std::size_t kMinVouching = 3;
 template <class Pose>
 class MatchSelector {
  public:
-  MatchSelector(JointGraph<Pose>& joint, const TeamAlignment<Pose>& alignment, std::vector<Closure>& matches,
+  MatchSelector(JointGraph<Pose>& joint, const TeamAlignment<Pose>& alignment,
+                const std::vector<Closure>& matches, std::vector<ClosureJudgement>& judgements,
                 const CandidateList& candidates, Pruning pruning, const MatchParams& params,
                 const AoaMatchWeights* angles, const std::optional<RadioCovariance<Pose>>& radio,
                 const ConsistencyParams& consistency)
       : joint_(joint),
         alignment_(alignment),
         matches_(matches),
+        judgements_(judgements),
         candidates_(candidates),
         pruning_(pruning),
         params_(params),
@@ -43,24 +45,24 @@ class MatchSelector {
     if (params_.robust)
       for (const auto& [robots, group] : between_robots_) keep_consistent(group);
     for (const MatchEnds& ends : admitted_)
-      if (matches_[ends.match].status == ClosureStatus::kAccepted) add_match(ends);
+      if (judgements_[ends.match].status == ClosureStatus::kAccepted) add_match(ends);
   }
 
  private:
   void admit(std::size_t index) {
-    Closure& match = matches_[index];
+    const Closure& match = matches_[index];
     const auto [i, j] = closure_ends(joint_, match);
-    if (!i.valid() || !j.valid()) return reject(match, "no odometry at its time");
+    if (!i.valid() || !j.valid()) return reject(judgements_[index], "no odometry at its time");
     const MatchEnds ends{index, i, j};
     const bool other = match.robot_i != match.robot_j;
     const bool is_tested = other && pruning_ == Pruning::kOn &&
                            connected_without_matches(alignment_, match.robot_i, match.robot_j);
     if (is_tested && !is_candidate(match)) return set_aside(ends, "the views cannot overlap");
-    if (is_tested && contradicts_radio(match, ends))
+    if (is_tested && contradicts_radio(ends))
       return set_aside(ends, "its relative pose contradicts the radio");
     if (other && pruning_ == Pruning::kOn && !is_tested &&
         alignment_.component[match.robot_i.index()] != alignment_.component[match.robot_j.index()])
-      return reject(match, "no group of matches stands out");
+      return reject(judgements_[index], "no group of matches stands out");
     if (other) between_robots_[std::minmax(match.robot_i, match.robot_j)].push_back(admitted_.size());
     admitted_.push_back(ends);
   }
@@ -72,16 +74,17 @@ class MatchSelector {
 
   /// Keeps a match that the joint estimate rejects, in case an accepted set vouches for it.
   void set_aside(const MatchEnds& ends, std::string reason) {
-    Closure& match = matches_[ends.match];
+    const Closure& match = matches_[ends.match];
     set_aside_[std::minmax(match.robot_i, match.robot_j)].push_back(ends);
-    reject(match, std::move(reason));
+    reject(judgements_[ends.match], std::move(reason));
   }
 
   /// Sets the statistic where radio links tell the robots' relative pose.
-  bool contradicts_radio(Closure& match, const MatchEnds& ends) const {
+  bool contradicts_radio(const MatchEnds& ends) {
     if (!radio_ || !params_.robust) return false;
-    match.statistic = match_statistic(joint_, radio_->marginals, radio_->temperature, match, ends);
-    return match.statistic > kPoseChiSquared999<Pose>;
+    double& statistic = judgements_[ends.match].statistic;
+    statistic = match_statistic(joint_, radio_->marginals, radio_->temperature, matches_[ends.match], ends);
+    return statistic > kPoseChiSquared999<Pose>;
   }
 
   using Oriented = std::vector<RelativePoseMatch<Pose>>;
@@ -107,9 +110,9 @@ class MatchSelector {
         members.push_back(matches[k]);
         continue;
       }
-      Closure& match = matches_[admitted_[group[k]].match];
-      match.statistic = set.matches[k].best_statistic.value_or(0);
-      reject(match, "not consistent with the largest set of matches");
+      ClosureJudgement& judgement = judgements_[admitted_[group[k]].match];
+      judgement.statistic = set.matches[k].best_statistic.value_or(0);
+      reject(judgement, "not consistent with the largest set of matches");
     }
     if (members.size() < kMinVouching || has_unit_weights(consistency_)) return;
     std::vector<MatchEnds> vouched_for;
@@ -125,22 +128,23 @@ class MatchSelector {
     }
     if (extension.empty()) return;
     for (const std::size_t k : largest_consistent_set(chain_a, chain_b, extension).members) {
-      matches_[vouched_for[k].match].status = ClosureStatus::kAccepted;
-      matches_[vouched_for[k].match].reason.clear();
+      judgements_[vouched_for[k].match].status = ClosureStatus::kAccepted;
+      judgements_[vouched_for[k].match].reason.clear();
       admitted_.push_back(vouched_for[k]);
     }
   }
 
   void reject_group(const std::vector<std::size_t>& group) {
     for (const std::size_t k : group)
-      reject(matches_[admitted_[k].match], "too few matches between the robots");
+      reject(judgements_[admitted_[k].match], "too few matches between the robots");
   }
 
   void add_match(const MatchEnds& ends) {
-    Closure& match = matches_[ends.match];
+    const Closure& match = matches_[ends.match];
     std::optional<double> scale;
     if (angles_ && match.robot_i != match.robot_j) scale = angles_->template information_scale<Pose>(match);
-    if (scale.value_or(1) < kMinRatio) return reject(match, "the angles of arrival disagree");
+    if (scale.value_or(1) < kMinRatio)
+      return reject(judgements_[ends.match], "the angles of arrival disagree");
     RelativePoseFactor<Pose> factor = closure_factor(joint_, match);
     factor.information *= scale.value_or(1);
     if (params_.robust) factor.loss = {LossKind::kGemanMcClure, std::sqrt(kPoseChiSquared99<Pose>)};
@@ -149,7 +153,8 @@ class MatchSelector {
 
   JointGraph<Pose>& joint_;
   const TeamAlignment<Pose>& alignment_;
-  std::vector<Closure>& matches_;
+  const std::vector<Closure>& matches_;
+  std::vector<ClosureJudgement>& judgements_;
   const CandidateList& candidates_;
   Pruning pruning_;
   MatchParams params_;
@@ -200,16 +205,19 @@ std::vector<KeyframePair> keyframes_of_matches(const JointGraph<Pose>& joint,
 
 template <class Pose>
 void select_matches(JointGraph<Pose>& joint, const TeamAlignment<Pose>& alignment,
-                    std::vector<Closure>& matches, const CandidateList& candidates, Pruning pruning,
-                    const MatchParams& params, const AoaMatchWeights* angles,
-                    const std::optional<RadioCovariance<Pose>>& radio, const ConsistencyParams& consistency) {
-  MatchSelector<Pose>(joint, alignment, matches, candidates, pruning, params, angles, radio, consistency)
+                    const std::vector<Closure>& matches, std::vector<ClosureJudgement>& judgements,
+                    const CandidateList& candidates, Pruning pruning, const MatchParams& params,
+                    const AoaMatchWeights* angles, const std::optional<RadioCovariance<Pose>>& radio,
+                    const ConsistencyParams& consistency) {
+  MatchSelector<Pose>(joint, alignment, matches, judgements, candidates, pruning, params, angles, radio,
+                      consistency)
       .run();
 }
 
 template <class Pose>
-void optimize_with_matches(JointGraph<Pose>& joint, std::vector<Closure>& matches, const MatchParams& params,
-                           const OptimizerParams& optimizer, const Progress& progress) {
+void optimize_with_matches(JointGraph<Pose>& joint, std::vector<ClosureJudgement>& judgements,
+                           const MatchParams& params, const OptimizerParams& optimizer,
+                           const Progress& progress) {
   auto& graph = joint.team.graph;
   if (params.robust)
     optimize_graduated_matches(joint, optimizer, progress);
@@ -219,20 +227,21 @@ void optimize_with_matches(JointGraph<Pose>& joint, std::vector<Closure>& matche
     const FactorOrigin& origin = joint.origins.relative_poses[k];
     if (origin.source != FactorSource::kMatch) continue;
     const auto& factor = graph.relative_poses[k];
-    Closure& match = matches[origin.measurement];
-    match.statistic = squared_norm(graph, factor);
-    if (factor.weight < kMinRatio) reject(match, "the joint estimate disagrees");
+    ClosureJudgement& judgement = judgements[origin.measurement];
+    judgement.statistic = squared_norm(graph, factor);
+    if (factor.weight < kMinRatio) reject(judgement, "the joint estimate disagrees");
   }
 }
 
 namespace {
 
 /// Pairs with enough accepted matches to determine their relative pose.
-PairsOfRobots pairs_with_matches(const std::vector<Closure>& matches) {
+PairsOfRobots pairs_with_matches(const std::vector<Closure>& matches,
+                                 const std::vector<ClosureJudgement>& judgements) {
   std::map<std::pair<RobotIndex, RobotIndex>, std::size_t> accepted;
-  for (const Closure& match : matches)
-    if (match.status == ClosureStatus::kAccepted && match.robot_i != match.robot_j)
-      ++accepted[std::minmax(match.robot_i, match.robot_j)];
+  for (std::size_t m = 0; m < matches.size(); ++m)
+    if (judgements[m].status == ClosureStatus::kAccepted && matches[m].robot_i != matches[m].robot_j)
+      ++accepted[std::minmax(matches[m].robot_i, matches[m].robot_j)];
   PairsOfRobots pairs;
   for (const auto& [robots, count] : accepted)
     if (count >= kMinVouching) pairs.insert(robots);
@@ -241,33 +250,33 @@ PairsOfRobots pairs_with_matches(const std::vector<Closure>& matches) {
 
 /// Sets the status of every match in the graph by its error there; rejected ones lose their weight.
 template <class Pose>
-void retest_matches(JointGraph<Pose>& joint, std::vector<Closure>& matches) {
-  test_closures(joint, FactorSource::kMatch, matches);
+void retest_matches(JointGraph<Pose>& joint, std::vector<ClosureJudgement>& judgements) {
+  test_closures(joint, FactorSource::kMatch, judgements);
   for (std::size_t k = 0; k < joint.origins.relative_poses.size(); ++k) {
     const FactorOrigin& origin = joint.origins.relative_poses[k];
     if (origin.source != FactorSource::kMatch) continue;
-    const bool fits = matches[origin.measurement].status == ClosureStatus::kAccepted;
+    const bool fits = judgements[origin.measurement].status == ClosureStatus::kAccepted;
     joint.team.graph.relative_poses[k].weight = fits ? 1 : 0;
   }
 }
 
 /// Log likelihood of the joint estimate, in which a rejected match costs as much as one at its gate.
 template <class Pose>
-double optimize_and_reweigh(JointGraph<Pose>& joint, std::vector<Closure>& matches,
+double optimize_and_reweigh(JointGraph<Pose>& joint, std::vector<ClosureJudgement>& judgements,
                             const TeamAlignment<Pose>& alignment, const MatchParams& params,
                             const MixtureParams& mixture, const OptimizerParams& optimizer,
                             const Progress& progress) {
   constexpr int kRounds = 3;
-  const auto is_accepted = [](const Closure& o) { return o.status == ClosureStatus::kAccepted; };
-  const auto before = std::count_if(matches.begin(), matches.end(), is_accepted);
-  optimize_with_matches(joint, matches, params, optimizer, progress);
+  const auto is_accepted = [](const ClosureJudgement& o) { return o.status == ClosureStatus::kAccepted; };
+  const auto before = std::count_if(judgements.begin(), judgements.end(), is_accepted);
+  optimize_with_matches(joint, judgements, params, optimizer, progress);
   for (int round = 0; round < kRounds; ++round) {
     reweigh_radio_links(joint, alignment, mixture);
-    retest_matches(joint, matches);
+    retest_matches(joint, judgements);
     optimize(joint.team.graph, optimizer, progress);
   }
-  retest_matches(joint, matches);
-  const auto lost = before - std::count_if(matches.begin(), matches.end(), is_accepted);
+  retest_matches(joint, judgements);
+  const auto lost = before - std::count_if(judgements.begin(), judgements.end(), is_accepted);
   return reweigh_radio_links(joint, alignment, mixture) -
          static_cast<double>(lost) * kPoseChiSquared99<Pose> / 2;
 }
@@ -275,36 +284,39 @@ double optimize_and_reweigh(JointGraph<Pose>& joint, std::vector<Closure>& match
 }  // namespace
 
 template <class Pose>
-void optimize_matches_and_radio(JointGraph<Pose>& joint, std::vector<Closure>& matches,
+void optimize_matches_and_radio(JointGraph<Pose>& joint, const std::vector<Closure>& matches,
+                                std::vector<ClosureJudgement>& judgements,
                                 const TeamAlignment<Pose>& alignment, const MatchParams& params,
                                 const MixtureParams& mixture, const OptimizerParams& optimizer,
                                 const Progress& progress) {
   JointGraph<Pose> matches_first = joint;
-  std::vector<Closure> matches_alone = matches;
+  std::vector<ClosureJudgement> judgements_first = judgements;
   const double by_radio =
-      optimize_and_reweigh(joint, matches, alignment, params, mixture, optimizer, progress);
-  const PairsOfRobots pairs = pairs_with_matches(matches_alone);
+      optimize_and_reweigh(joint, judgements, alignment, params, mixture, optimizer, progress);
+  const PairsOfRobots pairs = pairs_with_matches(matches, judgements_first);
   silence_links(matches_first, pairs);
-  if (!pairs.empty() && optimize_and_reweigh(matches_first, matches_alone, alignment, params, mixture,
+  if (!pairs.empty() && optimize_and_reweigh(matches_first, judgements_first, alignment, params, mixture,
                                              optimizer, progress) > by_radio) {
     joint = std::move(matches_first);
-    matches = std::move(matches_alone);
+    judgements = std::move(judgements_first);
   }
   optimize(joint.team.graph, optimizer, progress);  // with the weights that were set last
 }
 
-#define RADIOSLAM_MATCH_STAGE(Pose)                                                                        \
-  template std::optional<RadioCovariance<Pose>> radio_covariance(                                          \
-      const JointGraph<Pose>&, const TeamAlignment<Pose>&, const RadioAlignmentParams&);                   \
-  template std::vector<KeyframePair> keyframes_of_matches(const JointGraph<Pose>&,                         \
-                                                          const std::vector<Closure>&);                    \
-  template void select_matches(JointGraph<Pose>&, const TeamAlignment<Pose>&, std::vector<Closure>&,       \
-                               const CandidateList&, Pruning, const MatchParams&, const AoaMatchWeights*,  \
-                               const std::optional<RadioCovariance<Pose>>&, const ConsistencyParams&);     \
-  template void optimize_matches_and_radio(JointGraph<Pose>&, std::vector<Closure>&,                       \
-                                           const TeamAlignment<Pose>&, const MatchParams&,                 \
-                                           const MixtureParams&, const OptimizerParams&, const Progress&); \
-  template void optimize_with_matches(JointGraph<Pose>&, std::vector<Closure>&, const MatchParams&,        \
+#define RADIOSLAM_MATCH_STAGE(Pose)                                                                          \
+  template std::optional<RadioCovariance<Pose>> radio_covariance(                                            \
+      const JointGraph<Pose>&, const TeamAlignment<Pose>&, const RadioAlignmentParams&);                     \
+  template std::vector<KeyframePair> keyframes_of_matches(const JointGraph<Pose>&,                           \
+                                                          const std::vector<Closure>&);                      \
+  template void select_matches(JointGraph<Pose>&, const TeamAlignment<Pose>&, const std::vector<Closure>&,   \
+                               std::vector<ClosureJudgement>&, const CandidateList&, Pruning,                \
+                               const MatchParams&, const AoaMatchWeights*,                                   \
+                               const std::optional<RadioCovariance<Pose>>&, const ConsistencyParams&);       \
+  template void optimize_matches_and_radio(JointGraph<Pose>&, const std::vector<Closure>&,                   \
+                                           std::vector<ClosureJudgement>&, const TeamAlignment<Pose>&,       \
+                                           const MatchParams&, const MixtureParams&, const OptimizerParams&, \
+                                           const Progress&);                                                 \
+  template void optimize_with_matches(JointGraph<Pose>&, std::vector<ClosureJudgement>&, const MatchParams&, \
                                       const OptimizerParams&, const Progress&);
 RADIOSLAM_MATCH_STAGE(SE2)
 RADIOSLAM_MATCH_STAGE(SE3)

@@ -47,12 +47,13 @@ template <class Pose>
 std::vector<KeyframePair> keyframes_of_matches(const JointGraph<Pose>& joint,
                                                const std::vector<Closure>& matches);
 
-/// Tests every match and adds factors for those accepted. `joint` must be optimized and placed. `candidates`:
-/// all that are keyframes of a match. `angles`: scales each match's information, if given.
+/// Judges every match and adds factors for those accepted. `joint` must be optimized and placed.
+/// `candidates`: all that are keyframes of a match. `angles`: scales each match's information, if given.
 template <class Pose>
 void select_matches(JointGraph<Pose>& joint, const TeamAlignment<Pose>& alignment,
-                    std::vector<Closure>& matches, const CandidateList& candidates, Pruning pruning,
-                    const MatchParams& params, const AoaMatchWeights* angles = nullptr,
+                    const std::vector<Closure>& matches, std::vector<ClosureJudgement>& judgements,
+                    const CandidateList& candidates, Pruning pruning, const MatchParams& params,
+                    const AoaMatchWeights* angles = nullptr,
                     const std::optional<RadioCovariance<Pose>>& radio = {},
                     const ConsistencyParams& consistency = {});
 
@@ -61,7 +62,8 @@ void select_matches(JointGraph<Pose>& joint, const TeamAlignment<Pose>& alignmen
 /// the matches have joined, and with the links between such robots left out until then. Both recompute all
 /// weights afterwards, and the likelier solution is the result.
 template <class Pose>
-void optimize_matches_and_radio(JointGraph<Pose>& joint, std::vector<Closure>& matches,
+void optimize_matches_and_radio(JointGraph<Pose>& joint, const std::vector<Closure>& matches,
+                                std::vector<ClosureJudgement>& judgements,
                                 const TeamAlignment<Pose>& alignment, const MatchParams& params,
                                 const MixtureParams& mixture, const OptimizerParams& optimizer,
                                 const Progress& progress);
@@ -69,7 +71,8 @@ void optimize_matches_and_radio(JointGraph<Pose>& joint, std::vector<Closure>& m
 /// Optimizes with a graduated loss on the matches, which may still reject some; or, if `robust` is off, by
 /// plain least squares with all of them.
 template <class Pose>
-void optimize_with_matches(JointGraph<Pose>& joint, std::vector<Closure>& matches, const MatchParams& params,
-                           const OptimizerParams& optimizer, const Progress& progress);
+void optimize_with_matches(JointGraph<Pose>& joint, std::vector<ClosureJudgement>& judgements,
+                           const MatchParams& params, const OptimizerParams& optimizer,
+                           const Progress& progress);
 
 }  // namespace radioslam

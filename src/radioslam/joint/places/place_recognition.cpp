@@ -16,26 +16,28 @@ namespace {
 constexpr double kApart_m = 2;  // between scans of a submap in space, each of which shows most of it
 constexpr double kSamePose_m = 0.1, kSamePose_rad = 0.05;
 
-Closure closure_of(const Proposal& proposal, const ScanLoop& loop, const ScannedRobot& a,
-                   const ScannedRobot& b) {
-  Closure closure = closure_of_scan(RobotIndex(proposal.a), a.scans->keyframe_stamps[proposal.i],
-                                    RobotIndex(proposal.b), b.scans->keyframe_stamps[proposal.j], loop);
-  if (loop.status == LoopStatus::kContradictsOdometry) reject(closure, "it is not where it is predicted");
-  return closure;
+VerifiedClosure closure_of(const Proposal& proposal, const ScanLoop& loop, const ScannedRobot& a,
+                           const ScannedRobot& b) {
+  auto found = closure_of_scan(RobotIndex(proposal.a), a.scans->keyframe_stamps[proposal.i],
+                               RobotIndex(proposal.b), b.scans->keyframe_stamps[proposal.j], loop);
+  if (loop.status == LoopStatus::kContradictsOdometry)
+    reject(found.judgement, "it is not where it is predicted");
+  return found;
 }
 
 /// Several alignments may lead a pair to one and the same pose.
-void reject_repetitions(const std::vector<Proposal>& proposals, std::vector<Closure>& closures) {
+void reject_repetitions(const std::vector<Proposal>& proposals, std::vector<VerifiedClosure>& closures) {
   std::map<std::array<std::size_t, 4>, std::vector<std::size_t>> of_pair;
   for (std::size_t k = 0; k < proposals.size(); ++k) {
-    if (closures[k].status != ClosureStatus::kAccepted) continue;
+    auto& [closure, judgement] = closures[k];
+    if (judgement.status != ClosureStatus::kAccepted) continue;
     const Proposal& pair = proposals[k];
     auto& others = of_pair[{pair.a, pair.b, pair.i, pair.j}];
-    const auto is_same = [&](std::size_t other) {
-      const SE3::Tangent off = (closures[other].T_i_j.inverse() * closures[k].T_i_j).log();
+    const auto is_same = [&, &T_i_j = closure.T_i_j](std::size_t other) {
+      const SE3::Tangent off = (closures[other].closure.T_i_j.inverse() * T_i_j).log();
       return off.head<3>().norm() < kSamePose_m && off.tail<3>().norm() < kSamePose_rad;
     };
-    if (std::any_of(others.begin(), others.end(), is_same)) reject(closures[k], "measured before");
+    if (std::any_of(others.begin(), others.end(), is_same)) reject(judgement, "measured before");
     others.push_back(k);
   }
 }
@@ -58,15 +60,17 @@ void RecognisedPlaces::append(RecognisedPlaces more) {
   counts.verified += more.counts.verified;
 }
 
-void RecognisedPlaces::note_judgement(const std::vector<Closure>& judged) {
+void RecognisedPlaces::note_judgement(const std::vector<Closure>& judged,
+                                      const std::vector<ClosureJudgement>& judgements) {
   const auto key = [](const Closure& closure) {
     return std::make_tuple(closure.robot_i, closure.stamp_i, closure.robot_j, closure.stamp_j);
   };
   std::set<std::tuple<RobotIndex, Stamp, RobotIndex, Stamp>> accepted;
-  for (const Closure& closure : judged)
-    if (closure.kind == ClosureKind::kLidar && closure.status == ClosureStatus::kAccepted)
-      accepted.insert(key(closure));
-  for (std::size_t k = 0; k < closures.size(); ++k) attempts[k].holds = accepted.contains(key(closures[k]));
+  for (std::size_t k = 0; k < judged.size(); ++k)
+    if (judged[k].kind == ClosureKind::kLidar && judgements[k].status == ClosureStatus::kAccepted)
+      accepted.insert(key(judged[k]));
+  for (std::size_t k = 0; k < closures.size(); ++k)
+    attempts[k].holds = accepted.contains(key(closures[k].closure));
 }
 
 template <class Pose>
@@ -99,7 +103,7 @@ RecognisedPlaces recognise_places(const PlaceInput<Pose>& input, const PlacePara
   found.counts.registrations = proposals.size();
   found.counts.verified = static_cast<std::size_t>(
       std::count_if(found.closures.begin(), found.closures.end(),
-                    [](const Closure& c) { return c.status == ClosureStatus::kAccepted; }));
+                    [](const VerifiedClosure& c) { return c.judgement.status == ClosureStatus::kAccepted; }));
   report_progress(progress, "places", 1);
   return found;
 }

@@ -30,14 +30,14 @@
 namespace radioslam {
 
 struct RecognisedPlaces {
-  std::vector<Closure> closures;       ///< every registration; accepted: verified
-  std::vector<PlaceAttempt> attempts;  ///< the same registrations
+  std::vector<VerifiedClosure> closures;  ///< every registration
+  std::vector<PlaceAttempt> attempts;     ///< the same registrations
   PlaceCounts counts;
 
   bool has_verified() const { return counts.verified > 0; }
   void append(RecognisedPlaces more);
   /// Notes which attempts the joint estimate accepted, of all closures that it judged.
-  void note_judgement(const std::vector<Closure>& judged);
+  void note_judgement(const std::vector<Closure>& judged, const std::vector<ClosureJudgement>& judgements);
 };
 
 /// Whether two robots have scans that can be compared.

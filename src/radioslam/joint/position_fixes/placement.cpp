@@ -326,8 +326,7 @@ TeamFixes<Pose> place_by_fixes(JointGraph<Pose>& joint, const Mission& mission, 
 }
 
 template <class Pose>
-KnownStarts starts_with_fixes(const Mission& mission, const TeamFixes<Pose>& fixes) {
-  KnownStarts starts = known_starts(mission);
+KnownStarts starts_with_fixes(KnownStarts starts, const Mission& mission, const TeamFixes<Pose>& fixes) {
   for (std::size_t r = 0; r < fixes.size(); ++r)
     if (fixes[r].T_common_start)
       starts[r] = lift(flatten(*fixes[r].T_common_start * mission.robots[r].odometry.front().pose),
@@ -368,7 +367,7 @@ void reclassify_fixes(JointGraph<Pose>& joint, const TeamFixes<Pose>& fixes, con
 #define RADIOSLAM_FIX_STAGE(Pose)                                                                    \
   template TeamFixes<Pose> place_by_fixes(JointGraph<Pose>&, const Mission&, const FixParams&,       \
                                           const OptimizerParams&);                                   \
-  template KnownStarts starts_with_fixes<Pose>(const Mission&, const TeamFixes<Pose>&);              \
+  template KnownStarts starts_with_fixes<Pose>(KnownStarts, const Mission&, const TeamFixes<Pose>&); \
   template void constrain_by_fixes(JointGraph<Pose>&, TeamFixes<Pose>&, const TeamAlignment<Pose>&); \
   template void reclassify_fixes(JointGraph<Pose>&, const TeamFixes<Pose>&, const OptimizerParams&,  \
                                  const Progress&);

@@ -124,9 +124,9 @@ template <class Pose>
 TeamFixes<Pose> place_by_fixes(JointGraph<Pose>& joint, const Mission& mission, const FixParams& params,
                                const OptimizerParams& optimizer);
 
-/// The mission's known starts, and those that the fixes determined.
+/// The stated starts, and those that the fixes determined.
 template <class Pose>
-KnownStarts starts_with_fixes(const Mission& mission, const TeamFixes<Pose>& fixes);
+KnownStarts starts_with_fixes(KnownStarts starts, const Mission& mission, const TeamFixes<Pose>& fixes);
 
 /// Adds fixes of robots that other measurements have put into the common frame.
 template <class Pose>
