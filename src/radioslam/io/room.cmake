@@ -18,6 +18,7 @@ radioslam_room(io
     graph/g2o_vertices.cpp
     graph/g2o_write.cpp
     graph/jrl.cpp
+    graph/keyed_poses.cpp
     graph/pyfg.cpp
     graph/team_assembly.cpp
     graph/team_graph_file.cpp

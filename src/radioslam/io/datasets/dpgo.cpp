@@ -9,7 +9,7 @@
 
 #include "radioslam/base/statistics.hpp"
 #include "radioslam/geometry/linear_algebra.hpp"
-#include "radioslam/io/graph/team_assembly.hpp"
+#include "radioslam/io/graph/keyed_poses.hpp"
 #include "radioslam/io/text/csv.hpp"
 #include "radioslam/io/text/numbers.hpp"
 #include "radioslam/io/text/skipped_records.hpp"
@@ -57,11 +57,7 @@ class DpgoReader {
   }
 
   TeamGraphFile<SE3> finish() {
-    AssembledTeam<SE3> assembled = assemble_team(std::move(graph_), places_, StatedStarts::kIgnored);
-    TeamGraphFile<SE3> out;
-    out.team = std::move(assembled.team);
-    for (const std::size_t k : assembled.file_index) out.pose_ids.push_back(keys_[k]);
-    for (const std::uint64_t key : out.pose_ids) out.pose_names.push_back(std::to_string(key));
+    TeamGraphFile<SE3> out = poses_.assemble(std::move(graph_), StatedStarts::kIgnored).file;
     out.notes = std::move(notes_);
     return out;
   }
@@ -97,25 +93,13 @@ class DpgoReader {
   }
 
   void add(const DpgoRow& row, RelativePoseFactor<SE3> factor) {
-    factor.i = pose(row.i);
-    factor.j = pose(row.j);
+    factor.i = poses_.at(row.i);
+    factor.j = poses_.at(row.j);
     graph_.relative_poses.push_back(factor);
   }
 
-  PoseId pose(std::uint64_t key) {
-    const auto [found, is_new] = poses_.try_emplace(key, PoseId(keys_.size()));
-    if (is_new) {
-      keys_.push_back(key);
-      places_.push_back(place_of_key(key));
-      graph_.poses.emplace_back();
-    }
-    return found->second;
-  }
-
   PoseGraph<SE3> graph_;
-  std::vector<std::uint64_t> keys_;
-  std::vector<PoseIndex> places_;
-  std::map<std::uint64_t, PoseId> poses_;
+  KeyedPoses poses_;
   std::set<DpgoRow> earlier_;  // of earlier tables
   std::vector<std::string> notes_;
 };

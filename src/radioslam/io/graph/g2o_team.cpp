@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "radioslam/io/graph/g2o.hpp"
-#include "radioslam/io/graph/team_assembly.hpp"
+#include "radioslam/io/graph/keyed_poses.hpp"
 #include "radioslam/io/text/compressed_text.hpp"
 
 namespace radioslam {
@@ -67,9 +67,9 @@ class TeamMerge {
     graph_.chart = graph.chart;
     std::vector<PoseId> poses;
     for (std::size_t k = 0; k < file.pose_ids.size(); ++k) {
-      const std::uint64_t id = key_of(file.pose_ids[k]);
-      poses.push_back(pose(id));
-      if (file.pose_has_value[k]) stated_.try_emplace(id, graph.poses[k]);
+      const std::uint64_t key = key_of(file.pose_ids[k]);
+      poses.push_back(robot ? poses_.at(key, robot->name) : poses_.at(key));
+      if (file.pose_has_value[k]) stated_.try_emplace(key, graph.poses[k]);
     }
     std::vector<PointId> points;
     for (const std::uint64_t id : file.point_ids) points.push_back(point(key_of(id)));
@@ -103,14 +103,9 @@ class TeamMerge {
   }
 
   TeamGraphFile<Pose> assemble(StatedStarts starts) {
-    TeamGraphFile<Pose> out;
     if (starts == StatedStarts::kUsed) add_start_priors();
-    AssembledTeam<Pose> assembled = assemble_team(std::move(graph_), places_, starts);
-    out.team = std::move(assembled.team);
-    out.notes = std::move(notes_);
-    out.notes.insert(out.notes.end(), assembled.notes.begin(), assembled.notes.end());
-    for (const std::size_t k : assembled.file_index) out.pose_ids.push_back(pose_ids_[k]);
-    for (const std::uint64_t id : out.pose_ids) out.pose_names.push_back(std::to_string(id));
+    TeamGraphFile<Pose> out = poses_.assemble(std::move(graph_), starts).file;
+    out.notes.insert(out.notes.begin(), notes_.begin(), notes_.end());
     for (const std::uint64_t id : point_ids_) out.point_names.push_back(std::to_string(id));
     out.point_ids = point_ids_;
     return out;
@@ -120,17 +115,6 @@ class TeamMerge {
   /// The key of a pose or point of the current file: with the robot's letter.
   std::uint64_t key_of(std::uint64_t id) const {
     return robot_ ? (robot_->letter << kKeyRobotShift) | id : id;
-  }
-
-  PoseId pose(std::uint64_t id) {
-    const auto [place, is_new_id] = poses_.try_emplace(id, PoseId(pose_ids_.size()));
-    if (is_new_id) {
-      pose_ids_.push_back(id);
-      places_.push_back(place_of_key(id));
-      if (robot_) places_.back().robot = robot_->name;
-      graph_.poses.emplace_back();
-    }
-    return place->second;
   }
 
   PointId point(std::uint64_t id) {
@@ -145,10 +129,10 @@ class TeamMerge {
   /// A prior on the first pose of every robot without one, where it has a VERTEX line.
   void add_start_priors() {
     std::set<std::string> done;
-    for (const auto& prior : graph_.pose_priors) done.insert(places_[prior.i.index()].robot);
-    for (const auto& [id, pose] : poses_) {  // by id: of a robot, the first pose comes first
-      if (!done.insert(places_[pose.index()].robot).second) continue;
-      const auto stated = stated_.find(id);
+    for (const auto& prior : graph_.pose_priors) done.insert(poses_.places()[prior.i.index()].robot);
+    for (const auto& [key, pose] : poses_.by_key()) {  // of a robot, the first pose comes first
+      if (!done.insert(poses_.places()[pose.index()].robot).second) continue;
+      const auto stated = stated_.find(key);
       if (stated == stated_.end()) continue;
       PosePriorFactor<Pose>& prior = graph_.pose_priors.emplace_back();
       prior.i = pose;
@@ -184,9 +168,8 @@ class TeamMerge {
   PoseGraph<Pose> graph_;
   std::optional<NamedRobot> robot_;
   std::vector<std::string> notes_;
-  std::vector<PoseIndex> places_;
-  std::vector<std::uint64_t> pose_ids_, point_ids_;
-  std::map<std::uint64_t, PoseId> poses_;
+  KeyedPoses poses_;
+  std::vector<std::uint64_t> point_ids_;
   std::map<std::uint64_t, Pose> stated_;  // VERTEX lines
   std::map<std::uint64_t, PointId> points_;
   std::multimap<Ends, std::size_t> earlier_;  // relative poses of the previous files, by their ends

@@ -15,7 +15,7 @@
 
 #include "radioslam/geometry/se3.hpp"
 #include "radioslam/io/graph/information.hpp"
-#include "radioslam/io/graph/team_assembly.hpp"
+#include "radioslam/io/graph/keyed_poses.hpp"
 #include "radioslam/io/run/run_folder.hpp"
 #include "radioslam/io/text/compressed_text.hpp"
 #include "radioslam/io/text/line_fields.hpp"
@@ -203,13 +203,9 @@ class JrlReader {
     visit_measurements(text_, file_, [this](const FactorName& name, const JrlObject& measurement) {
       read_measurement(name, measurement);
     });
-    if (graph_.poses.empty()) text_.fail(0, "the graph has no poses");
-    AssembledTeam<Pose> assembled = assemble_team(std::move(graph_), places_, starts_);
-    TeamGraphFile<Pose> out;
-    out.team = std::move(assembled.team);
-    out.notes = std::move(assembled.notes);
-    for (const std::size_t k : assembled.file_index) out.pose_ids.push_back(keys_[k]);
-    for (const std::uint64_t key : out.pose_ids) out.pose_names.push_back(std::to_string(key));
+    if (poses_.keys().empty()) text_.fail(0, "the graph has no poses");
+    AssembledTeam<Pose> assembled = poses_.assemble(std::move(graph_), starts_);
+    TeamGraphFile<Pose> out = std::move(assembled.file);
     read_labels(assembled.relative_pose_index, out);
     read_truth(out);
     for (const auto& [type, count] : skipped_)
@@ -234,8 +230,8 @@ class JrlReader {
 
   void read_relative_pose(const FactorName& name, const JrlObject& measurement) {
     RelativePoseFactor<Pose> factor;
-    factor.i = pose(measurement.key("key1"));
-    factor.j = pose(measurement.key("key2"));
+    factor.i = poses_.at(measurement.key("key1"));
+    factor.j = poses_.at(measurement.key("key2"));
     if (factor.i == factor.j) measurement.fail("an edge from a pose to itself");
     factor.T_i_j = measurement.object("measurement").template pose<Pose>();
     factor.information = measurement.information<Pose>();
@@ -245,29 +241,19 @@ class JrlReader {
 
   void read_prior(const JrlObject& measurement) {
     PosePriorFactor<Pose>& factor = graph_.pose_priors.emplace_back();
-    factor.i = pose(measurement.key("key"));
+    factor.i = poses_.at(measurement.key("key"));
     factor.prior = measurement.object("prior").template pose<Pose>();
     factor.information = measurement.information<Pose>();
   }
 
   void read_range(const JrlObject& measurement) {
     RangeFactor<Pose>& factor = graph_.ranges.emplace_back();
-    factor.i.pose = pose(measurement.key("key1"));
-    factor.j.pose = pose(measurement.key("key2"));
+    factor.i.pose = poses_.at(measurement.key("key1"));
+    factor.j.pose = poses_.at(measurement.key("key2"));
     if (factor.i.pose == factor.j.pose) measurement.fail("a range from a pose to itself");
     factor.range_m = measurement.coordinate("measurement");
     if (factor.range_m < 0) measurement.fail("the range is negative");
     factor.sigma_m = measurement.sigma();
-  }
-
-  PoseId pose(std::uint64_t key) {
-    const auto [found, is_new] = poses_.try_emplace(key, PoseId(keys_.size()));
-    if (is_new) {
-      keys_.push_back(key);
-      places_.push_back(place_of_key(key));
-      graph_.poses.emplace_back();
-    }
-    return found->second;
   }
 
   void read_labels(const std::vector<std::size_t>& file_index, TeamGraphFile<Pose>& out) const {
@@ -314,10 +300,8 @@ class JrlReader {
   StatedStarts starts_;
   PoseGraph<Pose> graph_;
   std::vector<FactorName> names_;  // per relative pose
-  std::vector<std::uint64_t> keys_;
-  std::vector<PoseIndex> places_;
-  std::unordered_map<std::uint64_t, PoseId> poses_;  // used for look-up only, never iterated
-  std::map<std::string, std::size_t> skipped_;       // measurements by type
+  KeyedPoses poses_;
+  std::map<std::string, std::size_t> skipped_;  // measurements by type
 };
 
 /// By the first measurement of a type that is read.

@@ -286,9 +286,7 @@ TeamGraphFile<Pose> read_pyfg_graph(const Text& text, StatedStarts starts) {
     text.fail(vertices.pose_lines[*pose],
               "time runs backwards along robot " + quoted_pyfg_word(vertices.places[*pose].robot));
   AssembledTeam<Pose> assembled = assemble_team(std::move(graph), vertices.places, starts);
-  TeamGraphFile<Pose> out;
-  out.team = std::move(assembled.team);
-  out.notes = std::move(assembled.notes);
+  TeamGraphFile<Pose> out = std::move(assembled.file);
   out.point_names = std::move(vertices.point_names);
   out.true_points = std::move(vertices.true_points);
   for (const std::size_t k : assembled.file_index) {

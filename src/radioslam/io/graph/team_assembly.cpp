@@ -66,7 +66,10 @@ class Assembly {
     for (TrajectorySegment& segment : team_.segments) reckon(segment);
     place_points();
     team_.graph = std::move(graph_);
-    return {std::move(team_), std::move(order_), std::move(relative_pose_index_), std::move(notes_)};
+    TeamGraphFile<Pose> file;
+    file.team = std::move(team_);
+    file.notes = std::move(notes_);
+    return {std::move(file), std::move(order_), std::move(relative_pose_index_)};
   }
 
  private:

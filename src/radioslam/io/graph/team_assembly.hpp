@@ -25,10 +25,9 @@ struct PoseIndex {
 
 template <class Pose>
 struct AssembledTeam {
-  TeamGraph<Pose> team;
+  TeamGraphFile<Pose> file;                      ///< its team, with notes on priors that are not used
   std::vector<std::size_t> file_index;           ///< per pose of the team, its index in the file's graph
   std::vector<std::size_t> relative_pose_index;  ///< the same per relative pose
-  std::vector<std::string> notes;                ///< on priors that are not used
 };
 
 /// `graph` has the file's factors, and poses and points without values; `places` is per pose. Among the
