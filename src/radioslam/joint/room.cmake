@@ -29,6 +29,7 @@ radioslam_room(joint
     places/scanned_robot.cpp
     position_fixes/placement.cpp
     robot_nodes.cpp
+    segment_odometry.cpp
     sequence_stage.cpp
     team_alignment.cpp
     uncertainty/position_uncertainty.cpp

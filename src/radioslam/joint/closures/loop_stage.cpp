@@ -33,9 +33,8 @@ void add_accepted(JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>>& lo
 
 template <class Pose>
 void scale_odometry(JointGraph<Pose>& joint, double scale) {
-  for (std::size_t k = 0; k < joint.team.graph.relative_poses.size(); ++k)
-    if (joint.origins.relative_poses[k].source == FactorSource::kOdometry)
-      joint.team.graph.relative_poses[k].information /= scale * scale;
+  for (const std::size_t k : factors_of(joint.origins.relative_poses, FactorSource::kOdometry))
+    joint.team.graph.relative_poses[k].information /= scale * scale;
 }
 
 /// Segments whose starts are known share a frame; further segments of a robot have their own.

@@ -6,10 +6,9 @@
 
 #include "radioslam/base/check.hpp"
 #include "radioslam/base/parallel.hpp"
-#include "radioslam/consistency/odometry_chain.hpp"
-#include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/graph/graduated.hpp"
 #include "radioslam/graph/normal_equations.hpp"
+#include "radioslam/joint/segment_odometry.hpp"
 #include "radioslam/team_frame/connected_measurements.hpp"
 
 namespace radioslam {
@@ -92,32 +91,6 @@ Eigen::MatrixXd joint_covariance(const NormalEquations<Pose>& equations, const s
   return covariance;
 }
 
-template <class Pose>
-std::unique_ptr<PoseChain<Pose>> odometry_chain_of(const JointGraph<Pose>& joint,
-                                                   const TrajectorySegment& segment,
-                                                   const std::vector<std::size_t>& step_from,
-                                                   double odometry_scale) {
-  const auto& graph = joint.team.graph;
-  std::vector<Pose> poses{Pose()};
-  std::vector<typename Pose::Jacobian> steps;
-  for (std::size_t k = segment.first_pose; k + 1 < segment.first_pose + segment.pose_count; ++k) {
-    const auto& step = graph.relative_poses[step_from[k]];
-    poses.push_back(poses.back() * step.T_i_j);
-    steps.push_back(inverse(step.information) * (odometry_scale * odometry_scale));
-  }
-  return std::make_unique<OdometryChain<Pose>>(std::move(poses), steps);
-}
-
-/// Per pose, the odometry factor that leads on from it.
-template <class Pose>
-std::vector<std::size_t> odometry_steps(const JointGraph<Pose>& joint) {
-  std::vector<std::size_t> step_from(joint.team.graph.poses.size(), 0);
-  for (std::size_t k = 0; k < joint.team.graph.relative_poses.size(); ++k)
-    if (joint.origins.relative_poses[k].source == FactorSource::kOdometry)
-      step_from[joint.team.graph.relative_poses[k].i.index()] = k;
-  return step_from;
-}
-
 }  // namespace
 
 template <class Pose>
@@ -162,12 +135,11 @@ SegmentChains<Pose> segment_chains(const JointGraph<Pose>& joint, const std::vec
   NormalEquations<Pose> equations(graph);
   equations.linearise(graph);
   const bool has_covariances = equations.factorize(0) == Factorization::kDone;
-  const std::vector<std::size_t> step_from = odometry_steps(joint);
   SegmentChains<Pose> chains;
   for (std::size_t s = 0; s < segments.size(); ++s) {
     const TrajectorySegment& segment = segments[s];
     if (!is_corrected[s] || !has_covariances) {
-      chains.push_back(odometry_chain_of(joint, segment, step_from, odometry_scale));
+      chains.push_back(std::make_unique<OdometryChain<Pose>>(odometry_chain(joint, segment, odometry_scale)));
       continue;
     }
     std::vector<PoseId> ends;

@@ -6,6 +6,7 @@
 
 #include "radioslam/consistency/maximum_clique.hpp"
 #include "radioslam/geometry/linear_algebra.hpp"
+#include "radioslam/joint/segment_odometry.hpp"
 
 namespace radioslam {
 namespace {
@@ -31,21 +32,6 @@ MatchesOfPairs matches_of_pairs(const JointGraph<Pose>& joint, const std::vector
 }
 
 }  // namespace
-
-template <class Pose>
-OdometryChain<Pose> odometry_chain(const JointGraph<Pose>& joint, RobotIndex robot) {
-  const TrajectorySegment& of = segment(joint, robot);
-  std::vector<Pose> poses{Pose()};
-  std::vector<typename Pose::Jacobian> steps;
-  for (const std::size_t k : factors_of(joint.origins.relative_poses, FactorSource::kOdometry)) {
-    const auto& factor = joint.team.graph.relative_poses[k];
-    const bool mine = factor.i.index() == of.first_pose + poses.size() - 1;
-    if (!mine || poses.size() == of.pose_count) continue;
-    poses.push_back(poses.back() * factor.T_i_j);
-    steps.push_back(inverse(factor.information));
-  }
-  return {std::move(poses), steps};
-}
 
 template <class Pose>
 RelativePoseMatch<Pose> oriented_match(const JointGraph<Pose>& joint, const Closure& match,
@@ -75,8 +61,8 @@ std::vector<MatchGroup> consistent_groups(const JointGraph<Pose>& joint, const s
     std::vector<RelativePoseMatch<Pose>> oriented;
     for (const MatchEnds& ends : ends_of_pair)
       oriented.push_back(oriented_match(joint, matches[ends.match], ends, a));
-    const PairwiseConsistency pairs =
-        pairwise_consistency(odometry_chain(joint, a), odometry_chain(joint, b), oriented);
+    const PairwiseConsistency pairs = pairwise_consistency(
+        odometry_chain(joint, segment(joint, a)), odometry_chain(joint, segment(joint, b)), oriented);
     std::vector<std::size_t> rest(ends_of_pair.size());
     for (std::size_t k = 0; k < rest.size(); ++k) rest[k] = k;
     for (std::size_t g = 0; g < max_groups && !rest.empty(); ++g) {
@@ -93,7 +79,6 @@ std::vector<MatchGroup> consistent_groups(const JointGraph<Pose>& joint, const s
 
 #define RADIOSLAM_MATCH_GROUPS(Pose)                                                                         \
   template Pose motion_to_match(const std::vector<Pose>&, const Closure&, const MatchEnds&, RobotIndex);     \
-  template OdometryChain<Pose> odometry_chain(const JointGraph<Pose>&, RobotIndex);                          \
   template RelativePoseMatch<Pose> oriented_match(const JointGraph<Pose>&, const Closure&, const MatchEnds&, \
                                                   RobotIndex);                                               \
   template std::vector<MatchGroup> consistent_groups(const JointGraph<Pose>&, const std::vector<Closure>&,   \

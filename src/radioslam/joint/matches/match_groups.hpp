@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "radioslam/consistency/odometry_chain.hpp"
 #include "radioslam/consistency/pairwise.hpp"
 #include "radioslam/joint/closures/closure.hpp"
 
@@ -17,10 +16,6 @@ struct MatchEnds {
   std::size_t match = 0;  ///< index in the list
   PoseId i, j;
 };
-
-/// Consecutive poses of a robot by its odometry, with covariances. Robots of a mission have one segment each.
-template <class Pose>
-OdometryChain<Pose> odometry_chain(const JointGraph<Pose>& joint, RobotIndex robot);
 
 /// A match of robots a and b as the relative pose of b's end from a's, whichever way it was measured.
 template <class Pose>

@@ -11,6 +11,7 @@
 #include "radioslam/graph/residuals.hpp"
 #include "radioslam/joint/links/link_weights.hpp"
 #include "radioslam/joint/matches/alignment_by_matches.hpp"
+#include "radioslam/joint/segment_odometry.hpp"
 #include "radioslam/joint/uncertainty/position_uncertainty.hpp"
 
 namespace radioslam {
@@ -100,7 +101,9 @@ class MatchSelector {
     if (!are_enough(group.size(), consistency_)) return reject_group(group);
     const Closure& first = matches_[admitted_[group.front()].match];
     const auto [a, b] = std::minmax(first.robot_i, first.robot_j);
-    const auto chain_a = odometry_chain(joint_, a), chain_b = odometry_chain(joint_, b);
+    const auto& segments = joint_.team.segments;  // robots of a mission have one each
+    const auto chain_a = odometry_chain(joint_, segments[a.index()]),
+               chain_b = odometry_chain(joint_, segments[b.index()]);
     Oriented matches, members;
     for (const std::size_t k : group) matches.push_back(oriented(admitted_[k], a));
     const ConsistentSet set =
