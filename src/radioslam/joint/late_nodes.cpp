@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "radioslam/base/check.hpp"
+#include "radioslam/graph/pose_ids.hpp"
 #include "radioslam/joint/robot_nodes.hpp"
 
 namespace radioslam {
@@ -26,7 +27,7 @@ class NodeInsertion {
 
     insert_values(of, nodes, joint_.team.graph.poses);
     for (std::vector<Pose>& alternative : team_.alignment.alternatives) insert_values(of, nodes, alternative);
-    renumber(of, nodes);
+    renumber_poses(of, nodes);
     of.stamps = nodes.stamps;
     of.pose_count = nodes.stamps.size();
     divide_odometry(RobotIndex(r), nodes, of.first_pose);
@@ -52,43 +53,21 @@ class NodeInsertion {
     poses.insert(after, extended.begin(), extended.end());
   }
 
-  void renumber(const TrajectorySegment& of, const RobotNodes& nodes) {
+  void renumber_poses(const TrajectorySegment& of, const RobotNodes& nodes) {
     const std::size_t added = nodes.stamps.size() - of.stamps.size();
-    const auto renumbered = [&](PoseId id) {
-      if (!id.valid() || id.index() < of.first_pose) return id;
+    const auto renumber = [&](PoseId& id) {
+      if (id.index() < of.first_pose) return;
       const std::size_t k = id.index() - of.first_pose;
-      return PoseId(k < of.pose_count ? of.first_pose + nodes.node_at(of.stamps[k]) : id.index() + added);
+      id = PoseId(k < of.pose_count ? of.first_pose + nodes.node_at(of.stamps[k]) : id.index() + added);
     };
-    const auto pose = [&](PoseId& id) { id = renumbered(id); };
-    const auto pair = [&](auto& factors) {
-      for (auto& factor : factors) visit(factor.i, pose), visit(factor.j, pose);
-    };
-    PoseGraph<Pose>& graph = joint_.team.graph;
-    pair(graph.relative_poses);
-    pair(graph.ranges);
-    pair(graph.bearings);
-    pair(joint_.team.bearings);
-    pair(graph.relative_points);
-    for (auto& factor : graph.positions) visit(factor.i, pose);
-    for (RobotFixes<Pose>& fixes : team_.judgement.fixes)
-      for (auto& factor : fixes.factors) visit(factor.i, pose);
-    for (auto& factor : graph.pose_priors) visit(factor.i, pose);
+    for_each_pose_id(joint_.team.graph, renumber);
+    for_each_pose_id(joint_.team.bearings, renumber);
+    for (RobotFixes<Pose>& fixes : team_.judgement.fixes) for_each_pose_id(fixes.factors, renumber);
     for (RobotVariables& robot : joint_.robots)
-      for (PoseId& id : robot.poses) pose(id);
+      for (PoseId& id : robot.poses) visit_pose_id(id, renumber);
     for (TrajectorySegment& segment : joint_.team.segments)
       if (segment.first_pose > of.first_pose) segment.first_pose += added;
   }
-  template <class Visitor>
-  static void visit(PoseId& id, const Visitor& visitor) {
-    visitor(id);
-  }
-  template <class Visitor>
-  static void visit(PointId& /*id*/, const Visitor& /*visitor*/) {}
-  template <class Visitor>
-  static void visit(RangeEnd<Pose>& end, const Visitor& visitor) {
-    visitor(end.pose);
-  }
-
   void divide_odometry(RobotIndex robot, const RobotNodes& nodes, std::size_t first_pose) {
     PoseGraph<Pose>& graph = joint_.team.graph;
     erase_relative_poses(joint_, [&](const FactorOrigin& origin) {

@@ -9,6 +9,7 @@
 
 #include "radioslam/base/check.hpp"
 #include "radioslam/geometry/linear_algebra.hpp"
+#include "radioslam/graph/pose_ids.hpp"
 #include "radioslam/team_frame/connected_measurements.hpp"
 
 namespace radioslam {
@@ -143,35 +144,29 @@ class Composition {
   typename Pose::Jacobian covariance_ = Pose::Jacobian::Zero();
 };
 
-/// New pose ids, and factors expressed with them.
+/// Copies the factors except relative poses, with the poses' new ids.
 template <class Pose>
-class Renumbering {
- public:
-  explicit Renumbering(std::size_t poses) : new_id_(poses) {}
-  void set(std::size_t old_pose, PoseId id) { new_id_[old_pose] = id; }
-  PoseId operator()(PoseId id) const { return id.valid() ? new_id_[id.index()] : id; }
-  RangeEnd<Pose> operator()(RangeEnd<Pose> end) const {
-    end.pose = (*this)(end.pose);
-    return end;
-  }
-  void copy_others(const TeamGraph<Pose>& full, TeamGraph<Pose>& team) const {
-    for (auto f : full.graph.ranges) f.i = (*this)(f.i), f.j = (*this)(f.j), team.graph.ranges.push_back(f);
-    for (auto f : full.bearings) f.i = (*this)(f.i), f.j = (*this)(f.j), team.bearings.push_back(f);
-    for (auto f : full.graph.relative_points)
-      f.i = (*this)(f.i), f.j = (*this)(f.j), team.graph.relative_points.push_back(f);
-    for (auto f : full.graph.positions) f.i = (*this)(f.i), team.graph.positions.push_back(f);
-    for (auto f : full.graph.pose_priors) f.i = (*this)(f.i), team.graph.pose_priors.push_back(f);
-    team.graph.drift_priors = full.graph.drift_priors;
-  }
-
- private:
-  std::vector<PoseId> new_id_;
-};
+void copy_other_factors(const TeamGraph<Pose>& full, const std::vector<PoseId>& new_id,
+                        TeamGraph<Pose>& team) {
+  PoseGraph<Pose>& graph = team.graph;
+  graph.ranges = full.graph.ranges;
+  team.bearings = full.bearings;
+  graph.relative_points = full.graph.relative_points;
+  graph.positions = full.graph.positions;
+  graph.pose_priors = full.graph.pose_priors;
+  graph.drift_priors = full.graph.drift_priors;
+  const auto renumber = [&](PoseId& id) { id = new_id[id.index()]; };
+  for_each_pose_id(graph.ranges, renumber);
+  for_each_pose_id(team.bearings, renumber);
+  for_each_pose_id(graph.relative_points, renumber);
+  for_each_pose_id(graph.positions, renumber);
+  for_each_pose_id(graph.pose_priors, renumber);
+}
 
 template <class Pose>
 TrajectorySegment compress_segment(const TeamGraph<Pose>& full, const TrajectorySegment& segment,
                                    const std::vector<std::int32_t>& into, const std::vector<bool>& kept,
-                                   CompressedTeam<Pose>& result, Renumbering<Pose>& ids) {
+                                   CompressedTeam<Pose>& result, std::vector<PoseId>& new_id) {
   TrajectorySegment shorter{segment.robot,          result.full_pose.size(), 0, {}, segment.sigma_heading_rad,
                             segment.in_common_frame};
   Composition<Pose> composition;
@@ -184,7 +179,7 @@ TrajectorySegment compress_segment(const TeamGraph<Pose>& full, const Trajectory
     if (!kept[k]) continue;
     const PoseId id(result.full_pose.size());
     if (n > 0) result.team.graph.relative_poses.push_back(composition.take(PoseId(id.value - 1), id));
-    ids.set(k, id);
+    new_id[k] = id;
     result.full_pose.push_back(PoseId(k));
     result.team.graph.poses.push_back(full.graph.poses[k]);
     shorter.stamps.push_back(segment.stamps[n]);
@@ -216,20 +211,20 @@ CompressedTeam<Pose> compress(const TeamGraph<Pose>& full) {
   const auto into = odometry_into(full);
   const auto kept = kept_poses(full, into);
   CompressedTeam<Pose> result;
-  Renumbering<Pose> ids(full.graph.poses.size());
+  std::vector<PoseId> new_id(full.graph.poses.size());
   result.team.graph.chart = full.graph.chart;
   result.team.graph.points = full.graph.points;
   result.team.graph.drifts = full.graph.drifts;
   for (const TrajectorySegment& segment : full.segments)
-    result.team.segments.push_back(compress_segment(full, segment, into, kept, result, ids));
+    result.team.segments.push_back(compress_segment(full, segment, into, kept, result, new_id));
   for (std::size_t k = 0; k < full.graph.relative_poses.size(); ++k) {
     auto factor = full.graph.relative_poses[k];
     if (into[factor.j.index()] == static_cast<std::int32_t>(k)) continue;
-    factor.i = ids(factor.i);
-    factor.j = ids(factor.j);
+    factor.i = new_id[factor.i.index()];
+    factor.j = new_id[factor.j.index()];
     result.team.graph.relative_poses.push_back(factor);
   }
-  ids.copy_others(full, result.team);
+  copy_other_factors(full, new_id, result.team);
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/graph/factor_lists.hpp"
 #include "radioslam/graph/pose_chart.hpp"
+#include "radioslam/graph/pose_ids.hpp"
 
 namespace radioslam {
 namespace {
@@ -40,11 +41,6 @@ class Reduction {
     }
   }
 
-  void renumber(PoseId& id) const {
-    if (id.valid()) id = skeleton_.of_pose[id.index()];
-  }
-  void renumber(RangeEnd<Pose>& end) const { renumber(end.pose); }
-
   void copy_factors() {
     auto& reduced = skeleton_.graph;
     for (std::size_t f = 0; f < division_.is_step.size(); ++f)
@@ -56,15 +52,7 @@ class Reduction {
     reduced.pose_priors = graph_.pose_priors;
     reduced.drift_priors = graph_.drift_priors;
     reduced.range_bias_priors = graph_.range_bias_priors;
-    const auto both = [&](auto& factors) {
-      for (auto& factor : factors) renumber(factor.i), renumber(factor.j);
-    };
-    both(reduced.relative_poses);
-    both(reduced.ranges);
-    both(reduced.bearings);
-    both(reduced.relative_points);
-    for (auto& factor : reduced.positions) renumber(factor.i);
-    for (auto& factor : reduced.pose_priors) renumber(factor.i);
+    for_each_pose_id(reduced, [&](PoseId& id) { id = skeleton_.of_pose[id.index()]; });
   }
 
   const Pose& pose(std::size_t c, std::size_t k) const { return graph_.poses[chains_[c].poses[k].index()]; }

@@ -10,7 +10,7 @@
 #include "radioslam/base/check.hpp"
 #include "radioslam/base/units.hpp"
 #include "radioslam/geometry/linear_algebra.hpp"
-#include "radioslam/graph/factor_lists.hpp"
+#include "radioslam/graph/pose_ids.hpp"
 
 namespace radioslam {
 namespace {
@@ -87,14 +87,7 @@ class Assembly {
   void rename_poses() {
     std::vector<std::size_t> renamed(order_.size());
     for (std::size_t k = 0; k < order_.size(); ++k) renamed[order_[k]] = k;
-    const auto rename = [&](PoseId& id) {
-      if (id.valid()) id = PoseId(renamed[id.index()]);
-    };
-    for (auto& factor : graph_.relative_poses) rename(factor.i), rename(factor.j);
-    for (auto& factor : graph_.ranges) rename(factor.i.pose), rename(factor.j.pose);
-    for (auto& factor : graph_.relative_points) rename(factor.i), rename(factor.j.pose);
-    for (auto& factor : graph_.positions) rename(factor.i.pose);
-    for (auto& factor : graph_.pose_priors) rename(factor.i);
+    for_each_pose_id(graph_, [&](PoseId& id) { id = PoseId(renamed[id.index()]); });
     graph_.poses.assign(order_.size(), Pose());
     graph_.points.assign(graph_.points.size(), Pose::Point::Zero());
     graph_.pose_fixed.clear();
