@@ -42,6 +42,12 @@ class Trajectory {
   auto begin() const { return poses_.begin(); }
   auto end() const { return poses_.end(); }
 
+  std::vector<Stamp> stamps() const {
+    std::vector<Stamp> result;
+    for (const auto& row : poses_) result.push_back(row.stamp);
+    return result;
+  }
+
   bool covers(Stamp stamp) const { return !empty() && front().stamp <= stamp && stamp <= back().stamp; }
 
   /// Index i with stamp(i) <= stamp < stamp(i + 1), clamped to [0, size - 2]; needs two poses.

@@ -82,9 +82,8 @@ template <class Pose>
 DenseTrajectory dense_trajectory(const Mission& mission, const JointGraph<Pose>& joint,
                                  const Marginals<Pose>* marginals, std::size_t robot,
                                  const RobotResult& estimate) {
-  std::vector<Stamp> stamps;
-  for (const auto& row : mission.robots[robot].odometry) stamps.push_back(row.stamp);
-  return dense_trajectory(mission, joint, marginals, robot, estimate, stamps);
+  return dense_trajectory(mission, joint, marginals, robot, estimate,
+                          mission.robots[robot].odometry.stamps());
 }
 
 #define RADIOSLAM_DENSE_TRAJECTORY(Pose)                                                                     \

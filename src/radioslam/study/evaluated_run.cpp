@@ -15,10 +15,7 @@ std::optional<double> share(std::size_t part, std::size_t whole) {
 
 std::vector<KeyframeStamps> keyframe_stamps(const RunResult& result) {
   std::vector<KeyframeStamps> stamps;
-  for (const RobotResult& robot : result.robots) {
-    auto& of_robot = stamps.emplace_back();
-    for (const auto& keyframe : robot.estimate) of_robot.push_back(keyframe.stamp);
-  }
+  for (const RobotResult& robot : result.robots) stamps.push_back(robot.estimate.stamps());
   return stamps;
 }
 

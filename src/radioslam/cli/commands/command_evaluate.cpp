@@ -74,9 +74,8 @@ std::vector<ClosureResult> with_places(std::vector<ClosureResult> pairs,
 std::vector<KeyframeStamps> keyframe_stamps(const RunFolder& run, const std::vector<RobotIndex>& places,
                                             std::size_t robots) {
   std::vector<KeyframeStamps> stamps(robots);
-  for (std::size_t i = 0; i < run.robots.size(); ++i) {
-    for (const auto& row : run.robots[i].poses) stamps[places[i].index()].push_back(row.stamp);
-  }
+  for (std::size_t i = 0; i < run.robots.size(); ++i)
+    stamps[places[i].index()] = run.robots[i].poses.stamps();
   return stamps;
 }
 

@@ -90,10 +90,7 @@ Mission without_recordings(const Mission& mission) {
 ClosuresByKind judge_closures(const RunResult& result, const Mission& mission, const Truth& truth,
                               const FileLoops& file) {
   std::vector<std::vector<Stamp>> keyframes;
-  for (const RobotResult& robot : result.robots) {
-    auto& stamps = keyframes.emplace_back();
-    for (const auto& keyframe : robot.estimate) stamps.push_back(keyframe.stamp);
-  }
+  for (const RobotResult& robot : result.robots) keyframes.push_back(robot.estimate.stamps());
   return judge_closures(result.closures, keyframes, mission, truth, result.aoa_measurements, file);
 }
 

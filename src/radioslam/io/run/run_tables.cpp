@@ -255,9 +255,8 @@ std::string format_access_points(const std::vector<AccessPointResult>& access_po
 
 CandidateList read_candidates(const Text& text, std::span<const EstimatedTrajectory> robots) {
   CsvReader csv(text, pair_columns_and({"distance_m", "mahalanobis"}));
-  std::vector<std::vector<Stamp>> stamps(robots.size());
-  for (std::size_t r = 0; r < robots.size(); ++r)
-    for (const auto& row : robots[r].poses) stamps[r].push_back(row.stamp);
+  std::vector<std::vector<Stamp>> stamps;
+  for (const EstimatedTrajectory& robot : robots) stamps.push_back(robot.poses.stamps());
   CandidateList candidates(std::move(stamps));
   while (csv.next()) {
     auto candidate = read_pair<CandidateResult>(csv, robots);

@@ -11,8 +11,7 @@ namespace {
 const ClosureResult* take_closure(std::vector<const ClosureResult*>& closures, const AoaMeasurement& angle,
                                   const RunResult& result) {
   const auto is_at = [&](RobotIndex robot, Stamp keyframe) {
-    std::vector<Stamp> stamps;
-    for (const auto& pose : result.robots[robot.index()].estimate) stamps.push_back(pose.stamp);
+    const std::vector<Stamp> stamps = result.robots[robot.index()].estimate.stamps();
     return !stamps.empty() && stamps[keyframe_before(stamps, angle.stamp)] == keyframe;
   };
   const auto found = std::find_if(closures.begin(), closures.end(), [&](const ClosureResult* closure) {
