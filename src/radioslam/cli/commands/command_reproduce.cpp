@@ -83,6 +83,12 @@ struct Study {
   std::vector<StudyTable> further = {};  ///< printed below the table
 };
 
+/// A study of one table, on a page with nothing else.
+Study study_of(StudyTable table, nlohmann::ordered_json json) {
+  std::string page = render_table_page(table);
+  return {std::move(table), std::move(json), std::move(page)};
+}
+
 [[noreturn]] void refuse(const ReproduceOptions& options, const std::string& reason) {
   throw InputError("reproduce " + options.table, 0, reason);
 }
@@ -118,9 +124,7 @@ Study wi_closure_kitti(const ReproduceOptions& options) {
   const auto seeds = for_seeds(options, 1, [&](std::uint64_t seed, const Progress& progress) {
     return reproduce_wi_closure_kitti(drive, scenario, seed, progress);
   });
-  StudyTable table = wi_closure_kitti_table(seeds);
-  std::string page = render_table_page(table);
-  return {std::move(table), wi_closure_kitti_json(seeds), std::move(page)};
+  return study_of(wi_closure_kitti_table(seeds), wi_closure_kitti_json(seeds));
 }
 
 Study wi_closure_table1(const ReproduceOptions& options) {
@@ -130,9 +134,7 @@ Study wi_closure_table1(const ReproduceOptions& options) {
   const auto seeds = for_seeds(options, 1, [&](std::uint64_t seed, const Progress& progress) {
     return reproduce_wi_closure_table1(drive, scenario, seed, progress);
   });
-  StudyTable table = wi_closure_table1_table(seeds);
-  std::string page = render_table_page(table);
-  return {std::move(table), wi_closure_table1_json(seeds), std::move(page)};
+  return study_of(wi_closure_table1_table(seeds), wi_closure_table1_json(seeds));
 }
 
 void refuse_drive(const ReproduceOptions& options) {
@@ -203,9 +205,7 @@ Study aoa_paths(const ReproduceOptions& options) {
   const auto params = with_settings(AoaParams{}, collect_settings({}, options.set));
   ProgressLine line;
   const auto cells = measure_aoa_paths(options.seeds.value_or(kSeeds), options.seed, params, line.progress());
-  StudyTable table = aoa_paths_table(cells);
-  std::string page = render_table_page(table);
-  return {std::move(table), aoa_paths_json(cells), std::move(page)};
+  return study_of(aoa_paths_table(cells), aoa_paths_json(cells));
 }
 
 Study sequence_closures(const ReproduceOptions& options) {
@@ -215,9 +215,7 @@ Study sequence_closures(const ReproduceOptions& options) {
   ProgressLine line;
   const auto cells =
       measure_sequence_closures(carpark, options.seed, options.seeds.value_or(kSeeds), line.progress());
-  StudyTable table = sequence_table(cells);
-  std::string page = render_table_page(table);
-  return {std::move(table), sequence_json(cells), std::move(page)};
+  return study_of(sequence_table(cells), sequence_json(cells));
 }
 
 /// A car park with known starts, which dead reckoning as the baseline requires.
@@ -234,9 +232,7 @@ Study fingerprint_tables(const ReproduceOptions& options) {
   ProgressLine line;
   const auto tables =
       measure_fingerprint_tables(carpark, options.seed, options.seeds.value_or(kSeeds), line.progress());
-  StudyTable table = fingerprint_tables_table(tables);
-  std::string page = render_table_page(table);
-  return {std::move(table), fingerprint_tables_json(tables), std::move(page)};
+  return study_of(fingerprint_tables_table(tables), fingerprint_tables_json(tables));
 }
 
 Study threshold_sweep(const ReproduceOptions& options) {
@@ -245,9 +241,7 @@ Study threshold_sweep(const ReproduceOptions& options) {
   ProgressLine line;
   const auto missions =
       sweep_thresholds(carpark, {}, options.seed, options.seeds.value_or(kSeeds), line.progress());
-  StudyTable table = threshold_sweep_table(missions);
-  std::string page = render_table_page(table);
-  return {std::move(table), threshold_sweep_json(missions), std::move(page)};
+  return study_of(threshold_sweep_table(missions), threshold_sweep_json(missions));
 }
 
 struct Table {
