@@ -64,15 +64,14 @@ RobotResult collect_robot(const RobotVariables& robot, const JointGraph<Pose>& j
   return result;
 }
 
+ClosureResult result_of(const FactorOrigin& origin, ClosureKind kind, double statistic) {
+  return {origin.robot_i, origin.stamp_i,           origin.robot_j, origin.stamp_j,
+          kind,           ClosureStatus::kAccepted, statistic,      {}};
+}
+
 ClosureResult link_result(const FactorOrigin& origin, ClosureKind kind, double statistic, double weight) {
   constexpr double kHalf = 0.5;
-  ClosureResult result;
-  result.robot_i = origin.robot_i;
-  result.stamp_i = origin.stamp_i;
-  result.robot_j = origin.robot_j;
-  result.stamp_j = origin.stamp_j;
-  result.kind = kind;
-  result.statistic = statistic;
+  ClosureResult result = result_of(origin, kind, statistic);
   if (weight < kHalf) {
     result.status = ClosureStatus::kRejected;
     result.reason =
@@ -144,13 +143,8 @@ std::vector<ClosureResult> collect_fingerprint_closures(const JointGraph<Pose>& 
     const auto& range = joint.team.graph.ranges[k];
     const double distance =
         (end_position(joint.team.graph, range.j) - end_position(joint.team.graph, range.i)).norm();
-    ClosureResult result;
-    result.robot_i = origin.robot_i;
-    result.stamp_i = origin.stamp_i;
-    result.robot_j = origin.robot_j;
-    result.stamp_j = origin.stamp_j;
-    result.kind = ClosureKind::kFingerprint;
-    result.statistic = std::pow((distance - range.range_m) / range.sigma_m, 2);
+    ClosureResult result =
+        result_of(origin, ClosureKind::kFingerprint, std::pow((distance - range.range_m) / range.sigma_m, 2));
     if (result.statistic > kChiSquared99) {
       result.status = ClosureStatus::kRejected;
       result.reason = "the estimate disagrees";

@@ -7,6 +7,7 @@
 
 #include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/graph/graduated.hpp"
+#include "radioslam/graph/graph_values.hpp"
 #include "radioslam/graph/marginals.hpp"
 #include "radioslam/graph/residuals.hpp"
 
@@ -214,12 +215,7 @@ LoopSelection select_loops(JointGraph<Pose>& joint, const std::vector<int>& comp
                            const Progress& progress) {
   LoopSelector<Pose> selector(joint, component, loops);
   const LoopSelection result = selector.run(optimizer, progress);
-  const PoseGraph<Pose>& solved = selector.graph();
-  auto& graph = joint.team.graph;
-  graph.poses = solved.poses;
-  graph.points = solved.points;
-  graph.drifts = solved.drifts;
-  graph.range_biases = solved.range_biases;
+  GraphValues<Pose>(selector.graph()).restore(joint.team.graph);
   return result;
 }
 
