@@ -1,4 +1,4 @@
-// Factor graphs as inputs: JRL logs, several g2o files, stated starts, kept keys, and the judgement of their
+// Factor graphs as inputs: JRL logs, several g2o files, stated starts, kept keys, and the truth of their
 // loops.
 #include <gtest/gtest.h>
 
@@ -93,7 +93,7 @@ TEST_F(TeamGraphs, ARunKeepsTheKeysOfItsFile) {
   EXPECT_NE(graph.find("EDGE_SE3:QUAT " + std::to_string(key('a', 0)) + " "), std::string::npos);
 }
 
-TEST_F(TeamGraphs, LoopsAreJudgedByTheLabelsOfTheFile) {
+TEST_F(TeamGraphs, LoopsAreComparedWithTheLabelsOfTheFile) {
   write("team.jrl", team_log().dump());
   ASSERT_EQ(run_in({"run", "team.jrl", "-o", "out"}).status, 0);
   write("out/closures.csv",

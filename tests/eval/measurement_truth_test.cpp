@@ -23,9 +23,9 @@ class MeasurementTruth : public testing::Test {
   void add(ClosureKind kind, ClosureStatus status) {
     closures.push_back({a, Stamp{}, b, Stamp{}, kind, status, 0, ""});
   }
-  ClosuresByKind judge(const std::vector<MeasuredAoaResult>& measured = {}) const {
+  ClosuresByKind compare(const std::vector<MeasuredAoaResult>& measured = {}) const {
     const std::vector<Stamp> stamps{Stamp{}, Stamp::from_seconds(60)};
-    return judge_closures(closures, {stamps, stamps}, mission, truth, measured, file);
+    return compare_closures_with_truth(closures, {stamps, stamps}, mission, truth, measured, file);
   }
 
   const RobotIndex a{0}, b{1};
@@ -43,8 +43,8 @@ TEST_F(MeasurementTruth, AMatchIsTrueByItsRelativePoseNotByItsPlaces) {
   mission.matches.push_back({a, b, at, at, lift(T_a_b * SE2({5, 0}, 0)), small});    // an alias
   mission.matches.push_back({a, b, at, at, lift(T_a_b * SE2({0, 0}, 0.2)), small});  // 11 degrees
   for (int k = 0; k < 3; ++k) add(ClosureKind::kMatch, ClosureStatus::kAccepted);
-  EXPECT_EQ(judge().at(ClosureKind::kMatch).accepted, 3U);
-  EXPECT_EQ(judge().at(ClosureKind::kMatch).true_accepted, 1U);
+  EXPECT_EQ(compare().at(ClosureKind::kMatch).accepted, 3U);
+  EXPECT_EQ(compare().at(ClosureKind::kMatch).true_accepted, 1U);
 }
 
 /// 0.7 m off is within 3 sigma + 0.5 m along the loose axis only, 0.2 rad about it is not affected.
@@ -55,19 +55,19 @@ TEST_F(MeasurementTruth, AMatchMayErrAlongItsLooseAxis) {
   mission.matches.push_back({a, b, at, at, lift(T_a_b * SE2({0, 0.7}, 0)), loose});
   mission.matches.push_back({a, b, at, at, lift(T_a_b * SE2({0.7, 0}, 0.2)), loose});
   for (int k = 0; k < 3; ++k) add(ClosureKind::kMatch, ClosureStatus::kAccepted);
-  EXPECT_EQ(judge().at(ClosureKind::kMatch).true_accepted, 1U);
+  EXPECT_EQ(compare().at(ClosureKind::kMatch).true_accepted, 1U);
 }
 
 TEST_F(MeasurementTruth, LabelsTakePrecedence) {
   mission.matches.push_back({a, b, at, at, lift(T_a_b), small});
   truth.true_matches = {false};
   add(ClosureKind::kMatch, ClosureStatus::kRejected);
-  EXPECT_EQ(judge().at(ClosureKind::kMatch).rejected, 1U);
-  EXPECT_EQ(judge().at(ClosureKind::kMatch).true_rejected, 0U);
+  EXPECT_EQ(compare().at(ClosureKind::kMatch).rejected, 1U);
+  EXPECT_EQ(compare().at(ClosureKind::kMatch).true_rejected, 0U);
 }
 
 /// The k-th closure of a pair is the k-th loop of the pair, whatever comes between.
-TEST_F(MeasurementTruth, LoopsOfAFileAreJudgedInItsOrder) {
+TEST_F(MeasurementTruth, LoopsOfAFileAreComparedInItsOrder) {
   const Stamp start{};
   const auto add_loop = [&](double off_m) {
     file.loops.push_back({a, b, start, start, lift(T_a_b * SE2({off_m, 0}, 0)), small});
@@ -80,7 +80,7 @@ TEST_F(MeasurementTruth, LoopsOfAFileAreJudgedInItsOrder) {
   closures.push_back({b, start, a, start, ClosureKind::kFile, ClosureStatus::kRejected, 0, ""});
   add(ClosureKind::kFile, ClosureStatus::kRejected);
   add(ClosureKind::kFile, ClosureStatus::kAccepted);
-  const JudgedClosures counts = judge().at(ClosureKind::kFile);
+  const ComparedClosures counts = compare().at(ClosureKind::kFile);
   EXPECT_EQ(counts.accepted, 2U);
   EXPECT_EQ(counts.true_accepted, 2U);
   EXPECT_EQ(counts.rejected, 2U);
@@ -93,11 +93,11 @@ TEST_F(MeasurementTruth, LabelsOfAFileCountWithoutTruth) {
   truth.robots[1].poses = {};
   file.loops = {{a, b, Stamp{}, Stamp{}, SE3(), small}, {a, b, Stamp{}, Stamp{}, SE3(), small}};
   for (int k = 0; k < 2; ++k) add(ClosureKind::kFile, ClosureStatus::kAccepted);
-  EXPECT_TRUE(judge().empty());
+  EXPECT_TRUE(compare().empty());
   file.labels = {true, false};
-  EXPECT_EQ(judge().at(ClosureKind::kFile).accepted, 2U);
-  EXPECT_EQ(judge().at(ClosureKind::kFile).true_accepted, 1U);
-  EXPECT_FALSE(judge().at(ClosureKind::kFile).worst_accepted_m);
+  EXPECT_EQ(compare().at(ClosureKind::kFile).accepted, 2U);
+  EXPECT_EQ(compare().at(ClosureKind::kFile).true_accepted, 1U);
+  EXPECT_FALSE(compare().at(ClosureKind::kFile).worst_accepted_m);
 }
 
 TEST_F(MeasurementTruth, RangesAreComparedWithTheTrueAntennas) {
@@ -107,9 +107,9 @@ TEST_F(MeasurementTruth, RangesAreComparedWithTheTrueAntennas) {
   mission.ranges.push_back({at, of_a, of_b, distance + 0.9, 0.1});
   add(ClosureKind::kRange, ClosureStatus::kAccepted);
   add(ClosureKind::kRange, ClosureStatus::kRejected);
-  const auto judged = judge();
-  EXPECT_EQ(judged.at(ClosureKind::kRange).true_accepted, 1U);
-  EXPECT_EQ(judged.at(ClosureKind::kRange).true_rejected, 0U);
+  const auto compared = compare();
+  EXPECT_EQ(compared.at(ClosureKind::kRange).true_accepted, 1U);
+  EXPECT_EQ(compared.at(ClosureKind::kRange).true_rejected, 0U);
 }
 
 /// Angles at a from b's antenna at (3, 5), with one path that points there and two that do not.
@@ -121,7 +121,7 @@ class AngleTruthOfRun : public MeasurementTruth {
     add(ClosureKind::kAoa, status);
     closures.back().path_weights = std::move(weights);
   }
-  JudgedClosures angles() const { return judge().at(ClosureKind::kAoa); }
+  ComparedClosures angles() const { return compare().at(ClosureKind::kAoa); }
 
   const LinkEnd of_b{b, {}, "", Eigen::Vector3d(1, 0, 0)};
   const AoaPath direct{std::atan2(5, 3), {}, 0.02, 0}, reflected{-2, {}, 0.02, 0}, other{2.5, {}, 0.02, 0};
@@ -133,7 +133,7 @@ TEST_F(AngleTruthOfRun, TheLikeliestPathDecidesNotAnyPath) {
   add_angle({reflected, direct, other}, {0, 0.4, 0.5});  // wrong path
   add_angle({reflected, other}, {0.9, 0});               // none direct
   add_angle({direct}, {});                               // found: no other path
-  const JudgedClosures counts = angles();
+  const ComparedClosures counts = angles();
   EXPECT_EQ(counts.accepted, 5U);
   EXPECT_EQ(counts.true_accepted, 2U);
   EXPECT_EQ(counts.direct_found, 2U);
@@ -145,7 +145,7 @@ TEST_F(AngleTruthOfRun, ARejectedAngleIsTrueIfItsLikeliestPathIsDirect) {
   add_angle({reflected, direct}, {0.1, 0.2}, ClosureStatus::kRejected);
   add_angle({reflected, direct}, {0.2, 0.1}, ClosureStatus::kRejected);
   add_angle({reflected, other}, {0.2, 0.1}, ClosureStatus::kRejected);
-  const JudgedClosures counts = angles();
+  const ComparedClosures counts = angles();
   EXPECT_EQ(counts.rejected, 3U);
   EXPECT_EQ(counts.true_rejected, 1U);
   EXPECT_EQ(counts.direct_found + counts.wrong_path + counts.none_direct, 0U);
@@ -154,7 +154,7 @@ TEST_F(AngleTruthOfRun, ARejectedAngleIsTrueIfItsLikeliestPathIsDirect) {
 TEST_F(AngleTruthOfRun, LabelsTakePrecedenceOverGeometry) {
   for (int k = 0; k < 4; ++k) add_angle({reflected, direct}, {0.9, 0.1});
   truth.direct_paths = {0, 1, kNoDirectPath, std::nullopt};  // the last one by geometry: wrong path
-  const JudgedClosures counts = angles();
+  const ComparedClosures counts = angles();
   EXPECT_EQ(counts.direct_found, 1U);
   EXPECT_EQ(counts.wrong_path, 2U);
   EXPECT_EQ(counts.none_direct, 1U);
@@ -171,13 +171,13 @@ TEST_F(AngleTruthOfRun, ThreeSigmaAndFiveDegreesAreWithinTheDirection) {
   EXPECT_EQ(angles().none_direct, 1U);
 }
 
-TEST_F(AngleTruthOfRun, SeveralPathsWithoutTheirWeightsAreNotJudged) {
+TEST_F(AngleTruthOfRun, SeveralPathsWithoutTheirWeightsAreNotCompared) {
   add_angle({reflected, direct}, {});
   add_angle({reflected, direct}, {1});
-  EXPECT_TRUE(judge().empty());
+  EXPECT_TRUE(compare().empty());
 }
 
-TEST_F(AngleTruthOfRun, AnglesFromCsiAreJudgedInTheOrderOfTheRun) {
+TEST_F(AngleTruthOfRun, AnglesFromCsiAreComparedInTheOrderOfTheRun) {
   add_angle({reflected, direct}, {0.1, 0.8});  // of the mission, at 1 s
   mission.robots[0].id = "a";
   mission.robots[1].id = "b";
@@ -198,7 +198,7 @@ TEST_F(AngleTruthOfRun, AnglesFromCsiAreJudgedInTheOrderOfTheRun) {
     add(ClosureKind::kAoa, ClosureStatus::kAccepted);
     closures.back().path_weights = weights;
   }
-  const auto counts = judge(measured).at(ClosureKind::kAoa);
+  const auto counts = compare(measured).at(ClosureKind::kAoa);
   EXPECT_EQ(counts.accepted, 3U);
   EXPECT_EQ(counts.direct_found, 1U);
   EXPECT_EQ(counts.wrong_path, 1U);
@@ -208,7 +208,7 @@ TEST_F(AngleTruthOfRun, AnglesFromCsiAreJudgedInTheOrderOfTheRun) {
 TEST_F(AngleTruthOfRun, ATransmitterWithoutOrientationIsAPositionIfItsAntennaIsAtTheOrigin) {
   add_angle({{std::atan2(4, 3), {}, 0.02, 0}}, {1});
   truth.robots[1].has_orientation = false;
-  EXPECT_TRUE(judge().empty());
+  EXPECT_TRUE(compare().empty());
   mission.aoa_measurements[0].transmitter.lever_arm_m.setZero();
   EXPECT_EQ(angles().direct_found, 1U);
 }
@@ -223,7 +223,7 @@ TEST_F(AngleTruthOfRun, LinksBeyondTheOdometryHaveNoClosure) {
 TEST_F(MeasurementTruth, WhatTheTruthDoesNotCoverIsNotCounted) {
   mission.ranges.push_back({Stamp::from_seconds(50), {a, {}, "", {}}, {b, {}, "", {}}, 5, 0.1});
   add(ClosureKind::kRange, ClosureStatus::kAccepted);
-  EXPECT_TRUE(judge().empty());
+  EXPECT_TRUE(compare().empty());
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ TEST(MirrorImage, StraightAndSymmetricalPathsAreNot) {
   expect_no_image([](int) { return 0.0; }, 60);
   expect_no_image([](int i) { return i % 2 == 0 ? 2.0 : -2.0; }, 60);     // a zigzag
   expect_no_image([](int i) { return 0.02 * (i - 30) * (i - 30); }, 60);  // a parabola
-  expect_no_image([](int) { return 0.0; }, 3);                            // too short to judge
+  expect_no_image([](int) { return 0.0; }, 3);                            // too short to test
 }
 
 /// A reflection in a planar path's own plane changes nothing in space.

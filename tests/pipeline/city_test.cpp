@@ -16,7 +16,7 @@ using test::quick_params;
 using test::small_city;
 
 /// A candidate is true if both LiDARs together reach from one keyframe to the other.
-PairCounts judge_candidates(const RunResult& result, const Mission& mission, const Truth& truth) {
+PairCounts compare_candidates(const RunResult& result, const Mission& mission, const Truth& truth) {
   std::vector<KeyframeStamps> keyframes;
   for (std::size_t r = 0; r < result.robots.size(); ++r) {
     keyframes.emplace_back();
@@ -41,7 +41,7 @@ TEST(City, IsMappedAndPrunedByItsRadioLinks) {
     EXPECT_LT(error_m(result, truth), 3.5) << "seed " << seed;
     ASSERT_EQ(result.components.size(), 1U);
     EXPECT_TRUE(result.unplaced.empty());
-    const PairCounts counts = judge_candidates(result, mission, truth);
+    const PairCounts counts = compare_candidates(result, mission, truth);
     ASSERT_GT(counts.true_pairs, 50U);
     EXPECT_GE(recall(counts), 0.98) << "seed " << seed;
     EXPECT_LE(false_share_kept(counts), 0.05) << "seed " << seed;
@@ -89,7 +89,7 @@ TEST(City, TheExhaustiveSearchFindsTheSamePairsInBothModes) {
       EXPECT_EQ(candidate.mahalanobis, (*same).mahalanobis);
       ++same;
     }
-    EXPECT_GE(recall(judge_candidates(tree, mission, truth)), 0.95) << mode;
+    EXPECT_GE(recall(compare_candidates(tree, mission, truth)), 0.95) << mode;
   }
 }
 

@@ -58,8 +58,8 @@ TEST(ReportPlaces, CountPairsByStep) {
   EXPECT_FALSE(places.contains("false"));
 }
 
-TEST(ReportPlaces, AreJudgedByTheTruth) {
-  const JudgedClosures of_scans{.accepted = 5, .true_accepted = 3, .rejected = 4, .true_rejected = 1};
+TEST(ReportPlaces, AreComparedWithTheTruth) {
+  const ComparedClosures of_scans{.accepted = 5, .true_accepted = 3, .rejected = 4, .true_rejected = 1};
   const PageData places = place_data(sample_with_places().result, {{ClosureKind::kLidar, of_scans}});
   EXPECT_EQ(places["true"], 3);
   EXPECT_EQ(places["false"], 2);

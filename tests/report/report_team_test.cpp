@@ -132,8 +132,8 @@ TEST(Report, AlternativesAreInThePagesFrameAndEvaluated) {
   EXPECT_NEAR(shown["ate_rmse_m"].get<double>(), evaluate_trajectories(team, sample.truth, 2).ate->rmse_m,
               0.00051);
   EXPECT_GT(shown["ate_rmse_m"].get<double>(), 2);
-  const Json unjudged = data_of(render_report(sample.result))["alternatives"];
-  EXPECT_FALSE(unjudged[1].contains("ate_rmse_m"));
+  const Json without_truth = data_of(render_report(sample.result))["alternatives"];
+  EXPECT_FALSE(without_truth[1].contains("ate_rmse_m"));
 }
 
 TEST(Report, AlternativesKeepToTheirBudget) {

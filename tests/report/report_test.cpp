@@ -271,9 +271,9 @@ TEST(Report, SpaceHasHeights) {
 
 TEST(Report, ShowsClosuresAgainstTheTruth) {
   const auto sample = make_sample({});
-  const ClosuresByKind judged{{ClosureKind::kAoa, {6, 3, 2, 1, 3, 2, 1}}};
+  const ClosuresByKind compared{{ClosureKind::kAoa, {6, 3, 2, 1, 3, 2, 1}}};
   const Json rows =
-      data_of(render_report(sample.result, &sample.truth, sample.metrics, judged))["closures"]["judged"];
+      data_of(render_report(sample.result, &sample.truth, sample.metrics, compared))["closures"]["compared"];
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_EQ(rows[0]["kind"], "aoa");
   EXPECT_EQ(rows[0]["direct_found"], 3);

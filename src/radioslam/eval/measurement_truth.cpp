@@ -50,13 +50,14 @@ std::optional<std::size_t> likeliest_path(const std::vector<double>& weights, st
 }
 
 /// `direct_path`: the label, as in Truth::direct_paths.
-AngleTruth judge_path(std::size_t path, int direct_path) {
+AngleTruth compare_path(std::size_t path, int direct_path) {
   if (direct_path == kNoDirectPath) return AngleTruth::kNoneDirect;
   return static_cast<int>(path) == direct_path ? AngleTruth::kDirectFound : AngleTruth::kWrongPath;
 }
 
 /// `direction`: of the transmitter, in the receiver's body frame; of any length.
-AngleTruth judge_path(std::size_t path, const std::vector<AoaPath>& paths, const Eigen::Vector3d& direction) {
+AngleTruth compare_path(std::size_t path, const std::vector<AoaPath>& paths,
+                        const Eigen::Vector3d& direction) {
   if (points_to(paths[path], direction)) return AngleTruth::kDirectFound;
   const bool other_is_direct =
       std::any_of(paths.begin(), paths.end(), [&](const AoaPath& p) { return points_to(p, direction); });
@@ -76,7 +77,7 @@ double sigma_along(const Eigen::Vector3d& error, const Eigen::Matrix3d& covarian
 }
 
 /// A relative pose against the truth. Nothing where neither label nor truth is known.
-struct JudgedPose {
+struct ComparedPose {
   std::optional<bool> is_true;
   std::optional<double> error_m, error_rad;
 };
@@ -110,11 +111,11 @@ std::vector<LabelledAngle> angles_of_run(const Mission& mission, const Truth& tr
   return angles;
 }
 
-class MeasurementJudge {
+class TruthComparison {
  public:
-  MeasurementJudge(const Mission& mission, const Truth& truth) : mission_(mission), truth_(truth) {}
+  TruthComparison(const Mission& mission, const Truth& truth) : mission_(mission), truth_(truth) {}
 
-  JudgedPose relative_pose(const PoseMatch& measured, std::optional<bool> label) const {
+  ComparedPose relative_pose(const PoseMatch& measured, std::optional<bool> label) const {
     const auto i = pose(measured.robot_i, measured.stamp_i), j = pose(measured.robot_j, measured.stamp_j);
     if (!i || !j) return {label, std::nullopt, std::nullopt};
     SE3 error = measured.T_i_j.inverse() * i->inverse() * *j;
@@ -127,7 +128,7 @@ class MeasurementJudge {
     return {label.value_or(agrees), shift_m.norm(), turn_rad.norm()};
   }
 
-  JudgedPose match(std::size_t k) const {
+  ComparedPose match(std::size_t k) const {
     return relative_pose(mission_.matches[k],
                          k < truth_.true_matches.size() ? truth_.true_matches[k] : std::nullopt);
   }
@@ -145,11 +146,11 @@ class MeasurementJudge {
     const AoaMeasurement& measured = angle.measured;
     const auto path = likeliest_path(weights, measured.paths.size());
     if (!path) return std::nullopt;
-    if (angle.direct_path) return judge_path(*path, *angle.direct_path);
+    if (angle.direct_path) return compare_path(*path, *angle.direct_path);
     const auto receiver = pose(measured.receiver, measured.stamp);
     const auto transmitter = position_m(measured.transmitter, measured.stamp);
     if (!receiver || !transmitter) return std::nullopt;
-    return judge_path(*path, measured.paths, receiver->inverse() * *transmitter);
+    return compare_path(*path, measured.paths, receiver->inverse() * *transmitter);
   }
 
  private:
@@ -216,7 +217,7 @@ class MeasurementsByKeyframes {
   std::map<Ends, std::deque<std::size_t>> by_keyframes_;
 };
 
-void count(JudgedClosures& counts, ClosureStatus status, bool is_true) {
+void count(ComparedClosures& counts, ClosureStatus status, bool is_true) {
   if (status == ClosureStatus::kAccepted) {
     ++counts.accepted;
     counts.true_accepted += is_true ? 1U : 0U;
@@ -226,7 +227,7 @@ void count(JudgedClosures& counts, ClosureStatus status, bool is_true) {
   }
 }
 
-void count(JudgedClosures& counts, ClosureStatus status, AngleTruth angle) {
+void count(ComparedClosures& counts, ClosureStatus status, AngleTruth angle) {
   count(counts, status, angle == AngleTruth::kDirectFound);
   if (status != ClosureStatus::kAccepted) return;
   counts.direct_found += angle == AngleTruth::kDirectFound ? 1U : 0U;
@@ -234,11 +235,11 @@ void count(JudgedClosures& counts, ClosureStatus status, AngleTruth angle) {
   counts.none_direct += angle == AngleTruth::kNoneDirect ? 1U : 0U;
 }
 
-void count(JudgedClosures& counts, ClosureStatus status, const JudgedPose& judged) {
-  count(counts, status, *judged.is_true);
-  if (!judged.error_m || status != ClosureStatus::kAccepted) return;
-  counts.worst_accepted_m = std::max(counts.worst_accepted_m.value_or(0), *judged.error_m);
-  counts.worst_accepted_rad = std::max(counts.worst_accepted_rad.value_or(0), *judged.error_rad);
+void count(ComparedClosures& counts, ClosureStatus status, const ComparedPose& compared) {
+  count(counts, status, *compared.is_true);
+  if (!compared.error_m || status != ClosureStatus::kAccepted) return;
+  counts.worst_accepted_m = std::max(counts.worst_accepted_m.value_or(0), *compared.error_m);
+  counts.worst_accepted_rad = std::max(counts.worst_accepted_rad.value_or(0), *compared.error_rad);
 }
 
 MeasurementsByKeyframes matches_by_keyframes(const std::vector<PoseMatch>& matches,
@@ -270,39 +271,40 @@ MeasurementsByKeyframes angles_by_keyframes(const std::vector<LabelledAngle>& an
 
 }  // namespace
 
-ClosuresByKind judge_closures(const std::vector<ClosureResult>& closures,
-                              const std::vector<std::vector<Stamp>>& keyframes, const Mission& mission,
-                              const Truth& truth, const std::vector<MeasuredAoaResult>& measured_aoa,
-                              const FileLoops& file) {
-  const MeasurementJudge judge(mission, truth);
+ClosuresByKind compare_closures_with_truth(const std::vector<ClosureResult>& closures,
+                                           const std::vector<std::vector<Stamp>>& keyframes,
+                                           const Mission& mission, const Truth& truth,
+                                           const std::vector<MeasuredAoaResult>& measured_aoa,
+                                           const FileLoops& file) {
+  const TruthComparison comparison(mission, truth);
   const std::vector<LabelledAngle> angles = angles_of_run(mission, truth, measured_aoa);
   auto matches = matches_by_keyframes(mission.matches, keyframes),
        loops = matches_by_keyframes(file.loops, keyframes), ranges = ranges_by_keyframes(mission, keyframes),
-       arrivals = angles_by_keyframes(angles, keyframes);
+       aoa_measurements = angles_by_keyframes(angles, keyframes);
   ClosuresByKind counts;
   const auto count_if_covered = [&](const ClosureResult& closure, const auto& is_true) {
     if (is_true) count(counts[closure.kind], closure.status, *is_true);
   };
-  const auto count_pose = [&](const ClosureResult& closure, const JudgedPose& judged) {
-    if (judged.is_true) count(counts[closure.kind], closure.status, judged);
+  const auto count_pose = [&](const ClosureResult& closure, const ComparedPose& compared) {
+    if (compared.is_true) count(counts[closure.kind], closure.status, compared);
   };
   for (const ClosureResult& closure : closures) {
     if (closure.kind == ClosureKind::kMatch) {
-      if (const auto k = matches.take(closure)) count_pose(closure, judge.match(*k));
+      if (const auto k = matches.take(closure)) count_pose(closure, comparison.match(*k));
     } else if (closure.kind == ClosureKind::kFile) {
       if (const auto k = loops.take(closure))
-        count_pose(closure, judge.relative_pose(file.loops[*k],
-                                                *k < file.labels.size() ? file.labels[*k] : std::nullopt));
+        count_pose(closure, comparison.relative_pose(
+                                file.loops[*k], *k < file.labels.size() ? file.labels[*k] : std::nullopt));
     } else if (closure.kind == ClosureKind::kLidar) {
       if (closure.T_i_j && closure.robot_i != closure.robot_j)
-        count_pose(closure, judge.relative_pose({closure.robot_i, closure.robot_j, closure.stamp_i,
-                                                 closure.stamp_j, *closure.T_i_j, SE3::Jacobian::Zero()},
-                                                std::nullopt));
+        count_pose(closure, comparison.relative_pose({closure.robot_i, closure.robot_j, closure.stamp_i,
+                                                      closure.stamp_j, *closure.T_i_j, SE3::Jacobian::Zero()},
+                                                     std::nullopt));
     } else if (closure.kind == ClosureKind::kRange) {
-      if (const auto k = ranges.take(closure)) count_if_covered(closure, judge.range(*k));
+      if (const auto k = ranges.take(closure)) count_if_covered(closure, comparison.range(*k));
     } else if (closure.kind == ClosureKind::kAoa) {
-      if (const auto k = arrivals.take(closure))
-        count_if_covered(closure, judge.angle(angles[*k], closure.path_weights));
+      if (const auto k = aoa_measurements.take(closure))
+        count_if_covered(closure, comparison.angle(angles[*k], closure.path_weights));
     }
   }
   return counts;

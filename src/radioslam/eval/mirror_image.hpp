@@ -5,7 +5,7 @@
 // of the rigid one's, and the rigid one's above a tenth of the truth's extent (RMS distance from its
 // centroid). Straight paths, in space also planar ones, are their own mirror images: both fits are equally
 // good. A path with standard deviation s across its main direction has a rigid RMSE of 2 s where it is
-// mirrored, so that those narrower than a twentieth of their extent are not judged.
+// mirrored, so that those narrower than a twentieth of their extent are not tested.
 #pragma once
 
 #include <Eigen/Core>

@@ -242,7 +242,7 @@ PageData closure_data(const RunResult& result, const DrawnKeyframes& keyframes, 
   return {{"groups", groups}, {"reasons", reason_rows(statistics)}, {"drawn", lines.data()}};
 }
 
-PageData judged_closure_data(const ClosuresByKind& closures) {
+PageData compared_closure_data(const ClosuresByKind& closures) {
   PageData rows = PageData::array();
   for (const auto& [kind, counts] : closures) {
     rows.push_back({{"kind", name(kind)},
@@ -258,7 +258,7 @@ PageData judged_closure_data(const ClosuresByKind& closures) {
   return rows;
 }
 
-PageData place_data(const RunResult& result, const ClosuresByKind& judged_closures) {
+PageData place_data(const RunResult& result, const ClosuresByKind& compared_closures) {
   const auto pairs = result.counts.find("place_pairs");
   if (pairs == result.counts.end() || pairs->second <= 0) return {};
   const auto accepted =
@@ -272,9 +272,10 @@ PageData place_data(const RunResult& result, const ClosuresByKind& judged_closur
                 {"registered", count_of(result, "registrations")},
                 {"verified", count_of(result, "registrations_verified")},
                 {"accepted", accepted}};
-  if (const auto judged = judged_closures.find(ClosureKind::kLidar); judged != judged_closures.end()) {
-    data["true"] = judged->second.true_accepted;
-    data["false"] = judged->second.accepted - judged->second.true_accepted;
+  if (const auto compared = compared_closures.find(ClosureKind::kLidar);
+      compared != compared_closures.end()) {
+    data["true"] = compared->second.true_accepted;
+    data["false"] = compared->second.accepted - compared->second.true_accepted;
   }
   return data;
 }

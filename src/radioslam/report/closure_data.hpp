@@ -33,11 +33,11 @@ PageData closure_data(const RunResult& result, const DrawnKeyframes& keyframes, 
 
 /// [{"kind", "accepted", "true_accepted", "rejected", "true_rejected", "direct_found", "wrong_path",
 ///   "none_direct"}]; the last three of angles only.
-PageData judged_closure_data(const ClosuresByKind& closures);
+PageData compared_closure_data(const ClosuresByKind& closures);
 
 /// {"pairs", "allowed", "compared", "registered", "verified", "accepted", "true", "false"}: how many pairs of
 /// keyframes of different robots came how far by their scans. "true" and "false" are those accepted ones that
 /// the truth covers, absent without it. Null if no scans of different robots were compared.
-PageData place_data(const RunResult& result, const ClosuresByKind& judged_closures);
+PageData place_data(const RunResult& result, const ClosuresByKind& compared_closures);
 
 }  // namespace radioslam

@@ -57,7 +57,7 @@ PageData alternative_data(const RunResult& result, const TrajectoryContext& cont
     for (const RobotResult& robot : other.robots)
       robots.push_back(path(robot.estimate, part_of_budget(robot.estimate.size(), total, budget), context));
     PageData data{{"weight", rounded(other.weight, 4)}, {"robots", std::move(robots)}};
-    if (const Truth* truth = context.judgement.truth) {
+    if (const Truth* truth = context.evaluation.truth) {
       const auto metrics =
           evaluate_trajectories(team_estimate(other.robots, result), *truth, context.dimension);
       data["ate_rmse_m"] = metrics.ate ? rounded_metres(metrics.ate->rmse_m) : PageData();
@@ -109,9 +109,9 @@ PageData error_quantiles(const TeamMetrics& metrics) {
   return quantiles;
 }
 
-PageData accuracy_data(const Evaluation& judgement) {
-  const TeamMetrics& estimate = *judgement.estimate;
-  const TeamMetrics& odometry = *judgement.dead_reckoning;
+PageData accuracy_data(const Evaluation& evaluation) {
+  const TeamMetrics& estimate = *evaluation.estimate;
+  const TeamMetrics& odometry = *evaluation.dead_reckoning;
   PageData data{{"ate", statistics_data(estimate.ate)},
                 {"dead_reckoning", statistics_data(odometry.ate)},
                 {"coverage", rounded(estimate.coverage, 4)},
@@ -146,11 +146,11 @@ PageData similarity_data(const SimilarityModelResult& model, const ReportParams&
           {"drawn", {{"similarity", std::move(similarity)}, {"distance_m", std::move(distance)}}}};
 }
 
-void add_robots(PageData& page, const RunResult& result, const Evaluation& judgement,
+void add_robots(PageData& page, const RunResult& result, const Evaluation& evaluation,
                 const ReportParams& params) {
-  TrajectoryContext context{result.dimension, first_stamp(result), SE3(), count_totals(result, judgement),
-                            judgement};
-  if (judgement.estimate != nullptr) context.T_page_estimate = judgement.estimate->T_truth_estimate;
+  TrajectoryContext context{result.dimension, first_stamp(result), SE3(), count_totals(result, evaluation),
+                            evaluation};
+  if (evaluation.estimate != nullptr) context.T_page_estimate = evaluation.estimate->T_truth_estimate;
   DrawnKeyframes keyframes;
   page["robots"] = PageData::array();
   for (const auto& robot : result.robots) {
@@ -226,7 +226,7 @@ void add_run(PageData& page, const RunResult& result, const ReportParams& params
 }
 
 PageData page_data(const RunResult& result, const Truth* truth, const std::optional<TeamMetrics>& metrics,
-                   const ClosuresByKind& judged_closures, const ReportParams& params) {
+                   const ClosuresByKind& compared_closures, const ReportParams& params) {
   PageData page{{"format", "radioslam-report/1"},
                 {"mission", result.mission_name},
                 {"dimension", result.dimension},
@@ -234,21 +234,21 @@ PageData page_data(const RunResult& result, const Truth* truth, const std::optio
   const bool evaluated = truth != nullptr && !truth->empty() && metrics && metrics->ate;
   page["frame"] = evaluated ? "truth" : "estimate";
   std::optional<TeamMetrics> dead_reckoning;
-  Evaluation judgement;
+  Evaluation evaluation;
   if (evaluated) {
     dead_reckoning = evaluate_dead_reckoning(result, *truth);
-    judgement = {truth, &*metrics, &*dead_reckoning};
-    page["accuracy"] = accuracy_data(judgement);
+    evaluation = {truth, &*metrics, &*dead_reckoning};
+    page["accuracy"] = accuracy_data(evaluation);
   }
-  add_robots(page, result, judgement, params);
-  page["closures"]["judged"] = judged_closure_data(judged_closures);
-  page["places"] = place_data(result, judged_closures);
+  add_robots(page, result, evaluation, params);
+  page["closures"]["compared"] = compared_closure_data(compared_closures);
+  page["places"] = place_data(result, compared_closures);
   if (result.similarity_model) page["similarity"] = similarity_data(*result.similarity_model, params);
   if (!result.aoa_measurements.empty())
-    page["arrivals"] = aoa_data(result, first_stamp(result), judgement.truth, params);
+    page["arrivals"] = aoa_data(result, first_stamp(result), evaluation.truth, params);
   if (!result.access_points.empty())
     page["access_points"] =
-        access_point_data(result, evaluated ? judgement.estimate->T_truth_estimate : SE3(), params);
+        access_point_data(result, evaluated ? evaluation.estimate->T_truth_estimate : SE3(), params);
   if (!result.signals.empty()) page["signals"] = signal_data(result, first_stamp(result), params);
   add_run(page, result, params);
   return page;
@@ -257,9 +257,9 @@ PageData page_data(const RunResult& result, const Truth* truth, const std::optio
 }  // namespace
 
 std::string render_report(const RunResult& result, const Truth* truth,
-                          const std::optional<TeamMetrics>& metrics, const ClosuresByKind& judged_closures,
+                          const std::optional<TeamMetrics>& metrics, const ClosuresByKind& compared_closures,
                           const ReportParams& params) {
-  return embed_data(page_head(), page_data(result, truth, metrics, judged_closures, params), page_tail());
+  return embed_data(page_head(), page_data(result, truth, metrics, compared_closures, params), page_tail());
 }
 
 }  // namespace radioslam

@@ -16,9 +16,9 @@ namespace radioslam {
 
 /// The page. `truth` may be null; with `truth` and `metrics` the map is drawn in the truth's frame (through
 /// metrics->T_truth_estimate), and dead reckoning is evaluated as well, after its own alignment.
-/// `judged_closures` are shown beside the closures.
+/// `compared_closures` are shown beside the closures.
 std::string render_report(const RunResult& result, const Truth* truth = nullptr,
                           const std::optional<TeamMetrics>& metrics = std::nullopt,
-                          const ClosuresByKind& judged_closures = {}, const ReportParams& params = {});
+                          const ClosuresByKind& compared_closures = {}, const ReportParams& params = {});
 
 }  // namespace radioslam

@@ -111,18 +111,18 @@ PageData fixes_data(const FixResult& fixes) {
 
 void add_evaluation(PageData& data, const RobotResult& robot, const TrajectoryContext& context,
                     const ReportParams& params) {
-  const Evaluation& judgement = context.judgement;
-  if (const auto* truth = truth_of(robot.id, judgement.truth); truth != nullptr && !truth->poses.empty()) {
+  const Evaluation& evaluation = context.evaluation;
+  if (const auto* truth = truth_of(robot.id, evaluation.truth); truth != nullptr && !truth->poses.empty()) {
     const std::size_t poses = truth->poses.size();
     const auto limit = part_of_budget(poses, context.totals.truth_poses, budget(params.max_poses));
     data["truth"] = path_data(truth->poses, evenly_spaced(poses, limit), SE3(), context);
   }
-  if (const auto* metrics = metrics_of(robot.id, judgement.estimate)) {
+  if (const auto* metrics = metrics_of(robot.id, evaluation.estimate)) {
     data["ate"] = statistics_data(metrics->ate);
     data["coverage"] = rounded(metrics->coverage, 4);
     data["errors"] = error_data(metrics->errors, context, params);
   }
-  if (const auto* metrics = metrics_of(robot.id, judgement.dead_reckoning)) {
+  if (const auto* metrics = metrics_of(robot.id, evaluation.dead_reckoning)) {
     data["dead_reckoning"] = statistics_data(metrics->ate);
     data["dead_reckoning_errors"] = error_data(metrics->errors, context, params);
   }
@@ -130,13 +130,13 @@ void add_evaluation(PageData& data, const RobotResult& robot, const TrajectoryCo
 
 }  // namespace
 
-TeamTotals count_totals(const RunResult& result, const Evaluation& judgement) {
+TeamTotals count_totals(const RunResult& result, const Evaluation& evaluation) {
   TeamTotals totals;
   for (const auto& robot : result.robots) totals.keyframes += robot.estimate.size();
-  if (judgement.truth != nullptr)
-    for (const auto& robot : judgement.truth->robots) totals.truth_poses += robot.poses.size();
-  if (judgement.estimate != nullptr)
-    for (const auto& robot : judgement.estimate->robots) totals.errors += robot.errors.size();
+  if (evaluation.truth != nullptr)
+    for (const auto& robot : evaluation.truth->robots) totals.truth_poses += robot.poses.size();
+  if (evaluation.estimate != nullptr)
+    for (const auto& robot : evaluation.estimate->robots) totals.errors += robot.errors.size();
   return totals;
 }
 

@@ -25,7 +25,7 @@ struct TeamTotals {
   std::size_t truth_poses = 0;
   std::size_t errors = 0;
 };
-TeamTotals count_totals(const RunResult& result, const Evaluation& judgement);
+TeamTotals count_totals(const RunResult& result, const Evaluation& evaluation);
 
 /// Data common to all robots of a page.
 struct TrajectoryContext {
@@ -33,7 +33,7 @@ struct TrajectoryContext {
   Stamp start;
   SE3 T_page_estimate;  ///< into the page's frame
   TeamTotals totals;
-  Evaluation judgement;
+  Evaluation evaluation;
 };
 
 /// The drawn keyframes of a robot, as indices into its estimate.

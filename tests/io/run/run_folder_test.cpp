@@ -90,7 +90,7 @@ TEST(RunFolder, MeasuredDirectionsAreAMissionsTable) {
             "0,adam,zoe,0,2,,0.25,0\n");
 }
 
-TEST(RunFolder, WhatAnglesAreJudgedByReadsBackExactly) {
+TEST(RunFolder, WhatAnglesAreComparedByReadsBackExactly) {
   const TemporaryFolder folder;
   RunResult result = example();
   result.closures[0].path_weights = {0.1, 1.0 / 3, 3e-17};

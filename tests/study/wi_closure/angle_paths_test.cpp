@@ -41,14 +41,14 @@ TEST(AnglePaths, EveryAngleHasTheOutcomeOfItsTime) {
     closure.path_weights = {1 - t_s / 20, t_s / 20};
   }
   result.closures[1].status = ClosureStatus::kRejected;
-  const auto angles = judge_angle_paths(result, mission, truth);
+  const auto angles = compare_angle_paths(result, mission, truth);
   ASSERT_EQ(angles.size(), 3U);
   EXPECT_EQ(angles[0].weights, result.closures[0].path_weights);
   EXPECT_EQ(angles[1].weights, result.closures[1].path_weights);
   EXPECT_FALSE(angles[1].accepted);
   EXPECT_TRUE(angles[2].finds_direct());
   mission.aoa_measurements.front().transmitter.robot = RobotIndex(0);
-  EXPECT_TRUE(judge_angle_paths(result, mission, truth).front().weights.empty());
+  EXPECT_TRUE(compare_angle_paths(result, mission, truth).front().weights.empty());
 }
 
 }  // namespace

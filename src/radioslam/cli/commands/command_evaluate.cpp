@@ -41,7 +41,7 @@ struct Evaluation {
   nlohmann::ordered_json found,
       listed;  ///< how many candidates the run says it found and listed; null: it does not
   PairCounts closures;
-  ClosuresByKind by_kind;  ///< judged by their measurements
+  ClosuresByKind by_kind;  ///< compared with the truth
   long accepted = 0;
   long rejected = 0;
   std::vector<std::string> notes;
@@ -110,8 +110,8 @@ void count_pairs(Evaluation& evaluation, const RunFolder& run, const Mission& mi
     return closure.status == ClosureStatus::kAccepted;
   });
   evaluation.rejected = static_cast<long>(closures.size()) - evaluation.accepted;
-  evaluation.by_kind = judge_closures(closures, keyframe_stamps(run, places, truth.views.size()), mission,
-                                      truth.truth, run.aoa_measurements, file);
+  evaluation.by_kind = compare_closures_with_truth(closures, keyframe_stamps(run, places, truth.views.size()),
+                                                   mission, truth.truth, run.aoa_measurements, file);
 }
 
 std::vector<std::string> notes_on(const RunFolder& run, const EvaluateOptions& options) {

@@ -51,7 +51,7 @@ struct Agreement {
 Agreement evaluate(const RunResult& result, const MissionInput& given) {
   if (given.truth.empty()) return {};
   return {evaluate_trajectories(team_estimate(result), given.truth, result.dimension),
-          judge_closures(result, given.mission, given.truth, given.loops)};
+          compare_closures_with_truth(result, given.mission, given.truth, given.loops)};
 }
 
 /// `given`: the input without its recordings and its graph.

@@ -87,11 +87,12 @@ Mission without_recordings(const Mission& mission) {
   return reduced;
 }
 
-ClosuresByKind judge_closures(const RunResult& result, const Mission& mission, const Truth& truth,
-                              const FileLoops& file) {
+ClosuresByKind compare_closures_with_truth(const RunResult& result, const Mission& mission,
+                                           const Truth& truth, const FileLoops& file) {
   std::vector<std::vector<Stamp>> keyframes;
   for (const RobotResult& robot : result.robots) keyframes.push_back(robot.estimate.stamps());
-  return judge_closures(result.closures, keyframes, mission, truth, result.aoa_measurements, file);
+  return compare_closures_with_truth(result.closures, keyframes, mission, truth, result.aoa_measurements,
+                                     file);
 }
 
 std::string closures_by_kind_text(const ClosuresByKind& closures) {

@@ -23,13 +23,13 @@ std::vector<EstimatedTrajectory> dead_reckoning(const Mission& mission);
 /// Table of position errors per robot and for the team, and the relative error.
 std::string metrics_table(const TeamMetrics& metrics);
 
-/// What of a mission its closures are judged by: links, matches, and the antennas of the robots' cards,
-/// without recordings.
+/// What of a mission its closures are compared with the truth by: links, matches, and the antennas of the
+/// robots' cards, without recordings.
 Mission without_recordings(const Mission& mission);
 
-/// The run's closures judged by their measurements.
-ClosuresByKind judge_closures(const RunResult& result, const Mission& mission, const Truth& truth,
-                              const FileLoops& file);
+/// The run's closures against the truth, by their measurements.
+ClosuresByKind compare_closures_with_truth(const RunResult& result, const Mission& mission,
+                                           const Truth& truth, const FileLoops& file);
 
 /// A line per kind of closure.
 std::string closures_by_kind_text(const ClosuresByKind& closures);

@@ -10,7 +10,7 @@
 namespace radioslam {
 namespace {
 
-constexpr std::size_t kJudgedScans = 10;
+constexpr std::size_t kScansToFindUnit = 10;
 
 /// The typical interval between consecutive stamps; nothing if all stamps are equal.
 std::optional<double> nominal_interval_s(std::vector<Stamp> stamps) {
@@ -79,7 +79,7 @@ void RosScans::take(const RosMessage& message) {
   topic_ = message.channel.topic;
   if (has_unit_) return hand_on(message);
   held_.push_back({message.channel, message.stamp, std::string(message.bytes), std::string(message.file)});
-  if (held_.size() == kJudgedScans) finish();
+  if (held_.size() == kScansToFindUnit) finish();
 }
 
 void RosScans::finish() {

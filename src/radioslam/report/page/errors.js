@@ -4,12 +4,12 @@ const stated_sigmas = 3;
 const error_view = { along: "t", scale: "linear", dead_reckoning: robots.length <= few_robots, stated: robots.length <= few_robots };
 const least_error_m = 0.01;
 
-const judged = () => shown().filter(robot => robot.errors);
+const evaluated = () => shown().filter(robot => robot.errors);
 
-const stated_layers = () => (error_view.stated ? judged().map(r => r.errors).filter(e => e.sigma_m) : []);
+const stated_layers = () => (error_view.stated ? evaluated().map(r => r.errors).filter(e => e.sigma_m) : []);
 
 function error_scales(width, height) {
-  const layers = judged().map(r => r.errors).concat(error_view.dead_reckoning ? judged().map(r => r.dead_reckoning_errors).filter(e => e) : []);
+  const layers = evaluated().map(r => r.errors).concat(error_view.dead_reckoning ? evaluated().map(r => r.dead_reckoning_errors).filter(e => e) : []);
   const end = d3.max(layers, e => d3.max(e[error_view.along])) || 1, top = d3.max([...layers.map(e => d3.max(e.error_m)), ...stated_layers().map(e => stated_sigmas * d3.max(e.sigma_m))]) || 1;
   const start = Math.min(0, d3.min(layers, e => e[error_view.along][0]) || 0);
   const y = error_view.scale === "log" ? d3.scaleLog().domain([least_error_m, top * 1.1]).clamp(true) : d3.scaleLinear().domain([0, top * 1.04]);
@@ -19,7 +19,7 @@ function error_scales(width, height) {
 /// Median and 90th percentile of the errors of all visible robots, in steps along the axis.
 function team_course(x) {
   const [start, end] = x.domain(), steps = 80, errors = d3.range(steps).map(() => []);
-  for (const robot of judged())
+  for (const robot of evaluated())
     robot.errors.error_m.forEach((error, i) => {
       const step = Math.floor((steps * (robot.errors[error_view.along][i] - start)) / (end - start));
       if (isFinite(error) && step >= 0) errors[Math.min(step, steps - 1)].push(error);
@@ -54,7 +54,7 @@ function draw_errors(context, x, y) {
     context.stroke();
   };
   context.lineJoin = "round";
-  for (const robot of judged()) {
+  for (const robot of evaluated()) {
     if (error_view.dead_reckoning && robot.dead_reckoning_errors) curve(robot, robot.dead_reckoning_errors, 1, [4, 3], many ? 0.16 : 0.8);
     if (error_view.stated && robot.errors.sigma_m) curve(robot, robot.errors, 1.2, [6, 3, 1, 3], many ? 0.16 : 0.8, robot.errors.sigma_m.map(s => stated_sigmas * s));
     curve(robot, robot.errors, many ? 1 : 1.7, [], many ? 0.16 : 1);
@@ -80,7 +80,7 @@ function mark_moment(svg, x, y, chart) {
 function find_moment(px, py, x, y) {
   const at = x.invert(px);
   let best = null, least = 40;
-  for (const robot of judged()) {
+  for (const robot of evaluated()) {
     const { errors } = robot, i = nearest_index(errors[error_view.along], at);
     const away = Math.hypot((x(errors[error_view.along][i]) - px) / 2, y(errors.error_m[i]) - py);
     if (away < least) { least = away; best = { robot: robot.index, t: errors.t[i] }; }

@@ -13,7 +13,7 @@ write_access_points();
 write_signals();
 write_similarity();
 write_closures();
-write_judged_closures();
+write_compared_closures();
 write_range_biases();
 write_angle_checks();
 write_timings();

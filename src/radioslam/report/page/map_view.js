@@ -208,6 +208,6 @@ function describe_closure(robot, c) {
 }
 
 function map_description() {
-  const judged = report.frame === "truth" ? ", with the truth" : "";
-  return `Map of the trajectories of ${format.plural(robots.length, "robot")}${judged}. Arrow keys move, plus and minus zoom, 0 shows everything.`;
+  const with_truth = report.frame === "truth" ? ", with the truth" : "";
+  return `Map of the trajectories of ${format.plural(robots.length, "robot")}${with_truth}. Arrow keys move, plus and minus zoom, 0 shows everything.`;
 }

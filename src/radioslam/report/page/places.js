@@ -6,8 +6,8 @@ function place_steps(places) {
     .map(([name, count], k, all) => ({ name, count, of: k ? all[k - 1][1] : null, colour: "bar" }));
   if (!known(places.true) || !places.accepted) return steps;
   const part = (name, count, colour) => ({ name, count, of: places.accepted, colour, part: true });
-  const unjudged = places.accepted - places.true - places.false;
-  return [...steps, part("true", places.true, "accepted"), part("false", places.false, "rejected"), ...(unjudged ? [part("not covered by the truth", unjudged, "bar")] : [])];
+  const not_covered = places.accepted - places.true - places.false;
+  return [...steps, part("true", places.true, "accepted"), part("false", places.false, "rejected"), ...(not_covered ? [part("not covered by the truth", not_covered, "bar")] : [])];
 }
 
 function write_places() {

@@ -138,18 +138,18 @@ function write_closures() {
   by_id("closures-table").append(table);
 }
 
-function write_judged_closures() {
-  const { judged } = report.closures;
-  if (!judged.length) return;
+function write_compared_closures() {
+  const { compared } = report.closures;
+  if (!compared.length) return;
   show("truth-section");
   const number = (name, key, title) => ({ name, value: c => c[key], text: c => (known(c[key]) ? format.count(c[key]) : missing), number: true, title });
-  const angles = judged.some(c => known(c.direct_found)) ? [number("direct path found", "direct_found", "accepted angles whose likeliest path is direct"),
+  const angles = compared.some(c => known(c.direct_found)) ? [number("direct path found", "direct_found", "accepted angles whose likeliest path is direct"),
     number("wrong path", "wrong_path", "accepted angles of which another path is direct"), number("none direct", "none_direct", "accepted angles without a direct path")] : [];
   const { table } = sortable_table([
     { name: "kind", value: c => c.kind, text: c => c.kind },
     number("accepted", "accepted"), number("true", "true_accepted", "of the accepted ones"),
     number("rejected", "rejected"), number("true", "true_rejected", "of the rejected ones"), ...angles,
-  ], judged, line => line);
+  ], compared, line => line);
   by_id("truth-table").append(table);
 }
 

@@ -36,8 +36,8 @@ bool AnglePaths::finds_direct() const {
   return accepted && path && has_direct() && static_cast<int>(*path) == *direct_path;
 }
 
-std::vector<AnglePaths> judge_angle_paths(const RunResult& result, const Mission& mission,
-                                          const Truth& truth) {
+std::vector<AnglePaths> compare_angle_paths(const RunResult& result, const Mission& mission,
+                                            const Truth& truth) {
   std::vector<const ClosureResult*> closures;
   for (const ClosureResult& closure : result.closures)
     if (closure.kind == ClosureKind::kAoa) closures.push_back(&closure);

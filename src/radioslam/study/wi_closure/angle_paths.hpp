@@ -26,7 +26,7 @@ struct AnglePaths {
 };
 
 /// The mission's angles between robots, in their order.
-std::vector<AnglePaths> judge_angle_paths(const RunResult& result, const Mission& mission,
-                                          const Truth& truth);
+std::vector<AnglePaths> compare_angle_paths(const RunResult& result, const Mission& mission,
+                                            const Truth& truth);
 
 }  // namespace radioslam

@@ -91,7 +91,7 @@ PlaceStudy study_places(Simulation simulation, std::uint64_t seed, const std::ve
     next();
     const RunResult pruned = run_pipeline(mission, of_set).result;
     of.pruned = place_run(pruned, truth);
-    if (study.runs.size() == 1) study.angles = judge_angle_paths(pruned, mission, truth);
+    if (study.runs.size() == 1) study.angles = compare_angle_paths(pruned, mission, truth);
   }
   report_progress(progress, "runs", 1);
   return study;
