@@ -21,7 +21,7 @@ constexpr double kRounding = 0.00051;
 
 TEST(ReportDirections, AreThoseOfTheRun) {
   const Sample sample = make_sample({.keyframes = 100, .closures = 5, .aoa_measurements = 6});
-  const Json aoa_measurements = data_of(evaluated_page(sample))["arrivals"];
+  const Json aoa_measurements = data_of(evaluated_page(sample))["aoa_measurements"];
   EXPECT_EQ(aoa_measurements["measured"], 6);
   ASSERT_EQ(aoa_measurements["drawn"].size(), 6u);
   const auto& measured = sample.result.aoa_measurements[0];  // a's, of b: the first by name and time
@@ -42,7 +42,7 @@ TEST(ReportDirections, AreThoseOfTheRun) {
 
 TEST(ReportDirections, AreByReceiverTransmitterAndTime) {
   const Json drawn = data_of(evaluated_page(
-      make_sample({.keyframes = 300, .closures = 5, .aoa_measurements = 24})))["arrivals"]["drawn"];
+      make_sample({.keyframes = 300, .closures = 5, .aoa_measurements = 24})))["aoa_measurements"]["drawn"];
   const auto key = [](const Json& one) {
     return std::tuple(one["receiver"].get<std::string>(), one["transmitter"].get<std::string>(),
                       one["t"].get<double>());
@@ -60,13 +60,13 @@ TEST(ReportDirections, TheTrueOneIsInTheReceiversBody) {
   };
   stand(0, lift(SE2({1, 1}, M_PI / 2)));
   stand(1, lift(SE2({4, 1}, 0)));
-  const Json shown = data_of(evaluated_page(sample))["arrivals"]["drawn"][0];
+  const Json shown = data_of(evaluated_page(sample))["aoa_measurements"]["drawn"][0];
   EXPECT_NEAR(shown["true_azimuth_rad"].get<double>(), -M_PI / 2, kRounding);  // east of one who looks north
 }
 
 TEST(ReportDirections, TheTrueOneNeedsTheReceiversHeadingAndBothPlaces) {
   const auto shows_truth = [](const Sample& sample) {
-    return data_of(evaluated_page(sample))["arrivals"]["drawn"][0].contains("true_azimuth_rad");
+    return data_of(evaluated_page(sample))["aoa_measurements"]["drawn"][0].contains("true_azimuth_rad");
   };
   Sample sample = make_sample({.keyframes = 100, .closures = 5, .aoa_measurements = 1});
   EXPECT_TRUE(shows_truth(sample));
@@ -78,29 +78,31 @@ TEST(ReportDirections, TheTrueOneNeedsTheReceiversHeadingAndBothPlaces) {
   sample.result.aoa_measurements[0].transmitter = "an anchor";
   EXPECT_FALSE(shows_truth(sample));
   const Json alone = data_of(render_report(sample.result));
-  EXPECT_FALSE(alone["arrivals"]["drawn"][0].contains("true_azimuth_rad"));
+  EXPECT_FALSE(alone["aoa_measurements"]["drawn"][0].contains("true_azimuth_rad"));
 }
 
 TEST(ReportDirections, AreAbsentWhereThereAreNone) {
-  EXPECT_FALSE(data_of(evaluated_page(make_sample({.keyframes = 20, .closures = 5}))).contains("arrivals"));
+  EXPECT_FALSE(
+      data_of(evaluated_page(make_sample({.keyframes = 20, .closures = 5}))).contains("aoa_measurements"));
 }
 
 TEST(ReportDirections, AnUnknownEstimateIsAbsent) {
   Sample sample = make_sample({.keyframes = 100, .closures = 5, .aoa_measurements = 1});
   sample.result.aoa_measurements[0].estimated_azimuth_rad.reset();
-  EXPECT_FALSE(data_of(evaluated_page(sample))["arrivals"]["drawn"][0].contains("estimated_azimuth_rad"));
+  EXPECT_FALSE(
+      data_of(evaluated_page(sample))["aoa_measurements"]["drawn"][0].contains("estimated_azimuth_rad"));
 }
 
 TEST(ReportDirections, AFewOfManyAreDrawnAndAllAreCounted) {
   const Sample sample = make_sample({.keyframes = 300, .closures = 5, .aoa_measurements = 200});
-  const Json aoa_measurements = data_of(evaluated_page(sample))["arrivals"];
+  const Json aoa_measurements = data_of(evaluated_page(sample))["aoa_measurements"];
   EXPECT_EQ(aoa_measurements["measured"], 200);
   EXPECT_EQ(aoa_measurements["drawn"].size(), 60u);
   for (const Json& one : aoa_measurements["drawn"]) EXPECT_EQ(one["profile"].size(), 180u);
   ReportParams params;
   params.max_aoa_measurements = 10;
   params.max_profile_values = 90;
-  const Json fewer = data_of(evaluated_page(sample, params))["arrivals"];
+  const Json fewer = data_of(evaluated_page(sample, params))["aoa_measurements"];
   EXPECT_EQ(fewer["drawn"].size(), 10u);
   EXPECT_EQ(fewer["drawn"][9]["profile"].size(), 90u);
 }

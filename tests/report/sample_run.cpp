@@ -174,25 +174,25 @@ double turned_to(double a_rad, double b_rad) { return std::remainder(a_rad - b_r
 /// Lobes around peaks, the direct one first, and a cross term between two of them.
 MeasuredAoaResult aoa_around(double true_azimuth_rad, Rng rng) {
   constexpr int kValues = 360;
-  MeasuredAoaResult arrival;
+  MeasuredAoaResult aoa;
   const double second_rad = true_azimuth_rad + rng.uniform(0.6, 2.4), weaker_db = -rng.uniform(1, 6);
   const double near_rad = rng.normal(true_azimuth_rad, 0.04);
   const double cross_term_rad = near_rad + turned_to(second_rad, near_rad) / 2;
   const auto wrapped = [](double angle_rad) { return std::remainder(angle_rad, 2 * M_PI); };
-  arrival.peaks = {{wrapped(near_rad), 0.05, 0, false},
-                   {wrapped(second_rad), 0.09, weaker_db, false},
-                   {wrapped(cross_term_rad), 0.16, weaker_db - 3, true}};
+  aoa.peaks = {{wrapped(near_rad), 0.05, 0, false},
+               {wrapped(second_rad), 0.09, weaker_db, false},
+               {wrapped(cross_term_rad), 0.16, weaker_db - 3, true}};
   for (int k = 0; k < kValues; ++k) {
     const double azimuth_rad = -M_PI + 2 * M_PI * k / kValues;
     double power = 0.03 + 0.02 * std::cos(9 * azimuth_rad);
-    for (const auto& peak : arrival.peaks) {
+    for (const auto& peak : aoa.peaks) {
       const double away = turned_to(azimuth_rad, peak.azimuth_rad) / 0.13;
       power = std::max(power, std::pow(10, peak.power_db / 10) * std::exp(-away * away / 2));
     }
-    arrival.profile.push_back(static_cast<float>(power));
+    aoa.profile.push_back(static_cast<float>(power));
   }
-  arrival.estimated_azimuth_rad = wrapped(rng.normal(true_azimuth_rad, 0.03));
-  return arrival;
+  aoa.estimated_azimuth_rad = wrapped(rng.normal(true_azimuth_rad, 0.03));
+  return aoa;
 }
 
 /// Every robot in turn receives one of the others.
@@ -204,11 +204,11 @@ void add_aoa_measurements(Sample& sample, const SampleParams& params, const Rng&
     const auto& there = sample.truth.robots[static_cast<std::size_t>(transmitter)];
     const Stamp stamp = stamp_of(receiver, 20 + (37 * k) % (params.keyframes - 40));
     const Eigen::Vector3d seen = here.poses.at(stamp)->inverse() * there.poses.at(stamp)->translation();
-    auto arrival = aoa_around(std::atan2(seen.y(), seen.x()), rng.split(static_cast<std::uint64_t>(k)));
-    arrival.receiver = here.id;
-    arrival.transmitter = there.id;
-    arrival.stamp = stamp;
-    sample.result.aoa_measurements.push_back(std::move(arrival));
+    auto aoa = aoa_around(std::atan2(seen.y(), seen.x()), rng.split(static_cast<std::uint64_t>(k)));
+    aoa.receiver = here.id;
+    aoa.transmitter = there.id;
+    aoa.stamp = stamp;
+    sample.result.aoa_measurements.push_back(std::move(aoa));
   }
 }
 
@@ -246,7 +246,7 @@ Sample make_sample(const SampleParams& params) {
   add_run(result);
   add_candidates(sample, params, rng.split("candidates"));
   add_alternatives(result, params.alternatives);
-  add_aoa_measurements(sample, params, rng.split("arrivals"));
+  add_aoa_measurements(sample, params, rng.split("aoa_measurements"));
   std::vector<EstimatedTrajectory> estimate;
   for (const auto& robot : result.robots) estimate.push_back({robot.id, robot.estimate});
   sample.metrics = evaluate_trajectories(estimate, sample.truth, params.dimension);

@@ -40,9 +40,9 @@ RadioLinks simulate(const RadioChannelParams& params, int dimension = 3, std::ui
   return simulate_links(circling_team(), dimension, params, Rng(seed));
 }
 
-Eigen::Vector3d in_body(const std::vector<Trajectory<SE3>>& truth, const AoaMeasurement& arrival) {
-  return truth[arrival.receiver.index()].at(arrival.stamp)->inverse() *
-         truth[arrival.transmitter.robot.index()].at(arrival.stamp)->translation();
+Eigen::Vector3d in_body(const std::vector<Trajectory<SE3>>& truth, const AoaMeasurement& aoa) {
+  return truth[aoa.receiver.index()].at(aoa.stamp)->inverse() *
+         truth[aoa.transmitter.robot.index()].at(aoa.stamp)->translation();
 }
 
 TEST(RadioChannel, RangesHaveTheStatedNoise) {
@@ -118,13 +118,12 @@ TEST(RadioChannel, EveryAngleHasAMirrorImage) {
   const MirrorWalls walls(truth[0], params, Rng(1).split(1).split(std::uint64_t{0}).split("walls"));
   double squares = 0;
   for (std::size_t k = 0; k < links.aoa_measurements.size(); ++k) {
-    const auto& arrival = links.aoa_measurements[k];
-    ASSERT_EQ(arrival.paths.size(), 2U);
-    const auto& mirrored = arrival.paths[static_cast<std::size_t>(1 - *links.direct_paths[k])];
+    const auto& aoa = links.aoa_measurements[k];
+    ASSERT_EQ(aoa.paths.size(), 2U);
+    const auto& mirrored = aoa.paths[static_cast<std::size_t>(1 - *links.direct_paths[k])];
     const Eigen::Vector3d image =
-        walls.at(arrival.stamp)
-            .image(truth[arrival.transmitter.robot.index()].at(arrival.stamp)->translation());
-    const Eigen::Vector3d way = truth[arrival.receiver.index()].at(arrival.stamp)->inverse() * image;
+        walls.at(aoa.stamp).image(truth[aoa.transmitter.robot.index()].at(aoa.stamp)->translation());
+    const Eigen::Vector3d way = truth[aoa.receiver.index()].at(aoa.stamp)->inverse() * image;
     const double error = wrap_angle(mirrored.azimuth_rad - std::atan2(way.y(), way.x()));
     squares += std::pow(error * way.head<2>().norm() / way.norm() / mirrored.sigma_rad, 2);
   }
@@ -143,14 +142,14 @@ TEST(RadioChannel, MeasuresWhatIsEnabled) {
   params.angle_ends = "one";
   const auto one = simulate(params);
   EXPECT_LE(one.aoa_measurements.size(), 40U);
-  for (const auto& arrival : one.aoa_measurements) EXPECT_EQ(arrival.receiver, RobotIndex(0));
+  for (const auto& aoa : one.aoa_measurements) EXPECT_EQ(aoa.receiver, RobotIndex(0));
   params.angle_ends = "none";
   EXPECT_TRUE(simulate(params).aoa_measurements.empty());
   params.ranges = false;
   EXPECT_TRUE(simulate(params).ranges.empty());
   params.angle_ends = "both";
-  for (const auto& arrival : simulate(params, 2).aoa_measurements)
-    for (const auto& path : arrival.paths) EXPECT_FALSE(path.elevation_rad);
+  for (const auto& aoa : simulate(params, 2).aoa_measurements)
+    for (const auto& path : aoa.paths) EXPECT_FALSE(path.elevation_rad);
 }
 
 TEST(RadioChannel, AnglesComeLaterByTheOffset) {

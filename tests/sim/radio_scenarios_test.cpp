@@ -86,8 +86,8 @@ TEST(City, GoesOverHillsInThreeDimensions) {
     highest = std::max(highest, pose.translation().z());
   }
   EXPECT_GT(highest - lowest, 2);
-  for (const auto& arrival : mission.aoa_measurements)
-    for (const auto& path : arrival.paths) EXPECT_TRUE(path.elevation_rad);
+  for (const auto& aoa : mission.aoa_measurements)
+    for (const auto& path : aoa.paths) EXPECT_TRUE(path.elevation_rad);
 }
 
 TEST(City, ACompassGivesTheHeading) {
@@ -209,8 +209,8 @@ TEST(Kitti, IsProjectedToThePlane) {
   EXPECT_EQ(mission.dimension, 2);
   for (const auto& robot : truth.robots)
     for (const auto& [stamp, pose] : robot.poses) EXPECT_EQ(pose.translation().z(), 0);
-  for (const auto& arrival : mission.aoa_measurements)
-    for (const auto& path : arrival.paths) EXPECT_FALSE(path.elevation_rad);
+  for (const auto& aoa : mission.aoa_measurements)
+    for (const auto& path : aoa.paths) EXPECT_FALSE(path.elevation_rad);
 }
 
 /// One parameter at a time at an end of its range, unless that only makes the mission long.
@@ -226,8 +226,8 @@ void run_at_the_ends(Params params, const std::set<std::string_view>& long_at_th
         const auto [mission, truth] = simulate(ScenarioParams(params), 4, figure_of_eight());
         for (const auto& range : mission.ranges)
           ASSERT_TRUE(std::isfinite(range.range_m)) << field.name << " = " << end;
-        for (const auto& arrival : mission.aoa_measurements)
-          for (const auto& path : arrival.paths)
+        for (const auto& aoa : mission.aoa_measurements)
+          for (const auto& path : aoa.paths)
             ASSERT_TRUE(std::isfinite(path.azimuth_rad)) << field.name << " = " << end;
         for (const auto& robot : mission.robots) {
           ASSERT_TRUE(robot.odometry.empty() || robot.odometry.back().pose.translation().allFinite())

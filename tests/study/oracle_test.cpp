@@ -98,7 +98,7 @@ TEST(Oracle, KeepsTheLabelledPathsAlone) {
   ASSERT_FALSE(labelled.aoa_measurements.empty());
   EXPECT_EQ(labelled.aoa_measurements.front().paths.front().azimuth_rad,
             mission.aoa_measurements[2].paths.back().azimuth_rad);
-  for (const auto& arrival : labelled.aoa_measurements) EXPECT_EQ(arrival.paths.size(), 1U);
+  for (const auto& aoa : labelled.aoa_measurements) EXPECT_EQ(aoa.paths.size(), 1U);
 }
 
 TEST(Oracle, NeedsATruthToStartFrom) {

@@ -96,8 +96,7 @@ void add_recording_results(RunResult& result, const Mission& mission, const Meas
   if (scans.scans > 0) count_scans(result, scans);
   if (has_scans(mission) && !options.overlap_only)
     timed("scan picture", add_occupancy_images, result, mission, params.scans.lidar, params.occupancy_image);
-  if (is_not_empty(csi))
-    result.counts["arrivals_measured"] = static_cast<double>(csi.aoa_measurements.size());
+  if (is_not_empty(csi)) result.counts["aoa_measurements"] = static_cast<double>(csi.aoa_measurements.size());
   result.notes.insert(result.notes.end(), scans.notes.begin(), scans.notes.end());
   for (auto& note : csi.notes) result.notes.push_back(std::move(note));
   add_estimated_azimuths(csi.profiles, result.robots);

@@ -15,8 +15,8 @@ std::vector<std::size_t> by_link_and_time(const std::vector<MeasuredAoaResult>& 
   std::vector<std::size_t> order(aoa_measurements.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto key = [&](std::size_t k) {
-    const auto& arrival = aoa_measurements[k];
-    return std::tie(arrival.receiver, arrival.transmitter, arrival.stamp);
+    const auto& aoa = aoa_measurements[k];
+    return std::tie(aoa.receiver, aoa.transmitter, aoa.stamp);
   };
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
   return order;
@@ -29,9 +29,9 @@ std::optional<SE3> true_pose(const Truth& truth, const std::string& id, Stamp st
   return std::nullopt;
 }
 
-std::optional<double> true_azimuth_rad(const MeasuredAoaResult& arrival, const Truth& truth) {
-  const auto T_common_receiver = true_pose(truth, arrival.receiver, arrival.stamp, true);
-  const auto T_common_transmitter = true_pose(truth, arrival.transmitter, arrival.stamp, false);
+std::optional<double> true_azimuth_rad(const MeasuredAoaResult& aoa, const Truth& truth) {
+  const auto T_common_receiver = true_pose(truth, aoa.receiver, aoa.stamp, true);
+  const auto T_common_transmitter = true_pose(truth, aoa.transmitter, aoa.stamp, false);
   if (!T_common_receiver || !T_common_transmitter) return std::nullopt;
   const Eigen::Vector3d seen = T_common_receiver->inverse() * T_common_transmitter->translation();
   return std::atan2(seen.y(), seen.x());
@@ -55,17 +55,17 @@ PageData profile_data(const std::vector<float>& profile, const ReportParams& par
   return data;
 }
 
-PageData measurement_data(const MeasuredAoaResult& arrival, Stamp start, const Truth* truth,
+PageData measurement_data(const MeasuredAoaResult& aoa, Stamp start, const Truth* truth,
                           const ReportParams& params) {
-  PageData data{{"receiver", arrival.receiver},
-                {"transmitter", arrival.transmitter},
-                {"t", rounded_seconds(seconds_between(start, arrival.stamp))},
-                {"peaks", peak_data(arrival.peaks)},
-                {"profile", profile_data(arrival.profile, params)}};
-  if (arrival.estimated_azimuth_rad)
-    data["estimated_azimuth_rad"] = rounded(*arrival.estimated_azimuth_rad, kAngleDecimals);
+  PageData data{{"receiver", aoa.receiver},
+                {"transmitter", aoa.transmitter},
+                {"t", rounded_seconds(seconds_between(start, aoa.stamp))},
+                {"peaks", peak_data(aoa.peaks)},
+                {"profile", profile_data(aoa.profile, params)}};
+  if (aoa.estimated_azimuth_rad)
+    data["estimated_azimuth_rad"] = rounded(*aoa.estimated_azimuth_rad, kAngleDecimals);
   if (truth == nullptr) return data;
-  if (const auto azimuth_rad = true_azimuth_rad(arrival, *truth))
+  if (const auto azimuth_rad = true_azimuth_rad(aoa, *truth))
     data["true_azimuth_rad"] = rounded(*azimuth_rad, kAngleDecimals);
   return data;
 }

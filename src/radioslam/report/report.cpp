@@ -245,7 +245,7 @@ PageData page_data(const RunResult& result, const Truth* truth, const std::optio
   page["places"] = place_data(result, compared_closures);
   if (result.similarity_model) page["similarity"] = similarity_data(*result.similarity_model, params);
   if (!result.aoa_measurements.empty())
-    page["arrivals"] = aoa_data(result, first_stamp(result), evaluation.truth, params);
+    page["aoa_measurements"] = aoa_data(result, first_stamp(result), evaluation.truth, params);
   if (!result.access_points.empty())
     page["access_points"] =
         access_point_data(result, evaluated ? evaluation.estimate->T_truth_estimate : SE3(), params);

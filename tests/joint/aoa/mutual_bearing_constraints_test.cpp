@@ -143,9 +143,9 @@ TEST(MutualBearings, MoreThanAskedForAreThinnedEvenly) {
     const Stamp at = Stamp::from_seconds(1 + 0.5 * k + 0.05);
     mission.ranges.push_back(range);
     mission.ranges.back().stamp = at;
-    for (auto arrival : aoa_measurements) {
-      arrival.stamp = at;
-      mission.aoa_measurements.push_back(arrival);
+    for (auto aoa : aoa_measurements) {
+      aoa.stamp = at;
+      mission.aoa_measurements.push_back(aoa);
     }
   }
   const auto joint = aligned(mission);

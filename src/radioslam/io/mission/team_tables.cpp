@@ -327,9 +327,9 @@ void append_aoa_rows(std::string& out, Stamp stamp, const std::string& receiver,
 
 std::string format_aoa(const Mission& mission) {
   std::string out(kAoaHeader);
-  for (const AoaMeasurement& arrival : mission.aoa_measurements)
-    append_aoa_rows(out, arrival.stamp, mission.robots[arrival.receiver.index()].id,
-                    name_of(mission, arrival.transmitter), arrival.paths);
+  for (const AoaMeasurement& aoa : mission.aoa_measurements)
+    append_aoa_rows(out, aoa.stamp, mission.robots[aoa.receiver.index()].id,
+                    name_of(mission, aoa.transmitter), aoa.paths);
   return out;
 }
 

@@ -13,13 +13,13 @@
 namespace radioslam {
 namespace {
 
-const std::string& transmitter_of(const Mission& mission, const AoaMeasurement& arrival) {
-  const LinkEnd& end = arrival.transmitter;
+const std::string& transmitter_of(const Mission& mission, const AoaMeasurement& aoa) {
+  const LinkEnd& end = aoa.transmitter;
   return end.robot.valid() ? mission.robots[end.robot.index()].id : mission.anchors[end.anchor.index()].id;
 }
 
-const std::string& receiver_of(const Mission& mission, const AoaMeasurement& arrival) {
-  return mission.robots[arrival.receiver.index()].id;
+const std::string& receiver_of(const Mission& mission, const AoaMeasurement& aoa) {
+  return mission.robots[aoa.receiver.index()].id;
 }
 
 void check_name(const CsvReader& csv, std::size_t column, const Mission& mission) {
@@ -57,8 +57,8 @@ std::vector<std::optional<int>> read_direct_paths(const Text& text, const Missio
   enum : std::size_t { kTime, kReceiver, kTransmitter, kPath };
   std::map<AoaKey, std::size_t> places;
   for (std::size_t k = 0; k < mission.aoa_measurements.size(); ++k) {
-    const AoaMeasurement& arrival = mission.aoa_measurements[k];
-    places[{arrival.stamp, receiver_of(mission, arrival), transmitter_of(mission, arrival)}] = k;
+    const AoaMeasurement& aoa = mission.aoa_measurements[k];
+    places[{aoa.stamp, receiver_of(mission, aoa), transmitter_of(mission, aoa)}] = k;
   }
   std::vector<std::optional<int>> direct_paths(mission.aoa_measurements.size());
   CsvReader csv(text, {{"t_s", "receiver", "transmitter", "path"}});
@@ -79,10 +79,10 @@ std::string format_direct_paths(const Mission& mission, const std::vector<std::o
   RADIOSLAM_CHECK(direct_paths.size() == mission.aoa_measurements.size(), "one label per measurement");
   std::string out = "t_s,receiver,transmitter,path\n";
   for (std::size_t k = 0; k < direct_paths.size(); ++k) {
-    const AoaMeasurement& arrival = mission.aoa_measurements[k];
+    const AoaMeasurement& aoa = mission.aoa_measurements[k];
     if (!direct_paths[k]) continue;
-    out += format_stamp(arrival.stamp) + ',' + receiver_of(mission, arrival) + ',' +
-           transmitter_of(mission, arrival) + ',' + std::to_string(*direct_paths[k]) + '\n';
+    out += format_stamp(aoa.stamp) + ',' + receiver_of(mission, aoa) + ',' + transmitter_of(mission, aoa) +
+           ',' + std::to_string(*direct_paths[k]) + '\n';
   }
   return out;
 }

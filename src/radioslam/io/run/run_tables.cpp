@@ -225,8 +225,8 @@ std::string format_uncertainty(const std::vector<RobotResult>& robots) {
 
 std::string format_measured_aoa(const std::vector<MeasuredAoaResult>& aoa_measurements) {
   std::string out(kAoaHeader);
-  for (const MeasuredAoaResult& arrival : aoa_measurements)
-    append_aoa_rows(out, arrival.stamp, arrival.receiver, arrival.transmitter, arrival.paths);
+  for (const MeasuredAoaResult& aoa : aoa_measurements)
+    append_aoa_rows(out, aoa.stamp, aoa.receiver, aoa.transmitter, aoa.paths);
   return out;
 }
 

@@ -151,16 +151,16 @@ class IntegrityTest {
 /// Compares the measurement with the relative pose; deviations up to `band_sigmas` times the pose's direction
 /// error count as agreement.
 template <class Pose>
-CheckedAngle checked(const UncertainPose<Pose>& T_receiver_transmitter, const AoaMeasurement& arrival,
+CheckedAngle checked(const UncertainPose<Pose>& T_receiver_transmitter, const AoaMeasurement& aoa,
                      const Mission& mission, const AoaLikelihoodParams& likelihood,
                      const AoaIntegrityParams& params, double band_sigmas) {
-  const SE3 T_start_receiver = *mission.robots[arrival.receiver.index()].odometry.at(arrival.stamp);
+  const SE3 T_start_receiver = *mission.robots[aoa.receiver.index()].odometry.at(aoa.stamp);
   const double band_rad = band_sigmas * direction_sigma(T_receiver_transmitter).azimuth_rad;
-  return {arrival.receiver.index(), node_of(arrival.transmitter, mission), arrival.stamp,
-          check_angles(T_receiver_transmitter, arrival, mission, likelihood),
-          log_odds_elsewhere(as_se3(T_receiver_transmitter.pose, 0),
-                             as_estimated<Pose>(arrival, T_start_receiver), params.direct_probability,
-                             band_rad, likelihood)};
+  return {
+      aoa.receiver.index(), node_of(aoa.transmitter, mission), aoa.stamp,
+      check_angles(T_receiver_transmitter, aoa, mission, likelihood),
+      log_odds_elsewhere(as_se3(T_receiver_transmitter.pose, 0), as_estimated<Pose>(aoa, T_start_receiver),
+                         params.direct_probability, band_rad, likelihood)};
 }
 
 bool covers(const Mission& mission, RobotIndex robot, Stamp stamp) {
@@ -180,10 +180,9 @@ Claims<Pose> claims_of(RobotIndex robot, const Mission& mission, const JointGrap
                                                                 graph.sigma_start_rad);
   const UncertainPose<Pose> T_common_start{pose_as<Pose>(*start), variance.asDiagonal()};
   std::set<Stamp> stamps;
-  for (const AoaMeasurement& arrival : mission.aoa_measurements)
-    if ((arrival.receiver == robot || arrival.transmitter.robot == robot) &&
-        covers(mission, robot, arrival.stamp))
-      stamps.insert(arrival.stamp);
+  for (const AoaMeasurement& aoa : mission.aoa_measurements)
+    if ((aoa.receiver == robot || aoa.transmitter.robot == robot) && covers(mission, robot, aoa.stamp))
+      stamps.insert(aoa.stamp);
   const std::vector<Stamp> in_order(stamps.begin(), stamps.end());
   const auto since_start = odometry_since_start<Pose>(mission.robots[robot.index()], in_order);
   Claims<Pose> claims;
@@ -221,11 +220,11 @@ AoaIntegrity check_self_reports(const Mission& mission, const JointGraphParams& 
   const auto robots = static_cast<double>(std::max<std::size_t>(mission.robots.size(), 1));
   const double band = params.odometry_margin * std::sqrt(chi_squared_quantile(1 - false_alarm / robots, 1));
   std::vector<CheckedAngle> angles;
-  for (const AoaMeasurement& arrival : mission.aoa_measurements) {
-    const auto receiver = claim({arrival.receiver, {}, {}, Eigen::Vector3d::Zero()}, arrival.stamp);
-    const auto transmitter = claim(arrival.transmitter, arrival.stamp);
+  for (const AoaMeasurement& aoa : mission.aoa_measurements) {
+    const auto receiver = claim({aoa.receiver, {}, {}, Eigen::Vector3d::Zero()}, aoa.stamp);
+    const auto transmitter = claim(aoa.transmitter, aoa.stamp);
     if (!receiver || !transmitter) continue;
-    angles.push_back(checked(receiver->inverse() * *transmitter, arrival, mission, likelihood, params, band));
+    angles.push_back(checked(receiver->inverse() * *transmitter, aoa, mission, likelihood, params, band));
   }
   return IntegrityTest(mission, CheckedPose::kSelfReported, params, std::move(angles)).run();
 }

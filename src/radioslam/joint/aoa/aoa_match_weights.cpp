@@ -72,9 +72,9 @@ AoaMatchWeights::AoaMatchWeights(const Mission& mission, const MatchParams& para
     : mission_(mission), params_(params), likelihood_(likelihood) {
   for (const Robot& robot : mission.robots) travelled_m_.push_back(travelled_distance(robot.odometry));
   for (std::size_t a = 0; a < mission.aoa_measurements.size(); ++a) {
-    const AoaMeasurement& arrival = mission.aoa_measurements[a];
-    if (is_between_robots(arrival, mission))
-      aoa_measurements_[ordered(arrival.receiver, arrival.transmitter.robot)].push_back(a);
+    const AoaMeasurement& aoa = mission.aoa_measurements[a];
+    if (is_between_robots(aoa, mission))
+      aoa_measurements_[ordered(aoa.receiver, aoa.transmitter.robot)].push_back(a);
   }
 }
 
@@ -106,13 +106,13 @@ std::optional<double> AoaMatchWeights::information_scale(const Closure& match) c
   const Robot& robot_j = mission_.robots[match.robot_j.index()];
   std::vector<double> scales;
   for (const std::size_t a : nearest(match)) {
-    const AoaMeasurement& arrival = mission_.aoa_measurements[a];
-    const UncertainPose<Pose> T_i_j = odometry_between<Pose>(robot_i, arrival.stamp, match.stamp_i) *
+    const AoaMeasurement& aoa = mission_.aoa_measurements[a];
+    const UncertainPose<Pose> T_i_j = odometry_between<Pose>(robot_i, aoa.stamp, match.stamp_i) *
                                       uncertain<Pose>(match) *
-                                      odometry_between<Pose>(robot_j, match.stamp_j, arrival.stamp);
-    const bool i_receives = arrival.receiver == match.robot_i;
-    scales.push_back(check_angles(i_receives ? T_i_j : T_i_j.inverse(), arrival, mission_, likelihood_)
-                         .information_scale());
+                                      odometry_between<Pose>(robot_j, match.stamp_j, aoa.stamp);
+    const bool i_receives = aoa.receiver == match.robot_i;
+    scales.push_back(
+        check_angles(i_receives ? T_i_j : T_i_j.inverse(), aoa, mission_, likelihood_).information_scale());
   }
   if (scales.empty()) return std::nullopt;
   return lower_median(std::move(scales));

@@ -108,8 +108,8 @@ void add_link_stamps(const Mission& mission, std::vector<std::vector<Stamp>>& no
     if (robot.valid()) node_stamps[robot.index()].push_back(stamp);
   };
   for (const auto& range : mission.ranges) note(range.i.robot, range.stamp), note(range.j.robot, range.stamp);
-  for (const auto& arrival : mission.aoa_measurements)
-    note(arrival.receiver, arrival.stamp), note(arrival.transmitter.robot, arrival.stamp);
+  for (const auto& aoa : mission.aoa_measurements)
+    note(aoa.receiver, aoa.stamp), note(aoa.transmitter.robot, aoa.stamp);
   for (const auto& match : mission.matches)
     note(match.robot_i, match.stamp_i), note(match.robot_j, match.stamp_j);
 }

@@ -11,7 +11,7 @@ struct CsiStageParams {
   double window_turn_rad = 1.5;
   double still_m = 0.005;  ///< a tenth of a wavelength at 5 GHz
   bool clock_offset = true;
-  AoaParams arrival;
+  AoaParams aoa;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -23,7 +23,7 @@ struct CsiStageParams {
         "largest displacement of the transmitter during a measurement with a single receive antenna");
     RADIOSLAM_BASIC_FIELD(clock_offset, "", 0, 0,
                           "estimation of each robot's CSI clock offset, corrected where it is significant");
-    AoaParams::visit_fields(self.arrival, visit);
+    AoaParams::visit_fields(self.aoa, visit);
   }
 };
 

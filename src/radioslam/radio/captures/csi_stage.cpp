@@ -52,7 +52,7 @@ MeasuredCsi measure_csi(const Mission& mission, const CsiStageParams& params, co
                     static_cast<double>(done) / static_cast<double>(attempts.size()));
     parallel_for(std::min(kRound, attempts.size() - done), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = done + begin; k < done + end; ++k)
-        attempted[k] = measure(mission, tracks, attempts[k], params.arrival);
+        attempted[k] = measure(mission, tracks, attempts[k], params.aoa);
     });
   }
   for (std::size_t k = 0; k < attempts.size(); ++k) {

@@ -223,7 +223,7 @@ CsiTrack CsiTracks::track_of(const CsiAttempt& attempt) const {
     return packet.sender && receiver.address && packet.sender != receiver.address;
   });
   auto both = two_way_track(heard, *sender.address, answers, carrier_hz, receiver.antennas_m.front(),
-                            params_.arrival.two_way);
+                            params_.aoa.two_way);
   return {std::move(both.track), explain(both.reason)};
 }
 
@@ -275,7 +275,7 @@ void CsiTracks::add_attempts(std::vector<CsiAttempt>& list, std::size_t i, std::
   }
   for (const TimeWindow& still : still_[j])
     for (const TimeWindow& window :
-         path_windows(receiver.odometry, still, params_.window_m, params_.arrival.min_aperture_m))
+         path_windows(receiver.odometry, still, params_.window_m, params_.aoa.min_aperture_m))
       list.push_back({i, j, window, true});
 }
 

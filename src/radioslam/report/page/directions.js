@@ -14,7 +14,7 @@ const turned_to = (a, b) => Math.atan2(Math.sin(a - b), Math.cos(a - b));
 /// Measurements per receiver and transmitter: [{receiver, transmitter, measured: [...]}].
 function links_heard() {
   const links = new Map();
-  for (const one of report.arrivals.drawn) {
+  for (const one of report.aoa_measurements.drawn) {
     const key = JSON.stringify([one.receiver, one.transmitter]);
     if (!links.has(key)) links.set(key, { receiver: one.receiver, transmitter: one.transmitter, measured: [] });
     links.get(key).measured.push(one);
@@ -86,7 +86,7 @@ function direction_rows(one) {
 }
 
 function direction_key() {
-  const { drawn } = report.arrivals;
+  const { drawn } = report.aoa_measurements;
   const mark = (text, name, shape) => {
     const svg = d3.create("svg").attr("viewBox", "0 0 26 10").attr("aria-hidden", "true");
     shape(svg, name);
@@ -128,9 +128,9 @@ function show_direction(links) {
 }
 
 function write_directions() {
-  if (!report.arrivals || !report.arrivals.drawn.length) return;
+  if (!report.aoa_measurements || !report.aoa_measurements.drawn.length) return;
   show("directions-section");
-  const { measured, drawn } = report.arrivals;
+  const { measured, drawn } = report.aoa_measurements;
   by_id("directions-key").append(...direction_key());
   by_id("directions-caption").textContent = "Seen from above in the receiver's body frame: forward is up, angles counter-clockwise; the radius of the profile is its power."
     + (drawn.length < measured ? ` ${format.count(drawn.length)} of ${format.plural(measured, "measurement")} are on this page, evenly spaced; all are in aoa.csv.` : ` ${format.plural(measured, "measurement")}.`);
