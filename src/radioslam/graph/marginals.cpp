@@ -7,6 +7,8 @@
 namespace radioslam {
 namespace {
 
+constexpr double kLeastDamping = 1e-15, kMostDamping = 1e-8;  // relative to the diagonal
+
 template <class Pose>
 Eigen::Index dimension(const Variable& v) {
   RADIOSLAM_CHECK(v.kind != VariableKind::kNone, "a covariance needs a variable");
@@ -30,7 +32,13 @@ std::optional<Marginals<Pose>> Marginals<Pose>::compute(const PoseGraph<Pose>& g
   NormalEquations<Pose> equations(graph);
   if (equations.empty()) return Marginals(std::move(equations), std::nullopt, graph.poses);
   equations.linearise(graph);
-  if (equations.factorize(0) != Factorization::kDone) return std::nullopt;
+  // Parts that hang together by next to nothing are singular up to rounding; the least damping that helps
+  // states them about as uncertain as doubles can tell.
+  double damping = 0;
+  while (equations.factorize(damping) != Factorization::kDone) {
+    damping = damping == 0 ? kLeastDamping : 10 * damping;
+    if (damping > kMostDamping) return std::nullopt;
+  }
   auto inverse = equations.cholesky().selected_inverse();
   return Marginals(std::move(equations), std::move(inverse), graph.poses);
 }

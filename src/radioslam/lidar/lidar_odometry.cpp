@@ -51,15 +51,16 @@ LidarOdometry::LidarOdometry(const ScannerTraits& traits, const LidarParams& par
       gaps_(params.odometry) {}
 
 ScanPose LidarOdometry::register_scan(Stamp stamp, const LidarScan& scan,
-                                      const std::optional<SE3>& T_previous_body, MotionSource given_by) {
+                                      const std::optional<SE3>& T_previous_body, MotionSource given_by,
+                                      const SE3::Jacobian& motion_covariance) {
   const MotionSource source = T_previous_body ? given_by : MotionSource::kConstantVelocity;
   const Prediction predicted = predict(stamp, T_previous_body);
   const ScanPoints points = filter_and_deskew(scan, predicted.twist_per_s, matcher_.params().points);
   ScanPose result{.stamp = stamp, .T_start_body = predicted.T_map_body, .counts = points.counts};
   if (points.points.size() < kMinPoints) return result;
 
-  const bool is_after_gap = gaps_.is_after_gap(stamp) && last_ && !T_previous_body;
-  if (is_after_gap) result.T_start_body = last_->T_map_body;
+  const bool is_after_gap = gaps_.is_after_gap(stamp) && last_;
+  if (is_after_gap && !T_previous_body) result.T_start_body = last_->T_map_body;
   DeskewedScan deskewed = matcher_.measure(stamp, points, predicted.twist_per_s, source);
   result.cloud = matcher_.pyramid_of(deskewed);
   result.status = ScanStatus::kLost;
@@ -72,9 +73,14 @@ ScanPose LidarOdometry::register_scan(Stamp stamp, const LidarScan& scan,
   Registration fit = register_at_prediction(result.cloud, prior);
   const bool fits = fit.inlier_ratio >= error_.relocalise_below_ratio();
   const bool is_lost = !fits && structure_.admits(result.cloud.all);
-  if (is_lost && is_after_gap) {
-    start_map_after_gap(deskewed, result);
-    return result;
+  if (is_after_gap) {
+    const double moved_m = T_previous_body ? T_previous_body->translation().norm() : motion_in_gap_m(stamp);
+    if (moved_m > map_.coarse().max_distance_m() || (is_lost && !T_previous_body)) {
+      std::optional<UncertainPose<SE3>> motion;
+      if (T_previous_body) motion = UncertainPose<SE3>{*T_previous_body, motion_covariance};
+      start_map_after_gap(deskewed, motion, result);
+      return result;
+    }
   }
   if (is_lost) fit = relocalised(result.cloud, prior, fit);
   describe(fit, result);
@@ -114,6 +120,7 @@ Registration LidarOdometry::relocalised(const ScanPyramid& cloud, const PosePrio
 }
 
 void LidarOdometry::start_map(const DeskewedScan& scan, ScanPose& result) {
+  start_ = scan.stamp;
   result.status = ScanStatus::kMapStart;
   result.information = matcher_.observable_information(tight_information());
   advance(scan.on_map(result.T_start_body));
@@ -121,11 +128,17 @@ void LidarOdometry::start_map(const DeskewedScan& scan, ScanPose& result) {
   first_ = scan;
 }
 
-void LidarOdometry::start_map_after_gap(const DeskewedScan& scan, ScanPose& result) {
-  const double gap_s = seconds_between(last_->stamp, scan.stamp);
-  const double wide_m = matcher_.params().odometry.first_sigma_m + gap_s * twist_per_s_.head<3>().norm();
+void LidarOdometry::start_map_after_gap(const DeskewedScan& scan,
+                                        const std::optional<UncertainPose<SE3>>& motion, ScanPose& result) {
+  const LidarOdometryParams& params = matcher_.params().odometry;
+  if (motion) {
+    result.covariance = motion->covariance + isotropic(params.first_sigma_m * params.first_sigma_m,
+                                                       params.first_sigma_rad * params.first_sigma_rad);
+  } else {
+    const double wide_m = params.first_sigma_m + motion_in_gap_m(scan.stamp);
+    result.covariance = isotropic(wide_m * wide_m, std::numbers::pi * std::numbers::pi);
+  }
   result.status = ScanStatus::kNewMap;
-  result.covariance = isotropic(wide_m * wide_m, std::numbers::pi * std::numbers::pi);
   result.information = matcher_.observable_information(tight_information());
   map_ = matcher_.empty_map();
   candidate_.reset();
@@ -134,6 +147,12 @@ void LidarOdometry::start_map_after_gap(const DeskewedScan& scan, ScanPose& resu
   error_.forget();
   result.novelty_ratio = map_.add(result.cloud, result.T_start_body, travelled_m_);
   first_ = scan;
+}
+
+double LidarOdometry::motion_in_gap_m(Stamp stamp) const {
+  const double tracked_s = seconds_between(*start_, last_->stamp);
+  const double mean_speed = tracked_s > 0 ? travelled_m_ / tracked_s : 0;
+  return seconds_between(last_->stamp, stamp) * std::max(mean_speed, twist_per_s_.head<3>().norm());
 }
 
 void LidarOdometry::add_to_map(MatchedScan matched, const PosePrior& prior, ScanPose& result) {

@@ -15,6 +15,7 @@
 #include "radioslam/base/stamp.hpp"
 #include "radioslam/geometry/se3.hpp"
 #include "radioslam/geometry/trajectory.hpp"
+#include "radioslam/geometry/uncertain_pose.hpp"
 #include "radioslam/lidar/candidate_map.hpp"
 #include "radioslam/lidar/lidar_params.hpp"
 #include "radioslam/lidar/local_map.hpp"
@@ -79,9 +80,10 @@ class LidarOdometry {
   LidarOdometry(const ScannerTraits& traits, const LidarParams& params);
 
   /// `T_previous_body`: motion since the last registered scan, if measured otherwise, by `given_by`; without
-  /// it a constant velocity is assumed. Stamps must increase.
+  /// it a constant velocity is assumed. Its covariance counts after gaps only. Stamps must increase.
   ScanPose register_scan(Stamp stamp, const LidarScan& scan, const std::optional<SE3>& T_previous_body = {},
-                         MotionSource given_by = MotionSource::kOdometry);
+                         MotionSource given_by = MotionSource::kOdometry,
+                         const SE3::Jacobian& motion_covariance = SE3::Jacobian::Zero());
 
  private:
   struct Prediction {
@@ -95,8 +97,12 @@ class LidarOdometry {
   Registration relocalised(const ScanPyramid& cloud, const PosePrior& prior, const Registration& near) const;
 
   void start_map(const DeskewedScan& scan, ScanPose& result);
-  /// Starts a new map at the last pose, with a covariance for travel during the gap and any heading.
-  void start_map_after_gap(const DeskewedScan& scan, ScanPose& result);
+  /// Starts a new map, at the end of this motion if it is known, else at the last pose with a covariance for
+  /// travel during the gap and any heading.
+  void start_map_after_gap(const DeskewedScan& scan, const std::optional<UncertainPose<SE3>>& motion,
+                           ScanPose& result);
+  /// How far the robot may have come since its last scan: at its mean speed, or its last if that is higher.
+  double motion_in_gap_m(Stamp stamp) const;
   /// Accepts a registered scan; deskews and inserts it.
   void add_to_map(MatchedScan matched, const PosePrior& prior, ScanPose& result);
   /// Adds a lost scan to the candidate map, which replaces the map once it holds enough scans.
@@ -110,6 +116,7 @@ class LidarOdometry {
   StructureGate structure_;
   ScanGapDetector gaps_;
   std::optional<ScanOnMap> last_;
+  std::optional<Stamp> start_;
   double travelled_m_ = 0;
   SE3::Tangent twist_per_s_ = SE3::Tangent::Zero();
   std::optional<DeskewedScan> first_;  ///< set while it is the map's only scan

@@ -38,7 +38,8 @@ class ScanTracker {
     const std::optional<SE3> motion = motion_to(stamp, prior);
     if (prior) scan = deskew(std::move(scan), prior->scan_motion, params_.lidar.points);
     ScanPose pose =
-        odometry_.register_scan(stamp, scan, motion, prior ? prior->source : MotionSource::kOdometry);
+        odometry_.register_scan(stamp, scan, motion, prior ? prior->source : MotionSource::kOdometry,
+                                motion ? recorded_covariance(stamp) : SE3::Jacobian::Zero());
     ++track_.status_counts[pose.status];
     track_.points += pose.counts;
     if (!is_tracked(pose.status)) return;
@@ -81,10 +82,18 @@ class ScanTracker {
   std::optional<SE3> recorded_motion(Stamp from, Stamp to) const {
     const auto a = robot_.odometry.at(from), b = robot_.odometry.at(to);
     if (!a || !b) return std::nullopt;
-    const double max_gap_s =
-        std::max(params_.stage.max_odometry_gap_ratio * sample_interval_s_, seconds_between(from, to));
+    const double max_gap_s = std::max(params_.stage.max_odometry_gap_ratio * sample_interval_s_,
+                                      params_.lidar.odometry.max_lost_scans * scan_interval_s_);
     if (max_sample_gap_s(robot_.odometry, from, to) > max_gap_s) return std::nullopt;
     return a->inverse() * *b;
+  }
+
+  /// Of the recorded motion since the previous scan; zero if it is not recorded.
+  SE3::Jacobian recorded_covariance(Stamp stamp) const {
+    if (track_.poses.empty()) return SE3::Jacobian::Zero();
+    const Stamp previous = track_.poses.back().stamp;
+    if (!robot_.odometry.covers(previous) || !robot_.odometry.covers(stamp)) return SE3::Jacobian::Zero();
+    return odometry_between<SE3>(robot_, previous, stamp).covariance;
   }
 
   /// Adds the motion distortion of this scan and the previous one to the covariance of the step between them.
