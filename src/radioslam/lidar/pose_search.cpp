@@ -98,6 +98,22 @@ Window window_of(const LocalMap& map, const ScanPyramid& scan, const UncertainPo
   return window;
 }
 
+/// The first `count` that are no neighbours in the grid, on which one is enough for all.
+std::vector<SE3> not_next_to_each_other(const std::vector<SE3>& starts, const Window& window,
+                                        std::size_t count) {
+  std::vector<SE3> kept;
+  for (const SE3& start : starts) {
+    if (kept.size() == count) break;
+    const auto is_next = [&](const SE3& other) {
+      const SE3 between = other.inverse() * start;
+      return between.translation().cwiseAbs().maxCoeff() < 1.5 * window.step_m &&
+             between.log().tail<3>().norm() < 1.5 * window.step_rad;
+    };
+    if (std::none_of(kept.begin(), kept.end(), is_next)) kept.push_back(start);
+  }
+  return kept;
+}
+
 std::vector<SE3> starts_in(const Window& window, const SE3& guess) {
   std::vector<SE3> starts;
   for (int x = -window.x; x <= window.x; ++x)
@@ -181,18 +197,22 @@ Registration relocalise(const LocalMap& map, const ScanPyramid& scan, const Relo
 PoseSearch search_pose(const LocalMap& map, const ScanPyramid& scan, const UncertainPose<SE3>& guess,
                        ScannerKind kind, const PoseSearchParams& search, const RegistrationParams& params) {
   const Window window = window_of(map, scan, guess, search);
-  const auto starts = best_overlapping(map, scan, starts_in(window, guess.pose),
-                                       static_cast<std::size_t>(search.max_aligned));
+  const std::vector<SE3> grid = starts_in(window, guess.pose);
+  const auto starts = not_next_to_each_other(best_overlapping(map, scan, grid, grid.size()), window,
+                                             static_cast<std::size_t>(search.max_aligned));
   std::vector<Registration> fits(starts.size());
   parallel_for(starts.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) fits[k] = register_far(map, scan, starts[k], kind, params);
   });
+  std::stable_sort(fits.begin(), fits.end(), [](const Registration& a, const Registration& b) {
+    return a.inlier_ratio > b.inlier_ratio;
+  });
   PoseSearch result;
   for (const Registration& fit : fits)
-    if (fit.inlier_ratio > result.best.inlier_ratio) result.best = fit;
-  for (const Registration& fit : fits)
-    if (are_apart(result.best.T_target_source, fit.T_target_source, map, scan))
-      result.next_ratio = std::max(result.next_ratio, fit.inlier_ratio);
+    if (std::all_of(result.fits.begin(), result.fits.end(), [&](const Registration& better) {
+          return are_apart(better.T_target_source, fit.T_target_source, map, scan);
+        }))
+      result.fits.push_back(fit);
   return result;
 }
 

@@ -63,11 +63,12 @@ struct PoseSearchParams {
   }
 };
 
-/// Result of a search. Two poses are distinct if they displace the scan, at its median range, by more than
-/// the fine map's correspondence distance.
+/// Result of a search: where the scan fits, by inlier ratio, best first; at least one. They are distinct: any
+/// two displace the scan, at its median range, by more than the fine map's correspondence distance.
 struct PoseSearch {
-  Registration best;
-  double next_ratio = 0;  ///< inlier ratio of the best pose distinct from it
+  std::vector<Registration> fits;
+
+  const Registration& best() const { return fits.front(); }
 };
 
 /// Searches the horizontal and yaw uncertainty of `guess`.

@@ -6,4 +6,4 @@ radioslam_room(odometry
     scan_stage.cpp
     scan_tracking.cpp
     scans_on_odometry.cpp
-  ROOMS lidar inertial mission)
+  ROOMS lidar places inertial mission)

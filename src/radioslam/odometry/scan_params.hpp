@@ -5,8 +5,8 @@
 
 #include "radioslam/base/fields.hpp"
 #include "radioslam/lidar/lidar_odometry.hpp"
-#include "radioslam/lidar/loops/scan_loops.hpp"
 #include "radioslam/odometry/inertial_params.hpp"
+#include "radioslam/places/loops/scan_loops.hpp"
 
 namespace radioslam {
 

@@ -216,9 +216,9 @@ void report_scans(MeasuredScans& measured, const Robot& robot, const ScanTraject
 }
 
 void close_loops(MeasuredScans& measured, RobotIndex robot, ScanOdometry& scans, const ScanParams& params,
-                 const Progress& progress) {
+                 bool storeys, const Progress& progress) {
   ScanLoops loops = close_scan_loops(scans.keyframes, params.loops, params.lidar.map, params.search,
-                                     params.lidar.registration, progress);
+                                     params.lidar.registration, storeys, progress);
   for (const ScanLoop& loop : loops.loops)
     measured.closures.push_back({robot, scans.keyframe_stamps[loop.i], scans.keyframe_stamps[loop.j], loop});
   if (!loops.loops.empty()) scans.corrected = std::move(loops.poses);
@@ -255,7 +255,7 @@ MeasuredScans measure_scans(const Mission& mission, const ScanParams& params, co
     scans->keyframes = extract_keyframes(track, traits);
     scans->odometry = odometry_from_scans(robot, track, params.stage);
     for (const std::size_t k : track.keyframes) scans->keyframe_stamps.push_back(track.poses[k].stamp);
-    close_loops(measured, RobotIndex(r), *scans, params, progress);
+    close_loops(measured, RobotIndex(r), *scans, params, mission.dimension == 3, progress);
   }
   return measured;
 }

@@ -12,12 +12,12 @@
 
 #include "radioslam/base/progress.hpp"
 #include "radioslam/base/stamp.hpp"
-#include "radioslam/lidar/loops/scan_loop.hpp"
-#include "radioslam/lidar/loops/scan_loops.hpp"
 #include "radioslam/mission/keyframes.hpp"
 #include "radioslam/mission/mission.hpp"
 #include "radioslam/odometry/scan_params.hpp"
 #include "radioslam/odometry/scan_tracking.hpp"
+#include "radioslam/places/loops/scan_loop.hpp"
+#include "radioslam/places/loops/scan_loops.hpp"
 
 namespace radioslam {
 

@@ -17,10 +17,10 @@
 
 #include "radioslam/base/progress.hpp"
 #include "radioslam/lidar/lidar_odometry.hpp"
-#include "radioslam/lidar/loops/scan_loops.hpp"
 #include "radioslam/mission/keyframes.hpp"
 #include "radioslam/mission/mission.hpp"
 #include "radioslam/odometry/scan_params.hpp"
+#include "radioslam/places/loops/scan_loops.hpp"
 
 namespace radioslam {
 

@@ -1,10 +1,10 @@
 // Keyframes with scans of a robot whose odometry is used as recorded, for place recognition.
 #pragma once
 
-#include "radioslam/lidar/loops/scan_loop.hpp"
 #include "radioslam/lidar/scan_matcher.hpp"
 #include "radioslam/mission/keyframes.hpp"
 #include "radioslam/mission/mission.hpp"
+#include "radioslam/places/loops/scan_loop.hpp"
 
 namespace radioslam {
 

@@ -1,7 +1,12 @@
 radioslam_room(places
   SOURCES
     context_keys.cpp
+    keyframe_contexts.cpp
+    loops/loop_candidates.cpp
+    loops/loop_verification.cpp
+    loops/scan_loop.cpp
+    loops/scan_loops.cpp
     scan_context.cpp
     scan_context_index.cpp
     sector_dft.cpp
-  ROOMS lidar)
+  ROOMS lidar graph)

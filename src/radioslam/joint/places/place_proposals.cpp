@@ -20,10 +20,8 @@ constexpr double kSigmaHeight_m = 2, kSigmaTilt_rad = 0.2;  // of a body, which 
 constexpr double kMostDifferent =
     0.5;  // largest difference of descriptors that is compared with the prediction
 constexpr double kDescriptorScale = 0.1;  // difference of descriptors as telling as one standard deviation
-/// How far from the described place a scan may have been taken, in its median range.
-constexpr double kSigmaPlace = 1.0 / 3;
-constexpr double kStrideRatio = 0.2;  // path length between compared keyframes, in the descriptors' range
-constexpr double kMuchWorse = 2;      // standard deviation of a prediction worth another trial
+constexpr double kStrideRatio = 0.2;      // path length between compared keyframes, in the descriptors' range
+constexpr double kMuchWorse = 2;          // standard deviation of a prediction worth another trial
 
 UncertainPose<SE3> in_space(const SE3& T, const SE3::Jacobian& covariance) { return {T, covariance}; }
 UncertainPose<SE3> in_space(const SE3& T, const SE2::Jacobian& covariance) {
@@ -83,18 +81,6 @@ class Attempts {
   std::set<std::pair<std::size_t, std::size_t>> robots_;
 };
 
-/// Where b's body is in the frame of a's keyframe, by the similarity of their descriptors.
-UncertainPose<SE3> described(const ScannedRobot& a, const Neighbour& found) {
-  const double sigma_m = kSigmaPlace * a.cloud(found.index).median_range_m;
-  const double sigma_rad = 2 * std::numbers::pi / a.contexts[found.index].sectors();
-  // compare(query, context): p_query = Rz(yaw) p_context.
-  const Eigen::AngleAxisd turn(-found.match.yaw_rad, Eigen::Vector3d::UnitZ());
-  UncertainPose<SE3> result{SE3(Eigen::Vector3d::Zero(), Eigen::Quaterniond(turn))};
-  result.covariance.diagonal() << sigma_m * sigma_m, sigma_m * sigma_m, sigma_m * sigma_m,
-      sigma_rad * sigma_rad, sigma_rad * sigma_rad, sigma_rad * sigma_rad;
-  return result;
-}
-
 template <class Pose>
 class PlaceSearch {
  public:
@@ -108,8 +94,8 @@ class PlaceSearch {
       robots_.push_back(input.scans.robots[r] ? scanned_robot(*input.scans.robots[r], joint.robots[r],
                                                               input.mission.robots[r].odometry)
                                               : ScannedRobot{});
-    add_contexts(robots_, ScannerKind::kSpatial, params.context, submap_m);
-    add_contexts(robots_, ScannerKind::kPlanar, params.context, submap_m);
+    add_contexts(robots_, ScannerKind::kSpatial, params.context, params.index, submap_m);
+    add_contexts(robots_, ScannerKind::kPlanar, params.context, params.index, submap_m);
   }
 
   PlaceProposals run() {
@@ -195,7 +181,7 @@ class PlaceSearch {
 
   ContextMatch compare_descriptors(const Proposal& pair, std::size_t i) {
     ++counts_.compared;
-    return compare(robots_[pair.a].contexts[i], robots_[pair.b].contexts[pair.j]);
+    return compare(robots_[pair.a].contexts->context(i), robots_[pair.b].contexts->context(pair.j));
   }
 
   /// Proposes, for every stride of b, the keyframes of a with the most similar descriptors, not two of one
@@ -203,8 +189,6 @@ class PlaceSearch {
   void propose_by_descriptor(std::size_t a, std::size_t b) {
     if (tried_.has_robots(a, b)) return;  // descriptors alone would only repeat themselves
     const ScannedRobot& of_a = robots_[a];
-    ScanContextIndex index(params_.index);
-    for (const ScanContext& context : of_a.contexts) index.add(context);
     const auto compared =
         static_cast<std::size_t>(std::min(params_.index.nearest_keys, params_.index.shortlist));
     for (const std::size_t j : robots_[b].strides(stride_m(robots_[b]))) {
@@ -217,10 +201,13 @@ class PlaceSearch {
                });
       };
       for (int n = 0; n < params_.candidates; ++n) {
-        const auto found = index.nearest(robots_[b].contexts[j], 1, is_new);
+        const auto found = of_a.contexts->nearest(robots_[b].contexts->context(j), 1, is_new);
         if (found.empty() || found.front().match.distance > params_.max_descriptor_distance) break;
         taken.push_back(found.front().index);
-        proposals_.push_back({a, b, taken.back(), j, described(of_a, found.front())});
+        proposals_.push_back(
+            {a, b, taken.back(), j,
+             described_pose(of_a.scans->keyframes, found.front(), robots_[b].contexts->context(j).sectors()),
+             true});
       }
     }
   }

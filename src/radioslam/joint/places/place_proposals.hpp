@@ -87,6 +87,7 @@ struct PlaceInput {
 struct Proposal {
   std::size_t a = 0, b = 0, i = 0, j = 0;
   UncertainPose<SE3> T_i_j;
+  bool anywhere = false;  ///< by descriptors alone
 };
 
 /// Standard deviation of the relative position in the plane, per axis.

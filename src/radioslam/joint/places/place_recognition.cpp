@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "radioslam/base/parallel.hpp"
-#include "radioslam/lidar/loops/loop_verification.hpp"
+#include "radioslam/places/loops/loop_verification.hpp"
 
 namespace radioslam {
 namespace {
@@ -20,8 +20,6 @@ VerifiedClosure closure_of(const Proposal& proposal, const ScanLoop& loop, const
                            const ScannedRobot& b) {
   auto found = closure_of_scan(RobotIndex(proposal.a), a.scans->keyframe_stamps[proposal.i],
                                RobotIndex(proposal.b), b.scans->keyframe_stamps[proposal.j], loop);
-  if (loop.status == LoopStatus::kContradictsOdometry)
-    reject(found.judgement, "it is not where it is predicted");
   return found;
 }
 
@@ -81,8 +79,8 @@ RecognisedPlaces recognise_places(const PlaceInput<Pose>& input, const PlacePara
   const std::vector<Proposal>& proposals = proposed.pairs;
   RecognisedPlaces found{{}, {}, proposed.counts};
   const auto verification = [&](double source_m, double apart_m) {
-    return LoopVerification(scan_params.loops, {params.submap_m, source_m, apart_m}, scan_params.lidar.map,
-                            scan_params.search, scan_params.lidar.registration);
+    return LoopVerification(scan_params.loops, {params.submap_m, source_m, apart_m, Pose::kDim == 3},
+                            scan_params.lidar.map, scan_params.search, scan_params.lidar.registration);
   };
   const LoopVerification spatial = verification(0, kApart_m), planar = verification(params.source_m, 0);
   found.closures.resize(proposals.size());
@@ -91,8 +89,9 @@ RecognisedPlaces recognise_places(const PlaceInput<Pose>& input, const PlacePara
     for (std::size_t k = begin; k < end; ++k) {
       const Proposal& proposal = proposals[k];
       const ScannedRobot &a = proposed.robots[proposal.a], &b = proposed.robots[proposal.b];
-      const ScanLoop loop = (b.kind() == ScannerKind::kPlanar ? planar : spatial)
-                                .verify(a.placed(), proposal.i, b.placed(), proposal.j, proposal.T_i_j);
+      const ScanLoop loop =
+          (b.kind() == ScannerKind::kPlanar ? planar : spatial)
+              .verify(a.placed(), proposal.i, b.placed(), proposal.j, {proposal.T_i_j, proposal.anywhere});
       found.closures[k] = closure_of(proposal, loop, a, b);
     }
   });

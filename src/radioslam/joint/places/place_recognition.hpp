@@ -10,7 +10,7 @@
 //             aligns, they are those with the most similar descriptors of all, at most
 //             `max_descriptor_distance`.
 //   verify    The scan is registered to a submap around the proposed keyframe, all over the uncertainty of
-//             the predicted relative pose (lidar/loops/loop_verification.hpp). A planar scanner sees little
+//             the predicted relative pose (places/loops/loop_verification.hpp). A planar scanner sees little
 //             from one place: its scan is registered together with those just before and after it.
 //
 // Once a team was judged, it predicts better, and another round finds more; what was accepted, or tried

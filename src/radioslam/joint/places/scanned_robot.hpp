@@ -2,12 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "radioslam/joint/joint_graph.hpp"
-#include "radioslam/lidar/loops/loop_verification.hpp"
 #include "radioslam/odometry/scan_stage.hpp"
-#include "radioslam/places/scan_context.hpp"
+#include "radioslam/places/loops/loop_verification.hpp"
+#include "radioslam/places/scan_context_index.hpp"
 
 namespace radioslam {
 
@@ -18,7 +19,7 @@ struct ScannedRobot {
   std::vector<std::size_t> keyframes = {};  ///< of the joint graph
   std::vector<PoseId> nodes = {};
   std::vector<SE3> T_node_scan = {};
-  std::vector<ScanContext> contexts = {};
+  std::optional<ScanContextIndex> contexts = {};
   double context_range_m = 0;
 
   std::size_t size() const { return nodes.size(); }
@@ -30,7 +31,9 @@ struct ScannedRobot {
       if (has_cloud(k)) return true;
     return false;
   }
-  PlacedKeyframes placed() const { return {scans->keyframes, scans->keyframes.poses, path_m}; }
+  PlacedKeyframes placed() const {
+    return {scans->keyframes, scans->keyframes.poses, path_m, contexts ? &*contexts : nullptr};
+  }
 
   /// Keyframes with a scan, at least `stride_m` apart.
   std::vector<std::size_t> strides(double stride_m) const {
@@ -51,6 +54,6 @@ ScannedRobot scanned_robot(const ScanOdometry& scans, const RobotVariables& vari
 /// Of robots with this kind of scanner; grids of one range can be compared. A planar scanner sees little at
 /// once: its grids are of all scans within `submap_m`.
 void add_contexts(std::vector<ScannedRobot>& robots, ScannerKind kind, const ScanContextParams& params,
-                  double submap_m);
+                  const ScanContextIndexParams& index, double submap_m);
 
 }  // namespace radioslam

@@ -1,4 +1,4 @@
-#include "radioslam/lidar/loops/scan_loop.hpp"
+#include "radioslam/places/loops/scan_loop.hpp"
 
 namespace radioslam {
 
@@ -8,10 +8,14 @@ std::string_view reason(LoopStatus status) {
       return "";
     case LoopStatus::kLowOverlap:
       return "the scans do not fit";
+    case LoopStatus::kTooLittleStructure:
+      return "too little structure";
     case LoopStatus::kAmbiguous:
       return "another place fits as well";
-    case LoopStatus::kContradictsOdometry:
-      return "the odometry disagrees";
+    case LoopStatus::kUnmapped:
+      return "a place not seen yet may fit as well";
+    case LoopStatus::kAnotherStorey:
+      return "it may be another storey";
     case LoopStatus::kRejectedByGraph:
       return "the other closures disagree";
   }

@@ -6,15 +6,15 @@
 #pragma once
 
 #include <cstddef>
-#include <set>
+#include <map>
 #include <utility>
 #include <vector>
 
 #include "radioslam/geometry/uncertain_pose.hpp"
 #include "radioslam/graph/marginals.hpp"
 #include "radioslam/graph/pose_graph.hpp"
-#include "radioslam/lidar/loops/loop_verification.hpp"
-#include "radioslam/lidar/loops/scan_loop.hpp"
+#include "radioslam/places/keyframe_contexts.hpp"
+#include "radioslam/places/loops/scan_loop.hpp"
 
 namespace radioslam {
 
@@ -28,10 +28,13 @@ class LoopCandidates {
  public:
   /// Keeps a reference to `keyframes`, which must outlive it.
   LoopCandidates(const ScanKeyframes& keyframes, const ScanLoopParams& params)
-      : keyframes_(keyframes), params_(params), path_m_(path_lengths(keyframes.poses)) {}
+      : keyframes_(keyframes), params_(params), path_m_(path_lengths(keyframes)) {}
 
-  /// By this estimate of the keyframes' poses; pairs that were candidates before are left out.
+  /// By this estimate of the keyframes' poses. Pairs that were candidates before are left out unless they
+  /// were doubtful and are predicted much better now.
   std::vector<LoopCandidate> find(const PoseGraph<SE3>& graph);
+  /// What came of a candidate.
+  void note(const ScanLoop& tried);
   const std::vector<double>& path_m() const { return path_m_; }
 
  private:
@@ -44,7 +47,8 @@ class LoopCandidates {
   const ScanKeyframes& keyframes_;
   ScanLoopParams params_;
   std::vector<double> path_m_;
-  std::set<std::pair<std::size_t, std::size_t>> tried_;
+  /// Standard deviation of the relative position when they were tried; 0: never again.
+  std::map<std::pair<std::size_t, std::size_t>, double> tried_;
 };
 
 }  // namespace radioslam

@@ -5,10 +5,10 @@
 //                a long drift, which a plain distance would miss, and excludes hopeless ones
 //   search       the later scan is registered to a submap around the earlier keyframe, from initial poses all
 //                over the uncertainty (pose_search.hpp)
-//   tests        the inlier ratio is close to the nominal one, no distinct pose has a similar one, and the
-//                closure lies within the gate of the estimate
+//   tests        against other poses and places that explain the scan as well (loop_verification.hpp)
 //   estimate     graduated optimization of the robot's pose graph rejects closures that contradict others;
-//                the smaller covariances lead to new candidates in the next round
+//                the smaller covariances lead to new candidates in the next round, and to another trial of
+//                those that were doubtful
 #pragma once
 
 #include <vector>
@@ -16,8 +16,8 @@
 #include "radioslam/base/progress.hpp"
 #include "radioslam/geometry/se3.hpp"
 #include "radioslam/lidar/local_map.hpp"
-#include "radioslam/lidar/loops/scan_loop.hpp"
 #include "radioslam/lidar/pose_search.hpp"
+#include "radioslam/places/loops/scan_loop.hpp"
 
 namespace radioslam {
 
@@ -26,8 +26,10 @@ struct ScanLoops {
   std::vector<SE3> poses;       ///< of the keyframes, optimized with the accepted closures
 };
 
+/// `storeys`: whether the robot may change between storeys.
 ScanLoops close_scan_loops(const ScanKeyframes& keyframes, const ScanLoopParams& params,
                            const LocalMapParams& map, const PoseSearchParams& search,
-                           const RegistrationParams& registration, const Progress& progress = {});
+                           const RegistrationParams& registration, bool storeys = true,
+                           const Progress& progress = {});
 
 }  // namespace radioslam

@@ -21,8 +21,9 @@ struct ScanLoopParams {
   double sigmas = 3;
   double known_sigma_m = 0.1;
   double min_fit_ratio = 0.85;
-  double max_alternative_ratio = 0.95;
-  double gate = 22.458;
+  double rival_ratio = 0.95;
+  double max_doubt = 0.05;
+  double min_structure = 25;
   double min_sigma_m = 0.02;
   double min_sigma_rad = 0.003;
   int rounds = 5;
@@ -48,12 +49,14 @@ struct ScanLoopParams {
                     "standard deviation of the relative position below which a pair is not tried");
     RADIOSLAM_FIELD(min_fit_ratio, "", 0, 1,
                     "smallest inlier ratio of a closure, as a fraction of the nominal one of odometry");
-    RADIOSLAM_FIELD(max_alternative_ratio, "", 0, 1,
-                    "largest inlier ratio of an alternative pose, as a fraction of the best; above it, a "
-                    "closure is ambiguous");
     RADIOSLAM_FIELD(
-        gate, "", 0, 1e6,
-        "largest squared Mahalanobis distance of a closure from the estimate; chi-squared of 6, 99.9 %");
+        rival_ratio, "", 0.01, 0.999,
+        "structure that another pose explains, as a fraction of the best's, at which it is twenty "
+        "times less likely");
+    RADIOSLAM_FIELD(max_doubt, "", 0, 1,
+                    "largest probability of a closure that another place, seen or not, explains the scan");
+    RADIOSLAM_FIELD(min_structure, "", 0, 1e6,
+                    "smallest number of a scan's points on walls, poles and the like, of spatial scanners");
     RADIOSLAM_FIELD(min_sigma_m, "m", 1e-6, 10,
                     "lower bound on the standard deviation of a closure's translation, per axis");
     RADIOSLAM_FIELD(min_sigma_rad, "rad", 1e-6, 3,
@@ -65,9 +68,11 @@ struct ScanLoopParams {
 enum class LoopStatus {
   kAccepted,
   kLowOverlap,
-  kAmbiguous,            ///< a distinct pose has a similar inlier ratio
-  kContradictsOdometry,  ///< outside the gate of the current estimate
-  kRejectedByGraph,      ///< contradicts other closures
+  kTooLittleStructure,
+  kAmbiguous,        ///< another pose explains the scan, too
+  kUnmapped,         ///< places like this recur, and one that was not seen may be it
+  kAnotherStorey,    ///< the height is too uncertain to tell storeys apart
+  kRejectedByGraph,  ///< contradicts other closures
 };
 /// Why a closure was rejected, in words; empty if it was accepted.
 std::string_view reason(LoopStatus status);
@@ -78,6 +83,7 @@ struct ScanLoop {
   SE3 T_i_j;
   SE3::Jacobian information = SE3::Jacobian::Zero();  ///< about xi in T_i_j * Exp(xi)
   double inlier_ratio = 0;
+  double doubt = 0;  ///< probability that another place explains the scan
   LoopStatus status = LoopStatus::kAccepted;
 };
 

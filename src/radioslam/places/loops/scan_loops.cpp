@@ -1,12 +1,16 @@
-#include "radioslam/lidar/loops/scan_loops.hpp"
+#include "radioslam/places/loops/scan_loops.hpp"
 
 #include <algorithm>
+#include <optional>
+#include <set>
+#include <utility>
 
 #include "radioslam/base/parallel.hpp"
 #include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/graph/graduated.hpp"
-#include "radioslam/lidar/loops/loop_candidates.hpp"
-#include "radioslam/lidar/loops/loop_verification.hpp"
+#include "radioslam/places/keyframe_contexts.hpp"
+#include "radioslam/places/loops/loop_candidates.hpp"
+#include "radioslam/places/loops/loop_verification.hpp"
 
 namespace radioslam {
 namespace {
@@ -33,10 +37,26 @@ std::vector<ScanLoop> verify(const std::vector<LoopCandidate>& candidates,
   parallel_for(candidates.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const auto& [i, j, T_i_j] = candidates[k];
-      loops[k] = verification.verify(robot, i, robot, j, T_i_j);
+      loops[k] = verification.verify(robot, i, robot, j, {T_i_j});
     }
   });
   return loops;
+}
+
+ScanContextIndex index_of(const ScanKeyframes& keyframes, const std::vector<double>& path_m,
+                          double submap_m) {
+  ScanContextIndex index({});
+  for (ScanContext& context : keyframe_contexts(keyframes, path_m, context_range(keyframes), submap_m, {}))
+    index.add(std::move(context));
+  return index;
+}
+
+/// Replaces what was said of the same pairs before.
+void take_over(std::vector<ScanLoop> tried, std::vector<ScanLoop>& loops) {
+  std::set<std::pair<std::size_t, std::size_t>> pairs;
+  for (const ScanLoop& loop : tried) pairs.insert({loop.i, loop.j});
+  std::erase_if(loops, [&](const ScanLoop& loop) { return pairs.contains({loop.i, loop.j}); });
+  loops.insert(loops.end(), tried.begin(), tried.end());
 }
 
 /// Optimizes with all accepted closures and rejects those that contradict the others.
@@ -67,16 +87,25 @@ void optimize_and_prune(PoseGraph<SE3>& graph, std::vector<ScanLoop>& loops, con
 
 ScanLoops close_scan_loops(const ScanKeyframes& keyframes, const ScanLoopParams& params,
                            const LocalMapParams& map, const PoseSearchParams& search,
-                           const RegistrationParams& registration, const Progress& progress) {
+                           const RegistrationParams& registration, bool storeys, const Progress& progress) {
   if (!params.enabled || keyframes.poses.size() < 2) return {{}, keyframes.poses};
   PoseGraph<SE3> graph = odometry_graph(keyframes);
   LoopCandidates candidates(keyframes, params);
-  const LoopVerification verification(params, {params.submap_m}, map, search, registration);
+  const LoopVerification verification(params, {.target_m = params.submap_m, .storeys = storeys}, map, search,
+                                      registration);
+  std::optional<ScanContextIndex> index;
   ScanLoops result;
   for (int round = 0; round < params.rounds; ++round) {
+    const std::vector<LoopCandidate> found = candidates.find(graph);
+    if (!index && std::any_of(found.begin(), found.end(), [&](const LoopCandidate& candidate) {
+          return verification.reaches_elsewhere({candidate.T_i_j},
+                                                keyframes.clouds[candidate.j].median_range_m);
+        }))
+      index = index_of(keyframes, candidates.path_m(), params.submap_m);
     const auto tried =
-        verify(candidates.find(graph), verification, {keyframes, graph.poses, candidates.path_m()});
-    result.loops.insert(result.loops.end(), tried.begin(), tried.end());
+        verify(found, verification, {keyframes, graph.poses, candidates.path_m(), index ? &*index : nullptr});
+    for (const ScanLoop& loop : tried) candidates.note(loop);
+    take_over(tried, result.loops);
     if (std::none_of(tried.begin(), tried.end(),
                      [](const ScanLoop& loop) { return loop.status == LoopStatus::kAccepted; }))
       break;

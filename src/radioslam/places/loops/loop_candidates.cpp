@@ -1,9 +1,23 @@
-#include "radioslam/lidar/loops/loop_candidates.hpp"
+#include "radioslam/places/loops/loop_candidates.hpp"
 
 #include <Eigen/LU>
 #include <cmath>
 
 namespace radioslam {
+namespace {
+
+constexpr double kMuchWorse = 2;  // standard deviation of a prediction worth another trial
+
+bool is_doubtful(LoopStatus status) {
+  return status == LoopStatus::kAmbiguous || status == LoopStatus::kUnmapped ||
+         status == LoopStatus::kAnotherStorey;
+}
+
+}  // namespace
+
+void LoopCandidates::note(const ScanLoop& tried) {
+  if (!is_doubtful(tried.status)) tried_[{tried.i, tried.j}] = 0;
+}
 
 std::vector<LoopCandidate> LoopCandidates::find(const PoseGraph<SE3>& graph) {
   const auto marginals = Marginals<SE3>::compute(graph);
@@ -14,11 +28,14 @@ std::vector<LoopCandidate> LoopCandidates::find(const PoseGraph<SE3>& graph) {
     if (path_m_[j] < next_m || keyframes_.clouds[j].source.surfels.empty()) continue;
     next_m = path_m_[j] + params_.stride_m;
     for (const std::size_t i : revisits(j, graph.poses, *marginals)) {
-      if (tried_.contains({i, j})) continue;
+      const auto tried = tried_.find({i, j});
+      if (tried != tried_.end() && tried->second == 0) continue;
       const auto T_i_j = graph.poses[i].inverse() * graph.poses[j];
       const SE3::Jacobian covariance = marginals->relative_pose(PoseId(i), PoseId(j));
       if (!is_candidate({T_i_j, covariance}, radius_of(j))) continue;
-      tried_.insert({i, j});
+      const double sigma_m = std::sqrt(covariance.topLeftCorner<3, 3>().trace());
+      if (tried != tried_.end() && kMuchWorse * sigma_m > tried->second) continue;
+      tried_[{i, j}] = sigma_m;
       candidates.push_back({i, j, {T_i_j, covariance}});
     }
   }

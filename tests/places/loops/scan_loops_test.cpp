@@ -1,4 +1,4 @@
-#include "radioslam/lidar/loops/scan_loops.hpp"
+#include "radioslam/places/loops/scan_loops.hpp"
 
 #include <gtest/gtest.h>
 
@@ -232,8 +232,9 @@ TEST(CloseScanLoops, AreTheSameForAnyNumberOfThreads) {
 
 TEST(CloseScanLoops, HaveAReasonUnlessAccepted) {
   EXPECT_TRUE(reason(LoopStatus::kAccepted).empty());
-  for (const LoopStatus status : {LoopStatus::kLowOverlap, LoopStatus::kAmbiguous,
-                                  LoopStatus::kContradictsOdometry, LoopStatus::kRejectedByGraph})
+  for (const LoopStatus status :
+       {LoopStatus::kLowOverlap, LoopStatus::kTooLittleStructure, LoopStatus::kAmbiguous,
+        LoopStatus::kUnmapped, LoopStatus::kAnotherStorey, LoopStatus::kRejectedByGraph})
     EXPECT_FALSE(reason(status).empty());
 }
 

@@ -1,0 +1,260 @@
+#include "radioslam/places/loops/loop_verification.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "radioslam/geometry/linear_algebra.hpp"
+#include "radioslam/lidar/structure_fit.hpp"
+#include "radioslam/places/keyframe_contexts.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr double kBeyond = 2;          // how far rivals are searched, in the width of a search for the place
+constexpr double kPossible = 4;        // standard deviations within which a place is possible
+constexpr std::size_t kElsewhere = 6;  // places that look alike and are searched
+constexpr double kSigmaPlace = 1.0 / 3;  // of a scan from the place that looks alike, in its median range
+constexpr double kSamePlace_m = 1;
+constexpr double kDriftRatio = 0.02;  // of odometry, where its covariance is not known
+constexpr double kRivalLog = 3;       // e^-3: twenty times less likely
+constexpr double kFits = 0.3;         // likelihood from which a pose counts as one that fits
+constexpr double kUnseenFits = 0.02;  // before any was found
+constexpr double kUnseenShare = 0.5;  // of the area that is possible
+constexpr double kStoreyPrior = 0.1;  // that there is a storey that looks the same
+constexpr double kMinStorey_m = 2.5;  // height
+constexpr float kIndoors_m = 30;      // range of most points on a storey
+
+float quantile(std::vector<float>& values, double share) {
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+/// m(d) of loop_verification.hpp.
+double prior_density(double squared_distance) {
+  constexpr std::array<double, 4> kScales{0.25, 0.5, 1, 2};
+  double sum = 0;
+  for (const double a : kScales) sum += std::exp(-squared_distance / (2 * a * a)) / a;
+  return sum / static_cast<double>(kScales.size());
+}
+
+/// What the points do not observe is known to a hundred metres and radians.
+SE3::Jacobian covariance_of_fit(const Registration& fit) {
+  constexpr double kLeast = 1e-4;
+  return inverse<SE3::Jacobian>((fit.information + fit.information.transpose()) / 2 +
+                                kLeast * SE3::Jacobian::Identity());
+}
+
+double sigma_in_plane(const UncertainPose<SE3>& T) {
+  const Eigen::Matrix3d covariance = T.position_covariance();
+  return std::sqrt(symmetric_eigen<Eigen::Matrix2d>(covariance.topLeftCorner<2, 2>()).values.maxCoeff());
+}
+
+/// The least height of a storey that a scan may have been taken on, by what it sees overhead; nothing where
+/// it sees far, in the open.
+std::optional<double> storey_height_m(const ScanPyramid& scan) {
+  std::vector<float> heights_m, ranges_m;
+  for (const Surfel& surfel : scan.all) {
+    heights_m.push_back(surfel.position.z());
+    ranges_m.push_back(surfel.position.head<2>().norm());
+  }
+  if (heights_m.empty() || quantile(ranges_m, 0.9) > kIndoors_m) return std::nullopt;
+  return std::max(kMinStorey_m, static_cast<double>(quantile(heights_m, 0.98) - quantile(heights_m, 0.05)));
+}
+
+/// Density of the most likely storeys above and below a fit, over that of the fit's own.
+double other_storeys(double storey_m, double off_m, double sigma_m) {
+  const auto density = [&](double z_m) { return prior_density(z_m * z_m / (sigma_m * sigma_m)); };
+  double sum = 0;
+  for (const double side : {-1.0, 1.0}) {
+    const double towards_m = std::clamp(-side * off_m, storey_m, 2 * storey_m);
+    sum += density(off_m + side * towards_m);
+  }
+  return sum / density(off_m);
+}
+
+/// Standard deviation per axis of the motion between two keyframes of a robot, by its odometry.
+double odometry_sigma_m(const PlacedKeyframes& robot, std::size_t a, std::size_t b) {
+  if (robot.keyframes.step_covariances.size() + 1 < robot.poses.size())
+    return kDriftRatio * std::abs(robot.path_m[a] - robot.path_m[b]);
+  UncertainPose<SE3> motion;
+  for (std::size_t k = std::min(a, b); k < std::max(a, b); ++k)
+    motion = motion * UncertainPose<SE3>{robot.poses[k].inverse() * robot.poses[k + 1],
+                                         robot.keyframes.step_covariances[k]};
+  return sigma_in_plane(motion);
+}
+
+}  // namespace
+
+UncertainPose<SE3> described_pose(const ScanKeyframes& keyframes, const Neighbour& found, int sectors) {
+  const double sigma_m = kSigmaPlace * keyframes.clouds[found.index].median_range_m;
+  const double sigma_rad = 2 * std::numbers::pi / sectors;
+  // compare(query, context): p_query = Rz(yaw) p_context.
+  const Eigen::AngleAxisd turn(-found.match.yaw_rad, Eigen::Vector3d::UnitZ());
+  UncertainPose<SE3> result{SE3(Eigen::Vector3d::Zero(), Eigen::Quaterniond(turn))};
+  result.covariance.diagonal() << sigma_m * sigma_m, sigma_m * sigma_m, sigma_m * sigma_m,
+      sigma_rad * sigma_rad, sigma_rad * sigma_rad, sigma_rad * sigma_rad;
+  return result;
+}
+
+bool LoopVerification::reaches_elsewhere(const ExpectedPlace& expected, double median_range_m) const {
+  return expected.anywhere ||
+         kPossible * sigma_in_plane(expected.T_i_j) > std::max(of_.target_m, median_range_m / 2);
+}
+
+ScanLoop LoopVerification::verify(const PlacedKeyframes& target, std::size_t i, const PlacedKeyframes& source,
+                                  std::size_t j, const ExpectedPlace& expected) const {
+  const ScanPyramid scan = source_around(source, j);
+  UncertainPose<SE3> where = expected.T_i_j;
+  if (!expected.anywhere) where.covariance *= kBeyond * kBeyond;
+  std::vector<Fit> fits = fits_around(target, i, scan, where);
+  const auto loop_of = [&](const Fit& fit, LoopStatus status) {
+    ScanLoop loop{i, j, fit.T_i_j, bounded(fit.registration.information), fit.registration.inlier_ratio};
+    loop.status = status;
+    return loop;
+  };
+  const double nominal_ratio =
+      std::min(target.keyframes.nominal_inlier_ratio, source.keyframes.nominal_inlier_ratio);
+  if (fits.front().registration.inlier_ratio < params_.min_fit_ratio * nominal_ratio)
+    return loop_of(fits.front(), LoopStatus::kLowOverlap);
+  if (target.keyframes.kind == ScannerKind::kSpatial && structure_of(scan) < params_.min_structure)
+    return loop_of(fits.front(), LoopStatus::kTooLittleStructure);
+  if (target.index && reaches_elsewhere(expected, scan.median_range_m))
+    add_fits_elsewhere(target, i, source, j, scan, fits);
+  weigh(expected, fits);
+  const double width_m = 2 * std::max(scan.median_range_m, kSamePlace_m);
+  const Rivals rivals = rivals_of(fits, expected, scan, width_m * (target.path_m.back() + width_m));
+  ScanLoop loop = loop_of(fits.front(), LoopStatus::kAccepted);
+  loop.doubt = rivals.all() / (1 + rivals.all());
+  if (fits.front().elsewhere || (loop.doubt > params_.max_doubt && rivals.fits >= rivals.all() / 2))
+    loop.status = LoopStatus::kAmbiguous;
+  else if (loop.doubt > params_.max_doubt && rivals.storeys > rivals.unmapped)
+    loop.status = LoopStatus::kAnotherStorey;
+  else if (loop.doubt > params_.max_doubt)
+    loop.status = LoopStatus::kUnmapped;
+  return loop;
+}
+
+std::vector<LoopVerification::Fit> LoopVerification::fits_around(const PlacedKeyframes& target, std::size_t i,
+                                                                 const ScanPyramid& scan,
+                                                                 const UncertainPose<SE3>& where) const {
+  const LocalMap submap = submap_around(target, i, of_.target_m);
+  const ScannerKind kind = target.keyframes.kind;
+  std::vector<Fit> fits;
+  for (const Registration& found : search_pose(submap, scan, where, kind, search_, registration_).fits) {
+    Fit& fit = fits.emplace_back(Fit{found, found.T_target_source});
+    fit.structure = structure_fit(submap, scan, found.T_target_source, kind, registration_.loss_scale);
+  }
+  return fits;
+}
+
+void LoopVerification::add_fits_elsewhere(const PlacedKeyframes& target, std::size_t i,
+                                          const PlacedKeyframes& source, std::size_t j,
+                                          const ScanPyramid& scan, std::vector<Fit>& fits) const {
+  const bool is_own = &target.keyframes == &source.keyframes;
+  std::vector<std::size_t> searched{i};
+  if (is_own) searched.push_back(j);
+  const auto is_new = [&](std::size_t k) {
+    return !target.keyframes.clouds[k].source.surfels.empty() &&
+           std::none_of(searched.begin(), searched.end(), [&](std::size_t other) {
+             return std::abs(target.path_m[k] - target.path_m[other]) < 2 * of_.target_m;
+           });
+  };
+  const ScanContext& described = source.index->context(j);
+  for (std::size_t n = 0; n < kElsewhere; ++n) {
+    const auto similar = target.index->nearest(described, 1, is_new);
+    if (similar.empty()) break;
+    const std::size_t k = similar.front().index;
+    searched.push_back(k);
+    const SE3 T_i_k = target.poses[i].inverse() * target.poses[k];
+    const double same_m = std::max(kSamePlace_m, 2 * odometry_sigma_m(target, i, k));
+    for (Fit& fit : fits_around(target, k, scan,
+                                described_pose(target.keyframes, similar.front(), described.sectors()))) {
+      fit.T_i_j = T_i_k * fit.T_i_j;
+      fit.elsewhere = true;
+      const auto is_same = [&](const Fit& other) {
+        return (other.T_i_j.translation() - fit.T_i_j.translation()).norm() < same_m;
+      };
+      if (std::none_of(fits.begin(), fits.end(), is_same)) fits.push_back(fit);
+    }
+  }
+}
+
+void LoopVerification::weigh(const ExpectedPlace& expected, std::vector<Fit>& fits) const {
+  double best = 0;
+  for (const Fit& fit : fits) best = std::max(best, fit.structure);
+  for (Fit& fit : fits) {
+    const double worse = best > 0 ? 1 - fit.structure / best : 0;
+    fit.likelihood = std::exp(-kRivalLog * worse / (1 - params_.rival_ratio));
+    const SE3::Tangent off = (expected.T_i_j.pose.inverse() * fit.T_i_j).log();
+    const SE3::Jacobian covariance = expected.T_i_j.covariance + covariance_of_fit(fit.registration);
+    fit.weight =
+        fit.likelihood * (expected.anywhere ? 1 : prior_density(off.dot(ldlt_solve(covariance, off))));
+  }
+  std::stable_sort(fits.begin(), fits.end(), [](const Fit& a, const Fit& b) { return a.weight > b.weight; });
+}
+
+LoopVerification::Rivals LoopVerification::rivals_of(const std::vector<Fit>& weighed,
+                                                     const ExpectedPlace& expected, const ScanPyramid& scan,
+                                                     double map_area_m2) const {
+  constexpr double kLeastWeight = 1e-12;
+  const Fit& best = weighed.front();
+  const double weight = std::max(best.weight, kLeastWeight);
+  Rivals rivals;
+  double fitting = kUnseenFits;
+  for (std::size_t k = 1; k < weighed.size(); ++k) {
+    rivals.fits += weighed[k].weight / weight;
+    if (weighed[k].likelihood > kFits) ++fitting;
+  }
+  if (expected.anywhere) {
+    rivals.unmapped = kUnseenShare * fitting;
+    return rivals;
+  }
+  const Eigen::Matrix3d covariance = expected.T_i_j.position_covariance();
+  const double possible_m2 =
+      2 * std::numbers::pi * std::sqrt(std::max(0.0, covariance.topLeftCorner<2, 2>().determinant()));
+  rivals.unmapped = kUnseenShare * fitting / map_area_m2 * possible_m2 / weight;
+  const auto storey_m = of_.storeys ? storey_height_m(scan) : std::nullopt;
+  if (storey_m)
+    rivals.storeys =
+        kStoreyPrior * other_storeys(*storey_m,
+                                     best.T_i_j.translation().z() - expected.T_i_j.pose.translation().z(),
+                                     std::sqrt(covariance(2, 2)));
+  return rivals;
+}
+
+ScanPyramid LoopVerification::source_around(const PlacedKeyframes& robot, std::size_t j) const {
+  if (of_.source_m == 0) return robot.keyframes.clouds[j];
+  return scan_pyramid(submap_around(robot, j, of_.source_m).fine().surfels(), robot.keyframes.spacing_m,
+                      robot.keyframes.kind, map_params_);
+}
+
+LocalMap LoopVerification::submap_around(const PlacedKeyframes& robot, std::size_t i, double extent_m) const {
+  LocalMap map(robot.keyframes.spacing_m, map_params_);
+  const SE3 T_i_frame = robot.poses[i].inverse();
+  std::optional<double> last_m;
+  for (std::size_t k = 0; k < robot.poses.size(); ++k) {
+    if (std::abs(robot.path_m[k] - robot.path_m[i]) > extent_m) continue;
+    if (k != i && last_m && robot.path_m[k] - *last_m < of_.apart_m) continue;
+    map.add(robot.keyframes.clouds[k], T_i_frame * robot.poses[k], 0);
+    last_m = robot.path_m[k];
+  }
+  return map;
+}
+
+SE3::Jacobian LoopVerification::bounded(const SE3::Jacobian& information) const {
+  SE3::Tangent most;
+  most.head<3>().setConstant(1 / (params_.min_sigma_m * params_.min_sigma_m));
+  most.tail<3>().setConstant(1 / (params_.min_sigma_rad * params_.min_sigma_rad));
+  const SE3::Jacobian limit = most.asDiagonal();
+  const SE3::Jacobian bounded = limit - limit * ldlt_solve_matrix<SE3::Jacobian>(information + limit, limit);
+  return 0.5 * (bounded + bounded.transpose());
+}
+
+}  // namespace radioslam

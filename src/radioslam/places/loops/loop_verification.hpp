@@ -1,0 +1,102 @@
+// Verifies by scan matching that two keyframes, of one robot or of two, saw the same place.
+//
+// The scan of one is searched on a submap around the other, all over the uncertainty of their predicted
+// relative pose and a little beyond. Where bays, storeys or streets are alike, a scan fits a wrong place as
+// well as its own: what tells them apart is the prediction. So a fit is weighed against its rivals,
+//   w = m(d) exp(-3 (1 - s / s_best) / (1 - rival_ratio)),   m(d) = mean over a of exp(-d^2 / (2 a^2)) / a,
+// s: the structure that the pose explains (structure_fit.hpp); d: its Mahalanobis distance from the
+// prediction, whose stated covariance may be wrong by factors a^2, a = 1/4, 1/2, 1, 2. Rivals are
+//   other poses on the submap
+//   the places of the target robot that look most alike, where the prediction reaches beyond the submap
+//   places that were not seen: as many per area as fit in the area that was, on the area that is possible
+//   other storeys, unless the scan sees far
+// The closure is accepted if its share of all weights is 1 - max_doubt or more.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "radioslam/geometry/uncertain_pose.hpp"
+#include "radioslam/lidar/pose_search.hpp"
+#include "radioslam/places/loops/scan_loop.hpp"
+#include "radioslam/places/scan_context_index.hpp"
+
+namespace radioslam {
+
+/// One robot's keyframes at the poses of an estimate, of which only those near one another matter.
+struct PlacedKeyframes {
+  const ScanKeyframes& keyframes;
+  const std::vector<SE3>& poses;
+  const std::vector<double>& path_m;        ///< from the first keyframe to each
+  const ScanContextIndex* index = nullptr;  ///< of the keyframes' contexts; null: no rivals elsewhere
+};
+
+/// Where keyframe j of one robot is expected from keyframe i of another.
+struct ExpectedPlace {
+  UncertainPose<SE3> T_i_j;
+  bool anywhere = false;  ///< this is but where it is searched: it may be anywhere
+};
+
+struct LoopVerificationParams {
+  double target_m = 0;  ///< path length of a submap to either side of its keyframe
+  double source_m = 0;  ///< the same of the scans that are registered to it; 0: the scan alone
+  double apart_m = 0;   ///< path length between scans of a submap; 0: all
+  bool storeys = true;  ///< the robots may be on different storeys
+};
+
+class LoopVerification {
+ public:
+  LoopVerification(const ScanLoopParams& params, const LoopVerificationParams& of, const LocalMapParams& map,
+                   const PoseSearchParams& search, const RegistrationParams& registration)
+      : params_(params), of_(of), map_params_(map), search_(search), registration_(registration) {}
+
+  /// Whether a scan of this median range may be from other places than its submap shows: these are searched
+  /// if the target has an index.
+  bool reaches_elsewhere(const ExpectedPlace& expected, double median_range_m) const;
+
+  /// Keyframe j of `source` on the submap around keyframe i of `target`.
+  ScanLoop verify(const PlacedKeyframes& target, std::size_t i, const PlacedKeyframes& source, std::size_t j,
+                  const ExpectedPlace& expected) const;
+
+ private:
+  struct Fit {
+    Registration registration;
+    SE3 T_i_j;
+    double structure = 0;   ///< share of the scan's structure that it explains
+    double likelihood = 0;  ///< relative to the best
+    double weight = 0;      ///< with the prediction
+    bool elsewhere = false;
+  };
+  /// What makes a scan doubtful, as weights relative to the best fit's.
+  struct Rivals {
+    double fits = 0, unmapped = 0, storeys = 0;
+    double all() const { return fits + unmapped + storeys; }
+  };
+
+  /// Best first.
+  std::vector<Fit> fits_around(const PlacedKeyframes& target, std::size_t i, const ScanPyramid& scan,
+                               const UncertainPose<SE3>& where) const;
+  /// Adds those at the places that look most like keyframe j, as poses from keyframe i.
+  void add_fits_elsewhere(const PlacedKeyframes& target, std::size_t i, const PlacedKeyframes& source,
+                          std::size_t j, const ScanPyramid& scan, std::vector<Fit>& fits) const;
+  /// Sorts them by weight.
+  void weigh(const ExpectedPlace& expected, std::vector<Fit>& fits) const;
+  Rivals rivals_of(const std::vector<Fit>& weighed, const ExpectedPlace& expected, const ScanPyramid& scan,
+                   double map_area_m2) const;
+  LocalMap submap_around(const PlacedKeyframes& robot, std::size_t i, double extent_m) const;
+  ScanPyramid source_around(const PlacedKeyframes& robot, std::size_t j) const;
+  /// The submap has errors of its own: (I^-1 + minimum covariance)^-1, also for a singular I.
+  SE3::Jacobian bounded(const SE3::Jacobian& information) const;
+
+  ScanLoopParams params_;
+  LoopVerificationParams of_;
+  LocalMapParams map_params_;
+  PoseSearchParams search_;
+  RegistrationParams registration_;
+};
+
+/// Where the body of a scan is in the frame of a keyframe that looks alike, by the yaw of their descriptors
+/// (`found`: the keyframe among an index, the scan the query).
+UncertainPose<SE3> described_pose(const ScanKeyframes& keyframes, const Neighbour& found, int sectors);
+
+}  // namespace radioslam
