@@ -298,7 +298,10 @@ TEST(LidarOdometry, AfterATimeWithoutScansGoesOnOnlyWhereItStood) {
   for (const auto [gap_s, moved] : {Case{2, false}, Case{2, true}, Case{600, false}}) {
     LidarOdometry odometer(scanner_traits(log_of(drive), {}), {});
     for (std::size_t k = 0; k < 5; ++k) odometer.register_scan(drive.stamps[k], drive.scans[k]);
-    const Stamp later = Stamp::from_seconds(drive.stamps[4].seconds() + gap_s);
+    double time_s = drive.stamps[4].seconds();
+    for (int k = 0; k < 60; ++k)  // it stands
+      odometer.register_scan(Stamp::from_seconds(time_s += 0.1), drive.scans[4]);
+    const Stamp later = Stamp::from_seconds(time_s + gap_s);
     const ScanPose pose = odometer.register_scan(later, moved ? elsewhere : drive.scans[4]);
     const bool may_be_elsewhere = moved || gap_s > 10;  // where it looks the same
     EXPECT_EQ(pose.status, may_be_elsewhere ? ScanStatus::kNewMap : ScanStatus::kRegistered);

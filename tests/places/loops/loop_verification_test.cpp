@@ -42,8 +42,8 @@ UncertainPose<SE3> expected_at(const SE3& T, double sigma_m, double sigma_z_m) {
 
 /// One visit of a furnished room, and a scan of it, or of one like it, expected so much higher.
 ScanLoop verified(double higher_m, double sigma_z_m, bool storeys) {
-  const ScanKeyframes keyframes =
-      keyframes_at(furnished_room(), {pose_at(-1, 0.3, 1.2, 0), pose_at(0, 0.3, 1.2, 0), pose_at(0.2, 0.4, 1.2, 0.1)});
+  const ScanKeyframes keyframes = keyframes_at(
+      furnished_room(), {pose_at(-1, 0.3, 1.2, 0), pose_at(0, 0.3, 1.2, 0), pose_at(0.2, 0.4, 1.2, 0.1)});
   const std::vector<double> path_m{0, 1, 50};
   const PlacedKeyframes robot{keyframes, keyframes.poses, path_m};
   const LoopVerification verification({}, {.target_m = 5, .storeys = storeys}, {}, {}, {});
@@ -75,8 +75,7 @@ TEST(LoopVerification, NeedsMoreThanGround) {
   const std::vector<double> path_m{0, 1, 50};
   const PlacedKeyframes robot{keyframes, keyframes.poses, path_m};
   const LoopVerification verification({}, {.target_m = 5}, {}, {}, {});
-  const ScanLoop loop =
-      verification.verify(robot, 1, robot, 2, {expected_at(pose_at(2, 0, 0, 0), 1, 0.1)});
+  const ScanLoop loop = verification.verify(robot, 1, robot, 2, {expected_at(pose_at(2, 0, 0, 0), 1, 0.1)});
   EXPECT_NE(loop.status, LoopStatus::kAccepted);
 }
 
@@ -90,15 +89,16 @@ TEST(LoopVerification, SearchesThePlacesThatLookAlike) {
     for (const Box& box : room.boxes) rooms.boxes.push_back({box.low + shift, box.high + shift});
     for (const Pillar& pillar : room.pillars) rooms.pillars.push_back({pillar.centre + shift.head<2>()});
   }
-  const ScanKeyframes seen = keyframes_at(
-      rooms, {pose_at(-1, 0.3, 1.2, 0), pose_at(0, 0.3, 1.2, 0), pose_at(kApart_m - 1, 0.3, 1.2, 0),
-              pose_at(kApart_m, 0.3, 1.2, 0)});
+  const ScanKeyframes seen =
+      keyframes_at(rooms, {pose_at(-1, 0.3, 1.2, 0), pose_at(0, 0.3, 1.2, 0),
+                           pose_at(kApart_m - 1, 0.3, 1.2, 0), pose_at(kApart_m, 0.3, 1.2, 0)});
   const std::vector<double> path_m = path_lengths(seen);
   const ScanKeyframes other = keyframes_at(rooms, {pose_at(0.2, 0.2, 1.2, 0.1)});
   const std::vector<double> other_path_m{0};
   ScanContextIndex index({}), other_index({});
   for (const ScanContext& context : keyframe_contexts(seen, path_m, 8, 5, {})) index.add(context);
-  for (const ScanContext& context : keyframe_contexts(other, other_path_m, 8, 5, {})) other_index.add(context);
+  for (const ScanContext& context : keyframe_contexts(other, other_path_m, 8, 5, {}))
+    other_index.add(context);
   const LoopVerification verification({}, {.target_m = 5, .storeys = false}, {}, {}, {});
   const auto status = [&](double sigma_m, bool anywhere) {
     const SE3 T_i_j = seen.poses[1].inverse() * other.poses[0];

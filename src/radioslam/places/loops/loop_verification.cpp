@@ -24,7 +24,7 @@ constexpr double kDriftRatio = 0.02;  // of odometry, where its covariance is no
 constexpr double kRivalLog = 3;       // e^-3: twenty times less likely
 constexpr double kFits = 0.3;         // likelihood from which a pose counts as one that fits
 constexpr double kUnseenFits = 0.02;  // before any was found
-constexpr double kUnseenShare = 0.5;  // of the area that is possible
+constexpr double kUnseenShare = 0.2;  // of the area that is possible
 constexpr double kStoreyPrior = 0.1;  // that there is a storey that looks the same
 constexpr double kMinStorey_m = 2.5;  // height
 constexpr float kIndoors_m = 30;      // range of most points on a storey
@@ -125,20 +125,25 @@ ScanLoop LoopVerification::verify(const PlacedKeyframes& target, std::size_t i, 
     return loop_of(fits.front(), LoopStatus::kLowOverlap);
   if (target.keyframes.kind == ScannerKind::kSpatial && structure_of(scan) < params_.min_structure)
     return loop_of(fits.front(), LoopStatus::kTooLittleStructure);
-  if (target.index && reaches_elsewhere(expected, scan.median_range_m))
-    add_fits_elsewhere(target, i, source, j, scan, fits);
-  weigh(expected, fits);
   const double width_m = 2 * std::max(scan.median_range_m, kSamePlace_m);
-  const Rivals rivals = rivals_of(fits, expected, scan, width_m * (target.path_m.back() + width_m));
-  ScanLoop loop = loop_of(fits.front(), LoopStatus::kAccepted);
-  loop.doubt = rivals.all() / (1 + rivals.all());
-  if (fits.front().elsewhere || (loop.doubt > params_.max_doubt && rivals.fits >= rivals.all() / 2))
-    loop.status = LoopStatus::kAmbiguous;
-  else if (loop.doubt > params_.max_doubt && rivals.storeys > rivals.unmapped)
-    loop.status = LoopStatus::kAnotherStorey;
-  else if (loop.doubt > params_.max_doubt)
-    loop.status = LoopStatus::kUnmapped;
+  const double map_area_m2 = width_m * (target.path_m.back() + width_m);
+  Rivals rivals = weigh(expected, scan, map_area_m2, fits);
+  if (target.index && reaches_elsewhere(expected, scan.median_range_m))
+    for (const Neighbour& place : places_alike(target, i, source, j)) {
+      if (rivals.doubt() > params_.max_doubt) break;
+      add_fits_at(place, target, i, source, j, scan, fits);
+      rivals = weigh(expected, scan, map_area_m2, fits);
+    }
+  ScanLoop loop = loop_of(fits.front(), status_of(fits.front(), rivals));
+  loop.doubt = rivals.doubt();
   return loop;
+}
+
+LoopStatus LoopVerification::status_of(const Fit& best, const Rivals& rivals) const {
+  if (best.elsewhere) return LoopStatus::kAmbiguous;
+  if (rivals.doubt() <= params_.max_doubt) return LoopStatus::kAccepted;
+  if (rivals.fits >= rivals.unmapped + rivals.storeys) return LoopStatus::kAmbiguous;
+  return rivals.storeys > rivals.unmapped ? LoopStatus::kAnotherStorey : LoopStatus::kUnmapped;
 }
 
 std::vector<LoopVerification::Fit> LoopVerification::fits_around(const PlacedKeyframes& target, std::size_t i,
@@ -154,50 +159,56 @@ std::vector<LoopVerification::Fit> LoopVerification::fits_around(const PlacedKey
   return fits;
 }
 
-void LoopVerification::add_fits_elsewhere(const PlacedKeyframes& target, std::size_t i,
-                                          const PlacedKeyframes& source, std::size_t j,
-                                          const ScanPyramid& scan, std::vector<Fit>& fits) const {
-  const bool is_own = &target.keyframes == &source.keyframes;
-  std::vector<std::size_t> searched{i};
-  if (is_own) searched.push_back(j);
+std::vector<Neighbour> LoopVerification::places_alike(const PlacedKeyframes& target, std::size_t i,
+                                                      const PlacedKeyframes& source, std::size_t j) const {
+  std::vector<std::size_t> known{i};
+  if (&target.keyframes == &source.keyframes) known.push_back(j);
   const auto is_new = [&](std::size_t k) {
     return !target.keyframes.clouds[k].source.surfels.empty() &&
-           std::none_of(searched.begin(), searched.end(), [&](std::size_t other) {
+           std::none_of(known.begin(), known.end(), [&](std::size_t other) {
              return std::abs(target.path_m[k] - target.path_m[other]) < 2 * of_.target_m;
            });
   };
-  const ScanContext& described = source.index->context(j);
-  for (std::size_t n = 0; n < kElsewhere; ++n) {
-    const auto similar = target.index->nearest(described, 1, is_new);
-    if (similar.empty()) break;
-    const std::size_t k = similar.front().index;
-    searched.push_back(k);
-    const SE3 T_i_k = target.poses[i].inverse() * target.poses[k];
-    const double same_m = std::max(kSamePlace_m, 2 * odometry_sigma_m(target, i, k));
-    for (Fit& fit : fits_around(target, k, scan,
-                                described_pose(target.keyframes, similar.front(), described.sectors()))) {
-      fit.T_i_j = T_i_k * fit.T_i_j;
-      fit.elsewhere = true;
-      const auto is_same = [&](const Fit& other) {
-        return (other.T_i_j.translation() - fit.T_i_j.translation()).norm() < same_m;
-      };
-      if (std::none_of(fits.begin(), fits.end(), is_same)) fits.push_back(fit);
-    }
+  std::vector<Neighbour> places;
+  while (places.size() < kElsewhere) {
+    const auto found = target.index->nearest(source.index->context(j), 1, is_new);
+    if (found.empty()) break;
+    known.push_back(found.front().index);
+    places.push_back(found.front());
+  }
+  return places;
+}
+
+void LoopVerification::add_fits_at(const Neighbour& place, const PlacedKeyframes& target, std::size_t i,
+                                   const PlacedKeyframes& source, std::size_t j, const ScanPyramid& scan,
+                                   std::vector<Fit>& fits) const {
+  const SE3 T_i_place = target.poses[i].inverse() * target.poses[place.index];
+  const double same_m = std::max(kSamePlace_m, 2 * odometry_sigma_m(target, i, place.index));
+  const int sectors = source.index->context(j).sectors();
+  for (Fit& fit : fits_around(target, place.index, scan, described_pose(target.keyframes, place, sectors))) {
+    fit.T_i_j = T_i_place * fit.T_i_j;
+    fit.elsewhere = true;
+    const auto is_same = [&](const Fit& other) {
+      return (other.T_i_j.translation() - fit.T_i_j.translation()).norm() < same_m;
+    };
+    if (std::none_of(fits.begin(), fits.end(), is_same)) fits.push_back(fit);
   }
 }
 
-void LoopVerification::weigh(const ExpectedPlace& expected, std::vector<Fit>& fits) const {
+LoopVerification::Rivals LoopVerification::weigh(const ExpectedPlace& expected, const ScanPyramid& scan,
+                                                 double map_area_m2, std::vector<Fit>& fits) const {
   double best = 0;
   for (const Fit& fit : fits) best = std::max(best, fit.structure);
   for (Fit& fit : fits) {
-    const double worse = best > 0 ? 1 - fit.structure / best : 0;
-    fit.likelihood = std::exp(-kRivalLog * worse / (1 - params_.rival_ratio));
+    const double worse = best > 0 ? (1 - fit.structure / best) / (1 - params_.rival_ratio) : 0;
+    fit.likelihood = std::exp(-kRivalLog * worse * worse);
     const SE3::Tangent off = (expected.T_i_j.pose.inverse() * fit.T_i_j).log();
     const SE3::Jacobian covariance = expected.T_i_j.covariance + covariance_of_fit(fit.registration);
     fit.weight =
         fit.likelihood * (expected.anywhere ? 1 : prior_density(off.dot(ldlt_solve(covariance, off))));
   }
   std::stable_sort(fits.begin(), fits.end(), [](const Fit& a, const Fit& b) { return a.weight > b.weight; });
+  return rivals_of(fits, expected, scan, map_area_m2);
 }
 
 LoopVerification::Rivals LoopVerification::rivals_of(const std::vector<Fit>& weighed,
@@ -210,7 +221,7 @@ LoopVerification::Rivals LoopVerification::rivals_of(const std::vector<Fit>& wei
   double fitting = kUnseenFits;
   for (std::size_t k = 1; k < weighed.size(); ++k) {
     rivals.fits += weighed[k].weight / weight;
-    if (weighed[k].likelihood > kFits) ++fitting;
+    if (weighed[k].likelihood > kFits) fitting += weighed[k].likelihood;
   }
   if (expected.anywhere) {
     rivals.unmapped = kUnseenShare * fitting;

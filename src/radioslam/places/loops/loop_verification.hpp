@@ -3,7 +3,8 @@
 // The scan of one is searched on a submap around the other, all over the uncertainty of their predicted
 // relative pose and a little beyond. Where bays, storeys or streets are alike, a scan fits a wrong place as
 // well as its own: what tells them apart is the prediction. So a fit is weighed against its rivals,
-//   w = m(d) exp(-3 (1 - s / s_best) / (1 - rival_ratio)),   m(d) = mean over a of exp(-d^2 / (2 a^2)) / a,
+//   w = m(d) exp(-3 ((1 - s / s_best) / (1 - rival_ratio))^2),   m(d) = mean over a of exp(-d^2 / (2 a^2)) /
+//   a,
 // s: the structure that the pose explains (structure_fit.hpp); d: its Mahalanobis distance from the
 // prediction, whose stated covariance may be wrong by factors a^2, a = 1/4, 1/2, 1, 2. Rivals are
 //   other poses on the submap
@@ -70,17 +71,26 @@ class LoopVerification {
   /// What makes a scan doubtful, as weights relative to the best fit's.
   struct Rivals {
     double fits = 0, unmapped = 0, storeys = 0;
-    double all() const { return fits + unmapped + storeys; }
+    double doubt() const {
+      const double all = fits + unmapped + storeys;
+      return all / (1 + all);
+    }
   };
 
   /// Best first.
   std::vector<Fit> fits_around(const PlacedKeyframes& target, std::size_t i, const ScanPyramid& scan,
                                const UncertainPose<SE3>& where) const;
-  /// Adds those at the places that look most like keyframe j, as poses from keyframe i.
-  void add_fits_elsewhere(const PlacedKeyframes& target, std::size_t i, const PlacedKeyframes& source,
-                          std::size_t j, const ScanPyramid& scan, std::vector<Fit>& fits) const;
-  /// Sorts them by weight.
-  void weigh(const ExpectedPlace& expected, std::vector<Fit>& fits) const;
+  /// The keyframes of the target that look most like keyframe j, away from i and j.
+  std::vector<Neighbour> places_alike(const PlacedKeyframes& target, std::size_t i,
+                                      const PlacedKeyframes& source, std::size_t j) const;
+  /// Adds those around such a keyframe, as poses from keyframe i.
+  void add_fits_at(const Neighbour& place, const PlacedKeyframes& target, std::size_t i,
+                   const PlacedKeyframes& source, std::size_t j, const ScanPyramid& scan,
+                   std::vector<Fit>& fits) const;
+  /// Sorts the fits by weight.
+  Rivals weigh(const ExpectedPlace& expected, const ScanPyramid& scan, double map_area_m2,
+               std::vector<Fit>& fits) const;
+  LoopStatus status_of(const Fit& best, const Rivals& rivals) const;
   Rivals rivals_of(const std::vector<Fit>& weighed, const ExpectedPlace& expected, const ScanPyramid& scan,
                    double map_area_m2) const;
   LocalMap submap_around(const PlacedKeyframes& robot, std::size_t i, double extent_m) const;

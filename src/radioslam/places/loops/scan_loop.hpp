@@ -21,7 +21,7 @@ struct ScanLoopParams {
   double sigmas = 3;
   double known_sigma_m = 0.1;
   double min_fit_ratio = 0.85;
-  double rival_ratio = 0.95;
+  double rival_ratio = 0.75;
   double max_doubt = 0.05;
   double min_structure = 25;
   double min_sigma_m = 0.02;
