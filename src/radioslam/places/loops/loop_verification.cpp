@@ -15,7 +15,7 @@
 namespace radioslam {
 namespace {
 
-constexpr double kBeyond = 2;          // how far rivals are searched, in the width of a search for the place
+constexpr double kBeyond = 4.0 / 3;    // how far rivals are searched, in the width of a search for the place
 constexpr double kPossible = 4;        // standard deviations within which a place is possible
 constexpr std::size_t kElsewhere = 6;  // places that look alike and are searched
 constexpr double kSigmaPlace = 1.0 / 3;  // of a scan from the place that looks alike, in its median range
