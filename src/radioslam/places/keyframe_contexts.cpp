@@ -12,7 +12,6 @@ namespace {
 
 constexpr double kRangeQuantile = 0.9;  // of the points' ranges: that of the descriptors
 constexpr double kMinRange_m = 3, kMaxRange_m = 80;
-constexpr double kUnknownHeading_rad = 1;  // standard deviation
 
 std::vector<Eigen::Vector3f> points_around(const ScanKeyframes& keyframes, const std::vector<double>& path_m,
                                            std::size_t k, double submap_m) {
@@ -35,8 +34,7 @@ std::vector<double> path_lengths(const ScanKeyframes& keyframes) {
     double step_m = (poses[k - 1].inverse() * poses[k]).translation().norm();
     if (k <= keyframes.step_covariances.size()) {
       const SE3::Jacobian& covariance = keyframes.step_covariances[k - 1];
-      if (covariance(5, 5) > kUnknownHeading_rad * kUnknownHeading_rad)
-        step_m += 3 * std::sqrt(covariance.topLeftCorner<3, 3>().trace());
+      if (is_unknown_motion(covariance)) step_m += 3 * std::sqrt(covariance.topLeftCorner<3, 3>().trace());
     }
     length_m[k] = length_m[k - 1] + step_m;
   }

@@ -2,6 +2,9 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <numbers>
+
+#include "radioslam/graph/gauge.hpp"
 
 namespace radioslam {
 namespace {
@@ -23,6 +26,7 @@ std::vector<LoopCandidate> LoopCandidates::find(const PoseGraph<SE3>& graph) {
   const auto marginals = Marginals<SE3>::compute(graph);
   std::vector<LoopCandidate> candidates;
   if (!marginals) return candidates;
+  part_of_ = connected_components(graph).of_pose;
   double next_m = 0;
   for (std::size_t j = 0; j < graph.poses.size(); ++j) {
     if (path_m_[j] < next_m || keyframes_.clouds[j].source.surfels.empty()) continue;
@@ -31,7 +35,7 @@ std::vector<LoopCandidate> LoopCandidates::find(const PoseGraph<SE3>& graph) {
       const auto tried = tried_.find({i, j});
       if (tried != tried_.end() && tried->second == 0) continue;
       const auto T_i_j = graph.poses[i].inverse() * graph.poses[j];
-      const SE3::Jacobian covariance = marginals->relative_pose(PoseId(i), PoseId(j));
+      const SE3::Jacobian covariance = relative_covariance(i, j, *marginals);
       if (!is_candidate({T_i_j, covariance}, radius_of(j))) continue;
       const double sigma_m = std::sqrt(covariance.topLeftCorner<3, 3>().trace());
       if (tried != tried_.end() && kMuchWorse * sigma_m > tried->second) continue;
@@ -45,12 +49,13 @@ std::vector<LoopCandidate> LoopCandidates::find(const PoseGraph<SE3>& graph) {
 std::vector<std::size_t> LoopCandidates::revisits(std::size_t j, const std::vector<SE3>& poses,
                                                   const Marginals<SE3>& marginals) const {
   const double sigma_j = std::sqrt(marginals.pose(PoseId(j)).topLeftCorner<3, 3>().trace());
-  const double limit = radius_of(j) + params_.sigmas * sigma_j;
   std::vector<std::size_t> visits;
   double nearest = 0;
   bool inside = false;
   for (std::size_t i = 0; i < j && path_m_[j] - path_m_[i] >= params_.min_path_m; ++i) {
     const double distance = (poses[i].translation() - poses[j].translation()).norm();
+    const double sigma = part_of_[i] == part_of_[j] ? sigma_j : unknown_motion_m(i, j);
+    const double limit = radius_of(j) + params_.sigmas * sigma;
     if (keyframes_.clouds[i].source.surfels.empty() || distance > limit) {
       inside = false;
       continue;
@@ -65,6 +70,21 @@ std::vector<std::size_t> LoopCandidates::revisits(std::size_t j, const std::vect
     inside = true;
   }
   return visits;
+}
+
+double LoopCandidates::unknown_motion_m(std::size_t i, std::size_t j) const {
+  double variance = 0;
+  for (std::size_t k = i; k < j; ++k)
+    if (is_unknown_motion(keyframes_.step_covariances[k]))
+      variance += keyframes_.step_covariances[k].topLeftCorner<3, 3>().trace();
+  return std::sqrt(variance);
+}
+
+SE3::Jacobian LoopCandidates::relative_covariance(std::size_t i, std::size_t j,
+                                                  const Marginals<SE3>& marginals) const {
+  if (part_of_[i] == part_of_[j]) return marginals.relative_pose(PoseId(i), PoseId(j));
+  const double sigma_m = unknown_motion_m(i, j);
+  return isotropic(sigma_m * sigma_m / 3, std::numbers::pi * std::numbers::pi);
 }
 
 bool LoopCandidates::is_candidate(const UncertainPose<SE3>& T_i_j, double radius_m) const {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <utility>
 #include <vector>
@@ -42,11 +43,17 @@ class LoopCandidates {
   /// The nearest keyframe of every earlier segment of the trajectory that may pass keyframe j.
   std::vector<std::size_t> revisits(std::size_t j, const std::vector<SE3>& poses,
                                     const Marginals<SE3>& marginals) const;
+  /// Of their relative pose; of keyframes in parts of the trajectory that nothing joins, by what they may
+  /// have moved in between, with any orientation.
+  SE3::Jacobian relative_covariance(std::size_t i, std::size_t j, const Marginals<SE3>& marginals) const;
+  /// Standard deviation of the motions between two keyframes that nothing measured.
+  double unknown_motion_m(std::size_t i, std::size_t j) const;
   bool is_candidate(const UncertainPose<SE3>& T_i_j, double radius_m) const;
 
   const ScanKeyframes& keyframes_;
   ScanLoopParams params_;
   std::vector<double> path_m_;
+  std::vector<std::int32_t> part_of_;  ///< per keyframe, the part of the trajectory that holds together
   /// Standard deviation of the relative position when they were tried; 0: never again.
   std::map<std::pair<std::size_t, std::size_t>, double> tried_;
 };

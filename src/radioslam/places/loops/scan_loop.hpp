@@ -87,6 +87,12 @@ struct ScanLoop {
   LoopStatus status = LoopStatus::kAccepted;
 };
 
+/// Whether a step of this covariance is a motion that nothing measured: its heading is unknown.
+inline bool is_unknown_motion(const SE3::Jacobian& covariance) {
+  constexpr double kUnknownHeading_rad = 1;
+  return covariance(5, 5) > kUnknownHeading_rad * kUnknownHeading_rad;
+}
+
 /// One robot's keyframes with their scans.
 struct ScanKeyframes {
   std::vector<SE3> poses;                       ///< T_start_keyframe, by odometry

@@ -17,10 +17,12 @@ namespace {
 
 constexpr double kLossScale = 4.1;  // root of chi-squared of 6 at 99 %
 
+/// Without motions that nothing measured, over which only closures join the parts of a trajectory.
 PoseGraph<SE3> odometry_graph(const ScanKeyframes& keyframes) {
   PoseGraph<SE3> graph;
   graph.poses = keyframes.poses;
   for (std::size_t k = 0; k + 1 < keyframes.poses.size(); ++k) {
+    if (is_unknown_motion(keyframes.step_covariances[k])) continue;
     RelativePoseFactor<SE3> factor;
     factor.i = PoseId(k);
     factor.j = PoseId(k + 1);
@@ -60,8 +62,9 @@ void take_over(std::vector<ScanLoop> tried, std::vector<ScanLoop>& loops) {
 }
 
 /// Optimizes with all accepted closures and rejects those that contradict the others.
-void optimize_and_prune(PoseGraph<SE3>& graph, std::vector<ScanLoop>& loops, const Progress& progress) {
-  graph.relative_poses.resize(graph.poses.size() - 1);
+void optimize_and_prune(PoseGraph<SE3>& graph, std::size_t steps, std::vector<ScanLoop>& loops,
+                        const Progress& progress) {
+  graph.relative_poses.resize(steps);
   std::vector<std::size_t> loop_of_factor;
   for (std::size_t k = 0; k < loops.size(); ++k) {
     if (loops[k].status != LoopStatus::kAccepted) continue;
@@ -78,9 +81,9 @@ void optimize_and_prune(PoseGraph<SE3>& graph, std::vector<ScanLoop>& loops, con
   const auto summary =
       optimize_graduated(graph, mask, GraduatedLoss::kTruncatedLeastSquares, {}, {}, progress);
   apply_weights(summary.weights, mask, graph);
-  for (std::size_t f = graph.poses.size() - 1; f < graph.relative_poses.size(); ++f)
+  for (std::size_t f = steps; f < graph.relative_poses.size(); ++f)
     if (graph.relative_poses[f].weight < 0.5)
-      loops[loop_of_factor[f - (graph.poses.size() - 1)]].status = LoopStatus::kRejectedByGraph;
+      loops[loop_of_factor[f - steps]].status = LoopStatus::kRejectedByGraph;
 }
 
 }  // namespace
@@ -90,6 +93,7 @@ ScanLoops close_scan_loops(const ScanKeyframes& keyframes, const ScanLoopParams&
                            const RegistrationParams& registration, bool storeys, const Progress& progress) {
   if (!params.enabled || keyframes.poses.size() < 2) return {{}, keyframes.poses};
   PoseGraph<SE3> graph = odometry_graph(keyframes);
+  const std::size_t steps = graph.relative_poses.size();
   LoopCandidates candidates(keyframes, params);
   const LoopVerification verification(params, {.target_m = params.submap_m, .storeys = storeys}, map, search,
                                       registration);
@@ -109,7 +113,7 @@ ScanLoops close_scan_loops(const ScanKeyframes& keyframes, const ScanLoopParams&
     if (std::none_of(tried.begin(), tried.end(),
                      [](const ScanLoop& loop) { return loop.status == LoopStatus::kAccepted; }))
       break;
-    optimize_and_prune(graph, result.loops, progress);
+    optimize_and_prune(graph, steps, result.loops, progress);
   }
   result.poses = std::move(graph.poses);
   return result;
