@@ -1,6 +1,7 @@
 #include "radioslam/lidar/lidar_odometry.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <utility>
 
@@ -73,14 +74,12 @@ ScanPose LidarOdometry::register_scan(Stamp stamp, const LidarScan& scan,
   Registration fit = register_at_prediction(result.cloud, prior);
   const bool fits = fit.inlier_ratio >= error_.relocalise_below_ratio();
   const bool is_lost = !fits && structure_.admits(result.cloud.all);
-  if (is_after_gap) {
-    const double moved_m = T_previous_body ? T_previous_body->translation().norm() : motion_in_gap_m(stamp);
-    if (moved_m > map_.coarse().max_distance_m() || (is_lost && !T_previous_body)) {
-      std::optional<UncertainPose<SE3>> motion;
-      if (T_previous_body) motion = UncertainPose<SE3>{*T_previous_body, motion_covariance};
-      start_map_after_gap(deskewed, motion, result);
-      return result;
-    }
+  std::optional<UncertainPose<SE3>> motion;
+  if (T_previous_body && !motion_covariance.isZero()) motion = {*T_previous_body, motion_covariance};
+  if (is_after_gap &&
+      (motion_in_gap_m(stamp, motion) > map_.coarse().max_distance_m() || (is_lost && !motion))) {
+    start_map_after_gap(deskewed, motion, result);
+    return result;
   }
   if (is_lost) fit = relocalised(result.cloud, prior, fit);
   describe(fit, result);
@@ -130,12 +129,10 @@ void LidarOdometry::start_map(const DeskewedScan& scan, ScanPose& result) {
 
 void LidarOdometry::start_map_after_gap(const DeskewedScan& scan,
                                         const std::optional<UncertainPose<SE3>>& motion, ScanPose& result) {
-  const LidarOdometryParams& params = matcher_.params().odometry;
   if (motion) {
-    result.covariance = motion->covariance + isotropic(params.first_sigma_m * params.first_sigma_m,
-                                                       params.first_sigma_rad * params.first_sigma_rad);
+    result.covariance = motion->covariance;
   } else {
-    const double wide_m = params.first_sigma_m + motion_in_gap_m(scan.stamp);
+    const double wide_m = matcher_.params().odometry.first_sigma_m + motion_in_gap_m(scan.stamp, motion);
     result.covariance = isotropic(wide_m * wide_m, std::numbers::pi * std::numbers::pi);
   }
   result.status = ScanStatus::kNewMap;
@@ -149,10 +146,13 @@ void LidarOdometry::start_map_after_gap(const DeskewedScan& scan,
   first_ = scan;
 }
 
-double LidarOdometry::motion_in_gap_m(Stamp stamp) const {
+double LidarOdometry::motion_in_gap_m(Stamp stamp, const std::optional<UncertainPose<SE3>>& measured) const {
+  constexpr double kSigmas = 3, kLeastSpeed = 0.1;
+  if (measured) return kSigmas * std::sqrt(measured->covariance.diagonal().head<3>().maxCoeff());
   const double tracked_s = seconds_between(*start_, last_->stamp);
   const double mean_speed = tracked_s > 0 ? travelled_m_ / tracked_s : 0;
-  return seconds_between(last_->stamp, stamp) * std::max(mean_speed, twist_per_s_.head<3>().norm());
+  return seconds_between(last_->stamp, stamp) *
+         std::max({kLeastSpeed, mean_speed, twist_per_s_.head<3>().norm()});
 }
 
 void LidarOdometry::add_to_map(MatchedScan matched, const PosePrior& prior, ScanPose& result) {

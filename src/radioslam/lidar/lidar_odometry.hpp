@@ -80,7 +80,8 @@ class LidarOdometry {
   LidarOdometry(const ScannerTraits& traits, const LidarParams& params);
 
   /// `T_previous_body`: motion since the last registered scan, if measured otherwise, by `given_by`; without
-  /// it a constant velocity is assumed. Its covariance counts after gaps only. Stamps must increase.
+  /// it a constant velocity is assumed. Its covariance counts after gaps only; zero: not known. Stamps must
+  /// increase.
   ScanPose register_scan(Stamp stamp, const LidarScan& scan, const std::optional<SE3>& T_previous_body = {},
                          MotionSource given_by = MotionSource::kOdometry,
                          const SE3::Jacobian& motion_covariance = SE3::Jacobian::Zero());
@@ -101,8 +102,9 @@ class LidarOdometry {
   /// travel during the gap and any heading.
   void start_map_after_gap(const DeskewedScan& scan, const std::optional<UncertainPose<SE3>>& motion,
                            ScanPose& result);
-  /// How far the robot may have come since its last scan: at its mean speed, or its last if that is higher.
-  double motion_in_gap_m(Stamp stamp) const;
+  /// How far the robot may be from where it is expected after a gap: by the covariance of its motion or, if
+  /// nothing measured it, at its mean speed or its last if that is higher.
+  double motion_in_gap_m(Stamp stamp, const std::optional<UncertainPose<SE3>>& measured) const;
   /// Accepts a registered scan; deskews and inserts it.
   void add_to_map(MatchedScan matched, const PosePrior& prior, ScanPose& result);
   /// Adds a lost scan to the candidate map, which replaces the map once it holds enough scans.

@@ -98,18 +98,18 @@ Window window_of(const LocalMap& map, const ScanPyramid& scan, const UncertainPo
   return window;
 }
 
-/// The first `count` that are no neighbours in the grid, on which one is enough for all.
-std::vector<SE3> not_next_to_each_other(const std::vector<SE3>& starts, const Window& window,
-                                        std::size_t count) {
+/// The first `count` of which none is near another in the grid, so that one is enough for both.
+std::vector<SE3> apart_from_each_other(const std::vector<SE3>& starts, const Window& window, double basin_m,
+                                       std::size_t count) {
+  const double near_m = std::min(1.5 * window.step_m, basin_m);
   std::vector<SE3> kept;
   for (const SE3& start : starts) {
     if (kept.size() == count) break;
-    const auto is_next = [&](const SE3& other) {
-      const SE3 between = other.inverse() * start;
-      return between.translation().cwiseAbs().maxCoeff() < 1.5 * window.step_m &&
-             between.log().tail<3>().norm() < 1.5 * window.step_rad;
+    const auto is_near = [&](const SE3& other) {
+      return (other.translation() - start.translation()).cwiseAbs().maxCoeff() < near_m &&
+             (other.inverse() * start).log().tail<3>().norm() < 1.5 * window.step_rad;
     };
-    if (std::none_of(kept.begin(), kept.end(), is_next)) kept.push_back(start);
+    if (std::none_of(kept.begin(), kept.end(), is_near)) kept.push_back(start);
   }
   return kept;
 }
@@ -198,8 +198,9 @@ PoseSearch search_pose(const LocalMap& map, const ScanPyramid& scan, const Uncer
                        ScannerKind kind, const PoseSearchParams& search, const RegistrationParams& params) {
   const Window window = window_of(map, scan, guess, search);
   const std::vector<SE3> grid = starts_in(window, guess.pose);
-  const auto starts = not_next_to_each_other(best_overlapping(map, scan, grid, grid.size()), window,
-                                             static_cast<std::size_t>(search.max_aligned));
+  const auto starts = apart_from_each_other(best_overlapping(map, scan, grid, grid.size()), window,
+                                            0.75 * map.coarse().max_distance_m(),
+                                            static_cast<std::size_t>(search.max_aligned));
   std::vector<Registration> fits(starts.size());
   parallel_for(starts.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) fits[k] = register_far(map, scan, starts[k], kind, params);

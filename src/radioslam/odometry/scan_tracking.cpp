@@ -88,10 +88,11 @@ class ScanTracker {
     return a->inverse() * *b;
   }
 
-  /// Of the recorded motion since the previous scan; zero if it is not recorded.
+  /// Of the recorded motion since the previous scan, if that was some time ago; zero if it is not recorded.
   SE3::Jacobian recorded_covariance(Stamp stamp) const {
     if (track_.poses.empty()) return SE3::Jacobian::Zero();
     const Stamp previous = track_.poses.back().stamp;
+    if (seconds_between(previous, stamp) < 2 * scan_interval_s_) return SE3::Jacobian::Zero();  // no gap
     if (!robot_.odometry.covers(previous) || !robot_.odometry.covers(stamp)) return SE3::Jacobian::Zero();
     return odometry_between<SE3>(robot_, previous, stamp).covariance;
   }

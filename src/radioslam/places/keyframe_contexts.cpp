@@ -6,11 +6,13 @@
 #include <utility>
 
 #include "radioslam/base/parallel.hpp"
+#include "radioslam/geometry/uncertain_pose.hpp"
 
 namespace radioslam {
 namespace {
 
 constexpr double kRangeQuantile = 0.9;  // of the points' ranges: that of the descriptors
+constexpr double kDriftRatio = 0.02;
 constexpr double kMinRange_m = 3, kMaxRange_m = 80;
 
 std::vector<Eigen::Vector3f> points_around(const ScanKeyframes& keyframes, const std::vector<double>& path_m,
@@ -39,6 +41,17 @@ std::vector<double> path_lengths(const ScanKeyframes& keyframes) {
     length_m[k] = length_m[k - 1] + step_m;
   }
   return length_m;
+}
+
+double odometry_sigma_m(const ScanKeyframes& keyframes, const std::vector<double>& path_m, std::size_t a,
+                        std::size_t b) {
+  if (keyframes.step_covariances.size() + 1 < keyframes.poses.size())
+    return kDriftRatio * std::abs(path_m[a] - path_m[b]);
+  UncertainPose<SE3> motion;
+  for (std::size_t k = std::min(a, b); k < std::max(a, b); ++k)
+    motion = motion * UncertainPose<SE3>{keyframes.poses[k].inverse() * keyframes.poses[k + 1],
+                                         keyframes.step_covariances[k]};
+  return std::sqrt(motion.covariance.topLeftCorner<3, 3>().trace() / 3);
 }
 
 double context_range(const ScanKeyframes& keyframes) {

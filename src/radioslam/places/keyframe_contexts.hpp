@@ -1,6 +1,7 @@
 // Scan Contexts of a robot's keyframes.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "radioslam/places/loops/scan_loop.hpp"
@@ -11,6 +12,11 @@ namespace radioslam {
 /// Path length from the first keyframe to each; three standard deviations for a step whose heading is
 /// unknown.
 std::vector<double> path_lengths(const ScanKeyframes& keyframes);
+
+/// Standard deviation per axis of the motion between two keyframes by the robot's odometry, metres; 2 % of
+/// the way where its covariance is not known. Linear in the keyframes between them.
+double odometry_sigma_m(const ScanKeyframes& keyframes, const std::vector<double>& path_m, std::size_t a,
+                        std::size_t b);
 
 /// Horizontal range within which most points of the keyframes lie, between 3 and 80 m; 0 without points.
 double context_range(const ScanKeyframes& keyframes);

@@ -103,7 +103,8 @@ TEST(LoopVerification, SearchesThePlacesThatLookAlike) {
   const auto status = [&](double sigma_m, bool anywhere) {
     const SE3 T_i_j = seen.poses[1].inverse() * other.poses[0];
     return verification
-        .verify({seen, seen.poses, path_m, &index}, 1, {other, other.poses, other_path_m, &other_index}, 0,
+        .verify({seen, seen.poses, path_m, &index, [](std::size_t, std::size_t) { return 0.1; }}, 1,
+                {other, other.poses, other_path_m, &other_index}, 0,
                 {expected_at(T_i_j, sigma_m, 0.1), anywhere})
         .status;
   };

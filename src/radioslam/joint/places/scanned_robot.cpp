@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "radioslam/places/keyframe_contexts.hpp"
-
 namespace radioslam {
 
 ScannedRobot scanned_robot(const ScanOdometry& scans, const RobotVariables& variables,

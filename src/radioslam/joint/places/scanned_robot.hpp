@@ -7,6 +7,7 @@
 
 #include "radioslam/joint/joint_graph.hpp"
 #include "radioslam/odometry/scan_stage.hpp"
+#include "radioslam/places/keyframe_contexts.hpp"
 #include "radioslam/places/loops/loop_verification.hpp"
 #include "radioslam/places/scan_context_index.hpp"
 
@@ -32,7 +33,10 @@ struct ScannedRobot {
     return false;
   }
   PlacedKeyframes placed() const {
-    return {scans->keyframes, scans->keyframes.poses, path_m, contexts ? &*contexts : nullptr};
+    const ScanKeyframes& of = scans->keyframes;
+    return {
+        of, scans->corrected.empty() ? of.poses : scans->corrected, path_m, contexts ? &*contexts : nullptr,
+        [this](std::size_t a, std::size_t b) { return odometry_sigma_m(scans->keyframes, path_m, a, b); }};
   }
 
   /// Keyframes with a scan, at least `stride_m` apart.

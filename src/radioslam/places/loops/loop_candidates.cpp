@@ -1,6 +1,7 @@
 #include "radioslam/places/loops/loop_candidates.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -23,19 +24,19 @@ void LoopCandidates::note(const ScanLoop& tried) {
 }
 
 std::vector<LoopCandidate> LoopCandidates::find(const PoseGraph<SE3>& graph) {
-  const auto marginals = Marginals<SE3>::compute(graph);
+  marginals_ = Marginals<SE3>::compute(graph);
   std::vector<LoopCandidate> candidates;
-  if (!marginals) return candidates;
+  if (!marginals_) return candidates;
   part_of_ = connected_components(graph).of_pose;
   double next_m = 0;
   for (std::size_t j = 0; j < graph.poses.size(); ++j) {
     if (path_m_[j] < next_m || keyframes_.clouds[j].source.surfels.empty()) continue;
     next_m = path_m_[j] + params_.stride_m;
-    for (const std::size_t i : revisits(j, graph.poses, *marginals)) {
+    for (const std::size_t i : revisits(j, graph.poses)) {
       const auto tried = tried_.find({i, j});
       if (tried != tried_.end() && tried->second == 0) continue;
       const auto T_i_j = graph.poses[i].inverse() * graph.poses[j];
-      const SE3::Jacobian covariance = relative_covariance(i, j, *marginals);
+      const SE3::Jacobian covariance = relative_covariance(i, j);
       if (!is_candidate({T_i_j, covariance}, radius_of(j))) continue;
       const double sigma_m = std::sqrt(covariance.topLeftCorner<3, 3>().trace());
       if (tried != tried_.end() && kMuchWorse * sigma_m > tried->second) continue;
@@ -46,9 +47,8 @@ std::vector<LoopCandidate> LoopCandidates::find(const PoseGraph<SE3>& graph) {
   return candidates;
 }
 
-std::vector<std::size_t> LoopCandidates::revisits(std::size_t j, const std::vector<SE3>& poses,
-                                                  const Marginals<SE3>& marginals) const {
-  const double sigma_j = std::sqrt(marginals.pose(PoseId(j)).topLeftCorner<3, 3>().trace());
+std::vector<std::size_t> LoopCandidates::revisits(std::size_t j, const std::vector<SE3>& poses) const {
+  const double sigma_j = std::sqrt(marginals_->pose(PoseId(j)).topLeftCorner<3, 3>().trace());
   std::vector<std::size_t> visits;
   double nearest = 0;
   bool inside = false;
@@ -80,9 +80,12 @@ double LoopCandidates::unknown_motion_m(std::size_t i, std::size_t j) const {
   return std::sqrt(variance);
 }
 
-SE3::Jacobian LoopCandidates::relative_covariance(std::size_t i, std::size_t j,
-                                                  const Marginals<SE3>& marginals) const {
-  if (part_of_[i] == part_of_[j]) return marginals.relative_pose(PoseId(i), PoseId(j));
+double LoopCandidates::sigma_m(std::size_t i, std::size_t j) const {
+  return std::sqrt(relative_covariance(std::min(i, j), std::max(i, j)).topLeftCorner<3, 3>().trace() / 3);
+}
+
+SE3::Jacobian LoopCandidates::relative_covariance(std::size_t i, std::size_t j) const {
+  if (part_of_[i] == part_of_[j]) return marginals_->relative_pose(PoseId(i), PoseId(j));
   const double sigma_m = unknown_motion_m(i, j);
   return isotropic(sigma_m * sigma_m / 3, std::numbers::pi * std::numbers::pi);
 }

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -34,6 +35,8 @@ class LoopCandidates {
   /// By this estimate of the keyframes' poses. Pairs that were candidates before are left out unless they
   /// were doubtful and are predicted much better now.
   std::vector<LoopCandidate> find(const PoseGraph<SE3>& graph);
+  /// Standard deviation of the relative position of two keyframes, by the estimate of the last search.
+  double sigma_m(std::size_t i, std::size_t j) const;
   /// What came of a candidate.
   void note(const ScanLoop& tried);
   const std::vector<double>& path_m() const { return path_m_; }
@@ -41,11 +44,10 @@ class LoopCandidates {
  private:
   double radius_of(std::size_t k) const { return params_.radius_ratio * keyframes_.clouds[k].median_range_m; }
   /// The nearest keyframe of every earlier segment of the trajectory that may pass keyframe j.
-  std::vector<std::size_t> revisits(std::size_t j, const std::vector<SE3>& poses,
-                                    const Marginals<SE3>& marginals) const;
+  std::vector<std::size_t> revisits(std::size_t j, const std::vector<SE3>& poses) const;
   /// Of their relative pose; of keyframes in parts of the trajectory that nothing joins, by what they may
   /// have moved in between, with any orientation.
-  SE3::Jacobian relative_covariance(std::size_t i, std::size_t j, const Marginals<SE3>& marginals) const;
+  SE3::Jacobian relative_covariance(std::size_t i, std::size_t j) const;
   /// Standard deviation of the motions between two keyframes that nothing measured.
   double unknown_motion_m(std::size_t i, std::size_t j) const;
   bool is_candidate(const UncertainPose<SE3>& T_i_j, double radius_m) const;
@@ -53,6 +55,7 @@ class LoopCandidates {
   const ScanKeyframes& keyframes_;
   ScanLoopParams params_;
   std::vector<double> path_m_;
+  std::optional<Marginals<SE3>> marginals_;
   std::vector<std::int32_t> part_of_;  ///< per keyframe, the part of the trajectory that holds together
   /// Standard deviation of the relative position when they were tried; 0: never again.
   std::map<std::pair<std::size_t, std::size_t>, double> tried_;

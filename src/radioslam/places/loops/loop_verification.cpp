@@ -20,7 +20,6 @@ constexpr double kPossible = 4;        // standard deviations within which a pla
 constexpr std::size_t kElsewhere = 6;  // places that look alike and are searched
 constexpr double kSigmaPlace = 1.0 / 3;  // of a scan from the place that looks alike, in its median range
 constexpr double kSamePlace_m = 1;
-constexpr double kDriftRatio = 0.02;  // of odometry, where its covariance is not known
 constexpr double kRivalLog = 3;       // e^-3: twenty times less likely
 constexpr double kFits = 0.3;         // likelihood from which a pose counts as one that fits
 constexpr double kUnseenFits = 0.02;  // before any was found
@@ -70,7 +69,8 @@ std::optional<double> storey_height_m(const ScanPyramid& scan) {
 
 /// Density of the most likely storeys above and below a fit, over that of the fit's own.
 double other_storeys(double storey_m, double off_m, double sigma_m) {
-  const auto density = [&](double z_m) { return prior_density(z_m * z_m / (sigma_m * sigma_m)); };
+  constexpr double kLeast = 1e-12;
+  const auto density = [&](double z_m) { return kLeast + prior_density(z_m * z_m / (sigma_m * sigma_m)); };
   double sum = 0;
   for (const double side : {-1.0, 1.0}) {
     const double towards_m = std::clamp(-side * off_m, storey_m, 2 * storey_m);
@@ -79,15 +79,12 @@ double other_storeys(double storey_m, double off_m, double sigma_m) {
   return sum / density(off_m);
 }
 
-/// Standard deviation per axis of the motion between two keyframes of a robot, by its odometry.
-double odometry_sigma_m(const PlacedKeyframes& robot, std::size_t a, std::size_t b) {
-  if (robot.keyframes.step_covariances.size() + 1 < robot.poses.size())
-    return kDriftRatio * std::abs(robot.path_m[a] - robot.path_m[b]);
-  UncertainPose<SE3> motion;
-  for (std::size_t k = std::min(a, b); k < std::max(a, b); ++k)
-    motion = motion * UncertainPose<SE3>{robot.poses[k].inverse() * robot.poses[k + 1],
-                                         robot.keyframes.step_covariances[k]};
-  return sigma_in_plane(motion);
+/// Area that a robot has seen on its way.
+double seen_area_m2(const PlacedKeyframes& robot, double range_m) {
+  double way_m = 0;
+  for (std::size_t k = 1; k < robot.poses.size(); ++k)
+    way_m += (robot.poses[k].translation() - robot.poses[k - 1].translation()).norm();
+  return 2 * range_m * (way_m + 2 * range_m);
 }
 
 }  // namespace
@@ -125,22 +122,26 @@ ScanLoop LoopVerification::verify(const PlacedKeyframes& target, std::size_t i, 
     return loop_of(fits.front(), LoopStatus::kLowOverlap);
   if (target.keyframes.kind == ScannerKind::kSpatial && structure_of(scan) < params_.min_structure)
     return loop_of(fits.front(), LoopStatus::kTooLittleStructure);
-  const double width_m = 2 * std::max(scan.median_range_m, kSamePlace_m);
-  const double map_area_m2 = width_m * (target.path_m.back() + width_m);
-  Rivals rivals = weigh(expected, scan, map_area_m2, fits);
-  if (target.index && reaches_elsewhere(expected, scan.median_range_m))
+  const Setting setting{expected, target.poses[i].rotation_matrix().transpose() * Eigen::Vector3d::UnitZ(),
+                        of_.storeys ? storey_height_m(scan) : std::nullopt,
+                        seen_area_m2(target, std::max(scan.median_range_m, kSamePlace_m))};
+  Rivals rivals = weigh(setting, fits);
+  if (target.index && source.index && reaches_elsewhere(expected, scan.median_range_m))
     for (const Neighbour& place : places_alike(target, i, source, j)) {
       if (rivals.doubt() > params_.max_doubt) break;
       add_fits_at(place, target, i, source, j, scan, fits);
-      rivals = weigh(expected, scan, map_area_m2, fits);
+      rivals = weigh(setting, fits);
     }
+  if (!fits.front().elsewhere &&
+      fits.front().registration.inlier_ratio < params_.min_fit_ratio * nominal_ratio)
+    return loop_of(fits.front(), LoopStatus::kLowOverlap);
   ScanLoop loop = loop_of(fits.front(), status_of(fits.front(), rivals));
   loop.doubt = rivals.doubt();
   return loop;
 }
 
 LoopStatus LoopVerification::status_of(const Fit& best, const Rivals& rivals) const {
-  if (best.elsewhere) return LoopStatus::kAmbiguous;
+  if (best.elsewhere || best.likelihood < kFits) return LoopStatus::kAmbiguous;
   if (rivals.doubt() <= params_.max_doubt) return LoopStatus::kAccepted;
   if (rivals.fits >= rivals.unmapped + rivals.storeys) return LoopStatus::kAmbiguous;
   return rivals.storeys > rivals.unmapped ? LoopStatus::kAnotherStorey : LoopStatus::kUnmapped;
@@ -161,13 +162,16 @@ std::vector<LoopVerification::Fit> LoopVerification::fits_around(const PlacedKey
 
 std::vector<Neighbour> LoopVerification::places_alike(const PlacedKeyframes& target, std::size_t i,
                                                       const PlacedKeyframes& source, std::size_t j) const {
+  const bool is_own = &target.keyframes == &source.keyframes;
+  const double reach_m = std::max(of_.target_m, source.keyframes.clouds[j].median_range_m / 2);
   std::vector<std::size_t> known{i};
-  if (&target.keyframes == &source.keyframes) known.push_back(j);
   const auto is_new = [&](std::size_t k) {
-    return !target.keyframes.clouds[k].source.surfels.empty() &&
-           std::none_of(known.begin(), known.end(), [&](std::size_t other) {
-             return std::abs(target.path_m[k] - target.path_m[other]) < 2 * of_.target_m;
-           });
+    if (target.keyframes.clouds[k].source.surfels.empty()) return false;
+    // What hangs on j itself shows the scan where it is, wherever that may be.
+    if (is_own && (k == j || kPossible * target.sigma_m(k, j) <= reach_m)) return false;
+    return std::none_of(known.begin(), known.end(), [&](std::size_t other) {
+      return std::abs(target.path_m[k] - target.path_m[other]) < 2 * of_.target_m;
+    });
   };
   std::vector<Neighbour> places;
   while (places.size() < kElsewhere) {
@@ -183,11 +187,13 @@ void LoopVerification::add_fits_at(const Neighbour& place, const PlacedKeyframes
                                    const PlacedKeyframes& source, std::size_t j, const ScanPyramid& scan,
                                    std::vector<Fit>& fits) const {
   const SE3 T_i_place = target.poses[i].inverse() * target.poses[place.index];
-  const double same_m = std::max(kSamePlace_m, 2 * odometry_sigma_m(target, i, place.index));
+  const double sigma_m = target.sigma_m(i, place.index);
+  const double same_m = std::clamp(2 * sigma_m, kSamePlace_m, of_.target_m);
   const int sectors = source.index->context(j).sectors();
   for (Fit& fit : fits_around(target, place.index, scan, described_pose(target.keyframes, place, sectors))) {
     fit.T_i_j = T_i_place * fit.T_i_j;
     fit.elsewhere = true;
+    fit.place_sigma_m = sigma_m;
     const auto is_same = [&](const Fit& other) {
       return (other.T_i_j.translation() - fit.T_i_j.translation()).norm() < same_m;
     };
@@ -195,26 +201,27 @@ void LoopVerification::add_fits_at(const Neighbour& place, const PlacedKeyframes
   }
 }
 
-LoopVerification::Rivals LoopVerification::weigh(const ExpectedPlace& expected, const ScanPyramid& scan,
-                                                 double map_area_m2, std::vector<Fit>& fits) const {
+LoopVerification::Rivals LoopVerification::weigh(const Setting& setting, std::vector<Fit>& fits) const {
+  const ExpectedPlace& expected = setting.expected;
   double best = 0;
   for (const Fit& fit : fits) best = std::max(best, fit.structure);
   for (Fit& fit : fits) {
     const double worse = best > 0 ? (1 - fit.structure / best) / (1 - params_.rival_ratio) : 0;
     fit.likelihood = std::exp(-kRivalLog * worse * worse);
     const SE3::Tangent off = (expected.T_i_j.pose.inverse() * fit.T_i_j).log();
-    const SE3::Jacobian covariance = expected.T_i_j.covariance + covariance_of_fit(fit.registration);
-    fit.weight =
-        fit.likelihood * (expected.anywhere ? 1 : prior_density(off.dot(ldlt_solve(covariance, off))));
+    const SE3::Jacobian covariance = expected.T_i_j.covariance + covariance_of_fit(fit.registration) +
+                                     isotropic(fit.place_sigma_m * fit.place_sigma_m, 0);
+    const double squares = std::max(0.0, off.dot(ldlt_solve(covariance, off)));
+    fit.weight = fit.likelihood * (expected.anywhere ? 1 : prior_density(squares));
   }
   std::stable_sort(fits.begin(), fits.end(), [](const Fit& a, const Fit& b) { return a.weight > b.weight; });
-  return rivals_of(fits, expected, scan, map_area_m2);
+  return rivals_of(fits, setting);
 }
 
 LoopVerification::Rivals LoopVerification::rivals_of(const std::vector<Fit>& weighed,
-                                                     const ExpectedPlace& expected, const ScanPyramid& scan,
-                                                     double map_area_m2) const {
+                                                     const Setting& setting) const {
   constexpr double kLeastWeight = 1e-12;
+  const ExpectedPlace& expected = setting.expected;
   const Fit& best = weighed.front();
   const double weight = std::max(best.weight, kLeastWeight);
   Rivals rivals;
@@ -230,13 +237,13 @@ LoopVerification::Rivals LoopVerification::rivals_of(const std::vector<Fit>& wei
   const Eigen::Matrix3d covariance = expected.T_i_j.position_covariance();
   const double possible_m2 =
       2 * std::numbers::pi * std::sqrt(std::max(0.0, covariance.topLeftCorner<2, 2>().determinant()));
-  rivals.unmapped = kUnseenShare * fitting / map_area_m2 * possible_m2 / weight;
-  const auto storey_m = of_.storeys ? storey_height_m(scan) : std::nullopt;
-  if (storey_m)
+  rivals.unmapped = kUnseenShare * fitting / setting.map_area_m2 * possible_m2 / weight;
+  if (setting.storey_m) {
+    const double off_m = setting.up.dot(best.T_i_j.translation() - expected.T_i_j.pose.translation());
+    const double sigma_m = std::sqrt(std::max(0.0, setting.up.dot(covariance * setting.up)));
     rivals.storeys =
-        kStoreyPrior * other_storeys(*storey_m,
-                                     best.T_i_j.translation().z() - expected.T_i_j.pose.translation().z(),
-                                     std::sqrt(covariance(2, 2)));
+        kStoreyPrior * other_storeys(*setting.storey_m, off_m, std::max(sigma_m, params_.min_sigma_m));
+  }
   return rivals;
 }
 

@@ -15,6 +15,8 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "radioslam/geometry/uncertain_pose.hpp"
@@ -30,6 +32,8 @@ struct PlacedKeyframes {
   const std::vector<SE3>& poses;
   const std::vector<double>& path_m;        ///< from the first keyframe to each
   const ScanContextIndex* index = nullptr;  ///< of the keyframes' contexts; null: no rivals elsewhere
+  /// Standard deviation of the relative position of two keyframes, metres; thread-safe; needed with an index.
+  std::function<double(std::size_t, std::size_t)> sigma_m = {};
 };
 
 /// Where keyframe j of one robot is expected from keyframe i of another.
@@ -67,6 +71,14 @@ class LoopVerification {
     double likelihood = 0;  ///< relative to the best
     double weight = 0;      ///< with the prediction
     bool elsewhere = false;
+    double place_sigma_m = 0;  ///< of the place elsewhere, relative to keyframe i
+  };
+  /// What a scan is weighed by.
+  struct Setting {
+    const ExpectedPlace& expected;
+    Eigen::Vector3d up;              ///< in keyframe i's frame
+    std::optional<double> storey_m;  ///< least height of a storey; nothing if it can be on one only
+    double map_area_m2;              ///< that the target has seen
   };
   /// What makes a scan doubtful, as weights relative to the best fit's.
   struct Rivals {
@@ -88,11 +100,9 @@ class LoopVerification {
                    const PlacedKeyframes& source, std::size_t j, const ScanPyramid& scan,
                    std::vector<Fit>& fits) const;
   /// Sorts the fits by weight.
-  Rivals weigh(const ExpectedPlace& expected, const ScanPyramid& scan, double map_area_m2,
-               std::vector<Fit>& fits) const;
+  Rivals weigh(const Setting& setting, std::vector<Fit>& fits) const;
   LoopStatus status_of(const Fit& best, const Rivals& rivals) const;
-  Rivals rivals_of(const std::vector<Fit>& weighed, const ExpectedPlace& expected, const ScanPyramid& scan,
-                   double map_area_m2) const;
+  Rivals rivals_of(const std::vector<Fit>& weighed, const Setting& setting) const;
   LocalMap submap_around(const PlacedKeyframes& robot, std::size_t i, double extent_m) const;
   ScanPyramid source_around(const PlacedKeyframes& robot, std::size_t j) const;
   /// The submap has errors of its own: (I^-1 + minimum covariance)^-1, also for a singular I.

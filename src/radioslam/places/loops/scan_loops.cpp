@@ -106,8 +106,9 @@ ScanLoops close_scan_loops(const ScanKeyframes& keyframes, const ScanLoopParams&
                                                 keyframes.clouds[candidate.j].median_range_m);
         }))
       index = index_of(keyframes, candidates.path_m(), params.submap_m);
-    const auto tried =
-        verify(found, verification, {keyframes, graph.poses, candidates.path_m(), index ? &*index : nullptr});
+    const auto tried = verify(found, verification,
+                              {keyframes, graph.poses, candidates.path_m(), index ? &*index : nullptr,
+                               [&](std::size_t a, std::size_t b) { return candidates.sigma_m(a, b); }});
     for (const ScanLoop& loop : tried) candidates.note(loop);
     take_over(tried, result.loops);
     if (std::none_of(tried.begin(), tried.end(),
