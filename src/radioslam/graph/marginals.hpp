@@ -20,7 +20,8 @@ class Marginals {
   using PointCovariance = Eigen::Matrix<double, Pose::kDim, Pose::kDim>;
   using PoseColumns = Eigen::Matrix<double, Pose::kDof, Eigen::Dynamic>;
 
-  /// Nothing when H is singular: something in the graph is not observed.
+  /// Nothing when H is singular: something in the graph is not observed. Parts that hang together by next to
+  /// nothing are singular up to rounding; damping then states them more certain than they are.
   static std::optional<Marginals> compute(const PoseGraph<Pose>& graph);
 
   PoseCovariance pose(PoseId i) const { return block(variable(i), variable(i)); }

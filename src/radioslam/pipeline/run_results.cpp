@@ -42,6 +42,7 @@ void add_estimate(RunResult& result, const Mission& mission, const JointGraph<Po
   });
   if (marginals) {
     add_uncertainty(result.robots, joint, alignment, *marginals);
+    widen_by_unknown_motions(result.robots, joint, *marginals);
     result.transforms = collect_transforms(joint, alignment, *marginals);
     for (auto& note : odometry_notes(mission, joint, *marginals)) result.notes.push_back(std::move(note));
     if (auto note = start_note(joint, *marginals)) result.notes.push_back(std::move(*note));

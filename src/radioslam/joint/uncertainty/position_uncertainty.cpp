@@ -5,6 +5,7 @@
 
 #include "radioslam/base/statistics.hpp"
 #include "radioslam/geometry/alignment.hpp"
+#include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/graph/team_gauge.hpp"
 #include "radioslam/team_frame/measurement_mixture.hpp"
 
@@ -125,6 +126,39 @@ void add_uncertainty(std::vector<RobotResult>& robots, const JointGraph<Pose>& j
 }
 
 template <class Pose>
+void widen_by_unknown_motions(std::vector<RobotResult>& robots, const JointGraph<Pose>& joint,
+                              const Marginals<Pose>& marginals) {
+  constexpr double kUnknown_rad = 1, kTied_rad = 0.05;  // standard deviations of a heading
+  const auto& poses = joint.team.graph.poses;
+  for (const std::size_t f : factors_of(joint.origins.relative_poses, FactorSource::kOdometry)) {
+    const RelativePoseFactor<Pose>& step = joint.team.graph.relative_poses[f];
+    const typename Pose::Jacobian covariance = inverse(step.information);
+    if (covariance(Pose::kDof - 1, Pose::kDof - 1) < kUnknown_rad * kUnknown_rad) continue;
+    const typename Pose::Jacobian known = marginals.relative_pose(step.i, step.j);
+    if (known(Pose::kDof - 1, Pose::kDof - 1) < kTied_rad * kTied_rad) continue;
+    const double motion_m2 = covariance.template topLeftCorner<Pose::kDim, Pose::kDim>().trace() / Pose::kDim;
+    const std::size_t r = joint.origins.relative_poses[f].robot_i.index();
+    const std::vector<PoseId>& keyframes = joint.robots[r].poses;
+    const auto behind =
+        static_cast<std::size_t>(std::lower_bound(keyframes.begin(), keyframes.end(), step.j,
+                                                  [](PoseId a, PoseId b) { return a.index() < b.index(); }) -
+                                 keyframes.begin());
+    const double share = static_cast<double>(behind) / static_cast<double>(keyframes.size());
+    for (std::size_t k = 0; k < keyframes.size(); ++k) {
+      const bool is_behind = k >= behind;
+      const double arm_m =
+          (poses[keyframes[k].index()].translation() - poses[step.j.index()].translation()).norm();
+      const double added_m2 = motion_m2 + arm_m * arm_m;
+      const auto widen = [&](double& sigma_m, double by) {
+        sigma_m = std::sqrt(sigma_m * sigma_m + by * by * added_m2);
+      };
+      if (is_behind) widen(robots[r].sigma_position_m[k], 1);
+      widen(robots[r].sigma_team_m[k], is_behind ? share : 1 - share);
+    }
+  }
+}
+
+template <class Pose>
 void widen_by_alternatives(std::vector<RobotResult>& robots, const JointGraph<Pose>& joint,
                            const TeamAlignment<Pose>& alignment) {
   double weights = alignment.weight;
@@ -158,10 +192,12 @@ void widen_by_rejected_closures(std::vector<RobotResult>& robots,
   }
 }
 
-#define RADIOSLAM_UNCERTAINTY(Pose)                                                       \
-  template void add_uncertainty(std::vector<RobotResult>&, const JointGraph<Pose>&,       \
-                                const TeamAlignment<Pose>&, const Marginals<Pose>&);      \
-  template void widen_by_alternatives(std::vector<RobotResult>&, const JointGraph<Pose>&, \
+#define RADIOSLAM_UNCERTAINTY(Pose)                                                          \
+  template void add_uncertainty(std::vector<RobotResult>&, const JointGraph<Pose>&,          \
+                                const TeamAlignment<Pose>&, const Marginals<Pose>&);         \
+  template void widen_by_unknown_motions(std::vector<RobotResult>&, const JointGraph<Pose>&, \
+                                         const Marginals<Pose>&);                            \
+  template void widen_by_alternatives(std::vector<RobotResult>&, const JointGraph<Pose>&,    \
                                       const TeamAlignment<Pose>&);
 RADIOSLAM_UNCERTAINTY(SE2)
 RADIOSLAM_UNCERTAINTY(SE3)

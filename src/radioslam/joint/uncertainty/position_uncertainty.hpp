@@ -38,6 +38,12 @@ template <class Pose>
 void add_uncertainty(std::vector<RobotResult>& robots, const JointGraph<Pose>& joint,
                      const TeamAlignment<Pose>& alignment, const Marginals<Pose>& marginals);
 
+/// Restores what rounding takes from the uncertainty behind motions that nothing measured or tied together
+/// since: that of the motion, and a heading that may be any.
+template <class Pose>
+void widen_by_unknown_motions(std::vector<RobotResult>& robots, const JointGraph<Pose>& joint,
+                              const Marginals<Pose>& marginals);
+
 /// Adds the squared distances to the alternatives, by weight, to sigma_team_m.
 template <class Pose>
 void widen_by_alternatives(std::vector<RobotResult>& robots, const JointGraph<Pose>& joint,
