@@ -24,9 +24,11 @@ radioslam_room(joint
     matches/match_groups.cpp
     matches/match_selection.cpp
     overlap_stage.cpp
+    places/closure_worth.cpp
     places/place_proposals.cpp
     places/place_recognition.cpp
     places/scanned_robot.cpp
+    places/verification_budget.cpp
     position_fixes/placement.cpp
     robot_nodes.cpp
     segment_odometry.cpp

@@ -1,6 +1,8 @@
 // All parameters of a run, by section.
 #pragma once
 
+#include <optional>
+
 #include "radioslam/closure/fingerprint_closures.hpp"
 #include "radioslam/closure/overlap/overlap_search.hpp"
 #include "radioslam/consistency/consistency_params.hpp"
@@ -14,6 +16,7 @@
 #include "radioslam/joint/matches/match_selection.hpp"
 #include "radioslam/joint/overlap_stage.hpp"
 #include "radioslam/joint/places/place_recognition.hpp"
+#include "radioslam/joint/places/verification_budget.hpp"
 #include "radioslam/joint/position_fixes/placement.hpp"
 #include "radioslam/joint/sequence_stage.hpp"
 #include "radioslam/mission/keyframes.hpp"
@@ -85,7 +88,8 @@ struct RunParams {
 struct RunOptions {
   Pruning pruning = Pruning::kOn;
   SearchMethod search = SearchMethod::kTree;
-  bool overlap_only = false;  ///< stop after the overlap search
+  bool overlap_only = false;                             ///< stop after the overlap search
+  std::optional<VerificationBudget> verifications = {};  ///< scans of different robots that are registered
   /// Receives every candidate as the search finds it; then none is listed in the result.
   TakeCandidates take_candidates = nullptr;
 };

@@ -48,6 +48,9 @@ void count_places(RunResult& result, const PlaceCounts& places) {
   count("place_pairs", places.pairs);
   count("place_pairs_allowed", places.allowed);
   count("descriptor_pairs", places.compared);
+  count("descriptor_bytes", places.descriptor_bytes);
+  count("descriptor_bytes_all", places.descriptor_bytes_all);
+  count("registrations_proposed", places.proposed);
   count("registrations", places.registrations);
   count("registrations_verified", places.verified);
 }
@@ -223,13 +226,23 @@ OverlapStage list_overlaps(const RunSetup& run, const TeamEstimate<Pose>& team) 
        keyframes_of_matches(team.joint, team.measured.closures.matches), run.options.take_candidates});
 }
 
-/// Closures between robots by their scans, where the team as estimated so far may have met.
+/// What is left of the budget, in equal shares over the rounds that are left.
+std::optional<VerificationBudget> budget_of_round(const RunSetup& run, int round, std::size_t done) {
+  std::optional<VerificationBudget> budget = run.options.verifications;
+  if (!budget) return budget;
+  const auto rounds = static_cast<std::size_t>(run.params.places.rounds - round);
+  budget->registrations = (budget->registrations - done + rounds - 1) / rounds;
+  return budget;
+}
+
+/// Closures between robots by their scans, where the team as estimated so far may have met. `round`: from 0.
 template <class Pose>
 RecognisedPlaces find_places(const RunSetup& run, const TeamEstimate<Pose>& team, const MeasuredScans& scans,
-                             const RecognisedPlaces& before = {}) {
+                             int round = 0, const RecognisedPlaces& before = {}) {
   if (!run.params.places.enabled || run.options.overlap_only || !has_comparable_scans(scans)) return {};
   std::vector<CandidateList::Group> allowed;
-  PlaceInput<Pose> input{team, run.mission, scans, nullptr, before.attempts};
+  PlaceInput<Pose> input{team,    run.mission,     scans,
+                         nullptr, before.attempts, budget_of_round(run, round, before.attempts.size())};
   if (run.options.pruning == Pruning::kOn) {
     const auto keep = [&](const CandidateList::Group& group, const auto&) { allowed.push_back(group); };
     OverlapStageParams overlap = run.params.overlap;
@@ -343,17 +356,20 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* graph, const Measur
   auto aligned = align_team(run, std::move(built));
   auto places = find_places(run, aligned, scans);
   auto judged = judge_closures(run, aligned, places.closures);
-  for (int round = 1; round < params.places.rounds && places.has_verified(); ++round) {
+  const auto may_find_more = [&] { return places.has_verified() || places.counts.has_left_out(); };
+  for (int round = 1; round < params.places.rounds && may_find_more(); ++round) {
     auto& closures = judged.team.measured.closures;
     auto& judgements = judged.team.judgement.closures;
     if (!closures.loops.empty()) places.note_judgement(closures.loops, judgements.loops);
     if (!closures.matches.empty()) places.note_judgement(closures.matches, judgements.matches);
-    auto more = find_places(run, judged.team, scans, places);
+    auto more = find_places(run, judged.team, scans, round, places);
     const bool has_more = more.has_verified();
     if (!has_more) append(more.closures, closures.scans, judgements.scans);
     places.append(std::move(more));
-    if (!has_more) break;
-    judged = judge_closures(run, aligned, places.closures);
+    if (has_more)
+      judged = judge_closures(run, aligned, places.closures);
+    else if (!places.counts.has_left_out())
+      break;
   }
 
   RunResult result =

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -107,6 +109,11 @@ struct HallOf {
     return recognise_places<Pose>({team, mission, scans, pruned ? &allowed : nullptr, std::move(tried)}, {},
                                   {}, {}, {});
   }
+  PlaceProposals propose(bool pruned, std::optional<VerificationBudget> budget = {},
+                         std::vector<PlaceAttempt> tried = {}) const {
+    return propose_places<Pose>({team, mission, scans, pruned ? &allowed : nullptr, std::move(tried), budget},
+                                {}, {}, {});
+  }
   double error_m(const Closure& closure) const {
     const auto k = [](Stamp stamp) { return static_cast<std::size_t>(std::lround(stamp.seconds())); };
     return distance_between(closure.T_i_j,
@@ -180,6 +187,53 @@ TEST(RecognisePlaces, AreNotTriedAgain) {
   const std::size_t registrations = found.counts.registrations;
   found.append(again);
   EXPECT_EQ(found.counts.registrations, registrations);
+}
+
+std::vector<std::array<std::size_t, 2>> keyframes_of(const PlaceProposals& proposed) {
+  std::vector<std::array<std::size_t, 2>> pairs;
+  for (const Proposal& pair : proposed.pairs) pairs.push_back({pair.i, pair.j});
+  return pairs;
+}
+
+TEST(ProposePlaces, WithinABudgetTheBestOfThoseProposed) {
+  Hall hall;
+  hall.align(0.5, [](std::uint32_t, std::uint32_t) { return true; });
+  const auto all = keyframes_of(hall.propose(true));
+  for (const auto order : {VerificationBudget::Order::kWorth, VerificationBudget::Order::kSimilarity,
+                           VerificationBudget::Order::kRandom}) {
+    const PlaceProposals some = hall.propose(true, VerificationBudget{3, order});
+    EXPECT_EQ(some.counts.proposed, all.size());
+    EXPECT_EQ(some.pairs.size(), 3U);
+    for (const auto& pair : keyframes_of(some)) EXPECT_NE(std::find(all.begin(), all.end(), pair), all.end());
+  }
+  EXPECT_EQ(keyframes_of(hall.propose(true, VerificationBudget{1000})), all);
+  EXPECT_TRUE(hall.propose(true, VerificationBudget{0}).pairs.empty());
+}
+
+TEST(ProposePlaces, WhatABudgetLeavesOutIsProposedAgain) {
+  for (const bool aligned : {true, false}) {
+    Hall hall;
+    if (aligned) hall.align(0.5, [](std::uint32_t, std::uint32_t) { return true; });
+    auto all = keyframes_of(hall.propose(true));
+    const PlaceProposals some = hall.propose(true, VerificationBudget{2});
+    std::vector<PlaceAttempt> tried;
+    for (const Proposal& pair : some.pairs)
+      tried.push_back({RobotIndex(pair.a), RobotIndex(pair.b), pair.i, pair.j, horizontal_sigma(pair.T_i_j)});
+    auto found = keyframes_of(hall.propose(true, VerificationBudget{1000}, tried));
+    for (const auto& pair : keyframes_of(some)) found.push_back(pair);
+    std::sort(found.begin(), found.end());
+    std::sort(all.begin(), all.end());
+    EXPECT_EQ(found, all) << "each once";
+  }
+}
+
+TEST(ProposePlaces, SendDescriptorsOfKeyframesWithAnAllowedPartner) {
+  Hall hall;
+  hall.align(0.5, [](std::uint32_t, std::uint32_t j) { return j < 3; });
+  const PlaceCounts counts = hall.propose(true).counts, unpruned = hall.propose(false).counts;
+  EXPECT_GT(counts.descriptor_bytes, 0U);
+  EXPECT_LT(2 * counts.descriptor_bytes, counts.descriptor_bytes_all);
+  EXPECT_EQ(unpruned.descriptor_bytes, counts.descriptor_bytes_all);
 }
 
 TEST(RecognisePlaces, OfDifferentScannersAreNotCompared) {

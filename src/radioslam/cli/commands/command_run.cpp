@@ -38,6 +38,7 @@ struct RunArguments {
   ParameterOptions parameters;
   StatedStarts starts = StatedStarts::kIgnored;
   bool no_prune = false;
+  std::optional<std::size_t> max_verifications;
   bool unchecked = false;
   bool json = false;
 };
@@ -102,10 +103,11 @@ MissionInput for_evaluation(MissionInput& input) {
   return given;
 }
 
-RunOutput estimate(MissionInput input, const RunParams& params, bool no_prune) {
+RunOutput estimate(MissionInput input, const RunParams& params, const RunArguments& arguments) {
   ProgressLine line;
   RunOptions options;
-  options.pruning = no_prune ? Pruning::kOff : Pruning::kOn;
+  options.pruning = arguments.no_prune ? Pruning::kOff : Pruning::kOn;
+  if (arguments.max_verifications) options.verifications = VerificationBudget{*arguments.max_verifications};
   auto run = run_input(std::move(input), params, options, line.progress());
   run.result.parameters = effective_parameters(params);
   return run;
@@ -120,7 +122,7 @@ void run_mission(const RunArguments& options) {
   const bool is_checked = !options.unchecked && std::holds_alternative<std::monostate>(input.graph);
   const auto warnings = is_checked ? warnings_about(input.mission, options.mission.front()) : input.notes;
   const MissionInput given = for_evaluation(input);
-  RunOutput run = estimate(std::move(input), params, options.no_prune);
+  RunOutput run = estimate(std::move(input), params, options);
   auto& notes = run.result.notes;
   notes.insert(notes.begin(), warnings.begin(), warnings.end());
   const Agreement agreement = evaluate(run.result, given);
@@ -147,6 +149,11 @@ void add_run(CLI::App& program) {
   add_known_starts_option(*command, options->starts);
   command->add_flag("--no-prune", options->no_prune,
                     "Use all matches, including those between views that cannot overlap");
+  command
+      ->add_option("--max-verifications", options->max_verifications,
+                   "Largest number of scans registered between robots, over all rounds: those worth most "
+                   "first (default: no bound)")
+      ->type_name("N");
   command->add_flag(
       "--unchecked", options->unchecked,
       "Run without the checks of `radioslam doctor`, which refuse missions with certain faults");

@@ -36,9 +36,12 @@ UncertainPose<SE3> in_space(const SE3& T, const SE2::Jacobian& covariance) {
 /// Per keyframe of robot b, those of robot a that it may be compared with.
 class AllowedPairs {
  public:
-  AllowedPairs(const CandidateList::Group* group, std::size_t keyframes_b) : with_(keyframes_b) {
-    if (!group) return;
-    for (const CandidateList::Row& row : group->rows) with_[row.keyframe_j].push_back(row.keyframe_i);
+  AllowedPairs(const std::vector<CandidateList::Group>& groups, RobotIndex a, RobotIndex b,
+               std::size_t keyframes_b)
+      : with_(keyframes_b) {
+    for (const CandidateList::Group& group : groups)
+      if (group.robot_i == a && group.robot_j == b)
+        for (const CandidateList::Row& row : group.rows) with_[row.keyframe_j].push_back(row.keyframe_i);
   }
   bool contains(std::size_t i, std::size_t j) const {
     return std::binary_search(with_[j].begin(), with_[j].end(), static_cast<std::uint32_t>(i));
@@ -52,6 +55,18 @@ template <class Pose>
 bool are_aligned(const TeamAlignment<Pose>& alignment, std::size_t a, std::size_t b) {
   return alignment.component[a] == alignment.component[b] ||
          connected_without_matches(alignment, RobotIndex(a), RobotIndex(b));
+}
+
+/// The number of alternatives that are searched, too.
+std::size_t searched(const std::vector<double>& weights) {
+  return static_cast<std::size_t>(std::count_if(weights.begin(), weights.end(),
+                                                [](double weight) { return weight >= kMinSearchedWeight; }));
+}
+
+void count_descriptor(PlaceCounts& counts, const ScannedRobot& robot, std::size_t k, bool is_sent) {
+  const std::size_t bytes = wire_bytes(robot.contexts->context(k));
+  counts.descriptor_bytes_all += bytes;
+  if (is_sent) counts.descriptor_bytes += bytes;
 }
 
 /// Attempts of earlier rounds, by robots and keyframes.
@@ -84,9 +99,9 @@ class Attempts {
 template <class Pose>
 class PlaceSearch {
  public:
-  PlaceSearch(const PlaceInput<Pose>& input, const PlaceParams& params, double submap_m,
+  PlaceSearch(const PlaceInput<Pose>& input, const PlaceParams& params, const ScanLoopParams& loops,
               const RadioAlignmentParams& alignment)
-      : input_(input), params_(params), tried_(input.tried) {
+      : input_(input), params_(params), loops_(loops), tried_(input.tried) {
     const JointGraph<Pose>& joint = input.team.joint;
     marginals_ = Marginals<Pose>::compute(graph_for_covariances(joint, alignment.mixture).team.graph);
     if (!input.team.alignment.segments.of_segment.empty()) temperature_ = alignment.beam.evidence_temperature;
@@ -94,8 +109,8 @@ class PlaceSearch {
       robots_.push_back(input.scans.robots[r] ? scanned_robot(*input.scans.robots[r], joint.robots[r],
                                                               input.mission.robots[r].odometry)
                                               : ScannedRobot{});
-    add_contexts(robots_, ScannerKind::kSpatial, params.context, params.index, submap_m);
-    add_contexts(robots_, ScannerKind::kPlanar, params.context, params.index, submap_m);
+    add_contexts(robots_, ScannerKind::kSpatial, params.context, params.index, loops.submap_m);
+    add_contexts(robots_, ScannerKind::kPlanar, params.context, params.index, loops.submap_m);
   }
 
   PlaceProposals run() {
@@ -109,6 +124,8 @@ class PlaceSearch {
         else if (marginals_)
           propose_by_prediction(a, b);
       }
+    counts_.proposed = proposals_.size();
+    if (input_.budget && proposals_.size() > input_.budget->registrations) keep_within(*input_.budget);
     return {std::move(robots_), std::move(proposals_), counts_};
   }
 
@@ -130,18 +147,12 @@ class PlaceSearch {
     return in_space(predicted(poses, a, pair.i).inverse() * predicted(poses, b, pair.j), covariance);
   }
 
-  const CandidateList::Group* group(std::size_t a, std::size_t b) const {
-    for (const CandidateList::Group& group : *input_.allowed)
-      if (group.robot_i == RobotIndex(a) && group.robot_j == RobotIndex(b)) return &group;
-    return nullptr;
-  }
-
   void propose_by_prediction(std::size_t a, std::size_t b) {
     const TeamAlignment<Pose>& alignment = input_.team.alignment;
-    const AllowedPairs allowed(group(a, b), input_.team.joint.robots[b].stamps.size());
+    const AllowedPairs allowed(*input_.allowed, RobotIndex(a), RobotIndex(b),
+                               input_.team.joint.robots[b].stamps.size());
     const std::vector<double>& weights = alignment.alternative_weights;
-    const auto others = static_cast<std::size_t>(std::count_if(
-        weights.begin(), weights.end(), [](double weight) { return weight >= kMinSearchedWeight; }));
+    const std::size_t others = searched(weights);
     std::size_t turn = 0;
     for (const std::size_t j : robots_[b].strides(stride_m(robots_[b]))) {
       std::vector<std::size_t> with;
@@ -149,10 +160,14 @@ class PlaceSearch {
         if (robots_[a].has_cloud(i) && allowed.contains(robots_[a].keyframes[i], robots_[b].keyframes[j]))
           with.push_back(i);
       counts_.allowed += with.size();
+      count_descriptor(counts_, robots_[b], j, !with.empty());
       if (with.empty()) continue;
-      propose_best({a, b, 0, j, {}}, with, input_.team.joint.team.graph.poses);
-      if (others > 0 && params_.candidates > 1)
-        propose_best({a, b, 0, j, {}}, with, alignment.alternatives[turn++ % others]);
+      Proposal pair{a, b, 0, j, {}, false, 1, 0, alignment.weight};
+      propose_best(pair, with, input_.team.joint.team.graph.poses);
+      if (others == 0 || params_.candidates == 1) continue;
+      pair.alignment = 1 + turn++ % others;
+      pair.alignment_weight = weights[pair.alignment - 1];
+      propose_best(pair, with, alignment.alternatives[pair.alignment - 1]);
     }
   }
 
@@ -172,11 +187,19 @@ class PlaceSearch {
       const double farther_m2 = distances_m[n] * distances_m[n] - *nearest * *nearest;
       const double prior = -farther_m2 / (2 * sigma_m * sigma_m);
       if (prior < -kMostDifferent / kDescriptorScale) continue;
-      const double score = prior - compare_descriptors(pair, with[n]).distance / kDescriptorScale;
-      if (score > best) best = score, pair.i = with[n];
+      const double distance = compare_descriptors(pair, with[n]).distance;
+      const double score = prior - distance / kDescriptorScale;
+      if (score > best) best = score, pair.i = with[n], pair.descriptor_distance = distance;
     }
     if (pair.i != nearest_i) pair.T_i_j = predicted(poses, pair);
     if (!tried_.has(pair)) proposals_.push_back(std::move(pair));
+  }
+
+  void keep_within(const VerificationBudget& budget) {
+    const Poses& poses = input_.team.joint.team.graph.poses;
+    std::optional<PredictedPoses<Pose>> predicted;
+    if (marginals_) predicted.emplace(PredictedPoses<Pose>{poses, *marginals_, temperature_});
+    proposals_ = within_budget(budget, proposals_, robots_, predicted ? &*predicted : nullptr, loops_);
   }
 
   ContextMatch compare_descriptors(const Proposal& pair, std::size_t i) {
@@ -187,13 +210,14 @@ class PlaceSearch {
   /// Proposes, for every stride of b, the keyframes of a with the most similar descriptors, not two of one
   /// stride.
   void propose_by_descriptor(std::size_t a, std::size_t b) {
-    if (tried_.has_robots(a, b)) return;  // descriptors alone would only repeat themselves
+    if (tried_.has_robots(a, b) && !input_.budget) return;  // descriptors alone would only repeat themselves
     const ScannedRobot& of_a = robots_[a];
     const auto compared =
         static_cast<std::size_t>(std::min(params_.index.nearest_keys, params_.index.shortlist));
     for (const std::size_t j : robots_[b].strides(stride_m(robots_[b]))) {
       counts_.compared += std::min(of_a.size(), compared);
       counts_.allowed += of_a.size();
+      count_descriptor(counts_, robots_[b], j, true);
       std::vector<std::size_t> taken;
       const auto is_new = [&](std::size_t i) {
         return of_a.has_cloud(i) && std::none_of(taken.begin(), taken.end(), [&](std::size_t other) {
@@ -204,16 +228,18 @@ class PlaceSearch {
         const auto found = of_a.contexts->nearest(robots_[b].contexts->context(j), 1, is_new);
         if (found.empty() || found.front().match.distance > params_.max_descriptor_distance) break;
         taken.push_back(found.front().index);
-        proposals_.push_back(
-            {a, b, taken.back(), j,
-             described_pose(of_a.scans->keyframes, found.front(), robots_[b].contexts->context(j).sectors()),
-             true});
+        const int sectors = robots_[b].contexts->context(j).sectors();
+        Proposal pair{a, b, taken.back(), j, described_pose(of_a.scans->keyframes, found.front(), sectors)};
+        pair.anywhere = true;
+        pair.descriptor_distance = found.front().match.distance;
+        if (!tried_.has(pair)) proposals_.push_back(std::move(pair));
       }
     }
   }
 
   const PlaceInput<Pose>& input_;
   PlaceParams params_;
+  ScanLoopParams loops_;
   Attempts tried_;
   std::optional<Marginals<Pose>> marginals_;
   double temperature_ = 1;
@@ -229,14 +255,14 @@ double horizontal_sigma(const UncertainPose<SE3>& T) {
 }
 
 template <class Pose>
-PlaceProposals propose_places(const PlaceInput<Pose>& input, const PlaceParams& params, double submap_m,
-                              const RadioAlignmentParams& alignment) {
-  return PlaceSearch<Pose>(input, params, submap_m, alignment).run();
+PlaceProposals propose_places(const PlaceInput<Pose>& input, const PlaceParams& params,
+                              const ScanLoopParams& loops, const RadioAlignmentParams& alignment) {
+  return PlaceSearch<Pose>(input, params, loops, alignment).run();
 }
 
-template PlaceProposals propose_places(const PlaceInput<SE2>&, const PlaceParams&, double,
+template PlaceProposals propose_places(const PlaceInput<SE2>&, const PlaceParams&, const ScanLoopParams&,
                                        const RadioAlignmentParams&);
-template PlaceProposals propose_places(const PlaceInput<SE3>&, const PlaceParams&, double,
+template PlaceProposals propose_places(const PlaceInput<SE3>&, const PlaceParams&, const ScanLoopParams&,
                                        const RadioAlignmentParams&);
 
 }  // namespace radioslam

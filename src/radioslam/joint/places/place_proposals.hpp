@@ -2,11 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "radioslam/base/fields.hpp"
-#include "radioslam/geometry/uncertain_pose.hpp"
 #include "radioslam/joint/places/scanned_robot.hpp"
+#include "radioslam/joint/places/verification_budget.hpp"
 #include "radioslam/joint/team_estimate.hpp"
 #include "radioslam/mission/mission.hpp"
 #include "radioslam/places/scan_context_index.hpp"
@@ -60,8 +61,14 @@ struct PlaceCounts {
   std::size_t pairs = 0;          ///< all, with the strides of one robot
   std::size_t allowed = 0;        ///< of these, left by pruning in the first round
   std::size_t compared = 0;       ///< descriptors compared
-  std::size_t registrations = 0;  ///< proposed, and registered
+  std::size_t proposed = 0;       ///< to be registered
+  std::size_t registrations = 0;  ///< of these, within the budget
   std::size_t verified = 0;       ///< registered with success
+  /// Descriptors to send in the first round, each once to every robot that compares it: those of keyframes
+  /// with an allowed partner, and all.
+  std::size_t descriptor_bytes = 0, descriptor_bytes_all = 0;
+
+  bool has_left_out() const { return registrations < proposed; }
 };
 
 /// A pair of keyframes that was registered.
@@ -80,28 +87,19 @@ struct PlaceInput {
   const MeasuredScans& scans;
   /// The pairs of the joint graph's keyframes that may be compared, by robots; null: all, without pruning.
   const std::vector<CandidateList::Group>* allowed = nullptr;
-  std::vector<PlaceAttempt> tried = {};  ///< in earlier rounds
+  std::vector<PlaceAttempt> tried = {};           ///< in earlier rounds
+  std::optional<VerificationBudget> budget = {};  ///< of this round
 };
-
-/// A pair to register: keyframe j of robot b on a submap around keyframe i of robot a.
-struct Proposal {
-  std::size_t a = 0, b = 0, i = 0, j = 0;
-  UncertainPose<SE3> T_i_j;
-  bool anywhere = false;  ///< by descriptors alone
-};
-
-/// Standard deviation of the relative position in the plane, per axis.
-double horizontal_sigma(const UncertainPose<SE3>& T);
 
 struct PlaceProposals {
   std::vector<ScannedRobot> robots;  ///< without keyframes where they have no scans
-  std::vector<Proposal> pairs;
+  std::vector<Proposal> pairs;       ///< within the budget, if there is one: the best first
   PlaceCounts counts;
 };
 
-/// `submap_m`: extent of a planar scanner's descriptors, to either side of a keyframe.
+/// `loops`: what scans are registered by; its submap is the extent of a planar scanner's descriptors.
 template <class Pose>
-PlaceProposals propose_places(const PlaceInput<Pose>& input, const PlaceParams& params, double submap_m,
-                              const RadioAlignmentParams& alignment);
+PlaceProposals propose_places(const PlaceInput<Pose>& input, const PlaceParams& params,
+                              const ScanLoopParams& loops, const RadioAlignmentParams& alignment);
 
 }  // namespace radioslam

@@ -54,6 +54,7 @@ void RecognisedPlaces::append(RecognisedPlaces more) {
   closures.insert(closures.end(), more.closures.begin(), more.closures.end());
   attempts.insert(attempts.end(), more.attempts.begin(), more.attempts.end());
   counts.compared += more.counts.compared;
+  counts.proposed = counts.registrations + more.counts.proposed;
   counts.registrations += more.counts.registrations;
   counts.verified += more.counts.verified;
 }
@@ -75,7 +76,7 @@ template <class Pose>
 RecognisedPlaces recognise_places(const PlaceInput<Pose>& input, const PlaceParams& params,
                                   const ScanParams& scan_params, const RadioAlignmentParams& alignment,
                                   const Progress& progress) {
-  const PlaceProposals proposed = propose_places(input, params, scan_params.loops.submap_m, alignment);
+  const PlaceProposals proposed = propose_places(input, params, scan_params.loops, alignment);
   const std::vector<Proposal>& proposals = proposed.pairs;
   RecognisedPlaces found{{}, {}, proposed.counts};
   const auto verification = [&](double source_m, double apart_m) {
