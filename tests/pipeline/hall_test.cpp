@@ -57,6 +57,58 @@ TEST(Hall, MatchesAndRadioTogetherFindTheFrameThatNeitherFindsAlone) {
   }
 }
 
+/// Two robots that scan a part of the hall.
+HallParams scanned_hall() {
+  HallParams hall;
+  hall.path_length_m = 12;
+  hall.speed_mps = 1;
+  hall.onboard.lidar.lidar_beams = 8;
+  hall.onboard.lidar.lidar_azimuth_steps = 120;
+  hall.onboard.lidar.lidar_rotation_hz = 3;
+  hall.matches.matches_true = hall.matches.matches_false = 0;
+  return hall;
+}
+
+class VerificationBudgetOfAHall : public testing::Test {
+ protected:
+  void SetUp() override { recordings = measure_recordings(mission, {}, {}, timed); }
+  RunResult run(std::optional<std::size_t> budget) {
+    RunOptions options;
+    if (budget) options.verifications = VerificationBudget{*budget};
+    return run_pipeline(mission, recordings, params, options).result;
+  }
+
+  Mission mission = simulate_hall(scanned_hall(), 1).mission;
+  RunParams params;
+  StageClock timed;
+  MeasuredRecordings recordings;
+};
+
+TEST_F(VerificationBudgetOfAHall, BoundsAllRoundsTogether) {
+  const RunResult all = run(std::nullopt);
+  ASSERT_GE(all.counts.at("registrations"), 6);
+  EXPECT_EQ(all.counts.at("registrations"), all.counts.at("registrations_proposed"));
+  EXPECT_LE(all.counts.at("descriptor_bytes"), all.counts.at("descriptor_bytes_all"));
+  for (const int rounds : {1, 2, 5}) {
+    params.places.rounds = rounds;
+    for (const std::size_t most : {0U, 1U, 5U}) {
+      const auto counts = run(most).counts;
+      EXPECT_EQ(counts.at("registrations"), static_cast<double>(most)) << rounds << " rounds";
+      EXPECT_GT(counts.at("registrations_proposed"), static_cast<double>(most));
+    }
+  }
+}
+
+TEST_F(VerificationBudgetOfAHall, ChangesNothingIfItIsLarge) {
+  const RunResult all = run(std::nullopt), within = run(1000000);
+  EXPECT_EQ(within.counts, all.counts);
+  ASSERT_EQ(within.closures.size(), all.closures.size());
+  for (std::size_t r = 0; r < all.robots.size(); ++r)
+    for (std::size_t k = 0; k < all.robots[r].estimate.size(); ++k)
+      EXPECT_EQ(within.robots[r].estimate[k].pose.translation(),
+                all.robots[r].estimate[k].pose.translation());
+}
+
 /// Half of the ranges in a row are those of a signal around a corner.
 TEST(Detours, AreFoundByMatchesEvenIfTheyBentTheRadioAlignment) {
   CityParams params = test::small_city(600);

@@ -22,15 +22,6 @@
 namespace radioslam {
 namespace {
 
-/// What raw recordings measure: laser scans the odometry and loop closures of each robot, CSI captures angles
-/// of arrival.
-struct MeasuredRecordings {
-  /// As recorded, with the odometry of its scans and the angles of its captures; nothing if it has neither.
-  std::optional<Mission> mission;
-  MeasuredScans scans;
-  MeasuredCsi csi;
-};
-
 void count_scans(RunResult& result, const MeasuredScans& scans) {
   result.counts["scans"] = static_cast<double>(scans.scans);
   result.counts["scans_registered"] = static_cast<double>(scans.registered);
@@ -73,24 +64,6 @@ void add_angles(Mission& mission, const std::vector<AoaMeasurement>& measured) {
 }
 
 bool is_not_empty(const MeasuredCsi& csi) { return !csi.aoa_measurements.empty() || !csi.notes.empty(); }
-
-MeasuredRecordings measure_recordings(const Mission& recorded, const RunParams& params,
-                                      const RunOptions& options, StageClock& timed,
-                                      const Progress& progress) {
-  MeasuredRecordings measured;
-  if (has_scans(recorded)) {
-    const bool is_compared = params.places.enabled && !options.overlap_only && recorded.robots.size() > 1;
-    measured.scans = timed("scans", measure_scans, recorded, params.scans, params.keyframe, progress,
-                           is_compared ? ScansOfRecorded::kForPlaces : ScansOfRecorded::kIgnored);
-    measured.mission = with_odometry(recorded, measured.scans);
-  }
-  if (has_captures(recorded)) {
-    if (!measured.mission) measured.mission = recorded;
-    measured.csi = timed("angles", measure_csi, *measured.mission, params.csi, progress);
-    add_angles(*measured.mission, measured.csi.aoa_measurements);
-  }
-  return measured;
-}
 
 /// Adds the results of these recordings to those of a run on the same mission.
 void add_recording_results(RunResult& result, const Mission& mission, const MeasuredScans& scans,
@@ -380,16 +353,39 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* graph, const Measur
 
 }  // namespace
 
+MeasuredRecordings measure_recordings(const Mission& recorded, const RunParams& params,
+                                      const RunOptions& options, StageClock& timed,
+                                      const Progress& progress) {
+  MeasuredRecordings measured;
+  if (has_scans(recorded)) {
+    const bool is_compared = params.places.enabled && !options.overlap_only && recorded.robots.size() > 1;
+    measured.scans = timed("scans", measure_scans, recorded, params.scans, params.keyframe, progress,
+                           is_compared ? ScansOfRecorded::kForPlaces : ScansOfRecorded::kIgnored);
+    measured.mission = with_odometry(recorded, measured.scans);
+  }
+  if (has_captures(recorded)) {
+    if (!measured.mission) measured.mission = recorded;
+    measured.csi = timed("angles", measure_csi, *measured.mission, params.csi, progress);
+    add_angles(*measured.mission, measured.csi.aoa_measurements);
+  }
+  return measured;
+}
+
 RunOutput run_pipeline(const Mission& recorded, const RunParams& params, const RunOptions& options,
                        const Progress& progress) {
   StageClock timed;
-  MeasuredRecordings recordings = measure_recordings(recorded, params, options, timed, progress);
+  const MeasuredRecordings recordings = measure_recordings(recorded, params, options, timed, progress);
+  return run_pipeline(recorded, recordings, params, options, std::move(timed), progress);
+}
+
+RunOutput run_pipeline(const Mission& recorded, const MeasuredRecordings& recordings, const RunParams& params,
+                       const RunOptions& options, StageClock timed, const Progress& progress) {
   const Mission& mission = recordings.mission ? *recordings.mission : recorded;
   const MeasuredScans& scans = recordings.scans;
   RunOutput output = mission.dimension == 2
                          ? run<SE2>(mission, nullptr, scans, params, options, progress, timed)
                          : run<SE3>(mission, nullptr, scans, params, options, progress, timed);
-  add_recording_results(output.result, mission, scans, std::move(recordings.csi), params, options, timed);
+  add_recording_results(output.result, mission, scans, recordings.csi, params, options, timed);
   output.result.timings = timed.timings();
   return output;
 }

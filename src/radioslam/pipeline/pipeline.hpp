@@ -17,8 +17,10 @@
 #include "radioslam/graph/pose_graph.hpp"
 #include "radioslam/joint/team_estimate.hpp"
 #include "radioslam/mission/mission.hpp"
+#include "radioslam/odometry/scan_stage.hpp"
 #include "radioslam/pipeline/params.hpp"
 #include "radioslam/pipeline/stage_clock.hpp"
+#include "radioslam/radio/captures/csi_stage.hpp"
 #include "radioslam/results/results.hpp"
 
 namespace radioslam {
@@ -29,10 +31,27 @@ struct RunOutput {
   std::variant<PoseGraph2, PoseGraph3> graph;
 };
 
+/// What raw recordings measure: laser scans the odometry and loop closures of each robot, CSI captures angles
+/// of arrival.
+struct MeasuredRecordings {
+  /// As recorded, with the odometry of its scans and the angles of its captures; nothing if it has neither.
+  std::optional<Mission> mission;
+  MeasuredScans scans;
+  MeasuredCsi csi;
+};
+
+MeasuredRecordings measure_recordings(const Mission& recorded, const RunParams& params,
+                                      const RunOptions& options, StageClock& timed,
+                                      const Progress& progress = {});
+
 /// Estimates the joint trajectory of the team. Deterministic: the same mission and parameters give identical
 /// numbers for any number of threads. RunResult::parameters is left for the caller to fill.
 RunOutput run_pipeline(const Mission& recorded, const RunParams& params, const RunOptions& options = {},
                        const Progress& progress = {});
+
+/// The same from what its recordings measured, which several runs may share. `timed`: the stages so far.
+RunOutput run_pipeline(const Mission& recorded, const MeasuredRecordings& recordings, const RunParams& params,
+                       const RunOptions& options = {}, StageClock timed = {}, const Progress& progress = {});
 
 /// The same for a team given as a factor graph; `mission` contains its robots and no other measurements.
 template <class Pose>
