@@ -77,6 +77,7 @@ TEST_F(Reproduce, RefusesInvalidCalls) {
   EXPECT_NE(refusal({"wi-closure-kitti", "--odometry", "odometry.txt"}).find("--trajectory"),
             std::string::npos);
   EXPECT_NE(refusal({"robustness-map", "--cut", "0.5"}).find("towns are simulated"), std::string::npos);
+  EXPECT_NE(refusal({"verification-budget", "--set", "robots=3"}).find("only --seed"), std::string::npos);
   EXPECT_NE(refusal({"robustness-map", "--seeds", "0"}).find("--seeds"), std::string::npos);
   EXPECT_NE(refusal({"robustness-map", "--set", "lamps=3"}).find("lamps"), std::string::npos);
   write_file(folder() / "short.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");

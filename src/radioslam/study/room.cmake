@@ -12,6 +12,7 @@ radioslam_room(study
     study_json.cpp
     study_page.cpp
     study_table.cpp
+    verification_budget/budget_study.cpp
     wi_closure/angle_paths.cpp
     wi_closure/place_settings.cpp
     wi_closure/place_study.cpp
@@ -24,4 +25,4 @@ radioslam_room(study
   ROOMS radio pipeline eval sim io report
   LIBRARIES nlohmann_json::nlohmann_json)
 radioslam_page(radioslam_study ${CMAKE_CURRENT_SOURCE_DIR}/study/page radioslam/study/page_parts.hpp
-  radioslam::study_page ../../report/page/format.js data.js scheme.js heat_map.js growth.js directions.js table.js main.js)
+  radioslam::study_page ../../report/page/format.js data.js scheme.js heat_map.js growth.js budget.js directions.js table.js main.js)

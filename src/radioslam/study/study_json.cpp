@@ -117,6 +117,14 @@ Json place_study_json(const PlaceStudy& study) {
   return json;
 }
 
+Json budget_run_json(const BudgetRun& run) {
+  return {{"order", word_for(run.order)},
+          {"share", run.share},
+          {"registrations", run.registrations},
+          {"verified", run.verified},
+          {"ate_m", optional_json(run.ate_m)}};
+}
+
 Json table1_seed_json(const WiClosureTable1& seed) {
   Json json = place_study_json(seed.places);
   json["cut"] = seed.scenario.cut;
@@ -246,6 +254,29 @@ Json robustness_json(const RobustnessMap& map) {
             {"seeds", map.seeds},
             {"cells", Json::array()}};
   for (const auto& cell : map.cells) json["cells"].push_back(cell_json(cell));
+  return json;
+}
+
+nlohmann::ordered_json verification_budget_json(const std::vector<BudgetMission>& missions) {
+  Json json{{"table", "verification-budget"}, {"medians", Json::array()}, {"missions", Json::array()}};
+  for (const BudgetMedian& m : budget_medians(missions))
+    json["medians"].push_back({{"scenario", m.scenario},
+                               {"order", word_for(m.order)},
+                               {"share", m.share},
+                               {"registrations", optional_json(m.registrations)},
+                               {"verified", optional_json(m.verified)},
+                               {"ate_m", optional_json(m.ate_m)},
+                               {"ratio", optional_json(m.ratio)}});
+  for (const BudgetMission& m : missions) {
+    Json runs = Json::array();
+    for (const BudgetRun& run : m.runs) runs.push_back(budget_run_json(run));
+    json["missions"].push_back({{"scenario", m.scenario},
+                                {"seed", m.seed},
+                                {"descriptor_bytes", m.descriptor_bytes},
+                                {"descriptor_bytes_all", m.descriptor_bytes_all},
+                                {"all", budget_run_json(m.all)},
+                                {"runs", std::move(runs)}});
+  }
   return json;
 }
 

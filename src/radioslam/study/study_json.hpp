@@ -11,6 +11,7 @@
 #include "radioslam/study/fingerprints/threshold_sweep.hpp"
 #include "radioslam/study/overlap_growth/overlap_growth.hpp"
 #include "radioslam/study/robustness_map/robustness_map.hpp"
+#include "radioslam/study/verification_budget/budget_study.hpp"
 #include "radioslam/study/wi_closure_hall/wi_closure_hall.hpp"
 #include "radioslam/study/wi_closure_kitti/wi_closure_kitti.hpp"
 #include "radioslam/study/wi_closure_table1/wi_closure_table1.hpp"
@@ -37,6 +38,12 @@ nlohmann::ordered_json robustness_json(const RobustnessMap& map);
 /// {"table", "seed", "joint": {"exponent", "towns": [{"poses", "pairs", "kept", "distances_evaluated",
 ///   "prepare_s", "search_s", "all_pairs_s"}]}, "link": {...}}
 nlohmann::ordered_json overlap_growth_json(const OverlapGrowth& growth);
+
+/// {"table", "medians": [{"scenario", "order", "share", "registrations", "verified", "ate_m", "ratio"}],
+///   "missions": [{"scenario", "seed", "descriptor_bytes", "descriptor_bytes_all", "all": {...}, "runs":
+///   [{"order", "share", "registrations", "verified", "ate_m"}]}]}; ratio is that of the error to the one
+/// without a bound, "all".
+nlohmann::ordered_json verification_budget_json(const std::vector<BudgetMission>& missions);
 
 /// {"table", "groups": [{"sight", "motion", "ours": {"links", "median_error_rad", "within_10_deg",
 ///   "best_of_4_within_10_deg", "within_1_645_sigma"}, "authors_same_trials": {...}, "authors_all": {...}}],

@@ -75,4 +75,10 @@ std::string render_growth_page(const OverlapGrowth& growth) {
   return page(data);
 }
 
+std::string render_budget_page(const std::vector<BudgetMission>& missions) {
+  Json data = table_json(budget_table(missions));
+  data["budget"] = verification_budget_json(missions);
+  return page(data);
+}
+
 }  // namespace radioslam

@@ -8,6 +8,7 @@
 #include "radioslam/study/overlap_growth/overlap_growth.hpp"
 #include "radioslam/study/robustness_map/robustness_map.hpp"
 #include "radioslam/study/study_table.hpp"
+#include "radioslam/study/verification_budget/budget_study.hpp"
 
 namespace radioslam {
 
@@ -19,6 +20,9 @@ std::string render_robustness_page(const RobustnessMap& map);
 
 /// Seconds over poses and pairs kept, both axes logarithmic, with the table below.
 std::string render_growth_page(const OverlapGrowth& growth);
+
+/// Error over the registrations of each order, a chart per scenario, with the table below.
+std::string render_budget_page(const std::vector<BudgetMission>& missions);
 
 /// A polar profile per link, with the true and the authors' direction, and the table below.
 std::string render_aoa_page(const StudyTable& table, const std::vector<AoaLink>& links);

@@ -179,6 +179,16 @@ Study overlap_growth(const ReproduceOptions& options) {
   return {overlap_growth_table(growth), overlap_growth_json(growth), render_growth_page(growth)};
 }
 
+Study verification_budget(const ReproduceOptions& options) {
+  constexpr int kSeeds = 1;
+  refuse_drive(options);
+  if (!options.set.empty()) refuse(options, "takes only --seed and --seeds");
+  std::vector<BudgetMission> missions;
+  for (auto& of_seed : for_seeds(options, kSeeds, study_budgets))
+    missions.insert(missions.end(), of_seed.begin(), of_seed.end());
+  return {budget_table(missions), verification_budget_json(missions), render_budget_page(missions)};
+}
+
 Study aoa(const ReproduceOptions& options) {
   refuse_drive(options);
   if (options.seeds) refuse(options, "takes no --seeds: its trials are recordings");
@@ -250,7 +260,7 @@ struct Table {
   Study (*reproduce)(const ReproduceOptions&);
 };
 
-constexpr std::array<Table, 10> kTables{
+constexpr std::array<Table, 11> kTables{
     {{"wi-closure-kitti",
       "KITTI 08 cut in two, radio noise of 0.5 m and 10 degrees, compared with Wi-Closure", wi_closure_kitti},
      {"wi-closure-table1",
@@ -263,6 +273,9 @@ constexpr std::array<Table, 10> kTables{
       "error and recall over angle noise, number of links and multipath: where estimation fails", robustness},
      {"overlap-growth", "run time of the overlap search over the size of the mission, up to a million poses",
       overlap_growth},
+     {"verification-budget",
+      "error over the number of scans registered between robots, by worth, similarity and at random",
+      verification_budget},
      {"aoa", "angles of arrival of the WSR data set, compared with its authors' results", aoa},
      {"aoa-paths", "three simulated paths at once: which of them each AoA profile finds", aoa_paths},
      {"sequence-closures", "closures from similar fingerprint sequences, over similarity and window length",
@@ -383,9 +396,9 @@ void add_reproduce(CLI::App& program) {
       "WSR data set (aoa): the GitHub repository Harvard-REACT/WSR-Toolbox-Dataset.\n\n"
       "--set changes parameters of the simulated scenario; for aoa and aoa-paths it changes those of the\n"
       "angle estimation. `radioslam parameters TABLE` lists them.\n"
-      "wi-closure-table1, wi-closure-hall, robustness-map, aoa-paths, fingerprint-tables and "
-      "threshold-sweep\n"
-      "take minutes. wi-closure-table1 needs 1.4 GB of memory for KITTI 08.\n"
+      "wi-closure-table1, wi-closure-hall, robustness-map, verification-budget, aoa-paths,\n"
+      "fingerprint-tables and threshold-sweep take minutes. wi-closure-table1 needs 1.4 GB of memory for\n"
+      "KITTI 08.\n"
       "overlap-growth needs 1 GiB of memory per half million poses.\n\n"
       "Example:\n"
       "  radioslam reproduce wi-closure-kitti --trajectory GT_LiDAR/08.txt --odometry ALOAM/08.txt\n"

@@ -12,5 +12,6 @@ if (study.growth) {
   by_id("summary").textContent = growth_summary();
   write_growth();
 }
+if (study.budget) write_budget();
 if (study.directions) write_directions();
 write_table();
