@@ -47,7 +47,7 @@ enum class ScanStatus {
   kMapStart,      ///< first scan of the map
   kTooFewPoints,  ///< too few usable points
   kLost,          ///< does not match the map
-  kNewMap,        ///< registered on a new map; the step to it is highly uncertain
+  kNewMap,        ///< the first on a new map; the step to it may be of any size
 };
 
 /// Whether the scan's pose belongs to the trajectory.

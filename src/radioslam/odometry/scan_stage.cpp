@@ -206,7 +206,7 @@ void report_scans(MeasuredScans& measured, const Robot& robot, const ScanTraject
   note(status(ScanStatus::kLost), "scans did not match the map and were skipped");
   note(status(ScanStatus::kNewMap),
        "tracking losses (scans missing or not matching for long): a new map was started each time, and the "
-       "motion in between is unknown");
+       "motion in between is known by its odometry at best");
   note(track.points.not_finite, "points or their times were not finite and were ignored");
   note(track.points.off_time,
        "points were more than scan_points.max_time_s from their scan's stamp and were ignored");
