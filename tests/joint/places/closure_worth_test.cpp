@@ -101,14 +101,14 @@ TYPED_TEST(ClosureWorth, TwoPairsAreTheBestTwoOfAll) {
       EXPECT_GE(chosen, this->information({k, l}) - 1e-9) << k << ' ' << l;
 }
 
-TYPED_TEST(ClosureWorth, ASecondTimeAPairTellsLittle) {
+TYPED_TEST(ClosureWorth, ASecondTimeAPairAddsLittle) {
   this->pairs.push_back(this->pairs[this->choose(1).front()]);
   const Chosen chosen = this->choose(this->pairs.size());
   EXPECT_NE(chosen[1], this->pairs.size() - 1);
   EXPECT_LT(chosen.front(), this->pairs.size() - 1) << "of equal ones the first";
 }
 
-TYPED_TEST(ClosureWorth, UnderAnotherHypothesisAPairTellsAsMuch) {
+TYPED_TEST(ClosureWorth, UnderAnotherHypothesisAPairAddsAsMuch) {
   WeighedPair other = this->pairs[this->choose(1).front()];
   other.hypothesis = 1;
   other.weight = 0.99;

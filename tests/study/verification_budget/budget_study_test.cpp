@@ -15,7 +15,7 @@ using Order = VerificationBudget::Order;
 /// A short drive with coarse scans.
 BudgetMission small_hall() {
   HallParams hall = scanned_hall();
-  hall.path_length_m = 12;
+  hall.path_length_m = 8;
   hall.speed_mps = 1;
   hall.onboard.lidar.lidar_beams = 8;
   hall.onboard.lidar.lidar_azimuth_steps = 120;
@@ -26,7 +26,7 @@ BudgetMission small_hall() {
 TEST(BudgetStudy, RunsWithinEveryShareInEveryOrder) {
   const BudgetMission hall = small_hall();
   ASSERT_EQ(hall.runs.size(), 3 * std::size(kBudgetShares));
-  EXPECT_GT(hall.all.registrations, 5);
+  EXPECT_GT(hall.all.registrations, 2);
   for (const BudgetRun& run : hall.runs) {
     EXPECT_LE(run.registrations, run.share * hall.all.registrations);
     EXPECT_LE(run.verified, run.registrations);

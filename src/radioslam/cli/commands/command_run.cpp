@@ -153,6 +153,7 @@ void add_run(CLI::App& program) {
       ->add_option("--max-verifications", options->max_verifications,
                    "Largest number of scans registered between robots, over all rounds: those worth most "
                    "first (default: no bound)")
+      ->check(CLI::Range(std::size_t{0}, std::size_t{1000000000}))
       ->type_name("N");
   command->add_flag(
       "--unchecked", options->unchecked,

@@ -26,7 +26,8 @@ class GreedyChoice {
       nodes_.push_back(pair.j);
     }
     for (std::size_t k = 0; k < pairs.size(); ++k) worth_.push_back(worth(k));
-    told_.setZero(kDof * static_cast<Eigen::Index>(pairs.size()), kDof * static_cast<Eigen::Index>(count));
+    explained_.setZero(kDof * static_cast<Eigen::Index>(pairs.size()),
+                       kDof * static_cast<Eigen::Index>(count));
   }
 
   std::vector<std::size_t> choose(std::size_t count) {
@@ -58,23 +59,23 @@ class GreedyChoice {
     return gain > 0 ? pairs_[k].weight * pairs_[k].probability * gain : 0;
   }
 
-  /// Takes from the covariances of the others what the n-th choice, `best`, would tell of them.
+  /// Takes from the covariances of the others what the n-th choice, `best`, would explain.
   void learn(std::size_t best, Eigen::Index n) {
     const Eigen::LLT<Matrix> cov_measured(remaining_[best] + cov_closure_);
-    const Eigen::MatrixXd of_best = told_rows(best).leftCols(kDof * n).transpose();
+    const Eigen::MatrixXd of_best = explained_rows(best).leftCols(kDof * n).transpose();
     const std::vector<Matrix> with_best = covariances_with(best);
     for (std::size_t k = 0; k < pairs_.size(); ++k) {
       if (pairs_[k].hypothesis != pairs_[best].hypothesis) continue;
-      const Matrix with = with_best[k] - told_rows(k).leftCols(kDof * n) * of_best;
-      const Matrix told = cov_measured.matrixL().solve(with.transpose()).transpose();
-      told_rows(k).template middleCols<kDof>(kDof * n) = told;
-      remaining_[k] -= told * told.transpose();
+      const Matrix with = with_best[k] - explained_rows(k).leftCols(kDof * n) * of_best;
+      const Matrix explained = cov_measured.matrixL().solve(with.transpose()).transpose();
+      explained_rows(k).template middleCols<kDof>(kDof * n) = explained;
+      remaining_[k] -= explained * explained.transpose();
       worth_[k] = worth(k);
     }
   }
 
-  auto told_rows(std::size_t k) {
-    return told_.template middleRows<kDof>(kDof * static_cast<Eigen::Index>(k));
+  auto explained_rows(std::size_t k) {
+    return explained_.template middleRows<kDof>(kDof * static_cast<Eigen::Index>(k));
   }
 
   /// C_.k before any choice.
@@ -96,7 +97,7 @@ class GreedyChoice {
   std::vector<PoseId> nodes_;      ///< two of each pair
   std::vector<Matrix> by_i_;       ///< derivative of T_i_j by node i; by node j it is the identity
   std::vector<Matrix> remaining_;  ///< C_kk
-  Eigen::MatrixXd told_;           ///< C_kl = C_kl before any choice - told_rows(k) told_rows(l)^T
+  Eigen::MatrixXd explained_;      ///< C_kl = C_kl before any choice - explained_rows(k) explained_rows(l)^T
   std::vector<double> worth_;
   std::vector<bool> is_chosen_;
 };

@@ -6,7 +6,7 @@
 // covariance of T_i_j; R: that of a closure. Predictions of one hypothesis are correlated: with each choice
 // those of the others become better known,
 //   C <- C - C_.k (C_kk + R)^-1 C_k. ,
-// so that a pair that tells the same as one that was chosen is worth less. Where all of one hypothesis hold,
+// so that a pair that repeats one that was chosen is worth less. Where all of one hypothesis hold,
 // this is greedy maximisation of the information that all choices add together, which is submodular: the
 // result has at least 1 - 1/e of the best one's (Nemhauser, Wolsey, Fisher 1978). Swarm-SLAM (Lajoie,
 // Beltrame, RA-L 2024) chooses greedily as well, by the algebraic connectivity of the graph.

@@ -99,9 +99,10 @@ RecognisedPlaces recognise_places(const PlaceInput<Pose>& input, const PlacePara
   });
   reject_repetitions(proposals, found.closures);
   for (std::size_t k = 0; k < proposals.size(); ++k)
-    found.attempts.push_back(
-        {RobotIndex(proposals[k].a), RobotIndex(proposals[k].b), proposals[k].i, proposals[k].j,
-         proposals[k].anywhere ? std::numeric_limits<double>::infinity() : horizontal_sigma(proposals[k].T_i_j)});
+    found.attempts.push_back({RobotIndex(proposals[k].a), RobotIndex(proposals[k].b), proposals[k].i,
+                              proposals[k].j,
+                              proposals[k].anywhere ? std::numeric_limits<double>::infinity()
+                                                    : horizontal_sigma(proposals[k].T_i_j)});
   found.counts.registrations = proposals.size();
   found.counts.verified = static_cast<std::size_t>(
       std::count_if(found.closures.begin(), found.closures.end(),

@@ -9,8 +9,8 @@
 // like it are worth as much as before.
 //
 // Of robots that nothing aligns there is no prediction: each pair of robots has its turn with its most
-// similar keyframes. A first closure there tells more than any other, but there may be none: the two kinds
-// alternate, so that neither waits for the other.
+// similar keyframes. A first closure there adds more information than any other, but there may be none: the
+// two kinds alternate, so that neither waits for the other.
 #pragma once
 
 #include <cstddef>

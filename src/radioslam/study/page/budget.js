@@ -10,8 +10,8 @@ function draw_budget(scenario) {
   const x = d3.scaleLog().domain(d3.extent(shares)).range([frame.left, frame.width - frame.right]);
   const y = d3.scaleLog().domain(d3.extent(errors)).nice().range([frame.height - frame.bottom, frame.top]);
   const svg = d3.select(by_id("budget")).append("svg").attr("viewBox", `0 0 ${frame.width} ${frame.height}`).attr("role", "img").attr("aria-label", `${scenario}: error over verifications`);
-  for (const share of shares) svg.append("text").attr("x", x(share)).attr("y", frame.height - frame.bottom + 18).attr("text-anchor", "middle").text(format.percent(share));
-  for (const v of y.ticks(4)) {
+  for (const share of shares) svg.append("text").attr("x", x(share)).attr("y", frame.height - frame.bottom + 18).attr("text-anchor", "middle").text(`${d3.format(".0f")(100 * share)} %`);
+  for (const v of y.ticks(3)) {
     svg.append("line").attr("x1", frame.left).attr("x2", frame.width - frame.right).attr("y1", y(v)).attr("y2", y(v));
     svg.append("text").attr("x", frame.left - 8).attr("y", y(v) + 4).attr("text-anchor", "end").text(`${d3.format("~g")(v)} m`);
   }

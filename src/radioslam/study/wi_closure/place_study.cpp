@@ -29,8 +29,12 @@ PlaceCounts place_counts(const RunResult& result) {
     const auto found = result.counts.find(key);
     return found == result.counts.end() ? std::size_t{0} : static_cast<std::size_t>(found->second);
   };
-  return {count("place_pairs"), count("place_pairs_allowed"), count("descriptor_pairs"),
-          count("registrations"), count("registrations_verified")};
+  return {.pairs = count("place_pairs"),
+          .allowed = count("place_pairs_allowed"),
+          .compared = count("descriptor_pairs"),
+          .proposed = count("registrations_proposed"),
+          .registrations = count("registrations"),
+          .verified = count("registrations_verified")};
 }
 
 /// Of all stages, or of those with this name.
