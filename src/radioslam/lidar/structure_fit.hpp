@@ -1,4 +1,5 @@
-// How well the structure of a scan fits a map: that part of it which tells where in the plane it was taken.
+// How well the structure of a scan fits a map: that part of it which determines where in the plane it was
+// taken.
 //
 // Ground fits ground anywhere. Of every surfel with a normal counts the share of its information on x and y,
 //   h = (W_xx + W_yy) / tr W,  W = C^-1,
@@ -10,7 +11,7 @@
 
 namespace radioslam {
 
-/// Sum of h: the number of surfels that tell the position. The body's z-axis must be about vertical.
+/// Sum of h: the number of surfels that determine the position. The body's z-axis must be about vertical.
 double structure_of(const ScanPyramid& scan);
 
 /// The ratio, 0 to 1. `loss_scale`: as in RegistrationParams.

@@ -15,18 +15,19 @@
 namespace radioslam {
 namespace {
 
-constexpr double kBeyond = 4.0 / 3;    // how far rivals are searched, in the width of a search for the place
-constexpr double kPossible = 4;        // standard deviations within which a place is possible
-constexpr std::size_t kElsewhere = 6;  // places that look alike and are searched
+constexpr double kBeyond =
+    4.0 / 3;                     // how far alternatives are searched, in the width of a search for the place
+constexpr double kPossible = 4;  // standard deviations within which a place is possible
+constexpr std::size_t kElsewhere = 6;    // places that look alike and are searched
 constexpr double kSigmaPlace = 1.0 / 3;  // of a scan from the place that looks alike, in its median range
 constexpr double kSamePlace_m = 1;
-constexpr double kRivalLog = 3;       // e^-3: twenty times less likely
-constexpr double kFits = 0.3;         // likelihood from which a pose counts as one that fits
-constexpr double kUnseenFits = 0.02;  // before any was found
-constexpr double kUnseenShare = 0.2;  // of the area that is possible
-constexpr double kStoreyPrior = 0.1;  // that there is a storey that looks the same
-constexpr double kMinStorey_m = 2.5;  // height
-constexpr float kIndoors_m = 30;      // range of most points on a storey
+constexpr double kAlternativeLog = 3;  // e^-3: twenty times less likely
+constexpr double kFits = 0.3;          // likelihood from which a pose counts as one that fits
+constexpr double kUnseenFits = 0.02;   // before any was found
+constexpr double kUnseenShare = 0.2;   // of the area that is possible
+constexpr double kStoreyPrior = 0.1;   // that there is a storey that looks the same
+constexpr double kMinStorey_m = 2.5;   // height
+constexpr float kIndoors_m = 30;       // range of most points on a storey
 
 float quantile(std::vector<float>& values, double share) {
   const auto at =
@@ -125,26 +126,26 @@ ScanLoop LoopVerification::verify(const PlacedKeyframes& target, std::size_t i, 
   const Setting setting{expected, target.poses[i].rotation_matrix().transpose() * Eigen::Vector3d::UnitZ(),
                         of_.storeys ? storey_height_m(scan) : std::nullopt,
                         seen_area_m2(target, std::max(scan.median_range_m, kSamePlace_m))};
-  Rivals rivals = weigh(setting, fits);
+  Alternatives alternatives = weigh(setting, fits);
   if (target.index && source.index && reaches_elsewhere(expected, scan.median_range_m))
     for (const Neighbour& place : places_alike(target, i, source, j)) {
-      if (rivals.doubt() > params_.max_doubt) break;
+      if (alternatives.doubt() > params_.max_doubt) break;
       add_fits_at(place, target, i, source, j, scan, fits);
-      rivals = weigh(setting, fits);
+      alternatives = weigh(setting, fits);
     }
   if (!fits.front().elsewhere &&
       fits.front().registration.inlier_ratio < params_.min_fit_ratio * nominal_ratio)
     return loop_of(fits.front(), LoopStatus::kLowOverlap);
-  ScanLoop loop = loop_of(fits.front(), status_of(fits.front(), rivals));
-  loop.doubt = rivals.doubt();
+  ScanLoop loop = loop_of(fits.front(), status_of(fits.front(), alternatives));
+  loop.doubt = alternatives.doubt();
   return loop;
 }
 
-LoopStatus LoopVerification::status_of(const Fit& best, const Rivals& rivals) const {
+LoopStatus LoopVerification::status_of(const Fit& best, const Alternatives& alternatives) const {
   if (best.elsewhere || best.likelihood < kFits) return LoopStatus::kAmbiguous;
-  if (rivals.doubt() <= params_.max_doubt) return LoopStatus::kAccepted;
-  if (rivals.fits >= rivals.unmapped + rivals.storeys) return LoopStatus::kAmbiguous;
-  return rivals.storeys > rivals.unmapped ? LoopStatus::kAnotherStorey : LoopStatus::kUnmapped;
+  if (alternatives.doubt() <= params_.max_doubt) return LoopStatus::kAccepted;
+  if (alternatives.fits >= alternatives.unmapped + alternatives.storeys) return LoopStatus::kAmbiguous;
+  return alternatives.storeys > alternatives.unmapped ? LoopStatus::kAnotherStorey : LoopStatus::kUnmapped;
 }
 
 std::vector<LoopVerification::Fit> LoopVerification::fits_around(const PlacedKeyframes& target, std::size_t i,
@@ -201,13 +202,13 @@ void LoopVerification::add_fits_at(const Neighbour& place, const PlacedKeyframes
   }
 }
 
-LoopVerification::Rivals LoopVerification::weigh(const Setting& setting, std::vector<Fit>& fits) const {
+LoopVerification::Alternatives LoopVerification::weigh(const Setting& setting, std::vector<Fit>& fits) const {
   const ExpectedPlace& expected = setting.expected;
   double best = 0;
   for (const Fit& fit : fits) best = std::max(best, fit.structure);
   for (Fit& fit : fits) {
-    const double worse = best > 0 ? (1 - fit.structure / best) / (1 - params_.rival_ratio) : 0;
-    fit.likelihood = std::exp(-kRivalLog * worse * worse);
+    const double worse = best > 0 ? (1 - fit.structure / best) / (1 - params_.alternative_ratio) : 0;
+    fit.likelihood = std::exp(-kAlternativeLog * worse * worse);
     const SE3::Tangent off = (expected.T_i_j.pose.inverse() * fit.T_i_j).log();
     const SE3::Jacobian covariance = expected.T_i_j.covariance + covariance_of_fit(fit.registration) +
                                      isotropic(fit.place_sigma_m * fit.place_sigma_m, 0);
@@ -215,36 +216,36 @@ LoopVerification::Rivals LoopVerification::weigh(const Setting& setting, std::ve
     fit.weight = fit.likelihood * (expected.anywhere ? 1 : prior_density(squares));
   }
   std::stable_sort(fits.begin(), fits.end(), [](const Fit& a, const Fit& b) { return a.weight > b.weight; });
-  return rivals_of(fits, setting);
+  return alternatives_of(fits, setting);
 }
 
-LoopVerification::Rivals LoopVerification::rivals_of(const std::vector<Fit>& weighed,
-                                                     const Setting& setting) const {
+LoopVerification::Alternatives LoopVerification::alternatives_of(const std::vector<Fit>& weighed,
+                                                                 const Setting& setting) const {
   constexpr double kLeastWeight = 1e-12;
   const ExpectedPlace& expected = setting.expected;
   const Fit& best = weighed.front();
   const double weight = std::max(best.weight, kLeastWeight);
-  Rivals rivals;
+  Alternatives alternatives;
   double fitting = kUnseenFits;
   for (std::size_t k = 1; k < weighed.size(); ++k) {
-    rivals.fits += weighed[k].weight / weight;
+    alternatives.fits += weighed[k].weight / weight;
     if (weighed[k].likelihood > kFits) fitting += weighed[k].likelihood;
   }
   if (expected.anywhere) {
-    rivals.unmapped = kUnseenShare * fitting;
-    return rivals;
+    alternatives.unmapped = kUnseenShare * fitting;
+    return alternatives;
   }
   const Eigen::Matrix3d covariance = expected.T_i_j.position_covariance();
   const double possible_m2 =
       2 * std::numbers::pi * std::sqrt(std::max(0.0, covariance.topLeftCorner<2, 2>().determinant()));
-  rivals.unmapped = kUnseenShare * fitting / setting.map_area_m2 * possible_m2 / weight;
+  alternatives.unmapped = kUnseenShare * fitting / setting.map_area_m2 * possible_m2 / weight;
   if (setting.storey_m) {
     const double off_m = setting.up.dot(best.T_i_j.translation() - expected.T_i_j.pose.translation());
     const double sigma_m = std::sqrt(std::max(0.0, setting.up.dot(covariance * setting.up)));
-    rivals.storeys =
+    alternatives.storeys =
         kStoreyPrior * other_storeys(*setting.storey_m, off_m, std::max(sigma_m, params_.min_sigma_m));
   }
-  return rivals;
+  return alternatives;
 }
 
 ScanPyramid LoopVerification::source_around(const PlacedKeyframes& robot, std::size_t j) const {

@@ -2,11 +2,11 @@
 //
 // The scan of one is searched on a submap around the other, all over the uncertainty of their predicted
 // relative pose and a little beyond. Where bays, storeys or streets are alike, a scan fits a wrong place as
-// well as its own: what tells them apart is the prediction. So a fit is weighed against its rivals,
-//   w = m(d) exp(-3 ((1 - s / s_best) / (1 - rival_ratio))^2),   m(d) = mean over a of exp(-d^2 / (2 a^2)) /
-//   a,
+// well as its own: the prediction is what distinguishes them. So a fit is weighed against its alternatives,
+//   w = m(d) exp(-3 ((1 - s / s_best) / (1 - alternative_ratio))^2),   m(d) = mean over a of exp(-d^2 / (2
+//   a^2)) / a,
 // s: the structure that the pose explains (structure_fit.hpp); d: its Mahalanobis distance from the
-// prediction, whose stated covariance may be wrong by factors a^2, a = 1/4, 1/2, 1, 2. Rivals are
+// prediction, whose stated covariance may be wrong by factors a^2, a = 1/4, 1/2, 1, 2. Alternatives are
 //   other poses on the submap
 //   the places of the target robot that look most alike, where the prediction reaches beyond the submap
 //   places that were not seen: as many per area as fit in the area that was, on the area that is possible
@@ -31,7 +31,7 @@ struct PlacedKeyframes {
   const ScanKeyframes& keyframes;
   const std::vector<SE3>& poses;
   const std::vector<double>& path_m;        ///< from the first keyframe to each
-  const ScanContextIndex* index = nullptr;  ///< of the keyframes' contexts; null: no rivals elsewhere
+  const ScanContextIndex* index = nullptr;  ///< of the keyframes' contexts; null: no alternatives elsewhere
   /// Standard deviation of the relative position of two keyframes, metres; thread-safe; needed with an index.
   std::function<double(std::size_t, std::size_t)> sigma_m = {};
 };
@@ -81,7 +81,7 @@ class LoopVerification {
     double map_area_m2;              ///< that the target has seen
   };
   /// What makes a scan doubtful, as weights relative to the best fit's.
-  struct Rivals {
+  struct Alternatives {
     double fits = 0, unmapped = 0, storeys = 0;
     double doubt() const {
       const double all = fits + unmapped + storeys;
@@ -100,9 +100,9 @@ class LoopVerification {
                    const PlacedKeyframes& source, std::size_t j, const ScanPyramid& scan,
                    std::vector<Fit>& fits) const;
   /// Sorts the fits by weight.
-  Rivals weigh(const Setting& setting, std::vector<Fit>& fits) const;
-  LoopStatus status_of(const Fit& best, const Rivals& rivals) const;
-  Rivals rivals_of(const std::vector<Fit>& weighed, const Setting& setting) const;
+  Alternatives weigh(const Setting& setting, std::vector<Fit>& fits) const;
+  LoopStatus status_of(const Fit& best, const Alternatives& alternatives) const;
+  Alternatives alternatives_of(const std::vector<Fit>& weighed, const Setting& setting) const;
   LocalMap submap_around(const PlacedKeyframes& robot, std::size_t i, double extent_m) const;
   ScanPyramid source_around(const PlacedKeyframes& robot, std::size_t j) const;
   /// The submap has errors of its own: (I^-1 + minimum covariance)^-1, also for a singular I.

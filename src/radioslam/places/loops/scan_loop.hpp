@@ -21,7 +21,7 @@ struct ScanLoopParams {
   double sigmas = 3;
   double known_sigma_m = 0.1;
   double min_fit_ratio = 0.85;
-  double rival_ratio = 0.75;
+  double alternative_ratio = 0.75;
   double max_doubt = 0.05;
   double min_structure = 25;
   double min_sigma_m = 0.02;
@@ -50,7 +50,7 @@ struct ScanLoopParams {
     RADIOSLAM_FIELD(min_fit_ratio, "", 0, 1,
                     "smallest inlier ratio of a closure, as a fraction of the nominal one of odometry");
     RADIOSLAM_FIELD(
-        rival_ratio, "", 0.01, 0.999,
+        alternative_ratio, "", 0.01, 0.999,
         "structure that another pose explains, as a fraction of the best's, at which it is twenty "
         "times less likely");
     RADIOSLAM_FIELD(max_doubt, "", 0, 1,
@@ -71,7 +71,7 @@ enum class LoopStatus {
   kTooLittleStructure,
   kAmbiguous,        ///< another pose explains the scan, too
   kUnmapped,         ///< places like this recur, and one that was not seen may be it
-  kAnotherStorey,    ///< the height is too uncertain to tell storeys apart
+  kAnotherStorey,    ///< the height is too uncertain to distinguish storeys
   kRejectedByGraph,  ///< contradicts other closures
 };
 /// Why a closure was rejected, in words; empty if it was accepted.
