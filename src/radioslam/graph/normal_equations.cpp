@@ -27,7 +27,11 @@ BlockCholeskyOptions shared_last(const VariableBlocks& blocks) {
 
 template <class Pose>
 NormalEquations<Pose>::NormalEquations(const PoseGraph<Pose>& graph)
-    : gauge_(resolve_gauge(graph)),
+    : NormalEquations(graph, resolve_gauge(graph)) {}
+
+template <class Pose>
+NormalEquations<Pose>::NormalEquations(const PoseGraph<Pose>& graph, Gauge<Pose> gauge)
+    : gauge_(std::move(gauge)),
       blocks_(number_blocks(graph, gauge_.held)),
       matrix_(block_pattern(graph, blocks_)) {
   gradient_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(matrix_.rows()));
@@ -87,13 +91,18 @@ void NormalEquations<Pose>::add_gauge_penalties() {
 }
 
 template <class Pose>
-Factorization NormalEquations<Pose>::factorize(double damping) {
+void NormalEquations<Pose>::damp(double damping) {
   const double least = kEmptyDiagonalRatio * diagonal_.maxCoeff();
   for (std::size_t b = 0; b < matrix_.pattern().blocks(); ++b) {
     auto block = matrix_.diagonal(b);
     const auto d = diagonal_.segment(static_cast<Eigen::Index>(matrix_.offset(b)), block.rows());
     block.diagonal() = d + damping * d.cwiseMax(least);
   }
+}
+
+template <class Pose>
+Factorization NormalEquations<Pose>::factorize(double damping) {
+  damp(damping);
   return cholesky_->factorize(matrix_);
 }
 

@@ -133,6 +133,9 @@ template <class Pose>
 class NormalEquations {
  public:
   explicit NormalEquations(const PoseGraph<Pose>& graph);
+  /// With another gauge than the graph's own. Where it leaves directions free, as in a part of a larger
+  /// system, the matrix is singular and only to be eliminated in part.
+  NormalEquations(const PoseGraph<Pose>& graph, Gauge<Pose> gauge);
 
   /// No free variable or no factor.
   bool empty() const { return matrix_.rows() == 0; }
@@ -141,7 +144,10 @@ class NormalEquations {
   /// one given to the constructor: values, measurements, informations, weights and losses may differ.
   double linearise(const PoseGraph<Pose>& graph);
 
-  /// Factorises H + damping * diag(H); an empty diagonal entry counts as a small fraction of the largest.
+  /// Makes the matrix H + damping * diag(H); an empty diagonal entry counts as a small fraction of the
+  /// largest.
+  void damp(double damping);
+  /// Factorises H + damping * diag(H).
   Factorization factorize(double damping);
   /// The step that solves (H + damping * diag(H)) step = -g.
   Eigen::VectorXd step() const { return cholesky_->solve(-gradient_); }

@@ -2,6 +2,16 @@ radioslam_room(graph
   SOURCES
     block_structure.cpp
     chordal.cpp
+    distributed/block_coordinate.cpp
+    distributed/cluster.cpp
+    distributed/frames.cpp
+    distributed/held_factors.cpp
+    distributed/message.cpp
+    distributed/robot_graph.cpp
+    distributed/separators.cpp
+    distributed/simulated_network.cpp
+    distributed/team_optimization.cpp
+    distributed/topology.cpp
     gauge.cpp
     graduated.cpp
     initial_values.cpp
@@ -14,6 +24,7 @@ radioslam_room(graph
     linear/front_solve.cpp
     linear/front_tree.cpp
     linear/number_store.cpp
+    linear/partial_elimination.cpp
     linear/partitioned_inverse.cpp
     linear/selected_inverse.cpp
     linear/supernodes.cpp

@@ -1,0 +1,104 @@
+#include "radioslam/graph/distributed/block_coordinate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace radioslam {
+
+template <class Pose>
+BlockCoordinateSolver<Pose>::BlockCoordinateSolver(RobotGraph<Pose> robot,
+                                                   const BlockCoordinateParams& params)
+    : params_(params), robot_(std::move(robot)), frames_(robot_, params.frames) {
+  poses_.assign(robot_.graph.poses.begin(),
+                robot_.graph.poses.begin() + static_cast<std::ptrdiff_t>(robot_.own_poses));
+}
+
+template <class Pose>
+std::vector<Frame> BlockCoordinateSolver<Pose>::frames() const {
+  std::vector<Frame> frames;
+  for (const std::uint32_t part : robot_.part_of) frames.push_back(frames_.frame_of_part(part));
+  return frames;
+}
+
+template <class Pose>
+std::vector<Message<Pose>> BlockCoordinateSolver<Pose>::round(const std::vector<Message<Pose>>& heard) {
+  for (const auto& message : heard)
+    if (!message.seen || !frames_.hear(robot_, message.from, *message.seen)) ++refused_;
+  if (frames_.adopt(robot_)) {
+    poses_.assign(robot_.graph.poses.begin(),
+                  robot_.graph.poses.begin() + static_cast<std::ptrdiff_t>(robot_.own_poses));
+    momentum_ = 1;
+  }
+  if (auto usable = frames_.usable_factors(robot_); usable != usable_ || !equations_) {
+    usable_ = std::move(usable);
+    prepare();
+  }
+  if (!usable_.empty()) step();
+  return messages();
+}
+
+template <class Pose>
+void BlockCoordinateSolver<Pose>::prepare() {
+  active_ = robot_.graph;
+  active_.relative_poses.resize(robot_.own_relative_poses);
+  for (const std::uint32_t k : usable_) active_.relative_poses.push_back(robot_.graph.relative_poses[k]);
+  active_.pose_fixed.assign(active_.poses.size(), false);
+  for (std::size_t p = robot_.own_poses; p < active_.poses.size(); ++p) active_.pose_fixed[p] = true;
+  equations_.emplace(active_);
+}
+
+template <class Pose>
+void BlockCoordinateSolver<Pose>::step() {
+  active_.poses = robot_.graph.poses;
+  const auto set_weights = [&](double factor) {
+    for (std::size_t k = 0; k < usable_.size(); ++k)
+      active_.relative_poses[robot_.own_relative_poses + k].weight =
+          factor * robot_.graph.relative_poses[usable_[k]].weight;
+  };
+  set_weights(1);
+  const double cost = equations_->linearise(active_);
+  const Eigen::VectorXd gradient = equations_->gradient();
+  set_weights(2);
+  equations_->linearise(active_);
+  double damping = 0;
+  while (equations_->factorize(damping) == Factorization::kNotPositiveDefinite)
+    damping = std::max(1e-8, 10 * damping);
+  const Eigen::VectorXd step = equations_->cholesky().solve(-gradient);
+  settled_ = -gradient.dot(step) <= params_.settled_decrease * cost;
+  equations_->apply(step, active_);
+  // Momentum that points uphill is dropped (O'Donoghue and Candes 2015).
+  double uphill = 0;
+  for (std::size_t p = 0; p < robot_.own_poses; ++p) {
+    const auto block = equations_->blocks().poses[p];
+    if (block < 0) continue;
+    const auto at = static_cast<Eigen::Index>(equations_->matrix().offset(static_cast<std::size_t>(block)));
+    uphill += gradient.segment<Pose::kDof>(at).dot((poses_[p].inverse() * active_.poses[p]).log());
+  }
+  const double next = params_.accelerated && uphill <= 0 ? (1 + std::sqrt(1 + 4 * momentum_ * momentum_)) / 2 : 1;
+  const double ahead = next > 1 ? (momentum_ - 1) / next : 0;
+  for (std::size_t p = 0; p < robot_.own_poses; ++p) {
+    const Pose& moved = active_.poses[p];
+    robot_.graph.poses[p] = moved * Pose::exp(ahead * (poses_[p].inverse() * moved).log());
+    poses_[p] = moved;
+  }
+  momentum_ = next;
+}
+
+template <class Pose>
+std::vector<Message<Pose>> BlockCoordinateSolver<Pose>::messages() {
+  std::vector<Message<Pose>> messages;
+  for (const Neighbour& neighbour : robot_.neighbours) {
+    auto& message = messages.emplace_back();
+    message.from = robot_.robot;
+    message.to = neighbour.robot;
+    message.round = round_;
+    message.seen = frames_.seen_by(robot_, neighbour, robot_.graph.poses);
+  }
+  ++round_;
+  return messages;
+}
+
+template class BlockCoordinateSolver<SE2>;
+template class BlockCoordinateSolver<SE3>;
+
+}  // namespace radioslam

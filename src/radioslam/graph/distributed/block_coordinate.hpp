@@ -1,0 +1,54 @@
+// Riemannian block-coordinate descent: in a round every robot moves its own poses, its neighbours' at rest,
+// and tells them.
+// Sources: Tian, Khosoussi, Rosen, How 2021, Distributed certifiably correct pose-graph optimization (blocks,
+// acceleration with restarts); Fan and Murphey 2021, Majorization minimization methods for distributed pose
+// graph optimization (all robots at once: a factor between two robots counts double in a robot's own
+// quadratic, which then bounds the cost from above whatever the neighbour does at the same time).
+// The step solves the robot's own normal equations, so what is within a robot converges at once.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "radioslam/graph/distributed/distributed_solver.hpp"
+#include "radioslam/graph/distributed/frames.hpp"
+#include "radioslam/graph/normal_equations.hpp"
+
+namespace radioslam {
+
+struct BlockCoordinateParams {
+  FrameVoteParams frames;
+  bool accelerated = true;  ///< Nesterov's momentum, per robot, dropped where it points uphill
+  double settled_decrease = 1e-10;  ///< predicted decrease of a step, relative to the robot's cost
+};
+
+template <class Pose>
+class BlockCoordinateSolver : public DistributedSolver<Pose> {
+ public:
+  BlockCoordinateSolver(RobotGraph<Pose> robot, const BlockCoordinateParams& params);
+
+  std::vector<Message<Pose>> round(const std::vector<Message<Pose>>& heard) override;
+  bool settled() const override { return settled_; }
+  std::vector<Pose> poses() const override { return poses_; }
+  std::vector<Frame> frames() const override;
+  std::size_t refused() const override { return refused_; }
+
+ private:
+  void prepare();
+  void step();
+  std::vector<Message<Pose>> messages();
+
+  BlockCoordinateParams params_;
+  RobotGraph<Pose> robot_;  ///< own poses are where the next step starts: with momentum
+  FrameAgreement<Pose> frames_;
+  std::vector<Pose> poses_;  ///< without momentum: the estimate
+  double momentum_ = 1;
+  std::vector<std::uint32_t> usable_;
+  PoseGraph<Pose> active_;  ///< the factors within the robot, then the usable ones; copies are fixed
+  std::optional<NormalEquations<Pose>> equations_;
+  std::uint32_t round_ = 0;
+  bool settled_ = false;
+  std::size_t refused_ = 0;
+};
+
+}  // namespace radioslam

@@ -1,0 +1,345 @@
+#include "radioslam/graph/distributed/message.hpp"
+
+#include <cmath>
+
+#include "radioslam/graph/distributed/wire.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr std::size_t kReal = 8;
+/// More poses shared by a subtree are refused: their information is dense in memory.
+constexpr Eigen::Index kMaxSharedPoses = 1024;
+
+// ---- poses and numbers ----
+
+void write(WireWriter& out, const SE2& pose) {
+  out.f64(pose.translation().x());
+  out.f64(pose.translation().y());
+  out.f64(pose.angle());
+}
+/// The rotation as the vector part of its quaternion with w >= 0, and w, which that part tells badly near a
+/// half turn.
+void write(WireWriter& out, const SE3& pose) {
+  const Eigen::Quaterniond& q = pose.rotation();
+  for (const double x : {pose.translation().x(), pose.translation().y(), pose.translation().z(), q.x(), q.y(),
+                         q.z(), q.w()})
+    out.f64(x);
+}
+void read(WireReader& in, SE2& pose) {
+  const double x = in.f64(), y = in.f64(), angle = in.f64();
+  pose = SE2({x, y}, angle);
+}
+void read(WireReader& in, SE3& pose) {
+  std::array<double, 7> v{};
+  for (double& x : v) x = in.f64();
+  const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
+  if (std::abs(q.norm() - 1) > 1e-6) return in.refuse();
+  pose = SE3({v[0], v[1], v[2]}, q);
+}
+template <class Pose>
+constexpr std::size_t kPoseBytes = kReal*(Pose::kDim == 2 ? 3 : 7);
+
+template <class Derived>
+void write(WireWriter& out, const Eigen::MatrixBase<Derived>& matrix) {
+  for (Eigen::Index c = 0; c < matrix.cols(); ++c)
+    for (Eigen::Index r = 0; r < matrix.rows(); ++r) out.f64(matrix(r, c));
+}
+template <class Derived>
+void read(WireReader& in, Eigen::MatrixBase<Derived>& matrix) {
+  for (Eigen::Index c = 0; c < matrix.cols(); ++c)
+    for (Eigen::Index r = 0; r < matrix.rows(); ++r) matrix(r, c) = in.f64();
+}
+
+Eigen::VectorXd read_vector(WireReader& in) {
+  Eigen::VectorXd v(static_cast<Eigen::Index>(in.count(kReal)));
+  read(in, v);
+  return v;
+}
+void write_vector(WireWriter& out, const Eigen::VectorXd& v) {
+  out.whole(static_cast<std::uint64_t>(v.size()));
+  write(out, v);
+}
+
+// ---- an information matrix ----
+// Scaled to a unit diagonal and rounded to single precision, which moves the steps by 1e-6 of themselves and
+// the point where they end not at all: gradients are exact. Blocks of zeros, as a chain without closures of
+// its own leaves them, are a bit each.
+
+void write_information(WireWriter& out, const Eigen::MatrixXd& information, Eigen::Index block) {
+  const Eigen::Index n = information.rows() / block;
+  Eigen::VectorXd scale(information.rows());
+  for (Eigen::Index k = 0; k < scale.size(); ++k)
+    scale[k] = static_cast<double>(static_cast<float>(std::sqrt(std::max(information(k, k), 1e-30))));
+  for (Eigen::Index k = 0; k < scale.size(); ++k) out.f32(static_cast<float>(scale[k]));
+  const Eigen::MatrixXd scaled =
+      scale.cwiseInverse().asDiagonal() * information * scale.cwiseInverse().asDiagonal();
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> kept;
+  std::uint8_t bits = 0;
+  unsigned filled = 0;
+  for (Eigen::Index j = 0; j < n; ++j)
+    for (Eigen::Index i = j + 1; i < n; ++i) {
+      const bool there = scaled.block(i * block, j * block, block, block).cwiseAbs().maxCoeff() > 1e-9;
+      if (there) kept.emplace_back(i, j);
+      bits = static_cast<std::uint8_t>(bits | (unsigned{there} << filled));
+      if (++filled == 8) {
+        out.byte(bits);
+        bits = 0, filled = 0;
+      }
+    }
+  if (filled > 0) out.byte(bits);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index c = 0; c < block; ++c)
+      for (Eigen::Index r = c + 1; r < block; ++r)
+        out.f32(static_cast<float>(scaled(i * block + r, i * block + c)));
+  for (const auto& [i, j] : kept)
+    for (Eigen::Index c = 0; c < block; ++c)
+      for (Eigen::Index r = 0; r < block; ++r)
+        out.f32(static_cast<float>(scaled(i * block + r, j * block + c)));
+}
+
+Eigen::MatrixXd read_information(WireReader& in, Eigen::Index n, Eigen::Index block) {
+  Eigen::VectorXd scale(n * block);
+  for (Eigen::Index k = 0; k < scale.size(); ++k) scale[k] = static_cast<double>(in.f32());
+  const std::size_t pairs = static_cast<std::size_t>(n * (n - 1) / 2);
+  const std::string_view bits = in.take((pairs + 7) / 8);
+  if (!in.good()) return {};
+  Eigen::MatrixXd scaled = Eigen::MatrixXd::Identity(n * block, n * block);
+  const auto set = [&](Eigen::Index r, Eigen::Index c) {
+    scaled(r, c) = static_cast<double>(in.f32());
+    scaled(c, r) = scaled(r, c);
+  };
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index c = 0; c < block; ++c)
+      for (Eigen::Index r = c + 1; r < block; ++r) set(i * block + r, i * block + c);
+  std::size_t pair = 0;
+  for (Eigen::Index j = 0; j < n && in.good(); ++j)
+    for (Eigen::Index i = j + 1; i < n; ++i, ++pair)
+      if ((static_cast<unsigned char>(bits[pair / 8]) >> (pair % 8) & 1U) != 0)
+        for (Eigen::Index c = 0; c < block; ++c)
+          for (Eigen::Index r = 0; r < block; ++r) set(i * block + r, j * block + c);
+  return scale.asDiagonal() * scaled * scale.asDiagonal();
+}
+
+// ---- sections ----
+
+void write_topology(WireWriter& out, const std::vector<RobotLinks>& topology) {
+  out.whole(topology.size());
+  for (const RobotLinks& links : topology) {
+    out.whole(links.robot);
+    out.whole(links.neighbours.size());
+    for (const RobotNumber n : links.neighbours) out.whole(n);
+  }
+}
+std::vector<RobotLinks> read_topology(WireReader& in) {
+  std::vector<RobotLinks> topology(in.count(2));
+  for (RobotLinks& links : topology) {
+    links.robot = in.whole32();
+    links.neighbours.resize(in.count(1));
+    for (RobotNumber& n : links.neighbours) n = in.whole32();
+  }
+  return topology;
+}
+
+void write_frames(WireWriter& out, const std::vector<Frame>& frames,
+                  const std::vector<std::uint32_t>& part_of) {
+  out.whole(frames.size());
+  for (const Frame& frame : frames) {
+    out.whole(frame.origin);
+    out.whole(frame.part);
+    out.whole(frame.hops);
+  }
+  out.whole(part_of.size());
+  for (const std::uint32_t part : part_of) out.whole(part);
+}
+template <class Pose>
+void read_frames(WireReader& in, SeenPoses<Pose>& seen) {
+  seen.frames.resize(in.count(3));
+  for (Frame& frame : seen.frames) frame = {in.whole32(), in.whole32(), in.whole32()};
+  seen.part_of.resize(in.count(1));
+  for (std::uint32_t& part : seen.part_of) {
+    part = in.whole32();
+    if (part >= seen.frames.size()) in.refuse();
+  }
+}
+
+template <class Item>
+void write_items(WireWriter& out, const std::vector<Item>& items) {
+  out.whole(items.size());
+  for (const Item& item : items) write(out, item);
+}
+template <class Item>
+void read_items(WireReader& in, std::vector<Item>& items, std::size_t bytes_each) {
+  items.resize(in.count(bytes_each));
+  for (Item& item : items) read(in, item);
+}
+
+void write_weights(WireWriter& out, const std::vector<float>& weights) {
+  out.whole(weights.size());
+  for (const float w : weights) out.f32(w);
+}
+void read_weights(WireReader& in, std::vector<float>& weights) {
+  weights.resize(in.count(4));
+  for (float& w : weights) {
+    w = in.f32();
+    if (w < 0 || w > 1) in.refuse();
+  }
+}
+
+void write_up(WireWriter& out, const Elimination& up, Eigen::Index block) {
+  out.whole(up.sweep);
+  out.f64(up.cost);
+  out.f64(up.predicted_decrease);
+  out.f64(up.largest);
+  write_vector(out, up.gradient);
+  out.byte(up.information ? 1 : 0);
+  if (!up.information) return;
+  for (const SharedPose& pose : up.shared) {
+    out.whole(pose.key.robot);
+    out.whole(pose.key.pose);
+    out.whole(pose.solved_by);
+  }
+  write_information(out, *up.information, block);
+}
+Elimination read_up(WireReader& in, Eigen::Index block) {
+  Elimination up;
+  up.sweep = in.whole32();
+  up.cost = in.f64();
+  up.predicted_decrease = in.f64();
+  up.largest = in.f64();
+  up.gradient = read_vector(in);
+  if (up.gradient.size() % block != 0 || up.gradient.size() > kMaxSharedPoses * block) in.refuse();
+  if (in.byte() == 0 || !in.good()) return up;
+  up.shared.resize(static_cast<std::size_t>(up.gradient.size() / block));
+  for (SharedPose& pose : up.shared) pose = {{in.whole32(), in.whole32()}, in.whole32()};
+  up.information = read_information(in, up.gradient.size() / block, block);
+  return up;
+}
+
+void write_down(WireWriter& out, const Solution& down) {
+  out.whole(down.sweep);
+  out.byte(static_cast<std::uint8_t>(down.end));
+  out.byte(down.relinearise ? 1 : 0);
+  out.f64(down.damping);
+  out.f64(down.mu);
+  write_vector(out, down.steps);
+}
+Solution read_down(WireReader& in) {
+  Solution down;
+  down.sweep = in.whole32();
+  const std::uint8_t end = in.byte();
+  if (end > static_cast<std::uint8_t>(SweepEnd::kFinish)) in.refuse();
+  down.end = static_cast<SweepEnd>(end);
+  down.relinearise = in.byte() != 0;
+  down.damping = in.f64();
+  down.mu = in.f64();
+  down.steps = read_vector(in);
+  return down;
+}
+
+template <class Pose>
+void read_section(WireReader& in, SectionKind kind, Message<Pose>& message) {
+  const auto seen = [&]() -> SeenPoses<Pose>& {
+    return message.seen ? *message.seen : message.seen.emplace();
+  };
+  switch (kind) {
+    case SectionKind::kTopology:
+      message.topology = read_topology(in);
+      return;
+    case SectionKind::kFrames:
+      return read_frames(in, seen());
+    case SectionKind::kPoses:
+      return read_items(in, seen().poses, kPoseBytes<Pose>);
+    case SectionKind::kMatrices:
+      return read_items(in, message.matrices, kReal * Pose::kDim * Pose::kDim);
+    case SectionKind::kSteps:
+      return read_items(in, message.steps, kReal * Pose::kDof);
+    case SectionKind::kWeights:
+      return read_weights(in, message.weights);
+    case SectionKind::kUp:
+      message.up = read_up(in, Pose::kDof);
+      return;
+    case SectionKind::kDown:
+      message.down = read_down(in);
+      return;
+  }
+}
+
+}  // namespace
+
+std::string_view to_string(SectionKind kind) {
+  constexpr std::array<std::string_view, kSectionKinds> kNames{
+      "topology", "frames", "poses", "rotations", "steps", "weights", "eliminations", "solutions"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+template <class Pose>
+std::string encode(const Message<Pose>& message, MessageBytes* bytes) {
+  WireWriter out;
+  out.append("RS");
+  out.byte(kWireVersion);
+  out.byte(Pose::kDim);
+  out.whole(message.from);
+  out.whole(message.to);
+  out.whole(message.round);
+  MessageBytes counted;
+  counted.header = out.size();
+  const auto section = [&](SectionKind kind, bool there, const auto& write_content) {
+    if (!there) return;
+    WireWriter content;
+    write_content(content);
+    const std::size_t before = out.size();
+    out.byte(static_cast<std::uint8_t>(kind));
+    out.whole(content.size());
+    out.append(content.bytes());
+    counted.sections[static_cast<std::size_t>(kind)] += out.size() - before;
+  };
+  section(SectionKind::kTopology, !message.topology.empty(),
+          [&](WireWriter& o) { write_topology(o, message.topology); });
+  section(SectionKind::kFrames, message.seen.has_value(),
+          [&](WireWriter& o) { write_frames(o, message.seen->frames, message.seen->part_of); });
+  section(SectionKind::kPoses, message.seen.has_value(),
+          [&](WireWriter& o) { write_items(o, message.seen->poses); });
+  section(SectionKind::kMatrices, !message.matrices.empty(),
+          [&](WireWriter& o) { write_items(o, message.matrices); });
+  section(SectionKind::kSteps, !message.steps.empty(),
+          [&](WireWriter& o) { write_items(o, message.steps); });
+  section(SectionKind::kWeights, !message.weights.empty(),
+          [&](WireWriter& o) { write_weights(o, message.weights); });
+  section(SectionKind::kUp, message.up.has_value(),
+          [&](WireWriter& o) { write_up(o, *message.up, Pose::kDof); });
+  section(SectionKind::kDown, message.down.has_value(), [&](WireWriter& o) { write_down(o, *message.down); });
+  if (bytes != nullptr) *bytes = counted;
+  return out.take();
+}
+
+template <class Pose>
+std::optional<Message<Pose>> decode(std::string_view bytes) {
+  if (bytes.size() > kMaxMessageBytes || bytes.substr(0, 2) != "RS") return std::nullopt;
+  WireReader in(bytes.substr(2));
+  if (in.byte() != kWireVersion || in.byte() != Pose::kDim) return std::nullopt;
+  Message<Pose> message;
+  message.from = in.whole32();
+  message.to = in.whole32();
+  message.round = in.whole32();
+  int last_kind = -1;
+  while (in.good() && !in.empty()) {
+    const int kind = in.byte();
+    WireReader content(in.take(in.count(1)));
+    if (!in.good() || kind <= last_kind || kind >= static_cast<int>(kSectionKinds)) return std::nullopt;
+    last_kind = kind;
+    read_section(content, static_cast<SectionKind>(kind), message);
+    if (!content.good() || !content.empty()) return std::nullopt;
+  }
+  if (!in.good()) return std::nullopt;
+  return message;
+}
+
+#define RADIOSLAM_MESSAGE(Pose)                                          \
+  template std::string encode(const Message<Pose>&, MessageBytes*);      \
+  template std::optional<Message<Pose>> decode(std::string_view);
+RADIOSLAM_MESSAGE(SE2)
+RADIOSLAM_MESSAGE(SE3)
+#undef RADIOSLAM_MESSAGE
+
+}  // namespace radioslam

@@ -1,0 +1,269 @@
+#include "radioslam/graph/distributed/separators.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace radioslam {
+namespace {
+
+template <class Pose>
+std::vector<RobotNumber> neighbour_numbers(const RobotGraph<Pose>& robot) {
+  std::vector<RobotNumber> numbers;
+  for (const Neighbour& neighbour : robot.neighbours) numbers.push_back(neighbour.robot);
+  return numbers;
+}
+
+}  // namespace
+
+template <class Pose>
+SeparatorsSolver<Pose>::SeparatorsSolver(RobotGraph<Pose> robot, const SeparatorsParams& params)
+    : params_(params),
+      robot_(std::move(robot)),
+      frames_(robot_, params.frames),
+      gossip_(robot_.robot, neighbour_numbers(robot_)) {
+  for (const Neighbour& neighbour : robot_.neighbours) tell_poses_[neighbour.robot] = true;
+  if (robot_.neighbours.empty()) finished_ = true;
+}
+
+template <class Pose>
+std::vector<Pose> SeparatorsSolver<Pose>::poses() const {
+  return {robot_.graph.poses.begin(), robot_.graph.poses.begin() + static_cast<std::ptrdiff_t>(robot_.own_poses)};
+}
+
+template <class Pose>
+std::vector<Frame> SeparatorsSolver<Pose>::frames() const {
+  std::vector<Frame> frames;
+  for (const std::uint32_t part : robot_.part_of) frames.push_back(frames_.frame_of_part(part));
+  return frames;
+}
+
+template <class Pose>
+std::vector<Message<Pose>> SeparatorsSolver<Pose>::round(const std::vector<Message<Pose>>& heard) {
+  for (const auto& message : heard)
+    if (!hear(message)) ++refused_;
+  if (!tree_ && frames_.adopt(robot_))
+    for (auto& [neighbour, tell] : tell_poses_) tell = true;
+  if (!tree_ && gossip_.complete() && in_one_frame()) prepare_tree();
+  if (tree_ && !finished_) advance();
+  return messages();
+}
+
+// ---- before the sweeps ----
+
+template <class Pose>
+bool SeparatorsSolver<Pose>::hear(const Message<Pose>& message) {
+  const std::size_t n = neighbour_index(robot_, message.from);
+  if (n == robot_.neighbours.size()) return false;
+  gossip_.hear(message.from, message.topology);
+  if (message.seen && !frames_.hear(robot_, message.from, *message.seen)) return false;
+  if (message.up && !hear_child(message.from, *message.up)) return false;
+  if (!message.down) return true;
+  const bool expected = tree_ && sweep_.waiting && message.down->sweep == sweep_.number &&
+                        tree_->parent(robot_.robot) == message.from &&
+                        message.down->steps.size() == cluster_->passed_gradient().size();
+  if (expected) go_down(*message.down);
+  return expected;
+}
+
+/// Kept until this robot itself knows the tree.
+template <class Pose>
+bool SeparatorsSolver<Pose>::hear_child(RobotNumber from, const Elimination& up) {
+  if (up.sweep != sweep_.number) return false;
+  if (!up.information) {
+    const auto known = information_.find(from);
+    if (known == information_.end() || known->second.gradient.size() != up.gradient.size()) return false;
+  }
+  sweep_.children[from] = up;
+  return true;
+}
+
+/// That of the team's lowest robot, which no neighbour will leave.
+template <class Pose>
+bool SeparatorsSolver<Pose>::in_one_frame() const {
+  const RobotNumber lowest = gossip_.known().begin()->first;
+  for (std::size_t p = 0; p < robot_.graph.poses.size(); ++p) {
+    const auto frame = frames_.frame_of(robot_, p);
+    if (!frame || frame->origin != lowest || frame->part != 0) return false;
+  }
+  return true;
+}
+
+/// Between two robots, the factors are held by the one that has fewer poses to be told about; else by the
+/// lower one in the tree.
+template <class Pose>
+bool SeparatorsSolver<Pose>::holds(const Neighbour& neighbour) const {
+  const std::size_t ours = neighbour.seen.size(), theirs = neighbour.copies.size();
+  if (ours != theirs) return theirs < ours;
+  const auto depth = tree_->depth(robot_.robot), other = tree_->depth(neighbour.robot);
+  return depth != other ? depth > other : robot_.robot < neighbour.robot;
+}
+
+template <class Pose>
+void SeparatorsSolver<Pose>::prepare_tree() {
+  tree_.emplace(gossip_.known());
+  children_ = tree_->children(robot_.robot);
+  std::vector<std::size_t> factors;
+  for (std::size_t k = 0; k < robot_.own_relative_poses; ++k) factors.push_back(k);
+  std::vector<bool> copy_held(robot_.copies.size(), false);
+  for (const Neighbour& neighbour : robot_.neighbours)
+    if (holds(neighbour)) {
+      factors.insert(factors.end(), neighbour.between.begin(), neighbour.between.end());
+      for (const std::uint32_t copy : neighbour.copies) copy_held[robot_.copy_of(copy)] = true;
+    }
+  held_.emplace(robot_, factors, kept_poses(copy_held), tree_->is_root(robot_.robot));
+}
+
+/// Own poses in factors that others hold, and the copies held here.
+template <class Pose>
+std::vector<KeptPose> SeparatorsSolver<Pose>::kept_poses(const std::vector<bool>& copy_held) const {
+  std::map<std::uint32_t, RobotNumber> solved_by;
+  for (const Neighbour& neighbour : robot_.neighbours)
+    if (!holds(neighbour))
+      for (const std::uint32_t pose : neighbour.seen) {
+        const auto known = solved_by.try_emplace(pose, robot_.robot).first;
+        known->second = tree_->common_ancestor(known->second, neighbour.robot);
+      }
+  std::vector<KeptPose> kept;
+  for (const auto& [pose, by] : solved_by) kept.push_back({pose, {{robot_.robot, pose}, by}});
+  for (std::size_t c = 0; c < copy_held.size(); ++c)
+    if (copy_held[c]) kept.push_back({robot_.own_poses + c, {robot_.copies[c], kUnknownRobot}});
+  return kept;
+}
+
+// ---- sweeps ----
+
+/// Up as soon as every child has been heard.
+template <class Pose>
+void SeparatorsSolver<Pose>::advance() {
+  while (!finished_ && !sweep_.waiting) {
+    if (!sweep_.linearised) linearise();
+    for (const RobotNumber child : children_)
+      if (!sweep_.children.contains(child)) return;
+    if (!eliminate()) { 
+      finished_ = true;  // damping has failed, or a message lied: what there is stays
+      return;
+    }
+    if (!tree_->is_root(robot_.robot)) return go_up();
+    go_down(decide(sums()));
+  }
+}
+
+template <class Pose>
+void SeparatorsSolver<Pose>::linearise() {
+  sweep_.cost = held_->linearise(robot_.graph.poses, {});
+  sweep_.linearised = true;
+}
+
+template <class Pose>
+bool SeparatorsSolver<Pose>::eliminate() {
+  if (sweep_.relinearise) {
+    if (!held_->eliminate(sweep_.damping)) return false;
+    information_ = sweep_.children;
+    for (const auto& [child, up] : information_)
+      if (!up.information) return false;
+    cluster_.emplace(robot_.robot, held_->kept(), information_, Pose::kDof);
+    if (!cluster_->factorize(held_->information(), information_)) return false;
+  }
+  cluster_->set_gradient(held_->gradient(), sweep_.children);
+  return true;
+}
+
+template <class Pose>
+Elimination SeparatorsSolver<Pose>::sums() const {
+  Elimination sum;
+  sum.sweep = sweep_.number;
+  sum.cost = sweep_.cost;
+  sum.predicted_decrease = held_->predicted_decrease() + cluster_->predicted_decrease();
+  for (const auto& [child, up] : sweep_.children) {
+    sum.cost += up.cost;
+    sum.predicted_decrease += up.predicted_decrease;
+    sum.largest = std::max(sum.largest, up.largest);
+  }
+  return sum;
+}
+
+template <class Pose>
+void SeparatorsSolver<Pose>::go_up() {
+  Elimination up = sums();
+  up.gradient = cluster_->passed_gradient();
+  if (sweep_.relinearise) {
+    up.shared = cluster_->passed_poses();
+    up.information = cluster_->passed_information();
+  }
+  message_to(tree_->parent(robot_.robot)).up = std::move(up);
+  sweep_.waiting = true;
+}
+
+/// At the root: whether the last steps were good, and how the next sweep goes.
+template <class Pose>
+Solution SeparatorsSolver<Pose>::decide(const Elimination& team) {
+  Solution solution;
+  solution.sweep = sweep_.number;
+  const bool worse = sweep_.number > 0 && team.cost > last_cost_ * (1 + 1e-9);
+  if (worse) {
+    solution.end = last_predicted_ <= params_.settled_decrease * last_cost_ ? SweepEnd::kFinish : SweepEnd::kRestore;
+    solution.damping = std::max(params_.first_damping, sweep_.damping * params_.damping_factor);
+    return solution;
+  }
+  last_cost_ = team.cost;
+  last_predicted_ = team.predicted_decrease;
+  const double decrease = team.predicted_decrease / std::max(team.cost, 1e-300);
+  if (decrease <= params_.settled_decrease && sweep_.damping == 0) solution.end = SweepEnd::kFinish;
+  solution.relinearise = decrease > params_.relinearise_above || sweep_.damping > 0;
+  solution.damping = sweep_.damping < params_.first_damping * 2 ? 0 : sweep_.damping / params_.damping_factor;
+  return solution;
+}
+
+template <class Pose>
+void SeparatorsSolver<Pose>::go_down(Solution solution) {
+  if (tree_->is_root(robot_.robot)) solution.steps = Eigen::VectorXd::Zero(0);
+  const Eigen::VectorXd steps = cluster_->steps(solution.steps);
+  for (const RobotNumber child : children_) {
+    Solution& down = message_to(child).down.emplace(solution);
+    down.steps = cluster_->child_steps(child, steps);
+  }
+  if (solution.end == SweepEnd::kRestore) {
+    robot_.graph.poses = before_;
+  } else {
+    before_ = robot_.graph.poses;
+    held_->apply(cluster_->own_steps(steps), robot_.graph.poses);
+  }
+  finished_ = solution.end == SweepEnd::kFinish;
+  Sweep next;
+  next.number = sweep_.number + 1;
+  next.relinearise = solution.relinearise;
+  next.damping = solution.damping;
+  sweep_ = std::move(next);
+}
+
+// ---- messages ----
+
+template <class Pose>
+Message<Pose>& SeparatorsSolver<Pose>::message_to(RobotNumber robot) {
+  auto& message = outgoing_[robot];
+  message.from = robot_.robot;
+  message.to = robot;
+  message.round = round_;
+  return message;
+}
+
+template <class Pose>
+std::vector<Message<Pose>> SeparatorsSolver<Pose>::messages() {
+  for (const Neighbour& neighbour : robot_.neighbours) {
+    if (auto news = gossip_.news_for(neighbour.robot); !news.empty())
+      message_to(neighbour.robot).topology = std::move(news);
+    if (tell_poses_[neighbour.robot])
+      message_to(neighbour.robot).seen = frames_.seen_by(robot_, neighbour, robot_.graph.poses);
+    tell_poses_[neighbour.robot] = false;
+  }
+  std::vector<Message<Pose>> messages;
+  for (auto& [robot, message] : outgoing_) messages.push_back(std::move(message));
+  outgoing_.clear();
+  ++round_;
+  return messages;
+}
+
+template class SeparatorsSolver<SE2>;
+template class SeparatorsSolver<SE3>;
+
+}  // namespace radioslam

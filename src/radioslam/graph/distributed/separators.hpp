@@ -1,0 +1,94 @@
+// Optimisation by elimination on a tree over the robots: Gauss-Newton steps of the whole team that are as
+// good as central ones, in as many rounds as the tree is deep, up and down.
+//
+// Every robot eliminates its poses that no other robot has factors with. What that leaves on the others goes
+// up the tree, where every robot adds its children's to its own and eliminates what nobody above shares: a
+// junction tree whose clusters are the robots. The root solves, and the steps come down the same way. A
+// factor between two robots is held by one of them, the one that has the fewer poses to tell about.
+//
+// The information that goes up is rounded to single precision, and sent again only where the steps were
+// large: sweeps in between carry gradients alone. Gradients are exact, so the sweeps end at the optimum.
+// Sources: Dechter 2003 (bucket and junction trees); Petcu and Faltings 2005 (the same over agents); Cunningham
+// et al. 2010, DDF-SAM (separators between robots).
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "radioslam/graph/distributed/cluster.hpp"
+#include "radioslam/graph/distributed/distributed_solver.hpp"
+#include "radioslam/graph/distributed/frames.hpp"
+#include "radioslam/graph/distributed/held_factors.hpp"
+#include "radioslam/graph/distributed/topology.hpp"
+
+namespace radioslam {
+
+struct SeparatorsParams {
+  FrameVoteParams frames;
+  double relinearise_above = 0.01;  ///< predicted decrease, relative to the cost
+  double settled_decrease = 1e-6;   ///< the same, where the sweeps end
+  double first_damping = 1e-4, damping_factor = 10;
+};
+
+template <class Pose>
+class SeparatorsSolver : public DistributedSolver<Pose> {
+ public:
+  SeparatorsSolver(RobotGraph<Pose> robot, const SeparatorsParams& params);
+
+  std::vector<Message<Pose>> round(const std::vector<Message<Pose>>& heard) override;
+  bool settled() const override { return finished_; }
+  std::vector<Pose> poses() const override;
+  std::vector<Frame> frames() const override;
+  std::size_t refused() const override { return refused_; }
+
+ private:
+  /// One pass up and down the tree.
+  struct Sweep {
+    std::uint32_t number = 0;
+    bool relinearise = true;  ///< information goes up, not gradients alone
+    double damping = 0;
+    bool linearised = false;
+    bool waiting = false;  ///< for the steps from above
+    double cost = 0;       ///< of the factors held here
+    std::map<RobotNumber, Elimination> children;
+  };
+
+  bool hear(const Message<Pose>& message);
+  bool hear_child(RobotNumber from, const Elimination& up);
+  bool in_one_frame() const;
+  void prepare_tree();
+  bool holds(const Neighbour& neighbour) const;
+  std::vector<KeptPose> kept_poses(const std::vector<bool>& copy_held) const;
+
+  void advance();
+  void linearise();
+  bool eliminate();
+  Elimination sums() const;
+  void go_up();
+  Solution decide(const Elimination& team);
+  void go_down(Solution solution);
+  Message<Pose>& message_to(RobotNumber robot);
+  std::vector<Message<Pose>> messages();
+
+  SeparatorsParams params_;
+  RobotGraph<Pose> robot_;
+  FrameAgreement<Pose> frames_;
+  TopologyGossip gossip_;
+  std::optional<TeamTree> tree_;
+  std::vector<RobotNumber> children_;
+  std::optional<HeldFactors<Pose>> held_;
+  std::optional<Cluster> cluster_;
+  std::map<RobotNumber, Elimination> information_;  ///< the children's, as they were sent last
+  Sweep sweep_;
+  std::vector<Pose> before_;    ///< where the last sweep started
+  double last_cost_ = 0, last_predicted_ = 0;  ///< of the team, at the root
+  bool finished_ = false;
+
+  std::map<RobotNumber, Message<Pose>> outgoing_;
+  std::map<RobotNumber, bool> tell_poses_;  ///< per neighbour
+  std::uint32_t round_ = 0;
+  std::size_t refused_ = 0;
+};
+
+}  // namespace radioslam

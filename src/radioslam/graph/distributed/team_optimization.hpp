@@ -1,0 +1,42 @@
+// Runs an optimization without a centre in one process: every robot's solver has its own part of the graph,
+// and what they say to each other passes through a simulated network as bytes.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "radioslam/base/progress.hpp"
+#include "radioslam/graph/distributed/distributed_solver.hpp"
+#include "radioslam/graph/distributed/simulated_network.hpp"
+
+namespace radioslam {
+
+enum class DistributedMethod { kTwoStage, kBlockCoordinate, kAsynchronous, kAlternating, kSeparators };
+
+struct TeamOptimizationParams {
+  DistributedMethod method = DistributedMethod::kSeparators;
+  int max_rounds = 1000;
+  NetworkParams network;
+};
+
+struct RoundTrace {
+  double cost = 0;  ///< of the factors whose poses are in one frame, after the round
+  Traffic traffic;
+};
+
+template <class Pose>
+struct TeamOptimization {
+  std::vector<RoundTrace> rounds;
+  std::vector<Pose> poses;     ///< as the robots have them when they stop
+  std::vector<Frame> frames;   ///< per pose
+  bool settled = false;        ///< every robot had stopped by itself
+  std::size_t refused = 0;     ///< messages
+};
+
+/// `graph` has relative poses only. Its values are each robot's own start: they matter up to a rigid motion
+/// of each of its connected parts.
+template <class Pose>
+TeamOptimization<Pose> optimize_team(const PoseGraph<Pose>& graph, const TeamPoses& team,
+                                     const TeamOptimizationParams& params, const Progress& progress = {});
+
+}  // namespace radioslam
