@@ -6,6 +6,7 @@ radioslam_room(graph
     distributed/cluster.cpp
     distributed/frames.cpp
     distributed/held_factors.cpp
+    distributed/information_code.cpp
     distributed/message.cpp
     distributed/robot_graph.cpp
     distributed/separators.cpp

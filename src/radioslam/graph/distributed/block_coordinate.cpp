@@ -8,7 +8,7 @@ namespace radioslam {
 template <class Pose>
 BlockCoordinateSolver<Pose>::BlockCoordinateSolver(RobotGraph<Pose> robot,
                                                    const BlockCoordinateParams& params)
-    : params_(params), robot_(std::move(robot)), frames_(robot_, params.frames) {
+    : params_(params), robot_(std::move(robot)), frames_(robot_, params.frames), heard_until_(robot_.neighbours.size(), 0) {
   poses_.assign(robot_.graph.poses.begin(),
                 robot_.graph.poses.begin() + static_cast<std::ptrdiff_t>(robot_.own_poses));
 }
@@ -22,8 +22,7 @@ std::vector<Frame> BlockCoordinateSolver<Pose>::frames() const {
 
 template <class Pose>
 std::vector<Message<Pose>> BlockCoordinateSolver<Pose>::round(const std::vector<Message<Pose>>& heard) {
-  for (const auto& message : heard)
-    if (!message.seen || !frames_.hear(robot_, message.from, *message.seen)) ++refused_;
+  for (const auto& message : heard) hear(message);
   if (frames_.adopt(robot_)) {
     poses_.assign(robot_.graph.poses.begin(),
                   robot_.graph.poses.begin() + static_cast<std::ptrdiff_t>(robot_.own_poses));
@@ -35,6 +34,21 @@ std::vector<Message<Pose>> BlockCoordinateSolver<Pose>::round(const std::vector<
   }
   if (!usable_.empty()) step();
   return messages();
+}
+
+/// What was said before something already heard is late, and nothing new.
+template <class Pose>
+void BlockCoordinateSolver<Pose>::hear(const Message<Pose>& message) {
+  const std::size_t n = neighbour_index(robot_, message.from);
+  if (n == robot_.neighbours.size() || !message.seen) {
+    ++refused_;
+    return;
+  }
+  if (message.round < heard_until_[n]) return;
+  if (frames_.hear(robot_, message.from, *message.seen))
+    heard_until_[n] = message.round + 1;
+  else
+    ++refused_;
 }
 
 template <class Pose>

@@ -34,6 +34,7 @@ class BlockCoordinateSolver : public DistributedSolver<Pose> {
   std::size_t refused() const override { return refused_; }
 
  private:
+  void hear(const Message<Pose>& message);
   void prepare();
   void step();
   std::vector<Message<Pose>> messages();
@@ -41,6 +42,7 @@ class BlockCoordinateSolver : public DistributedSolver<Pose> {
   BlockCoordinateParams params_;
   RobotGraph<Pose> robot_;  ///< own poses are where the next step starts: with momentum
   FrameAgreement<Pose> frames_;
+  std::vector<std::uint32_t> heard_until_;  ///< per neighbour: the round after the latest one heard
   std::vector<Pose> poses_;  ///< without momentum: the estimate
   double momentum_ = 1;
   std::vector<std::uint32_t> usable_;

@@ -13,6 +13,9 @@ Cluster::Cluster(RobotNumber self, const std::vector<SharedPose>& own,
   std::vector<std::size_t> solved;
   for (std::size_t v = 0; v < variables_.size(); ++v)
     (variables_[v].solved_by == self ? solved : passed_variables_).push_back(v);
+  // Along trajectories, so that the factor of what they leave has few blocks.
+  std::sort(passed_variables_.begin(), passed_variables_.end(),
+            [&](std::size_t a, std::size_t b) { return variables_[a].key < variables_[b].key; });
   solved_ = scalars(solved);
   passed_ = scalars(passed_variables_);
 }

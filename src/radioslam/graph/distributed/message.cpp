@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "radioslam/graph/distributed/information_code.hpp"
 #include "radioslam/graph/distributed/wire.hpp"
 
 namespace radioslam {
@@ -61,64 +62,8 @@ void write_vector(WireWriter& out, const Eigen::VectorXd& v) {
   write(out, v);
 }
 
-// ---- an information matrix ----
-// Scaled to a unit diagonal and rounded to single precision, which moves the steps by 1e-6 of themselves and
-// the point where they end not at all: gradients are exact. Blocks of zeros, as a chain without closures of
-// its own leaves them, are a bit each.
-
-void write_information(WireWriter& out, const Eigen::MatrixXd& information, Eigen::Index block) {
-  const Eigen::Index n = information.rows() / block;
-  Eigen::VectorXd scale(information.rows());
-  for (Eigen::Index k = 0; k < scale.size(); ++k)
-    scale[k] = static_cast<double>(static_cast<float>(std::sqrt(std::max(information(k, k), 1e-30))));
-  for (Eigen::Index k = 0; k < scale.size(); ++k) out.f32(static_cast<float>(scale[k]));
-  const Eigen::MatrixXd scaled =
-      scale.cwiseInverse().asDiagonal() * information * scale.cwiseInverse().asDiagonal();
-  std::vector<std::pair<Eigen::Index, Eigen::Index>> kept;
-  std::uint8_t bits = 0;
-  unsigned filled = 0;
-  for (Eigen::Index j = 0; j < n; ++j)
-    for (Eigen::Index i = j + 1; i < n; ++i) {
-      const bool there = scaled.block(i * block, j * block, block, block).cwiseAbs().maxCoeff() > 1e-9;
-      if (there) kept.emplace_back(i, j);
-      bits = static_cast<std::uint8_t>(bits | (unsigned{there} << filled));
-      if (++filled == 8) {
-        out.byte(bits);
-        bits = 0, filled = 0;
-      }
-    }
-  if (filled > 0) out.byte(bits);
-  for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index c = 0; c < block; ++c)
-      for (Eigen::Index r = c + 1; r < block; ++r)
-        out.f32(static_cast<float>(scaled(i * block + r, i * block + c)));
-  for (const auto& [i, j] : kept)
-    for (Eigen::Index c = 0; c < block; ++c)
-      for (Eigen::Index r = 0; r < block; ++r)
-        out.f32(static_cast<float>(scaled(i * block + r, j * block + c)));
-}
-
-Eigen::MatrixXd read_information(WireReader& in, Eigen::Index n, Eigen::Index block) {
-  Eigen::VectorXd scale(n * block);
-  for (Eigen::Index k = 0; k < scale.size(); ++k) scale[k] = static_cast<double>(in.f32());
-  const std::size_t pairs = static_cast<std::size_t>(n * (n - 1) / 2);
-  const std::string_view bits = in.take((pairs + 7) / 8);
-  if (!in.good()) return {};
-  Eigen::MatrixXd scaled = Eigen::MatrixXd::Identity(n * block, n * block);
-  const auto set = [&](Eigen::Index r, Eigen::Index c) {
-    scaled(r, c) = static_cast<double>(in.f32());
-    scaled(c, r) = scaled(r, c);
-  };
-  for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index c = 0; c < block; ++c)
-      for (Eigen::Index r = c + 1; r < block; ++r) set(i * block + r, i * block + c);
-  std::size_t pair = 0;
-  for (Eigen::Index j = 0; j < n && in.good(); ++j)
-    for (Eigen::Index i = j + 1; i < n; ++i, ++pair)
-      if ((static_cast<unsigned char>(bits[pair / 8]) >> (pair % 8) & 1U) != 0)
-        for (Eigen::Index c = 0; c < block; ++c)
-          for (Eigen::Index r = 0; r < block; ++r) set(i * block + r, j * block + c);
-  return scale.asDiagonal() * scaled * scale.asDiagonal();
+bool holds_blocks(const Eigen::VectorXd& gradient, Eigen::Index block) {
+  return gradient.size() % block == 0 && gradient.size() <= kMaxSharedPoses * block;
 }
 
 // ---- sections ----
@@ -127,14 +72,16 @@ void write_topology(WireWriter& out, const std::vector<RobotLinks>& topology) {
   out.whole(topology.size());
   for (const RobotLinks& links : topology) {
     out.whole(links.robot);
+    out.whole(links.version);
     out.whole(links.neighbours.size());
     for (const RobotNumber n : links.neighbours) out.whole(n);
   }
 }
 std::vector<RobotLinks> read_topology(WireReader& in) {
-  std::vector<RobotLinks> topology(in.count(2));
+  std::vector<RobotLinks> topology(in.count(3));
   for (RobotLinks& links : topology) {
     links.robot = in.whole32();
+    links.version = in.whole32();
     links.neighbours.resize(in.count(1));
     for (RobotNumber& n : links.neighbours) n = in.whole32();
   }
@@ -187,6 +134,7 @@ void read_weights(WireReader& in, std::vector<float>& weights) {
 }
 
 void write_up(WireWriter& out, const Elimination& up, Eigen::Index block) {
+  out.whole(up.tree);
   out.whole(up.sweep);
   out.f64(up.cost);
   out.f64(up.predicted_decrease);
@@ -203,12 +151,13 @@ void write_up(WireWriter& out, const Elimination& up, Eigen::Index block) {
 }
 Elimination read_up(WireReader& in, Eigen::Index block) {
   Elimination up;
+  up.tree = in.whole();
   up.sweep = in.whole32();
   up.cost = in.f64();
   up.predicted_decrease = in.f64();
   up.largest = in.f64();
   up.gradient = read_vector(in);
-  if (up.gradient.size() % block != 0 || up.gradient.size() > kMaxSharedPoses * block) in.refuse();
+  if (!holds_blocks(up.gradient, block)) in.refuse();
   if (in.byte() == 0 || !in.good()) return up;
   up.shared.resize(static_cast<std::size_t>(up.gradient.size() / block));
   for (SharedPose& pose : up.shared) pose = {{in.whole32(), in.whole32()}, in.whole32()};
@@ -217,6 +166,7 @@ Elimination read_up(WireReader& in, Eigen::Index block) {
 }
 
 void write_down(WireWriter& out, const Solution& down) {
+  out.whole(down.tree);
   out.whole(down.sweep);
   out.byte(static_cast<std::uint8_t>(down.end));
   out.byte(down.relinearise ? 1 : 0);
@@ -226,6 +176,7 @@ void write_down(WireWriter& out, const Solution& down) {
 }
 Solution read_down(WireReader& in) {
   Solution down;
+  down.tree = in.whole();
   down.sweep = in.whole32();
   const std::uint8_t end = in.byte();
   if (end > static_cast<std::uint8_t>(SweepEnd::kFinish)) in.refuse();

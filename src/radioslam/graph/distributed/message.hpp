@@ -7,6 +7,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -30,8 +31,12 @@ std::string_view to_string(SectionKind kind);
 /// A robot and those it shares factors with: the team as a graph of robots, without poses or measurements.
 struct RobotLinks {
   RobotNumber robot = 0;
+  std::uint32_t version = 0;  ///< higher ones replace lower ones
   std::vector<RobotNumber> neighbours;
   bool operator==(const RobotLinks&) const = default;
+  bool links_to(RobotNumber other) const {
+    return std::find(neighbours.begin(), neighbours.end(), other) != neighbours.end();
+  }
 };
 
 /// The frame that part of a robot's trajectory is in: that of the origin's part.
@@ -66,6 +71,7 @@ struct SharedPose {
 /// What is left of a subtree's quadratic when all but the poses it shares are eliminated:
 /// step^T information step / 2 + gradient^T step, sums of the whole subtree beside it.
 struct Elimination {
+  std::uint64_t tree = 0;  ///< TeamTree::id
   std::uint32_t sweep = 0;
   std::vector<SharedPose> shared;   ///< with information only: it stays as it was otherwise
   std::optional<Eigen::MatrixXd> information;  ///< of their steps, in their order; absent: as last time
@@ -80,6 +86,7 @@ enum class SweepEnd : std::uint8_t { kStep, kRestore, kFinish };
 
 /// The steps of the poses that a child shares, in its order, and what comes next.
 struct Solution {
+  std::uint64_t tree = 0;  ///< TeamTree::id
   std::uint32_t sweep = 0;
   SweepEnd end = SweepEnd::kStep;
   bool relinearise = true;  ///< the next elimination carries its information anew

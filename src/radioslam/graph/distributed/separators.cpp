@@ -4,30 +4,21 @@
 #include <cmath>
 
 namespace radioslam {
-namespace {
-
-template <class Pose>
-std::vector<RobotNumber> neighbour_numbers(const RobotGraph<Pose>& robot) {
-  std::vector<RobotNumber> numbers;
-  for (const Neighbour& neighbour : robot.neighbours) numbers.push_back(neighbour.robot);
-  return numbers;
-}
-
-}  // namespace
-
 template <class Pose>
 SeparatorsSolver<Pose>::SeparatorsSolver(RobotGraph<Pose> robot, const SeparatorsParams& params)
     : params_(params),
       robot_(std::move(robot)),
       frames_(robot_, params.frames),
-      gossip_(robot_.robot, neighbour_numbers(robot_)) {
+      gossip_(robot_) {
   for (const Neighbour& neighbour : robot_.neighbours) tell_poses_[neighbour.robot] = true;
   if (robot_.neighbours.empty()) finished_ = true;
+  publish();
 }
 
 template <class Pose>
-std::vector<Pose> SeparatorsSolver<Pose>::poses() const {
-  return {robot_.graph.poses.begin(), robot_.graph.poses.begin() + static_cast<std::ptrdiff_t>(robot_.own_poses)};
+void SeparatorsSolver<Pose>::publish() {
+  published_.assign(robot_.graph.poses.begin(),
+                    robot_.graph.poses.begin() + static_cast<std::ptrdiff_t>(robot_.own_poses));
 }
 
 template <class Pose>
@@ -41,10 +32,16 @@ template <class Pose>
 std::vector<Message<Pose>> SeparatorsSolver<Pose>::round(const std::vector<Message<Pose>>& heard) {
   for (const auto& message : heard)
     if (!hear(message)) ++refused_;
+  if (params_.repeat_after > 0) keep_in_touch();
   if (!tree_ && frames_.adopt(robot_))
     for (auto& [neighbour, tell] : tell_poses_) tell = true;
-  if (!tree_ && gossip_.complete() && in_one_frame()) prepare_tree();
+  if (gossip_.complete())
+    if (auto team = gossip_.reachable(); team != team_ && in_one_frame(team)) {
+      team_ = std::move(team);
+      prepare_tree();
+    }
   if (tree_ && !finished_) advance();
+  if (rounds_to_end_ == 0 || --rounds_to_end_ == 0) publish();
   return messages();
 }
 
@@ -54,37 +51,65 @@ template <class Pose>
 bool SeparatorsSolver<Pose>::hear(const Message<Pose>& message) {
   const std::size_t n = neighbour_index(robot_, message.from);
   if (n == robot_.neighbours.size()) return false;
+  last_heard_[message.from] = round_;
+  gossip_.restore(message.from);
   gossip_.hear(message.from, message.topology);
-  if (message.seen && !frames_.hear(robot_, message.from, *message.seen)) return false;
+  // During the sweeps copies move with the steps that their owners take, too.
+  if (message.seen && !tree_ && !frames_.hear(robot_, message.from, *message.seen)) return false;
   if (message.up && !hear_child(message.from, *message.up)) return false;
-  if (!message.down) return true;
-  const bool expected = tree_ && sweep_.waiting && message.down->sweep == sweep_.number &&
-                        tree_->parent(robot_.robot) == message.from &&
-                        message.down->steps.size() == cluster_->passed_gradient().size();
-  if (expected) go_down(*message.down);
-  return expected;
+  return !message.down || hear_parent(message.from, *message.down);
 }
 
-/// Kept until this robot itself knows the tree.
+/// Kept until this robot itself knows the tree, and answered again if the answer was lost.
 template <class Pose>
 bool SeparatorsSolver<Pose>::hear_child(RobotNumber from, const Elimination& up) {
-  if (up.sweep != sweep_.number) return false;
-  if (!up.information) {
-    const auto known = information_.find(from);
-    if (known == information_.end() || known->second.gradient.size() != up.gradient.size()) return false;
+  const auto answered = last_down_.find(from);
+  if (answered != last_down_.end() && answered->second.tree == up.tree && answered->second.sweep == up.sweep) {
+    message_to(from).down = answered->second;
+    return true;
   }
-  sweep_.children[from] = up;
+  const auto known = information_.find(from);
+  if (!up.information && (known == information_.end() || known->second.gradient.size() != up.gradient.size()))
+    return tree_ && tree_->id() != up.tree;  // of another tree, it is only late
+  early_[from] = up;
   return true;
+}
+
+template <class Pose>
+bool SeparatorsSolver<Pose>::hear_parent(RobotNumber from, const Solution& down) {
+  if (!tree_ || down.tree != tree_->id() || down.sweep != sweep_.number || !sweep_.waiting) return true;  // late
+  const bool fits = tree_->parent(robot_.robot) == from && down.steps.size() == cluster_->passed_gradient().size();
+  if (fits) go_down(down);
+  return fits;
+}
+
+/// Repeats what was not answered, and gives up neighbours that say nothing.
+template <class Pose>
+void SeparatorsSolver<Pose>::keep_in_touch() {
+  const bool again = round_ % params_.repeat_after == params_.repeat_after - 1;
+  if (again && !finished_) gossip_.tell_again();
+  for (const Neighbour& neighbour : robot_.neighbours) {
+    if (again && sweep_.number == 0) tell_poses_[neighbour.robot] = true;
+    if (round_ - last_heard_[neighbour.robot] > params_.lost_after) gossip_.drop(neighbour.robot);
+    if (round_ - last_sent_[neighbour.robot] >= params_.repeat_after) message_to(neighbour.robot);
+  }
+  if (again && tree_ && sweep_.waiting && last_up_) message_to(tree_->parent(robot_.robot)).up = *last_up_;
 }
 
 /// That of the team's lowest robot, which no neighbour will leave.
 template <class Pose>
-bool SeparatorsSolver<Pose>::in_one_frame() const {
-  const RobotNumber lowest = gossip_.known().begin()->first;
-  for (std::size_t p = 0; p < robot_.graph.poses.size(); ++p) {
-    const auto frame = frames_.frame_of(robot_, p);
-    if (!frame || frame->origin != lowest || frame->part != 0) return false;
-  }
+bool SeparatorsSolver<Pose>::in_one_frame(const std::map<RobotNumber, RobotLinks>& team) const {
+  if (tree_) return true;
+  const auto is_final = [&](std::size_t pose) {
+    const auto frame = frames_.frame_of(robot_, pose);
+    return frame && frame->origin == team.begin()->first && frame->part == 0;
+  };
+  for (std::size_t p = 0; p < robot_.own_poses; ++p)
+    if (!is_final(p)) return false;
+  for (const Neighbour& neighbour : robot_.neighbours)
+    if (team.at(robot_.robot).links_to(neighbour.robot))
+      for (const std::uint32_t copy : neighbour.copies)
+        if (!is_final(copy)) return false;
   return true;
 }
 
@@ -100,17 +125,23 @@ bool SeparatorsSolver<Pose>::holds(const Neighbour& neighbour) const {
 
 template <class Pose>
 void SeparatorsSolver<Pose>::prepare_tree() {
-  tree_.emplace(gossip_.known());
+  tree_.emplace(team_);
   children_ = tree_->children(robot_.robot);
   std::vector<std::size_t> factors;
   for (std::size_t k = 0; k < robot_.own_relative_poses; ++k) factors.push_back(k);
   std::vector<bool> copy_held(robot_.copies.size(), false);
   for (const Neighbour& neighbour : robot_.neighbours)
-    if (holds(neighbour)) {
+    if (is_linked(neighbour.robot) && holds(neighbour)) {
       factors.insert(factors.end(), neighbour.between.begin(), neighbour.between.end());
       for (const std::uint32_t copy : neighbour.copies) copy_held[robot_.copy_of(copy)] = true;
     }
   held_.emplace(robot_, factors, kept_poses(copy_held), tree_->is_root(robot_.robot));
+  sweep_ = {};
+  information_.clear();
+  last_down_.clear();
+  last_up_.reset();
+  last_cost_ = 0;
+  finished_ = false;
 }
 
 /// Own poses in factors that others hold, and the copies held here.
@@ -118,7 +149,7 @@ template <class Pose>
 std::vector<KeptPose> SeparatorsSolver<Pose>::kept_poses(const std::vector<bool>& copy_held) const {
   std::map<std::uint32_t, RobotNumber> solved_by;
   for (const Neighbour& neighbour : robot_.neighbours)
-    if (!holds(neighbour))
+    if (is_linked(neighbour.robot) && !holds(neighbour))
       for (const std::uint32_t pose : neighbour.seen) {
         const auto known = solved_by.try_emplace(pose, robot_.robot).first;
         known->second = tree_->common_ancestor(known->second, neighbour.robot);
@@ -137,8 +168,11 @@ template <class Pose>
 void SeparatorsSolver<Pose>::advance() {
   while (!finished_ && !sweep_.waiting) {
     if (!sweep_.linearised) linearise();
-    for (const RobotNumber child : children_)
-      if (!sweep_.children.contains(child)) return;
+    for (const RobotNumber child : children_) {
+      const auto up = early_.find(child);
+      if (up == early_.end() || up->second.tree != tree_->id() || up->second.sweep != sweep_.number) return;
+      sweep_.children[child] = up->second;
+    }
     if (!eliminate()) { 
       finished_ = true;  // damping has failed, or a message lied: what there is stays
       return;
@@ -171,6 +205,7 @@ bool SeparatorsSolver<Pose>::eliminate() {
 template <class Pose>
 Elimination SeparatorsSolver<Pose>::sums() const {
   Elimination sum;
+  sum.tree = tree_->id();
   sum.sweep = sweep_.number;
   sum.cost = sweep_.cost;
   sum.predicted_decrease = held_->predicted_decrease() + cluster_->predicted_decrease();
@@ -190,6 +225,7 @@ void SeparatorsSolver<Pose>::go_up() {
     up.shared = cluster_->passed_poses();
     up.information = cluster_->passed_information();
   }
+  if (params_.repeat_after > 0) last_up_ = up;
   message_to(tree_->parent(robot_.robot)).up = std::move(up);
   sweep_.waiting = true;
 }
@@ -198,6 +234,7 @@ void SeparatorsSolver<Pose>::go_up() {
 template <class Pose>
 Solution SeparatorsSolver<Pose>::decide(const Elimination& team) {
   Solution solution;
+  solution.tree = tree_->id();
   solution.sweep = sweep_.number;
   const bool worse = sweep_.number > 0 && team.cost > last_cost_ * (1 + 1e-9);
   if (worse) {
@@ -221,6 +258,7 @@ void SeparatorsSolver<Pose>::go_down(Solution solution) {
   for (const RobotNumber child : children_) {
     Solution& down = message_to(child).down.emplace(solution);
     down.steps = cluster_->child_steps(child, steps);
+    if (params_.repeat_after > 0) last_down_[child] = down;
   }
   if (solution.end == SweepEnd::kRestore) {
     robot_.graph.poses = before_;
@@ -229,6 +267,7 @@ void SeparatorsSolver<Pose>::go_down(Solution solution) {
     held_->apply(cluster_->own_steps(steps), robot_.graph.poses);
   }
   finished_ = solution.end == SweepEnd::kFinish;
+  rounds_to_end_ = tree_->height() - tree_->depth(robot_.robot) + 1;
   Sweep next;
   next.number = sweep_.number + 1;
   next.relinearise = solution.relinearise;
@@ -257,7 +296,10 @@ std::vector<Message<Pose>> SeparatorsSolver<Pose>::messages() {
     tell_poses_[neighbour.robot] = false;
   }
   std::vector<Message<Pose>> messages;
-  for (auto& [robot, message] : outgoing_) messages.push_back(std::move(message));
+  for (auto& [robot, message] : outgoing_) {
+    last_sent_[robot] = round_;
+    messages.push_back(std::move(message));
+  }
   outgoing_.clear();
   ++round_;
   return messages;

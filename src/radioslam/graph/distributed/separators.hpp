@@ -29,6 +29,8 @@ struct SeparatorsParams {
   double relinearise_above = 0.01;  ///< predicted decrease, relative to the cost
   double settled_decrease = 1e-6;   ///< the same, where the sweeps end
   double first_damping = 1e-4, damping_factor = 10;
+  std::uint32_t repeat_after = 0;  ///< rounds without an answer until a message is repeated; 0: never
+  std::uint32_t lost_after = 100;  ///< with repeats: rounds without a word until a robot counts as gone
 };
 
 template <class Pose>
@@ -38,7 +40,7 @@ class SeparatorsSolver : public DistributedSolver<Pose> {
 
   std::vector<Message<Pose>> round(const std::vector<Message<Pose>>& heard) override;
   bool settled() const override { return finished_; }
-  std::vector<Pose> poses() const override;
+  std::vector<Pose> poses() const override { return published_; }
   std::vector<Frame> frames() const override;
   std::size_t refused() const override { return refused_; }
 
@@ -56,7 +58,10 @@ class SeparatorsSolver : public DistributedSolver<Pose> {
 
   bool hear(const Message<Pose>& message);
   bool hear_child(RobotNumber from, const Elimination& up);
-  bool in_one_frame() const;
+  bool hear_parent(RobotNumber from, const Solution& down);
+  void keep_in_touch();
+  bool in_one_frame(const std::map<RobotNumber, RobotLinks>& team) const;
+  bool is_linked(RobotNumber neighbour) const { return team_.at(robot_.robot).links_to(neighbour); }
   void prepare_tree();
   bool holds(const Neighbour& neighbour) const;
   std::vector<KeptPose> kept_poses(const std::vector<bool>& copy_held) const;
@@ -68,6 +73,7 @@ class SeparatorsSolver : public DistributedSolver<Pose> {
   void go_up();
   Solution decide(const Elimination& team);
   void go_down(Solution solution);
+  void publish();
   Message<Pose>& message_to(RobotNumber robot);
   std::vector<Message<Pose>> messages();
 
@@ -75,6 +81,7 @@ class SeparatorsSolver : public DistributedSolver<Pose> {
   RobotGraph<Pose> robot_;
   FrameAgreement<Pose> frames_;
   TopologyGossip gossip_;
+  std::map<RobotNumber, RobotLinks> team_;  ///< that the tree is of
   std::optional<TeamTree> tree_;
   std::vector<RobotNumber> children_;
   std::optional<HeldFactors<Pose>> held_;
@@ -84,7 +91,13 @@ class SeparatorsSolver : public DistributedSolver<Pose> {
   std::vector<Pose> before_;    ///< where the last sweep started
   double last_cost_ = 0, last_predicted_ = 0;  ///< of the team, at the root
   bool finished_ = false;
+  std::vector<Pose> published_;      ///< own poses after the last sweep that all robots have ended
+  std::uint32_t rounds_to_end_ = 0;  ///< until the robots furthest from the root have ended theirs
 
+  std::map<RobotNumber, Elimination> early_;    ///< of children, for a tree or sweep still to come
+  std::map<RobotNumber, Solution> last_down_;   ///< as the children were told
+  std::optional<Elimination> last_up_;
+  std::map<RobotNumber, std::uint32_t> last_heard_, last_sent_;  ///< rounds, per neighbour
   std::map<RobotNumber, Message<Pose>> outgoing_;
   std::map<RobotNumber, bool> tell_poses_;  ///< per neighbour
   std::uint32_t round_ = 0;

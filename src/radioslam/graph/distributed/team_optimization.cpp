@@ -18,9 +18,9 @@ std::unique_ptr<DistributedSolver<Pose>> make_solver(RobotGraph<Pose> robot,
     case DistributedMethod::kBlockCoordinate:
       return std::make_unique<BlockCoordinateSolver<Pose>>(std::move(robot), BlockCoordinateParams{});
     case DistributedMethod::kAsynchronous: {
-      BlockCoordinateParams block;
-      block.accelerated = false;
-      return std::make_unique<BlockCoordinateSolver<Pose>>(std::move(robot), block);
+      SeparatorsParams separators;
+      separators.repeat_after = 4;
+      return std::make_unique<SeparatorsSolver<Pose>>(std::move(robot), separators);
     }
     default:
       return std::make_unique<SeparatorsSolver<Pose>>(std::move(robot), SeparatorsParams{});

@@ -11,23 +11,36 @@ namespace radioslam {
 
 class TopologyGossip {
  public:
-  TopologyGossip(RobotNumber self, std::vector<RobotNumber> neighbours);
+  template <class Pose>
+  explicit TopologyGossip(const RobotGraph<Pose>& robot) : self_(robot.robot) {
+    RobotLinks& own = known_[self_];
+    own.robot = self_;
+    for (const Neighbour& neighbour : robot.neighbours) own.neighbours.push_back(neighbour.robot);
+  }
 
   void hear(RobotNumber from, const std::vector<RobotLinks>& links);
+  /// A neighbour that is no longer there, or is again.
+  void drop(RobotNumber neighbour);
+  void restore(RobotNumber neighbour);
   /// What a neighbour has not been told yet, and has not said itself; it counts as told from then on.
   std::vector<RobotLinks> news_for(RobotNumber neighbour);
-  /// Of every robot that is mentioned it is known whom it is connected to.
+  /// Lest something was lost on the way, everything is told again.
+  void tell_again() { told_.clear(); }
+  /// Of every robot that can be reached it is known whom it is connected to.
   bool complete() const;
-  const std::map<RobotNumber, RobotLinks>& known() const { return known_; }
+  /// The robots that can be reached by links that both ends confirm; this one among them.
+  std::map<RobotNumber, RobotLinks> reachable() const;
 
  private:
+  RobotNumber self_;
   std::map<RobotNumber, RobotLinks> known_;
-  std::map<RobotNumber, std::map<RobotNumber, bool>> told_;  ///< per neighbour, the robots it knows
+  std::map<RobotNumber, std::map<RobotNumber, std::uint32_t>> told_;  ///< per neighbour: 1 + version it knows
 };
 
 /// A breadth-first tree over the robots of a team, from the robot with the shortest way to all others.
 class TeamTree {
  public:
+  /// `team`: robots that are all connected, with links that both ends confirm.
   explicit TeamTree(const std::map<RobotNumber, RobotLinks>& team);
 
   RobotNumber root() const { return root_; }
@@ -37,8 +50,10 @@ class TeamTree {
   std::vector<RobotNumber> children(RobotNumber robot) const;
   /// The lowest robot that both are below, or are.
   RobotNumber common_ancestor(RobotNumber a, RobotNumber b) const;
-  std::size_t robots() const { return nodes_.size(); }
-  RobotNumber lowest() const { return nodes_.begin()->first; }
+  /// A number for the team and its links: robots with the same one have the same tree.
+  std::uint64_t id() const { return id_; }
+  /// Depth of the deepest robot.
+  std::uint32_t height() const { return height_; }
 
  private:
   struct Node {
@@ -46,6 +61,8 @@ class TeamTree {
     std::uint32_t depth = 0;
   };
   RobotNumber root_ = 0;
+  std::uint32_t height_ = 0;
+  std::uint64_t id_ = 0;
   std::map<RobotNumber, Node> nodes_;
 };
 
