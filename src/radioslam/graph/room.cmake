@@ -8,6 +8,7 @@ radioslam_room(graph
     distributed/held_factors.cpp
     distributed/information_code.cpp
     distributed/message.cpp
+    distributed/outliers.cpp
     distributed/robot_graph.cpp
     distributed/separators.cpp
     distributed/simulated_network.cpp

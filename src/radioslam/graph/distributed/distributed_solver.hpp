@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -25,6 +26,9 @@ class DistributedSolver {
   virtual std::vector<Frame> frames() const = 0;
   /// Messages whose content did not fit the robot's factors.
   virtual std::size_t refused() const = 0;
+  /// Per relative pose of the robot's graph, what graduated optimization made of it; nothing where the robot
+  /// has not judged it. Empty: none was.
+  virtual std::vector<std::optional<double>> weights() const { return {}; }
 };
 
 }  // namespace radioslam

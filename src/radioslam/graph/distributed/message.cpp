@@ -138,7 +138,6 @@ void write_up(WireWriter& out, const Elimination& up, Eigen::Index block) {
   out.whole(up.sweep);
   out.f64(up.cost);
   out.f64(up.predicted_decrease);
-  out.f64(up.largest);
   write_vector(out, up.gradient);
   out.byte(up.information ? 1 : 0);
   if (!up.information) return;
@@ -155,7 +154,6 @@ Elimination read_up(WireReader& in, Eigen::Index block) {
   up.sweep = in.whole32();
   up.cost = in.f64();
   up.predicted_decrease = in.f64();
-  up.largest = in.f64();
   up.gradient = read_vector(in);
   if (!holds_blocks(up.gradient, block)) in.refuse();
   if (in.byte() == 0 || !in.good()) return up;

@@ -78,7 +78,6 @@ struct Elimination {
   Eigen::VectorXd gradient;
   double cost = 0;                  ///< at the values that were linearised
   double predicted_decrease = 0;    ///< by the steps of those eliminated, the shared ones at rest
-  double largest = 0;               ///< largest squared norm of a factor that may be an outlier
 };
 
 /// What the team does with the sweep that a Solution ends.

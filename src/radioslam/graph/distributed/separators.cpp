@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "radioslam/graph/residuals.hpp"
 
 namespace radioslam {
 template <class Pose>
@@ -12,6 +16,8 @@ SeparatorsSolver<Pose>::SeparatorsSolver(RobotGraph<Pose> robot, const Separator
       gossip_(robot_) {
   for (const Neighbour& neighbour : robot_.neighbours) tell_poses_[neighbour.robot] = true;
   if (robot_.neighbours.empty()) finished_ = true;
+  may_be_outlier_ = outlier_candidates(robot_);
+  weights_.assign(robot_.graph.relative_poses.size(), 1);
   publish();
 }
 
@@ -19,6 +25,13 @@ template <class Pose>
 void SeparatorsSolver<Pose>::publish() {
   published_.assign(robot_.graph.poses.begin(),
                     robot_.graph.poses.begin() + static_cast<std::ptrdiff_t>(robot_.own_poses));
+}
+
+template <class Pose>
+std::vector<std::optional<double>> SeparatorsSolver<Pose>::weights() const {
+  std::vector<std::optional<double>> weights(robot_.graph.relative_poses.size());
+  for (const std::size_t k : held_list_) weights[k] = weights_[k];
+  return weights;
 }
 
 template <class Pose>
@@ -87,7 +100,7 @@ bool SeparatorsSolver<Pose>::hear_parent(RobotNumber from, const Solution& down)
 template <class Pose>
 void SeparatorsSolver<Pose>::keep_in_touch() {
   const bool again = round_ % params_.repeat_after == params_.repeat_after - 1;
-  if (again && !finished_) gossip_.tell_again();
+  if (again && sweep_.number == 0) gossip_.tell_again();
   for (const Neighbour& neighbour : robot_.neighbours) {
     if (again && sweep_.number == 0) tell_poses_[neighbour.robot] = true;
     if (round_ - last_heard_[neighbour.robot] > params_.lost_after) gossip_.drop(neighbour.robot);
@@ -127,20 +140,21 @@ template <class Pose>
 void SeparatorsSolver<Pose>::prepare_tree() {
   tree_.emplace(team_);
   children_ = tree_->children(robot_.robot);
-  std::vector<std::size_t> factors;
-  for (std::size_t k = 0; k < robot_.own_relative_poses; ++k) factors.push_back(k);
+  held_list_.resize(robot_.own_relative_poses);
+  std::iota(held_list_.begin(), held_list_.end(), std::size_t{0});
   std::vector<bool> copy_held(robot_.copies.size(), false);
   for (const Neighbour& neighbour : robot_.neighbours)
     if (is_linked(neighbour.robot) && holds(neighbour)) {
-      factors.insert(factors.end(), neighbour.between.begin(), neighbour.between.end());
+      held_list_.insert(held_list_.end(), neighbour.between.begin(), neighbour.between.end());
       for (const std::uint32_t copy : neighbour.copies) copy_held[robot_.copy_of(copy)] = true;
     }
-  held_.emplace(robot_, factors, kept_poses(copy_held), tree_->is_root(robot_.robot));
+  held_.emplace(robot_, held_list_, kept_poses(copy_held), tree_->is_root(robot_.robot));
   sweep_ = {};
+  sweep_.mu = params_.outliers.gate > 0 ? params_.outliers.first_mu() : 0;
   information_.clear();
   last_down_.clear();
   last_up_.reset();
-  last_cost_ = 0;
+  last_cost_ = std::numeric_limits<double>::infinity();
   finished_ = false;
 }
 
@@ -184,7 +198,21 @@ void SeparatorsSolver<Pose>::advance() {
 
 template <class Pose>
 void SeparatorsSolver<Pose>::linearise() {
-  sweep_.cost = held_->linearise(robot_.graph.poses, {});
+  std::vector<double> weights;
+  double penalty = 0;
+  if (sweep_.mu > 0) {
+    for (const std::size_t k : held_list_) {
+      const auto& factor = robot_.graph.relative_poses[k];
+      const TruncatedWeight w = may_be_outlier_[k]
+                                    ? truncated_weight(factor.weight * squared_norm(robot_.graph, factor),
+                                                       params_.outliers.gate, sweep_.mu)
+                                    : TruncatedWeight{};
+      weights.push_back(w.weight);
+      weights_[k] = w.weight;
+      penalty += w.penalty;
+    }
+  }
+  sweep_.cost = held_->linearise(robot_.graph.poses, weights) + penalty;
   sweep_.linearised = true;
 }
 
@@ -212,7 +240,6 @@ Elimination SeparatorsSolver<Pose>::sums() const {
   for (const auto& [child, up] : sweep_.children) {
     sum.cost += up.cost;
     sum.predicted_decrease += up.predicted_decrease;
-    sum.largest = std::max(sum.largest, up.largest);
   }
   return sum;
 }
@@ -236,17 +263,23 @@ Solution SeparatorsSolver<Pose>::decide(const Elimination& team) {
   Solution solution;
   solution.tree = tree_->id();
   solution.sweep = sweep_.number;
-  const bool worse = sweep_.number > 0 && team.cost > last_cost_ * (1 + 1e-9);
-  if (worse) {
-    solution.end = last_predicted_ <= params_.settled_decrease * last_cost_ ? SweepEnd::kFinish : SweepEnd::kRestore;
+  solution.mu = sweep_.mu;
+  const double decrease = team.predicted_decrease / std::max(team.cost, 1e-300);
+  if (sweep_.mu > 0 && sweep_.mu < params_.outliers.last_mu) {
+    solution.mu = std::min(params_.outliers.last_mu, sweep_.mu * params_.outliers.mu_factor);
+    last_cost_ = std::numeric_limits<double>::infinity();  // of another problem
+    return solution;
+  }
+  if (team.cost > last_cost_ * (1 + 1e-9)) {
+    const bool rounding = last_predicted_ <= params_.settled_decrease * last_cost_;
+    solution.end = rounding ? SweepEnd::kFinish : SweepEnd::kRestore;
     solution.damping = std::max(params_.first_damping, sweep_.damping * params_.damping_factor);
     return solution;
   }
   last_cost_ = team.cost;
   last_predicted_ = team.predicted_decrease;
-  const double decrease = team.predicted_decrease / std::max(team.cost, 1e-300);
   if (decrease <= params_.settled_decrease && sweep_.damping == 0) solution.end = SweepEnd::kFinish;
-  solution.relinearise = decrease > params_.relinearise_above || sweep_.damping > 0;
+  solution.relinearise = decrease > params_.relinearise_above || sweep_.damping > 0 || sweep_.mu > 0;
   solution.damping = sweep_.damping < params_.first_damping * 2 ? 0 : sweep_.damping / params_.damping_factor;
   return solution;
 }
@@ -272,6 +305,7 @@ void SeparatorsSolver<Pose>::go_down(Solution solution) {
   next.number = sweep_.number + 1;
   next.relinearise = solution.relinearise;
   next.damping = solution.damping;
+  next.mu = solution.mu;
   sweep_ = std::move(next);
 }
 

@@ -20,12 +20,14 @@
 #include "radioslam/graph/distributed/distributed_solver.hpp"
 #include "radioslam/graph/distributed/frames.hpp"
 #include "radioslam/graph/distributed/held_factors.hpp"
+#include "radioslam/graph/distributed/outliers.hpp"
 #include "radioslam/graph/distributed/topology.hpp"
 
 namespace radioslam {
 
 struct SeparatorsParams {
   FrameVoteParams frames;
+  OutlierParams outliers;
   double relinearise_above = 0.01;  ///< predicted decrease, relative to the cost
   double settled_decrease = 1e-6;   ///< the same, where the sweeps end
   double first_damping = 1e-4, damping_factor = 10;
@@ -43,6 +45,7 @@ class SeparatorsSolver : public DistributedSolver<Pose> {
   std::vector<Pose> poses() const override { return published_; }
   std::vector<Frame> frames() const override;
   std::size_t refused() const override { return refused_; }
+  std::vector<std::optional<double>> weights() const override;
 
  private:
   /// One pass up and down the tree.
@@ -50,6 +53,7 @@ class SeparatorsSolver : public DistributedSolver<Pose> {
     std::uint32_t number = 0;
     bool relinearise = true;  ///< information goes up, not gradients alone
     double damping = 0;
+    double mu = 0;  ///< of graduated optimization; 0: every factor is taken as it is
     bool linearised = false;
     bool waiting = false;  ///< for the steps from above
     double cost = 0;       ///< of the factors held here
@@ -84,6 +88,9 @@ class SeparatorsSolver : public DistributedSolver<Pose> {
   std::map<RobotNumber, RobotLinks> team_;  ///< that the tree is of
   std::optional<TeamTree> tree_;
   std::vector<RobotNumber> children_;
+  std::vector<std::size_t> held_list_;  ///< places in robot_.graph.relative_poses
+  std::vector<bool> may_be_outlier_;    ///< per relative pose
+  std::vector<double> weights_;         ///< per relative pose; of those held here
   std::optional<HeldFactors<Pose>> held_;
   std::optional<Cluster> cluster_;
   std::map<RobotNumber, Elimination> information_;  ///< the children's, as they were sent last

@@ -1,37 +1,55 @@
 #include "radioslam/graph/distributed/team_optimization.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "radioslam/base/check.hpp"
 #include "radioslam/graph/distributed/block_coordinate.hpp"
 #include "radioslam/graph/distributed/separators.hpp"
+#include "radioslam/graph/graduated.hpp"
 #include "radioslam/graph/optimizer.hpp"
 #include "radioslam/graph/residuals.hpp"
 
 namespace radioslam {
 namespace {
 
+/// Rounds without an answer, in networks that lose and delay messages.
+constexpr std::uint32_t kRepeatAfter = 4;
+
 template <class Pose>
 std::unique_ptr<DistributedSolver<Pose>> make_solver(RobotGraph<Pose> robot,
                                                      const TeamOptimizationParams& params) {
   switch (params.method) {
-    case DistributedMethod::kBlockCoordinate:
-      return std::make_unique<BlockCoordinateSolver<Pose>>(std::move(robot), BlockCoordinateParams{});
-    case DistributedMethod::kAsynchronous: {
+    case DistributedMethod::kBlockCoordinate: {
+      BlockCoordinateParams block;
+      block.frames = params.frames;
+      return std::make_unique<BlockCoordinateSolver<Pose>>(std::move(robot), block);
+    }
+    default: {
       SeparatorsParams separators;
-      separators.repeat_after = 4;
+      separators.frames = params.frames;
+      separators.outliers = params.outliers;
+      if (params.method == DistributedMethod::kAsynchronous) separators.repeat_after = kRepeatAfter;
       return std::make_unique<SeparatorsSolver<Pose>>(std::move(robot), separators);
     }
-    default:
-      return std::make_unique<SeparatorsSolver<Pose>>(std::move(robot), SeparatorsParams{});
   }
 }
 
 /// Each robot on its own: what it knows without hearing anything.
 template <class Pose>
-void optimize_own(RobotGraph<Pose>& robot) {
+void optimize_own(RobotGraph<Pose>& robot, const OutlierParams& outliers) {
   auto own = own_graph(robot);
-  optimize(own, OptimizerParams{});
+  FactorMask mask;
+  mask.relative_poses = outlier_candidates(robot);
+  mask.relative_poses.resize(robot.own_relative_poses);
+  const bool loops = std::find(mask.relative_poses.begin(), mask.relative_poses.end(), true) !=
+                     mask.relative_poses.end();
+  if (outliers.gate > 0 && loops) {
+    for (auto& factor : own.relative_poses) factor.loss.scale = std::sqrt(outliers.gate);
+    optimize_graduated(own, mask, GraduatedLoss::kTruncatedLeastSquares, {}, {});
+  } else {
+    optimize(own, OptimizerParams{});
+  }
   std::copy(own.poses.begin(), own.poses.end(), robot.graph.poses.begin());
 }
 
@@ -42,7 +60,7 @@ class Team {
   Team(const PoseGraph<Pose>& graph, const TeamPoses& poses, const TeamOptimizationParams& params)
       : graph_(graph), poses_(poses), network_(poses.poses.size(), params.network) {
     for (auto& robot : split_by_robot(graph, poses)) {
-      optimize_own(robot);
+      optimize_own(robot, params.outliers);
       solvers_.push_back(make_solver(std::move(robot), params));
     }
     result_.frames.resize(graph.poses.size());
@@ -72,6 +90,7 @@ class Team {
     result_.poses = graph_.poses;
     result_.settled = settled();
     for (const auto& solver : solvers_) result_.refused += solver->refused();
+    collect_weights();
     return std::move(result_);
   }
 
@@ -84,6 +103,30 @@ class Team {
         graph_.poses[poses_.poses[r][k]] = poses[k];
         result_.frames[poses_.poses[r][k]] = frames[k];
       }
+    }
+  }
+
+  /// A robot's factors are in the order of the team's: those within it, then those with others.
+  void collect_weights() {
+    std::vector<std::vector<std::optional<double>>> weights;
+    for (const auto& solver : solvers_) weights.push_back(solver->weights());
+    if (std::all_of(weights.begin(), weights.end(), [](const auto& w) { return w.empty(); })) return;
+    std::vector<std::size_t> within(solvers_.size(), 0), between(solvers_.size(), 0);
+    const auto robot = [&](PoseId pose) { return poses_.robot_of[pose.index()]; };
+    for (const auto& f : graph_.relative_poses)
+      if (robot(f.i) == robot(f.j)) ++between[robot(f.i)];
+    for (const auto& f : graph_.relative_poses) {
+      double weight = 1;
+      const auto take = [&](RobotNumber r, std::vector<std::size_t>& next) {
+        if (const auto judged = weights[r][next[r]++]) weight = *judged;
+      };
+      if (robot(f.i) == robot(f.j)) {
+        take(robot(f.i), within);
+      } else {
+        take(robot(f.i), between);
+        take(robot(f.j), between);
+      }
+      result_.weights.push_back(weight);
     }
   }
 

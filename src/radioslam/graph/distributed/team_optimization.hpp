@@ -7,6 +7,8 @@
 
 #include "radioslam/base/progress.hpp"
 #include "radioslam/graph/distributed/distributed_solver.hpp"
+#include "radioslam/graph/distributed/frames.hpp"
+#include "radioslam/graph/distributed/outliers.hpp"
 #include "radioslam/graph/distributed/simulated_network.hpp"
 
 namespace radioslam {
@@ -16,6 +18,8 @@ enum class DistributedMethod { kTwoStage, kBlockCoordinate, kAsynchronous, kAlte
 struct TeamOptimizationParams {
   DistributedMethod method = DistributedMethod::kSeparators;
   int max_rounds = 1000;
+  FrameVoteParams frames;
+  OutlierParams outliers;
   NetworkParams network;
 };
 
@@ -30,6 +34,7 @@ struct TeamOptimization {
   std::vector<Pose> poses;     ///< as the robots have them when they stop
   std::vector<Frame> frames;   ///< per pose
   bool settled = false;        ///< every robot had stopped by itself
+  std::vector<double> weights; ///< per relative pose of the graph, of graduated optimization
   std::size_t refused = 0;     ///< messages
 };
 

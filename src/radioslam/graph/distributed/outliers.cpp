@@ -1,0 +1,33 @@
+#include "radioslam/graph/distributed/outliers.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace radioslam {
+
+TruncatedWeight truncated_weight(double squared_norm, double gate, double mu) {
+  if (squared_norm <= gate * mu / (mu + 1)) return {1, 0};
+  if (squared_norm >= gate * (mu + 1) / mu) return {0, gate};
+  const double weight = std::sqrt(gate * mu * (mu + 1) / squared_norm) - mu;
+  return {weight, mu * (1 - weight) / (mu + weight) * gate};
+}
+
+template <class Pose>
+std::vector<bool> outlier_candidates(const RobotGraph<Pose>& robot) {
+  std::vector<bool> candidates(robot.graph.relative_poses.size(), true);
+  std::vector<bool> stepped(robot.own_poses, false);
+  for (std::size_t k = 0; k < robot.own_relative_poses; ++k) {
+    const auto& factor = robot.graph.relative_poses[k];
+    const std::size_t first = std::min(factor.i.index(), factor.j.index());
+    const bool step = std::max(factor.i.index(), factor.j.index()) == first + 1;
+    if (!step || stepped[first]) continue;
+    stepped[first] = true;
+    candidates[k] = false;
+  }
+  return candidates;
+}
+
+template std::vector<bool> outlier_candidates(const RobotGraph<SE2>&);
+template std::vector<bool> outlier_candidates(const RobotGraph<SE3>&);
+
+}  // namespace radioslam
