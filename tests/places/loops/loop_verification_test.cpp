@@ -1,4 +1,4 @@
-// When a closure that fits is one to believe: where its rivals are excluded.
+// When a closure that fits is one to believe: where its alternatives are excluded.
 #include "radioslam/places/loops/loop_verification.hpp"
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ UncertainPose<SE3> expected_at(const SE3& T, double sigma_m, double sigma_z_m) {
 }
 
 /// One visit of a furnished room, and a scan of it, or of one like it, expected so much higher.
-ScanLoop verified(double higher_m, double sigma_z_m, bool storeys) {
+ScanLoop verified(double higher_m, double sigma_z_m, Storeys storeys) {
   const ScanKeyframes keyframes = keyframes_at(
       furnished_room(), {pose_at(-1, 0.3, 1.2, 0), pose_at(0, 0.3, 1.2, 0), pose_at(0.2, 0.4, 1.2, 0.1)});
   const std::vector<double> path_m{0, 1, 50};
@@ -53,7 +53,7 @@ ScanLoop verified(double higher_m, double sigma_z_m, bool storeys) {
 }
 
 TEST(LoopVerification, AcceptsWhatIsWhereItIsExpected) {
-  const ScanLoop loop = verified(0, 0.3, true);
+  const ScanLoop loop = verified(0, 0.3, Storeys::kSeveral);
   EXPECT_EQ(loop.status, LoopStatus::kAccepted);
   EXPECT_LT(loop.doubt, 0.01);
 }
@@ -61,10 +61,11 @@ TEST(LoopVerification, AcceptsWhatIsWhereItIsExpected) {
 /// A scan fits the storey below as well as its own, which was never seen.
 TEST(LoopVerification, DoesNotTieStoreysTogether) {
   for (const double sigma_z_m : {1.5, 3.0, 10.0})
-    EXPECT_EQ(verified(3.2, sigma_z_m, true).status, LoopStatus::kAnotherStorey) << sigma_z_m;
-  EXPECT_EQ(verified(3.2, 3, false).status, LoopStatus::kAccepted) << "a robot that stays on one";
-  EXPECT_EQ(verified(0, 10, true).status, LoopStatus::kAnotherStorey) << "the height says nothing";
-  EXPECT_EQ(verified(0.05, 1.5, true).status, LoopStatus::kAccepted);
+    EXPECT_EQ(verified(3.2, sigma_z_m, Storeys::kSeveral).status, LoopStatus::kAnotherStorey) << sigma_z_m;
+  EXPECT_EQ(verified(3.2, 3, Storeys::kOne).status, LoopStatus::kAccepted) << "a robot that stays on one";
+  EXPECT_EQ(verified(0, 10, Storeys::kSeveral).status, LoopStatus::kAnotherStorey)
+      << "the height says nothing";
+  EXPECT_EQ(verified(0.05, 1.5, Storeys::kSeveral).status, LoopStatus::kAccepted);
 }
 
 TEST(LoopVerification, NeedsMoreThanGround) {
@@ -99,7 +100,7 @@ TEST(LoopVerification, SearchesThePlacesThatLookAlike) {
   for (const ScanContext& context : keyframe_contexts(seen, path_m, 8, 5, {})) index.add(context);
   for (const ScanContext& context : keyframe_contexts(other, other_path_m, 8, 5, {}))
     other_index.add(context);
-  const LoopVerification verification({}, {.target_m = 5, .storeys = false}, {}, {}, {});
+  const LoopVerification verification({}, {.target_m = 5, .storeys = Storeys::kOne}, {}, {}, {});
   const auto status = [&](double sigma_m, bool anywhere) {
     const SE3 T_i_j = seen.poses[1].inverse() * other.poses[0];
     return verification

@@ -21,7 +21,6 @@ constexpr double kMostDifferent =
     0.5;  // largest difference of descriptors that is compared with the prediction
 constexpr double kDescriptorScale = 0.1;  // difference of descriptors as telling as one standard deviation
 constexpr double kStrideRatio = 0.2;      // path length between compared keyframes, in the descriptors' range
-constexpr double kMuchWorse = 2;          // standard deviation of a prediction worth another trial
 
 UncertainPose<SE3> in_space(const SE3& T, const SE3::Jacobian& covariance) { return {T, covariance}; }
 UncertainPose<SE3> in_space(const SE3& T, const SE2::Jacobian& covariance) {
@@ -84,9 +83,9 @@ class Attempts {
   bool has(const Proposal& pair) const {
     const auto found = of_pair_.find({pair.a, pair.b, pair.i, pair.j});
     if (found == of_pair_.end()) return false;
-    const double worse_m = kMuchWorse * horizontal_sigma(pair.T_i_j);
+    const double now_m = horizontal_sigma(pair.T_i_j);
     return std::any_of(found->second.begin(), found->second.end(), [&](const PlaceAttempt* attempt) {
-      return attempt->holds || attempt->sigma_m < worse_m;
+      return attempt->holds || !is_worth_another_trial(attempt->sigma_m, now_m);
     });
   }
   bool has_robots(std::size_t a, std::size_t b) const { return robots_.contains({a, b}); }

@@ -124,7 +124,7 @@ ScanLoop LoopVerification::verify(const PlacedKeyframes& target, std::size_t i, 
   if (target.keyframes.kind == ScannerKind::kSpatial && structure_of(scan) < params_.min_structure)
     return loop_of(fits.front(), LoopStatus::kTooLittleStructure);
   const Setting setting{expected, target.poses[i].rotation_matrix().transpose() * Eigen::Vector3d::UnitZ(),
-                        of_.storeys ? storey_height_m(scan) : std::nullopt,
+                        of_.storeys == Storeys::kSeveral ? storey_height_m(scan) : std::nullopt,
                         seen_area_m2(target, std::max(scan.median_range_m, kSamePlace_m))};
   Alternatives alternatives = weigh(setting, fits);
   if (target.index && source.index && reaches_elsewhere(expected, scan.median_range_m))

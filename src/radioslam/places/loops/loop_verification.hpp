@@ -46,7 +46,7 @@ struct LoopVerificationParams {
   double target_m = 0;  ///< path length of a submap to either side of its keyframe
   double source_m = 0;  ///< the same of the scans that are registered to it; 0: the scan alone
   double apart_m = 0;   ///< path length between scans of a submap; 0: all
-  bool storeys = true;  ///< the robots may be on different storeys
+  Storeys storeys = Storeys::kSeveral;
 };
 
 class LoopVerification {

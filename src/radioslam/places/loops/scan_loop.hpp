@@ -65,6 +65,9 @@ struct ScanLoopParams {
   }
 };
 
+/// The storeys that robots may be on.
+enum class Storeys { kOne, kSeveral };
+
 enum class LoopStatus {
   kAccepted,
   kLowOverlap,
@@ -91,6 +94,13 @@ struct ScanLoop {
 inline bool is_unknown_motion(const SE3::Jacobian& covariance) {
   constexpr double kUnknownHeading_rad = 1;
   return covariance(5, 5) > kUnknownHeading_rad * kUnknownHeading_rad;
+}
+
+/// Whether a pair that came to nothing is worth another trial: the standard deviation with which its relative
+/// position was predicted then, and is now.
+inline bool is_worth_another_trial(double before_m, double now_m) {
+  constexpr double kMuchWorse = 2;
+  return before_m >= kMuchWorse * now_m;
 }
 
 /// One robot's keyframes with their scans.

@@ -90,7 +90,8 @@ void optimize_and_prune(PoseGraph<SE3>& graph, std::size_t steps, std::vector<Sc
 
 ScanLoops close_scan_loops(const ScanKeyframes& keyframes, const ScanLoopParams& params,
                            const LocalMapParams& map, const PoseSearchParams& search,
-                           const RegistrationParams& registration, bool storeys, const Progress& progress) {
+                           const RegistrationParams& registration, Storeys storeys,
+                           const Progress& progress) {
   if (!params.enabled || keyframes.poses.size() < 2) return {{}, keyframes.poses};
   PoseGraph<SE3> graph = odometry_graph(keyframes);
   const std::size_t steps = graph.relative_poses.size();

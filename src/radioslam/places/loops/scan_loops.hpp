@@ -26,10 +26,10 @@ struct ScanLoops {
   std::vector<SE3> poses;       ///< of the keyframes, optimized with the accepted closures
 };
 
-/// `storeys`: whether the robot may change between storeys.
+/// `storeys`: those that the robot may change between.
 ScanLoops close_scan_loops(const ScanKeyframes& keyframes, const ScanLoopParams& params,
                            const LocalMapParams& map, const PoseSearchParams& search,
-                           const RegistrationParams& registration, bool storeys = true,
+                           const RegistrationParams& registration, Storeys storeys = Storeys::kSeveral,
                            const Progress& progress = {});
 
 }  // namespace radioslam
