@@ -6,6 +6,7 @@ radioslam_room(places
     loops/loop_verification.cpp
     loops/scan_loop.cpp
     loops/scan_loops.cpp
+    loops/storey.cpp
     scan_context.cpp
     scan_context_index.cpp
     sector_dft.cpp

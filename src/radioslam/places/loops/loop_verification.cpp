@@ -3,7 +3,6 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -11,6 +10,7 @@
 #include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/lidar/structure_fit.hpp"
 #include "radioslam/places/keyframe_contexts.hpp"
+#include "radioslam/places/loops/storey.hpp"
 
 namespace radioslam {
 namespace {
@@ -26,23 +26,6 @@ constexpr double kFits = 0.3;          // likelihood from which a pose counts as
 constexpr double kUnseenFits = 0.02;   // before any was found
 constexpr double kUnseenShare = 0.2;   // of the area that is possible
 constexpr double kStoreyPrior = 0.1;   // that there is a storey that looks the same
-constexpr double kMinStorey_m = 2.5;   // height
-constexpr float kIndoors_m = 30;       // range of most points on a storey
-
-float quantile(std::vector<float>& values, double share) {
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
-/// m(d) of loop_verification.hpp.
-double prior_density(double squared_distance) {
-  constexpr std::array<double, 4> kScales{0.25, 0.5, 1, 2};
-  double sum = 0;
-  for (const double a : kScales) sum += std::exp(-squared_distance / (2 * a * a)) / a;
-  return sum / static_cast<double>(kScales.size());
-}
 
 /// What the points do not observe is known to a hundred metres and radians.
 SE3::Jacobian covariance_of_fit(const Registration& fit) {
@@ -54,30 +37,6 @@ SE3::Jacobian covariance_of_fit(const Registration& fit) {
 double sigma_in_plane(const UncertainPose<SE3>& T) {
   const Eigen::Matrix3d covariance = T.position_covariance();
   return std::sqrt(symmetric_eigen<Eigen::Matrix2d>(covariance.topLeftCorner<2, 2>()).values.maxCoeff());
-}
-
-/// The least height of a storey that a scan may have been taken on, by what it sees overhead; nothing where
-/// it sees far, in the open.
-std::optional<double> storey_height_m(const ScanPyramid& scan) {
-  std::vector<float> heights_m, ranges_m;
-  for (const Surfel& surfel : scan.all) {
-    heights_m.push_back(surfel.position.z());
-    ranges_m.push_back(surfel.position.head<2>().norm());
-  }
-  if (heights_m.empty() || quantile(ranges_m, 0.9) > kIndoors_m) return std::nullopt;
-  return std::max(kMinStorey_m, static_cast<double>(quantile(heights_m, 0.98) - quantile(heights_m, 0.05)));
-}
-
-/// Density of the most likely storeys above and below a fit, over that of the fit's own.
-double other_storeys(double storey_m, double off_m, double sigma_m) {
-  constexpr double kLeast = 1e-12;
-  const auto density = [&](double z_m) { return kLeast + prior_density(z_m * z_m / (sigma_m * sigma_m)); };
-  double sum = 0;
-  for (const double side : {-1.0, 1.0}) {
-    const double towards_m = std::clamp(-side * off_m, storey_m, 2 * storey_m);
-    sum += density(off_m + side * towards_m);
-  }
-  return sum / density(off_m);
 }
 
 /// Area that a robot has seen on its way.

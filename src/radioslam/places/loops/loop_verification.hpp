@@ -10,7 +10,7 @@
 //   other poses on the submap
 //   the places of the target robot that look most alike, where the prediction reaches beyond the submap
 //   places that were not seen: as many per area as fit in the area that was, on the area that is possible
-//   other storeys, unless the scan sees far
+//   other storeys, unless the scan was taken in the open (storey.hpp)
 // The closure is accepted if its share of all weights is 1 - max_doubt or more.
 #pragma once
 

@@ -1,0 +1,23 @@
+// Storeys of a building that may look the same: how high they are by what a scan sees, and how likely a place
+// is on another one than where it is predicted.
+#pragma once
+
+#include <optional>
+
+#include "radioslam/lidar/local_map.hpp"
+
+namespace radioslam {
+
+/// The least height of a storey that the scan may have been taken on; nothing in the open. It is on one if
+/// most points are within 30 m, or if it sees a ceiling: surfaces overhead end at one height, where walls
+/// alone are seen at all heights. The body's z-axis must be about vertical.
+std::optional<double> storey_height_m(const ScanPyramid& scan);
+
+/// m(d) of loop_verification.hpp, of d^2.
+double prior_density(double squared_distance);
+
+/// Density of the most likely storeys above and below a place, over its own. `off_m`: how much higher it is
+/// than predicted with `sigma_m`.
+double other_storeys(double storey_m, double off_m, double sigma_m);
+
+}  // namespace radioslam

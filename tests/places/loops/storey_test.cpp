@@ -1,0 +1,68 @@
+#include "radioslam/places/loops/storey.hpp"
+
+#include <gtest/gtest.h>
+
+#include "lidar/scanned_room.hpp"
+
+namespace radioslam {
+namespace {
+
+using namespace test;
+
+constexpr double kSpacing_m = 0.3;
+
+ScanPyramid scan_in(const ScannedRoom& room, double tilt_rad = 0) {
+  Rng rng(5);
+  Scanner scanner;
+  scanner.max_m = 80;
+  const SE3 tilt(Eigen::Vector3d::Zero(),
+                 Eigen::Quaterniond(Eigen::AngleAxisd(tilt_rad, Eigen::Vector3d::UnitY())));
+  return pyramid_of(sweep(room, scanner, pose_at(0, 0, 1, 0.3) * tilt, rng), kSpacing_m,
+                    ScannerKind::kSpatial);
+}
+
+ScannedRoom hall(double length_m, double width_m, double height_m) {
+  ScannedRoom room;
+  room.boxes = {{{-length_m / 2, -width_m / 2, 0}, {length_m / 2, width_m / 2, height_m}}};
+  return room;
+}
+
+/// Under an open sky, the houses on either side 8 to 15 m high.
+ScannedRoom street() {
+  ScannedRoom room = hall(600, 600, 300);
+  for (int k = -4; k <= 4; ++k) {
+    room.boxes.push_back({{20.0 * k, 9, 0}, {20.0 * k + 17, 20, 8.0 + k % 3}});
+    room.boxes.push_back({{20.0 * k - 5, -22, 0}, {20.0 * k + 10, -12, 12.0 + k % 2}});
+  }
+  return room;
+}
+
+TEST(StoreyHeight, IsThatOfTheRoomButAtLeastThatOfAStorey) {
+  EXPECT_NEAR(storey_height_m(scan_in(hall(12, 8, 3))).value_or(0), 2.8, 0.5);
+  EXPECT_EQ(storey_height_m(scan_in(hall(4, 4, 10))).value_or(0), 2.5) << "seen up to 0.7 m";
+}
+
+TEST(StoreyHeight, IsThatOfABigHallToo) {
+  for (const double tilt_rad : {0.0, 0.01, -0.01}) {
+    EXPECT_NEAR(storey_height_m(scan_in(hall(90, 70, 8), tilt_rad)).value_or(0), 8, 1.5) << tilt_rad;
+    EXPECT_TRUE(storey_height_m(scan_in(hall(140, 90, 6), tilt_rad))) << tilt_rad;
+  }
+}
+
+TEST(StoreyHeight, IsNoneInTheOpen) {
+  EXPECT_FALSE(storey_height_m(scan_in(street())));
+  EXPECT_FALSE(storey_height_m(scan_in(street(), 0.01)));
+  EXPECT_FALSE(storey_height_m(scan_in(hall(600, 600, 300)))) << "ground alone";
+  EXPECT_FALSE(storey_height_m({}));
+}
+
+TEST(OtherStoreys, AreAsLikelyAsTheHeightLeavesThem) {
+  constexpr double kStorey_m = 3;
+  EXPECT_LT(other_storeys(kStorey_m, 0, 0.3), 1e-6);
+  EXPECT_NEAR(other_storeys(kStorey_m, 0, 1000), 2, 1e-3) << "one above, one below";
+  EXPECT_GT(other_storeys(kStorey_m, kStorey_m, 0.3), 1e6) << "expected a storey below";
+  EXPECT_NEAR(other_storeys(kStorey_m, 1, 1), other_storeys(kStorey_m, -1, 1), 1e-12);
+}
+
+}  // namespace
+}  // namespace radioslam
