@@ -4,6 +4,7 @@ radioslam_room(places
     keyframe_contexts.cpp
     loops/loop_candidates.cpp
     loops/loop_verification.cpp
+    loops/other_places.cpp
     loops/scan_loop.cpp
     loops/scan_loops.cpp
     loops/storey.cpp

@@ -58,10 +58,19 @@ TEST(StoreyHeight, IsNoneInTheOpen) {
 
 TEST(OtherStoreys, AreAsLikelyAsTheHeightLeavesThem) {
   constexpr double kStorey_m = 3;
-  EXPECT_LT(other_storeys(kStorey_m, 0, 0.3), 1e-6);
-  EXPECT_NEAR(other_storeys(kStorey_m, 0, 1000), 2, 1e-3) << "one above, one below";
-  EXPECT_GT(other_storeys(kStorey_m, kStorey_m, 0.3), 1e6) << "expected a storey below";
-  EXPECT_NEAR(other_storeys(kStorey_m, 1, 1), other_storeys(kStorey_m, -1, 1), 1e-12);
+  const auto others = [](double z_m, double sigma_m) {
+    return other_storeys(kStorey_m, z_m, {{0, 1}}, sigma_m);
+  };
+  EXPECT_LT(others(0, 0.3), 1e-6);
+  EXPECT_NEAR(others(0, 1000), 2, 1e-3) << "one above, one below";
+  EXPECT_GT(others(kStorey_m, 0.3), 1e6) << "expected a storey below";
+  EXPECT_NEAR(others(1, 1), others(-1, 1), 1e-12);
+}
+
+TEST(OtherStoreys, AreThoseThatOtherAlignmentsExpect) {
+  const auto others = [](double share) { return other_storeys(3, 0, {{0, 1 - share}, {3.5, share}}, 0.1); };
+  for (const double share : {0.1, 0.4}) EXPECT_NEAR(others(share), share / (1 - share), 1e-6);
+  EXPECT_LT(others(0), 1e-9);
 }
 
 }  // namespace

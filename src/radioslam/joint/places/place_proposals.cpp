@@ -12,6 +12,7 @@
 
 #include "radioslam/graph/marginals.hpp"
 #include "radioslam/joint/uncertainty/position_uncertainty.hpp"
+#include "radioslam/places/loops/other_places.hpp"
 
 namespace radioslam {
 namespace {
@@ -191,7 +192,24 @@ class PlaceSearch {
       if (score > best) best = score, pair.i = with[n], pair.descriptor_distance = distance;
     }
     if (pair.i != nearest_i) pair.T_i_j = predicted(poses, pair);
-    if (!tried_.has(pair)) proposals_.push_back(std::move(pair));
+    if (tried_.has(pair)) return;
+    pair.alternatives = other_predictions(pair);
+    proposals_.push_back(std::move(pair));
+  }
+
+  /// By the alignments that are searched, too.
+  std::vector<ExpectedPlace::Alternative> other_predictions(const Proposal& pair) const {
+    const TeamAlignment<Pose>& alignment = input_.team.alignment;
+    std::vector<ExpectedPlace::Alternative> others;
+    const auto add = [&](const Poses& poses, double weight) {
+      others.push_back(
+          {predicted(poses, robots_[pair.a], pair.i).inverse() * predicted(poses, robots_[pair.b], pair.j),
+           weight});
+    };
+    if (pair.alignment != 0) add(input_.team.joint.team.graph.poses, alignment.weight);
+    for (std::size_t k = 0; k < searched(alignment.alternative_weights); ++k)
+      if (pair.alignment != k + 1) add(alignment.alternatives[k], alignment.alternative_weights[k]);
+    return others;
   }
 
   void keep_within(const VerificationBudget& budget) {

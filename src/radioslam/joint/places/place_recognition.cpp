@@ -92,9 +92,9 @@ RecognisedPlaces recognise_places(const PlaceInput<Pose>& input, const PlacePara
     for (std::size_t k = begin; k < end; ++k) {
       const Proposal& proposal = proposals[k];
       const ScannedRobot &a = proposed.robots[proposal.a], &b = proposed.robots[proposal.b];
-      const ScanLoop loop = (b.kind() == ScannerKind::kPlanar ? planar : spatial)
-                                .verify(a.placed(), proposal.i, b.placed(), proposal.j,
-                                        {.T_i_j = proposal.T_i_j, .anywhere = proposal.anywhere});
+      const ScanLoop loop =
+          (b.kind() == ScannerKind::kPlanar ? planar : spatial)
+              .verify(a.placed(), proposal.i, b.placed(), proposal.j, expected_place(proposal));
       found.closures[k] = closure_of(proposal, loop, a, b);
     }
   });

@@ -8,7 +8,7 @@
 #include "radioslam/joint/joint_graph.hpp"
 #include "radioslam/odometry/scan_stage.hpp"
 #include "radioslam/places/keyframe_contexts.hpp"
-#include "radioslam/places/loops/loop_verification.hpp"
+#include "radioslam/places/loops/expected_place.hpp"
 #include "radioslam/places/scan_context_index.hpp"
 
 namespace radioslam {

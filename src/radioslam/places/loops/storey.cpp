@@ -55,15 +55,25 @@ double prior_density(double squared_distance) {
   return sum / static_cast<double>(kScales.size());
 }
 
-double other_storeys(double storey_m, double off_m, double sigma_m) {
+double other_storeys(double storey_m, double z_m, const std::vector<ExpectedHeight>& expected,
+                     double sigma_m) {
   constexpr double kLeast = 1e-12;
-  const auto density = [&](double z_m) { return kLeast + prior_density(z_m * z_m / (sigma_m * sigma_m)); };
+  const auto density = [&](double at_m) {
+    double sum = kLeast;
+    for (const auto& [expected_m, share] : expected) {
+      const double off = (at_m - expected_m) / sigma_m;
+      sum += share * prior_density(off * off);
+    }
+    return sum;
+  };
   double sum = 0;
   for (const double side : {-1.0, 1.0}) {
-    const double towards_m = std::clamp(-side * off_m, storey_m, 2 * storey_m);
-    sum += density(off_m + side * towards_m);
+    double most = 0;
+    for (const ExpectedHeight& at : expected)
+      most = std::max(most, density(z_m + side * std::clamp(side * (at.z_m - z_m), storey_m, 2 * storey_m)));
+    sum += most;
   }
-  return sum / density(off_m);
+  return sum / density(z_m);
 }
 
 }  // namespace radioslam

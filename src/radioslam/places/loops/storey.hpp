@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "radioslam/lidar/local_map.hpp"
 
@@ -16,8 +17,15 @@ std::optional<double> storey_height_m(const ScanPyramid& scan);
 /// m(d) of loop_verification.hpp, of d^2.
 double prior_density(double squared_distance);
 
-/// Density of the most likely storeys above and below a place, over its own. `off_m`: how much higher it is
-/// than predicted with `sigma_m`.
-double other_storeys(double storey_m, double off_m, double sigma_m);
+/// One of the heights where a place may be, by a prediction.
+struct ExpectedHeight {
+  double z_m = 0;
+  double share = 1;  ///< probability
+};
+
+/// Density of the most likely storeys above and below the height `z_m`, over its own; each expected height
+/// has the standard deviation `sigma_m`.
+double other_storeys(double storey_m, double z_m, const std::vector<ExpectedHeight>& expected,
+                     double sigma_m);
 
 }  // namespace radioslam
