@@ -55,7 +55,7 @@ ScanLoop verified(double higher_m, double sigma_z_m, Storeys storeys) {
 TEST(LoopVerification, AcceptsWhatIsWhereItIsExpected) {
   const ScanLoop loop = verified(0, 0.3, Storeys::kSeveral);
   EXPECT_EQ(loop.status, LoopStatus::kAccepted);
-  EXPECT_LT(loop.doubt, 0.01);
+  EXPECT_LT(loop.doubt.value_or(1), 0.01);
 }
 
 /// A scan fits the storey below as well as its own, which was never seen.

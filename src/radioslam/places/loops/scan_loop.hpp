@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -86,7 +87,8 @@ struct ScanLoop {
   SE3 T_i_j;
   SE3::Jacobian information = SE3::Jacobian::Zero();  ///< about xi in T_i_j * Exp(xi)
   double inlier_ratio = 0;
-  double doubt = 0;  ///< probability that another place explains the scan
+  /// Probability that another place explains the scan; nothing where it was rejected before that was asked.
+  std::optional<double> doubt = {};
   LoopStatus status = LoopStatus::kAccepted;
 };
 
