@@ -1,9 +1,12 @@
 #include "radioslam/places/loops/storey.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
+
+#include "radioslam/lidar/structure_fit.hpp"
 
 namespace radioslam {
 namespace {
@@ -11,9 +14,10 @@ namespace {
 constexpr double kMinStorey_m = 2.5;  // height
 constexpr float kIndoors_m = 30;      // range of most points on a storey
 constexpr float kOverhead_m = 0.5;    // height above the body
-constexpr float kTilt_rad = 0.01F;    // of the body, which tilts the ceiling
-constexpr float kMinLayer_m = 0.15F;  // half the thickness of what is at one height
-constexpr double kCeilingShare = 0.3;
+constexpr double kMaxTilt = 0.02;     // slope of the ceiling in the body frame
+constexpr double kMinLayer_m = 0.15;  // half the thickness of what is in one plane
+constexpr int kPlaneSteps = 5;
+constexpr double kCeilingShare = 0.3, kWallShare = 0.5;
 constexpr std::size_t kMinOverhead = 20;
 
 float quantile(std::vector<float>& values, double share) {
@@ -23,15 +27,42 @@ float quantile(std::vector<float>& values, double share) {
   return *at;
 }
 
-bool has_ceiling(const std::vector<float>& heights_m, float range_m) {
-  std::vector<float> overhead_m;
-  for (const float height_m : heights_m)
-    if (height_m > kOverhead_m) overhead_m.push_back(height_m);
-  if (overhead_m.size() < kMinOverhead) return false;
-  const float top_m = quantile(overhead_m, 0.95), layer_m = std::max(kMinLayer_m, kTilt_rad * range_m);
-  const auto at_top = std::count_if(overhead_m.begin(), overhead_m.end(),
-                                    [&](float height_m) { return std::abs(height_m - top_m) <= layer_m; });
-  return static_cast<double>(at_top) >= kCeilingShare * static_cast<double>(overhead_m.size());
+/// z = plane . (x, y, 1), by least squares.
+Eigen::Vector3d plane_through(const std::vector<Eigen::Vector3d>& points) {
+  Eigen::Matrix3d normal = 1e-6 * Eigen::Matrix3d::Identity();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& point : points) {
+    const Eigen::Vector3d at(point.x(), point.y(), 1);
+    normal += at * at.transpose();
+    right += at * point.z();
+  }
+  return normal.ldlt().solve(right);
+}
+
+/// Whether much of what is overhead lies in one plane that is level but for the body's tilt, at the top.
+bool has_ceiling(const ScanPyramid& scan, double range_m) {
+  std::vector<Eigen::Vector3d> not_walls;
+  std::vector<float> heights_m;
+  for (const Surfel& surfel : scan.all) {
+    if (surfel.position.z() <= kOverhead_m) continue;
+    heights_m.push_back(surfel.position.z());
+    if (horizontal_share(surfel) < kWallShare) not_walls.push_back(surfel.position.cast<double>());
+  }
+  if (heights_m.size() < kMinOverhead) return false;
+  const double least = kCeilingShare * static_cast<double>(heights_m.size());
+  Eigen::Vector3d plane(0, 0, quantile(heights_m, 0.95));
+  double layer_m = kMinLayer_m + 2 * kMaxTilt * range_m;
+  std::vector<Eigen::Vector3d> within;
+  for (int k = 0; k < kPlaneSteps; ++k) {
+    within.clear();
+    for (const Eigen::Vector3d& point : not_walls)
+      if (std::abs(point.z() - plane.dot(Eigen::Vector3d(point.x(), point.y(), 1))) <= layer_m)
+        within.push_back(point);
+    if (static_cast<double>(within.size()) < least) return false;
+    plane = plane_through(within);
+    layer_m = std::max(layer_m / 2, kMinLayer_m);
+  }
+  return plane.head<2>().norm() <= 2 * kMaxTilt;
 }
 
 }  // namespace
@@ -44,7 +75,7 @@ std::optional<double> storey_height_m(const ScanPyramid& scan) {
   }
   if (heights_m.empty()) return std::nullopt;
   const float range_m = quantile(ranges_m, 0.9);
-  if (range_m > kIndoors_m && !has_ceiling(heights_m, range_m)) return std::nullopt;
+  if (range_m > kIndoors_m && !has_ceiling(scan, range_m)) return std::nullopt;
   return std::max(kMinStorey_m, static_cast<double>(quantile(heights_m, 0.98) - quantile(heights_m, 0.05)));
 }
 

@@ -10,8 +10,8 @@
 namespace radioslam {
 
 /// The least height of a storey that the scan may have been taken on; nothing in the open. It is on one if
-/// most points are within 30 m, or if it sees a ceiling: surfaces overhead end at one height, where walls
-/// alone are seen at all heights. The body's z-axis must be about vertical.
+/// most points are within 30 m, or if it sees a ceiling: of what is overhead and no wall, much lies in one
+/// level plane. The body's z-axis must be about vertical.
 std::optional<double> storey_height_m(const ScanPyramid& scan);
 
 /// m(d) of loop_verification.hpp, of d^2.
