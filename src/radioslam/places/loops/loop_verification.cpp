@@ -16,8 +16,7 @@ namespace radioslam {
 namespace {
 
 constexpr double kBeyond =
-    4.0 / 3;                     // how far alternatives are searched, in the width of a search for the place
-constexpr double kPossible = 4;  // standard deviations within which a place is possible
+    4.0 / 3;  // how far alternatives are searched, in the width of a search for the place
 constexpr double kSamePlace_m = 1;
 constexpr double kAlternativeLog = 3;  // e^-3: twenty times less likely
 constexpr double kFits = 0.3;          // likelihood from which a pose counts as one that fits
@@ -64,7 +63,7 @@ double LoopVerification::reach_m(double median_range_m) const {
 
 bool LoopVerification::reaches_elsewhere(const ExpectedPlace& expected, double median_range_m) const {
   const double reach = reach_m(median_range_m);
-  return expected.anywhere || kPossible * sigma_in_plane(expected.T_i_j) > reach ||
+  return expected.anywhere || kPossibleSigmas * sigma_in_plane(expected.T_i_j) > reach ||
          std::any_of(expected.alternatives.begin(), expected.alternatives.end(), [&](const auto& other) {
            return (other.T_i_j.translation() - expected.T_i_j.pose.translation()).norm() > reach;
          });
@@ -140,7 +139,7 @@ std::vector<OtherPlace> LoopVerification::other_places(const ComparedKeyframes& 
     const auto alike = places_alike(compared, reach, 2 * of_.target_m, places);
     places.insert(places.end(), alike.begin(), alike.end());
   }
-  if (setting.storey_m && (expected.anywhere || kPossible * setting.sigma_up_m() > *setting.storey_m)) {
+  if (setting.storey_m && (expected.anywhere || kPossibleSigmas * setting.sigma_up_m() > *setting.storey_m)) {
     const auto storeys = places_on_other_storeys(compared, best.T_i_j, *setting.storey_m, reach);
     places.insert(places.end(), storeys.begin(), storeys.end());
   }

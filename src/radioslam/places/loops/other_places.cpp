@@ -11,7 +11,6 @@
 namespace radioslam {
 namespace {
 
-constexpr double kPossible = 4;    // standard deviations within which a place is possible
 constexpr double kCovered = 2;     // standard deviations around a prediction that its search covers
 constexpr std::size_t kAlike = 6;  // places that look alike and are searched
 constexpr std::size_t kOtherStoreys = 2;
@@ -22,7 +21,7 @@ constexpr double kSigmaStorey_m = 1, kSigmaStorey_rad = 0.1;  // of a scan from 
 /// what hangs on j itself shows the scan where it is, wherever that may be.
 bool may_show(const ComparedKeyframes& of, std::size_t k, double reach_m) {
   if (!of.target.has_cloud(k)) return false;
-  return !of.are_of_one_robot() || (k != of.j && kPossible * of.target.sigma_m(k, of.j) > reach_m);
+  return !of.are_of_one_robot() || (k != of.j && kPossibleSigmas * of.target.sigma_m(k, of.j) > reach_m);
 }
 
 /// Whether a search around the one finds the other.

@@ -10,6 +10,9 @@
 
 namespace radioslam {
 
+/// Standard deviations within which a place is possible.
+inline constexpr double kPossibleSigmas = 4;
+
 /// A keyframe of the target, and where the scan is searched around it.
 struct OtherPlace {
   std::size_t keyframe = 0;
