@@ -106,11 +106,10 @@ class PlaceSearch {
     marginals_ = Marginals<Pose>::compute(graph_for_covariances(joint, alignment.mixture).team.graph);
     if (!input.team.alignment.segments.of_segment.empty()) temperature_ = alignment.beam.evidence_temperature;
     for (std::size_t r = 0; r < joint.robots.size(); ++r)
-      robots_.push_back(input.scans.robots[r] ? scanned_robot(*input.scans.robots[r], joint.robots[r],
-                                                              input.mission.robots[r].odometry)
-                                              : ScannedRobot{});
-    add_contexts(robots_, ScannerKind::kSpatial, params.context, params.index, loops.submap_m);
-    add_contexts(robots_, ScannerKind::kPlanar, params.context, params.index, loops.submap_m);
+      robots_.push_back(input.scans.robots[r]
+                            ? scanned_robot(*input.scans.robots[r], input.descriptors.robots[r],
+                                            joint.robots[r], input.mission.robots[r].odometry)
+                            : ScannedRobot{});
   }
 
   PlaceProposals run() {
@@ -229,8 +228,8 @@ class PlaceSearch {
   void propose_by_descriptor(std::size_t a, std::size_t b) {
     if (tried_.has_robots(a, b) && !input_.budget) return;  // descriptors alone would only repeat themselves
     const ScannedRobot& of_a = robots_[a];
-    const auto compared =
-        static_cast<std::size_t>(std::min(params_.index.nearest_keys, params_.index.shortlist));
+    const auto compared = static_cast<std::size_t>(
+        std::min(params_.descriptors.index.nearest_keys, params_.descriptors.index.shortlist));
     for (const std::size_t j : robots_[b].strides(stride_m(robots_[b]))) {
       counts_.compared += std::min(of_a.size(), compared);
       counts_.allowed += of_a.size();
