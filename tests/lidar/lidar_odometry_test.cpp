@@ -312,6 +312,38 @@ TEST(LidarOdometry, AfterATimeWithoutScansGoesOnOnlyWhereItStood) {
   }
 }
 
+/// The motion during a gap was measured otherwise: where that is too uncertain to choose among places that
+/// look the same, a new map starts at its end, with its covariance.
+TEST(LidarOdometry, AfterAGapWithAKnownMotionGoesOnFromItsEnd) {
+  const ScanDrive drive =
+      drive_along(furnished_room(), scanner_of(ScannerKind::kPlanar), around_furnished_room(40), 7);
+  const SE3 motion = drive.truth[4].inverse() * drive.truth[8];
+  const SE3 off = pose_at(0.05, -0.03, 0, 0.02);  // its error
+  for (const double sigma_m : {0.05, 20.0}) {
+    LidarOdometry odometer(scanner_traits(log_of(drive), {}), {});
+    ScanPose last;
+    for (std::size_t k = 0; k < 5; ++k) last = odometer.register_scan(drive.stamps[k], drive.scans[k]);
+    SE3::Jacobian covariance = SE3::Jacobian::Identity() * 1e-4;
+    covariance.diagonal().head<2>().setConstant(sigma_m * sigma_m);
+    const double later_s = drive.stamps[4].seconds() + 30;
+    const ScanPose pose = odometer.register_scan(Stamp::from_seconds(later_s), drive.scans[8], motion * off,
+                                                 MotionSource::kOdometry, covariance);
+    if (sigma_m < 1) {
+      EXPECT_EQ(pose.status, ScanStatus::kRegistered);
+      EXPECT_LT(distance_between(pose.T_start_body, drive.way_to(8)), kClose_m);
+    } else {
+      EXPECT_EQ(pose.status, ScanStatus::kNewMap);
+      EXPECT_LT(distance_between(pose.T_start_body, last.T_start_body * motion * off), 1e-6);
+      EXPECT_EQ(pose.covariance, covariance);
+    }
+    const ScanPose next = odometer.register_scan(Stamp::from_seconds(later_s + 0.1), drive.scans[9]);
+    EXPECT_EQ(next.status, ScanStatus::kRegistered);
+    EXPECT_LT(distance_between(pose.T_start_body.inverse() * next.T_start_body,
+                               drive.truth[8].inverse() * drive.truth[9]),
+              kClose_m);
+  }
+}
+
 /// From rest to rest, rotating at up to 1.6 rad/s to one side and then to the other.
 std::vector<SE3> turning_on_the_spot() {
   std::vector<SE3> poses;

@@ -7,14 +7,13 @@ namespace {
 
 bool has_normal(const Surfel& surfel) { return surfel.shape >= SurfelShape::kUnstructured; }
 
-/// h of structure_fit.hpp.
+}  // namespace
+
 double horizontal_share(const Surfel& surfel) {
   if (!has_normal(surfel)) return 0;
   const Eigen::Matrix3d information = surfel.covariance.cast<double>().inverse();
   return (information(0, 0) + information(1, 1)) / information.trace();
 }
-
-}  // namespace
 
 double structure_of(const ScanPyramid& scan) {
   double sum = 0;

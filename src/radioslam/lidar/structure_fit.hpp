@@ -11,6 +11,9 @@
 
 namespace radioslam {
 
+/// h; 0 without a normal.
+double horizontal_share(const Surfel& surfel);
+
 /// Sum of h: the number of surfels that determine the position. The body's z-axis must be about vertical.
 double structure_of(const ScanPyramid& scan);
 

@@ -215,10 +215,9 @@ void report_scans(MeasuredScans& measured, const Robot& robot, const ScanTraject
        "rows of recorded odometry could not be connected to its scans and were dropped");
 }
 
-void close_loops(MeasuredScans& measured, RobotIndex robot, ScanOdometry& scans, const ScanParams& params,
-                 bool storeys, const Progress& progress) {
-  ScanLoops loops = close_scan_loops(scans.keyframes, params.loops, params.lidar.map, params.search,
-                                     params.lidar.registration, storeys, progress);
+void close_loops(MeasuredScans& measured, RobotIndex robot, ScanOdometry& scans, const ScanLoopSearch& search,
+                 const Progress& progress) {
+  ScanLoops loops = close_scan_loops(scans.keyframes, search, progress);
   for (const ScanLoop& loop : loops.loops)
     measured.closures.push_back({robot, scans.keyframe_stamps[loop.i], scans.keyframe_stamps[loop.j], loop});
   if (!loops.loops.empty()) scans.corrected = std::move(loops.poses);
@@ -234,7 +233,11 @@ bool is_tracked(const Robot& robot, const ScanParams& params) {
 }  // namespace
 
 MeasuredScans measure_scans(const Mission& mission, const ScanParams& params, const KeyframeParams& keyframes,
-                            const Progress& progress, ScansOfRecorded recorded) {
+                            const Progress& progress, ScansOfRecorded recorded,
+                            const PlaceDescriptorParams& descriptors) {
+  const ScanLoopSearch loops{params.loops,  params.lidar.map,
+                             params.search, params.lidar.registration,
+                             descriptors,   mission.dimension == 3 ? Storeys::kSeveral : Storeys::kOne};
   MeasuredScans measured;
   for (std::size_t r = 0; r < mission.robots.size(); ++r) {
     std::optional<ScanOdometry>& scans = measured.robots.emplace_back();
@@ -255,7 +258,7 @@ MeasuredScans measure_scans(const Mission& mission, const ScanParams& params, co
     scans->keyframes = extract_keyframes(track, traits);
     scans->odometry = odometry_from_scans(robot, track, params.stage);
     for (const std::size_t k : track.keyframes) scans->keyframe_stamps.push_back(track.poses[k].stamp);
-    close_loops(measured, RobotIndex(r), *scans, params, mission.dimension == 3, progress);
+    close_loops(measured, RobotIndex(r), *scans, loops, progress);
   }
   return measured;
 }

@@ -50,8 +50,10 @@ struct MeasuredScans {
 /// Whether a robot whose odometry is used as recorded gets keyframes with scans, too.
 enum class ScansOfRecorded { kIgnored, kForPlaces };
 
+/// `descriptors`: by which loop closures within a robot find places that look alike.
 MeasuredScans measure_scans(const Mission& mission, const ScanParams& params, const KeyframeParams& keyframes,
-                            const Progress& progress, ScansOfRecorded recorded = ScansOfRecorded::kIgnored);
+                            const Progress& progress, ScansOfRecorded recorded = ScansOfRecorded::kIgnored,
+                            const PlaceDescriptorParams& descriptors = {});
 
 /// The mission with the odometry of its scans.
 Mission with_odometry(Mission mission, const MeasuredScans& measured);

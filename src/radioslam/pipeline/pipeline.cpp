@@ -208,14 +208,24 @@ std::optional<VerificationBudget> budget_of_round(const RunSetup& run, int round
   return budget;
 }
 
+bool compares_scans(const RunSetup& run, const MeasuredScans& scans) {
+  return run.params.places.enabled && !run.options.overlap_only && has_comparable_scans(scans);
+}
+
 /// Closures between robots by their scans, where the team as estimated so far may have met. `round`: from 0.
 template <class Pose>
 RecognisedPlaces find_places(const RunSetup& run, const TeamEstimate<Pose>& team, const MeasuredScans& scans,
-                             int round = 0, const RecognisedPlaces& before = {}) {
-  if (!run.params.places.enabled || run.options.overlap_only || !has_comparable_scans(scans)) return {};
+                             const TeamDescriptors& descriptors, int round = 0,
+                             const RecognisedPlaces& before = {}) {
+  if (!compares_scans(run, scans)) return {};
   std::vector<CandidateList::Group> allowed;
-  PlaceInput<Pose> input{team,    run.mission,     scans,
-                         nullptr, before.attempts, budget_of_round(run, round, before.attempts.size())};
+  PlaceInput<Pose> input{team,
+                         run.mission,
+                         scans,
+                         descriptors,
+                         nullptr,
+                         before.attempts,
+                         budget_of_round(run, round, before.attempts.size())};
   if (run.options.pruning == Pruning::kOn) {
     const auto keep = [&](const CandidateList::Group& group, const auto&) { allowed.push_back(group); };
     OverlapStageParams overlap = run.params.overlap;
@@ -327,7 +337,11 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* graph, const Measur
 
   auto built = timed("graph", build_team<Pose>, run, graph, scans);
   auto aligned = align_team(run, std::move(built));
-  auto places = find_places(run, aligned, scans);
+  TeamDescriptors descriptors;
+  if (compares_scans(run, scans))
+    descriptors =
+        timed("places", describe_places, scans, params.places.descriptors, params.scans.loops.submap_m);
+  auto places = find_places(run, aligned, scans, descriptors);
   auto judged = judge_closures(run, aligned, places.closures);
   const auto may_find_more = [&] { return places.has_verified() || places.counts.has_left_out(); };
   for (int round = 1; round < params.places.rounds && may_find_more(); ++round) {
@@ -335,7 +349,7 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* graph, const Measur
     auto& judgements = judged.team.judgement.closures;
     if (!closures.loops.empty()) places.note_judgement(closures.loops, judgements.loops);
     if (!closures.matches.empty()) places.note_judgement(closures.matches, judgements.matches);
-    auto more = find_places(run, judged.team, scans, round, places);
+    auto more = find_places(run, judged.team, scans, descriptors, round, places);
     const bool has_more = more.has_verified();
     if (!has_more) append(more.closures, closures.scans, judgements.scans);
     places.append(std::move(more));
@@ -360,7 +374,8 @@ MeasuredRecordings measure_recordings(const Mission& recorded, const RunParams& 
   if (has_scans(recorded)) {
     const bool is_compared = params.places.enabled && !options.overlap_only && recorded.robots.size() > 1;
     measured.scans = timed("scans", measure_scans, recorded, params.scans, params.keyframe, progress,
-                           is_compared ? ScansOfRecorded::kForPlaces : ScansOfRecorded::kIgnored);
+                           is_compared ? ScansOfRecorded::kForPlaces : ScansOfRecorded::kIgnored,
+                           params.places.descriptors);
     measured.mission = with_odometry(recorded, measured.scans);
   }
   if (has_captures(recorded)) {

@@ -79,4 +79,12 @@ std::vector<ScanContext> keyframe_contexts(const ScanKeyframes& keyframes, const
   return contexts;
 }
 
+ScanContextIndex keyframe_index(const ScanKeyframes& keyframes, const std::vector<double>& path_m,
+                                double range_m, double submap_m, const PlaceDescriptorParams& params) {
+  ScanContextIndex index(params.index);
+  for (ScanContext& context : keyframe_contexts(keyframes, path_m, range_m, submap_m, params.context))
+    index.add(std::move(context));
+  return index;
+}
+
 }  // namespace radioslam

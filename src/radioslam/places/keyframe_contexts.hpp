@@ -6,6 +6,7 @@
 
 #include "radioslam/places/loops/scan_loop.hpp"
 #include "radioslam/places/scan_context.hpp"
+#include "radioslam/places/scan_context_index.hpp"
 
 namespace radioslam {
 
@@ -25,5 +26,9 @@ double context_range(const ScanKeyframes& keyframes);
 /// which bins are occupied by all scans within `submap_m` of path.
 std::vector<ScanContext> keyframe_contexts(const ScanKeyframes& keyframes, const std::vector<double>& path_m,
                                            double range_m, double submap_m, const ScanContextParams& params);
+
+/// The same to be searched.
+ScanContextIndex keyframe_index(const ScanKeyframes& keyframes, const std::vector<double>& path_m,
+                                double range_m, double submap_m, const PlaceDescriptorParams& params);
 
 }  // namespace radioslam

@@ -4,8 +4,10 @@ radioslam_room(places
     keyframe_contexts.cpp
     loops/loop_candidates.cpp
     loops/loop_verification.cpp
+    loops/other_places.cpp
     loops/scan_loop.cpp
     loops/scan_loops.cpp
+    loops/storey.cpp
     scan_context.cpp
     scan_context_index.cpp
     sector_dft.cpp

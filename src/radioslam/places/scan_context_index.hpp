@@ -43,6 +43,18 @@ struct ScanContextIndexParams {
   }
 };
 
+/// Descriptors of places, and their search.
+struct PlaceDescriptorParams {
+  ScanContextParams context;
+  ScanContextIndexParams index;
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    ScanContextParams::visit_fields(self.context, visit);
+    ScanContextIndexParams::visit_fields(self.index, visit);
+  }
+};
+
 /// A context of the index and how it matches the query: compare(query, context).
 struct Neighbour {
   std::size_t index = 0;

@@ -93,6 +93,7 @@ struct ClosureResult {
   std::string reason;                     ///< of a rejection; empty if accepted
   std::vector<double> path_weights = {};  ///< of an angle: posterior that each of its paths is direct
   std::optional<SE3> T_i_j = {};          ///< measured, between the keyframes; absent if it is no pose
+  std::optional<double> doubt = {};       ///< of a scan: probability that another place explains it
 };
 
 /// Bin of a fitted similarity-to-distance model.

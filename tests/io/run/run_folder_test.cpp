@@ -109,6 +109,16 @@ TEST(RunFolder, WhatAnglesAreComparedByReadsBackExactly) {
   EXPECT_EQ(angle.paths[1].elevation_rad, 0.5);
 }
 
+TEST(RunFolder, TheDoubtOfAScanReadsBackExactly) {
+  const TemporaryFolder folder;
+  RunResult result = example();
+  for (const auto doubt : {std::optional<double>(), std::optional<double>(0.1 / 3)}) {
+    result.closures[0].doubt = doubt;
+    write_run(folder.path(), result, {});
+    EXPECT_EQ(read_run(folder.path()).closures[0].doubt, doubt);
+  }
+}
+
 TEST(RunFolder, AccessPointsAreATableWhereThereAreSome) {
   const TemporaryFolder folder;
   RunResult result = example();
@@ -143,8 +153,8 @@ TEST(RunFolder, HasTheFilesAndColumnsOfTheFormat) {
   EXPECT_EQ(folder.read("candidates.csv"),
             "robot_i,t_i_s,robot_j,t_j_s,distance_m,mahalanobis\nzoe,0,adam,1.5,2.5,0.75\n");
   EXPECT_EQ(folder.read("closures.csv"),
-            "robot_i,t_i_s,robot_j,t_j_s,kind,status,statistic,reason,path_weights,x,y,z,qx,qy,qz,qw\n"
-            "zoe,0,adam,1.5,fingerprint,rejected,17.5,too far; by half,,,,,,,,\n");
+            "robot_i,t_i_s,robot_j,t_j_s,kind,status,statistic,reason,path_weights,x,y,z,qx,qy,qz,qw,doubt\n"
+            "zoe,0,adam,1.5,fingerprint,rejected,17.5,too far; by half,,,,,,,,,\n");
   EXPECT_EQ(folder.read("zoe.tum").substr(0, 18), "0 0 0 0 0 0 0 1\n1.");
   EXPECT_EQ(folder.read("graph.g2o"), "VERTEX_SE2 0 0 0 0\n");
   EXPECT_EQ(folder.read("report.html"), "<html></html>");

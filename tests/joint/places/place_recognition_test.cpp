@@ -105,14 +105,20 @@ struct HallOf {
     allowed = {group};
   }
 
+  TeamDescriptors described() const { return describe_places(scans, {}, ScanLoopParams().submap_m); }
   RecognisedPlaces recognise(bool pruned, std::vector<PlaceAttempt> tried = {}) const {
-    return recognise_places<Pose>({team, mission, scans, pruned ? &allowed : nullptr, std::move(tried)}, {},
-                                  {}, {}, {});
+    const TeamDescriptors descriptors = described();
+    return recognise_places<Pose>(
+        {team, mission, scans, descriptors, pruned ? &allowed : nullptr, std::move(tried)}, {}, {}, {}, {});
   }
   PlaceProposals propose(bool pruned, std::optional<VerificationBudget> budget = {},
                          std::vector<PlaceAttempt> tried = {}) const {
-    return propose_places<Pose>({team, mission, scans, pruned ? &allowed : nullptr, std::move(tried), budget},
-                                {}, {}, {});
+    const TeamDescriptors descriptors = described();
+    PlaceProposals proposed = propose_places<Pose>(
+        {team, mission, scans, descriptors, pruned ? &allowed : nullptr, std::move(tried), budget}, {}, {},
+        {});
+    for (ScannedRobot& robot : proposed.robots) robot.contexts = nullptr;  // they end here
+    return proposed;
   }
   double error_m(const Closure& closure) const {
     const auto k = [](Stamp stamp) { return static_cast<std::size_t>(std::lround(stamp.seconds())); };

@@ -80,7 +80,9 @@ double end_error_m(const std::vector<SE3>& poses, const std::vector<SE3>& truth)
 }
 
 ScanLoops close_loops(const ScanKeyframes& keyframes, const ScanLoopParams& params = {}) {
-  return close_scan_loops(keyframes, params, {}, {}, {});
+  ScanLoopSearch search;
+  search.loops = params;
+  return close_scan_loops(keyframes, search);
 }
 
 std::size_t count_of(const ScanLoops& loops, LoopStatus status) {

@@ -11,11 +11,11 @@ TEST(PlaceSettings, AreThoseOfTheThesis) {
   EXPECT_EQ(original.rounds, 1);
   EXPECT_EQ(original.candidates, 1);
   EXPECT_EQ(original.max_descriptor_distance, 0.2);
-  EXPECT_EQ(original.context.rings, 64);
-  EXPECT_EQ(original.context.sectors, 60);
-  EXPECT_EQ(original.context.max_range_m, 10);
-  EXPECT_EQ(original.index.key, "ring");
-  EXPECT_EQ(original.index.nearest_keys, 50);
+  EXPECT_EQ(original.descriptors.context.rings, 64);
+  EXPECT_EQ(original.descriptors.context.sectors, 60);
+  EXPECT_EQ(original.descriptors.context.max_range_m, 10);
+  EXPECT_EQ(original.descriptors.index.key, "ring");
+  EXPECT_EQ(original.descriptors.index.nearest_keys, 50);
   EXPECT_EQ(loosened.candidates, 10);
   EXPECT_EQ(loosened.max_descriptor_distance, 1);
   EXPECT_EQ(place_params(PlaceSettings::kDefaults, 10).candidates, PlaceParams{}.candidates);

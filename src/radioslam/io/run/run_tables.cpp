@@ -197,7 +197,7 @@ std::string_view closure_kind_name(ClosureKind kind) { return word_for(kKinds, k
 
 std::string format_closures(const std::vector<ClosureResult>& closures, std::span<const std::string> ids) {
   std::string out =
-      "robot_i,t_i_s,robot_j,t_j_s,kind,status,statistic,reason,path_weights,x,y,z,qx,qy,qz,qw\n";
+      "robot_i,t_i_s,robot_j,t_j_s,kind,status,statistic,reason,path_weights,x,y,z,qx,qy,qz,qw,doubt\n";
   for (const ClosureResult& closure : closures) {
     out += format_pair(closure, ids);
     (out += ',') += word_for(kKinds, closure.kind);
@@ -206,6 +206,8 @@ std::string format_closures(const std::vector<ClosureResult>& closures, std::spa
     (out += ',') += as_field(closure.reason);
     (out += ',') += weights_field(closure.path_weights);
     append_pose_fields(out, closure.T_i_j);
+    out += ',';
+    if (closure.doubt) append_number(out, *closure.doubt);
     out += '\n';
   }
   return out;
@@ -269,7 +271,7 @@ CandidateList read_candidates(const Text& text, std::span<const EstimatedTraject
 
 std::vector<ClosureResult> read_closures(const Text& text, std::span<const EstimatedTrajectory> robots) {
   CsvReader::Columns columns = pair_columns_and({"kind", "status", "statistic", "reason"});
-  columns.optional = {"path_weights", "x", "y", "z", "qx", "qy", "qz", "qw"};
+  columns.optional = {"path_weights", "x", "y", "z", "qx", "qy", "qz", "qw", "doubt"};
   CsvReader csv(text, columns);
   std::vector<ClosureResult> closures;
   while (csv.next()) {
@@ -280,6 +282,7 @@ std::vector<ClosureResult> read_closures(const Text& text, std::span<const Estim
     closure.reason = std::string(csv.field(kFirstOwn + 3));
     closure.path_weights = weights_in(csv, kFirstOwn + 4);
     closure.T_i_j = pose_in(csv, kFirstOwn + 5);
+    if (csv.given(kFirstOwn + 12)) closure.doubt = csv.number(kFirstOwn + 12);
   }
   return closures;
 }

@@ -1,6 +1,7 @@
 // Reads and writes the tables of a run folder:
 //   candidates.csv   robot_i,t_i_s,robot_j,t_j_s,distance_m,mahalanobis
-//   closures.csv     robot_i,t_i_s,robot_j,t_j_s,kind,status,statistic,reason,path_weights,x,y,z,qx,qy,qz,qw
+//   closures.csv     robot_i,t_i_s,robot_j,t_j_s,kind,status,statistic,reason,path_weights,x,y,z,qx,qy,qz,qw,
+//                    doubt
 //   uncertainty.csv  robot,t_s,sigma_m,sigma_team_m
 //   aoa.csv          t_s,receiver,transmitter,path,azimuth_rad,elevation_rad,sigma_rad,power_db
 //   access_points.csv   bssid,x_m,y_m,sigma_x_m,sigma_y_m,cov_xy,p0_dbm,exponent,sigma_db,readings,status,

@@ -139,6 +139,7 @@ std::vector<ClosureResult> collect_closures(const JointGraph<Pose>& joint,
     result.status = judgements[k].status;
     result.statistic = judgements[k].statistic;
     result.reason = judgements[k].reason;
+    result.doubt = judgements[k].doubt;
     if (const auto [i, j] = closure_ends(joint, closure); i.valid() && j.valid())
       result.T_i_j = to_keyframe(joint, closure.robot_i, closure.stamp_i, i).inverse() * closure.T_i_j *
                      to_keyframe(joint, closure.robot_j, closure.stamp_j, j);
@@ -173,6 +174,7 @@ VerifiedClosure closure_of_scan(RobotIndex robot_i, Stamp stamp_i, RobotIndex ro
   closure.T_i_j = loop.T_i_j;
   closure.information = loop.information;
   judgement.statistic = loop.inlier_ratio;
+  judgement.doubt = loop.doubt;
   if (loop.status != LoopStatus::kAccepted) reject(judgement, std::string(reason(loop.status)));
   return verified;
 }

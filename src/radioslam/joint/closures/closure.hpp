@@ -26,8 +26,9 @@ struct Closure {
 
 struct ClosureJudgement {
   ClosureStatus status = ClosureStatus::kAccepted;
-  double statistic = 0;  ///< squared normalised residual that was tested
-  std::string reason;    ///< of a rejection; empty if accepted
+  double statistic = 0;              ///< squared normalised residual that was tested
+  std::string reason;                ///< of a rejection; empty if accepted
+  std::optional<double> doubt = {};  ///< of a scan: probability that another place explains it
 };
 
 /// A closure and what its verification says of it, the first judgement.

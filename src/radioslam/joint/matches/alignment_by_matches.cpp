@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kMinMatches = 3;
 constexpr std::size_t kMinRatioToSecond = 2;
-constexpr std::size_t kGroups = 2;  // the largest and its rival
+constexpr std::size_t kGroups = 2;  // the largest and its best alternative
 
 struct PairOfRobots {
   MatchGroup largest;

@@ -5,33 +5,19 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
-#include <optional>
 #include <set>
 #include <utility>
 
-#include "radioslam/graph/marginals.hpp"
-#include "radioslam/joint/uncertainty/position_uncertainty.hpp"
+#include "radioslam/joint/places/place_predictions.hpp"
+#include "radioslam/places/loops/other_places.hpp"
 
 namespace radioslam {
 namespace {
 
-constexpr double kSigmaHeight_m = 2, kSigmaTilt_rad = 0.2;  // of a body, which a plane leaves out
 constexpr double kMostDifferent =
     0.5;  // largest difference of descriptors that is compared with the prediction
 constexpr double kDescriptorScale = 0.1;  // difference of descriptors as telling as one standard deviation
 constexpr double kStrideRatio = 0.2;      // path length between compared keyframes, in the descriptors' range
-constexpr double kMuchWorse = 2;          // standard deviation of a prediction worth another trial
-
-UncertainPose<SE3> in_space(const SE3& T, const SE3::Jacobian& covariance) { return {T, covariance}; }
-UncertainPose<SE3> in_space(const SE3& T, const SE2::Jacobian& covariance) {
-  UncertainPose<SE3> result{T};
-  result.covariance.diagonal() << 0, 0, kSigmaHeight_m * kSigmaHeight_m, kSigmaTilt_rad * kSigmaTilt_rad,
-      kSigmaTilt_rad * kSigmaTilt_rad, 0;
-  const std::array<int, 3> kept{0, 1, 5};
-  result.covariance(kept, kept) = covariance;
-  return result;
-}
 
 /// Per keyframe of robot b, those of robot a that it may be compared with.
 class AllowedPairs {
@@ -57,12 +43,6 @@ bool are_aligned(const TeamAlignment<Pose>& alignment, std::size_t a, std::size_
          connected_without_matches(alignment, RobotIndex(a), RobotIndex(b));
 }
 
-/// The number of alternatives that are searched, too.
-std::size_t searched(const std::vector<double>& weights) {
-  return static_cast<std::size_t>(std::count_if(weights.begin(), weights.end(),
-                                                [](double weight) { return weight >= kMinSearchedWeight; }));
-}
-
 void count_descriptor(PlaceCounts& counts, const ScannedRobot& robot, std::size_t k, bool is_sent) {
   const std::size_t bytes = wire_bytes(robot.contexts->context(k));
   counts.descriptor_bytes_all += bytes;
@@ -84,9 +64,9 @@ class Attempts {
   bool has(const Proposal& pair) const {
     const auto found = of_pair_.find({pair.a, pair.b, pair.i, pair.j});
     if (found == of_pair_.end()) return false;
-    const double worse_m = kMuchWorse * horizontal_sigma(pair.T_i_j);
+    const double now_m = horizontal_sigma(pair.T_i_j);
     return std::any_of(found->second.begin(), found->second.end(), [&](const PlaceAttempt* attempt) {
-      return attempt->holds || attempt->sigma_m < worse_m;
+      return attempt->holds || !is_worth_another_trial(attempt->sigma_m, now_m);
     });
   }
   bool has_robots(std::size_t a, std::size_t b) const { return robots_.contains({a, b}); }
@@ -101,16 +81,17 @@ class PlaceSearch {
  public:
   PlaceSearch(const PlaceInput<Pose>& input, const PlaceParams& params, const ScanLoopParams& loops,
               const RadioAlignmentParams& alignment)
-      : input_(input), params_(params), loops_(loops), tried_(input.tried) {
+      : input_(input),
+        params_(params),
+        loops_(loops),
+        tried_(input.tried),
+        predictions_(input.team, alignment) {
     const JointGraph<Pose>& joint = input.team.joint;
-    marginals_ = Marginals<Pose>::compute(graph_for_covariances(joint, alignment.mixture).team.graph);
-    if (!input.team.alignment.segments.of_segment.empty()) temperature_ = alignment.beam.evidence_temperature;
     for (std::size_t r = 0; r < joint.robots.size(); ++r)
-      robots_.push_back(input.scans.robots[r] ? scanned_robot(*input.scans.robots[r], joint.robots[r],
-                                                              input.mission.robots[r].odometry)
-                                              : ScannedRobot{});
-    add_contexts(robots_, ScannerKind::kSpatial, params.context, params.index, loops.submap_m);
-    add_contexts(robots_, ScannerKind::kPlanar, params.context, params.index, loops.submap_m);
+      robots_.push_back(input.scans.robots[r]
+                            ? scanned_robot(*input.scans.robots[r], input.descriptors.robots[r],
+                                            joint.robots[r], input.mission.robots[r].odometry)
+                            : ScannedRobot{});
   }
 
   PlaceProposals run() {
@@ -121,7 +102,7 @@ class PlaceSearch {
         counts_.pairs += robots_[a].size() * robots_[b].strides(stride_m(robots_[b])).size();
         if (!are_aligned(input_.team.alignment, a, b) || !input_.allowed)
           propose_by_descriptor(a, b);
-        else if (marginals_)
+        else if (predictions_.exist())
           propose_by_prediction(a, b);
       }
     counts_.proposed = proposals_.size();
@@ -136,23 +117,12 @@ class PlaceSearch {
     return params_.stride_m > 0 ? params_.stride_m : kStrideRatio * robot.context_range_m;
   }
 
-  SE3 predicted(const Poses& poses, const ScannedRobot& robot, std::size_t k) const {
-    return as_se3(poses[robot.nodes[k].index()], 0) * robot.T_node_scan[k];
-  }
-
-  UncertainPose<SE3> predicted(const Poses& poses, const Proposal& pair) const {
-    const ScannedRobot &a = robots_[pair.a], &b = robots_[pair.b];
-    const typename Pose::Jacobian covariance =
-        temperature_ * marginals_->relative_pose(a.nodes[pair.i], b.nodes[pair.j]);
-    return in_space(predicted(poses, a, pair.i).inverse() * predicted(poses, b, pair.j), covariance);
-  }
-
   void propose_by_prediction(std::size_t a, std::size_t b) {
     const TeamAlignment<Pose>& alignment = input_.team.alignment;
     const AllowedPairs allowed(*input_.allowed, RobotIndex(a), RobotIndex(b),
                                input_.team.joint.robots[b].stamps.size());
     const std::vector<double>& weights = alignment.alternative_weights;
-    const std::size_t others = searched(weights);
+    const std::size_t others = predictions_.others();
     std::size_t turn = 0;
     for (const std::size_t j : robots_[b].strides(stride_m(robots_[b]))) {
       std::vector<std::size_t> with;
@@ -173,14 +143,15 @@ class PlaceSearch {
 
   /// Proposes keyframe j of the pair with the best of `with` in this alignment.
   void propose_best(Proposal pair, const std::vector<std::size_t>& with, const Poses& poses) {
-    const SE3 at_j = predicted(poses, robots_[pair.b], pair.j);
+    const SE3 at_j = predictions_.pose(poses, robots_[pair.b], pair.j);
     std::vector<double> distances_m;
     for (const std::size_t i : with)
-      distances_m.push_back((predicted(poses, robots_[pair.a], i).translation() - at_j.translation()).norm());
+      distances_m.push_back(
+          (predictions_.pose(poses, robots_[pair.a], i).translation() - at_j.translation()).norm());
     const auto nearest = std::min_element(distances_m.begin(), distances_m.end());
     pair.i = with[static_cast<std::size_t>(nearest - distances_m.begin())];
     const std::size_t nearest_i = pair.i;
-    pair.T_i_j = predicted(poses, pair);
+    pair.T_i_j = predictions_.relative_pose(poses, robots_, pair);
     const double sigma_m = horizontal_sigma(pair.T_i_j);
     double best = -std::numeric_limits<double>::infinity();
     for (std::size_t n = 0; n < with.size(); ++n) {
@@ -191,14 +162,14 @@ class PlaceSearch {
       const double score = prior - distance / kDescriptorScale;
       if (score > best) best = score, pair.i = with[n], pair.descriptor_distance = distance;
     }
-    if (pair.i != nearest_i) pair.T_i_j = predicted(poses, pair);
-    if (!tried_.has(pair)) proposals_.push_back(std::move(pair));
+    if (pair.i != nearest_i) pair.T_i_j = predictions_.relative_pose(poses, robots_, pair);
+    if (tried_.has(pair)) return;
+    pair.alternatives = predictions_.by_others(robots_, pair);
+    proposals_.push_back(std::move(pair));
   }
 
   void keep_within(const VerificationBudget& budget) {
-    const Poses& poses = input_.team.joint.team.graph.poses;
-    std::optional<PredictedPoses<Pose>> predicted;
-    if (marginals_) predicted.emplace(PredictedPoses<Pose>{poses, *marginals_, temperature_});
+    const auto predicted = predictions_.of_graph();
     proposals_ = within_budget(budget, proposals_, robots_, predicted ? &*predicted : nullptr, loops_);
   }
 
@@ -212,8 +183,8 @@ class PlaceSearch {
   void propose_by_descriptor(std::size_t a, std::size_t b) {
     if (tried_.has_robots(a, b) && !input_.budget) return;  // descriptors alone would only repeat themselves
     const ScannedRobot& of_a = robots_[a];
-    const auto compared =
-        static_cast<std::size_t>(std::min(params_.index.nearest_keys, params_.index.shortlist));
+    const auto compared = static_cast<std::size_t>(
+        std::min(params_.descriptors.index.nearest_keys, params_.descriptors.index.shortlist));
     for (const std::size_t j : robots_[b].strides(stride_m(robots_[b]))) {
       counts_.compared += std::min(of_a.size(), compared);
       counts_.allowed += of_a.size();
@@ -241,8 +212,7 @@ class PlaceSearch {
   PlaceParams params_;
   ScanLoopParams loops_;
   Attempts tried_;
-  std::optional<Marginals<Pose>> marginals_;
-  double temperature_ = 1;
+  PlacePredictions<Pose> predictions_;
   std::vector<ScannedRobot> robots_;
   std::vector<Proposal> proposals_;
   PlaceCounts counts_;

@@ -25,8 +25,7 @@ struct PlaceParams {
   double source_m = 3;
   int rounds = 2;
   double max_descriptor_distance = 0.7;
-  ScanContextParams context;
-  ScanContextIndexParams index;
+  PlaceDescriptorParams descriptors;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -51,8 +50,7 @@ struct PlaceParams {
     RADIOSLAM_FIELD(max_descriptor_distance, "", 0, 1,
                     "largest distance of two descriptors of the same place, where nothing else aligns the "
                     "robots; DiSCo-SLAM: 0.2");
-    ScanContextParams::visit_fields(self.context, visit);
-    ScanContextIndexParams::visit_fields(self.index, visit);
+    PlaceDescriptorParams::visit_fields(self.descriptors, visit);
   }
 };
 
@@ -85,6 +83,7 @@ struct PlaceInput {
   const TeamEstimate<Pose>& team;
   const Mission& mission;
   const MeasuredScans& scans;
+  const TeamDescriptors& descriptors;
   /// The pairs of the joint graph's keyframes that may be compared, by robots; null: all, without pruning.
   const std::vector<CandidateList::Group>* allowed = nullptr;
   std::vector<PlaceAttempt> tried = {};           ///< in earlier rounds
@@ -97,7 +96,7 @@ struct PlaceProposals {
   PlaceCounts counts;
 };
 
-/// `loops`: what scans are registered by; its submap is the extent of a planar scanner's descriptors.
+/// `loops`: what scans are registered by.
 template <class Pose>
 PlaceProposals propose_places(const PlaceInput<Pose>& input, const PlaceParams& params,
                               const ScanLoopParams& loops, const RadioAlignmentParams& alignment);

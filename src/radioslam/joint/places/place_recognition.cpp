@@ -19,9 +19,8 @@ constexpr double kSamePose_m = 0.1, kSamePose_rad = 0.05;
 
 VerifiedClosure closure_of(const Proposal& proposal, const ScanLoop& loop, const ScannedRobot& a,
                            const ScannedRobot& b) {
-  auto found = closure_of_scan(RobotIndex(proposal.a), a.scans->keyframe_stamps[proposal.i],
-                               RobotIndex(proposal.b), b.scans->keyframe_stamps[proposal.j], loop);
-  return found;
+  return closure_of_scan(RobotIndex(proposal.a), a.scans->keyframe_stamps[proposal.i], RobotIndex(proposal.b),
+                         b.scans->keyframe_stamps[proposal.j], loop);
 }
 
 /// Several alignments may lead a pair to one and the same pose.
@@ -81,8 +80,10 @@ RecognisedPlaces recognise_places(const PlaceInput<Pose>& input, const PlacePara
   const std::vector<Proposal>& proposals = proposed.pairs;
   RecognisedPlaces found{{}, {}, proposed.counts};
   const auto verification = [&](double source_m, double apart_m) {
-    return LoopVerification(scan_params.loops, {params.submap_m, source_m, apart_m, Pose::kDim == 3},
-                            scan_params.lidar.map, scan_params.search, scan_params.lidar.registration);
+    const LoopVerificationParams of{params.submap_m, source_m, apart_m,
+                                    Pose::kDim == 3 ? Storeys::kSeveral : Storeys::kOne};
+    return LoopVerification(scan_params.loops, of, scan_params.lidar.map, scan_params.search,
+                            scan_params.lidar.registration);
   };
   const LoopVerification spatial = verification(0, kApart_m), planar = verification(params.source_m, 0);
   found.closures.resize(proposals.size());
@@ -93,7 +94,7 @@ RecognisedPlaces recognise_places(const PlaceInput<Pose>& input, const PlacePara
       const ScannedRobot &a = proposed.robots[proposal.a], &b = proposed.robots[proposal.b];
       const ScanLoop loop =
           (b.kind() == ScannerKind::kPlanar ? planar : spatial)
-              .verify(a.placed(), proposal.i, b.placed(), proposal.j, {proposal.T_i_j, proposal.anywhere});
+              .verify(a.placed(), proposal.i, b.placed(), proposal.j, expected_place(proposal));
       found.closures[k] = closure_of(proposal, loop, a, b);
     }
   });

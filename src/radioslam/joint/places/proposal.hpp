@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "radioslam/geometry/uncertain_pose.hpp"
+#include "radioslam/places/loops/expected_place.hpp"
 
 namespace radioslam {
 
@@ -15,7 +17,12 @@ struct Proposal {
   double descriptor_distance = 1;
   std::size_t alignment = 0;  ///< that predicts T_i_j: 0, or 1 + the number of an alternative
   double alignment_weight = 1;
+  std::vector<ExpectedPlace::Alternative> alternatives = {};  ///< predicted by the other likely alignments
 };
+
+inline ExpectedPlace expected_place(const Proposal& pair) {
+  return {pair.T_i_j, pair.alignment_weight, pair.alternatives, pair.anywhere};
+}
 
 /// Standard deviation of the relative position in the plane, per axis.
 double horizontal_sigma(const UncertainPose<SE3>& T);

@@ -4,10 +4,25 @@
 #include <utility>
 
 namespace radioslam {
+namespace {
 
-ScannedRobot scanned_robot(const ScanOdometry& scans, const RobotVariables& variables,
-                           const Trajectory<SE3>& odometry) {
+/// The least range of all robots' scanners of this kind.
+double common_range_m(const MeasuredScans& scans, ScannerKind kind) {
+  constexpr double kLargest_m = 80;
+  double range_m = kLargest_m;
+  for (const std::optional<ScanOdometry>& robot : scans.robots)
+    if (robot && robot->keyframes.kind == kind)
+      if (const double own_m = context_range(robot->keyframes); own_m > 0) range_m = std::min(range_m, own_m);
+  return range_m;
+}
+
+}  // namespace
+
+ScannedRobot scanned_robot(const ScanOdometry& scans, const RobotDescriptors& descriptors,
+                           const RobotVariables& variables, const Trajectory<SE3>& odometry) {
   ScannedRobot robot{&scans};
+  robot.contexts = descriptors.index ? &*descriptors.index : nullptr;
+  robot.context_range_m = descriptors.range_m;
   robot.path_m = path_lengths(scans.keyframes);
   for (const Stamp stamp : scans.keyframe_stamps) {
     const std::size_t k = keyframe_before(variables.stamps, stamp);
@@ -19,22 +34,18 @@ ScannedRobot scanned_robot(const ScanOdometry& scans, const RobotVariables& vari
   return robot;
 }
 
-void add_contexts(std::vector<ScannedRobot>& robots, ScannerKind kind, const ScanContextParams& params,
-                  const ScanContextIndexParams& index, double submap_m) {
-  constexpr double kLargest_m = 80;
-  double range_m = params.max_range_m > 0 ? params.max_range_m : kLargest_m;
-  for (const ScannedRobot& robot : robots)
-    if (robot.size() > 0 && robot.kind() == kind && params.max_range_m == 0)
-      if (const double own_m = context_range(robot.scans->keyframes); own_m > 0)
-        range_m = std::min(range_m, own_m);
-  for (ScannedRobot& robot : robots) {
-    if (robot.size() == 0 || robot.kind() != kind) continue;
-    robot.context_range_m = range_m;
-    robot.contexts.emplace(index);
-    for (ScanContext& context :
-         keyframe_contexts(robot.scans->keyframes, robot.path_m, range_m, submap_m, params))
-      robot.contexts->add(std::move(context));
+TeamDescriptors describe_places(const MeasuredScans& scans, const PlaceDescriptorParams& params,
+                                double submap_m) {
+  TeamDescriptors team;
+  for (const std::optional<ScanOdometry>& robot : scans.robots) {
+    RobotDescriptors& described = team.robots.emplace_back();
+    if (!robot || robot->keyframe_stamps.empty()) continue;
+    const ScanKeyframes& keyframes = robot->keyframes;
+    described.range_m =
+        params.context.max_range_m > 0 ? params.context.max_range_m : common_range_m(scans, keyframes.kind);
+    described.index = keyframe_index(keyframes, path_lengths(keyframes), described.range_m, submap_m, params);
   }
+  return team;
 }
 
 }  // namespace radioslam

@@ -8,10 +8,26 @@
 #include "radioslam/joint/joint_graph.hpp"
 #include "radioslam/odometry/scan_stage.hpp"
 #include "radioslam/places/keyframe_contexts.hpp"
-#include "radioslam/places/loops/loop_verification.hpp"
+#include "radioslam/places/loops/expected_place.hpp"
 #include "radioslam/places/scan_context_index.hpp"
 
 namespace radioslam {
+
+/// Of one robot's scanned keyframes.
+struct RobotDescriptors {
+  double range_m = 0;
+  std::optional<ScanContextIndex> index = {};  ///< nothing without keyframes
+};
+
+/// Descriptors of all robots by which places are recognised. They depend on the recordings alone.
+struct TeamDescriptors {
+  std::vector<RobotDescriptors> robots;
+};
+
+/// Those of robots with the same kind of scanner have one range and can be compared. A planar scanner sees
+/// little at once: its grids are of all scans within `submap_m`.
+TeamDescriptors describe_places(const MeasuredScans& scans, const PlaceDescriptorParams& params,
+                                double submap_m);
 
 /// Per keyframe: its node, the last keyframe of the graph before it; the motion from there; its descriptor.
 struct ScannedRobot {
@@ -20,7 +36,7 @@ struct ScannedRobot {
   std::vector<std::size_t> keyframes = {};  ///< of the joint graph
   std::vector<PoseId> nodes = {};
   std::vector<SE3> T_node_scan = {};
-  std::optional<ScanContextIndex> contexts = {};
+  const ScanContextIndex* contexts = nullptr;  ///< null without keyframes
   double context_range_m = 0;
 
   std::size_t size() const { return nodes.size(); }
@@ -35,7 +51,7 @@ struct ScannedRobot {
   PlacedKeyframes placed() const {
     const ScanKeyframes& of = scans->keyframes;
     return {
-        of, scans->corrected.empty() ? of.poses : scans->corrected, path_m, contexts ? &*contexts : nullptr,
+        of, scans->corrected.empty() ? of.poses : scans->corrected, path_m, contexts,
         [this](std::size_t a, std::size_t b) { return odometry_sigma_m(scans->keyframes, path_m, a, b); }};
   }
 
@@ -52,12 +68,7 @@ struct ScannedRobot {
   }
 };
 
-ScannedRobot scanned_robot(const ScanOdometry& scans, const RobotVariables& variables,
-                           const Trajectory<SE3>& odometry);
-
-/// Of robots with this kind of scanner; grids of one range can be compared. A planar scanner sees little at
-/// once: its grids are of all scans within `submap_m`.
-void add_contexts(std::vector<ScannedRobot>& robots, ScannerKind kind, const ScanContextParams& params,
-                  const ScanContextIndexParams& index, double submap_m);
+ScannedRobot scanned_robot(const ScanOdometry& scans, const RobotDescriptors& descriptors,
+                           const RobotVariables& variables, const Trajectory<SE3>& odometry);
 
 }  // namespace radioslam

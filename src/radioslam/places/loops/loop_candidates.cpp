@@ -10,8 +10,6 @@
 namespace radioslam {
 namespace {
 
-constexpr double kMuchWorse = 2;  // standard deviation of a prediction worth another trial
-
 bool is_doubtful(LoopStatus status) {
   return status == LoopStatus::kAmbiguous || status == LoopStatus::kUnmapped ||
          status == LoopStatus::kAnotherStorey;
@@ -39,7 +37,7 @@ std::vector<LoopCandidate> LoopCandidates::find(const PoseGraph<SE3>& graph) {
       const SE3::Jacobian covariance = relative_covariance(i, j);
       if (!is_candidate({T_i_j, covariance}, radius_of(j))) continue;
       const double sigma_m = std::sqrt(covariance.topLeftCorner<3, 3>().trace());
-      if (tried != tried_.end() && kMuchWorse * sigma_m > tried->second) continue;
+      if (tried != tried_.end() && !is_worth_another_trial(tried->second, sigma_m)) continue;
       tried_[{i, j}] = sigma_m;
       candidates.push_back({i, j, {T_i_j, covariance}});
     }

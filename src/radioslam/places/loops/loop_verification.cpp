@@ -3,7 +3,6 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -11,38 +10,20 @@
 #include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/lidar/structure_fit.hpp"
 #include "radioslam/places/keyframe_contexts.hpp"
+#include "radioslam/places/loops/storey.hpp"
 
 namespace radioslam {
 namespace {
 
 constexpr double kBeyond =
-    4.0 / 3;                     // how far alternatives are searched, in the width of a search for the place
-constexpr double kPossible = 4;  // standard deviations within which a place is possible
-constexpr std::size_t kElsewhere = 6;    // places that look alike and are searched
-constexpr double kSigmaPlace = 1.0 / 3;  // of a scan from the place that looks alike, in its median range
+    4.0 / 3;  // how far alternatives are searched, in the width of a search for the place
 constexpr double kSamePlace_m = 1;
 constexpr double kAlternativeLog = 3;  // e^-3: twenty times less likely
 constexpr double kFits = 0.3;          // likelihood from which a pose counts as one that fits
 constexpr double kUnseenFits = 0.02;   // before any was found
 constexpr double kUnseenShare = 0.2;   // of the area that is possible
 constexpr double kStoreyPrior = 0.1;   // that there is a storey that looks the same
-constexpr double kMinStorey_m = 2.5;   // height
-constexpr float kIndoors_m = 30;       // range of most points on a storey
-
-float quantile(std::vector<float>& values, double share) {
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
-/// m(d) of loop_verification.hpp.
-double prior_density(double squared_distance) {
-  constexpr std::array<double, 4> kScales{0.25, 0.5, 1, 2};
-  double sum = 0;
-  for (const double a : kScales) sum += std::exp(-squared_distance / (2 * a * a)) / a;
-  return sum / static_cast<double>(kScales.size());
-}
+constexpr double kLeastWeight = 1e-12;
 
 /// What the points do not observe is known to a hundred metres and radians.
 SE3::Jacobian covariance_of_fit(const Registration& fit) {
@@ -56,30 +37,6 @@ double sigma_in_plane(const UncertainPose<SE3>& T) {
   return std::sqrt(symmetric_eigen<Eigen::Matrix2d>(covariance.topLeftCorner<2, 2>()).values.maxCoeff());
 }
 
-/// The least height of a storey that a scan may have been taken on, by what it sees overhead; nothing where
-/// it sees far, in the open.
-std::optional<double> storey_height_m(const ScanPyramid& scan) {
-  std::vector<float> heights_m, ranges_m;
-  for (const Surfel& surfel : scan.all) {
-    heights_m.push_back(surfel.position.z());
-    ranges_m.push_back(surfel.position.head<2>().norm());
-  }
-  if (heights_m.empty() || quantile(ranges_m, 0.9) > kIndoors_m) return std::nullopt;
-  return std::max(kMinStorey_m, static_cast<double>(quantile(heights_m, 0.98) - quantile(heights_m, 0.05)));
-}
-
-/// Density of the most likely storeys above and below a fit, over that of the fit's own.
-double other_storeys(double storey_m, double off_m, double sigma_m) {
-  constexpr double kLeast = 1e-12;
-  const auto density = [&](double z_m) { return kLeast + prior_density(z_m * z_m / (sigma_m * sigma_m)); };
-  double sum = 0;
-  for (const double side : {-1.0, 1.0}) {
-    const double towards_m = std::clamp(-side * off_m, storey_m, 2 * storey_m);
-    sum += density(off_m + side * towards_m);
-  }
-  return sum / density(off_m);
-}
-
 /// Area that a robot has seen on its way.
 double seen_area_m2(const PlacedKeyframes& robot, double range_m) {
   double way_m = 0;
@@ -88,22 +45,28 @@ double seen_area_m2(const PlacedKeyframes& robot, double range_m) {
   return 2 * range_m * (way_m + 2 * range_m);
 }
 
+/// Of the prediction in the plane.
+double possible_area_m2(const UncertainPose<SE3>& T) {
+  const Eigen::Matrix2d covariance = T.position_covariance().topLeftCorner<2, 2>();
+  return 2 * std::numbers::pi * std::sqrt(std::max(0.0, covariance.determinant()));
+}
+
 }  // namespace
 
-UncertainPose<SE3> described_pose(const ScanKeyframes& keyframes, const Neighbour& found, int sectors) {
-  const double sigma_m = kSigmaPlace * keyframes.clouds[found.index].median_range_m;
-  const double sigma_rad = 2 * std::numbers::pi / sectors;
-  // compare(query, context): p_query = Rz(yaw) p_context.
-  const Eigen::AngleAxisd turn(-found.match.yaw_rad, Eigen::Vector3d::UnitZ());
-  UncertainPose<SE3> result{SE3(Eigen::Vector3d::Zero(), Eigen::Quaterniond(turn))};
-  result.covariance.diagonal() << sigma_m * sigma_m, sigma_m * sigma_m, sigma_m * sigma_m,
-      sigma_rad * sigma_rad, sigma_rad * sigma_rad, sigma_rad * sigma_rad;
-  return result;
+double LoopVerification::Setting::sigma_up_m() const {
+  return std::sqrt(std::max(0.0, up.dot(expected.T_i_j.position_covariance() * up)));
+}
+
+double LoopVerification::reach_m(double median_range_m) const {
+  return std::max(of_.target_m, median_range_m / 2);
 }
 
 bool LoopVerification::reaches_elsewhere(const ExpectedPlace& expected, double median_range_m) const {
-  return expected.anywhere ||
-         kPossible * sigma_in_plane(expected.T_i_j) > std::max(of_.target_m, median_range_m / 2);
+  const double reach = reach_m(median_range_m);
+  return expected.anywhere || kPossibleSigmas * sigma_in_plane(expected.T_i_j) > reach ||
+         std::any_of(expected.alternatives.begin(), expected.alternatives.end(), [&](const auto& other) {
+           return (other.T_i_j.translation() - expected.T_i_j.pose.translation()).norm() > reach;
+         });
 }
 
 ScanLoop LoopVerification::verify(const PlacedKeyframes& target, std::size_t i, const PlacedKeyframes& source,
@@ -123,16 +86,19 @@ ScanLoop LoopVerification::verify(const PlacedKeyframes& target, std::size_t i, 
     return loop_of(fits.front(), LoopStatus::kLowOverlap);
   if (target.keyframes.kind == ScannerKind::kSpatial && structure_of(scan) < params_.min_structure)
     return loop_of(fits.front(), LoopStatus::kTooLittleStructure);
-  const Setting setting{expected, target.poses[i].rotation_matrix().transpose() * Eigen::Vector3d::UnitZ(),
-                        of_.storeys ? storey_height_m(scan) : std::nullopt,
-                        seen_area_m2(target, std::max(scan.median_range_m, kSamePlace_m))};
+  const double range_m = std::max(scan.median_range_m, kSamePlace_m);
+  const double map_area_m2 = seen_area_m2(target, range_m);
+  const Setting setting{
+      expected, target.poses[i].rotation_matrix().transpose() * Eigen::Vector3d::UnitZ(),
+      of_.storeys == Storeys::kSeveral ? storey_height_m(scan) : std::nullopt, map_area_m2,
+      expected.anywhere ? map_area_m2 + seen_area_m2(source, range_m) : possible_area_m2(expected.T_i_j)};
   Alternatives alternatives = weigh(setting, fits);
-  if (target.index && source.index && reaches_elsewhere(expected, scan.median_range_m))
-    for (const Neighbour& place : places_alike(target, i, source, j)) {
-      if (alternatives.doubt() > params_.max_doubt) break;
-      add_fits_at(place, target, i, source, j, scan, fits);
-      alternatives = weigh(setting, fits);
-    }
+  for (const OtherPlace& place :
+       other_places({target, i, source, j}, setting, scan.median_range_m, fits.front())) {
+    if (alternatives.doubt() > params_.max_doubt) break;
+    add_fits_at(place, target, i, scan, fits);
+    alternatives = weigh(setting, fits);
+  }
   if (!fits.front().elsewhere &&
       fits.front().registration.inlier_ratio < params_.min_fit_ratio * nominal_ratio)
     return loop_of(fits.front(), LoopStatus::kLowOverlap);
@@ -161,37 +127,31 @@ std::vector<LoopVerification::Fit> LoopVerification::fits_around(const PlacedKey
   return fits;
 }
 
-std::vector<Neighbour> LoopVerification::places_alike(const PlacedKeyframes& target, std::size_t i,
-                                                      const PlacedKeyframes& source, std::size_t j) const {
-  const bool is_own = &target.keyframes == &source.keyframes;
-  const double reach_m = std::max(of_.target_m, source.keyframes.clouds[j].median_range_m / 2);
-  std::vector<std::size_t> known{i};
-  const auto is_new = [&](std::size_t k) {
-    if (target.keyframes.clouds[k].source.surfels.empty()) return false;
-    // What hangs on j itself shows the scan where it is, wherever that may be.
-    if (is_own && (k == j || kPossible * target.sigma_m(k, j) <= reach_m)) return false;
-    return std::none_of(known.begin(), known.end(), [&](std::size_t other) {
-      return std::abs(target.path_m[k] - target.path_m[other]) < 2 * of_.target_m;
-    });
-  };
-  std::vector<Neighbour> places;
-  while (places.size() < kElsewhere) {
-    const auto found = target.index->nearest(source.index->context(j), 1, is_new);
-    if (found.empty()) break;
-    known.push_back(found.front().index);
-    places.push_back(found.front());
+std::vector<OtherPlace> LoopVerification::other_places(const ComparedKeyframes& compared,
+                                                       const Setting& setting, double median_range_m,
+                                                       const Fit& best) const {
+  const ExpectedPlace& expected = setting.expected;
+  const double reach = reach_m(median_range_m);
+  std::vector<OtherPlace> places;
+  if (!compared.target.sigma_m) return places;
+  places = places_expected(compared, expected, reach, params_.max_doubt);
+  if (compared.target.index && compared.source.index && reaches_elsewhere(expected, median_range_m)) {
+    const auto alike = places_alike(compared, reach, 2 * of_.target_m, places);
+    places.insert(places.end(), alike.begin(), alike.end());
+  }
+  if (setting.storey_m && (expected.anywhere || kPossibleSigmas * setting.sigma_up_m() > *setting.storey_m)) {
+    const auto storeys = places_on_other_storeys(compared, best.T_i_j, *setting.storey_m, reach);
+    places.insert(places.end(), storeys.begin(), storeys.end());
   }
   return places;
 }
 
-void LoopVerification::add_fits_at(const Neighbour& place, const PlacedKeyframes& target, std::size_t i,
-                                   const PlacedKeyframes& source, std::size_t j, const ScanPyramid& scan,
-                                   std::vector<Fit>& fits) const {
-  const SE3 T_i_place = target.poses[i].inverse() * target.poses[place.index];
-  const double sigma_m = target.sigma_m(i, place.index);
+void LoopVerification::add_fits_at(const OtherPlace& place, const PlacedKeyframes& target, std::size_t i,
+                                   const ScanPyramid& scan, std::vector<Fit>& fits) const {
+  const SE3 T_i_place = target.poses[i].inverse() * target.poses[place.keyframe];
+  const double sigma_m = target.sigma_m(i, place.keyframe);
   const double same_m = std::clamp(2 * sigma_m, kSamePlace_m, of_.target_m);
-  const int sectors = source.index->context(j).sectors();
-  for (Fit& fit : fits_around(target, place.index, scan, described_pose(target.keyframes, place, sectors))) {
+  for (Fit& fit : fits_around(target, place.keyframe, scan, place.T_keyframe_scan)) {
     fit.T_i_j = T_i_place * fit.T_i_j;
     fit.elsewhere = true;
     fit.place_sigma_m = sigma_m;
@@ -209,11 +169,15 @@ LoopVerification::Alternatives LoopVerification::weigh(const Setting& setting, s
   for (Fit& fit : fits) {
     const double worse = best > 0 ? (1 - fit.structure / best) / (1 - params_.alternative_ratio) : 0;
     fit.likelihood = std::exp(-kAlternativeLog * worse * worse);
-    const SE3::Tangent off = (expected.T_i_j.pose.inverse() * fit.T_i_j).log();
     const SE3::Jacobian covariance = expected.T_i_j.covariance + covariance_of_fit(fit.registration) +
                                      isotropic(fit.place_sigma_m * fit.place_sigma_m, 0);
-    const double squares = std::max(0.0, off.dot(ldlt_solve(covariance, off)));
-    fit.weight = fit.likelihood * (expected.anywhere ? 1 : prior_density(squares));
+    double prior = expected.anywhere ? 1 : 0;
+    if (!expected.anywhere)
+      expected.for_each([&](const SE3& T_i_j, double share) {
+        const SE3::Tangent off = (T_i_j.inverse() * fit.T_i_j).log();
+        prior += share * prior_density(std::max(0.0, off.dot(ldlt_solve(covariance, off))));
+      });
+    fit.weight = fit.likelihood * prior;
   }
   std::stable_sort(fits.begin(), fits.end(), [](const Fit& a, const Fit& b) { return a.weight > b.weight; });
   return alternatives_of(fits, setting);
@@ -221,8 +185,6 @@ LoopVerification::Alternatives LoopVerification::weigh(const Setting& setting, s
 
 LoopVerification::Alternatives LoopVerification::alternatives_of(const std::vector<Fit>& weighed,
                                                                  const Setting& setting) const {
-  constexpr double kLeastWeight = 1e-12;
-  const ExpectedPlace& expected = setting.expected;
   const Fit& best = weighed.front();
   const double weight = std::max(best.weight, kLeastWeight);
   Alternatives alternatives;
@@ -231,21 +193,21 @@ LoopVerification::Alternatives LoopVerification::alternatives_of(const std::vect
     alternatives.fits += weighed[k].weight / weight;
     if (weighed[k].likelihood > kFits) fitting += weighed[k].likelihood;
   }
-  if (expected.anywhere) {
-    alternatives.unmapped = kUnseenShare * fitting;
-    return alternatives;
-  }
-  const Eigen::Matrix3d covariance = expected.T_i_j.position_covariance();
-  const double possible_m2 =
-      2 * std::numbers::pi * std::sqrt(std::max(0.0, covariance.topLeftCorner<2, 2>().determinant()));
-  alternatives.unmapped = kUnseenShare * fitting / setting.map_area_m2 * possible_m2 / weight;
-  if (setting.storey_m) {
-    const double off_m = setting.up.dot(best.T_i_j.translation() - expected.T_i_j.pose.translation());
-    const double sigma_m = std::sqrt(std::max(0.0, setting.up.dot(covariance * setting.up)));
-    alternatives.storeys =
-        kStoreyPrior * other_storeys(*setting.storey_m, off_m, std::max(sigma_m, params_.min_sigma_m));
-  }
+  alternatives.unmapped = kUnseenShare * fitting / setting.map_area_m2 * setting.possible_m2 / weight;
+  alternatives.storeys = unseen_storeys(setting, best);
   return alternatives;
+}
+
+double LoopVerification::unseen_storeys(const Setting& setting, const Fit& fit) const {
+  if (!setting.storey_m) return 0;
+  const ExpectedPlace& expected = setting.expected;
+  if (expected.anywhere) return kStoreyPrior * kUnseenShare / std::max(fit.weight, kLeastWeight);
+  std::vector<ExpectedHeight> heights;
+  expected.for_each([&](const SE3& T_i_j, double share) {
+    heights.push_back({setting.up.dot(T_i_j.translation()), share});
+  });
+  return kStoreyPrior * other_storeys(*setting.storey_m, setting.up.dot(fit.T_i_j.translation()), heights,
+                                      std::max(setting.sigma_up_m(), params_.min_sigma_m));
 }
 
 ScanPyramid LoopVerification::source_around(const PlacedKeyframes& robot, std::size_t j) const {

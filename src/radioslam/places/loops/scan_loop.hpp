@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -65,6 +66,9 @@ struct ScanLoopParams {
   }
 };
 
+/// The storeys that robots may be on.
+enum class Storeys { kOne, kSeveral };
+
 enum class LoopStatus {
   kAccepted,
   kLowOverlap,
@@ -83,7 +87,8 @@ struct ScanLoop {
   SE3 T_i_j;
   SE3::Jacobian information = SE3::Jacobian::Zero();  ///< about xi in T_i_j * Exp(xi)
   double inlier_ratio = 0;
-  double doubt = 0;  ///< probability that another place explains the scan
+  /// Probability that another place explains the scan; nothing where it was rejected before that was asked.
+  std::optional<double> doubt = {};
   LoopStatus status = LoopStatus::kAccepted;
 };
 
@@ -91,6 +96,13 @@ struct ScanLoop {
 inline bool is_unknown_motion(const SE3::Jacobian& covariance) {
   constexpr double kUnknownHeading_rad = 1;
   return covariance(5, 5) > kUnknownHeading_rad * kUnknownHeading_rad;
+}
+
+/// Whether a pair that came to nothing is worth another trial: the standard deviation with which its relative
+/// position was predicted then, and is now.
+inline bool is_worth_another_trial(double before_m, double now_m) {
+  constexpr double kMuchWorse = 2;
+  return before_m >= kMuchWorse * now_m;
 }
 
 /// One robot's keyframes with their scans.

@@ -46,11 +46,10 @@ std::vector<ScanLoop> verify(const std::vector<LoopCandidate>& candidates,
 }
 
 ScanContextIndex index_of(const ScanKeyframes& keyframes, const std::vector<double>& path_m,
-                          double submap_m) {
-  ScanContextIndex index({});
-  for (ScanContext& context : keyframe_contexts(keyframes, path_m, context_range(keyframes), submap_m, {}))
-    index.add(std::move(context));
-  return index;
+                          const ScanLoopSearch& search) {
+  const double given_m = search.descriptors.context.max_range_m;
+  return keyframe_index(keyframes, path_m, given_m > 0 ? given_m : context_range(keyframes),
+                        search.loops.submap_m, search.descriptors);
 }
 
 /// Replaces what was said of the same pairs before.
@@ -88,15 +87,15 @@ void optimize_and_prune(PoseGraph<SE3>& graph, std::size_t steps, std::vector<Sc
 
 }  // namespace
 
-ScanLoops close_scan_loops(const ScanKeyframes& keyframes, const ScanLoopParams& params,
-                           const LocalMapParams& map, const PoseSearchParams& search,
-                           const RegistrationParams& registration, bool storeys, const Progress& progress) {
+ScanLoops close_scan_loops(const ScanKeyframes& keyframes, const ScanLoopSearch& search,
+                           const Progress& progress) {
+  const ScanLoopParams& params = search.loops;
   if (!params.enabled || keyframes.poses.size() < 2) return {{}, keyframes.poses};
   PoseGraph<SE3> graph = odometry_graph(keyframes);
   const std::size_t steps = graph.relative_poses.size();
   LoopCandidates candidates(keyframes, params);
-  const LoopVerification verification(params, {.target_m = params.submap_m, .storeys = storeys}, map, search,
-                                      registration);
+  const LoopVerification verification(params, {.target_m = params.submap_m, .storeys = search.storeys},
+                                      search.map, search.pose, search.registration);
   std::optional<ScanContextIndex> index;
   ScanLoops result;
   for (int round = 0; round < params.rounds; ++round) {
@@ -105,7 +104,7 @@ ScanLoops close_scan_loops(const ScanKeyframes& keyframes, const ScanLoopParams&
           return verification.reaches_elsewhere({candidate.T_i_j},
                                                 keyframes.clouds[candidate.j].median_range_m);
         }))
-      index = index_of(keyframes, candidates.path_m(), params.submap_m);
+      index = index_of(keyframes, candidates.path_m(), search);
     const auto tried = verify(found, verification,
                               {keyframes, graph.poses, candidates.path_m(), index ? &*index : nullptr,
                                [&](std::size_t a, std::size_t b) { return candidates.sigma_m(a, b); }});

@@ -18,6 +18,7 @@
 #include "radioslam/lidar/local_map.hpp"
 #include "radioslam/lidar/pose_search.hpp"
 #include "radioslam/places/loops/scan_loop.hpp"
+#include "radioslam/places/scan_context_index.hpp"
 
 namespace radioslam {
 
@@ -26,10 +27,17 @@ struct ScanLoops {
   std::vector<SE3> poses;       ///< of the keyframes, optimized with the accepted closures
 };
 
-/// `storeys`: whether the robot may change between storeys.
-ScanLoops close_scan_loops(const ScanKeyframes& keyframes, const ScanLoopParams& params,
-                           const LocalMapParams& map, const PoseSearchParams& search,
-                           const RegistrationParams& registration, bool storeys = true,
+/// How loops are searched. The descriptors' range, where it is 0, is chosen from the robot's scans.
+struct ScanLoopSearch {
+  ScanLoopParams loops;
+  LocalMapParams map;
+  PoseSearchParams pose;
+  RegistrationParams registration;
+  PlaceDescriptorParams descriptors;
+  Storeys storeys = Storeys::kSeveral;  ///< that the robot may change between
+};
+
+ScanLoops close_scan_loops(const ScanKeyframes& keyframes, const ScanLoopSearch& search,
                            const Progress& progress = {});
 
 }  // namespace radioslam

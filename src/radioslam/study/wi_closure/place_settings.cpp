@@ -18,11 +18,11 @@ PlaceParams place_params(PlaceSettings settings, double lidar_range_m) {
   params.rounds = 1;
   params.candidates = loosened ? kLoosenedCandidates : kDiscoCandidates;
   params.max_descriptor_distance = loosened ? kLoosenedDistance : kDiscoDistance;
-  params.context.rings = kDiscoRings;
-  params.context.sectors = kDiscoSectors;
-  params.context.max_range_m = lidar_range_m;
-  params.index.key = "ring";
-  params.index.nearest_keys = kDiscoNearestKeys;
+  params.descriptors.context.rings = kDiscoRings;
+  params.descriptors.context.sectors = kDiscoSectors;
+  params.descriptors.context.max_range_m = lidar_range_m;
+  params.descriptors.index.key = "ring";
+  params.descriptors.index.nearest_keys = kDiscoNearestKeys;
   return params;
 }
 
