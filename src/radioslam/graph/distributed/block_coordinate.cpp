@@ -8,7 +8,10 @@ namespace radioslam {
 template <class Pose>
 BlockCoordinateSolver<Pose>::BlockCoordinateSolver(RobotGraph<Pose> robot,
                                                    const BlockCoordinateParams& params)
-    : params_(params), robot_(std::move(robot)), frames_(robot_, params.frames), heard_until_(robot_.neighbours.size(), 0) {
+    : params_(params),
+      robot_(std::move(robot)),
+      frames_(robot_, params.frames),
+      heard_until_(robot_.neighbours.size(), 0) {
   poses_.assign(robot_.graph.poses.begin(),
                 robot_.graph.poses.begin() + static_cast<std::ptrdiff_t>(robot_.own_poses));
 }
@@ -88,7 +91,8 @@ void BlockCoordinateSolver<Pose>::step() {
     const auto at = static_cast<Eigen::Index>(equations_->matrix().offset(static_cast<std::size_t>(block)));
     uphill += gradient.segment<Pose::kDof>(at).dot((poses_[p].inverse() * active_.poses[p]).log());
   }
-  const double next = params_.accelerated && uphill <= 0 ? (1 + std::sqrt(1 + 4 * momentum_ * momentum_)) / 2 : 1;
+  const double next =
+      params_.accelerated && uphill <= 0 ? (1 + std::sqrt(1 + 4 * momentum_ * momentum_)) / 2 : 1;
   const double ahead = next > 1 ? (momentum_ - 1) / next : 0;
   for (std::size_t p = 0; p < robot_.own_poses; ++p) {
     const Pose& moved = active_.poses[p];

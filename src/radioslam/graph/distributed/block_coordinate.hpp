@@ -18,7 +18,7 @@ namespace radioslam {
 
 struct BlockCoordinateParams {
   FrameVoteParams frames;
-  bool accelerated = true;  ///< Nesterov's momentum, per robot, dropped where it points uphill
+  bool accelerated = true;          ///< Nesterov's momentum, per robot, dropped where it points uphill
   double settled_decrease = 1e-10;  ///< predicted decrease of a step, relative to the robot's cost
 };
 
@@ -43,7 +43,7 @@ class BlockCoordinateSolver : public DistributedSolver<Pose> {
   RobotGraph<Pose> robot_;  ///< own poses are where the next step starts: with momentum
   FrameAgreement<Pose> frames_;
   std::vector<std::uint32_t> heard_until_;  ///< per neighbour: the round after the latest one heard
-  std::vector<Pose> poses_;  ///< without momentum: the estimate
+  std::vector<Pose> poses_;                 ///< without momentum: the estimate
   double momentum_ = 1;
   std::vector<std::uint32_t> usable_;
   PoseGraph<Pose> active_;  ///< the factors within the robot, then the usable ones; copies are fixed

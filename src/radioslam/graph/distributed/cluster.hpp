@@ -45,7 +45,7 @@ class Cluster {
   std::vector<SharedPose> variables_;
   std::vector<std::size_t> own_;
   std::map<RobotNumber, std::vector<std::size_t>> child_;
-  std::vector<Eigen::Index> solved_, passed_;              ///< scalars of the cluster
+  std::vector<Eigen::Index> solved_, passed_;  ///< scalars of the cluster
   std::vector<std::size_t> passed_variables_;
   Eigen::MatrixXd solved_passed_, passed_information_;
   Eigen::LLT<Eigen::MatrixXd> factor_;

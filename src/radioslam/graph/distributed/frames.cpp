@@ -63,12 +63,14 @@ Pose mean_placement(const std::vector<Placement<Pose>>& placements) {
 
 /// The placements that agree with the one that most agree with; the first of several.
 template <class Pose>
-std::vector<Placement<Pose>> elected(const std::vector<Placement<Pose>>& placements, const FrameVoteParams& params) {
+std::vector<Placement<Pose>> elected(const std::vector<Placement<Pose>>& placements,
+                                     const FrameVoteParams& params) {
   std::vector<Placement<Pose>> best;
   for (const auto& candidate : placements) {
     std::vector<Placement<Pose>> agreeing;
     for (const auto& other : placements)
-      if (disagreement(candidate, other, params.drift_ratio) <= params.max_statistic) agreeing.push_back(other);
+      if (disagreement(candidate, other, params.drift_ratio) <= params.max_statistic)
+        agreeing.push_back(other);
     if (agreeing.size() > best.size()) best = std::move(agreeing);
   }
   return best;

@@ -57,7 +57,7 @@ class FrameAgreement {
   bool adopt_part(RobotGraph<Pose>& robot, std::uint32_t part);
 
   FrameVoteParams params_;
-  std::vector<Frame> frames_;                       ///< per part
+  std::vector<Frame> frames_;                      ///< per part
   std::vector<std::optional<Frame>> copy_frames_;  ///< per copy
 };
 

@@ -86,7 +86,8 @@ Eigen::MatrixXd read_information(WireReader& in, Eigen::Index blocks, Eigen::Ind
   for (Eigen::Index j = 0; j < blocks && in.good(); ++j)
     for (Eigen::Index i = j; i < blocks; ++i, ++place)
       if ((static_cast<unsigned char>(there[place / 8]) >> (place % 8) & 1U) != 0)
-        for_each_entry(i, j, block, [&](Eigen::Index r, Eigen::Index c) { l(r, c) = read_entry(in) * scale[r]; });
+        for_each_entry(i, j, block,
+                       [&](Eigen::Index r, Eigen::Index c) { l(r, c) = read_entry(in) * scale[r]; });
   return l * l.transpose();
 }
 

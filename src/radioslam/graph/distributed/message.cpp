@@ -23,8 +23,8 @@ void write(WireWriter& out, const SE2& pose) {
 /// half turn.
 void write(WireWriter& out, const SE3& pose) {
   const Eigen::Quaterniond& q = pose.rotation();
-  for (const double x : {pose.translation().x(), pose.translation().y(), pose.translation().z(), q.x(), q.y(),
-                         q.z(), q.w()})
+  for (const double x :
+       {pose.translation().x(), pose.translation().y(), pose.translation().z(), q.x(), q.y(), q.z(), q.w()})
     out.f64(x);
 }
 void read(WireReader& in, SE2& pose) {
@@ -251,8 +251,7 @@ std::string encode(const Message<Pose>& message, MessageBytes* bytes) {
           [&](WireWriter& o) { write_items(o, message.seen->poses); });
   section(SectionKind::kMatrices, !message.matrices.empty(),
           [&](WireWriter& o) { write_items(o, message.matrices); });
-  section(SectionKind::kSteps, !message.steps.empty(),
-          [&](WireWriter& o) { write_items(o, message.steps); });
+  section(SectionKind::kSteps, !message.steps.empty(), [&](WireWriter& o) { write_items(o, message.steps); });
   section(SectionKind::kWeights, !message.weights.empty(),
           [&](WireWriter& o) { write_weights(o, message.weights); });
   section(SectionKind::kUp, message.up.has_value(),
@@ -284,8 +283,8 @@ std::optional<Message<Pose>> decode(std::string_view bytes) {
   return message;
 }
 
-#define RADIOSLAM_MESSAGE(Pose)                                          \
-  template std::string encode(const Message<Pose>&, MessageBytes*);      \
+#define RADIOSLAM_MESSAGE(Pose)                                     \
+  template std::string encode(const Message<Pose>&, MessageBytes*); \
   template std::optional<Message<Pose>> decode(std::string_view);
 RADIOSLAM_MESSAGE(SE2)
 RADIOSLAM_MESSAGE(SE3)

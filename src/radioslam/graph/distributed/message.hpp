@@ -53,9 +53,9 @@ struct Frame {
 /// The poses that a neighbour sees, as they are at the sender.
 template <class Pose>
 struct SeenPoses {
-  std::vector<Frame> frames;             ///< per part of the sender
-  std::vector<std::uint32_t> part_of;    ///< per pose seen; empty if the sender is one part
-  std::vector<Pose> poses;               ///< per pose seen, in the frame of its part
+  std::vector<Frame> frames;           ///< per part of the sender
+  std::vector<std::uint32_t> part_of;  ///< per pose seen; empty if the sender is one part
+  std::vector<Pose> poses;             ///< per pose seen, in the frame of its part
 };
 
 /// Only the robot that a pose belongs to knows who solves for it.
@@ -73,11 +73,11 @@ struct SharedPose {
 struct Elimination {
   std::uint64_t tree = 0;  ///< TeamTree::id
   std::uint32_t sweep = 0;
-  std::vector<SharedPose> shared;   ///< with information only: it stays as it was otherwise
+  std::vector<SharedPose> shared;              ///< with information only: it stays as it was otherwise
   std::optional<Eigen::MatrixXd> information;  ///< of their steps, in their order; absent: as last time
   Eigen::VectorXd gradient;
-  double cost = 0;                  ///< at the values that were linearised
-  double predicted_decrease = 0;    ///< by the steps of those eliminated, the shared ones at rest
+  double cost = 0;                ///< at the values that were linearised
+  double predicted_decrease = 0;  ///< by the steps of those eliminated, the shared ones at rest
 };
 
 /// What the team does with the sweep that a Solution ends.

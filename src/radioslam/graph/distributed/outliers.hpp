@@ -11,8 +11,8 @@
 namespace radioslam {
 
 struct OutlierParams {
-  double gate = 0;       ///< c^2: squared norm up to which a factor may be right; 0: all are
-  double first_cut = 10; ///< norm beyond which factors are left out at first, in units of c
+  double gate = 0;        ///< c^2: squared norm up to which a factor may be right; 0: all are
+  double first_cut = 10;  ///< norm beyond which factors are left out at first, in units of c
   double mu_factor = 2;
   double last_mu = 100;
 
@@ -22,8 +22,9 @@ struct OutlierParams {
   static void visit_fields(Self& self, Visitor&& visit) {
     RADIOSLAM_BASIC_FIELD(gate, "", 0, 1e9,
                           "squared Mahalanobis norm up to which a loop closure may be right; 0: all are");
-    RADIOSLAM_FIELD(first_cut, "", 1.1, 1e6,
-                    "norm beyond which closures are left out in the first sweep, relative to that of the gate");
+    RADIOSLAM_FIELD(
+        first_cut, "", 1.1, 1e6,
+        "norm beyond which closures are left out in the first sweep, relative to that of the gate");
     RADIOSLAM_FIELD(mu_factor, "", 1.01, 100, "factor by which the loss sharpens from sweep to sweep");
     RADIOSLAM_FIELD(last_mu, "", 1, 1e9, "sharpness of the loss at which the sweeps go on to the end");
   }

@@ -145,9 +145,9 @@ std::vector<RobotGraph<Pose>> split_by_robot(const PoseGraph<Pose>& graph, const
   return TeamSplit<Pose>(graph, team).run();
 }
 
-#define RADIOSLAM_ROBOT_GRAPH(Pose)                                                \
-  template std::size_t neighbour_index(const RobotGraph<Pose>&, RobotNumber);      \
-  template PoseGraph<Pose> own_graph(const RobotGraph<Pose>&);                     \
+#define RADIOSLAM_ROBOT_GRAPH(Pose)                                           \
+  template std::size_t neighbour_index(const RobotGraph<Pose>&, RobotNumber); \
+  template PoseGraph<Pose> own_graph(const RobotGraph<Pose>&);                \
   template std::vector<RobotGraph<Pose>> split_by_robot(const PoseGraph<Pose>&, const TeamPoses&);
 RADIOSLAM_ROBOT_GRAPH(SE2)
 RADIOSLAM_ROBOT_GRAPH(SE3)

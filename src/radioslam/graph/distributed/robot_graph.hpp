@@ -23,8 +23,8 @@ struct PoseKey {
 /// the poses one sends are those the other expects, in ascending order.
 struct Neighbour {
   RobotNumber robot = 0;
-  std::vector<std::uint32_t> seen;    ///< own poses in factors with it, ascending
-  std::vector<std::uint32_t> copies;  ///< places in graph.poses of its poses, by ascending number there
+  std::vector<std::uint32_t> seen;     ///< own poses in factors with it, ascending
+  std::vector<std::uint32_t> copies;   ///< places in graph.poses of its poses, by ascending number there
   std::vector<std::uint32_t> between;  ///< places in graph.relative_poses of the factors with it, ascending
 };
 
@@ -55,7 +55,7 @@ PoseGraph<Pose> own_graph(const RobotGraph<Pose>& robot);
 
 /// Whose pose is which, for a team in one graph.
 struct TeamPoses {
-  std::vector<RobotNumber> robot_of;           ///< per pose of the team's graph
+  std::vector<RobotNumber> robot_of;            ///< per pose of the team's graph
   std::vector<std::vector<std::size_t>> poses;  ///< per robot, its poses in order
 };
 TeamPoses team_poses(const std::vector<RobotNumber>& robot_of_pose, std::size_t robots);

@@ -10,10 +10,7 @@
 namespace radioslam {
 template <class Pose>
 SeparatorsSolver<Pose>::SeparatorsSolver(RobotGraph<Pose> robot, const SeparatorsParams& params)
-    : params_(params),
-      robot_(std::move(robot)),
-      frames_(robot_, params.frames),
-      gossip_(robot_) {
+    : params_(params), robot_(std::move(robot)), frames_(robot_, params.frames), gossip_(robot_) {
   for (const Neighbour& neighbour : robot_.neighbours) tell_poses_[neighbour.robot] = true;
   if (robot_.neighbours.empty()) finished_ = true;
   may_be_outlier_ = outlier_candidates(robot_);
@@ -77,7 +74,8 @@ bool SeparatorsSolver<Pose>::hear(const Message<Pose>& message) {
 template <class Pose>
 bool SeparatorsSolver<Pose>::hear_child(RobotNumber from, const Elimination& up) {
   const auto answered = last_down_.find(from);
-  if (answered != last_down_.end() && answered->second.tree == up.tree && answered->second.sweep == up.sweep) {
+  if (answered != last_down_.end() && answered->second.tree == up.tree &&
+      answered->second.sweep == up.sweep) {
     message_to(from).down = answered->second;
     return true;
   }
@@ -90,8 +88,10 @@ bool SeparatorsSolver<Pose>::hear_child(RobotNumber from, const Elimination& up)
 
 template <class Pose>
 bool SeparatorsSolver<Pose>::hear_parent(RobotNumber from, const Solution& down) {
-  if (!tree_ || down.tree != tree_->id() || down.sweep != sweep_.number || !sweep_.waiting) return true;  // late
-  const bool fits = tree_->parent(robot_.robot) == from && down.steps.size() == cluster_->passed_gradient().size();
+  if (!tree_ || down.tree != tree_->id() || down.sweep != sweep_.number || !sweep_.waiting)
+    return true;  // late
+  const bool fits =
+      tree_->parent(robot_.robot) == from && down.steps.size() == cluster_->passed_gradient().size();
   if (fits) go_down(down);
   return fits;
 }
@@ -187,7 +187,7 @@ void SeparatorsSolver<Pose>::advance() {
       if (up == early_.end() || up->second.tree != tree_->id() || up->second.sweep != sweep_.number) return;
       sweep_.children[child] = up->second;
     }
-    if (!eliminate()) { 
+    if (!eliminate()) {
       finished_ = true;  // damping has failed, or a message lied: what there is stays
       return;
     }

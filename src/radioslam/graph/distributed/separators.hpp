@@ -8,8 +8,8 @@
 //
 // The information that goes up is rounded to single precision, and sent again only where the steps were
 // large: sweeps in between carry gradients alone. Gradients are exact, so the sweeps end at the optimum.
-// Sources: Dechter 2003 (bucket and junction trees); Petcu and Faltings 2005 (the same over agents); Cunningham
-// et al. 2010, DDF-SAM (separators between robots).
+// Sources: Dechter 2003 (bucket and junction trees); Petcu and Faltings 2005 (the same over agents);
+// Cunningham et al. 2010, DDF-SAM (separators between robots).
 #pragma once
 
 #include <map>
@@ -95,14 +95,14 @@ class SeparatorsSolver : public DistributedSolver<Pose> {
   std::optional<Cluster> cluster_;
   std::map<RobotNumber, Elimination> information_;  ///< the children's, as they were sent last
   Sweep sweep_;
-  std::vector<Pose> before_;    ///< where the last sweep started
+  std::vector<Pose> before_;                   ///< where the last sweep started
   double last_cost_ = 0, last_predicted_ = 0;  ///< of the team, at the root
   bool finished_ = false;
   std::vector<Pose> published_;      ///< own poses after the last sweep that all robots have ended
   std::uint32_t rounds_to_end_ = 0;  ///< until the robots furthest from the root have ended theirs
 
-  std::map<RobotNumber, Elimination> early_;    ///< of children, for a tree or sweep still to come
-  std::map<RobotNumber, Solution> last_down_;   ///< as the children were told
+  std::map<RobotNumber, Elimination> early_;   ///< of children, for a tree or sweep still to come
+  std::map<RobotNumber, Solution> last_down_;  ///< as the children were told
   std::optional<Elimination> last_up_;
   std::map<RobotNumber, std::uint32_t> last_heard_, last_sent_;  ///< rounds, per neighbour
   std::map<RobotNumber, Message<Pose>> outgoing_;

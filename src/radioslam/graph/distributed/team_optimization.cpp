@@ -42,8 +42,8 @@ void optimize_own(RobotGraph<Pose>& robot, const OutlierParams& outliers) {
   FactorMask mask;
   mask.relative_poses = outlier_candidates(robot);
   mask.relative_poses.resize(robot.own_relative_poses);
-  const bool loops = std::find(mask.relative_poses.begin(), mask.relative_poses.end(), true) !=
-                     mask.relative_poses.end();
+  const bool loops =
+      std::find(mask.relative_poses.begin(), mask.relative_poses.end(), true) != mask.relative_poses.end();
   if (outliers.gate > 0 && loops) {
     for (auto& factor : own.relative_poses) factor.loss.scale = std::sqrt(outliers.gate);
     optimize_graduated(own, mask, GraduatedLoss::kTruncatedLeastSquares, {}, {});

@@ -31,11 +31,11 @@ struct RoundTrace {
 template <class Pose>
 struct TeamOptimization {
   std::vector<RoundTrace> rounds;
-  std::vector<Pose> poses;     ///< as the robots have them when they stop
-  std::vector<Frame> frames;   ///< per pose
-  bool settled = false;        ///< every robot had stopped by itself
-  std::vector<double> weights; ///< per relative pose of the graph, of graduated optimization
-  std::size_t refused = 0;     ///< messages
+  std::vector<Pose> poses;      ///< as the robots have them when they stop
+  std::vector<Frame> frames;    ///< per pose
+  bool settled = false;         ///< every robot had stopped by itself
+  std::vector<double> weights;  ///< per relative pose of the graph, of graduated optimization
+  std::size_t refused = 0;      ///< messages
 };
 
 /// `graph` has relative poses only. Its values are each robot's own start: they matter up to a rigid motion

@@ -48,7 +48,9 @@ Factorization PartialElimination::factorize(const SymmetricBlockMatrix& matrix) 
   between_ = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(eliminated_scalars_.size()), kept_size);
   reduced_ = Eigen::MatrixXd::Zero(kept_size, kept_size);
   if (inner_) inner_->set_zero();
-  const auto kept_offset = [&](std::int32_t place) { return kept_offsets_[static_cast<std::size_t>(-1 - place)]; };
+  const auto kept_offset = [&](std::int32_t place) {
+    return kept_offsets_[static_cast<std::size_t>(-1 - place)];
+  };
   const auto inner_offset = [&](std::int32_t place) {
     return static_cast<Eigen::Index>(inner_->offset(static_cast<std::size_t>(place)));
   };
@@ -80,14 +82,16 @@ Factorization PartialElimination::factorize(const SymmetricBlockMatrix& matrix) 
   if (cholesky_->factorize(*inner_) != Factorization::kDone) return Factorization::kNotPositiveDefinite;
   Eigen::MatrixXd solved(between_.rows(), between_.cols());
   for (Eigen::Index c = 0; c < between_.cols(); ++c)
-    solved.col(c) = between_.col(c).isZero(0) ? Eigen::VectorXd(between_.col(c))
-                                              : cholesky_->solve(between_.col(c));
+    solved.col(c) =
+        between_.col(c).isZero(0) ? Eigen::VectorXd(between_.col(c)) : cholesky_->solve(between_.col(c));
   reduced_.noalias() -= between_.transpose() * solved;
   reduced_ = (reduced_ + reduced_.transpose()).eval() / 2;
   return Factorization::kDone;
 }
 
-Eigen::VectorXd PartialElimination::eliminated_part(const Eigen::VectorXd& x) const { return x(eliminated_scalars_); }
+Eigen::VectorXd PartialElimination::eliminated_part(const Eigen::VectorXd& x) const {
+  return x(eliminated_scalars_);
+}
 Eigen::VectorXd PartialElimination::kept_part(const Eigen::VectorXd& x) const { return x(kept_scalars_); }
 Eigen::VectorXd PartialElimination::solve(const Eigen::VectorXd& b) const {
   return cholesky_ ? cholesky_->solve(b) : b;

@@ -33,8 +33,8 @@ class PartialElimination {
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
 
   std::vector<std::size_t> eliminated_scalars_, kept_scalars_;  ///< places in the whole system
-  std::vector<std::int32_t> place_;                             ///< per block: among the eliminated, or -1 - k
-  std::vector<Eigen::Index> kept_offsets_;                      ///< per kept block
+  std::vector<std::int32_t> place_;         ///< per block: among the eliminated, or -1 - k
+  std::vector<Eigen::Index> kept_offsets_;  ///< per kept block
   std::optional<SymmetricBlockMatrix> inner_;
   std::optional<BlockCholesky> cholesky_;
   Eigen::MatrixXd between_;  ///< H_ek

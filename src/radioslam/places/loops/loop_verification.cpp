@@ -102,6 +102,9 @@ ScanLoop LoopVerification::verify(const PlacedKeyframes& target, std::size_t i, 
   if (!fits.front().elsewhere &&
       fits.front().registration.inlier_ratio < params_.min_fit_ratio * nominal_ratio)
     return loop_of(fits.front(), LoopStatus::kLowOverlap);
+  const Registration& best = fits.front().registration;
+  if (sigma_in_plane({best.T_target_source, covariance_of_fit(best)}) > params_.max_sigma_m)
+    return loop_of(fits.front(), LoopStatus::kTooLittleStructure);
   ScanLoop loop = loop_of(fits.front(), status_of(fits.front(), alternatives));
   loop.doubt = alternatives.doubt();
   return loop;

@@ -25,6 +25,7 @@ struct ScanLoopParams {
   double alternative_ratio = 0.75;
   double max_doubt = 0.05;
   double min_structure = 25;
+  double max_sigma_m = 0.5;
   double min_sigma_m = 0.02;
   double min_sigma_rad = 0.003;
   int rounds = 5;
@@ -58,6 +59,10 @@ struct ScanLoopParams {
                     "largest probability of a closure that another place, seen or not, explains the scan");
     RADIOSLAM_FIELD(min_structure, "", 0, 1e6,
                     "smallest number of a scan's points on walls, poles and the like, of spatial scanners");
+    RADIOSLAM_FIELD(
+        max_sigma_m, "m", 0.01, 1e6,
+        "largest standard deviation at which a fit determines the position: along a plain corridor it "
+        "does not");
     RADIOSLAM_FIELD(min_sigma_m, "m", 1e-6, 10,
                     "lower bound on the standard deviation of a closure's translation, per axis");
     RADIOSLAM_FIELD(min_sigma_rad, "rad", 1e-6, 3,
