@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "radioslam/cli/commands/anchors_params.hpp"
+#include "radioslam/cli/commands/optimize_params.hpp"
 #include "radioslam/cli/commands/similarity_params.hpp"
 #include "radioslam/cli/run_parameters.hpp"
 #include "radioslam/cli/suggestion.hpp"
@@ -62,7 +63,7 @@ constexpr std::array kParameterSets = std::to_array<ParameterSet>({
     {"simulate hall", defaults_of<HallParams>},
     {"simulate kitti", defaults_of<KittiParams>},
     {"simulate", defaults_of<CarparkParams>, "simulate carpark"},
-    {"optimize", defaults_of<OptimizerParams>},
+    {"optimize", defaults_of<OptimizeParams>},
     {"similarity", defaults_of<SimilarityCommandParams>},
     {"aoa", defaults_of<AoaParams>},
     {"anchors", defaults_of<AnchorsParams>},

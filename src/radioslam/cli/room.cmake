@@ -19,6 +19,7 @@ add_library(radioslam_cli STATIC
   cli/commands/command_similarity.cpp
   cli/commands/command_simulate.cpp
   cli/commands/csi_channels.cpp
+  cli/commands/distributed_optimization.cpp
   cli/commands/evaluation.cpp
   cli/commands/mission_check.cpp
   cli/commands/mission_input.cpp

@@ -4,12 +4,15 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "radioslam/cli/commands.hpp"
 #include "radioslam/cli/commands/command_options.hpp"
+#include "radioslam/cli/commands/distributed_optimization.hpp"
 #include "radioslam/cli/commands/output_path_check.hpp"
 #include "radioslam/cli/config.hpp"
 #include "radioslam/cli/parameters.hpp"
@@ -25,12 +28,16 @@ namespace radioslam::cli {
 namespace {
 
 struct OptimizeOptions {
-  std::string input;
+  std::vector<std::string> inputs;
   std::string output;
   ParameterOptions parameters;
   bool repair_information = false;
   bool certify = false;
   bool json = false;
+  std::string method;  ///< of an optimization without a centre
+  std::optional<double> loss_share;
+  std::optional<int> delay_rounds;
+  bool robust = false;
 };
 
 /// Wall times of reading, initialisation and optimization.
@@ -149,22 +156,45 @@ AnyG2oGraph without_values(const AnyTeamGraphFile& any) {
 }
 
 AnyG2oGraph read_graph(const OptimizeOptions& options) {
-  const Text text = read_zstd_text(options.input);
-  if (is_jrl_file(options.input)) return without_values(read_jrl(text, StatedStarts::kUsed));
+  if (options.inputs.size() > 1)
+    throw InputError(options.inputs[1], 0, "only --distributed takes several graphs");
+  const std::string& input = options.inputs.front();
+  const Text text = read_zstd_text(input);
+  if (is_jrl_file(input)) return without_values(read_jrl(text, StatedStarts::kUsed));
   return read_g2o(text, options.repair_information ? RepairInformation::kYes : RepairInformation::kNo);
+}
+
+/// Squared norm that a true closure exceeds once in ten thousand, in the plane and in space.
+constexpr double kRobustGate = 28;
+
+void optimize_as_team(const OptimizeOptions& options, OptimizeParams params) {
+  if (options.loss_share) params.distributed.network.loss_share = *options.loss_share;
+  if (options.delay_rounds) params.distributed.network.delay_rounds = *options.delay_rounds;
+  if (options.robust && params.distributed.outliers.gate == 0) params.distributed.outliers.gate = kRobustGate;
+  OutputFile output(options.output);
+  const DistributedOutcome outcome =
+      optimize_distributed({options.inputs.begin(), options.inputs.end()}, options.method, params);
+  output.commit(outcome.graph);
+  if (options.json)
+    std::cout << outcome.json.dump(2) << '\n';
+  else
+    std::cout << options.output << ": " << outcome.summary << '\n';
 }
 
 void optimize_file(const OptimizeOptions& options) {
   if (options.certify)
     throw InputError("--certify", 0, "certifying global optimality is not implemented yet");
   const auto settings = collect_settings(options.parameters.config_path, options.parameters.set);
-  const auto params = with_settings(OptimizerParams{}, settings);
+  const auto params = with_settings(OptimizeParams{}, settings);
+  refuse_replacing_inputs(options.output, {options.inputs.begin(), options.inputs.end()});
+  if (!options.method.empty()) return optimize_as_team(options, params);
+  if (options.robust || options.loss_share || options.delay_rounds)
+    throw InputError("--robust", 0, "losses, delays and --robust belong to --distributed");
   Stopwatch stopwatch;
-  refuse_replacing_inputs(options.output, {options.input});
   OutputFile output(options.output);
   auto graph = read_graph(options);
   const double read_s = stopwatch.lap();
-  Report report = std::visit([&](auto& file) { return optimize_graph(file, params); }, graph);
+  Report report = std::visit([&](auto& file) { return optimize_graph(file, params.optimizer); }, graph);
   report.seconds.read = read_s;
   output.commit(std::visit([](const auto& file) { return format_g2o(file); }, graph));
   if (options.json) {
@@ -174,16 +204,38 @@ void optimize_file(const OptimizeOptions& options) {
   }
 }
 
+void add_distributed_options(CLI::App& command, OptimizeOptions& options) {
+  std::vector<std::string> methods;
+  for (const auto& [name, method] : kDistributedMethods) methods.emplace_back(name);
+  command
+      .add_option("--distributed", options.method,
+                  "Optimize as the team's robots would, without a centre: " + CLI::detail::join(methods, ", "))
+      ->check(CLI::IsMember(methods))
+      ->type_name("METHOD");
+  command.add_option("--loss-share", options.loss_share, "Share of the messages between robots that are lost")
+      ->check(number_from(0, 1));
+  command
+      .add_option("--delay-rounds", options.delay_rounds,
+                  "Rounds by which messages are late at most, beyond the next one")
+      ->check(CLI::Range(0, 1000));
+  command.add_flag("--robust", options.robust,
+                   "With --distributed separators or asynchronous: loop closures may be wrong");
+}
+
 }  // namespace
 
 void add_optimize(CLI::App& program) {
   const auto options = std::make_shared<OptimizeOptions>();
   auto* command = program.add_subcommand("optimize", "Optimize a pose graph in g2o or JRL format");
-  command->add_option("GRAPH", options->input, "Pose graph, 2D or 3D: .g2o or .jrl, also .zst")->required();
+  command
+      ->add_option("GRAPH", options->inputs,
+                   "Pose graph, 2D or 3D: .g2o or .jrl, also .zst; with --distributed also one per robot")
+      ->required();
   add_output_option(*command, options->output, "Optimized graph to write, in g2o format");
   command->add_flag("--repair-information", options->repair_information,
                     "Replace indefinite information matrices by the nearest valid ones and accept zero ones");
   command->add_flag("--certify", options->certify, "Certify global optimality (not implemented yet)");
+  add_distributed_options(*command, *options);
   add_json_option(*command, options->json);
   add_parameter_options(*command, options->parameters);
   add_threads_option(*command);
@@ -195,7 +247,8 @@ void add_optimize(CLI::App& program) {
       "In the --json output, start_cost is the cost of the chosen start and initial_cost that of the VERTEX\n"
       "lines (or of the start, if some are missing).\n"
       "`radioslam parameters optimize` lists the parameters for --set and --config.\n\n"
-      "Example:\n  radioslam optimize sphere2500.g2o -o optimum.g2o --json");
+      "Example:\n  radioslam optimize sphere2500.g2o -o optimum.g2o --json\n"
+      "  radioslam optimize 0.g2o 1.g2o 2.g2o --distributed separators -o team.g2o");
   command->callback([options] { optimize_file(*options); });
 }
 

@@ -9,7 +9,7 @@ std::size_t Traffic::bytes() const {
 }
 
 SimulatedNetwork::SimulatedNetwork(std::size_t robots, const NetworkParams& params)
-    : params_(params), rng_(params.seed), inbox_(robots) {}
+    : params_(params), rng_(static_cast<std::uint64_t>(params.seed)), inbox_(robots) {}
 
 template <class Pose>
 void SimulatedNetwork::send(const Message<Pose>& message, Traffic& traffic) {

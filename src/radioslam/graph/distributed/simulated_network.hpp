@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "radioslam/base/fields.hpp"
 #include "radioslam/base/random.hpp"
 #include "radioslam/graph/distributed/message.hpp"
 
@@ -14,7 +15,15 @@ struct NetworkParams {
   double loss_share = 0;    ///< of messages that never arrive
   int delay_rounds = 0;     ///< largest delay beyond the next round; each is drawn evenly up to it
   double repeat_share = 0;  ///< of messages that arrive a second time, with a delay of its own
-  std::uint64_t seed = 1;
+  int seed = 1;
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    RADIOSLAM_FIELD(loss_share, "", 0, 1, "share of messages between robots that are lost");
+    RADIOSLAM_FIELD(delay_rounds, "", 0, 1000, "largest delay of a message, beyond the next round");
+    RADIOSLAM_FIELD(repeat_share, "", 0, 1, "share of messages that arrive twice");
+    RADIOSLAM_FIELD(seed, "", 0, 2147483647, "seed of the losses and delays");
+  }
 };
 
 /// Bytes and messages sent in a round, lost ones included.

@@ -79,7 +79,7 @@ class Team {
     }
     network_.advance();
     collect();
-    trace.cost = cost();
+    measure(trace);
   }
 
   bool settled() const {
@@ -130,12 +130,13 @@ class Team {
     }
   }
 
-  double cost() const {
-    double sum = 0;
+  void measure(RoundTrace& trace) const {
+    trace.one_frame = true;
     for (const auto& f : graph_.relative_poses)
       if (result_.frames[f.i.index()].same(result_.frames[f.j.index()]))
-        sum += f.weight * squared_norm(graph_, f);
-    return sum;
+        trace.cost += f.weight * squared_norm(graph_, f);
+      else
+        trace.one_frame = false;
   }
 
   PoseGraph<Pose> graph_;  ///< with the robots' present values

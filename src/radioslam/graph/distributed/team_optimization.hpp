@@ -14,6 +14,12 @@
 namespace radioslam {
 
 enum class DistributedMethod { kTwoStage, kBlockCoordinate, kAsynchronous, kAlternating, kSeparators };
+inline constexpr std::array kDistributedMethods{
+    std::pair{"separators", DistributedMethod::kSeparators},
+    std::pair{"asynchronous", DistributedMethod::kAsynchronous},
+    std::pair{"block-coordinate", DistributedMethod::kBlockCoordinate},
+    std::pair{"two-stage", DistributedMethod::kTwoStage},
+    std::pair{"alternating", DistributedMethod::kAlternating}};
 
 struct TeamOptimizationParams {
   DistributedMethod method = DistributedMethod::kSeparators;
@@ -21,10 +27,23 @@ struct TeamOptimizationParams {
   FrameVoteParams frames;
   OutlierParams outliers;
   NetworkParams network;
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    RADIOSLAM_BASIC_FIELD(max_rounds, "", 1, 1e6,
+                          "largest number of rounds of an optimization without a centre");
+  }
+  template <class Self, class Visitor>
+  static void visit_sections(Self& self, Visitor&& visit) {
+    visit("frames", self.frames);
+    visit("outliers", self.outliers);
+    visit("network", self.network);
+  }
 };
 
 struct RoundTrace {
   double cost = 0;  ///< of the factors whose poses are in one frame, after the round
+  bool one_frame = false;  ///< every factor's poses are
   Traffic traffic;
 };
 

@@ -1,0 +1,24 @@
+// radioslam optimize --distributed: optimizes the pose graph of a team as its robots would, each with its own
+// part and messages between neighbours, and compares with the central optimum.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "radioslam/cli/commands/optimize_params.hpp"
+
+namespace radioslam::cli {
+
+struct DistributedOutcome {
+  nlohmann::ordered_json json;  ///< what --json prints
+  std::string summary;          ///< the same in two sentences
+  std::string graph;            ///< g2o text of all robots, with the vertices as the robots have them
+};
+
+/// `paths`: one graph of a team or one per robot. `method`: its name in kDistributedMethods.
+DistributedOutcome optimize_distributed(const std::vector<std::filesystem::path>& paths,
+                                        const std::string& method, const OptimizeParams& params);
+
+}  // namespace radioslam::cli
