@@ -34,6 +34,7 @@ radioslam_room(graph
     normal_equations.cpp
     optimizer.cpp
     pose_chart.cpp
+    pose_network.cpp
     residuals.cpp
     team_gauge.cpp
   ROOMS geometry
