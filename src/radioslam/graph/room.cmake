@@ -10,8 +10,10 @@ radioslam_room(graph
     distributed/robot_graph.cpp
     distributed/separators.cpp
     distributed/simulated_network.cpp
+    distributed/stage_agreement.cpp
     distributed/team_optimization.cpp
     distributed/topology.cpp
+    distributed/turns.cpp
     gauge.cpp
     graduated.cpp
     initial_values.cpp

@@ -237,6 +237,20 @@ Solution read_down(WireReader& in) {
   return down;
 }
 
+void write_stage(WireWriter& out, const StageNews& news) {
+  out.whole(news.stage);
+  out.whole(news.quiet);
+  out.byte(static_cast<std::uint8_t>((news.moved ? 1 : 0) + (news.finished ? 2 : 0)));
+}
+StageNews read_stage(WireReader& in) {
+  StageNews news{in.whole32(), in.whole32(), false, false};
+  const std::uint8_t flags = in.byte();
+  if (flags > 3) in.refuse();
+  news.moved = (flags & 1U) != 0;
+  news.finished = (flags & 2U) != 0;
+  return news;
+}
+
 template <class Pose>
 void read_section(WireReader& in, SectionKind kind, Message<Pose>& message) {
   const auto seen = [&]() -> SeenPoses<Pose>& {
@@ -262,6 +276,9 @@ void read_section(WireReader& in, SectionKind kind, Message<Pose>& message) {
     case SectionKind::kDown:
       message.down = read_down(in);
       return;
+    case SectionKind::kStage:
+      message.stage = read_stage(in);
+      return;
   }
 }
 
@@ -269,7 +286,7 @@ void read_section(WireReader& in, SectionKind kind, Message<Pose>& message) {
 
 std::string_view to_string(SectionKind kind) {
   constexpr std::array<std::string_view, kSectionKinds> kNames{
-      "topology", "frames", "poses", "rotations", "steps", "weights", "eliminations", "solutions"};
+      "topology", "frames", "poses", "rotations", "steps", "weights", "eliminations", "solutions", "stages"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
@@ -309,6 +326,8 @@ std::string encode(const Message<Pose>& message, MessageBytes* bytes) {
   section(SectionKind::kUp, message.up.has_value(),
           [&](WireWriter& o) { write_up(o, *message.up, Pose::kDof); });
   section(SectionKind::kDown, message.down.has_value(), [&](WireWriter& o) { write_down(o, *message.down); });
+  section(SectionKind::kStage, message.stage.has_value(),
+          [&](WireWriter& o) { write_stage(o, *message.stage); });
   if (bytes != nullptr) *bytes = counted;
   return out.take();
 }
