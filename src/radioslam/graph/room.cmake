@@ -11,9 +11,11 @@ radioslam_room(graph
     distributed/separators.cpp
     distributed/simulated_network.cpp
     distributed/stage_agreement.cpp
+    distributed/step_system.cpp
     distributed/team_optimization.cpp
     distributed/topology.cpp
     distributed/turns.cpp
+    distributed/two_stage.cpp
     gauge.cpp
     graduated.cpp
     initial_values.cpp

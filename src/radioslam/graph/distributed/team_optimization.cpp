@@ -5,6 +5,7 @@
 #include "radioslam/base/check.hpp"
 #include "radioslam/graph/distributed/block_coordinate.hpp"
 #include "radioslam/graph/distributed/separators.hpp"
+#include "radioslam/graph/distributed/two_stage.hpp"
 #include "radioslam/graph/optimizer.hpp"
 #include "radioslam/graph/residuals.hpp"
 
@@ -22,6 +23,8 @@ std::unique_ptr<DistributedSolver<Pose>> make_solver(RobotGraph<Pose> robot,
       block.accelerated = false;
       return std::make_unique<BlockCoordinateSolver<Pose>>(std::move(robot), block);
     }
+    case DistributedMethod::kTwoStage:
+      return std::make_unique<TwoStageSolver<Pose>>(std::move(robot), TwoStageParams{});
     default:
       return std::make_unique<SeparatorsSolver<Pose>>(std::move(robot), SeparatorsParams{});
   }
