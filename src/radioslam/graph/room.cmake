@@ -2,6 +2,7 @@ radioslam_room(graph
   SOURCES
     block_structure.cpp
     chordal.cpp
+    distributed/alternating.cpp
     distributed/block_coordinate.cpp
     distributed/cluster.cpp
     distributed/frames.cpp

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "radioslam/base/check.hpp"
+#include "radioslam/graph/distributed/alternating.hpp"
 #include "radioslam/graph/distributed/block_coordinate.hpp"
 #include "radioslam/graph/distributed/separators.hpp"
 #include "radioslam/graph/distributed/two_stage.hpp"
@@ -25,6 +26,8 @@ std::unique_ptr<DistributedSolver<Pose>> make_solver(RobotGraph<Pose> robot,
     }
     case DistributedMethod::kTwoStage:
       return std::make_unique<TwoStageSolver<Pose>>(std::move(robot), TwoStageParams{});
+    case DistributedMethod::kAlternating:
+      return std::make_unique<AlternatingSolver<Pose>>(std::move(robot), AlternatingParams{});
     default:
       return std::make_unique<SeparatorsSolver<Pose>>(std::move(robot), SeparatorsParams{});
   }
