@@ -2,6 +2,7 @@ radioslam_room(graph
   SOURCES
     block_structure.cpp
     chordal.cpp
+    distributed/alternating.cpp
     distributed/block_coordinate.cpp
     distributed/cluster.cpp
     distributed/frames.cpp
@@ -12,8 +13,12 @@ radioslam_room(graph
     distributed/robot_graph.cpp
     distributed/separators.cpp
     distributed/simulated_network.cpp
+    distributed/stage_agreement.cpp
+    distributed/step_system.cpp
     distributed/team_optimization.cpp
     distributed/topology.cpp
+    distributed/turns.cpp
+    distributed/two_stage.cpp
     gauge.cpp
     graduated.cpp
     initial_values.cpp
@@ -36,6 +41,7 @@ radioslam_room(graph
     normal_equations.cpp
     optimizer.cpp
     pose_chart.cpp
+    pose_network.cpp
     residuals.cpp
     team_gauge.cpp
   ROOMS geometry

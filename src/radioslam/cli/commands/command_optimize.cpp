@@ -208,11 +208,13 @@ void add_distributed_options(CLI::App& command, OptimizeOptions& options) {
   std::vector<std::string> methods;
   for (const auto& [name, method] : kDistributedMethods) methods.emplace_back(name);
   command
-      .add_option("--distributed", options.method,
-                  "Optimize as the team's robots would, without a centre: " + CLI::detail::join(methods, ", "))
+      .add_option(
+          "--distributed", options.method,
+          "Optimize as the team's robots would, without a centre: " + CLI::detail::join(methods, ", "))
       ->check(CLI::IsMember(methods))
       ->type_name("METHOD");
-  command.add_option("--loss-share", options.loss_share, "Share of the messages between robots that are lost")
+  command
+      .add_option("--loss-share", options.loss_share, "Share of the messages between robots that are lost")
       ->check(number_from(0, 1));
   command
       .add_option("--delay-rounds", options.delay_rounds,

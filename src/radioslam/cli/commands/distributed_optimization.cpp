@@ -54,7 +54,8 @@ NumberedTeam<Pose> number_robots(const TeamGraph<Pose>& team) {
 template <class Pose>
 void refuse_unsupported(const PoseGraph<Pose>& graph, const std::string& file) {
   if (!graph.ranges.empty() || !graph.bearings.empty() || !graph.points.empty() || !graph.positions.empty())
-    throw InputError(file, 0, "--distributed takes graphs of relative poses: no ranges, positions or landmarks");
+    throw InputError(file, 0,
+                     "--distributed takes graphs of relative poses: no ranges, positions or landmarks");
 }
 
 /// The factors that the team ended up with: between poses of one frame, and with the weights it gave them.
@@ -204,7 +205,8 @@ DistributedOutcome run_team(TeamGraphFile<Pose>& file, const OptimizeParams& par
   const NumberedTeam<Pose> team = number_robots(file.team);
   const auto start = std::chrono::steady_clock::now();
   ProgressLine line;
-  const TeamOptimization<Pose> run = optimize_team(team.graph, team.poses, params.distributed, line.progress());
+  const TeamOptimization<Pose> run =
+      optimize_team(team.graph, team.poses, params.distributed, line.progress());
   const double optimize_s = seconds_since(start);
   const OutcomeOf<Pose> outcome(team, run, params.optimizer);
   DistributedOutcome result{outcome.json(), outcome.text(), {}};

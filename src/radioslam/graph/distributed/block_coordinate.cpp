@@ -35,7 +35,10 @@ std::vector<Message<Pose>> BlockCoordinateSolver<Pose>::round(const std::vector<
     usable_ = std::move(usable);
     prepare();
   }
-  if (!usable_.empty()) step();
+  if (usable_.empty())
+    settled_ = robot_.neighbours.empty();
+  else
+    step();
   return messages();
 }
 

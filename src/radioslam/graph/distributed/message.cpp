@@ -121,18 +121,6 @@ void read_items(WireReader& in, std::vector<Item>& items, std::size_t bytes_each
   for (Item& item : items) read(in, item);
 }
 
-void write_weights(WireWriter& out, const std::vector<float>& weights) {
-  out.whole(weights.size());
-  for (const float w : weights) out.f32(w);
-}
-void read_weights(WireReader& in, std::vector<float>& weights) {
-  weights.resize(in.count(4));
-  for (float& w : weights) {
-    w = in.f32();
-    if (w < 0 || w > 1) in.refuse();
-  }
-}
-
 void write_up(WireWriter& out, const Elimination& up, Eigen::Index block) {
   out.whole(up.tree);
   out.whole(up.sweep);
@@ -186,6 +174,20 @@ Solution read_down(WireReader& in) {
   return down;
 }
 
+void write_stage(WireWriter& out, const StageNews& news) {
+  out.whole(news.stage);
+  out.whole(news.quiet);
+  out.byte(static_cast<std::uint8_t>((news.moved ? 1 : 0) + (news.finished ? 2 : 0)));
+}
+StageNews read_stage(WireReader& in) {
+  StageNews news{in.whole32(), in.whole32(), false, false};
+  const std::uint8_t flags = in.byte();
+  if (flags > 3) in.refuse();
+  news.moved = (flags & 1U) != 0;
+  news.finished = (flags & 2U) != 0;
+  return news;
+}
+
 template <class Pose>
 void read_section(WireReader& in, SectionKind kind, Message<Pose>& message) {
   const auto seen = [&]() -> SeenPoses<Pose>& {
@@ -203,13 +205,14 @@ void read_section(WireReader& in, SectionKind kind, Message<Pose>& message) {
       return read_items(in, message.matrices, kReal * Pose::kDim * Pose::kDim);
     case SectionKind::kSteps:
       return read_items(in, message.steps, kReal * Pose::kDof);
-    case SectionKind::kWeights:
-      return read_weights(in, message.weights);
     case SectionKind::kUp:
       message.up = read_up(in, Pose::kDof);
       return;
     case SectionKind::kDown:
       message.down = read_down(in);
+      return;
+    case SectionKind::kStage:
+      message.stage = read_stage(in);
       return;
   }
 }
@@ -218,7 +221,7 @@ void read_section(WireReader& in, SectionKind kind, Message<Pose>& message) {
 
 std::string_view to_string(SectionKind kind) {
   constexpr std::array<std::string_view, kSectionKinds> kNames{
-      "topology", "frames", "poses", "rotations", "steps", "weights", "eliminations", "solutions"};
+      "topology", "frames", "poses", "rotations", "steps", "eliminations", "solutions", "stages"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
@@ -252,11 +255,11 @@ std::string encode(const Message<Pose>& message, MessageBytes* bytes) {
   section(SectionKind::kMatrices, !message.matrices.empty(),
           [&](WireWriter& o) { write_items(o, message.matrices); });
   section(SectionKind::kSteps, !message.steps.empty(), [&](WireWriter& o) { write_items(o, message.steps); });
-  section(SectionKind::kWeights, !message.weights.empty(),
-          [&](WireWriter& o) { write_weights(o, message.weights); });
   section(SectionKind::kUp, message.up.has_value(),
           [&](WireWriter& o) { write_up(o, *message.up, Pose::kDof); });
   section(SectionKind::kDown, message.down.has_value(), [&](WireWriter& o) { write_down(o, *message.down); });
+  section(SectionKind::kStage, message.stage.has_value(),
+          [&](WireWriter& o) { write_stage(o, *message.stage); });
   if (bytes != nullptr) *bytes = counted;
   return out.take();
 }

@@ -24,7 +24,7 @@ inline constexpr std::uint8_t kWireVersion = 1;
 inline constexpr std::size_t kMaxMessageBytes = std::size_t{1} << 26U;
 
 /// What a section is about; traffic is counted by it.
-enum class SectionKind : std::uint8_t { kTopology, kFrames, kPoses, kMatrices, kSteps, kWeights, kUp, kDown };
+enum class SectionKind : std::uint8_t { kTopology, kFrames, kPoses, kMatrices, kSteps, kUp, kDown, kStage };
 inline constexpr std::size_t kSectionKinds = 8;
 std::string_view to_string(SectionKind kind);
 
@@ -94,6 +94,15 @@ struct Solution {
   Eigen::VectorXd steps;
 };
 
+/// How far the sender is with a computation in stages; see stage_agreement.hpp.
+struct StageNews {
+  std::uint32_t stage = 0;
+  std::uint32_t quiet = 0;  ///< rounds since a robot is known to have been restless
+  bool moved = false;       ///< some robot is known to have been restless since the stage began
+  bool finished = false;    ///< after the last stage
+  bool operator==(const StageNews&) const = default;
+};
+
 template <class Pose>
 struct Message {
   RobotNumber from = 0, to = 0;
@@ -102,9 +111,9 @@ struct Message {
   std::optional<SeenPoses<Pose>> seen;
   std::vector<Eigen::Matrix<double, Pose::kDim, Pose::kDim>> matrices;  ///< per pose seen: relaxed rotations
   std::vector<typename Pose::Tangent> steps;                            ///< per pose seen
-  std::vector<float> weights;                                           ///< per factor between the two
   std::optional<Elimination> up;
   std::optional<Solution> down;
+  std::optional<StageNews> stage;
 };
 
 /// Bytes of a message by what they are about; `header` besides.

@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "radioslam/base/check.hpp"
+#include "radioslam/graph/distributed/alternating.hpp"
 #include "radioslam/graph/distributed/block_coordinate.hpp"
 #include "radioslam/graph/distributed/separators.hpp"
+#include "radioslam/graph/distributed/two_stage.hpp"
 #include "radioslam/graph/graduated.hpp"
 #include "radioslam/graph/optimizer.hpp"
 #include "radioslam/graph/residuals.hpp"
@@ -25,14 +27,25 @@ std::unique_ptr<DistributedSolver<Pose>> make_solver(RobotGraph<Pose> robot,
       block.frames = params.frames;
       return std::make_unique<BlockCoordinateSolver<Pose>>(std::move(robot), block);
     }
-    default: {
-      SeparatorsParams separators;
-      separators.frames = params.frames;
-      separators.outliers = params.outliers;
-      if (params.method == DistributedMethod::kAsynchronous) separators.repeat_after = kRepeatAfter;
-      return std::make_unique<SeparatorsSolver<Pose>>(std::move(robot), separators);
+    case DistributedMethod::kTwoStage: {
+      TwoStageParams stages;
+      stages.frames = params.frames;
+      return std::make_unique<TwoStageSolver<Pose>>(std::move(robot), stages);
     }
+    case DistributedMethod::kAlternating: {
+      AlternatingParams alternating;
+      alternating.frames = params.frames;
+      return std::make_unique<AlternatingSolver<Pose>>(std::move(robot), alternating);
+    }
+    case DistributedMethod::kAsynchronous:
+    case DistributedMethod::kSeparators:
+      break;
   }
+  SeparatorsParams separators;
+  separators.frames = params.frames;
+  separators.outliers = params.outliers;
+  if (params.method == DistributedMethod::kAsynchronous) separators.repeat_after = kRepeatAfter;
+  return std::make_unique<SeparatorsSolver<Pose>>(std::move(robot), separators);
 }
 
 /// Each robot on its own: what it knows without hearing anything.

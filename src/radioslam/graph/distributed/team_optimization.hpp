@@ -42,7 +42,7 @@ struct TeamOptimizationParams {
 };
 
 struct RoundTrace {
-  double cost = 0;  ///< of the factors whose poses are in one frame, after the round
+  double cost = 0;         ///< of the factors whose poses are in one frame, after the round
   bool one_frame = false;  ///< every factor's poses are
   Traffic traffic;
 };
