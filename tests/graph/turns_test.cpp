@@ -2,12 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 namespace radioslam {
 namespace {
 
-std::map<RobotNumber, RobotLinks> team(const std::vector<RobotLinks>& links) {
+std::map<RobotNumber, RobotLinks> team(
+    const std::vector<std::pair<RobotNumber, std::vector<RobotNumber>>>& links) {
   std::map<RobotNumber, RobotLinks> known;
-  for (const RobotLinks& l : links) known[l.robot] = l;
+  for (const auto& [robot, neighbours] : links) known[robot] = {robot, 0, neighbours};
   return known;
 }
 
