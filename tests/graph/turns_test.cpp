@@ -14,24 +14,24 @@ std::map<RobotNumber, RobotLinks> team(
   return known;
 }
 
-TEST(Turns, NeighboursNeverMoveInTheSameRound) {
+TEST(TurnOrder, NeighboursNeverMoveInTheSameRound) {
   const auto line_with_triangle = team({{2, {5}}, {5, {2, 7, 9}}, {7, {5, 9}}, {9, {5, 7, 11}}, {11, {9}}});
-  const Turns turns(line_with_triangle);
+  const TurnOrder turns(line_with_triangle);
   EXPECT_EQ(turns.colours(), 3u);
   EXPECT_EQ(turns.diameter(), 3u);
   for (const auto& [robot, links] : line_with_triangle)
     for (const RobotNumber n : links.neighbours) EXPECT_NE(turns.colour(robot), turns.colour(n));
 }
 
-TEST(Turns, EverybodyMovesOnceInAsManyRoundsAsThereAreColours) {
+TEST(TurnOrder, EverybodyMovesOnceInAsManyRoundsAsThereAreColours) {
   const auto star = team({{0, {1, 2, 3}}, {1, {0}}, {2, {0}}, {3, {0}}});
-  const Turns turns(star);
+  const TurnOrder turns(star);
   EXPECT_EQ(turns.colours(), 2u);
   for (const auto& [robot, links] : star) EXPECT_NE(turns.moves(robot, 4), turns.moves(robot, 5));
 }
 
-TEST(Turns, ARobotAloneAlwaysMoves) {
-  const Turns turns(team({{3, {}}}));
+TEST(TurnOrder, ARobotAloneAlwaysMoves) {
+  const TurnOrder turns(team({{3, {}}}));
   EXPECT_EQ(turns.diameter(), 0u);
   EXPECT_TRUE(turns.moves(3, 0));
   EXPECT_TRUE(turns.moves(3, 1));

@@ -124,7 +124,7 @@ bool AlternatingSolver<Pose>::small(double decrease) const {
 template <class Pose>
 std::vector<Message<Pose>> AlternatingSolver<Pose>::messages() {
   std::vector<Message<Pose>> messages;
-  for (const Neighbour& neighbour : robot_.neighbours) {
+  for (const NeighbourRobot& neighbour : robot_.neighbours) {
     auto& message = messages.emplace_back();
     message.from = robot_.robot;
     message.to = neighbour.robot;

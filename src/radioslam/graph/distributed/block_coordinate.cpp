@@ -108,7 +108,7 @@ void BlockCoordinateSolver<Pose>::step() {
 template <class Pose>
 std::vector<Message<Pose>> BlockCoordinateSolver<Pose>::messages() {
   std::vector<Message<Pose>> messages;
-  for (const Neighbour& neighbour : robot_.neighbours) {
+  for (const NeighbourRobot& neighbour : robot_.neighbours) {
     auto& message = messages.emplace_back();
     message.from = robot_.robot;
     message.to = neighbour.robot;

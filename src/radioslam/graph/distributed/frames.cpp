@@ -109,7 +109,7 @@ template <class Pose>
 bool FrameAgreement<Pose>::hear(RobotGraph<Pose>& robot, RobotNumber from, const SeenPoses<Pose>& seen) {
   const std::size_t n = neighbour_index(robot, from);
   if (n == robot.neighbours.size()) return false;
-  const Neighbour& neighbour = robot.neighbours[n];
+  const NeighbourRobot& neighbour = robot.neighbours[n];
   const bool one_part = seen.part_of.empty() && seen.frames.size() == 1;
   if (seen.poses.size() != neighbour.copies.size()) return false;
   if (!one_part && seen.part_of.size() != seen.poses.size()) return false;
@@ -163,7 +163,7 @@ bool FrameAgreement<Pose>::adopt_part(RobotGraph<Pose>& robot, std::uint32_t par
 }
 
 template <class Pose>
-SeenPoses<Pose> FrameAgreement<Pose>::seen_by(const RobotGraph<Pose>& robot, const Neighbour& neighbour,
+SeenPoses<Pose> FrameAgreement<Pose>::seen_by(const RobotGraph<Pose>& robot, const NeighbourRobot& neighbour,
                                               const std::vector<Pose>& poses) const {
   SeenPoses<Pose> seen;
   seen.frames = frames_;

@@ -50,7 +50,7 @@ class FrameAgreement {
   /// Moves parts to frames of lower origins; whether any moved.
   bool adopt(RobotGraph<Pose>& robot);
   /// What a neighbour is told, with the values in `poses` (own ones).
-  SeenPoses<Pose> seen_by(const RobotGraph<Pose>& robot, const Neighbour& neighbour,
+  SeenPoses<Pose> seen_by(const RobotGraph<Pose>& robot, const NeighbourRobot& neighbour,
                           const std::vector<Pose>& poses) const;
 
  private:

@@ -69,14 +69,14 @@ class TeamSplit {
       for (const auto& [key, by] : seen[r.robot]) {
         if (r.neighbours.empty() || r.neighbours.back().robot != key.robot)
           r.neighbours.push_back({key.robot, {}, {}, {}});
-        Neighbour& neighbour = r.neighbours.back();
+        NeighbourRobot& neighbour = r.neighbours.back();
         neighbour.copies.push_back(static_cast<std::uint32_t>(r.graph.poses.size()));
         neighbour.seen.insert(neighbour.seen.end(), by.begin(), by.end());
         r.copies.push_back(key);
         r.graph.poses.emplace_back();
       }
     for (auto& r : robots_)
-      for (Neighbour& neighbour : r.neighbours) {
+      for (NeighbourRobot& neighbour : r.neighbours) {
         std::sort(neighbour.seen.begin(), neighbour.seen.end());
         neighbour.seen.erase(std::unique(neighbour.seen.begin(), neighbour.seen.end()), neighbour.seen.end());
       }
@@ -118,7 +118,7 @@ template <class Pose>
 std::size_t neighbour_index(const RobotGraph<Pose>& robot, RobotNumber number) {
   const auto at =
       std::lower_bound(robot.neighbours.begin(), robot.neighbours.end(), number,
-                       [](const Neighbour& neighbour, RobotNumber n) { return neighbour.robot < n; });
+                       [](const NeighbourRobot& neighbour, RobotNumber n) { return neighbour.robot < n; });
   const bool found = at != robot.neighbours.end() && at->robot == number;
   return found ? static_cast<std::size_t>(at - robot.neighbours.begin()) : robot.neighbours.size();
 }

@@ -21,7 +21,7 @@ struct PoseKey {
 
 /// A robot that this one shares factors with. Both robots know these factors, and so list the poses alike:
 /// the poses one sends are those the other expects, in ascending order.
-struct Neighbour {
+struct NeighbourRobot {
   RobotNumber robot = 0;
   std::vector<std::uint32_t> seen;     ///< own poses in factors with it, ascending
   std::vector<std::uint32_t> copies;   ///< places in graph.poses of its poses, by ascending number there
@@ -36,9 +36,9 @@ struct RobotGraph {
   /// within the robot come first, then those between it and others.
   PoseGraph<Pose> graph;
   std::size_t own_relative_poses = 0;
-  std::vector<PoseKey> copies;         ///< of graph.poses beyond own_poses
-  std::vector<Neighbour> neighbours;   ///< by ascending number
-  std::vector<std::uint32_t> part_of;  ///< per own pose: its connected component within the robot, from 0
+  std::vector<PoseKey> copies;             ///< of graph.poses beyond own_poses
+  std::vector<NeighbourRobot> neighbours;  ///< by ascending number
+  std::vector<std::uint32_t> part_of;      ///< per own pose: its connected component within the robot, from 0
   std::size_t parts = 0;
 
   std::size_t copy_of(std::size_t pose) const { return pose - own_poses; }

@@ -11,7 +11,7 @@ namespace radioslam {
 template <class Pose>
 SeparatorsSolver<Pose>::SeparatorsSolver(RobotGraph<Pose> robot, const SeparatorsParams& params)
     : params_(params), robot_(std::move(robot)), frames_(robot_, params.frames), gossip_(robot_) {
-  for (const Neighbour& neighbour : robot_.neighbours) tell_poses_[neighbour.robot] = true;
+  for (const NeighbourRobot& neighbour : robot_.neighbours) tell_poses_[neighbour.robot] = true;
   if (robot_.neighbours.empty()) finished_ = true;
   may_be_outlier_ = outlier_candidates(robot_);
   weights_.assign(robot_.graph.relative_poses.size(), 1);
@@ -101,7 +101,7 @@ template <class Pose>
 void SeparatorsSolver<Pose>::keep_in_touch() {
   const bool again = round_ % params_.repeat_after == params_.repeat_after - 1;
   if (again && sweep_.number == 0) gossip_.tell_again();
-  for (const Neighbour& neighbour : robot_.neighbours) {
+  for (const NeighbourRobot& neighbour : robot_.neighbours) {
     if (again && sweep_.number == 0) tell_poses_[neighbour.robot] = true;
     if (round_ - last_heard_[neighbour.robot] > params_.lost_after) gossip_.drop(neighbour.robot);
     if (round_ - last_sent_[neighbour.robot] >= params_.repeat_after) message_to(neighbour.robot);
@@ -119,7 +119,7 @@ bool SeparatorsSolver<Pose>::in_one_frame(const std::map<RobotNumber, RobotLinks
   };
   for (std::size_t p = 0; p < robot_.own_poses; ++p)
     if (!is_final(p)) return false;
-  for (const Neighbour& neighbour : robot_.neighbours)
+  for (const NeighbourRobot& neighbour : robot_.neighbours)
     if (team.at(robot_.robot).links_to(neighbour.robot))
       for (const std::uint32_t copy : neighbour.copies)
         if (!is_final(copy)) return false;
@@ -129,7 +129,7 @@ bool SeparatorsSolver<Pose>::in_one_frame(const std::map<RobotNumber, RobotLinks
 /// Between two robots, the factors are held by the one that has fewer poses to be told about; else by the
 /// lower one in the tree.
 template <class Pose>
-bool SeparatorsSolver<Pose>::holds(const Neighbour& neighbour) const {
+bool SeparatorsSolver<Pose>::holds(const NeighbourRobot& neighbour) const {
   const std::size_t ours = neighbour.seen.size(), theirs = neighbour.copies.size();
   if (ours != theirs) return theirs < ours;
   const auto depth = tree_->depth(robot_.robot), other = tree_->depth(neighbour.robot);
@@ -143,7 +143,7 @@ void SeparatorsSolver<Pose>::prepare_tree() {
   held_list_.resize(robot_.own_relative_poses);
   std::iota(held_list_.begin(), held_list_.end(), std::size_t{0});
   std::vector<bool> copy_held(robot_.copies.size(), false);
-  for (const Neighbour& neighbour : robot_.neighbours)
+  for (const NeighbourRobot& neighbour : robot_.neighbours)
     if (is_linked(neighbour.robot) && holds(neighbour)) {
       held_list_.insert(held_list_.end(), neighbour.between.begin(), neighbour.between.end());
       for (const std::uint32_t copy : neighbour.copies) copy_held[robot_.copy_of(copy)] = true;
@@ -162,7 +162,7 @@ void SeparatorsSolver<Pose>::prepare_tree() {
 template <class Pose>
 std::vector<KeptPose> SeparatorsSolver<Pose>::kept_poses(const std::vector<bool>& copy_held) const {
   std::map<std::uint32_t, RobotNumber> solved_by;
-  for (const Neighbour& neighbour : robot_.neighbours)
+  for (const NeighbourRobot& neighbour : robot_.neighbours)
     if (is_linked(neighbour.robot) && !holds(neighbour))
       for (const std::uint32_t pose : neighbour.seen) {
         const auto known = solved_by.try_emplace(pose, robot_.robot).first;
@@ -322,7 +322,7 @@ Message<Pose>& SeparatorsSolver<Pose>::message_to(RobotNumber robot) {
 
 template <class Pose>
 std::vector<Message<Pose>> SeparatorsSolver<Pose>::messages() {
-  for (const Neighbour& neighbour : robot_.neighbours) {
+  for (const NeighbourRobot& neighbour : robot_.neighbours) {
     if (auto news = gossip_.news_for(neighbour.robot); !news.empty())
       message_to(neighbour.robot).topology = std::move(news);
     if (tell_poses_[neighbour.robot])

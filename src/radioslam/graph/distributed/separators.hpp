@@ -67,7 +67,7 @@ class SeparatorsSolver : public DistributedSolver<Pose> {
   bool in_one_frame(const std::map<RobotNumber, RobotLinks>& team) const;
   bool is_linked(RobotNumber neighbour) const { return team_.at(robot_.robot).links_to(neighbour); }
   void prepare_tree();
-  bool holds(const Neighbour& neighbour) const;
+  bool holds(const NeighbourRobot& neighbour) const;
   std::vector<KeptPose> kept_poses(const std::vector<bool>& copy_held) const;
 
   void advance();

@@ -15,7 +15,7 @@ class TopologyGossip {
   explicit TopologyGossip(const RobotGraph<Pose>& robot) : self_(robot.robot) {
     RobotLinks& own = known_[self_];
     own.robot = self_;
-    for (const Neighbour& neighbour : robot.neighbours) own.neighbours.push_back(neighbour.robot);
+    for (const NeighbourRobot& neighbour : robot.neighbours) own.neighbours.push_back(neighbour.robot);
   }
 
   void hear(RobotNumber from, const std::vector<RobotLinks>& links);

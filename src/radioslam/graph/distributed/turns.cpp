@@ -18,7 +18,7 @@ std::uint32_t eccentricity(const std::map<RobotNumber, RobotLinks>& team, RobotN
 
 }  // namespace
 
-Turns::Turns(const std::map<RobotNumber, RobotLinks>& team) {
+TurnOrder::TurnOrder(const std::map<RobotNumber, RobotLinks>& team) {
   for (const auto& [robot, links] : team) {
     std::set<std::uint32_t> taken;
     for (const RobotNumber n : links.neighbours)

@@ -9,10 +9,10 @@
 
 namespace radioslam {
 
-class Turns {
+class TurnOrder {
  public:
   /// `team`: of every robot that is mentioned, its links.
-  explicit Turns(const std::map<RobotNumber, RobotLinks>& team);
+  explicit TurnOrder(const std::map<RobotNumber, RobotLinks>& team);
 
   bool moves(RobotNumber robot, std::uint32_t round) const {
     return round % colours_ == colour_of_.at(robot);

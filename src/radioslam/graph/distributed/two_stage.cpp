@@ -10,7 +10,7 @@ namespace {
 template <class Pose>
 std::vector<RobotNumber> neighbour_numbers(const RobotGraph<Pose>& robot) {
   std::vector<RobotNumber> numbers;
-  for (const Neighbour& neighbour : robot.neighbours) numbers.push_back(neighbour.robot);
+  for (const NeighbourRobot& neighbour : robot.neighbours) numbers.push_back(neighbour.robot);
   return numbers;
 }
 
@@ -211,7 +211,7 @@ bool TwoStageSolver<Pose>::small(double decrease, double cost, double share) con
 // ---- messages ----
 
 template <class Pose>
-void TwoStageSolver<Pose>::tell_values(const Neighbour& neighbour, Message<Pose>& message) const {
+void TwoStageSolver<Pose>::tell_values(const NeighbourRobot& neighbour, Message<Pose>& message) const {
   if (stage() == kRotations) {
     for (const std::uint32_t pose : neighbour.seen) message.matrices.push_back(rotations_[pose]);
   } else if (stage() == kPoses && prepared_) {
@@ -225,7 +225,7 @@ void TwoStageSolver<Pose>::tell_values(const Neighbour& neighbour, Message<Pose>
 template <class Pose>
 std::vector<Message<Pose>> TwoStageSolver<Pose>::messages() {
   std::vector<Message<Pose>> messages;
-  for (const Neighbour& neighbour : robot_.neighbours) {
+  for (const NeighbourRobot& neighbour : robot_.neighbours) {
     const bool unaware = std::find(unaware_.begin(), unaware_.end(), neighbour.robot) != unaware_.end();
     if (stages_.finished() && !unaware && !tell_) continue;
     auto& message = messages.emplace_back();

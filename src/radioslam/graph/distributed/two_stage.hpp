@@ -75,7 +75,7 @@ class TwoStageSolver : public DistributedSolver<Pose> {
   bool small(double decrease, double cost, double share) const;
   std::uint32_t patience() const { return turns_->diameter() + turns_->colours() + 1; }
 
-  void tell_values(const Neighbour& neighbour, Message<Pose>& message) const;
+  void tell_values(const NeighbourRobot& neighbour, Message<Pose>& message) const;
   std::vector<Message<Pose>> messages();
 
   TwoStageParams params_;
@@ -83,7 +83,7 @@ class TwoStageSolver : public DistributedSolver<Pose> {
   FrameAgreement<Pose> frames_;
   TopologyGossip gossip_;
   StageAgreement stages_;
-  std::optional<Turns> turns_;  ///< once the team is known
+  std::optional<TurnOrder> turns_;  ///< once the team is known
 
   PoseGraph<Pose> active_;  ///< the factors that count; copies and what chooses the frame are fixed
   std::optional<PoseNetworkSolver<Pose>> network_;
