@@ -202,7 +202,8 @@ class OutcomeOf {
 
 template <class Pose>
 DistributedOutcome run_team(TeamGraphFile<Pose>& file, const OptimizeParams& params, double read_s) {
-  const NumberedTeam<Pose> team = number_robots(file.team);
+  NumberedTeam<Pose> team = number_robots(file.team);
+  if (params.distributed.outliers.gate > 0) discount_repeated(team.graph);
   const auto start = std::chrono::steady_clock::now();
   ProgressLine line;
   const TeamOptimization<Pose> run =

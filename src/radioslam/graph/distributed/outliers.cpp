@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace radioslam {
 
@@ -10,6 +12,18 @@ TruncatedWeight truncated_weight(double squared_norm, double gate, double mu) {
   if (squared_norm >= gate * (mu + 1) / mu) return {0, gate};
   const double weight = std::sqrt(gate * mu * (mu + 1) / squared_norm) - mu;
   return {weight, mu * (1 - weight) / (mu + weight) * gate};
+}
+
+template <class Pose>
+void discount_repeated(PoseGraph<Pose>& graph) {
+  using Ends = std::pair<std::int32_t, std::int32_t>;
+  const auto ends = [](const RelativePoseFactor<Pose>& f) -> Ends {
+    return std::minmax(f.i.value, f.j.value);
+  };
+  std::map<Ends, int> count;
+  for (const auto& f : graph.relative_poses) ++count[ends(f)];
+  for (auto& f : graph.relative_poses)
+    if (const auto [first, last] = ends(f); last != first + 1) f.weight /= count.at({first, last});
 }
 
 template <class Pose>
@@ -27,6 +41,8 @@ std::vector<bool> outlier_candidates(const RobotGraph<Pose>& robot) {
   return candidates;
 }
 
+template void discount_repeated(PoseGraph<SE2>&);
+template void discount_repeated(PoseGraph<SE3>&);
 template std::vector<bool> outlier_candidates(const RobotGraph<SE2>&);
 template std::vector<bool> outlier_candidates(const RobotGraph<SE3>&);
 

@@ -12,7 +12,7 @@ namespace radioslam {
 
 struct OutlierParams {
   double gate = 0;        ///< c^2: squared norm up to which a factor may be right; 0: all are
-  double first_cut = 10;  ///< norm beyond which factors are left out at first, in units of c
+  double first_cut = 100;  ///< norm beyond which factors are left out at first, in units of c
   double mu_factor = 2;
   double last_mu = 100;
 
@@ -35,6 +35,11 @@ struct TruncatedWeight {
   double penalty = 0;  ///< what the surrogate adds to weight * squared norm
 };
 TruncatedWeight truncated_weight(double squared_norm, double gate, double mu);
+
+/// Several relative poses between the same two poses are hardly independent: together they weigh as one.
+/// Each robot knows all of those it has part in.
+template <class Pose>
+void discount_repeated(PoseGraph<Pose>& graph);
 
 /// Per relative pose: whether it is a loop closure. The first between a pose and the next one is odometry.
 template <class Pose>

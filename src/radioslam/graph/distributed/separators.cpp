@@ -203,13 +203,12 @@ void SeparatorsSolver<Pose>::linearise() {
   if (sweep_.mu > 0) {
     for (const std::size_t k : held_list_) {
       const auto& factor = robot_.graph.relative_poses[k];
-      const TruncatedWeight w = may_be_outlier_[k]
-                                    ? truncated_weight(factor.weight * squared_norm(robot_.graph, factor),
-                                                       params_.outliers.gate, sweep_.mu)
-                                    : TruncatedWeight{};
+      const TruncatedWeight w = may_be_outlier_[k] ? truncated_weight(squared_norm(robot_.graph, factor),
+                                                                      params_.outliers.gate, sweep_.mu)
+                                                   : TruncatedWeight{};
       weights.push_back(w.weight);
       weights_[k] = w.weight;
-      penalty += w.penalty;
+      penalty += factor.weight * w.penalty;
     }
   }
   sweep_.cost = held_->linearise(robot_.graph.poses, weights) + penalty;
