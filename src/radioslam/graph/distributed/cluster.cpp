@@ -2,7 +2,22 @@
 
 #include <algorithm>
 
+#include "radioslam/graph/block_structure.hpp"
+
 namespace radioslam {
+namespace {
+
+/// Calls body(row, column) for the blocks on or below the diagonal that are not zero.
+template <class Body>
+void for_each_block(const Eigen::MatrixXd& matrix, Eigen::Index dof, const Body& body) {
+  const Eigen::Index n = matrix.rows() / dof;
+  for (Eigen::Index j = 0; j < n; ++j)
+    for (Eigen::Index i = j; i < n; ++i)
+      if (!matrix.block(i * dof, j * dof, dof, dof).isZero(0))
+        body(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
+}
+
+}  // namespace
 
 Cluster::Cluster(RobotNumber self, const std::vector<SharedPose>& own,
                  const std::map<RobotNumber, Elimination>& children, Eigen::Index dof)
@@ -10,14 +25,11 @@ Cluster::Cluster(RobotNumber self, const std::vector<SharedPose>& own,
   for (const SharedPose& pose : own) own_.push_back(place_of(pose));
   for (const auto& [child, up] : children)
     for (const SharedPose& pose : up.shared) child_[child].push_back(place_of(pose));
-  std::vector<std::size_t> solved;
   for (std::size_t v = 0; v < variables_.size(); ++v)
-    (variables_[v].solved_by == self ? solved : passed_variables_).push_back(v);
+    if (variables_[v].solved_by != self) passed_.push_back(v);
   // Along trajectories, so that the factor of what they leave has few blocks.
-  std::sort(passed_variables_.begin(), passed_variables_.end(),
+  std::sort(passed_.begin(), passed_.end(),
             [&](std::size_t a, std::size_t b) { return variables_[a].key < variables_[b].key; });
-  solved_ = scalars(solved);
-  passed_ = scalars(passed_variables_);
 }
 
 std::size_t Cluster::place_of(const SharedPose& pose) {
@@ -38,21 +50,48 @@ std::vector<Eigen::Index> Cluster::scalars(const std::vector<std::size_t>& varia
   return scalars;
 }
 
+void Cluster::add_places(const std::vector<std::size_t>& variables, const Eigen::MatrixXd& information,
+                         BlockPattern& pattern) const {
+  for_each_block(information, dof_, [&](std::size_t i, std::size_t j) {
+    const auto [low, high] = std::minmax(variables[i], variables[j]);
+    if (low != high)
+      pattern.lower.push_back({static_cast<std::int32_t>(high), static_cast<std::int32_t>(low)});
+  });
+}
+
+void Cluster::add(const std::vector<std::size_t>& variables, const Eigen::MatrixXd& information,
+                  SymmetricBlockMatrix& sum) const {
+  for_each_block(information, dof_, [&](std::size_t i, std::size_t j) {
+    const auto block = information.block(static_cast<Eigen::Index>(i) * dof_,
+                                         static_cast<Eigen::Index>(j) * dof_, dof_, dof_);
+    const std::size_t row = variables[i], column = variables[j];
+    if (row == column) {
+      sum.diagonal(row) += block;
+      return;
+    }
+    const bool below = row > column;
+    const auto high = static_cast<std::int32_t>(below ? row : column);
+    const auto low = static_cast<std::int32_t>(below ? column : row);
+    auto target = sum.lower(sum.find_lower(high, low));
+    if (below)
+      target += block;
+    else
+      target += block.transpose();
+  });
+}
+
 bool Cluster::factorize(const Eigen::MatrixXd& own, const std::map<RobotNumber, Elimination>& children) {
-  const auto size = static_cast<Eigen::Index>(variables_.size()) * dof_;
-  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(size, size);
-  const auto own_scalars = scalars(own_);
-  sum(own_scalars, own_scalars) += own;
-  for (const auto& [child, up] : children) {
-    const auto its = scalars(child_.at(child));
-    sum(its, its) += *up.information;
-  }
-  factor_.compute(sum(solved_, solved_));
-  if (factor_.info() != Eigen::Success) return false;
-  solved_passed_ = sum(solved_, passed_);
-  passed_information_ = sum(passed_, passed_);
-  passed_information_.noalias() -= solved_passed_.transpose() * factor_.solve(solved_passed_);
-  return true;
+  BlockPattern pattern;
+  pattern.sizes.assign(variables_.size(), static_cast<std::int32_t>(dof_));
+  add_places(own_, own, pattern);
+  for (const auto& [child, up] : children) add_places(child_.at(child), *up.information, pattern);
+  sort_lower(pattern);
+  SymmetricBlockMatrix sum(pattern);
+  sum.set_zero();
+  add(own_, own, sum);
+  for (const auto& [child, up] : children) add(child_.at(child), *up.information, sum);
+  elimination_.emplace(sum.pattern(), passed_);
+  return elimination_->factorize(sum) == Factorization::kDone;
 }
 
 void Cluster::set_gradient(const Eigen::VectorXd& own, const std::map<RobotNumber, Elimination>& children) {
@@ -63,24 +102,14 @@ void Cluster::set_gradient(const Eigen::VectorXd& own, const std::map<RobotNumbe
 
 std::vector<SharedPose> Cluster::passed_poses() const {
   std::vector<SharedPose> poses;
-  for (const std::size_t v : passed_variables_) poses.push_back(variables_[v]);
+  for (const std::size_t v : passed_) poses.push_back(variables_[v]);
   return poses;
 }
 
-Eigen::VectorXd Cluster::passed_gradient() const {
-  return gradient_(passed_) - solved_passed_.transpose() * factor_.solve(Eigen::VectorXd(gradient_(solved_)));
-}
-
-double Cluster::predicted_decrease() const {
-  const Eigen::VectorXd g = gradient_(solved_);
-  return g.dot(factor_.solve(g));
-}
-
+Eigen::VectorXd Cluster::passed_gradient() const { return elimination_->reduce(gradient_); }
+double Cluster::predicted_decrease() const { return elimination_->eliminated_norm(gradient_); }
 Eigen::VectorXd Cluster::steps(const Eigen::VectorXd& passed) const {
-  Eigen::VectorXd steps(gradient_.size());
-  steps(passed_) = passed;
-  steps(solved_) = -factor_.solve(Eigen::VectorXd(gradient_(solved_) + solved_passed_ * passed));
-  return steps;
+  return elimination_->expand(-gradient_, passed);
 }
 
 Eigen::VectorXd Cluster::own_steps(const Eigen::VectorXd& steps) const { return steps(scalars(own_)); }

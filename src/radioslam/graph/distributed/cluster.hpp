@@ -2,11 +2,12 @@
 // others, its own and its children's, of which it eliminates those that nobody above needs.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "radioslam/graph/distributed/message.hpp"
+#include "radioslam/graph/linear/partial_elimination.hpp"
 
 namespace radioslam {
 
@@ -27,7 +28,7 @@ class Cluster {
   /// The poses passed on.
   std::vector<SharedPose> passed_poses() const;
   /// What elimination leaves on their steps.
-  Eigen::MatrixXd passed_information() const { return passed_information_; }
+  const Eigen::MatrixXd& passed_information() const { return elimination_->reduced(); }
   Eigen::VectorXd passed_gradient() const;
   /// Decrease of the quadratic by the poses solved here, those passed at rest.
   double predicted_decrease() const;
@@ -39,16 +40,18 @@ class Cluster {
 
  private:
   std::size_t place_of(const SharedPose& pose);
+  void add_places(const std::vector<std::size_t>& variables, const Eigen::MatrixXd& information,
+                  BlockPattern& pattern) const;
+  void add(const std::vector<std::size_t>& variables, const Eigen::MatrixXd& information,
+           SymmetricBlockMatrix& sum) const;
   std::vector<Eigen::Index> scalars(const std::vector<std::size_t>& variables) const;
 
   Eigen::Index dof_;
   std::vector<SharedPose> variables_;
   std::vector<std::size_t> own_;
   std::map<RobotNumber, std::vector<std::size_t>> child_;
-  std::vector<Eigen::Index> solved_, passed_;  ///< scalars of the cluster
-  std::vector<std::size_t> passed_variables_;
-  Eigen::MatrixXd solved_passed_, passed_information_;
-  Eigen::LLT<Eigen::MatrixXd> factor_;
+  std::vector<std::size_t> passed_;  ///< variables
+  std::optional<PartialElimination> elimination_;
   Eigen::VectorXd gradient_;
 };
 

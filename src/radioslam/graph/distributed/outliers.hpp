@@ -11,7 +11,7 @@
 namespace radioslam {
 
 struct OutlierParams {
-  double gate = 0;        ///< c^2: squared norm up to which a factor may be right; 0: all are
+  double gate = 0;         ///< c^2: squared norm up to which a factor may be right; 0: all are
   double first_cut = 100;  ///< norm beyond which factors are left out at first, in units of c
   double mu_factor = 2;
   double last_mu = 100;

@@ -1,5 +1,6 @@
 #include "radioslam/graph/linear/partial_elimination.hpp"
 
+#include <Eigen/SparseCore>
 #include <algorithm>
 
 namespace radioslam {
@@ -84,7 +85,8 @@ Factorization PartialElimination::factorize(const SymmetricBlockMatrix& matrix) 
   for (Eigen::Index c = 0; c < between_.cols(); ++c)
     solved.col(c) =
         between_.col(c).isZero(0) ? Eigen::VectorXd(between_.col(c)) : cholesky_->solve(between_.col(c));
-  reduced_.noalias() -= between_.transpose() * solved;
+  const Eigen::SparseMatrix<double> sparse_between = between_.sparseView();
+  reduced_ -= sparse_between.transpose() * solved;
   reduced_ = (reduced_ + reduced_.transpose()).eval() / 2;
   return Factorization::kDone;
 }
