@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "radioslam/graph/residuals.hpp"
 
@@ -109,21 +108,18 @@ void SeparatorsSolver<Pose>::keep_in_touch() {
   if (again && tree_ && sweep_.waiting && last_up_) message_to(tree_->parent(robot_.robot)).up = *last_up_;
 }
 
-/// That of the team's lowest robot, which no neighbour will leave.
+/// That of the team's lowest robot, which no neighbour will leave. Parts that no robot of the team sees stay
+/// in their own.
 template <class Pose>
 bool SeparatorsSolver<Pose>::in_one_frame(const std::map<RobotNumber, RobotLinks>& team) const {
   if (tree_) return true;
-  const auto is_final = [&](std::size_t pose) {
-    const auto frame = frames_.frame_of(robot_, pose);
-    return frame && frame->origin == team.begin()->first && frame->part == 0;
+  const auto all_final = [&](const std::vector<std::uint32_t>& poses) {
+    return std::all_of(poses.begin(), poses.end(), [&](std::uint32_t p) { return in_team_frame(p); });
   };
-  for (std::size_t p = 0; p < robot_.own_poses; ++p)
-    if (!is_final(p)) return false;
-  for (const Neighbour& neighbour : robot_.neighbours)
-    if (team.at(robot_.robot).links_to(neighbour.robot))
-      for (const std::uint32_t copy : neighbour.copies)
-        if (!is_final(copy)) return false;
-  return true;
+  return std::all_of(robot_.neighbours.begin(), robot_.neighbours.end(), [&](const Neighbour& neighbour) {
+    const bool linked = team.at(robot_.robot).links_to(neighbour.robot);
+    return !linked || (all_final(neighbour.seen) && all_final(neighbour.copies));
+  });
 }
 
 /// Between two robots, the factors are held by the one that has fewer poses to be told about; else by the
@@ -140,8 +136,10 @@ template <class Pose>
 void SeparatorsSolver<Pose>::prepare_tree() {
   tree_.emplace(team_);
   children_ = tree_->children(robot_.robot);
-  held_list_.resize(robot_.own_relative_poses);
-  std::iota(held_list_.begin(), held_list_.end(), std::size_t{0});
+  // Without the factors of parts in frames of their own: nothing would hold these.
+  held_list_.clear();
+  for (std::size_t k = 0; k < robot_.own_relative_poses; ++k)
+    if (in_team_frame(robot_.graph.relative_poses[k].i.index())) held_list_.push_back(k);
   std::vector<bool> copy_held(robot_.copies.size(), false);
   for (const Neighbour& neighbour : robot_.neighbours)
     if (is_linked(neighbour.robot) && holds(neighbour)) {
