@@ -8,8 +8,10 @@ Cluster::Cluster(RobotNumber self, const std::vector<SharedPose>& own,
                  const std::map<RobotNumber, Elimination>& children, Eigen::Index dof)
     : dof_(dof) {
   for (const SharedPose& pose : own) own_.push_back(place_of(pose));
-  for (const auto& [child, up] : children)
-    for (const SharedPose& pose : up.shared) child_[child].push_back(place_of(pose));
+  for (const auto& [child, up] : children) {
+    auto& places = child_[child];
+    for (const SharedPose& pose : up.shared) places.push_back(place_of(pose));
+  }
   std::vector<std::size_t> solved;
   for (std::size_t v = 0; v < variables_.size(); ++v)
     (variables_[v].solved_by == self ? solved : passed_variables_).push_back(v);

@@ -222,8 +222,11 @@ bool SeparatorsSolver<Pose>::eliminate() {
     for (const auto& [child, up] : information_)
       if (!up.information) return false;
     cluster_.emplace(robot_.robot, held_->kept(), information_, Pose::kDof);
+    if (tree_->is_root(robot_.robot) && !cluster_->closed_at_root()) return false;
     if (!cluster_->factorize(held_->information(), information_)) return false;
   }
+  for (const auto& [child, up] : sweep_.children)
+    if (up.gradient.size() != information_.at(child).gradient.size()) return false;
   cluster_->set_gradient(held_->gradient(), sweep_.children);
   return true;
 }
