@@ -36,8 +36,8 @@ struct RobotGraph {
   /// within the robot come first, then those between it and others.
   PoseGraph<Pose> graph;
   std::size_t own_relative_poses = 0;
-  std::vector<PoseKey> copies;         ///< of graph.poses beyond own_poses
-  std::vector<Neighbour> neighbours;   ///< by ascending number
+  std::vector<PoseKey> copies;        ///< of graph.poses beyond own_poses
+  std::vector<Neighbour> neighbours;  ///< by ascending number
   /// Per own pose: its connected component within the robot, from 0; those that others see come first.
   std::vector<std::uint32_t> part_of;
   std::size_t parts = 0;
