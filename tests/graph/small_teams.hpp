@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <memory>
 #include <set>
 
@@ -20,11 +21,39 @@ struct SmallTeam {
   TeamPoses poses;
 };
 
+/// Pairs of robots that have loops between them, the lower one first.
+using Meetings = std::vector<std::pair<std::size_t, std::size_t>>;
+inline Meetings chain_of(std::size_t robots) {
+  Meetings meetings;
+  for (std::size_t r = 0; r + 1 < robots; ++r) meetings.emplace_back(r, r + 1);
+  return meetings;
+}
+inline Meetings ring_of(std::size_t robots) {
+  Meetings meetings = chain_of(robots);
+  meetings.emplace_back(0, robots - 1);
+  return meetings;
+}
+inline Meetings all_of(std::size_t robots) {
+  Meetings meetings;
+  for (std::size_t a = 0; a < robots; ++a)
+    for (std::size_t b = a + 1; b < robots; ++b) meetings.emplace_back(a, b);
+  return meetings;
+}
+inline Meetings grid_of(std::size_t side) {
+  Meetings meetings;
+  for (std::size_t r = 0; r < side * side; ++r) {
+    if (r % side + 1 < side) meetings.emplace_back(r, r + 1);
+    if (r / side + 1 < side) meetings.emplace_back(r, r + side);
+  }
+  return meetings;
+}
+
 /// `robots` robots walk `steps` steps of two metres along x, on lines three metres apart. Odometry between
-/// poses that follow each other, and loops between every robot and the next one at every third pose. Values
-/// are odometry's, every robot in a frame of its own.
+/// poses that follow each other, and loops at every `every`-th pose between robots that meet. Values are
+/// odometry's, every robot in a frame of its own.
 template <class Pose>
-SmallTeam<Pose> draw_team(std::uint64_t seed, std::size_t robots, std::size_t steps, double noise) {
+SmallTeam<Pose> draw_team(std::uint64_t seed, std::size_t robots, std::size_t steps, double noise,
+                          const Meetings& meetings, std::size_t every = 3) {
   Drawing<Pose> draw(seed);
   SmallTeam<Pose> team;
   PoseGraph<Pose>& graph = team.graph;
@@ -49,7 +78,9 @@ SmallTeam<Pose> draw_team(std::uint64_t seed, std::size_t robots, std::size_t st
   for (std::size_t r = 0; r < robots; ++r)
     for (std::size_t k = 0; k < steps; ++k) {
       if (k + 1 < steps) measure(r * steps + k, r * steps + k + 1);
-      if (k % 3 == 0 && r + 1 < robots) measure(r * steps + k, (r + 1) * steps + k);
+      if (k % every != 0) continue;
+      for (const auto& [a, b] : meetings)
+        if (a == r) measure(r * steps + k, b * steps + k);
     }
   for (std::size_t r = 0; r < robots; ++r) {
     graph.poses[r * steps] = draw.pose(5, 2);
@@ -61,6 +92,34 @@ SmallTeam<Pose> draw_team(std::uint64_t seed, std::size_t robots, std::size_t st
   }
   team.poses = team_poses(robot_of, robots);
   return team;
+}
+
+/// Every robot meets the next one.
+template <class Pose>
+SmallTeam<Pose> draw_team(std::uint64_t seed, std::size_t robots, std::size_t steps, double noise) {
+  return draw_team<Pose>(seed, robots, steps, noise, chain_of(robots));
+}
+
+/// Some robots of a team, as if there were no others. They keep their order.
+template <class Pose>
+SmallTeam<Pose> only(const SmallTeam<Pose>& team, const std::vector<RobotNumber>& robots) {
+  SmallTeam<Pose> part;
+  std::vector<RobotNumber> robot_of;
+  std::map<std::size_t, std::size_t> place;
+  for (std::size_t r = 0; r < robots.size(); ++r)
+    for (const std::size_t p : team.poses.poses[robots[r]]) {
+      place[p] = part.graph.poses.size();
+      part.graph.poses.push_back(team.graph.poses[p]);
+      robot_of.push_back(static_cast<RobotNumber>(r));
+    }
+  for (auto f : team.graph.relative_poses) {
+    if (!place.contains(f.i.index()) || !place.contains(f.j.index())) continue;
+    f.i = PoseId(place[f.i.index()]);
+    f.j = PoseId(place[f.j.index()]);
+    part.graph.relative_poses.push_back(f);
+  }
+  part.poses = team_poses(robot_of, robots.size());
+  return part;
 }
 
 /// Two teams that do not know of each other.

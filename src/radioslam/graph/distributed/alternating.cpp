@@ -1,6 +1,7 @@
 #include "radioslam/graph/distributed/alternating.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "radioslam/graph/distributed/active_graph.hpp"
 
@@ -63,10 +64,10 @@ void AlternatingSolver<Pose>::move_poses() {
   weigh_between(2);
   equations_->linearise(active_);
   weigh_between(1);
-  double damping = 0;
-  while (equations_->factorize(damping) == Factorization::kNotPositiveDefinite)
-    damping = std::max(1e-8, 10 * damping);
+  // A neighbour may have sent poses beyond all measure: then until others come.
+  if (!std::isfinite(cost_) || !factorize_damped(*equations_)) return;
   const Eigen::VectorXd step = equations_->cholesky().solve(-gradient);
+  if (!step.allFinite()) return;
   poses_rest_ = small(-gradient.dot(step));
   equations_->apply(step, active_);
   std::copy_n(active_.poses.begin(), robot_.own_poses, robot_.graph.poses.begin());

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace radioslam {
+#include "radioslam/graph/distributed/active_graph.hpp"
 
+namespace radioslam {
 template <class Pose>
 BlockCoordinateSolver<Pose>::BlockCoordinateSolver(RobotGraph<Pose> robot,
                                                    const BlockCoordinateParams& params)
@@ -59,11 +60,7 @@ void BlockCoordinateSolver<Pose>::hear(const Message<Pose>& message) {
 
 template <class Pose>
 void BlockCoordinateSolver<Pose>::prepare() {
-  active_ = robot_.graph;
-  active_.relative_poses.resize(robot_.own_relative_poses);
-  for (const std::uint32_t k : usable_) active_.relative_poses.push_back(robot_.graph.relative_poses[k]);
-  active_.pose_fixed.assign(active_.poses.size(), false);
-  for (std::size_t p = robot_.own_poses; p < active_.poses.size(); ++p) active_.pose_fixed[p] = true;
+  active_ = active_graph(robot_, usable_);
   equations_.emplace(active_);
 }
 
@@ -80,10 +77,11 @@ void BlockCoordinateSolver<Pose>::step() {
   const Eigen::VectorXd gradient = equations_->gradient();
   set_weights(2);
   equations_->linearise(active_);
-  double damping = 0;
-  while (equations_->factorize(damping) == Factorization::kNotPositiveDefinite)
-    damping = std::max(1e-8, 10 * damping);
+  settled_ = false;
+  // A neighbour may have sent poses beyond all measure: then until others come.
+  if (!std::isfinite(cost) || !factorize_damped(*equations_)) return;
   const Eigen::VectorXd step = equations_->cholesky().solve(-gradient);
+  if (!step.allFinite()) return;
   settled_ = -gradient.dot(step) <= params_.settled_decrease * cost;
   equations_->apply(step, active_);
   // Momentum that points uphill is dropped (O'Donoghue and Candes 2015).

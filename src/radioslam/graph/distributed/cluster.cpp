@@ -23,8 +23,10 @@ Cluster::Cluster(RobotNumber self, const std::vector<SharedPose>& own,
                  const std::map<RobotNumber, Elimination>& children, Eigen::Index dof)
     : dof_(dof) {
   for (const SharedPose& pose : own) own_.push_back(place_of(pose));
-  for (const auto& [child, up] : children)
-    for (const SharedPose& pose : up.shared) child_[child].push_back(place_of(pose));
+  for (const auto& [child, up] : children) {
+    auto& places = child_[child];
+    for (const SharedPose& pose : up.shared) places.push_back(place_of(pose));
+  }
   for (std::size_t v = 0; v < variables_.size(); ++v)
     if (variables_[v].solved_by != self) passed_.push_back(v);
   // Along trajectories, so that the factor of what they leave has few blocks.

@@ -106,6 +106,20 @@ std::vector<std::uint32_t> FrameAgreement<Pose>::usable_factors(const RobotGraph
 }
 
 template <class Pose>
+void FrameAgreement<Pose>::start_again(const RobotGraph<Pose>& robot,
+                                       const std::vector<std::uint32_t>& first) {
+  copy_frames_.assign(copy_frames_.size(), std::nullopt);
+  std::vector<bool> numbered(robot.parts, false);
+  std::uint32_t next = 0;
+  const auto number = [&](std::uint32_t part) {
+    if (!numbered[part]) frames_[part] = {robot.robot, next++, 0};
+    numbered[part] = true;
+  };
+  for (const std::uint32_t pose : first) number(robot.part_of[pose]);
+  for (const std::uint32_t part : robot.part_of) number(part);
+}
+
+template <class Pose>
 bool FrameAgreement<Pose>::hear(RobotGraph<Pose>& robot, RobotNumber from, const SeenPoses<Pose>& seen) {
   const std::size_t n = neighbour_index(robot, from);
   if (n == robot.neighbours.size()) return false;

@@ -45,6 +45,9 @@ class FrameAgreement {
   /// Where every usable factor between robots is in the relative poses.
   std::vector<std::uint32_t> usable_factors(const RobotGraph<Pose>& robot) const;
 
+  /// As if nothing had been heard: every part in its own frame, numbered from 0, those of `first` (own poses)
+  /// before others.
+  void start_again(const RobotGraph<Pose>& robot, const std::vector<std::uint32_t>& first);
   /// Takes over a neighbour's values; false where they do not fit, and nothing is changed.
   bool hear(RobotGraph<Pose>& robot, RobotNumber from, const SeenPoses<Pose>& seen);
   /// Moves parts to frames of lower origins; whether any moved.

@@ -88,19 +88,21 @@ std::vector<RobotLinks> read_topology(WireReader& in) {
   return topology;
 }
 
-void write_frames(WireWriter& out, const std::vector<Frame>& frames,
-                  const std::vector<std::uint32_t>& part_of) {
-  out.whole(frames.size());
-  for (const Frame& frame : frames) {
+template <class Pose>
+void write_frames(WireWriter& out, const SeenPoses<Pose>& seen) {
+  out.whole(seen.tree);
+  out.whole(seen.frames.size());
+  for (const Frame& frame : seen.frames) {
     out.whole(frame.origin);
     out.whole(frame.part);
     out.whole(frame.hops);
   }
-  out.whole(part_of.size());
-  for (const std::uint32_t part : part_of) out.whole(part);
+  out.whole(seen.part_of.size());
+  for (const std::uint32_t part : seen.part_of) out.whole(part);
 }
 template <class Pose>
 void read_frames(WireReader& in, SeenPoses<Pose>& seen) {
+  seen.tree = in.whole();
   seen.frames.resize(in.count(3));
   for (Frame& frame : seen.frames) frame = {in.whole32(), in.whole32(), in.whole32()};
   seen.part_of.resize(in.count(1));
@@ -249,7 +251,7 @@ std::string encode(const Message<Pose>& message, MessageBytes* bytes) {
   section(SectionKind::kTopology, !message.topology.empty(),
           [&](WireWriter& o) { write_topology(o, message.topology); });
   section(SectionKind::kFrames, message.seen.has_value(),
-          [&](WireWriter& o) { write_frames(o, message.seen->frames, message.seen->part_of); });
+          [&](WireWriter& o) { write_frames(o, *message.seen); });
   section(SectionKind::kPoses, message.seen.has_value(),
           [&](WireWriter& o) { write_items(o, message.seen->poses); });
   section(SectionKind::kMatrices, !message.matrices.empty(),

@@ -53,6 +53,8 @@ struct Frame {
 /// The poses that a neighbour sees, as they are at the sender.
 template <class Pose>
 struct SeenPoses {
+  /// TeamTree::id: in the team's frame, the poses are what its sweeps begin with. 0: teams do not change.
+  std::uint64_t tree = 0;
   std::vector<Frame> frames;           ///< per part of the sender
   std::vector<std::uint32_t> part_of;  ///< per pose seen; empty if the sender is one part
   std::vector<Pose> poses;             ///< per pose seen, in the frame of its part

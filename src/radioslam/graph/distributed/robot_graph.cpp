@@ -97,9 +97,16 @@ class TeamSplit {
         static_cast<std::uint32_t>(to.graph.relative_poses.size() - 1));
   }
 
+  /// Those that others see come first, so that the lowest robot's part 0 is one that a frame can spread from.
   static void number_parts(RobotGraph<Pose>& robot) {
     const auto components = connected_components(own_graph(robot));
+    std::vector<std::uint32_t> seen;
+    for (const NeighbourRobot& neighbour : robot.neighbours)
+      seen.insert(seen.end(), neighbour.seen.begin(), neighbour.seen.end());
+    std::sort(seen.begin(), seen.end());
     std::map<std::int32_t, std::uint32_t> number;
+    for (const std::uint32_t pose : seen)
+      number.try_emplace(components.of_pose[pose], static_cast<std::uint32_t>(number.size()));
     for (const auto first : components.of_pose)
       robot.part_of.push_back(
           number.try_emplace(first, static_cast<std::uint32_t>(number.size())).first->second);

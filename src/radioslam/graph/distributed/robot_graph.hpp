@@ -38,7 +38,8 @@ struct RobotGraph {
   std::size_t own_relative_poses = 0;
   std::vector<PoseKey> copies;             ///< of graph.poses beyond own_poses
   std::vector<NeighbourRobot> neighbours;  ///< by ascending number
-  std::vector<std::uint32_t> part_of;      ///< per own pose: its connected component within the robot, from 0
+  /// Per own pose: its connected component within the robot, from 0; those that others see come first.
+  std::vector<std::uint32_t> part_of;
   std::size_t parts = 0;
 
   std::size_t copy_of(std::size_t pose) const { return pose - own_poses; }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "radioslam/graph/residuals.hpp"
 
@@ -11,7 +10,7 @@ namespace radioslam {
 template <class Pose>
 SeparatorsSolver<Pose>::SeparatorsSolver(RobotGraph<Pose> robot, const SeparatorsParams& params)
     : params_(params), robot_(std::move(robot)), frames_(robot_, params.frames), gossip_(robot_) {
-  for (const NeighbourRobot& neighbour : robot_.neighbours) tell_poses_[neighbour.robot] = true;
+  if (!repeats()) tell_poses();
   if (robot_.neighbours.empty()) finished_ = true;
   may_be_outlier_ = outlier_candidates(robot_);
   weights_.assign(robot_.graph.relative_poses.size(), 1);
@@ -42,15 +41,12 @@ template <class Pose>
 std::vector<Message<Pose>> SeparatorsSolver<Pose>::round(const std::vector<Message<Pose>>& heard) {
   for (const auto& message : heard)
     if (!hear(message)) ++refused_;
-  if (params_.repeat_after > 0) keep_in_touch();
-  if (!tree_ && frames_.adopt(robot_))
-    for (auto& [neighbour, tell] : tell_poses_) tell = true;
+  if (repeats()) keep_in_touch();
   if (gossip_.complete())
-    if (auto team = gossip_.reachable(); team != team_ && in_one_frame(team)) {
-      team_ = std::move(team);
-      prepare_tree();
-    }
-  if (tree_ && !finished_) advance();
+    if (auto team = gossip_.reachable(); team != team_) meet(std::move(team));
+  if (!held_ && frames_.adopt(robot_)) tell_poses();
+  if (!held_ && tree_ && in_one_frame()) prepare_sweeps();
+  if (held_ && !finished_) advance();
   if (rounds_to_end_ == 0 || --rounds_to_end_ == 0) publish();
   return messages();
 }
@@ -64,10 +60,17 @@ bool SeparatorsSolver<Pose>::hear(const Message<Pose>& message) {
   last_heard_[message.from] = round_;
   gossip_.restore(message.from);
   gossip_.hear(message.from, message.topology);
-  // During the sweeps copies move with the steps that their owners take, too.
-  if (message.seen && !tree_ && !frames_.hear(robot_, message.from, *message.seen)) return false;
+  if (message.seen && awaits(*message.seen) && !frames_.hear(robot_, message.from, *message.seen))
+    return false;
   if (message.up && !hear_child(message.from, *message.up)) return false;
   return !message.down || hear_parent(message.from, *message.down);
+}
+
+/// During the sweeps copies move with the steps that their owners take, too. Before, where teams may change,
+/// an owner's values may be from the middle of another team's sweeps.
+template <class Pose>
+bool SeparatorsSolver<Pose>::awaits(const SeenPoses<Pose>& seen) const {
+  return !held_ && (!repeats() || (tree_ && seen.tree == tree_->id()));
 }
 
 /// Kept until this robot itself knows the tree, and answered again if the answer was lost.
@@ -100,30 +103,61 @@ bool SeparatorsSolver<Pose>::hear_parent(RobotNumber from, const Solution& down)
 template <class Pose>
 void SeparatorsSolver<Pose>::keep_in_touch() {
   const bool again = round_ % params_.repeat_after == params_.repeat_after - 1;
-  if (again && sweep_.number == 0) gossip_.tell_again();
+  if (again && (sweep_.number == 0 || !gossip_.complete())) gossip_.tell_again();
+  if (again && sweep_.number == 0 && tree_) tell_poses();
   for (const NeighbourRobot& neighbour : robot_.neighbours) {
-    if (again && sweep_.number == 0) tell_poses_[neighbour.robot] = true;
     if (round_ - last_heard_[neighbour.robot] > params_.lost_after) gossip_.drop(neighbour.robot);
     if (round_ - last_sent_[neighbour.robot] >= params_.repeat_after) message_to(neighbour.robot);
   }
-  if (again && tree_ && sweep_.waiting && last_up_) message_to(tree_->parent(robot_.robot)).up = *last_up_;
+  if (again && sweep_.waiting && last_up_) message_to(tree_->parent(robot_.robot)).up = *last_up_;
 }
 
-/// That of the team's lowest robot, which no neighbour will leave.
 template <class Pose>
-bool SeparatorsSolver<Pose>::in_one_frame(const std::map<RobotNumber, RobotLinks>& team) const {
-  if (tree_) return true;
-  const auto is_final = [&](std::size_t pose) {
-    const auto frame = frames_.frame_of(robot_, pose);
-    return frame && frame->origin == team.begin()->first && frame->part == 0;
-  };
-  for (std::size_t p = 0; p < robot_.own_poses; ++p)
-    if (!is_final(p)) return false;
+void SeparatorsSolver<Pose>::tell_poses() {
+  for (const NeighbourRobot& neighbour : robot_.neighbours) tell_poses_[neighbour.robot] = true;
+}
+
+/// Sweeps of another team end, wherever they are. Where teams may change, every one agrees on a frame of its
+/// own: what is known of frames may be from robots that are gone.
+template <class Pose>
+void SeparatorsSolver<Pose>::meet(std::map<RobotNumber, RobotLinks> team) {
+  team_ = std::move(team);
+  tree_.emplace(team_);
+  children_ = tree_->children(robot_.robot);
+  held_.reset();
+  sweep_ = {};
+  sweep_.mu = params_.outliers.gate > 0 ? params_.outliers.first_mu() : 0;
+  information_.clear();
+  last_down_.clear();
+  last_up_.reset();
+  last_cost_ = std::numeric_limits<double>::infinity();
+  finished_ = false;
+  if (!repeats()) return;
+  std::vector<std::uint32_t> seen;
   for (const NeighbourRobot& neighbour : robot_.neighbours)
-    if (team.at(robot_.robot).links_to(neighbour.robot))
-      for (const std::uint32_t copy : neighbour.copies)
-        if (!is_final(copy)) return false;
-  return true;
+    if (is_linked(neighbour.robot)) seen.insert(seen.end(), neighbour.seen.begin(), neighbour.seen.end());
+  std::sort(seen.begin(), seen.end());
+  frames_.start_again(robot_, seen);
+  tell_poses();
+}
+
+/// The frame of the lowest robot of the team.
+template <class Pose>
+bool SeparatorsSolver<Pose>::in_team_frame(std::size_t pose) const {
+  const auto frame = frames_.frame_of(robot_, pose);
+  return frame && frame->same({team_.begin()->first, 0, 0});
+}
+
+/// The team's, which no neighbour will leave. Parts that no robot of the team sees stay in their own.
+template <class Pose>
+bool SeparatorsSolver<Pose>::in_one_frame() const {
+  const auto all_final = [&](const std::vector<std::uint32_t>& poses) {
+    return std::all_of(poses.begin(), poses.end(), [&](std::uint32_t p) { return in_team_frame(p); });
+  };
+  return std::all_of(
+      robot_.neighbours.begin(), robot_.neighbours.end(), [&](const NeighbourRobot& neighbour) {
+        return !is_linked(neighbour.robot) || (all_final(neighbour.seen) && all_final(neighbour.copies));
+      });
 }
 
 /// Between two robots, the factors are held by the one that has fewer poses to be told about; else by the
@@ -137,11 +171,11 @@ bool SeparatorsSolver<Pose>::holds(const NeighbourRobot& neighbour) const {
 }
 
 template <class Pose>
-void SeparatorsSolver<Pose>::prepare_tree() {
-  tree_.emplace(team_);
-  children_ = tree_->children(robot_.robot);
-  held_list_.resize(robot_.own_relative_poses);
-  std::iota(held_list_.begin(), held_list_.end(), std::size_t{0});
+void SeparatorsSolver<Pose>::prepare_sweeps() {
+  // Without the factors of parts in frames of their own: nothing would hold these.
+  held_list_.clear();
+  for (std::size_t k = 0; k < robot_.own_relative_poses; ++k)
+    if (in_team_frame(robot_.graph.relative_poses[k].i.index())) held_list_.push_back(k);
   std::vector<bool> copy_held(robot_.copies.size(), false);
   for (const NeighbourRobot& neighbour : robot_.neighbours)
     if (is_linked(neighbour.robot) && holds(neighbour)) {
@@ -149,13 +183,6 @@ void SeparatorsSolver<Pose>::prepare_tree() {
       for (const std::uint32_t copy : neighbour.copies) copy_held[robot_.copy_of(copy)] = true;
     }
   held_.emplace(robot_, held_list_, kept_poses(copy_held), tree_->is_root(robot_.robot));
-  sweep_ = {};
-  sweep_.mu = params_.outliers.gate > 0 ? params_.outliers.first_mu() : 0;
-  information_.clear();
-  last_down_.clear();
-  last_up_.reset();
-  last_cost_ = std::numeric_limits<double>::infinity();
-  finished_ = false;
 }
 
 /// Own poses in factors that others hold, and the copies held here.
@@ -223,8 +250,11 @@ bool SeparatorsSolver<Pose>::eliminate() {
     for (const auto& [child, up] : information_)
       if (!up.information) return false;
     cluster_.emplace(robot_.robot, held_->kept(), information_, Pose::kDof);
+    if (tree_->is_root(robot_.robot) && !cluster_->closed_at_root()) return false;
     if (!cluster_->factorize(held_->information(), information_)) return false;
   }
+  for (const auto& [child, up] : sweep_.children)
+    if (up.gradient.size() != information_.at(child).gradient.size()) return false;
   cluster_->set_gradient(held_->gradient(), sweep_.children);
   return true;
 }
@@ -251,7 +281,7 @@ void SeparatorsSolver<Pose>::go_up() {
     up.shared = cluster_->passed_poses();
     up.information = cluster_->passed_information();
   }
-  if (params_.repeat_after > 0) last_up_ = up;
+  if (repeats()) last_up_ = up;
   message_to(tree_->parent(robot_.robot)).up = std::move(up);
   sweep_.waiting = true;
 }
@@ -264,20 +294,22 @@ Solution SeparatorsSolver<Pose>::decide(const Elimination& team) {
   solution.sweep = sweep_.number;
   solution.mu = sweep_.mu;
   const double decrease = team.predicted_decrease / std::max(team.cost, 1e-300);
+  const auto is_small = [&](double predicted, double cost) {
+    return predicted <= std::max(params_.settled_decrease * cost, params_.absolute_decrease);
+  };
   if (sweep_.mu > 0 && sweep_.mu < params_.outliers.last_mu) {
     solution.mu = std::min(params_.outliers.last_mu, sweep_.mu * params_.outliers.mu_factor);
     last_cost_ = std::numeric_limits<double>::infinity();  // of another problem
     return solution;
   }
   if (team.cost > last_cost_ * (1 + 1e-9)) {
-    const bool rounding = last_predicted_ <= params_.settled_decrease * last_cost_;
-    solution.end = rounding ? SweepEnd::kFinish : SweepEnd::kRestore;
+    solution.end = is_small(last_predicted_, last_cost_) ? SweepEnd::kFinish : SweepEnd::kRestore;
     solution.damping = std::max(params_.first_damping, sweep_.damping * params_.damping_factor);
     return solution;
   }
   last_cost_ = team.cost;
   last_predicted_ = team.predicted_decrease;
-  if (decrease <= params_.settled_decrease && sweep_.damping == 0) solution.end = SweepEnd::kFinish;
+  if (is_small(team.predicted_decrease, team.cost) && sweep_.damping == 0) solution.end = SweepEnd::kFinish;
   solution.relinearise = decrease > params_.relinearise_above || sweep_.damping > 0 || sweep_.mu > 0;
   solution.damping = sweep_.damping < params_.first_damping * 2 ? 0 : sweep_.damping / params_.damping_factor;
   return solution;
@@ -290,7 +322,7 @@ void SeparatorsSolver<Pose>::go_down(Solution solution) {
   for (const RobotNumber child : children_) {
     Solution& down = message_to(child).down.emplace(solution);
     down.steps = cluster_->child_steps(child, steps);
-    if (params_.repeat_after > 0) last_down_[child] = down;
+    if (repeats()) last_down_[child] = down;
   }
   if (solution.end == SweepEnd::kRestore) {
     robot_.graph.poses = before_;
@@ -298,6 +330,7 @@ void SeparatorsSolver<Pose>::go_down(Solution solution) {
     before_ = robot_.graph.poses;
     held_->apply(cluster_->own_steps(steps), robot_.graph.poses);
   }
+  tell_poses_.clear();  // everybody has the values that the sweeps began with
   finished_ = solution.end == SweepEnd::kFinish;
   rounds_to_end_ = tree_->height() - tree_->depth(robot_.robot) + 1;
   Sweep next;
@@ -324,8 +357,11 @@ std::vector<Message<Pose>> SeparatorsSolver<Pose>::messages() {
   for (const NeighbourRobot& neighbour : robot_.neighbours) {
     if (auto news = gossip_.news_for(neighbour.robot); !news.empty())
       message_to(neighbour.robot).topology = std::move(news);
-    if (tell_poses_[neighbour.robot])
-      message_to(neighbour.robot).seen = frames_.seen_by(robot_, neighbour, robot_.graph.poses);
+    if (tell_poses_[neighbour.robot]) {
+      auto& seen = message_to(neighbour.robot).seen;
+      seen = frames_.seen_by(robot_, neighbour, robot_.graph.poses);
+      if (repeats()) seen->tree = tree_->id();
+    }
     tell_poses_[neighbour.robot] = false;
   }
   std::vector<Message<Pose>> messages;

@@ -30,6 +30,7 @@ struct SeparatorsParams {
   OutlierParams outliers;
   double relinearise_above = 0.01;  ///< predicted decrease, relative to the cost
   double settled_decrease = 1e-6;   ///< the same, where the sweeps end
+  double absolute_decrease = 1e-9;  ///< smaller ends them in any case
   double first_damping = 1e-4, damping_factor = 10;
   std::uint32_t repeat_after = 0;  ///< rounds without an answer until a message is repeated; 0: never
   std::uint32_t lost_after = 100;  ///< with repeats: rounds without a word until a robot counts as gone
@@ -64,9 +65,14 @@ class SeparatorsSolver : public DistributedSolver<Pose> {
   bool hear_child(RobotNumber from, const Elimination& up);
   bool hear_parent(RobotNumber from, const Solution& down);
   void keep_in_touch();
-  bool in_one_frame(const std::map<RobotNumber, RobotLinks>& team) const;
+  bool repeats() const { return params_.repeat_after > 0; }
+  bool awaits(const SeenPoses<Pose>& seen) const;
+  void tell_poses();
+  void meet(std::map<RobotNumber, RobotLinks> team);
+  bool in_team_frame(std::size_t pose) const;
+  bool in_one_frame() const;
   bool is_linked(RobotNumber neighbour) const { return team_.at(robot_.robot).links_to(neighbour); }
-  void prepare_tree();
+  void prepare_sweeps();
   bool holds(const NeighbourRobot& neighbour) const;
   std::vector<KeptPose> kept_poses(const std::vector<bool>& copy_held) const;
 
@@ -85,13 +91,13 @@ class SeparatorsSolver : public DistributedSolver<Pose> {
   RobotGraph<Pose> robot_;
   FrameAgreement<Pose> frames_;
   TopologyGossip gossip_;
-  std::map<RobotNumber, RobotLinks> team_;  ///< that the tree is of
+  std::map<RobotNumber, RobotLinks> team_;  ///< that the tree is of; empty: not known yet
   std::optional<TeamTree> tree_;
   std::vector<RobotNumber> children_;
-  std::vector<std::size_t> held_list_;  ///< places in robot_.graph.relative_poses
-  std::vector<bool> may_be_outlier_;    ///< per relative pose
-  std::vector<double> weights_;         ///< per relative pose; of those held here
-  std::optional<HeldFactors<Pose>> held_;
+  std::vector<std::size_t> held_list_;     ///< places in robot_.graph.relative_poses
+  std::vector<bool> may_be_outlier_;       ///< per relative pose
+  std::vector<double> weights_;            ///< per relative pose; of those held here
+  std::optional<HeldFactors<Pose>> held_;  ///< once the sweeps can begin
   std::optional<Cluster> cluster_;
   std::map<RobotNumber, Elimination> information_;  ///< the children's, as they were sent last
   Sweep sweep_;
