@@ -87,7 +87,7 @@ TEST(InformationCodeBytes, ABlockOfZerosCostsABit) {
   constexpr Eigen::Index kBlocks = 10, kBlock = 3;
   const Eigen::MatrixXd ones = Eigen::MatrixXd::Identity(kBlocks * kBlock, kBlocks * kBlock);
   // A scale of four bytes per row, a bit per pair of blocks, three bytes per entry on or below the diagonal.
-  EXPECT_EQ(written(ones, kBlock).size(), 30u * 4 + 7 + 3 * 10 * 6);
+  EXPECT_EQ(written(ones, kBlock).size(), 1 + 30u * 4 + 7 + 3 * 10 * 6);
   Eigen::MatrixXd tied = ones;
   tied.block(27, 0, 3, 3).setConstant(0.1);
   tied.block(0, 27, 3, 3).setConstant(0.1);
