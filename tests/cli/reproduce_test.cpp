@@ -78,6 +78,9 @@ TEST_F(Reproduce, RefusesInvalidCalls) {
             std::string::npos);
   EXPECT_NE(refusal({"robustness-map", "--cut", "0.5"}).find("towns are simulated"), std::string::npos);
   EXPECT_NE(refusal({"verification-budget", "--set", "robots=3"}).find("only --seed"), std::string::npos);
+  EXPECT_NE(refusal({"distributed-optimization", "--seeds", "2"}).find("only --team"), std::string::npos);
+  EXPECT_NE(refusal({"distributed-optimization", "--team", "none.g2o"}).find("none.g2o"), std::string::npos);
+  EXPECT_NE(refusal({"robustness-map", "--team", "none.g2o"}).find("no --team"), std::string::npos);
   EXPECT_NE(refusal({"robustness-map", "--seeds", "0"}).find("--seeds"), std::string::npos);
   EXPECT_NE(refusal({"robustness-map", "--set", "lamps=3"}).find("lamps"), std::string::npos);
   write_file(folder() / "short.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");

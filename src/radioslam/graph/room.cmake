@@ -16,6 +16,7 @@ radioslam_room(graph
     distributed/stage_agreement.cpp
     distributed/step_system.cpp
     distributed/team_optimization.cpp
+    distributed/team_outcome.cpp
     distributed/topology.cpp
     distributed/turns.cpp
     distributed/two_stage.cpp

@@ -2,6 +2,8 @@ radioslam_room(study
   SOURCES
     aoa/aoa_paths.cpp
     aoa/aoa_table.cpp
+    distributed_optimization/distributed_study.cpp
+    distributed_optimization/simulated_teams.cpp
     evaluated_run.cpp
     fingerprints/fingerprint_tables.cpp
     fingerprints/sequence_table.cpp
@@ -25,4 +27,4 @@ radioslam_room(study
   ROOMS radio pipeline eval sim io report
   LIBRARIES nlohmann_json::nlohmann_json)
 radioslam_page(radioslam_study ${CMAKE_CURRENT_SOURCE_DIR}/study/page radioslam/study/page_parts.hpp
-  radioslam::study_page ../../report/page/format.js data.js scheme.js heat_map.js growth.js budget.js directions.js table.js main.js)
+  radioslam::study_page ../../report/page/format.js data.js scheme.js heat_map.js growth.js budget.js distributed.js directions.js table.js main.js)

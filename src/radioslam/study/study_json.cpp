@@ -1,6 +1,9 @@
 #include "radioslam/study/study_json.hpp"
 
+#include <algorithm>
+
 #include "radioslam/io/run/metrics_json.hpp"
+#include "radioslam/report/rounding.hpp"
 #include "radioslam/study/wi_closure/published_wi_closure.hpp"
 #include "radioslam/study/wi_closure_hall/hall_tables.hpp"
 #include "radioslam/study/wi_closure_hall/published_hall.hpp"
@@ -216,6 +219,35 @@ Json swept_json(const SweptMission& mission) {
   return json;
 }
 
+/// Every round up to a hundred, then one in each 2 %, and the last one.
+Json trace_json(const DistributedRun& run) {
+  constexpr std::size_t kPart = 50;
+  Json trace = Json::array();
+  const std::size_t rounds = run.bytes.size();
+  for (std::size_t round = 1; round <= rounds;) {
+    if (const auto gap = run.outcome.gaps[round - 1])
+      trace.push_back({round, run.bytes[round - 1], rounded_relative(*gap)});
+    const std::size_t next = round + std::max<std::size_t>(1, round / kPart);
+    round = round < rounds ? std::min(next, rounds) : next;
+  }
+  return trace;
+}
+
+Json count_json(std::optional<std::size_t> value) { return value ? Json(*value) : Json(); }
+
+Json distributed_run_json(const DistributedRun& run) {
+  const TeamOutcome& outcome = run.outcome;
+  return {{"method", run.method},
+          {"settled", run.settled},
+          {"rounds", run.bytes.size()},
+          {"bytes", outcome.traffic.bytes()},
+          {"relative_gap", outcome.relative_gap()},
+          {"central_cost", outcome.central_cost},
+          {"rounds_to_optimum", count_json(outcome.rounds_to_optimum)},
+          {"bytes_to_optimum", count_json(outcome.bytes_to_optimum)},
+          {"trace", trace_json(run)}};
+}
+
 }  // namespace
 
 Json wi_closure_kitti_json(const std::vector<WiClosureKitti>& seeds) {
@@ -276,6 +308,22 @@ nlohmann::ordered_json verification_budget_json(const std::vector<BudgetMission>
                                 {"descriptor_bytes_all", m.descriptor_bytes_all},
                                 {"all", budget_run_json(m.all)},
                                 {"runs", std::move(runs)}});
+  }
+  return json;
+}
+
+nlohmann::ordered_json distributed_optimization_json(const std::vector<DistributedTeam>& teams) {
+  Json json{{"table", "distributed-optimization"}, {"teams", Json::array()}};
+  for (const DistributedTeam& team : teams) {
+    Json runs = Json::array();
+    for (const DistributedRun& run : team.runs) runs.push_back(distributed_run_json(run));
+    json["teams"].push_back({{"name", team.name},
+                             {"robots", team.robots},
+                             {"poses", team.poses},
+                             {"factors", team.factors},
+                             {"factors_between", team.factors_between},
+                             {"bytes_of_all_graphs", team.bytes_of_all_graphs},
+                             {"runs", std::move(runs)}});
   }
   return json;
 }

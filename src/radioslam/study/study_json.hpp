@@ -6,6 +6,7 @@
 
 #include "radioslam/study/aoa/aoa_paths.hpp"
 #include "radioslam/study/aoa/aoa_table.hpp"
+#include "radioslam/study/distributed_optimization/distributed_study.hpp"
 #include "radioslam/study/fingerprints/fingerprint_tables.hpp"
 #include "radioslam/study/fingerprints/sequence_table.hpp"
 #include "radioslam/study/fingerprints/threshold_sweep.hpp"
@@ -44,6 +45,13 @@ nlohmann::ordered_json overlap_growth_json(const OverlapGrowth& growth);
 ///   [{"order", "share", "registrations", "verified", "ate_m"}]}]}; ratio is that of the error to the one
 /// without a bound, "all".
 nlohmann::ordered_json verification_budget_json(const std::vector<BudgetMission>& missions);
+
+/// {"table", "teams": [{"name", "robots", "poses", "factors", "factors_between", "bytes_of_all_graphs",
+/// "runs":
+///   [{"method", "settled", "rounds", "bytes", "relative_gap", "central_cost", "rounds_to_optimum",
+///   "bytes_to_optimum", "trace": [[round, bytes up to its end, relative gap]]}]}]}; later rounds are thinned
+/// out in the trace, and those before the robots are in one frame are left out.
+nlohmann::ordered_json distributed_optimization_json(const std::vector<DistributedTeam>& teams);
 
 /// {"table", "groups": [{"sight", "motion", "ours": {"links", "median_error_rad", "within_10_deg",
 ///   "best_of_4_within_10_deg", "within_1_645_sigma"}, "authors_same_trials": {...}, "authors_all": {...}}],

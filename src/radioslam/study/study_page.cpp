@@ -81,4 +81,10 @@ std::string render_budget_page(const std::vector<BudgetMission>& missions) {
   return page(data);
 }
 
+std::string render_distributed_page(const std::vector<DistributedTeam>& teams) {
+  Json data = table_json(distributed_table(teams));
+  data["distributed"] = distributed_optimization_json(teams);
+  return page(data);
+}
+
 }  // namespace radioslam

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "radioslam/study/aoa/aoa_table.hpp"
+#include "radioslam/study/distributed_optimization/distributed_study.hpp"
 #include "radioslam/study/overlap_growth/overlap_growth.hpp"
 #include "radioslam/study/robustness_map/robustness_map.hpp"
 #include "radioslam/study/study_table.hpp"
@@ -23,6 +24,9 @@ std::string render_growth_page(const OverlapGrowth& growth);
 
 /// Error over the registrations of each order, a chart per scenario, with the table below.
 std::string render_budget_page(const std::vector<BudgetMission>& missions);
+
+/// Gap to the central optimum over rounds and over bytes, two charts per team, with the table below.
+std::string render_distributed_page(const std::vector<DistributedTeam>& teams);
 
 /// A polar profile per link, with the true and the authors' direction, and the table below.
 std::string render_aoa_page(const StudyTable& table, const std::vector<AoaLink>& links);

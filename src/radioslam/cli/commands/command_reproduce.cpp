@@ -5,11 +5,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "radioslam/base/input_error.hpp"
 #include "radioslam/cli/commands.hpp"
 #include "radioslam/cli/commands/command_options.hpp"
+#include "radioslam/cli/commands/distributed_optimization.hpp"
 #include "radioslam/cli/commands/recorded_drive.hpp"
 #include "radioslam/cli/config.hpp"
 #include "radioslam/cli/parameters.hpp"
@@ -66,6 +68,7 @@ struct ReproduceOptions {
   std::string odometry;
   std::string dataset;
   std::string authors;
+  std::vector<std::string> teams;
   std::optional<double> cut;
   std::uint64_t seed = 1;
   std::optional<int> seeds;
@@ -189,6 +192,24 @@ Study verification_budget(const ReproduceOptions& options) {
   return {budget_table(missions), verification_budget_json(missions), render_budget_page(missions)};
 }
 
+/// Of the given graphs, each a team's file or folder; of simulated teams if there are none.
+Study distributed_optimization(const ReproduceOptions& options) {
+  refuse_drive(options);
+  if (options.seeds || !options.set.empty()) refuse(options, "takes only --team and --seed");
+  ProgressLine line;
+  std::vector<DistributedTeam> teams;
+  for (const std::string& path : options.teams)
+    teams.push_back(std::visit(
+        [&](const auto& file) {
+          const fs::path place = fs::absolute(path).lexically_normal();
+          const fs::path name = place.has_filename() ? place.filename() : place.parent_path().filename();
+          return study_distributed_team(name.string(), file.team, line.progress());
+        },
+        read_distributed_team({path})));
+  if (teams.empty()) teams = study_simulated_teams(options.seed, line.progress());
+  return {distributed_table(teams), distributed_optimization_json(teams), render_distributed_page(teams)};
+}
+
 Study aoa(const ReproduceOptions& options) {
   refuse_drive(options);
   if (options.seeds) refuse(options, "takes no --seeds: its trials are recordings");
@@ -260,7 +281,7 @@ struct Table {
   Study (*reproduce)(const ReproduceOptions&);
 };
 
-constexpr std::array<Table, 11> kTables{
+constexpr std::array<Table, 12> kTables{
     {{"wi-closure-kitti",
       "KITTI 08 cut in two, radio noise of 0.5 m and 10 degrees, compared with Wi-Closure", wi_closure_kitti},
      {"wi-closure-table1",
@@ -276,6 +297,9 @@ constexpr std::array<Table, 11> kTables{
      {"verification-budget",
       "error over the number of scans registered between robots, by worth, similarity and at random",
       verification_budget},
+     {"distributed-optimization",
+      "every method of optimizing a team's graph without a centre: gap over rounds and over bytes sent",
+      distributed_optimization},
      {"aoa", "angles of arrival of the WSR data set, compared with its authors' results", aoa},
      {"aoa-paths", "three simulated paths at once: which of them each AoA profile finds", aoa_paths},
      {"sequence-closures", "closures from similar fingerprint sequences, over similarity and window length",
@@ -325,6 +349,8 @@ void reproduce(const ReproduceOptions& options) {
   const Table& table = table_named(options);
   if (table.reproduce != aoa && !(options.dataset.empty() && options.authors.empty()))
     refuse(options, "takes no --dataset or --authors");
+  if (table.reproduce != distributed_optimization && !options.teams.empty())
+    refuse(options, "takes no --team");
   std::optional<OutputFolder> output;
   if (!options.output.empty()) output.emplace(options.output, kStudyFolder);
   const Study study = table.reproduce(options);
@@ -358,6 +384,12 @@ void add_table_options(CLI::App& command, ReproduceOptions& options) {
           "--authors", options.authors,
           "aoa: folder with the authors' results (default: 2D-Displacement_output_files near the trials)")
       ->type_name("DIR");
+  command
+      .add_option(
+          "--team", options.teams,
+          "distributed-optimization: graphs of teams instead of simulated ones, each a file or a folder "
+          "of g2o files, one per robot")
+      ->type_name("PATH");
   command.add_option("--seed", options.seed, "First random seed (default: 1)")
       ->check(seed_number())
       ->type_name("N");
@@ -397,8 +429,9 @@ void add_reproduce(CLI::App& program) {
       "--set changes parameters of the simulated scenario; for aoa and aoa-paths it changes those of the\n"
       "angle estimation. `radioslam parameters TABLE` lists them.\n"
       "wi-closure-table1, wi-closure-hall, robustness-map, verification-budget, aoa-paths,\n"
-      "fingerprint-tables and threshold-sweep take minutes. wi-closure-table1 needs 1.4 GB of memory for\n"
-      "KITTI 08.\n"
+      "fingerprint-tables and threshold-sweep take minutes, as does distributed-optimization for large "
+      "--team\n"
+      "graphs. wi-closure-table1 needs 1.4 GB of memory for KITTI 08.\n"
       "overlap-growth needs 1 GiB of memory per half million poses.\n\n"
       "Example:\n"
       "  radioslam reproduce wi-closure-kitti --trajectory GT_LiDAR/08.txt --odometry ALOAM/08.txt\n"

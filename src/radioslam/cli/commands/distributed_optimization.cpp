@@ -4,13 +4,12 @@
 #include <chrono>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <sstream>
 #include <variant>
 
 #include "radioslam/cli/progress_line.hpp"
-#include "radioslam/graph/initial_values.hpp"
+#include "radioslam/graph/distributed/team_outcome.hpp"
 #include "radioslam/io/graph/g2o.hpp"
 #include "radioslam/io/graph/team_graph_file.hpp"
 
@@ -19,92 +18,30 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A gap up to this counts as the optimum in "rounds_to_optimum".
-constexpr double kAtOptimum = 1e-3;
-
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// A team's robots by number, and its graph without priors: they would only choose the frame.
-template <class Pose>
-struct NumberedTeam {
-  std::vector<std::string> names;
-  TeamPoses poses;
-  PoseGraph<Pose> graph;
-};
-
-template <class Pose>
-NumberedTeam<Pose> number_robots(const TeamGraph<Pose>& team) {
-  NumberedTeam<Pose> numbered;
-  std::map<std::string, RobotNumber> numbers;
-  std::vector<RobotNumber> robot_of(team.graph.poses.size());
-  for (const TrajectorySegment& segment : team.segments) {
-    const auto number = numbers.try_emplace(segment.robot, static_cast<RobotNumber>(numbers.size()));
-    if (number.second) numbered.names.push_back(segment.robot);
-    for (std::size_t k = 0; k < segment.pose_count; ++k)
-      robot_of[segment.first_pose + k] = number.first->second;
-  }
-  numbered.poses = team_poses(robot_of, numbered.names.size());
-  numbered.graph = team.graph;
-  numbered.graph.pose_priors.clear();
-  return numbered;
 }
 
 template <class Pose>
 void refuse_unsupported(const PoseGraph<Pose>& graph, const std::string& file) {
   if (!graph.ranges.empty() || !graph.bearings.empty() || !graph.points.empty() || !graph.positions.empty())
-    throw InputError(file, 0,
-                     "--distributed takes graphs of relative poses: no ranges, positions or landmarks");
-}
-
-/// The factors that the team ended up with: between poses of one frame, and with the weights it gave them.
-template <class Pose>
-PoseGraph<Pose> judged_graph(const PoseGraph<Pose>& graph, const TeamOptimization<Pose>& run) {
-  PoseGraph<Pose> judged = graph;
-  judged.poses = run.poses;
-  judged.relative_poses.clear();
-  for (std::size_t k = 0; k < graph.relative_poses.size(); ++k) {
-    RelativePoseFactor<Pose> factor = graph.relative_poses[k];
-    if (!run.frames[factor.i.index()].same(run.frames[factor.j.index()])) continue;
-    if (!run.weights.empty()) factor.weight *= run.weights[k];
-    if (factor.weight > 0) judged.relative_poses.push_back(factor);
-  }
-  return judged;
-}
-
-/// The lower of what is reached from a start of its own and from where the team ended.
-template <class Pose>
-double central_cost(PoseGraph<Pose> graph, const OptimizerParams& params) {
-  PoseGraph<Pose> from_team = graph;
-  const double there = optimize(from_team, params).final_cost;
-  initialise(graph, GivenValues::kNone);
-  return std::min(there, optimize(graph, params).final_cost);
+    throw InputError(
+        file, 0,
+        "optimization without a centre takes graphs of relative poses: no ranges, positions or landmarks");
 }
 
 /// Null where there is none: infinite and undefined numbers are no JSON.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-std::size_t bytes_of_all_graphs(std::size_t robots, std::size_t factors, std::size_t dof) {
-  const std::size_t pose = dof == 3 ? 3 : 7;
-  return (robots - 1) * factors * (8 * (pose + dof * (dof + 1) / 2) + 8);
-}
-
 template <class Pose>
 class OutcomeOf {
  public:
   OutcomeOf(const NumberedTeam<Pose>& team, const TeamOptimization<Pose>& run, const OptimizerParams& params)
-      : team_(team), run_(run) {
-    const PoseGraph<Pose> judged = judged_graph(team.graph, run);
-    cost_ = total_cost(judged);
-    central_ = central_cost(judged, params);
-  }
-
-  double relative_gap() const { return central_ > 0 ? (cost_ - central_) / central_ : cost_ - central_; }
+      : team_(team), run_(run), outcome_(team_outcome(team, run, params)) {}
 
   Json json() const {
     Json out{{"initial_cost", run_.rounds.empty() ? Json(nullptr) : number(run_.rounds.front().cost)},
-             {"final_cost", cost_},
+             {"final_cost", outcome_.cost},
              {"iterations", run_.rounds.size()},
              {"termination", run_.settled ? "converged" : "round limit"},
              {"certificate", nullptr},
@@ -112,8 +49,8 @@ class OutcomeOf {
              {"factors", team_.graph.relative_poses.size()},
              {"robots", team_.names},
              {"rounds", run_.rounds.size()},
-             {"relative_gap", number(relative_gap())},
-             {"central_cost", central_},
+             {"relative_gap", number(outcome_.relative_gap())},
+             {"central_cost", outcome_.central_cost},
              {"frames", frames()}};
     add_traffic(out);
     add_rounds(out);
@@ -123,7 +60,7 @@ class OutcomeOf {
 
   std::string text() const {
     std::ostringstream out;
-    out << run_.rounds.size() << " rounds, cost " << cost_ << ", " << relative_gap()
+    out << run_.rounds.size() << " rounds, cost " << outcome_.cost << ", " << outcome_.relative_gap()
         << " above the central optimum relatively; " << bytes_per_robot() << " bytes a robot";
     if (!run_.settled) out << "; the robots had not all come to an end";
     if (frames().size() > 1) out << "; " << frames().size() << " frames that nothing ties together";
@@ -145,19 +82,11 @@ class OutcomeOf {
   }
 
   double bytes_per_robot() const {
-    std::size_t bytes = 0;
-    for (const auto& round : run_.rounds) bytes += round.traffic.bytes();
-    return static_cast<double>(bytes) / static_cast<double>(team_.names.size());
+    return static_cast<double>(outcome_.traffic.bytes()) / static_cast<double>(team_.names.size());
   }
 
   void add_traffic(Json& out) const {
-    Traffic sum;
-    for (const auto& round : run_.rounds) {
-      sum.messages += round.traffic.messages;
-      sum.lost += round.traffic.lost;
-      sum.header_bytes += round.traffic.header_bytes;
-      for (std::size_t k = 0; k < kSectionKinds; ++k) sum.section_bytes[k] += round.traffic.section_bytes[k];
-    }
+    const Traffic& sum = outcome_.traffic;
     Json kinds{{"headers", sum.header_bytes}};
     for (std::size_t k = 0; k < kSectionKinds; ++k)
       if (sum.section_bytes[k] > 0)
@@ -165,39 +94,31 @@ class OutcomeOf {
     out["bytes_per_robot"] = bytes_per_robot();
     out["bytes"] = sum.bytes();
     out["bytes_by_kind"] = kinds;
-    out["bytes_of_all_graphs"] =
-        bytes_of_all_graphs(team_.names.size(), team_.graph.relative_poses.size(), Pose::kDof);
+    out["bytes_of_all_graphs"] = bytes_of_all_graphs(team_);
     out["messages"] = sum.messages;
     out["messages_lost"] = sum.lost;
     out["messages_refused"] = run_.refused;
   }
 
-  /// Cost and bytes after every round. Costs before the robots are in one frame lack the factors between
-  /// frames; the optimum counts as reached from where the cost stays near it.
   void add_rounds(Json& out) const {
     Json rounds = Json::array();
-    std::size_t bytes = 0;
-    std::optional<std::size_t> reached, reached_bytes;
     for (std::size_t k = 0; k < run_.rounds.size(); ++k) {
       const RoundTrace& round = run_.rounds[k];
-      bytes += round.traffic.bytes();
-      const double gap = (round.cost - central_) / std::max(central_, 1e-300);
-      const bool near = round.one_frame && std::abs(gap) <= kAtOptimum;
-      if (near && !reached) reached = k + 1, reached_bytes = bytes;
-      if (!near) reached.reset(), reached_bytes.reset();
+      const auto gap = outcome_.gaps[k];
       rounds.push_back({{"cost", number(round.cost)},
-                        {"relative_gap", round.one_frame ? number(gap) : Json(nullptr)},
+                        {"relative_gap", gap ? number(*gap) : Json(nullptr)},
                         {"bytes", round.traffic.bytes()},
                         {"messages", round.traffic.messages}});
     }
-    out["rounds_to_optimum"] = reached ? Json(*reached) : Json(nullptr);
-    out["bytes_to_optimum"] = reached_bytes ? Json(*reached_bytes) : Json(nullptr);
+    const auto count = [](std::optional<std::size_t> value) { return value ? Json(*value) : Json(nullptr); };
+    out["rounds_to_optimum"] = count(outcome_.rounds_to_optimum);
+    out["bytes_to_optimum"] = count(outcome_.bytes_to_optimum);
     out["per_round"] = std::move(rounds);
   }
 
   const NumberedTeam<Pose>& team_;
   const TeamOptimization<Pose>& run_;
-  double cost_ = 0, central_ = 0;
+  TeamOutcome outcome_;
 };
 
 template <class Pose>
@@ -220,17 +141,22 @@ DistributedOutcome run_team(TeamGraphFile<Pose>& file, const OptimizeParams& par
 
 }  // namespace
 
+AnyTeamGraphFile read_distributed_team(const std::vector<std::filesystem::path>& paths) {
+  AnyTeamGraphFile any = read_team_graph(paths, StatedStarts::kIgnored);
+  std::visit([&](const auto& file) { refuse_unsupported(file.team.graph, paths.front().string()); }, any);
+  return any;
+}
+
 DistributedOutcome optimize_distributed(const std::vector<std::filesystem::path>& paths,
                                         const std::string& method, const OptimizeParams& params) {
   const auto start = std::chrono::steady_clock::now();
-  AnyTeamGraphFile any = read_team_graph(paths, StatedStarts::kIgnored);
+  AnyTeamGraphFile any = read_distributed_team(paths);
   const double read_s = seconds_since(start);
   OptimizeParams used = params;
   for (const auto& [name, value] : kDistributedMethods)
     if (name == method) used.distributed.method = value;
   return std::visit(
       [&](auto& file) {
-        refuse_unsupported(file.team.graph, paths.front().string());
         DistributedOutcome outcome = run_team(file, used, read_s);
         outcome.json["method"] = method;
         outcome.json["notes"] = file.notes;

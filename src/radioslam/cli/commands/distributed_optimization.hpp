@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "radioslam/cli/commands/optimize_params.hpp"
+#include "radioslam/io/graph/team_graph_file.hpp"
 
 namespace radioslam::cli {
 
@@ -16,6 +17,9 @@ struct DistributedOutcome {
   std::string summary;          ///< the same in two sentences
   std::string graph;            ///< g2o text of all robots, with the vertices as the robots have them
 };
+
+/// One graph of a team or one per robot. Refuses (InputError) other factors than relative poses.
+AnyTeamGraphFile read_distributed_team(const std::vector<std::filesystem::path>& paths);
 
 /// `paths`: one graph of a team or one per robot. `method`: its name in kDistributedMethods.
 DistributedOutcome optimize_distributed(const std::vector<std::filesystem::path>& paths,

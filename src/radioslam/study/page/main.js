@@ -13,5 +13,6 @@ if (study.growth) {
   write_growth();
 }
 if (study.budget) write_budget();
+if (study.distributed) write_distributed();
 if (study.directions) write_directions();
 write_table();
