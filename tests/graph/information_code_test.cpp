@@ -86,7 +86,8 @@ TYPED_TEST(InformationCode, IsSemidefiniteWhenRead) {
 TEST(InformationCodeBytes, ABlockOfZerosCostsABit) {
   constexpr Eigen::Index kBlocks = 10, kBlock = 3;
   const Eigen::MatrixXd ones = Eigen::MatrixXd::Identity(kBlocks * kBlock, kBlocks * kBlock);
-  // A byte for the form, a scale of four bytes per row, a bit per pair of blocks, three bytes per entry on or below the diagonal.
+  // A byte for the form, a scale of four bytes per row, a bit per pair of blocks, three bytes per entry on or
+  // below the diagonal.
   EXPECT_EQ(written(ones, kBlock).size(), 1 + 30u * 4 + 7 + 3 * 10 * 6);
   Eigen::MatrixXd tied = ones;
   tied.block(27, 0, 3, 3).setConstant(0.1);
