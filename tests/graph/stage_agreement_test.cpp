@@ -19,7 +19,7 @@ class Line {
     }
   }
   /// A round with the activity of every robot; messages that `lost` names do not arrive.
-  void round(const std::vector<Activity>& activities, std::uint32_t patience, RobotNumber lost = ~0U) {
+  void round(const std::vector<Activity>& activities, std::uint32_t rounds_at_rest, RobotNumber lost = ~0U) {
     std::vector<StageNews> news;
     for (const auto& robot : robots_) news.push_back(robot.news());
     for (std::size_t r = 0; r < robots_.size(); ++r) {
@@ -30,7 +30,7 @@ class Line {
         }
       if (const auto end = robot.heard_end()) robot.end(*end);
       const Activity activity = robot.together() ? activities[r] : Activity::kWaited;
-      if (robot.count(activity, patience)) robot.end(StageEnd::kNext);
+      if (robot.count(activity, rounds_at_rest)) robot.end(StageEnd::kNext);
     }
   }
   const StageAgreement& operator[](std::size_t r) const { return robots_[r]; }
@@ -47,9 +47,9 @@ TEST(StageAgreement, EndsAStageOnlyAfterEverybodyHasRestedTogether) {
   constexpr std::size_t kRobots = 5;
   constexpr std::uint32_t kPatience = 4 + 2;
   Line line(kRobots);
-  auto restless = all_rest(kRobots);
-  restless[4] = Activity::kMoved;
-  for (int k = 0; k < 30; ++k) line.round(restless, kPatience);
+  auto unsettled = all_rest(kRobots);
+  unsettled[4] = Activity::kMoved;
+  for (int k = 0; k < 30; ++k) line.round(unsettled, kPatience);
   for (std::size_t r = 0; r < kRobots; ++r) EXPECT_EQ(line[r].stage(), 0u);
   EXPECT_TRUE(line[0].moved());
   for (std::uint32_t k = 0; k < kPatience; ++k) {

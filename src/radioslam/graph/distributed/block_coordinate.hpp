@@ -1,5 +1,5 @@
 // Riemannian block-coordinate descent: in a round every robot moves its own poses, its neighbours' at rest,
-// and tells them.
+// and sends them.
 // Sources: Tian, Khosoussi, Rosen, How 2021, Distributed certifiably correct pose-graph optimization (blocks,
 // acceleration with restarts); Fan and Murphey 2021, Majorization minimization methods for distributed pose
 // graph optimization (all robots at once: a factor between two robots counts double in a robot's own

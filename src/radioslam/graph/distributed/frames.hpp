@@ -52,7 +52,7 @@ class FrameAgreement {
   bool hear(RobotGraph<Pose>& robot, RobotNumber from, const SeenPoses<Pose>& seen);
   /// Moves parts to frames of lower origins; whether any moved.
   bool adopt(RobotGraph<Pose>& robot);
-  /// What a neighbour is told, with the values in `poses` (own ones).
+  /// What is sent to a neighbour, with the values in `poses` (own ones).
   SeenPoses<Pose> seen_by(const RobotGraph<Pose>& robot, const NeighbourRobot& neighbour,
                           const std::vector<Pose>& poses) const;
 

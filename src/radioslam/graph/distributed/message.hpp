@@ -90,7 +90,7 @@ struct Solution {
   std::uint64_t tree = 0;  ///< TeamTree::id
   std::uint32_t sweep = 0;
   SweepEnd end = SweepEnd::kStep;
-  bool relinearise = true;  ///< the next elimination carries its information anew
+  bool relinearise = true;  ///< the next elimination carries its information again
   double damping = 0;       ///< of the next sweep
   double mu = 0;            ///< of graduated optimization; 0: without
   Eigen::VectorXd steps;
@@ -99,8 +99,8 @@ struct Solution {
 /// How far the sender is with a computation in stages; see stage_agreement.hpp.
 struct StageNews {
   std::uint32_t stage = 0;
-  std::uint32_t quiet = 0;  ///< rounds since a robot is known to have been restless
-  bool moved = false;       ///< some robot is known to have been restless since the stage began
+  std::uint32_t quiet = 0;  ///< rounds since a robot is known to have been unsettled
+  bool moved = false;       ///< some robot is known to have been unsettled since the stage began
   bool finished = false;    ///< after the last stage
   bool operator==(const StageNews&) const = default;
 };

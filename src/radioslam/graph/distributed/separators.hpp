@@ -4,7 +4,7 @@
 // Every robot eliminates its poses that no other robot has factors with. What that leaves on the others goes
 // up the tree, where every robot adds its children's to its own and eliminates what nobody above shares: a
 // junction tree whose clusters are the robots. The root solves, and the steps come down the same way. A
-// factor between two robots is held by one of them, the one that has the fewer poses to tell about.
+// factor between two robots is held by one of them, the one whose neighbour has fewer poses in them.
 //
 // The information that goes up is rounded to single precision, and sent again only where the steps were
 // large: sweeps in between carry gradients alone. Gradients are exact, so the sweeps end at the optimum.
@@ -108,7 +108,7 @@ class SeparatorsSolver : public DistributedSolver<Pose> {
   std::uint32_t rounds_to_end_ = 0;  ///< until the robots furthest from the root have ended theirs
 
   std::map<RobotNumber, Elimination> early_;   ///< of children, for a tree or sweep still to come
-  std::map<RobotNumber, Solution> last_down_;  ///< as the children were told
+  std::map<RobotNumber, Solution> last_down_;  ///< as sent to the children
   std::optional<Elimination> last_up_;
   std::map<RobotNumber, std::uint32_t> last_heard_, last_sent_;  ///< rounds, per neighbour
   std::map<RobotNumber, Message<Pose>> outgoing_;

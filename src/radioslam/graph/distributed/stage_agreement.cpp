@@ -33,7 +33,7 @@ bool StageAgreement::together() const {
   });
 }
 
-bool StageAgreement::count(Activity activity, std::uint32_t patience) {
+bool StageAgreement::count(Activity activity, std::uint32_t rounds_at_rest) {
   if (activity != Activity::kWaited) at_rest_ = activity != Activity::kMoved;
   if (activity == Activity::kMoved || activity == Activity::kSlowed) news_.moved = true;
   bool all_heard = at_rest_;
@@ -48,7 +48,7 @@ bool StageAgreement::count(Activity activity, std::uint32_t patience) {
     heard.this_round = false;
   }
   news_.quiet = all_heard ? least + 1 : 0;
-  return news_.quiet >= patience;
+  return news_.quiet >= rounds_at_rest;
 }
 
 void StageAgreement::end(StageEnd end) {

@@ -22,9 +22,9 @@ class TopologyGossip {
   /// A neighbour that is no longer there, or is again.
   void drop(RobotNumber neighbour);
   void restore(RobotNumber neighbour);
-  /// What a neighbour has not been told yet, and has not said itself; it counts as told from then on.
+  /// What has not been sent to a neighbour yet, and was not heard from it; it counts as sent from then on.
   std::vector<RobotLinks> news_for(RobotNumber neighbour);
-  /// Lest something was lost on the way, everything is told again.
+  /// Lest something was lost on the way, everything is sent again.
   void tell_again() { told_.clear(); }
   /// Of every robot that can be reached it is known whom it is connected to.
   bool complete() const;

@@ -51,7 +51,7 @@ std::vector<Message<Pose>> TwoStageSolver<Pose>::round(const std::vector<Message
     if (!fits[k] || !take_values(heard[k])) ++refused_;
   if (!stages_.finished()) {
     const Activity activity = act();
-    const bool at_rest = stages_.count(activity, turns_ ? patience() : ~std::uint32_t{0});
+    const bool at_rest = stages_.count(activity, turns_ ? rounds_at_rest() : ~std::uint32_t{0});
     if (at_rest) go_on(stage() == kPoses && !stages_.moved() ? StageEnd::kFinish : StageEnd::kNext);
   }
   return messages();

@@ -4,7 +4,7 @@
 //
 // All stages solve a linear system of the whole team, A x = b, by blocks: in its turn (turns.hpp) a robot
 // solves its own rows with what its neighbours said last, x_r += relaxation (A_rr^-1 (b_r - A_rs x_s) - x_r),
-// and tells them what they see of it. Stages, which end when the whole team is at rest (stage_agreement.hpp):
+// and sends them what they see of it. Stages, which end when the whole team is at rest (stage_agreement.hpp):
 //   0   frames: robots agree on one frame (frames.hpp) and learn who is in the team
 //   1   the transposed rotations, as matrices; then each goes to the nearest rotation
 //   2   the translations, given the rotations
@@ -73,7 +73,7 @@ class TwoStageSolver : public DistributedSolver<Pose> {
   Activity move_translations();
   Activity move_poses();
   bool small(double decrease, double cost, double share) const;
-  std::uint32_t patience() const { return turns_->diameter() + turns_->colours() + 1; }
+  std::uint32_t rounds_at_rest() const { return turns_->diameter() + turns_->colours() + 1; }
 
   void tell_values(const NeighbourRobot& neighbour, Message<Pose>& message) const;
   std::vector<Message<Pose>> messages();
@@ -91,7 +91,7 @@ class TwoStageSolver : public DistributedSolver<Pose> {
   PoseMatrices<Pose> rotations_;  ///< per pose: relaxed, transposed
   Steps steps_;                   ///< per pose, from where the stage was linearised
 
-  bool begins_ = false;               ///< the stage, and neighbours have not been told from where
+  bool begins_ = false;               ///< the stage, and neighbours have not heard from where
   bool prepared_ = false;             ///< all neighbours' values of the stage are there
   bool failed_ = false;               ///< the robot's own system is singular
   bool tell_ = true;                  ///< neighbours what they see
