@@ -104,7 +104,7 @@ TEST(ParameterSets, CoverScenariosImportsAndTables) {
     EXPECT_TRUE(refused.empty() || refused.ends_with("this table has no parameters")) << refused;
     ++found;
   }
-  EXPECT_EQ(found, 11);
+  EXPECT_EQ(found, 12);
 }
 
 TEST(ParameterSets, AreFoundByCallAndByName) {

@@ -29,8 +29,8 @@ struct OptimizerParams {
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
     RADIOSLAM_BASIC_FIELD(max_iterations, "", 0, 1e6, "largest number of optimizer steps");
-    RADIOSLAM_FIELD(relative_cost_tolerance, "", 0, 1,
-                    "relative cost decrease of a full step below which the optimizer stops");
+    RADIOSLAM_BASIC_FIELD(relative_cost_tolerance, "", 0, 1,
+                          "relative cost decrease of a full step below which the optimizer stops");
     RADIOSLAM_FIELD(absolute_cost_tolerance, "", 0, 1e6,
                     "absolute cost decrease of a full step below which the optimizer stops");
     RADIOSLAM_FIELD(nonmonotone_window, "", 0, 100,

@@ -61,6 +61,14 @@ Pose mean_placement(const std::vector<Placement<Pose>>& placements) {
   return mean;
 }
 
+/// A measurement that was repeated counts once, by its weight.
+template <class Pose>
+double votes(const std::vector<Placement<Pose>>& placements) {
+  double sum = 0;
+  for (const auto& p : placements) sum += p.information_weight;
+  return sum;
+}
+
 /// The placements that agree with the one that most agree with; the first of several.
 template <class Pose>
 std::vector<Placement<Pose>> elected(const std::vector<Placement<Pose>>& placements,
@@ -71,7 +79,7 @@ std::vector<Placement<Pose>> elected(const std::vector<Placement<Pose>>& placeme
     for (const auto& other : placements)
       if (disagreement(candidate, other, params.drift_ratio) <= params.max_statistic)
         agreeing.push_back(other);
-    if (agreeing.size() > best.size()) best = std::move(agreeing);
+    if (votes(agreeing) > votes(best)) best = std::move(agreeing);
   }
   return best;
 }
@@ -166,7 +174,7 @@ bool FrameAgreement<Pose>::adopt_part(RobotGraph<Pose>& robot, std::uint32_t par
         placements.push_back(placement(robot, factor));
     }
     const auto agreeing = elected(placements, params_);
-    if (static_cast<int>(agreeing.size()) < params_.min_votes) continue;
+    if (votes(agreeing) < params_.min_votes * (1 - 1e-9)) continue;
     const Pose T = mean_placement(agreeing);
     for (std::size_t p = 0; p < robot.own_poses; ++p)
       if (robot.part_of[p] == part) robot.graph.poses[p] = T * robot.graph.poses[p];

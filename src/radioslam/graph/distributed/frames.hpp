@@ -22,8 +22,8 @@ struct FrameVoteParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    RADIOSLAM_FIELD(min_votes, "", 1, 1000,
-                    "factors between two robots that must agree before one adopts the other's frame");
+    RADIOSLAM_BASIC_FIELD(min_votes, "", 1, 1000,
+                          "factors between two robots that must agree before one adopts the other's frame");
     RADIOSLAM_FIELD(max_statistic, "", 0, 1e6,
                     "squared Mahalanobis norm up to which two factors agree on a robot's frame");
     RADIOSLAM_FIELD(drift_ratio, "", 0, 1,

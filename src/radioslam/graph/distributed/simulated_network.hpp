@@ -19,10 +19,10 @@ struct NetworkParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    RADIOSLAM_FIELD(loss_share, "", 0, 1, "share of messages between robots that are lost");
-    RADIOSLAM_FIELD(delay_rounds, "", 0, 1000, "largest delay of a message, beyond the next round");
-    RADIOSLAM_FIELD(repeat_share, "", 0, 1, "share of messages that arrive twice");
-    RADIOSLAM_FIELD(seed, "", 0, 2147483647, "seed of the losses and delays");
+    RADIOSLAM_BASIC_FIELD(loss_share, "", 0, 1, "share of messages between robots that are lost");
+    RADIOSLAM_BASIC_FIELD(delay_rounds, "", 0, 1000, "largest delay of a message, beyond the next round");
+    RADIOSLAM_BASIC_FIELD(repeat_share, "", 0, 1, "share of messages that arrive twice");
+    RADIOSLAM_BASIC_FIELD(seed, "", 0, 2147483647, "seed of the losses and delays");
   }
 };
 
