@@ -417,7 +417,8 @@ TYPED_TEST(Messages, HoldWhatConcernsThePosesBetweenTheirRobots) {
       for (const NeighbourRobot& n : robot.neighbours) links[robot.robot].neighbours.push_back(n.robot);
     }
     const TeamTree tree(links);
-    for (const auto& [name, make] : all_solvers<TypeParam>()) {
+    for (const auto& [solver_name, make] : all_solvers<TypeParam>()) {
+      const std::string name = solver_name;
       SCOPED_TRACE(name);
       std::map<RobotNumber, Eigen::Index> shared;  // rows, as the robot's last elimination has them
       std::size_t ups = 0, downs = 0;

@@ -50,7 +50,7 @@ bool has_ceiling(const ScanPyramid& scan, double range_m) {
   }
   if (heights_m.size() < kMinOverhead) return false;
   const double least = kCeilingShare * static_cast<double>(heights_m.size());
-  Eigen::Vector3d plane(0, 0, quantile(heights_m, 0.95));
+  Eigen::Vector3d plane(0, 0, static_cast<double>(quantile(heights_m, 0.95)));
   double layer_m = kMinLayer_m + 2 * kMaxTilt * range_m;
   std::vector<Eigen::Vector3d> within;
   for (int k = 0; k < kPlaneSteps; ++k) {
@@ -74,7 +74,7 @@ std::optional<double> storey_height_m(const ScanPyramid& scan) {
     ranges_m.push_back(surfel.position.head<2>().norm());
   }
   if (heights_m.empty()) return std::nullopt;
-  const float range_m = quantile(ranges_m, 0.9);
+  const auto range_m = static_cast<double>(quantile(ranges_m, 0.9));
   if (range_m > kIndoors_m && !has_ceiling(scan, range_m)) return std::nullopt;
   return std::max(kMinStorey_m, static_cast<double>(quantile(heights_m, 0.98) - quantile(heights_m, 0.05)));
 }
