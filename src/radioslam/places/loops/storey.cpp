@@ -74,8 +74,8 @@ std::optional<double> storey_height_m(const ScanPyramid& scan) {
     ranges_m.push_back(surfel.position.head<2>().norm());
   }
   if (heights_m.empty()) return std::nullopt;
-  const auto range_m = static_cast<double>(quantile(ranges_m, 0.9));
-  if (range_m > kIndoors_m && !has_ceiling(scan, range_m)) return std::nullopt;
+  const float range_m = quantile(ranges_m, 0.9);
+  if (range_m > kIndoors_m && !has_ceiling(scan, static_cast<double>(range_m))) return std::nullopt;
   return std::max(kMinStorey_m, static_cast<double>(quantile(heights_m, 0.98) - quantile(heights_m, 0.05)));
 }
 
