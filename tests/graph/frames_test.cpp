@@ -28,8 +28,7 @@ struct Pair {
   double error_of_adopted(const FrameVoteParams& params) {
     FrameAgreement<Pose> first(robots[0], params), second(robots[1], params);
     const auto start = robots[1].graph.poses;
-    EXPECT_TRUE(
-        second.hear(robots[1], 0, first.seen_by(robots[0], robots[0].neighbours[0], robots[0].graph.poses)));
+    EXPECT_TRUE(second.hear(robots[1], 0, first.seen_by(robots[0], robots[0].neighbours[0])));
     EXPECT_TRUE(second.adopt(robots[1]));
     EXPECT_TRUE(second.frame_of_part(0).same({0, 0, 0}));
     EXPECT_EQ(second.frame_of_part(0).hops, 1u);
@@ -76,8 +75,7 @@ TYPED_TEST(Frames, NoFrameIsAdoptedWithoutEnoughVotes) {
   FrameVoteParams params;
   params.min_votes = 11;
   FrameAgreement<TypeParam> first(pair.robots[0], params), second(pair.robots[1], params);
-  second.hear(pair.robots[1], 0,
-              first.seen_by(pair.robots[0], pair.robots[0].neighbours[0], pair.robots[0].graph.poses));
+  second.hear(pair.robots[1], 0, first.seen_by(pair.robots[0], pair.robots[0].neighbours[0]));
   EXPECT_FALSE(second.adopt(pair.robots[1]));
   EXPECT_TRUE(second.frame_of_part(0).same({1, 0, 0}));
   EXPECT_TRUE(second.usable_factors(pair.robots[1]).empty());
@@ -86,15 +84,14 @@ TYPED_TEST(Frames, NoFrameIsAdoptedWithoutEnoughVotes) {
 TYPED_TEST(Frames, NobodyAdoptsTheFrameOfAHigherRobot) {
   Pair<TypeParam> pair([](std::size_t) { return TypeParam(); });
   FrameAgreement<TypeParam> first(pair.robots[0], {}), second(pair.robots[1], {});
-  first.hear(pair.robots[0], 1,
-             second.seen_by(pair.robots[1], pair.robots[1].neighbours[0], pair.robots[1].graph.poses));
+  first.hear(pair.robots[0], 1, second.seen_by(pair.robots[1], pair.robots[1].neighbours[0]));
   EXPECT_FALSE(first.adopt(pair.robots[0]));
 }
 
 TYPED_TEST(Frames, RefusesPosesThatDoNotFit) {
   Pair<TypeParam> pair([](std::size_t) { return TypeParam(); });
   FrameAgreement<TypeParam> first(pair.robots[0], {}), second(pair.robots[1], {});
-  auto seen = first.seen_by(pair.robots[0], pair.robots[0].neighbours[0], pair.robots[0].graph.poses);
+  auto seen = first.seen_by(pair.robots[0], pair.robots[0].neighbours[0]);
   EXPECT_FALSE(second.hear(pair.robots[1], 5, seen));
   seen.poses.pop_back();
   EXPECT_FALSE(second.hear(pair.robots[1], 0, seen));
@@ -105,7 +102,7 @@ TYPED_TEST(Frames, AfterAStartAgainThePartsThatAreSeenComeFirst) {
   const auto team = test::cut(test::draw_team<TypeParam>(3, 2, 8, 1), 1, 3);
   auto robots = split_by_robot(team.graph, team.poses);
   FrameAgreement<TypeParam> first(robots[0], {}), second(robots[1], {});
-  second.hear(robots[1], 0, first.seen_by(robots[0], robots[0].neighbours[0], robots[0].graph.poses));
+  second.hear(robots[1], 0, first.seen_by(robots[0], robots[0].neighbours[0]));
   second.adopt(robots[1]);
   second.start_again(robots[1], {6});
   EXPECT_TRUE(second.frame_of(robots[1], 6)->same({1, 0, 0}));

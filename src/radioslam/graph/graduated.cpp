@@ -21,16 +21,6 @@ void for_each_outlier_list(Graph& graph, Body&& body, Parts&... parts) {
   body(graph.positions, parts.positions...);
 }
 
-double surrogate_weight(GraduatedLoss loss, double mu, double s, double c2) {
-  if (loss == GraduatedLoss::kGemanMcClure) {
-    const double ratio = mu * c2 / (s + mu * c2);
-    return ratio * ratio;
-  }
-  if (s <= c2 * mu / (mu + 1)) return 1;
-  if (s >= c2 * (mu + 1) / mu) return 0;
-  return std::sqrt(c2 * mu * (mu + 1) / s) - mu;
-}
-
 /// A run over one graph: `work_` is the weighted problem without the candidates' losses.
 template <class Pose>
 class Graduation {
@@ -172,6 +162,16 @@ class Graduation {
 };
 
 }  // namespace
+
+double surrogate_weight(GraduatedLoss loss, double mu, double s, double c2) {
+  if (loss == GraduatedLoss::kGemanMcClure) {
+    const double ratio = mu * c2 / (s + mu * c2);
+    return ratio * ratio;
+  }
+  if (s <= c2 * mu / (mu + 1)) return 1;
+  if (s >= c2 * (mu + 1) / mu) return 0;
+  return std::sqrt(c2 * mu * (mu + 1) / s) - mu;
+}
 
 template <class Pose>
 FactorMask geman_mcclure_factors(const PoseGraph<Pose>& graph) {

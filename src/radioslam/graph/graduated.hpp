@@ -15,6 +15,9 @@ namespace radioslam {
 
 enum class GraduatedLoss { kGemanMcClure, kTruncatedLeastSquares };
 
+/// w of the formulas above, of a factor with squared Mahalanobis norm s and squared loss scale c2.
+double surrogate_weight(GraduatedLoss loss, double mu, double s, double c2);
+
 struct GraduatedParams {
   double mu_factor = 1.4;
   int max_rounds = 100;  ///< the last round is solved at the loss itself, or at this mu

@@ -44,7 +44,6 @@ NormalEquations<Pose>::NormalEquations(const PoseGraph<Pose>& graph, Gauge<Pose>
       list.slots.push_back(factor_slots(matrix_, blocks_, variables(factor)));
     list.wave.resize(std::min(kWave, list.slots.size()));
   });
-  if (!empty()) cholesky_ = std::make_unique<BlockCholesky>(matrix_.pattern(), shared_last(blocks_));
 }
 
 template <class Pose>
@@ -102,6 +101,7 @@ void NormalEquations<Pose>::damp(double damping) {
 
 template <class Pose>
 Factorization NormalEquations<Pose>::factorize(double damping) {
+  if (!cholesky_) cholesky_ = std::make_unique<BlockCholesky>(matrix_.pattern(), shared_last(blocks_));
   damp(damping);
   return cholesky_->factorize(matrix_);
 }

@@ -159,6 +159,7 @@ class NormalEquations {
   const VariableBlocks& blocks() const { return blocks_; }
   const SymmetricBlockMatrix& matrix() const { return matrix_; }
   const Eigen::VectorXd& gradient() const { return gradient_; }
+  /// Once it has been factorised.
   const BlockCholesky& cholesky() const { return *cholesky_; }
 
  private:

@@ -1,7 +1,10 @@
-// The part of a robot's graph that it optimises while others' poses rest, and its factorisation.
+// The part of a robot's graph that it optimises while others' poses rest, and its steps.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "radioslam/graph/distributed/robot_graph.hpp"
@@ -29,6 +32,37 @@ bool factorize_damped(NormalEquations<Pose>& equations) {
   for (double damping = kFirst; damping <= kLast; damping *= 10)
     if (equations.factorize(damping) == Factorization::kDone) return true;
   return false;
+}
+
+/// The step of the own poses by a quadratic that bounds the linearised cost from above, whatever neighbours
+/// do at the same time: in its information factors with others count double, in its gradient once (Fan and
+/// Murphey 2021).
+struct MajorizedStep {
+  double cost = 0;           ///< at the graph's poses
+  Eigen::VectorXd gradient;  ///< of the cost
+  /// Nothing where a neighbour has sent poses beyond all measure: then until others come.
+  std::optional<Eigen::VectorXd> step;
+};
+
+/// `active`: active_graph(robot, usable) at the poses to start from; `equations` are of it.
+template <class Pose>
+MajorizedStep majorized_step(const RobotGraph<Pose>& robot, const std::vector<std::uint32_t>& usable,
+                             PoseGraph<Pose>& active, NormalEquations<Pose>& equations) {
+  const auto weigh_between = [&](double factor) {
+    for (std::size_t k = 0; k < usable.size(); ++k)
+      active.relative_poses[robot.own_relative_poses + k].weight =
+          factor * robot.graph.relative_poses[usable[k]].weight;
+  };
+  MajorizedStep result;
+  result.cost = equations.linearise(active);
+  result.gradient = equations.gradient();
+  weigh_between(2);
+  equations.linearise(active);
+  weigh_between(1);
+  if (!std::isfinite(result.cost) || !factorize_damped(equations)) return result;
+  Eigen::VectorXd step = equations.cholesky().solve(-result.gradient);
+  if (step.allFinite()) result.step = std::move(step);
+  return result;
 }
 
 }  // namespace radioslam

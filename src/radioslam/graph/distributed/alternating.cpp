@@ -1,7 +1,6 @@
 #include "radioslam/graph/distributed/alternating.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "radioslam/graph/distributed/active_graph.hpp"
 
@@ -10,19 +9,6 @@ namespace radioslam {
 template <class Pose>
 AlternatingSolver<Pose>::AlternatingSolver(RobotGraph<Pose> robot, const AlternatingParams& params)
     : params_(params), robot_(std::move(robot)), frames_(robot_, params.frames) {}
-
-template <class Pose>
-std::vector<Pose> AlternatingSolver<Pose>::poses() const {
-  return {robot_.graph.poses.begin(),
-          robot_.graph.poses.begin() + static_cast<std::ptrdiff_t>(robot_.own_poses)};
-}
-
-template <class Pose>
-std::vector<Frame> AlternatingSolver<Pose>::frames() const {
-  std::vector<Frame> frames;
-  for (const std::uint32_t part : robot_.part_of) frames.push_back(frames_.frame_of_part(part));
-  return frames;
-}
 
 template <class Pose>
 bool AlternatingSolver<Pose>::settled() const {
@@ -45,7 +31,7 @@ std::vector<Message<Pose>> AlternatingSolver<Pose>::round(const std::vector<Mess
     move_poses();
   else
     move_parts();
-  return messages();
+  return frames_.seen_by_all(robot_, round_++);
 }
 
 template <class Pose>
@@ -59,25 +45,12 @@ template <class Pose>
 void AlternatingSolver<Pose>::move_poses() {
   poses_rest_ = equations_->empty();
   if (poses_rest_) return;
-  cost_ = equations_->linearise(active_);
-  const Eigen::VectorXd gradient = equations_->gradient();
-  weigh_between(2);
-  equations_->linearise(active_);
-  weigh_between(1);
-  // A neighbour may have sent poses beyond all measure: then until others come.
-  if (!std::isfinite(cost_) || !factorize_damped(*equations_)) return;
-  const Eigen::VectorXd step = equations_->cholesky().solve(-gradient);
-  if (!step.allFinite()) return;
-  poses_rest_ = small(-gradient.dot(step));
-  equations_->apply(step, active_);
+  const auto bounded = majorized_step(robot_, usable_, active_, *equations_);
+  cost_ = bounded.cost;
+  if (!bounded.step) return;
+  poses_rest_ = small(-bounded.gradient.dot(*bounded.step));
+  equations_->apply(*bounded.step, active_);
   std::copy_n(active_.poses.begin(), robot_.own_poses, robot_.graph.poses.begin());
-}
-
-template <class Pose>
-void AlternatingSolver<Pose>::weigh_between(double factor) {
-  for (std::size_t k = 0; k < usable_.size(); ++k)
-    active_.relative_poses[robot_.own_relative_poses + k].weight =
-        factor * robot_.graph.relative_poses[usable_[k]].weight;
 }
 
 template <class Pose>
@@ -120,20 +93,6 @@ double AlternatingSolver<Pose>::move_part(std::size_t part) {
 template <class Pose>
 bool AlternatingSolver<Pose>::small(double decrease) const {
   return decrease <= std::max(params_.settled_decrease * cost_, params_.absolute_decrease);
-}
-
-template <class Pose>
-std::vector<Message<Pose>> AlternatingSolver<Pose>::messages() {
-  std::vector<Message<Pose>> messages;
-  for (const NeighbourRobot& neighbour : robot_.neighbours) {
-    auto& message = messages.emplace_back();
-    message.from = robot_.robot;
-    message.to = neighbour.robot;
-    message.round = round_;
-    message.seen = frames_.seen_by(robot_, neighbour, robot_.graph.poses);
-  }
-  ++round_;
-  return messages;
 }
 
 template class AlternatingSolver<SE2>;

@@ -31,8 +31,8 @@ class AlternatingSolver : public DistributedSolver<Pose> {
   std::vector<Message<Pose>> round(const std::vector<Message<Pose>>& heard) override;
   /// Both of the last moves were small, with all neighbours heard.
   bool settled() const override;
-  std::vector<Pose> poses() const override;
-  std::vector<Frame> frames() const override;
+  std::vector<Pose> poses() const override { return robot_.trajectory(); }
+  std::vector<Frame> frames() const override { return frames_.frames(robot_); }
   std::size_t refused() const override { return refused_; }
 
  private:
@@ -40,9 +40,7 @@ class AlternatingSolver : public DistributedSolver<Pose> {
   void move_poses();
   void move_parts();
   double move_part(std::size_t part);
-  void weigh_between(double factor);
   bool small(double decrease) const;
-  std::vector<Message<Pose>> messages();
 
   AlternatingParams params_;
   RobotGraph<Pose> robot_;

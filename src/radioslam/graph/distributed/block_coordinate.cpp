@@ -6,6 +6,7 @@
 #include "radioslam/graph/distributed/active_graph.hpp"
 
 namespace radioslam {
+
 template <class Pose>
 BlockCoordinateSolver<Pose>::BlockCoordinateSolver(RobotGraph<Pose> robot,
                                                    const BlockCoordinateParams& params)
@@ -13,23 +14,14 @@ BlockCoordinateSolver<Pose>::BlockCoordinateSolver(RobotGraph<Pose> robot,
       robot_(std::move(robot)),
       frames_(robot_, params.frames),
       heard_until_(robot_.neighbours.size(), 0) {
-  poses_.assign(robot_.graph.poses.begin(),
-                robot_.graph.poses.begin() + static_cast<std::ptrdiff_t>(robot_.own_poses));
-}
-
-template <class Pose>
-std::vector<Frame> BlockCoordinateSolver<Pose>::frames() const {
-  std::vector<Frame> frames;
-  for (const std::uint32_t part : robot_.part_of) frames.push_back(frames_.frame_of_part(part));
-  return frames;
+  poses_ = robot_.trajectory();
 }
 
 template <class Pose>
 std::vector<Message<Pose>> BlockCoordinateSolver<Pose>::round(const std::vector<Message<Pose>>& heard) {
   for (const auto& message : heard) hear(message);
   if (frames_.adopt(robot_)) {
-    poses_.assign(robot_.graph.poses.begin(),
-                  robot_.graph.poses.begin() + static_cast<std::ptrdiff_t>(robot_.own_poses));
+    poses_ = robot_.trajectory();
     momentum_ = 1;
   }
   if (auto usable = frames_.usable_factors(robot_); usable != usable_ || !equations_) {
@@ -40,7 +32,7 @@ std::vector<Message<Pose>> BlockCoordinateSolver<Pose>::round(const std::vector<
     settled_ = robot_.neighbours.empty();
   else
     step();
-  return messages();
+  return frames_.seen_by_all(robot_, round_++);
 }
 
 /// What was said before something already heard is late, and nothing new.
@@ -67,23 +59,12 @@ void BlockCoordinateSolver<Pose>::prepare() {
 template <class Pose>
 void BlockCoordinateSolver<Pose>::step() {
   active_.poses = robot_.graph.poses;
-  const auto set_weights = [&](double factor) {
-    for (std::size_t k = 0; k < usable_.size(); ++k)
-      active_.relative_poses[robot_.own_relative_poses + k].weight =
-          factor * robot_.graph.relative_poses[usable_[k]].weight;
-  };
-  set_weights(1);
-  const double cost = equations_->linearise(active_);
-  const Eigen::VectorXd gradient = equations_->gradient();
-  set_weights(2);
-  equations_->linearise(active_);
+  const auto bounded = majorized_step(robot_, usable_, active_, *equations_);
   settled_ = false;
-  // A neighbour may have sent poses beyond all measure: then until others come.
-  if (!std::isfinite(cost) || !factorize_damped(*equations_)) return;
-  const Eigen::VectorXd step = equations_->cholesky().solve(-gradient);
-  if (!step.allFinite()) return;
-  settled_ = -gradient.dot(step) <= params_.settled_decrease * cost;
-  equations_->apply(step, active_);
+  if (!bounded.step) return;
+  const Eigen::VectorXd& gradient = bounded.gradient;
+  settled_ = -gradient.dot(*bounded.step) <= params_.settled_decrease * bounded.cost;
+  equations_->apply(*bounded.step, active_);
   // Momentum that points uphill is dropped (O'Donoghue and Candes 2015).
   double uphill = 0;
   for (std::size_t p = 0; p < robot_.own_poses; ++p) {
@@ -92,8 +73,7 @@ void BlockCoordinateSolver<Pose>::step() {
     const auto at = static_cast<Eigen::Index>(equations_->matrix().offset(static_cast<std::size_t>(block)));
     uphill += gradient.segment<Pose::kDof>(at).dot((poses_[p].inverse() * active_.poses[p]).log());
   }
-  const double next =
-      params_.accelerated && uphill <= 0 ? (1 + std::sqrt(1 + 4 * momentum_ * momentum_)) / 2 : 1;
+  const double next = uphill <= 0 ? (1 + std::sqrt(1 + 4 * momentum_ * momentum_)) / 2 : 1;
   const double ahead = next > 1 ? (momentum_ - 1) / next : 0;
   for (std::size_t p = 0; p < robot_.own_poses; ++p) {
     const Pose& moved = active_.poses[p];
@@ -101,20 +81,6 @@ void BlockCoordinateSolver<Pose>::step() {
     poses_[p] = moved;
   }
   momentum_ = next;
-}
-
-template <class Pose>
-std::vector<Message<Pose>> BlockCoordinateSolver<Pose>::messages() {
-  std::vector<Message<Pose>> messages;
-  for (const NeighbourRobot& neighbour : robot_.neighbours) {
-    auto& message = messages.emplace_back();
-    message.from = robot_.robot;
-    message.to = neighbour.robot;
-    message.round = round_;
-    message.seen = frames_.seen_by(robot_, neighbour, robot_.graph.poses);
-  }
-  ++round_;
-  return messages;
 }
 
 template class BlockCoordinateSolver<SE2>;

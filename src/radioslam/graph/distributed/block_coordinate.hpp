@@ -4,10 +4,10 @@
 // acceleration with restarts); Fan and Murphey 2021, Majorization minimization methods for distributed pose
 // graph optimization (all robots at once: a factor between two robots counts double in a robot's own
 // quadratic, which then bounds the cost from above whatever the neighbour does at the same time).
-// The step solves the robot's own normal equations, so what is within a robot converges at once.
+// Nesterov's momentum is each robot's own, dropped where it points uphill. The step solves the robot's own
+// normal equations, so what is within a robot converges at once.
 #pragma once
 
-#include <memory>
 #include <optional>
 
 #include "radioslam/graph/distributed/distributed_solver.hpp"
@@ -18,7 +18,6 @@ namespace radioslam {
 
 struct BlockCoordinateParams {
   FrameVoteParams frames;
-  bool accelerated = true;          ///< Nesterov's momentum, per robot, dropped where it points uphill
   double settled_decrease = 1e-10;  ///< predicted decrease of a step, relative to the robot's cost
 };
 
@@ -30,14 +29,13 @@ class BlockCoordinateSolver : public DistributedSolver<Pose> {
   std::vector<Message<Pose>> round(const std::vector<Message<Pose>>& heard) override;
   bool settled() const override { return settled_; }
   std::vector<Pose> poses() const override { return poses_; }
-  std::vector<Frame> frames() const override;
+  std::vector<Frame> frames() const override { return frames_.frames(robot_); }
   std::size_t refused() const override { return refused_; }
 
  private:
   void hear(const Message<Pose>& message);
   void prepare();
   void step();
-  std::vector<Message<Pose>> messages();
 
   BlockCoordinateParams params_;
   RobotGraph<Pose> robot_;  ///< own poses are where the next step starts: with momentum

@@ -93,6 +93,13 @@ FrameAgreement<Pose>::FrameAgreement(const RobotGraph<Pose>& robot, const FrameV
 }
 
 template <class Pose>
+std::vector<Frame> FrameAgreement<Pose>::frames(const RobotGraph<Pose>& robot) const {
+  std::vector<Frame> frames;
+  for (const std::uint32_t part : robot.part_of) frames.push_back(frames_[part]);
+  return frames;
+}
+
+template <class Pose>
 std::optional<Frame> FrameAgreement<Pose>::frame_of(const RobotGraph<Pose>& robot, std::size_t pose) const {
   if (pose < robot.own_poses) return frames_[robot.part_of[pose]];
   return copy_frames_[robot.copy_of(pose)];
@@ -185,15 +192,29 @@ bool FrameAgreement<Pose>::adopt_part(RobotGraph<Pose>& robot, std::uint32_t par
 }
 
 template <class Pose>
-SeenPoses<Pose> FrameAgreement<Pose>::seen_by(const RobotGraph<Pose>& robot, const NeighbourRobot& neighbour,
-                                              const std::vector<Pose>& poses) const {
+SeenPoses<Pose> FrameAgreement<Pose>::seen_by(const RobotGraph<Pose>& robot,
+                                              const NeighbourRobot& neighbour) const {
   SeenPoses<Pose> seen;
   seen.frames = frames_;
   for (const std::uint32_t pose : neighbour.seen) {
-    seen.poses.push_back(poses[pose]);
+    seen.poses.push_back(robot.graph.poses[pose]);
     if (robot.parts > 1) seen.part_of.push_back(robot.part_of[pose]);
   }
   return seen;
+}
+
+template <class Pose>
+std::vector<Message<Pose>> FrameAgreement<Pose>::seen_by_all(const RobotGraph<Pose>& robot,
+                                                             std::uint32_t round) const {
+  std::vector<Message<Pose>> messages;
+  for (const NeighbourRobot& neighbour : robot.neighbours) {
+    auto& message = messages.emplace_back();
+    message.from = robot.robot;
+    message.to = neighbour.robot;
+    message.round = round;
+    message.seen = seen_by(robot, neighbour);
+  }
+  return messages;
 }
 
 template class FrameAgreement<SE2>;

@@ -38,6 +38,8 @@ class FrameAgreement {
   FrameAgreement(const RobotGraph<Pose>& robot, const FrameVoteParams& params);
 
   const Frame& frame_of_part(std::size_t part) const { return frames_[part]; }
+  /// Per own pose.
+  std::vector<Frame> frames(const RobotGraph<Pose>& robot) const;
   /// Of a pose of the robot's graph; nothing for a copy that was not heard of yet.
   std::optional<Frame> frame_of(const RobotGraph<Pose>& robot, std::size_t pose) const;
   /// Both ends in one frame.
@@ -52,9 +54,10 @@ class FrameAgreement {
   bool hear(RobotGraph<Pose>& robot, RobotNumber from, const SeenPoses<Pose>& seen);
   /// Moves parts to frames of lower origins; whether any moved.
   bool adopt(RobotGraph<Pose>& robot);
-  /// What is sent to a neighbour, with the values in `poses` (own ones).
-  SeenPoses<Pose> seen_by(const RobotGraph<Pose>& robot, const NeighbourRobot& neighbour,
-                          const std::vector<Pose>& poses) const;
+  /// What is sent to a neighbour.
+  SeenPoses<Pose> seen_by(const RobotGraph<Pose>& robot, const NeighbourRobot& neighbour) const;
+  /// The same as messages to all neighbours.
+  std::vector<Message<Pose>> seen_by_all(const RobotGraph<Pose>& robot, std::uint32_t round) const;
 
  private:
   bool adopt_part(RobotGraph<Pose>& robot, std::uint32_t part);

@@ -1,16 +1,15 @@
 #include "radioslam/graph/distributed/outliers.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <utility>
+
+#include "radioslam/graph/graduated.hpp"
 
 namespace radioslam {
 
 TruncatedWeight truncated_weight(double squared_norm, double gate, double mu) {
-  if (squared_norm <= gate * mu / (mu + 1)) return {1, 0};
-  if (squared_norm >= gate * (mu + 1) / mu) return {0, gate};
-  const double weight = std::sqrt(gate * mu * (mu + 1) / squared_norm) - mu;
+  const double weight = surrogate_weight(GraduatedLoss::kTruncatedLeastSquares, mu, squared_norm, gate);
   return {weight, mu * (1 - weight) / (mu + weight) * gate};
 }
 

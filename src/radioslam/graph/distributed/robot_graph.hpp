@@ -42,6 +42,10 @@ struct RobotGraph {
   std::vector<std::uint32_t> part_of;
   std::size_t parts = 0;
 
+  /// The values of the own poses.
+  std::vector<Pose> trajectory() const {
+    return {graph.poses.begin(), graph.poses.begin() + static_cast<std::ptrdiff_t>(own_poses)};
+  }
   std::size_t copy_of(std::size_t pose) const { return pose - own_poses; }
   bool is_own(PoseId pose) const { return pose.index() < own_poses; }
 };

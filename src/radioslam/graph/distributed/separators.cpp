@@ -7,6 +7,7 @@
 #include "radioslam/graph/residuals.hpp"
 
 namespace radioslam {
+
 template <class Pose>
 SeparatorsSolver<Pose>::SeparatorsSolver(RobotGraph<Pose> robot, const SeparatorsParams& params)
     : params_(params), robot_(std::move(robot)), frames_(robot_, params.frames), gossip_(robot_) {
@@ -19,8 +20,7 @@ SeparatorsSolver<Pose>::SeparatorsSolver(RobotGraph<Pose> robot, const Separator
 
 template <class Pose>
 void SeparatorsSolver<Pose>::publish() {
-  published_.assign(robot_.graph.poses.begin(),
-                    robot_.graph.poses.begin() + static_cast<std::ptrdiff_t>(robot_.own_poses));
+  published_ = robot_.trajectory();
 }
 
 template <class Pose>
@@ -28,13 +28,6 @@ std::vector<std::optional<double>> SeparatorsSolver<Pose>::weights() const {
   std::vector<std::optional<double>> weights(robot_.graph.relative_poses.size());
   for (const std::size_t k : held_list_) weights[k] = weights_[k];
   return weights;
-}
-
-template <class Pose>
-std::vector<Frame> SeparatorsSolver<Pose>::frames() const {
-  std::vector<Frame> frames;
-  for (const std::uint32_t part : robot_.part_of) frames.push_back(frames_.frame_of_part(part));
-  return frames;
 }
 
 template <class Pose>
@@ -82,8 +75,8 @@ bool SeparatorsSolver<Pose>::hear_child(RobotNumber from, const Elimination& up)
     message_to(from).down = answered->second;
     return true;
   }
-  const auto known = information_.find(from);
-  if (!up.information && (known == information_.end() || known->second.gradient.size() != up.gradient.size()))
+  const auto known = child_scalars_.find(from);
+  if (!up.information && (known == child_scalars_.end() || known->second != up.gradient.size()))
     return tree_ && tree_->id() != up.tree;  // of another tree, it is only late
   early_[from] = up;
   return true;
@@ -127,7 +120,7 @@ void SeparatorsSolver<Pose>::meet(std::map<RobotNumber, RobotLinks> team) {
   held_.reset();
   sweep_ = {};
   sweep_.mu = params_.outliers.gate > 0 ? params_.outliers.first_mu() : 0;
-  information_.clear();
+  child_scalars_.clear();
   last_down_.clear();
   last_up_.reset();
   last_cost_ = std::numeric_limits<double>::infinity();
@@ -209,11 +202,13 @@ template <class Pose>
 void SeparatorsSolver<Pose>::advance() {
   while (!finished_ && !sweep_.waiting) {
     if (!sweep_.linearised) linearise();
-    for (const RobotNumber child : children_) {
+    const auto is_there = [&](RobotNumber child) {
       const auto up = early_.find(child);
-      if (up == early_.end() || up->second.tree != tree_->id() || up->second.sweep != sweep_.number) return;
-      sweep_.children[child] = up->second;
-    }
+      return up != early_.end() && up->second.tree == tree_->id() && up->second.sweep == sweep_.number;
+    };
+    if (!std::all_of(children_.begin(), children_.end(), is_there)) return;
+    for (const RobotNumber child : children_)
+      sweep_.children[child] = std::move(early_.extract(child).mapped());
     if (!eliminate()) {
       finished_ = true;  // damping has failed, or a message lied: what there is stays
       return;
@@ -246,15 +241,17 @@ template <class Pose>
 bool SeparatorsSolver<Pose>::eliminate() {
   if (sweep_.relinearise) {
     if (!held_->eliminate(sweep_.damping)) return false;
-    information_ = sweep_.children;
-    for (const auto& [child, up] : information_)
+    child_scalars_.clear();
+    for (const auto& [child, up] : sweep_.children) {
       if (!up.information) return false;
-    cluster_.emplace(robot_.robot, held_->kept(), information_, Pose::kDof);
+      child_scalars_[child] = up.gradient.size();
+    }
+    cluster_.emplace(robot_.robot, held_->kept(), sweep_.children, Pose::kDof);
     if (tree_->is_root(robot_.robot) && !cluster_->closed_at_root()) return false;
-    if (!cluster_->factorize(held_->information(), information_)) return false;
+    if (!cluster_->factorize(held_->information(), sweep_.children)) return false;
   }
   for (const auto& [child, up] : sweep_.children)
-    if (up.gradient.size() != information_.at(child).gradient.size()) return false;
+    if (up.gradient.size() != child_scalars_.at(child)) return false;
   cluster_->set_gradient(held_->gradient(), sweep_.children);
   return true;
 }
@@ -359,7 +356,7 @@ std::vector<Message<Pose>> SeparatorsSolver<Pose>::messages() {
       message_to(neighbour.robot).topology = std::move(news);
     if (tell_poses_[neighbour.robot]) {
       auto& seen = message_to(neighbour.robot).seen;
-      seen = frames_.seen_by(robot_, neighbour, robot_.graph.poses);
+      seen = frames_.seen_by(robot_, neighbour);
       if (repeats()) seen->tree = tree_->id();
     }
     tell_poses_[neighbour.robot] = false;

@@ -6,14 +6,13 @@
 // junction tree whose clusters are the robots. The root solves, and the steps come down the same way. A
 // factor between two robots is held by one of them, the one whose neighbour has fewer poses in them.
 //
-// The information that goes up is rounded to single precision, and sent again only where the steps were
+// The information that goes up is rounded (information_code.hpp), and sent again only where the steps were
 // large: sweeps in between carry gradients alone. Gradients are exact, so the sweeps end at the optimum.
 // Sources: Dechter 2003 (bucket and junction trees); Petcu and Faltings 2005 (the same over agents);
 // Cunningham et al. 2010, DDF-SAM (separators between robots).
 #pragma once
 
 #include <map>
-#include <memory>
 #include <optional>
 
 #include "radioslam/graph/distributed/cluster.hpp"
@@ -44,7 +43,7 @@ class SeparatorsSolver : public DistributedSolver<Pose> {
   std::vector<Message<Pose>> round(const std::vector<Message<Pose>>& heard) override;
   bool settled() const override { return finished_; }
   std::vector<Pose> poses() const override { return published_; }
-  std::vector<Frame> frames() const override;
+  std::vector<Frame> frames() const override { return frames_.frames(robot_); }
   std::size_t refused() const override { return refused_; }
   std::vector<std::optional<double>> weights() const override;
 
@@ -99,7 +98,7 @@ class SeparatorsSolver : public DistributedSolver<Pose> {
   std::vector<double> weights_;            ///< per relative pose; of those held here
   std::optional<HeldFactors<Pose>> held_;  ///< once the sweeps can begin
   std::optional<Cluster> cluster_;
-  std::map<RobotNumber, Elimination> information_;  ///< the children's, as they were sent last
+  std::map<RobotNumber, Eigen::Index> child_scalars_;  ///< of the steps that each child shares
   Sweep sweep_;
   std::vector<Pose> before_;                   ///< where the last sweep started
   double last_cost_ = 0, last_predicted_ = 0;  ///< of the team, at the root

@@ -36,13 +36,6 @@ std::vector<Pose> TwoStageSolver<Pose>::poses() const {
 }
 
 template <class Pose>
-std::vector<Frame> TwoStageSolver<Pose>::frames() const {
-  std::vector<Frame> frames;
-  for (const std::uint32_t part : robot_.part_of) frames.push_back(frames_.frame_of_part(part));
-  return frames;
-}
-
-template <class Pose>
 std::vector<Message<Pose>> TwoStageSolver<Pose>::round(const std::vector<Message<Pose>>& heard) {
   std::vector<bool> fits;
   for (const auto& message : heard) fits.push_back(hear(message));
@@ -217,7 +210,7 @@ void TwoStageSolver<Pose>::tell_values(const NeighbourRobot& neighbour, Message<
   } else if (stage() == kPoses && prepared_) {
     for (const std::uint32_t pose : neighbour.seen) message.steps.push_back(steps_[pose]);
   } else {
-    message.seen = frames_.seen_by(robot_, neighbour, robot_.graph.poses);
+    message.seen = frames_.seen_by(robot_, neighbour);
   }
 }
 

@@ -49,7 +49,7 @@ class TwoStageSolver : public DistributedSolver<Pose> {
   std::vector<Message<Pose>> round(const std::vector<Message<Pose>>& heard) override;
   bool settled() const override { return stages_.finished(); }
   std::vector<Pose> poses() const override;
-  std::vector<Frame> frames() const override;
+  std::vector<Frame> frames() const override { return frames_.frames(robot_); }
   std::size_t refused() const override { return refused_; }
 
  private:

@@ -9,6 +9,9 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
+
+#include "radioslam/base/little_endian.hpp"
 
 namespace radioslam {
 
@@ -19,8 +22,8 @@ class WireWriter {
     for (; value >= 0x80U; value >>= 7U) byte(static_cast<std::uint8_t>(value | 0x80U));
     byte(static_cast<std::uint8_t>(value));
   }
-  void f32(float value) { fixed(std::bit_cast<std::uint32_t>(value), 4); }
-  void f64(double value) { fixed(std::bit_cast<std::uint64_t>(value), 8); }
+  void f32(float value) { append_f32(bytes_, value); }
+  void f64(double value) { append_f64(bytes_, value); }
   void append(std::string_view bytes) { bytes_ += bytes; }
 
   std::size_t size() const { return bytes_.size(); }
@@ -28,9 +31,6 @@ class WireWriter {
   std::string take() { return std::move(bytes_); }
 
  private:
-  void fixed(std::uint64_t value, int bytes) {
-    for (; bytes > 0; --bytes, value >>= 8U) byte(static_cast<std::uint8_t>(value));
-  }
   std::string bytes_;
 };
 
