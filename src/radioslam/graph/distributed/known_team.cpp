@@ -1,0 +1,317 @@
+#include "radioslam/graph/distributed/known_team.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "radioslam/graph/initial_values.hpp"
+#include "radioslam/graph/marginals.hpp"
+#include "radioslam/graph/optimizer.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr double kSmallestSigma = 1e-6;  ///< m and rad, where none is stated
+constexpr double kRightWeight = 0.5;     ///< a relative pose of less is taken for wrong
+constexpr double kSmallestWeight = 1e-9;
+
+SE2::Jacobian covariance_of(double sigma_m, double sigma_rad) {
+  const double m = std::max(sigma_m, kSmallestSigma), rad = std::max(sigma_rad, kSmallestSigma);
+  return SE2::Tangent(m * m, m * m, rad * rad).asDiagonal();
+}
+
+SE2::Jacobian inverse_of(const SE2::Jacobian& covariance) {
+  return Eigen::LLT<SE2::Jacobian>(covariance).solve(SE2::Jacobian::Identity());
+}
+
+}  // namespace
+
+/// The poses of a graph: all own ones first, then those of other robots by name.
+struct KnownTeam::Layout {
+  struct Robot {
+    KnownTeam::PartPointer part;
+    std::size_t first = 0;  ///< pose of its start
+  };
+  std::map<std::string, Robot> robots;  ///< others
+  std::size_t poses = 0;
+  bool common = false;  ///< a start is known
+  std::string origin;   ///< where none is
+};
+
+void KnownTeam::Contact::add(std::size_t at, const RelativePoseFactor<SE2>& seen) {
+  if (at > node || !information) {
+    node = at;
+    information = SE2::Jacobian::Zero();
+  }
+  if (at == node) *information += seen.weight * seen.information;
+}
+
+SE2::Jacobian KnownTeam::Contact::covariance() const {
+  return information ? inverse_of(*information) : SE2::Jacobian::Zero();
+}
+
+KnownTeam::KnownTeam(std::string robot, double t_s, const std::optional<SE2>& start,
+                     const KnownTeamParams& params)
+    : params_(params), robot_(std::move(robot)), start_(start), times_{t_s}, raw_{SE2()},
+      poses_{start.value_or(SE2())}, shared_{0}, team_{robot_}, frame_(start ? "" : robot_) {
+  latest_.pose = poses_.front();
+}
+
+void KnownTeam::move(double t_s, const SE2& step, double sigma_m, double sigma_rad) {
+  times_.push_back(t_s);
+  raw_.push_back(raw_.back() * step);
+  poses_.push_back(poses_.back() * step);
+  steps_.push_back({step, covariance_of(sigma_m, sigma_rad)});
+  latest_ = latest_ * steps_.back();
+  since_contact_ = since_contact_ * steps_.back();
+  // Whether the latest shared pose is still the robot's latest is part of what others are told.
+  if (shared_.back() + 2 == times_.size()) part_is_old_ = true;
+}
+
+void KnownTeam::share_node(std::uint32_t number) {
+  const auto at = std::lower_bound(shared_.begin(), shared_.end(), number);
+  if (at == shared_.end() || *at != number) shared_.insert(at, number);
+  part_is_old_ = estimate_is_old_ = true;
+}
+
+void KnownTeam::see(double t_s, const std::string& robot, const SE2& T_i_j, double sigma_m, double sigma_rad,
+                    const AngleVerdict& verdict) {
+  const auto node = static_cast<std::uint32_t>(times_.size() - 1);
+  sightings_.push_back({node, robot, t_s, T_i_j, std::max(sigma_m, kSmallestSigma),
+                        std::max(sigma_rad, kSmallestSigma), verdict});
+  weights_.push_back(0);
+  share_node(node);
+}
+
+std::optional<std::uint32_t> KnownTeam::own_node_at(double t_s) const {
+  const auto after = std::upper_bound(times_.begin(), times_.end(), t_s);
+  if (after == times_.begin()) return std::nullopt;
+  return static_cast<std::uint32_t>(after - times_.begin() - 1);
+}
+
+bool KnownTeam::take(const PartPointer& part) {
+  if (!part || part->robot == robot_) return false;
+  const auto known = parts_.find(part->robot);
+  if (known != parts_.end() && known->second->version >= part->version) return false;
+  if (!is_well_formed(*part)) return false;
+  parts_[part->robot] = part;
+  for (const SharedSighting& sighting : part->sightings)
+    if (sighting.robot == robot_)
+      if (const auto node = own_node_at(sighting.t_s)) share_node(*node);
+  estimate_is_old_ = true;
+  return true;
+}
+
+std::vector<UnjudgedSighting> KnownTeam::unjudged() const {
+  std::vector<UnjudgedSighting> list;
+  for (const auto& [name, part] : parts_)
+    for (const SharedSighting& sighting : part->sightings) {
+      if (sighting.robot != robot_ || verdicts_.contains({name, sighting.t_s})) continue;
+      if (const auto node = own_node_at(sighting.t_s))
+        list.push_back({name, *node, sighting.t_s, sighting.T_i_j.inverse(), sighting.sigma_m,
+                        sighting.sigma_rad});
+    }
+  return list;
+}
+
+void KnownTeam::judge(const std::string& by, double t_s, const AngleVerdict& verdict) {
+  verdicts_[{by, t_s}] = verdict;
+  part_is_old_ = estimate_is_old_ = true;
+}
+
+KnownTeam::PartPointer KnownTeam::own_part(double now_s) {
+  if (!part_is_old_ && own_part_) return own_part_;
+  auto part = std::make_shared<SharedPart>();
+  part->robot = robot_;
+  part->version = ++version_;
+  part->start = start_;
+  for (std::size_t k = 0; k < shared_.size(); ++k) {
+    const std::uint32_t number = shared_[k];
+    SharedNode node{number, times_[number], number + 1 < times_.size() ? times_[number + 1] : now_s, {}};
+    // A pose that another follows is the latest until just before.
+    if (number + 1 < times_.size())
+      node.until_s = std::max(node.t_s, std::nextafter(node.until_s, node.t_s));
+    if (k > 0)
+      for (std::uint32_t step = shared_[k - 1]; step < number; ++step)
+        node.from_before = step == shared_[k - 1] ? steps_[step] : node.from_before * steps_[step];
+    part->nodes.push_back(std::move(node));
+  }
+  part->sightings = sightings_;
+  for (const auto& [key, verdict] : verdicts_) part->verdicts.push_back({key.first, key.second, verdict});
+  own_part_ = std::move(part);
+  part_is_old_ = false;
+  return own_part_;
+}
+
+std::vector<KnownTeam::Between> KnownTeam::all_sightings() const {
+  std::vector<Between> list;
+  const auto add = [&](const std::string& from, const std::vector<SharedSighting>& sightings) {
+    for (const SharedSighting& sighting : sightings) {
+      Between between{&sighting, &from, {}};
+      if (sighting.robot == robot_) {
+        const auto verdict = verdicts_.find({from, sighting.t_s});
+        if (verdict != verdicts_.end()) between.at_seen = verdict->second;
+        list.push_back(between);
+        continue;
+      }
+      const auto part = parts_.find(sighting.robot);
+      if (part == parts_.end() || !part->second->node_at(sighting.t_s)) continue;
+      for (const SharedVerdict& verdict : part->second->verdicts)
+        if (verdict.by == from && verdict.t_s == sighting.t_s) between.at_seen = verdict.verdict;
+      list.push_back(between);
+    }
+  };
+  add(robot_, sightings_);
+  for (const auto& [name, part] : parts_) add(name, part->sightings);
+  return list;
+}
+
+/// This robot and those that sightings connect with it, the nearest first, as far as they may be used.
+KnownTeam::Layout KnownTeam::connected_part(const std::vector<Between>& between) const {
+  std::map<std::string, std::set<std::string>> links;
+  for (const Between& each : between) {
+    links[*each.from].insert(each.sighting->robot);
+    links[each.sighting->robot].insert(*each.from);
+  }
+  Layout layout;
+  layout.poses = times_.size();
+  layout.common = start_.has_value();
+  layout.origin = robot_;
+  std::size_t others = 0;
+  std::vector<std::string> queue{robot_};
+  std::set<std::string> reached{robot_};
+  for (std::size_t k = 0; k < queue.size(); ++k) {
+    const std::string name = queue[k];
+    if (k > 0) {
+      const PartPointer& part = parts_.at(name);
+      others += part->nodes.size();
+      if (others > static_cast<std::size_t>(params_.max_poses)) break;
+      layout.robots[name] = {part, 0};
+      layout.common = layout.common || part->start;
+      layout.origin = std::min(layout.origin, name);
+    }
+    for (const std::string& next : links[name])
+      if (reached.insert(next).second) queue.push_back(next);
+  }
+  for (auto& [name, robot] : layout.robots) {
+    robot.first = layout.poses;
+    layout.poses += robot.part->nodes.size();
+  }
+  return layout;
+}
+
+/// Probability that a relative pose between two robots is right, or what else its information is scaled by.
+double KnownTeam::weight_of(const Between& between) const {
+  const AngleVerdict& here = between.sighting->verdict;
+  if (params_.angle_weights == "off") return 1;
+  if (params_.angle_weights == "published") return here.scale * between.at_seen.scale;
+  const double prior = params_.outlier_ratio;
+  if (prior <= 0) return 1;
+  return 1 / (1 + prior / (1 - prior) * std::exp(std::min(50.0, here.log_odds + between.at_seen.log_odds)));
+}
+
+PoseGraph2 KnownTeam::graph_of(const Layout& layout, const std::vector<Between>& between) {
+  PoseGraph2 graph;
+  graph.poses = poses_;
+  graph.poses.resize(layout.poses);
+  graph.pose_fixed.assign(layout.poses, false);
+  const auto add_step = [&](std::size_t i, std::size_t j, const UncertainPose<SE2>& step) {
+    graph.relative_poses.push_back({PoseId(i), PoseId(j), step.pose, inverse_of(step.covariance)});
+  };
+  const auto place_start = [&](std::size_t pose, const std::string& name, const std::optional<SE2>& start) {
+    if (!(layout.common ? start.has_value() : name == layout.origin)) return;
+    graph.poses[pose] = start.value_or(SE2());
+    graph.pose_fixed[pose] = true;
+  };
+  for (std::size_t k = 0; k < steps_.size(); ++k) add_step(k, k + 1, steps_[k]);
+  place_start(0, robot_, start_);
+  for (const auto& [name, robot] : layout.robots) {
+    for (std::size_t k = 1; k < robot.part->nodes.size(); ++k)
+      add_step(robot.first + k - 1, robot.first + k, robot.part->nodes[k].from_before);
+    place_start(robot.first, name, robot.part->start);
+  }
+  const auto pose_at = [&](const std::string& name, double t_s) -> std::optional<std::size_t> {
+    if (name == robot_) return own_node_at(t_s);
+    const auto robot = layout.robots.find(name);
+    if (robot == layout.robots.end()) return std::nullopt;
+    const SharedNode* node = robot->second.part->node_at(t_s);
+    if (!node) return std::nullopt;
+    return robot->second.first + static_cast<std::size_t>(node - robot->second.part->nodes.data());
+  };
+  std::fill(weights_.begin(), weights_.end(), 0.0);
+  contact_ = {};
+  for (const Between& each : between) {
+    const SharedSighting& sighting = *each.sighting;
+    std::optional<std::size_t> i;
+    if (*each.from == robot_) {
+      i = sighting.node;
+    } else if (const auto robot = layout.robots.find(*each.from); robot != layout.robots.end()) {
+      i = robot->second.first + robot->second.part->place_of(sighting.node);
+    }
+    const auto j = pose_at(sighting.robot, sighting.t_s);
+    if (!i || !j) continue;
+    const double weight = weight_of(each);
+    if (*each.from == robot_) weights_[static_cast<std::size_t>(each.sighting - sightings_.data())] = weight;
+    RelativePoseFactor<SE2> factor{PoseId(*i), PoseId(*j), sighting.T_i_j,
+                                   inverse_of(covariance_of(sighting.sigma_m, sighting.sigma_rad))};
+    factor.weight = std::max(weight, kSmallestWeight);
+    for (const std::size_t end : {*i, *j})
+      if (end < times_.size() && weight >= kRightWeight) contact_.add(end, factor);
+    graph.relative_poses.push_back(factor);
+  }
+  return graph;
+}
+
+bool KnownTeam::solve() {
+  if (!estimate_is_old_) return false;
+  estimate_is_old_ = false;
+  const std::vector<Between> between = all_sightings();
+  const Layout layout = connected_part(between);
+  PoseGraph2 graph = graph_of(layout, between);
+  initialise(graph, GivenValues::kNone);
+  optimize(graph, OptimizerParams{});
+  poses_.assign(graph.poses.begin(), graph.poses.begin() + static_cast<std::ptrdiff_t>(times_.size()));
+  latest_ = {poses_.back(), {}};
+  if (const auto marginals = Marginals<SE2>::compute(graph))
+    latest_.covariance = marginals->pose(PoseId(times_.size() - 1));
+  since_contact_ = {SE2(), contact_.covariance()};
+  for (std::size_t k = contact_.node; k < steps_.size(); ++k) since_contact_ = since_contact_ * steps_[k];
+  others_.clear();
+  used_parts_.clear();
+  team_ = {robot_};
+  for (const auto& [name, robot] : layout.robots) {
+    const auto begin = graph.poses.begin() + static_cast<std::ptrdiff_t>(robot.first);
+    others_[name].assign(begin, begin + static_cast<std::ptrdiff_t>(robot.part->nodes.size()));
+    used_parts_[name] = robot.part;
+    team_.push_back(name);
+  }
+  frame_ = layout.common ? "" : layout.origin;
+  if (layout.common)
+    for (const auto& [name, part] : parts_)
+      if (part->start && !layout.robots.contains(name)) team_.push_back(name);
+  std::sort(team_.begin(), team_.end());
+  return true;
+}
+
+std::optional<SE2> KnownTeam::pose_of(const std::string& robot, double t_s) const {
+  const auto part = used_parts_.find(robot);
+  if (part == used_parts_.end()) return std::nullopt;
+  const SharedNode* node = part->second->node_at(t_s);
+  if (!node) return std::nullopt;
+  return others_.at(robot)[static_cast<std::size_t>(node - part->second->nodes.data())];
+}
+
+std::size_t KnownTeam::sightings_with(const std::string& robot, double since_s) const {
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < sightings_.size(); ++k)
+    if (sightings_[k].robot == robot && sightings_[k].t_s >= since_s && weights_[k] > 0) ++count;
+  const auto part = parts_.find(robot);
+  if (part == parts_.end()) return count;
+  for (const SharedSighting& sighting : part->second->sightings)
+    if (sighting.robot == robot_ && sighting.t_s >= since_s) ++count;
+  return count;
+}
+
+}  // namespace radioslam

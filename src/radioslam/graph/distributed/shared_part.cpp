@@ -1,0 +1,67 @@
+#include "radioslam/graph/distributed/shared_part.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace radioslam {
+namespace {
+
+constexpr double kLargest = 1e9;  ///< metres, seconds and numbers of a part
+
+bool is_sane(double value) { return std::isfinite(value) && std::abs(value) <= kLargest; }
+bool is_sane(const SE2& pose) {
+  return is_sane(pose.translation().x()) && is_sane(pose.translation().y()) && is_sane(pose.angle());
+}
+bool is_sigma(double value) { return is_sane(value) && value > 0; }
+bool is_sane(const AngleVerdict& verdict) {
+  return is_sane(verdict.log_odds) && verdict.scale >= 0 && verdict.scale <= 1;
+}
+bool is_covariance(const SE2::Jacobian& matrix) {
+  if (!matrix.allFinite() || matrix.cwiseAbs().maxCoeff() > kLargest) return false;
+  return Eigen::LLT<SE2::Jacobian>(matrix).info() == Eigen::Success;
+}
+
+bool are_in_order(const std::vector<SharedNode>& nodes) {
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const SharedNode& node = nodes[k];
+    if (!is_sane(node.t_s) || !is_sane(node.until_s) || node.until_s < node.t_s) return false;
+    if (!is_sane(node.from_before.pose)) return false;
+    if (k == 0 && node.number != 0) return false;
+    if (k > 0 && (node.number <= nodes[k - 1].number || node.t_s < nodes[k - 1].t_s ||
+                  !is_covariance(node.from_before.covariance)))
+      return false;
+  }
+  return !nodes.empty();
+}
+
+}  // namespace
+
+const SharedNode* SharedPart::node_at(double t_s) const {
+  const auto after = std::upper_bound(nodes.begin(), nodes.end(), t_s,
+                                      [](double t, const SharedNode& node) { return t < node.t_s; });
+  if (after == nodes.begin()) return nullptr;
+  const SharedNode& node = *std::prev(after);
+  return t_s <= node.until_s ? &node : nullptr;
+}
+
+std::size_t SharedPart::place_of(std::uint32_t number) const {
+  const auto at = std::lower_bound(nodes.begin(), nodes.end(), number,
+                                   [](const SharedNode& node, std::uint32_t n) { return node.number < n; });
+  if (at == nodes.end() || at->number != number) return nodes.size();
+  return static_cast<std::size_t>(at - nodes.begin());
+}
+
+bool is_well_formed(const SharedPart& part) {
+  if (part.robot.empty() || !are_in_order(part.nodes) || (part.start && !is_sane(*part.start))) return false;
+  for (const SharedSighting& sighting : part.sightings)
+    if (part.place_of(sighting.node) == part.nodes.size() || sighting.robot.empty() ||
+        sighting.robot == part.robot || !is_sane(sighting.t_s) || !is_sane(sighting.T_i_j) ||
+        !is_sigma(sighting.sigma_m) || !is_sigma(sighting.sigma_rad) || !is_sane(sighting.verdict))
+      return false;
+  return std::all_of(part.verdicts.begin(), part.verdicts.end(), [](const SharedVerdict& verdict) {
+    return is_sane(verdict.t_s) && is_sane(verdict.verdict);
+  });
+}
+
+}  // namespace radioslam

@@ -1,0 +1,34 @@
+// Who meets whom: which call a robot follows, and whose offer the caller takes. Source: Wang et al., section 5
+// and algorithm 1; by information: see expected_gain.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace radioslam {
+
+/// What the link to a robot lacks: max(alpha (q - rho) / q, 0), rho = max(esnr_db, 0).
+double service_discrepancy(double q_db, double esnr_db, double alpha);
+
+/// A robot to meet, as it is heard here.
+struct MeetingOption {
+  std::string robot;
+  double esnr_db = 0;
+  double error = 0;      ///< that it states
+  double gain_rate = 0;  ///< m^2 of variance per metre walked
+};
+
+/// The call that a robot follows: the one it hears best; of equals, that of the larger error.
+std::optional<std::string> best_caller(const std::vector<MeetingOption>& callers);
+/// The offer that a caller takes: that of the smallest service discrepancy; of equals, of the lower error.
+std::optional<std::string> best_partner(const std::vector<MeetingOption>& offers, double q_db, double alpha);
+/// The one with the largest gain per metre.
+std::optional<std::string> most_informative(const std::vector<MeetingOption>& options);
+
+/// By how much the variances of two robots' positions, per axis, shrink together when they meet (m^2). Each
+/// has an error of its own since it last met the team, e_i and e_j; meeting measures the difference up to r:
+///   (e_i^4 + e_j^4) / (e_i^2 + e_j^2 + r^2).
+double expected_gain(double error_i_m, double error_j_m, double sigma_m);
+
+}  // namespace radioslam

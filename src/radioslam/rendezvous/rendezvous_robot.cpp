@@ -1,0 +1,399 @@
+#include "radioslam/rendezvous/rendezvous_robot.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+namespace radioslam {
+namespace {
+
+constexpr int kLeastTicks = 5;          ///< without a word before a robot counts as gone
+constexpr int kLeastPatience = 20;      ///< decisions before a rendezvous is given up
+constexpr int kAnswerTicks = 5;         ///< in which a chosen partner should have answered
+constexpr std::size_t kKeptNodes = 12;  ///< latest own poses whose packets are kept
+constexpr int kRepeatRounds = 2;        ///< until a part that is not confirmed is sent again
+constexpr std::size_t kRestNodes = 3;   ///< poses between two calls
+constexpr std::size_t kMessageBytes = 48000;
+constexpr double kMeetingRadius_m = 1.5;
+constexpr double kPathLossExponent = 2.2;  ///< for a rough distance where nothing better is known
+constexpr double kDecade_db = 10 * kPathLossExponent;
+constexpr double kReferenceEsnr_db = 50;   ///< at a metre, roughly
+constexpr double kNearest_m = 1;
+
+std::uint64_t seed_of(const std::string& id, int seed) {
+  std::uint64_t hash = 1469598103934665603ULL;
+  for (const char c : id) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
+  return hash ^ static_cast<std::uint64_t>(seed);
+}
+
+/// Bytes of a part in a message, roughly.
+std::size_t size_of(const SharedPart& part) {
+  return 200 + 150 * part.nodes.size() + 120 * part.sightings.size() + 80 * part.verdicts.size();
+}
+
+double per_axis_sigma(const UncertainPose<SE2>& pose) {
+  return std::sqrt(std::max(0.0, pose.covariance.topLeftCorner<2, 2>().trace() / 2));
+}
+
+}  // namespace
+
+RendezvousRobot::RendezvousRobot(const std::string& id, const RobotStart& start,
+                                 const RendezvousParams& params)
+    : id_(id), params_(params), policy_(policy_of(params)), monitor_(monitor_of(params)),
+      q_db_(start.q_db.value_or(params.q_db)),
+      delta_(start.delta.value_or(params.delta > 0 ? params.delta : default_delta(monitor_))),
+      max_step_m_(start.max_step_m.value_or(params.max_step_m)), kappa_(start.kappa.value_or(params.kappa)),
+      team_(id, start.t_s, start.pose, params.estimate),
+      published_(params.omega_t, params.omega_r, seed_of(id, params.seed), start.pose.value_or(SE2())),
+      walk_(params), now_s_(start.t_s), start_s_(start.t_s) {}
+
+void RendezvousRobot::move(const OdometryStep& step) {
+  judge_sightings();
+  now_s_ = step.t_s;
+  team_.move(step.t_s, step.T_previous_body, step.sigma_m, step.sigma_rad);
+  published_.move(step.T_previous_body, step.sigma_m, step.sigma_rad);
+}
+
+void RendezvousRobot::see(const SeenRobot& seen) {
+  now_s_ = seen.t_s;
+  if (seen.robot == id_) return;
+  unjudged_.push_back(seen);
+}
+
+void RendezvousRobot::hear(const HeardPacket& packet) {
+  now_s_ = packet.t_s;
+  if (packet.from == id_) return;
+  Link& link = links_[packet.from];
+  link.heard_s = packet.t_s;
+  link.heard_tick = ticks_;
+  link.esnr_db = packet.esnr_db;
+  link.node = team_.size() - 1;
+  if (packet.esnr_db < q_db_) link.packets.clear();
+  link.packets[link.node].push_back(packet.paths);
+  while (link.packets.size() > kKeptNodes) link.packets.erase(link.packets.begin());
+  if (!packet.message) return;
+  const auto& status = packet.message->status;
+  if (status && (!link.status || status->number > link.status->number)) {
+    link.status = status;
+    link.status_tick = ticks_;
+  }
+  for (const auto& part : packet.message->parts) team_.take(part);
+}
+
+void RendezvousRobot::meet_obstacle(const ObstacleAhead& obstacle) {
+  now_s_ = obstacle.t_s;
+  obstacles_.add(team_.raw_poses().back(), obstacle);
+}
+
+/// The angles heard at a pose against what was seen from it, or of it.
+void RendezvousRobot::judge_sightings() {
+  const AngleCheckParams check{params_.direct_ratio, params_.angle_threshold_rad};
+  const auto packets_at = [&](const std::string& robot, std::size_t node) {
+    const auto link = links_.find(robot);
+    if (link == links_.end()) return std::vector<std::vector<ArrivalPath>>{};
+    const auto packets = link->second.packets.find(node);
+    return packets == link->second.packets.end() ? std::vector<std::vector<ArrivalPath>>{} : packets->second;
+  };
+  for (const SeenRobot& seen : unjudged_) {
+    const auto verdict =
+        check_angles({seen.T_i_j, seen.sigma_m, 0}, packets_at(seen.robot, team_.size() - 1), check);
+    team_.see(seen.t_s, seen.robot, seen.T_i_j, seen.sigma_m, seen.sigma_rad, verdict);
+    const auto link = links_.find(seen.robot);
+    const bool placed = link != links_.end() && link->second.status &&
+                        link->second.status->frame == team_.frame();
+    published_.see(seen.T_i_j, placed ? std::optional(link->second.status->pose) : std::nullopt);
+  }
+  unjudged_.clear();
+  for (const UnjudgedSighting& seen : team_.unjudged())
+    team_.judge(seen.by, seen.t_s,
+                check_angles({seen.T_j_i, seen.sigma_m, seen.sigma_rad}, packets_at(seen.by, seen.node), check));
+}
+
+void RendezvousRobot::update_estimate() {
+  judge_sightings();
+  if (team_.solve()) published_.optimized(team_);
+}
+
+bool RendezvousRobot::is_gone(const Link& link) const {
+  return now_s_ - link.heard_s > params_.lost_after_s && ticks_ - link.heard_tick >= kLeastTicks;
+}
+
+bool RendezvousRobot::has_run_out(double since_s, int since_tick) const {
+  return now_s_ - since_s > params_.patience_s && ticks_ - since_tick >= kLeastPatience;
+}
+
+const RendezvousRobot::Link* RendezvousRobot::present(const std::string& robot) const {
+  const auto link = links_.find(robot);
+  return link == links_.end() || is_gone(link->second) ? nullptr : &link->second;
+}
+
+bool RendezvousRobot::is_shunned(const std::string& robot) const {
+  const auto until = shunned_.find(robot);
+  return until != shunned_.end() && now_s_ < until->second;
+}
+
+void RendezvousRobot::shun(const std::string& robot) { shunned_[robot] = now_s_ + params_.patience_s; }
+
+RobotState RendezvousRobot::state() const {
+  RobotState state;
+  state.error =
+      monitor_ == ErrorMonitor::kSeed ? published_.value() : per_axis_sigma(team_.since_contact());
+  state.sigma_m = per_axis_sigma(team_.latest());
+  state.asking = call_.has_value();
+  if (service_) state.serving = service_->caller;
+  state.team = team_.team();
+  return state;
+}
+
+/// Metres, by the positions that both know, or else roughly by the signal.
+std::optional<double> RendezvousRobot::distance_to(const Link& link) const {
+  if (link.status && link.status->frame == team_.frame())
+    return std::max(kNearest_m,
+                    (link.status->pose.translation() - team_.latest().pose.translation()).norm());
+  return std::max(kNearest_m, std::pow(10.0, (kReferenceEsnr_db - link.esnr_db) / kDecade_db));
+}
+
+double RendezvousRobot::gain_rate(const Link& link) const {
+  if (!link.status) return 0;
+  return expected_gain(state().error, link.status->error, 0) / *distance_to(link);
+}
+
+MeetingOption RendezvousRobot::option_of(const std::string& robot, const Link& link) const {
+  return {robot, link.esnr_db, link.status ? link.status->error : 0,
+          policy_ == RendezvousPolicy::kInformed ? gain_rate(link) : 0};
+}
+
+bool RendezvousRobot::wants_to_call() const {
+  if (service_ || team_.size() < calls_after_node_) return false;
+  if (policy_ == RendezvousPolicy::kActive) return state().error > delta_;
+  if (policy_ != RendezvousPolicy::kInformed) return false;
+  const double enough = delta_ * delta_ / params_.gain_walk_m;
+  return std::any_of(links_.begin(), links_.end(), [&](const auto& each) {
+    return !is_gone(each.second) && !is_shunned(each.first) && gain_rate(each.second) > enough;
+  });
+}
+
+void RendezvousRobot::follow_up_call() {
+  if (!call_) {
+    if (!wants_to_call()) return;
+    call_ = Call{++calls_, now_s_, {}, 0, 0, false};
+  }
+  if (!call_->partner.empty()) {
+    const Link* link = present(call_->partner);
+    const bool done =
+        team_.sightings_with(call_->partner, call_->since_s) >= static_cast<std::size_t>(kappa_);
+    if (done) {
+      call_.reset();
+      calls_after_node_ = team_.size() + kRestNodes;
+      return;
+    }
+    if (link && link->status && link->status->serving == id_) call_->confirmed = true;
+    const bool left = call_->confirmed && link && link->status && link->status->serving != id_ &&
+                      link->status_tick > call_->partner_tick;
+    const bool silent = !call_->confirmed && ticks_ - call_->partner_tick > kAnswerTicks;
+    if (link && !left && !silent && !has_run_out(call_->partner_s, call_->partner_tick)) return;
+    if (!left) shun(call_->partner);
+    call_->partner.clear();
+  }
+  const bool over = policy_ == RendezvousPolicy::kActive ? state().error <= delta_ : !wants_to_call();
+  if (over)
+    call_.reset();
+  else
+    choose_partner();
+}
+
+void RendezvousRobot::choose_partner() {
+  std::vector<MeetingOption> offers;
+  for (const auto& [robot, link] : links_)
+    if (!is_gone(link) && !is_shunned(robot) && link.status && link.status->offer_to == id_)
+      offers.push_back(option_of(robot, link));
+  const auto best = policy_ == RendezvousPolicy::kInformed
+                        ? most_informative(offers)
+                        : best_partner(offers, q_db_, params_.alpha);
+  if (!best) return;
+  call_->partner = *best;
+  call_->partner_s = now_s_;
+  call_->partner_tick = ticks_;
+  call_->confirmed = false;
+}
+
+void RendezvousRobot::follow_up_service() {
+  if (!service_) return;
+  const Link* link = present(service_->caller);
+  const bool chosen = link && link->status && link->status->call && link->status->partner == id_;
+  service_->seen_chosen = service_->seen_chosen || chosen;
+  const bool over = link && link->status && !chosen && service_->seen_chosen;
+  if (link && !over && !has_run_out(service_->since_s, service_->since_tick)) return;
+  if (!over) shun(service_->caller);
+  service_.reset();
+  calls_after_node_ = team_.size() + kRestNodes;
+}
+
+/// Whose call to follow; the robot sets out where the caller has taken its offer.
+void RendezvousRobot::choose_caller() {
+  offer_to_.clear();
+  const bool waits = call_ && !call_->partner.empty();
+  if (service_ || waits || policy_ == RendezvousPolicy::kRandom || policy_ == RendezvousPolicy::kScheduled)
+    return;
+  std::vector<MeetingOption> callers;
+  for (const auto& [robot, link] : links_) {
+    if (is_gone(link) || is_shunned(robot) || !link.status || !link.status->call) continue;
+    if (link.status->partner == id_) {
+      service_ = Service{robot, now_s_, ticks_, true};
+      call_.reset();
+      walk_.begin(q_db_);
+      return;
+    }
+    if (!link.status->partner.empty()) continue;
+    // Of two that call each other, the one in greater need stands still.
+    const std::pair theirs(link.status->error, robot), own(state().error, id_);
+    if (call_ && theirs < own) continue;
+    callers.push_back(option_of(robot, link));
+  }
+  const auto best =
+      policy_ == RendezvousPolicy::kInformed ? most_informative(callers) : best_caller(callers);
+  if (best) offer_to_ = *best;
+}
+
+void RendezvousRobot::write_status(TickAnswer& answer) {
+  RobotStatus status;
+  status.number = ++statuses_;
+  const RobotState now = state();
+  status.error = now.error;
+  status.sigma_m = now.sigma_m;
+  status.frame = team_.frame();
+  status.pose = monitor_ == ErrorMonitor::kSeed ? published_.latest() : team_.latest().pose;
+  if (call_) {
+    status.call = call_->number;
+    status.partner = call_->partner;
+  }
+  status.discrepancy_scale = params_.alpha;
+  status.offer_to = offer_to_;
+  status.serving = now.serving;
+  for (const auto& [robot, part] : team_.parts()) status.knows[robot] = part->version;
+  auto message = std::make_shared<RobotMessage>();
+  message->status = std::move(status);
+  answer.messages.push_back({{}, Reach::kControl, std::move(message)});
+}
+
+/// Whether a robot should be sent a part: it is not known to have it, and it was not sent just now.
+bool RendezvousRobot::lacks(const std::string& robot, const Link& link, const SharedPart& part) const {
+  if (part.robot == robot) return false;
+  if (link.status) {
+    const auto known = link.status->knows.find(part.robot);
+    if (known != link.status->knows.end() && known->second >= part.version) return false;
+  }
+  const auto sent = link.sent.find(part.robot);
+  return sent == link.sent.end() || sent->second.version != part.version ||
+         rounds_ - sent->second.round >= kRepeatRounds;
+}
+
+/// To every robot with enough signal, the parts that it is not known to have.
+void RendezvousRobot::write_data(TickAnswer& answer) {
+  std::vector<KnownTeam::PartPointer> parts{team_.own_part(now_s_)};
+  for (const auto& [name, part] : team_.parts())
+    if (part->nodes.size() > 1) parts.push_back(part);
+  for (auto& [robot, link] : links_) {
+    if (link.node + 1 != team_.size() || link.esnr_db < q_db_ || ticks_ - link.heard_tick > 1) continue;
+    auto message = std::make_shared<RobotMessage>();
+    std::size_t bytes = 0;
+    for (const auto& part : parts) {
+      if (!lacks(robot, link, *part)) continue;
+      bytes += size_of(*part);
+      if (bytes > kMessageBytes && !message->parts.empty()) break;
+      link.sent[part->robot] = {part->version, rounds_};
+      message->parts.push_back(part);
+    }
+    if (!message->parts.empty()) answer.messages.push_back({robot, Reach::kData, std::move(message)});
+  }
+}
+
+std::optional<ExpectedDirection> RendezvousRobot::expected_direction(const Link& link) const {
+  if (!link.status || link.status->frame != team_.frame()) return std::nullopt;
+  const SE2& own = team_.latest().pose;
+  const Eigen::Vector2d offset = own.inverse() * link.status->pose.translation();
+  const double distance_m = std::max(offset.norm(), kNearest_m);
+  const double sigma_m = std::hypot(per_axis_sigma(team_.latest()), link.status->sigma_m);
+  const double heading = std::sqrt(std::max(0.0, team_.latest().covariance(2, 2)));
+  return ExpectedDirection{std::atan2(offset.y(), offset.x()), std::hypot(sigma_m / distance_m, heading)};
+}
+
+bool RendezvousRobot::sees_now(const std::string& robot) const {
+  const auto& sightings = team_.sightings();
+  for (auto seen = sightings.rbegin(); seen != sightings.rend() && seen->node + 1 == team_.size(); ++seen)
+    if (seen->robot == robot) return true;
+  return false;
+}
+
+Movement RendezvousRobot::walk_to_caller() {
+  const Link& link = links_.at(service_->caller);
+  if (sees_now(service_->caller)) return {Movement::Kind::kStay, {}};
+  const auto packets = link.packets.find(team_.size() - 1);
+  if (packets == link.packets.end()) return {Movement::Kind::kStay, {}};
+  const auto target = walk_.next(team_.raw_poses().back(), link.esnr_db, packets->second.back(),
+                                 expected_direction(link), max_step_m_, obstacles_);
+  if (!target) return {Movement::Kind::kStay, {}};
+  return {Movement::Kind::kMove, *target};
+}
+
+std::optional<Movement> RendezvousRobot::go_to_meeting_place() {
+  const double due_s = start_s_ + (meetings_held_ + 1) * params_.meeting_every_s;
+  if (now_s_ < due_s) return std::nullopt;
+  const Eigen::Vector2d place(params_.meeting_x_m, params_.meeting_y_m);
+  const Eigen::Vector2d offset = team_.latest().pose.inverse() * place;
+  if (offset.norm() < kMeetingRadius_m && !at_place_s_) at_place_s_ = now_s_;
+  const bool over = at_place_s_ ? now_s_ - *at_place_s_ >= params_.meeting_wait_s
+                                : now_s_ - due_s > params_.patience_s;
+  if (over) {
+    ++meetings_held_;
+    while (start_s_ + (meetings_held_ + 1) * params_.meeting_every_s <= now_s_) ++meetings_held_;
+    at_place_s_.reset();
+    return std::nullopt;
+  }
+  if (at_place_s_) return Movement{Movement::Kind::kStay, {}};
+  const SE2& raw = team_.raw_poses().back();
+  const double length_m = std::min(max_step_m_, offset.norm());
+  const double heading = obstacles_.free_heading(
+      raw.translation(), wrap_angle(raw.angle() + std::atan2(offset.y(), offset.x())), length_m);
+  return Movement{Movement::Kind::kMove,
+                  raw.translation() + length_m * Eigen::Vector2d(std::cos(heading), std::sin(heading))};
+}
+
+Movement RendezvousRobot::decide() {
+  if (service_) return walk_to_caller();
+  if (call_ && !call_->partner.empty()) return {Movement::Kind::kStay, {}};
+  if (policy_ == RendezvousPolicy::kScheduled)
+    if (const auto movement = go_to_meeting_place()) return *movement;
+  return {};
+}
+
+TickAnswer RendezvousRobot::tick(const DecisionTick& tick) {
+  now_s_ = tick.t_s;
+  update_estimate();
+  TickAnswer answer;
+  if (!tick.talk) ++ticks_;
+  ++rounds_;
+  follow_up_service();
+  follow_up_call();
+  choose_caller();
+  if (!tick.talk) answer.movement = decide();
+  write_status(answer);
+  write_data(answer);
+  answer.state = state();
+  return answer;
+}
+
+FinalTrajectory RendezvousRobot::finish() {
+  update_estimate();
+  FinalTrajectory trajectory;
+  for (std::size_t k = 0; k < team_.size(); ++k)
+    trajectory.rows.push_back({team_.time(k), team_.poses()[k]});
+  trajectory.frame = team_.frame();
+  for (std::size_t k = 0; k < team_.sightings().size(); ++k)
+    trajectory.measurements.push_back(
+        {team_.sightings()[k].t_s, team_.sightings()[k].robot, team_.weight(k)});
+  return trajectory;
+}
+
+}  // namespace radioslam

@@ -1,0 +1,129 @@
+// One robot of a team that meets when it must: it watches its error, calls others, answers their calls, walks
+// to them along the radio's direction, exchanges what it measured, and estimates where all of them were.
+// Sources: Wang et al., algorithms 1 and 2; known_team.hpp for the estimate.
+//
+// It knows no simulator and no clock: everything comes in by events in the order of time, and every decision
+// is an answer to a tick. Messages may be lost, late, repeated or out of order, and any robot may vanish:
+// each says all its state again and again, and nobody waits for one that is not heard for longer than
+// `lost_after_s`, or five decisions if they take longer. Same events, same answers.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "radioslam/graph/distributed/known_team.hpp"
+#include "radioslam/rendezvous/adaptive_walk.hpp"
+#include "radioslam/rendezvous/angle_verdict.hpp"
+#include "radioslam/rendezvous/partner_choice.hpp"
+#include "radioslam/rendezvous/published_error.hpp"
+#include "radioslam/rendezvous/rendezvous_params.hpp"
+#include "radioslam/rendezvous/robot_interface.hpp"
+#include "radioslam/rendezvous/robot_message.hpp"
+
+namespace radioslam {
+
+class RendezvousRobot {
+ public:
+  RendezvousRobot(const std::string& id, const RobotStart& start, const RendezvousParams& params);
+
+  void move(const OdometryStep& step);
+  void see(const SeenRobot& seen);
+  void hear(const HeardPacket& packet);
+  void meet_obstacle(const ObstacleAhead& obstacle);
+  TickAnswer tick(const DecisionTick& tick);
+  /// Solves for what is known and not yet used.
+  FinalTrajectory finish();
+
+  RobotState state() const;
+  const KnownTeam& estimate() const { return team_; }
+  double delta() const { return delta_; }
+
+ private:
+  struct SentPart {
+    std::uint64_t version = 0;
+    int round = 0;
+  };
+  /// Another robot as it is heard.
+  struct Link {
+    double heard_s = 0, esnr_db = 0;
+    int heard_tick = 0;
+    std::size_t node = 0;                                          ///< own pose of the latest packet
+    std::map<std::size_t, std::vector<std::vector<ArrivalPath>>> packets;  ///< per own pose, of the latest
+    std::optional<RobotStatus> status;
+    int status_tick = 0;
+    std::map<std::string, SentPart> sent;  ///< per robot that the part is of
+  };
+  /// A rendezvous that this robot has called for.
+  struct Call {
+    std::uint32_t number = 0;
+    double since_s = 0;
+    std::string partner;
+    double partner_s = 0;
+    int partner_tick = 0;
+    bool confirmed = false;
+  };
+  struct Service {
+    std::string caller;
+    double since_s = 0;
+    int since_tick = 0;
+    bool seen_chosen = false;  ///< the caller has said that it takes this robot
+  };
+
+  bool is_gone(const Link& link) const;
+  bool has_run_out(double since_s, int since_tick) const;
+  const Link* present(const std::string& robot) const;
+  bool is_shunned(const std::string& robot) const;
+  void shun(const std::string& robot);
+
+  void judge_sightings();
+  void update_estimate();
+  bool wants_to_call() const;
+  void follow_up_call();
+  void choose_partner();
+  void follow_up_service();
+  void choose_caller();
+  MeetingOption option_of(const std::string& robot, const Link& link) const;
+  std::optional<double> distance_to(const Link& link) const;
+  double gain_rate(const Link& link) const;
+
+  void write_status(TickAnswer& answer);
+  bool lacks(const std::string& robot, const Link& link, const SharedPart& part) const;
+  void write_data(TickAnswer& answer);
+  Movement decide();
+  Movement walk_to_caller();
+  std::optional<Movement> go_to_meeting_place();
+  std::optional<ExpectedDirection> expected_direction(const Link& link) const;
+  bool sees_now(const std::string& robot) const;
+
+  std::string id_;
+  RendezvousParams params_;
+  RendezvousPolicy policy_;
+  ErrorMonitor monitor_;
+  double q_db_, delta_, max_step_m_;
+  int kappa_;
+  KnownTeam team_;
+  PublishedError published_;
+  ObstacleMemory obstacles_;
+  AdaptiveWalk walk_;
+  std::map<std::string, Link> links_;
+  std::vector<SeenRobot> unjudged_;  ///< seen from the latest pose since the last tick
+  std::optional<Call> call_;
+  std::optional<Service> service_;
+  std::string offer_to_;
+  std::map<std::string, double> shunned_;  ///< until when no rendezvous is tried with a robot
+  std::uint32_t calls_ = 0;
+  std::uint64_t statuses_ = 0;
+  std::size_t calls_after_node_ = 0;  ///< pose before which there is no further call
+  double now_s_ = 0, start_s_ = 0;
+  int ticks_ = 0;   ///< decisions so far
+  int rounds_ = 0;  ///< the same with talk ticks
+  std::optional<double> at_place_s_;
+  int meetings_held_ = 0;
+};
+
+}  // namespace radioslam

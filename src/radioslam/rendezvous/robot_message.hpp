@@ -1,0 +1,36 @@
+// What robots say to each other. A status says all of a robot's state that concerns others, and is said again
+// with every decision: one that is lost does no harm, and one that is old is known by its number.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "radioslam/geometry/se2.hpp"
+#include "radioslam/graph/distributed/shared_part.hpp"
+
+namespace radioslam {
+
+struct RobotStatus {
+  std::uint64_t number = 0;  ///< rises from one status to the next
+  double error = 0;
+  std::string frame;           ///< robot whose start is the origin of `pose`; empty: the common frame
+  SE2 pose;
+  double sigma_m = 0;          ///< of the position, per axis
+  std::optional<std::uint32_t> call;  ///< the robot asks for a rendezvous: the number of its call
+  double discrepancy_scale = 1;  ///< alpha of the robot that calls
+  std::string partner;         ///< of those who offered, the one it has taken; empty: none yet
+  std::string offer_to;        ///< whose call this robot would follow
+  std::string serving;         ///< to whom it walks
+  std::map<std::string, std::uint64_t> knows;  ///< versions of robots' parts that it has
+};
+
+struct RobotMessage {
+  std::optional<RobotStatus> status;
+  std::vector<std::shared_ptr<const SharedPart>> parts;
+};
+
+}  // namespace radioslam

@@ -1,0 +1,8 @@
+radioslam_room(rendezvous
+  SOURCES
+    adaptive_walk.cpp
+    angle_verdict.cpp
+    partner_choice.cpp
+    published_error.cpp
+    rendezvous_robot.cpp
+  ROOMS base graph)
