@@ -15,6 +15,7 @@ void add_evaluate(CLI::App& program);
 void add_optimize(CLI::App& program);
 void add_similarity(CLI::App& program);
 void add_import(CLI::App& program);
+void add_rendezvous(CLI::App& program);
 void add_reproduce(CLI::App& program);
 void add_parameters(CLI::App& program);
 

@@ -42,6 +42,7 @@ void add_commands(CLI::App& program) {
   add_aoa(program);
   add_similarity(program);
   add_anchors(program);
+  add_rendezvous(program);
   add_reproduce(program);
   add_parameters(program);
 }

@@ -14,6 +14,7 @@ add_library(radioslam_cli STATIC
   cli/commands/command_options.cpp
   cli/commands/command_parameters.cpp
   cli/commands/command_prune.cpp
+  cli/commands/command_rendezvous.cpp
   cli/commands/command_reproduce.cpp
   cli/commands/command_run.cpp
   cli/commands/command_similarity.cpp
@@ -42,7 +43,7 @@ add_library(radioslam::cli ALIAS radioslam_cli)
 target_include_directories(radioslam_cli PUBLIC ${cli_include})
 target_link_libraries(radioslam_cli
   PUBLIC radioslam_results radioslam_io CLI11::CLI11
-  PRIVATE radioslam_doctor radioslam_pipeline radioslam_eval radioslam_sim radioslam_report radioslam_study yaml-cpp nlohmann_json::nlohmann_json radioslam_warnings)
+  PRIVATE radioslam_doctor radioslam_rendezvous radioslam_pipeline radioslam_eval radioslam_sim radioslam_report radioslam_study yaml-cpp nlohmann_json::nlohmann_json radioslam_warnings)
 target_compile_definitions(radioslam_cli PRIVATE RADIOSLAM_VERSION="${PROJECT_VERSION}")
 radioslam_group_sources(radioslam_cli)
 

@@ -36,6 +36,10 @@ radioslam_room(io
     mission/team_tables.cpp
     mission/truth_labels.cpp
     mission/tum.cpp
+    rendezvous/json_values.cpp
+    rendezvous/robot_lines.cpp
+    rendezvous/robot_message_json.cpp
+    rendezvous/robot_session.cpp
     ros/mcap.cpp
     ros/transforms.cpp
     ros/ros1_bag.cpp
@@ -69,6 +73,6 @@ radioslam_room(io
     wifi/wifi_csv.cpp
     wifi/wifi_log.cpp
     wifi/wifi_scan_log.cpp
-  ROOMS graph mission radio results eval
+  ROOMS graph rendezvous mission radio results eval
   LIBRARIES nlohmann_json::nlohmann_json
   PRIVATE_LIBRARIES yaml-cpp Zstd::Zstd BZip2::BZip2 ZLIB::ZLIB Lz4::Lz4 SQLite::SQLite3 Pcap::Pcap)

@@ -88,10 +88,7 @@ struct RendezvousParams {
     RADIOSLAM_FIELD(meeting_every_s, "s", 0.1, 1e6, "scheduled: time between two meetings");
     RADIOSLAM_FIELD(meeting_wait_s, "s", 0, 1e6, "scheduled: how long a robot stays there");
     RADIOSLAM_FIELD(seed, "", 0, 2147483647, "seed of the raw poses' noise in the published error");
-  }
-  template <class Self, class Visitor>
-  static void visit_sections(Self& self, Visitor&& visit) {
-    visit("estimate", self.estimate);
+    KnownTeamParams::visit_fields(self.estimate, visit);
   }
 };
 

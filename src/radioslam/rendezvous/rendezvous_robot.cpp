@@ -13,6 +13,7 @@ constexpr int kLeastPatience = 20;      ///< decisions before a rendezvous is gi
 constexpr int kAnswerTicks = 5;         ///< in which a chosen partner should have answered
 constexpr std::size_t kKeptNodes = 12;  ///< latest own poses whose packets are kept
 constexpr int kRepeatRounds = 2;        ///< until a part that is not confirmed is sent again
+constexpr int kRefreshTicks = 10;       ///< after which news of others alone are used
 constexpr std::size_t kRestNodes = 3;   ///< poses between two calls
 constexpr std::size_t kMessageBytes = 48000;
 constexpr double kMeetingRadius_m = 1.5;
@@ -112,7 +113,10 @@ void RendezvousRobot::judge_sightings() {
 
 void RendezvousRobot::update_estimate() {
   judge_sightings();
-  if (team_.solve()) published_.optimized(team_);
+  const bool own_news = team_.has_own_news();
+  if (!own_news && ticks_ < refresh_tick_) return;
+  refresh_tick_ = ticks_ + kRefreshTicks;
+  if (team_.solve() && own_news) published_.optimized(team_);
 }
 
 bool RendezvousRobot::is_gone(const Link& link) const {
@@ -143,6 +147,10 @@ RobotState RendezvousRobot::state() const {
   state.asking = call_.has_value();
   if (service_) state.serving = service_->caller;
   state.team = team_.team();
+  for (const auto& [robot, link] : links_)
+    if (link.status && link.status->frame == team_.frame() &&
+        !std::binary_search(state.team.begin(), state.team.end(), robot))
+      state.team.insert(std::upper_bound(state.team.begin(), state.team.end(), robot), robot);
   return state;
 }
 
@@ -184,6 +192,7 @@ void RendezvousRobot::follow_up_call() {
     const bool done =
         team_.sightings_with(call_->partner, call_->since_s) >= static_cast<std::size_t>(kappa_);
     if (done) {
+      ++rendezvous_held_;
       call_.reset();
       calls_after_node_ = team_.size() + kRestNodes;
       return;
@@ -291,14 +300,11 @@ bool RendezvousRobot::lacks(const std::string& robot, const Link& link, const Sh
 
 /// To every robot with enough signal, the parts that it is not known to have.
 void RendezvousRobot::write_data(TickAnswer& answer) {
-  std::vector<KnownTeam::PartPointer> parts{team_.own_part(now_s_)};
-  for (const auto& [name, part] : team_.parts())
-    if (part->nodes.size() > 1) parts.push_back(part);
   for (auto& [robot, link] : links_) {
     if (link.node + 1 != team_.size() || link.esnr_db < q_db_ || ticks_ - link.heard_tick > 1) continue;
     auto message = std::make_shared<RobotMessage>();
     std::size_t bytes = 0;
-    for (const auto& part : parts) {
+    for (const auto& part : team_.parts_for(robot, now_s_)) {
       if (!lacks(robot, link, *part)) continue;
       bytes += size_of(*part);
       if (bytes > kMessageBytes && !message->parts.empty()) break;
@@ -385,7 +391,8 @@ TickAnswer RendezvousRobot::tick(const DecisionTick& tick) {
 }
 
 FinalTrajectory RendezvousRobot::finish() {
-  update_estimate();
+  judge_sightings();
+  team_.solve();
   FinalTrajectory trajectory;
   for (std::size_t k = 0; k < team_.size(); ++k)
     trajectory.rows.push_back({team_.time(k), team_.poses()[k]});

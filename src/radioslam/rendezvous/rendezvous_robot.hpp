@@ -42,6 +42,8 @@ class RendezvousRobot {
   RobotState state() const;
   const KnownTeam& estimate() const { return team_; }
   double delta() const { return delta_; }
+  /// Calls of this robot that a rendezvous has answered.
+  int rendezvous_held() const { return rendezvous_held_; }
 
  private:
   struct SentPart {
@@ -117,11 +119,13 @@ class RendezvousRobot {
   std::string offer_to_;
   std::map<std::string, double> shunned_;  ///< until when no rendezvous is tried with a robot
   std::uint32_t calls_ = 0;
+  int rendezvous_held_ = 0;
   std::uint64_t statuses_ = 0;
   std::size_t calls_after_node_ = 0;  ///< pose before which there is no further call
   double now_s_ = 0, start_s_ = 0;
   int ticks_ = 0;   ///< decisions so far
   int rounds_ = 0;  ///< the same with talk ticks
+  int refresh_tick_ = 0;  ///< from which news of others alone are used
   std::optional<double> at_place_s_;
   int meetings_held_ = 0;
 };

@@ -22,11 +22,13 @@ radioslam_room(sim
     sensors/image_sources.cpp
     sensors/inertial_unit.cpp
     sensors/lidar_scanner.cpp
+    sensors/packet_radio.cpp
     sensors/phones.cpp
     sensors/radio_channel.cpp
     sensors/surface_odometry.cpp
     sensors/transmitters.cpp
     sensors/wheel_odometry.cpp
+    worlds/arena.cpp
     worlds/height_grid.cpp
     worlds/hills.cpp
     worlds/lane_grid.cpp

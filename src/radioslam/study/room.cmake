@@ -10,6 +10,7 @@ radioslam_room(study
     fingerprints/threshold_sweep.cpp
     oracle.cpp
     overlap_growth/overlap_growth.cpp
+    rendezvous/rendezvous_run.cpp
     robustness_map/robustness_map.cpp
     study_json.cpp
     study_page.cpp
@@ -24,7 +25,7 @@ radioslam_room(study
     wi_closure_hall/wi_closure_hall.cpp
     wi_closure_kitti/wi_closure_kitti.cpp
     wi_closure_table1/wi_closure_table1.cpp
-  ROOMS radio pipeline eval sim io report
+  ROOMS radio rendezvous pipeline eval sim io report
   LIBRARIES nlohmann_json::nlohmann_json)
 radioslam_page(radioslam_study ${CMAKE_CURRENT_SOURCE_DIR}/study/page radioslam/study/page_parts.hpp
   radioslam::study_page ../../report/page/format.js data.js scheme.js heat_map.js growth.js budget.js distributed.js directions.js table.js main.js)

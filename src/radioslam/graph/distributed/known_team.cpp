@@ -16,6 +16,7 @@ namespace {
 constexpr double kSmallestSigma = 1e-6;  ///< m and rad, where none is stated
 constexpr double kRightWeight = 0.5;     ///< a relative pose of less is taken for wrong
 constexpr double kSmallestWeight = 1e-9;
+constexpr double kCostTolerance = 1e-7;
 
 SE2::Jacobian covariance_of(double sigma_m, double sigma_rad) {
   const double m = std::max(sigma_m, kSmallestSigma), rad = std::max(sigma_rad, kSmallestSigma);
@@ -72,8 +73,21 @@ void KnownTeam::move(double t_s, const SE2& step, double sigma_m, double sigma_r
 
 void KnownTeam::share_node(std::uint32_t number) {
   const auto at = std::lower_bound(shared_.begin(), shared_.end(), number);
-  if (at == shared_.end() || *at != number) shared_.insert(at, number);
-  part_is_old_ = estimate_is_old_ = true;
+  if (at == shared_.end() || *at != number) {
+    shared_.insert(at, number);
+    part_is_old_ = true;
+  }
+  estimate_is_old_ = true;
+}
+
+/// Sightings between this robot and the one whose part it is that can be put into a graph.
+std::size_t KnownTeam::sightings_between(const SharedPart& part) const {
+  const auto of_this = std::count_if(part.sightings.begin(), part.sightings.end(),
+                                     [&](const SharedSighting& each) { return each.robot == robot_; });
+  const auto of_it = std::count_if(sightings_.begin(), sightings_.end(), [&](const SharedSighting& each) {
+    return each.robot == part.robot && part.node_at(each.t_s);
+  });
+  return static_cast<std::size_t>(of_this + of_it);
 }
 
 void KnownTeam::see(double t_s, const std::string& robot, const SE2& T_i_j, double sigma_m, double sigma_rad,
@@ -82,6 +96,9 @@ void KnownTeam::see(double t_s, const std::string& robot, const SE2& T_i_j, doub
   sightings_.push_back({node, robot, t_s, T_i_j, std::max(sigma_m, kSmallestSigma),
                         std::max(sigma_rad, kSmallestSigma), verdict});
   weights_.push_back(0);
+  links_[robot_].insert(robot);
+  links_[robot].insert(robot_);
+  part_is_old_ = true;
   share_node(node);
 }
 
@@ -96,10 +113,15 @@ bool KnownTeam::take(const PartPointer& part) {
   const auto known = parts_.find(part->robot);
   if (known != parts_.end() && known->second->version >= part->version) return false;
   if (!is_well_formed(*part)) return false;
+  const std::size_t before = known == parts_.end() ? 0 : sightings_between(*known->second);
+  if (sightings_between(*part) != before) own_news_ = true;
   parts_[part->robot] = part;
-  for (const SharedSighting& sighting : part->sightings)
+  for (const SharedSighting& sighting : part->sightings) {
+    links_[part->robot].insert(sighting.robot);
+    links_[sighting.robot].insert(part->robot);
     if (sighting.robot == robot_)
       if (const auto node = own_node_at(sighting.t_s)) share_node(*node);
+  }
   estimate_is_old_ = true;
   return true;
 }
@@ -168,32 +190,53 @@ std::vector<KnownTeam::Between> KnownTeam::all_sightings() const {
   return list;
 }
 
-/// This robot and those that sightings connect with it, the nearest first, as far as they may be used.
-KnownTeam::Layout KnownTeam::connected_part(const std::vector<Between>& between) const {
-  std::map<std::string, std::set<std::string>> links;
-  for (const Between& each : between) {
-    links[*each.from].insert(each.sighting->robot);
-    links[each.sighting->robot].insert(*each.from);
+/// Robots that sightings lead to, the nearest first; the first is the robot itself.
+std::vector<std::string> KnownTeam::reached_from(const std::string& robot, int hops) const {
+  std::vector<std::string> queue{robot};
+  std::vector<int> depth{0};
+  std::set<std::string> reached{robot};
+  for (std::size_t k = 0; k < queue.size() && depth[k] < hops; ++k) {
+    const auto links = links_.find(queue[k]);
+    if (links == links_.end()) continue;
+    for (const std::string& next : links->second) {
+      if (!reached.insert(next).second) continue;
+      queue.push_back(next);
+      depth.push_back(depth[k] + 1);
+    }
   }
+  return queue;
+}
+
+std::vector<KnownTeam::PartPointer> KnownTeam::parts_for(const std::string& robot, double now_s) {
+  std::vector<PartPointer> list;
+  std::size_t poses = 0;
+  for (const std::string& name : reached_from(robot, params_.hops)) {
+    if (name == robot) continue;
+    const auto known = parts_.find(name);
+    const PartPointer part = name == robot_ ? own_part(now_s) : known == parts_.end() ? nullptr : known->second;
+    if (!part) continue;
+    poses += part->nodes.size();
+    if (poses > static_cast<std::size_t>(params_.max_poses) && !list.empty()) break;
+    list.push_back(part);
+  }
+  return list;
+}
+
+/// This robot and those that sightings connect with it, the nearest first, as far as they may be used.
+KnownTeam::Layout KnownTeam::connected_part() const {
   Layout layout;
   layout.poses = times_.size();
   layout.common = start_.has_value();
   layout.origin = robot_;
   std::size_t others = 0;
-  std::vector<std::string> queue{robot_};
-  std::set<std::string> reached{robot_};
-  for (std::size_t k = 0; k < queue.size(); ++k) {
-    const std::string name = queue[k];
-    if (k > 0) {
-      const PartPointer& part = parts_.at(name);
-      others += part->nodes.size();
-      if (others > static_cast<std::size_t>(params_.max_poses)) break;
-      layout.robots[name] = {part, 0};
-      layout.common = layout.common || part->start;
-      layout.origin = std::min(layout.origin, name);
-    }
-    for (const std::string& next : links[name])
-      if (reached.insert(next).second) queue.push_back(next);
+  for (const std::string& name : reached_from(robot_, params_.max_poses)) {
+    const auto part = parts_.find(name);
+    if (part == parts_.end()) continue;
+    others += part->second->nodes.size();
+    if (others > static_cast<std::size_t>(params_.max_poses)) break;
+    layout.robots[name] = {part->second, 0};
+    layout.common = layout.common || part->second->start;
+    layout.origin = std::min(layout.origin, name);
   }
   for (auto& [name, robot] : layout.robots) {
     robot.first = layout.poses;
@@ -264,14 +307,46 @@ PoseGraph2 KnownTeam::graph_of(const Layout& layout, const std::vector<Between>&
   return graph;
 }
 
+/// Initial values: as they were after the last solution, others where something measured places them.
+void KnownTeam::place(const Layout& layout, PoseGraph2& graph) const {
+  std::vector<bool> placed = graph.pose_fixed;
+  std::fill_n(placed.begin(), times_.size(), true);
+  for (const auto& [name, robot] : layout.robots) {
+    const auto used = used_parts_.find(name);
+    if (used == used_parts_.end()) continue;
+    for (std::size_t k = 0; k < robot.part->nodes.size(); ++k) {
+      const std::size_t before = used->second->place_of(robot.part->nodes[k].number);
+      if (before == used->second->nodes.size()) continue;
+      graph.poses[robot.first + k] = others_.at(name)[before];
+      placed[robot.first + k] = true;
+    }
+  }
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const auto& factor : graph.relative_poses) {
+      const std::size_t i = factor.i.index(), j = factor.j.index();
+      if (placed[i] == placed[j]) continue;
+      if (placed[i])
+        graph.poses[j] = graph.poses[i] * factor.T_i_j;
+      else
+        graph.poses[i] = graph.poses[j] * factor.T_i_j.inverse();
+      placed[i] = placed[j] = changed = true;
+    }
+  }
+}
+
 bool KnownTeam::solve() {
   if (!estimate_is_old_) return false;
   estimate_is_old_ = false;
+  own_news_ = false;
   const std::vector<Between> between = all_sightings();
-  const Layout layout = connected_part(between);
+  const Layout layout = connected_part();
   PoseGraph2 graph = graph_of(layout, between);
-  initialise(graph, GivenValues::kNone);
-  optimize(graph, OptimizerParams{});
+  place(layout, graph);
+  initialise(graph, GivenValues::kComplete);
+  OptimizerParams optimizer;
+  optimizer.relative_cost_tolerance = kCostTolerance;
+  optimize(graph, optimizer);
   poses_.assign(graph.poses.begin(), graph.poses.begin() + static_cast<std::ptrdiff_t>(times_.size()));
   latest_ = {poses_.back(), {}};
   if (const auto marginals = Marginals<SE2>::compute(graph))
@@ -288,9 +363,6 @@ bool KnownTeam::solve() {
     team_.push_back(name);
   }
   frame_ = layout.common ? "" : layout.origin;
-  if (layout.common)
-    for (const auto& [name, part] : parts_)
-      if (part->start && !layout.robots.contains(name)) team_.push_back(name);
   std::sort(team_.begin(), team_.end());
   return true;
 }

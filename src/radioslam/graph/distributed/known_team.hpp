@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,8 @@ namespace radioslam {
 struct KnownTeamParams {
   std::string angle_weights = "posterior";
   double outlier_ratio = 0.05;
-  int max_poses = 2000;
+  int hops = 3;
+  int max_poses = 400;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -33,6 +35,8 @@ struct KnownTeamParams {
                           "posterior|published|off");
     RADIOSLAM_BASIC_FIELD(outlier_ratio, "", 0, 0.9,
                           "share of wrong relative poses between robots that is expected beforehand");
+    RADIOSLAM_FIELD(hops, "", 1, 1000,
+                    "sightings between a robot and the furthest whose measurements it is sent");
     RADIOSLAM_FIELD(max_poses, "", 10, 1e6,
                     "largest number of other robots' poses in one robot's estimate; the nearest by sightings");
   }
@@ -68,6 +72,10 @@ class KnownTeam {
   PartPointer own_part(double now_s);
   const std::map<std::string, PartPointer>& parts() const { return parts_; }
 
+  /// What is of use to another robot, the nearest first: parts of robots that sightings lead to from it.
+  std::vector<PartPointer> parts_for(const std::string& robot, double now_s);
+  /// Whether there are sightings of or by this robot that the estimate does not contain.
+  bool has_own_news() const { return own_news_; }
   /// Solves for what is known; false, and nothing changes, if nothing is new since the last time.
   bool solve();
 
@@ -111,8 +119,11 @@ class KnownTeam {
 
   std::optional<std::uint32_t> own_node_at(double t_s) const;
   std::vector<Between> all_sightings() const;
-  Layout connected_part(const std::vector<Between>& between) const;
+  std::vector<std::string> reached_from(const std::string& robot, int hops) const;
+  Layout connected_part() const;
   PoseGraph2 graph_of(const Layout& layout, const std::vector<Between>& between);
+  void place(const Layout& layout, PoseGraph2& graph) const;
+  std::size_t sightings_between(const SharedPart& part) const;
   void share_node(std::uint32_t number);
   double weight_of(const Between& between) const;
 
@@ -129,7 +140,8 @@ class KnownTeam {
   std::vector<std::uint32_t> shared_;  ///< numbers of the nodes that others may refer to, ascending
   PartPointer own_part_;
   std::uint64_t version_ = 0;
-  bool part_is_old_ = true, estimate_is_old_ = false;
+  bool part_is_old_ = true, estimate_is_old_ = false, own_news_ = false;
+  std::map<std::string, std::set<std::string>> links_;  ///< who saw whom, both ways
   UncertainPose<SE2> latest_, since_contact_;
   Contact contact_;
   std::map<std::string, std::vector<SE2>> others_;  ///< per robot in the estimate, its nodes' poses

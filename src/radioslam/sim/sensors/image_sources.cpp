@@ -21,17 +21,6 @@ Eigen::Vector2d mirrored(const Eigen::Vector2d& point, const WallSegment& wall) 
   return wall.begin_m + 2 * along.dot(from_begin) * along - from_begin;
 }
 
-/// Ratio of the leg at which it crosses the wall's segment.
-std::optional<double> crossing(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
-                               const WallSegment& wall) {
-  const Eigen::Vector2d leg = to - from, along = wall.end_m - wall.begin_m, between = wall.begin_m - from;
-  const double area = cross(leg, along);
-  if (area == 0) return std::nullopt;
-  const double ratio = cross(between, along) / area, along_ratio = cross(between, leg) / area;
-  const bool on_both = ratio > kTouch && ratio < 1 - kTouch && along_ratio >= 0 && along_ratio <= 1;
-  return on_both ? std::optional(ratio) : std::nullopt;
-}
-
 double gain_of_db(double db) { return std::pow(10, db / 20); }
 
 /// Amplitude ratio after the walls that a leg crosses.
@@ -70,6 +59,16 @@ std::optional<RadioPath> trace(const Eigen::Vector3d& transmitter_m, const Eigen
 }
 
 }  // namespace
+
+std::optional<double> crossing(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+                               const WallSegment& wall) {
+  const Eigen::Vector2d leg = to - from, along = wall.end_m - wall.begin_m, between = wall.begin_m - from;
+  const double area = cross(leg, along);
+  if (area == 0) return std::nullopt;
+  const double ratio = cross(between, along) / area, along_ratio = cross(between, leg) / area;
+  const bool on_both = ratio > kTouch && ratio < 1 - kTouch && along_ratio >= 0 && along_ratio <= 1;
+  return on_both ? std::optional(ratio) : std::nullopt;
+}
 
 double WallSegment::distance_m(const Eigen::Vector2d& point) const {
   const Eigen::Vector2d along = end_m - begin_m;

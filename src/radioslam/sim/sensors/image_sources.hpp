@@ -9,6 +9,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 namespace radioslam {
@@ -21,6 +22,10 @@ struct WallSegment {
 
   double distance_m(const Eigen::Vector2d& point) const;
 };
+
+/// Ratio of the leg at which it crosses the wall's segment; nothing where it does not, or only touches it.
+std::optional<double> crossing(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+                               const WallSegment& wall);
 
 /// A path from a transmitter to a receiver.
 struct RadioPath {

@@ -1,0 +1,265 @@
+#include "radioslam/io/rendezvous/robot_message_json.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <limits>
+#include <utility>
+
+#include "radioslam/io/rendezvous/json_values.hpp"
+
+namespace radioslam {
+namespace {
+
+using Json = nlohmann::json;
+using Output = nlohmann::ordered_json;
+
+constexpr const char* kFormat = "radioslam-rendezvous/1";
+constexpr int kDigits = 9;
+constexpr std::size_t kNodeValues = 12, kSightingValues = 10, kVerdictValues = 4;
+constexpr auto kAnyCount = std::numeric_limits<std::uint64_t>::max();
+constexpr std::uint64_t kAnyNumber32 = std::numeric_limits<std::uint32_t>::max();
+
+// ---- writing --------------------------------------------------------------------------------------------
+
+double rounded(double value) {
+  std::array<char, 32> text;
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, kDigits).ptr;
+  std::from_chars(text.data(), end, value);
+  return value;
+}
+
+void append_pose(Output& row, const SE2& pose) {
+  for (const double value : {pose.translation().x(), pose.translation().y(), pose.angle()})
+    row.push_back(rounded(value));
+}
+
+/// Zeros for one that is not positive definite, as that of a start.
+void append_covariance(Output& row, const SE2::Jacobian& covariance) {
+  const Eigen::LLT<SE2::Jacobian> cholesky(covariance);
+  SE2::Jacobian factor = SE2::Jacobian::Zero();
+  if (cholesky.info() == Eigen::Success) factor = cholesky.matrixL();
+  for (int i = 0; i < SE2::kDof; ++i)
+    for (int j = 0; j <= i; ++j) row.push_back(rounded(factor(i, j)));
+}
+
+void append_verdict(Output& row, const AngleVerdict& verdict) {
+  row.push_back(rounded(verdict.log_odds));
+  row.push_back(rounded(verdict.scale));
+}
+
+Output pose_json(const SE2& pose) {
+  Output row = Output::array();
+  append_pose(row, pose);
+  return row;
+}
+
+/// Names of the robots that a part refers to, each once.
+class OtherRobots {
+ public:
+  std::size_t place_of(const std::string& name) {
+    const auto [at, is_new] = places_.try_emplace(name, names_.size());
+    if (is_new) names_.push_back(name);
+    return at->second;
+  }
+  const std::vector<std::string>& names() const { return names_; }
+
+ private:
+  std::map<std::string, std::size_t> places_;
+  std::vector<std::string> names_;
+};
+
+Output nodes_json(const SharedPart& part) {
+  Output rows = Output::array();
+  for (const SharedNode& node : part.nodes) {
+    Output& row = rows.emplace_back(Output::array({node.number, node.t_s, node.until_s}));
+    append_pose(row, node.from_before.pose);
+    append_covariance(row, node.from_before.covariance);
+  }
+  return rows;
+}
+
+Output sightings_json(const SharedPart& part, OtherRobots& others) {
+  Output rows = Output::array();
+  for (const SharedSighting& sighting : part.sightings) {
+    Output& row =
+        rows.emplace_back(Output::array({sighting.node, others.place_of(sighting.robot), sighting.t_s}));
+    append_pose(row, sighting.T_i_j);
+    row.push_back(rounded(sighting.sigma_m));
+    row.push_back(rounded(sighting.sigma_rad));
+    append_verdict(row, sighting.verdict);
+  }
+  return rows;
+}
+
+Output verdicts_json(const SharedPart& part, OtherRobots& others) {
+  Output rows = Output::array();
+  for (const SharedVerdict& verdict : part.verdicts) {
+    Output& row = rows.emplace_back(Output::array({others.place_of(verdict.by), verdict.t_s}));
+    append_verdict(row, verdict.verdict);
+  }
+  return rows;
+}
+
+Output part_json(const SharedPart& part) {
+  OtherRobots others;
+  Output json{{"robot", part.robot}, {"version", part.version}};
+  if (part.start) json["start"] = pose_json(*part.start);
+  json["nodes"] = nodes_json(part);
+  json["sightings"] = sightings_json(part, others);
+  json["angle_checks"] = verdicts_json(part, others);
+  json["others"] = others.names();
+  return json;
+}
+
+Output status_json(const RobotStatus& status) {
+  Output json{{"number", status.number},
+              {"error", rounded(std::min(status.error, kNotNegative.largest))},
+              {"frame", status.frame},
+              {"pose", pose_json(status.pose)},
+              {"sigma_m", rounded(status.sigma_m)}};
+  if (status.call) json["call"] = *status.call;
+  json["discrepancy_scale"] = rounded(status.discrepancy_scale);
+  json["partner"] = status.partner;
+  json["offer_to"] = status.offer_to;
+  json["serving"] = status.serving;
+  json["knows"] = Output(status.knows);
+  return json;
+}
+
+// ---- reading --------------------------------------------------------------------------------------------
+
+SE2::Jacobian read_covariance(JsonRow& row) {
+  SE2::Jacobian factor = SE2::Jacobian::Zero();
+  for (int i = 0; i < SE2::kDof; ++i)
+    for (int j = 0; j <= i; ++j) factor(i, j) = row.number();
+  return factor * factor.transpose();
+}
+
+AngleVerdict read_verdict(JsonRow& row) {
+  AngleVerdict verdict;
+  verdict.log_odds = row.number();
+  verdict.scale = row.number();
+  return verdict;
+}
+
+SharedNode read_node(const Json& json) {
+  JsonRow row(json, "a node", kNodeValues);
+  SharedNode node;
+  node.number = static_cast<std::uint32_t>(row.whole_number(kAnyNumber32));
+  node.t_s = row.number(kSeconds);
+  node.until_s = row.number(kSeconds);
+  node.from_before.pose = row.pose();
+  node.from_before.covariance = read_covariance(row);
+  return node;
+}
+
+const std::string& read_other(JsonRow& row, const std::vector<std::string>& others) {
+  if (others.empty()) refuse_json("a part refers to robots that it does not name");
+  return others[static_cast<std::size_t>(row.whole_number(others.size() - 1))];
+}
+
+SharedSighting read_sighting(const Json& json, const std::vector<std::string>& others) {
+  JsonRow row(json, "a sighting", kSightingValues);
+  SharedSighting sighting;
+  sighting.node = static_cast<std::uint32_t>(row.whole_number(kAnyNumber32));
+  sighting.robot = read_other(row, others);
+  sighting.t_s = row.number(kSeconds);
+  sighting.T_i_j = row.pose();
+  sighting.sigma_m = row.number();
+  sighting.sigma_rad = row.number();
+  sighting.verdict = read_verdict(row);
+  return sighting;
+}
+
+SharedVerdict read_shared_verdict(const Json& json, const std::vector<std::string>& others) {
+  JsonRow row(json, "an angle check", kVerdictValues);
+  SharedVerdict verdict;
+  verdict.by = read_other(row, others);
+  verdict.t_s = row.number(kSeconds);
+  verdict.verdict = read_verdict(row);
+  return verdict;
+}
+
+std::vector<std::string> read_names(const JsonObject& from, const char* member) {
+  std::vector<std::string> names;
+  for (const Json& name : from.list(member)) {
+    if (!name.is_string() || !is_robot_name(name.get_ref<const std::string&>()))
+      from.fail(member, "a list of robots' names");
+    names.push_back(name.get<std::string>());
+  }
+  return names;
+}
+
+SharedPart read_part(const Json& json) {
+  const JsonObject from(json, "a part",
+                        {"robot", "version", "start", "nodes", "sightings", "angle_checks", "others"});
+  SharedPart part;
+  part.robot = from.robot("robot");
+  part.version = from.whole_number("version", kAnyCount);
+  if (from.has("start")) part.start = from.pose("start");
+  const auto others = read_names(from, "others");
+  for (const Json& node : from.list("nodes")) part.nodes.push_back(read_node(node));
+  for (const Json& each : from.list("sightings")) part.sightings.push_back(read_sighting(each, others));
+  for (const Json& each : from.list("angle_checks"))
+    part.verdicts.push_back(read_shared_verdict(each, others));
+  if (!is_well_formed(part)) refuse_json("the part of " + part.robot + " is not well-formed");
+  return part;
+}
+
+std::map<std::string, std::uint64_t> read_versions(const JsonObject& from, const char* member) {
+  const Json& json = from.at(member);
+  if (!json.is_object()) from.fail(member, "an object");
+  std::map<std::string, std::uint64_t> versions;
+  for (auto each = json.begin(); each != json.end(); ++each) {
+    if (!is_robot_name(each.key()) || !each.value().is_number_unsigned())
+      from.fail(member, "an object of versions by robots' names");
+    versions[each.key()] = each.value().get<std::uint64_t>();
+  }
+  return versions;
+}
+
+RobotStatus read_status(const Json& json) {
+  const JsonObject from(json, "the status",
+                        {"number", "error", "frame", "pose", "sigma_m", "call", "discrepancy_scale",
+                         "partner", "offer_to", "serving", "knows"});
+  RobotStatus status;
+  status.number = from.whole_number("number", kAnyCount);
+  status.error = from.number("error", kNotNegative);
+  status.frame = from.robot_or_none("frame");
+  status.pose = from.pose("pose");
+  status.sigma_m = from.number("sigma_m", kNotNegative);
+  if (from.has("call")) status.call = static_cast<std::uint32_t>(from.whole_number("call", kAnyNumber32));
+  status.discrepancy_scale = from.number("discrepancy_scale", kNotNegative);
+  status.partner = from.robot_or_none("partner");
+  status.offer_to = from.robot_or_none("offer_to");
+  status.serving = from.robot_or_none("serving");
+  status.knows = read_versions(from, "knows");
+  return status;
+}
+
+}  // namespace
+
+Output message_json(const RobotMessage& message) {
+  Output json{{"format", kFormat}};
+  if (message.status) json["status"] = status_json(*message.status);
+  if (message.parts.empty()) return json;
+  Output& parts = json["parts"] = Output::array();
+  for (const auto& part : message.parts) parts.push_back(part_json(*part));
+  return json;
+}
+
+RobotMessage read_message(const Json& json) {
+  const JsonObject from(json, "the message", {"format", "status", "parts"});
+  if (from.at("format") != kFormat) from.fail("format", std::string("'") + kFormat + "'");
+  RobotMessage message;
+  if (from.has("status")) message.status = read_status(from.at("status"));
+  if (!from.has("parts")) return message;
+  for (const Json& part : from.list("parts"))
+    message.parts.push_back(std::make_shared<const SharedPart>(read_part(part)));
+  return message;
+}
+
+}  // namespace radioslam
