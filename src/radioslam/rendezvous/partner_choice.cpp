@@ -33,10 +33,6 @@ std::optional<std::string> best_partner(const std::vector<MeetingOption>& offers
   });
 }
 
-std::optional<std::string> most_informative(const std::vector<MeetingOption>& options) {
-  return smallest(options, [](const MeetingOption& each) { return std::tuple(-each.gain_rate); });
-}
-
 double expected_gain(double error_i_m, double error_j_m, double sigma_m) {
   const double i = error_i_m * error_i_m, j = error_j_m * error_j_m;
   const double sum = i + j + sigma_m * sigma_m;

@@ -16,15 +16,12 @@ struct MeetingOption {
   std::string robot;
   double esnr_db = 0;
   double error = 0;      ///< that it states
-  double gain_rate = 0;  ///< m^2 of variance per metre walked
 };
 
 /// The call that a robot follows: the one it hears best; of equals, that of the larger error.
 std::optional<std::string> best_caller(const std::vector<MeetingOption>& callers);
 /// The offer that a caller takes: that of the smallest service discrepancy; of equals, of the lower error.
 std::optional<std::string> best_partner(const std::vector<MeetingOption>& offers, double q_db, double alpha);
-/// The one with the largest gain per metre.
-std::optional<std::string> most_informative(const std::vector<MeetingOption>& options);
 
 /// By how much the variances of two robots' positions, per axis, shrink together when they meet (m^2). Each
 /// has an error of its own since it last met the team, e_i and e_j; meeting measures the difference up to r:

@@ -11,7 +11,7 @@ namespace radioslam {
 /// How robots come to meet.
 enum class RendezvousPolicy {
   kActive,     ///< a robot whose error is too large calls the one it hears best (Wang et al.)
-  kInformed,   ///< two robots meet where that gains most information per metre walked
+  kAnchored,   ///< some stand as landmarks, the lost one walks to where it gains most per metre
   kScheduled,  ///< all go to one place from time to time
   kRandom,     ///< by chance
 };
@@ -40,7 +40,7 @@ struct RendezvousParams {
   double omega_r = 2;
   double direct_ratio = 0.95;
   double angle_threshold_rad = 0.14835298641951802;
-  double gain_walk_m = 20;
+  double anchor_range_m = 30;
   double meeting_x_m = 0, meeting_y_m = 0;
   double meeting_every_s = 25, meeting_wait_s = 10;
   int seed = 1;
@@ -49,9 +49,9 @@ struct RendezvousParams {
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
     RADIOSLAM_BASIC_FIELD(policy, "", 0, 0,
-                          "how robots meet; active: called, Wang et al.; informed: by information gained per "
-                          "metre walked; scheduled: at one place; random: by chance",
-                          "active|informed|scheduled|random");
+                          "how robots meet; active: called, Wang et al.; anchored: by turns, to landmarks, by "
+                          "information gained per metre; scheduled: at one place; random: by chance",
+                          "active|anchored|scheduled|random");
     RADIOSLAM_BASIC_FIELD(monitor, "", 0, 0,
                           "a robot's error; uncertainty: standard deviation of its position since it last "
                           "met another, in metres; seed: Wang et al., eq. 3",
@@ -81,8 +81,7 @@ struct RendezvousParams {
                     "share of packets between robots in sight whose direct path is among the arrivals");
     RADIOSLAM_FIELD(angle_threshold_rad, "rad", 0, 3.2,
                     "angle error below which a relative pose keeps its full information with published weights");
-    RADIOSLAM_FIELD(gain_walk_m, "m", 0.1, 1e6,
-                    "informed: walk that is worth the square of delta in variance");
+    RADIOSLAM_FIELD(anchor_range_m, "m", 0.1, 1e6, "anchored: how far away a landmark may be to begin with");
     RADIOSLAM_FIELD(meeting_x_m, "m", -1e6, 1e6, "scheduled: where robots meet, in their frame");
     RADIOSLAM_FIELD(meeting_y_m, "m", -1e6, 1e6, "scheduled: where robots meet, in their frame");
     RADIOSLAM_FIELD(meeting_every_s, "s", 0.1, 1e6, "scheduled: time between two meetings");
@@ -95,7 +94,7 @@ struct RendezvousParams {
 inline RendezvousPolicy policy_of(const RendezvousParams& params) {
   if (params.policy == "random") return RendezvousPolicy::kRandom;
   if (params.policy == "scheduled") return RendezvousPolicy::kScheduled;
-  return params.policy == "informed" ? RendezvousPolicy::kInformed : RendezvousPolicy::kActive;
+  return params.policy == "anchored" ? RendezvousPolicy::kAnchored : RendezvousPolicy::kActive;
 }
 
 inline ErrorMonitor monitor_of(const RendezvousParams& params) {

@@ -11,7 +11,8 @@ namespace {
 constexpr int kLeastTicks = 5;          ///< without a word before a robot counts as gone
 constexpr int kLeastPatience = 20;      ///< decisions before a rendezvous is given up
 constexpr int kAnswerTicks = 5;         ///< in which a chosen partner should have answered
-constexpr std::size_t kKeptNodes = 12;  ///< latest own poses whose packets are kept
+constexpr std::size_t kKeptNodes = 6;    ///< latest own poses whose packets are kept
+constexpr std::size_t kKeptPackets = 4;  ///< for each of them
 constexpr int kRepeatRounds = 2;        ///< until a part that is not confirmed is sent again
 constexpr int kRefreshTicks = 10;       ///< after which news of others alone are used
 constexpr std::size_t kRestNodes = 3;   ///< poses between two calls
@@ -52,6 +53,7 @@ RendezvousRobot::RendezvousRobot(const std::string& id, const RobotStart& start,
 void RendezvousRobot::move(const OdometryStep& step) {
   judge_sightings();
   now_s_ = step.t_s;
+  walked_m_ += step.T_previous_body.translation().norm();
   team_.move(step.t_s, step.T_previous_body, step.sigma_m, step.sigma_rad);
   published_.move(step.T_previous_body, step.sigma_m, step.sigma_rad);
 }
@@ -71,7 +73,8 @@ void RendezvousRobot::hear(const HeardPacket& packet) {
   link.esnr_db = packet.esnr_db;
   link.node = team_.size() - 1;
   if (packet.esnr_db < q_db_) link.packets.clear();
-  link.packets[link.node].push_back(packet.paths);
+  auto& packets = link.packets[link.node];
+  if (packets.size() < kKeptPackets) packets.push_back(packet.paths);
   while (link.packets.size() > kKeptNodes) link.packets.erase(link.packets.begin());
   if (!packet.message) return;
   const auto& status = packet.message->status;
@@ -111,10 +114,12 @@ void RendezvousRobot::judge_sightings() {
                 check_angles({seen.T_j_i, seen.sigma_m, seen.sigma_rad}, packets_at(seen.by, seen.node), check));
 }
 
-void RendezvousRobot::update_estimate() {
+/// The news of others alone can wait, and so can those of a talk, except where robots meet on purpose.
+void RendezvousRobot::update_estimate(bool talk) {
   judge_sightings();
   const bool own_news = team_.has_own_news();
-  if (!own_news && ticks_ < refresh_tick_) return;
+  const bool meets = call_ || service_ || anchored_.role() == AnchoredExploration::Role::kReturning;
+  if (own_news ? talk && !meets : ticks_ < refresh_tick_) return;
   refresh_tick_ = ticks_ + kRefreshTicks;
   if (team_.solve() && own_news) published_.optimized(team_);
 }
@@ -146,6 +151,7 @@ RobotState RendezvousRobot::state() const {
   state.sigma_m = per_axis_sigma(team_.latest());
   state.asking = call_.has_value();
   if (service_) state.serving = service_->caller;
+  if (anchored_.role() == AnchoredExploration::Role::kReturning) state.serving = anchored_.leans_on();
   state.team = team_.team();
   for (const auto& [robot, link] : links_)
     if (link.status && link.status->frame == team_.frame() &&
@@ -155,31 +161,19 @@ RobotState RendezvousRobot::state() const {
 }
 
 /// Metres, by the positions that both know, or else roughly by the signal.
-std::optional<double> RendezvousRobot::distance_to(const Link& link) const {
+double RendezvousRobot::distance_to(const Link& link) const {
   if (link.status && link.status->frame == team_.frame())
-    return std::max(kNearest_m,
-                    (link.status->pose.translation() - team_.latest().pose.translation()).norm());
+    return std::max(kNearest_m, (link.status->pose.translation() - team_.latest().pose.translation()).norm());
   return std::max(kNearest_m, std::pow(10.0, (kReferenceEsnr_db - link.esnr_db) / kDecade_db));
 }
 
-double RendezvousRobot::gain_rate(const Link& link) const {
-  if (!link.status) return 0;
-  return expected_gain(state().error, link.status->error, 0) / *distance_to(link);
-}
-
 MeetingOption RendezvousRobot::option_of(const std::string& robot, const Link& link) const {
-  return {robot, link.esnr_db, link.status ? link.status->error : 0,
-          policy_ == RendezvousPolicy::kInformed ? gain_rate(link) : 0};
+  return {robot, link.esnr_db, link.status ? link.status->error : 0};
 }
 
 bool RendezvousRobot::wants_to_call() const {
-  if (service_ || team_.size() < calls_after_node_) return false;
-  if (policy_ == RendezvousPolicy::kActive) return state().error > delta_;
-  if (policy_ != RendezvousPolicy::kInformed) return false;
-  const double enough = delta_ * delta_ / params_.gain_walk_m;
-  return std::any_of(links_.begin(), links_.end(), [&](const auto& each) {
-    return !is_gone(each.second) && !is_shunned(each.first) && gain_rate(each.second) > enough;
-  });
+  return policy_ == RendezvousPolicy::kActive && !service_ && team_.size() >= calls_after_node_ &&
+         state().error > delta_;
 }
 
 void RendezvousRobot::follow_up_call() {
@@ -205,8 +199,7 @@ void RendezvousRobot::follow_up_call() {
     if (!left) shun(call_->partner);
     call_->partner.clear();
   }
-  const bool over = policy_ == RendezvousPolicy::kActive ? state().error <= delta_ : !wants_to_call();
-  if (over)
+  if (state().error <= delta_)
     call_.reset();
   else
     choose_partner();
@@ -217,9 +210,7 @@ void RendezvousRobot::choose_partner() {
   for (const auto& [robot, link] : links_)
     if (!is_gone(link) && !is_shunned(robot) && link.status && link.status->offer_to == id_)
       offers.push_back(option_of(robot, link));
-  const auto best = policy_ == RendezvousPolicy::kInformed
-                        ? most_informative(offers)
-                        : best_partner(offers, q_db_, params_.alpha);
+  const auto best = best_partner(offers, q_db_, params_.alpha);
   if (!best) return;
   call_->partner = *best;
   call_->partner_s = now_s_;
@@ -243,8 +234,7 @@ void RendezvousRobot::follow_up_service() {
 void RendezvousRobot::choose_caller() {
   offer_to_.clear();
   const bool waits = call_ && !call_->partner.empty();
-  if (service_ || waits || policy_ == RendezvousPolicy::kRandom || policy_ == RendezvousPolicy::kScheduled)
-    return;
+  if (service_ || waits || policy_ != RendezvousPolicy::kActive) return;
   std::vector<MeetingOption> callers;
   for (const auto& [robot, link] : links_) {
     if (is_gone(link) || is_shunned(robot) || !link.status || !link.status->call) continue;
@@ -260,9 +250,7 @@ void RendezvousRobot::choose_caller() {
     if (call_ && theirs < own) continue;
     callers.push_back(option_of(robot, link));
   }
-  const auto best =
-      policy_ == RendezvousPolicy::kInformed ? most_informative(callers) : best_caller(callers);
-  if (best) offer_to_ = *best;
+  if (const auto best = best_caller(callers)) offer_to_ = *best;
 }
 
 void RendezvousRobot::write_status(TickAnswer& answer) {
@@ -280,6 +268,9 @@ void RendezvousRobot::write_status(TickAnswer& answer) {
   status.discrepancy_scale = params_.alpha;
   status.offer_to = offer_to_;
   status.serving = now.serving;
+  status.standing = anchored_.role() == AnchoredExploration::Role::kStanding;
+  status.leans_on = anchored_.leans_on();
+  status.walked_m = walked_m_;
   for (const auto& [robot, part] : team_.parts()) status.knows[robot] = part->version;
   auto message = std::make_shared<RobotMessage>();
   message->status = std::move(status);
@@ -332,9 +323,35 @@ bool RendezvousRobot::sees_now(const std::string& robot) const {
   return false;
 }
 
-Movement RendezvousRobot::walk_to_caller() {
-  const Link& link = links_.at(service_->caller);
-  if (sees_now(service_->caller)) return {Movement::Kind::kStay, {}};
+std::vector<AnchorNeighbour> RendezvousRobot::anchor_neighbours() const {
+  std::vector<AnchorNeighbour> list;
+  for (const auto& [robot, link] : links_) {
+    if (is_gone(link) || is_shunned(robot) || !link.status) continue;
+    list.push_back({robot, link.status->standing, link.status->leans_on, link.status->error,
+                    link.status->walked_m, distance_to(link)});
+  }
+  return list;
+}
+
+/// Whether to explore, to stand, or to come back.
+void RendezvousRobot::take_turns() {
+  const bool returned = anchored_.role() == AnchoredExploration::Role::kReturning;
+  if (returned && team_.sightings_with(anchored_.leans_on(), return_s_) >= static_cast<std::size_t>(kappa_)) {
+    ++rendezvous_held_;
+    anchored_.met(walked_m_, anchor_neighbours());
+  } else if (returned && has_run_out(return_s_, return_tick_)) {
+    shun(anchored_.leans_on());
+  }
+  anchored_.decide(id_, state().error, walked_m_, anchor_neighbours(), {delta_, params_.anchor_range_m});
+  if (anchored_.role() != AnchoredExploration::Role::kReturning || returned) return;
+  return_s_ = now_s_;
+  return_tick_ = ticks_;
+  walk_.begin(q_db_);
+}
+
+Movement RendezvousRobot::walk_to(const std::string& robot) {
+  const Link& link = links_.at(robot);
+  if (sees_now(robot)) return {Movement::Kind::kStay, {}};
   const auto packets = link.packets.find(team_.size() - 1);
   if (packets == link.packets.end()) return {Movement::Kind::kStay, {}};
   const auto target = walk_.next(team_.raw_poses().back(), link.esnr_db, packets->second.back(),
@@ -367,7 +384,12 @@ std::optional<Movement> RendezvousRobot::go_to_meeting_place() {
 }
 
 Movement RendezvousRobot::decide() {
-  if (service_) return walk_to_caller();
+  if (service_) return walk_to(service_->caller);
+  if (policy_ == RendezvousPolicy::kAnchored) {
+    take_turns();
+    if (anchored_.role() == AnchoredExploration::Role::kReturning) return walk_to(anchored_.leans_on());
+    if (anchored_.waits()) return {Movement::Kind::kStay, {}};
+  }
   if (call_ && !call_->partner.empty()) return {Movement::Kind::kStay, {}};
   if (policy_ == RendezvousPolicy::kScheduled)
     if (const auto movement = go_to_meeting_place()) return *movement;
@@ -376,7 +398,7 @@ Movement RendezvousRobot::decide() {
 
 TickAnswer RendezvousRobot::tick(const DecisionTick& tick) {
   now_s_ = tick.t_s;
-  update_estimate();
+  update_estimate(tick.talk);
   TickAnswer answer;
   if (!tick.talk) ++ticks_;
   ++rounds_;

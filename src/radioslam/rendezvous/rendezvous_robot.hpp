@@ -18,6 +18,7 @@
 
 #include "radioslam/graph/distributed/known_team.hpp"
 #include "radioslam/rendezvous/adaptive_walk.hpp"
+#include "radioslam/rendezvous/anchored_exploration.hpp"
 #include "radioslam/rendezvous/angle_verdict.hpp"
 #include "radioslam/rendezvous/partner_choice.hpp"
 #include "radioslam/rendezvous/published_error.hpp"
@@ -83,21 +84,22 @@ class RendezvousRobot {
   void shun(const std::string& robot);
 
   void judge_sightings();
-  void update_estimate();
+  void update_estimate(bool talk);
   bool wants_to_call() const;
   void follow_up_call();
   void choose_partner();
   void follow_up_service();
   void choose_caller();
   MeetingOption option_of(const std::string& robot, const Link& link) const;
-  std::optional<double> distance_to(const Link& link) const;
-  double gain_rate(const Link& link) const;
+  double distance_to(const Link& link) const;
+  std::vector<AnchorNeighbour> anchor_neighbours() const;
+  void take_turns();
+  Movement walk_to(const std::string& robot);
 
   void write_status(TickAnswer& answer);
   bool lacks(const std::string& robot, const Link& link, const SharedPart& part) const;
   void write_data(TickAnswer& answer);
   Movement decide();
-  Movement walk_to_caller();
   std::optional<Movement> go_to_meeting_place();
   std::optional<ExpectedDirection> expected_direction(const Link& link) const;
   bool sees_now(const std::string& robot) const;
@@ -126,6 +128,10 @@ class RendezvousRobot {
   int ticks_ = 0;   ///< decisions so far
   int rounds_ = 0;  ///< the same with talk ticks
   int refresh_tick_ = 0;  ///< from which news of others alone are used
+  AnchoredExploration anchored_;
+  double return_s_ = 0;      ///< when the robot set out for its landmark
+  int return_tick_ = 0;
+  double walked_m_ = 0;
   std::optional<double> at_place_s_;
   int meetings_held_ = 0;
 };

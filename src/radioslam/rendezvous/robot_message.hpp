@@ -25,6 +25,9 @@ struct RobotStatus {
   std::string partner;         ///< of those who offered, the one it has taken; empty: none yet
   std::string offer_to;        ///< whose call this robot would follow
   std::string serving;         ///< to whom it walks
+  bool standing = false;       ///< as a landmark
+  std::string leans_on;        ///< landmark that it comes back to
+  double walked_m = 0;         ///< so far
   std::map<std::string, std::uint64_t> knows;  ///< versions of robots' parts that it has
 };
 

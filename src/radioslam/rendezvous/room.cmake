@@ -1,6 +1,7 @@
 radioslam_room(rendezvous
   SOURCES
     adaptive_walk.cpp
+    anchored_exploration.cpp
     angle_verdict.cpp
     partner_choice.cpp
     published_error.cpp
