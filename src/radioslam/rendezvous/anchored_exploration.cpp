@@ -12,6 +12,7 @@ constexpr int kWaitForLandmark = 3;   ///< decisions until a robot without one e
 constexpr int kStillAfter = 12;       ///< decisions after which one that does not walk has no use for a landmark
 constexpr int kAloneAfter = 2;        ///< decisions without anybody leaning on it before a landmark may leave
 constexpr double kLeastWay_m = 2;
+constexpr double kLeastError = 0.01;  ///< where nothing has been lost yet, the nearest landmark will do
 
 const AnchorNeighbour* find(const std::vector<AnchorNeighbour>& neighbours, const std::string& robot) {
   const auto at = std::find_if(neighbours.begin(), neighbours.end(),
@@ -27,7 +28,7 @@ const AnchorNeighbour* best_landmark(double error, const std::vector<AnchorNeigh
   for (const AnchorNeighbour& each : neighbours) {
     if (!each.standing || each.distance_m > range_m) continue;
     const double way_m = std::max(each.distance_m, kLeastWay_m);
-    const double rate = (1e-3 + expected_gain(std::max(error, 0.1), each.error, 0)) / way_m;
+    const double rate = expected_gain(std::max(error, kLeastError), each.error) / way_m;
     if (rate > best_rate) {
       best = &each;
       best_rate = rate;

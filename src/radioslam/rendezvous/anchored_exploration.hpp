@@ -1,9 +1,9 @@
 // Exploring by turns: some robots stand still as landmarks, and those that explore come back to one of them
 // before they are lost.
 //
-// Who stands still neither walks nor drifts. When robot i, with an error e_i of its own, meets one that has
-// stood still since the team last met, all of e_i^2 is gained for i's way back; if both had explored, or if
-// the landmark walked to i, about half of it (expected_gain). A way that ends where it began is also known in
+// Who stands still neither walks nor drifts. When robot i, with an expected squared error e_i of its own,
+// meets one that has stood still since the team last met, all of e_i is gained for i's way back; if both had
+// explored, or if the landmark walked to i, about half of it (expected_gain). A way that ends where it began is also known in
 // between: closed, L steps of heading noise have a mean square error of L^3 / 420 instead of L^3 / 12. So the
 // lost one walks, to the landmark that gains most per metre, and who has walked least explores next.
 //
@@ -28,7 +28,7 @@ struct AnchorNeighbour {
 };
 
 struct AnchoredParams {
-  double delta = 1;          ///< error at which a robot comes back
+  double delta = 10;           ///< error at which a robot comes back
   double anchor_range_m = 30;  ///< landmarks further away are not leant on
 };
 

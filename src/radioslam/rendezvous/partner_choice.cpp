@@ -1,7 +1,6 @@
 #include "radioslam/rendezvous/partner_choice.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 namespace radioslam {
@@ -33,10 +32,9 @@ std::optional<std::string> best_partner(const std::vector<MeetingOption>& offers
   });
 }
 
-double expected_gain(double error_i_m, double error_j_m, double sigma_m) {
-  const double i = error_i_m * error_i_m, j = error_j_m * error_j_m;
-  const double sum = i + j + sigma_m * sigma_m;
-  return sum > 0 ? (i * i + j * j) / sum : 0;
+double expected_gain(double error_i, double error_j) {
+  const double sum = error_i + error_j;
+  return sum > 0 ? (error_i * error_i + error_j * error_j) / sum : 0;
 }
 
 }  // namespace radioslam

@@ -23,9 +23,9 @@ std::optional<std::string> best_caller(const std::vector<MeetingOption>& callers
 /// The offer that a caller takes: that of the smallest service discrepancy; of equals, of the lower error.
 std::optional<std::string> best_partner(const std::vector<MeetingOption>& offers, double q_db, double alpha);
 
-/// By how much the variances of two robots' positions, per axis, shrink together when they meet (m^2). Each
-/// has an error of its own since it last met the team, e_i and e_j; meeting measures the difference up to r:
-///   (e_i^4 + e_j^4) / (e_i^2 + e_j^2 + r^2).
-double expected_gain(double error_i_m, double error_j_m, double sigma_m);
+/// By how much the expected squared errors of two robots' positions shrink together when they meet and learn
+/// their difference (m^2). Each has drifted by itself since it last met the team, by e_i and e_j (m^2):
+///   (e_i^2 + e_j^2) / (e_i + e_j).
+double expected_gain(double error_i, double error_j);
 
 }  // namespace radioslam

@@ -18,14 +18,14 @@ enum class RendezvousPolicy {
 
 /// What a robot takes for its error.
 enum class ErrorMonitor {
-  kUncertainty,  ///< standard deviation of its position, per axis, since it last met the team (m)
+  kUncertainty,  ///< expected square of its drift in position since it last met the team (m^2)
   kSeed,         ///< Wang et al., eq. 3
 };
 
 struct RendezvousParams {
   std::string policy = "active";
   std::string monitor = "uncertainty";
-  double delta = 0;
+  double delta = 10;
   double q_db = 25;
   int kappa = 3;
   double alpha = 1;
@@ -53,11 +53,11 @@ struct RendezvousParams {
                           "information gained per metre; scheduled: at one place; random: by chance",
                           "active|anchored|scheduled|random");
     RADIOSLAM_BASIC_FIELD(monitor, "", 0, 0,
-                          "a robot's error; uncertainty: standard deviation of its position since it last "
-                          "met another, in metres; seed: Wang et al., eq. 3",
+                          "a robot's error; uncertainty: expected square of its drift since it last met "
+                          "another (m^2); seed: Wang et al., eq. 3",
                           "uncertainty|seed");
     RADIOSLAM_BASIC_FIELD(delta, "", 0, 1e9,
-                          "error above which a robot calls; 0: 1 m by uncertainty, 10 by the published error");
+                          "error above which a robot meets another; m^2 by uncertainty, a pure number as published");
     RADIOSLAM_BASIC_FIELD(q_db, "dB", 1, 200, "ESNR that exchanging data takes");
     RADIOSLAM_BASIC_FIELD(kappa, "", 1, 1000, "relative poses that end a rendezvous");
     RADIOSLAM_FIELD(alpha, "", 0, 1e6, "priority of a robot that calls; scales its service discrepancy");
@@ -100,8 +100,5 @@ inline RendezvousPolicy policy_of(const RendezvousParams& params) {
 inline ErrorMonitor monitor_of(const RendezvousParams& params) {
   return params.monitor == "seed" ? ErrorMonitor::kSeed : ErrorMonitor::kUncertainty;
 }
-
-/// The threshold where none is set.
-inline double default_delta(ErrorMonitor monitor) { return monitor == ErrorMonitor::kSeed ? 10 : 1; }
 
 }  // namespace radioslam

@@ -34,9 +34,12 @@ std::size_t size_of(const SharedPart& part) {
   return 200 + 150 * part.nodes.size() + 120 * part.sightings.size() + 80 * part.verdicts.size();
 }
 
-double per_axis_sigma(const UncertainPose<SE2>& pose) {
-  return std::sqrt(std::max(0.0, pose.covariance.topLeftCorner<2, 2>().trace() / 2));
+/// Of the distance between a position and its estimate (m^2).
+double expected_square(const UncertainPose<SE2>& pose) {
+  return std::max(0.0, pose.covariance.topLeftCorner<2, 2>().trace());
 }
+
+double per_axis_sigma(const UncertainPose<SE2>& pose) { return std::sqrt(expected_square(pose) / 2); }
 
 }  // namespace
 
@@ -44,7 +47,7 @@ RendezvousRobot::RendezvousRobot(const std::string& id, const RobotStart& start,
                                  const RendezvousParams& params)
     : id_(id), params_(params), policy_(policy_of(params)), monitor_(monitor_of(params)),
       q_db_(start.q_db.value_or(params.q_db)),
-      delta_(start.delta.value_or(params.delta > 0 ? params.delta : default_delta(monitor_))),
+      delta_(start.delta.value_or(params.delta)),
       max_step_m_(start.max_step_m.value_or(params.max_step_m)), kappa_(start.kappa.value_or(params.kappa)),
       team_(id, start.t_s, start.pose, params.estimate),
       published_(params.omega_t, params.omega_r, seed_of(id, params.seed), start.pose.value_or(SE2())),
@@ -146,8 +149,7 @@ void RendezvousRobot::shun(const std::string& robot) { shunned_[robot] = now_s_ 
 
 RobotState RendezvousRobot::state() const {
   RobotState state;
-  state.error =
-      monitor_ == ErrorMonitor::kSeed ? published_.value() : per_axis_sigma(team_.since_contact());
+  state.error = monitor_ == ErrorMonitor::kSeed ? published_.value() : expected_square(team_.since_contact());
   state.sigma_m = per_axis_sigma(team_.latest());
   state.asking = call_.has_value();
   if (service_) state.serving = service_->caller;
@@ -179,7 +181,7 @@ bool RendezvousRobot::wants_to_call() const {
 void RendezvousRobot::follow_up_call() {
   if (!call_) {
     if (!wants_to_call()) return;
-    call_ = Call{++calls_, now_s_, {}, 0, 0, false};
+    call_ = Call{++calls_, state().error, now_s_, {}, 0, 0, false};
   }
   if (!call_->partner.empty()) {
     const Link* link = present(call_->partner);
@@ -245,9 +247,8 @@ void RendezvousRobot::choose_caller() {
       return;
     }
     if (!link.status->partner.empty()) continue;
-    // Of two that call each other, the one in greater need stands still.
-    const std::pair theirs(link.status->error, robot), own(state().error, id_);
-    if (call_ && theirs < own) continue;
+    // Of two that call each other, the one that knows better where it is stands still.
+    if (call_ && std::pair(call_->error, id_) < std::pair(link.status->call_error, robot)) continue;
     callers.push_back(option_of(robot, link));
   }
   if (const auto best = best_caller(callers)) offer_to_ = *best;
@@ -263,9 +264,9 @@ void RendezvousRobot::write_status(TickAnswer& answer) {
   status.pose = monitor_ == ErrorMonitor::kSeed ? published_.latest() : team_.latest().pose;
   if (call_) {
     status.call = call_->number;
+    status.call_error = call_->error;
     status.partner = call_->partner;
   }
-  status.discrepancy_scale = params_.alpha;
   status.offer_to = offer_to_;
   status.serving = now.serving;
   status.standing = anchored_.role() == AnchoredExploration::Role::kStanding;

@@ -64,6 +64,7 @@ class RendezvousRobot {
   /// A rendezvous that this robot has called for.
   struct Call {
     std::uint32_t number = 0;
+    double error = 0;  ///< when it called
     double since_s = 0;
     std::string partner;
     double partner_s = 0;

@@ -21,7 +21,7 @@ struct RobotStatus {
   SE2 pose;
   double sigma_m = 0;          ///< of the position, per axis
   std::optional<std::uint32_t> call;  ///< the robot asks for a rendezvous: the number of its call
-  double discrepancy_scale = 1;  ///< alpha of the robot that calls
+  double call_error = 0;       ///< when it called
   std::string partner;         ///< of those who offered, the one it has taken; empty: none yet
   std::string offer_to;        ///< whose call this robot would follow
   std::string serving;         ///< to whom it walks

@@ -49,8 +49,11 @@ RobotStatus example_status() {
   status.pose = SE2({3, -4}, 1.5);
   status.sigma_m = 0.25;
   status.call = 3;
-  status.discrepancy_scale = 2;
+  status.call_error = 0.75;
   status.partner = "b";
+  status.standing = true;
+  status.leans_on = "c";
+  status.walked_m = 1.5;
   status.knows = {{"b", 4}, {"c", std::uint64_t{1} << 60U}};
   return status;
 }
@@ -73,10 +76,13 @@ TEST(RobotMessageJson, AStatusComesBack) {
   expect_near(status.pose, written.pose);
   EXPECT_EQ(status.sigma_m, written.sigma_m);
   EXPECT_EQ(status.call, written.call);
-  EXPECT_EQ(status.discrepancy_scale, written.discrepancy_scale);
+  EXPECT_EQ(status.call_error, written.call_error);
   EXPECT_EQ(status.partner, written.partner);
   EXPECT_EQ(status.offer_to, "");
   EXPECT_EQ(status.serving, "");
+  EXPECT_TRUE(status.standing);
+  EXPECT_EQ(status.leans_on, "c");
+  EXPECT_EQ(status.walked_m, 1.5);
   EXPECT_EQ(status.knows, written.knows);
 }
 

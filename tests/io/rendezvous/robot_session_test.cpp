@@ -121,7 +121,6 @@ TEST(RobotSession, TheTrajectoryHasARowPerNode) {
 
 TEST(RobotSession, TheEndOfTheInputFinishes) {
   RobotSession session("a", {}), unstarted("a", {});
-  Lines output;
   for (auto line = kRun.begin(); line + 1 != kRun.end(); ++line) session.line(*line);
   EXPECT_EQ(session.end(), Lines{run(kRun).back()});
   EXPECT_TRUE(session.finished());

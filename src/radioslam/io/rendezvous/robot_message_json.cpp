@@ -114,18 +114,24 @@ Output part_json(const SharedPart& part) {
   return json;
 }
 
+/// The binding fails to compile where a status has a field that is not written.
 Output status_json(const RobotStatus& status) {
-  Output json{{"number", status.number},
-              {"error", rounded(std::min(status.error, kNotNegative.largest))},
-              {"frame", status.frame},
-              {"pose", pose_json(status.pose)},
-              {"sigma_m", rounded(status.sigma_m)}};
-  if (status.call) json["call"] = *status.call;
-  json["discrepancy_scale"] = rounded(status.discrepancy_scale);
-  json["partner"] = status.partner;
-  json["offer_to"] = status.offer_to;
-  json["serving"] = status.serving;
-  json["knows"] = Output(status.knows);
+  const auto& [number, error, frame, pose, sigma_m, call, call_error, partner, offer_to, serving, standing,
+               leans_on, walked_m, knows] = status;
+  Output json{{"number", number},
+              {"error", rounded(std::min(error, kNotNegative.largest))},
+              {"frame", frame},
+              {"pose", pose_json(pose)},
+              {"sigma_m", rounded(sigma_m)}};
+  if (call) json["call"] = *call;
+  json["call_error"] = rounded(std::min(call_error, kNotNegative.largest));
+  json["partner"] = partner;
+  json["offer_to"] = offer_to;
+  json["serving"] = serving;
+  json["standing"] = standing;
+  json["leans_on"] = leans_on;
+  json["walked_m"] = rounded(std::min(walked_m, kNotNegative.largest));
+  json["knows"] = Output(knows);
   return json;
 }
 
@@ -223,8 +229,8 @@ std::map<std::string, std::uint64_t> read_versions(const JsonObject& from, const
 
 RobotStatus read_status(const Json& json) {
   const JsonObject from(json, "the status",
-                        {"number", "error", "frame", "pose", "sigma_m", "call", "discrepancy_scale",
-                         "partner", "offer_to", "serving", "knows"});
+                        {"number", "error", "frame", "pose", "sigma_m", "call", "call_error", "partner",
+                         "offer_to", "serving", "standing", "leans_on", "walked_m", "knows"});
   RobotStatus status;
   status.number = from.whole_number("number", kAnyCount);
   status.error = from.number("error", kNotNegative);
@@ -232,10 +238,13 @@ RobotStatus read_status(const Json& json) {
   status.pose = from.pose("pose");
   status.sigma_m = from.number("sigma_m", kNotNegative);
   if (from.has("call")) status.call = static_cast<std::uint32_t>(from.whole_number("call", kAnyNumber32));
-  status.discrepancy_scale = from.number("discrepancy_scale", kNotNegative);
+  status.call_error = from.number("call_error", kNotNegative);
   status.partner = from.robot_or_none("partner");
   status.offer_to = from.robot_or_none("offer_to");
   status.serving = from.robot_or_none("serving");
+  status.standing = from.flag("standing");
+  status.leans_on = from.robot_or_none("leans_on");
+  status.walked_m = from.number("walked_m", kNotNegative);
   status.knows = read_versions(from, "knows");
   return status;
 }
