@@ -18,8 +18,8 @@
 #include "radioslam/io/wifi/wifi_scan_log.hpp"
 #include "radioslam/mission/dead_reckoning.hpp"
 #include "radioslam/radio/aoa/aoa_estimate.hpp"
-#include "radioslam/rendezvous/rendezvous_params.hpp"
 #include "radioslam/sim/scenarios/scenarios.hpp"
+#include "radioslam/study/rendezvous/rendezvous_run.hpp"
 #include "radioslam/study/robustness_map/robustness_map.hpp"
 #include "radioslam/study/wi_closure_hall/wi_closure_hall.hpp"
 #include "radioslam/study/wi_closure_kitti/wi_closure_kitti.hpp"
@@ -68,7 +68,7 @@ constexpr std::array kParameterSets = std::to_array<ParameterSet>({
     {"similarity", defaults_of<SimilarityCommandParams>},
     {"aoa", defaults_of<AoaParams>},
     {"anchors", defaults_of<AnchorsParams>},
-    {"rendezvous", defaults_of<RendezvousParams>},
+    {"rendezvous", defaults_of<RendezvousRunParams>},
     {"import indoor-location", defaults_of<DeadReckoningParams>},
     {"import iw-ftm", defaults_of<IwFtmParams>},
     {"import iw", defaults_of<ScanListParams>},

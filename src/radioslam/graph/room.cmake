@@ -5,15 +5,15 @@ radioslam_room(graph
     distributed/alternating.cpp
     distributed/block_coordinate.cpp
     distributed/cluster.cpp
+    distributed/condensed/known_team.cpp
+    distributed/condensed/shared_part.cpp
     distributed/frames.cpp
     distributed/held_factors.cpp
     distributed/information_code.cpp
-    distributed/known_team.cpp
     distributed/message.cpp
     distributed/outliers.cpp
     distributed/robot_graph.cpp
     distributed/separators.cpp
-    distributed/shared_part.cpp
     distributed/simulated_network.cpp
     distributed/stage_agreement.cpp
     distributed/step_system.cpp

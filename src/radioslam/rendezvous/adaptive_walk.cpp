@@ -12,15 +12,15 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr std::size_t kRememberedObstacles = 48;
-constexpr double kClearance_m = 0.5;     ///< kept from obstacles, to the side and ahead
-constexpr double kTurn_rad = kPi / 9;    ///< between the headings that are tried
-constexpr int kStepsOnSide = 6;          ///< for which a way round is kept to
-constexpr double kBlockedPenalty = 3;    ///< in log likelihood
-constexpr double kElsewhere = 0.05;      ///< likelihood floor: estimates may be wrong
-constexpr int kStepsWithoutGain = 8;     ///< in ESNR, after which a detour is made
+constexpr double kClearance_m = 0.5;   ///< kept from obstacles, to the side and ahead
+constexpr double kTurn_rad = kPi / 9;  ///< between the headings that are tried
+constexpr int kStepsOnSide = 6;        ///< for which a way round is kept to
+constexpr double kBlockedPenalty = 3;  ///< in log likelihood
+constexpr double kElsewhere = 0.05;    ///< likelihood floor: estimates may be wrong
+constexpr int kStepsWithoutGain = 8;   ///< in ESNR, after which a detour is made
 constexpr int kDetourSteps = 4;
 constexpr double kGain_db = 1;
-constexpr std::size_t kTrail = 6;        ///< steps that must lead somewhere
+constexpr std::size_t kTrail = 6;  ///< steps that must lead somewhere
 
 }  // namespace
 

@@ -8,9 +8,9 @@
 namespace radioslam {
 namespace {
 
-constexpr int kWaitForLandmark = 3;   ///< decisions until a robot without one explores all the same
-constexpr int kStillAfter = 12;       ///< decisions after which one that does not walk has no use for a landmark
-constexpr int kAloneAfter = 2;        ///< decisions without anybody leaning on it before a landmark may leave
+constexpr int kWaitForLandmark = 3;  ///< decisions until a robot without one explores all the same
+constexpr int kStillAfter = 12;  ///< decisions after which one that does not walk has no use for a landmark
+constexpr int kAloneAfter = 2;   ///< decisions without anybody leaning on it before a landmark may leave
 constexpr double kLeastWay_m = 2;
 constexpr double kLeastError = 0.01;  ///< where nothing has been lost yet, the nearest landmark will do
 

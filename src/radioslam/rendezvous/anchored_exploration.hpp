@@ -1,11 +1,12 @@
 // Exploring by turns: some robots stand still as landmarks, and those that explore come back to one of them
 // before they are lost.
 //
-// Who stands still neither walks nor drifts. When robot i, with an expected squared error e_i of its own,
-// meets one that has stood still since the team last met, all of e_i is gained for i's way back; if both had
-// explored, or if the landmark walked to i, about half of it (expected_gain). A way that ends where it began is also known in
-// between: closed, L steps of heading noise have a mean square error of L^3 / 420 instead of L^3 / 12. So the
-// lost one walks, to the landmark that gains most per metre, and who has walked least explores next.
+// A landmark does not drift. When robot i, with an expected squared error e_i of its own, meets one, all of
+// e_i is gained for i's way back; if both had explored, or if the landmark had come to i, about half of it
+// (expected_gain). A way that ends where it began is also known in between: L steps of heading noise have a
+// mean square error of L^3 / 420 where it is closed and of L^3 / 12 where it is not. So the robot with the
+// error returns, to the landmark that gains most per metre, and the one that has travelled least explores
+// next.
 //
 // Robots agree on this by what each says of itself, again and again: whether it stands, and on whom it leans.
 #pragma once
@@ -53,7 +54,7 @@ class AnchoredExploration {
                          const std::vector<AnchorNeighbour>& neighbours, const AnchoredParams& params);
   void hand_over(const std::string& self, double walked_m, const std::vector<AnchorNeighbour>& neighbours);
 
-  /// When a robot was last heard to have walked.
+  /// When a robot last moved, by what it says.
   struct Steps {
     double walked_m = -1;
     int decision = 0;

@@ -1,5 +1,5 @@
-// Who meets whom: which call a robot follows, and whose offer the caller takes. Source: Wang et al., section 5
-// and algorithm 1; by information: see expected_gain.
+// Who meets whom: which call a robot follows, and whose offer the caller takes. Source: Wang et al., section
+// 5 and algorithm 1; by information: see expected_gain.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ double service_discrepancy(double q_db, double esnr_db, double alpha);
 struct MeetingOption {
   std::string robot;
   double esnr_db = 0;
-  double error = 0;      ///< that it states
+  double error = 0;  ///< that it states
 };
 
 /// The call that a robot follows: the one it hears best; of equals, that of the larger error.

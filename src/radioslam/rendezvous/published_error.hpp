@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "radioslam/base/random.hpp"
-#include "radioslam/graph/distributed/known_team.hpp"
+#include "radioslam/graph/distributed/condensed/known_team.hpp"
 
 namespace radioslam {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "radioslam/base/fields.hpp"
-#include "radioslam/graph/distributed/known_team.hpp"
+#include "radioslam/graph/distributed/condensed/known_team.hpp"
 
 namespace radioslam {
 
@@ -48,16 +48,18 @@ struct RendezvousParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    RADIOSLAM_BASIC_FIELD(policy, "", 0, 0,
-                          "how robots meet; active: called, Wang et al.; anchored: by turns, to landmarks, by "
-                          "information gained per metre; scheduled: at one place; random: by chance",
-                          "active|anchored|scheduled|random");
+    RADIOSLAM_BASIC_FIELD(
+        policy, "", 0, 0,
+        "how robots meet; active: called, Wang et al.; anchored: by turns, to landmarks, by "
+        "information gained per metre; scheduled: at one place; random: by chance",
+        "active|anchored|scheduled|random");
     RADIOSLAM_BASIC_FIELD(monitor, "", 0, 0,
                           "a robot's error; uncertainty: expected square of its drift since it last met "
                           "another (m^2); seed: Wang et al., eq. 3",
                           "uncertainty|seed");
-    RADIOSLAM_BASIC_FIELD(delta, "", 0, 1e9,
-                          "error above which a robot meets another; m^2 by uncertainty, a pure number as published");
+    RADIOSLAM_BASIC_FIELD(
+        delta, "", 0, 1e9,
+        "error above which a robot meets another; m^2 by uncertainty, a pure number as published");
     RADIOSLAM_BASIC_FIELD(q_db, "dB", 1, 200, "ESNR that exchanging data takes");
     RADIOSLAM_BASIC_FIELD(kappa, "", 1, 1000, "relative poses that end a rendezvous");
     RADIOSLAM_FIELD(alpha, "", 0, 1e6, "priority of a robot that calls; scales its service discrepancy");
@@ -70,17 +72,20 @@ struct RendezvousParams {
                     "arrival that a robot walks along; strongest: as published; checked: the one that power, "
                     "estimates and obstacles speak for",
                     "checked|strongest");
-    RADIOSLAM_BASIC_FIELD(lost_after_s, "s", 0, 1e6,
-                          "time after which a robot that is not heard counts as gone; at least five decisions");
-    RADIOSLAM_BASIC_FIELD(patience_s, "s", 0, 1e6,
-                          "time after which a rendezvous that does not come about is given up; at least twenty "
-                          "decisions");
+    RADIOSLAM_BASIC_FIELD(
+        lost_after_s, "s", 0, 1e6,
+        "time after which a robot that is not heard counts as gone; at least five decisions");
+    RADIOSLAM_BASIC_FIELD(
+        patience_s, "s", 0, 1e6,
+        "time after which a rendezvous that does not come about is given up; at least twenty "
+        "decisions");
     RADIOSLAM_FIELD(omega_t, "1/m", 0, 1e6, "weight of translations in the published error");
     RADIOSLAM_FIELD(omega_r, "1/rad", 0, 1e6, "weight of rotations in the published error");
     RADIOSLAM_FIELD(direct_ratio, "", 0.01, 0.999,
                     "share of packets between robots in sight whose direct path is among the arrivals");
-    RADIOSLAM_FIELD(angle_threshold_rad, "rad", 0, 3.2,
-                    "angle error below which a relative pose keeps its full information with published weights");
+    RADIOSLAM_FIELD(
+        angle_threshold_rad, "rad", 0, 3.2,
+        "angle error below which a relative pose keeps its full information with published weights");
     RADIOSLAM_FIELD(anchor_range_m, "m", 0.1, 1e6, "anchored: how far away a landmark may be to begin with");
     RADIOSLAM_FIELD(meeting_x_m, "m", -1e6, 1e6, "scheduled: where robots meet, in their frame");
     RADIOSLAM_FIELD(meeting_y_m, "m", -1e6, 1e6, "scheduled: where robots meet, in their frame");

@@ -8,19 +8,19 @@
 namespace radioslam {
 namespace {
 
-constexpr int kLeastTicks = 5;          ///< without a word before a robot counts as gone
-constexpr int kLeastPatience = 20;      ///< decisions before a rendezvous is given up
-constexpr int kAnswerTicks = 5;         ///< in which a chosen partner should have answered
+constexpr int kLeastTicks = 5;           ///< without a word before a robot counts as gone
+constexpr int kLeastPatience = 20;       ///< decisions before a rendezvous is given up
+constexpr int kAnswerTicks = 5;          ///< in which a chosen partner should have answered
 constexpr std::size_t kKeptNodes = 6;    ///< latest own poses whose packets are kept
 constexpr std::size_t kKeptPackets = 4;  ///< for each of them
-constexpr int kRepeatRounds = 2;        ///< until a part that is not confirmed is sent again
-constexpr int kRefreshTicks = 10;       ///< after which news of others alone are used
-constexpr std::size_t kRestNodes = 3;   ///< poses between two calls
-constexpr std::size_t kMessageBytes = 48000;
+constexpr int kRepeatRounds = 2;         ///< until a part that is not confirmed is sent again
+constexpr int kRefreshTicks = 10;        ///< after which news of others alone are used
+constexpr std::size_t kRestNodes = 3;    ///< poses between two calls
+constexpr std::size_t kMessageBytes = 56000;
 constexpr double kMeetingRadius_m = 1.5;
 constexpr double kPathLossExponent = 2.2;  ///< for a rough distance where nothing better is known
 constexpr double kDecade_db = 10 * kPathLossExponent;
-constexpr double kReferenceEsnr_db = 50;   ///< at a metre, roughly
+constexpr double kReferenceEsnr_db = 50;  ///< at a metre, roughly
 constexpr double kNearest_m = 1;
 
 std::uint64_t seed_of(const std::string& id, int seed) {
@@ -31,7 +31,7 @@ std::uint64_t seed_of(const std::string& id, int seed) {
 
 /// Bytes of a part in a message, roughly.
 std::size_t size_of(const SharedPart& part) {
-  return 200 + 150 * part.nodes.size() + 120 * part.sightings.size() + 80 * part.verdicts.size();
+  return 300 + 215 * part.nodes.size() + 120 * part.sightings.size() + 60 * part.evidence.size();
 }
 
 /// Of the distance between a position and its estimate (m^2).
@@ -45,13 +45,19 @@ double per_axis_sigma(const UncertainPose<SE2>& pose) { return std::sqrt(expecte
 
 RendezvousRobot::RendezvousRobot(const std::string& id, const RobotStart& start,
                                  const RendezvousParams& params)
-    : id_(id), params_(params), policy_(policy_of(params)), monitor_(monitor_of(params)),
+    : id_(id),
+      params_(params),
+      policy_(policy_of(params)),
+      monitor_(monitor_of(params)),
       q_db_(start.q_db.value_or(params.q_db)),
       delta_(start.delta.value_or(params.delta)),
-      max_step_m_(start.max_step_m.value_or(params.max_step_m)), kappa_(start.kappa.value_or(params.kappa)),
+      max_step_m_(start.max_step_m.value_or(params.max_step_m)),
+      kappa_(start.kappa.value_or(params.kappa)),
       team_(id, start.t_s, start.pose, params.estimate),
       published_(params.omega_t, params.omega_r, seed_of(id, params.seed), start.pose.value_or(SE2())),
-      walk_(params), now_s_(start.t_s), start_s_(start.t_s) {}
+      walk_(params),
+      now_s_(start.t_s),
+      start_s_(start.t_s) {}
 
 void RendezvousRobot::move(const OdometryStep& step) {
   judge_sightings();
@@ -103,18 +109,19 @@ void RendezvousRobot::judge_sightings() {
     return packets == link->second.packets.end() ? std::vector<std::vector<ArrivalPath>>{} : packets->second;
   };
   for (const SeenRobot& seen : unjudged_) {
-    const auto verdict =
+    const auto evidence =
         check_angles({seen.T_i_j, seen.sigma_m, 0}, packets_at(seen.robot, team_.size() - 1), check);
-    team_.see(seen.t_s, seen.robot, seen.T_i_j, seen.sigma_m, seen.sigma_rad, verdict);
+    team_.see(seen.t_s, seen.robot, seen.T_i_j, seen.sigma_m, seen.sigma_rad, evidence);
     const auto link = links_.find(seen.robot);
-    const bool placed = link != links_.end() && link->second.status &&
-                        link->second.status->frame == team_.frame();
+    const bool placed =
+        link != links_.end() && link->second.status && link->second.status->frame == team_.frame();
     published_.see(seen.T_i_j, placed ? std::optional(link->second.status->pose) : std::nullopt);
   }
   unjudged_.clear();
   for (const UnjudgedSighting& seen : team_.unjudged())
-    team_.judge(seen.by, seen.t_s,
-                check_angles({seen.T_j_i, seen.sigma_m, seen.sigma_rad}, packets_at(seen.by, seen.node), check));
+    team_.judge(
+        seen.by, seen.t_s,
+        check_angles({seen.T_j_i, seen.sigma_m, seen.sigma_rad}, packets_at(seen.by, seen.node), check));
 }
 
 /// The news of others alone can wait, and so can those of a talk, except where robots meet on purpose.
@@ -352,12 +359,12 @@ void RendezvousRobot::take_turns() {
 
 Movement RendezvousRobot::walk_to(const std::string& robot) {
   const Link& link = links_.at(robot);
-  if (sees_now(robot)) return {Movement::Kind::kStay, {}};
+  if (sees_now(robot)) return {Movement::Kind::kStay};
   const auto packets = link.packets.find(team_.size() - 1);
-  if (packets == link.packets.end()) return {Movement::Kind::kStay, {}};
+  if (packets == link.packets.end()) return {Movement::Kind::kStay};
   const auto target = walk_.next(team_.raw_poses().back(), link.esnr_db, packets->second.back(),
                                  expected_direction(link), max_step_m_, obstacles_);
-  if (!target) return {Movement::Kind::kStay, {}};
+  if (!target) return {Movement::Kind::kStay};
   return {Movement::Kind::kMove, *target};
 }
 
@@ -367,15 +374,15 @@ std::optional<Movement> RendezvousRobot::go_to_meeting_place() {
   const Eigen::Vector2d place(params_.meeting_x_m, params_.meeting_y_m);
   const Eigen::Vector2d offset = team_.latest().pose.inverse() * place;
   if (offset.norm() < kMeetingRadius_m && !at_place_s_) at_place_s_ = now_s_;
-  const bool over = at_place_s_ ? now_s_ - *at_place_s_ >= params_.meeting_wait_s
-                                : now_s_ - due_s > params_.patience_s;
+  const bool over =
+      at_place_s_ ? now_s_ - *at_place_s_ >= params_.meeting_wait_s : now_s_ - due_s > params_.patience_s;
   if (over) {
     ++meetings_held_;
     while (start_s_ + (meetings_held_ + 1) * params_.meeting_every_s <= now_s_) ++meetings_held_;
     at_place_s_.reset();
     return std::nullopt;
   }
-  if (at_place_s_) return Movement{Movement::Kind::kStay, {}};
+  if (at_place_s_) return Movement{Movement::Kind::kStay};
   const SE2& raw = team_.raw_poses().back();
   const double length_m = std::min(max_step_m_, offset.norm());
   const double heading = obstacles_.free_heading(
@@ -389,9 +396,9 @@ Movement RendezvousRobot::decide() {
   if (policy_ == RendezvousPolicy::kAnchored) {
     take_turns();
     if (anchored_.role() == AnchoredExploration::Role::kReturning) return walk_to(anchored_.leans_on());
-    if (anchored_.waits()) return {Movement::Kind::kStay, {}};
+    if (anchored_.waits()) return {Movement::Kind::kStay};
   }
-  if (call_ && !call_->partner.empty()) return {Movement::Kind::kStay, {}};
+  if (call_ && !call_->partner.empty()) return {Movement::Kind::kStay};
   if (policy_ == RendezvousPolicy::kScheduled)
     if (const auto movement = go_to_meeting_place()) return *movement;
   return {};
@@ -417,8 +424,7 @@ FinalTrajectory RendezvousRobot::finish() {
   judge_sightings();
   team_.solve();
   FinalTrajectory trajectory;
-  for (std::size_t k = 0; k < team_.size(); ++k)
-    trajectory.rows.push_back({team_.time(k), team_.poses()[k]});
+  for (std::size_t k = 0; k < team_.size(); ++k) trajectory.rows.push_back({team_.time(k), team_.poses()[k]});
   trajectory.frame = team_.frame();
   for (std::size_t k = 0; k < team_.sightings().size(); ++k)
     trajectory.measurements.push_back(

@@ -16,10 +16,10 @@
 #include <string>
 #include <vector>
 
-#include "radioslam/graph/distributed/known_team.hpp"
+#include "radioslam/graph/distributed/condensed/known_team.hpp"
 #include "radioslam/rendezvous/adaptive_walk.hpp"
 #include "radioslam/rendezvous/anchored_exploration.hpp"
-#include "radioslam/rendezvous/angle_verdict.hpp"
+#include "radioslam/rendezvous/angle_evidence.hpp"
 #include "radioslam/rendezvous/partner_choice.hpp"
 #include "radioslam/rendezvous/published_error.hpp"
 #include "radioslam/rendezvous/rendezvous_params.hpp"
@@ -55,7 +55,7 @@ class RendezvousRobot {
   struct Link {
     double heard_s = 0, esnr_db = 0;
     int heard_tick = 0;
-    std::size_t node = 0;                                          ///< own pose of the latest packet
+    std::size_t node = 0;                                                  ///< own pose of the latest packet
     std::map<std::size_t, std::vector<std::vector<ArrivalPath>>> packets;  ///< per own pose, of the latest
     std::optional<RobotStatus> status;
     int status_tick = 0;
@@ -126,11 +126,11 @@ class RendezvousRobot {
   std::uint64_t statuses_ = 0;
   std::size_t calls_after_node_ = 0;  ///< pose before which there is no further call
   double now_s_ = 0, start_s_ = 0;
-  int ticks_ = 0;   ///< decisions so far
-  int rounds_ = 0;  ///< the same with talk ticks
+  int ticks_ = 0;         ///< decisions so far
+  int rounds_ = 0;        ///< the same with talk ticks
   int refresh_tick_ = 0;  ///< from which news of others alone are used
   AnchoredExploration anchored_;
-  double return_s_ = 0;      ///< when the robot set out for its landmark
+  double return_s_ = 0;  ///< when the robot set out for its landmark
   int return_tick_ = 0;
   double walked_m_ = 0;
   std::optional<double> at_place_s_;

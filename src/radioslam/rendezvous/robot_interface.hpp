@@ -1,5 +1,5 @@
-// What a robot hears and measures, in the order of time, and what it answers. Planar; metres, radians, seconds
-// of one clock. Body frame: x ahead, y to the left.
+// What a robot hears and measures, in the order of time, and what it answers. Planar; metres, radians,
+// seconds of one clock. Body frame: x ahead, y to the left.
 #pragma once
 
 #include <Eigen/Core>

@@ -10,24 +10,24 @@
 #include <vector>
 
 #include "radioslam/geometry/se2.hpp"
-#include "radioslam/graph/distributed/shared_part.hpp"
+#include "radioslam/graph/distributed/condensed/shared_part.hpp"
 
 namespace radioslam {
 
 struct RobotStatus {
   std::uint64_t number = 0;  ///< rises from one status to the next
   double error = 0;
-  std::string frame;           ///< robot whose start is the origin of `pose`; empty: the common frame
+  std::string frame;  ///< robot whose start is the origin of `pose`; empty: the common frame
   SE2 pose;
-  double sigma_m = 0;          ///< of the position, per axis
+  double sigma_m = 0;                 ///< of the position, per axis
   std::optional<std::uint32_t> call;  ///< the robot asks for a rendezvous: the number of its call
-  double call_error = 0;       ///< when it called
-  std::string partner;         ///< of those who offered, the one it has taken; empty: none yet
-  std::string offer_to;        ///< whose call this robot would follow
-  std::string serving;         ///< to whom it walks
-  bool standing = false;       ///< as a landmark
-  std::string leans_on;        ///< landmark that it comes back to
-  double walked_m = 0;         ///< so far
+  double call_error = 0;              ///< when it called
+  std::string partner;                ///< of those who offered, the one it has taken; empty: none yet
+  std::string offer_to;               ///< whose call this robot would follow
+  std::string serving;                ///< to whom it walks
+  bool standing = false;              ///< as a landmark
+  std::string leans_on;               ///< landmark that it comes back to
+  double walked_m = 0;                ///< so far
   std::map<std::string, std::uint64_t> knows;  ///< versions of robots' parts that it has
 };
 

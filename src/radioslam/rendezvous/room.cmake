@@ -2,7 +2,7 @@ radioslam_room(rendezvous
   SOURCES
     adaptive_walk.cpp
     anchored_exploration.cpp
-    angle_verdict.cpp
+    angle_evidence.cpp
     partner_choice.cpp
     published_error.cpp
     rendezvous_robot.cpp

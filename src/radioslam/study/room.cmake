@@ -11,6 +11,8 @@ radioslam_room(study
     oracle.cpp
     overlap_growth/overlap_growth.cpp
     rendezvous/rendezvous_run.cpp
+    rendezvous/run_record.cpp
+    rendezvous/simulated_team.cpp
     robustness_map/robustness_map.cpp
     study_json.cpp
     study_page.cpp
@@ -28,4 +30,5 @@ radioslam_room(study
   ROOMS radio rendezvous pipeline eval sim io report
   LIBRARIES nlohmann_json::nlohmann_json)
 radioslam_page(radioslam_study ${CMAKE_CURRENT_SOURCE_DIR}/study/page radioslam/study/page_parts.hpp
-  radioslam::study_page ../../report/page/format.js data.js scheme.js heat_map.js growth.js budget.js distributed.js directions.js table.js main.js)
+  radioslam::study_page ../../report/page/format.js data.js scheme.js heat_map.js growth.js budget.js distributed.js rendezvous_charts.js rendezvous_map.js
+  rendezvous.js directions.js table.js main.js)

@@ -37,7 +37,7 @@ SharedPart example_part() {
                         {SE2({12.3456789012, 1e-7}, -3.0), covariance_of_way(0.3, 0.02, 12.3, 4.56789)}});
   part.sightings.push_back({41, "c", 0.1 + 0.2, SE2({-4.5, 2.0 / 3}, 1), 0.1, 0.02, {-1.5, 1}});
   part.sightings.push_back({0, "b", 0.2, SE2({5, 6}, 0), 0.1, 0.02, {}});
-  part.verdicts.push_back({"c", 2.0 / 7, {3.5, 0.25}});
+  part.evidence.push_back({"c", 2.0 / 7, {3.5, 0.25}});
   return part;
 }
 
@@ -106,12 +106,12 @@ TEST(RobotMessageJson, APartComesBackWithExactTimes) {
   EXPECT_EQ(part.sightings[1].robot, "b");
   EXPECT_EQ(part.sightings[0].node, 41U);
   EXPECT_EQ(part.sightings[0].t_s, written.sightings[0].t_s);
-  EXPECT_EQ(part.sightings[0].verdict.log_odds, -1.5);
+  EXPECT_EQ(part.sightings[0].evidence.log_odds, -1.5);
   expect_near(part.sightings[0].T_i_j, written.sightings[0].T_i_j);
-  ASSERT_EQ(part.verdicts.size(), 1U);
-  EXPECT_EQ(part.verdicts[0].by, "c");
-  EXPECT_EQ(part.verdicts[0].t_s, written.verdicts[0].t_s);
-  EXPECT_EQ(part.verdicts[0].verdict.scale, 0.25);
+  ASSERT_EQ(part.evidence.size(), 1U);
+  EXPECT_EQ(part.evidence[0].by, "c");
+  EXPECT_EQ(part.evidence[0].t_s, written.evidence[0].t_s);
+  EXPECT_EQ(part.evidence[0].angles.scale, 0.25);
 }
 
 /// Nine digits of the covariance's entries would not be enough for its inverse.

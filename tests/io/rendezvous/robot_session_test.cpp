@@ -223,6 +223,7 @@ TEST(TwoRobots, WhatOneSeesPutsBothIntoOneFrame) {
   pair.round(1, {{"tick", {{"t_s", 1}}}});
   EXPECT_EQ(pair.state("b")["team"], Json::parse(R"(["b"])"));
   for (int k = 0; k < 6; ++k) pair.round(1, {{"tick", {{"t_s", 1}, {"talk", true}}}});
+  pair.round(1, {{"tick", {{"t_s", 1}}}});
   for (const char* name : {"a", "b"}) {
     EXPECT_GE(pair.data_messages_of(name), 1);
     EXPECT_EQ(pair.state(name)["team"], Json::parse(R"(["a", "b"])"));

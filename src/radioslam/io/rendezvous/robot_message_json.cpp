@@ -17,7 +17,7 @@ using Output = nlohmann::ordered_json;
 
 constexpr const char* kFormat = "radioslam-rendezvous/1";
 constexpr int kDigits = 9;
-constexpr std::size_t kNodeValues = 12, kSightingValues = 10, kVerdictValues = 4;
+constexpr std::size_t kNodeValues = 12, kSightingValues = 10, kEvidenceValues = 4;
 constexpr auto kAnyCount = std::numeric_limits<std::uint64_t>::max();
 constexpr std::uint64_t kAnyNumber32 = std::numeric_limits<std::uint32_t>::max();
 
@@ -45,9 +45,9 @@ void append_covariance(Output& row, const SE2::Jacobian& covariance) {
     for (int j = 0; j <= i; ++j) row.push_back(rounded(factor(i, j)));
 }
 
-void append_verdict(Output& row, const AngleVerdict& verdict) {
-  row.push_back(rounded(verdict.log_odds));
-  row.push_back(rounded(verdict.scale));
+void append_evidence(Output& row, const AngleEvidence& evidence) {
+  row.push_back(rounded(evidence.log_odds));
+  row.push_back(rounded(evidence.scale));
 }
 
 Output pose_json(const SE2& pose) {
@@ -89,16 +89,16 @@ Output sightings_json(const SharedPart& part, OtherRobots& others) {
     append_pose(row, sighting.T_i_j);
     row.push_back(rounded(sighting.sigma_m));
     row.push_back(rounded(sighting.sigma_rad));
-    append_verdict(row, sighting.verdict);
+    append_evidence(row, sighting.evidence);
   }
   return rows;
 }
 
-Output verdicts_json(const SharedPart& part, OtherRobots& others) {
+Output evidence_json(const SharedPart& part, OtherRobots& others) {
   Output rows = Output::array();
-  for (const SharedVerdict& verdict : part.verdicts) {
-    Output& row = rows.emplace_back(Output::array({others.place_of(verdict.by), verdict.t_s}));
-    append_verdict(row, verdict.verdict);
+  for (const SharedEvidence& evidence : part.evidence) {
+    Output& row = rows.emplace_back(Output::array({others.place_of(evidence.by), evidence.t_s}));
+    append_evidence(row, evidence.angles);
   }
   return rows;
 }
@@ -109,7 +109,7 @@ Output part_json(const SharedPart& part) {
   if (part.start) json["start"] = pose_json(*part.start);
   json["nodes"] = nodes_json(part);
   json["sightings"] = sightings_json(part, others);
-  json["angle_checks"] = verdicts_json(part, others);
+  json["angle_checks"] = evidence_json(part, others);
   json["others"] = others.names();
   return json;
 }
@@ -144,11 +144,11 @@ SE2::Jacobian read_covariance(JsonRow& row) {
   return factor * factor.transpose();
 }
 
-AngleVerdict read_verdict(JsonRow& row) {
-  AngleVerdict verdict;
-  verdict.log_odds = row.number();
-  verdict.scale = row.number();
-  return verdict;
+AngleEvidence read_evidence(JsonRow& row) {
+  AngleEvidence evidence;
+  evidence.log_odds = row.number();
+  evidence.scale = row.number();
+  return evidence;
 }
 
 SharedNode read_node(const Json& json) {
@@ -176,17 +176,17 @@ SharedSighting read_sighting(const Json& json, const std::vector<std::string>& o
   sighting.T_i_j = row.pose();
   sighting.sigma_m = row.number();
   sighting.sigma_rad = row.number();
-  sighting.verdict = read_verdict(row);
+  sighting.evidence = read_evidence(row);
   return sighting;
 }
 
-SharedVerdict read_shared_verdict(const Json& json, const std::vector<std::string>& others) {
-  JsonRow row(json, "an angle check", kVerdictValues);
-  SharedVerdict verdict;
-  verdict.by = read_other(row, others);
-  verdict.t_s = row.number(kSeconds);
-  verdict.verdict = read_verdict(row);
-  return verdict;
+SharedEvidence read_shared_evidence(const Json& json, const std::vector<std::string>& others) {
+  JsonRow row(json, "an angle check", kEvidenceValues);
+  SharedEvidence evidence;
+  evidence.by = read_other(row, others);
+  evidence.t_s = row.number(kSeconds);
+  evidence.angles = read_evidence(row);
+  return evidence;
 }
 
 std::vector<std::string> read_names(const JsonObject& from, const char* member) {
@@ -210,7 +210,7 @@ SharedPart read_part(const Json& json) {
   for (const Json& node : from.list("nodes")) part.nodes.push_back(read_node(node));
   for (const Json& each : from.list("sightings")) part.sightings.push_back(read_sighting(each, others));
   for (const Json& each : from.list("angle_checks"))
-    part.verdicts.push_back(read_shared_verdict(each, others));
+    part.evidence.push_back(read_shared_evidence(each, others));
   if (!is_well_formed(part)) refuse_json("the part of " + part.robot + " is not well-formed");
   return part;
 }

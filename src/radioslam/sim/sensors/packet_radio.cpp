@@ -74,8 +74,7 @@ PacketReception PacketRadio::receive(const Eigen::Vector2d& transmitter_m, const
                             20 * std::log10(std::abs(amplitude)) + rng.normal(0, kSigmaPower_db)});
     packet.paths.back().azimuth_rad += rng.normal(0, params_.sigma_aoa_rad);
   }
-  const double gain_db =
-      params_.esnr_1m_db + shadowing_db(transmitter_m) + shadowing_db(receiver_m);
+  const double gain_db = params_.esnr_1m_db + shadowing_db(transmitter_m) + shadowing_db(receiver_m);
   std::array<double, kSubcarriers> snr{};
   for (int k = 0; k < kSubcarriers; ++k)
     snr[static_cast<std::size_t>(k)] =
@@ -83,9 +82,9 @@ PacketReception PacketRadio::receive(const Eigen::Vector2d& transmitter_m, const
   packet.esnr_db = 10 * std::log10(effective_snr(snr));
   std::sort(packet.paths.begin(), packet.paths.end(),
             [](const PacketPath& a, const PacketPath& b) { return a.power_db > b.power_db; });
-  while (packet.paths.size() > kMaxPaths ||
-         (packet.paths.size() > 1 &&
-          packet.paths.back().power_db < packet.paths.front().power_db + kWeakest_db))
+  while (
+      packet.paths.size() > kMaxPaths ||
+      (packet.paths.size() > 1 && packet.paths.back().power_db < packet.paths.front().power_db + kWeakest_db))
     packet.paths.pop_back();
   for (PacketPath& path : packet.paths) path.power_db += gain_db;
   return packet;

@@ -1,8 +1,8 @@
 // Packets between robots on a floor with walls: on which paths they arrive, and how well.
 //
 // Paths by image sources, with one reflection. Strength over distance by an exponent, loss in walls,
-// and shadowing that is the same for all robots at a place. ESNR: the SNR of a flat channel that would lose as
-// many bits as the channel over the subcarriers does, by the exponential mapping -log(mean(exp(-SNR_k)))
+// and shadowing that is the same for all robots at a place. ESNR: the SNR of a flat channel that would lose
+// as many bits as the channel over the subcarriers does, by the exponential mapping -log(mean(exp(-SNR_k)))
 // (Ericsson 2003, EESM with beta 1; Halperin et al. 2010 for the use). Directions carry Gaussian noise.
 #pragma once
 

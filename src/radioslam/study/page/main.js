@@ -14,5 +14,6 @@ if (study.growth) {
 }
 if (study.budget) write_budget();
 if (study.distributed) write_distributed();
+if (study.rendezvous) write_rendezvous();
 if (study.directions) write_directions();
 write_table();

@@ -54,10 +54,11 @@ struct RendezvousRunParams {
     RADIOSLAM_BASIC_FIELD(step_m, "m", 0.01, 1e4, "length of an exploring step");
     RADIOSLAM_BASIC_FIELD(outliers, "", 0, 1, "whether relative poses are wrong at times");
     RADIOSLAM_FIELD(outlier_share, "", 0, 1, "share of wrong relative poses; 0: 0.3 if there are any");
-    RADIOSLAM_FIELD(outlier_kind, "", 0, 0,
-                    "wrong relative poses; sigma: off by 2 to 3 standard deviations, as in Wang et al.; gross: "
-                    "by 2 to 3 m and 20 to 40 degrees",
-                    "sigma|gross");
+    RADIOSLAM_FIELD(
+        outlier_kind, "", 0, 0,
+        "wrong relative poses; sigma: off by 2 to 3 standard deviations, as in Wang et al.; gross: "
+        "by 2 to 3 m and 20 to 40 degrees",
+        "sigma|gross");
     RADIOSLAM_FIELD(starts_known, "", 0, 1, "whether robots know where they start");
     RADIOSLAM_FIELD(loss_share, "", 0, 1, "share of packets that are lost");
     RADIOSLAM_FIELD(talk_rounds, "", 0, 1000, "largest number of exchanges between two steps");
@@ -84,12 +85,13 @@ struct ErrorCrossing {
 };
 
 struct RendezvousRun {
-  std::vector<double> error, error_std, sigma_m;   ///< per iteration, over the robots
-  std::vector<std::vector<RobotMoment>> moments;   ///< per iteration and robot; empty where not asked for
+  std::vector<double> error, error_std, sigma_m;  ///< per iteration, over the robots
+  std::vector<std::vector<RobotMoment>> moments;  ///< per iteration and robot; empty where not asked for
   std::vector<ErrorCrossing> crossings;
   int open_crossings = 0;  ///< robots whose error is above the threshold at the end
   double ate_trans_mean_squared = 0, ate_rot_mean_squared = 0;  ///< Wang et al., eq. 8 and 9; no alignment
-  double position_squared_per_axis_sigma = 0;  ///< final poses: squared error / (2 sigma_m^2), mean over robots
+  double position_squared_per_axis_sigma =
+      0;            ///< final poses: squared error / (2 sigma_m^2), mean over robots
   double nees = 0;  ///< per degree of freedom, of the latest pose after every iteration
   int meetings = 0;
   double metres_walked = 0;

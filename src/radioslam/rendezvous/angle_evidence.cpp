@@ -1,4 +1,4 @@
-#include "radioslam/rendezvous/angle_verdict.hpp"
+#include "radioslam/rendezvous/angle_evidence.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,15 +16,15 @@ double density(double error, double sigma) {
 
 }  // namespace
 
-AngleVerdict check_angles(const CheckedPose& pose, const std::vector<std::vector<ArrivalPath>>& packets,
-                          const AngleCheckParams& params) {
+AngleEvidence check_angles(const PredictedPose& pose, const std::vector<std::vector<ArrivalPath>>& packets,
+                           const AngleCheckParams& params) {
   const auto& position = pose.T_i_j.translation();
   const double distance_m = position.norm();
   if (distance_m < kSmallestDistance_m) return {};
   const double predicted = std::atan2(position.y(), position.x());
   const double across = pose.sigma_m / distance_m;
   const double variance = across * across + pose.sigma_rad * pose.sigma_rad;
-  AngleVerdict verdict;
+  AngleEvidence evidence;
   double log_odds = 0;
   int used = 0;
   for (const auto& paths : packets) {
@@ -44,10 +44,10 @@ AngleVerdict check_angles(const CheckedPose& pose, const std::vector<std::vector
     log_odds -= std::log(1 - params.direct_ratio + 2 * kPi * params.direct_ratio * likelihood / amplitudes);
     ++used;
     const double scaled = nearest / nearest_sigma;
-    verdict.scale = std::abs(nearest) < params.threshold_rad ? 1 : std::exp(-0.5 * scaled * scaled);
+    evidence.scale = std::abs(nearest) < params.threshold_rad ? 1 : std::exp(-0.5 * scaled * scaled);
   }
-  if (used > 0) verdict.log_odds = log_odds / used;
-  return verdict;
+  if (used > 0) evidence.log_odds = log_odds / used;
+  return evidence;
 }
 
 }  // namespace radioslam

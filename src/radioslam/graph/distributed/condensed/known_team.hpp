@@ -1,5 +1,5 @@
 // One robot's estimate in a team that is seldom connected: its own trajectory with all it measured, and the
-// parts that others told it of (shared_part.hpp), solved together as one pose graph.
+// parts that others shared with it (shared_part.hpp), solved together as one pose graph.
 //
 // It needs nobody's answer to be solved, and no round in which all take part: whatever has arrived is used,
 // and what is still missing is missing. Robots that know the same parts have the same estimate, that of a
@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "radioslam/base/fields.hpp"
-#include "radioslam/graph/distributed/shared_part.hpp"
+#include "radioslam/graph/distributed/condensed/shared_part.hpp"
 #include "radioslam/graph/pose_graph.hpp"
 
 namespace radioslam {
@@ -23,7 +23,7 @@ namespace radioslam {
 /// How relative poses between robots are weighed, and how much of a team is used.
 struct KnownTeamParams {
   std::string angle_weights = "posterior";
-  double outlier_ratio = 0.05;
+  double outlier_ratio = 0.3;
   int hops = 3;
   int max_poses = 400;
 
@@ -37,8 +37,9 @@ struct KnownTeamParams {
                           "share of wrong relative poses between robots that is expected beforehand");
     RADIOSLAM_FIELD(hops, "", 1, 1000,
                     "sightings between a robot and the furthest whose measurements it is sent");
-    RADIOSLAM_FIELD(max_poses, "", 10, 1e6,
-                    "largest number of other robots' poses in one robot's estimate; the nearest by sightings");
+    RADIOSLAM_FIELD(
+        max_poses, "", 10, 1e6,
+        "largest number of other robots' poses in one robot's estimate; the nearest by sightings");
   }
 };
 
@@ -62,13 +63,13 @@ class KnownTeam {
   void move(double t_s, const SE2& step, double sigma_m, double sigma_rad);
   /// Another robot as seen from the latest pose.
   void see(double t_s, const std::string& robot, const SE2& T_i_j, double sigma_m, double sigma_rad,
-           const AngleVerdict& verdict);
-  /// What another robot told of itself, or of a third; false for what is not new or not well-formed.
+           const AngleEvidence& evidence);
+  /// The part of another robot, from itself or from a third; false for what is not new or not well-formed.
   bool take(const PartPointer& part);
   /// Sightings of this robot by others that `judge` was not called for.
   std::vector<UnjudgedSighting> unjudged() const;
-  void judge(const std::string& by, double t_s, const AngleVerdict& verdict);
-  /// What others may be told at `now_s`. The version rises with the contents.
+  void judge(const std::string& by, double t_s, const AngleEvidence& evidence);
+  /// What this robot shares at `now_s`. The version rises with the contents.
   PartPointer own_part(double now_s);
   const std::map<std::string, PartPointer>& parts() const { return parts_; }
 
@@ -82,7 +83,7 @@ class KnownTeam {
   const std::string& robot() const { return robot_; }
   std::size_t size() const { return poses_.size(); }
   double time(std::size_t node) const { return times_[node]; }
-  const std::vector<SE2>& poses() const { return poses_; }  ///< the estimate, in frame()
+  const std::vector<SE2>& poses() const { return poses_; }    ///< the estimate, in frame()
   const std::vector<SE2>& raw_poses() const { return raw_; }  ///< odometry composed from the start as origin
   const std::vector<UncertainPose<SE2>>& steps() const { return steps_; }  ///< steps()[k]: from k to k + 1
   const std::vector<SharedSighting>& sightings() const { return sightings_; }
@@ -106,7 +107,7 @@ class KnownTeam {
   struct Between {
     const SharedSighting* sighting = nullptr;
     const std::string* from = nullptr;
-    AngleVerdict at_seen{};  ///< by the robot that was seen
+    AngleEvidence at_seen{};  ///< by the robot that was seen
   };
 
   /// The last own pose at which another robot was seen, or that was seen, and how well.
@@ -125,6 +126,7 @@ class KnownTeam {
   void place(const Layout& layout, PoseGraph2& graph) const;
   std::size_t sightings_between(const SharedPart& part) const;
   void share_node(std::uint32_t number);
+  std::vector<std::uint32_t> latest_shared() const;
   double weight_of(const Between& between) const;
 
   KnownTeamParams params_;
@@ -135,7 +137,7 @@ class KnownTeam {
   std::vector<UncertainPose<SE2>> steps_;
   std::vector<SharedSighting> sightings_;
   std::vector<double> weights_;
-  std::map<std::pair<std::string, double>, AngleVerdict> verdicts_;
+  std::map<std::pair<std::string, double>, AngleEvidence> evidence_;
   std::map<std::string, PartPointer> parts_;
   std::vector<std::uint32_t> shared_;  ///< numbers of the nodes that others may refer to, ascending
   PartPointer own_part_;

@@ -1,4 +1,4 @@
-#include "radioslam/graph/distributed/shared_part.hpp"
+#include "radioslam/graph/distributed/condensed/shared_part.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -7,15 +7,17 @@
 namespace radioslam {
 namespace {
 
-constexpr double kLargest = 1e9;  ///< metres, seconds and numbers of a part
+constexpr double kLargest = 1e9;        ///< metres and other numbers of a part
+constexpr double kLatestTime_s = 1e11;  ///< also of clocks that count from 1970
 
 bool is_sane(double value) { return std::isfinite(value) && std::abs(value) <= kLargest; }
 bool is_sane(const SE2& pose) {
   return is_sane(pose.translation().x()) && is_sane(pose.translation().y()) && is_sane(pose.angle());
 }
+bool is_time(double value) { return std::isfinite(value) && std::abs(value) <= kLatestTime_s; }
 bool is_sigma(double value) { return is_sane(value) && value > 0; }
-bool is_sane(const AngleVerdict& verdict) {
-  return is_sane(verdict.log_odds) && verdict.scale >= 0 && verdict.scale <= 1;
+bool is_sane(const AngleEvidence& evidence) {
+  return is_sane(evidence.log_odds) && evidence.scale >= 0 && evidence.scale <= 1;
 }
 bool is_covariance(const SE2::Jacobian& matrix) {
   if (!matrix.allFinite() || matrix.cwiseAbs().maxCoeff() > kLargest) return false;
@@ -25,7 +27,7 @@ bool is_covariance(const SE2::Jacobian& matrix) {
 bool are_in_order(const std::vector<SharedNode>& nodes) {
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     const SharedNode& node = nodes[k];
-    if (!is_sane(node.t_s) || !is_sane(node.until_s) || node.until_s < node.t_s) return false;
+    if (!is_time(node.t_s) || !is_time(node.until_s) || node.until_s < node.t_s) return false;
     if (!is_sane(node.from_before.pose)) return false;
     if (k == 0 && node.number != 0) return false;
     if (k > 0 && (node.number <= nodes[k - 1].number || node.t_s < nodes[k - 1].t_s ||
@@ -56,11 +58,11 @@ bool is_well_formed(const SharedPart& part) {
   if (part.robot.empty() || !are_in_order(part.nodes) || (part.start && !is_sane(*part.start))) return false;
   for (const SharedSighting& sighting : part.sightings)
     if (part.place_of(sighting.node) == part.nodes.size() || sighting.robot.empty() ||
-        sighting.robot == part.robot || !is_sane(sighting.t_s) || !is_sane(sighting.T_i_j) ||
-        !is_sigma(sighting.sigma_m) || !is_sigma(sighting.sigma_rad) || !is_sane(sighting.verdict))
+        sighting.robot == part.robot || !is_time(sighting.t_s) || !is_sane(sighting.T_i_j) ||
+        !is_sigma(sighting.sigma_m) || !is_sigma(sighting.sigma_rad) || !is_sane(sighting.evidence))
       return false;
-  return std::all_of(part.verdicts.begin(), part.verdicts.end(), [](const SharedVerdict& verdict) {
-    return is_sane(verdict.t_s) && is_sane(verdict.verdict);
+  return std::all_of(part.evidence.begin(), part.evidence.end(), [](const SharedEvidence& evidence) {
+    return is_time(evidence.t_s) && is_sane(evidence.angles);
   });
 }
 

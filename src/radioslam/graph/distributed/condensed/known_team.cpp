@@ -1,4 +1,4 @@
-#include "radioslam/graph/distributed/known_team.hpp"
+#include "radioslam/graph/distributed/condensed/known_team.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -17,10 +17,20 @@ constexpr double kSmallestSigma = 1e-6;  ///< m and rad, where none is stated
 constexpr double kRightWeight = 0.5;     ///< a relative pose of less is taken for wrong
 constexpr double kSmallestWeight = 1e-9;
 constexpr double kCostTolerance = 1e-7;
+constexpr double kMaxLogOdds = 50;
+constexpr std::size_t kMaxSharedNodes = 100, kMaxSharedEntries = 150;
 
 SE2::Jacobian covariance_of(double sigma_m, double sigma_rad) {
   const double m = std::max(sigma_m, kSmallestSigma), rad = std::max(sigma_rad, kSmallestSigma);
   return SE2::Tangent(m * m, m * m, rad * rad).asDiagonal();
+}
+
+/// The latest entries of a list in no order; as many as a message holds.
+template <class Entry>
+void keep_latest(std::vector<Entry>& list) {
+  if (list.size() <= kMaxSharedEntries) return;
+  std::stable_sort(list.begin(), list.end(), [](const Entry& a, const Entry& b) { return a.t_s < b.t_s; });
+  list.erase(list.begin(), list.end() - static_cast<std::ptrdiff_t>(kMaxSharedEntries));
 }
 
 SE2::Jacobian inverse_of(const SE2::Jacobian& covariance) {
@@ -55,8 +65,15 @@ SE2::Jacobian KnownTeam::Contact::covariance() const {
 
 KnownTeam::KnownTeam(std::string robot, double t_s, const std::optional<SE2>& start,
                      const KnownTeamParams& params)
-    : params_(params), robot_(std::move(robot)), start_(start), times_{t_s}, raw_{SE2()},
-      poses_{start.value_or(SE2())}, shared_{0}, team_{robot_}, frame_(start ? "" : robot_) {
+    : params_(params),
+      robot_(std::move(robot)),
+      start_(start),
+      times_{t_s},
+      raw_{SE2()},
+      poses_{start.value_or(SE2())},
+      shared_{0},
+      team_{robot_},
+      frame_(start ? "" : robot_) {
   latest_.pose = poses_.front();
 }
 
@@ -67,7 +84,7 @@ void KnownTeam::move(double t_s, const SE2& step, double sigma_m, double sigma_r
   steps_.push_back({step, covariance_of(sigma_m, sigma_rad)});
   latest_ = latest_ * steps_.back();
   since_contact_ = since_contact_ * steps_.back();
-  // Whether the latest shared pose is still the robot's latest is part of what others are told.
+  // Until when the latest shared pose was the robot's latest is part of what it shares.
   if (shared_.back() + 2 == times_.size()) part_is_old_ = true;
 }
 
@@ -91,10 +108,10 @@ std::size_t KnownTeam::sightings_between(const SharedPart& part) const {
 }
 
 void KnownTeam::see(double t_s, const std::string& robot, const SE2& T_i_j, double sigma_m, double sigma_rad,
-                    const AngleVerdict& verdict) {
+                    const AngleEvidence& evidence) {
   const auto node = static_cast<std::uint32_t>(times_.size() - 1);
   sightings_.push_back({node, robot, t_s, T_i_j, std::max(sigma_m, kSmallestSigma),
-                        std::max(sigma_rad, kSmallestSigma), verdict});
+                        std::max(sigma_rad, kSmallestSigma), evidence});
   weights_.push_back(0);
   links_[robot_].insert(robot);
   links_[robot].insert(robot_);
@@ -130,17 +147,25 @@ std::vector<UnjudgedSighting> KnownTeam::unjudged() const {
   std::vector<UnjudgedSighting> list;
   for (const auto& [name, part] : parts_)
     for (const SharedSighting& sighting : part->sightings) {
-      if (sighting.robot != robot_ || verdicts_.contains({name, sighting.t_s})) continue;
+      if (sighting.robot != robot_ || evidence_.contains({name, sighting.t_s})) continue;
       if (const auto node = own_node_at(sighting.t_s))
-        list.push_back({name, *node, sighting.t_s, sighting.T_i_j.inverse(), sighting.sigma_m,
-                        sighting.sigma_rad});
+        list.push_back(
+            {name, *node, sighting.t_s, sighting.T_i_j.inverse(), sighting.sigma_m, sighting.sigma_rad});
     }
   return list;
 }
 
-void KnownTeam::judge(const std::string& by, double t_s, const AngleVerdict& verdict) {
-  verdicts_[{by, t_s}] = verdict;
+void KnownTeam::judge(const std::string& by, double t_s, const AngleEvidence& evidence) {
+  evidence_[{by, t_s}] = evidence;
   part_is_old_ = estimate_is_old_ = true;
+}
+
+/// The start and the latest of the poses that others may refer to: as many as a message holds.
+std::vector<std::uint32_t> KnownTeam::latest_shared() const {
+  if (shared_.size() <= kMaxSharedNodes) return shared_;
+  std::vector<std::uint32_t> list{0};
+  list.insert(list.end(), shared_.end() - static_cast<std::ptrdiff_t>(kMaxSharedNodes - 1), shared_.end());
+  return list;
 }
 
 KnownTeam::PartPointer KnownTeam::own_part(double now_s) {
@@ -149,19 +174,22 @@ KnownTeam::PartPointer KnownTeam::own_part(double now_s) {
   part->robot = robot_;
   part->version = ++version_;
   part->start = start_;
-  for (std::size_t k = 0; k < shared_.size(); ++k) {
-    const std::uint32_t number = shared_[k];
+  std::uint32_t before = 0;
+  for (const std::uint32_t number : latest_shared()) {
     SharedNode node{number, times_[number], number + 1 < times_.size() ? times_[number + 1] : now_s, {}};
     // A pose that another follows is the latest until just before.
-    if (number + 1 < times_.size())
-      node.until_s = std::max(node.t_s, std::nextafter(node.until_s, node.t_s));
-    if (k > 0)
-      for (std::uint32_t step = shared_[k - 1]; step < number; ++step)
-        node.from_before = step == shared_[k - 1] ? steps_[step] : node.from_before * steps_[step];
+    if (number + 1 < times_.size()) node.until_s = std::max(node.t_s, std::nextafter(node.until_s, node.t_s));
+    for (std::uint32_t step = before; step < number; ++step)
+      node.from_before = step == before ? steps_[step] : node.from_before * steps_[step];
+    before = number;
     part->nodes.push_back(std::move(node));
   }
-  part->sightings = sightings_;
-  for (const auto& [key, verdict] : verdicts_) part->verdicts.push_back({key.first, key.second, verdict});
+  for (const SharedSighting& sighting : sightings_)
+    if (part->place_of(sighting.node) < part->nodes.size()) part->sightings.push_back(sighting);
+  for (const auto& [key, evidence] : evidence_)
+    if (part->node_at(key.second)) part->evidence.push_back({key.first, key.second, evidence});
+  keep_latest(part->sightings);
+  keep_latest(part->evidence);
   own_part_ = std::move(part);
   part_is_old_ = false;
   return own_part_;
@@ -173,15 +201,15 @@ std::vector<KnownTeam::Between> KnownTeam::all_sightings() const {
     for (const SharedSighting& sighting : sightings) {
       Between between{&sighting, &from, {}};
       if (sighting.robot == robot_) {
-        const auto verdict = verdicts_.find({from, sighting.t_s});
-        if (verdict != verdicts_.end()) between.at_seen = verdict->second;
+        const auto evidence = evidence_.find({from, sighting.t_s});
+        if (evidence != evidence_.end()) between.at_seen = evidence->second;
         list.push_back(between);
         continue;
       }
       const auto part = parts_.find(sighting.robot);
       if (part == parts_.end() || !part->second->node_at(sighting.t_s)) continue;
-      for (const SharedVerdict& verdict : part->second->verdicts)
-        if (verdict.by == from && verdict.t_s == sighting.t_s) between.at_seen = verdict.verdict;
+      for (const SharedEvidence& evidence : part->second->evidence)
+        if (evidence.by == from && evidence.t_s == sighting.t_s) between.at_seen = evidence.angles;
       list.push_back(between);
     }
   };
@@ -213,7 +241,9 @@ std::vector<KnownTeam::PartPointer> KnownTeam::parts_for(const std::string& robo
   for (const std::string& name : reached_from(robot, params_.hops)) {
     if (name == robot) continue;
     const auto known = parts_.find(name);
-    const PartPointer part = name == robot_ ? own_part(now_s) : known == parts_.end() ? nullptr : known->second;
+    const PartPointer part = name == robot_          ? own_part(now_s)
+                             : known == parts_.end() ? nullptr
+                                                     : known->second;
     if (!part) continue;
     poses += part->nodes.size();
     if (poses > static_cast<std::size_t>(params_.max_poses) && !list.empty()) break;
@@ -247,12 +277,12 @@ KnownTeam::Layout KnownTeam::connected_part() const {
 
 /// Probability that a relative pose between two robots is right, or what else its information is scaled by.
 double KnownTeam::weight_of(const Between& between) const {
-  const AngleVerdict& here = between.sighting->verdict;
+  const AngleEvidence& here = between.sighting->evidence;
   if (params_.angle_weights == "off") return 1;
   if (params_.angle_weights == "published") return here.scale * between.at_seen.scale;
-  const double prior = params_.outlier_ratio;
-  if (prior <= 0) return 1;
-  return 1 / (1 + prior / (1 - prior) * std::exp(std::min(50.0, here.log_odds + between.at_seen.log_odds)));
+  const double prior = params_.outlier_ratio, log_odds = here.log_odds + between.at_seen.log_odds;
+  if (prior <= 0 || log_odds == 0) return 1;  // nothing was heard
+  return 1 / (1 + prior / (1 - prior) * std::exp(std::min(kMaxLogOdds, log_odds)));
 }
 
 PoseGraph2 KnownTeam::graph_of(const Layout& layout, const std::vector<Between>& between) {
@@ -348,7 +378,7 @@ bool KnownTeam::solve() {
   optimizer.relative_cost_tolerance = kCostTolerance;
   optimize(graph, optimizer);
   poses_.assign(graph.poses.begin(), graph.poses.begin() + static_cast<std::ptrdiff_t>(times_.size()));
-  latest_ = {poses_.back(), {}};
+  latest_ = {poses_.back(), SE2::Jacobian::Zero()};
   if (const auto marginals = Marginals<SE2>::compute(graph))
     latest_.covariance = marginals->pose(PoseId(times_.size() - 1));
   since_contact_ = {SE2(), contact_.covariance()};
