@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <tuple>
 #include <utility>
 
 namespace radioslam {
@@ -16,6 +16,7 @@ constexpr std::size_t kKeptPackets = 4;  ///< for each of them
 constexpr int kRepeatRounds = 2;         ///< until a part that is not confirmed is sent again
 constexpr int kRefreshTicks = 10;        ///< after which news of others alone are used
 constexpr std::size_t kRestNodes = 3;    ///< poses between two calls
+constexpr std::size_t kReceivers = 8;   ///< of data after one tick, besides robots in sight
 constexpr std::size_t kMessageBytes = 56000;
 constexpr double kMeetingRadius_m = 1.5;
 constexpr double kPathLossExponent = 2.2;  ///< for a rough distance where nothing better is known
@@ -88,7 +89,7 @@ void RendezvousRobot::hear(const HeardPacket& packet) {
   if (!packet.message) return;
   const auto& status = packet.message->status;
   if (status && (!link.status || status->number > link.status->number)) {
-    link.status = status;
+    link.status = {packet.message, &*status};
     link.status_tick = ticks_;
   }
   for (const auto& part : packet.message->parts) team_.take(part);
@@ -124,12 +125,14 @@ void RendezvousRobot::judge_sightings() {
         check_angles({seen.T_j_i, seen.sigma_m, seen.sigma_rad}, packets_at(seen.by, seen.node), check));
 }
 
-/// The news of others alone can wait, and so can those of a talk, except where robots meet on purpose.
+/// The news of others alone can wait, and so can a second solution in one talk, except where robots meet on
+/// purpose.
 void RendezvousRobot::update_estimate(bool talk) {
   judge_sightings();
   const bool own_news = team_.has_own_news();
   const bool meets = call_ || service_ || anchored_.role() == AnchoredExploration::Role::kReturning;
-  if (own_news ? talk && !meets : ticks_ < refresh_tick_) return;
+  if (own_news ? talk && !meets && solved_in_talk_ : ticks_ < refresh_tick_) return;
+  solved_in_talk_ = talk;
   refresh_tick_ = ticks_ + kRefreshTicks;
   if (team_.solve() && own_news) published_.optimized(team_);
 }
@@ -154,9 +157,13 @@ bool RendezvousRobot::is_shunned(const std::string& robot) const {
 
 void RendezvousRobot::shun(const std::string& robot) { shunned_[robot] = now_s_ + params_.patience_s; }
 
+double RendezvousRobot::error() const {
+  return monitor_ == ErrorMonitor::kSeed ? published_.value() : expected_square(team_.since_contact());
+}
+
 RobotState RendezvousRobot::state() const {
   RobotState state;
-  state.error = monitor_ == ErrorMonitor::kSeed ? published_.value() : expected_square(team_.since_contact());
+  state.error = error();
   state.sigma_m = per_axis_sigma(team_.latest());
   state.asking = call_.has_value();
   if (service_) state.serving = service_->caller;
@@ -182,13 +189,13 @@ MeetingOption RendezvousRobot::option_of(const std::string& robot, const Link& l
 
 bool RendezvousRobot::wants_to_call() const {
   return policy_ == RendezvousPolicy::kActive && !service_ && team_.size() >= calls_after_node_ &&
-         state().error > delta_;
+         error() > delta_;
 }
 
 void RendezvousRobot::follow_up_call() {
   if (!call_) {
     if (!wants_to_call()) return;
-    call_ = Call{++calls_, state().error, now_s_, {}, 0, 0, false};
+    call_ = Call{++calls_, error(), now_s_, {}, 0, 0, false};
   }
   if (!call_->partner.empty()) {
     const Link* link = present(call_->partner);
@@ -208,7 +215,7 @@ void RendezvousRobot::follow_up_call() {
     if (!left) shun(call_->partner);
     call_->partner.clear();
   }
-  if (state().error <= delta_)
+  if (error() <= delta_)
     call_.reset();
   else
     choose_partner();
@@ -264,9 +271,8 @@ void RendezvousRobot::choose_caller() {
 void RendezvousRobot::write_status(TickAnswer& answer) {
   RobotStatus status;
   status.number = ++statuses_;
-  const RobotState now = state();
-  status.error = now.error;
-  status.sigma_m = now.sigma_m;
+  status.error = answer.state.error;
+  status.sigma_m = answer.state.sigma_m;
   status.frame = team_.frame();
   status.pose = monitor_ == ErrorMonitor::kSeed ? published_.latest() : team_.latest().pose;
   if (call_) {
@@ -275,7 +281,7 @@ void RendezvousRobot::write_status(TickAnswer& answer) {
     status.partner = call_->partner;
   }
   status.offer_to = offer_to_;
-  status.serving = now.serving;
+  status.serving = answer.state.serving;
   status.standing = anchored_.role() == AnchoredExploration::Role::kStanding;
   status.leans_on = anchored_.leans_on();
   status.walked_m = walked_m_;
@@ -297,10 +303,24 @@ bool RendezvousRobot::lacks(const std::string& robot, const Link& link, const Sh
          rounds_ - sent->second.round >= kRepeatRounds;
 }
 
-/// To every robot with enough signal, the parts that it is not known to have.
-void RendezvousRobot::write_data(TickAnswer& answer) {
-  for (auto& [robot, link] : links_) {
+/// Robots that data can be sent to now: those that this one meets, then those it hears best.
+std::vector<std::string> RendezvousRobot::within_reach() const {
+  std::vector<std::tuple<bool, double, std::string>> order;
+  for (const auto& [robot, link] : links_) {
     if (link.node + 1 != team_.size() || link.esnr_db < q_db_ || ticks_ - link.heard_tick > 1) continue;
+    order.emplace_back(!sees_now(robot), -link.esnr_db, robot);
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<std::string> robots;
+  for (auto& [unseen, signal, robot] : order)
+    if (robots.size() < kReceivers || !unseen) robots.push_back(std::move(robot));
+  return robots;
+}
+
+/// To robots with enough signal, the parts that they are not known to have.
+void RendezvousRobot::write_data(TickAnswer& answer) {
+  for (const std::string& robot : within_reach()) {
+    Link& link = links_.at(robot);
     auto message = std::make_shared<RobotMessage>();
     std::size_t bytes = 0;
     for (const auto& part : team_.parts_for(robot, now_s_)) {
@@ -350,7 +370,7 @@ void RendezvousRobot::take_turns() {
   } else if (returned && has_run_out(return_s_, return_tick_)) {
     shun(anchored_.leans_on());
   }
-  anchored_.decide(id_, state().error, walked_m_, anchor_neighbours(), {delta_, params_.anchor_range_m});
+  anchored_.decide(id_, error(), walked_m_, anchor_neighbours(), {delta_, params_.anchor_range_m});
   if (anchored_.role() != AnchoredExploration::Role::kReturning || returned) return;
   return_s_ = now_s_;
   return_tick_ = ticks_;
@@ -414,9 +434,9 @@ TickAnswer RendezvousRobot::tick(const DecisionTick& tick) {
   follow_up_call();
   choose_caller();
   if (!tick.talk) answer.movement = decide();
+  answer.state = state();
   write_status(answer);
   write_data(answer);
-  answer.state = state();
   return answer;
 }
 

@@ -41,6 +41,7 @@ class RendezvousRobot {
   FinalTrajectory finish();
 
   RobotState state() const;
+  double error() const;  ///< by the monitor
   const KnownTeam& estimate() const { return team_; }
   double delta() const { return delta_; }
   /// Calls of this robot that a rendezvous has answered.
@@ -57,7 +58,7 @@ class RendezvousRobot {
     int heard_tick = 0;
     std::size_t node = 0;                                                  ///< own pose of the latest packet
     std::map<std::size_t, std::vector<std::vector<ArrivalPath>>> packets;  ///< per own pose, of the latest
-    std::optional<RobotStatus> status;
+    std::shared_ptr<const RobotStatus> status;  ///< the latest
     int status_tick = 0;
     std::map<std::string, SentPart> sent;  ///< per robot that the part is of
   };
@@ -99,6 +100,7 @@ class RendezvousRobot {
 
   void write_status(TickAnswer& answer);
   bool lacks(const std::string& robot, const Link& link, const SharedPart& part) const;
+  std::vector<std::string> within_reach() const;
   void write_data(TickAnswer& answer);
   Movement decide();
   std::optional<Movement> go_to_meeting_place();
@@ -129,6 +131,7 @@ class RendezvousRobot {
   int ticks_ = 0;         ///< decisions so far
   int rounds_ = 0;        ///< the same with talk ticks
   int refresh_tick_ = 0;  ///< from which news of others alone are used
+  bool solved_in_talk_ = false;  ///< since the last decision
   AnchoredExploration anchored_;
   double return_s_ = 0;  ///< when the robot set out for its landmark
   int return_tick_ = 0;

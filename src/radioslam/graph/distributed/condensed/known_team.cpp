@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "radioslam/graph/initial_values.hpp"
@@ -218,38 +219,35 @@ std::vector<KnownTeam::Between> KnownTeam::all_sightings() const {
   return list;
 }
 
-/// Robots that sightings lead to, the nearest first; the first is the robot itself.
-std::vector<std::string> KnownTeam::reached_from(const std::string& robot, int hops) const {
-  std::vector<std::string> queue{robot};
+/// The known parts of the robots that sightings lead to from one, the nearest first, without its own; at most
+/// as many as may be used.
+std::vector<KnownTeam::PartPointer> KnownTeam::parts_around(const std::string& robot, int hops) const {
+  std::vector<PartPointer> list;
+  std::vector<const std::string*> queue{&robot};
   std::vector<int> depth{0};
-  std::set<std::string> reached{robot};
+  std::set<std::string_view> reached{robot};
+  std::size_t poses = 0;
   for (std::size_t k = 0; k < queue.size() && depth[k] < hops; ++k) {
-    const auto links = links_.find(queue[k]);
+    const auto links = links_.find(*queue[k]);
     if (links == links_.end()) continue;
     for (const std::string& next : links->second) {
       if (!reached.insert(next).second) continue;
-      queue.push_back(next);
+      queue.push_back(&next);
       depth.push_back(depth[k] + 1);
+      const auto known = parts_.find(next);
+      const PartPointer part = next == robot_ ? own_part_ : known == parts_.end() ? nullptr : known->second;
+      if (!part) continue;
+      poses += part->nodes.size();
+      if (poses > static_cast<std::size_t>(params_.max_poses) && !list.empty()) return list;
+      list.push_back(part);
     }
   }
-  return queue;
+  return list;
 }
 
 std::vector<KnownTeam::PartPointer> KnownTeam::parts_for(const std::string& robot, double now_s) {
-  std::vector<PartPointer> list;
-  std::size_t poses = 0;
-  for (const std::string& name : reached_from(robot, params_.hops)) {
-    if (name == robot) continue;
-    const auto known = parts_.find(name);
-    const PartPointer part = name == robot_          ? own_part(now_s)
-                             : known == parts_.end() ? nullptr
-                                                     : known->second;
-    if (!part) continue;
-    poses += part->nodes.size();
-    if (poses > static_cast<std::size_t>(params_.max_poses) && !list.empty()) break;
-    list.push_back(part);
-  }
-  return list;
+  own_part(now_s);
+  return parts_around(robot, params_.hops);
 }
 
 /// This robot and those that sightings connect with it, the nearest first, as far as they may be used.
@@ -258,15 +256,10 @@ KnownTeam::Layout KnownTeam::connected_part() const {
   layout.poses = times_.size();
   layout.common = start_.has_value();
   layout.origin = robot_;
-  std::size_t others = 0;
-  for (const std::string& name : reached_from(robot_, params_.max_poses)) {
-    const auto part = parts_.find(name);
-    if (part == parts_.end()) continue;
-    others += part->second->nodes.size();
-    if (others > static_cast<std::size_t>(params_.max_poses)) break;
-    layout.robots[name] = {part->second, 0};
-    layout.common = layout.common || part->second->start;
-    layout.origin = std::min(layout.origin, name);
+  for (const PartPointer& part : parts_around(robot_, params_.max_poses)) {
+    layout.robots[part->robot] = {part, 0};
+    layout.common = layout.common || part->start;
+    layout.origin = std::min(layout.origin, part->robot);
   }
   for (auto& [name, robot] : layout.robots) {
     robot.first = layout.poses;

@@ -120,7 +120,7 @@ class KnownTeam {
 
   std::optional<std::uint32_t> own_node_at(double t_s) const;
   std::vector<Between> all_sightings() const;
-  std::vector<std::string> reached_from(const std::string& robot, int hops) const;
+  std::vector<PartPointer> parts_around(const std::string& robot, int hops) const;
   Layout connected_part() const;
   PoseGraph2 graph_of(const Layout& layout, const std::vector<Between>& between);
   void place(const Layout& layout, PoseGraph2& graph) const;
