@@ -90,6 +90,7 @@ constexpr std::array kParameterSets = std::to_array<ParameterSet>({
     {"reproduce overlap-growth", nullptr, {}, kNoneOfTable},
     {"reproduce verification-budget", nullptr, {}, kNoneOfTable},
     {"reproduce distributed-optimization", nullptr, {}, kNoneOfTable},
+    {"reproduce rendezvous", nullptr, {}, kNoneOfTable},
     {"reproduce aoa", defaults_of<AoaParams>, "aoa"},
     {"reproduce aoa-paths", defaults_of<AoaParams>, "aoa"},
     {"reproduce sequence-closures", defaults_of<CarparkParams>, "simulate carpark"},

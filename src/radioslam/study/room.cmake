@@ -10,7 +10,9 @@ radioslam_room(study
     fingerprints/threshold_sweep.cpp
     oracle.cpp
     overlap_growth/overlap_growth.cpp
+    rendezvous/rendezvous_json.cpp
     rendezvous/rendezvous_run.cpp
+    rendezvous/rendezvous_study.cpp
     rendezvous/run_record.cpp
     rendezvous/simulated_team.cpp
     robustness_map/robustness_map.cpp

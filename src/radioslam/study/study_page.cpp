@@ -5,6 +5,7 @@
 #include "radioslam/report/embedded_data.hpp"
 #include "radioslam/report/rounding.hpp"
 #include "radioslam/study/page_parts.hpp"
+#include "radioslam/study/rendezvous/rendezvous_json.hpp"
 #include "radioslam/study/study_json.hpp"
 
 namespace radioslam {
@@ -84,6 +85,12 @@ std::string render_budget_page(const std::vector<BudgetMission>& missions) {
 std::string render_distributed_page(const std::vector<DistributedTeam>& teams) {
   Json data = table_json(distributed_table(teams));
   data["distributed"] = distributed_optimization_json(teams);
+  return page(data);
+}
+
+std::string render_rendezvous_page(const RendezvousStudy& study) {
+  Json data = table_json(rendezvous_table(study));
+  data["rendezvous"] = rendezvous_page_json(study);
   return page(data);
 }
 

@@ -7,6 +7,7 @@
 #include "radioslam/study/aoa/aoa_table.hpp"
 #include "radioslam/study/distributed_optimization/distributed_study.hpp"
 #include "radioslam/study/overlap_growth/overlap_growth.hpp"
+#include "radioslam/study/rendezvous/rendezvous_study.hpp"
 #include "radioslam/study/robustness_map/robustness_map.hpp"
 #include "radioslam/study/study_table.hpp"
 #include "radioslam/study/verification_budget/budget_study.hpp"
@@ -27,6 +28,9 @@ std::string render_budget_page(const std::vector<BudgetMission>& missions);
 
 /// Gap to the central optimum over rounds and over bytes, two charts per team, with the table below.
 std::string render_distributed_page(const std::vector<DistributedTeam>& teams);
+
+/// Error over time, true errors and outliers as charts, runs on a map with a slider, and the table below.
+std::string render_rendezvous_page(const RendezvousStudy& study);
 
 /// A polar profile per link, with the true and the authors' direction, and the table below.
 std::string render_aoa_page(const StudyTable& table, const std::vector<AoaLink>& links);

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
@@ -14,6 +13,7 @@
 #include "radioslam/cli/progress_line.hpp"
 #include "radioslam/io/rendezvous/robot_session.hpp"
 #include "radioslam/rendezvous/rendezvous_params.hpp"
+#include "radioslam/study/rendezvous/rendezvous_json.hpp"
 #include "radioslam/study/rendezvous/rendezvous_run.hpp"
 
 namespace radioslam::cli {
@@ -57,30 +57,6 @@ void drive_robot(const RendezvousOptions& options) {
   print_lines(session.end());
 }
 
-nlohmann::ordered_json run_json(const RendezvousRun& run) {
-  nlohmann::ordered_json crossings = nlohmann::ordered_json::array();
-  for (const ErrorCrossing& each : run.crossings)
-    crossings.push_back({{"iteration", each.iteration},
-                         {"robot", each.robot},
-                         {"before", each.before},
-                         {"after", each.after}});
-  return {{"error", run.error},
-          {"error_std", run.error_std},
-          {"sigma_m", run.sigma_m},
-          {"ate_rmse_m", std::sqrt(run.ate_trans_mean_squared)},
-          {"ate_trans_mean_squared", run.ate_trans_mean_squared},
-          {"ate_rot_mean_squared", run.ate_rot_mean_squared},
-          {"meetings", run.meetings},
-          {"metres_walked", run.metres_walked},
-          {"crossings", std::move(crossings)},
-          {"open_crossings", run.open_crossings},
-          {"delta", run.delta},
-          {"nees", run.nees},
-          {"covered_m2", run.covered_m2},
-          {"iterations", run.iterations},
-          {"seconds", run.seconds}};
-}
-
 void print_run(const RendezvousRun& run) {
   std::cout << run.iterations << " iterations, " << run.metres_walked << " m walked, " << run.meetings
             << " meetings; error " << std::sqrt(run.ate_trans_mean_squared) << " m (RMSE of all poses), "
@@ -96,7 +72,7 @@ void simulate_team(const RendezvousOptions& options) {
   ProgressLine line;
   const RendezvousRun run = run_rendezvous(params, run_options, line.progress());
   if (options.json)
-    std::cout << run_json(run).dump(2) << '\n';
+    std::cout << rendezvous_run_json(run).dump(2) << '\n';
   else
     print_run(run);
 }

@@ -20,6 +20,7 @@
 #include "radioslam/io/datasets/wsr_results.hpp"
 #include "radioslam/io/datasets/wsr_trial.hpp"
 #include "radioslam/io/text/atomic_output.hpp"
+#include "radioslam/study/rendezvous/rendezvous_json.hpp"
 #include "radioslam/study/study_json.hpp"
 #include "radioslam/study/study_page.hpp"
 #include "radioslam/study/wi_closure_hall/hall_tables.hpp"
@@ -210,6 +211,16 @@ Study distributed_optimization(const ReproduceOptions& options) {
   return {distributed_table(teams), distributed_optimization_json(teams), render_distributed_page(teams)};
 }
 
+Study rendezvous(const ReproduceOptions& options) {
+  constexpr int kSeeds = 20;
+  refuse_drive(options);
+  if (!options.set.empty()) refuse(options, "takes only --seed and --seeds");
+  ProgressLine line;
+  const RendezvousStudy study =
+      study_rendezvous(options.seed, options.seeds.value_or(kSeeds), line.progress());
+  return {rendezvous_table(study), rendezvous_json(study), render_rendezvous_page(study)};
+}
+
 Study aoa(const ReproduceOptions& options) {
   refuse_drive(options);
   if (options.seeds) refuse(options, "takes no --seeds: its trials are recordings");
@@ -281,7 +292,7 @@ struct Table {
   Study (*reproduce)(const ReproduceOptions&);
 };
 
-constexpr std::array<Table, 12> kTables{
+constexpr std::array<Table, 13> kTables{
     {{"wi-closure-kitti",
       "KITTI 08 cut in two, radio noise of 0.5 m and 10 degrees, compared with Wi-Closure", wi_closure_kitti},
      {"wi-closure-table1",
@@ -300,6 +311,10 @@ constexpr std::array<Table, 12> kTables{
      {"distributed-optimization",
       "every method of optimizing a team's graph without a centre: gap over rounds and over bytes sent",
       distributed_optimization},
+     {"rendezvous",
+      "teams that meet by chance, at a place, when called and by turns, compared with Wang et al. (Active "
+      "Rendezvous)",
+      rendezvous},
      {"aoa", "angles of arrival of the WSR data set, compared with its authors' results", aoa},
      {"aoa-paths", "three simulated paths at once: which of them each AoA profile finds", aoa_paths},
      {"sequence-closures", "closures from similar fingerprint sequences, over similarity and window length",
