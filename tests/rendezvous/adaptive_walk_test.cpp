@@ -9,8 +9,9 @@ namespace {
 
 constexpr double kMaxStep_m = 2;
 
-Eigen::Vector2d step(AdaptiveWalk& walk, const SE2& raw, double esnr_db, const std::vector<ArrivalPath>& arrivals,
-                     ObstacleMemory& obstacles, const std::optional<ExpectedDirection>& expected = {}) {
+Eigen::Vector2d step(AdaptiveWalk& walk, const SE2& raw, double esnr_db,
+                     const std::vector<ArrivalPath>& arrivals, ObstacleMemory& obstacles,
+                     const std::optional<ExpectedDirection>& expected = {}) {
   return *walk.next(raw, esnr_db, arrivals, expected, kMaxStep_m, obstacles) - raw.translation();
 }
 
@@ -65,8 +66,8 @@ TEST(AdaptiveWalk, GetsRoundAWall) {
         step(walk, pose, esnr_db, {{std::atan2(offset.y(), offset.x()), 0.1, 0}}, obstacles);
     const Eigen::Vector2d from = pose.translation();
     Eigen::Vector2d to = from + moved;
-    const bool crosses = from.x() < 8 && to.x() >= 8 &&
-                         wall_at(from.y() + (8 - from.x()) / moved.x() * moved.y());
+    const bool crosses =
+        from.x() < 8 && to.x() >= 8 && wall_at(from.y() + (8 - from.x()) / moved.x() * moved.y());
     if (crosses) to = from + std::max(0.0, (7.7 - from.x()) / moved.x()) * moved;
     pose = SE2(to, std::atan2(moved.y(), moved.x()));
   }

@@ -72,8 +72,11 @@ class Floor {
       for (const auto& [other_name, other] : robots_) {
         if (name == other_name) continue;
         const Eigen::Vector2d offset = robot.truth.inverse() * other.truth.translation();
-        HeardPacket packet{time_s_, other_name, 55 - 22 * std::log10(std::max(0.3, offset.norm())),
-                           {{std::atan2(offset.y(), offset.x()), 0.15, 0}}, {}};
+        HeardPacket packet{time_s_,
+                           other_name,
+                           55 - 22 * std::log10(std::max(0.3, offset.norm())),
+                           {{std::atan2(offset.y(), offset.x()), 0.15, 0}},
+                           {}};
         robot.agent->hear(packet);
         for (const OutgoingMessage& message : other.outbox) {
           if (!message.to.empty() && message.to != name) continue;

@@ -24,6 +24,7 @@ class PublishedError {
   /// After an optimization: its poses replace the raw ones.
   void optimized(const KnownTeam& team);
   double value() const { return settled_ + since_; }
+  double since_optimized() const { return since_; }
   const SE2& latest() const { return raw_.back(); }
 
  private:

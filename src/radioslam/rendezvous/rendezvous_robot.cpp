@@ -16,7 +16,7 @@ constexpr std::size_t kKeptPackets = 4;  ///< for each of them
 constexpr int kRepeatRounds = 2;         ///< until a part that is not confirmed is sent again
 constexpr int kRefreshTicks = 10;        ///< after which news of others alone are used
 constexpr std::size_t kRestNodes = 3;    ///< poses between two calls
-constexpr std::size_t kReceivers = 8;   ///< of data after one tick, besides robots in sight
+constexpr std::size_t kReceivers = 8;    ///< of data after one tick, besides robots in sight
 constexpr std::size_t kMessageBytes = 56000;
 constexpr double kMeetingRadius_m = 1.5;
 constexpr double kPathLossExponent = 2.2;  ///< for a rough distance where nothing better is known
@@ -129,10 +129,11 @@ void RendezvousRobot::judge_sightings() {
 /// purpose.
 void RendezvousRobot::update_estimate(bool talk) {
   judge_sightings();
+  if (!talk) solved_in_talk_ = false;
   const bool own_news = team_.has_own_news();
   const bool meets = call_ || service_ || anchored_.role() == AnchoredExploration::Role::kReturning;
   if (own_news ? talk && !meets && solved_in_talk_ : ticks_ < refresh_tick_) return;
-  solved_in_talk_ = talk;
+  solved_in_talk_ = talk || solved_in_talk_;
   refresh_tick_ = ticks_ + kRefreshTicks;
   if (team_.solve() && own_news) published_.optimized(team_);
 }
@@ -159,6 +160,11 @@ void RendezvousRobot::shun(const std::string& robot) { shunned_[robot] = now_s_ 
 
 double RendezvousRobot::error() const {
   return monitor_ == ErrorMonitor::kSeed ? published_.value() : expected_square(team_.since_contact());
+}
+
+/// Of the error, what came up since the last optimization: what another one could remove.
+double RendezvousRobot::removable_error() const {
+  return monitor_ == ErrorMonitor::kSeed ? published_.since_optimized() : error();
 }
 
 RobotState RendezvousRobot::state() const {
@@ -189,7 +195,7 @@ MeetingOption RendezvousRobot::option_of(const std::string& robot, const Link& l
 
 bool RendezvousRobot::wants_to_call() const {
   return policy_ == RendezvousPolicy::kActive && !service_ && team_.size() >= calls_after_node_ &&
-         error() > delta_;
+         error() > delta_ && removable_error() > delta_ / 2;
 }
 
 void RendezvousRobot::follow_up_call() {
@@ -370,7 +376,7 @@ void RendezvousRobot::take_turns() {
   } else if (returned && has_run_out(return_s_, return_tick_)) {
     shun(anchored_.leans_on());
   }
-  anchored_.decide(id_, error(), walked_m_, anchor_neighbours(), {delta_, params_.anchor_range_m});
+  anchored_.decide(id_, removable_error(), walked_m_, anchor_neighbours(), {delta_, params_.anchor_range_m});
   if (anchored_.role() != AnchoredExploration::Role::kReturning || returned) return;
   return_s_ = now_s_;
   return_tick_ = ticks_;

@@ -58,7 +58,7 @@ class RendezvousRobot {
     int heard_tick = 0;
     std::size_t node = 0;                                                  ///< own pose of the latest packet
     std::map<std::size_t, std::vector<std::vector<ArrivalPath>>> packets;  ///< per own pose, of the latest
-    std::shared_ptr<const RobotStatus> status;  ///< the latest
+    std::shared_ptr<const RobotStatus> status;                             ///< the latest
     int status_tick = 0;
     std::map<std::string, SentPart> sent;  ///< per robot that the part is of
   };
@@ -87,6 +87,7 @@ class RendezvousRobot {
 
   void judge_sightings();
   void update_estimate(bool talk);
+  double removable_error() const;
   bool wants_to_call() const;
   void follow_up_call();
   void choose_partner();
@@ -128,9 +129,9 @@ class RendezvousRobot {
   std::uint64_t statuses_ = 0;
   std::size_t calls_after_node_ = 0;  ///< pose before which there is no further call
   double now_s_ = 0, start_s_ = 0;
-  int ticks_ = 0;         ///< decisions so far
-  int rounds_ = 0;        ///< the same with talk ticks
-  int refresh_tick_ = 0;  ///< from which news of others alone are used
+  int ticks_ = 0;                ///< decisions so far
+  int rounds_ = 0;               ///< the same with talk ticks
+  int refresh_tick_ = 0;         ///< from which news of others alone are used
   bool solved_in_talk_ = false;  ///< since the last decision
   AnchoredExploration anchored_;
   double return_s_ = 0;  ///< when the robot set out for its landmark

@@ -126,24 +126,27 @@ Json angle_chart(const AngleErrors& errors) {
     };
     const auto count = std::count_if(errors.strongest_rad.begin(), errors.strongest_rad.end(), inside);
     edges.push_back(low);
-    shares.push_back(rounded(static_cast<double>(count) / static_cast<double>(errors.strongest_rad.size()), 4));
+    shares.push_back(
+        rounded(static_cast<double>(count) / static_cast<double>(errors.strongest_rad.size()), 4));
   }
   edges.push_back(kLast);
   for (int at = -kLast; at <= kLast; ++at) {
     const double scaled = at * kDegree / errors.sigma_rad;
-    const double density = std::exp(-0.5 * scaled * scaled) / (errors.sigma_rad * std::sqrt(2 * std::numbers::pi));
+    const double density =
+        std::exp(-0.5 * scaled * scaled) / (errors.sigma_rad * std::sqrt(2 * std::numbers::pi));
     curve.push_back({at, rounded(density * kWidth * kDegree, 4)});
   }
-  return {{"kind", "histogram"},
-          {"title", "Figure 10 b: errors of the strongest arrival"},
-          {"caption",
-           "10 robots on 900 m² with boxes, all packets heard; beyond the curve: reflections and shadowed direct "
-           "paths."},
-          {"x", "angle error (degrees)"},
-          {"y", "share"},
-          {"edges", std::move(edges)},
-          {"series", {{{"name", "simulated"}, {"shares", std::move(shares)}}}},
-          {"curve", {{"name", "normal, 8.5 degrees as in Wang et al."}, {"points", std::move(curve)}}}};
+  return {
+      {"kind", "histogram"},
+      {"title", "Figure 10 b: errors of the strongest arrival"},
+      {"caption",
+       "10 robots on 900 m² with boxes, all packets heard; beyond the curve: reflections and shadowed direct "
+       "paths."},
+      {"x", "angle error (degrees)"},
+      {"y", "share"},
+      {"edges", std::move(edges)},
+      {"series", {{{"name", "simulated"}, {"shares", std::move(shares)}}}},
+      {"curve", {{"name", "normal, 8.5 degrees as in Wang et al."}, {"points", std::move(curve)}}}};
 }
 
 Json growth_chart(const std::vector<TeamGrowth>& growth) {
@@ -160,8 +163,8 @@ Json growth_chart(const std::vector<TeamGrowth>& growth) {
 }
 
 Json iteration_json(const std::vector<RobotMoment>& moments) {
-  Json json{{"truth", Json::array()}, {"estimate", Json::array()}, {"error", Json::array()},
-            {"sigma_m", Json::array()}, {"asking", Json::array()}, {"serving", Json::array()},
+  Json json{{"truth", Json::array()},   {"estimate", Json::array()}, {"error", Json::array()},
+            {"sigma_m", Json::array()}, {"asking", Json::array()},   {"serving", Json::array()},
             {"seeing", Json::array()}};
   for (const RobotMoment& moment : moments) {
     const auto& truth = moment.truth.translation();

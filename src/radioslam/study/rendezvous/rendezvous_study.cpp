@@ -78,9 +78,8 @@ std::vector<RendezvousSeries> policies(RendezvousRunParams params, const Seeds& 
 
 RendezvousFigure outlier_figure(const std::string& kind, const std::string& title, const Seeds& seeds) {
   RendezvousRunParams params = robots_with_outliers(kind);
-  RendezvousFigure figure{title,
-                          "5 robots that meet by chance on 400 m², 50 steps; mean squared error of all poses.",
-                          {}};
+  RendezvousFigure figure{
+      title, "5 robots that meet by chance on 400 m², 50 steps; mean squared error of all poses.", {}};
   for (const std::string weights : {"off", "published", "posterior"}) {
     params.robot.estimate.angle_weights = weights;
     figure.series.push_back(runs_of(weights, params, seeds));
@@ -107,8 +106,8 @@ AngleErrors angle_errors(std::uint64_t seed) {
       for (const HeardRobot& heard : robot.heard) {
         const Eigen::Vector2d offset =
             team.robots()[heard.from].truth.translation() - robot.truth.translation();
-        errors.strongest_rad.push_back(wrap_angle(heard.reception.paths.front().azimuth_rad -
-                                                  std::atan2(offset.y(), offset.x())));
+        errors.strongest_rad.push_back(
+            wrap_angle(heard.reception.paths.front().azimuth_rad - std::atan2(offset.y(), offset.x())));
       }
   }
   return errors;
@@ -172,7 +171,8 @@ StudyRow row_of(const std::string& label, const RendezvousFigure& figure, const 
   StudyRow row{label, {published}};
   for (const char* name : {"random", "scheduled", "active", "anchored"}) {
     const RendezvousSeries* series = named(figure, name);
-    row.cells.push_back(number_text(series ? std::optional(mean_of(*series, value)) : std::nullopt, decimals));
+    row.cells.push_back(
+        number_text(series ? std::optional(mean_of(*series, value)) : std::nullopt, decimals));
   }
   return row;
 }
@@ -214,7 +214,8 @@ RendezvousStudy study_rendezvous(std::uint64_t seed, int seeds, const Progress& 
                       policies(large_testbed(), many, {"random", "scheduled", "active", "anchored"})};
   for (const int obstacles : {0, kObstacles}) {
     const std::string floor = obstacles > 0 ? ", with obstacles" : ", open floor";
-    study.trial.push_back({"Figure 7: a single trial" + floor, "Two robots on 74 m², trajectory error (eq. 3).",
+    study.trial.push_back({"Figure 7: a single trial" + floor,
+                           "Two robots on 74 m², trajectory error (eq. 3).",
                            policies(small_testbed(obstacles), {seed, 1}, {"random", "active"})});
     study.trials.push_back({"Figure 8: ten trials" + floor,
                             "Two robots on 74 m²; mean and standard deviation over 10 trials.",
@@ -232,25 +233,30 @@ RendezvousStudy study_rendezvous(std::uint64_t seed, int seeds, const Progress& 
 }
 
 StudyTable rendezvous_table(const RendezvousStudy& study) {
-  StudyTable table{"Active rendezvous",
-                   "Simulated teams under four policies on the same floors, beside what Wang et al. publish. Noise "
-                   "0.2 m and 5° per step and per relative pose.",
-                   {"Wang et al.", "random", "scheduled", "active", "anchored"},
-                   {},
-                   {}};
+  StudyTable table{
+      "Active rendezvous",
+      "Simulated teams under four policies on the same floors, beside what Wang et al. publish. Noise "
+      "0.2 m and 5° per step and per relative pose.",
+      {"Wang et al.", "random", "scheduled", "active", "anchored"},
+      {},
+      {}};
   auto& rows = table.rows;
   rows.push_back(row_of("figure 4: error at the end", study.team_error, "near 10", last_error, 1));
   rows.push_back(row_of("figure 4: crossings back below 10 (%)", study.team_error, "–", share_below, 0));
   rows.push_back(row_of("figure 6: mean squared error (m²)", study.true_error, "−64 %", squared_error, 2));
   rows.push_back(row_of("figure 6: the same of rotations", study.true_error, "–", squared_rotation, 3));
-  rows.push_back(row_of("figure 6: floor seen (m²)", study.true_error, "–",
-                        [](const RendezvousRun& run) { return run.covered_m2; }, 0));
-  rows.push_back(row_of("figure 6: normalised squared error", study.true_error, "–",
-                        [](const RendezvousRun& run) { return run.nees; }, 2));
+  rows.push_back(row_of(
+      "figure 6: floor seen (m²)", study.true_error, "–",
+      [](const RendezvousRun& run) { return run.covered_m2; }, 0));
+  rows.push_back(row_of(
+      "figure 6: normalised squared error", study.true_error, "–",
+      [](const RendezvousRun& run) { return run.nees; }, 2));
   for (std::size_t k = 0; k < study.trial.size(); ++k) {
     const char* floor = k == 0 ? ", open" : ", obstacles";
-    rows.push_back(row_of(std::string("figure 7: error at the end") + floor, study.trial[k], "−83 %", last_error, 2));
-    rows.push_back(row_of(std::string("figure 8: error at the end") + floor, study.trials[k], "–", last_error, 2));
+    rows.push_back(
+        row_of(std::string("figure 7: error at the end") + floor, study.trial[k], "−83 %", last_error, 2));
+    rows.push_back(
+        row_of(std::string("figure 8: error at the end") + floor, study.trials[k], "–", last_error, 2));
   }
   for (const RendezvousFigure& figure : study.outliers) table.notes.push_back(gain_note(figure));
   table.notes.push_back("Wang et al., figure 10 a: −32 % by weights, outliers of 2 to 3 sigma.");
@@ -260,7 +266,8 @@ StudyTable rendezvous_table(const RendezvousStudy& study) {
   growth.back() = '.';
   table.notes.push_back(growth);
   table.notes.push_back(
-      "anchored: some robots stand as landmarks, the others return to them; at equal metres it sees less floor.");
+      "anchored: some robots stand as landmarks, the others return to them; at equal metres it sees less "
+      "floor.");
   return table;
 }
 

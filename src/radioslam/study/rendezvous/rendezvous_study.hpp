@@ -1,6 +1,6 @@
-// The figures of Wang et al. (Active Rendezvous) that simulation can answer, beside simulated teams: error over
-// time (4, 7, 8), true error against chance meetings (6), angles of arrival and outliers (10); how run time
-// grows with the team; and runs to replay. Cost: about two minutes.
+// The figures of Wang et al. (Active Rendezvous) that simulation can answer, beside simulated teams: error
+// over time (4, 7, 8), true error against chance meetings (6), angles of arrival and outliers (10); how run
+// time grows with the team; and runs to replay. Cost: about two minutes.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ struct RendezvousFigure {
 };
 
 struct AngleErrors {
-  double sigma_rad = 0;              ///< that was drawn
+  double sigma_rad = 0;               ///< that was drawn
   std::vector<double> strongest_rad;  ///< strongest arrival against the true direction, per packet
 };
 
@@ -45,11 +45,11 @@ struct RendezvousReplay {
 };
 
 struct RendezvousStudy {
-  RendezvousFigure team_error;                              ///< figure 4
-  RendezvousFigure true_error;                              ///< figure 6
-  std::vector<RendezvousFigure> trial, trials;              ///< figures 7 and 8; open and with obstacles
-  std::vector<RendezvousFigure> outliers;                   ///< figure 10 a, per kind
-  AngleErrors angles;                                       ///< figure 10 b
+  RendezvousFigure team_error;                  ///< figure 4
+  RendezvousFigure true_error;                  ///< figure 6
+  std::vector<RendezvousFigure> trial, trials;  ///< figures 7 and 8; open and with obstacles
+  std::vector<RendezvousFigure> outliers;       ///< figure 10 a, per kind
+  AngleErrors angles;                           ///< figure 10 b
   std::vector<TeamGrowth> growth;
   std::vector<RendezvousReplay> replays;
 };

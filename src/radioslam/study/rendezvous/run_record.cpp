@@ -21,8 +21,8 @@ std::optional<double> nees_of(const SimulatedRobot& robot) {
 std::vector<RobotMoment> moments_of(SimulatedTeam& team) {
   std::vector<RobotMoment> list;
   for (const SimulatedRobot& robot : team.robots()) {
-    RobotMoment moment{robot.truth,       robot.agent->estimate().latest().pose,
-                       robot.state.error, robot.state.sigma_m,
+    RobotMoment moment{robot.truth,        robot.agent->estimate().latest().pose,
+                       robot.state.error,  robot.state.sigma_m,
                        robot.state.asking, !robot.seen.empty()};
     if (!robot.state.serving.empty())
       moment.serving = static_cast<std::int32_t>(team.index_of(robot.state.serving));
@@ -34,8 +34,10 @@ std::vector<RobotMoment> moments_of(SimulatedTeam& team) {
 }  // namespace
 
 RunRecord::RunRecord(SimulatedTeam& team, double sensing_range_m)
-    : watches_(team.robots().size()), sensing_range_m_(sensing_range_m),
-      cells_(static_cast<std::size_t>(std::ceil(team.arena().side_m()))), covered_(cells_ * cells_, false) {
+    : watches_(team.robots().size()),
+      sensing_range_m_(sensing_range_m),
+      cells_(static_cast<std::size_t>(std::ceil(team.arena().side_m()))),
+      covered_(cells_ * cells_, false) {
   run_.delta = team.robots().front().agent->delta();
 }
 
@@ -58,7 +60,8 @@ void RunRecord::cover(const Eigen::Vector2d& place) {
   const auto cells = static_cast<std::ptrdiff_t>(cells_);
   const auto x = static_cast<std::ptrdiff_t>(place.x()), y = static_cast<std::ptrdiff_t>(place.y());
   for (std::ptrdiff_t i = std::max<std::ptrdiff_t>(0, x - reach); i <= std::min(cells - 1, x + reach); ++i)
-    for (std::ptrdiff_t j = std::max<std::ptrdiff_t>(0, y - reach); j <= std::min(cells - 1, y + reach); ++j) {
+    for (std::ptrdiff_t j = std::max<std::ptrdiff_t>(0, y - reach); j <= std::min(cells - 1, y + reach);
+         ++j) {
       const Eigen::Vector2d centre(static_cast<double>(i) + 0.5, static_cast<double>(j) + 0.5);
       if ((centre - place).norm() <= sensing_range_m_)
         covered_[static_cast<std::size_t>(i * cells + j)] = true;
@@ -104,7 +107,8 @@ RendezvousRun RunRecord::conclude(SimulatedTeam& team) {
     }
     const RobotState last = robot.agent->state();
     if (last.sigma_m > 0) {
-      const double error = (estimate.rows.back().pose.translation() - robot.truth.translation()).squaredNorm();
+      const double error =
+          (estimate.rows.back().pose.translation() - robot.truth.translation()).squaredNorm();
       ratio += error / (2 * last.sigma_m * last.sigma_m);
       ++placed;
     }

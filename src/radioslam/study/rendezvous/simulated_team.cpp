@@ -40,7 +40,6 @@ SE2 with_noise(const SE2& pose, double sigma_m, double sigma_rad, Rng& rng) {
   return {pose.translation() + Eigen::Vector2d(x, y), pose.angle() + turn};
 }
 
-
 template <class Action>
 void for_all(std::vector<SimulatedRobot>& robots, const Action& action) {
   parallel_for(robots.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -55,7 +54,10 @@ Arena arena_of(const RendezvousRunParams& params, std::uint64_t seed) {
 }
 
 SimulatedTeam::SimulatedTeam(const RendezvousRunParams& params, const RendezvousRunOptions& options)
-    : params_(params), options_(options), rng_(options.seed), arena_(arena_of(params, options.seed)),
+    : params_(params),
+      options_(options),
+      rng_(options.seed),
+      arena_(arena_of(params, options.seed)),
       radio_(arena_.walls(), params.radio, rng_.split("radio")) {
   for (std::size_t k = 0; k < static_cast<std::size_t>(params.robots); ++k) {
     SimulatedRobot robot;
@@ -117,7 +119,8 @@ void SimulatedTeam::move(SimulatedRobot& robot) {
   const Eigen::Vector2d target = wanted(robot);
   Eigen::Vector2d to = arena_.reach(from, target);
   const double length = std::min((to - from).norm(), left_m(robot));
-  if (robot.movement.kind == Movement::Kind::kExplore && (to - from).norm() + kArrived_m < (target - from).norm())
+  if (robot.movement.kind == Movement::Kind::kExplore &&
+      (to - from).norm() + kArrived_m < (target - from).norm())
     robot.waypoint = arena_.free_place(robot.motion);
   if (length < kLeastStep_m) return;
   to = from + length * (to - from).normalized();
@@ -138,8 +141,7 @@ SE2 SimulatedTeam::measured(const SE2& T_i_j, Rng& rng, bool& wrong) const {
   if (!wrong) return pose;
   const bool gross = params_.outlier_kind == "gross";
   const double sigmas = error.uniform(kOutlierSigmas[0], kOutlierSigmas[1]);
-  const double offset_m =
-      gross ? error.uniform(kOutlier_m[0], kOutlier_m[1]) : sigmas * params_.sigma_t_m;
+  const double offset_m = gross ? error.uniform(kOutlier_m[0], kOutlier_m[1]) : sigmas * params_.sigma_t_m;
   const double turn = gross ? error.uniform(kOutlierTurn_rad[0], kOutlierTurn_rad[1])
                             : error.uniform(kOutlierSigmas[0], kOutlierSigmas[1]) * params_.sigma_r_rad;
   const Eigen::Vector2d offset = offset_m * drawn_direction(error);
@@ -178,8 +180,8 @@ void SimulatedTeam::listen(std::size_t k) {
   const Rng noise = rng_.split("packets").split(iteration_).split(k);
   for (std::size_t place = 0; place < count; ++place) {
     const std::size_t from = nearest[place].second;
-    PacketReception reception = radio_.receive(robots_[from].truth.translation(),
-                                               robot.truth.translation(), noise.split(from));
+    PacketReception reception =
+        radio_.receive(robots_[from].truth.translation(), robot.truth.translation(), noise.split(from));
     if (reception.esnr_db >= 0) robot.heard.push_back({from, std::move(reception)});
   }
   std::sort(robot.heard.begin(), robot.heard.end(),
@@ -197,8 +199,8 @@ void SimulatedTeam::deliver(std::size_t k, bool beacons) {
     if (is_lost(heard.from, k)) continue;
     HeardPacket packet{time_s_, robots_[heard.from].name, heard.reception.esnr_db, {}, {}};
     for (const PacketPath& path : heard.reception.paths)
-      packet.paths.push_back({wrap_angle(path.azimuth_rad - robot.truth.angle()),
-                              params_.radio.sigma_aoa_rad, path.power_db});
+      packet.paths.push_back(
+          {wrap_angle(path.azimuth_rad - robot.truth.angle()), params_.radio.sigma_aoa_rad, path.power_db});
     bool said = false;
     for (const OutgoingMessage& message : robots_[heard.from].outbox) {
       if (!message.to.empty() && message.to != robot.name) continue;
