@@ -201,7 +201,7 @@ bool RendezvousRobot::wants_to_call() const {
 void RendezvousRobot::follow_up_call() {
   if (!call_) {
     if (!wants_to_call()) return;
-    call_ = Call{++calls_, error(), now_s_, {}, 0, 0, false};
+    call_ = Call{++calls_, error(), now_s_, ticks_, {}, 0, 0, false};
   }
   if (!call_->partner.empty()) {
     const Link* link = present(call_->partner);
@@ -417,6 +417,14 @@ std::optional<Movement> RendezvousRobot::go_to_meeting_place() {
                   raw.translation() + length_m * Eigen::Vector2d(std::cos(heading), std::sin(heading))};
 }
 
+/// Whether it is worth waiting for somebody to answer: there are robots, which may be busy with others.
+bool RendezvousRobot::may_be_answered() const {
+  return !has_run_out(call_->since_s, call_->since_tick) &&
+         std::any_of(links_.begin(), links_.end(), [&](const auto& each) {
+           return !is_gone(each.second) && !is_shunned(each.first);
+         });
+}
+
 Movement RendezvousRobot::decide() {
   if (service_) return walk_to(service_->caller);
   if (policy_ == RendezvousPolicy::kAnchored) {
@@ -424,7 +432,7 @@ Movement RendezvousRobot::decide() {
     if (anchored_.role() == AnchoredExploration::Role::kReturning) return walk_to(anchored_.leans_on());
     if (anchored_.waits()) return {Movement::Kind::kStay};
   }
-  if (call_ && !call_->partner.empty()) return {Movement::Kind::kStay};
+  if (call_ && (!call_->partner.empty() || may_be_answered())) return {Movement::Kind::kStay};
   if (policy_ == RendezvousPolicy::kScheduled)
     if (const auto movement = go_to_meeting_place()) return *movement;
   return {};

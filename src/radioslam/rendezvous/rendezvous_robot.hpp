@@ -67,6 +67,7 @@ class RendezvousRobot {
     std::uint32_t number = 0;
     double error = 0;  ///< when it called
     double since_s = 0;
+    int since_tick = 0;
     std::string partner;
     double partner_s = 0;
     int partner_tick = 0;
@@ -103,6 +104,7 @@ class RendezvousRobot {
   bool lacks(const std::string& robot, const Link& link, const SharedPart& part) const;
   std::vector<std::string> within_reach() const;
   void write_data(TickAnswer& answer);
+  bool may_be_answered() const;
   Movement decide();
   std::optional<Movement> go_to_meeting_place();
   std::optional<ExpectedDirection> expected_direction(const Link& link) const;
