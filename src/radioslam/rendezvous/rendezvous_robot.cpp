@@ -10,6 +10,7 @@ namespace {
 
 constexpr int kLeastTicks = 5;           ///< without a word before a robot counts as gone
 constexpr int kLeastPatience = 20;       ///< decisions before a rendezvous is given up
+constexpr int kStillTicks = 10;         ///< after which a partner that does not move is walked to
 constexpr int kAnswerTicks = 5;          ///< in which a chosen partner should have answered
 constexpr std::size_t kKeptNodes = 6;    ///< latest own poses whose packets are kept
 constexpr std::size_t kKeptPackets = 4;  ///< for each of them
@@ -89,6 +90,7 @@ void RendezvousRobot::hear(const HeardPacket& packet) {
   if (!packet.message) return;
   const auto& status = packet.message->status;
   if (status && (!link.status || status->number > link.status->number)) {
+    if (!link.status || status->walked_m != link.status->walked_m) link.walked_tick = ticks_;
     link.status = {packet.message, &*status};
     link.status_tick = ticks_;
   }
@@ -201,7 +203,7 @@ bool RendezvousRobot::wants_to_call() const {
 void RendezvousRobot::follow_up_call() {
   if (!call_) {
     if (!wants_to_call()) return;
-    call_ = Call{++calls_, error(), now_s_, ticks_, {}, 0, 0, false};
+    call_ = Call{++calls_, error(), now_s_, ticks_, {}, 0, 0, false, false};
   }
   if (!call_->partner.empty()) {
     const Link* link = present(call_->partner);
@@ -217,6 +219,11 @@ void RendezvousRobot::follow_up_call() {
     const bool left = call_->confirmed && link && link->status && link->status->serving != id_ &&
                       link->status_tick > call_->partner_tick;
     const bool silent = !call_->confirmed && ticks_ - call_->partner_tick > kAnswerTicks;
+    const int moved_tick = link ? std::max(link->walked_tick, call_->partner_tick) : 0;
+    if (call_->confirmed && !call_->goes && link && ticks_ - moved_tick > kStillTicks) {
+      call_->goes = true;
+      walk_.begin(q_db_);
+    }
     if (link && !left && !silent && !has_run_out(call_->partner_s, call_->partner_tick)) return;
     if (!left) shun(call_->partner);
     call_->partner.clear();
@@ -237,7 +244,7 @@ void RendezvousRobot::choose_partner() {
   call_->partner = *best;
   call_->partner_s = now_s_;
   call_->partner_tick = ticks_;
-  call_->confirmed = false;
+  call_->confirmed = call_->goes = false;
 }
 
 void RendezvousRobot::follow_up_service() {
@@ -432,6 +439,7 @@ Movement RendezvousRobot::decide() {
     if (anchored_.role() == AnchoredExploration::Role::kReturning) return walk_to(anchored_.leans_on());
     if (anchored_.waits()) return {Movement::Kind::kStay};
   }
+  if (call_ && call_->goes && !call_->partner.empty()) return walk_to(call_->partner);
   if (call_ && (!call_->partner.empty() || may_be_answered())) return {Movement::Kind::kStay};
   if (policy_ == RendezvousPolicy::kScheduled)
     if (const auto movement = go_to_meeting_place()) return *movement;

@@ -60,6 +60,7 @@ class RendezvousRobot {
     std::map<std::size_t, std::vector<std::vector<ArrivalPath>>> packets;  ///< per own pose, of the latest
     std::shared_ptr<const RobotStatus> status;                             ///< the latest
     int status_tick = 0;
+    int walked_tick = 0;  ///< when it last said that it had moved
     std::map<std::string, SentPart> sent;  ///< per robot that the part is of
   };
   /// A rendezvous that this robot has called for.
@@ -72,6 +73,7 @@ class RendezvousRobot {
     double partner_s = 0;
     int partner_tick = 0;
     bool confirmed = false;
+    bool goes = false;  ///< the partner does not move, so that this robot walks
   };
   struct Service {
     std::string caller;
