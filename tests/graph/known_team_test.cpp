@@ -136,7 +136,7 @@ TEST(KnownTeam, PartsMayComeTwiceAndInAnyOrder) {
     EXPECT_LT((other.poses()[n].inverse() * walk.team[0].poses()[n]).log().norm(), 1e-6);
 }
 
-TEST(KnownTeam, WithoutTheOthersPartASightingIsOfNoUseYet) {
+TEST(KnownTeam, WithoutTheOthersPartAnObservationIsOfNoUseYet) {
   Walk walk(2, true);
   walk.move(0, 1);
   walk.see(0, 1, 1);
@@ -162,9 +162,9 @@ TEST(KnownTeam, RefusesPartsThatAreNotWellFormed) {
   EXPECT_TRUE(refused([](SharedPart& part) { part.nodes.clear(); }));
   EXPECT_TRUE(refused([](SharedPart& part) { part.nodes[1].number = 0; }));
   EXPECT_TRUE(refused([](SharedPart& part) { part.nodes[1].from_before.covariance(0, 0) = -1; }));
-  EXPECT_TRUE(refused([](SharedPart& part) { part.sightings[0].node = 7; }));
-  EXPECT_TRUE(refused([](SharedPart& part) { part.sightings[0].sigma_m = 0; }));
-  EXPECT_TRUE(refused([](SharedPart& part) { part.sightings[0].t_s = std::nan(""); }));
+  EXPECT_TRUE(refused([](SharedPart& part) { part.observations[0].node = 7; }));
+  EXPECT_TRUE(refused([](SharedPart& part) { part.observations[0].sigma_m = 0; }));
+  EXPECT_TRUE(refused([](SharedPart& part) { part.observations[0].t_s = std::nan(""); }));
 }
 
 TEST(KnownTeam, APartHoldsNoMoreThanAMessage) {

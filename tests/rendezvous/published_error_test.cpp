@@ -19,7 +19,7 @@ TEST(PublishedError, GrowsWithEveryStepByTheNoiseOfBothEnds) {
   EXPECT_NEAR(error.value() / kSteps, expected, 0.03 * expected);
 }
 
-TEST(PublishedError, ASightingAddsItsDisagreementWithWhatTheOtherSays) {
+TEST(PublishedError, AnObservationAddsItsDisagreementWithWhatTheOtherSays) {
   PublishedError error(1, 1, 1, SE2());
   error.see(SE2({2, 0}, 0), std::nullopt);
   EXPECT_EQ(error.value(), 0);

@@ -34,9 +34,9 @@ void PublishedError::optimized(const KnownTeam& team) {
   since_ = settled_ = 0;
   for (std::size_t k = 0; k < team.steps().size(); ++k)
     settled_ += term(raw_[k], raw_[k + 1], team.steps()[k].pose);
-  for (const SharedSighting& sighting : team.sightings())
-    if (const auto other = team.pose_of(sighting.robot, sighting.t_s))
-      settled_ += term(raw_[sighting.node], *other, sighting.T_i_j);
+  for (const SharedObservation& observation : team.observations())
+    if (const auto other = team.pose_of(observation.robot, observation.t_s))
+      settled_ += term(raw_[observation.node], *other, observation.T_i_j);
 }
 
 }  // namespace radioslam

@@ -64,7 +64,7 @@ struct RendezvousParams {
     RADIOSLAM_BASIC_FIELD(kappa, "", 1, 1000, "relative poses that end a rendezvous");
     RADIOSLAM_FIELD(alpha, "", 0, 1e6, "priority of a robot that calls; scales its service discrepancy");
     RADIOSLAM_FIELD(epsilon, "dB", 0, 100, "by how much more ESNR is asked for where there is enough");
-    RADIOSLAM_BASIC_FIELD(max_step_m, "m", 0.01, 1e4, "longest way between two decisions");
+    RADIOSLAM_FIELD(max_step_m, "m", 0.01, 1e4, "longest way between two decisions");
     RADIOSLAM_FIELD(min_step_m, "m", 0.001, 1e4, "shortest step of a walk to another robot");
     RADIOSLAM_FIELD(walk_sigma, "", 0.001, 1,
                     "noise of an angle profile in the length of a step, (discrepancy / noise)^2 metres");

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kLeastTicks = 5;           ///< without a word before a robot counts as gone
 constexpr int kLeastPatience = 20;       ///< decisions before a rendezvous is given up
-constexpr int kStillTicks = 10;         ///< after which a partner that does not move is walked to
+constexpr int kStillTicks = 10;          ///< after which a partner that does not move is walked to
 constexpr int kAnswerTicks = 5;          ///< in which a chosen partner should have answered
 constexpr std::size_t kKeptNodes = 6;    ///< latest own poses whose packets are kept
 constexpr std::size_t kKeptPackets = 4;  ///< for each of them
@@ -33,7 +33,7 @@ std::uint64_t seed_of(const std::string& id, int seed) {
 
 /// Bytes of a part in a message, roughly.
 std::size_t size_of(const SharedPart& part) {
-  return 300 + 215 * part.nodes.size() + 120 * part.sightings.size() + 60 * part.evidence.size();
+  return 300 + 215 * part.nodes.size() + 120 * part.observations.size() + 60 * part.evidence.size();
 }
 
 /// Of the distance between a position and its estimate (m^2).
@@ -62,7 +62,7 @@ RendezvousRobot::RendezvousRobot(const std::string& id, const RobotStart& start,
       start_s_(start.t_s) {}
 
 void RendezvousRobot::move(const OdometryStep& step) {
-  judge_sightings();
+  judge_observations();
   now_s_ = step.t_s;
   walked_m_ += step.T_previous_body.translation().norm();
   team_.move(step.t_s, step.T_previous_body, step.sigma_m, step.sigma_rad);
@@ -103,7 +103,7 @@ void RendezvousRobot::meet_obstacle(const ObstacleAhead& obstacle) {
 }
 
 /// The angles heard at a pose against what was seen from it, or of it.
-void RendezvousRobot::judge_sightings() {
+void RendezvousRobot::judge_observations() {
   const AngleCheckParams check{params_.direct_ratio, params_.angle_threshold_rad};
   const auto packets_at = [&](const std::string& robot, std::size_t node) {
     const auto link = links_.find(robot);
@@ -121,7 +121,7 @@ void RendezvousRobot::judge_sightings() {
     published_.see(seen.T_i_j, placed ? std::optional(link->second.status->pose) : std::nullopt);
   }
   unjudged_.clear();
-  for (const UnjudgedSighting& seen : team_.unjudged())
+  for (const UnjudgedObservation& seen : team_.unjudged())
     team_.judge(
         seen.by, seen.t_s,
         check_angles({seen.T_j_i, seen.sigma_m, seen.sigma_rad}, packets_at(seen.by, seen.node), check));
@@ -130,7 +130,7 @@ void RendezvousRobot::judge_sightings() {
 /// The news of others alone can wait, and so can a second solution in one talk, except where robots meet on
 /// purpose.
 void RendezvousRobot::update_estimate(bool talk) {
-  judge_sightings();
+  judge_observations();
   if (!talk) solved_in_talk_ = false;
   const bool own_news = team_.has_own_news();
   const bool meets = call_ || service_ || anchored_.role() == AnchoredExploration::Role::kReturning;
@@ -208,7 +208,7 @@ void RendezvousRobot::follow_up_call() {
   if (!call_->partner.empty()) {
     const Link* link = present(call_->partner);
     const bool done =
-        team_.sightings_with(call_->partner, call_->since_s) >= static_cast<std::size_t>(kappa_);
+        team_.observations_with(call_->partner, call_->since_s) >= static_cast<std::size_t>(kappa_);
     if (done) {
       ++rendezvous_held_;
       call_.reset();
@@ -358,8 +358,9 @@ std::optional<ExpectedDirection> RendezvousRobot::expected_direction(const Link&
 }
 
 bool RendezvousRobot::sees_now(const std::string& robot) const {
-  const auto& sightings = team_.sightings();
-  for (auto seen = sightings.rbegin(); seen != sightings.rend() && seen->node + 1 == team_.size(); ++seen)
+  const auto& observations = team_.observations();
+  for (auto seen = observations.rbegin(); seen != observations.rend() && seen->node + 1 == team_.size();
+       ++seen)
     if (seen->robot == robot) return true;
   return false;
 }
@@ -377,7 +378,8 @@ std::vector<AnchorNeighbour> RendezvousRobot::anchor_neighbours() const {
 /// Whether to explore, to stand, or to come back.
 void RendezvousRobot::take_turns() {
   const bool returned = anchored_.role() == AnchoredExploration::Role::kReturning;
-  if (returned && team_.sightings_with(anchored_.leans_on(), return_s_) >= static_cast<std::size_t>(kappa_)) {
+  if (returned &&
+      team_.observations_with(anchored_.leans_on(), return_s_) >= static_cast<std::size_t>(kappa_)) {
     ++rendezvous_held_;
     anchored_.met(walked_m_, anchor_neighbours());
   } else if (returned && has_run_out(return_s_, return_tick_)) {
@@ -427,9 +429,8 @@ std::optional<Movement> RendezvousRobot::go_to_meeting_place() {
 /// Whether it is worth waiting for somebody to answer: there are robots, which may be busy with others.
 bool RendezvousRobot::may_be_answered() const {
   return !has_run_out(call_->since_s, call_->since_tick) &&
-         std::any_of(links_.begin(), links_.end(), [&](const auto& each) {
-           return !is_gone(each.second) && !is_shunned(each.first);
-         });
+         std::any_of(links_.begin(), links_.end(),
+                     [&](const auto& each) { return !is_gone(each.second) && !is_shunned(each.first); });
 }
 
 Movement RendezvousRobot::decide() {
@@ -463,14 +464,14 @@ TickAnswer RendezvousRobot::tick(const DecisionTick& tick) {
 }
 
 FinalTrajectory RendezvousRobot::finish() {
-  judge_sightings();
+  judge_observations();
   team_.solve();
   FinalTrajectory trajectory;
   for (std::size_t k = 0; k < team_.size(); ++k) trajectory.rows.push_back({team_.time(k), team_.poses()[k]});
   trajectory.frame = team_.frame();
-  for (std::size_t k = 0; k < team_.sightings().size(); ++k)
+  for (std::size_t k = 0; k < team_.observations().size(); ++k)
     trajectory.measurements.push_back(
-        {team_.sightings()[k].t_s, team_.sightings()[k].robot, team_.weight(k)});
+        {team_.observations()[k].t_s, team_.observations()[k].robot, team_.weight(k)});
   return trajectory;
 }
 

@@ -60,7 +60,7 @@ class RendezvousRobot {
     std::map<std::size_t, std::vector<std::vector<ArrivalPath>>> packets;  ///< per own pose, of the latest
     std::shared_ptr<const RobotStatus> status;                             ///< the latest
     int status_tick = 0;
-    int walked_tick = 0;  ///< when it last said that it had moved
+    int walked_tick = 0;                   ///< when it last said that it had moved
     std::map<std::string, SentPart> sent;  ///< per robot that the part is of
   };
   /// A rendezvous that this robot has called for.
@@ -88,7 +88,7 @@ class RendezvousRobot {
   bool is_shunned(const std::string& robot) const;
   void shun(const std::string& robot);
 
-  void judge_sightings();
+  void judge_observations();
   void update_estimate(bool talk);
   double removable_error() const;
   bool wants_to_call() const;

@@ -35,8 +35,8 @@ SharedPart example_part() {
                         1.0 / 3,
                         2.0 / 3,
                         {SE2({12.3456789012, 1e-7}, -3.0), covariance_of_way(0.3, 0.02, 12.3, 4.56789)}});
-  part.sightings.push_back({41, "c", 0.1 + 0.2, SE2({-4.5, 2.0 / 3}, 1), 0.1, 0.02, {-1.5, 1}});
-  part.sightings.push_back({0, "b", 0.2, SE2({5, 6}, 0), 0.1, 0.02, {}});
+  part.observations.push_back({41, "c", 0.1 + 0.2, SE2({-4.5, 2.0 / 3}, 1), 0.1, 0.02, {-1.5, 1}});
+  part.observations.push_back({0, "b", 0.2, SE2({5, 6}, 0), 0.1, 0.02, {}});
   part.evidence.push_back({"c", 2.0 / 7, {3.5, 0.25}});
   return part;
 }
@@ -101,13 +101,13 @@ TEST(RobotMessageJson, APartComesBackWithExactTimes) {
     EXPECT_EQ(part.nodes[k].until_s, written.nodes[k].until_s);
     expect_near(part.nodes[k].from_before.pose, written.nodes[k].from_before.pose);
   }
-  ASSERT_EQ(part.sightings.size(), 2U);
-  EXPECT_EQ(part.sightings[0].robot, "c");
-  EXPECT_EQ(part.sightings[1].robot, "b");
-  EXPECT_EQ(part.sightings[0].node, 41U);
-  EXPECT_EQ(part.sightings[0].t_s, written.sightings[0].t_s);
-  EXPECT_EQ(part.sightings[0].evidence.log_odds, -1.5);
-  expect_near(part.sightings[0].T_i_j, written.sightings[0].T_i_j);
+  ASSERT_EQ(part.observations.size(), 2U);
+  EXPECT_EQ(part.observations[0].robot, "c");
+  EXPECT_EQ(part.observations[1].robot, "b");
+  EXPECT_EQ(part.observations[0].node, 41U);
+  EXPECT_EQ(part.observations[0].t_s, written.observations[0].t_s);
+  EXPECT_EQ(part.observations[0].evidence.log_odds, -1.5);
+  expect_near(part.observations[0].T_i_j, written.observations[0].T_i_j);
   ASSERT_EQ(part.evidence.size(), 1U);
   EXPECT_EQ(part.evidence[0].by, "c");
   EXPECT_EQ(part.evidence[0].t_s, written.evidence[0].t_s);
@@ -162,9 +162,9 @@ TEST(RobotMessageJson, PartsThatFitNoGraphAreRefused) {
   refuse([](Json& part) { part["nodes"][1][6] = 0; }, "not well-formed");
   refuse([](Json& part) { part["nodes"][1].erase(11); }, "a list of 12");
   refuse([](Json& part) { part["nodes"][1][3] = 2e9; }, "value 4 of a node");
-  refuse([](Json& part) { part["sightings"][0][0] = 5U; }, "not well-formed");
-  refuse([](Json& part) { part["sightings"][0][1] = 2U; }, "value 2 of a sighting");
-  refuse([](Json& part) { part["sightings"][0][6] = 0; }, "not well-formed");
+  refuse([](Json& part) { part["observations"][0][0] = 5U; }, "not well-formed");
+  refuse([](Json& part) { part["observations"][0][1] = 2U; }, "value 2 of an observation");
+  refuse([](Json& part) { part["observations"][0][6] = 0; }, "not well-formed");
   refuse([](Json& part) { part["others"][0] = "*"; }, "'others'");
   refuse([](Json& part) { part["others"] = Json::array(); }, "does not name");
 }

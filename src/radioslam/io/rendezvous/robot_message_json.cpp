@@ -17,7 +17,7 @@ using Output = nlohmann::ordered_json;
 
 constexpr const char* kFormat = "radioslam-rendezvous/1";
 constexpr int kDigits = 9;
-constexpr std::size_t kNodeValues = 12, kSightingValues = 10, kEvidenceValues = 4;
+constexpr std::size_t kNodeValues = 12, kObservationValues = 10, kEvidenceValues = 4;
 constexpr auto kAnyCount = std::numeric_limits<std::uint64_t>::max();
 constexpr std::uint64_t kAnyNumber32 = std::numeric_limits<std::uint32_t>::max();
 
@@ -81,15 +81,15 @@ Output nodes_json(const SharedPart& part) {
   return rows;
 }
 
-Output sightings_json(const SharedPart& part, OtherRobots& others) {
+Output observations_json(const SharedPart& part, OtherRobots& others) {
   Output rows = Output::array();
-  for (const SharedSighting& sighting : part.sightings) {
-    Output& row =
-        rows.emplace_back(Output::array({sighting.node, others.place_of(sighting.robot), sighting.t_s}));
-    append_pose(row, sighting.T_i_j);
-    row.push_back(rounded(sighting.sigma_m));
-    row.push_back(rounded(sighting.sigma_rad));
-    append_evidence(row, sighting.evidence);
+  for (const SharedObservation& observation : part.observations) {
+    Output& row = rows.emplace_back(
+        Output::array({observation.node, others.place_of(observation.robot), observation.t_s}));
+    append_pose(row, observation.T_i_j);
+    row.push_back(rounded(observation.sigma_m));
+    row.push_back(rounded(observation.sigma_rad));
+    append_evidence(row, observation.evidence);
   }
   return rows;
 }
@@ -108,7 +108,7 @@ Output part_json(const SharedPart& part) {
   Output json{{"robot", part.robot}, {"version", part.version}};
   if (part.start) json["start"] = pose_json(*part.start);
   json["nodes"] = nodes_json(part);
-  json["sightings"] = sightings_json(part, others);
+  json["observations"] = observations_json(part, others);
   json["angle_checks"] = evidence_json(part, others);
   json["others"] = others.names();
   return json;
@@ -167,17 +167,17 @@ const std::string& read_other(JsonRow& row, const std::vector<std::string>& othe
   return others[static_cast<std::size_t>(row.whole_number(others.size() - 1))];
 }
 
-SharedSighting read_sighting(const Json& json, const std::vector<std::string>& others) {
-  JsonRow row(json, "a sighting", kSightingValues);
-  SharedSighting sighting;
-  sighting.node = static_cast<std::uint32_t>(row.whole_number(kAnyNumber32));
-  sighting.robot = read_other(row, others);
-  sighting.t_s = row.number(kSeconds);
-  sighting.T_i_j = row.pose();
-  sighting.sigma_m = row.number();
-  sighting.sigma_rad = row.number();
-  sighting.evidence = read_evidence(row);
-  return sighting;
+SharedObservation read_observation(const Json& json, const std::vector<std::string>& others) {
+  JsonRow row(json, "an observation", kObservationValues);
+  SharedObservation observation;
+  observation.node = static_cast<std::uint32_t>(row.whole_number(kAnyNumber32));
+  observation.robot = read_other(row, others);
+  observation.t_s = row.number(kSeconds);
+  observation.T_i_j = row.pose();
+  observation.sigma_m = row.number();
+  observation.sigma_rad = row.number();
+  observation.evidence = read_evidence(row);
+  return observation;
 }
 
 SharedEvidence read_shared_evidence(const Json& json, const std::vector<std::string>& others) {
@@ -201,14 +201,15 @@ std::vector<std::string> read_names(const JsonObject& from, const char* member) 
 
 SharedPart read_part(const Json& json) {
   const JsonObject from(json, "a part",
-                        {"robot", "version", "start", "nodes", "sightings", "angle_checks", "others"});
+                        {"robot", "version", "start", "nodes", "observations", "angle_checks", "others"});
   SharedPart part;
   part.robot = from.robot("robot");
   part.version = from.whole_number("version", kAnyCount);
   if (from.has("start")) part.start = from.pose("start");
   const auto others = read_names(from, "others");
   for (const Json& node : from.list("nodes")) part.nodes.push_back(read_node(node));
-  for (const Json& each : from.list("sightings")) part.sightings.push_back(read_sighting(each, others));
+  for (const Json& each : from.list("observations"))
+    part.observations.push_back(read_observation(each, others));
   for (const Json& each : from.list("angle_checks"))
     part.evidence.push_back(read_shared_evidence(each, others));
   if (!is_well_formed(part)) refuse_json("the part of " + part.robot + " is not well-formed");

@@ -42,8 +42,8 @@ struct RendezvousRunParams {
   static void visit_fields(Self& self, Visitor&& visit) {
     RADIOSLAM_BASIC_FIELD(robots, "", 1, 100000, "number of robots");
     RADIOSLAM_BASIC_FIELD(iterations, "", 1, 1e6, "steps that each robot may take");
-    RADIOSLAM_BASIC_FIELD(metres_each, "m", 0, 1e9,
-                          "each robot stops after walking this far, whatever the iterations; 0: none does");
+    RADIOSLAM_FIELD(metres_each, "m", 0, 1e9,
+                    "each robot stops after walking this far, whatever the iterations; 0: none does");
     RADIOSLAM_BASIC_FIELD(side_m, "m", 0, 1e6,
                           "side of the square floor; 0: 200 m^2 per robot, as in Wang et al.");
     RADIOSLAM_BASIC_FIELD(obstacles, "", 0, 10000, "boxes on the floor");
@@ -51,8 +51,8 @@ struct RendezvousRunParams {
     RADIOSLAM_BASIC_FIELD(sigma_t_m, "m", 0, 1000,
                           "standard deviation of odometry per step and of relative poses, per axis");
     RADIOSLAM_BASIC_FIELD(sigma_r_rad, "rad", 0, 3, "the same of rotations");
-    RADIOSLAM_BASIC_FIELD(step_m, "m", 0.01, 1e4, "length of an exploring step");
-    RADIOSLAM_BASIC_FIELD(outliers, "", 0, 1, "whether relative poses are wrong at times");
+    RADIOSLAM_FIELD(step_m, "m", 0.01, 1e4, "length of an exploring step");
+    RADIOSLAM_FIELD(outliers, "", 0, 1, "whether relative poses are wrong at times");
     RADIOSLAM_FIELD(outlier_share, "", 0, 1, "share of wrong relative poses; 0: 0.3 if there are any");
     RADIOSLAM_FIELD(
         outlier_kind, "", 0, 0,

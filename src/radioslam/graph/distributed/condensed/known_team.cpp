@@ -98,21 +98,21 @@ void KnownTeam::share_node(std::uint32_t number) {
   estimate_is_old_ = true;
 }
 
-/// Sightings between this robot and the one whose part it is that can be put into a graph.
-std::size_t KnownTeam::sightings_between(const SharedPart& part) const {
-  const auto of_this = std::count_if(part.sightings.begin(), part.sightings.end(),
-                                     [&](const SharedSighting& each) { return each.robot == robot_; });
-  const auto of_it = std::count_if(sightings_.begin(), sightings_.end(), [&](const SharedSighting& each) {
-    return each.robot == part.robot && part.node_at(each.t_s);
-  });
+/// Observations between this robot and the one whose part it is that can be put into a graph.
+std::size_t KnownTeam::observations_between(const SharedPart& part) const {
+  const auto of_this = std::count_if(part.observations.begin(), part.observations.end(),
+                                     [&](const SharedObservation& each) { return each.robot == robot_; });
+  const auto of_it = std::count_if(
+      observations_.begin(), observations_.end(),
+      [&](const SharedObservation& each) { return each.robot == part.robot && part.node_at(each.t_s); });
   return static_cast<std::size_t>(of_this + of_it);
 }
 
 void KnownTeam::see(double t_s, const std::string& robot, const SE2& T_i_j, double sigma_m, double sigma_rad,
                     const AngleEvidence& evidence) {
   const auto node = static_cast<std::uint32_t>(times_.size() - 1);
-  sightings_.push_back({node, robot, t_s, T_i_j, std::max(sigma_m, kSmallestSigma),
-                        std::max(sigma_rad, kSmallestSigma), evidence});
+  observations_.push_back({node, robot, t_s, T_i_j, std::max(sigma_m, kSmallestSigma),
+                           std::max(sigma_rad, kSmallestSigma), evidence});
   weights_.push_back(0);
   links_[robot_].insert(robot);
   links_[robot].insert(robot_);
@@ -131,27 +131,27 @@ bool KnownTeam::take(const PartPointer& part) {
   const auto known = parts_.find(part->robot);
   if (known != parts_.end() && known->second->version >= part->version) return false;
   if (!is_well_formed(*part)) return false;
-  const std::size_t before = known == parts_.end() ? 0 : sightings_between(*known->second);
-  if (sightings_between(*part) != before) own_news_ = true;
+  const std::size_t before = known == parts_.end() ? 0 : observations_between(*known->second);
+  if (observations_between(*part) != before) own_news_ = true;
   parts_[part->robot] = part;
-  for (const SharedSighting& sighting : part->sightings) {
-    links_[part->robot].insert(sighting.robot);
-    links_[sighting.robot].insert(part->robot);
-    if (sighting.robot == robot_)
-      if (const auto node = own_node_at(sighting.t_s)) share_node(*node);
+  for (const SharedObservation& observation : part->observations) {
+    links_[part->robot].insert(observation.robot);
+    links_[observation.robot].insert(part->robot);
+    if (observation.robot == robot_)
+      if (const auto node = own_node_at(observation.t_s)) share_node(*node);
   }
   estimate_is_old_ = true;
   return true;
 }
 
-std::vector<UnjudgedSighting> KnownTeam::unjudged() const {
-  std::vector<UnjudgedSighting> list;
+std::vector<UnjudgedObservation> KnownTeam::unjudged() const {
+  std::vector<UnjudgedObservation> list;
   for (const auto& [name, part] : parts_)
-    for (const SharedSighting& sighting : part->sightings) {
-      if (sighting.robot != robot_ || evidence_.contains({name, sighting.t_s})) continue;
-      if (const auto node = own_node_at(sighting.t_s))
-        list.push_back(
-            {name, *node, sighting.t_s, sighting.T_i_j.inverse(), sighting.sigma_m, sighting.sigma_rad});
+    for (const SharedObservation& observation : part->observations) {
+      if (observation.robot != robot_ || evidence_.contains({name, observation.t_s})) continue;
+      if (const auto node = own_node_at(observation.t_s))
+        list.push_back({name, *node, observation.t_s, observation.T_i_j.inverse(), observation.sigma_m,
+                        observation.sigma_rad});
     }
   return list;
 }
@@ -185,42 +185,42 @@ KnownTeam::PartPointer KnownTeam::own_part(double now_s) {
     before = number;
     part->nodes.push_back(std::move(node));
   }
-  for (const SharedSighting& sighting : sightings_)
-    if (part->place_of(sighting.node) < part->nodes.size()) part->sightings.push_back(sighting);
+  for (const SharedObservation& observation : observations_)
+    if (part->place_of(observation.node) < part->nodes.size()) part->observations.push_back(observation);
   for (const auto& [key, evidence] : evidence_)
     if (part->node_at(key.second)) part->evidence.push_back({key.first, key.second, evidence});
-  keep_latest(part->sightings);
+  keep_latest(part->observations);
   keep_latest(part->evidence);
   own_part_ = std::move(part);
   part_is_old_ = false;
   return own_part_;
 }
 
-std::vector<KnownTeam::Between> KnownTeam::all_sightings() const {
+std::vector<KnownTeam::Between> KnownTeam::all_observations() const {
   std::vector<Between> list;
-  const auto add = [&](const std::string& from, const std::vector<SharedSighting>& sightings) {
-    for (const SharedSighting& sighting : sightings) {
-      Between between{&sighting, &from, {}};
-      if (sighting.robot == robot_) {
-        const auto evidence = evidence_.find({from, sighting.t_s});
+  const auto add = [&](const std::string& from, const std::vector<SharedObservation>& observations) {
+    for (const SharedObservation& observation : observations) {
+      Between between{&observation, &from, {}};
+      if (observation.robot == robot_) {
+        const auto evidence = evidence_.find({from, observation.t_s});
         if (evidence != evidence_.end()) between.at_seen = evidence->second;
         list.push_back(between);
         continue;
       }
-      const auto part = parts_.find(sighting.robot);
-      if (part == parts_.end() || !part->second->node_at(sighting.t_s)) continue;
+      const auto part = parts_.find(observation.robot);
+      if (part == parts_.end() || !part->second->node_at(observation.t_s)) continue;
       for (const SharedEvidence& evidence : part->second->evidence)
-        if (evidence.by == from && evidence.t_s == sighting.t_s) between.at_seen = evidence.angles;
+        if (evidence.by == from && evidence.t_s == observation.t_s) between.at_seen = evidence.angles;
       list.push_back(between);
     }
   };
-  add(robot_, sightings_);
-  for (const auto& [name, part] : parts_) add(name, part->sightings);
+  add(robot_, observations_);
+  for (const auto& [name, part] : parts_) add(name, part->observations);
   return list;
 }
 
-/// The known parts of the robots that sightings lead to from one, the nearest first, without its own; at most
-/// as many as may be used.
+/// The known parts of the robots that observations lead to from one, the nearest first, without its own; at
+/// most as many as may be used.
 std::vector<KnownTeam::PartPointer> KnownTeam::parts_around(const std::string& robot, int hops) const {
   std::vector<PartPointer> list;
   std::vector<const std::string*> queue{&robot};
@@ -250,7 +250,7 @@ std::vector<KnownTeam::PartPointer> KnownTeam::parts_for(const std::string& robo
   return parts_around(robot, params_.hops);
 }
 
-/// This robot and those that sightings connect with it, the nearest first, as far as they may be used.
+/// This robot and those that observations connect with it, the nearest first, as far as they may be used.
 KnownTeam::Layout KnownTeam::connected_part() const {
   Layout layout;
   layout.poses = times_.size();
@@ -270,7 +270,7 @@ KnownTeam::Layout KnownTeam::connected_part() const {
 
 /// Probability that a relative pose between two robots is right, or what else its information is scaled by.
 double KnownTeam::weight_of(const Between& between) const {
-  const AngleEvidence& here = between.sighting->evidence;
+  const AngleEvidence& here = between.observation->evidence;
   if (params_.angle_weights == "off") return 1;
   if (params_.angle_weights == "published") return here.scale * between.at_seen.scale;
   const double prior = params_.outlier_ratio, log_odds = here.log_odds + between.at_seen.log_odds;
@@ -309,19 +309,20 @@ PoseGraph2 KnownTeam::graph_of(const Layout& layout, const std::vector<Between>&
   std::fill(weights_.begin(), weights_.end(), 0.0);
   contact_ = {};
   for (const Between& each : between) {
-    const SharedSighting& sighting = *each.sighting;
+    const SharedObservation& observation = *each.observation;
     std::optional<std::size_t> i;
     if (*each.from == robot_) {
-      i = sighting.node;
+      i = observation.node;
     } else if (const auto robot = layout.robots.find(*each.from); robot != layout.robots.end()) {
-      i = robot->second.first + robot->second.part->place_of(sighting.node);
+      i = robot->second.first + robot->second.part->place_of(observation.node);
     }
-    const auto j = pose_at(sighting.robot, sighting.t_s);
+    const auto j = pose_at(observation.robot, observation.t_s);
     if (!i || !j) continue;
     const double weight = weight_of(each);
-    if (*each.from == robot_) weights_[static_cast<std::size_t>(each.sighting - sightings_.data())] = weight;
-    RelativePoseFactor<SE2> factor{PoseId(*i), PoseId(*j), sighting.T_i_j,
-                                   inverse_of(covariance_of(sighting.sigma_m, sighting.sigma_rad))};
+    if (*each.from == robot_)
+      weights_[static_cast<std::size_t>(each.observation - observations_.data())] = weight;
+    RelativePoseFactor<SE2> factor{PoseId(*i), PoseId(*j), observation.T_i_j,
+                                   inverse_of(covariance_of(observation.sigma_m, observation.sigma_rad))};
     factor.weight = std::max(weight, kSmallestWeight);
     for (const std::size_t end : {*i, *j})
       if (end < times_.size() && weight >= kRightWeight) contact_.add(end, factor);
@@ -362,7 +363,7 @@ bool KnownTeam::solve() {
   if (!estimate_is_old_) return false;
   estimate_is_old_ = false;
   own_news_ = false;
-  const std::vector<Between> between = all_sightings();
+  const std::vector<Between> between = all_observations();
   const Layout layout = connected_part();
   PoseGraph2 graph = graph_of(layout, between);
   place(layout, graph);
@@ -398,14 +399,14 @@ std::optional<SE2> KnownTeam::pose_of(const std::string& robot, double t_s) cons
   return others_.at(robot)[static_cast<std::size_t>(node - part->second->nodes.data())];
 }
 
-std::size_t KnownTeam::sightings_with(const std::string& robot, double since_s) const {
+std::size_t KnownTeam::observations_with(const std::string& robot, double since_s) const {
   std::size_t count = 0;
-  for (std::size_t k = 0; k < sightings_.size(); ++k)
-    if (sightings_[k].robot == robot && sightings_[k].t_s >= since_s && weights_[k] > 0) ++count;
+  for (std::size_t k = 0; k < observations_.size(); ++k)
+    if (observations_[k].robot == robot && observations_[k].t_s >= since_s && weights_[k] > 0) ++count;
   const auto part = parts_.find(robot);
   if (part == parts_.end()) return count;
-  for (const SharedSighting& sighting : part->second->sightings)
-    if (sighting.robot == robot_ && sighting.t_s >= since_s) ++count;
+  for (const SharedObservation& observation : part->second->observations)
+    if (observation.robot == robot_ && observation.t_s >= since_s) ++count;
   return count;
 }
 

@@ -33,18 +33,18 @@ struct KnownTeamParams {
                           "weight of a relative pose between robots by angles of arrival; posterior: the "
                           "probability that it is right; published: Wang et al., eq. 7",
                           "posterior|published|off");
-    RADIOSLAM_BASIC_FIELD(outlier_ratio, "", 0, 0.9,
-                          "share of wrong relative poses between robots that is expected beforehand");
+    RADIOSLAM_FIELD(outlier_ratio, "", 0, 0.9,
+                    "share of wrong relative poses between robots that is expected beforehand");
     RADIOSLAM_FIELD(hops, "", 1, 1000,
-                    "sightings between a robot and the furthest whose measurements it is sent");
+                    "observations between a robot and the furthest whose measurements it is sent");
     RADIOSLAM_FIELD(
         max_poses, "", 10, 1e6,
-        "largest number of other robots' poses in one robot's estimate; the nearest by sightings");
+        "largest number of other robots' poses in one robot's estimate; the nearest by observations");
   }
 };
 
-/// A sighting of this robot that it has not judged yet.
-struct UnjudgedSighting {
+/// An observation of this robot that it has not judged yet.
+struct UnjudgedObservation {
   std::string by;
   std::uint32_t node = 0;  ///< the own pose that was seen
   double t_s = 0;
@@ -66,16 +66,16 @@ class KnownTeam {
            const AngleEvidence& evidence);
   /// The part of another robot, from itself or from a third; false for what is not new or not well-formed.
   bool take(const PartPointer& part);
-  /// Sightings of this robot by others that `judge` was not called for.
-  std::vector<UnjudgedSighting> unjudged() const;
+  /// Observations of this robot by others that `judge` was not called for.
+  std::vector<UnjudgedObservation> unjudged() const;
   void judge(const std::string& by, double t_s, const AngleEvidence& evidence);
   /// What this robot shares at `now_s`. The version rises with the contents.
   PartPointer own_part(double now_s);
   const std::map<std::string, PartPointer>& parts() const { return parts_; }
 
-  /// What is of use to another robot, the nearest first: parts of robots that sightings lead to from it.
+  /// What is of use to another robot, the nearest first: parts of robots that observations lead to from it.
   std::vector<PartPointer> parts_for(const std::string& robot, double now_s);
-  /// Whether there are sightings of or by this robot that the estimate does not contain.
+  /// Whether there are observations of or by this robot that the estimate does not contain.
   bool has_own_news() const { return own_news_; }
   /// Solves for what is known; false, and nothing changes, if nothing is new since the last time.
   bool solve();
@@ -86,8 +86,10 @@ class KnownTeam {
   const std::vector<SE2>& poses() const { return poses_; }    ///< the estimate, in frame()
   const std::vector<SE2>& raw_poses() const { return raw_; }  ///< odometry composed from the start as origin
   const std::vector<UncertainPose<SE2>>& steps() const { return steps_; }  ///< steps()[k]: from k to k + 1
-  const std::vector<SharedSighting>& sightings() const { return sightings_; }
-  double weight(std::size_t sighting) const { return weights_[sighting]; }  ///< of an own one, in [0, 1]
+  const std::vector<SharedObservation>& observations() const { return observations_; }
+  double weight(std::size_t observation) const {
+    return weights_[observation];
+  }  ///< of an own one, in [0, 1]
   /// The latest pose in frame(), with its covariance there.
   const UncertainPose<SE2>& latest() const { return latest_; }
   /// The latest pose as seen from the last one at which the team was met, or from the start.
@@ -99,13 +101,14 @@ class KnownTeam {
   const std::vector<std::string>& team() const { return team_; }
   /// The robot whose start is the origin; empty: the frame in which starts are known.
   const std::string& frame() const { return frame_; }
-  /// Number of own or others' sightings between this robot and another since a time that are in the estimate.
-  std::size_t sightings_with(const std::string& robot, double since_s) const;
+  /// Number of own or others' observations between this robot and another since a time that are in the
+  /// estimate.
+  std::size_t observations_with(const std::string& robot, double since_s) const;
 
  private:
   struct Layout;
   struct Between {
-    const SharedSighting* sighting = nullptr;
+    const SharedObservation* observation = nullptr;
     const std::string* from = nullptr;
     AngleEvidence at_seen{};  ///< by the robot that was seen
   };
@@ -119,12 +122,12 @@ class KnownTeam {
   };
 
   std::optional<std::uint32_t> own_node_at(double t_s) const;
-  std::vector<Between> all_sightings() const;
+  std::vector<Between> all_observations() const;
   std::vector<PartPointer> parts_around(const std::string& robot, int hops) const;
   Layout connected_part() const;
   PoseGraph2 graph_of(const Layout& layout, const std::vector<Between>& between);
   void place(const Layout& layout, PoseGraph2& graph) const;
-  std::size_t sightings_between(const SharedPart& part) const;
+  std::size_t observations_between(const SharedPart& part) const;
   void share_node(std::uint32_t number);
   std::vector<std::uint32_t> latest_shared() const;
   double weight_of(const Between& between) const;
@@ -135,7 +138,7 @@ class KnownTeam {
   std::vector<double> times_;
   std::vector<SE2> raw_, poses_;
   std::vector<UncertainPose<SE2>> steps_;
-  std::vector<SharedSighting> sightings_;
+  std::vector<SharedObservation> observations_;
   std::vector<double> weights_;
   std::map<std::pair<std::string, double>, AngleEvidence> evidence_;
   std::map<std::string, PartPointer> parts_;

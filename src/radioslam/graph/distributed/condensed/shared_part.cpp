@@ -56,10 +56,10 @@ std::size_t SharedPart::place_of(std::uint32_t number) const {
 
 bool is_well_formed(const SharedPart& part) {
   if (part.robot.empty() || !are_in_order(part.nodes) || (part.start && !is_sane(*part.start))) return false;
-  for (const SharedSighting& sighting : part.sightings)
-    if (part.place_of(sighting.node) == part.nodes.size() || sighting.robot.empty() ||
-        sighting.robot == part.robot || !is_time(sighting.t_s) || !is_sane(sighting.T_i_j) ||
-        !is_sigma(sighting.sigma_m) || !is_sigma(sighting.sigma_rad) || !is_sane(sighting.evidence))
+  for (const SharedObservation& observation : part.observations)
+    if (part.place_of(observation.node) == part.nodes.size() || observation.robot.empty() ||
+        observation.robot == part.robot || !is_time(observation.t_s) || !is_sane(observation.T_i_j) ||
+        !is_sigma(observation.sigma_m) || !is_sigma(observation.sigma_rad) || !is_sane(observation.evidence))
       return false;
   return std::all_of(part.evidence.begin(), part.evidence.end(), [](const SharedEvidence& evidence) {
     return is_time(evidence.t_s) && is_sane(evidence.angles);

@@ -31,7 +31,7 @@ struct AngleEvidence {
 };
 
 /// Robot `robot` seen from this one, and from which of its poses.
-struct SharedSighting {
+struct SharedObservation {
   std::uint32_t node = 0;  ///< number of the own pose
   std::string robot;
   double t_s = 0;
@@ -52,7 +52,7 @@ struct SharedPart {
   std::uint64_t version = 0;      ///< higher ones replace lower ones
   std::optional<SE2> start;       ///< of its start in the common frame, where that is known
   std::vector<SharedNode> nodes;  ///< by ascending number; the start first
-  std::vector<SharedSighting> sightings;
+  std::vector<SharedObservation> observations;
   std::vector<SharedEvidence> evidence;
 
   /// The pose that was the robot's latest at a time; null if it is not among the nodes.
@@ -62,7 +62,7 @@ struct SharedPart {
 };
 
 /// Whether a part that somebody sent can be put into a graph: finite numbers, positive sigmas, nodes in
-/// order, sightings of its own nodes.
+/// order, observations of its own nodes.
 bool is_well_formed(const SharedPart& part);
 
 }  // namespace radioslam
