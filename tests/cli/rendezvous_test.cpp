@@ -10,9 +10,9 @@ namespace {
 
 TEST(Rendezvous, SimulatesATeamAndSaysHowItFared) {
   const TemporaryFolder folder;
-  const std::vector<std::string> call{"rendezvous", "--robots", "3",     "--policy", "active", "--monitor",
-                                      "seed",       "--set",    "delta=5", "--iterations", "20", "--seed", "4",
-                                      "--json"};
+  const std::vector<std::string> call{"rendezvous", "--robots", "3",     "--policy", "active",
+                                      "--monitor",  "seed",     "--set", "delta=5",  "--iterations",
+                                      "20",         "--seed",   "4",     "--json"};
   const auto outcome = run(call, folder.path());
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const auto json = nlohmann::json::parse(outcome.out);

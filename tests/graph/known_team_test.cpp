@@ -147,6 +147,34 @@ TEST(KnownTeam, WithoutTheOthersPartAnObservationIsOfNoUseYet) {
   EXPECT_EQ(walk.team[0].weight(0), 1);
 }
 
+// c has seen b and knows y's part, in which y has seen b; nothing is known of b itself.
+TEST(KnownTeam, IsInNoFrameToWhichOnlyANameLeads) {
+  KnownTeam y("y", 0, SE2({5, 0}, 0), {}), c("c", 0, std::nullopt, {});
+  y.move(1, SE2({1, 0}, 0), kSigma_m, kSigma_rad);
+  y.see(1, "b", SE2({1, 0}, 0), kSigma_m, kSigma_rad, kNoAngles);
+  c.move(1, SE2({1, 0}, 0), kSigma_m, kSigma_rad);
+  c.see(1, "b", SE2({0, 1}, 0), kSigma_m, kSigma_rad, kNoAngles);
+  ASSERT_TRUE(c.take(y.own_part(1)));
+  c.solve();
+  EXPECT_EQ(c.frame(), "c");
+  EXPECT_EQ(c.team(), std::vector<std::string>{"c"});
+  EXPECT_GT(c.latest().covariance(0, 0), 0);
+}
+
+TEST(KnownTeam, RobotsWithoutAStartAreInTheCommonFrameOnceOneWithAStartIsConnected) {
+  Walk walk(2, true);
+  KnownTeam c("c", 0, std::nullopt, {});
+  c.move(1, SE2({1, 0}, 0), kSigma_m, kSigma_rad);
+  walk.move(0, 1);
+  c.see(1, "a", SE2({0, 1}, 0), kSigma_m, kSigma_rad, kNoAngles);
+  walk.team[0].take(c.own_part(1));
+  c.take(walk.team[0].own_part(1));
+  c.solve();
+  EXPECT_EQ(c.frame(), "");
+  const SE2 expected = walk.team[0].poses().back() * SE2({0, 1}, 0).inverse();
+  EXPECT_LT((expected.inverse() * c.poses().back()).log().norm(), 1e-6);
+}
+
 TEST(KnownTeam, RefusesPartsThatAreNotWellFormed) {
   Walk walk(2, true);
   walk.move(1, 1);
@@ -167,6 +195,20 @@ TEST(KnownTeam, RefusesPartsThatAreNotWellFormed) {
   EXPECT_TRUE(refused([](SharedPart& part) { part.observations[0].t_s = std::nan(""); }));
 }
 
+// As a caller may send all relative poses of a rendezvous at once.
+TEST(KnownTeam, ObservationsAtOneTimeHaveEvidenceOfTheirOwn) {
+  Walk walk(2, true);
+  walk.move(0, 1);
+  walk.move(1, 1);
+  for (const double log_odds : {-2.0, 40.0})
+    walk.team[0].see(1, "b", walk.truth[0].inverse() * walk.truth[1], kSigma_m, kSigma_rad, {log_odds, 1});
+  walk.share_all(1);
+  ASSERT_EQ(walk.team[1].unjudged().size(), 2U);
+  walk.team[0].solve();
+  EXPECT_GT(walk.team[0].weight(0), 0.9);
+  EXPECT_LT(walk.team[0].weight(1), 0.1);
+}
+
 TEST(KnownTeam, APartHoldsNoMoreThanAMessage) {
   Walk walk(2, true);
   for (int t = 1; t <= 400; ++t) {
@@ -177,6 +219,7 @@ TEST(KnownTeam, APartHoldsNoMoreThanAMessage) {
   EXPECT_LE(part->nodes.size(), 100U);
   EXPECT_EQ(part->nodes.front().number, 0U);
   EXPECT_EQ(part->nodes.back().number, 400U);
+  EXPECT_LE(part->observations.size(), 150U);
   EXPECT_TRUE(is_well_formed(*part));
 }
 

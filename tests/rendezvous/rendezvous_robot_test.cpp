@@ -34,7 +34,8 @@ class Floor {
 
   void step() {
     time_s_ += 1;
-    for (auto& [name, robot] : robots_) follow(robot);
+    for (auto& [name, robot] : robots_)
+      if (name != held_) follow(robot);
     for (auto& [name, robot] : robots_)
       for (const auto& [other_name, other] : robots_)
         if (name != other_name && distance(robot, other) < 2.2)
@@ -45,6 +46,8 @@ class Floor {
   }
 
   double time_s() const { return time_s_; }
+  /// The robot decides, but does not move.
+  void hold(const std::string& name) { held_ = name; }
 
  private:
   struct Robot {
@@ -96,6 +99,7 @@ class Floor {
   RendezvousParams params_;
   std::map<std::string, Robot> robots_;
   std::map<std::string, int> deaf_;
+  std::string held_;
   double time_s_ = 0;
 };
 
@@ -176,6 +180,28 @@ TEST(RendezvousRobot, IsWhereTheOtherSawItAfterwards) {
   EXPECT_LT((trajectory.rows.back().pose.translation() - floor.truth("a").translation()).norm(), 0.1);
   ASSERT_FALSE(trajectory.measurements.empty());
   EXPECT_GT(trajectory.measurements.front().weight, 0.9);
+}
+
+TEST(RendezvousRobot, ACallerWalksToAPartnerThatCannotMove) {
+  Floor floor = lost_robot(20);
+  floor.hold("b");
+  for (int k = 0; k < 120 && floor.robot("a").rendezvous_held() == 0; ++k) floor.step();
+  EXPECT_EQ(floor.robot("a").rendezvous_held(), 1);
+}
+
+TEST(RendezvousRobot, RobotsThatCannotExchangeDataPartAgain) {
+  RendezvousParams params;
+  params.q_db = 90;
+  Floor floor(params);
+  floor.add("a", SE2());
+  floor.add("b", SE2({0, 6}, 0));
+  for (int k = 0; k < 16; ++k) floor.move("a", 2);
+  int explored = 0;
+  for (int k = 0; k < 150; ++k) {
+    floor.step();
+    explored += floor.movement("a").kind == Movement::Kind::kExplore ? 1 : 0;
+  }
+  EXPECT_GT(explored, 50);
 }
 
 TEST(RendezvousRobot, UnderTheRandomPolicyNobodyCallsOrComes) {

@@ -59,8 +59,9 @@ double ObstacleMemory::free_heading(const Eigen::Vector2d& from, double wanted_r
   return wrap_angle(wanted_rad + kPi);
 }
 
-void AdaptiveWalk::begin(double q_db) {
+void AdaptiveWalk::begin(double q_db, double alpha) {
   q_db_ = q_db;
+  alpha_ = alpha;
   best_esnr_db_ = -std::numeric_limits<double>::infinity();
   steps_without_gain_ = detours_ = detour_steps_ = 0;
   trail_.clear();
@@ -68,7 +69,7 @@ void AdaptiveWalk::begin(double q_db) {
 
 double AdaptiveWalk::step_length(double esnr_db, double max_step_m) {
   if (esnr_db >= q_db_) q_db_ = esnr_db + params_.epsilon;
-  const double w = service_discrepancy(q_db_, esnr_db, params_.alpha) / params_.walk_sigma;
+  const double w = service_discrepancy(q_db_, esnr_db, alpha_) / params_.walk_sigma;
   return std::clamp(w * w, std::min(params_.min_step_m, max_step_m), max_step_m);
 }
 

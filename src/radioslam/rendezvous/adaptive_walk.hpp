@@ -39,8 +39,8 @@ class AdaptiveWalk {
  public:
   explicit AdaptiveWalk(const RendezvousParams& params) : params_(params) {}
 
-  /// A walk to another robot begins.
-  void begin(double q_db);
+  /// A walk to another robot begins, which has a priority.
+  void begin(double q_db, double alpha = 1);
   /// The next place, from the arrivals of the latest packet of the other robot; nothing where none is of use.
   std::optional<Eigen::Vector2d> next(const SE2& raw_pose, double esnr_db,
                                       const std::vector<ArrivalPath>& arrivals,
@@ -55,7 +55,7 @@ class AdaptiveWalk {
   bool is_stuck(const Eigen::Vector2d& position, double esnr_db);
 
   RendezvousParams params_;
-  double q_db_ = 0;
+  double q_db_ = 0, alpha_ = 1;
   double best_esnr_db_ = 0;
   int steps_without_gain_ = 0, detours_ = 0, detour_steps_ = 0;
   double detour_heading_ = 0;

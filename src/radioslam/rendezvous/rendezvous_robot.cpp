@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -11,8 +12,9 @@ namespace {
 constexpr int kLeastTicks = 5;           ///< without a word before a robot counts as gone
 constexpr int kLeastPatience = 20;       ///< decisions before a rendezvous is given up
 constexpr int kStillTicks = 10;          ///< after which a partner that does not move is walked to
+constexpr int kLooksInVain = 3;          ///< multiple of kappa after which two that cannot exchange data part
 constexpr int kAnswerTicks = 5;          ///< in which a chosen partner should have answered
-constexpr std::size_t kKeptNodes = 6;    ///< latest own poses whose packets are kept
+constexpr std::size_t kKeptNodes = 4;    ///< latest own poses whose packets are kept
 constexpr std::size_t kKeptPackets = 4;  ///< for each of them
 constexpr int kRepeatRounds = 2;         ///< until a part that is not confirmed is sent again
 constexpr int kRefreshTicks = 10;        ///< after which news of others alone are used
@@ -29,6 +31,12 @@ std::uint64_t seed_of(const std::string& id, int seed) {
   std::uint64_t hash = 1469598103934665603ULL;
   for (const char c : id) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
   return hash ^ static_cast<std::uint64_t>(seed);
+}
+
+/// Numbers of a robot that starts again are higher than those of its life before.
+std::uint64_t first_number(double t_s) {
+  constexpr double kPerSecond = 1000;
+  return static_cast<std::uint64_t>(std::max(0.0, t_s) * kPerSecond);
 }
 
 /// Bytes of a part in a message, roughly.
@@ -58,6 +66,7 @@ RendezvousRobot::RendezvousRobot(const std::string& id, const RobotStart& start,
       team_(id, start.t_s, start.pose, params.estimate),
       published_(params.omega_t, params.omega_r, seed_of(id, params.seed), start.pose.value_or(SE2())),
       walk_(params),
+      statuses_(first_number(start.t_s)),
       now_s_(start.t_s),
       start_s_(start.t_s) {}
 
@@ -83,9 +92,9 @@ void RendezvousRobot::hear(const HeardPacket& packet) {
   link.heard_tick = ticks_;
   link.esnr_db = packet.esnr_db;
   link.node = team_.size() - 1;
-  if (packet.esnr_db < q_db_) link.packets.clear();
   auto& packets = link.packets[link.node];
-  if (packets.size() < kKeptPackets) packets.push_back(packet.paths);
+  packets.push_back({packet.t_s, packet.paths});
+  if (packets.size() > kKeptPackets) packets.pop_front();
   while (link.packets.size() > kKeptNodes) link.packets.erase(link.packets.begin());
   if (!packet.message) return;
   const auto& status = packet.message->status;
@@ -102,18 +111,28 @@ void RendezvousRobot::meet_obstacle(const ObstacleAhead& obstacle) {
   obstacles_.add(team_.raw_poses().back(), obstacle);
 }
 
+/// The arrivals of another robot's packets at an own pose, of those next to a time.
+std::vector<std::vector<ArrivalPath>> RendezvousRobot::arrivals(const std::string& robot, std::size_t node,
+                                                                double t_s) const {
+  std::vector<std::vector<ArrivalPath>> list;
+  const auto link = links_.find(robot);
+  if (link == links_.end()) return list;
+  const auto packets = link->second.packets.find(node);
+  if (packets == link->second.packets.end()) return list;
+  double nearest_s = std::numeric_limits<double>::infinity();
+  for (const KeptPacket& packet : packets->second)
+    nearest_s = std::min(nearest_s, std::abs(packet.t_s - t_s));
+  for (const KeptPacket& packet : packets->second)
+    if (std::abs(packet.t_s - t_s) <= nearest_s) list.push_back(packet.paths);
+  return list;
+}
+
 /// The angles heard at a pose against what was seen from it, or of it.
 void RendezvousRobot::judge_observations() {
   const AngleCheckParams check{params_.direct_ratio, params_.angle_threshold_rad};
-  const auto packets_at = [&](const std::string& robot, std::size_t node) {
-    const auto link = links_.find(robot);
-    if (link == links_.end()) return std::vector<std::vector<ArrivalPath>>{};
-    const auto packets = link->second.packets.find(node);
-    return packets == link->second.packets.end() ? std::vector<std::vector<ArrivalPath>>{} : packets->second;
-  };
   for (const SeenRobot& seen : unjudged_) {
     const auto evidence =
-        check_angles({seen.T_i_j, seen.sigma_m, 0}, packets_at(seen.robot, team_.size() - 1), check);
+        check_angles({seen.T_i_j, seen.sigma_m, 0}, arrivals(seen.robot, team_.size() - 1, seen.t_s), check);
     team_.see(seen.t_s, seen.robot, seen.T_i_j, seen.sigma_m, seen.sigma_rad, evidence);
     const auto link = links_.find(seen.robot);
     const bool placed =
@@ -122,9 +141,9 @@ void RendezvousRobot::judge_observations() {
   }
   unjudged_.clear();
   for (const UnjudgedObservation& seen : team_.unjudged())
-    team_.judge(
-        seen.by, seen.t_s,
-        check_angles({seen.T_j_i, seen.sigma_m, seen.sigma_rad}, packets_at(seen.by, seen.node), check));
+    team_.judge(seen.by, seen.t_s,
+                check_angles({seen.T_j_i, seen.sigma_m, seen.sigma_rad},
+                             arrivals(seen.by, seen.node, seen.t_s), check));
 }
 
 /// The news of others alone can wait, and so can a second solution in one talk, except where robots meet on
@@ -137,7 +156,10 @@ void RendezvousRobot::update_estimate(bool talk) {
   if (own_news ? talk && !meets && solved_in_talk_ : ticks_ < refresh_tick_) return;
   solved_in_talk_ = talk || solved_in_talk_;
   refresh_tick_ = ticks_ + kRefreshTicks;
-  if (team_.solve() && own_news) published_.optimized(team_);
+  const std::string frame = team_.frame();
+  if (!team_.solve()) return;
+  if (own_news) ++optimizations_;
+  if (own_news || team_.frame() != frame) published_.optimized(team_);
 }
 
 bool RendezvousRobot::is_gone(const Link& link) const {
@@ -151,6 +173,14 @@ bool RendezvousRobot::has_run_out(double since_s, int since_tick) const {
 const RendezvousRobot::Link* RendezvousRobot::present(const std::string& robot) const {
   const auto link = links_.find(robot);
   return link == links_.end() || is_gone(link->second) ? nullptr : &link->second;
+}
+
+/// How often this robot has seen another, whether or not they could exchange what they know.
+int RendezvousRobot::seen_since(const std::string& robot, double since_s) const {
+  const auto& list = team_.observations();
+  return static_cast<int>(std::count_if(list.begin(), list.end(), [&](const SharedObservation& each) {
+    return each.robot == robot && each.t_s >= since_s;
+  }));
 }
 
 bool RendezvousRobot::is_shunned(const std::string& robot) const {
@@ -218,14 +248,16 @@ void RendezvousRobot::follow_up_call() {
     if (link && link->status && link->status->serving == id_) call_->confirmed = true;
     const bool left = call_->confirmed && link && link->status && link->status->serving != id_ &&
                       link->status_tick > call_->partner_tick;
-    const bool silent = !call_->confirmed && ticks_ - call_->partner_tick > kAnswerTicks;
+    const bool silent = !call_->confirmed && ticks_ - call_->partner_tick > kAnswerTicks &&
+                        now_s_ - call_->partner_s > params_.lost_after_s / 2;
     const int moved_tick = link ? std::max(link->walked_tick, call_->partner_tick) : 0;
     if (call_->confirmed && !call_->goes && link && ticks_ - moved_tick > kStillTicks) {
       call_->goes = true;
       walk_.begin(q_db_);
     }
-    if (link && !left && !silent && !has_run_out(call_->partner_s, call_->partner_tick)) return;
-    if (!left) shun(call_->partner);
+    const bool in_vain = seen_since(call_->partner, call_->partner_s) > kLooksInVain * kappa_;
+    if (link && !left && !silent && !in_vain && !has_run_out(call_->partner_s, call_->partner_tick)) return;
+    if (!left && !silent) shun(call_->partner);
     call_->partner.clear();
   }
   if (error() <= delta_)
@@ -270,7 +302,7 @@ void RendezvousRobot::choose_caller() {
     if (link.status->partner == id_) {
       service_ = Service{robot, now_s_, ticks_, true};
       call_.reset();
-      walk_.begin(q_db_);
+      walk_.begin(q_db_, link.status->alpha);
       return;
     }
     if (!link.status->partner.empty()) continue;
@@ -291,6 +323,7 @@ void RendezvousRobot::write_status(TickAnswer& answer) {
   if (call_) {
     status.call = call_->number;
     status.call_error = call_->error;
+    status.alpha = params_.alpha;
     status.partner = call_->partner;
   }
   status.offer_to = offer_to_;
@@ -316,12 +349,16 @@ bool RendezvousRobot::lacks(const std::string& robot, const Link& link, const Sh
          rounds_ - sent->second.round >= kRepeatRounds;
 }
 
-/// Robots that data can be sent to now: those that this one meets, then those it hears best.
-std::vector<std::string> RendezvousRobot::within_reach() const {
+/// Robots that lack something and can be sent it now: those in sight, then those that are heard best.
+std::vector<std::string> RendezvousRobot::receivers() {
   std::vector<std::tuple<bool, double, std::string>> order;
   for (const auto& [robot, link] : links_) {
     if (link.node + 1 != team_.size() || link.esnr_db < q_db_ || ticks_ - link.heard_tick > 1) continue;
-    order.emplace_back(!sees_now(robot), -link.esnr_db, robot);
+    const auto parts = team_.parts_for(robot, now_s_);
+    const std::string& name = robot;
+    const Link& to = link;
+    if (std::any_of(parts.begin(), parts.end(), [&](const auto& part) { return lacks(name, to, *part); }))
+      order.emplace_back(!sees_now(robot), -link.esnr_db, robot);
   }
   std::sort(order.begin(), order.end());
   std::vector<std::string> robots;
@@ -332,7 +369,7 @@ std::vector<std::string> RendezvousRobot::within_reach() const {
 
 /// To robots with enough signal, the parts that they are not known to have.
 void RendezvousRobot::write_data(TickAnswer& answer) {
-  for (const std::string& robot : within_reach()) {
+  for (const std::string& robot : receivers()) {
     Link& link = links_.at(robot);
     auto message = std::make_shared<RobotMessage>();
     std::size_t bytes = 0;
@@ -394,10 +431,11 @@ void RendezvousRobot::take_turns() {
 
 Movement RendezvousRobot::walk_to(const std::string& robot) {
   const Link& link = links_.at(robot);
-  if (sees_now(robot)) return {Movement::Kind::kStay};
+  // In sight without the signal for data, it goes on.
+  if (sees_now(robot) && link.esnr_db >= q_db_) return {Movement::Kind::kStay};
   const auto packets = link.packets.find(team_.size() - 1);
   if (packets == link.packets.end()) return {Movement::Kind::kStay};
-  const auto target = walk_.next(team_.raw_poses().back(), link.esnr_db, packets->second.back(),
+  const auto target = walk_.next(team_.raw_poses().back(), link.esnr_db, packets->second.back().paths,
                                  expected_direction(link), max_step_m_, obstacles_);
   if (!target) return {Movement::Kind::kStay};
   return {Movement::Kind::kMove, *target};

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <memory>
 #include <optional>
@@ -46,19 +47,25 @@ class RendezvousRobot {
   double delta() const { return delta_; }
   /// Calls of this robot that a rendezvous has answered.
   int rendezvous_held() const { return rendezvous_held_; }
+  /// Solutions of the estimate with new observations of or by this robot.
+  int optimizations() const { return optimizations_; }
 
  private:
   struct SentPart {
     std::uint64_t version = 0;
     int round = 0;
   };
+  struct KeptPacket {
+    double t_s = 0;
+    std::vector<ArrivalPath> paths;
+  };
   /// Another robot as it is heard.
   struct Link {
     double heard_s = 0, esnr_db = 0;
     int heard_tick = 0;
-    std::size_t node = 0;                                                  ///< own pose of the latest packet
-    std::map<std::size_t, std::vector<std::vector<ArrivalPath>>> packets;  ///< per own pose, of the latest
-    std::shared_ptr<const RobotStatus> status;                             ///< the latest
+    std::size_t node = 0;                                   ///< own pose of the latest packet
+    std::map<std::size_t, std::deque<KeptPacket>> packets;  ///< per own pose, the latest ones
+    std::shared_ptr<const RobotStatus> status;              ///< the latest
     int status_tick = 0;
     int walked_tick = 0;                   ///< when it last said that it had moved
     std::map<std::string, SentPart> sent;  ///< per robot that the part is of
@@ -85,9 +92,12 @@ class RendezvousRobot {
   bool is_gone(const Link& link) const;
   bool has_run_out(double since_s, int since_tick) const;
   const Link* present(const std::string& robot) const;
+  int seen_since(const std::string& robot, double since_s) const;
   bool is_shunned(const std::string& robot) const;
   void shun(const std::string& robot);
 
+  std::vector<std::vector<ArrivalPath>> arrivals(const std::string& robot, std::size_t node,
+                                                 double t_s) const;
   void judge_observations();
   void update_estimate(bool talk);
   double removable_error() const;
@@ -104,7 +114,7 @@ class RendezvousRobot {
 
   void write_status(TickAnswer& answer);
   bool lacks(const std::string& robot, const Link& link, const SharedPart& part) const;
-  std::vector<std::string> within_reach() const;
+  std::vector<std::string> receivers();
   void write_data(TickAnswer& answer);
   bool may_be_answered() const;
   Movement decide();
@@ -129,7 +139,7 @@ class RendezvousRobot {
   std::string offer_to_;
   std::map<std::string, double> shunned_;  ///< until when no rendezvous is tried with a robot
   std::uint32_t calls_ = 0;
-  int rendezvous_held_ = 0;
+  int rendezvous_held_ = 0, optimizations_ = 0;
   std::uint64_t statuses_ = 0;
   std::size_t calls_after_node_ = 0;  ///< pose before which there is no further call
   double now_s_ = 0, start_s_ = 0;

@@ -22,6 +22,7 @@ struct RobotStatus {
   double sigma_m = 0;                 ///< of the position, per axis
   std::optional<std::uint32_t> call;  ///< the robot asks for a rendezvous: the number of its call
   double call_error = 0;              ///< when it called
+  double alpha = 1;                   ///< priority of the robot that calls
   std::string partner;                ///< of those who offered, the one it has taken; empty: none yet
   std::string offer_to;               ///< whose call this robot would follow
   std::string serving;                ///< to whom it walks

@@ -11,7 +11,7 @@ namespace {
 
 /// Figures over several seeds.
 struct Mean {
-  double squared_error = 0, nees = 0, metres = 0, below = 0;
+  double squared_error = 0, nees = 0, metres = 0, below = 0, crossings = 0;
 };
 
 Mean mean_over(const RendezvousRunParams& params, int seeds, bool leave_outliers_out = false) {
@@ -26,9 +26,10 @@ Mean mean_over(const RendezvousRunParams& params, int seeds, bool leave_outliers
     mean.metres += run.metres_walked / seeds;
     const auto below = std::count_if(run.crossings.begin(), run.crossings.end(),
                                      [&](const auto& each) { return each.after <= run.delta; });
-    mean.below += run.crossings.empty() ? 1.0 / seeds
-                                        : static_cast<double>(below) /
-                                              static_cast<double>(run.crossings.size()) / seeds;
+    mean.crossings += static_cast<double>(run.crossings.size()) / seeds;
+    mean.below += run.crossings.empty()
+                      ? 1.0 / seeds
+                      : static_cast<double>(below) / static_cast<double>(run.crossings.size()) / seeds;
   }
   return mean;
 }
@@ -43,7 +44,8 @@ RendezvousRunParams two_robots(const std::string& policy) {
 
 TEST(RendezvousRun, AtEqualMetresCallsBeatChanceAndLandmarksBeatCalls) {
   constexpr int kSeeds = 40;
-  const Mean random = mean_over(two_robots("random"), kSeeds), active = mean_over(two_robots("active"), kSeeds),
+  const Mean random = mean_over(two_robots("random"), kSeeds),
+             active = mean_over(two_robots("active"), kSeeds),
              anchored = mean_over(two_robots("anchored"), kSeeds);
   for (const Mean& mean : {random, active, anchored}) {
     EXPECT_NEAR(mean.metres, 200, 0.01);
@@ -60,7 +62,8 @@ TEST(RendezvousRun, ErrorsAreBackBelowTheThresholdAfterAnOptimization) {
   for (const char* monitor : {"uncertainty", "seed"}) {
     params.robot.monitor = monitor;
     const Mean mean = mean_over(params, 3);
-    EXPECT_GT(mean.below, 0.95) << monitor;
+    EXPECT_GT(mean.crossings, 15) << monitor;
+    EXPECT_GT(mean.below, 0.9) << monitor;
     EXPECT_GT(mean.nees, 0.5) << monitor;
     EXPECT_LT(mean.nees, 2) << monitor;
   }
@@ -78,8 +81,21 @@ TEST(RendezvousRun, AnglesFindGrossOutliersAndDoNoHarmWithoutThem) {
     return mean_over(params, kSeeds, leave_out).squared_error;
   };
   EXPECT_NEAR(error("posterior", false) / error("off", false), 1, 0.02);
+  params.outlier_kind = "sigma";
+  EXPECT_NEAR(error("posterior", true) / error("off", true), 1, 0.02);
+  params.outlier_kind = "gross";
   const double off = error("off", true), label = error("off", true, true);
   EXPECT_GT(off - error("posterior", true), 0.6 * (off - label));
+}
+
+TEST(RendezvousRun, RobotsWithoutStartsAreMeasuredInTheFrameTheyAreIn) {
+  RendezvousRunParams params = two_robots("active");
+  params.side_m = 30;
+  params.starts_known = false;
+  const Mean mean = mean_over(params, 8);
+  EXPECT_GT(mean.nees, 0.4);
+  EXPECT_LT(mean.nees, 2);
+  EXPECT_LT(mean.squared_error, 60);
 }
 
 TEST(RendezvousRun, HasTheSameResultsForAnyNumberOfThreads) {

@@ -1,9 +1,8 @@
-// Values of JSON that another program wrote. Each is there, of its type and plausible, and there is none
-// beside them; otherwise InputError names the value.
+// Values of JSON that another program wrote. Each is there, of its type and plausible; otherwise InputError
+// names the value.
 #pragma once
 
 #include <cstdint>
-#include <initializer_list>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -41,8 +40,8 @@ class JsonObject {
  public:
   using Json = nlohmann::json;
 
-  /// Refuses other values than objects, and members that are not `known`.
-  JsonObject(const Json& json, std::string name, std::initializer_list<std::string_view> known);
+  /// Refuses other values than objects. Members that nobody asks for may be there: drivers add their own.
+  JsonObject(const Json& json, std::string name);
 
   /// Whether the member is there and not null.
   bool has(std::string_view member) const;

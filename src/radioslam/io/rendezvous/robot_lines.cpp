@@ -21,7 +21,7 @@ constexpr double kSmallestSigma_rad = 1e-6;  ///< of a direction that is stated 
 // ---- events ---------------------------------------------------------------------------------------------
 
 RobotEvent read_start(const Json& json) {
-  const JsonObject from(json, "start", {"t_s", "pose", "q_db", "kappa", "delta", "max_step_m"});
+  const JsonObject from(json, "start");
   RobotStart start;
   start.t_s = from.number("t_s", kSeconds);
   if (from.has("pose")) start.pose = from.pose("pose");
@@ -29,11 +29,12 @@ RobotEvent read_start(const Json& json) {
   if (from.has("delta")) start.delta = from.number("delta", kNotNegative);
   if (from.has("max_step_m")) start.max_step_m = from.number("max_step_m", kPositive);
   if (from.has("kappa")) start.kappa = static_cast<int>(from.whole_number("kappa", kLargestKappa));
+  if (start.kappa && *start.kappa < 1) from.fail("kappa", "at least 1");
   return start;
 }
 
 RobotEvent read_odometry(const Json& json) {
-  const JsonObject from(json, "odometry", {"t_s", "T_previous_body", "sigma_m", "sigma_rad"});
+  const JsonObject from(json, "odometry");
   OdometryStep step;
   step.t_s = from.number("t_s", kSeconds);
   step.T_previous_body = from.pose("T_previous_body");
@@ -43,18 +44,18 @@ RobotEvent read_odometry(const Json& json) {
 }
 
 RobotEvent read_seen(const Json& json) {
-  const JsonObject from(json, "seen", {"t_s", "robot", "T_i_j", "sigma_m", "sigma_rad"});
+  const JsonObject from(json, "seen");
   SeenRobot seen;
   seen.t_s = from.number("t_s", kSeconds);
   seen.robot = from.robot("robot");
   seen.T_i_j = from.pose("T_i_j");
-  seen.sigma_m = from.number("sigma_m", kPositive);
-  seen.sigma_rad = from.number("sigma_rad", kPositive);
+  seen.sigma_m = from.number("sigma_m", kNotNegative);
+  seen.sigma_rad = from.number("sigma_rad", kNotNegative);
   return seen;
 }
 
 ArrivalPath read_path(const Json& json) {
-  const JsonObject from(json, "a path", {"azimuth_rad", "sigma_rad", "power_db"});
+  const JsonObject from(json, "a path");
   ArrivalPath path;
   path.azimuth_rad = from.number("azimuth_rad");
   path.sigma_rad = std::max(from.number("sigma_rad", kNotNegative), kSmallestSigma_rad);
@@ -63,7 +64,7 @@ ArrivalPath read_path(const Json& json) {
 }
 
 RobotEvent read_packet(const Json& json) {
-  const JsonObject from(json, "packet", {"t_s", "from", "esnr_db", "paths", "message"});
+  const JsonObject from(json, "packet");
   HeardPacket packet;
   packet.t_s = from.number("t_s", kSeconds);
   packet.from = from.robot("from");
@@ -75,18 +76,18 @@ RobotEvent read_packet(const Json& json) {
 }
 
 RobotEvent read_obstacle(const Json& json) {
-  const JsonObject from(json, "obstacle", {"t_s", "azimuth_rad", "distance_m"});
+  const JsonObject from(json, "obstacle");
   return ObstacleAhead{from.number("t_s", kSeconds), from.number("azimuth_rad"),
                        from.number("distance_m", kNotNegative)};
 }
 
 RobotEvent read_tick(const Json& json) {
-  const JsonObject from(json, "tick", {"t_s", "talk"});
+  const JsonObject from(json, "tick");
   return DecisionTick{from.number("t_s", kSeconds), from.has("talk") && from.flag("talk")};
 }
 
 RobotEvent read_finish(const Json& json) {
-  const JsonObject from(json, "finish", {});
+  const JsonObject from(json, "finish");
   return Finish{};
 }
 

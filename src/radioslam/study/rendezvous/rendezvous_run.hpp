@@ -89,7 +89,9 @@ struct RendezvousRun {
   std::vector<std::vector<RobotMoment>> moments;  ///< per iteration and robot; empty where not asked for
   std::vector<ErrorCrossing> crossings;
   int open_crossings = 0;  ///< robots whose error is above the threshold at the end
-  double ate_trans_mean_squared = 0, ate_rot_mean_squared = 0;  ///< Wang et al., eq. 8 and 9; no alignment
+  double ate_trans_mean_squared = 0,
+         ate_rot_mean_squared =
+             0;  ///< Wang et al., eq. 8 and 9; no alignment, robots in their own frames from where those are
   double position_squared_per_axis_sigma =
       0;            ///< final poses: squared error / (2 sigma_m^2), mean over robots
   double nees = 0;  ///< per degree of freedom, of the latest pose after every iteration

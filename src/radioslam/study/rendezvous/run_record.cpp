@@ -9,13 +9,18 @@ namespace radioslam {
 namespace {
 
 /// The squared error of the latest pose per degree of freedom, by its stated covariance.
-std::optional<double> nees_of(const SimulatedRobot& robot) {
+std::optional<double> nees_of(const SimulatedRobot& robot, const SE2& T_frame_common) {
   const auto& latest = robot.agent->estimate().latest();
-  if (!robot.agent->estimate().frame().empty()) return std::nullopt;
   const Eigen::LLT<SE2::Jacobian> factor(latest.covariance);
   if (factor.info() != Eigen::Success) return std::nullopt;
-  const SE2::Tangent error = (latest.pose.inverse() * robot.truth).log();
+  const SE2::Tangent error = (latest.pose.inverse() * T_frame_common * robot.truth).log();
   return error.dot(factor.solve(error)) / SE2::kDof;
+}
+
+/// T_frame_common of the frame that a robot's estimate is in: the common one, or that of a robot's start.
+SE2 frame_of(SimulatedTeam& team, const std::string& frame) {
+  if (frame.empty()) return SE2();
+  return team.robots()[team.index_of(frame)].trajectory.front().inverse();
 }
 
 std::vector<RobotMoment> moments_of(SimulatedTeam& team) {
@@ -44,9 +49,8 @@ RunRecord::RunRecord(SimulatedTeam& team, double sensing_range_m)
 void RunRecord::watch_threshold(std::size_t k, const SimulatedRobot& robot) {
   Watch& watch = watches_[k];
   const double error = robot.state.error;
-  const int held = robot.agent->rendezvous_held();
-  const bool optimized = held > watch.rendezvous;
-  watch.rendezvous = held;
+  const bool optimized = robot.agent->optimizations() > watch.optimizations;
+  watch.optimizations = robot.agent->optimizations();
   if (watch.crossed && (error <= run_.delta || optimized)) {
     run_.crossings.push_back({run_.iterations, static_cast<int>(k), *watch.crossed, error});
     watch.crossed.reset();
@@ -78,7 +82,7 @@ void RunRecord::add(SimulatedTeam& team, bool keep_moments) {
     sigma += robot.state.sigma_m;
     watch_threshold(k, robot);
     cover(robot.truth.translation());
-    if (const auto nees = nees_of(robot)) {
+    if (const auto nees = nees_of(robot, frame_of(team, robot.agent->estimate().frame()))) {
       nees_sum_ += *nees;
       ++nees_count_;
     }
@@ -94,29 +98,22 @@ void RunRecord::add(SimulatedTeam& team, bool keep_moments) {
 
 RendezvousRun RunRecord::conclude(SimulatedTeam& team) {
   std::size_t poses = 0;
-  double trans = 0, rot = 0, ratio = 0;
-  int placed = 0;
+  double trans = 0, rot = 0;
   for (SimulatedRobot& robot : team.robots()) {
     const FinalTrajectory estimate = robot.agent->finish();
+    const SE2 T_frame_common = frame_of(team, estimate.frame);
     for (std::size_t k = 0; k < estimate.rows.size(); ++k) {
       const SE2& pose = estimate.rows[k].pose;
-      trans += (pose.translation() - robot.trajectory[k].translation()).squaredNorm();
+      const SE2 truth = T_frame_common * robot.trajectory[k];
+      trans += (pose.translation() - truth.translation()).squaredNorm();
       // |R^T R' - I|_F^2 = 4 (1 - cos) in the plane.
-      rot += 4 * (1 - std::cos(pose.angle() - robot.trajectory[k].angle()));
+      rot += 4 * (1 - std::cos(pose.angle() - truth.angle()));
       ++poses;
-    }
-    const RobotState last = robot.agent->state();
-    if (last.sigma_m > 0) {
-      const double error =
-          (estimate.rows.back().pose.translation() - robot.truth.translation()).squaredNorm();
-      ratio += error / (2 * last.sigma_m * last.sigma_m);
-      ++placed;
     }
     run_.metres_walked += robot.walked_m;
   }
   run_.ate_trans_mean_squared = trans / static_cast<double>(poses);
   run_.ate_rot_mean_squared = rot / static_cast<double>(poses);
-  run_.position_squared_per_axis_sigma = placed > 0 ? ratio / placed : 0;
   run_.nees = nees_count_ > 0 ? nees_sum_ / static_cast<double>(nees_count_) : 0;
   for (const Watch& watch : watches_)
     if (watch.crossed) ++run_.open_crossings;

@@ -21,7 +21,7 @@ class RunRecord {
   /// Where a robot is with its threshold.
   struct Watch {
     std::optional<double> crossed;  ///< error at which it passed the threshold
-    int rendezvous = 0;
+    int optimizations = 0;
   };
   void watch_threshold(std::size_t k, const SimulatedRobot& robot);
   void cover(const Eigen::Vector2d& place);

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -19,11 +20,18 @@ constexpr double kRightWeight = 0.5;     ///< a relative pose of less is taken f
 constexpr double kSmallestWeight = 1e-9;
 constexpr double kCostTolerance = 1e-7;
 constexpr double kMaxLogOdds = 50;
+constexpr double kUnknownVariance = 1e12;
+constexpr double kVersionsPerSecond = 1000;  ///< so that a robot that starts again has higher ones
 constexpr std::size_t kMaxSharedNodes = 100, kMaxSharedEntries = 150;
 
 SE2::Jacobian covariance_of(double sigma_m, double sigma_rad) {
   const double m = std::max(sigma_m, kSmallestSigma), rad = std::max(sigma_rad, kSmallestSigma);
   return SE2::Tangent(m * m, m * m, rad * rad).asDiagonal();
+}
+
+/// Until when a pose that no other follows yet is the latest, as far as is known at a time.
+double just_after(double t_s) {
+  return t_s + 64 * std::numeric_limits<double>::epsilon() * std::max(1.0, std::abs(t_s));
 }
 
 /// The latest entries of a list in no order; as many as a message holds.
@@ -73,6 +81,7 @@ KnownTeam::KnownTeam(std::string robot, double t_s, const std::optional<SE2>& st
       raw_{SE2()},
       poses_{start.value_or(SE2())},
       shared_{0},
+      version_(static_cast<std::uint64_t>(std::max(0.0, t_s) * kVersionsPerSecond)),
       team_{robot_},
       frame_(start ? "" : robot_) {
   latest_.pose = poses_.front();
@@ -111,6 +120,12 @@ std::size_t KnownTeam::observations_between(const SharedPart& part) const {
 void KnownTeam::see(double t_s, const std::string& robot, const SE2& T_i_j, double sigma_m, double sigma_rad,
                     const AngleEvidence& evidence) {
   const auto node = static_cast<std::uint32_t>(times_.size() - 1);
+  // Times are keys: of several observations at one time, each gets the next number.
+  auto from = observations_.size();
+  while (from > 0 && observations_[from - 1].node == node) --from;
+  for (; from < observations_.size(); ++from)
+    if (observations_[from].robot == robot && observations_[from].t_s == t_s)
+      t_s = std::nextafter(t_s, std::numeric_limits<double>::infinity());
   observations_.push_back({node, robot, t_s, T_i_j, std::max(sigma_m, kSmallestSigma),
                            std::max(sigma_rad, kSmallestSigma), evidence});
   weights_.push_back(0);
@@ -132,7 +147,7 @@ bool KnownTeam::take(const PartPointer& part) {
   if (known != parts_.end() && known->second->version >= part->version) return false;
   if (!is_well_formed(*part)) return false;
   const std::size_t before = known == parts_.end() ? 0 : observations_between(*known->second);
-  if (observations_between(*part) != before) own_news_ = true;
+  if (observations_between(*part) != before || before >= kMaxSharedEntries) own_news_ = true;
   parts_[part->robot] = part;
   for (const SharedObservation& observation : part->observations) {
     links_[part->robot].insert(observation.robot);
@@ -177,7 +192,8 @@ KnownTeam::PartPointer KnownTeam::own_part(double now_s) {
   part->start = start_;
   std::uint32_t before = 0;
   for (const std::uint32_t number : latest_shared()) {
-    SharedNode node{number, times_[number], number + 1 < times_.size() ? times_[number + 1] : now_s, {}};
+    SharedNode node{
+        number, times_[number], number + 1 < times_.size() ? times_[number + 1] : just_after(now_s), {}};
     // A pose that another follows is the latest until just before.
     if (number + 1 < times_.size()) node.until_s = std::max(node.t_s, std::nextafter(node.until_s, node.t_s));
     for (std::uint32_t step = before; step < number; ++step)
@@ -202,6 +218,7 @@ std::vector<KnownTeam::Between> KnownTeam::all_observations() const {
     for (const SharedObservation& observation : observations) {
       Between between{&observation, &from, {}};
       if (observation.robot == robot_) {
+        if (!own_node_at(observation.t_s)) continue;
         const auto evidence = evidence_.find({from, observation.t_s});
         if (evidence != evidence_.end()) between.at_seen = evidence->second;
         list.push_back(between);
@@ -250,17 +267,32 @@ std::vector<KnownTeam::PartPointer> KnownTeam::parts_for(const std::string& robo
   return parts_around(robot, params_.hops);
 }
 
-/// This robot and those that observations connect with it, the nearest first, as far as they may be used.
-KnownTeam::Layout KnownTeam::connected_part() const {
+/// This robot and those that usable observations connect with it, the nearest first.
+KnownTeam::Layout KnownTeam::connected_part(const std::vector<Between>& between) const {
+  constexpr int kAnyNumberOfHops = std::numeric_limits<int>::max();
+  std::map<std::string_view, PartPointer> candidates;
+  for (const PartPointer& part : parts_around(robot_, kAnyNumberOfHops)) candidates[part->robot] = part;
+  std::map<std::string_view, std::set<std::string_view>> links;
+  for (const Between& each : between) {
+    links[*each.from].insert(each.observation->robot);
+    links[each.observation->robot].insert(*each.from);
+  }
   Layout layout;
   layout.poses = times_.size();
   layout.common = start_.has_value();
   layout.origin = robot_;
-  for (const PartPointer& part : parts_around(robot_, params_.max_poses)) {
-    layout.robots[part->robot] = {part, 0};
-    layout.common = layout.common || part->start;
-    layout.origin = std::min(layout.origin, part->robot);
-  }
+  std::vector<std::string_view> queue{robot_};
+  for (std::size_t k = 0; k < queue.size(); ++k)
+    for (const std::string_view next : links[queue[k]]) {
+      const auto part = candidates.find(next);
+      if (part == candidates.end()) continue;
+      const std::string name(next);
+      layout.robots[name] = {part->second, 0};
+      layout.common = layout.common || part->second->start;
+      layout.origin = std::min(layout.origin, name);
+      queue.push_back(layout.robots.at(name).part->robot);
+      candidates.erase(part);
+    }
   for (auto& [name, robot] : layout.robots) {
     robot.first = layout.poses;
     layout.poses += robot.part->nodes.size();
@@ -359,12 +391,21 @@ void KnownTeam::place(const Layout& layout, PoseGraph2& graph) const {
   }
 }
 
+/// Of the latest pose; as good as unknown where it cannot be computed.
+SE2::Jacobian KnownTeam::latest_covariance(const PoseGraph2& graph) const {
+  if (const auto marginals = Marginals<SE2>::compute(graph)) {
+    const SE2::Jacobian covariance = marginals->pose(PoseId(times_.size() - 1));
+    if (covariance.allFinite()) return covariance;
+  }
+  return kUnknownVariance * SE2::Jacobian::Identity();
+}
+
 bool KnownTeam::solve() {
   if (!estimate_is_old_) return false;
   estimate_is_old_ = false;
   own_news_ = false;
   const std::vector<Between> between = all_observations();
-  const Layout layout = connected_part();
+  const Layout layout = connected_part(between);
   PoseGraph2 graph = graph_of(layout, between);
   place(layout, graph);
   initialise(graph, GivenValues::kComplete);
@@ -372,9 +413,7 @@ bool KnownTeam::solve() {
   optimizer.relative_cost_tolerance = kCostTolerance;
   optimize(graph, optimizer);
   poses_.assign(graph.poses.begin(), graph.poses.begin() + static_cast<std::ptrdiff_t>(times_.size()));
-  latest_ = {poses_.back(), SE2::Jacobian::Zero()};
-  if (const auto marginals = Marginals<SE2>::compute(graph))
-    latest_.covariance = marginals->pose(PoseId(times_.size() - 1));
+  latest_ = {poses_.back(), latest_covariance(graph)};
   since_contact_ = {SE2(), contact_.covariance()};
   for (std::size_t k = contact_.node; k < steps_.size(); ++k) since_contact_ = since_contact_ * steps_[k];
   others_.clear();

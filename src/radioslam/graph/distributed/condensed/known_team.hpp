@@ -94,7 +94,6 @@ class KnownTeam {
   const UncertainPose<SE2>& latest() const { return latest_; }
   /// The latest pose as seen from the last one at which the team was met, or from the start.
   const UncertainPose<SE2>& since_contact() const { return since_contact_; }
-  std::size_t contact_node() const { return contact_.node; }
   /// Where the pose of another robot that it shared was, in frame(), if it is in this estimate.
   std::optional<SE2> pose_of(const std::string& robot, double t_s) const;
   /// The robots in one frame with this one, itself among them, by name.
@@ -124,12 +123,13 @@ class KnownTeam {
   std::optional<std::uint32_t> own_node_at(double t_s) const;
   std::vector<Between> all_observations() const;
   std::vector<PartPointer> parts_around(const std::string& robot, int hops) const;
-  Layout connected_part() const;
+  Layout connected_part(const std::vector<Between>& between) const;
   PoseGraph2 graph_of(const Layout& layout, const std::vector<Between>& between);
   void place(const Layout& layout, PoseGraph2& graph) const;
   std::size_t observations_between(const SharedPart& part) const;
   void share_node(std::uint32_t number);
   std::vector<std::uint32_t> latest_shared() const;
+  SE2::Jacobian latest_covariance(const PoseGraph2& graph) const;
   double weight_of(const Between& between) const;
 
   KnownTeamParams params_;
