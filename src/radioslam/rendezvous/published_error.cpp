@@ -1,9 +1,32 @@
 #include "radioslam/rendezvous/published_error.hpp"
 
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <utility>
 
 namespace radioslam {
+
+namespace {
+
+/// Of poses that are near each other.
+class MeanPose {
+ public:
+  void add(const SE2& pose) {
+    sum_ += Eigen::Vector3d(pose.translation().x(), pose.translation().y(), pose.angle());
+    ++count_;
+  }
+  SE2 pose() const {
+    const Eigen::Vector3d mean = sum_ / count_;
+    return {mean.head<2>(), mean.z()};
+  }
+
+ private:
+  Eigen::Vector3d sum_ = Eigen::Vector3d::Zero();
+  int count_ = 0;
+};
+
+}  // namespace
 
 PublishedError::PublishedError(double omega_t, double omega_r, std::uint64_t seed, const SE2& start)
     : omega_t_(omega_t), omega_r_(omega_r), rng_(seed), raw_{start} {}
@@ -34,9 +57,12 @@ void PublishedError::optimized(const KnownTeam& team) {
   since_ = settled_ = 0;
   for (std::size_t k = 0; k < team.steps().size(); ++k)
     settled_ += term(raw_[k], raw_[k + 1], team.steps()[k].pose);
+  std::map<std::pair<std::uint32_t, std::string>, MeanPose> means;
   for (const SharedObservation& observation : team.observations())
     if (const auto other = team.pose_of(observation.robot, observation.t_s))
-      settled_ += term(raw_[observation.node], *other, observation.T_i_j);
+      means[{observation.node, observation.robot}].add(other->inverse() * raw_[observation.node] *
+                                                       observation.T_i_j);
+  for (const auto& [key, mean] : means) settled_ += term(SE2(), mean.pose(), SE2());
 }
 
 }  // namespace radioslam

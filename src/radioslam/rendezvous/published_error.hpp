@@ -1,6 +1,7 @@
 // Trajectory error of a robot as Wang et al. use it (eq. 3): raw poses with noise of their own against the
 // measurements, so that it grows with every step until an optimization replaces the raw poses.
 //   sum over measurements of omega_t^2 |p_j - p_i - R_i p|^2 + omega_r^2 / 2 |R_j - R_i R|_F^2
+// Several observations between the same two poses count as their mean.
 #pragma once
 
 #include <map>

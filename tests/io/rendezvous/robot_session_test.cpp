@@ -61,13 +61,12 @@ const Lines kBadLines{
     R"({"tick": {"t_s": 1e12}})",
     R"({"tick": {"t_s": 0.5}})",
     R"({"tick": {"t_s": 9, "talk": 1}})",
-    R"({"tick": {"t_s": 9, "speed": 1}})",
     kStart,
     R"({"odometry": {"t_s": 9, "T_previous_body": [1, 0], "sigma_m": 0.1, "sigma_rad": 0.1}})",
     R"({"odometry": {"t_s": 9, "T_previous_body": [1, 0, 2e9], "sigma_m": 0.1, "sigma_rad": 0.1}})",
     R"({"odometry": {"t_s": 9, "T_previous_body": [1, 0, 0], "sigma_m": -0.1, "sigma_rad": 0.1}})",
     R"({"odometry": {"t_s": 9, "T_previous_body": [1, 0, 0], "sigma_m": 0.1}})",
-    R"({"seen": {"t_s": 9, "robot": "b", "T_i_j": [3, 1, 0], "sigma_m": 0, "sigma_rad": 0.1}})",
+    R"({"seen": {"t_s": 9, "robot": "b", "T_i_j": [3, 1, 0], "sigma_m": -1, "sigma_rad": 0.1}})",
     R"({"seen": {"t_s": 9, "robot": "", "T_i_j": [3, 1, 0], "sigma_m": 0.1, "sigma_rad": 0.1}})",
     R"({"seen": {"t_s": 9, "robot": 7, "T_i_j": [3, 1, 0], "sigma_m": 0.1, "sigma_rad": 0.1}})",
     R"({"packet": {"t_s": 9, "from": "*", "esnr_db": 25, "paths": []}})",
@@ -75,7 +74,6 @@ const Lines kBadLines{
     R"({"packet": {"t_s": 9, "from": "b", "esnr_db": 25, "paths": [{"azimuth_rad": 0.3}]}})",
     R"({"packet": {"t_s": 9, "from": "b", "esnr_db": 25, "paths": [], "message": {"hello": 1}}})",
     R"({"obstacle": {"t_s": 9, "azimuth_rad": 0, "distance_m": -1}})",
-    R"({"finish": {"now": true}})",
     std::string(kLongestLine_bytes + 1, ' ')};
 
 void expect_error(const Lines& answer, std::size_t line, const std::string& what) {

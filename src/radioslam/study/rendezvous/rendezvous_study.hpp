@@ -20,7 +20,7 @@ struct RendezvousSeries {
   std::vector<RendezvousRun> runs;  ///< per seed
 };
 
-/// A published figure, or a figure of ours, and the runs that answer it.
+/// A published figure, and the runs that answer it.
 struct RendezvousFigure {
   std::string title, caption;
   std::vector<RendezvousSeries> series;
