@@ -67,8 +67,12 @@ void AdaptiveWalk::begin(double q_db, double alpha) {
   trail_.clear();
 }
 
-double AdaptiveWalk::step_length(double esnr_db, double max_step_m) {
+double AdaptiveWalk::step_length(double esnr_db, const std::optional<ExpectedDirection>& expected,
+                                 double max_step_m) {
   if (esnr_db >= q_db_) q_db_ = esnr_db + params_.epsilon;
+  // Short steps are for the end of the walk.
+  if (params_.walk != "strongest" && expected && expected->least_distance_m > 2 * max_step_m)
+    return max_step_m;
   const double w = service_discrepancy(q_db_, esnr_db, alpha_) / params_.walk_sigma;
   return std::clamp(w * w, std::min(params_.min_step_m, max_step_m), max_step_m);
 }
@@ -117,7 +121,7 @@ std::optional<Eigen::Vector2d> AdaptiveWalk::next(const SE2& raw_pose, double es
                                                   const std::optional<ExpectedDirection>& expected,
                                                   double max_step_m, ObstacleMemory& obstacles) {
   if (arrivals.empty()) return std::nullopt;
-  double length_m = step_length(esnr_db, max_step_m);
+  double length_m = step_length(esnr_db, expected, max_step_m);
   double wanted = choose_heading(raw_pose, arrivals, expected, length_m, obstacles);
   if (detour_steps_ > 0) {
     --detour_steps_;

@@ -33,6 +33,7 @@ class ObstacleMemory {
 struct ExpectedDirection {
   double azimuth_rad = 0;
   double sigma_rad = 1;
+  double least_distance_m = 0;  ///< the robot is hardly nearer than this
 };
 
 class AdaptiveWalk {
@@ -48,7 +49,7 @@ class AdaptiveWalk {
                                       ObstacleMemory& obstacles);
 
  private:
-  double step_length(double esnr_db, double max_step_m);
+  double step_length(double esnr_db, const std::optional<ExpectedDirection>& expected, double max_step_m);
   double choose_heading(const SE2& raw_pose, const std::vector<ArrivalPath>& arrivals,
                         const std::optional<ExpectedDirection>& expected, double length_m,
                         const ObstacleMemory& obstacles) const;

@@ -31,7 +31,7 @@ struct RendezvousParams {
   double alpha = 1;
   double epsilon = 1;
   double max_step_m = 2;
-  double min_step_m = 0.8;
+  double min_step_m = 1.2;
   double walk_sigma = 0.1;
   std::string walk = "checked";
   double lost_after_s = 20;

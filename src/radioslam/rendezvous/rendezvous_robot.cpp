@@ -391,7 +391,8 @@ std::optional<ExpectedDirection> RendezvousRobot::expected_direction(const Link&
   const double distance_m = std::max(offset.norm(), kNearest_m);
   const double sigma_m = std::hypot(per_axis_sigma(team_.latest()), link.status->sigma_m);
   const double heading = std::sqrt(std::max(0.0, team_.latest().covariance(2, 2)));
-  return ExpectedDirection{std::atan2(offset.y(), offset.x()), std::hypot(sigma_m / distance_m, heading)};
+  return ExpectedDirection{std::atan2(offset.y(), offset.x()), std::hypot(sigma_m / distance_m, heading),
+                           distance_m - 2 * sigma_m};
 }
 
 bool RendezvousRobot::sees_now(const std::string& robot) const {
