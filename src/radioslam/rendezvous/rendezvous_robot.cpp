@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
 #include <utility>
 
 namespace radioslam {
@@ -93,7 +92,7 @@ void RendezvousRobot::hear(const HeardPacket& packet) {
   link.esnr_db = packet.esnr_db;
   link.node = team_.size() - 1;
   auto& packets = link.packets[link.node];
-  packets.push_back({packet.t_s, packet.paths});
+  if (packets.empty() || packets.back().t_s != packet.t_s) packets.push_back({packet.t_s, packet.paths});
   if (packets.size() > kKeptPackets) packets.pop_front();
   while (link.packets.size() > kKeptNodes) link.packets.erase(link.packets.begin());
   if (!packet.message) return;
@@ -350,37 +349,34 @@ bool RendezvousRobot::lacks(const std::string& robot, const Link& link, const Sh
 }
 
 /// Robots that lack something and can be sent it now: those in sight, then those that are heard best.
-std::vector<std::string> RendezvousRobot::receivers() {
-  std::vector<std::tuple<bool, double, std::string>> order;
+std::vector<RendezvousRobot::Delivery> RendezvousRobot::deliveries() {
+  std::vector<Delivery> list;
   for (const auto& [robot, link] : links_) {
     if (link.node + 1 != team_.size() || link.esnr_db < q_db_ || ticks_ - link.heard_tick > 1) continue;
-    const auto parts = team_.parts_for(robot, now_s_);
-    const std::string& name = robot;
-    const Link& to = link;
-    if (std::any_of(parts.begin(), parts.end(), [&](const auto& part) { return lacks(name, to, *part); }))
-      order.emplace_back(!sees_now(robot), -link.esnr_db, robot);
+    Delivery delivery{!sees_now(robot), -link.esnr_db, robot, {}};
+    for (const auto& part : team_.parts_for(robot, now_s_))
+      if (lacks(robot, link, *part)) delivery.parts.push_back(part);
+    if (!delivery.parts.empty()) list.push_back(std::move(delivery));
   }
-  std::sort(order.begin(), order.end());
-  std::vector<std::string> robots;
-  for (auto& [unseen, signal, robot] : order)
-    if (robots.size() < kReceivers || !unseen) robots.push_back(std::move(robot));
-  return robots;
+  std::stable_sort(list.begin(), list.end(), [](const Delivery& a, const Delivery& b) {
+    return std::pair(a.out_of_sight, a.minus_esnr_db) < std::pair(b.out_of_sight, b.minus_esnr_db);
+  });
+  while (list.size() > kReceivers && list.back().out_of_sight) list.pop_back();
+  return list;
 }
 
 /// To robots with enough signal, the parts that they are not known to have.
 void RendezvousRobot::write_data(TickAnswer& answer) {
-  for (const std::string& robot : receivers()) {
-    Link& link = links_.at(robot);
+  for (const Delivery& delivery : deliveries()) {
     auto message = std::make_shared<RobotMessage>();
     std::size_t bytes = 0;
-    for (const auto& part : team_.parts_for(robot, now_s_)) {
-      if (!lacks(robot, link, *part)) continue;
+    for (const auto& part : delivery.parts) {
       bytes += size_of(*part);
       if (bytes > kMessageBytes && !message->parts.empty()) break;
-      link.sent[part->robot] = {part->version, rounds_};
+      links_.at(delivery.robot).sent[part->robot] = {part->version, rounds_};
       message->parts.push_back(part);
     }
-    if (!message->parts.empty()) answer.messages.push_back({robot, Reach::kData, std::move(message)});
+    answer.messages.push_back({delivery.robot, Reach::kData, std::move(message)});
   }
 }
 

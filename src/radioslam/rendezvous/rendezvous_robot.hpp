@@ -82,6 +82,13 @@ class RendezvousRobot {
     bool confirmed = false;
     bool goes = false;  ///< the partner does not move, so that this robot walks
   };
+  /// What another robot lacks, and how soon it gets it.
+  struct Delivery {
+    bool out_of_sight = true;
+    double minus_esnr_db = 0;
+    std::string robot;
+    std::vector<KnownTeam::PartPointer> parts;
+  };
   struct Service {
     std::string caller;
     double since_s = 0;
@@ -114,7 +121,7 @@ class RendezvousRobot {
 
   void write_status(TickAnswer& answer);
   bool lacks(const std::string& robot, const Link& link, const SharedPart& part) const;
-  std::vector<std::string> receivers();
+  std::vector<Delivery> deliveries();
   void write_data(TickAnswer& answer);
   bool may_be_answered() const;
   Movement decide();

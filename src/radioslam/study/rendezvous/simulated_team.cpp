@@ -193,10 +193,12 @@ bool SimulatedTeam::is_lost(std::size_t from, std::size_t to) const {
          rng_.split("losses").split(rounds_).split(from).split(to).uniform() < params_.loss_share;
 }
 
-void SimulatedTeam::deliver(std::size_t k, bool beacons) {
+/// What others say arrives; in a talk of those alone that have something new to say.
+void SimulatedTeam::deliver(std::size_t k, bool talk) {
   SimulatedRobot& robot = robots_[k];
+  robot.got_data = robot.got_anything = false;
   for (const HeardRobot& heard : robot.heard) {
-    if (is_lost(heard.from, k)) continue;
+    if ((talk && !robots_[heard.from].talks) || is_lost(heard.from, k)) continue;
     HeardPacket packet{time_s_, robots_[heard.from].name, heard.reception.esnr_db, {}, {}};
     for (const PacketPath& path : heard.reception.paths)
       packet.paths.push_back(
@@ -205,31 +207,42 @@ void SimulatedTeam::deliver(std::size_t k, bool beacons) {
     for (const OutgoingMessage& message : robots_[heard.from].outbox) {
       if (!message.to.empty() && message.to != robot.name) continue;
       if (message.reach == Reach::kData && packet.esnr_db < params_.robot.q_db) continue;
-      HeardPacket with_message = packet;
-      with_message.message = message.message;
-      robot.agent->hear(with_message);
+      packet.message = message.message;
+      robot.agent->hear(packet);
+      robot.got_data = robot.got_data || message.reach == Reach::kData;
       said = true;
     }
-    if (beacons && !said) robot.agent->hear(packet);
+    if (!talk && !said) robot.agent->hear(packet);
+    robot.got_anything = robot.got_anything || said;
   }
 }
 
+namespace {
+
+bool sends_data(const SimulatedRobot& robot) {
+  return std::any_of(robot.outbox.begin(), robot.outbox.end(),
+                     [](const OutgoingMessage& message) { return message.reach == Reach::kData; });
+}
+
+}  // namespace
+
 void SimulatedTeam::exchange(bool talk) {
   ++rounds_;
-  for_all(robots_, [&](std::size_t k) { deliver(k, !talk); });
+  for_all(robots_, [&](std::size_t k) { deliver(k, talk); });
   for_all(robots_, [&](std::size_t k) {
-    TickAnswer answer = robots_[k].agent->tick({time_s_, talk});
-    robots_[k].outbox = std::move(answer.messages);
-    robots_[k].state = std::move(answer.state);
-    if (answer.movement) robots_[k].movement = *answer.movement;
+    SimulatedRobot& robot = robots_[k];
+    robot.talks = false;
+    if (talk && !robot.got_anything && !sends_data(robot)) return;
+    TickAnswer answer = robot.agent->tick({time_s_, talk});
+    robot.outbox = std::move(answer.messages);
+    robot.state = std::move(answer.state);
+    if (answer.movement) robot.movement = *answer.movement;
+    robot.talks = robot.got_data || sends_data(robot);
   });
 }
 
 bool SimulatedTeam::anybody_sends_data() const {
-  return std::any_of(robots_.begin(), robots_.end(), [](const SimulatedRobot& robot) {
-    return std::any_of(robot.outbox.begin(), robot.outbox.end(),
-                       [](const OutgoingMessage& message) { return message.reach == Reach::kData; });
-  });
+  return std::any_of(robots_.begin(), robots_.end(), sends_data);
 }
 
 }  // namespace radioslam

@@ -32,6 +32,8 @@ struct SimulatedRobot {
   RobotState state;
   std::vector<OutgoingMessage> outbox;
   std::vector<HeardRobot> heard;
+  bool got_anything = false, got_data = false;  ///< messages in the last exchange
+  bool talks = false;                           ///< has something new to say
   std::set<std::size_t> seen, seen_before;  ///< robots within sensing range, now and in the last iteration
   Rng motion{0}, sensing{0};
 };
@@ -55,7 +57,7 @@ class SimulatedTeam {
   void sense(std::size_t k);
   void listen(std::size_t k);
   bool is_lost(std::size_t from, std::size_t to) const;
-  void deliver(std::size_t k, bool beacons);
+  void deliver(std::size_t k, bool talk);
   void exchange(bool talk);
   bool anybody_sends_data() const;
 
