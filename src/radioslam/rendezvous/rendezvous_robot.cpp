@@ -32,12 +32,6 @@ std::uint64_t seed_of(const std::string& id, int seed) {
   return hash ^ static_cast<std::uint64_t>(seed);
 }
 
-/// Numbers of a robot that starts again are higher than those of its life before.
-std::uint64_t first_number(double t_s) {
-  constexpr double kPerSecond = 1000;
-  return static_cast<std::uint64_t>(std::max(0.0, t_s) * kPerSecond);
-}
-
 /// Bytes of a part in a message, roughly.
 std::size_t size_of(const SharedPart& part) {
   return 300 + 215 * part.nodes.size() + 120 * part.observations.size() + 60 * part.evidence.size();
@@ -134,8 +128,7 @@ void RendezvousRobot::judge_observations() {
         check_angles({seen.T_i_j, seen.sigma_m, 0}, arrivals(seen.robot, team_.size() - 1, seen.t_s), check);
     team_.see(seen.t_s, seen.robot, seen.T_i_j, seen.sigma_m, seen.sigma_rad, evidence);
     const auto link = links_.find(seen.robot);
-    const bool placed =
-        link != links_.end() && link->second.status && link->second.status->frame == team_.frame();
+    const bool placed = link != links_.end() && is_placed(link->second);
     published_.see(seen.T_i_j, placed ? std::optional(link->second.status->pose) : std::nullopt);
   }
   unjudged_.clear();
@@ -187,6 +180,15 @@ bool RendezvousRobot::is_shunned(const std::string& robot) const {
   return until != shunned_.end() && now_s_ < until->second;
 }
 
+bool RendezvousRobot::may_meet(const std::string& robot, const Link& link) const {
+  return !is_gone(link) && !is_shunned(robot);
+}
+
+/// Whether it is known where another says it is.
+bool RendezvousRobot::is_placed(const Link& link) const {
+  return link.status && link.status->frame == team_.frame();
+}
+
 void RendezvousRobot::shun(const std::string& robot) { shunned_[robot] = now_s_ + params_.patience_s; }
 
 double RendezvousRobot::error() const {
@@ -207,15 +209,14 @@ RobotState RendezvousRobot::state() const {
   if (anchored_.role() == AnchoredExploration::Role::kReturning) state.serving = anchored_.leans_on();
   state.team = team_.team();
   for (const auto& [robot, link] : links_)
-    if (link.status && link.status->frame == team_.frame() &&
-        !std::binary_search(state.team.begin(), state.team.end(), robot))
+    if (is_placed(link) && !std::binary_search(state.team.begin(), state.team.end(), robot))
       state.team.insert(std::upper_bound(state.team.begin(), state.team.end(), robot), robot);
   return state;
 }
 
 /// Metres, by the positions that both know, or else roughly by the signal.
 double RendezvousRobot::distance_to(const Link& link) const {
-  if (link.status && link.status->frame == team_.frame())
+  if (is_placed(link))
     return std::max(kNearest_m, (link.status->pose.translation() - team_.latest().pose.translation()).norm());
   return std::max(kNearest_m, std::pow(10.0, (kReferenceEsnr_db - link.esnr_db) / kDecade_db));
 }
@@ -268,7 +269,7 @@ void RendezvousRobot::follow_up_call() {
 void RendezvousRobot::choose_partner() {
   std::vector<MeetingOption> offers;
   for (const auto& [robot, link] : links_)
-    if (!is_gone(link) && !is_shunned(robot) && link.status && link.status->offer_to == id_)
+    if (may_meet(robot, link) && link.status && link.status->offer_to == id_)
       offers.push_back(option_of(robot, link));
   const auto best = best_partner(offers, q_db_, params_.alpha);
   if (!best) return;
@@ -297,7 +298,7 @@ void RendezvousRobot::choose_caller() {
   if (service_ || waits || policy_ != RendezvousPolicy::kActive) return;
   std::vector<MeetingOption> callers;
   for (const auto& [robot, link] : links_) {
-    if (is_gone(link) || is_shunned(robot) || !link.status || !link.status->call) continue;
+    if (!may_meet(robot, link) || !link.status || !link.status->call) continue;
     if (link.status->partner == id_) {
       service_ = Service{robot, now_s_, ticks_, true};
       call_.reset();
@@ -381,7 +382,7 @@ void RendezvousRobot::write_data(TickAnswer& answer) {
 }
 
 std::optional<ExpectedDirection> RendezvousRobot::expected_direction(const Link& link) const {
-  if (!link.status || link.status->frame != team_.frame()) return std::nullopt;
+  if (!is_placed(link)) return std::nullopt;
   const SE2& own = team_.latest().pose;
   const Eigen::Vector2d offset = own.inverse() * link.status->pose.translation();
   const double distance_m = std::max(offset.norm(), kNearest_m);
@@ -402,7 +403,7 @@ bool RendezvousRobot::sees_now(const std::string& robot) const {
 std::vector<AnchorNeighbour> RendezvousRobot::anchor_neighbours() const {
   std::vector<AnchorNeighbour> list;
   for (const auto& [robot, link] : links_) {
-    if (is_gone(link) || is_shunned(robot) || !link.status) continue;
+    if (!may_meet(robot, link) || !link.status) continue;
     list.push_back({robot, link.status->standing, link.status->leans_on, link.status->error,
                     link.status->walked_m, distance_to(link)});
   }
@@ -465,7 +466,7 @@ std::optional<Movement> RendezvousRobot::go_to_meeting_place() {
 bool RendezvousRobot::may_be_answered() const {
   return !has_run_out(call_->since_s, call_->since_tick) &&
          std::any_of(links_.begin(), links_.end(),
-                     [&](const auto& each) { return !is_gone(each.second) && !is_shunned(each.first); });
+                     [&](const auto& each) { return may_meet(each.first, each.second); });
 }
 
 Movement RendezvousRobot::decide() {

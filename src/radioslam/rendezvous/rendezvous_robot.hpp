@@ -13,7 +13,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -101,6 +100,8 @@ class RendezvousRobot {
   const Link* present(const std::string& robot) const;
   int seen_since(const std::string& robot, double since_s) const;
   bool is_shunned(const std::string& robot) const;
+  bool may_meet(const std::string& robot, const Link& link) const;
+  bool is_placed(const Link& link) const;
   void shun(const std::string& robot);
 
   std::vector<std::vector<ArrivalPath>> arrivals(const std::string& robot, std::size_t node,

@@ -40,6 +40,11 @@ SE2 with_noise(const SE2& pose, double sigma_m, double sigma_rad, Rng& rng) {
   return {pose.translation() + Eigen::Vector2d(x, y), pose.angle() + turn};
 }
 
+bool sends_data(const SimulatedRobot& robot) {
+  return std::any_of(robot.outbox.begin(), robot.outbox.end(),
+                     [](const OutgoingMessage& message) { return message.reach == Reach::kData; });
+}
+
 template <class Action>
 void for_all(std::vector<SimulatedRobot>& robots, const Action& action) {
   parallel_for(robots.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -216,15 +221,6 @@ void SimulatedTeam::deliver(std::size_t k, bool talk) {
     robot.got_anything = robot.got_anything || said;
   }
 }
-
-namespace {
-
-bool sends_data(const SimulatedRobot& robot) {
-  return std::any_of(robot.outbox.begin(), robot.outbox.end(),
-                     [](const OutgoingMessage& message) { return message.reach == Reach::kData; });
-}
-
-}  // namespace
 
 void SimulatedTeam::exchange(bool talk) {
   ++rounds_;

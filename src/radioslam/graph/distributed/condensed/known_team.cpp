@@ -21,7 +21,6 @@ constexpr double kSmallestWeight = 1e-9;
 constexpr double kCostTolerance = 1e-7;
 constexpr double kMaxLogOdds = 50;
 constexpr double kUnknownVariance = 1e12;
-constexpr double kVersionsPerSecond = 1000;  ///< so that a robot that starts again has higher ones
 constexpr std::size_t kMaxSharedNodes = 100, kMaxSharedEntries = 150;
 
 SE2::Jacobian covariance_of(double sigma_m, double sigma_rad) {
@@ -81,7 +80,7 @@ KnownTeam::KnownTeam(std::string robot, double t_s, const std::optional<SE2>& st
       raw_{SE2()},
       poses_{start.value_or(SE2())},
       shared_{0},
-      version_(static_cast<std::uint64_t>(std::max(0.0, t_s) * kVersionsPerSecond)),
+      version_(first_number(t_s)),
       team_{robot_},
       frame_(start ? "" : robot_) {
   latest_.pose = poses_.front();

@@ -80,7 +80,6 @@ class KnownTeam {
   /// Solves for what is known; false, and nothing changes, if nothing is new since the last time.
   bool solve();
 
-  const std::string& robot() const { return robot_; }
   std::size_t size() const { return poses_.size(); }
   double time(std::size_t node) const { return times_[node]; }
   const std::vector<SE2>& poses() const { return poses_; }    ///< the estimate, in frame()

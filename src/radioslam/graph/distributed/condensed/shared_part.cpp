@@ -54,6 +54,11 @@ std::size_t SharedPart::place_of(std::uint32_t number) const {
   return static_cast<std::size_t>(at - nodes.begin());
 }
 
+std::uint64_t first_number(double t_s) {
+  constexpr double kPerSecond = 1000;
+  return static_cast<std::uint64_t>(std::max(0.0, t_s) * kPerSecond);
+}
+
 bool is_well_formed(const SharedPart& part) {
   if (part.robot.empty() || !are_in_order(part.nodes) || (part.start && !is_sane(*part.start))) return false;
   for (const SharedObservation& observation : part.observations)
