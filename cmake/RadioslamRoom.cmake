@@ -1,11 +1,11 @@
-# radioslam_room(NAME SOURCES a.cpp ... ROOMS base ... LIBRARIES Eigen3::Eigen ...)
+# radioslam_room(NAME [NOT_INSTALLED] SOURCES a.cpp ... ROOMS base ... LIBRARIES Eigen3::Eigen ...)
 #
 # Each room is one target and can include only the rooms it links, so that the compiler enforces the order of the rooms
 # in docs/architecture.md: the include directory of a target contains a symbolic link to that room only.
 # BUILD_SHARED_LIBS decides the kind of library. A shared room calls its own copies of inline functions, so that the
 # sanitizer build checks them even where a program brings copies that were compiled without.
 function(radioslam_room NAME)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;ROOMS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ROOM "NOT_INSTALLED" "" "SOURCES;ROOMS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
   set(room_include ${PROJECT_BINARY_DIR}/rooms/${NAME})
   file(MAKE_DIRECTORY ${room_include}/radioslam)
   file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR}/${NAME} ${room_include}/radioslam/${NAME} SYMBOLIC)
@@ -32,5 +32,7 @@ function(radioslam_room NAME)
                                                     ${ROOM_PRIVATE_LIBRARIES})
     radioslam_group_sources(radioslam_${NAME})
   endif()
-  set_property(GLOBAL APPEND PROPERTY RADIOSLAM_ROOMS radioslam_${NAME})
+  if(NOT ROOM_NOT_INSTALLED)
+    set_property(GLOBAL APPEND PROPERTY RADIOSLAM_ROOMS radioslam_${NAME})
+  endif()
 endfunction()

@@ -18,12 +18,9 @@
 #include "radioslam/io/wifi/wifi_scan_log.hpp"
 #include "radioslam/mission/dead_reckoning.hpp"
 #include "radioslam/radio/aoa/aoa_estimate.hpp"
+#include "radioslam/rendezvous_world/rendezvous_run.hpp"
 #include "radioslam/sim/scenarios/scenarios.hpp"
-#include "radioslam/study/rendezvous/rendezvous_run.hpp"
-#include "radioslam/study/robustness_map/robustness_map.hpp"
-#include "radioslam/study/wi_closure_hall/wi_closure_hall.hpp"
-#include "radioslam/study/wi_closure_kitti/wi_closure_kitti.hpp"
-#include "radioslam/study/wi_closure_table1/wi_closure_table1.hpp"
+#include "radioslam/sim/scenarios/study_scenarios.hpp"
 
 namespace radioslam::cli {
 namespace {

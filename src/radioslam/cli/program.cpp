@@ -31,23 +31,11 @@ constexpr const char* kProgramFooter =
     "`radioslam COMMAND --help` describes a command.\n"
     "Exit status: 0 success; 1 internal error; 2 invalid command line or input; 130 interrupted.";
 
-void add_commands(CLI::App& program) {
-  add_simulate(program);
-  add_run(program);
-  add_prune(program);
-  add_doctor(program);
-  add_evaluate(program);
-  add_import(program);
-  add_optimize(program);
-  add_aoa(program);
-  add_similarity(program);
-  add_anchors(program);
-  add_rendezvous(program);
-  add_reproduce(program);
-  add_parameters(program);
-}
+constexpr AddCommand kCommands[] = {
+    add_simulate, add_run,        add_prune,   add_doctor,     add_evaluate,  add_import,    add_optimize,
+    add_aoa,      add_similarity, add_anchors, add_rendezvous, add_reproduce, add_parameters};
 
-void prepare(CLI::App& program) {
+void prepare(CLI::App& program, std::span<const AddCommand> commands) {
   program.name("radioslam");
   program.description(kDescription);
   program.footer(kProgramFooter);
@@ -55,7 +43,7 @@ void prepare(CLI::App& program) {
   program.get_formatter()->column_width(kHelpColumn);
   program.require_subcommand(0, 1);
   add_threads_option(program);
-  add_commands(program);
+  for (const AddCommand add : commands) add(program);
 }
 
 std::vector<std::string> command_names(const CLI::App& program) {
@@ -133,9 +121,9 @@ int parse_and_run(CLI::App& program, std::vector<std::string> arguments) {
 
 }  // namespace
 
-int run_program(const std::vector<std::string>& arguments) {
+int run_program(std::span<const AddCommand> commands, const std::vector<std::string>& arguments) {
   CLI::App program;
-  prepare(program);
+  prepare(program, commands);
   if (arguments.empty()) {
     std::cout << program.help();
     return finish_output();
@@ -146,5 +134,7 @@ int run_program(const std::vector<std::string>& arguments) {
   if (!is_command && !first.starts_with("-")) return fail(kWrongInput, unknown_command(program, first));
   return parse_and_run(program, expand_set_options(arguments));
 }
+
+int run_program(const std::vector<std::string>& arguments) { return run_program(kCommands, arguments); }
 
 }  // namespace radioslam::cli

@@ -1,4 +1,4 @@
-# The command line program. Its code is a library so that tests can link it; that library is not installed.
+# The command line programs. Their code is a library so that tests can link it; that library is not installed.
 set(cli_include ${PROJECT_BINARY_DIR}/rooms/cli)
 file(MAKE_DIRECTORY ${cli_include}/radioslam)
 file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR}/cli ${cli_include}/radioslam/cli SYMBOLIC)
@@ -27,6 +27,7 @@ add_library(radioslam_cli STATIC
   cli/commands/output_path_check.cpp
   cli/commands/recorded_drive.cpp
   cli/config.cpp
+  cli/ending.cpp
   cli/import/import_datasets.cpp
   cli/import/import_kinds.cpp
   cli/import/import_lidar.cpp
@@ -43,11 +44,17 @@ add_library(radioslam::cli ALIAS radioslam_cli)
 target_include_directories(radioslam_cli PUBLIC ${cli_include})
 target_link_libraries(radioslam_cli
   PUBLIC radioslam_results radioslam_io CLI11::CLI11
-  PRIVATE radioslam_doctor radioslam_rendezvous radioslam_pipeline radioslam_eval radioslam_sim radioslam_report radioslam_study yaml-cpp nlohmann_json::nlohmann_json radioslam_warnings)
+  PRIVATE radioslam_doctor radioslam_rendezvous_world radioslam_pipeline radioslam_eval radioslam_report yaml-cpp nlohmann_json::nlohmann_json radioslam_warnings)
 target_compile_definitions(radioslam_cli PRIVATE RADIOSLAM_VERSION="${PROJECT_VERSION}")
 radioslam_group_sources(radioslam_cli)
 
 add_executable(radioslam_program cli/main.cpp)
-target_link_libraries(radioslam_program PRIVATE radioslam_cli radioslam_io radioslam_warnings)
+target_link_libraries(radioslam_program PRIVATE radioslam_cli radioslam_warnings)
 set_target_properties(radioslam_program PROPERTIES
   OUTPUT_NAME radioslam RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+
+# `radioslam reproduce` starts it. Tables and studies are a program of their own because they take a fifth of the build.
+add_executable(radioslam_reproduce cli/reproduce/main.cpp cli/reproduce/command_reproduce.cpp)
+target_link_libraries(radioslam_reproduce PRIVATE radioslam_cli radioslam_study radioslam_warnings)
+set_target_properties(radioslam_reproduce PROPERTIES
+  OUTPUT_NAME radioslam-reproduce RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})

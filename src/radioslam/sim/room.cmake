@@ -15,6 +15,7 @@ radioslam_room(sim
     scenarios/onboard_sensors.cpp
     scenarios/radio_mission.cpp
     scenarios/scenarios.cpp
+    scenarios/study_scenarios.cpp
     sensors/aliased_matches.cpp
     sensors/csi_card.cpp
     sensors/csi_exchange.cpp

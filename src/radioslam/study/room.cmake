@@ -1,4 +1,4 @@
-radioslam_room(study
+radioslam_room(study NOT_INSTALLED
   SOURCES
     aoa/aoa_paths.cpp
     aoa/aoa_table.cpp
@@ -11,10 +11,7 @@ radioslam_room(study
     oracle.cpp
     overlap_growth/overlap_growth.cpp
     rendezvous/rendezvous_json.cpp
-    rendezvous/rendezvous_run.cpp
     rendezvous/rendezvous_study.cpp
-    rendezvous/run_record.cpp
-    rendezvous/simulated_team.cpp
     robustness_map/robustness_map.cpp
     study_json.cpp
     study_page.cpp
@@ -29,7 +26,7 @@ radioslam_room(study
     wi_closure_hall/wi_closure_hall.cpp
     wi_closure_kitti/wi_closure_kitti.cpp
     wi_closure_table1/wi_closure_table1.cpp
-  ROOMS radio rendezvous pipeline eval sim io report
+  ROOMS radio rendezvous_world pipeline eval sim io report
   LIBRARIES nlohmann_json::nlohmann_json)
 radioslam_page(radioslam_study ${CMAKE_CURRENT_SOURCE_DIR}/study/page radioslam/study/page_parts.hpp
   radioslam::study_page ../../report/page/format.js data.js scheme.js heat_map.js growth.js budget.js distributed.js rendezvous_charts.js rendezvous_map.js

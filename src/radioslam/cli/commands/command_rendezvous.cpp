@@ -13,8 +13,8 @@
 #include "radioslam/cli/progress_line.hpp"
 #include "radioslam/io/rendezvous/robot_session.hpp"
 #include "radioslam/rendezvous/rendezvous_params.hpp"
-#include "radioslam/study/rendezvous/rendezvous_json.hpp"
-#include "radioslam/study/rendezvous/rendezvous_run.hpp"
+#include "radioslam/rendezvous_world/rendezvous_run.hpp"
+#include "radioslam/rendezvous_world/run_json.hpp"
 
 namespace radioslam::cli {
 namespace {

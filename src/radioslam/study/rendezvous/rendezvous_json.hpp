@@ -13,7 +13,4 @@ nlohmann::ordered_json rendezvous_page_json(const RendezvousStudy& study);
 /// Every run of every figure, without moments.
 nlohmann::ordered_json rendezvous_json(const RendezvousStudy& study);
 
-/// What `radioslam rendezvous --json` prints of a run.
-nlohmann::ordered_json rendezvous_run_json(const RendezvousRun& run);
-
 }  // namespace radioslam

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "radioslam/study/rendezvous/simulated_team.hpp"
+#include "radioslam/rendezvous_world/simulated_team.hpp"
 
 namespace radioslam {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "radioslam/base/progress.hpp"
-#include "radioslam/study/rendezvous/rendezvous_run.hpp"
+#include "radioslam/rendezvous_world/rendezvous_run.hpp"
 #include "radioslam/study/study_table.hpp"
 
 namespace radioslam {

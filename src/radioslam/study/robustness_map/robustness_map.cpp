@@ -76,13 +76,6 @@ std::optional<double> least(const std::vector<double>& values) {
 
 }  // namespace
 
-CityParams robustness_town() {
-  CityParams town;
-  town.path_length_m = 800;
-  town.streets.blocks_x = town.streets.blocks_y = 4;
-  return town;
-}
-
 std::optional<double> RobustnessSample::ratio() const {
   if (!ate_m || !ate_oracle_m || *ate_oracle_m <= 0) return std::nullopt;
   return *ate_m / *ate_oracle_m;

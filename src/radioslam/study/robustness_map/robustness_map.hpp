@@ -15,7 +15,7 @@
 
 #include "radioslam/base/progress.hpp"
 #include "radioslam/pipeline/params.hpp"
-#include "radioslam/sim/scenarios/city.hpp"
+#include "radioslam/sim/scenarios/study_scenarios.hpp"
 #include "radioslam/study/study_table.hpp"
 
 namespace radioslam {
@@ -30,9 +30,6 @@ struct RobustnessGrid {
   std::vector<int> links{3, 5, 10, 20, 40};
   std::vector<int> false_paths{0, 2, 5, 10};
 };
-
-/// A town small enough for a map of hundreds of them; the LiDAR's range is that of `city`.
-CityParams robustness_town();
 
 /// One simulated town, evaluated.
 struct RobustnessSample {

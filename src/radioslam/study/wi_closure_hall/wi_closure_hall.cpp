@@ -2,14 +2,6 @@
 
 namespace radioslam {
 
-HallParams scanned_hall() {
-  constexpr int kBeams = 16;
-  HallParams scenario;
-  scenario.onboard.lidar.lidar_beams = kBeams;
-  scenario.matches.matches_true = scenario.matches.matches_false = 0;
-  return scenario;
-}
-
 WiClosureHall reproduce_wi_closure_hall(const HallParams& scenario, std::uint64_t seed,
                                         const Progress& progress) {
   return {scenario,

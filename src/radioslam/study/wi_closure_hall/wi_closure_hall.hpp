@@ -10,13 +10,10 @@
 #include <cstdint>
 
 #include "radioslam/base/progress.hpp"
-#include "radioslam/sim/scenarios/hall.hpp"
+#include "radioslam/sim/scenarios/study_scenarios.hpp"
 #include "radioslam/study/wi_closure/place_study.hpp"
 
 namespace radioslam {
-
-/// The test's hall: scanned by 16 beams, no matches.
-HallParams scanned_hall();
 
 /// The results of one seed.
 struct WiClosureHall {

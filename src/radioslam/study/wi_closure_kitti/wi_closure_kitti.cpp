@@ -144,13 +144,6 @@ std::string drive_text(const KittiParams& drive) {
          number_text(drive.radio.sigma_angle_deg, 0) + " degrees with false paths";
 }
 
-KittiParams wi_closure_drive() {
-  KittiParams scenario;
-  scenario.matches.matches_true = 40;
-  scenario.matches.matches_false = 120;
-  return scenario;
-}
-
 WiClosureKitti reproduce_wi_closure_kitti(const RecordedDrive& drive, const KittiParams& scenario,
                                           std::uint64_t seed, const Progress& progress) {
   const Simulation simulation = simulate_kitti(scenario, drive, seed);

@@ -13,14 +13,11 @@
 
 #include "radioslam/base/progress.hpp"
 #include "radioslam/pipeline/params.hpp"
-#include "radioslam/sim/scenarios/kitti.hpp"
+#include "radioslam/sim/scenarios/study_scenarios.hpp"
 #include "radioslam/study/evaluated_run.hpp"
 #include "radioslam/study/study_table.hpp"
 
 namespace radioslam {
-
-/// The test's drive: forty true matches, and 120 false ones that are consistent with each other.
-KittiParams wi_closure_drive();
 
 /// "A drive cut at 34 %, 40 links of ..."
 std::string drive_text(const KittiParams& drive);

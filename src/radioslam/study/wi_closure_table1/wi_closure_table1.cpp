@@ -58,18 +58,6 @@ std::vector<std::string> notes_on_published(const KittiParams& drive) {
 
 }  // namespace
 
-KittiParams scanned_drive() {
-  constexpr int kBeams = 16, kAzimuths = 600;
-  constexpr double kRange_m = 30;
-  KittiParams scenario;
-  scenario.dimension = 2;
-  scenario.lidar.lidar_beams = kBeams;
-  scenario.lidar.lidar_azimuth_steps = kAzimuths;
-  scenario.lidar_range_m = kRange_m;
-  scenario.matches.matches_true = scenario.matches.matches_false = 0;
-  return scenario;
-}
-
 WiClosureTable1 reproduce_wi_closure_table1(const RecordedDrive& drive, const KittiParams& scenario,
                                             std::uint64_t seed, const Progress& progress) {
   RunParams params;

@@ -11,15 +11,11 @@
 #include <vector>
 
 #include "radioslam/base/progress.hpp"
-#include "radioslam/sim/scenarios/kitti.hpp"
+#include "radioslam/sim/scenarios/study_scenarios.hpp"
 #include "radioslam/study/study_table.hpp"
 #include "radioslam/study/wi_closure/place_study.hpp"
 
 namespace radioslam {
-
-/// The test's drive: scanned by 16 beams at 600 azimuths up to 30 m, no matches. In the plane, because in the
-/// truth of KITTI 08 passages of the same place are at different heights.
-KittiParams scanned_drive();
 
 /// The results of one seed.
 struct WiClosureTable1 {

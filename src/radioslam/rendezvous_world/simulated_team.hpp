@@ -11,7 +11,7 @@
 
 #include "radioslam/base/random.hpp"
 #include "radioslam/rendezvous/rendezvous_robot.hpp"
-#include "radioslam/study/rendezvous/rendezvous_run.hpp"
+#include "radioslam/rendezvous_world/rendezvous_run.hpp"
 
 namespace radioslam {
 

@@ -1,4 +1,4 @@
-#include "radioslam/study/rendezvous/simulated_team.hpp"
+#include "radioslam/rendezvous_world/simulated_team.hpp"
 
 #include <algorithm>
 #include <cmath>

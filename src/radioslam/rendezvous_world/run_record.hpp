@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "radioslam/study/rendezvous/rendezvous_run.hpp"
-#include "radioslam/study/rendezvous/simulated_team.hpp"
+#include "radioslam/rendezvous_world/rendezvous_run.hpp"
+#include "radioslam/rendezvous_world/simulated_team.hpp"
 
 namespace radioslam {
 

@@ -1,4 +1,4 @@
-#include "radioslam/study/rendezvous/rendezvous_run.hpp"
+#include "radioslam/rendezvous_world/rendezvous_run.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
-#include "radioslam/study/rendezvous/rendezvous_run.hpp"
+#include "radioslam/rendezvous_world/rendezvous_run.hpp"
 
 #include <chrono>
 
-#include "radioslam/study/rendezvous/run_record.hpp"
-#include "radioslam/study/rendezvous/simulated_team.hpp"
+#include "radioslam/rendezvous_world/run_record.hpp"
+#include "radioslam/rendezvous_world/simulated_team.hpp"
 
 namespace radioslam {
 namespace {

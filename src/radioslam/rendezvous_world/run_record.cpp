@@ -1,4 +1,4 @@
-#include "radioslam/study/rendezvous/run_record.hpp"
+#include "radioslam/rendezvous_world/run_record.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
