@@ -107,12 +107,6 @@ TEST(CheckMission, AnchorsMayBeFarFromTheOrigin) {
   EXPECT_TRUE(check_mission(mission).empty()) << all_of(check_mission(mission));
 }
 
-struct Fault {
-  std::string name, kind, robot, file;
-  std::function<void(Mission&)> plant;
-  friend std::ostream& operator<<(std::ostream& stream, const Fault& fault) { return stream << fault.name; }
-};
-
 void change_odometry(Robot& robot, const std::function<StampedPose<SE3>(const StampedPose<SE3>&)>& change) {
   std::vector<StampedPose<SE3>> poses;
   for (const auto& pose : robot.odometry) poses.push_back(change(pose));
@@ -129,6 +123,81 @@ void shift_robot(Robot& robot, double seconds) {
   for (WifiScan& scan : robot.wifi) shift(scan.stamp, seconds);
   for (ImuSample& sample : robot.inertial) shift(sample.stamp, seconds);
 }
+
+void state_starts(Mission& mission) {
+  for (std::size_t r = 0; r < mission.robots.size(); ++r)
+    mission.robots[r].initial_pose = lift(true_pose(r, 0));
+}
+
+void keep_fingerprints_alone(Mission& mission) {
+  mission.ranges.clear();
+  mission.aoa_measurements.clear();
+}
+
+TEST(CheckMission, HasNothingToSayOfTrueStarts) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    Mission mission = SoundMission::make(seed);
+    state_starts(mission);
+    EXPECT_TRUE(check_mission(mission).empty()) << all_of(check_mission(mission));
+    keep_fingerprints_alone(mission);
+    EXPECT_TRUE(check_mission(mission).empty()) << all_of(check_mission(mission));
+  }
+}
+
+Truth truth_of(const Mission& mission, const std::function<SE3(const SE3&)>& change) {
+  Truth truth;
+  for (std::size_t r = 0; r < mission.robots.size(); ++r) {
+    std::vector<StampedPose<SE3>> poses;
+    for (double t_s = 0; t_s < SoundMission::kDuration_s; t_s += 1)
+      poses.push_back({Stamp::from_seconds(t_s), change(lift(true_pose(r, t_s)))});
+    truth.robots.push_back({mission.robots[r].id, Trajectory<SE3>(std::move(poses))});
+  }
+  return truth;
+}
+
+TEST(CheckTruth, AMirroredTruthIsNamed) {
+  const Mission mission = SoundMission::make();
+  EXPECT_TRUE(check_truth(mission, truth_of(mission, [](const SE3& pose) { return pose; })).empty());
+  const auto findings = check_truth(mission, truth_of(mission, [](const SE3& pose) {
+                                      const Eigen::Vector3d& t = pose.translation();
+                                      return SE3({t.x(), -t.y(), t.z()}, pose.rotation().inverse());
+                                    }));
+  ASSERT_EQ(findings.size(), 3U) << all_of(findings);
+  EXPECT_EQ(findings[1].kind, "handedness");
+  EXPECT_EQ(findings[1].file, "robots/b/groundtruth.tum");
+}
+
+TEST(CheckTruth, ATruthOnAnotherClockIsNamed) {
+  Mission mission = SoundMission::make();
+  const Truth truth = truth_of(mission, [](const SE3& pose) { return pose; });
+  shift_robot(mission.robots[2], 1.7e9);
+  const auto findings = check_truth(mission, truth);
+  ASSERT_EQ(findings.size(), 1U) << all_of(findings);
+  EXPECT_EQ(findings[0].kind, "clock");
+  EXPECT_EQ(findings[0].robot, "c");
+}
+
+/// Along x, with a little noise to both sides.
+TEST(CheckTruth, AStraightPathIsItsOwnMirrorImage) {
+  Mission mission;
+  mission.robots.resize(1);
+  Truth truth;
+  std::vector<StampedPose<SE3>> odometry, poses;
+  for (int k = 0; k < 200; ++k) {
+    const double side_m = 0.2 * std::sin(0.3 * k);
+    odometry.push_back({Stamp::from_seconds(k), SE3({1.0 * k, side_m, 0}, Eigen::Quaterniond::Identity())});
+    poses.push_back({Stamp::from_seconds(k), SE3({1.0 * k, -side_m, 0}, Eigen::Quaterniond::Identity())});
+  }
+  mission.robots[0].odometry = Trajectory<SE3>(std::move(odometry));
+  truth.robots.push_back({"a", Trajectory<SE3>(std::move(poses))});
+  EXPECT_TRUE(check_truth(mission, truth).empty());
+}
+
+struct Fault {
+  std::string name, kind, robot, file;
+  std::function<void(Mission&)> plant;
+  friend std::ostream& operator<<(std::ostream& stream, const Fault& fault) { return stream << fault.name; }
+};
 
 void for_azimuths(Mission& mission, const std::function<double(double)>& change) {
   for (AoaMeasurement& angle : mission.aoa_measurements)
@@ -254,8 +323,39 @@ const std::vector<Fault>& faults() {
        }},
       {"StartElsewhere", "start", "b", "mission.yaml",
        [](Mission& m) {
-         for (std::size_t r = 0; r < 3; ++r) m.robots[r].initial_pose = lift(true_pose(r, 0));
+         state_starts(m);
          m.robots[1].initial_pose = with_translation(*m.robots[1].initial_pose, {60, 40, 0});
+       }},
+      {"StartsExchanged", "start", "", "mission.yaml",
+       [](Mission& m) {
+         state_starts(m);
+         std::swap(m.robots[0].initial_pose, m.robots[2].initial_pose);
+       }},
+      {"StartElsewhereByFingerprints", "start", "b", "mission.yaml",
+       [](Mission& m) {
+         keep_fingerprints_alone(m);
+         state_starts(m);
+         m.robots[1].initial_pose = with_translation(*m.robots[1].initial_pose, {30, 20, 0});
+       }},
+      {"StartTurnedByFingerprints", "start", "c", "mission.yaml",
+       [](Mission& m) {
+         keep_fingerprints_alone(m);
+         state_starts(m);
+         m.robots[2].initial_pose = *m.robots[2].initial_pose * lift(SE2({0, 0}, 1.6));
+       }},
+      {"StartsExchangedByFingerprints", "start", "", "mission.yaml",
+       [](Mission& m) {
+         keep_fingerprints_alone(m);
+         state_starts(m);
+         std::swap(m.robots[0].initial_pose, m.robots[2].initial_pose);
+       }},
+      {"FourRangesInMillimetres", "unit", "", "radio/ranges.csv",
+       [](Mission& m) {
+         std::vector<RangeMeasurement> few;
+         for (const std::size_t k : {0U, 120U, 240U, 360U}) few.push_back(m.ranges[k]);
+         for (auto& range : few) range.range_m *= 1000;
+         m.ranges = few;
+         m.aoa_measurements.clear();
        }},
       {"NotConnected", "not-connected", "c", "",
        [](Mission& m) {

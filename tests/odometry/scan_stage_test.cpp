@@ -360,5 +360,37 @@ TEST(Pipeline, WithScansGivesTheSameNumbersForAnyNumberOfThreads) {
   EXPECT_EQ(alone.closures.size(), together.closures.size());
 }
 
+/// Along plain walls whose ends are out of sight.
+Robot robot_in_corridor(ScannerKind kind) {
+  ScannedRoom corridor;
+  corridor.boxes = {{{-300, -1.2, 0}, {300, 1.2, 2.6}}};
+  Scanner scanner = kind == ScannerKind::kPlanar ? planar_scanner() : Scanner();
+  if (kind == ScannerKind::kSpatial) scanner.azimuths = 120;
+  std::vector<SE3> poses;
+  const int scans = kind == ScannerKind::kPlanar ? 230 : 70;
+  for (int k = 0; k < scans; ++k) poses.push_back(pose_at(0.3 * k, 0.1, 1.2, 0));
+  return scanning_robot("a", drive_along(corridor, scanner, poses, 1));
+}
+
+TEST(ScanStage, ThatScansLookAlikeAlongACorridorIsNotedUnlessOdometryMeasuresTheMotion) {
+  const auto says_so = [](const Robot& robot) {
+    Mission mission = mission_of({robot});
+    const auto notes = measure(mission).notes;
+    return std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+      return note.find("robot a: for ") == 0 &&
+             note.find("look alike along one direction") != std::string::npos;
+    });
+  };
+  for (const ScannerKind kind : {ScannerKind::kSpatial, ScannerKind::kPlanar}) {
+    Robot robot = robot_in_corridor(kind);
+    EXPECT_TRUE(says_so(robot));
+    std::vector<StampedPose<SE3>> rows;
+    for (int k = 0; k < 280; ++k)
+      rows.push_back({Stamp::from_seconds(0.1 * k), SE3({0.3 * k, 0, 0}, Eigen::Quaterniond::Identity())});
+    robot.odometry = Trajectory<SE3>(std::move(rows));
+    EXPECT_FALSE(says_so(robot));
+  }
+}
+
 }  // namespace
 }  // namespace radioslam

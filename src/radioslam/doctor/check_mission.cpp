@@ -31,7 +31,10 @@ std::vector<Finding> check_mission(const Mission& mission) {
   append(findings, check_scans(mission));
   append(findings, check_connections(mission));
   // With wrong units or clocks, links contradict the odometry without saying anything new.
-  if (!has_error(findings)) append(findings, check_links(mission));
+  if (!has_error(findings)) {
+    append(findings, check_links(mission));
+    append(findings, check_fingerprint_starts(mission));
+  }
   std::stable_sort(findings.begin(), findings.end(),
                    [](const Finding& a, const Finding& b) { return a.severity < b.severity; });
   return findings;

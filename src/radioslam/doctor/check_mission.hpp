@@ -6,11 +6,15 @@
 
 #include "radioslam/mission/finding.hpp"
 #include "radioslam/mission/mission.hpp"
+#include "radioslam/mission/truth.hpp"
 
 namespace radioslam {
 
 /// Errors first, each list in the order of the checks. Deterministic. Work is bounded: a few windows of links
 /// are fitted, and a few scans read.
 std::vector<Finding> check_mission(const Mission& mission);
+
+/// What of the ground truth contradicts the odometry: another clock, or a mirror image.
+std::vector<Finding> check_truth(const Mission& mission, const Truth& truth);
 
 }  // namespace radioslam

@@ -36,6 +36,9 @@ std::vector<Finding> check_scans(const Mission& mission);
 /// one.
 std::vector<Finding> check_links(const Mission& mission);
 
+/// At most one finding: a stated start, or two, that fingerprints contradict (fingerprint_starts.cpp).
+std::vector<Finding> check_fingerprint_starts(const Mission& mission);
+
 /// Access points that move: carried by the robot itself, or heard with strengths that no fixed place
 /// explains. Adds a finding for every one in the robot's scans. `track`: its dead reckoning, here and below.
 void check_access_points(const Mission& mission, const Robot& robot, const Track& track,
@@ -49,6 +52,9 @@ void check_fingerprint_clock(const Robot& robot, const Track& track, std::vector
 /// twelve before, at places a metre or more apart by the dead reckoning; a robot that stands still, or scans
 /// of fewer than five readings, show nothing.
 void check_stale_scans(const Robot& robot, const Track& track, std::vector<Finding>& findings);
+
+/// Share of common access points, times a falling function of the mean difference of their levels.
+double fingerprint_similarity(const WifiScan& a, const WifiScan& b);
 
 /// Calls `use` with both readings of every access point that both scans contain.
 void for_common_readings(const WifiScan& a, const WifiScan& b, const auto& use) {

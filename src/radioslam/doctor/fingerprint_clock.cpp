@@ -29,17 +29,6 @@ constexpr double kMinStudent = 1.5;        // of the gains of the stretches
 constexpr std::ptrdiff_t kMinGaining = 8;  // stretches
 constexpr std::array kDistances_m{2.0F, 4.0F, 7.0F, 10.0F, 14.0F, 20.0F, 28.0F, 40.0F, 56.0F, 80.0F, 120.0F};
 
-/// Share of common access points, times a falling function of the mean difference of their levels.
-double similarity(const WifiScan& a, const WifiScan& b) {
-  double both = 0, difference = 0;
-  for_common_readings(a, b, [&](const WifiReading& x, const WifiReading& y) {
-    both += 1;
-    difference += std::abs(static_cast<double>(x.rssi_dbm) - static_cast<double>(y.rssi_dbm));
-  });
-  const double any = static_cast<double>(a.readings.size() + b.readings.size()) - both;
-  return both > 0 ? both / any * std::exp(-difference / both / 6) : 0;
-}
-
 struct ComparedPair {
   std::uint32_t a, b;
   std::uint32_t stretch;
@@ -112,7 +101,7 @@ class FingerprintClock {
             path_m_[b] - path_m_[a] > kCompared_m)
           break;
         const auto stretch = static_cast<std::uint32_t>((a + b) / 2 * kStretches / scans_.size());
-        pairs_.push_back({a, b, stretch, static_cast<float>(similarity(*scans_[a], *scans_[b]))});
+        pairs_.push_back({a, b, stretch, static_cast<float>(fingerprint_similarity(*scans_[a], *scans_[b]))});
       }
   }
 
@@ -141,6 +130,16 @@ double student(const Gains& gains) {
 }
 
 }  // namespace
+
+double fingerprint_similarity(const WifiScan& a, const WifiScan& b) {
+  double both = 0, difference = 0;
+  for_common_readings(a, b, [&](const WifiReading& x, const WifiReading& y) {
+    both += 1;
+    difference += std::abs(static_cast<double>(x.rssi_dbm) - static_cast<double>(y.rssi_dbm));
+  });
+  const double any = static_cast<double>(a.readings.size() + b.readings.size()) - both;
+  return both > 0 ? both / any * std::exp(-difference / both / 6) : 0;
+}
 
 void check_fingerprint_clock(const Robot& robot, const Track& track, std::vector<Finding>& findings) {
   const FingerprintClock clock(robot, track);

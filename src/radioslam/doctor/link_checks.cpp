@@ -12,6 +12,7 @@
 #include "radioslam/doctor/checks.hpp"
 #include "radioslam/doctor/corrections.hpp"
 #include "radioslam/doctor/link_fit.hpp"
+#include "radioslam/doctor/starts.hpp"
 #include "radioslam/doctor/team_links.hpp"
 #include "radioslam/doctor/text.hpp"
 #include "radioslam/geometry/se2.hpp"
@@ -254,37 +255,23 @@ double path_to_end_m(const TeamLinks& team, const LinkWindow& window) {
   return path_m;
 }
 
-struct Contradiction {
-  SE3 error;  ///< T_stated_found of node j's start in node i's
-  double sigma_m = 0, sigma_rad = 0;
-
-  double distance_m() const { return error.translation().head<2>().norm(); }
-  double turn_rad() const { return std::abs(error.yaw()); }
-  bool is_far() const { return distance_m() > 3 * sigma_m || turn_rad() > 3 * sigma_rad; }
-  bool agrees_with(const Contradiction& other) const {
-    const double apart_m = (error.translation() - other.error.translation()).head<2>().norm();
-    return apart_m < 3 * std::hypot(sigma_m, other.sigma_m) &&
-           std::abs(wrap_angle(error.yaw() - other.error.yaw())) < 3 * std::hypot(sigma_rad, other.sigma_rad);
-  }
-};
-
 /// Where the links of a window put the starts, if those stated are much less likely.
-std::optional<Contradiction> contradiction(const TeamLinks& team, const FittedWindow& fitted,
-                                           const SE3& stated) {
+std::optional<StartError> contradiction(const TeamLinks& team, const FittedWindow& fitted,
+                                        const SE3& stated) {
   const double path_m = path_to_end_m(team, fitted.window);
   const StatedAlignment near{stated, kSigmaStart_m + kDriftRatio * path_m,
                              kSigmaStart_rad + kDriftPerMetre_rad * path_m};
   const LinkFit at_stated = fit_links_near(team, fitted.window, near);
   if (fitted.fit.log_evidence - at_stated.log_evidence < kMinGainOfStart) return std::nullopt;
-  return Contradiction{stated.inverse() * fitted.fit.T_i_j, near.sigma_m, near.sigma_rad};
+  return StartError{stated.inverse() * fitted.fit.T_i_j, near.sigma_m, near.sigma_rad};
 }
 
 /// That of all windows of a pair: each contradicts the starts, and by the same error, since detours round
 /// different corners do not agree. Where there is one window, most of its links must be direct.
-std::optional<Contradiction> common_contradiction(const TeamLinks& team,
-                                                  const std::vector<const FittedWindow*>& of_pair,
-                                                  const SE3& stated) {
-  std::optional<Contradiction> common;
+std::optional<StartError> common_contradiction(const TeamLinks& team,
+                                               const std::vector<const FittedWindow*>& of_pair,
+                                               const SE3& stated) {
+  std::optional<StartError> common;
   for (const FittedWindow* fitted : of_pair) {
     const auto found = contradiction(team, *fitted, stated);
     if (!found || (common && !common->agrees_with(*found))) return std::nullopt;
@@ -298,35 +285,16 @@ std::optional<Contradiction> common_contradiction(const TeamLinks& team,
   return common;
 }
 
-/// The robot whose stated start most of its pairs contradict.
 std::vector<Finding> check_starts(const Mission& mission, const TeamLinks& team,
                                   const std::vector<FittedWindow>& windows) {
-  std::map<std::size_t, int> balance;  // pairs that contradict less pairs that agree
-  std::map<std::size_t, Contradiction> difference;
-  std::map<std::pair<std::size_t, std::size_t>, std::vector<const FittedWindow*>> pairs;
-  for (const FittedWindow& fitted : windows) pairs[{fitted.window.i, fitted.window.j}].push_back(&fitted);
-  for (const auto& [pair, of_pair] : pairs) {
-    const auto stated = stated_alignment(mission, team, pair.first, pair.second);
-    if (!stated) continue;
-    const auto contradicted = common_contradiction(team, of_pair, *stated);
-    for (const std::size_t node : {pair.first, pair.second}) {
-      if (node == team.world()) continue;
-      balance[node] += contradicted ? 1 : -1;
-      if (contradicted) difference[node] = *contradicted;
-    }
-  }
-  const auto worst = std::max_element(balance.begin(), balance.end(),
-                                      [](const auto& x, const auto& y) { return x.second < y.second; });
-  if (worst == balance.end() || worst->second <= 0) return {};
-  const bool is_unique = std::count_if(balance.begin(), balance.end(),
-                                       [&](const auto& other) { return other.second == worst->second; }) == 1;
-  const Contradiction by = difference[worst->first];
-  return {
-      {"start", Severity::kWarning, is_unique ? mission.robots[worst->first].id : "", "mission.yaml",
-       std::string(is_unique ? "initial_pose contradicts" : "one of two robots' initial_pose contradicts") +
-           " the radio links by about " + number(by.distance_m()) + " m and " +
-           number(degrees(by.turn_rad())) + " degrees",
-       "the start that the links allow", "correct initial_pose, or state it as unknown"}};
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<const FittedWindow*>> windows_of;
+  for (const FittedWindow& fitted : windows)
+    windows_of[{fitted.window.i, fitted.window.j}].push_back(&fitted);
+  std::vector<PairOfStarts> pairs;
+  for (const auto& [nodes, of_pair] : windows_of)
+    if (const auto stated = stated_alignment(mission, team, nodes.first, nodes.second))
+      pairs.push_back({nodes.first, nodes.second, common_contradiction(team, of_pair, *stated)});
+  return start_findings(mission, pairs, "the radio links");
 }
 
 std::vector<LinkWindow> windows_to_check(const TeamLinks& team) {

@@ -25,7 +25,8 @@ struct WindowTeam {
   /// log |d corrected / d recorded| of all ranges, and the log density of those without odometry at their
   /// time.
   double log_density = 0;
-  std::size_t links = 0;  ///< of the window, unplaced ones included
+  std::size_t links = 0;     ///< of the window, unplaced ones included
+  std::vector<bool> is_fix;  ///< per range
 };
 
 constexpr double kSigmaLevel_rad = 0.03;  // of odometry's roll and pitch
@@ -135,6 +136,7 @@ class WindowTeamBuilder {
       factor.range_m = link.range_m;
       factor.sigma_m = link.sigma;
       result_.team.graph.ranges.push_back(factor);
+      result_.is_fix.push_back(link.kind == TrackLink::Kind::kFix);
       return;
     }
     AmbiguousBearing<Pose> bearing;
@@ -184,8 +186,23 @@ double log_normaliser(const PoseGraph<Pose>& graph) {
 }
 
 template <class Pose>
-double explained_links(const TeamHypothesis<Pose>& found) {
-  double sum = std::accumulate(found.range_weight.begin(), found.range_weight.end(), 0.0);
+double squared_error(const TeamHypothesis<Pose>& found, const RangeFactor<Pose>& range) {
+  const auto place = [&](const RangeEnd<Pose>& end) {
+    return (found.poses[end.pose.index()] * end.lever_arm).eval();
+  };
+  return std::pow(((place(range.j) - place(range.i)).norm() - range.range_m) / range.sigma_m, 2);
+}
+
+/// A fix of a wide sigma is explained where it agrees: its posterior is no larger than that of a false one.
+template <class Pose>
+double explained_links(const WindowTeam<Pose>& window, const TeamHypothesis<Pose>& found) {
+  constexpr double kSquaredSigmas = 9;
+  double sum = 0;
+  for (std::size_t k = 0; k < found.range_weight.size(); ++k) {
+    const bool agrees =
+        window.is_fix[k] && squared_error(found, window.team.graph.ranges[k]) < kSquaredSigmas;
+    sum += agrees ? 1 : found.range_weight[k];
+  }
   for (const auto& paths : found.path_weight) sum = std::accumulate(paths.begin(), paths.end(), sum);
   return sum;
 }
@@ -213,7 +230,7 @@ LinkFit described(const WindowTeam<Pose>& window, const TeamHypothesis<Pose>& fo
   LinkFit fit;
   fit.links = window.links;
   fit.log_evidence = window.log_density + found.log_evidence + log_normaliser(window.team.graph);
-  fit.explained = explained_links(found);
+  fit.explained = explained_links(window, found);
   const auto T_frame_node = [&](std::size_t side) {
     const std::size_t first = window.team.segments[side].first_pose;
     return as_se3(found.poses[first] * window.team.graph.poses[first].inverse(), 0);

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "radioslam/base/statistics.hpp"
@@ -236,16 +237,85 @@ void join_by_links(const Mission& mission, std::size_t world, Components& compon
 }
 
 /// Ranges that no radio between robots measures.
-void check_distances(const Mission& mission, std::vector<Finding>& findings) {
+bool check_distances(const Mission& mission, std::vector<Finding>& findings) {
   constexpr double kFarthest_m = 20e3;
   std::vector<double> ranges_m;
   for (const RangeMeasurement& range : mission.ranges) ranges_m.push_back(range.range_m);
-  if (ranges_m.empty()) return;
+  if (ranges_m.empty()) return false;
   const double usual_m = upper_median(std::move(ranges_m));
-  if (usual_m > kFarthest_m)
-    findings.push_back({"unit", Severity::kError, "", kRangesFile,
-                        "the median distance is " + number(usual_m) + " m", "metres",
-                        "multiply range_m and sigma_m by 0.001 if they are in millimetres"});
+  if (usual_m <= kFarthest_m) return false;
+  findings.push_back({"unit", Severity::kError, "", kRangesFile,
+                      "the median distance is " + number(usual_m) + " m", "metres",
+                      "multiply range_m and sigma_m by 0.001 if they are in millimetres"});
+  return true;
+}
+
+/// How much a range changed, and the path of both its ends meanwhile.
+struct RangeChange {
+  double change_m, path_m, sigma_m;
+
+  /// Whether ends that travel so far can change a range of another unit so much.
+  bool is_possible(double metres_per_unit) const {
+    constexpr double kSigmas = 3, kSlack_m = 0.5;
+    return metres_per_unit * change_m <=
+           path_m + kSlack_m + kSigmas * std::min(1.0, metres_per_unit) * sigma_m;
+  }
+};
+
+/// Of successive ranges between the same antennas, over five metres or more of path.
+std::vector<RangeChange> range_changes(const Mission& mission) {
+  constexpr double kMinPath_m = 5;
+  std::vector<Track> tracks;
+  for (const Robot& robot : mission.robots) tracks.emplace_back(robot);
+  const auto path_at = [&](const LinkEnd& end, double t_s) -> std::optional<double> {
+    if (!end.robot.valid()) return 0;
+    const auto row = tracks[end.robot.index()].at(t_s);
+    return row ? std::optional(row->path_m) : std::nullopt;
+  };
+  const auto node = [&](const LinkEnd& end) {
+    return end.robot.valid() ? end.robot.index() : tracks.size() + end.anchor.index();
+  };
+  using Ends = std::tuple<std::size_t, std::string, std::size_t, std::string>;
+  std::map<Ends, std::pair<double, double>> last;  // path and range
+  std::vector<RangeChange> changes;
+  for (const RangeMeasurement& range : mission.ranges) {
+    const auto path_i = path_at(range.i, range.stamp.seconds()),
+               path_j = path_at(range.j, range.stamp.seconds());
+    if (!path_i || !path_j) continue;
+    const double path_m = *path_i + *path_j;
+    const Ends ends{node(range.i), range.i.antenna, node(range.j), range.j.antenna};
+    const auto [entry, is_new] = last.try_emplace(ends, path_m, range.range_m);
+    if (is_new || path_m - entry->second.first < kMinPath_m) continue;
+    changes.push_back(
+        {std::abs(range.range_m - entry->second.second), path_m - entry->second.first, range.sigma_m});
+    entry->second = {path_m, range.range_m};
+  }
+  return changes;
+}
+
+/// Ranges that change faster than their ends travel, and that do not in another unit.
+void check_range_changes(const Mission& mission, std::vector<Finding>& findings) {
+  constexpr std::size_t kMinChanges = 3;
+  constexpr double kMinRatio = 8, kMinPossible = 0.9, kMaxPossible = 0.5;
+  const std::vector<RangeChange> changes = range_changes(mission);
+  if (changes.size() < kMinChanges) return;
+  const auto possible = [&](double metres_per_unit) {
+    const auto count = std::count_if(changes.begin(), changes.end(), [&](const RangeChange& change) {
+      return change.is_possible(metres_per_unit);
+    });
+    return static_cast<double>(count) / static_cast<double>(changes.size());
+  };
+  std::vector<double> ratios;
+  for (const RangeChange& change : changes) ratios.push_back(change.change_m / change.path_m);
+  const double ratio = upper_median(std::move(ratios));
+  if (ratio < kMinRatio || possible(1) > kMaxPossible) return;
+  for (const auto& [unit, metres] : {std::pair{"centimetres", 0.01}, {"millimetres", 0.001}})
+    if (possible(metres) >= kMinPossible)
+      return findings.push_back(
+          {"unit", Severity::kError, "", kRangesFile,
+           "distances change by " + number(ratio) +
+               " m for every metre that the robots travel, and fit their odometry if they are in " + unit,
+           "metres", "multiply range_m and sigma_m by " + number(metres)});
 }
 
 }  // namespace
@@ -258,7 +328,7 @@ std::vector<Finding> check_times(const Mission& mission) {
     for (const Times& file : files_of(robot)) FileTimes(robot, *motion, file, findings).run();
   }
   check_team_files(mission, findings);
-  check_distances(mission, findings);
+  if (!check_distances(mission, findings)) check_range_changes(mission, findings);
   return findings;
 }
 

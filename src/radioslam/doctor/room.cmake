@@ -3,6 +3,7 @@ radioslam_room(doctor
     check_mission.cpp
     corrections.cpp
     fingerprint_clock.cpp
+    fingerprint_starts.cpp
     inertial_checks.cpp
     link_checks.cpp
     link_fit.cpp
@@ -12,6 +13,8 @@ radioslam_room(doctor
     recording_checks.cpp
     scan_checks.cpp
     stale_scans.cpp
+    starts.cpp
     team_links.cpp
+    truth_checks.cpp
     wifi_checks.cpp
   ROOMS team_frame mission)

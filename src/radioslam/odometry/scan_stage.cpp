@@ -1,10 +1,13 @@
 #include "radioslam/odometry/scan_stage.hpp"
 
 #include <algorithm>
+#include <iomanip>
 #include <optional>
 #include <span>
+#include <sstream>
 #include <utility>
 
+#include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/inertial/preintegration.hpp"
 #include "radioslam/lidar/lidar_odometry.hpp"
 #include "radioslam/mission/mission.hpp"
@@ -190,6 +193,89 @@ ScanOdometry recorded_odometry_with_scans(const Robot& robot, const ScanParams& 
   return {std::nullopt, std::move(scans.keyframes), std::move(scans.stamps), {}};
 }
 
+/// Whether a spatial scanner's points leave a direction of the plane open at this pose.
+bool is_open(const SE3::Jacobian& information) {
+  constexpr double kOpenSigma_m = 0.5;
+  const auto axes = symmetric_eigen_direct(information.topLeftCorner<2, 2>());
+  return axes.values.minCoeff() < 1 / (kOpenSigma_m * kOpenSigma_m);
+}
+
+/// Whether all walls that a planar scanner sees are parallel. The information of its points does not show
+/// that: noisy normals pretend the rest.
+bool has_parallel_walls(const std::vector<Surfel>& cloud) {
+  constexpr double kFlat = 20, kCosine = 0.8, kMaxAcrossRatio = 0.01;
+  std::vector<Eigen::Vector2d> normals;
+  Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
+  for (const Surfel& surfel : cloud) {
+    const auto axes = symmetric_eigen_direct(surfel.covariance.topLeftCorner<2, 2>().cast<double>());
+    if (axes.values[1] < kFlat * axes.values[0]) continue;
+    normals.push_back(axes.vectors.col(0));
+    scatter += normals.back() * normals.back().transpose();
+  }
+  const Eigen::Vector2d main = symmetric_eigen_direct(scatter).vectors.col(1);
+  const auto across = std::count_if(normals.begin(), normals.end(),
+                                    [&](const auto& n) { return std::abs(n.dot(main)) < kCosine; });
+  return static_cast<double>(across) <= kMaxAcrossRatio * static_cast<double>(normals.size());
+}
+
+/// Per pose, whether its scan leaves a direction of the plane open, as along a corridor; a planar one by the
+/// keyframe before.
+std::vector<bool> open_poses(const ScanTrajectory& track, ScannerKind kind) {
+  std::vector<bool> open;
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < track.poses.size(); ++k) {
+    const bool is_keyframe = next < track.keyframes.size() && track.keyframes[next] == k;
+    if (kind == ScannerKind::kSpatial)
+      open.push_back(is_open(track.poses[k].information));
+    else
+      open.push_back(is_keyframe ? has_parallel_walls(track.clouds[next].all) : !open.empty() && open.back());
+    next += is_keyframe;
+  }
+  return open;
+}
+
+/// Time in which nothing measures the motion: the scans leave a direction open and neither an IMU nor
+/// recorded odometry predicts it. The speed before is carried on there, or noise followed, and the steps'
+/// covariances do not show how wrong that is; nor does the length of the estimated path, which may be zero.
+struct GuessedTime {
+  double all_s = 0, longest_s = 0, longest_m = 0;
+  Stamp begin, end;  ///< of the longest stretch
+
+  GuessedTime(const ScanTrajectory& track, ScannerKind kind, const Trajectory<SE3>& recorded) {
+    const std::vector<bool> open = open_poses(track, kind);
+    double stretch_m = 0;
+    Stamp from = track.poses.empty() ? Stamp() : track.poses.front().stamp;
+    for (std::size_t k = 1; k < track.poses.size(); ++k) {
+      const ScanPose &last = track.poses[k - 1], &pose = track.poses[k];
+      if (!open[k] || track.is_level || recorded.covers(pose.stamp) ||
+          pose.status != ScanStatus::kRegistered) {
+        stretch_m = 0, from = pose.stamp;
+        continue;
+      }
+      all_s += seconds_between(last.stamp, pose.stamp);
+      stretch_m += (last.T_start_body.inverse() * pose.T_start_body).translation().norm();
+      longest_m = std::max(longest_m, stretch_m);
+      if (const double length_s = seconds_between(from, pose.stamp); length_s > longest_s)
+        longest_s = length_s, begin = from, end = pose.stamp;
+    }
+  }
+};
+
+void report_guessed_time(MeasuredScans& measured, const Robot& robot, const ScanTrajectory& track,
+                         ScannerKind kind) {
+  // Beside one wall of a hall a planar scanner may see no other for some metres.
+  const double min_length = kind == ScannerKind::kSpatial ? 5 : 20;  // metres, or seconds
+  const GuessedTime guessed(track, kind, robot.odometry);
+  if (guessed.longest_s < min_length && guessed.longest_m < min_length) return;
+  std::ostringstream note;
+  note << std::fixed << std::setprecision(0) << "robot " << robot.id << ": for " << guessed.all_s
+       << " s, most of them from " << guessed.begin.seconds() << " to " << guessed.end.seconds()
+       << " s, its scans look alike along one direction, as in a corridor, and neither an IMU nor recorded "
+          "odometry measures the motion: the position along it is a guess with too small a sigma, except "
+          "where ranges or fixes correct it; record an IMU or wheel odometry";
+  measured.notes.push_back(note.str());
+}
+
 /// Counts the robot's scans and notes problems.
 void report_scans(MeasuredScans& measured, const Robot& robot, const ScanTrajectory& track) {
   const auto note = [&](std::size_t count, const std::string& what) {
@@ -250,6 +336,7 @@ MeasuredScans measure_scans(const Mission& mission, const ScanParams& params, co
     const ScannerTraits traits = scanner_traits(robot.lidar, params.lidar);
     ScanTrajectory track = track_scans_with_imu(robot, traits, params, keyframes, progress, measured.notes);
     report_scans(measured, robot, track);
+    report_guessed_time(measured, robot, track, traits.kind);
     if (track.poses.empty()) {
       if (robot.odometry.empty()) scans = static_odometry(robot);
       continue;

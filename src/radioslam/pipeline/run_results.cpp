@@ -12,6 +12,7 @@
 #include "radioslam/joint/uncertainty/position_uncertainty.hpp"
 #include "radioslam/joint/uncertainty/rejected_stretches.hpp"
 #include "radioslam/pipeline/collect_results.hpp"
+#include "radioslam/results/result_notes.hpp"
 
 namespace radioslam {
 namespace {
@@ -70,11 +71,16 @@ void note_range_biases(RunResult& result) {
   result.notes.push_back(note.str());
 }
 
+void append(std::vector<std::string>& notes, std::vector<std::string> more) {
+  for (auto& note : more) notes.push_back(std::move(note));
+}
+
 void add_notes(RunResult& result, const Mission& mission, const RadioMeasurements& radio,
                const SequenceStageParams& sequence, std::size_t ignored_links) {
   for (const auto& id : result.unplaced)
     result.notes.push_back("robot " + id +
                            " is not placed: no measurement that can be trusted connects it to another robot");
+  append(result.notes, component_notes(result));
   for (const auto& file : mission.unused_files) result.notes.push_back(file + " is not used by this version");
   if (ignored_links > 0)
     result.notes.push_back(
@@ -92,7 +98,7 @@ void check_angles_into(RunResult& result, const Mission& mission, const JointGra
                        const TeamAlignment<Pose>& alignment, const RunParams& params) {
   const auto add = [&](const AoaIntegrity& checks, CheckedPose pose) {
     result.angle_checks.insert(result.angle_checks.end(), checks.pairs.begin(), checks.pairs.end());
-    for (auto& note : angle_notes(checks, pose)) result.notes.push_back(std::move(note));
+    append(result.notes, angle_notes(checks, pose));
   };
   add(check_self_reports<Pose>(mission, params.graph, params.angles, params.angle_check),
       CheckedPose::kSelfReported);
@@ -195,13 +201,13 @@ RunResult describe_run(const Mission& mission, const RadioMeasurements& radio,
         "robots were placed by fingerprints alone: sigma_m and sigma_team_m take their layout as right");
   if (radio.rssi_offsets.shown) result.notes.push_back(rssi_offset_note(result.robots));
   add_notes(result, mission, radio, params.sequence, joint.ignored_links);
-  result.notes.insert(result.notes.end(), estimate.alignment.notes.begin(), estimate.alignment.notes.end());
+  append(result.notes, estimate.alignment.notes);
   add_fix_results(result, joint, estimate.judgement.fixes);
   if (!mission.aoa_measurements.empty())
     timed("angle checks", [&] { check_angles_into(result, mission, joint, estimate.alignment, params); });
   result.closures = collect_all_closures(estimate);
-  for (auto& note : notes_on_obstructed_robots(result.robots, result.closures))
-    result.notes.push_back(std::move(note));
+  append(result.notes, rejection_notes(result.closures));
+  append(result.notes, notes_on_obstructed_robots(result.robots, result.closures));
   add_uncertain_stretches(result);
   widen_by_alternatives(result.robots, joint, estimate.alignment);
   widen_by_rejected_closures(result.robots, result.closures);

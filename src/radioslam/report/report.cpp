@@ -13,6 +13,7 @@
 #include "radioslam/report/page_parts.hpp"
 #include "radioslam/report/rounding.hpp"
 #include "radioslam/report/trajectory_data.hpp"
+#include "radioslam/results/note_groups.hpp"
 
 namespace radioslam {
 namespace {
@@ -187,6 +188,15 @@ PageData transform_data(const RunResult& result) {
   return data;
 }
 
+/// A list of notes per kind.
+PageData note_data(const RunResult& result) {
+  std::vector<std::string> robots;
+  for (const RobotResult& robot : result.robots) robots.push_back(robot.id);
+  PageData data = PageData::array();
+  for (const NoteGroup& group : grouped_notes(result.notes, robots)) data.push_back(group.notes);
+  return data;
+}
+
 void add_run(PageData& page, const RunResult& result, const ReportParams& params) {
   page["components"] = PageData::array();
   for (const auto& component : result.components) page["components"].push_back(component.robots);
@@ -222,7 +232,7 @@ void add_run(PageData& page, const RunResult& result, const ReportParams& params
                                   {"unit", parameter.unit},
                                   {"meaning", parameter.description},
                                   {"changed", parameter.changed}});
-  page["notes"] = result.notes;
+  page["notes"] = note_data(result);
 }
 
 PageData page_data(const RunResult& result, const Truth* truth, const std::optional<TeamMetrics>& metrics,

@@ -1,4 +1,6 @@
 radioslam_room(results
   SOURCES
     candidate_list.cpp
+    note_groups.cpp
+    result_notes.cpp
   ROOMS mission)

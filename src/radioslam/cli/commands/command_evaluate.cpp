@@ -11,7 +11,9 @@
 #include "radioslam/cli/commands.hpp"
 #include "radioslam/cli/commands/command_options.hpp"
 #include "radioslam/cli/commands/evaluation.hpp"
+#include "radioslam/cli/commands/mission_check.hpp"
 #include "radioslam/cli/commands/mission_input.hpp"
+#include "radioslam/doctor/check_mission.hpp"
 #include "radioslam/eval/closures.hpp"
 #include "radioslam/eval/measurement_truth.hpp"
 #include "radioslam/eval/metrics.hpp"
@@ -144,8 +146,11 @@ Evaluation evaluate(const EvaluateOptions& options) {
                                " candidates: kept and true_kept count these alone, not what the run found");
   const auto estimate = in_common_frame(run.robots, run.components, run.unplaced);
   evaluation.metrics = evaluate_trajectories(estimate, truth, mission.dimension, association);
-  for (auto& note : mirror_notes(evaluation.metrics.mirror_images))
-    evaluation.notes.push_back(std::move(note));
+  const std::vector<Finding> findings = check_truth(mission, truth);
+  for (const Finding& finding : findings) evaluation.notes.push_back(text_of(finding));
+  if (!has_mirrored_truth(findings))
+    for (auto& note : mirror_notes(evaluation.metrics.mirror_images))
+      evaluation.notes.push_back(std::move(note));
   const auto odometry = dead_reckoning(mission);
   if (!odometry.empty()) {
     evaluation.dead_reckoning = evaluate_trajectories(odometry, truth, mission.dimension, association);
@@ -173,15 +178,17 @@ nlohmann::ordered_json evaluation_json(const Evaluation& evaluation) {
 }
 
 void print_evaluation(const Evaluation& evaluation) {
-  for (const auto& note : evaluation.notes) std::cout << "note: " << note << '\n';
-  std::cout << metrics_table(evaluation.metrics);
+  std::cout << notes_text(evaluation.notes, names_of(evaluation.metrics.robots))
+            << metrics_table(evaluation.metrics);
   if (evaluation.dead_reckoning && evaluation.dead_reckoning->ate) {
     std::cout << "dead reckoning alone: " << evaluation.dead_reckoning->ate->rmse_m << " m rmse\n";
   }
-  std::cout << "closures: " << evaluation.accepted << " accepted, " << evaluation.rejected
-            << " rejected; between robots " << evaluation.closures.kept << " accepted, "
-            << evaluation.closures.true_kept << " of them of true pairs\n";
-  std::cout << closures_by_kind_text(evaluation.by_kind);
+  std::cout << "closures: " << evaluation.accepted << " accepted, " << evaluation.rejected << " rejected"
+            << (evaluation.by_kind.empty() ? "" : "; true: the measurement agrees with the truth") << '\n'
+            << closures_by_kind_text(evaluation.by_kind);
+  if (evaluation.closures.kept > 0)
+    std::cout << "  between robots: " << evaluation.closures.kept << " accepted, "
+              << evaluation.closures.true_kept << " of them between keyframes with overlapping views\n";
 }
 
 void evaluate_run(const EvaluateOptions& options) {

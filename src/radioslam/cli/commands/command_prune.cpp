@@ -10,6 +10,7 @@
 
 #include "radioslam/cli/commands.hpp"
 #include "radioslam/cli/commands/command_options.hpp"
+#include "radioslam/cli/commands/evaluation.hpp"
 #include "radioslam/cli/commands/mission_input.hpp"
 #include "radioslam/cli/commands/output_path_check.hpp"
 #include "radioslam/cli/config.hpp"
@@ -54,7 +55,7 @@ RunOutput search(const PruneOptions& options, const RunParams& params, const std
 }
 
 void print_pruned(const RunResult& result, const std::string& output) {
-  for (const auto& note : result.notes) std::cout << "note: " << note << '\n';
+  std::cout << notes_text(result.notes, names_of(result.robots));
   const auto count = [&](const char* name) {
     const auto found = result.counts.find(name);
     return found == result.counts.end() ? 0LL : std::llround(found->second);

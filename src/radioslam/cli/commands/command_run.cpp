@@ -28,6 +28,7 @@
 #include "radioslam/io/text/atomic_output.hpp"
 #include "radioslam/pipeline/pipeline.hpp"
 #include "radioslam/report/report.hpp"
+#include "radioslam/results/result_notes.hpp"
 
 namespace radioslam::cli {
 namespace {
@@ -82,11 +83,14 @@ std::string error_text(const TeamMetrics& metrics) {
   return text.str();
 }
 
+void append(std::vector<std::string>& notes, std::vector<std::string> more) {
+  for (auto& note : more) notes.push_back(std::move(note));
+}
+
 void print_run(const RunResult& result, const std::optional<TeamMetrics>& metrics,
                const std::string& output) {
-  for (const auto& note : result.notes) std::cout << "note: " << note << '\n';
-  std::cout << output << ": " << result.robots.size() << " robots, " << result.closures.size()
-            << " closures, " << result.components.size()
+  std::cout << notes_text(result.notes, names_of(result.robots)) << output << ": " << result.robots.size()
+            << " robots, " << result.closures.size() << " closures, " << result.components.size()
             << (result.components.size() == 1 ? " frame" : " separate frames");
   if (metrics) std::cout << error_text(*metrics);
   std::cout << '\n';
@@ -120,14 +124,17 @@ void run_mission(const RunArguments& options) {
   OutputFolder output(options.output, kRunFolder);
   MissionInput input = read_input(options.mission, options.starts);
   const bool is_checked = !options.unchecked && std::holds_alternative<std::monostate>(input.graph);
-  const auto warnings = is_checked ? warnings_about(input.mission, options.mission.front()) : input.notes;
+  std::vector<std::string> notes = input.notes;
+  std::vector<Finding> warnings;
+  if (is_checked) warnings = warnings_about(input.mission, input.truth, options.mission.front());
   const MissionInput given = for_evaluation(input);
   RunOutput run = estimate(std::move(input), params, options);
-  auto& notes = run.result.notes;
-  notes.insert(notes.begin(), warnings.begin(), warnings.end());
   const Agreement agreement = evaluate(run.result, given);
-  if (agreement.metrics)
-    for (auto& note : mirror_notes(agreement.metrics->mirror_images)) notes.push_back(std::move(note));
+  append(notes, finding_notes(warnings, run.result));
+  append(notes, std::move(run.result.notes));
+  if (agreement.metrics && !has_mirrored_truth(warnings))
+    append(notes, mirror_notes(agreement.metrics->mirror_images));
+  run.result.notes = std::move(notes);
   const RunDocuments documents = documents_of(run, given, agreement);
   write_run(output.path(), run.result, documents);
   output.commit();

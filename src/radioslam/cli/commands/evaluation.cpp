@@ -5,6 +5,7 @@
 
 #include "radioslam/base/units.hpp"
 #include "radioslam/io/run/run_tables.hpp"
+#include "radioslam/results/note_groups.hpp"
 
 namespace radioslam::cli {
 namespace {
@@ -53,6 +54,12 @@ std::vector<EstimatedTrajectory> dead_reckoning(const Mission& mission) {
     robots.push_back({robot.id, Trajectory<SE3>(std::move(poses))});
   }
   return robots;
+}
+
+std::string notes_text(const std::vector<std::string>& notes, const std::vector<std::string>& robots) {
+  std::string text;
+  for (const NoteGroup& group : grouped_notes(notes, robots)) text += "note: " + line_of(group) + '\n';
+  return text;
 }
 
 std::string metrics_table(const TeamMetrics& metrics) {

@@ -20,6 +20,16 @@ std::vector<std::string> frame_notes(const std::vector<EstimatedTrajectory>& rob
 /// Trajectories from odometry alone, beginning at the known starts; empty unless every start is known.
 std::vector<EstimatedTrajectory> dead_reckoning(const Mission& mission);
 
+/// The names of robots that have an `id`.
+std::vector<std::string> names_of(const auto& robots) {
+  std::vector<std::string> names;
+  for (const auto& robot : robots) names.push_back(robot.id);
+  return names;
+}
+
+/// A line per kind of note (results/note_groups.hpp).
+std::string notes_text(const std::vector<std::string>& notes, const std::vector<std::string>& robots);
+
 /// Table of position errors per robot and for the team, and the relative error.
 std::string metrics_table(const TeamMetrics& metrics);
 

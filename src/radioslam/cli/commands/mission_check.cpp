@@ -1,5 +1,6 @@
 #include "radioslam/cli/commands/mission_check.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cstddef>
@@ -84,32 +85,41 @@ Finding refused(const InputError& error, const fs::path& folder) {
   return finding;
 }
 
+std::vector<Finding> checked(const Mission& mission, const Truth& truth) {
+  std::vector<Finding> findings = check_mission(mission);
+  for (Finding& finding : check_truth(mission, truth)) findings.push_back(std::move(finding));
+  return findings;
+}
+
 }  // namespace
 
 std::vector<Finding> examine_mission(const fs::path& folder) {
   if (!fs::exists(folder / "mission.yaml")) read_mission(folder);  // refuses, and says why
   try {
-    return check_mission(read_mission(folder));
+    const Mission mission = read_mission(folder);
+    return checked(mission, read_truth(folder, mission));
   } catch (const InputError& error) {
     return {refused(error, folder)};
   }
 }
 
-std::vector<std::string> warnings_about(const Mission& mission, const std::string& folder) {
-  const std::vector<Finding> findings = check_mission(mission);
-  std::vector<std::string> warnings;
-  std::size_t errors = 0;
-  for (const Finding& finding : findings) {
-    errors += finding.severity == Severity::kError;
-    if (finding.severity == Severity::kWarning) warnings.push_back(text_of(finding));
-  }
-  if (errors == 0) return warnings;
+std::vector<Finding> warnings_about(const Mission& mission, const Truth& truth, const std::string& folder) {
+  const std::vector<Finding> findings = checked(mission, truth);
+  const auto errors = std::count_if(findings.begin(), findings.end(),
+                                    [](const Finding& f) { return f.severity == Severity::kError; });
+  if (errors == 0) return findings;
   Finding first = findings.front();
   const std::string file = first.file.empty() ? folder : (fs::path(folder) / first.file).string();
   first.file.clear();
   throw InputError(file, 0,
                    text_of(first) + (errors > 1 ? "; and " + std::to_string(errors - 1) + " more" : "") +
                        " (radioslam doctor lists all findings; --unchecked runs nevertheless)");
+}
+
+bool has_mirrored_truth(const std::vector<Finding>& findings) {
+  return std::any_of(findings.begin(), findings.end(), [](const Finding& f) {
+    return f.kind == "handedness" && f.file.ends_with("groundtruth.tum");
+  });
 }
 
 }  // namespace radioslam::cli

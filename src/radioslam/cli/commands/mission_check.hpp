@@ -7,6 +7,7 @@
 
 #include "radioslam/mission/finding.hpp"
 #include "radioslam/mission/mission.hpp"
+#include "radioslam/mission/truth.hpp"
 
 namespace radioslam::cli {
 
@@ -14,8 +15,10 @@ namespace radioslam::cli {
 /// if there is no mission.yaml in the folder.
 std::vector<Finding> examine_mission(const std::filesystem::path& folder);
 
-/// Texts of the warnings about a mission that was read. Throws InputError, with all errors' number, if it has
-/// errors.
-std::vector<std::string> warnings_about(const Mission& mission, const std::string& folder);
+/// The warnings about a mission that was read. Throws InputError, with all errors' number, if it has errors.
+std::vector<Finding> warnings_about(const Mission& mission, const Truth& truth, const std::string& folder);
+
+/// Whether one of them is a ground truth that is the mirror image of the odometry.
+bool has_mirrored_truth(const std::vector<Finding>& findings);
 
 }  // namespace radioslam::cli

@@ -51,14 +51,16 @@ function write_facts() {
   by_id("facts").textContent = facts.join(" · ");
 }
 
-const names = ids => (ids.length > 6 ? `${ids.slice(0, 5).join(", ")} and ${ids.length - 5} more` : ids.join(", "));
+/// One box per kind; of several notes the first, which unfolds the others.
+function note_box(notes) {
+  if (notes.length === 1) return element("li", {}, notes[0]);
+  const count = element("span", { class: "count" }, `${format.count(notes.length)} of this kind`);
+  return element("li", {}, element("details", {}, element("summary", {}, notes[0], " ", count),
+    element("ul", {}, ...notes.slice(1).map(note => element("li", {}, note)))));
+}
 
 function write_notes() {
-  const notes = [];
-  if (report.unplaced.length) notes.push(`Unplaced, with no measurement that connects ${report.unplaced.length === 1 ? "it" : "them"} to the others: ${report.unplaced.join(", ")}.`);
-  if (report.components.length > 1)
-    notes.push(`Not connected: no measurement links ${report.components.map(names).join(" to ")}. Each of these ${report.components.length} frames is independent; distances between them are meaningless.`);
-  by_id("notes").append(...notes.concat(report.notes).map(note => element("li", {}, note)));
+  by_id("notes").append(...report.notes.map(note_box));
 }
 
 function write_headline() {

@@ -32,16 +32,16 @@ function robot_columns() {
   const some = key => robots.some(r => known(r[key]));
   const number = (name, value, text, title) => ({ name, value, text: r => text(value(r)), number: true, title });
   const list = [{ name: "robot", value: r => r.id, id: true, node: r => [element("span", { class: "swatch", style: { background: robot_colour(r.index) } }), r.id] }];
-  if (report.components.length > 1) list.push(number("frame", r => (r.stranded ? null : r.component + 1), format.count));
-  list.push({ name: "placed", value: r => (r.stranded ? "no" : "yes"), text: r => (r.stranded ? "no" : "yes") },
-    number("keyframes", r => r.keyframes, format.count), number("path length (m)", r => r.walked_m, format.metres));
-  if (report.accuracy) {
+  // Errors first: on a narrow screen the rest is beyond the edge.
+  if (report.accuracy)
     list.push(number("ATE RMSE (m)", r => r.ate && r.ate.rmse_m, format.metres), number("median (m)", r => r.ate && r.ate.median_m, format.metres),
-      number("p90 (m)", r => r.ate && r.ate.p90_m, format.metres),
-      number("dead reckoning (m)", r => r.dead_reckoning && r.dead_reckoning.rmse_m, format.metres, "RMSE, after its own alignment"),
-      number("covered", r => r.coverage, format.percent, "ratio of the true poses"));
-  }
+      number("p90 (m)", r => r.ate && r.ate.p90_m, format.metres));
   if (some("sigma_median_m")) list.push(number("σ median (m)", r => r.sigma_median_m, format.metres, "of position, after the best rigid motion of the whole team"));
+  if (robots.some(r => r.dead_reckoning)) list.push(number("dead reckoning (m)", r => r.dead_reckoning && r.dead_reckoning.rmse_m, format.metres, "RMSE, after its own alignment"));
+  if (report.accuracy) list.push(number("covered", r => r.coverage, format.percent, "ratio of the true poses"));
+  if (report.components.length > 1) list.push(number("frame", r => (r.stranded ? null : r.component + 1), format.count));
+  if (robots.some(r => r.stranded)) list.push({ name: "placed", value: r => (r.stranded ? "no" : "yes"), text: r => (r.stranded ? "no" : "yes") });
+  list.push(number("keyframes", r => r.keyframes, format.count), number("path length (m)", r => r.walked_m, format.metres));
   if (some("fixes"))
     list.push(number("fixes used", r => r.fixes && r.fixes.used, format.count, "position fixes that agree with the estimate"),
       number("fixes rejected", r => r.fixes && r.fixes.rejected, format.count, "position fixes that contradict the estimate"));
