@@ -63,8 +63,8 @@ TEST(OverlapExchangeTest, MalformedMessagesAreRefused) {
   auto hello = answerer.hello();
   hello.pop_back();
   EXPECT_THROW(asker.receive_hello(hello), std::invalid_argument);
-  EXPECT_THROW(answerer.answer(OverlapMessage(7)), std::invalid_argument);
-  EXPECT_THROW(answerer.answer(OverlapMessage(12, std::byte{1})), std::invalid_argument);
+  EXPECT_THROW(answerer.answer(OverlapMessage(7, '\0')), std::invalid_argument);
+  EXPECT_THROW(answerer.answer(OverlapMessage(12, '\1')), std::invalid_argument);
 }
 
 }  // namespace

@@ -9,8 +9,8 @@
 
 #include "radioslam/base/check.hpp"
 #include "radioslam/base/units.hpp"
-#include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/graph/pose_ids.hpp"
+#include "radioslam/io/graph/repeated_edges.hpp"
 
 namespace radioslam {
 namespace {
@@ -38,24 +38,13 @@ Stamp stamp_of(const PoseIndex& place) {
   return {static_cast<std::int64_t>(std::min(place.place, kMaxPlace)) * kNanosecondsPerSecond};
 }
 
-/// The inverse measurement: (Z Exp(xi))^-1 = Z^-1 Exp(-Ad(Z) xi).
-template <class Pose>
-RelativePoseFactor<Pose> reversed(const RelativePoseFactor<Pose>& factor) {
-  RelativePoseFactor<Pose> result = factor;
-  result.i = factor.j;
-  result.j = factor.i;
-  result.T_i_j = factor.T_i_j.inverse();
-  const typename Pose::Jacobian back = factor.T_i_j.inverse().adjoint();
-  result.information = normal_matrix(back, factor.information);
-  return result;
-}
-
 template <class Pose>
 class Assembly {
  public:
   Assembly(PoseGraph<Pose> graph, const std::vector<PoseIndex>& places, StatedStarts starts)
       : graph_(std::move(graph)), places_(places), order_(order_of(places)) {
     if (starts == StatedStarts::kIgnored) drop_priors_on_several_robots();
+    drop_repeated_edges();
   }
 
   AssembledTeam<Pose> run() {
@@ -82,6 +71,33 @@ class Assembly {
     notes_.push_back("the priors on poses of " + std::to_string(robots.size()) +
                      " robots are not used: starts count as unknown without --known-starts");
     graph_.pose_priors.clear();
+  }
+
+  /// An edge between two robots that repeats an earlier one, which counts.
+  void drop_repeated_edges() {
+    using Ends = std::pair<PoseId, PoseId>;
+    std::multimap<Ends, std::size_t> kept;
+    std::vector<RelativePoseFactor<Pose>> edges;
+    for (std::size_t f = 0; f < graph_.relative_poses.size(); ++f) {
+      const auto& factor = graph_.relative_poses[f];
+      const Ends ends = std::minmax({factor.i, factor.j});
+      const bool between = places_[factor.i.index()].robot != places_[factor.j.index()].robot;
+      const auto [begin, end] = kept.equal_range(ends);
+      if (between && std::any_of(begin, end, [&](const auto& earlier) {
+            return are_repeated_edges(edges[earlier.second], factor);
+          }))
+        continue;
+      if (between) kept.emplace(ends, edges.size());
+      edges.push_back(factor);
+      file_edge_.push_back(f);
+    }
+    const std::size_t repeated = graph_.relative_poses.size() - edges.size();
+    graph_.relative_poses = std::move(edges);
+    if (repeated > 0)
+      notes_.push_back(
+          std::to_string(repeated) +
+          " edges between robots repeat another one, as its inverse, with other digits or in the "
+          "same file: each measurement counts once");
   }
 
   void rename_poses() {
@@ -141,6 +157,7 @@ class Assembly {
       if (!taken[f]) relative_pose_index_.push_back(f);
     for (const std::size_t f : relative_pose_index_) sorted.push_back(graph_.relative_poses[f]);
     graph_.relative_poses = std::move(sorted);
+    for (std::size_t& f : relative_pose_index_) f = file_edge_[f];
   }
 
   void reckon(TrajectorySegment& segment) {
@@ -163,7 +180,8 @@ class Assembly {
   PoseGraph<Pose> graph_;
   const std::vector<PoseIndex>& places_;
   std::vector<std::size_t> order_;
-  std::vector<std::size_t> odometry_;  // per pose: the factor to the next pose, or kNone
+  std::vector<std::size_t> odometry_;   // per pose: the factor to the next pose, or kNone
+  std::vector<std::size_t> file_edge_;  // per relative pose that counts, its index in the file
   std::vector<std::size_t> relative_pose_index_;
   std::vector<std::string> notes_;
   Stamp last_stamp_;

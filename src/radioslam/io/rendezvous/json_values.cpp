@@ -40,6 +40,32 @@ std::optional<std::uint64_t> whole_number_of(const Json& json, std::uint64_t lar
   return value;
 }
 
+/// Bytes of memory that a value takes, with what allocation and growing lists add.
+constexpr std::size_t kMemberBytes = 112, kContainerBytes = 56, kValueBytes = 24;
+/// A line may take so many times its bytes, and so much in any case.
+constexpr std::size_t kJsonGrowth = 6, kFreeJsonBytes = 800'000;
+
+/// Refuses JSON of very many very short values before these fill the memory.
+class JsonBudget {
+ public:
+  explicit JsonBudget(std::size_t text_bytes) : left_(kJsonGrowth * text_bytes + kFreeJsonBytes) {}
+
+  bool operator()(int, Json::parse_event_t event, const Json&) {
+    using Event = Json::parse_event_t;
+    if (event == Event::key) take(kMemberBytes);
+    if (event == Event::object_start || event == Event::array_start) take(kContainerBytes);
+    if (event == Event::value) take(kValueBytes);
+    return true;
+  }
+
+ private:
+  void take(std::size_t bytes) {
+    if (bytes > left_) refuse_json("too many values");
+    left_ -= bytes;
+  }
+  std::size_t left_;
+};
+
 std::string whole_number_up_to(std::uint64_t largest) {
   return "a whole number from 0 to " + std::to_string(largest);
 }
@@ -54,7 +80,7 @@ void refuse_json(const std::string& reason) { throw InputError("line", 0, reason
 
 Json parse_json(std::string_view text) {
   try {
-    return Json::parse(text);
+    return Json::parse(text, JsonBudget(text.size()));
   } catch (const Json::parse_error& error) {
     refuse_json("not valid JSON at byte " + std::to_string(error.byte));
   } catch (const Json::out_of_range&) {
