@@ -66,7 +66,9 @@ class OutcomeOf {
     out << run_.rounds.size() << " rounds, cost " << outcome_.cost << ", " << outcome_.relative_gap()
         << " above the central optimum relatively; " << bytes_per_robot() << " bytes a robot";
     if (!run_.settled) out << "; the robots had not all come to an end (" << termination() << ")";
-    if (frames().size() > 1) out << "; " << frames().size() << " frames that nothing ties together";
+    if (frames().size() > 1)
+      out << "; " << frames().size()
+          << (run_.settled ? " frames that nothing ties together" : " frames so far");
     return out.str();
   }
 

@@ -20,7 +20,8 @@ BlockCoordinateSolver<Pose>::BlockCoordinateSolver(RobotGraph<Pose> robot,
 template <class Pose>
 std::vector<Message<Pose>> BlockCoordinateSolver<Pose>::round(const std::vector<Message<Pose>>& heard) {
   for (const auto& message : heard) hear(message);
-  if (frames_.adopt(robot_)) {
+  const bool adopted = frames_.adopt(robot_);
+  if (adopted) {
     poses_ = robot_.trajectory();
     momentum_ = 1;
   }
@@ -28,7 +29,8 @@ std::vector<Message<Pose>> BlockCoordinateSolver<Pose>::round(const std::vector<
     usable_ = std::move(usable);
     prepare();
   }
-  small_steps_ = !usable_.empty() && step() ? small_steps_ + 1 : 0;
+  // Neighbours have not heard of a frame that was adopted just now.
+  small_steps_ = !usable_.empty() && step() && !adopted ? small_steps_ + 1 : 0;
   settled_ = robot_.neighbours.empty() || (small_steps_ > params_.patience && all_heard());
   return frames_.seen_by_all(robot_, round_++);
 }

@@ -24,7 +24,7 @@ inline constexpr std::uint8_t kWireVersion = 1;
 /// More in one message is refused, before anything is allocated.
 inline constexpr std::size_t kMaxMessageBytes = std::size_t{1} << 26U;
 /// Robots have numbers below this one: what a message can make its receiver remember has an end.
-inline constexpr RobotNumber kMaxRobots = 1024;
+inline constexpr RobotNumber kMaxRobots = 512;
 
 /// What a section is about; traffic is counted by it.
 enum class SectionKind : std::uint8_t { kTopology, kFrames, kPoses, kMatrices, kSteps, kUp, kDown, kStage };

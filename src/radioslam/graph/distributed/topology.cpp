@@ -22,6 +22,30 @@ class RobotSet {
   std::vector<bool> there_;
 };
 
+using Bits = std::vector<std::uint64_t>;
+constexpr std::size_t kBits = 64;
+
+std::size_t words_for(std::size_t bits) { return (bits + kBits - 1) / kBits; }
+void set_bit(Bits& bits, std::size_t place) { bits[place / kBits] |= std::uint64_t{1} << (place % kBits); }
+
+/// Goes from the robots at one distance to those at the next; false where there are none. `next`: room for
+/// it.
+bool widen(const std::vector<Bits>& linked, Bits& ring, Bits& reached, Bits& next) {
+  next.assign(ring.size(), 0);
+  for (std::size_t w = 0; w < ring.size(); ++w)
+    for (std::uint64_t bits = ring[w]; bits != 0; bits &= bits - 1) {
+      const Bits& of = linked[w * kBits + static_cast<std::size_t>(std::countr_zero(bits))];
+      for (std::size_t v = 0; v < next.size(); ++v) next[v] |= of[v];
+    }
+  bool any = false;
+  for (std::size_t w = 0; w < ring.size(); ++w) {
+    ring[w] = next[w] & ~reached[w];
+    reached[w] |= ring[w];
+    any = any || ring[w] != 0;
+  }
+  return any;
+}
+
 }  // namespace
 
 void TopologyGossip::hear(RobotNumber from, const std::vector<RobotLinks>& links) {
@@ -92,39 +116,21 @@ std::map<RobotNumber, RobotLinks> TopologyGossip::reachable() const {
 }
 
 std::vector<std::uint32_t> eccentricities(const std::map<RobotNumber, RobotLinks>& team) {
-  constexpr std::size_t kBits = 64;
-  const std::size_t words = (team.size() + kBits - 1) / kBits;
-  using Bits = std::vector<std::uint64_t>;
   std::map<RobotNumber, std::size_t> place;
   for (const auto& [robot, unused] : team) place.emplace(robot, place.size());
   std::vector<Bits> linked;
   for (const auto& [robot, links] : team) {
-    linked.emplace_back(words, 0);
-    for (const RobotNumber n : links.neighbours)
-      linked.back()[place.at(n) / kBits] |= std::uint64_t{1} << (place.at(n) % kBits);
+    linked.emplace_back(words_for(team.size()), 0);
+    for (const RobotNumber n : links.neighbours) set_bit(linked.back(), place.at(n));
   }
   std::vector<std::uint32_t> eccentricities;
   for (std::size_t from = 0; from < team.size(); ++from) {
-    Bits reached(words, 0);
-    reached[from / kBits] |= std::uint64_t{1} << (from % kBits);
-    Bits ring = reached;  // at one distance
-    for (std::uint32_t distance = 0;; ++distance) {
-      Bits next(words, 0);
-      for (std::size_t w = 0; w < words; ++w)
-        for (std::uint64_t bits = ring[w]; bits != 0; bits &= bits - 1) {
-          const Bits& of = linked[w * kBits + static_cast<std::size_t>(std::countr_zero(bits))];
-          for (std::size_t v = 0; v < words; ++v) next[v] |= of[v];
-        }
-      bool any = false;
-      for (std::size_t w = 0; w < words; ++w) {
-        ring[w] = next[w] & ~reached[w];
-        reached[w] |= ring[w];
-        any = any || ring[w] != 0;
-      }
-      if (any) continue;
-      eccentricities.push_back(distance);
-      break;
-    }
+    Bits reached(words_for(team.size()), 0), ring, next;
+    set_bit(reached, from);
+    ring = reached;
+    std::uint32_t distance = 0;
+    while (widen(linked, ring, reached, next)) ++distance;
+    eccentricities.push_back(distance);
   }
   return eccentricities;
 }
