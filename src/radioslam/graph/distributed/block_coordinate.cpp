@@ -31,7 +31,7 @@ std::vector<Message<Pose>> BlockCoordinateSolver<Pose>::round(const std::vector<
   }
   // Neighbours have not heard of a frame that was adopted just now.
   small_steps_ = !usable_.empty() && step() && !adopted ? small_steps_ + 1 : 0;
-  settled_ = robot_.neighbours.empty() || (small_steps_ > params_.patience && all_heard());
+  settled_ = robot_.neighbours.empty() || (small_steps_ > params_.max_age && all_heard());
   return frames_.seen_by_all(robot_, round_++);
 }
 
@@ -60,7 +60,7 @@ void BlockCoordinateSolver<Pose>::prepare() {
 template <class Pose>
 bool BlockCoordinateSolver<Pose>::all_heard() const {
   return std::all_of(heard_until_.begin(), heard_until_.end(),
-                     [&](std::uint32_t until) { return round_ - until <= params_.patience; });
+                     [&](std::uint32_t until) { return round_ - until <= params_.max_age; });
 }
 
 template <class Pose>

@@ -22,7 +22,7 @@ struct BlockCoordinateParams {
   double absolute_decrease = 1e-12;  ///< smaller is small in any case
   /// Rounds without a word from a neighbour until its values are too old to be settled with. As long must a
   /// robot's own steps have been small.
-  std::uint32_t patience = 0;
+  std::uint32_t max_age = 0;
 };
 
 template <class Pose>

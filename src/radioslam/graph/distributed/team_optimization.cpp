@@ -19,7 +19,7 @@ namespace {
 /// Rounds without an answer, in networks that lose and delay messages.
 constexpr std::uint32_t kRepeatAfter = 4;
 /// Rounds without a word, beyond the delay, in which a neighbour's values do not count as old there.
-constexpr std::uint32_t kPatience = 20;
+constexpr std::uint32_t kMaxAge = 20;
 
 template <class Pose>
 std::unique_ptr<DistributedSolver<Pose>> make_solver(RobotGraph<Pose> robot,
@@ -29,7 +29,7 @@ std::unique_ptr<DistributedSolver<Pose>> make_solver(RobotGraph<Pose> robot,
       BlockCoordinateParams block;
       block.frames = params.frames;
       if (params.network.loss_share > 0 || params.network.delay_rounds > 0)
-        block.patience = static_cast<std::uint32_t>(params.network.delay_rounds) + kPatience;
+        block.max_age = static_cast<std::uint32_t>(params.network.delay_rounds) + kMaxAge;
       return std::make_unique<BlockCoordinateSolver<Pose>>(std::move(robot), block);
     }
     case DistributedMethod::kTwoStage: {

@@ -2,7 +2,7 @@
 // files of both: with the same numbers, with fewer digits, or as its inverse, seen from the other robot.
 //
 // Two edges repeat each other if one is the other, or its inverse, up to the digits that both are printed
-// with. How many these are, the shortest decimal form of the numbers tells; fewer than four significant
+// with. How many these are, the shortest decimal form of the numbers shows; fewer than four significant
 // digits of the longest number count as four. Numbers of the same many digits are copies only if they are
 // equal. An inverse may keep the matrix of information or carry it over.
 #pragma once

@@ -38,13 +38,54 @@ Stamp stamp_of(const PoseIndex& place) {
   return {static_cast<std::int64_t>(std::min(place.place, kMaxPlace)) * kNanosecondsPerSecond};
 }
 
+void note_repeated_edges(std::size_t dropped, std::size_t equal, std::vector<std::string>& notes) {
+  if (dropped > 0)
+    notes.push_back(std::to_string(dropped) +
+                    " edges between robots repeat another one, as its inverse or with other digits: each "
+                    "measurement counts once");
+  if (equal > 0)
+    notes.push_back(std::to_string(equal) +
+                    " edges between robots stand a second time in the same file and count twice; remove them "
+                    "if they are one measurement");
+}
+
+/// An edge between two robots that repeats an earlier one, which counts. Equal lines of one file may be two
+/// measurements. Returns the places that the edges had before.
+template <class Pose>
+std::vector<std::size_t> drop_repeated_edges(const std::vector<PoseIndex>& places,
+                                             std::vector<RelativePoseFactor<Pose>>& edges,
+                                             std::vector<std::string>& notes) {
+  std::multimap<std::pair<PoseId, PoseId>, std::size_t> links;
+  std::vector<RelativePoseFactor<Pose>> kept;
+  std::vector<std::size_t> before;
+  std::size_t equal = 0;
+  for (std::size_t f = 0; f < edges.size(); ++f) {
+    const auto& edge = edges[f];
+    if (places[edge.i.index()].robot != places[edge.j.index()].robot) {
+      const std::pair<PoseId, PoseId> ends = std::minmax({edge.i, edge.j});
+      const auto [begin, end] = links.equal_range(ends);
+      auto repeated = begin;
+      while (repeated != end && !are_repeated_edges(kept[repeated->second], edge)) ++repeated;
+      const bool is_equal = repeated != end && are_equal_edges(kept[repeated->second], edge);
+      equal += is_equal ? 1 : 0;
+      if (repeated != end && !is_equal) continue;
+      links.emplace(ends, kept.size());
+    }
+    kept.push_back(edge);
+    before.push_back(f);
+  }
+  note_repeated_edges(edges.size() - kept.size(), equal, notes);
+  edges = std::move(kept);
+  return before;
+}
+
 template <class Pose>
 class Assembly {
  public:
   Assembly(PoseGraph<Pose> graph, const std::vector<PoseIndex>& places, StatedStarts starts)
       : graph_(std::move(graph)), places_(places), order_(order_of(places)) {
     if (starts == StatedStarts::kIgnored) drop_priors_on_several_robots();
-    drop_repeated_edges();
+    file_edge_ = drop_repeated_edges(places_, graph_.relative_poses, notes_);
   }
 
   AssembledTeam<Pose> run() {
@@ -71,33 +112,6 @@ class Assembly {
     notes_.push_back("the priors on poses of " + std::to_string(robots.size()) +
                      " robots are not used: starts count as unknown without --known-starts");
     graph_.pose_priors.clear();
-  }
-
-  /// An edge between two robots that repeats an earlier one, which counts.
-  void drop_repeated_edges() {
-    using Ends = std::pair<PoseId, PoseId>;
-    std::multimap<Ends, std::size_t> kept;
-    std::vector<RelativePoseFactor<Pose>> edges;
-    for (std::size_t f = 0; f < graph_.relative_poses.size(); ++f) {
-      const auto& factor = graph_.relative_poses[f];
-      const Ends ends = std::minmax({factor.i, factor.j});
-      const bool between = places_[factor.i.index()].robot != places_[factor.j.index()].robot;
-      const auto [begin, end] = kept.equal_range(ends);
-      if (between && std::any_of(begin, end, [&](const auto& earlier) {
-            return are_repeated_edges(edges[earlier.second], factor);
-          }))
-        continue;
-      if (between) kept.emplace(ends, edges.size());
-      edges.push_back(factor);
-      file_edge_.push_back(f);
-    }
-    const std::size_t repeated = graph_.relative_poses.size() - edges.size();
-    graph_.relative_poses = std::move(edges);
-    if (repeated > 0)
-      notes_.push_back(
-          std::to_string(repeated) +
-          " edges between robots repeat another one, as its inverse, with other digits or in the "
-          "same file: each measurement counts once");
   }
 
   void rename_poses() {
