@@ -93,6 +93,55 @@ TEST_F(TeamGraphs, ARunKeepsTheKeysOfItsFile) {
   EXPECT_NE(graph.find("EDGE_SE3:QUAT " + std::to_string(key('a', 0)) + " "), std::string::npos);
 }
 
+/// Robots on one g2o file each, with a line that is cut in half.
+TEST_F(TeamGraphs, OptimizationWithoutACentreNamesTheLinesLeftOut) {
+  const auto edge = [](char i, int k, char j, int l) {
+    return "EDGE_SE2 " + std::to_string(key(i, k)) + " " + std::to_string(key(j, l)) + " 1 0 0 1 0 0 1 0 1\n";
+  };
+  write("0.g2o", edge('a', 0, 'a', 1) + edge('a', 1, 'b', 0) + edge('a', 1, 'a', 2) + "EDGE_SE2 1 2 0.5\n");
+  write("1.g2o", edge('b', 0, 'b', 1));
+  const Outcome outcome =
+      run_in({"optimize", "--distributed", "separators", "0.g2o", "1.g2o", "-o", "o.g2o"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("note: 0.g2o: 1 line is left out"), std::string::npos) << outcome.out;
+}
+
+TEST_F(TeamGraphs, MethodsThatDoNotBearANetworkRefuseIt) {
+  const std::string edge = "EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n";
+  write("0.g2o", edge);
+  for (const char* method : {"separators", "two-stage", "alternating"}) {
+    const std::string reason = "--loss-share: " + std::string(method) + " does not bear lost messages";
+    expect_refused({"optimize", "--distributed", method, "0.g2o", "-o", "o.g2o", "--loss-share", "0.1"},
+                   reason);
+    expect_refused({"optimize", "--distributed", method, "0.g2o", "-o", "o.g2o", "--set",
+                    "distributed.network.loss_share=0.1"},
+                   reason);
+  }
+  for (const char* method : {"two-stage", "alternating"})
+    expect_refused({"optimize", "--distributed", method, "0.g2o", "-o", "o.g2o", "--delay-rounds", "1"},
+                   "--delay-rounds: " + std::string(method) + " does not bear late messages");
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "o.g2o"));
+}
+
+TEST_F(TeamGraphs, ARobotAloneIsOptimisedWithoutACentreToo) {
+  const auto edge = [](int i, int j, const std::string& x) {
+    return "EDGE_SE2 " + std::to_string(i) + " " + std::to_string(j) + " " + x + " 0 0 1 0 0 1 0 1\n";
+  };
+  write("0.g2o", edge(0, 1, "1") + edge(1, 2, "1") + edge(0, 2, "2.3"));
+  const auto optimum = json::parse(run_in({"optimize", "0.g2o", "-o", "o.g2o", "--json"}).out);
+  for (const char* method : {"separators", "asynchronous", "block-coordinate", "two-stage", "alternating"}) {
+    const auto found =
+        json::parse(run_in({"optimize", "--distributed", method, "0.g2o", "-o", "o.g2o", "--json"}).out);
+    EXPECT_NEAR(found["final_cost"].get<double>(), optimum["final_cost"].get<double>(), 1e-6) << method;
+    EXPECT_EQ(found["termination"], "converged") << method;
+    EXPECT_EQ(found["frames"], json::parse(R"([["a"]])")) << method;
+  }
+  write("0.g2o", "VERTEX_SE2 0 0 0 0\n");
+  const auto nothing =
+      json::parse(run_in({"optimize", "--distributed", "separators", "0.g2o", "-o", "o.g2o", "--json"}).out);
+  EXPECT_EQ(nothing["termination"], "nothing to do");
+}
+
 TEST_F(TeamGraphs, LoopsAreComparedWithTheLabelsOfTheFile) {
   write("team.jrl", team_log().dump());
   ASSERT_EQ(run_in({"run", "team.jrl", "-o", "out"}).status, 0);

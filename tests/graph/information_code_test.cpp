@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <functional>
 
 #include "graph/linear_patterns.hpp"
 #include "graph/small_teams.hpp"
@@ -12,16 +13,16 @@ namespace {
 
 std::string written(const Eigen::MatrixXd& a, Eigen::Index block) {
   WireWriter out;
-  write_information(out, a, block);
+  write_information(out, BlockInformation(a, block));
   return out.take();
 }
 
 Eigen::MatrixXd read_back(const Eigen::MatrixXd& a, Eigen::Index block) {
   const std::string bytes = written(a, block);
   WireReader in(bytes);
-  Eigen::MatrixXd read = read_information(in, a.rows() / block, block);
+  const BlockInformation read = read_information(in, a.rows() / block, block);
   EXPECT_TRUE(in.good() && in.empty());
-  return read;
+  return read.dense();
 }
 
 /// What elimination leaves of a long chain, without a gauge, on some of its poses.
@@ -108,6 +109,64 @@ TEST(InformationCodeBytes, RefusesWhatIsTooShort) {
     read_information(in, 3, 3);
     EXPECT_FALSE(in.good()) << size;
   }
+}
+
+// ---- what a liar's bytes cost ----
+
+/// Bytes of a factor with blocks at some places, all entries the same.
+std::string factor_bytes(std::uint32_t blocks, std::uint32_t block,
+                         const std::function<bool(std::uint32_t, std::uint32_t)>& is_there) {
+  WireWriter out;
+  out.byte(0);
+  for (std::uint32_t k = 0; k < blocks * block; ++k) out.f32(1);
+  std::string bits((blocks * (blocks + 1) / 2 + 7) / 8, '\0'), entries;
+  std::size_t place = 0;
+  for (std::uint32_t j = 0; j < blocks; ++j)
+    for (std::uint32_t i = j; i < blocks; ++i, ++place) {
+      if (!is_there(i, j)) continue;
+      bits[place / 8] = static_cast<char>(bits[place / 8] | 1 << (place % 8));
+      entries += std::string(3 * (i == j ? block * (block + 1) / 2 : block * block), '\1');
+    }
+  return out.take() + bits + entries;
+}
+
+TEST(InformationCodeBytes, BlocksThatAreNotThereTakeNoMemory) {
+  const std::string bytes = factor_bytes(1024, 6, [](auto, auto) { return false; });
+  WireReader in(bytes);
+  const BlockInformation read = read_information(in, 1024, 6);
+  EXPECT_TRUE(in.good() && in.empty());
+  EXPECT_TRUE(read.places().empty());
+  EXPECT_TRUE(read.matrix().places().empty());
+}
+
+/// One full column would make all pairs of rows meet.
+TEST(InformationCodeBytes, AFactorWhoseProductHasManyMoreBlocksIsRefused) {
+  const auto column = [](std::uint32_t i, std::uint32_t j) { return i == j || j == 0; };
+  for (const std::uint32_t blocks : {30u, 1000u}) {
+    const std::string bytes = factor_bytes(blocks, 6, column);
+    WireReader in(bytes);
+    const BlockInformation read = read_information(in, blocks, 6);
+    EXPECT_EQ(in.good(), blocks == 30);
+    EXPECT_EQ(read.places().size(), 2 * blocks - 1);
+  }
+}
+
+TEST(InformationCodeBytes, MoreBlocksThanThereAreBytesAreRefusedBeforeTheyAreRead) {
+  std::string bytes = factor_bytes(100, 6, [](auto, auto) { return true; });
+  bytes.pop_back();
+  WireReader in(bytes);
+  EXPECT_TRUE(read_information(in, 100, 6).places().empty());
+  EXPECT_FALSE(in.good());
+}
+
+/// Rounding leaves the factor of such a matrix with blocks that only its own product fills.
+TEST(InformationCodeBytes, WhatIsWrittenIsNeverRefused) {
+  constexpr Eigen::Index kBlocks = 60, kBlock = 3, kRows = kBlocks * kBlock;
+  Eigen::MatrixXd star = Eigen::MatrixXd::Identity(kRows, kRows);
+  star.leftCols(kBlock).setConstant(1e-5);
+  star.topRows(kBlock).setConstant(1e-5);
+  star.topLeftCorner(kBlock, kBlock).setIdentity();
+  EXPECT_LT((read_back(star, kBlock) - star).norm(), 1e-6);
 }
 
 }  // namespace

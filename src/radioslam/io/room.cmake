@@ -20,6 +20,7 @@ radioslam_room(io
     graph/jrl.cpp
     graph/keyed_poses.cpp
     graph/pyfg.cpp
+    graph/repeated_edges.cpp
     graph/team_assembly.cpp
     graph/team_graph_file.cpp
     lidar/carmen.cpp

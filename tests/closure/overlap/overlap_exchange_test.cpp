@@ -63,8 +63,45 @@ TEST(OverlapExchangeTest, MalformedMessagesAreRefused) {
   auto hello = answerer.hello();
   hello.pop_back();
   EXPECT_THROW(asker.receive_hello(hello), std::invalid_argument);
-  EXPECT_THROW(answerer.answer(OverlapMessage(7)), std::invalid_argument);
-  EXPECT_THROW(answerer.answer(OverlapMessage(12, std::byte{1})), std::invalid_argument);
+  EXPECT_THROW(answerer.answer(OverlapMessage(7, '\0')), std::invalid_argument);
+  EXPECT_THROW(answerer.answer(OverlapMessage(12, '\1')), std::invalid_argument);
+}
+
+/// A request that names a box very often would make its answer as many times as long.
+TEST(OverlapExchangeTest, BoxesAreSentOnce) {
+  const auto world = test::draw_world<SE2>(1, {2, 50, 3});
+  const LinkCovariance<SE2> source(world.chains, world.links);
+  const OverlapServer<LinkCovariance<SE2>> answerer(source, 1);
+  const auto request = [](std::vector<std::uint32_t> open, std::vector<std::uint32_t> send) {
+    OverlapFieldWriter out;
+    for (const auto& list : {open, send}) {
+      out(static_cast<std::uint32_t>(list.size()));
+      for (const std::uint32_t box : list) out(box);
+    }
+    return out.take();
+  };
+  EXPECT_FALSE(answerer.answer(request({0, 1}, {0})).empty());
+  EXPECT_THROW(answerer.answer(request({0, 0}, {})), std::invalid_argument);
+  EXPECT_THROW(answerer.answer(request({}, {0, 0})), std::invalid_argument);
+  EXPECT_THROW(answerer.answer(request({}, {0, 1})), std::invalid_argument) << "box 1 is half of box 0";
+}
+
+/// What a robot claims of its boxes must fit: intervals in order, halves of what was opened, as many roots as
+/// it has pieces.
+TEST(OverlapExchangeTest, BoxesThatDoNotFitAreRefused) {
+  const auto world = test::draw_world<SE2>(1, {2, 50, 3});
+  const LinkCovariance<SE2> source(world.chains, world.links);
+  const OverlapServer<LinkCovariance<SE2>> answerer(source, 1);
+  const auto receive = [&](std::size_t at, char byte) {
+    OverlapClient<LinkCovariance<SE2>> asker(source, 0, 1, {2, OverlapDistance::kMinimum, {10}, {10}});
+    auto hello = answerer.hello();
+    hello[at] = byte;
+    asker.receive_hello(hello);
+  };
+  EXPECT_NO_THROW(receive(8, 0));
+  EXPECT_THROW(receive(0, 100), std::invalid_argument) << "roots";
+  EXPECT_THROW(receive(12, 0), std::invalid_argument) << "the end of the first box";
+  EXPECT_THROW(receive(16, 0), std::invalid_argument) << "its middle";
 }
 
 }  // namespace

@@ -49,6 +49,63 @@ TEST(G2oTeam, LettersAreRobotsAndVerticesAreNoStart) {
   EXPECT_EQ(file.team.segments[0].stamps[1], Stamp::from_seconds(1));
 }
 
+/// Two robots of two poses each, and edges between them, as they are written.
+TeamGraphFile<SE2> read_links(const std::string& in_a, const std::string& in_b) {
+  return read_graph_lines({edge(id('a', 0), id('a', 1), 1) + in_a, edge(id('b', 0), id('b', 1), 2) + in_b});
+}
+std::string link(const std::string& i, const std::string& j, const std::string& measured,
+                 const std::string& information = "100 0 0 100 0 400") {
+  return "EDGE_SE2 " + i + " " + j + " " + measured + " " + information + "\n";
+}
+const std::string a0 = id('a', 0), b0 = id('b', 0);
+
+TEST(G2oTeam, ALinkThatTheOtherRobotHasSeenFromItsSideCountsOnce) {
+  // The inverse of (3, 1, 0.5): information of the same matrix, and carried over to the other end.
+  const std::string there = link(a0, b0, "3 1 0.5"), back = "-3.112173224 0.560694054 -0.5";
+  const SE2 inverse = SE2({3, 1}, 0.5).inverse();
+  ASSERT_LT((inverse.inverse() * SE2({-3.112173226, 0.560694054}, -0.5)).log().norm(), 1e-8);
+  const SE2::Jacobian carried = inverse.adjoint();
+  const SE2::Jacobian information =
+      carried.transpose() * Eigen::Vector3d(100, 100, 400).asDiagonal() * carried;
+  std::string carried_over;
+  for (int r = 0; r < 3; ++r)
+    for (int c = r; c < 3; ++c) carried_over += std::to_string(information(r, c)) + " ";
+  for (const std::string& again : {link(b0, a0, back), link(b0, a0, back, carried_over)}) {
+    const auto file = read_links(there, again);
+    EXPECT_EQ(file.team.graph.relative_poses.size(), 3u);
+    ASSERT_EQ(file.notes.size(), 1u);
+    EXPECT_EQ(file.notes[0].find("1 edges between robots repeat another one"), 0u) << file.notes[0];
+  }
+  EXPECT_EQ(read_links(there, link(b0, a0, back, "1 0 0 1 0 1")).team.graph.relative_poses.size(), 4u);
+}
+
+TEST(G2oTeam, ALinkThatIsRoundedToFourDigitsCountsOnce) {
+  const std::string there = link(a0, b0, "12.3456789 -0.0123456789 1.23456789");
+  for (const char* rounded : {"12.35 -0.01235 1.235", "12.3457 -0.0123 1.2346"})
+    EXPECT_EQ(read_links(there, link(a0, b0, rounded)).team.graph.relative_poses.size(), 3u) << rounded;
+  EXPECT_EQ(read_links(there, link(a0, b0, "12.33 -0.01235 1.235")).team.graph.relative_poses.size(), 4u);
+}
+
+TEST(G2oTeam, ALinkThatStandsTwiceInOneFileIsNoted) {
+  const std::string one = link(a0, b0, "3 1 0.5");
+  const auto file = read_links(one + one, "");
+  EXPECT_EQ(file.team.graph.relative_poses.size(), 4u);
+  ASSERT_EQ(file.notes.size(), 1u);
+  EXPECT_NE(file.notes[0].find("count twice"), std::string::npos) << file.notes[0];
+  EXPECT_EQ(
+      read_links(one + link(b0, a0, "-3.112173224 0.560694054 -0.5"), "").team.graph.relative_poses.size(),
+      3u);
+}
+
+TEST(G2oTeam, TwoMeasurementsBetweenTheSamePosesBothCount) {
+  for (const std::string& other :
+       {link(a0, b0, "3.01 1.002 0.503"), link(a0, b0, "3.001 1 0.5"), link(b0, a0, "-3.112 0.57 -0.501")}) {
+    const auto file = read_links(link(a0, b0, "3 1 0.5"), other);
+    EXPECT_EQ(file.team.graph.relative_poses.size(), 4u) << other;
+    EXPECT_TRUE(file.notes.empty());
+  }
+}
+
 TEST(G2oTeam, VerticesOfFirstPosesAreStartsOnRequest) {
   const std::string content = vertex(id('a', 1), 50) + vertex(id('a', 0), 5) + vertex(id('b', 0), 7) +
                               vertex(id('b', 1), 70) + edge(id('a', 0), id('a', 1), 1) +

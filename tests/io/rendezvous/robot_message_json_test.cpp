@@ -165,6 +165,8 @@ TEST(RobotMessageJson, PartsThatFitNoGraphAreRefused) {
   refuse([](Json& part) { part["observations"][0][1] = 2U; }, "value 2 of an observation");
   refuse([](Json& part) { part["observations"][0][6] = 0; }, "not well-formed");
   refuse([](Json& part) { part["others"][0] = "*"; }, "'others'");
+  refuse([](Json& part) { part["nodes"] = Json::array_t(101); }, "a list of up to 100");
+  refuse([](Json& part) { part["observations"] = Json::array_t(151); }, "a list of up to 150");
   refuse([](Json& part) { part["others"] = Json::array(); }, "does not name");
 }
 

@@ -137,6 +137,20 @@ TEST(RobotSession, BadLinesChangeNothing) {
   EXPECT_EQ(output, run(kRun));
 }
 
+/// They would take thirty times their bytes.
+TEST(RobotSession, LinesOfVeryManyShortValuesAreRefusedBeforeTheyAreRead) {
+  RobotSession robot("a", {});
+  for (const char* value : {"0,", "[],", "{},", "\"\","}) {
+    std::string line = "[";
+    while (line.size() < 500'000) line += value;
+    const Lines answer = robot.line(line + "0]");
+    ASSERT_EQ(answer.size(), 1U);
+    EXPECT_NE(answer[0].find("too many values"), std::string::npos) << answer[0].substr(0, 200);
+  }
+  EXPECT_NE(robot.line("\"" + std::string(500'000, ',') + "\"")[0].find("not an object"), std::string::npos);
+  EXPECT_NE(robot.line(std::string(500'000, '['))[0].find("too many values"), std::string::npos);
+}
+
 TEST(RobotSession, NothingComesBeforeTheStart) {
   RobotSession session("a", {});
   std::size_t number = 0;

@@ -206,7 +206,7 @@ void optimize_file(const OptimizeOptions& options) {
 
 void add_distributed_options(CLI::App& command, OptimizeOptions& options) {
   std::vector<std::string> methods;
-  for (const auto& [name, method] : kDistributedMethods) methods.emplace_back(name);
+  for (const DistributedMethodInfo& info : kDistributedMethods) methods.emplace_back(info.name);
   command
       .add_option(
           "--distributed", options.method,
@@ -214,11 +214,14 @@ void add_distributed_options(CLI::App& command, OptimizeOptions& options) {
       ->check(CLI::IsMember(methods))
       ->type_name("METHOD");
   command
-      .add_option("--loss-share", options.loss_share, "Share of the messages between robots that are lost")
+      .add_option("--loss-share", options.loss_share,
+                  "Share of the messages between robots that are lost; only for " +
+                      methods_that_bear(&DistributedMethodInfo::bears_loss))
       ->check(number_from(0, 1));
   command
       .add_option("--delay-rounds", options.delay_rounds,
-                  "Rounds by which messages are late at most, beyond the next one")
+                  "Rounds by which messages are late at most, beyond the next one; only for " +
+                      methods_that_bear(&DistributedMethodInfo::bears_delay))
       ->check(CLI::Range(0, 1000));
   command.add_flag("--robust", options.robust,
                    "With --distributed separators or asynchronous: loop closures may be wrong");

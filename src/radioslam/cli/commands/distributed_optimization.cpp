@@ -36,14 +36,17 @@ Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nul
 template <class Pose>
 class OutcomeOf {
  public:
-  OutcomeOf(const NumberedTeam<Pose>& team, const TeamOptimization<Pose>& run, const OptimizerParams& params)
-      : team_(team), run_(run), outcome_(team_outcome(team, run, params)) {}
+  OutcomeOf(const NumberedTeam<Pose>& team, const TeamOptimization<Pose>& run, const OptimizeParams& params)
+      : team_(team),
+        run_(run),
+        max_rounds_(static_cast<std::size_t>(params.distributed.max_rounds)),
+        outcome_(team_outcome(team, run, params.optimizer)) {}
 
   Json json() const {
-    Json out{{"initial_cost", run_.rounds.empty() ? Json(nullptr) : number(run_.rounds.front().cost)},
+    Json out{{"initial_cost", number((run_.rounds.empty() ? run_.start : run_.rounds.front()).cost)},
              {"final_cost", outcome_.cost},
              {"iterations", run_.rounds.size()},
-             {"termination", run_.settled ? "converged" : "round limit"},
+             {"termination", termination()},
              {"certificate", nullptr},
              {"poses", team_.graph.poses.size()},
              {"factors", team_.graph.relative_poses.size()},
@@ -62,12 +65,20 @@ class OutcomeOf {
     std::ostringstream out;
     out << run_.rounds.size() << " rounds, cost " << outcome_.cost << ", " << outcome_.relative_gap()
         << " above the central optimum relatively; " << bytes_per_robot() << " bytes a robot";
-    if (!run_.settled) out << "; the robots had not all come to an end";
-    if (frames().size() > 1) out << "; " << frames().size() << " frames that nothing ties together";
+    if (!run_.settled) out << "; the robots had not all come to an end (" << termination() << ")";
+    if (frames().size() > 1)
+      out << "; " << frames().size()
+          << (run_.settled ? " frames that nothing ties together" : " frames so far");
     return out.str();
   }
 
  private:
+  std::string_view termination() const {
+    if (team_.graph.relative_poses.empty()) return to_string(Termination::kNothingToDo);
+    if (run_.settled) return to_string(Termination::kConverged);
+    return run_.rounds.size() >= max_rounds_ ? "round limit" : to_string(Termination::kNoProgress);
+  }
+
   /// The robots of each frame.
   Json frames() const {
     std::map<std::pair<RobotNumber, std::uint32_t>, std::vector<std::string>> robots;
@@ -118,25 +129,56 @@ class OutcomeOf {
 
   const NumberedTeam<Pose>& team_;
   const TeamOptimization<Pose>& run_;
+  std::size_t max_rounds_;
   TeamOutcome outcome_;
 };
 
 template <class Pose>
 DistributedOutcome run_team(TeamGraphFile<Pose>& file, const OptimizeParams& params, double read_s) {
   NumberedTeam<Pose> team = number_robots(file.team);
+  if (team.names.size() > kMaxRobots)
+    throw InputError("--distributed", 0, "a team has at most " + std::to_string(kMaxRobots) + " robots");
   if (params.distributed.outliers.gate > 0) discount_repeated(team.graph);
   const auto start = std::chrono::steady_clock::now();
   ProgressLine line;
   const TeamOptimization<Pose> run =
       optimize_team(team.graph, team.poses, params.distributed, line.progress());
   const double optimize_s = seconds_since(start);
-  const OutcomeOf<Pose> outcome(team, run, params.optimizer);
+  const OutcomeOf<Pose> outcome(team, run, params);
   DistributedOutcome result{outcome.json(), outcome.text(), {}};
   result.json["seconds"] = {{"read", read_s}, {"initialise", 0.0}, {"optimise", optimize_s}};
   PoseGraph<Pose> graph = team.graph;
   graph.poses = run.poses;
   result.graph = format_g2o(with_ids(std::move(graph), file.pose_ids, file.point_ids));
   return result;
+}
+
+}  // namespace
+
+std::string methods_that_bear(bool DistributedMethodInfo::*what) {
+  std::string names;
+  for (const DistributedMethodInfo& info : kDistributedMethods)
+    if (info.*what) names += (names.empty() ? "" : ", ") + std::string(info.name);
+  return names;
+}
+
+namespace {
+
+const DistributedMethodInfo& method_named(const std::string& name) {
+  return *std::find_if(kDistributedMethods.begin(), kDistributedMethods.end(),
+                       [&](const DistributedMethodInfo& info) { return info.name == name; });
+}
+
+void refuse_unbearable(const DistributedMethodInfo& info, const NetworkParams& network) {
+  const auto refuse = [&](const char* option, const char* what, bool DistributedMethodInfo::*bears) {
+    throw InputError(
+        option, 0,
+        std::string(info.name) + " does not bear " + what + "; these do: " + methods_that_bear(bears));
+  };
+  if (network.loss_share > 0 && !info.bears_loss)
+    refuse("--loss-share", "lost messages", &DistributedMethodInfo::bears_loss);
+  if (network.delay_rounds > 0 && !info.bears_delay)
+    refuse("--delay-rounds", "late messages", &DistributedMethodInfo::bears_delay);
 }
 
 }  // namespace
@@ -149,17 +191,19 @@ AnyTeamGraphFile read_distributed_team(const std::vector<std::filesystem::path>&
 
 DistributedOutcome optimize_distributed(const std::vector<std::filesystem::path>& paths,
                                         const std::string& method, const OptimizeParams& params) {
+  OptimizeParams used = params;
+  const DistributedMethodInfo& info = method_named(method);
+  used.distributed.method = info.method;
+  refuse_unbearable(info, used.distributed.network);
   const auto start = std::chrono::steady_clock::now();
   AnyTeamGraphFile any = read_distributed_team(paths);
   const double read_s = seconds_since(start);
-  OptimizeParams used = params;
-  for (const auto& [name, value] : kDistributedMethods)
-    if (name == method) used.distributed.method = value;
   return std::visit(
       [&](auto& file) {
         DistributedOutcome outcome = run_team(file, used, read_s);
         outcome.json["method"] = method;
         outcome.json["notes"] = file.notes;
+        for (const std::string& note : file.notes) outcome.summary += "\nnote: " + note;
         return outcome;
       },
       any);

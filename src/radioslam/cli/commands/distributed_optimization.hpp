@@ -14,14 +14,18 @@ namespace radioslam::cli {
 
 struct DistributedOutcome {
   nlohmann::ordered_json json;  ///< what --json prints
-  std::string summary;          ///< the same in two sentences
+  std::string summary;          ///< the same in two sentences, and a line per note
   std::string graph;            ///< g2o text of all robots, with the vertices as the robots have them
 };
+
+/// The names of the methods for which a member of DistributedMethodInfo is true, for messages and help.
+std::string methods_that_bear(bool DistributedMethodInfo::*what);
 
 /// One graph of a team or one per robot. Refuses (InputError) other factors than relative poses.
 AnyTeamGraphFile read_distributed_team(const std::vector<std::filesystem::path>& paths);
 
-/// `paths`: one graph of a team or one per robot. `method`: its name in kDistributedMethods.
+/// `paths`: one graph of a team or one per robot. `method`: its name in kDistributedMethods. Refuses a
+/// network that the method does not bear.
 DistributedOutcome optimize_distributed(const std::vector<std::filesystem::path>& paths,
                                         const std::string& method, const OptimizeParams& params);
 

@@ -10,18 +10,18 @@ namespace radioslam {
 namespace {
 
 template <class Record>
-void write_record(const Record& record, WireWriter& out) {
+void write_record(const Record& record, OverlapFieldWriter& out) {
   Record::visit(record, out);
 }
 
 template <class Node, class Record>
-void write_summary(const Node& node, const Record& middle, WireWriter& out) {
+void write_summary(const Node& node, const Record& middle, OverlapFieldWriter& out) {
   visit_node(node, out);
   write_record(middle, out);
 }
 
 template <class Record>
-Record read_record(WireReader& in) {
+Record read_record(OverlapFieldReader& in) {
   Record record;
   Record::visit(record, in);
   return record;
@@ -32,23 +32,37 @@ struct Request {
   std::vector<std::uint32_t> open, send;
 };
 
-Request read_request(const OverlapMessage& message, std::size_t nodes) {
-  WireReader in(message);
+/// Each box at most once, and poses of boxes that have none in common: an answer is never longer than the
+/// tree.
+template <class Pose>
+Request read_request(const OverlapMessage& message, const OverlapTree<Pose>& tree) {
+  OverlapFieldReader in(message);
   Request request;
   for (auto* list : {&request.open, &request.send})
     for (std::uint32_t n = in.number(); n > 0; --n) {
-      list->push_back(in.number());
-      WireReader::expect(list->back() < nodes);
+      const std::uint32_t box = in.number();
+      expect_well_formed(box < tree.nodes.size() && (list->empty() || list->back() < box));
+      list->push_back(box);
     }
-  WireReader::expect(in.at_end());
+  expect_well_formed(in.at_end());
+  for (std::size_t k = 1; k < request.send.size(); ++k)
+    expect_well_formed(tree.nodes[request.send[k - 1]].end <= tree.nodes[request.send[k]].begin);
   return request;
+}
+
+/// A box of poses from `begin` on.
+template <class Node>
+void expect_box(const Node& node, std::uint32_t number, std::uint32_t begin) {
+  expect_well_formed(node.begin >= begin && node.end > node.begin &&
+                     node.middle == node.begin + node.size() / 2 &&
+                     (node.leaf() || (node.right > number + 1 && node.size() > 1)));
 }
 
 }  // namespace
 
 template <OverlapSource Source>
 OverlapMessage OverlapServer<Source>::hello() const {
-  WireWriter out;
+  OverlapFieldWriter out;
   out(static_cast<std::uint32_t>(tree_.roots.size()));
   for (const auto& [root, piece] : tree_.roots) {
     out(root);
@@ -59,12 +73,12 @@ OverlapMessage OverlapServer<Source>::hello() const {
 
 template <OverlapSource Source>
 OverlapMessage OverlapServer<Source>::answer(const OverlapMessage& message) const {
-  const Request request = read_request(message, tree_.nodes.size());
-  WireWriter out;
+  const Request request = read_request(message, tree_);
+  OverlapFieldWriter out;
   for (const std::uint32_t j : request.send)
     for (std::uint32_t l = tree_.nodes[j].begin; l < tree_.nodes[j].end; ++l) write_record(records_[l], out);
   for (const std::uint32_t j : request.open) {
-    WireReader::expect(!tree_.nodes[j].leaf());
+    expect_well_formed(!tree_.nodes[j].leaf());
     for (const std::uint32_t half : {j + 1, tree_.nodes[j].right})
       write_summary(tree_.nodes[half], records_[tree_.nodes[half].middle], out);
   }
@@ -73,7 +87,7 @@ OverlapMessage OverlapServer<Source>::answer(const OverlapMessage& message) cons
 
 template <OverlapSource Source>
 OverlapMessage OverlapServer<Source>::everything() const {
-  WireWriter out;
+  OverlapFieldWriter out;
   out(static_cast<std::uint32_t>(records_.size()));
   for (const auto& record : records_) write_record(record, out);
   return out.take();
@@ -91,19 +105,31 @@ OverlapClient<Source>::OverlapClient(const Source& source, std::uint32_t a, std:
 
 template <OverlapSource Source>
 void OverlapClient<Source>::receive_hello(const OverlapMessage& hello) {
-  WireReader in(hello);
+  OverlapFieldReader in(hello);
   std::vector<Bound> ties(view_.ties());
   for (std::size_t t = 0; t < ties.size(); ++t) ties[t].tie = static_cast<std::uint32_t>(t);
   const std::uint32_t roots = in.number();
+  expect_well_formed(roots <= source_.pieces(b_).size());
+  std::uint32_t begin = 0;
   for (std::uint32_t q = 0; q < roots; ++q) {
     const std::uint32_t j = in.number();
-    Summary& summary = summaries_[j];
-    visit_node(summary.node, in);
-    summary.middle = read_record<Record>(in);
+    begin = read_summary(j, begin, in).node.end;
     for (const auto& [root, piece] : tree_.roots)
       if (!ties.empty() && source_.joined(a_, piece, b_, q)) visit_boxes(root, j, ties);
   }
-  WireReader::expect(in.at_end());
+  expect_well_formed(in.at_end());
+}
+
+/// Of a box that is new, of poses from `begin` on.
+template <OverlapSource Source>
+auto OverlapClient<Source>::read_summary(std::uint32_t j, std::uint32_t begin, OverlapFieldReader& in)
+    -> const Summary& {
+  expect_well_formed(!summaries_.contains(j));
+  Summary& summary = summaries_[j];
+  visit_node(summary.node, in);
+  summary.middle = read_record<Record>(in);
+  expect_box(summary.node, j, begin);
+  return summary;
 }
 
 /// Splits a's box where that is the next step; boxes that need b's halves or poses are queued for a request.
@@ -132,7 +158,7 @@ OverlapMessage OverlapClient<Source>::request() {
   if (to_open_.empty() && to_send_.empty()) return {};
   asked_open_ = std::exchange(to_open_, {});
   asked_send_ = std::exchange(to_send_, {});
-  WireWriter out;
+  OverlapFieldWriter out;
   for (const auto* asked : {&asked_open_, &asked_send_}) {
     out(static_cast<std::uint32_t>(asked->size()));
     for (const auto& [j, _] : *asked) out(j);
@@ -142,21 +168,23 @@ OverlapMessage OverlapClient<Source>::request() {
 
 template <OverlapSource Source>
 void OverlapClient<Source>::receive_answer(const OverlapMessage& answer) {
-  WireReader in(answer);
+  OverlapFieldReader in(answer);
   for (const auto& [j, boxes] : asked_send_) {
     const Node& J = summaries_[j].node;
     for (std::uint32_t l = J.begin; l < J.end; ++l) poses_[l] = read_record<Record>(in);
     for (const Waiting& box : boxes) compare(box, J);
   }
   for (const auto& [j, boxes] : asked_open_) {
-    const std::uint32_t right = summaries_[j].node.right;
-    for (const std::uint32_t half : {j + 1, right}) {
-      visit_node(summaries_[half].node, in);
-      summaries_[half].middle = read_record<Record>(in);
+    const Node J = summaries_.at(j).node;
+    std::uint32_t begin = J.begin;
+    for (const std::uint32_t half : {j + 1, J.right}) {
+      const Node& H = read_summary(half, begin, in).node;
+      expect_well_formed(H.begin == begin && H.end == (half == J.right ? J.end : J.middle));
+      begin = H.end;
       for (const Waiting& box : boxes) visit_boxes(box.node_a, half, box.ties);
     }
   }
-  WireReader::expect(in.at_end());
+  expect_well_formed(in.at_end());
 }
 
 /// Before a box is visited only enclosing boxes can have been sent, so all of its poses are known or none.
@@ -185,7 +213,7 @@ OverlapCandidates OverlapClient<Source>::result() const {
 
 template <OverlapSource Source>
 OverlapMessage OverlapClient<Source>::final_message() const {
-  WireWriter out;
+  OverlapFieldWriter out;
   const auto all = result();
   out(static_cast<std::uint32_t>(all.candidates.size()));
   for (const auto& c : all.candidates) out(c.pose_a), out(c.pose_b), out(c.distance_m), out(c.mahalanobis);

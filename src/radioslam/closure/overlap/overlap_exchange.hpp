@@ -14,51 +14,55 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <bit>
-#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
+#include "radioslam/base/wire.hpp"
 #include "radioslam/closure/overlap/overlap_bounds.hpp"
 
 namespace radioslam {
 
-// Serialisation of overlap exchange messages (overlap_exchange.hpp): one list of fields serves writing and
-// reading.
+using OverlapMessage = std::string;
 
-/// Writes little endian on any machine.
-class WireWriter {
+/// Throws std::invalid_argument unless the condition holds.
+inline void expect_well_formed(bool condition) {
+  if (!condition) throw std::invalid_argument("malformed message of an overlap exchange");
+}
+
+// One list of fields serves writing and reading.
+
+class OverlapFieldWriter {
  public:
-  void operator()(std::uint32_t value) { put(value); }
-  void operator()(double value) { put(std::bit_cast<std::uint64_t>(value)); }
+  void operator()(std::uint32_t value) { out_.u32(value); }
+  void operator()(double value) { out_.f64(value); }
   template <int Rows, int Columns>
   void operator()(const Eigen::Matrix<double, Rows, Columns>& m) {
-    for (Eigen::Index i = 0; i < m.size(); ++i) (*this)(m.data()[i]);
+    for (Eigen::Index i = 0; i < m.size(); ++i) out_.f64(m.data()[i]);
   }
   template <int N>
   void symmetric(const Eigen::Matrix<double, N, N>& m) {
     for (int j = 0; j < N; ++j)
-      for (int i = j; i < N; ++i) (*this)(m(i, j));
+      for (int i = j; i < N; ++i) out_.f64(m(i, j));
   }
-  std::vector<std::byte> take() { return std::move(bytes_); }
+  OverlapMessage take() { return out_.take(); }
 
  private:
-  void put(auto value) {
-    for (std::size_t i = 0; i < sizeof(value); ++i)
-      bytes_.push_back(static_cast<std::byte>((value >> (8 * i)) & 0xFF));
-  }
-  std::vector<std::byte> bytes_;
+  WireWriter out_;
 };
 
-class WireReader {
+class OverlapFieldReader {
  public:
-  explicit WireReader(const std::vector<std::byte>& bytes) : bytes_(bytes) {}
+  explicit OverlapFieldReader(const OverlapMessage& bytes) : in_(bytes) {}
 
-  void operator()(std::uint32_t& value) { value = get<std::uint32_t>(); }
-  void operator()(double& value) { value = std::bit_cast<double>(get<std::uint64_t>()); }
+  void operator()(std::uint32_t& value) { value = number(); }
+  void operator()(double& value) {
+    value = in_.f64();
+    expect_well_formed(in_.good());
+  }
   template <int Rows, int Columns>
   void operator()(Eigen::Matrix<double, Rows, Columns>& m) {
     for (Eigen::Index i = 0; i < m.size(); ++i) (*this)(m.data()[i]);
@@ -71,26 +75,15 @@ class WireReader {
         m(j, i) = m(i, j);
       }
   }
-  std::uint32_t number() { return get<std::uint32_t>(); }
-  bool at_end() const { return at_ == bytes_.size(); }
-  /// Throws std::invalid_argument unless the condition holds.
-  static void expect(bool condition) {
-    if (!condition) throw std::invalid_argument("malformed message of an overlap exchange");
-  }
-
- private:
-  template <class Value>
-  Value get() {
-    expect(bytes_.size() - at_ >= sizeof(Value));
-    Value value = 0;
-    for (std::size_t i = 0; i < sizeof(Value); ++i)
-      value |=
-          static_cast<Value>(static_cast<Value>(std::to_integer<std::uint8_t>(bytes_[at_ + i])) << (8 * i));
-    at_ += sizeof(Value);
+  std::uint32_t number() {
+    const std::uint32_t value = in_.u32();
+    expect_well_formed(in_.good());
     return value;
   }
-  const std::vector<std::byte>& bytes_;
-  std::size_t at_ = 0;
+  bool at_end() const { return in_.empty(); }
+
+ private:
+  WireReader in_;
 };
 
 /// All fields of a box's summary except the record of its middle pose.
@@ -101,8 +94,6 @@ void visit_node(Node& node, Visitor&& visit) {
   visit(node.spread.sigma_m), visit(node.spread.sigma_rad), visit(node.heading_spread_rad);
   visit(node.min_travelled_m), visit(node.max_travelled_m);
 }
-
-using OverlapMessage = std::vector<std::byte>;
 
 /// Side of robot b.
 template <OverlapSource Source>
@@ -159,6 +150,7 @@ class OverlapClient {
     std::vector<Bound> ties;
   };
 
+  const Summary& read_summary(std::uint32_t j, std::uint32_t begin, OverlapFieldReader& in);
   void visit_boxes(std::uint32_t i, std::uint32_t j, std::span<const Bound> from);
   bool knows_poses(const Node& J) const;
   void compare(const Waiting& box, const Node& J);

@@ -20,7 +20,8 @@ BlockCoordinateSolver<Pose>::BlockCoordinateSolver(RobotGraph<Pose> robot,
 template <class Pose>
 std::vector<Message<Pose>> BlockCoordinateSolver<Pose>::round(const std::vector<Message<Pose>>& heard) {
   for (const auto& message : heard) hear(message);
-  if (frames_.adopt(robot_)) {
+  const bool adopted = frames_.adopt(robot_);
+  if (adopted) {
     poses_ = robot_.trajectory();
     momentum_ = 1;
   }
@@ -28,10 +29,9 @@ std::vector<Message<Pose>> BlockCoordinateSolver<Pose>::round(const std::vector<
     usable_ = std::move(usable);
     prepare();
   }
-  if (usable_.empty())
-    settled_ = robot_.neighbours.empty();
-  else
-    step();
+  // Neighbours have not heard of a frame that was adopted just now.
+  small_steps_ = !usable_.empty() && step() && !adopted ? small_steps_ + 1 : 0;
+  settled_ = robot_.neighbours.empty() || (small_steps_ > params_.max_age && all_heard());
   return frames_.seen_by_all(robot_, round_++);
 }
 
@@ -56,14 +56,21 @@ void BlockCoordinateSolver<Pose>::prepare() {
   equations_.emplace(active_);
 }
 
+/// Lately: what was said last has not changed much since.
 template <class Pose>
-void BlockCoordinateSolver<Pose>::step() {
+bool BlockCoordinateSolver<Pose>::all_heard() const {
+  return std::all_of(heard_until_.begin(), heard_until_.end(),
+                     [&](std::uint32_t until) { return round_ - until <= params_.max_age; });
+}
+
+template <class Pose>
+bool BlockCoordinateSolver<Pose>::step() {
   active_.poses = robot_.graph.poses;
   const auto bounded = majorized_step(robot_, usable_, active_, *equations_);
-  settled_ = false;
-  if (!bounded.step) return;
+  if (!bounded.step) return false;
   const Eigen::VectorXd& gradient = bounded.gradient;
-  settled_ = -gradient.dot(*bounded.step) <= params_.settled_decrease * bounded.cost;
+  const bool is_small = -gradient.dot(*bounded.step) <=
+                        std::max(params_.settled_decrease * bounded.cost, params_.absolute_decrease);
   equations_->apply(*bounded.step, active_);
   // Momentum that points uphill is dropped (O'Donoghue and Candes 2015).
   double uphill = 0;
@@ -81,6 +88,7 @@ void BlockCoordinateSolver<Pose>::step() {
     poses_[p] = moved;
   }
   momentum_ = next;
+  return is_small;
 }
 
 template class BlockCoordinateSolver<SE2>;

@@ -18,7 +18,11 @@ namespace radioslam {
 
 struct BlockCoordinateParams {
   FrameVoteParams frames;
-  double settled_decrease = 1e-10;  ///< predicted decrease of a step, relative to the robot's cost
+  double settled_decrease = 1e-10;   ///< predicted decrease of a step, relative to the robot's cost
+  double absolute_decrease = 1e-12;  ///< smaller is small in any case
+  /// Rounds without a word from a neighbour until its values are too old to be settled with. As long must a
+  /// robot's own steps have been small.
+  std::uint32_t max_age = 0;
 };
 
 template <class Pose>
@@ -35,7 +39,9 @@ class BlockCoordinateSolver : public DistributedSolver<Pose> {
  private:
   void hear(const Message<Pose>& message);
   void prepare();
-  void step();
+  /// Whether the step was small.
+  bool step();
+  bool all_heard() const;
 
   BlockCoordinateParams params_;
   RobotGraph<Pose> robot_;  ///< own poses are where the next step starts: with momentum
@@ -47,6 +53,7 @@ class BlockCoordinateSolver : public DistributedSolver<Pose> {
   PoseGraph<Pose> active_;  ///< the factors within the robot, then the usable ones; copies are fixed
   std::optional<NormalEquations<Pose>> equations_;
   std::uint32_t round_ = 0;
+  std::uint32_t small_steps_ = 0;  ///< in a row
   bool settled_ = false;
   std::size_t refused_ = 0;
 };

@@ -5,20 +5,6 @@
 #include "radioslam/graph/block_structure.hpp"
 
 namespace radioslam {
-namespace {
-
-/// Calls body(row, column) for the blocks on or below the diagonal that are not zero.
-template <class Body>
-void for_each_block(const Eigen::MatrixXd& matrix, Eigen::Index dof, const Body& body) {
-  const Eigen::Index n = matrix.rows() / dof;
-  for (Eigen::Index j = 0; j < n; ++j)
-    for (Eigen::Index i = j; i < n; ++i)
-      if (!matrix.block(i * dof, j * dof, dof, dof).isZero(0))
-        body(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
-}
-
-}  // namespace
-
 Cluster::Cluster(RobotNumber self, const std::vector<SharedPose>& own,
                  const std::map<RobotNumber, Elimination>& children, Eigen::Index dof)
     : dof_(dof) {
@@ -52,24 +38,24 @@ std::vector<Eigen::Index> Cluster::scalars(const std::vector<std::size_t>& varia
   return scalars;
 }
 
-void Cluster::add_places(const std::vector<std::size_t>& variables, const Eigen::MatrixXd& information,
+void Cluster::add_places(const std::vector<std::size_t>& variables, const BlockInformation& information,
                          BlockPattern& pattern) const {
-  for_each_block(information, dof_, [&](std::size_t i, std::size_t j) {
-    const auto [low, high] = std::minmax(variables[i], variables[j]);
+  for (const auto& place : information.places()) {
+    const auto [low, high] = std::minmax(variables[place.row], variables[place.column]);
     if (low != high)
       pattern.lower.push_back({static_cast<std::int32_t>(high), static_cast<std::int32_t>(low)});
-  });
+  }
 }
 
-void Cluster::add(const std::vector<std::size_t>& variables, const Eigen::MatrixXd& information,
+void Cluster::add(const std::vector<std::size_t>& variables, const BlockInformation& information,
                   SymmetricBlockMatrix& sum) const {
-  for_each_block(information, dof_, [&](std::size_t i, std::size_t j) {
-    const auto block = information.block(static_cast<Eigen::Index>(i) * dof_,
-                                         static_cast<Eigen::Index>(j) * dof_, dof_, dof_);
-    const std::size_t row = variables[i], column = variables[j];
+  for (std::size_t k = 0; k < information.places().size(); ++k) {
+    const auto block = information.block(k);
+    const std::size_t row = variables[information.places()[k].row];
+    const std::size_t column = variables[information.places()[k].column];
     if (row == column) {
       sum.diagonal(row) += block;
-      return;
+      continue;
     }
     const bool below = row > column;
     const auto high = static_cast<std::int32_t>(below ? row : column);
@@ -79,19 +65,20 @@ void Cluster::add(const std::vector<std::size_t>& variables, const Eigen::Matrix
       target += block;
     else
       target += block.transpose();
-  });
+  }
 }
 
 bool Cluster::factorize(const Eigen::MatrixXd& own, const std::map<RobotNumber, Elimination>& children) {
+  std::vector<std::pair<const std::vector<std::size_t>*, BlockInformation>> terms;
+  terms.emplace_back(&own_, BlockInformation(own, dof_));
+  for (const auto& [child, up] : children) terms.emplace_back(&child_.at(child), up.information->matrix());
   BlockPattern pattern;
   pattern.sizes.assign(variables_.size(), static_cast<std::int32_t>(dof_));
-  add_places(own_, own, pattern);
-  for (const auto& [child, up] : children) add_places(child_.at(child), *up.information, pattern);
+  for (const auto& [places, information] : terms) add_places(*places, information, pattern);
   sort_lower(pattern);
   SymmetricBlockMatrix sum(pattern);
   sum.set_zero();
-  add(own_, own, sum);
-  for (const auto& [child, up] : children) add(child_.at(child), *up.information, sum);
+  for (const auto& [places, information] : terms) add(*places, information, sum);
   elimination_.emplace(sum.pattern(), passed_);
   return elimination_->factorize(sum) == Factorization::kDone;
 }

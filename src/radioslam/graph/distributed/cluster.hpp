@@ -40,9 +40,9 @@ class Cluster {
 
  private:
   std::size_t place_of(const SharedPose& pose);
-  void add_places(const std::vector<std::size_t>& variables, const Eigen::MatrixXd& information,
+  void add_places(const std::vector<std::size_t>& variables, const BlockInformation& information,
                   BlockPattern& pattern) const;
-  void add(const std::vector<std::size_t>& variables, const Eigen::MatrixXd& information,
+  void add(const std::vector<std::size_t>& variables, const BlockInformation& information,
            SymmetricBlockMatrix& sum) const;
   std::vector<Eigen::Index> scalars(const std::vector<std::size_t>& variables) const;
 

@@ -20,6 +20,8 @@ class DistributedSolver {
   virtual std::vector<Message<Pose>> round(const std::vector<Message<Pose>>& heard) = 0;
   /// Whether the robot's estimate no longer changes, as far as it can know.
   virtual bool settled() const = 0;
+  /// Whether none of the robots that it shares factors with counts as gone.
+  virtual bool hears_neighbours() const { return true; }
   /// Own poses, the best estimate so far.
   virtual std::vector<Pose> poses() const = 0;
   /// Per own pose, the frame it is in.

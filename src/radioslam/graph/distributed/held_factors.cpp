@@ -17,18 +17,22 @@ PoseGraph<Pose> graph_of(const RobotGraph<Pose>& robot, const std::vector<std::s
 }
 
 template <class Pose>
+typename Pose::Jacobian anchor_of(const PoseGraph<Pose>& graph) {
+  typename Pose::Tangent strongest = Pose::Tangent::Ones();
+  for (const auto& f : graph.relative_poses)
+    strongest = strongest.cwiseMax(typename Pose::Tangent(f.information.diagonal()));
+  return kAnchor * typename Pose::Jacobian(strongest.asDiagonal());
+}
+
+template <class Pose>
 Gauge<Pose> gauge_of(const PoseGraph<Pose>& graph, bool anchored) {
   // Poses that no factor is about are no variables.
   Gauge<Pose> gauge{std::vector<bool>(graph.poses.size(), true), {}};
-  typename Pose::Tangent strongest = Pose::Tangent::Ones();
-  for (const auto& f : graph.relative_poses) {
-    gauge.held[f.i.index()] = gauge.held[f.j.index()] = false;
-    strongest = strongest.cwiseMax(typename Pose::Tangent(f.information.diagonal()));
-  }
+  for (const auto& f : graph.relative_poses) gauge.held[f.i.index()] = gauge.held[f.j.index()] = false;
   const auto first = std::find(gauge.held.begin(), gauge.held.end(), false);
   if (anchored && first != gauge.held.end())
-    gauge.penalties.push_back({PoseId(static_cast<std::size_t>(first - gauge.held.begin())),
-                               kAnchor * typename Pose::Jacobian(strongest.asDiagonal())});
+    gauge.penalties.push_back(
+        {PoseId(static_cast<std::size_t>(first - gauge.held.begin())), anchor_of(graph)});
   return gauge;
 }
 
@@ -50,6 +54,7 @@ HeldFactors<Pose>::HeldFactors(const RobotGraph<Pose>& robot, const std::vector<
       kept_with_block_.push_back(static_cast<Eigen::Index>(k) * Pose::kDof + d);
   }
   if (!equations_.empty()) inner_.emplace(equations_.matrix().pattern(), blocks);
+  if (anchored && factors.empty() && !kept_.empty()) kept_anchor_ = anchor_of(robot.graph);
 }
 
 template <class Pose>
@@ -71,6 +76,7 @@ template <class Pose>
 bool HeldFactors<Pose>::eliminate(double damping) {
   const auto size = static_cast<Eigen::Index>(kept_.size()) * Pose::kDof;
   information_ = Eigen::MatrixXd::Zero(size, size);
+  if (kept_anchor_) information_.template topLeftCorner<Pose::kDof, Pose::kDof>() = *kept_anchor_;
   if (!inner_) return true;
   equations_.damp(damping);
   if (inner_->factorize(equations_.matrix()) != Factorization::kDone) return false;

@@ -21,7 +21,7 @@ class HeldFactors {
  public:
   /// `factors`: places in robot.graph.relative_poses of those that are held, within the robot and between;
   /// `kept`: poses whose steps are not solved for inside. `anchored`: the robot's first pose stays at rest,
-  /// which chooses the frame of the whole team.
+  /// which chooses the frame of the whole team; where others hold all of its factors, the first that is kept.
   HeldFactors(const RobotGraph<Pose>& robot, const std::vector<std::size_t>& factors,
               std::vector<KeptPose> kept, bool anchored);
 
@@ -45,6 +45,7 @@ class HeldFactors {
   NormalEquations<Pose> equations_;
   std::optional<PartialElimination> inner_;
   Eigen::MatrixXd information_;
+  std::optional<typename Pose::Jacobian> kept_anchor_;  ///< on the first kept pose, where no factor is held
 };
 
 }  // namespace radioslam

@@ -1,15 +1,17 @@
 #include "radioslam/graph/distributed/message.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
+#include "radioslam/base/wire.hpp"
 #include "radioslam/graph/distributed/information_code.hpp"
-#include "radioslam/graph/distributed/wire.hpp"
 
 namespace radioslam {
 namespace {
 
 constexpr std::size_t kReal = 8;
-/// More poses shared by a subtree are refused: their information is dense in memory.
+/// More poses shared by a subtree are refused: what is left of them may be dense where they meet.
 constexpr Eigen::Index kMaxSharedPoses = 1024;
 
 // ---- poses and numbers ----
@@ -77,13 +79,25 @@ void write_topology(WireWriter& out, const std::vector<RobotLinks>& topology) {
     for (const RobotNumber n : links.neighbours) out.whole(n);
   }
 }
+RobotNumber read_robot(WireReader& in) {
+  const RobotNumber robot = in.whole32();
+  if (robot >= kMaxRobots) in.refuse();
+  return robot;
+}
+std::size_t count_robots(WireReader& in, std::size_t bytes_each) {
+  const std::size_t count = in.count(bytes_each);
+  if (count > kMaxRobots) in.refuse();
+  return in.good() ? count : 0;
+}
 std::vector<RobotLinks> read_topology(WireReader& in) {
-  std::vector<RobotLinks> topology(in.count(3));
+  std::vector<RobotLinks> topology(count_robots(in, 3));
   for (RobotLinks& links : topology) {
-    links.robot = in.whole32();
+    links.robot = read_robot(in);
     links.version = in.whole32();
-    links.neighbours.resize(in.count(1));
-    for (RobotNumber& n : links.neighbours) n = in.whole32();
+    links.neighbours.resize(count_robots(in, 1));
+    for (RobotNumber& n : links.neighbours) n = read_robot(in);
+    const auto& n = links.neighbours;
+    if (std::adjacent_find(n.begin(), n.end(), std::greater_equal<>()) != n.end()) in.refuse();
   }
   return topology;
 }
@@ -123,7 +137,7 @@ void read_items(WireReader& in, std::vector<Item>& items, std::size_t bytes_each
   for (Item& item : items) read(in, item);
 }
 
-void write_up(WireWriter& out, const Elimination& up, Eigen::Index block) {
+void write_up(WireWriter& out, const Elimination& up) {
   out.whole(up.tree);
   out.whole(up.sweep);
   out.f64(up.cost);
@@ -136,7 +150,7 @@ void write_up(WireWriter& out, const Elimination& up, Eigen::Index block) {
     out.whole(pose.key.pose);
     out.whole(pose.solved_by);
   }
-  write_information(out, *up.information, block);
+  write_information(out, *up.information);
 }
 Elimination read_up(WireReader& in, Eigen::Index block) {
   Elimination up;
@@ -257,8 +271,7 @@ std::string encode(const Message<Pose>& message, MessageBytes* bytes) {
   section(SectionKind::kMatrices, !message.matrices.empty(),
           [&](WireWriter& o) { write_items(o, message.matrices); });
   section(SectionKind::kSteps, !message.steps.empty(), [&](WireWriter& o) { write_items(o, message.steps); });
-  section(SectionKind::kUp, message.up.has_value(),
-          [&](WireWriter& o) { write_up(o, *message.up, Pose::kDof); });
+  section(SectionKind::kUp, message.up.has_value(), [&](WireWriter& o) { write_up(o, *message.up); });
   section(SectionKind::kDown, message.down.has_value(), [&](WireWriter& o) { write_down(o, *message.down); });
   section(SectionKind::kStage, message.stage.has_value(),
           [&](WireWriter& o) { write_stage(o, *message.stage); });

@@ -15,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include "radioslam/graph/distributed/information_code.hpp"
 #include "radioslam/graph/distributed/robot_graph.hpp"
 
 namespace radioslam {
@@ -22,6 +23,8 @@ namespace radioslam {
 inline constexpr std::uint8_t kWireVersion = 1;
 /// More in one message is refused, before anything is allocated.
 inline constexpr std::size_t kMaxMessageBytes = std::size_t{1} << 26U;
+/// Robots have numbers below this one: what a message can make its receiver remember has an end.
+inline constexpr RobotNumber kMaxRobots = 512;
 
 /// What a section is about; traffic is counted by it.
 enum class SectionKind : std::uint8_t { kTopology, kFrames, kPoses, kMatrices, kSteps, kUp, kDown, kStage };
@@ -75,8 +78,8 @@ struct SharedPose {
 struct Elimination {
   std::uint64_t tree = 0;  ///< TeamTree::id
   std::uint32_t sweep = 0;
-  std::vector<SharedPose> shared;              ///< with information only: it stays as it was otherwise
-  std::optional<Eigen::MatrixXd> information;  ///< of their steps, in their order; absent: as last time
+  std::vector<SharedPose> shared;               ///< with information only: it stays as it was otherwise
+  std::optional<BlockInformation> information;  ///< of their steps, in their order; absent: as last time
   Eigen::VectorXd gradient;
   double cost = 0;                ///< at the values that were linearised
   double predicted_decrease = 0;  ///< by the steps of those eliminated, the shared ones at rest
@@ -128,7 +131,8 @@ template <class Pose>
 std::string encode(const Message<Pose>& message, MessageBytes* bytes = nullptr);
 
 /// Nothing where the bytes are no message of this version and dimension. Whether its contents fit the
-/// receiver's factors is not looked at.
+/// receiver's factors is not looked at. Cost: time and memory in proportion to the bytes, whatever they
+/// claim.
 template <class Pose>
 std::optional<Message<Pose>> decode(std::string_view bytes);
 

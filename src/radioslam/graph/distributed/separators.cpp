@@ -24,6 +24,12 @@ void SeparatorsSolver<Pose>::publish() {
 }
 
 template <class Pose>
+bool SeparatorsSolver<Pose>::hears_neighbours() const {
+  return team_.empty() || std::all_of(robot_.neighbours.begin(), robot_.neighbours.end(),
+                                      [&](const auto& neighbour) { return is_linked(neighbour.robot); });
+}
+
+template <class Pose>
 std::vector<std::optional<double>> SeparatorsSolver<Pose>::weights() const {
   std::vector<std::optional<double>> weights(robot_.graph.relative_poses.size());
   for (const std::size_t k : held_list_) weights[k] = weights_[k];
@@ -53,8 +59,13 @@ bool SeparatorsSolver<Pose>::hear(const Message<Pose>& message) {
   last_heard_[message.from] = round_;
   gossip_.restore(message.from);
   gossip_.hear(message.from, message.topology);
-  if (message.seen && awaits(*message.seen) && !frames_.hear(robot_, message.from, *message.seen))
-    return false;
+  if (message.seen && awaits(*message.seen)) {
+    // Poses that come after later ones are old; where teams may change, robots begin anew.
+    auto& until = heard_until_[message.from];
+    const bool is_late = !repeats() && message.round < until;
+    if (!is_late && !frames_.hear(robot_, message.from, *message.seen)) return false;
+    until = std::max(until, message.round + 1);
+  }
   if (message.up && !hear_child(message.from, *message.up)) return false;
   return !message.down || hear_parent(message.from, *message.down);
 }
@@ -78,7 +89,8 @@ bool SeparatorsSolver<Pose>::hear_child(RobotNumber from, const Elimination& up)
   const auto known = child_scalars_.find(from);
   if (!up.information && (known == child_scalars_.end() || known->second != up.gradient.size()))
     return tree_ && tree_->id() != up.tree;  // of another tree, it is only late
-  early_[from] = up;
+  const bool is_late = tree_ && up.tree == tree_->id() && up.sweep < sweep_.number;
+  if (!is_late) early_[from] = up;
   return true;
 }
 
@@ -124,7 +136,7 @@ void SeparatorsSolver<Pose>::meet(std::map<RobotNumber, RobotLinks> team) {
   last_down_.clear();
   last_up_.reset();
   last_cost_ = std::numeric_limits<double>::infinity();
-  finished_ = false;
+  finished_ = failed_ = false;
   if (!repeats()) return;
   std::vector<std::uint32_t> seen;
   for (const NeighbourRobot& neighbour : robot_.neighbours)
@@ -210,7 +222,7 @@ void SeparatorsSolver<Pose>::advance() {
     for (const RobotNumber child : children_)
       sweep_.children[child] = std::move(early_.extract(child).mapped());
     if (!eliminate()) {
-      finished_ = true;  // damping has failed, or a message lied: what there is stays
+      finished_ = failed_ = true;  // damping has failed, or a message lied: what there is stays
       return;
     }
     if (!tree_->is_root(robot_.robot)) return go_up();
@@ -237,13 +249,38 @@ void SeparatorsSolver<Pose>::linearise() {
   sweep_.linearised = true;
 }
 
+/// Whether the poses can be those that factors tie to others than the child and the robots below it, as far
+/// as this robot's own graph and the team's links say.
+template <class Pose>
+bool SeparatorsSolver<Pose>::can_share(RobotNumber child, const std::vector<SharedPose>& shared) const {
+  const auto below = [&](RobotNumber robot) { return tree_->is_below(robot, child); };
+  const auto fits = [&](const SharedPose& pose) {
+    const RobotNumber owner = pose.key.robot;
+    if (!team_.contains(owner) || (pose.solved_by != kUnknownRobot && !team_.contains(pose.solved_by)))
+      return false;
+    if (owner == robot_.robot)
+      return std::any_of(robot_.neighbours.begin(), robot_.neighbours.end(), [&](const auto& neighbour) {
+        return is_linked(neighbour.robot) && below(neighbour.robot) &&
+               std::binary_search(neighbour.seen.begin(), neighbour.seen.end(), pose.key.pose);
+      });
+    bool tied_elsewhere = false;
+    for (const RobotNumber other : team_.at(owner).neighbours)
+      tied_elsewhere = tied_elsewhere || (other != robot_.robot && below(other) != below(owner));
+    return tied_elsewhere ||
+           (below(owner) && std::binary_search(robot_.copies.begin(), robot_.copies.end(), pose.key));
+  };
+  const auto is_later = [](const SharedPose& a, const SharedPose& b) { return a.key >= b.key; };
+  return std::adjacent_find(shared.begin(), shared.end(), is_later) == shared.end() &&
+         std::all_of(shared.begin(), shared.end(), fits);
+}
+
 template <class Pose>
 bool SeparatorsSolver<Pose>::eliminate() {
   if (sweep_.relinearise) {
     if (!held_->eliminate(sweep_.damping)) return false;
     child_scalars_.clear();
     for (const auto& [child, up] : sweep_.children) {
-      if (!up.information) return false;
+      if (!up.information || !can_share(child, up.shared)) return false;
       child_scalars_[child] = up.gradient.size();
     }
     cluster_.emplace(robot_.robot, held_->kept(), sweep_.children, Pose::kDof);
@@ -276,7 +313,7 @@ void SeparatorsSolver<Pose>::go_up() {
   up.gradient = cluster_->passed_gradient();
   if (sweep_.relinearise) {
     up.shared = cluster_->passed_poses();
-    up.information = cluster_->passed_information();
+    up.information.emplace(cluster_->passed_information(), Pose::kDof);
   }
   if (repeats()) last_up_ = up;
   message_to(tree_->parent(robot_.robot)).up = std::move(up);

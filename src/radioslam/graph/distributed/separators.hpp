@@ -41,7 +41,8 @@ class SeparatorsSolver : public DistributedSolver<Pose> {
   SeparatorsSolver(RobotGraph<Pose> robot, const SeparatorsParams& params);
 
   std::vector<Message<Pose>> round(const std::vector<Message<Pose>>& heard) override;
-  bool settled() const override { return finished_; }
+  bool settled() const override { return finished_ && !failed_; }
+  bool hears_neighbours() const override;
   std::vector<Pose> poses() const override { return published_; }
   std::vector<Frame> frames() const override { return frames_.frames(robot_); }
   std::size_t refused() const override { return refused_; }
@@ -77,6 +78,7 @@ class SeparatorsSolver : public DistributedSolver<Pose> {
 
   void advance();
   void linearise();
+  bool can_share(RobotNumber child, const std::vector<SharedPose>& shared) const;
   bool eliminate();
   Elimination sums() const;
   void go_up();
@@ -103,6 +105,7 @@ class SeparatorsSolver : public DistributedSolver<Pose> {
   std::vector<Pose> before_;                   ///< where the last sweep started
   double last_cost_ = 0, last_predicted_ = 0;  ///< of the team, at the root
   bool finished_ = false;
+  bool failed_ = false;              ///< the sweeps cannot go on
   std::vector<Pose> published_;      ///< own poses after the last sweep that all robots have ended
   std::uint32_t rounds_to_end_ = 0;  ///< until the robots furthest from the root have ended theirs
 
@@ -110,6 +113,7 @@ class SeparatorsSolver : public DistributedSolver<Pose> {
   std::map<RobotNumber, Solution> last_down_;  ///< as sent to the children
   std::optional<Elimination> last_up_;
   std::map<RobotNumber, std::uint32_t> last_heard_, last_sent_;  ///< rounds, per neighbour
+  std::map<RobotNumber, std::uint32_t> heard_until_;  ///< the round after the latest poses heard, as sent
   std::map<RobotNumber, Message<Pose>> outgoing_;
   std::map<RobotNumber, bool> tell_poses_;  ///< per neighbour
   std::uint32_t round_ = 0;

@@ -9,6 +9,7 @@
 #include "radioslam/graph/distributed/separators.hpp"
 #include "radioslam/graph/distributed/two_stage.hpp"
 #include "radioslam/graph/graduated.hpp"
+#include "radioslam/graph/initial_values.hpp"
 #include "radioslam/graph/optimizer.hpp"
 #include "radioslam/graph/residuals.hpp"
 
@@ -17,6 +18,8 @@ namespace {
 
 /// Rounds without an answer, in networks that lose and delay messages.
 constexpr std::uint32_t kRepeatAfter = 4;
+/// Rounds without a word, beyond the delay, in which a neighbour's values do not count as old there.
+constexpr std::uint32_t kMaxAge = 20;
 
 template <class Pose>
 std::unique_ptr<DistributedSolver<Pose>> make_solver(RobotGraph<Pose> robot,
@@ -25,6 +28,8 @@ std::unique_ptr<DistributedSolver<Pose>> make_solver(RobotGraph<Pose> robot,
     case DistributedMethod::kBlockCoordinate: {
       BlockCoordinateParams block;
       block.frames = params.frames;
+      if (params.network.loss_share > 0 || params.network.delay_rounds > 0)
+        block.max_age = static_cast<std::uint32_t>(params.network.delay_rounds) + kMaxAge;
       return std::make_unique<BlockCoordinateSolver<Pose>>(std::move(robot), block);
     }
     case DistributedMethod::kTwoStage: {
@@ -48,22 +53,35 @@ std::unique_ptr<DistributedSolver<Pose>> make_solver(RobotGraph<Pose> robot,
   return std::make_unique<SeparatorsSolver<Pose>>(std::move(robot), separators);
 }
 
-/// Each robot on its own: what it knows without hearing anything.
+/// Whether some part of the robot's trajectory shares factors with nobody.
 template <class Pose>
-void optimize_own(RobotGraph<Pose>& robot, const OutlierParams& outliers) {
+bool has_lone_part(const RobotGraph<Pose>& robot) {
+  std::vector<bool> lone(robot.parts, true);
+  for (const NeighbourRobot& neighbour : robot.neighbours)
+    for (const std::uint32_t pose : neighbour.seen) lone[robot.part_of[pose]] = false;
+  return std::find(lone.begin(), lone.end(), true) != lone.end();
+}
+
+/// Each robot on its own: what it knows without hearing anything. Nobody helps a lone part out of a bad
+/// start, so it takes the best one there is. Whether an optimum was reached.
+template <class Pose>
+bool optimize_own(RobotGraph<Pose>& robot, const OutlierParams& outliers) {
   auto own = own_graph(robot);
+  if (has_lone_part(robot)) initialise(own, GivenValues::kComplete);
   FactorMask mask;
   mask.relative_poses = outlier_candidates(robot);
   mask.relative_poses.resize(robot.own_relative_poses);
   const bool loops =
       std::find(mask.relative_poses.begin(), mask.relative_poses.end(), true) != mask.relative_poses.end();
+  OptimizerSummary summary;
   if (outliers.gate > 0 && loops) {
     for (auto& factor : own.relative_poses) factor.loss.scale = std::sqrt(outliers.gate);
-    optimize_graduated(own, mask, GraduatedLoss::kTruncatedLeastSquares, {}, {});
+    summary = optimize_graduated(own, mask, GraduatedLoss::kTruncatedLeastSquares, {}, {}).last;
   } else {
-    optimize(own, OptimizerParams{});
+    summary = optimize(own, OptimizerParams{});
   }
   std::copy(own.poses.begin(), own.poses.end(), robot.graph.poses.begin());
+  return summary.termination == Termination::kConverged || summary.termination == Termination::kNothingToDo;
 }
 
 /// The run: all robots and the network between them.
@@ -73,10 +91,13 @@ class Team {
   Team(const PoseGraph<Pose>& graph, const TeamPoses& poses, const TeamOptimizationParams& params)
       : graph_(graph), poses_(poses), network_(poses.poses.size(), params.network) {
     for (auto& robot : split_by_robot(graph, poses)) {
-      optimize_own(robot, params.outliers);
+      const bool at_optimum = optimize_own(robot, params.outliers);
+      lone_at_optimum_ = lone_at_optimum_ && (at_optimum || !has_lone_part(robot));
       solvers_.push_back(make_solver(std::move(robot), params));
     }
     result_.frames.resize(graph.poses.size());
+    collect();
+    measure(result_.start);
   }
 
   void play_round() {
@@ -96,12 +117,13 @@ class Team {
   }
 
   bool settled() const {
-    return std::all_of(solvers_.begin(), solvers_.end(), [](const auto& s) { return s->settled(); });
+    return std::all_of(solvers_.begin(), solvers_.end(),
+                       [](const auto& s) { return s->settled() && s->hears_neighbours(); });
   }
 
   TeamOptimization<Pose> finish() {
     result_.poses = graph_.poses;
-    result_.settled = settled();
+    result_.settled = settled() && lone_at_optimum_;
     for (const auto& solver : solvers_) result_.refused += solver->refused();
     collect_weights();
     return std::move(result_);
@@ -157,6 +179,7 @@ class Team {
   SimulatedNetwork network_;
   std::vector<std::unique_ptr<DistributedSolver<Pose>>> solvers_;
   TeamOptimization<Pose> result_;
+  bool lone_at_optimum_ = true;  ///< robots with parts that share factors with nobody
 };
 
 }  // namespace

@@ -14,12 +14,20 @@
 namespace radioslam {
 
 enum class DistributedMethod { kTwoStage, kBlockCoordinate, kAsynchronous, kAlternating, kSeparators };
-inline constexpr std::array kDistributedMethods{
-    std::pair{"separators", DistributedMethod::kSeparators},
-    std::pair{"asynchronous", DistributedMethod::kAsynchronous},
-    std::pair{"block-coordinate", DistributedMethod::kBlockCoordinate},
-    std::pair{"two-stage", DistributedMethod::kTwoStage},
-    std::pair{"alternating", DistributedMethod::kAlternating}};
+
+/// A method's name, and what it needs of the network.
+struct DistributedMethodInfo {
+  const char* name;
+  DistributedMethod method;
+  bool bears_loss, bears_delay;  ///< it still ends at the optimum, and not before
+};
+inline constexpr auto kDistributedMethods = std::to_array<DistributedMethodInfo>({
+    {"separators", DistributedMethod::kSeparators, false, true},
+    {"asynchronous", DistributedMethod::kAsynchronous, true, true},
+    {"block-coordinate", DistributedMethod::kBlockCoordinate, true, true},
+    {"two-stage", DistributedMethod::kTwoStage, false, false},
+    {"alternating", DistributedMethod::kAlternating, false, false},
+});
 
 struct TeamOptimizationParams {
   DistributedMethod method = DistributedMethod::kSeparators;
@@ -49,10 +57,12 @@ struct RoundTrace {
 
 template <class Pose>
 struct TeamOptimization {
+  RoundTrace start;  ///< before the first round: every robot has optimised its own graph
   std::vector<RoundTrace> rounds;
-  std::vector<Pose> poses;      ///< as the robots have them when they stop
-  std::vector<Frame> frames;    ///< per pose
-  bool settled = false;         ///< every robot had stopped by itself
+  std::vector<Pose> poses;    ///< as the robots have them when they stop
+  std::vector<Frame> frames;  ///< per pose
+  /// Every robot has stopped by itself, and what shares factors with nobody is at an optimum of its own.
+  bool settled = false;
   std::vector<double> weights;  ///< per relative pose of the graph, of graduated optimization
   std::size_t refused = 0;      ///< messages
 };

@@ -59,8 +59,10 @@ NumberedTeam<Pose> number_robots(const TeamGraph<Pose>& team) {
   return numbered;
 }
 
-double TeamOutcome::relative_gap() const {
-  return central_cost > 0 ? (cost - central_cost) / central_cost : cost - central_cost;
+/// Costs below the smallest decrease that any method looks for are those of an exact fit.
+double TeamOutcome::gap_of(double at_cost) const {
+  constexpr double kExactFit = 1e-6;
+  return (at_cost - central_cost) / std::max(central_cost, kExactFit);
 }
 
 template <class Pose>
@@ -70,18 +72,21 @@ TeamOutcome team_outcome(const NumberedTeam<Pose>& team, const TeamOptimization<
   TeamOutcome outcome;
   outcome.cost = total_cost(judged);
   outcome.central_cost = central_cost(judged, params);
-  for (const RoundTrace& round : run.rounds) {
-    add_traffic(outcome.traffic, round.traffic);
-    const double gap = (round.cost - outcome.central_cost) / std::max(outcome.central_cost, 1e-300);
-    const bool near = round.one_frame && std::abs(gap) <= kAtOptimum;
-    outcome.gaps.push_back(round.one_frame ? std::optional(gap) : std::nullopt);
-    if (!near) {
+  const auto look_at = [&](const RoundTrace& round, std::size_t rounds) {
+    const double gap = outcome.gap_of(round.cost);
+    if (!round.one_frame || std::abs(gap) > kAtOptimum) {
       outcome.rounds_to_optimum.reset();
       outcome.bytes_to_optimum.reset();
     } else if (!outcome.rounds_to_optimum) {
-      outcome.rounds_to_optimum = outcome.gaps.size();
+      outcome.rounds_to_optimum = rounds;
       outcome.bytes_to_optimum = outcome.traffic.bytes();
     }
+    return round.one_frame ? std::optional(gap) : std::nullopt;
+  };
+  look_at(run.start, 0);
+  for (const RoundTrace& round : run.rounds) {
+    add_traffic(outcome.traffic, round.traffic);
+    outcome.gaps.push_back(look_at(round, outcome.gaps.size() + 1));
   }
   return outcome;
 }

@@ -35,7 +35,9 @@ struct TeamOutcome {
   std::optional<std::size_t> rounds_to_optimum, bytes_to_optimum;
   Traffic traffic;  ///< of all rounds, without the bytes by robot
 
-  double relative_gap() const;
+  double relative_gap() const { return gap_of(cost); }
+  /// A cost above the central one, relatively.
+  double gap_of(double at_cost) const;
 };
 
 /// Cost: two central optimizations.

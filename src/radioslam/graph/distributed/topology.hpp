@@ -37,6 +37,10 @@ class TopologyGossip {
   std::map<RobotNumber, std::map<RobotNumber, std::uint32_t>> told_;  ///< per neighbour: 1 + version it knows
 };
 
+/// Per robot of a team, in order, the links to the one farthest from it. `team`: of every robot that is
+/// mentioned, its links. Cost: a 64th of the cube of the number of robots.
+std::vector<std::uint32_t> eccentricities(const std::map<RobotNumber, RobotLinks>& team);
+
 /// A breadth-first tree over the robots of a team, from the robot with the shortest way to all others.
 class TeamTree {
  public:
@@ -52,6 +56,7 @@ class TeamTree {
   RobotNumber common_ancestor(RobotNumber a, RobotNumber b) const;
   /// A number for the team and its links: robots with the same one have the same tree.
   std::uint64_t id() const { return id_; }
+  bool is_below(RobotNumber robot, RobotNumber above) const { return common_ancestor(robot, above) == above; }
   /// Depth of the deepest robot.
   std::uint32_t height() const { return height_; }
 

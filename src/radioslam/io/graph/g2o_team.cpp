@@ -9,14 +9,12 @@
 
 #include "radioslam/io/graph/g2o.hpp"
 #include "radioslam/io/graph/keyed_poses.hpp"
+#include "radioslam/io/graph/repeated_edges.hpp"
 #include "radioslam/io/text/compressed_text.hpp"
 
 namespace radioslam {
 namespace {
 
-/// Bound on the difference of two copies of an edge, which are rounded to typically six digits and whose
-/// quaternions are normalised on reading.
-constexpr double kRounding = 2e-5;
 constexpr std::uint64_t kMaxLetter = 255;
 /// Standard deviations of a start that a VERTEX line states, as by default those of a mission's known starts.
 constexpr double kSigmaStart_m = 0.05, kSigmaStart_rad = 0.01;
@@ -145,19 +143,14 @@ class TeamMerge {
 
   using Ends = std::pair<PoseId, PoseId>;
 
-  /// False for an edge that an earlier file contains, up to rounding.
+  /// False for an edge that an earlier file contains, up to rounding. Others that repeat one are found where
+  /// the team is assembled.
   bool is_new(const RelativePoseFactor<Pose>& factor) {
     const auto [begin, end] = earlier_.equal_range(Ends(factor.i, factor.j));
     for (auto edge = begin; edge != end; ++edge)
-      if (are_equal(graph_.relative_poses[edge->second], factor)) return false;
+      if (are_equal_edges(graph_.relative_poses[edge->second], factor)) return false;
     of_this_file_.emplace_back(Ends(factor.i, factor.j), graph_.relative_poses.size());
     return true;
-  }
-
-  static bool are_equal(const RelativePoseFactor<Pose>& a, const RelativePoseFactor<Pose>& b) {
-    const double length_m = std::max(1.0, a.T_i_j.translation().norm());
-    return (a.T_i_j.inverse() * b.T_i_j).log().norm() < kRounding * length_m &&
-           (a.information - b.information).norm() <= kRounding * a.information.norm();
   }
 
   void end_of_file() {

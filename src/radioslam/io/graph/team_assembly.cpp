@@ -9,8 +9,8 @@
 
 #include "radioslam/base/check.hpp"
 #include "radioslam/base/units.hpp"
-#include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/graph/pose_ids.hpp"
+#include "radioslam/io/graph/repeated_edges.hpp"
 
 namespace radioslam {
 namespace {
@@ -38,16 +38,45 @@ Stamp stamp_of(const PoseIndex& place) {
   return {static_cast<std::int64_t>(std::min(place.place, kMaxPlace)) * kNanosecondsPerSecond};
 }
 
-/// The inverse measurement: (Z Exp(xi))^-1 = Z^-1 Exp(-Ad(Z) xi).
+void note_repeated_edges(std::size_t dropped, std::size_t equal, std::vector<std::string>& notes) {
+  if (dropped > 0)
+    notes.push_back(std::to_string(dropped) +
+                    " edges between robots repeat another one, as its inverse or with other digits: each "
+                    "measurement counts once");
+  if (equal > 0)
+    notes.push_back(std::to_string(equal) +
+                    " edges between robots stand a second time in the same file and count twice; remove them "
+                    "if they are one measurement");
+}
+
+/// An edge between two robots that repeats an earlier one, which counts. Equal lines of one file may be two
+/// measurements. Returns the places that the edges had before.
 template <class Pose>
-RelativePoseFactor<Pose> reversed(const RelativePoseFactor<Pose>& factor) {
-  RelativePoseFactor<Pose> result = factor;
-  result.i = factor.j;
-  result.j = factor.i;
-  result.T_i_j = factor.T_i_j.inverse();
-  const typename Pose::Jacobian back = factor.T_i_j.inverse().adjoint();
-  result.information = normal_matrix(back, factor.information);
-  return result;
+std::vector<std::size_t> drop_repeated_edges(const std::vector<PoseIndex>& places,
+                                             std::vector<RelativePoseFactor<Pose>>& edges,
+                                             std::vector<std::string>& notes) {
+  std::multimap<std::pair<PoseId, PoseId>, std::size_t> links;
+  std::vector<RelativePoseFactor<Pose>> kept;
+  std::vector<std::size_t> before;
+  std::size_t equal = 0;
+  for (std::size_t f = 0; f < edges.size(); ++f) {
+    const auto& edge = edges[f];
+    if (places[edge.i.index()].robot != places[edge.j.index()].robot) {
+      const std::pair<PoseId, PoseId> ends = std::minmax({edge.i, edge.j});
+      const auto [begin, end] = links.equal_range(ends);
+      auto repeated = begin;
+      while (repeated != end && !are_repeated_edges(kept[repeated->second], edge)) ++repeated;
+      const bool is_equal = repeated != end && are_equal_edges(kept[repeated->second], edge);
+      equal += is_equal ? 1 : 0;
+      if (repeated != end && !is_equal) continue;
+      links.emplace(ends, kept.size());
+    }
+    kept.push_back(edge);
+    before.push_back(f);
+  }
+  note_repeated_edges(edges.size() - kept.size(), equal, notes);
+  edges = std::move(kept);
+  return before;
 }
 
 template <class Pose>
@@ -56,6 +85,7 @@ class Assembly {
   Assembly(PoseGraph<Pose> graph, const std::vector<PoseIndex>& places, StatedStarts starts)
       : graph_(std::move(graph)), places_(places), order_(order_of(places)) {
     if (starts == StatedStarts::kIgnored) drop_priors_on_several_robots();
+    file_edge_ = drop_repeated_edges(places_, graph_.relative_poses, notes_);
   }
 
   AssembledTeam<Pose> run() {
@@ -141,6 +171,7 @@ class Assembly {
       if (!taken[f]) relative_pose_index_.push_back(f);
     for (const std::size_t f : relative_pose_index_) sorted.push_back(graph_.relative_poses[f]);
     graph_.relative_poses = std::move(sorted);
+    for (std::size_t& f : relative_pose_index_) f = file_edge_[f];
   }
 
   void reckon(TrajectorySegment& segment) {
@@ -163,7 +194,8 @@ class Assembly {
   PoseGraph<Pose> graph_;
   const std::vector<PoseIndex>& places_;
   std::vector<std::size_t> order_;
-  std::vector<std::size_t> odometry_;  // per pose: the factor to the next pose, or kNone
+  std::vector<std::size_t> odometry_;   // per pose: the factor to the next pose, or kNone
+  std::vector<std::size_t> file_edge_;  // per relative pose that counts, its index in the file
   std::vector<std::size_t> relative_pose_index_;
   std::vector<std::string> notes_;
   Stamp last_stamp_;

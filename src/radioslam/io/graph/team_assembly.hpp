@@ -2,7 +2,8 @@
 //
 // Poses are sorted by robot (in the order of first mention) and index. An edge from a pose to the robot's
 // next one is odometry; of several such edges the first one is, the others are loop closures. Where odometry
-// is missing, a new segment begins. Cost: sorting the poses, otherwise linear.
+// is missing, a new segment begins. Of edges between two robots that repeat each other (repeated_edges.hpp)
+// the first counts, with a note. Cost: sorting the poses, otherwise linear.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +26,7 @@ struct PoseIndex {
 
 template <class Pose>
 struct AssembledTeam {
-  TeamGraphFile<Pose> file;                      ///< its team, with notes on priors that are not used
+  TeamGraphFile<Pose> file;                      ///< its team, with notes on what does not count
   std::vector<std::size_t> file_index;           ///< per pose of the team, its index in the file's graph
   std::vector<std::size_t> relative_pose_index;  ///< the same per relative pose
 };

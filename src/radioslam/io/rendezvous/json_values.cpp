@@ -40,6 +40,29 @@ std::optional<std::uint64_t> whole_number_of(const Json& json, std::uint64_t lar
   return value;
 }
 
+/// Bytes of memory that a value, a member's name and a list or object take at most while lists grow.
+constexpr std::size_t kValueBytes = 64, kNameBytes = 96, kContainerBytes = 128;
+/// A line may take so many times its bytes, and so much in any case.
+constexpr std::size_t kJsonGrowth = 6, kFreeJsonBytes = 800'000;
+
+/// Refuses JSON of very many very short values before it is read.
+void refuse_many_values(std::string_view text) {
+  std::size_t bytes = 0;
+  bool in_string = false;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const char c = text[k];
+    if (c == '"') in_string = !in_string;
+    if (in_string) {
+      k += c == '\\' ? 1 : 0;
+      continue;
+    }
+    if (c == ',') bytes += kValueBytes;
+    if (c == ':') bytes += kNameBytes;
+    if (c == '[' || c == '{') bytes += kContainerBytes;
+  }
+  if (bytes > kJsonGrowth * text.size() + kFreeJsonBytes) refuse_json("too many values");
+}
+
 std::string whole_number_up_to(std::uint64_t largest) {
   return "a whole number from 0 to " + std::to_string(largest);
 }
@@ -53,6 +76,7 @@ bool is_robot_name(std::string_view name) {
 void refuse_json(const std::string& reason) { throw InputError("line", 0, reason); }
 
 Json parse_json(std::string_view text) {
+  refuse_many_values(text);
   try {
     return Json::parse(text);
   } catch (const Json::parse_error& error) {

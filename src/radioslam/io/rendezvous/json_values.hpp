@@ -32,7 +32,7 @@ bool is_robot_name(std::string_view name);
 
 [[noreturn]] void refuse_json(const std::string& reason);
 
-/// Refuses (InputError) what is not one JSON value.
+/// Refuses (InputError) what is not one JSON value, and what would take far more memory than the text.
 nlohmann::json parse_json(std::string_view text);
 
 /// An object; `name` is for error messages.

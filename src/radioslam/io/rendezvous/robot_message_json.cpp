@@ -206,6 +206,10 @@ SharedPart read_part(const Json& json) {
   part.robot = from.robot("robot");
   part.version = from.whole_number("version", kAnyCount);
   if (from.has("start")) part.start = from.pose("start");
+  for (const auto& [member, most] :
+       {std::pair{"others", 2 * kMaxSharedEntries}, std::pair{"nodes", kMaxSharedNodes},
+        std::pair{"observations", kMaxSharedEntries}, std::pair{"angle_checks", kMaxSharedEntries}})
+    if (from.list(member).size() > most) from.fail(member, "a list of up to " + std::to_string(most));
   const auto others = read_names(from, "others");
   for (const Json& node : from.list("nodes")) part.nodes.push_back(read_node(node));
   for (const Json& each : from.list("observations"))

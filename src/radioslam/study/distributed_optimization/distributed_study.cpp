@@ -15,15 +15,15 @@ struct StudiedMethod {
 /// Every method on a perfect network, and the one that is made for others on a bad one.
 std::vector<StudiedMethod> studied_methods() {
   std::vector<StudiedMethod> methods;
-  for (const auto& [name, method] : kDistributedMethods) {
+  for (const DistributedMethodInfo& info : kDistributedMethods) {
     TeamOptimizationParams params;
-    params.method = method;
+    params.method = info.method;
     params.max_rounds = kStudyRounds;
-    methods.push_back({name, params});
-    if (method != DistributedMethod::kAsynchronous) continue;
+    methods.push_back({info.name, params});
+    if (info.method != DistributedMethod::kAsynchronous) continue;
     params.network.loss_share = 0.2;
     params.network.delay_rounds = 5;
-    methods.push_back({std::string(name) + ", 20 % lost, late", params});
+    methods.push_back({std::string(info.name) + ", 20 % lost, late", params});
   }
   return methods;
 }

@@ -21,7 +21,6 @@ constexpr double kSmallestWeight = 1e-9;
 constexpr double kCostTolerance = 1e-7;
 constexpr double kMaxLogOdds = 50;
 constexpr double kUnknownVariance = 1e12;
-constexpr std::size_t kMaxSharedNodes = 100, kMaxSharedEntries = 150;
 
 SE2::Jacobian covariance_of(double sigma_m, double sigma_rad) {
   const double m = std::max(sigma_m, kSmallestSigma), rad = std::max(sigma_rad, kSmallestSigma);

@@ -60,6 +60,9 @@ std::uint64_t first_number(double t_s) {
 }
 
 bool is_well_formed(const SharedPart& part) {
+  if (part.nodes.size() > kMaxSharedNodes || part.observations.size() > kMaxSharedEntries ||
+      part.evidence.size() > kMaxSharedEntries)
+    return false;
   if (part.robot.empty() || !are_in_order(part.nodes) || (part.start && !is_sane(*part.start))) return false;
   for (const SharedObservation& observation : part.observations)
     if (part.place_of(observation.node) == part.nodes.size() || observation.robot.empty() ||

@@ -61,11 +61,14 @@ struct SharedPart {
   std::size_t place_of(std::uint32_t number) const;
 };
 
+/// As many as a message holds, and more than a part may have of them is refused.
+inline constexpr std::size_t kMaxSharedNodes = 100, kMaxSharedEntries = 150;
+
 /// Where a robot that starts at a time begins to count what it says: above all of a life before.
 std::uint64_t first_number(double t_s);
 
-/// Whether a part that somebody sent can be put into a graph: finite numbers, positive sigmas, nodes in
-/// order, observations of its own nodes.
+/// Whether a part that somebody sent can be put into a graph: not too long, finite numbers, positive sigmas,
+/// nodes in order, observations of its own nodes.
 bool is_well_formed(const SharedPart& part);
 
 }  // namespace radioslam

@@ -1,6 +1,6 @@
 // Bytes of the messages between robots: numbers of fixed size in little endian order, and small whole numbers
 // in base 128 (LEB128), as protocol buffers have them. A reader never reads beyond its bytes: after the first
-// number that is not there it returns zeros and `good()` is false.
+// number that is not there, or is not finite, it returns zeros and `good()` is false.
 #pragma once
 
 #include <bit>
@@ -22,6 +22,7 @@ class WireWriter {
     for (; value >= 0x80U; value >>= 7U) byte(static_cast<std::uint8_t>(value | 0x80U));
     byte(static_cast<std::uint8_t>(value));
   }
+  void u32(std::uint32_t value) { append_little_endian(bytes_, value, sizeof(value)); }
   void f32(float value) { append_f32(bytes_, value); }
   void f64(double value) { append_f64(bytes_, value); }
   void append(std::string_view bytes) { bytes_ += bytes; }
@@ -68,7 +69,8 @@ class WireReader {
     if (value > bytes_.size() / bytes_each) good_ = false;
     return good_ ? static_cast<std::size_t>(value) : 0;
   }
-  float f32() { return finite(std::bit_cast<float>(static_cast<std::uint32_t>(fixed(4)))); }
+  std::uint32_t u32() { return static_cast<std::uint32_t>(fixed(4)); }
+  float f32() { return finite(std::bit_cast<float>(u32())); }
   double f64() { return finite(std::bit_cast<double>(fixed(8))); }
   std::string_view take(std::size_t count) {
     if (count > bytes_.size()) {
@@ -81,6 +83,7 @@ class WireReader {
   }
 
   bool empty() const { return bytes_.empty(); }
+  std::size_t left() const { return bytes_.size(); }
   bool good() const { return good_; }
   void refuse() { good_ = false; }
 
