@@ -15,7 +15,7 @@
 #include "radioslam/cli/commands/output_path_check.hpp"
 #include "radioslam/cli/config.hpp"
 #include "radioslam/cli/parameters.hpp"
-#include "radioslam/cli/suggestion.hpp"
+#include "radioslam/base/suggestion.hpp"
 #include "radioslam/io/mission/anchor_tables.hpp"
 #include "radioslam/io/mission/team_tables.hpp"
 #include "radioslam/io/mission/tum.hpp"

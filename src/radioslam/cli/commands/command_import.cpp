@@ -10,7 +10,7 @@
 #include "radioslam/cli/commands.hpp"
 #include "radioslam/cli/import/import_kinds.hpp"
 #include "radioslam/cli/import/import_options.hpp"
-#include "radioslam/cli/suggestion.hpp"
+#include "radioslam/base/suggestion.hpp"
 
 namespace radioslam::cli {
 namespace {

@@ -17,7 +17,7 @@
 #include "radioslam/cli/config.hpp"
 #include "radioslam/cli/parameters.hpp"
 #include "radioslam/cli/progress_line.hpp"
-#include "radioslam/cli/suggestion.hpp"
+#include "radioslam/base/suggestion.hpp"
 #include "radioslam/io/text/atomic_output.hpp"
 #include "radioslam/io/text/numbers.hpp"
 #include "radioslam/io/wifi/wifi_csv.hpp"
