@@ -14,6 +14,7 @@
 #include "radioslam/geometry/se2.hpp"
 #include "radioslam/io/text/line_fields.hpp"
 #include "radioslam/io/text/numbers.hpp"
+#include "radioslam/io/text/skipped_records.hpp"
 
 namespace radioslam {
 namespace {
@@ -130,20 +131,25 @@ std::optional<SE2> read_offset(LineFields& fields, const std::string& kind) {
   return SE2({fields.coordinate("the offset"), 0}, is_rear ? std::numbers::pi : 0);
 }
 
-std::vector<CarmenScan> read_scans(const Text& text, const std::string& kind, const CarmenParams& params) {
+/// Lines that are refused are left out with a warning.
+std::vector<CarmenScan> read_scans(const Text& text, const std::string& kind, const CarmenParams& params,
+                                   std::vector<std::string>& warnings) {
   SE2 T_body_laser({0, 0}, kind == "RLASER" ? std::numbers::pi : 0);
   std::vector<CarmenScan> scans;
+  SkippedRecords skipped;
   TextLines lines(text);
-  while (lines.next_with_content()) {
-    LineFields fields(lines);
-    const std::string_view word = fields.next("a message's name");
-    if (word == "PARAM") {
-      if (const auto offset = read_offset(fields, kind)) T_body_laser = *offset;
-    } else if (word == kind) {
-      scans.push_back(kind == "ROBOTLASER1" ? read_described_scan(lines, fields)
-                                            : read_plain_scan(lines, fields, T_body_laser, params));
-    }
-  }
+  while (lines.next_with_content())
+    skipped.attempt([&] {
+      LineFields fields(lines);
+      const std::string_view word = fields.next("a message's name");
+      if (word == "PARAM") {
+        if (const auto offset = read_offset(fields, kind)) T_body_laser = *offset;
+      } else if (word == kind) {
+        scans.push_back(kind == "ROBOTLASER1" ? read_described_scan(lines, fields)
+                                              : read_plain_scan(lines, fields, T_body_laser, params));
+      }
+    });
+  skipped.conclude(text.name, "line", scans.size(), warnings);
   return scans;
 }
 
@@ -215,8 +221,8 @@ LidarLog log_of(std::vector<CarmenScan> scans) {
 }  // namespace
 
 ImportedMission read_carmen(const Text& text, const std::string& robot, const CarmenParams& params) {
-  std::vector<CarmenScan> scans = read_scans(text, kind_of_scans(text), params);
   ImportedMission imported;
+  std::vector<CarmenScan> scans = read_scans(text, kind_of_scans(text), params, imported.warnings);
   if (const std::size_t late = put_in_order(text, scans, params); late > 0)
     imported.warnings.push_back(std::to_string(late) +
                                 " scans are stamped later than a following one and were moved to before it");
