@@ -22,7 +22,8 @@ struct ImportWalk : ImportFixture {
   void SetUp() override {
     write_file(folder.path() / "walk.csv", walk());
     write_file(folder.path() / "plan.csv", "t_s,x,y\n0,1,1\n4,5,1\n8,5,4\n");
-    write_file(folder.path() / "scan.txt", "100\nBSS 02:00:00:00:01:00(on wlan0)\n\tfreq: 2412\n\tsignal: -53.00 dBm\n");
+    write_file(folder.path() / "scan.txt",
+               "100\nBSS 02:00:00:00:01:00(on wlan0)\n\tfreq: 2412\n\tsignal: -53.00 dBm\n");
   }
   std::string file(const std::string& name) const { return read_file(folder.path() / name); }
 };
@@ -33,11 +34,14 @@ TEST_F(ImportWalk, GivesALaptopsScansTheOdometryThatTheyLack) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.out.find(" steps, "), std::string::npos) << outcome.out;
   EXPECT_EQ(outcome.out.find("is missing"), std::string::npos) << outcome.out;
-  EXPECT_EQ(files_in(folder.path() / "m"),
-            (std::vector<std::string>{"mission.yaml", "robots/laptop/odometry.tum", "robots/laptop/wifi.csv"}));
-  EXPECT_NE(file("m/mission.yaml").find("sigma_xy_per_sqrt_m: 0.2"), std::string::npos) << file("m/mission.yaml");
+  EXPECT_EQ(
+      files_in(folder.path() / "m"),
+      (std::vector<std::string>{"mission.yaml", "robots/laptop/odometry.tum", "robots/laptop/wifi.csv"}));
+  EXPECT_NE(file("m/mission.yaml").find("sigma_xy_per_sqrt_m: 0.2"), std::string::npos)
+      << file("m/mission.yaml");
   expect_refused({"imu", "walk.csv", "--robot", "laptop", "-o", "m"}, "robot 'laptop' has odometry.tum");
-  expect_refused({"waypoints", "plan.csv", "--robot", "laptop", "-o", "m"}, "robot 'laptop' has odometry.tum");
+  expect_refused({"waypoints", "plan.csv", "--robot", "laptop", "-o", "m"},
+                 "robot 'laptop' has odometry.tum");
   EXPECT_EQ(import({"waypoints", "plan.csv", "--robot", "laptop", "--replace", "-o", "m"}).status, 0);
 }
 

@@ -50,7 +50,8 @@ TEST_F(ImportWifi, GivesAMissionsRobotItsTableAndKeepsTheRest) {
 
 TEST_F(ImportWifi, AddsARobotThatTheMissionDoesNotHave) {
   make_team();
-  write_file(folder.path() / "m/mission.yaml", "format: radioslam-mission/1\n# by hand\nrobots:\n  a: {}  # first\n  b: {}\n");
+  write_file(folder.path() / "m/mission.yaml",
+             "format: radioslam-mission/1\n# by hand\nrobots:\n  a: {}  # first\n  b: {}\n");
   const Outcome outcome = import({"iw", "scan.txt", "--robot", "c", "-o", "m"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("note: robot 'c' is new in this mission\n"), std::string::npos) << outcome.out;
@@ -63,7 +64,8 @@ TEST_F(ImportWifi, AddsARobotThatTheMissionDoesNotHave) {
 TEST_F(ImportWifi, ReplacesATableOnlyWhenAsked) {
   make_team();
   write_file(folder.path() / "m/robots/a/wifi.csv", "t_s,bssid,frequency_mhz,rssi_dbm\n");
-  expect_refused({"iw", "scan.txt", "--robot", "a", "-o", "m"}, "robot 'a' has wifi.csv in this mission already");
+  expect_refused({"iw", "scan.txt", "--robot", "a", "-o", "m"},
+                 "robot 'a' has wifi.csv in this mission already");
   expect_refused({"iw", "scan.txt", "-o", "m/robots/a/wifi.csv"}, "is in the mission");
   EXPECT_EQ(import({"iw", "scan.txt", "--robot", "a", "--replace", "-o", "m"}).status, 0);
   EXPECT_EQ(read_file(folder.path() / "m/robots/a/wifi.csv"), kTable);
@@ -74,8 +76,9 @@ TEST_F(ImportWifi, ReplacesATableOnlyWhenAsked) {
 TEST_F(ImportWifi, StartsAMissionThatLacksOdometry) {
   const Outcome outcome = import({"iw", "scan.txt", "-o", "m"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_TRUE(outcome.out.starts_with("note: m/robots/scan/odometry.tum is missing, and `radioslam run` needs it: "
-                                      "`import imu` makes one"))
+  EXPECT_TRUE(
+      outcome.out.starts_with("note: m/robots/scan/odometry.tum is missing, and `radioslam run` needs it: "
+                              "`import imu` makes one"))
       << outcome.out;
   EXPECT_TRUE(outcome.out.ends_with("m: 2 rows, 1 scans, 2 radios of scan\n")) << outcome.out;
   EXPECT_EQ(read_file(folder.path() / "m/robots/scan/wifi.csv"), kTable);
@@ -99,7 +102,8 @@ TEST_F(ImportWifi, TakesAFolderOfScansTimedByTheirNames) {
             std::string::npos);
   const Outcome mixed = import({"iw", "scan.txt", "scans", "-o", "out.csv"});
   EXPECT_EQ(mixed.status, 0) << mixed.err;
-  EXPECT_NE(mixed.out.find("1 file is left out; the first: scan.txt: has no time"), std::string::npos) << mixed.out;
+  EXPECT_NE(mixed.out.find("1 file is left out; the first: scan.txt: has no time"), std::string::npos)
+      << mixed.out;
   EXPECT_EQ(import({"iw", "scan.txt", "scans", "--file-times", "-o", "out.csv"}).status, 0);
 }
 

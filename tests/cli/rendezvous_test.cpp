@@ -31,7 +31,8 @@ TEST(Rendezvous, InputThatEndsBeforeAStartIsSaidToDoSo) {
   const TemporaryFolder folder;
   const auto outcome = run({"rendezvous", "--stdio", "--robot", "a"}, folder.path());
   EXPECT_EQ(outcome.status, 2);
-  EXPECT_NE(outcome.err.find("standard input: ended before the robot was started"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("standard input: ended before the robot was started"), std::string::npos)
+      << outcome.err;
   EXPECT_EQ(outcome.out, "");
 }
 

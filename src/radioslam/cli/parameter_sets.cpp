@@ -5,11 +5,11 @@
 #include <set>
 #include <utility>
 
+#include "radioslam/base/suggestion.hpp"
 #include "radioslam/cli/commands/anchors_params.hpp"
 #include "radioslam/cli/commands/optimize_params.hpp"
 #include "radioslam/cli/commands/similarity_params.hpp"
 #include "radioslam/cli/run_parameters.hpp"
-#include "radioslam/base/suggestion.hpp"
 #include "radioslam/io/datasets/wifi_rtt.hpp"
 #include "radioslam/io/lidar/carmen.hpp"
 #include "radioslam/io/wifi/airodump_csv.hpp"

@@ -29,7 +29,8 @@ std::string text_of(double value) { return format_number(value); }
 
 TEST(WalkerImu, RecognisesTheColumnsOfManyPrograms) {
   for (const char* head :
-       {"t_s,ax_mps2,ay_mps2,az_mps2,wx_radps,wy_radps,wz_radps", "time,acc_x,acc_y,acc_z,gyro_x,gyro_y,gyro_z",
+       {"t_s,ax_mps2,ay_mps2,az_mps2,wx_radps,wy_radps,wz_radps",
+        "time,acc_x,acc_y,acc_z,gyro_x,gyro_y,gyro_z",
         "%time,field.linear_acceleration.x,field.linear_acceleration.y,field.linear_acceleration.z,"
         "field.angular_velocity.x,field.angular_velocity.y,field.angular_velocity.z",
         "Time (s),Acceleration x (m/s^2),Acceleration y (m/s^2),Acceleration z (m/s^2),Gyroscope x (rad/s),"
@@ -47,13 +48,13 @@ TEST(WalkerImu, RecognisesTheColumnsOfManyPrograms) {
 
 TEST(WalkerImu, FindsUnitsAndSaysSo) {
   std::vector<std::string> warnings;
-  const PhoneMotion motion =
-      read_imu_table(table("time;ax;ay;az;gyro_x_dps;gyro_y_dps;gyro_z_dps",
-                           [](double t, double) {
-                             return "15744071230" + std::to_string(10 + std::lround(1000 * t) / 10) +
-                                    "0000000;0,0;0,0;1,0;180,0;0,0;0,0";
-                           }),
-                     &warnings);
+  const PhoneMotion motion = read_imu_table(table("time;ax;ay;az;gyro_x_dps;gyro_y_dps;gyro_z_dps",
+                                                  [](double t, double) {
+                                                    return "15744071230" +
+                                                           std::to_string(10 + std::lround(1000 * t) / 10) +
+                                                           "0000000;0,0;0,0;1,0;180,0;0,0;0,0";
+                                                  }),
+                                            &warnings);
   EXPECT_NEAR(motion.specific_force_mps2[0].value.z(), kGravity, 1e-12);
   EXPECT_NEAR(motion.angular_rate_radps[0].value.x(), 3.14159265358979, 1e-12);
   ASSERT_EQ(warnings.size(), 3U);
@@ -63,7 +64,8 @@ TEST(WalkerImu, FindsUnitsAndSaysSo) {
 }
 
 TEST(WalkerImu, JoinsATablePerSensorAndTurnsTheDeviceUpright) {
-  const std::string force = table("seconds,z,y,x", [](double t, double up) { return text_of(t) + ",0," + text_of(up) + ",0"; });
+  const std::string force =
+      table("seconds,z,y,x", [](double t, double up) { return text_of(t) + ",0," + text_of(up) + ",0"; });
   const std::string rate = table("seconds,z,y,x", [](double t, double) { return text_of(t) + ",0,0.5,0"; });
   std::vector<std::string> warnings;
   const PhoneMotion motion = read_walker_imu(
@@ -93,8 +95,10 @@ TEST(WalkerImu, RefusesWhatIsNoWalkersRecording) {
   expect_refusal([&] { read_imu_table(rows("t,u,v,w", ",0,0,9.8")); }, 1, "neither x y z");
   expect_refusal([&] { read_imu_table(rows("t,ax,ay,az", ",0,0,9.8")); }, 1, "no columns of a gyroscope");
   expect_refusal([&] { read_imu_table(rows("t,wx,wy,wz", ",0,0,0")); }, 1, "no columns of an accelerometer");
-  expect_refusal([&] { read_imu_table(rows("t,ax,ay,az,wx,wy,wz", ",0,0,0.2,0,0,0")); }, 0, "gravity in no unit");
-  expect_refusal([] { read_imu_table("t,ax,ay,az,wx,wy,wz\n0,0,0,9.8,0,0,0\n"); }, 1, "fewer than two samples");
+  expect_refusal([&] { read_imu_table(rows("t,ax,ay,az,wx,wy,wz", ",0,0,0.2,0,0,0")); }, 0,
+                 "gravity in no unit");
+  expect_refusal([] { read_imu_table("t,ax,ay,az,wx,wy,wz\n0,0,0,9.8,0,0,0\n"); }, 1,
+                 "fewer than two samples");
   expect_refusal([] { read_imu_table("t,ax,ay,az,wx,wy,wz\n0,0,0,9.8,0,0,0\n0,0,0,9.8,0,0,0\n"); }, 0,
                  "its times are not those of samples");
   std::vector<std::string> warnings;
@@ -116,7 +120,9 @@ TEST(Waypoints, AreJoinedByStraightLinesThatTheWalkerFaces) {
 
 TEST(Waypoints, RefusesTablesOfSomethingElse) {
   std::vector<std::string> warnings;
-  const auto read = [&](const std::string& content) { read_waypoints(make_tool_output("plan.csv", content), warnings); };
+  const auto read = [&](const std::string& content) {
+    read_waypoints(make_tool_output("plan.csv", content), warnings);
+  };
   expect_refusal([&] { read("t_s,x\n0,0\n"); }, 1, "needs the columns t_s, x and y");
   expect_refusal([&] { read("t_s,x,y\n0,0,0\n"); }, 0, "fewer than two waypoints");
   expect_refusal([&] { read("t_s,x,y\n0,here,0\n"); }, 2, "x 'here'");

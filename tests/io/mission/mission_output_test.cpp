@@ -31,7 +31,8 @@ Mission mission_of(const std::string& id, double sigma_xy = 0.02) {
   mission.name = "other";
   Robot& robot = mission.robots.emplace_back();
   robot.id = id;
-  robot.odometry = Trajectory<SE3>({{Stamp{0}, SE3()}, {Stamp{1'000'000'000}, SE3({1, 0, 0}, Eigen::Quaterniond::Identity())}});
+  robot.odometry = Trajectory<SE3>(
+      {{Stamp{0}, SE3()}, {Stamp{1'000'000'000}, SE3({1, 0, 0}, Eigen::Quaterniond::Identity())}});
   robot.odometry_noise.sigma_xy_per_sqrt_m = sigma_xy;
   return mission;
 }
@@ -45,7 +46,8 @@ struct GrowingMission : testing::Test {
   }
   std::string read(const std::string& name) const { return read_bytes(folder.path() / name); }
   fs::path m() const { return folder.path() / "m"; }
-  void import(const Mission& mission, MissionOutput::Existing existing = MissionOutput::Existing::kKeep) const {
+  void import(const Mission& mission,
+              MissionOutput::Existing existing = MissionOutput::Existing::kKeep) const {
     MissionOutput(m(), existing).commit(mission);
   }
   std::size_t entries() const {

@@ -135,8 +135,10 @@ TEST(RobotSession, AMisspeltMemberIsNamedAndOthersOfADriverAreNotRead) {
     const Lines answer = session.line(line);
     return answer.empty() ? std::string() : parsed(answer[0])["error"]["reason"].get<std::string>();
   };
-  EXPECT_EQ(reason(R"({"start": {"t_s": 1, "kapa": 2}})"), "'kapa' of start is not known; did you mean kappa?");
-  EXPECT_EQ(reason(R"({"start": {"t_s": 1, "q_dB": 2}})"), "'q_dB' of start is not known; did you mean q_db?");
+  EXPECT_EQ(reason(R"({"start": {"t_s": 1, "kapa": 2}})"),
+            "'kapa' of start is not known; did you mean kappa?");
+  EXPECT_EQ(reason(R"({"start": {"t_s": 1, "q_dB": 2}})"),
+            "'q_dB' of start is not known; did you mean q_db?");
   EXPECT_EQ(reason(R"({"start": {"t_s": 1, "maxStepM": 2}})"),
             "'maxStepM' of start is not known; did you mean max_step_m?");
   EXPECT_EQ(reason(R"({"strat": {"t_s": 1}})"), "unknown event 'strat'; did you mean start?");

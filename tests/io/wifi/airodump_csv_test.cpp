@@ -130,10 +130,10 @@ TEST(AirodumpCsv, ABadRowIsLeftOutCountedAndNamed) {
   EXPECT_NE(warning_of(kNetworks + network("01", -50, "a\nb") + bad_time + network("0F", -60, ""))
                 .find("1 row is left out; the first: "),
             std::string::npos);
-  EXPECT_NE(warning_of(kNetworks + network("01", -50, "") + network("0g", -50, "a\nb") +
-                       network("0F", -60, ""))
-                .find("not a valid BSSID"),
-            std::string::npos);
+  EXPECT_NE(
+      warning_of(kNetworks + network("01", -50, "") + network("0g", -50, "a\nb") + network("0F", -60, ""))
+          .find("not a valid BSSID"),
+      std::string::npos);
   EXPECT_NE(warning_of(kRecords + record("01", "-5", "", "AP") + "what\r\n" + record("01", "-5", "", "AP"))
                 .find(":3: not a row of airodump's log"),
             std::string::npos);

@@ -108,7 +108,8 @@ TEST(IwFtm, TakesAddressesInCapitals) {
 }
 
 TEST(IwFtm, ABadResultIsLeftOutCountedAndNamed) {
-  const IwFtmLog log = read_ftm(kHead + "  Peer 02:00:00:00:01: status=0\n" + kGood + "      RTT_AVG: 26685\n");
+  const IwFtmLog log =
+      read_ftm(kHead + "  Peer 02:00:00:00:01: status=0\n" + kGood + "      RTT_AVG: 26685\n");
   EXPECT_EQ(log.ranges.size(), 1U);
   ASSERT_EQ(log.warnings.size(), 1U);
   EXPECT_NE(log.warnings[0].find("1 result is left out; the first: "), std::string::npos);

@@ -123,8 +123,9 @@ TEST(IwScan, ABadRadioIsLeftOutCountedAndNamed) {
 }
 
 TEST(IwScan, ScansAreTimedByWhateverDatePrints) {
-  for (const auto& [first, second] : {std::pair("1574407123.%N", "1574407153.%N"), std::pair("@1574407123", "@1574407153"),
-                                      std::pair("1574407123000", "1574407153000")})
+  for (const auto& [first, second] :
+       {std::pair("1574407123.%N", "1574407153.%N"), std::pair("@1574407123", "@1574407153"),
+        std::pair("1574407123000", "1574407153000")})
     EXPECT_EQ(row_texts(read_scan(first + std::string("\n") + bss("01", "-50.00 dBm") + second + "\n" +
                                   bss("02", "-51.00 dBm"))),
               (Rows{"1574407123,02:00:00:00:00:01,2412,-50", "1574407153,02:00:00:00:00:02,2412,-51"}));

@@ -28,12 +28,12 @@ TEST(PrintedTime, OtherLinesAreNotTimes) {
 
 TEST(PrintedTime, TakesWhatOtherToolsAndLocalesWrite) {
   // BusyBox and macOS do not fill in %N; the whole seconds are right.
-  for (const char* line : {"1574407123.%N", "1574407123.N", "1574407123%N", "1574407123.3N", "15744071233N",
-                           "@1574407123", "1574407123000", "1574407123000000", "1574407123000000000",
-                           "Fri Nov 22 07:18:43 UTC 2019", "Fri Nov 22 08:18:43 CET 2019",
-                           "Fri, 22 Nov 2019 07:18:43 +0000", "Fri 22 Nov 2019 07:18:43 AM UTC",
-                           "Friday, November 22, 2019 7:18:43 AM GMT", "Fri Nov 22 02:18:43 EST 2019",
-                           "Fri Nov 22 10:18:43 +03 2019"})
+  for (const char* line :
+       {"1574407123.%N", "1574407123.N", "1574407123%N", "1574407123.3N", "15744071233N", "@1574407123",
+        "1574407123000", "1574407123000000", "1574407123000000000", "Fri Nov 22 07:18:43 UTC 2019",
+        "Fri Nov 22 08:18:43 CET 2019", "Fri, 22 Nov 2019 07:18:43 +0000", "Fri 22 Nov 2019 07:18:43 AM UTC",
+        "Friday, November 22, 2019 7:18:43 AM GMT", "Fri Nov 22 02:18:43 EST 2019",
+        "Fri Nov 22 10:18:43 +03 2019"})
     EXPECT_EQ(parse_time_line(line), Stamp{kNovember_ns}) << line;
   for (const char* line : {"1574407123,5", "1574407123500", "@1574407123.5"})
     EXPECT_EQ(parse_time_line(line), Stamp{kNovember_ns + 500'000'000}) << line;

@@ -81,15 +81,18 @@ TEST(NmcliList, RefusesMalformedInput) {
 const std::string kTable =
     "IN-USE  BSSID              SSID                      MODE   CHAN  RATE        SIGNAL  BARS  SECURITY \n"
     "*       02:00:00:00:00:01  The 5 65 Mbit/s 7 of us   Infra  11    65 Mbit/s   49      __    WPA2 \n"
-    "        02:00:00:00:00:02  --                        Infra  36    270 Mbit/s  80      ____  WPA1 WPA2 \n";
+    "        02:00:00:00:00:02  --                        Infra  36    270 Mbit/s  80      ____  WPA1 WPA2 "
+    "\n";
 
 TEST(NmcliList, ReadsTheTableForPeopleInAnyLanguage) {
   const Rows rows{"100,02:00:00:00:00:01,2462,-70.6", "100,02:00:00:00:00:02,5180,-52"};
   EXPECT_EQ(row_texts(read_nmcli("100\n" + kTable)), rows);
   EXPECT_EQ(row_texts(read_nmcli(
-                "100\nEN USO  BSSID              SSID  MODO   CANAL  TASA        SE\xc3\x91" "AL  BARRAS  SEGURIDAD\n"
+                "100\nEN USO  BSSID              SSID  MODO   CANAL  TASA        SE\xc3\x91"
+                "AL  BARRAS  SEGURIDAD\n"
                 "*       02:00:00:00:00:01  Casa  Infra  11     65 Mbit/s   49     \xe2\x96\x82___    WPA2\n"
-                "        02:00:00:00:00:02  Casa  Infra  36     270 \xd0\x9c\xd0\xb1\xd0\xb8\xd1\x82/\xd1\x81  80     ____    --\n")),
+                "        02:00:00:00:00:02  Casa  Infra  36     270 "
+                "\xd0\x9c\xd0\xb1\xd0\xb8\xd1\x82/\xd1\x81  80     ____    --\n")),
             rows);
   EXPECT_EQ(row_texts(read_nmcli("SSID BSSID MODE FREQ RATE SIGNAL SECURITY\n"
                                  "'a b' 02:00:00:00:00:02 Infrastructure 5180 MHz 54 MB/s 80 WPA2\n")),
@@ -100,7 +103,8 @@ TEST(NmcliList, ATableForPeopleWithoutWhatIsNeededNamesTheCommand) {
   for (const char* table : {"IN-USE  SSID  MODE   CHAN  RATE       SIGNAL  BARS  SECURITY\n"
                             "*       home  Infra  11    65 Mbit/s  49      __    WPA2\n",
                             "BSSID              SIGNAL\n02:00:00:00:00:01  49\n"})
-    expect_refusal([&] { read_nmcli(table); }, 2, "`nmcli -t -f BSSID,SSID-HEX,CHAN,FREQ,SIGNAL dev wifi list`");
+    expect_refusal([&] { read_nmcli(table); }, 2,
+                   "`nmcli -t -f BSSID,SSID-HEX,CHAN,FREQ,SIGNAL dev wifi list`");
 }
 
 TEST(NmcliList, ABadRowIsLeftOutCountedAndNamed) {

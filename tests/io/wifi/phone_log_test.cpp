@@ -20,7 +20,8 @@ void expect_line_left_out(std::size_t number, const std::string& line, const std
   lines[number - 1] = line;
   const PhoneLog log = read_phone(lines);
   ASSERT_FALSE(log.warnings.empty()) << line;
-  const std::string expected = "walk.txt: 1 record is left out; the first: walk.txt:" + std::to_string(number) + ": ";
+  const std::string expected =
+      "walk.txt: 1 record is left out; the first: walk.txt:" + std::to_string(number) + ": ";
   EXPECT_EQ(log.warnings.back().substr(0, expected.size()), expected);
   EXPECT_NE(log.warnings.back().find(words), std::string::npos) << log.warnings.back();
 }
@@ -90,7 +91,7 @@ TEST(ReadPhoneLog, LeavesOutTruncatedLines) {
   expect_line_left_out(8, "1574242585020\tTYPE_ACCELEROMETER\t0.5\t-0.25\t9.5", "5 fields instead of 6");
   expect_line_left_out(13, "1574242586500\tTYPE_WAYPOINT\t205.5", "3 fields instead of 4");
   expect_line_left_out(10, "1574242586000\tTYPE_WIFI\tcafe\t0e:74:9c:a7:b2:e4\t-43\t5805",
-                      "6 fields instead of 7");
+                       "6 fields instead of 7");
   expect_line_left_out(8, "1574242585020", "not a record type");
   expect_line_left_out(8, "1574242585020\tTY", "not a record type");
 }
@@ -102,7 +103,7 @@ TEST(ReadPhoneLog, LeavesOutWhatIsNoNumber) {
   expect_line_left_out(4, "99999999999999999\tTYPE_ACCELEROMETER\t0.5\t0\t9.75\t2", "whole milliseconds");
   expect_line_left_out(1, "#\tstartTime:soon", "start time");
   expect_line_left_out(10, "1574242586000\tTYPE_WIFI\tcafe\t0e:74:9c:a7:b2:e4\t-430\t5805\t1574242585900",
-                      "signal strength");
+                       "signal strength");
   expect_line_left_out(10, "1574242586000\tTYPE_WIFI\tcafe\t\t-43\t5805\t1574242585900", "BSSID");
 }
 
@@ -134,7 +135,9 @@ TEST(ReadPhoneLog, LeavesOutARecordOfAnotherTime) {
 
 TEST(ReadPhoneLog, AControlCharacterInANetworksNameCostsNothing) {
   auto lines = phone_log_lines();
-  lines[9] = "1574242586000\tTYPE_WIFI\tca\x01\xff" "fe\t0e:74:9c:a7:b2:e4\t-43\t5805\t1574242585900";
+  lines[9] =
+      "1574242586000\tTYPE_WIFI\tca\x01\xff"
+      "fe\t0e:74:9c:a7:b2:e4\t-43\t5805\t1574242585900";
   const PhoneLog log = read_phone_log(make_tool_output("walk.txt", joined(lines)));
   EXPECT_EQ(log.wifi.size(), 3U);
   EXPECT_TRUE(log.warnings.empty());

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "radioslam/base/input_error.hpp"
+#include "radioslam/base/suggestion.hpp"
 #include "radioslam/cli/commands.hpp"
 #include "radioslam/cli/commands/command_options.hpp"
 #include "radioslam/cli/commands/distributed_optimization.hpp"
@@ -16,7 +17,6 @@
 #include "radioslam/cli/config.hpp"
 #include "radioslam/cli/parameters.hpp"
 #include "radioslam/cli/progress_line.hpp"
-#include "radioslam/base/suggestion.hpp"
 #include "radioslam/io/datasets/wsr_results.hpp"
 #include "radioslam/io/datasets/wsr_trial.hpp"
 #include "radioslam/io/text/atomic_output.hpp"

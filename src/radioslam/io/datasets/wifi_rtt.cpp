@@ -59,11 +59,13 @@ class RttMission {
       for (const auto& [anchor_id, column] : columns)
         add_range(table, column + 1, stamp, robot, {RobotIndex{}, anchor(anchor_id), {}});
       if (!scan.readings.empty()) imported_.mission.robots.back().wifi.push_back(scan);
-      if (rows.empty() || rows.back().pose.stamp != stamp) rows.push_back({{stamp, place}, table.at().number()});
+      if (rows.empty() || rows.back().pose.stamp != stamp)
+        rows.push_back({{stamp, place}, table.at().number()});
     });
     if (rows.empty()) table.fail("the file has no rows");
     auto& scans = imported_.mission.robots.back().wifi;
-    std::stable_sort(scans.begin(), scans.end(), [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
+    std::stable_sort(scans.begin(), scans.end(),
+                     [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
     imported_.truth.robots.push_back({id, trajectory_of_rows(text, rows, imported_.warnings), false});
   }
 

@@ -134,7 +134,8 @@ ImportedMission mission_of_wifine(const std::vector<NamedWifineFile>& files, con
 
 ImportedMission import_wifine(const std::filesystem::path& source) {
   std::vector<NamedWifineFile> files;
-  for (const auto& path : find_csv_files(source)) files.push_back({path.stem().string(), read_tool_output(path)});
+  for (const auto& path : find_csv_files(source))
+    files.push_back({path.stem().string(), read_tool_output(path)});
   return mission_of_wifine(files, name_of_source(source));
 }
 

@@ -57,9 +57,9 @@ struct CarmenParams {
   }
 };
 
-/// Leaves out incomplete lines and malformed numbers with a warning. Refuses (InputError) a log without scans, one
-/// of which most lines are malformed, and times that jump back by more than max_delay_s. Other lines are
-/// skipped.
+/// Leaves out incomplete lines and malformed numbers with a warning. Refuses (InputError) a log without
+/// scans, one of which most lines are malformed, and times that jump back by more than max_delay_s. Other
+/// lines are skipped.
 ImportedMission read_carmen(const Text& text, const std::string& robot, const CarmenParams& params = {});
 
 }  // namespace radioslam
