@@ -123,6 +123,15 @@ TEST(Carmen, ABadLineIsLeftOutCountedAndNamed) {
   EXPECT_NE(imported.warnings[0].find(":2: a reading 'x'"), std::string::npos) << imported.warnings[0];
 }
 
+TEST(Carmen, AStrayStampCostsItsLineOnly) {
+  std::string log;
+  for (int k = 0; k < 12; ++k) log += flaser("1 2 3", "0 0 0", k == 5 ? "900" : std::to_string(10 + k));
+  const auto imported = read_carmen(log);
+  EXPECT_EQ(imported.mission.robots[0].lidar.size(), 11U);
+  ASSERT_EQ(imported.warnings.size(), 1U);
+  EXPECT_NE(imported.warnings[0].find(":6: its time 900 is not in order"), std::string::npos);
+}
+
 std::size_t points_of(const LidarLog& log) {
   std::size_t points = 0;
   for (std::size_t k = 0; k < log.size(); ++k) points += log.read(k).points.size();

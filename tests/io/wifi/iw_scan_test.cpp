@@ -132,15 +132,25 @@ TEST(IwScan, ScansAreTimedByWhateverDatePrints) {
 }
 
 TEST(IwScan, AScanWhoseTimeIsNotUnderstoodIsLeftOutAndNamed) {
-  const WifiLog log = read_scan("100\n" + bss("01", "-50.00 dBm") + "1574407123 seconds\n" +
+  const WifiLog log = read_scan("100\n" + bss("01", "-50.00 dBm") + "15744071231 seconds\n" +
                                 bss("02", "-50.00 dBm") + "104\n" + bss("03", "-50.00 dBm"));
   EXPECT_EQ(row_texts(log), (Rows{"100,02:00:00:00:00:01,2412,-50", "104,02:00:00:00:00:03,2412,-50"}));
   ASSERT_EQ(log.warnings.size(), 1U);
-  EXPECT_NE(log.warnings[0].find("scan.txt:5: '1574407123 seconds' is not understood as a time"),
+  EXPECT_NE(log.warnings[0].find("scan.txt:5: '15744071231 seconds' is not understood as a time"),
             std::string::npos)
       << log.warnings[0];
-  expect_refusal([] { read_scan("1574407123 seconds\n" + bss("01", "-50.00 dBm")); }, 1,
+  expect_refusal([] { read_scan("15744071231 seconds\n" + bss("01", "-50.00 dBm")); }, 1,
                  "is not understood as a time");
+}
+
+TEST(IwScan, OfATimeWithSomethingBehindItTheSecondsCountAndTheLineIsNamed) {
+  const WifiLog log =
+      read_scan("1574407123 s\n" + bss("01", "-50.00 dBm") + "1574407153 s\n" + bss("02", "-50.00 dBm"));
+  EXPECT_EQ(row_texts(log),
+            (Rows{"1574407123,02:00:00:00:00:01,2412,-50", "1574407153,02:00:00:00:00:02,2412,-50"}));
+  ASSERT_EQ(log.warnings.size(), 1U);
+  EXPECT_EQ(log.warnings[0], "scan.txt:1: '1574407123 s' is not understood, nor are 1 other lines");
+  EXPECT_EQ(log.counts.size(), 1U);
 }
 
 TEST(IwScan, AListBeforeTheFirstTimeIsLeftOut) {

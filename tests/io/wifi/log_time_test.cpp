@@ -53,11 +53,18 @@ TEST(PrintedTime, DatesWithoutAKnownZoneAreTakenAsUtcAndMarked) {
 }
 
 TEST(PrintedTime, OtherLinesThatLookLikeTimesAreNotUnderstood) {
-  for (const char* line : {"1574407123 s", "15744071231", "9999999999", "ven. 22 nov. 2019 07:18:43 CET",
-                           "[1574407123.5] scan", "07:18:43", "2019-11-22T07:18:43+1"}) {
+  for (const char* line :
+       {"15744071231", "9999999999", "ven. 22 nov. 2019 07:18:43 CET", "07:18:43", "2019-11-22T07:18:43+1"}) {
     const auto time = read_printed_time(line);
     ASSERT_TRUE(time) << line;
     EXPECT_FALSE(time->stamp) << line;
+  }
+  for (const char* line : {"1574407123 s", "[1574407123.5] scan", "# 1574407123", "1574407123;5"}) {
+    const auto time = read_printed_time(line);
+    ASSERT_TRUE(time) << line;
+    EXPECT_EQ(time->stamp, Stamp{kNovember_ns}) << line;
+    EXPECT_FALSE(time->is_whole) << line;
+    EXPECT_FALSE(parse_time_line(line)) << line;
   }
   for (const char* line : {"BSS 02:00:00:00:00:01(on wlan0)", "command failed: busy (-16)", "  1574407123",
                            "02:00:00:00:00:01", "x"})

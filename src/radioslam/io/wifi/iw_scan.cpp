@@ -39,7 +39,7 @@ class IwScanReader {
   ScanListLog read(const std::string& name) {
     while (lines_.next()) {
       const std::string_view line = lines_.line();
-      if (auto list = list_at_time(lines_, log_)) {
+      if (auto list = list_at_time(lines_, log_, foreign_)) {
         log_.scans.push_back(std::move(*list));
         is_inside_ = false;
       } else if (line.starts_with(kBss)) {

@@ -51,7 +51,7 @@ class IwlistReader {
 
   ScanListLog read(const std::string& name) {
     while (lines_.next()) {
-      if (auto list = list_at_time(lines_, log_)) {
+      if (auto list = list_at_time(lines_, log_, foreign_)) {
         begun_ = std::move(*list);
         is_inside_ = false;
       } else {

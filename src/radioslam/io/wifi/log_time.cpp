@@ -308,11 +308,13 @@ bool is_time_of_day(std::string_view word) {
   return std::count(word.begin(), word.end(), ':') <= 2;
 }
 
+constexpr std::string_view kBeforeTime = "@[(#= ";
+
 /// Whether a line begins with as many digits as a Unix time has, or has a time of day among its words.
 bool looks_like_a_time(std::string_view line) {
   constexpr std::size_t kLongest = 80;
   if (line.size() > kLongest) return false;
-  std::string_view rest = line.substr(std::min(line.find_first_not_of("@[(#= "), line.size()));
+  std::string_view rest = line.substr(std::min(line.find_first_not_of(kBeforeTime), line.size()));
   if (std::min(rest.find_first_not_of("0123456789"), rest.size()) >= kSecondsDigits) return true;
   while (!rest.empty()) {
     const std::size_t end = std::min(rest.find_first_of(" T[]()"), rest.size());
@@ -330,12 +332,16 @@ std::optional<PrintedTime> read_printed_time(std::string_view line) {
   if (const auto stamp = parse_epoch(line)) return PrintedTime{*stamp};
   if (const auto time = parse_iso_time(line)) return time;
   if (const auto time = parse_worded_time(line)) return time;
-  return looks_like_a_time(line) ? std::optional(PrintedTime{}) : std::nullopt;
+  if (!looks_like_a_time(line)) return std::nullopt;
+  line.remove_prefix(line.find_first_not_of(kBeforeTime));
+  const std::size_t digits = std::min(line.find_first_not_of("0123456789"), line.size());
+  const auto seconds = digits == kSecondsDigits ? seconds_of(line.substr(0, digits), {}) : std::nullopt;
+  return PrintedTime{seconds, true, false};
 }
 
 std::optional<Stamp> parse_time_line(std::string_view line) {
   const auto time = read_printed_time(line);
-  return time && time->zone_known ? time->stamp : std::nullopt;
+  return time && time->zone_known && time->is_whole ? time->stamp : std::nullopt;
 }
 
 std::optional<Stamp> parse_calendar_time(std::string_view text) {

@@ -14,18 +14,19 @@ namespace radioslam {
 struct PrintedTime {
   std::optional<Stamp> stamp;  ///< nothing if the line is a time, but not in a form that is understood
   bool zone_known = true;      ///< false: a date without a known time zone, taken as UTC
+  bool is_whole = true;        ///< false: what follows the ten digits of the seconds is not understood
 };
 
 /// Reads a line that consists of a time only; nothing for lines that do not look like one:
 ///   1574407123.123, also with ',', after '@', or in ms, us or ns (13, 16 or 19 digits); fewer digits count
 ///   as seconds of any clock. A fraction that `date` did not fill in (1574407123.%N of BusyBox, .N of macOS)
-///   is left out
+///   is left out; so is, marked, whatever else follows ten digits
 ///   2019-11-22T07:18:43,123+00:00, also with a blank, with Z or without a zone (ISO 8601)
 ///   Fri Nov 22 07:18:43 UTC 2019, also other orders, AM and PM, and common names of zones (`date`, `date
 ///   -R`)
 std::optional<PrintedTime> read_printed_time(std::string_view line);
 
-/// The time of such a line if it is understood, with its time zone; nothing otherwise.
+/// The time of such a line if all of it is understood, with its time zone; nothing otherwise.
 std::optional<Stamp> parse_time_line(std::string_view line);
 
 /// Parses "2019-11-22 07:18:43", with or without a fraction, as UTC.

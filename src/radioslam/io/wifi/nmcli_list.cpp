@@ -165,6 +165,7 @@ class NmcliReader {
       if (lines_.line().find_first_not_of(" \t=-") != std::string_view::npos)
         skipped_.attempt([&] { read_line(); });
     skipped_.conclude(text.name, "row", log_.readings(), log_.warnings);
+    foreign_.conclude(text.name, log_);
     if (log_.readings() == 0) text.fail(0, "contains no row of an nmcli list");
     return std::move(log_);
   }
@@ -172,7 +173,7 @@ class NmcliReader {
  private:
   void read_line() {
     const bool is_row = split_escaped(lines_.line()).size() == columns_.count;
-    if (auto list = is_row ? std::nullopt : list_at_time(lines_, log_)) {
+    if (auto list = is_row ? std::nullopt : list_at_time(lines_, log_, foreign_)) {
       log_.scans.push_back(std::move(*list));
     } else if (is_table_head(lines_.line())) {
       is_table_ = true;
@@ -198,6 +199,7 @@ class NmcliReader {
   NmcliColumns columns_;
   ScanListLog log_;
   SkippedRecords skipped_;
+  ForeignLines foreign_;
   bool is_table_ = false;  ///< after the head of a table for people
 };
 

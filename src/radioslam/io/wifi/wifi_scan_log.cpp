@@ -21,6 +21,8 @@ constexpr const char* kBootTimes =
     "others";
 constexpr const char* kNoZone =
     "times have no known time zone and are taken as UTC; --set clock_offset_s=SECONDS corrects them";
+constexpr const char* kOnlySeconds =
+    "times are followed by what is not understood; their whole seconds are used";
 constexpr const char* kNothing = "scans are empty";
 
 bool lists_a_radio_twice(const ScanList& scan) {
@@ -107,10 +109,14 @@ std::size_t ScanListLog::readings() const {
   return count;
 }
 
-std::optional<ScanList> list_at_time(const TextLines& at, ScanListLog& log) {
+std::optional<ScanList> list_at_time(const TextLines& at, ScanListLog& log, ForeignLines& foreign) {
   const auto time = read_printed_time(at.line());
   if (!time) return std::nullopt;
   if (!time->zone_known) ++log.counts[kNoZone];
+  if (time->stamp && !time->is_whole) {
+    ++log.counts[kOnlySeconds];
+    foreign.add(at);
+  }
   ScanList list{at.number(), time->stamp, {}, {}};
   if (!time->stamp) list.unread_time = quoted_bytes(at.line());
   return list;
@@ -125,8 +131,7 @@ void ForeignLines::add(const TextLines& at) {
 void ForeignLines::conclude(const std::string& name, ScanListLog& log) const {
   if (count_ == 0) return;
   log.warnings.push_back(name + ":" + std::to_string(first_) + ": " + shown_ + " is not understood" +
-                         (count_ == 1 ? "" : ", nor " + std::to_string(count_ - 1) + " other lines") +
-                         "; skipped");
+                         (count_ == 1 ? "" : ", nor are " + std::to_string(count_ - 1) + " other lines"));
 }
 
 std::optional<ScanListClock> clock_of(const ScanListLog& log) {

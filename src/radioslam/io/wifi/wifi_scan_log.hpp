@@ -65,11 +65,7 @@ struct ScanListLog {
   std::size_t readings() const;
 };
 
-/// The list that begins at a line which is a time, understood or not; nothing for other lines. Times without
-/// a known zone are counted.
-std::optional<ScanList> list_at_time(const TextLines& at, ScanListLog& log);
-
-/// Names lines outside all lists that are none of the tool's, in one warning.
+/// Names lines that are not understood, in one warning.
 class ForeignLines {
  public:
   void add(const TextLines& at);
@@ -79,6 +75,10 @@ class ForeignLines {
   std::size_t count_ = 0, first_ = 0;
   std::string shown_;
 };
+
+/// The list that begins at a line which is a time, understood or not; nothing for other lines. Times without
+/// a known zone are counted, and those of which only the seconds are understood are counted and named.
+std::optional<ScanList> list_at_time(const TextLines& at, ScanListLog& log, ForeignLines& foreign);
 
 /// A time given for a log from outside: that of its first or of its last list.
 struct GivenTime {
