@@ -118,7 +118,7 @@ TEST(ImportIndoorLocation, OneBadLogOfManyIsLeftOutAndNamed) {
   folder.write("path_data_files/b.txt", "no log at all\n");
   const auto imported = import_indoor_location(folder.path());
   EXPECT_EQ(imported.mission.robots.size(), 2U);
-  ASSERT_EQ(imported.warnings.size(), 1U);
+  ASSERT_FALSE(imported.warnings.empty());
   EXPECT_NE(imported.warnings[0].find("1 walk is left out; the first: "), std::string::npos);
   EXPECT_NE(imported.warnings[0].find("b.txt:1: "), std::string::npos);
 }
@@ -129,8 +129,12 @@ TEST(ImportIndoorLocation, NamesTheFileAndTheLineOfARecordThatItLeavesOut) {
   folder.write("path_data_files/b.txt", joined(phone_log_lines()) + "torn");
   const auto imported = import_indoor_location(folder.path());
   EXPECT_EQ(imported.mission.robots.size(), 2U);
-  ASSERT_EQ(imported.warnings.size(), 1U);
-  EXPECT_NE(imported.warnings[0].find("b.txt:15: "), std::string::npos) << imported.warnings[0];
+  const auto named =
+      std::count_if(imported.warnings.begin(), imported.warnings.end(), [](const auto& warning) {
+        return warning.find("1 record is left out; the first: ") != std::string::npos &&
+               warning.find("b.txt:15: ") != std::string::npos;
+      });
+  EXPECT_EQ(named, 1);
 }
 
 TEST(ImportIndoorLocation, IsReadBackAsItWasWritten) {

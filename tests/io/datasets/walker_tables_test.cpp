@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 
 #include "io/refusal.hpp"
@@ -51,7 +52,7 @@ TEST(WalkerImu, FindsUnitsAndSaysSo) {
   const PhoneMotion motion = read_imu_table(table("time;ax;ay;az;gyro_x_dps;gyro_y_dps;gyro_z_dps",
                                                   [](double t, double) {
                                                     return "15744071230" +
-                                                           std::to_string(10 + std::lround(1000 * t) / 10) +
+                                                           std::to_string(std::lround(100 * t)) +
                                                            "0000000;0,0;0,0;1,0;180,0;0,0;0,0";
                                                   }),
                                             &warnings);

@@ -51,11 +51,20 @@ TEST(Text, RefusesBytesThatAreNotText) {
 
 TEST(Text, OutputOfToolsMayBeUtf16OrHaveAnyBytes) {
   using std::string_literals::operator""s;
-  EXPECT_EQ(make_tool_output("t", "\xff\xfea\0\xe9\0\n\0\x3d\xd8\0\xde\x3d\xd8"s).content,
+  EXPECT_EQ(make_tool_output("t",
+                             "\xff\xfe"
+                             "a\0\xe9\0\n\0\x3d\xd8\0\xde\x3d\xd8"s)
+                .content,
             "a\xc3\xa9\n\xf0\x9f\x98\x80\xef\xbf\xbd");
   EXPECT_EQ(make_tool_output("t", "\xfe\xff\0a"s).content, "a");
   EXPECT_EQ(make_tool_output("t", "\x01\xff"s).content, "\x01\xff");
-  expect_refusal([] { make_text("t", "\xff\xfea\0"s); }, 1, "not UTF-8 text");  // of mission files
+  expect_refusal(
+      [] {
+        make_text("t",
+                  "\xff\xfe"
+                  "a\0"s);
+      },
+      1, "not UTF-8 text");  // of mission files
 }
 
 TEST(Text, RefusesAMissingFileAndAFolder) {

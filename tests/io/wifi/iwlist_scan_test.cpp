@@ -68,9 +68,9 @@ TEST(IwlistScan, NamesHoldAnyBytes) {
 TEST(IwlistScan, ABadCellIsLeftOutAndATimeInAnotherFormIsTaken) {
   const WifiLog log =
       read_list("1574407123.%N\n" + kIwlistHead + cell("01", "Signal level=-50 dBm\n") +
-                cell("02", "Frequency:2.4 parsec\nSignal level=-51 dBm\n") + "15744071531 s\n" + kIwlistHead +
-                cell("03", "Signal level=-52 dBm\n") + "Fri Nov 22 07:19:43 UTC 2019\n" + kIwlistHead +
-                cell("04", "Signal level=-53 dBm\n"));
+                cell("02", "  Frequency:2.4 parsec\n  Signal level=-51 dBm\n") + "15744071531 s\n" +
+                kIwlistHead + cell("03", "Signal level=-52 dBm\n") + "Fri Nov 22 07:19:43 UTC 2019\n" +
+                kIwlistHead + cell("04", "Signal level=-53 dBm\n"));
   EXPECT_EQ(row_texts(log),
             (Rows{"1574407123,02:00:00:00:00:01,0,-50", "1574407183,02:00:00:00:00:04,0,-53"}));
   ASSERT_EQ(log.warnings.size(), 2U);

@@ -85,7 +85,7 @@ const std::string kTable =
     "\n";
 
 TEST(NmcliList, ReadsTheTableForPeopleInAnyLanguage) {
-  const Rows rows{"100,02:00:00:00:00:01,2462,-70.6", "100,02:00:00:00:00:02,5180,-52"};
+  const Rows rows{"100,02:00:00:00:00:01,2462,-71", "100,02:00:00:00:00:02,5180,-52"};
   EXPECT_EQ(row_texts(read_nmcli("100\n" + kTable)), rows);
   EXPECT_EQ(row_texts(read_nmcli(
                 "100\nEN USO  BSSID              SSID  MODO   CANAL  TASA        SE\xc3\x91"

@@ -97,7 +97,7 @@ struct ImuColumns {
     if (!force && !rate && stem.find("gyr") != std::string::npos) rate = find_axes(names, "");
     if (!force && !rate)
       csv.fail("has neither x y z of an accelerometer nor of a gyroscope", InputError::Kind::kColumnOrder);
-    if (rate) rate_in_degrees = std::regex_search(names[(*rate)[0]], std::regex("deg|dps"));
+    if (rate) rate_in_degrees = std::regex_search(names[(*rate)[0]], std::regex("deg|_dps"));
   }
 };
 

@@ -303,7 +303,7 @@ std::optional<PrintedTime> parse_worded_time(std::string_view line) {
 /// Whether a word is a time of day: "7:18", "07:18:43.5"; not a BSSID.
 bool is_time_of_day(std::string_view word) {
   const std::size_t colon = word.find(':');
-  if (colon == 0 || colon > 2 || word.find_first_not_of("0123456789:.,") != std::string_view::npos)
+  if (colon == 0 || colon > 2 || word.find_first_not_of("0123456789:.,+-") != std::string_view::npos)
     return false;
   return std::count(word.begin(), word.end(), ':') <= 2;
 }
