@@ -116,6 +116,15 @@ TEST_F(GrowingMission, TheTeamsTablesAreNotReplaced) {
   EXPECT_EQ(entries(), before);
 }
 
+TEST_F(GrowingMission, PositionFixesOfAnotherOriginAreRefused) {
+  folder.write("m/robots/a/gnss.csv", "t_s,x_m,y_m,z_m,sigma_m\n1,0,0,0,1\n");
+  Mission mission = mission_of("b");
+  mission.robots[0].fixes.push_back({Stamp{0}, Eigen::Vector3d::Zero(), 1});
+  const std::size_t before = entries();
+  expect_refusal([&] { import(mission); }, 0, "has another origin than the position fixes of this import");
+  EXPECT_EQ(entries(), before);
+}
+
 TEST(YamlInsertion, KeepsTheStyleOfTheMapAndAllOtherBytes) {
   const auto with = [](const std::string& content, const std::vector<std::string>& path) {
     return with_yaml_entry(Text{"mission.yaml", content}, path, "new", "{x: 1}");

@@ -65,6 +65,16 @@ TEST(ReadPhoneLog, ReadsScansEvenWithTabsInANetworksName) {
   EXPECT_EQ(log.wifi[2].bssid, "02:00:00:00:00:01");
 }
 
+TEST(ReadPhoneLog, TakesTimesInOtherUnits) {
+  for (const char* time : {"1574242585020", "1574242585020000", "1574242585020000000", "1574242585.020"}) {
+    auto lines = phone_log_lines();
+    lines[7] = time + std::string("\tTYPE_ACCELEROMETER\t0.5\t-0.25\t9.5\t2");
+    const PhoneLog log = read_phone(lines);
+    EXPECT_EQ(log.motion.specific_force_mps2.at(1).stamp.ns, 1574242585020 * kMs) << time;
+    EXPECT_TRUE(log.warnings.empty()) << time;
+  }
+}
+
 TEST(ReadPhoneLog, WithoutAHeaderTheFirstRecordIsTheStart) {
   auto lines = phone_log_lines();
   lines.front() = "";
@@ -145,7 +155,7 @@ TEST(ReadPhoneLog, AControlCharacterInANetworksNameCostsNothing) {
 
 TEST(ReadPhoneLog, RefusesALogOfWhichMostRecordsAreMalformed) {
   auto lines = phone_log_lines();
-  for (int k = 0; k < 30; ++k) lines.insert(lines.begin(), "1574242585.040\tTYPE_GYROSCOPE\t1\t2\t3\t3");
+  for (int k = 0; k < 30; ++k) lines.insert(lines.begin(), "15742425850x\tTYPE_GYROSCOPE\t1\t2\t3\t3");
   expect_refusal([&] { read_phone(lines); }, 1, "whole milliseconds");
 }
 

@@ -68,12 +68,31 @@ void MissionOutput::grow(const Mission& mission) {
   if (mission.dimension == 3 && read_mission_yaml(yaml, "").mission.dimension == 2)
     notes_.push_back(
         "mission.yaml has 'dimension: 2', and its estimate stays in the plane; the recording is in space");
+  refuse_fixes_of_another_origin(mission);
   Moves moves;
   for (const Robot& robot : mission.robots) add_moves_of_robot(robot.id, moves);
   add_moves_of_tables(moves);
   write_file(folder_.path() / kMissionFolder, grown);
   if (grown != yaml.content) moves.push_back({folder_.path() / kMissionFolder, target_ / kMissionFolder});
   folder_.commit_parts(moves);
+}
+
+/// Each import has an origin of its own for position fixes, which the mission does not state.
+void MissionOutput::refuse_fixes_of_another_origin(const Mission& mission) const {
+  constexpr const char* kFixes = "gnss.csv";
+  const bool brings_fixes =
+      std::any_of(mission.robots.begin(), mission.robots.end(),
+                  [&](const Robot& robot) { return fs::exists(folder_of(robot.id) / kFixes); });
+  if (!brings_fixes) return;
+  for (const std::string& other : robots_of(target_)) {
+    const bool is_brought = std::any_of(mission.robots.begin(), mission.robots.end(),
+                                        [&](const Robot& robot) { return robot.id == other; });
+    if (!is_brought && fs::exists(target_ / "robots" / other / kFixes))
+      throw InputError((target_ / "robots" / other / kFixes).string(), 0,
+                       "has another origin than the position fixes of this import; import the recordings "
+                       "together, or this one without its fixes",
+                       InputError::Kind::kDuplicate);
+  }
 }
 
 /// New recordings take their places; others of a kind that is replaced leave theirs.

@@ -33,7 +33,8 @@ class MissionOutput {
     return folder_.path() / "robots" / robot;
   }
   /// Writes the mission's files and moves everything to its place. Refuses (InputError) recordings of a kind
-  /// that a robot has, tables that the mission has, and a mission.yaml in which no robot can be added.
+  /// that a robot has, tables that the mission has, position fixes beside those of robots that are not part
+  /// of the import, whose origin differs, and a mission.yaml in which no robot can be added.
   void commit(const Mission& mission, const Truth& truth = {});
   /// What the user should know of the mission that grew; filled by commit().
   const std::vector<std::string>& notes() const { return notes_; }
@@ -43,6 +44,7 @@ class MissionOutput {
 
   bool replaces() const { return existing_ == Existing::kReplace; }
   void grow(const Mission& mission);
+  void refuse_fixes_of_another_origin(const Mission& mission) const;
   void add_moves_of_robot(const std::string& robot, Moves& moves) const;
   void add_moves_of_tables(Moves& moves) const;
 

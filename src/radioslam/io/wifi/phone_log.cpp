@@ -10,6 +10,7 @@
 #include "radioslam/io/text/line_fields.hpp"
 #include "radioslam/io/text/numbers.hpp"
 #include "radioslam/io/text/skipped_records.hpp"
+#include "radioslam/io/wifi/log_time.hpp"
 
 namespace radioslam {
 namespace {
@@ -40,8 +41,11 @@ Fields split_at_tabs(std::string_view line) {
 
 Stamp milliseconds_in(const TextLines& at, std::string_view field, const std::string& what) {
   const auto ms = parse_integer(field);
-  if (!ms || *ms < 0 || *ms > kMaxTime_ms) at.fail(what + " is not a time in whole milliseconds");
-  return {*ms * kNanosecondsPerMillisecond};
+  if (ms && *ms >= 0 && *ms <= kMaxTime_ms) return {*ms * kNanosecondsPerMillisecond};
+  const auto other =
+      parse_time_line(field);  // of other apps: micro- and nanoseconds, seconds with a fraction
+  if (!other) at.fail(what + " is not a time in whole milliseconds");
+  return *other;
 }
 
 /// Reads one log.

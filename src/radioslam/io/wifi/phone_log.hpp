@@ -6,11 +6,12 @@
 //   <ms>  TYPE_WIFI  ssid  bssid  rssi_dbm  frequency_mhz  last_seen_ms
 //   #  startTime:<ms> ...
 //
-// Times are Unix times in milliseconds. Records of other types (TYPE_...) are skipped. The rotation vector is
-// the vector part of the unit quaternion from device to east-north-up, whose scalar part is positive. Other
-// lines, truncated ones, and lines without a line break between them cost the records in them; records of one
-// sensor that are out of order by at most a second are sorted (skipped_records.hpp). Network names may
-// contain any bytes but line ends.
+// Times are Unix times in milliseconds; 16 or 19 digits are micro- or nanoseconds, a fraction means seconds.
+// Records of other types (TYPE_...) are skipped. The rotation vector is the vector part of the unit
+// quaternion from device to east-north-up, whose scalar part is positive. Other lines, truncated ones, and
+// lines without a line break between them cost the records in them; records of one sensor that are out of
+// order by at most a second are sorted (skipped_records.hpp). Network names may contain any bytes but line
+// ends.
 #pragma once
 
 #include <Eigen/Core>
