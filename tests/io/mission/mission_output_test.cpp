@@ -71,6 +71,13 @@ TEST_F(GrowingMission, AnotherRobotIsAddedAndEverythingElseStays) {
   EXPECT_EQ(mission.robots[1].odometry_noise.sigma_xy_per_sqrt_m, 0.05) << "the mission's own default";
 }
 
+TEST_F(GrowingMission, ARobotThatTakesTheNoiseOfTheDefaultsIsNoted) {
+  MissionOutput output(m(), MissionOutput::Existing::kKeep);
+  output.commit(mission_of("b"));
+  ASSERT_EQ(output.notes().size(), 1U);
+  EXPECT_EQ(output.notes()[0], "robot 'b' takes the odometry noise of the defaults in mission.yaml");
+}
+
 TEST_F(GrowingMission, ARobotBringsTheSettingsThatItsImporterKnows) {
   import(mission_of("b", 0.3));
   const Mission mission = read_mission(m());

@@ -135,6 +135,16 @@ bool has_robot(const Mission& mission, const std::string& id) {
                      [&](const Robot& robot) { return robot.id == id; });
 }
 
+/// Whether a robot, of whose noise its importer knows nothing, gets other values than this program's
+/// defaults.
+bool takes_noise_of_defaults(const Robot& robot, const MissionFile& file) {
+  const auto named = std::find_if(file.mission.robots.begin(), file.mission.robots.end(),
+                                  [&](const Robot& other) { return other.id == robot.id; });
+  const std::string plain = noise_value({});
+  return !robot.odometry.empty() && noise_value(robot.odometry_noise) == plain &&
+         noise_value(named->odometry_noise) != plain;
+}
+
 /// Whether the robots of `before` are the first ones of `after`, with the same settings but for those of
 /// `added`.
 bool is_extension(const MissionFile& before, const MissionFile& after, const Mission& added) {
@@ -189,6 +199,9 @@ std::string extended_mission_yaml(const Text& yaml, const Mission& added, std::v
       if (!has_robot(before.mission, robot.id))
         grown.content = with_yaml_entry(grown, {"robots"}, quoted(robot.id), "{}");
     const MissionFile plain = read_mission_yaml(grown, "");
+    for (const Robot& robot : added.robots)
+      if (!has_robot(before.mission, robot.id) && takes_noise_of_defaults(robot, plain))
+        notes.push_back("robot '" + robot.id + "' takes the odometry noise of the defaults in mission.yaml");
     for (std::size_t r = 0; r < added.robots.size(); ++r)
       for (const Setting& setting : settings_to_add(added.robots[r], antennas[r], plain))
         add_setting(grown, added.robots[r].id, setting, notes);
