@@ -33,8 +33,8 @@ TEST_F(ImportLidar, CarmenBecomesAMissionThatRuns) {
 }
 
 TEST_F(ImportLidar, CarmenRefusesWithTheLine) {
-  write_file(folder.path() / "hall.clf", kHallLog + "FLASER 3 1 2\n");
-  expect_refused({"carmen", "hall.clf", "-o", "m"}, "hall.clf:4: ");
+  write_file(folder.path() / "hall.clf", "FLASER 3 1 2\n");
+  expect_refused({"carmen", "hall.clf", "-o", "m"}, "hall.clf:1: ");
   expect_refused({"carmen", "none.clf", "-o", "m"}, "none.clf: no such file");
   expect_refused({"carmen", "hall.clf", "--robot", "a/b", "-o", "m"}, "is not a valid name of a robot");
   expect_refused({"carmen", "hall.clf", "--time", "1", "-o", "m"}, "takes no --time");

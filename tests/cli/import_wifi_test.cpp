@@ -46,17 +46,44 @@ TEST_F(ImportWifi, GivesAMissionsRobotItsTableAndKeepsTheRest) {
   const Outcome ran = run({"run", "m", "-o", "out"}, folder.path());
   EXPECT_EQ(ran.status, 0) << ran.err;
   expect_refused({"iw", "scan.txt", "-o", "m"}, "has 2 robots; --robot selects");
-  expect_refused({"iw", "scan.txt", "--robot", "c", "-o", "m"}, "has no such robot");
+}
+
+TEST_F(ImportWifi, AddsARobotThatTheMissionDoesNotHave) {
+  make_team();
+  write_file(folder.path() / "m/mission.yaml",
+             "format: radioslam-mission/1\n# by hand\nrobots:\n  a: {}  # first\n  b: {}\n");
+  const Outcome outcome = import({"iw", "scan.txt", "--robot", "c", "-o", "m"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("note: robot 'c' is new in this mission\n"), std::string::npos) << outcome.out;
+  EXPECT_EQ(read_file(folder.path() / "m/mission.yaml"),
+            "format: radioslam-mission/1\n# by hand\nrobots:\n  a: {}  # first\n  b: {}\n  c: {}\n");
+  EXPECT_EQ(read_file(folder.path() / "m/robots/c/wifi.csv"), kTable);
+  EXPECT_EQ(files_in(folder.path() / "m").size(), 4U);
+}
+
+TEST_F(ImportWifi, ReplacesATableOnlyWhenAsked) {
+  make_team();
+  write_file(folder.path() / "m/robots/a/wifi.csv", "t_s,bssid,frequency_mhz,rssi_dbm\n");
+  expect_refused({"iw", "scan.txt", "--robot", "a", "-o", "m"},
+                 "robot 'a' has wifi.csv in this mission already");
+  expect_refused({"iw", "scan.txt", "-o", "m/robots/a/wifi.csv"}, "is in the mission");
+  EXPECT_EQ(import({"iw", "scan.txt", "--robot", "a", "--replace", "-o", "m"}).status, 0);
+  EXPECT_EQ(read_file(folder.path() / "m/robots/a/wifi.csv"), kTable);
+  EXPECT_EQ(import({"iw", "scan.txt", "-o", "wifi.csv"}).status, 0);
+  EXPECT_EQ(import({"iw", "scan.txt", "-o", "wifi.csv"}).status, 0) << "a table alone is replaced";
 }
 
 TEST_F(ImportWifi, StartsAMissionThatLacksOdometry) {
   const Outcome outcome = import({"iw", "scan.txt", "-o", "m"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_EQ(outcome.out,
-            "note: m/robots/scan/odometry.tum is missing; `radioslam run` needs it\nm: 2 rows, 1 scans, 2 "
-            "radios of scan\n");
+  EXPECT_TRUE(
+      outcome.out.starts_with("note: m/robots/scan/odometry.tum is missing, and `radioslam run` needs it: "
+                              "`import imu` makes one"))
+      << outcome.out;
+  EXPECT_TRUE(outcome.out.ends_with("m: 2 rows, 1 scans, 2 radios of scan\n")) << outcome.out;
   EXPECT_EQ(read_file(folder.path() / "m/robots/scan/wifi.csv"), kTable);
-  ASSERT_EQ(import({"iw", "scan.txt", "--time", "1", "-o", "m"}).status, 0);  // again, into its only robot
+  // Again, into its only robot.
+  ASSERT_EQ(import({"iw", "scan.txt", "--time", "1", "--replace", "-o", "m"}).status, 0);
   write_file(folder.path() / "m/robots/scan/odometry.tum", "0 0 0 0 0 0 0 1\n9 2 0 0 0 0 0 1\n");
   const Outcome ran = run({"run", "m", "-o", "out"}, folder.path());
   EXPECT_EQ(ran.status, 0) << ran.err;
@@ -73,7 +100,10 @@ TEST_F(ImportWifi, TakesAFolderOfScansTimedByTheirNames) {
             "note: 1 empty files of failed scans were skipped\nwifi.csv: 4 rows, 2 scans, 2 radios\n");
   EXPECT_NE(read_file(folder.path() / "wifi.csv").find("\n2.5,02:00:00:00:01:00,2412,-53.5\n"),
             std::string::npos);
-  expect_refused({"iw", "scan.txt", "scans", "-o", "out.csv"}, "scan.txt: has no time");
+  const Outcome mixed = import({"iw", "scan.txt", "scans", "-o", "out.csv"});
+  EXPECT_EQ(mixed.status, 0) << mixed.err;
+  EXPECT_NE(mixed.out.find("1 file is left out; the first: scan.txt: has no time"), std::string::npos)
+      << mixed.out;
   EXPECT_EQ(import({"iw", "scan.txt", "scans", "--file-times", "-o", "out.csv"}).status, 0);
 }
 
@@ -161,12 +191,13 @@ TEST_F(ImportWifi, WritesStudiesWithoutOdometry) {
 }
 
 TEST_F(ImportWifi, RefusesWithTheLine) {
-  write_file(folder.path() / "bad.txt", kScan + "BSS what(on wlan0)\n");
+  write_file(folder.path() / "bad.txt", "BSS what(on wlan0)\n");
   write_file(folder.path() / "weak.txt", "BSS 02:00:00:00:01:00(on wlan0)\n\tsignal: 5/100\n");
   write_file(folder.path() / "no.pcap", "this is no capture at all");
-  expect_refused({"iw", "bad.txt", "-o", "m"}, "bad.txt:9: 'what' is not a valid address");
+  expect_refused({"iw", "bad.txt", "-o", "m"}, "bad.txt:1: 'what' is not a valid address");
   expect_refused({"iw", "weak.txt", "-o", "m"}, "has no signal strengths; 1 readings have no level in dBm");
   expect_refused({"iw", "nowhere.txt", "-o", "m"}, "no such file");
+  expect_refused({"iw", "scan.txt", "nowhere.txt", "-o", "m"}, "no such file");
   expect_refused({"pcap", "no.pcap", "-o", "m"}, "no.pcap: at byte 4: unknown file format");
   expect_refused({"airodump", "scan.txt", "-o", "m"}, "scan.txt:1: neither the header");
   expect_refused({"iw", "scan.txt", "--time", "soon", "-o", "m"}, "expected seconds");

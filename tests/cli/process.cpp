@@ -27,6 +27,7 @@ void send_output_to(const fs::path& path, int descriptor) {
                                  const fs::path& output) {
   send_output_to(output / "out", STDOUT_FILENO);
   send_output_to(output / "err", STDERR_FILENO);
+  dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
   std::signal(SIGINT, SIG_DFL);
   std::vector<std::string> words{RADIOSLAM_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());

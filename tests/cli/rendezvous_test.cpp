@@ -27,6 +27,15 @@ TEST(Rendezvous, SimulatesATeamAndSaysHowItFared) {
   EXPECT_EQ(again, before);
 }
 
+TEST(Rendezvous, InputThatEndsBeforeAStartIsSaidToDoSo) {
+  const TemporaryFolder folder;
+  const auto outcome = run({"rendezvous", "--stdio", "--robot", "a"}, folder.path());
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("standard input: ended before the robot was started"), std::string::npos)
+      << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+}
+
 TEST(Rendezvous, RefusesWhatItDoesNotKnow) {
   const TemporaryFolder folder;
   EXPECT_EQ(run({"rendezvous", "--policy", "telepathy"}, folder.path()).status, 2);

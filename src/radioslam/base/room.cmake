@@ -3,4 +3,5 @@ radioslam_room(base
     check.cpp
     parallel.cpp
     random.cpp
+    suggestion.cpp
   LIBRARIES Threads::Threads)

@@ -5,11 +5,11 @@
 #include <set>
 #include <utility>
 
+#include "radioslam/base/suggestion.hpp"
 #include "radioslam/cli/commands/anchors_params.hpp"
 #include "radioslam/cli/commands/optimize_params.hpp"
 #include "radioslam/cli/commands/similarity_params.hpp"
 #include "radioslam/cli/run_parameters.hpp"
-#include "radioslam/cli/suggestion.hpp"
 #include "radioslam/io/datasets/wifi_rtt.hpp"
 #include "radioslam/io/lidar/carmen.hpp"
 #include "radioslam/io/wifi/airodump_csv.hpp"
@@ -67,6 +67,8 @@ constexpr std::array kParameterSets = std::to_array<ParameterSet>({
     {"anchors", defaults_of<AnchorsParams>},
     {"rendezvous", defaults_of<RendezvousRunParams>},
     {"import indoor-location", defaults_of<DeadReckoningParams>},
+    {"import imu", defaults_of<DeadReckoningParams>, "import indoor-location"},
+    {"import waypoints", nullptr, {}, kNoneOfImport},
     {"import iw-ftm", defaults_of<IwFtmParams>},
     {"import iw", defaults_of<ScanListParams>},
     {"import iwlist", defaults_of<ScanListParams>, "import iw"},

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "radioslam/base/check.hpp"
-#include "radioslam/cli/suggestion.hpp"
+#include "radioslam/base/suggestion.hpp"
 #include "radioslam/io/text/numbers.hpp"
 
 namespace radioslam::cli {

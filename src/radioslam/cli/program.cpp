@@ -9,9 +9,9 @@
 #include <iostream>
 
 #include "radioslam/base/input_error.hpp"
+#include "radioslam/base/suggestion.hpp"
 #include "radioslam/cli/commands.hpp"
 #include "radioslam/cli/commands/command_options.hpp"
-#include "radioslam/cli/suggestion.hpp"
 
 namespace radioslam::cli {
 namespace {

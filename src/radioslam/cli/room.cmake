@@ -33,13 +33,13 @@ add_library(radioslam_cli STATIC
   cli/import/import_lidar.cpp
   cli/import/import_options.cpp
   cli/import/import_ranges.cpp
+  cli/import/import_walk.cpp
   cli/import/import_wifi.cpp
   cli/parameter_sets.cpp
   cli/parameters.cpp
   cli/program.cpp
   cli/progress_line.cpp
-  cli/run_parameters.cpp
-  cli/suggestion.cpp)
+  cli/run_parameters.cpp)
 add_library(radioslam::cli ALIAS radioslam_cli)
 target_include_directories(radioslam_cli PUBLIC ${cli_include})
 target_link_libraries(radioslam_cli

@@ -9,6 +9,7 @@ radioslam_room(io
     csi/nexmon_csi.cpp
     datasets/dpgo.cpp
     datasets/indoor_location.cpp
+    datasets/walker_tables.cpp
     datasets/wifi_rtt.cpp
     datasets/wifine.cpp
     datasets/wsr_results.cpp
@@ -31,6 +32,7 @@ radioslam_room(io
     lidar/point_times.cpp
     mission/anchor_tables.cpp
     mission/mission_folder.cpp
+    mission/mission_output.cpp
     mission/mission_yaml.cpp
     mission/mission_yaml_write.cpp
     mission/robot_tables.cpp
@@ -61,6 +63,7 @@ radioslam_room(io
     text/numbers.cpp
     text/text.cpp
     text/skipped_records.cpp
+    text/yaml_insertion.cpp
     text/yaml_map.cpp
     wifi/airodump_csv.cpp
     wifi/iw_ftm.cpp

@@ -315,4 +315,14 @@ DeadReckoning dead_reckon(const PhoneMotion& motion, Stamp begin, Stamp end,
   return walk;
 }
 
+OdometryNoise walking_noise() {
+  OdometryNoise noise;
+  noise.sigma_xy_per_sqrt_m = 0.2;
+  noise.sigma_yaw_per_sqrt_m_rad = 0.02;  // the phone sways in the hand
+  noise.sigma_yaw_per_rad = 0.05;         // and turns a little later or less than the surveyor
+  noise.sigma_yaw_drift_per_m_rad = 0.004;
+  noise.sigma_scale = 0.1;
+  return noise;
+}
+
 }  // namespace radioslam

@@ -18,6 +18,7 @@
 #include "radioslam/base/fields.hpp"
 #include "radioslam/geometry/se3.hpp"
 #include "radioslam/geometry/trajectory.hpp"
+#include "radioslam/mission/mission.hpp"
 #include "radioslam/mission/phone_motion.hpp"
 
 namespace radioslam {
@@ -176,5 +177,10 @@ struct DeadReckoning {
 /// one sample of accelerometer and gyroscope, the walker does not move.
 DeadReckoning dead_reckon(const PhoneMotion& motion, Stamp begin, Stamp end,
                           const DeadReckoningParams& params);
+
+/// Noise of pedestrian dead reckoning with a hand-held phone, measured on 65 walks of one surveyor (2.3 km,
+/// 444 waypoints): the distance between waypoints has a total error of 0.47 m per sqrt(m), of which a scale
+/// error of 0.12 per walk and a yaw drift of 0.004 rad/m are constant; the rest is rounded up.
+OdometryNoise walking_noise();
 
 }  // namespace radioslam

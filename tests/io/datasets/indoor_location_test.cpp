@@ -108,16 +108,33 @@ TEST(ImportIndoorLocation, RefusesASecondFloor) {
 
 TEST(ImportIndoorLocation, RefusesANameThatCannotBeAFolders) {
   const TemporaryFolder folder;
-  const auto file = folder.write("a walk.txt", joined(phone_log_lines()));
+  const auto file = folder.write("a walk.txt", joined(phone_log_lines()));  // the only one
   expect_refusal([&] { import_indoor_location(file); }, 0, "is not a valid robot name");
 }
 
-TEST(ImportIndoorLocation, NamesTheFileAndTheLineOfWhatItRefuses) {
+TEST(ImportIndoorLocation, OneBadLogOfManyIsLeftOutAndNamed) {
+  const TemporaryFolder folder;
+  write_logs(folder, {"path_data_files/a.txt", "path_data_files/c.txt"});
+  folder.write("path_data_files/b.txt", "no log at all\n");
+  const auto imported = import_indoor_location(folder.path());
+  EXPECT_EQ(imported.mission.robots.size(), 2U);
+  ASSERT_FALSE(imported.warnings.empty());
+  EXPECT_NE(imported.warnings[0].find("1 walk is left out; the first: "), std::string::npos);
+  EXPECT_NE(imported.warnings[0].find("b.txt:1: "), std::string::npos);
+}
+
+TEST(ImportIndoorLocation, NamesTheFileAndTheLineOfARecordThatItLeavesOut) {
   const TemporaryFolder folder;
   write_logs(folder, {"path_data_files/a.txt"});
   folder.write("path_data_files/b.txt", joined(phone_log_lines()) + "torn");
-  const auto text = refusal([&] { import_indoor_location(folder.path()); });
-  EXPECT_NE(text.find("b.txt:15: "), std::string::npos) << text;
+  const auto imported = import_indoor_location(folder.path());
+  EXPECT_EQ(imported.mission.robots.size(), 2U);
+  const auto named =
+      std::count_if(imported.warnings.begin(), imported.warnings.end(), [](const auto& warning) {
+        return warning.find("1 record is left out; the first: ") != std::string::npos &&
+               warning.find("b.txt:15: ") != std::string::npos;
+      });
+  EXPECT_EQ(named, 1);
 }
 
 TEST(ImportIndoorLocation, IsReadBackAsItWasWritten) {

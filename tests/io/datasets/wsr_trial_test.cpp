@@ -103,7 +103,7 @@ TEST_F(WsrTrialFolder, RefusesMalformedRowsByLine) {
     write("rx_trajectory_a_.csv", rows);
     expect_refusal([&] { read(); }, line, words);
   };
-  refuses("1,0,1,2,3,\n1,0,1,2\n", 2, "4 fields");
+  refuses("1,0,1,2\n", 1, "4 fields");
   refuses("1,0,1,2,3,\n1,0,1,2,3,\n", 2, "the time does not increase");
   refuses("1,0,1,x,3,\n", 1, "y");
   refuses("1,2e9,1,2,3,\n", 1, "nsec");

@@ -105,14 +105,31 @@ TEST(Carmen, ARearScannerLooksBackwards) {
 TEST(Carmen, RefusesWithTheLine) {
   const std::string good = flaser("1 2 3", "0 0 0", "10");
   expect_refusal([&] { read_carmen("PARAM x y\n"); }, 0, "contains no scans");
-  expect_refusal([&] { read_carmen(good + "FLASER 3 1 2 3 0 0 0 0 0\n"); }, 2, "ends before");
-  expect_refusal([&] { read_carmen(good + "FLASER 3 1 2 x 0 0 0 0 0 0 1 h 0\n"); }, 2, "a reading 'x'");
-  expect_refusal([&] { read_carmen(good + "FLASER 99999999 1\n"); }, 2, "implausibly large");
-  expect_refusal([&] { read_carmen(good + flaser("1 2 3", "0 0 0", "1e300")); }, 2, "ipc_timestamp");
+  expect_refusal([&] { read_carmen("FLASER 3 1 2 3 0 0 0 0 0\n"); }, 1, "ends before");
+  expect_refusal([&] { read_carmen("FLASER 3 1 2 x 0 0 0 0 0 0 1 h 0\n"); }, 1, "a reading 'x'");
+  expect_refusal([&] { read_carmen("FLASER 99999999 1\n"); }, 1, "implausibly large");
+  expect_refusal([&] { read_carmen(flaser("1 2 3", "0 0 0", "1e300")); }, 1, "ipc_timestamp");
   expect_refusal([&] { read_carmen(flaser("1 2 3", "0 0 0", "100") + good); }, 1,
                  "its time 100 is later than");
   expect_refusal([&] { read_carmen("ROBOTLASER1 0 0 1 1 9 0 0 1 1 0 0 0 0 0 0 0 1 2\n"); }, 1,
                  "ends before its");
+}
+
+TEST(Carmen, ABadLineIsLeftOutCountedAndNamed) {
+  const auto imported = read_carmen(flaser("1 2 3", "0 0 0", "10") + "FLASER 3 1 2 x 0 0 0 0 0 0 1 h 0\n" +
+                                    flaser("1 2 3", "1 0 0", "11"));
+  EXPECT_EQ(imported.mission.robots[0].lidar.size(), 2U);
+  ASSERT_EQ(imported.warnings.size(), 1U);
+  EXPECT_NE(imported.warnings[0].find(":2: a reading 'x'"), std::string::npos) << imported.warnings[0];
+}
+
+TEST(Carmen, AStrayStampCostsItsLineOnly) {
+  std::string log;
+  for (int k = 0; k < 12; ++k) log += flaser("1 2 3", "0 0 0", k == 5 ? "900" : std::to_string(10 + k));
+  const auto imported = read_carmen(log);
+  EXPECT_EQ(imported.mission.robots[0].lidar.size(), 11U);
+  ASSERT_EQ(imported.warnings.size(), 1U);
+  EXPECT_NE(imported.warnings[0].find(":6: its time 900 is not in order"), std::string::npos);
 }
 
 std::size_t points_of(const LidarLog& log) {

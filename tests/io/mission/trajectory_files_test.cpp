@@ -35,6 +35,34 @@ TEST(ReadTum, RefusesTimeThatDoesNotRunForward) {
   expect_tum_refused("# c\n1" + pose + "1.0" + pose, 3, "the time 1 appears twice");
 }
 
+TEST(ReadLoggedTum, SortsLateRowsAndLeavesOutBadOnes) {
+  const std::string pose = " 0 0 0 0 0 0 1\n";
+  std::string log = "not a row\n";
+  for (int k = 0; k < 20; ++k) log += std::to_string(k) + ".1" + pose;
+  log += "19.05" + pose + "3.5" + pose;
+  std::vector<std::string> warnings;
+  const auto trajectory = read_logged_tum(make_tool_output("wheels.tum", log), warnings);
+  ASSERT_EQ(trajectory.size(), 21U);
+  EXPECT_EQ(trajectory[19].stamp.ns, 19'050'000'000);
+  ASSERT_EQ(warnings.size(), 3U);
+  EXPECT_NE(warnings[0].find("wheels.tum: 1 row is left out; the first: wheels.tum:1:"), std::string::npos);
+  EXPECT_NE(warnings[1].find("the first: wheels.tum:23: the time does not increase"), std::string::npos);
+  EXPECT_NE(warnings[2].find("1 rows are earlier than the one before them and were sorted"),
+            std::string::npos);
+}
+
+TEST(ReadLoggedTum, RefusesALogWithoutAUsableClockOrWithoutPoses) {
+  const std::string pose = " 0 0 0 0 0 0 1\n";
+  std::vector<std::string> warnings;
+  const auto read = [&](const std::string& log) {
+    read_logged_tum(make_tool_output("w.tum", log), warnings);
+  };
+  expect_refusal([&] { read("1" + pose + "2" + pose + "9" + pose + "1" + pose + "3" + pose); }, 3,
+                 "the time does not increase");
+  expect_refusal([&] { read("# nothing\n"); }, 1, "no poses");
+  expect_refusal([&] { read("x y\n1" + pose + "a b\n"); }, 1, "t 'x'");
+}
+
 TEST(ReadTum, RefusesOrientationsFarFromUnitLength) {
   EXPECT_EQ(tum("1 0 0 0 0 0 0 1.019\n2 0 0 0 0 0 0 -0.981\n").size(), 2u);
   expect_tum_refused("1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1.021\n", 2, "norm is 1.021 instead of 1");

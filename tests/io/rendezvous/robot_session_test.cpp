@@ -61,6 +61,10 @@ const Lines kBadLines{
     R"({"tick": {"t_s": 1e12}})",
     R"({"tick": {"t_s": 0.5}})",
     R"({"tick": {"t_s": 9, "talk": 1}})",
+    R"({"tick": {"t_s": 9, "tlak": true}})",
+    R"({"tick": {"t_s": 9, "Talk": true}})",
+    R"({"packet": {"t_s": 9, "from": "b", "esnr_db": 25, "paths": [], "mesage": {}}})",
+    R"({"packet": {"t_s": 9, "from": "b", "esnr_db": 25, "paths": [{"azimuth_rad": 0, "sigma_rad": 1, "power_db": 0, "powerdb": 1}]}})",
     kStart,
     R"({"odometry": {"t_s": 9, "T_previous_body": [1, 0], "sigma_m": 0.1, "sigma_rad": 0.1}})",
     R"({"odometry": {"t_s": 9, "T_previous_body": [1, 0, 2e9], "sigma_m": 0.1, "sigma_rad": 0.1}})",
@@ -123,6 +127,22 @@ TEST(RobotSession, TheEndOfTheInputFinishes) {
   EXPECT_EQ(session.end(), Lines{run(kRun).back()});
   EXPECT_TRUE(session.finished());
   EXPECT_TRUE(unstarted.end().empty());
+}
+
+TEST(RobotSession, AMisspeltMemberIsNamedAndOthersOfADriverAreNotRead) {
+  const auto reason = [](const std::string& line) {
+    RobotSession session("a", {});
+    const Lines answer = session.line(line);
+    return answer.empty() ? std::string() : parsed(answer[0])["error"]["reason"].get<std::string>();
+  };
+  EXPECT_EQ(reason(R"({"start": {"t_s": 1, "kapa": 2}})"),
+            "'kapa' of start is not known; did you mean kappa?");
+  EXPECT_EQ(reason(R"({"start": {"t_s": 1, "q_dB": 2}})"),
+            "'q_dB' of start is not known; did you mean q_db?");
+  EXPECT_EQ(reason(R"({"start": {"t_s": 1, "maxStepM": 2}})"),
+            "'maxStepM' of start is not known; did you mean max_step_m?");
+  EXPECT_EQ(reason(R"({"strat": {"t_s": 1}})"), "unknown event 'strat'; did you mean start?");
+  EXPECT_EQ(reason(R"({"start": {"t_s": 1, "frame_id": "map", "seq": 4, "x_m": 0}})"), "");
 }
 
 TEST(RobotSession, BadLinesChangeNothing) {

@@ -45,7 +45,26 @@ TEST(Text, RefusesBytesThatAreNotText) {
   using std::string_literals::operator""s;
   for (const std::string& bad : {"\0"s, "\x01"s, "\xff"s, "\xc0\x80"s, "\xed\xa0\x80"s, "\xf4\x90\x80\x80"s,
                                  "\xe2\x82"s, "\x80"s, "\xf0\x80\x80\x80"s})
-    expect_refusal([&] { make_text("t", "one\ntwo " + bad); }, 2, "not UTF-8 text");
+    expect_refusal([&] { make_text("t", "one\ntwo " + bad); }, 2,
+                   bad == "\0"s || bad == "\x01"s ? "a control character" : "not UTF-8 text");
+}
+
+TEST(Text, OutputOfToolsMayBeUtf16OrHaveAnyBytes) {
+  using std::string_literals::operator""s;
+  EXPECT_EQ(make_tool_output("t",
+                             "\xff\xfe"
+                             "a\0\xe9\0\n\0\x3d\xd8\0\xde\x3d\xd8"s)
+                .content,
+            "a\xc3\xa9\n\xf0\x9f\x98\x80\xef\xbf\xbd");
+  EXPECT_EQ(make_tool_output("t", "\xfe\xff\0a"s).content, "a");
+  EXPECT_EQ(make_tool_output("t", "\x01\xff"s).content, "\x01\xff");
+  expect_refusal(
+      [] {
+        make_text("t",
+                  "\xff\xfe"
+                  "a\0"s);
+      },
+      1, "not UTF-8 text");  // of mission files
 }
 
 TEST(Text, RefusesAMissingFileAndAFolder) {

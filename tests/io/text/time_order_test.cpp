@@ -22,6 +22,20 @@ TEST(TimeOrder, LeavesOutTheRowsThatAreStampedEarlyLateOrTwice) {
   EXPECT_EQ(rows_in_time_order(std::vector<Stamp>{{1}, {2}, {2}, {3}}).size(), 3U) << "twice";
 }
 
+TEST(TimeOrder, SortsRowsThatAreOutOfOrderByLessThanASecond) {
+  const auto at = [](std::vector<double> seconds) {
+    std::vector<Stamp> stamps;
+    for (const double s : seconds) stamps.push_back(Stamp::from_seconds(s));
+    return sort_rows_by_time(stamps);
+  };
+  EXPECT_EQ(at({0, 0.1, 0.05, 0.2}).kept, (RowNumbers{0, 2, 1, 3}));
+  EXPECT_EQ(at({0, 0.1, 0.05, 0.2}).moved, 1U);
+  EXPECT_EQ(at({1, 1, 2}).kept, (RowNumbers{0, 1, 2})) << "equal times stay in their order";
+  EXPECT_EQ(at({5, 6, 90, 7, 0, 8}).outside, (RowNumbers{2, 4}));
+  EXPECT_EQ(at({5, 6, 90, 7, 0, 8}).kept, (RowNumbers{0, 1, 3, 5}));
+  EXPECT_TRUE(at({}).kept.empty());
+}
+
 // By trying every subset.
 TEST(TimeOrder, KeepsAsManyRowsAsPossible) {
   Rng rng(5);

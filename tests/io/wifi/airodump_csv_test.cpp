@@ -104,7 +104,7 @@ TEST(AirodumpCsv, RefusesMalformedInput) {
   expect_refusal([] { read_airodump("\r\n\r\n"); }, 2, "neither the header");
   expect_refusal([] { read_airodump(kNetworks + "02:00:00:00:00:01, 2019\r\nx\r\n"); }, 3,
                  "ends before its ESSID");
-  expect_refusal([] { read_airodump(kNetworks + network("01", -5, "a\nb") + network("0g", -50, "")); }, 5,
+  expect_refusal([] { read_airodump(kNetworks + network("0g", -50, "a\nb") + network("0g", -50, "")); }, 3,
                  "not a valid BSSID");
   expect_refusal([] { read_airodump(kNetworks + "02:00:00:00:00:01,,now,1,,,,,-5,,,,0,,\r\n"); }, 3,
                  "'now' is not a valid time");
@@ -118,11 +118,25 @@ TEST(AirodumpCsv, RefusesMalformedInput) {
       [] { read_airodump(kNetworks + "02:00:00:00:00:01,,2019-11-22 07:18:43,1,,,,,-5,,,,long,,\r\n"); }, 3,
       "not a valid ID-length");
   expect_refusal([] { read_airodump(kRecords + "what\r\n\r\n"); }, 2, "not a row of airodump's log");
-  expect_refusal(
-      [] {
-        read_airodump(kRecords + record("01", "-5", "", "AP") + "what\r\n" + record("01", "-5", "", "AP"));
-      },
-      3, "not a valid time");
+}
+
+TEST(AirodumpCsv, ABadRowIsLeftOutCountedAndNamed) {
+  const auto warning_of = [](const std::string& content) {
+    const WifiLog log = read_airodump(content);
+    EXPECT_EQ(log.rows.size(), 2U) << content;
+    return log.warnings.size() == 1 ? log.warnings.front() : "not one warning";
+  };
+  const std::string bad_time = "02:00:00:00:00:05,,now,1,,,,,-5,,,,0,,\r\n";
+  EXPECT_NE(warning_of(kNetworks + network("01", -50, "a\nb") + bad_time + network("0F", -60, ""))
+                .find("1 row is left out; the first: "),
+            std::string::npos);
+  EXPECT_NE(
+      warning_of(kNetworks + network("01", -50, "") + network("0g", -50, "a\nb") + network("0F", -60, ""))
+          .find("not a valid BSSID"),
+      std::string::npos);
+  EXPECT_NE(warning_of(kRecords + record("01", "-5", "", "AP") + "what\r\n" + record("01", "-5", "", "AP"))
+                .find(":3: not a row of airodump's log"),
+            std::string::npos);
 }
 
 TEST(AirodumpCsv, ReadsRecordedRows) {

@@ -107,6 +107,14 @@ TEST(IwFtm, TakesAddressesInCapitals) {
             "0a:0b:0c:0d:0e:0f");
 }
 
+TEST(IwFtm, ABadResultIsLeftOutCountedAndNamed) {
+  const IwFtmLog log =
+      read_ftm(kHead + "  Peer 02:00:00:00:01: status=0\n" + kGood + "      RTT_AVG: 26685\n");
+  EXPECT_EQ(log.ranges.size(), 1U);
+  ASSERT_EQ(log.warnings.size(), 1U);
+  EXPECT_NE(log.warnings[0].find("1 result is left out; the first: "), std::string::npos);
+}
+
 TEST(IwFtm, RefusesWhatIsNoResult) {
   expect_refusal([] { read_ftm("Scanning\nBSS 02:00:00:00:01:00\n"); }, 0, "contains no result of iw's");
   expect_refusal([] { read_ftm(kHead + "  Peer 02:00:00:00:01: status=0\n"); }, 2, "not a valid address");

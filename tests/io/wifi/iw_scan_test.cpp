@@ -107,8 +107,64 @@ TEST(IwScan, RefusesMalformedInput) {
                  "'?' is not a valid frequency");
   expect_refusal([] { read_scan(bss("01", "-50.00 dBm", "\tlast seen: -3 ms ago\n")); }, 4,
                  "not a valid 'last seen' time");
-  expect_refusal([] { read_scan(bss("01", "-50.00 dBm") + "100\n" + bss("01", "-50.00 dBm")); }, 1,
-                 "no time");
+}
+
+TEST(IwScan, ABadRadioIsLeftOutCountedAndNamed) {
+  const std::string good = bss("01", "-50.00 dBm");
+  for (const std::string& bad : {std::string("BSS of my neighbour\n\tfreq: 2412\n"), bss("02", "loud"),
+                                 bss("02", "-60.00 dBm", "\tfreq: 1\n")}) {
+    const WifiLog log = read_scan(bad + good + good.substr(0, good.size() - 1) + "\n");
+    EXPECT_EQ(log.rows.size(), 2U) << bad;
+    ASSERT_FALSE(log.warnings.empty()) << bad;
+    EXPECT_NE(log.warnings.front().find("scan.txt: 1 radio is left out; the first: scan.txt:"),
+              std::string::npos)
+        << log.warnings.front();
+  }
+}
+
+TEST(IwScan, ScansAreTimedByWhateverDatePrints) {
+  for (const auto& [first, second] :
+       {std::pair("1574407123.%N", "1574407153.%N"), std::pair("@1574407123", "@1574407153"),
+        std::pair("1574407123000", "1574407153000")})
+    EXPECT_EQ(row_texts(read_scan(first + std::string("\n") + bss("01", "-50.00 dBm") + second + "\n" +
+                                  bss("02", "-51.00 dBm"))),
+              (Rows{"1574407123,02:00:00:00:00:01,2412,-50", "1574407153,02:00:00:00:00:02,2412,-51"}));
+}
+
+TEST(IwScan, AScanWhoseTimeIsNotUnderstoodIsLeftOutAndNamed) {
+  const WifiLog log = read_scan("100\n" + bss("01", "-50.00 dBm") + "15744071231 seconds\n" +
+                                bss("02", "-50.00 dBm") + "104\n" + bss("03", "-50.00 dBm"));
+  EXPECT_EQ(row_texts(log), (Rows{"100,02:00:00:00:00:01,2412,-50", "104,02:00:00:00:00:03,2412,-50"}));
+  ASSERT_EQ(log.warnings.size(), 1U);
+  EXPECT_NE(log.warnings[0].find("scan.txt:5: '15744071231 seconds' is not understood as a time"),
+            std::string::npos)
+      << log.warnings[0];
+  expect_refusal([] { read_scan("15744071231 seconds\n" + bss("01", "-50.00 dBm")); }, 1,
+                 "is not understood as a time");
+}
+
+TEST(IwScan, OfATimeWithSomethingBehindItTheSecondsCountAndTheLineIsNamed) {
+  const WifiLog log =
+      read_scan("1574407123 s\n" + bss("01", "-50.00 dBm") + "1574407153 s\n" + bss("02", "-50.00 dBm"));
+  EXPECT_EQ(row_texts(log),
+            (Rows{"1574407123,02:00:00:00:00:01,2412,-50", "1574407153,02:00:00:00:00:02,2412,-50"}));
+  ASSERT_EQ(log.warnings.size(), 1U);
+  EXPECT_EQ(log.warnings[0], "scan.txt:1: '1574407123 s' is not understood, nor are 1 other lines");
+  EXPECT_EQ(log.counts.size(), 1U);
+}
+
+TEST(IwScan, AListBeforeTheFirstTimeIsLeftOut) {
+  const WifiLog log = read_scan(bss("01", "-50.00 dBm") + "100\n" + bss("01", "-50.00 dBm"));
+  EXPECT_EQ(log.rows.size(), 1U);
+  ASSERT_EQ(log.warnings.size(), 1U);
+  EXPECT_NE(log.warnings[0].find("scan.txt:1: this scan has no time"), std::string::npos);
+}
+
+TEST(IwScan, NamesALineOutsideAllRadios) {
+  const WifiLog log = read_scan("100\nsudo: unable to resolve host\n" + bss("01", "-50.00 dBm"));
+  ASSERT_EQ(log.warnings.size(), 1U);
+  EXPECT_NE(log.warnings[0].find("scan.txt:2: 'sudo: unable to resolve host' is not understood"),
+            std::string::npos);
 }
 
 /// From the second radio on, jc 1.22 prefixes names with the last heading of the previous radio

@@ -65,6 +65,20 @@ TEST(IwlistScan, NamesHoldAnyBytes) {
   EXPECT_EQ(row_texts(log), (Rows{"0,02:00:00:00:00:01,0,-52"}));
 }
 
+TEST(IwlistScan, ABadCellIsLeftOutAndATimeInAnotherFormIsTaken) {
+  const WifiLog log =
+      read_list("1574407123.%N\n" + kIwlistHead + cell("01", "Signal level=-50 dBm\n") +
+                cell("02", "  Frequency:2.4 parsec\n  Signal level=-51 dBm\n") + "15744071531 s\n" +
+                kIwlistHead + cell("03", "Signal level=-52 dBm\n") + "Fri Nov 22 07:19:43 UTC 2019\n" +
+                kIwlistHead + cell("04", "Signal level=-53 dBm\n"));
+  EXPECT_EQ(row_texts(log),
+            (Rows{"1574407123,02:00:00:00:00:01,0,-50", "1574407183,02:00:00:00:00:04,0,-53"}));
+  ASSERT_EQ(log.warnings.size(), 2U);
+  EXPECT_NE(log.warnings[0].find("1 cell is left out; the first: iwlist.txt:6:"), std::string::npos);
+  EXPECT_NE(log.warnings[1].find("1 scan is left out; the first: iwlist.txt:8:"), std::string::npos)
+      << log.warnings[1];
+}
+
 TEST(IwlistScan, RefusesMalformedInput) {
   expect_refusal([] { read_list(kIwlistHead + "wlan0     No scan results\n"); }, 0, "contains no cell");
   expect_refusal([] { read_list(kIwlistHead + cell("0g", "")); }, 2, "not a valid address");

@@ -76,7 +76,44 @@ TEST(NmcliList, RefusesMalformedInput) {
       1, "not a valid CHAN");
   expect_refusal([] { parse_nmcli_fields("BSSID,CHAN"); }, 0, "SIGNAL must appear exactly once");
   expect_refusal([] { parse_nmcli_fields("BSSID,SIGNAL,BSSID"); }, 0, "BSSID must appear exactly once");
-  expect_refusal([] { read_nmcli(kAddress + "1:::0:50\n100\n" + kAddress + "1:::0:50\n"); }, 1, "no time");
+}
+
+const std::string kTable =
+    "IN-USE  BSSID              SSID                      MODE   CHAN  RATE        SIGNAL  BARS  SECURITY \n"
+    "*       02:00:00:00:00:01  The 5 65 Mbit/s 7 of us   Infra  11    65 Mbit/s   49      __    WPA2 \n"
+    "        02:00:00:00:00:02  --                        Infra  36    270 Mbit/s  80      ____  WPA1 WPA2 "
+    "\n";
+
+TEST(NmcliList, ReadsTheTableForPeopleInAnyLanguage) {
+  const Rows rows{"100,02:00:00:00:00:01,2462,-71", "100,02:00:00:00:00:02,5180,-52"};
+  EXPECT_EQ(row_texts(read_nmcli("100\n" + kTable)), rows);
+  EXPECT_EQ(row_texts(read_nmcli(
+                "100\nEN USO  BSSID              SSID  MODO   CANAL  TASA        SE\xc3\x91"
+                "AL  BARRAS  SEGURIDAD\n"
+                "*       02:00:00:00:00:01  Casa  Infra  11     65 Mbit/s   49     \xe2\x96\x82___    WPA2\n"
+                "        02:00:00:00:00:02  Casa  Infra  36     270 "
+                "\xd0\x9c\xd0\xb1\xd0\xb8\xd1\x82/\xd1\x81  80     ____    --\n")),
+            rows);
+  EXPECT_EQ(row_texts(read_nmcli("SSID BSSID MODE FREQ RATE SIGNAL SECURITY\n"
+                                 "'a b' 02:00:00:00:00:02 Infrastructure 5180 MHz 54 MB/s 80 WPA2\n")),
+            (Rows{"0,02:00:00:00:00:02,5180,-52"}));
+}
+
+TEST(NmcliList, ATableForPeopleWithoutWhatIsNeededNamesTheCommand) {
+  for (const char* table : {"IN-USE  SSID  MODE   CHAN  RATE       SIGNAL  BARS  SECURITY\n"
+                            "*       home  Infra  11    65 Mbit/s  49      __    WPA2\n",
+                            "BSSID              SIGNAL\n02:00:00:00:00:01  49\n"})
+    expect_refusal([&] { read_nmcli(table); }, 2,
+                   "`nmcli -t -f BSSID,SSID-HEX,CHAN,FREQ,SIGNAL dev wifi list`");
+}
+
+TEST(NmcliList, ABadRowIsLeftOutCountedAndNamed) {
+  const WifiLog log = read_nmcli("1574407123.%N\n" + kAddress + "1:::0:50\nError: busy\n" + kAddress +
+                                 "2:::0:50\n1574407153.%N\n" + kAddress + "1:::0:50\n");
+  EXPECT_EQ(log.rows.size(), 3U);
+  EXPECT_EQ(log.rows.back().stamp.ns, 1'574'407'153'000'000'000);
+  ASSERT_EQ(log.warnings.size(), 1U);
+  EXPECT_NE(log.warnings[0].find("1 row is left out; the first: nmcli.txt:3:"), std::string::npos);
 }
 
 }  // namespace

@@ -9,13 +9,13 @@
 #include <variant>
 #include <vector>
 
+#include "radioslam/base/suggestion.hpp"
 #include "radioslam/cli/commands.hpp"
 #include "radioslam/cli/commands/anchors_params.hpp"
 #include "radioslam/cli/commands/command_options.hpp"
 #include "radioslam/cli/commands/output_path_check.hpp"
 #include "radioslam/cli/config.hpp"
 #include "radioslam/cli/parameters.hpp"
-#include "radioslam/cli/suggestion.hpp"
 #include "radioslam/io/mission/anchor_tables.hpp"
 #include "radioslam/io/mission/team_tables.hpp"
 #include "radioslam/io/mission/tum.hpp"

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "radioslam/cli/commands.hpp"
 #include "radioslam/cli/commands/aoa_output.hpp"
@@ -99,7 +100,9 @@ void measure(const AoaOptions& options) {
                           {options.captures.capture, options.captures.reverse, options.trajectory});
   const auto params =
       with_settings(AoaParams{}, collect_settings(options.parameters.config_path, options.parameters.set));
-  const auto trajectory = read_tum(read_text(options.trajectory));
+  std::vector<std::string> notes;
+  const auto trajectory = read_logged_tum(read_tool_output(options.trajectory), notes);
+  for (const std::string& note : notes) std::cerr << "note: " << note << '\n';
   CsiChannels from = read_channels(options.captures, params);
   ChannelTrack& track = from.track;
   const auto clock = clock_offset_of(options, track, trajectory);

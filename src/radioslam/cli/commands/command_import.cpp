@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "radioslam/base/suggestion.hpp"
 #include "radioslam/cli/commands.hpp"
 #include "radioslam/cli/import/import_kinds.hpp"
 #include "radioslam/cli/import/import_options.hpp"
-#include "radioslam/cli/suggestion.hpp"
 
 namespace radioslam::cli {
 namespace {

@@ -55,6 +55,10 @@ void drive_robot(const RendezvousOptions& options) {
   std::string line;
   while (!session.finished() && std::cout && std::getline(std::cin, line)) print_lines(session.line(line));
   print_lines(session.end());
+  if (!session.has_started())
+    throw InputError("standard input", 0,
+                     "ended before the robot was started: its first line is {\"start\": {\"t_s\": 0}}; "
+                     "docs/formats.md describes the lines");
 }
 
 void print_run(const RendezvousRun& run) {

@@ -10,6 +10,7 @@
 
 #include "radioslam/base/parallel.hpp"
 #include "radioslam/base/progress.hpp"
+#include "radioslam/base/suggestion.hpp"
 #include "radioslam/cli/commands.hpp"
 #include "radioslam/cli/commands/command_options.hpp"
 #include "radioslam/cli/commands/output_path_check.hpp"
@@ -17,7 +18,6 @@
 #include "radioslam/cli/config.hpp"
 #include "radioslam/cli/parameters.hpp"
 #include "radioslam/cli/progress_line.hpp"
-#include "radioslam/cli/suggestion.hpp"
 #include "radioslam/io/text/atomic_output.hpp"
 #include "radioslam/io/text/numbers.hpp"
 #include "radioslam/io/wifi/wifi_csv.hpp"

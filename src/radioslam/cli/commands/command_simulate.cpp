@@ -7,12 +7,12 @@
 #include <string>
 #include <variant>
 
+#include "radioslam/base/suggestion.hpp"
 #include "radioslam/cli/commands.hpp"
 #include "radioslam/cli/commands/command_options.hpp"
 #include "radioslam/cli/commands/recorded_drive.hpp"
 #include "radioslam/cli/config.hpp"
 #include "radioslam/cli/parameters.hpp"
-#include "radioslam/cli/suggestion.hpp"
 #include "radioslam/io/mission/mission_folder.hpp"
 #include "radioslam/io/text/atomic_output.hpp"
 #include "radioslam/sim/scenarios/scenarios.hpp"

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "radioslam/cli/suggestion.hpp"
+#include "radioslam/base/suggestion.hpp"
 #include "radioslam/doctor/check_mission.hpp"
 #include "radioslam/io/mission/mission_folder.hpp"
 #include "radioslam/io/mission/mission_yaml.hpp"

@@ -15,6 +15,11 @@ void import_wifi_captures(const ImportOptions& options);
 /// iw-ftm: WiFi round-trip times to a ranges.csv.
 void import_ftm_ranges(const ImportOptions& options);
 
+// imu, waypoints: a walker's odometry.tum.
+
+void import_imu(const ImportOptions& options);
+void import_waypoints(const ImportOptions& options);
+
 // carmen, kitti, rosbag: recordings with LiDAR scans to a mission. Each source is one robot.
 
 void import_carmen_logs(const ImportOptions& options);

@@ -16,15 +16,21 @@
 namespace radioslam::cli {
 namespace {
 
+/// Writes a mission, and prints its notes.
+void write_imported(MissionOutput& output, const ImportedMission& imported) {
+  output.commit(imported.mission, imported.truth);
+  for (const auto& notes : {imported.warnings, output.notes()})
+    for (const auto& note : notes) std::cout << "note: " << note << '\n';
+}
+
 /// Writes a mission without odometry, with a note about it, and prints a summary.
-void write_study(const ImportOptions& options, OutputFolder& output, const ImportedMission& imported) {
+void write_study(const ImportOptions& options, MissionOutput& output, const ImportedMission& imported) {
   const Mission& mission = imported.mission;
-  write_mission(output.path(), mission, imported.truth);
-  output.commit();
+  write_imported(output, imported);
   std::size_t scans = 0;
   for (const Robot& robot : mission.robots) scans += robot.wifi.size();
-  for (const auto& warning : imported.warnings) std::cout << "note: " << warning << '\n';
-  std::cout << "note: the recording has no odometry: `radioslam run` needs an odometry.tum for each robot\n"
+  std::cout << "note: the recording has no odometry: `radioslam run` needs an odometry.tum for each robot; "
+            << kOdometrySources << '\n'
             << options.output << ": " << mission.robots.size() << " robots, " << scans << " scans, "
             << mission.access_points.size() << " access points, " << mission.ranges.size() << " ranges\n";
 }
@@ -42,25 +48,23 @@ void print_team(const TeamGraphFile<SE3>& file, const std::string& output) {
 void import_phone_logs(const ImportOptions& options) {
   const auto params = params_of<DeadReckoningParams>(options);
   refuse_replacing_inputs(options.output, options.sources);
-  OutputFolder output(options.output, kMissionFolder);
+  MissionOutput output(options.output, existing_of(options));
   const ImportedMission imported = import_indoor_location(only_source(options), params);
-  write_mission(output.path(), imported.mission, imported.truth);
-  output.commit();
-  for (const auto& warning : imported.warnings) std::cout << "note: " << warning << '\n';
+  write_imported(output, imported);
   std::cout << options.output << ": " << imported.mission.robots.size() << " robots, "
             << imported.mission.access_points.size() << " access points\n";
 }
 
 void import_wifine_trajectories(const ImportOptions& options) {
   refuse_replacing_inputs(options.output, options.sources);
-  OutputFolder output(options.output, kMissionFolder);
+  MissionOutput output(options.output, existing_of(options));
   write_study(options, output, import_wifine(only_source(options)));
 }
 
 void import_rtt_walk(const ImportOptions& options) {
   const auto params = params_of<WifiRttParams>(options);
   refuse_replacing_inputs(options.output, options.sources);
-  OutputFolder output(options.output, kMissionFolder);
+  MissionOutput output(options.output, existing_of(options));
   write_study(options, output, import_wifi_rtt(only_source(options), params));
 }
 
@@ -73,11 +77,10 @@ void import_dpgo_tables(const ImportOptions& options) {
     output.commit(format_g2o(with_ids(file.team.graph, file.pose_ids, {})));
     print_team(file, options.output);
   } else {
-    OutputFolder output(options.output, kMissionFolder);
+    MissionOutput output(options.output, existing_of(options));
     const auto file = read();
     const ImportedMission imported = mission_of_team(file, options.sources.front());
-    write_mission(output.path(), imported.mission, imported.truth);
-    output.commit();
+    write_imported(output, imported);
     print_team(file, options.output);
   }
 }

@@ -35,7 +35,7 @@ constexpr const char* kCarmenNotes =
     "state their angles: the readings cover field_of_view_deg.";
 
 constexpr const char* kLogBegins =
-    "A log holds many scans, each after a line with its Unix time:\n"
+    "A log holds many scans, each after a line with its Unix time (or other output of `date`):\n"
     "  while true; do date +%s.%N; ";
 constexpr const char* kLogContinues =
     "; done >> log\n"
@@ -46,9 +46,10 @@ constexpr const char* kLogContinues =
 constexpr const char* kWifiOutput =
     "\n"
     "\n"
-    "The output is NAME.csv (the table alone), an existing mission (its robot's wifi.csv is replaced), or\n"
-    "a new mission, which still lacks odometry. Without --robot, the robot is the mission's only one, or\n"
-    "is named after the source.";
+    "The output is NAME.csv (the table alone), an existing mission (its robot gets the wifi.csv; a robot\n"
+    "that it does not have is added), or a new mission, which still lacks odometry: `import imu` and\n"
+    "`import waypoints` can add one. Without --robot, the robot is the mission's only one, or is named\n"
+    "after the source.";
 
 constexpr const char* kIwNotes =
     "Reads what `iw dev wlan0 scan` or `iw dev wlan0 scan dump` prints. Access points last seen before\n"
@@ -60,7 +61,8 @@ constexpr const char* kIwlistNotes =
 
 constexpr const char* kNmcliNotes =
     "Reads what `nmcli -t -f BSSID,SSID-HEX,CHAN,FREQ,SIGNAL dev wifi list` prints; --fields states\n"
-    "another list of fields. SIGNAL is converted from NetworkManager's percentage back to dBm.\n";
+    "another list of fields. The table for people, `nmcli dev wifi list`, is read too. SIGNAL is\n"
+    "converted from NetworkManager's percentage back to dBm.\n";
 
 constexpr const char* kAirodumpNotes =
     "Reads the tables of airodump-ng: PREFIX-01.csv (a row per radio) or PREFIX-01.log.csv (a row per\n"
@@ -73,6 +75,31 @@ constexpr const char* kPcapNotes =
     "pcapng); SOURCE is one or several files or folders of files. Each beacon and probe response gives a\n"
     "row with its BSSID, level and frequency. Packets without a level, with malformed headers or with a\n"
     "wrong checksum are left out and counted.";
+
+constexpr const char* kImuNotes =
+    "Reads tables of an accelerometer and a gyroscope, carried by a walker, and makes the robot's\n"
+    "odometry by pedestrian dead reckoning: steps from the vertical acceleration, heading from the\n"
+    "gyroscope. SOURCE is a CSV table with both sensors, or one table per sensor. Columns are recognised\n"
+    "by their names:\n"
+    "  time            t_s, time, timestamp, seconds, ...; in s, ms, us or ns\n"
+    "  accelerometer   ax, acc_x, accelerometer_x, linear_acceleration.x, ...; in m/s^2 or g, with gravity\n"
+    "  gyroscope       wx, gx, gyro_x, angular_velocity.x, ...; in rad/s or degrees/s\n"
+    "or x, y, z in a file whose name has acc or gyr. The device may be carried in any attitude that it\n"
+    "keeps. The heading is relative to the start.";
+
+constexpr const char* kWaypointsNotes =
+    "Reads where a walker was when: a table t_s,x,y in metres, for example marked on a floor plan. The\n"
+    "robot's odometry follows the straight lines between the waypoints at constant speed, facing forwards.\n"
+    "Its start stays unknown; the note on it gives the initial_pose for mission.yaml, if the plan's frame "
+    "is\n"
+    "that of the team. This kind has no parameters.";
+
+constexpr const char* kWalkOutput =
+    "\n"
+    "\n"
+    "The output is an existing mission (its robot gets the odometry; a robot that it does not have is\n"
+    "added) or a new one. Without --robot, the robot is the mission's only one, or is named after the\n"
+    "source.";
 
 constexpr const char* kIwFtmNotes =
     "Reads WiFi round-trip times (fine time measurement, IEEE 802.11mc) as printed by `iw dev wlan0\n"
@@ -148,7 +175,7 @@ std::vector<ImportKind> recording_kinds() {
   };
 }
 
-/// Kinds that are written as a robot's wifi.csv or as a ranges.csv.
+/// Kinds that are written as one table of a robot.
 std::vector<ImportKind> wifi_tool_kinds() {
   ImportKind nmcli = scan_list_kind("nmcli", "output of `nmcli dev wifi list`, as a robot's wifi.csv",
                                     kNmcliNotes, "nmcli -t -f BSSID,SSID-HEX,CHAN,FREQ,SIGNAL dev wifi list",
@@ -178,6 +205,19 @@ std::vector<ImportKind> wifi_tool_kinds() {
        {ImportOption::kRobot, ImportOption::kName, ImportOption::kParameters},
        kIwFtmNotes,
        {"radioslam import iw-ftm ftm.txt --robot a --name 02:00:00:00:01:00=door -o ranges.csv"}},
+      {"imu",
+       "accelerometer and gyroscope of a walker, as a robot's odometry",
+       import_imu,
+       {ImportOption::kRobot, ImportOption::kParameters},
+       std::string(kImuNotes) + kWalkOutput,
+       {"radioslam import imu phone.csv --robot laptop -o mission",
+        "radioslam import imu Accelerometer.csv Gyroscope.csv --robot laptop -o mission"}},
+      {"waypoints",
+       "a table of places and times, as a robot's odometry",
+       import_waypoints,
+       {ImportOption::kRobot},
+       std::string(kWaypointsNotes) + kWalkOutput,
+       {"radioslam import waypoints plan.csv --robot laptop -o mission"}},
   };
 }
 

@@ -54,13 +54,15 @@ const std::string& folder_apart(const ImportOptions& options) {
 /// Collects a mission robot by robot and writes its folder.
 class TeamOutput {
  public:
-  explicit TeamOutput(const ImportOptions& options)
-      : options_(options), folder_(folder_apart(options), kMissionFolder) {
+  /// Refuses robots that the mission has.
+  TeamOutput(const ImportOptions& options, const std::vector<std::string>& robots)
+      : options_(options), output_(folder_apart(options), existing_of(options)) {
+    for (const std::string& robot : robots) output_.expect_free(robot, !options.robots.empty());
     team_.mission.dimension = 2;
     team_.mission.name = name_of(options.sources.size() == 1 ? options.sources.front() : options.output);
   }
 
-  fs::path scans_of(const std::string& robot) const { return folder_.path() / "robots" / robot / "lidar"; }
+  fs::path scans_of(const std::string& robot) const { return output_.folder_of(robot) / "lidar"; }
 
   /// `what` is a one-line summary of the robot's data.
   void add(ImportedMission one, const std::string& what) {
@@ -72,14 +74,14 @@ class TeamOutput {
   }
 
   void commit() {
-    write_mission(folder_.path(), team_.mission, team_.truth);
-    folder_.commit();
+    output_.commit(team_.mission, team_.truth);
+    for (const std::string& note : output_.notes()) std::cout << "note: " << note << '\n';
     for (const std::string& line : lines_) std::cout << line << '\n';
   }
 
  private:
   const ImportOptions& options_;
-  OutputFolder folder_;
+  MissionOutput output_;
   ImportedMission team_;
   std::vector<std::string> lines_;
 };
@@ -120,7 +122,7 @@ std::string ros_summary(const RosImport& imported) {
 void import_carmen_logs(const ImportOptions& options) {
   const auto params = params_of<CarmenParams>(options);
   const std::vector<std::string> robots = robots_of_import(options);
-  TeamOutput output(options);
+  TeamOutput output(options, robots);
   for (std::size_t k = 0; k < robots.size(); ++k) {
     ImportedMission imported = read_carmen(read_compressed_text(options.sources[k]), robots[k], params);
     const std::size_t scans = imported.mission.robots.front().lidar.size();
@@ -131,7 +133,7 @@ void import_carmen_logs(const ImportOptions& options) {
 
 void import_kitti_drives(const ImportOptions& options) {
   const std::vector<std::string> robots = robots_of_import(options);
-  TeamOutput output(options);
+  TeamOutput output(options, robots);
   for (std::size_t k = 0; k < robots.size(); ++k) {
     KittiDrive drive =
         read_kitti_drive(options.sources[k], robots[k], of_source(options, options.poses, "--poses", k));
@@ -146,7 +148,7 @@ void import_kitti_drives(const ImportOptions& options) {
 void import_ros_recordings(const ImportOptions& options) {
   if (options.list) return list_topics(options);
   const std::vector<std::string> robots = robots_of_import(options);
-  TeamOutput output(options);
+  TeamOutput output(options, robots);
   std::optional<GeodeticPlace> fix_origin;  // one frame for all robots
   for (std::size_t k = 0; k < robots.size(); ++k) {
     const RosTopicRequest wishes{

@@ -1,11 +1,17 @@
 #include "radioslam/cli/import/import_options.hpp"
 
 #include <algorithm>
+#include <filesystem>
 
+#include "radioslam/io/mission/mission_folder.hpp"
+#include "radioslam/io/mission/mission_yaml.hpp"
+#include "radioslam/io/text/csv.hpp"
 #include "radioslam/io/text/text.hpp"
 
 namespace radioslam::cli {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// Adds an option that may be repeated, each time with one value.
 void add_repeated_option(CLI::App& command, const char* name, std::vector<std::string>& values,
@@ -49,8 +55,11 @@ void add_common_options(CLI::App& command, ImportOptions& options) {
       ->required();
   command
       .add_option("-o,--output", options.output,
-                  "Mission or table to write (required); an existing one is replaced")
+                  "Mission or table to write (required); a mission that is there gets another robot, or "
+                  "what its robot of this name lacks")
       ->type_name("PATH");
+  command.add_flag("--replace", options.replace,
+                   "Replace what the mission has of the recordings that this import brings");
   add_threads_option(command);
 }
 
@@ -109,6 +118,49 @@ void refuse_other_options(const ImportOptions& options, const std::vector<Import
   const bool has_settings = !options.parameters.set.empty() || !options.parameters.config_path.empty();
   refuse_unless(!has_settings || takes(ImportOption::kParameters), options, "parameters");
   refuse_unless(!options.file_times || takes(ImportOption::kTime), options, "--file-times");
+}
+
+ImportedRobot robot_of_import(const ImportOptions& options) {
+  if (!options.robot.empty()) check_import_id("--robot " + options.robot, options.robot);
+  ImportedRobot robot{options.robot};
+  const fs::path yaml = fs::path(options.output) / kMissionFolder;
+  if (!fs::exists(yaml)) {
+    if (robot.id.empty()) robot.id = name_of_source(options.sources.front());
+    if (!is_valid_id(robot.id))
+      throw InputError(options.sources.front(), 0,
+                       "its name is not a valid robot name; --robot sets another one");
+    return robot;
+  }
+  const std::vector<Robot> robots = read_mission_yaml(read_text(yaml), "").mission.robots;
+  if (robot.id.empty() && robots.size() == 1) robot.id = robots.front().id;
+  if (robot.id.empty())
+    throw InputError(options.output, 0,
+                     "this mission has " + std::to_string(robots.size()) +
+                         " robots; --robot selects the one that recorded this");
+  robot.is_added =
+      std::none_of(robots.begin(), robots.end(), [&](const Robot& other) { return other.id == robot.id; });
+  return robot;
+}
+
+std::vector<std::string> notes_on(const ImportOptions& options, const ImportedRobot& robot) {
+  const fs::path folder = fs::path(options.output) / "robots" / robot.id;
+  std::vector<std::string> notes;
+  if (robot.is_added) notes.push_back("robot '" + robot.id + "' is new in this mission");
+  if (!fs::exists(folder / "odometry.tum") && !fs::is_directory(folder / "lidar"))
+    notes.push_back((folder / "odometry.tum").string() + " is missing, and `radioslam run` needs it: " +
+                    kOdometrySources + "; `radioslam similarity` compares the scans without it");
+  return notes;
+}
+
+void refuse_table_of_mission(const ImportOptions& options) {
+  constexpr int kDepth = 3;  // robots/ID/wifi.csv
+  if (options.replace || !fs::exists(options.output)) return;
+  fs::path folder = fs::absolute(options.output).lexically_normal().parent_path();
+  for (int depth = 0; depth < kDepth; ++depth, folder = folder.parent_path())
+    if (fs::exists(folder / kMissionFolder))
+      throw InputError(options.output, 0,
+                       "is in the mission " + folder.string() + " already; --replace replaces it",
+                       InputError::Kind::kDuplicate);
 }
 
 void check_import_id(const std::string& option, const std::string& id) {

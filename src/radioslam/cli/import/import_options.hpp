@@ -8,6 +8,7 @@
 #include "radioslam/cli/commands/command_options.hpp"
 #include "radioslam/cli/config.hpp"
 #include "radioslam/cli/parameters.hpp"
+#include "radioslam/io/mission/mission_output.hpp"
 
 namespace radioslam::cli {
 
@@ -24,6 +25,7 @@ struct ImportOptions {
   std::vector<std::string> odometry, scans, imu, gnss, truth;  ///< names of ROS topics
   bool file_times = false;
   bool list = false;
+  bool replace = false;
   ParameterOptions parameters;
 };
 
@@ -43,7 +45,12 @@ inline const std::string& only_source(const ImportOptions& options) {
   return options.sources.front();
 }
 
-/// Adds the options that all kinds take: sources, output and threads.
+/// What happens to recordings that the output has.
+inline MissionOutput::Existing existing_of(const ImportOptions& options) {
+  return options.replace ? MissionOutput::Existing::kReplace : MissionOutput::Existing::kKeep;
+}
+
+/// Adds the options that all kinds take: sources, output, --replace and threads.
 void add_common_options(CLI::App& command, ImportOptions& options);
 
 /// Adds the options of this name or group of names.
@@ -54,6 +61,21 @@ void add_all_import_options(CLI::App& command, ImportOptions& options);
 
 /// Refuses (InputError) every given option that is not among `taken`.
 void refuse_other_options(const ImportOptions& options, const std::vector<ImportOption>& taken);
+
+/// The robot of a mission that one recording is of: the one that --robot names, or the mission's only one, or
+/// one of a new mission that is named after the first source. Refuses (InputError) invalid names, and a
+/// mission of several robots without --robot.
+struct ImportedRobot {
+  std::string id;
+  bool is_added = false;  ///< to a mission that is there
+};
+ImportedRobot robot_of_import(const ImportOptions& options);
+
+/// The notes on a robot that importers of one table write: that it is new, and that its odometry is missing.
+std::vector<std::string> notes_on(const ImportOptions& options, const ImportedRobot& robot);
+
+/// Refuses (InputError) a table that is there and lies in a mission, unless --replace is given.
+void refuse_table_of_mission(const ImportOptions& options);
 
 /// Refuses (InputError) an invalid name of a robot or an anchor; `option` prefixes the message.
 void check_import_id(const std::string& option, const std::string& id);

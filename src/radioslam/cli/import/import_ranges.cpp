@@ -59,14 +59,16 @@ void import_ftm_ranges(const ImportOptions& options) {
     throw InputError("import iw-ftm", 0, "--robot is required: the robot that measured the ranges");
   check_import_id("--robot " + options.robot, options.robot);
   refuse_replacing_inputs(options.output, options.sources);
+  refuse_table_of_mission(options);
   OutputFile output(options.output);
-  const IwFtmLog log = read_iw_ftm(read_text(only_source(options)), params);
+  const IwFtmLog log = read_iw_ftm(read_tool_output(only_source(options)), params);
   const Mission mission = mission_of(log, options);
   if (mission.ranges.empty())
     throw InputError(only_source(options), 0,
                      "none of the " + std::to_string(log.failed + log.implausible + log.timeless) +
                          " measurements has both a distance and a time");
   output.commit(format_ranges(mission));
+  for (const std::string& warning : log.warnings) std::cout << "note: " << warning << '\n';
   note(log.failed, "measurements failed");
   note(log.implausible, "implausible distances were omitted");
   note(log.timeless, "distances without a time were omitted");

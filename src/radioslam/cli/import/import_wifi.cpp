@@ -10,11 +10,10 @@
 #include "radioslam/cli/commands/output_path_check.hpp"
 #include "radioslam/cli/import/import_commands.hpp"
 #include "radioslam/cli/import/import_options.hpp"
-#include "radioslam/cli/suggestion.hpp"
-#include "radioslam/io/mission/mission_folder.hpp"
-#include "radioslam/io/mission/mission_yaml.hpp"
+#include "radioslam/io/mission/mission_output.hpp"
 #include "radioslam/io/text/atomic_output.hpp"
 #include "radioslam/io/text/csv.hpp"
+#include "radioslam/io/text/skipped_records.hpp"
 #include "radioslam/io/text/text.hpp"
 #include "radioslam/io/wifi/airodump_csv.hpp"
 #include "radioslam/io/wifi/iw_scan.hpp"
@@ -29,96 +28,65 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> robots_in_mission(const fs::path& mission) {
-  std::vector<std::string> ids;
-  for (const Robot& robot : read_mission_yaml(read_text(mission / kMissionFolder), "").mission.robots)
-    ids.push_back(robot.id);
-  return ids;
-}
-
 // Output of imported WiFi scans: a wifi.csv alone, or the wifi.csv of a robot in a mission.
 
 /// One of three targets, depending on the output path:
 ///   NAME.csv              the table alone
-///   an existing mission   robots/<robot>/wifi.csv; the robot need not be named if there is only one
+///   an existing mission   robots/<robot>/wifi.csv, of a robot that is added if it is not there; the robot
+///   need
+///                         not be named if there is only one
 ///   any other folder      a new mission of one robot without odometry; without a name, the robot is named
 ///                         after the source
 class WifiCsvOutput {
  public:
-  /// Refuses (InputError) a robot that the mission does not have, and invalid names.
-  WifiCsvOutput(const std::string& output, const std::string& robot, const std::string& source);
+  explicit WifiCsvOutput(const ImportOptions& options) : options_(options) {
+    if (options.output.ends_with(".csv")) {
+      if (!options.robot.empty()) check_import_id("--robot " + options.robot, options.robot);
+      refuse_table_of_mission(options);
+      file_.emplace(options.output);
+    } else {
+      robot_ = robot_of_import(options);
+      mission_.emplace(options.output, existing_of(options));
+    }
+  }
 
   void commit(const std::vector<WifiRow>& rows) {
     const std::string table = format_wifi_rows(rows);
     if (file_) return file_->commit(table);
     Mission mission;
-    mission.name = name_of_source(output_);
-    mission.robots.emplace_back().id = robot_;
-    write_mission(folder_->path(), mission);
-    write_file(folder_->path() / "robots" / robot_ / "wifi.csv", table);
-    folder_->commit();
+    mission.name = name_of_source(options_.output);
+    mission.robots.emplace_back().id = robot_.id;
+    write_file(mission_->folder_of(robot_.id) / "wifi.csv", table);
+    mission_->commit(mission);
   }
 
-  /// The path that commit() replaces.
-  std::string replaced() const { return file_ ? table_ : output_; }
+  /// The path that commit() may replace.
+  std::string replaced() const {
+    const fs::path mission = options_.output;
+    const bool grows = !file_ && fs::exists(mission / kMissionFolder);
+    return grows ? (mission / "robots" / robot_.id / "wifi.csv").string() : options_.output;
+  }
 
   /// The robot's name; empty for a table alone.
-  const std::string& robot() const { return robot_; }
-  /// A note on what the mission still lacks before it can be run; empty if nothing is known to be missing.
-  std::string missing() const {
-    if (robot_.empty() || output_.ends_with(".csv")) return {};
-    const std::string odometry = file_of_robot("odometry.tum");
-    return fs::exists(odometry) ? "" : odometry + " is missing; `radioslam run` needs it";
+  const std::string& robot() const { return robot_.id; }
+  /// What the user should know of the mission.
+  std::vector<std::string> notes() const {
+    return file_ ? std::vector<std::string>{} : notes_on(options_, robot_);
   }
 
  private:
-  void find_robot_of_mission() {
-    const auto ids = robots_in_mission(output_);
-    if (robot_.empty() && ids.size() == 1) robot_ = ids.front();
-    if (robot_.empty())
-      throw InputError(output_, 0,
-                       "this mission has " + std::to_string(ids.size()) +
-                           " robots; --robot selects the one that recorded this");
-    if (std::find(ids.begin(), ids.end(), robot_) == ids.end())
-      throw InputError("--robot " + robot_, 0,
-                       "the mission " + output_ + " has no such robot" + did_you_mean(robot_, ids));
-  }
-
-  void name_robot_after(const std::string& source) {
-    robot_ = name_of_source(source);
-    if (!is_valid_id(robot_))
-      throw InputError(source, 0, "its name is not a valid robot name; --robot sets another one");
-  }
-
-  std::string file_of_robot(const char* name) const {
-    return (fs::path(output_) / "robots" / robot_ / name).string();
-  }
-
-  std::string output_, robot_;
-  std::string table_;  ///< the path of file_
+  const ImportOptions& options_;
+  ImportedRobot robot_;
   std::optional<OutputFile> file_;
-  std::optional<OutputFolder> folder_;
+  std::optional<MissionOutput> mission_;
 };
-
-WifiCsvOutput::WifiCsvOutput(const std::string& output, const std::string& robot, const std::string& source)
-    : output_(output), robot_(robot) {
-  if (!robot.empty()) check_import_id("--robot " + robot, robot);
-  if (output.ends_with(".csv")) {
-    file_.emplace(table_ = output);
-  } else if (fs::exists(fs::path(output) / kMissionFolder)) {
-    find_robot_of_mission();
-    file_.emplace(table_ = file_of_robot("wifi.csv"));
-  } else {
-    if (robot_.empty()) name_robot_after(source);
-    folder_.emplace(output, kMissionFolder);
-  }
-}
 
 /// All source files: sources that are files, and the files in sources that are folders, sorted by name. In
 /// folders only files with one of `extensions` count; if it is empty, all do.
 std::vector<fs::path> files_of(const ImportOptions& options, const std::vector<std::string>& extensions) {
   std::vector<fs::path> files;
   for (const std::string& source : options.sources) {
+    if (!fs::exists(source)) throw InputError(source, 0, "no such file");
     if (!fs::is_directory(source)) {
       files.emplace_back(source);
       continue;
@@ -161,14 +129,13 @@ void write_wifi(const ImportOptions& options, WifiCsvOutput& target, std::vector
   }
   target.commit(log.rows);
   print_notes(log);
-  if (const std::string missing = target.missing(); !missing.empty())
-    std::cout << "note: " << missing << '\n';
+  for (const std::string& note : target.notes()) std::cout << "note: " << note << '\n';
   std::cout << options.output << ": " << wifi_summary(log, target) << '\n';
 }
 
 /// Opens the output. Refuses one that would replace an input.
 std::unique_ptr<WifiCsvOutput> target_of(const ImportOptions& options, const std::vector<fs::path>& files) {
-  auto target = std::make_unique<WifiCsvOutput>(options.output, options.robot, options.sources.front());
+  auto target = std::make_unique<WifiCsvOutput>(options);
   refuse_replacing_inputs(target->replaced(), {files.begin(), files.end()});
   return target;
 }
@@ -200,8 +167,9 @@ ScanListLog read_list_file(const ImportOptions& options, const fs::path& file, s
   const Text text = read_tool_output(file);
   ScanListLog log = read_list(options, text);
   const auto time = time_of_file(options, file, files);
-  const bool is_timed = std::all_of(log.scans.begin(), log.scans.end(),
-                                    [](const ScanList& scan) { return scan.stamp.has_value(); });
+  const bool is_timed = std::any_of(log.scans.begin(), log.scans.end(), [](const ScanList& scan) {
+    return scan.stamp.has_value() || !scan.unread_time.empty();
+  });
   if (files > 1 && !time && !is_timed)
     text.fail(0,
               "has no time, neither in a line before the scan nor in its name; --file-times uses its last "
@@ -223,34 +191,52 @@ void refuse_two_clocks(const std::vector<fs::path>& files, const std::vector<Sca
                          "file's name or by --file-times");
 }
 
+/// Reads every file by `read`; a refused one of several is left out with a warning in a log of its own.
+template <class Log, class Read>
+std::vector<Log> read_files(const ImportOptions& options, std::vector<fs::path>& files, const Read& read) {
+  std::vector<Log> logs;
+  SkippedRecords bad;
+  std::vector<fs::path> used;
+  for (const fs::path& file : files)
+    if (bad.attempt([&] { logs.push_back(read(file)); })) used.push_back(file);
+  std::vector<std::string> warnings;
+  bad.conclude(options.sources.front(), "file", used.size(), warnings);
+  if (!warnings.empty()) logs.front().warnings.push_back(warnings.front());
+  files = std::move(used);
+  return logs;
+}
+
 }  // namespace
 
 void import_printed_scans(const ImportOptions& options) {
   const auto params = params_of<ScanListParams>(options);
-  const auto files = files_of(options, {});
+  auto files = files_of(options, {});
   const auto target = target_of(options, files);
-  std::vector<ScanListLog> logs;
-  for (const fs::path& file : files) logs.push_back(read_list_file(options, file, files.size()));
+  const std::size_t count = files.size();
+  std::vector<ScanListLog> logs = read_files<ScanListLog>(
+      options, files, [&](const fs::path& file) { return read_list_file(options, file, count); });
   refuse_two_clocks(files, logs);
   write_wifi(options, *target, {rows_of_scans(std::move(logs), params)});
 }
 
 void import_airodump(const ImportOptions& options) {
   const auto params = params_of<AirodumpParams>(options);
-  const auto target = target_of(options, {options.sources.begin(), options.sources.end()});
-  std::vector<WifiLog> logs;
-  for (const std::string& source : options.sources)
-    logs.push_back(read_airodump(read_tool_output(source), params));
-  write_wifi(options, *target, std::move(logs));
+  std::vector<fs::path> files(options.sources.begin(), options.sources.end());
+  for (const fs::path& file : files)
+    if (!fs::exists(file)) throw InputError(file.string(), 0, "no such file");
+  const auto target = target_of(options, files);
+  write_wifi(options, *target, read_files<WifiLog>(options, files, [&](const fs::path& file) {
+               return read_airodump(read_tool_output(file), params);
+             }));
 }
 
 void import_wifi_captures(const ImportOptions& options) {
   const auto params = params_of<WifiCaptureParams>(options);
-  const auto files = files_of(options, {".pcap", ".pcapng", ".cap"});
+  auto files = files_of(options, {".pcap", ".pcapng", ".cap"});
   const auto target = target_of(options, files);
-  std::vector<WifiLog> logs;
-  for (const fs::path& file : files) logs.push_back(read_wifi_capture(file, params));
-  write_wifi(options, *target, std::move(logs));
+  write_wifi(options, *target, read_files<WifiLog>(options, files, [&](const fs::path& file) {
+               return read_wifi_capture(file, params);
+             }));
 }
 
 }  // namespace radioslam::cli

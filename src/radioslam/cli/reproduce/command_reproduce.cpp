@@ -11,13 +11,13 @@
 #include <vector>
 
 #include "radioslam/base/input_error.hpp"
+#include "radioslam/base/suggestion.hpp"
 #include "radioslam/cli/commands/command_options.hpp"
 #include "radioslam/cli/commands/distributed_optimization.hpp"
 #include "radioslam/cli/commands/recorded_drive.hpp"
 #include "radioslam/cli/config.hpp"
 #include "radioslam/cli/parameters.hpp"
 #include "radioslam/cli/progress_line.hpp"
-#include "radioslam/cli/suggestion.hpp"
 #include "radioslam/io/datasets/wsr_results.hpp"
 #include "radioslam/io/datasets/wsr_trial.hpp"
 #include "radioslam/io/text/atomic_output.hpp"

@@ -157,7 +157,7 @@ TeamGraphFile<SE3> read_dpgo(std::span<const Text> tables) {
 TeamGraphFile<SE3> import_dpgo(const std::vector<fs::path>& sources) {
   std::vector<Text> tables;
   for (const fs::path& source : sources)
-    for (const fs::path& table : tables_in(source)) tables.push_back(read_text(table));
+    for (const fs::path& table : tables_in(source)) tables.push_back(read_tool_output(table));
   return read_dpgo(tables);
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "radioslam/base/input_error.hpp"
+#include "radioslam/io/text/skipped_records.hpp"
 #include "radioslam/io/text/text.hpp"
 
 namespace radioslam {
@@ -14,19 +15,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kLogFolder = "path_data_files";
 constexpr const char* kLogExtension = ".txt";
-
-/// Noise of pedestrian dead reckoning with a hand-held phone, measured on 65 walks of one surveyor (2.3 km,
-/// 444 waypoints): the distance between waypoints has a total error of 0.47 m per sqrt(m), of which a scale
-/// error of 0.12 per walk and a yaw drift of 0.004 rad/m are constant; the rest is rounded up.
-OdometryNoise walking_noise() {
-  OdometryNoise noise;
-  noise.sigma_xy_per_sqrt_m = 0.2;
-  noise.sigma_yaw_per_sqrt_m_rad = 0.02;  // the phone sways in the hand
-  noise.sigma_yaw_per_rad = 0.05;         // and turns a little later or less than the surveyor
-  noise.sigma_yaw_drift_per_m_rad = 0.004;
-  noise.sigma_scale = 0.1;
-  return noise;
-}
 
 /// RMS error of the compass heading over those walks, some of them near steel structures.
 constexpr double kSigmaHeading_rad = 0.25;
@@ -119,6 +107,7 @@ Robot robot_of(const NamedPhoneLog& walk, const DeadReckoning& reckoned,
 std::vector<std::string> warnings_about(const NamedPhoneLog& walk, const DeadReckoning& reckoned) {
   std::vector<std::string> warnings;
   const auto warn = [&](const std::string& what) { warnings.push_back(walk.id + ": " + what); };
+  warnings.insert(warnings.end(), walk.log.warnings.begin(), walk.log.warnings.end());
   if (!walk.log.complete) warn("the log has no end time; the recording may have been cut off");
   if (reckoned.steps.empty()) warn("no steps detected; the robot does not move");
   if (!reckoned.compass) warn("no rotation vector; the heading is relative to the start");
@@ -147,15 +136,21 @@ ImportedMission import_indoor_location(const fs::path& source, const DeadReckoni
   const auto paths = find_logs(source);
   expect_one_floor(paths);
   std::vector<NamedPhoneLog> walks;
-  for (const fs::path& path : paths) {
-    const std::string id = path.stem().string();
-    if (!can_name_a_folder(id)) throw InputError(path.string(), 0, "its name is not a valid robot name");
-    walks.push_back({id, read_phone_log(read_text(path))});
-  }
+  SkippedRecords bad;
+  for (const fs::path& path : paths)
+    bad.attempt([&] {
+      const std::string id = path.stem().string();
+      if (!can_name_a_folder(id)) throw InputError(path.string(), 0, "its name is not a valid robot name");
+      walks.push_back({id, read_phone_log(read_tool_output(path))});
+    });
+  std::vector<std::string> warnings;
+  bad.conclude(source.string(), "walk", walks.size(), warnings);
   const fs::path named_after = fs::absolute(source).lexically_normal();
   const bool is_folder_itself = named_after.filename().empty();  // "folder/"
-  return mission_of_walks(walks, (is_folder_itself ? named_after.parent_path() : named_after).stem().string(),
-                          params);
+  ImportedMission imported = mission_of_walks(
+      walks, (is_folder_itself ? named_after.parent_path() : named_after).stem().string(), params);
+  imported.warnings.insert(imported.warnings.begin(), warnings.begin(), warnings.end());
+  return imported;
 }
 
 }  // namespace radioslam

@@ -28,8 +28,9 @@ struct NamedPhoneLog {
 ImportedMission mission_of_walks(const std::vector<NamedPhoneLog>& walks, const std::string& name,
                                  const DeadReckoningParams& params = {});
 
-/// Reads the logs of `source`, sorted by name. Refuses (InputError) a source without logs, logs in several
-/// folders, names that are not valid robot names, and malformed lines.
+/// Reads the logs of `source`, sorted by name; a log that is refused, or whose name is not a valid robot
+/// name, is left out with a warning. Refuses (InputError) a source without logs, logs in several folders, and
+/// a source of which most logs are refused.
 ImportedMission import_indoor_location(const std::filesystem::path& source,
                                        const DeadReckoningParams& params = {});
 

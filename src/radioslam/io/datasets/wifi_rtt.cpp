@@ -5,8 +5,10 @@
 #include <utility>
 
 #include "radioslam/base/units.hpp"
+#include "radioslam/io/mission/tum.hpp"
 #include "radioslam/io/text/csv.hpp"
 #include "radioslam/io/text/line_fields.hpp"
+#include "radioslam/io/text/skipped_records.hpp"
 #include "radioslam/io/wifi/wifi_csv.hpp"
 
 namespace radioslam {
@@ -35,12 +37,11 @@ class RttMission {
   void add_anchors(const Text& text) {
     CsvReader table(text);
     const std::size_t x = table.column("x"), y = table.column("y");
-    while (table.next()) {
+    for_each_row(text, table, [&] {
       const std::string id(table.field(0));
       const Eigen::Vector3d position(table.number(x), table.number(y), 0);
-      anchor(id);
       imported_.mission.anchors[anchor(id).index()].position_m = position;
-    }
+    });
   }
 
   void add_phone(const Text& text) {
@@ -50,27 +51,32 @@ class RttMission {
     imported_.mission.robots.emplace_back().id = id;
     const auto columns = anchor_columns(table);
     const std::size_t truth = table.column(id + std::string(kPhoneTruth));
-    std::vector<StampedPose<SE3>> poses;
-    while (table.next()) {
+    std::vector<TrajectoryRow> rows;
+    for_each_row(text, table, [&] {
       const Stamp stamp = stamp_in_ms(table);
-      if (!poses.empty() && stamp < poses.back().stamp) table.fail("time runs backwards");
-      add_scan(table, columns, stamp, imported_.mission.robots.back());
+      const SE3 place(position(table, truth), Eigen::Quaterniond::Identity());
+      const WifiScan scan = scan_in(table, columns, stamp);
       for (const auto& [anchor_id, column] : columns)
         add_range(table, column + 1, stamp, robot, {RobotIndex{}, anchor(anchor_id), {}});
-      if (poses.empty() || stamp > poses.back().stamp)
-        poses.push_back({stamp, SE3(position(table, truth), Eigen::Quaterniond::Identity())});
-    }
-    if (poses.empty()) table.fail("the file has no rows");
-    imported_.truth.robots.push_back({id, Trajectory<SE3>(std::move(poses)), false});
+      if (!scan.readings.empty()) imported_.mission.robots.back().wifi.push_back(scan);
+      if (rows.empty() || rows.back().pose.stamp != stamp)
+        rows.push_back({{stamp, place}, table.at().number()});
+    });
+    if (rows.empty()) table.fail("the file has no rows");
+    auto& scans = imported_.mission.robots.back().wifi;
+    std::stable_sort(scans.begin(), scans.end(),
+                     [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
+    imported_.truth.robots.push_back({id, trajectory_of_rows(text, rows, imported_.warnings), false});
   }
 
   void add_between(const Text& text) {
     CsvReader table(text);
     if (imported_.mission.robots.size() < 2)
       text.fail(1, "has ranges between two phones, but only one of them has a file");
-    while (table.next())
+    for_each_row(text, table, [&] {
       add_range(table, 1, stamp_in_ms(table), RobotIndex(std::size_t{0}),
                 {RobotIndex(std::size_t{1}), {}, {}});
+    });
   }
 
   ImportedMission take() {
@@ -83,6 +89,21 @@ class RttMission {
 
  private:
   using AnchorColumns = std::vector<std::pair<std::string, std::size_t>>;
+
+  /// Reads all rows; bad ones are left out with a warning.
+  template <class Read>
+  void for_each_row(const Text& text, CsvReader& table, const Read& read) {
+    SkippedRecords skipped;
+    std::size_t used = 0;
+    for (bool is_row = true; is_row;)
+      skipped.attempt([&] {
+        is_row = table.next();
+        if (!is_row) return;
+        read();
+        ++used;
+      });
+    skipped.conclude(text.name, "row", used, imported_.warnings);
+  }
 
   AnchorIndex anchor(const std::string& id) {
     auto& anchors = imported_.mission.anchors;
@@ -110,7 +131,7 @@ class RttMission {
     return columns;
   }
 
-  void add_scan(const CsvReader& table, const AnchorColumns& columns, Stamp stamp, Robot& robot) {
+  WifiScan scan_in(const CsvReader& table, const AnchorColumns& columns, Stamp stamp) {
     WifiScan scan{stamp, {}};
     for (const auto& [id, column] : columns) {
       const double rssi_dbm = table.number(column + kColumnsPerAnchor - 1);
@@ -118,7 +139,7 @@ class RttMission {
       if (!is_plausible_rssi(rssi_dbm)) table.fail("the level of " + id + " is implausible");
       scan.readings.push_back({AccessPointIndex(anchor(id).index()), 0, static_cast<float>(rssi_dbm)});
     }
-    if (!scan.readings.empty()) robot.wifi.push_back(std::move(scan));
+    return scan;
   }
 
   /// The distance in `column` and its spread in the next one.
@@ -196,11 +217,11 @@ ImportedMission import_wifi_rtt(const std::filesystem::path& source, const WifiR
     throw InputError(source.string(), 0, "is not a folder; a walk of two phones is one");
   WifiRttFiles files;
   std::map<std::string, Text> phones;
-  for (const auto& path : csv_files_in(source)) sort_in(read_text(path), phones, files);
+  for (const auto& path : csv_files_in(source)) sort_in(read_tool_output(path), phones, files);
   const auto above = std::filesystem::absolute(source).lexically_normal() / "..";
   if (!files.anchors)
     for (const auto& path : csv_files_in(above.lexically_normal())) {
-      Text text = read_text(path);
+      Text text = read_tool_output(path);
       if (first_line(text) == kAnchorsHead) keep_only_one(files.anchors, std::move(text));
     }
   if (phones.empty())

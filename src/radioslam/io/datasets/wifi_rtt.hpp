@@ -46,8 +46,9 @@ struct WifiRttFiles {
   std::optional<Text> anchors;  ///< where the access points are
 };
 
-/// Refuses (InputError, with the line) other columns, incomplete rows, malformed numbers, and times that
-/// decrease.
+/// Leaves out incomplete rows and malformed numbers, with a warning. Refuses (InputError) other columns, a
+/// file of which most rows are bad, and times of which more than a tenth are out of order by more than a
+/// second.
 ImportedMission mission_of_wifi_rtt(const WifiRttFiles& files, const std::string& name,
                                     const WifiRttParams& params = {});
 

@@ -6,6 +6,7 @@
 #include "radioslam/io/text/csv.hpp"
 #include "radioslam/io/text/line_fields.hpp"
 #include "radioslam/io/text/numbers.hpp"
+#include "radioslam/io/text/skipped_records.hpp"
 #include "radioslam/io/wifi/wifi_csv.hpp"
 
 namespace radioslam {
@@ -26,13 +27,27 @@ class WifineReader {
 
   std::size_t access_points() const { return access_points_; }
 
-  std::vector<WifineRow> read() {
+  std::vector<WifineRow> read(std::vector<std::string>& warnings) {
     std::vector<WifineRow> rows;
-    while (csv_.next()) {
-      rows.push_back(read_row());
-      if (rows.size() > 1 && rows.back().scan.stamp <= rows[rows.size() - 2].scan.stamp)
-        csv_.fail("the time does not increase");
-    }
+    std::vector<std::size_t> lines;
+    SkippedRecords skipped;
+    for (bool is_row = true; is_row;)
+      skipped.attempt([&] {
+        is_row = csv_.next();
+        if (!is_row) return;
+        rows.push_back(read_row());
+        lines.push_back(csv_.at().number());
+      });
+    const std::size_t read = rows.size();
+    sort_records(
+        rows, [](const WifineRow& row) { return row.scan.stamp; },
+        [&](std::size_t row) { return InputError(text_.name, lines[row], "time runs backwards"); }, skipped);
+    const auto same = [](const WifineRow& a, const WifineRow& b) { return a.scan.stamp == b.scan.stamp; };
+    const auto end = std::unique(rows.begin(), rows.end(), same);
+    for (auto row = end; row != rows.end(); ++row)
+      skipped.add(InputError(text_.name, 0, "a second row of the same time"));
+    rows.erase(end, rows.end());
+    skipped.conclude(text_.name, "row", read, warnings);
     if (rows.empty()) text_.fail(1, "the file has no rows");
     return rows;
   }
@@ -101,20 +116,26 @@ ImportedMission mission_of_wifine(const std::vector<NamedWifineFile>& files, con
   ImportedMission imported;
   imported.mission.name = name;
   imported.mission.dimension = 3;
+  SkippedRecords bad;
   for (const NamedWifineFile& file : files) {
-    WifineReader reader(file.text);
-    auto& names = imported.mission.access_points;
-    if (names.empty()) names = names_of_columns(reader.access_points());
-    if (names.size() != reader.access_points())
-      file.text.fail(1, "has other access points than the previous files");
-    add_trajectory(file.id, reader.read(), imported);
+    bad.attempt([&] {
+      WifineReader reader(file.text);
+      auto& names = imported.mission.access_points;
+      if (!names.empty() && names.size() != reader.access_points())
+        file.text.fail(1, "has other access points than the previous files");
+      std::vector<WifineRow> rows = reader.read(imported.warnings);
+      names = names_of_columns(reader.access_points());
+      add_trajectory(file.id, std::move(rows), imported);
+    });
   }
+  bad.conclude(name, "file", imported.mission.robots.size(), imported.warnings);
   return imported;
 }
 
 ImportedMission import_wifine(const std::filesystem::path& source) {
   std::vector<NamedWifineFile> files;
-  for (const auto& path : find_csv_files(source)) files.push_back({path.stem().string(), read_text(path)});
+  for (const auto& path : find_csv_files(source))
+    files.push_back({path.stem().string(), read_tool_output(path)});
   return mission_of_wifine(files, name_of_source(source));
 }
 

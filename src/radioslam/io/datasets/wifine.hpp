@@ -23,8 +23,9 @@ struct NamedWifineFile {
   Text text;
 };
 
-/// Refuses (InputError, with the line) other columns, incomplete rows, malformed numbers, times that do not
-/// increase, and a num_visible_APs that differs from the number of received access points.
+/// Leaves out incomplete rows, malformed numbers, second rows of a time, and rows whose num_visible_APs
+/// differs from the number of received access points, with a warning, as it does refused ones of several
+/// files. Refuses (InputError) other columns, and a file of which most rows are bad.
 ImportedMission mission_of_wifine(const std::vector<NamedWifineFile>& files, const std::string& name);
 
 ImportedMission import_wifine(const std::filesystem::path& source);

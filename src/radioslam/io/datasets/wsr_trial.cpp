@@ -9,6 +9,7 @@
 
 #include "radioslam/base/units.hpp"
 #include "radioslam/io/csi/intel5300.hpp"
+#include "radioslam/io/mission/tum.hpp"
 #include "radioslam/io/run/run_folder.hpp"
 #include "radioslam/io/text/line_fields.hpp"
 #include "radioslam/io/text/numbers.hpp"
@@ -130,47 +131,20 @@ StampedPose<SE3> pose_in(const TextLines& lines) {
   return {stamp, SE3(position, quaternion_in(lines, xyzw, kUnitQuaternionTolerance))};
 }
 
-/// Largest fraction of rows out of order that is left out; a table with more is refused.
-constexpr double kMaxRowsOutOfOrder = 0.1;
-
-/// The rows of a table that are in order of time.
-class PoseTable {
- public:
-  explicit PoseTable(const fs::path& file) : text_(read_text(file)) {
-    TextLines lines(text_);
-    while (lines.next_with_content()) {
-      rows_.push_back(pose_in(lines));
-      line_numbers_.push_back(lines.number());
-    }
-    if (rows_.empty()) text_.fail(1, "the file has no poses");
-  }
-
-  Trajectory<SE3> poses(std::vector<std::string>& warnings) const {
-    std::vector<Stamp> stamps;
-    for (const StampedPose<SE3>& row : rows_) stamps.push_back(row.stamp);
-    std::vector<StampedPose<SE3>> poses;
-    SkippedRecords skipped;
-    const std::vector<std::size_t> in_order = rows_in_time_order(stamps);
-    for (std::size_t row = 0; row < rows_.size(); ++row)
-      if (poses.size() < in_order.size() && in_order[poses.size()] == row)
-        poses.push_back(rows_[row]);
-      else
-        skipped.add(InputError(text_.name, line_numbers_[row], "the time does not increase"));
-    if (static_cast<double>(skipped.count()) > kMaxRowsOutOfOrder * static_cast<double>(rows_.size()))
-      skipped.throw_first();
-    if (skipped.count() > 0) warnings.push_back(skipped.warning(text_.name, "row"));
-    return Trajectory<SE3>(std::move(poses));
-  }
-
- private:
-  Text text_;
-  std::vector<StampedPose<SE3>> rows_;
-  std::vector<std::size_t> line_numbers_;
-};
+Trajectory<SE3> read_pose_table(const fs::path& file, std::vector<std::string>& warnings) {
+  const Text text = read_tool_output(file);
+  std::vector<TrajectoryRow> rows;
+  SkippedRecords skipped;
+  TextLines lines(text);
+  while (lines.next_with_content())
+    skipped.attempt([&] { rows.push_back({pose_in(lines), lines.number()}); });
+  skipped.conclude(text.name, "row", rows.size(), warnings);
+  return trajectory_of_rows(text, rows, warnings);
+}
 
 std::optional<Trajectory<SE3>> poses_if_any(const std::optional<fs::path>& file,
                                             std::vector<std::string>& warnings) {
-  return file ? std::optional(PoseTable(*file).poses(warnings)) : std::nullopt;
+  return file ? std::optional(read_pose_table(*file, warnings)) : std::nullopt;
 }
 
 /// Accessor of groundtruth_positions.json; only the requested entries are checked.
@@ -242,7 +216,7 @@ WsrTrial read_wsr_trial(const WsrTrialFiles& files) {
   trial.receiver = read_card(files.receiver);
   for (const auto& [name, capture] : files.transmitters)
     trial.transmitters.push_back({name, address_of(name), positions.of(name), read_card(capture)});
-  trial.motion_capture = PoseTable(files.motion_capture).poses(trial.warnings);
+  trial.motion_capture = read_pose_table(files.motion_capture, trial.warnings);
   trial.tracking_camera = poses_if_any(files.tracking_camera, trial.warnings);
   trial.wheel_odometry = poses_if_any(files.wheel_odometry, trial.warnings);
   return trial;

@@ -57,9 +57,9 @@ struct WsrTrial {
 /// trials without motion capture or transmitters, ambiguous files, and folders outside LOS* and NLOS*.
 std::vector<WsrTrialFiles> find_wsr_trials(const std::filesystem::path& folder);
 
-/// Reads a trial. Rows out of order in time are left out with a warning (rows_in_time_order). Refuses
-/// whatever the readers of its files refuse, unknown channels, transmitters without a position, malformed
-/// rows, and a table of poses with more than a tenth of its rows out of order.
+/// Reads a trial. Rows out of order in time by at most a second are sorted, others and malformed ones are
+/// left out with a warning. Refuses whatever the readers of its files and trajectory_of_rows refuse, unknown
+/// channels and transmitters without a position.
 WsrTrial read_wsr_trial(const WsrTrialFiles& files);
 
 }  // namespace radioslam

@@ -14,6 +14,7 @@
 #include "radioslam/geometry/se2.hpp"
 #include "radioslam/io/text/line_fields.hpp"
 #include "radioslam/io/text/numbers.hpp"
+#include "radioslam/io/text/skipped_records.hpp"
 
 namespace radioslam {
 namespace {
@@ -130,21 +131,56 @@ std::optional<SE2> read_offset(LineFields& fields, const std::string& kind) {
   return SE2({fields.coordinate("the offset"), 0}, is_rear ? std::numbers::pi : 0);
 }
 
-std::vector<CarmenScan> read_scans(const Text& text, const std::string& kind, const CarmenParams& params) {
+/// Lines that are refused are left out with a warning.
+std::vector<CarmenScan> read_scans(const Text& text, const std::string& kind, const CarmenParams& params,
+                                   std::vector<std::string>& warnings) {
   SE2 T_body_laser({0, 0}, kind == "RLASER" ? std::numbers::pi : 0);
   std::vector<CarmenScan> scans;
+  SkippedRecords skipped;
   TextLines lines(text);
-  while (lines.next_with_content()) {
-    LineFields fields(lines);
-    const std::string_view word = fields.next("a message's name");
-    if (word == "PARAM") {
-      if (const auto offset = read_offset(fields, kind)) T_body_laser = *offset;
-    } else if (word == kind) {
-      scans.push_back(kind == "ROBOTLASER1" ? read_described_scan(lines, fields)
-                                            : read_plain_scan(lines, fields, T_body_laser, params));
-    }
-  }
+  while (lines.next_with_content())
+    skipped.attempt([&] {
+      LineFields fields(lines);
+      const std::string_view word = fields.next("a message's name");
+      if (word == "PARAM") {
+        if (const auto offset = read_offset(fields, kind)) T_body_laser = *offset;
+      } else if (word == kind) {
+        scans.push_back(kind == "ROBOTLASER1" ? read_described_scan(lines, fields)
+                                              : read_plain_scan(lines, fields, T_body_laser, params));
+      }
+    });
+  skipped.conclude(text.name, "line", scans.size(), warnings);
   return scans;
+}
+
+/// Leaves out lines that are stamped further off their neighbours than put_in_order moves, if they are few.
+void leave_out_strays(const Text& text, std::vector<CarmenScan>& scans, const CarmenParams& params,
+                      std::vector<std::string>& warnings) {
+  constexpr double kMostStrays = 0.1;  // of the lines; a log with more is refused
+  std::vector<Stamp> stamps;
+  for (const CarmenScan& scan : scans) stamps.push_back(scan.stamp);
+  const std::vector<std::size_t> in_order = rows_in_time_order(stamps);
+  std::vector<CarmenScan> kept;
+  SkippedRecords strays;
+  auto next = in_order.begin();
+  for (std::size_t k = 0; k < scans.size(); ++k) {
+    const bool is_in_order = next != in_order.end() && *next == k;
+    if (is_in_order) ++next;
+    const bool is_late =
+        next != in_order.end() && stamps[k].seconds() - stamps[*next].seconds() > params.max_delay_s;
+    const bool is_early =
+        next != in_order.begin() && stamps[*(next - 1)].seconds() - stamps[k].seconds() > params.max_delay_s;
+    if (!is_in_order && (is_late || is_early))
+      strays.add(
+          InputError(text.name, scans[k].line, "its time " + format_stamp(stamps[k]) + " is not in order"));
+    else
+      kept.push_back(scans[k]);
+  }
+  if (strays.count() == 0 ||
+      static_cast<double>(strays.count()) > kMostStrays * static_cast<double>(scans.size()))
+    return;
+  scans = std::move(kept);
+  warnings.push_back(strays.warning(text.name, "line"));
 }
 
 /// Moves lines with late stamps to just before the following ones, and counts them.
@@ -215,8 +251,9 @@ LidarLog log_of(std::vector<CarmenScan> scans) {
 }  // namespace
 
 ImportedMission read_carmen(const Text& text, const std::string& robot, const CarmenParams& params) {
-  std::vector<CarmenScan> scans = read_scans(text, kind_of_scans(text), params);
   ImportedMission imported;
+  std::vector<CarmenScan> scans = read_scans(text, kind_of_scans(text), params, imported.warnings);
+  leave_out_strays(text, scans, params, imported.warnings);
   if (const std::size_t late = put_in_order(text, scans, params); late > 0)
     imported.warnings.push_back(std::to_string(late) +
                                 " scans are stamped later than a following one and were moved to before it");

@@ -45,8 +45,9 @@ struct CarmenParams {
                     "field of view of scanners whose lines do not state it");
     RADIOSLAM_FIELD(no_return_m, "m", 0.1, 1e6,
                     "readings from this range on are missing returns (scanners report 81.83 m)");
-    RADIOSLAM_FIELD(max_delay_s, "s", 0, 1e9,
-                    "largest delay of a line's time stamp; a log with a longer one is refused");
+    RADIOSLAM_FIELD(
+        max_delay_s, "s", 0, 1e9,
+        "largest delay of a line's time stamp; a log in which more than a tenth are longer is refused");
     RADIOSLAM_FIELD(sigma_xy_per_sqrt_m, "m/sqrt(m)", 0, 10,
                     "wheel odometry noise in x and y per square root of distance, for mission.yaml");
     RADIOSLAM_FIELD(
@@ -57,8 +58,9 @@ struct CarmenParams {
   }
 };
 
-/// Refuses (InputError) a log without scans, incomplete lines, malformed numbers, and times that jump back by
-/// more than max_delay_s. Other lines are skipped.
+/// Leaves out incomplete lines, malformed numbers, and lines stamped further off than max_delay_s, with a
+/// warning. Refuses (InputError) a log without scans, one of which most lines are malformed, and one of which
+/// more than a tenth are stamped further off. Other lines are skipped.
 ImportedMission read_carmen(const Text& text, const std::string& robot, const CarmenParams& params = {});
 
 }  // namespace radioslam

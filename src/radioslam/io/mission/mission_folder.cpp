@@ -75,7 +75,8 @@ void read_motion(const fs::path& folder, const Text& yaml, MissionFile& file) {
       robot.odometry = read_tum(read_text(path));
     else if (robot.lidar.empty())
       yaml.fail(file.robot_lines[k],
-                "robot '" + robot.id + "' has no robots/" + robot.id + "/odometry.tum and no LiDAR scans",
+                "robot '" + robot.id + "' has no robots/" + robot.id + "/odometry.tum and no LiDAR scans; " +
+                    kOdometrySources,
                 InputError::Kind::kTooLittle);
   }
 }

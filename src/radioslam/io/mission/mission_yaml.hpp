@@ -57,4 +57,10 @@ MissionFile read_mission_yaml(const Text& text, const std::string& default_name)
 /// cards or position fixes are written.
 std::string format_mission_yaml(const Mission& mission);
 
+/// A mission.yaml with the robots of `added`, appended to its robots unless they are there; everything else
+/// in it stays as it is written, comments included. A robot gets those settings that differ from this
+/// program's defaults and that its entry does not state; what is kept instead goes to `notes`. Refuses
+/// (InputError) a text in which no robot can be added, with its line.
+std::string extended_mission_yaml(const Text& yaml, const Mission& added, std::vector<std::string>& notes);
+
 }  // namespace radioslam

@@ -1,3 +1,5 @@
+#include <yaml-cpp/yaml.h>
+
 #include <algorithm>
 #include <array>
 
@@ -7,6 +9,7 @@
 #include "radioslam/io/text/mac_address.hpp"
 #include "radioslam/io/text/numbers.hpp"
 #include "radioslam/io/text/text.hpp"
+#include "radioslam/io/text/yaml_insertion.hpp"
 #include "radioslam/mission/wifi_channel.hpp"
 
 namespace radioslam {
@@ -103,6 +106,60 @@ std::vector<Setting> settings_of(const Robot& robot, Antennas antennas) {
           {"csi", csi}};
 }
 
+/// The settings of `robot` that the mission.yaml `file` does not give its robot of this name: those that
+/// differ from this program's defaults, which are all that an importer knows.
+std::vector<Setting> settings_to_add(const Robot& robot, const Antennas& antennas, const MissionFile& file) {
+  const auto named = std::find_if(file.mission.robots.begin(), file.mission.robots.end(),
+                                  [&](const Robot& other) { return other.id == robot.id; });
+  const auto place = static_cast<std::size_t>(named - file.mission.robots.begin());
+  const std::vector<Setting> plain = settings_of({}, {}), stated = settings_of(*named, file.antennas[place]);
+  std::vector<Setting> added = settings_of(robot, antennas);
+  for (std::size_t k = added.size(); k-- > 0;)
+    if (added[k] == plain[k] || added[k] == stated[k])
+      added.erase(added.begin() + static_cast<std::ptrdiff_t>(k));
+  return added;
+}
+
+/// Adds a setting to a robot's entry, unless it is there already, which is kept with a note.
+void add_setting(Text& yaml, const std::string& id, const Setting& setting, std::vector<std::string>& notes) {
+  const YAML::Node entry = YAML::Load(yaml.content)["robots"][id];
+  if (entry.IsMap() && entry[setting.first].IsDefined())
+    notes.push_back("mission.yaml keeps its '" + setting.first + "' of robot '" + id +
+                    "'; the recording's would be " + setting.second);
+  else
+    yaml.content = with_yaml_entry(yaml, {"robots", id}, setting.first, setting.second);
+}
+
+bool has_robot(const Mission& mission, const std::string& id) {
+  return std::any_of(mission.robots.begin(), mission.robots.end(),
+                     [&](const Robot& robot) { return robot.id == id; });
+}
+
+/// Whether a robot, of whose noise its importer knows nothing, gets other values than this program's
+/// defaults.
+bool takes_noise_of_defaults(const Robot& robot, const MissionFile& file) {
+  const auto named = std::find_if(file.mission.robots.begin(), file.mission.robots.end(),
+                                  [&](const Robot& other) { return other.id == robot.id; });
+  const std::string plain = noise_value({});
+  return !robot.odometry.empty() && noise_value(robot.odometry_noise) == plain &&
+         noise_value(named->odometry_noise) != plain;
+}
+
+/// Whether the robots of `before` are the first ones of `after`, with the same settings but for those of
+/// `added`.
+bool is_extension(const MissionFile& before, const MissionFile& after, const Mission& added) {
+  if (after.mission.robots.size() < before.mission.robots.size()) return false;
+  for (std::size_t r = 0; r < before.mission.robots.size(); ++r) {
+    const Robot &was = before.mission.robots[r], &is = after.mission.robots[r];
+    if (was.id != is.id) return false;
+    if (!has_robot(added, was.id) &&
+        settings_of(was, before.antennas[r]) != settings_of(is, after.antennas[r]))
+      return false;
+  }
+  return std::all_of(added.robots.begin(), added.robots.end(),
+                     [&](const Robot& robot) { return has_robot(after.mission, robot.id); });
+}
+
 /// The settings that differ from the defaults, in flow style.
 std::string overrides(const std::vector<Setting>& defaults, const std::vector<Setting>& settings) {
   std::string out;
@@ -131,6 +188,29 @@ std::string format_mission_yaml(const Mission& mission) {
   for (const auto& [key, value] : defaults)
     if (!value.empty()) out.append("  ").append(key).append(": ").append(value).append("\n");
   return out;
+}
+
+std::string extended_mission_yaml(const Text& yaml, const Mission& added, std::vector<std::string>& notes) {
+  const MissionFile before = read_mission_yaml(yaml, "");
+  const std::vector<Antennas> antennas = antennas_of(added);
+  Text grown = yaml;
+  try {
+    for (const Robot& robot : added.robots)
+      if (!has_robot(before.mission, robot.id))
+        grown.content = with_yaml_entry(grown, {"robots"}, quoted(robot.id), "{}");
+    const MissionFile plain = read_mission_yaml(grown, "");
+    for (const Robot& robot : added.robots)
+      if (!has_robot(before.mission, robot.id) && takes_noise_of_defaults(robot, plain))
+        notes.push_back("robot '" + robot.id + "' takes the odometry noise of the defaults in mission.yaml");
+    for (std::size_t r = 0; r < added.robots.size(); ++r)
+      for (const Setting& setting : settings_to_add(added.robots[r], antennas[r], plain))
+        add_setting(grown, added.robots[r].id, setting, notes);
+    if (is_extension(before, read_mission_yaml(grown, ""), added)) return grown.content;
+  } catch (const YAML::Exception&) {
+  } catch (const InputError&) {
+  }
+  yaml.fail(before.robots_line, "a robot cannot be added to it; write '" + quoted(added.robots.front().id) +
+                                    ": {}' under 'robots' and import again");
 }
 
 }  // namespace radioslam

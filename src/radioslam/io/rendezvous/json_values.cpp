@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "radioslam/base/input_error.hpp"
+#include "radioslam/base/suggestion.hpp"
+#include "radioslam/io/text/text.hpp"
 
 namespace radioslam {
 namespace {
@@ -16,6 +18,14 @@ constexpr std::size_t kQuotedBytes = 40;
 constexpr double kExactWhole = 9007199254740992;  ///< 2^53: larger doubles skip whole numbers
 
 std::string in_quotes(std::string_view text) { return "'" + std::string(text.substr(0, kQuotedBytes)) + "'"; }
+
+/// Whether a name differs from a member's by one letter in three, or by capitals.
+bool is_misspelt(std::string_view name, std::string_view member) {
+  constexpr std::size_t kLettersPerError = 3;
+  const std::size_t allowed = std::max<std::size_t>(1, member.size() / kLettersPerError);
+  if (name.size() > member.size() + allowed) return false;  // also bounds the cost
+  return edit_distance(lower_case(name), lower_case(member)) <= allowed;
+}
 
 std::optional<double> number_of(const Json& json, const NumberKind& kind) {
   if (!json.is_number()) return std::nullopt;
@@ -95,14 +105,28 @@ void JsonObject::fail(std::string_view member, std::string_view what) const {
 }
 
 bool JsonObject::has(std::string_view member) const {
+  asked_.push_back(member);
   const auto at = json_.find(member);
   return at != json_.end() && !at->is_null();
 }
 
 const Json& JsonObject::at(std::string_view member) const {
+  asked_.push_back(member);
   const auto at = json_.find(member);
   if (at == json_.end()) refuse_json(name_ + " has no " + in_quotes(member));
   return *at;
+}
+
+void JsonObject::refuse_misspelt() const {
+  constexpr std::size_t kMostMembers = 64;  // a line of more is no driver's, and would take long
+  if (json_.size() > kMostMembers) return;
+  for (const auto& entry : json_.items()) {
+    if (std::find(asked_.begin(), asked_.end(), entry.key()) != asked_.end()) continue;
+    for (const std::string_view member : asked_)
+      if (is_misspelt(entry.key(), member))
+        refuse_json(in_quotes(entry.key()) + " of " + name_ + " is not known; did you mean " +
+                    std::string(member) + "?");
+  }
 }
 
 double JsonObject::number(std::string_view member, const NumberKind& kind) const {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "radioslam/geometry/se2.hpp"
 
@@ -40,7 +41,8 @@ class JsonObject {
  public:
   using Json = nlohmann::json;
 
-  /// Refuses other values than objects. Members that nobody asks for may be there: drivers add their own.
+  /// Refuses other values than objects. Members of drivers' own may be there, unless their names are
+  /// almost those of members that are read (refuse_misspelt).
   JsonObject(const Json& json, std::string name);
 
   /// Whether the member is there and not null.
@@ -57,11 +59,15 @@ class JsonObject {
   /// [x, y, yaw]
   SE2 pose(std::string_view member) const;
 
+  /// Refuses a member that was not asked for and is spelt almost like one that was. To be called last.
+  void refuse_misspelt() const;
+
   [[noreturn]] void fail(std::string_view member, std::string_view what) const;
 
  private:
   const Json& json_;
   std::string name_;
+  mutable std::vector<std::string_view> asked_;  ///< members, literals of the callers
 };
 
 /// A list of so many values, read from left to right; `name` is for error messages.

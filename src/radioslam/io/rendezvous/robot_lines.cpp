@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "radioslam/base/suggestion.hpp"
 #include "radioslam/io/rendezvous/json_values.hpp"
 #include "radioslam/io/rendezvous/robot_message_json.hpp"
 
@@ -30,6 +31,7 @@ RobotEvent read_start(const Json& json) {
   if (from.has("max_step_m")) start.max_step_m = from.number("max_step_m", kPositive);
   if (from.has("kappa")) start.kappa = static_cast<int>(from.whole_number("kappa", kLargestKappa));
   if (start.kappa && *start.kappa < 1) from.fail("kappa", "at least 1");
+  from.refuse_misspelt();
   return start;
 }
 
@@ -40,6 +42,7 @@ RobotEvent read_odometry(const Json& json) {
   step.T_previous_body = from.pose("T_previous_body");
   step.sigma_m = from.number("sigma_m", kNotNegative);
   step.sigma_rad = from.number("sigma_rad", kNotNegative);
+  from.refuse_misspelt();
   return step;
 }
 
@@ -51,6 +54,7 @@ RobotEvent read_seen(const Json& json) {
   seen.T_i_j = from.pose("T_i_j");
   seen.sigma_m = from.number("sigma_m", kNotNegative);
   seen.sigma_rad = from.number("sigma_rad", kNotNegative);
+  from.refuse_misspelt();
   return seen;
 }
 
@@ -60,6 +64,7 @@ ArrivalPath read_path(const Json& json) {
   path.azimuth_rad = from.number("azimuth_rad");
   path.sigma_rad = std::max(from.number("sigma_rad", kNotNegative), kSmallestSigma_rad);
   path.power_db = from.number("power_db", kDecibels);
+  from.refuse_misspelt();
   return path;
 }
 
@@ -72,18 +77,23 @@ RobotEvent read_packet(const Json& json) {
   for (const Json& path : from.list("paths")) packet.paths.push_back(read_path(path));
   if (from.has("message"))
     packet.message = std::make_shared<const RobotMessage>(read_message(from.at("message")));
+  from.refuse_misspelt();
   return packet;
 }
 
 RobotEvent read_obstacle(const Json& json) {
   const JsonObject from(json, "obstacle");
-  return ObstacleAhead{from.number("t_s", kSeconds), from.number("azimuth_rad"),
-                       from.number("distance_m", kNotNegative)};
+  const ObstacleAhead obstacle{from.number("t_s", kSeconds), from.number("azimuth_rad"),
+                               from.number("distance_m", kNotNegative)};
+  from.refuse_misspelt();
+  return obstacle;
 }
 
 RobotEvent read_tick(const Json& json) {
   const JsonObject from(json, "tick");
-  return DecisionTick{from.number("t_s", kSeconds), from.has("talk") && from.flag("talk")};
+  const DecisionTick tick{from.number("t_s", kSeconds), from.has("talk") && from.flag("talk")};
+  from.refuse_misspelt();
+  return tick;
 }
 
 RobotEvent read_finish(const Json& json) {
@@ -103,6 +113,13 @@ constexpr std::array kReaders = std::to_array<EventReader>({{"start", read_start
                                                             {"obstacle", read_obstacle},
                                                             {"tick", read_tick},
                                                             {"finish", read_finish}});
+
+[[noreturn]] void refuse_event(const std::string& name) {
+  std::vector<std::string> known;
+  for (const EventReader& reader : kReaders) known.emplace_back(reader.event);
+  const std::string shown = name.substr(0, kLongestName);
+  refuse_json("unknown event '" + shown + "'" + did_you_mean(shown, known));
+}
 
 // ---- answers --------------------------------------------------------------------------------------------
 
@@ -164,7 +181,7 @@ RobotEvent read_robot_event(std::string_view line) {
   const auto event = json.begin();
   const auto reader = std::find_if(kReaders.begin(), kReaders.end(),
                                    [&](const EventReader& each) { return each.event == event.key(); });
-  if (reader == kReaders.end()) refuse_json("unknown event '" + event.key().substr(0, kLongestName) + "'");
+  if (reader == kReaders.end()) refuse_event(event.key());
   return reader->read(event.value());
 }
 

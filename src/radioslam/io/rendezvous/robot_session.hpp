@@ -28,6 +28,7 @@ class RobotSession {
   std::vector<std::string> line(std::string_view text);
   /// The lines that answer the end of the input: none unless the robot has started and not finished.
   std::vector<std::string> end();
+  bool has_started() const { return robot_ != nullptr; }
   bool finished() const { return finished_; }
 
  private:

@@ -101,6 +101,23 @@ void exchange(const fs::path& from, const fs::path& to) {
   fs::rename(aside, from);
 }
 
+void exchange_or_move(const OutputFolder::Move& move) {
+  fs::create_directories(move.to.parent_path());
+  if (fs::exists(move.to))
+    exchange(move.from, move.to);
+  else
+    fs::rename(move.from, move.to);
+}
+
+void undo(const OutputFolder::Move& move) {
+  std::error_code ignored;
+  if (fs::exists(move.from, ignored))
+    exchange(move.from, move.to);
+  else
+    fs::rename(move.to, move.from);
+  fs::remove(move.to.parent_path(), ignored);  // only if empty
+}
+
 }  // namespace
 
 UnfinishedOutput::UnfinishedOutput(const fs::path& target) : target_(resolved(target)) {
@@ -141,6 +158,18 @@ void OutputFolder::commit() {
     exchange(temporary_, target_);
   } else {
     fs::rename(temporary_, target_);
+  }
+}
+
+void OutputFolder::commit_parts(const std::vector<Move>& moves) {
+  const std::lock_guard lock(registry().mutex);
+  refuse_when_closed(target_);
+  std::size_t done = 0;
+  try {
+    for (; done < moves.size(); ++done) exchange_or_move(moves[done]);
+  } catch (const std::system_error&) {
+    while (done-- > 0) undo(moves[done]);
+    throw;
   }
 }
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <string_view>
+#include <vector>
 
 namespace radioslam {
 
@@ -39,6 +40,12 @@ class OutputFolder : private UnfinishedOutput {
   const std::filesystem::path& path() const { return temporary_; }
   /// Moves the folder to the target; an older folder there is removed.
   void commit();
+  /// Instead of the whole folder, moves parts of it, or out of the way into it, one after the other; what is
+  /// at `to` goes to `from`. All moves are undone if one fails (std::system_error).
+  struct Move {
+    std::filesystem::path from, to;
+  };
+  void commit_parts(const std::vector<Move>& moves);
 };
 
 /// A file that is written atomically and replaces an older one. Throws std::system_error if it cannot be

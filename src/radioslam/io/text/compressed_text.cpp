@@ -167,7 +167,7 @@ std::string decompress_zstd(const std::string& name, std::string_view bytes, std
 }
 
 Text read_compressed_text(const std::filesystem::path& path) {
-  return make_text(path.string(), unpacked(path.string(), read_bytes(path)));
+  return make_tool_output(path.string(), unpacked(path.string(), read_bytes(path)));
 }
 
 bool has_zstd_extension(const std::filesystem::path& path) { return path.extension() == ".zst"; }

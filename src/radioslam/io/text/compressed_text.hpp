@@ -27,7 +27,7 @@ std::string decompress_zstd(const std::string& name, std::string_view bytes,
                             std::size_t limit = kMaxDecompressed);
 
 /// Reads a file as text that may be compressed with gzip, bzip2 or Zstandard, recognised by its first bytes.
-/// Refuses (InputError) whatever make_text refuses.
+/// Refuses (InputError) whatever make_tool_output refuses.
 Text read_compressed_text(const std::filesystem::path& path);
 
 /// Whether the path ends in .zst: `graph.pyfg.zst`.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <memory>
@@ -42,6 +43,52 @@ std::optional<std::size_t> first_foreign_byte(std::string_view s) {
   return std::nullopt;
 }
 
+void append_utf8(std::string& out, std::uint32_t code) {
+  const auto continuation = [&](unsigned shift) {
+    out += static_cast<char>(0x80U | (code >> shift & 0x3fU));
+  };
+  if (code < 0x80) {
+    out += static_cast<char>(code);
+  } else if (code < 0x800) {
+    out += static_cast<char>(0xc0U | code >> 6U);
+    continuation(0);
+  } else if (code < 0x10000) {
+    out += static_cast<char>(0xe0U | code >> 12U);
+    continuation(6), continuation(0);
+  } else {
+    out += static_cast<char>(0xf0U | code >> 18U);
+    continuation(12), continuation(6), continuation(0);
+  }
+}
+
+/// UTF-16 with its byte order mark, as programs of Windows write it; an unpaired surrogate becomes U+FFFD.
+std::string utf8_of_utf16(std::string_view bytes) {
+  constexpr std::uint32_t kReplacement = 0xfffd, kHigh = 0xd800, kLow = 0xdc00, kBehind = 0xe000;
+  const std::size_t high = bytes[0] == '\xfe' ? 0 : 1;  // place of the high byte in a unit
+  const auto unit = [&](std::size_t at) -> std::uint32_t {
+    return static_cast<std::uint32_t>(byte_at(bytes, at + high)) << 8U | byte_at(bytes, at + 1 - high);
+  };
+  std::string out;
+  for (std::size_t at = 2; at + 1 < bytes.size(); at += 2) {
+    std::uint32_t code = unit(at);
+    const bool is_pair = code >= kHigh && code < kLow && at + 3 < bytes.size() && unit(at + 2) >= kLow &&
+                         unit(at + 2) < kBehind;
+    if (is_pair) {
+      code = 0x10000U + ((code - kHigh) << 10U) + (unit(at + 2) - kLow);
+      at += 2;
+    }
+    append_utf8(out, code >= kHigh && code < kBehind ? kReplacement : code);
+  }
+  return out;
+}
+
+Text without_byte_order_mark(std::string name, std::string content) {
+  if (content.starts_with("\xef\xbb\xbf")) content.erase(0, 3);
+  Text text{std::move(name), std::move(content)};
+  if (text.content.empty()) text.fail(1, "the file is empty");
+  return text;
+}
+
 constexpr std::size_t kMaxId = 200;  // file names have at most 255 bytes
 
 bool is_control_character(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
@@ -49,18 +96,19 @@ bool is_control_character(char c) { return static_cast<unsigned char>(c) < 0x20 
 }  // namespace
 
 Text make_tool_output(std::string name, std::string content) {
-  if (content.starts_with("\xef\xbb\xbf")) content.erase(0, 3);
-  Text text{std::move(name), std::move(content)};
-  if (text.content.empty()) text.fail(1, "the file is empty");
-  return text;
+  if (content.starts_with("\xff\xfe") || content.starts_with("\xfe\xff")) content = utf8_of_utf16(content);
+  return without_byte_order_mark(std::move(name), std::move(content));
 }
 
 Text make_text(std::string name, std::string content) {
-  Text text = make_tool_output(std::move(name), std::move(content));
+  Text text = without_byte_order_mark(std::move(name), std::move(content));
   if (const auto place = first_foreign_byte(text.content)) {
     const auto end = text.content.begin() + static_cast<std::ptrdiff_t>(*place);
-    text.fail(1 + static_cast<std::size_t>(std::count(text.content.begin(), end, '\n')),
-              "not UTF-8 text (byte " + std::to_string(*place + 1) + " of the file)");
+    const auto byte = static_cast<unsigned char>(*end);
+    text.fail(
+        1 + static_cast<std::size_t>(std::count(text.content.begin(), end, '\n')),
+        (byte < 0x80 ? "a control character, code " + std::to_string(byte) : std::string("not UTF-8 text")) +
+            " (byte " + std::to_string(*place + 1) + " of the file)");
   }
   return text;
 }

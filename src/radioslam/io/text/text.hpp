@@ -34,8 +34,8 @@ std::string read_bytes(const std::filesystem::path& path);
 /// Reads a whole file as text. Refuses whatever read_bytes and make_text refuse.
 Text read_text(const std::filesystem::path& path);
 
-/// Text printed by a tool, which may contain names as raw bytes; the encoding is not checked. Refuses empty
-/// content.
+/// Text written by another program, which may contain names as raw bytes: the encoding is not checked, and
+/// UTF-16 with a byte order mark becomes UTF-8. Refuses empty content.
 Text make_tool_output(std::string name, std::string content);
 Text read_tool_output(const std::filesystem::path& path);
 

@@ -5,6 +5,7 @@
 
 #include "radioslam/base/units.hpp"
 #include "radioslam/io/text/numbers.hpp"
+#include "radioslam/io/text/skipped_records.hpp"
 #include "radioslam/io/wifi/log_time.hpp"
 #include "radioslam/mission/wifi_channel.hpp"
 
@@ -41,11 +42,25 @@ class AirodumpRows {
 
   [[noreturn]] void fail(std::size_t line, const std::string& reason) const { text_.fail(line, reason); }
 
+  /// Reads a row; a refused one is counted.
+  template <class Read>
+  void attempt(Read&& read) {
+    if (skipped_.attempt(read)) ++read_;
+  }
+
+  WifiLog take() {
+    for (std::string& warning : log.warnings) warning = text_.name + ": " + warning;
+    skipped_.conclude(text_.name, "row", read_, log.warnings);
+    return std::move(log);
+  }
+
   WifiLog log;
 
  private:
   const Text& text_;
   double offset_s_ = 0;
+  SkippedRecords skipped_;
+  std::size_t read_ = 0;
 };
 
 /// Reads a table byte by byte, because names may contain line ends.
@@ -61,7 +76,7 @@ class NetworksReader {
       if (trim(line).empty())
         skip_to(end_of_line(at_));
       else
-        read_row();
+        rows_.attempt([&] { read_row(); });
     }
   }
 
@@ -93,34 +108,37 @@ class NetworksReader {
     at_ = next;
   }
 
+  /// Advances behind the row, or behind its line before it is refused.
   void read_row() {
     const std::string_view line = rest_of_line();
+    const std::size_t row = at_, number = line_;
+    skip_to(end_of_line(at_));
     std::array<std::string_view, kColumns> fields;
     std::size_t begin = 0;
     for (std::string_view& field : fields) {
       const std::size_t comma = line.find(',', begin);
-      if (comma == std::string_view::npos) return read_torn_row();
+      if (comma == std::string_view::npos) return read_torn_row(number);
       field = line.substr(begin, comma - begin);
       begin = comma + 1;
     }
     const auto channel = parse_integer(trim(fields[kChannel]));
-    if (!channel) rows_.fail(line_, quoted_bytes(trim(fields[kChannel])) + " is not a valid channel");
+    if (!channel) rows_.fail(number, quoted_bytes(trim(fields[kChannel])) + " is not a valid channel");
     const double carrier_hz = carrier_of_channel_hz(*channel).value_or(0);
-    rows_.add(line_, fields[kLastSeenColumn], fields[kBssid], fields[kPower], carrier_hz / kHzPerMhz);
-    skip_to(end_of_row(at_ + begin, trim(fields[kIdLength])));
+    const std::size_t end = end_of_row(number, row + begin, trim(fields[kIdLength]));
+    if (end >= at_) skip_to(end);
+    rows_.add(number, fields[kLastSeenColumn], fields[kBssid], fields[kPower], carrier_hz / kHzPerMhz);
   }
 
   /// airodump rewrites its file while it runs, so the last row may be truncated.
-  void read_torn_row() {
-    if (end_of_line(at_) < bytes_.size()) rows_.fail(line_, "the row ends before its ESSID");
+  void read_torn_row(std::size_t number) {
+    if (at_ < bytes_.size() || bytes_.ends_with('\n')) rows_.fail(number, "the row ends before its ESSID");
     rows_.log.warnings.push_back("the file ends within a row, which is left out");
-    at_ = bytes_.size();
   }
 
   /// End of the row whose name has the stated length and begins after the blank at `name`.
-  std::size_t end_of_row(std::size_t name, std::string_view id_length) const {
+  std::size_t end_of_row(std::size_t number, std::size_t name, std::string_view id_length) const {
     const auto length = parse_id(id_length);
-    if (!length) rows_.fail(line_, quoted_bytes(id_length) + " is not a valid ID-length");
+    if (!length) rows_.fail(number, quoted_bytes(id_length) + " is not a valid ID-length");
     const std::size_t behind =
         name + 1 + static_cast<std::size_t>(std::min<std::uint64_t>(*length, kMaxName));
     const bool is_whole = behind < bytes_.size() && bytes_[behind] == ',';
@@ -163,26 +181,48 @@ class RecordFields {
   bool is_whole = false;
 };
 
-void read_records(TextLines& lines, AirodumpRows& rows) {
-  std::string record;
-  std::size_t first = 0, ends = 0;
-  while (lines.next()) {
-    if (record.empty() && trim(lines.line()).empty()) continue;
-    if (record.empty()) first = lines.number(), ends = 0;
-    (record += ends > 0 ? "\n" : "") += lines.line();
-    const RecordFields fields(record);
-    if (fields.is_whole && fields.behind[RecordFields::kType] == "AP")
-      rows.add(first, fields.time, fields.behind[RecordFields::kBssid], fields.behind[RecordFields::kPower],
-               0);
-    if (fields.is_whole)
-      record.clear();
-    else if (++ends > kMaxName)
-      break;
+/// Reads the log of receptions, whose records may go over several lines.
+class RecordsReader {
+ public:
+  RecordsReader(TextLines& lines, AirodumpRows& rows) : lines_(lines), rows_(rows) {}
+
+  void read() {
+    while (lines_.next()) {
+      if (record_.empty() && trim(lines_.line()).empty()) continue;
+      if (!record_.empty() && (begins_with_time() || ends_ > kMaxName)) refuse();
+      if (record_.empty()) first_ = lines_.number(), ends_ = 0;
+      (record_ += ends_++ > 0 ? "\n" : "") += lines_.line();
+      const RecordFields fields(record_);
+      if (!fields.is_whole) continue;
+      rows_.attempt([&] { add(fields); });
+      record_.clear();
+    }
+    if (record_.empty()) return;
+    if (lines_.terminated()) return refuse();
+    rows_.log.warnings.push_back("the file ends within a row, which is left out");
   }
-  if (record.empty()) return;
-  if (lines.next() || lines.terminated()) rows.fail(first, "not a row of airodump's log");
-  rows.log.warnings.push_back("the file ends within a row, which is left out");
-}
+
+ private:
+  bool begins_with_time() const {
+    return parse_calendar_time(trim(lines_.line().substr(0, lines_.line().find(',')))).has_value();
+  }
+
+  void add(const RecordFields& fields) {
+    if (fields.behind[RecordFields::kType] == "AP")
+      rows_.add(first_, fields.time, fields.behind[RecordFields::kBssid], fields.behind[RecordFields::kPower],
+                0);
+  }
+
+  void refuse() {
+    rows_.attempt([&] { rows_.fail(first_, "not a row of airodump's log"); });
+    record_.clear();
+  }
+
+  TextLines& lines_;
+  AirodumpRows& rows_;
+  std::string record_;
+  std::size_t first_ = 0, ends_ = 0;
+};
 
 }  // namespace
 
@@ -197,12 +237,11 @@ WifiLog read_airodump(const Text& text, const AirodumpParams& params) {
     const std::size_t at = end == std::string::npos ? text.content.size() : end + 1;
     NetworksReader(text, lines.number() + 1, at, rows).read();
   } else if (lines.line().starts_with(kRecordsHead)) {
-    read_records(lines, rows);
+    RecordsReader(lines, rows).read();
   } else {
     text.fail(lines.number(), "neither the header of airodump's CSV nor that of its log");
   }
-  for (std::string& warning : rows.log.warnings) warning = text.name + ": " + warning;
-  return std::move(rows.log);
+  return rows.take();
 }
 
 }  // namespace radioslam

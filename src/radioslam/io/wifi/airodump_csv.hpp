@@ -32,8 +32,8 @@ struct AirodumpParams {
   }
 };
 
-/// Refuses (InputError) a text that is neither table, and, with their line, incomplete rows and malformed
-/// addresses, times and numbers.
+/// Leaves out incomplete rows and malformed addresses, times and numbers, with a warning. Refuses
+/// (InputError) a text that is neither table, or of which most rows are malformed.
 WifiLog read_airodump(const Text& text, const AirodumpParams& params);
 
 }  // namespace radioslam

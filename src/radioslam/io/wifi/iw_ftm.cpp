@@ -9,6 +9,7 @@
 #include "radioslam/base/units.hpp"
 #include "radioslam/io/text/mac_address.hpp"
 #include "radioslam/io/text/numbers.hpp"
+#include "radioslam/io/text/skipped_records.hpp"
 
 namespace radioslam {
 namespace {
@@ -61,20 +62,27 @@ class ResultReader {
  public:
   explicit ResultReader(const Text& text) : at_(text) {}
 
-  std::vector<PeerResult> read() {
+  /// A refused line costs the result that it belongs to.
+  std::vector<PeerResult> read(SkippedRecords& skipped) {
     while (at_.next()) {
       const std::string_view line = trim(at_.line());
-      if (const auto head = line.find(kHead); head != std::string_view::npos)
-        start_event(line.substr(0, head));
-      else if (line.starts_with(kPeer))
-        start_peer(line.substr(kPeer.size()));
-      else if (is_inside_)
-        read_inside(line);
+      if (skipped.attempt([&] { read_line(line); })) continue;
+      results_.pop_back();
+      is_inside_ = false;
     }
     return std::move(results_);
   }
 
  private:
+  void read_line(std::string_view line) {
+    if (const auto head = line.find(kHead); head != std::string_view::npos)
+      start_event(line.substr(0, head));
+    else if (line.starts_with(kPeer))
+      start_peer(line.substr(kPeer.size()));
+    else if (is_inside_)
+      read_inside(line);
+  }
+
   /// "1574407123.123456: wlan0 (phy #0): "; other forms of the time are ignored.
   void start_event(std::string_view prefix) {
     is_inside_ = false;
@@ -193,10 +201,12 @@ void add(const PeerResult& result, std::optional<Stamp> stamp, const IwFtmParams
 }  // namespace
 
 IwFtmLog read_iw_ftm(const Text& text, const IwFtmParams& params) {
-  const std::vector<PeerResult> results = ResultReader(text).read();
+  IwFtmLog log;
+  SkippedRecords skipped;
+  const std::vector<PeerResult> results = ResultReader(text).read(skipped);
+  skipped.conclude(text.name, "result", results.size(), log.warnings);
   if (results.empty()) text.fail(0, "contains no result of iw's peer measurements");
   const auto boot = boot_ns(results);
-  IwFtmLog log;
   for (const PeerResult& result : results)
     add(result, time_of(result, boot, params.clock_offset_s), params, log);
   std::stable_sort(log.ranges.begin(), log.ranges.end(),

@@ -65,10 +65,11 @@ struct IwFtmLog {
   std::size_t implausible = 0;   ///< too long, or too far below zero
   std::size_t timeless = 0;      ///< without a time
   std::size_t disagreeing = 0;   ///< DIST_AVG contradicts RTT_AVG; these are included in `ranges`
+  std::vector<std::string> warnings;
 };
 
-/// Refuses (InputError) a text without any peer's result, and, with their line, malformed numbers and
-/// addresses and values that appear twice in one result.
+/// Leaves out results with malformed numbers and addresses or a value that appears twice, with a warning.
+/// Refuses (InputError) a text without any peer's result, or of which most are malformed.
 IwFtmLog read_iw_ftm(const Text& text, const IwFtmParams& params);
 
 }  // namespace radioslam

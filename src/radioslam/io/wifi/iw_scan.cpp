@@ -5,7 +5,7 @@
 
 #include "radioslam/base/units.hpp"
 #include "radioslam/io/text/numbers.hpp"
-#include "radioslam/io/wifi/log_time.hpp"
+#include "radioslam/io/text/skipped_records.hpp"
 
 namespace radioslam {
 namespace {
@@ -36,41 +36,62 @@ class IwScanReader {
  public:
   explicit IwScanReader(const Text& text) : lines_(text) {}
 
-  ScanListLog read() {
+  ScanListLog read(const std::string& name) {
     while (lines_.next()) {
       const std::string_view line = lines_.line();
-      if (const auto time = parse_time_line(line)) {
-        log_.scans.push_back({lines_.number(), time, {}});
+      if (auto list = list_at_time(lines_, log_, foreign_)) {
+        log_.scans.push_back(std::move(*list));
         is_inside_ = false;
       } else if (line.starts_with(kBss)) {
-        start_bss(line.substr(kBss.size()));
-      } else if (is_inside_) {
-        read_attribute(trim(line));
+        is_inside_ = false;
+        attempt([&] { return start_bss(line.substr(kBss.size())); });
+      } else if (!is_inside_ || !attempt([&] { return read_attribute(trim(line)); })) {
+        if (!is_indented(line)) foreign_.add(lines_);
       }
     }
+    skipped_.conclude(name, "radio", log_.readings(), log_.warnings);
+    foreign_.conclude(name, log_);
     return std::move(log_);
   }
 
  private:
   ScanListReading& reading() { return log_.scans.back().readings.back(); }
   bool is_torn() const { return !lines_.terminated(); }
+  static bool is_indented(std::string_view line) { return line.starts_with(' ') || line.starts_with('\t'); }
 
-  /// "02:00:00:00:01:00(on wlan0) -- associated"
-  void start_bss(std::string_view rest) {
-    is_inside_ = has_signal_ = has_frequency_ = false;
-    const std::string_view address = rest.substr(0, rest.find_first_of(" (\t"));
-    const auto bssid = parse_bssid(address);
-    if (!bssid && is_torn()) return;
-    if (!bssid) lines_.fail(quoted_bytes(address) + " is not a valid address of a BSS");
-    if (log_.scans.empty()) log_.scans.push_back({lines_.number(), std::nullopt, {}});
-    log_.scans.back().readings.emplace_back().bssid = *bssid;
-    is_inside_ = true;
+  /// A refused line costs the radio that it belongs to. False if it was neither read nor refused.
+  template <class Read>
+  bool attempt(Read&& read) {
+    bool is_read = true;
+    if (skipped_.attempt([&] { is_read = read(); })) return is_read;
+    if (is_inside_) log_.scans.back().readings.pop_back();
+    is_inside_ = false;
+    return true;
   }
 
-  void read_attribute(std::string_view line) {
-    if (line.starts_with(kFrequencyMark)) read_frequency(trim(line.substr(kFrequencyMark.size())));
-    if (line.starts_with(kSignalMark)) read_signal(trim(line.substr(kSignalMark.size())));
-    if (line.starts_with(kLastSeen)) read_last_seen(trim(line.substr(kLastSeen.size())));
+  /// "02:00:00:00:01:00(on wlan0) -- associated"
+  bool start_bss(std::string_view rest) {
+    has_signal_ = has_frequency_ = false;
+    const std::string_view address = rest.substr(0, rest.find_first_of(" (\t"));
+    const auto bssid = parse_bssid(address);
+    if (!bssid && is_torn()) return true;
+    if (!bssid) lines_.fail(quoted_bytes(address) + " is not a valid address of a BSS");
+    if (log_.scans.empty()) log_.scans.push_back({lines_.number(), std::nullopt, {}, {}});
+    log_.scans.back().readings.emplace_back().bssid = *bssid;
+    return is_inside_ = true;
+  }
+
+  /// False for lines that are not used.
+  bool read_attribute(std::string_view line) {
+    if (line.starts_with(kFrequencyMark))
+      read_frequency(trim(line.substr(kFrequencyMark.size())));
+    else if (line.starts_with(kSignalMark))
+      read_signal(trim(line.substr(kSignalMark.size())));
+    else if (line.starts_with(kLastSeen))
+      read_last_seen(trim(line.substr(kLastSeen.size())));
+    else
+      return false;
+    return true;
   }
 
   void read_frequency(std::string_view token) {
@@ -112,6 +133,8 @@ class IwScanReader {
 
   TextLines lines_;
   ScanListLog log_;
+  SkippedRecords skipped_;
+  ForeignLines foreign_;
   bool is_inside_ = false, has_signal_ = false, has_frequency_ = false;
 };
 
@@ -129,7 +152,7 @@ std::vector<ScanList> dated_by_boot_clock(ScanList scan) {
     const auto printed = printed_s(reading);
     const bool is_later = printed && !parts.empty() && parts.back().stamp &&
                           std::abs(*printed - parts.back().stamp->seconds()) > kSamePrint_s;
-    if (parts.empty() || is_later) parts.push_back({scan.line, std::nullopt, {}});
+    if (parts.empty() || is_later) parts.push_back({scan.line, std::nullopt, {}, {}});
     if (printed && !parts.back().stamp) {
       parts.back().stamp = Stamp::from_seconds(*printed);
       parts.back().clock = ScanListClock::kBoot;
@@ -142,12 +165,10 @@ std::vector<ScanList> dated_by_boot_clock(ScanList scan) {
 }  // namespace
 
 ScanListLog read_iw_scans(const Text& text) {
-  ScanListLog log = IwScanReader(text).read();
-  std::size_t radios = 0;
-  for (const ScanList& scan : log.scans) radios += scan.readings.size();
-  if (radios == 0) text.fail(0, "contains no BSS of an iw scan");
+  ScanListLog log = IwScanReader(text).read(text.name);
+  if (log.readings() == 0) text.fail(0, "contains no BSS of an iw scan");
   // There is a single list only if the log has no time lines.
-  if (log.scans.size() == 1 && !log.scans.front().stamp)
+  if (log.scans.size() == 1 && !log.scans.front().stamp && log.scans.front().unread_time.empty())
     log.scans = dated_by_boot_clock(std::move(log.scans.front()));
   return log;
 }

@@ -8,18 +8,18 @@
 //           last seen: 3520 ms ago
 //           SSID: ...
 //
-// Other lines are skipped. A scan list begins with a line that is a time. In a log that has only boot times,
-// a list begins where these show a later printing time; its time is then that of the boot clock, unless
-// another one is given (time_scans). A level without dBm ("50/100") counts as missing. An incomplete entry at
-// the end of the file is left out.
+// Other indented lines are skipped, other lines also named in a note. A scan list begins with a line that is
+// a time (read_printed_time). In a log that has only boot times, a list begins where these show a later
+// printing time; its time is then that of the boot clock, unless another one is given (time_scans). A level
+// without dBm ("50/100") counts as missing. An incomplete entry at the end of the file is left out.
 #pragma once
 
 #include "radioslam/io/wifi/wifi_scan_log.hpp"
 
 namespace radioslam {
 
-/// Refuses (InputError) a text without any BSS, and, with their line, malformed addresses and numbers, and a
-/// second level or frequency of one BSS.
+/// Leaves out radios with a malformed address or number, or with a second level or frequency, with a warning.
+/// Refuses (InputError) a text without any BSS, or of which most are malformed.
 ScanListLog read_iw_scans(const Text& text);
 
 }  // namespace radioslam

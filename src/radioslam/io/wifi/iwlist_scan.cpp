@@ -4,7 +4,7 @@
 
 #include "radioslam/base/units.hpp"
 #include "radioslam/io/text/numbers.hpp"
-#include "radioslam/io/wifi/log_time.hpp"
+#include "radioslam/io/text/skipped_records.hpp"
 #include "radioslam/mission/wifi_channel.hpp"
 
 namespace radioslam {
@@ -49,13 +49,17 @@ class IwlistReader {
  public:
   explicit IwlistReader(const Text& text) : lines_(text) {}
 
-  ScanListLog read() {
+  ScanListLog read(const std::string& name) {
     while (lines_.next()) {
-      if (const auto time = parse_time_line(lines_.line()))
-        time_ = time;
-      else
-        read_line(trim(lines_.line()));
+      if (auto list = list_at_time(lines_, log_, foreign_)) {
+        begun_ = std::move(*list);
+        is_inside_ = false;
+      } else {
+        read_tolerantly(trim(lines_.line()));
+      }
     }
+    skipped_.conclude(name, "cell", log_.readings(), log_.warnings);
+    foreign_.conclude(name, log_);
     return std::move(log_);
   }
 
@@ -63,19 +67,39 @@ class IwlistReader {
   ScanListReading& cell() { return log_.scans.back().readings.back(); }
   bool is_torn() const { return !lines_.terminated(); }
 
+  /// A refused line costs the cell that it belongs to.
+  void read_tolerantly(std::string_view line) {
+    const bool was_inside = is_inside_ && !line.starts_with(kCell);
+    if (skipped_.attempt([&] { read_line(line); })) return;
+    if (was_inside) log_.scans.back().readings.pop_back();
+    is_inside_ = false;
+  }
+
   void read_line(std::string_view line) {
     if (line.find(kCompleted) != std::string_view::npos && !line.starts_with("ESSID")) return start_scan();
     if (line.starts_with(kCell) && line.find(kAddress) != std::string_view::npos) return start_cell(line);
-    if (!is_inside_) return;
+    if (!is_inside_) return name_unless_known(line);
     if (const auto frequency = value_behind(line, kFrequencyName)) read_frequency(*frequency);
     if (const auto channel = value_behind(line, kChannelName)) read_channel(*channel);
     if (line.starts_with(kQualityName) || line.starts_with(kLevelName)) read_level(line);
     if (const auto extra = value_behind(line, kExtra.substr(0, kExtra.size() - 1))) read_extra(*extra);
   }
 
+  /// Lines at the margin that belong neither to a cell nor to iwlist's own messages.
+  void name_unless_known(std::string_view line) {
+    const bool is_known = line.find("Interface doesn't support") != std::string_view::npos ||
+                          line.find("No scan results") != std::string_view::npos;
+    if (!is_known && !lines_.line().starts_with(' ')) foreign_.add(lines_);
+  }
+
   void start_scan() {
-    log_.scans.push_back({lines_.number(), time_, {}});
+    log_.scans.push_back(begun_.value_or(ScanList{lines_.number(), std::nullopt, {}, {}}));
     is_inside_ = false;
+  }
+
+  bool is_of_another_time() const {
+    const ScanList& last = log_.scans.back();
+    return begun_ && (last.stamp != begun_->stamp || last.unread_time != begun_->unread_time);
   }
 
   void start_cell(std::string_view line) {
@@ -84,7 +108,7 @@ class IwlistReader {
     const auto bssid = parse_bssid(address);
     if (!bssid && is_torn()) return;
     if (!bssid) lines_.fail(quoted_bytes(address) + " is not a valid address of a cell");
-    if (log_.scans.empty() || log_.scans.back().stamp != time_) start_scan();
+    if (log_.scans.empty() || is_of_another_time()) start_scan();
     log_.scans.back().readings.emplace_back().bssid = *bssid;
     is_inside_ = true;
   }
@@ -131,17 +155,17 @@ class IwlistReader {
 
   TextLines lines_;
   ScanListLog log_;
-  std::optional<Stamp> time_;
+  SkippedRecords skipped_;
+  ForeignLines foreign_;
+  std::optional<ScanList> begun_;  ///< an empty list with the time of the last line that is one
   bool is_inside_ = false;
 };
 
 }  // namespace
 
 ScanListLog read_iwlist_scans(const Text& text) {
-  ScanListLog log = IwlistReader(text).read();
-  std::size_t cells = 0;
-  for (const ScanList& scan : log.scans) cells += scan.readings.size();
-  if (cells == 0) text.fail(0, "contains no cell of an iwlist scan");
+  ScanListLog log = IwlistReader(text).read(text.name);
+  if (log.readings() == 0) text.fail(0, "contains no cell of an iwlist scan");
   return log;
 }
 

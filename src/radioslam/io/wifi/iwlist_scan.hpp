@@ -17,7 +17,8 @@
 
 namespace radioslam {
 
-/// Refuses (InputError) a text without any cell, and, with their line, malformed addresses and numbers.
+/// Leaves out cells with a malformed address or number, with a warning. Refuses (InputError) a text without
+/// any cell, or of which most are malformed.
 ScanListLog read_iwlist_scans(const Text& text);
 
 }  // namespace radioslam

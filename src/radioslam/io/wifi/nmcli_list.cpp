@@ -5,7 +5,7 @@
 
 #include "radioslam/base/units.hpp"
 #include "radioslam/io/text/numbers.hpp"
-#include "radioslam/io/wifi/log_time.hpp"
+#include "radioslam/io/text/skipped_records.hpp"
 #include "radioslam/mission/wifi_channel.hpp"
 
 namespace radioslam {
@@ -99,6 +99,110 @@ class NmcliRow {
   std::vector<std::string> fields_;
 };
 
+/// One row of the table for people. Of its columns, whose names and widths depend on the language and on the
+/// version, BSSID, CHAN, RATE and SIGNAL are recognised by their form: a network's name may contain blanks,
+/// but nothing behind SIGNAL has the form of the other three.
+struct NmcliTableRow {
+  std::string bssid;
+  double frequency_mhz = 0;  ///< 0 if unknown
+  int signal = 0;
+};
+
+std::vector<std::string_view> words_of(std::string_view line) {
+  std::vector<std::string_view> words;
+  for (line = trim(line); !line.empty(); line = trim(line)) {
+    const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
+    words.push_back(line.substr(0, end));
+    line.remove_prefix(end);
+  }
+  return words;
+}
+
+/// The frequency from "11  65 Mbit/s  49", which are channel, rate and signal, or from "2462 MHz  65 MB/s 49"
+/// of old versions; `end` is the place of the signal, at least 4. Nothing for other words.
+std::optional<double> frequency_before_signal(const std::vector<std::string_view>& words, std::size_t end) {
+  const auto signal = parse_integer(words[end]);
+  const bool is_form = signal && *signal >= 0 && *signal <= kFullSignal &&
+                       words[end - 1].find('/') != std::string_view::npos && parse_number(words[end - 2]);
+  if (!is_form) return std::nullopt;
+  if (words[end - 3] == "MHz") return parse_number(words[end - 4]);
+  const auto channel = parse_integer(words[end - 3]);
+  return channel ? std::optional(carrier_of_channel_hz(*channel).value_or(0) / kHzPerMhz) : std::nullopt;
+}
+
+/// Nothing for other lines.
+std::optional<NmcliTableRow> table_row(std::string_view line) {
+  constexpr std::size_t kWords = 4;
+  const std::vector<std::string_view> words = words_of(line);
+  const auto address = std::find_if(words.begin(), words.end(),
+                                    [](std::string_view word) { return parse_bssid(word).has_value(); });
+  const auto behind = static_cast<std::size_t>(address - words.begin()) + kWords;
+  for (std::size_t end = words.size(); address != words.end() && end-- > behind;)
+    if (const auto frequency_mhz = frequency_before_signal(words, end))
+      return NmcliTableRow{*parse_bssid(*address), *frequency_mhz,
+                           static_cast<int>(*parse_integer(words[end]))};
+  return std::nullopt;
+}
+
+/// Whether a line is the head of the table for people.
+bool is_table_head(std::string_view line) {
+  const std::vector<std::string_view> words = words_of(line);
+  return words.size() > 1 && (std::count(words.begin(), words.end(), "BSSID") > 0 ||
+                              std::count(words.begin(), words.end(), "SSID") > 0);
+}
+
+constexpr const char* kForPeople =
+    " of the table for people, which has no BSSID here, or other columns than BSSID, CHAN, RATE and SIGNAL; "
+    "`nmcli -t -f BSSID,SSID-HEX,CHAN,FREQ,SIGNAL dev wifi list` prints rows that can be read";
+
+/// Reads lists in either form.
+class NmcliReader {
+ public:
+  NmcliReader(const Text& text, const std::vector<std::string>& fields) : lines_(text), columns_(fields) {}
+
+  ScanListLog read(const Text& text) {
+    while (lines_.next())
+      if (lines_.line().find_first_not_of(" \t=-") != std::string_view::npos)
+        skipped_.attempt([&] { read_line(); });
+    skipped_.conclude(text.name, "row", log_.readings(), log_.warnings);
+    foreign_.conclude(text.name, log_);
+    if (log_.readings() == 0) text.fail(0, "contains no row of an nmcli list");
+    return std::move(log_);
+  }
+
+ private:
+  void read_line() {
+    const bool is_row = split_escaped(lines_.line()).size() == columns_.count;
+    if (auto list = is_row ? std::nullopt : list_at_time(lines_, log_, foreign_)) {
+      log_.scans.push_back(std::move(*list));
+    } else if (is_table_head(lines_.line())) {
+      is_table_ = true;
+    } else if (const auto row = table_row(lines_.line())) {
+      add(row->bssid, row->frequency_mhz, row->signal);
+    } else if (is_table_) {
+      lines_.fail(quoted_bytes(trim(lines_.line())) + " is a row" + kForPeople);
+    } else {
+      const NmcliRow escaped(lines_, columns_);
+      add(escaped.bssid(), escaped.frequency_mhz(), escaped.signal());
+    }
+  }
+
+  void add(const std::string& bssid, double frequency_mhz, int signal) {
+    const NmcliLevel level = level_of_nmcli_signal(signal);
+    if (!level.exact) ++log_.counts[kInexact];
+    if (signal == 0 || signal == kFullSignal) ++log_.counts[kClipped];
+    if (log_.scans.empty()) log_.scans.push_back({lines_.number(), std::nullopt, {}, {}});
+    log_.scans.back().readings.push_back({bssid, frequency_mhz, level.rssi_dbm, 0, std::nullopt});
+  }
+
+  TextLines lines_;
+  NmcliColumns columns_;
+  ScanListLog log_;
+  SkippedRecords skipped_;
+  ForeignLines foreign_;
+  bool is_table_ = false;  ///< after the head of a table for people
+};
+
 }  // namespace
 
 std::vector<std::string> default_nmcli_fields() { return {"BSSID", "SSID-HEX", "CHAN", "FREQ", "SIGNAL"}; }
@@ -125,25 +229,7 @@ NmcliLevel level_of_nmcli_signal(int signal) {
 }
 
 ScanListLog read_nmcli_lists(const Text& text, const std::vector<std::string>& fields) {
-  const NmcliColumns columns(fields);
-  ScanListLog log;
-  TextLines lines(text);
-  std::size_t rows = 0;
-  while (lines.next()) {
-    const auto time = parse_time_line(lines.line());
-    if (time || (log.scans.empty() && !trim(lines.line()).empty()))
-      log.scans.push_back({lines.number(), time, {}});
-    if (time || trim(lines.line()).empty()) continue;
-    const NmcliRow row(lines, columns);
-    const int signal = row.signal();
-    const NmcliLevel level = level_of_nmcli_signal(signal);
-    if (!level.exact) ++log.counts[kInexact];
-    if (signal == 0 || signal == kFullSignal) ++log.counts[kClipped];
-    log.scans.back().readings.push_back({row.bssid(), row.frequency_mhz(), level.rssi_dbm, 0, std::nullopt});
-    ++rows;
-  }
-  if (rows == 0) text.fail(0, "contains no row of an nmcli list");
-  return log;
+  return NmcliReader(text, fields).read(text);
 }
 
 }  // namespace radioslam

@@ -3,6 +3,8 @@
 //   1574407123.123456789                                 printed by `date +%s.%N` before each list
 //   02\:00\:00\:00\:01\:00:686F6D65:6:2437 MHz:82        ':' and '\' in a field are escaped by '\'
 //
+// The table for people, `nmcli dev wifi list` in any language, is read where it has a BSSID.
+//
 // SIGNAL is a percentage that NetworkManager computes from dBm (nm_wifi_utils_level_to_quality, since 2007):
 //   SIGNAL = 100 - trunc(100 (-40 - dBm) / 60), dBm between -100 and -40,
 // Every whole dBm gives a different SIGNAL, so the conversion is inverted exactly; -100 and -40 dBm also
@@ -31,8 +33,8 @@ struct NmcliLevel {
 };
 NmcliLevel level_of_nmcli_signal(int signal);
 
-/// Refuses (InputError) a text without rows, and, with their line, rows with another number of fields and
-/// malformed addresses, SIGNALs and frequencies.
+/// Leaves out rows with another number of fields and malformed addresses, SIGNALs and frequencies, with a
+/// warning. Refuses (InputError) a text without rows, or of which most are malformed.
 ScanListLog read_nmcli_lists(const Text& text, const std::vector<std::string>& fields);
 
 }  // namespace radioslam

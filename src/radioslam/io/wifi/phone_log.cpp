@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <string_view>
 
 #include "radioslam/base/units.hpp"
 #include "radioslam/io/text/line_fields.hpp"
 #include "radioslam/io/text/numbers.hpp"
+#include "radioslam/io/text/skipped_records.hpp"
+#include "radioslam/io/wifi/log_time.hpp"
 
 namespace radioslam {
 namespace {
@@ -19,6 +22,7 @@ constexpr std::string_view kEndTime = "endTime:";
 constexpr std::size_t kMotionFields = 6;
 constexpr std::size_t kWaypointFields = 4;
 constexpr std::size_t kWifiFields = 7;  // more if the network's name contains tabs
+constexpr std::string_view kBssidBytes = "0123456789abcdefghijklmnopqrstuvwxyz:-_.";
 constexpr double kUnitNormRounding = 1e-3;
 constexpr double kWeakestRssi_dbm = -150;
 constexpr double kStrongestRssi_dbm = 30;
@@ -37,8 +41,11 @@ Fields split_at_tabs(std::string_view line) {
 
 Stamp milliseconds_in(const TextLines& at, std::string_view field, const std::string& what) {
   const auto ms = parse_integer(field);
-  if (!ms || *ms < 0 || *ms > kMaxTime_ms) at.fail(what + " is not a time in whole milliseconds");
-  return {*ms * kNanosecondsPerMillisecond};
+  if (ms && *ms >= 0 && *ms <= kMaxTime_ms) return {*ms * kNanosecondsPerMillisecond};
+  const auto other =
+      parse_time_line(field);  // of other apps: micro- and nanoseconds, seconds with a fraction
+  if (!other) at.fail(what + " is not a time in whole milliseconds");
+  return *other;
 }
 
 /// Reads one log.
@@ -47,14 +54,15 @@ class PhoneLogReader {
   explicit PhoneLogReader(const Text& text) : text_(text), at_(text) {}
 
   PhoneLog read() {
+    std::size_t used = 0;
     while (at_.next()) {
       const std::string_view line = trim(at_.line());
       if (line.empty()) continue;
-      if (line.front() == '#')
-        read_comment(line.substr(1));
-      else
-        read_record(split_at_tabs(line));
+      if (skipped_.attempt([&] { read_line(line); })) ++used;
     }
+    find_interval();
+    sort_by_time();
+    skipped_.conclude(text_.name, "record", used, log_.warnings);
     if (!first_) text_.fail(0, "the log contains no records");
     log_.start = start_time_.value_or(*first_);
     log_.begin = std::min(log_.start, *first_);
@@ -65,6 +73,50 @@ class PhoneLogReader {
   }
 
  private:
+  void read_line(std::string_view line) {
+    if (line.front() == '#')
+      read_comment(line.substr(1));
+    else
+      read_record(split_at_tabs(line));
+  }
+
+  /// The first and the last time of all records that are in order within their kind.
+  void find_interval() {
+    for (const auto& [type, stamps] : stamps_) {
+      const SortedRows rows = sort_rows_by_time(stamps);
+      const Stamp begin = stamps[rows.kept.front()], end = stamps[rows.kept.back()];
+      log_.end = first_ ? std::max(log_.end, end) : end;
+      first_ = first_ ? std::min(*first_, begin) : begin;
+    }
+  }
+
+  /// Sorts the records of each kind; those that are out of order by more than is sorted are left out.
+  void sort_by_time() {
+    const auto by_stamp = [](const auto& record) { return record.stamp; };
+    std::size_t moved = 0;
+    const auto sort = [&](auto& records, const auto& stamp_of, const char* kind) {
+      const auto refusal = [&, before = records](std::size_t row) {
+        return InputError(text_.name, 0,
+                          std::string(kind) + " at " + format_stamp(stamp_of(before[row])) +
+                              " s: time runs backwards by more than a second",
+                          InputError::Kind::kClock);
+      };
+      moved += sort_records(records, stamp_of, refusal, skipped_);
+    };
+    sort(log_.motion.specific_force_mps2, by_stamp, "TYPE_ACCELEROMETER");
+    sort(log_.motion.angular_rate_radps, by_stamp, "TYPE_GYROSCOPE");
+    sort(log_.motion.orientation, by_stamp, "TYPE_ROTATION_VECTOR");
+    sort(log_.waypoints, by_stamp, "TYPE_WAYPOINT");
+    sort(
+        log_.wifi, [](const ScanEntry& entry) { return entry.scan; }, "TYPE_WIFI");
+    const auto same = [](const Waypoint& a, const Waypoint& b) { return a.stamp == b.stamp; };
+    log_.waypoints.erase(std::unique(log_.waypoints.begin(), log_.waypoints.end(), same),
+                         log_.waypoints.end());
+    if (moved > 0)
+      log_.warnings.push_back(text_.name + ": " + std::to_string(moved) +
+                              " records are earlier than the one before them and were sorted");
+  }
+
   void read_comment(std::string_view comment) {
     for (const std::string_view field : split_at_tabs(comment)) {
       if (field.starts_with(kStartTime))
@@ -74,7 +126,7 @@ class PhoneLogReader {
   }
 
   void read_record(const Fields& fields) {
-    stamp_ = milliseconds_in(at_, fields[0], "the first field");
+    const Stamp stamp = milliseconds_in(at_, fields[0], "the first field");
     if (fields.size() < 2 || !fields[1].starts_with(kTypePrefix))
       at_.fail("the second field is not a record type (TYPE_...)");
     const std::string_view type = fields[1].substr(kTypePrefix.size());
@@ -83,13 +135,12 @@ class PhoneLogReader {
       if (fields[i].starts_with(kTypePrefix)) at_.fail("two lines without a line break between them");
 
     if (type == "ACCELEROMETER")
-      log_.motion.specific_force_mps2.push_back(vector_sample(fields, last_force_));
-    if (type == "GYROSCOPE") log_.motion.angular_rate_radps.push_back(vector_sample(fields, last_rate_));
-    if (type == "ROTATION_VECTOR") log_.motion.orientation.push_back(orientation_sample(fields));
-    if (type == "WAYPOINT") log_.waypoints.push_back(waypoint(fields));
-    if (is_wifi) log_.wifi.push_back(scan_entry(fields));
-    log_.end = first_ ? std::max(log_.end, stamp_) : stamp_;
-    first_ = first_ ? std::min(*first_, stamp_) : stamp_;
+      log_.motion.specific_force_mps2.push_back(VectorSample{stamp, vector_of(fields)});
+    if (type == "GYROSCOPE") log_.motion.angular_rate_radps.push_back(VectorSample{stamp, vector_of(fields)});
+    if (type == "ROTATION_VECTOR") log_.motion.orientation.push_back(orientation_sample(stamp, fields));
+    if (type == "WAYPOINT") log_.waypoints.push_back(waypoint(stamp, fields));
+    if (is_wifi) log_.wifi.push_back(scan_entry(stamp, fields));
+    stamps_[std::string(type)].push_back(stamp);
   }
 
   void expect_fields(const Fields& fields, std::size_t count) const {
@@ -104,39 +155,25 @@ class PhoneLogReader {
     return {number_in(at_, fields[2], "x"), number_in(at_, fields[3], "y"), number_in(at_, fields[4], "z")};
   }
 
-  /// Refuses a record that is earlier than the previous one of its kind.
-  void expect_forward(std::optional<Stamp>& last) const {
-    if (last && stamp_ < *last) at_.fail("time runs backwards");
-    last = stamp_;
-  }
-
-  VectorSample vector_sample(const Fields& fields, std::optional<Stamp>& last) const {
-    expect_forward(last);
-    return {stamp_, vector_of(fields)};
-  }
-
-  OrientationSample orientation_sample(const Fields& fields) {
-    expect_forward(last_orientation_);
+  OrientationSample orientation_sample(Stamp stamp, const Fields& fields) const {
     const Eigen::Vector3d v = vector_of(fields);
     const double square = v.squaredNorm();
     if (square > 1 + kUnitNormRounding) at_.fail("the rotation vector is longer than 1");
     const double w = std::sqrt(std::max(0.0, 1 - square));
-    return {stamp_, Eigen::Quaterniond(w, v.x(), v.y(), v.z()).normalized()};
+    return {stamp, Eigen::Quaterniond(w, v.x(), v.y(), v.z()).normalized()};
   }
 
-  Waypoint waypoint(const Fields& fields) const {
+  Waypoint waypoint(Stamp stamp, const Fields& fields) const {
     expect_fields(fields, kWaypointFields);
-    if (!log_.waypoints.empty() && stamp_ <= log_.waypoints.back().stamp) at_.fail("time runs backwards");
-    return {stamp_, {coordinate_in(at_, fields[2], "x"), coordinate_in(at_, fields[3], "y")}};
+    return {stamp, {coordinate_in(at_, fields[2], "x"), coordinate_in(at_, fields[3], "y")}};
   }
 
   /// Reads from the last field backwards, because a network's name may contain tabs.
-  ScanEntry scan_entry(const Fields& fields) {
-    expect_forward(last_scan_);
+  ScanEntry scan_entry(Stamp stamp, const Fields& fields) const {
     if (fields.size() < kWifiFields) expect_fields(fields, kWifiFields);
     const auto from_end = [&fields](std::size_t i) { return fields[fields.size() - i]; };
     ScanEntry entry;
-    entry.scan = stamp_;
+    entry.scan = stamp;
     entry.last_seen = milliseconds_in(at_, from_end(1), "the last-seen time");
     entry.frequency_mhz = static_cast<float>(number_in(at_, from_end(2), "frequency"));
     const double rssi_dbm = number_in(at_, from_end(3), "signal strength");
@@ -144,15 +181,17 @@ class PhoneLogReader {
       at_.fail("the signal strength is not plausible (-150 to 30 dBm)");
     entry.rssi_dbm = static_cast<float>(rssi_dbm);
     entry.bssid = lower_case(from_end(4));
-    if (entry.bssid.empty()) at_.fail("the access point has no BSSID");
+    if (entry.bssid.empty() || entry.bssid.find_first_not_of(kBssidBytes) != std::string::npos)
+      at_.fail("the access point has no BSSID that can be written to a table");
     return entry;
   }
 
   const Text& text_;
   TextLines at_;
   PhoneLog log_;
-  Stamp stamp_;
-  std::optional<Stamp> first_, start_time_, last_force_, last_rate_, last_orientation_, last_scan_;
+  SkippedRecords skipped_;
+  std::map<std::string, std::vector<Stamp>> stamps_;  ///< of all records, by kind
+  std::optional<Stamp> first_, start_time_;
 };
 
 }  // namespace

@@ -6,10 +6,12 @@
 //   <ms>  TYPE_WIFI  ssid  bssid  rssi_dbm  frequency_mhz  last_seen_ms
 //   #  startTime:<ms> ...
 //
-// Times are Unix times in milliseconds. Records of other types (TYPE_...) are skipped. The rotation vector is
-// the vector part of the unit quaternion from device to east-north-up, whose scalar part is positive. The
-// records of one sensor must be in the order of time. Anything else is refused with its line, including
-// truncated lines and lines without a line break between them.
+// Times are Unix times in milliseconds; 16 or 19 digits are micro- or nanoseconds, a fraction means seconds.
+// Records of other types (TYPE_...) are skipped. The rotation vector is the vector part of the unit
+// quaternion from device to east-north-up, whose scalar part is positive. Other lines, truncated ones, and
+// lines without a line break between them cost the records in them; records of one sensor that are out of
+// order by at most a second are sorted (skipped_records.hpp). Network names may contain any bytes but line
+// ends.
 #pragma once
 
 #include <Eigen/Core>
@@ -45,8 +47,11 @@ struct PhoneLog {
   PhoneMotion motion;
   std::vector<Waypoint> waypoints;  ///< in time order
   std::vector<ScanEntry> wifi;      ///< scans in time order
+  std::vector<std::string> warnings;
 };
 
+/// Refuses (InputError) a log of which most records are malformed, and one without accelerometer or gyroscope
+/// records or of a single time.
 PhoneLog read_phone_log(const Text& text);
 
 }  // namespace radioslam

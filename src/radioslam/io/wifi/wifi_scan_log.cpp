@@ -6,6 +6,9 @@
 #include <set>
 #include <utility>
 
+#include "radioslam/io/text/skipped_records.hpp"
+#include "radioslam/io/wifi/log_time.hpp"
+
 namespace radioslam {
 namespace {
 
@@ -16,6 +19,10 @@ constexpr const char* kNoLevel = "readings have no level in dBm and are left out
 constexpr const char* kBootTimes =
     ": its times are seconds since boot, because neither a line, nor its name, nor the command line gives "
     "others";
+constexpr const char* kNoZone =
+    "times have no known time zone and are taken as UTC; --set clock_offset_s=SECONDS corrects them";
+constexpr const char* kOnlySeconds =
+    "times are followed by what is not understood; their whole seconds are used";
 constexpr const char* kNothing = "scans are empty";
 
 bool lists_a_radio_twice(const ScanList& scan) {
@@ -66,7 +73,66 @@ void move_to(ScanListLog& log, const GivenTime& time) {
   }
 }
 
+/// Why a list has no time.
+InputError without_time(const Text& text, const ScanList& scan) {
+  if (scan.unread_time.empty())
+    return {text.name, scan.line,
+            "this scan has no time; a line with the Unix time is needed before each scan"};
+  return {
+      text.name, scan.line,
+      scan.unread_time + " is not understood as a time, so that its scan has none; `date +%s` prints one"};
+}
+
+void leave_out_undated(const Text& text, ScanListLog& log) {
+  SkippedRecords undated;
+  for (const ScanList& scan : log.scans)
+    if (!scan.stamp) undated.add(without_time(text, scan));
+  std::erase_if(log.scans, [](const ScanList& scan) { return !scan.stamp; });
+  undated.conclude(text.name, "scan", log.scans.size(), log.warnings);
+}
+
+/// A log of one list needs no line with its time.
+void time_only_list(const Text& text, ScanListLog& log, const std::optional<GivenTime>& time) {
+  ScanList& scan = log.scans.front();
+  if (!scan.unread_time.empty() && !time) throw InputError(without_time(text, scan));
+  scan.stamp = time ? time->stamp : Stamp{0};
+  if (lists_a_radio_twice(scan))
+    log.warnings.push_back(text.name + ": lists a radio twice; if these are several scans, put a line " +
+                           "with the Unix time before each");
+}
+
 }  // namespace
+
+std::size_t ScanListLog::readings() const {
+  std::size_t count = 0;
+  for (const ScanList& scan : scans) count += scan.readings.size();
+  return count;
+}
+
+std::optional<ScanList> list_at_time(const TextLines& at, ScanListLog& log, ForeignLines& foreign) {
+  const auto time = read_printed_time(at.line());
+  if (!time) return std::nullopt;
+  if (!time->zone_known) ++log.counts[kNoZone];
+  if (time->stamp && !time->is_whole) {
+    ++log.counts[kOnlySeconds];
+    foreign.add(at);
+  }
+  ScanList list{at.number(), time->stamp, {}, {}};
+  if (!time->stamp) list.unread_time = quoted_bytes(at.line());
+  return list;
+}
+
+void ForeignLines::add(const TextLines& at) {
+  if (trim(at.line()).empty() || ++count_ > 1) return;
+  first_ = at.number();
+  shown_ = quoted_bytes(at.line());
+}
+
+void ForeignLines::conclude(const std::string& name, ScanListLog& log) const {
+  if (count_ == 0) return;
+  log.warnings.push_back(name + ":" + std::to_string(first_) + ": " + shown_ + " is not understood" +
+                         (count_ == 1 ? "" : ", nor are " + std::to_string(count_ - 1) + " other lines"));
+}
 
 std::optional<ScanListClock> clock_of(const ScanListLog& log) {
   return log.scans.empty() ? std::nullopt : std::optional(log.scans.front().clock);
@@ -82,15 +148,10 @@ void time_scans(const Text& text, ScanListLog& log, const std::optional<GivenTim
     else
       log.warnings.push_back(text.name + kBootTimes);
   }
-  for (ScanList& scan : log.scans) {
-    if (scan.stamp) continue;
-    if (log.scans.size() > 1)
-      text.fail(scan.line, "this scan has no time; a line with the Unix time is needed before each scan");
-    scan.stamp = time ? time->stamp : Stamp{0};
-    if (lists_a_radio_twice(scan))
-      log.warnings.push_back(text.name + ": lists a radio twice; if these are several scans, put a line " +
-                             "with the Unix time before each");
-  }
+  if (log.scans.size() == 1 && !log.scans.front().stamp)
+    time_only_list(text, log, time);
+  else
+    leave_out_undated(text, log);
 }
 
 WifiLog rows_of_scans(std::vector<ScanListLog> logs, const ScanListParams& params) {

@@ -52,6 +52,7 @@ struct ScanList {
   std::size_t line = 0;        ///< line at which it begins
   std::optional<Stamp> stamp;  ///< at most kLatestTime_s
   std::vector<ScanListReading> readings;
+  std::string unread_time;  ///< the line before the list, if it is a time that is not understood
   ScanListClock clock = ScanListClock::kExplicit;  ///< clock of the stamp
 };
 
@@ -60,7 +61,24 @@ struct ScanListLog {
   std::vector<ScanList> scans;
   std::map<std::string, std::size_t> counts;
   std::vector<std::string> warnings;
+
+  std::size_t readings() const;
 };
+
+/// Names lines that are not understood, in one warning.
+class ForeignLines {
+ public:
+  void add(const TextLines& at);
+  void conclude(const std::string& name, ScanListLog& log) const;
+
+ private:
+  std::size_t count_ = 0, first_ = 0;
+  std::string shown_;
+};
+
+/// The list that begins at a line which is a time, understood or not; nothing for other lines. Times without
+/// a known zone are counted, and those of which only the seconds are understood are counted and named.
+std::optional<ScanList> list_at_time(const TextLines& at, ScanListLog& log, ForeignLines& foreign);
 
 /// A time given for a log from outside: that of its first or of its last list.
 struct GivenTime {
@@ -70,8 +88,8 @@ struct GivenTime {
 };
 
 /// Assigns times to the lists of a log. Empty lists are removed. A single list without a time gets `time`, or
-/// 0. Lists with boot times are shifted to `time`; without one, a warning is added. Refuses (InputError, with
-/// the line) a list without a time in a log of several lists.
+/// 0. Lists with boot times are shifted to `time`; without one, a warning is added. Lists whose time is
+/// missing or not understood are left out with a warning; a log in which most are is refused (InputError).
 void time_scans(const Text& text, ScanListLog& log, const std::optional<GivenTime>& time);
 
 /// The clock of a log's lists, after time_scans; all lists have the same one.

@@ -1,8 +1,8 @@
-#include "radioslam/cli/suggestion.hpp"
+#include "radioslam/base/suggestion.hpp"
 
 #include <gtest/gtest.h>
 
-namespace radioslam::cli {
+namespace radioslam {
 namespace {
 
 TEST(Suggestion, DistanceCountsInsertionsDeletionsSubstitutionsAndSwaps) {
@@ -28,4 +28,4 @@ TEST(Suggestion, AtMostThree) {
 }
 
 }  // namespace
-}  // namespace radioslam::cli
+}  // namespace radioslam

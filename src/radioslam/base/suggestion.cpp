@@ -1,9 +1,9 @@
-#include "radioslam/cli/suggestion.hpp"
+#include "radioslam/base/suggestion.hpp"
 
 #include <algorithm>
 #include <utility>
 
-namespace radioslam::cli {
+namespace radioslam {
 namespace {
 
 constexpr std::size_t kMaxSuggestions = 3;
@@ -61,4 +61,4 @@ std::string did_you_mean(std::string_view name, const std::vector<std::string>& 
   return text + "?";
 }
 
-}  // namespace radioslam::cli
+}  // namespace radioslam

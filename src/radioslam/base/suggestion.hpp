@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace radioslam::cli {
+namespace radioslam {
 
 /// Smallest number of insertions, deletions, substitutions and swaps of adjacent letters that turn one name
 /// into the other (optimal string alignment distance).
@@ -19,4 +19,4 @@ std::vector<std::string> nearest_names(std::string_view name, const std::vector<
 /// "; did you mean a, b or c?", or an empty string if no name is similar.
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& names);
 
-}  // namespace radioslam::cli
+}  // namespace radioslam
