@@ -20,6 +20,16 @@ class SkippedRecords {
     if (!first_) first_ = error;
     ++count_;
   }
+  /// What `read` returns, or nothing if it throws InputError, which is added.
+  template <class Read>
+  auto attempt(Read read) -> std::optional<decltype(read())> {
+    try {
+      return read();
+    } catch (const InputError& error) {
+      add(error);
+      return std::nullopt;
+    }
+  }
   std::size_t count() const { return count_; }
   /// Throws the first error, if any; for files without a single usable record.
   void throw_first() const {
