@@ -146,13 +146,15 @@ TEST_F(ImportLidar, RosbagTakesAFolderOfBagsWithRanges) {
   EXPECT_EQ(read_file(folder.path() / "team/radio/ranges.csv"),
             "t_s,robot_i,robot_j,range_m,sigma_m\n10.5,north,south,4.5,0.1\n10.5,south,door,4.5,0.1\n");
   EXPECT_NE(read_file(folder.path() / "team/radio/anchors.csv").find("\ndoor,,,"), std::string::npos);
-  EXPECT_NE(outcome.out.find("bags/north.bag: topics that are not imported: /rosout (rosgraph_msgs/Log, 1)\n"),
-            std::string::npos)
+  EXPECT_NE(
+      outcome.out.find("bags/north.bag: topics that are not imported: /rosout (rosgraph_msgs/Log, 1)\n"),
+      std::string::npos)
       << outcome.out;
   ASSERT_EQ(import({"rosbag", "bags", "--ranges", "/uwb/tag_9=south,gate", "-o", "other"}).status, 0);
   EXPECT_NE(read_file(folder.path() / "other/radio/ranges.csv").find("south,gate,4.5"), std::string::npos);
   const Outcome listed = import({"rosbag", "bags", "--list"});
-  EXPECT_NE(listed.out.find("bags/south.bag:\n/odom  nav_msgs/Odometry  1\n"), std::string::npos) << listed.out;
+  EXPECT_NE(listed.out.find("bags/south.bag:\n/odom  nav_msgs/Odometry  1\n"), std::string::npos)
+      << listed.out;
 }
 
 TEST_F(ImportLidar, RosbagRefusesInvalidRadios) {
@@ -176,9 +178,9 @@ TEST_F(ImportLidar, RosbagRefusesAmbiguousTopics) {
   expect_refused({"rosbag", "x.bag", "x.bag", "--robot", "a", "-o", "m"},
                  "2 sources but 1 --robot are given");
   expect_refused({"rosbag", "x.bag", "x.bag", "--robot", "a", "--robot", "a", "-o", "m"}, "the same name");
-  expect_refused({"rosbag", "x.bag", "x.bag", "x.bag", "--odometry", "/r1/odom", "--odometry", "/r2/odom",
-                  "-o", "m"},
-                 "--odometry: is given 2 times for 3 sources");
+  expect_refused(
+      {"rosbag", "x.bag", "x.bag", "x.bag", "--odometry", "/r1/odom", "--odometry", "/r2/odom", "-o", "m"},
+      "--odometry: is given 2 times for 3 sources");
   expect_refused({"rosbag", "x.bag", "--set", "a=1", "-o", "m"}, "takes no parameters");
   expect_refused({"carmen", "x.bag", "--scans", "/x", "-o", "m"}, "takes no ROS topics");
   expect_refused({"iw", "x.bag", "--robot", "a", "--robot", "b", "-o", "m"}, "takes no second --robot");

@@ -68,11 +68,20 @@ double rate_of(const std::vector<double>& steps_rad, const std::vector<Stamp>& s
   return rates.empty() ? 0 : upper_median(rates);
 }
 
-bool are_regular(const std::vector<double>& steps_rad, double step_rad) {
-  const auto regular = std::count_if(steps_rad.begin(), steps_rad.end(), [&](double step) {
-    return std::abs(wrapped(step - step_rad)) <= std::abs(step_rad) / 2;
-  });
-  return static_cast<double>(regular) >= kMinRegularShare * static_cast<double>(steps_rad.size());
+/// The mean of the steps near the typical one; nothing if these are too few.
+std::optional<double> regular_step(const std::vector<double>& steps_rad) {
+  const double typical = circular_median(steps_rad);
+  double sum = 0;
+  std::size_t regular = 0;
+  for (const double step : steps_rad) {
+    const double off = wrapped(step - typical);
+    if (std::abs(off) > std::abs(typical) / 2) continue;
+    sum += off;
+    ++regular;
+  }
+  if (static_cast<double>(regular) < kMinRegularShare * static_cast<double>(steps_rad.size()))
+    return std::nullopt;
+  return typical + sum / static_cast<double>(regular);
 }
 
 bool are_equal(const StampedScan& a, const StampedScan& b) {
@@ -82,9 +91,9 @@ bool are_equal(const StampedScan& a, const StampedScan& b) {
 /// Joins slices, which are in time order.
 StampedScan joined(const std::vector<StampedScan>& slices) {
   StampedScan sweep{slices.front().stamp, {}};
-  const bool has_times =
-      slices.back().stamp != sweep.stamp ||
-      std::any_of(slices.begin(), slices.end(), [](const auto& slice) { return !slice.scan.times_s.empty(); });
+  const bool has_times = slices.back().stamp != sweep.stamp ||
+                         std::any_of(slices.begin(), slices.end(),
+                                     [](const auto& slice) { return !slice.scan.times_s.empty(); });
   for (const StampedScan& slice : slices) {
     const auto offset_s = static_cast<float>(seconds_between(sweep.stamp, slice.stamp));
     for (std::size_t k = 0; k < slice.scan.points.size(); ++k) {
@@ -110,12 +119,14 @@ std::optional<SliceMotion> motion_of_slices(std::span<const StampedScan> slices)
       stamps.push_back(slice.stamp);
     }
   if (arcs.size() < kMinSlices) return std::nullopt;
-  const double step = circular_median(steps);
+  const auto regular = regular_step(steps);
+  if (!regular) return std::nullopt;
+  const double step = *regular;
   const double width = upper_median(widths);
   const bool is_stepping = step != 0 && std::abs(step) >= kMinStepPerArc * width && width <= kMaxArc_rad;
   const double rate = rate_of(steps, stamps, step);
   const bool is_slow = rate != 0 && kTurn_rad / std::abs(rate) > kMaxPeriod_s;
-  if (!is_stepping || is_slow || !are_regular(steps, step)) return std::nullopt;
+  if (!is_stepping || is_slow) return std::nullopt;
   std::vector<double> begins;  // of the first slice, as each of them says
   double turned = 0;
   for (std::size_t k = 0; k < arcs.size(); ++k) {
@@ -133,8 +144,8 @@ long SweepAssembler::revolution_of(double azimuth_rad, Stamp stamp) {
   const double nominal = std::abs(motion_.step_rad);
   const double step = nominal + wrapped(since_begin - last_rad_ - nominal);
   const double turns = motion_.rate_radps == 0 ? 0 : std::round((expected - step) / kTurn_rad);
-  const double unwrapped =
-      has_last_ ? last_rad_ + step + turns * kTurn_rad : since_begin - std::floor(since_begin / kTurn_rad) * kTurn_rad;
+  const double unwrapped = has_last_ ? last_rad_ + step + turns * kTurn_rad
+                                     : since_begin - std::floor(since_begin / kTurn_rad) * kTurn_rad;
   if (has_last_ && turns == 0 && expected > kMissingSlice * nominal)
     counts_.missing += static_cast<std::size_t>(std::round(expected / nominal)) - 1;
   if (has_last_ && unwrapped < last_rad_ - nominal / 2 && counts_.missing > 0)

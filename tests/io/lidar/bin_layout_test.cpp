@@ -21,9 +21,13 @@ std::string room(std::size_t points, std::size_t floats, double intensity) {
   for (std::size_t k = 0; k < points; ++k) {
     const double angle = 0.0174 * static_cast<double>(k);
     const double range = std::min(10 / std::abs(std::cos(angle)), 6 / std::abs(std::sin(angle)));
-    const std::vector<double> values{range * std::cos(angle), range * std::sin(angle), random.uniform(-1, 2),
-                                     intensity * random.uniform(0, 1), static_cast<double>(k % 32),
-                                     1e-5 * static_cast<double>(k), 1};
+    const std::vector<double> values{range * std::cos(angle),
+                                     range * std::sin(angle),
+                                     random.uniform(-1, 2),
+                                     intensity * random.uniform(0, 1),
+                                     static_cast<double>(k % 32),
+                                     1e-5 * static_cast<double>(k),
+                                     1};
     for (std::size_t c = 0; c < floats; ++c) append_f32(bytes, static_cast<float>(values[c]));
   }
   return bytes;
@@ -49,7 +53,8 @@ TEST(BinLayout, OfAnotherNumberIsRefusedInMissionsAndConvertedByTheImport) {
   folder.write("100.bin", five);
   folder.write("times.txt", "1\n");
   const LidarLog log = read_lidar_folder(folder.path());
-  expect_refusal([&] { log.read(0); }, 0, "100.bin: is not a scan of x y z intensity: its points have 5 floats");
+  expect_refusal([&] { log.read(0); }, 0,
+                 "100.bin: is not a scan of x y z intensity: its points have 5 floats");
   const KittiDrive drive = read_kitti_drive(folder.path(), "a");
   EXPECT_NE(drive.imported.warnings.front().find("have 5 floats each"), std::string::npos);
   const TemporaryFolder copied;

@@ -71,7 +71,8 @@ TEST(Ros1Bag, SkipsAndNotesWhatCannotBeRead) {
   skip(bag_record({"op=\x02"}, ""), "record", "a record without conn");
   skip(bag_record({"op=\x02", "conn=x"}, ""), "record", "conn has a wrong length");
   skip(bag_record({"no equals"}, ""), "record", "no '='");
-  skip(bag_record({"op=\x07", "conn=" + little(0, 4), "topic=/a"}, ""), "record", "a connection without a type");
+  skip(bag_record({"op=\x07", "conn=" + little(0, 4), "topic=/a"}, ""), "record",
+       "a connection without a type");
   skip(std::string(800, '\0'), "record", "zeros in place of a record");
   skip(bag_chunk(records, "zip", records), "chunk", "unknown compression 'zip'");
   skip(bag_chunk(records, "none", records + "x"), "chunk", "the chunk's length differs");
@@ -81,8 +82,11 @@ TEST(Ros1Bag, SkipsAndNotesWhatCannotBeRead) {
 }
 
 TEST(Ros1Bag, RefusesEncryptedBags) {
-  expect_refusal([&] { visit_bag(bag_of(bag_record({"op=\x03", "encryptor=rosbag/AesCbcEncryptor"}, ""))); }, 0,
-                 "encrypted");
+  expect_refusal(
+      [&] {
+        visit_bag(bag_of(bag_record({"op=\x03", "encryptor=rosbag/AesCbcEncryptor"}, "")));
+      },
+      0, "encrypted");
 }
 
 TEST(Ros1Bag, ReadsUpToZerosOfALostEnd) {

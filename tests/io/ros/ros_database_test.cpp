@@ -59,7 +59,8 @@ std::filesystem::path make_long_database(const TemporaryFolder& folder) {
   std::string rows;
   for (int k = 1; k <= 1000; ++k)
     rows += "INSERT INTO messages VALUES (NULL, 3, " + std::to_string(k) + ", zeroblob(100));";
-  return make_database(folder, kTables + ("CREATE INDEX t ON messages(timestamp); BEGIN;" + rows) + "COMMIT;");
+  return make_database(folder,
+                       kTables + ("CREATE INDEX t ON messages(timestamp); BEGIN;" + rows) + "COMMIT;");
 }
 
 TEST(RosDatabase, ReadsWhatIsLeftOfADamagedOne) {
@@ -88,7 +89,8 @@ TEST(RosDatabase, ReadsWhatIsLeftOfADamagedOne) {
   rest << whole;
   rest.close();
   NotedMessages noted;
-  expect_refusal([&] { visit_ros_database(empty, noted.visitor()); }, 0, "cannot be read as a rosbag2 database");
+  expect_refusal([&] { visit_ros_database(empty, noted.visitor()); }, 0,
+                 "cannot be read as a rosbag2 database");
 }
 
 TEST(RosDatabase, ReadsTheSameFromMemory) {

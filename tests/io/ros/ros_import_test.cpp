@@ -298,7 +298,8 @@ TEST(RosImport, TheOriginIsAFixThatOthersAgreeWith) {
                                 fix_with_covariance(5, 48, 11, four), fix_with_covariance(6, 48, 11, four)});
   ASSERT_EQ(imported.robot().fixes.size(), 2U);
   EXPECT_EQ(imported.robot().fixes[0].position_m, Eigen::Vector3d::Zero());
-  EXPECT_EQ(imported.notes(), "1 position fixes of a are more than 1000 km from the team's and are left out\n");
+  EXPECT_EQ(imported.notes(),
+            "1 position fixes of a are more than 1000 km from the team's and are left out\n");
 }
 
 TEST(RosImport, ABadFixOfOneRobotIsNotTheTeamsOrigin) {
@@ -306,8 +307,9 @@ TEST(RosImport, ABadFixOfOneRobotIsNotTheTeamsOrigin) {
   const TemporaryFolder folder;
   const auto a =
       folder.write("a.mcap", mcap_of(mcap_records({odometry(4, 3), fix_with_covariance(5, 1, 1, four)})));
-  const auto b = folder.write("b.mcap", mcap_of(mcap_records({odometry(4, 3), fix_with_covariance(5, 48, 11, four),
-                                                              fix_with_covariance(6, 48.00001, 11, four)})));
+  const auto b =
+      folder.write("b.mcap", mcap_of(mcap_records({odometry(4, 3), fix_with_covariance(5, 48, 11, four),
+                                                   fix_with_covariance(6, 48.00001, 11, four)})));
   const auto sink = [](Stamp, const LidarScan&) {};
   std::vector<RosImport> team{import_ros_recording(a, "a", {}, sink), import_ros_recording(b, "b", {}, sink)};
   place_fixes(team);
@@ -361,8 +363,8 @@ TEST(RosImport, TopicsWithoutStampsHaveTheTimeOfTheirRecording) {
 TEST(RosImport, SkipsMessagesThatCannotBeRead) {
   WrittenMessage short_odometry = odometry(5, 9), short_scan = laser(5), short_imu = imu(5, "base");
   for (WrittenMessage* message : {&short_odometry, &short_scan, &short_imu}) message->bytes.resize(30);
-  const auto imported = import({odometry(4, 3), short_odometry, odometry(6, 4), laser(4), short_scan, laser(6),
-                                imu(4, "base"), short_imu});
+  const auto imported = import({odometry(4, 3), short_odometry, odometry(6, 4), laser(4), short_scan,
+                                laser(6), imu(4, "base"), short_imu});
   EXPECT_EQ(imported.robot().odometry.size(), 2U);
   EXPECT_EQ(imported.scans.size(), 2U);
   EXPECT_EQ(imported.robot().inertial.size(), 1U);

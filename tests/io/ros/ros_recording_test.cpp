@@ -27,10 +27,9 @@ std::string zstd_of(const std::string& content) {
 /// The bytes of all messages, and the warnings.
 std::pair<std::string, std::string> read(const std::filesystem::path& source) {
   std::string messages, warnings;
-  const auto all = visit_recording(source, {[](const RosChannel&) { return true; },
-                                            [&](const RosMessage& message) {
-                                              messages += std::string(message.bytes) + ' ';
-                                            }});
+  const auto all = visit_recording(
+      source, {[](const RosChannel&) { return true; },
+               [&](const RosMessage& message) { messages += std::string(message.bytes) + ' '; }});
   for (const std::string& warning : all) warnings += warning + '\n';
   return {messages, warnings};
 }
@@ -62,7 +61,8 @@ TEST(RosRecording, NamesPartsThatAreNotThere) {
                "rosbag2_bagfile_information:\n  relative_file_paths: [k_0.mcap, bag/k_1.mcap.zstd]\n");
   const auto [messages, warnings] = read(folder.path());
   EXPECT_EQ(messages, "1 2 ");
-  EXPECT_NE(warnings.find("metadata.yaml: names k_0.mcap, which is not there"), std::string::npos) << warnings;
+  EXPECT_NE(warnings.find("metadata.yaml: names k_0.mcap, which is not there"), std::string::npos)
+      << warnings;
   EXPECT_EQ(warnings.find("names k_1"), std::string::npos) << "it is there, uncompressed";
   EXPECT_NE(warnings.find("k_2.mcap.gz: is not read"), std::string::npos) << warnings;
   folder.write("metadata.yaml", "{");
@@ -108,6 +108,8 @@ TEST(RosRecording, AFolderIsOneRecordingOrOnePerBag) {
   parts.write("k_0.mcap", mcap_at(1, 3));
   parts.write("k_1.mcap.zstd", zstd_of(mcap_at(3, 5)));
   EXPECT_EQ(recordings_in(parts.path()), std::vector<std::filesystem::path>{parts.path()});
+  parts.write("k_2.mcap", mcap_at(1, 3));
+  EXPECT_EQ(recordings_in(parts.path()).size(), 1U) << "a copy of a part";
   overlapping.write("robot1.bag", bag_of(bag_records({message_at(1), message_at(9)})));
   overlapping.write("robot2.bag", bag_of(bag_records({message_at(2), message_at(8)})));
   EXPECT_EQ(names_in(overlapping), (std::vector<std::string>{"robot1", "robot2"}));

@@ -51,15 +51,17 @@ TEST(RosScans, IgnoreTimesOfOneConstant) {
   const Scans read_scans = read(messages);
   ASSERT_EQ(read_scans.scans.size(), 40U);
   for (const auto& [stamp, scan] : read_scans.scans) EXPECT_TRUE(scan.times_s.empty());
-  EXPECT_EQ(read_scans.notes,
-            "/points: the points' times do not advance, within a scan or from scan to scan, and are ignored, in "
-            "40 scans\n");
+  EXPECT_EQ(
+      read_scans.notes,
+      "/points: the points' times do not advance, within a scan or from scan to scan, and are ignored, in "
+      "40 scans\n");
 }
 
 TEST(RosScans, IgnoreAbsoluteTimesThatAreTheSameInAllScans) {
   std::vector<std::string> messages;
   for (int k = 0; k < 12; ++k)
-    messages.push_back(cloud(kBegin_ns + k * kSweep_ns, 0, 360, [](int p) { return 1.7326e18 + 250'000.0 * p; }));
+    messages.push_back(
+        cloud(kBegin_ns + k * kSweep_ns, 0, 360, [](int p) { return 1.7326e18 + 250'000.0 * p; }));
   const Scans read_scans = read(messages);
   for (const auto& [stamp, scan] : read_scans.scans) EXPECT_TRUE(scan.times_s.empty());
   EXPECT_NE(read_scans.notes.find("do not advance"), std::string::npos) << read_scans.notes;
@@ -69,8 +71,8 @@ TEST(RosScans, GatherSlicesIntoSweeps) {
   std::vector<std::string> messages;
   for (int k = 0; k < 40; ++k) {
     const std::int64_t stamp_ns = kBegin_ns + k * kSweep_ns / 8;
-    messages.push_back(cloud(stamp_ns, 45 * k, 45,
-                             [&](int p) { return static_cast<double>(stamp_ns) + 277'000.0 * p; }));
+    messages.push_back(
+        cloud(stamp_ns, 45 * k, 45, [&](int p) { return static_cast<double>(stamp_ns) + 277'000.0 * p; }));
   }
   messages.insert(messages.begin() + 3, messages[2]);
   messages.insert(messages.begin() + 20, "torn");

@@ -157,8 +157,8 @@ void add_ranges_and_rest(const std::string& recording, const std::vector<RosSour
   for (const std::string& warning : ranges.warnings) output.note(warning);
   std::vector<RosTopic> left;
   for (const RosTopic& topic : index->topics)
-    if (!used.contains(topic.name) && !ranges.topics.contains(topic.name) && !is_transforms_type(topic.type) &&
-        !may_have_ranges(topic))
+    if (!used.contains(topic.name) && !ranges.topics.contains(topic.name) &&
+        !is_transforms_type(topic.type) && !may_have_ranges(topic))
       left.push_back(topic);
   if (!left.empty()) output.note(recording + ": topics that are not imported: " + list_of_topics(left));
 }

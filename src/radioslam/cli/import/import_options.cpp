@@ -63,9 +63,10 @@ void add_import_option(CLI::App& command, ImportOptions& options, ImportOption o
       return add_repeated_option(command, "--robot", options.robots, "ID",
                                  "Name of the robot that made the recording");
     case ImportOption::kRobots:
-      return add_repeated_option(command, "--robot", options.robots, "ID",
-                                 "Name of a source's robot, once per source (default: a, b, ...; of several ROS "
-                                 "recordings, their names)");
+      return add_repeated_option(
+          command, "--robot", options.robots, "ID",
+          "Name of a source's robot, once per source (default: a, b, ...; of several ROS "
+          "recordings, their names)");
     case ImportOption::kName:
       return add_repeated_option(command, "--name", options.names, "RADIO=ID",
                                  "Robot or anchor that has a radio: its BSSID, or its name in ROS topics and "

@@ -70,9 +70,9 @@ std::string value_for(const std::vector<std::string>& values, const char* option
                       std::size_t sources) {
   if (values.size() <= 1) return values.empty() ? std::string{} : values.front();
   if (values.size() != sources)
-    throw InputError(option, 0,
-                     "is given " + std::to_string(values.size()) + " times for " + std::to_string(sources) +
-                         " sources");
+    throw InputError(
+        option, 0,
+        "is given " + std::to_string(values.size()) + " times for " + std::to_string(sources) + " sources");
   return values[k];
 }
 
@@ -118,11 +118,12 @@ std::vector<RosSource> ros_sources(const ImportOptions& options) {
   const std::vector<std::string> recordings = recordings_of(options);
   const std::size_t count = recordings.size();
   for (std::size_t k = 0; k < count; ++k)
-    sources.push_back({recordings[k], "", {value_for(options.odometry, "--odometry", k, count),
-                                           value_for(options.scans, "--scans", k, count),
-                                           value_for(options.imu, "--imu", k, count),
-                                           value_for(options.truth, "--truth", k, count),
-                                           value_for(options.gnss, "--gnss", k, count)}});
+    sources.push_back(
+        {recordings[k],
+         "",
+         {value_for(options.odometry, "--odometry", k, count), value_for(options.scans, "--scans", k, count),
+          value_for(options.imu, "--imu", k, count), value_for(options.truth, "--truth", k, count),
+          value_for(options.gnss, "--gnss", k, count)}});
   give_names(options, sources);
   return sources;
 }

@@ -11,9 +11,9 @@ namespace radioslam {
 namespace {
 
 constexpr std::size_t kMinPoints = 100, kMaxPoints = 2000;
-constexpr double kMaxEqual = 0.04;     ///< distance of columns that are equal, for many points
+constexpr double kMaxEqual = 0.04;      ///< distance of columns that are equal, for many points
 constexpr double kMaxEqualNoise = 1.4;  ///< times sqrt(2 / points), what chance adds
-constexpr double kMinDifferent = 0.3;  ///< of columns that differ
+constexpr double kMinDifferent = 0.3;   ///< of columns that differ
 
 using Column = std::vector<float>;
 

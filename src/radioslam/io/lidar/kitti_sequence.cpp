@@ -19,7 +19,7 @@ constexpr double kRotationTolerance = 1e-2;  ///< bound on |R^T R - I|; publishe
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kScansToFindLayout = 5;
+constexpr std::size_t kScansToFindLayout = 5, kMinLayoutBytes = 2800;
 constexpr std::uint64_t kMaxScanNumber = 1'000'000'000;
 constexpr std::size_t kEpochDigits = 9;         ///< digits of Unix seconds, from 1973 on
 constexpr std::size_t kMicrosecondDigits = 16;  ///< digits of Unix microseconds, from 2001 on
@@ -99,13 +99,13 @@ fs::path folder_of_scans(const fs::path& source) {
       "unpacked first");
 }
 
-/// Floats of a point, if the first scans that are not empty agree.
+/// Floats of a point, if the first scans of a hundred points or more agree.
 std::size_t floats_of(const std::vector<NamedScan>& scans) {
   const std::size_t some = std::min(scans.size(), kScansToFindLayout);
   std::size_t floats = 0;
   for (std::size_t k = 0; k < some; ++k) {
     const std::string bytes = read_bytes(scans[k].file);
-    if (bytes.empty()) continue;
+    if (bytes.size() < kMinLayoutBytes) continue;
     const std::size_t found = floats_per_point(bytes);
     if (floats != 0 && found != floats) return kBinFloats;
     floats = found;
@@ -120,7 +120,8 @@ void check_sizes(const std::vector<NamedScan>& scans, std::size_t floats) {
     if (floats == kBinFloats) check_bin_size(scan.file, bytes);
     if (bytes % (floats * sizeof(float)) != 0)
       throw InputError(scan.file.string(), 0,
-                       "is not a scan: its " + std::to_string(bytes) + " bytes are not a multiple of a point's " +
+                       "is not a scan: its " + std::to_string(bytes) +
+                           " bytes are not a multiple of a point's " +
                            std::to_string(floats * sizeof(float)) + ", as the other scans have them");
   }
 }

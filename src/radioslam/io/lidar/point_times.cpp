@@ -94,7 +94,8 @@ struct FirstAndLast {
 
 /// Whether all times are one constant, but for rounding.
 bool are_constant(const TimeColumn& times, const FirstAndLast& ends) {
-  return ends.points > 1 && times.difference(ends.last, ends.first) <= kConstantGrains * times.grain(ends.last);
+  return ends.points > 1 &&
+         times.difference(ends.last, ends.first) <= kConstantGrains * times.grain(ends.last);
 }
 
 bool is_somewhere(const Eigen::Vector3f& point) { return point.allFinite() && !point.isZero(0); }
@@ -123,8 +124,8 @@ struct TimeOrigin {
 
 TimeOrigin origin_of(const TimeColumn& times, const FirstAndLast& ends, Stamp stamp, PointTimeUnit unit) {
   const double unit_s = seconds_of(unit);
-  if (are_constant(times, ends)) return {{}, PointClock::kConstant};
   if (times.grain(ends.last) * unit_s > kCoarsest_s) return {{}, PointClock::kCoarse};
+  if (are_constant(times, ends)) return {{}, PointClock::kConstant};
   const bool is_absolute = ends.first.floating * unit_s > kMaxOffset_s;
   const RawTime zero = is_absolute ? times.of_stamp(stamp, unit) : RawTime{};
   const double first_s = times.difference(ends.first, zero) * unit_s;

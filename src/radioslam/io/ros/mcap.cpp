@@ -38,8 +38,8 @@ class McapReader {
     while (!ended_ && !is_cut_off(cursor)) read_record(cursor);
     if (!ended_) note_end(cursor);
     if (chunks_.count() > 0)
-      warnings_.push_back(chunks_.warning(name_, "chunk") + " (all chunks that are left out cover " +
-                          format_seconds(lost_ns_) + " s)");
+      warnings_.push_back(chunks_.warning(name_, "chunk") +
+                          (lost_ns_ == 0 ? "" : "; in all, " + format_seconds(lost_ns_) + " s are lost"));
     if (records_.count() > 0) warnings_.push_back(records_.warning(name_, "record"));
     for (const std::string& encoding : foreign_)
       warnings_.push_back(name_ + ": messages encoded as '" + encoding + "' are left out");
@@ -136,7 +136,8 @@ class McapReader {
     const std::uint64_t time_ns = content.u64();
     content.u64();  // publish time
     if (time_ns > kMaxTime_ns) content.fail("a message's time is implausible");
-    return {channel->second ? &*channel->second : nullptr, {static_cast<std::int64_t>(time_ns)}, content.rest()};
+    return {
+        channel->second ? &*channel->second : nullptr, {static_cast<std::int64_t>(time_ns)}, content.rest()};
   }
 
   void read_message(const ByteCursor& content) {
@@ -148,7 +149,7 @@ class McapReader {
 
   void read_chunk(const ByteCursor& content) {
     const std::string place = "the chunk at byte " + std::to_string(content.position());
-    const auto unpacked = chunks_.attempt([&] { return unpack_chunk(content); });
+    const auto unpacked = chunks_.attempt([&] { return unpack_chunk(content, place); });
     if (!unpacked) return count_lost(content);
     part_ = place;
     ByteCursor records(*unpacked, ByteOrder::kLittle, {name_, part_});
@@ -172,24 +173,24 @@ class McapReader {
   }
 
   /// The records of a chunk.
-  std::string unpack_chunk(ByteCursor content) const {
+  std::string unpack_chunk(ByteCursor content, const std::string& place) const {
     if (!part_.empty()) content.fail("a chunk within a chunk");
     content.take(16);  // times
     const std::uint64_t size = content.u64();
     const std::uint32_t checksum = content.u32();
     const std::string compression(content.counted());
     const std::string_view packed = content.take(content.u64());
-    std::string unpacked = decompress(content, compression, packed, size);
+    std::string unpacked = decompress(content, place, compression, packed, size);
     if (unpacked.size() != size) content.fail("the chunk's length differs from the stated one");
     if (checksum != 0 && checksum != checksum_of(unpacked))
       content.fail("the chunk is corrupt: wrong checksum");
     return unpacked;
   }
 
-  std::string decompress(const ByteCursor& at, const std::string& compression, std::string_view packed,
-                           std::uint64_t size) const {
+  std::string decompress(const ByteCursor& at, const std::string& chunk, const std::string& compression,
+                         std::string_view packed, std::uint64_t size) const {
     if (size > kMaxDecompressed) at.fail("the chunk is implausibly long");
-    const std::string place = name_ + ": the chunk at byte " + std::to_string(at.position());
+    const std::string place = name_ + ": " + chunk;
     if (compression.empty()) return std::string(packed);
     if (compression == "lz4") return decompress_lz4(place, packed, static_cast<std::size_t>(size));
     if (compression == "zstd") return decompress_zstd(place, packed, static_cast<std::size_t>(size));

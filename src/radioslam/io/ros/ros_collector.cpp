@@ -43,7 +43,8 @@ constexpr double kUnknownFixSigma_m = 10;
 
 constexpr const char* kTwice = "messages with the same stamp as another one are left out";
 constexpr const char* kWithoutTime = "messages have no stamp; the recording time is used";
-constexpr const char* kLeftWithoutTime = "messages have no stamp, unlike others of their topic, and are left out";
+constexpr const char* kLeftWithoutTime =
+    "messages have no stamp, unlike others of their topic, and are left out";
 constexpr const char* kWithoutPose = "invalid poses (not finite, or without orientation) are left out";
 
 /// Sorts by time and removes repeated stamps.
@@ -197,8 +198,7 @@ void RosCollector::take_inertial(const RosMessage& message) {
     count(message.channel.topic, "IMU samples are marked as incomplete (no rates or no forces) and left out",
           1);
   else if (reading.specific_force_mps2.allFinite() && reading.angular_rate_radps.allFinite())
-    collected_.inertial.push_back({time_of(message, reading.header),
-                                   R_body_imu * reading.specific_force_mps2,
+    collected_.inertial.push_back({time_of(message, reading.header), R_body_imu * reading.specific_force_mps2,
                                    R_body_imu * reading.angular_rate_radps});
   else
     count(message.channel.topic, "IMU samples that are not finite are left out", 1);

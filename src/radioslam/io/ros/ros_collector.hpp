@@ -2,7 +2,8 @@
 //
 // Points: p_body = T_body_sensor p_sensor; IMU samples: v_body = R_body_sensor v_sensor; extrinsics from
 // ros_import.hpp. Messages that are left out or changed are counted per topic: repeated stamps, missing
-// stamps, invalid poses and samples, and whatever the reader of their type refuses. Scans are passed on immediately, everything else is kept in memory.
+// stamps, invalid poses and samples, and whatever the reader of their type refuses. Scans are passed on
+// immediately, everything else is kept in memory.
 #pragma once
 
 #include <functional>

@@ -103,7 +103,8 @@ using DatabaseChannels = std::map<std::int64_t, RosChannel>;
 std::map<std::string, std::string> read_definitions(sqlite3* database) {
   std::map<std::string, std::string> definitions;
   sqlite3_stmt* prepared = nullptr;
-  constexpr const char* kQuery = "SELECT topic_type, encoding, encoded_message_definition FROM message_definitions";
+  constexpr const char* kQuery =
+      "SELECT topic_type, encoding, encoded_message_definition FROM message_definitions";
   if (sqlite3_prepare_v2(database, kQuery, -1, &prepared, nullptr) != SQLITE_OK) return definitions;
   const Statement rows(prepared, &sqlite3_finalize);
   while (sqlite3_step(rows.get()) == SQLITE_ROW)
@@ -125,8 +126,9 @@ DatabaseChannels read_topics(const std::string& name, sqlite3* database, std::se
     }
     const std::string type = short_type(text_at(rows.get(), 2));
     const auto definition = definitions.find(type);
-    channels[sqlite3_column_int64(rows.get(), 0)] = {text_at(rows.get(), 1), type, MessageEncoding::kCdr,
-                                                     definition == definitions.end() ? "" : definition->second};
+    channels[sqlite3_column_int64(rows.get(), 0)] = {
+        text_at(rows.get(), 1), type, MessageEncoding::kCdr,
+        definition == definitions.end() ? "" : definition->second};
   }
   return channels;
 }
@@ -144,7 +146,7 @@ class DatabaseReader {
       : name_(name), database_(database), visitor_(visitor) {}
 
   std::vector<std::string> read() {
-    channels_ = read_topics(name_, database_, foreign_);
+    channels_ = read_topics_despite_damage();
     std::vector<std::string> warnings;
     if (const auto damage = take_rows()) {
       take_readable();
@@ -160,6 +162,18 @@ class DatabaseReader {
   }
 
  private:
+  /// SQLite opens a file that is shorter than it should be in a mode for repairs only.
+  DatabaseChannels read_topics_despite_damage() {
+    SkippedRecords damage;
+    auto channels = damage.attempt([&] { return read_topics(name_, database_, foreign_); });
+    if (channels) return *channels;
+    sqlite3_exec(database_, "PRAGMA writable_schema = ON", nullptr, nullptr, nullptr);
+    SkippedRecords same;
+    channels = same.attempt([&] { return read_topics(name_, database_, foreign_); });
+    if (!channels) damage.throw_first();
+    return *channels;
+  }
+
   /// Takes all rows, in the order of time; returns the error of the first one that cannot be read.
   std::optional<InputError> take_rows() {
     const Statement rows = prepare(name_, database_, kAllMessages);

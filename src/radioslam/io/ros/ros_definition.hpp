@@ -1,7 +1,7 @@
 // Reads ROS messages of any type by the definition that recordings carry for it.
 //
-// A definition is text (wiki.ros.org/msg): lines `type name`, for ROS 1 and 2 alike; behind lines of '=' follow
-// those of the types it contains, each with `MSG: package/Type`.
+// A definition is text (wiki.ros.org/msg): lines `type name`, for ROS 1 and 2 alike; behind lines of '='
+// follow those of the types it contains, each with `MSG: package/Type`.
 #pragma once
 
 #include <functional>

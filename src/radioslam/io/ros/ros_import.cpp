@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kPlaneHeight_m = 0.1, kPlaneTilt = 0.05;  ///< the latter is the sine of half the tilt
 constexpr double kMaxOriginDistance_m = 1e5, kMaxFixDistance_m = 1e6;
-constexpr double kMinForce_mps2 = 5;                       ///< a smaller mean specific force is not in m/s^2
+constexpr double kMinForce_mps2 = 5;  ///< a smaller mean specific force is not in m/s^2
 
 /// Poses relative to the first one's position and yaw.
 Trajectory<SE3> from_start(std::vector<StampedPose<SE3>> poses) {
@@ -138,8 +138,7 @@ RosImport import_ros_recording(const std::filesystem::path& source, const std::s
   if (is_in_g(collected.inertial))
     collected.warnings.push_back(*choice.imu + ": specific forces are far below 9.81 m/s2; are they in g?");
   RosImport result = mission_of(collected, robot, choice.scans.has_value());
-  if (!collected.fixes.empty())
-    result.imported.mission.robots.front().fix_lever_m = collected.fix_lever_m;
+  if (!collected.fixes.empty()) result.imported.mission.robots.front().fix_lever_m = collected.fix_lever_m;
   result.fixes = std::move(collected.fixes);
   add_warnings(collected, survey, choice, result.imported.warnings);
   for (const RosTopic& topic : survey.topics)

@@ -113,8 +113,9 @@ class RangeReader {
     warn(source, invalid_, "ranges that are not positive or outside of their own limits are left out");
     warn(source, without_sigma_, "ranges state no sigma; 0.1 m is assumed");
     if (!left_.empty())
-      result_.warnings.push_back(source + ": between whom these topics have ranges is unknown, and they are left "
-                                          "out: " +
+      result_.warnings.push_back(source +
+                                 ": between whom these topics have ranges is unknown, and they are left "
+                                 "out: " +
                                  list_of_topics(left_) +
                                  "; --name RADIO=ID says whose a radio in their names is, --ranges "
                                  "TOPIC=ID,ID both ends");

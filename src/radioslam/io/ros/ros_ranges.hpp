@@ -1,5 +1,5 @@
-// Reads the ranges between radios (UWB) in a ROS recording: topics of sensor_msgs/Range, and of UWB drivers whose
-// messages say between which radios they are (uwb_message.hpp).
+// Reads the ranges between radios (UWB) in a ROS recording: topics of sensor_msgs/Range, and of UWB drivers
+// whose messages say between which radios they are (uwb_message.hpp).
 //
 // A Range does not say between whom it was measured. The two ends are those the user states for the topic, or
 // the two robots or radios whose names occur in the topic's name or frame: as parts between slashes, or else

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <functional>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <utility>
@@ -85,9 +87,7 @@ constexpr double kMaxOverlap_s = 1;
 constexpr std::size_t kMaxDecompressedPart = std::size_t{1} << 33U;
 constexpr std::string_view kZstdMagic = "\x28\xb5\x2f\xfd";
 
-bool is_zstd_name(const fs::path& file) {
-  return file.extension() == ".zstd" || file.extension() == ".zst";
-}
+bool is_zstd_name(const fs::path& file) { return file.extension() == ".zstd" || file.extension() == ".zst"; }
 
 /// The name of a part without what tells that it is compressed, or was not closed: k_0.db3 of k_0.db3.zstd.
 fs::path plain_name(const fs::path& file) {
@@ -164,19 +164,36 @@ RecordingFiles recording_files(const fs::path& source) {
   return found;
 }
 
-/// Times of the first and last message of a file; nothing without one.
-std::optional<std::pair<Stamp, Stamp>> span_of(const fs::path& file) {
-  std::optional<std::pair<Stamp, Stamp>> span;
+/// What a file records, to compare it with others: the times of its first and last message, and a hash of
+/// each message, sorted.
+struct FileSummary {
+  Stamp first, last;
+  std::vector<std::size_t> messages;
+};
+
+/// Nothing without a message.
+std::optional<FileSummary> summary_of(const fs::path& file) {
+  FileSummary summary;
   SkippedRecords noted_later;
-  noted_later.attempt([&] {
-    return visit_recording(file, {[](const RosChannel&) { return false; },
-                                  [&](const RosMessage& message) {
-                                    if (!span) span.emplace(message.stamp, message.stamp);
-                                    span->first = std::min(span->first, message.stamp);
-                                    span->second = std::max(span->second, message.stamp);
-                                  }});
-  });
-  return span;
+  const auto take = [&](const RosMessage& message) {
+    const bool is_first = summary.messages.empty();
+    summary.first = is_first ? message.stamp : std::min(summary.first, message.stamp);
+    summary.last = is_first ? message.stamp : std::max(summary.last, message.stamp);
+    const std::string key = message.channel.topic + ' ' + std::to_string(message.stamp.ns) + ' ';
+    summary.messages.push_back(std::hash<std::string>{}(key + std::string(message.bytes)));
+  };
+  noted_later.attempt([&] { return visit_recording(file, {[](const RosChannel&) { return true; }, take}); });
+  std::sort(summary.messages.begin(), summary.messages.end());
+  return summary.messages.empty() ? std::nullopt : std::optional(std::move(summary));
+}
+
+/// Whether two files are of recordings made at the same time, and not copies of the same messages.
+bool are_simultaneous(const FileSummary& a, const FileSummary& b) {
+  if (seconds_between(std::max(a.first, b.first), std::min(a.last, b.last)) <= kMaxOverlap_s) return false;
+  std::vector<std::size_t> same;
+  std::set_intersection(a.messages.begin(), a.messages.end(), b.messages.begin(), b.messages.end(),
+                        std::back_inserter(same));
+  return 2 * same.size() < std::min(a.messages.size(), b.messages.size());
 }
 
 /// The name with every number replaced by one sign.
@@ -189,19 +206,21 @@ std::string without_numbers(const fs::path& file) {
   return name;
 }
 
-/// Whether files are the parts of one recording: their names differ in numbers alone, and their times do not
-/// overlap.
+/// Whether files are the parts of one recording: their names differ in numbers alone, and they do not overlap
+/// in time, but for copies of the same messages.
 bool are_parts(const std::vector<fs::path>& files) {
   if (files.empty()) return false;
-  std::vector<std::pair<Stamp, Stamp>> spans;
-  for (const fs::path& file : files) {
+  for (const fs::path& file : files)
     if (without_numbers(file) != without_numbers(files.front())) return false;
-    if (const auto span = span_of(file)) spans.push_back(*span);
+  std::vector<FileSummary> earlier;
+  for (const fs::path& file : files) {
+    auto summary = summary_of(file);
+    if (!summary) continue;
+    for (const FileSummary& other : earlier)
+      if (are_simultaneous(other, *summary)) return false;
+    earlier.push_back(std::move(*summary));
   }
-  std::sort(spans.begin(), spans.end());
-  return std::adjacent_find(spans.begin(), spans.end(), [](const auto& a, const auto& b) {
-           return seconds_between(b.first, a.second) > kMaxOverlap_s;
-         }) == spans.end();
+  return true;
 }
 
 [[noreturn]] void refuse_foreign(const std::string& name) {
@@ -266,7 +285,8 @@ std::vector<fs::path> recordings_in(const fs::path& source) {
   if (!fs::is_directory(source)) return {source};
   RecordingFiles found{files_in(source, Depth::kFolder, is_recording_name), {}};
   leave_out_twins(found);
-  const bool is_one = found.files.size() == 1 || fs::exists(source / "metadata.yaml") || are_parts(found.files);
+  const bool is_one =
+      found.files.size() == 1 || fs::exists(source / "metadata.yaml") || are_parts(found.files);
   std::set<fs::path> recordings;  // a folder stands for the files in it, without those below
   for (const fs::path& file : files_in(source, Depth::kBelow, is_recording_name))
     if (file.parent_path() != source) recordings.insert(file.parent_path());

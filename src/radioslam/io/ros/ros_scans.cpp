@@ -131,8 +131,9 @@ void RosScans::hand_on(std::vector<StampedScan> sweeps) {
 void RosScans::note_slices(std::vector<std::string>& notes) const {
   const SweepAssembler::Counts& counts = sweeps_->counts();
   std::ostringstream text;
-  text << topic_ << ": its " << counts.slices << " messages are slices of sweeps, "
-       << std::setprecision(3) << std::abs(slices_.step_rad) * kDegreesPerRadian << " degrees each; they are gathered into " << counts.sweeps << " sweeps";
+  text << topic_ << ": its " << counts.slices << " messages are slices of sweeps, " << std::setprecision(3)
+       << std::abs(slices_.step_rad) * kDegreesPerRadian << " degrees each; they are gathered into "
+       << counts.sweeps << " sweeps";
   const auto add = [&](std::size_t count, const char* what) {
     if (count > 0) text << "; " << count << ' ' << what;
   };

@@ -18,7 +18,8 @@ using TopicsByName = std::map<std::string, RosTopic>;
 
 /// Whether messages of this type begin with a header.
 bool has_header(const std::string& type) {
-  return is_pose_type(type) || type == kImuType || type == kFixType || type == kRangeType || is_scan_type(type);
+  return is_pose_type(type) || type == kImuType || type == kFixType || type == kRangeType ||
+         is_scan_type(type);
 }
 
 constexpr std::int64_t kMaxDelay_ns = kNanosecondsPerSecond;

@@ -94,7 +94,7 @@ struct RosFix {
   /// Nothing without a fix, as are latitude and longitude 0 without a covariance, which receivers send before
   /// they have one; an unknown altitude is NaN.
   std::optional<GeodeticPlace> place;
-  std::optional<double> sigma_m;       ///< of the worst axis; nothing if not stated
+  std::optional<double> sigma_m;  ///< of the worst axis; nothing if not stated
 };
 
 /// sensor_msgs/Range.

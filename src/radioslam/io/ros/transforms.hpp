@@ -60,7 +60,7 @@ class MovingTransforms {
 
  private:
   struct Link {
-    std::vector<StampedPose<SE3>> poses;  ///< T_parent_child
+    std::vector<StampedPose<SE3>> poses;     ///< T_parent_child
     std::vector<StampedPose<SE3>> timeless;  ///< at the time of their recording; used if `poses` is empty
     std::size_t without_pose = 0;
 

@@ -12,9 +12,9 @@ namespace radioslam {
 namespace {
 
 constexpr std::array kRangeNames{"range", "distance", "dis", "dist"};
-constexpr std::array kToNames{"toid",       "responderid", "destinationid", "destid", "dstid",    "anchorid",
-                              "id2",        "uwbid2",      "receiverid",    "rxid",   "neighborid", "remoteid",
-                              "targetid",   "to"};
+constexpr std::array kToNames{"toid",       "responderid", "destinationid", "destid",     "dstid",
+                              "anchorid",   "id2",         "uwbid2",        "receiverid", "rxid",
+                              "neighborid", "remoteid",    "targetid",      "to"};
 constexpr std::array kFromNames{"fromid", "requesterid", "sourceid", "srcid",  "tagid", "initiatorid",
                                 "id1",    "uwbid1",      "txid",     "selfid", "from",  "id"};
 constexpr std::array kSigmaNames{"sigma", "std", "stddev"};
@@ -62,7 +62,8 @@ std::optional<UwbRange> range_of(const Values& values, const Values& message, bo
   const RosValue* range = first_of(values, kRangeNames);
   const RosValue* to = other_end(values, is_element);
   if (range == nullptr || to == nullptr) return std::nullopt;
-  const RosValue* from = first_of(is_element && first_of(values, kToNames) == nullptr ? message : values, kFromNames);
+  const RosValue* from =
+      first_of(is_element && first_of(values, kToNames) == nullptr ? message : values, kFromNames);
   if (from == nullptr) from = first_of(message, kFromNames);
   const double unit_m = range->is_integer ? kMetresPerMillimetre : 1;
   return UwbRange{from == nullptr ? "" : id_of(*from), id_of(*to), range->number * unit_m, sigma_of(values)};
