@@ -26,6 +26,47 @@ enum McapOpcode : std::uint8_t {
 constexpr std::size_t kMcapRecordHeader = 9;
 constexpr std::uint64_t kMaxTime_ns = std::uint64_t{1} << 62U;
 
+std::uint32_t checksum_of(const std::string& bytes) {
+  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
+
+std::string decompress(const ByteCursor& at, const std::string& place, const std::string& compression,
+                       std::string_view packed, std::uint64_t size) {
+  if (size > kMaxDecompressed) at.fail("the chunk is implausibly long");
+  if (compression.empty()) return std::string(packed);
+  if (compression == "lz4") return decompress_lz4(place, packed, static_cast<std::size_t>(size));
+  if (compression == "zstd") return decompress_zstd(place, packed, static_cast<std::size_t>(size));
+  at.fail("unknown compression '" + compression + "'");
+}
+
+/// The records of a chunk.
+std::string unpack_chunk(ByteCursor content, const std::string& place) {
+  content.take(16);  // times
+  const std::uint64_t size = content.u64();
+  const std::uint32_t checksum = content.u32();
+  const std::string compression(content.counted());
+  const std::string_view packed = content.take(content.u64());
+  std::string unpacked = decompress(content, place, compression, packed, size);
+  if (unpacked.size() != size) content.fail("the chunk's length differs from the stated one");
+  if (checksum != 0 && checksum != checksum_of(unpacked))
+    content.fail("the chunk is corrupt: wrong checksum");
+  return unpacked;
+}
+
+/// The time that a chunk covers; 0 if it does not say.
+std::uint64_t duration_ns(ByteCursor content) {
+  if (content.left() < 2 * sizeof(std::uint64_t)) return 0;
+  const std::uint64_t begin_ns = content.u64();
+  const std::uint64_t end_ns = content.u64();
+  return begin_ns <= end_ns && end_ns <= kMaxTime_ns ? end_ns - begin_ns : 0;
+}
+
+std::string format_seconds(std::uint64_t ns) {
+  std::ostringstream text;
+  text << static_cast<double>(ns / kNanosecondsPerMillisecond) * kSecondsPerMillisecond;
+  return text.str();
+}
+
 /// The recording's channels that are read.
 class McapReader {
  public:
@@ -149,56 +190,19 @@ class McapReader {
 
   void read_chunk(const ByteCursor& content) {
     const std::string place = "the chunk at byte " + std::to_string(content.position());
-    const auto unpacked = chunks_.attempt([&] { return unpack_chunk(content, place); });
-    if (!unpacked) return count_lost(content);
+    const auto unpacked = chunks_.attempt([&] {
+      if (!part_.empty()) content.fail("a chunk within a chunk");
+      return unpack_chunk(content, name_ + ": " + place);
+    });
+    if (!unpacked) {
+      lost_ns_ += duration_ns(content);
+      return;
+    }
     part_ = place;
     ByteCursor records(*unpacked, ByteOrder::kLittle, {name_, part_});
     while (!records.empty() && !is_cut_off(records)) read_record(records);
     if (!records.empty()) records_.attempt([&]() -> bool { records.fail("the chunk ends within a record"); });
     part_.clear();
-  }
-
-  /// Adds the time that a chunk covers.
-  void count_lost(ByteCursor content) {
-    if (content.left() < 2 * sizeof(std::uint64_t)) return;
-    const std::uint64_t begin_ns = content.u64();
-    const std::uint64_t end_ns = content.u64();
-    if (begin_ns <= end_ns && end_ns <= kMaxTime_ns) lost_ns_ += end_ns - begin_ns;
-  }
-
-  static std::string format_seconds(std::uint64_t ns) {
-    std::ostringstream text;
-    text << static_cast<double>(ns / kNanosecondsPerMillisecond) * kSecondsPerMillisecond;
-    return text.str();
-  }
-
-  /// The records of a chunk.
-  std::string unpack_chunk(ByteCursor content, const std::string& place) const {
-    if (!part_.empty()) content.fail("a chunk within a chunk");
-    content.take(16);  // times
-    const std::uint64_t size = content.u64();
-    const std::uint32_t checksum = content.u32();
-    const std::string compression(content.counted());
-    const std::string_view packed = content.take(content.u64());
-    std::string unpacked = decompress(content, place, compression, packed, size);
-    if (unpacked.size() != size) content.fail("the chunk's length differs from the stated one");
-    if (checksum != 0 && checksum != checksum_of(unpacked))
-      content.fail("the chunk is corrupt: wrong checksum");
-    return unpacked;
-  }
-
-  std::string decompress(const ByteCursor& at, const std::string& chunk, const std::string& compression,
-                         std::string_view packed, std::uint64_t size) const {
-    if (size > kMaxDecompressed) at.fail("the chunk is implausibly long");
-    const std::string place = name_ + ": " + chunk;
-    if (compression.empty()) return std::string(packed);
-    if (compression == "lz4") return decompress_lz4(place, packed, static_cast<std::size_t>(size));
-    if (compression == "zstd") return decompress_zstd(place, packed, static_cast<std::size_t>(size));
-    at.fail("unknown compression '" + compression + "'");
-  }
-
-  static std::uint32_t checksum_of(const std::string& bytes) {
-    return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
   }
 
   const std::string& name_;

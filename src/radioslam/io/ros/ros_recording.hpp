@@ -55,7 +55,7 @@ std::vector<std::string> visit_recording(const std::filesystem::path& source, co
 /// not overlap in time by more than a second, but for copies of the same messages; else each of them is one.
 std::vector<std::filesystem::path> recordings_in(const std::filesystem::path& source);
 
-/// The name of a file or folder, without what tells its format: drive of drive.db3.zstd and of drive/.
+/// The name of a file or folder without the extensions of its format: drive of drive.db3.zstd and of drive/.
 std::string recording_name(const std::filesystem::path& source);
 
 }  // namespace radioslam
