@@ -108,13 +108,67 @@ TEST_F(ImportLidar, RosbagBringsFixesOfATeamIntoOneFrame) {
   write_file(folder.path() / "y.bag", recording_with_fix(0.001));
   const Outcome outcome = import({"rosbag", "x.bag", "y.bag", "-o", "team"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("1 odometry samples, 0 IMU samples, 1 position fixes of b\n"), std::string::npos)
+  EXPECT_NE(outcome.out.find("1 odometry samples, 0 IMU samples, 1 position fixes of y\n"), std::string::npos)
       << outcome.out;
-  EXPECT_EQ(read_file(folder.path() / "team/robots/a/gnss.csv"), "t_s,x_m,y_m,z_m,sigma_m\n10,0,0,0,2\n");
-  const std::string other = read_file(folder.path() / "team/robots/b/gnss.csv");
+  EXPECT_EQ(read_file(folder.path() / "team/robots/x/gnss.csv"), "t_s,x_m,y_m,z_m,sigma_m\n10,0,0,0,2\n");
+  const std::string other = read_file(folder.path() / "team/robots/y/gnss.csv");
   EXPECT_NE(other.find("\n10,0,110.57"), std::string::npos) << other;
   ASSERT_EQ(import({"rosbag", "x.bag", "--gnss", "none", "-o", "alone"}).status, 0);
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "alone/robots/a/gnss.csv"));
+}
+
+TEST_F(ImportLidar, RosbagMakesARobotOfEachOdometryThatIsNamed) {
+  write_file(folder.path() / "x.bag", recording_of_two());
+  const Outcome outcome =
+      import({"rosbag", "x.bag", "--odometry", "/r1/odom", "--odometry", "/r2/odom", "-o", "team"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(files_in(folder.path() / "team"),
+            (std::vector<std::string>{"mission.yaml", "robots/r1/odometry.tum", "robots/r2/odometry.tum"}))
+      << "named by what differs in the topics";
+}
+
+/// Odometry, and ranges of a topic.
+std::string recording_with_ranges(const std::string& topic) {
+  RosBytes odometry(MessageEncoding::kRos1), range(MessageEncoding::kRos1);
+  odometry.header(10, 0, "odom").text("base").f64s({1, 2, 0, 0, 0, 0, 1});
+  range.header(10, 500'000'000, "").u8(1).f32(0).f32(0).f32(0).f32(4.5F);
+  return bag_of(bag_records({{"/odom", "nav_msgs/Odometry", 10'000'000'000, odometry.bytes()},
+                             {"/rosout", "rosgraph_msgs/Log", 10'000'000'000, ""},
+                             {topic, "sensor_msgs/Range", 10'000'000'000, range.bytes()}}));
+}
+
+TEST_F(ImportLidar, RosbagTakesAFolderOfBagsWithRanges) {
+  std::filesystem::create_directories(folder.path() / "bags");
+  write_file(folder.path() / "bags/north.bag", recording_with_ranges("/uwb/south"));
+  write_file(folder.path() / "bags/south.bag", recording_with_ranges("/uwb/tag_9"));
+  const Outcome outcome = import({"rosbag", "bags", "--name", "tag_9=door", "-o", "team"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(read_file(folder.path() / "team/radio/ranges.csv"),
+            "t_s,robot_i,robot_j,range_m,sigma_m\n10.5,north,south,4.5,0.1\n10.5,south,door,4.5,0.1\n");
+  EXPECT_NE(read_file(folder.path() / "team/radio/anchors.csv").find("\ndoor,,,"), std::string::npos);
+  EXPECT_NE(
+      outcome.out.find("bags/north.bag: topics that are not imported: /rosout (rosgraph_msgs/Log, 1)\n"),
+      std::string::npos)
+      << outcome.out;
+  ASSERT_EQ(import({"rosbag", "bags", "--ranges", "/uwb/tag_9=south,gate", "-o", "other"}).status, 0);
+  EXPECT_NE(read_file(folder.path() / "other/radio/ranges.csv").find("south,gate,4.5"), std::string::npos);
+  const Outcome listed = import({"rosbag", "bags", "--list"});
+  EXPECT_NE(listed.out.find("bags/south.bag:\n/odom  nav_msgs/Odometry  1\n"), std::string::npos)
+      << listed.out;
+}
+
+TEST_F(ImportLidar, RosbagRefusesInvalidRadios) {
+  write_file(folder.path() / "x.bag", recording_of_two());
+  const auto refuse = [&](const char* option, const char* value, const char* words) {
+    expect_refused({"rosbag", "x.bag", "--odometry", "/r1/odom", option, value, "-o", "m"}, words);
+  };
+  refuse("--name", "n_3", "--name n_3: expected RADIO=ID");
+  refuse("--name", "n_3=a/b", "is not a valid name");
+  refuse("--ranges", "/x", "--ranges /x: expected TOPIC=ID,ID");
+  refuse("--ranges", "/x=a", "expected TOPIC=ID,ID");
+  refuse("--ranges", "/x=b,c", "at least one of two different ends has to be a robot");
+  expect_refused({"rosbag", "x.bag", "--odometry", "/r1/odom", "--name", "n=a", "--name", "n=b", "-o", "m"},
+                 "this radio already has a name");
 }
 
 TEST_F(ImportLidar, RosbagRefusesAmbiguousTopics) {
@@ -124,8 +178,9 @@ TEST_F(ImportLidar, RosbagRefusesAmbiguousTopics) {
   expect_refused({"rosbag", "x.bag", "x.bag", "--robot", "a", "-o", "m"},
                  "2 sources but 1 --robot are given");
   expect_refused({"rosbag", "x.bag", "x.bag", "--robot", "a", "--robot", "a", "-o", "m"}, "the same name");
-  expect_refused({"rosbag", "x.bag", "--odometry", "/r1/odom", "--odometry", "/r2/odom", "-o", "m"},
-                 "--odometry: is given 2 times for 1 sources");
+  expect_refused(
+      {"rosbag", "x.bag", "x.bag", "x.bag", "--odometry", "/r1/odom", "--odometry", "/r2/odom", "-o", "m"},
+      "--odometry: is given 2 times for 3 sources");
   expect_refused({"rosbag", "x.bag", "--set", "a=1", "-o", "m"}, "takes no parameters");
   expect_refused({"carmen", "x.bag", "--scans", "/x", "-o", "m"}, "takes no ROS topics");
   expect_refused({"iw", "x.bag", "--robot", "a", "--robot", "b", "-o", "m"}, "takes no second --robot");

@@ -35,6 +35,7 @@ add_library(radioslam_cli STATIC
   cli/import/import_ranges.cpp
   cli/import/import_walk.cpp
   cli/import/import_wifi.cpp
+  cli/import/ros_sources.cpp
   cli/parameter_sets.cpp
   cli/parameters.cpp
   cli/program.cpp

@@ -1,14 +1,20 @@
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "radioslam/base/statistics.hpp"
+#include "radioslam/base/units.hpp"
 #include "radioslam/doctor/checks.hpp"
 #include "radioslam/doctor/text.hpp"
+#include "radioslam/mission/sweep_slices.hpp"
 
 namespace radioslam {
 namespace {
 
 constexpr std::size_t kSampledScans = 8;
+constexpr std::size_t kScansToFindSlices = 10;
 constexpr double kMaxMedianRange_m = 300;
 
 std::vector<double> ranges_m(const LidarScan& scan) {
@@ -24,6 +30,14 @@ bool same_points(const LidarScan& a, const LidarScan& b) {
   return a.points.size() > 20 &&
          std::equal(a.points.begin(), a.points.end(), b.points.begin(), b.points.end(),
                     [](const auto& x, const auto& y) { return x == y || (!(x == x) && !(y == y)); });
+}
+
+/// Whether the robot's first scans are slices of sweeps.
+std::optional<SliceMotion> motion_of_first_scans(const Robot& robot) {
+  std::vector<StampedScan> first;
+  for (std::size_t k = 0; k < std::min(robot.lidar.size(), kScansToFindSlices); ++k)
+    first.push_back({robot.lidar.stamps[k], robot.lidar.read(k)});
+  return motion_of_slices(first);
 }
 
 void check_robot(const Robot& robot, std::vector<Finding>& findings) {
@@ -49,6 +63,11 @@ void check_robot(const Robot& robot, std::vector<Finding>& findings) {
                         "the median range of the points is " + number(typical) + " m", "metres",
                         typical > 1 ? "divide the coordinates by 1000 if they are in millimetres"
                                     : "multiply the coordinates by 1000 if they are in kilometres"});
+  if (const auto slices = motion_of_first_scans(robot))
+    findings.push_back({"slices", Severity::kWarning, robot.id, folder,
+                        "the scans are slices of " + number(std::abs(degrees(slices->step_rad))) +
+                            " degrees, each next to the one before",
+                        "whole sweeps", "join the slices of a sweep; `radioslam import rosbag` does"});
   if (2 * repeated >= count)
     findings.push_back(
         {"stale", Severity::kWarning, robot.id, folder,

@@ -24,6 +24,7 @@ radioslam_room(io
     graph/repeated_edges.cpp
     graph/team_assembly.cpp
     graph/team_graph_file.cpp
+    lidar/bin_layout.cpp
     lidar/carmen.cpp
     lidar/kitti_sequence.cpp
     lidar/lidar_folder.cpp
@@ -48,10 +49,14 @@ radioslam_room(io
     ros/ros1_bag.cpp
     ros/ros_collector.cpp
     ros/ros_database.cpp
+    ros/ros_definition.cpp
     ros/ros_import.cpp
+    ros/ros_ranges.cpp
     ros/ros_recording.cpp
+    ros/ros_scans.cpp
     ros/ros_topics.cpp
     ros/ros_types.cpp
+    ros/uwb_message.cpp
     run/metrics_json.cpp
     run/run_folder.cpp
     run/run_tables.cpp

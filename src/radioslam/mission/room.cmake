@@ -4,5 +4,6 @@ radioslam_room(mission
     dead_reckoning.cpp
     keyframes.cpp
     odometry_edge.cpp
+    sweep_slices.cpp
     wifi_channel.cpp
   ROOMS geometry)

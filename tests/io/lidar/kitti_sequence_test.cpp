@@ -139,7 +139,7 @@ TEST(KittiDrive, CopiesRecordedScans) {
   const KittiDrive drive = read_kitti_drive(source, "a");
   ASSERT_EQ(drive.scans.size(), 4U);
   const TemporaryFolder folder;
-  copy_kitti_scans(drive.scans, folder.path() / "lidar");
+  copy_kitti_scans(drive, folder.path() / "lidar");
   const LidarLog log = read_lidar_folder(folder.path() / "lidar");
   EXPECT_EQ(log.stamps,
             (std::vector<Stamp>{{9'400'000'000}, {9'500'000'000}, {19'800'000'000}, {19'900'000'000}}));

@@ -162,5 +162,42 @@ TEST(PointTimes, WithoutAColumnAreEmpty) {
   EXPECT_TRUE(times_of(table, kStamp).since_stamp_s.empty());
 }
 
+TEST(PointTimes, OfOneConstantAreDiscarded) {
+  const auto f64 = NumberType::kFloat64;
+  for (const NumberType type : {NumberType::kFloat32, f64, NumberType::kUint32, NumberType::kInt64})
+    for (const double constant : {0.0, 0.05, 17.0, 1e9, 1.7326e18}) {
+      if (type == NumberType::kUint32 && constant > 4e9) continue;
+      TimedPoints points;
+      for (int k = 0; k < 3; ++k) points.add(constant);
+      const PointTimes times = times_of(points.table(type), kStamp);
+      EXPECT_TRUE(times.since_stamp_s.empty()) << constant;
+      const bool is_coarse = type == NumberType::kFloat32 && constant > 1e6;
+      EXPECT_EQ(times.clock, is_coarse ? PointClock::kCoarse : PointClock::kConstant) << constant;
+    }
+  TimedPoints rounded;
+  for (const double ns : {0.0, 256.0, 512.0}) rounded.add(1.7326e18 + ns);
+  EXPECT_EQ(times_of(rounded.table(f64), kStamp).clock, PointClock::kConstant);
+  TimedPoints missing;  // a point without a return has no time
+  missing.add(7);
+  missing.add(0, 0);
+  missing.add(7);
+  EXPECT_EQ(times_of(missing.table(f64), kStamp).clock, PointClock::kConstant);
+  TimedPoints alone;
+  alone.add(0.25);
+  EXPECT_EQ(times_of(alone.table(f64), kStamp).since_stamp_s, std::vector<float>{0.25F});
+}
+
+TEST(PointTimes, ThatAreTheSameInAllScansAreFrozen) {
+  const std::vector<RawPointTimes> same(3, {Unit::kNanosecond, 1e8, 1.7e18});
+  EXPECT_TRUE(are_frozen(same, 0.2, Unit::kNanosecond));
+  EXPECT_FALSE(are_frozen({same[0], same[0]}, 0.1, Unit::kNanosecond)) << "of two it could be chance";
+  auto advancing = same;
+  advancing[1].first += 1e8;
+  advancing[2].first += 2e8;
+  EXPECT_FALSE(are_frozen(advancing, 0.2, Unit::kNanosecond));
+  EXPECT_FALSE(are_frozen(std::vector<RawPointTimes>(3, {Unit::kSecond, 0.1, 0.0}), 0.2, Unit::kSecond))
+      << "times relative to the stamp are the same in all scans";
+}
+
 }  // namespace
 }  // namespace radioslam

@@ -66,25 +66,70 @@ TEST(Mcap, LeavesForeignEncodingsOut) {
   EXPECT_TRUE(noted.lines.empty());
 }
 
-TEST(Mcap, RefusesWithTheByte) {
-  const std::string records = mcap_records(kWrittenMessages);
-  const auto refuse = [](const std::string& content, const char* words) {
-    expect_refusal([&] { visit(mcap_of(content)); }, 0, words);
+/// What of `content` is passed on, and the warnings.
+std::pair<std::vector<std::string>, std::string> visit_damaged(const std::string& content) {
+  NotedMessages noted;
+  std::string warnings;
+  for (const auto& warning : visit_mcap("x.mcap", content, noted.visitor())) warnings += warning + '\n';
+  return {noted.lines, warnings};
+}
+
+const std::string kSound = mcap_records(kWrittenMessages);
+
+TEST(Mcap, SkipsAndNotesRecordsThatCannotBeRead) {
+  const auto skip = [](const std::string& damaged, const char* words) {
+    const auto [lines, warnings] = visit_damaged(mcap_of(damaged + kSound));
+    EXPECT_EQ(lines, kNotedLines) << words;
+    EXPECT_NE(warnings.find(words), std::string::npos) << warnings;
+    EXPECT_NE(warnings.find("1 record is left out; the first: x.mcap: "), std::string::npos) << warnings;
   };
-  refuse(mcap_record(0x05, little(9, 2) + little(0, 20)), "at byte ");
-  refuse(mcap_record(0x05, little(9, 2) + little(0, 20)), "a message of an unknown channel");
-  refuse(mcap_record(0x04, little(0, 2) + little(5, 2) + counted("/a") + counted("cdr")), "unknown schema");
-  refuse(mcap_record(0x04, "x"), "unexpected end of the data");
-  refuse(mcap_chunk(records, "", records, 1), "wrong checksum");
-  refuse(mcap_chunk(records, "", records + "x"), "the chunk's length differs");
-  refuse(mcap_chunk(records, "zip", records), "unknown compression 'zip'");
-  refuse(mcap_chunk(records, "lz4", "garbage"), "the chunk at byte");
-  refuse(mcap_chunk(records, "lz4", lz4_of(records).substr(0, 20)), "truncated");
-  refuse(mcap_chunk(records, "zstd", zstd_of(records + records)), "larger than");
-  const std::string nested = mcap_chunk(records, "", records);
-  refuse(mcap_chunk(nested, "", nested), "a chunk within a chunk");
-  const std::string torn = records.substr(0, records.size() - 1);
-  refuse(mcap_chunk(torn, "", torn), "the chunk at byte");
+  skip(mcap_record(0x05, little(9, 2) + little(0, 20)), "at byte ");
+  skip(mcap_record(0x05, little(9, 2) + little(0, 20)), "a message of an unknown channel");
+  skip(mcap_record(0x05, little(0, 2) + little(0, 4) + little(~0ULL, 8) + little(0, 8)), "implausible");
+  skip(mcap_record(0x04, little(9, 2) + little(5, 2) + counted("/a") + counted("cdr")), "unknown schema");
+  skip(mcap_record(0x04, "x"), "unexpected end of the data");
+  skip(std::string(3000, '\0'), "zeros in place of a record");
+}
+
+TEST(Mcap, SkipsAndNotesChunksThatCannotBeRead) {
+  const auto skip = [](const std::string& chunk, const char* words) {
+    const std::string sound = mcap_chunk(kSound, "zstd", zstd_of(kSound));
+    const auto [lines, warnings] = visit_damaged(mcap_of(chunk + sound));
+    EXPECT_EQ(lines, kNotedLines) << words;
+    EXPECT_NE(warnings.find("1 chunk is left out; the first: x.mcap: "), std::string::npos) << warnings;
+    EXPECT_NE(warnings.find(words), std::string::npos) << warnings;
+  };
+  skip(mcap_chunk(kSound, "", kSound, 1), "wrong checksum");
+  skip(mcap_chunk(kSound, "", kSound + "x"), "the chunk's length differs");
+  skip(mcap_chunk(kSound, "zip", kSound), "unknown compression 'zip'");
+  skip(mcap_chunk(kSound, "lz4", "garbage"), "the chunk at byte");
+  skip(mcap_chunk(kSound, "lz4", lz4_of(kSound).substr(0, 20)), "truncated");
+  skip(mcap_chunk(kSound, "zstd", zstd_of(kSound + kSound)), "larger than");
+  const std::string nested = mcap_chunk(kSound, "", kSound);
+  skip(mcap_chunk(nested, "", nested), "a chunk within a chunk");
+}
+
+TEST(Mcap, ReadsAChunkUpToItsDamage) {
+  const std::string torn = kSound + kSound.substr(0, kSound.size() - 1);
+  const auto [lines, warnings] = visit_damaged(mcap_of(mcap_chunk(torn, "", torn)));
+  EXPECT_EQ(lines.size(), 3U);
+  EXPECT_NE(warnings.find("the chunk ends within a record"), std::string::npos) << warnings;
+}
+
+TEST(Mcap, TakesChannelsOfALostChunkFromTheSummary) {
+  const std::string message_alone =  // of a channel whose records were in the lost chunk
+      mcap_record(0x05, little(0, 2) + little(0, 4) + little(5, 8) + little(5, 8) + "again");
+  const auto [lines, warnings] =
+      visit_damaged(mcap_of(mcap_chunk(kSound, "", kSound, 1) + message_alone) + kSound);
+  EXPECT_EQ(lines, std::vector<std::string>{"/a std_msgs/String 5 again"}) << warnings;
+}
+
+TEST(Mcap, TakesZerosForTheEndOfTheFile) {
+  const auto [lines, warnings] = visit_damaged("\x89MCAP0\r\n" + kSound + std::string(5000, '\0'));
+  EXPECT_EQ(lines, kNotedLines);
+  EXPECT_NE(warnings.find("the file has only zeros from here on; the data before this are read"),
+            std::string::npos)
+      << warnings;
 }
 
 }  // namespace

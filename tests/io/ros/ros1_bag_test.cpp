@@ -48,23 +48,66 @@ TEST(Ros1Bag, ReadsWhatPrecedesACut) {
   EXPECT_EQ(noted.lines.size(), 1U);
 }
 
-TEST(Ros1Bag, RefusesWithTheByte) {
-  const auto refuse = [](const std::string& content, const char* words) {
-    expect_refusal([&] { visit_bag(bag_of(content)); }, 0, words);
-  };
+/// What of `content` is passed on, and the warnings.
+std::pair<std::vector<std::string>, std::string> visit_damaged(const std::string& content) {
+  NotedMessages noted;
+  std::string warnings;
+  for (const auto& warning : visit_ros1_bag("x.bag", content, noted.visitor())) warnings += warning + '\n';
+  return {noted.lines, warnings};
+}
+
+TEST(Ros1Bag, SkipsAndNotesWhatCannotBeRead) {
   const std::string records = bag_records(kWrittenMessages);
-  refuse(bag_record({"op=\x02", "conn=" + little(7, 4), "time=" + little(0, 8)}, ""), "unknown connection");
-  refuse(bag_record({"op=\x02"}, ""), "at byte ");
-  refuse(bag_record({"op=\x02"}, ""), "a record without conn");
-  refuse(bag_record({"op=\x02", "conn=x"}, ""), "conn has a wrong length");
-  refuse(bag_record({"no equals"}, ""), "no '='");
-  refuse(bag_record({"op=\x07", "conn=" + little(0, 4), "topic=/a"}, ""), "a connection without a type");
-  refuse(bag_chunk(records, "zip", records), "unknown compression 'zip'");
-  refuse(bag_chunk(records, "none", records + "x"), "the chunk's length differs");
-  refuse(bag_chunk(records, "bz2", "garbage"), "the chunk at byte");
+  const auto skip = [&](const std::string& damaged, const char* what, const char* words) {
+    const auto [lines, warnings] = visit_damaged(bag_of(damaged + records));
+    EXPECT_EQ(lines, kNotedLines) << words;
+    EXPECT_NE(warnings.find(std::string("1 ") + what + " is left out; the first: x.bag: "), std::string::npos)
+        << warnings;
+    EXPECT_NE(warnings.find(words), std::string::npos) << warnings;
+  };
+  skip(bag_record({"op=\x02", "conn=" + little(7, 4), "time=" + little(0, 8)}, ""), "record",
+       "unknown connection");
+  skip(bag_record({"op=\x02"}, ""), "record", "at byte ");
+  skip(bag_record({"op=\x02"}, ""), "record", "a record without conn");
+  skip(bag_record({"op=\x02", "conn=x"}, ""), "record", "conn has a wrong length");
+  skip(bag_record({"no equals"}, ""), "record", "no '='");
+  skip(bag_record({"op=\x07", "conn=" + little(0, 4), "topic=/a"}, ""), "record",
+       "a connection without a type");
+  skip(std::string(800, '\0'), "record", "zeros in place of a record");
+  skip(bag_chunk(records, "zip", records), "chunk", "unknown compression 'zip'");
+  skip(bag_chunk(records, "none", records + "x"), "chunk", "the chunk's length differs");
+  skip(bag_chunk(records, "bz2", "garbage"), "chunk", "the chunk at byte");
   const std::string nested = bag_chunk(records, "none", records);
-  refuse(bag_chunk(nested, "none", nested), "a chunk within a chunk");
-  refuse(bag_record({"op=\x03", "encryptor=rosbag/AesCbcEncryptor"}, ""), "encrypted");
+  skip(bag_chunk(nested, "none", nested), "chunk", "a chunk within a chunk");
+}
+
+TEST(Ros1Bag, RefusesEncryptedBags) {
+  expect_refusal(
+      [&] {
+        visit_bag(bag_of(bag_record({"op=\x03", "encryptor=rosbag/AesCbcEncryptor"}, "")));
+      },
+      0, "encrypted");
+}
+
+TEST(Ros1Bag, ReadsUpToZerosOfALostEnd) {
+  const std::string records = bag_records(kWrittenMessages);
+  const std::string zeros(5000, '\0');
+  const auto [lines, warnings] = visit_damaged(bag_of(records + zeros));
+  EXPECT_EQ(lines, kNotedLines);
+  EXPECT_NE(warnings.find("has only zeros from here on"), std::string::npos) << warnings;
+  const auto inside = visit_damaged(bag_of(bag_chunk(records + zeros, "none", records + zeros)));
+  EXPECT_EQ(inside.first, kNotedLines);
+  EXPECT_NE(inside.second.find("the chunk ends within a record"), std::string::npos) << inside.second;
+}
+
+TEST(Ros1Bag, TakesConnectionsOfALostChunkFromTheIndex) {
+  const std::string records = bag_records(kWrittenMessages);
+  const std::string message =
+      bag_record({"op=\x02", "conn=" + little(0, 4), "time=" + little(1, 4) + little(5, 4)}, "again");
+  const auto [lines, warnings] = visit_damaged(
+      bag_of(bag_chunk(records, "bz2", "garbage") + bag_chunk(message, "none", message) +
+             bag_record({"op=\x07", "conn=" + little(0, 4), "topic=/a"}, counted("type=std_msgs/String"))));
+  EXPECT_EQ(lines, std::vector<std::string>{"/a std_msgs/String 1000000005 again"}) << warnings;
 }
 
 }  // namespace

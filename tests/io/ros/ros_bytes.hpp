@@ -67,6 +67,7 @@ struct WrittenMessage {
   std::string type;  ///< name in ROS 1
   std::int64_t time_ns = 0;
   std::string bytes;
+  std::string definition = {};  ///< of the type
 };
 
 /// The bytes, preceded by their length as u32.
@@ -96,7 +97,8 @@ inline std::string mcap_records(const std::vector<WrittenMessage>& messages,
     const WrittenMessage& message = messages[k];
     std::string type = message.type;
     if (encoding == "cdr") type.insert(type.find('/'), "/msg");
-    out += mcap_record(0x03, little(k + 1, 2) + counted(type) + counted("ros2msg") + counted(""));
+    out += mcap_record(0x03,
+                       little(k + 1, 2) + counted(type) + counted("ros2msg") + counted(message.definition));
     out += mcap_record(
         0x04, little(k, 2) + little(k + 1, 2) + counted(message.topic) + counted(encoding) + counted(""));
     const auto time = little(static_cast<std::uint64_t>(message.time_ns), 8);
@@ -130,7 +132,8 @@ inline std::string bag_records(const std::vector<WrittenMessage>& messages) {
     const WrittenMessage& message = messages[k];
     const std::string connection = "conn=" + little(k, 4);
     out += bag_record({"op=\x07", connection, "topic=" + message.topic},
-                      counted("topic=" + message.topic) + counted("type=" + message.type));
+                      counted("topic=" + message.topic) + counted("type=" + message.type) +
+                          counted("message_definition=" + message.definition));
     const auto time = little(static_cast<std::uint64_t>(message.time_ns / 1'000'000'000), 4) +
                       little(static_cast<std::uint64_t>(message.time_ns % 1'000'000'000), 4);
     out += bag_record({"op=\x02", connection, "time=" + time}, message.bytes);

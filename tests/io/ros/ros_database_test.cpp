@@ -3,8 +3,12 @@
 #include <sqlite3.h>
 #include <zstd.h>
 
+#include <algorithm>
+#include <fstream>
+
 #include "io/refusal.hpp"
 #include "io/temporary_folder.hpp"
+#include "radioslam/io/text/text.hpp"
 #include "ros_bytes.hpp"
 
 namespace radioslam {
@@ -50,17 +54,59 @@ TEST(RosDatabase, ReadsMessagesInTheOrderOfTime) {
   EXPECT_EQ(files, 1U) << "nothing is written beside it";
 }
 
-TEST(RosDatabase, RefusesOtherTablesAndCorruptFiles) {
-  const TemporaryFolder folder, corrupt;
+/// A thousand messages of 100 bytes, and their index by time.
+std::filesystem::path make_long_database(const TemporaryFolder& folder) {
+  std::string rows;
+  for (int k = 1; k <= 1000; ++k)
+    rows += "INSERT INTO messages VALUES (NULL, 3, " + std::to_string(k) + ", zeroblob(100));";
+  return make_database(folder,
+                       kTables + ("CREATE INDEX t ON messages(timestamp); BEGIN;" + rows) + "COMMIT;");
+}
+
+TEST(RosDatabase, ReadsWhatIsLeftOfADamagedOne) {
+  const TemporaryFolder cut, holed, zeros;
+  const auto half = make_long_database(cut);
+  std::filesystem::resize_file(half, std::filesystem::file_size(half) / 2);
+  const auto hole = make_long_database(holed);
+  std::fstream file(hole, std::ios::in | std::ios::out | std::ios::binary);
+  file.seekp(4096 * 12);
+  file << std::string(4096 * 3, '\0');
+  file.close();
+  for (const auto& path : {half, hole}) {
+    NotedMessages noted;
+    const auto warnings = visit_ros_database(path, noted.visitor());
+    EXPECT_GT(noted.lines.size(), 200U);
+    EXPECT_LT(noted.lines.size(), 1000U);
+    ASSERT_EQ(warnings.size(), 2U);
+    EXPECT_NE(warnings[0].find("the database is damaged"), std::string::npos) << warnings[0];
+    std::sort(noted.lines.begin(), noted.lines.end());
+    EXPECT_EQ(std::unique(noted.lines.begin(), noted.lines.end()), noted.lines.end()) << "none is read twice";
+  }
+  const auto empty = make_long_database(zeros);
+  const std::string whole(std::filesystem::file_size(empty) - 4096 * 3, '\0');
+  std::fstream rest(empty, std::ios::in | std::ios::out | std::ios::binary);
+  rest.seekp(4096 * 3);
+  rest << whole;
+  rest.close();
+  NotedMessages noted;
+  expect_refusal([&] { visit_ros_database(empty, noted.visitor()); }, 0,
+                 "cannot be read as a rosbag2 database");
+}
+
+TEST(RosDatabase, ReadsTheSameFromMemory) {
+  const TemporaryFolder folder;
+  const auto path = make_long_database(folder);
+  NotedMessages file, memory;
+  visit_ros_database(path, file.visitor());
+  visit_ros_database("x.db3.zstd", read_bytes(path), memory.visitor());
+  EXPECT_EQ(file.lines, memory.lines);
+}
+
+TEST(RosDatabase, RefusesOtherTables) {
+  const TemporaryFolder folder;
   NotedMessages noted;
   const auto other = make_database(folder, "CREATE TABLE x(y);");
   expect_refusal([&] { visit_ros_database(other, noted.visitor()); }, 0, "no such table: topics");
-  std::string rows;
-  for (int k = 0; k < 1000; ++k) rows += "INSERT INTO messages VALUES (NULL, 3, 1, x'6869');";
-  const auto path = make_database(corrupt, kTables + ("BEGIN;" + rows) + "COMMIT;");
-  std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
-  expect_refusal([&] { visit_ros_database(path, noted.visitor()); }, 0,
-                 "cannot be read as a rosbag2 database");
   // SQLite's error message for an invalid schema has two lines.
   const TemporaryFolder odd;
   const auto schema =

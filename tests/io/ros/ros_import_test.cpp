@@ -74,7 +74,9 @@ Imported import(const std::vector<WrittenMessage>& messages, const RosTopicReque
   const auto file = folder.write("x.mcap", mcap_of(mcap_records(messages)));
   Imported result;
   const auto sink = [&](Stamp stamp, const LidarScan& scan) { result.scans[stamp] = scan; };
-  result.mission = import_ros_recording(file, "a", wishes, sink).imported;
+  std::vector<RosImport> team{import_ros_recording(file, "a", wishes, sink)};
+  place_fixes(team);
+  result.mission = team.front().imported;
   return result;
 }
 
@@ -264,27 +266,114 @@ TEST(RosImport, BringsFixesIntoOneLocalFrame) {
   EXPECT_LT((robot.fix_lever_m - Eigen::Vector3d(1, 0, 0.2)).norm(), 1e-12) << "where the antenna sits";
   EXPECT_EQ(imported.notes(),
             "/fix: 3 fixes state no sigma; 10 m is assumed\n/fix: 1 messages without a fix are left out\n");
+}
+
+WrittenMessage fix_with_covariance(unsigned seconds, double latitude_deg, double longitude_deg,
+                                   const std::vector<double>& variances) {
+  return {"/fix", "sensor_msgs/NavSatFix", 9, ros2([&](RosBytes& bytes) {
+            bytes.header(seconds, 0, "base").u8(0).u16(1).f64s({latitude_deg, longitude_deg, 0});
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+              bytes.f64(variances[axis]);
+              if (axis < 2) bytes.f64s({0, 0, 0});
+            }
+            bytes.u8(2);
+          })};
+}
+
+TEST(RosImport, ZerosOfAReceiverWithoutAFixAreNone) {
+  const std::vector<double> none(3, 0), four(3, 4);
+  const auto imported = import({odometry(4, 3), fix_with_covariance(4, 0, 0, none),
+                                fix_with_covariance(5, 48, 11, four), fix_with_covariance(6, 0, 0, none)});
+  ASSERT_EQ(imported.robot().fixes.size(), 1U);
+  EXPECT_EQ(imported.robot().fixes[0].position_m, Eigen::Vector3d::Zero());
+  EXPECT_EQ(imported.robot().fixes[0].sigma_m, 2);
+  EXPECT_EQ(imported.notes(), "/fix: 2 messages without a fix are left out\n");
+  const auto invalid = import({odometry(4, 3), fix_with_covariance(5, 48, 11, {4, std::nan(""), 4})});
+  EXPECT_EQ(invalid.robot().fixes.at(0).sigma_m, 10) << "a covariance that is not finite states nothing";
+}
+
+TEST(RosImport, TheOriginIsAFixThatOthersAgreeWith) {
+  const std::vector<double> four(3, 4);
+  const auto imported = import({odometry(4, 3), fix_with_covariance(4, 0, 0, four),
+                                fix_with_covariance(5, 48, 11, four), fix_with_covariance(6, 48, 11, four)});
+  ASSERT_EQ(imported.robot().fixes.size(), 2U);
+  EXPECT_EQ(imported.robot().fixes[0].position_m, Eigen::Vector3d::Zero());
+  EXPECT_EQ(imported.notes(),
+            "1 position fixes of a are more than 1000 km from the team's and are left out\n");
+}
+
+TEST(RosImport, ABadFixOfOneRobotIsNotTheTeamsOrigin) {
+  const std::vector<double> four(3, 4);
   const TemporaryFolder folder;
-  const auto other =
-      folder.write("x.mcap", mcap_of(mcap_records({odometry(4, 3), position_fix(5, 48, 500)})));
-  const GeodeticPlace origin{48 * std::acos(-1.0) / 180, 11 * std::acos(-1.0) / 180, 490};
-  const auto second = import_ros_recording(
-      other, "b", {}, [](Stamp, const LidarScan&) {}, origin);
-  EXPECT_LT((second.imported.mission.robots[0].fixes[0].position_m - Eigen::Vector3d(0, 0, 10)).norm(), 1e-6);
-  EXPECT_EQ(second.fix_origin->height_m, 490);
+  const auto a =
+      folder.write("a.mcap", mcap_of(mcap_records({odometry(4, 3), fix_with_covariance(5, 1, 1, four)})));
+  const auto b =
+      folder.write("b.mcap", mcap_of(mcap_records({odometry(4, 3), fix_with_covariance(5, 48, 11, four),
+                                                   fix_with_covariance(6, 48.00001, 11, four)})));
+  const auto sink = [](Stamp, const LidarScan&) {};
+  std::vector<RosImport> team{import_ros_recording(a, "a", {}, sink), import_ros_recording(b, "b", {}, sink)};
+  place_fixes(team);
+  EXPECT_TRUE(team[0].imported.mission.robots[0].fixes.empty());
+  const auto& fixes = team[1].imported.mission.robots[0].fixes;
+  ASSERT_EQ(fixes.size(), 2U);
+  EXPECT_LT((fixes[1].position_m - Eigen::Vector3d(0, 1.112, 0)).norm(), 1e-3);
 }
 
 TEST(RosImport, PutsMessagesInOrderOnce) {
   const auto imported =
-      import({odometry(9, 1), odometry(4, 3), odometry(9, 2), laser(2), laser(1), laser(2), odometry(0, 7)});
-  ASSERT_EQ(imported.robot().odometry.size(), 3U);
-  EXPECT_EQ(imported.robot().odometry[0].stamp, Stamp{7}) << "without a time of its own: the recording's";
-  EXPECT_EQ(imported.robot().odometry[2].stamp, Stamp{9'000'000'000});
-  EXPECT_NEAR(imported.robot().odometry[2].pose.translation().norm(), 6, 1e-12) << "the first of two counts";
+      import({odometry(9, 1), odometry(4, 3), odometry(9, 2), laser(2), laser(1), laser(2)});
+  ASSERT_EQ(imported.robot().odometry.size(), 2U);
+  EXPECT_EQ(imported.robot().odometry[1].stamp, Stamp{9'000'000'000});
+  EXPECT_NEAR(imported.robot().odometry[1].pose.translation().norm(), 2, 1e-12) << "the first of two counts";
   EXPECT_EQ(imported.scans.size(), 2U);
-  EXPECT_NE(imported.notes().find("/odom: 1 messages have no stamp"), std::string::npos);
   EXPECT_NE(imported.notes().find("/odom: 1 messages with the same stamp as another one"), std::string::npos);
   EXPECT_NE(imported.notes().find("/scan: 1 messages with the same stamp as another one"), std::string::npos);
+}
+
+/// The message, recorded at another time.
+WrittenMessage recorded_at(std::int64_t time_ns, WrittenMessage message) {
+  message.time_ns = time_ns;
+  return message;
+}
+
+TEST(RosImport, AMessageWithoutAStampDisplacesNoSoundOne) {
+  // Recorded exactly when the next one was measured.
+  const auto imported = import({odometry(4, 3), recorded_at(5'000'000'000, odometry(0, 99)), odometry(5, 4),
+                                laser(4), recorded_at(5'000'000'000, laser(0)), laser(5)});
+  ASSERT_EQ(imported.robot().odometry.size(), 2U);
+  EXPECT_NEAR(imported.robot().odometry[1].pose.translation().norm(), 1, 1e-12);
+  EXPECT_EQ(imported.scans.size(), 2U);
+  EXPECT_NE(imported.notes().find(
+                "/odom: 1 messages have no stamp, unlike others of their topic, and are left out\n/scan: 1 "),
+            std::string::npos)
+      << imported.notes();
+}
+
+TEST(RosImport, TopicsWithoutStampsHaveTheTimeOfTheirRecording) {
+  const auto imported =
+      import({recorded_at(4'000'000'000, odometry(0, 3)), recorded_at(5'000'000'000, odometry(0, 4))});
+  EXPECT_EQ(imported.robot().odometry[1].stamp, Stamp{5'000'000'000});
+  EXPECT_EQ(imported.notes(), "/odom: 2 messages have no stamp; the recording time is used\n");
+  // Replayed 100 s after it was measured, as the other topic says.
+  const auto replayed =
+      import({recorded_at(104'000'000'000, odometry(0, 3)), recorded_at(104'000'000'000, laser(4))});
+  EXPECT_EQ(replayed.robot().odometry[0].stamp, Stamp{4'000'000'000});
+}
+
+TEST(RosImport, SkipsMessagesThatCannotBeRead) {
+  WrittenMessage short_odometry = odometry(5, 9), short_scan = laser(5), short_imu = imu(5, "base");
+  for (WrittenMessage* message : {&short_odometry, &short_scan, &short_imu}) message->bytes.resize(30);
+  const auto imported = import({odometry(4, 3), short_odometry, odometry(6, 4), laser(4), short_scan,
+                                laser(6), imu(4, "base"), short_imu});
+  EXPECT_EQ(imported.robot().odometry.size(), 2U);
+  EXPECT_EQ(imported.scans.size(), 2U);
+  EXPECT_EQ(imported.robot().inertial.size(), 1U);
+  for (const char* topic : {"/odom", "/scan", "/imu"})
+    EXPECT_NE(imported.notes().find(std::string(topic) + ": 1 message is left out; the first: "),
+              std::string::npos)
+        << imported.notes();
+  expect_refusal([&] { import({short_odometry, laser(4)}); }, 0, "a message of /odom");
+  expect_refusal([&] { import({short_scan, odometry(4, 3)}); }, 0, "a message of /scan");
 }
 
 TEST(RosImport, TakesTheTruthOnlyWhenAsked) {
@@ -343,10 +432,6 @@ TEST(RosImport, ReadsFoldersAndRefusesWhatIsNoRecording) {
   folder.write("a.bag", bag_of(""));
   folder.write("metadata.yaml", "rosbag2_bagfile_information:");
   EXPECT_EQ(list_of_topics(index_recording(folder.path()).topics), "/scan (sensor_msgs/LaserScan, 1)");
-  folder.write("c.db3", "no database");
-  expect_refusal([&] { index_recording(folder.path()); }, 0, "c.db3: at byte 0: not a recording");
-  folder.write("c.db3", "");
-  expect_refusal([&] { index_recording(folder.path()); }, 0, "c.db3: at byte 0: not a recording");
 }
 
 TEST(FrameTree, FollowsChainsInBothDirections) {

@@ -8,21 +8,29 @@ namespace radioslam::cli {
 namespace {
 
 constexpr const char* kRosbagNotes =
-    "Reads .bag (ROS 1), .mcap and .db3 files, or a folder of a split recording; ROS is not needed. Each\n"
-    "SOURCE becomes one robot of the mission; the same recording may be given several times.\n"
+    "Reads .bag (ROS 1), .mcap and .db3 files, also compressed (.zstd, .zst), or a folder of them; ROS is\n"
+    "not needed. Each recording becomes one robot of the mission: a file, the parts of a split recording in\n"
+    "a folder, or each recording in a folder of several. Several robots are named after their recordings.\n"
+    "What is damaged in a recording is left out, with a note.\n"
     "\n"
     "Topics: if a recording has several topics of a kind, name the one to use, either once for all\n"
-    "sources or once per source. Recorded poses become the ground truth only if --truth names their\n"
-    "topic, because they could also be goals or estimates.\n"
+    "recordings or once per recording. A recording of several robots is given once, with their odometry\n"
+    "topics one by one; these robots are named by what differs in the topics. Recorded poses become the\n"
+    "ground truth only if --truth names their topic, because they could also be goals or estimates.\n"
+    "Ranges (sensor_msgs/Range) go to radio/ranges.csv if their topic or its frame names two robots, or\n"
+    "radios that --name gives to robots or anchors, or one of them besides the robot that recorded it;\n"
+    "--ranges states both ends of a topic. Messages of UWB drivers, which name both radios, are read by the\n"
+    "names of their fields (from_id, to_id, range, ...) where the recording has the types' definitions.\n"
     "Frames: the body frame is the child frame of the odometry, otherwise base_link or base_footprint.\n"
     "Sensor extrinsics are taken from static transforms; a sensor without one is assumed to be at the\n"
     "body's origin, with a note. NavSatFix becomes position fixes in the east-north-up frame of the\n"
-    "team's first fix.";
+    "team's first fix that others agree with.";
 
 constexpr const char* kKittiNotes =
     "Reads the layout of the KITTI odometry benchmark. Each SOURCE becomes one robot, with the LiDAR's\n"
     "frame as its body frame:\n"
     "  SOURCE/velodyne/*.bin       scans, float32 x y z intensity; also SOURCE/bin/, or in SOURCE itself\n"
+    "                              (points of 3, 5, 6 or 7 floats are found by their numbers, with a note)\n"
     "  SOURCE/times.txt            seconds, a line per scan; if missing, times in names, or 10 Hz\n"
     "  SOURCE/calib.txt            Tr, Tr_velo_cam or Tr_velo_to_cam: the LiDAR's pose in the camera frame\n"
     "  SOURCE/../../poses/NAME.txt ground truth; also SOURCE/poses_kitti.txt, SOURCE/poses.txt or --poses\n"
@@ -155,9 +163,11 @@ std::vector<ImportKind> recording_kinds() {
       {"rosbag",
        "ROS 1 and ROS 2 recordings, as a mission",
        import_ros_recordings,
-       {ImportOption::kRobots, ImportOption::kTopics},
+       {ImportOption::kRobots, ImportOption::kTopics, ImportOption::kName},
        kRosbagNotes,
        {"radioslam import rosbag drive.mcap --list",
+        "radioslam import rosbag team.db3 --odometry /r1/odom --odometry /r2/odom --name uwb_7=r1 --name "
+        "uwb_9=r2 -o mission",
         "radioslam import rosbag one.bag two.bag --odometry /odom --scans /points --truth /mocap -o "
         "mission"}},
       {"kitti",

@@ -6,11 +6,14 @@
 
 #include "radioslam/cli/commands/output_path_check.hpp"
 #include "radioslam/cli/import/import_commands.hpp"
+#include "radioslam/cli/import/ros_sources.hpp"
 #include "radioslam/io/lidar/carmen.hpp"
 #include "radioslam/io/lidar/kitti_sequence.hpp"
 #include "radioslam/io/lidar/lidar_folder.hpp"
 #include "radioslam/io/mission/mission_folder.hpp"
 #include "radioslam/io/ros/ros_import.hpp"
+#include "radioslam/io/ros/ros_ranges.hpp"
+#include "radioslam/io/ros/ros_recording.hpp"
 #include "radioslam/io/text/atomic_output.hpp"
 #include "radioslam/io/text/compressed_text.hpp"
 
@@ -73,6 +76,17 @@ class TeamOutput {
     lines_.push_back(options_.output + ": " + what);
   }
 
+  void note(const std::string& text) { lines_.push_back("note: " + text); }
+
+  /// Adds ranges between the robots added before and anchors without positions.
+  void add_ranges(const std::vector<RosRange>& ranges) {
+    for (const RosRange& range : ranges)
+      team_.mission.ranges.push_back(
+          {range.stamp, end_of(range.i), end_of(range.j), range.range_m, range.sigma_m});
+    std::stable_sort(team_.mission.ranges.begin(), team_.mission.ranges.end(),
+                     [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
+  }
+
   void commit() {
     output_.commit(team_.mission, team_.truth);
     for (const std::string& note : output_.notes()) std::cout << "note: " << note << '\n';
@@ -80,6 +94,22 @@ class TeamOutput {
   }
 
  private:
+  LinkEnd end_of(const std::string& id) {
+    const auto& robots = team_.mission.robots;
+    auto& anchors = team_.mission.anchors;
+    const auto robot = std::find_if(robots.begin(), robots.end(), [&](const auto& r) { return r.id == id; });
+    LinkEnd end;
+    if (robot != robots.end()) {
+      end.robot = RobotIndex(static_cast<std::size_t>(robot - robots.begin()));
+      return end;
+    }
+    const auto anchor =
+        std::find_if(anchors.begin(), anchors.end(), [&](const auto& a) { return a.id == id; });
+    end.anchor = AnchorIndex(static_cast<std::size_t>(anchor - anchors.begin()));
+    if (anchor == anchors.end()) anchors.push_back({id, std::nullopt, 0});
+    return end;
+  }
+
   const ImportOptions& options_;
   MissionOutput output_;
   ImportedMission team_;
@@ -98,12 +128,41 @@ std::string of_source(const ImportOptions& options, const std::vector<std::strin
 }
 
 void list_topics(const ImportOptions& options) {
-  for (const std::string& source : options.sources) {
-    const RosTopicIndex survey = index_recording(source);
+  std::vector<fs::path> recordings;
+  for (const std::string& source : options.sources)
+    for (const fs::path& recording : recordings_in(source)) recordings.push_back(recording);
+  for (const fs::path& recording : recordings) {
+    const RosTopicIndex survey = index_recording(recording);
+    if (recordings.size() > 1) std::cout << recording.string() << ":\n";
     for (const std::string& warning : survey.warnings) std::cout << "note: " << warning << '\n';
     for (const RosTopic& topic : survey.topics)
       std::cout << topic.name << "  " << topic.type << "  " << topic.messages << '\n';
   }
+}
+
+/// Reads the ranges of a recording, and notes which of its topics no robot uses.
+void add_ranges_and_rest(const std::string& recording, const std::vector<RosSource>& sources,
+                         const std::vector<RosImport>& team, RosRangeRequest request, TeamOutput& output) {
+  std::set<std::string> used;
+  const RosTopicIndex* index = nullptr;
+  for (std::size_t k = 0; k < sources.size(); ++k) {
+    if (sources[k].recording != recording) continue;
+    request.own = index == nullptr ? sources[k].robot : "";
+    index = &team[k].index;
+    used.insert(team[k].topics.begin(), team[k].topics.end());
+  }
+  const RosRanges ranges = read_ros_ranges(recording, *index, request);
+  output.add_ranges(ranges.ranges);
+  if (!ranges.topics.empty())
+    output.note(recording + ": " + std::to_string(ranges.ranges.size()) + " ranges of " +
+                std::to_string(ranges.topics.size()) + " topics");
+  for (const std::string& warning : ranges.warnings) output.note(warning);
+  std::vector<RosTopic> left;
+  for (const RosTopic& topic : index->topics)
+    if (!used.contains(topic.name) && !ranges.topics.contains(topic.name) &&
+        !is_transforms_type(topic.type) && !may_have_ranges(topic))
+      left.push_back(topic);
+  if (!left.empty()) output.note(recording + ": topics that are not imported: " + list_of_topics(left));
 }
 
 /// A summary of the imported data: "177 scans, 345 odometry samples, ... of a".
@@ -137,7 +196,7 @@ void import_kitti_drives(const ImportOptions& options) {
   for (std::size_t k = 0; k < robots.size(); ++k) {
     KittiDrive drive =
         read_kitti_drive(options.sources[k], robots[k], of_source(options, options.poses, "--poses", k));
-    copy_kitti_scans(drive.scans, output.scans_of(robots[k]));
+    copy_kitti_scans(drive, output.scans_of(robots[k]));
     const bool has_truth = !drive.imported.truth.robots.empty();
     output.add(std::move(drive.imported), std::to_string(drive.scans.size()) + " scans of " + robots[k] +
                                               (has_truth ? ", with ground truth" : ", without ground truth"));
@@ -147,22 +206,27 @@ void import_kitti_drives(const ImportOptions& options) {
 
 void import_ros_recordings(const ImportOptions& options) {
   if (options.list) return list_topics(options);
-  const std::vector<std::string> robots = robots_of_import(options);
+  const std::vector<RosSource> sources = ros_sources(options);
+  const RosRangeRequest request = ros_range_request(options, sources);
+  std::vector<std::string> robots;
+  for (const RosSource& source : sources) robots.push_back(source.robot);
   TeamOutput output(options, robots);
-  std::optional<GeodeticPlace> fix_origin;  // one frame for all robots
-  for (std::size_t k = 0; k < robots.size(); ++k) {
-    const RosTopicRequest wishes{
-        of_source(options, options.odometry, "--odometry", k),
-        of_source(options, options.scans, "--scans", k), of_source(options, options.imu, "--imu", k),
-        of_source(options, options.truth, "--truth", k), of_source(options, options.gnss, "--gnss", k)};
-    const fs::path folder = output.scans_of(robots[k]);
-    RosImport imported = import_ros_recording(
-        options.sources[k], robots[k], wishes,
-        [&](Stamp stamp, const LidarScan& scan) { write_lidar_scan(folder, stamp, scan); }, fix_origin);
-    fix_origin = imported.fix_origin;
-    const std::string summary = ros_summary(imported);
-    output.add(std::move(imported.imported), summary);
+  std::vector<RosImport> team;
+  for (const RosSource& source : sources) {
+    const fs::path folder = output.scans_of(source.robot);
+    team.push_back(import_ros_recording(
+        source.recording, source.robot, source.topics,
+        [&](Stamp stamp, const LidarScan& scan) { write_lidar_scan(folder, stamp, scan); }));
   }
+  place_fixes(team);
+  for (RosImport& robot : team) {
+    const std::string summary = ros_summary(robot);
+    output.add(std::move(robot.imported), summary);
+  }
+  std::set<std::string> recordings;
+  for (const RosSource& source : sources)
+    if (recordings.insert(source.recording).second)
+      add_ranges_and_rest(source.recording, sources, team, request, output);
   output.commit();
 }
 

@@ -40,6 +40,9 @@ void add_topic_options(CLI::App& command, ImportOptions& options) {
                       "Topic of NavSatFix, or none (default: the only one)");
   add_repeated_option(command, "--truth", options.truth, "TOPIC",
                       "Topic of the true poses, as for --odometry (default: none)");
+  add_repeated_option(command, "--ranges", options.ranges, "TOPIC=ID,ID",
+                      "Topic of Range and the two robots or anchors that it is between (default: those named "
+                      "in the topic or its frame)");
   command.add_flag("--list", options.list,
                    "Only list the topics with their types and numbers of messages; needs no -o");
 }
@@ -69,11 +72,14 @@ void add_import_option(CLI::App& command, ImportOptions& options, ImportOption o
       return add_repeated_option(command, "--robot", options.robots, "ID",
                                  "Name of the robot that made the recording");
     case ImportOption::kRobots:
-      return add_repeated_option(command, "--robot", options.robots, "ID",
-                                 "Name of a source's robot, once per source (default: a, b, ...)");
+      return add_repeated_option(
+          command, "--robot", options.robots, "ID",
+          "Name of a source's robot, once per source (default: a, b, ...; of several ROS "
+          "recordings, their names)");
     case ImportOption::kName:
-      return add_repeated_option(command, "--name", options.names, "BSSID=ID",
-                                 "Name of a radio, an anchor's or another robot's (default: its BSSID)");
+      return add_repeated_option(command, "--name", options.names, "RADIO=ID",
+                                 "Robot or anchor that has a radio: its BSSID, or its name in ROS topics and "
+                                 "frames (default: the radio itself)");
     case ImportOption::kFields:
       command.add_option("--fields", options.fields, "The fields given to nmcli's -f")->type_name("NAME,...");
       return;
@@ -112,7 +118,8 @@ void refuse_other_options(const ImportOptions& options, const std::vector<Import
   refuse_unless(options.fields.empty() || takes(ImportOption::kFields), options, "--fields");
   refuse_unless(options.poses.empty() || takes(ImportOption::kPoses), options, "--poses");
   const bool has_topics = options.list || !options.odometry.empty() || !options.scans.empty() ||
-                          !options.imu.empty() || !options.gnss.empty() || !options.truth.empty();
+                          !options.imu.empty() || !options.gnss.empty() || !options.truth.empty() ||
+                          !options.ranges.empty();
   refuse_unless(!has_topics || takes(ImportOption::kTopics), options, "ROS topics");
   refuse_unless(options.time.empty() || takes(ImportOption::kTime), options, "--time");
   const bool has_settings = !options.parameters.set.empty() || !options.parameters.config_path.empty();

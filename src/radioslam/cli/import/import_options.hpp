@@ -23,6 +23,7 @@ struct ImportOptions {
   std::string time;
   std::vector<std::string> poses;
   std::vector<std::string> odometry, scans, imu, gnss, truth;  ///< names of ROS topics
+  std::vector<std::string> ranges;                             ///< TOPIC=ID,ID
   bool file_times = false;
   bool list = false;
   bool replace = false;

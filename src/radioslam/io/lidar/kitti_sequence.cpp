@@ -9,6 +9,7 @@
 #include "radioslam/base/input_error.hpp"
 #include "radioslam/base/units.hpp"
 #include "radioslam/io/lidar/lidar_folder.hpp"
+#include "radioslam/io/text/atomic_output.hpp"
 #include "radioslam/io/text/numbers.hpp"
 
 namespace radioslam {
@@ -18,6 +19,7 @@ constexpr double kRotationTolerance = 1e-2;  ///< bound on |R^T R - I|; publishe
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t kScansToFindLayout = 5, kMinLayoutBytes = 2800;
 constexpr std::uint64_t kMaxScanNumber = 1'000'000'000;
 constexpr std::size_t kEpochDigits = 9;         ///< digits of Unix seconds, from 1973 on
 constexpr std::size_t kMicrosecondDigits = 16;  ///< digits of Unix microseconds, from 2001 on
@@ -95,6 +97,45 @@ fs::path folder_of_scans(const fs::path& source) {
       source.string(), 0,
       "contains no scans: no .bin in velodyne/, in bin/ or in the folder itself; archives have to be "
       "unpacked first");
+}
+
+/// Floats of a point, if the first scans of a hundred points or more agree.
+std::size_t floats_of(const std::vector<NamedScan>& scans) {
+  const std::size_t some = std::min(scans.size(), kScansToFindLayout);
+  std::size_t floats = 0;
+  for (std::size_t k = 0; k < some; ++k) {
+    const std::string bytes = read_bytes(scans[k].file);
+    if (bytes.size() < kMinLayoutBytes) continue;
+    const std::size_t found = floats_per_point(bytes);
+    if (floats != 0 && found != floats) return kBinFloats;
+    floats = found;
+  }
+  return floats == 0 ? kBinFloats : floats;
+}
+
+/// Refuses sizes that are no multiple of a point's.
+void check_sizes(const std::vector<NamedScan>& scans, std::size_t floats) {
+  for (const NamedScan& scan : scans) {
+    const std::uintmax_t bytes = fs::file_size(scan.file);
+    if (floats == kBinFloats) check_bin_size(scan.file, bytes);
+    if (bytes % (floats * sizeof(float)) != 0)
+      throw InputError(scan.file.string(), 0,
+                       "is not a scan: its " + std::to_string(bytes) +
+                           " bytes are not a multiple of a point's " +
+                           std::to_string(floats * sizeof(float)) + ", as the other scans have them");
+  }
+}
+
+/// The first four floats of every point.
+std::string first_four(const std::string& bytes, std::size_t floats) {
+  const std::size_t kept = std::min(floats, kBinFloats) * sizeof(float);
+  std::string points;
+  points.reserve(bytes.size() / floats * kBinFloats);
+  for (std::size_t at = 0; at < bytes.size(); at += floats * sizeof(float)) {
+    points.append(bytes, at, kept);
+    points.append(kBinFloats * sizeof(float) - kept, '\0');
+  }
+  return points;
 }
 
 template <class Key>
@@ -270,11 +311,15 @@ KittiDrive read_kitti_drive(const fs::path& source, const std::string& robot, co
   const fs::path folder = folder_of_scans(source.has_filename() ? source : source.parent_path());
   const std::vector<fs::path> folders = list_folders(folder);
   const std::vector<NamedScan> named = order_scans(bin_files(folder));
-  for (const NamedScan& scan : named) check_bin_size(scan.file, fs::file_size(scan.file));
+  KittiDrive drive;
+  drive.floats = floats_of(named);
+  check_sizes(named, drive.floats);
   std::optional<ScanList<Stamp>> times;
   for (const fs::path& place : folders)
     if (!times && fs::exists(place / "times.txt")) times = read_times(place / "times.txt");
-  KittiDrive drive;
+  if (drive.floats != kBinFloats)
+    drive.imported.warnings.push_back("the scans' points have " + std::to_string(drive.floats) +
+                                      " floats each; the first three are taken as x, y and z");
   drive.scans = stamp_scans(named, times);
   drive.imported.mission.dimension = 3;
   drive.imported.mission.robots.emplace_back().id = robot;
@@ -292,10 +337,15 @@ KittiDrive read_kitti_drive(const fs::path& source, const std::string& robot, co
   return drive;
 }
 
-void copy_kitti_scans(const std::vector<KittiScan>& scans, const fs::path& folder) {
+void copy_kitti_scans(const KittiDrive& drive, const fs::path& folder) {
   fs::create_directories(folder);
-  for (const KittiScan& scan : scans)
-    fs::copy_file(scan.file, folder / (std::to_string(scan.stamp.ns) + ".bin"));
+  for (const KittiScan& scan : drive.scans) {
+    const fs::path copy = folder / (std::to_string(scan.stamp.ns) + ".bin");
+    if (drive.floats == kBinFloats)
+      fs::copy_file(scan.file, copy);
+    else
+      write_file(copy, first_four(read_bytes(scan.file), drive.floats));
+  }
 }
 
 }  // namespace radioslam

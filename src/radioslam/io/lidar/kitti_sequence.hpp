@@ -19,6 +19,7 @@
 
 #include "radioslam/geometry/se3.hpp"
 #include "radioslam/geometry/trajectory.hpp"
+#include "radioslam/io/lidar/bin_layout.hpp"
 #include "radioslam/io/mission/imported_mission.hpp"
 #include "radioslam/io/text/line_fields.hpp"
 #include "radioslam/io/text/text.hpp"
@@ -36,7 +37,7 @@ SE3 read_kitti_matrix(LineFields& fields);
 /// Refuses (InputError) a matrix that is not a rotation up to rounding, and a text without poses.
 Trajectory<SE3> read_kitti_poses(const Text& text);
 
-/// A scan file to be copied unchanged.
+/// A scan file to be copied.
 struct KittiScan {
   std::filesystem::path file;
   Stamp stamp;
@@ -45,6 +46,7 @@ struct KittiScan {
 struct KittiDrive {
   ImportedMission imported;  ///< without scans, whose files hold more than points
   std::vector<KittiScan> scans;
+  std::size_t floats = kBinFloats;  ///< of a point (bin_layout.hpp); the first four are read
 };
 
 /// `poses` is a file with the true poses; if it is empty, the one of the layout is used. Refuses (InputError)
@@ -53,7 +55,8 @@ struct KittiDrive {
 KittiDrive read_kitti_drive(const std::filesystem::path& source, const std::string& robot,
                             const std::filesystem::path& poses = {});
 
-/// Copies the scans into a robot's folder lidar/ (lidar_folder.hpp), byte for byte.
-void copy_kitti_scans(const std::vector<KittiScan>& scans, const std::filesystem::path& folder);
+/// Copies the scans into a robot's folder lidar/ (lidar_folder.hpp): byte for byte if their points have four
+/// floats, otherwise the first four of them, with 0 for what is missing.
+void copy_kitti_scans(const KittiDrive& drive, const std::filesystem::path& folder);
 
 }  // namespace radioslam

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "radioslam/base/input_error.hpp"
+#include "radioslam/io/lidar/bin_layout.hpp"
 #include "radioslam/io/lidar/pcd.hpp"
 #include "radioslam/io/text/atomic_output.hpp"
 #include "radioslam/io/text/byte_view.hpp"
@@ -15,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kBinPointBytes = 16;
+constexpr std::size_t kBinPointBytes = kBinFloats * sizeof(float);
 
 struct ScanFile {
   fs::path path;
@@ -48,6 +49,11 @@ std::vector<ScanFile> list_scans(const fs::path& folder) {
 LidarScan read_bin(const fs::path& file) {
   const std::string bytes = read_bytes(file);
   check_bin_size(file, bytes.size());
+  if (const std::size_t floats = floats_per_point(bytes); floats != kBinFloats)
+    throw InputError(file.string(), 0,
+                     "is not a scan of x y z intensity: its points have " + std::to_string(floats) +
+                         " floats (`radioslam import kitti` converts such scans)",
+                     InputError::Kind::kColumnOrder);
   const ByteView view(bytes, ByteOrder::kLittle);
   LidarScan scan;
   scan.points.reserve(bytes.size() / kBinPointBytes);

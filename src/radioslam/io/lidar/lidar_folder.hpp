@@ -12,7 +12,7 @@ namespace radioslam {
 /// Lists the scans of a folder, whose files are read on demand; empty if the folder does not exist. Other
 /// files are ignored. Refuses (InputError) immediately a .bin or .pcd with another name, two scans with the
 /// same stamp, and a .bin that is not a whole number of points (zero is accepted); refuses an invalid .pcd
-/// when it is read.
+/// and a .bin with another number of floats per point (bin_layout.hpp) when it is read.
 LidarLog read_lidar_folder(const std::filesystem::path& folder);
 
 /// Refuses (InputError) a .bin whose size is not a whole number of points.

@@ -17,6 +17,9 @@ constexpr double kMaxSweep = 2, kMinSweep = 0.01;  ///< relative to the interval
 constexpr double kMaxShortSweep_s = 1,
                  kFarthestSweep_s = 1;  ///< longest sweep for which a different clock can be detected
 constexpr double kCoarsest_s = 1e-3;
+constexpr double kConstantGrains = 4;
+constexpr std::size_t kMinScansToFreeze = 3;
+constexpr double kFrozenShare = 0.1;  ///< of the time between the scans
 constexpr std::array kUnits{PointTimeUnit::kSecond, PointTimeUnit::kMillisecond, PointTimeUnit::kMicrosecond,
                             PointTimeUnit::kNanosecond};
 
@@ -70,10 +73,12 @@ class TimeColumn {
     return {time, is_whole_ ? static_cast<std::int64_t>(std::llround(time)) : 0};
   }
 
-  /// Resolution of times of this magnitude.
+  /// Resolution of times of this magnitude; 0 for integers.
   double grain(const RawTime& time) const {
-    if (column_.type != NumberType::kFloat32) return 0;
-    return std::abs(time.floating) * static_cast<double>(std::numeric_limits<float>::epsilon());
+    if (is_whole_) return 0;
+    return std::abs(time.floating) * (column_.type == NumberType::kFloat32
+                                          ? static_cast<double>(std::numeric_limits<float>::epsilon())
+                                          : std::numeric_limits<double>::epsilon());
   }
 
  private:
@@ -84,7 +89,14 @@ class TimeColumn {
 
 struct FirstAndLast {
   RawTime first, last;
+  std::size_t points = 0;
 };
+
+/// Whether all times are one constant, but for rounding.
+bool are_constant(const TimeColumn& times, const FirstAndLast& ends) {
+  return ends.points > 1 &&
+         times.difference(ends.last, ends.first) <= kConstantGrains * times.grain(ends.last);
+}
 
 bool is_somewhere(const Eigen::Vector3f& point) { return point.allFinite() && !point.isZero(0); }
 
@@ -97,6 +109,7 @@ std::optional<FirstAndLast> first_and_last(const PointTable& table, const TimeCo
     const RawTime time = times.at(row);
     if ((any_is && !is_somewhere(points[row])) || !std::isfinite(time.floating)) continue;
     if (!found) found = FirstAndLast{time, time};
+    ++found->points;
     if (times.difference(time, found->first) < 0) found->first = time;
     if (times.difference(time, found->last) > 0) found->last = time;
   }
@@ -112,6 +125,7 @@ struct TimeOrigin {
 TimeOrigin origin_of(const TimeColumn& times, const FirstAndLast& ends, Stamp stamp, PointTimeUnit unit) {
   const double unit_s = seconds_of(unit);
   if (times.grain(ends.last) * unit_s > kCoarsest_s) return {{}, PointClock::kCoarse};
+  if (are_constant(times, ends)) return {{}, PointClock::kConstant};
   const bool is_absolute = ends.first.floating * unit_s > kMaxOffset_s;
   const RawTime zero = is_absolute ? times.of_stamp(stamp, unit) : RawTime{};
   const double first_s = times.difference(ends.first, zero) * unit_s;
@@ -142,7 +156,17 @@ std::optional<RawPointTimes> raw_times_of(const PointTable& table) {
   const TimeColumn times(table, *column);
   const auto ends = first_and_last(table, times);
   if (!ends) return std::nullopt;
-  return RawPointTimes{times.nominal_unit(ends->first), times.difference(ends->last, ends->first)};
+  return RawPointTimes{times.nominal_unit(ends->first), times.difference(ends->last, ends->first),
+                       ends->first.floating};
+}
+
+bool are_frozen(const std::vector<RawPointTimes>& scans, double duration_s, PointTimeUnit unit) {
+  if (scans.size() < kMinScansToFreeze) return false;
+  const auto by_first = [](const RawPointTimes& a, const RawPointTimes& b) { return a.first < b.first; };
+  const auto [least, greatest] = std::minmax_element(scans.begin(), scans.end(), by_first);
+  const double unit_s = seconds_of(unit);
+  return least->first * unit_s > kMaxOffset_s &&
+         (greatest->first - least->first) * unit_s < kFrozenShare * duration_s;
 }
 
 PointTimeUnit unit_of(const std::vector<RawPointTimes>& scans, double interval_s) {
@@ -169,7 +193,7 @@ PointTimes times_of(const PointTable& table, Stamp stamp, std::optional<PointTim
   const PointTimeUnit found = unit ? *unit : times.nominal_unit(ends ? ends->first : RawTime{});
   const TimeOrigin origin = ends ? origin_of(times, *ends, stamp, found) : TimeOrigin{};
   result.clock = origin.clock;
-  if (origin.clock == PointClock::kCoarse) return result;
+  if (origin.clock == PointClock::kCoarse || origin.clock == PointClock::kConstant) return result;
   result.since_stamp_s.resize(table.rows);
   for (std::size_t row = 0; row < table.rows; ++row)
     result.since_stamp_s[row] =

@@ -8,7 +8,8 @@
 //
 // Times are relative to the scan's stamp, or absolute from 1e6 s on. If a sweep of at most one second lies
 // entirely more than one second off its stamp, the two clocks differ, and its first point is assigned the
-// stamp. Times in float32 that cannot resolve a millisecond are discarded. The first and last times are those
+// stamp. Times that are equal for all points of a scan say nothing of its sweep and are discarded, as are
+// times in float32 that cannot resolve a millisecond. The first and last times are those
 // of points with finite, non-zero coordinates, because missing returns often have no valid time.
 #pragma once
 
@@ -29,12 +30,15 @@ enum class PointClock {
   kScans,   ///< the clock of the scan's stamp, or no times
   kOther,   ///< another clock; the times are shifted to begin at the stamp
   kCoarse,  ///< times are too coarse and were discarded
+  /// All points of a scan have one time, or all scans the same absolute ones; discarded.
+  kConstant,
 };
 
 /// Nominal unit and span of a scan's times, before the unit is determined.
 struct RawPointTimes {
   PointTimeUnit nominal = PointTimeUnit::kSecond;
   double span = 0;  ///< from the first to the last point
+  double first = 0;
 };
 
 struct PointTimes {
@@ -47,6 +51,9 @@ std::optional<RawPointTimes> raw_times_of(const PointTable& table);
 
 /// The unit of scans (at least one) that are `interval_s` (> 0) apart, determined from their median span.
 PointTimeUnit unit_of(const std::vector<RawPointTimes>& scans, double interval_s);
+
+/// Whether the absolute times of scans (three or more) whose stamps cover `duration_s` are the same in all.
+bool are_frozen(const std::vector<RawPointTimes>& scans, double duration_s, PointTimeUnit unit);
 
 /// The points' times in `unit`, by default the nominal one. Linear in the number of points.
 PointTimes times_of(const PointTable& table, Stamp stamp, std::optional<PointTimeUnit> unit = std::nullopt);

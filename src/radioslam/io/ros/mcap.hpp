@@ -14,9 +14,9 @@ namespace radioslam {
 inline constexpr std::string_view kMcapMagic = "\x89MCAP0\r\n";
 
 /// Passes the messages of channels encoded as cdr or ros1 to the visitor; others are skipped with a warning.
-/// Chunks may be compressed with lz4 or zstd. Refuses (InputError, with the byte) inconsistent records,
-/// chunks that cannot be decompressed or have a wrong checksum, and messages of unknown channels. Returns the
-/// warnings.
+/// Chunks may be compressed with lz4 or zstd. Inconsistent records, chunks that cannot be decompressed or
+/// have a wrong checksum, messages of unknown channels, zeros and all behind a cut are left out. Returns the
+/// warnings: what is left out, and the first of its kind with its byte.
 std::vector<std::string> visit_mcap(const std::string& name, std::string_view bytes,
                                     const RosVisitor& visitor);
 

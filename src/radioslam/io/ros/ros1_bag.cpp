@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "radioslam/base/units.hpp"
 #include "radioslam/io/text/byte_cursor.hpp"
 #include "radioslam/io/text/compressed_text.hpp"
+#include "radioslam/io/text/skipped_records.hpp"
 
 namespace radioslam {
 namespace {
@@ -58,14 +60,24 @@ class Ros1BagReader {
   std::vector<std::string> read(std::string_view bytes) {
     ByteCursor cursor(bytes, ByteOrder::kLittle, {name_});
     cursor.take(kRos1BagMagic.size());
+    read_connections(cursor);
     while (!cursor.empty() && !is_cut_off(cursor)) read_record(cursor);
-    if (cursor.empty()) return {};
-    return {name_ + ": at byte " + std::to_string(cursor.position()) +
-            ": the file is truncated; the data before this are read"};
+    std::vector<std::string> warnings;
+    if (!cursor.empty()) {
+      const std::string place = name_ + ": at byte " + std::to_string(cursor.position()) + ": the file ";
+      const bool is_zero = cursor.skip_zeros() > 0 && cursor.empty();
+      warnings.push_back(place + (is_zero ? "has only zeros from here on" : "is truncated") +
+                         "; the data before this are read");
+    }
+    if (chunks_.count() > 0) warnings.push_back(chunks_.warning(name_, "chunk"));
+    if (records_.count() > 0) warnings.push_back(records_.warning(name_, "record"));
+    return warnings;
   }
 
  private:
+  /// Whether the data end before the next record does, or have only zeros.
   static bool is_cut_off(ByteCursor ahead) {
+    if (ByteCursor rest = ahead; rest.skip_zeros() >= 2 * kLengthBytes && rest.empty()) return true;
     for (int part = 0; part < 2; ++part) {
       if (ahead.left() < kLengthBytes) return true;
       const std::uint32_t length = ahead.u32();
@@ -75,25 +87,41 @@ class Ros1BagReader {
     return false;
   }
 
-  void read_record(ByteCursor& cursor) {
-    const std::string_view part = part_;
+  BagRecord next_record(ByteCursor& cursor) const {
     const std::size_t header_begin = cursor.position() + kLengthBytes;
     const std::string_view header = cursor.counted();
     const std::size_t data_begin = cursor.position() + kLengthBytes;
-    const BagRecord record{read_bag_fields({header, ByteOrder::kLittle, {name_, part, header_begin}}),
-                           {cursor.counted(), ByteOrder::kLittle, {name_, part, data_begin}}};
-    switch (record.number("op", 1)) {
-      case kBagHeader:
-        return refuse_encryption(record);
-      case kBagConnection:
-        return read_connection(record);
-      case kBagMessage:
-        return read_message(record);
-      case kBagChunk:
-        return read_chunk(record);
-      default:
-        return;  // index records
+    const ByteCursor data{cursor.counted(), ByteOrder::kLittle, {name_, part_, data_begin}};
+    return {read_bag_fields({header, ByteOrder::kLittle, {name_, part_, header_begin}}), data};
+  }
+
+  /// Reads the connections outside of chunks: the index repeats those of chunks that cannot be read.
+  void read_connections(ByteCursor cursor) {
+    SkippedRecords noted_later;
+    while (!cursor.empty() && !is_cut_off(cursor))
+      noted_later.attempt([&] {
+        const BagRecord record = next_record(cursor);
+        if (record.number("op", 1) == kBagConnection) read_connection(record);
+        return true;
+      });
+  }
+
+  void read_record(ByteCursor& cursor) {
+    if (ByteCursor ahead = cursor; ahead.skip_zeros() >= 2 * kLengthBytes) {
+      cursor.skip_zeros();
+      records_.attempt([&]() -> bool { cursor.fail("zeros in place of a record"); });
+      return;
     }
+    const auto record = records_.attempt([&] {
+      BagRecord next = next_record(cursor);
+      return std::pair(next, next.number("op", 1));
+    });
+    if (!record) return;
+    if (record->second == kBagHeader) refuse_encryption(record->first);
+    if (record->second == kBagConnection)
+      records_.attempt([&] { return read_connection(record->first), true; });
+    if (record->second == kBagMessage) read_message(record->first);
+    if (record->second == kBagChunk) read_chunk(record->first);
   }
 
   static void refuse_encryption(const BagRecord& record) {
@@ -106,36 +134,44 @@ class Ros1BagReader {
     const BagFields fields = read_bag_fields(record.data);
     const auto type = fields.find("type");
     if (type == fields.end()) record.data.fail("a connection without a type");
-    channels_[record.number("conn", 4)] = {std::string(record.field("topic")), short_type(type->second),
-                                           MessageEncoding::kRos1};
+    const auto definition = fields.find("message_definition");
+    channels_[record.number("conn", 4)] = {
+        std::string(record.field("topic")), short_type(type->second), MessageEncoding::kRos1,
+        std::string(definition == fields.end() ? std::string_view{} : definition->second)};
   }
 
-  void read_message(const BagRecord& record) {
+  /// The channel and the time of a message.
+  std::pair<const RosChannel*, Stamp> parse_message(const BagRecord& record) const {
     const auto channel = channels_.find(record.number("conn", 4));
     if (channel == channels_.end()) record.data.fail("a message of an unknown connection");
     const std::uint64_t time = record.number("time", 8);  // u32 seconds, u32 nanoseconds
     const auto seconds = static_cast<std::int64_t>(time & 0xffffffffU);
     const auto nanoseconds = static_cast<std::int64_t>(time >> 32U);
+    return {&channel->second, {seconds * kNanosecondsPerSecond + nanoseconds}};
+  }
+
+  void read_message(const BagRecord& record) {
+    const auto message = records_.attempt([&] { return parse_message(record); });
+    if (!message) return;
     ByteCursor data = record.data;
-    const bool is_read = visitor_.reads(channel->second);
-    visitor_.take({channel->second,
-                   {seconds * kNanosecondsPerSecond + nanoseconds},
-                   is_read ? data.rest() : std::string_view{},
-                   name_});
+    const bool is_read = visitor_.reads(*message->first);
+    visitor_.take({*message->first, message->second, is_read ? data.rest() : std::string_view{}, name_});
   }
 
   void read_chunk(const BagRecord& record) {
-    if (!part_.empty()) record.data.fail("a chunk within a chunk");
     const std::string place = "the chunk at byte " + std::to_string(record.data.position());
-    const std::string unpacked = unpack_chunk(record, place);
+    const auto unpacked = chunks_.attempt([&] { return unpack_chunk(record, place); });
+    if (!unpacked) return;
     part_ = place;
-    ByteCursor records(unpacked, ByteOrder::kLittle, {name_, part_});
-    while (!records.empty()) read_record(records);
+    ByteCursor records(*unpacked, ByteOrder::kLittle, {name_, part_});
+    while (!records.empty() && !is_cut_off(records)) read_record(records);
+    if (!records.empty()) records_.attempt([&]() -> bool { records.fail("the chunk ends within a record"); });
     part_.clear();
   }
 
   std::string unpack_chunk(const BagRecord& record, const std::string& place) const {
     ByteCursor data = record.data;
+    if (!part_.empty()) data.fail("a chunk within a chunk");
     const std::string_view compression = record.field("compression");
     const std::uint64_t size = record.number("size", 4);
     const std::size_t limit = std::min<std::size_t>(size, kMaxDecompressed);
@@ -156,6 +192,7 @@ class Ros1BagReader {
   const RosVisitor& visitor_;
   std::string part_;  ///< the chunk being read; empty outside chunks
   std::map<std::uint64_t, RosChannel> channels_;
+  SkippedRecords chunks_, records_;
 };
 
 }  // namespace

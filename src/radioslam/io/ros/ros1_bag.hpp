@@ -13,9 +13,10 @@ namespace radioslam {
 
 inline constexpr std::string_view kRos1BagMagic = "#ROSBAG V2.0\n";
 
-/// Passes the messages to the visitor; chunks may be compressed with bz2 or lz4. Refuses (InputError, with
-/// the byte) inconsistent records, chunks that cannot be decompressed, messages of unknown connections, and
-/// encrypted bags. A truncated file is read up to its end, with a warning. Returns the warnings.
+/// Passes the messages to the visitor; chunks may be compressed with bz2 or lz4. Inconsistent records, chunks
+/// that cannot be decompressed, messages of unknown connections, zeros and all behind a cut are left out.
+/// Refuses (InputError) encrypted bags. Returns the warnings: what is left out, and the first of its kind
+/// with its byte.
 std::vector<std::string> visit_ros1_bag(const std::string& name, std::string_view bytes,
                                         const RosVisitor& visitor);
 

@@ -10,19 +10,6 @@
 namespace radioslam {
 namespace {
 
-constexpr std::size_t kScansToFindUnit = 10;
-
-/// The typical interval between consecutive stamps; nothing if all stamps are equal.
-std::optional<double> nominal_interval_s(std::vector<Stamp> stamps) {
-  std::sort(stamps.begin(), stamps.end());
-  std::vector<double> gaps_s;
-  for (std::size_t k = 1; k < stamps.size(); ++k)
-    if (stamps[k] != stamps[k - 1])
-      gaps_s.push_back((static_cast<double>(stamps[k].ns) - static_cast<double>(stamps[k - 1].ns)) *
-                       kSecondsPerNanosecond);
-  return gaps_s.empty() ? std::nullopt : std::optional(upper_median(gaps_s));
-}
-
 constexpr const char* kNominalBody = "base_link";
 
 /// The body frame; empty if it is unknown.
@@ -56,6 +43,8 @@ constexpr double kUnknownFixSigma_m = 10;
 
 constexpr const char* kTwice = "messages with the same stamp as another one are left out";
 constexpr const char* kWithoutTime = "messages have no stamp; the recording time is used";
+constexpr const char* kLeftWithoutTime =
+    "messages have no stamp, unlike others of their topic, and are left out";
 constexpr const char* kWithoutPose = "invalid poses (not finite, or without orientation) are left out";
 
 /// Sorts by time and removes repeated stamps.
@@ -69,68 +58,26 @@ void put_in_order(std::vector<Item>& items, const std::string& topic, RosCounts&
   items.erase(end, items.end());
 }
 
+/// The stamp of the header; nothing if it cannot be read.
+std::optional<Stamp> stamp_of(const RosMessage& message) {
+  try {
+    return RosMessageReader(message).header().stamp;
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
 bool is_topic(const std::optional<RosPoseTopic>& chosen, const RosChannel& channel) {
   return chosen && chosen->topic == channel.topic;
 }
 
 }  // namespace
 
-void RosScans::take(const RosMessage& message) {
-  topic_ = message.channel.topic;
-  if (has_unit_) return hand_on(message);
-  held_.push_back({message.channel, message.stamp, std::string(message.bytes), std::string(message.file)});
-  if (held_.size() == kScansToFindUnit) finish();
-}
-
-void RosScans::finish() {
-  if (!has_unit_) find_unit();
-  for (const Held& held : held_) hand_on(held.message());
-  held_.clear();
-}
-
-void RosScans::find_unit() {
-  has_unit_ = true;
-  std::vector<RawPointTimes> times;
-  std::vector<Stamp> stamps;
-  for (const Held& held : held_) {
-    const RosMessage message = held.message();
-    stamps.push_back(time_of(message, RosMessageReader(message).header()));
-    if (const auto raw = read_ros_point_times(message)) times.push_back(*raw);
-  }
-  const auto interval = nominal_interval_s(stamps);
-  if (times.empty() || !interval) return;
-  unit_ = unit_of(times, *interval);
-  if (*unit_ != times.front().nominal)
-    unit_note_ = std::string("the points' times are assumed to be in ") + name_of(*unit_) + ": in " +
-                 name_of(times.front().nominal) +
-                 " the duration of a sweep would not match the interval between scans";
-}
-
-void RosScans::hand_on(const RosMessage& message) {
-  RosScan scan = read_ros_scan(message, unit_);
-  ++clocks_[scan.clock];
-  take_(message, std::move(scan));
-}
-
-std::vector<std::string> RosScans::notes() const {
-  std::vector<std::string> notes;
-  if (unit_note_) notes.push_back(topic_ + ": " + *unit_note_);
-  const auto note = [&](PointClock clock, const std::string& what) {
-    if (const auto found = clocks_.find(clock); found != clocks_.end())
-      notes.push_back(topic_ + ": the points' times " + what + ", in " + std::to_string(found->second) +
-                      " scans");
-  };
-  note(PointClock::kOther,
-       "are from another clock than the scans' stamps; the first point is assigned the stamp");
-  note(PointClock::kCoarse, "are too coarse to distinguish points and are ignored");
-  return notes;
-}
-
 RosCollector::RosCollector(const RosTopicIndex& survey, RosTopicChoice choice, const RosScanSink& sink)
-    : frames_(survey.frames),
+    : survey_(survey),
       choice_(std::move(choice)),
       sink_(sink),
-      scan_messages_([this](const RosMessage& message, RosScan scan) { take_scan(message, scan); }) {
+      scan_messages_([this](Stamp stamp, RosScan scan) { take_scan(stamp, scan); }) {
   const std::string body = body_frame(survey, choice_);
   if (choice_.scans) T_body_laser_ = extrinsics_of(survey, body, *choice_.scans, collected_.warnings);
   if (choice_.imu) T_body_imu_ = extrinsics_of(survey, body, *choice_.imu, collected_.warnings);
@@ -147,18 +94,48 @@ bool RosCollector::reads(const RosChannel& channel) const {
 }
 
 void RosCollector::take(const RosMessage& message) {
-  if (reads(message.channel) && is_transforms_type(message.channel.type))
-    return transforms_[message.channel.topic].take(message);
-  if (is_topic(choice_.odometry, message.channel)) take_pose(message, collected_.odometry);
-  if (is_topic(choice_.truth, message.channel)) take_pose(message, collected_.truth);
-  if (message.channel.topic == choice_.scans) scan_messages_.take(message);
-  if (message.channel.topic == choice_.imu) take_inertial(message);
-  if (message.channel.topic == choice_.gnss) take_fix(message);
+  if (!reads(message.channel)) return;
+  RosMessage timed = message;
+  timed.stamp = {message.stamp.ns - survey_.recording_delay.ns};
+  const std::string& topic = message.channel.topic;
+  if (topic == choice_.scans) {
+    if (is_timed(timed)) scan_messages_.take(timed);
+    return;
+  }
+  try {
+    take_small(timed);
+    ++readable_[topic];
+  } catch (const InputError& error) {
+    unreadable_[topic].add(error);
+  }
+}
+
+/// Whether the message has a time: its own, or that of its recording if no message of the topic has a stamp.
+bool RosCollector::is_timed(const RosMessage& message) {
+  const std::string& topic = message.channel.topic;
+  if (stamp_of(message) != Stamp{}) return true;
+  const bool is_left_out = survey_.find(topic)->has_stamps;
+  count(topic, is_left_out ? kLeftWithoutTime : kWithoutTime, 1);
+  return !is_left_out;
+}
+
+void RosCollector::take_small(const RosMessage& message) {
+  const RosChannel& channel = message.channel;
+  if (is_transforms_type(channel.type)) return transforms_[channel.topic].take(message);
+  if (!is_timed(message)) return;
+  if (is_topic(choice_.odometry, channel)) take_pose(message, collected_.odometry);
+  if (is_topic(choice_.truth, channel)) take_pose(message, collected_.truth);
+  if (channel.topic == choice_.imu) take_inertial(message);
+  if (channel.topic == choice_.gnss) take_fix(message);
 }
 
 RosCollected RosCollector::finish() {
   scan_messages_.finish();
   const auto notes = scan_messages_.notes();
+  for (const auto& [topic, skipped] : unreadable_) {
+    if (readable_[topic] == 0) skipped.throw_first();
+    collected_.warnings.push_back(skipped.warning(topic, "message"));
+  }
   collected_.warnings.insert(collected_.warnings.end(), notes.begin(), notes.end());
   if (choice_.odometry) finish_poses(*choice_.odometry, collected_.odometry);
   if (choice_.truth) finish_poses(*choice_.truth, collected_.truth);
@@ -171,23 +148,19 @@ void RosCollector::count(const std::string& topic, const char* what, std::size_t
   if (number > 0) collected_.counts[topic + ": " + what] += number;
 }
 
-Stamp RosCollector::counted_time_of(const RosMessage& message, const RosHeader& header) {
-  if (header.stamp == Stamp{}) count(message.channel.topic, kWithoutTime, 1);
-  return time_of(message, header);
-}
-
 void RosCollector::take_pose(const RosMessage& message, std::vector<StampedPose<SE3>>& poses) {
   const RosPose pose = read_ros_pose(message);
   if (pose.pose)
-    poses.push_back({counted_time_of(message, pose.header), *pose.pose});
+    poses.push_back({time_of(message, pose.header), *pose.pose});
   else
     count(message.channel.topic, kWithoutPose, 1);
 }
 
 void RosCollector::finish_poses(const RosPoseTopic& topic, std::vector<StampedPose<SE3>>& poses) {
   if (const auto transforms = transforms_.find(topic.topic); transforms != transforms_.end()) {
-    TransformedPoses found = transforms->second.find(frames_, topic.frame, topic.child);
+    TransformedPoses found = transforms->second.find(survey_.frames, topic.frame, topic.child);
     count(topic.topic, kWithoutTime, found.without_time);
+    count(topic.topic, kLeftWithoutTime, found.left_without_time);
     count(topic.topic, kWithoutPose, found.without_pose);
     count(topic.topic,
           "poses are left out because another transform between the frames is unknown at their time",
@@ -197,13 +170,9 @@ void RosCollector::finish_poses(const RosPoseTopic& topic, std::vector<StampedPo
   put_in_order(poses, topic.topic, collected_.counts);
 }
 
-void RosCollector::take_scan(const RosMessage& message, RosScan& scan) {
-  const Stamp stamp = counted_time_of(message, scan.header);
-  if (!collected_.scans.insert(stamp).second) {
-    count(message.channel.topic, kTwice, 1);
-    return;
-  }
-  collected_.is_plane_scanner = message.channel.type == kLaserScanType;
+void RosCollector::take_scan(Stamp stamp, RosScan& scan) {
+  if (!collected_.scans.insert(stamp).second) return count(*choice_.scans, kTwice, 1);
+  collected_.is_plane_scanner = survey_.find(*choice_.scans)->type == kLaserScanType;
   collected_.range_max_m = std::max(collected_.range_max_m, scan.range_max_m);
   const Eigen::Matrix3f R_body_laser = T_body_laser_.rotation().toRotationMatrix().cast<float>();
   const Eigen::Vector3f t_body_laser = T_body_laser_.translation().cast<float>();
@@ -219,7 +188,7 @@ void RosCollector::take_fix(const RosMessage& message) {
   if (!fix.place) return count(message.channel.topic, "messages without a fix are left out", 1);
   if (!fix.sigma_m) count(message.channel.topic, "fixes state no sigma; 10 m is assumed", 1);
   collected_.fixes.push_back(
-      {counted_time_of(message, fix.header), *fix.place, fix.sigma_m.value_or(kUnknownFixSigma_m)});
+      {time_of(message, fix.header), *fix.place, fix.sigma_m.value_or(kUnknownFixSigma_m)});
 }
 
 void RosCollector::take_inertial(const RosMessage& message) {
@@ -229,8 +198,7 @@ void RosCollector::take_inertial(const RosMessage& message) {
     count(message.channel.topic, "IMU samples are marked as incomplete (no rates or no forces) and left out",
           1);
   else if (reading.specific_force_mps2.allFinite() && reading.angular_rate_radps.allFinite())
-    collected_.inertial.push_back({counted_time_of(message, reading.header),
-                                   R_body_imu * reading.specific_force_mps2,
+    collected_.inertial.push_back({time_of(message, reading.header), R_body_imu * reading.specific_force_mps2,
                                    R_body_imu * reading.angular_rate_radps});
   else
     count(message.channel.topic, "IMU samples that are not finite are left out", 1);

@@ -14,7 +14,13 @@ namespace radioslam {
 inline constexpr std::string_view kDatabaseMagic{"SQLite format 3\0", 16};
 
 /// Passes the messages to the visitor in the order of their times. Individual messages may be compressed with
-/// zstd. Refuses (InputError) a database without these tables and a corrupt one. Returns the warnings.
+/// zstd. Of a damaged database, the messages that can be read are passed on, from the damage on in the order
+/// of their ids. Refuses (InputError) a database without these tables, and one without a readable message
+/// because of its damage. Returns the warnings.
 std::vector<std::string> visit_ros_database(const std::filesystem::path& file, const RosVisitor& visitor);
+
+/// The same of a database in memory.
+std::vector<std::string> visit_ros_database(const std::string& name, std::string_view bytes,
+                                            const RosVisitor& visitor);
 
 }  // namespace radioslam

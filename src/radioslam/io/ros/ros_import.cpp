@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "radioslam/base/input_error.hpp"
+#include "radioslam/base/statistics.hpp"
 #include "radioslam/geometry/so3.hpp"
 #include "radioslam/io/ros/ros_collector.hpp"
 #include "radioslam/io/ros/ros_recording.hpp"
@@ -13,7 +14,8 @@ namespace radioslam {
 namespace {
 
 constexpr double kPlaneHeight_m = 0.1, kPlaneTilt = 0.05;  ///< the latter is the sine of half the tilt
-constexpr double kMinForce_mps2 = 5;                       ///< a smaller mean specific force is not in m/s^2
+constexpr double kMaxOriginDistance_m = 1e5, kMaxFixDistance_m = 1e6;
+constexpr double kMinForce_mps2 = 5;  ///< a smaller mean specific force is not in m/s^2
 
 /// Poses relative to the first one's position and yaw.
 Trajectory<SE3> from_start(std::vector<StampedPose<SE3>> poses) {
@@ -42,13 +44,35 @@ std::vector<PositionFix> local_fixes(const std::vector<GeodeticFix>& fixes, cons
   return local;
 }
 
-/// The given origin, or the first fix, with altitude 0 if it has none.
-std::optional<GeodeticPlace> origin_of_fixes(const std::vector<GeodeticFix>& fixes,
-                                             const std::optional<GeodeticPlace>& asked_for) {
-  if (asked_for || fixes.empty()) return asked_for;
-  GeodeticPlace origin = fixes.front().place;
-  if (!std::isfinite(origin.height_m)) origin.height_m = 0;
-  return origin;
+/// Every robot's fixes of a team, in order.
+std::vector<GeodeticPlace> places_of(const std::vector<RosImport>& team) {
+  std::vector<GeodeticPlace> places;
+  for (const RosImport& robot : team)
+    for (const GeodeticFix& fix : robot.fixes) {
+      places.push_back(fix.place);
+      if (!std::isfinite(places.back().height_m)) places.back().height_m = 0;
+    }
+  return places;
+}
+
+/// The median of each coordinate, from the earth's centre.
+Eigen::Vector3d middle_m(const std::vector<GeodeticPlace>& places) {
+  Eigen::Vector3d middle;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> coordinates;
+    for (const GeodeticPlace& place : places) coordinates.push_back(earth_centred_m(place)(axis));
+    middle(axis) = upper_median(coordinates);
+  }
+  return middle;
+}
+
+/// The first fix near the middle of all; with altitude 0 if it has none.
+GeodeticPlace origin_of(const std::vector<GeodeticPlace>& places) {
+  const Eigen::Vector3d middle = middle_m(places);
+  const auto agreeing = std::find_if(places.begin(), places.end(), [&](const GeodeticPlace& place) {
+    return (earth_centred_m(place) - middle).norm() < kMaxOriginDistance_m;
+  });
+  return agreeing == places.end() ? places.front() : *agreeing;
 }
 
 /// Whether the forces seem to be in units of g.
@@ -99,8 +123,7 @@ void add_warnings(const RosCollected& collected, const RosTopicIndex& survey, co
 }  // namespace
 
 RosImport import_ros_recording(const std::filesystem::path& source, const std::string& robot,
-                               const RosTopicRequest& wishes, const RosScanSink& sink,
-                               const std::optional<GeodeticPlace>& fix_origin) {
+                               const RosTopicRequest& wishes, const RosScanSink& sink) {
   const RosTopicIndex survey = index_recording(source);
   const RosTopicChoice choice = choose_topics(source.string(), survey, wishes);
   RosCollector collector(survey, choice, sink);
@@ -115,14 +138,29 @@ RosImport import_ros_recording(const std::filesystem::path& source, const std::s
   if (is_in_g(collected.inertial))
     collected.warnings.push_back(*choice.imu + ": specific forces are far below 9.81 m/s2; are they in g?");
   RosImport result = mission_of(collected, robot, choice.scans.has_value());
-  result.fix_origin = origin_of_fixes(collected.fixes, fix_origin);
-  if (!collected.fixes.empty()) {
-    Robot& recorded = result.imported.mission.robots.front();
-    recorded.fixes = local_fixes(collected.fixes, *result.fix_origin);
-    recorded.fix_lever_m = collected.fix_lever_m;
-  }
+  if (!collected.fixes.empty()) result.imported.mission.robots.front().fix_lever_m = collected.fix_lever_m;
+  result.fixes = std::move(collected.fixes);
   add_warnings(collected, survey, choice, result.imported.warnings);
+  for (const RosTopic& topic : survey.topics)
+    if (collector.reads({topic.name, topic.type})) result.topics.insert(topic.name);
+  result.index = survey;
   return result;
+}
+
+void place_fixes(std::vector<RosImport>& team) {
+  const std::vector<GeodeticPlace> places = places_of(team);
+  if (places.empty()) return;
+  const GeodeticPlace origin = origin_of(places);
+  for (RosImport& robot : team) {
+    std::vector<PositionFix> local = local_fixes(robot.fixes, origin);
+    const std::size_t far = std::erase_if(
+        local, [](const PositionFix& fix) { return fix.position_m.norm() > kMaxFixDistance_m; });
+    Robot& recorded = robot.imported.mission.robots.front();
+    recorded.fixes = std::move(local);
+    if (far > 0)
+      robot.imported.warnings.push_back(std::to_string(far) + " position fixes of " + recorded.id +
+                                        " are more than 1000 km from the team's and are left out");
+  }
 }
 
 }  // namespace radioslam

@@ -1,28 +1,88 @@
 #include "radioslam/io/ros/ros_topics.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
+#include <utility>
 
 #include "radioslam/base/input_error.hpp"
+#include "radioslam/base/units.hpp"
 #include "radioslam/io/ros/ros_recording.hpp"
 #include "radioslam/io/ros/ros_types.hpp"
+#include "radioslam/io/text/skipped_records.hpp"
 
 namespace radioslam {
 namespace {
 
 using TopicsByName = std::map<std::string, RosTopic>;
 
-bool has_a_frame(const RosChannel& channel) {
-  return channel.type == kOdometryType || channel.type == kImuType || channel.type == kFixType ||
-         is_scan_type(channel.type);
+/// Whether messages of this type begin with a header.
+bool has_header(const std::string& type) {
+  return is_pose_type(type) || type == kImuType || type == kFixType || type == kRangeType ||
+         is_scan_type(type);
 }
 
-/// Reads the frames in a topic's first message.
-void note_frames(const RosMessage& message, RosTopic& topic) {
-  RosMessageReader reader(message);
-  topic.frame = reader.header().frame;
-  if (topic.type == kOdometryType) topic.child = reader.frame();
-}
+constexpr std::int64_t kMaxDelay_ns = kNanosecondsPerSecond;
+
+/// Indexes the messages of a recording one by one.
+class TopicIndexer {
+ public:
+  /// Headers are read until one has a stamp.
+  bool reads(const RosChannel& channel) const {
+    if (is_transforms_type(channel.type)) return true;
+    const auto topic = topics_.find(channel.topic);
+    return has_header(channel.type) && (topic == topics_.end() || !topic->second.has_stamps);
+  }
+
+  void take(const RosMessage& message) {
+    const bool is_read = reads(message.channel);
+    RosTopic& topic =
+        topics_.try_emplace(message.channel.topic, RosTopic{message.channel.topic, message.channel.type})
+            .first->second;
+    if (topic.messages++ == 0) topic.definition = message.channel.definition;
+    if (!is_read) return;
+    try {
+      if (is_transforms_type(topic.type))
+        fixed_.take(message);
+      else
+        note_header(message, topic);
+    } catch (const InputError& error) {
+      if (is_transforms_type(topic.type)) unreadable_[topic.name].add(error);
+    }
+  }
+
+  RosTopicIndex finish(std::vector<std::string> warnings) {
+    RosTopicIndex index;
+    index.warnings = std::move(warnings);
+    for (const auto& [topic, skipped] : unreadable_)
+      index.warnings.push_back(skipped.warning(topic, "message"));
+    index.frames = fixed_.tree();
+    for (const auto& named : topics_) index.topics.push_back(named.second);
+    if (!delays_ns_.empty()) {
+      const auto middle = delays_ns_.begin() + std::ssize(delays_ns_) / 2;
+      std::nth_element(delays_ns_.begin(), middle, delays_ns_.end());
+      if (std::abs(*middle) > kMaxDelay_ns) index.recording_delay = {*middle};
+    }
+    return index;
+  }
+
+ private:
+  /// Reads the frames and the stamp of a topic's first messages.
+  void note_header(const RosMessage& message, RosTopic& topic) {
+    RosMessageReader reader(message);
+    const RosHeader header = reader.header();
+    const std::string child = topic.type == kOdometryType ? reader.frame() : "";
+    if (topic.frame.empty()) topic.frame = header.frame;
+    if (topic.child.empty()) topic.child = child;
+    topic.has_stamps = header.stamp != Stamp{};
+    if (topic.has_stamps) delays_ns_.push_back(message.stamp.ns - header.stamp.ns);
+  }
+
+  TopicsByName topics_;
+  FixedTransforms fixed_;
+  std::map<std::string, SkippedRecords> unreadable_;  ///< transforms, by topic
+  std::vector<std::int64_t> delays_ns_;               ///< from stamp to recording, one per topic
+};
 
 constexpr const char* kNoTopic = "none";
 
@@ -109,24 +169,13 @@ const RosTopic* RosTopicIndex::find(const std::string& name) const {
 }
 
 RosTopicIndex index_recording(const std::filesystem::path& source) {
-  RosTopicIndex survey;
-  FixedTransforms fixed;
-  TopicsByName topics;
-  RosVisitor visitor;
-  visitor.reads = [&](const RosChannel& channel) {
-    return is_transforms_type(channel.type) || (has_a_frame(channel) && !topics.contains(channel.topic));
-  };
-  visitor.take = [&](const RosMessage& message) {
-    const auto [topic, is_new] =
-        topics.try_emplace(message.channel.topic, RosTopic{message.channel.topic, message.channel.type});
-    ++topic->second.messages;
-    if (is_transforms_type(message.channel.type)) fixed.take(message);
-    if (is_new && has_a_frame(message.channel)) note_frames(message, topic->second);
-  };
-  survey.warnings = visit_recording(source, visitor);
-  survey.frames = fixed.tree();
-  for (const auto& named : topics) survey.topics.push_back(named.second);
-  return survey;
+  TopicIndexer indexer;
+  auto warnings = visit_recording(source, {[&](const RosChannel& channel) { return indexer.reads(channel); },
+                                           [&](const RosMessage& message) { indexer.take(message); }});
+  RosTopicIndex index = indexer.finish(std::move(warnings));
+  if (index.topics.empty() && !index.warnings.empty())
+    throw InputError(source.string(), 0, "has no readable messages: " + index.warnings.front());
+  return index;
 }
 
 std::string list_of_topics(const std::vector<RosTopic>& topics) {

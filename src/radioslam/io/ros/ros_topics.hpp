@@ -18,12 +18,18 @@ struct RosTopic {
   std::size_t messages = 0;
   std::string frame = {};  ///< frame of its first message, for importable types
   std::string child = {};  ///< child frame of its first message, for nav_msgs/Odometry
+  /// Whether any of its messages has a stamp, for importable types.
+  bool has_stamps = false;
+  std::string definition = {};  ///< text of its type's definition, if the recording has it
 };
 
 struct RosTopicIndex {
   std::vector<RosTopic> topics;  ///< topics with messages, sorted by name
   FrameTree frames;              ///< static transforms (FixedTransforms)
   std::vector<std::string> warnings;
+  /// Typical time from a message's stamp to its recording, if that is more than a second: the recording was
+  /// replayed, or its clocks differ. Messages of topics without stamps get the recording time less this.
+  Stamp recording_delay;
 
   /// The topic of this name; null if there is none.
   const RosTopic* find(const std::string& name) const;

@@ -1,5 +1,6 @@
 #include "radioslam/io/ros/ros_types.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -162,6 +163,11 @@ RosScan read_livox_scan(RosMessageReader& reader) {
     for (float& coordinate : point) coordinate = reader.f32();
     for (int byte = 0; byte < kLivoxMarks; ++byte) reader.u8();
   }
+  const auto [first, last] = std::minmax_element(scan.scan.times_s.begin(), scan.scan.times_s.end());
+  if (points > 1 && *first == *last) {
+    scan.scan.times_s.clear();
+    scan.clock = PointClock::kConstant;
+  }
   return scan;
 }
 
@@ -319,12 +325,32 @@ RosFix read_ros_fix(const RosMessage& message) {
   const bool has_covariance = reader.u8() != 0;
   const bool is_on_earth =
       std::abs(latitude_deg) <= 90 && std::abs(longitude_deg) <= 360 && !(std::abs(height_m) > kMaxHeight_m);
-  if (has_fix && is_on_earth)
-    fix.place = GeodeticPlace{latitude_deg * kRadiansPerDegree, longitude_deg * kRadiansPerDegree, height_m};
   const int axes = std::isfinite(height_m) ? 3 : 2;
-  const double variance = covariance.diagonal().head(axes).maxCoeff();
-  if (has_covariance && variance > 0 && std::isfinite(variance)) fix.sigma_m = std::sqrt(variance);
+  const auto variances = covariance.diagonal().head(axes);
+  if (has_covariance && variances.allFinite() && variances.maxCoeff() > 0)
+    fix.sigma_m = std::sqrt(variances.maxCoeff());
+  const bool is_unset = latitude_deg == 0 && longitude_deg == 0 && !fix.sigma_m;
+  if (has_fix && is_on_earth && !is_unset)
+    fix.place = GeodeticPlace{latitude_deg * kRadiansPerDegree, longitude_deg * kRadiansPerDegree, height_m};
   return fix;
+}
+
+RosRangeReading read_ros_range(const RosMessage& message) {
+  RosMessageReader reader(message);
+  RosRangeReading reading;
+  reading.header = reader.header();
+  reader.u8();   // kind of radiation
+  reader.f32();  // field of view
+  const auto min_m = static_cast<double>(reader.f32());
+  const auto max_m = static_cast<double>(reader.f32());
+  reading.range_m = static_cast<double>(reader.f32());
+  const bool has_limits = max_m > min_m;
+  reading.is_valid = std::isfinite(reading.range_m) && reading.range_m > 0 &&
+                     (!has_limits || (reading.range_m >= min_m && reading.range_m <= max_m));
+  if (reader.left() < sizeof(float)) return reading;  // no variance before ROS 2 Jazzy
+  const auto variance = static_cast<double>(reader.f32());
+  if (variance > 0 && std::isfinite(variance)) reading.sigma_m = std::sqrt(variance);
+  return reading;
 }
 
 }  // namespace radioslam

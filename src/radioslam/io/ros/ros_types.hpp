@@ -54,6 +54,7 @@ class RosMessageReader {
   std::string_view take(std::size_t bytes) { return cursor_.take(bytes); }
 
   ByteOrder order() const { return order_; }
+  std::size_t left() const { return cursor_.left(); }
   [[noreturn]] void fail(const std::string& reason) const { cursor_.fail(reason); }
 
  private:
@@ -90,8 +91,18 @@ struct RosImu {
 /// sensor_msgs/NavSatFix.
 struct RosFix {
   RosHeader header;
-  std::optional<GeodeticPlace> place;  ///< nothing without a fix; an unknown altitude is NaN
-  std::optional<double> sigma_m;       ///< of the worst axis; nothing if not stated
+  /// Nothing without a fix, as are latitude and longitude 0 without a covariance, which receivers send before
+  /// they have one; an unknown altitude is NaN.
+  std::optional<GeodeticPlace> place;
+  std::optional<double> sigma_m;  ///< of the worst axis; nothing if not stated
+};
+
+/// sensor_msgs/Range.
+struct RosRangeReading {
+  RosHeader header;
+  double range_m = 0;
+  bool is_valid = true;           ///< finite, positive and within the limits, if the message states them
+  std::optional<double> sigma_m;  ///< nothing if not stated
 };
 
 /// nav_msgs/Odometry, geometry_msgs/PoseStamped, PoseWithCovarianceStamped, TransformStamped.
@@ -103,6 +114,7 @@ bool is_scan_type(std::string_view type);
 inline constexpr std::string_view kOdometryType = "nav_msgs/Odometry";
 inline constexpr std::string_view kImuType = "sensor_msgs/Imu";
 inline constexpr std::string_view kFixType = "sensor_msgs/NavSatFix";
+inline constexpr std::string_view kRangeType = "sensor_msgs/Range";
 inline constexpr std::string_view kLaserScanType = "sensor_msgs/LaserScan";
 inline constexpr std::string_view kPointCloudType = "sensor_msgs/PointCloud2";
 
@@ -117,5 +129,6 @@ RosScan read_ros_scan(const RosMessage& message, std::optional<PointTimeUnit> un
 std::optional<RawPointTimes> read_ros_point_times(const RosMessage& message);
 RosImu read_ros_imu(const RosMessage& message);
 RosFix read_ros_fix(const RosMessage& message);
+RosRangeReading read_ros_range(const RosMessage& message);
 
 }  // namespace radioslam

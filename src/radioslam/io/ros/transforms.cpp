@@ -57,8 +57,8 @@ void MovingTransforms::take(const RosMessage& message) {
       ++link.without_pose;
       continue;
     }
-    if (transform.header.stamp == Stamp{}) ++link.without_time;
-    link.poses.push_back({time_of(message, transform.header), *transform.pose});
+    (transform.header.stamp == Stamp{} ? link.timeless : link.poses)
+        .push_back({time_of(message, transform.header), *transform.pose});
   }
 }
 
@@ -103,11 +103,11 @@ TransformedPoses MovingTransforms::find(const FrameTree& fixed, const std::strin
   for (std::size_t k = 0; k < chain->steps.size(); ++k) {
     const Link& link = chain->steps[k].link->second;
     found.without_pose += link.without_pose;
-    found.without_time += link.without_time;
-    if (link.poses.size() >= chain->steps[most].link->second.poses.size()) most = k;
-    links.push_back(in_order_of_time(link.poses));
+    (link.poses.empty() ? found.without_time : found.left_without_time) += link.timeless.size();
+    if (link.used().size() >= chain->steps[most].link->second.used().size()) most = k;
+    links.push_back(in_order_of_time(link.used()));
   }
-  for (const StampedPose<SE3>& timed : chain->steps[most].link->second.poses) {
+  for (const StampedPose<SE3>& timed : chain->steps[most].link->second.used()) {
     std::optional<SE3> T_frame_child = SE3();
     for (std::size_t k = 0; T_frame_child && k < links.size(); ++k) {
       const auto T = k == most ? std::optional(timed.pose) : links[k].at(timed.stamp);

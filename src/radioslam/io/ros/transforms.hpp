@@ -39,7 +39,8 @@ class FrameTree {
 struct TransformedPoses {
   std::vector<StampedPose<SE3>> poses;  ///< in the order of the messages, which may differ from that of time
   std::size_t without_pose = 0;         ///< messages without a valid pose: not finite, or without orientation
-  std::size_t without_time = 0;         ///< messages without a time, which got that of their recording
+  std::size_t without_time = 0;         ///< messages without a stamp, which got the time of their recording
+  std::size_t left_without_time = 0;    ///< the same, left out because others have stamps
   std::size_t alone = 0;                ///< stamps at which another transform is unknown
 };
 
@@ -59,8 +60,11 @@ class MovingTransforms {
 
  private:
   struct Link {
-    std::vector<StampedPose<SE3>> poses;  ///< T_parent_child
-    std::size_t without_pose = 0, without_time = 0;
+    std::vector<StampedPose<SE3>> poses;     ///< T_parent_child
+    std::vector<StampedPose<SE3>> timeless;  ///< at the time of their recording; used if `poses` is empty
+    std::size_t without_pose = 0;
+
+    const std::vector<StampedPose<SE3>>& used() const { return poses.empty() ? timeless : poses; }
   };
   using Links = std::map<std::pair<std::string, std::string>, Link>;  ///< by parent and child
 

@@ -43,6 +43,12 @@ class ByteCursor {
   /// Bytes preceded by their number as a u32.
   std::string_view counted() { return take(u32()); }
   std::string_view rest() { return take(left()); }
+  /// Skips zero bytes; returns their number.
+  std::size_t skip_zeros() {
+    const std::size_t begin = at_;
+    while (at_ < bytes_.size() && bytes_[at_] == 0) ++at_;
+    return at_ - begin;
+  }
 
   [[noreturn]] void fail(const std::string& reason) const {
     throw InputError(std::string(place_.file), 0,

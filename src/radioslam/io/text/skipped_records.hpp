@@ -12,6 +12,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -27,15 +28,23 @@ class SkippedRecords {
     if (!first_) first_ = error;
     ++count_;
   }
-  /// Reads a record; false if it was refused (InputError), which is counted.
+  /// What `read` returns, or nothing (false of a `read` without result) if it throws InputError, which is added.
   template <class Read>
-  bool attempt(Read&& read) {
+  auto attempt(Read&& read) {
+    using Result = decltype(read());
     try {
-      read();
-      return true;
+      if constexpr (std::is_void_v<Result>) {
+        read();
+        return true;
+      } else {
+        return std::optional<Result>(read());
+      }
     } catch (const InputError& error) {
       add(error);
-      return false;
+      if constexpr (std::is_void_v<Result>)
+        return false;
+      else
+        return std::optional<Result>();
     }
   }
   std::size_t count() const { return count_; }
