@@ -22,6 +22,7 @@ radioslam_room(io
     graph/pyfg.cpp
     graph/team_assembly.cpp
     graph/team_graph_file.cpp
+    graph/team_ids.cpp
     lidar/carmen.cpp
     lidar/kitti_sequence.cpp
     lidar/lidar_folder.cpp

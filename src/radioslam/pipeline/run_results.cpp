@@ -70,11 +70,34 @@ void note_range_biases(RunResult& result) {
   result.notes.push_back(note.str());
 }
 
+std::string whole_seconds(Stamp stamp) { return std::to_string(std::llround(stamp.seconds())); }
+
+/// One note on all that is behind gaps and tied to nothing.
+std::optional<std::string> untied_note(const std::vector<RobotResult>& robots) {
+  constexpr std::size_t kMaxNamed = 5;
+  std::size_t stretches = 0, poses = 0;
+  std::string named;
+  for (const RobotResult& robot : robots)
+    for (const UntiedStretch& stretch : robot.untied) {
+      poses += stretch.poses;
+      if (++stretches <= kMaxNamed)
+        named += (named.empty() ? "" : ", ") + robot.id + " from " + whole_seconds(stretch.first) +
+                 " to " + whole_seconds(stretch.last) + " s";
+    }
+  if (stretches == 0) return std::nullopt;
+  if (stretches > kMaxNamed) named += " and " + std::to_string(stretches - kMaxNamed) + " more";
+  return std::to_string(poses) + (poses == 1 ? " pose is" : " poses are") +
+         " not placed: behind a gap of the odometry, and no measurement that can be trusted ties the part to "
+         "the rest (" +
+         named + ")";
+}
+
 void add_notes(RunResult& result, const Mission& mission, const RadioMeasurements& radio,
                const SequenceStageParams& sequence, std::size_t ignored_links) {
   for (const auto& id : result.unplaced)
     result.notes.push_back("robot " + id +
                            " is not placed: no measurement that can be trusted connects it to another robot");
+  if (auto note = untied_note(result.robots)) result.notes.push_back(std::move(*note));
   for (const auto& file : mission.unused_files) result.notes.push_back(file + " is not used by this version");
   if (ignored_links > 0)
     result.notes.push_back(
@@ -146,8 +169,6 @@ void add_overlaps(RunResult& result, const Mission& mission, OverlapStage overla
                            " likely team alignments");
 }
 
-std::string whole_seconds(Stamp stamp) { return std::to_string(std::llround(stamp.seconds())); }
-
 /// Whether nothing but the similarity of fingerprints says where robots of unknown start are.
 template <class Pose>
 bool is_laid_out_by_fingerprints(const TeamEstimate<Pose>& team, const RadioMeasurements& radio) {
@@ -180,7 +201,12 @@ template <class Pose>
 RunResult describe_run(const Mission& mission, const RadioMeasurements& radio,
                        const TeamEstimate<Pose>& estimate, std::optional<OverlapStage> overlaps,
                        const RunParams& params, const RunOptions& options, StageClock& timed) {
-  const JointGraph<Pose>& joint = estimate.joint;
+  std::optional<JointGraph<Pose>> tied;
+  if (has_untied_poses(estimate.joint, estimate.alignment)) {
+    tied = estimate.joint;
+    leave_out_untied_poses(*tied, estimate.alignment);
+  }
+  const JointGraph<Pose>& joint = tied ? *tied : estimate.joint;
   RunResult result;
   result.mission_name = mission.name;
   result.dimension = mission.dimension;
