@@ -148,7 +148,11 @@ void note_groups(const JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>
   for (const std::size_t g : best.joins) {
     const std::size_t a = joint.robot_of_segment[groups[g].segment_a],
                       b = joint.robot_of_segment[groups[g].segment_b];
-    if (a == b || best.component[groups[g].segment_a] != best.component[groups[g].segment_b]) continue;
+    if (best.component[groups[g].segment_a] != best.component[groups[g].segment_b]) continue;
+    if (a == b && groups[g].evidence < kMinSupport)
+      alignment.notes.push_back("a part of the trajectory of robot " + joint.robots[a].id +
+                                " behind a gap of its odometry stands on a single one of the " + measured);
+    if (a == b) continue;
     robots.insert({a, b});
     if (!weakest || groups[g].evidence < weakest->evidence) weakest = &groups[g];
   }
@@ -223,7 +227,7 @@ void close_by_loops(JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment,
     const auto chains = segment_chains(joint, loops, odometry_scale);
     const std::vector<LoopGroup> groups = loop_groups(joint, loops, chains, {.consistency = consistency});
     auto alignments = align_by_loops(joint, component_before, loops, groups, chains);
-    if (!has_unit_weights(consistency)) undo_weak_joins(groups, alignments);
+    if (!has_unit_weights(consistency)) undo_weak_joins(groups, joint.robot_of_segment, alignments);
     const JointGraph<Pose> before = joint;
     const std::vector<TeamLoop<Pose>> loops_before = loops;
     component = alignments.front().component;
