@@ -39,8 +39,8 @@ std::vector<int> numbers_beyond(std::vector<int> number, int next) {
   return number;
 }
 
-/// Components before the team is aligned: segments whose starts are known share a frame; further segments of a
-/// robot have their own.
+/// Components before the team is aligned: segments whose starts are known share a frame; further segments of
+/// a robot have their own.
 template <class Pose>
 std::vector<int> segments_apart(const JointGraph<Pose>& joint, const std::vector<int>& of_robot) {
   std::vector<int> component;
@@ -98,7 +98,8 @@ std::vector<int> set_components(const JointGraph<Pose>& joint, const std::vector
   component.assign(joint.robots.size(), -1);
   for (std::size_t s = 0; s < of_segment.size(); ++s) {
     int& of_robot = component[joint.robot_of_segment[s]];
-    if (of_robot < 0 || sizes[static_cast<std::size_t>(of_robot)] < sizes[static_cast<std::size_t>(of_segment[s])])
+    if (of_robot < 0 ||
+        sizes[static_cast<std::size_t>(of_robot)] < sizes[static_cast<std::size_t>(of_segment[s])])
       of_robot = of_segment[s];
   }
   std::vector<int> number = renumber_components(component);

@@ -54,8 +54,8 @@ void set_alternatives(TeamAlignment<Pose>& alignment, const std::vector<TeamHypo
 
 /// Sets the components. A robot with segments in several belongs to the one with the most poses of the team,
 /// before others to that of known starts; its other segments have no pose in its frame. `of_segment` has the
-/// same number, from 0, for segments that share a frame. Returns the new number of each, -1 where no robot has
-/// it.
+/// same number, from 0, for segments that share a frame. Returns the new number of each, -1 where no robot
+/// has it.
 template <class Pose>
 std::vector<int> set_components(const JointGraph<Pose>& joint, const std::vector<int>& of_segment,
                                 TeamAlignment<Pose>& alignment);

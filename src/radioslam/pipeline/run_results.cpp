@@ -81,8 +81,8 @@ std::optional<std::string> untied_note(const std::vector<RobotResult>& robots) {
     for (const UntiedStretch& stretch : robot.untied) {
       poses += stretch.poses;
       if (++stretches <= kMaxNamed)
-        named += (named.empty() ? "" : ", ") + robot.id + " from " + whole_seconds(stretch.first) +
-                 " to " + whole_seconds(stretch.last) + " s";
+        named += (named.empty() ? "" : ", ") + robot.id + " from " + whole_seconds(stretch.first) + " to " +
+                 whole_seconds(stretch.last) + " s";
     }
   if (stretches == 0) return std::nullopt;
   if (stretches > kMaxNamed) named += " and " + std::to_string(stretches - kMaxNamed) + " more";

@@ -39,7 +39,7 @@ struct Evaluation {
   TeamMetrics metrics;
   std::optional<TeamMetrics> dead_reckoning;  ///< if every robot's start is known
   PairCounts candidates;
-  bool has_mission = true;            ///< pairs and closures are compared with its measurements
+  bool has_mission = true;             ///< pairs and closures are compared with its measurements
   bool looked_for_candidates = false;  ///< whether the run searched for candidates at all
   nlohmann::ordered_json found,
       listed;  ///< how many candidates the run says it found and listed; null: it does not

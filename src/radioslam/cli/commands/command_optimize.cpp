@@ -58,10 +58,10 @@ struct Report {
   std::size_t factors = 0;
   std::size_t repaired_informations = 0;
   std::string_view start;
-  std::vector<std::string> notes;  ///< on what was left out, and on parts that nothing ties together
-  std::vector<double> weights;     ///< of a robust optimum, per relative pose
+  std::vector<std::string> notes;   ///< on what was left out, and on parts that nothing ties together
+  std::vector<double> weights;      ///< of a robust optimum, per relative pose
   std::vector<std::size_t> frames;  ///< poses of every part that nothing ties to the others
-  double initial_cost = 0;  ///< at the file's vertices; at the start if some are missing
+  double initial_cost = 0;          ///< at the file's vertices; at the start if some are missing
   OptimizerSummary summary;
   Seconds seconds;
 };
@@ -124,7 +124,8 @@ void report_frames(const G2oGraph<Pose>& file, Report& report) {
   if (poses.size() > kMaxNamed) named += ", ...";
   report.notes.push_back(std::to_string(poses.size()) +
                          " frames that nothing ties together: how they lie to one another is not measured "
-                         "(poses: " + named + ")");
+                         "(poses: " +
+                         named + ")");
 }
 
 /// Per relative pose, whether it may be wrong: all but the first between a pose and its robot's next one.
@@ -183,22 +184,22 @@ Report optimize_graph(G2oGraph<Pose>& file, const OptimizeParams& params) {
 
 nlohmann::ordered_json optimum_json(const Report& report) {
   nlohmann::ordered_json json{{"initial_cost", report.initial_cost},
-          {"start_cost", report.summary.initial_cost},
-          {"final_cost", report.summary.final_cost},
-          {"iterations", report.summary.iterations},
-          {"seconds",
-           {{"read", report.seconds.read},
-            {"initialise", report.seconds.initialise},
-            {"optimise", report.seconds.optimize}}},
-          {"termination", to_string(report.summary.termination)},
-          {"certificate", nullptr},
-          {"start", report.start},
-          {"poses", report.poses},
-          {"factors", report.factors},
-          {"repaired_informations", report.repaired_informations},
-          {"frames", report.frames},
-          {"notes", report.notes},
-          {"costs", report.summary.costs}};
+                              {"start_cost", report.summary.initial_cost},
+                              {"final_cost", report.summary.final_cost},
+                              {"iterations", report.summary.iterations},
+                              {"seconds",
+                               {{"read", report.seconds.read},
+                                {"initialise", report.seconds.initialise},
+                                {"optimise", report.seconds.optimize}}},
+                              {"termination", to_string(report.summary.termination)},
+                              {"certificate", nullptr},
+                              {"start", report.start},
+                              {"poses", report.poses},
+                              {"factors", report.factors},
+                              {"repaired_informations", report.repaired_informations},
+                              {"frames", report.frames},
+                              {"notes", report.notes},
+                              {"costs", report.summary.costs}};
   if (!report.weights.empty()) json["weights"] = report.weights;
   return json;
 }

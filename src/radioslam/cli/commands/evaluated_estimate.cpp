@@ -72,7 +72,8 @@ RobotTruth& truth_of(const std::string& id, const EvaluatedEstimate& estimate, T
   const auto found = std::find_if(truth.robots.begin(), truth.robots.end(), is_it);
   if (found != truth.robots.end()) return *found;
   std::string names;
-  for (const EstimatedTrajectory& robot : estimate.run.robots) names += (names.empty() ? "" : ", ") + robot.id;
+  for (const EstimatedTrajectory& robot : estimate.run.robots)
+    names += (names.empty() ? "" : ", ") + robot.id;
   throw InputError("--truth", 0, "robot '" + id + "' is not in the estimate, whose robots are " + names);
 }
 

@@ -1,5 +1,5 @@
-// What `evaluate` compares: the estimate, in the folder of a run or in a pose graph, and a truth that is given
-// robot by robot.
+// What `evaluate` compares: the estimate, in the folder of a run or in a pose graph, and a truth that is
+// given robot by robot.
 #pragma once
 
 #include <string>

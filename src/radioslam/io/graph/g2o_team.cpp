@@ -223,8 +223,7 @@ AnyTeamGraphFile read_g2o_team(std::span<const Text> texts, StatedStarts starts,
   const DividedIds divided(texts);
   const auto is_elsewhere = [&](std::uint64_t id) { return divided.file_of(id).has_value(); };
   std::vector<AnyG2oGraph> files;
-  for (const Text& text : texts)
-    files.push_back(read_g2o(text, repair, BadLines::kSkip, is_elsewhere));
+  for (const Text& text : texts) files.push_back(read_g2o(text, repair, BadLines::kSkip, is_elsewhere));
   refuse_mixed_letters(files, texts);
   if (std::holds_alternative<G2oGraph<SE2>>(files.front())) return merge<SE2>(files, texts, divided, starts);
   return merge<SE3>(files, texts, divided, starts);

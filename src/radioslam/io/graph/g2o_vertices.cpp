@@ -109,7 +109,8 @@ void G2oVertices::refuse_contradictions() const {
   if (!contradiction_) return;
   std::string reason = quoted_vertex(contradiction_->id) + " appears twice, with different values";
   if (robot_of(contradiction_->id) == 0)
-    reason += "; if these are poses of two robots, the robots' letters are missing in the ids (top eight bits)";
+    reason +=
+        "; if these are poses of two robots, the robots' letters are missing in the ids (top eight bits)";
   text_.fail(contradiction_->line, reason);
 }
 

@@ -40,7 +40,8 @@ class G2oVertices {
   /// Adds the poses that appear in edges only, from `first_index` on; returns their ids, sorted and unique.
   /// Where bad lines are skipped, those of robots with VERTEX lines are not added, unless they are elsewhere:
   /// their edges are bad lines.
-  std::vector<Id> add_undeclared(std::size_t first_index, BadLines bad_lines, const IsElsewhere& is_elsewhere);
+  std::vector<Id> add_undeclared(std::size_t first_index, BadLines bad_lines,
+                                 const IsElsewhere& is_elsewhere);
   /// Refuses an id that has two different values, also where bad lines are skipped.
   void refuse_contradictions() const;
   /// Refuses the first of them whose robot has VERTEX lines of other poses.

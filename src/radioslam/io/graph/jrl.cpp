@@ -224,12 +224,14 @@ class JrlReader {
     const auto has_none = [](std::uint64_t key) { return key <= kKeyPlaceMask; };
     const auto& keys = poses_.keys();
     std::size_t robots = 0;
-    for (const auto& [robot, entries] : file_.members("measurements").items()) robots += entries.empty() ? 0U : 1U;
+    for (const auto& [robot, entries] : file_.members("measurements").items())
+      robots += entries.empty() ? 0U : 1U;
     const bool all = std::all_of(keys.begin(), keys.end(), has_none) && robots > 1;
     if (!all && !id_without_letter(keys)) return;
-    text_.fail(0, "key " + std::to_string(*std::find_if(keys.begin(), keys.end(), has_none)) +
-                      " has no robot's letter (top eight bits), but the log is of several robots: the robots' "
-                      "letters are missing");
+    text_.fail(0,
+               "key " + std::to_string(*std::find_if(keys.begin(), keys.end(), has_none)) +
+                   " has no robot's letter (top eight bits), but the log is of several robots: the robots' "
+                   "letters are missing");
   }
 
   void read_measurement(const FactorName& name, const JrlObject& measurement) {

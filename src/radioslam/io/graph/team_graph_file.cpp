@@ -50,9 +50,7 @@ AnyTeamGraphFile read_any(const fs::path& path, StatedStarts starts, RepairInfor
 
 AnyTeamGraphFile with_measurements(AnyTeamGraphFile any, const fs::path& path) {
   const bool is_measured = std::visit(
-      [](const auto& file) {
-        return file.team.graph.poses.size() < 2 || measures_anything(file.team.graph);
-      },
+      [](const auto& file) { return file.team.graph.poses.size() < 2 || measures_anything(file.team.graph); },
       any);
   if (!is_measured) throw InputError(path.string(), 0, "nothing is measured between its poses: no edges");
   return any;

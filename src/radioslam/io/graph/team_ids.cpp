@@ -58,7 +58,7 @@ FileIds ids_of(const Text& text) {
 
 /// The file of every id, if no two files have the same one and some file names one of another; else nothing.
 /// A file without any of its own has only links between others' poses.
-Owners owners_by(const std::vector<FileIds>& files, std::set<Id> FileIds::* own) {
+Owners owners_by(const std::vector<FileIds>& files, std::set<Id> FileIds::*own) {
   Owners owners;
   for (std::size_t k = 0; k < files.size(); ++k)
     for (const Id id : files[k].*own)
@@ -75,7 +75,9 @@ Owners owners_by(const std::vector<FileIds>& files, std::set<Id> FileIds::* own)
 
 bool has_letters(const std::vector<FileIds>& files) {
   return std::any_of(files.begin(), files.end(), [](const FileIds& file) {
-    const auto is_beyond = [](const std::set<Id>& ids) { return !ids.empty() && *ids.rbegin() > kKeyPlaceMask; };
+    const auto is_beyond = [](const std::set<Id>& ids) {
+      return !ids.empty() && *ids.rbegin() > kKeyPlaceMask;
+    };
     return is_beyond(file.declared) || is_beyond(file.mentioned);
   });
 }
@@ -97,9 +99,10 @@ void refuse_missing_letter(const Text& text, std::uint64_t id) {
     const std::vector<Id> ids = ids_of_line(lines);
     if (std::find(ids.begin(), ids.end(), id) != ids.end()) line = lines.number();
   }
-  text.fail(line, quoted_vertex(id) +
-                      " has no robot's letter in its id (top eight bits), but others of the team have one: the "
-                      "robots' letters are missing");
+  text.fail(line,
+            quoted_vertex(id) +
+                " has no robot's letter in its id (top eight bits), but others of the team have one: the "
+                "robots' letters are missing");
 }
 
 DividedIds::DividedIds(std::span<const Text> texts) {

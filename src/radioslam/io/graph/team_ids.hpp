@@ -1,10 +1,10 @@
 // Whose pose an id of a team's g2o files is.
 //
-// An id has its robot's letter in the top eight bits (GTSAM symbols). Without letters, each of several files is
-// a robot, whose ids begin anew; unless the files divide the ids among them, each with its own poses, and name
-// poses of others in their links: then an id is that of the file that has it. A file's own ids are those of its
-// VERTEX lines, or, where files share these, those of its edges between successive ids. Ids of which some have
-// letters and some have none contradict each other: letters are missing.
+// An id has its robot's letter in the top eight bits (GTSAM symbols). Without letters, each of several files
+// is a robot, whose ids begin anew; unless the files divide the ids among them, each with its own poses, and
+// name poses of others in their links: then an id is that of the file that has it. A file's own ids are those
+// of its VERTEX lines, or, where files share these, those of its edges between successive ids. Ids of which
+// some have letters and some have none contradict each other: letters are missing.
 #pragma once
 
 #include <cstdint>

@@ -395,8 +395,7 @@ void undo_weak_joins(const std::vector<LoopGroup>& groups, const std::vector<std
   std::vector<std::size_t> kept;
   for (const std::size_t join : best.joins) {
     std::vector<bool> side = side_of_b(groups, best, join);
-    const bool is_own =
-        robot_of_segment[groups[join].segment_a] == robot_of_segment[groups[join].segment_b];
+    const bool is_own = robot_of_segment[groups[join].segment_a] == robot_of_segment[groups[join].segment_b];
     if (is_weak(groups, alignments, side, is_own ? kMinOwnSupport : kMinSupport))
       undone.push_back(std::move(side));
     else
@@ -418,9 +417,9 @@ void undo_weak_joins(const std::vector<LoopGroup>& groups, const std::vector<std
       best.group_holds[g] = false;
 }
 
-#define RADIOSLAM_LOOP_ALTERNATIVES(Pose)                                                      \
-  template bool contradict_each_other(const LoopAlignment<Pose>&, const LoopAlignment<Pose>&); \
-  template void undo_weak_joins(const std::vector<LoopGroup>&, const std::vector<std::size_t>&,  \
+#define RADIOSLAM_LOOP_ALTERNATIVES(Pose)                                                       \
+  template bool contradict_each_other(const LoopAlignment<Pose>&, const LoopAlignment<Pose>&);  \
+  template void undo_weak_joins(const std::vector<LoopGroup>&, const std::vector<std::size_t>&, \
                                 std::vector<LoopAlignment<Pose>>&);
 RADIOSLAM_LOOP_ALTERNATIVES(SE2)
 RADIOSLAM_LOOP_ALTERNATIVES(SE3)

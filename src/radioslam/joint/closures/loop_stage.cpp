@@ -145,13 +145,12 @@ void note_groups(const JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>
                  const std::string& measured, TeamAlignment<Pose>& alignment) {
   const LoopGroup* weakest = nullptr;
   std::set<std::size_t> robots;
+  std::set<std::string> parts;  // robots with parts that a single sighting ties to the rest
   for (const std::size_t g : best.joins) {
     const std::size_t a = joint.robot_of_segment[groups[g].segment_a],
                       b = joint.robot_of_segment[groups[g].segment_b];
     if (best.component[groups[g].segment_a] != best.component[groups[g].segment_b]) continue;
-    if (a == b && groups[g].evidence < kMinSupport)
-      alignment.notes.push_back("a part of the trajectory of robot " + joint.robots[a].id +
-                                " behind a gap of its odometry stands on a single one of the " + measured);
+    if (a == b && groups[g].evidence < kMinSupport) parts.insert(joint.robots[a].id);
     if (a == b) continue;
     robots.insert({a, b});
     if (!weakest || groups[g].evidence < weakest->evidence) weakest = &groups[g];
@@ -162,6 +161,9 @@ void note_groups(const JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>
                               measured + " alone; least supported is the relative pose of " + text.robots +
                               ": " + text.counts + " agree with one another");
   }
+  for (const std::string& robot : parts)
+    alignment.notes.push_back("what robot " + robot + " has behind a gap of its odometry stands on " +
+                              measured + " of a single place");
   std::set<std::pair<std::size_t, std::size_t>> noted;
   for (const LoopGroup& group : groups) {
     const auto pair = std::make_pair(group.segment_a, group.segment_b);
