@@ -217,7 +217,7 @@ TEST_F(TeamGraphs, RobotsOfOnePoseEachHaveAResult) {
 }
 
 TEST_F(TeamGraphs, OdometryOfOneRowAndAMatchHaveAResult) {
-  write("m/mission.yaml", "format: radioslam-mission/1\ndimension: 3\nrobots: {a: {}, b: {}}\n");
+  write("m/mission.yaml", "format: radioslam-mission/1\nrobots: {a: {}, b: {}}\n");
   for (const char* robot : {"a", "b"})
     write(std::string("m/robots/") + robot + "/odometry.tum", "0 0 0 0 0 0 0 1\n");
   write("m/matches.csv",

@@ -121,8 +121,6 @@ void count_pairs(Evaluation& evaluation, const RunFolder& run, const Mission& mi
 
 /// The mission, with the truth that is given for robots of the estimate.
 MissionInput read_compared(const EvaluateOptions& options, const EvaluatedEstimate& estimate) {
-  if (options.mission.empty() && options.truths.empty())
-    throw InputError("evaluate", 0, "needs a mission with ground truth, or --truth ROBOT=FILE");
   MissionInput input;
   if (!options.mission.empty()) input = read_input(options.mission);
   if (!options.truths.empty()) use_given_truth(options.truths, estimate, input);
@@ -134,6 +132,8 @@ MissionInput read_compared(const EvaluateOptions& options, const EvaluatedEstima
 }
 
 Evaluation evaluate(const EvaluateOptions& options) {
+  if (options.mission.empty() && options.truths.empty())
+    throw InputError("evaluate", 0, "needs a mission with ground truth, or --truth ROBOT=FILE");
   EvaluatedEstimate estimated = read_estimate(options.run);
   const RunFolder& run = estimated.run;
   const MissionInput input = read_compared(options, estimated);
