@@ -1,6 +1,7 @@
 #include "radioslam/joint/team_alignment.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "radioslam/joint/links/link_weights.hpp"
@@ -73,6 +74,8 @@ void remember_component(TeamAlignment<Pose>& alignment) {
   for (const int c : alignment.component)
     alignment.in_common_frame.push_back(alignment.absolute[static_cast<std::size_t>(c)]);
 }
+
+std::string whole_seconds(Stamp stamp) { return std::to_string(std::llround(stamp.seconds())); }
 
 /// Renumbers components without gaps, in the order of the robots; returns the new number of each old one, -1
 /// where no robot had it.
@@ -152,6 +155,25 @@ void leave_out_untied_poses(JointGraph<Pose>& joint, const TeamAlignment<Pose>& 
     robot.poses.resize(kept);
     robot.odometry.resize(kept);
   }
+}
+
+std::optional<std::string> untied_note(const std::vector<RobotVariables>& robots) {
+  constexpr std::size_t kMaxNamed = 5;
+  std::size_t stretches = 0, poses = 0;
+  std::string named;
+  for (const RobotVariables& robot : robots)
+    for (const UntiedStretch& stretch : robot.untied) {
+      poses += stretch.poses;
+      if (++stretches <= kMaxNamed)
+        named += (named.empty() ? "" : ", ") + robot.id + " from " + whole_seconds(stretch.first) + " to " +
+                 whole_seconds(stretch.last) + " s";
+    }
+  if (stretches == 0) return std::nullopt;
+  if (stretches > kMaxNamed) named += " and " + std::to_string(stretches - kMaxNamed) + " more";
+  return std::to_string(poses) + (poses == 1 ? " pose is" : " poses are") +
+         " not placed: behind a gap of the odometry, and no measurement that can be trusted ties the part to "
+         "the rest (" +
+         named + ")";
 }
 
 template <class Pose>

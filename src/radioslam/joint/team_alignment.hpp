@@ -2,6 +2,7 @@
 // are any, else by fingerprint similarity.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,9 @@ bool connected_without_matches(const TeamAlignment<Pose>& alignment, RobotIndex 
   const int c_i = alignment.without_matches[i.index()], c_j = alignment.without_matches[j.index()];
   return c_i == c_j || (alignment.in_common_frame[i.index()] && alignment.in_common_frame[j.index()]);
 }
+
+/// One note on all keyframes that were left out; nothing where none was.
+std::optional<std::string> untied_note(const std::vector<RobotVariables>& robots);
 
 /// Whether radio links connect robots to each other or to anchors.
 template <class Pose>

@@ -70,34 +70,11 @@ void note_range_biases(RunResult& result) {
   result.notes.push_back(note.str());
 }
 
-std::string whole_seconds(Stamp stamp) { return std::to_string(std::llround(stamp.seconds())); }
-
-/// One note on all that is behind gaps and tied to nothing.
-std::optional<std::string> untied_note(const std::vector<RobotResult>& robots) {
-  constexpr std::size_t kMaxNamed = 5;
-  std::size_t stretches = 0, poses = 0;
-  std::string named;
-  for (const RobotResult& robot : robots)
-    for (const UntiedStretch& stretch : robot.untied) {
-      poses += stretch.poses;
-      if (++stretches <= kMaxNamed)
-        named += (named.empty() ? "" : ", ") + robot.id + " from " + whole_seconds(stretch.first) + " to " +
-                 whole_seconds(stretch.last) + " s";
-    }
-  if (stretches == 0) return std::nullopt;
-  if (stretches > kMaxNamed) named += " and " + std::to_string(stretches - kMaxNamed) + " more";
-  return std::to_string(poses) + (poses == 1 ? " pose is" : " poses are") +
-         " not placed: behind a gap of the odometry, and no measurement that can be trusted ties the part to "
-         "the rest (" +
-         named + ")";
-}
-
 void add_notes(RunResult& result, const Mission& mission, const RadioMeasurements& radio,
                const SequenceStageParams& sequence, std::size_t ignored_links) {
   for (const auto& id : result.unplaced)
     result.notes.push_back("robot " + id +
                            " is not placed: no measurement that can be trusted connects it to another robot");
-  if (auto note = untied_note(result.robots)) result.notes.push_back(std::move(*note));
   for (const auto& file : mission.unused_files) result.notes.push_back(file + " is not used by this version");
   if (ignored_links > 0)
     result.notes.push_back(
@@ -169,6 +146,8 @@ void add_overlaps(RunResult& result, const Mission& mission, OverlapStage overla
                            " likely team alignments");
 }
 
+std::string whole_seconds(Stamp stamp) { return std::to_string(std::llround(stamp.seconds())); }
+
 /// Whether nothing but the similarity of fingerprints says where robots of unknown start are.
 template <class Pose>
 bool is_laid_out_by_fingerprints(const TeamEstimate<Pose>& team, const RadioMeasurements& radio) {
@@ -221,6 +200,7 @@ RunResult describe_run(const Mission& mission, const RadioMeasurements& radio,
         "robots were placed by fingerprints alone: sigma_m and sigma_team_m take their layout as right");
   if (radio.rssi_offsets.shown) result.notes.push_back(rssi_offset_note(result.robots));
   add_notes(result, mission, radio, params.sequence, joint.ignored_links);
+  if (auto note = untied_note(joint.robots)) result.notes.push_back(std::move(*note));
   result.notes.insert(result.notes.end(), estimate.alignment.notes.begin(), estimate.alignment.notes.end());
   add_fix_results(result, joint, estimate.judgement.fixes);
   if (!mission.aoa_measurements.empty())

@@ -1,7 +1,7 @@
 // Whose pose an id of a team's g2o files is.
 //
 // An id has its robot's letter in the top eight bits (GTSAM symbols). Without letters, each of several files
-// is a robot, whose ids begin anew; unless the files divide the ids among them, each with its own poses, and
+// is a robot with ids of its own; unless the files divide the ids among them, each with its own poses, and
 // name poses of others in their links: then an id is that of the file that has it. A file's own ids are those
 // of its VERTEX lines, or, where files share these, those of its edges between successive ids. Ids of which
 // some have letters and some have none contradict each other: letters are missing.
@@ -30,7 +30,7 @@ class DividedIds {
   /// Reads the ids alone, of VERTEX lines and of edges between poses; other lines are not looked at.
   explicit DividedIds(std::span<const Text> texts);
 
-  /// The index of the file that has the pose; nothing if none has, or if ids begin anew in each file.
+  /// The index of the file that has the pose; nothing if none has, or if each file has ids of its own.
   std::optional<std::size_t> file_of(std::uint64_t id) const;
 
  private:
