@@ -143,6 +143,22 @@ TEST(G2oTeam, IdsWithAndWithoutLettersContradictEachOther) {
   EXPECT_EQ(read_graph_lines({edge("0", "1", 1) + edge("1", one, 2)}).team.segments.size(), 2u);
 }
 
+TEST(G2oTeam, TwoOdometriesOfIdsWithoutLettersAreOfTwoRobots) {
+  std::string first, other, again;
+  for (int k = 0; k < 5; ++k) {
+    first += edge(std::to_string(k), std::to_string(k + 1), 1);
+    other += edge(std::to_string(k), std::to_string(k + 1), 3);
+    again += edge(std::to_string(k), std::to_string(k + 1), 1.1);
+  }
+  expect_refusal([&] { read_graph_lines({first + other}); }, 6, "the robots' letters are missing");
+  expect_refusal([&] { read_g2o(make_text("t.g2o", first + other)); }, 6,
+                 "appear twice, with different motions");
+  const auto twice = read_graph_lines({first + again});
+  ASSERT_EQ(twice.notes.size(), 1u);
+  EXPECT_NE(twice.notes[0].find("the robots' letters are missing"), std::string::npos);
+  EXPECT_TRUE(read_graph_lines({first + edge("0", "1", 3)}).notes.empty());
+}
+
 TEST(G2oTeam, IdsThatFilesDivideAmongThemNamePosesOfOthers) {
   const std::string link = edge("1", "21", 5);
   const auto lines = [](int first) {

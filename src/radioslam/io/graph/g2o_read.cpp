@@ -79,6 +79,8 @@ class G2oReader {
     vertices().refuse_missing();
     if (out_.graph.poses.empty()) text_.fail(1, "the graph has no poses");
     if (const auto id = id_without_letter(out_.pose_ids)) refuse_missing_letter(text_, *id);
+    if (second_odometry(out_.graph, out_.pose_ids) == SecondOdometry::kContradicts)
+      refuse_second_odometry(text_);
     out_.repaired_informations = informations_.repaired();
     return std::move(out_);
   }

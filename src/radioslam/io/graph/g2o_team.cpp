@@ -77,6 +77,11 @@ class TeamMerge {
   void add(const G2oGraph<Pose>& file, const Text& text) {
     const PoseGraph<Pose>& graph = file.graph;
     if (file.skipped_lines.count() > 0) notes_.push_back(file.skipped_lines.warning(text.name, "line"));
+    if (second_odometry<Pose>(graph, file.pose_ids) == SecondOdometry::kAgrees)
+      notes_.push_back(
+          text.name +
+          ": most edges between successive ids appear twice; if these are poses of two robots, the "
+          "robots' letters are missing in the ids");
     if (first_skipped_.count() == 0) first_skipped_ = file.skipped_lines;
     graph_.chart = graph.chart;
     std::vector<PoseId> poses;

@@ -73,6 +73,17 @@ Owners owners_by(const std::vector<FileIds>& files, std::set<Id> FileIds::*own) 
   return has_links ? owners : Owners();
 }
 
+constexpr std::size_t kMinRepeated = 3;
+constexpr double kOtherMotion = 0.3;  // metres per metre of the longer step, or radians
+
+template <class Pose>
+bool differ(const Pose& a, const Pose& b) {
+  const typename Pose::Tangent error = (a.inverse() * b).log();
+  const double length_m = std::max(a.translation().norm(), b.translation().norm());
+  return error.template head<Pose::kDim>().norm() > kOtherMotion * length_m ||
+         error.template tail<Pose::kDof - Pose::kDim>().norm() > kOtherMotion;
+}
+
 bool has_letters(const std::vector<FileIds>& files) {
   return std::any_of(files.begin(), files.end(), [](const FileIds& file) {
     const auto is_beyond = [](const std::set<Id>& ids) {
@@ -105,6 +116,37 @@ void refuse_missing_letter(const Text& text, std::uint64_t id) {
                 "robots' letters are missing");
 }
 
+template <class Pose>
+SecondOdometry second_odometry(const PoseGraph<Pose>& graph, std::span<const std::uint64_t> ids) {
+  std::map<Id, Pose> first;
+  std::size_t repeated = 0, contradicting = 0;
+  for (const auto& factor : graph.relative_poses) {
+    const Id i = ids[factor.i.index()], j = ids[factor.j.index()];
+    if (std::max(i, j) != std::min(i, j) + 1 || i > kKeyPlaceMask) continue;
+    const Pose step = i < j ? factor.T_i_j : factor.T_i_j.inverse();
+    const auto [known, is_first] = first.emplace(std::min(i, j), step);
+    if (is_first) continue;
+    ++repeated;
+    if (differ(known->second, step)) ++contradicting;
+  }
+  if (repeated < kMinRepeated || 2 * repeated <= first.size()) return SecondOdometry::kNone;
+  return 2 * contradicting > repeated ? SecondOdometry::kContradicts : SecondOdometry::kAgrees;
+}
+
+void refuse_second_odometry(const Text& text) {
+  std::set<Id> steps;
+  TextLines lines(text);
+  while (lines.next_with_content()) {
+    const std::vector<Id> ids = ids_of_line(lines);
+    if (ids.size() != 2 || std::max(ids[0], ids[1]) != std::min(ids[0], ids[1]) + 1) continue;
+    if (!steps.insert(std::min(ids[0], ids[1])).second)
+      lines.fail(
+          "most edges between successive ids appear twice, with different motions: these are poses of two "
+          "robots, and the robots' letters are missing in the ids (top eight bits)");
+  }
+  text.fail(0, "the robots' letters are missing in the ids (top eight bits)");
+}
+
 DividedIds::DividedIds(std::span<const Text> texts) {
   std::vector<FileIds> files;
   for (const Text& text : texts) files.push_back(ids_of(text));
@@ -112,6 +154,9 @@ DividedIds::DividedIds(std::span<const Text> texts) {
   file_of_ = owners_by(files, &FileIds::declared);
   if (file_of_.empty()) file_of_ = owners_by(files, &FileIds::steps);
 }
+
+template SecondOdometry second_odometry(const PoseGraph<SE2>&, std::span<const std::uint64_t>);
+template SecondOdometry second_odometry(const PoseGraph<SE3>&, std::span<const std::uint64_t>);
 
 std::optional<std::size_t> DividedIds::file_of(std::uint64_t id) const {
   const auto found = file_of_.find(id);

@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "radioslam/graph/pose_graph.hpp"
 #include "radioslam/io/text/text.hpp"
 
 namespace radioslam {
@@ -23,6 +24,20 @@ std::optional<std::uint64_t> id_without_letter(std::span<const std::uint64_t> id
 
 /// Refuses the id, with the first line that names it.
 [[noreturn]] void refuse_missing_letter(const Text& text, std::uint64_t id);
+
+/// Whether edges lead from one id to the next along two trajectories.
+enum class SecondOdometry {
+  kNone,         ///< few steps are measured twice
+  kAgrees,       ///< most are: by two sensors, or by two robots that move alike
+  kContradicts,  ///< most are, with other motions: they are those of two robots
+};
+
+/// Of ids without letters: what the second edges between successive ids say. `ids`: per pose.
+template <class Pose>
+SecondOdometry second_odometry(const PoseGraph<Pose>& graph, std::span<const std::uint64_t> ids);
+
+/// Refuses the second trajectory at its first edge.
+[[noreturn]] void refuse_second_odometry(const Text& text);
 
 /// Which file has each pose of a team whose files divide the ids among them.
 class DividedIds {
