@@ -148,9 +148,10 @@ void refuse_second_odometry(const Text& text) {
 }
 
 DividedIds::DividedIds(std::span<const Text> texts) {
+  if (texts.size() < 2) return;
   std::vector<FileIds> files;
   for (const Text& text : texts) files.push_back(ids_of(text));
-  if (files.size() < 2 || has_letters(files)) return;
+  if (has_letters(files)) return;
   file_of_ = owners_by(files, &FileIds::declared);
   if (file_of_.empty()) file_of_ = owners_by(files, &FileIds::steps);
 }

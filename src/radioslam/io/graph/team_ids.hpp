@@ -4,7 +4,8 @@
 // is a robot with ids of its own; unless the files divide the ids among them, each with its own poses, and
 // name poses of others in their links: then an id is that of the file that has it. A file's own ids are those
 // of its VERTEX lines, or, where files share these, those of its edges between successive ids. Ids of which
-// some have letters and some have none contradict each other: letters are missing.
+// some have letters and some have none contradict each other: letters are missing, as where ids without
+// letters have two odometries of different motions.
 #pragma once
 
 #include <cstdint>
