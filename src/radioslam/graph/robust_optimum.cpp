@@ -61,12 +61,14 @@ RobustOptimum optimize_with_outliers(PoseGraph<Pose>& graph, const std::vector<b
     if (candidates[k]) work.relative_poses[k].loss = {LossKind::kGemanMcClure, std::sqrt(gate)};
   RobustOptimum result;
   result.start = choose_start(work, candidates, given);
+  const double start_cost = total_cost(work);
   FactorMask mask;
   mask.relative_poses = candidates;
   GraduatedSummary graduated =
       optimize_graduated(work, mask, GraduatedLoss::kTruncatedLeastSquares, {}, params, progress);
   result.summary = std::move(graduated.last);
   result.summary.iterations = graduated.iterations;
+  result.summary.initial_cost = start_cost;
   result.weights = std::move(graduated.weights.relative_poses);
   GraphValues<Pose>(work).restore(graph);
   return result;

@@ -15,7 +15,7 @@
 namespace radioslam {
 
 struct RobustOptimum {
-  OptimizerSummary summary;     ///< of the last solution, with the weights
+  OptimizerSummary summary;     ///< of the last solution, with the weights; its initial cost is the start's
   InitialCosts start;           ///< `chosen` is kSpanningTree where it was that of the trusted ones
   std::vector<double> weights;  ///< per relative pose, 0 or 1: whether it is right; 1 for trusted ones
 };

@@ -165,7 +165,8 @@ std::optional<std::string> untied_note(const std::vector<RobotVariables>& robots
     for (const UntiedStretch& stretch : robot.untied) {
       poses += stretch.poses;
       if (++stretches <= kMaxNamed)
-        named += (named.empty() ? "" : ", ") + robot.id + " from " + whole_seconds(stretch.first) + " to " +
+        named += (named.empty() ? "" : ", ") + robot.id +
+                 (stretch.poses == 1 ? " at " : " from " + whole_seconds(stretch.first) + " to ") +
                  whole_seconds(stretch.last) + " s";
     }
   if (stretches == 0) return std::nullopt;

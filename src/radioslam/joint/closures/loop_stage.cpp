@@ -166,10 +166,10 @@ void note_groups(const JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>
                               measured + " of a single place");
   std::set<std::pair<std::size_t, std::size_t>> noted;
   for (const LoopGroup& group : groups) {
-    const auto pair = std::make_pair(group.segment_a, group.segment_b);
-    const bool is_open = best.component[pair.first] != best.component[pair.second] &&
-                         joint.robot_of_segment[pair.first] != joint.robot_of_segment[pair.second];
-    if (!is_open || !noted.insert(pair).second) continue;
+    const auto pair =
+        std::make_pair(joint.robot_of_segment[group.segment_a], joint.robot_of_segment[group.segment_b]);
+    const bool is_open = best.component[group.segment_a] != best.component[group.segment_b];
+    if (!is_open || pair.first == pair.second || !noted.insert(pair).second) continue;
     const GroupText<Pose> text(joint, loops, group);
     alignment.notes.push_back(measured + " leave the relative pose of " + text.robots +
                               " open: the largest group that agrees has " + text.counts);
