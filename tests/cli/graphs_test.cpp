@@ -289,7 +289,7 @@ TEST_F(TeamGraphs, IdsThatContradictEachOtherAreRefusedByEveryReader) {
     expect_refused({"prune", input, "-o", "out"}, words);
     expect_refused({"optimize", input, "-o", "out.g2o"}, words);
     expect_refused({"optimize", input, "--distributed", "separators", "-o", "out.g2o"}, words);
-    expect_refused({"evaluate", input, input}, input == std::string("mixed") ? "no such run" : words);
+    expect_refused({"evaluate", input, input}, input == std::string("mixed") ? "is not a run" : words);
   }
 }
 
