@@ -70,9 +70,9 @@ TEST(Calls, MisspellingsAreRefusedWithASuggestion) {
 TEST(Calls, MissingAndSurplusArgumentsAreRefused) {
   expect_call_refused({"optimize"}, "GRAPH is required");
   expect_call_refused({"optimize", "g.g2o"}, "--output is required");
-  expect_call_refused({"optimize", "g.g2o", "h.g2o", "-o", "out"},
-                      "h.g2o: only --distributed takes several graphs");
-  expect_call_refused({"evaluate", "out"}, "MISSION is required");
+  expect_call_refused({"optimize", "g.g2o", "-o", "out", "--loss-share", "0.1"},
+                      "losses and delays belong to --distributed");
+  expect_call_refused({"evaluate", "out"}, "needs a mission with ground truth, or --truth ROBOT=FILE");
   expect_call_refused({"similarity", "a.csv", "-o", "pairs.csv"}, "--measure is required");
 }
 

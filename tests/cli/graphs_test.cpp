@@ -2,6 +2,7 @@
 // loops.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "cli/process.hpp"
@@ -217,6 +218,164 @@ TEST_F(TeamGraphs, TablesOfDpgoBecomeAGraphOrAMission) {
     EXPECT_EQ(summary()["robots"].size(), 2U);
   }
   expect_refused({"import", "dpgo", "out", "-o", "other.g2o"}, "is missing");
+}
+
+/// A robot of the plane that drives along x, in g2o: its vertices and steps, without the steps from `gaps`.
+std::string drive(char robot, int poses, double y, const std::vector<int>& gaps = {}) {
+  std::string text;
+  for (int k = 0; k < poses; ++k)
+    text += "VERTEX_SE2 " + std::to_string(key(robot, k)) + " " + std::to_string(k) + " " +
+            std::to_string(y) + " 0\n";
+  for (int k = 0; k + 1 < poses; ++k)
+    if (std::find(gaps.begin(), gaps.end(), k) == gaps.end())
+      text += "EDGE_SE2 " + std::to_string(key(robot, k)) + " " + std::to_string(key(robot, k + 1)) +
+              " 1 0 0 400 0 0 400 0 1e4\n";
+  return text;
+}
+
+std::string link(char robot_i, int i, char robot_j, int j, double x, double y) {
+  return "EDGE_SE2 " + std::to_string(key(robot_i, i)) + " " + std::to_string(key(robot_j, j)) + " " +
+         std::to_string(x) + " " + std::to_string(y) + " 0 400 0 0 400 0 1e4\n";
+}
+
+std::size_t rows_of(const std::string& text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+/// Robots a, which lacks the step behind pose 5, and b, 3 m beside it; loops between them before the gap.
+std::string gap_team() {
+  std::string text = drive('a', 12, 0, {5}) + drive('b', 12, 3);
+  for (const int k : {0, 2, 4}) text += link('a', k, 'b', k, 0, 3);
+  return text;
+}
+
+TEST_F(TeamGraphs, RobotsOfOnePoseEachHaveAResult) {
+  const std::string space = "EDGE_SE3:QUAT " + std::to_string(key('a', 0)) + " " +
+                            std::to_string(key('b', 0)) +
+                            " 1 0 0 0 0 0 1 100 0 0 0 0 0 100 0 0 0 0 100 0 0 0 900 0 0 900 0 900\n";
+  write("space.g2o", space);
+  write("plane.g2o", link('a', 0, 'b', 0, 1, 0));
+  write("pairs.g2o", link('a', 0, 'b', 0, 1, 0) + link('a', 1, 'b', 1, 1, 0));
+  for (const char* file : {"space.g2o", "plane.g2o", "pairs.g2o"})
+    for (const char* command : {"run", "prune"}) {
+      const Outcome outcome = run_in({command, file, "-o", "out"});
+      EXPECT_EQ(outcome.status, 0) << file << outcome.err;
+      for (const char* robot : {"out/a.tum", "out/b.tum"})
+        EXPECT_EQ(rows_of(read_file(folder.path() / robot)), 1U) << file;
+    }
+}
+
+TEST_F(TeamGraphs, OdometryOfOneRowAndAMatchHaveAResult) {
+  write("m/mission.yaml", "format: radioslam-mission/1\nrobots: {a: {}, b: {}}\n");
+  for (const char* robot : {"a", "b"})
+    write(std::string("m/robots/") + robot + "/odometry.tum", "0 0 0 0 0 0 0 1\n");
+  write("m/matches.csv",
+        "robot_i,t_i_s,robot_j,t_j_s,x,y,z,qx,qy,qz,qw,sigma_t_m,sigma_r_rad\na,0,b,0,1,0,0,0,0,0,1,0.1,0.05\n");
+  const Outcome outcome = run_in({"run", "m", "-o", "out"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+}
+
+TEST_F(TeamGraphs, PosesBehindAGapThatNothingTiesHaveNoPose) {
+  write("team.g2o", gap_team());
+  const Outcome outcome = run_in({"run", "team.g2o", "-o", "out"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("note: 6 poses are not placed"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("a from 6 to 11 s"), std::string::npos) << outcome.out;
+  EXPECT_EQ(rows_of(read_file(folder.path() / "out/a.tum")), 6U);
+  EXPECT_EQ(rows_of(read_file(folder.path() / "out/b.tum")), 12U);
+  EXPECT_EQ(summary()["robots"]["a"]["not_placed"], json::array({{6, 11}}));
+  EXPECT_EQ(rows_of(read_file(folder.path() / "out/uncertainty.csv")), 1 + 18U);
+  EXPECT_NE(read_file(folder.path() / "out/report.html").find("6 poses are not placed"), std::string::npos);
+  const Outcome pruned = run_in({"prune", "team.g2o", "-o", "pruned"});
+  EXPECT_EQ(pruned.status, 0) << pruned.err;
+  EXPECT_EQ(read_file(folder.path() / "pruned/candidates.csv").find("a,7,"), std::string::npos);
+  const Outcome optimum = run_in({"optimize", "team.g2o", "-o", "optimum.g2o"});
+  EXPECT_NE(optimum.out.find("note: 2 frames that nothing ties together"), std::string::npos) << optimum.out;
+}
+
+TEST_F(TeamGraphs, APartBehindAGapIsPlacedByWhatTiesIt) {
+  for (const std::string& tie :
+       {link('a', 0, 'a', 11, 11, 0), link('a', 8, 'b', 8, 0, 3) + link('a', 10, 'b', 10, 0, 3)}) {
+    write("team.g2o", gap_team() + tie);
+    const Outcome outcome = run_in({"run", "team.g2o", "-o", "out"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(outcome.out.find("not placed"), std::string::npos) << outcome.out;
+    const std::string a = read_file(folder.path() / "out/a.tum");
+    ASSERT_EQ(rows_of(a), 12U);
+    EXPECT_NEAR(std::stod(a.substr(a.find("\n6 ") + 3)), 6, 0.05);
+    const std::string sigmas = read_file(folder.path() / "out/uncertainty.csv");
+    EXPECT_GT(std::stod(sigmas.substr(sigmas.find("\na,6,") + 5)), 0.01);
+  }
+}
+
+/// The part that another robot's loops tie is the robot's, not the one before the gap.
+TEST_F(TeamGraphs, ARobotIsWhereItsTeamIs) {
+  std::string text = drive('a', 12, 0, {2, 5}) + drive('b', 12, 3);
+  for (const int k : {7, 9, 11}) text += link('a', k, 'b', k, 0, 3);
+  write("team.g2o", text);
+  const Outcome outcome = run_in({"run", "team.g2o", "-o", "out"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("note: 6 poses are not placed"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("1 frame\n"), std::string::npos) << outcome.out;
+  EXPECT_EQ(read_file(folder.path() / "out/a.tum").substr(0, 2), "6 ");
+}
+
+TEST_F(TeamGraphs, IdsThatContradictEachOtherAreRefusedByEveryReader) {
+  std::string stripped;
+  for (const double y : {0.0, 3.0})
+    for (int k = 0; k < 3; ++k)
+      stripped +=
+          "VERTEX_SE2 " + std::to_string(k) + " " + std::to_string(k) + " " + std::to_string(y) + " 0\n";
+  for (int k = 0; k < 2; ++k)
+    stripped += "EDGE_SE2 " + std::to_string(k) + " " + std::to_string(k + 1) + " 1 0 0 1 0 0 1 0 1\n";
+  write("stripped.g2o", stripped);
+  write("mixed/0.g2o", drive('a', 3, 0));
+  write("mixed/1.g2o",
+        stripped.substr(0, stripped.find("VERTEX_SE2 0 0.000000 3")) + "EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n");
+  for (const char* input : {"stripped.g2o", "mixed"}) {
+    const std::string words = "letters are missing";
+    expect_refused({"run", input, "-o", "out"}, words);
+    expect_refused({"prune", input, "-o", "out"}, words);
+    expect_refused({"optimize", input, "-o", "out.g2o"}, words);
+    expect_refused({"optimize", input, "--distributed", "separators", "-o", "out.g2o"}, words);
+    expect_refused({"evaluate", input, input}, input == std::string("mixed") ? "is not a run" : words);
+  }
+}
+
+TEST_F(TeamGraphs, OptimizeIsRobustWithoutMessagesAndTakesSeveralFiles) {
+  std::string a = drive('a', 12, 0), b = drive('b', 12, 3);
+  for (const int k : {1, 4, 7, 10}) a += link('a', k, 'b', k, 0, 3);
+  a += link('a', 0, 'b', 9, -30, 8);
+  write("a.g2o", a);
+  write("b.g2o", b);
+  const auto optimize = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> arguments{"optimize", "a.g2o", "b.g2o", "-o", "out.g2o", "--json"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Outcome outcome = run_in(arguments);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return json::parse(outcome.out);
+  };
+  const json plain = optimize({}), robust = optimize({"--robust"});
+  EXPECT_EQ(plain["poses"], 24);
+  EXPECT_GT(plain["final_cost"].get<double>(), 100);
+  EXPECT_LT(robust["final_cost"].get<double>(), 1e-6);
+  EXPECT_EQ(robust["weights"].size(), 27U);
+  EXPECT_EQ(robust["weights"].back(), 0);
+  std::string truth_a, truth_b;
+  for (int k = 0; k < 12; ++k) {
+    truth_a += std::to_string(k) + " " + std::to_string(k) + " 0 0 0 0 0 1\n";
+    truth_b += std::to_string(k) + " " + std::to_string(k) + " 3 0 0 0 0 1\n";
+  }
+  write("first.tum", truth_a);
+  write("second.tum", truth_b);
+  const Outcome evaluated =
+      run_in({"evaluate", "out.g2o", "--truth", "a=first.tum", "b=second.tum", "--json"});
+  ASSERT_EQ(evaluated.status, 0) << evaluated.err;
+  EXPECT_LT(json::parse(evaluated.out)["ate_rmse_m"].get<double>(), 1e-3);
+  EXPECT_EQ(json::parse(evaluated.out)["coverage"], 1);
+  expect_refused({"evaluate", "out.g2o", "--truth", "c=first.tum"}, "robot 'c' is not in the estimate");
+  expect_refused({"evaluate", "out.g2o", "--truth", "first.tum"}, "is not ROBOT=FILE");
+  expect_refused({"evaluate", "out.g2o"}, "needs a mission with ground truth, or --truth");
 }
 
 TEST_F(TeamGraphs, OptimizeReadsALogWhole) {

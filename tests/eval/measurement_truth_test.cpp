@@ -89,6 +89,15 @@ TEST_F(MeasurementTruth, LoopsOfAFileAreComparedInItsOrder) {
   EXPECT_NEAR(counts.worst_accepted_rad.value(), 0, 1e-6);
 }
 
+/// Poses of a graph that are not placed are no keyframes of the run, and their loops keep their own stamps.
+TEST_F(MeasurementTruth, LoopsOfPosesThatAreNotPlacedAreThemselves) {
+  const Stamp later = Stamp::from_seconds(70), start{};
+  file.loops = {{a, b, later, start, SE3(), small}, {a, b, start, start, lift(T_a_b), small}};
+  closures.push_back({a, later, b, start, ClosureKind::kFile, ClosureStatus::kRejected, 0, ""});
+  add(ClosureKind::kFile, ClosureStatus::kAccepted);
+  EXPECT_EQ(compare().at(ClosureKind::kFile).true_accepted, 1U);
+}
+
 TEST_F(MeasurementTruth, LabelsOfAFileCountWithoutTruth) {
   truth.robots[1].poses = {};
   file.loops = {{a, b, Stamp{}, Stamp{}, SE3(), small}, {a, b, Stamp{}, Stamp{}, SE3(), small}};

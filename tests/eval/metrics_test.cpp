@@ -183,6 +183,17 @@ TEST(TeamMetrics, AMissingRobotCountsInCoverage) {
   EXPECT_EQ(metrics.ate->count, 40U);
 }
 
+TEST(TeamMetrics, NothingIsInterpolatedAcrossPosesThatAreNotPlaced) {
+  const auto row = [](double t_s) {
+    return StampedPose<SE3>{Stamp::from_seconds(t_s), SE3({t_s, 0, 0}, {})};
+  };
+  Truth truth{{{"a", Trajectory<SE3>({row(0), row(1), row(1.5), row(2), row(3)})}}};
+  EstimatedTrajectory estimate{"a", Trajectory<SE3>({row(0), row(1), row(3)})};
+  EXPECT_DOUBLE_EQ(evaluate_trajectories({estimate}, truth, 3).coverage, 1);
+  estimate.untied = {{Stamp::from_seconds(2), Stamp::from_seconds(2)}};
+  EXPECT_DOUBLE_EQ(evaluate_trajectories({estimate}, truth, 3).coverage, 0.6);
+}
+
 TEST(TeamMetrics, WithoutAnythingInCommonThereIsNoError) {
   const auto metrics = evaluate_trajectories({}, winding_team(11, 2), 3);
   EXPECT_FALSE(metrics.ate);

@@ -48,6 +48,17 @@ TYPED_TEST(Optimizer, HoldsTheFirstPoseOfEveryComponentWithoutAbsoluteInformatio
   EXPECT_LT(test::max_difference(graph, truth), 1e-7);
 }
 
+/// Robots of one pose each, before anything ties them: all poses are held.
+TYPED_TEST(Optimizer, EquationsWithoutAFreePoseAreFactorised) {
+  PoseGraph<TypeParam> graph;
+  graph.poses.resize(3);
+  NormalEquations<TypeParam> equations(graph);
+  EXPECT_TRUE(equations.empty());
+  EXPECT_EQ(equations.linearise(graph), 0);
+  EXPECT_EQ(equations.factorize(0), Factorization::kDone);
+  EXPECT_EQ(equations.factorize(1), Factorization::kDone);
+}
+
 TYPED_TEST(Optimizer, FixedPosesDoNotMove) {
   auto graph = test::draw_graph<TypeParam>(5, 20, 1, test::Extras::kAll);
   graph.pose_fixed.assign(20, false);

@@ -21,6 +21,7 @@ add_library(radioslam_cli STATIC
   cli/commands/command_simulate.cpp
   cli/commands/csi_channels.cpp
   cli/commands/distributed_optimization.cpp
+  cli/commands/evaluated_estimate.cpp
   cli/commands/evaluation.cpp
   cli/commands/mission_check.cpp
   cli/commands/mission_input.cpp

@@ -188,6 +188,17 @@ Ends link_ends(RobotIndex i, RobotIndex j, Stamp stamp, const std::vector<std::v
   return {i, stamp, j, stamp};
 }
 
+/// Loops of a factor graph, all of whose poses are keyframes, also those that are not placed.
+std::vector<std::vector<Stamp>> stamps_of_loops(const std::vector<PoseMatch>& loops, std::size_t robots) {
+  std::vector<std::vector<Stamp>> stamps(robots);
+  for (const PoseMatch& loop : loops) {
+    stamps[loop.robot_i.index()].push_back(loop.stamp_i);
+    stamps[loop.robot_j.index()].push_back(loop.stamp_j);
+  }
+  for (std::vector<Stamp>& of_robot : stamps) std::sort(of_robot.begin(), of_robot.end());
+  return stamps;
+}
+
 /// Measurements of one kind by robots and keyframes, each given out once, in their order.
 class MeasurementsByKeyframes {
  public:
@@ -279,7 +290,8 @@ ClosuresByKind compare_closures_with_truth(const std::vector<ClosureResult>& clo
   const TruthComparison comparison(mission, truth);
   const std::vector<LabelledAngle> angles = angles_of_run(mission, truth, measured_aoa);
   auto matches = matches_by_keyframes(mission.matches, keyframes),
-       loops = matches_by_keyframes(file.loops, keyframes), ranges = ranges_by_keyframes(mission, keyframes),
+       loops = matches_by_keyframes(file.loops, stamps_of_loops(file.loops, keyframes.size())),
+       ranges = ranges_by_keyframes(mission, keyframes),
        aoa_measurements = angles_by_keyframes(angles, keyframes);
   ClosuresByKind counts;
   const auto count_if_covered = [&](const ClosureResult& closure, const auto& is_true) {

@@ -24,11 +24,27 @@ const EstimatedTrajectory& estimate_of(const std::string& id,
 /// The pose reduced to x, y and yaw for dimension 2.
 SE3 as_seen(const SE3& pose, int dimension) { return dimension == 2 ? lift(flatten(pose)) : pose; }
 
+/// Whether the estimate is interpolated to the stamp across a stretch that has no poses.
+bool is_across_untied(const EstimatedTrajectory& estimate, Stamp stamp) {
+  const auto& poses = estimate.poses;
+  const auto after = std::lower_bound(poses.begin(), poses.end(), stamp,
+                                      [](const auto& row, Stamp at) { return row.stamp < at; });
+  if (after == poses.end() || after == poses.begin() || after->stamp == stamp) return false;
+  const Stamp before = std::prev(after)->stamp;
+  return std::any_of(estimate.untied.begin(), estimate.untied.end(), [&](const auto& stretch) {
+    return before < stretch.first && stretch.second < after->stamp;
+  });
+}
+
 std::vector<Matches> match_team(const std::vector<EstimatedTrajectory>& estimate, const Truth& truth,
                                 int dimension, Association association) {
   std::vector<Matches> team;
   for (const auto& robot : truth.robots) {
-    team.push_back(match_poses(estimate_of(robot.id, estimate).poses, robot, association));
+    const EstimatedTrajectory& estimated = estimate_of(robot.id, estimate);
+    team.push_back(match_poses(estimated.poses, robot, association));
+    std::erase_if(team.back(), [&](const MatchedPose& match) {
+      return is_across_untied(estimated, robot.poses[match.truth_index].stamp);
+    });
     for (auto& match : team.back()) {
       match.truth = as_seen(match.truth, dimension);
       match.estimate = as_seen(match.estimate, dimension);

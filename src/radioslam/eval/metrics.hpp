@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "radioslam/geometry/se3.hpp"
@@ -18,6 +19,7 @@ struct EstimatedTrajectory {
   Trajectory<SE3> poses;
   /// Stated standard deviation of each pose's position, as in RobotResult; may be empty.
   std::vector<double> sigma_position_m = {}, sigma_team_m = {};
+  std::vector<std::pair<Stamp, Stamp>> untied = {};  ///< stretches without poses; not interpolated across
 };
 
 /// Association of an estimate with the truth.

@@ -27,8 +27,11 @@ std::vector<EstimatedTrajectory> in_common_frame(std::vector<EstimatedTrajectory
 std::vector<EstimatedTrajectory> team_estimate(const std::vector<RobotResult>& robots,
                                                const RunResult& result) {
   std::vector<EstimatedTrajectory> team;
-  for (const auto& robot : robots)
+  for (const auto& robot : robots) {
     team.push_back({robot.id, robot.estimate, robot.sigma_position_m, robot.sigma_team_m});
+    for (const UntiedStretch& stretch : robot.untied)
+      team.back().untied.emplace_back(stretch.first, stretch.last);
+  }
   return in_common_frame(std::move(team), result.components, result.unplaced);
 }
 

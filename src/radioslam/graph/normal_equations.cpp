@@ -91,6 +91,7 @@ void NormalEquations<Pose>::add_gauge_penalties() {
 
 template <class Pose>
 void NormalEquations<Pose>::damp(double damping) {
+  if (empty()) return;
   const double least = kEmptyDiagonalRatio * diagonal_.maxCoeff();
   for (std::size_t b = 0; b < matrix_.pattern().blocks(); ++b) {
     auto block = matrix_.diagonal(b);

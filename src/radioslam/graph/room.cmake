@@ -46,6 +46,7 @@ radioslam_room(graph
     pose_chart.cpp
     pose_network.cpp
     residuals.cpp
+    robust_optimum.cpp
     team_gauge.cpp
   ROOMS geometry
   PRIVATE_LIBRARIES Metis::Metis Amd::Amd)

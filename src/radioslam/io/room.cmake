@@ -24,6 +24,7 @@ radioslam_room(io
     graph/repeated_edges.cpp
     graph/team_assembly.cpp
     graph/team_graph_file.cpp
+    graph/team_ids.cpp
     lidar/bin_layout.cpp
     lidar/carmen.cpp
     lidar/kitti_sequence.cpp

@@ -79,6 +79,7 @@ struct RobotVariables {
   DriftId drift;                      ///< invalid: not estimated
   std::optional<SE3> T_common_start;  ///< start of the odometry frame as given by the mission
   bool placed_by_fixes = false;       ///< the robot's position fixes put it into the common frame
+  std::vector<UntiedStretch> untied;  ///< keyframes that are left out above, since nothing ties them to these
   double lidar_range_m = 0;
   double lidar_view_rad = 0;
 };

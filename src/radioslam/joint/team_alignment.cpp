@@ -1,8 +1,11 @@
 #include "radioslam/joint/team_alignment.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "radioslam/joint/links/link_weights.hpp"
+#include "radioslam/team_frame/connected_measurements.hpp"
 
 namespace radioslam {
 namespace {
@@ -10,28 +13,50 @@ namespace {
 constexpr double kMinAlternative = 0.001;  // min. weight of a reported hypothesis
 constexpr std::size_t kMaxAlternatives = 15;
 
-/// A robot belongs to the component of its longest segment.
-template <class Pose>
-std::vector<int> robot_components(const JointGraph<Pose>& joint, const TeamComponents& components) {
-  std::vector<int> result(joint.robots.size(), -1);
-  std::vector<std::size_t> longest(joint.robots.size(), 0);
-  for (std::size_t p = 0; p < joint.team.segments.size(); ++p) {
-    const std::size_t r = joint.robot_of_segment[p];
-    if (joint.team.segments[p].pose_count <= longest[r]) continue;
-    longest[r] = joint.team.segments[p].pose_count;
-    result[r] = components.of_segment[p];
+/// Which of two components a robot with poses in both belongs to: the one that compares as larger.
+struct ComponentSize {
+  bool is_common = false;  ///< a start in it is known
+  std::size_t poses = 0;
+
+  auto operator<=>(const ComponentSize&) const = default;
+};
+
+std::vector<ComponentSize> component_sizes(const std::vector<TrajectorySegment>& segments,
+                                           const std::vector<int>& of_segment) {
+  std::vector<ComponentSize> sizes;
+  for (std::size_t s = 0; s < segments.size(); ++s) {
+    const auto c = static_cast<std::size_t>(of_segment[s]);
+    if (sizes.size() <= c) sizes.resize(c + 1);
+    sizes[c].poses += segments[s].pose_count;
+    sizes[c].is_common = sizes[c].is_common || segments[s].in_common_frame;
   }
-  return result;
+  return sizes;
 }
 
-/// A robot is unplaced if it is alone in a component other than the first robot's and not in the common
-/// frame.
-std::vector<bool> placed_robots(const std::vector<int>& component, const std::vector<bool>& absolute) {
-  std::vector<bool> placed;
-  for (const int c : component)
-    placed.push_back(c == 0 || absolute[static_cast<std::size_t>(c)] ||
-                     std::count(component.begin(), component.end(), c) > 1);
-  return placed;
+/// The numbers of all components: the robots' as given, the others from there on.
+std::vector<int> numbers_beyond(std::vector<int> number, int next) {
+  for (int& n : number)
+    if (n < 0) n = next++;
+  return number;
+}
+
+/// Components before the team is aligned: segments whose starts are known share a frame; further segments of
+/// a robot have their own.
+template <class Pose>
+std::vector<int> segments_apart(const JointGraph<Pose>& joint, const std::vector<int>& of_robot) {
+  std::vector<int> component;
+  std::vector<bool> seen(joint.robots.size(), false);
+  std::optional<int> common;
+  int next = static_cast<int>(joint.robots.size());
+  for (std::size_t s = 0; s < joint.team.segments.size(); ++s) {
+    const std::size_t r = joint.robot_of_segment[s];
+    component.push_back(seen[r] ? next++ : of_robot[r]);
+    seen[r] = true;
+    if (!joint.team.segments[s].in_common_frame) continue;
+    if (!common) common = component.back();
+    component.back() = *common;
+  }
+  return component;
 }
 
 template <class Pose>
@@ -50,8 +75,10 @@ void remember_component(TeamAlignment<Pose>& alignment) {
     alignment.in_common_frame.push_back(alignment.absolute[static_cast<std::size_t>(c)]);
 }
 
-}  // namespace
+std::string whole_seconds(Stamp stamp) { return std::to_string(std::llround(stamp.seconds())); }
 
+/// Renumbers components without gaps, in the order of the robots; returns the new number of each old one, -1
+/// where no robot had it.
 std::vector<int> renumber_components(std::vector<int>& component_of_robot) {
   std::vector<int> number;
   int next = 0;
@@ -62,6 +89,92 @@ std::vector<int> renumber_components(std::vector<int>& component_of_robot) {
     c = n;
   }
   return number;
+}
+
+}  // namespace
+
+template <class Pose>
+std::vector<int> set_components(const JointGraph<Pose>& joint, const std::vector<int>& of_segment,
+                                TeamAlignment<Pose>& alignment) {
+  const std::vector<ComponentSize> sizes = component_sizes(joint.team.segments, of_segment);
+  std::vector<int>& component = alignment.component;
+  component.assign(joint.robots.size(), -1);
+  for (std::size_t s = 0; s < of_segment.size(); ++s) {
+    int& of_robot = component[joint.robot_of_segment[s]];
+    if (of_robot < 0 ||
+        sizes[static_cast<std::size_t>(of_robot)] < sizes[static_cast<std::size_t>(of_segment[s])])
+      of_robot = of_segment[s];
+  }
+  std::vector<int> number = renumber_components(component);
+  number.resize(sizes.size(), -1);
+  const std::vector<int> all =
+      numbers_beyond(number, 1 + *std::max_element(component.begin(), component.end()));
+  alignment.of_segment.clear();
+  for (const int c : of_segment) alignment.of_segment.push_back(all[static_cast<std::size_t>(c)]);
+  return number;
+}
+
+template <class Pose>
+void set_placed(TeamAlignment<Pose>& alignment) {
+  const std::vector<int>& component = alignment.component;
+  alignment.placed.clear();
+  for (const int c : component)
+    alignment.placed.push_back(c == 0 || alignment.absolute[static_cast<std::size_t>(c)] ||
+                               std::count(component.begin(), component.end(), c) > 1);
+}
+
+template <class Pose>
+bool has_untied_poses(const JointGraph<Pose>& joint, const TeamAlignment<Pose>& alignment) {
+  for (std::size_t s = 0; s < joint.team.segments.size(); ++s)
+    if (alignment.of_segment[s] != alignment.component[joint.robot_of_segment[s]]) return true;
+  return false;
+}
+
+template <class Pose>
+void leave_out_untied_poses(JointGraph<Pose>& joint, const TeamAlignment<Pose>& alignment) {
+  if (!has_untied_poses(joint, alignment)) return;
+  const auto segment_of = segment_of_poses(joint.team);
+  for (std::size_t r = 0; r < joint.robots.size(); ++r) {
+    RobotVariables& robot = joint.robots[r];
+    std::size_t kept = 0;
+    bool continues = false;
+    for (std::size_t k = 0; k < robot.poses.size(); ++k) {
+      const bool is_tied = alignment.of_segment[segment_of[robot.poses[k].index()]] == alignment.component[r];
+      if (is_tied) {
+        robot.stamps[kept] = robot.stamps[k];
+        robot.poses[kept] = robot.poses[k];
+        robot.odometry[kept++] = robot.odometry[k];
+      } else {
+        if (!continues) robot.untied.push_back({robot.stamps[k], robot.stamps[k], 0});
+        robot.untied.back().last = robot.stamps[k];
+        ++robot.untied.back().poses;
+      }
+      continues = !is_tied;
+    }
+    robot.stamps.resize(kept);
+    robot.poses.resize(kept);
+    robot.odometry.resize(kept);
+  }
+}
+
+std::optional<std::string> untied_note(const std::vector<RobotVariables>& robots) {
+  constexpr std::size_t kMaxNamed = 5;
+  std::size_t stretches = 0, poses = 0;
+  std::string named;
+  for (const RobotVariables& robot : robots)
+    for (const UntiedStretch& stretch : robot.untied) {
+      poses += stretch.poses;
+      if (++stretches <= kMaxNamed)
+        named += (named.empty() ? "" : ", ") + robot.id +
+                 (stretch.poses == 1 ? " at " : " from " + whole_seconds(stretch.first) + " to ") +
+                 whole_seconds(stretch.last) + " s";
+    }
+  if (stretches == 0) return std::nullopt;
+  if (stretches > kMaxNamed) named += " and " + std::to_string(stretches - kMaxNamed) + " more";
+  return std::to_string(poses) + (poses == 1 ? " pose is" : " poses are") +
+         " not placed: behind a gap of the odometry, and no measurement that can be trusted ties the part to "
+         "the rest (" +
+         named + ")";
 }
 
 template <class Pose>
@@ -87,8 +200,7 @@ TeamAlignment<Pose> align_by_links(JointGraph<Pose>& joint, const RadioAlignment
                                    const Progress& progress) {
   const RadioAlignment<Pose> found = align_by_radio(joint.team, params, progress);
   TeamAlignment<Pose> alignment;
-  alignment.component = robot_components(joint, found.components);
-  const std::vector<int> number = renumber_components(alignment.component);
+  const std::vector<int> number = set_components(joint, found.components.of_segment, alignment);
   alignment.absolute = absolute_components(joint, alignment.component);
   for (const auto& position : joint.team.graph.positions) {
     if (position.i.pose.valid()) continue;
@@ -97,7 +209,7 @@ TeamAlignment<Pose> align_by_links(JointGraph<Pose>& joint, const RadioAlignment
         c >= 0 && static_cast<std::size_t>(c) < number.size() && number[static_cast<std::size_t>(c)] >= 0;
     if (has_robot) alignment.absolute[static_cast<std::size_t>(number[static_cast<std::size_t>(c)])] = true;
   }
-  alignment.placed = placed_robots(alignment.component, alignment.absolute);
+  set_placed(alignment);
   adopt_alignment(joint, found.hypotheses.front());
   set_alternatives(alignment, found.hypotheses);
   alignment.segments = found.components;
@@ -114,12 +226,21 @@ TeamAlignment<Pose> align_robots_by_fingerprints(JointGraph<Pose>& joint, const 
   TeamAlignment<Pose> alignment;
   alignment.component = frame.component;
   alignment.placed = frame.placed;
-  alignment.absolute = absolute_components(joint, frame.component);
+  const bool has_gaps = joint.team.segments.size() > joint.robots.size();
+  alignment.of_segment = segments_apart(joint, frame.component);
+  if (has_gaps) set_components(joint, std::vector<int>(alignment.of_segment), alignment);
+  alignment.absolute = absolute_components(joint, alignment.component);
+  if (has_gaps) set_placed(alignment);
   remember_component(alignment);
   return alignment;
 }
 
 #define RADIOSLAM_TEAM_ALIGNMENT(Pose)                                                                    \
+  template std::vector<int> set_components(const JointGraph<Pose>&, const std::vector<int>&,              \
+                                           TeamAlignment<Pose>&);                                         \
+  template void set_placed(TeamAlignment<Pose>&);                                                         \
+  template bool has_untied_poses(const JointGraph<Pose>&, const TeamAlignment<Pose>&);                    \
+  template void leave_out_untied_poses(JointGraph<Pose>&, const TeamAlignment<Pose>&);                    \
   template void set_alternatives(TeamAlignment<Pose>&, const std::vector<TeamHypothesis<Pose>>&);         \
   template bool has_radio_links(const JointGraph<Pose>&);                                                 \
   template TeamAlignment<Pose> align_by_links(JointGraph<Pose>&, const RadioAlignmentParams&,             \

@@ -2,6 +2,7 @@
 // are any, else by fingerprint similarity.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ template <class Pose>
 struct TeamAlignment {
   TeamComponents segments;                      ///< of the alignment by radio; empty without
   std::vector<int> component;                   ///< per robot; 0 is the first robot's
+  std::vector<int> of_segment;                  ///< the component of every segment
   std::vector<int> without_matches;             ///< the component before matches joined any
   std::vector<bool> in_common_frame;            ///< per robot, before matches joined any component
   std::vector<bool> placed;                     ///< per robot; false: no measurement connects it to others
@@ -36,6 +38,9 @@ bool connected_without_matches(const TeamAlignment<Pose>& alignment, RobotIndex 
   return c_i == c_j || (alignment.in_common_frame[i.index()] && alignment.in_common_frame[j.index()]);
 }
 
+/// One note on all keyframes that were left out; nothing where none was.
+std::optional<std::string> untied_note(const std::vector<RobotVariables>& robots);
+
 /// Whether radio links connect robots to each other or to anchors.
 template <class Pose>
 bool has_radio_links(const JointGraph<Pose>& joint);
@@ -51,9 +56,27 @@ TeamAlignment<Pose> align_by_links(JointGraph<Pose>& joint, const RadioAlignment
 template <class Pose>
 void set_alternatives(TeamAlignment<Pose>& alignment, const std::vector<TeamHypothesis<Pose>>& hypotheses);
 
-/// Renumbers components without gaps, in the order of the robots; returns the new number of each old one, -1
-/// where no robot had it.
-std::vector<int> renumber_components(std::vector<int>& component_of_robot);
+/// Sets the components. A robot with segments in several belongs to the one with the most poses of the team,
+/// before others to that of known starts; its other segments have no pose in its frame. `of_segment` has the
+/// same number, from 0, for segments that share a frame. Returns the new number of each, -1 where no robot
+/// has it.
+template <class Pose>
+std::vector<int> set_components(const JointGraph<Pose>& joint, const std::vector<int>& of_segment,
+                                TeamAlignment<Pose>& alignment);
+
+/// Sets which robots are placed: not those that are alone in a component other than the first robot's and not
+/// in the common frame.
+template <class Pose>
+void set_placed(TeamAlignment<Pose>& alignment);
+
+/// Whether a robot has poses in another component than its own.
+template <class Pose>
+bool has_untied_poses(const JointGraph<Pose>& joint, const TeamAlignment<Pose>& alignment);
+
+/// Leaves to every robot those of its keyframes that are in its component: what is behind a gap of the
+/// odometry, and tied by nothing to the rest, has no pose there. The graph keeps its poses.
+template <class Pose>
+void leave_out_untied_poses(JointGraph<Pose>& joint, const TeamAlignment<Pose>& alignment);
 
 template <class Pose>
 TeamAlignment<Pose> align_robots_by_fingerprints(JointGraph<Pose>& joint, const Mission& mission,

@@ -40,12 +40,22 @@ std::vector<Pose> component_frames(const JointGraph<Pose>& joint, const std::vec
   return frames;
 }
 
+/// The first pose behind the segment of `pose`: the odometry does not lead there.
+std::size_t end_of_segment(const std::vector<TrajectorySegment>& segments, PoseId pose) {
+  for (const TrajectorySegment& segment : segments)
+    if (pose.index() < segment.first_pose + segment.pose_count)
+      return segment.first_pose + segment.pose_count;
+  return 0;
+}
+
 template <class Pose>
 RobotResult collect_robot(const RobotVariables& robot, const JointGraph<Pose>& joint,
                           const std::vector<Pose>& poses, const Pose& frame) {
   RobotResult result;
   result.id = robot.id;
   result.start_known = robot.T_common_start.has_value();
+  result.untied = robot.untied;
+  const std::size_t behind_gap = end_of_segment(joint.team.segments, robot.poses.front());
   std::vector<StampedPose<SE3>> estimate, odometry;
   SE3 T_frame_start;
   for (std::size_t k = 0; k < robot.poses.size(); ++k) {
@@ -53,7 +63,8 @@ RobotResult collect_robot(const RobotVariables& robot, const JointGraph<Pose>& j
     const SE3 estimated = as_se3(Pose(frame * poses[robot.poses[k].index()]), by_odometry.translation().z());
     if (k == 0) T_frame_start = robot.T_common_start.value_or(estimated * by_odometry.inverse());
     estimate.push_back({robot.stamps[k], estimated});
-    odometry.push_back({robot.stamps[k], T_frame_start * by_odometry});
+    if (robot.poses[k].index() < behind_gap)
+      odometry.push_back({robot.stamps[k], T_frame_start * by_odometry});
   }
   result.estimate = Trajectory<SE3>(std::move(estimate));
   result.odometry = Trajectory<SE3>(std::move(odometry));

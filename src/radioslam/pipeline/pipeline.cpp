@@ -186,6 +186,7 @@ OverlapStage search_overlaps(const RunSetup& run, const TeamEstimate<Pose>& team
     if (!alignment.segments.of_segment.empty()) reweigh_radio_links(alternative, alignment, mixture);
     alignments.push_back(graph_for_covariances(alternative, mixture));
   }
+  for (JointGraph<Pose>& joint : alignments) leave_out_untied_poses(joint, alignment);
   return find_overlaps(std::move(alignments), overlap, request);
 }
 

@@ -186,7 +186,12 @@ template <class Pose>
 RunResult describe_run(const Mission& mission, const RadioMeasurements& radio,
                        const TeamEstimate<Pose>& estimate, std::optional<OverlapStage> overlaps,
                        const RunParams& params, const RunOptions& options, StageClock& timed) {
-  const JointGraph<Pose>& joint = estimate.joint;
+  std::optional<JointGraph<Pose>> tied;
+  if (has_untied_poses(estimate.joint, estimate.alignment)) {
+    tied = estimate.joint;
+    leave_out_untied_poses(*tied, estimate.alignment);
+  }
+  const JointGraph<Pose>& joint = tied ? *tied : estimate.joint;
   RunResult result;
   result.mission_name = mission.name;
   result.dimension = mission.dimension;
@@ -201,6 +206,7 @@ RunResult describe_run(const Mission& mission, const RadioMeasurements& radio,
         "robots were placed by fingerprints alone: sigma_m and sigma_team_m take their layout as right");
   if (radio.rssi_offsets.shown) result.notes.push_back(rssi_offset_note(result.robots));
   add_notes(result, mission, radio, params.sequence, joint.ignored_links);
+  if (auto note = untied_note(joint.robots)) result.notes.push_back(std::move(*note));
   append(result.notes, estimate.alignment.notes);
   add_fix_results(result, joint, estimate.judgement.fixes);
   if (!mission.aoa_measurements.empty())

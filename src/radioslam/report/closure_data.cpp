@@ -167,7 +167,8 @@ class DrawnClosures {
 
   /// False if an end has no drawn keyframe.
   bool add(const ClosureResult& closure, std::size_t group) {
-    if (!has_place(closure.robot_i) || !has_place(closure.robot_j)) return false;
+    if (!has_place(closure.robot_i, closure.stamp_i) || !has_place(closure.robot_j, closure.stamp_j))
+      return false;
     group_.push_back(group);
     reason_.push_back(reason_rows_.at(reason_of(closure)));
     robot_i_.push_back(closure.robot_i.value);
@@ -185,8 +186,13 @@ class DrawnClosures {
   }
 
  private:
-  bool has_place(RobotIndex robot) const {
-    return robot.valid() && robot.index() < keyframes_.size() && !keyframes_[robot.index()].empty();
+  bool has_place(RobotIndex robot, Stamp stamp) const {
+    if (!robot.valid() || robot.index() >= keyframes_.size() || keyframes_[robot.index()].empty())
+      return false;
+    const auto& untied = result_.robots[robot.index()].untied;
+    return std::none_of(untied.begin(), untied.end(), [&](const UntiedStretch& stretch) {
+      return stretch.first <= stamp && stamp <= stretch.last;
+    });
   }
   std::size_t place(RobotIndex robot, Stamp stamp) const {
     return nearest_kept(keyframes_[robot.index()],

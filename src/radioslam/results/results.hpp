@@ -54,6 +54,12 @@ struct OccupancyImageResult {
   std::vector<ScanCell> cells;  ///< by y, then by x
 };
 
+/// Consecutive keyframes behind a gap of the odometry that nothing ties to the rest of the trajectory.
+struct UntiedStretch {
+  Stamp first, last;
+  std::size_t poses = 0;
+};
+
 /// Estimate of one robot. All robots of a component share one frame.
 struct RobotResult {
   std::string id;
@@ -70,6 +76,7 @@ struct RobotResult {
   std::optional<double> sigma_rssi_offset_db = {};  ///< absent if unobservable
   RssiOffsetStatus rssi_offset = RssiOffsetStatus::kNotSought;
   std::vector<std::pair<Stamp, Stamp>> uncertain = {};  ///< stretches whose evidence was mostly rejected
+  std::vector<UntiedStretch> untied = {};               ///< keyframes without a pose in its frame
   bool start_known = false;                             ///< the mission specifies its start
   bool placed = true;                                   ///< false: nothing connects it to its component
   std::optional<FixResult> fixes = {};                  ///< absent if it has none

@@ -75,6 +75,16 @@ TEST(Jrl, KeysAreRobotsAndPlaces) {
   EXPECT_TRUE(file.notes.empty());
 }
 
+TEST(Jrl, KeysWithoutLettersAreOfASingleRobot) {
+  const std::string own = log_entry({between_factor("0", "1", pose3(1))});
+  EXPECT_EQ(read_space(log_of({own})).team.segments.size(), 1u);
+  const std::string two = R"({"measurements":{"a":[)" + own + R"(],"b":[)" + own + "]}}";
+  expect_refusal([&] { read_space(two); }, 0, "the robots' letters are missing");
+  const std::string mixed = log_entry(
+      {between_factor("0", "1", pose3(1)), between_factor(symbol('b', 0), symbol('b', 1), pose3(1))});
+  expect_refusal([&] { read_space(log_of({mixed})); }, 0, "key 0 has no robot's letter");
+}
+
 TEST(Jrl, QuaternionsBeginWithWAndCovariancesWithRotation) {
   std::string covariance = "[";
   for (int row = 0; row < 6; ++row)

@@ -4,6 +4,7 @@
 #include <zstd.h>
 
 #include <algorithm>
+#include <fstream>
 
 #include "io/recorded_data.hpp"
 #include "io/refusal.hpp"
@@ -162,6 +163,101 @@ TEST(G2oTeam, FilesWithoutLettersAreRobotsByTheirNames) {
         read_named({{"x/0.g2o", edge("0", "1", 1)}, {"y/0.g2o", edge("0", "1", 1)}});
       },
       0, "another file is named '0'");
+}
+
+TEST(G2oTeam, AVertexWithTwoValuesIsRefusedAndTheLettersAreMissed) {
+  const std::string a = vertex("0", 0) + vertex("1", 1) + edge("0", "1", 1);
+  expect_refusal(
+      [&] { read_graph_lines({a + vertex("0", 0) + vertex("1", 7) + edge("0", "1", 7)}); }, 5,
+      "vertex 1 appears twice, with different values; if these are poses of two robots, the robots' "
+      "letters are missing");
+  expect_refusal([&] { read_g2o(make_text("t.g2o", a + vertex("1", 7))); }, 4, "letters are missing");
+  expect_refusal([] { read_graph_lines({"VERTEX_XY 9 1 2\n" + edge("0", "1", 1) + "VERTEX_XY 9 1 3\n"}); }, 3,
+                 "vertex 9 appears twice, with different values");
+  expect_refusal([&] { read_graph_lines({vertex(id('a', 0), 0) + vertex(id('a', 0), 3) + a}); }, 2,
+                 "with different values");
+  const auto repeated = read_graph_lines({a + vertex("1", 1.000001)});
+  EXPECT_EQ(repeated.team.graph.poses.size(), 2u);
+  EXPECT_EQ(repeated.notes.size(), 1u);
+}
+
+TEST(G2oTeam, IdsWithAndWithoutLettersContradictEachOther) {
+  const std::string lettered =
+      vertex(id('a', 0), 0) + vertex(id('a', 1), 1) + edge(id('a', 0), id('a', 1), 1);
+  const std::string plain = vertex("0", 0) + vertex("1", 1) + edge("0", "1", 1);
+  const char* words = "vertex 0 has no robot's letter";
+  expect_refusal([&] { read_graph_lines({lettered, plain}); }, 1, words);
+  expect_refusal([&] { read_graph_lines({lettered + plain}); }, 4, words);
+  expect_refusal([&] { read_g2o(make_text("t.g2o", lettered + plain)); }, 4, words);
+  expect_refusal([&] { read_graph_lines({lettered, edge("0", "1", 1) + edge("1", "2", 1)}); }, 1, words);
+  // A single edge whose ids are cut off is a bad line, and landmarks may have letters that poses have not.
+  EXPECT_EQ(read_graph_lines({lettered + edge("698956", "698957", 1)}).pose_names.size(), 2u);
+  const auto landmark = read_graph_lines(
+      {plain + "VERTEX_XY " + id('l', 3) + " 1 2\nEDGE_SE2_XY 1 " + id('l', 3) + " 2 3 4 0 5\n"});
+  EXPECT_EQ(landmark.team.graph.relative_points.size(), 1u);
+  // Numbers in place of letters may be 0.
+  const std::string one = std::to_string((std::uint64_t{1} << 56) + 1);
+  EXPECT_EQ(read_graph_lines({edge("0", "1", 1) + edge("1", one, 2)}).team.segments.size(), 2u);
+}
+
+TEST(G2oTeam, TwoOdometriesOfIdsWithoutLettersAreOfTwoRobots) {
+  std::string first, other, again;
+  for (int k = 0; k < 5; ++k) {
+    first += edge(std::to_string(k), std::to_string(k + 1), 1);
+    other += edge(std::to_string(k), std::to_string(k + 1), 3);
+    again += edge(std::to_string(k), std::to_string(k + 1), 1.1);
+  }
+  expect_refusal([&] { read_graph_lines({first + other}); }, 6, "the robots' letters are missing");
+  expect_refusal([&] { read_g2o(make_text("t.g2o", first + other)); }, 6,
+                 "appear twice, with different motions");
+  const auto twice = read_graph_lines({first + again});
+  ASSERT_EQ(twice.notes.size(), 1u);
+  EXPECT_NE(twice.notes[0].find("the robots' letters are missing"), std::string::npos);
+  EXPECT_TRUE(read_graph_lines({first + edge("0", "1", 3)}).notes.empty());
+}
+
+TEST(G2oTeam, IdsThatFilesDivideAmongThemNamePosesOfOthers) {
+  const std::string link = edge("1", "21", 5);
+  const auto lines = [](int first) {
+    std::string out;
+    for (int k = first; k < first + 3; ++k) out += vertex(std::to_string(k), k - first);
+    for (int k = first; k < first + 2; ++k) out += edge(std::to_string(k), std::to_string(k + 1), 1);
+    return out;
+  };
+  const auto edges_of = [](int first) {
+    return edge(std::to_string(first), std::to_string(first + 1), 1) +
+           edge(std::to_string(first + 1), std::to_string(first + 2), 1);
+  };
+  const std::vector<std::vector<std::pair<std::string, std::string>>> teams = {
+      {{"0.g2o", lines(0) + link}, {"1.g2o", lines(20) + link}},
+      {{"0.g2o", lines(0)}, {"1.g2o", lines(20)}, {"links.g2o", link}},
+      {{"0.g2o", edges_of(0) + link}, {"1.g2o", edges_of(20) + link}},
+      {{"0.g2o", lines(0) + vertex("21", 9) + link}, {"1.g2o", lines(20) + vertex("1", 9) + link}}};
+  for (const auto& files : teams) {
+    const auto file = read_named(files);
+    ASSERT_EQ(file.team.segments.size(), 2u);
+    EXPECT_EQ(file.team.segments[0].robot, "0");
+    EXPECT_EQ(file.team.segments[1].robot, "1");
+    EXPECT_EQ(file.pose_ids.back(), (std::uint64_t{'b'} << 56) + 22);
+    ASSERT_EQ(file.team.graph.relative_poses.size(), 5u);
+    EXPECT_EQ(file.team.graph.relative_poses[4].i, PoseId(1));
+    EXPECT_EQ(file.team.graph.relative_poses[4].j, PoseId(4));
+    EXPECT_TRUE(file.notes.empty());
+  }
+}
+
+TEST(G2oTeam, AGraphThatMeasuresNothingIsRefused) {
+  const std::string poses = vertex("0", 0) + vertex("1", 1) + vertex("2", 2);
+  expect_refusal([&] { read_graph_lines({poses + "EDGE_SE2 0 1 1 0 0\nEDGE_SE2 1 2 1 0 0\n"}); }, 4,
+                 "t.g2o:4");
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "t.g2o") << poses;
+  expect_refusal([&] { read_team_graph(folder.path() / "t.g2o"); }, 0,
+                 "nothing is measured between its poses");
+  std::ofstream(folder.path() / "t.pyfg") << "VERTEX_SE2 0 A0 0 0 0\nVERTEX_SE2 1 A1 0 0 0\n";
+  expect_refusal([&] { read_team_graph(folder.path() / "t.pyfg"); }, 0, "nothing is measured");
+  std::ofstream(folder.path() / "one.g2o") << vertex("0", 0);
+  EXPECT_NO_THROW(read_team_graph(folder.path() / "one.g2o"));
 }
 
 TEST(G2oTeam, BadLinesAreLeftOutWithANote) {

@@ -196,6 +196,20 @@ TEST(RunFolder, HasTheUncertaintyOfEveryKeyframe) {
   EXPECT_FALSE(summary_json(result)["robots"]["zoe"].contains("start_sigma_m"));
 }
 
+TEST(RunFolder, ClosuresMayEndAtPosesThatAreNotPlaced) {
+  RunResult result = example();
+  result.robots[1].untied = {{Stamp::from_seconds(2), Stamp::from_seconds(4), 3}};
+  result.closures.front().stamp_j = Stamp::from_seconds(3);
+  EXPECT_EQ(summary_json(result)["robots"]["adam"]["not_placed"], Json::array({{2.0, 4.0}}));
+  EXPECT_FALSE(summary_json(result)["robots"]["zoe"].contains("not_placed"));
+  const TemporaryFolder folder;
+  write_run(folder.path(), result, {});
+  const RunFolder run = read_run(folder.path());
+  ASSERT_EQ(run.robots[1].untied.size(), 1u);
+  ASSERT_EQ(run.closures.size(), 1u);
+  EXPECT_EQ(run.closures[0].stamp_j, Stamp::from_seconds(3));
+}
+
 TEST(SummaryJson, HasTheKeysOfTheFormat) {
   const Json json = summary_json(example(), {{"ate_rmse_m", 1.5}});
   EXPECT_EQ(json["robots"]["zoe"]["keyframes"], 2);

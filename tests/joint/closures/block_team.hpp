@@ -71,7 +71,7 @@ class BlockTeam {
       out.alignment.absolute.push_back(false);
       out.alignment.in_common_frame.push_back(false);
     }
-    out.alignment.without_matches = out.alignment.component;
+    out.alignment.without_matches = out.alignment.of_segment = out.alignment.component;
     return out;
   }
 

@@ -10,6 +10,7 @@
 
 #include "radioslam/cli/commands.hpp"
 #include "radioslam/cli/commands/command_options.hpp"
+#include "radioslam/cli/commands/evaluated_estimate.hpp"
 #include "radioslam/cli/commands/evaluation.hpp"
 #include "radioslam/cli/commands/mission_check.hpp"
 #include "radioslam/cli/commands/mission_input.hpp"
@@ -28,7 +29,8 @@ constexpr double kMaxRadius_m = 1e6;
 
 struct EvaluateOptions {
   std::string run;
-  std::vector<std::string> mission;  ///< one path, or several graphs
+  std::vector<std::string> mission;  ///< one path, several graphs, or none
+  std::vector<std::string> truths;   ///< ROBOT=FILE
   std::optional<double> radius_m;
   bool evo = false;
   bool json = false;
@@ -39,6 +41,7 @@ struct Evaluation {
   TeamMetrics metrics;
   std::optional<TeamMetrics> dead_reckoning;  ///< if every robot's start is known
   PairCounts candidates;
+  bool has_mission = true;             ///< pairs and closures are compared with its measurements
   bool looked_for_candidates = false;  ///< whether the run searched for candidates at all
   nlohmann::ordered_json found,
       listed;  ///< how many candidates the run says it found and listed; null: it does not
@@ -57,7 +60,9 @@ std::vector<RobotIndex> places_in_mission(const RunFolder& run, const Mission& m
     const auto same = [&](const Robot& candidate) { return candidate.id == robot.id; };
     const auto found = std::find_if(mission.robots.begin(), mission.robots.end(), same);
     if (found == mission.robots.end()) {
-      throw InputError(options.run, 0, "robot '" + robot.id + "' is not in " + options.mission.front());
+      throw InputError(options.run, 0,
+                       "robot '" + robot.id + "' is not in " +
+                           (options.mission.empty() ? "the mission" : options.mission.front()));
     }
     places.emplace_back(static_cast<std::size_t>(found - mission.robots.begin()));
   }
@@ -116,28 +121,32 @@ void count_pairs(Evaluation& evaluation, const RunFolder& run, const Mission& mi
                                                    mission, truth.truth, run.aoa_measurements, file);
 }
 
-std::vector<std::string> notes_on(const RunFolder& run, const EvaluateOptions& options) {
-  std::vector<std::string> notes = frame_notes(run.robots, run.components, run.unplaced);
-  if (run.summary.is_null())
-    notes.push_back(options.run +
-                    " has no summary.json: every .tum file is taken as a robot, all in one frame");
-  return notes;
-}
-
-Evaluation evaluate(const EvaluateOptions& options) {
-  const MissionInput input = read_input(options.mission);
-  const Mission& mission = input.mission;
-  const Truth& truth = input.truth;
-  if (truth.empty() && input.loops.labels.empty())
+/// The mission, with the truth that is given for robots of the estimate.
+MissionInput read_compared(const EvaluateOptions& options, const EvaluatedEstimate& estimate) {
+  MissionInput input;
+  if (!options.mission.empty()) input = read_input(options.mission);
+  if (!options.truths.empty()) use_given_truth(options.truths, estimate, input);
+  if (input.truth.empty() && input.loops.labels.empty())
     throw InputError(
         options.mission.front(), 0,
         "has no ground truth (a robot's groundtruth.tum, VERTEX lines of .pyfg, groundtruth of .jrl)");
-  const RunFolder run = read_run(options.run);
+  return input;
+}
+
+Evaluation evaluate(const EvaluateOptions& options) {
+  if (options.mission.empty() && options.truths.empty())
+    throw InputError("evaluate", 0, "needs a mission with ground truth, or --truth ROBOT=FILE");
+  EvaluatedEstimate estimated = read_estimate(options.run);
+  const RunFolder& run = estimated.run;
+  const MissionInput input = read_compared(options, estimated);
+  const Mission& mission = input.mission;
+  const Truth& truth = input.truth;
   const auto places = places_in_mission(run, mission, options);
   const auto association = options.evo ? Association::kNearest : Association::kInterpolate;
 
   Evaluation evaluation;
-  evaluation.notes = notes_on(run, options);
+  evaluation.has_mission = !options.mission.empty();
+  evaluation.notes = std::move(estimated.notes);
   evaluation.found = number_in(run, "counts", "candidates");
   evaluation.listed = number_in(run, "counts", "candidates_listed");
   if (evaluation.listed.is_number() && evaluation.listed < evaluation.found)
@@ -155,13 +164,18 @@ Evaluation evaluate(const EvaluateOptions& options) {
   if (!odometry.empty()) {
     evaluation.dead_reckoning = evaluate_trajectories(odometry, truth, mission.dimension, association);
   }
-  count_pairs(evaluation, run, mission, places, pair_truth(mission, truth, run, options.radius_m),
-              input.loops);
+  if (evaluation.has_mission)
+    count_pairs(evaluation, run, mission, places, pair_truth(mission, truth, run, options.radius_m),
+                input.loops);
   return evaluation;
 }
 
 nlohmann::ordered_json evaluation_json(const Evaluation& evaluation) {
   auto json = metrics_json(evaluation.metrics);
+  if (!evaluation.has_mission) {
+    json["notes"] = evaluation.notes;
+    return json;
+  }
   json["candidates"] = pair_counts_json(evaluation.candidates);
   if (!evaluation.looked_for_candidates)
     for (const char* key : {"kept", "true_kept"}) json["candidates"][key] = nullptr;
@@ -180,6 +194,7 @@ nlohmann::ordered_json evaluation_json(const Evaluation& evaluation) {
 void print_evaluation(const Evaluation& evaluation) {
   std::cout << notes_text(evaluation.notes, names_of(evaluation.metrics.robots))
             << metrics_table(evaluation.metrics);
+  if (!evaluation.has_mission) return;
   if (evaluation.dead_reckoning && evaluation.dead_reckoning->ate) {
     std::cout << "dead reckoning alone: " << evaluation.dead_reckoning->ate->rmse_m << " m rmse\n";
   }
@@ -205,11 +220,18 @@ void evaluate_run(const EvaluateOptions& options) {
 void add_evaluate(CLI::App& program) {
   const auto options = std::make_shared<EvaluateOptions>();
   auto* command = program.add_subcommand("evaluate", "Compare a run with the ground truth of its mission");
-  command->add_option("OUT", options->run, "Output folder of `radioslam run`")->required();
   command
-      ->add_option("MISSION", options->mission,
-                   "Mission folder with robots/<id>/groundtruth.tum, or a factor graph (as for `run`)")
+      ->add_option("OUT", options->run,
+                   "Output folder of `radioslam run`, a folder of .tum files, or a .g2o file, as `optimize` "
+                   "writes it")
       ->required();
+  command->add_option("MISSION", options->mission,
+                      "Mission folder with robots/<id>/groundtruth.tum, or a factor graph (as for `run`)");
+  command
+      ->add_option("--truth", options->truths,
+                   "True poses of a robot of OUT, a TUM file, with or instead of a mission (in a .g2o file, "
+                   "robots are the letters of the ids, and a pose's time is its index in seconds)")
+      ->type_name("ROBOT=FILE");
   command
       ->add_option(
           "--radius", options->radius_m,
@@ -229,7 +251,8 @@ void add_evaluate(CLI::App& program) {
       "waypoints:\n"
       "its orientations are ignored in the relative error.\n"
       "In the --json output, candidates.kept is null if the run did not search for candidates.\n\n"
-      "Example:\n  radioslam evaluate carpark-out carpark --json");
+      "Example:\n  radioslam evaluate carpark-out carpark --json\n"
+      "  radioslam evaluate optimum.g2o --truth a=first.tum b=second.tum");
   command->callback([options] { evaluate_run(*options); });
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <chrono>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -17,10 +18,14 @@
 #include "radioslam/cli/config.hpp"
 #include "radioslam/cli/parameters.hpp"
 #include "radioslam/cli/progress_line.hpp"
+#include "radioslam/graph/gauge.hpp"
 #include "radioslam/graph/initial_values.hpp"
 #include "radioslam/graph/optimizer.hpp"
+#include "radioslam/graph/robust_optimum.hpp"
 #include "radioslam/io/graph/g2o.hpp"
 #include "radioslam/io/graph/jrl.hpp"
+#include "radioslam/io/graph/team_assembly.hpp"
+#include "radioslam/io/graph/team_graph_file.hpp"
 #include "radioslam/io/text/atomic_output.hpp"
 #include "radioslam/io/text/compressed_text.hpp"
 
@@ -53,7 +58,10 @@ struct Report {
   std::size_t factors = 0;
   std::size_t repaired_informations = 0;
   std::string_view start;
-  double initial_cost = 0;  ///< at the file's vertices; at the start if some are missing
+  std::vector<std::string> notes;   ///< on what was left out, and on parts that nothing ties together
+  std::vector<double> weights;      ///< of a robust optimum, per relative pose
+  std::vector<std::size_t> frames;  ///< poses of every part that nothing ties to the others
+  double initial_cost = 0;          ///< at the file's vertices; at the start if some are missing
   OptimizerSummary summary;
   Seconds seconds;
 };
@@ -98,42 +106,108 @@ GivenValues given_values(const G2oGraph<Pose>& file) {
   return complete ? GivenValues::kComplete : GivenValues::kNone;
 }
 
+/// The parts of a graph that nothing ties together: each keeps its first pose where it was.
 template <class Pose>
-Report optimize_graph(G2oGraph<Pose>& file, const OptimizerParams& params) {
+void report_frames(const G2oGraph<Pose>& file, Report& report) {
+  constexpr std::size_t kMaxNamed = 5;
+  const auto component = connected_components(file.graph).of_pose;
+  std::map<std::int32_t, std::size_t> poses;
+  for (const std::int32_t first : component) ++poses[first];
+  std::string named;
+  for (const auto& [first, count] : poses) {
+    report.frames.push_back(count);
+    if (report.frames.size() <= kMaxNamed)
+      named += (named.empty() ? "" : ", ") + std::to_string(count) + " from vertex " +
+               std::to_string(file.pose_ids[static_cast<std::size_t>(first)]) + " on";
+  }
+  if (poses.size() < 2) return;
+  if (poses.size() > kMaxNamed) named += ", ...";
+  report.notes.push_back(std::to_string(poses.size()) +
+                         " frames that nothing ties together: how they lie to one another is not measured "
+                         "(poses: " +
+                         named + ")");
+}
+
+/// Per relative pose, whether it may be wrong: all but the first between a pose and its robot's next one.
+template <class Pose>
+std::vector<bool> loop_closures(const G2oGraph<Pose>& file) {
+  std::map<std::uint64_t, std::uint64_t> next;
+  std::vector<std::uint64_t> sorted = file.pose_ids;
+  std::sort(sorted.begin(), sorted.end());
+  for (std::size_t k = 1; k < sorted.size(); ++k)
+    if (robot_of_key(sorted[k - 1]) == robot_of_key(sorted[k])) next[sorted[k - 1]] = sorted[k];
+  std::vector<bool> result;
+  for (const auto& factor : file.graph.relative_poses) {
+    const auto [from, to] = std::minmax(file.pose_ids[factor.i.index()], file.pose_ids[factor.j.index()]);
+    const auto step = next.find(from);
+    const bool is_step = step != next.end() && step->second == to;
+    result.push_back(!is_step);
+    if (is_step) next.erase(step);
+  }
+  return result;
+}
+
+template <class Pose>
+InitialCosts optimize_robustly(G2oGraph<Pose>& file, const OptimizeParams& params, Report& report) {
+  ProgressLine line;
+  const auto candidates = loop_closures(file);
+  RobustOptimum optimum = optimize_with_outliers(file.graph, candidates, params.distributed.outliers.gate,
+                                                 given_values(file), params.optimizer, line.progress());
+  report.weights = std::move(optimum.weights);
+  report.summary = std::move(optimum.summary);
+  return optimum.start;
+}
+
+/// Robustly where outliers have a gate.
+template <class Pose>
+Report optimize_graph(G2oGraph<Pose>& file, const OptimizeParams& params) {
   Report report;
   report.poses = file.graph.poses.size();
   report.factors = factor_count(file.graph);
   report.repaired_informations = file.repaired_informations;
   Stopwatch stopwatch;
-  const InitialCosts costs = initialise(file.graph, given_values(file));
+  InitialCosts costs;
+  if (params.distributed.outliers.gate > 0) {
+    costs = optimize_robustly(file, params, report);
+  } else {
+    costs = initialise(file.graph, given_values(file));
+    report.seconds.initialise = stopwatch.lap();
+    ProgressLine line;
+    report.summary = optimize(file.graph, params.optimizer, line.progress());
+  }
   report.start = start_name(costs.chosen);
-  report.seconds.initialise = stopwatch.lap();
-  ProgressLine line;
-  report.summary = optimize(file.graph, params, line.progress());
   report.seconds.optimize = stopwatch.lap();
   report.initial_cost = costs.given.value_or(report.summary.initial_cost);
+  report_frames(file, report);
   return report;
 }
 
 nlohmann::ordered_json optimum_json(const Report& report) {
-  return {{"initial_cost", report.initial_cost},
-          {"start_cost", report.summary.initial_cost},
-          {"final_cost", report.summary.final_cost},
-          {"iterations", report.summary.iterations},
-          {"seconds",
-           {{"read", report.seconds.read},
-            {"initialise", report.seconds.initialise},
-            {"optimise", report.seconds.optimize}}},
-          {"termination", to_string(report.summary.termination)},
-          {"certificate", nullptr},
-          {"start", report.start},
-          {"poses", report.poses},
-          {"factors", report.factors},
-          {"repaired_informations", report.repaired_informations},
-          {"costs", report.summary.costs}};
+  nlohmann::ordered_json json{{"initial_cost", report.initial_cost},
+                              {"start_cost", report.summary.initial_cost},
+                              {"final_cost", report.summary.final_cost},
+                              {"iterations", report.summary.iterations},
+                              {"seconds",
+                               {{"read", report.seconds.read},
+                                {"initialise", report.seconds.initialise},
+                                {"optimise", report.seconds.optimize}}},
+                              {"termination", to_string(report.summary.termination)},
+                              {"certificate", nullptr},
+                              {"start", report.start},
+                              {"poses", report.poses},
+                              {"factors", report.factors},
+                              {"repaired_informations", report.repaired_informations},
+                              {"frames", report.frames},
+                              {"notes", report.notes},
+                              {"costs", report.summary.costs}};
+  if (!report.weights.empty()) json["weights"] = report.weights;
+  return json;
 }
 
 void print_optimum(const Report& report, const std::string& output) {
+  for (const std::string& note : report.notes) std::cout << "note: " << note << '\n';
+  if (const auto rejected = std::count(report.weights.begin(), report.weights.end(), 0.0); rejected > 0)
+    std::cout << "note: " << rejected << " of " << report.weights.size() << " relative poses are rejected\n";
   std::cout << output << ": " << report.poses << " poses, " << report.factors << " factors, cost "
             << report.initial_cost << " -> " << report.summary.initial_cost << " (" << report.start
             << " start) -> " << report.summary.final_cost << " in " << report.summary.iterations
@@ -144,7 +218,7 @@ void print_optimum(const Report& report, const std::string& output) {
   }
 }
 
-/// A JRL has no initial values that are read: they are computed.
+/// A team's graph has no initial values in one frame that are read: they are computed.
 AnyG2oGraph without_values(const AnyTeamGraphFile& any) {
   return std::visit(
       [](const auto& file) -> AnyG2oGraph {
@@ -155,13 +229,16 @@ AnyG2oGraph without_values(const AnyTeamGraphFile& any) {
       any);
 }
 
-AnyG2oGraph read_graph(const OptimizeOptions& options) {
-  if (options.inputs.size() > 1)
-    throw InputError(options.inputs[1], 0, "only --distributed takes several graphs");
+/// One graph of g2o with its VERTEX lines as the initial values, or of a team.
+AnyG2oGraph read_graph(const OptimizeOptions& options, std::vector<std::string>& notes) {
   const std::string& input = options.inputs.front();
-  const Text text = read_zstd_text(input);
-  if (is_jrl_file(input)) return without_values(read_jrl(text, StatedStarts::kUsed));
-  return read_g2o(text, options.repair_information ? RepairInformation::kYes : RepairInformation::kNo);
+  const auto repair = options.repair_information ? RepairInformation::kYes : RepairInformation::kNo;
+  if (options.inputs.size() == 1 && !is_jrl_file(input) && !is_graph_folder(input))
+    return read_g2o(read_zstd_text(input), repair);
+  const AnyTeamGraphFile team =
+      read_team_graph({options.inputs.begin(), options.inputs.end()}, StatedStarts::kPriors, repair);
+  notes = std::visit([](const auto& file) { return file.notes; }, team);
+  return without_values(team);
 }
 
 /// Recorded closures are less exact than they state: a true one exceeds 28 once in ten thousand in theory.
@@ -170,7 +247,6 @@ constexpr double kRobustGate = 50;
 void optimize_as_team(const OptimizeOptions& options, OptimizeParams params) {
   if (options.loss_share) params.distributed.network.loss_share = *options.loss_share;
   if (options.delay_rounds) params.distributed.network.delay_rounds = *options.delay_rounds;
-  if (options.robust && params.distributed.outliers.gate == 0) params.distributed.outliers.gate = kRobustGate;
   OutputFile output(options.output);
   const DistributedOutcome outcome =
       optimize_distributed({options.inputs.begin(), options.inputs.end()}, options.method, params);
@@ -185,17 +261,20 @@ void optimize_file(const OptimizeOptions& options) {
   if (options.certify)
     throw InputError("--certify", 0, "certifying global optimality is not implemented yet");
   const auto settings = collect_settings(options.parameters.config_path, options.parameters.set);
-  const auto params = with_settings(OptimizeParams{}, settings);
+  auto params = with_settings(OptimizeParams{}, settings);
+  if (options.robust && params.distributed.outliers.gate == 0) params.distributed.outliers.gate = kRobustGate;
   refuse_replacing_inputs(options.output, {options.inputs.begin(), options.inputs.end()});
   if (!options.method.empty()) return optimize_as_team(options, params);
-  if (options.robust || options.loss_share || options.delay_rounds)
-    throw InputError("--robust", 0, "losses, delays and --robust belong to --distributed");
+  if (options.loss_share || options.delay_rounds)
+    throw InputError("--loss-share", 0, "losses and delays belong to --distributed");
   Stopwatch stopwatch;
   OutputFile output(options.output);
-  auto graph = read_graph(options);
+  std::vector<std::string> notes;
+  auto graph = read_graph(options, notes);
   const double read_s = stopwatch.lap();
-  Report report = std::visit([&](auto& file) { return optimize_graph(file, params.optimizer); }, graph);
+  Report report = std::visit([&](auto& file) { return optimize_graph(file, params); }, graph);
   report.seconds.read = read_s;
+  report.notes.insert(report.notes.begin(), notes.begin(), notes.end());
   output.commit(std::visit([](const auto& file) { return format_g2o(file); }, graph));
   if (options.json) {
     std::cout << optimum_json(report).dump(2) << '\n';
@@ -224,7 +303,7 @@ void add_distributed_options(CLI::App& command, OptimizeOptions& options) {
                       methods_that_bear(&DistributedMethodInfo::bears_delay))
       ->check(CLI::Range(0, 1000));
   command.add_flag("--robust", options.robust,
-                   "With --distributed separators or asynchronous: loop closures may be wrong");
+                   "Loop closures may be wrong (not with all --distributed methods)");
 }
 
 }  // namespace
@@ -234,7 +313,7 @@ void add_optimize(CLI::App& program) {
   auto* command = program.add_subcommand("optimize", "Optimize a pose graph in g2o or JRL format");
   command
       ->add_option("GRAPH", options->inputs,
-                   "Pose graph, 2D or 3D: .g2o or .jrl, also .zst; with --distributed also one per robot")
+                   "Pose graph, 2D or 3D: .g2o or .jrl, also .zst; or .g2o files, one per robot")
       ->required();
   add_output_option(*command, options->output, "Optimized graph to write, in g2o format");
   command->add_flag("--repair-information", options->repair_information,

@@ -172,7 +172,9 @@ ImportedMission mission_of_team(const TeamGraphFile<SE3>& file, const std::strin
     auto& robots = imported.mission.robots;
     if (!robots.empty() && robots.back().id == segment.robot)
       throw InputError(source, 0,
-                       "the odometry of robot " + segment.robot + " has a gap: write a .g2o file instead");
+                       "the odometry of robot " + segment.robot +
+                           " has a gap, and a mission has none: write a .g2o file instead; `run` places what "
+                           "measurements tie to the rest");
     for (const Stamp stamp : segment.stamps) places.emplace_back(robots.size(), stamp);
     robots.push_back(robot_of(file, segment));
     first_loop += segment.pose_count - 1;

@@ -12,11 +12,13 @@
 // g2o's error vector (PoseChart::kG2o). A lever arm is the antenna's position in the body frame, x y (z). Ids
 // have 64 bits. Blank lines and '#' comments are skipped. VERTEX lines may be missing for all poses, or for
 // all poses of another robot (g2o_vertices.hpp). Repeated edges count once each. Refused (InputError, with
-// the line) are graphs that mix 2D and 3D entries, unknown tags, other landmark edges, and information
-// matrices that are indefinite or zero.
+// the line) are graphs that mix 2D and 3D entries, unknown tags, other landmark edges, information matrices
+// that are indefinite or zero, a vertex with two different values, and ids of poses with and without robots'
+// letters (team_ids.hpp).
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -53,9 +55,13 @@ struct G2oGraph {
 
 using AnyG2oGraph = std::variant<G2oGraph<SE2>, G2oGraph<SE3>>;
 
-/// Parses a graph in linear time. All errors are InputErrors with their line.
+/// Whether another file of the team has the pose with this id; an empty function: none has.
+using IsElsewhere = std::function<bool(std::uint64_t)>;
+
+/// Parses a graph in linear time. All errors are InputErrors with their line. Poses that are elsewhere need
+/// no VERTEX line.
 AnyG2oGraph read_g2o(const Text& text, RepairInformation repair = RepairInformation::kNo,
-                     BadLines bad_lines = BadLines::kRefuse);
+                     BadLines bad_lines = BadLines::kRefuse, const IsElsewhere& is_elsewhere = {});
 
 /// Assigns ids 0, 1, ... to the poses and then to the points.
 template <class Pose>

@@ -5,6 +5,7 @@
 #include "radioslam/io/graph/g2o_entries.hpp"
 #include "radioslam/io/graph/g2o_vertices.hpp"
 #include "radioslam/io/graph/information.hpp"
+#include "radioslam/io/graph/team_ids.hpp"
 #include "radioslam/io/text/line_fields.hpp"
 #include "radioslam/io/text/numbers.hpp"
 
@@ -61,11 +62,11 @@ class G2oInformationReader {
 template <class Pose>
 class G2oReader {
  public:
-  G2oReader(const Text& text, RepairInformation repair, BadLines bad_lines)
+  G2oReader(const Text& text, RepairInformation repair, BadLines bad_lines, const IsElsewhere& is_elsewhere)
       : text_(text),
         lines_(text),
         bad_lines_(bad_lines),
-        pass_(read_g2o_vertices(text, bad_lines, out_)),
+        pass_(read_g2o_vertices(text, bad_lines, is_elsewhere, out_)),
         informations_(repair) {}
 
   G2oGraph<Pose> read() {
@@ -77,6 +78,9 @@ class G2oReader {
     informations_.refuse_indefinite(text_);
     vertices().refuse_missing();
     if (out_.graph.poses.empty()) text_.fail(1, "the graph has no poses");
+    if (const auto id = id_without_letter(out_.pose_ids)) refuse_missing_letter(text_, *id);
+    if (second_odometry(out_.graph, out_.pose_ids) == SecondOdometry::kContradicts)
+      refuse_second_odometry(text_);
     out_.repaired_informations = informations_.repaired();
     return std::move(out_);
   }
@@ -215,10 +219,11 @@ Dimension dimension_of(const Text& text, BadLines bad_lines) {
 
 }  // namespace
 
-AnyG2oGraph read_g2o(const Text& text, RepairInformation repair, BadLines bad_lines) {
+AnyG2oGraph read_g2o(const Text& text, RepairInformation repair, BadLines bad_lines,
+                     const IsElsewhere& is_elsewhere) {
   if (dimension_of(text, bad_lines) == Dimension::kPlane)
-    return G2oReader<SE2>(text, repair, bad_lines).read();
-  return G2oReader<SE3>(text, repair, bad_lines).read();
+    return G2oReader<SE2>(text, repair, bad_lines, is_elsewhere).read();
+  return G2oReader<SE3>(text, repair, bad_lines, is_elsewhere).read();
 }
 
 }  // namespace radioslam

@@ -10,6 +10,7 @@
 #include "radioslam/io/graph/g2o.hpp"
 #include "radioslam/io/graph/keyed_poses.hpp"
 #include "radioslam/io/graph/repeated_edges.hpp"
+#include "radioslam/io/graph/team_ids.hpp"
 #include "radioslam/io/text/compressed_text.hpp"
 
 namespace radioslam {
@@ -25,13 +26,23 @@ struct NamedRobot {
   std::uint64_t letter = 0;
 };
 
-bool has_letters(const AnyG2oGraph& any) {
-  return std::visit(
-      [](const auto& file) {
-        const auto has_letter = [](std::uint64_t id) { return id >> kKeyRobotShift != 0; };
-        return std::any_of(file.pose_ids.begin(), file.pose_ids.end(), has_letter);
-      },
-      any);
+const std::vector<std::uint64_t>& pose_ids(const AnyG2oGraph& any) {
+  return std::visit([](const auto& file) -> const std::vector<std::uint64_t>& { return file.pose_ids; }, any);
+}
+
+bool has_letters(const AnyG2oGraph& file) {
+  const auto& ids = pose_ids(file);
+  return std::any_of(ids.begin(), ids.end(), [](std::uint64_t id) { return id >> kKeyRobotShift != 0; });
+}
+
+/// Refuses a team of which some ids have letters and some have none, whatever file they are in.
+void refuse_mixed_letters(const std::vector<AnyG2oGraph>& files, std::span<const Text> texts) {
+  std::vector<std::uint64_t> all;
+  for (const AnyG2oGraph& file : files) all.insert(all.end(), pose_ids(file).begin(), pose_ids(file).end());
+  const auto id = id_without_letter(all);
+  for (std::size_t k = 0; id && k < files.size(); ++k)
+    if (std::find(pose_ids(files[k]).begin(), pose_ids(files[k]).end(), *id) != pose_ids(files[k]).end())
+      refuse_missing_letter(texts[k], *id);
 }
 
 /// Names of the robots by their files, or nothing where one file or letters make them robots.
@@ -57,20 +68,31 @@ std::vector<std::optional<NamedRobot>> robots_of(const std::vector<AnyG2oGraph>&
 template <class Pose>
 class TeamMerge {
  public:
-  /// `robot` names the file's only robot where ids have no letters.
-  void add(const G2oGraph<Pose>& file, const Text& text, const std::optional<NamedRobot>& robot) {
+  /// `robots` names, per file, its only robot where ids have no letters.
+  TeamMerge(const std::vector<std::optional<NamedRobot>>& robots, const DividedIds& divided)
+      : robots_(robots), divided_(divided) {}
+
+  void add(const G2oGraph<Pose>& file, const Text& text) {
     const PoseGraph<Pose>& graph = file.graph;
-    robot_ = robot;
     if (file.skipped_lines.count() > 0) notes_.push_back(file.skipped_lines.warning(text.name, "line"));
+    if (second_odometry<Pose>(graph, file.pose_ids) == SecondOdometry::kAgrees)
+      notes_.push_back(
+          text.name +
+          ": most edges between successive ids appear twice; if these are poses of two robots, the "
+          "robots' letters are missing in the ids");
+    if (first_skipped_.count() == 0) first_skipped_ = file.skipped_lines;
     graph_.chart = graph.chart;
     std::vector<PoseId> poses;
     for (std::size_t k = 0; k < file.pose_ids.size(); ++k) {
+      const auto& robot = robot_of(file.pose_ids[k]);
       const std::uint64_t key = key_of(file.pose_ids[k]);
       poses.push_back(robot ? poses_.at(key, robot->name) : poses_.at(key));
       if (file.pose_has_value[k]) stated_.try_emplace(key, graph.poses[k]);
     }
     std::vector<PointId> points;
-    for (const std::uint64_t id : file.point_ids) points.push_back(point(key_of(id)));
+    const auto& of_file = robots_[file_];
+    for (const std::uint64_t id : file.point_ids)
+      points.push_back(point(of_file ? (of_file->letter << kKeyRobotShift) | id : id));
     const auto renamed = [&](RangeEnd<Pose> end) {
       if (end.pose.valid())
         end.pose = poses[end.pose.index()];
@@ -98,9 +120,11 @@ class TeamMerge {
       factor.i = poses[factor.i.index()];
       graph_.pose_priors.push_back(factor);
     }
+    ++file_;
   }
 
   TeamGraphFile<Pose> assemble(StatedStarts starts) {
+    if (!measures_anything(graph_)) first_skipped_.throw_first();
     if (starts == StatedStarts::kUsed) add_start_priors();
     TeamGraphFile<Pose> out = poses_.assemble(std::move(graph_), starts).file;
     out.notes.insert(out.notes.begin(), notes_.begin(), notes_.end());
@@ -110,9 +134,15 @@ class TeamMerge {
   }
 
  private:
-  /// The key of a pose or point of the current file: with the robot's letter.
+  /// The robot of an id in the current file; nothing where its letter says it.
+  const std::optional<NamedRobot>& robot_of(std::uint64_t id) const {
+    return robots_[divided_.file_of(id).value_or(file_)];
+  }
+
+  /// The key of a pose in the current file: with the robot's letter.
   std::uint64_t key_of(std::uint64_t id) const {
-    return robot_ ? (robot_->letter << kKeyRobotShift) | id : id;
+    const auto& robot = robot_of(id);
+    return robot ? (robot->letter << kKeyRobotShift) | id : id;
   }
 
   PointId point(std::uint64_t id) {
@@ -158,9 +188,12 @@ class TeamMerge {
     of_this_file_.clear();
   }
 
+  const std::vector<std::optional<NamedRobot>>& robots_;
+  const DividedIds& divided_;
+  std::size_t file_ = 0;  // the current one
   PoseGraph<Pose> graph_;
-  std::optional<NamedRobot> robot_;
   std::vector<std::string> notes_;
+  SkippedRecords first_skipped_;  // of the first file with any
   KeyedPoses poses_;
   std::vector<std::uint64_t> point_ids_;
   std::map<std::uint64_t, Pose> stated_;  // VERTEX lines
@@ -171,24 +204,27 @@ class TeamMerge {
 
 template <class Pose>
 TeamGraphFile<Pose> merge(const std::vector<AnyG2oGraph>& files, std::span<const Text> texts,
-                          StatedStarts starts) {
-  TeamMerge<Pose> team;
+                          const DividedIds& divided, StatedStarts starts) {
   const auto robots = robots_of(files, texts);
+  TeamMerge<Pose> team(robots, divided);
   for (std::size_t k = 0; k < files.size(); ++k) {
     const auto* file = std::get_if<G2oGraph<Pose>>(&files[k]);
     if (file == nullptr) texts[k].fail(1, "the team's files mix 2D and 3D");
-    team.add(*file, texts[k], robots[k]);
+    team.add(*file, texts[k]);
   }
   return team.assemble(starts);
 }
 
 }  // namespace
 
-AnyTeamGraphFile read_g2o_team(std::span<const Text> texts, StatedStarts starts) {
+AnyTeamGraphFile read_g2o_team(std::span<const Text> texts, StatedStarts starts, RepairInformation repair) {
+  const DividedIds divided(texts);
+  const auto is_elsewhere = [&](std::uint64_t id) { return divided.file_of(id).has_value(); };
   std::vector<AnyG2oGraph> files;
-  for (const Text& text : texts) files.push_back(read_g2o(text, RepairInformation::kNo, BadLines::kSkip));
-  if (std::holds_alternative<G2oGraph<SE2>>(files.front())) return merge<SE2>(files, texts, starts);
-  return merge<SE3>(files, texts, starts);
+  for (const Text& text : texts) files.push_back(read_g2o(text, repair, BadLines::kSkip, is_elsewhere));
+  refuse_mixed_letters(files, texts);
+  if (std::holds_alternative<G2oGraph<SE2>>(files.front())) return merge<SE2>(files, texts, divided, starts);
+  return merge<SE3>(files, texts, divided, starts);
 }
 
 }  // namespace radioslam

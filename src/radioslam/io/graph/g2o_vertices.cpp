@@ -9,6 +9,9 @@
 namespace radioslam {
 namespace {
 
+/// Bound on the relative difference of two printed copies of a value.
+constexpr double kRounding = 2e-5;
+
 G2oVertices::Id robot_of(G2oVertices::Id id) { return id >> kKeyRobotShift; }
 
 template <class Pose>
@@ -17,7 +20,12 @@ void read_pose_vertex(const TextLines& lines, LineFields& fields, G2oVertices& v
   const G2oVertices::Id id = fields.id("id");
   const Pose pose = read_g2o_pose<Pose>(fields);
   fields.end();
-  vertices.declare(id, {false, static_cast<std::int32_t>(out.graph.poses.size())}, lines.number());
+  const auto is_same = [&](G2oVertex earlier) {
+    if (earlier.is_point) return false;
+    const Pose& before = out.graph.poses[static_cast<std::size_t>(earlier.index)];
+    return (before.inverse() * pose).log().norm() < kRounding * std::max(1.0, pose.translation().norm());
+  };
+  vertices.declare(id, {false, static_cast<std::int32_t>(out.graph.poses.size())}, lines.number(), is_same);
   out.graph.poses.push_back(pose);
   out.pose_ids.push_back(id);
   out.pose_has_value.push_back(true);
@@ -29,7 +37,11 @@ void read_point_vertex(const TextLines& lines, LineFields& fields, G2oVertices& 
   const G2oVertices::Id id = fields.id("id");
   const typename Pose::Point point = read_point_fields<Pose>(fields);
   fields.end();
-  vertices.declare(id, {true, static_cast<std::int32_t>(out.graph.points.size())}, lines.number());
+  const auto is_same = [&](G2oVertex earlier) {
+    return earlier.is_point && (out.graph.points[static_cast<std::size_t>(earlier.index)] - point).norm() <
+                                   kRounding * std::max(1.0, point.norm());
+  };
+  vertices.declare(id, {true, static_cast<std::int32_t>(out.graph.points.size())}, lines.number(), is_same);
   out.graph.points.push_back(point);
   out.point_ids.push_back(id);
 }
@@ -62,8 +74,9 @@ void mention_ends(const TextLines& lines, LineFields& fields, BadLines bad_lines
 }
 
 template <class Pose>
-void add_undeclared_poses(BadLines bad_lines, G2oVertices& vertices, G2oGraph<Pose>& out) {
-  for (const G2oVertices::Id id : vertices.add_undeclared(out.graph.poses.size(), bad_lines)) {
+void add_undeclared_poses(BadLines bad_lines, const IsElsewhere& is_elsewhere, G2oVertices& vertices,
+                          G2oGraph<Pose>& out) {
+  for (const G2oVertices::Id id : vertices.add_undeclared(out.graph.poses.size(), bad_lines, is_elsewhere)) {
     out.graph.poses.emplace_back();
     out.pose_ids.push_back(id);
     out.pose_has_value.push_back(false);
@@ -84,16 +97,39 @@ void read_line(const TextLines& lines, std::string_view tag, LineFields& fields,
 
 std::string quoted_vertex(G2oVertices::Id id) { return "vertex " + std::to_string(id); }
 
-void G2oVertices::declare(Id id, G2oVertex vertex, std::size_t line) {
-  if (!vertices_.emplace(id, vertex).second) text_.fail(line, quoted_vertex(id) + " appears twice");
+void G2oVertices::declare(Id id, G2oVertex vertex, std::size_t line,
+                          const std::function<bool(G2oVertex)>& is_same) {
+  const auto [earlier, is_new] = vertices_.emplace(id, vertex);
+  if (!is_new && !contradiction_ && !is_same(earlier->second)) contradiction_ = Mention{id, line};
+  if (!is_new) text_.fail(line, quoted_vertex(id) + " appears twice");
   if (!vertex.is_point) robots_.insert(robot_of(id));
 }
 
-std::vector<G2oVertices::Id> G2oVertices::add_undeclared(std::size_t first_index, BadLines bad_lines) {
+void G2oVertices::refuse_contradictions() const {
+  if (!contradiction_) return;
+  std::string reason = quoted_vertex(contradiction_->id) + " appears twice, with different values";
+  if (robot_of(contradiction_->id) == 0)
+    reason +=
+        "; if these are poses of two robots, the robots' letters are missing in the ids (top eight bits)";
+  text_.fail(contradiction_->line, reason);
+}
+
+std::optional<std::size_t> G2oVertices::line_of_cut_ids() const {
+  if (robots_.contains(0) || std::none_of(robots_.begin(), robots_.end(), is_key_letter)) return std::nullopt;
+  std::set<std::size_t> lines;
+  for (const Mention& mention : mentions_)
+    if (robot_of(mention.id) == 0 && !vertices_.contains(mention.id)) lines.insert(mention.line);
+  return lines.size() == 1 ? std::optional(*lines.begin()) : std::nullopt;
+}
+
+std::vector<G2oVertices::Id> G2oVertices::add_undeclared(std::size_t first_index, BadLines bad_lines,
+                                                         const IsElsewhere& is_elsewhere) {
+  const auto cut = bad_lines == BadLines::kSkip ? line_of_cut_ids() : std::nullopt;
   std::vector<Id> undeclared;
   for (const Mention& mention : mentions_) {
-    if (vertices_.contains(mention.id)) continue;
-    const bool is_missing = robots_.contains(robot_of(mention.id));
+    if (vertices_.contains(mention.id) || mention.line == cut) continue;
+    const bool is_missing =
+        robots_.contains(robot_of(mention.id)) && !(is_elsewhere && is_elsewhere(mention.id));
     if (is_missing && bad_lines == BadLines::kSkip) continue;
     if (is_missing && !missing_) missing_ = mention;
     undeclared.push_back(mention.id);
@@ -125,7 +161,8 @@ PoseId G2oVertices::pose_at(Id id, std::size_t line) const {
 }
 
 template <class Pose>
-G2oVertexPass read_g2o_vertices(const Text& text, BadLines bad_lines, G2oGraph<Pose>& out) {
+G2oVertexPass read_g2o_vertices(const Text& text, BadLines bad_lines, const IsElsewhere& is_elsewhere,
+                                G2oGraph<Pose>& out) {
   G2oVertexPass pass{G2oVertices(text), {}};
   TextLines lines(text);
   while (lines.next_with_content()) {
@@ -135,16 +172,17 @@ G2oVertexPass read_g2o_vertices(const Text& text, BadLines bad_lines, G2oGraph<P
     try {
       read_line(lines, tag, fields, bad_lines, pass.vertices, out);
     } catch (const InputError& error) {
+      pass.vertices.refuse_contradictions();
       if (bad_lines == BadLines::kRefuse) throw;
       out.skipped_lines.add(error);
       pass.bad_lines.insert(lines.number());
     }
   }
-  add_undeclared_poses(bad_lines, pass.vertices, out);
+  add_undeclared_poses(bad_lines, is_elsewhere, pass.vertices, out);
   return pass;
 }
 
-template G2oVertexPass read_g2o_vertices(const Text&, BadLines, G2oGraph<SE2>&);
-template G2oVertexPass read_g2o_vertices(const Text&, BadLines, G2oGraph<SE3>&);
+template G2oVertexPass read_g2o_vertices(const Text&, BadLines, const IsElsewhere&, G2oGraph<SE2>&);
+template G2oVertexPass read_g2o_vertices(const Text&, BadLines, const IsElsewhere&, G2oGraph<SE3>&);
 
 }  // namespace radioslam

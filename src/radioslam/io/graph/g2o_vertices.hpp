@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -31,13 +32,18 @@ class G2oVertices {
 
   explicit G2oVertices(const Text& text) : text_(text) {}
 
-  /// Adds the VERTEX line of an id; refuses a second one.
-  void declare(Id id, G2oVertex vertex, std::size_t line);
+  /// Adds the VERTEX line of an id; refuses a second one. `is_same(earlier)`: it has the value of the earlier
+  /// vertex.
+  void declare(Id id, G2oVertex vertex, std::size_t line, const std::function<bool(G2oVertex)>& is_same);
   /// Records that an edge between poses names this id.
   void mention(Id id, std::size_t line) { mentions_.push_back({id, line}); }
   /// Adds the poses that appear in edges only, from `first_index` on; returns their ids, sorted and unique.
-  /// Where bad lines are skipped, those of robots with VERTEX lines are not added: their edges are bad lines.
-  std::vector<Id> add_undeclared(std::size_t first_index, BadLines bad_lines);
+  /// Where bad lines are skipped, those of robots with VERTEX lines are not added, unless they are elsewhere:
+  /// their edges are bad lines.
+  std::vector<Id> add_undeclared(std::size_t first_index, BadLines bad_lines,
+                                 const IsElsewhere& is_elsewhere);
+  /// Refuses an id that has two different values, also where bad lines are skipped.
+  void refuse_contradictions() const;
   /// Refuses the first of them whose robot has VERTEX lines of other poses.
   void refuse_missing() const;
 
@@ -51,11 +57,16 @@ class G2oVertices {
     std::size_t line;
   };
 
+  /// The line of the only edge with ids without letters, where robots with letters have the VERTEX lines: its
+  /// ids are cut off.
+  std::optional<std::size_t> line_of_cut_ids() const;
+
   const Text& text_;
   std::unordered_map<Id, G2oVertex> vertices_;  // used for look-up only, never iterated
   std::set<Id> robots_;                         // robots with VERTEX lines of poses
   std::vector<Mention> mentions_;
   std::optional<Mention> missing_;
+  std::optional<Mention> contradiction_;  // the VERTEX line with the second value
 };
 
 /// "vertex 7", for messages.
@@ -74,6 +85,7 @@ struct G2oVertexPass {
 /// Poses that need a VERTEX line and have none are included unless bad lines are skipped; refuse them with
 /// G2oVertices::refuse_missing after the second pass.
 template <class Pose>
-G2oVertexPass read_g2o_vertices(const Text& text, BadLines bad_lines, G2oGraph<Pose>& out);
+G2oVertexPass read_g2o_vertices(const Text& text, BadLines bad_lines, const IsElsewhere& is_elsewhere,
+                                G2oGraph<Pose>& out);
 
 }  // namespace radioslam

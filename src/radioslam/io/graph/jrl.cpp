@@ -16,6 +16,7 @@
 #include "radioslam/geometry/se3.hpp"
 #include "radioslam/io/graph/information.hpp"
 #include "radioslam/io/graph/keyed_poses.hpp"
+#include "radioslam/io/graph/team_ids.hpp"
 #include "radioslam/io/run/run_folder.hpp"
 #include "radioslam/io/text/compressed_text.hpp"
 #include "radioslam/io/text/line_fields.hpp"
@@ -204,6 +205,7 @@ class JrlReader {
       read_measurement(name, measurement);
     });
     if (poses_.keys().empty()) text_.fail(0, "the graph has no poses");
+    refuse_missing_letters();
     AssembledTeam<Pose> assembled = poses_.assemble(std::move(graph_), starts_);
     TeamGraphFile<Pose> out = std::move(assembled.file);
     read_labels(assembled.relative_pose_index, out);
@@ -216,6 +218,21 @@ class JrlReader {
 
  private:
   using Types = JrlTypes<Pose>;
+
+  /// Keys without letters are those of a single robot.
+  void refuse_missing_letters() const {
+    const auto has_none = [](std::uint64_t key) { return key <= kKeyPlaceMask; };
+    const auto& keys = poses_.keys();
+    std::size_t robots = 0;
+    for (const auto& [robot, entries] : file_.members("measurements").items())
+      robots += entries.empty() ? 0U : 1U;
+    const bool all = std::all_of(keys.begin(), keys.end(), has_none) && robots > 1;
+    if (!all && !id_without_letter(keys)) return;
+    text_.fail(0,
+               "key " + std::to_string(*std::find_if(keys.begin(), keys.end(), has_none)) +
+                   " has no robot's letter (top eight bits), but the log is of several robots: the robots' "
+                   "letters are missing");
+  }
 
   void read_measurement(const FactorName& name, const JrlObject& measurement) {
     const std::string type = measurement.word("type");

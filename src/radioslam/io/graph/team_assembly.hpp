@@ -49,12 +49,15 @@ std::optional<std::size_t> first_backward_stamp(const std::vector<PoseIndex>& pl
 inline constexpr int kKeyRobotShift = 56;
 inline constexpr std::uint64_t kKeyPlaceMask = (std::uint64_t{1} << kKeyRobotShift) - 1;
 
+constexpr bool is_key_letter(std::uint64_t robot) {
+  return (robot >= 'a' && robot <= 'z') || (robot >= 'A' && robot <= 'Z');
+}
+
 /// The robot of a key: its letter, or "robot7"; keys without one belong to a single robot, "a".
 inline std::string robot_of_key(std::uint64_t key) {
   const std::uint64_t robot = key >> kKeyRobotShift;
   if (robot == 0) return "a";
-  const bool is_letter = (robot >= 'a' && robot <= 'z') || (robot >= 'A' && robot <= 'Z');
-  return is_letter ? std::string(1, static_cast<char>(robot)) : "robot" + std::to_string(robot);
+  return is_key_letter(robot) ? std::string(1, static_cast<char>(robot)) : "robot" + std::to_string(robot);
 }
 
 inline PoseIndex place_of_key(std::uint64_t key) {

@@ -10,13 +10,22 @@
 #include <vector>
 
 #include "radioslam/graph/team_graph.hpp"
+#include "radioslam/io/graph/g2o.hpp"
 
 namespace radioslam {
+
+/// Whether the graph has any factor; poses of a graph without are measured by nothing.
+template <class Pose>
+bool measures_anything(const PoseGraph<Pose>& graph) {
+  return !(graph.relative_poses.empty() && graph.ranges.empty() && graph.bearings.empty() &&
+           graph.relative_points.empty() && graph.positions.empty() && graph.pose_priors.empty());
+}
 
 /// What becomes of the robots' starts that a file states: priors on poses, and in g2o the VERTEX lines of the
 /// robots' first poses.
 enum class StatedStarts {
   kIgnored,  ///< they do not place robots: priors on several robots are left out, with a note
+  kPriors,   ///< those of priors are used, VERTEX lines are not
   kUsed,     ///< the robots that have one are in the common frame
 };
 
@@ -47,10 +56,12 @@ bool is_graph_file(const std::filesystem::path& path);
 bool is_graph_folder(const std::filesystem::path& path);
 
 /// Reads a file in the format given by its extension, or all g2o files of a folder. Errors are InputErrors
-/// with file and line.
+/// with file and line. Refuses a graph of several poses between which nothing is measured.
 AnyTeamGraphFile read_team_graph(const std::filesystem::path& path,
-                                 StatedStarts starts = StatedStarts::kIgnored);
+                                 StatedStarts starts = StatedStarts::kIgnored,
+                                 RepairInformation repair = RepairInformation::kNo);
 /// Reads a team from several g2o files, at least one, or from one path as above.
-AnyTeamGraphFile read_team_graph(const std::vector<std::filesystem::path>& paths, StatedStarts starts);
+AnyTeamGraphFile read_team_graph(const std::vector<std::filesystem::path>& paths, StatedStarts starts,
+                                 RepairInformation repair = RepairInformation::kNo);
 
 }  // namespace radioslam

@@ -209,15 +209,17 @@ Mission read_mission(const fs::path& folder) {
   return std::move(file.mission);
 }
 
+RobotTruth read_robot_truth(const fs::path& file, const std::string& id) {
+  RobotTruth truth{id, read_tum(read_text(file))};
+  truth.has_orientation = !all_unrotated(truth.poses);
+  return truth;
+}
+
 Truth read_truth(const fs::path& folder, const Mission& mission) {
   Truth truth;
   for (const Robot& robot : mission.robots) {
-    RobotTruth& entry = truth.robots.emplace_back();
-    entry.id = robot.id;
     const fs::path path = robot_file(folder, robot.id, "groundtruth.tum");
-    if (!fs::exists(path)) continue;
-    entry.poses = read_tum(read_text(path));
-    entry.has_orientation = !all_unrotated(entry.poses);
+    truth.robots.push_back(fs::exists(path) ? read_robot_truth(path, robot.id) : RobotTruth{robot.id, {}});
   }
   with_file(folder / kDirectPaths,
             [&](const Text& text) { truth.direct_paths = read_direct_paths(text, mission); });

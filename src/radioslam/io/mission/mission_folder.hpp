@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "radioslam/mission/mission.hpp"
 #include "radioslam/mission/truth.hpp"
@@ -23,6 +24,9 @@ Mission read_mission(const std::filesystem::path& folder);
 /// orientations of a robot are the identity, only its positions are used. Also reads the labels of
 /// measurements, if a simulator wrote them (truth_labels.hpp).
 Truth read_truth(const std::filesystem::path& folder, const Mission& mission);
+
+/// Reads a TUM file as the truth of a robot, as above.
+RobotTruth read_robot_truth(const std::filesystem::path& file, const std::string& id);
 
 /// Writes a mission's files into an existing folder (see OutputFolder). The truth may be empty. A robot
 /// without odometry gets no odometry.tum, which has to be added before the mission can be read.

@@ -51,6 +51,9 @@ Json robot_json(const RobotResult& robot) {
   json["uncertain"] = Json::array();
   for (const auto& [first, last] : robot.uncertain)
     json["uncertain"].push_back({first.seconds(), last.seconds()});
+  if (!robot.untied.empty()) json["not_placed"] = Json::array();
+  for (const UntiedStretch& stretch : robot.untied)
+    json["not_placed"].push_back({stretch.first.seconds(), stretch.last.seconds()});
   if (!robot.sigma_position_m.empty()) {
     json["start_sigma_m"] = robot.sigma_position_m.front();
     json["sigma_position_end_m"] = robot.sigma_position_m.back();
@@ -185,10 +188,26 @@ std::vector<std::string> robots_with_file(const fs::path& folder) {
   return ids;
 }
 
+/// Stretches of a robot without poses, in seconds, widened by the rounding of a double.
+std::vector<std::pair<Stamp, Stamp>> untied_in(const Json& robot) {
+  constexpr double kRounding_s = 1e-6, kMax_s = 9e9;
+  std::vector<std::pair<Stamp, Stamp>> result;
+  for (const Json& entry : member(robot, "not_placed")) {
+    const auto at = [&](std::size_t k, double slack_s) {
+      const bool is_number = entry.is_array() && entry.size() == 2 && entry[k].is_number();
+      const double t_s = is_number ? entry[k].get<double>() + slack_s : 0;
+      return Stamp::from_seconds(std::clamp(t_s, -kMax_s, kMax_s));
+    };
+    result.emplace_back(at(0, -kRounding_s), at(1, kRounding_s));
+  }
+  return result;
+}
+
 void read_trajectories(const fs::path& folder, const std::vector<std::string>& ids, RunFolder& run) {
   for (const std::string& id : ids) {
     EstimatedTrajectory& robot = run.robots.emplace_back();
     robot.id = id;
+    robot.untied = untied_in(member(member(run.summary, "robots"), id.c_str()));
     if (id.find('/') != std::string::npos)
       throw InputError(folder.string(), 0, "the robot's id '" + id + "' contains a path");
     const bool unplaced = std::find(run.unplaced.begin(), run.unplaced.end(), id) != run.unplaced.end();

@@ -57,7 +57,10 @@ Stamp keyframe_of(const CsvReader& csv, std::size_t column, const EstimatedTraje
   const auto found = std::lower_bound(robot.poses.begin(), robot.poses.end(), stamp,
                                       [](const auto& row, Stamp s) { return row.stamp < s; });
   const bool is_keyframe = found != robot.poses.end() && found->stamp == stamp;
-  if (!is_keyframe && !robot.poses.empty())
+  const bool is_untied = std::any_of(robot.untied.begin(), robot.untied.end(), [&](const auto& stretch) {
+    return stretch.first <= stamp && stamp <= stretch.second;
+  });
+  if (!is_keyframe && !is_untied && !robot.poses.empty())
     csv.fail("robot '" + robot.id + "' has no keyframe at " + format_stamp(stamp) + " in " + robot.id +
              ".tum");
   return stamp;

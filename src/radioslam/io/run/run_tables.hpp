@@ -61,7 +61,7 @@ std::string format_measured_aoa(const std::vector<MeasuredAoaResult>& aoa_measur
 std::string format_access_points(const std::vector<AccessPointResult>& access_points);
 
 /// Refuse malformed rows, unknown robots, kinds and statuses, path weights that are no numbers from 0 on, and
-/// stamps at which a robot has no keyframe (not checked for robots without poses).
+/// stamps at which a robot has no keyframe (not checked for robots without poses, and where they are untied).
 CandidateList read_candidates(const Text& text, std::span<const EstimatedTrajectory> robots);
 std::vector<ClosureResult> read_closures(const Text& text, std::span<const EstimatedTrajectory> robots);
 /// In time order, without peaks and profiles. Refuses what a mission's radio/aoa.csv refuses.

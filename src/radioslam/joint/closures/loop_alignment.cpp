@@ -322,7 +322,6 @@ RADIOSLAM_LOOP_ALIGNMENT(SE3)
 
 namespace {
 
-constexpr double kMinSupport = 1.5;             // sightings
 constexpr double kMinRatioToAlternative = 1.5;  // of the evidence that a alternative contests to its own
 
 /// The segments on the side of b when a join of the best choice is undone.
@@ -359,7 +358,7 @@ bool joins_sides(const std::vector<LoopGroup>& groups, const LoopAlignment<Pose>
 
 template <class Pose>
 bool is_weak(const std::vector<LoopGroup>& groups, const std::vector<LoopAlignment<Pose>>& alignments,
-             const std::vector<bool>& side) {
+             const std::vector<bool>& side, double min_support) {
   const LoopAlignment<Pose>& best = alignments.front();
   double support = 0;
   std::vector<std::size_t> crossing;
@@ -368,7 +367,7 @@ bool is_weak(const std::vector<LoopGroup>& groups, const std::vector<LoopAlignme
       support += groups[g].evidence;
       crossing.push_back(g);
     }
-  if (support < kMinSupport) return true;
+  if (support < min_support) return true;
   return std::any_of(alignments.begin() + 1, alignments.end(), [&](const LoopAlignment<Pose>& alternative) {
     const auto holds = [&](std::size_t g) { return alternative.group_holds[g]; };
     return contradict_each_other(best, alternative) &&
@@ -389,13 +388,15 @@ bool contradict_each_other(const LoopAlignment<Pose>& a, const LoopAlignment<Pos
 }
 
 template <class Pose>
-void undo_weak_joins(const std::vector<LoopGroup>& groups, std::vector<LoopAlignment<Pose>>& alignments) {
+void undo_weak_joins(const std::vector<LoopGroup>& groups, const std::vector<std::size_t>& robot_of_segment,
+                     std::vector<LoopAlignment<Pose>>& alignments) {
   LoopAlignment<Pose>& best = alignments.front();
   std::vector<std::vector<bool>> undone;
   std::vector<std::size_t> kept;
   for (const std::size_t join : best.joins) {
     std::vector<bool> side = side_of_b(groups, best, join);
-    if (is_weak(groups, alignments, side))
+    const bool is_own = robot_of_segment[groups[join].segment_a] == robot_of_segment[groups[join].segment_b];
+    if (is_weak(groups, alignments, side, is_own ? kMinOwnSupport : kMinSupport))
       undone.push_back(std::move(side));
     else
       kept.push_back(join);
@@ -416,9 +417,10 @@ void undo_weak_joins(const std::vector<LoopGroup>& groups, std::vector<LoopAlign
       best.group_holds[g] = false;
 }
 
-#define RADIOSLAM_LOOP_ALTERNATIVES(Pose)                                                      \
-  template bool contradict_each_other(const LoopAlignment<Pose>&, const LoopAlignment<Pose>&); \
-  template void undo_weak_joins(const std::vector<LoopGroup>&, std::vector<LoopAlignment<Pose>>&);
+#define RADIOSLAM_LOOP_ALTERNATIVES(Pose)                                                       \
+  template bool contradict_each_other(const LoopAlignment<Pose>&, const LoopAlignment<Pose>&);  \
+  template void undo_weak_joins(const std::vector<LoopGroup>&, const std::vector<std::size_t>&, \
+                                std::vector<LoopAlignment<Pose>>&);
 RADIOSLAM_LOOP_ALTERNATIVES(SE2)
 RADIOSLAM_LOOP_ALTERNATIVES(SE3)
 #undef RADIOSLAM_LOOP_ALTERNATIVES

@@ -71,9 +71,14 @@ std::vector<LoopAlignment<Pose>> align_by_loops(const JointGraph<Pose>& joint,
 template <class Pose>
 bool contradict_each_other(const LoopAlignment<Pose>& a, const LoopAlignment<Pose>& b);
 
-/// Parts the first alignment where less than a sighting and a half joins it, or where another puts the parts
-/// together in another way with two thirds of the evidence that it contests.
+/// Sightings below which nothing joins two robots' trajectories. The parts of one robot's trajectory on both
+/// sides of a gap are joined by a single loop, too.
+inline constexpr double kMinSupport = 1.5, kMinOwnSupport = 1;
+
+/// Parts the first alignment where less joins it, or where another puts the parts together in another way
+/// with two thirds of the evidence that it contests. `robot_of_segment`: as in JointGraph.
 template <class Pose>
-void undo_weak_joins(const std::vector<LoopGroup>& groups, std::vector<LoopAlignment<Pose>>& alignments);
+void undo_weak_joins(const std::vector<LoopGroup>& groups, const std::vector<std::size_t>& robot_of_segment,
+                     std::vector<LoopAlignment<Pose>>& alignments);
 
 }  // namespace radioslam

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -37,50 +36,18 @@ void scale_odometry(JointGraph<Pose>& joint, double scale) {
     joint.team.graph.relative_poses[k].information /= scale * scale;
 }
 
-/// Segments whose starts are known share a frame; further segments of a robot have their own.
+/// The robots' components after loops have joined those of segments.
 template <class Pose>
-std::vector<int> segment_components(const JointGraph<Pose>& joint, const TeamAlignment<Pose>& alignment) {
-  if (!alignment.segments.of_segment.empty()) return alignment.segments.of_segment;
-  std::vector<int> component;
-  std::vector<bool> seen(joint.robots.size(), false);
-  std::optional<int> common;
-  int next = static_cast<int>(joint.robots.size());
-  for (std::size_t s = 0; s < joint.team.segments.size(); ++s) {
-    const std::size_t r = joint.robot_of_segment[s];
-    component.push_back(seen[r] ? next++ : alignment.component[r]);
-    seen[r] = true;
-    if (!joint.team.segments[s].in_common_frame) continue;
-    if (!common) common = component.back();
-    component.back() = *common;
-  }
-  return component;
-}
-
-/// A robot belongs to the component of its longest segment.
-template <class Pose>
-void set_components(const JointGraph<Pose>& joint, const std::vector<int>& of_segment,
-                    TeamAlignment<Pose>& alignment) {
-  std::vector<std::size_t> longest(joint.robots.size(), 0);
+void join_components(const JointGraph<Pose>& joint, const std::vector<int>& of_segment,
+                     TeamAlignment<Pose>& alignment) {
   std::vector<bool> absolute_before;
   for (const int c : alignment.component)
     absolute_before.push_back(alignment.absolute[static_cast<std::size_t>(c)]);
-  for (std::size_t s = 0; s < of_segment.size(); ++s) {
-    const std::size_t r = joint.robot_of_segment[s];
-    if (joint.team.segments[s].pose_count <= longest[r]) continue;
-    longest[r] = joint.team.segments[s].pose_count;
-    alignment.component[r] = of_segment[s];
-  }
-  renumber_components(alignment.component);
+  set_components(joint, of_segment, alignment);
   alignment.absolute.assign(alignment.component.size(), false);
-  for (std::size_t r = 0; r < alignment.component.size(); ++r) {
-    const int c = alignment.component[r];
-    if (absolute_before[r]) alignment.absolute[static_cast<std::size_t>(c)] = true;
-  }
-  for (std::size_t r = 0; r < alignment.component.size(); ++r) {
-    const int c = alignment.component[r];
-    alignment.placed[r] = c == 0 || alignment.absolute[static_cast<std::size_t>(c)] ||
-                          std::count(alignment.component.begin(), alignment.component.end(), c) > 1;
-  }
+  for (std::size_t r = 0; r < alignment.component.size(); ++r)
+    if (absolute_before[r]) alignment.absolute[static_cast<std::size_t>(alignment.component[r])] = true;
+  set_placed(alignment);
 }
 
 template <class Pose>
@@ -178,10 +145,13 @@ void note_groups(const JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>
                  const std::string& measured, TeamAlignment<Pose>& alignment) {
   const LoopGroup* weakest = nullptr;
   std::set<std::size_t> robots;
+  std::set<std::string> parts;  // robots with parts that a single sighting ties to the rest
   for (const std::size_t g : best.joins) {
     const std::size_t a = joint.robot_of_segment[groups[g].segment_a],
                       b = joint.robot_of_segment[groups[g].segment_b];
-    if (a == b || best.component[groups[g].segment_a] != best.component[groups[g].segment_b]) continue;
+    if (best.component[groups[g].segment_a] != best.component[groups[g].segment_b]) continue;
+    if (a == b && groups[g].evidence < kMinSupport) parts.insert(joint.robots[a].id);
+    if (a == b) continue;
     robots.insert({a, b});
     if (!weakest || groups[g].evidence < weakest->evidence) weakest = &groups[g];
   }
@@ -191,12 +161,15 @@ void note_groups(const JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>
                               measured + " alone; least supported is the relative pose of " + text.robots +
                               ": " + text.counts + " agree with one another");
   }
+  for (const std::string& robot : parts)
+    alignment.notes.push_back("what robot " + robot + " has behind a gap of its odometry stands on " +
+                              measured + " of a single place");
   std::set<std::pair<std::size_t, std::size_t>> noted;
   for (const LoopGroup& group : groups) {
-    const auto pair = std::make_pair(group.segment_a, group.segment_b);
-    const bool is_open = best.component[pair.first] != best.component[pair.second] &&
-                         joint.robot_of_segment[pair.first] != joint.robot_of_segment[pair.second];
-    if (!is_open || !noted.insert(pair).second) continue;
+    const auto pair =
+        std::make_pair(joint.robot_of_segment[group.segment_a], joint.robot_of_segment[group.segment_b]);
+    const bool is_open = best.component[group.segment_a] != best.component[group.segment_b];
+    if (!is_open || pair.first == pair.second || !noted.insert(pair).second) continue;
     const GroupText<Pose> text(joint, loops, group);
     alignment.notes.push_back(measured + " leave the relative pose of " + text.robots +
                               " open: the largest group that agrees has " + text.counts);
@@ -248,7 +221,7 @@ void close_by_loops(JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment,
       if (loop.closures.front() == origin.measurement) loop.accepted = true;
   }
   erase_relative_poses(joint, [](const FactorOrigin& o) { return o.source == FactorSource::kLoop; });
-  const std::vector<int> component_before = segment_components(joint, alignment);
+  const std::vector<int> component_before = alignment.of_segment;
   LoopSelection scales;
   std::vector<int> component;
   for (int pass = 0; pass < kMaxPasses; ++pass) {
@@ -256,7 +229,7 @@ void close_by_loops(JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment,
     const auto chains = segment_chains(joint, loops, odometry_scale);
     const std::vector<LoopGroup> groups = loop_groups(joint, loops, chains, {.consistency = consistency});
     auto alignments = align_by_loops(joint, component_before, loops, groups, chains);
-    if (!has_unit_weights(consistency)) undo_weak_joins(groups, alignments);
+    if (!has_unit_weights(consistency)) undo_weak_joins(groups, joint.robot_of_segment, alignments);
     const JointGraph<Pose> before = joint;
     const std::vector<TeamLoop<Pose>> loops_before = loops;
     component = alignments.front().component;
@@ -276,7 +249,7 @@ void close_by_loops(JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment,
     note_groups(joint, loops, groups, alignments.front(), measured, alignment);
     break;
   }
-  set_components(joint, component, alignment);
+  join_components(joint, component, alignment);
   scale_odometry(joint, scales.odometry_scale);
   add_accepted(joint, loops, closures);
   optimize(joint.team.graph, optimizer, progress);

@@ -71,11 +71,11 @@ void join(JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment, const std::ve
   const auto move = [&](std::vector<Pose>& poses) {
     const Pose T = motion_to_match(poses, match, group.middle(), moved);
     for (std::size_t p = 0; p < joint.team.segments.size(); ++p)
-      if (alignment.component[joint.robot_of_segment[p]] == from)
-        move_segment(poses, joint.team.segments[p], T);
+      if (alignment.of_segment[p] == from) move_segment(poses, joint.team.segments[p], T);
   };
   move(joint.team.graph.poses);
   for (std::vector<Pose>& alternative : alignment.alternatives) move(alternative);
+  std::replace(alignment.of_segment.begin(), alignment.of_segment.end(), from, to);
   for (std::size_t r = 0; r < alignment.component.size(); ++r)
     if (alignment.component[r] == from || alignment.component[r] == to) {
       alignment.component[r] = to;
@@ -93,9 +93,9 @@ std::string counts(const PairOfRobots& pair) {
 }
 
 template <class Pose>
-void renumber(TeamAlignment<Pose>& alignment) {
+void renumber(const JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment) {
   const std::vector<bool> before = alignment.absolute;
-  const std::vector<int> number = renumber_components(alignment.component);
+  const std::vector<int> number = set_components(joint, std::vector<int>(alignment.of_segment), alignment);
   alignment.absolute.assign(before.size(), false);
   for (std::size_t c = 0; c < number.size(); ++c)
     if (number[c] >= 0) alignment.absolute[static_cast<std::size_t>(number[c])] = before[c];
@@ -129,7 +129,7 @@ void join_by_matches(JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment,
       alignment.notes.push_back("matches leave the relative pose of " + names(joint, pair) +
                                 " open: the largest group that agrees has " + counts(pair) + ", the second " +
                                 std::to_string(pair.second));
-  if (is_joined) renumber(alignment);
+  if (is_joined) renumber(joint, alignment);
 }
 
 template void join_by_matches(JointGraph<SE2>&, TeamAlignment<SE2>&, const std::vector<Closure>&);
