@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Checks that take too long for every change, within a given time. The parts, what matters most first:
-#   test    scripts/test.sh: release and sanitizer builds, all tests, two seconds of every fuzzer
+#   test    scripts/test.sh --all: release and sanitizer builds, all tests, two seconds of every fuzzer
 #   slow    with sanitizers, the tests that simulate for long
 #   fuzz    the fuzzers from random seeds, each for the same share of the part's time
 #   clang   an optimized clang build of everything, and its tests
@@ -31,7 +31,7 @@ if (($# > 1)) || ! [[ $minutes =~ ^[1-9][0-9]{0,3}$ ]]; then usage; fi
 jobs=$(nproc)
 export jobs
 
-part_test() { scripts/test.sh; }
+part_test() { scripts/test.sh --all; }
 
 part_slow() {
   scripts/deps.sh test

@@ -10,7 +10,7 @@ settings=()
 for setting in "$@"; do settings+=(--set "$setting"); done
 
 radioslam=build/release/radioslam
-[[ -x $radioslam ]] || { echo "scripts/sweep.sh: build $radioslam first (scripts/test.sh --quick)" >&2; exit 2; }
+[[ -x $radioslam ]] || { echo "scripts/sweep.sh: build $radioslam first (scripts/test.sh)" >&2; exit 2; }
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
