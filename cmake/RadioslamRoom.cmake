@@ -31,6 +31,9 @@ function(radioslam_room NAME)
     target_link_libraries(radioslam_${NAME} PRIVATE $<BUILD_INTERFACE:radioslam_warnings>
                                                     ${ROOM_PRIVATE_LIBRARIES})
     radioslam_group_sources(radioslam_${NAME})
+    if(NOT NAME STREQUAL base)  # which is small, and without Eigen
+      radioslam_precompile(radioslam_${NAME} ${PROJECT_SOURCE_DIR}/cmake/precompiled.hpp)
+    endif()
   endif()
   if(NOT ROOM_NOT_INSTALLED)
     set_property(GLOBAL APPEND PROPERTY RADIOSLAM_ROOMS radioslam_${NAME})

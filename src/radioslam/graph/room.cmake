@@ -51,7 +51,7 @@ radioslam_room(graph
   ROOMS geometry
   PRIVATE_LIBRARIES Metis::Metis Amd::Amd)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-  set_source_files_properties(graph/linear/front_kernels_avx2.cpp PROPERTIES COMPILE_OPTIONS -mavx2)
+  set_source_files_properties(graph/linear/front_kernels_avx2.cpp PROPERTIES COMPILE_OPTIONS -mavx2 SKIP_PRECOMPILE_HEADERS ON)
 endif()
 # The kernels are one source each on purpose: each defines the same functions for other registers.
 set_source_files_properties(graph/linear/front_kernels.cpp graph/linear/front_kernels_sse2.cpp

@@ -1,0 +1,26 @@
+# radioslam_precompile(TARGET HEADER)
+#
+# With RADIOSLAM_GROUP_SOURCES=ON, compiles what most sources include once for all targets: cmake/precompiled.hpp for rooms
+# and programs, tests/precompiled.hpp for tests. Sources still include all that they use, which builds without groups check.
+# Sources with options for another processor cannot use it.
+function(radioslam_precompile TARGET HEADER)
+  if(NOT RADIOSLAM_GROUP_SOURCES)
+    return()
+  endif()
+  get_filename_component(folder ${HEADER} DIRECTORY)
+  get_filename_component(folder ${folder} NAME)
+  set(owner radioslam_precompiled_${folder})
+  if(NOT TARGET ${owner})
+    file(WRITE ${PROJECT_BINARY_DIR}/${owner}.cpp "")
+    add_library(${owner} OBJECT ${PROJECT_BINARY_DIR}/${owner}.cpp)
+    get_target_property(is_independent ${TARGET} POSITION_INDEPENDENT_CODE)
+    get_target_property(options ${TARGET} COMPILE_OPTIONS)
+    set_target_properties(${owner} PROPERTIES POSITION_INDEPENDENT_CODE ${is_independent})
+    if(options)
+      target_compile_options(${owner} PRIVATE ${options})
+    endif()
+    target_link_libraries(${owner} PRIVATE radioslam_settings radioslam_warnings Eigen3::Eigen ${ARGN})
+    target_precompile_headers(${owner} PRIVATE ${HEADER})
+  endif()
+  target_precompile_headers(${TARGET} REUSE_FROM ${owner})
+endfunction()
