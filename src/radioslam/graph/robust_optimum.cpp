@@ -74,9 +74,29 @@ RobustOptimum optimize_with_outliers(PoseGraph<Pose>& graph, const std::vector<b
   return result;
 }
 
-template RobustOptimum optimize_with_outliers(PoseGraph<SE2>&, const std::vector<bool>&, double, GivenValues,
-                                              const OptimizerParams&, const Progress&);
-template RobustOptimum optimize_with_outliers(PoseGraph<SE3>&, const std::vector<bool>&, double, GivenValues,
-                                              const OptimizerParams&, const Progress&);
+template <class Pose>
+RobustOptimum optimize_with_weights(PoseGraph<Pose>& graph, const std::vector<bool>& candidates,
+                                    std::vector<double> weights, const OptimizerParams& params,
+                                    const Progress& progress) {
+  PoseGraph<Pose> work = graph;
+  share_weights(work, candidates);
+  for (std::size_t k = 0; k < weights.size(); ++k) work.relative_poses[k].weight *= weights[k];
+  RobustOptimum result;
+  result.start.given = total_cost(work);
+  result.summary = optimize(work, params, progress);
+  result.weights = std::move(weights);
+  GraphValues<Pose>(work).restore(graph);
+  return result;
+}
+
+#define RADIOSLAM_ROBUST_OPTIMUM(Pose)                                                              \
+  template RobustOptimum optimize_with_weights(PoseGraph<Pose>&, const std::vector<bool>&,          \
+                                               std::vector<double>, const OptimizerParams&,         \
+                                               const Progress&);                                    \
+  template RobustOptimum optimize_with_outliers(PoseGraph<Pose>&, const std::vector<bool>&, double, \
+                                                GivenValues, const OptimizerParams&, const Progress&);
+RADIOSLAM_ROBUST_OPTIMUM(SE2)
+RADIOSLAM_ROBUST_OPTIMUM(SE3)
+#undef RADIOSLAM_ROBUST_OPTIMUM
 
 }  // namespace radioslam

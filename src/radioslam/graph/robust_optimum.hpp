@@ -20,6 +20,12 @@ struct RobustOptimum {
   std::vector<double> weights;  ///< per relative pose, 0 or 1: whether it is right; 1 for trusted ones
 };
 
+/// The optimum of the relative poses with weight 1, from the graph's poses. `weights`: 0 or 1 each.
+template <class Pose>
+RobustOptimum optimize_with_weights(PoseGraph<Pose>& graph, const std::vector<bool>& candidates,
+                                    std::vector<double> weights, const OptimizerParams& params,
+                                    const Progress& progress = {});
+
 /// Moves the graph's poses there. `candidates`: per relative pose, whether it may be wrong.
 template <class Pose>
 RobustOptimum optimize_with_outliers(PoseGraph<Pose>& graph, const std::vector<bool>& candidates, double gate,

@@ -18,12 +18,14 @@
 #include "radioslam/cli/config.hpp"
 #include "radioslam/cli/parameters.hpp"
 #include "radioslam/cli/progress_line.hpp"
+#include "radioslam/graph/distributed/team_outcome.hpp"
 #include "radioslam/graph/gauge.hpp"
 #include "radioslam/graph/initial_values.hpp"
 #include "radioslam/graph/optimizer.hpp"
 #include "radioslam/graph/robust_optimum.hpp"
 #include "radioslam/io/graph/g2o.hpp"
 #include "radioslam/io/graph/jrl.hpp"
+#include "radioslam/io/graph/keyed_poses.hpp"
 #include "radioslam/io/graph/team_assembly.hpp"
 #include "radioslam/io/graph/team_graph_file.hpp"
 #include "radioslam/io/text/atomic_output.hpp"
@@ -147,12 +149,50 @@ std::vector<bool> loop_closures(const G2oGraph<Pose>& file) {
   return result;
 }
 
+/// Whether several robots are to find a frame by relative poses alone.
+template <class Pose>
+bool is_team(const TeamGraph<Pose>& team) {
+  const PoseGraph<Pose>& graph = team.graph;
+  const auto is_placed = [](const TrajectorySegment& segment) { return segment.in_common_frame; };
+  return team.segments.front().robot != team.segments.back().robot &&
+         std::count_if(team.segments.begin(), team.segments.end(), is_placed) < 2 && graph.ranges.empty() &&
+         graph.bearings.empty() && graph.relative_points.empty() && graph.positions.empty();
+}
+
+/// The weights of the relative poses, and the poses, as the robots of a team agree on them without frames to
+/// begin with; nothing for a graph that is no team's. Priors only choose the frame.
+template <class Pose>
+std::optional<std::vector<double>> agree_as_team(G2oGraph<Pose>& file, const TeamOptimizationParams& params) {
+  KeyedPoses keys;
+  for (const std::uint64_t id : file.pose_ids) keys.at(id);
+  const AssembledTeam<Pose> assembled = keys.assemble(file.graph, StatedStarts::kPriors);
+  if (!is_team(assembled.file.team)) return std::nullopt;
+  NumberedTeam<Pose> team = number_robots(assembled.file.team);
+  discount_repeated(team.graph);
+  ProgressLine line;
+  const TeamOptimization<Pose> run = optimize_team(team.graph, team.poses, params, line.progress());
+  for (std::size_t k = 0; k < run.poses.size(); ++k) file.graph.poses[assembled.file_index[k]] = run.poses[k];
+  std::vector<double> weights(run.weights.size());
+  for (std::size_t k = 0; k < weights.size(); ++k)
+    weights[assembled.relative_pose_index[k]] = run.weights[k] < 0.5 ? 0 : 1;
+  if (!file.graph.pose_priors.empty()) {
+    const PosePriorFactor<Pose>& prior = file.graph.pose_priors.front();
+    const Pose T = prior.prior * file.graph.poses[prior.i.index()].inverse();
+    for (Pose& pose : file.graph.poses) pose = T * pose;
+  }
+  return weights;
+}
+
 template <class Pose>
 InitialCosts optimize_robustly(G2oGraph<Pose>& file, const OptimizeParams& params, Report& report) {
-  ProgressLine line;
   const auto candidates = loop_closures(file);
-  RobustOptimum optimum = optimize_with_outliers(file.graph, candidates, params.distributed.outliers.gate,
-                                                 given_values(file), params.optimizer, line.progress());
+  auto weights = agree_as_team(file, params.distributed);
+  ProgressLine line;
+  RobustOptimum optimum =
+      weights ? optimize_with_weights(file.graph, candidates, std::move(*weights), params.optimizer,
+                                      line.progress())
+              : optimize_with_outliers(file.graph, candidates, params.distributed.outliers.gate,
+                                       given_values(file), params.optimizer, line.progress());
   report.weights = std::move(optimum.weights);
   report.summary = std::move(optimum.summary);
   return optimum.start;
