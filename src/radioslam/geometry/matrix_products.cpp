@@ -23,9 +23,13 @@ Eigen::Matrix<double, Jacobian::ColsAtCompileTime, Jacobian::ColsAtCompileTime> 
   return j.transpose() * w * j;
 }
 
+/// Eigen has formulas for sizes up to 4; larger ones it computes as matrices of any size, bit for bit.
 template <class Matrix>
 Matrix inverse(const Matrix& a) {
-  return a.inverse();
+  if constexpr (Matrix::RowsAtCompileTime > 4)
+    return inverse(Eigen::MatrixXd(a));
+  else
+    return a.inverse();
 }
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;

@@ -1,7 +1,8 @@
 radioslam_room(geometry
   SOURCES
     alignment.cpp
-    linear_solve.cpp
+    cholesky.cpp
+    ldlt.cpp
     local_frame.cpp
     matrix_products.cpp
     se2.cpp
@@ -11,5 +12,6 @@ radioslam_room(geometry
   ROOMS base
   LIBRARIES Eigen3::Eigen)
 # Large by themselves.
-set_source_files_properties(geometry/linear_solve.cpp geometry/symmetric_eigen.cpp
+set_source_files_properties(geometry/cholesky.cpp geometry/ldlt.cpp geometry/symmetric_eigen.cpp
+                            geometry/matrix_products.cpp
                             PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

@@ -4,15 +4,22 @@
 
 namespace radioslam {
 
+// Of fixed sizes Eigen decomposes 3x3 in a way of its own; the others it computes as matrices of any size,
+// bit for bit.
+template <class Matrix>
+using DecomposedAs =
+    std::conditional_t<std::is_same_v<typename Matrix::Scalar, double> && Matrix::RowsAtCompileTime != 3,
+                       Eigen::MatrixXd, Matrix>;
+
 template <class Matrix>
 SymmetricEigen<Matrix> symmetric_eigen(const Matrix& a) {
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(a);
+  const Eigen::SelfAdjointEigenSolver<DecomposedAs<Matrix>> solver(a);
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
 template <class Matrix>
 RealColumnOf<Matrix> symmetric_eigenvalues(const Matrix& a) {
-  return Eigen::SelfAdjointEigenSolver<Matrix>(a, Eigen::EigenvaluesOnly).eigenvalues();
+  return Eigen::SelfAdjointEigenSolver<DecomposedAs<Matrix>>(a, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
 SymmetricEigen<Eigen::Matrix2d> symmetric_eigen_direct(const Eigen::Matrix2d& a) {

@@ -39,10 +39,10 @@ radioslam_room(radio
     ranging/range_epochs.cpp
   ROOMS consistency mission results)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-  set_source_files_properties(radio/aoa/beam_kernel_avx2.cpp radio/fingerprints/similarity_kernel_avx2.cpp PROPERTIES COMPILE_OPTIONS "-mavx2;-fno-math-errno")
+  set_source_files_properties(radio/aoa/beam_kernel_avx2.cpp radio/fingerprints/similarity_kernel_avx2.cpp PROPERTIES COMPILE_OPTIONS "-mavx2;-fno-math-errno" SKIP_PRECOMPILE_HEADERS ON)
 endif()
 # These kernels use vectors wider than the registers, but never pass them across files.
-set_source_files_properties(radio/aoa/beam_kernel_sse2.cpp radio/fingerprints/similarity_kernel_sse2.cpp PROPERTIES COMPILE_OPTIONS "-Wno-psabi;-fno-math-errno")
+set_source_files_properties(radio/aoa/beam_kernel_sse2.cpp radio/fingerprints/similarity_kernel_sse2.cpp PROPERTIES COMPILE_OPTIONS "-Wno-psabi;-fno-math-errno" SKIP_PRECOMPILE_HEADERS ON)
 # Excluded from unity builds: each file defines the same functions for another instruction set.
 set_source_files_properties(radio/aoa/beam_kernel_sse2.cpp radio/aoa/beam_kernel_avx2.cpp
                             radio/fingerprints/similarity_kernel_sse2.cpp radio/fingerprints/similarity_kernel_avx2.cpp

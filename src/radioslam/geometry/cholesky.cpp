@@ -5,16 +5,6 @@
 namespace radioslam {
 
 template <class Matrix>
-ColumnOf<Matrix> ldlt_solve(const Matrix& a, const std::type_identity_t<ColumnOf<Matrix>>& b) {
-  return a.ldlt().solve(b);
-}
-
-template <class Matrix>
-Matrix ldlt_solve_matrix(const Matrix& a, const std::type_identity_t<Matrix>& b) {
-  return a.ldlt().solve(b);
-}
-
-template <class Matrix>
 Cholesky<Matrix>::Cholesky(const Matrix& a) {
   const Eigen::LLT<Matrix> llt(a);
   factor_ = llt.matrixLLT();
@@ -75,25 +65,31 @@ std::optional<Matrix> inverse_if_regular(const Matrix& a, double min_condition) 
 }
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
-using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
+using Matrix21 = Eigen::Matrix<double, 21, 21>;  // of the inertial state
 
-template class Cholesky<Eigen::Matrix2d>;
-template class Cholesky<Eigen::Matrix3d>;
-template class Cholesky<Matrix6>;
-template class Cholesky<Eigen::Matrix<double, 21, 21>>;  // of the inertial state
-template class Cholesky<Eigen::MatrixXd>;
+// Only what is used: each of these takes the compiler up to a second.
+template Cholesky<Eigen::Matrix2d>::Cholesky(const Eigen::Matrix2d&);
+template Eigen::Matrix2d Cholesky<Eigen::Matrix2d>::inverse() const;
+template Cholesky<Eigen::Matrix3d>::Cholesky(const Eigen::Matrix3d&);
+template Eigen::Matrix3d Cholesky<Eigen::Matrix3d>::inverse() const;
+template Eigen::Matrix3d Cholesky<Eigen::Matrix3d>::lower() const;
+template Eigen::Matrix3d Cholesky<Eigen::Matrix3d>::solve_matrix(const Eigen::Matrix3d&) const;
+template Eigen::Vector3d Cholesky<Eigen::Matrix3d>::whitened(const Eigen::Vector3d&) const;
+template Cholesky<Matrix6>::Cholesky(const Matrix6&);
+template Matrix6 Cholesky<Matrix6>::inverse() const;
+template Matrix6 Cholesky<Matrix6>::lower() const;
+template Matrix6 Cholesky<Matrix6>::solve_matrix(const Matrix6&) const;
+template Matrix6 Cholesky<Matrix6>::whitened_matrix(const Matrix6&) const;
+template ColumnOf<Matrix6> Cholesky<Matrix6>::whitened(const ColumnOf<Matrix6>&) const;
+template Cholesky<Matrix21>::Cholesky(const Matrix21&);
+template Matrix21 Cholesky<Matrix21>::inverse() const;
+template Matrix21 Cholesky<Matrix21>::lower() const;
+template Matrix21 Cholesky<Matrix21>::schur_complement(const Matrix21&, const Matrix21&) const;
+template ColumnOf<Matrix21> Cholesky<Matrix21>::solve(const ColumnOf<Matrix21>&) const;
+template Cholesky<Eigen::MatrixXd>::Cholesky(const Eigen::MatrixXd&);
+template Eigen::VectorXd Cholesky<Eigen::MatrixXd>::solve(const Eigen::VectorXd&) const;
+template Eigen::VectorXd Cholesky<Eigen::MatrixXd>::whitened(const Eigen::VectorXd&) const;
 
-template ColumnOf<Eigen::Matrix2d> ldlt_solve(const Eigen::Matrix2d&, const ColumnOf<Eigen::Matrix2d>&);
-template ColumnOf<Eigen::Matrix3d> ldlt_solve(const Eigen::Matrix3d&, const ColumnOf<Eigen::Matrix3d>&);
-template ColumnOf<Eigen::Matrix4d> ldlt_solve(const Eigen::Matrix4d&, const ColumnOf<Eigen::Matrix4d>&);
-template ColumnOf<Matrix6> ldlt_solve(const Matrix6&, const ColumnOf<Matrix6>&);
-template ColumnOf<SmallMatrix> ldlt_solve(const SmallMatrix&, const ColumnOf<SmallMatrix>&);
-template ColumnOf<Eigen::MatrixXd> ldlt_solve(const Eigen::MatrixXd&, const ColumnOf<Eigen::MatrixXd>&);
-template ColumnOf<Eigen::MatrixXcd> ldlt_solve(const Eigen::MatrixXcd&, const ColumnOf<Eigen::MatrixXcd>&);
-template Eigen::Matrix2d ldlt_solve_matrix(const Eigen::Matrix2d&, const Eigen::Matrix2d&);
-template Eigen::Matrix4d ldlt_solve_matrix(const Eigen::Matrix4d&, const Eigen::Matrix4d&);
-template Matrix6 ldlt_solve_matrix(const Matrix6&, const Matrix6&);
-template SmallMatrix ldlt_solve_matrix(const SmallMatrix&, const SmallMatrix&);
 template std::optional<Eigen::Matrix3d> inverse_if_regular(const Eigen::Matrix3d&, double);
 template std::optional<Matrix6> inverse_if_regular(const Matrix6&, double);
 
