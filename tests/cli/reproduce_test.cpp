@@ -1,7 +1,11 @@
 // radioslam reproduce from end to end: tables are listed, refused, computed and written.
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <sstream>
@@ -241,6 +245,24 @@ TEST(SimulateKitti, NotesThatTheRobotsAreNeverInRange) {
   const auto near = simulate("700");
   EXPECT_EQ(near.status, 0) << near.err;
   EXPECT_EQ(near.out.find("note"), std::string::npos) << near.out;
+}
+
+TEST(ReproduceProgram, IsNamedWhereItIsNotBuilt) {
+  const TemporaryFolder folder;
+  std::filesystem::copy_file(RADIOSLAM_PROGRAM, folder.path() / "radioslam");
+  FILE* call = popen((folder.path() / "radioslam reproduce aoa-paths 2>&1").c_str(), "r");
+  ASSERT_NE(call, nullptr);
+  std::string said;
+  for (int c = fgetc(call); c != EOF; c = fgetc(call)) said += static_cast<char>(c);
+  EXPECT_EQ(WEXITSTATUS(pclose(call)), 2);
+  EXPECT_NE(said.find("--target radioslam_reproduce"), std::string::npos) << said;
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+}
+
+TEST(ReproduceProgram, TakesTheThreadsOfTheCall) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(run({"--threads", "1", "reproduce"}, folder.path()).status, 0);
+  EXPECT_EQ(run({"reproduce", "--threads", "0"}, folder.path()).status, 2);
 }
 
 }  // namespace
