@@ -2,9 +2,9 @@
 #
 # With RADIOSLAM_GROUP_SOURCES=ON, compiles what most sources include once for all targets: cmake/precompiled.hpp for rooms
 # and programs, tests/precompiled.hpp for tests. Sources still include all that they use, which builds without groups check.
-# Sources with options for another processor cannot use it.
+# Sources with options for another processor cannot use it, nor do builds by clang, whose options differ between targets.
 function(radioslam_precompile TARGET HEADER)
-  if(NOT RADIOSLAM_GROUP_SOURCES)
+  if(NOT RADIOSLAM_GROUP_SOURCES OR NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     return()
   endif()
   get_filename_component(folder ${HEADER} DIRECTORY)
