@@ -167,6 +167,16 @@ TEST(CheckTruth, AMirroredTruthIsNamed) {
   EXPECT_EQ(findings[1].file, "robots/b/groundtruth.tum");
 }
 
+/// As where z points down in one of the two.
+TEST(CheckTruth, InSpaceAFrameThatIsTurnedOverIsNoMirrorImage) {
+  Mission mission = SoundMission::make();
+  const SE3 over({0, 0, 0}, Eigen::Quaterniond(0, 1, 0, 0));
+  const Truth truth = truth_of(mission, [&](const SE3& pose) { return over * pose; });
+  EXPECT_EQ(check_truth(mission, truth).size(), 3U);
+  mission.dimension = 3;
+  EXPECT_TRUE(check_truth(mission, truth).empty()) << all_of(check_truth(mission, truth));
+}
+
 TEST(CheckTruth, ATruthOnAnotherClockIsNamed) {
   Mission mission = SoundMission::make();
   const Truth truth = truth_of(mission, [](const SE3& pose) { return pose; });

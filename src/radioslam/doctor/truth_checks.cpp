@@ -1,8 +1,8 @@
 // Whether ground truth fits the odometry: on its clock, and not as its mirror image.
 //
 // Both are cut into stretches in which dead reckoning is nearly exact. In each the odometry is carried onto
-// the truth by the best rigid motion of the plane, as recorded and mirrored; straight stretches are their own
-// mirror images and count for neither.
+// the truth by the best rigid motion, as recorded and mirrored; straight stretches are their own mirror
+// images and count for neither. In space so are plane ones: a frame that is turned over is no mirror image.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -23,7 +23,7 @@ constexpr std::size_t kMinPlaces = 4;
 
 /// Places by odometry and truth at the same times.
 struct Stretch {
-  std::vector<Eigen::Vector2d> odometry_m, truth_m;
+  std::vector<Eigen::Vector3d> odometry_m, truth_m;
 };
 
 std::vector<Stretch> stretches_of(const Track& track, const RobotTruth& truth) {
@@ -36,24 +36,31 @@ std::vector<Stretch> stretches_of(const Track& track, const RobotTruth& truth) {
       stretches.emplace_back();
       end_m = at->path_m + kStretch_m;
     }
-    stretches.back().odometry_m.push_back(at->position_m.head<2>());
-    stretches.back().truth_m.push_back(row.pose.translation().head<2>());
+    stretches.back().odometry_m.push_back(at->position_m);
+    stretches.back().truth_m.push_back(row.pose.translation());
   }
   std::erase_if(stretches, [](const Stretch& stretch) { return stretch.truth_m.size() < kMinPlaces; });
   return stretches;
 }
 
-Eigen::Matrix2Xd columns(const std::vector<Eigen::Vector2d>& points) {
-  Eigen::Matrix2Xd matrix(2, static_cast<Eigen::Index>(points.size()));
-  for (std::size_t k = 0; k < points.size(); ++k) matrix.col(static_cast<Eigen::Index>(k)) = points[k];
+/// `dimension` 2 or 3: in the plane without heights.
+template <int dimension>
+Eigen::Matrix<double, dimension, Eigen::Dynamic> columns(const std::vector<Eigen::Vector3d>& points) {
+  Eigen::Matrix<double, dimension, Eigen::Dynamic> matrix(dimension,
+                                                          static_cast<Eigen::Index>(points.size()));
+  for (std::size_t k = 0; k < points.size(); ++k)
+    matrix.col(static_cast<Eigen::Index>(k)) = points[k].template head<dimension>();
   return matrix;
 }
 
-double squared_misfit(const Eigen::Matrix2Xd& odometry, const Eigen::Matrix2Xd& truth) {
-  const SE2 T_truth_odometry = align_points(odometry, truth);
+template <class Points>
+double squared_misfit(const Points& odometry, const Points& truth) {
+  const auto T_truth_odometry = align_points(odometry, truth);
   double sum = 0;
-  for (Eigen::Index k = 0; k < truth.cols(); ++k)
-    sum += (truth.col(k) - T_truth_odometry * Eigen::Vector2d(odometry.col(k))).squaredNorm();
+  for (Eigen::Index k = 0; k < truth.cols(); ++k) {
+    const Eigen::Vector<double, Points::RowsAtCompileTime> place = odometry.col(k);
+    sum += (truth.col(k) - T_truth_odometry * place).squaredNorm();
+  }
   return sum;
 }
 
@@ -62,11 +69,12 @@ struct Misfit {
   double metres(double squared) const { return std::sqrt(squared / count); }
 };
 
+template <int dimension>
 Misfit misfit_of(const std::vector<Stretch>& stretches) {
   Misfit misfit;
   for (const Stretch& stretch : stretches) {
-    Eigen::Matrix2Xd odometry = columns(stretch.odometry_m);
-    const Eigen::Matrix2Xd truth = columns(stretch.truth_m);
+    auto odometry = columns<dimension>(stretch.odometry_m);
+    const auto truth = columns<dimension>(stretch.truth_m);
     misfit.as_recorded += squared_misfit(odometry, truth);
     odometry.row(1) *= -1;
     misfit.mirrored += squared_misfit(odometry, truth);
@@ -76,7 +84,7 @@ Misfit misfit_of(const std::vector<Stretch>& stretches) {
   return misfit;
 }
 
-void check_robot(const Robot& robot, const RobotTruth& truth, std::vector<Finding>& findings) {
+void check_robot(const Robot& robot, const RobotTruth& truth, int dimension, std::vector<Finding>& findings) {
   const auto add = [&](const char* kind, std::string found, std::string expected, std::string advice) {
     findings.push_back({kind, Severity::kWarning, robot.id, robot_file(robot.id, "groundtruth.tum"),
                         std::move(found), std::move(expected), std::move(advice)});
@@ -88,7 +96,8 @@ void check_robot(const Robot& robot, const RobotTruth& truth, std::vector<Findin
     return add("clock", "times from " + time_text(first_s) + " to " + time_text(last_s) + " s",
                "the clock of the odometry, " + time_text(begin_s) + " to " + time_text(end_s) + " s",
                "no error can be evaluated until both are on one clock");
-  const Misfit misfit = misfit_of(stretches_of(Track(robot), truth));
+  const auto stretches = stretches_of(Track(robot), truth);
+  const Misfit misfit = dimension == 3 ? misfit_of<3>(stretches) : misfit_of<2>(stretches);
   if (misfit.as_recorded <= kMinRatioToExtent * kMinRatioToExtent * misfit.extent ||
       misfit.mirrored >= kMaxRatio * kMaxRatio * misfit.as_recorded)
     return;
@@ -105,7 +114,7 @@ std::vector<Finding> check_truth(const Mission& mission, const Truth& truth) {
   std::vector<Finding> findings;
   for (std::size_t r = 0; r < std::min(mission.robots.size(), truth.robots.size()); ++r)
     if (!mission.robots[r].odometry.empty() && !truth.robots[r].poses.empty())
-      check_robot(mission.robots[r], truth.robots[r], findings);
+      check_robot(mission.robots[r], truth.robots[r], mission.dimension, findings);
   return findings;
 }
 

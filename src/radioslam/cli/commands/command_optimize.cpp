@@ -187,6 +187,7 @@ template <class Pose>
 InitialCosts optimize_robustly(G2oGraph<Pose>& file, const OptimizeParams& params, Report& report) {
   const auto candidates = loop_closures(file);
   auto weights = agree_as_team(file, params.distributed);
+  if (weights) report.start = "team";
   ProgressLine line;
   RobustOptimum optimum =
       weights ? optimize_with_weights(file.graph, candidates, std::move(*weights), params.optimizer,
@@ -215,7 +216,7 @@ Report optimize_graph(G2oGraph<Pose>& file, const OptimizeParams& params) {
     ProgressLine line;
     report.summary = optimize(file.graph, params.optimizer, line.progress());
   }
-  report.start = start_name(costs.chosen);
+  if (report.start.empty()) report.start = start_name(costs.chosen);
   report.seconds.optimize = stopwatch.lap();
   report.initial_cost = costs.given.value_or(report.summary.initial_cost);
   report_frames(file, report);
