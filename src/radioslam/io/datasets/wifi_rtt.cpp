@@ -95,13 +95,14 @@ class RttMission {
   void for_each_row(const Text& text, CsvReader& table, const Read& read) {
     SkippedRecords skipped;
     std::size_t used = 0;
-    for (bool is_row = true; is_row;)
-      skipped.attempt([&] {
-        is_row = table.next();
-        if (!is_row) return;
-        read();
-        ++used;
-      });
+    bool is_row = true;
+    const auto read_next = [&] {
+      is_row = table.next();
+      if (!is_row) return;
+      read();
+      ++used;
+    };
+    while (is_row) skipped.attempt(read_next);
     skipped.conclude(text.name, "row", used, imported_.warnings);
   }
 
