@@ -270,7 +270,8 @@ TEST_F(TeamGraphs, OdometryOfOneRowAndAMatchHaveAResult) {
   for (const char* robot : {"a", "b"})
     write(std::string("m/robots/") + robot + "/odometry.tum", "0 0 0 0 0 0 0 1\n");
   write("m/matches.csv",
-        "robot_i,t_i_s,robot_j,t_j_s,x,y,z,qx,qy,qz,qw,sigma_t_m,sigma_r_rad\na,0,b,0,1,0,0,0,0,0,1,0.1,0.05\n");
+        "robot_i,t_i_s,robot_j,t_j_s,x,y,z,qx,qy,qz,qw,sigma_t_m,sigma_r_rad\na,0,b,0,1,0,0,0,0,0,1,0.1,0."
+        "05\n");
   const Outcome outcome = run_in({"run", "m", "-o", "out"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
 }

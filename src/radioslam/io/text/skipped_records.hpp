@@ -28,7 +28,8 @@ class SkippedRecords {
     if (!first_) first_ = error;
     ++count_;
   }
-  /// What `read` returns, or nothing (false of a `read` without result) if it throws InputError, which is added.
+  /// What `read` returns, or nothing (false of a `read` without result) if it throws InputError, which is
+  /// added.
   template <class Read>
   auto attempt(Read&& read) {
     using Result = decltype(read());
