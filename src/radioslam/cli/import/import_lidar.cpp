@@ -10,34 +10,15 @@
 #include "radioslam/io/lidar/carmen.hpp"
 #include "radioslam/io/lidar/kitti_sequence.hpp"
 #include "radioslam/io/lidar/lidar_folder.hpp"
-#include "radioslam/io/mission/mission_folder.hpp"
 #include "radioslam/io/ros/ros_import.hpp"
 #include "radioslam/io/ros/ros_ranges.hpp"
 #include "radioslam/io/ros/ros_recording.hpp"
-#include "radioslam/io/text/atomic_output.hpp"
 #include "radioslam/io/text/compressed_text.hpp"
 
 namespace radioslam::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The robots' names in the order of the sources: those of --robot, or a, b and so on.
-std::vector<std::string> robots_of_import(const ImportOptions& options) {
-  constexpr std::size_t kLetters = 26;
-  std::vector<std::string> robots = options.robots;
-  if (robots.empty() && options.sources.size() <= kLetters)
-    for (std::size_t k = 0; k < options.sources.size(); ++k)
-      robots.emplace_back(1, static_cast<char>('a' + k));
-  if (robots.size() != options.sources.size())
-    throw InputError("import " + options.kind, 0,
-                     std::to_string(options.sources.size()) + " sources but " +
-                         std::to_string(robots.size()) + " --robot are given");
-  for (const std::string& robot : robots) check_import_id("--robot " + robot, robot);
-  const std::set<std::string> different(robots.begin(), robots.end());
-  if (different.size() != robots.size()) throw InputError("--robot", 0, "two robots have the same name");
-  return robots;
-}
 
 /// A name for a source: "intel" for logs/intel.clf.bz2 and for logs/intel/.
 std::string name_of(const std::string& source) {
@@ -116,17 +97,6 @@ class TeamOutput {
   std::vector<std::string> lines_;
 };
 
-/// The value for source k of an option that may be given once for all sources, or once per source.
-std::string of_source(const ImportOptions& options, const std::vector<std::string>& values,
-                      const char* option, std::size_t k) {
-  if (values.size() <= 1) return values.empty() ? std::string{} : values.front();
-  if (values.size() != options.sources.size())
-    throw InputError(option, 0,
-                     "is given " + std::to_string(values.size()) + " times for " +
-                         std::to_string(options.sources.size()) + " sources");
-  return values[k];
-}
-
 void list_topics(const ImportOptions& options) {
   std::vector<fs::path> recordings;
   for (const std::string& source : options.sources)
@@ -180,7 +150,8 @@ std::string ros_summary(const RosImport& imported) {
 
 void import_carmen_logs(const ImportOptions& options) {
   const auto params = params_of<CarmenParams>(options);
-  const std::vector<std::string> robots = robots_of_import(options);
+  const std::vector<std::string> robots =
+      robots_of_import(options, options.sources.size(), robot_letters(options.sources.size()));
   TeamOutput output(options, robots);
   for (std::size_t k = 0; k < robots.size(); ++k) {
     ImportedMission imported = read_carmen(read_compressed_text(options.sources[k]), robots[k], params);
@@ -191,11 +162,12 @@ void import_carmen_logs(const ImportOptions& options) {
 }
 
 void import_kitti_drives(const ImportOptions& options) {
-  const std::vector<std::string> robots = robots_of_import(options);
+  const std::vector<std::string> robots =
+      robots_of_import(options, options.sources.size(), robot_letters(options.sources.size()));
   TeamOutput output(options, robots);
   for (std::size_t k = 0; k < robots.size(); ++k) {
-    KittiDrive drive =
-        read_kitti_drive(options.sources[k], robots[k], of_source(options, options.poses, "--poses", k));
+    KittiDrive drive = read_kitti_drive(options.sources[k], robots[k],
+                                        value_for(options.poses, "--poses", k, robots.size()));
     copy_kitti_scans(drive, output.scans_of(robots[k]));
     const bool has_truth = !drive.imported.truth.robots.empty();
     output.add(std::move(drive.imported), std::to_string(drive.scans.size()) + " scans of " + robots[k] +

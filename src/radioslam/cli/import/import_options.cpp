@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
+#include <utility>
 
 #include "radioslam/io/mission/mission_folder.hpp"
 #include "radioslam/io/mission/mission_yaml.hpp"
@@ -173,6 +175,37 @@ void refuse_table_of_mission(const ImportOptions& options) {
 void check_import_id(const std::string& option, const std::string& id) {
   if (!is_valid_id(id))
     throw InputError(option, 0, "'" + id + "' is not a valid name of a robot or an anchor");
+}
+
+std::vector<std::string> robot_letters(std::size_t count) {
+  constexpr std::size_t kLetters = 26;
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < count && count <= kLetters; ++k)
+    names.emplace_back(1, static_cast<char>('a' + k));
+  return names;
+}
+
+std::vector<std::string> robots_of_import(const ImportOptions& options, std::size_t sources,
+                                          std::vector<std::string> otherwise) {
+  std::vector<std::string> robots = options.robots.empty() ? std::move(otherwise) : options.robots;
+  if (robots.size() != sources)
+    throw InputError(
+        "import " + options.kind, 0,
+        std::to_string(sources) + " sources but " + std::to_string(robots.size()) + " --robot are given");
+  for (const std::string& robot : robots) check_import_id("--robot " + robot, robot);
+  const std::set<std::string> different(robots.begin(), robots.end());
+  if (different.size() != robots.size()) throw InputError("--robot", 0, "two robots have the same name");
+  return robots;
+}
+
+std::string value_for(const std::vector<std::string>& values, const char* option, std::size_t k,
+                      std::size_t sources) {
+  if (values.size() <= 1) return values.empty() ? std::string{} : values.front();
+  if (values.size() != sources)
+    throw InputError(
+        option, 0,
+        "is given " + std::to_string(values.size()) + " times for " + std::to_string(sources) + " sources");
+  return values[k];
 }
 
 }  // namespace radioslam::cli

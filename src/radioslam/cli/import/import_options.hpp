@@ -81,4 +81,16 @@ void refuse_table_of_mission(const ImportOptions& options);
 /// Refuses (InputError) an invalid name of a robot or an anchor; `option` prefixes the message.
 void check_import_id(const std::string& option, const std::string& id);
 
+/// a, b and so on; none for more than there are letters.
+std::vector<std::string> robot_letters(std::size_t count);
+
+/// The robots' names in the order of the sources: those of --robot, or else `otherwise`. Refuses (InputError)
+/// another number than that of the sources, invalid names and names that occur twice.
+std::vector<std::string> robots_of_import(const ImportOptions& options, std::size_t sources,
+                                          std::vector<std::string> otherwise);
+
+/// The value for source k of an option that may be given once for all sources, or once per source.
+std::string value_for(const std::vector<std::string>& values, const char* option, std::size_t k,
+                      std::size_t sources);
+
 }  // namespace radioslam::cli

@@ -42,14 +42,6 @@ std::vector<std::string> differing_parts(const std::vector<std::string>& topics)
   return {};
 }
 
-std::vector<std::string> letters(std::size_t count) {
-  constexpr std::size_t kLetters = 26;
-  std::vector<std::string> names;
-  for (std::size_t k = 0; k < count && count <= kLetters; ++k)
-    names.emplace_back(1, static_cast<char>('a' + k));
-  return names;
-}
-
 /// Names for several robots: of their recordings, of the folders of those, of their topics, or letters.
 std::vector<std::string> default_names(const std::vector<RosSource>& sources) {
   std::vector<std::string> files, folders, topics;
@@ -62,18 +54,7 @@ std::vector<std::string> default_names(const std::vector<RosSource>& sources) {
     if (names.size() == sources.size() && are_different(names) &&
         std::all_of(names.begin(), names.end(), is_valid_id))
       return names;
-  return letters(sources.size());
-}
-
-/// The value for source k of an option that may be given once for all sources, or once per source.
-std::string value_for(const std::vector<std::string>& values, const char* option, std::size_t k,
-                      std::size_t sources) {
-  if (values.size() <= 1) return values.empty() ? std::string{} : values.front();
-  if (values.size() != sources)
-    throw InputError(
-        option, 0,
-        "is given " + std::to_string(values.size()) + " times for " + std::to_string(sources) + " sources");
-  return values[k];
+  return robot_letters(sources.size());
 }
 
 /// The recordings, once per robot.
@@ -89,17 +70,9 @@ std::vector<std::string> recordings_of(const ImportOptions& options) {
 }
 
 void give_names(const ImportOptions& options, std::vector<RosSource>& sources) {
-  std::vector<std::string> names = options.robots;
-  if (names.empty()) names = sources.size() == 1 ? letters(1) : default_names(sources);
-  if (names.size() != sources.size())
-    throw InputError("import " + options.kind, 0,
-                     std::to_string(sources.size()) + " sources but " + std::to_string(names.size()) +
-                         " --robot are given");
-  for (std::size_t k = 0; k < sources.size(); ++k) {
-    check_import_id("--robot " + names[k], names[k]);
-    sources[k].robot = names[k];
-  }
-  if (!are_different(names)) throw InputError("--robot", 0, "two robots have the same name");
+  const auto names = robots_of_import(options, sources.size(),
+                                      sources.size() == 1 ? robot_letters(1) : default_names(sources));
+  for (std::size_t k = 0; k < sources.size(); ++k) sources[k].robot = names[k];
 }
 
 /// The text before and behind the last '='.
