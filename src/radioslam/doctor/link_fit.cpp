@@ -1,6 +1,5 @@
 #include "radioslam/doctor/link_fit.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -181,7 +180,7 @@ template <class Pose>
 double log_normaliser(const PoseGraph<Pose>& graph) {
   double sum = 0;
   for (const auto& step : graph.relative_poses)
-    sum += Eigen::LLT<typename Pose::Jacobian>(step.information).matrixLLT().diagonal().array().log().sum();
+    sum += Cholesky<typename Pose::Jacobian>(step.information).factor().diagonal().array().log().sum();
   return sum;
 }
 

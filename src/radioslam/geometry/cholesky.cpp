@@ -74,6 +74,8 @@ template Cholesky<Eigen::Matrix3d>::Cholesky(const Eigen::Matrix3d&);
 template Eigen::Matrix3d Cholesky<Eigen::Matrix3d>::inverse() const;
 template Eigen::Matrix3d Cholesky<Eigen::Matrix3d>::lower() const;
 template Eigen::Matrix3d Cholesky<Eigen::Matrix3d>::solve_matrix(const Eigen::Matrix3d&) const;
+template Eigen::Vector3d Cholesky<Eigen::Matrix3d>::solve(const Eigen::Vector3d&) const;
+template Eigen::Matrix3d Cholesky<Eigen::Matrix3d>::whitened_matrix(const Eigen::Matrix3d&) const;
 template Eigen::Vector3d Cholesky<Eigen::Matrix3d>::whitened(const Eigen::Vector3d&) const;
 template Cholesky<Matrix6>::Cholesky(const Matrix6&);
 template Matrix6 Cholesky<Matrix6>::inverse() const;

@@ -38,6 +38,9 @@ SymmetricEigen<Eigen::Matrix2d> symmetric_eigen_direct(const Eigen::Matrix2d& a)
 template <class Matrix>
 Matrix inverse(const Matrix& a);
 
+/// Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(a).pseudoInverse().
+Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& a);
+
 /// a.ldlt().solve(b) of a column and of a matrix of the same size as `a`.
 template <class Matrix>
 ColumnOf<Matrix> ldlt_solve(const Matrix& a, const std::type_identity_t<ColumnOf<Matrix>>& b);

@@ -1,4 +1,5 @@
 #include <Eigen/LU>
+#include <Eigen/QR>
 
 #include "radioslam/geometry/linear_algebra.hpp"
 
@@ -30,6 +31,10 @@ Matrix inverse(const Matrix& a) {
     return inverse(Eigen::MatrixXd(a));
   else
     return a.inverse();
+}
+
+Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& a) {
+  return Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(a).pseudoInverse();
 }
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;

@@ -1,8 +1,7 @@
 #include "radioslam/graph/team_gauge.hpp"
 
-#include <Eigen/QR>
-
 #include "radioslam/base/check.hpp"
+#include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/geometry/so3.hpp"
 
 namespace radioslam {
@@ -47,7 +46,7 @@ std::vector<typename Marginals<Pose>::PointCovariance> position_covariances_in_t
     g.push_back(generators<Pose>(poses[of[k].index()].translation() - centre));
     normal += weights[k] * g[k].transpose() * g[k];
   }
-  const Square inverse = Eigen::CompleteOrthogonalDecomposition<Square>(normal).pseudoInverse();
+  const Square inverse = pseudo_inverse(normal);
 
   // The motion that is removed, as functions of the poses; a position's error is R times a pose's
   // translation.

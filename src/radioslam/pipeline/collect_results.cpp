@@ -1,13 +1,12 @@
 #include "radioslam/pipeline/collect_results.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <limits>
 #include <sstream>
 
+#include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/graph/marginals.hpp"
 #include "radioslam/graph/residuals.hpp"
 
@@ -211,18 +210,18 @@ double contradiction(const PosePriorFactor<Pose>& prior, const Pose& estimate,
                      const typename Pose::Jacobian& covariance) {
   constexpr double kMinVariance = 0.01;  // below, nothing else measures the mode
   constexpr double kFalseAlarm = 1e-5;
-  const Eigen::LLT<typename Pose::Jacobian> root(prior.information);
-  if (root.info() != Eigen::Success) return 0;
-  const typename Pose::Jacobian upper = root.matrixU();
+  const Cholesky<typename Pose::Jacobian> root(prior.information);
+  if (!root.succeeded()) return 0;
+  const typename Pose::Jacobian upper = root.lower().transpose();
   const typename Pose::Tangent r = upper * (prior.prior.inverse() * estimate).log();
   const typename Pose::Jacobian variance =
       Pose::Jacobian::Identity() - upper * covariance * upper.transpose();
-  const Eigen::SelfAdjointEigenSolver<typename Pose::Jacobian> modes(variance);
+  const SymmetricEigen<typename Pose::Jacobian> modes = symmetric_eigen(variance);
   double statistic = 0;
   int dof = 0;
   for (int k = 0; k < Pose::kDof; ++k) {
-    if (modes.eigenvalues()[k] < kMinVariance) continue;
-    statistic += std::pow(modes.eigenvectors().col(k).dot(r), 2) / modes.eigenvalues()[k];
+    if (modes.values[k] < kMinVariance) continue;
+    statistic += std::pow(modes.vectors.col(k).dot(r), 2) / modes.values[k];
     ++dof;
   }
   return dof == 0 ? 0 : statistic / chi_squared_quantile(1 - kFalseAlarm, dof);

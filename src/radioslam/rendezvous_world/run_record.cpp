@@ -1,9 +1,10 @@
 #include "radioslam/rendezvous_world/run_record.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "radioslam/geometry/linear_algebra.hpp"
 
 namespace radioslam {
 namespace {
@@ -11,8 +12,8 @@ namespace {
 /// The squared error of the latest pose per degree of freedom, by its stated covariance.
 std::optional<double> nees_of(const SimulatedRobot& robot, const SE2& T_frame_common) {
   const auto& latest = robot.agent->estimate().latest();
-  const Eigen::LLT<SE2::Jacobian> factor(latest.covariance);
-  if (factor.info() != Eigen::Success) return std::nullopt;
+  const Cholesky<SE2::Jacobian> factor(latest.covariance);
+  if (!factor.succeeded()) return std::nullopt;
   const SE2::Tangent error = (latest.pose.inverse() * T_frame_common * robot.truth).log();
   return error.dot(factor.solve(error)) / SE2::kDof;
 }

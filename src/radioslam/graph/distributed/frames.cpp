@@ -33,14 +33,14 @@ double disagreement(const Placement<Pose>& a, const Placement<Pose>& b, double d
       ((a.T_frame_part * a.own).inverse() * (b.T_frame_part * a.own)).log();
   const double apart = (a.own.translation() - b.own.translation()).norm();
   // The heading that b measured carries over to a's place; both measured, and odometry lies between.
-  typename Pose::Jacobian covariance = a.information.inverse();
+  typename Pose::Jacobian covariance = inverse(a.information);
   const typename Pose::Jacobian carried = (a.own.inverse() * b.own).adjoint();
-  covariance += carried * b.information.inverse() * carried.transpose();
+  covariance += carried * inverse(b.information) * carried.transpose();
   constexpr int kTurn = Pose::kDof - Pose::kDim;
   covariance.template topLeftCorner<Pose::kDim, Pose::kDim>().diagonal().array() +=
       drift_ratio * drift_ratio * apart * apart;
   covariance.template bottomRightCorner<kTurn, kTurn>().diagonal().array() += drift_ratio * drift_ratio;
-  return difference.dot(covariance.ldlt().solve(difference));
+  return difference.dot(ldlt_solve(covariance, difference));
 }
 
 /// The mean of placements by their information, near the first.
@@ -56,7 +56,7 @@ Pose mean_placement(const std::vector<Placement<Pose>>& placements) {
       h += p.information_weight * j.transpose() * p.information * j;
       g += p.information_weight * j.transpose() * p.information * error;
     }
-    mean = mean * Pose::exp(-h.ldlt().solve(g));
+    mean = mean * Pose::exp(-ldlt_solve(h, g));
   }
   return mean;
 }

@@ -1,12 +1,12 @@
 #include "radioslam/io/rendezvous/robot_message_json.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <limits>
 #include <utility>
 
+#include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/io/rendezvous/json_values.hpp"
 
 namespace radioslam {
@@ -38,9 +38,9 @@ void append_pose(Output& row, const SE2& pose) {
 
 /// Zeros for one that is not positive definite, as that of a start.
 void append_covariance(Output& row, const SE2::Jacobian& covariance) {
-  const Eigen::LLT<SE2::Jacobian> cholesky(covariance);
+  const Cholesky<SE2::Jacobian> cholesky(covariance);
   SE2::Jacobian factor = SE2::Jacobian::Zero();
-  if (cholesky.info() == Eigen::Success) factor = cholesky.matrixL();
+  if (cholesky.succeeded()) factor = cholesky.lower();
   for (int i = 0; i < SE2::kDof; ++i)
     for (int j = 0; j <= i; ++j) row.push_back(rounded(factor(i, j)));
 }

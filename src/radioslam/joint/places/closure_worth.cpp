@@ -1,6 +1,5 @@
 #include "radioslam/joint/places/closure_worth.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -53,7 +52,7 @@ class GreedyChoice {
 
   double worth(std::size_t k) const {
     const auto log_det = [](const Matrix& matrix) {
-      return 2 * matrix.llt().matrixLLT().diagonal().array().log().sum();
+      return 2 * Cholesky<Matrix>(matrix).factor().diagonal().array().log().sum();
     };
     const double gain = (log_det(remaining_[k] + cov_closure_) - log_det(cov_closure_)) / 2;
     return gain > 0 ? pairs_[k].weight * pairs_[k].probability * gain : 0;
@@ -61,13 +60,13 @@ class GreedyChoice {
 
   /// Takes from the covariances of the others what the n-th choice, `best`, would explain.
   void learn(std::size_t best, Eigen::Index n) {
-    const Eigen::LLT<Matrix> cov_measured(remaining_[best] + cov_closure_);
+    const Cholesky<Matrix> cov_measured(remaining_[best] + cov_closure_);
     const Eigen::MatrixXd of_best = explained_rows(best).leftCols(kDof * n).transpose();
     const std::vector<Matrix> with_best = covariances_with(best);
     for (std::size_t k = 0; k < pairs_.size(); ++k) {
       if (pairs_[k].hypothesis != pairs_[best].hypothesis) continue;
       const Matrix with = with_best[k] - explained_rows(k).leftCols(kDof * n) * of_best;
-      const Matrix explained = cov_measured.matrixL().solve(with.transpose()).transpose();
+      const Matrix explained = cov_measured.whitened_matrix(with.transpose()).transpose();
       explained_rows(k).template middleCols<kDof>(kDof * n) = explained;
       remaining_[k] -= explained * explained.transpose();
       worth_[k] = worth(k);

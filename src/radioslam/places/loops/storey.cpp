@@ -1,11 +1,11 @@
 #include "radioslam/places/loops/storey.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
 
+#include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/lidar/structure_fit.hpp"
 
 namespace radioslam {
@@ -36,7 +36,7 @@ Eigen::Vector3d plane_through(const std::vector<Eigen::Vector3d>& points) {
     normal += at * at.transpose();
     right += at * point.z();
   }
-  return normal.ldlt().solve(right);
+  return ldlt_solve(normal, right);
 }
 
 /// Whether much of what is overhead lies in one plane that is level but for the body's tilt, at the top.

@@ -1,6 +1,5 @@
 #include "radioslam/graph/distributed/condensed/known_team.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/graph/initial_values.hpp"
 #include "radioslam/graph/marginals.hpp"
 #include "radioslam/graph/optimizer.hpp"
@@ -41,7 +41,7 @@ void keep_latest(std::vector<Entry>& list) {
 }
 
 SE2::Jacobian inverse_of(const SE2::Jacobian& covariance) {
-  return Eigen::LLT<SE2::Jacobian>(covariance).solve(SE2::Jacobian::Identity());
+  return Cholesky<SE2::Jacobian>(covariance).inverse();
 }
 
 }  // namespace

@@ -1,8 +1,9 @@
 #include "radioslam/graph/distributed/condensed/shared_part.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+
+#include "radioslam/geometry/linear_algebra.hpp"
 
 namespace radioslam {
 namespace {
@@ -21,7 +22,7 @@ bool is_sane(const AngleEvidence& evidence) {
 }
 bool is_covariance(const SE2::Jacobian& matrix) {
   if (!matrix.allFinite() || matrix.cwiseAbs().maxCoeff() > kLargest) return false;
-  return Eigen::LLT<SE2::Jacobian>(matrix).info() == Eigen::Success;
+  return Cholesky<SE2::Jacobian>(matrix).succeeded();
 }
 
 bool are_in_order(const std::vector<SharedNode>& nodes) {
