@@ -8,6 +8,7 @@ radioslam_room(joint
     closures/loop_alignment.cpp
     closures/loop_selection.cpp
     closures/loop_stage.cpp
+    closures/other_valleys.cpp
     closures/own_loops.cpp
     closures/team_loops.cpp
     dense_trajectory.cpp

@@ -5,6 +5,9 @@
 #include <algorithm>
 
 #include "joint/closures/block_team.hpp"
+#include "joint/closures/loop_team.hpp"
+#include "radioslam/graph/residuals.hpp"
+#include "radioslam/joint/closures/team_loops.hpp"
 
 namespace radioslam {
 namespace {
@@ -108,6 +111,79 @@ TEST(CloseByLoops, KeepsTrueLoopsWhoseCovariancesAreTooSmallAndSaysSo) {
     return note.starts_with("the errors of loop closures are 3.") ||
            note.starts_with("the errors of loop closures are 2.");
   }));
+}
+
+/// The truncated cost of a team at stated covariances, solved from poses with the loops that hold there.
+class TruncatedCost {
+ public:
+  TruncatedCost(const LoopTeam& team, const JointGraph<SE2>& joint, const std::vector<Closure>& closures)
+      : team_(team),
+        gates_(team.loops.size()),
+        first_(team.team.graph.relative_poses.size() - team.loops.size()) {
+    for (const TeamLoop<SE2>& loop : team_loops(joint, closures))
+      for (const std::size_t k : loop.closures) gates_[k] = loop.gate;
+  }
+
+  double from(const std::vector<SE2>& poses, std::vector<bool> holds = {}) const {
+    PoseGraph<SE2> graph = team_.team.graph;
+    graph.poses = poses;
+    if (holds.empty()) holds = held(graph);
+    for (int round = 0; round < 30; ++round) {
+      for (std::size_t k = 0; k < holds.size(); ++k)
+        graph.relative_poses[first_ + k].weight = holds[k] ? 1 : 0;
+      optimize(graph, {});
+      if (held(graph) == holds) break;
+      holds = held(graph);
+    }
+    double cost = 0;
+    for (std::size_t k = 0; k < first_; ++k) cost += squared_norm(graph, graph.relative_poses[k]);
+    for (std::size_t k = 0; k < gates_.size(); ++k)
+      cost += std::min(gates_[k], squared_norm(graph, team_.loops[k]));
+    return cost;
+  }
+
+ private:
+  std::vector<bool> held(const PoseGraph<SE2>& graph) const {
+    std::vector<bool> holds;
+    for (std::size_t k = 0; k < gates_.size(); ++k)
+      holds.push_back(squared_norm(graph, team_.loops[k]) <= gates_[k]);
+    return holds;
+  }
+
+  const LoopTeam& team_;
+  std::vector<double> gates_;
+  std::size_t first_;
+};
+
+/// Cost of the estimate over that of the solution started from the truth.
+double cost_over_truth(std::uint64_t seed) {
+  const LoopTeam team(seed);
+  JointGraph<SE2> joint = joint_graph_of(team.team, team.mission);
+  const std::vector<Closure> closures = closures_of(team.team, joint);
+  const TruncatedCost cost(team, joint, closures);
+  TeamAlignment<SE2> alignment;
+  for (int r = 0; r < 3; ++r) alignment.component.push_back(r);
+  alignment.placed = {true, false, false};
+  alignment.absolute.assign(3, false);
+  alignment.in_common_frame.assign(3, false);
+  alignment.without_matches = alignment.of_segment = alignment.component;
+  std::vector<ClosureJudgement> judgements(closures.size());
+  add_own_loops(joint, closures, {});
+  close_by_loops(joint, alignment, closures, judgements, {}, {}, {});
+  return cost.from(joint.team.graph.poses) / cost.from(team.truth, team.is_true);
+}
+
+TEST(CloseByLoops, LeavesValleysThatFalseGroupsBendTheOdometryInto) {
+  // Without trials of other solutions 2.8, 3.9, 2.7 and 1.7 times the cost of the right one.
+  for (const std::uint64_t seed : {2u, 7u, 21u, 10u})
+    EXPECT_LT(cost_over_truth(seed), 1.01) << "seed " << seed;
+}
+
+TEST(CloseByLoopsOfManyTeams, EndAtTheCostOfTheTruthNearlyAlways) {
+  int worse = 0;
+  for (std::uint64_t seed = 101; seed <= 130; ++seed)
+    if (cost_over_truth(seed) > 1.01) ++worse;
+  EXPECT_LE(worse, 4);  // 18 without trials
 }
 
 }  // namespace

@@ -10,6 +10,8 @@
 #include "radioslam/graph/graph_values.hpp"
 #include "radioslam/graph/marginals.hpp"
 #include "radioslam/graph/residuals.hpp"
+#include "radioslam/joint/closures/other_valleys.hpp"
+#include "radioslam/team_frame/connected_measurements.hpp"
 
 namespace radioslam {
 namespace {
@@ -41,19 +43,6 @@ bool is_from_odometry(const FactorOrigin& origin) { return origin.source == Fact
 template <class Pose>
 bool is_comparable(const TeamLoop<Pose>& loop, const std::vector<int>& component) {
   return component[loop.segment_i] == component[loop.segment_j];
-}
-
-/// The graph's cost, in which the accepted loops have weight 1, with the gates or norms of the others.
-template <class Pose>
-double truncated_cost(const PoseGraph<Pose>& graph, std::size_t first_loop,
-                      const std::vector<TeamLoop<Pose>>& loops, const std::vector<int>& component) {
-  double cost = total_cost(graph);
-  for (std::size_t k = 0; k < loops.size(); ++k) {
-    if (!is_comparable(loops[k], component)) continue;
-    const double norm = squared_norm(graph, graph.relative_poses[first_loop + k]);
-    cost += std::min(loops[k].gate, norm) - (loops[k].accepted ? norm : 0);
-  }
-  return cost;
 }
 
 template <class Pose>
@@ -88,6 +77,7 @@ class LoopSelector {
  private:
   /// The better one, in the truncated cost, of two local optima: by a graduated truncated loss on all loops
   /// at once, which may lose a minority that is right, and from those loops that the alignment stands on.
+  /// From there on to better ones (other_valleys.hpp).
   void choose_jointly(const OptimizerParams& optimizer, const Progress& progress) {
     const PoseGraph<Pose> start = graph_;
     std::vector<bool> of_alignment;
@@ -95,17 +85,30 @@ class LoopSelector {
       of_alignment.push_back(loop.accepted && is_comparable(loop, component_));
     choose_gradually(optimizer, progress);
     set_weights();
-    const double cost = truncated_cost(graph_, first_loop_, loops_, component_);
-    std::vector<bool> of_all;
-    for (const TeamLoop<Pose>& loop : loops_) of_all.push_back(loop.accepted);
-    if (of_all == of_alignment) return;
-    const PoseGraph<Pose> by_all = std::exchange(graph_, start);
-    accept(of_alignment);
-    set_weights();
-    optimize(graph_, optimizer);
-    if (truncated_cost(graph_, first_loop_, loops_, component_) < cost - kMinGain) return;
-    graph_ = by_all;
-    accept(of_all);
+    LoopChoice<Pose> by_all = choice(start.poses);
+    if (by_all.accepted != of_alignment) {
+      graph_ = start;
+      accept(of_alignment);
+      set_weights();
+      optimize(graph_, optimizer);
+      if (LoopChoice<Pose> by_alignment = choice(start.poses);
+          truncated_cost(by_alignment) < truncated_cost(by_all) - kMinGain)
+        by_all = std::move(by_alignment);
+    }
+    leave_valleys(by_all, optimizer);
+    accept(by_all.accepted);
+    graph_ = std::move(by_all.graph);
+  }
+
+  LoopChoice<Pose> choice(const std::vector<Pose>& unbent) const {
+    LoopChoice<Pose> choice{graph_, {}, unbent, segment_of_poses(joint_.team), {}, {}, {}};
+    for (std::size_t k = 0; k < first_loop_; ++k) choice.is_odometry.push_back(is_odometry(k));
+    for (const TeamLoop<Pose>& loop : loops_) {
+      choice.gates.push_back(loop.gate);
+      choice.may_hold.push_back(is_comparable(loop, component_));
+      choice.accepted.push_back(loop.accepted);
+    }
+    return choice;
   }
 
   void accept(const std::vector<bool>& accepted) {
