@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kNeighbours = 40;  // poses between loops that are compared
 constexpr double kOdometryVariance = 4;  // over the stated one: it is often understated
-constexpr std::size_t kMaxTrials = 40;
+constexpr std::size_t kMaxTrials = 24;
 constexpr double kNoise = 2;  // quantiles that a group which is right may add to the rest
 constexpr int kMaxSettling = 6;
 constexpr GraduatedParams kTrial{.mu_factor = 3, .steps_per_round = 3};
@@ -189,7 +189,9 @@ double strain(const LoopChoice<Pose>& choice, const Group& group, const Optimize
   set_weights(without);
   const double before = total_cost(without.graph);
   optimize(without.graph, optimizer);
-  return std::max(0.0, before - total_cost(without.graph) - kNoise * kPoseChiSquared999<Pose>);
+  return std::max(0.0,
+                  before - total_cost(without.graph) -
+                      kNoise * (kPoseChiSquared999<Pose> + Pose::kDof * static_cast<double>(group.size())));
 }
 
 /// Groups with what is at stake in a trial of them: what it costs where a group is rejected, its strain where
