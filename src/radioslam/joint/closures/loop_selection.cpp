@@ -45,6 +45,27 @@ bool is_comparable(const TeamLoop<Pose>& loop, const std::vector<int>& component
   return component[loop.segment_i] == component[loop.segment_j];
 }
 
+/// The team with all of its loops, the last relative poses of the graph. `unbent`: as in LoopChoice.
+template <class Pose>
+LoopChoice<Pose> choice_of(const JointGraph<Pose>& joint, const PoseGraph<Pose>& graph,
+                           const std::vector<Pose>& unbent, const std::vector<TeamLoop<Pose>>& loops,
+                           const std::vector<int>& component) {
+  LoopChoice<Pose> choice{graph, {}, unbent, segment_of_poses(joint.team), {}, {}, {}};
+  for (const FactorOrigin& origin : joint.origins.relative_poses)
+    choice.is_odometry.push_back(is_from_odometry(origin));
+  for (const TeamLoop<Pose>& loop : loops) {
+    choice.gates.push_back(loop.gate);
+    choice.may_hold.push_back(is_comparable(loop, component));
+    choice.accepted.push_back(loop.accepted);
+  }
+  return choice;
+}
+
+template <class Pose>
+double gate_at(const TeamLoop<Pose>& loop, double scale) {
+  return std::max(loop.gate, kPoseChiSquared999<Pose> * squared(scale));
+}
+
 template <class Pose>
 class LoopSelector {
  public:
@@ -85,30 +106,19 @@ class LoopSelector {
       of_alignment.push_back(loop.accepted && is_comparable(loop, component_));
     choose_gradually(optimizer, progress);
     set_weights();
-    LoopChoice<Pose> by_all = choice(start.poses);
+    LoopChoice<Pose> by_all = choice_of(joint_, graph_, start.poses, loops_, component_);
     if (by_all.accepted != of_alignment) {
       graph_ = start;
       accept(of_alignment);
       set_weights();
       optimize(graph_, optimizer);
-      if (LoopChoice<Pose> by_alignment = choice(start.poses);
+      if (LoopChoice<Pose> by_alignment = choice_of(joint_, graph_, start.poses, loops_, component_);
           truncated_cost(by_alignment) < truncated_cost(by_all) - kMinGain)
         by_all = std::move(by_alignment);
     }
     leave_valleys(by_all, optimizer);
     accept(by_all.accepted);
     graph_ = std::move(by_all.graph);
-  }
-
-  LoopChoice<Pose> choice(const std::vector<Pose>& unbent) const {
-    LoopChoice<Pose> choice{graph_, {}, unbent, segment_of_poses(joint_.team), {}, {}, {}};
-    for (std::size_t k = 0; k < first_loop_; ++k) choice.is_odometry.push_back(is_odometry(k));
-    for (const TeamLoop<Pose>& loop : loops_) {
-      choice.gates.push_back(loop.gate);
-      choice.may_hold.push_back(is_comparable(loop, component_));
-      choice.accepted.push_back(loop.accepted);
-    }
-    return choice;
   }
 
   void accept(const std::vector<bool>& accepted) {
@@ -170,15 +180,12 @@ class LoopSelector {
     for (std::size_t k = 0; k < loops_.size(); ++k) {
       TeamLoop<Pose>& loop = loops_[k];
       loop.statistic = statistic(k, marginals);
-      const bool holds = is_comparable(loop, component_) && loop.statistic <= gate(loop);
+      const bool holds =
+          is_comparable(loop, component_) && loop.statistic <= gate_at(loop, result_.loop_scale);
       changed = changed || holds != loop.accepted;
       loop.accepted = holds;
     }
     return changed;
-  }
-
-  double gate(const TeamLoop<Pose>& loop) const {
-    return std::max(loop.gate, kPoseChiSquared999<Pose> * squared(result_.loop_scale));
   }
 
   /// Of the loop's error against a solution without it. One in the solution has pulled it: its residual has
