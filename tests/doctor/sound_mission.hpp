@@ -46,7 +46,7 @@ class SoundMission {
     for (int k = 0; k < 40; ++k)
       maker.mission_.access_points.push_back("02:00:00:00:00:" + std::to_string(10 + k));
     for (std::size_t r = 0; r < kRobots; ++r) maker.add_robot(r);
-    for (double t_s = 1; t_s < kDuration_s; t_s += 3) maker.add_links(t_s);
+    for (double t_s = 1; t_s < kDuration_s; t_s += 1.5) maker.add_links(t_s);
     return std::move(maker.mission_);
   }
 
