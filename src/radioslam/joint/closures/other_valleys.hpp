@@ -20,9 +20,9 @@ namespace radioslam {
 /// A team with all of its loops as factors, each in the solution (weight 1) or not (0).
 template <class Pose>
 struct LoopChoice {
-  PoseGraph<Pose> graph;          ///< its last relative poses are the loops
-  std::vector<bool> is_odometry;  ///< per relative pose before the loops
-  std::vector<Pose> unbent;       ///< the trajectories as each is without the others, every one in some frame
+  PoseGraph<Pose> graph;                ///< its last relative poses are the loops
+  std::vector<bool> is_odometry;        ///< per relative pose before the loops
+  std::vector<Pose> unbent;             ///< the trajectories, each as it is without the other robots
   std::vector<std::size_t> segment_of;  ///< per pose
   std::vector<double> gates;            ///< per loop: squared norm from which it costs no more
   std::vector<bool> may_hold;           ///< per loop: whether its ends are in one frame
