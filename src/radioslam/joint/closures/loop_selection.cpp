@@ -45,12 +45,12 @@ bool is_comparable(const TeamLoop<Pose>& loop, const std::vector<int>& component
   return component[loop.segment_i] == component[loop.segment_j];
 }
 
-/// The team with all of its loops, the last relative poses of the graph. `unbent`: as in LoopChoice.
+/// The team with all of its loops, the last relative poses of the graph. `own_shape`: as in LoopChoice.
 template <class Pose>
 LoopChoice<Pose> choice_of(const JointGraph<Pose>& joint, const PoseGraph<Pose>& graph,
-                           const std::vector<Pose>& unbent, const std::vector<TeamLoop<Pose>>& loops,
+                           const std::vector<Pose>& own_shape, const std::vector<TeamLoop<Pose>>& loops,
                            const std::vector<int>& component) {
-  LoopChoice<Pose> choice{graph, {}, unbent, segment_of_poses(joint.team), {}, {}, {}};
+  LoopChoice<Pose> choice{graph, {}, own_shape, segment_of_poses(joint.team), {}, {}, {}};
   for (const FactorOrigin& origin : joint.origins.relative_poses)
     choice.is_odometry.push_back(is_from_odometry(origin));
   for (const TeamLoop<Pose>& loop : loops) {

@@ -243,14 +243,14 @@ std::vector<LoopChoice<Pose>> trials_of(const LoopChoice<Pose>& choice, const Gr
   const std::size_t a = choice.segment_of[loop.i.index()], b = choice.segment_of[loop.j.index()];
   if (a == b || is_held(choice, group)) return {choice};
   std::vector<LoopChoice<Pose>> trials{choice, choice};
-  const auto place = [&](LoopChoice<Pose>& trial, std::size_t segment, const Pose& unbent,
+  const auto place = [&](LoopChoice<Pose>& trial, std::size_t segment, const Pose& own_shape,
                          const Pose& there) {
-    const Pose move = there * unbent.inverse();
-    for (std::size_t k = 0; k < choice.unbent.size(); ++k)
-      if (choice.segment_of[k] == segment) trial.graph.poses[k] = move * choice.unbent[k];
+    const Pose move = there * own_shape.inverse();
+    for (std::size_t k = 0; k < choice.own_shape.size(); ++k)
+      if (choice.segment_of[k] == segment) trial.graph.poses[k] = move * choice.own_shape[k];
   };
-  place(trials[0], b, choice.unbent[loop.j.index()], choice.graph.poses[loop.i.index()] * loop.T_i_j);
-  place(trials[1], a, choice.unbent[loop.i.index()],
+  place(trials[0], b, choice.own_shape[loop.j.index()], choice.graph.poses[loop.i.index()] * loop.T_i_j);
+  place(trials[1], a, choice.own_shape[loop.i.index()],
         choice.graph.poses[loop.j.index()] * loop.T_i_j.inverse());
   return trials;
 }

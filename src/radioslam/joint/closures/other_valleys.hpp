@@ -22,7 +22,7 @@ template <class Pose>
 struct LoopChoice {
   PoseGraph<Pose> graph;                ///< its last relative poses are the loops
   std::vector<bool> is_odometry;        ///< per relative pose before the loops
-  std::vector<Pose> unbent;             ///< the trajectories, each as it is without the other robots
+  std::vector<Pose> own_shape;          ///< the trajectories, each as it is without the other robots
   std::vector<std::size_t> segment_of;  ///< per pose
   std::vector<double> gates;            ///< per loop: squared norm from which it costs no more
   std::vector<bool> may_hold;           ///< per loop: whether its ends are in one frame
