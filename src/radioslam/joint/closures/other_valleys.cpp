@@ -270,37 +270,35 @@ double truncated_cost(const LoopChoice<Pose>& choice) {
 }
 
 template <class Pose>
-ValleyTrials leave_valleys(LoopChoice<Pose>& choice, const OptimizerParams& optimizer) {
-  ValleyTrials trials;
-  trials.cost_before = trials.cost = truncated_cost(choice);
+void leave_valleys(LoopChoice<Pose>& choice, const OptimizerParams& optimizer) {
+  double best = truncated_cost(choice);
+  std::size_t tried = 0;
   AgreeingLoops<Pose> loops(choice);
   std::vector<Group> groups = loops.groups();
   std::erase_if(groups, [](const Group& group) { return group.size() < 2; });
-  while (trials.tried < kMaxTrials) {
+  while (tried < kMaxTrials) {
     const auto order = worth_a_trial(choice, groups, loops, optimizer);
     bool moved = false;
     for (std::size_t k = 0; k < order.size() && !moved; ++k)
       for (LoopChoice<Pose>& other : trials_of(choice, groups[order[k].second])) {
-        if (trials.tried >= kMaxTrials) break;
-        choose_around(groups[order[k].second], fate_of(choice, groups[order[k].second]), trials.cost, other,
+        if (tried >= kMaxTrials) break;
+        choose_around(groups[order[k].second], fate_of(choice, groups[order[k].second]), best, other,
                       optimizer);
-        ++trials.tried;
+        ++tried;
         const double cost = truncated_cost(other);
-        if (!(cost < trials.cost * (1 - kMinGain))) continue;
+        if (!(cost < best * (1 - kMinGain))) continue;
         choice = std::move(other);
-        trials.cost = cost;
-        ++trials.taken;
+        best = cost;
         moved = true;
         break;
       }
     if (!moved) break;
   }
-  return trials;
 }
 
 #define RADIOSLAM_OTHER_VALLEYS(Pose)                      \
   template double truncated_cost(const LoopChoice<Pose>&); \
-  template ValleyTrials leave_valleys(LoopChoice<Pose>&, const OptimizerParams&);
+  template void leave_valleys(LoopChoice<Pose>&, const OptimizerParams&);
 RADIOSLAM_OTHER_VALLEYS(SE2)
 RADIOSLAM_OTHER_VALLEYS(SE3)
 #undef RADIOSLAM_OTHER_VALLEYS

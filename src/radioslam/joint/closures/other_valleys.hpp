@@ -35,14 +35,9 @@ struct LoopChoice {
 template <class Pose>
 double truncated_cost(const LoopChoice<Pose>& choice);
 
-struct ValleyTrials {
-  std::size_t tried = 0, taken = 0;
-  double cost_before = 0, cost = 0;
-};
-
 /// Moves a choice, whose graph is at the optimum of its accepted loops, to the best solution that trials lead
 /// to.
 template <class Pose>
-ValleyTrials leave_valleys(LoopChoice<Pose>& choice, const OptimizerParams& optimizer);
+void leave_valleys(LoopChoice<Pose>& choice, const OptimizerParams& optimizer);
 
 }  // namespace radioslam
