@@ -4,8 +4,10 @@ radioslam_room(joint
     aoa/aoa_integrity.cpp
     aoa/aoa_match_weights.cpp
     aoa/mutual_bearing_constraints.cpp
+    closures/agreeing_loops.cpp
     closures/closure.cpp
     closures/loop_alignment.cpp
+    closures/loop_choice.cpp
     closures/loop_selection.cpp
     closures/loop_stage.cpp
     closures/other_valleys.cpp

@@ -1,6 +1,7 @@
 // Estimate of a team: the value that the steps of a run take and return.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "radioslam/closure/fingerprint_closures.hpp"
@@ -35,6 +36,7 @@ struct TeamJudgement {
   ByOrigin<ClosureJudgement> closures = {};  ///< in the order of the measured ones
   TeamFixes<Pose> fixes = {};                ///< how those of each robot are used
   std::vector<RangeBiasResult> range_biases = {};
+  std::optional<LoopChoiceResult> loop_choice = {};
 };
 
 template <class Pose>

@@ -313,8 +313,9 @@ JudgedTeam<Pose> judge_closures(const RunSetup& run, TeamEstimate<Pose> aligned,
   auto& judgements = team.judgement.closures;
   add_found(run, team, found);
   if (!closures.loops.empty())
-    run.timed("loops", close_by_loops<Pose>, team.joint, team.alignment, closures.loops, judgements.loops,
-              run.params.optimizer, run.progress, run.params.consistency);
+    team.judgement.loop_choice =
+        run.timed("loops", close_by_loops<Pose>, team.joint, team.alignment, closures.loops, judgements.loops,
+                  run.params.optimizer, run.progress, run.params.consistency);
   const bool has_matches = !closures.matches.empty();
   if (has_matches && weighs_matches(run))
     run.timed("alignment by matches", align_by_matches<Pose>, run, team);

@@ -196,6 +196,7 @@ RunResult describe_run(const Mission& mission, const RadioMeasurements& radio,
   result.mission_name = mission.name;
   result.dimension = mission.dimension;
   result.range_biases = estimate.judgement.range_biases;
+  result.loop_choice = estimate.judgement.loop_choice;
   if (overlaps) add_overlaps(result, mission, std::move(*overlaps), options.take_candidates != nullptr);
   add_estimate(result, mission, joint, estimate.alignment, params.alignment.mixture, timed);
   for (std::size_t r = 0; r < mission.robots.size() && !options.overlap_only; ++r)

@@ -142,6 +142,21 @@ struct RangeBiasResult {
   std::size_t ranges = 0;
 };
 
+/// A group of loops that agree with one another, held or dropped for a trial, and what the team would cost.
+struct LoopTrialResult {
+  std::vector<std::string> robots;  ///< one or two
+  std::size_t loops = 0;
+  bool held = false;  ///< for the trial; it was not before
+  double cost = 0;
+  bool taken = false;  ///< the solution that it led to
+};
+
+/// The choice among loops: sum of squares of the team, with every loop truncated, and what else was tried.
+struct LoopChoiceResult {
+  double cost = 0;  ///< at stated covariances
+  std::vector<LoopTrialResult> trials;
+};
+
 /// Relative pose that the angles between two robots were tested against.
 enum class CheckedPose {
   kSelfReported,  ///< self-reported: known starts and odometry
@@ -238,6 +253,7 @@ struct RunResult {
   std::vector<ClosureResult> closures;
   std::optional<SimilarityModelResult> similarity_model;
   std::vector<RangeBiasResult> range_biases;        ///< those that are significant
+  std::optional<LoopChoiceResult> loop_choice;      ///< where loops were judged together
   std::vector<MeasuredAoaResult> aoa_measurements;  ///< from channel state information
   std::vector<AoaIntegrityResult> angle_checks;
   std::vector<AccessPointResult> access_points;  ///< by BSSID; those detected at enough positions

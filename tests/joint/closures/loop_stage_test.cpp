@@ -183,7 +183,7 @@ TEST(CloseByLoopsOfManyTeams, EndAtTheCostOfTheTruthNearlyAlways) {
   int worse = 0;
   for (std::uint64_t seed = 101; seed <= 130; ++seed)
     if (cost_over_truth(seed) > 1.01) ++worse;
-  EXPECT_LE(worse, 4);  // 21 without trials
+  EXPECT_LE(worse, 3);  // 21 without trials
 }
 
 }  // namespace

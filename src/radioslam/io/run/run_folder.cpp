@@ -112,6 +112,17 @@ Json range_biases_json(const RunResult& result) {
   return json;
 }
 
+Json loop_choice_json(const LoopChoiceResult& choice) {
+  Json json = {{"cost", choice.cost}, {"trials", Json::array()}};
+  for (const LoopTrialResult& trial : choice.trials)
+    json["trials"].push_back({{"robots", trial.robots},
+                              {"loops", trial.loops},
+                              {"held", trial.held},
+                              {"cost", trial.cost},
+                              {"taken", trial.taken}});
+  return json;
+}
+
 Json angle_checks_json(const RunResult& result) {
   Json json = Json::array();
   for (const AoaIntegrityResult& check : result.angle_checks)
@@ -236,6 +247,7 @@ Json summary_json(const RunResult& result, const Json& metrics) {
     json["parameters"][parameter.key] = parameter_json(parameter.value);
   json["team_frame"] = team_frame_json(result);
   json["range_biases"] = range_biases_json(result);
+  if (result.loop_choice) json["loop_choice"] = loop_choice_json(*result.loop_choice);
   json["angle_checks"] = angle_checks_json(result);
   json["notes"] = result.notes;
   if (!metrics.is_null()) json["metrics"] = metrics;

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "radioslam/geometry/linear_algebra.hpp"
-#include "radioslam/graph/graduated.hpp"
 #include "radioslam/graph/graph_values.hpp"
 #include "radioslam/graph/marginals.hpp"
+#include "radioslam/graph/normal_equations.hpp"
 #include "radioslam/graph/residuals.hpp"
 #include "radioslam/joint/closures/other_valleys.hpp"
 #include "radioslam/team_frame/connected_measurements.hpp"
@@ -38,25 +37,20 @@ struct VarianceComponent {
 
 double squared(double x) { return x * x; }
 
-bool is_from_odometry(const FactorOrigin& origin) { return origin.source == FactorSource::kOdometry; }
-
+/// The team with all of its loops, as accepted so far.
 template <class Pose>
-bool is_comparable(const TeamLoop<Pose>& loop, const std::vector<int>& component) {
-  return component[loop.segment_i] == component[loop.segment_j];
-}
-
-/// The team with all of its loops, the last relative poses of the graph. `own_shape`: as in LoopChoice.
-template <class Pose>
-LoopChoice<Pose> choice_of(const JointGraph<Pose>& joint, const PoseGraph<Pose>& graph,
-                           const std::vector<Pose>& own_shape, const std::vector<TeamLoop<Pose>>& loops,
+LoopChoice<Pose> choice_of(const JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>>& loops,
                            const std::vector<int>& component) {
-  LoopChoice<Pose> choice{graph, {}, own_shape, segment_of_poses(joint.team), {}, {}, {}};
+  const PoseGraph<Pose>& graph = joint.team.graph;
+  LoopChoice<Pose> choice{graph, {}, graph.poses, segment_of_poses(joint.team), {}, {}, {}};
   for (const FactorOrigin& origin : joint.origins.relative_poses)
-    choice.is_odometry.push_back(is_from_odometry(origin));
+    choice.is_odometry.push_back(origin.source == FactorSource::kOdometry);
   for (const TeamLoop<Pose>& loop : loops) {
+    const bool is_comparable = component[loop.segment_i] == component[loop.segment_j];
+    choice.graph.relative_poses.push_back(loop_factor(loop));
     choice.gates.push_back(loop.gate);
-    choice.may_hold.push_back(is_comparable(loop, component));
-    choice.accepted.push_back(loop.accepted);
+    choice.may_hold.push_back(is_comparable);
+    choice.accepted.push_back(loop.accepted && is_comparable);
   }
   return choice;
 }
@@ -71,120 +65,82 @@ class LoopSelector {
  public:
   LoopSelector(const JointGraph<Pose>& joint, const std::vector<int>& component,
                std::vector<TeamLoop<Pose>>& loops)
-      : joint_(joint), component_(component), loops_(loops), graph_(joint.team.graph) {
-    first_loop_ = graph_.relative_poses.size();
-    for (const TeamLoop<Pose>& loop : loops) graph_.relative_poses.push_back(loop_factor(loop));
-  }
+      : odometry_(joint.team.graph.relative_poses),
+        loops_(loops),
+        choice_(choice_of(joint, loops, component)),
+        equations_(choice_.graph) {}
 
   LoopSelection run(const OptimizerParams& optimizer, const Progress& progress) {
     choose_jointly(optimizer, progress);
     for (int round = 0; round < kMaxRounds; ++round) {
       report_progress(progress, "select loops", round / static_cast<double>(kMaxRounds));
-      set_weights();
-      optimize(graph_, optimizer);
-      const auto marginals = Marginals<Pose>::compute(graph_);
+      solve(optimizer);
+      const auto marginals = Marginals<Pose>::compute(choice_.graph);
       if (!marginals) break;
       const bool is_rescaled = update_scales(*marginals);
       if (!update_accepted(*marginals) && !is_rescaled) break;
     }
-    set_weights();
-    optimize(graph_, optimizer);
+    solve(optimizer);
     finish();
-    return result_;
+    return std::move(result_);
   }
 
-  const PoseGraph<Pose>& graph() const { return graph_; }
+  const PoseGraph<Pose>& graph() const { return choice_.graph; }
 
  private:
   /// The better one, in the truncated cost, of two local optima: by a graduated truncated loss on all loops
   /// at once, which may lose a minority that is right, and from those loops that the alignment stands on.
   /// From there on to better ones (other_valleys.hpp).
   void choose_jointly(const OptimizerParams& optimizer, const Progress& progress) {
-    const PoseGraph<Pose> start = graph_;
-    std::vector<bool> of_alignment;
-    for (const TeamLoop<Pose>& loop : loops_)
-      of_alignment.push_back(loop.accepted && is_comparable(loop, component_));
-    choose_gradually(optimizer, progress);
-    set_weights();
-    LoopChoice<Pose> by_all = choice_of(joint_, graph_, start.poses, loops_, component_);
-    if (by_all.accepted != of_alignment) {
-      graph_ = start;
-      accept(of_alignment);
-      set_weights();
-      optimize(graph_, optimizer);
-      if (LoopChoice<Pose> by_alignment = choice_of(joint_, graph_, start.poses, loops_, component_);
-          truncated_cost(by_alignment) < truncated_cost(by_all) - kMinGain)
-        by_all = std::move(by_alignment);
+    LoopChoice<Pose> by_alignment = choice_;
+    choose_gradually(choice_, {}, Fate::kHolds, GraduatedParams{}, optimizer, progress);
+    if (choice_.accepted != by_alignment.accepted) {
+      set_weights(by_alignment);
+      optimize(by_alignment.graph, equations_, optimizer);
+      if (truncated_cost(by_alignment) < truncated_cost(choice_) - kMinGain)
+        choice_ = std::move(by_alignment);
     }
-    leave_valleys(by_all, optimizer);
-    accept(by_all.accepted);
-    graph_ = std::move(by_all.graph);
+    result_.trials = leave_valleys(choice_, optimizer);
+    result_.cost = truncated_cost(choice_);
   }
 
-  void accept(const std::vector<bool>& accepted) {
-    for (std::size_t k = 0; k < loops_.size(); ++k) loops_[k].accepted = accepted[k];
-  }
-
-  void choose_gradually(const OptimizerParams& optimizer, const Progress& progress) {
-    FactorMask mask;
-    mask.relative_poses.assign(graph_.relative_poses.size(), false);
-    for (std::size_t k = 0; k < loops_.size(); ++k) {
-      RelativePoseFactor<Pose>& factor = graph_.relative_poses[first_loop_ + k];
-      factor.weight = is_comparable(loops_[k], component_) ? 1 : 0;
-      factor.loss = {LossKind::kNone, std::sqrt(loops_[k].gate)};
-      mask.relative_poses[first_loop_ + k] = is_comparable(loops_[k], component_);
-    }
-    const auto weights = optimize_graduated(graph_, mask, GraduatedLoss::kTruncatedLeastSquares,
-                                            GraduatedParams{}, optimizer, progress)
-                             .weights.relative_poses;
+  /// With the covariances at the present scales.
+  void solve(const OptimizerParams& optimizer) {
+    for (std::size_t k = 0; k < choice_.first_loop(); ++k)
+      if (choice_.is_odometry[k])
+        choice_.graph.relative_poses[k].information =
+            odometry_[k].information / squared(result_.odometry_scale);
     for (std::size_t k = 0; k < loops_.size(); ++k)
-      loops_[k].accepted = mask.relative_poses[first_loop_ + k] && weights[first_loop_ + k] > 0.5;
+      choice_.loop(k).information = inverse(loops_[k].covariance) / squared(result_.loop_scale);
+    set_weights(choice_);
+    optimize(choice_.graph, equations_, optimizer);
   }
-
-  void set_weights() {
-    for (std::size_t k = 0; k < first_loop_; ++k)
-      if (is_odometry(k))
-        graph_.relative_poses[k].information =
-            joint_.team.graph.relative_poses[k].information / squared(result_.odometry_scale);
-    for (std::size_t k = 0; k < loops_.size(); ++k) {
-      RelativePoseFactor<Pose>& factor = graph_.relative_poses[first_loop_ + k];
-      factor.information = inverse(loops_[k].covariance) / squared(result_.loop_scale);
-      factor.weight = loops_[k].accepted ? 1 : 0;
-    }
-  }
-
-  bool is_odometry(std::size_t k) const { return is_from_odometry(joint_.origins.relative_poses[k]); }
 
   void add(VarianceComponent& to, const RelativePoseFactor<Pose>& factor,
            const Marginals<Pose>& marginals) const {
-    to.squares += squared_norm(graph_, factor);
+    to.squares += squared_norm(choice_.graph, factor);
     to.redundancy += Pose::kDof - (factor.information * marginals.relative_pose(factor.i, factor.j)).trace();
   }
 
   bool update_scales(const Marginals<Pose>& marginals) {
     VarianceComponent odometry, of_loops;
-    for (std::size_t k = 0; k < first_loop_; ++k)
-      if (is_odometry(k)) add(odometry, graph_.relative_poses[k], marginals);
+    for (std::size_t k = 0; k < choice_.first_loop(); ++k)
+      if (choice_.is_odometry[k]) add(odometry, choice_.graph.relative_poses[k], marginals);
     for (std::size_t k = 0; k < loops_.size(); ++k)
-      if (loops_[k].accepted) add(of_loops, graph_.relative_poses[first_loop_ + k], marginals);
-    const LoopSelection before = result_;
-    result_.odometry_scale = trusted_scale(before.odometry_scale * odometry.ratio());
-    result_.loop_scale = trusted_scale(before.loop_scale * of_loops.ratio());
+      if (choice_.accepted[k]) add(of_loops, choice_.loop(k), marginals);
+    const double odometry_before = result_.odometry_scale, loops_before = result_.loop_scale;
+    result_.odometry_scale = trusted_scale(odometry_before * odometry.ratio());
+    result_.loop_scale = trusted_scale(loops_before * of_loops.ratio());
     const auto changed = [](double from, double to) { return std::abs(to / from - 1) > kSettledScale; };
-    return changed(before.odometry_scale, result_.odometry_scale) ||
-           changed(before.loop_scale, result_.loop_scale);
+    return changed(odometry_before, result_.odometry_scale) || changed(loops_before, result_.loop_scale);
   }
 
   bool update_accepted(const Marginals<Pose>& marginals) {
-    bool changed = false;
-    for (std::size_t k = 0; k < loops_.size(); ++k) {
-      TeamLoop<Pose>& loop = loops_[k];
-      loop.statistic = statistic(k, marginals);
-      const bool holds =
-          is_comparable(loop, component_) && loop.statistic <= gate_at(loop, result_.loop_scale);
-      changed = changed || holds != loop.accepted;
-      loop.accepted = holds;
-    }
+    std::vector<bool> holds = choice_.may_hold;
+    for (std::size_t k = 0; k < loops_.size(); ++k)
+      holds[k] = holds[k] && statistic(k, marginals) <= gate_at(loops_[k], result_.loop_scale);
+    const bool changed = holds != choice_.accepted;
+    choice_.accepted = std::move(holds);
     return changed;
   }
 
@@ -192,28 +148,28 @@ class LoopSelector {
   /// the covariance S - P instead of S + P, and the same statistic as the error without it. In units of the
   /// stated covariance.
   double statistic(std::size_t k, const Marginals<Pose>& marginals) const {
-    const RelativePoseFactor<Pose>& factor = graph_.relative_poses[first_loop_ + k];
+    const RelativePoseFactor<Pose>& factor = choice_.loop(k);
     const double variance = squared(std::max(1.0, result_.loop_scale));
     const typename Pose::Jacobian own = loops_[k].covariance * variance,
                                   of_solution = marginals.relative_pose(factor.i, factor.j);
     const Cholesky<typename Pose::Jacobian> cholesky(
-        typename Pose::Jacobian(own + (loops_[k].accepted ? -of_solution : of_solution)));
-    return variance * (cholesky.succeeded() ? cholesky.whitened(residual(graph_, factor)).squaredNorm()
-                                            : squared_norm(graph_, factor));
+        typename Pose::Jacobian(own + (choice_.accepted[k] ? -of_solution : of_solution)));
+    return variance * (cholesky.succeeded() ? cholesky.whitened(residual(choice_.graph, factor)).squaredNorm()
+                                            : squared_norm(choice_.graph, factor));
   }
 
-  /// Statistics in the final solution, in units of the stated covariances.
+  /// What holds, and statistics in the final solution, in units of the stated covariances.
   void finish() {
-    for (std::size_t k = 0; k < loops_.size(); ++k)
-      loops_[k].statistic =
-          squared(result_.loop_scale) * squared_norm(graph_, graph_.relative_poses[first_loop_ + k]);
+    for (std::size_t k = 0; k < loops_.size(); ++k) {
+      loops_[k].accepted = choice_.accepted[k];
+      loops_[k].statistic = squared(result_.loop_scale) * squared_norm(choice_.graph, choice_.loop(k));
+    }
   }
 
-  const JointGraph<Pose>& joint_;
-  const std::vector<int>& component_;
+  const std::vector<RelativePoseFactor<Pose>>& odometry_;  ///< as stated
   std::vector<TeamLoop<Pose>>& loops_;
-  PoseGraph<Pose> graph_;
-  std::size_t first_loop_ = 0;
+  LoopChoice<Pose> choice_;
+  NormalEquations<Pose> equations_;
   LoopSelection result_;
 };
 
@@ -224,7 +180,7 @@ LoopSelection select_loops(JointGraph<Pose>& joint, const std::vector<int>& comp
                            std::vector<TeamLoop<Pose>>& loops, const OptimizerParams& optimizer,
                            const Progress& progress) {
   LoopSelector<Pose> selector(joint, component, loops);
-  const LoopSelection result = selector.run(optimizer, progress);
+  LoopSelection result = selector.run(optimizer, progress);
   GraphValues<Pose>(selector.graph()).restore(joint.team.graph);
   return result;
 }

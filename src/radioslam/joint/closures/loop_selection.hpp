@@ -15,6 +15,7 @@
 
 #include "radioslam/base/progress.hpp"
 #include "radioslam/graph/optimizer.hpp"
+#include "radioslam/joint/closures/other_valleys.hpp"
 #include "radioslam/joint/closures/team_loops.hpp"
 
 namespace radioslam {
@@ -22,6 +23,8 @@ namespace radioslam {
 struct LoopSelection {
   double odometry_scale = 1;  ///< actual over stated standard deviation of the odometry
   double loop_scale = 1;      ///< and of accepted loops
+  double cost = 0;            ///< truncated (loop_choice.hpp), at stated covariances
+  std::vector<ValleyTrial> trials;
 };
 
 /// Moves the team, which must be aligned as far as `component` says (per segment), to the optimum of its

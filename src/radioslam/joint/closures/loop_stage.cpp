@@ -119,6 +119,23 @@ std::vector<int> joined_by_accepted(std::vector<int> component, const std::vecto
   return component;
 }
 
+/// The choice as the user reads it.
+template <class Pose>
+LoopChoiceResult described(const JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>>& loops,
+                           const LoopSelection& selection) {
+  LoopChoiceResult result{selection.cost, {}};
+  for (const ValleyTrial& trial : selection.trials) {
+    const TeamLoop<Pose>& first = loops[trial.loops.front()];
+    LoopTrialResult described{{}, trial.loops.size(), trial.fate == Fate::kHolds, trial.cost, trial.taken};
+    for (const std::size_t segment : {first.segment_i, first.segment_j}) {
+      const std::string& robot = joint.robots[joint.robot_of_segment[segment]].id;
+      if (described.robots.empty() || described.robots.front() != robot) described.robots.push_back(robot);
+    }
+    result.trials.push_back(std::move(described));
+  }
+  return result;
+}
+
 /// Names of the robots of a group, and what of their loops agrees.
 template <class Pose>
 struct GroupText {
@@ -206,14 +223,15 @@ void add_own_loops(JointGraph<Pose>& joint, const std::vector<Closure>& closures
 }
 
 template <class Pose>
-void close_by_loops(JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment,
-                    const std::vector<Closure>& closures, std::vector<ClosureJudgement>& judgements,
-                    const OptimizerParams& optimizer, const Progress& progress,
-                    const ConsistencyParams& consistency) {
+std::optional<LoopChoiceResult> close_by_loops(JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment,
+                                               const std::vector<Closure>& closures,
+                                               std::vector<ClosureJudgement>& judgements,
+                                               const OptimizerParams& optimizer, const Progress& progress,
+                                               const ConsistencyParams& consistency) {
   for (std::size_t k = 0; k < closures.size(); ++k)
     if (!closure_ends(joint, closures[k]).valid()) reject(judgements[k], "no odometry at its time");
   std::vector<TeamLoop<Pose>> loops = team_loops(joint, closures);
-  if (loops.empty()) return;
+  if (loops.empty()) return std::nullopt;
   for (std::size_t k = 0; k < joint.origins.relative_poses.size(); ++k) {
     const FactorOrigin& origin = joint.origins.relative_poses[k];
     if (origin.source != FactorSource::kLoop) continue;
@@ -223,6 +241,7 @@ void close_by_loops(JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment,
   erase_relative_poses(joint, [](const FactorOrigin& o) { return o.source == FactorSource::kLoop; });
   const std::vector<int> component_before = alignment.of_segment;
   LoopSelection scales;
+  LoopChoiceResult choice;
   std::vector<int> component;
   for (int pass = 0; pass < kMaxPasses; ++pass) {
     const double odometry_scale = std::max(scales.odometry_scale, std::pow(2.0, pass));
@@ -237,6 +256,7 @@ void close_by_loops(JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment,
     joint.team.graph.poses = moved(joint, alignments.front());
     const LoopSelection selection = select_loops(joint, component, loops, optimizer, progress);
     set_alternatives(before, loops_before, loops, groups, alignments, optimizer, alignment);
+    choice = described(joint, loops, selection);
     scales.odometry_scale = selection.odometry_scale;
     scales.loop_scale *= selection.loop_scale;
     for (TeamLoop<Pose>& loop : loops) loop.covariance *= selection.loop_scale * selection.loop_scale;
@@ -261,13 +281,14 @@ void close_by_loops(JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment,
       reject(judgements[k], open ? "no group of loops stands out" : "the joint estimate disagrees");
     }
   note_scales(scales, alignment);
+  return choice;
 }
 
-#define RADIOSLAM_LOOP_STAGE(Pose)                                                                      \
-  template void add_own_loops(JointGraph<Pose>&, const std::vector<Closure>&, const OptimizerParams&);  \
-  template void close_by_loops(JointGraph<Pose>&, TeamAlignment<Pose>&, const std::vector<Closure>&,    \
-                               std::vector<ClosureJudgement>&, const OptimizerParams&, const Progress&, \
-                               const ConsistencyParams&);
+#define RADIOSLAM_LOOP_STAGE(Pose)                                                                          \
+  template void add_own_loops(JointGraph<Pose>&, const std::vector<Closure>&, const OptimizerParams&);      \
+  template std::optional<LoopChoiceResult> close_by_loops(                                                  \
+      JointGraph<Pose>&, TeamAlignment<Pose>&, const std::vector<Closure>&, std::vector<ClosureJudgement>&, \
+      const OptimizerParams&, const Progress&, const ConsistencyParams&);
 RADIOSLAM_LOOP_STAGE(SE2)
 RADIOSLAM_LOOP_STAGE(SE3)
 #undef RADIOSLAM_LOOP_STAGE

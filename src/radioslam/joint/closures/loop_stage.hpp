@@ -1,6 +1,7 @@
 // The loops of a team in its estimate: they correct trajectories, align robots, and are judged together.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "radioslam/base/progress.hpp"
@@ -9,6 +10,7 @@
 #include "radioslam/joint/closures/closure.hpp"
 #include "radioslam/joint/joint_graph.hpp"
 #include "radioslam/joint/team_alignment.hpp"
+#include "radioslam/results/results.hpp"
 
 namespace radioslam {
 
@@ -20,11 +22,13 @@ void add_own_loops(JointGraph<Pose>& joint, const std::vector<Closure>& closures
 /// Joins the components that loops connect, and solves the team with the loops that hold; judges every
 /// closure. The alignment notes what stands on loops alone, what they leave open, and stated
 /// covariances that do not hold. With unit weights every pair of robots that has a consistent set is joined
-/// by its largest, however weak; the joint estimate still judges each loop under its covariance.
+/// by its largest, however weak; the joint estimate still judges each loop under its covariance. Nothing
+/// where no closure has both ends in the graph.
 template <class Pose>
-void close_by_loops(JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment,
-                    const std::vector<Closure>& closures, std::vector<ClosureJudgement>& judgements,
-                    const OptimizerParams& optimizer, const Progress& progress,
-                    const ConsistencyParams& consistency = {});
+std::optional<LoopChoiceResult> close_by_loops(JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment,
+                                               const std::vector<Closure>& closures,
+                                               std::vector<ClosureJudgement>& judgements,
+                                               const OptimizerParams& optimizer, const Progress& progress,
+                                               const ConsistencyParams& consistency = {});
 
 }  // namespace radioslam
