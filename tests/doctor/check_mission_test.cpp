@@ -21,11 +21,31 @@ std::string all_of(const std::vector<Finding>& findings) {
   return text;
 }
 
+/// Matches of robots a and b every eight seconds, as `written`.
+void add_matches(Mission& mission, const std::function<SE3(const SE3&)>& written) {
+  for (double t_s = 8; t_s < SoundMission::kDuration_s - 20; t_s += 8) {
+    PoseMatch match;
+    match.robot_i = RobotIndex(0);
+    match.robot_j = RobotIndex(1);
+    match.stamp_i = Stamp::from_seconds(t_s);
+    match.stamp_j = Stamp::from_seconds(t_s + 7);
+    match.T_i_j = written(lift(true_pose(0, t_s)).inverse() * lift(true_pose(1, t_s + 7)));
+    match.covariance = isotropic_covariance(0.1, 0.02);
+    mission.matches.push_back(match);
+  }
+}
+
 TEST(CheckMission, HasNothingToSayOfSoundMissions) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     const auto findings = check_mission(SoundMission::make(seed));
     EXPECT_TRUE(findings.empty()) << all_of(findings);
   }
+}
+
+TEST(CheckMission, HasNothingToSayOfSoundMatches) {
+  Mission mission = SoundMission::make();
+  add_matches(mission, [](const SE3& T_i_j) { return T_i_j; });
+  EXPECT_TRUE(check_mission(mission).empty()) << all_of(check_mission(mission));
 }
 
 TEST(CheckMission, HasNothingToSayOfAnEmptyMission) { EXPECT_TRUE(check_mission(Mission{}).empty()); }
@@ -187,6 +207,59 @@ TEST(CheckTruth, ATruthOnAnotherClockIsNamed) {
   EXPECT_EQ(findings[0].robot, "c");
 }
 
+TEST(CheckTruth, FaultsOfOneFileAreNamed) {
+  const Mission mission = SoundMission::make();
+  const Truth sound = truth_of(mission, [](const SE3& pose) { return pose; });
+  const auto kind_of = [&](const auto& fault) {
+    Truth truth = sound;
+    fault(truth.robots);
+    const auto findings = check_truth(mission, truth);
+    return findings.size() == 1 && findings[0].robot == "b" ? findings[0].kind : all_of(findings);
+  };
+  const auto changed = [](RobotTruth& robot, const auto& change) {
+    std::vector<StampedPose<SE3>> poses(robot.poses.begin(), robot.poses.end());
+    for (auto& row : poses) change(row);
+    robot.poses = Trajectory<SE3>(std::move(poses));
+  };
+  using Row = StampedPose<SE3>;
+  EXPECT_EQ(kind_of([&](auto& robots) {
+              changed(robots[1],
+                      [](Row& row) { row.pose = SE3(1000 * row.pose.translation(), row.pose.rotation()); });
+            }),
+            "unit");
+  EXPECT_EQ(kind_of([&](auto& robots) {
+              changed(robots[1], [](Row& row) { row.stamp = Stamp::from_seconds(row.stamp.seconds() + 5); });
+            }),
+            "clock");
+  EXPECT_EQ(kind_of([&](auto& robots) {
+              changed(robots[1],
+                      [](Row& row) { row.stamp = Stamp::from_seconds(row.stamp.seconds() * 1000); });
+            }),
+            "unit");
+  EXPECT_EQ(kind_of([](auto& robots) { robots[1].poses = robots[0].poses; }), "robot");
+}
+
+TEST(CheckTruth, AStartOrARangeThatContradictsItIsNamed) {
+  Mission mission = SoundMission::make();
+  const Truth truth = truth_of(mission, [](const SE3& pose) { return pose; });
+  for (std::size_t r = 0; r < mission.robots.size(); ++r)
+    mission.robots[r].initial_pose = lift(true_pose(r, 0));
+  EXPECT_TRUE(check_truth(mission, truth).empty()) << all_of(check_truth(mission, truth));
+  Mission moved = mission;
+  moved.robots[1].initial_pose =
+      SE3({8, 0, 0}, Eigen::Quaterniond::Identity()) * *moved.robots[1].initial_pose;
+  auto findings = check_truth(moved, truth);
+  ASSERT_EQ(findings.size(), 1U) << all_of(findings);
+  EXPECT_EQ(findings[0].kind, "start");
+  EXPECT_EQ(findings[0].robot, "b");
+  for (RangeMeasurement& range : mission.ranges)
+    if (range.i.robot != RobotIndex(2) && range.j.robot != RobotIndex(2)) range.range_m += 1;
+  findings = check_truth(mission, truth);
+  ASSERT_EQ(findings.size(), 1U) << all_of(findings);
+  EXPECT_EQ(findings[0].kind, "bias");
+  EXPECT_NE(findings[0].found.find("between a and b are about 1"), std::string::npos) << findings[0].found;
+}
+
 /// Along x, with a little noise to both sides.
 TEST(CheckTruth, AStraightPathIsItsOwnMirrorImage) {
   Mission mission;
@@ -227,6 +300,25 @@ const std::vector<Fault>& faults() {
       {"WifiInMilliseconds", "unit", "b", "robots/b/wifi.csv",
        [](Mission& m) {
          for (auto& scan : m.robots[1].wifi) scan.stamp.ns *= 1000;
+       }},
+      {"RangesInMilliseconds", "unit", "", "radio/ranges.csv",
+       [](Mission& m) {
+         for (auto& range : m.ranges) range.stamp.ns *= 1000;
+       }},
+      {"OdometryThatStops", "frozen", "b", "robots/b/odometry.tum",
+       [](Mission& m) {
+         std::vector<StampedPose<SE3>> poses(m.robots[1].odometry.begin(), m.robots[1].odometry.end());
+         for (std::size_t k = poses.size() / 2; k < poses.size(); ++k) poses[k].pose = poses[k - 1].pose;
+         m.robots[1].odometry = Trajectory<SE3>(std::move(poses));
+       }},
+      {"MatchesInverted", "convention", "", "matches.csv",
+       [](Mission& m) { add_matches(m, [](const SE3& T_i_j) { return T_i_j.inverse(); }); }},
+      {"MatchesWithWFirst", "column-order", "", "matches.csv",
+       [](Mission& m) {
+         add_matches(m, [](const SE3& T_i_j) {
+           const Eigen::Quaterniond& q = T_i_j.rotation();
+           return SE3(T_i_j.translation(), Eigen::Quaterniond(q.z(), q.w(), q.x(), q.y()));
+         });
        }},
       {"WifiHalfAMinuteLate", "clock", "b", "robots/b/wifi.csv",
        [](Mission& m) {

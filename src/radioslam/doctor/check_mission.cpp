@@ -25,11 +25,13 @@ std::vector<Finding> check_mission(const Mission& mission) {
   append(findings, check_odometry(mission));
   append(findings, check_odometry_coverage(mission));
   append(findings, check_odometry_noise(mission));
+  append(findings, check_frozen_odometry(mission));
   append(findings, check_times(mission));
   append(findings, check_wifi(mission));
   append(findings, check_inertial(mission));
   append(findings, check_scans(mission));
   append(findings, check_connections(mission));
+  append(findings, check_matches(mission));
   // With wrong units or clocks, links contradict the odometry without saying anything new.
   if (!has_error(findings)) {
     append(findings, check_links(mission));

@@ -14,7 +14,8 @@ namespace radioslam {
 /// are fitted, and a few scans read.
 std::vector<Finding> check_mission(const Mission& mission);
 
-/// What of the ground truth contradicts the odometry: another clock, or a mirror image.
+/// Where ground truth contradicts the odometry (clock, unit, mirror image, another robot's, a pose that
+/// stops), and where stated starts and ranges between robots contradict the truth.
 std::vector<Finding> check_truth(const Mission& mission, const Truth& truth);
 
 }  // namespace radioslam

@@ -1,11 +1,13 @@
 // The checks of doctor (check_mission.hpp), by what they look at.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "radioslam/doctor/team_links.hpp"
 #include "radioslam/mission/finding.hpp"
 #include "radioslam/mission/mission.hpp"
+#include "radioslam/mission/truth.hpp"
 
 namespace radioslam {
 
@@ -17,6 +19,16 @@ std::vector<Finding> check_odometry(const Mission& mission);
 /// its other sensors and its links, and more than twenty seconds. Holes within the odometry are
 /// check_odometry's.
 std::vector<Finding> check_odometry_coverage(const Mission& mission);
+
+/// A finding per robot whose pose repeats exactly for ten seconds or more while fixes, ranges, gyroscope or
+/// WiFi say that it moves (frozen_odometry.cpp). A robot that stands still has none.
+std::vector<Finding> check_frozen_odometry(const Mission& mission);
+/// The same against the ground truth.
+std::optional<Finding> frozen_against(const Robot& robot, const RobotTruth& truth);
+
+/// At most one finding: matches that fit one another only as inverse poses, or with w first
+/// (match_convention.cpp).
+std::vector<Finding> check_matches(const Mission& mission);
 
 /// The times of every file against those of the robot's odometry (or scans).
 std::vector<Finding> check_times(const Mission& mission);

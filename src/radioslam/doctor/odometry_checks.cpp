@@ -302,6 +302,7 @@ bool same_recording(const Trajectory<SE3>& a, const Trajectory<SE3>& b) {
 }
 
 constexpr double kMinMissing_s = 20, kMinMissingRatio = 0.25;
+constexpr double kMaxLengths = 100;  // of the odometry: beyond, times are in another unit
 constexpr std::size_t kMinRows = 10;
 
 /// First and last row of one recording that a robot takes part in.
@@ -352,8 +353,10 @@ void check_robot(const Mission& mission, std::size_t r, std::vector<Finding>& fi
   for (Recording& recording : recordings_of(mission, r)) {
     const double missing_s =
         std::max(0.0, begin_s - recording.first_s) + std::max(0.0, recording.last_s - end_s);
-    if (recording.rows < kMinRows || recording.first_s > end_s || recording.last_s < begin_s ||
-        missing_s < kMinMissingRatio * (recording.last_s - recording.first_s) || missing_s < most_s)
+    const double length_s = recording.last_s - recording.first_s;
+    if (recording.rows < kMinRows || length_s > kMaxLengths * (end_s - begin_s) ||
+        recording.first_s > end_s || recording.last_s < begin_s || missing_s < kMinMissingRatio * length_s ||
+        missing_s < most_s)
       continue;
     most_s = missing_s;
     longest = std::move(recording);

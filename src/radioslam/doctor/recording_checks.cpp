@@ -14,7 +14,8 @@
 namespace radioslam {
 namespace {
 
-constexpr double kTolerance_s = 3;  // by which sensors begin and end at different times
+constexpr double kMaxInside = 0.05;  // of a file's times in another unit, within the motion
+constexpr double kTolerance_s = 3;   // by which sensors begin and end at different times
 
 struct Interval {
   double begin_s = 0, end_s = 0;
@@ -63,10 +64,14 @@ std::vector<Times> files_of(const Robot& robot) {
   return files;
 }
 
-std::optional<const char*> unit_of_times(const Times& file, const Interval& motion) {
+/// The unit in which times, hardly any of which are within the motion, would cover it.
+std::optional<const char*> unit_of_times(const std::vector<double>& t_s, const Interval& motion) {
+  const auto inside = std::count_if(t_s.begin(), t_s.end(), [&](double t) { return motion.contains(t); });
+  if (static_cast<double>(inside) > kMaxInside * static_cast<double>(t_s.size())) return std::nullopt;
+  const auto [first, last] = std::minmax_element(t_s.begin(), t_s.end());
   for (const auto& [name, factor] :
        {std::pair{"milliseconds", 1e3}, {"microseconds", 1e6}, {"nanoseconds", 1e9}}) {
-    const double begin = file.t_s.front() / factor, length = (file.t_s.back() - file.t_s.front()) / factor;
+    const double begin = *first / factor, length = (*last - *first) / factor;
     if (motion.contains(begin) && length > 0.3 * motion.length_s() && length < 1.2 * motion.length_s())
       return name;
   }
@@ -80,6 +85,9 @@ class FileTimes {
 
   void run() {
     if (file_.t_s.size() < 5) return;
+    if (const auto unit = unit_of_times(file_.t_s, motion_))
+      return add("unit", Severity::kError, times_text() + ", which look like " + *unit, "seconds",
+                 "convert the times to seconds");
     if (motion_.is_disjoint(file_.t_s.front(), file_.t_s.back())) return report_other_clock();
     if (!report_offset()) report_gap();
   }
@@ -90,14 +98,13 @@ class FileTimes {
         {kind, severity, robot_.id, file_.file, std::move(found), std::move(expected), std::move(advice)});
   }
 
+  std::string times_text() const {
+    return "times from " + number(file_.t_s.front()) + " to " + number(file_.t_s.back());
+  }
   std::string motion_text() const { return number(motion_.begin_s) + " to " + number(motion_.end_s) + " s"; }
 
   void report_other_clock() {
-    const std::string found = "times from " + number(file_.t_s.front()) + " to " + number(file_.t_s.back());
-    if (const auto unit = unit_of_times(file_, motion_))
-      return add("unit", Severity::kError, found + ", which look like " + *unit, "seconds",
-                 "convert the times to seconds");
-    add("clock", Severity::kError, found, "the clock of the robot's odometry, " + motion_text(),
+    add("clock", Severity::kError, times_text(), "the clock of the robot's odometry, " + motion_text(),
         "subtract about " + number(file_.t_s.front() - motion_.begin_s) + " s");
   }
 
@@ -144,10 +151,12 @@ void check_team_file(const Mission& mission, const std::string& file, const Time
                      std::vector<Finding>& findings) {
   std::vector<std::size_t> outside;
   std::size_t referred = 0;
+  std::optional<const char*> unit;
   for (std::size_t r = 0; r < times.size(); ++r) {
     const auto motion = motion_interval(mission.robots[r]);
     if (times[r].size() < 10 || !motion) continue;
     ++referred;
+    if (!unit) unit = unit_of_times(times[r], *motion);
     const auto [first, last] = std::minmax_element(times[r].begin(), times[r].end());
     if (motion->is_disjoint(*first, *last)) outside.push_back(r);
   }
@@ -156,6 +165,9 @@ void check_team_file(const Mission& mission, const std::string& file, const Time
                         "times from " + number(begin_s) + " s", std::move(expected),
                         "use one clock for all files, in seconds"});
   };
+  if (unit)
+    return findings.push_back({"unit", Severity::kError, "", file, std::string("times look like ") + *unit,
+                               "seconds", "convert the times to seconds"});
   if (outside.empty()) return;
   if (outside.size() == referred) {
     const std::size_t r = outside.front();

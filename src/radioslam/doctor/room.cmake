@@ -4,9 +4,11 @@ radioslam_room(doctor
     corrections.cpp
     fingerprint_clock.cpp
     fingerprint_starts.cpp
+    frozen_odometry.cpp
     inertial_checks.cpp
     link_checks.cpp
     link_fit.cpp
+    match_convention.cpp
     moving_access_points.cpp
     odometry_checks.cpp
     odometry_noise.cpp
@@ -16,5 +18,6 @@ radioslam_room(doctor
     starts.cpp
     team_links.cpp
     truth_checks.cpp
+    truth_fit.cpp
     wifi_checks.cpp
   ROOMS team_frame mission)

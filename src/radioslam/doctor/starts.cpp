@@ -32,6 +32,31 @@ const PairOfStarts* exchanged_pair(const Mission& mission, const std::vector<Pai
   return nullptr;
 }
 
+/// Two robots but `named`, of which an exchange explains every pair of robots as well: starts that are each
+/// other's half turn keep their relative pose when exchanged.
+const PairOfStarts* other_exchange(const Mission& mission, const std::vector<PairOfStarts>& pairs,
+                                   std::size_t named) {
+  const std::size_t robots = mission.robots.size();
+  const auto start = [&](std::size_t node, const PairOfStarts& exchanged) {
+    const std::size_t as = node == exchanged.i ? exchanged.j : node == exchanged.j ? exchanged.i : node;
+    return *mission.robots[as].initial_pose;
+  };
+  for (const PairOfStarts& exchanged : pairs) {
+    if (exchanged.error || exchanged.i >= robots || exchanged.j >= robots || exchanged.i == named ||
+        exchanged.j == named)
+      continue;
+    const bool explains = std::all_of(pairs.begin(), pairs.end(), [&](const PairOfStarts& pair) {
+      if (!pair.error || pair.i >= robots || pair.j >= robots) return true;
+      const SE3 found = mission.robots[pair.i].initial_pose->inverse() *
+                        *mission.robots[pair.j].initial_pose * pair.error->error;
+      const SE3 stated = start(pair.i, exchanged).inverse() * start(pair.j, exchanged);
+      return !StartError{stated.inverse() * found, pair.error->sigma_m, pair.error->sigma_rad}.is_far();
+    });
+    if (explains) return &exchanged;
+  }
+  return nullptr;
+}
+
 std::string error_text(const StartError& error) {
   return " by about " + number(error.distance_m()) + " m and " + number(degrees(error.turn_rad())) +
          " degrees";
@@ -68,10 +93,14 @@ std::vector<Finding> start_findings(const Mission& mission, const std::vector<Pa
   if (worst == balance.end() || worst->second <= 0) return {};
   const bool is_unique = std::count_if(balance.begin(), balance.end(),
                                        [&](const auto& other) { return other.second == worst->second; }) == 1;
+  const PairOfStarts* exchange = is_unique ? other_exchange(mission, pairs, worst->first) : nullptr;
   return {finding_on(
       is_unique ? mission.robots[worst->first].id : "",
       std::string(is_unique ? "initial_pose contradicts " : "one of two robots' initial_pose contradicts ") +
-          measured + error_text(error[worst->first]),
+          measured + error_text(error[worst->first]) +
+          (exchange ? ", or those of " + mission.robots[exchange->i].id + " and " +
+                          mission.robots[exchange->j].id + " are exchanged"
+                    : ""),
       "correct initial_pose, or state it as unknown")};
 }
 
