@@ -75,5 +75,19 @@ TEST(ResultNotes, AFewRangesMayAllBeObstructed) {
   EXPECT_EQ(rejection_notes(result.closures).size(), 1U);
 }
 
+TEST(ResultNotes, LookAlikesThatAloneTieRobotsAreNoted) {
+  RunResult result = two_robots(true);
+  add_closures(result, ClosureKind::kLidar, ClosureStatus::kAccepted, 12);
+  add_closures(result, ClosureKind::kLidar, ClosureStatus::kRejected, 30, "elsewhere");
+  const auto note = look_alike_note(result.closures, "elsewhere");
+  ASSERT_TRUE(note);
+  EXPECT_NE(note->find("30 of 42 compared places"), std::string::npos) << *note;
+  auto with_ranges = result;
+  add_closures(with_ranges, ClosureKind::kRange, ClosureStatus::kAccepted, 1);
+  EXPECT_FALSE(look_alike_note(with_ranges.closures, "elsewhere"));
+  add_closures(result, ClosureKind::kLidar, ClosureStatus::kRejected, 60, "the scans do not fit");
+  EXPECT_FALSE(look_alike_note(result.closures, "elsewhere"));
+}
+
 }  // namespace
 }  // namespace radioslam

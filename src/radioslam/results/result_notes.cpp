@@ -8,6 +8,8 @@
 namespace radioslam {
 namespace {
 
+constexpr double kMinLookAlikes = 1.0 / 3;  // of the compared places
+
 constexpr double kMinFitting = 0.5;   // of ranges, angles and fixes, for links that fit
 constexpr std::size_t kMinLinks = 6;  // ranges or angles: fewer may all be obstructed by chance
 
@@ -110,6 +112,30 @@ std::vector<std::string> rejection_notes(const std::vector<ClosureResult>& closu
                     (reason.empty() ? "" : " (most often: " + reason + ")") + "; check " + kind.advice);
   }
   return notes;
+}
+
+std::optional<std::string> look_alike_note(const std::vector<ClosureResult>& closures,
+                                           std::string_view elsewhere) {
+  std::size_t compared = 0, alike = 0, accepted = 0;
+  for (const ClosureResult& closure : closures) {
+    if (!closure.robot_i.valid() || !closure.robot_j.valid() || closure.robot_i == closure.robot_j) continue;
+    const bool is_accepted = closure.status == ClosureStatus::kAccepted;
+    if (closure.kind != ClosureKind::kLidar) {
+      if (is_accepted) return std::nullopt;
+      continue;
+    }
+    ++compared;
+    accepted += is_accepted;
+    alike += closure.reason == elsewhere;
+  }
+  if (accepted == 0 || kMinLookAlikes * static_cast<double>(compared) > static_cast<double>(alike))
+    return std::nullopt;
+  return "places look alike here: the scans of " + std::to_string(alike) + " of " + std::to_string(compared) +
+         " compared places of two robots fit elsewhere, too, and nothing but scans ties the robots to each "
+         "other; "
+         "their common frame may be that of look-alikes, whatever its sigma says: add radio links, known "
+         "starts or "
+         "position fixes";
 }
 
 }  // namespace radioslam

@@ -5,7 +5,9 @@
 // and links that seem not to fit may be accepted.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "radioslam/mission/finding.hpp"
@@ -23,5 +25,11 @@ std::vector<std::string> component_notes(const RunResult& result);
 /// One note per kind of measurement between robots of which there are several and all were rejected, with the
 /// most frequent reason. Scans that were compared are left out: most of those never fit.
 std::vector<std::string> rejection_notes(const std::vector<ClosureResult>& closures);
+
+/// A note where nothing but scans ties robots to each other and the scans of a third of the compared places
+/// or more fit elsewhere, too: look-alikes may agree with one another, and then win together. `elsewhere`:
+/// the reason of those.
+std::optional<std::string> look_alike_note(const std::vector<ClosureResult>& closures,
+                                           std::string_view elsewhere);
 
 }  // namespace radioslam
