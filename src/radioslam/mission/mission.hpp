@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 #include <numbers>
 #include <optional>
@@ -113,6 +114,11 @@ inline KnownStarts known_starts(const Mission& mission) {
   KnownStarts starts;
   for (const Robot& robot : mission.robots) starts.push_back(robot.initial_pose);
   return starts;
+}
+
+inline bool has_known_starts(const Mission& mission) {
+  return std::any_of(mission.robots.begin(), mission.robots.end(),
+                     [](const Robot& robot) { return robot.initial_pose.has_value(); });
 }
 
 }  // namespace radioslam

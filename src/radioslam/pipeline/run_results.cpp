@@ -215,11 +215,8 @@ RunResult describe_run(const Mission& mission, const RadioMeasurements& radio,
     timed("angle checks", [&] { check_angles_into(result, mission, joint, estimate.alignment, params); });
   result.closures = collect_all_closures(estimate);
   append(result.notes, rejection_notes(result.closures));
-  const auto is_known = [](const auto& start) { return start.has_value(); };
-  if (std::none_of(estimate.measured.starts.begin(), estimate.measured.starts.end(), is_known) &&
-      !has_fixes(mission))
-    if (auto note = look_alike_note(result.closures, reason(LoopStatus::kAmbiguous)))
-      result.notes.push_back(std::move(*note));
+  auto note = look_alike_note(result.closures, reason(LoopStatus::kAmbiguous));
+  if (note && !has_known_starts(mission) && !has_fixes(mission)) result.notes.push_back(std::move(*note));
   append(result.notes, notes_on_obstructed_robots(result.robots, result.closures));
   add_uncertain_stretches(result);
   widen_by_alternatives(result.robots, joint, estimate.alignment);
