@@ -42,7 +42,9 @@ std::string bssid(std::size_t number, Rng& rng) {
 
 /// Half along the outer walls, half anywhere on the ceiling.
 Eigen::Vector2d draw_inside(const LaneGridParams& floor, Rng& rng) {
-  Eigen::Vector2d p(rng.uniform(0, floor.floor_x_m), rng.uniform(0, floor.floor_y_m));
+  // One after the other: compilers evaluate arguments in different orders.
+  const double y = rng.uniform(0, floor.floor_y_m), x = rng.uniform(0, floor.floor_x_m);
+  Eigen::Vector2d p(x, y);
   switch (rng.below(8)) {
     case 0:
       p.x() = 0;
@@ -64,8 +66,9 @@ Eigen::Vector2d draw_inside(const LaneGridParams& floor, Rng& rng) {
 
 Eigen::Vector2d draw_outside(const LaneGridParams& floor, double reach_m, Rng& rng) {
   for (;;) {
-    Eigen::Vector2d p(rng.uniform(-reach_m, floor.floor_x_m + reach_m),
-                      rng.uniform(-reach_m, floor.floor_y_m + reach_m));
+    const double y = rng.uniform(-reach_m, floor.floor_y_m + reach_m);
+    const double x = rng.uniform(-reach_m, floor.floor_x_m + reach_m);
+    const Eigen::Vector2d p(x, y);
     const bool inside = p.x() >= 0 && p.x() <= floor.floor_x_m && p.y() >= 0 && p.y() <= floor.floor_y_m;
     if (!inside) return p;
   }

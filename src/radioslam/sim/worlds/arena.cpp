@@ -38,10 +38,12 @@ Arena::Arena(double side_m, int boxes, Rng rng) : side_m_(side_m) {
   add_walls({Eigen::Vector2d::Zero(), Eigen::Vector2d::Constant(side_m)}, walls_);
   for (int tries = 0; tries < kTries * boxes && static_cast<int>(boxes_.size()) < boxes; ++tries) {
     const double largest = std::min(kLargestBox_m, side_m / 4);
-    const Eigen::Vector2d size(rng.uniform(std::min(kSmallestBox_m, largest / 2), largest),
-                               rng.uniform(std::min(kSmallestBox_m, largest / 2), largest));
-    const Eigen::Vector2d low(rng.uniform(kGangway_m, side_m - size.x() - kGangway_m),
-                              rng.uniform(kGangway_m, side_m - size.y() - kGangway_m));
+    // One after the other: compilers evaluate arguments in different orders.
+    const double smallest = std::min(kSmallestBox_m, largest / 2);
+    const double height_m = rng.uniform(smallest, largest), width_m = rng.uniform(smallest, largest);
+    const double low_y = rng.uniform(kGangway_m, side_m - height_m - kGangway_m);
+    const double low_x = rng.uniform(kGangway_m, side_m - width_m - kGangway_m);
+    const Eigen::Vector2d low(low_x, low_y), size(width_m, height_m);
     const ArenaBox box{low, low + size};
     if (std::any_of(boxes_.begin(), boxes_.end(),
                     [&](const ArenaBox& other) { return overlap(box, other, kGangway_m); }))
