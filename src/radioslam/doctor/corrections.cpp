@@ -12,13 +12,6 @@
 namespace radioslam {
 namespace {
 
-struct Unit {
-  const char* name;
-  double metres;
-};
-constexpr Unit kUnits[] = {
-    {"millimetres", 1e-3}, {"centimetres", 1e-2}, {"feet", 0.3048}, {"kilometres", 1e3}};
-
 auto every_pair() {
   return [](std::size_t, std::size_t) { return true; };
 }
@@ -59,12 +52,12 @@ void add_odometry(const Mission& mission, const TeamLinks& team, std::size_t r,
                          "a right-handed frame, y to the left of x and yaw counter-clockwise",
                          "change the sign of y and of the yaw"),
                  [r](TeamLinks& links) { links.tracks[r].mirror(); }, pairs_of(r)});
-  for (const Unit& unit : kUnits) {
-    if (!can_move_like(team.tracks[r], unit.metres)) continue;
+  for (const Unit& unit : kLengthUnits) {
+    if (!can_move_like(team.tracks[r], unit.si)) continue;
     all.push_back({finding("unit", id, odometry_file(id),
                            std::string("positions fit the radio links if they are in ") + unit.name, "metres",
-                           "multiply the positions by " + number(unit.metres)),
-                   [r, unit](TeamLinks& links) { links.tracks[r].scale(unit.metres); }, pairs_of(r)});
+                           "multiply the positions by " + number(unit.si)),
+                   [r, unit](TeamLinks& links) { links.tracks[r].scale(unit.si); }, pairs_of(r)});
   }
 }
 
@@ -84,9 +77,9 @@ void add_ranges(std::vector<Correction>& all) {
          },
          every_pair()});
   };
-  for (const Unit& unit : kUnits)
-    scaled(unit.metres, "unit", std::string("distances fit the trajectories if they are in ") + unit.name,
-           "metres", "multiply range_m and sigma_m by " + number(unit.metres));
+  for (const Unit& unit : kLengthUnits)
+    scaled(unit.si, "unit", std::string("distances fit the trajectories if they are in ") + unit.name,
+           "metres", "multiply range_m and sigma_m by " + number(unit.si));
   scaled(0.5, "unit", "distances are twice those between the robots", "the distance, not the round trip",
          "divide range_m and sigma_m by two");
   scaled(2, "unit", "distances are half of those between the robots", "metres",

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "radioslam/base/statistics.hpp"
 #include "radioslam/doctor/checks.hpp"
@@ -30,8 +31,10 @@ Stretch longest_stop(const Trajectory<SE3>& odometry) {
   Stretch longest;
   std::size_t first = 0;
   for (std::size_t k = 0; k < odometry.size(); ++k) {
-    const SE3 step = odometry[first].pose.inverse() * odometry[k].pose;
-    if (step.translation().norm() > kSamePlace_m || step.log().tail<3>().norm() > kSameTurn_rad) first = k;
+    const SE3 &before = odometry[first].pose, &now = odometry[k].pose;
+    if ((now.translation() - before.translation()).norm() > kSamePlace_m ||
+        now.rotation().angularDistance(before.rotation()) > kSameTurn_rad)
+      first = k;
     const Stretch stretch{odometry[first].stamp.seconds(), odometry[k].stamp.seconds()};
     if (stretch.length_s() > longest.length_s()) longest = stretch;
   }
@@ -69,7 +72,7 @@ std::optional<std::string> motion_by_ranges(const Mission& mission, const std::v
   struct Last {
     double range_m, path_m;
   };
-  std::map<std::pair<std::size_t, std::size_t>, Last> last;  // by robot or anchor
+  std::map<std::size_t, Last> last;  // by robot or anchor
   std::size_t steps = 0, impossible = 0;
   for (const RangeMeasurement& range : mission.ranges) {
     const bool is_i = range.i.robot.valid() && range.i.robot.index() == r,
@@ -82,9 +85,8 @@ std::optional<std::string> motion_by_ranges(const Mission& mission, const std::v
       if (!row) continue;
       path_m = row->path_m;
     }
-    const std::pair key{
-        other.robot.valid() ? other.robot.index() : mission.robots.size() + other.anchor.index(),
-        std::size_t{0}};
+    const std::size_t key =
+        other.robot.valid() ? other.robot.index() : mission.robots.size() + other.anchor.index();
     if (const auto before = last.find(key); before != last.end()) {
       ++steps;
       impossible += std::abs(range.range_m - before->second.range_m) >
@@ -144,12 +146,13 @@ Finding finding_on(const Robot& robot, const Stretch& stop, const std::string& e
 
 std::vector<Finding> check_frozen_odometry(const Mission& mission) {
   std::vector<Finding> findings;
-  std::vector<Track> tracks;
-  for (const Robot& robot : mission.robots) tracks.emplace_back(robot);
+  std::vector<Track> tracks;  // once a robot stops
   for (std::size_t r = 0; r < mission.robots.size(); ++r) {
     const Robot& robot = mission.robots[r];
     const Stretch stop = longest_stop(robot.odometry);
     if (stop.length_s() < kMinDuration_s) continue;
+    if (tracks.empty())
+      for (const Robot& any : mission.robots) tracks.emplace_back(any);
     auto evidence = motion_by_fixes(robot, stop);
     if (!evidence) evidence = motion_by_ranges(mission, tracks, r, stop);
     if (!evidence) evidence = turn_by_gyroscope(robot, stop);

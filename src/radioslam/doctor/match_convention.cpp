@@ -50,6 +50,7 @@ bool closes(const Placed& x, const Placed& y, Reading reading) {
 }  // namespace
 
 std::vector<Finding> check_matches(const Mission& mission) {
+  if (mission.matches.empty()) return {};
   std::vector<Track> tracks;
   for (const Robot& robot : mission.robots) tracks.emplace_back(robot);
   std::map<std::pair<std::size_t, std::size_t>, std::vector<Placed>> of_pair;

@@ -9,6 +9,7 @@
 #include "radioslam/base/statistics.hpp"
 #include "radioslam/base/units.hpp"
 #include "radioslam/doctor/checks.hpp"
+#include "radioslam/doctor/quantile.hpp"
 #include "radioslam/doctor/text.hpp"
 #include "radioslam/mission/finding.hpp"
 #include "radioslam/mission/mission.hpp"
@@ -156,13 +157,6 @@ std::vector<Step> steps_of(const Trajectory<SE3>& odometry) {
     steps.push_back({seconds_between(odometry[k - 1].stamp, odometry[k].stamp),
                      (odometry[k].pose.translation() - odometry[k - 1].pose.translation()).norm(), k});
   return steps;
-}
-
-double quantile(std::vector<double> values, double share) {
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
 }
 
 std::vector<double> collected(const std::vector<Step>& steps, auto value) {

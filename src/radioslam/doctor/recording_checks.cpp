@@ -69,9 +69,8 @@ std::optional<const char*> unit_of_times(const std::vector<double>& t_s, const I
   const auto inside = std::count_if(t_s.begin(), t_s.end(), [&](double t) { return motion.contains(t); });
   if (static_cast<double>(inside) > kMaxInside * static_cast<double>(t_s.size())) return std::nullopt;
   const auto [first, last] = std::minmax_element(t_s.begin(), t_s.end());
-  for (const auto& [name, factor] :
-       {std::pair{"milliseconds", 1e3}, {"microseconds", 1e6}, {"nanoseconds", 1e9}}) {
-    const double begin = *first / factor, length = (*last - *first) / factor;
+  for (const auto& [name, seconds] : kTimeUnits) {
+    const double begin = *first * seconds, length = (*last - *first) * seconds;
     if (motion.contains(begin) && length > 0.3 * motion.length_s() && length < 1.2 * motion.length_s())
       return name;
   }

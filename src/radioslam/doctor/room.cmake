@@ -9,6 +9,7 @@ radioslam_room(doctor
     link_checks.cpp
     link_fit.cpp
     match_convention.cpp
+    measurements_by_truth.cpp
     moving_access_points.cpp
     odometry_checks.cpp
     odometry_noise.cpp

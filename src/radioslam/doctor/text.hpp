@@ -1,6 +1,7 @@
 // Words of findings: numbers and file names.
 #pragma once
 
+#include <array>
 #include <cstdio>
 #include <string>
 
@@ -22,6 +23,16 @@ inline std::string time_text(double t_s) {
   std::snprintf(text, sizeof text, "%.1f", t_s);
   return text;
 }
+
+/// Units that files are written in by mistake, in metres and in seconds.
+struct Unit {
+  const char* name;
+  double si;
+};
+inline constexpr std::array<Unit, 4> kLengthUnits = {
+    {{"millimetres", 1e-3}, {"centimetres", 1e-2}, {"feet", 0.3048}, {"kilometres", 1e3}}};
+inline constexpr std::array<Unit, 3> kTimeUnits = {
+    {{"milliseconds", 1e-3}, {"microseconds", 1e-6}, {"nanoseconds", 1e-9}}};
 
 inline constexpr const char* kRangesFile = "radio/ranges.csv";
 inline constexpr const char* kAnglesFile = "radio/aoa.csv";

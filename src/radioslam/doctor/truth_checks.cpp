@@ -1,18 +1,15 @@
 // Whether ground truth fits the odometry, on its clock, in metres, not as its mirror image and not as that of
-// another robot; and whether stated starts and ranges fit the truth.
+// another robot.
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "radioslam/base/statistics.hpp"
 #include "radioslam/doctor/check_mission.hpp"
 #include "radioslam/doctor/checks.hpp"
-#include "radioslam/doctor/starts.hpp"
 #include "radioslam/doctor/text.hpp"
 #include "radioslam/doctor/truth_fit.hpp"
 
@@ -29,16 +26,9 @@ constexpr double kMinFactor = 1.07, kMinFactorOfSparse = 2;
 constexpr double kMinInside = 0.05;  // of the truth's rows, within the odometry's times
 constexpr std::array kShifts_s = {0.5, 1.,  1.5, 2.,  3.,  4.,  5.,  6.,  8.,
                                   10., 12., 15., 20., 25., 30., 40., 50., 60.};
-/// Of a pair of starts against the truth.
-constexpr double kSigmaStart_m = 1.3, kSigmaStart_rad = 0.1;
-constexpr std::size_t kMinRanges = 10;
-constexpr double kMinBias_m = 0.3;                        // that four fifths of the ranges exceed
-constexpr double kMaxSpreadSigmas = 3, kMaxSpread = 0.3;  // of the middle half, of the bias
-
 const char* unit_of(double factor) {
-  for (const auto& [name, per_metre] :
-       {std::pair{"millimetres", 1000.}, {"centimetres", 100.}, {"feet", 3.281}, {"kilometres", 1e-3}})
-    if (std::abs(std::log(factor / per_metre)) < 0.1) return name;
+  for (const auto& [name, metres] : kLengthUnits)
+    if (std::abs(std::log(factor * metres)) < 0.1) return name;
   return nullptr;
 }
 
@@ -71,10 +61,9 @@ std::optional<Finding> check_times(const Robot& robot, const RobotTruth& truth) 
   const std::string clock =
       "the clock of the odometry, " + time_text(begin_s) + " to " + time_text(end_s) + " s";
   if (static_cast<double>(inside) < kMinInside * static_cast<double>(truth.poses.size()))
-    for (const auto& [name, per_second] :
-         {std::pair{"milliseconds", 1e3}, {"microseconds", 1e6}, {"nanoseconds", 1e9}})
-      if (first_s / per_second < end_s && last_s / per_second > begin_s &&
-          (last_s - first_s) / per_second > 0.1 * (end_s - begin_s))
+    for (const auto& [name, seconds] : kTimeUnits)
+      if (first_s * seconds < end_s && last_s * seconds > begin_s &&
+          (last_s - first_s) * seconds > 0.1 * (end_s - begin_s))
         return finding_on(robot, "unit", times + ", which look like " + name, clock,
                           "convert the times to seconds");
   if (first_s <= end_s && last_s >= begin_s) return std::nullopt;
@@ -136,10 +125,9 @@ class RobotTruthCheck {
   }
 
   void add_scaled(std::vector<Explanation>& all) {
-    // Carrying the odometry onto the truth keeps its extent.
-    const double path_m = path_of_truth_m();
-    if (!(path_m > 0) || !(path_within_m_ > 0)) return;
-    const double factor = path_m / path_within_m_;
+    const auto [of_truth_m, of_odometry_m] = paths_m();
+    if (!(of_truth_m > 0) || !(of_odometry_m > 0)) return;
+    const double factor = of_truth_m / of_odometry_m;
     const double least = is_sparse() ? kMinFactorOfSparse : kMinFactor;
     if (std::abs(std::log(factor)) < std::log(least)) return;
     const TruthFit scaled = fit({0, 1 / factor, false});
@@ -153,25 +141,22 @@ class RobotTruthCheck {
          "multiply the positions of the truth by " + number(1 / factor) + ", or check the odometry's scale"});
   }
 
-  /// Between the truth's rows; sets the odometry's path between the same times.
-  double path_of_truth_m() {
-    double path_m = 0;
+  /// Of the truth and of the odometry between the same times, in steps of a metre: smaller ones are noise.
+  std::pair<double, double> paths_m() const {
+    std::pair<double, double> paths_m{0, 0};
     const StampedPose<SE3>* last = nullptr;
     std::optional<Track::Row> last_row;
-    path_within_m_ = 0;
     for (const auto& row : truth_.poses) {
       const auto at = tracks_[r_].at(row.stamp.seconds());
-      if (!at) continue;
-      // Small steps are noise.
-      if (last && at->path_m - last_row->path_m < 1) continue;
+      if (!at || (last && at->path_m - last_row->path_m < 1)) continue;
       if (last) {
-        path_m += (row.pose.translation() - last->pose.translation()).norm();
-        path_within_m_ += (at->position_m - last_row->position_m).norm();
+        paths_m.first += (row.pose.translation() - last->pose.translation()).norm();
+        paths_m.second += (at->position_m - last_row->position_m).norm();
       }
       last = &row;
       last_row = at;
     }
-    return path_m;
+    return paths_m;
   }
 
   void add_shifted(std::vector<Explanation>& all) {
@@ -221,69 +206,7 @@ class RobotTruthCheck {
   std::size_t r_;
   const RobotTruth& truth_;
   TruthFit recorded_;
-  double path_within_m_ = 0;
 };
-
-/// Known starts of robots whose truth fits, against its relative poses.
-void check_starts(const Mission& mission, const std::vector<std::optional<SE3>>& T_truth_start,
-                  std::vector<Finding>& findings) {
-  std::vector<PairOfStarts> pairs;
-  for (std::size_t j = 1; j < mission.robots.size(); ++j)
-    for (std::size_t i = 0; i < j; ++i) {
-      const auto &a = mission.robots[i].initial_pose, &b = mission.robots[j].initial_pose;
-      if (!a || !b || !T_truth_start[i] || !T_truth_start[j]) continue;
-      const SE3 stated = a->inverse() * *b, found = T_truth_start[i]->inverse() * *T_truth_start[j];
-      const StartError error{stated.inverse() * found, kSigmaStart_m, kSigmaStart_rad};
-      pairs.push_back({i, j, error.is_far() ? std::optional(error) : std::nullopt});
-    }
-  for (Finding& finding : start_findings(mission, pairs, "the ground truth"))
-    findings.push_back(std::move(finding));
-}
-
-struct Residuals {
-  std::vector<double> m;
-  double sigma_m = 0;
-};
-
-double quantile(const std::vector<double>& sorted, double share) {
-  return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
-}
-
-/// Ranges between robots that mostly differ from the true distances by the same.
-void check_ranges(const Mission& mission, const Truth& truth,
-                  const std::vector<std::optional<SE3>>& T_truth_start, std::vector<Finding>& findings) {
-  std::map<std::pair<std::size_t, std::size_t>, Residuals> of_pair;
-  const auto place = [&](const LinkEnd& end, Stamp stamp) -> std::optional<Eigen::Vector3d> {
-    if (!end.robot.valid() || !T_truth_start[end.robot.index()]) return std::nullopt;
-    const RobotTruth& robot = truth.robots[end.robot.index()];
-    const auto pose = robot.poses.at(stamp);
-    if (!pose || (!robot.has_orientation && !end.lever_arm_m.isZero())) return std::nullopt;
-    return *pose * end.lever_arm_m;
-  };
-  for (const RangeMeasurement& range : mission.ranges) {
-    const auto a = place(range.i, range.stamp), b = place(range.j, range.stamp);
-    if (!a || !b) continue;
-    Residuals& residuals = of_pair[std::minmax(range.i.robot.index(), range.j.robot.index())];
-    residuals.m.push_back(range.range_m - (*b - *a).norm());
-    residuals.sigma_m = std::max(residuals.sigma_m, range.sigma_m);
-  }
-  for (auto& [pair, residuals] : of_pair) {
-    if (residuals.m.size() < kMinRanges) continue;
-    std::sort(residuals.m.begin(), residuals.m.end());
-    const double middle = quantile(residuals.m, 0.5);
-    const bool is_long = quantile(residuals.m, 0.2) > kMinBias_m,
-               is_short = quantile(residuals.m, 0.8) < -kMinBias_m;
-    const double spread = quantile(residuals.m, 0.75) - quantile(residuals.m, 0.25);
-    if ((!is_long && !is_short) ||
-        spread > std::max(kMaxSpreadSigmas * residuals.sigma_m, kMaxSpread * std::abs(middle)))
-      continue;
-    findings.push_back({"bias", Severity::kWarning, "", kRangesFile,
-                        "distances between " + mission.robots[pair.first].id + " and " +
-                            mission.robots[pair.second].id + " are about " + number(std::abs(middle)) +
-                            " m too " + (is_long ? "long" : "short") + " by the ground truth",
-                        "unbiased distances", "subtract the antenna delay, about " + number(middle) + " m"});
-  }
-}
 
 }  // namespace
 
@@ -299,8 +222,7 @@ std::vector<Finding> check_truth(const Mission& mission, const Truth& truth) {
     else
       T_truth_start[r] = start_in_truth(tracks[r], truth.robots[r]);
   }
-  check_starts(mission, T_truth_start, findings);
-  check_ranges(mission, truth, T_truth_start, findings);
+  check_by_truth(mission, truth, T_truth_start, findings);
   return findings;
 }
 

@@ -2,9 +2,11 @@
 // is nearly exact: in each the odometry is carried onto the truth by the best rigid motion.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "radioslam/doctor/team_links.hpp"
+#include "radioslam/mission/finding.hpp"
 #include "radioslam/mission/truth.hpp"
 
 namespace radioslam {
@@ -33,5 +35,10 @@ TruthFit fit_truth(const Track& odometry, const RobotTruth& truth, int dimension
 
 /// T_truth_odometry in the plane, from the first 25 m; nothing where they are less than a few or do not fit.
 std::optional<SE3> start_in_truth(const Track& odometry, const RobotTruth& truth);
+
+/// Adds what stated starts and ranges contradict of the truth. `T_truth_start`: as start_in_truth gives it,
+/// per robot; nothing where its truth is not to be trusted.
+void check_by_truth(const Mission& mission, const Truth& truth,
+                    const std::vector<std::optional<SE3>>& T_truth_start, std::vector<Finding>& findings);
 
 }  // namespace radioslam

@@ -132,10 +132,9 @@ std::optional<std::string> look_alike_note(const std::vector<ClosureResult>& clo
     return std::nullopt;
   return "places look alike here: the scans of " + std::to_string(alike) + " of " + std::to_string(compared) +
          " compared places of two robots fit elsewhere, too, and nothing but scans ties the robots to each "
-         "other; "
-         "their common frame may be that of look-alikes, whatever its sigma says: add radio links, known "
-         "starts or "
-         "position fixes";
+         "other; their common frame may be that of look-alikes, whatever its sigma says: add radio links, "
+         "known "
+         "starts or position fixes";
 }
 
 }  // namespace radioslam
