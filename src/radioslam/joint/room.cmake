@@ -28,6 +28,7 @@ radioslam_room(joint
     matches/match_selection.cpp
     overlap_stage.cpp
     places/closure_worth.cpp
+    places/map_witness.cpp
     places/place_predictions.cpp
     places/place_proposals.cpp
     places/place_recognition.cpp

@@ -315,7 +315,7 @@ JudgedTeam<Pose> judge_closures(const RunSetup& run, TeamEstimate<Pose> aligned,
   if (!closures.loops.empty())
     team.judgement.loop_choice =
         run.timed("loops", close_by_loops<Pose>, team.joint, team.alignment, closures.loops, judgements.loops,
-                  run.params.optimizer, run.progress, run.params.consistency);
+                  run.params.optimizer, run.progress, run.params.consistency, run.maps);
   const bool has_matches = !closures.matches.empty();
   if (has_matches && weighs_matches(run))
     run.timed("alignment by matches", align_by_matches<Pose>, run, team);
@@ -335,7 +335,8 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* graph, const Measur
               const RunParams& params, const RunOptions& options, const Progress& progress,
               StageClock& timed) {
   const RadioMeasurements radio = timed("radio", measure_radio, mission, params.radio, progress);
-  const RunSetup run{mission, radio, params, options, progress, timed};
+  const MapWitness maps(mission, scans);
+  const RunSetup run{mission, radio, params, options, progress, timed, &maps};
 
   auto built = timed("graph", build_team<Pose>, run, graph, scans);
   auto aligned = align_team(run, std::move(built));

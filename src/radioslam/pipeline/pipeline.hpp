@@ -3,9 +3,8 @@
 //   measure    scans give odometry and loop closures of each robot, captures angles, WiFi scans fingerprints
 //   build      the joint graph: odometry, known starts, radio links, each robot's own closures
 //   align      all robots in one frame, and the team optimized there
-//   judge      closures between robots: propose where views overlap, select those that hold, solve. Judging
-//   again,
-//              with closures found since, starts from the same aligned team: their order does not matter
+//   judge      closures between robots: propose where views overlap, select those that hold, solve; with
+//              closures found since, from the same aligned team again
 //   describe   trajectories, uncertainty, outcomes, notes
 #pragma once
 
@@ -15,6 +14,7 @@
 
 #include "radioslam/base/progress.hpp"
 #include "radioslam/graph/pose_graph.hpp"
+#include "radioslam/joint/places/map_witness.hpp"
 #include "radioslam/joint/team_estimate.hpp"
 #include "radioslam/mission/mission.hpp"
 #include "radioslam/odometry/scan_stage.hpp"
@@ -66,6 +66,7 @@ struct RunSetup {
   const RunOptions& options;
   const Progress& progress;
   StageClock& timed;
+  const MapWitness* maps = nullptr;  ///< what scans say of closures between robots; null: none are asked
 };
 
 /// The joint graph of the mission, or of `graph` where the team comes as one, without any relation of the

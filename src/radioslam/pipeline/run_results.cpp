@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 #include <string>
 
 #include "radioslam/joint/dense_trajectory.hpp"
@@ -58,20 +56,6 @@ void add_estimate(RunResult& result, const Mission& mission, const JointGraph<Po
     if (!robot.placed) result.unplaced.push_back(robot.id);
 }
 
-/// Note on the constant errors of ranges that the estimate corrects: the largest one.
-void note_range_biases(RunResult& result) {
-  const auto size = [](const RangeBiasResult& bias) { return std::abs(bias.bias_m); };
-  const auto largest = std::max_element(result.range_biases.begin(), result.range_biases.end(),
-                                        [&](const auto& a, const auto& b) { return size(a) < size(b); });
-  if (largest == result.range_biases.end()) return;
-  std::ostringstream note;
-  note << std::fixed << std::setprecision(2)
-       << "ranges have constant errors, which the estimate corrects: those between " << largest->end_i
-       << " and " << largest->end_j << " are " << size(*largest) << " m too "
-       << (largest->bias_m > 0 ? "long" : "short") << " (range_biases in summary.json)";
-  result.notes.push_back(note.str());
-}
-
 void append(std::vector<std::string>& notes, std::vector<std::string> more) {
   for (auto& note : more) notes.push_back(std::move(note));
 }
@@ -87,7 +71,7 @@ void add_notes(RunResult& result, const Mission& mission, const RadioMeasurement
     result.notes.push_back(
         std::to_string(ignored_links) +
         " links are not used: they have no odometry at their time, or are relative poses between robots");
-  note_range_biases(result);
+  if (auto note = range_bias_note(result.range_biases)) result.notes.push_back(std::move(*note));
   if (!result.alternatives.empty())
     result.notes.push_back("the links leave the team alignment ambiguous: see hypotheses/");
   if (const auto note = sequence_note(mission.dimension, radio, sequence)) result.notes.push_back(*note);
@@ -216,7 +200,10 @@ RunResult describe_run(const Mission& mission, const RadioMeasurements& radio,
   result.closures = collect_all_closures(estimate);
   append(result.notes, rejection_notes(result.closures));
   auto note = look_alike_note(result.closures, reason(LoopStatus::kAmbiguous));
-  if (note && !has_known_starts(mission) && !has_fixes(mission)) result.notes.push_back(std::move(*note));
+  if (note && !has_known_starts(mission) && !has_fixes(mission)) {
+    result.weight = std::min(result.weight, kMaxLookAlikeWeight);
+    result.notes.push_back(std::move(*note));
+  }
   append(result.notes, notes_on_obstructed_robots(result.robots, result.closures));
   add_uncertain_stretches(result);
   widen_by_alternatives(result.robots, joint, estimate.alignment);

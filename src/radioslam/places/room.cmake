@@ -11,4 +11,5 @@ radioslam_room(places
     scan_context.cpp
     scan_context_index.cpp
     sector_dft.cpp
+    seen_through.cpp
   ROOMS lidar graph)

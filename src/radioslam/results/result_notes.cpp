@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <iomanip>
 #include <map>
+#include <sstream>
 
 namespace radioslam {
 namespace {
@@ -132,9 +135,21 @@ std::optional<std::string> look_alike_note(const std::vector<ClosureResult>& clo
     return std::nullopt;
   return "places look alike here: the scans of " + std::to_string(alike) + " of " + std::to_string(compared) +
          " compared places of two robots fit elsewhere, too, and nothing but scans ties the robots to each "
-         "other; their common frame may be that of look-alikes, whatever its sigma says: add radio links, "
-         "known "
-         "starts or position fixes";
+         "other; their common frame may be that of look-alikes, whatever its sigma says, and has a weight of "
+         "at most one half: add radio links, known starts or position fixes";
+}
+
+std::optional<std::string> range_bias_note(const std::vector<RangeBiasResult>& biases) {
+  const auto size = [](const RangeBiasResult& bias) { return std::abs(bias.bias_m); };
+  const auto largest = std::max_element(biases.begin(), biases.end(),
+                                        [&](const auto& a, const auto& b) { return size(a) < size(b); });
+  if (largest == biases.end()) return std::nullopt;
+  std::ostringstream note;
+  note << std::fixed << std::setprecision(2)
+       << "ranges have constant errors, which the estimate corrects: those between " << largest->end_i
+       << " and " << largest->end_j << " are " << size(*largest) << " m too "
+       << (largest->bias_m > 0 ? "long" : "short") << " (range_biases in summary.json)";
+  return note.str();
 }
 
 }  // namespace radioslam

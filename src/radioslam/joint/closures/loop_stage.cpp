@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "radioslam/joint/closures/loop_selection.hpp"
 #include "radioslam/joint/closures/own_loops.hpp"
 #include "radioslam/joint/closures/team_loops.hpp"
+#include "radioslam/joint/places/map_witness.hpp"
 
 namespace radioslam {
 namespace {
@@ -28,6 +30,18 @@ void add_accepted(JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>>& lo
     const std::size_t first = loop.closures.front();
     add_closure(joint, closures[first], loop_factor(loop), FactorSource::kLoop, first);
   }
+}
+
+/// Takes the robots' own loops out of the graph; those that were in it are accepted so far.
+template <class Pose>
+void take_out(JointGraph<Pose>& joint, std::vector<TeamLoop<Pose>>& loops) {
+  for (std::size_t k = 0; k < joint.origins.relative_poses.size(); ++k) {
+    const FactorOrigin& origin = joint.origins.relative_poses[k];
+    if (origin.source != FactorSource::kLoop) continue;
+    for (TeamLoop<Pose>& loop : loops)
+      if (loop.closures.front() == origin.measurement) loop.accepted = true;
+  }
+  erase_relative_poses(joint, [](const FactorOrigin& o) { return o.source == FactorSource::kLoop; });
 }
 
 template <class Pose>
@@ -107,6 +121,40 @@ void set_alternatives(const JointGraph<Pose>& joint, const std::vector<TeamLoop<
   alignment.weight = weights.front() / sum;
   alignment.alternative_weights.clear();
   for (std::size_t k = 1; k < weights.size(); ++k) alignment.alternative_weights.push_back(weights[k] / sum);
+}
+
+constexpr std::size_t kMinHeld = 1000;  // points that were compared
+constexpr double kMaxThrough = 0.4;     // share of points seen through, however the world is made
+/// The same against the group of the pair that lays the maps best.
+constexpr double kMaxOverBest = 3, kMaxBeyondBest = 0.02;
+
+/// Without groups that could join robots but lay one's structure into the other's free space.
+template <class Pose>
+std::vector<LoopGroup> held_against_maps(const MapWitness* maps, const std::vector<Closure>& closures,
+                                         const std::vector<TeamLoop<Pose>>& loops,
+                                         std::vector<LoopGroup> groups) {
+  if (!maps) return groups;
+  std::vector<std::optional<double>> through;  // per group
+  std::map<std::pair<std::size_t, std::size_t>, double> least;
+  for (const LoopGroup& group : groups) {
+    through.emplace_back();
+    if (group.evidence < kMinSupport) continue;
+    std::vector<const Closure*> members;
+    for (const std::size_t k : group.loops) members.push_back(&closures[loops[k].closures.front()]);
+    const SeenThrough held = maps->held_against(members);
+    if (held.all() < kMinHeld) continue;
+    through.back() = held.share();
+    double& best = least.try_emplace({group.segment_a, group.segment_b}, 1).first->second;
+    best = std::min(best, held.share());
+  }
+  std::size_t k = 0;
+  std::erase_if(groups, [&](const LoopGroup& group) {
+    const std::optional<double> share = through[k++];
+    if (!share) return false;
+    const double best = least.at({group.segment_a, group.segment_b});
+    return *share > kMaxThrough || *share > kMaxOverBest * best + kMaxBeyondBest;
+  });
+  return groups;
 }
 
 /// Components of segments that were apart, joined by the accepted loops between them.
@@ -227,18 +275,12 @@ std::optional<LoopChoiceResult> close_by_loops(JointGraph<Pose>& joint, TeamAlig
                                                const std::vector<Closure>& closures,
                                                std::vector<ClosureJudgement>& judgements,
                                                const OptimizerParams& optimizer, const Progress& progress,
-                                               const ConsistencyParams& consistency) {
+                                               const ConsistencyParams& consistency, const MapWitness* maps) {
   for (std::size_t k = 0; k < closures.size(); ++k)
     if (!closure_ends(joint, closures[k]).valid()) reject(judgements[k], "no odometry at its time");
   std::vector<TeamLoop<Pose>> loops = team_loops(joint, closures);
   if (loops.empty()) return std::nullopt;
-  for (std::size_t k = 0; k < joint.origins.relative_poses.size(); ++k) {
-    const FactorOrigin& origin = joint.origins.relative_poses[k];
-    if (origin.source != FactorSource::kLoop) continue;
-    for (TeamLoop<Pose>& loop : loops)
-      if (loop.closures.front() == origin.measurement) loop.accepted = true;
-  }
-  erase_relative_poses(joint, [](const FactorOrigin& o) { return o.source == FactorSource::kLoop; });
+  take_out(joint, loops);
   const std::vector<int> component_before = alignment.of_segment;
   LoopSelection scales;
   LoopChoiceResult choice;
@@ -246,7 +288,8 @@ std::optional<LoopChoiceResult> close_by_loops(JointGraph<Pose>& joint, TeamAlig
   for (int pass = 0; pass < kMaxPasses; ++pass) {
     const double odometry_scale = std::max(scales.odometry_scale, std::pow(2.0, pass));
     const auto chains = segment_chains(joint, loops, odometry_scale);
-    const std::vector<LoopGroup> groups = loop_groups(joint, loops, chains, {.consistency = consistency});
+    const auto groups = held_against_maps(maps, closures, loops,
+                                          loop_groups(joint, loops, chains, {.consistency = consistency}));
     auto alignments = align_by_loops(joint, component_before, loops, groups, chains);
     if (!has_unit_weights(consistency)) undo_weak_joins(groups, joint.robot_of_segment, alignments);
     const JointGraph<Pose> before = joint;
@@ -288,7 +331,7 @@ std::optional<LoopChoiceResult> close_by_loops(JointGraph<Pose>& joint, TeamAlig
   template void add_own_loops(JointGraph<Pose>&, const std::vector<Closure>&, const OptimizerParams&);      \
   template std::optional<LoopChoiceResult> close_by_loops(                                                  \
       JointGraph<Pose>&, TeamAlignment<Pose>&, const std::vector<Closure>&, std::vector<ClosureJudgement>&, \
-      const OptimizerParams&, const Progress&, const ConsistencyParams&);
+      const OptimizerParams&, const Progress&, const ConsistencyParams&, const MapWitness*);
 RADIOSLAM_LOOP_STAGE(SE2)
 RADIOSLAM_LOOP_STAGE(SE3)
 #undef RADIOSLAM_LOOP_STAGE

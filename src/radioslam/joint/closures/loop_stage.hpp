@@ -14,6 +14,8 @@
 
 namespace radioslam {
 
+class MapWitness;
+
 /// Corrects every trajectory by its robot's own loops, in its own frame; those that fit become factors.
 template <class Pose>
 void add_own_loops(JointGraph<Pose>& joint, const std::vector<Closure>& closures,
@@ -23,12 +25,14 @@ void add_own_loops(JointGraph<Pose>& joint, const std::vector<Closure>& closures
 /// closure. The alignment notes what stands on loops alone, what they leave open, and stated
 /// covariances that do not hold. With unit weights every pair of robots that has a consistent set is joined
 /// by its largest, however weak; the joint estimate still judges each loop under its covariance. Nothing
-/// where no closure has both ends in the graph.
+/// where no closure has both ends in the graph. `maps`: what the robots' scans say of closures between them,
+/// if they have any.
 template <class Pose>
 std::optional<LoopChoiceResult> close_by_loops(JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment,
                                                const std::vector<Closure>& closures,
                                                std::vector<ClosureJudgement>& judgements,
                                                const OptimizerParams& optimizer, const Progress& progress,
-                                               const ConsistencyParams& consistency = {});
+                                               const ConsistencyParams& consistency = {},
+                                               const MapWitness* maps = nullptr);
 
 }  // namespace radioslam
