@@ -4,8 +4,8 @@
 // Of one keyframe's scan, the panorama keeps the ranges in every direction. A point of the other robot is
 //   seen            if a return near its direction is as far,
 //   seen through    if all returns around its direction are farther,
-// and otherwise hidden or out of view, which says nothing. Places that look alike agree locally, so that a
-// scan fits a wrong one; a whole way's scans do not, unless the world repeats itself as a whole.
+// and otherwise hidden or out of view, which is no evidence. A scan fits a wrong place that looks alike; the
+// scans of a whole trajectory do not, unless the world repeats itself as a whole.
 #pragma once
 
 #include <cstddef>
@@ -55,7 +55,7 @@ struct SeenThrough {
 };
 
 /// Both robots' points in the other's views. Keyframes are placed from the nearest shared place along the
-/// paths by odometry, and left out where that tells less than the structure: `places` must not be empty.
+/// trajectories by odometry, and left out where it does not constrain them well. `places` must not be empty.
 SeenThrough seen_through(const PlacedKeyframes& a, const PlacedKeyframes& b,
                          const std::vector<SharedPlace>& places);
 
