@@ -23,7 +23,7 @@ namespace radioslam {
 // Where each factor of the joint graph came from: which measurement, robots and keyframes.
 
 /// Kind of measurement that a factor was made from.
-enum class FactorSource { kOdometry, kRange, kAoa, kFingerprint, kSequence, kScanLoop, kLoop, kMatch };
+enum class FactorSource { kOdometry, kRange, kAoa, kFingerprint, kSequence, kScanLoop, kLoop };
 
 struct FactorOrigin {
   FactorSource source = FactorSource::kOdometry;

@@ -6,12 +6,15 @@ radioslam_room(joint
     aoa/mutual_bearing_constraints.cpp
     closures/agreeing_loops.cpp
     closures/closure.cpp
+    closures/closure_admission.cpp
     closures/loop_alignment.cpp
     closures/loop_choice.cpp
     closures/loop_selection.cpp
     closures/loop_stage.cpp
+    closures/map_contradictions.cpp
     closures/other_valleys.cpp
     closures/own_loops.cpp
+    closures/radio_alignment_choice.cpp
     closures/team_loops.cpp
     dense_trajectory.cpp
     field_stage.cpp
@@ -20,12 +23,10 @@ radioslam_room(joint
     joint_graph_from_file.cpp
     late_nodes.cpp
     links/link_weights.cpp
+    links/radio_covariance.cpp
     links/radio_factors.cpp
     links/range_biases.cpp
     links/sight_notes.cpp
-    matches/alignment_by_matches.cpp
-    matches/match_groups.cpp
-    matches/match_selection.cpp
     overlap_stage.cpp
     places/closure_worth.cpp
     places/map_witness.cpp

@@ -38,6 +38,15 @@ bool connected_without_matches(const TeamAlignment<Pose>& alignment, RobotIndex 
   return c_i == c_j || (alignment.in_common_frame[i.index()] && alignment.in_common_frame[j.index()]);
 }
 
+/// The same of any two robots.
+template <class Pose>
+bool relates_robots(const TeamAlignment<Pose>& alignment) {
+  for (std::size_t i = 0; i < alignment.component.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (connected_without_matches(alignment, RobotIndex(i), RobotIndex(j))) return true;
+  return false;
+}
+
 /// One note on all keyframes that were left out; nothing where none was.
 std::optional<std::string> untied_note(const std::vector<RobotVariables>& robots);
 

@@ -17,9 +17,8 @@ namespace radioslam {
 /// A list for each origin of closures.
 template <class T>
 struct ByOrigin {
-  std::vector<T> scans = {};    ///< each robot's own, by scan matching; of two, those that do not fit
-  std::vector<T> loops = {};    ///< of a graph file, or the matches of a team that stands on them
-  std::vector<T> matches = {};  ///< the mission's otherwise, if they are asked for
+  std::vector<T> scans = {};  ///< each robot's own, by scan matching; of two, those that do not fit
+  std::vector<T> loops = {};  ///< of a graph file, the mission's matches, and those found between robots
   std::vector<T> sequences = {};
 };
 

@@ -13,7 +13,6 @@
 #include "radioslam/joint/graduated_optimization.hpp"
 #include "radioslam/joint/joint_graph.hpp"
 #include "radioslam/joint/links/range_biases.hpp"
-#include "radioslam/joint/matches/match_selection.hpp"
 #include "radioslam/joint/overlap_stage.hpp"
 #include "radioslam/joint/places/place_recognition.hpp"
 #include "radioslam/joint/places/verification_budget.hpp"
@@ -84,6 +83,11 @@ struct RunParams {
 };
 
 // How far a run goes, and what it skips.
+
+enum class Pruning {
+  kOn,
+  kOff,  ///< every closure may take part, to measure the effect of pruning
+};
 
 struct RunOptions {
   Pruning pruning = Pruning::kOn;

@@ -5,12 +5,13 @@
 #include <utility>
 
 #include "radioslam/joint/closures/closure.hpp"
+#include "radioslam/joint/closures/closure_admission.hpp"
 #include "radioslam/joint/closures/loop_stage.hpp"
+#include "radioslam/joint/closures/radio_alignment_choice.hpp"
 #include "radioslam/joint/field_stage.hpp"
 #include "radioslam/joint/joint_graph_from_file.hpp"
 #include "radioslam/joint/late_nodes.hpp"
 #include "radioslam/joint/links/link_weights.hpp"
-#include "radioslam/joint/matches/alignment_by_matches.hpp"
 #include "radioslam/joint/places/place_recognition.hpp"
 #include "radioslam/joint/uncertainty/position_uncertainty.hpp"
 #include "radioslam/odometry/scan_stage.hpp"
@@ -79,20 +80,6 @@ void add_recording_results(RunResult& result, const Mission& mission, const Meas
   result.aoa_measurements = std::move(csi.profiles);
 }
 
-/// Whether matches may move the team; without pruning or robustness they show what they do on their own.
-bool weighs_matches(const RunSetup& run) {
-  return run.params.matches.robust && run.options.pruning == Pruning::kOn && !run.options.overlap_only;
-}
-
-/// Whether nothing but matches can connect the robots.
-bool stands_on_matches(const RunSetup& run) {
-  const Mission& mission = run.mission;
-  return weighs_matches(run) && mission.ranges.empty() && mission.aoa_measurements.empty() &&
-         !has_fixes(mission) &&
-         std::all_of(mission.robots.begin(), mission.robots.end(),
-                     [](const Robot& robot) { return robot.wifi.empty(); });
-}
-
 /// The graph of the mission, with poses at the stamps of loop closures and position fixes.
 template <class Pose>
 JointGraph<Pose> mission_graph(const RunSetup& run, const std::vector<VerifiedClosure>& scans) {
@@ -146,29 +133,24 @@ void add_found(const RunSetup& run, TeamEstimate<Pose>& team, const std::vector<
   add_nodes(team, run.mission, run.params.graph, stamps);
   auto& closures = team.measured.closures;
   auto& judgements = team.judgement.closures;
-  const bool are_loops = !closures.loops.empty() || stands_on_matches(run);
   for (const VerifiedClosure& closure : found)
-    if (closure.judgement.status != ClosureStatus::kAccepted)
-      append({closure}, closures.scans, judgements.scans);
-    else if (are_loops)
+    if (closure.judgement.status == ClosureStatus::kAccepted)
       append({closure}, closures.loops, judgements.loops);
     else
-      append({closure}, closures.matches, judgements.matches);
+      append({closure}, closures.scans, judgements.scans);
 }
 
-/// Moves the team to the alignment that radio links and groups of consistent matches support best, and joins
-/// components that matches alone connect.
+/// Moves the team to the alignment that radio links and groups of consistent closures support best.
 template <class Pose>
-void align_by_matches(const RunSetup& run, TeamEstimate<Pose>& team) {
-  const std::vector<Closure>& matches = team.measured.closures.matches;
-  if (choose_alignment_by_matches(team.joint, team.alignment, matches, run.params.alignment))
+void choose_alignment(const RunSetup& run, TeamEstimate<Pose>& team) {
+  if (choose_alignment_by_loops(team.joint, team.alignment, team.measured.closures.loops,
+                                run.params.alignment, run.params.consistency, run.maps))
     optimize(team.joint.team.graph, run.params.optimizer, run.progress);
-  join_by_matches(team.joint, team.alignment, matches);
 }
 
-bool needs_overlap_search(const RunSetup& run, const std::vector<Closure>& matches) {
+bool needs_overlap_search(const RunSetup& run) {
   return run.options.overlap_only || !run.mission.ranges.empty() || !run.mission.aoa_measurements.empty() ||
-         !run.mission.matches.empty() || !matches.empty();
+         !run.mission.matches.empty();
 }
 
 /// Keyframe pairs of different robots whose views can overlap, in any of the likely alignments.
@@ -197,7 +179,7 @@ OverlapStage list_overlaps(const RunSetup& run, const TeamEstimate<Pose>& team) 
   return search_overlaps(
       run, team, run.params.overlap,
       {run.options.search, run.options.take_candidates ? 0 : listed,
-       keyframes_of_matches(team.joint, team.measured.closures.matches), run.options.take_candidates});
+       keyframes_of(team.joint, team.measured.closures.loops), run.options.take_candidates});
 }
 
 /// What is left of the budget, in equal shares over the rounds that are left.
@@ -240,22 +222,39 @@ RecognisedPlaces find_places(const RunSetup& run, const TeamEstimate<Pose>& team
                    run.params.alignment, run.progress);
 }
 
-/// Selects the matches that are candidates and consistent, and solves the team with them.
+/// What radio, overlaps and scans say of the team's closures. Without pruning, nothing; closures then show
+/// what they do on their own.
 template <class Pose>
-void close_by_matches(const RunSetup& run, TeamEstimate<Pose>& team, const OverlapStage& overlaps) {
+ClosureEvidence<Pose> evidence_of(const RunSetup& run, const TeamEstimate<Pose>& team,
+                                  const std::optional<OverlapStage>& overlaps) {
   const RunParams& params = run.params;
-  const std::vector<Closure>& matches = team.measured.closures.matches;
-  std::vector<ClosureJudgement>& judgements = team.judgement.closures.matches;
-  const auto radio = radio_covariance(team.joint, team.alignment, params.alignment);
+  const bool is_pruned = run.options.pruning == Pruning::kOn;
+  ClosureEvidence<Pose> evidence;
+  evidence.consistency = params.consistency;
   std::optional<AoaMatchWeights> angles;
   if (params.matches.angle_weights) angles.emplace(run.mission, params.matches, params.angles);
-  select_matches(team.joint, team.alignment, matches, judgements, overlaps.of_asked, run.options.pruning,
-                 params.matches, angles ? &*angles : nullptr, radio, params.consistency);
-  if (radio && params.matches.robust && run.options.pruning == Pruning::kOn)
-    optimize_matches_and_radio(team.joint, matches, judgements, team.alignment, params.matches,
-                               params.alignment.mixture, params.optimizer, run.progress);
+  if (is_pruned && params.matches.robust) {
+    evidence.radio = radio_covariance(team.joint, team.alignment, params.alignment);
+    evidence.maps = run.maps;
+  }
+  if (has_radio_links(team.joint)) evidence.links = &params.alignment.mixture;
+  evidence.admissions = admit_closures(team.joint, team.alignment, team.measured.closures.loops,
+                                       is_pruned && overlaps ? &overlaps->of_asked : nullptr, evidence.radio,
+                                       angles ? &*angles : nullptr);
+  return evidence;
+}
+
+/// Decides which closures hold, and solves the team with them.
+template <class Pose>
+void close_team(const RunSetup& run, TeamEstimate<Pose>& team, const std::optional<OverlapStage>& overlaps) {
+  const std::vector<Closure>& closures = team.measured.closures.loops;
+  std::vector<ClosureJudgement>& judgements = team.judgement.closures.loops;
+  const ClosureEvidence<Pose> evidence = evidence_of(run, team, overlaps);
+  if (run.params.matches.robust)
+    team.judgement.loop_choice = close_by_loops(team.joint, team.alignment, closures, judgements, evidence,
+                                                run.params.optimizer, run.progress);
   else
-    optimize_with_matches(team.joint, judgements, params.matches, params.optimizer, run.progress);
+    close_by_all(team.joint, closures, evidence.admissions, judgements, run.params.optimizer, run.progress);
 }
 
 }  // namespace
@@ -269,13 +268,11 @@ TeamEstimate<Pose> build_team(const RunSetup& run, const TeamGraph<Pose>* graph,
   append(of_scans, closures.scans, judgements.scans);
   team.joint = graph ? joint_graph_of(*graph, run.mission) : mission_graph<Pose>(run, of_scans);
   team.measured.starts = known_starts(run.mission);
-  if (graph) closures.loops = closures_of(*graph, team.joint);
-  if (!run.options.overlap_only) {
-    const bool are_loops = !graph && stands_on_matches(run);
-    (are_loops ? closures.loops : closures.matches) = closures_of_matches(run.mission);
-  }
+  if (graph)
+    closures.loops = closures_of(*graph, team.joint);
+  else if (!run.options.overlap_only)
+    closures.loops = closures_of_matches(run.mission);
   judgements.loops.resize(closures.loops.size());
-  judgements.matches.resize(closures.matches.size());
   correct_by_scans(team.joint, run.mission, scans);
   add_scan_closures(team.joint, of_scans);
   add_own_loops(team.joint, closures.loops, run.params.optimizer);
@@ -312,16 +309,16 @@ JudgedTeam<Pose> judge_closures(const RunSetup& run, TeamEstimate<Pose> aligned,
   const auto& closures = team.measured.closures;
   auto& judgements = team.judgement.closures;
   add_found(run, team, found);
-  if (!closures.loops.empty())
-    team.judgement.loop_choice =
-        run.timed("loops", close_by_loops<Pose>, team.joint, team.alignment, closures.loops, judgements.loops,
-                  run.params.optimizer, run.progress, run.params.consistency, run.maps);
-  const bool has_matches = !closures.matches.empty();
-  if (has_matches && weighs_matches(run))
-    run.timed("alignment by matches", align_by_matches<Pose>, run, team);
-  if (needs_overlap_search(run, closures.matches))
-    judged.overlaps = run.timed("overlap", list_overlaps<Pose>, run, team);
-  if (has_matches) run.timed("matches", close_by_matches<Pose>, run, team, *judged.overlaps);
+  const bool has_closures = !closures.loops.empty(), is_pruned = run.options.pruning == Pruning::kOn;
+  if (has_closures && is_pruned && run.params.matches.robust)
+    run.timed("alignment by closures", choose_alignment<Pose>, run, team);
+  const auto search = [&] {
+    if (needs_overlap_search(run)) judged.overlaps = run.timed("overlap", list_overlaps<Pose>, run, team);
+  };
+  if (!has_closures || relates_robots(team.alignment)) search();
+  const auto frames = team.alignment.component;
+  if (has_closures) run.timed("loops", close_team<Pose>, run, team, judged.overlaps);
+  if (!judged.overlaps || team.alignment.component != frames) search();
   test_closures(team.joint, FactorSource::kScanLoop, judgements.scans);
   test_closures(team.joint, FactorSource::kSequence, judgements.sequences);
   return judged;
@@ -351,7 +348,6 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* graph, const Measur
     auto& closures = judged.team.measured.closures;
     auto& judgements = judged.team.judgement.closures;
     if (!closures.loops.empty()) places.note_judgement(closures.loops, judgements.loops);
-    if (!closures.matches.empty()) places.note_judgement(closures.matches, judgements.matches);
     auto more = find_places(run, judged.team, scans, descriptors, round, places);
     const bool has_more = more.has_verified();
     if (!has_more) append(more.closures, closures.scans, judgements.scans);

@@ -104,7 +104,6 @@ std::vector<ClosureResult> collect_all_closures(const TeamEstimate<Pose>& estima
   add(closures.sequences, judgements.sequences);
   add(closures.scans, judgements.scans);
   add(closures.loops, judgements.loops);
-  add(closures.matches, judgements.matches);
   return all;
 }
 

@@ -78,7 +78,8 @@ class BlockTeam {
   Outcome solve(const ConsistencyParams& consistency = {}) const {
     Outcome out = measured();
     add_own_loops(out.joint, out.closures, {});
-    close_by_loops(out.joint, out.alignment, out.closures, out.judgements, {}, {}, consistency);
+    close_by_loops(out.joint, out.alignment, out.closures, out.judgements, {.consistency = consistency}, {},
+                   {});
     return out;
   }
 

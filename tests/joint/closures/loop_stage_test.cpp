@@ -175,8 +175,7 @@ double cost_over_truth(std::uint64_t seed) {
 
 TEST(CloseByLoops, LeavesValleysThatFalseGroupsBendTheOdometryInto) {
   // Without trials of other solutions 3.9 and 1.7 times the cost of the right one.
-  for (const std::uint64_t seed : {7u, 10u})
-    EXPECT_LT(cost_over_truth(seed), 1.01) << "seed " << seed;
+  for (const std::uint64_t seed : {7u, 10u}) EXPECT_LT(cost_over_truth(seed), 1.01) << "seed " << seed;
 }
 
 TEST(CloseByLoopsOfManyTeams, EndAtTheCostOfTheTruthNearlyAlways) {

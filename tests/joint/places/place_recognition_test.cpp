@@ -97,7 +97,7 @@ struct HallOf {
     known.j = team.joint.robots[1].poses.front();
     known.T_i_j = pose_as<Pose>(T);
     known.information = information_as<Pose>(isotropic(1, 100));
-    add_factor(team.joint, known, {FactorSource::kMatch, 0, RobotIndex(0), RobotIndex(1), {}, {}});
+    add_factor(team.joint, known, {FactorSource::kLoop, 0, RobotIndex(0), RobotIndex(1), {}, {}});
     CandidateList::Group group{RobotIndex(0), RobotIndex(1), {}};
     for (std::uint32_t i = 0; i < truth[0].size(); ++i)
       for (std::uint32_t j = 0; j < truth[1].size(); ++j)

@@ -39,8 +39,7 @@ std::vector<std::vector<std::size_t>> AgreeingLoops<Pose>::groups() {
       if (root(by_start[a]) != root(by_start[b]) && agree(by_start[a], by_start[b]))
         parent_[root(by_start[b])] = root(by_start[a]);
   std::map<std::size_t, std::vector<std::size_t>> of_root;
-  for (std::size_t k = 0; k < loops; ++k)
-    if (choice_.may_hold[k]) of_root[root(k)].push_back(k);
+  for (std::size_t k = 0; k < loops; ++k) of_root[root(k)].push_back(k);
   std::vector<std::vector<std::size_t>> groups;
   for (auto& [root, group] : of_root) groups.push_back(std::move(group));
   return groups;
@@ -96,7 +95,7 @@ std::optional<UncertainPose<Pose>> AgreeingLoops<Pose>::way(std::size_t i, std::
 template <class Pose>
 bool AgreeingLoops<Pose>::agree(std::size_t a, std::size_t b) const {
   const std::size_t apart = high(a) > high(b) ? high(a) - high(b) : high(b) - high(a);
-  if (apart > kNeighbours || !choice_.may_hold[a] || !choice_.may_hold[b]) return false;
+  if (apart > kNeighbours) return false;
   const auto statistic = disagreement(a, b);
   return statistic && *statistic <= kPoseChiSquared999<Pose>;
 }

@@ -20,7 +20,7 @@ class AgreeingLoops {
   AgreeingLoops(const AgreeingLoops&) = delete;
   AgreeingLoops& operator=(const AgreeingLoops&) = delete;
 
-  /// Those of loops that may hold; each loop is in one group. Indices of loops.
+  /// Each loop is in one group. Indices of loops.
   std::vector<std::vector<std::size_t>> groups();
 
   /// Squared norm of what the way round two loops and the odometry between their ends fails to close by;

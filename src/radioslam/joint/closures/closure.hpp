@@ -37,6 +37,20 @@ struct VerifiedClosure {
   ClosureJudgement judgement = {};
 };
 
+/// Whether a closure may take part when those that hold are chosen.
+enum class Admission {
+  kAdmitted,
+  kSetAside,  ///< not, but it may hold once others between the same trajectories do
+  kExcluded,
+};
+
+/// What other evidence says of a closure alone (closure_admission.hpp).
+struct ClosureAdmission {
+  Admission admission = Admission::kAdmitted;
+  std::string reason = {};  ///< why not
+  double information_scale = 1;
+};
+
 /// Appends to lists of the same order.
 void append(const std::vector<VerifiedClosure>& verified, std::vector<Closure>& closures,
             std::vector<ClosureJudgement>& judgements);

@@ -13,7 +13,6 @@
 namespace radioslam {
 namespace {
 
-constexpr std::size_t kMaxGroups = 6;      // per pair of segments
 constexpr std::size_t kMinUnweighted = 2;  // loops of a group with unit weights
 constexpr std::size_t kMaxLoops = 600;     // per pair of segments, evenly chosen
 constexpr double kMaxBranches = 2e5;       // of a search for the largest group
@@ -86,7 +85,7 @@ std::vector<LoopGroup> loop_groups(const JointGraph<Pose>& joint, const std::vec
     return travelled[of.first_pose + of.pose_count - 1];
   };
   const bool is_unweighted = has_unit_weights(params.consistency);
-  const std::size_t max_groups = is_unweighted ? 1 : kMaxGroups;
+  const std::size_t max_groups = is_unweighted ? 1 : params.max_groups;
   std::vector<LoopGroup> groups;
   for (auto& [pair, all] : of_pair) {
     const auto [a, b] = pair;
@@ -168,7 +167,7 @@ std::optional<UncertainPose<Pose>> relative_pose(const SegmentChains<Pose>& chai
 
 template <class Pose>
 struct Choice {
-  LoopAlignment<Pose> alignment;
+  LoopAlignment alignment;
   std::vector<FrameLink<Pose>> links;  ///< a tree per component
 };
 
@@ -176,10 +175,11 @@ template <class Pose>
 class FrameSearch {
  public:
   FrameSearch(const JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>>& loops,
-              const std::vector<LoopGroup>& groups, const SegmentChains<Pose>& chains)
-      : joint_(joint), loops_(loops), groups_(groups), chains_(chains) {}
+              const std::vector<LoopGroup>& groups, const SegmentChains<Pose>& chains,
+              const std::optional<RadioCovariance<Pose>>& radio)
+      : joint_(joint), loops_(loops), groups_(groups), chains_(chains), radio_(radio) {}
 
-  std::vector<LoopAlignment<Pose>> run(const std::vector<int>& component) {
+  std::vector<LoopAlignment> run(const std::vector<int>& component) {
     std::vector<Choice<Pose>> beam{start(component)};
     for (const std::size_t g : strongest_first()) {
       std::vector<Choice<Pose>> next;
@@ -189,9 +189,9 @@ class FrameSearch {
     }
     for (Choice<Pose>& choice : beam) weigh(choice);
     keep_best(beam);
-    std::vector<LoopAlignment<Pose>> result;
+    std::vector<LoopAlignment> result;
     for (Choice<Pose>& choice : beam) {
-      const auto is_same = [&](const LoopAlignment<Pose>& other) {
+      const auto is_same = [&](const LoopAlignment& other) {
         return other.group_holds == choice.alignment.group_holds;
       };
       if (std::none_of(result.begin(), result.end(), is_same)) result.push_back(std::move(choice.alignment));
@@ -212,7 +212,6 @@ class FrameSearch {
   Choice<Pose> start(const std::vector<int>& component) const {
     Choice<Pose> choice;
     choice.alignment.component = component;
-    choice.alignment.T_frame_segment.assign(component.size(), Pose());
     choice.alignment.group_holds.assign(groups_.size(), false);
     std::vector<PoseId> end(component.size());  // of a loop, per segment
     for (const TeamLoop<Pose>& loop : loops_)
@@ -224,18 +223,19 @@ class FrameSearch {
       if (is_first) continue;
       const auto& poses = joint_.team.graph.poses;
       const PoseId i = end[with->second], j = end[s];
-      choice.links.push_back({with->second,
-                              s,
-                              {i.index() - joint_.team.segments[with->second].first_pose,
-                               j.index() - joint_.team.segments[s].first_pose,
-                               poses[i.index()].inverse() * poses[j.index()], Pose::Jacobian::Zero()}});
+      choice.links.push_back(
+          {with->second,
+           s,
+           {i.index() - joint_.team.segments[with->second].first_pose,
+            j.index() - joint_.team.segments[s].first_pose, poses[i.index()].inverse() * poses[j.index()],
+            radio_ ? radio_->relative_pose(i, j) : Pose::Jacobian::Zero()}});
     }
     return choice;
   }
 
   void extend(Choice<Pose> choice, std::size_t g, std::vector<Choice<Pose>>& next) const {
     const LoopGroup& group = groups_[g];
-    LoopAlignment<Pose>& alignment = choice.alignment;
+    LoopAlignment& alignment = choice.alignment;
     if (alignment.component[group.segment_a] != alignment.component[group.segment_b]) {
       next.push_back(choice);
       join(choice, g);
@@ -246,25 +246,14 @@ class FrameSearch {
     next.push_back(std::move(choice));
   }
 
-  /// Moves the component of the group's segment b to where its middle loop wants it.
   void join(Choice<Pose>& choice, std::size_t g) const {
     const LoopGroup& group = groups_[g];
-    LoopAlignment<Pose>& alignment = choice.alignment;
-    const RelativePoseMatch<Pose> loop = seen_from(joint_, loops_[group.middle()], group.segment_a);
-    const auto pose = [&](std::size_t segment, std::size_t k) {
-      return alignment.T_frame_segment[segment] *
-             joint_.team.graph.poses[joint_.team.segments[segment].first_pose + k];
-    };
-    const Pose T =
-        pose(group.segment_a, loop.pose_a) * loop.T_a_b * pose(group.segment_b, loop.pose_b).inverse();
-    const int from = alignment.component[group.segment_b], to = alignment.component[group.segment_a];
-    for (std::size_t s = 0; s < alignment.component.size(); ++s)
-      if (alignment.component[s] == from) {
-        alignment.component[s] = to;
-        alignment.T_frame_segment[s] = T * alignment.T_frame_segment[s];
-      }
-    choice.links.push_back({group.segment_a, group.segment_b, loop});
-    alignment.joins.push_back(g);
+    std::vector<int>& component = choice.alignment.component;
+    std::replace(component.begin(), component.end(), int(component[group.segment_b]),
+                 int(component[group.segment_a]));
+    choice.links.push_back(
+        {group.segment_a, group.segment_b, seen_from(joint_, loops_[group.middle()], group.segment_a)});
+    choice.alignment.joins.push_back(g);
   }
 
   bool holds(const Choice<Pose>& choice, std::size_t g) const {
@@ -299,23 +288,60 @@ class FrameSearch {
   const std::vector<TeamLoop<Pose>>& loops_;
   const std::vector<LoopGroup>& groups_;
   const SegmentChains<Pose>& chains_;
+  const std::optional<RadioCovariance<Pose>>& radio_;
 };
 
 }  // namespace
 
 template <class Pose>
-std::vector<LoopAlignment<Pose>> align_by_loops(const JointGraph<Pose>& joint,
-                                                const std::vector<int>& component,
-                                                const std::vector<TeamLoop<Pose>>& loops,
-                                                const std::vector<LoopGroup>& groups,
-                                                const SegmentChains<Pose>& chains) {
-  return FrameSearch<Pose>(joint, loops, groups, chains).run(component);
+std::vector<LoopAlignment> align_by_loops(const JointGraph<Pose>& joint, const std::vector<int>& component,
+                                          const std::vector<TeamLoop<Pose>>& loops,
+                                          const std::vector<LoopGroup>& groups,
+                                          const SegmentChains<Pose>& chains,
+                                          const std::optional<RadioCovariance<Pose>>& radio) {
+  return FrameSearch<Pose>(joint, loops, groups, chains, radio).run(component);
 }
 
-#define RADIOSLAM_LOOP_ALIGNMENT(Pose)                                                      \
-  template std::vector<LoopAlignment<Pose>> align_by_loops(                                 \
-      const JointGraph<Pose>&, const std::vector<int>&, const std::vector<TeamLoop<Pose>>&, \
-      const std::vector<LoopGroup>&, const SegmentChains<Pose>&);
+template <class Pose>
+Pose motion_to_hold(const std::vector<Pose>& poses, const TeamLoop<Pose>& loop, std::size_t moved) {
+  const Pose &at_i = poses[loop.i.index()], &at_j = poses[loop.j.index()];
+  return loop.segment_j == moved ? at_i * loop.T_i_j * at_j.inverse()
+                                 : at_j * loop.T_i_j.inverse() * at_i.inverse();
+}
+
+template <class Pose>
+std::vector<Pose> joined(const JointGraph<Pose>& joint, std::vector<Pose> poses,
+                         const std::vector<TeamLoop<Pose>>& loops, const std::vector<LoopGroup>& groups,
+                         const std::vector<std::size_t>& joins, std::vector<int> component,
+                         const std::vector<bool>& stays) {
+  const auto must_stay = [&](std::size_t segment) {
+    const auto c = static_cast<std::size_t>(component[segment]);
+    return c < stays.size() && stays[c];
+  };
+  for (const std::size_t g : joins) {
+    std::size_t fixed = groups[g].segment_a, moved = groups[g].segment_b;
+    if (must_stay(moved)) std::swap(fixed, moved);
+    const Pose T = motion_to_hold(poses, loops[groups[g].middle()], moved);
+    const int from = component[moved], to = component[fixed];
+    for (std::size_t s = 0; s < component.size(); ++s)
+      if (component[s] == from) {
+        component[s] = to;
+        move_segment(poses, joint.team.segments[s], T);
+      }
+  }
+  return poses;
+}
+
+#define RADIOSLAM_LOOP_ALIGNMENT(Pose)                                                                 \
+  template std::vector<LoopAlignment> align_by_loops(                                                  \
+      const JointGraph<Pose>&, const std::vector<int>&, const std::vector<TeamLoop<Pose>>&,            \
+      const std::vector<LoopGroup>&, const SegmentChains<Pose>&,                                       \
+      const std::optional<RadioCovariance<Pose>>&);                                                    \
+  template Pose motion_to_hold(const std::vector<Pose>&, const TeamLoop<Pose>&, std::size_t);          \
+  template std::vector<Pose> joined(const JointGraph<Pose>&, std::vector<Pose>,                        \
+                                    const std::vector<TeamLoop<Pose>>&, const std::vector<LoopGroup>&, \
+                                    const std::vector<std::size_t>&, std::vector<int>,                 \
+                                    const std::vector<bool>&);
 RADIOSLAM_LOOP_ALIGNMENT(SE2)
 RADIOSLAM_LOOP_ALIGNMENT(SE3)
 #undef RADIOSLAM_LOOP_ALIGNMENT
@@ -325,8 +351,7 @@ namespace {
 constexpr double kMinRatioToAlternative = 1.5;  // of the evidence that a alternative contests to its own
 
 /// The segments on the side of b when a join of the best choice is undone.
-template <class Pose>
-std::vector<bool> side_of_b(const std::vector<LoopGroup>& groups, const LoopAlignment<Pose>& best,
+std::vector<bool> side_of_b(const std::vector<LoopGroup>& groups, const LoopAlignment& best,
                             std::size_t join) {
   std::vector<bool> side(best.component.size(), false);
   side[groups[join].segment_b] = true;
@@ -340,26 +365,22 @@ std::vector<bool> side_of_b(const std::vector<LoopGroup>& groups, const LoopAlig
 }
 
 /// Evidence of the groups that hold in `a` and not in `b`.
-template <class Pose>
-double contested(const std::vector<LoopGroup>& groups, const LoopAlignment<Pose>& a,
-                 const LoopAlignment<Pose>& b) {
+double contested(const std::vector<LoopGroup>& groups, const LoopAlignment& a, const LoopAlignment& b) {
   double sum = 0;
   for (std::size_t g = 0; g < groups.size(); ++g)
     if (a.group_holds[g] && !b.group_holds[g]) sum += groups[g].evidence;
   return sum;
 }
 
-template <class Pose>
-bool joins_sides(const std::vector<LoopGroup>& groups, const LoopAlignment<Pose>& alignment,
+bool joins_sides(const std::vector<LoopGroup>& groups, const LoopAlignment& alignment,
                  const std::vector<bool>& side) {
   return std::any_of(alignment.joins.begin(), alignment.joins.end(),
                      [&](std::size_t g) { return side[groups[g].segment_a] != side[groups[g].segment_b]; });
 }
 
-template <class Pose>
-bool is_weak(const std::vector<LoopGroup>& groups, const std::vector<LoopAlignment<Pose>>& alignments,
+bool is_weak(const std::vector<LoopGroup>& groups, const std::vector<LoopAlignment>& alignments,
              const std::vector<bool>& side, double min_support) {
-  const LoopAlignment<Pose>& best = alignments.front();
+  const LoopAlignment& best = alignments.front();
   double support = 0;
   std::vector<std::size_t> crossing;
   for (std::size_t g = 0; g < groups.size(); ++g)
@@ -368,7 +389,7 @@ bool is_weak(const std::vector<LoopGroup>& groups, const std::vector<LoopAlignme
       crossing.push_back(g);
     }
   if (support < min_support) return true;
-  return std::any_of(alignments.begin() + 1, alignments.end(), [&](const LoopAlignment<Pose>& alternative) {
+  return std::any_of(alignments.begin() + 1, alignments.end(), [&](const LoopAlignment& alternative) {
     const auto holds = [&](std::size_t g) { return alternative.group_holds[g]; };
     return contradict_each_other(best, alternative) &&
            std::none_of(crossing.begin(), crossing.end(), holds) && joins_sides(groups, alternative, side) &&
@@ -379,18 +400,16 @@ bool is_weak(const std::vector<LoopGroup>& groups, const std::vector<LoopAlignme
 
 }  // namespace
 
-template <class Pose>
-bool contradict_each_other(const LoopAlignment<Pose>& a, const LoopAlignment<Pose>& b) {
+bool contradict_each_other(const LoopAlignment& a, const LoopAlignment& b) {
   const auto all_hold = [](const std::vector<std::size_t>& joins, const std::vector<bool>& holds) {
     return std::all_of(joins.begin(), joins.end(), [&](std::size_t g) { return holds[g]; });
   };
   return !all_hold(a.joins, b.group_holds) && !all_hold(b.joins, a.group_holds);
 }
 
-template <class Pose>
 void undo_weak_joins(const std::vector<LoopGroup>& groups, const std::vector<std::size_t>& robot_of_segment,
-                     std::vector<LoopAlignment<Pose>>& alignments) {
-  LoopAlignment<Pose>& best = alignments.front();
+                     std::vector<LoopAlignment>& alignments) {
+  LoopAlignment& best = alignments.front();
   std::vector<std::vector<bool>> undone;
   std::vector<std::size_t> kept;
   for (const std::size_t join : best.joins) {
@@ -416,13 +435,5 @@ void undo_weak_joins(const std::vector<LoopGroup>& groups, const std::vector<std
     if (best.component[groups[g].segment_a] != best.component[groups[g].segment_b])
       best.group_holds[g] = false;
 }
-
-#define RADIOSLAM_LOOP_ALTERNATIVES(Pose)                                                       \
-  template bool contradict_each_other(const LoopAlignment<Pose>&, const LoopAlignment<Pose>&);  \
-  template void undo_weak_joins(const std::vector<LoopGroup>&, const std::vector<std::size_t>&, \
-                                std::vector<LoopAlignment<Pose>>&);
-RADIOSLAM_LOOP_ALTERNATIVES(SE2)
-RADIOSLAM_LOOP_ALTERNATIVES(SE3)
-#undef RADIOSLAM_LOOP_ALTERNATIVES
 
 }  // namespace radioslam

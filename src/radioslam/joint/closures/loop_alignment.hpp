@@ -9,10 +9,12 @@
 // Evidence: loop_groups.hpp; each count of it multiplies the odds by five.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "radioslam/consistency/consistency_params.hpp"
 #include "radioslam/joint/closures/own_loops.hpp"
+#include "radioslam/joint/links/radio_covariance.hpp"
 
 namespace radioslam {
 
@@ -26,6 +28,7 @@ namespace radioslam {
 struct LoopGroupParams {
   double sighting_m = 10;        ///< path length within which two loops see the same place
   double sighting_ratio = 0.05;  ///< the same, at most, relative to the length of the shorter trajectory
+  std::size_t max_groups = 6;    ///< per pair of segments
   ConsistencyParams consistency;
 };
 
@@ -46,30 +49,39 @@ std::vector<LoopGroup> loop_groups(const JointGraph<Pose>& joint, const std::vec
 template <class Pose>
 RelativePoseMatch<Pose> seen_from(const JointGraph<Pose>& joint, const TeamLoop<Pose>& loop, std::size_t a);
 
-/// A choice of frames: poses <- T * poses of every segment.
-template <class Pose>
+/// A choice of frames.
 struct LoopAlignment {
-  std::vector<int> component;         ///< per segment
-  std::vector<Pose> T_frame_segment;  ///< per segment
-  std::vector<bool> group_holds;      ///< per group: it agrees with these frames
-  std::vector<std::size_t> joins;     ///< groups that joined components, a tree per component
+  std::vector<int> component;      ///< per segment
+  std::vector<bool> group_holds;   ///< per group: it agrees with these frames
+  std::vector<std::size_t> joins;  ///< groups that joined components, a tree per component
   double log_weight = 0;
 };
 
 /// The best choices, best first, at least one. `component`: per segment, those with the same number share the
-/// frame that the joint graph's poses are in.
+/// frame that the joint graph's poses are in, known exactly or, with `radio`, to its covariance.
 template <class Pose>
-std::vector<LoopAlignment<Pose>> align_by_loops(const JointGraph<Pose>& joint,
-                                                const std::vector<int>& component,
-                                                const std::vector<TeamLoop<Pose>>& loops,
-                                                const std::vector<LoopGroup>& groups,
-                                                const SegmentChains<Pose>& chains);
+std::vector<LoopAlignment> align_by_loops(const JointGraph<Pose>& joint, const std::vector<int>& component,
+                                          const std::vector<TeamLoop<Pose>>& loops,
+                                          const std::vector<LoopGroup>& groups,
+                                          const SegmentChains<Pose>& chains,
+                                          const std::optional<RadioCovariance<Pose>>& radio = {});
+
+/// Motion T of segment `moved`, one of the loop's, after which the loop holds: poses <- T * poses.
+template <class Pose>
+Pose motion_to_hold(const std::vector<Pose>& poses, const TeamLoop<Pose>& loop, std::size_t moved);
+
+/// The poses after these groups have joined components, each by its middle loop. `component`: per segment,
+/// before; of two, the one that `stays` is not moved.
+template <class Pose>
+std::vector<Pose> joined(const JointGraph<Pose>& joint, std::vector<Pose> poses,
+                         const std::vector<TeamLoop<Pose>>& loops, const std::vector<LoopGroup>& groups,
+                         const std::vector<std::size_t>& joins, std::vector<int> component,
+                         const std::vector<bool>& stays);
 
 // Alignments that contradict the best one, and what it may still claim in face of them.
 
 /// Whether two choices contradict each other: joins of either do not hold in the other.
-template <class Pose>
-bool contradict_each_other(const LoopAlignment<Pose>& a, const LoopAlignment<Pose>& b);
+bool contradict_each_other(const LoopAlignment& a, const LoopAlignment& b);
 
 /// Sightings below which nothing joins two robots' trajectories. The parts of one robot's trajectory on both
 /// sides of a gap are joined by a single loop, too.
@@ -77,8 +89,7 @@ inline constexpr double kMinSupport = 1.5, kMinOwnSupport = 1;
 
 /// Parts the first alignment where less joins it, or where another puts the parts together in another way
 /// with two thirds of the evidence that it contests. `robot_of_segment`: as in JointGraph.
-template <class Pose>
 void undo_weak_joins(const std::vector<LoopGroup>& groups, const std::vector<std::size_t>& robot_of_segment,
-                     std::vector<LoopAlignment<Pose>>& alignments);
+                     std::vector<LoopAlignment>& alignments);
 
 }  // namespace radioslam

@@ -16,7 +16,6 @@ template <class Pose>
 double truncated_cost(const LoopChoice<Pose>& choice) {
   double cost = total_cost(choice.graph);
   for (std::size_t k = 0; k < choice.gates.size(); ++k) {
-    if (!choice.may_hold[k]) continue;
     const double norm = squared_norm(choice.graph, choice.loop(k));
     cost += std::min(choice.gates[k], norm) - choice.loop(k).weight * norm;
   }
@@ -30,9 +29,9 @@ void choose_gradually(LoopChoice<Pose>& choice, std::span<const std::size_t> dec
   FactorMask mask;
   mask.relative_poses.assign(choice.graph.relative_poses.size(), false);
   for (std::size_t k = 0; k < choice.gates.size(); ++k) {
-    choice.loop(k).weight = choice.may_hold[k] ? 1 : 0;
+    choice.loop(k).weight = 1;
     choice.loop(k).loss = {LossKind::kNone, std::sqrt(choice.gates[k])};
-    mask.relative_poses[choice.first_loop() + k] = choice.may_hold[k];
+    mask.relative_poses[choice.first_loop() + k] = true;
   }
   for (const std::size_t k : decided) {
     choice.loop(k).weight = fate == Fate::kHolds ? 1 : 0;
@@ -42,7 +41,7 @@ void choose_gradually(LoopChoice<Pose>& choice, std::span<const std::size_t> dec
                                           optimizer, progress)
                            .weights.relative_poses;
   for (std::size_t k = 0; k < choice.gates.size(); ++k)
-    choice.accepted[k] = choice.may_hold[k] && weights[choice.first_loop() + k] > 0.5;
+    choice.accepted[k] = weights[choice.first_loop() + k] > 0.5;
   for (const std::size_t k : decided) choice.accepted[k] = fate == Fate::kHolds;
   set_weights(choice);
 }

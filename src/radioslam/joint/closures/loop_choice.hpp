@@ -22,7 +22,6 @@ struct LoopChoice {
   std::vector<Pose> own_shape;          ///< the trajectories, each as it is without the other robots
   std::vector<std::size_t> segment_of;  ///< per pose
   std::vector<double> gates;            ///< per loop: squared norm from which it costs no more
-  std::vector<bool> may_hold;           ///< per loop: whether its ends are in one frame
   std::vector<bool> accepted;           ///< per loop
 
   std::size_t first_loop() const { return graph.relative_poses.size() - gates.size(); }

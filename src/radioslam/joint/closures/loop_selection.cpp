@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <utility>
 
 #include "radioslam/geometry/linear_algebra.hpp"
@@ -20,6 +22,7 @@ constexpr double kMinRedundancy = 30;  // below which a variance cannot be estim
 constexpr double kSettledScale = 0.02;
 constexpr double kMinGain = 1e-3;  // of the truncated cost
 constexpr double kMinScale = 0.1, kMaxScale = 10;
+constexpr std::size_t kMinVouching = 3;  // loops that hold beside one that was set aside
 
 /// Errors that neighbouring measurements have in common leave small residuals: only residuals less than half
 /// as large as stated count as smaller.
@@ -37,22 +40,24 @@ struct VarianceComponent {
 
 double squared(double x) { return x * x; }
 
-/// The team with all of its loops, as accepted so far.
+/// The team with these loops, as accepted so far.
 template <class Pose>
-LoopChoice<Pose> choice_of(const JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>>& loops,
-                           const std::vector<int>& component) {
+LoopChoice<Pose> choice_of(const JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>>& loops) {
   const PoseGraph<Pose>& graph = joint.team.graph;
-  LoopChoice<Pose> choice{graph, {}, graph.poses, segment_of_poses(joint.team), {}, {}, {}};
+  LoopChoice<Pose> choice{graph, {}, graph.poses, segment_of_poses(joint.team), {}, {}};
   for (const FactorOrigin& origin : joint.origins.relative_poses)
     choice.is_odometry.push_back(origin.source == FactorSource::kOdometry);
   for (const TeamLoop<Pose>& loop : loops) {
-    const bool is_comparable = component[loop.segment_i] == component[loop.segment_j];
     choice.graph.relative_poses.push_back(loop_factor(loop));
     choice.gates.push_back(loop.gate);
-    choice.may_hold.push_back(is_comparable);
-    choice.accepted.push_back(loop.accepted && is_comparable);
+    choice.accepted.push_back(loop.accepted);
   }
   return choice;
+}
+
+template <class Pose>
+bool takes_part(const TeamLoop<Pose>& loop, const std::vector<int>& component) {
+  return component[loop.segment_i] == component[loop.segment_j] && loop.admission == Admission::kAdmitted;
 }
 
 template <class Pose>
@@ -63,11 +68,10 @@ double gate_at(const TeamLoop<Pose>& loop, double scale) {
 template <class Pose>
 class LoopSelector {
  public:
-  LoopSelector(const JointGraph<Pose>& joint, const std::vector<int>& component,
-               std::vector<TeamLoop<Pose>>& loops)
+  LoopSelector(const JointGraph<Pose>& joint, std::vector<TeamLoop<Pose>>& loops)
       : odometry_(joint.team.graph.relative_poses),
         loops_(loops),
-        choice_(choice_of(joint, loops, component)),
+        choice_(choice_of(joint, loops)),
         equations_(choice_.graph) {}
 
   LoopSelection run(const OptimizerParams& optimizer, const Progress& progress) {
@@ -136,9 +140,9 @@ class LoopSelector {
   }
 
   bool update_accepted(const Marginals<Pose>& marginals) {
-    std::vector<bool> holds = choice_.may_hold;
+    std::vector<bool> holds(loops_.size());
     for (std::size_t k = 0; k < loops_.size(); ++k)
-      holds[k] = holds[k] && statistic(k, marginals) <= gate_at(loops_[k], result_.loop_scale);
+      holds[k] = statistic(k, marginals) <= gate_at(loops_[k], result_.loop_scale);
     const bool changed = holds != choice_.accepted;
     choice_.accepted = std::move(holds);
     return changed;
@@ -173,15 +177,54 @@ class LoopSelector {
   LoopSelection result_;
 };
 
+/// Accepts loops that were set aside where the solution agrees with them and others that hold vouch for them.
+/// Those that do not take part get their statistics.
+template <class Pose>
+void test_others(const PoseGraph<Pose>& solved, const std::vector<int>& component, double loop_scale,
+                 std::vector<TeamLoop<Pose>>& loops) {
+  const auto ends = [](const TeamLoop<Pose>& loop) { return std::minmax(loop.segment_i, loop.segment_j); };
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> held;  // between two trajectories
+  for (const TeamLoop<Pose>& loop : loops)
+    if (loop.accepted) ++held[ends(loop)];
+  std::optional<Marginals<Pose>> marginals;
+  for (TeamLoop<Pose>& loop : loops) {
+    if (takes_part(loop, component)) continue;
+    const RelativePoseFactor<Pose> factor = loop_factor(loop);
+    loop.statistic = squared_norm(solved, factor);
+    if (loop.admission != Admission::kSetAside || held[ends(loop)] < kMinVouching ||
+        component[loop.segment_i] != component[loop.segment_j])
+      continue;
+    if (!marginals) marginals = Marginals<Pose>::compute(solved);
+    if (!marginals) return;
+    const typename Pose::Jacobian covariance =
+        loop.covariance * squared(std::max(1.0, loop_scale)) + marginals->relative_pose(loop.i, loop.j);
+    const Cholesky<typename Pose::Jacobian> cholesky(covariance);
+    loop.accepted = cholesky.succeeded() &&
+                    cholesky.whitened(residual(solved, factor)).squaredNorm() <= kPoseChiSquared999<Pose>;
+  }
+}
+
 }  // namespace
 
 template <class Pose>
 LoopSelection select_loops(JointGraph<Pose>& joint, const std::vector<int>& component,
                            std::vector<TeamLoop<Pose>>& loops, const OptimizerParams& optimizer,
                            const Progress& progress) {
-  LoopSelector<Pose> selector(joint, component, loops);
+  std::vector<std::size_t> members;
+  std::vector<TeamLoop<Pose>> taking_part;
+  for (std::size_t k = 0; k < loops.size(); ++k) {
+    if (takes_part(loops[k], component))
+      members.push_back(k), taking_part.push_back(loops[k]);
+    else
+      loops[k].accepted = false;
+  }
+  LoopSelector<Pose> selector(joint, taking_part);
   LoopSelection result = selector.run(optimizer, progress);
+  for (std::size_t m = 0; m < members.size(); ++m) loops[members[m]] = std::move(taking_part[m]);
+  for (ValleyTrial& trial : result.trials)
+    for (std::size_t& loop : trial.loops) loop = members[loop];
   GraphValues<Pose>(selector.graph()).restore(joint.team.graph);
+  test_others(selector.graph(), component, result.loop_scale, loops);
   return result;
 }
 

@@ -6,6 +6,8 @@
 // of those that hold, and a loop that the others contradict leaves. Stated covariances are checked on the
 // way: the variance of odometry and of loops per unit of stated variance is estimated from the residuals over
 // their redundancy (variance components, Helmert 1924; Foerstner 1979), and used.
+// Loops that were set aside (closure_admission.hpp) have no say in the choice; they are tested where three
+// others between the same trajectories hold.
 // A loop holds up to its gate (team_loops.hpp) or, where loops err more than stated, up to the 99.9 %
 // quantile under the estimated covariance.
 #pragma once

@@ -7,11 +7,13 @@
 #include <string>
 #include <utility>
 
+#include "radioslam/graph/residuals.hpp"
 #include "radioslam/joint/closures/loop_alignment.hpp"
 #include "radioslam/joint/closures/loop_selection.hpp"
+#include "radioslam/joint/closures/map_contradictions.hpp"
 #include "radioslam/joint/closures/own_loops.hpp"
 #include "radioslam/joint/closures/team_loops.hpp"
-#include "radioslam/joint/places/map_witness.hpp"
+#include "radioslam/joint/links/link_weights.hpp"
 
 namespace radioslam {
 namespace {
@@ -21,6 +23,10 @@ constexpr std::size_t kMaxAlternatives = 3;
 constexpr double kNotableScale = 1.5;  // of a standard deviation
 /// With the odometry's sigma, twice and four times that: it is often understated.
 constexpr int kMaxPasses = 3;
+constexpr int kReweighings = 3;
+constexpr std::size_t kMinContradicting = 3;  // loops of two robots that may contradict their links
+
+bool is_notable(double scale) { return scale >= kNotableScale || scale <= 1 / kNotableScale; }
 
 template <class Pose>
 void add_accepted(JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>>& loops,
@@ -64,14 +70,6 @@ void join_components(const JointGraph<Pose>& joint, const std::vector<int>& of_s
   set_placed(alignment);
 }
 
-template <class Pose>
-std::vector<Pose> moved(const JointGraph<Pose>& joint, const LoopAlignment<Pose>& alignment) {
-  std::vector<Pose> poses = joint.team.graph.poses;
-  for (std::size_t s = 0; s < joint.team.segments.size(); ++s)
-    move_segment(poses, joint.team.segments[s], alignment.T_frame_segment[s]);
-  return poses;
-}
-
 /// Whether two solutions accept the same loops between trajectories, but for a tenth.
 template <class Pose>
 bool accept_the_same(const std::vector<TeamLoop<Pose>>& a, const std::vector<TeamLoop<Pose>>& b) {
@@ -85,21 +83,45 @@ bool accept_the_same(const std::vector<TeamLoop<Pose>>& a, const std::vector<Tea
 }
 
 template <class Pose>
-void accept_groups(const std::vector<LoopGroup>& groups, const LoopAlignment<Pose>& alignment,
+void accept_groups(const std::vector<LoopGroup>& groups, const LoopAlignment& alignment,
                    std::vector<TeamLoop<Pose>>& loops) {
   for (std::size_t g = 0; g < groups.size(); ++g)
     if (alignment.group_holds[g])
       for (const std::size_t k : groups[g].loops) loops[k].accepted = true;
 }
 
+/// Loops, their groups, and what the robots' frames were before.
+template <class Pose>
+struct Frames {
+  std::vector<int> component;  ///< per segment; all in the common frame are one
+  std::vector<bool> stays;     ///< per component
+  std::vector<LoopGroup> groups;
+
+  std::vector<Pose> moved(const JointGraph<Pose>& joint, std::vector<Pose> poses,
+                          const std::vector<TeamLoop<Pose>>& loops, const LoopAlignment& to) const {
+    return joined(joint, std::move(poses), loops, groups, to.joins, component, stays);
+  }
+};
+
+template <class Pose>
+Frames<Pose> frames_of(const TeamAlignment<Pose>& alignment) {
+  Frames<Pose> frames{alignment.of_segment, alignment.absolute, {}};
+  std::optional<int> common;
+  for (int& c : frames.component) {
+    const auto k = static_cast<std::size_t>(c);
+    if (k < frames.stays.size() && frames.stays[k]) c = common.value_or(c), common = c;
+  }
+  return frames;
+}
+
 /// Alignments that join as many robots as the best and are solved to another end, with their weights.
 /// `joint` and `loops`: before the best one is solved; `solved`: after.
 template <class Pose>
 void set_alternatives(const JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>>& loops,
-                      const std::vector<TeamLoop<Pose>>& solved, const std::vector<LoopGroup>& groups,
-                      const std::vector<LoopAlignment<Pose>>& alignments, const OptimizerParams& optimizer,
+                      const std::vector<TeamLoop<Pose>>& solved, const Frames<Pose>& frames,
+                      const std::vector<LoopAlignment>& alignments, const OptimizerParams& optimizer,
                       TeamAlignment<Pose>& alignment) {
-  const LoopAlignment<Pose>& best = alignments.front();
+  const LoopAlignment& best = alignments.front();
   std::vector<double> weights{1};
   alignment.alternatives.clear();
   for (std::size_t k = 1; k < alignments.size() && weights.size() <= kMaxAlternatives; ++k) {
@@ -109,8 +131,8 @@ void set_alternatives(const JointGraph<Pose>& joint, const std::vector<TeamLoop<
       continue;
     JointGraph<Pose> other = joint;
     std::vector<TeamLoop<Pose>> its_loops = loops;
-    accept_groups(groups, alignments[k], its_loops);
-    other.team.graph.poses = moved(joint, alignments[k]);
+    accept_groups(frames.groups, alignments[k], its_loops);
+    other.team.graph.poses = frames.moved(joint, joint.team.graph.poses, loops, alignments[k]);
     select_loops(other, alignments[k].component, its_loops, optimizer, {});
     if (accept_the_same(solved, its_loops)) continue;
     alignment.alternatives.push_back(std::move(other.team.graph.poses));
@@ -121,40 +143,6 @@ void set_alternatives(const JointGraph<Pose>& joint, const std::vector<TeamLoop<
   alignment.weight = weights.front() / sum;
   alignment.alternative_weights.clear();
   for (std::size_t k = 1; k < weights.size(); ++k) alignment.alternative_weights.push_back(weights[k] / sum);
-}
-
-constexpr std::size_t kMinHeld = 1000;  // points that were compared
-constexpr double kMaxThrough = 0.4;     // share of points seen through, however the world is made
-/// The same against the group of the pair that lays the maps best.
-constexpr double kMaxOverBest = 3, kMaxBeyondBest = 0.02;
-
-/// Without groups that could join robots but lay one's structure into the other's free space.
-template <class Pose>
-std::vector<LoopGroup> held_against_maps(const MapWitness* maps, const std::vector<Closure>& closures,
-                                         const std::vector<TeamLoop<Pose>>& loops,
-                                         std::vector<LoopGroup> groups) {
-  if (!maps) return groups;
-  std::vector<std::optional<double>> through;  // per group
-  std::map<std::pair<std::size_t, std::size_t>, double> least;
-  for (const LoopGroup& group : groups) {
-    through.emplace_back();
-    if (group.evidence < kMinSupport) continue;
-    std::vector<const Closure*> members;
-    for (const std::size_t k : group.loops) members.push_back(&closures[loops[k].closures.front()]);
-    const SeenThrough held = maps->held_against(members);
-    if (held.all() < kMinHeld) continue;
-    through.back() = held.share();
-    double& best = least.try_emplace({group.segment_a, group.segment_b}, 1).first->second;
-    best = std::min(best, held.share());
-  }
-  std::size_t k = 0;
-  std::erase_if(groups, [&](const LoopGroup& group) {
-    const std::optional<double> share = through[k++];
-    if (!share) return false;
-    const double best = least.at({group.segment_a, group.segment_b});
-    return *share > kMaxThrough || *share > kMaxOverBest * best + kMaxBeyondBest;
-  });
-  return groups;
 }
 
 /// Components of segments that were apart, joined by the accepted loops between them.
@@ -206,8 +194,8 @@ struct GroupText {
 /// What the frame stands on, and what loops leave open: the largest group of every pair.
 template <class Pose>
 void note_groups(const JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>>& loops,
-                 const std::vector<LoopGroup>& groups, const LoopAlignment<Pose>& best,
-                 const std::string& measured, TeamAlignment<Pose>& alignment) {
+                 const std::vector<LoopGroup>& groups, const LoopAlignment& best, const std::string& measured,
+                 TeamAlignment<Pose>& alignment) {
   const LoopGroup* weakest = nullptr;
   std::set<std::size_t> robots;
   std::set<std::string> parts;  // robots with parts that a single sighting ties to the rest
@@ -251,7 +239,7 @@ std::string factor_text(double scale) {
 template <class Pose>
 void note_scales(const LoopSelection& selection, TeamAlignment<Pose>& alignment) {
   const auto note = [&](const std::string& what, double scale) {
-    if (scale < kNotableScale && scale > 1 / kNotableScale) return;
+    if (!is_notable(scale)) return;
     alignment.notes.push_back(
         "the errors of " + what + " are " + factor_text(scale) +
         " times as large as their stated covariances allow; the estimate uses the actual ones");
@@ -259,6 +247,173 @@ void note_scales(const LoopSelection& selection, TeamAlignment<Pose>& alignment)
   note("the odometry", selection.odometry_scale);
   note("loop closures", selection.loop_scale);
 }
+
+/// A team solved with the loops that hold.
+template <class Pose>
+struct LoopSolution {
+  JointGraph<Pose> joint;
+  std::vector<TeamLoop<Pose>> loops;
+  LoopSelection selection;
+  double log_likelihood = 0;  ///< of a team with links
+};
+
+/// Pairs of robots with enough loops that hold to determine their relative pose.
+template <class Pose>
+PairsOfRobots pairs_with_loops(const LoopSolution<Pose>& solution) {
+  std::map<std::pair<RobotIndex, RobotIndex>, std::size_t> held;
+  const auto robot = [&](std::size_t segment) {
+    return RobotIndex(solution.joint.robot_of_segment[segment]);
+  };
+  for (const TeamLoop<Pose>& loop : solution.loops)
+    if (loop.accepted && robot(loop.segment_i) != robot(loop.segment_j))
+      ++held[std::minmax(robot(loop.segment_i), robot(loop.segment_j))];
+  PairsOfRobots pairs;
+  for (const auto& [robots, count] : held)
+    if (count >= kMinContradicting) pairs.insert(robots);
+  return pairs;
+}
+
+template <class Pose>
+class ClosureJudge {
+ public:
+  ClosureJudge(JointGraph<Pose> joint, TeamAlignment<Pose>& alignment, const std::vector<Closure>& closures,
+               const ClosureEvidence<Pose>& evidence, const OptimizerParams& optimizer,
+               const Progress& progress)
+      : alignment_(alignment),
+        closures_(closures),
+        evidence_(evidence),
+        optimizer_(optimizer),
+        progress_(progress),
+        frames_(frames_of(alignment)),
+        of_radio_(alignment.alternatives) {
+    team_.loops = team_loops(joint, closures, evidence.admissions);
+    team_.joint = std::move(joint);
+  }
+
+  std::optional<LoopChoiceResult> run(std::vector<ClosureJudgement>& judgements) {
+    if (team_.loops.empty()) return std::nullopt;
+    take_out(team_.joint, team_.loops);
+    for (int pass = 0; pass < kMaxPasses; ++pass)
+      if (align_and_select(pass)) break;
+    if (component_ != alignment_.of_segment) join_components(team_.joint, component_, alignment_);
+    solve();
+    describe(judgements);
+    note_scales(team_.selection, alignment_);
+    return std::move(choice_);
+  }
+
+  JointGraph<Pose> joint() && { return std::move(team_.joint); }
+
+ private:
+  /// Joins frames by groups of loops, and selects loops there. Returns whether it was the last pass.
+  bool align_and_select(int pass) {
+    auto& [joint, loops, selection, likelihood] = team_;
+    const double odometry_scale = std::max(selection.odometry_scale, std::pow(2.0, pass)),
+                 loop_scale = selection.loop_scale;
+    const auto chains = segment_chains(joint, loops, odometry_scale);
+    frames_.groups =
+        held_against_maps(evidence_.maps, closures_, loops,
+                          loop_groups(joint, loops, chains, {.consistency = evidence_.consistency}));
+    auto alignments =
+        align_by_loops(joint, frames_.component, loops, frames_.groups, chains, evidence_.radio);
+    if (!has_unit_weights(evidence_.consistency))
+      undo_weak_joins(frames_.groups, joint.robot_of_segment, alignments);
+    LoopAlignment& best = alignments.front();
+    const JointGraph<Pose> before = joint;
+    const std::vector<TeamLoop<Pose>> loops_before = loops;
+    accept_groups(frames_.groups, best, loops);
+    joint.team.graph.poses = frames_.moved(joint, joint.team.graph.poses, loops, best);
+    selection = select_loops(joint, best.component, loops, optimizer_, progress_);
+    if (of_radio_.empty())
+      set_alternatives(before, loops_before, loops, frames_, alignments, optimizer_, alignment_);
+    for (std::size_t k = 0; k < of_radio_.size(); ++k)
+      alignment_.alternatives[k] = frames_.moved(joint, of_radio_[k], loops, best);
+    choice_ = described(joint, loops, selection);
+    for (TeamLoop<Pose>& loop : loops) loop.covariance *= selection.loop_scale * selection.loop_scale;
+    selection.loop_scale *= loop_scale;
+    const bool is_open = std::any_of(loops.begin(), loops.end(), [&](const TeamLoop<Pose>& loop) {
+      return best.component[loop.segment_i] != best.component[loop.segment_j];
+    });
+    if (is_open && pass + 1 < kMaxPasses) return false;
+    component_ = best.component = joined_by_accepted(alignment_.of_segment, loops);
+    const std::string measured = closures_.front().kind == ClosureKind::kMatch ? "matches" : "loop closures";
+    note_groups(joint, loops, frames_.groups, best, measured, alignment_);
+    return true;
+  }
+
+  /// With the links of robots that loops determine, too, and without these until both are weighed again.
+  void solve() {
+    const PairsOfRobots pairs = evidence_.links ? pairs_with_loops(team_) : PairsOfRobots{};
+    LoopSolution<Pose> without_links = team_;
+    finish(team_);
+    if (pairs.empty()) return;
+    silence_links(without_links.joint, pairs);
+    const double loop_scale = without_links.selection.loop_scale;
+    without_links.selection =
+        select_loops(without_links.joint, component_, without_links.loops, optimizer_, progress_);
+    without_links.selection.loop_scale *= loop_scale;
+    finish(without_links);
+    if (without_links.log_likelihood > team_.log_likelihood) team_ = std::move(without_links);
+  }
+
+  /// Adds the loops that hold, and solves; links and loops are then weighed by the solution.
+  void finish(LoopSolution<Pose>& team) const {
+    JointGraph<Pose>& joint = team.joint;
+    const double scale = team.selection.odometry_scale;
+    if (!evidence_.links || is_notable(scale)) scale_odometry(joint, scale);
+    const std::size_t first = joint.team.graph.relative_poses.size();
+    add_accepted(joint, team.loops, closures_);
+    optimize(joint.team.graph, optimizer_, progress_);
+    if (!evidence_.links) return;
+    for (int round = 0; round < kReweighings; ++round) {
+      team.log_likelihood = reweigh_radio_links(joint, alignment_, *evidence_.links);
+      test_again(team, first);
+      optimize(joint.team.graph, optimizer_, progress_);
+    }
+    std::size_t k = first;
+    for (TeamLoop<Pose>& loop : team.loops) {
+      if (loop.accepted) loop.accepted = joint.team.graph.relative_poses[k++].weight > 0;
+      if (!loop.accepted && loop.admission == Admission::kAdmitted) team.log_likelihood -= loop.gate / 2;
+    }
+  }
+
+  /// Gives loops no weight that do not fit the solution. `first`: factor of the first one accepted.
+  void test_again(LoopSolution<Pose>& team, std::size_t first) const {
+    const double variance = team.selection.loop_scale * team.selection.loop_scale;
+    PoseGraph<Pose>& graph = team.joint.team.graph;
+    for (TeamLoop<Pose>& loop : team.loops) {
+      if (!loop.accepted) continue;
+      RelativePoseFactor<Pose>& factor = graph.relative_poses[first++];
+      factor.weight = 1;
+      loop.statistic = variance * squared_norm(graph, factor);
+      factor.weight = loop.statistic <= std::max(loop.gate, kPoseChiSquared999<Pose> * variance) ? 1 : 0;
+    }
+  }
+
+  void describe(std::vector<ClosureJudgement>& judgements) const {
+    for (const TeamLoop<Pose>& loop : team_.loops)
+      for (const std::size_t k : loop.closures) {
+        judgements[k].statistic = loop.statistic;
+        if (loop.accepted) continue;
+        const bool open = component_[loop.segment_i] != component_[loop.segment_j];
+        const bool is_admitted = loop.admission == Admission::kAdmitted;
+        reject(judgements[k], !is_admitted ? evidence_.admissions[k].reason
+                              : open       ? "no group of loops stands out"
+                                           : "the joint estimate disagrees");
+      }
+  }
+
+  TeamAlignment<Pose>& alignment_;
+  const std::vector<Closure>& closures_;
+  const ClosureEvidence<Pose>& evidence_;
+  const OptimizerParams& optimizer_;
+  const Progress& progress_;
+  Frames<Pose> frames_;
+  const std::vector<std::vector<Pose>> of_radio_;  ///< alternatives before loops joined any frames
+  LoopSolution<Pose> team_;
+  std::vector<int> component_;  ///< per segment
+  LoopChoiceResult choice_;
+};
 
 }  // namespace
 
@@ -274,64 +429,46 @@ template <class Pose>
 std::optional<LoopChoiceResult> close_by_loops(JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment,
                                                const std::vector<Closure>& closures,
                                                std::vector<ClosureJudgement>& judgements,
-                                               const OptimizerParams& optimizer, const Progress& progress,
-                                               const ConsistencyParams& consistency, const MapWitness* maps) {
+                                               const ClosureEvidence<Pose>& evidence,
+                                               const OptimizerParams& optimizer, const Progress& progress) {
   for (std::size_t k = 0; k < closures.size(); ++k)
     if (!closure_ends(joint, closures[k]).valid()) reject(judgements[k], "no odometry at its time");
-  std::vector<TeamLoop<Pose>> loops = team_loops(joint, closures);
-  if (loops.empty()) return std::nullopt;
-  take_out(joint, loops);
-  const std::vector<int> component_before = alignment.of_segment;
-  LoopSelection scales;
-  LoopChoiceResult choice;
-  std::vector<int> component;
-  for (int pass = 0; pass < kMaxPasses; ++pass) {
-    const double odometry_scale = std::max(scales.odometry_scale, std::pow(2.0, pass));
-    const auto chains = segment_chains(joint, loops, odometry_scale);
-    const auto groups = held_against_maps(maps, closures, loops,
-                                          loop_groups(joint, loops, chains, {.consistency = consistency}));
-    auto alignments = align_by_loops(joint, component_before, loops, groups, chains);
-    if (!has_unit_weights(consistency)) undo_weak_joins(groups, joint.robot_of_segment, alignments);
-    const JointGraph<Pose> before = joint;
-    const std::vector<TeamLoop<Pose>> loops_before = loops;
-    component = alignments.front().component;
-    accept_groups(groups, alignments.front(), loops);
-    joint.team.graph.poses = moved(joint, alignments.front());
-    const LoopSelection selection = select_loops(joint, component, loops, optimizer, progress);
-    set_alternatives(before, loops_before, loops, groups, alignments, optimizer, alignment);
-    choice = described(joint, loops, selection);
-    scales.odometry_scale = selection.odometry_scale;
-    scales.loop_scale *= selection.loop_scale;
-    for (TeamLoop<Pose>& loop : loops) loop.covariance *= selection.loop_scale * selection.loop_scale;
-    const bool is_open = std::any_of(loops.begin(), loops.end(), [&](const TeamLoop<Pose>& loop) {
-      return component[loop.segment_i] != component[loop.segment_j];
-    });
-    if (is_open && pass + 1 < kMaxPasses) continue;
-    component = alignments.front().component = joined_by_accepted(component_before, loops);
-    const std::string measured = closures.front().kind == ClosureKind::kMatch ? "matches" : "loop closures";
-    note_groups(joint, loops, groups, alignments.front(), measured, alignment);
-    break;
-  }
-  join_components(joint, component, alignment);
-  scale_odometry(joint, scales.odometry_scale);
-  add_accepted(joint, loops, closures);
-  optimize(joint.team.graph, optimizer, progress);
-  for (const TeamLoop<Pose>& loop : loops)
-    for (const std::size_t k : loop.closures) {
-      judgements[k].statistic = loop.statistic;
-      if (loop.accepted) continue;
-      const bool open = component[loop.segment_i] != component[loop.segment_j];
-      reject(judgements[k], open ? "no group of loops stands out" : "the joint estimate disagrees");
-    }
-  note_scales(scales, alignment);
+  ClosureJudge<Pose> judge(std::move(joint), alignment, closures, evidence, optimizer, progress);
+  auto choice = judge.run(judgements);
+  joint = std::move(judge).joint();
   return choice;
+}
+
+template <class Pose>
+void close_by_all(JointGraph<Pose>& joint, const std::vector<Closure>& closures,
+                  const std::vector<ClosureAdmission>& admissions, std::vector<ClosureJudgement>& judgements,
+                  const OptimizerParams& optimizer, const Progress& progress) {
+  erase_relative_poses(joint, [](const FactorOrigin& o) { return o.source == FactorSource::kLoop; });
+  for (std::size_t k = 0; k < closures.size(); ++k) {
+    if (!closure_ends(joint, closures[k]).valid()) {
+      reject(judgements[k], "no odometry at its time");
+    } else if (admissions[k].admission != Admission::kAdmitted) {
+      reject(judgements[k], admissions[k].reason);
+    } else {
+      RelativePoseFactor<Pose> factor = closure_factor(joint, closures[k]);
+      factor.information *= admissions[k].information_scale;
+      add_closure(joint, closures[k], std::move(factor), FactorSource::kLoop, k);
+    }
+  }
+  optimize(joint.team.graph, optimizer, progress);
+  for (const std::size_t k : factors_of(joint.origins.relative_poses, FactorSource::kLoop))
+    judgements[joint.origins.relative_poses[k].measurement].statistic =
+        squared_norm(joint.team.graph, joint.team.graph.relative_poses[k]);
 }
 
 #define RADIOSLAM_LOOP_STAGE(Pose)                                                                          \
   template void add_own_loops(JointGraph<Pose>&, const std::vector<Closure>&, const OptimizerParams&);      \
   template std::optional<LoopChoiceResult> close_by_loops(                                                  \
       JointGraph<Pose>&, TeamAlignment<Pose>&, const std::vector<Closure>&, std::vector<ClosureJudgement>&, \
-      const OptimizerParams&, const Progress&, const ConsistencyParams&, const MapWitness*);
+      const ClosureEvidence<Pose>&, const OptimizerParams&, const Progress&);                               \
+  template void close_by_all(JointGraph<Pose>&, const std::vector<Closure>&,                                \
+                             const std::vector<ClosureAdmission>&, std::vector<ClosureJudgement>&,          \
+                             const OptimizerParams&, const Progress&);
 RADIOSLAM_LOOP_STAGE(SE2)
 RADIOSLAM_LOOP_STAGE(SE3)
 #undef RADIOSLAM_LOOP_STAGE

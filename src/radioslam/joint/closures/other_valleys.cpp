@@ -105,9 +105,9 @@ class ValleySearch {
     for (int round = 0; round < kMaxSettling; ++round) {
       set_weights(choice);
       optimize(choice.graph, equations_, solver_);
-      std::vector<bool> holds = choice.may_hold;
+      std::vector<bool> holds(choice.gates.size());
       for (std::size_t k = 0; k < holds.size(); ++k)
-        holds[k] = holds[k] && squared_norm(choice.graph, choice.loop(k)) <= choice.gates[k];
+        holds[k] = squared_norm(choice.graph, choice.loop(k)) <= choice.gates[k];
       if (holds == choice.accepted) return;
       choice.accepted = std::move(holds);
     }

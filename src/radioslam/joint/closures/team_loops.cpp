@@ -14,9 +14,11 @@ namespace {
 
 /// A closure's relative pose from the loop's end i, whichever way it was measured.
 template <class Pose>
-UncertainPose<Pose> oriented(const Closure& closure, const ClosureEnds& ends, PoseId from) {
-  const UncertainPose<Pose> measured{pose_as<Pose>(closure.T_i_j),
-                                     inverse(information_as<Pose>(closure.information))};
+UncertainPose<Pose> oriented(const Closure& closure, const ClosureEnds& ends, PoseId from,
+                             const ClosureAdmission& admitted) {
+  const UncertainPose<Pose> measured{
+      pose_as<Pose>(closure.T_i_j),
+      inverse(information_as<Pose>(closure.information)) / admitted.information_scale};
   return ends.i == from ? measured : measured.inverse();
 }
 
@@ -59,7 +61,8 @@ double gate_of(const typename Pose::Jacobian& covariance, double volume) {
 }  // namespace
 
 template <class Pose>
-std::vector<TeamLoop<Pose>> team_loops(const JointGraph<Pose>& joint, const std::vector<Closure>& closures) {
+std::vector<TeamLoop<Pose>> team_loops(const JointGraph<Pose>& joint, const std::vector<Closure>& closures,
+                                       const std::vector<ClosureAdmission>& admissions) {
   const auto segment_of = segment_of_poses(joint.team);
   std::vector<typename Pose::Point> extents;
   for (const TrajectorySegment& segment : joint.team.segments) extents.push_back(extent(joint, segment));
@@ -68,20 +71,22 @@ std::vector<TeamLoop<Pose>> team_loops(const JointGraph<Pose>& joint, const std:
   for (std::size_t k = 0; k < closures.size(); ++k) {
     const ClosureEnds ends = closure_ends(joint, closures[k]);
     if (!ends.valid() || ends.i == ends.j) continue;
+    const ClosureAdmission admitted = admissions.empty() ? ClosureAdmission{} : admissions[k];
     const auto [begin, end] = by_ends.equal_range(std::minmax(ends.i, ends.j));
     auto same = begin;
     for (; same != end; ++same) {
       TeamLoop<Pose>& loop = loops[same->second];
-      const auto again = oriented<Pose>(closures[k], ends, loop.i);
+      const auto again = oriented<Pose>(closures[k], ends, loop.i, admitted);
       if (!agree(loop, again)) continue;
       loop.closures.push_back(k);
+      loop.admission = std::min(loop.admission, admitted.admission);
       const double share = 1 / static_cast<double>(loop.closures.size());
       loop.T_i_j = loop.T_i_j * Pose::exp(share * (loop.T_i_j.inverse() * again.pose).log());
       break;
     }
     if (same != end) continue;
     by_ends.emplace(std::minmax(ends.i, ends.j), loops.size());
-    const auto measured = oriented<Pose>(closures[k], ends, ends.i);
+    const auto measured = oriented<Pose>(closures[k], ends, ends.i, admitted);
     const std::size_t a = segment_of[ends.i.index()], b = segment_of[ends.j.index()];
     loops.push_back({ends.i,
                      ends.j,
@@ -90,7 +95,8 @@ std::vector<TeamLoop<Pose>> team_loops(const JointGraph<Pose>& joint, const std:
                      measured.pose,
                      measured.covariance,
                      gate_of<Pose>(measured.covariance, volume<Pose>(extents[a] + extents[b])),
-                     {k}});
+                     {k},
+                     admitted.admission});
   }
   return loops;
 }
@@ -105,8 +111,9 @@ RelativePoseFactor<Pose> loop_factor(const TeamLoop<Pose>& loop) {
   return factor;
 }
 
-#define RADIOSLAM_TEAM_LOOPS(Pose)                                                                       \
-  template std::vector<TeamLoop<Pose>> team_loops(const JointGraph<Pose>&, const std::vector<Closure>&); \
+#define RADIOSLAM_TEAM_LOOPS(Pose)                                                                      \
+  template std::vector<TeamLoop<Pose>> team_loops(const JointGraph<Pose>&, const std::vector<Closure>&, \
+                                                  const std::vector<ClosureAdmission>&);                \
   template RelativePoseFactor<Pose> loop_factor(const TeamLoop<Pose>&);
 RADIOSLAM_TEAM_LOOPS(SE2)
 RADIOSLAM_TEAM_LOOPS(SE3)

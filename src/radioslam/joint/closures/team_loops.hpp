@@ -26,6 +26,7 @@ struct TeamLoop {
   typename Pose::Jacobian covariance = Pose::Jacobian::Identity();  ///< right perturbation
   double gate = 0;                    ///< largest squared norm of its error at which it holds
   std::vector<std::size_t> closures;  ///< indices of the closures that measured it, at least one
+  Admission admission = Admission::kAdmitted;
   bool accepted = false;
   double statistic = 0;
 
@@ -33,8 +34,10 @@ struct TeamLoop {
 };
 
 /// The loops of those closures that have both ends in the graph, in the order of their first closures.
+/// `admissions`: in the order of the closures, or none where all are admitted as measured.
 template <class Pose>
-std::vector<TeamLoop<Pose>> team_loops(const JointGraph<Pose>& joint, const std::vector<Closure>& closures);
+std::vector<TeamLoop<Pose>> team_loops(const JointGraph<Pose>& joint, const std::vector<Closure>& closures,
+                                       const std::vector<ClosureAdmission>& admissions = {});
 
 /// The loop as a factor without loss, of weight one.
 template <class Pose>
