@@ -73,7 +73,11 @@ HallParams scanned_hall() {
 
 class VerificationBudgetOfAHall : public testing::Test {
  protected:
-  void SetUp() override { recordings = measure_recordings(mission, {}, {}, timed); }
+  /// Without a budget all that are proposed are registered.
+  void SetUp() override {
+    recordings = measure_recordings(mission, {}, {}, timed);
+    params.places.least_worth = 0;
+  }
   RunResult run(std::optional<std::size_t> budget) {
     RunOptions options;
     if (budget) options.verifications = VerificationBudget{*budget};
@@ -109,6 +113,21 @@ TEST_F(VerificationBudgetOfAHall, ChangesNothingIfItIsLarge) {
     for (std::size_t k = 0; k < all.robots[r].estimate.size(); ++k)
       EXPECT_EQ(within.robots[r].estimate[k].pose.translation(),
                 all.robots[r].estimate[k].pose.translation());
+}
+
+/// Rounds that register what is worth most first, and leave what adds next to nothing.
+TEST(VerificationsByWorth, AreFewerAndEndAsNear) {
+  HallParams hall = scanned_hall();
+  hall.path_length_m = 25;
+  const auto [mission, truth] = simulate_hall(hall, 2);
+  StageClock timed;
+  RunParams params;
+  const MeasuredRecordings recordings = measure_recordings(mission, params, {}, timed);
+  const RunResult by_worth = run_pipeline(mission, recordings, params).result;
+  params.places.least_worth = 0;
+  const RunResult all = run_pipeline(mission, recordings, params).result;
+  EXPECT_LT(by_worth.counts.at("registrations"), 0.7 * all.counts.at("registrations"));
+  EXPECT_LT(error_m(by_worth, truth), error_m(all, truth) + 0.02);
 }
 
 /// Half of the ranges in a row are those of a signal around a corner.

@@ -182,12 +182,22 @@ OverlapStage list_overlaps(const RunSetup& run, const TeamEstimate<Pose>& team) 
        keyframes_of(team.joint, team.measured.closures.loops), run.options.take_candidates});
 }
 
-/// What is left of the budget, in equal shares over the rounds that are left.
+constexpr int kBudgetedRounds = 2;
+
+/// What is left of the user's budget, in equal shares over the rounds that are left; without one, as much in
+/// every round as in all before, as long as it is worth it.
 std::optional<VerificationBudget> budget_of_round(const RunSetup& run, int round, std::size_t done) {
+  const PlaceParams& places = run.params.places;
   std::optional<VerificationBudget> budget = run.options.verifications;
-  if (!budget) return budget;
-  const auto rounds = static_cast<std::size_t>(run.params.places.rounds - round);
-  budget->registrations = (budget->registrations - done + rounds - 1) / rounds;
+  if (budget) {
+    const auto rounds =
+        static_cast<std::size_t>(std::max(1, std::min(places.rounds, kBudgetedRounds) - round));
+    budget->registrations = (budget->registrations - done + rounds - 1) / rounds;
+  } else if (places.least_worth > 0) {
+    const std::size_t robots = run.mission.robots.size();
+    const auto first = static_cast<std::size_t>(places.first_round) * (robots * (robots - 1) / 2);
+    budget = VerificationBudget{first << round, VerificationBudget::Order::kWorth, places.least_worth, true};
+  }
   return budget;
 }
 
@@ -349,12 +359,12 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* graph, const Measur
     auto& judgements = judged.team.judgement.closures;
     if (!closures.loops.empty()) places.note_judgement(closures.loops, judgements.loops);
     auto more = find_places(run, judged.team, scans, descriptors, round, places);
-    const bool has_more = more.has_verified();
+    const bool has_more = more.has_verified(), has_tried = more.counts.registrations > 0;
     if (!has_more) append(more.closures, closures.scans, judgements.scans);
     places.append(std::move(more));
     if (has_more)
       judged = judge_closures(run, aligned, places.closures);
-    else if (!places.counts.has_left_out())
+    else if (!has_tried || !places.counts.has_left_out())
       break;
   }
 

@@ -1,7 +1,7 @@
 // Which closures may take part when those that hold are chosen: what other evidence says of each alone.
 //
 // Where other measurements than closures relate two robots, a closure between them is set aside unless the
-// keyframes before its ends are a candidate pair of the overlap search and, where radio links tell the
+// keyframes before its ends are a candidate pair of the overlap search and, where radio links constrain the
 // robots' relative pose, its own one passes the chi-squared test under the joint estimate. What is set aside
 // can still hold: where the estimate agrees with it once others of the two robots hold (loop_selection.hpp).
 // Optionally, angles of arrival measured near a closure scale its information; one that would keep less than

@@ -18,7 +18,7 @@ namespace radioslam {
 namespace {
 
 constexpr int kMaxRounds = 15;
-constexpr double kMinRedundancy = 30;  // below which a variance cannot be estimated
+constexpr double kMinRedundancy = 12;  // below which a variance cannot be estimated
 constexpr double kSettledScale = 0.02;
 constexpr double kMinGain = 1e-3;  // of the truncated cost
 constexpr double kMinScale = 0.1, kMaxScale = 10;

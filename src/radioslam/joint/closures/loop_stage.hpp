@@ -39,7 +39,7 @@ struct ClosureEvidence {
 /// by its largest, however weak; the joint estimate still judges each loop under its covariance. Nothing
 /// where no closure has both ends in the graph.
 /// Where links between two robots contradict the loops that hold, either may be wrong: the team is solved
-/// with these links and without them, both weigh all links anew, and the likelier solution is the result.
+/// with these links and without them, both weigh all links again, and the likelier solution is the result.
 template <class Pose>
 std::optional<LoopChoiceResult> close_by_loops(JointGraph<Pose>& joint, TeamAlignment<Pose>& alignment,
                                                const std::vector<Closure>& closures,

@@ -29,10 +29,11 @@ class GreedyChoice {
                        kDof * static_cast<Eigen::Index>(count));
   }
 
-  std::vector<std::size_t> choose(std::size_t count) {
+  std::vector<std::size_t> choose(std::size_t count, double least_worth) {
     std::vector<std::size_t> chosen;
     while (chosen.size() < count) {
       const std::size_t best = most_worth();
+      if (worth_[best] < least_worth) break;
       chosen.push_back(best);
       is_chosen_[best] = true;
       if (chosen.size() < count) learn(best, static_cast<Eigen::Index>(chosen.size()) - 1);
@@ -106,9 +107,10 @@ class GreedyChoice {
 template <class Pose>
 std::vector<std::size_t> choose_by_worth(const std::vector<WeighedPair>& pairs,
                                          const PredictedPoses<Pose>& predicted,
-                                         const typename Pose::Jacobian& cov_closure, std::size_t count) {
+                                         const typename Pose::Jacobian& cov_closure, std::size_t count,
+                                         double least_worth) {
   count = std::min(count, pairs.size());
-  return GreedyChoice<Pose>(pairs, predicted, cov_closure, count).choose(count);
+  return GreedyChoice<Pose>(pairs, predicted, cov_closure, count).choose(count, least_worth);
 }
 
 double probability_within(double radius_m, const Eigen::Vector2d& mean, const Eigen::Matrix2d& covariance) {
@@ -130,9 +132,10 @@ double probability_within(double radius_m, const Eigen::Vector2d& mean, const Ei
   return std::clamp(sum * step / (sigma.x() * std::sqrt(2 * std::numbers::pi)), 0.0, 1.0);
 }
 
-#define RADIOSLAM_WORTH(Pose)                        \
-  template std::vector<std::size_t> choose_by_worth( \
-      const std::vector<WeighedPair>&, const PredictedPoses<Pose>&, const Pose::Jacobian&, std::size_t);
+#define RADIOSLAM_WORTH(Pose)                                                                           \
+  template std::vector<std::size_t> choose_by_worth(const std::vector<WeighedPair>&,                    \
+                                                    const PredictedPoses<Pose>&, const Pose::Jacobian&, \
+                                                    std::size_t, double);
 RADIOSLAM_WORTH(SE2)
 RADIOSLAM_WORTH(SE3)
 #undef RADIOSLAM_WORTH

@@ -36,13 +36,14 @@ struct PredictedPoses {
   double temperature = 1;
 };
 
-/// The `count` best of the pairs, as their indices, the best first; equal ones in their order. Cost for n
-/// pairs: a covariance each; for every choice, a solution with the graph per degree of freedom, and
-/// O(n count); memory O(n count).
+/// The `count` best of the pairs, as their indices, the best first; equal ones in their order. None that
+/// would add less than `least_worth` (nats) to those chosen before. Cost for n pairs: a covariance each; for
+/// every choice, a solution with the graph per degree of freedom, and O(n count); memory O(n count).
 template <class Pose>
 std::vector<std::size_t> choose_by_worth(const std::vector<WeighedPair>& pairs,
                                          const PredictedPoses<Pose>& predicted,
-                                         const typename Pose::Jacobian& cov_closure, std::size_t count);
+                                         const typename Pose::Jacobian& cov_closure, std::size_t count,
+                                         double least_worth = 0);
 
 /// Probability that a normal vector in the plane is shorter than this, by its principal axes; to 1e-3.
 double probability_within(double radius_m, const Eigen::Vector2d& mean, const Eigen::Matrix2d& covariance);

@@ -106,7 +106,8 @@ class PlaceSearch {
           propose_by_prediction(a, b);
       }
     counts_.proposed = proposals_.size();
-    if (input_.budget && proposals_.size() > input_.budget->registrations) keep_within(*input_.budget);
+    if (input_.budget && (input_.budget->least_worth > 0 || proposals_.size() > input_.budget->registrations))
+      keep_within(*input_.budget);
     return {std::move(robots_), std::move(proposals_), counts_};
   }
 

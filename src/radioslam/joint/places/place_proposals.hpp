@@ -23,7 +23,9 @@ struct PlaceParams {
   int candidates = 3;
   double submap_m = 10;
   double source_m = 3;
-  int rounds = 2;
+  int rounds = 8;
+  int first_round = 8;
+  double least_worth = 0.05;
   double max_descriptor_distance = 0.7;
   PlaceDescriptorParams descriptors;
 
@@ -45,6 +47,12 @@ struct PlaceParams {
     RADIOSLAM_FIELD(rounds, "", 1, 100,
                     "largest number of rounds of search and judgement; a round ends with a better "
                     "prediction for the next");
+    RADIOSLAM_FIELD(first_round, "", 1, 1e6,
+                    "number of keyframes per pair of robots that are registered in the first round, those of "
+                    "greatest worth; every round registers twice as many as the one before");
+    RADIOSLAM_FIELD(least_worth, "nat", 0, 1e3,
+                    "information that a registration must be expected to add, times the probability that it "
+                    "holds; 0: all that are proposed are registered at once");
     RADIOSLAM_FIELD(candidates, "", 1, 1000,
                     "largest number of keyframes of another robot that a keyframe is registered to");
     RADIOSLAM_FIELD(max_descriptor_distance, "", 0, 1,

@@ -57,14 +57,15 @@ WeighedPair weighed(const Proposal& pair, const ScannedRobot& a, const ScannedRo
 template <class Pose>
 Indices by_worth(const std::vector<Proposal>& proposals, const Indices& of,
                  const std::vector<ScannedRobot>& robots, const PredictedPoses<Pose>& predicted,
-                 const ScanLoopParams& loops, std::size_t count) {
+                 const ScanLoopParams& loops, const VerificationBudget& budget) {
   std::vector<WeighedPair> pairs;
   for (const std::size_t k : of)
     pairs.push_back(weighed(proposals[k], robots[proposals[k].a], robots[proposals[k].b], loops));
   const SE3::Jacobian cov_closure =
       isotropic(loops.min_sigma_m * loops.min_sigma_m, loops.min_sigma_rad * loops.min_sigma_rad);
   Indices result;
-  for (const std::size_t n : choose_by_worth(pairs, predicted, covariance_as<Pose>(cov_closure), count))
+  for (const std::size_t n : choose_by_worth(pairs, predicted, covariance_as<Pose>(cov_closure),
+                                             budget.registrations, budget.least_worth))
     result.push_back(of[n]);
   return result;
 }
@@ -80,7 +81,7 @@ std::vector<Proposal> within_budget(const VerificationBudget& budget, const std:
   switch (budget.order) {
     case VerificationBudget::Order::kWorth:
       anywhere = in_turn(proposals, std::move(anywhere));
-      if (predicted) near = by_worth(proposals, near, robots, *predicted, loops, budget.registrations);
+      if (predicted) near = by_worth(proposals, near, robots, *predicted, loops, budget);
       break;
     case VerificationBudget::Order::kSimilarity:
       anywhere = in_turn(proposals, std::move(anywhere));
@@ -92,7 +93,7 @@ std::vector<Proposal> within_budget(const VerificationBudget& budget, const std:
       break;
   }
   Indices chosen = alternating(anywhere, near);
-  chosen.resize(std::min(chosen.size(), budget.registrations));
+  if (!budget.takes_all_anywhere) chosen.resize(std::min(chosen.size(), budget.registrations));
   std::vector<Proposal> result;
   for (const std::size_t k : chosen) result.push_back(proposals[k]);
   return result;

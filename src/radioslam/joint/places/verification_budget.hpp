@@ -32,6 +32,8 @@ struct VerificationBudget {
   };
   std::size_t registrations = 0;
   Order order = Order::kWorth;
+  double least_worth = 0;  ///< nats that a registration is expected to add, of robots that something aligns
+  bool takes_all_anywhere = false;  ///< proposals of robots that nothing aligns do not count
 };
 
 /// The proposals within the budget, the best first. `predicted`: null if all are `anywhere`.
