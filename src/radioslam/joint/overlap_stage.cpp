@@ -135,7 +135,10 @@ OverlapStage find_overlaps(std::vector<JointGraph<Pose>> alignments, const Overl
   stage.listed = stage.of_asked = without_candidates(first);
   std::vector<OverlapSensor> sensors;
   for (const RobotVariables& robot : first.robots)
-    sensors.push_back({robot.lidar_range_m, robot.lidar_view_rad});
+    sensors.push_back(params.radius_m > 0 ? OverlapSensor{params.radius_m / 2}
+                                          : OverlapSensor{robot.lidar_range_m, robot.lidar_view_rad});
+  OverlapParams rule = params.overlap;
+  if (params.radius_m > 0) rule.min_shared_view = 0;
   const AskedCandidates asked(request.asked, stage.listed);
   MostProbableCandidates most_probable(request.max_listed);
   const auto take = [&](const CandidateList::Group& group) {
@@ -152,7 +155,7 @@ OverlapStage find_overlaps(std::vector<JointGraph<Pose>> alignments, const Overl
         if (links.covariance.view(a, b).ties() == 0)
           stage.unlinked.emplace_back(RobotIndex(a), RobotIndex(b));
     sources.push_back(std::move(links.covariance));
-    stage.counts = search_all(sources, sensors, params.overlap, request.method, take);
+    stage.counts = search_all(sources, sensors, rule, request.method, take);
   } else {
     std::vector<JointCovariance<Pose>> sources;
     for (JointGraph<Pose>& joint : alignments) {
@@ -163,7 +166,7 @@ OverlapStage find_overlaps(std::vector<JointGraph<Pose>> alignments, const Overl
       joint = {};
     }
     stage.alignments = sources.size();
-    stage.counts = search_all(sources, sensors, params.overlap, request.method, take);
+    stage.counts = search_all(sources, sensors, rule, request.method, take);
   }
   most_probable.move_to(stage.listed);
   stage.searched = true;

@@ -30,6 +30,7 @@ enum class OverlapMode {
 
 struct OverlapStageParams {
   OverlapParams overlap;
+  double radius_m = 0;
   std::string mode = "joint";
   double pairing_s = 1;
   int max_links = 200;
@@ -38,6 +39,9 @@ struct OverlapStageParams {
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
     OverlapParams::visit_fields(self.overlap, visit);
+    RADIOSLAM_FIELD(radius_m, "m", 0, 1e5,
+                    "distance within which two keyframes overlap, whatever their scanners see; 0: by the "
+                    "scanners' ranges and min_shared_view");
     RADIOSLAM_FIELD(mode, "", 0, 0,
                     "relative covariances; joint: of the joint estimate; link: odometry over the nearest "
                     "range with angles at both ends (Wang et al.), else the joint pose at a link",

@@ -83,8 +83,11 @@ EvaluatedRun run_and_evaluate(const Mission& mission, const Truth& truth, const 
   run.best_ate_m = best_ate_m(result, truth, run.ate_m);
   run.weight = result.weight;
   run.coverage = metrics.coverage;
-  const PairTruth true_pairs{truth, mission.dimension, lidar_views(mission),
-                             params.overlap.overlap.min_shared_view};
+  const OverlapStageParams& overlap = params.overlap;
+  const PairTruth true_pairs =
+      overlap.radius_m > 0
+          ? PairTruth{truth, mission.dimension, reach_for_radius(mission.robots.size(), overlap.radius_m)}
+          : PairTruth{truth, mission.dimension, lidar_views(mission), overlap.overlap.min_shared_view};
   run.candidates = count_candidates(keyframe_stamps(result), result.candidates, true_pairs);
   const auto distances = result.counts.find("distances_evaluated");
   if (distances != result.counts.end()) run.distances_evaluated = distances->second;

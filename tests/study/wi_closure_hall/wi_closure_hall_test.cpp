@@ -23,7 +23,7 @@ HallParams small_hall() {
 
 class WiClosureHallTable : public testing::Test {
  protected:
-  static void SetUpTestSuite() { hall_ = reproduce_wi_closure_hall(small_hall(), 3); }
+  static void SetUpTestSuite() { hall_ = reproduce_wi_closure_hall(small_hall(), 3, kThesisRadius_m); }
   static WiClosureHall hall_;
 };
 WiClosureHall WiClosureHallTable::hall_;
@@ -31,6 +31,16 @@ WiClosureHall WiClosureHallTable::hall_;
 TEST_F(WiClosureHallTable, EveryStageKeepsAPartOfTheOneBefore) {
   ASSERT_EQ(hall_.places.runs.size(), 3U);
   expect_stages_in_order(hall_.places);
+}
+
+TEST_F(WiClosureHallTable, CountsPairsByBothCriteria) {
+  ASSERT_TRUE(hall_.places.within_radius);
+  const PairCounts &by_view = hall_.places.search.candidates, &near = hall_.places.within_radius->candidates;
+  EXPECT_EQ(near.pairs, by_view.pairs);
+  EXPECT_LT(near.true_pairs, by_view.true_pairs);
+  EXPECT_LT(near.kept, by_view.kept);
+  EXPECT_NE(table_text(wi_closure_hall_table({hall_})).find("within 3.6 m: false pairs rejected"),
+            std::string::npos);
 }
 
 TEST_F(WiClosureHallTable, InOneRoundNoPairCountsTwice) {

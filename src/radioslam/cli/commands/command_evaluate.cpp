@@ -99,6 +99,8 @@ nlohmann::ordered_json number_in(const RunFolder& run, const char* section, cons
 PairTruth pair_truth(const Mission& mission, const Truth& truth, const RunFolder& run,
                      std::optional<double> radius_m) {
   if (radius_m) return {truth, mission.dimension, reach_for_radius(mission.robots.size(), *radius_m)};
+  if (const auto of_run = number_in(run, "parameters", "overlap.radius_m"); of_run.is_number() && of_run > 0)
+    return {truth, mission.dimension, reach_for_radius(mission.robots.size(), of_run.get<double>())};
   const auto min_shared_view = number_in(run, "parameters", "overlap.min_shared_view");
   return {truth, mission.dimension, lidar_views(mission),
           min_shared_view.is_number() ? min_shared_view.get<double>() : 0};

@@ -61,6 +61,7 @@ RecordedTrials find_trials(const std::string& call, const std::string& dataset, 
 constexpr int kMaxSeeds = 1000;
 constexpr std::size_t kMaxPoses = 1000000;
 constexpr double kMinCut = 0.01, kMaxCut = 0.99;
+constexpr double kMinRadius_m = 0.1, kMaxRadius_m = 1000;
 constexpr const char* kStudyFolder = "table.json";
 
 struct ReproduceOptions {
@@ -71,7 +72,7 @@ struct ReproduceOptions {
   std::string dataset;
   std::string authors;
   std::vector<std::string> teams;
-  std::optional<double> cut;
+  std::optional<double> cut, radius_m;
   std::uint64_t seed = 1;
   std::optional<int> seeds;
   std::optional<std::size_t> poses;
@@ -154,7 +155,7 @@ Study wi_closure_hall(const ReproduceOptions& options) {
   refuse_without_scans(options, scenario.onboard.lidar);
   if (scenario.robots < 2) refuse(options, "needs robots of at least 2");
   const auto halls = for_seeds(options, kSeeds, [&](std::uint64_t seed, const Progress& progress) {
-    return reproduce_wi_closure_hall(scenario, seed, progress);
+    return reproduce_wi_closure_hall(scenario, seed, options.radius_m.value_or(kThesisRadius_m), progress);
   });
   StudyTable table = wi_closure_hall_table(halls), angles = hall_angles_table(halls);
   std::string page = render_table_page(table, {angles}), csv = table_csv(angles);
@@ -393,6 +394,11 @@ void add_table_options(CLI::App& command, ReproduceOptions& options) {
                   "(default: 0.34)")
       ->check(number_from(kMinCut, kMaxCut))
       ->type_name("FRACTION");
+  command
+      .add_option("--radius", options.radius_m,
+                  "wi-closure-hall: distance of true pairs by the second criterion (default: 3.6)")
+      ->check(number_from(kMinRadius_m, kMaxRadius_m))
+      ->type_name("M");
   command.add_option("--dataset", options.dataset, "aoa: folder that contains trials of the WSR data set")
       ->type_name("DIR");
   command

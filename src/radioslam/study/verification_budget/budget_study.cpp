@@ -63,7 +63,8 @@ BudgetMission study_budget(const std::string& scenario, const Simulation& simula
                            const Progress& progress) {
   constexpr double kRuns = static_cast<double>(std::size(kOrders) * std::size(kBudgetShares));
   const auto& [mission, truth] = simulation;
-  const RunParams params;
+  RunParams params;
+  params.places.least_worth = 0;  // without a budget all that are proposed
   StageClock timed;
   const MeasuredRecordings recordings = measure_recordings(mission, params, {}, timed, progress);
   const RunResult all = run_pipeline(mission, recordings, params).result;

@@ -58,10 +58,12 @@ PlaceRun place_run(const RunResult& result, const Truth& truth) {
   return run;
 }
 
+constexpr double kWithin = 1e-3;  // sigma from being near enough: none, but for rounding
+
 }  // namespace
 
 PlaceStudy study_places(Simulation simulation, std::uint64_t seed, const std::vector<PlaceSettings>& settings,
-                        const RunParams& params, const Progress& progress) {
+                        const RunParams& params, double radius_m, const Progress& progress) {
   RADIOSLAM_CHECK(!settings.empty(), "a study of places has parameters of place recognition");
   const std::size_t runs = 1 + 3 * settings.size();
   std::size_t done = 0;
@@ -81,6 +83,11 @@ PlaceStudy study_places(Simulation simulation, std::uint64_t seed, const std::ve
   searched.overlap.overlap.min_shared_view = params.places.min_shared_view;
   next();
   study.search = run_and_evaluate(mission, truth, searched, search);
+  if (radius_m > 0) {
+    searched.overlap.radius_m = study.radius_m = radius_m;
+    searched.overlap.overlap.max_mahalanobis = kWithin;
+    study.within_radius = run_and_evaluate(mission, truth, searched, search);
+  }
 
   for (const PlaceSettings set : settings) {
     RunParams of_set = params;

@@ -41,13 +41,17 @@ struct PlaceRuns {
 struct PlaceStudy {
   std::uint64_t seed = 1;
   EvaluatedRun search;  ///< the overlap search alone, with the smallest shared view of place recognition
+  /// The same for pairs within this distance, those that most probably are.
+  double radius_m = 0;
+  std::optional<EvaluatedRun> within_radius = {};
   std::vector<PlaceRuns> runs;     ///< one for each of the settings
   std::vector<AnglePaths> angles;  ///< of the pruned run with the first settings
 };
 
 /// Runs with `params`, but place recognition and consistency by each of `settings`, at least one. All scans
-/// are cast before the runs and held in memory, so that no run's seconds contain the simulator's.
+/// are cast before the runs and held in memory, so that no run's seconds contain the simulator's. `radius_m`:
+/// another criterion of true pairs; 0: none.
 PlaceStudy study_places(Simulation simulation, std::uint64_t seed, const std::vector<PlaceSettings>& settings,
-                        const RunParams& params, const Progress& progress = {});
+                        const RunParams& params, double radius_m = 0, const Progress& progress = {});
 
 }  // namespace radioslam

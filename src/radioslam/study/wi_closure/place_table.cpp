@@ -56,30 +56,47 @@ class PlaceRunRows {
   std::vector<StudyRow>& rows_;
 };
 
-/// The search for pairs, before any scan is compared.
-void add_search_rows(const Seeds& seeds, const PublishedPlaces& published, std::vector<StudyRow>& rows) {
+using OfSearch = std::function<const PairCounts&(const PlaceStudy&)>;
+
+/// Pairs by one criterion, before any scan is compared.
+void add_criterion_rows(const Seeds& seeds, const std::string& criterion, const PublishedPlaces& published,
+                        const OfSearch& of, std::vector<StudyRow>& rows) {
   const auto of_search = [&](std::size_t PairCounts::*count) {
-    return number_text(median_over(seeds,
-                                   [&](const PlaceStudy& seed) {
-                                     return std::optional(to_number(seed.search.candidates.*count));
-                                   }),
-                       0);
+    return number_text(
+        median_over(seeds, [&](const PlaceStudy& seed) { return std::optional(to_number(of(seed).*count)); }),
+        0);
   };
-  const auto share = [&](std::optional<double> (*of)(const PairCounts&)) {
-    return percent_text(median_over(seeds, [&](const auto& seed) { return of(seed.search.candidates); }), 1);
+  const auto share = [&](std::optional<double> (*ratio)(const PairCounts&)) {
+    return percent_text(median_over(seeds, [&](const auto& seed) { return ratio(of(seed)); }), 1);
   };
-  const std::string all = of_search(&PairCounts::pairs), true_ones = of_search(&PairCounts::true_pairs);
-  rows.push_back({"pairs of keyframes", {published.pairs, published.pairs, all, all, all}});
+  const std::string true_ones = of_search(&PairCounts::true_pairs);
   rows.push_back(
-      {"true pairs, with 18 % of their views in common",
+      {"true pairs, " + criterion,
        {published.true_pairs.baseline, published.true_pairs.pruned, true_ones, true_ones, true_ones}});
-  const auto add_pruned = [&](const char* label, const std::string& thesis, std::string pruned) {
-    rows.push_back({label, {not_published(), thesis, not_published(), not_published(), std::move(pruned)}});
+  const auto add_pruned = [&](const std::string& label, const std::string& thesis, std::string pruned) {
+    rows.push_back({criterion + ": " + label,
+                    {not_published(), thesis, not_published(), not_published(), std::move(pruned)}});
   };
   add_pruned("kept", published.kept, of_search(&PairCounts::kept));
   add_pruned("true kept", published.true_kept, of_search(&PairCounts::true_kept));
   add_pruned("recall", published.recall, share(recall));
   add_pruned("false pairs rejected", published.false_rejected, share(rejected_false));
+}
+
+void add_search_rows(const Seeds& seeds, const PublishedPlaces& published, std::vector<StudyRow>& rows) {
+  const std::string all = number_text(
+      median_over(
+          seeds,
+          [](const PlaceStudy& seed) { return std::optional(to_number(seed.search.candidates.pairs)); }),
+      0);
+  rows.push_back({"pairs of keyframes", {published.pairs, published.pairs, all, all, all}});
+  add_criterion_rows(
+      seeds, "18 % of views in common", published,
+      [](const PlaceStudy& seed) -> const PairCounts& { return seed.search.candidates; }, rows);
+  if (seeds.front().within_radius)
+    add_criterion_rows(
+        seeds, "within " + number_text(seeds.front().radius_m, 1) + " m", published,
+        [](const PlaceStudy& seed) -> const PairCounts& { return seed.within_radius->candidates; }, rows);
 }
 
 void add_place_rows(const PublishedPlaces& published, PlaceRunRows& rows) {

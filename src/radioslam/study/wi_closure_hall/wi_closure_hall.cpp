@@ -2,12 +2,12 @@
 
 namespace radioslam {
 
-WiClosureHall reproduce_wi_closure_hall(const HallParams& scenario, std::uint64_t seed,
+WiClosureHall reproduce_wi_closure_hall(const HallParams& scenario, std::uint64_t seed, double radius_m,
                                         const Progress& progress) {
   return {scenario,
           study_places(simulate_hall(scenario, seed), seed,
                        {PlaceSettings::kDefaults, PlaceSettings::kDisco, PlaceSettings::kLoosenedDisco}, {},
-                       progress)};
+                       radius_m, progress)};
 }
 
 }  // namespace radioslam

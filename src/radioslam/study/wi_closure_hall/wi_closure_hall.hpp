@@ -21,8 +21,13 @@ struct WiClosureHall {
   PlaceStudy places;  ///< with the defaults and both sets of DiSCo-SLAM
 };
 
+/// Distance within which 7.3 % of the pairs of places in the hall are, 135 of 1,848 as in the thesis: pi r^2
+/// over its area, without the walls' share.
+inline constexpr double kThesisRadius_m = 3.6;
+
 /// Runs on one simulated hall, whose scans are held in memory meanwhile (0.4 GB). Cost: some minutes.
-WiClosureHall reproduce_wi_closure_hall(const HallParams& scenario, std::uint64_t seed,
+/// `radius_m`: distance of true pairs, the second criterion.
+WiClosureHall reproduce_wi_closure_hall(const HallParams& scenario, std::uint64_t seed, double radius_m,
                                         const Progress& progress = {});
 
 }  // namespace radioslam

@@ -64,7 +64,7 @@ WiClosureTable1 reproduce_wi_closure_table1(const RecordedDrive& drive, const Ki
   params.scans.stage.odometry = "recorded";
   return {scenario,
           study_places(simulate_kitti(scenario, drive, seed), seed,
-                       {PlaceSettings::kDefaults, PlaceSettings::kLoosenedDisco}, params, progress)};
+                       {PlaceSettings::kDefaults, PlaceSettings::kLoosenedDisco}, params, 0, progress)};
 }
 
 StudyTable wi_closure_table1_table(const std::vector<WiClosureTable1>& seeds) {
