@@ -63,7 +63,7 @@ TEST(SearchPose, FindsAScanFromMetresAndFortyDegreesOff) {
       const double side = rng.uniform(-3, 3);
       const SE3 guess = pose_at(x + 3 * std::cos(side), y + 3 * std::sin(side), 1.2,
                                 truth.yaw() + (seed % 2 == 0 ? 40 : -40) * kDegree);
-      const auto found = search_pose(map, scan, guess_at(guess, 1.5, 20 * kDegree), kind, {}, {});
+      const auto found = search_pose(Submap(map), scan, guess_at(guess, 1.5, 20 * kDegree), kind, {}, {});
       expect_found(found, truth);
       EXPECT_LT(next_ratio(found), 0.9 * found.best().inlier_ratio) << seed;
     }
@@ -74,14 +74,15 @@ TEST(SearchPose, LooksWithinItsWindow) {
   const SE3 truth = pose_at(0.5, 0.2, 1.2, 0.4);
   const auto [map, scan] = searched_scan(furnished_room(), places_in_furnished_room(), truth, 1);
   const SE3 far = pose_at(4.5, 0.2, 1.2, 0.4 + 170 * kDegree);
-  const auto found = search_pose(map, scan, guess_at(far, 0.1, 2 * kDegree), ScannerKind::kSpatial, {}, {});
+  const auto found =
+      search_pose(Submap(map), scan, guess_at(far, 0.1, 2 * kDegree), ScannerKind::kSpatial, {}, {});
   EXPECT_GT(angle_between(found.best().T_target_source, truth), 90 * kDegree);
 }
 
 TEST(SearchPose, OfAGuessThatIsRightNeedsNoWindow) {
   const SE3 truth = pose_at(0.5, 0.2, 1.2, 0.4);
   const auto [map, scan] = searched_scan(furnished_room(), places_in_furnished_room(), truth, 2);
-  const auto found = search_pose(map, scan, {truth}, ScannerKind::kSpatial, {}, {});
+  const auto found = search_pose(Submap(map), scan, {truth}, ScannerKind::kSpatial, {}, {});
   expect_found(found, truth);
   EXPECT_EQ(next_ratio(found), 0);
 }
@@ -102,9 +103,9 @@ TEST(SearchPose, AmongIdenticalPillarsReportsASimilarAlternative) {
   for (const ScannerKind kind : {ScannerKind::kSpatial, ScannerKind::kPlanar}) {
     const SE3 truth = pose_at(1.5, 1.8, 1.2, 0.2);
     const auto [map, scan] = scan_among_pillars(truth, kind);
-    const auto wide = search_pose(map, scan, guess_at(truth, 2, 5 * kDegree), kind, {}, {});
+    const auto wide = search_pose(Submap(map), scan, guess_at(truth, 2, 5 * kDegree), kind, {}, {});
     EXPECT_GT(next_ratio(wide), 0.95 * wide.best().inlier_ratio);
-    const auto narrow = search_pose(map, scan, guess_at(truth, 0.3, 5 * kDegree), kind, {}, {});
+    const auto narrow = search_pose(Submap(map), scan, guess_at(truth, 0.3, 5 * kDegree), kind, {}, {});
     EXPECT_LT(next_ratio(narrow), 0.9 * narrow.best().inlier_ratio);
     expect_found(narrow, truth);
   }
@@ -117,7 +118,7 @@ TEST(SearchPose, CountsAnotherHeadingAsADistinctPose) {
   const SE3 truth = pose_at(0, 0, 1.2, 0);
   const auto [map, scan] = searched_scan(square, {truth}, truth, 4);
   const auto found =
-      search_pose(map, scan, guess_at(truth, 0.1, 60 * kDegree), ScannerKind::kSpatial, {}, {});
+      search_pose(Submap(map), scan, guess_at(truth, 0.1, 60 * kDegree), ScannerKind::kSpatial, {}, {});
   EXPECT_GT(next_ratio(found), 0.9 * found.best().inlier_ratio);
 }
 
@@ -129,7 +130,7 @@ TEST(SearchPose, OfAnUninformativeEstimateStillTerminates) {
   search.max_starts = 1000;
   for (const double sigma_m : {1e3, 1e6, 1e12, kNothing_m}) {
     const auto found =
-        search_pose(map, scan, guess_at(truth, sigma_m, 100), ScannerKind::kSpatial, search, {});
+        search_pose(Submap(map), scan, guess_at(truth, sigma_m, 100), ScannerKind::kSpatial, search, {});
     EXPECT_LE(found.best().inlier_ratio, 1) << sigma_m;
   }
 }
@@ -139,9 +140,9 @@ TEST(SearchPose, GivesTheSameBytesForAnyNumberOfThreads) {
   const auto [map, scan] = searched_scan(furnished_room(), places_in_furnished_room(), truth, 6);
   const auto guess = guess_at(pose_at(2, -0.5, 1.2, 0.9), 1, 20 * kDegree);
   set_thread_count(1);
-  const auto alone = search_pose(map, scan, guess, ScannerKind::kSpatial, {}, {});
+  const auto alone = search_pose(Submap(map), scan, guess, ScannerKind::kSpatial, {}, {});
   set_thread_count(3);
-  const auto together = search_pose(map, scan, guess, ScannerKind::kSpatial, {}, {});
+  const auto together = search_pose(Submap(map), scan, guess, ScannerKind::kSpatial, {}, {});
   set_thread_count(0);
   EXPECT_EQ(alone.best().T_target_source.translation(), together.best().T_target_source.translation());
   EXPECT_EQ(alone.best().T_target_source.rotation().coeffs(),

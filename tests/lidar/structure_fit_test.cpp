@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "lidar/scanned_room.hpp"
+#include "radioslam/lidar/submap.hpp"
 
 namespace radioslam {
 namespace {
@@ -26,10 +27,10 @@ ScanPyramid scan_of(const std::vector<Surfel>& surfels) {
   return scan;
 }
 
-LocalMap map_of(const ScanPyramid& scan) {
+Submap map_of(const ScanPyramid& scan) {
   LocalMap map(kFinePoints_m, {});
   map.add(scan, SE3(), 0);
-  return map;
+  return Submap(map);
 }
 
 const Eigen::Vector3f kLevel{9, 9, 1e-4F}, kWall{1e-4F, 9, 9}, kNoPlane{0.01F, 0.01F, 0.01F};
@@ -45,23 +46,23 @@ TEST(Structure, IsTheShareOfInformationOnThePositionInThePlane) {
 /// One correspondence at the distance d: (s^2 / (s^2 + d^2 / 2 c))^2, c: the variance of either surfel.
 TEST(StructureFit, OfOneSurfelIsItsRobustWeight) {
   const ScanPyramid scan = scan_of({surfel_at({1, 2, 3}, kNoPlane)});
-  const LocalMap map = map_of(scan);
+  const Submap map = map_of(scan);
   for (const double off_m : {0.0, 0.1, 0.3}) {
     const double root = 4 / (4 + off_m * off_m / 0.02);
-    EXPECT_NEAR(structure_fit(map, scan, pose_at(off_m, 0, 0, 0), ScannerKind::kSpatial, kLossScale),
+    EXPECT_NEAR(structure_fit(map.fine(), scan, pose_at(off_m, 0, 0, 0), ScannerKind::kSpatial, kLossScale),
                 root * root, 1e-5);
   }
-  EXPECT_EQ(structure_fit(map, scan, pose_at(50, 0, 0, 0), ScannerKind::kSpatial, kLossScale), 0);
-  EXPECT_EQ(structure_fit(map, {}, SE3(), ScannerKind::kSpatial, kLossScale), 0);
+  EXPECT_EQ(structure_fit(map.fine(), scan, pose_at(50, 0, 0, 0), ScannerKind::kSpatial, kLossScale), 0);
+  EXPECT_EQ(structure_fit(map.fine(), {}, SE3(), ScannerKind::kSpatial, kLossScale), 0);
 }
 
 /// A wall of the scan that has no counterpart lowers the fit by its share; ground without one does not.
 TEST(StructureFit, DoesNotCountTheGround) {
   const Surfel wall = surfel_at({1, 2, 3}, kWall), other = surfel_at({1, 20, 3}, kWall),
                ground = surfel_at({5, 20, 0}, kLevel);
-  const LocalMap map = map_of(scan_of({wall}));
+  const Submap map = map_of(scan_of({wall}));
   const auto fit = [&](const std::vector<Surfel>& surfels) {
-    return structure_fit(map, scan_of(surfels), SE3(), ScannerKind::kSpatial, kLossScale);
+    return structure_fit(map.fine(), scan_of(surfels), SE3(), ScannerKind::kSpatial, kLossScale);
   };
   EXPECT_NEAR(fit({wall}), 1, 1e-3);
   EXPECT_NEAR(fit({wall, ground}), 1, 1e-3);
@@ -73,10 +74,11 @@ TEST(StructureFit, DoesNotCountTheGround) {
 TEST(StructureFit, CountsEverySurfelOfAPlanarScanner) {
   const Surfel wall = surfel_at({1, 2, 0}, kWall),
                single = surfel_at({5, 2, 0}, kNoPlane, SurfelShape::kIsolated);
-  const LocalMap map = map_of(scan_of({wall}));
-  EXPECT_NEAR(structure_fit(map, scan_of({wall, single}), SE3(), ScannerKind::kPlanar, kLossScale), 0.5,
-              1e-6);
-  EXPECT_NEAR(structure_fit(map, scan_of({wall, single}), SE3(), ScannerKind::kSpatial, kLossScale), 1, 1e-3);
+  const Submap map = map_of(scan_of({wall}));
+  EXPECT_NEAR(structure_fit(map.fine(), scan_of({wall, single}), SE3(), ScannerKind::kPlanar, kLossScale),
+              0.5, 1e-6);
+  EXPECT_NEAR(structure_fit(map.fine(), scan_of({wall, single}), SE3(), ScannerKind::kSpatial, kLossScale), 1,
+              1e-3);
 }
 
 /// Around a hut in a field: most of a scan is ground, which fits anywhere.
@@ -87,13 +89,13 @@ TEST(StructureFit, OnAFieldFitsAtTheTruePoseOnly) {
   Scanner scanner;
   scanner.azimuths = 240;
   const SE3 truth = pose_at(0.2, 0.1, 1.2, 0.05);
-  const LocalMap map = map_of(
+  const Submap map = map_of(
       pyramid_of(sweep(field, scanner, pose_at(0, 0, 1.2, 0), rng), kFinePoints_m, ScannerKind::kSpatial));
   const ScanPyramid scan =
       pyramid_of(sweep(field, scanner, truth, rng), kFinePoints_m, ScannerKind::kSpatial);
   const SE3 T_map_scan = pose_at(0, 0, 1.2, 0).inverse() * truth;
   const auto fit = [&](const SE3& off) {
-    return structure_fit(map, scan, T_map_scan * off, ScannerKind::kSpatial, kLossScale);
+    return structure_fit(map.fine(), scan, T_map_scan * off, ScannerKind::kSpatial, kLossScale);
   };
   EXPECT_LT(structure_of(scan), 0.5 * static_cast<double>(scan.source.surfels.size()));
   EXPECT_GT(fit(SE3()), 0.7);

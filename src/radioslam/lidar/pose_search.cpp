@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 #include <utility>
 
 #include "radioslam/base/parallel.hpp"
@@ -13,7 +14,8 @@ namespace {
 
 constexpr double kHardlyAny = 1e-3;  // information of a prior that only decides what is unobservable
 
-NearestSurfel nearest_in(const SurfelMap& map) {
+template <class Surfels>
+NearestSurfel nearest_in(const Surfels& map) {
   return [&map](const Eigen::Vector3f& point, float squared) { return map.nearest(point, squared); };
 }
 
@@ -31,7 +33,8 @@ PosePrior hardly_any_prior(const SE3& pose) {
 }
 
 /// The coarse alignment need only end within the fine map's correspondence distance.
-RegistrationParams rough(const RegistrationParams& params, const LocalMap& map) {
+template <class Map>
+RegistrationParams rough(const RegistrationParams& params, const Map& map) {
   RegistrationParams result = params;
   result.translation_tolerance_m =
       std::max(params.translation_tolerance_m, 0.03 * map.fine().max_distance_m());
@@ -39,16 +42,23 @@ RegistrationParams rough(const RegistrationParams& params, const LocalMap& map) 
   return result;
 }
 
-Registration register_far(const LocalMap& map, const ScanPyramid& scan, const SE3& start, ScannerKind kind,
-                          const RegistrationParams& params) {
-  const double coarse_max_distance_m = map.coarse().max_distance_m(),
-               max_distance_m = map.fine().max_distance_m();
-  const PosePrior prior = hardly_any_prior(start);
-  const Registration aligned = register_surfels(nearest_in(map.coarse()), scan.few,
-                                                {start, 0.5 * coarse_max_distance_m, coarse_max_distance_m},
-                                                prior, kind, rough(params, map));
-  return register_surfels(nearest_in(map.fine()), scan.source,
-                          {aligned.T_target_source, max_distance_m / 3, max_distance_m}, prior, kind, params);
+/// On the coarse map.
+template <class Map>
+SE3 aligned(const Map& map, const ScanPyramid& scan, const SE3& start, ScannerKind kind,
+            const RegistrationParams& params) {
+  const double max_distance_m = map.coarse().max_distance_m();
+  return register_surfels(nearest_in(map.coarse()), scan.few, {start, 0.5 * max_distance_m, max_distance_m},
+                          hardly_any_prior(start), kind, rough(params, map))
+      .T_target_source;
+}
+
+/// On the fine map, from an alignment on the coarse one.
+template <class Map>
+Registration register_aligned(const Map& map, const ScanPyramid& scan, const SE3& start, ScannerKind kind,
+                              const RegistrationParams& params) {
+  const double max_distance_m = map.fine().max_distance_m();
+  return register_surfels(nearest_in(map.fine()), scan.source, {start, max_distance_m / 3, max_distance_m},
+                          hardly_any_prior(start), kind, params);
 }
 
 /// Overlap score: a point within a quarter of the coarse correspondence distance counts at least one half, at
@@ -76,7 +86,7 @@ struct Window {
   double starts() const { return (2.0 * x + 1) * (2.0 * y + 1) * (2.0 * yaw + 1); }
 };
 
-Window window_of(const LocalMap& map, const ScanPyramid& scan, const UncertainPose<SE3>& guess,
+Window window_of(const Submap& map, const ScanPyramid& scan, const UncertainPose<SE3>& guess,
                  const PoseSearchParams& search) {
   const Eigen::Matrix3d position = guess.position_covariance();
   Window window;
@@ -114,15 +124,29 @@ std::vector<SE3> apart_from_each_other(const std::vector<SE3>& starts, const Win
   return kept;
 }
 
-std::vector<SE3> starts_in(const Window& window, const SE3& guess) {
-  std::vector<SE3> starts;
+/// All initial poses, those that overlap the map best first.
+std::vector<SE3> starts_in(const Window& window, const SE3& guess, const Submap& map,
+                           const ScanPyramid& scan) {
+  std::vector<Eigen::Vector3d> places;
   for (int x = -window.x; x <= window.x; ++x)
     for (int y = -window.y; y <= window.y; ++y)
-      for (int yaw = -window.yaw; yaw <= window.yaw; ++yaw) {
-        const Eigen::Vector3d shift(x * window.step_m, y * window.step_m, 0);
-        const Eigen::Quaterniond turn(Eigen::AngleAxisd(yaw * window.step_rad, Eigen::Vector3d::UnitZ()));
-        starts.emplace_back(guess.translation() + shift, turn * guess.rotation());
-      }
+      places.push_back(guess.translation() + Eigen::Vector3d(x * window.step_m, y * window.step_m, 0));
+  std::vector<Eigen::Quaterniond> turns;
+  for (int yaw = -window.yaw; yaw <= window.yaw; ++yaw)
+    turns.push_back(Eigen::Quaterniond(Eigen::AngleAxisd(yaw * window.step_rad, Eigen::Vector3d::UnitZ())) *
+                    guess.rotation());
+  std::vector<std::vector<double>> scores(turns.size());
+  parallel_for(turns.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      scores[k] = map.overlap().scores(scan.few.surfels, turns[k], places);
+  });
+  std::vector<std::tuple<double, std::size_t, std::size_t>> order;
+  for (std::size_t turn = 0; turn < turns.size(); ++turn)
+    for (std::size_t place = 0; place < places.size(); ++place)
+      order.emplace_back(-scores[turn][place], place, turn);
+  std::sort(order.begin(), order.end());
+  std::vector<SE3> starts;
+  for (const auto& [score, place, turn] : order) starts.emplace_back(places[place], turns[turn]);
   return starts;
 }
 
@@ -140,7 +164,7 @@ std::vector<SE3> poses_around(const Relocalisation& search, double step_m, doubl
 
 /// Whether two poses displace a point at the scan's median range by more than the fine correspondence
 /// distance.
-bool are_apart(const SE3& a, const SE3& b, const LocalMap& map, const ScanPyramid& scan) {
+bool are_apart(const SE3& a, const SE3& b, const Submap& map, const ScanPyramid& scan) {
   const SE3 between = a.inverse() * b;
   const double turn_rad = between.log().tail<3>().norm();
   return std::max(between.translation().norm(), turn_rad * scan.median_range_m) > map.fine().max_distance_m();
@@ -180,7 +204,8 @@ Registration register_best_of(const LocalMap& map, const ScanPyramid& scan, cons
                               double enough_ratio, ScannerKind kind, const RegistrationParams& params) {
   Registration best;
   for (const SE3& start : starts) {
-    const Registration fit = register_far(map, scan, start, kind, params);
+    const Registration fit =
+        register_aligned(map, scan, aligned(map, scan, start, kind, params), kind, params);
     if (fit.inlier_ratio > best.inlier_ratio) best = fit;
     if (best.inlier_ratio >= enough_ratio) break;
   }
@@ -194,16 +219,16 @@ Registration relocalise(const LocalMap& map, const ScanPyramid& scan, const Relo
   return register_best_of(map, scan, promising, search.enough_ratio, kind, params);
 }
 
-PoseSearch search_pose(const LocalMap& map, const ScanPyramid& scan, const UncertainPose<SE3>& guess,
+PoseSearch search_pose(const Submap& map, const ScanPyramid& scan, const UncertainPose<SE3>& guess,
                        ScannerKind kind, const PoseSearchParams& search, const RegistrationParams& params) {
   const Window window = window_of(map, scan, guess, search);
-  const std::vector<SE3> grid = starts_in(window, guess.pose);
-  const auto starts = apart_from_each_other(best_overlapping(map, scan, grid, grid.size()), window,
+  const auto starts = apart_from_each_other(starts_in(window, guess.pose, map, scan), window,
                                             0.75 * map.coarse().max_distance_m(),
                                             static_cast<std::size_t>(search.max_aligned));
   std::vector<Registration> fits(starts.size());
   parallel_for(starts.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) fits[k] = register_far(map, scan, starts[k], kind, params);
+    for (std::size_t k = begin; k < end; ++k)
+      fits[k] = register_aligned(map, scan, aligned(map, scan, starts[k], kind, params), kind, params);
   });
   std::stable_sort(fits.begin(), fits.end(), [](const Registration& a, const Registration& b) {
     return a.inlier_ratio > b.inlier_ratio;

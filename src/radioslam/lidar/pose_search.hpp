@@ -10,6 +10,7 @@
 #include "radioslam/geometry/uncertain_pose.hpp"
 #include "radioslam/lidar/local_map.hpp"
 #include "radioslam/lidar/registration.hpp"
+#include "radioslam/lidar/submap.hpp"
 
 namespace radioslam {
 
@@ -72,7 +73,7 @@ struct PoseSearch {
 };
 
 /// Searches the horizontal and yaw uncertainty of `guess`.
-PoseSearch search_pose(const LocalMap& map, const ScanPyramid& scan, const UncertainPose<SE3>& guess,
+PoseSearch search_pose(const Submap& map, const ScanPyramid& scan, const UncertainPose<SE3>& guess,
                        ScannerKind kind, const PoseSearchParams& search, const RegistrationParams& params);
 
 }  // namespace radioslam

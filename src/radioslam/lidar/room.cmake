@@ -4,6 +4,7 @@ radioslam_room(lidar
     deskew.cpp
     lidar_odometry.cpp
     local_map.cpp
+    overlap_field.cpp
     pose_search.cpp
     prediction_error.cpp
     registration.cpp
@@ -12,6 +13,7 @@ radioslam_room(lidar
     scan_structure.cpp
     structure_fit.cpp
     surfels/surfel.cpp
+    surfels/surfel_columns.cpp
     surfels/surfel_map.cpp
     surfels/voxel_grid.cpp
   ROOMS mission

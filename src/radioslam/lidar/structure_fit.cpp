@@ -21,11 +21,11 @@ double structure_of(const ScanPyramid& scan) {
   return sum;
 }
 
-double structure_fit(const LocalMap& map, const ScanPyramid& scan, const SE3& T_map_scan, ScannerKind kind,
-                     double loss_scale) {
+double structure_fit(const SurfelColumns& map, const ScanPyramid& scan, const SE3& T_map_scan,
+                     ScannerKind kind, double loss_scale) {
   const Eigen::Matrix3f R = T_map_scan.rotation_matrix().cast<float>();
   const Eigen::Vector3f t = T_map_scan.translation().cast<float>();
-  const auto max_distance_m = static_cast<float>(map.fine().max_distance_m());
+  const auto max_distance_m = static_cast<float>(map.max_distance_m());
   const double squared_scale = loss_scale * loss_scale;
   double structure = 0, fitting = 0;
   for (const Surfel& surfel : scan.source.surfels) {
@@ -33,7 +33,7 @@ double structure_fit(const LocalMap& map, const ScanPyramid& scan, const SE3& T_
     if (share == 0) continue;
     structure += share;
     const Surfel moved = transformed(R, t, surfel);
-    const Surfel* nearest = map.fine().nearest(moved.position, max_distance_m * max_distance_m);
+    const Surfel* nearest = map.nearest(moved.position, max_distance_m * max_distance_m);
     if (!nearest || (kind == ScannerKind::kSpatial && !has_normal(*nearest))) continue;
     const Eigen::Vector3f offset = nearest->position - moved.position;
     Eigen::Matrix3f covariance = nearest->covariance + moved.covariance;

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "radioslam/lidar/local_map.hpp"
+#include "radioslam/lidar/surfels/surfel_columns.hpp"
 
 namespace radioslam {
 
@@ -18,7 +19,7 @@ double horizontal_share(const Surfel& surfel);
 double structure_of(const ScanPyramid& scan);
 
 /// The ratio, 0 to 1. `loss_scale`: as in RegistrationParams.
-double structure_fit(const LocalMap& map, const ScanPyramid& scan, const SE3& T_map_scan, ScannerKind kind,
-                     double loss_scale);
+double structure_fit(const SurfelColumns& map, const ScanPyramid& scan, const SE3& T_map_scan,
+                     ScannerKind kind, double loss_scale);
 
 }  // namespace radioslam

@@ -2,6 +2,7 @@ radioslam_room(places
   SOURCES
     context_keys.cpp
     keyframe_contexts.cpp
+    loops/kept_submaps.cpp
     loops/loop_candidates.cpp
     loops/loop_verification.cpp
     loops/other_places.cpp

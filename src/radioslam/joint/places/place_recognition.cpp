@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -86,15 +87,18 @@ RecognisedPlaces recognise_places(const PlaceInput<Pose>& input, const PlacePara
                             scan_params.lidar.registration);
   };
   const LoopVerification spatial = verification(0, kApart_m), planar = verification(params.source_m, 0);
+  std::vector<std::optional<PlacedKeyframes>> placed;
+  for (const ScannedRobot& robot : proposed.robots)
+    placed.push_back(robot.scans ? std::optional(robot.placed()) : std::nullopt);
   found.closures.resize(proposals.size());
   report_progress(progress, "places", 0);
   parallel_for(proposals.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const Proposal& proposal = proposals[k];
       const ScannedRobot &a = proposed.robots[proposal.a], &b = proposed.robots[proposal.b];
-      const ScanLoop loop =
-          (b.kind() == ScannerKind::kPlanar ? planar : spatial)
-              .verify(a.placed(), proposal.i, b.placed(), proposal.j, expected_place(proposal));
+      const ScanLoop loop = (b.kind() == ScannerKind::kPlanar ? planar : spatial)
+                                .verify(*placed[proposal.a], proposal.i, *placed[proposal.b], proposal.j,
+                                        expected_place(proposal));
       found.closures[k] = closure_of(proposal, loop, a, b);
     }
   });

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 
 namespace radioslam {
@@ -24,6 +25,19 @@ SurfelMap::SurfelMap(double spacing_m, double max_distance_m)
       least_squared_distance_(static_cast<float>(kMinSpacings * spacing_m * kMinSpacings * spacing_m)),
       keys_(kFirstSlots),
       slots_(kFirstSlots, kNoCell) {}
+
+void SurfelMap::Cell::add(const Surfel& surfel) {
+  const auto lane = static_cast<Eigen::Index>(surfels.size() % 4);
+  surfels.push_back(surfel);
+  if (lane == 0) {
+    const Eigen::Array4f nowhere = Eigen::Array4f::Constant(std::numeric_limits<float>::infinity());
+    positions.push_back({nowhere, nowhere, nowhere});
+  }
+  Four& last = positions.back();
+  last.x(lane) = surfel.position.x();
+  last.y(lane) = surfel.position.y();
+  last.z(lane) = surfel.position.z();
+}
 
 std::size_t SurfelMap::slot_of(VoxelKey key) const {
   const std::size_t mask = slots_.size() - 1;
@@ -55,7 +69,7 @@ std::uint32_t SurfelMap::find_or_make(const Eigen::Vector3i& cell, double travel
   }
   keys_[slot] = key;
   slots_[slot] = static_cast<std::uint32_t>(cells_.size());
-  cells_.push_back({cell, travelled_m, {}});
+  cells_.push_back({cell, travelled_m, {}, {}});
   return slots_[slot];
 }
 
@@ -69,7 +83,7 @@ std::size_t SurfelMap::add(const std::vector<Surfel>& surfels, double travelled_
         adopt_surface(*existing, surfel);
       continue;
     }
-    cell.surfels.push_back(surfel);
+    cell.add(surfel);
     ++surfels_;
   }
   return surfels_ - before;
@@ -101,12 +115,17 @@ const Surfel* SurfelMap::nearest(const Eigen::Vector3f& point, float squared_max
   const auto look_into = [&](const Eigen::Vector3i& index) {
     const std::uint32_t cell = find(index);
     if (cell == kNoCell) return;
-    for (const Surfel& surfel : cells_[cell].surfels) {
-      const float squared = (surfel.position - point).squaredNorm();
-      if (squared < best_squared) {
-        best_squared = squared;
-        best = &surfel;
-      }
+    const Cell& looked = cells_[cell];
+    for (std::size_t four = 0; four < looked.positions.size(); ++four) {
+      const Four& at = looked.positions[four];
+      const Eigen::Array4f x = at.x - point.x(), y = at.y - point.y(), z = at.z - point.z();
+      const Eigen::Array4f squared = x * x + (y * y + z * z);
+      if (!(squared < best_squared).any()) continue;
+      for (Eigen::Index lane = 0; lane < 4; ++lane)
+        if (squared(lane) < best_squared) {
+          best_squared = squared(lane);
+          best = &looked.surfels[4 * four + static_cast<std::size_t>(lane)];
+        }
     }
   };
   look_into(home);

@@ -46,10 +46,17 @@ class SurfelMap {
   std::uint32_t find_or_make(const Eigen::Vector3i& cell, double travelled_m);
   void rehash(std::size_t slots);
 
+  /// Positions of four surfels, infinite where there are fewer: distances are computed four at a time.
+  struct Four {
+    Eigen::Array4f x, y, z;
+  };
   struct Cell {
     Eigen::Vector3i index;
     double seen_m;
     std::vector<Surfel> surfels;
+    std::vector<Four> positions;  ///< of the surfels
+
+    void add(const Surfel& surfel);
   };
 
   double cell_m_;

@@ -3,9 +3,11 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "radioslam/geometry/uncertain_pose.hpp"
+#include "radioslam/places/loops/kept_submaps.hpp"
 #include "radioslam/places/loops/scan_loop.hpp"
 #include "radioslam/places/scan_context_index.hpp"
 
@@ -20,6 +22,7 @@ struct PlacedKeyframes {
       nullptr;  ///< of the keyframes' contexts; null: none are searched that look alike
   /// Standard deviation of the relative position of two keyframes, metres; thread-safe; needed with an index.
   std::function<double(std::size_t, std::size_t)> sigma_m = {};
+  std::shared_ptr<KeptSubmaps> submaps = std::make_shared<KeptSubmaps>();
 
   bool has_cloud(std::size_t k) const { return !keyframes.clouds[k].source.surfels.empty(); }
 };

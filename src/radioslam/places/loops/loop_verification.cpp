@@ -120,12 +120,13 @@ LoopStatus LoopVerification::status_of(const Fit& best, const Alternatives& alte
 std::vector<LoopVerification::Fit> LoopVerification::fits_around(const PlacedKeyframes& target, std::size_t i,
                                                                  const ScanPyramid& scan,
                                                                  const UncertainPose<SE3>& where) const {
-  const LocalMap submap = submap_around(target, i, of_.target_m);
+  const auto kept = target.submaps->around(i, [&] { return Submap(map_around(target, i, of_.target_m)); });
+  const Submap& submap = *kept;
   const ScannerKind kind = target.keyframes.kind;
   std::vector<Fit> fits;
   for (const Registration& found : search_pose(submap, scan, where, kind, search_, registration_).fits) {
     Fit& fit = fits.emplace_back(Fit{found, found.T_target_source});
-    fit.structure = structure_fit(submap, scan, found.T_target_source, kind, registration_.loss_scale);
+    fit.structure = structure_fit(submap.fine(), scan, found.T_target_source, kind, registration_.loss_scale);
   }
   return fits;
 }
@@ -215,11 +216,11 @@ double LoopVerification::unseen_storeys(const Setting& setting, const Fit& fit) 
 
 ScanPyramid LoopVerification::source_around(const PlacedKeyframes& robot, std::size_t j) const {
   if (of_.source_m == 0) return robot.keyframes.clouds[j];
-  return scan_pyramid(submap_around(robot, j, of_.source_m).fine().surfels(), robot.keyframes.spacing_m,
+  return scan_pyramid(map_around(robot, j, of_.source_m).fine().surfels(), robot.keyframes.spacing_m,
                       robot.keyframes.kind, map_params_);
 }
 
-LocalMap LoopVerification::submap_around(const PlacedKeyframes& robot, std::size_t i, double extent_m) const {
+LocalMap LoopVerification::map_around(const PlacedKeyframes& robot, std::size_t i, double extent_m) const {
   LocalMap map(robot.keyframes.spacing_m, map_params_);
   const SE3 T_i_frame = robot.poses[i].inverse();
   std::optional<double> last_m;

@@ -96,7 +96,7 @@ class LoopVerification {
   Alternatives alternatives_of(const std::vector<Fit>& weighed, const Setting& setting) const;
   /// Weight of storeys that were not seen, relative to a fit's.
   double unseen_storeys(const Setting& setting, const Fit& fit) const;
-  LocalMap submap_around(const PlacedKeyframes& robot, std::size_t i, double extent_m) const;
+  LocalMap map_around(const PlacedKeyframes& robot, std::size_t i, double extent_m) const;
   ScanPyramid source_around(const PlacedKeyframes& robot, std::size_t j) const;
   /// The submap has errors of its own: (I^-1 + minimum covariance)^-1, also for a singular I.
   SE3::Jacobian bounded(const SE3::Jacobian& information) const;
