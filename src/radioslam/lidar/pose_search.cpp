@@ -8,6 +8,7 @@
 
 #include "radioslam/base/parallel.hpp"
 #include "radioslam/geometry/trajectory.hpp"
+#include "radioslam/lidar/structure_fit.hpp"
 
 namespace radioslam {
 namespace {
@@ -59,6 +60,14 @@ Registration register_aligned(const Map& map, const ScanPyramid& scan, const SE3
   const double max_distance_m = map.fine().max_distance_m();
   return register_surfels(nearest_in(map.fine()), scan.source, {start, max_distance_m / 3, max_distance_m},
                           hardly_any_prior(start), kind, params);
+}
+
+/// On the fine map, from where another registration ended.
+Registration continued(const Submap& map, const ScanPyramid& scan, const Registration& before,
+                       ScannerKind kind, const RegistrationParams& params) {
+  return register_surfels(nearest_in(map.fine()), scan.source,
+                          {before.T_target_source, 0, map.fine().max_distance_m()},
+                          hardly_any_prior(before.T_target_source), kind, params);
 }
 
 /// Overlap score: a point within a quarter of the coarse correspondence distance counts at least one half, at
@@ -162,12 +171,49 @@ std::vector<SE3> poses_around(const Relocalisation& search, double step_m, doubl
   return poses;
 }
 
-/// Whether two poses displace a point at the scan's median range by more than the fine correspondence
+/// Largest displacement of a point at the scan's median range between two poses, in the fine correspondence
 /// distance.
-bool are_apart(const SE3& a, const SE3& b, const Submap& map, const ScanPyramid& scan) {
+double apart(const SE3& a, const SE3& b, const Submap& map, const ScanPyramid& scan) {
   const SE3 between = a.inverse() * b;
   const double turn_rad = between.log().tail<3>().norm();
-  return std::max(between.translation().norm(), turn_rad * scan.median_range_m) > map.fine().max_distance_m();
+  return std::max(between.translation().norm(), turn_rad * scan.median_range_m) / map.fine().max_distance_m();
+}
+
+/// Without those that would end where an earlier one does.
+std::vector<SE3> distinct(const std::vector<SE3>& poses, const Submap& map, const ScanPyramid& scan) {
+  constexpr double kSameEnd = 0.3;
+  std::vector<SE3> kept;
+  for (const SE3& pose : poses)
+    if (std::all_of(kept.begin(), kept.end(),
+                    [&](const SE3& other) { return apart(other, pose, map, scan) > kSameEnd; }))
+      kept.push_back(pose);
+  return kept;
+}
+
+/// Registers from all poses with few iterations, and to the end where the scan's structure fits half as well
+/// as at the best.
+std::vector<Registration> promising_fits(const Submap& map, const ScanPyramid& scan,
+                                         const std::vector<SE3>& starts, ScannerKind kind,
+                                         const RegistrationParams& params) {
+  constexpr int kFirstIterations = 5;  // the kernel is narrow by then
+  constexpr double kPromising = 0.5;
+  RegistrationParams first = params;
+  first.max_iterations = std::min(kFirstIterations, params.max_iterations);
+  std::vector<Registration> fits(starts.size());
+  std::vector<double> structure(starts.size());
+  parallel_for(starts.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      fits[k] = register_aligned(map, scan, starts[k], kind, first);
+      structure[k] = structure_fit(map.fine(), scan, fits[k].T_target_source, kind, params.loss_scale);
+    }
+  });
+  const double least = kPromising * *std::max_element(structure.begin(), structure.end());
+  parallel_for(starts.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      if (structure[k] >= least && fits[k].end == RegistrationStatus::kMaxIterations)
+        fits[k] = continued(map, scan, fits[k], kind, params);
+  });
+  return fits;
 }
 
 }  // namespace
@@ -225,18 +271,18 @@ PoseSearch search_pose(const Submap& map, const ScanPyramid& scan, const Uncerta
   const auto starts = apart_from_each_other(starts_in(window, guess.pose, map, scan), window,
                                             0.75 * map.coarse().max_distance_m(),
                                             static_cast<std::size_t>(search.max_aligned));
-  std::vector<Registration> fits(starts.size());
+  std::vector<SE3> coarse(starts.size());
   parallel_for(starts.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k)
-      fits[k] = register_aligned(map, scan, aligned(map, scan, starts[k], kind, params), kind, params);
+    for (std::size_t k = begin; k < end; ++k) coarse[k] = aligned(map, scan, starts[k], kind, params);
   });
+  std::vector<Registration> fits = promising_fits(map, scan, distinct(coarse, map, scan), kind, params);
   std::stable_sort(fits.begin(), fits.end(), [](const Registration& a, const Registration& b) {
     return a.inlier_ratio > b.inlier_ratio;
   });
   PoseSearch result;
   for (const Registration& fit : fits)
     if (std::all_of(result.fits.begin(), result.fits.end(), [&](const Registration& better) {
-          return are_apart(better.T_target_source, fit.T_target_source, map, scan);
+          return apart(better.T_target_source, fit.T_target_source, map, scan) > 1;
         }))
       result.fits.push_back(fit);
   return result;
