@@ -36,7 +36,9 @@ void expect_nearest(const SurfelColumns& columns, const Eigen::Vector3f& point, 
   if (std::abs(std::sqrt(squared) - reach_m) < 1e-5F) return;
   const Surfel* found = columns.nearest(point, max_distance_m * max_distance_m);
   ASSERT_EQ(found != nullptr, squared < reach_m * reach_m) << point.transpose();
-  if (found) ASSERT_EQ((found->position - point).squaredNorm(), squared) << point.transpose();
+  if (found) {
+    ASSERT_EQ((found->position - point).squaredNorm(), squared) << point.transpose();
+  }
 }
 
 /// In a cube, in a plane, on a mast, and so thin that the columns must be wider.
