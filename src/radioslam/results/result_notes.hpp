@@ -32,7 +32,7 @@ std::vector<std::string> rejection_notes(const std::vector<ClosureResult>& closu
 std::optional<std::string> look_alike_note(const std::vector<ClosureResult>& closures,
                                            std::string_view elsewhere);
 
-/// Of a common frame with that note: 8 of 14 such were right in halls of identical pillars.
+/// Of a common frame with that note: 6 of 12 such were right in halls of identical pillars.
 inline constexpr double kMaxLookAlikeWeight = 0.5;
 
 /// Note on the constant errors of ranges that the estimate corrects: the largest one.
