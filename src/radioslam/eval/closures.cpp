@@ -118,6 +118,12 @@ std::vector<OverlapSensor> reach_for_radius(std::size_t robots, double radius_m)
   return std::vector<OverlapSensor>(robots, {radius_m / 2});
 }
 
+PairTruth pair_truth(const Mission& mission, const Truth& truth, std::optional<double> radius_m,
+                     double min_shared_view) {
+  if (radius_m) return {truth, mission.dimension, reach_for_radius(mission.robots.size(), *radius_m)};
+  return {truth, mission.dimension, lidar_views(mission), min_shared_view};
+}
+
 PairCounts count_candidates(const std::vector<KeyframeStamps>& keyframes, const CandidateList& candidates,
                             const PairTruth& truth) {
   const PairRules rules(truth);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "radioslam/base/stamp.hpp"
@@ -43,6 +44,10 @@ std::vector<OverlapSensor> lidar_views(const Mission& mission);
 
 /// Views that give every pair the same radius, with min_shared_view 0.
 std::vector<OverlapSensor> reach_for_radius(std::size_t robots, double radius_m);
+
+/// By this radius or, without one, by what the LiDARs' views share.
+PairTruth pair_truth(const Mission& mission, const Truth& truth, std::optional<double> radius_m,
+                     double min_shared_view);
 
 /// Counts over all pairs of keyframes of different robots; `candidates` are the pairs kept.
 PairCounts count_candidates(const std::vector<KeyframeStamps>& keyframes, const CandidateList& candidates,

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "radioslam/base/check.hpp"
+#include "radioslam/base/evenly_chosen.hpp"
 #include "radioslam/lidar/structure_fit.hpp"
 
 namespace radioslam {
@@ -21,13 +23,11 @@ constexpr std::size_t kMaxPoints = 60;     // of a keyframe
 constexpr std::size_t kMaxKeyframes = 40;  // of a robot, evenly chosen
 constexpr double kUpright = 0.5;           // share of a surfel's information in the plane
 
-std::vector<std::size_t> evenly_chosen(const PlacedKeyframes& robot) {
-  std::vector<std::size_t> with_scan, chosen;
+std::vector<std::size_t> compared_keyframes(const PlacedKeyframes& robot) {
+  std::vector<std::size_t> with_scan;
   for (std::size_t k = 0; k < robot.poses.size(); ++k)
     if (!robot.keyframes.clouds[k].all.empty()) with_scan.push_back(k);
-  const std::size_t count = std::min(kMaxKeyframes, with_scan.size());
-  for (std::size_t n = 0; n < count; ++n) chosen.push_back(with_scan[n * with_scan.size() / count]);
-  return chosen;
+  return evenly_chosen(std::move(with_scan), kMaxKeyframes);
 }
 
 Eigen::Isometry3f isometry(const SE3& T) {
@@ -39,13 +39,11 @@ Eigen::Isometry3f isometry(const SE3& T) {
 
 /// Points that determine a position, of walls and poles.
 std::vector<Eigen::Vector3f> structure_points(const ScanPyramid& scan, ScannerKind kind) {
-  std::vector<Eigen::Vector3f> points, kept;
+  std::vector<Eigen::Vector3f> points;
   for (const Surfel& surfel : scan.all)
     if (kind == ScannerKind::kPlanar || horizontal_share(surfel) > kUpright)
       points.push_back(surfel.position);
-  const std::size_t count = std::min(kMaxPoints, points.size());
-  for (std::size_t n = 0; n < count; ++n) kept.push_back(points[n * points.size() / count]);
-  return kept;
+  return evenly_chosen(std::move(points), kMaxPoints);
 }
 
 struct Placed {
@@ -70,11 +68,11 @@ Placed placed(const PlacedKeyframes& a, std::size_t m, const PlacedKeyframes& b,
 /// Points of b in the views of a.
 void count(const PlacedKeyframes& a, const PlacedKeyframes& b, const std::vector<SharedPlace>& places,
            SeenThrough& counts) {
-  const std::vector<std::size_t> of_b = evenly_chosen(b);
+  const std::vector<std::size_t> of_b = compared_keyframes(b);
   std::vector<std::vector<Eigen::Vector3f>> points;
   for (const std::size_t k : of_b)
     points.push_back(structure_points(b.keyframes.clouds[k], b.keyframes.kind));
-  for (const std::size_t m : evenly_chosen(a)) {
+  for (const std::size_t m : compared_keyframes(a)) {
     const Panorama view(a.keyframes.clouds[m], a.keyframes.kind);
     for (std::size_t n = 0; n < of_b.size(); ++n) {
       const Placed at = placed(a, m, b, of_b[n], places);

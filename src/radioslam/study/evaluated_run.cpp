@@ -84,10 +84,8 @@ EvaluatedRun run_and_evaluate(const Mission& mission, const Truth& truth, const 
   run.weight = result.weight;
   run.coverage = metrics.coverage;
   const OverlapStageParams& overlap = params.overlap;
-  const PairTruth true_pairs =
-      overlap.radius_m > 0
-          ? PairTruth{truth, mission.dimension, reach_for_radius(mission.robots.size(), overlap.radius_m)}
-          : PairTruth{truth, mission.dimension, lidar_views(mission), overlap.overlap.min_shared_view};
+  const auto radius_m = overlap.radius_m > 0 ? std::optional(overlap.radius_m) : std::nullopt;
+  const PairTruth true_pairs = pair_truth(mission, truth, radius_m, overlap.overlap.min_shared_view);
   run.candidates = count_candidates(keyframe_stamps(result), result.candidates, true_pairs);
   const auto distances = result.counts.find("distances_evaluated");
   if (distances != result.counts.end()) run.distances_evaluated = distances->second;

@@ -96,14 +96,15 @@ nlohmann::ordered_json number_in(const RunFolder& run, const char* section, cons
 }
 
 /// The run's own criterion, unless a radius is given.
-PairTruth pair_truth(const Mission& mission, const Truth& truth, const RunFolder& run,
+PairTruth true_pairs(const Mission& mission, const Truth& truth, const RunFolder& run,
                      std::optional<double> radius_m) {
-  if (radius_m) return {truth, mission.dimension, reach_for_radius(mission.robots.size(), *radius_m)};
-  if (const auto of_run = number_in(run, "parameters", "overlap.radius_m"); of_run.is_number() && of_run > 0)
-    return {truth, mission.dimension, reach_for_radius(mission.robots.size(), of_run.get<double>())};
-  const auto min_shared_view = number_in(run, "parameters", "overlap.min_shared_view");
-  return {truth, mission.dimension, lidar_views(mission),
-          min_shared_view.is_number() ? min_shared_view.get<double>() : 0};
+  const auto parameter = [&](const char* name) {
+    const auto number = number_in(run, "parameters", name);
+    return number.is_number() ? number.get<double>() : 0.0;
+  };
+  const double of_run = parameter("overlap.radius_m");
+  if (!radius_m && of_run > 0) radius_m = of_run;
+  return pair_truth(mission, truth, radius_m, parameter("overlap.min_shared_view"));
 }
 
 void count_pairs(Evaluation& evaluation, const RunFolder& run, const Mission& mission,
@@ -167,7 +168,7 @@ Evaluation evaluate(const EvaluateOptions& options) {
     evaluation.dead_reckoning = evaluate_trajectories(odometry, truth, mission.dimension, association);
   }
   if (evaluation.has_mission)
-    count_pairs(evaluation, run, mission, places, pair_truth(mission, truth, run, options.radius_m),
+    count_pairs(evaluation, run, mission, places, true_pairs(mission, truth, run, options.radius_m),
                 input.loops);
   return evaluation;
 }

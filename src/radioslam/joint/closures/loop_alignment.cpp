@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "radioslam/base/evenly_chosen.hpp"
 #include "radioslam/consistency/maximum_clique.hpp"
 #include "radioslam/geometry/linear_algebra.hpp"
 
@@ -52,13 +53,6 @@ double evidence_of(const std::vector<TeamLoop<Pose>>& loops, const LoopGroup& gr
   double evidence = 0;
   for (const Sighting& s : sightings) evidence += 2 * s.loops / (s.loops + 1);
   return evidence;
-}
-
-std::vector<std::size_t> evenly_chosen(std::vector<std::size_t> of, std::size_t count) {
-  if (of.size() <= count) return of;
-  std::vector<std::size_t> chosen;
-  for (std::size_t k = 0; k < count; ++k) chosen.push_back(of[k * of.size() / count]);
-  return chosen;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "radioslam/geometry/linear_algebra.hpp"
+#include "radioslam/joint/places/scanned_robot.hpp"
 
 namespace radioslam {
 MapWitness::MapWitness(const Mission& mission, const MeasuredScans& scans)
@@ -30,11 +31,7 @@ SeenThrough MapWitness::held_against(const std::vector<const Closure*>& closures
 }
 
 PlacedKeyframes MapWitness::placed(std::size_t robot) const {
-  const ScanOdometry& scans = *scans_.robots[robot];
-  const ScanKeyframes& keyframes = scans.keyframes;
-  const std::vector<double>& path_m = path_m_[robot];
-  return {keyframes, scans.corrected.empty() ? keyframes.poses : scans.corrected, path_m, nullptr,
-          [&](std::size_t i, std::size_t j) { return odometry_sigma_m(keyframes, path_m, i, j); }};
+  return placed_keyframes(*scans_.robots[robot], path_m_[robot]);
 }
 
 std::optional<std::pair<std::size_t, SE3>> MapWitness::from_keyframe(RobotIndex robot, Stamp stamp) const {

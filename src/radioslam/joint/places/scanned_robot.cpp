@@ -18,6 +18,13 @@ double common_range_m(const MeasuredScans& scans, ScannerKind kind) {
 
 }  // namespace
 
+PlacedKeyframes placed_keyframes(const ScanOdometry& scans, const std::vector<double>& path_m,
+                                 const ScanContextIndex* contexts) {
+  const ScanKeyframes& keyframes = scans.keyframes;
+  return {keyframes, scans.corrected.empty() ? keyframes.poses : scans.corrected, path_m, contexts,
+          [&](std::size_t i, std::size_t j) { return odometry_sigma_m(keyframes, path_m, i, j); }};
+}
+
 ScannedRobot scanned_robot(const ScanOdometry& scans, const RobotDescriptors& descriptors,
                            const RobotVariables& variables, const Trajectory<SE3>& odometry) {
   ScannedRobot robot{&scans};

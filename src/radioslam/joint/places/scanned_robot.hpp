@@ -29,6 +29,11 @@ struct TeamDescriptors {
 TeamDescriptors describe_places(const MeasuredScans& scans, const PlaceDescriptorParams& params,
                                 double submap_m);
 
+/// A robot's keyframes as its scans place them. All must outlive the result. `contexts`: null where places
+/// that look alike are not searched.
+PlacedKeyframes placed_keyframes(const ScanOdometry& scans, const std::vector<double>& path_m,
+                                 const ScanContextIndex* contexts = nullptr);
+
 /// Per keyframe: its node, the last keyframe of the graph before it; the motion from there; its descriptor.
 struct ScannedRobot {
   const ScanOdometry* scans = nullptr;
@@ -48,12 +53,7 @@ struct ScannedRobot {
       if (has_cloud(k)) return true;
     return false;
   }
-  PlacedKeyframes placed() const {
-    const ScanKeyframes& of = scans->keyframes;
-    return {
-        of, scans->corrected.empty() ? of.poses : scans->corrected, path_m, contexts,
-        [this](std::size_t a, std::size_t b) { return odometry_sigma_m(scans->keyframes, path_m, a, b); }};
-  }
+  PlacedKeyframes placed() const { return placed_keyframes(*scans, path_m, contexts); }
 
   /// Keyframes with a scan, at least `stride_m` apart.
   std::vector<std::size_t> strides(double stride_m) const {
