@@ -1,9 +1,8 @@
 // How well a thinned scan overlaps a coarse map at many poses: a look-up per point instead of a search.
 //
 //   score(T) = mean over k of f(d(T p_k)),  f(d) = 1 / (1 + 16 d^2 / D^2), 0 from d = D on
-//   d: distance to the nearest surfel of the map, both at the centres of voxels of D / 8; D: the map's
-//   largest
-//      search distance
+//   d: distance to the nearest surfel of the map, both at the centres of voxels of D / 8
+//   D: the map's largest search distance
 // A point within D / 4 counts at least one half, at the full distance next to nothing. d^2 in voxels is an
 // integer of at most 64: it is the smallest over a window along each axis in turn, of bytes. Where the map
 // would need too many voxels, D is doubled.

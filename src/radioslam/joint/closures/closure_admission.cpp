@@ -36,17 +36,19 @@ std::vector<ClosureAdmission> admit_closures(const JointGraph<Pose>& joint,
     if (!ends.valid() || closure.robot_i == closure.robot_j) continue;
     if (angles) {
       const double scale = angles->template information_scale<Pose>(closure).value_or(1);
-      if (scale < kMinInformation)
+      if (scale < kMinInformation) {
         admitted[k] = {Admission::kExcluded, "the angles of arrival disagree"};
-      else
-        admitted[k].information_scale = scale;
+        continue;
+      }
+      admitted[k].information_scale = scale;
     }
     if (!candidates || !connected_without_matches(alignment, closure.robot_i, closure.robot_j)) continue;
     if (!candidates->contains(closure.robot_i, keyframe_stamp(joint, closure.robot_i, closure.stamp_i),
                               closure.robot_j, keyframe_stamp(joint, closure.robot_j, closure.stamp_j)))
-      admitted[k] = {Admission::kSetAside, "the views cannot overlap"};
+      admitted[k] = {Admission::kSetAside, "the views cannot overlap", admitted[k].information_scale};
     else if (radio && statistic_of(joint, *radio, closure, ends) > kPoseChiSquared999<Pose>)
-      admitted[k] = {Admission::kSetAside, "its relative pose contradicts the radio"};
+      admitted[k] = {Admission::kSetAside, "its relative pose contradicts the radio",
+                     admitted[k].information_scale};
   }
   return admitted;
 }

@@ -285,7 +285,8 @@ class ClosureJudge {
         optimizer_(optimizer),
         progress_(progress),
         frames_(frames_of(alignment)),
-        of_radio_(alignment.alternatives) {
+        of_radio_(alignment.alternatives),
+        weight_before_(alignment.weight) {
     team_.loops = team_loops(joint, closures, evidence.admissions);
     team_.joint = std::move(joint);
   }
@@ -324,8 +325,10 @@ class ClosureJudge {
     accept_groups(frames_.groups, best, loops);
     joint.team.graph.poses = frames_.moved(joint, joint.team.graph.poses, loops, best);
     selection = select_loops(joint, best.component, loops, optimizer_, progress_);
-    if (of_radio_.empty())
+    if (of_radio_.empty()) {
       set_alternatives(before, loops_before, loops, frames_, alignments, optimizer_, alignment_);
+      alignment_.weight *= weight_before_;
+    }
     for (std::size_t k = 0; k < of_radio_.size(); ++k)
       alignment_.alternatives[k] = frames_.moved(joint, of_radio_[k], loops, best);
     choice_ = described(joint, loops, selection);
@@ -410,6 +413,7 @@ class ClosureJudge {
   const Progress& progress_;
   Frames<Pose> frames_;
   const std::vector<std::vector<Pose>> of_radio_;  ///< alternatives before loops joined any frames
+  const double weight_before_;                     ///< of the frames that loops join
   LoopSolution<Pose> team_;
   std::vector<int> component_;  ///< per segment
   LoopChoiceResult choice_;
