@@ -113,8 +113,9 @@ TEST(AoaMatchWeights, SparePlainLeastSquaresFromAliases) {
     return closure.reason == "the angles of arrival disagree";
   }));
   const auto beside_closures = [](const RunOutput& out) {
-    const auto accepted = std::count_if(out.result.closures.begin(), out.result.closures.end(),
-                                        [](const ClosureResult& closure) { return closure.accepted; });
+    const auto accepted = std::count_if(
+        out.result.closures.begin(), out.result.closures.end(),
+        [](const ClosureResult& closure) { return closure.status == ClosureStatus::kAccepted; });
     return static_cast<std::ptrdiff_t>(std::get<PoseGraph2>(out.graph).relative_poses.size()) - accepted;
   };
   EXPECT_EQ(beside_closures(output), beside_closures(plain)) << "what counts as rejected is not in the graph";
