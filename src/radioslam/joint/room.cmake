@@ -30,9 +30,11 @@ radioslam_room(joint
     overlap_stage.cpp
     places/closure_worth.cpp
     places/map_witness.cpp
+    places/place_exchange.cpp
     places/place_predictions.cpp
     places/place_proposals.cpp
     places/place_recognition.cpp
+    places/predicted_places.cpp
     places/scanned_robot.cpp
     places/verification_budget.cpp
     position_fixes/placement.cpp

@@ -40,8 +40,10 @@ void count_places(RunResult& result, const PlaceCounts& places) {
   count("place_pairs", places.pairs);
   count("place_pairs_allowed", places.allowed);
   count("descriptor_pairs", places.compared);
-  count("descriptor_bytes", places.descriptor_bytes);
-  count("descriptor_bytes_all", places.descriptor_bytes_all);
+  count("descriptor_bytes", places.bytes.descriptors);
+  count("descriptor_bytes_all", places.bytes_all.descriptors);
+  count("scan_bytes", places.bytes.scans);
+  count("scan_bytes_all", places.bytes_all.scans);
   count("registrations_proposed", places.proposed);
   count("registrations", places.registrations);
   count("registrations_verified", places.verified);
@@ -183,6 +185,7 @@ OverlapStage list_overlaps(const RunSetup& run, const TeamEstimate<Pose>& team) 
 }
 
 constexpr int kBudgetedRounds = 2;
+constexpr int kMaxDoublings = 30;
 
 /// What is left of the user's budget, in equal shares over the rounds that are left; without one, as much in
 /// every round as in all before, as long as it is worth it.
@@ -196,7 +199,8 @@ std::optional<VerificationBudget> budget_of_round(const RunSetup& run, int round
   } else if (places.least_worth > 0) {
     const std::size_t robots = run.mission.robots.size();
     const auto first = static_cast<std::size_t>(places.first_round) * (robots * (robots - 1) / 2);
-    budget = VerificationBudget{first << round, VerificationBudget::Order::kWorth, places.least_worth, true};
+    budget = VerificationBudget{first << std::min(round, kMaxDoublings), VerificationBudget::Order::kWorth,
+                                places.least_worth, true};
   }
   return budget;
 }
@@ -212,13 +216,9 @@ RecognisedPlaces find_places(const RunSetup& run, const TeamEstimate<Pose>& team
                              const RecognisedPlaces& before = {}) {
   if (!compares_scans(run, scans)) return {};
   std::vector<CandidateList::Group> allowed;
-  PlaceInput<Pose> input{team,
-                         run.mission,
-                         scans,
-                         descriptors,
-                         nullptr,
-                         before.attempts,
-                         budget_of_round(run, round, before.attempts.size())};
+  PlaceInput<Pose> input{
+      team,    run.mission,     scans,           descriptors,
+      nullptr, before.attempts, before.exchange, budget_of_round(run, round, before.attempts.size())};
   if (run.options.pruning == Pruning::kOn) {
     const auto keep = [&](const CandidateList::Group& group, const auto&) { allowed.push_back(group); };
     OverlapStageParams overlap = run.params.overlap;

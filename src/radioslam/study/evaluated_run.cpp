@@ -71,11 +71,10 @@ std::optional<double> dead_reckoning_ate_m(const Mission& mission, const Truth& 
   return ate_rmse_m(robots, truth, mission.dimension);
 }
 
-EvaluatedRun run_and_evaluate(const Mission& mission, const Truth& truth, const RunParams& params,
-                              const RunOptions& options) {
-  RunParams with_all_candidates = params;
-  with_all_candidates.overlap.max_listed_candidates = std::numeric_limits<int>::max();
-  const RunResult result = run_pipeline(mission, with_all_candidates, options).result;
+namespace {
+
+EvaluatedRun evaluated(const RunResult& result, const Mission& mission, const Truth& truth,
+                       const RunParams& params) {
   EvaluatedRun run;
   run.estimate = team_estimate(result);
   const TeamMetrics metrics = evaluate_trajectories(run.estimate, truth, result.dimension);
@@ -92,6 +91,25 @@ EvaluatedRun run_and_evaluate(const Mission& mission, const Truth& truth, const 
   run.search_s = seconds_of(result, "overlap");
   for (const StageTiming& timing : result.timings) run.total_s += timing.seconds;
   return run;
+}
+
+RunParams with_all_candidates(RunParams params) {
+  params.overlap.max_listed_candidates = std::numeric_limits<int>::max();
+  return params;
+}
+
+}  // namespace
+
+EvaluatedRun run_and_evaluate(const Mission& mission, const Truth& truth, const RunParams& params,
+                              const RunOptions& options) {
+  return evaluated(run_pipeline(mission, with_all_candidates(params), options).result, mission, truth,
+                   params);
+}
+
+EvaluatedRun run_and_evaluate(const Mission& mission, const MeasuredRecordings& recordings,
+                              const Truth& truth, const RunParams& params, const RunOptions& options) {
+  return evaluated(run_pipeline(mission, recordings, with_all_candidates(params), options).result, mission,
+                   truth, params);
 }
 
 }  // namespace radioslam

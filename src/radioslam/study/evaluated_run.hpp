@@ -31,6 +31,9 @@ std::optional<double> rejected_false(const PairCounts& counts);
 
 EvaluatedRun run_and_evaluate(const Mission& mission, const Truth& truth, const RunParams& params,
                               const RunOptions& options);
+/// The same from what recordings measured; the time that took is not in it.
+EvaluatedRun run_and_evaluate(const Mission& mission, const MeasuredRecordings& recordings,
+                              const Truth& truth, const RunParams& params, const RunOptions& options);
 
 /// The mission without its ranges and angles.
 Mission without_radio(const Mission& mission);

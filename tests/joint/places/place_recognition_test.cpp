@@ -115,8 +115,8 @@ struct HallOf {
                          std::vector<PlaceAttempt> tried = {}) const {
     const TeamDescriptors descriptors = described();
     PlaceProposals proposed = propose_places<Pose>(
-        {team, mission, scans, descriptors, pruned ? &allowed : nullptr, std::move(tried), budget}, {}, {},
-        {});
+        {team, mission, scans, descriptors, pruned ? &allowed : nullptr, std::move(tried), {}, budget}, {},
+        {}, {});
     for (ScannedRobot& robot : proposed.robots) robot.contexts = nullptr;  // they end here
     return proposed;
   }
@@ -236,10 +236,46 @@ TEST(ProposePlaces, WhatABudgetLeavesOutIsProposedAgain) {
 TEST(ProposePlaces, SendDescriptorsOfKeyframesWithAnAllowedPartner) {
   Hall hall;
   hall.align(0.5, [](std::uint32_t, std::uint32_t j) { return j < 3; });
-  const PlaceCounts counts = hall.propose(true).counts, unpruned = hall.propose(false).counts;
-  EXPECT_GT(counts.descriptor_bytes, 0U);
-  EXPECT_LT(2 * counts.descriptor_bytes, counts.descriptor_bytes_all);
-  EXPECT_EQ(unpruned.descriptor_bytes, counts.descriptor_bytes_all);
+  const PlaceProposals pruned = hall.propose(true), unpruned = hall.propose(false);
+  const std::size_t all = pruned.counts.bytes_all.descriptors;
+  EXPECT_GT(pruned.exchange.sent().descriptors, 0U);
+  EXPECT_LT(2 * pruned.exchange.sent().descriptors, all);
+  EXPECT_EQ(unpruned.exchange.sent().descriptors, all);
+}
+
+/// Twice as many as can be registered; what a later round asks for comes on top, each once.
+TEST(ProposePlaces, AskForTheDescriptorsThatMayDecide) {
+  Hall hall;
+  hall.align(0.5, [](std::uint32_t, std::uint32_t) { return true; });
+  const auto bytes = [&](std::size_t registrations, const PlaceExchange& before) {
+    const TeamDescriptors descriptors = hall.described();
+    return propose_places<SE3>({hall.team,
+                                hall.mission,
+                                hall.scans,
+                                descriptors,
+                                &hall.allowed,
+                                {},
+                                before,
+                                VerificationBudget{registrations}},
+                               {}, {}, {})
+        .exchange;
+  };
+  const std::size_t one = bytes(1, {}).sent().descriptors / 2;
+  const PlaceExchange two = bytes(1, {});
+  EXPECT_EQ(bytes(2, {}).sent().descriptors, 4 * one);
+  EXPECT_EQ(bytes(1, two).sent().descriptors, 4 * one);
+  EXPECT_EQ(bytes(1000, two).sent().descriptors, hall.propose(true).counts.bytes_all.descriptors);
+}
+
+TEST(RecognisePlaces, SendTheScansThatAreRegistered) {
+  Hall hall;
+  hall.align(0.5, [](std::uint32_t i, std::uint32_t j) { return i == 14 && j == 0; });
+  const PlaceCounts one = hall.recognise(true).counts, all = hall.recognise(false).counts;
+  EXPECT_EQ(one.registrations, 1U);
+  EXPECT_GT(one.bytes.scans, 0U);
+  EXPECT_LT(10 * one.bytes.scans, one.bytes_all.scans);
+  EXPECT_GT(all.bytes.scans, one.bytes.scans);
+  EXPECT_LE(all.bytes.scans, all.bytes_all.scans);
 }
 
 TEST(RecognisePlaces, OfDifferentScannersAreNotCompared) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "radioslam/base/fields.hpp"
+#include "radioslam/joint/places/place_exchange.hpp"
 #include "radioslam/joint/places/scanned_robot.hpp"
 #include "radioslam/joint/places/verification_budget.hpp"
 #include "radioslam/joint/team_estimate.hpp"
@@ -70,9 +71,7 @@ struct PlaceCounts {
   std::size_t proposed = 0;       ///< to be registered
   std::size_t registrations = 0;  ///< of these, within the budget
   std::size_t verified = 0;       ///< registered with success
-  /// Descriptors to send in the first round, each once to every robot that compares it: those of keyframes
-  /// with an allowed partner, and all.
-  std::size_t descriptor_bytes = 0, descriptor_bytes_all = 0;
+  PlaceBytes bytes, bytes_all;    ///< sent, over all rounds; if all descriptors and scans were sent
 
   bool has_left_out() const { return registrations < proposed; }
 };
@@ -95,12 +94,14 @@ struct PlaceInput {
   /// The pairs of the joint graph's keyframes that may be compared, by robots; null: all, without pruning.
   const std::vector<CandidateList::Group>* allowed = nullptr;
   std::vector<PlaceAttempt> tried = {};           ///< in earlier rounds
+  PlaceExchange exchange = {};                    ///< of earlier rounds
   std::optional<VerificationBudget> budget = {};  ///< of this round
 };
 
 struct PlaceProposals {
   std::vector<ScannedRobot> robots;  ///< without keyframes where they have no scans
   std::vector<Proposal> pairs;       ///< within the budget, if there is one: the best first
+  PlaceExchange exchange;            ///< with the descriptors of this round
   PlaceCounts counts;
 };
 

@@ -54,6 +54,8 @@ bool has_comparable_scans(const MeasuredScans& scans) {
 void RecognisedPlaces::append(RecognisedPlaces more) {
   closures.insert(closures.end(), more.closures.begin(), more.closures.end());
   attempts.insert(attempts.end(), more.attempts.begin(), more.attempts.end());
+  exchange = std::move(more.exchange);
+  counts.bytes = exchange.sent();
   counts.compared += more.counts.compared;
   counts.proposed = counts.registrations + more.counts.proposed;
   counts.registrations += more.counts.registrations;
@@ -77,9 +79,9 @@ template <class Pose>
 RecognisedPlaces recognise_places(const PlaceInput<Pose>& input, const PlaceParams& params,
                                   const ScanParams& scan_params, const RadioAlignmentParams& alignment,
                                   const Progress& progress) {
-  const PlaceProposals proposed = propose_places(input, params, scan_params.loops, alignment);
+  PlaceProposals proposed = propose_places(input, params, scan_params.loops, alignment);
   const std::vector<Proposal>& proposals = proposed.pairs;
-  RecognisedPlaces found{{}, {}, proposed.counts};
+  RecognisedPlaces found{{}, {}, std::move(proposed.exchange), proposed.counts};
   const auto verification = [&](double source_m, double apart_m) {
     const LoopVerificationParams of{params.submap_m, source_m, apart_m,
                                     Pose::kDim == 3 ? Storeys::kSeveral : Storeys::kOne};
@@ -108,6 +110,11 @@ RecognisedPlaces recognise_places(const PlaceInput<Pose>& input, const PlacePara
                               proposals[k].j,
                               proposals[k].anywhere ? std::numeric_limits<double>::infinity()
                                                     : horizontal_sigma(proposals[k].T_i_j)});
+  for (const Proposal& pair : proposals) {
+    const bool is_planar = proposed.robots[pair.b].kind() == ScannerKind::kPlanar;
+    found.exchange.send_scans(proposed.robots, pair, is_planar ? params.source_m : 0);
+  }
+  found.counts.bytes = found.exchange.sent();
   found.counts.registrations = proposals.size();
   found.counts.verified = static_cast<std::size_t>(
       std::count_if(found.closures.begin(), found.closures.end(),

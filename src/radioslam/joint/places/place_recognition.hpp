@@ -32,6 +32,7 @@ namespace radioslam {
 struct RecognisedPlaces {
   std::vector<VerifiedClosure> closures;  ///< every registration
   std::vector<PlaceAttempt> attempts;     ///< the same registrations
+  PlaceExchange exchange;
   PlaceCounts counts;
 
   bool has_verified() const { return counts.verified > 0; }

@@ -73,9 +73,9 @@ Indices by_worth(const std::vector<Proposal>& proposals, const Indices& of,
 }  // namespace
 
 template <class Pose>
-std::vector<Proposal> within_budget(const VerificationBudget& budget, const std::vector<Proposal>& proposals,
-                                    const std::vector<ScannedRobot>& robots,
-                                    const PredictedPoses<Pose>* predicted, const ScanLoopParams& loops) {
+Indices within_budget(const VerificationBudget& budget, const std::vector<Proposal>& proposals,
+                      const std::vector<ScannedRobot>& robots, const PredictedPoses<Pose>* predicted,
+                      const ScanLoopParams& loops) {
   Indices anywhere, near;
   for (std::size_t k = 0; k < proposals.size(); ++k) (proposals[k].anywhere ? anywhere : near).push_back(k);
   switch (budget.order) {
@@ -94,15 +94,13 @@ std::vector<Proposal> within_budget(const VerificationBudget& budget, const std:
   }
   Indices chosen = alternating(anywhere, near);
   if (!budget.takes_all_anywhere) chosen.resize(std::min(chosen.size(), budget.registrations));
-  std::vector<Proposal> result;
-  for (const std::size_t k : chosen) result.push_back(proposals[k]);
-  return result;
+  return chosen;
 }
 
-#define RADIOSLAM_BUDGET(Pose)                                                                          \
-  template std::vector<Proposal> within_budget(const VerificationBudget&, const std::vector<Proposal>&, \
-                                               const std::vector<ScannedRobot>&,                        \
-                                               const PredictedPoses<Pose>*, const ScanLoopParams&);
+#define RADIOSLAM_BUDGET(Pose)                                                                  \
+  template Indices within_budget(const VerificationBudget&, const std::vector<Proposal>&,       \
+                                 const std::vector<ScannedRobot>&, const PredictedPoses<Pose>*, \
+                                 const ScanLoopParams&);
 RADIOSLAM_BUDGET(SE2)
 RADIOSLAM_BUDGET(SE3)
 #undef RADIOSLAM_BUDGET

@@ -36,10 +36,12 @@ struct VerificationBudget {
   bool takes_all_anywhere = false;  ///< proposals of robots that nothing aligns do not count
 };
 
-/// The proposals within the budget, the best first. `predicted`: null if all are `anywhere`.
+/// The proposals within the budget, as their indices, the best first. `predicted`: null if all are
+/// `anywhere`.
 template <class Pose>
-std::vector<Proposal> within_budget(const VerificationBudget& budget, const std::vector<Proposal>& proposals,
-                                    const std::vector<ScannedRobot>& robots,
-                                    const PredictedPoses<Pose>* predicted, const ScanLoopParams& loops);
+std::vector<std::size_t> within_budget(const VerificationBudget& budget,
+                                       const std::vector<Proposal>& proposals,
+                                       const std::vector<ScannedRobot>& robots,
+                                       const PredictedPoses<Pose>* predicted, const ScanLoopParams& loops);
 
 }  // namespace radioslam

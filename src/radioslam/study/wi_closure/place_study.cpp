@@ -34,7 +34,9 @@ PlaceCounts place_counts(const RunResult& result) {
           .compared = count("descriptor_pairs"),
           .proposed = count("registrations_proposed"),
           .registrations = count("registrations"),
-          .verified = count("registrations_verified")};
+          .verified = count("registrations_verified"),
+          .bytes = {count("descriptor_bytes"), count("scan_bytes")},
+          .bytes_all = {count("descriptor_bytes_all"), count("scan_bytes_all")}};
 }
 
 /// Of all stages, or of those with this name.
@@ -65,7 +67,7 @@ constexpr double kWithin = 1e-3;  // sigma from being near enough: none, but for
 PlaceStudy study_places(Simulation simulation, std::uint64_t seed, const std::vector<PlaceSettings>& settings,
                         const RunParams& params, double radius_m, const Progress& progress) {
   RADIOSLAM_CHECK(!settings.empty(), "a study of places has parameters of place recognition");
-  const std::size_t runs = 1 + 3 * settings.size();
+  const std::size_t runs = 4 * settings.size();
   std::size_t done = 0;
   const auto next = [&] {
     report_progress(progress, "runs", static_cast<double>(done++) / static_cast<double>(runs));
@@ -81,28 +83,33 @@ PlaceStudy study_places(Simulation simulation, std::uint64_t seed, const std::ve
   unpruned.pruning = Pruning::kOff;
   RunParams searched = params;
   searched.overlap.overlap.min_shared_view = params.places.min_shared_view;
-  next();
-  study.search = run_and_evaluate(mission, truth, searched, search);
-  if (radius_m > 0) {
-    searched.overlap.radius_m = study.radius_m = radius_m;
-    searched.overlap.overlap.max_mahalanobis = kWithin;
-    study.within_radius = run_and_evaluate(mission, truth, searched, search);
-  }
-
   for (const PlaceSettings set : settings) {
     RunParams of_set = params;
     of_set.places = place_params(set, mission.robots.front().lidar_range_m);
     of_set.consistency = consistency_params(set);
+    StageClock timed;
+    next();
+    MeasuredRecordings recordings = measure_recordings(mission, of_set, {}, timed);
+    const auto run = [&](const Mission& of, const RunOptions& options) {
+      next();
+      return run_pipeline(of, recordings, of_set, options, timed).result;
+    };
     PlaceRuns& of = study.runs.emplace_back();
     of.settings = set;
-    next();
-    of.without_radio = place_run(run_pipeline(scans_alone, of_set).result, truth);
-    next();
-    of.unpruned = place_run(run_pipeline(mission, of_set, unpruned).result, truth);
-    next();
-    const RunResult pruned = run_pipeline(mission, of_set).result;
+    if (study.runs.size() == 1) {
+      study.search = run_and_evaluate(mission, recordings, truth, searched, search);
+      if (radius_m > 0) {
+        searched.overlap.radius_m = study.radius_m = radius_m;
+        searched.overlap.overlap.max_mahalanobis = kWithin;
+        study.within_radius = run_and_evaluate(mission, recordings, truth, searched, search);
+      }
+    }
+    of.unpruned = place_run(run(mission, unpruned), truth);
+    const RunResult pruned = run(mission, {});
     of.pruned = place_run(pruned, truth);
     if (study.runs.size() == 1) study.angles = compare_angle_paths(pruned, mission, truth);
+    if (recordings.mission) recordings.mission = without_radio(*recordings.mission);
+    of.without_radio = place_run(run(scans_alone, {}), truth);
   }
   report_progress(progress, "runs", 1);
   return study;
