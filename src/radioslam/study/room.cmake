@@ -30,4 +30,4 @@ radioslam_room(study NOT_INSTALLED
   LIBRARIES nlohmann_json::nlohmann_json)
 radioslam_page(radioslam_study ${CMAKE_CURRENT_SOURCE_DIR}/study/page radioslam/study/page_parts.hpp
   radioslam::study_page ../../report/page/format.js data.js scheme.js heat_map.js growth.js budget.js distributed.js rendezvous_charts.js rendezvous_map.js
-  rendezvous.js directions.js table.js main.js)
+  rendezvous.js ways.js directions.js table.js main.js)

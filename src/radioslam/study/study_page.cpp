@@ -49,11 +49,45 @@ Json direction_json(const AoaLink& link) {
           {"reason", link.reason}};
 }
 
+Json points_json(const std::vector<Eigen::Vector2d>& points) {
+  constexpr int kCentimetres = 2;
+  Json json = Json::array();
+  for (const Eigen::Vector2d& p : points)
+    json.push_back({rounded(p.x(), kCentimetres), rounded(p.y(), kCentimetres)});
+  return json;
+}
+
+Json way_json(const std::string& name, const PlaceRun& run) {
+  Json robots = Json::array();
+  for (const RobotPath& path : run.paths)
+    robots.push_back({{"robot", path.robot},
+                      {"truth", points_json(path.truth)},
+                      {"estimate", points_json(path.estimate)}});
+  return {{"name", name},
+          {"ate_m", run.ate_m ? Json(rounded(*run.ate_m, kDecimals)) : Json()},
+          {"robots", std::move(robots)}};
+}
+
+Json tables_json(const StudyTable& table, const std::vector<StudyTable>& further) {
+  Json data = table_json(table);
+  for (const StudyTable& other : further) data["further"].push_back(table_json(other));
+  return data;
+}
+
 }  // namespace
 
 std::string render_table_page(const StudyTable& table, const std::vector<StudyTable>& further) {
-  Json data = table_json(table);
-  for (const StudyTable& other : further) data["further"].push_back(table_json(other));
+  return page(tables_json(table, further));
+}
+
+std::string render_places_page(const StudyTable& table, const std::vector<StudyTable>& further,
+                               const PlaceStudy& drawn) {
+  Json data = tables_json(table, further);
+  const PlaceRuns& runs = drawn.runs.front();
+  data["ways"] = {{"seed", drawn.seed},
+                  {"runs",
+                   {way_json("no radio", runs.without_radio), way_json("no pruning", runs.unpruned),
+                    way_json("pruning", runs.pruned)}}};
   return page(data);
 }
 

@@ -11,11 +11,16 @@
 #include "radioslam/study/robustness_map/robustness_map.hpp"
 #include "radioslam/study/study_table.hpp"
 #include "radioslam/study/verification_budget/budget_study.hpp"
+#include "radioslam/study/wi_closure/place_study.hpp"
 
 namespace radioslam {
 
 /// `further`: tables below the first, each with its title, lead and notes.
 std::string render_table_page(const StudyTable& table, const std::vector<StudyTable>& further = {});
+
+/// The same with the trajectories of every way of running, of the first settings, above the table.
+std::string render_places_page(const StudyTable& table, const std::vector<StudyTable>& further,
+                               const PlaceStudy& drawn);
 
 /// Heat maps of error, recall and failures, a column per number of false paths, with the table below.
 std::string render_robustness_page(const RobustnessMap& map);

@@ -140,7 +140,9 @@ Study wi_closure_table1(const ReproduceOptions& options) {
   const auto seeds = for_seeds(options, 1, [&](std::uint64_t seed, const Progress& progress) {
     return reproduce_wi_closure_table1(drive, scenario, seed, progress);
   });
-  return study_of(wi_closure_table1_table(seeds), wi_closure_table1_json(seeds));
+  Study study = study_of(wi_closure_table1_table(seeds), wi_closure_table1_json(seeds));
+  study.page = render_places_page(study.table, {}, seeds.front().places);
+  return study;
 }
 
 void refuse_drive(const ReproduceOptions& options) {
@@ -149,7 +151,7 @@ void refuse_drive(const ReproduceOptions& options) {
 }
 
 Study wi_closure_hall(const ReproduceOptions& options) {
-  constexpr int kSeeds = 3;
+  constexpr int kSeeds = 5;
   refuse_drive(options);
   const auto scenario = with_settings(scanned_hall(), collect_settings({}, options.set));
   refuse_without_scans(options, scenario.onboard.lidar);
@@ -158,7 +160,7 @@ Study wi_closure_hall(const ReproduceOptions& options) {
     return reproduce_wi_closure_hall(scenario, seed, options.radius_m.value_or(kThesisRadius_m), progress);
   });
   StudyTable table = wi_closure_hall_table(halls), angles = hall_angles_table(halls);
-  std::string page = render_table_page(table, {angles}), csv = table_csv(angles);
+  std::string page = render_places_page(table, {angles}, halls.front().places), csv = table_csv(angles);
   return {
       std::move(table), wi_closure_hall_json(halls), std::move(page), std::move(csv), {std::move(angles)}};
 }

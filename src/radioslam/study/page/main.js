@@ -15,5 +15,6 @@ if (study.growth) {
 if (study.budget) write_budget();
 if (study.distributed) write_distributed();
 if (study.rendezvous) write_rendezvous();
+if (study.ways) write_ways();
 if (study.directions) write_directions();
 write_table();

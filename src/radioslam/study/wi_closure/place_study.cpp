@@ -47,12 +47,36 @@ double stage_seconds(const RunResult& result, const std::string& stage = {}) {
   return sum_s;
 }
 
+std::vector<Eigen::Vector2d> positions(const Trajectory<SE3>& trajectory, const SE3& T) {
+  constexpr std::size_t kMostDrawn = 400;
+  const std::size_t step = 1 + trajectory.size() / kMostDrawn;
+  std::vector<Eigen::Vector2d> result;
+  for (std::size_t k = 0; k < trajectory.size(); k += step)
+    result.push_back((T * trajectory[k].pose).translation().head<2>());
+  return result;
+}
+
+void add_paths(const std::vector<EstimatedTrajectory>& aligned_together, const Truth& truth, int dimension,
+               std::vector<RobotPath>& paths) {
+  const SE3 T = evaluate_trajectories(aligned_together, truth, dimension).T_truth_estimate;
+  for (const EstimatedTrajectory& robot : aligned_together)
+    for (const RobotTruth& of : truth.robots)
+      if (of.id == robot.id)
+        paths.push_back({robot.id, positions(of.poses, SE3()), positions(robot.poses, T)});
+}
+
 PlaceRun place_run(const RunResult& result, const Truth& truth) {
   PlaceRun run;
   run.places = place_counts(result);
   run.closures = count_place_closures(result, truth);
   run.in_one_frame = result.components.size() == 1 && result.unplaced.empty();
-  if (run.in_one_frame) run.ate_m = ate_rmse_m(team_estimate(result), truth, result.dimension);
+  const std::vector<EstimatedTrajectory> estimate = team_estimate(result);
+  if (run.in_one_frame) {
+    run.ate_m = ate_rmse_m(estimate, truth, result.dimension);
+    add_paths(estimate, truth, result.dimension, run.paths);
+  } else {
+    for (const EstimatedTrajectory& robot : estimate) add_paths({robot}, truth, result.dimension, run.paths);
+  }
   run.scans_s = stage_seconds(result, "scans");
   run.overlap_s = stage_seconds(result, "overlap");
   run.places_s = stage_seconds(result, "places");

@@ -2,8 +2,10 @@
 // all pairs of keyframes compared, and with radio that prunes them.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "radioslam/base/progress.hpp"
@@ -16,15 +18,22 @@
 
 namespace radioslam {
 
+/// A robot's true and estimated positions, in metres, in the frame of the truth.
+struct RobotPath {
+  std::string robot;
+  std::vector<Eigen::Vector2d> truth, estimate;
+};
+
 /// Figures of one run.
 struct PlaceRun {
   PlaceCounts places;
   PlaceClosures closures;
-  bool in_one_frame = false;    ///< all robots
-  std::optional<double> ate_m;  ///< RMSE of the team; nothing if it is not in one frame
-  double scans_s = 0;           ///< the stage of each robot's own scans
-  double overlap_s = 0;         ///< pruning, with its covariances, and the search for pairs to list
-  double places_s = 0;          ///< descriptors and registrations
+  bool in_one_frame = false;     ///< all robots
+  std::optional<double> ate_m;   ///< RMSE of the team; nothing if it is not in one frame
+  std::vector<RobotPath> paths;  ///< aligned as a team, or each by itself where they are in several frames
+  double scans_s = 0;            ///< the stage of each robot's own scans
+  double overlap_s = 0;          ///< pruning, with its covariances, and the search for pairs to list
+  double places_s = 0;           ///< descriptors and registrations
   double total_s = 0;
 
   /// Of all other stages.

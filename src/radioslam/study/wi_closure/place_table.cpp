@@ -33,9 +33,9 @@ class PlaceRunRows {
 
   /// Bytes sent, and their share of what sending all would take.
   void add_bytes(const std::string& kind, std::size_t PlaceBytes::*count) {
-    add(kind + " sent, kB [3]", {}, 1,
+    add(kind + " sent, kB [5]", {}, 1,
         [count](const PlaceRun& run) { return 1e-3 * to_number(run.places.bytes.*count); });
-    add(kind + " sent, % of all [3]", {}, 1, [count](const PlaceRun& run) -> std::optional<double> {
+    add(kind + " sent, % of all [5]", {}, 1, [count](const PlaceRun& run) -> std::optional<double> {
       const double all = to_number(run.places.bytes_all.*count);
       return all > 0 ? std::optional(100 * to_number(run.places.bytes.*count) / all) : std::nullopt;
     });
@@ -141,7 +141,7 @@ std::vector<std::string> notes_on_places() {
       "DiSCo-SLAM's "
       "parameters one). Without radio nothing aligns the robots at first, and all pairs are compared by "
       "descriptor.",
-      "[3] By one robot of each pair to the other: the descriptors of keyframes that may be registered, and "
+      "[5] By one robot of each pair to the other: the descriptors of keyframes that may be registered, and "
       "the scans of those that are, 21 bytes a surfel.",
       "No radio: the same recordings without ranges and angles. No pruning: `run --no-prune`, which also "
       "trusts the closures without weighing them against the radio.",
