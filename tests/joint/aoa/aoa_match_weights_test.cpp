@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "pipeline/town_runs.hpp"
+#include "radioslam/joint/closures/closure_admission.hpp"
 
 namespace radioslam {
 namespace {
@@ -92,6 +93,23 @@ TEST(AoaMatchWeights, TheMedianOfTheNearestDecides) {
 TEST(AoaMatchWeights, OfOtherRobotsAreIgnored) {
   Mission mission = walking();
   EXPECT_FALSE(scale(mission, match(10, 10, {10, 10})));
+}
+
+/// A closure that angles exclude is not merely set aside because its views cannot overlap, either.
+TEST(AoaMatchWeights, ExcludeWhicheverPairsAreCandidates) {
+  Mission mission = walking();
+  mission.aoa_measurements = {heard(0, 10, 45)};
+  const auto joint = build_joint_graph<SE2>(mission, {.distance_m = 0.9}, {});
+  TeamAlignment<SE2> alignment;
+  alignment.component = alignment.without_matches = {0, 0};
+  std::vector<std::vector<Stamp>> stamps;
+  for (const RobotVariables& robot : joint.robots) stamps.push_back(robot.stamps);
+  const CandidateList none(std::move(stamps));
+  const AoaMatchWeights angles(mission, {}, {});
+  const auto admitted = admit_closures<SE2>(
+      joint, alignment, {match(10, 10, {10, -10}), match(10, 10, {10, 10})}, &none, {}, &angles);
+  EXPECT_EQ(admitted[0].admission, Admission::kExcluded);
+  EXPECT_EQ(admitted[1].admission, Admission::kSetAside);
 }
 
 /// Under least squares, where aliases that survive the pruning distort the map.

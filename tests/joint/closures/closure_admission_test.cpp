@@ -83,6 +83,14 @@ TEST(CloseByLoops, WeighsClosuresByTheirScale) {
   EXPECT_NEAR(loops[0].covariance(0, 0), 4 * loops[1].covariance(0, 0), 1e-12);
 }
 
+/// What is uncertain of the radio's frames stays so where closures join none.
+TEST(CloseByLoops, KeepTheWeightOfFramesThatTheyDoNotJoin) {
+  auto out = two_robots(6, 0).measured();
+  out.alignment.weight = 0.4;
+  close_by_loops(out.joint, out.alignment, out.closures, out.judgements, {}, {}, {});
+  EXPECT_LE(out.alignment.weight, 0.4);
+}
+
 TEST(CloseByAll, KeepsWhatContradicts) {
   auto out = two_robots(4, 2).measured();
   out.closures[1].stamp_j = Stamp{1000 * kNanosecondsPerSecond};
