@@ -8,11 +8,14 @@
 #include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/geometry/uncertain_pose.hpp"
 #include "radioslam/lidar/pose_search.hpp"
+#include "radioslam/lidar/structure_fit.hpp"
 
 namespace radioslam {
 namespace {
 
 constexpr std::size_t kMinPoints = 20;
+constexpr double kElsewhere = 22.46;  // squared deviation from the prior: one in a thousand of those right
+constexpr double kAsWell = 0.95;      // of structure that fits
 
 /// Information about the pose of a map's only scan.
 SE3::Jacobian tight_information() {
@@ -81,7 +84,7 @@ ScanPose LidarOdometry::register_scan(Stamp stamp, const LidarScan& scan,
     start_map_after_gap(deskewed, motion, result);
     return result;
   }
-  if (is_lost) fit = relocalised(result.cloud, prior, fit);
+  if (is_lost) fit = relocalised(result.cloud, prior, fit, T_previous_body.has_value());
   describe(fit, result);
   if ((fits || is_lost || error_.is_known()) && fit.inlier_ratio >= error_.min_inlier_ratio())
     add_to_map({std::move(deskewed), std::move(result.cloud), fit}, prior, result);
@@ -104,10 +107,11 @@ Registration LidarOdometry::register_at_prediction(const ScanPyramid& cloud, con
                                 error_.is_known() ? error_.min_inlier_ratio() : 0);
 }
 
-/// Where the motion is poorly constrained, the previous pose fits slightly better because each beam hits its
-/// own earlier scan line.
+/// Where the motion is poorly constrained, the previous pose fits better because each beam hits its own
+/// earlier scan line, on the ground most of all. The scan's structure must not fit worse there; and far from
+/// where a measured motion leads, the fit must be as good as others were.
 Registration LidarOdometry::relocalised(const ScanPyramid& cloud, const PosePrior& prior,
-                                        const Registration& near) const {
+                                        const Registration& near, bool is_measured) const {
   const LidarParams& params = matcher_.params();
   const double better = near.inlier_ratio / params.odometry.relocalise_below_ratio;
   const Registration far =
@@ -115,7 +119,17 @@ Registration LidarOdometry::relocalised(const ScanPyramid& cloud, const PosePrio
                  {last_->T_map_body, prior.pose, static_cast<std::size_t>(params.odometry.max_aligned),
                   std::max(error_.relocalise_below_ratio(), better)},
                  matcher_.traits().kind, params.registration);
-  return far.inlier_ratio > better ? far : near;
+  if (far.inlier_ratio <= better) return near;
+  const SE3::Tangent off = (prior.pose.inverse() * far.T_target_source).log();
+  const bool is_elsewhere = off.dot(prior.information * off) > kElsewhere;
+  if (is_measured && is_elsewhere && error_.is_known() && far.inlier_ratio < error_.relocalise_below_ratio())
+    return near;
+  const SurfelColumns surfels(map_.fine().surfels(), map_.fine().max_distance_m());
+  const auto structure = [&](const Registration& fit) {
+    return structure_fit(surfels, cloud, fit.T_target_source, matcher_.traits().kind,
+                         params.registration.loss_scale);
+  };
+  return structure(far) >= kAsWell * structure(near) ? far : near;
 }
 
 void LidarOdometry::start_map(const DeskewedScan& scan, ScanPose& result) {

@@ -94,8 +94,10 @@ class LidarOdometry {
 
   Prediction predict(Stamp stamp, const std::optional<SE3>& T_previous_body) const;
   Registration register_at_prediction(const ScanPyramid& cloud, const PosePrior& prior) const;
-  /// The best registration from other poses, if it is clearly better than `near`.
-  Registration relocalised(const ScanPyramid& cloud, const PosePrior& prior, const Registration& near) const;
+  /// The best registration from other poses, if it is clearly better than `near`. `is_measured`: whether
+  /// something else measured the motion.
+  Registration relocalised(const ScanPyramid& cloud, const PosePrior& prior, const Registration& near,
+                           bool is_measured) const;
 
   void start_map(const DeskewedScan& scan, ScanPose& result);
   /// Starts a new map, at the end of this motion if it is known, else at the last pose with a covariance for
