@@ -10,6 +10,7 @@ add_library(radioslam_cli STATIC
   cli/commands/command_doctor.cpp
   cli/commands/command_evaluate.cpp
   cli/commands/command_import.cpp
+  cli/commands/command_log.cpp
   cli/commands/command_optimize.cpp
   cli/commands/command_options.cpp
   cli/commands/command_parameters.cpp

@@ -58,6 +58,7 @@ radioslam_room(io
     ros/ros_topics.cpp
     ros/ros_types.cpp
     ros/uwb_message.cpp
+    run/robot_logs.cpp
     run/metrics_json.cpp
     run/run_folder.cpp
     run/run_tables.cpp
@@ -83,6 +84,6 @@ radioslam_room(io
     wifi/wifi_csv.cpp
     wifi/wifi_log.cpp
     wifi/wifi_scan_log.cpp
-  ROOMS graph rendezvous mission radio results eval
+  ROOMS graph rendezvous mission records radio results eval
   LIBRARIES nlohmann_json::nlohmann_json
   PRIVATE_LIBRARIES yaml-cpp Zstd::Zstd BZip2::BZip2 ZLIB::ZLIB Lz4::Lz4 SQLite::SQLite3 Pcap::Pcap)

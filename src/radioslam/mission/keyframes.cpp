@@ -65,6 +65,19 @@ std::vector<std::size_t> refined_keyframes(const Trajectory<SE3>& odometry,
   return refined;
 }
 
+std::vector<std::size_t> causal_keyframes(const Trajectory<SE3>& odometry, const KeyframeParams& params) {
+  std::vector<std::size_t> keyframes;
+  for (std::size_t i = 0; i < odometry.size(); ++i) {
+    if (!keyframes.empty() && keyframes.back() + 1 < i &&
+        largest_deviation(odometry, keyframes.back(), i, params).allowances > 1)
+      keyframes.push_back(i - 1);
+    if (keyframes.empty() || i + 1 == odometry.size() ||
+        is_new_keyframe(odometry[keyframes.back()].pose, odometry[i].pose, params))
+      keyframes.push_back(i);
+  }
+  return keyframes;
+}
+
 std::size_t keyframe_before(const std::vector<Stamp>& keyframes, Stamp stamp) {
   const auto after = std::upper_bound(keyframes.begin(), keyframes.end(), stamp);
   return after == keyframes.begin() ? 0 : static_cast<std::size_t>(after - keyframes.begin()) - 1;

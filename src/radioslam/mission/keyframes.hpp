@@ -48,6 +48,11 @@ std::vector<std::size_t> refined_keyframes(const Trajectory<SE3>& odometry,
                                            const std::vector<std::size_t>& keyframes,
                                            const KeyframeParams& params);
 
+/// Keyframes as a robot on its way chooses them, without knowledge of what comes: the first and the last
+/// sample, those at least `distance_m` or `angle_rad` from the last keyframe, and the last one before a
+/// sample to which the geodesic would be off by more than `max_deviation_m` or `max_deviation_rad`.
+std::vector<std::size_t> causal_keyframes(const Trajectory<SE3>& odometry, const KeyframeParams& params);
+
 /// Index of the last keyframe at or before `stamp`; 0 before the first.
 std::size_t keyframe_before(const std::vector<Stamp>& keyframes, Stamp stamp);
 

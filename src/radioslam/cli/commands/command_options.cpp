@@ -72,7 +72,7 @@ void add_mission_option(CLI::App& command, std::vector<std::string>& paths) {
       .add_option(
           "MISSION", paths,
           "Mission folder (with mission.yaml), or a factor graph (.g2o, .pyfg or .jrl; also .zst): one "
-          "file, or a folder or list of g2o files, one per robot")
+          "file, or a folder or list of g2o files, one per robot; or logs of robots (.rslog, `run --log`)")
       ->required();
 }
 

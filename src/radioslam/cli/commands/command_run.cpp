@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "radioslam/base/input_error.hpp"
 #include "radioslam/cli/commands.hpp"
 #include "radioslam/cli/commands/command_options.hpp"
 #include "radioslam/cli/commands/evaluation.hpp"
@@ -35,7 +36,7 @@ namespace {
 
 struct RunArguments {
   std::vector<std::string> mission;  ///< one path, or several graphs
-  std::string output;
+  std::string output, log;
   ParameterOptions parameters;
   StatedStarts starts = StatedStarts::kIgnored;
   bool no_prune = false;
@@ -121,8 +122,15 @@ void run_mission(const RunArguments& options) {
   const auto settings = collect_settings(options.parameters.config_path, options.parameters.set);
   const auto params = with_settings(RunParams{}, settings);
   refuse_replacing_inputs(options.output, options.mission);
+  refuse_replacing_inputs(options.log, options.mission);
   OutputFolder output(options.output, kRunFolder);
   MissionInput input = read_input(options.mission, options.starts);
+  if (!options.log.empty()) {
+    if (!std::holds_alternative<std::monostate>(input.graph))
+      throw InputError("--log", 0, "is for missions: a factor graph is no recording");
+    ProgressLine line;
+    input = write_and_read_logs(input, params, options.log, line.progress());
+  }
   const bool is_checked = !options.unchecked && std::holds_alternative<std::monostate>(input.graph);
   std::vector<std::string> notes = input.notes;
   std::vector<Finding> warnings;
@@ -162,6 +170,9 @@ void add_run(CLI::App& program) {
                    "first (default: no bound)")
       ->check(CLI::Range(std::size_t{0}, std::size_t{1000000000}))
       ->type_name("N");
+  command->add_option("--log", options->log,
+                      "Write what each robot would have said on its way, as <robot>.rslog, into this folder, "
+                      "and estimate from that alone: scans of different robots are not compared");
   command->add_flag(
       "--unchecked", options->unchecked,
       "Run without the checks of `radioslam doctor`, which refuse missions with certain faults");

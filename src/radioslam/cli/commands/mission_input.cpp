@@ -10,6 +10,10 @@
 #include "radioslam/graph/pose_chart.hpp"
 #include "radioslam/io/graph/information.hpp"
 #include "radioslam/io/mission/mission_folder.hpp"
+#include "radioslam/io/run/robot_logs.hpp"
+#include "radioslam/joint/closures/closure.hpp"
+#include "radioslam/records/logs_of_mission.hpp"
+#include "radioslam/records/mission_of_logs.hpp"
 
 namespace radioslam::cli {
 namespace {
@@ -105,10 +109,56 @@ MissionInput from_graph(TeamGraphFile<Pose> file, const std::vector<std::string>
   return input;
 }
 
+/// The mission of these logs, and what there is to say of them before `notes`.
+MissionInput from_logs(const TeamLog& team, std::vector<std::string> notes, const std::string& source) {
+  MissionInput input;
+  try {
+    LoggedMission logged = mission_of(team);
+    input.mission = std::move(logged.mission);
+    input.notes = std::move(logged.notes);
+  } catch (const std::runtime_error& error) {
+    throw InputError(source, 0, error.what());
+  }
+  input.notes.insert(input.notes.end(), notes.begin(), notes.end());
+  for (const Robot& robot : input.mission.robots)
+    input.mission.name += (input.mission.name.empty() ? "" : " ") + robot.id;
+  return input;
+}
+
+/// Loop closures of the robots' own scans, as what a log says of them.
+void add_closures_of_scans(const MeasuredScans& scans, Mission& mission) {
+  for (const auto& [closure, judgement] : closures_of_scans(scans.closures))
+    if (judgement.status == ClosureStatus::kAccepted)
+      mission.matches.push_back({closure.robot_i, closure.robot_j, closure.stamp_i, closure.stamp_j,
+                                 closure.T_i_j, inverse<SE3::Jacobian>(closure.information)});
+}
+
 }  // namespace
+
+MissionInput write_and_read_logs(const MissionInput& input, const RunParams& params,
+                                 const std::filesystem::path& folder, const Progress& progress) {
+  StageClock timed;
+  MeasuredRecordings recordings = measure_recordings(input.mission, params, {}, timed, progress);
+  Mission measured = recordings.mission ? *std::move(recordings.mission) : input.mission;
+  add_closures_of_scans(recordings.scans, measured);
+  const MissionLogs logs = logs_of(measured, params.keyframe);
+  write_logs(folder, logs.robots);
+  TeamLog team;
+  for (const RobotLog& log : logs.robots) team.accept(log.bytes());
+  MissionInput logged = from_logs(team, logs.notes, folder.string());
+  for (const Robot& robot : logged.mission.robots)
+    for (const RobotTruth& truth : input.truth.robots)
+      if (truth.id == robot.id) logged.truth.robots.push_back(truth);
+  if (logged.truth.robots.size() < logged.mission.robots.size()) logged.truth = {};
+  return logged;
+}
 
 MissionInput read_input(const std::vector<std::string>& paths, StatedStarts starts) {
   const std::string& path = paths.front();
+  if (std::all_of(paths.begin(), paths.end(), is_log_file) && starts == StatedStarts::kIgnored) {
+    LogFiles logs = read_logs(std::vector<std::filesystem::path>(paths.begin(), paths.end()));
+    return from_logs(logs.team, std::move(logs.notes), path);
+  }
   if (paths.size() > 1 || is_graph_file(path) || is_graph_folder(path)) {
     auto graph = read_team_graph(std::vector<std::filesystem::path>(paths.begin(), paths.end()), starts);
     return std::visit([&](auto& file) { return from_graph(std::move(file), paths, starts); }, graph);

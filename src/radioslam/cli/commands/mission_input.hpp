@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <variant>
@@ -26,8 +27,13 @@ struct MissionInput {
   std::variant<std::monostate, TeamGraph<SE2>, TeamGraph<SE3>> graph;
 };
 
-/// Reads one path, or several g2o files. Refuses stated starts to be used where the input states none, or is
-/// a mission folder, which always uses them.
+/// Writes what each robot of the mission would have said, as `<robot>.rslog`, and returns what these logs
+/// say: the same as read_input() of the files, with the truth of the mission.
+MissionInput write_and_read_logs(const MissionInput& input, const RunParams& params,
+                                 const std::filesystem::path& folder, const Progress& progress);
+
+/// Reads one path, several g2o files, or logs of robots. Refuses stated starts to be used where the input
+/// states none, or is a mission folder, which always uses them.
 MissionInput read_input(const std::vector<std::string>& paths, StatedStarts starts = StatedStarts::kIgnored);
 
 /// Calls run_pipeline with the mission or with the graph.

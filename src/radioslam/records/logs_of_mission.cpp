@@ -1,0 +1,151 @@
+#include "radioslam/records/logs_of_mission.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+#include "radioslam/mission/odometry_edge.hpp"
+#include "radioslam/records/record_codec.hpp"
+
+namespace radioslam {
+namespace {
+
+/// The measurements of a robot, by the time at which they become records.
+struct Timed {
+  Stamp stamp;
+  Record record;
+};
+
+FactsRecord facts_of(const Mission& mission, const Robot& robot) {
+  FactsRecord facts;
+  facts.dimension = mission.dimension;
+  facts.noise = robot.odometry_noise;
+  facts.noise.steps.clear();
+  facts.heading = robot.heading;
+  facts.sigma_heading_rad = robot.sigma_heading_rad;
+  facts.initial_pose = robot.initial_pose;
+  facts.lidar_range_m = robot.lidar_range_m;
+  facts.lidar_view_rad = robot.lidar_view_rad;
+  facts.fix_lever_m = robot.fix_lever_m;
+  return facts;
+}
+
+class RobotRecords {
+ public:
+  RobotRecords(const Mission& mission, std::size_t r, const KeyframeParams& params)
+      : mission_(mission), robot_(mission.robots[r]), index_(r) {
+    for (const std::size_t row : causal_keyframes(robot_.odometry, params)) rows_.push_back(row);
+    for (const std::size_t row : rows_) stamps_.push_back(robot_.odometry[row].stamp);
+  }
+
+  RobotLog log(std::size_t& left_out) {
+    add_measurements();
+    std::stable_sort(measured_.begin(), measured_.end(),
+                     [](const Timed& a, const Timed& b) { return a.stamp < b.stamp; });
+    RobotLog log{robot_.id, {}};
+    const auto say = [&](const Record& record) {
+      if (!is_valid(record)) return void(++left_out);
+      std::string bytes = encode(record);
+      if (bytes.size() > kMaxRecordBytes) return void(++left_out);
+      log.records.push_back(std::move(bytes));
+    };
+    say(facts_of(mission_, robot_));
+    for (const Anchor& anchor : mission_.anchors) say(AnchorRecord{anchor});
+    std::size_t next = 0;
+    for (const Timed& measured : measured_) {
+      for (; next < rows_.size() && stamps_[next] <= measured.stamp; ++next) say(keyframe(next));
+      say(measured.record);
+    }
+    for (; next < rows_.size(); ++next) say(keyframe(next));
+    left_out += outside_;
+    return log;
+  }
+
+ private:
+  KeyframeRecord keyframe(std::size_t k) const {
+    const std::size_t row = rows_[k], before = k > 0 ? rows_[k - 1] : row;
+    KeyframeRecord record;
+    record.number = static_cast<std::uint32_t>(k);
+    record.stamp = stamps_[k];
+    record.T_before_this = k > 0 ? robot_.odometry[before].pose.inverse() * robot_.odometry[row].pose
+                                 : robot_.odometry[row].pose;
+    if (k > 0 && !robot_.odometry_noise.steps.empty())
+      record.covariance = odometry_edge<SE3>(robot_.odometry, before, row, robot_.odometry_noise).covariance;
+    return record;
+  }
+
+  std::optional<PoseAt> at(Stamp stamp) {
+    if (!robot_.odometry.covers(stamp)) {
+      ++outside_;
+      return std::nullopt;
+    }
+    const std::size_t k = keyframe_before(stamps_, stamp);
+    return PoseAt{static_cast<std::uint32_t>(k), stamp,
+                  robot_.odometry[rows_[k]].pose.inverse() * *robot_.odometry.at(stamp)};
+  }
+
+  template <class OfKind>
+  void add(Stamp stamp, OfKind record) {
+    if (const auto pose = at(stamp)) {
+      record.at = *pose;
+      measured_.push_back({stamp, std::move(record)});
+    }
+  }
+
+  LinkPeer peer(const LinkEnd& end) const {
+    if (end.robot.valid())
+      return {false, mission_.robots[end.robot.index()].id, end.antenna, end.lever_arm_m};
+    return {true, mission_.anchors[end.anchor.index()].id, end.antenna, end.lever_arm_m};
+  }
+
+  void add_measurements() {
+    for (const RangeMeasurement& range : mission_.ranges) {
+      const bool is_first = range.i.robot.valid();
+      const LinkEnd &own = is_first ? range.i : range.j, &other = is_first ? range.j : range.i;
+      if (own.robot == RobotIndex(index_))
+        add(range.stamp,
+            RangeRecord{
+                {}, own.antenna, own.lever_arm_m, peer(other), !is_first, range.range_m, range.sigma_m});
+    }
+    for (const AoaMeasurement& angles : mission_.aoa_measurements)
+      if (angles.receiver == RobotIndex(index_))
+        add(angles.stamp, AnglesRecord{{}, peer(angles.transmitter), angles.paths});
+    for (const PositionFix& fix : robot_.fixes) add(fix.stamp, FixRecord{{}, fix.position_m, fix.sigma_m});
+    for (const WifiScan& scan : robot_.wifi) {
+      FingerprintRecord fingerprint;
+      for (const WifiReading& reading : scan.readings)
+        fingerprint.readings.push_back(
+            {mission_.access_points[reading.access_point.index()], reading.frequency_mhz, reading.rssi_dbm});
+      add(scan.stamp, std::move(fingerprint));
+    }
+    for (const PoseMatch& match : mission_.matches)
+      if (match.robot_i == RobotIndex(index_))
+        add(match.stamp_i,
+            ClosureRecord{
+                {}, mission_.robots[match.robot_j.index()].id, match.stamp_j, match.T_i_j, match.covariance});
+  }
+
+  const Mission& mission_;
+  const Robot& robot_;
+  std::size_t index_;
+  std::vector<std::size_t> rows_;  ///< of the odometry, that are keyframes
+  std::vector<Stamp> stamps_;      ///< of these
+  std::vector<Timed> measured_;
+  std::size_t outside_ = 0;
+};
+
+}  // namespace
+
+MissionLogs logs_of(const Mission& mission, const KeyframeParams& params) {
+  MissionLogs logs;
+  for (std::size_t r = 0; r < mission.robots.size(); ++r) {
+    std::size_t left_out = 0;
+    logs.robots.push_back(RobotRecords(mission, r, params).log(left_out));
+    if (left_out > 0)
+      logs.notes.push_back("log of robot " + mission.robots[r].id + ": " + std::to_string(left_out) +
+                           " measurements are left out: outside its odometry, or beyond what a record holds");
+  }
+  return logs;
+}
+
+}  // namespace radioslam

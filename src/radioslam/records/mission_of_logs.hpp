@@ -1,0 +1,24 @@
+// The mission that the logs of a team describe.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "radioslam/mission/mission.hpp"
+#include "radioslam/records/team_log.hpp"
+
+namespace radioslam {
+
+struct LoggedMission {
+  Mission mission;                 ///< robots by their names, measurements by time, robot and number
+  std::vector<std::string> notes;  ///< what is missing, and what was left out for want of it
+};
+
+/// Depends on the records alone, not on the order in which they came. Odometry consists of the keyframes and
+/// of the times of measurements in between. Where keyframes are missing, the motion is unknown but for the
+/// mean speed before; the robot's first odometry is that of the first keyframe known. Measurements of robots
+/// or keyframes that are not known are left out. Throws std::runtime_error with one line if the logs do not
+/// make a mission: no robot with two keyframes, or robots of missions of different dimensions.
+LoggedMission mission_of(const TeamLog& team);
+
+}  // namespace radioslam

@@ -1,0 +1,103 @@
+// What one robot says it measured: relative quantities and positions that were surveyed, never a frame of the
+// team's estimate. Immutable once said; a robot numbers its records from 0 on, without gaps.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "radioslam/base/stamp.hpp"
+#include "radioslam/geometry/se3.hpp"
+#include "radioslam/mission/mission.hpp"
+
+namespace radioslam {
+
+/// A robot and its sensors; the first record of a log.
+struct FactsRecord {
+  int dimension = 2;    ///< of the mission
+  OdometryNoise noise;  ///< without steps
+  Heading heading = Heading::kRelative;
+  double sigma_heading_rad = 0;
+  std::optional<SE3> initial_pose;  ///< surveyed
+  double lidar_range_m = 0, lidar_view_rad = 0;
+  Eigen::Vector3d fix_lever_m = Eigen::Vector3d::Zero();
+};
+
+/// An anchor that the robot knows.
+struct AnchorRecord {
+  Anchor anchor;
+};
+
+/// A pose of the robot's trajectory, from which others of its records are measured.
+struct KeyframeRecord {
+  std::uint32_t number = 0;  ///< in order of time, from 0 on
+  Stamp stamp;
+  SE3 T_before_this;  ///< from the keyframe before; of the first one, from the odometry's start
+  std::optional<SE3::Jacobian> covariance;  ///< of T_before_this, if measured; else by FactsRecord::noise
+};
+
+/// The robot at any time: the last keyframe before, and the motion since.
+struct PoseAt {
+  std::uint32_t keyframe = 0;
+  Stamp stamp;
+  SE3 T_keyframe_body;
+};
+
+/// The other end of a radio link.
+struct LinkPeer {
+  bool is_anchor = false;
+  std::string name, antenna;
+  Eigen::Vector3d lever_arm_m = Eigen::Vector3d::Zero();
+};
+
+struct RangeRecord {
+  PoseAt at;
+  std::string antenna;
+  Eigen::Vector3d lever_arm_m = Eigen::Vector3d::Zero();
+  LinkPeer other;
+  bool is_other_first = false;  ///< in the order in which the range was recorded
+  double range_m = 0, sigma_m = 0;
+};
+
+struct AnglesRecord {
+  PoseAt at;
+  LinkPeer transmitter;
+  std::vector<AoaPath> paths;  ///< 1 to 64
+};
+
+struct FixRecord {
+  PoseAt at;
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  double sigma_m = 0;
+};
+
+/// Signal strength of an access point.
+struct HeardAccessPoint {
+  std::string bssid;
+  float frequency_mhz = 0, rssi_dbm = 0;
+};
+struct FingerprintRecord {
+  PoseAt at;
+  std::vector<HeardAccessPoint> readings;  ///< at most 255
+};
+
+/// A relative pose that place recognition measured, in the log of whoever verified it.
+struct ClosureRecord {
+  PoseAt at;
+  std::string other;  ///< robot; may be the same one
+  Stamp stamp_other;
+  SE3 T_i_j;  ///< of the other one's body in this one's
+  SE3::Jacobian covariance = SE3::Jacobian::Identity();
+};
+
+using Record = std::variant<FactsRecord, AnchorRecord, KeyframeRecord, RangeRecord, AnglesRecord, FixRecord,
+                            FingerprintRecord, ClosureRecord>;
+
+/// The name of a record's kind, in the order of Record.
+inline constexpr const char* kRecordKinds[] = {"facts",  "anchor", "keyframe",    "range",
+                                               "angles", "fix",    "fingerprint", "closure"};
+
+}  // namespace radioslam

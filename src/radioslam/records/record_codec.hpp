@@ -1,0 +1,26 @@
+// Records as bytes (docs/formats.md, "Logs of robots"): poses and covariances as 32-bit numbers, of poses in
+// the plane and their covariances three and six of them; stamps and counts in base 128.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "radioslam/records/record.hpp"
+
+namespace radioslam {
+
+inline constexpr std::size_t kMaxRecordBytes = 8192;
+
+/// Whether names, counts and numbers are within what a record may have.
+bool is_valid(const Record& record);
+
+/// Needs a valid record.
+std::string encode(const Record& record);
+
+/// The record, or nothing unless these are all the bytes of a valid one. Never reads beyond them; cost linear
+/// in their number.
+std::optional<Record> decode_record(std::string_view bytes);
+
+}  // namespace radioslam

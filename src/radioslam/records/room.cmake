@@ -1,0 +1,7 @@
+radioslam_room(records
+  SOURCES
+    logs_of_mission.cpp
+    mission_of_logs.cpp
+    record_codec.cpp
+    team_log.cpp
+  ROOMS mission)

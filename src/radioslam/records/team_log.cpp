@@ -1,0 +1,164 @@
+#include "radioslam/records/team_log.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "radioslam/base/wire.hpp"
+#include "radioslam/records/record_codec.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr std::string_view kMagic = "RSL1";
+constexpr std::size_t kMaxChunkRecords = 256, kMaxChunkBytes = 60000, kMaxName = 200, kMaxRefusals = 8,
+                      kMaxDamaged = 16;
+constexpr std::uint64_t kMaxRecords = std::uint64_t{1} << 40U;
+
+constexpr std::array<std::uint32_t, 256> crc_table() {
+  std::array<std::uint32_t, 256> table{};
+  for (std::uint32_t k = 0; k < 256; ++k) {
+    std::uint32_t value = k;
+    for (int bit = 0; bit < 8; ++bit) value = (value & 1U) != 0 ? 0xedb88320U ^ (value >> 1U) : value >> 1U;
+    table[k] = value;
+  }
+  return table;
+}
+
+/// CRC-32 as in zlib, of `bytes` after those of `before`.
+std::uint32_t crc32(std::string_view bytes, std::uint32_t before = 0) {
+  static constexpr auto kTable = crc_table();
+  std::uint32_t crc = ~before;
+  for (const char c : bytes) crc = kTable[(crc ^ static_cast<unsigned char>(c)) & 255U] ^ (crc >> 8U);
+  return ~crc;
+}
+
+struct Chunk {
+  std::string robot;
+  std::uint32_t life = 0;
+  std::uint64_t first = 0;
+  std::vector<std::string_view> records;
+  std::size_t bytes = 0;  ///< of the whole chunk
+};
+
+/// The chunk at the beginning of the bytes; nothing if there is none.
+std::optional<Chunk> read_chunk(std::string_view bytes) {
+  WireReader in(bytes);
+  if (in.take(kMagic.size()) != kMagic) return std::nullopt;
+  Chunk chunk;
+  const std::size_t name_bytes = in.count(1);
+  if (name_bytes == 0 || name_bytes > kMaxName) return std::nullopt;
+  chunk.robot = std::string(in.take(name_bytes));
+  chunk.life = in.u32();
+  chunk.first = in.whole();
+  const std::size_t count = in.count(1);
+  if (!in.good() || count == 0 || count > kMaxChunkRecords || chunk.first > kMaxRecords) return std::nullopt;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t record_bytes = in.count(1);
+    if (!in.good() || record_bytes == 0 || record_bytes > kMaxRecordBytes) return std::nullopt;
+    chunk.records.push_back(in.take(record_bytes));
+  }
+  const std::size_t covered = bytes.size() - in.left();
+  const std::uint32_t stated = in.u32();
+  if (!in.good() || covered > kMaxChunkBytes || crc32(bytes.substr(0, covered)) != stated)
+    return std::nullopt;
+  chunk.bytes = covered + 4;
+  return chunk;
+}
+
+/// Why a chunk cannot be taken; empty if it can.
+std::string contradiction(const Chunk& chunk, const KnownLog* known) {
+  const std::string name = "robot " + chunk.robot + ": ";
+  if (known && known->life != chunk.life)
+    return name + "these records are of another recording than those before";
+  for (std::size_t k = 0; k < chunk.records.size(); ++k) {
+    const std::uint64_t number = chunk.first + k;
+    const auto found =
+        known ? known->records.find(number) : std::map<std::uint64_t, std::string>::const_iterator{};
+    if (known && found != known->records.end()) {
+      if (found->second == chunk.records[k]) continue;
+      return name + "record " + std::to_string(number) + " differs from the one known";
+    }
+    if (!decode_record(chunk.records[k]))
+      return name + "record " + std::to_string(number) + " is not understood";
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string RobotLog::bytes(std::size_t first, std::size_t end) const {
+  end = std::min(end, records.size());
+  std::uint32_t life = crc32(robot);
+  for (const std::string& record : records) life = crc32(record, life);
+  std::string all;
+  while (first < end) {
+    std::size_t count = 0, size = 0;
+    while (first + count < end && count < kMaxChunkRecords) {
+      size += records[first + count].size() + 4;
+      if (count > 0 && size > kMaxChunkBytes - 1000) break;
+      ++count;
+    }
+    WireWriter out;
+    out.append(kMagic);
+    out.whole(robot.size());
+    out.append(robot);
+    out.u32(life);
+    out.whole(first);
+    out.whole(count);
+    for (std::size_t k = 0; k < count; ++k) {
+      out.whole(records[first + k].size());
+      out.append(records[first + k]);
+    }
+    out.u32(crc32(out.bytes()));
+    all += out.bytes();
+    first += count;
+  }
+  return all;
+}
+
+std::vector<std::pair<std::uint64_t, std::uint64_t>> KnownLog::gaps() const {
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> gaps;
+  std::uint64_t next = 0;
+  for (const auto& [number, record] : records) {
+    if (number > next) gaps.emplace_back(next, number - 1);
+    next = number + 1;
+  }
+  return gaps;
+}
+
+Acceptance TeamLog::accept(std::string_view bytes) {
+  Acceptance acceptance;
+  const auto refuse = [&](std::string why) {
+    ++acceptance.refused;
+    if (acceptance.refusals.size() < kMaxRefusals) acceptance.refusals.push_back(std::move(why));
+  };
+  const std::size_t all = bytes.size(), most_damaged = kMaxDamaged + all / kMaxChunkBytes;
+  std::size_t damaged = 0;
+  while (!bytes.empty()) {
+    const std::size_t at = all - bytes.size();
+    const auto chunk = read_chunk(bytes.substr(0, kMaxChunkBytes + 4));
+    if (!chunk) {
+      const std::size_t next = ++damaged < most_damaged ? bytes.find(kMagic, 1) : bytes.size();
+      const std::size_t skipped = std::min(next, bytes.size());
+      refuse("byte " + std::to_string(at) + ": " + std::to_string(skipped) + " bytes are damaged or no log");
+      bytes.remove_prefix(skipped);
+      continue;
+    }
+    bytes.remove_prefix(chunk->bytes);
+    const auto known = robots_.find(chunk->robot);
+    const std::string why = contradiction(*chunk, known == robots_.end() ? nullptr : &known->second);
+    if (!why.empty()) {
+      refuse(why);
+      continue;
+    }
+    KnownLog& log = robots_[chunk->robot];
+    log.life = chunk->life;
+    for (std::size_t k = 0; k < chunk->records.size(); ++k)
+      ++(log.records.emplace(chunk->first + k, std::string(chunk->records[k])).second ? acceptance.records
+                                                                                      : acceptance.repeated);
+  }
+  return acceptance;
+}
+
+}  // namespace radioslam

@@ -1,0 +1,101 @@
+#include "radioslam/records/record_codec.hpp"
+
+#include <gtest/gtest.h>
+
+#include "radioslam/base/random.hpp"
+#include "radioslam/geometry/se2.hpp"
+
+namespace radioslam {
+namespace {
+
+PoseAt somewhere() { return {7, Stamp{1'700'000'000'123'456'789}, lift(SE2({0.5, -0.25}, 0.125))}; }
+
+SE3::Jacobian covariance_in_space() {
+  SE3::Jacobian root = SE3::Jacobian::Identity();
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j <= i; ++j) root(i, j) += 0.01 * (i - j);
+  return root * root.transpose();
+}
+
+std::vector<Record> one_of_each() {
+  FactsRecord facts;
+  facts.lidar_range_m = 30;
+  facts.lidar_view_rad = 6;
+  facts.initial_pose = SE3(Eigen::Vector3d(1, 2, 0.5), Eigen::Quaterniond::Identity());
+  KeyframeRecord keyframe{3, Stamp{-5}, SE3(Eigen::Vector3d(1, 0, 0.5), Eigen::Quaterniond::Identity()),
+                          covariance_in_space()};
+  LinkPeer peer{false, "b", "left", {0, 0.1, 0}};
+  AnglesRecord angles{somewhere(), peer, {{0.5, std::nullopt, 0.1, -3}, {1, 0.25, 0.2, -9}}};
+  FingerprintRecord fingerprint{somewhere(), {{"00:1a:2b:3c:4d:5e", 2412, -60}, {"printer", 0, -71}}};
+  return {facts,
+          AnchorRecord{{"gate", Eigen::Vector3d(1, 2, 3), 0.1}},
+          keyframe,
+          RangeRecord{somewhere(), "", {0, 0, 0}, peer, true, 12.5, 0.1},
+          angles,
+          FixRecord{somewhere(), {1, 2, 3}, 0.5},
+          fingerprint,
+          ClosureRecord{somewhere(), "b", Stamp{99}, lift(SE2({3, 4}, -1)), isotropic_covariance(0.1, 0.05)}};
+}
+
+TEST(RecordCodec, WhatWasWrittenIsReadAndWrittenTheSame) {
+  const auto records = one_of_each();
+  ASSERT_EQ(records.size(), std::variant_size_v<Record>);
+  for (std::size_t k = 0; k < records.size(); ++k) {
+    ASSERT_EQ(records[k].index(), k);
+    const std::string bytes = encode(records[k]);
+    const auto read = decode_record(bytes);
+    ASSERT_TRUE(read) << kRecordKinds[k];
+    EXPECT_EQ(encode(*read).size(), bytes.size());
+  }
+  const auto angles = std::get<AnglesRecord>(*decode_record(encode(records[4])));
+  EXPECT_EQ(angles.at.stamp, somewhere().stamp);
+  EXPECT_EQ(angles.transmitter.lever_arm_m, Eigen::Vector3d(0, 0.1, 0));
+  EXPECT_EQ(angles.paths[1].elevation_rad, 0.25);
+  const auto fingerprint = std::get<FingerprintRecord>(*decode_record(encode(records[6])));
+  EXPECT_EQ(fingerprint.readings[0].bssid, "00:1a:2b:3c:4d:5e");
+  EXPECT_EQ(fingerprint.readings[1].bssid, "printer");
+}
+
+TEST(RecordCodec, PosesAndCovariancesLoseLittle) {
+  const KeyframeRecord written = std::get<KeyframeRecord>(one_of_each()[2]);
+  const auto read = std::get<KeyframeRecord>(*decode_record(encode(written)));
+  EXPECT_LT((read.T_before_this.inverse() * written.T_before_this).log().norm(), 1e-6);
+  EXPECT_LT((*read.covariance - *written.covariance).norm(), 1e-5 * written.covariance->norm());
+}
+
+/// A walk of a metre in the plane, with its covariance, and a range beside it.
+TEST(RecordCodec, TakesFewBytes) {
+  const KeyframeRecord keyframe{100, somewhere().stamp, lift(SE2({1, 0.1}, 0.2)),
+                                isotropic_covariance(0.1, 0.1)};
+  EXPECT_LE(encode(keyframe).size(), 64U);
+  const RangeRecord range{somewhere(), "", {0, 0, 0}, {false, "b", "", {0, 0, 0}}, false, 12.5, 0.1};
+  EXPECT_LE(encode(range).size(), 56U);
+}
+
+/// Cut anywhere, or with any byte changed: another record, or none; never anything invalid.
+TEST(RecordCodec, RefusesWhatIsDamaged) {
+  Rng rng(1);
+  for (const Record& record : one_of_each()) {
+    const std::string bytes = encode(record);
+    for (std::size_t k = 0; k < bytes.size(); ++k) EXPECT_FALSE(decode_record(bytes.substr(0, k)));
+    EXPECT_FALSE(decode_record(bytes + '\0'));
+    for (std::size_t k = 0; k < bytes.size(); ++k) {
+      std::string changed = bytes;
+      changed[k] = static_cast<char>(rng.below(256));
+      if (const auto read = decode_record(changed)) {
+        EXPECT_TRUE(is_valid(*read));
+      }
+    }
+  }
+  EXPECT_FALSE(decode_record(""));
+  EXPECT_FALSE(decode_record(std::string(kMaxRecordBytes + 1, '\1')));
+}
+
+TEST(RecordCodec, RefusesACovarianceThatIsNotDefinite) {
+  ClosureRecord closure = std::get<ClosureRecord>(one_of_each()[7]);
+  closure.covariance(0, 1) = closure.covariance(1, 0) = 2 * closure.covariance(0, 0);
+  EXPECT_FALSE(decode_record(encode(closure)));
+}
+
+}  // namespace
+}  // namespace radioslam
