@@ -26,13 +26,14 @@ std::vector<Record> one_of_each() {
                           covariance_in_space()};
   LinkPeer peer{false, "b", "left", {0, 0.1, 0}};
   AnglesRecord angles{somewhere(), peer, {{0.5, std::nullopt, 0.1, -3}, {1, 0.25, 0.2, -9}}};
-  FingerprintRecord fingerprint{somewhere(), {{"00:1a:2b:3c:4d:5e", 2412, -60}, {"printer", 0, -71}}};
+  FingerprintRecord fingerprint{somewhere(), {{0, -60}, {300, -71.5F}}};
   return {facts,
           AnchorRecord{{"gate", Eigen::Vector3d(1, 2, 3), 0.1}},
           keyframe,
           RangeRecord{somewhere(), "", {0, 0, 0}, peer, true, 12.5, 0.1},
           angles,
           FixRecord{somewhere(), {1, 2, 3}, 0.5},
+          AccessPointRecord{300, "00:1a:2b:3c:4d:5e", 2412},
           fingerprint,
           ClosureRecord{somewhere(), "b", Stamp{99}, lift(SE2({3, 4}, -1)), isotropic_covariance(0.1, 0.05)}};
 }
@@ -51,9 +52,12 @@ TEST(RecordCodec, WhatWasWrittenIsReadAndWrittenTheSame) {
   EXPECT_EQ(angles.at.stamp, somewhere().stamp);
   EXPECT_EQ(angles.transmitter.lever_arm_m, Eigen::Vector3d(0, 0.1, 0));
   EXPECT_EQ(angles.paths[1].elevation_rad, 0.25);
-  const auto fingerprint = std::get<FingerprintRecord>(*decode_record(encode(records[6])));
-  EXPECT_EQ(fingerprint.readings[0].bssid, "00:1a:2b:3c:4d:5e");
-  EXPECT_EQ(fingerprint.readings[1].bssid, "printer");
+  const auto fingerprint = std::get<FingerprintRecord>(*decode_record(encode(records[7])));
+  EXPECT_EQ(fingerprint.readings[1].number, 300U);
+  EXPECT_EQ(fingerprint.readings[1].rssi_dbm, -71.5F);
+  EXPECT_EQ(std::get<AccessPointRecord>(*decode_record(encode(records[6]))).bssid, "00:1a:2b:3c:4d:5e");
+  const auto printer = decode_record(encode(AccessPointRecord{1, "printer", 0}));
+  EXPECT_EQ(std::get<AccessPointRecord>(*printer).bssid, "printer");
 }
 
 TEST(RecordCodec, PosesAndCovariancesLoseLittle) {
@@ -92,7 +96,7 @@ TEST(RecordCodec, RefusesWhatIsDamaged) {
 }
 
 TEST(RecordCodec, RefusesACovarianceThatIsNotDefinite) {
-  ClosureRecord closure = std::get<ClosureRecord>(one_of_each()[7]);
+  ClosureRecord closure = std::get<ClosureRecord>(one_of_each()[8]);
   closure.covariance(0, 1) = closure.covariance(1, 0) = 2 * closure.covariance(0, 0);
   EXPECT_FALSE(decode_record(encode(closure)));
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <utility>
 
 #include "radioslam/mission/odometry_edge.hpp"
@@ -98,6 +99,17 @@ class RobotRecords {
     return {true, mission_.anchors[end.anchor.index()].id, end.antenna, end.lever_arm_m};
   }
 
+  /// The access point's number, which is said before it is heard for the first time.
+  std::uint32_t number_of(Stamp stamp, const WifiReading& reading) {
+    const auto [found, is_new] = numbers_.emplace(std::pair(reading.access_point, reading.frequency_mhz),
+                                                  static_cast<std::uint32_t>(numbers_.size()));
+    if (is_new)
+      measured_.push_back(
+          {stamp, AccessPointRecord{found->second, mission_.access_points[reading.access_point.index()],
+                                    reading.frequency_mhz}});
+    return found->second;
+  }
+
   void add_measurements() {
     for (const RangeMeasurement& range : mission_.ranges) {
       const bool is_first = range.i.robot.valid();
@@ -112,10 +124,13 @@ class RobotRecords {
         add(angles.stamp, AnglesRecord{{}, peer(angles.transmitter), angles.paths});
     for (const PositionFix& fix : robot_.fixes) add(fix.stamp, FixRecord{{}, fix.position_m, fix.sigma_m});
     for (const WifiScan& scan : robot_.wifi) {
+      if (!robot_.odometry.covers(scan.stamp)) {
+        ++outside_;
+        continue;
+      }
       FingerprintRecord fingerprint;
       for (const WifiReading& reading : scan.readings)
-        fingerprint.readings.push_back(
-            {mission_.access_points[reading.access_point.index()], reading.frequency_mhz, reading.rssi_dbm});
+        fingerprint.readings.push_back({number_of(scan.stamp, reading), reading.rssi_dbm});
       add(scan.stamp, std::move(fingerprint));
     }
     for (const PoseMatch& match : mission_.matches)
@@ -131,6 +146,7 @@ class RobotRecords {
   std::vector<std::size_t> rows_;  ///< of the odometry, that are keyframes
   std::vector<Stamp> stamps_;      ///< of these
   std::vector<Timed> measured_;
+  std::map<std::pair<AccessPointIndex, float>, std::uint32_t> numbers_;  ///< of access points
   std::size_t outside_ = 0;
 };
 

@@ -97,6 +97,149 @@ std::vector<Measured> in_order(std::vector<Placed<Measured>> placed) {
   return result;
 }
 
+template <class Kind, class Take>
+void for_each(const RobotRecords& robot, const Take& take) {
+  for (std::size_t n = 0; n < robot.records.size(); ++n)
+    if (const auto* record = std::get_if<Kind>(&robot.records[n])) take(*record, n);
+}
+
+/// Indices in the mission.
+struct TeamNames {
+  std::map<std::string, std::size_t> anchors, robots;
+
+  /// Nothing if the robot or anchor is not known.
+  std::optional<LinkEnd> end_of(const LinkPeer& peer) const {
+    LinkEnd end;
+    end.antenna = peer.antenna;
+    end.lever_arm_m = peer.lever_arm_m;
+    const auto& names = peer.is_anchor ? anchors : robots;
+    const auto found = names.find(peer.name);
+    if (found == names.end()) return std::nullopt;
+    if (peer.is_anchor)
+      end.anchor = AnchorIndex(found->second);
+    else
+      end.robot = RobotIndex(found->second);
+    return end;
+  }
+};
+
+/// Adds the robots' measurements to a mission that has these robots, anchors and access points.
+class LoggedMeasurements {
+ public:
+  LoggedMeasurements(const TeamNames& names, Mission& mission) : names_(names), mission_(mission) {}
+
+  /// Returns what was left out, and why.
+  std::vector<std::string> add(const RobotRecords& of, std::size_t r, const KeyframeChain& chain) {
+    unknown_.clear();
+    untied_ = unheard_ = 0;
+    const auto tied = [&](const auto& take) {
+      return [this, &chain, &take](const auto& record, std::size_t n) {
+        chain.pose(record.at) ? take(record, n) : void(++untied_);
+      };
+    };
+    for_each<RangeRecord>(of, tied([&](const RangeRecord& range, std::size_t n) { add(range, r, n); }));
+    for_each<AnglesRecord>(of, tied([&](const AnglesRecord& angles, std::size_t n) { add(angles, r, n); }));
+    for_each<ClosureRecord>(of,
+                            tied([&](const ClosureRecord& closure, std::size_t n) { add(closure, r, n); }));
+    Robot& robot = mission_.robots[r];
+    for_each<FixRecord>(of, tied([&](const FixRecord& fix, std::size_t) {
+                          robot.fixes.push_back({fix.at.stamp, fix.position_m, fix.sigma_m});
+                        }));
+    const auto access_points = access_points_of(of);
+    for_each<FingerprintRecord>(of, tied([&](const FingerprintRecord& fingerprint, std::size_t) {
+                                  robot.wifi.push_back(scan_of(fingerprint, access_points));
+                                }));
+    sort_by_time(robot.fixes);
+    sort_by_time(robot.wifi);
+    return notes();
+  }
+
+  void finish() && {
+    mission_.ranges = in_order(std::move(ranges_));
+    mission_.aoa_measurements = in_order(std::move(angles_));
+    mission_.matches = in_order(std::move(matches_));
+  }
+
+ private:
+  using AccessPoints = std::map<std::uint32_t, WifiReading>;  ///< without a signal strength
+
+  void add(const RangeRecord& range, std::size_t r, std::size_t n) {
+    auto other = names_.end_of(range.other);
+    if (!other) return void(unknown_.insert(range.other.name));
+    LinkEnd own{RobotIndex(r), {}, range.antenna, range.lever_arm_m};
+    if (range.is_other_first) std::swap(own, *other);
+    ranges_.push_back({range.at.stamp, r, n, {range.at.stamp, own, *other, range.range_m, range.sigma_m}});
+  }
+  void add(const AnglesRecord& angles, std::size_t r, std::size_t n) {
+    const auto transmitter = names_.end_of(angles.transmitter);
+    if (!transmitter) return void(unknown_.insert(angles.transmitter.name));
+    angles_.push_back({angles.at.stamp, r, n, {angles.at.stamp, RobotIndex(r), *transmitter, angles.paths}});
+  }
+  void add(const ClosureRecord& closure, std::size_t r, std::size_t n) {
+    const auto other = names_.robots.find(closure.other);
+    if (other == names_.robots.end()) return void(unknown_.insert(closure.other));
+    matches_.push_back({closure.at.stamp,
+                        r,
+                        n,
+                        {RobotIndex(r), RobotIndex(other->second), closure.at.stamp, closure.stamp_other,
+                         closure.T_i_j, closure.covariance}});
+  }
+
+  AccessPoints access_points_of(const RobotRecords& of) const {
+    const std::vector<std::string>& known = mission_.access_points;
+    AccessPoints result;
+    for_each<AccessPointRecord>(of, [&](const AccessPointRecord& heard, std::size_t) {
+      const auto found = std::lower_bound(known.begin(), known.end(), heard.bssid);
+      result[heard.number] = {AccessPointIndex(static_cast<std::size_t>(found - known.begin())),
+                              heard.frequency_mhz, 0};
+    });
+    return result;
+  }
+
+  WifiScan scan_of(const FingerprintRecord& fingerprint, const AccessPoints& access_points) {
+    WifiScan scan{fingerprint.at.stamp, {}};
+    for (const HeardAccessPoint& heard : fingerprint.readings) {
+      const auto found = access_points.find(heard.number);
+      if (found == access_points.end()) {
+        ++unheard_;
+        continue;
+      }
+      scan.readings.push_back(found->second);
+      scan.readings.back().rssi_dbm = heard.rssi_dbm;
+    }
+    std::stable_sort(scan.readings.begin(), scan.readings.end(),
+                     [](const auto& a, const auto& b) { return a.access_point < b.access_point; });
+    return scan;
+  }
+
+  template <class Measured>
+  static void sort_by_time(std::vector<Measured>& measured) {
+    std::stable_sort(measured.begin(), measured.end(),
+                     [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
+  }
+
+  std::vector<std::string> notes() const {
+    std::vector<std::string> notes;
+    for (const std::string& name : unknown_)
+      notes.push_back("measurements to " + name + " are left out: its log is not among these");
+    if (untied_ > 0)
+      notes.push_back(std::to_string(untied_) +
+                      " measurements are left out: the keyframes before them are missing");
+    if (unheard_ > 0)
+      notes.push_back(std::to_string(unheard_) +
+                      " signal strengths are left out: the names of their access points are missing");
+    return notes;
+  }
+
+  const TeamNames& names_;
+  Mission& mission_;
+  std::set<std::string> unknown_;
+  std::size_t untied_ = 0, unheard_ = 0;
+  std::vector<Placed<RangeMeasurement>> ranges_;
+  std::vector<Placed<AoaMeasurement>> angles_;
+  std::vector<Placed<PoseMatch>> matches_;
+};
+
 class MissionBuilder {
  public:
   explicit MissionBuilder(const TeamLog& team) {
@@ -112,20 +255,14 @@ class MissionBuilder {
     if (robots_.empty()) throw std::runtime_error("no robot of these logs has two keyframes");
     collect_names();
     for (std::size_t r = 0; r < robots_.size(); ++r) add_robot(r);
-    for (std::size_t r = 0; r < robots_.size(); ++r) add_measurements(r);
-    result_.mission.ranges = in_order(std::move(ranges_));
-    result_.mission.aoa_measurements = in_order(std::move(angles_));
-    result_.mission.matches = in_order(std::move(matches_));
+    LoggedMeasurements measurements(names_, result_.mission);
+    for (std::size_t r = 0; r < robots_.size(); ++r)
+      for (const std::string& text : measurements.add(robots_[r], r, chains_[r])) note(robots_[r], text);
+    std::move(measurements).finish();
     return std::move(result_);
   }
 
  private:
-  template <class Kind, class Take>
-  static void for_each(const RobotRecords& robot, const Take& take) {
-    for (std::size_t n = 0; n < robot.records.size(); ++n)
-      if (const auto* record = std::get_if<Kind>(&robot.records[n])) take(*record, n);
-  }
-
   void note(const RobotRecords& robot, const std::string& text) {
     result_.notes.push_back("log of robot " + robot.id + ": " + text);
   }
@@ -155,19 +292,18 @@ class MissionBuilder {
         if (known.position_m != of.anchor.position_m || known.sigma_m != of.anchor.sigma_m)
           note(robot, "anchor " + of.anchor.id + " has another position than in the logs before");
       });
-      for_each<FingerprintRecord>(robot, [&](const FingerprintRecord& fingerprint, std::size_t) {
-        for (const HeardAccessPoint& heard : fingerprint.readings) access_points.insert(heard.bssid);
-      });
+      for_each<AccessPointRecord>(
+          robot, [&](const AccessPointRecord& heard, std::size_t) { access_points.insert(heard.bssid); });
     }
     Mission& mission = result_.mission;
     mission.dimension = dimension.value_or(2);
     for (auto& [id, anchor] : anchors) {
-      anchors_.emplace(id, mission.anchors.size());
+      names_.anchors.emplace(id, mission.anchors.size());
       mission.anchors.push_back(std::move(anchor));
     }
     mission.access_points.assign(access_points.begin(), access_points.end());
     for (const RobotRecords& robot : robots_) {
-      indices_.emplace(robot.id, mission.robots.size());
+      names_.robots.emplace(robot.id, mission.robots.size());
       mission.robots.emplace_back().id = robot.id;
     }
   }
@@ -223,88 +359,10 @@ class MissionBuilder {
     robot.odometry_noise.steps = chain.steps();
   }
 
-  /// Nothing if the robot or anchor is not known.
-  std::optional<LinkEnd> end_of(const LinkPeer& peer) const {
-    LinkEnd end;
-    end.antenna = peer.antenna;
-    end.lever_arm_m = peer.lever_arm_m;
-    const auto& names = peer.is_anchor ? anchors_ : indices_;
-    const auto found = names.find(peer.name);
-    if (found == names.end()) return std::nullopt;
-    if (peer.is_anchor)
-      end.anchor = AnchorIndex(found->second);
-    else
-      end.robot = RobotIndex(found->second);
-    return end;
-  }
-
-  void add_measurements(std::size_t r) {
-    const RobotRecords& of = robots_[r];
-    Robot& robot = result_.mission.robots[r];
-    const RobotIndex self(r);
-    std::set<std::string> unknown;
-    std::size_t untied = 0;
-    const auto has_pose = [&](const PoseAt& at) {
-      const bool has = chains_[r].pose(at).has_value();
-      if (!has) ++untied;
-      return has;
-    };
-    for_each<RangeRecord>(of, [&](const RangeRecord& range, std::size_t n) {
-      if (!has_pose(range.at)) return;
-      auto other = end_of(range.other);
-      if (!other) return void(unknown.insert(range.other.name));
-      LinkEnd own{self, {}, range.antenna, range.lever_arm_m};
-      if (range.is_other_first) std::swap(own, *other);
-      ranges_.push_back({range.at.stamp, r, n, {range.at.stamp, own, *other, range.range_m, range.sigma_m}});
-    });
-    for_each<AnglesRecord>(of, [&](const AnglesRecord& angles, std::size_t n) {
-      if (!has_pose(angles.at)) return;
-      const auto transmitter = end_of(angles.transmitter);
-      if (!transmitter) return void(unknown.insert(angles.transmitter.name));
-      angles_.push_back({angles.at.stamp, r, n, {angles.at.stamp, self, *transmitter, angles.paths}});
-    });
-    for_each<FixRecord>(of, [&](const FixRecord& fix, std::size_t) {
-      if (has_pose(fix.at)) robot.fixes.push_back({fix.at.stamp, fix.position_m, fix.sigma_m});
-    });
-    for_each<FingerprintRecord>(of, [&](const FingerprintRecord& fingerprint, std::size_t) {
-      if (has_pose(fingerprint.at)) robot.wifi.push_back(scan_of(fingerprint));
-    });
-    for_each<ClosureRecord>(of, [&](const ClosureRecord& closure, std::size_t n) {
-      if (!has_pose(closure.at)) return;
-      const auto other = indices_.find(closure.other);
-      if (other == indices_.end()) return void(unknown.insert(closure.other));
-      matches_.push_back({closure.at.stamp,
-                          r,
-                          n,
-                          {self, RobotIndex(other->second), closure.at.stamp, closure.stamp_other,
-                           closure.T_i_j, closure.covariance}});
-    });
-    for (const std::string& name : unknown)
-      note(of, "measurements to " + name + " are left out: its log is not among these");
-    if (untied > 0)
-      note(of, std::to_string(untied) + " measurements are left out: the keyframes before them are missing");
-  }
-
-  WifiScan scan_of(const FingerprintRecord& fingerprint) const {
-    const std::vector<std::string>& known = result_.mission.access_points;
-    WifiScan scan{fingerprint.at.stamp, {}};
-    for (const HeardAccessPoint& heard : fingerprint.readings) {
-      const auto found = std::lower_bound(known.begin(), known.end(), heard.bssid);
-      scan.readings.push_back({AccessPointIndex(static_cast<std::size_t>(found - known.begin())),
-                               heard.frequency_mhz, heard.rssi_dbm});
-    }
-    std::stable_sort(scan.readings.begin(), scan.readings.end(),
-                     [](const auto& a, const auto& b) { return a.access_point < b.access_point; });
-    return scan;
-  }
-
   std::vector<RobotRecords> robots_;
   LoggedMission result_;
-  std::map<std::string, std::size_t> anchors_, indices_;
+  TeamNames names_;
   std::vector<KeyframeChain> chains_;  ///< of each robot
-  std::vector<Placed<RangeMeasurement>> ranges_;
-  std::vector<Placed<AoaMeasurement>> angles_;
-  std::vector<Placed<PoseMatch>> matches_;
 };
 
 }  // namespace

@@ -74,10 +74,17 @@ struct FixRecord {
   double sigma_m = 0;
 };
 
-/// Signal strength of an access point.
-struct HeardAccessPoint {
+/// An access point that the robot has heard; of one that sends at several frequencies, one of these.
+struct AccessPointRecord {
+  std::uint32_t number = 0;  ///< by which fingerprints name it
   std::string bssid;
-  float frequency_mhz = 0, rssi_dbm = 0;
+  float frequency_mhz = 0;
+};
+
+/// Signal strength, to half a decibel, between -127.5 and 0 dBm.
+struct HeardAccessPoint {
+  std::uint32_t number = 0;  ///< AccessPointRecord::number
+  float rssi_dbm = 0;
 };
 struct FingerprintRecord {
   PoseAt at;
@@ -94,10 +101,10 @@ struct ClosureRecord {
 };
 
 using Record = std::variant<FactsRecord, AnchorRecord, KeyframeRecord, RangeRecord, AnglesRecord, FixRecord,
-                            FingerprintRecord, ClosureRecord>;
+                            AccessPointRecord, FingerprintRecord, ClosureRecord>;
 
 /// The name of a record's kind, in the order of Record.
-inline constexpr const char* kRecordKinds[] = {"facts",  "anchor", "keyframe",    "range",
-                                               "angles", "fix",    "fingerprint", "closure"};
+inline constexpr const char* kRecordKinds[] = {"facts", "anchor",       "keyframe",    "range",  "angles",
+                                               "fix",   "access_point", "fingerprint", "closure"};
 
 }  // namespace radioslam

@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t kMaxName = 200, kMaxPaths = 64, kMaxReadings = 255;
 constexpr double kMaxMetres = 1e7;
+constexpr float kDecibelStep = 0.5F, kMostDecibels = 1000;
 constexpr std::int64_t kMaxNanoseconds = std::int64_t{1} << 61;
 constexpr double kRounding = 1e-6;  // what correlations lose, so that rounded covariances stay definite
 
@@ -92,6 +93,9 @@ class Writer {
         if (planar && !((i == 5 || i < 2) && (j == 5 || j < 2))) continue;
         out_.f32(static_cast<float>((1 - kRounding) * covariance(i, j) / (sigma[i] * sigma[j])));
       }
+  }
+  void decibels(float value) {
+    out_.byte(static_cast<std::uint8_t>(std::clamp(std::lround(-value / kDecibelStep), 0L, 255L)));
   }
   /// A MAC address as six bytes.
   void bssid(const std::string& text) {
@@ -175,6 +179,9 @@ class Reader {
     if (!in_.good() || Eigen::LLT<SE3::Jacobian>(correlation).info() != Eigen::Success) return in_.refuse();
     covariance = sigma.asDiagonal() * correlation * sigma.asDiagonal();
   }
+  void decibels(float& value) {
+    value = -kDecibelStep * static_cast<float>(in_.byte());
+  }
   void bssid(std::string& text) {
     bool is_mac = false;
     (*this)(is_mac);
@@ -245,11 +252,12 @@ void visit_fields(Visitor& visit, OfKind& record) {
     });
   } else if constexpr (std::is_same_v<Kind, FixRecord>) {
     visit_at(visit, record.at), visit(record.position_m), visit(record.sigma_m);
+  } else if constexpr (std::is_same_v<Kind, AccessPointRecord>) {
+    visit(record.number), visit.bssid(record.bssid), visit(record.frequency_mhz);
   } else if constexpr (std::is_same_v<Kind, FingerprintRecord>) {
     visit_at(visit, record.at);
-    visit.list(record.readings, kMaxReadings, [](auto& of, auto& reading) {
-      of.bssid(reading.bssid), of(reading.frequency_mhz), of(reading.rssi_dbm);
-    });
+    visit.list(record.readings, kMaxReadings,
+               [](auto& of, auto& reading) { of(reading.number), of.decibels(reading.rssi_dbm); });
   } else {
     visit_at(visit, record.at), visit(record.other), visit(record.stamp_other), visit(record.T_i_j);
     visit(record.covariance);
@@ -306,12 +314,13 @@ struct Validity {
   bool operator()(const FixRecord& fix) const {
     return is_time(fix.at.stamp) && is_near(fix.position_m) && is_sigma(fix.sigma_m);
   }
+  bool operator()(const AccessPointRecord& heard) const {
+    return is_name(heard.bssid) && std::abs(heard.frequency_mhz) < 1e6F;
+  }
   bool operator()(const FingerprintRecord& fingerprint) const {
     return is_time(fingerprint.at.stamp) && fingerprint.readings.size() <= kMaxReadings &&
-           std::all_of(fingerprint.readings.begin(), fingerprint.readings.end(), [](const auto& reading) {
-             return is_name(reading.bssid) && std::abs(reading.rssi_dbm) < 1000.0F &&
-                    std::abs(reading.frequency_mhz) < 1e6F;
-           });
+           std::all_of(fingerprint.readings.begin(), fingerprint.readings.end(),
+                       [](const auto& reading) { return std::abs(reading.rssi_dbm) < kMostDecibels; });
   }
   bool operator()(const ClosureRecord& closure) const {
     return is_time(closure.at.stamp) && is_time(closure.stamp_other) && is_name(closure.other);
