@@ -163,6 +163,16 @@ TEST(TeamLog, SkipsWhatIsDamaged) {
   EXPECT_THROW(mission_of(TeamLog()), std::runtime_error);
 }
 
+/// A robot's name becomes that of a file.
+TEST(TeamLog, RefusesNamesThatAreNone) {
+  const std::vector<std::string> records = logs_of_circling().robots[0].records;
+  for (const char* name : {"", "../b", "a/b", "a\nb"}) {
+    TeamLog team;
+    EXPECT_FALSE(team.accept(RobotLog{name, records}.bytes()).is_whole()) << name;
+    EXPECT_TRUE(team.robots().empty());
+  }
+}
+
 /// Headers of chunks, each of which claims what follows: the worst for a reader that starts again at each.
 TEST(TeamLog, GivesUpOnWhatNeverEnds) {
   std::string bytes;

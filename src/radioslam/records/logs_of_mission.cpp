@@ -34,8 +34,10 @@ FactsRecord facts_of(const Mission& mission, const Robot& robot) {
 class RobotRecords {
  public:
   RobotRecords(const Mission& mission, std::size_t r, const KeyframeParams& params)
-      : mission_(mission), robot_(mission.robots[r]), index_(r) {
-    for (const std::size_t row : causal_keyframes(robot_.odometry, params)) rows_.push_back(row);
+      : mission_(mission),
+        robot_(mission.robots[r]),
+        index_(r),
+        rows_(causal_keyframes(robot_.odometry, params)) {
     for (const std::size_t row : rows_) stamps_.push_back(robot_.odometry[row].stamp);
   }
 

@@ -24,13 +24,14 @@ bool is_planar(const SE3& T) {
   return xi[2] == 0 && xi[3] == 0 && xi[4] == 0 && T.translation().z() == 0;
 }
 
+/// Whether both axes of a tangent are of x, y and yaw.
+bool are_in_plane(int i, int j) { return (i == 5 || i < 2) && (j == 5 || j < 2); }
+
 /// Whether only x, y and yaw are correlated.
 bool is_planar(const SE3::Jacobian& covariance) {
   for (int i = 0; i < 6; ++i)
-    for (int j = 0; j < i; ++j) {
-      const bool in_plane = (i == 5 || i < 2) && (j == 5 || j < 2);
-      if (!in_plane && covariance(i, j) != 0) return false;
-    }
+    for (int j = 0; j < i; ++j)
+      if (!are_in_plane(i, j) && covariance(i, j) != 0) return false;
   return true;
 }
 
@@ -90,7 +91,7 @@ class Writer {
     for (int i = 0; i < 6; ++i) out_.f32(static_cast<float>(sigma[i]));
     for (int i = 0; i < 6; ++i)
       for (int j = 0; j < i; ++j) {
-        if (planar && !((i == 5 || i < 2) && (j == 5 || j < 2))) continue;
+        if (planar && !are_in_plane(i, j)) continue;
         out_.f32(static_cast<float>((1 - kRounding) * covariance(i, j) / (sigma[i] * sigma[j])));
       }
   }
@@ -173,15 +174,13 @@ class Reader {
     SE3::Jacobian correlation = SE3::Jacobian::Identity();
     for (int i = 0; i < 6; ++i)
       for (int j = 0; j < i; ++j) {
-        if (planar && !((i == 5 || i < 2) && (j == 5 || j < 2))) continue;
+        if (planar && !are_in_plane(i, j)) continue;
         correlation(i, j) = correlation(j, i) = static_cast<double>(in_.f32());
       }
     if (!in_.good() || Eigen::LLT<SE3::Jacobian>(correlation).info() != Eigen::Success) return in_.refuse();
     covariance = sigma.asDiagonal() * correlation * sigma.asDiagonal();
   }
-  void decibels(float& value) {
-    value = -kDecibelStep * static_cast<float>(in_.byte());
-  }
+  void decibels(float& value) { value = -kDecibelStep * static_cast<float>(in_.byte()); }
   void bssid(std::string& text) {
     bool is_mac = false;
     (*this)(is_mac);
@@ -264,21 +263,14 @@ void visit_fields(Visitor& visit, OfKind& record) {
   }
 }
 
-bool is_name(const std::string& text) {
-  return !text.empty() && text.size() <= kMaxName && text.find("..") == std::string::npos &&
-         std::none_of(text.begin(), text.end(), [](char c) {
-           return static_cast<unsigned char>(c) < 0x20 || c == 0x7f || c == '/' || c == '\\' || c == ',' ||
-                  c == '"';
-         });
-}
 bool is_time(Stamp stamp) { return std::abs(stamp.ns) <= kMaxNanoseconds; }
 bool is_sigma(double sigma) { return sigma > 0 && sigma < kMaxMetres; }
 bool is_near(const Eigen::Vector3d& vector) { return vector.cwiseAbs().maxCoeff() < kMaxMetres; }
 bool is_link_end(const std::string& antenna, const Eigen::Vector3d& lever_arm_m) {
-  return (antenna.empty() || is_name(antenna)) && is_near(lever_arm_m);
+  return (antenna.empty() || is_record_name(antenna)) && is_near(lever_arm_m);
 }
 bool is_peer(const LinkPeer& peer) {
-  return is_name(peer.name) && is_link_end(peer.antenna, peer.lever_arm_m);
+  return is_record_name(peer.name) && is_link_end(peer.antenna, peer.lever_arm_m);
 }
 
 struct Validity {
@@ -295,7 +287,7 @@ struct Validity {
   }
   bool operator()(const AnchorRecord& record) const {
     const Anchor& anchor = record.anchor;
-    return is_name(anchor.id) && anchor.sigma_m >= 0 && anchor.sigma_m < kMaxMetres &&
+    return is_record_name(anchor.id) && anchor.sigma_m >= 0 && anchor.sigma_m < kMaxMetres &&
            (!anchor.position_m || is_near(*anchor.position_m));
   }
   bool operator()(const KeyframeRecord& keyframe) const { return is_time(keyframe.stamp); }
@@ -315,7 +307,7 @@ struct Validity {
     return is_time(fix.at.stamp) && is_near(fix.position_m) && is_sigma(fix.sigma_m);
   }
   bool operator()(const AccessPointRecord& heard) const {
-    return is_name(heard.bssid) && std::abs(heard.frequency_mhz) < 1e6F;
+    return is_record_name(heard.bssid) && std::abs(heard.frequency_mhz) < 1e6F;
   }
   bool operator()(const FingerprintRecord& fingerprint) const {
     return is_time(fingerprint.at.stamp) && fingerprint.readings.size() <= kMaxReadings &&
@@ -323,7 +315,7 @@ struct Validity {
                        [](const auto& reading) { return std::abs(reading.rssi_dbm) < kMostDecibels; });
   }
   bool operator()(const ClosureRecord& closure) const {
-    return is_time(closure.at.stamp) && is_time(closure.stamp_other) && is_name(closure.other);
+    return is_time(closure.at.stamp) && is_time(closure.stamp_other) && is_record_name(closure.other);
   }
 };
 
@@ -342,6 +334,14 @@ std::optional<Record> decode_kind(std::size_t kind, std::string_view bytes) {
 }
 
 }  // namespace
+
+bool is_record_name(std::string_view text) {
+  return !text.empty() && text.size() <= kMaxName && text.find("..") == std::string_view::npos &&
+         std::none_of(text.begin(), text.end(), [](char c) {
+           return static_cast<unsigned char>(c) < 0x20 || c == 0x7f || c == '/' || c == '\\' || c == ',' ||
+                  c == '"';
+         });
+}
 
 bool is_valid(const Record& record) { return std::visit(Validity{}, record); }
 

@@ -13,6 +13,10 @@ namespace radioslam {
 
 inline constexpr std::size_t kMaxRecordBytes = 8192;
 
+/// Whether the text can be a name of a robot, anchor, antenna or access point: docs/formats.md,
+/// "Conventions".
+bool is_record_name(std::string_view text);
+
 /// Whether names, counts and numbers are within what a record may have.
 bool is_valid(const Record& record);
 

@@ -11,8 +11,7 @@ namespace radioslam {
 namespace {
 
 constexpr std::string_view kMagic = "RSL1";
-constexpr std::size_t kMaxChunkRecords = 256, kMaxChunkBytes = 60000, kMaxName = 200, kMaxRefusals = 8,
-                      kMaxDamaged = 16;
+constexpr std::size_t kMaxChunkRecords = 256, kMaxChunkBytes = 60000, kMaxRefusals = 8, kMaxDamaged = 16;
 constexpr std::uint64_t kMaxRecords = std::uint64_t{1} << 40U;
 
 constexpr std::array<std::uint32_t, 256> crc_table() {
@@ -46,9 +45,9 @@ std::optional<Chunk> read_chunk(std::string_view bytes) {
   WireReader in(bytes);
   if (in.take(kMagic.size()) != kMagic) return std::nullopt;
   Chunk chunk;
-  const std::size_t name_bytes = in.count(1);
-  if (name_bytes == 0 || name_bytes > kMaxName) return std::nullopt;
-  chunk.robot = std::string(in.take(name_bytes));
+  const std::string_view name = in.take(in.count(1));
+  if (!is_record_name(name)) return std::nullopt;
+  chunk.robot = std::string(name);
   chunk.life = in.u32();
   chunk.first = in.whole();
   const std::size_t count = in.count(1);
