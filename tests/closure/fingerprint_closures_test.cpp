@@ -25,7 +25,7 @@ DistanceModel trained_model() {
 
 /// Fingerprints at these path lengths of each robot, all equally similar.
 RadioMeasurements measured(const std::vector<std::vector<double>>& travelled_m, double similarity) {
-  RadioMeasurements radio{{}, {}, {}, {}, trained_model(), DecayModel{10}};
+  RadioMeasurements radio{{}, {}, {}, {}, trained_model(), MedianModel::fit({{0.5, 10}}, 1)};
   for (std::size_t r = 0; r < travelled_m.size(); ++r) {
     radio.robots.emplace_back();
     for (std::size_t i = 0; i < travelled_m[r].size(); ++i) {
@@ -37,6 +37,13 @@ RadioMeasurements measured(const std::vector<std::vector<double>>& travelled_m, 
   radio.near_similarity = TeamSimilarity(std::vector<std::vector<float>>(radio.nodes.size(), row));
   radio.layout_similarity = radio.near_similarity;
   return radio;
+}
+
+/// A place per fingerprint, four metres from the next.
+Eigen::Matrix3Xd places_of(const RadioMeasurements& radio) {
+  Eigen::Matrix3Xd places = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(radio.nodes.size()));
+  for (Eigen::Index k = 0; k < places.cols(); ++k) places(0, k) = 4 * static_cast<double>(k);
+  return places;
 }
 
 using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
@@ -128,10 +135,14 @@ TEST(NearClosures, NeverWeighMoreThanOne) {
 
 TEST(LayoutClosures, OnlyWhereAStartIsUnknown) {
   const auto radio = measured({{0, 1}, {0}, {0}}, kFar);
-  EXPECT_EQ(pairs(propose_layout_closures(known_starts(team({true, true, true})), radio, {}, {})), Pairs());
-  EXPECT_EQ(pairs(propose_layout_closures(known_starts(team({true, true, false})), radio, {}, {})),
+  EXPECT_EQ(
+      pairs(propose_layout_closures(known_starts(team({true, true, true})), radio, places_of(radio), {}, {})),
+      Pairs());
+  EXPECT_EQ(pairs(propose_layout_closures(known_starts(team({true, true, false})), radio, places_of(radio),
+                                          {}, {})),
             Pairs({{0, 3}, {1, 3}, {2, 3}}));
-  EXPECT_EQ(pairs(propose_layout_closures(known_starts(team({false, false, false})), radio, {}, {})),
+  EXPECT_EQ(pairs(propose_layout_closures(known_starts(team({false, false, false})), radio, places_of(radio),
+                                          {}, {})),
             Pairs({{0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}));
 }
 
@@ -140,24 +151,29 @@ TEST(LayoutClosures, CarryTheDistanceOfTheLayout) {
   LayoutParams layout;
   layout.sigma_m = 3;
   layout.sigma_relative = 0.4;
-  const auto closures = propose_layout_closures(known_starts(team({false, false})), radio, layout, {});
+  const auto closures =
+      propose_layout_closures(known_starts(team({false, false})), radio, places_of(radio), layout, {});
   ASSERT_EQ(closures.size(), 1U);
-  EXPECT_NEAR(closures[0].predicted.peak_m, 10, 1e-5);
-  EXPECT_NEAR(closures[0].predicted.spread_m, 5, 1e-5);
-  EXPECT_EQ(closures[0].weight, layout.pair_weight);
+  EXPECT_NEAR(closures[0].predicted.peak_m, 4, 1e-9);
+  EXPECT_NEAR(closures[0].predicted.spread_m, std::hypot(3, 1.6), 1e-9);
+  EXPECT_EQ(closures[0].weight, 1);
 }
 
 TEST(LayoutClosures, NoneWithoutAModelOrWithHardlyAnythingInCommon) {
   const auto mission = team({false, false});
   LayoutParams layout;
   layout.min_similarity = 0.35;
-  EXPECT_TRUE(propose_layout_closures(known_starts(mission), measured({{0}, {0}}, kFar), layout, {}).empty());
+  EXPECT_TRUE(propose_layout_closures(known_starts(mission), measured({{0}, {0}}, kFar),
+                                      places_of(measured({{0}, {0}}, kFar)), layout, {})
+                  .empty());
   auto untrained = measured({{0}, {0}}, kNear);
   untrained.layout_model.reset();
-  EXPECT_TRUE(propose_layout_closures(known_starts(mission), untrained, {}, {}).empty());
+  EXPECT_TRUE(
+      propose_layout_closures(known_starts(mission), untrained, places_of(untrained), {}, {}).empty());
 }
 
-TEST(LayoutClosures, ThinnedTheyWeighAsMuchTogether) {
+/// They share the layout's error, however many fingerprints the two robots have.
+TEST(LayoutClosures, AllOfTwoRobotsWeighAsMuchAsOneMeasurement) {
   const std::vector<double> ways(40, 0);
   const auto radio = measured({ways, ways}, kFar);
   const auto mission = team({false, false});
@@ -165,25 +181,30 @@ TEST(LayoutClosures, ThinnedTheyWeighAsMuchTogether) {
   FingerprintClosureParams params;
   for (const int most : {1, 7, 100, 1600, 5000}) {
     params.layout_pairs = most;
-    const auto closures = propose_layout_closures(known_starts(mission), radio, layout, params);
+    const auto closures =
+        propose_layout_closures(known_starts(mission), radio, places_of(radio), layout, params);
     EXPECT_LE(closures.size(), static_cast<std::size_t>(most));
     double weight = 0;
     for (const auto& closure : closures) weight += closure.weight;
-    EXPECT_NEAR(weight, 1600 * layout.pair_weight, closures.back().weight) << most;
-    EXPECT_EQ(pairs(closures), pairs(propose_layout_closures(known_starts(mission), radio, layout, params)));
+    EXPECT_NEAR(weight, 1, 1e-9) << most;
+    EXPECT_EQ(pairs(closures),
+              pairs(propose_layout_closures(known_starts(mission), radio, places_of(radio), layout, params)));
   }
   params.layout_pairs = 0;
-  EXPECT_TRUE(propose_layout_closures(known_starts(mission), radio, layout, params).empty());
+  EXPECT_TRUE(
+      propose_layout_closures(known_starts(mission), radio, places_of(radio), layout, params).empty());
 }
 
 TEST(FingerprintClosures, AreTheNearOnesFollowedByThoseOfTheLayout) {
   const auto radio = measured({{0}, {0}}, kNear);
-  EXPECT_EQ(pairs(propose_fingerprint_closures(known_starts(team({true, true})), radio, 100, {}, {})),
+  EXPECT_EQ(pairs(propose_fingerprint_closures(known_starts(team({true, true})), radio, places_of(radio), 100,
+                                               {}, {})),
             Pairs({{0, 1}}));
-  const auto both = propose_fingerprint_closures(known_starts(team({true, false})), radio, 100, {}, {});
+  const auto both =
+      propose_fingerprint_closures(known_starts(team({true, false})), radio, places_of(radio), 100, {}, {});
   ASSERT_EQ(pairs(both), Pairs({{0, 1}, {0, 1}}));
   EXPECT_NEAR(both[0].predicted.mean_m, kNear_m, 1e-9);
-  EXPECT_NEAR(both[1].predicted.mean_m, radio.layout_model->distance_m(both[1].similarity), 1e-9);
+  EXPECT_NEAR(both[1].predicted.mean_m, 4, 1e-9);
 }
 
 }  // namespace

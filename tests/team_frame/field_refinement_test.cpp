@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 
 #include "radioslam/base/random.hpp"
@@ -23,7 +24,7 @@ struct Hall {
   Eigen::MatrixXd heard;
 };
 
-Hall make_hall(Rng& rng) {
+Hall make_hall(Rng& rng, const std::vector<double>& losses = std::vector<double>(kWalks, 0)) {
   Hall hall;
   for (std::size_t w = 0; w < kWalks; ++w) {
     RigidBody& body = hall.bodies.emplace_back();
@@ -39,10 +40,12 @@ Hall make_hall(Rng& rng) {
   }
   const Eigen::Matrix2Xd x = node_positions(hall.bodies);
   const Eigen::Index n = x.cols();
+  const auto shared = [&](Eigen::Index i) { return std::exp(-losses[static_cast<std::size_t>(i / kScans)]); };
   Eigen::MatrixXd covariance(n, n);
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j) {
       covariance(i, j) = 0.6 * std::exp(-(x.col(i) - x.col(j)).squaredNorm() / (2 * 12 * 12));
+      if (i / kScans != j / kScans) covariance(i, j) *= shared(i) * shared(j);
       if (i / kScans == j / kScans)
         covariance(i, j) += 0.2 * std::exp(-2.0 * std::abs(static_cast<double>(i - j)) / 15);
       if (i == j) covariance(i, j) += 0.05;
@@ -51,6 +54,10 @@ Hall make_hall(Rng& rng) {
   hall.heard = covariance.llt().matrixL() * draws;
   hall.heard.rowwise().normalize();
   return hall;
+}
+
+FieldFit fit_of(const std::vector<RigidBody>& bodies) {
+  return {bodies, FieldModel::nominal(bodies.size()), 0};
 }
 
 std::vector<RigidBody> displaced(std::vector<RigidBody> bodies, Rng& rng) {
@@ -81,8 +88,10 @@ TEST(RefineByField, BringsWalksBackToWhereTheyWere) {
     before += error_m(bodies, hall.bodies);
     FieldParams params;
     params.channels = 20;
-    refine_by_field(bodies, RadioField(hall.nodes, hall.heard, params.channels), params);
-    after += error_m(bodies, hall.bodies);
+    params.iterations = 100;
+    FieldFit fit = fit_of(bodies);
+    refine_by_field(fit, RadioField(hall.nodes, hall.heard, params.channels), params);
+    after += error_m(fit.bodies, hall.bodies);
   }
   EXPECT_GT(before, 3 * 4.0);
   EXPECT_LT(after, before / 2);
@@ -97,7 +106,9 @@ TEST(RefineByField, LeavesFixedBodiesAndThoseWithoutPoints) {
   empty.first_node = kWalks * kScans;
   empty.points.resize(2, 0);
   const std::vector<RigidBody> before = bodies;
-  refine_by_field(bodies, RadioField(hall.nodes, hall.heard, 5), {});
+  FieldFit fit = fit_of(bodies);
+  refine_by_field(fit, RadioField(hall.nodes, hall.heard, 5), {});
+  bodies = fit.bodies;
   for (const std::size_t b : {std::size_t{2}, kWalks}) {
     EXPECT_EQ(bodies[b].T_layout_body.translation(), before[b].T_layout_body.translation());
     EXPECT_EQ(bodies[b].T_layout_body.angle(), before[b].T_layout_body.angle());
@@ -116,10 +127,71 @@ TEST(RefineByField, TurnsWithTheLayout) {  // with a common heading the cost is 
   FieldParams params;
   params.iterations = 5;
   const RadioField field(hall.nodes, hall.heard, params.channels);
-  refine_by_field(bodies, field, params);
-  refine_by_field(turned, field, params);
+  FieldFit fit = fit_of(bodies), turned_fit = fit_of(turned);
+  refine_by_field(fit, field, params);
+  refine_by_field(turned_fit, field, params);
   for (std::size_t b = 0; b < kWalks; ++b)
-    EXPECT_LT(((turn * bodies[b].T_layout_body).inverse() * turned[b].T_layout_body).log().norm(), 1e-4);
+    EXPECT_LT(
+        ((turn * fit.bodies[b].T_layout_body).inverse() * turned_fit.bodies[b].T_layout_body).log().norm(),
+        1e-4);
+}
+
+/// Phones that hear less of what others hear are no further from them.
+TEST(RefineByField, FindsTheLossesOfDeafPhones) {
+  double deaf = 0, others = 0;
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    Rng rng(seed);
+    std::vector<double> losses(kWalks, 0.05);
+    losses[3] = losses[7] = 0.7;
+    const Hall hall = make_hall(rng, losses);
+    FieldParams params;
+    params.channels = 20;
+    params.iterations = 100;
+    FieldFit fit = fit_of(hall.bodies);
+    refine_by_field(fit, RadioField(hall.nodes, hall.heard, params.channels), params);
+    for (std::size_t b = 0; b < kWalks; ++b)
+      (b == 3 || b == 7 ? deaf : others) += std::exp(fit.model.log_losses[static_cast<Eigen::Index>(b)]);
+    EXPECT_LT(error_m(fit.bodies, hall.bodies), 5) << seed;
+  }
+  EXPECT_GT(deaf / 6, 3 * others / (3 * (kWalks - 2)));
+}
+
+/// In one of the halls the walk lies alone, and nothing says where.
+TEST(RelocateByField, BringsBackTheOneThatIsFarOff) {
+  int brought_back = 0;
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U}) {
+    Rng rng(seed);
+    const Hall hall = make_hall(rng);
+    FieldFit fit = fit_of(hall.bodies);
+    SE2& displaced = fit.bodies[4].T_layout_body;
+    displaced = SE2(displaced.translation() + Eigen::Vector2d(60, -40), displaced.angle());
+    const TeamField team{RadioField(hall.nodes, hall.heard, 20), hall.heard * hall.heard.transpose()};
+    EXPECT_LE(relocate_by_field(fit, team).size(), 3U) << seed;
+    const Eigen::Vector2d off =
+        fit.bodies[4].T_layout_body.translation() - hall.bodies[4].T_layout_body.translation();
+    if (off.norm() < 12) ++brought_back;
+  }
+  EXPECT_EQ(brought_back, 4);
+}
+
+TEST(AdvanceByField, KeepsTheSizeOfTheLayoutAndFixedBodies) {
+  Rng rng(6);
+  const Hall hall = make_hall(rng);
+  const auto spread = [](const std::vector<RigidBody>& bodies) {
+    const Eigen::Matrix2Xd x = node_positions(bodies);
+    return (x.colwise() - x.rowwise().mean()).norm();
+  };
+  const TeamField team{RadioField(hall.nodes, hall.heard, 5), hall.heard * hall.heard.transpose()};
+  FieldFit fit = fit_of(displaced(hall.bodies, rng));
+  const double before = spread(fit.bodies);
+  advance_by_field(fit, team, {}, true);
+  EXPECT_NEAR(spread(fit.bodies), before, 0.02 * before);
+  fit = fit_of(displaced(hall.bodies, rng));
+  fit.bodies[2].fixed = true;
+  const SE2 held = fit.bodies[2].T_layout_body;
+  advance_by_field(fit, team, {}, true);
+  advance_by_field(fit, team, {}, false);
+  EXPECT_EQ(fit.bodies[2].T_layout_body.translation(), held.translation());
 }
 
 }  // namespace

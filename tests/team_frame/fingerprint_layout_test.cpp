@@ -14,7 +14,7 @@ using test::WalkingTeam;
 TeamFrame align(const Mission& mission) {
   LayoutParams params;
   params.max_nodes = 120;
-  return align_by_fingerprints(mission, known_starts(mission), measure_radio(mission, {}, {}), params);
+  return align_by_fingerprints(mission, known_starts(mission), measure_radio(mission, {}, {}), params, {});
 }
 
 /// Every tenth pose of the trajectories, true and by the team frame.

@@ -33,7 +33,8 @@ Eigen::Matrix2Xd random_places(Rng& rng) {
 }
 
 /// The header's formula, term by term.
-double cost_by_formula(const Eigen::Matrix2Xd& x, const FieldKernel& k, const Eigen::MatrixXd& heard) {
+double cost_by_formula(const Eigen::Matrix2Xd& x, const FieldModel& model, const Eigen::MatrixXd& heard) {
+  const FieldKernel& k = model.kernel;
   const auto nodes = field_nodes();
   Eigen::MatrixXd covariance(kNodes, kNodes);
   for (Eigen::Index i = 0; i < kNodes; ++i)
@@ -44,6 +45,9 @@ double cost_by_formula(const Eigen::Matrix2Xd& x, const FieldKernel& k, const Ei
       c = k[FieldKernel::kFar] * std::exp(-d / k[FieldKernel::kFarLength]) +
           k[FieldKernel::kNear] * std::exp(-d * d / 2 / std::pow(k[FieldKernel::kNearLength], 2)) +
           k[FieldKernel::kEverywhere];
+      if (a.robot != b.robot)
+        c *= std::exp(-std::exp(model.log_losses[static_cast<Eigen::Index>(a.robot)]) -
+                      std::exp(model.log_losses[static_cast<Eigen::Index>(b.robot)]));
       if (a.robot == b.robot)
         c += k[FieldKernel::kRobot] +
              k[FieldKernel::kDrift] *
@@ -54,6 +58,12 @@ double cost_by_formula(const Eigen::Matrix2Xd& x, const FieldKernel& k, const Ei
          (std::log(covariance.determinant()) + (covariance.inverse() * heard * heard.transpose()).trace());
 }
 
+FieldModel some_model() {
+  FieldModel model = FieldModel::nominal(3);
+  model.log_losses << -3, -0.5, -1;
+  return model;
+}
+
 class RadioFieldOfColumns : public testing::TestWithParam<Eigen::Index> {};
 
 TEST_P(RadioFieldOfColumns, CostsWhatTheFormulaSays) {
@@ -61,8 +71,8 @@ TEST_P(RadioFieldOfColumns, CostsWhatTheFormulaSays) {
   const Eigen::MatrixXd heard = random_rows(rng, GetParam());
   const Eigen::Matrix2Xd places = random_places(rng);
   const RadioField field(field_nodes(), heard, kChannels);
-  const FieldKernel kernel = FieldKernel::nominal();
-  EXPECT_NEAR(field.cost(places, kernel).value, cost_by_formula(places, kernel, heard), 1e-5);
+  const FieldModel model = some_model();
+  EXPECT_NEAR(field.cost(places, model).value, cost_by_formula(places, model, heard), 1e-5);
 }
 
 TEST_P(RadioFieldOfColumns, SlopesAreThoseOfTheCost) {
@@ -70,24 +80,47 @@ TEST_P(RadioFieldOfColumns, SlopesAreThoseOfTheCost) {
   Rng rng(4);
   const RadioField field(field_nodes(), random_rows(rng, GetParam()), kChannels);
   const Eigen::Matrix2Xd places = random_places(rng);
-  const FieldKernel kernel = FieldKernel::nominal();
-  const FieldCost cost = field.cost(places, kernel);
+  const FieldModel model = some_model();
+  const FieldCost cost = field.cost(places, model);
   const auto numerical = [&](const auto& step) { return (step(kStep) - step(-kStep)) / (2 * kStep); };
   for (Eigen::Index i = 0; i < kNodes; ++i)
     for (Eigen::Index axis = 0; axis < 2; ++axis)
       EXPECT_NEAR(cost.by_position(axis, i), numerical([&](double h) {
                     Eigen::Matrix2Xd moved = places;
                     moved(axis, i) += h;
-                    return field.cost(moved, kernel).value;
+                    return field.cost(moved, model).value;
                   }),
                   1e-5);
   for (Eigen::Index p = 0; p < FieldKernel::kCount; ++p)
     EXPECT_NEAR(cost.by_kernel[p], numerical([&](double h) {
-                  FieldKernel other = kernel;
-                  other.log[p] += h;
+                  FieldModel other = model;
+                  other.kernel.log[p] += h;
                   return field.cost(places, other).value;
                 }),
                 1e-5);
+  for (Eigen::Index r = 0; r < model.log_losses.size(); ++r)
+    EXPECT_NEAR(cost.by_loss[r], numerical([&](double h) {
+                  FieldModel other = model;
+                  other.log_losses[r] += h;
+                  return field.cost(places, other).value;
+                }),
+                1e-5);
+}
+
+/// The chain rule of probabilities.
+TEST_P(RadioFieldOfColumns, ConditionalCostIsWhatTheNodesAddToTheCost) {
+  Rng rng(6);
+  const Eigen::MatrixXd heard = random_rows(rng, GetParam());
+  const Eigen::Matrix2Xd places = random_places(rng);
+  const FieldModel model = some_model();
+  const std::vector<Eigen::Index> others{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}, nodes{10, 11, 12, 13};
+  auto of_others = field_nodes();
+  of_others.resize(others.size());
+  const double without =
+      RadioField(of_others, heard.topRows(10), kChannels).cost(places.leftCols(10), model).value;
+  const RadioField field(field_nodes(), heard, kChannels);
+  EXPECT_NEAR(field.conditional_cost(nodes, places.rightCols(4), others, places, model),
+              field.cost(places, model).value - without, 1e-5);
 }
 
 INSTANTIATE_TEST_SUITE_P(AccessPoints, RadioFieldOfColumns, testing::Values(6, 40));
@@ -97,13 +130,14 @@ TEST(RadioField, DoesNotDependOnThreads) {
   const RadioField field(field_nodes(), random_rows(rng, 40), kChannels);
   const Eigen::Matrix2Xd places = random_places(rng);
   set_thread_count(1);
-  const FieldCost one = field.cost(places, FieldKernel::nominal());
+  const FieldCost one = field.cost(places, some_model());
   set_thread_count(3);
-  const FieldCost three = field.cost(places, FieldKernel::nominal());
+  const FieldCost three = field.cost(places, some_model());
   set_thread_count(0);
   EXPECT_EQ(one.value, three.value);
   EXPECT_EQ(one.by_position, three.by_position);
   EXPECT_EQ(one.by_kernel, three.by_kernel);
+  EXPECT_EQ(one.by_loss, three.by_loss);
 }
 
 Fingerprint fingerprint(const std::vector<std::pair<std::size_t, float>>& heard) {

@@ -28,24 +28,22 @@ std::vector<RigidBody> random_bodies(std::size_t count, Rng& rng) {
 PairTargets exact_targets(const std::vector<RigidBody>& bodies) {
   const Eigen::Matrix2Xd positions = node_positions(bodies);
   const Eigen::Index n = positions.cols();
-  PairTargets targets{Eigen::MatrixXf(n, n), Eigen::MatrixXf::Ones(n, n), {}};
-  targets.lower_bound.setConstant(n, n, false);
+  PairTargets targets{Eigen::MatrixXf(n, n), Eigen::MatrixXf::Ones(n, n), Eigen::MatrixXf::Ones(n, n)};
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j)
       targets.distance_m(i, j) = static_cast<float>((positions.col(i) - positions.col(j)).norm());
   return targets;
 }
 
-/// Any symmetric distances and weights: some absent, some lower bounds.
+/// Any symmetric distances and weights: some absent.
 PairTargets random_targets(Eigen::Index n, Rng& rng) {
-  PairTargets targets{Eigen::MatrixXf::Zero(n, n), Eigen::MatrixXf::Zero(n, n), {}};
-  targets.lower_bound.setConstant(n, n, false);
+  PairTargets targets{Eigen::MatrixXf::Zero(n, n), Eigen::MatrixXf::Constant(n, n, 0.5F),
+                      Eigen::MatrixXf::Zero(n, n)};
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < i; ++j) {
       targets.distance_m(i, j) = targets.distance_m(j, i) = static_cast<float>(rng.uniform(0, 40));
       const double weight = rng.uniform() < 0.3 ? 0 : rng.uniform(0.01, 1);
       targets.weight(i, j) = targets.weight(j, i) = static_cast<float>(weight);
-      targets.lower_bound(i, j) = targets.lower_bound(j, i) = rng.uniform() < 0.3;
     }
   return targets;
 }
@@ -58,21 +56,60 @@ double max_difference_m(const std::vector<RigidBody>& a, const std::vector<Rigid
   return (moved - node_positions(b)).colwise().norm().maxCoeff();
 }
 
-TEST(LayoutStress, CountsEveryPairOfDifferentBodiesOnce) {
-  std::vector<RigidBody> bodies(2);
-  bodies[0].points = Eigen::Matrix2Xd::Zero(2, 2);
-  bodies[0].points(0, 1) = 100;  // distances within a body do not count
-  bodies[1].first_node = 2;
-  bodies[1].points = Eigen::Matrix2Xd::Zero(2, 1);
-  bodies[1].T_layout_body = SE2({0, 5}, 1);
-  PairTargets targets{Eigen::MatrixXf::Constant(3, 3, 3), Eigen::MatrixXf::Zero(3, 3), {}};
-  targets.lower_bound.setConstant(3, 3, false);
-  targets.weight(0, 2) = targets.weight(2, 0) = 2;
-  EXPECT_NEAR(layout_stress(bodies, targets), 2 * 2 * 2, 1e-9);
-  targets.lower_bound(0, 2) = targets.lower_bound(2, 0) = true;  // 5 m satisfies a lower bound of 3 m
-  EXPECT_EQ(layout_stress(bodies, targets), 0);
-  targets.distance_m(0, 2) = targets.distance_m(2, 0) = 6;
-  EXPECT_NEAR(layout_stress(bodies, targets), 2, 1e-9);
+double squared_residual(const Eigen::Matrix2Xd& x, const PairTargets& targets, Eigen::Index i,
+                        Eigen::Index j) {
+  const double off = (x.col(i) - x.col(j)).norm() - static_cast<double>(targets.distance_m(i, j));
+  return static_cast<double>(targets.information(i, j)) * off * off;
+}
+
+/// Sums over pairs of different bodies; a body has kPoints.
+template <class Term>
+double sum_over_pairs(const std::vector<RigidBody>& bodies, const Term& term) {
+  const Eigen::Matrix2Xd x = node_positions(bodies);
+  double sum = 0;
+  for (Eigen::Index i = 0; i < x.cols(); ++i)
+    for (Eigen::Index j = 0; j < i; ++j)
+      if (i / kPoints != j / kPoints) sum += term(x, i, j);
+  return sum;
+}
+
+double layout_stress(const std::vector<RigidBody>& bodies, const PairTargets& targets) {
+  return sum_over_pairs(bodies, [&](const auto& x, Eigen::Index i, Eigen::Index j) {
+    return static_cast<double>(targets.weight(i, j)) * squared_residual(x, targets, i, j);
+  });
+}
+
+TEST(LayoutCost, IsCauchysOfEveryPairAndTheHeadings) {
+  Rng rng(4);
+  auto bodies = random_bodies(3, rng);
+  auto targets = random_targets(3 * kPoints, rng);
+  for (Eigen::Index i = 0; i < 3 * kPoints; ++i)
+    for (Eigen::Index j = 0; j < 3 * kPoints; ++j)
+      if (i / kPoints == j / kPoints) targets.information(i, j) = 0;
+  const double expected = sum_over_pairs(bodies, [&](const auto& x, Eigen::Index i, Eigen::Index j) {
+    return static_cast<double>(targets.weight(i, j)) * std::log1p(squared_residual(x, targets, i, j)) / 2;
+  });
+  EXPECT_NEAR(layout_cost(bodies, targets), expected, 1e-6 * expected);
+  bodies[1].sigma_heading_rad = bodies[2].sigma_heading_rad = 0.5;
+  const double off_rad = wrap_angle(bodies[1].T_layout_body.angle() - bodies[2].T_layout_body.angle()) / 2;
+  EXPECT_NEAR(layout_cost(bodies, targets), expected + 2 * (1 - std::cos(off_rad)) / 0.25, 1e-6 * expected);
+}
+
+TEST(FitLayout, RecoversALayoutThoughManyDistancesAreWrong) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Rng rng(seed);
+    const auto truth = random_bodies(5, rng);
+    PairTargets targets = exact_targets(truth);
+    for (Eigen::Index i = 0; i < targets.distance_m.rows(); ++i)
+      for (Eigen::Index j = 0; j < i; ++j)
+        if (rng.uniform() < 0.2)
+          targets.distance_m(i, j) = targets.distance_m(j, i) = static_cast<float>(rng.uniform(0, 80));
+    auto bodies = truth;
+    for (RigidBody& body : bodies) body.T_layout_body = random_pose(rng, 3, 0.3) * body.T_layout_body;
+    const double before = layout_cost(bodies, targets);
+    EXPECT_LT(fit_layout(bodies, targets, 100), before);
+    EXPECT_LT(max_difference_m(bodies, truth), 0.3) << "seed " << seed;
+  }
 }
 
 TEST(MajoriseStress, NeverRaisesTheStress) {

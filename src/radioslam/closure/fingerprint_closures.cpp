@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <utility>
 
 namespace radioslam {
 namespace {
@@ -27,14 +29,14 @@ void set_weights(std::vector<FingerprintClosure>& closures, std::size_t nodes, d
     closure.weight = std::min(1.0, 2 * independent / (pairs[closure.node_i] + pairs[closure.node_j]));
 }
 
-/// Closure that represents `multiplicity` distant pairs.
-FingerprintClosure far_closure(const SimilarPair& pair, const DecayModel& model, const LayoutParams& layout,
-                               double multiplicity) {
-  const double similarity = static_cast<double>(pair.similarity), distance = model.distance_m(similarity);
+/// Distant pair, as far apart as it is now.
+FingerprintClosure far_closure(const SimilarPair& pair, const Eigen::Matrix3Xd& places,
+                               const LayoutParams& layout) {
+  const double distance =
+      (places.col(static_cast<Eigen::Index>(pair.i)) - places.col(static_cast<Eigen::Index>(pair.j))).norm();
   const double sigma = std::hypot(layout.sigma_m, layout.sigma_relative * distance);
-  return {
-      pair.i, pair.j, similarity, {distance, sigma, 0, distance, sigma}, layout.pair_weight * multiplicity,
-      true};
+  return {pair.i, pair.j, static_cast<double>(pair.similarity), {distance, sigma, 0, distance, sigma},
+          1,      true};
 }
 
 }  // namespace
@@ -61,6 +63,7 @@ std::vector<FingerprintClosure> propose_near_closures(const RadioMeasurements& r
 
 std::vector<FingerprintClosure> propose_layout_closures(const KnownStarts& starts,
                                                         const RadioMeasurements& radio,
+                                                        const Eigen::Matrix3Xd& places,
                                                         const LayoutParams& layout,
                                                         const FingerprintClosureParams& params) {
   std::vector<FingerprintClosure> closures;
@@ -77,20 +80,22 @@ std::vector<FingerprintClosure> propose_layout_closures(const KnownStarts& start
   std::size_t count = 0, next = 0;
   for_each_far_pair([&](const SimilarPair&) { ++count; });
   const std::size_t stride = (count + most - 1) / most;
+  std::map<std::pair<RobotIndex, RobotIndex>, double> pairs;
   for_each_far_pair([&](const SimilarPair& pair) {
-    if (next++ % stride == 0)
-      closures.push_back(far_closure(pair, *radio.layout_model, layout, static_cast<double>(stride)));
+    if (next++ % stride != 0) return;
+    closures.push_back(far_closure(pair, places, layout));
+    ++pairs[{radio.nodes[pair.i].robot, radio.nodes[pair.j].robot}];
   });
+  for (FingerprintClosure& closure : closures)
+    closure.weight = 1 / pairs[{radio.nodes[closure.node_i].robot, radio.nodes[closure.node_j].robot}];
   return closures;
 }
 
-std::vector<FingerprintClosure> propose_fingerprint_closures(const KnownStarts& starts,
-                                                             const RadioMeasurements& radio,
-                                                             double max_trusted_path_m,
-                                                             const LayoutParams& layout,
-                                                             const FingerprintClosureParams& params) {
+std::vector<FingerprintClosure> propose_fingerprint_closures(
+    const KnownStarts& starts, const RadioMeasurements& radio, const Eigen::Matrix3Xd& places,
+    double max_trusted_path_m, const LayoutParams& layout, const FingerprintClosureParams& params) {
   auto closures = propose_near_closures(radio, max_trusted_path_m, params);
-  const auto far = propose_layout_closures(starts, radio, layout, params);
+  const auto far = propose_layout_closures(starts, radio, places, layout, params);
   closures.insert(closures.end(), far.begin(), far.end());
   return closures;
 }

@@ -1,10 +1,12 @@
 // Loop closures from pairs of similar WiFi fingerprints: predicted distances between two poses.
 // Source: Liu et al. (2020), algorithm 1: within a robot if the path between them is longer than odometry can
 // be trusted, between robots always; kept if the predicted distance is below nu. If a robot's start is
-// unknown, close pairs alone would let the team layout fold; distant pairs, with the distances that the
-// layout was computed from, are then added.
+// unknown, close pairs alone would let the team layout fold; distant pairs, at the distances they have in the
+// layout, are then added. All those of two robots share the layout's error and weigh as one measurement:
+// robots that close pairs tie firmly do not feel them.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <vector>
 
@@ -36,7 +38,7 @@ struct FingerprintClosureParams {
                     "number of independent measurements that all pairs of one fingerprint together count as");
     RADIOSLAM_FIELD(layout_pairs, "", 0, 1e8,
                     "largest number of distant pairs that constrain robots with unknown starts; more are "
-                    "thinned and weighted up");
+                    "thinned");
   }
 };
 
@@ -54,17 +56,16 @@ std::vector<FingerprintClosure> propose_near_closures(const RadioMeasurements& r
                                                       double max_trusted_path_m,
                                                       const FingerprintClosureParams& params);
 
-/// Distant pairs between robots of which at least one has no known start.
+/// Distant pairs between robots of which at least one has no known start. `places`: of the nodes, in metres.
 std::vector<FingerprintClosure> propose_layout_closures(const KnownStarts& starts,
                                                         const RadioMeasurements& radio,
+                                                        const Eigen::Matrix3Xd& places,
                                                         const LayoutParams& layout,
                                                         const FingerprintClosureParams& params);
 
 /// Close pairs, then distant pairs.
-std::vector<FingerprintClosure> propose_fingerprint_closures(const KnownStarts& starts,
-                                                             const RadioMeasurements& radio,
-                                                             double max_trusted_path_m,
-                                                             const LayoutParams& layout,
-                                                             const FingerprintClosureParams& params);
+std::vector<FingerprintClosure> propose_fingerprint_closures(
+    const KnownStarts& starts, const RadioMeasurements& radio, const Eigen::Matrix3Xd& places,
+    double max_trusted_path_m, const LayoutParams& layout, const FingerprintClosureParams& params);
 
 }  // namespace radioslam

@@ -172,6 +172,9 @@ PoseId pose_at(const JointGraph<Pose>& joint, RobotIndex robot, Stamp stamp) {
   return {};
 }
 
+namespace {
+
+/// Position of fingerprint `node` of `radio`: a lever arm on the keyframe before it.
 template <class Pose>
 RangeEnd<Pose> fingerprint_anchor(const JointGraph<Pose>& joint, const RadioMeasurements& radio,
                                   std::size_t node) {
@@ -193,6 +196,19 @@ DriftId scale_source(const JointGraph<Pose>& joint, const RadioMeasurements& rad
                      const FingerprintClosure& closure) {
   const std::size_t node = (closure.node_i + closure.node_j) % 2 == 0 ? closure.node_i : closure.node_j;
   return joint.robots[radio.nodes[node].robot.index()].drift;
+}
+
+}  // namespace
+
+template <class Pose>
+Eigen::Matrix3Xd fingerprint_places(const JointGraph<Pose>& joint, const RadioMeasurements& radio) {
+  Eigen::Matrix3Xd places = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(radio.nodes.size()));
+  for (std::size_t node = 0; node < radio.nodes.size(); ++node) {
+    const RangeEnd<Pose> anchor = fingerprint_anchor(joint, radio, node);
+    places.col(static_cast<Eigen::Index>(node)).template head<Pose::Point::RowsAtCompileTime>() =
+        joint.team.graph.poses[anchor.pose.index()] * anchor.lever_arm;
+  }
+  return places;
 }
 
 template <class Pose>
@@ -223,8 +239,7 @@ void add_fingerprint_closures(JointGraph<Pose>& joint, const RadioMeasurements& 
                              DriftId);                                                                    \
   template PoseId pose_at(const JointGraph<Pose>&, RobotIndex, Stamp);                                    \
   template void place_robots(JointGraph<Pose>&, const std::vector<SE2>&);                                 \
-  template RangeEnd<Pose> fingerprint_anchor(const JointGraph<Pose>&, const RadioMeasurements&,           \
-                                             std::size_t);                                                \
+  template Eigen::Matrix3Xd fingerprint_places(const JointGraph<Pose>&, const RadioMeasurements&);        \
   template void add_fingerprint_closures(JointGraph<Pose>&, const RadioMeasurements&,                     \
                                          const std::vector<FingerprintClosure>&);
 RADIOSLAM_JOINT_GRAPH(SE2)

@@ -165,10 +165,9 @@ JointGraph<Pose> build_joint_graph(const Mission& mission, const KeyframeParams&
 template <class Pose>
 void place_robots(JointGraph<Pose>& joint, const std::vector<SE2>& T_team_start);
 
-/// Position of fingerprint `node` of `radio`: a lever arm on the keyframe before it.
+/// Positions of the fingerprints `radio.nodes`, in metres.
 template <class Pose>
-RangeEnd<Pose> fingerprint_anchor(const JointGraph<Pose>& joint, const RadioMeasurements& radio,
-                                  std::size_t node);
+Eigen::Matrix3Xd fingerprint_places(const JointGraph<Pose>& joint, const RadioMeasurements& radio);
 
 /// Adds ranges with the distances predicted from fingerprint similarity.
 template <class Pose>

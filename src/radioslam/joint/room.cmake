@@ -17,7 +17,6 @@ radioslam_room(joint
     closures/radio_alignment_choice.cpp
     closures/team_loops.cpp
     dense_trajectory.cpp
-    field_stage.cpp
     graduated_optimization.cpp
     joint_graph.cpp
     joint_graph_from_file.cpp

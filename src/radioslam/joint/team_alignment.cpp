@@ -220,8 +220,9 @@ TeamAlignment<Pose> align_by_links(JointGraph<Pose>& joint, const RadioAlignment
 template <class Pose>
 TeamAlignment<Pose> align_robots_by_fingerprints(JointGraph<Pose>& joint, const Mission& mission,
                                                  const KnownStarts& starts, const RadioMeasurements& radio,
-                                                 const LayoutParams& params, const Progress& progress) {
-  const TeamFrame frame = align_by_fingerprints(mission, starts, radio, params, progress);
+                                                 const LayoutParams& params, const FieldParams& field,
+                                                 const Progress& progress) {
+  const TeamFrame frame = align_by_fingerprints(mission, starts, radio, params, field, progress);
   place_robots(joint, frame.T_team_start);
   TeamAlignment<Pose> alignment;
   alignment.component = frame.component;
@@ -235,19 +236,19 @@ TeamAlignment<Pose> align_robots_by_fingerprints(JointGraph<Pose>& joint, const 
   return alignment;
 }
 
-#define RADIOSLAM_TEAM_ALIGNMENT(Pose)                                                                    \
-  template std::vector<int> set_components(const JointGraph<Pose>&, const std::vector<int>&,              \
-                                           TeamAlignment<Pose>&);                                         \
-  template void set_placed(TeamAlignment<Pose>&);                                                         \
-  template bool has_untied_poses(const JointGraph<Pose>&, const TeamAlignment<Pose>&);                    \
-  template void leave_out_untied_poses(JointGraph<Pose>&, const TeamAlignment<Pose>&);                    \
-  template void set_alternatives(TeamAlignment<Pose>&, const std::vector<TeamHypothesis<Pose>>&);         \
-  template bool has_radio_links(const JointGraph<Pose>&);                                                 \
-  template TeamAlignment<Pose> align_by_links(JointGraph<Pose>&, const RadioAlignmentParams&,             \
-                                              const Progress&);                                           \
-  template TeamAlignment<Pose> align_robots_by_fingerprints(JointGraph<Pose>&, const Mission&,            \
-                                                            const KnownStarts&, const RadioMeasurements&, \
-                                                            const LayoutParams&, const Progress&);
+#define RADIOSLAM_TEAM_ALIGNMENT(Pose)                                                                      \
+  template std::vector<int> set_components(const JointGraph<Pose>&, const std::vector<int>&,                \
+                                           TeamAlignment<Pose>&);                                           \
+  template void set_placed(TeamAlignment<Pose>&);                                                           \
+  template bool has_untied_poses(const JointGraph<Pose>&, const TeamAlignment<Pose>&);                      \
+  template void leave_out_untied_poses(JointGraph<Pose>&, const TeamAlignment<Pose>&);                      \
+  template void set_alternatives(TeamAlignment<Pose>&, const std::vector<TeamHypothesis<Pose>>&);           \
+  template bool has_radio_links(const JointGraph<Pose>&);                                                   \
+  template TeamAlignment<Pose> align_by_links(JointGraph<Pose>&, const RadioAlignmentParams&,               \
+                                              const Progress&);                                             \
+  template TeamAlignment<Pose> align_robots_by_fingerprints(                                                \
+      JointGraph<Pose>&, const Mission&, const KnownStarts&, const RadioMeasurements&, const LayoutParams&, \
+      const FieldParams&, const Progress&);
 RADIOSLAM_TEAM_ALIGNMENT(SE2)
 RADIOSLAM_TEAM_ALIGNMENT(SE3)
 #undef RADIOSLAM_TEAM_ALIGNMENT

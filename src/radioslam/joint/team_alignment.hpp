@@ -90,6 +90,7 @@ void leave_out_untied_poses(JointGraph<Pose>& joint, const TeamAlignment<Pose>& 
 template <class Pose>
 TeamAlignment<Pose> align_robots_by_fingerprints(JointGraph<Pose>& joint, const Mission& mission,
                                                  const KnownStarts& starts, const RadioMeasurements& radio,
-                                                 const LayoutParams& params, const Progress& progress);
+                                                 const LayoutParams& params, const FieldParams& field,
+                                                 const Progress& progress);
 
 }  // namespace radioslam

@@ -8,7 +8,6 @@
 #include "radioslam/joint/closures/closure_admission.hpp"
 #include "radioslam/joint/closures/loop_stage.hpp"
 #include "radioslam/joint/closures/radio_alignment_choice.hpp"
-#include "radioslam/joint/field_stage.hpp"
 #include "radioslam/joint/joint_graph_from_file.hpp"
 #include "radioslam/joint/late_nodes.hpp"
 #include "radioslam/joint/links/link_weights.hpp"
@@ -104,26 +103,20 @@ void align_by_fixes(const RunSetup& run, TeamEstimate<Pose>& team) {
 
 template <class Pose>
 void align_by_links_or_fingerprints(const RunSetup& run, TeamEstimate<Pose>& team) {
-  team.alignment = has_radio_links(team.joint)
-                       ? align_by_links(team.joint, run.params.alignment, run.progress)
-                       : align_robots_by_fingerprints(team.joint, run.mission, starts_of(run, team),
-                                                      run.radio, run.params.team_frame, run.progress);
+  team.alignment =
+      has_radio_links(team.joint)
+          ? align_by_links(team.joint, run.params.alignment, run.progress)
+          : align_robots_by_fingerprints(team.joint, run.mission, starts_of(run, team), run.radio,
+                                         run.params.team_frame, run.params.field, run.progress);
   constrain_by_fixes(team.joint, team.judgement.fixes, team.alignment);
 }
 
 template <class Pose>
 void close_by_fingerprints(const RunSetup& run, TeamEstimate<Pose>& team) {
   team.measured.fingerprint_closures = propose_fingerprint_closures(
-      starts_of(run, team), run.radio, run.params.radio.distance_model.max_trusted_path_m,
-      run.params.team_frame, run.params.closure);
+      starts_of(run, team), run.radio, fingerprint_places(team.joint, run.radio),
+      run.params.radio.distance_model.max_trusted_path_m, run.params.team_frame, run.params.closure);
   add_fingerprint_closures(team.joint, run.radio, team.measured.fingerprint_closures);
-}
-
-template <class Pose>
-void refine_on_field(const RunSetup& run, TeamEstimate<Pose>& team) {
-  if (refine_by_radio_field(team.joint, run.mission, starts_of(run, team), run.radio, team.alignment,
-                            team.measured.fingerprint_closures, run.params.field, run.progress))
-    optimize(team.joint.team.graph, run.params.optimizer, run.progress);
 }
 
 /// Makes closures that came late part of the team.
@@ -304,7 +297,6 @@ TeamEstimate<Pose> align_team(const RunSetup& run, TeamEstimate<Pose> team) {
   if (has_fixes(run.mission))
     timed("reclassify fixes", reclassify_fixes<Pose>, joint, team.judgement.fixes, params.optimizer,
           run.progress);
-  timed("radio field", refine_on_field<Pose>, run, team);
   team.judgement.range_biases =
       timed("range biases", estimate_range_biases<Pose>, joint, team.alignment, params.range_bias,
             params.alignment.mixture, params.optimizer, run.progress);

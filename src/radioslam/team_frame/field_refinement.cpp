@@ -4,27 +4,22 @@
 #include <cmath>
 #include <deque>
 #include <limits>
-#include <optional>
 #include <utility>
 #include <vector>
 
-#include "radioslam/base/statistics.hpp"
+#include "radioslam/base/parallel.hpp"
 
 namespace radioslam {
 namespace {
 
-constexpr std::size_t kNeighbours = 3;  // other robots that a fingerprint is compared with
-constexpr double kNominalDeviations = 3;
-constexpr std::size_t kMinTeam = 4;  // robots below which no typical distance is defined
+constexpr std::size_t kNeighbours = 3;   // other robots that a fingerprint is compared with
+constexpr Eigen::Index kMovedNodes = 8;  // of a body, that its relocation looks at
+constexpr std::size_t kGiven = 120;      // nearest nodes of other bodies, whose field it looks at
+constexpr double kDifferent_m = 2;       // between places worth comparing
+constexpr double kMinGainOfMove = 1;     // of the cost (negative log likelihood)
 
-/// Per node, the most similar node of each of the most similar bodies, most similar first. One per body, so
-/// that an outlier does not turn its neighbours into outliers.
-using Neighbours = std::vector<std::vector<Eigen::Index>>;
-
-Eigen::Index end_of(const RigidBody& body) {
-  return static_cast<Eigen::Index>(body.first_node) + body.points.cols();
-}
-
+/// The most similar node of each of the most similar bodies, most similar first. One per body, so that a body
+/// in the wrong place does not hide the others.
 std::vector<Eigen::Index> most_similar(const std::vector<RigidBody>& bodies, const RigidBody& own,
                                        const Eigen::RowVectorXd& similarity) {
   std::vector<std::pair<double, Eigen::Index>> others;
@@ -42,92 +37,68 @@ std::vector<Eigen::Index> most_similar(const std::vector<RigidBody>& bodies, con
   return nodes;
 }
 
-Neighbours all_neighbours(const std::vector<RigidBody>& bodies, const Eigen::MatrixXd& similarity) {
-  Neighbours neighbours(static_cast<std::size_t>(similarity.rows()));
-  for (const RigidBody& body : bodies)
-    for (auto i = static_cast<Eigen::Index>(body.first_node); i < end_of(body); ++i)
-      neighbours[static_cast<std::size_t>(i)] = most_similar(bodies, body, similarity.row(i));
-  return neighbours;
-}
-
-/// Median distance of the body's nodes to their `rank`-th most similar nodes; nothing if they have none.
-std::optional<double> distance_to_ranked(const RigidBody& body, const Neighbours& neighbours,
-                                         const Eigen::Matrix2Xd& positions, std::size_t rank) {
-  std::vector<double> distances;
-  for (auto i = static_cast<Eigen::Index>(body.first_node); i < end_of(body); ++i) {
-    const auto& ranked = neighbours[static_cast<std::size_t>(i)];
-    if (ranked.empty()) continue;
-    const Eigen::Index j = ranked[std::min(rank, ranked.size() - 1)];
-    distances.push_back((positions.col(i) - positions.col(j)).norm());
-  }
-  if (distances.empty()) return std::nullopt;
-  return upper_median(std::move(distances));
-}
-
-/// Smallest of these medians over all ranks: small for a body whose most similar body is itself an outlier.
-double distance_to_similar(const RigidBody& body, const Neighbours& neighbours,
-                           const Eigen::Matrix2Xd& positions) {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t rank = 0; rank < kNeighbours; ++rank)
-    least = std::min(least, distance_to_ranked(body, neighbours, positions, rank).value_or(0));
-  return least;
-}
-
-/// Translation that minimises the sum of the nodes' distances to the nearest of their most similar nodes.
-Eigen::Vector2d best_move(const RigidBody& body, const Neighbours& neighbours,
-                          const Eigen::Matrix2Xd& positions) {
-  const std::size_t end = body.first_node + static_cast<std::size_t>(body.points.cols());
-  const auto apart = [&](std::size_t i, Eigen::Index j) -> Eigen::Vector2d {
-    return positions.col(j) - positions.col(static_cast<Eigen::Index>(i));
-  };
-  const auto sum_after = [&](const Eigen::Vector2d& move) {
-    double sum = 0;
-    for (std::size_t i = body.first_node; i < end; ++i) {
-      double nearest = std::numeric_limits<double>::infinity();
-      for (const Eigen::Index j : neighbours[i]) nearest = std::min(nearest, (apart(i, j) - move).norm());
-      if (!neighbours[i].empty()) sum += nearest;
+/// Places that the body might belong to, as translations from its present one; the first is zero.
+std::vector<Eigen::Vector2d> possible_moves(const FieldFit& fit, const RigidBody& body,
+                                            const std::vector<Eigen::Index>& nodes,
+                                            const Eigen::Matrix2Xd& places,
+                                            const Eigen::MatrixXd& similarity) {
+  std::vector<Eigen::Vector2d> moves{Eigen::Vector2d::Zero()};
+  for (const Eigen::Index i : nodes)
+    for (const Eigen::Index j : most_similar(fit.bodies, body, similarity.row(i))) {
+      const Eigen::Vector2d move = places.col(j) - places.col(i);
+      if (std::all_of(moves.begin(), moves.end(),
+                      [&](const auto& known) { return (known - move).norm() > kDifferent_m; }))
+        moves.push_back(move);
     }
-    return sum;
-  };
-  Eigen::Vector2d best = Eigen::Vector2d::Zero();
-  double least = sum_after(best);
-  for (std::size_t i = body.first_node; i < end; ++i)
-    for (const Eigen::Index j : neighbours[i])
-      if (const double sum = sum_after(apart(i, j)); sum < least) {
-        least = sum;
-        best = apart(i, j);
-      }
-  return best;
+  return moves;
+}
+
+/// The nodes of other bodies nearest to any of `at`, nearest first.
+std::vector<Eigen::Index> nodes_around(const Eigen::Matrix2Xd& at, const RigidBody& body,
+                                       const Eigen::Matrix2Xd& places) {
+  const auto first = static_cast<Eigen::Index>(body.first_node), end = first + body.points.cols();
+  std::vector<std::pair<double, Eigen::Index>> others;
+  for (Eigen::Index j = 0; j < places.cols(); ++j)
+    if (j < first || j >= end)
+      others.emplace_back((at.colwise() - places.col(j)).colwise().squaredNorm().minCoeff(), j);
+  const std::size_t most = std::min(kGiven, others.size());
+  std::partial_sort(others.begin(), others.begin() + static_cast<std::ptrdiff_t>(most), others.end());
+  std::vector<Eigen::Index> nodes;
+  for (std::size_t k = 0; k < most; ++k) nodes.push_back(others[k].second);
+  return nodes;
+}
+
+/// The move of least cost; zero unless another one is clearly better.
+Eigen::Vector2d best_move(const FieldFit& fit, const RigidBody& body, const Eigen::Matrix2Xd& places,
+                          const TeamField& team) {
+  const Eigen::Index count = body.points.cols();
+  std::vector<Eigen::Index> nodes;
+  for (Eigen::Index k = 0; k < count; k += (count + kMovedNodes - 1) / kMovedNodes)
+    nodes.push_back(static_cast<Eigen::Index>(body.first_node) + k);
+  const auto moves = possible_moves(fit, body, nodes, places, team.similarity);
+  std::vector<double> costs(moves.size());
+  parallel_for(moves.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t m = begin; m < end; ++m) {
+      const Eigen::Matrix2Xd at = places(Eigen::all, nodes).colwise() + moves[m];
+      costs[m] = team.field.conditional_cost(nodes, at, nodes_around(at, body, places), places, fit.model);
+    }
+  });
+  const auto best = static_cast<std::size_t>(std::min_element(costs.begin(), costs.end()) - costs.begin());
+  return costs[best] < costs[0] - kMinGainOfMove ? moves[best] : moves[0];
 }
 
 }  // namespace
 
-std::vector<std::size_t> relocate_outliers(std::vector<RigidBody>& bodies,
-                                           const Eigen::MatrixXd& similarity) {
-  const Neighbours neighbours = all_neighbours(bodies, similarity);
-  Eigen::Matrix2Xd positions = node_positions(bodies);
-  std::vector<double> distances, deviations;
-  std::vector<std::pair<double, std::size_t>> layout_outliers;
-  for (std::size_t b = 0; b < bodies.size(); ++b)
-    if (const auto distance = distance_to_ranked(bodies[b], neighbours, positions, 0)) {
-      distances.push_back(*distance);
-      if (!bodies[b].fixed)
-        layout_outliers.emplace_back(-distance_to_similar(bodies[b], neighbours, positions), b);
-    }
-  if (distances.size() < kMinTeam) return {};
-  const double typical = upper_median(distances);
-  for (const double d : distances) deviations.push_back(std::abs(d - typical));
-  const double most = typical + kNominalDeviations * kMadToSigma * upper_median(deviations);
-  std::sort(layout_outliers.begin(), layout_outliers.end());
-
+std::vector<std::size_t> relocate_by_field(FieldFit& fit, const TeamField& team) {
   std::vector<std::size_t> moved;
-  for (const auto& [negative_distance, b] : layout_outliers) {
-    RigidBody& body = bodies[b];
-    if (*distance_to_ranked(body, neighbours, positions, 0) <= most) continue;
-    const Eigen::Vector2d move = best_move(body, neighbours, positions);
+  Eigen::Matrix2Xd places = node_positions(fit.bodies);
+  for (std::size_t b = 0; b < fit.bodies.size(); ++b) {
+    RigidBody& body = fit.bodies[b];
+    if (body.fixed || body.points.cols() == 0) continue;
+    const Eigen::Vector2d move = best_move(fit, body, places, team);
     if (move.isZero(0)) continue;
     body.T_layout_body = SE2(body.T_layout_body.translation() + move, body.T_layout_body.angle());
-    positions.middleCols(static_cast<Eigen::Index>(body.first_node), body.points.cols()).colwise() += move;
+    places.middleCols(static_cast<Eigen::Index>(body.first_node), body.points.cols()).colwise() += move;
     moved.push_back(b);
   }
   return moved;
@@ -226,8 +197,14 @@ struct FreeBody {
 
 class FieldRefinement {
  public:
-  FieldRefinement(const std::vector<RigidBody>& bodies, const RadioField& field, const FieldParams& params)
-      : bodies_(bodies), field_(field), params_(params), places_(node_positions(bodies)) {
+  FieldRefinement(const FieldFit& fit, const RadioField& field, const FieldParams& params)
+      : bodies_(fit.bodies),
+        begin_(fit.model),
+        nominal_(FieldModel::nominal(fit.bodies.size())),
+        field_(field),
+        params_(params),
+        places_(node_positions(fit.bodies)) {
+    const std::vector<RigidBody>& bodies = fit.bodies;
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       const RigidBody& body = bodies[b];
       if (body.fixed || body.points.cols() == 0) continue;
@@ -239,12 +216,17 @@ class FieldRefinement {
 
   bool has_free_bodies() const { return !free_.empty(); }
 
-  /// Initial values: the layout's placings and the nominal kernel.
+  /// Initial values: the fit's placings and model.
   Eigen::VectorXd start() const {
-    Eigen::VectorXd x(4 * static_cast<Eigen::Index>(free_.size()) + FieldKernel::kCount);
+    Eigen::VectorXd x(kernel_at() + FieldKernel::kCount + begin_.log_losses.size());
     for (std::size_t f = 0; f < free_.size(); ++f) put(x, f, free_[f].start);
-    x.tail<FieldKernel::kCount>() = FieldKernel::nominal().log;
+    x.segment<FieldKernel::kCount>(kernel_at()) = begin_.kernel.log;
+    x.tail(begin_.log_losses.size()) = begin_.log_losses;
     return x;
+  }
+
+  FieldModel model(const Eigen::VectorXd& x) const {
+    return {{x.segment<FieldKernel::kCount>(kernel_at())}, x.tail(begin_.log_losses.size())};
   }
 
   Placing placing(const Eigen::VectorXd& x, std::size_t f) const {
@@ -254,15 +236,16 @@ class FieldRefinement {
 
   ValueAndGradient operator()(const Eigen::VectorXd& x) {
     for (std::size_t f = 0; f < free_.size(); ++f) place(f, placing(x, f));
-    FieldKernel kernel;
-    kernel.log = x.tail<FieldKernel::kCount>();
-    const FieldCost cost = field_.cost(places_, kernel);
+    const FieldModel here = model(x);
+    const FieldCost cost = field_.cost(places_, here);
     ValueAndGradient result{cost.value, Eigen::VectorXd::Zero(x.size())};
     for (std::size_t f = 0; f < free_.size(); ++f) add_body(f, placing(x, f), cost, result);
     add_headings(x, result);
-    const FieldKernel::Vector off = (kernel.log - FieldKernel::nominal().log) / params_.sigma_kernel;
-    result.value += off.squaredNorm() / 2;
-    result.gradient.tail<FieldKernel::kCount>() = cost.by_kernel + off / params_.sigma_kernel;
+    const FieldKernel::Vector off = (here.kernel.log - nominal_.kernel.log) / params_.sigma_kernel;
+    const Eigen::VectorXd lost = here.log_losses - nominal_.log_losses;
+    result.value += (off.squaredNorm() + lost.squaredNorm()) / 2;
+    result.gradient.segment<FieldKernel::kCount>(kernel_at()) = cost.by_kernel + off / params_.sigma_kernel;
+    result.gradient.tail(lost.size()) = cost.by_loss + lost;
     return result;
   }
 
@@ -277,6 +260,8 @@ class FieldRefinement {
   const std::vector<FreeBody>& free_bodies() const { return free_; }
 
  private:
+  Eigen::Index kernel_at() const { return 4 * static_cast<Eigen::Index>(free_.size()); }
+
   static void put(Eigen::VectorXd& x, std::size_t f, const Placing& p) {
     x.segment<4>(4 * static_cast<Eigen::Index>(f)) << p.centre_m / kMove_m, p.turn_rad / kTurn_rad,
         p.log_scale / kStretch;
@@ -345,21 +330,53 @@ class FieldRefinement {
   }
 
   const std::vector<RigidBody>& bodies_;
+  const FieldModel& begin_;
+  const FieldModel nominal_;
   const RadioField& field_;
   const FieldParams& params_;
   Eigen::Matrix2Xd places_;
   std::vector<FreeBody> free_;
 };
 
+/// Root mean square distance of the nodes from their mean.
+double size_m(const std::vector<RigidBody>& bodies) {
+  const Eigen::Matrix2Xd places = node_positions(bodies);
+  return std::sqrt((places.colwise() - places.rowwise().mean()).colwise().squaredNorm().mean());
+}
+
+/// Moves the bodies towards their common centre, or away from it, as rigid bodies.
+void resize(std::vector<RigidBody>& bodies, double factor) {
+  const Eigen::Vector2d centre = node_positions(bodies).rowwise().mean();
+  for (RigidBody& body : bodies) {
+    if (body.points.cols() == 0) continue;
+    const Eigen::Vector2d mean = body.T_layout_body * Eigen::Vector2d(body.points.rowwise().mean());
+    body.T_layout_body =
+        SE2(body.T_layout_body.translation() + (factor - 1) * (mean - centre), body.T_layout_body.angle());
+  }
+}
+
 }  // namespace
 
-void refine_by_field(std::vector<RigidBody>& bodies, const RadioField& field, const FieldParams& params) {
-  FieldRefinement refinement(bodies, field, params);
+void refine_by_field(FieldFit& fit, const RadioField& field, const FieldParams& params) {
+  FieldRefinement refinement(fit, field, params);
   if (!refinement.has_free_bodies()) return;
   const Minimum found = minimise_lbfgs([&](const Eigen::VectorXd& x) { return refinement(x); },
                                        refinement.start(), params.iterations, kMinGain);
+  std::vector<RigidBody> placed = fit.bodies;
   for (std::size_t f = 0; f < refinement.free_bodies().size(); ++f)
-    bodies[refinement.free_bodies()[f].index].T_layout_body = refinement.pose(found.x, f);
+    placed[refinement.free_bodies()[f].index].T_layout_body = refinement.pose(found.x, f);
+  fit = {std::move(placed), refinement.model(found.x), 0};
+  fit.cost = field.cost(node_positions(fit.bodies), fit.model).value;
+}
+
+void advance_by_field(FieldFit& fit, const TeamField& team, const FieldParams& params, bool is_first) {
+  if (!is_first) relocate_by_field(fit, team);
+  const double before_m = size_m(fit.bodies);
+  refine_by_field(fit, team.field, params);
+  const double after_m = size_m(fit.bodies);
+  const bool is_held =
+      std::any_of(fit.bodies.begin(), fit.bodies.end(), [](const RigidBody& body) { return body.fixed; });
+  if (!is_held && after_m > 0) resize(fit.bodies, before_m / after_m);
 }
 
 }  // namespace radioslam

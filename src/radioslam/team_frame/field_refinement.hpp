@@ -4,10 +4,11 @@
 //   cost of the field + sum |moved|^2 / 2 sigma_layout^2 + sum ln(1 + (heading / 0.67 sigma_heading)^2)
 //                     + sum (ln scale)^2 / 2 sigma_scale^2 + sum (ln kernel - ln nominal)^2 / 2
 //                     sigma_kernel^2
+//                     + sum (ln a - ln nominal)^2 / 2
 //
-// where moved is the displacement from the layout and heading the deviation from the common heading. The
-// prior on the layout is needed: walls make fingerprints less similar than their distance alone would, so the
-// field alone pushes rooms outwards.
+// where moved is the displacement from the layout, heading the deviation from the common heading and a the
+// robot's loss. Walls make fingerprints less similar than their distance alone would, so the field pushes
+// rooms outwards: the size of the whole is that of the layout, which comes from the odometry.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,20 +21,6 @@
 #include "radioslam/team_frame/rigid_layout.hpp"
 
 namespace radioslam {
-
-// Finds and corrects robots that a fingerprint layout placed far from where similar fingerprints were
-// measured.
-//
-// Fingerprints with few access points have low similarity to all others, which a distance-based layout
-// interprets as large distances, although their most similar fingerprints are mostly right. An outlier is a
-// robot whose fingerprints are further from their most similar ones of three other robots than is typical for
-// the team; it is translated, without rotation, to where its fingerprints agree best with their most similar
-// ones.
-
-/// Moves the outliers among the free bodies, the worst first, and returns their indices. `similarity`: nodes
-/// x nodes of the bodies' points; only its order counts, and zero means nothing in common. Outliers exceed
-/// the team's median distance by three robust standard deviations (1.48 median absolute deviations).
-std::vector<std::size_t> relocate_outliers(std::vector<RigidBody>& bodies, const Eigen::MatrixXd& similarity);
 
 // Minimises a smooth function by limited-memory BFGS (Nocedal 1980; Liu and Nocedal 1989) with a backtracking
 // line search (Armijo condition); pairs of negative curvature are dropped.
@@ -63,8 +50,8 @@ struct FieldParams {
   double sigma_layout_m = 10;
   double sigma_scale = 0.1;
   double sigma_kernel = 1.5;
-  int max_nodes = 800;
-  int iterations = 100;
+  int iterations = 25;
+  int rounds = 4;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -81,14 +68,35 @@ struct FieldParams {
                     "standard deviation of the odometry's scale error in the radio field fit");
     RADIOSLAM_FIELD(sigma_kernel, "", 0.01, 10,
                     "prior standard deviation of the logarithms of the radio field's kernel parameters");
-    RADIOSLAM_FIELD(max_nodes, "", 10, 5000,
-                    "largest number of fingerprints in the radio field fit; more are thinned evenly (time "
-                    "grows with the cube)");
-    RADIOSLAM_FIELD(iterations, "", 1, 10000, "largest number of L-BFGS iterations of the radio field fit");
+    RADIOSLAM_FIELD(iterations, "", 1, 10000,
+                    "largest number of L-BFGS iterations in a round of the radio field fit");
+    RADIOSLAM_FIELD(rounds, "", 1, 1000,
+                    "rounds of the radio field fit; each also moves robots that fit better elsewhere");
   }
 };
 
-/// Moves the free bodies that have points. `field` holds one node per point, body by body.
-void refine_by_field(std::vector<RigidBody>& bodies, const RadioField& field, const FieldParams& params);
+/// The team's fingerprints as a field: a node per point of the bodies, body by body.
+struct TeamField {
+  RadioField field;
+  Eigen::MatrixXd similarity;  ///< nodes x nodes; only its order counts
+};
+
+/// A layout and the field fitted to it.
+struct FieldFit {
+  std::vector<RigidBody> bodies;
+  FieldModel model;
+  double cost = 0;  ///< of the field alone
+};
+
+/// Moves the free bodies that have points, and fits the model.
+void refine_by_field(FieldFit& fit, const RadioField& field, const FieldParams& params);
+
+/// Translates each free body to where its fingerprints fit the field of the others best: of its present place
+/// and those that take one of its fingerprints to one of the most similar fingerprints of other bodies.
+/// Returns the indices of the bodies that moved.
+std::vector<std::size_t> relocate_by_field(FieldFit& fit, const TeamField& team);
+
+/// Another round: relocation (not in the first, which has no fitted field yet), then refinement.
+void advance_by_field(FieldFit& fit, const TeamField& team, const FieldParams& params, bool is_first);
 
 }  // namespace radioslam

@@ -2,14 +2,17 @@
 
 #include <Eigen/QR>
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
+#include <queue>
 #include <set>
 #include <utility>
 
+#include "radioslam/base/parallel.hpp"
 #include "radioslam/base/random.hpp"
 #include "radioslam/geometry/alignment.hpp"
 #include "radioslam/geometry/linear_algebra.hpp"
@@ -19,6 +22,13 @@
 namespace radioslam {
 namespace {
 
+constexpr double kMaxCostRatio =
+    1.15;  // of a mirror image's cost to the better one's, to be tried on the field
+
+std::size_t end_of(const RigidBody& body) {
+  return body.first_node + static_cast<std::size_t>(body.points.cols());
+}
+
 /// T_common_start of a robot whose first body pose is known.
 SE2 start_from_initial_pose(const SE3& initial_pose, const Robot& robot) {
   return flatten(initial_pose) * flatten(robot.odometry.front().pose).inverse();
@@ -26,11 +36,24 @@ SE2 start_from_initial_pose(const SE3& initial_pose, const Robot& robot) {
 
 }  // namespace
 
-std::vector<std::size_t> thinned_nodes(std::size_t count, int most) {
-  const auto kept = static_cast<std::size_t>(most);
-  const std::size_t stride = std::max<std::size_t>(1, (count + kept - 1) / kept);
+std::vector<std::size_t> thinned_nodes(const RadioMeasurements& radio, int most) {
+  const auto total_of = [&](std::size_t most_of_robot) {
+    std::size_t total = 0;
+    for (const auto& robot : radio.robots) total += std::min(robot.size(), most_of_robot);
+    return total;
+  };
+  std::size_t low = 1, high = radio.nodes.size() + 1;  // of a robot: low is always allowed
+  while (high - low > 1) {
+    const std::size_t middle = (low + high) / 2;
+    (total_of(middle) <= static_cast<std::size_t>(most) ? low : high) = middle;
+  }
   std::vector<std::size_t> nodes;
-  for (std::size_t i = 0; i < count; i += stride) nodes.push_back(i);
+  std::size_t first = 0;
+  for (const auto& robot : radio.robots) {
+    const std::size_t kept = std::min(robot.size(), low);
+    for (std::size_t k = 0; k < kept; ++k) nodes.push_back(first + (2 * k + 1) * robot.size() / (2 * kept));
+    first += robot.size();
+  }
   return nodes;
 }
 
@@ -154,41 +177,136 @@ Groups group_robots(const KnownStarts& starts, const RadioMeasurements& radio, c
   return groups;
 }
 
-PairTargets make_targets(const RadioMeasurements& radio, const std::vector<std::size_t>& nodes,
-                         const LayoutParams& params) {
-  const auto n = static_cast<Eigen::Index>(nodes.size());
-  PairTargets targets{Eigen::MatrixXf::Zero(n, n), Eigen::MatrixXf::Zero(n, n),
-                      Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic>::Constant(n, n, false)};
-  for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index j = 0; j < n; ++j) {
-      const std::size_t a = nodes[static_cast<std::size_t>(i)], b = nodes[static_cast<std::size_t>(j)];
-      if (radio.nodes[a].robot == radio.nodes[b].robot) continue;
-      const double s = static_cast<double>(radio.layout_similarity.of(a, b));
-      const double distance = radio.layout_model->distance_m(std::max(s, params.min_similarity));
-      const double sigma2 = params.sigma_m * params.sigma_m +
-                            params.sigma_relative * params.sigma_relative * distance * distance;
-      targets.distance_m(i, j) = static_cast<float>(distance);
-      targets.weight(i, j) = static_cast<float>(params.pair_weight / sigma2);
-      targets.lower_bound(i, j) = s <= params.min_similarity;
+/// Distances of paths through a graph of fingerprints whose edges are odometry within a robot, known
+/// positions between robots of known start, and predicted distances between similar fingerprints of two
+/// robots.
+class FingerprintGraph {
+ public:
+  explicit FingerprintGraph(std::size_t nodes) : edges_(nodes) {}
+  void connect(std::size_t i, std::size_t j, double distance_m) {
+    edges_[i].push_back({j, distance_m});
+    edges_[j].push_back({i, distance_m});
+  }
+  /// Shortest paths between any two nodes (Dijkstra 1959), infinite where there is none.
+  Eigen::MatrixXd shortest_paths() const {
+    const auto n = static_cast<Eigen::Index>(edges_.size());
+    Eigen::MatrixXd paths = Eigen::MatrixXd::Constant(n, n, std::numeric_limits<double>::infinity());
+    parallel_for(edges_.size(), 8, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) find_paths_from(i, paths.col(static_cast<Eigen::Index>(i)));
+    });
+    return paths;
+  }
+
+ private:
+  struct Edge {
+    std::size_t to = 0;
+    double distance_m = 0;
+  };
+
+  void find_paths_from(std::size_t source, Eigen::Ref<Eigen::VectorXd> paths) const {
+    using Reached = std::pair<double, std::size_t>;
+    std::priority_queue<Reached, std::vector<Reached>, std::greater<>> queue;
+    paths[static_cast<Eigen::Index>(source)] = 0;
+    queue.emplace(0, source);
+    while (!queue.empty()) {
+      const auto [distance, at] = queue.top();
+      queue.pop();
+      if (distance > paths[static_cast<Eigen::Index>(at)]) continue;
+      for (const Edge& edge : edges_[at]) {
+        double& known = paths[static_cast<Eigen::Index>(edge.to)];
+        if (distance + edge.distance_m >= known) continue;
+        known = distance + edge.distance_m;
+        queue.emplace(known, edge.to);
+      }
     }
-  return targets;
+  }
+
+  std::vector<std::vector<Edge>> edges_;
+};
+
+/// The nodes' most similar nodes of other robots, most similar first.
+std::vector<std::vector<std::size_t>> similar_nodes(const RadioMeasurements& radio,
+                                                    const std::vector<std::size_t>& nodes, std::size_t most) {
+  std::vector<std::vector<std::size_t>> similar(nodes.size());
+  parallel_for(nodes.size(), 8, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      std::vector<std::pair<float, std::size_t>> others;
+      for (std::size_t j = 0; j < nodes.size(); ++j) {
+        if (radio.nodes[nodes[i]].robot == radio.nodes[nodes[j]].robot) continue;
+        const float s = radio.layout_similarity.of(nodes[i], nodes[j]);
+        if (s > 0) others.emplace_back(-s, j);
+      }
+      const auto kept = static_cast<std::ptrdiff_t>(std::min(most, others.size()));
+      std::partial_sort(others.begin(), others.begin() + kept, others.end());
+      for (std::ptrdiff_t k = 0; k < kept; ++k)
+        similar[i].push_back(others[static_cast<std::size_t>(k)].second);
+    }
+  });
+  return similar;
 }
 
-/// Distances for the scaling: odometry within a robot, known positions between fixed ones, radio elsewhere.
-Eigen::MatrixXd scaling_distances(const std::vector<RigidBody>& bodies, const PairTargets& targets) {
-  Eigen::MatrixXd distances = targets.distance_m.cast<double>();
+/// What the layout is fitted to.
+struct LayoutEvidence {
+  Eigen::MatrixXd paths_m;  ///< shortest, nodes x nodes; infinite where there is none
+  PairTargets targets;
+};
+
+/// Predicted distances to each node's most similar ones, and odometry within robots of known relative pose.
+FingerprintGraph connect(const RadioMeasurements& radio, const std::vector<std::size_t>& nodes,
+                         const std::vector<RigidBody>& bodies, const LayoutParams& params,
+                         Eigen::MatrixXf& predicted_m) {
+  FingerprintGraph graph(nodes.size());
   const Eigen::Matrix2Xd positions = node_positions(bodies);
   for (const RigidBody& a : bodies)
     for (const RigidBody& b : bodies) {
-      if (&a != &b && !(a.fixed && b.fixed)) continue;
-      for (Eigen::Index i = 0; i < a.points.cols(); ++i)
-        for (Eigen::Index j = 0; j < b.points.cols(); ++j) {
-          const Eigen::Index p = static_cast<Eigen::Index>(a.first_node) + i;
-          const Eigen::Index q = static_cast<Eigen::Index>(b.first_node) + j;
-          distances(p, q) = (positions.col(p) - positions.col(q)).norm();
-        }
+      if (&a > &b || (&a != &b && !(a.fixed && b.fixed))) continue;
+      for (std::size_t i = a.first_node; i < end_of(a); ++i)
+        for (std::size_t j = &a == &b ? i + 1 : b.first_node; j < end_of(b); ++j)
+          graph.connect(
+              i, j,
+              (positions.col(static_cast<Eigen::Index>(i)) - positions.col(static_cast<Eigen::Index>(j)))
+                  .norm());
     }
-  return distances;
+  const auto similar = similar_nodes(radio, nodes, static_cast<std::size_t>(params.neighbours));
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (const std::size_t j : similar[i]) {
+      const auto s = static_cast<double>(radio.layout_similarity.of(nodes[i], nodes[j]));
+      const double distance = radio.layout_model->distance_m(s);
+      graph.connect(i, j, distance);
+      const auto p = static_cast<Eigen::Index>(i), q = static_cast<Eigen::Index>(j);
+      predicted_m(p, q) = predicted_m(q, p) = static_cast<float>(distance);
+    }
+  return graph;
+}
+
+/// Between robots: predicted distances of similar nodes, path lengths of the others. These weigh
+/// `params.far_weight` times as much as those, all together.
+LayoutEvidence gather_evidence(const RadioMeasurements& radio, const std::vector<std::size_t>& nodes,
+                               const std::vector<RigidBody>& bodies, const LayoutParams& params) {
+  const auto n = static_cast<Eigen::Index>(nodes.size());
+  Eigen::MatrixXf predicted_m = Eigen::MatrixXf::Constant(n, n, -1);
+  LayoutEvidence evidence{connect(radio, nodes, bodies, params, predicted_m).shortest_paths(),
+                          {Eigen::MatrixXf::Zero(n, n), Eigen::MatrixXf::Zero(n, n),
+                           Eigen::MatrixXf::Constant(n, n, static_cast<float>(params.pair_weight))}};
+  PairTargets& targets = evidence.targets;
+  double near = 0, far = 0;
+  for (Eigen::Index j = 0; j < n; ++j)
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const bool is_near = predicted_m(i, j) >= 0;
+      const double distance = is_near ? static_cast<double>(predicted_m(i, j)) : evidence.paths_m(i, j);
+      if (!std::isfinite(distance) || radio.nodes[nodes[static_cast<std::size_t>(i)]].robot ==
+                                          radio.nodes[nodes[static_cast<std::size_t>(j)]].robot)
+        continue;
+      targets.distance_m(i, j) = static_cast<float>(distance);
+      targets.information(i, j) = static_cast<float>(
+          1 / (params.sigma_m * params.sigma_m + std::pow(params.sigma_relative * distance, 2)));
+      ++(is_near ? near : far);
+    }
+  if (far > 0)
+    targets.weight =
+        (predicted_m.array() >= 0)
+            .select(targets.weight, targets.weight * static_cast<float>(params.far_weight * near / far));
+  return evidence;
 }
 
 /// Transform from the scaled points to the layout's frame: fitted to the robots with known pose, else a
@@ -234,10 +352,10 @@ double place_on(std::vector<RigidBody>& bodies, const Eigen::Matrix2Xd& scaled) 
   return residual;
 }
 
-/// Layouts from classical scaling, with distances cut at `cap_m`, and from its mirror image.
+/// Layouts from classical scaling and from its mirror image.
 std::vector<std::vector<RigidBody>> starts_by_scaling(const std::vector<RigidBody>& bodies,
-                                                      const PairTargets& targets, double cap_m) {
-  Eigen::Matrix2Xd scaled = classical_scaling(scaling_distances(bodies, targets).cwiseMin(cap_m));
+                                                      const Eigen::MatrixXd& distances_m) {
+  Eigen::Matrix2Xd scaled = classical_scaling(distances_m);
   std::vector<std::vector<RigidBody>> starts(2, bodies);
   place_on(starts[0], scaled);
   scaled.row(1) *= -1;
@@ -245,14 +363,14 @@ std::vector<std::vector<RigidBody>> starts_by_scaling(const std::vector<RigidBod
   return starts;
 }
 
-/// Between groups there are lower bounds at most; these are left out.
+/// Groups do not share a frame.
 void drop_pairs_between_groups(PairTargets& targets, const RadioMeasurements& radio,
                                const std::vector<std::size_t>& nodes, const Groups& groups) {
   for (std::size_t i = 0; i < nodes.size(); ++i)
     for (std::size_t j = 0; j < nodes.size(); ++j)
       if (groups.root(radio.nodes[nodes[i]].robot.index()) !=
           groups.root(radio.nodes[nodes[j]].robot.index()))
-        targets.weight(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = 0;
+        targets.information(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = 0;
 }
 
 /// Expresses every group in its own frame: the common one where a pose is known, else its first robot's
@@ -279,40 +397,65 @@ TeamFrame express_in_group_frames(const KnownStarts& starts, const std::vector<R
   return frame;
 }
 
-/// Majorises from several initial layouts and keeps the one of least stress: the cut-off distance that serves
-/// the scaling best differs between buildings, and either mirror image may fit.
-std::vector<RigidBody> best_layout(const std::vector<RigidBody>& bodies, const PairTargets& targets,
-                                   const DecayModel& model, const LayoutParams& params,
-                                   const Progress& progress) {
-  constexpr std::array kCapSimilarities = {0.05, 0.1, 0.2, 0.3};
-  std::vector<RigidBody> best;
-  double min_stress = std::numeric_limits<double>::infinity();
-  for (std::size_t c = 0; c < kCapSimilarities.size(); ++c) {
-    report_progress(progress, "team frame", static_cast<double>(c) / kCapSimilarities.size());
-    for (auto& start : starts_by_scaling(bodies, targets, model.distance_m(kCapSimilarities[c]))) {
-      majorise_stress(start, targets, params.sweeps);
-      const double stress = layout_stress(start, targets);
-      if (stress >= min_stress) continue;
-      min_stress = stress;
-      best = std::move(start);
-    }
+/// The team's radio field over the nodes.
+TeamField field_of(const RadioMeasurements& radio, const std::vector<std::size_t>& nodes,
+                   const FieldParams& params) {
+  std::vector<FieldNode> field_nodes;
+  std::vector<const Fingerprint*> fingerprints;
+  for (const std::size_t node : nodes) {
+    const Fingerprint& fingerprint = radio.at(node).fingerprint;
+    field_nodes.push_back({radio.nodes[node].robot.index(), fingerprint.stamp});
+    fingerprints.push_back(&fingerprint);
   }
-  return best;
+  const Eigen::MatrixXd heard = fingerprint_powers(fingerprints, params.exponent);
+  return {RadioField(std::move(field_nodes), heard, params.channels), heard * heard.transpose()};
+}
+
+/// Fits the layout and its mirror image, and what is left of them to the radio field: a layout that fits the
+/// distances nearly as well may be the one the field fits better.
+std::vector<RigidBody> best_layout(const std::vector<RigidBody>& bodies, const LayoutEvidence& evidence,
+                                   const TeamField* field, const LayoutParams& params,
+                                   const FieldParams& field_params, const Progress& progress) {
+  double farthest = 0;
+  for (const double path : evidence.paths_m.reshaped())
+    if (std::isfinite(path)) farthest = std::max(farthest, path);
+  std::vector<std::pair<double, FieldFit>> layouts;
+  for (auto& start : starts_by_scaling(bodies, evidence.paths_m.cwiseMin(farthest))) {
+    report_progress(progress, "team frame", 0.2 * static_cast<double>(layouts.size()));
+    const double cost = fit_layout(start, evidence.targets, params.rounds);
+    layouts.emplace_back(cost, FieldFit{std::move(start), FieldModel::nominal(bodies.size()), 0});
+  }
+  std::stable_sort(layouts.begin(), layouts.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  FieldFit best = std::move(layouts[0].second);
+  if (!field) return best.bodies;
+  advance_by_field(best, *field, field_params, true);
+  if (layouts[1].first < kMaxCostRatio * layouts[0].first) {
+    advance_by_field(layouts[1].second, *field, field_params, true);
+    if (layouts[1].second.cost < best.cost) best = std::move(layouts[1].second);
+  }
+  for (int round = 1; round < field_params.rounds; ++round) {
+    report_progress(progress, "team frame", 0.4 + 0.6 * round / field_params.rounds);
+    advance_by_field(best, *field, field_params, false);
+  }
+  return best.bodies;
 }
 
 }  // namespace
 
 TeamFrame align_by_fingerprints(const Mission& mission, const KnownStarts& starts,
                                 const RadioMeasurements& radio, const LayoutParams& params,
-                                const Progress& progress) {
+                                const FieldParams& field, const Progress& progress) {
   const Groups groups = group_robots(starts, radio, params);
-  const std::vector<std::size_t> nodes = thinned_nodes(radio.nodes.size(), params.max_nodes);
+  const std::vector<std::size_t> nodes = thinned_nodes(radio, params.max_nodes);
   std::vector<RigidBody> bodies = fingerprint_bodies(mission, starts, radio, nodes);
   const bool all_known = std::all_of(bodies.begin(), bodies.end(), [](const auto& b) { return b.fixed; });
   if (radio.layout_model && !all_known) {
-    PairTargets targets = make_targets(radio, nodes, params);
-    drop_pairs_between_groups(targets, radio, nodes, groups);
-    bodies = best_layout(bodies, targets, *radio.layout_model, params, progress);
+    LayoutEvidence evidence = gather_evidence(radio, nodes, bodies, params);
+    drop_pairs_between_groups(evidence.targets, radio, nodes, groups);
+    std::optional<TeamField> team_field;
+    if (field.enabled) team_field = field_of(radio, nodes, field);
+    bodies = best_layout(bodies, evidence, team_field ? &*team_field : nullptr, params, field, progress);
   }
   return express_in_group_frames(starts, bodies, groups);
 }

@@ -1,13 +1,14 @@
 // Coarse team alignment from WiFi fingerprints: places robots with unknown starts so that the distances
 // between their rigid trajectories agree with those predicted from fingerprint similarity.
 //
-// Initial layouts come from classical multidimensional scaling of all fingerprints (Torgerson 1952) with
-// large distances cut at several lengths, and from their mirror images; trajectories rotate but do not flip,
-// so the fit distinguishes them. Each is refined by majorisation of the stress
-//   sum w_ij (|x_i - x_j| - d_ij)^2,  w_ij = 1 / (sigma_0^2 + (r d_ij)^2)
-// one robot at a time (SMACOF, de Leeuw 1977, with each robot's points moving rigidly), which never raises
-// it. The layout of least stress is kept. Pairs of low similarity only repel: their distance is a lower
-// bound.
+// Distances follow paths through a graph: odometry within a robot, predicted distances to each fingerprint's
+// most similar ones of other robots (Isomap, Tenenbaum et al. 2000). Similarity ranks near fingerprints well
+// and far ones badly, so far distances must not come from similarity directly. Classical multidimensional
+// scaling (Torgerson 1952) of these distances and its mirror image are the initial layouts; trajectories
+// rotate but do not flip, which distinguishes the two. Each is fitted to all distances with Cauchy's loss and
+//   sigma_ij^2 = sigma_0^2 + (r d_ij)^2
+// one robot at a time (rigid_layout.hpp), then to the team's radio field (field_refinement.hpp), which
+// decides between them.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,14 +21,16 @@
 #include "radioslam/geometry/se2.hpp"
 #include "radioslam/mission/mission.hpp"
 #include "radioslam/radio/fingerprints/measurements.hpp"
+#include "radioslam/team_frame/field_refinement.hpp"
 #include "radioslam/team_frame/rigid_layout.hpp"
 
 namespace radioslam {
 
 // The team's odometry trajectories as rigid bodies whose points are the fingerprints' positions.
 
-/// Indices of at most `most` of `count` nodes, evenly thinned.
-std::vector<std::size_t> thinned_nodes(std::size_t count, int most);
+/// About `most` of the team's fingerprints (of RadioMeasurements::nodes, increasing): every robot's if there
+/// are few, else as many, evenly spaced; at least one.
+std::vector<std::size_t> thinned_nodes(const RadioMeasurements& radio, int most);
 
 /// A body per robot with its points among `nodes` (of RadioMeasurements::nodes, increasing); robots with a
 /// known start are fixed there, the others are in their own start frame.
@@ -43,28 +46,36 @@ Eigen::Matrix2Xd classical_scaling(const Eigen::MatrixXd& distances_m);
 
 struct LayoutParams {
   double min_similarity = 0.1;
-  double sigma_m = 5;           ///< sigma_0
+  double sigma_m = 3;           ///< sigma_0
   double sigma_relative = 0.3;  ///< r
-  double pair_weight = 0.02;    ///< below 1: pairs of one fingerprint share its error
+  int neighbours = 20;
+  double far_weight = 0.6;
+  double pair_weight = 0.15;  ///< below 1: pairs of one fingerprint share its error
   int min_shared = 3;
-  int sweeps = 100;
-  int max_nodes = 1500;
+  int rounds = 40;
+  int max_nodes = 500;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
     RADIOSLAM_FIELD(min_similarity, "", 0.001, 0.9,
-                    "similarity below which a predicted distance is only a lower bound in the layout");
+                    "similarity above which fingerprints of two robots have something in common");
     RADIOSLAM_BASIC_FIELD(sigma_m, "m", 0.1, 100,
                           "standard deviation of a predicted fingerprint distance near zero");
     RADIOSLAM_FIELD(sigma_relative, "", 0, 2,
                     "relative standard deviation of a predicted fingerprint distance at long range");
+    RADIOSLAM_FIELD(neighbours, "", 1, 1000,
+                    "most similar fingerprints of other robots whose predicted distances make the layout");
+    RADIOSLAM_FIELD(far_weight, "", 0, 100,
+                    "weight of all other distances between robots together, relative to those");
     RADIOSLAM_FIELD(pair_weight, "", 1e-4, 1,
                     "weight of one fingerprint pair relative to an independent measurement");
     RADIOSLAM_FIELD(min_shared, "", 1, 1000,
                     "number of access points that two robots must both observe to be placed together");
-    RADIOSLAM_FIELD(sweeps, "", 1, 10000, "largest number of majorisation passes over the robots");
-    RADIOSLAM_FIELD(max_nodes, "", 10, 20000,
-                    "largest number of fingerprints in the layout; more are thinned evenly");
+    RADIOSLAM_FIELD(rounds, "", 1, 10000, "largest number of reweightings of the layout");
+    RADIOSLAM_FIELD(
+        max_nodes, "", 10, 20000,
+        "largest number of fingerprints in the layout and its radio field; more are thinned robot "
+        "by robot (time grows with the cube)");
   }
 };
 
@@ -78,6 +89,6 @@ struct TeamFrame {
 /// Robots with a known start keep it; the others are placed relative to them, or to the first robot.
 TeamFrame align_by_fingerprints(const Mission& mission, const KnownStarts& starts,
                                 const RadioMeasurements& radio, const LayoutParams& params,
-                                const Progress& progress = {});
+                                const FieldParams& field, const Progress& progress = {});
 
 }  // namespace radioslam

@@ -13,10 +13,11 @@
 namespace radioslam {
 namespace {
 
-constexpr int kMinFingerprints = 3;   // with an access point, for it to be used
-constexpr double kNearest_m2 = 1e-4;  // added to squared distances: the far term has a kink at zero
-constexpr double kRounding = 1e-9;    // added to S's diagonal before it is factorised
-constexpr Eigen::Index kBlock = 64;   // columns per task, independent of the number of threads
+constexpr int kMinFingerprints = 3;    // with an access point, for it to be used
+constexpr double kNearest_m2 = 1e-4;   // added to squared distances: the far term has a kink at zero
+constexpr double kRounding = 1e-9;     // added to S's diagonal before it is factorised
+constexpr double kNominalLoss = 0.12;  // phones at one place: e^-0.24 of what one has in common with itself
+constexpr Eigen::Index kBlock = 64;    // columns per task, independent of the number of threads
 
 /// Calls body(first, count) for blocks of the columns [0, columns).
 template <class Body>
@@ -41,6 +42,11 @@ struct Terms {
 /// The kernel's parameters, exponentiated once per evaluation.
 struct Parameters {
   double far, far_length, near, near_length, noise, robot, everywhere, drift, drift_time;
+  std::vector<double> losses;
+
+  explicit Parameters(const FieldModel& model) : Parameters(model.kernel) {
+    for (const double log_loss : model.log_losses) losses.push_back(std::exp(log_loss));
+  }
   explicit Parameters(const FieldKernel& k)
       : far(k[FieldKernel::kFar]),
         far_length(k[FieldKernel::kFarLength]),
@@ -58,7 +64,13 @@ struct Parameters {
     t.far = far * std::exp(-t.distance_m / far_length);
     t.near = near * std::exp(-t.distance_m * t.distance_m / (2 * near_length * near_length));
     t.everywhere = everywhere;
-    if (a.robot != b.robot) return t;
+    if (a.robot != b.robot) {
+      const double shared = std::exp(-losses[a.robot] - losses[b.robot]);
+      t.far *= shared;
+      t.near *= shared;
+      t.everywhere *= shared;
+      return t;
+    }
     t.apart_s = std::abs(seconds_between(a.stamp, b.stamp));
     t.robot = robot;
     t.drift = drift * std::exp(-t.apart_s / drift_time);
@@ -75,6 +87,11 @@ FieldKernel FieldKernel::nominal() {
   return kernel;
 }
 
+FieldModel FieldModel::nominal(std::size_t robots) {
+  return {FieldKernel::nominal(),
+          Eigen::VectorXd::Constant(static_cast<Eigen::Index>(robots), std::log(kNominalLoss))};
+}
+
 double FieldKernel::operator[](Index i) const { return std::exp(log[i]); }
 
 RadioField::RadioField(std::vector<FieldNode> nodes, const Eigen::MatrixXd& heard, double channels)
@@ -87,16 +104,14 @@ RadioField::RadioField(std::vector<FieldNode> nodes, const Eigen::MatrixXd& hear
   heard_ = s.llt().matrixL();  // same S with as few columns as nodes
 }
 
-Eigen::MatrixXd RadioField::covariance(const Eigen::Matrix2Xd& places, const FieldKernel& kernel) const {
+Eigen::MatrixXd RadioField::covariance(const Eigen::Matrix2Xd& places, const FieldModel& model) const {
   const auto n = static_cast<Eigen::Index>(nodes_.size());
-  const Parameters p(kernel);
+  const Parameters p(model);
   Eigen::MatrixXd k(n, n);
   for_blocks(n, [&](Eigen::Index first, Eigen::Index count) {
     for (Eigen::Index j = first; j < first + count; ++j) {
       for (Eigen::Index i = 0; i < n; ++i)
-        k(i, j) = p.terms(nodes_[static_cast<std::size_t>(i)], nodes_[static_cast<std::size_t>(j)],
-                          (places.col(i) - places.col(j)).squaredNorm())
-                      .sum();
+        k(i, j) = p.terms(node(i), node(j), (places.col(i) - places.col(j)).squaredNorm()).sum();
       k(j, j) += p.noise;
     }
   });
@@ -104,20 +119,22 @@ Eigen::MatrixXd RadioField::covariance(const Eigen::Matrix2Xd& places, const Fie
 }
 
 /// Sums dcost/dK dK/d(position, parameter) over all pairs, column by column, columns in order.
-void RadioField::add_slopes(const Eigen::Matrix2Xd& places, const FieldKernel& kernel,
+void RadioField::add_slopes(const Eigen::Matrix2Xd& places, const FieldModel& model,
                             const Eigen::MatrixXd& by_covariance, FieldCost& cost) const {
   const auto n = static_cast<Eigen::Index>(nodes_.size());
-  const Parameters p(kernel);
+  const Parameters p(model);
   Eigen::Matrix<double, FieldKernel::kCount, Eigen::Dynamic> by_kernel =
       Eigen::Matrix<double, FieldKernel::kCount, Eigen::Dynamic>::Zero(FieldKernel::kCount, n);
+  Eigen::VectorXd by_loss = Eigen::VectorXd::Zero(n);
   for_blocks(n, [&](Eigen::Index first, Eigen::Index count) {
     for (Eigen::Index j = first; j < first + count; ++j) {
       auto sum = by_kernel.col(j);
       for (Eigen::Index i = 0; i < n; ++i) {
         const Eigen::Vector2d apart = places.col(j) - places.col(i);
-        const Terms t = p.terms(nodes_[static_cast<std::size_t>(i)], nodes_[static_cast<std::size_t>(j)],
-                                apart.squaredNorm());
+        const Terms t = p.terms(node(i), node(j), apart.squaredNorm());
         const double g = by_covariance(i, j), d = t.distance_m, l2 = p.near_length * p.near_length;
+        if (node(i).robot != node(j).robot)
+          by_loss[j] -= 2 * g * (t.far + t.near + t.everywhere) * p.losses[node(j).robot];
         sum[FieldKernel::kFar] += g * t.far;
         sum[FieldKernel::kFarLength] += g * t.far * d / p.far_length;
         sum[FieldKernel::kNear] += g * t.near;
@@ -132,13 +149,14 @@ void RadioField::add_slopes(const Eigen::Matrix2Xd& places, const FieldKernel& k
     }
   });
   cost.by_kernel = by_kernel.rowwise().sum();
+  for (Eigen::Index j = 0; j < n; ++j) cost.by_loss[static_cast<Eigen::Index>(node(j).robot)] += by_loss[j];
 }
 
-FieldCost RadioField::cost(const Eigen::Matrix2Xd& places, const FieldKernel& kernel) const {
+FieldCost RadioField::cost(const Eigen::Matrix2Xd& places, const FieldModel& model) const {
   const auto n = static_cast<Eigen::Index>(nodes_.size());
   FieldCost cost{std::numeric_limits<double>::infinity(), Eigen::Matrix2Xd::Zero(2, n),
-                 FieldKernel::Vector::Zero()};
-  const Eigen::LLT<Eigen::MatrixXd> factor(covariance(places, kernel));
+                 FieldKernel::Vector::Zero(), Eigen::VectorXd::Zero(model.log_losses.size())};
+  const Eigen::LLT<Eigen::MatrixXd> factor(covariance(places, model));
   if (factor.info() != Eigen::Success) return cost;
   Eigen::MatrixXd inverse(n, n), explained(n, heard_.cols()), by_covariance(n, n);
   for_blocks(n, [&](Eigen::Index first, Eigen::Index count) {
@@ -154,8 +172,38 @@ FieldCost RadioField::cost(const Eigen::Matrix2Xd& places, const FieldKernel& ke
   });
   const double log_determinant = 2 * factor.matrixLLT().diagonal().array().log().sum();
   cost.value = channels_ / 2 * (log_determinant + heard_.cwiseProduct(explained).sum());
-  add_slopes(places, kernel, by_covariance, cost);
+  add_slopes(places, model, by_covariance, cost);
   return cost;
+}
+
+double RadioField::conditional_cost(const std::vector<Eigen::Index>& nodes, const Eigen::Matrix2Xd& moved,
+                                    const std::vector<Eigen::Index>& others, const Eigen::Matrix2Xd& places,
+                                    const FieldModel& model) const {
+  const Parameters p(model);
+  std::vector<Eigen::Index> all = nodes;
+  all.insert(all.end(), others.begin(), others.end());
+  const auto m = static_cast<Eigen::Index>(nodes.size()), n = static_cast<Eigen::Index>(all.size());
+  Eigen::Matrix2Xd at(2, n);
+  at.leftCols(m) = moved;
+  at.rightCols(n - m) = places(Eigen::all, others);
+  Eigen::MatrixXd k(n, n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    for (Eigen::Index i = 0; i <= j; ++i)
+      k(i, j) = k(j, i) =
+          p.terms(node(all[static_cast<std::size_t>(i)]), node(all[static_cast<std::size_t>(j)]),
+                  (at.col(i) - at.col(j)).squaredNorm())
+              .sum();
+    k(j, j) += p.noise;
+  }
+  const Eigen::LLT<Eigen::MatrixXd> given(k.bottomRightCorner(n - m, n - m));
+  const Eigen::MatrixXd weights = given.solve(k.bottomLeftCorner(n - m, m));
+  const Eigen::LLT<Eigen::MatrixXd> left(k.topLeftCorner(m, m) - k.topRightCorner(m, n - m) * weights);
+  if (given.info() != Eigen::Success || left.info() != Eigen::Success)
+    return std::numeric_limits<double>::infinity();
+  const Eigen::MatrixXd unexplained =
+      heard_(nodes, Eigen::all) - weights.transpose() * heard_(others, Eigen::all);
+  const Eigen::MatrixXd s = unexplained * unexplained.transpose();
+  return channels_ / 2 * (2 * left.matrixLLT().diagonal().array().log().sum() + left.solve(s).trace());
 }
 
 Eigen::MatrixXd fingerprint_powers(const std::vector<const Fingerprint*>& fingerprints, double exponent) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "radioslam/base/parallel.hpp"
 
@@ -9,16 +10,14 @@ namespace radioslam {
 namespace {
 
 constexpr double kStill_m = 0.01;
+constexpr int kSweepsPerRound = 5;
+constexpr double kMinGain = 3e-4;     // of the cost
 constexpr double kTogether_m = 1e-9;  // below this distance the direction between two points is undefined
 
 Eigen::Matrix2Xd placed_points(const RigidBody& body) {
   Eigen::Matrix2Xd placed = body.T_layout_body.rotation_matrix() * body.points;
   placed.colwise() += body.T_layout_body.translation();
   return placed;
-}
-
-bool exerts_no_pull(float weight, bool lower_bound, double distance, double target) {
-  return weight <= 0 || (lower_bound && distance >= target);
 }
 
 /// Target position of each point of a body (Guttman transform) and its weight.
@@ -38,8 +37,8 @@ Pull pull_on(const RigidBody& body, const Eigen::Matrix2Xd& positions, const Pai
         if (j >= first && j < first + count) continue;
         const Eigen::Vector2d apart = positions.col(i) - positions.col(j);
         const double distance = apart.norm(), target = static_cast<double>(targets.distance_m(j, i));
-        const double weight = static_cast<double>(targets.weight(j, i));
-        if (exerts_no_pull(targets.weight(j, i), targets.lower_bound(j, i), distance, target)) continue;
+        const double weight = static_cast<double>(targets.weight(j, i) * targets.information(j, i));
+        if (weight <= 0) continue;
         const Eigen::Vector2d direction =
             distance > kTogether_m ? Eigen::Vector2d(apart / distance) : Eigen::Vector2d::UnitX();
         pull.wanted.col(k) += weight * (positions.col(j) + target * direction);
@@ -91,22 +90,6 @@ Eigen::Matrix2Xd node_positions(const std::vector<RigidBody>& bodies) {
   return positions;
 }
 
-double layout_stress(const std::vector<RigidBody>& bodies, const PairTargets& targets) {
-  const Eigen::Matrix2Xd positions = node_positions(bodies);
-  double stress = 0;
-  for (const RigidBody& body : bodies) {
-    const auto first = static_cast<Eigen::Index>(body.first_node);
-    for (Eigen::Index i = first; i < first + body.points.cols(); ++i)
-      for (Eigen::Index j = 0; j < first; ++j) {
-        const double distance = (positions.col(i) - positions.col(j)).norm();
-        const double target = static_cast<double>(targets.distance_m(j, i));
-        if (exerts_no_pull(targets.weight(j, i), targets.lower_bound(j, i), distance, target)) continue;
-        stress += static_cast<double>(targets.weight(j, i)) * (distance - target) * (distance - target);
-      }
-  }
-  return stress;
-}
-
 void majorise_stress(std::vector<RigidBody>& bodies, const PairTargets& targets, int sweeps) {
   Eigen::Matrix2Xd positions = node_positions(bodies);
   for (int sweep = 0; sweep < sweeps; ++sweep) {
@@ -122,6 +105,61 @@ void majorise_stress(std::vector<RigidBody>& bodies, const PairTargets& targets,
     }
     if (moved < kStill_m) return;
   }
+}
+
+namespace {
+
+/// Squared residual of a pair over its variance; 0 without evidence.
+double squared_residual(const Eigen::Matrix2Xd& positions, const PairTargets& targets, Eigen::Index i,
+                        Eigen::Index j) {
+  const double off =
+      (positions.col(i) - positions.col(j)).norm() - static_cast<double>(targets.distance_m(i, j));
+  return off * off * static_cast<double>(targets.information(i, j));
+}
+
+/// The targets with Cauchy weights at the bodies' present positions.
+void renew_weights(const Eigen::Matrix2Xd& positions, const PairTargets& targets, PairTargets& renewed) {
+  const Eigen::Index n = positions.cols();
+  parallel_for(static_cast<std::size_t>(n), 16, [&](std::size_t begin, std::size_t end) {
+    for (auto j = static_cast<Eigen::Index>(begin); j < static_cast<Eigen::Index>(end); ++j)
+      for (Eigen::Index i = 0; i < n; ++i)
+        renewed.weight(i, j) = static_cast<float>(static_cast<double>(targets.weight(i, j)) /
+                                                  (1 + squared_residual(positions, targets, i, j)));
+  });
+}
+
+}  // namespace
+
+double layout_cost(const std::vector<RigidBody>& bodies, const PairTargets& targets) {
+  const Eigen::Matrix2Xd positions = node_positions(bodies);
+  const Eigen::Index n = positions.cols();
+  std::vector<double> of_node(static_cast<std::size_t>(n), 0);
+  parallel_for(of_node.size(), 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t j = begin; j < end; ++j)
+      for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(j); ++i)
+        of_node[j] += static_cast<double>(targets.weight(i, static_cast<Eigen::Index>(j))) *
+                      std::log1p(squared_residual(positions, targets, i, static_cast<Eigen::Index>(j))) / 2;
+  });
+  double cost = std::accumulate(of_node.begin(), of_node.end(), 0.0);
+  const double heading = common_heading(bodies);
+  for (const RigidBody& body : bodies)
+    if (body.sigma_heading_rad > 0)
+      cost += (1 - std::cos(body.T_layout_body.angle() - heading)) /
+              (body.sigma_heading_rad * body.sigma_heading_rad);
+  return cost;
+}
+
+double fit_layout(std::vector<RigidBody>& bodies, const PairTargets& targets, int rounds) {
+  PairTargets renewed = targets;
+  double cost = layout_cost(bodies, targets);
+  for (int round = 0; round < rounds; ++round) {
+    renew_weights(node_positions(bodies), targets, renewed);
+    majorise_stress(bodies, renewed, kSweepsPerRound);
+    const double before = cost;
+    cost = layout_cost(bodies, targets);
+    if (before - cost < kMinGain * cost) break;
+  }
+  return cost;
 }
 
 }  // namespace radioslam

@@ -47,10 +47,7 @@ Moments moments_of_truncated_gaussian(double a) {
   return {a + hazard, std::sqrt(std::max(0.0, 1 - a * hazard - hazard * hazard))};
 }
 
-// Near 1 the logarithm vanishes and noise dominates; near 0 only a few readings overlap.
-constexpr double kMinSimilarity = 0.02;
-constexpr double kMaxSimilarity = 0.9;
-constexpr double kMinDistance_m = 2;
+constexpr std::size_t kMedianBins = 30;
 
 }  // namespace
 
@@ -130,15 +127,45 @@ std::optional<double> DistanceModel::smallest_distance_m() const {
   return smallest;
 }
 
-double DecayModel::distance_m(double s) const { return std::max(kNearest_m, -length_m * std::log(s)); }
+std::optional<MedianModel> MedianModel::fit(std::vector<DistanceSample> samples, int min_samples) {
+  const auto least = static_cast<std::size_t>(min_samples);
+  if (samples.size() < std::max<std::size_t>(least, 1)) return std::nullopt;
+  std::sort(samples.begin(), samples.end(), [](const DistanceSample& a, const DistanceSample& b) {
+    return std::tie(a.similarity, a.distance_m) < std::tie(b.similarity, b.distance_m);
+  });
+  const std::size_t bins = std::clamp<std::size_t>(samples.size() / least, 1, kMedianBins);
+  MedianModel model;
+  std::vector<double> pooled;  // bins that each entry stands for
+  for (std::size_t k = 0; k < bins; ++k) {
+    std::vector<double> similarities, distances;
+    for (std::size_t i = k * samples.size() / bins; i < (k + 1) * samples.size() / bins; ++i) {
+      similarities.push_back(samples[i].similarity);
+      distances.push_back(samples[i].distance_m);
+    }
+    double similarity = upper_median(std::move(similarities)), distance = upper_median(std::move(distances));
+    double count = 1;
+    for (; !pooled.empty() && model.distances_m_.back() < distance; pooled.pop_back()) {
+      const double before = pooled.back();
+      similarity = (similarity * count + model.similarities_.back() * before) / (count + before);
+      distance = (distance * count + model.distances_m_.back() * before) / (count + before);
+      count += before;
+      model.similarities_.pop_back();
+      model.distances_m_.pop_back();
+    }
+    model.similarities_.push_back(similarity);
+    model.distances_m_.push_back(distance);
+    pooled.push_back(count);
+  }
+  return model;
+}
 
-std::optional<DecayModel> fit_decay(const std::vector<DistanceSample>& samples, int min_samples) {
-  std::vector<double> lengths;
-  for (const auto& [similarity, distance] : samples)
-    if (similarity > kMinSimilarity && similarity < kMaxSimilarity && distance > kMinDistance_m)
-      lengths.push_back(distance / -std::log(similarity));
-  if (static_cast<int>(lengths.size()) < min_samples) return std::nullopt;
-  return DecayModel{upper_median(std::move(lengths))};
+double MedianModel::distance_m(double similarity) const {
+  const auto next = std::upper_bound(similarities_.begin(), similarities_.end(), similarity);
+  if (next == similarities_.begin()) return distances_m_.front();
+  if (next == similarities_.end()) return distances_m_.back();
+  const auto k = static_cast<std::size_t>(next - similarities_.begin());
+  const double along = (similarity - similarities_[k - 1]) / (similarities_[k] - similarities_[k - 1]);
+  return distances_m_[k - 1] + along * (distances_m_[k] - distances_m_[k - 1]);
 }
 
 }  // namespace radioslam

@@ -66,8 +66,8 @@ RadioMeasurements measure_radio(const Mission& mission, const RadioParams& param
   const double trusted = params.distance_model.max_trusted_path_m;
   radio.near_model =
       DistanceModel(training_samples(radio, radio.near_similarity, trusted), params.distance_model);
-  radio.layout_model =
-      fit_decay(training_samples(radio, radio.layout_similarity, trusted), params.distance_model.min_samples);
+  radio.layout_model = MedianModel::fit(training_samples(radio, radio.layout_similarity, trusted),
+                                        params.distance_model.min_samples);
   return radio;
 }
 

@@ -61,8 +61,8 @@ struct RadioMeasurements {
   TeamSimilarity near_similarity;       ///< over nodes, by `measure`
   TeamSimilarity layout_similarity;     ///< over nodes, by `layout_measure`
   DistanceModel near_model;
-  std::optional<DecayModel> layout_model;  ///< absent with too few training samples
-  RssiOffsets rssi_offsets = {};           ///< per robot; already subtracted from its fingerprints
+  std::optional<MedianModel> layout_model;  ///< absent with too few training samples
+  RssiOffsets rssi_offsets = {};            ///< per robot; already subtracted from its fingerprints
 
   const PlacedFingerprint& at(std::size_t node) const {
     return robots[nodes[node].robot.index()][nodes[node].index];
