@@ -25,7 +25,7 @@ DistanceModel trained_model() {
 
 /// Fingerprints at these path lengths of each robot, all equally similar.
 RadioMeasurements measured(const std::vector<std::vector<double>>& travelled_m, double similarity) {
-  RadioMeasurements radio{{}, {}, {}, {}, trained_model(), MedianModel::fit({{0.5, 10}}, 1)};
+  RadioMeasurements radio{{}, {}, {}, {}, trained_model(), MedianModel::fit({{0.5, 10}}, 1), {}, {}};
   for (std::size_t r = 0; r < travelled_m.size(); ++r) {
     radio.robots.emplace_back();
     for (std::size_t i = 0; i < travelled_m[r].size(); ++i) {

@@ -245,16 +245,37 @@ std::vector<std::vector<std::size_t>> similar_nodes(const RadioMeasurements& rad
   return similar;
 }
 
+/// Metres by similarity.
+using PredictDistance = std::function<double(double similarity)>;
+
 /// What the layout is fitted to.
 struct LayoutEvidence {
-  Eigen::MatrixXd paths_m;  ///< shortest, nodes x nodes; infinite where there is none
+  Eigen::MatrixXd distances_m;  ///< nodes x nodes, for the scaling; infinite where there is none
   PairTargets targets;
 };
 
+LayoutEvidence evidence_of(Eigen::MatrixXd distances_m, const RadioMeasurements& radio,
+                           const std::vector<std::size_t>& nodes, const LayoutParams& params) {
+  const Eigen::Index n = distances_m.rows();
+  PairTargets targets{Eigen::MatrixXf::Zero(n, n), Eigen::MatrixXf::Zero(n, n),
+                      Eigen::MatrixXf::Constant(n, n, static_cast<float>(params.pair_weight))};
+  for (Eigen::Index j = 0; j < n; ++j)
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double distance = distances_m(i, j);
+      if (!std::isfinite(distance) || radio.nodes[nodes[static_cast<std::size_t>(i)]].robot ==
+                                          radio.nodes[nodes[static_cast<std::size_t>(j)]].robot)
+        continue;
+      targets.distance_m(i, j) = static_cast<float>(distance);
+      targets.information(i, j) = static_cast<float>(
+          1 / (params.sigma_m * params.sigma_m + std::pow(params.sigma_relative * distance, 2)));
+    }
+  return {std::move(distances_m), std::move(targets)};
+}
+
 /// Predicted distances to each node's most similar ones, and odometry within robots of known relative pose.
 FingerprintGraph connect(const RadioMeasurements& radio, const std::vector<std::size_t>& nodes,
-                         const std::vector<RigidBody>& bodies, const LayoutParams& params,
-                         Eigen::MatrixXf& predicted_m) {
+                         const std::vector<RigidBody>& bodies, const PredictDistance& predict_m,
+                         const LayoutParams& params, Eigen::MatrixXf& predicted_m) {
   FingerprintGraph graph(nodes.size());
   const Eigen::Matrix2Xd positions = node_positions(bodies);
   for (const RigidBody& a : bodies)
@@ -271,7 +292,7 @@ FingerprintGraph connect(const RadioMeasurements& radio, const std::vector<std::
   for (std::size_t i = 0; i < nodes.size(); ++i)
     for (const std::size_t j : similar[i]) {
       const auto s = static_cast<double>(radio.layout_similarity.of(nodes[i], nodes[j]));
-      const double distance = radio.layout_model->distance_m(s);
+      const double distance = predict_m(s);
       graph.connect(i, j, distance);
       const auto p = static_cast<Eigen::Index>(i), q = static_cast<Eigen::Index>(j);
       predicted_m(p, q) = predicted_m(q, p) = static_cast<float>(distance);
@@ -279,33 +300,39 @@ FingerprintGraph connect(const RadioMeasurements& radio, const std::vector<std::
   return graph;
 }
 
-/// Between robots: predicted distances of similar nodes, path lengths of the others. These weigh
-/// `params.far_weight` times as much as those, all together.
-LayoutEvidence gather_evidence(const RadioMeasurements& radio, const std::vector<std::size_t>& nodes,
-                               const std::vector<RigidBody>& bodies, const LayoutParams& params) {
+/// Paths through the graph; predicted distances of similar nodes as they are. The others weigh
+/// `params.far_weight` times as much as these, all together.
+LayoutEvidence evidence_of_paths(const RadioMeasurements& radio, const std::vector<std::size_t>& nodes,
+                                 const std::vector<RigidBody>& bodies, const PredictDistance& predict_m,
+                                 const LayoutParams& params) {
   const auto n = static_cast<Eigen::Index>(nodes.size());
   Eigen::MatrixXf predicted_m = Eigen::MatrixXf::Constant(n, n, -1);
-  LayoutEvidence evidence{connect(radio, nodes, bodies, params, predicted_m).shortest_paths(),
-                          {Eigen::MatrixXf::Zero(n, n), Eigen::MatrixXf::Zero(n, n),
-                           Eigen::MatrixXf::Constant(n, n, static_cast<float>(params.pair_weight))}};
+  LayoutEvidence evidence = evidence_of(
+      connect(radio, nodes, bodies, predict_m, params, predicted_m).shortest_paths(), radio, nodes, params);
   PairTargets& targets = evidence.targets;
-  double near = 0, far = 0;
-  for (Eigen::Index j = 0; j < n; ++j)
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const bool is_near = predicted_m(i, j) >= 0;
-      const double distance = is_near ? static_cast<double>(predicted_m(i, j)) : evidence.paths_m(i, j);
-      if (!std::isfinite(distance) || radio.nodes[nodes[static_cast<std::size_t>(i)]].robot ==
-                                          radio.nodes[nodes[static_cast<std::size_t>(j)]].robot)
-        continue;
-      targets.distance_m(i, j) = static_cast<float>(distance);
-      targets.information(i, j) = static_cast<float>(
-          1 / (params.sigma_m * params.sigma_m + std::pow(params.sigma_relative * distance, 2)));
-      ++(is_near ? near : far);
-    }
+  const auto is_near = predicted_m.array() >= 0;
+  const auto near = static_cast<double>(is_near.count());
+  const double far = static_cast<double>((targets.information.array() > 0).count()) - near;
   if (far > 0)
     targets.weight =
-        (predicted_m.array() >= 0)
-            .select(targets.weight, targets.weight * static_cast<float>(params.far_weight * near / far));
+        is_near.select(targets.weight, targets.weight * static_cast<float>(params.far_weight * near / far));
+  targets.distance_m = is_near.select(predicted_m, targets.distance_m);
+  return evidence;
+}
+
+/// By both models of distance: the medians know no far distances where robots went short ways, and the law of
+/// decay does not hold everywhere.
+std::vector<LayoutEvidence> gather_evidence(const RadioMeasurements& radio,
+                                            const std::vector<std::size_t>& nodes,
+                                            const std::vector<RigidBody>& bodies,
+                                            const LayoutParams& params) {
+  std::vector<LayoutEvidence> evidence;
+  const auto add = [&](const auto& model) {
+    evidence.push_back(evidence_of_paths(
+        radio, nodes, bodies, [&](double similarity) { return model.distance_m(similarity); }, params));
+  };
+  add(*radio.layout_model);
+  if (radio.decay_model) add(*radio.decay_model);
   return evidence;
 }
 
@@ -411,31 +438,38 @@ TeamField field_of(const RadioMeasurements& radio, const std::vector<std::size_t
   return {RadioField(std::move(field_nodes), heard, params.channels), heard * heard.transpose()};
 }
 
-/// Fits the layout and its mirror image, and what is left of them to the radio field: a layout that fits the
-/// distances nearly as well may be the one the field fits better.
-std::vector<RigidBody> best_layout(const std::vector<RigidBody>& bodies, const LayoutEvidence& evidence,
-                                   const TeamField* field, const LayoutParams& params,
-                                   const FieldParams& field_params, const Progress& progress) {
+/// Layouts fitted to the evidence, from the scaling of its distances and from the mirror image.
+std::vector<FieldFit> layouts_by(const LayoutEvidence& evidence, const std::vector<RigidBody>& bodies,
+                                 const LayoutParams& params) {
   double farthest = 0;
-  for (const double path : evidence.paths_m.reshaped())
-    if (std::isfinite(path)) farthest = std::max(farthest, path);
-  std::vector<std::pair<double, FieldFit>> layouts;
-  for (auto& start : starts_by_scaling(bodies, evidence.paths_m.cwiseMin(farthest))) {
-    report_progress(progress, "team frame", 0.2 * static_cast<double>(layouts.size()));
+  for (const double distance : evidence.distances_m.reshaped())
+    if (std::isfinite(distance)) farthest = std::max(farthest, distance);
+  std::vector<FieldFit> layouts;
+  for (auto& start : starts_by_scaling(bodies, evidence.distances_m.cwiseMin(farthest))) {
     const double cost = fit_layout(start, evidence.targets, params.rounds);
-    layouts.emplace_back(cost, FieldFit{std::move(start), FieldModel::nominal(bodies.size()), 0});
+    layouts.push_back({std::move(start), FieldModel::nominal(bodies.size()), cost});
   }
-  std::stable_sort(layouts.begin(), layouts.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  FieldFit best = std::move(layouts[0].second);
-  if (!field) return best.bodies;
-  advance_by_field(best, *field, field_params, true);
-  if (layouts[1].first < kMaxCostRatio * layouts[0].first) {
-    advance_by_field(layouts[1].second, *field, field_params, true);
-    if (layouts[1].second.cost < best.cost) best = std::move(layouts[1].second);
-  }
-  for (int round = 1; round < field_params.rounds; ++round) {
-    report_progress(progress, "team frame", 0.4 + 0.6 * round / field_params.rounds);
+  return layouts;
+}
+
+bool is_cheaper(const FieldFit& a, const FieldFit& b) { return a.cost < b.cost; }
+
+/// The layout that the radio field fits best after a round, fitted further; without a field, the one that
+/// fits the first evidence best.
+std::vector<RigidBody> best_layout(const std::vector<RigidBody>& bodies,
+                                   const std::vector<LayoutEvidence>& evidence, const TeamField* field,
+                                   const LayoutParams& params, const FieldParams& field_params,
+                                   const Progress& progress) {
+  std::vector<FieldFit> layouts;
+  for (const LayoutEvidence& kind : evidence)
+    for (FieldFit& layout : layouts_by(kind, bodies, params)) {
+      report_progress(progress, "team frame", 0.15 * static_cast<double>(layouts.size()));
+      if (field) advance_by_field(layout, *field, field_params, true);
+      layouts.push_back(std::move(layout));
+    }
+  FieldFit best = *std::min_element(layouts.begin(), layouts.end(), is_cheaper);
+  for (int round = 1; field && round < field_params.rounds; ++round) {
+    report_progress(progress, "team frame", 0.6 + 0.4 * round / field_params.rounds);
     advance_by_field(best, *field, field_params, false);
   }
   return best.bodies;
@@ -451,8 +485,9 @@ TeamFrame align_by_fingerprints(const Mission& mission, const KnownStarts& start
   std::vector<RigidBody> bodies = fingerprint_bodies(mission, starts, radio, nodes);
   const bool all_known = std::all_of(bodies.begin(), bodies.end(), [](const auto& b) { return b.fixed; });
   if (radio.layout_model && !all_known) {
-    LayoutEvidence evidence = gather_evidence(radio, nodes, bodies, params);
-    drop_pairs_between_groups(evidence.targets, radio, nodes, groups);
+    std::vector<LayoutEvidence> evidence = gather_evidence(radio, nodes, bodies, params);
+    if (!field.enabled) evidence.resize(1);
+    for (LayoutEvidence& kind : evidence) drop_pairs_between_groups(kind.targets, radio, nodes, groups);
     std::optional<TeamField> team_field;
     if (field.enabled) team_field = field_of(radio, nodes, field);
     bodies = best_layout(bodies, evidence, team_field ? &*team_field : nullptr, params, field, progress);

@@ -4,8 +4,9 @@
 // Distances follow paths through a graph: odometry within a robot, predicted distances to each fingerprint's
 // most similar ones of other robots (Isomap, Tenenbaum et al. 2000). Similarity ranks near fingerprints well
 // and far ones badly, so far distances must not come from similarity directly. Classical multidimensional
-// scaling (Torgerson 1952) of these distances and its mirror image are the initial layouts; trajectories
-// rotate but do not flip, which distinguishes the two. Each is fitted to all distances with Cauchy's loss and
+// scaling (Torgerson 1952) of these distances and its mirror image are the initial layouts, by each of two
+// models of distance; trajectories rotate but do not flip, which distinguishes a layout from its mirror
+// image. Each is fitted to all distances with Cauchy's loss and
 //   sigma_ij^2 = sigma_0^2 + (r d_ij)^2
 // one robot at a time (rigid_layout.hpp), then to the team's radio field (field_refinement.hpp), which
 // decides between them.

@@ -49,6 +49,11 @@ Moments moments_of_truncated_gaussian(double a) {
 
 constexpr std::size_t kMedianBins = 30;
 
+// Near 1 the logarithm vanishes and noise dominates; near 0 only a few readings overlap.
+constexpr double kMinSimilarity = 0.02;
+constexpr double kMaxSimilarity = 0.9;
+constexpr double kMinDistance_m = 2;
+
 }  // namespace
 
 PredictedDistance truncated_at_zero(double mean_m, double sigma_m, int samples) {
@@ -125,6 +130,17 @@ std::optional<double> DistanceModel::smallest_distance_m() const {
   for (const auto& p : steps_)
     if (p && p->mean_m < informative_m) smallest = std::min(p->mean_m, smallest.value_or(p->mean_m));
   return smallest;
+}
+
+double DecayModel::distance_m(double s) const { return std::max(kNearest_m, -length_m * std::log(s)); }
+
+std::optional<DecayModel> fit_decay(const std::vector<DistanceSample>& samples, int min_samples) {
+  std::vector<double> lengths;
+  for (const auto& [similarity, distance] : samples)
+    if (similarity > kMinSimilarity && similarity < kMaxSimilarity && distance > kMinDistance_m)
+      lengths.push_back(distance / -std::log(similarity));
+  if (static_cast<int>(lengths.size()) < min_samples) return std::nullopt;
+  return DecayModel{upper_median(std::move(lengths))};
 }
 
 std::optional<MedianModel> MedianModel::fit(std::vector<DistanceSample> samples, int min_samples) {

@@ -44,7 +44,7 @@ SimilarityMeasure named(const std::string& name) {
 }  // namespace
 
 RadioMeasurements measure_radio(const Mission& mission, const RadioParams& params, const Progress& progress) {
-  RadioMeasurements radio{{}, {}, {}, {}, DistanceModel({}, params.distance_model), {}, {}};
+  RadioMeasurements radio{{}, {}, {}, {}, DistanceModel({}, params.distance_model), {}, {}, {}};
   std::vector<std::vector<Fingerprint>> heard;
   for (const Robot& robot : mission.robots) heard.push_back(make_fingerprints(robot, params.fingerprint));
   radio.rssi_offsets = estimate_rssi_offsets(heard, params.similarity, params.rssi_offset);
@@ -66,8 +66,9 @@ RadioMeasurements measure_radio(const Mission& mission, const RadioParams& param
   const double trusted = params.distance_model.max_trusted_path_m;
   radio.near_model =
       DistanceModel(training_samples(radio, radio.near_similarity, trusted), params.distance_model);
-  radio.layout_model = MedianModel::fit(training_samples(radio, radio.layout_similarity, trusted),
-                                        params.distance_model.min_samples);
+  auto samples = training_samples(radio, radio.layout_similarity, trusted);
+  radio.decay_model = fit_decay(samples, params.distance_model.min_samples);
+  radio.layout_model = MedianModel::fit(std::move(samples), params.distance_model.min_samples);
   return radio;
 }
 

@@ -62,6 +62,7 @@ struct RadioMeasurements {
   TeamSimilarity layout_similarity;     ///< over nodes, by `layout_measure`
   DistanceModel near_model;
   std::optional<MedianModel> layout_model;  ///< absent with too few training samples
+  std::optional<DecayModel> decay_model;    ///< the same samples; absent with too few informative ones
   RssiOffsets rssi_offsets = {};            ///< per robot; already subtracted from its fingerprints
 
   const PlacedFingerprint& at(std::size_t node) const {
