@@ -80,6 +80,41 @@ TEST_F(Prune, ExhaustiveGivesTheSameBytesInBothModes) {
   }
 }
 
+TEST_F(Prune, DistributedGivesTheSameBytesInBothModesAndSaysWhatItSends) {
+  for (const std::string mode : {"joint", "link"}) {
+    ASSERT_EQ(prune("tree", {"--mode", mode}).status, 0);
+    const auto outcome = prune("parties", {"--mode", mode, "--distributed", "--json"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(read_file(folder() / "parties/candidates.csv"), read_file(folder() / "tree/candidates.csv"))
+        << mode;
+    const auto json = nlohmann::json::parse(outcome.out);
+    const auto summary = nlohmann::json::parse(read_file(folder() / "parties/summary.json"));
+    EXPECT_EQ(json["bytes"], summary["bytes"]);
+    EXPECT_GT(json["rounds"], 1);
+    for (const char* robot : {"a", "b"}) {
+      ASSERT_EQ(json["bytes"][robot].size(), 5U) << mode;
+      EXPECT_GT(json["bytes"][robot]["estimate"], 0);
+      EXPECT_GT(json["log_bytes"][robot], 0);
+    }
+    for (const char* kind : {"requests", "pairs"}) {
+      EXPECT_GT(json["bytes"]["a"][kind], 0) << "the robot listed first asks";
+      EXPECT_EQ(json["bytes"]["b"][kind], 0);
+    }
+    for (const char* kind : {"boxes", "poses"}) {
+      EXPECT_GT(json["bytes"]["b"][kind], 0) << "and the other one answers";
+      EXPECT_EQ(json["bytes"]["a"][kind], 0);
+    }
+  }
+  const auto logged = run({"run", "m", "-o", "logged", "--log", "logs", "--set", "alignment.references=3",
+                           "alignment.tried_places=12", "alignment.refined_places=4"},
+                          folder());
+  ASSERT_EQ(logged.status, 0) << logged.err;
+  const auto summary = nlohmann::json::parse(read_file(folder() / "parties/summary.json"));
+  for (const char* robot : {"a", "b"})
+    EXPECT_EQ(summary["log_bytes"][robot],
+              std::filesystem::file_size(folder() / "logs" / (std::string(robot) + ".rslog")));
+}
+
 TEST_F(Prune, ListsAllWhereRunListsTheMostProbable) {
   const std::vector<std::string> ten{"--set", "overlap.max_listed_candidates=10"};
   ASSERT_EQ(prune("all", {}).status, 0);

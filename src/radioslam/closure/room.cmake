@@ -8,8 +8,11 @@ radioslam_room(closure
     overlap/overlap_exchange.cpp
     overlap/overlap_joint.cpp
     overlap/overlap_link.cpp
+    overlap/overlap_party.cpp
+    overlap/overlap_remote_boxes.cpp
     overlap/overlap_search.cpp
     overlap/overlap_view.cpp
+    overlap/skeleton_message.cpp
     sequence_closures.cpp
     sequence_match.cpp
     sequence_window.cpp

@@ -93,17 +93,15 @@ class AskedCandidates {
   std::map<std::pair<RobotIndex, RobotIndex>, std::set<Keyframes>> asked_;
 };
 
-/// Hands over the candidates of any of the sources, which are of one team's alignments; returns their counts.
-template <class Source>
-OverlapCounts search_all(const std::vector<Source>& sources, const std::vector<OverlapSensor>& sensors,
-                         const OverlapParams& params, SearchMethod method,
-                         const std::function<void(const CandidateList::Group&)>& take) {
-  std::vector<TeamOverlapSearch<Source>> searches;
-  for (const Source& source : sources) searches.emplace_back(source, sensors, params, method);
+/// Hands over the candidates of any of the searches, which are of one team's alignments; returns their
+/// counts.
+template <class Search>
+OverlapCounts take_all(const std::vector<Search>& searches, std::uint32_t robots,
+                       const std::function<void(const CandidateList::Group&)>& take) {
   OverlapCounts counts;
-  for (std::uint32_t a = 0; a < sensors.size(); ++a) {
-    std::vector<CandidateList::Group> groups(sensors.size());
-    for (const auto& search : searches) {
+  for (std::uint32_t a = 0; a < robots; ++a) {
+    std::vector<CandidateList::Group> groups(robots);
+    for (const Search& search : searches) {
       OverlapCounts own = search.search(a, [&](const std::vector<OverlapCandidate>& found) {
         if (found.empty()) return;
         CandidateList::Group& group = groups[found.front().robot_b];
@@ -123,6 +121,35 @@ OverlapCounts search_all(const std::vector<Source>& sources, const std::vector<O
     }
   }
   return counts;
+}
+
+ExchangeResult exchange_of(const OverlapTraffic& traffic) {
+  ExchangeResult result;
+  result.rounds = traffic.rounds;
+  for (const auto& of_robot : traffic.bytes) {
+    auto& bytes = result.bytes.emplace_back();
+    for (std::size_t kind = 0; kind < of_robot.size(); ++kind)
+      bytes[kOverlapMessageKinds[kind]] = of_robot[kind];
+  }
+  return result;
+}
+
+template <class Source>
+void search_all(const std::vector<Source>& sources, const std::vector<OverlapSensor>& sensors,
+                const OverlapParams& params, SearchMethod method,
+                const std::function<void(const CandidateList::Group&)>& take, OverlapStage& stage) {
+  const auto robots = static_cast<std::uint32_t>(sensors.size());
+  if (method == SearchMethod::kDistributed) {
+    OverlapTraffic traffic;
+    std::vector<TeamOverlapExchange<Source>> searches;
+    for (const Source& source : sources) searches.emplace_back(source, sensors, params, traffic);
+    stage.exchange = exchange_of(traffic);
+    stage.counts = take_all(searches, robots, take);
+  } else {
+    std::vector<TeamOverlapSearch<Source>> searches;
+    for (const Source& source : sources) searches.emplace_back(source, sensors, params, method);
+    stage.counts = take_all(searches, robots, take);
+  }
 }
 
 }  // namespace
@@ -152,10 +179,10 @@ OverlapStage find_overlaps(std::vector<JointGraph<Pose>> alignments, const Overl
     stage.estimated_links = links.estimated;
     for (std::size_t a = 0; a < sensors.size(); ++a)
       for (std::size_t b = a + 1; b < sensors.size(); ++b)
-        if (links.covariance.view(a, b).ties() == 0)
+        if (links.covariance.team().view(a, b).ties() == 0)
           stage.unlinked.emplace_back(RobotIndex(a), RobotIndex(b));
     sources.push_back(std::move(links.covariance));
-    stage.counts = search_all(sources, sensors, rule, request.method, take);
+    search_all(sources, sensors, rule, request.method, take, stage);
   } else {
     std::vector<JointCovariance<Pose>> sources;
     for (JointGraph<Pose>& joint : alignments) {
@@ -166,7 +193,7 @@ OverlapStage find_overlaps(std::vector<JointGraph<Pose>> alignments, const Overl
       joint = {};
     }
     stage.alignments = sources.size();
-    stage.counts = search_all(sources, sensors, rule, request.method, take);
+    search_all(sources, sensors, rule, request.method, take, stage);
   }
   most_probable.move_to(stage.listed);
   stage.searched = true;

@@ -11,10 +11,12 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "radioslam/base/fields.hpp"
+#include "radioslam/closure/overlap/overlap_exchange.hpp"
 #include "radioslam/closure/overlap/overlap_search.hpp"
 #include "radioslam/joint/joint_graph.hpp"
 #include "radioslam/joint/team_alignment.hpp"
@@ -82,11 +84,12 @@ struct OverlapRequest {
 
 struct OverlapStage {
   CandidateList listed;
-  CandidateList of_asked;        ///< candidates, listed or not, that were asked for
-  OverlapCounts counts;          ///< of all candidates
-  bool searched = false;         ///< false: the estimate's covariances are not computable
-  std::size_t alignments = 1;    ///< number of team alignments whose candidates these are
-  bool estimated_links = false;  ///< mode link: no range had angles at both ends
+  CandidateList of_asked;                  ///< candidates, listed or not, that were asked for
+  OverlapCounts counts;                    ///< of all candidates
+  bool searched = false;                   ///< false: the estimate's covariances are not computable
+  std::optional<ExchangeResult> exchange;  ///< of a distributed search
+  std::size_t alignments = 1;              ///< number of team alignments whose candidates these are
+  bool estimated_links = false;            ///< mode link: no range had angles at both ends
   std::vector<std::pair<RobotIndex, RobotIndex>> unlinked;  ///< mode link: not compared, for want of a link
 };
 

@@ -124,6 +124,7 @@ void add_overlaps(RunResult& result, const Mission& mission, OverlapStage overla
                            std::to_string(overlaps.counts.kept) +
                            " candidates (overlap.max_listed_candidates); prune lists all");
   result.candidates = std::move(overlaps.listed);
+  result.exchange = std::move(overlaps.exchange);
   if (overlaps.estimated_links)
     result.notes.push_back(
         "mode link used relative poses of the joint estimate at the links: no range has a direct "

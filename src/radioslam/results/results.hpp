@@ -244,6 +244,13 @@ struct SimilarityOverTime {
   std::vector<float> similarity;
 };
 
+/// What robots sent each other in a distributed overlap search. By robot, in the order of the mission.
+struct ExchangeResult {
+  std::vector<std::map<std::string, std::uint64_t>> bytes;  ///< by kind of message
+  std::uint64_t rounds = 0;
+  std::vector<std::uint64_t> log_bytes;  ///< what sending its log to every other robot takes; empty: unknown
+};
+
 /// Result of a run.
 struct RunResult {
   std::string mission_name;
@@ -264,6 +271,7 @@ struct RunResult {
   std::vector<std::string> unplaced;
   double weight = 1;                           ///< of `robots` among the hypotheses
   std::vector<HypothesisResult> alternatives;  ///< most likely first
+  std::optional<ExchangeResult> exchange;      ///< of a distributed overlap search
   std::map<std::string, double> counts;
   std::vector<StageTiming> timings;
   std::vector<EffectiveParameter> parameters;

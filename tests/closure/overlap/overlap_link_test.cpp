@@ -30,11 +30,11 @@ TYPED_TEST(OverlapLinkOf, PrefixSumsEqualCarryingTheCovarianceAlong) {
       for (std::size_t j = i; j < size.poses; j += 9) {
         const auto expected = carried(world.chains[0], i, j);
         // Coordinates of 1e6 m have a resolution of 1e-10 m, and so have the lever arms.
-        EXPECT_LT((source.odometry(0, i, j) - expected).norm(),
+        EXPECT_LT((source.poses(0).odometry(i, j) - expected).norm(),
                   (origin_m > 0 ? 1e-7 : 1e-10) * (1e-3 + expected.norm()));
         const typename TypeParam::Jacobian ad =
             (world.chains[0].poses[i].inverse() * world.chains[0].poses[j]).adjoint();
-        EXPECT_LT((source.odometry(0, j, i) - ad * expected * ad.transpose()).norm(),
+        EXPECT_LT((source.poses(0).odometry(j, i) - ad * expected * ad.transpose()).norm(),
                   1e-6 * (1e-3 + expected.norm()));
       }
   }
@@ -45,7 +45,7 @@ TYPED_TEST(OverlapLinkOf, RelativePlaceEqualsTheCompositionOverTheLink) {
   using Jacobian = typename TypeParam::Jacobian;
   const auto world = test::draw_world<TypeParam>(4, {});
   const LinkCovariance<TypeParam> source(world.chains, world.links);
-  const auto view = source.view(0, 1);
+  const auto view = source.team().view(0, 1);
   const auto& a = world.chains[0].poses;
   const auto& b = world.chains[1].poses;
   for (std::size_t c = 0; c < world.links.size(); ++c) {
@@ -60,10 +60,10 @@ TYPED_TEST(OverlapLinkOf, RelativePlaceEqualsTheCompositionOverTheLink) {
         const TypeParam T_k_l = a[k].inverse() * a[link.pose_a] * link.T_a_b * T_cb_l;
         const Jacobian after_ca = (link.T_a_b * T_cb_l).inverse().adjoint(),
                        after_c = T_cb_l.inverse().adjoint();
-        const Jacobian right = after_ca * source.odometry(0, k, link.pose_a) * after_ca.transpose() +
+        const Jacobian right = after_ca * source.poses(0).odometry(k, link.pose_a) * after_ca.transpose() +
                                after_c * link.covariance * after_c.transpose() +
-                               source.odometry(1, link.pose_b, l);
-        const auto place = view.relative(c, source.records(0)[k], source.records(1)[l]);
+                               source.poses(1).odometry(link.pose_b, l);
+        const auto place = view.relative(c, source.poses(0).records()[k], source.poses(1).records()[l]);
         EXPECT_LT((place.difference_m - a[k].rotate(T_k_l.translation())).norm(), 1e-9);
         const TypeParam turn = TypeParam(TypeParam::Point::Zero(), rotation_of(a[k])) *
                                TypeParam(TypeParam::Point::Zero(), rotation_of(T_k_l));

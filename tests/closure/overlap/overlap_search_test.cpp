@@ -98,12 +98,12 @@ TYPED_TEST(OverlapSearchOf, RunsOfAnyLengthGiveTheSame) {
                                    70);  // the first robot's chain breaks
   const auto whole = JointCovariance<TypeParam>::compute(world.graph, world.robots);
   ASSERT_TRUE(whole.has_value());
-  ASSERT_EQ(whole->runs(0).size(), 1U);
+  ASSERT_EQ(whole->team().runs(0, whole->poses(0)).size(), 1U);
   const auto expected = search_overlaps(*whole, world.sensors, {});
   ASSERT_GT(expected.candidates.size(), 50U);
   for (const std::size_t dense_scalars : {1U, 10000U}) {
     const auto source = JointCovariance<TypeParam>::compute(world.graph, world.robots, dense_scalars);
-    ASSERT_GT(source->runs(0).size(), 1U);
+    ASSERT_GT(source->team().runs(0, source->poses(0)).size(), 1U);
     const auto found = search_overlaps(*source, world.sensors, {});
     ASSERT_EQ(found.candidates.size(), expected.candidates.size()) << dense_scalars;
     EXPECT_EQ(found.counts.pairs, expected.counts.pairs);

@@ -1,7 +1,9 @@
 // radioslam prune: finds the keyframe pairs of different robots whose views can overlap.
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -30,8 +32,29 @@ struct PruneOptions {
   ParameterOptions parameters;
   StatedStarts starts = StatedStarts::kIgnored;
   bool exhaustive = false;
+  bool distributed = false;
   bool json = false;
 };
+
+SearchMethod method_of(const PruneOptions& options) {
+  if (options.distributed) return SearchMethod::kDistributed;
+  return options.exhaustive ? SearchMethod::kExhaustive : SearchMethod::kTree;
+}
+
+/// Searches by messages between robots, and adds what sending logs would take.
+RunOutput run_distributed(MissionInput input, const RunParams& params, const RunOptions& how,
+                          const Progress& progress) {
+  if (!std::holds_alternative<std::monostate>(input.graph))
+    return run_input(std::move(input), params, how, progress);
+  StageClock timed;
+  const MeasuredRecordings recordings = measure_recordings(input.mission, params, how, timed, progress);
+  RunOutput run = run_pipeline(input.mission, recordings, params, how, std::move(timed), progress);
+  if (!run.result.exchange) return run;
+  const MissionLogs logs = logs_of_recordings(input.mission, recordings, params);
+  for (const RobotLog& log : logs.robots)
+    run.result.exchange->log_bytes.push_back((logs.robots.size() - 1) * log.bytes().size());
+  return run;
+}
 
 /// Writes candidates.csv while it searches.
 RunOutput search(const PruneOptions& options, const RunParams& params, const std::filesystem::path& folder) {
@@ -42,16 +65,33 @@ RunOutput search(const PruneOptions& options, const RunParams& params, const std
   CandidateWriter candidates(folder / "candidates.csv", std::move(ids));
   RunOptions how;
   how.overlap_only = true;
-  how.search = options.exhaustive ? SearchMethod::kExhaustive : SearchMethod::kTree;
+  how.search = method_of(options);
   how.take_candidates = [&](const CandidateList::Group& group, const CandidateList& keyframes) {
     candidates.write(group, keyframes);
   };
   const std::vector<std::string> notes = input.notes;
-  auto run = run_input(std::move(input), params, how, line.progress());
+  auto run = options.distributed ? run_distributed(std::move(input), params, how, line.progress())
+                                 : run_input(std::move(input), params, how, line.progress());
   candidates.close();
   run.result.notes.insert(run.result.notes.begin(), notes.begin(), notes.end());
   run.result.parameters = effective_parameters(params);
   return run;
+}
+
+/// What the team sent, in all and by kind, and what its logs would take.
+void print_exchange(const ExchangeResult& exchange) {
+  std::map<std::string, std::uint64_t> by_kind;
+  std::uint64_t sent = 0, logs = 0;
+  for (const auto& of_robot : exchange.bytes)
+    for (const auto& [kind, bytes] : of_robot) by_kind[kind] += bytes, sent += bytes;
+  for (const std::uint64_t bytes : exchange.log_bytes) logs += bytes;
+  std::cout << "sent in " << exchange.rounds << " rounds: " << sent << " bytes";
+  const char* mark = " (";
+  for (const auto& [kind, bytes] : by_kind) std::cout << std::exchange(mark, ", ") << kind << ' ' << bytes;
+  std::cout << ')';
+  if (!exchange.log_bytes.empty())
+    std::cout << "; every robot's log sent to all others: " << logs << " bytes";
+  std::cout << '\n';
 }
 
 void print_pruned(const RunResult& result, const std::string& output) {
@@ -62,6 +102,7 @@ void print_pruned(const RunResult& result, const std::string& output) {
   };
   std::cout << output << ": " << count("candidates") << " of " << count("pairs")
             << " keyframe pairs can overlap, " << count("distances_evaluated") << " distances evaluated\n";
+  if (result.exchange) print_exchange(*result.exchange);
 }
 
 void prune(const PruneOptions& options) {
@@ -101,8 +142,14 @@ void add_prune(CLI::App& program) {
           "of the joint estimate, and a note says so")
       ->check(CLI::IsMember({"joint", "link"}));
   add_known_starts_option(*command, options->starts);
-  command->add_flag("--exhaustive", options->exhaustive,
-                    "Test every pair instead of searching a tree; slower, with the same result");
+  auto* exhaustive =
+      command->add_flag("--exhaustive", options->exhaustive,
+                        "Test every pair instead of searching a tree; slower, with the same result");
+  command
+      ->add_flag("--distributed", options->distributed,
+                 "Search as robots that know their own poses alone and send each other boxes around parts of "
+                 "their trajectories, with the same result; says how many bytes each sends")
+      ->excludes(exhaustive);
   add_parameter_options(*command, options->parameters);
   add_json_option(*command, options->json);
   add_threads_option(*command);

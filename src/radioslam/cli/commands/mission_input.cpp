@@ -12,7 +12,6 @@
 #include "radioslam/io/mission/mission_folder.hpp"
 #include "radioslam/io/run/robot_logs.hpp"
 #include "radioslam/joint/closures/closure.hpp"
-#include "radioslam/records/logs_of_mission.hpp"
 #include "radioslam/records/mission_of_logs.hpp"
 
 namespace radioslam::cli {
@@ -135,13 +134,18 @@ void add_closures_of_scans(const MeasuredScans& scans, Mission& mission) {
 
 }  // namespace
 
+MissionLogs logs_of_recordings(const Mission& recorded, const MeasuredRecordings& recordings,
+                               const RunParams& params) {
+  Mission measured = recordings.mission ? *recordings.mission : recorded;
+  add_closures_of_scans(recordings.scans, measured);
+  return logs_of(measured, params.keyframe);
+}
+
 MissionInput write_and_read_logs(const MissionInput& input, const RunParams& params,
                                  const std::filesystem::path& folder, const Progress& progress) {
   StageClock timed;
-  MeasuredRecordings recordings = measure_recordings(input.mission, params, {}, timed, progress);
-  Mission measured = recordings.mission ? *std::move(recordings.mission) : input.mission;
-  add_closures_of_scans(recordings.scans, measured);
-  const MissionLogs logs = logs_of(measured, params.keyframe);
+  const MeasuredRecordings recordings = measure_recordings(input.mission, params, {}, timed, progress);
+  const MissionLogs logs = logs_of_recordings(input.mission, recordings, params);
   write_logs(folder, logs.robots);
   TeamLog team;
   for (const RobotLog& log : logs.robots) team.accept(log.bytes());

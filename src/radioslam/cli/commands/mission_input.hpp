@@ -15,6 +15,7 @@
 #include "radioslam/mission/mission.hpp"
 #include "radioslam/mission/truth.hpp"
 #include "radioslam/pipeline/pipeline.hpp"
+#include "radioslam/records/logs_of_mission.hpp"
 
 namespace radioslam::cli {
 
@@ -26,6 +27,10 @@ struct MissionInput {
   std::vector<std::string> notes;                  ///< on what of a graph's file was left out
   std::variant<std::monostate, TeamGraph<SE2>, TeamGraph<SE3>> graph;
 };
+
+/// What each robot of the mission would have said, from what its recordings measured.
+MissionLogs logs_of_recordings(const Mission& recorded, const MeasuredRecordings& recordings,
+                               const RunParams& params);
 
 /// Writes what each robot of the mission would have said, as `<robot>.rslog`, and returns what these logs
 /// say: the same as read_input() of the files, with the truth of the mission.

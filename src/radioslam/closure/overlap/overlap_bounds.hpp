@@ -83,6 +83,8 @@ class OverlapTest {
         is_attainable_(rule.radius_m().has_value()),
         radius_m_(rule.radius_m().value_or(0)) {}
 
+  const View& view() const { return view_; }
+
   /// Distances of a pair that is kept; nothing otherwise.
   std::optional<Overlap> pair(std::size_t tie, const Record& k, const Record& l) const {
     if (!is_attainable_) return std::nullopt;

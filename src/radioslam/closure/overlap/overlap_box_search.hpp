@@ -4,7 +4,10 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <deque>
+#include <iterator>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -13,52 +16,18 @@
 
 namespace radioslam {
 
-// The overlap test between the poses of two robots, for the searches over all their pairs.
-
-/// Two robots' poses and the test between them. Keeps references to the source.
-template <OverlapSource Source>
-class OverlapPair {
- public:
-  using View = typename Source::View;
-  using Pose = typename View::Pose;
-  using Bound = LinkBound<Pose>;
-  using Records = std::vector<typename View::Record>;
-
-  OverlapPair(const Source& source, std::uint32_t a, std::uint32_t b, View view, const OverlapRule& rule)
-      : a_(a),
-        b_(b),
-        records_a_(source.records(a)),
-        records_b_(source.records(b)),
-        view_(std::move(view)),
-        test_(view_, rule) {}
-  OverlapPair(const OverlapPair&) = delete;
-  OverlapPair& operator=(const OverlapPair&) = delete;
-
-  std::uint32_t a() const { return a_; }
-  std::uint32_t b() const { return b_; }
-  const Records& records_a() const { return records_a_; }
-  const Records& records_b() const { return records_b_; }
-  const View& view() const { return view_; }
-  const OverlapTest<View>& test() const { return test_; }
-
-  /// All links between the robots, without bounds.
-  std::vector<Bound> all_ties() const {
-    std::vector<Bound> ties(view_.ties());
-    for (std::size_t t = 0; t < ties.size(); ++t) ties[t].tie = static_cast<std::uint32_t>(t);
-    return ties;
-  }
-
-  /// Adds pose k of a and pose l of b to `out` if they are kept.
-  void compare(std::uint32_t k, std::uint32_t l, std::span<const Bound> ties, OverlapCandidates& out) const {
-    test_.compare({a_, b_, k, l}, records_a_[k], records_b_[l], ties, out);
-  }
-
- private:
-  std::uint32_t a_, b_;
-  const Records &records_a_, &records_b_;
-  View view_;
-  OverlapTest<View> test_;
+/// Robots a and b, a listed first.
+struct RobotPair {
+  std::uint32_t a = 0, b = 0;
 };
+
+/// All links between two robots, without bounds.
+template <OverlapView View>
+std::vector<LinkBound<typename View::Pose>> all_ties(const View& view) {
+  std::vector<LinkBound<typename View::Pose>> ties(view.ties());
+  for (std::size_t t = 0; t < ties.size(); ++t) ties[t].tie = static_cast<std::uint32_t>(t);
+  return ties;
+}
 
 /// Adds the results of a part of a search.
 inline void append(OverlapCandidates& all, OverlapCandidates&& part) {
@@ -83,27 +52,79 @@ OverlapCandidates gather_overlaps(std::size_t tasks, OverlapCandidates found, Wo
   return found;
 }
 
+/// Robot b's boxes and poses where all of them are at hand. A search through boxes that come from another
+/// robot (overlap_exchange.hpp) waits for some.
+template <OverlapView View>
+class KnownBoxes {
+ public:
+  using Pose = typename View::Pose;
+  using Record = typename View::Record;
+  using Bound = LinkBound<Pose>;
+
+  KnownBoxes(const OverlapTree<Pose>& tree, const std::vector<Record>& records)
+      : tree_(tree), records_(records) {}
+
+  const std::vector<typename OverlapTree<Pose>::Root>& roots() const { return tree_.roots; }
+  const OverlapNode<Pose>& node(std::uint32_t j) const { return tree_.nodes[j]; }
+  const Record& middle(std::uint32_t j) const { return records_[tree_.nodes[j].middle]; }
+  const Record& record(std::uint32_t l) const { return records_[l]; }
+  /// Whether box j's halves, or its poses, are known; if not, this box of a waits for them.
+  bool has_halves(std::uint32_t, std::uint32_t, std::span<const Bound>) const { return true; }
+  bool has_poses(std::uint32_t, std::uint32_t, std::span<const Bound>) const { return true; }
+
+ private:
+  const OverlapTree<Pose>& tree_;
+  const std::vector<Record>& records_;
+};
+
 /// Keeps references to its arguments.
-template <OverlapSource Source>
+template <OverlapView View, class Boxes>
 class OverlapBoxSearch {
  public:
-  using Pose = typename Source::View::Pose;
+  using Pose = typename View::Pose;
   using Tree = OverlapTree<Pose>;
+  using Bound = LinkBound<Pose>;
+  using Records = std::vector<typename View::Record>;
 
-  OverlapBoxSearch(const OverlapPair<Source>& pair, const Tree& A, const Tree& B)
-      : pair_(pair), tree_a_(A), tree_b_(B) {}
+  OverlapBoxSearch(const View& view, const OverlapRule& rule, RobotPair robots, const Tree& tree_a,
+                   const Records& records_a, Boxes& boxes_b)
+      : view_(view),
+        test_(view, rule),
+        robots_(robots),
+        tree_a_(tree_a),
+        records_a_(records_a),
+        boxes_b_(boxes_b) {}
 
-  OverlapCandidates run(const Source& source) const {
+  /// Through all boxes, on several threads.
+  OverlapCandidates run() const {
     OverlapCandidates found;
-    const std::vector<Task> tasks = open(first_tasks(source), found);
+    const std::vector<Task> tasks = open(first_tasks(), found);
     return gather_overlaps(tasks.size(), std::move(found), [&](std::size_t t, OverlapCandidates& out) {
-      std::vector<std::vector<Bound>> levels(kDeepest);
-      descend(tasks[t].node_a, tasks[t].node_b, tasks[t].ties, 0, levels, out);
+      visit(tasks[t].node_a, tasks[t].node_b, tasks[t].ties, out);
     });
   }
 
+  /// From all roots, in order.
+  void visit_roots(OverlapCandidates& out) const {
+    for (const Task& task : first_tasks()) visit(task.node_a, task.node_b, task.ties, out);
+  }
+  void visit(std::uint32_t i, std::uint32_t j, std::span<const Bound> from, OverlapCandidates& out) const {
+    std::vector<std::vector<Bound>> levels(kDeepest);
+    descend(i, j, from, 0, levels, out);
+  }
+  void visit_halves(std::uint32_t i, std::uint32_t j, std::span<const Bound> from,
+                    OverlapCandidates& out) const {
+    for (const std::uint32_t half : {j + 1, boxes_b_.node(j).right}) visit(i, half, from, out);
+  }
+  void compare_all(std::uint32_t i, std::uint32_t j, std::span<const Bound> ties,
+                   OverlapCandidates& out) const {
+    const Node &I = tree_a_.nodes[i], &J = boxes_b_.node(j);
+    for (std::uint32_t k = I.begin; k < I.end; ++k)
+      for (std::uint32_t l = J.begin; l < J.end; ++l)
+        test_.compare({robots_.a, robots_.b, k, l}, records_a_[k], boxes_b_.record(l), ties, out);
+  }
+
  private:
-  using Bound = LinkBound<Pose>;
   using Node = OverlapNode<Pose>;
 
   /// Pairs of boxes expanded before the work is distributed: enough for many threads, at negligible cost.
@@ -116,31 +137,33 @@ class OverlapBoxSearch {
     std::vector<Bound> ties;
   };
 
-  const Node& node_a(std::uint32_t i) const { return tree_a_.nodes[i]; }
-  const Node& node_b(std::uint32_t j) const { return tree_b_.nodes[j]; }
-
-  std::deque<Task> first_tasks(const Source& source) const {
+  std::deque<Task> first_tasks() const {
     std::deque<Task> tasks;
-    if (pair_.view().ties() == 0) return tasks;
+    if (view_.ties() == 0) return tasks;
     for (const auto& root_a : tree_a_.roots)
-      for (const auto& root_b : tree_b_.roots)
-        if (source.joined(pair_.a(), root_a.piece, pair_.b(), root_b.piece))
-          tasks.push_back({root_a.node, root_b.node, pair_.all_ties()});
+      for (const auto& root_b : boxes_b_.roots())
+        if (root_a.component == root_b.component)
+          tasks.push_back({root_a.node, root_b.node, all_ties(view_)});
     return tasks;
   }
 
-  BoxStatus test_boxes(std::uint32_t i, std::uint32_t j, std::span<const Bound> from, std::vector<Bound>& to,
-                       OverlapCounts& counts) const {
-    const Node &I = node_a(i), &J = node_b(j);
-    return pair_.test().box({I, pair_.records_a()[I.middle]}, {J, pair_.records_b()[J.middle]}, from, to,
-                            counts);
-  }
-
-  void compare_all(std::uint32_t i, std::uint32_t j, std::span<const Bound> ties,
-                   OverlapCandidates& out) const {
-    const Node &I = node_a(i), &J = node_b(j);
-    for (std::uint32_t k = I.begin; k < I.end; ++k)
-      for (std::uint32_t l = J.begin; l < J.end; ++l) pair_.compare(k, l, ties, out);
+  /// Tests a pair of boxes and appends their bounds to `ties`; then compares its poses, or calls
+  /// child(i, j) for the two pairs of boxes that it is made of.
+  template <class Child>
+  void step(std::uint32_t i, std::uint32_t j, std::span<const Bound> from, std::vector<Bound>& ties,
+            OverlapCandidates& out, const Child& child) const {
+    const Node &I = tree_a_.nodes[i], &J = boxes_b_.node(j);
+    const BoxStatus status =
+        test_.box({I, records_a_[I.middle]}, {J, boxes_b_.middle(j)}, from, ties, out.counts);
+    if (status == BoxStatus::kInside || status == BoxStatus::kCompare) {
+      if (boxes_b_.has_poses(i, j, ties)) compare_all(i, j, ties, out);
+    } else if (status == BoxStatus::kSplitA) {
+      child(i + 1, j);
+      child(I.right, j);
+    } else if (status == BoxStatus::kSplitB && boxes_b_.has_halves(i, j, ties)) {
+      child(i, j + 1);
+      child(i, J.right);
+    }
   }
 
   /// Recursion below a pair of boxes; `levels` holds the bounds of the enclosing boxes.
@@ -148,16 +171,9 @@ class OverlapBoxSearch {
                std::vector<std::vector<Bound>>& levels, OverlapCandidates& out) const {
     std::vector<Bound>& ties = levels[depth];
     ties.clear();
-    const BoxStatus status = test_boxes(i, j, from, ties, out.counts);
-    if (status == BoxStatus::kInside || status == BoxStatus::kCompare) {
-      compare_all(i, j, ties, out);
-    } else if (status == BoxStatus::kSplitA) {
-      descend(i + 1, j, ties, depth + 1, levels, out);
-      descend(node_a(i).right, j, ties, depth + 1, levels, out);
-    } else if (status == BoxStatus::kSplitB) {
-      descend(i, j + 1, ties, depth + 1, levels, out);
-      descend(i, node_b(j).right, ties, depth + 1, levels, out);
-    }
+    step(i, j, from, ties, out, [&](std::uint32_t half_i, std::uint32_t half_j) {
+      descend(half_i, half_j, ties, depth + 1, levels, out);
+    });
   }
 
   /// Expands boxes breadth-first until there are enough tasks; pairs decided meanwhile go to `out`.
@@ -166,22 +182,19 @@ class OverlapBoxSearch {
       const Task task = std::move(tasks.front());
       tasks.pop_front();
       std::vector<Bound> ties;
-      const BoxStatus status = test_boxes(task.node_a, task.node_b, task.ties, ties, out.counts);
-      if (status == BoxStatus::kInside || status == BoxStatus::kCompare) {
-        compare_all(task.node_a, task.node_b, ties, out);
-      } else if (status == BoxStatus::kSplitA) {
-        tasks.push_back({task.node_a + 1, task.node_b, ties});
-        tasks.push_back({node_a(task.node_a).right, task.node_b, ties});
-      } else if (status == BoxStatus::kSplitB) {
-        tasks.push_back({task.node_a, task.node_b + 1, ties});
-        tasks.push_back({task.node_a, node_b(task.node_b).right, ties});
-      }
+      step(task.node_a, task.node_b, task.ties, ties, out, [&](std::uint32_t i, std::uint32_t j) {
+        tasks.push_back({i, j, ties});
+      });
     }
     return {std::make_move_iterator(tasks.begin()), std::make_move_iterator(tasks.end())};
   }
 
-  const OverlapPair<Source>& pair_;
-  const Tree &tree_a_, &tree_b_;
+  const View& view_;
+  OverlapTest<View> test_;
+  RobotPair robots_;
+  const Tree& tree_a_;
+  const Records& records_a_;
+  Boxes& boxes_b_;
 };
 
 }  // namespace radioslam

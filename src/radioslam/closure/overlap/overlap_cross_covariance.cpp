@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
 
 #include "radioslam/base/check.hpp"
@@ -10,79 +11,126 @@
 
 namespace radioslam {
 
+namespace {
+
+/// Lists the variables of a robot's segments.
+template <class Pose>
+class SegmentList {
+ public:
+  SegmentList(const PoseGraph<Pose>& reduced, const typename Pose::Point& origin,
+              const VariableBlocks& blocks)
+      : graph_(reduced), origin_(origin), blocks_(blocks) {}
+
+  SkeletonSegments<Pose> list(const std::vector<SegmentVariables>& segments) {
+    for (const SegmentVariables& s : segments) {
+      const std::size_t first = place(variable(s.first)), last = place(variable(s.last));
+      list_.places.push_back({first, last, s.drift.valid() ? place(variable(s.drift)) : kNoDrift});
+    }
+    return std::move(list_);
+  }
+
+ private:
+  std::size_t place(const Variable& v) {
+    const auto [at, is_new] = known_.try_emplace({static_cast<int>(v.kind), v.id}, list_.variables.size());
+    if (!is_new) return at->second;
+    SkeletonVariable<Pose>& listed = list_.variables.emplace_back();
+    listed.block = blocks_.of(v);
+    listed.is_pose = v.kind == VariableKind::kPose;
+    if (listed.is_pose)
+      listed.to_left = shifted(graph_.poses[static_cast<std::size_t>(v.id)], origin_).adjoint();
+    return at->second;
+  }
+
+  const PoseGraph<Pose>& graph_;
+  const typename Pose::Point& origin_;
+  const VariableBlocks& blocks_;
+  std::map<std::pair<int, std::int32_t>, std::size_t> known_;
+  SkeletonSegments<Pose> list_;
+};
+
+}  // namespace
+
+template <class Pose>
+SkeletonInformation<Pose> information_of(const PoseGraph<Pose>& reduced, const typename Pose::Point& origin,
+                                         const std::vector<std::vector<SegmentVariables>>& segments) {
+  NormalEquations<Pose> equations(reduced);
+  if (!equations.empty()) equations.linearise(reduced);
+  SkeletonInformation<Pose> information{equations.matrix(), {}, {}};
+  for (const auto* blocks : {&equations.blocks().drifts, &equations.blocks().biases})
+    std::copy_if(blocks->begin(), blocks->end(), std::back_inserter(information.last),
+                 [](std::int32_t block) { return block >= 0; });
+  for (const auto& of_robot : segments)
+    information.robots.push_back(SegmentList<Pose>(reduced, origin, equations.blocks()).list(of_robot));
+  return information;
+}
+
 template <class Pose>
 std::shared_ptr<SkeletonCovariance<Pose>> SkeletonCovariance<Pose>::compute(
-    PoseGraph<Pose> reduced, const typename Pose::Point& origin,
-    std::vector<std::vector<SegmentVariables>> segments) {
-  std::shared_ptr<SkeletonCovariance> s(new SkeletonCovariance(std::move(reduced), origin));
-  s->segments_.swap(segments);
-  if (s->equations_.empty()) {
-    s->list_variables();
-    return s;
+    SkeletonInformation<Pose> information, std::size_t max_scalars) {
+  std::shared_ptr<SkeletonCovariance> s(new SkeletonCovariance(std::move(information)));
+  const SymmetricBlockMatrix& matrix = s->information_.matrix;
+  if (matrix.rows() > 0) {
+    BlockCholeskyOptions options;
+    options.last = s->information_.last;
+    s->cholesky_.emplace(matrix.pattern(), options);
+    if (s->cholesky_->factor_scalars() > max_scalars ||
+        s->cholesky_->factorize(matrix) != Factorization::kDone)
+      return nullptr;
+    s->parts_.emplace(s->cholesky_->partitioned_inverse());
   }
-  s->equations_.linearise(s->graph_);
-  if (s->equations_.factorize(0) != Factorization::kDone) return nullptr;
-  s->inverse_ = s->equations_.cholesky().selected_inverse();
-  s->parts_.emplace(s->equations_.cholesky().partitioned_inverse());
   s->list_variables();
   return s;
 }
 
 template <class Pose>
-Eigen::MatrixXd SkeletonCovariance<Pose>::to_left(const Variable& v) const {
-  if (v.kind != VariableKind::kPose) return Eigen::MatrixXd::Identity(size(v), size(v));
-  return shifted(graph_.poses[static_cast<std::size_t>(v.id)], origin_).adjoint();
+std::optional<SelectedInverse> SkeletonCovariance<Pose>::selected_inverse() const {
+  if (!cholesky_) return std::nullopt;
+  return cholesky_->selected_inverse();
 }
 
-/// Zero for fixed or absent variables; a segment's variables share a factor, so the selected inverse has
-/// their block.
+/// Zero for held variables; a segment's variables share a factor, so the selected inverse has their block.
 template <class Pose>
-Eigen::MatrixXd SkeletonCovariance<Pose>::block(const Variable& a, const Variable& b) const {
-  const auto i = equations_.blocks().of(a), j = equations_.blocks().of(b);
-  if (i < 0 || j < 0) return Eigen::MatrixXd::Zero(size(a), size(b));
-  const auto block = inverse_->block(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
-  RADIOSLAM_CHECK(block.has_value(), "a segment's variables share a factor");
-  return to_left(a) * *block * to_left(b).transpose();
+Eigen::MatrixXd SegmentCovariances<Pose>::block(const Listed& a, const Listed& b) const {
+  if (!a.is_free || !b.is_free) return Eigen::MatrixXd::Zero(a.size(), b.size());
+  const auto found = inverse_->block(static_cast<std::size_t>(a.block), static_cast<std::size_t>(b.block));
+  RADIOSLAM_CHECK(found.has_value(), "a segment's variables share a factor");
+  Eigen::MatrixXd block = *found;
+  if (a.is_pose) block = a.to_left * block;
+  if (b.is_pose) block = block * b.to_left.transpose();
+  return block;
 }
 
 template <class Pose>
-typename SkeletonCovariance<Pose>::Joint SkeletonCovariance<Pose>::within(const SegmentVariables& s) const {
+typename SkeletonCovariance<Pose>::Joint SegmentCovariances<Pose>::within(std::size_t robot,
+                                                                          std::size_t segment) const {
+  constexpr Eigen::Index kDof = Pose::kDof;
   Joint joint = Joint::Zero();
-  const std::array<Variable, 3> of{variable(s.first), variable(s.last), variable(s.drift)};
-  const std::array<Eigen::Index, 3> at{0, kDof, Eigen::Index{2} * kDof};
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j)
-      if (of[i].kind != VariableKind::kNone && of[j].kind != VariableKind::kNone)
-        joint.block(at[i], at[j], size(of[i]), size(of[j])) = block(of[i], of[j]);
+  const SegmentPlaces& of = skeleton_.places(robot, segment);
+  const std::array<std::pair<std::size_t, Eigen::Index>, 3> at{
+      {{of.first, 0}, {of.last, kDof}, {of.drift, 2 * kDof}}};
+  for (const auto& [i, row] : at)
+    for (const auto& [j, column] : at)
+      if (i != kNoDrift && j != kNoDrift) {
+        const Listed &a = skeleton_.listed(robot)[i], &b = skeleton_.listed(robot)[j];
+        joint.block(row, column, a.size(), b.size()) = block(a, b);
+      }
   return joint;
 }
 
 template <class Pose>
 void SkeletonCovariance<Pose>::list_variables() {
-  for (const auto& segments : segments_) {
+  for (const auto& robot : information_.robots) {
     std::vector<Listed>& list = listed_.emplace_back();
-    std::vector<SegmentPlaces>& places = places_.emplace_back();
-    std::map<std::pair<int, std::int32_t>, std::size_t> known;
-    const auto place = [&](const Variable& v) {
-      const auto [at, is_new] = known.try_emplace({static_cast<int>(v.kind), v.id}, list.size());
-      if (!is_new) return at->second;
-      Listed& listed = list.emplace_back();
-      listed.variable = v;
-      if (v.kind == VariableKind::kPose) listed.to_left = to_left(v);
-      if (const auto block = equations_.blocks().of(v); block >= 0) {
-        listed.is_free = true;
-        listed.block = static_cast<std::size_t>(block);
-        listed.part = parts_->part_of(listed.block);
-        listed.is_separator = parts_->is_separator(listed.block);
-        listed.by_boundary = parts_->by_boundary(listed.block).data();
-        listed.boundary = static_cast<Eigen::Index>(parts_->boundary(listed.part).size());
-        listed.local_column = parts_->local_column(listed.block);
-      }
-      return at->second;
-    };
-    for (const SegmentVariables& s : segments) {
-      const std::size_t first = place(variable(s.first)), last = place(variable(s.last));
-      places.push_back({first, last, s.drift.valid() ? place(variable(s.drift)) : kNoDrift});
+    for (const auto& variable : robot.variables) {
+      Listed& listed = list.emplace_back(Listed{variable});
+      if (variable.block < 0) continue;
+      const auto block = static_cast<std::size_t>(variable.block);
+      listed.is_free = true;
+      listed.part = parts_->part_of(block);
+      listed.is_separator = parts_->is_separator(block);
+      listed.by_boundary = parts_->by_boundary(block).data();
+      listed.boundary = static_cast<Eigen::Index>(parts_->boundary(listed.part).size());
+      listed.local_column = parts_->local_column(block);
     }
   }
 }
@@ -99,11 +147,6 @@ CovariancesOfRobot<Pose>::CovariancesOfRobot(std::shared_ptr<const SkeletonCovar
   parallel_for(batches_.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) compute(batches_[k]);
   });
-}
-
-template <class Pose>
-Eigen::Index CovariancesOfRobot<Pose>::size_of(std::size_t u) const {
-  return SkeletonCovariance<Pose>::size(skeleton_->listed(a_)[u].variable);
 }
 
 /// Variables of one part are together.
@@ -156,7 +199,7 @@ std::size_t CovariancesOfRobot<Pose>::segments_within(const SkeletonCovariance<P
   const auto& list = skeleton.listed(a);
   std::vector<bool> known(list.size(), false);
   std::size_t taken = 0, end = first_segment;
-  for (; end < skeleton.segments(a).size(); ++end) {
+  for (; end < skeleton.segments(a); ++end) {
     const SegmentPlaces& segment = skeleton.places(a, end);
     for (const std::size_t u : {segment.first, segment.last, segment.drift}) {
       if (u == kNoDrift || known[u] || !list[u].is_free) continue;
@@ -179,7 +222,7 @@ Eigen::MatrixXd CovariancesOfRobot<Pose>::maps_of(const std::vector<std::size_t>
   Eigen::Index column = 0;
   for (const std::size_t u : variables) {
     const Eigen::Map<const Eigen::MatrixXd> map(list[u].by_boundary, list[u].boundary, size_of(u));
-    if (list[u].variable.kind == VariableKind::kPose)
+    if (list[u].is_pose)
       maps.middleCols(column, size_of(u)) = map.lazyProduct(list[u].to_left.transpose());
     else
       maps.middleCols(column, size_of(u)) = map;
@@ -193,13 +236,14 @@ template <class Pose>
 void CovariancesOfRobot<Pose>::add_local(Batch& batch, const std::vector<std::size_t>& places) const {
   const auto& list = skeleton_->listed(a_);
   std::vector<std::size_t> blocks;
-  for (const std::size_t k : places) blocks.push_back(list[batch.variables[k]].block);
+  for (const std::size_t k : places)
+    blocks.push_back(static_cast<std::size_t>(list[batch.variables[k]].block));
   const Eigen::MatrixXd rows = skeleton_->parts()->local_rows(blocks);
   Eigen::Index row = 0;
   for (const std::size_t k : places) {
     const Listed& u = list[batch.variables[k]];
     const Eigen::Index size = size_of(batch.variables[k]);
-    if (u.variable.kind == VariableKind::kPose)
+    if (u.is_pose)
       batch.local[k] = rows.middleRows(row, size).transpose().lazyProduct(u.to_left.transpose());
     else
       batch.local[k] = rows.middleRows(row, size).transpose();
@@ -281,8 +325,14 @@ typename CrossCovariance<Pose>::Joint CrossCovariance<Pose>::between(std::size_t
   return joint;
 }
 
+template SkeletonInformation<SE2> information_of(const PoseGraph<SE2>&, const SE2::Point&,
+                                                 const std::vector<std::vector<SegmentVariables>>&);
+template SkeletonInformation<SE3> information_of(const PoseGraph<SE3>&, const SE3::Point&,
+                                                 const std::vector<std::vector<SegmentVariables>>&);
 template class SkeletonCovariance<SE2>;
 template class SkeletonCovariance<SE3>;
+template class SegmentCovariances<SE2>;
+template class SegmentCovariances<SE3>;
 template class CovariancesOfRobot<SE2>;
 template class CovariancesOfRobot<SE3>;
 template class CrossCovariance<SE2>;

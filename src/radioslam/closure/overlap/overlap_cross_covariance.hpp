@@ -2,8 +2,11 @@
 // perturbations eta = Ad(T) xi in a shifted frame; see overlap_joint.hpp).
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "radioslam/closure/overlap/keyframe_skeleton.hpp"
@@ -26,59 +29,100 @@ struct SegmentVariables {
   DriftId drift{};
 };
 
-/// Inverse of the reduced graph's information matrix. Thread-safe.
+/// A variable of a robot's segments.
+template <class Pose>
+struct SkeletonVariable {
+  std::int32_t block = -1;                                       ///< of the information matrix; -1: held
+  bool is_pose = true;                                           ///< else a drift
+  typename Pose::Jacobian to_left = Pose::Jacobian::Identity();  ///< from right perturbations; of a pose
+
+  Eigen::Index size() const { return is_pose ? Pose::kDof : 2; }
+};
+
+/// A robot's segments and their variables, each once.
+template <class Pose>
+struct SkeletonSegments {
+  std::vector<SkeletonVariable<Pose>> variables;
+  std::vector<SegmentPlaces> places;
+};
+
+/// Information on the skeleton's variables at the joint estimate, right perturbations: what all robots of a
+/// team must know to compare their poses.
+template <class Pose>
+struct SkeletonInformation {
+  SymmetricBlockMatrix matrix;
+  std::vector<std::int32_t> last;  ///< blocks that touch many others: drifts and biases
+  std::vector<SkeletonSegments<Pose>> robots;
+};
+
+/// Of the reduced graph at its values. Frames are shifted by `origin`.
+template <class Pose>
+SkeletonInformation<Pose> information_of(const PoseGraph<Pose>& reduced, const typename Pose::Point& origin,
+                                         const std::vector<std::vector<SegmentVariables>>& segments);
+
+/// Inverse of the information matrix. Thread-safe.
 template <class Pose>
 class SkeletonCovariance {
  public:
   static constexpr int kDof = Pose::kDof, kSize = 2 * kDof + 2;  ///< dimension of a segment's variables
   using Joint = Eigen::Matrix<double, kSize, kSize>;
 
-  /// A variable of a robot's segments.
-  struct Listed {
-    Variable variable;
-    std::size_t block = 0, part = 0;
+  /// A variable, and where its covariances are.
+  struct Listed : SkeletonVariable<Pose> {
+    std::size_t part = 0;
     const double* by_boundary = nullptr;  ///< boundary of its part x size
     Eigen::Index boundary = 0, local_column = 0;
     bool is_free = false, is_separator = false;
-    Eigen::Matrix<double, kDof, kDof> to_left;  ///< of a pose
   };
 
-  /// Nothing if some variable is unobservable. Frames are shifted by `origin`.
-  static std::shared_ptr<SkeletonCovariance> compute(PoseGraph<Pose> reduced,
-                                                     const typename Pose::Point& origin,
-                                                     std::vector<std::vector<SegmentVariables>> segments);
+  /// Nothing if some variable is unobservable, or the factor would have more than `max_scalars` numbers.
+  static std::shared_ptr<SkeletonCovariance> compute(
+      SkeletonInformation<Pose> information,
+      std::size_t max_scalars = std::numeric_limits<std::size_t>::max());
 
-  std::size_t robots() const { return segments_.size(); }
-  const std::vector<SegmentVariables>& segments(std::size_t robot) const { return segments_[robot]; }
+  const SkeletonInformation<Pose>& information() const { return information_; }
+  std::size_t robots() const { return listed_.size(); }
+  std::size_t segments(std::size_t robot) const { return information_.robots[robot].places.size(); }
   /// A robot's variables, each once.
   const std::vector<Listed>& listed(std::size_t robot) const { return listed_[robot]; }
   /// Those of a segment, as indices into the list.
   const SegmentPlaces& places(std::size_t robot, std::size_t segment) const {
-    return places_[robot][segment];
+    return information_.robots[robot].places[segment];
   }
-  Joint within(const SegmentVariables& segment) const;
-  /// Frees what `within` takes, which must not be called any more.
-  void forget_segments() { inverse_.reset(); }
+  /// Nothing if no variable is free.
+  std::optional<SelectedInverse> selected_inverse() const;
   /// Nothing if no variable is free.
   const std::optional<PartitionedInverse>& parts() const { return parts_; }
-  static constexpr Eigen::Index size(const Variable& v) { return v.kind == VariableKind::kPose ? kDof : 2; }
 
  private:
-  SkeletonCovariance(PoseGraph<Pose> reduced, const typename Pose::Point& origin)
-      : graph_(std::move(reduced)), equations_(graph_), origin_(origin) {}
+  explicit SkeletonCovariance(SkeletonInformation<Pose> information) : information_(std::move(information)) {}
 
-  Eigen::MatrixXd block(const Variable& a, const Variable& b) const;
-  Eigen::MatrixXd to_left(const Variable& v) const;
   void list_variables();
 
-  PoseGraph<Pose> graph_;
-  NormalEquations<Pose> equations_;
-  std::optional<SelectedInverse> inverse_;
+  SkeletonInformation<Pose> information_;
+  std::optional<BlockCholesky> cholesky_;
   std::optional<PartitionedInverse> parts_;
-  typename Pose::Point origin_;
-  std::vector<std::vector<SegmentVariables>> segments_;
   std::vector<std::vector<Listed>> listed_;
-  std::vector<std::vector<SegmentPlaces>> places_;
+};
+
+/// Covariances of each segment's own variables.
+template <class Pose>
+class SegmentCovariances {
+ public:
+  using Joint = typename SkeletonCovariance<Pose>::Joint;
+
+  /// Refers to the skeleton.
+  explicit SegmentCovariances(const SkeletonCovariance<Pose>& skeleton)
+      : skeleton_(skeleton), inverse_(skeleton.selected_inverse()) {}
+
+  Joint within(std::size_t robot, std::size_t segment) const;
+
+ private:
+  using Listed = typename SkeletonCovariance<Pose>::Listed;
+  Eigen::MatrixXd block(const Listed& a, const Listed& b) const;
+
+  const SkeletonCovariance<Pose>& skeleton_;
+  std::optional<SelectedInverse> inverse_;
 };
 
 /// Covariances of robot a's variables, of some of its segments, with the boundaries of other robots' parts
@@ -124,7 +168,7 @@ class CovariancesOfRobot {
   void compute(Batch& batch) const;
   Eigen::MatrixXd maps_of(const std::vector<std::size_t>& variables) const;
   void add_local(Batch& batch, const std::vector<std::size_t>& places) const;
-  Eigen::Index size_of(std::size_t u) const;
+  Eigen::Index size_of(std::size_t u) const { return skeleton_->listed(a_)[u].size(); }
 
   std::shared_ptr<const SkeletonCovariance<Pose>> skeleton_;
   std::size_t a_;
@@ -147,6 +191,8 @@ class CrossCovariance {
   CrossCovariance(std::shared_ptr<const CovariancesOfRobot<Pose>> of_a, std::size_t b)
       : of_a_(std::move(of_a)), b_(b) {}
 
+  /// Number of segments of b.
+  std::size_t segments() const { return of_a_->skeleton().segments(b_); }
   /// Cov(variables of segment t of b, variables of segment s of a).
   Joint between(std::size_t s, Ends of_s, std::size_t t, Ends of_t) const;
 

@@ -1,6 +1,7 @@
 #include "radioslam/closure/overlap/overlap_joint.hpp"
 
 #include <algorithm>
+#include <string_view>
 
 #include "radioslam/base/check.hpp"
 #include "radioslam/closure/overlap/overlap_link.hpp"
@@ -12,6 +13,9 @@ namespace {
 /// Upper bound of the relative error of the skeleton's covariances, from factorisation and solve; about 1e-12
 /// in practice.
 constexpr double kSolveError = 1e-11;
+/// A factor with more numbers than these many a byte of the matrix, and this many besides, is not that of a
+/// team's trajectories.
+constexpr std::size_t kFill = 8, kFreeScalars = 1'000'000;
 
 }  // namespace
 
@@ -36,11 +40,16 @@ RelativePosition<Pose> JointView<Pose>::relative(std::size_t, const Record& k, c
   return {l.position_m - k.position_m, at_l * between * at_l.transpose()};
 }
 
-/// Fills the robots of a JointCovariance from the skeleton.
+/// Makes the robots' poses of a joint estimate, from its skeleton.
 template <class Pose>
-class JointCovariance<Pose>::Builder {
+class JointPosesBuilder {
  public:
-  Builder(const PoseGraph<Pose>& graph, const std::vector<ChainOfPoses>& robots)
+  using Robot = JointPoses<Pose>;
+  using Record = typename Robot::Record;
+  using Jacobian = typename Pose::Jacobian;
+  using DriftEffect = Eigen::Matrix<double, Pose::kDof, 2>;
+
+  JointPosesBuilder(const PoseGraph<Pose>& graph, const std::vector<ChainOfPoses>& robots)
       : graph_(graph),
         chains_(robots),
         skeleton_(reduce_to_skeleton(graph, robots)),
@@ -51,10 +60,10 @@ class JointCovariance<Pose>::Builder {
     for (std::size_t c = 0; c < chains_.size(); ++c)
       for (const ChainSegment& s : skeleton_.chains[c].segments)
         segments[c].push_back({reduced(c, s.first), reduced(c, s.last), s.drift});
-    return SkeletonCovariance<Pose>::compute(skeleton_.graph, origin_, std::move(segments));
+    return SkeletonCovariance<Pose>::compute(information_of(skeleton_.graph, origin_, segments));
   }
 
-  Robot robot(std::size_t c, const SkeletonCovariance<Pose>& covariance) const {
+  Robot robot(std::size_t c, const SegmentCovariances<Pose>& covariance) const {
     Robot robot;
     const auto& chain = skeleton_.chains[c];
     std::vector<bool> searched(chains_[c].poses.size(), chains_[c].searched.empty());
@@ -62,18 +71,19 @@ class JointCovariance<Pose>::Builder {
     IntervalSums sums;
     for (std::size_t s = 0; s < chain.segments.size(); ++s) {
       const ChainSegment& segment = chain.segments[s];
-      const auto joint = covariance.within(covariance.segments(c)[s]);
-      robot.cov_drift.push_back(joint.template bottomRightCorner<2, 2>());
+      const auto joint = covariance.within(c, s);
+      robot.cov_drift_.push_back(joint.template bottomRightCorner<2, 2>());
       if (starts_interval(chain, s)) {
         sums = {};
         close_interval(robot);
-        robot.components.push_back(skeleton_.component[chains_[c].poses[segment.first].index()]);
+        robot.components_.push_back(
+            static_cast<std::uint32_t>(skeleton_.component[chains_[c].poses[segment.first].index()]));
       }
       add_segment(c, s, joint, searched, sums, robot);
     }
     close_interval(robot);
     drop_empty_intervals(robot);
-    for (std::size_t k = 0; k < robot.records.size(); ++k) robot.rounding.widen(rounding(robot, k));
+    for (std::size_t k = 0; k < robot.records_.size(); ++k) robot.rounding_.widen(rounding(robot, k));
     return robot;
   }
 
@@ -96,14 +106,14 @@ class JointCovariance<Pose>::Builder {
   }
 
   static void close_interval(Robot& robot) {
-    const std::size_t begin = robot.pieces.empty() ? 0 : robot.pieces.back().end;
-    if (!robot.components.empty()) robot.pieces.push_back({begin, robot.records.size()});
+    const std::size_t begin = robot.pieces_.empty() ? 0 : robot.pieces_.back().end;
+    if (!robot.components_.empty()) robot.pieces_.push_back({begin, robot.records_.size()});
   }
   static void drop_empty_intervals(Robot& robot) {
-    for (std::size_t p = robot.pieces.size(); p-- > 0;) {
-      if (robot.pieces[p].size() > 0) continue;
-      robot.pieces.erase(robot.pieces.begin() + static_cast<std::ptrdiff_t>(p));
-      robot.components.erase(robot.components.begin() + static_cast<std::ptrdiff_t>(p));
+    for (std::size_t p = robot.pieces_.size(); p-- > 0;) {
+      if (robot.pieces_[p].size() > 0) continue;
+      robot.pieces_.erase(robot.pieces_.begin() + static_cast<std::ptrdiff_t>(p));
+      robot.components_.erase(robot.components_.begin() + static_cast<std::ptrdiff_t>(p));
     }
   }
 
@@ -123,10 +133,10 @@ class JointCovariance<Pose>::Builder {
       Jacobian share = Jacobian::Zero();
       if (k > segment.first) share = whole_cholesky.solve_matrix(here.covariance()).transpose();
       if (k > segment.first && k == segment.last) share.setIdentity();
-      robot.poses.push_back(shifted(pose(c, k), origin_));
-      robot.records.push_back(record(robot.poses.back(), T_c1, share, here, whole, joint));
-      robot.records.back().segment = static_cast<std::uint32_t>(s);
-      robot.odometry_sums.push_back({sums.covariance.value(), sums.by_drift.value()});
+      robot.poses_.push_back(shifted(pose(c, k), origin_));
+      robot.records_.push_back(record(robot.poses_.back(), T_c1, share, here, whole, joint));
+      robot.records_.back().segment = static_cast<std::uint32_t>(s);
+      robot.odometry_sums_.push_back({sums.covariance.value(), sums.by_drift.value()});
     }
   }
 
@@ -167,9 +177,9 @@ class JointCovariance<Pose>::Builder {
   }
 
   static PoseSpread rounding(const Robot& robot, std::size_t k) {
-    const typename Pose::Point& p = robot.records[k].position_m;
-    const PoseSpread sums = rounding_bound<Pose>(robot.odometry_sums[k].covariance, p, kRoundingOfSums);
-    const PoseSpread solved = rounding_bound<Pose>(robot.records[k].covariance, p, kSolveError);
+    const typename Pose::Point& p = robot.records_[k].position_m;
+    const PoseSpread sums = rounding_bound<Pose>(robot.odometry_sums_[k].covariance, p, kRoundingOfSums);
+    const PoseSpread solved = rounding_bound<Pose>(robot.records_[k].covariance, p, kSolveError);
     return {sums.sigma_m + solved.sigma_m, sums.sigma_rad + solved.sigma_rad};
   }
 
@@ -183,38 +193,48 @@ template <class Pose>
 std::optional<JointCovariance<Pose>> JointCovariance<Pose>::compute(const PoseGraph<Pose>& graph,
                                                                     const std::vector<ChainOfPoses>& robots,
                                                                     std::size_t dense_scalars) {
-  const Builder builder(graph, robots);
-  JointCovariance joint;
-  joint.dense_scalars_ = dense_scalars;
+  const JointPosesBuilder<Pose> builder(graph, robots);
   const auto skeleton = builder.covariance();
   if (!skeleton) return std::nullopt;
-  for (std::size_t c = 0; c < robots.size(); ++c) joint.robots_.push_back(builder.robot(c, *skeleton));
-  skeleton->forget_segments();
-  joint.skeleton_ = skeleton;
-  return joint;
+  const SegmentCovariances<Pose> within(*skeleton);
+  std::vector<Poses> poses;
+  for (std::size_t c = 0; c < robots.size(); ++c) poses.push_back(builder.robot(c, within));
+  return JointCovariance(std::move(poses), Team(skeleton, dense_scalars));
 }
 
 /// Conditioning on measurements never increases a covariance: sigma(eta_k - eta_m) is at most that of the
 /// odometry noise alone plus that of the estimated drift.
 template <class Pose>
-PoseSpread JointCovariance<Pose>::spread(std::size_t robot, std::size_t pose, std::size_t middle) const {
-  const Robot& r = robots_[robot];
-  const Record& record = r.records[pose];
+PoseSpread JointPoses<Pose>::spread(std::size_t pose, std::size_t middle) const {
+  using Jacobian = typename Pose::Jacobian;
+  const Record& record = records_[pose];
   const auto [first, last] = std::minmax(pose, middle);
-  const typename Pose::Point& p = record.position_m;
-  const Jacobian at = motion_at<Pose>(p);
-  const Jacobian noise =
-      at * (r.odometry_sums[last].covariance - r.odometry_sums[first].covariance) * at.transpose();
-  const DriftEffect by_drift = at * (r.odometry_sums[last].by_drift - r.odometry_sums[first].by_drift);
-  const Jacobian drift = by_drift * r.cov_drift[record.segment] * by_drift.transpose();
+  const Jacobian at = motion_at<Pose>(record.position_m);
+  const auto &begin = odometry_sums_[first], &end = odometry_sums_[last];
+  const Jacobian noise = at * (end.covariance - begin.covariance) * at.transpose();
+  const Eigen::Matrix<double, Pose::kDof, 2> by_drift = at * (end.by_drift - begin.by_drift);
+  const Jacobian drift = by_drift * cov_drift_[record.segment] * by_drift.transpose();
   const PoseSpread a = spread_of<Pose>(noise), b = spread_of<Pose>(drift);
-  return {a.sigma_m + b.sigma_m + r.rounding.sigma_m, a.sigma_rad + b.sigma_rad + r.rounding.sigma_rad};
+  return {a.sigma_m + b.sigma_m + rounding_.sigma_m, a.sigma_rad + b.sigma_rad + rounding_.sigma_rad};
 }
 
 template <class Pose>
-std::vector<PoseInterval> JointCovariance<Pose>::runs(std::size_t a) const {
+std::optional<JointTeam<Pose>> JointTeam<Pose>::heard(std::uint32_t robot, const OverlapShares& shares) {
+  std::vector<std::string_view> rows(shares.heard.begin(), shares.heard.end());
+  rows[robot] = shares.own[robot == 0 ? rows.size() - 1 : 0];
+  std::size_t bytes = 0;
+  for (const std::string_view of_robot : rows) bytes += of_robot.size();
+  auto information = read_rows<Pose>(rows);
+  if (!information) return std::nullopt;
+  auto skeleton = SkeletonCovariance<Pose>::compute(*std::move(information), kFreeScalars + kFill * bytes);
+  if (!skeleton) return std::nullopt;
+  return JointTeam(std::move(skeleton));
+}
+
+template <class Pose>
+std::vector<PoseInterval> JointTeam<Pose>::runs(std::size_t a, const JointPoses<Pose>& poses) const {
   std::vector<PoseInterval> runs;
-  const std::vector<Record>& records = robots_[a].records;
+  const std::vector<Record>& records = poses.records();
   for (std::size_t begin = 0; begin < records.size();) {
     const std::size_t last =
         CovariancesOfRobot<Pose>::segments_within(*skeleton_, a, records[begin].segment, dense_scalars_);
@@ -227,9 +247,9 @@ std::vector<PoseInterval> JointCovariance<Pose>::runs(std::size_t a) const {
 }
 
 template <class Pose>
-typename JointCovariance<Pose>::Columns JointCovariance<Pose>::columns(std::size_t a,
-                                                                       const PoseInterval& run) const {
-  const std::vector<Record>& records = robots_[a].records;
+typename JointTeam<Pose>::Columns JointTeam<Pose>::columns(std::size_t a, const JointPoses<Pose>& poses,
+                                                           const PoseInterval& run) const {
+  const std::vector<Record>& records = poses.records();
   std::size_t first = 0, last = 0;
   if (run.size() > 0) {
     first = records[run.begin].segment;
@@ -239,30 +259,28 @@ typename JointCovariance<Pose>::Columns JointCovariance<Pose>::columns(std::size
 }
 
 template <class Pose>
-JointView<Pose> JointCovariance<Pose>::view(std::size_t a, std::size_t b, const Columns& columns_of_a) const {
+JointView<Pose> JointTeam<Pose>::view(std::size_t a, std::size_t b, const Columns& columns_of_a) const {
   RADIOSLAM_CHECK(a < b, "the robot listed first comes first");
   return View(std::make_shared<CrossCovariance<Pose>>(columns_of_a, b));
 }
 
 template <class Pose>
-JointView<Pose> JointCovariance<Pose>::view(std::size_t a, std::size_t b) const {
-  return view(a, b, columns(a, {0, robots_[a].records.size()}));
-}
-
-template <class Pose>
 typename Pose::Jacobian JointCovariance<Pose>::relative_pose(std::size_t a, std::size_t k, std::size_t b,
                                                              std::size_t l) const {
-  const Record& of_k = robots_[a].records[k];
-  const Record& of_l = robots_[b].records[l];
-  const RelativePosition<Pose> place = view(a, b, columns(a, {k, k + 1})).relative(0, of_k, of_l);
+  const View view = team_.view(a, b, team_.columns(a, robots_[a], {k, k + 1}));
+  const RelativePosition<Pose> place = view.relative(0, robots_[a].records()[k], robots_[b].records()[l]);
   // Right perturbation at l: rotate both parts into l's axes.
-  const Pose turn = Pose(Pose::Point::Zero(), rotation_of(robots_[b].poses[l]));
-  const Jacobian back = turn.inverse().adjoint();
+  const Pose turn = Pose(Pose::Point::Zero(), rotation_of(robots_[b].poses_[l]));
+  const typename Pose::Jacobian back = turn.inverse().adjoint();
   return congruence(back, place.covariance);
 }
 
 template class JointView<SE2>;
 template class JointView<SE3>;
+template class JointPoses<SE2>;
+template class JointPoses<SE3>;
+template class JointTeam<SE2>;
+template class JointTeam<SE3>;
 template class JointCovariance<SE2>;
 template class JointCovariance<SE3>;
 

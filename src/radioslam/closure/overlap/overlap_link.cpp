@@ -1,5 +1,7 @@
 #include "radioslam/closure/overlap/overlap_link.hpp"
 
+#include <algorithm>
+
 #include "radioslam/base/check.hpp"
 #include "radioslam/geometry/linear_algebra.hpp"
 
@@ -71,6 +73,11 @@ OverlapLink<Pose> in_order(const OverlapLink<Pose>& link) {
           link.pose_a,  link.T_a_b.inverse(), congruence(ad, link.covariance)};
 }
 
+template <class Pose>
+LinkTransform<Pose> transform_of(const OverlapLink<Pose>& link) {
+  return {link.T_a_b.rotation_matrix(), link.T_a_b.translation(), mirrored(link.covariance)};
+}
+
 }  // namespace
 
 template <class Pose>
@@ -85,67 +92,118 @@ RelativePosition<Pose> LinkView<Pose>::relative(std::size_t t, const Record& k, 
 }
 
 template <class Pose>
-LinkCovariance<Pose>::LinkCovariance(const std::vector<KeyframeOdometry<Pose>>& chains,
-                                     std::vector<OverlapLink<Pose>> links)
-    : links_(std::move(links)) {
-  for (const auto& chain : chains) {
-    check_chain(chain);
-    robots_.push_back({shifted_poses(chain), {}, {}, {}});
-    robots_.back().records = records_of(chain, robots_.back().poses);
-    for (const auto& record : robots_.back().records)
-      robots_.back().rounding.widen(
-          rounding_bound<Pose>(record.odometry_sum, record.position_m, kRoundingOfSums));
-    if (!chain.poses.empty()) robots_.back().pieces.push_back({0, chain.poses.size()});
+LinkPoses<Pose>::LinkPoses(const KeyframeOdometry<Pose>& chain) : poses_(shifted_poses(chain)) {
+  check_chain(chain);
+  records_ = records_of(chain, poses_);
+  for (const Record& record : records_)
+    rounding_.widen(rounding_bound<Pose>(record.odometry_sum, record.position_m, kRoundingOfSums));
+  if (!chain.poses.empty()) pieces_.push_back({0, chain.poses.size()});
+}
+
+template <class Pose>
+PoseSpread LinkPoses<Pose>::spread(std::size_t pose, std::size_t middle) const {
+  const auto at = motion_at<Pose>(records_[pose].position_m);
+  const PoseSpread by_odometry =
+      spread_of<Pose>(at * walk<Pose>(records_[pose], records_[middle]) * at.transpose());
+  return {by_odometry.sigma_m + rounding_.sigma_m, by_odometry.sigma_rad + rounding_.sigma_rad};
+}
+
+template <class Pose>
+typename Pose::Jacobian LinkPoses<Pose>::odometry(std::size_t i, std::size_t j) const {
+  const typename Pose::Jacobian ad = poses_[j].inverse().adjoint();
+  return ad * walk<Pose>(records_[i], records_[j]) * ad.transpose();
+}
+
+/// T_a_b = T_a_ca T_ca_cb T_b_cb^-1, and the covariance of T_ca_cb moved to a's frame by Ad(T_a_ca T_ca_cb).
+template <class Pose>
+void LinkTeam<Pose>::add(std::size_t a, std::size_t b, const LinkKeyframe<Pose>& of_a,
+                         const LinkKeyframe<Pose>& of_b, const LinkTransform<Pose>& link) {
+  using Rotation = Eigen::Matrix<double, Pose::kDim, Pose::kDim>;
+  const Rotation R_a_cb = of_a.rotation * link.R_ca_cb;
+  const typename Pose::Point of_cb = of_a.rotation * link.position_m + of_a.record.position_m;
+  const Rotation R_a_b = R_a_cb * of_b.rotation.transpose();
+  const typename Pose::Point origin_m = of_cb - R_a_b * of_b.record.position_m;
+  const auto moved = motion_at<Pose>(-of_cb);
+  ties_[{a, b}].push_back(
+      {of_a.record, of_b.record, R_a_b, origin_m, congruence(moved, turned<Pose>(R_a_cb, link.covariance))});
+}
+
+template <class Pose>
+LinkView<Pose> LinkTeam<Pose>::view(std::size_t a, std::size_t b, Columns) const {
+  RADIOSLAM_CHECK(a < b, "the robot listed first comes first");
+  const auto ties = ties_.find({a, b});
+  return ties == ties_.end() ? View() : View(ties->second);
+}
+
+template <class Pose>
+bool LinkTeam<Pose>::accepts(std::string_view own, std::string_view share) {
+  OverlapFieldReader of_own(own), in(share);
+  const std::uint32_t links = in.number();
+  in.refuse_unless(links == of_own.number());
+  LinkKeyframe<Pose> keyframe;
+  for (std::uint32_t t = 0; t < links && in.good(); ++t) LinkKeyframe<Pose>::visit(keyframe, in);
+  return in.is_complete();
+}
+
+template <class Pose>
+std::optional<LinkTeam<Pose>> LinkTeam<Pose>::heard(std::uint32_t robot, const OverlapShares& shares) {
+  LinkTeam team;
+  for (std::uint32_t b = robot + 1; b < shares.heard.size(); ++b) {
+    OverlapFieldReader own(shares.own[b]), other(shares.heard[b]);
+    const std::uint32_t links = std::min(own.number(), other.number());
+    for (std::uint32_t t = 0; t < links; ++t) {
+      LinkKeyframe<Pose> of_a, of_b;
+      LinkTransform<Pose> link;
+      LinkKeyframe<Pose>::visit(of_a, own);
+      LinkTransform<Pose>::visit(link, own);
+      LinkKeyframe<Pose>::visit(of_b, other);
+      team.add(robot, b, of_a, of_b, link);
+    }
+    if (!own.is_complete() || !other.is_complete()) return std::nullopt;
   }
+  return team;
+}
+
+template <class P>
+LinkCovariance<P>::LinkCovariance(const std::vector<KeyframeOdometry<Pose>>& chains,
+                                  std::vector<OverlapLink<Pose>> links)
+    : links_(std::move(links)) {
+  for (const auto& chain : chains) robots_.emplace_back(chain);
   for (auto& link : links_) {
     RADIOSLAM_CHECK(link.robot_a != link.robot_b, "a link connects two robots");
     RADIOSLAM_CHECK(link.robot_a < chains.size() && link.pose_a < chains[link.robot_a].poses.size() &&
                         link.robot_b < chains.size() && link.pose_b < chains[link.robot_b].poses.size(),
                     "a link refers to existing poses");
     link = in_order(link);
+    team_.add(link.robot_a, link.robot_b, robots_[link.robot_a].keyframe(link.pose_a),
+              robots_[link.robot_b].keyframe(link.pose_b), transform_of(link));
   }
 }
 
-template <class Pose>
-PoseSpread LinkCovariance<Pose>::spread(std::size_t robot, std::size_t pose, std::size_t middle) const {
-  const auto& records = robots_[robot].records;
-  const typename Pose::Point& p = records[pose].position_m;
-  const auto at = motion_at<Pose>(p);
-  const PoseSpread by_odometry =
-      spread_of<Pose>(at * walk<Pose>(records[pose], records[middle]) * at.transpose());
-  const PoseSpread& rounding = robots_[robot].rounding;
-  return {by_odometry.sigma_m + rounding.sigma_m, by_odometry.sigma_rad + rounding.sigma_rad};
-}
-
-template <class Pose>
-typename LinkView<Pose>::Tie LinkCovariance<Pose>::tie_of(const OverlapLink<Pose>& link) const {
-  const auto& a = robots_[link.robot_a].records[link.pose_a];
-  const auto& b = robots_[link.robot_b].records[link.pose_b];
-  const Pose T_a_cb = robots_[link.robot_a].poses[link.pose_a] * link.T_a_b;
-  const Pose T_a_b = T_a_cb * robots_[link.robot_b].poses[link.pose_b].inverse();
-  const typename Pose::Jacobian ad = T_a_cb.adjoint();
-  return {a, b, T_a_b, T_a_b.rotation_matrix(), congruence(ad, link.covariance)};
-}
-
-template <class Pose>
-LinkView<Pose> LinkCovariance<Pose>::view(std::size_t a, std::size_t b) const {
-  RADIOSLAM_CHECK(a < b, "the robot listed first comes first");
-  std::vector<typename View::Tie> ties;
+template <class P>
+std::string LinkCovariance<P>::share(std::size_t from, std::size_t to) const {
+  OverlapFieldWriter out;
+  const bool is_first = from < to;
+  std::uint32_t count = 0;
   for (const auto& link : links_)
-    if (link.robot_a == a && link.robot_b == b) ties.push_back(tie_of(link));
-  return View(std::move(ties));
-}
-
-template <class Pose>
-typename Pose::Jacobian LinkCovariance<Pose>::odometry(std::size_t robot, std::size_t i,
-                                                       std::size_t j) const {
-  const auto& records = robots_[robot].records;
-  const typename Pose::Jacobian ad = robots_[robot].poses[j].inverse().adjoint();
-  return ad * walk<Pose>(records[i], records[j]) * ad.transpose();
+    if (link.robot_a == std::min(from, to) && link.robot_b == std::max(from, to)) {
+      const LinkKeyframe<Pose> own = robots_[from].keyframe(is_first ? link.pose_a : link.pose_b);
+      const LinkTransform<Pose> transform = transform_of(link);
+      LinkKeyframe<Pose>::visit(own, out);
+      if (is_first) LinkTransform<Pose>::visit(transform, out);
+      ++count;
+    }
+  OverlapFieldWriter counted;
+  counted(count);
+  return counted.take() + out.take();
 }
 
 template class LinkView<SE2>;
 template class LinkView<SE3>;
+template class LinkPoses<SE2>;
+template class LinkPoses<SE3>;
+template class LinkTeam<SE2>;
+template class LinkTeam<SE3>;
 template class LinkCovariance<SE2>;
 template class LinkCovariance<SE3>;
 

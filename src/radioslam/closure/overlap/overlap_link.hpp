@@ -8,10 +8,17 @@
 // and link from prefix sums (odometry_prefix_sums.hpp).
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
+#include "radioslam/closure/overlap/overlap_fields.hpp"
 #include "radioslam/closure/overlap/overlap_relative.hpp"
 #include "radioslam/geometry/compensated_sum.hpp"
 
@@ -61,6 +68,19 @@ struct OverlapLink {
   typename Pose::Jacobian covariance = Pose::Jacobian::Identity();
 };
 
+/// What was measured of a link: keyframe cb of robot b in keyframe ca of robot a, which is listed first.
+template <class Pose>
+struct LinkTransform {
+  Eigen::Matrix<double, Pose::kDim, Pose::kDim> R_ca_cb;
+  typename Pose::Point position_m;     ///< of cb in ca
+  typename Pose::Jacobian covariance;  ///< right perturbation
+
+  template <class Self, class Visitor>
+  static void visit(Self& self, Visitor&& visit) {
+    visit(self.R_ca_cb), visit(self.position_m), visit.symmetric(self.covariance);
+  }
+};
+
 template <class P>
 class LinkView {
  public:
@@ -81,8 +101,8 @@ class LinkView {
   /// A link with the records of both ends.
   struct Tie {
     Record a, b;
-    Pose T_a_b;  ///< frame of b in frame of a
     Eigen::Matrix<double, Pose::kDim, Pose::kDim> R_a_b;
+    typename Pose::Point origin_m;       ///< of b's frame in a's
     typename Pose::Jacobian covariance;  ///< of the link, left perturbation in a's frame
   };
 
@@ -90,9 +110,13 @@ class LinkView {
   explicit LinkView(std::vector<Tie> ties) : ties_(std::move(ties)) {}
 
   std::size_t ties() const { return ties_.size(); }
-  double turn_in_a(std::size_t tie) const { return heading(ties_[tie].T_a_b); }
+  /// Whether a record from elsewhere can be compared.
+  static bool accepts(const Record&) { return true; }
+  double turn_in_a(std::size_t tie) const {
+    return std::atan2(ties_[tie].R_a_b(1, 0), ties_[tie].R_a_b(0, 0));
+  }
   typename Pose::Point in_a(std::size_t tie, const typename Pose::Point& p) const {
-    return ties_[tie].R_a_b * p + ties_[tie].T_a_b.translation();
+    return ties_[tie].R_a_b * p + ties_[tie].origin_m;
   }
   typename Pose::Point half_extent_in_a(std::size_t tie, const typename Pose::Point& half) const {
     return ties_[tie].R_a_b.cwiseAbs() * half;
@@ -105,42 +129,96 @@ class LinkView {
   std::vector<Tie> ties_;
 };
 
+/// A keyframe at an end of a link.
 template <class Pose>
+struct LinkKeyframe {
+  typename LinkView<Pose>::Record record;
+  Eigen::Matrix<double, Pose::kDim, Pose::kDim> rotation;  ///< of its body in the robot's shifted frame
+
+  template <class Self, class Visitor>
+  static void visit(Self& self, Visitor&& visit) {
+    LinkView<Pose>::Record::visit(self.record, visit), visit(self.rotation);
+  }
+};
+
+/// One robot's keyframes in its own shifted frame.
+template <class Pose>
+class LinkPoses {
+ public:
+  using View = LinkView<Pose>;
+  using Record = typename View::Record;
+
+  /// The chain needs a covariance per step.
+  explicit LinkPoses(const KeyframeOdometry<Pose>& chain);
+
+  const std::vector<Record>& records() const { return records_; }
+  const std::vector<PoseInterval>& pieces() const { return pieces_; }
+  std::uint32_t component(std::size_t) const { return 0; }
+  PoseSpread spread(std::size_t pose, std::size_t middle) const;
+  LinkKeyframe<Pose> keyframe(std::size_t pose) const {
+    return {records_[pose], poses_[pose].rotation_matrix()};
+  }
+  /// Covariance of T_i^-1 T_j along the odometry, right perturbation.
+  typename Pose::Jacobian odometry(std::size_t i, std::size_t j) const;
+
+ private:
+  std::vector<Pose> poses_;
+  std::vector<Record> records_;
+  std::vector<PoseInterval> pieces_;
+  PoseSpread rounding_;
+};
+
+/// The links of a team, or those of one of its robots, with the keyframes at their ends.
+template <class Pose>
+class LinkTeam {
+ public:
+  using View = LinkView<Pose>;
+  /// All poses at once: nothing is kept from one pair of robots to the next.
+  struct Columns {};
+
+  LinkTeam() = default;
+  /// Whether `from` sends `to` its share: the robot listed first compares.
+  static bool is_shared(std::uint32_t from, std::uint32_t to) { return from > to; }
+  /// Whether these can be the keyframes of a robot whose partner knows `own` of their links.
+  static bool accepts(std::string_view own, std::string_view share);
+  /// What robot `robot` knows of its links with later robots: by its own shares and what these sent.
+  static std::optional<LinkTeam> heard(std::uint32_t robot, const OverlapShares& shares);
+
+  void add(std::size_t a, std::size_t b, const LinkKeyframe<Pose>& of_a, const LinkKeyframe<Pose>& of_b,
+           const LinkTransform<Pose>& link);
+
+  std::vector<PoseInterval> runs(std::size_t, const LinkPoses<Pose>& poses) const {
+    return {{0, poses.records().size()}};
+  }
+  Columns columns(std::size_t, const LinkPoses<Pose>&, const PoseInterval&) const { return {}; }
+  View view(std::size_t a, std::size_t b, Columns = {}) const;
+
+ private:
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<typename View::Tie>> ties_;
+};
+
+template <class P>
 class LinkCovariance {
  public:
+  using Pose = P;
+  using Poses = LinkPoses<Pose>;
+  using Team = LinkTeam<Pose>;
   using View = LinkView<Pose>;
 
   /// Every chain needs a covariance per step; links must refer to existing poses of two different robots.
   LinkCovariance(const std::vector<KeyframeOdometry<Pose>>& chains, std::vector<OverlapLink<Pose>> links);
 
   std::size_t robots() const { return robots_.size(); }
-  const std::vector<typename View::Record>& records(std::size_t robot) const {
-    return robots_[robot].records;
-  }
-  const std::vector<PoseInterval>& pieces(std::size_t robot) const { return robots_[robot].pieces; }
-  bool joined(std::size_t, std::size_t, std::size_t, std::size_t) const { return true; }
-  PoseSpread spread(std::size_t robot, std::size_t pose, std::size_t middle) const;
-  /// All poses at once: nothing is kept from one pair of robots to the next.
-  struct Columns {};
-  std::vector<PoseInterval> runs(std::size_t a) const { return {{0, records(a).size()}}; }
-  Columns columns(std::size_t, const PoseInterval&) const { return {}; }
-  View view(std::size_t a, std::size_t b, Columns) const { return view(a, b); }
-  View view(std::size_t a, std::size_t b) const;
-
-  /// Covariance of T_i^-1 T_j along one robot's odometry, right perturbation.
-  typename Pose::Jacobian odometry(std::size_t robot, std::size_t i, std::size_t j) const;
+  const Poses& poses(std::size_t robot) const { return robots_[robot]; }
+  const Team& team() const { return team_; }
+  /// What robot `from` knows of its links with robot `to`: its keyframes at their ends, and if it is listed
+  /// first the links themselves.
+  std::string share(std::size_t from, std::size_t to) const;
 
  private:
-  struct Robot {
-    std::vector<Pose> poses;  ///< in the shifted frame
-    std::vector<typename View::Record> records;
-    std::vector<PoseInterval> pieces;
-    PoseSpread rounding;
-  };
-  typename View::Tie tie_of(const OverlapLink<Pose>& link) const;
-
-  std::vector<Robot> robots_;
+  std::vector<Poses> robots_;
   std::vector<OverlapLink<Pose>> links_;
+  Team team_;
 };
 
 }  // namespace radioslam

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "radioslam/geometry/se2.hpp"
@@ -135,22 +136,30 @@ concept OverlapView = requires(const V& view, const typename V::Record& k, std::
   { view.link_travelled_b(tie) } -> std::convertible_to<double>;
 };
 
-/// Estimate of a team as required by the search. Robots are numbered in the order of the mission.
+/// One robot's poses, as it knows them itself: no pose of another robot is in them.
+template <class P>
+concept OverlapPoses = OverlapView<typename P::View> && requires(const P& poses, std::size_t k) {
+  { poses.records()[k] } -> std::convertible_to<typename P::View::Record>;
+  { poses.pieces()[k] } -> std::convertible_to<PoseInterval>;  // intervals connected by odometry
+  // Of an interval: intervals of two robots are compared if they are in the same one.
+  { poses.component(k) } -> std::convertible_to<std::uint32_t>;
+  { poses.spread(k, k) } -> std::convertible_to<PoseSpread>;  // (pose, middle pose)
+};
+
+/// Estimate of a team as required by the search: each robot's poses, and what all robots know to compare
+/// them. Robots are numbered in the order of the mission.
 template <class S>
-concept OverlapSource = OverlapView<typename S::View> && requires(const S& source, std::size_t robot) {
+concept OverlapSource = OverlapPoses<typename S::Poses> &&
+    requires(const S& source, const typename S::Team& team, const typename S::Poses& poses,
+             std::size_t robot) {
   { source.robots() } -> std::convertible_to<std::size_t>;
-  { source.records(robot)[0] } -> std::convertible_to<typename S::View::Record>;
-  { source.pieces(robot)[0] } -> std::convertible_to<PoseInterval>;  // intervals connected by odometry
+  { source.poses(robot) } -> std::convertible_to<const typename S::Poses&>;
+  { source.team() } -> std::convertible_to<const typename S::Team&>;
+  // Runs of robot a's poses that are compared with all later robots, with what is kept meanwhile.
+  { team.runs(robot, poses)[0] } -> std::convertible_to<PoseInterval>;
   {
-    source.joined(robot, robot, robot, robot)
-    } -> std::convertible_to<bool>;  // (a, interval of a, b, interval of b)
-  { source.spread(robot, robot, robot) } -> std::convertible_to<PoseSpread>;  // (robot, pose, middle pose)
-  { source.view(robot, robot) } -> std::convertible_to<typename S::View>;     // of robots a < b
-  // Runs of a's poses that are compared with all later robots, with what is kept meanwhile.
-  { source.runs(robot)[0] } -> std::convertible_to<PoseInterval>;
-  {
-    source.view(robot, robot, source.columns(robot, source.runs(robot)[0]))
-    } -> std::convertible_to<typename S::View>;
+    team.view(robot, robot, team.columns(robot, poses, team.runs(robot, poses)[0]))
+    } -> std::convertible_to<typename S::Poses::View>;  // of robots a < b
 };
 
 }  // namespace radioslam

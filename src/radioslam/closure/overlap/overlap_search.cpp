@@ -13,31 +13,26 @@ namespace {
 /// Poses of the first robot per task of the exhaustive search.
 constexpr std::size_t kRowsPerTask = 64;
 
-/// Compares all pairs of poses of two intervals.
-template <OverlapSource Source>
-OverlapCandidates compare_intervals(const OverlapPair<Source>& pair, const PoseInterval& p,
-                                    const PoseInterval& q, OverlapCandidates found) {
-  const auto ties = pair.all_ties();
-  const std::size_t tasks = (p.size() + kRowsPerTask - 1) / kRowsPerTask;
-  return gather_overlaps(tasks, std::move(found), [&](std::size_t t, OverlapCandidates& out) {
-    const std::size_t begin = p.begin + t * kRowsPerTask;
-    for (std::size_t k = begin; k < std::min(p.end, begin + kRowsPerTask); ++k)
-      for (std::size_t l = q.begin; l < q.end; ++l)
-        pair.compare(static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(l), ties, out);
-  });
-}
-
 /// Compares all pairs of poses of a run of one robot and another robot.
-template <OverlapSource Source>
-OverlapCandidates compare_all_pairs(const OverlapPair<Source>& pair, const Source& source,
-                                    const PoseInterval& run) {
+template <OverlapPoses Poses>
+OverlapCandidates compare_all_pairs(const OverlapTest<typename Poses::View>& test, RobotPair robots,
+                                    const Poses& a, const PoseInterval& run, const Poses& b) {
+  const auto ties = all_ties(test.view());
   OverlapCandidates found;
-  if (pair.view().ties() == 0) return found;
-  const auto &pieces_a = source.pieces(pair.a()), &pieces_b = source.pieces(pair.b());
-  for (std::size_t p = 0; p < pieces_a.size(); ++p)
-    for (std::size_t q = 0; q < pieces_b.size(); ++q)
-      if (source.joined(pair.a(), p, pair.b(), q))
-        found = compare_intervals(pair, common(pieces_a[p], run), pieces_b[q], std::move(found));
+  if (ties.empty()) return found;
+  for (std::size_t p = 0; p < a.pieces().size(); ++p)
+    for (std::size_t q = 0; q < b.pieces().size(); ++q) {
+      if (a.component(p) != b.component(q)) continue;
+      const PoseInterval rows = common(a.pieces()[p], run), columns = b.pieces()[q];
+      const std::size_t tasks = (rows.size() + kRowsPerTask - 1) / kRowsPerTask;
+      found = gather_overlaps(tasks, std::move(found), [&](std::size_t t, OverlapCandidates& out) {
+        const std::size_t begin = rows.begin + t * kRowsPerTask;
+        for (std::size_t k = begin; k < std::min(rows.end, begin + kRowsPerTask); ++k)
+          for (std::size_t l = columns.begin; l < columns.end; ++l)
+            test.compare({robots.a, robots.b, static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(l)},
+                         a.records()[k], b.records()[l], ties, out);
+      });
+    }
   return found;
 }
 
@@ -54,6 +49,12 @@ OverlapCandidates collected(const TeamOverlapSearch<Source>& search, std::size_t
 
 }  // namespace
 
+void sort_by_poses(std::vector<OverlapCandidate>& candidates) {
+  std::sort(candidates.begin(), candidates.end(), [](const auto& x, const auto& y) {
+    return std::pair(x.pose_a, x.pose_b) < std::pair(y.pose_a, y.pose_b);
+  });
+}
+
 template <OverlapSource Source>
 TeamOverlapSearch<Source>::TeamOverlapSearch(const Source& source, std::vector<OverlapSensor> sensors,
                                              const OverlapParams& params, SearchMethod method)
@@ -63,7 +64,7 @@ TeamOverlapSearch<Source>::TeamOverlapSearch(const Source& source, std::vector<O
   trees_.resize(source.robots());
   parallel_for(trees_.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t r = std::max<std::size_t>(begin, 1); r < end; ++r)
-      trees_[r] = OverlapTreeBuilder<Source>(source, r).build();
+      trees_[r] = OverlapTreeBuilder<Poses>(source.poses(r)).build();
   });
 }
 
@@ -72,29 +73,32 @@ OverlapCounts TeamOverlapSearch<Source>::search(std::uint32_t a, const TakeOverl
   const auto robots = static_cast<std::uint32_t>(source_.robots());
   std::vector<OverlapCandidates> found(robots);
   if (a + 1 == robots) return {};
-  for (const PoseInterval& run : source_.runs(a)) {
-    const auto columns = source_.columns(a, run);
+  const Poses& poses = source_.poses(a);
+  for (const PoseInterval& run : source_.team().runs(a, poses)) {
+    const auto columns = source_.team().columns(a, poses, run);
     const bool by_tree = method_ == SearchMethod::kTree;
-    const Tree tree = by_tree ? OverlapTreeBuilder<Source>(source_, a).build(run) : Tree();
+    const Tree tree = by_tree ? OverlapTreeBuilder<Poses>(poses).build(run) : Tree();
     parallel_for(robots - a - 1, 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t b = a + 1 + begin; b < a + 1 + end; ++b) {
         const OverlapRule rule = overlap_rule(params_, sensors_[a], sensors_[b]);
-        const auto other = static_cast<std::uint32_t>(b);
-        const OverlapPair<Source> pair(source_, a, other, source_.view(a, b, columns), rule);
-        append(found[b], by_tree ? OverlapBoxSearch<Source>(pair, tree, trees_[b]).run(source_)
-                                 : compare_all_pairs(pair, source_, run));
+        const RobotPair pair{a, static_cast<std::uint32_t>(b)};
+        const View view = source_.team().view(a, b, columns);
+        const Poses& other = source_.poses(b);
+        if (!by_tree) {
+          append(found[b], compare_all_pairs({view, rule}, pair, poses, run, other));
+          continue;
+        }
+        const KnownBoxes<View> boxes(trees_[b], other.records());
+        append(found[b], OverlapBoxSearch(view, rule, pair, tree, poses.records(), boxes).run());
       }
     });
   }
   parallel_for(robots, 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t b = begin; b < end; ++b)
-      std::sort(found[b].candidates.begin(), found[b].candidates.end(), [](const auto& x, const auto& y) {
-        return std::pair(x.pose_a, x.pose_b) < std::pair(y.pose_a, y.pose_b);
-      });
+    for (std::size_t b = begin; b < end; ++b) sort_by_poses(found[b].candidates);
   });
   OverlapCounts counts;
   for (std::uint32_t b = a + 1; b < robots; ++b) {
-    found[b].counts.pairs = std::uint64_t{source_.records(a).size()} * source_.records(b).size();
+    found[b].counts.pairs = std::uint64_t{poses.records().size()} * source_.poses(b).records().size();
     counts += found[b].counts;
     take(std::move(found[b].candidates));
   }

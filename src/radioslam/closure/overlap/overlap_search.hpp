@@ -80,9 +80,13 @@ struct OverlapCandidates {
   OverlapCounts counts;
 };
 
+/// Of two robots.
+void sort_by_poses(std::vector<OverlapCandidate>& candidates);
+
 enum class SearchMethod {
   kTree,
-  kExhaustive,  ///< tests every pair; same result
+  kExhaustive,   ///< tests every pair; same result
+  kDistributed,  ///< the tree search by messages between robots (overlap_exchange.hpp); same result
 };
 
 /// Receives the candidates of two robots, sorted by their poses.
@@ -102,7 +106,9 @@ class TeamOverlapSearch {
   OverlapCounts search(std::uint32_t a, const TakeOverlaps& take) const;
 
  private:
-  using Tree = OverlapTree<typename Source::View::Pose>;
+  using Poses = typename Source::Poses;
+  using View = typename Poses::View;
+  using Tree = OverlapTree<typename View::Pose>;
 
   const Source& source_;
   std::vector<OverlapSensor> sensors_;

@@ -31,15 +31,15 @@ template <class Pose>
 struct OverlapTree {
   struct Root {
     std::uint32_t node = 0;
-    std::uint32_t piece = 0;  ///< the interval connected by odometry
+    std::uint32_t component = 0;  ///< of its interval: OverlapPoses
   };
   std::vector<OverlapNode<Pose>> nodes;
   std::vector<Root> roots;
 };
 
-template <OverlapSource Source>
+template <OverlapPoses Poses>
 class OverlapTreeBuilder {
-  using Pose = typename Source::View::Pose;
+  using Pose = typename Poses::View::Pose;
   using Point = typename Pose::Point;
   using Node = OverlapNode<Pose>;
 
@@ -48,16 +48,16 @@ class OverlapTreeBuilder {
   static constexpr std::size_t kSummed = 32;
 
  public:
-  OverlapTreeBuilder(const Source& source, std::size_t robot) : source_(source), robot_(robot) {}
+  explicit OverlapTreeBuilder(const Poses& poses) : poses_(poses) {}
 
-  OverlapTree<Pose> build() { return build({0, source_.records(robot_).size()}); }
+  OverlapTree<Pose> build() { return build({0, poses_.records().size()}); }
   /// Of these poses alone.
   OverlapTree<Pose> build(const PoseInterval& run) {
     tree_ = {};
-    const auto& pieces = source_.pieces(robot_);
+    const auto& pieces = poses_.pieces();
     for (std::uint32_t p = 0; p < pieces.size(); ++p) {
       const PoseInterval poses = common(pieces[p], run);
-      if (poses.size() > 0) tree_.roots.push_back({build_node(poses), p});
+      if (poses.size() > 0) tree_.roots.push_back({build_node(poses), poses_.component(p)});
     }
     return std::move(tree_);
   }
@@ -86,7 +86,7 @@ class OverlapTreeBuilder {
   }
 
   void sum_poses(Node& node) const {
-    const auto& records = source_.records(robot_);
+    const auto& records = poses_.records();
     const auto& middle = records[node.middle];
     Point low = middle.position_m, high = low;
     node.min_travelled_m = node.max_travelled_m = middle.travelled_m;
@@ -97,7 +97,7 @@ class OverlapTreeBuilder {
       node.min_travelled_m = std::min(node.min_travelled_m, records[k].travelled_m);
       node.max_travelled_m = std::max(node.max_travelled_m, records[k].travelled_m);
       node.radius_m = std::max(node.radius_m, (p - middle.position_m).norm());
-      node.spread.widen(source_.spread(robot_, k, node.middle));
+      node.spread.widen(poses_.spread(k, node.middle));
       node.heading_spread_rad = std::max(node.heading_spread_rad,
                                          std::abs(wrap_angle(records[k].heading_rad - middle.heading_rad)));
     }
@@ -105,13 +105,13 @@ class OverlapTreeBuilder {
   }
 
   void join_halves(Node& node, const Node& first, const Node& second) const {
-    const auto& records = source_.records(robot_);
+    const auto& records = poses_.records();
     const auto& middle = records[node.middle];
     node.min_travelled_m = std::min(first.min_travelled_m, second.min_travelled_m);
     node.max_travelled_m = std::max(first.max_travelled_m, second.max_travelled_m);
     for (const Node* half : {&first, &second}) {
       const auto& of_half = records[half->middle];
-      const PoseSpread s = source_.spread(robot_, half->middle, node.middle);
+      const PoseSpread s = poses_.spread(half->middle, node.middle);
       node.spread.widen({half->spread.sigma_m + s.sigma_m + half->radius_m * s.sigma_rad,
                          half->spread.sigma_rad + s.sigma_rad});
       const double distance_m = (of_half.position_m - middle.position_m).norm();
@@ -130,8 +130,7 @@ class OverlapTreeBuilder {
     node.half_extent_m = (high - low) / 2;
   }
 
-  const Source& source_;
-  std::size_t robot_;
+  const Poses& poses_;
   OverlapTree<Pose> tree_;
 };
 

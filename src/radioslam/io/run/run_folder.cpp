@@ -235,6 +235,15 @@ void read_candidates_of(const fs::path& folder, RunFolder& run) {
   if (!candidates.empty() || counted || run.summary.is_null()) run.candidates = std::move(candidates);
 }
 
+/// `bytes` and `rounds` of what robots sent each other, and what their logs take.
+void add_exchange(Json& json, const ExchangeResult& exchange, const std::vector<RobotResult>& robots) {
+  for (std::size_t r = 0; r < robots.size(); ++r) {
+    for (const auto& [kind, bytes] : exchange.bytes[r]) json["bytes"][robots[r].id][kind] = bytes;
+    if (!exchange.log_bytes.empty()) json["log_bytes"][robots[r].id] = exchange.log_bytes[r];
+  }
+  json["rounds"] = exchange.rounds;
+}
+
 }  // namespace
 
 Json summary_json(const RunResult& result, const Json& metrics) {
@@ -247,6 +256,7 @@ Json summary_json(const RunResult& result, const Json& metrics) {
     json["parameters"][parameter.key] = parameter_json(parameter.value);
   json["team_frame"] = team_frame_json(result);
   json["range_biases"] = range_biases_json(result);
+  if (result.exchange) add_exchange(json, *result.exchange, result.robots);
   if (result.loop_choice) json["loop_choice"] = loop_choice_json(*result.loop_choice);
   json["angle_checks"] = angle_checks_json(result);
   json["notes"] = result.notes;
