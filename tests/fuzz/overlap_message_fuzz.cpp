@@ -43,9 +43,12 @@ JointCovariance<SE2> joint_team() {
 }
 
 template <class Source>
-void hear(const Source& source, std::string_view bytes) {
-  OverlapParty<typename Source::Poses, typename Source::Team> party(0, source.poses(0),
-                                                                    {{}, source.share(0, 1)}, {10}, {});
+void hear(const Source& source, std::uint32_t robot, std::string_view bytes) {
+  const std::uint32_t other = 1 - robot;
+  std::vector<std::string> shares(2);
+  shares[other] = source.share(robot, other);
+  OverlapParty<typename Source::Poses, typename Source::Team> party(robot, source.poses(robot), shares, {10},
+                                                                    {});
   (void)party.begin();
   while (bytes.size() > 2) {
     const std::size_t size =
@@ -54,8 +57,10 @@ void hear(const Source& source, std::string_view bytes) {
     bytes.remove_prefix(2 + message.size());
     (void)party.hear(message);
   }
-  for (const OverlapCandidate& pair : party.found(1).candidates)
-    RADIOSLAM_CHECK(pair.pose_a < kPoses && pair.mahalanobis >= 0, "pairs are of the robot's own poses");
+  for (const OverlapCandidate& pair : party.found(other).candidates)
+    RADIOSLAM_CHECK(pair.pose_a < kPoses, "pairs are of the robot's own poses");
+  for (const PairRun& run : party.received(other))
+    RADIOSLAM_CHECK(run.end_b <= kPoses, "and so are those received");
 }
 
 }  // namespace
@@ -66,7 +71,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const auto link = link_team();
   static const auto joint = joint_team();
   const std::string bytes(data, data + size);
-  hear(link, bytes);
-  hear(joint, bytes);
+  for (const std::uint32_t robot : {0U, 1U}) {
+    hear(link, robot, bytes);
+    hear(joint, robot, bytes);
+  }
   return 0;
 }

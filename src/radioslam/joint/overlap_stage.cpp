@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "radioslam/closure/overlap/overlap_exchange.hpp"
 #include "radioslam/joint/aoa/mutual_bearing_constraints.hpp"
 #include "radioslam/results/candidate_list.hpp"
 

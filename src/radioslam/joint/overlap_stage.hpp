@@ -16,7 +16,6 @@
 #include <vector>
 
 #include "radioslam/base/fields.hpp"
-#include "radioslam/closure/overlap/overlap_exchange.hpp"
 #include "radioslam/closure/overlap/overlap_search.hpp"
 #include "radioslam/joint/joint_graph.hpp"
 #include "radioslam/joint/team_alignment.hpp"

@@ -38,7 +38,6 @@ class OverlapFieldWriter {
     for (Eigen::Index j = 0; j < m.cols(); ++j)
       for (Eigen::Index i = 0; i < m.rows(); ++i) out_.f64(m(i, j));
   }
-  void single(float value) { out_.f32(value); }
   std::string take() { return out_.take(); }
 
  private:
@@ -67,7 +66,6 @@ class OverlapFieldReader {
     for (Eigen::Index j = 0; j < m.cols(); ++j)
       for (Eigen::Index i = 0; i < m.rows(); ++i) m(i, j) = in_.f64();
   }
-  float single() { return in_.f32(); }
 
   void refuse_unless(bool condition) {
     if (!condition) refuse();

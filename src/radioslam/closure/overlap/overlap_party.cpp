@@ -21,6 +21,16 @@ void write_box(const Node& node, const std::vector<Record>& records, OverlapFiel
 
 }  // namespace
 
+std::vector<PairRun> runs_of(const std::vector<OverlapCandidate>& pairs) {
+  std::vector<PairRun> runs;
+  for (const OverlapCandidate& pair : pairs)
+    if (!runs.empty() && runs.back().pose_a == pair.pose_a && runs.back().end_b == pair.pose_b)
+      ++runs.back().end_b;
+    else
+      runs.push_back({pair.pose_a, pair.pose_b, pair.pose_b + 1});
+  return runs;
+}
+
 template <OverlapPoses Poses, class Team>
 OverlapParty<Poses, Team>::OverlapParty(std::uint32_t robot, const Poses& own,
                                         std::vector<std::string> shares, const OverlapSensor& sensor,
@@ -220,14 +230,14 @@ void OverlapParty<Poses, Team>::finish(Messages& out) {
   for (std::uint32_t b = robot_ + 1; b < robots(); ++b) {
     OverlapCandidates& found = partners_[b].found;
     sort_by_poses(found.candidates);
+    const std::vector<PairRun> runs = runs_of(found.candidates);
     OverlapFieldWriter pairs;
-    pairs(static_cast<std::uint32_t>(found.candidates.size()));
+    pairs(static_cast<std::uint32_t>(runs.size()));
     std::uint32_t last = 0;
-    for (const OverlapCandidate& pair : found.candidates) {
-      pairs(pair.pose_a - std::exchange(last, pair.pose_a));
-      pairs(pair.pose_b);
-      pairs.single(static_cast<float>(pair.distance_m));
-      pairs.single(static_cast<float>(pair.mahalanobis));
+    for (const PairRun& run : runs) {
+      pairs(run.pose_a - std::exchange(last, run.pose_a));
+      pairs(run.begin_b);
+      pairs(run.end_b - run.begin_b);
     }
     out.push_back(message(b, OverlapMessageKind::kPairs, pairs.take()));
     partners_[b].is_done = true;
@@ -238,20 +248,16 @@ template <OverlapPoses Poses, class Team>
 bool OverlapParty<Poses, Team>::hear_pairs(std::uint32_t a, std::string_view content) {
   if (a > robot_ || partners_[a].is_done) return false;
   OverlapFieldReader in(content);
-  std::vector<OverlapCandidate> pairs;
+  std::vector<PairRun> runs;
   std::uint32_t last = 0;
   for (std::uint32_t n = in.number(); n > 0 && in.good(); --n) {
-    OverlapCandidate& pair = pairs.emplace_back();
-    pair.robot_a = a;
-    pair.robot_b = robot_;
-    pair.pose_a = last += in.number();
-    pair.pose_b = in.number();
-    pair.distance_m = static_cast<double>(in.single());
-    pair.mahalanobis = static_cast<double>(in.single());
-    in.refuse_unless(pair.pose_b < own_.records().size());
+    last += in.number();
+    const std::uint32_t begin = in.number(), size = in.number();
+    in.refuse_unless(begin < own_.records().size() && size <= own_.records().size() - begin);
+    runs.push_back({last, begin, begin + size});
   }
   if (!in.is_complete()) return false;
-  partners_[a].found.candidates = std::move(pairs);
+  partners_[a].received = std::move(runs);
   partners_[a].is_done = true;
   return true;
 }

@@ -5,7 +5,8 @@
 //                                   cannot be compared: skeleton_message.hpp, or b's ends of radio links
 //   request    a -> b               which of b's boxes to open, and of which to send the poses
 //   boxes, poses   b -> a           the answers (overlap_remote_boxes.hpp)
-//   pairs      a -> b               the pairs kept, when there is nothing left to ask
+//   pairs      a -> b               the pairs kept, when there is nothing left to ask: of each pose of a the
+//                                   runs of b's poses
 //
 // a runs the central search (overlap_box_search.hpp) on the same numbers, so the pairs are the same to the
 // last bit. Of a's poses none is sent. A message is
@@ -29,6 +30,14 @@ namespace radioslam {
 enum class OverlapMessageKind : std::uint8_t { kEstimate, kRequest, kBoxes, kPoses, kPairs };
 inline constexpr std::array<const char*, 5> kOverlapMessageKinds{"estimate", "requests", "boxes", "poses",
                                                                  "pairs"};
+
+/// The pairs of pose_a of a with the poses [begin_b, end_b) of b.
+struct PairRun {
+  std::uint32_t pose_a = 0, begin_b = 0, end_b = 0;
+  bool operator==(const PairRun&) const = default;
+};
+/// Of two robots' pairs, sorted by poses.
+std::vector<PairRun> runs_of(const std::vector<OverlapCandidate>& pairs);
 
 /// A message on its way.
 struct OverlapMessage {
@@ -58,10 +67,8 @@ class OverlapParty {
   bool is_finished() const;
   /// Pairs with a robot listed later, by poses, and what it took to find them.
   const OverlapCandidates& found(std::uint32_t b) const { return partners_[b].found; }
-  /// Pairs with a robot listed before, as received; distances to single precision.
-  const std::vector<OverlapCandidate>& received(std::uint32_t a) const {
-    return partners_[a].found.candidates;
-  }
+  /// Pairs with a robot listed before, as it sent them.
+  const std::vector<PairRun>& received(std::uint32_t a) const { return partners_[a].received; }
 
  private:
   using Search = OverlapBoxSearch<View, RemoteBoxes<View>>;
@@ -71,6 +78,7 @@ class OverlapParty {
     std::optional<View> view;  ///< of the present run; of a robot listed later
     RemoteBoxes<View> boxes;
     OverlapCandidates found;
+    std::vector<PairRun> received;
     bool is_done = false;
   };
 
