@@ -108,11 +108,11 @@ TEST(MutualBearings, ARangeWithAnglesAtBothEndsIsALink) {
     const auto joint = aligned(two_robots(delay_s));
     const auto [links, is_estimated] = measured_links(joint, 0.5, 100);
     EXPECT_FALSE(is_estimated);
-    const auto view = links.view(0, 1);
+    const auto view = links.team().view(0, 1);
     ASSERT_EQ(view.ties(), 1U);
     // At 5.5 s each is 40 m to the left of the other: opposite headings. Keyframes are 2 m apart.
-    const auto& a = links.records(0);
-    const auto& b = links.records(1);
+    const auto& a = links.poses(0).records();
+    const auto& b = links.poses(1).records();
     ASSERT_EQ(a.size(), 13U);
     const auto place = view.relative(0, a[5], b[5]);
     EXPECT_LT((place.difference_m - Eigen::Vector2d(2, 40)).norm(), 1e-9);
@@ -131,8 +131,9 @@ TEST(MutualBearings, AnglesOfAnotherTimeDoNotCount) {
   // Then the joint estimate's relative poses are used instead: 12 m of odometry each, no angle in the link.
   const auto [estimated, is_estimated] = measured_links(joint, 0.2, 100);
   EXPECT_TRUE(is_estimated);
-  ASSERT_EQ(estimated.view(0, 1).ties(), 1U);
-  EXPECT_GT(std::abs(estimated.view(0, 1).turn_in_a(0) - kPi), 1) << "the graph's poses are not aligned here";
+  ASSERT_EQ(estimated.team().view(0, 1).ties(), 1U);
+  EXPECT_GT(std::abs(estimated.team().view(0, 1).turn_in_a(0) - kPi), 1)
+      << "the graph's poses are not aligned here";
 }
 
 TEST(MutualBearings, MoreThanAskedForAreThinnedEvenly) {
@@ -149,8 +150,8 @@ TEST(MutualBearings, MoreThanAskedForAreThinnedEvenly) {
     }
   }
   const auto joint = aligned(mission);
-  EXPECT_EQ(measured_links(joint, 0.01, 100).covariance.view(0, 1).ties(), 20U);
-  EXPECT_EQ(measured_links(joint, 0.01, 7).covariance.view(0, 1).ties(), 7U);
+  EXPECT_EQ(measured_links(joint, 0.01, 100).covariance.team().view(0, 1).ties(), 20U);
+  EXPECT_EQ(measured_links(joint, 0.01, 7).covariance.team().view(0, 1).ties(), 7U);
 }
 
 }  // namespace
