@@ -166,6 +166,7 @@ ScanListLog read_list_file(const ImportOptions& options, const fs::path& file, s
     return {{}, {{"empty files of failed scans were skipped", 1}}, {}};
   const Text text = read_tool_output(file);
   ScanListLog log = read_list(options, text);
+  if (const auto note = control_character_note(text)) log.warnings.push_back(*note);
   const auto time = time_of_file(options, file, files);
   const bool is_timed = std::any_of(log.scans.begin(), log.scans.end(), [](const ScanList& scan) {
     return scan.stamp.has_value() || !scan.unread_time.empty();
@@ -226,7 +227,10 @@ void import_airodump(const ImportOptions& options) {
     if (!fs::exists(file)) throw InputError(file.string(), 0, "no such file");
   const auto target = target_of(options, files);
   write_wifi(options, *target, read_files<WifiLog>(options, files, [&](const fs::path& file) {
-               return read_airodump(read_tool_output(file), params);
+               const Text text = read_tool_output(file);
+               WifiLog log = read_airodump(text, params);
+               if (const auto note = control_character_note(text)) log.warnings.push_back(*note);
+               return log;
              }));
 }
 

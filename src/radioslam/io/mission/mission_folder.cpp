@@ -92,14 +92,26 @@ Finding respelled(const Robot& robot, const Respelled& spellings) {
           "both were read as one address; write it in lower case with colons"};
 }
 
+Finding with_control_characters(const Robot& robot, const std::string& note) {
+  return {"unreadable",
+          Severity::kWarning,
+          robot.id,
+          "robots/" + robot.id + "/wifi.csv",
+          note,
+          "text without control characters",
+          "columns other than t_s, bssid, frequency_mhz and rssi_dbm are not read; nothing has to be done"};
+}
+
 void read_wifi_of(const fs::path& folder, Mission& mission) {
   std::vector<Text> texts;
   std::vector<Robot*> receivers;
   for (Robot& robot : mission.robots) {
     const fs::path path = robot_file(folder, robot.id, "wifi.csv");
     if (!fs::exists(path)) continue;
-    texts.push_back(read_text(path));
+    texts.push_back(read_tool_output(path));
     receivers.push_back(&robot);
+    if (const auto note = control_character_note(texts.back()))
+      mission.reading_findings.push_back(with_control_characters(robot, *note));
   }
   WifiRecordings recordings = read_wifi(texts);
   for (std::size_t k = 0; k < receivers.size(); ++k) {

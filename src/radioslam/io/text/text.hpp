@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,6 +39,13 @@ Text read_text(const std::filesystem::path& path);
 /// UTF-16 with a byte order mark becomes UTF-8. Refuses empty content.
 Text make_tool_output(std::string name, std::string content);
 Text read_tool_output(const std::filesystem::path& path);
+
+/// Whether bytes are UTF-8 text without control characters other than tabs and line ends.
+bool is_plain_text(std::string_view bytes);
+
+/// A note on the lines that have control characters, as names of networks may: "log.txt:7: ..."; nothing if
+/// there are none. Importers read such lines like others, because they do not import names.
+std::optional<std::string> control_character_note(const Text& text);
 
 enum class Depth { kFolder, kBelow };
 

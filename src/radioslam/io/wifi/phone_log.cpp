@@ -63,6 +63,7 @@ class PhoneLogReader {
     find_interval();
     sort_by_time();
     skipped_.conclude(text_.name, "record", used, log_.warnings);
+    if (const auto note = control_character_note(text_)) log_.warnings.push_back(*note);
     if (!first_) text_.fail(0, "the log contains no records");
     log_.start = start_time_.value_or(*first_);
     log_.begin = std::min(log_.start, *first_);

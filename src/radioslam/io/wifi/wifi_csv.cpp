@@ -79,6 +79,7 @@ Row read_row(const CsvReader& csv, LastStamp& last, BssidSpellings& spellings) {
   if (csv.field(kTime) != last.text || last.text.empty()) last = {csv.field(kTime), csv.stamp(kTime)};
   const std::string_view bssid = csv.field(kBssid);
   if (bssid.empty()) csv.fail("the bssid is empty");
+  if (!is_plain_text(bssid)) csv.fail("the bssid has control characters or is not UTF-8");
   constexpr auto kUnit = InputError::Kind::kUnit;
   const double frequency_mhz = coordinate_in(csv.at(), csv.field(kFrequency), "frequency_mhz", kUnit);
   if (frequency_mhz < 0) csv.fail("the frequency is negative", kUnit);

@@ -29,7 +29,9 @@ struct WifiRecordings {
 /// Whether a signal strength is plausible: from -150 to 30 dBm.
 bool is_plausible_rssi(double rssi_dbm);
 
-/// Reads one text per receiver; a text with only a header has no scans. Refuses implausible signal strengths.
+/// Reads one text per receiver (read_tool_output: columns that are not read may hold names of networks, which
+/// may have any bytes); a text with only a header has no scans. Refuses implausible signal strengths, and
+/// BSSIDs that are not plain text.
 WifiRecordings read_wifi(std::span<const Text> texts);
 
 std::string format_wifi(const std::vector<WifiScan>& scans, const std::vector<std::string>& access_points);
