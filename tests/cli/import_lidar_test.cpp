@@ -94,6 +94,33 @@ TEST_F(ImportLidar, RosbagOfATeamBecomesOneMission) {
   EXPECT_EQ(read_file(folder.path() / "team/robots/r2/odometry.tum"), "10 0 0 0 0 0 0 1\n");
 }
 
+TEST_F(ImportLidar, RosbagBringsWifiScans) {
+  RosBytes odometry(MessageEncoding::kRos1), scan(MessageEncoding::kRos1);
+  odometry.header(10, 0, "odom").text("base").f64s({1, 2, 0, 0, 0, 0, 1});
+  scan.u32(2).text("02:AA:00:00:01:00").u32(0x100000000 - 50).text("02:AA:00:00:02:00").u32(80);
+  const WrittenMessage wifi{
+      "/wifi_fp", "wifi_scan/Fingerprint", 9'000'000'000, scan.bytes(),
+      "AddressRSSI[] list\n===\nMSG: wifi_scan/AddressRSSI\nstring address\nint32 rssi\n"};
+  WrittenMessage other = wifi;
+  other.topic = "/wifi_other";
+  const WrittenMessage pose{"/odom", "nav_msgs/Odometry", 10'000'000'000, odometry.bytes()};
+  write_file(folder.path() / "x.bag", bag_of(bag_records({pose, wifi})));
+  write_file(folder.path() / "y.bag", bag_of(bag_records({pose, wifi, other})));
+  const Outcome outcome = import({"rosbag", "x.bag", "-o", "m"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("1 odometry samples, 0 IMU samples, 1 rows, 1 scans, 1 radios of a"),
+            std::string::npos)
+      << outcome.out;
+  EXPECT_NE(outcome.out.find("/wifi_fp: 1 readings without an address or a level in dBm are left out"),
+            std::string::npos)
+      << outcome.out;
+  const std::string table = "t_s,bssid,frequency_mhz,rssi_dbm\n9,02:aa:00:00:01:00,0,-50\n";
+  EXPECT_EQ(read_file(folder.path() / "m/robots/a/wifi.csv"), table);
+  expect_refused({"rosbag", "y.bag", "-o", "n"}, "has 2 topics with WiFi readings; --wifi selects one");
+  EXPECT_EQ(import({"rosbag", "y.bag", "--wifi", "/wifi_other", "-o", "n"}).status, 0);
+  EXPECT_EQ(read_file(folder.path() / "n/robots/a/wifi.csv"), table);
+}
+
 /// A robot's odometry and one position fix at the given latitude.
 std::string recording_with_fix(double latitude_deg) {
   RosBytes odometry(MessageEncoding::kRos1), fix(MessageEncoding::kRos1);

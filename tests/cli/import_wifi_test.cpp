@@ -78,7 +78,7 @@ TEST_F(ImportWifi, StartsAMissionThatLacksOdometry) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_TRUE(
       outcome.out.starts_with("note: m/robots/scan/odometry.tum is missing, and `radioslam run` needs it: "
-                              "`import imu` makes one"))
+                              "`import odometry` takes one"))
       << outcome.out;
   EXPECT_TRUE(outcome.out.ends_with("m: 2 rows, 1 scans, 2 radios of scan\n")) << outcome.out;
   EXPECT_EQ(read_file(folder.path() / "m/robots/scan/wifi.csv"), kTable);

@@ -10,6 +10,7 @@
 #include "radioslam/cli/commands/optimize_params.hpp"
 #include "radioslam/cli/commands/similarity_params.hpp"
 #include "radioslam/cli/run_parameters.hpp"
+#include "radioslam/io/datasets/android_recording.hpp"
 #include "radioslam/io/datasets/wifi_rtt.hpp"
 #include "radioslam/io/lidar/carmen.hpp"
 #include "radioslam/io/wifi/airodump_csv.hpp"
@@ -67,7 +68,9 @@ constexpr std::array kParameterSets = std::to_array<ParameterSet>({
     {"anchors", defaults_of<AnchorsParams>},
     {"rendezvous", defaults_of<RendezvousRunParams>},
     {"import indoor-location", defaults_of<DeadReckoningParams>},
+    {"import android", defaults_of<AndroidParams>},
     {"import imu", defaults_of<DeadReckoningParams>, "import indoor-location"},
+    {"import odometry", nullptr, {}, kNoneOfImport},
     {"import waypoints", nullptr, {}, kNoneOfImport},
     {"import iw-ftm", defaults_of<IwFtmParams>},
     {"import iw", defaults_of<ScanListParams>},

@@ -30,6 +30,7 @@ add_library(radioslam_cli STATIC
   cli/commands/recorded_drive.cpp
   cli/config.cpp
   cli/ending.cpp
+  cli/import/import_android.cpp
   cli/import/import_datasets.cpp
   cli/import/import_kinds.cpp
   cli/import/import_lidar.cpp
@@ -38,6 +39,7 @@ add_library(radioslam_cli STATIC
   cli/import/import_walk.cpp
   cli/import/import_wifi.cpp
   cli/import/ros_sources.cpp
+  cli/import/wifi_summary.cpp
   cli/parameter_sets.cpp
   cli/parameters.cpp
   cli/program.cpp

@@ -7,6 +7,7 @@ radioslam_room(io
     csi/esp32_line.cpp
     csi/intel5300.cpp
     csi/nexmon_csi.cpp
+    datasets/android_recording.cpp
     datasets/dpgo.cpp
     datasets/indoor_location.cpp
     datasets/walker_tables.cpp
@@ -37,6 +38,8 @@ radioslam_room(io
     mission/mission_output.cpp
     mission/mission_yaml.cpp
     mission/mission_yaml_write.cpp
+    mission/odometry_table.cpp
+    mission/recorded_odometry.cpp
     mission/robot_tables.cpp
     mission/team_tables.cpp
     mission/truth_labels.cpp
@@ -58,6 +61,7 @@ radioslam_room(io
     ros/ros_topics.cpp
     ros/ros_types.cpp
     ros/uwb_message.cpp
+    ros/wifi_message.cpp
     run/robot_logs.cpp
     run/metrics_json.cpp
     run/run_folder.cpp
@@ -67,6 +71,7 @@ radioslam_room(io
     text/csv.cpp
     text/line_fields.cpp
     text/mac_address.cpp
+    text/named_columns.cpp
     text/numbers.cpp
     text/text.cpp
     text/skipped_records.cpp
@@ -80,6 +85,8 @@ radioslam_room(io
     wifi/nmcli_list.cpp
     wifi/pcap.cpp
     wifi/phone_log.cpp
+    wifi/scan_table.cpp
+    wifi/sensor_data_log.cpp
     wifi/wifi_capture.cpp
     wifi/wifi_csv.cpp
     wifi/wifi_log.cpp

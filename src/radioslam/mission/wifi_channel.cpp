@@ -21,6 +21,14 @@ std::optional<double> carrier_of_channel_hz(std::int64_t channel) {
   return std::nullopt;
 }
 
+double megahertz(double frequency) {
+  constexpr double kMostGhz = 100, kMostMhz = 1e5, kMostKhz = 1e8;
+  if (!(frequency > 0)) return 0;
+  if (frequency < kMostGhz) return frequency * 1e3;
+  if (frequency < kMostMhz) return frequency;
+  return frequency / (frequency < kMostKhz ? 1e3 : 1e6);
+}
+
 std::optional<std::int64_t> channel_of_carrier(double carrier_hz) {
   for (std::int64_t channel = 1; channel <= kLastOf5GHz; ++channel)
     if (carrier_of_channel_hz(channel) == carrier_hz) return channel;

@@ -11,6 +11,9 @@ namespace radioslam {
 /// Nothing for other numbers.
 std::optional<double> carrier_of_channel_hz(std::int64_t channel);
 
+/// A frequency in Hz, kHz, MHz or GHz as MHz; 0 unless it is positive.
+double megahertz(double frequency);
+
 /// Channel with exactly this carrier, if there is one.
 std::optional<std::int64_t> channel_of_carrier(double carrier_hz);
 

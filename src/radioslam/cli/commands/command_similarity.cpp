@@ -147,7 +147,7 @@ SimilarityMeasure measure_named(const std::string& name) {
 std::vector<std::vector<Fingerprint>> read_fingerprints(const std::vector<std::string>& inputs,
                                                         const FingerprintParams& params) {
   std::vector<Text> texts;
-  for (const auto& input : inputs) texts.push_back(read_text(input));
+  for (const auto& input : inputs) texts.push_back(read_tool_output(input));
   std::vector<std::vector<Fingerprint>> fingerprints;
   for (const auto& scans : read_wifi(texts).receivers)
     fingerprints.push_back(make_fingerprints(scans, params));

@@ -15,8 +15,13 @@ void import_wifi_captures(const ImportOptions& options);
 /// iw-ftm: WiFi round-trip times to a ranges.csv.
 void import_ftm_ranges(const ImportOptions& options);
 
-// imu, waypoints: a walker's odometry.tum.
+// android: a phone's wifi.csv and odometry.tum.
 
+void import_android(const ImportOptions& options);
+
+// odometry; imu, waypoints (of a walker): a robot's odometry.tum.
+
+void import_odometry(const ImportOptions& options);
 void import_imu(const ImportOptions& options);
 void import_waypoints(const ImportOptions& options);
 

@@ -21,6 +21,11 @@ constexpr const char* kRosbagNotes =
     "radios that --name gives to robots or anchors, or one of them besides the robot that recorded it;\n"
     "--ranges states both ends of a topic. Messages of UWB drivers, which name both radios, are read by the\n"
     "names of their fields (from_id, to_id, range, ...) where the recording has the types' definitions.\n"
+    "WiFi: messages of drivers, which have types of their own, are read by the names of their fields: an\n"
+    "address (bssid, mac, address, ...), a level in dBm (rssi, signal_level, ...), and perhaps a frequency\n"
+    "or channel, once or in a list. Such are wireless_msgs/Connection, rf_msgs/AccessPoints,\n"
+    "wifi_scan/Fingerprint, pr2_msgs/AccessPoint, wifi_ddwrt/SiteSurvey and jsk_network_tools/WifiStatus.\n"
+    "The recording has to have their definitions, as bags and MCAP files do; a rosbag2 database may not.\n"
     "Frames: the body frame is the child frame of the odometry, otherwise base_link or base_footprint.\n"
     "Sensor extrinsics are taken from static transforms; a sensor without one is assumed to be at the\n"
     "body's origin, with a note. NavSatFix becomes position fixes in the east-north-up frame of the\n"
@@ -108,6 +113,32 @@ constexpr const char* kWalkOutput =
     "The output is an existing mission (its robot gets the odometry; a robot that it does not have is\n"
     "added) or a new one. Without --robot, the robot is the mission's only one, or is named after the\n"
     "source.";
+
+constexpr const char* kAndroidNotes =
+    "Reads what apps recorded on one phone. SOURCE is one or several files or folders of files, which are\n"
+    "recognised by their content:\n"
+    "  WiFi scans      CSV with a time, bssid or mac, rssi or level, and perhaps a frequency or channel:\n"
+    "                  WiGLE, Sensor Logger (WiFi.csv), Network Survey and others\n"
+    "  motion          CSV of an accelerometer and a gyroscope, as for `import imu`: Sensor Logger\n"
+    "                  (TotalAcceleration.csv, or Accelerometer.csv and Gravity.csv, and Gyroscope.csv),\n"
+    "                  Physics Toolbox, phyphox and others\n"
+    "  both            logs of GetSensorData (ACCE;..., GYRO;..., WIFI;...) and of the site survey app of "
+    "the\n"
+    "                  Indoor Location Competition (TYPE_ACCELEROMETER ..., TYPE_WIFI ...)\n"
+    "Scans become the robot's wifi.csv, motion its odometry by pedestrian dead reckoning. Positions and "
+    "other\n"
+    "sensors are not imported. Archives have to be unpacked.\n"
+    "\n"
+    "The output is an existing mission (its robot gets what it lacks; a robot that it does not have is "
+    "added)\n"
+    "or a new one. Without --robot, the robot is the mission's only one, or is named after the source.";
+
+constexpr const char* kOdometryNotes =
+    "Reads a robot's odometry: the TUM format (t x y z qx qy qz qw), or a table with a header that names\n"
+    "a time, x, y and perhaps z, and yaw (or theta, heading; in rad, or in degrees if its name says so) or\n"
+    "the quaternion qx, qy, qz, qw, such as `rostopic echo -p` writes. Fields are separated by commas,\n"
+    "semicolons or tabs. The odometry is written from its start, as a mission has it. This kind has no\n"
+    "parameters.";
 
 constexpr const char* kIwFtmNotes =
     "Reads WiFi round-trip times (fine time measurement, IEEE 802.11mc) as printed by `iw dev wlan0\n"
@@ -215,6 +246,19 @@ std::vector<ImportKind> wifi_tool_kinds() {
        {ImportOption::kRobot, ImportOption::kName, ImportOption::kParameters},
        kIwFtmNotes,
        {"radioslam import iw-ftm ftm.txt --robot a --name 02:00:00:00:01:00=door -o ranges.csv"}},
+      {"android",
+       "WiFi scans and motion recorded by apps on a phone, as a robot",
+       import_android,
+       {ImportOption::kRobot, ImportOption::kParameters},
+       kAndroidNotes,
+       {"radioslam import android WigleWifi.csv --robot a -o mission",
+        "radioslam import android recording/ --robot b -o mission"}},
+      {"odometry",
+       "a table of poses, as a robot's odometry",
+       import_odometry,
+       {ImportOption::kRobot},
+       std::string(kOdometryNotes) + kWalkOutput,
+       {"radioslam import odometry odom.csv --robot a -o mission"}},
       {"imu",
        "accelerometer and gyroscope of a walker, as a robot's odometry",
        import_imu,

@@ -7,12 +7,14 @@
 #include "radioslam/cli/commands/output_path_check.hpp"
 #include "radioslam/cli/import/import_commands.hpp"
 #include "radioslam/cli/import/ros_sources.hpp"
+#include "radioslam/cli/import/wifi_summary.hpp"
 #include "radioslam/io/lidar/carmen.hpp"
 #include "radioslam/io/lidar/kitti_sequence.hpp"
 #include "radioslam/io/lidar/lidar_folder.hpp"
 #include "radioslam/io/ros/ros_import.hpp"
 #include "radioslam/io/ros/ros_ranges.hpp"
 #include "radioslam/io/ros/ros_recording.hpp"
+#include "radioslam/io/text/atomic_output.hpp"
 #include "radioslam/io/text/compressed_text.hpp"
 
 namespace radioslam::cli {
@@ -46,7 +48,8 @@ class TeamOutput {
     team_.mission.name = name_of(options.sources.size() == 1 ? options.sources.front() : options.output);
   }
 
-  fs::path scans_of(const std::string& robot) const { return output_.folder_of(robot) / "lidar"; }
+  fs::path folder_of(const std::string& robot) const { return output_.folder_of(robot); }
+  fs::path scans_of(const std::string& robot) const { return folder_of(robot) / "lidar"; }
 
   /// `what` is a one-line summary of the robot's data.
   void add(ImportedMission one, const std::string& what) {
@@ -141,6 +144,7 @@ std::string ros_summary(const RosImport& imported) {
   std::string summary = std::to_string(imported.scans) + " scans, " + std::to_string(robot.odometry.size()) +
                         " odometry samples, " + std::to_string(robot.inertial.size()) + " IMU samples";
   if (!robot.fixes.empty()) summary += ", " + std::to_string(robot.fixes.size()) + " position fixes";
+  if (!imported.wifi.rows.empty()) summary += ", " + wifi_summary(imported.wifi.rows);
   if (!imported.imported.truth.robots.empty())
     summary += ", " + std::to_string(imported.imported.truth.robots.front().poses.size()) + " true poses";
   return summary + " of " + robot.id;
@@ -192,7 +196,10 @@ void import_ros_recordings(const ImportOptions& options) {
   }
   place_fixes(team);
   for (RosImport& robot : team) {
-    const std::string summary = ros_summary(robot);
+    const std::string summary = ros_summary(robot), id = robot.imported.mission.robots.front().id;
+    if (!robot.wifi.rows.empty())
+      write_file(output.folder_of(id) / "wifi.csv", format_wifi_rows(robot.wifi.rows));
+    for (const auto& [what, count] : robot.wifi.counts) output.note(std::to_string(count) + ' ' + what);
     output.add(std::move(robot.imported), summary);
   }
   std::set<std::string> recordings;

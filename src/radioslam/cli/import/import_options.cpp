@@ -40,6 +40,8 @@ void add_topic_options(CLI::App& command, ImportOptions& options) {
                       "Topic of Imu, or none (default: the only one)");
   add_repeated_option(command, "--gnss", options.gnss, "TOPIC",
                       "Topic of NavSatFix, or none (default: the only one)");
+  add_repeated_option(command, "--wifi", options.wifi, "TOPIC",
+                      "Topic of WiFi readings, or none (default: the only one)");
   add_repeated_option(command, "--truth", options.truth, "TOPIC",
                       "Topic of the true poses, as for --odometry (default: none)");
   add_repeated_option(command, "--ranges", options.ranges, "TOPIC=ID,ID",
@@ -121,7 +123,7 @@ void refuse_other_options(const ImportOptions& options, const std::vector<Import
   refuse_unless(options.poses.empty() || takes(ImportOption::kPoses), options, "--poses");
   const bool has_topics = options.list || !options.odometry.empty() || !options.scans.empty() ||
                           !options.imu.empty() || !options.gnss.empty() || !options.truth.empty() ||
-                          !options.ranges.empty();
+                          !options.wifi.empty() || !options.ranges.empty();
   refuse_unless(!has_topics || takes(ImportOption::kTopics), options, "ROS topics");
   refuse_unless(options.time.empty() || takes(ImportOption::kTime), options, "--time");
   const bool has_settings = !options.parameters.set.empty() || !options.parameters.config_path.empty();

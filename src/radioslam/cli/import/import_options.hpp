@@ -22,8 +22,8 @@ struct ImportOptions {
   std::string fields;
   std::string time;
   std::vector<std::string> poses;
-  std::vector<std::string> odometry, scans, imu, gnss, truth;  ///< names of ROS topics
-  std::vector<std::string> ranges;                             ///< TOPIC=ID,ID
+  std::vector<std::string> odometry, scans, imu, gnss, truth, wifi;  ///< names of ROS topics
+  std::vector<std::string> ranges;                                   ///< TOPIC=ID,ID
   bool file_times = false;
   bool list = false;
   bool replace = false;

@@ -5,6 +5,8 @@
 #include "radioslam/cli/import/import_commands.hpp"
 #include "radioslam/io/datasets/walker_tables.hpp"
 #include "radioslam/io/mission/mission_output.hpp"
+#include "radioslam/io/mission/odometry_table.hpp"
+#include "radioslam/io/mission/recorded_odometry.hpp"
 #include "radioslam/io/text/csv.hpp"
 #include "radioslam/io/text/numbers.hpp"
 #include "radioslam/mission/dead_reckoning.hpp"
@@ -12,19 +14,21 @@
 namespace radioslam::cli {
 namespace {
 
-/// The mission that gets a walker's odometry.
-class WalkOutput {
+/// The mission that gets a robot's odometry.
+class OdometryOutput {
  public:
   /// Refuses (InputError) a robot that has odometry.
-  explicit WalkOutput(const ImportOptions& options) : options_(options), robot_(robot_of_import(options)) {
+  explicit OdometryOutput(const ImportOptions& options)
+      : options_(options), robot_(robot_of_import(options)) {
     refuse_replacing_inputs(options.output, options.sources);
     output_.expect_free(robot_.id, true);
   }
 
   /// `what` is the rest of the summary.
   void commit(Trajectory<SE3> odometry, const OdometryNoise& noise, const std::vector<std::string>& notes,
-              const std::string& what) {
+              const std::string& what, int dimension = 2) {
     Mission mission;
+    mission.dimension = dimension;
     mission.name = name_of_source(options_.output);
     Robot& robot = mission.robots.emplace_back();
     robot.id = robot_.id;
@@ -53,9 +57,20 @@ std::string length_of(const Trajectory<SE3>& path) {
 
 }  // namespace
 
+void import_odometry(const ImportOptions& options) {
+  OdometryOutput output(options);
+  std::vector<std::string> notes;
+  const Trajectory<SE3> recorded = read_odometry_table(read_tool_output(only_source(options)), notes);
+  Trajectory<SE3> odometry = from_start({recorded.begin(), recorded.end()});
+  const int dimension = is_in_plane(odometry) ? 2 : 3;
+  const std::string what =
+      std::to_string(odometry.size()) + " poses, " + length_of(odometry) + " of odometry";
+  output.commit(std::move(odometry), OdometryNoise{}, notes, what, dimension);
+}
+
 void import_imu(const ImportOptions& options) {
   const auto params = params_of<DeadReckoningParams>(options);
-  WalkOutput output(options);
+  OdometryOutput output(options);
   std::vector<Text> tables;
   for (const std::string& source : options.sources) tables.push_back(read_tool_output(source));
   std::vector<std::string> notes;
@@ -71,7 +86,7 @@ void import_imu(const ImportOptions& options) {
 }
 
 void import_waypoints(const ImportOptions& options) {
-  WalkOutput output(options);
+  OdometryOutput output(options);
   std::vector<std::string> notes;
   const Trajectory<SE3> path = read_waypoints(read_tool_output(only_source(options)), notes);
   const SE3 start = path.front().pose;

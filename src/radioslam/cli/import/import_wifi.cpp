@@ -10,6 +10,7 @@
 #include "radioslam/cli/commands/output_path_check.hpp"
 #include "radioslam/cli/import/import_commands.hpp"
 #include "radioslam/cli/import/import_options.hpp"
+#include "radioslam/cli/import/wifi_summary.hpp"
 #include "radioslam/io/mission/mission_output.hpp"
 #include "radioslam/io/text/atomic_output.hpp"
 #include "radioslam/io/text/csv.hpp"
@@ -102,24 +103,6 @@ std::vector<fs::path> files_of(const ImportOptions& options, const std::vector<s
   return files;
 }
 
-void print_notes(const WifiLog& log) {
-  for (const std::string& warning : log.warnings) std::cout << "note: " << warning << '\n';
-  for (const auto& [what, count] : log.counts) std::cout << "note: " << count << ' ' << what << '\n';
-}
-
-/// "12 rows, 3 scans, 5 radios", and the robot's name if known.
-std::string wifi_summary(const WifiLog& log, const WifiCsvOutput& target) {
-  std::set<std::string> radios;
-  std::set<Stamp> scans;
-  for (const WifiRow& row : log.rows) {
-    radios.insert(row.bssid);
-    scans.insert(row.stamp);
-  }
-  const std::string counts = std::to_string(log.rows.size()) + " rows, " + std::to_string(scans.size()) +
-                             " scans, " + std::to_string(radios.size()) + " radios";
-  return counts + (target.robot().empty() ? "" : " of " + target.robot());
-}
-
 void write_wifi(const ImportOptions& options, WifiCsvOutput& target, std::vector<WifiLog> logs) {
   const WifiLog log = join_wifi_logs(std::move(logs));
   if (log.rows.empty()) {
@@ -130,7 +113,8 @@ void write_wifi(const ImportOptions& options, WifiCsvOutput& target, std::vector
   target.commit(log.rows);
   print_notes(log);
   for (const std::string& note : target.notes()) std::cout << "note: " << note << '\n';
-  std::cout << options.output << ": " << wifi_summary(log, target) << '\n';
+  std::cout << options.output << ": " << wifi_summary(log.rows)
+            << (target.robot().empty() ? "" : " of " + target.robot()) << '\n';
 }
 
 /// Opens the output. Refuses one that would replace an input.

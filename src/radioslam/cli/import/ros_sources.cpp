@@ -63,7 +63,8 @@ std::vector<std::string> recordings_of(const ImportOptions& options) {
   for (const std::string& source : options.sources)
     for (const auto& recording : recordings_in(source)) recordings.push_back(recording.string());
   std::size_t robots = options.robots.size();
-  for (const auto* topics : {&options.odometry, &options.scans, &options.imu, &options.gnss, &options.truth})
+  for (const auto* topics :
+       {&options.odometry, &options.scans, &options.imu, &options.gnss, &options.truth, &options.wifi})
     robots = std::max(robots, topics->size());
   if (recordings.size() == 1 && robots > 1) recordings.resize(robots, std::string(recordings.front()));
   return recordings;
@@ -96,7 +97,7 @@ std::vector<RosSource> ros_sources(const ImportOptions& options) {
          "",
          {value_for(options.odometry, "--odometry", k, count), value_for(options.scans, "--scans", k, count),
           value_for(options.imu, "--imu", k, count), value_for(options.truth, "--truth", k, count),
-          value_for(options.gnss, "--gnss", k, count)}});
+          value_for(options.gnss, "--gnss", k, count), value_for(options.wifi, "--wifi", k, count)}});
   give_names(options, sources);
   return sources;
 }

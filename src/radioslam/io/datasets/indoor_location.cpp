@@ -86,20 +86,11 @@ std::vector<WifiScan> scans_of(const PhoneLog& log, const std::vector<std::strin
   return scans;
 }
 
-Trajectory<SE3> truth_of(const std::vector<Waypoint>& waypoints) {
-  std::vector<StampedPose<SE3>> poses;
-  for (const auto& waypoint : waypoints) poses.push_back({waypoint.stamp, lift(SE2(waypoint.position_m, 0))});
-  return Trajectory<SE3>(std::move(poses));
-}
-
 Robot robot_of(const NamedPhoneLog& walk, const DeadReckoning& reckoned,
                const std::vector<std::string>& access_points) {
   Robot robot;
   robot.id = walk.id;
-  robot.odometry = reckoned.odometry;
-  robot.odometry_noise = walking_noise();
-  robot.heading = reckoned.compass ? Heading::kAbsolute : Heading::kRelative;
-  robot.sigma_heading_rad = kSigmaHeading_rad;
+  set_walk(robot, reckoned);
   robot.wifi = scans_of(walk.log, access_points);
   return robot;
 }
@@ -117,6 +108,20 @@ std::vector<std::string> warnings_about(const NamedPhoneLog& walk, const DeadRec
 
 }  // namespace
 
+void set_walk(Robot& robot, const DeadReckoning& reckoned) {
+  robot.odometry = reckoned.odometry;
+  robot.odometry_noise = walking_noise();
+  robot.heading = reckoned.compass ? Heading::kAbsolute : Heading::kRelative;
+  robot.sigma_heading_rad = kSigmaHeading_rad;
+}
+
+Trajectory<SE3> waypoints_of(const PhoneLog& log) {
+  std::vector<StampedPose<SE3>> poses;
+  for (const auto& waypoint : log.waypoints)
+    poses.push_back({waypoint.stamp, lift(SE2(waypoint.position_m, 0))});
+  return Trajectory<SE3>(std::move(poses));
+}
+
 ImportedMission mission_of_walks(const std::vector<NamedPhoneLog>& walks, const std::string& name,
                                  const DeadReckoningParams& params) {
   ImportedMission imported;
@@ -125,7 +130,7 @@ ImportedMission mission_of_walks(const std::vector<NamedPhoneLog>& walks, const 
   for (const auto& walk : walks) {
     const auto reckoned = dead_reckon(walk.log.motion, walk.log.begin, walk.log.end, params);
     imported.mission.robots.push_back(robot_of(walk, reckoned, imported.mission.access_points));
-    imported.truth.robots.push_back({walk.id, truth_of(walk.log.waypoints), false});
+    imported.truth.robots.push_back({walk.id, waypoints_of(walk.log), false});
     const auto warnings = warnings_about(walk, reckoned);
     imported.warnings.insert(imported.warnings.end(), warnings.begin(), warnings.end());
   }

@@ -24,6 +24,12 @@ struct NamedPhoneLog {
   PhoneLog log;
 };
 
+/// Gives a robot its carrier's walk: odometry, its noise, and its heading.
+void set_walk(Robot& robot, const DeadReckoning& reckoned);
+
+/// The positions that the surveyor marked, as poses without orientation.
+Trajectory<SE3> waypoints_of(const PhoneLog& log);
+
 /// Builds the mission `name` of walks on one floor, in the given order.
 ImportedMission mission_of_walks(const std::vector<NamedPhoneLog>& walks, const std::string& name,
                                  const DeadReckoningParams& params = {});

@@ -13,6 +13,7 @@
 #include "radioslam/io/mission/tum.hpp"
 #include "radioslam/io/text/csv.hpp"
 #include "radioslam/io/text/line_fields.hpp"
+#include "radioslam/io/text/named_columns.hpp"
 #include "radioslam/io/text/numbers.hpp"
 #include "radioslam/io/text/skipped_records.hpp"
 
@@ -24,80 +25,49 @@ constexpr double kGravityTolerance = 0.3;   // of a mean over walking and a chea
 constexpr double kFastestWalker_radps = 6;  // RMS of the rates of a hand-held phone: about 1
 constexpr double kLongestInterval_s = 0.4;  // between samples
 
-/// Lower case, with '_' for everything that is neither a letter nor a digit: "Acceleration x (m/s^2)" becomes
-/// "acceleration_x_m_s_2".
-std::string plain_name(std::string_view name) {
-  std::string plain;
-  for (const char c : lower_case(name)) {
-    const bool is_word = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
-    if (is_word)
-      plain += c;
-    else if (!plain.empty() && plain.back() != '_')
-      plain += '_';
-  }
-  while (plain.ends_with('_')) plain.pop_back();
-  return plain;
-}
-
-std::optional<std::size_t> find_column(const std::vector<std::string>& names, const std::regex& form) {
-  for (std::size_t k = 0; k < names.size(); ++k)
-    if (std::regex_match(names[k], form)) return k;
-  return std::nullopt;
+/// Whether a table's file has this in its name.
+bool names_file(const Text& table, const char* word) {
+  return lower_case(std::filesystem::path(table.name).stem().string()).find(word) != std::string::npos;
 }
 
 using Axes = std::array<std::size_t, 3>;
 
 /// The columns of x, y and z, whose names are `prefix`, the axis and perhaps a unit; nothing if one is
 /// missing.
-std::optional<Axes> find_axes(const std::vector<std::string>& names, const std::string& prefix) {
+std::optional<Axes> find_axes(const NamedColumns& names, const std::string& prefix) {
   Axes axes;
   for (std::size_t axis = 0; axis < axes.size(); ++axis) {
     const std::string letter(1, "xyz"[axis]);
-    const auto column = find_column(names, std::regex("(?:.*_)?" + prefix + "_?" + letter + "(?:_.*)?"));
+    const auto column = names.find("(?:.*_)?" + prefix + "_?" + letter + "(?:_.*)?");
     if (!column) return std::nullopt;
     axes[axis] = *column;
   }
   return axes;
 }
 
-constexpr const char* kForceNames = "(?:a|f|[a-z]*(?:acc|accel|acceleration|accelerometer|force))";
+constexpr const char* kForceNames = "(?:a|f|gf|[a-z]*(?:acc|accel|acceleration|accelerometer|force))";
 constexpr const char* kRateNames =
     "(?:w|g|omega|[a-z]*(?:gyr|gyro|gyroscope)(?:rotation)?(?:rate)?|(?:[a-z]*rotation|angular)_?"
     "(?:rate|velocity|vel|speed))";
-constexpr const char* kTimeNames = "(?:.*_)?(?:t|sec|secs|seconds|millis|stamp|[a-z]*time[a-z]*)(?:_.*)?";
-
-/// The table with commas between the fields and points in numbers.
-Text with_commas(Text table) {
-  const std::string head = table.content.substr(0, table.content.find('\n'));
-  if (head.find(',') != std::string::npos) return table;
-  if (head.find(';') != std::string::npos) {
-    std::replace(table.content.begin(), table.content.end(), ',', '.');
-    std::replace(table.content.begin(), table.content.end(), ';', ',');
-  }
-  std::replace(table.content.begin(), table.content.end(), '\t', ',');
-  return table;
-}
-
 /// The columns of a table.
 struct ImuColumns {
   std::size_t time = 0;
   std::optional<Axes> force, rate;
   bool rate_in_degrees = false;
 
-  ImuColumns(const Text& table, const CsvReader& csv) {
-    std::vector<std::string> names;
-    for (const std::string_view name : csv.names()) names.push_back(plain_name(name));
-    const auto time_column = find_column(names, std::regex(kTimeNames));
-    if (!time_column) csv.fail("has no column of time", InputError::Kind::kColumnOrder);
-    time = *time_column;
-    force = find_axes(names, kForceNames);
-    rate = find_axes(names, kRateNames);
-    const std::string stem = lower_case(std::filesystem::path(table.name).stem().string());
-    if (!force && !rate && stem.find("acc") != std::string::npos) force = find_axes(names, "");
-    if (!force && !rate && stem.find("gyr") != std::string::npos) rate = find_axes(names, "");
-    if (!force && !rate)
-      csv.fail("has neither x y z of an accelerometer nor of a gyroscope", InputError::Kind::kColumnOrder);
-    if (rate) rate_in_degrees = std::regex_search(names[(*rate)[0]], std::regex("deg|_dps"));
+  /// Nothing if the table has no sensor.
+  static std::optional<ImuColumns> find(const Text& table, const CsvReader& csv) {
+    const NamedColumns names(csv);
+    const auto time = names.find_time();
+    ImuColumns columns{time.value_or(0), find_axes(names, kForceNames), find_axes(names, kRateNames)};
+    const bool is_named = columns.force || columns.rate;
+    if (!is_named && (names_file(table, "acc") || names_file(table, "gravity")))
+      columns.force = find_axes(names, "");
+    if (!is_named && names_file(table, "gyr")) columns.rate = find_axes(names, "");
+    if (!time || (!columns.force && !columns.rate)) return std::nullopt;
+    if (columns.rate)
+      columns.rate_in_degrees = std::regex_search(names.name((*columns.rate)[0]), std::regex("deg|_dps"));
+    return columns;
   }
 };
 
@@ -118,10 +88,10 @@ class ImuTable {
  public:
   ImuTable(const Text& table, std::vector<std::string>& warnings) : table_(table), warnings_(warnings) {}
 
-  void add_to(PhoneMotion& motion) {
-    CsvReader csv(table_);
-    const ImuColumns columns(table_, csv);
-    read_rows(csv, columns);
+  /// `gravity`: a table of its own, where the accelerometer's lacks it; or null.
+  void add_to(PhoneMotion& motion, const Text* gravity) {
+    const ImuColumns columns = read();
+    if (gravity != nullptr && columns.force) add_gravity(*gravity);
     const std::string unit = unit_of_times();
     if (columns.force)
       append(motion.specific_force_mps2, unit, &ImuRow::force, force_scale(), "accelerometer");
@@ -132,6 +102,33 @@ class ImuTable {
   }
 
  private:
+  ImuColumns read() {
+    CsvReader csv(table_);
+    const auto columns = ImuColumns::find(table_, csv);
+    if (!columns)
+      csv.fail("has no column of time, or neither x y z of an accelerometer nor of a gyroscope",
+               InputError::Kind::kColumnOrder);
+    read_rows(csv, *columns);
+    return *columns;
+  }
+
+  /// Adds to every row the force of the row of another table that is nearest in time.
+  void add_gravity(const Text& table) {
+    ImuTable gravity(table, warnings_);
+    gravity.read();
+    const auto later = [](const ImuRow& a, const ImuRow& b) { return a.time_value < b.time_value; };
+    std::stable_sort(gravity.rows_.begin(), gravity.rows_.end(), later);
+    for (ImuRow& row : rows_) {
+      auto nearest = std::lower_bound(gravity.rows_.begin(), gravity.rows_.end(), row, later);
+      const bool is_last = nearest == gravity.rows_.end();
+      if (is_last || (nearest != gravity.rows_.begin() &&
+                      row.time_value - std::prev(nearest)->time_value < nearest->time_value - row.time_value))
+        --nearest;
+      row.force += nearest->force;
+    }
+    gravity.skipped_.conclude(table.name, "row", gravity.rows_.size(), warnings_);
+  }
+
   void read_rows(CsvReader& csv, const ImuColumns& columns) {
     bool is_row = true;
     while (is_row)
@@ -182,7 +179,8 @@ class ImuTable {
     table_.fail(
         0,
         "the mean of its accelerations is " + format_number(mean.norm()) +
-            ", which is gravity in no unit: 9.8 m/s^2 or 1 g is needed, of a sensor that is not turned over",
+            ", which is gravity in no unit: 9.8 m/s^2 or 1 g is needed, of a sensor that is not turned over; "
+            "some apps have gravity in a table of its own, such as Gravity.csv",
         InputError::Kind::kUnit);
   }
 
@@ -264,11 +262,24 @@ Trajectory<SE3> along(const Trajectory<SE3>& waypoints) {
 
 }  // namespace
 
+bool is_walker_table(const Text& table) {
+  const Text readable = with_commas(table);
+  try {
+    return ImuColumns::find(table, CsvReader(readable)).has_value();
+  } catch (const InputError&) {  // without a header
+    return false;
+  }
+}
+
 PhoneMotion read_walker_imu(const std::vector<Text>& tables, std::vector<std::string>& warnings) {
   PhoneMotion motion;
+  std::optional<Text> gravity;
+  for (const Text& table : tables)
+    if (names_file(table, "gravity")) gravity = with_commas(table);
   for (const Text& table : tables) {
+    if (names_file(table, "gravity")) continue;
     const Text readable = with_commas(table);
-    ImuTable(readable, warnings).add_to(motion);
+    ImuTable(readable, warnings).add_to(motion, gravity ? &*gravity : nullptr);
   }
   const bool has_force = !motion.specific_force_mps2.empty();
   if (!has_force || motion.angular_rate_radps.empty())
@@ -283,10 +294,8 @@ PhoneMotion read_walker_imu(const std::vector<Text>& tables, std::vector<std::st
 Trajectory<SE3> read_waypoints(const Text& table, std::vector<std::string>& warnings) {
   const Text readable = with_commas(table);
   CsvReader csv(readable);
-  std::vector<std::string> names;
-  for (const std::string_view name : csv.names()) names.push_back(plain_name(name));
-  const auto time = find_column(names, std::regex(kTimeNames)),
-             x = find_column(names, std::regex("x(?:_.*)?")), y = find_column(names, std::regex("y(?:_.*)?"));
+  const NamedColumns names(csv);
+  const auto time = names.find_time(), x = names.find("x(?:_.*)?"), y = names.find("y(?:_.*)?");
   if (!time || !x || !y) csv.fail("needs the columns t_s, x and y", InputError::Kind::kColumnOrder);
   std::vector<TrajectoryRow> rows;
   SkippedRecords skipped;

@@ -4,7 +4,8 @@
 //
 // Columns are recognised by the names that phones' apps and ROS give them: a time (t_s, time, timestamp,
 // seconds, ...), x y z of an accelerometer (ax, acc_x, linear_acceleration.x, ...) and of a gyroscope (wx,
-// gx, gyro_x, angular_velocity.x, ...), or plain x y z in a file whose name has "acc" or "gyr". Units are
+// gx, gyro_x, angular_velocity.x, ...), or plain x y z in a file whose name has "acc" or "gyr". A file whose
+// name has "gravity" is added to an accelerometer's without it, as apps for phones divide the two. Units are
 // found by what is possible: times in s, ms, us or ns by their median interval, which is 0.5 to 400 ms;
 // accelerations, whose mean is gravity, in m/s^2, g or thousandths of g; rates in degrees/s if their column
 // says so or their RMS exceeds 6 rad/s, which nobody walks. What is not the plain unit is said in a warning.
@@ -19,6 +20,9 @@
 #include "radioslam/mission/phone_motion.hpp"
 
 namespace radioslam {
+
+/// Whether the text's header has the columns of such a table.
+bool is_walker_table(const Text& table);
 
 /// The samples of all tables, in the order of time, turned by one constant rotation so that their mean force
 /// points along z: the device may be carried in any attitude. Refuses (InputError) a table without a time or

@@ -11,8 +11,8 @@ namespace radioslam {
 
 /// What can provide an odometry.tum that is missing, for messages.
 inline constexpr const char* kOdometrySources =
-    "`import imu` makes one from an accelerometer and a gyroscope, `import waypoints` from a table of "
-    "t_s,x,y";
+    "`import odometry` takes one from a table of poses, `import imu` from an accelerometer and a gyroscope, "
+    "`import waypoints` from a table of t_s,x,y";
 
 /// Reads mission.yaml, each robot's odometry.tum, wifi.csv, imu.csv and gnss.csv, radio/*.csv and
 /// matches.csv, and the captures in csi/ of robots with the key `csi` in mission.yaml. Lists the scans in

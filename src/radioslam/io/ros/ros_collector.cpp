@@ -83,6 +83,7 @@ RosCollector::RosCollector(const RosTopicIndex& survey, RosTopicChoice choice, c
   if (choice_.imu) T_body_imu_ = extrinsics_of(survey, body, *choice_.imu, collected_.warnings);
   if (choice_.gnss)
     collected_.fix_lever_m = extrinsics_of(survey, body, *choice_.gnss, collected_.warnings).translation();
+  if (choice_.wifi) wifi_definition_ = wifi_definition_of(*survey.find(*choice_.wifi));
   if (T_body_imu_.translation().norm() > kNegligibleLever_m)
     collected_.warnings.push_back(*choice_.imu +
                                   ": the IMU's position in the body frame is not taken into account");
@@ -90,7 +91,8 @@ RosCollector::RosCollector(const RosTopicIndex& survey, RosTopicChoice choice, c
 
 bool RosCollector::reads(const RosChannel& channel) const {
   return is_topic(choice_.odometry, channel) || is_topic(choice_.truth, channel) ||
-         channel.topic == choice_.scans || channel.topic == choice_.imu || channel.topic == choice_.gnss;
+         channel.topic == choice_.scans || channel.topic == choice_.imu || channel.topic == choice_.gnss ||
+         channel.topic == choice_.wifi;
 }
 
 void RosCollector::take(const RosMessage& message) {
@@ -122,11 +124,18 @@ bool RosCollector::is_timed(const RosMessage& message) {
 void RosCollector::take_small(const RosMessage& message) {
   const RosChannel& channel = message.channel;
   if (is_transforms_type(channel.type)) return transforms_[channel.topic].take(message);
+  if (channel.topic == choice_.wifi) return take_wifi(message);
   if (!is_timed(message)) return;
   if (is_topic(choice_.odometry, channel)) take_pose(message, collected_.odometry);
   if (is_topic(choice_.truth, channel)) take_pose(message, collected_.truth);
   if (channel.topic == choice_.imu) take_inertial(message);
   if (channel.topic == choice_.gnss) take_fix(message);
+}
+
+void RosCollector::take_wifi(const RosMessage& message) {
+  WifiMessage read = read_wifi_message(*wifi_definition_, message);
+  count(message.channel.topic, "readings without an address or a level in dBm are left out", read.invalid);
+  collected_.wifi.insert(collected_.wifi.end(), read.rows.begin(), read.rows.end());
 }
 
 RosCollected RosCollector::finish() {

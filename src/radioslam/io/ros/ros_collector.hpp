@@ -18,6 +18,7 @@
 #include "radioslam/io/ros/ros_topics.hpp"
 #include "radioslam/io/ros/ros_types.hpp"
 #include "radioslam/io/ros/transforms.hpp"
+#include "radioslam/io/ros/wifi_message.hpp"
 #include "radioslam/mission/mission.hpp"
 
 namespace radioslam {
@@ -36,6 +37,7 @@ struct RosCollected {
   std::vector<StampedPose<SE3>> odometry, truth;
   std::vector<ImuSample> inertial;
   std::vector<GeodeticFix> fixes;
+  std::vector<WifiRow> wifi;  ///< in the order of the messages
   Eigen::Vector3d fix_lever_m = Eigen::Vector3d::Zero();
   std::set<Stamp> scans;
   bool is_plane_scanner = false;
@@ -68,6 +70,7 @@ class RosCollector {
   void take_scan(Stamp stamp, RosScan& scan);
   void take_fix(const RosMessage& message);
   void take_inertial(const RosMessage& message);
+  void take_wifi(const RosMessage& message);
 
   const RosTopicIndex& survey_;
   RosTopicChoice choice_;
@@ -76,6 +79,7 @@ class RosCollector {
   std::map<std::string, MovingTransforms> transforms_;  ///< by topic
   std::map<std::string, SkippedRecords> unreadable_;    ///< by topic, all but scans
   std::map<std::string, std::size_t> readable_;         ///< by topic
+  std::optional<RosDefinition> wifi_definition_;
   SE3 T_body_laser_, T_body_imu_;
   RosCollected collected_;
 };

@@ -6,33 +6,15 @@
 
 #include "radioslam/base/input_error.hpp"
 #include "radioslam/base/statistics.hpp"
-#include "radioslam/geometry/so3.hpp"
+#include "radioslam/io/mission/recorded_odometry.hpp"
 #include "radioslam/io/ros/ros_collector.hpp"
 #include "radioslam/io/ros/ros_recording.hpp"
 
 namespace radioslam {
 namespace {
 
-constexpr double kPlaneHeight_m = 0.1, kPlaneTilt = 0.05;  ///< the latter is the sine of half the tilt
 constexpr double kMaxOriginDistance_m = 1e5, kMaxFixDistance_m = 1e6;
 constexpr double kMinForce_mps2 = 5;  ///< a smaller mean specific force is not in m/s^2
-
-/// Poses relative to the first one's position and yaw.
-Trajectory<SE3> from_start(std::vector<StampedPose<SE3>> poses) {
-  if (poses.empty()) return {};
-  const SE3& first = poses.front().pose;
-  const SE3 T_start = SE3(first.translation(), so3_exp({0, 0, first.yaw()})).inverse();
-  for (auto& entry : poses) entry.pose = T_start * entry.pose;
-  return Trajectory<SE3>(std::move(poses));
-}
-
-bool is_plane(const Trajectory<SE3>& poses) {
-  return std::all_of(poses.begin(), poses.end(), [](const StampedPose<SE3>& entry) {
-    const Eigen::Quaterniond& rotation = entry.pose.rotation();
-    return std::abs(entry.pose.translation().z()) < kPlaneHeight_m &&
-           std::hypot(rotation.x(), rotation.y()) < kPlaneTilt;
-  });
-}
 
 std::vector<PositionFix> local_fixes(const std::vector<GeodeticFix>& fixes, const GeodeticPlace& origin) {
   std::vector<PositionFix> local;
@@ -97,7 +79,7 @@ RosImport mission_of(RosCollected& collected, const std::string& robot, bool has
   recorded.odometry = from_start(std::move(collected.odometry));
   recorded.inertial = std::move(collected.inertial);
   if (collected.range_max_m > 0) recorded.lidar_range_m = collected.range_max_m;
-  const bool moves_in_plane = has_scans ? collected.is_plane_scanner : is_plane(recorded.odometry);
+  const bool moves_in_plane = has_scans ? collected.is_plane_scanner : is_in_plane(recorded.odometry);
   result.imported.mission.dimension = moves_in_plane ? 2 : 3;
   if (!collected.truth.empty())
     result.imported.truth.robots.push_back({robot, Trajectory<SE3>(std::move(collected.truth)), true});
@@ -140,6 +122,7 @@ RosImport import_ros_recording(const std::filesystem::path& source, const std::s
   RosImport result = mission_of(collected, robot, choice.scans.has_value());
   if (!collected.fixes.empty()) result.imported.mission.robots.front().fix_lever_m = collected.fix_lever_m;
   result.fixes = std::move(collected.fixes);
+  result.wifi = join_wifi_logs({WifiLog{std::move(collected.wifi), {}, {}}});
   add_warnings(collected, survey, choice, result.imported.warnings);
   for (const RosTopic& topic : survey.topics)
     if (collector.reads({topic.name, topic.type})) result.topics.insert(topic.name);

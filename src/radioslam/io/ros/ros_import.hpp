@@ -15,7 +15,8 @@
 //
 // Position fixes (NavSatFix) become positions east, north and up of the team's first fix within 100 km of the
 // median of all its fixes (local_frame.hpp), with the sigma of their worst axis, or 10 m if none is stated. A
-// fix without altitude gets that of the origin; those more than 1000 km off are left out, with a warning.
+// fix without altitude gets that of the origin; those more than 1000 km off are left out, with a warning.//
+// Messages of WiFi drivers (wifi_message.hpp) become the robot's scans, those of one message one scan.
 #pragma once
 
 #include <filesystem>
@@ -30,9 +31,10 @@
 namespace radioslam {
 
 struct RosImport {
-  ImportedMission imported;  ///< of one robot, without its position fixes
+  ImportedMission imported;  ///< of one robot, without its position fixes and WiFi scans
   std::size_t scans = 0;
   std::vector<GeodeticFix> fixes;
+  WifiLog wifi;
   RosTopicIndex index;           ///< of the recording
   std::set<std::string> topics;  ///< that were read
 };

@@ -9,6 +9,7 @@
 #include "radioslam/base/units.hpp"
 #include "radioslam/io/ros/ros_recording.hpp"
 #include "radioslam/io/ros/ros_types.hpp"
+#include "radioslam/io/ros/wifi_message.hpp"
 #include "radioslam/io/text/skipped_records.hpp"
 
 namespace radioslam {
@@ -86,18 +87,21 @@ class TopicIndexer {
 
 constexpr const char* kNoTopic = "none";
 
-using IsOfKind = bool (*)(std::string_view type);
+using IsOfKind = bool (*)(const RosTopic& topic);
 
-bool is_odometry_type(std::string_view type) { return type == kOdometryType; }
-bool is_fix_type(std::string_view type) { return type == kFixType; }
-bool is_inertial_type(std::string_view type) { return type == kImuType; }
+bool has_odometry(const RosTopic& topic) { return topic.type == kOdometryType; }
+bool has_poses(const RosTopic& topic) { return is_pose_type(topic.type); }
+bool has_scans(const RosTopic& topic) { return is_scan_type(topic.type); }
+bool has_fixes(const RosTopic& topic) { return topic.type == kFixType; }
+bool has_inertial(const RosTopic& topic) { return topic.type == kImuType; }
+bool has_wifi(const RosTopic& topic) { return wifi_definition_of(topic).has_value(); }
 
 /// One kind of topics and the option that selects one.
 struct TopicKind {
   const char* option;
   const char* what;
-  IsOfKind is_found;    ///< types that are used by default if there is only one topic
-  IsOfKind is_allowed;  ///< types that may be selected
+  IsOfKind is_found;    ///< topics that are used by default if there is only one
+  IsOfKind is_allowed;  ///< topics that may be selected
 };
 
 class TopicChooser {
@@ -111,7 +115,7 @@ class TopicChooser {
     if (!wish.empty()) return asked_for(kind, wish);
     std::vector<RosTopic> found;
     for (const RosTopic& topic : survey_.topics)
-      if (kind.is_found(topic.type) && topic.name != other) found.push_back(topic);
+      if (kind.is_found(topic) && topic.name != other) found.push_back(topic);
     if (found.size() > 1)
       fail("has " + std::to_string(found.size()) + " topics with " + kind.what + "; " + kind.option +
            " selects one of them, or none: " + list_of_topics(found));
@@ -136,7 +140,7 @@ class TopicChooser {
     if (topic == nullptr) fail_with_topics(std::string(kind.option) + ": unknown topic " + wish);
     if (is_transforms_type(topic->type))
       fail(std::string(kind.option) + ": " + wish + " has transforms; " + wish + ":FRAME.CHILD selects one");
-    if (!kind.is_allowed(topic->type))
+    if (!kind.is_allowed(*topic))
       fail_with_topics(std::string(kind.option) + ": " + wish + " has type " + topic->type +
                        ", which is not one of " + kind.what);
     return wish;
@@ -188,16 +192,17 @@ std::string list_of_topics(const std::vector<RosTopic>& topics) {
 
 RosTopicChoice choose_topics(const std::string& source, const RosTopicIndex& survey,
                              const RosTopicRequest& wishes) {
-  const IsOfKind none = [](std::string_view) { return false; };
+  const IsOfKind none = [](const RosTopic&) { return false; };
   const TopicChooser chooser(source, survey);
   RosTopicChoice choice;
-  choice.truth = chooser.choose_poses({"--truth", "poses", none, is_pose_type}, wishes.truth, "");
+  choice.truth = chooser.choose_poses({"--truth", "poses", none, has_poses}, wishes.truth, "");
   const std::string truth = choice.truth ? choice.truth->topic : "";
-  choice.odometry = chooser.choose_poses({"--odometry", "odometry", is_odometry_type, is_pose_type},
-                                         wishes.odometry, truth);
-  choice.scans = chooser.choose({"--scans", "laser scans", is_scan_type, is_scan_type}, wishes.scans, "");
-  choice.imu = chooser.choose({"--imu", "IMU samples", is_inertial_type, is_inertial_type}, wishes.imu, "");
-  choice.gnss = chooser.choose({"--gnss", "position fixes", is_fix_type, is_fix_type}, wishes.gnss, "");
+  choice.odometry =
+      chooser.choose_poses({"--odometry", "odometry", has_odometry, has_poses}, wishes.odometry, truth);
+  choice.scans = chooser.choose({"--scans", "laser scans", has_scans, has_scans}, wishes.scans, "");
+  choice.imu = chooser.choose({"--imu", "IMU samples", has_inertial, has_inertial}, wishes.imu, "");
+  choice.gnss = chooser.choose({"--gnss", "position fixes", has_fixes, has_fixes}, wishes.gnss, "");
+  choice.wifi = chooser.choose({"--wifi", "WiFi readings", has_wifi, has_wifi}, wishes.wifi, "");
   if (!choice.odometry && !choice.scans)
     chooser.fail_with_topics(
         "has neither odometry nor laser scans to import; --odometry selects a topic of poses, or "

@@ -42,10 +42,10 @@ RosTopicIndex index_recording(const std::filesystem::path& source);
 std::string list_of_topics(const std::vector<RosTopic>& topics);
 
 /// The user's choice of topics: a topic; a topic of transforms with two frames, "/tf:odom.base_link"; "none";
-/// or empty. If it is empty, the only topic of the kind is used for odometry, scans, IMU samples and position
-/// fixes, but none for the ground truth, because poses could also be goals or estimates.
+/// or empty. If it is empty, the only topic of the kind is used for odometry, scans, IMU samples, position
+/// fixes and WiFi, but none for the ground truth, because poses could also be goals or estimates.
 struct RosTopicRequest {
-  std::string odometry = {}, scans = {}, imu = {}, truth = {}, gnss = {};
+  std::string odometry = {}, scans = {}, imu = {}, truth = {}, gnss = {}, wifi = {};
 };
 
 /// The source of poses.
@@ -56,7 +56,7 @@ struct RosPoseTopic {
 
 struct RosTopicChoice {
   std::optional<RosPoseTopic> odometry, truth;
-  std::optional<std::string> scans, imu, gnss;
+  std::optional<std::string> scans, imu, gnss, wifi;
 };
 
 /// Refuses (InputError for `source`, listing its topics) a topic that does not exist or has the wrong type,

@@ -120,15 +120,15 @@ std::optional<std::string> control_character_note(const Text& text) {
   TextLines at(text);
   while (at.next()) {
     const std::string_view line = at.line();
-    const bool has_one = std::any_of(line.begin(), line.end(), [](char c) {
-      return is_control(static_cast<unsigned char>(c));
-    });
+    const bool has_one = std::any_of(line.begin(), line.end(),
+                                     [](char c) { return is_control(static_cast<unsigned char>(c)); });
     if (has_one && ++lines == 1) first = at.number();
   }
   if (lines == 0) return std::nullopt;
-  const std::string others = lines == 1 ? "" : ", and so do " + std::to_string(lines - 1) + " other lines";
-  return text.name + ":" + std::to_string(first) + ": has control characters, as names of networks may" +
-         others + "; names are not imported";
+  return text.name + ":" + std::to_string(first) + ": " +
+         (lines == 1 ? "has control characters"
+                     : "the first of " + std::to_string(lines) + " lines with control characters") +
+         ", as names of networks may have; names are not imported";
 }
 
 std::string read_bytes(const std::filesystem::path& path) {

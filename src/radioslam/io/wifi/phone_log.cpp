@@ -61,7 +61,7 @@ class PhoneLogReader {
       if (skipped_.attempt([&] { read_line(line); })) ++used;
     }
     find_interval();
-    sort_by_time();
+    sort_phone_records(log_, text_.name, skipped_);
     skipped_.conclude(text_.name, "record", used, log_.warnings);
     if (const auto note = control_character_note(text_)) log_.warnings.push_back(*note);
     if (!first_) text_.fail(0, "the log contains no records");
@@ -89,33 +89,6 @@ class PhoneLogReader {
       log_.end = first_ ? std::max(log_.end, end) : end;
       first_ = first_ ? std::min(*first_, begin) : begin;
     }
-  }
-
-  /// Sorts the records of each kind; those that are out of order by more than is sorted are left out.
-  void sort_by_time() {
-    const auto by_stamp = [](const auto& record) { return record.stamp; };
-    std::size_t moved = 0;
-    const auto sort = [&](auto& records, const auto& stamp_of, const char* kind) {
-      const auto refusal = [&, before = records](std::size_t row) {
-        return InputError(text_.name, 0,
-                          std::string(kind) + " at " + format_stamp(stamp_of(before[row])) +
-                              " s: time runs backwards by more than a second",
-                          InputError::Kind::kClock);
-      };
-      moved += sort_records(records, stamp_of, refusal, skipped_);
-    };
-    sort(log_.motion.specific_force_mps2, by_stamp, "TYPE_ACCELEROMETER");
-    sort(log_.motion.angular_rate_radps, by_stamp, "TYPE_GYROSCOPE");
-    sort(log_.motion.orientation, by_stamp, "TYPE_ROTATION_VECTOR");
-    sort(log_.waypoints, by_stamp, "TYPE_WAYPOINT");
-    sort(
-        log_.wifi, [](const ScanEntry& entry) { return entry.scan; }, "TYPE_WIFI");
-    const auto same = [](const Waypoint& a, const Waypoint& b) { return a.stamp == b.stamp; };
-    log_.waypoints.erase(std::unique(log_.waypoints.begin(), log_.waypoints.end(), same),
-                         log_.waypoints.end());
-    if (moved > 0)
-      log_.warnings.push_back(text_.name + ": " + std::to_string(moved) +
-                              " records are earlier than the one before them and were sorted");
   }
 
   void read_comment(std::string_view comment) {
@@ -196,6 +169,41 @@ class PhoneLogReader {
 };
 
 }  // namespace
+
+void sort_phone_records(PhoneLog& log, const std::string& name, SkippedRecords& skipped) {
+  const auto by_stamp = [](const auto& record) { return record.stamp; };
+  std::size_t moved = 0;
+  const auto sort = [&](auto& records, const auto& stamp_of, const char* kind) {
+    const auto refusal = [&, before = records](std::size_t row) {
+      return InputError(name, 0,
+                        std::string(kind) + " at " + format_stamp(stamp_of(before[row])) +
+                            " s: time runs backwards by more than a second",
+                        InputError::Kind::kClock);
+    };
+    moved += sort_records(records, stamp_of, refusal, skipped);
+  };
+  sort(log.motion.specific_force_mps2, by_stamp, "accelerometer");
+  sort(log.motion.angular_rate_radps, by_stamp, "gyroscope");
+  sort(log.motion.orientation, by_stamp, "orientation");
+  sort(log.waypoints, by_stamp, "waypoint");
+  sort(
+      log.wifi, [](const ScanEntry& entry) { return entry.scan; }, "WiFi scan");
+  const auto same = [](const Waypoint& a, const Waypoint& b) { return a.stamp == b.stamp; };
+  log.waypoints.erase(std::unique(log.waypoints.begin(), log.waypoints.end(), same), log.waypoints.end());
+  if (moved > 0)
+    log.warnings.push_back(name + ": " + std::to_string(moved) +
+                           " records are earlier than the one before them and were sorted");
+}
+
+bool is_phone_log(const Text& text) {
+  TextLines lines(text);
+  while (lines.next())
+    if (const std::string_view line = trim(lines.line()); !line.empty() && line.front() != '#') {
+      const Fields fields = split_at_tabs(line);
+      return fields.size() > 1 && fields[1].starts_with(kTypePrefix);
+    }
+  return false;
+}
 
 PhoneLog read_phone_log(const Text& text) { return PhoneLogReader(text).read(); }
 

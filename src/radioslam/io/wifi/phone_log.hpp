@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "radioslam/base/stamp.hpp"
+#include "radioslam/io/text/skipped_records.hpp"
 #include "radioslam/io/text/text.hpp"
 #include "radioslam/mission/phone_motion.hpp"
 
@@ -49,6 +50,13 @@ struct PhoneLog {
   std::vector<ScanEntry> wifi;      ///< scans in time order
   std::vector<std::string> warnings;
 };
+
+/// Sorts the records of each kind. Those that are out of order by more than is sorted are left out and added
+/// to `skipped`; second waypoints of one time are left out.
+void sort_phone_records(PhoneLog& log, const std::string& name, SkippedRecords& skipped);
+
+/// Whether a text begins as such a log does.
+bool is_phone_log(const Text& text);
 
 /// Refuses (InputError) a log of which most records are malformed, and one without accelerometer or gyroscope
 /// records or of a single time.
