@@ -73,7 +73,7 @@ TEST(AccessPointStage, CovariancesHoldAgainstTheSimulatorsTruth) {
 
 TEST(AccessPointStage, ReportsSignalsAndSimilarity) {
   const RunResult result = place(24).result;
-  EXPECT_EQ(result.similarity_over_time.size(), 2U);
+  EXPECT_EQ(result.similarity_over_time.size(), 32U) << "sixteen fingerprints per robot";
   ASSERT_FALSE(result.signals.empty());
   for (const auto& signal : result.signals) EXPECT_EQ(signal.stamps.size(), signal.rss_dbm.size());
   EXPECT_EQ(result.counts.at("access_points"), static_cast<double>(result.access_points.size()));

@@ -1,5 +1,6 @@
 radioslam_room(eval
   SOURCES
+    access_point_errors.cpp
     association.cpp
     closures.cpp
     measurement_truth.cpp

@@ -11,7 +11,8 @@
 namespace radioslam {
 namespace {
 
-constexpr std::size_t kMaxShown = 12;  // readings shown per access point
+constexpr std::size_t kMaxShown = 400;            // readings shown per access point
+constexpr std::size_t kMaxSimilarityStamps = 16;  // fingerprints whose similarity is shown, per robot
 constexpr double kHalfOfScans = 0.5, kAboutHalf = 0.15;
 constexpr std::size_t kMinHalfDetected = 50;
 constexpr double kWeakRatio = 0.05;  // quantile of all readings that serves as a weak reading
@@ -109,14 +110,11 @@ std::vector<double> frequencies(const Mission& mission) {
   return mhz;
 }
 
-/// A few readings, evenly chosen from the stronger half; weak ones constrain the position little.
-std::vector<Eigen::Vector3d> some_of(std::vector<PlacedReading> readings) {
-  std::stable_sort(readings.begin(), readings.end(),
-                   [](const PlacedReading& a, const PlacedReading& b) { return a.rss_dbm > b.rss_dbm; });
-  const std::size_t half = std::min(readings.size(), std::max(kMaxShown, readings.size() / 2));
-  const std::size_t stride = (half + kMaxShown - 1) / kMaxShown;
+/// Readings, evenly chosen along the paths.
+std::vector<Eigen::Vector3d> some_of(const std::vector<PlacedReading>& readings) {
   std::vector<Eigen::Vector3d> some;
-  for (std::size_t k = 0; k < half; k += stride)
+  const std::size_t stride = (readings.size() + kMaxShown - 1) / kMaxShown;
+  for (std::size_t k = 0; k < readings.size(); k += stride)
     some.emplace_back(readings[k].place_m.x(), readings[k].place_m.y(), readings[k].rss_dbm);
   return some;
 }
@@ -172,21 +170,26 @@ void add_signals(RunResult& result, const Mission& mission, const RadioMeasureme
     }
 }
 
-/// Similarity of the fingerprint in the middle of each robot's trajectory to all its others.
+/// Similarity of one fingerprint of a robot, those of which begin at node `first`, to all its others.
+SimilarityOverTime similarity_to_others(const std::string& robot, const RadioMeasurements& radio,
+                                        std::size_t first, std::size_t count, std::size_t of) {
+  SimilarityOverTime over{robot, radio.at(of).fingerprint.stamp, {}, {}};
+  for (std::size_t node = first; node < first + count; ++node) {
+    if (node == of) continue;
+    over.stamps.push_back(radio.at(node).fingerprint.stamp);
+    over.similarity.push_back(static_cast<float>(similarity_of(radio, of, node)));
+  }
+  return over;
+}
+
+/// Similarity of some fingerprints, evenly chosen along each robot's trajectory.
 void add_similarity(RunResult& result, const Mission& mission, const RadioMeasurements& radio) {
   std::size_t first = 0;
   for (std::size_t r = 0; r < radio.robots.size(); ++r) {
-    const std::size_t count = radio.robots[r].size();
-    if (count > 1) {
-      const std::size_t middle = first + count / 2;
-      SimilarityOverTime over{mission.robots[r].id, radio.at(middle).fingerprint.stamp, {}, {}};
-      for (std::size_t node = first; node < first + count; ++node) {
-        if (node == middle) continue;
-        over.stamps.push_back(radio.at(node).fingerprint.stamp);
-        over.similarity.push_back(static_cast<float>(similarity_of(radio, middle, node)));
-      }
-      result.similarity_over_time.push_back(std::move(over));
-    }
+    const std::size_t count = radio.robots[r].size(), shown = std::min(count, kMaxSimilarityStamps);
+    for (std::size_t k = 0; k < shown && count > 1; ++k)
+      result.similarity_over_time.push_back(similarity_to_others(mission.robots[r].id, radio, first, count,
+                                                                 first + (2 * k + 1) * count / (2 * shown)));
     first += count;
   }
 }

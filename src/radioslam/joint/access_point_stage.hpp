@@ -3,6 +3,7 @@
 #pragma once
 
 #include "radioslam/mission/mission.hpp"
+#include "radioslam/radio/fingerprints/access_point_fixes.hpp"
 #include "radioslam/radio/fingerprints/access_points.hpp"
 #include "radioslam/radio/fingerprints/measurements.hpp"
 #include "radioslam/results/results.hpp"
@@ -14,6 +15,7 @@ struct AccessPointStageParams {
   int signals = 6;
   double min_detection = 0.5;  ///< rarer readings are biased to high power
   AccessPointParams fit;
+  AccessPointFixParams known;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -24,6 +26,7 @@ struct AccessPointStageParams {
         min_detection, "", 0, 1,
         "smallest detection rate of a reading within its fingerprint; higher values drop weak readings");
     AccessPointParams::visit_fields(self.fit, visit);
+    AccessPointFixParams::visit_fields(self.known, visit);
   }
 };
 

@@ -1,6 +1,7 @@
 radioslam_room(joint
   SOURCES
     access_point_stage.cpp
+    known_access_points.cpp
     aoa/aoa_integrity.cpp
     aoa/aoa_match_weights.cpp
     aoa/mutual_bearing_constraints.cpp

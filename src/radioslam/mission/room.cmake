@@ -3,6 +3,7 @@ radioslam_room(mission
     continuous_trajectory.cpp
     dead_reckoning.cpp
     keyframes.cpp
+    known_access_points.cpp
     odometry_edge.cpp
     sweep_slices.cpp
     wifi_channel.cpp

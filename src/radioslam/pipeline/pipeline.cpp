@@ -9,6 +9,7 @@
 #include "radioslam/joint/closures/loop_stage.hpp"
 #include "radioslam/joint/closures/radio_alignment_choice.hpp"
 #include "radioslam/joint/joint_graph_from_file.hpp"
+#include "radioslam/joint/known_access_points.hpp"
 #include "radioslam/joint/late_nodes.hpp"
 #include "radioslam/joint/links/link_weights.hpp"
 #include "radioslam/joint/places/place_recognition.hpp"
@@ -330,13 +331,14 @@ namespace {
 
 /// The whole estimate. `graph`: the team as a factor graph, or null.
 template <class Pose>
-RunOutput run(const Mission& mission, const TeamGraph<Pose>* graph, const MeasuredScans& scans,
+RunOutput run(const Mission& recorded, const TeamGraph<Pose>* graph, const MeasuredScans& scans,
               const RunParams& params, const RunOptions& options, const Progress& progress,
               StageClock& timed) {
-  const RadioMeasurements radio = timed("radio", measure_radio, mission, params.radio, progress);
+  const RadioMeasurements radio = timed("radio", measure_radio, recorded, params.radio, progress);
+  const auto known = timed("radio fixes", use_known_access_points, recorded, radio, params.access_points);
+  const Mission& mission = known.mission ? *known.mission : recorded;
   const MapWitness maps(mission, scans);
   const RunSetup run{mission, radio, params, options, progress, timed, &maps};
-
   auto built = timed("graph", build_team<Pose>, run, graph, scans);
   auto aligned = align_team(run, std::move(built));
   TeamDescriptors descriptors;
@@ -363,6 +365,7 @@ RunOutput run(const Mission& mission, const TeamGraph<Pose>* graph, const Measur
   RunResult result =
       describe_run(mission, radio, judged.team, std::move(judged.overlaps), params, options, timed);
   count_places(result, places.counts);
+  add_known_access_points(result, recorded, known.fixes, params.access_points.known);
   return {std::move(result), std::move(judged.team.joint.team.graph)};
 }
 

@@ -18,6 +18,7 @@ radioslam_room(radio
     captures/csi_tracks.cpp
     channel/capture_power.cpp
     channel/two_way_channel.cpp
+    fingerprints/access_point_fixes.cpp
     fingerprints/access_points.cpp
     fingerprints/distance_model.cpp
     fingerprints/fingerprint.cpp

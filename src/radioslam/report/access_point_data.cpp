@@ -31,9 +31,10 @@ PageData pair_data(const Eigen::Vector2d& position_m) {
   return {rounded(position_m.x(), kPointDecimals), rounded(position_m.y(), kPointDecimals)};
 }
 
-PageData readings_data(const AccessPointResult& point, const SE3& T_page_estimate) {
+PageData readings_data(const AccessPointResult& point, const SE3& T_page_estimate, std::size_t limit) {
   PageData heard = PageData::array();
-  for (const Eigen::Vector3d& reading : point.heard) {
+  for (const std::size_t k : evenly_spaced(point.heard.size(), limit)) {
+    const Eigen::Vector3d& reading = point.heard[k];
     PageData row = pair_data(on_page_m(T_page_estimate, reading.head<2>()));
     row.push_back(rounded(reading.z(), kDecibelDecimals));
     heard.push_back(std::move(row));
@@ -41,7 +42,7 @@ PageData readings_data(const AccessPointResult& point, const SE3& T_page_estimat
   return heard;
 }
 
-PageData point_data(const AccessPointResult& point, const SE3& T_page_estimate) {
+PageData point_data(const AccessPointResult& point, const SE3& T_page_estimate, std::size_t readings) {
   const auto axes = symmetric_eigen<Eigen::Matrix2d>(point.covariance.topLeftCorner<2, 2>());
   const Eigen::Vector2d sigma = axes.values.cwiseMax(0).cwiseSqrt();
   const Eigen::Vector2d along = axes.vectors.col(1);
@@ -60,7 +61,7 @@ PageData point_data(const AccessPointResult& point, const SE3& T_page_estimate) 
       {"sigma_db", rounded(point.sigma_db, kDecibelDecimals)},
       {"readings", point.readings}};
   if (point.alternative_m) data["rival"] = pair_data(on_page_m(T_page_estimate, *point.alternative_m));
-  data["heard"] = readings_data(point, T_page_estimate);
+  data["heard"] = readings_data(point, T_page_estimate, readings);
   return data;
 }
 
@@ -90,10 +91,18 @@ void add_columns(PageData& data, const char* name, const std::vector<Stamp>& sta
 }  // namespace
 
 PageData access_point_data(const RunResult& result, const SE3& T_page_estimate, const ReportParams& params) {
+  constexpr std::size_t kLeastReadings = 12;  // for the circles
+  const auto drawn = drawn_points(result.access_points, static_cast<std::size_t>(params.max_access_points));
+  std::size_t total = 0;
+  for (const std::size_t k : drawn) total += result.access_points[k].heard.size();
   PageData points = PageData::array();
-  for (const std::size_t k :
-       drawn_points(result.access_points, static_cast<std::size_t>(params.max_access_points)))
-    points.push_back(point_data(result.access_points[k], T_page_estimate));
+  for (const std::size_t k : drawn) {
+    const AccessPointResult& point = result.access_points[k];
+    points.push_back(
+        point_data(point, T_page_estimate,
+                   part_of_budget(point.heard.size(), total,
+                                  static_cast<std::size_t>(params.max_signal_values), kLeastReadings)));
+  }
   return {{"placed", result.access_points.size()}, {"points", std::move(points)}};
 }
 

@@ -37,8 +37,10 @@ struct ReportParams {
                     "largest number of measured directions drawn with their profiles");
     RADIOSLAM_FIELD(max_profile_values, "", 36, 3600, "largest number of values drawn per profile");
     RADIOSLAM_FIELD(max_access_points, "", 1, 1e6, "largest number of access points on the map");
-    RADIOSLAM_FIELD(max_signal_values, "", 100, 1e7,
-                    "largest number of values of signal strength and similarity drawn over time");
+    RADIOSLAM_FIELD(
+        max_signal_values, "", 100, 1e7,
+        "largest number of values of signal strength drawn on the map, and of signal strength and "
+        "similarity drawn over time");
   }
 };
 

@@ -45,6 +45,7 @@ struct Evaluation {
   bool looked_for_candidates = false;  ///< whether the run searched for candidates at all
   nlohmann::ordered_json found,
       listed;  ///< how many candidates the run says it found and listed; null: it does not
+  AccessPointErrors access_points;
   PairCounts closures;
   ClosuresByKind by_kind;  ///< compared with the truth
   long accepted = 0;
@@ -167,6 +168,8 @@ Evaluation evaluate(const EvaluateOptions& options) {
   if (!odometry.empty()) {
     evaluation.dead_reckoning = evaluate_trajectories(odometry, truth, mission.dimension, association);
   }
+  evaluation.access_points =
+      access_point_errors(run.access_points, mission, evaluation.metrics.T_truth_estimate);
   if (evaluation.has_mission)
     count_pairs(evaluation, run, mission, places, true_pairs(mission, truth, run, options.radius_m),
                 input.loops);
@@ -188,6 +191,7 @@ nlohmann::ordered_json evaluation_json(const Evaluation& evaluation) {
   json["closures"]["accepted"] = evaluation.accepted;
   json["closures"]["rejected"] = evaluation.rejected;
   json["closures"].update(closures_by_kind_json(evaluation.by_kind));
+  json["access_points"] = access_point_errors_json(evaluation.access_points);
   json["dead_reckoning"] = nullptr;
   if (evaluation.dead_reckoning) json["dead_reckoning"] = metrics_json(*evaluation.dead_reckoning);
   json["notes"] = evaluation.notes;
@@ -200,6 +204,13 @@ void print_evaluation(const Evaluation& evaluation) {
   if (!evaluation.has_mission) return;
   if (evaluation.dead_reckoning && evaluation.dead_reckoning->ate) {
     std::cout << "dead reckoning alone: " << evaluation.dead_reckoning->ate->rmse_m << " m rmse\n";
+  }
+  if (const AccessPointErrors& points = evaluation.access_points; points.known > 0) {
+    std::cout << "access points: " << points.located << " of " << points.known << " known ones located";
+    if (points.errors)
+      std::cout << ", " << points.errors->median_m << " m from their stated positions in the median, "
+                << points.errors->p90_m << " m p90";
+    std::cout << '\n';
   }
   std::cout << "closures: " << evaluation.accepted << " accepted, " << evaluation.rejected << " rejected"
             << (evaluation.by_kind.empty() ? "" : "; true: the measurement agrees with the truth") << '\n'

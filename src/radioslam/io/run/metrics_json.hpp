@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "radioslam/eval/access_point_errors.hpp"
 #include "radioslam/eval/closures.hpp"
 #include "radioslam/eval/measurement_truth.hpp"
 #include "radioslam/eval/metrics.hpp"
@@ -18,5 +19,8 @@ nlohmann::ordered_json pair_counts_json(const PairCounts& counts);
 /// By kind {"accepted", "true_accepted", "rejected", "true_rejected"}, of angles also {"direct_found",
 /// "wrong_path", "none_direct"}.
 nlohmann::ordered_json closures_by_kind_json(const ClosuresByKind& closures);
+
+/// {"known", "located", "rmse_m", "mean_m", "median_m", "p90_m"}; null without known access points.
+nlohmann::ordered_json access_point_errors_json(const AccessPointErrors& errors);
 
 }  // namespace radioslam

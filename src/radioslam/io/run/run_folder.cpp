@@ -315,6 +315,8 @@ RunFolder read_run(const fs::path& folder) {
     run.closures = read_closures(read_text(folder / "closures.csv"), run.robots);
   if (fs::exists(folder / "aoa.csv"))
     run.aoa_measurements = read_measured_aoa(read_text(folder / "aoa.csv"), run.robots);
+  if (fs::exists(folder / "access_points.csv"))
+    run.access_points = read_access_points(read_text(folder / "access_points.csv"));
   if (fs::exists(folder / "uncertainty.csv"))
     read_uncertainty(read_text(folder / "uncertainty.csv"), run.robots);
   return run;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "radioslam/eval/access_point_errors.hpp"
 #include "radioslam/eval/metrics.hpp"
 #include "radioslam/io/text/text.hpp"
 #include "radioslam/results/results.hpp"
@@ -42,7 +43,8 @@ struct RunFolder {
   std::optional<CandidateList> candidates;          ///< nothing if the run did not search for any
   std::vector<ClosureResult> closures;              ///< here and above, robots are indices of `robots`
   std::vector<MeasuredAoaResult> aoa_measurements;  ///< from CSI: stamps and paths only
-  nlohmann::ordered_json summary;                   ///< null if there is no summary.json
+  std::vector<LocatedAccessPoint> access_points;
+  nlohmann::ordered_json summary;  ///< null if there is no summary.json
 };
 
 /// Reads a run's folder; every table is optional. Without summary.json, the robots are those with a .tum

@@ -258,6 +258,17 @@ std::string format_access_points(const std::vector<AccessPointResult>& access_po
   return out;
 }
 
+std::vector<LocatedAccessPoint> read_access_points(const Text& text) {
+  enum : std::size_t { kBssid, kX, kY, kStatus };
+  CsvReader csv(text, {{"bssid", "x_m", "y_m", "status"}});
+  std::vector<LocatedAccessPoint> located;
+  while (csv.next())
+    located.push_back({std::string(csv.field(kBssid)),
+                       {csv.coordinate(kX), csv.coordinate(kY)},
+                       csv.field(kStatus) == word_for(kAccessPointStatus, AccessPointStatus::kFound)});
+  return located;
+}
+
 CandidateList read_candidates(const Text& text, std::span<const EstimatedTrajectory> robots) {
   CsvReader csv(text, pair_columns_and({"distance_m", "mahalanobis"}));
   std::vector<std::vector<Stamp>> stamps;

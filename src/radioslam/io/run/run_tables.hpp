@@ -15,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include "radioslam/eval/access_point_errors.hpp"
 #include "radioslam/eval/metrics.hpp"
 #include "radioslam/io/text/atomic_output.hpp"
 #include "radioslam/io/text/text.hpp"
@@ -59,6 +60,7 @@ std::string format_measured_aoa(const std::vector<MeasuredAoaResult>& aoa_measur
 /// m, sigma_db the standard deviation of a reading from the path loss model. The alternative position
 /// (rival_x_m, rival_y_m) is empty if there is none.
 std::string format_access_points(const std::vector<AccessPointResult>& access_points);
+std::vector<LocatedAccessPoint> read_access_points(const Text& text);
 
 /// Refuse malformed rows, unknown robots, kinds and statuses, path weights that are no numbers from 0 on, and
 /// stamps at which a robot has no keyframe (not checked for robots without poses, and where they are untied).

@@ -1,7 +1,7 @@
-// Signal strength of the strongest access points over time, and similarity of one fingerprint to the
+// Signal strength of the strongest access points over time, and similarity of a chosen fingerprint to the
 // others of its robot.
 
-const signal_of = { robot: null };
+const signal_of = { robot: null, t: null };  // the fingerprint nearest to t; null: the one in the middle
 const signal_palette = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#999933", "#882255"];
 
 function time_scale(columns, width) {
@@ -20,7 +20,12 @@ function draw_columns(context, x, y, columns, key, colour) {
 }
 
 const signals_chosen = () => report.signals.signals.filter(s => s.robot === signal_of.robot);
-const similarity_chosen = () => report.signals.similarity.filter(s => s.robot === signal_of.robot);
+const similarity_of_robot = () => report.signals.similarity.filter(s => s.robot === signal_of.robot);
+const similarity_chosen = () => {
+  const all = similarity_of_robot(), wanted = signal_of.t;
+  if (!all.length) return [];
+  return [wanted === null ? all[Math.floor(all.length / 2)] : all[d3.scan(all, (a, b) => Math.abs(a.of_t - wanted) - Math.abs(b.of_t - wanted))]];
+};
 
 function signal_keys() {
   by_id("signals-key").replaceChildren(...signals_chosen().map((s, i) => element("span", { class: "key" },
@@ -61,7 +66,11 @@ function write_signals() {
       }
     },
   });
-  const list = element("select", { "aria-label": "robot", onchange: () => { signal_of.robot = list.value; signal_keys(); strength.redraw(); likeness.redraw(); } },
+  likeness.canvas.style("cursor", "crosshair").on("click", () => {
+    signal_of.t = likeness.x.invert(d3.mouse(likeness.canvas.node())[0] - likeness.margin.left);
+    likeness.redraw();
+  });
+  const list = element("select", { "aria-label": "robot", onchange: () => { signal_of.robot = list.value; signal_of.t = null; signal_keys(); strength.redraw(); likeness.redraw(); } },
     ...names.map(name => element("option", { value: name }, name)));
   if (names.length > 1) by_id("signals-controls").append(element("span", { class: "check" }, "robot", list));
   signal_keys();

@@ -81,7 +81,12 @@ Simulation simulate_carpark(const CarparkParams& params, std::uint64_t seed) {
 
   Simulation simulation;
   simulation.mission.name = "carpark-" + std::to_string(seed);
-  for (const auto& radio : world.transmitters) simulation.mission.access_points.push_back(radio.bssid());
+  constexpr double kSigmaSurvey_m = 0.5;
+  for (const auto& radio : world.transmitters) {
+    simulation.mission.access_points.push_back(radio.bssid());
+    if (simulation.mission.anchors.size() < static_cast<std::size_t>(params.known_access_points))
+      simulation.mission.anchors.push_back({radio.bssid(), radio.position(), kSigmaSurvey_m});
+  }
   std::vector<RobotRun> runs(robots);
   parallel_for(robots, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t r = begin; r < end; ++r)

@@ -21,6 +21,7 @@ namespace radioslam {
 struct CarparkParams {
   int robots = 2;
   bool known_start = true;
+  int known_access_points = 0;
   double truth_rate_hz = 2;
   LaneGridParams lanes;
   DriveParams drive;
@@ -32,6 +33,8 @@ struct CarparkParams {
   static void visit_fields(Self& self, Visitor&& visit) {
     RADIOSLAM_BASIC_FIELD(robots, "", 1, 100, "number of robots in the team");
     RADIOSLAM_BASIC_FIELD(known_start, "", 0, 1, "whether the mission contains each robot's start pose");
+    RADIOSLAM_FIELD(known_access_points, "", 0, 60000,
+                    "number of access points whose positions the mission states (radio/anchors.csv)");
     RADIOSLAM_FIELD(truth_rate_hz, "Hz", 0.01, 1000, "rate of the true poses");
     LaneGridParams::visit_fields(self.lanes, visit);
     DriveParams::visit_fields(self.drive, visit);

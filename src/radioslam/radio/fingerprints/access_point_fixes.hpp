@@ -1,0 +1,73 @@
+// Position fixes from access points at known positions: where a fingerprint was taken, by the strengths of
+// those that it has.
+//
+//   P_k = P0 - 10 n log10 d_k + e_k,   d_k^2 = |x - a_k|^2 + height^2
+//
+// for access point k at a_k, with e_k ~ N(0, known_sigma_db^2) independent: the shadowing, and how one
+// transmitter differs from another. A known access point that is not detected is below the threshold (a Tobit
+// term, bounded because it may be off). P0 and n are those of the team: of a grid of values around the priors
+// of the path loss model (access_points.hpp), each has the weight of its evidence, which is that of all
+// fingerprints (a quarter of it, because errors of the model are correlated). The posterior of x is summed
+// over a grid around the access points (Huber's loss) and over the models; its mean and the larger axis of
+// its second moment are the fix: what is ambiguous has a large sigma. One fingerprint is used per
+// `known_spacing_m` of path.
+//
+// An access point whose median residual over all fixes exceeds `known_max_residual` known_sigma_db is not
+// where it is said to be; it is left out, the worst one first, and the fixes are computed again. Metres, in
+// the frame of the given positions; heights are not estimated, so this is for missions in the plane. Cost: 21
+// models times the cells times the access points, and times the readings of all fingerprints.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "radioslam/base/fields.hpp"
+#include "radioslam/mission/known_access_points.hpp"
+#include "radioslam/mission/mission.hpp"
+#include "radioslam/radio/fingerprints/access_points.hpp"
+#include "radioslam/radio/fingerprints/measurements.hpp"
+
+namespace radioslam {
+
+struct AccessPointFixParams {
+  bool use_known = true;
+  int known_at_once = 3;
+  double known_spacing_m = 8;
+  double known_sigma_db = 8;
+  double known_margin_m = 25;
+  int known_cells = 48;
+  double known_max_sigma_m = 15;
+  double known_max_residual = 2;
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    RADIOSLAM_BASIC_FIELD(use_known, "", 0, 0,
+                          "whether access points at known positions (radio/anchors.csv) give position fixes");
+    RADIOSLAM_FIELD(known_at_once, "", 3, 1000,
+                    "smallest number of known access points in a fingerprint that gives a position fix");
+    RADIOSLAM_FIELD(known_spacing_m, "m", 0.1, 1e4, "path length between position fixes by access points");
+    RADIOSLAM_FIELD(
+        known_sigma_db, "dB", 0.1, 100,
+        "standard deviation of a known access point's RSS about the path loss model, shadowing and "
+        "differences of transmitters included");
+    RADIOSLAM_FIELD(known_margin_m, "m", 0, 1e4,
+                    "margin around the known access points within which a fingerprint is searched");
+    RADIOSLAM_FIELD(known_cells, "", 4, 1000, "number of cells along each side of the searched rectangle");
+    RADIOSLAM_FIELD(known_max_sigma_m, "m", 0.1, 1e4, "largest standard deviation of a fix by access points");
+    RADIOSLAM_FIELD(known_max_residual, "", 0.1, 1000,
+                    "largest median residual of a known access point, in known_sigma_db; beyond it its "
+                    "position is not used");
+  }
+};
+
+struct AccessPointFixes {
+  std::vector<KnownAccessPoint> known;           ///< received by any robot
+  std::vector<std::size_t> contradicted;         ///< of these, those that are left out
+  std::vector<std::vector<PositionFix>> robots;  ///< per robot, in time order
+};
+
+/// Fixes of the robots that have none of their own.
+AccessPointFixes fixes_by_access_points(const Mission& mission, const RadioMeasurements& radio,
+                                        const AccessPointFixParams& params, const AccessPointParams& model);
+
+}  // namespace radioslam
