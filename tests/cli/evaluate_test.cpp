@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -199,6 +200,46 @@ TEST(EvaluateMirrored, RunAndEvaluateNoteAMirroredTruth) {
     EXPECT_EQ(nlohmann::json::parse(outcome.out)["notes"].size(), notes) << outcome.out;
     EXPECT_EQ(ran.out.find("only as a mirror image") != std::string::npos, notes == 1) << ran.out;
   }
+}
+
+/// Positions of access points place a team of unknown starts in their frame; a wrong one is named, and both
+/// are compared with where the run locates the access points.
+TEST(EvaluateAccessPoints, KnownPositionsAreUsedAndCompared) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run({"simulate", "carpark", "-o", "m", "--seed", "3", "--set", "path_length_m=200",
+                 "known_start=false", "floor_x_m=40", "floor_y_m=30", "phones=2", "known_access_points=25"},
+                folder.path())
+                .status,
+            0);
+  const auto evaluated = [&] {
+    const Outcome ran = run({"run", "m", "-o", "out"}, folder.path());
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    const Outcome outcome = run({"evaluate", "out", "m", "--json"}, folder.path());
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return std::pair(ran.out, nlohmann::json::parse(outcome.out));
+  };
+  const auto [notes, right] = evaluated();
+  EXPECT_NE(notes.find(" access points at the positions of radio/anchors.csv give "), std::string::npos)
+      << notes;
+  EXPECT_LT(right["ate_rmse_m"].get<double>(), 1);
+  EXPECT_GE(right["access_points"]["known"].get<int>(), 15);
+  EXPECT_GE(right["access_points"]["located"].get<int>(), 8);
+  EXPECT_LT(right["access_points"]["median_m"].get<double>(), 6);
+  // The poses are in the frame of the positions, not of the first robot's start.
+  const std::string start = read_file(folder.path() / "out/a.tum"),
+                    truth = read_file(folder.path() / "m/robots/a/groundtruth.tum");
+  double t = 0, x = 0, y = 0, true_x = 0, true_y = 0;
+  std::istringstream(start) >> t >> x >> y;
+  std::istringstream(truth) >> t >> true_x >> true_y;
+  EXPECT_LT(std::hypot(x - true_x, y - true_y), 8);
+
+  std::string anchors = read_file(folder.path() / "m/radio/anchors.csv");
+  const std::size_t row = anchors.find('\n') + 1, comma = anchors.find(',', row);
+  anchors.replace(comma, anchors.find('\n', row) - comma, ",150,150,2.8,0.5");
+  write_file(folder.path() / "m/radio/anchors.csv", anchors);
+  const auto [warned, wrong] = evaluated();
+  EXPECT_NE(warned.find(anchors.substr(row, comma - row)), std::string::npos) << warned;
+  EXPECT_LT(wrong["ate_rmse_m"].get<double>(), 1.5);
 }
 
 }  // namespace

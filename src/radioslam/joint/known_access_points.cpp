@@ -87,7 +87,8 @@ bool is_in_common_frame(const RunResult& result, const Mission& mission) {
 
 KnownAccessPoints use_known_access_points(const Mission& mission, const RadioMeasurements& radio,
                                           const AccessPointStageParams& params) {
-  KnownAccessPoints known{fixes_by_access_points(mission, radio, params.known, params.fit), std::nullopt};
+  KnownAccessPoints known{fixes_by_access_points(mission, radio.robots, params.known, params.fit),
+                          std::nullopt};
   if (!has_any(known.fixes)) return known;
   known.mission = mission;
   for (std::size_t r = 0; r < mission.robots.size(); ++r)

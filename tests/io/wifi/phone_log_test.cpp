@@ -150,7 +150,9 @@ TEST(ReadPhoneLog, AControlCharacterInANetworksNameCostsNothing) {
       "fe\t0e:74:9c:a7:b2:e4\t-43\t5805\t1574242585900";
   const PhoneLog log = read_phone_log(make_tool_output("walk.txt", joined(lines)));
   EXPECT_EQ(log.wifi.size(), 3U);
-  EXPECT_TRUE(log.warnings.empty());
+  ASSERT_EQ(log.warnings.size(), 1U);
+  EXPECT_EQ(log.warnings[0],
+            "walk.txt:10: has control characters, as names of networks may have; names are not imported");
 }
 
 TEST(ReadPhoneLog, RefusesALogOfWhichMostRecordsAreMalformed) {

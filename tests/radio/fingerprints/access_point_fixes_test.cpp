@@ -14,7 +14,7 @@ constexpr double kHeight_m = 2, kPower_dbm = -46, kExponent = 2.8;
 /// One robot along a path of 90 m through a hall with eight access points, whose positions are stated.
 struct Hall {
   Mission mission;
-  RadioMeasurements radio;
+  std::vector<std::vector<PlacedFingerprint>> robots{1};
   std::vector<Eigen::Vector2d> places_m;
 
   explicit Hall(double noise_db) {
@@ -26,7 +26,6 @@ struct Hall {
           {"02-AA-00-00-00-0" + std::to_string(a), Eigen::Vector3d(points[a].x(), points[a].y(), 2.8), 0.5});
     }
     mission.robots.emplace_back().id = "a";
-    radio.robots.resize(1);
     Rng rng = Rng(7).split("noise");
     for (int k = 0; k <= 90; ++k) {
       const Eigen::Vector2d place(k < 60 ? k : 60, k < 60 ? 15 : 15 - (k - 60) / 2.0);
@@ -39,12 +38,12 @@ struct Hall {
         placed.fingerprint.entries.push_back({AccessPointIndex(a), static_cast<float>(rss), 1});
       }
       places_m.push_back(place);
-      radio.robots[0].push_back(placed);
+      robots[0].push_back(placed);
     }
   }
 
   AccessPointFixes fixes(const AccessPointFixParams& params = {}) const {
-    return fixes_by_access_points(mission, radio, params, {});
+    return fixes_by_access_points(mission, robots, params, {});
   }
   double error_m(const PositionFix& fix) const {
     return (fix.position_m.head<2>() - places_m[static_cast<std::size_t>(fix.stamp.seconds())]).norm();

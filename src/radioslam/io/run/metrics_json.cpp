@@ -76,8 +76,8 @@ Json closures_by_kind_json(const ClosuresByKind& closures) {
 Json access_point_errors_json(const AccessPointErrors& errors) {
   if (errors.known == 0) return nullptr;
   Json json = {{"known", errors.known}, {"located", errors.located}};
-  for (const auto& [key, value] : ate_json(errors.errors).items())
-    json[key.substr(4)] = value;  // without ate_
+  const Json statistics = ate_json(errors.errors);
+  for (const auto& [key, value] : statistics.items()) json[key.substr(4)] = value;  // without ate_
   return json;
 }
 

@@ -186,9 +186,9 @@ std::vector<Eigen::Vector2d> places_around(const std::vector<KnownAccessPoint>& 
   return places;
 }
 
-double floor_of(const RadioMeasurements& radio) {
+double floor_of(const std::vector<std::vector<PlacedFingerprint>>& fingerprints) {
   std::vector<double> all;
-  for (const auto& robot : radio.robots)
+  for (const auto& robot : fingerprints)
     for (const PlacedFingerprint& placed : robot)
       for (const FingerprintEntry& entry : placed.fingerprint.entries)
         all.push_back(static_cast<double>(entry.rss_dbm));
@@ -199,16 +199,16 @@ double floor_of(const RadioMeasurements& radio) {
 }
 
 /// Per stretch of path, the fingerprint with the most known access points.
-std::vector<KnownFingerprint> fingerprints_with(const std::vector<KnownAccessPoint>& known,
-                                                const Mission& mission, const RadioMeasurements& radio,
-                                                const AccessPointFixParams& params) {
+std::vector<KnownFingerprint> fingerprints_with(
+    const std::vector<KnownAccessPoint>& known, const Mission& mission,
+    const std::vector<std::vector<PlacedFingerprint>>& fingerprints, const AccessPointFixParams& params) {
   std::vector<std::optional<std::size_t>> number(mission.access_points.size());
   for (std::size_t k = 0; k < known.size(); ++k) number[known[k].access_point.index()] = k;
   std::vector<KnownFingerprint> chosen;
-  for (std::size_t robot = 0; robot < radio.robots.size(); ++robot) {
+  for (std::size_t robot = 0; robot < fingerprints.size(); ++robot) {
     if (!mission.robots[robot].fixes.empty()) continue;
     double stretch = -1;
-    for (const PlacedFingerprint& placed : radio.robots[robot]) {
+    for (const PlacedFingerprint& placed : fingerprints[robot]) {
       KnownFingerprint fingerprint{robot, placed.fingerprint.stamp, {}, {}};
       for (const FingerprintEntry& entry : placed.fingerprint.entries) {
         const auto k = number[entry.access_point.index()];
@@ -275,15 +275,16 @@ std::optional<std::size_t> most_contradicted(const Scene& scene,
 
 }  // namespace
 
-AccessPointFixes fixes_by_access_points(const Mission& mission, const RadioMeasurements& radio,
+AccessPointFixes fixes_by_access_points(const Mission& mission,
+                                        const std::vector<std::vector<PlacedFingerprint>>& all,
                                         const AccessPointFixParams& params, const AccessPointParams& model) {
   AccessPointFixes result{known_access_points(mission), {}, {}};
   result.robots.resize(mission.robots.size());
   const auto least = static_cast<std::size_t>(params.known_at_once);
   if (!params.use_known || mission.dimension != 2 || result.known.size() < least) return result;
-  const auto fingerprints = fingerprints_with(result.known, mission, radio, params);
+  const auto fingerprints = fingerprints_with(result.known, mission, all, params);
   if (fingerprints.empty()) return result;
-  Scene scene{result.known, params, model, floor_of(radio), places_around(result.known, params)};
+  Scene scene{result.known, params, model, floor_of(all), places_around(result.known, params)};
   TeamFixes team = locate_all(scene, fingerprints);
   while (const auto worst = most_contradicted(scene, fingerprints, team)) {
     result.contradicted.push_back(*worst);

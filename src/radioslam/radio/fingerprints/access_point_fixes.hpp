@@ -41,8 +41,8 @@ struct AccessPointFixParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    RADIOSLAM_BASIC_FIELD(use_known, "", 0, 0,
-                          "whether access points at known positions (radio/anchors.csv) give position fixes");
+    RADIOSLAM_FIELD(use_known, "", 0, 0,
+                    "whether access points at known positions (radio/anchors.csv) give position fixes");
     RADIOSLAM_FIELD(known_at_once, "", 3, 1000,
                     "smallest number of known access points in a fingerprint that gives a position fix");
     RADIOSLAM_FIELD(known_spacing_m, "m", 0.1, 1e4, "path length between position fixes by access points");
@@ -66,8 +66,9 @@ struct AccessPointFixes {
   std::vector<std::vector<PositionFix>> robots;  ///< per robot, in time order
 };
 
-/// Fixes of the robots that have none of their own.
-AccessPointFixes fixes_by_access_points(const Mission& mission, const RadioMeasurements& radio,
+/// Fixes of the robots that have none of their own; `fingerprints` per robot, as in RadioMeasurements.
+AccessPointFixes fixes_by_access_points(const Mission& mission,
+                                        const std::vector<std::vector<PlacedFingerprint>>& fingerprints,
                                         const AccessPointFixParams& params, const AccessPointParams& model);
 
 }  // namespace radioslam
