@@ -37,10 +37,9 @@ std::string used_note(const Mission& mission, const AccessPointFixes& fixes) {
       most_m = std::max(most_m, fix.sigma_m);
       ++count;
     }
-  return std::to_string(fixes.known.size() - fixes.contradicted.size()) +
-         " access points at the positions of radio/anchors.csv give " + std::to_string(count) +
-         " position fixes of " + list_of(robots) + ", with standard deviations of " + metres(least_m) +
-         " to " + metres(most_m) + ", from signal strengths";
+  return std::to_string(fixes.known.size()) + " access points at the positions of radio/anchors.csv give " +
+         std::to_string(count) + " position fixes of " + list_of(robots) + ", with standard deviations of " +
+         metres(least_m) + " to " + metres(most_m) + ", from signal strengths";
 }
 
 std::string unused_note(const Mission& mission, const AccessPointFixes& fixes,
@@ -101,14 +100,6 @@ void add_known_access_points(RunResult& result, const Mission& mission, const Ac
   if (fixes.known.empty()) return;
   result.counts["access_points_known"] = static_cast<double>(fixes.known.size());
   result.notes.push_back(has_any(fixes) ? used_note(mission, fixes) : unused_note(mission, fixes, params));
-  std::vector<std::string> contradicted;
-  for (const std::size_t k : fixes.contradicted)
-    contradicted.push_back(mission.access_points[fixes.known[k].access_point.index()]);
-  if (!contradicted.empty())
-    result.notes.push_back(
-        "signal strengths contradict the positions of these access points in "
-        "radio/anchors.csv, which are not used: " +
-        list_of(contradicted));
   if (!is_in_common_frame(result, mission)) return;
   const auto elsewhere = displaced(result, mission, fixes);
   if (!elsewhere.empty())

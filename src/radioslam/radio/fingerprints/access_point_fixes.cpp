@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "radioslam/base/parallel.hpp"
-#include "radioslam/base/statistics.hpp"
 
 namespace radioslam {
 namespace {
@@ -42,7 +41,6 @@ struct Scene {
   const AccessPointParams& model;
   double floor_dbm = 0;  ///< detection threshold
   std::vector<Eigen::Vector2d> places;
-  std::vector<bool> is_used = std::vector<bool>(known.size(), true);  ///< per known access point
 };
 
 /// Sums over all places, of one fingerprint and one model.
@@ -111,23 +109,32 @@ struct ModelTable {
     for (std::size_t p = 0; p < scene.places.size(); ++p)
       for (std::size_t k = 0; k < scene.known.size(); ++k) {
         predictions.push_back(prediction(scene, model, k, scene.places[p]));
-        undetected.push_back(scene.is_used[k] ? undetected_cost(scene, predictions.back()) : 0);
+        undetected.push_back(undetected_cost(scene, predictions.back()));
         all_undetected[p] += undetected.back();
       }
   }
 };
 
-PlaceSums sums_over(const Scene& scene, const ModelTable& table, const KnownFingerprint& fingerprint) {
+double reading_cost(const Scene& scene, const ModelTable& table, const KnownReading& reading,
+                    std::size_t place) {
+  const Prediction& at = table.predictions[place * scene.known.size() + reading.known];
+  return huber((reading.rss_dbm - at.power_dbm) / at.sigma_db, scene.model.loss_sigmas);
+}
+
+/// -2 log of the likelihood of every place, up to a constant.
+std::vector<double> costs_of(const Scene& scene, const ModelTable& table,
+                             const KnownFingerprint& fingerprint) {
   std::vector<double> costs = table.all_undetected;
-  const std::size_t width = scene.known.size();
   for (std::size_t p = 0; p < costs.size(); ++p) {
-    for (const std::size_t k : fingerprint.present) costs[p] -= table.undetected[p * width + k];
-    for (const KnownReading& reading : fingerprint.readings) {
-      if (!scene.is_used[reading.known]) continue;
-      const Prediction& at = table.predictions[p * width + reading.known];
-      costs[p] += huber((reading.rss_dbm - at.power_dbm) / at.sigma_db, scene.model.loss_sigmas);
-    }
+    for (const std::size_t k : fingerprint.present) costs[p] -= table.undetected[p * scene.known.size() + k];
+    for (const KnownReading& reading : fingerprint.readings)
+      costs[p] += reading_cost(scene, table, reading, p);
   }
+  return costs;
+}
+
+PlaceSums sums_over(const Scene& scene, const ModelTable& table, const KnownFingerprint& fingerprint) {
+  const std::vector<double> costs = costs_of(scene, table, fingerprint);
   const double least = *std::min_element(costs.begin(), costs.end());
   PlaceSums sums;
   double weights = 0;
@@ -229,13 +236,8 @@ std::vector<KnownFingerprint> fingerprints_with(
   return chosen;
 }
 
-/// The team's fixes, and the model that its fingerprints support best.
-struct TeamFixes {
-  std::vector<Fix> fixes;  ///< per fingerprint
-  PathLoss model;
-};
-
-TeamFixes locate_all(const Scene& scene, const std::vector<KnownFingerprint>& fingerprints) {
+/// Fixes of all fingerprints.
+std::vector<Fix> locate_all(const Scene& scene, const std::vector<KnownFingerprint>& fingerprints) {
   const Models all(scene.model);
   std::vector<std::vector<PlaceSums>> sums(fingerprints.size());
   std::vector<double> logs = all.log_priors;
@@ -247,30 +249,9 @@ TeamFixes locate_all(const Scene& scene, const std::vector<KnownFingerprint>& fi
     for (const std::vector<PlaceSums>& of_one : sums) logs[m] += of_one[m].log_evidence / kFingerprintsAsOne;
   }
   const std::vector<double> weights = normalised(logs);
-  const auto best = std::max_element(weights.begin(), weights.end()) - weights.begin();
-  TeamFixes team{{}, all.models[static_cast<std::size_t>(best)]};
-  for (const std::vector<PlaceSums>& of_one : sums) team.fixes.push_back(mixed(of_one, weights));
-  return team;
-}
-
-/// The access point in use whose readings contradict its position most, if any do.
-std::optional<std::size_t> most_contradicted(const Scene& scene,
-                                             const std::vector<KnownFingerprint>& fingerprints,
-                                             const TeamFixes& team) {
-  std::vector<std::vector<double>> residuals(scene.known.size());
-  for (std::size_t k = 0; k < team.fixes.size(); ++k)
-    for (const KnownReading& reading : fingerprints[k].readings) {
-      const Prediction at = prediction(scene, team.model, reading.known, team.fixes[k].mean_m);
-      residuals[reading.known].push_back((reading.rss_dbm - at.power_dbm) / at.sigma_db);
-    }
-  std::optional<std::size_t> worst;
-  double largest = scene.params.known_max_residual;
-  for (std::size_t k = 0; k < residuals.size(); ++k) {
-    if (residuals[k].empty() || !scene.is_used[k]) continue;
-    const double middle = std::abs(median(residuals[k]));
-    if (middle > largest) worst = k, largest = middle;
-  }
-  return worst;
+  std::vector<Fix> fixes;
+  for (const std::vector<PlaceSums>& of_one : sums) fixes.push_back(mixed(of_one, weights));
+  return fixes;
 }
 
 }  // namespace
@@ -278,23 +259,19 @@ std::optional<std::size_t> most_contradicted(const Scene& scene,
 AccessPointFixes fixes_by_access_points(const Mission& mission,
                                         const std::vector<std::vector<PlacedFingerprint>>& all,
                                         const AccessPointFixParams& params, const AccessPointParams& model) {
-  AccessPointFixes result{known_access_points(mission), {}, {}};
+  AccessPointFixes result{known_access_points(mission), {}};
   result.robots.resize(mission.robots.size());
   const auto least = static_cast<std::size_t>(params.known_at_once);
   if (!params.use_known || mission.dimension != 2 || result.known.size() < least) return result;
   const auto fingerprints = fingerprints_with(result.known, mission, all, params);
   if (fingerprints.empty()) return result;
-  Scene scene{result.known, params, model, floor_of(all), places_around(result.known, params)};
-  TeamFixes team = locate_all(scene, fingerprints);
-  while (const auto worst = most_contradicted(scene, fingerprints, team)) {
-    result.contradicted.push_back(*worst);
-    scene.is_used[*worst] = false;
-    team = locate_all(scene, fingerprints);
-  }
-  for (std::size_t k = 0; k < team.fixes.size(); ++k)
-    if (const Fix& fix = team.fixes[k]; fix.sigma_m <= params.known_max_sigma_m)
-      result.robots[fingerprints[k].robot].push_back(
-          {fingerprints[k].stamp, {fix.mean_m.x(), fix.mean_m.y(), 0}, fix.sigma_m});
+  const Scene scene{result.known, params, model, floor_of(all), places_around(result.known, params)};
+  const std::vector<Fix> fixes = locate_all(scene, fingerprints);
+  for (std::size_t k = 0; k < fixes.size(); ++k)
+    if (const Fix& fix = fixes[k]; fix.sigma_m <= params.known_max_sigma_m)
+      result.robots[fingerprints[k].robot].push_back({fingerprints[k].stamp,
+                                                      {fix.mean_m.x(), fix.mean_m.y(), 0},
+                                                      params.known_sigma_factor * fix.sigma_m});
   return result;
 }
 

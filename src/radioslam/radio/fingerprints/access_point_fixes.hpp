@@ -9,13 +9,13 @@
 // of the path loss model (access_points.hpp), each has the weight of its evidence, which is that of all
 // fingerprints (a quarter of it, because errors of the model are correlated). The posterior of x is summed
 // over a grid around the access points (Huber's loss) and over the models; its mean and the larger axis of
-// its second moment are the fix: what is ambiguous has a large sigma. One fingerprint is used per
-// `known_spacing_m` of path.
+// its second moment, widened by `known_sigma_factor`, are the fix: what is ambiguous has a large sigma. One
+// fingerprint is used per `known_spacing_m` of path.
 //
-// An access point whose median residual over all fixes exceeds `known_max_residual` known_sigma_db is not
-// where it is said to be; it is left out, the worst one first, and the fixes are computed again. Metres, in
-// the frame of the given positions; heights are not estimated, so this is for missions in the plane. Cost: 21
-// models times the cells times the access points, and times the readings of all fingerprints.
+// One access point at a wrong position is an outlier in the fixes (Huber's loss) or makes some of them
+// outliers, which those who use them have to reject. Metres, in the frame of the given positions; heights are
+// not estimated, so this is for missions in the plane. Cost: 21 models times the cells times the access
+// points, and times the readings of all fingerprints.
 #pragma once
 
 #include <cstddef>
@@ -37,7 +37,7 @@ struct AccessPointFixParams {
   double known_margin_m = 25;
   int known_cells = 48;
   double known_max_sigma_m = 15;
-  double known_max_residual = 2;
+  double known_sigma_factor = 1.5;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -54,15 +54,15 @@ struct AccessPointFixParams {
                     "margin around the known access points within which a fingerprint is searched");
     RADIOSLAM_FIELD(known_cells, "", 4, 1000, "number of cells along each side of the searched rectangle");
     RADIOSLAM_FIELD(known_max_sigma_m, "m", 0.1, 1e4, "largest standard deviation of a fix by access points");
-    RADIOSLAM_FIELD(known_max_residual, "", 0.1, 1000,
-                    "largest median residual of a known access point, in known_sigma_db; beyond it its "
-                    "position is not used");
+    RADIOSLAM_FIELD(known_sigma_factor, "", 1, 100,
+                    "factor on the standard deviations of fixes by access points, because the errors of "
+                    "neighbouring ones "
+                    "are correlated");
   }
 };
 
 struct AccessPointFixes {
   std::vector<KnownAccessPoint> known;           ///< received by any robot
-  std::vector<std::size_t> contradicted;         ///< of these, those that are left out
   std::vector<std::vector<PositionFix>> robots;  ///< per robot, in time order
 };
 
