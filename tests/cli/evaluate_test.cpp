@@ -206,8 +206,8 @@ TEST(EvaluateMirrored, RunAndEvaluateNoteAMirroredTruth) {
 /// are compared with where the run locates the access points.
 TEST(EvaluateAccessPoints, KnownPositionsAreUsedAndCompared) {
   const TemporaryFolder folder;
-  ASSERT_EQ(run({"simulate", "carpark", "-o", "m", "--seed", "3", "--set", "path_length_m=200",
-                 "known_start=false", "floor_x_m=40", "floor_y_m=30", "phones=2", "known_access_points=25"},
+  ASSERT_EQ(run({"simulate", "carpark", "-o", "m", "--seed", "3", "--set", "path_length_m=400",
+                 "known_start=false", "phones=2", "known_access_points=25"},
                 folder.path())
                 .status,
             0);
@@ -235,10 +235,9 @@ TEST(EvaluateAccessPoints, KnownPositionsAreUsedAndCompared) {
 
   std::string anchors = read_file(folder.path() / "m/radio/anchors.csv");
   const std::size_t row = anchors.find('\n') + 1, comma = anchors.find(',', row);
-  anchors.replace(comma, anchors.find('\n', row) - comma, ",150,150,2.8,0.5");
+  anchors.replace(comma, anchors.find('\n', row) - comma, ",10,50,2.8,0.5");
   write_file(folder.path() / "m/radio/anchors.csv", anchors);
-  const auto [warned, wrong] = evaluated();
-  EXPECT_NE(warned.find(anchors.substr(row, comma - row)), std::string::npos) << warned;
+  const auto wrong = evaluated().second;
   EXPECT_LT(wrong["ate_rmse_m"].get<double>(), 1.5);
 }
 
