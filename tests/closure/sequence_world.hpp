@@ -23,7 +23,7 @@ inline DistanceModel lawful_model() {
 /// Robots with a fingerprint at each of these poses, given in one frame. Each robot's odometry starts at its
 /// first pose.
 inline RadioMeasurements lawful_radio(const std::vector<std::vector<SE2>>& robots) {
-  RadioMeasurements radio{{}, {}, {}, {}, lawful_model(), {}};
+  RadioMeasurements radio{{}, {}, {}, {}, lawful_model(), {}, {}, {}};
   std::vector<Eigen::Vector2d> places;
   for (std::size_t r = 0; r < robots.size(); ++r) {
     radio.robots.emplace_back();

@@ -114,7 +114,7 @@ TEST(AccessPointStage, OnesReceivedOnceCostNoMemoryPerSite) {
   RunResult result;
   result.components.push_back({});
   result.components.front().robots.push_back("");
-  RadioMeasurements radio{{{}}, {}, {}, {}, DistanceModel({}, {}), {}};
+  RadioMeasurements radio{{{}}, {}, {}, {}, DistanceModel({}, {}), {}, {}, {}};
   std::vector<StampedPose<SE3>> way;
   for (std::size_t k = 0; k < kFingerprints; ++k) {
     Fingerprint fingerprint{Stamp::from_seconds(static_cast<double>(k)), 1, {}};
