@@ -72,7 +72,9 @@ class RemoteBoxes {
   const Record& middle(std::uint32_t j) const { return boxes_.at(j).middle; }
   const Record& record(std::uint32_t l) const { return poses_.at(l); }
   bool has_halves(std::uint32_t i, std::uint32_t j, std::span<const Bound> ties) {
-    const bool is_known = boxes_.contains(j + 1);
+    const Node& whole = node(j);
+    const bool is_known =
+        is_box_of(j + 1, whole.begin, whole.middle) && is_box_of(whole.right, whole.middle, whole.end);
     if (!is_known) to_open_[j].push_back({i, {ties.begin(), ties.end()}});
     return is_known;
   }
@@ -101,6 +103,12 @@ class RemoteBoxes {
     Node node;
     Record middle;
   };
+
+  /// Whether box j is known and is that of these poses; its number alone may be another root's.
+  bool is_box_of(std::uint32_t j, std::uint32_t begin, std::uint32_t end) const {
+    const auto box = boxes_.find(j);
+    return box != boxes_.end() && box->second.node.begin == begin && box->second.node.end == end;
+  }
 
   /// Refused unless it is a new box of poses from `begin` on.
   Box read_box(std::uint32_t j, std::uint32_t begin, const View& view, OverlapFieldReader& in) const;
