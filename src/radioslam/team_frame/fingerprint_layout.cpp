@@ -22,9 +22,6 @@
 namespace radioslam {
 namespace {
 
-constexpr double kMaxCostRatio =
-    1.15;  // of a mirror image's cost to the better one's, to be tried on the field
-
 std::size_t end_of(const RigidBody& body) {
   return body.first_node + static_cast<std::size_t>(body.points.cols());
 }
@@ -254,28 +251,11 @@ struct LayoutEvidence {
   PairTargets targets;
 };
 
-LayoutEvidence evidence_of(Eigen::MatrixXd distances_m, const RadioMeasurements& radio,
-                           const std::vector<std::size_t>& nodes, const LayoutParams& params) {
-  const Eigen::Index n = distances_m.rows();
-  PairTargets targets{Eigen::MatrixXf::Zero(n, n), Eigen::MatrixXf::Zero(n, n),
-                      Eigen::MatrixXf::Constant(n, n, static_cast<float>(params.pair_weight))};
-  for (Eigen::Index j = 0; j < n; ++j)
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const double distance = distances_m(i, j);
-      if (!std::isfinite(distance) || radio.nodes[nodes[static_cast<std::size_t>(i)]].robot ==
-                                          radio.nodes[nodes[static_cast<std::size_t>(j)]].robot)
-        continue;
-      targets.distance_m(i, j) = static_cast<float>(distance);
-      targets.information(i, j) = static_cast<float>(
-          1 / (params.sigma_m * params.sigma_m + std::pow(params.sigma_relative * distance, 2)));
-    }
-  return {std::move(distances_m), std::move(targets)};
-}
-
 /// Predicted distances to each node's most similar ones, and odometry within robots of known relative pose.
 FingerprintGraph connect(const RadioMeasurements& radio, const std::vector<std::size_t>& nodes,
+                         const std::vector<std::vector<std::size_t>>& similar,
                          const std::vector<RigidBody>& bodies, const PredictDistance& predict_m,
-                         const LayoutParams& params, Eigen::MatrixXf& predicted_m) {
+                         Eigen::MatrixXf& predicted_m) {
   FingerprintGraph graph(nodes.size());
   const Eigen::Matrix2Xd positions = node_positions(bodies);
   for (const RigidBody& a : bodies)
@@ -288,7 +268,6 @@ FingerprintGraph connect(const RadioMeasurements& radio, const std::vector<std::
               (positions.col(static_cast<Eigen::Index>(i)) - positions.col(static_cast<Eigen::Index>(j)))
                   .norm());
     }
-  const auto similar = similar_nodes(radio, nodes, static_cast<std::size_t>(params.neighbours));
   for (std::size_t i = 0; i < nodes.size(); ++i)
     for (const std::size_t j : similar[i]) {
       const auto s = static_cast<double>(radio.layout_similarity.of(nodes[i], nodes[j]));
@@ -303,13 +282,25 @@ FingerprintGraph connect(const RadioMeasurements& radio, const std::vector<std::
 /// Paths through the graph; predicted distances of similar nodes as they are. The others weigh
 /// `params.far_weight` times as much as these, all together.
 LayoutEvidence evidence_of_paths(const RadioMeasurements& radio, const std::vector<std::size_t>& nodes,
+                                 const std::vector<std::vector<std::size_t>>& similar,
                                  const std::vector<RigidBody>& bodies, const PredictDistance& predict_m,
                                  const LayoutParams& params) {
   const auto n = static_cast<Eigen::Index>(nodes.size());
   Eigen::MatrixXf predicted_m = Eigen::MatrixXf::Constant(n, n, -1);
-  LayoutEvidence evidence = evidence_of(
-      connect(radio, nodes, bodies, predict_m, params, predicted_m).shortest_paths(), radio, nodes, params);
+  LayoutEvidence evidence{connect(radio, nodes, similar, bodies, predict_m, predicted_m).shortest_paths(),
+                          {Eigen::MatrixXf::Zero(n, n), Eigen::MatrixXf::Zero(n, n),
+                           Eigen::MatrixXf::Constant(n, n, static_cast<float>(params.pair_weight))}};
   PairTargets& targets = evidence.targets;
+  for (Eigen::Index j = 0; j < n; ++j)
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double distance = evidence.distances_m(i, j);
+      if (!std::isfinite(distance) || radio.nodes[nodes[static_cast<std::size_t>(i)]].robot ==
+                                          radio.nodes[nodes[static_cast<std::size_t>(j)]].robot)
+        continue;
+      targets.distance_m(i, j) = static_cast<float>(distance);
+      targets.information(i, j) = static_cast<float>(
+          1 / (params.sigma_m * params.sigma_m + std::pow(params.sigma_relative * distance, 2)));
+    }
   const auto is_near = predicted_m.array() >= 0;
   const auto near = static_cast<double>(is_near.count());
   const double far = static_cast<double>((targets.information.array() > 0).count()) - near;
@@ -326,10 +317,12 @@ std::vector<LayoutEvidence> gather_evidence(const RadioMeasurements& radio,
                                             const std::vector<std::size_t>& nodes,
                                             const std::vector<RigidBody>& bodies,
                                             const LayoutParams& params) {
+  const auto similar = similar_nodes(radio, nodes, static_cast<std::size_t>(params.neighbours));
   std::vector<LayoutEvidence> evidence;
   const auto add = [&](const auto& model) {
     evidence.push_back(evidence_of_paths(
-        radio, nodes, bodies, [&](double similarity) { return model.distance_m(similarity); }, params));
+        radio, nodes, similar, bodies, [&](double similarity) { return model.distance_m(similarity); },
+        params));
   };
   add(*radio.layout_model);
   if (radio.decay_model) add(*radio.decay_model);
