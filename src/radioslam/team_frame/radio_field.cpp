@@ -148,8 +148,10 @@ void RadioField::add_slopes(const Eigen::Matrix2Xd& places, const FieldModel& mo
       sum[FieldKernel::kNoise] += by_covariance(j, j) * p.noise;
     }
   });
-  cost.by_kernel = by_kernel.rowwise().sum();
-  for (Eigen::Index j = 0; j < n; ++j) cost.by_loss[static_cast<Eigen::Index>(node(j).robot)] += by_loss[j];
+  for (Eigen::Index j = 0; j < n; ++j) {  // Eigen's rowwise sum would depend on the vector's alignment
+    cost.by_kernel += by_kernel.col(j);
+    cost.by_loss[static_cast<Eigen::Index>(node(j).robot)] += by_loss[j];
+  }
 }
 
 FieldCost RadioField::cost(const Eigen::Matrix2Xd& places, const FieldModel& model) const {
