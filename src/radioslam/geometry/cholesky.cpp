@@ -91,6 +91,7 @@ template ColumnOf<Matrix21> Cholesky<Matrix21>::solve(const ColumnOf<Matrix21>&)
 template Cholesky<Eigen::MatrixXd>::Cholesky(const Eigen::MatrixXd&);
 template Eigen::VectorXd Cholesky<Eigen::MatrixXd>::solve(const Eigen::VectorXd&) const;
 template Eigen::VectorXd Cholesky<Eigen::MatrixXd>::whitened(const Eigen::VectorXd&) const;
+template Eigen::MatrixXd Cholesky<Eigen::MatrixXd>::whitened_matrix(const Eigen::MatrixXd&) const;
 
 template std::optional<Eigen::Matrix3d> inverse_if_regular(const Eigen::Matrix3d&, double);
 template std::optional<Matrix6> inverse_if_regular(const Matrix6&, double);

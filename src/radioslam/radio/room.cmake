@@ -20,11 +20,13 @@ radioslam_room(radio
     channel/two_way_channel.cpp
     fingerprints/access_point_fixes.cpp
     fingerprints/access_points.cpp
+    fingerprints/censored_loss.cpp
     fingerprints/distance_model.cpp
     fingerprints/fingerprint.cpp
     fingerprints/fingerprint_blocks.cpp
     fingerprints/fingerprint_comparison.cpp
     fingerprints/measurements.cpp
+    fingerprints/path_loss_objective.cpp
     fingerprints/rssi_offset.cpp
     fingerprints/similarity.cpp
     fingerprints/similarity_join.cpp

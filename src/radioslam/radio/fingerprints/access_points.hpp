@@ -5,12 +5,13 @@
 // `shadowing_length_m` (Gudmundson 1991: exp(-distance / length)) and fading e. Readings are averaged per
 // cell (site), and the sites' noise is whitened by its Cholesky factor. P0 and n have Gaussian priors and are
 // linear given a: a is searched on a grid over and around the paths, and the best grid points are refined
-// over all four unknowns by Levenberg-Marquardt with Huber's loss. Sites that did not detect the access point
-// are censored readings (a Tobit term -2 log Phi per cell); without them, distant sites that happened to
-// detect it would bias n. The covariance is the inverse information or, if larger, the posterior's second
-// moment around the estimate. As a straight path cannot resolve its two sides, a second position that fits
-// nearly as well is reported as the alternative. Metres and dBm. Cost: cube of the number of sites (at most
-// `max_places`), and its square per point of the grid.
+// over all four unknowns by Levenberg-Marquardt with Huber's loss, first over coarser cells; the best minima
+// are refined over the cells asked for. Sites that did not detect the access point are censored readings (a
+// Tobit term -2 log Phi per cell); without them, distant sites that happened to detect it would bias n. The
+// covariance is the inverse information or, if larger, the posterior's second moment around the estimate. As
+// a straight path cannot resolve its two sides, a second position that fits nearly as well is reported as the
+// alternative. Metres and dBm. Cost: cube of the number of sites (at most `max_places`), and its square per
+// position tried, some 300; 4 ms for a hundred sites.
 #pragma once
 
 #include <Eigen/Core>
