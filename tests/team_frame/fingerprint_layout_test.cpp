@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "radio/fingerprints/walking_team.hpp"
 #include "radioslam/geometry/alignment.hpp"
 
@@ -60,6 +62,23 @@ TEST(AlignByFingerprints, PlacesATeamOfUnknownStarts) {
     EXPECT_EQ(frame.component, std::vector<int>(4, 0));
     EXPECT_EQ(frame.placed, std::vector<bool>(4, true));
   }
+}
+
+TEST(AlignByFingerprints, ErrorsAreWithinThreeStatedSigmas) {
+  constexpr double kNear_m = 3;  // what near fingerprints take back, and the walks' own errors
+  int within = 0, all = 0;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const auto team = test::walking_team(4, Heading::kRelative, 150, seed);
+    const auto frame = align(team.mission);
+    Places places = compare(team, frame);
+    const SE2 T = align_points(places.estimate, places.truth);
+    Eigen::Index i = 0;
+    for (std::size_t r = 0; r < team.walks.size(); ++r)
+      for (std::size_t t = 0; t < team.walks[r].size(); t += 10, ++i, ++all)
+        within += (T * Eigen::Vector2d(places.estimate.col(i)) - places.truth.col(i)).norm() <
+                  3 * std::hypot(frame.sigma_layout_m[r], kNear_m);
+  }
+  EXPECT_GE(within, 0.95 * all);
 }
 
 SE2 mirror(const SE2& pose) {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "radioslam/base/random.hpp"
-#include "radioslam/team_frame/fingerprint_layout.hpp"
+#include "radioslam/team_frame/scaled_layouts.hpp"
 
 namespace radioslam {
 namespace {

@@ -222,11 +222,13 @@ TeamAlignment<Pose> align_robots_by_fingerprints(JointGraph<Pose>& joint, const 
                                                  const KnownStarts& starts, const RadioMeasurements& radio,
                                                  const LayoutParams& params, const FieldParams& field,
                                                  const Progress& progress) {
-  const TeamFrame frame = align_by_fingerprints(mission, starts, radio, params, field, progress);
+  TeamFrame frame = align_by_fingerprints(mission, starts, radio, params, field, progress);
   place_robots(joint, frame.T_team_start);
   TeamAlignment<Pose> alignment;
   alignment.component = frame.component;
   alignment.placed = frame.placed;
+  alignment.sigma_layout_m = std::move(frame.sigma_layout_m);
+  if (frame.note) alignment.notes.push_back(std::move(*frame.note));
   const bool has_gaps = joint.team.segments.size() > joint.robots.size();
   alignment.of_segment = segments_apart(joint, frame.component);
   if (has_gaps) set_components(joint, std::vector<int>(alignment.of_segment), alignment);

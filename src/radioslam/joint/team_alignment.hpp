@@ -25,7 +25,8 @@ struct TeamAlignment {
   double weight = 1;                            ///< of the hypothesis that the graph holds
   std::vector<std::vector<Pose>> alternatives;  ///< all poses of the graph, most likely first
   std::vector<double> alternative_weights;
-  std::vector<std::string> notes;  ///< on what the frame stands
+  std::vector<double> sigma_layout_m;  ///< per robot placed by fingerprints (TeamFrame); empty without
+  std::vector<std::string> notes;      ///< on what the frame stands
 };
 
 /// Weight of an alternative from which its overlaps and places are searched, too.

@@ -187,9 +187,12 @@ RunResult describe_run(const Mission& mission, const RadioMeasurements& radio,
   for (std::size_t r = 0; r < mission.robots.size() && !options.overlap_only; ++r)
     result.robots[r].dense = dense_trajectory<Pose>(mission, joint, nullptr, r, result.robots[r]).poses;
   add_rssi_offsets(result.robots, radio.rssi_offsets);
-  if (is_laid_out_by_fingerprints(estimate, radio))
+  if (is_laid_out_by_fingerprints(estimate, radio)) {
+    widen_by_layout(result.robots, estimate.alignment);
     result.notes.push_back(
-        "robots were placed by fingerprints alone: sigma_m and sigma_team_m take their layout as right");
+        "robots were placed by fingerprints alone: sigma_m and sigma_team_m hold what halves of the access "
+        "points disagree on, not every error of the layout");
+  }
   if (radio.rssi_offsets.shown) result.notes.push_back(rssi_offset_note(result.robots));
   add_notes(result, mission, radio, params.sequence, joint.ignored_links);
   if (auto note = untied_note(joint.robots)) result.notes.push_back(std::move(*note));

@@ -9,6 +9,8 @@ radioslam_room(team_frame
     field_refinement.cpp
     fingerprint_layout.cpp
     fix_alignment.cpp
+    layout_evidence.cpp
+    layout_uncertainty.cpp
     line_of_sight/detour_continuity.cpp
     line_of_sight/sight_chains.cpp
     measurement_mixture.cpp
@@ -18,4 +20,5 @@ radioslam_room(team_frame
     radio_alignment.cpp
     radio_field.cpp
     rigid_layout.cpp
+    scaled_layouts.cpp
   ROOMS radio graph)

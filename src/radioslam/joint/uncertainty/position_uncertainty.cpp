@@ -176,6 +176,13 @@ void widen_by_alternatives(std::vector<RobotResult>& robots, const JointGraph<Po
   for (std::size_t c = 0; c < components.size(); ++c) add_variances(robots, components[c], added[c]);
 }
 
+template <class Pose>
+void widen_by_layout(std::vector<RobotResult>& robots, const TeamAlignment<Pose>& alignment) {
+  for (std::size_t r = 0; r < alignment.sigma_layout_m.size(); ++r)
+    for (auto* sigmas : {&robots[r].sigma_position_m, &robots[r].sigma_team_m})
+      for (double& sigma : *sigmas) sigma = std::hypot(sigma, alignment.sigma_layout_m[r]);
+}
+
 void widen_by_rejected_closures(std::vector<RobotResult>& robots,
                                 const std::vector<ClosureResult>& closures) {
   for (std::size_t r = 0; r < robots.size(); ++r) {
@@ -198,7 +205,8 @@ void widen_by_rejected_closures(std::vector<RobotResult>& robots,
   template void widen_by_unknown_motions(std::vector<RobotResult>&, const JointGraph<Pose>&, \
                                          const Marginals<Pose>&);                            \
   template void widen_by_alternatives(std::vector<RobotResult>&, const JointGraph<Pose>&,    \
-                                      const TeamAlignment<Pose>&);
+                                      const TeamAlignment<Pose>&);                           \
+  template void widen_by_layout(std::vector<RobotResult>&, const TeamAlignment<Pose>&);
 RADIOSLAM_UNCERTAINTY(SE2)
 RADIOSLAM_UNCERTAINTY(SE3)
 #undef RADIOSLAM_UNCERTAINTY

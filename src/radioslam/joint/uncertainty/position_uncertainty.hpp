@@ -2,8 +2,9 @@
 // sigma_team_m in the gauge of the team.
 //
 // The marginal covariances are those of one alignment whose accepted evidence is right. Likely alternatives
-// widen sigma_team_m by the spread of the mixture of all. Where most closures were rejected, both are widened
-// by the factor by which the residuals of distances and angles there exceed what is stated.
+// widen sigma_team_m by the spread of the mixture of all, a layout by fingerprints both by its own
+// uncertainty (team_frame/layout_uncertainty.hpp). Where most closures were rejected, both are widened by the
+// factor by which the residuals of distances and angles there exceed what is stated.
 #pragma once
 
 #include <algorithm>
@@ -48,6 +49,10 @@ void widen_by_unknown_motions(std::vector<RobotResult>& robots, const JointGraph
 template <class Pose>
 void widen_by_alternatives(std::vector<RobotResult>& robots, const JointGraph<Pose>& joint,
                            const TeamAlignment<Pose>& alignment);
+
+/// Of robots that were placed by fingerprints, by the uncertainty of their layout.
+template <class Pose>
+void widen_by_layout(std::vector<RobotResult>& robots, const TeamAlignment<Pose>& alignment);
 
 /// In the robots' uncertain stretches.
 void widen_by_rejected_closures(std::vector<RobotResult>& robots, const std::vector<ClosureResult>& closures);

@@ -1,7 +1,6 @@
 #include "radioslam/radio/fingerprints/team_similarity.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 #include "radioslam/base/parallel.hpp"
@@ -62,6 +61,11 @@ TeamSimilarity::TeamSimilarity(std::vector<Fingerprint> fingerprints, Similarity
 
 TeamSimilarity::TeamSimilarity(std::vector<std::vector<float>> table)
     : source_(std::make_shared<const Source>(Source{std::move(table), {}, {}, {}, {}})) {}
+
+std::optional<TeamSimilarity> TeamSimilarity::among(std::vector<Fingerprint> fingerprints) const {
+  if (!source_->comparison) return std::nullopt;
+  return TeamSimilarity(std::move(fingerprints), source_->measure, source_->params);
+}
 
 std::size_t TeamSimilarity::size() const {
   return source_->comparison ? source_->comparison->size() : source_->table.size();

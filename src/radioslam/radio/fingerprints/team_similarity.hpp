@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -27,6 +28,9 @@ class TeamSimilarity {
                  const SimilarityParams& params);
   /// From given similarities: symmetric, one row per fingerprint.
   explicit TeamSimilarity(std::vector<std::vector<float>> table);
+
+  /// Among other fingerprints, by the same measure; absent where similarities were given.
+  std::optional<TeamSimilarity> among(std::vector<Fingerprint> fingerprints) const;
 
   std::size_t size() const;
   /// Similarity of fingerprints i and j.
