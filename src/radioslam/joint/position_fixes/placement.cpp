@@ -387,7 +387,7 @@ std::string reason_unused(FixUse role) {
     case FixUse::kTooFew:
       return "too few to place it";
     case FixUse::kNoBaseline:
-      return "too close together to give its heading";
+      return "too close together, or not precise enough, to give its heading";
     case FixUse::kInconsistent:
       return "too few of them agree with each other and the odometry";
     case FixUse::kForeignFrame:

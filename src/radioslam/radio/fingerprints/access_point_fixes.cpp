@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "radioslam/base/parallel.hpp"
+#include "radioslam/geometry/linear_algebra.hpp"
 
 namespace radioslam {
 namespace {
@@ -236,8 +237,13 @@ std::vector<KnownFingerprint> fingerprints_with(
   return chosen;
 }
 
-/// Fixes of all fingerprints.
-std::vector<Fix> locate_all(const Scene& scene, const std::vector<KnownFingerprint>& fingerprints) {
+/// Fixes of all fingerprints, and the mean of the models by their evidence.
+struct LocatedFingerprints {
+  std::vector<Fix> fixes;
+  PathLoss model{0, 0};
+};
+
+LocatedFingerprints locate_all(const Scene& scene, const std::vector<KnownFingerprint>& fingerprints) {
   const Models all(scene.model);
   std::vector<std::vector<PlaceSums>> sums(fingerprints.size());
   std::vector<double> logs = all.log_priors;
@@ -249,9 +255,78 @@ std::vector<Fix> locate_all(const Scene& scene, const std::vector<KnownFingerpri
     for (const std::vector<PlaceSums>& of_one : sums) logs[m] += of_one[m].log_evidence / kFingerprintsAsOne;
   }
   const std::vector<double> weights = normalised(logs);
-  std::vector<Fix> fixes;
-  for (const std::vector<PlaceSums>& of_one : sums) fixes.push_back(mixed(of_one, weights));
-  return fixes;
+  LocatedFingerprints located;
+  for (const std::vector<PlaceSums>& of_one : sums) located.fixes.push_back(mixed(of_one, weights));
+  for (std::size_t m = 0; m < weights.size(); ++m) {
+    located.model.power_at_1m_dbm += weights[m] * all.models[m].power_at_1m_dbm;
+    located.model.exponent += weights[m] * all.models[m].exponent;
+  }
+  return located;
+}
+
+/// What moves a fix, to first order: by known access point, how the power there depends on the place and the
+/// place on the power received; zero for those that are not in the fingerprint.
+struct FixErrors {
+  Eigen::Vector2d place_m;
+  Eigen::Matrix2Xd slopes, gains;
+};
+
+FixErrors fix_errors(const Scene& scene, const PathLoss& model, const KnownFingerprint& fingerprint,
+                     const Fix& fix) {
+  const auto count = static_cast<Eigen::Index>(scene.known.size());
+  FixErrors errors{fix.mean_m, Eigen::Matrix2Xd::Zero(2, count), Eigen::Matrix2Xd::Zero(2, count)};
+  const double widest_m = scene.params.known_max_sigma_m;
+  Eigen::Matrix2d information = Eigen::Matrix2d::Identity() / (widest_m * widest_m);
+  for (const KnownReading& reading : fingerprint.readings) {
+    const auto k = static_cast<Eigen::Index>(reading.known);
+    const Eigen::Vector2d away = fix.mean_m - scene.known[reading.known].position_m;
+    const double square = away.squaredNorm() + scene.model.height_m * scene.model.height_m;
+    const double sigma_db = prediction(scene, model, reading.known, fix.mean_m).sigma_db;
+    errors.slopes.col(k) = -kDecibelsPerNeper * model.exponent / square * away;
+    errors.gains.col(k) = errors.slopes.col(k) / (sigma_db * sigma_db);
+    information += errors.gains.col(k) * errors.slopes.col(k).transpose();
+  }
+  errors.gains = inverse(information) * errors.gains;
+  return errors;
+}
+
+/// Variances of a reading's error, which add up to known_sigma_db squared.
+struct ReadingVariances {
+  double fading, shadowing, transmitter;
+
+  ReadingVariances(double all, const AccessPointParams& model)
+      : fading(std::min(all, model.sigma_fading_db * model.sigma_fading_db)),
+        shadowing(std::min(all - fading, model.sigma_shadowing_db * model.sigma_shadowing_db)),
+        transmitter(all - fading - shadowing) {}
+};
+
+/// Trace of the covariance between two fixes, or of one with itself.
+double shared_variance(const Scene& scene, const ReadingVariances& of, const FixErrors& a,
+                       const FixErrors& b) {
+  const double near = std::exp(-(a.place_m - b.place_m).norm() / scene.model.shadowing_length_m);
+  const double alike = of.transmitter + near * of.shadowing + (&a == &b ? of.fading : 0);
+  double trace = 0;
+  for (std::size_t known = 0; known < scene.known.size(); ++known) {
+    const auto k = static_cast<Eigen::Index>(known);
+    const double sigma_m = scene.known[known].sigma_m;
+    const double by_position = a.slopes.col(k).dot(b.slopes.col(k)) * sigma_m * sigma_m;
+    trace += a.gains.col(k).dot(b.gains.col(k)) * (alike + by_position);
+  }
+  return trace;
+}
+
+/// Number of fixes that count as one with each: its correlations with all of them, where these are positive.
+std::vector<double> counts_as_one(const Scene& scene, const std::vector<FixErrors>& errors) {
+  const ReadingVariances of(scene.params.known_sigma_db * scene.params.known_sigma_db, scene.model);
+  std::vector<double> own, counts(errors.size(), 0);
+  for (const FixErrors& fix : errors) own.push_back(shared_variance(scene, of, fix, fix));
+  parallel_for(errors.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      for (std::size_t j = 0; j < errors.size(); ++j)
+        counts[i] +=
+            std::max(0.0, shared_variance(scene, of, errors[i], errors[j]) / std::sqrt(own[i] * own[j]));
+  });
+  return counts;
 }
 
 }  // namespace
@@ -266,12 +341,21 @@ AccessPointFixes fixes_by_access_points(const Mission& mission,
   const auto fingerprints = fingerprints_with(result.known, mission, all, params);
   if (fingerprints.empty()) return result;
   const Scene scene{result.known, params, model, floor_of(all), places_around(result.known, params)};
-  const std::vector<Fix> fixes = locate_all(scene, fingerprints);
+  const auto [fixes, mean_model] = locate_all(scene, fingerprints);
+  std::vector<std::size_t> used;
+  std::vector<FixErrors> errors;
   for (std::size_t k = 0; k < fixes.size(); ++k)
-    if (const Fix& fix = fixes[k]; fix.sigma_m <= params.known_max_sigma_m)
-      result.robots[fingerprints[k].robot].push_back({fingerprints[k].stamp,
-                                                      {fix.mean_m.x(), fix.mean_m.y(), 0},
-                                                      params.known_sigma_factor * fix.sigma_m});
+    if (fixes[k].sigma_m <= params.known_max_sigma_m) {
+      used.push_back(k);
+      errors.push_back(fix_errors(scene, mean_model, fingerprints[k], fixes[k]));
+    }
+  const std::vector<double> counts = counts_as_one(scene, errors);
+  for (std::size_t n = 0; n < used.size(); ++n) {
+    const Fix& fix = fixes[used[n]];
+    const KnownFingerprint& of = fingerprints[used[n]];
+    result.robots[of.robot].push_back(
+        {of.stamp, {fix.mean_m.x(), fix.mean_m.y(), 0}, std::sqrt(counts[n]) * fix.sigma_m});
+  }
   return result;
 }
 

@@ -9,13 +9,22 @@
 // of the path loss model (access_points.hpp), each has the weight of its evidence, which is that of all
 // fingerprints (a quarter of it, because errors of the model are correlated). The posterior of x is summed
 // over a grid around the access points (Huber's loss) and over the models; its mean and the larger axis of
-// its second moment, widened by `known_sigma_factor`, are the fix: what is ambiguous has a large sigma. One
-// fingerprint is used per `known_spacing_m` of path.
+// its second moment are the fix: what is ambiguous has a large sigma. One fingerprint is used per
+// `known_spacing_m` of path.
+//
+// Fixes share errors: one transmitter is 6 dB stronger wherever it is received, or 2 m off, and shadowing is
+// the same within metres. To first order a fix i moves by sum_k G_ik e_ik, G_ik the gain on the power of
+// access point k, so that
+//   C_ij = sum_k G_ik G_jk^T (transmitter^2 + shadowing^2 exp(-|x_i - x_j| / shadowing_length_m)
+//                             + slope_ik . slope_jk sigma_k^2 + [i = j] fading^2),
+// where transmitter^2 is what shadowing and fading leave of known_sigma_db^2. A fix counts as one with the
+// others by n_i = sum_j max(0, trace C_ij / sqrt(trace C_ii trace C_jj)) over the team, and its variance is
+// n_i times its own, so that the weight of all together is that of the independent ones among them.
 //
 // One access point at a wrong position is an outlier in the fixes (Huber's loss) or makes some of them
 // outliers, which those who use them have to reject. Metres, in the frame of the given positions; heights are
 // not estimated, so this is for missions in the plane. Cost: 21 models times the cells times the access
-// points, and times the readings of all fingerprints.
+// points, and times the readings of all fingerprints; and the square of the fixes times the access points.
 #pragma once
 
 #include <cstddef>
@@ -37,7 +46,6 @@ struct AccessPointFixParams {
   double known_margin_m = 25;
   int known_cells = 48;
   double known_max_sigma_m = 15;
-  double known_sigma_factor = 1.5;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -54,10 +62,6 @@ struct AccessPointFixParams {
                     "margin around the known access points within which a fingerprint is searched");
     RADIOSLAM_FIELD(known_cells, "", 4, 1000, "number of cells along each side of the searched rectangle");
     RADIOSLAM_FIELD(known_max_sigma_m, "m", 0.1, 1e4, "largest standard deviation of a fix by access points");
-    RADIOSLAM_FIELD(known_sigma_factor, "", 1, 100,
-                    "factor on the standard deviations of fixes by access points, because the errors of "
-                    "neighbouring ones "
-                    "are correlated");
   }
 };
 
