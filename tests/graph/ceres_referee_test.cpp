@@ -118,7 +118,10 @@ struct Bearing {
     constexpr int kDim = Pose::kDim, kR = Pose::kDof - kDim;
     const Eigen::Map<const Vec<T, Pose::kDof>> i(a);
     const Vec<T, kDim> way = end_position<Pose>(b, point, f.j) - i.template head<kDim>();
-    const Vec<T, kDim> seen = turn<T>(Vec<T, kR>(i.template tail<kR>()), way, -1);
+    const Vec<T, kDim> by_body = turn<T>(Vec<T, kR>(i.template tail<kR>()), way, -1);
+    const auto turn_back = f.T_i_receiver.rotation_matrix().transpose().eval();
+    const Vec<T, kDim> seen =
+        turn_back.template cast<T>() * (by_body - f.T_i_receiver.translation().template cast<T>());
     Eigen::Map<Vec<T, kDim>>{out} =
         (seen / seen.norm() - f.direction.template cast<T>()) * T(std::sqrt(f.weight) / f.sigma_rad);
     return true;

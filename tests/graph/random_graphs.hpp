@@ -100,7 +100,8 @@ class GraphDrawing {
 
   void add_bearing(std::size_t i) {
     BearingFactor<Pose> bearing{PoseId(i), i % 2 == 0 ? end_at(i + 2) : point(i % 2), {}, 0.1, {}, 1};
-    const Point seen = graph_.poses[i].inverse() * place(bearing.j);
+    if (i % 3 != 0) bearing.T_i_receiver = draw_.pose(0.3, 0.4);
+    const Point seen = (graph_.poses[i] * bearing.T_i_receiver).inverse() * place(bearing.j);
     bearing.direction = (seen.normalized() + draw_.point(0.05 * noise_)).normalized();
     graph_.bearings.push_back(bearing);
   }

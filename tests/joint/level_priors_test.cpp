@@ -1,10 +1,11 @@
 // Roll and pitch of recorded odometry stay as uncertain as gravity leaves them, however far a robot drives.
+#include "radioslam/joint/level_priors.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "radioslam/graph/marginals.hpp"
-#include "radioslam/joint/robot_nodes.hpp"
 
 namespace radioslam {
 namespace {

@@ -61,12 +61,18 @@ struct ClosedGraph {
   std::vector<std::optional<std::size_t>> factors;  ///< of each closure
 };
 
+/// The mission with keyframes that the scans gave.
+Mission scanned(Mission mission, const std::vector<ScanClosure>& scans, const KeyframeParams& params = {}) {
+  std::vector<Stamp> given;
+  for (const ScanClosure& closure : scans) given.insert(given.end(), {closure.stamp_i, closure.stamp_j});
+  mission.robots[0].keyframes = choose_keyframes(mission, RobotIndex(0), params, given);
+  return mission;
+}
+
 template <class Pose>
 ClosedGraph<Pose> closed_graph(const Mission& mission, const std::vector<ScanClosure>& scans) {
   const auto closures = closures_of_scans(scans);
-  std::vector<std::vector<Stamp>> node_stamps(1);
-  add_closure_stamps(closures, node_stamps);
-  ClosedGraph<Pose> closed{build_joint_graph<Pose>(mission, {}, {}, node_stamps), {}};
+  ClosedGraph<Pose> closed{build_joint_graph<Pose>(scanned(mission, scans), {}, {}), {}};
   add_scan_closures(closed.joint, closures);
   closed.factors =
       factors_by_measurement(closed.joint.origins.relative_poses, FactorSource::kScanLoop, closures.size());
@@ -147,9 +153,6 @@ TEST(AddScanClosures, OfRejectedLoopsAddNothing) {
   const Mission mission = drifting_mission(truth, 0.003, 2);
   auto rejected = closure_between(mission, truth, 0, truth.size() - 1);
   rejected.loop.status = LoopStatus::kAmbiguous;
-  std::vector<std::vector<Stamp>> node_stamps(1);
-  add_closure_stamps(closures_of_scans({rejected}), node_stamps);
-  EXPECT_TRUE(node_stamps[0].empty());
   const auto closed = closed_graph<SE2>(mission, {rejected});
   ASSERT_EQ(closed.factors.size(), 1U);
   EXPECT_FALSE(closed.factors[0]);
@@ -162,7 +165,7 @@ TEST(AddScanClosures, OfRejectedLoopsAddNothing) {
   EXPECT_EQ(results[0].reason, reason(LoopStatus::kAmbiguous));
 }
 
-/// At any sample, also between two keyframes: there the closure gets a node of its own.
+/// At any sample: a scan that has a cloud is a keyframe.
 TEST(AddScanClosures, ConnectTheirOwnStamps) {
   const auto truth = around_a_square();
   Mission mission = drifting_mission(truth, 0, 2);
@@ -172,9 +175,7 @@ TEST(AddScanClosures, ConnectTheirOwnStamps) {
   const std::vector<ScanClosure> scans{closure_between(mission, truth, 3, 81),
                                        closure_between(mission, truth, 5, 80)};
   const auto closures = closures_of_scans(scans);
-  std::vector<std::vector<Stamp>> node_stamps(1);
-  add_closure_stamps(closures, node_stamps);
-  auto joint = build_joint_graph<SE2>(mission, sparse, {}, node_stamps);
+  auto joint = build_joint_graph<SE2>(scanned(mission, scans, sparse), sparse, {});
   add_scan_closures(joint, closures);
   const auto factors =
       factors_by_measurement(joint.origins.relative_poses, FactorSource::kScanLoop, closures.size());

@@ -118,7 +118,7 @@ void expect_known_unknown(const BrokenDrive& broken, std::size_t lost) {
   const Mission recorded = mission_of_drive(broken.drive);
   const RunResult result = run_pipeline(recorded, {}).result;
   const MeasuredScans measured = measure_scans(recorded, {}, {}, {});
-  const Mission mission = with_odometry(recorded, measured);
+  const Mission mission = with_odometry(recorded, measured, {});
   EXPECT_EQ(measured.lost, lost);
   EXPECT_EQ(measured.registered + lost, broken.drive.scans.size());
   for (const auto& notes : {measured.notes, result.notes}) {

@@ -79,7 +79,7 @@ LapRun run_lap(const Spoil& spoil, bool enabled = true, PathFunction path_of_bod
   LapRun run;
   const MeasuredScans measured = measure_scans(mission, params, {}, {});
   run.notes = measured.notes;
-  run.odometry = with_odometry(mission, measured).robots[0].odometry;
+  run.odometry = with_odometry(mission, measured, {}).robots[0].odometry;
   for (std::size_t k = 0; k < run.odometry.size(); ++k) {
     const SE3 path = run.odometry.front().pose.inverse() * run.odometry[k].pose;
     const SE3 off(drive.way_to(k).translation() - path.translation(), Eigen::Quaterniond::Identity());

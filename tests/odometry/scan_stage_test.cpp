@@ -59,7 +59,7 @@ Trajectory<SE3> recorded_odometry(const ScanDrive& drive, const SE3& T_start_fir
 /// Gives the mission the odometry of its scans.
 MeasuredScans measure(Mission& mission, const ScanParams& params = {}) {
   MeasuredScans measured = measure_scans(mission, params, {}, {});
-  mission = with_odometry(std::move(mission), measured);
+  mission = with_odometry(std::move(mission), measured, {});
   return measured;
 }
 

@@ -77,13 +77,15 @@ Linearisation<Pose::kDim, Pose::kDof, Pose::kDof> linearise(const PoseGraph<Pose
                                                             const BearingFactor<Pose>& factor) {
   using Square = Eigen::Matrix<double, Pose::kDim, Pose::kDim>;
   const Pose& T_w_i = graph.poses[factor.i.index()];
-  const typename Pose::Point seen = T_w_i.inverse() * position(graph, factor.j);
-  const typename Pose::Point compared = compared_part(factor, seen);
+  const typename Pose::Point seen = T_w_i.inverse() * position(graph, factor.j);  // by i's body
+  const Square turn = factor.T_i_receiver.rotation_matrix().transpose();
+  const typename Pose::Point compared = compared_part<Pose>(factor, factor.T_i_receiver.inverse() * seen);
   const typename Pose::Point u = direction_or_zero(compared);
   Square across = Square::Zero();  // d(v / |v|) / dv
   if (!u.isZero(0)) across = (Square::Identity() - u * u.transpose()) / compared.norm();
   if constexpr (Pose::kDim == 3)
     if (factor.azimuth_only) across.col(2).setZero();
+  across = (across * turn).eval();
   Linearisation<Pose::kDim, Pose::kDof, Pose::kDof> l;
   l.residual = u - factor.direction;
   std::get<0>(l.jacobians) = across * seen_by_jacobian<Pose>(seen);

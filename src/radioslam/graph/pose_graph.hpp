@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <type_traits>
 #include <vector>
 
@@ -73,13 +74,14 @@ struct RangeFactor {
   double sigma_m = 1;
   Loss loss{};
   double weight = 1;
-  BiasId bias{};    ///< of all ranges between two antennas, say; invalid: none
-  DriftId drift{};  ///< of the odometry that `range_m` was learned from; invalid: true metres
+  BiasId bias{};              ///< of all ranges between two antennas, say; invalid: none
+  DriftId drift{};            ///< of the odometry that `range_m` was learned from; invalid: true metres
+  std::int64_t after_ns = 0;  ///< measured so long after the pose of end i, or of j if i is a point
 };
 
-/// The direction from pose i to a pose or point, as a unit vector in i's body frame:
-/// residual (u - direction) / sigma, the chord, which is von Mises (Fisher) up to a constant.
-/// In space, an azimuth alone is compared within the body's xy-plane: u is the unit vector of the projection.
+/// The direction from pose i to a pose or point, as a unit vector in the receiver's frame, which is fixed to
+/// i: residual (u - direction) / sigma, the chord, which is von Mises (Fisher) up to a constant. In space, an
+/// azimuth alone is compared within the receiver's xy-plane: u is the unit vector of the projection.
 template <class Pose>
 struct BearingFactor {
   PoseId i;
@@ -88,7 +90,8 @@ struct BearingFactor {
   double sigma_rad = 1;
   Loss loss{};
   double weight = 1;
-  bool azimuth_only = false;  ///< `direction` is in the body's xy-plane; no meaning in the plane
+  bool azimuth_only = false;  ///< `direction` is in the receiver's xy-plane; no meaning in the plane
+  Pose T_i_receiver{};
 };
 
 /// Where a pose or a point is, seen from pose i, in i's body frame: T_i^-1 p_j - position.

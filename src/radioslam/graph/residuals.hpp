@@ -59,8 +59,8 @@ inline Eigen::Vector3d vertical_in_body(const SE3& T_frame_body) {
   return T_frame_body.rotation().conjugate() * Eigen::Vector3d::UnitZ();
 }
 
-/// What a bearing compares of where its end j is in i's body frame: for an azimuth alone, the projection to
-/// the xy-plane.
+/// What a bearing compares of where its end j is in the receiver's frame: for an azimuth alone, the
+/// projection to the xy-plane.
 template <class Pose>
 typename Pose::Point compared_part(const BearingFactor<Pose>& factor, typename Pose::Point seen) {
   if constexpr (Pose::kDim == 3)
@@ -69,13 +69,15 @@ typename Pose::Point compared_part(const BearingFactor<Pose>& factor, typename P
 }
 template <class Pose>
 typename Pose::Point seen_by_receiver(const PoseGraph<Pose>& graph, const BearingFactor<Pose>& factor) {
-  return compared_part<Pose>(factor, graph.poses[factor.i.index()].inverse() * position(graph, factor.j));
+  const Pose T_graph_receiver = graph.poses[factor.i.index()] * factor.T_i_receiver;
+  return compared_part<Pose>(factor, T_graph_receiver.inverse() * position(graph, factor.j));
 }
 
-/// Distance from the origin of pose i to an end.
+/// Distance from a bearing's receiver to its other end.
 template <class Pose>
-double distance_m(const PoseGraph<Pose>& graph, PoseId i, const RangeEnd<Pose>& end) {
-  return (position(graph, end) - graph.poses[i.index()].translation()).norm();
+double distance_m(const PoseGraph<Pose>& graph, const auto& bearing) {
+  const Pose& T_graph_i = graph.poses[bearing.i.index()];
+  return (position(graph, bearing.j) - T_graph_i * bearing.T_i_receiver.translation()).norm();
 }
 
 /// The information of a factor, without weight and loss.

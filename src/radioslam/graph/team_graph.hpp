@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -31,7 +32,7 @@ void move_segment(std::vector<Pose>& poses, const TrajectorySegment& segment, co
 /// One of the directions of an AmbiguousBearing.
 template <class Pose>
 struct BearingPath {
-  typename Pose::Point direction = Pose::Point::UnitX();  ///< unit vector in the receiver's body frame
+  typename Pose::Point direction = Pose::Point::UnitX();  ///< unit vector in the receiver's frame
   double sigma_rad = 1;
   double power_db = 0;
   bool azimuth_only = false;  ///< as BearingFactor::azimuth_only
@@ -43,13 +44,22 @@ struct AmbiguousBearing {
   PoseId i;
   RangeEnd<Pose> j;
   std::vector<BearingPath<Pose>> paths;
+  Pose T_i_receiver{};
+  std::int64_t after_ns = 0;  ///< measured so long after pose i
 };
 
 /// Path p of a bearing as a factor of its own.
 template <class Pose>
 BearingFactor<Pose> path_factor(const AmbiguousBearing<Pose>& bearing, std::size_t p) {
   const BearingPath<Pose>& path = bearing.paths[p];
-  return {bearing.i, bearing.j, path.direction, path.sigma_rad, {}, 1, path.azimuth_only};
+  return {bearing.i, bearing.j, path.direction,    path.sigma_rad,
+          {},        1,         path.azimuth_only, bearing.T_i_receiver};
+}
+
+/// The direction of path p in i's body frame.
+template <class Pose>
+typename Pose::Point direction_in_body(const AmbiguousBearing<Pose>& bearing, std::size_t p) {
+  return bearing.T_i_receiver.rotation_matrix() * bearing.paths[p].direction;
 }
 
 /// Values of poses are in their segment's own frame (segments with a known start or a prior: in the common

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "radioslam/geometry/linear_algebra.hpp"
+#include "radioslam/joint/level_priors.hpp"
 #include "radioslam/joint/links/radio_factors.hpp"
-#include "radioslam/joint/robot_nodes.hpp"
 #include "radioslam/mission/odometry_edge.hpp"
 
 namespace radioslam {
@@ -42,6 +42,26 @@ DriftId add_drift(PoseGraph<Pose>& graph, const Robot& robot, const JointGraphPa
   return prior.i;
 }
 
+/// Adds the motion between the robot's keyframes, which are the poses from `first_pose` on.
+template <class Pose>
+void add_odometry(JointGraph<Pose>& joint, RobotIndex index, const Robot& robot, const RobotNodes& nodes,
+                  std::size_t first_pose, DriftId drift) {
+  for (std::size_t n = 1; n < nodes.rows.size(); ++n) {
+    const auto edge =
+        odometry_edge<Pose>(nodes.odometry, nodes.rows[n - 1], nodes.rows[n], robot.odometry_noise);
+    RelativePoseFactor<Pose> factor;
+    factor.i = PoseId(first_pose + n - 1);
+    factor.j = PoseId(first_pose + n);
+    factor.T_i_j = edge.T_i_j;
+    factor.information = inverse(edge.covariance);
+    factor.drift = drift;
+    factor.drift_jacobian =
+        -edge.drift_jacobian;  // the odometry contains the drift, the true motion does not
+    add_factor(joint, factor,
+               {FactorSource::kOdometry, n - 1, index, index, nodes.stamps[n - 1], nodes.stamps[n]});
+  }
+}
+
 template <class Pose>
 TrajectorySegment add_trajectory(JointGraph<Pose>& joint, RobotIndex index, const Robot& robot,
                                  const RobotNodes& nodes, DriftId drift) {
@@ -63,8 +83,8 @@ RobotVariables joint_robot(const Robot& robot, const RobotNodes& nodes, std::siz
                            DriftId drift) {
   RobotVariables result;
   result.id = robot.id;
-  for (const std::size_t n : nodes.keyframes) {
-    result.stamps.push_back(nodes.stamps[n]);
+  result.stamps = nodes.stamps;
+  for (std::size_t n = 0; n < nodes.rows.size(); ++n) {
     result.poses.push_back(PoseId(first_pose + n));
     result.odometry.push_back(nodes.odometry[nodes.rows[n]].pose);
   }
@@ -94,12 +114,6 @@ void add_start_prior(PoseGraph<Pose>& graph, const Robot& robot, std::size_t fir
   if (!prior.information.isZero(0)) graph.pose_priors.push_back(prior);
 }
 
-/// Keyframes bound their deviation from the odometry only where it comes from LiDAR, accurate to centimetres.
-KeyframeParams keyframe_rule(const Robot& robot, KeyframeParams params) {
-  if (robot.lidar.empty()) params.max_deviation_m = params.max_deviation_rad = 0;
-  return params;
-}
-
 }  // namespace
 
 std::optional<SE3> common_from_start(const Robot& robot) {
@@ -109,44 +123,21 @@ std::optional<SE3> common_from_start(const Robot& robot) {
 }
 
 template <class Pose>
-void add_odometry(JointGraph<Pose>& joint, RobotIndex index, const Robot& robot, const RobotNodes& nodes,
-                  std::size_t first_pose, DriftId drift) {
-  for (std::size_t n = 1; n < nodes.rows.size(); ++n) {
-    const auto edge =
-        odometry_edge<Pose>(nodes.odometry, nodes.rows[n - 1], nodes.rows[n], robot.odometry_noise);
-    RelativePoseFactor<Pose> factor;
-    factor.i = PoseId(first_pose + n - 1);
-    factor.j = PoseId(first_pose + n);
-    factor.T_i_j = edge.T_i_j;
-    factor.information = inverse(edge.covariance);
-    factor.drift = drift;
-    factor.drift_jacobian =
-        -edge.drift_jacobian;  // the odometry contains the drift, the true motion does not
-    add_factor(joint, factor,
-               {FactorSource::kOdometry, n - 1, index, index, nodes.stamps[n - 1], nodes.stamps[n]});
-  }
-}
-
-template <class Pose>
 JointGraph<Pose> build_joint_graph(const Mission& mission, const KeyframeParams& keyframes,
-                                   const JointGraphParams& params,
-                                   std::vector<std::vector<Stamp>> node_stamps) {
+                                   const JointGraphParams& params) {
   JointGraph<Pose> joint;
-  node_stamps.resize(mission.robots.size());
-  add_link_stamps(mission, node_stamps);
-  std::vector<RobotNodes> nodes;
   for (std::size_t r = 0; r < mission.robots.size(); ++r) {
     const Robot& robot = mission.robots[r];
-    nodes.push_back(select_nodes(robot.odometry, node_stamps[r], keyframe_rule(robot, keyframes)));
+    const RobotNodes nodes = nodes_at(robot.odometry, keyframes_of(mission, RobotIndex(r), keyframes));
     const DriftId drift = add_drift(joint.team.graph, robot, params);
-    joint.team.segments.push_back(add_trajectory(joint, RobotIndex(r), robot, nodes.back(), drift));
+    joint.team.segments.push_back(add_trajectory(joint, RobotIndex(r), robot, nodes, drift));
     const std::size_t first_pose = joint.team.segments.back().first_pose;
-    joint.robots.push_back(joint_robot(robot, nodes.back(), first_pose, drift));
+    joint.robots.push_back(joint_robot(robot, nodes, first_pose, drift));
     joint.robot_of_segment.push_back(r);
     add_start_prior(joint.team.graph, robot, first_pose, params);
-    add_level_priors(joint.team.graph, robot, nodes.back(), first_pose, params.sigma_level_rad);
+    add_level_priors(joint.team.graph, robot, nodes, first_pose, params.sigma_level_rad);
   }
-  add_radio_factors(joint, mission, nodes);
+  add_radio_factors(joint, mission);
   return joint;
 }
 
@@ -232,15 +223,13 @@ void add_fingerprint_closures(JointGraph<Pose>& joint, const RadioMeasurements& 
   }
 }
 
-#define RADIOSLAM_JOINT_GRAPH(Pose)                                                                       \
-  template JointGraph<Pose> build_joint_graph<Pose>(                                                      \
-      const Mission&, const KeyframeParams&, const JointGraphParams&, std::vector<std::vector<Stamp>>);   \
-  template void add_odometry(JointGraph<Pose>&, RobotIndex, const Robot&, const RobotNodes&, std::size_t, \
-                             DriftId);                                                                    \
-  template PoseId pose_at(const JointGraph<Pose>&, RobotIndex, Stamp);                                    \
-  template void place_robots(JointGraph<Pose>&, const std::vector<SE2>&);                                 \
-  template Eigen::Matrix3Xd fingerprint_places(const JointGraph<Pose>&, const RadioMeasurements&);        \
-  template void add_fingerprint_closures(JointGraph<Pose>&, const RadioMeasurements&,                     \
+#define RADIOSLAM_JOINT_GRAPH(Pose)                                                                \
+  template JointGraph<Pose> build_joint_graph<Pose>(const Mission&, const KeyframeParams&,         \
+                                                    const JointGraphParams&);                      \
+  template PoseId pose_at(const JointGraph<Pose>&, RobotIndex, Stamp);                             \
+  template void place_robots(JointGraph<Pose>&, const std::vector<SE2>&);                          \
+  template Eigen::Matrix3Xd fingerprint_places(const JointGraph<Pose>&, const RadioMeasurements&); \
+  template void add_fingerprint_closures(JointGraph<Pose>&, const RadioMeasurements&,              \
                                          const std::vector<FingerprintClosure>&);
 RADIOSLAM_JOINT_GRAPH(SE2)
 RADIOSLAM_JOINT_GRAPH(SE3)

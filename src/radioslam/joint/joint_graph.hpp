@@ -13,7 +13,6 @@
 #include "radioslam/closure/fingerprint_closures.hpp"
 #include "radioslam/consistency/chi_squared.hpp"
 #include "radioslam/graph/team_graph.hpp"
-#include "radioslam/joint/robot_nodes.hpp"
 #include "radioslam/mission/keyframes.hpp"
 #include "radioslam/mission/mission.hpp"
 #include "radioslam/results/results.hpp"
@@ -141,7 +140,7 @@ Stamp keyframe_stamp(const JointGraph<Pose>& joint, RobotIndex robot, Stamp stam
   return stamps[keyframe_before(stamps, stamp)];
 }
 
-/// The robot's pose at exactly this stamp, a node of select_nodes; invalid outside its odometry.
+/// The robot's pose at exactly this stamp; invalid if it has none.
 template <class Pose>
 PoseId pose_at(const JointGraph<Pose>& joint, RobotIndex robot, Stamp stamp);
 
@@ -149,17 +148,11 @@ PoseId pose_at(const JointGraph<Pose>& joint, RobotIndex robot, Stamp stamp);
 /// known height.
 std::optional<SE3> common_from_start(const Robot& robot);
 
-/// Adds the motion between the robot's nodes, which are the poses from `first_pose` on.
-template <class Pose>
-void add_odometry(JointGraph<Pose>& joint, RobotIndex index, const Robot& robot, const RobotNodes& nodes,
-                  std::size_t first_pose, DriftId drift);
-
-/// Graph without closures. Trajectories are in their own start frames, or in the common frame if their start
-/// is known. `node_stamps`: per robot, further stamps within its odometry that become poses; may be empty.
+/// Graph without closures, of the robots' keyframes. Trajectories are in their own start frames, or in the
+/// common frame if their start is known.
 template <class Pose>
 JointGraph<Pose> build_joint_graph(const Mission& mission, const KeyframeParams& keyframes,
-                                   const JointGraphParams& params,
-                                   std::vector<std::vector<Stamp>> node_stamps = {});
+                                   const JointGraphParams& params);
 
 /// Moves every robot's trajectory rigidly: poses <- T_team_start * poses.
 template <class Pose>

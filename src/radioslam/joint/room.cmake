@@ -21,7 +21,8 @@ radioslam_room(joint
     graduated_optimization.cpp
     joint_graph.cpp
     joint_graph_from_file.cpp
-    late_nodes.cpp
+    keyframe_poses.cpp
+    level_priors.cpp
     links/link_weights.cpp
     links/radio_covariance.cpp
     links/radio_factors.cpp
@@ -38,7 +39,6 @@ radioslam_room(joint
     places/scanned_robot.cpp
     places/verification_budget.cpp
     position_fixes/placement.cpp
-    robot_nodes.cpp
     segment_odometry.cpp
     sequence_stage.cpp
     team_alignment.cpp

@@ -79,6 +79,7 @@ struct Robot {
   /// T_start_body, at least one pose; may be empty with LiDAR scans, from which it is then estimated.
   Trajectory<SE3> odometry;
   OdometryNoise odometry_noise;
+  std::vector<Stamp> keyframes;  ///< as the robot chose them on its way; empty: choose_keyframes
   Heading heading = Heading::kRelative;
   double sigma_heading_rad = 0.2;   ///< constant error of an absolute heading
   std::optional<SE3> initial_pose;  ///< T_common_start, gravity-aligned; absent when unknown

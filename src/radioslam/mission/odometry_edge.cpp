@@ -104,12 +104,21 @@ double travelled_distance_at(const Trajectory<SE3>& odometry, const std::vector<
   return travelled_m[i] + fraction * (travelled_m[i + 1] - travelled_m[i]);
 }
 
+template <class Pose>
+UncertainPose<Pose> with_drift(const OdometryEdge<Pose>& edge, const OdometryNoise& noise) {
+  const Eigen::Vector2d variance(noise.sigma_yaw_drift_per_m_rad * noise.sigma_yaw_drift_per_m_rad,
+                                 noise.sigma_scale * noise.sigma_scale);
+  return {edge.T_i_j,
+          edge.covariance + edge.drift_jacobian * variance.asDiagonal() * edge.drift_jacobian.transpose()};
+}
+
 #define RADIOSLAM_ODOMETRY_EDGE(Pose)                                                                \
   template OdometryEdge<Pose> odometry_edge(const Trajectory<SE3>&, std::size_t, std::size_t,        \
                                             const OdometryNoise&);                                   \
   template void append_sample(OdometryEdge<Pose>&, const StampedPose<SE3>&, const StampedPose<SE3>&, \
                               const OdometryNoise&);                                                 \
   template OdometryEdge<Pose> followed_by(const OdometryEdge<Pose>&, const OdometryEdge<Pose>&);     \
+  template UncertainPose<Pose> with_drift(const OdometryEdge<Pose>&, const OdometryNoise&);          \
   template Pose::Tangent min_edge_variance<Pose>();
 RADIOSLAM_ODOMETRY_EDGE(SE2)
 RADIOSLAM_ODOMETRY_EDGE(SE3)
@@ -129,14 +138,6 @@ OdometryEdge<Pose> edge_between(const Robot& robot, Stamp from, Stamp to) {
   if (from < to) rows.push_back({to, *odometry.at(to)});
   const std::size_t last = rows.size() - 1;
   return odometry_edge<Pose>(Trajectory<SE3>(std::move(rows)), 0, last, robot.odometry_noise);
-}
-
-template <class Pose>
-UncertainPose<Pose> with_drift(const OdometryEdge<Pose>& edge, const OdometryNoise& noise) {
-  const Eigen::Vector2d variance(noise.sigma_yaw_drift_per_m_rad * noise.sigma_yaw_drift_per_m_rad,
-                                 noise.sigma_scale * noise.sigma_scale);
-  return {edge.T_i_j,
-          edge.covariance + edge.drift_jacobian * variance.asDiagonal() * edge.drift_jacobian.transpose()};
 }
 
 }  // namespace

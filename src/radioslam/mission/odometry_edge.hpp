@@ -41,6 +41,10 @@ void append_sample(OdometryEdge<Pose>& edge, const StampedPose<SE3>& from, const
 template <class Pose>
 OdometryEdge<Pose> followed_by(const OdometryEdge<Pose>& edge, const OdometryEdge<Pose>& next);
 
+/// The motion, with the priors of constant drift and scale error in its covariance.
+template <class Pose>
+UncertainPose<Pose> with_drift(const OdometryEdge<Pose>& edge, const OdometryNoise& noise);
+
 /// Variance floor (diagonal): keeps the covariance of an edge invertible when the robot does not move.
 template <class Pose>
 typename Pose::Tangent min_edge_variance();

@@ -350,11 +350,16 @@ MeasuredScans measure_scans(const Mission& mission, const ScanParams& params, co
   return measured;
 }
 
-Mission with_odometry(Mission mission, const MeasuredScans& measured) {
+Mission with_odometry(Mission mission, const MeasuredScans& measured, const KeyframeParams& keyframes) {
   for (std::size_t r = 0; r < mission.robots.size(); ++r) {
-    if (!measured.robots[r] || !measured.robots[r]->odometry) continue;
-    mission.robots[r].odometry = measured.robots[r]->odometry->samples;
-    mission.robots[r].odometry_noise = measured.robots[r]->odometry->noise;
+    if (!measured.robots[r]) continue;
+    const ScanOdometry& scans = *measured.robots[r];
+    Robot& robot = mission.robots[r];
+    if (scans.odometry) {
+      robot.odometry = scans.odometry->samples;
+      robot.odometry_noise = scans.odometry->noise;
+    }
+    robot.keyframes = choose_keyframes(mission, RobotIndex(r), keyframes, scans.keyframe_stamps);
   }
   return mission;
 }

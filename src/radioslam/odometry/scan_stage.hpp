@@ -23,7 +23,7 @@ namespace radioslam {
 
 // Intra-robot loop closure by scan matching, to be added to the joint graph as a factor.
 
-/// The joint graph has nodes at both stamps.
+/// Between scans that are keyframes.
 struct ScanClosure {
   RobotIndex robot;
   Stamp stamp_i, stamp_j;
@@ -55,7 +55,7 @@ MeasuredScans measure_scans(const Mission& mission, const ScanParams& params, co
                             const Progress& progress, ScansOfRecorded recorded = ScansOfRecorded::kIgnored,
                             const PlaceDescriptorParams& descriptors = {});
 
-/// The mission with the odometry of its scans.
-Mission with_odometry(Mission mission, const MeasuredScans& measured);
+/// The mission with the odometry of its scans, and with keyframes among which are those of the scans.
+Mission with_odometry(Mission mission, const MeasuredScans& measured, const KeyframeParams& keyframes);
 
 }  // namespace radioslam

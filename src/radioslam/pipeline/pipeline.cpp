@@ -10,7 +10,6 @@
 #include "radioslam/joint/closures/radio_alignment_choice.hpp"
 #include "radioslam/joint/joint_graph_from_file.hpp"
 #include "radioslam/joint/known_access_points.hpp"
-#include "radioslam/joint/late_nodes.hpp"
 #include "radioslam/joint/links/link_weights.hpp"
 #include "radioslam/joint/places/place_recognition.hpp"
 #include "radioslam/joint/uncertainty/position_uncertainty.hpp"
@@ -82,15 +81,6 @@ void add_recording_results(RunResult& result, const Mission& mission, const Meas
   result.aoa_measurements = std::move(csi.profiles);
 }
 
-/// The graph of the mission, with poses at the stamps of loop closures and position fixes.
-template <class Pose>
-JointGraph<Pose> mission_graph(const RunSetup& run, const std::vector<VerifiedClosure>& scans) {
-  std::vector<std::vector<Stamp>> node_stamps(run.mission.robots.size());
-  add_closure_stamps(scans, node_stamps);
-  add_fix_stamps(run.mission, node_stamps);
-  return build_joint_graph<Pose>(run.mission, run.params.keyframe, run.params.graph, std::move(node_stamps));
-}
-
 template <class Pose>
 KnownStarts starts_of(const RunSetup& run, const TeamEstimate<Pose>& team) {
   return starts_with_fixes<Pose>(team.measured.starts, run.mission, team.judgement.fixes);
@@ -123,10 +113,6 @@ void close_by_fingerprints(const RunSetup& run, TeamEstimate<Pose>& team) {
 /// Makes closures that came late part of the team.
 template <class Pose>
 void add_found(const RunSetup& run, TeamEstimate<Pose>& team, const std::vector<VerifiedClosure>& found) {
-  if (found.empty()) return;
-  std::vector<std::vector<Stamp>> stamps(run.mission.robots.size());
-  add_closure_stamps(found, stamps);
-  add_nodes(team, run.mission, run.params.graph, stamps);
   auto& closures = team.measured.closures;
   auto& judgements = team.judgement.closures;
   for (const VerifiedClosure& closure : found)
@@ -134,6 +120,7 @@ void add_found(const RunSetup& run, TeamEstimate<Pose>& team, const std::vector<
       append({closure}, closures.loops, judgements.loops);
     else
       append({closure}, closures.scans, judgements.scans);
+  hang_on_keyframes(team.joint, run.mission, closures.loops);
 }
 
 /// Moves the team to the alignment that radio links and groups of consistent closures support best.
@@ -270,12 +257,14 @@ TeamEstimate<Pose> build_team(const RunSetup& run, const TeamGraph<Pose>* graph,
   auto& judgements = team.judgement.closures;
   const std::vector<VerifiedClosure> of_scans = closures_of_scans(scans.closures);
   append(of_scans, closures.scans, judgements.scans);
-  team.joint = graph ? joint_graph_of(*graph, run.mission) : mission_graph<Pose>(run, of_scans);
+  team.joint = graph ? joint_graph_of(*graph, run.mission)
+                     : build_joint_graph<Pose>(run.mission, run.params.keyframe, run.params.graph);
   team.measured.starts = known_starts(run.mission);
   if (graph)
     closures.loops = closures_of(*graph, team.joint);
   else if (!run.options.overlap_only)
     closures.loops = closures_of_matches(run.mission);
+  hang_on_keyframes(team.joint, run.mission, closures.loops);
   judgements.loops.resize(closures.loops.size());
   correct_by_scans(team.joint, run.mission, scans);
   add_scan_closures(team.joint, of_scans);
@@ -380,7 +369,7 @@ MeasuredRecordings measure_recordings(const Mission& recorded, const RunParams& 
     measured.scans = timed("scans", measure_scans, recorded, params.scans, params.keyframe, progress,
                            is_compared ? ScansOfRecorded::kForPlaces : ScansOfRecorded::kIgnored,
                            params.places.descriptors);
-    measured.mission = with_odometry(recorded, measured.scans);
+    measured.mission = with_odometry(recorded, measured.scans, params.keyframe);
   }
   if (has_captures(recorded)) {
     if (!measured.mission) measured.mission = recorded;

@@ -37,9 +37,7 @@ class RobotRecords {
       : mission_(mission),
         robot_(mission.robots[r]),
         index_(r),
-        rows_(causal_keyframes(robot_.odometry, params)) {
-    for (const std::size_t row : rows_) stamps_.push_back(robot_.odometry[row].stamp);
-  }
+        nodes_(nodes_at(robot_.odometry, keyframes_of(mission, RobotIndex(r), params))) {}
 
   RobotLog log(std::size_t& left_out) {
     add_measurements();
@@ -56,24 +54,24 @@ class RobotRecords {
     for (const Anchor& anchor : mission_.anchors) say(AnchorRecord{anchor});
     std::size_t next = 0;
     for (const Timed& measured : measured_) {
-      for (; next < rows_.size() && stamps_[next] <= measured.stamp; ++next) say(keyframe(next));
+      for (; next < nodes_.rows.size() && nodes_.stamps[next] <= measured.stamp; ++next) say(keyframe(next));
       say(measured.record);
     }
-    for (; next < rows_.size(); ++next) say(keyframe(next));
+    for (; next < nodes_.rows.size(); ++next) say(keyframe(next));
     left_out += outside_;
     return log;
   }
 
  private:
   KeyframeRecord keyframe(std::size_t k) const {
-    const std::size_t row = rows_[k], before = k > 0 ? rows_[k - 1] : row;
+    const std::size_t row = nodes_.rows[k], before = k > 0 ? nodes_.rows[k - 1] : row;
+    const Trajectory<SE3>& odometry = nodes_.odometry;
     KeyframeRecord record;
     record.number = static_cast<std::uint32_t>(k);
-    record.stamp = stamps_[k];
-    record.T_before_this = k > 0 ? robot_.odometry[before].pose.inverse() * robot_.odometry[row].pose
-                                 : robot_.odometry[row].pose;
+    record.stamp = nodes_.stamps[k];
+    record.T_before_this = k > 0 ? odometry[before].pose.inverse() * odometry[row].pose : odometry[row].pose;
     if (k > 0 && !robot_.odometry_noise.steps.empty())
-      record.covariance = odometry_edge<SE3>(robot_.odometry, before, row, robot_.odometry_noise).covariance;
+      record.covariance = odometry_edge<SE3>(odometry, before, row, robot_.odometry_noise).covariance;
     return record;
   }
 
@@ -82,9 +80,9 @@ class RobotRecords {
       ++outside_;
       return std::nullopt;
     }
-    const std::size_t k = keyframe_before(stamps_, stamp);
+    const std::size_t k = keyframe_before(nodes_.stamps, stamp);
     return PoseAt{static_cast<std::uint32_t>(k), stamp,
-                  robot_.odometry[rows_[k]].pose.inverse() * *robot_.odometry.at(stamp)};
+                  nodes_.odometry[nodes_.rows[k]].pose.inverse() * *robot_.odometry.at(stamp)};
   }
 
   template <class OfKind>
@@ -145,8 +143,7 @@ class RobotRecords {
   const Mission& mission_;
   const Robot& robot_;
   std::size_t index_;
-  std::vector<std::size_t> rows_;  ///< of the odometry, that are keyframes
-  std::vector<Stamp> stamps_;      ///< of these
+  RobotNodes nodes_;
   std::vector<Timed> measured_;
   std::map<std::pair<AccessPointIndex, float>, std::uint32_t> numbers_;  ///< of access points
   std::size_t outside_ = 0;

@@ -356,6 +356,7 @@ class MissionBuilder {
                            [](const auto& a, const auto& b) { return a.stamp == b.stamp; }),
                rows.end());
     robot.odometry = Trajectory<SE3>(std::move(rows));
+    for (const StampedPose<SE3>& keyframe : chain.poses()) robot.keyframes.push_back(keyframe.stamp);
     robot.odometry_noise.steps = chain.steps();
   }
 

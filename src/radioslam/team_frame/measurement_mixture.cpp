@@ -192,7 +192,7 @@ void MixtureGraph<Pose>::weigh_bearing(std::size_t b, double inflation_rad2, Den
   result.sight[graph.ranges.size() + b] = {is_empty ? 1 : total, 1};
   if (is_empty) return;
   const auto& first = graph.bearings[first_path_[b]];
-  result.log_within_reach[b] = log_within_reach(distance_m(graph, first.i, first.j));
+  result.log_within_reach[b] = log_within_reach(distance_m(graph, first));
 }
 
 template <class Pose>

@@ -32,7 +32,8 @@ class CrossLinks {
     for (std::size_t k = 0; k < team.graph.ranges.size(); ++k)
       add(true, k, team.graph.ranges[k].i, team.graph.ranges[k].j);
     for (std::size_t k = 0; k < team.bearings.size(); ++k)
-      add(false, k, {team.bearings[k].i, {}, Pose::Point::Zero()}, team.bearings[k].j);
+      add(false, k, {team.bearings[k].i, {}, team.bearings[k].T_i_receiver.translation()},
+          team.bearings[k].j);
   }
   const std::vector<CrossLink<Pose>>& links() const { return links_; }
 
@@ -78,12 +79,14 @@ Eigen::Matrix3d plane_covariance(const SE2& /*T_ref_end*/, const Eigen::Matrix<d
 double height(const Eigen::Vector2d& /*point*/) { return 0; }
 double height(const Eigen::Vector3d& point) { return point.z(); }
 
-std::optional<double> level_elevation(const SE2& /*receiver*/, const BearingPath<SE2>& /*path*/) {
+std::optional<double> level_elevation(const SE2& /*receiver*/, const AmbiguousBearing<SE2>& /*bearing*/,
+                                      std::size_t /*p*/) {
   return std::nullopt;
 }
-std::optional<double> level_elevation(const SE3& receiver, const BearingPath<SE3>& path) {
-  if (path.azimuth_only) return std::nullopt;
-  return std::asin(std::clamp((receiver.rotation() * path.direction).z(), -1.0, 1.0));
+std::optional<double> level_elevation(const SE3& receiver, const AmbiguousBearing<SE3>& bearing,
+                                      std::size_t p) {
+  if (bearing.paths[p].azimuth_only) return std::nullopt;
+  return std::asin(std::clamp((receiver.rotation() * direction_in_body(bearing, p)).z(), -1.0, 1.0));
 }
 
 /// Builds the grid problem of one reference link.
@@ -164,12 +167,11 @@ class Reference {
     const auto& measured = team_.bearings[link.index];
     const Pose& receiver = values_.poses[measured.i.index()];
     GridBearing result{placed, free, link.received_by_placed, {}, {}, path_priors(measured, mixture_), {}};
-    for (const auto& path : measured.paths) {
-      result.azimuth_rad.push_back(level_azimuth(receiver, path.direction));
-      result.sigma_rad.push_back(path.sigma_rad);
+    for (std::size_t p = 0; p < measured.paths.size(); ++p) {
+      result.azimuth_rad.push_back(level_azimuth(receiver, direction_in_body(measured, p)));
+      result.sigma_rad.push_back(measured.paths[p].sigma_rad);
+      if (with_elevation) result.elevation_rad.push_back(level_elevation(receiver, measured, p));
     }
-    if (with_elevation)
-      for (const auto& path : measured.paths) result.elevation_rad.push_back(level_elevation(receiver, path));
     return result;
   }
 

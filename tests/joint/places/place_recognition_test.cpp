@@ -80,7 +80,7 @@ struct HallOf {
     mission.robots.resize(2);
     mission.robots[0].id = "a";
     mission.robots[1].id = "b";
-    mission = with_odometry(std::move(mission), scans);
+    mission = with_odometry(std::move(mission), scans, {.distance_m = 0.9});
     team.joint = build_joint_graph<Pose>(mission, {.distance_m = 0.9}, {});
     team.alignment.component = team.alignment.without_matches = {0, 1};
     team.alignment.in_common_frame = {false, false};

@@ -10,6 +10,7 @@
 #include "radioslam/base/statistics.hpp"
 #include "radioslam/consistency/chi_squared.hpp"
 #include "radioslam/joint/aoa/aoa_match_weights.hpp"
+#include "radioslam/joint/keyframe_poses.hpp"
 #include "radioslam/joint/links/radio_factors.hpp"
 #include "radioslam/mission/odometry_edge.hpp"
 
@@ -233,7 +234,8 @@ template <class Pose>
 AoaIntegrity check_estimate(const Mission& mission, const JointGraph<Pose>& joint,
                             const TeamAlignment<Pose>& alignment, const AoaLikelihoodParams& likelihood,
                             const AoaIntegrityParams& params) {
-  const auto& graph = joint.team.graph;
+  const auto& poses = joint.team.graph.poses;
+  KeyframePoses<Pose> of_team(joint, mission);
   std::vector<CheckedAngle> angles;
   for (std::size_t k = 0; k < joint.origins.bearings.size(); ++k) {
     const FactorOrigin& origin = joint.origins.bearings[k];
@@ -242,10 +244,13 @@ AoaIntegrity check_estimate(const Mission& mission, const JointGraph<Pose>& join
         !alignment.placed[transmitter.index()] ||
         alignment.component[receiver.index()] != alignment.component[transmitter.index()])
       continue;
-    const auto& ends = joint.team.bearings[k];
-    const UncertainPose<Pose> T_r_t{graph.poses[ends.i.index()].inverse() * graph.poses[ends.j.pose.index()]};
-    angles.push_back(
-        checked(T_r_t, mission.aoa_measurements[origin.measurement], mission, likelihood, params, 0));
+    const AoaMeasurement& aoa = mission.aoa_measurements[origin.measurement];
+    const auto body = [&](RobotIndex robot) {
+      const auto at = *of_team.at(robot, aoa.stamp);
+      return poses[at.pose.index()] * at.motion.T_keyframe_body.pose;
+    };
+    const UncertainPose<Pose> T_r_t{body(receiver).inverse() * body(transmitter)};
+    angles.push_back(checked(T_r_t, aoa, mission, likelihood, params, 0));
   }
   return IntegrityTest(mission, CheckedPose::kEstimate, params, std::move(angles)).run();
 }

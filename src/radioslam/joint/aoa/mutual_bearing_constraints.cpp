@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "radioslam/geometry/linear_algebra.hpp"
+#include "radioslam/geometry/uncertain_pose.hpp"
 #include "radioslam/graph/marginals.hpp"
 
 namespace radioslam {
@@ -83,8 +84,9 @@ class MutualBearings {
       for (const std::size_t k : radio_ranges()) {
         const auto& range = graph.ranges[k];
         if (!range.i.pose.valid() || !range.j.pose.valid() || range.weight < kDirectWeight) continue;
-        const auto* seen_by_i = nearest_bearing(range.i.pose, range.j.pose);
-        const auto* seen_by_j = nearest_bearing(range.j.pose, range.i.pose);
+        const Stamp stamp{origins_.of(range.i.pose).stamp.ns + range.after_ns};
+        const auto* seen_by_i = nearest_bearing(range.i.pose, range.j.pose, stamp);
+        const auto* seen_by_j = nearest_bearing(range.j.pose, range.i.pose, stamp);
         if (seen_by_i && seen_by_j) links.push_back(link(range, *seen_by_i, *seen_by_j));
       }
     }
@@ -115,15 +117,15 @@ class MutualBearings {
   }
 
   /// The direct angle between two robots that is closest in time to a range between them.
-  const BearingFactor<Pose>* nearest_bearing(PoseId receiver, PoseId transmitter) const {
+  const BearingFactor<Pose>* nearest_bearing(PoseId receiver, PoseId transmitter, Stamp stamp) const {
     const BearingFactor<Pose>* best = nullptr;
     double best_s = pairing_s_;
     for (const auto& bearing : joint_.team.bearings) {
       if (!bearing.j.pose.valid() || origins_.of(bearing.i).robot != origins_.of(receiver).robot ||
           origins_.of(bearing.j.pose).robot != origins_.of(transmitter).robot)
         continue;
-      const double apart_s =
-          std::abs(seconds_between(origins_.of(bearing.i).stamp, origins_.of(receiver).stamp));
+      const Stamp heard{origins_.of(bearing.i).stamp.ns + bearing.after_ns};
+      const double apart_s = std::abs(seconds_between(heard, stamp));
       if (apart_s > best_s) continue;
       const auto* path = direct_path(joint_.team.graph, bearing.i, bearing.j.pose);
       if (path) best = path, best_s = apart_s;
@@ -131,10 +133,10 @@ class MutualBearings {
     return best;
   }
 
-  /// The azimuth, corrected for the rotation between the stamps of angle and range.
-  double azimuth_at(const BearingFactor<Pose>& bearing, PoseId node_stamp) const {
+  /// The azimuth in the frame of a pose, that of the range.
+  double azimuth_at(const BearingFactor<Pose>& bearing, PoseId pose) const {
     const auto& poses = joint_.team.graph.poses;
-    const Pose T = poses[node_stamp.index()].inverse() * poses[bearing.i.index()];
+    const Pose T = poses[pose.index()].inverse() * poses[bearing.i.index()] * bearing.T_i_receiver;
     return std::atan2(bearing.direction.y(), bearing.direction.x()) + heading(T);
   }
 
@@ -146,11 +148,13 @@ class MutualBearings {
                                  by_i.sigma_rad,
                                  azimuth_at(by_j, range.j.pose),
                                  by_j.sigma_rad};
-    return at_keyframes(range.i.pose, range.j.pose, relative_pose(measured),
-                        relative_pose_covariance(measured));
+    const UncertainPose<Pose> T_i_a{Pose(range.i.lever_arm, 0)}, T_j_b{Pose(range.j.lever_arm, 0)};
+    const UncertainPose<Pose> T_a_b{relative_pose(measured), relative_pose_covariance(measured)};
+    const UncertainPose<Pose> T_i_j = T_i_a * T_a_b * T_j_b.inverse();
+    return at_keyframes(range.i.pose, range.j.pose, T_i_j.pose, T_i_j.covariance);
   }
 
-  /// Moved along the odometry from the stamp of the measurement to the keyframes before it.
+  /// Moved along the odometry to the keyframes before these poses.
   OverlapLink<Pose> at_keyframes(PoseId i, PoseId j, const Pose& T_i_j,
                                  const typename Pose::Jacobian& covariance) const {
     const PoseOrigin &a = origins_.of(i), &b = origins_.of(j);

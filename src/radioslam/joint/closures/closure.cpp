@@ -9,6 +9,7 @@
 #include "radioslam/base/check.hpp"
 #include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/graph/residuals.hpp"
+#include "radioslam/joint/keyframe_poses.hpp"
 
 namespace radioslam {
 
@@ -74,6 +75,36 @@ std::vector<Closure> closures_of_matches(const Mission& mission) {
     closure.information = (information + information.transpose()) / 2;
   }
   return closures;
+}
+
+namespace {
+
+UncertainPose<SE3> in_space(const UncertainPose<SE2>& of) {
+  UncertainPose<SE3> result{lift(of.pose)};
+  const std::array<int, 3> kept{0, 1, 5};
+  result.covariance(kept, kept) = of.covariance;
+  return result;
+}
+UncertainPose<SE3> in_space(const UncertainPose<SE3>& of) { return of; }
+
+}  // namespace
+
+template <class Pose>
+void hang_on_keyframes(const JointGraph<Pose>& joint, const Mission& mission,
+                       std::vector<Closure>& closures) {
+  KeyframePoses<Pose> poses(joint, mission);
+  for (Closure& closure : closures) {
+    const auto i = poses.at(closure.robot_i, closure.stamp_i), j = poses.at(closure.robot_j, closure.stamp_j);
+    if (!i || !j || (i->after_ns == 0 && j->after_ns == 0)) continue;
+    const UncertainPose<SE3> T_i_j{closure.T_i_j, inverse(closure.information)};
+    const auto moved =
+        in_space(i->motion.T_keyframe_body) * T_i_j * in_space(j->motion.T_keyframe_body).inverse();
+    closure.stamp_i = i->keyframe;
+    closure.stamp_j = j->keyframe;
+    closure.T_i_j = moved.pose;
+    const SE3::Jacobian information = inverse(moved.covariance);
+    closure.information = (information + information.transpose()) / 2;
+  }
 }
 
 template <class Pose>
@@ -152,6 +183,7 @@ std::vector<ClosureResult> collect_closures(const JointGraph<Pose>& joint,
   template SE3::Jacobian information_in_space<Pose>(const Pose::Jacobian&);                                  \
   template Pose::Jacobian covariance_of<Pose>(const Closure&);                                               \
   template ClosureEnds closure_ends(const JointGraph<Pose>&, const Closure&);                                \
+  template void hang_on_keyframes(const JointGraph<Pose>&, const Mission&, std::vector<Closure>&);           \
   template RelativePoseFactor<Pose> closure_factor(const JointGraph<Pose>&, const Closure&);                 \
   template void add_closure(JointGraph<Pose>&, const Closure&, RelativePoseFactor<Pose>, FactorSource,       \
                             std::size_t);                                                                    \
@@ -184,15 +216,6 @@ std::vector<VerifiedClosure> closures_of_scans(const std::vector<ScanClosure>& s
   for (const auto& [robot, stamp_i, stamp_j, loop] : scans)
     closures.push_back(closure_of_scan(robot, stamp_i, robot, stamp_j, loop));
   return closures;
-}
-
-void add_closure_stamps(const std::vector<VerifiedClosure>& closures,
-                        std::vector<std::vector<Stamp>>& node_stamps) {
-  for (const auto& [closure, judgement] : closures) {
-    if (judgement.status != ClosureStatus::kAccepted) continue;
-    node_stamps[closure.robot_i.index()].push_back(closure.stamp_i);
-    node_stamps[closure.robot_j.index()].push_back(closure.stamp_j);
-  }
 }
 
 template <class Pose>

@@ -19,7 +19,7 @@ namespace radioslam {
 struct Closure {
   ClosureKind kind = ClosureKind::kMatch;
   RobotIndex robot_i, robot_j;
-  Stamp stamp_i, stamp_j;  ///< at poses of the joint graph, or at times without odometry
+  Stamp stamp_i, stamp_j;  ///< of poses of the joint graph, once it hangs on them; or times without odometry
   SE3 T_i_j;
   SE3::Jacobian information = SE3::Jacobian::Identity();  ///< of T_i_j Exp(xi), [translation, rotation]
 };
@@ -82,6 +82,11 @@ void reject(ClosureJudgement& judgement, std::string reason);
 /// The mission's matches, in their order.
 std::vector<Closure> closures_of_matches(const Mission& mission);
 
+/// Moves closures whose ends are both within the odometry to the keyframes before these, by the odometry in
+/// between, whose covariance adds to theirs.
+template <class Pose>
+void hang_on_keyframes(const JointGraph<Pose>& joint, const Mission& mission, std::vector<Closure>& closures);
+
 /// The closure as a factor between its ends, which must be valid; without a loss.
 template <class Pose>
 RelativePoseFactor<Pose> closure_factor(const JointGraph<Pose>& joint, const Closure& closure);
@@ -111,10 +116,6 @@ VerifiedClosure closure_of_scan(RobotIndex robot_i, Stamp stamp_i, RobotIndex ro
 
 /// In their order; the statistic of those that scan matching rejected is the inlier ratio.
 std::vector<VerifiedClosure> closures_of_scans(const std::vector<ScanClosure>& scans);
-
-/// Adds the stamps of the accepted closures to every robot's node stamps.
-void add_closure_stamps(const std::vector<VerifiedClosure>& closures,
-                        std::vector<std::vector<Stamp>>& node_stamps);
 
 /// Adds the accepted closures of robots with themselves, each with a loss.
 template <class Pose>

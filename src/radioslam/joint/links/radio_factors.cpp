@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <optional>
 
+#include "radioslam/joint/keyframe_poses.hpp"
 #include "radioslam/radio/aoa/aoa_likelihood.hpp"
 
 namespace radioslam {
@@ -13,8 +16,8 @@ constexpr double kMinSigmaAnchor_m = 1e-3;  // lower bound on the error of an an
 template <class Pose>
 class RadioFactors {
  public:
-  RadioFactors(JointGraph<Pose>& joint, const Mission& mission, const std::vector<RobotNodes>& nodes)
-      : joint_(joint), mission_(mission), nodes_(nodes) {}
+  RadioFactors(JointGraph<Pose>& joint, const Mission& mission)
+      : joint_(joint), mission_(mission), poses_(joint, mission) {}
 
   void add_anchors() {
     for (const Anchor& anchor : mission_.anchors) {
@@ -32,52 +35,61 @@ class RadioFactors {
   }
 
   void add(const RangeMeasurement& measured, std::size_t index) {
-    if (!covered(measured.i, measured.stamp) || !covered(measured.j, measured.stamp)) {
+    const auto i = end(measured.i, measured.stamp), j = end(measured.j, measured.stamp);
+    if (!i || !j) {
       ++joint_.ignored_links;
       return;
     }
     RangeFactor<Pose> factor;
-    factor.i = end(measured.i, measured.stamp);
-    factor.j = end(measured.j, measured.stamp);
+    factor.i = i->end;
+    factor.j = j->end;
+    factor.after_ns = factor.i.pose.valid() ? i->after_ns : j->after_ns;
     factor.range_m = measured.range_m;
-    factor.sigma_m = measured.sigma_m;
+    factor.sigma_m = std::sqrt(measured.sigma_m * measured.sigma_m + i->variance_m2 + j->variance_m2);
     FactorOrigin from = origin(FactorSource::kRange, index, measured.i, measured.j, measured.stamp);
     from.antenna_pair = pairs_.index_of(name(measured.i), name(measured.j));
     add_factor(joint_, factor, from);
   }
 
   void add(const AoaMeasurement& measured, std::size_t index) {
-    const LinkEnd receiver{measured.receiver, {}, {}, Eigen::Vector3d::Zero()};
-    if (!covered(receiver, measured.stamp) || !covered(measured.transmitter, measured.stamp)) {
+    const auto at_receiver = poses_.at(measured.receiver, measured.stamp);
+    const auto transmitter = end(measured.transmitter, measured.stamp);
+    if (!at_receiver || !transmitter) {
       ++joint_.ignored_links;
       return;
     }
     AmbiguousBearing<Pose> bearing;
-    bearing.i = end(receiver, measured.stamp).pose;
-    bearing.j = end(measured.transmitter, measured.stamp);
+    bearing.i = at_receiver->pose;
+    bearing.T_i_receiver = at_receiver->motion.T_keyframe_body.pose;
+    bearing.after_ns = at_receiver->after_ns;
+    bearing.j = transmitter->end;
     const SE3 T_start_body = *mission_.robots[measured.receiver.index()].odometry.at(measured.stamp);
     for (const AoaPath& path : as_estimated<Pose>(measured, T_start_body).paths)
-      bearing.paths.push_back({unit_vector(path).template head<Pose::kDim>(), path.sigma_rad, path.power_db,
-                               !path.elevation_rad});
+      bearing.paths.push_back(
+          {unit_vector(path).template head<Pose::kDim>(),
+           std::sqrt(path.sigma_rad * path.sigma_rad + at_receiver->motion.rotation_rad2()), path.power_db,
+           !path.elevation_rad});
+    const LinkEnd receiver{measured.receiver, {}, {}, Eigen::Vector3d::Zero()};
     add_factor(joint_, std::move(bearing),
                origin(FactorSource::kAoa, index, receiver, measured.transmitter, measured.stamp));
   }
 
  private:
-  bool covered(const LinkEnd& end, Stamp stamp) const {
-    return !end.robot.valid() || mission_.robots[end.robot.index()].odometry.covers(stamp);
-  }
+  /// On the keyframe before it.
+  struct End {
+    RangeEnd<Pose> end;
+    double variance_m2 = 0;  ///< of the position there, by the odometry since
+    std::int64_t after_ns = 0;
+  };
 
-  RangeEnd<Pose> end(const LinkEnd& end, Stamp stamp) const {
-    RangeEnd<Pose> result;
-    if (!end.robot.valid()) {
-      result.point = PointId(end.anchor.value);
-      return result;
-    }
-    const std::size_t r = end.robot.index();
-    result.pose = PoseId(joint_.team.segments[r].first_pose + nodes_[r].node_at(stamp));
-    result.lever_arm = end.lever_arm_m.head<Pose::kDim>();
-    return result;
+  std::optional<End> end(const LinkEnd& end, Stamp stamp) {
+    if (!end.robot.valid()) return End{{{}, PointId(end.anchor.value)}};
+    const auto at = poses_.at(end.robot, stamp);
+    if (!at) return std::nullopt;
+    const Pose& T_keyframe_body = at->motion.T_keyframe_body.pose;
+    return End{{at->pose, {}, T_keyframe_body * end.lever_arm_m.head<Pose::kDim>()},
+               at->motion.position_m2(),
+               at->after_ns};
   }
 
   std::string name(const LinkEnd& end) const {
@@ -98,21 +110,10 @@ class RadioFactors {
   JointGraph<Pose>& joint_;
   AntennaPairs pairs_{joint_.antenna_pairs};
   const Mission& mission_;
-  const std::vector<RobotNodes>& nodes_;
+  KeyframePoses<Pose> poses_;
 };
 
 }  // namespace
-
-void add_link_stamps(const Mission& mission, std::vector<std::vector<Stamp>>& node_stamps) {
-  const auto note = [&](RobotIndex robot, Stamp stamp) {
-    if (robot.valid()) node_stamps[robot.index()].push_back(stamp);
-  };
-  for (const auto& range : mission.ranges) note(range.i.robot, range.stamp), note(range.j.robot, range.stamp);
-  for (const auto& aoa : mission.aoa_measurements)
-    note(aoa.receiver, aoa.stamp), note(aoa.transmitter.robot, aoa.stamp);
-  for (const auto& match : mission.matches)
-    note(match.robot_i, match.stamp_i), note(match.robot_j, match.stamp_j);
-}
 
 template <class Pose>
 AoaMeasurement as_estimated(const AoaMeasurement& measured, const SE3& T_start_body) {
@@ -121,9 +122,8 @@ AoaMeasurement as_estimated(const AoaMeasurement& measured, const SE3& T_start_b
 }
 
 template <class Pose>
-void add_radio_factors(JointGraph<Pose>& joint, const Mission& mission,
-                       const std::vector<RobotNodes>& nodes) {
-  RadioFactors<Pose> factors(joint, mission, nodes);
+void add_radio_factors(JointGraph<Pose>& joint, const Mission& mission) {
+  RadioFactors<Pose> factors(joint, mission);
   factors.add_anchors();
   for (std::size_t k = 0; k < mission.ranges.size(); ++k) factors.add(mission.ranges[k], k);
   for (std::size_t k = 0; k < mission.aoa_measurements.size(); ++k)
@@ -132,7 +132,7 @@ void add_radio_factors(JointGraph<Pose>& joint, const Mission& mission,
 
 template AoaMeasurement as_estimated<SE2>(const AoaMeasurement&, const SE3&);
 template AoaMeasurement as_estimated<SE3>(const AoaMeasurement&, const SE3&);
-template void add_radio_factors(JointGraph<SE2>&, const Mission&, const std::vector<RobotNodes>&);
-template void add_radio_factors(JointGraph<SE3>&, const Mission&, const std::vector<RobotNodes>&);
+template void add_radio_factors(JointGraph<SE2>&, const Mission&);
+template void add_radio_factors(JointGraph<SE3>&, const Mission&);
 
 }  // namespace radioslam

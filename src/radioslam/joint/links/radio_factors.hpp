@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "radioslam/joint/joint_graph.hpp"
-#include "radioslam/joint/robot_nodes.hpp"
 
 namespace radioslam {
 
@@ -32,16 +31,13 @@ class AntennaPairs {
   std::map<std::pair<std::string, std::string>, std::size_t> indices_;
 };
 
-/// Adds the stamps of its links and matches to every robot's node stamps.
-void add_link_stamps(const Mission& mission, std::vector<std::vector<Stamp>>& node_stamps);
-
 /// The measurement's paths in the dimension of the estimate, given the receiver's odometry pose.
 template <class Pose>
 AoaMeasurement as_estimated(const AoaMeasurement& measured, const SE3& T_start_body);
 
-/// Adds points for the anchors and factors for links whose stamps the odometry of all their robots covers;
-/// the other links are counted in ignored_links.
+/// Adds points for the anchors and factors for links whose stamps the odometry of all their robots covers, on
+/// the keyframes before them; the other links are counted in ignored_links.
 template <class Pose>
-void add_radio_factors(JointGraph<Pose>& joint, const Mission& mission, const std::vector<RobotNodes>& nodes);
+void add_radio_factors(JointGraph<Pose>& joint, const Mission& mission);
 
 }  // namespace radioslam

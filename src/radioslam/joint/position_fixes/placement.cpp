@@ -9,6 +9,7 @@
 #include "radioslam/consistency/chi_squared.hpp"
 #include "radioslam/geometry/alignment.hpp"
 #include "radioslam/graph/residuals.hpp"
+#include "radioslam/joint/keyframe_poses.hpp"
 #include "radioslam/mission/odometry_edge.hpp"
 
 namespace radioslam {
@@ -104,10 +105,10 @@ std::vector<double> fixes_near(const std::vector<PositionFix>& fixes, double cor
   return counts;
 }
 
-/// The robot's fixes as factors; the gate, chi-squared for the fix's own variance, is the scale of their
-/// loss.
+/// The robot's fixes as factors on the keyframes before them; the gate, chi-squared for the fix's own
+/// variance, is the scale of their loss.
 template <class Pose>
-RobotFixes<Pose> fixes_of(const JointGraph<Pose>& joint, const Mission& mission, std::size_t r,
+RobotFixes<Pose> fixes_of(KeyframePoses<Pose>& poses, const Mission& mission, std::size_t r,
                           const FixParams& params) {
   const Robot& robot = mission.robots[r];
   const double gate = chi_squared_quantile(params.gate_probability, Pose::kDim);
@@ -115,15 +116,16 @@ RobotFixes<Pose> fixes_of(const JointGraph<Pose>& joint, const Mission& mission,
   RobotFixes<Pose> result;
   for (std::size_t k = 0; k < robot.fixes.size(); ++k) {
     const PositionFix& fix = robot.fixes[k];
-    PositionFactor<Pose> factor;
-    factor.i.pose = pose_at(joint, RobotIndex(r), fix.stamp);
-    if (!factor.i.pose.valid()) {
+    const auto at = poses.at(RobotIndex(r), fix.stamp);
+    if (!at) {
       ++result.outside;
       continue;
     }
-    factor.i.lever_arm = robot.fix_lever_m.template head<Pose::kDim>();
+    PositionFactor<Pose> factor;
+    factor.i.pose = at->pose;
+    factor.i.lever_arm = at->motion.T_keyframe_body.pose * robot.fix_lever_m.template head<Pose::kDim>();
     factor.position = fix.position_m.template head<Pose::kDim>();
-    factor.information /= near[k] * fix.sigma_m * fix.sigma_m;
+    factor.information /= near[k] * (fix.sigma_m * fix.sigma_m + at->motion.position_m2());
     factor.loss = {LossKind::kNone, std::sqrt(gate / near[k])};
     result.factors.push_back(factor);
   }
@@ -157,8 +159,9 @@ class FixPlacement {
  public:
   FixPlacement(JointGraph<Pose>& joint, const Mission& mission, const FixParams& params)
       : joint_(joint), mission_(mission), params_(params), odometry_graph_(odometry_only_graph()) {
+    KeyframePoses<Pose> poses(joint, mission);
     for (std::size_t r = 0; r < mission.robots.size(); ++r)
-      fixes_.push_back(fixes_of(joint, mission, r, params));
+      fixes_.push_back(fixes_of(poses, mission, r, params));
   }
 
   TeamFixes<Pose> run(const OptimizerParams& optimizer) {
@@ -311,11 +314,6 @@ bool classify_again(PoseGraph<Pose>& graph, const RobotFixes<Pose>& fixes) {
 bool has_fixes(const Mission& mission) {
   return std::any_of(mission.robots.begin(), mission.robots.end(),
                      [](const Robot& robot) { return !robot.fixes.empty(); });
-}
-
-void add_fix_stamps(const Mission& mission, std::vector<std::vector<Stamp>>& node_stamps) {
-  for (std::size_t r = 0; r < mission.robots.size(); ++r)
-    for (const PositionFix& fix : mission.robots[r].fixes) node_stamps[r].push_back(fix.stamp);
 }
 
 template <class Pose>

@@ -115,9 +115,6 @@ using TeamFixes = std::vector<RobotFixes<Pose>>;
 
 bool has_fixes(const Mission& mission);
 
-/// Adds the stamps of its fixes to every robot's node stamps.
-void add_fix_stamps(const Mission& mission, std::vector<std::vector<Stamp>>& node_stamps);
-
 /// Moves robots that their fixes can place into the common frame, and adds their fixes and those of robots of
 /// known start to the graph.
 template <class Pose>

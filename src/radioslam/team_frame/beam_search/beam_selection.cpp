@@ -53,7 +53,7 @@ VarianceInflation inflation_by_odometry(const TeamGraph<Pose>& team) {
   for (const auto& range : team.graph.ranges)
     inflation.ranges_m2.push_back(position_variance(range.i.pose) + position_variance(range.j.pose));
   for (const auto& bearing : team.bearings) {
-    const double distance = std::max(distance_m(team.graph, bearing.i, bearing.j), kMinimumDistance_m);
+    const double distance = std::max(distance_m(team.graph, bearing), kMinimumDistance_m);
     const double across_m2 = position_variance(bearing.i) + position_variance(bearing.j.pose);
     const double heading = marginals->pose(bearing.i)(Pose::kDof - 1, Pose::kDof - 1);
     inflation.bearings_rad2.push_back(across_m2 / (distance * distance) + heading);

@@ -65,7 +65,7 @@ struct Exchange {
   std::size_t range = 0;
   double range_m = 0, sigma_m = 1;
   Stamp stamp;
-  SE2 T_a, T_b;  ///< poses in the robots' own frames
+  SE2 T_a, T_b;  ///< of the antennas, in the robots' own frames, with the headings of the poses they are on
   std::vector<Azimuth> at_a, at_b;
   std::vector<std::size_t> further;  ///< ranges of the same exchange
 };
@@ -264,21 +264,21 @@ class Exchanges {
     return nearest;
   }
 
-  std::pair<PoseId, PoseId> ends(const RangeFactor<Pose>& range) const {
-    const auto [low, high] = std::minmax(range.i.pose.value, range.j.pose.value);
-    return {PoseId(low), PoseId(high)};
+  SE2 place(const RangeEnd<Pose>& end) const {
+    const Pose& pose = poses_[end.pose.index()];
+    return {(pose * end.lever_arm).template head<2>(), seen_from_above(pose).angle()};
   }
 
   Exchange begin(const TimedLink& link) const {
     const auto& range = team_.graph.ranges[link.measurement];
-    const auto [a, b] = ends(range);
+    const bool is_in_order = range.i.pose.value < range.j.pose.value;
     Exchange exchange;
     exchange.range = link.measurement;
     exchange.range_m = range.range_m;
     exchange.sigma_m = range.sigma_m;
     exchange.stamp = link.stamp;
-    exchange.T_a = seen_from_above(poses_[a.index()]);
-    exchange.T_b = seen_from_above(poses_[b.index()]);
+    exchange.T_a = place(is_in_order ? range.i : range.j);
+    exchange.T_b = place(is_in_order ? range.j : range.i);
     return exchange;
   }
 
@@ -292,7 +292,7 @@ class Exchanges {
     const Pose& receiver = poses_[bearing.i.index()];
     const double turned = seen_from_above(receiver).angle() - (is_at_a ? exchange.T_a : exchange.T_b).angle();
     for (std::size_t p = 0; p < bearing.paths.size(); ++p)
-      azimuths.push_back({level_azimuth(receiver, bearing.paths[p].direction) + turned,
+      azimuths.push_back({level_azimuth(receiver, direction_in_body(bearing, p)) + turned,
                           bearing.paths[p].sigma_rad, direct_probability_ * path_prior_[first_path_[b] + p]});
   }
 

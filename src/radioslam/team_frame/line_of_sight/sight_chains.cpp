@@ -42,16 +42,17 @@ class Ends {
   explicit Ends(const TeamGraph<Pose>& team) : team_(team), segment_of_(segment_of_poses(team)) {}
 
   std::int64_t number(const auto& end) const { return end_number(segment_of_, end); }
-  Stamp stamp(PoseId pose) const {
-    const TrajectorySegment& segment = team_.segments[segment_of_[pose.index()]];
-    return segment.stamps[pose.index() - segment.first_pose];
+  Stamp stamp(const RangeFactor<Pose>& range) const {
+    return stamp(range.i.pose.valid() ? range.i.pose : range.j.pose, range.after_ns);
   }
-  Stamp stamp(const RangeEnd<Pose>& i, const RangeEnd<Pose>& j) const {
-    return stamp(i.pose.valid() ? i.pose : j.pose);
-  }
-  Stamp stamp(PoseId i, const RangeEnd<Pose>& /*j*/) const { return stamp(i); }
+  Stamp stamp(const AmbiguousBearing<Pose>& bearing) const { return stamp(bearing.i, bearing.after_ns); }
 
  private:
+  Stamp stamp(PoseId pose, std::int64_t after_ns) const {
+    const TrajectorySegment& segment = team_.segments[segment_of_[pose.index()]];
+    return {segment.stamps[pose.index() - segment.first_pose].ns + after_ns};
+  }
+
   const TeamGraph<Pose>& team_;
   std::vector<std::size_t> segment_of_;
 };
@@ -70,7 +71,7 @@ std::vector<PairLinks> links_by_pair(const TeamGraph<Pose>& team) {
   std::size_t measurement = 0;
   const auto add = [&](const auto& factor) {
     by_pair[std::minmax(ends.number(factor.i), ends.number(factor.j))].push_back(
-        {ends.stamp(factor.i, factor.j), measurement++});
+        {ends.stamp(factor), measurement++});
   };
   for (const auto& range : team.graph.ranges) add(range);
   for (const auto& bearing : team.bearings) add(bearing);
