@@ -229,6 +229,80 @@ TEST(ReproduceFingerprintTables, RefusesInvalidCalls) {
             std::string::npos);
 }
 
+/// Studies of fingerprints on a mission folder, here a simulated one.
+class ReproduceOnAMission : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto outcome = run({"simulate", "carpark", "-o", "floor", "--seed", "3", "--robots", "2", "--set",
+                              "floor_x_m=40", "floor_y_m=30", "aisles_along_y=3", "aisles_along_x=3",
+                              "path_length_m=60", "odometry_rate_hz=2", "access_points=30"},
+                             folder());
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+  }
+  const std::filesystem::path& folder() const { return folder_.path(); }
+  std::string refusal(const std::vector<std::string>& arguments) const {
+    const auto outcome = run(arguments, folder());
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    return outcome.err;
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+TEST_F(ReproduceOnAMission, GivesTheTableOfTheSimulatorsSeed) {
+  const std::vector<std::string> call{"reproduce", "threshold-sweep", "--measure", "gaussian", "--json"};
+  auto recorded = call, simulated = call;
+  recorded.insert(recorded.end(), {"--mission", "floor", "-o", "out"});
+  simulated.insert(simulated.end(), {"--seeds", "1", "--seed", "3", "--set", "robots=2", "floor_x_m=40",
+                                     "floor_y_m=30", "aisles_along_y=3", "aisles_along_x=3",
+                                     "path_length_m=60", "odometry_rate_hz=2", "access_points=30"});
+  const auto of_folder = run(recorded, folder()), of_seed = run(simulated, folder());
+  ASSERT_EQ(of_folder.status, 0) << of_folder.err;
+  ASSERT_EQ(of_seed.status, 0) << of_seed.err;
+  const auto a = nlohmann::json::parse(of_folder.out)["missions"][0],
+             b = nlohmann::json::parse(of_seed.out)["missions"][0];
+  EXPECT_TRUE(a.contains("mission") && b["seed"] == 3);
+  EXPECT_EQ(a["measure"], "gaussian");
+  EXPECT_NEAR(a["default_ate_m"], b["default_ate_m"], 1e-6) << "but for the digits of the files";
+  EXPECT_TRUE(std::filesystem::exists(folder() / "out" / "index.html"));
+}
+
+TEST_F(ReproduceOnAMission, TakesAllMeasures) {
+  const auto outcome =
+      run({"reproduce", "sequence-closures", "--mission", "floor", "--measure", "all", "--json"}, folder());
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  ASSERT_EQ(json["cells"].size(), 6U * 36);
+  EXPECT_EQ(json["cells"][0]["measure"], "cosine");
+  EXPECT_EQ(json["cells"][215]["measure"], "sorensen");
+}
+
+TEST_F(ReproduceOnAMission, SaysWhatIsMissing) {
+  const std::vector<std::string> tables{"sequence-closures", "fingerprint-tables", "threshold-sweep"};
+  for (const std::string& table : tables) {
+    EXPECT_NE(refusal({"reproduce", table, "--measure", "gausian"}).find("did you mean gaussian"),
+              std::string::npos);
+    EXPECT_NE(refusal({"reproduce", table, "--mission", "none"}).find("none"), std::string::npos);
+    EXPECT_NE(refusal({"reproduce", table, "--mission", "floor", "--set", "robots=2"}).find("--set"),
+              std::string::npos);
+  }
+  EXPECT_EQ(run({"reproduce", tables[0], "--mission", "floor", "--seeds", "2"}, folder()).status, 2);
+  EXPECT_NE(refusal({"reproduce", "rendezvous", "--mission", "floor"}).find("takes no --mission"),
+            std::string::npos);
+  std::string yaml = read_file(folder() / "floor" / "mission.yaml");
+  for (std::size_t at = yaml.find("initial_pose"); at != std::string::npos; at = yaml.find("initial_pose"))
+    yaml.erase(yaml.rfind('{', at) + 1, yaml.find(']', at) - yaml.rfind('{', at));
+  write_file(folder() / "floor" / "mission.yaml", yaml);
+  std::filesystem::remove(folder() / "floor" / "robots" / "a" / "groundtruth.tum");
+  EXPECT_NE(refusal({"reproduce", tables[1], "--mission", "floor"}).find("initial_pose"), std::string::npos);
+  std::filesystem::remove(folder() / "floor" / "robots" / "b" / "groundtruth.tum");
+  EXPECT_NE(refusal({"reproduce", tables[0], "--mission", "floor"}).find("groundtruth.tum"),
+            std::string::npos);
+}
+
 TEST(SimulateKitti, NotesThatTheRobotsAreNeverInRange) {
   const TemporaryFolder folder;
   std::string straight;

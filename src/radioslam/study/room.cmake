@@ -7,6 +7,7 @@ radioslam_room(study NOT_INSTALLED
     evaluated_run.cpp
     fingerprints/fingerprint_tables.cpp
     fingerprints/sequence_table.cpp
+    fingerprints/study_missions.cpp
     fingerprints/threshold_sweep.cpp
     oracle.cpp
     overlap_growth/overlap_growth.cpp

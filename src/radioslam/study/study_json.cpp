@@ -208,13 +208,18 @@ Json threshold_json(const ThresholdCell& cell) {
 
 Json swept_json(const SweptMission& mission) {
   const ThresholdCell* best = mission.best();
-  Json json{{"seed", mission.seed},
-            {"dead_reckoning_ate_m", null_or(mission.dead_reckoning_ate_m)},
-            {"default_ate_m", null_or(mission.default_ate_m)},
-            {"best", best ? threshold_json(*best) : Json()},
-            {"default_over_best", null_or(mission.default_over_best())},
-            {"default_over_dead_reckoning", null_or(mission.default_over_dead_reckoning())},
-            {"cells", Json::array()}};
+  Json json;
+  if (mission.seed)
+    json["seed"] = *mission.seed;
+  else
+    json["mission"] = mission.name;
+  if (!mission.measure.empty()) json["measure"] = mission.measure;
+  json["dead_reckoning_ate_m"] = null_or(mission.dead_reckoning_ate_m);
+  json["default_ate_m"] = null_or(mission.default_ate_m);
+  json["best"] = best ? threshold_json(*best) : Json();
+  json["default_over_best"] = null_or(mission.default_over_best());
+  json["default_over_dead_reckoning"] = null_or(mission.default_over_dead_reckoning());
+  json["cells"] = Json::array();
   for (const ThresholdCell& cell : mission.cells) json["cells"].push_back(threshold_json(cell));
   return json;
 }
@@ -370,24 +375,29 @@ nlohmann::ordered_json sequence_json(const std::vector<SequenceCell>& cells) {
     Json accepted = Json::array();
     for (const SequenceError& error : cell.accepted)
       accepted.push_back({{"error_m", error.distance_m},
-                          {"error_rad", error.angle_rad},
-                          {"nees", error.nees},
+                          {"error_rad", null_or(error.angle_rad)},
+                          {"nees", null_or(error.nees)},
                           {"right", error.right()}});
     json["cells"].push_back({{"least_similarity", cell.min_similarity},
                              {"window_way_m", cell.window_path_m},
                              {"missions", cell.missions},
                              {"candidates", cell.candidates},
                              {"accepted", std::move(accepted)}});
+    if (!cell.measure.empty()) json["cells"].back()["measure"] = cell.measure;
+    if (cell.without_truth > 0) json["cells"].back()["without_truth"] = cell.without_truth;
   }
   return json;
 }
 
 nlohmann::ordered_json fingerprint_tables_json(const FingerprintTables& tables) {
-  Json json{{"table", "fingerprint-tables"},
-            {"first_seed", tables.first_seed},
-            {"defaults_ate_m", list_json(tables.defaults_ate_m)},
-            {"dead_reckoning_ate_m", list_json(tables.dead_reckoning_ate_m)},
-            {"cells", Json::array()}};
+  Json json{{"table", "fingerprint-tables"}};
+  if (!tables.missions.empty() && tables.missions.front().seed)
+    json["first_seed"] = *tables.missions.front().seed;
+  else
+    for (const StudyMission& mission : tables.missions) json["missions"].push_back(mission.name());
+  json["defaults_ate_m"] = list_json(tables.defaults_ate_m);
+  json["dead_reckoning_ate_m"] = list_json(tables.dead_reckoning_ate_m);
+  json["cells"] = Json::array();
   for (const FingerprintCell& cell : tables.cells)
     json["cells"].push_back(
         {{"measure", kFingerprintMeasures[cell.measure].measure},

@@ -63,15 +63,18 @@ nlohmann::ordered_json aoa_json(const std::vector<AoaLink>& links, const std::ve
 ///   "strongest_error_rad", "ghosts"}]}]}
 nlohmann::ordered_json aoa_paths_json(const std::vector<AoaPathsCell>& cells);
 
-/// {"table", "cells": [{"min_similarity", "window_path_m", "missions", "candidates", "accepted":
-///   [{"error_m", "error_rad", "nees", "right"}]}]}
+/// {"table", "cells": [{"least_similarity", "window_way_m", "missions", "candidates", "accepted":
+///   [{"error_m", "error_rad", "nees", "right"}], "measure", "without_truth"}]}; the last two where they say
+/// something.
 nlohmann::ordered_json sequence_json(const std::vector<SequenceCell>& cells);
 
-/// {"table", "first_seed", "defaults_ate_m": [by seed], "dead_reckoning_ate_m", "cells": [{"measure",
-///   "sigma_detection", "nu_s_m", "nu_p_m", "published_m": [Test I, Test II], "ate_m": [by seed]}]}
+/// {"table", "first_seed" (or "missions": names), "defaults_ate_m": [by mission], "dead_reckoning_ate_m",
+/// "cells": [{"measure",
+///   "sigma_detection", "nu_s_m", "nu_p_m", "published_m": [Test I, Test II], "ate_m": [by mission]}]}
 nlohmann::ordered_json fingerprint_tables_json(const FingerprintTables& tables);
 
-/// {"table", "missions": [{"seed", "dead_reckoning_ate_m", "default_ate_m", "best": {...},
+/// {"table", "missions": [{"seed" (or "mission": name), "measure" (where asked for), "dead_reckoning_ate_m",
+/// "default_ate_m", "best": {...},
 ///   "default_over_best", "default_over_dead_reckoning", "cells": [{"nu_m", "loss_sigmas", "ate_m"}]}]};
 /// loss_sigmas is null for least squares.
 nlohmann::ordered_json threshold_sweep_json(const std::vector<SweptMission>& missions);

@@ -55,7 +55,7 @@ TEST(FingerprintTables, MeansLeaveOutWhatIsMissing) {
 }
 
 TEST(FingerprintTables, PutThePublishedFiguresBesideTheMeans) {
-  const FingerprintTables tables{7, {{kGaussian, 20, 5, {2.0, 3.0}}}, {0.5, 0.7}, {10.0, 20.0}};
+  const FingerprintTables tables{{{{}, {}, 7}}, {{kGaussian, 20, 5, {2.0, 3.0}}}, {0.5, 0.7}, {10.0, 20.0}};
   const StudyTable table = fingerprint_tables_table(tables);
   ASSERT_EQ(table.rows.size(), 3U);
   EXPECT_EQ(table.rows[0].cells, (std::vector<std::string>{"–", "–", "0.60", "0.040"}));
@@ -64,13 +64,62 @@ TEST(FingerprintTables, PutThePublishedFiguresBesideTheMeans) {
   EXPECT_EQ(table.rows[2].cells, (std::vector<std::string>{"3.51", "3.25", "2.50", "0.167"}));
 }
 
+TEST(FingerprintTables, TakeAnyMeasureOnAnyMission) {
+  EXPECT_EQ(fingerprint_measures("").size(), kPublishedMeasures);
+  EXPECT_EQ(fingerprint_measures("all").size(), kFingerprintMeasures.size());
+  EXPECT_EQ(fingerprint_measures("detection"), (std::vector<std::size_t>{2, 3, 4}));
+  EXPECT_TRUE(fingerprint_measures("manhattan").empty());
+  CarparkParams carpark = short_drives();
+  carpark.drive.path_length_m = 60;
+  auto missions = simulated_carparks(carpark, 4, 1);
+  missions[0].seed.reset();
+  missions[0].mission.name = "hall";
+  const auto tables = measure_fingerprint_tables(missions, fingerprint_measures("sorensen"));
+  ASSERT_EQ(tables.cells.size(), 9U + 6U * 8);
+  for (const FingerprintCell& cell : tables.cells) {
+    EXPECT_EQ(published_ate_m(0, cell), std::nullopt);
+    EXPECT_TRUE(cell.ate_m.size() == 1 && cell.ate_m[0]);
+  }
+  EXPECT_EQ(fingerprint_tables_table(tables).lead.find("Mission hall: the published algorithm over"), 0U)
+      << fingerprint_tables_table(tables).lead;
+  EXPECT_EQ(fingerprint_tables_json(tables)["missions"][0], "hall");
+}
+
+TEST(FingerprintTables, TakeStartsThatAreNotStatedFromTheTruth) {
+  CarparkParams carpark = short_drives();
+  auto missions = simulated_carparks(carpark, 4, 1);
+  const auto stated = missions[0].mission.robots[1].initial_pose;
+  ASSERT_TRUE(stated.has_value());
+  missions[0].mission.robots[1].initial_pose.reset();
+  std::vector<StampedPose<SE3>> turned;  // a compass's frame
+  for (auto row : missions[0].mission.robots[1].odometry) {
+    row.pose = lift(SE2({5, 3}, 1)) * row.pose;
+    turned.push_back(row);
+  }
+  missions[0].mission.robots[1].odometry = Trajectory<SE3>(std::move(turned));
+  take_starts_of_truth(missions[0]);
+  EXPECT_EQ(missions[0].starts_of_truth, 1U);
+  const auto taken = missions[0].mission.robots[1].initial_pose;
+  ASSERT_TRUE(taken.has_value());
+  EXPECT_LT((taken->translation() - stated->translation()).norm(), 10) << "the odometry's drift over 150 m";
+  const auto reckoned = dead_reckoning_ate_m(missions[0].mission, missions[0].truth);
+  const auto alone = published_algorithm_ate_m(missions[0].mission, missions[0].truth, {kGaussian, 0, 0});
+  ASSERT_TRUE(reckoned && alone);
+  EXPECT_NEAR(*alone, *reckoned, 0.02 * *reckoned);
+  missions[0].mission.robots[1].initial_pose.reset();
+  missions[0].truth.robots[1].poses = {};
+  take_starts_of_truth(missions[0]);
+  EXPECT_EQ(of_unknown_start(missions[0].mission), missions[0].mission.robots[1].id);
+}
+
 TEST(FingerprintTables, AreTheSameForAnyNumberOfThreads) {
   CarparkParams carpark = short_drives();
   carpark.drive.path_length_m = 60;
   set_thread_count(1);
-  const auto alone = measure_fingerprint_tables(carpark, 4, 1);
+  const auto alone = measure_fingerprint_tables(simulated_carparks(carpark, 4, 1), fingerprint_measures(""));
   set_thread_count(3);
-  const auto together = measure_fingerprint_tables(carpark, 4, 1);
+  const auto together =
+      measure_fingerprint_tables(simulated_carparks(carpark, 4, 1), fingerprint_measures(""));
   set_thread_count(0);
   EXPECT_EQ(fingerprint_tables_json(alone).dump(), fingerprint_tables_json(together).dump());
   ASSERT_EQ(alone.cells.size(), 5U * 9 + 6U * 3 * 8);

@@ -1,6 +1,7 @@
 // radioslam reproduce: reproduces published tables, and runs the project's own studies.
 #include "radioslam/cli/reproduce/command_reproduce.hpp"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <iostream>
@@ -20,6 +21,7 @@
 #include "radioslam/cli/progress_line.hpp"
 #include "radioslam/io/datasets/wsr_results.hpp"
 #include "radioslam/io/datasets/wsr_trial.hpp"
+#include "radioslam/io/mission/mission_folder.hpp"
 #include "radioslam/io/text/atomic_output.hpp"
 #include "radioslam/study/rendezvous/rendezvous_json.hpp"
 #include "radioslam/study/study_json.hpp"
@@ -71,7 +73,8 @@ struct ReproduceOptions {
   std::string odometry;
   std::string dataset;
   std::string authors;
-  std::vector<std::string> teams;
+  std::vector<std::string> teams, missions;
+  std::string measure;
   std::optional<double> cut, radius_m;
   std::uint64_t seed = 1;
   std::optional<int> seeds;
@@ -254,40 +257,80 @@ Study aoa_paths(const ReproduceOptions& options) {
   return study_of(aoa_paths_table(cells), aoa_paths_json(cells));
 }
 
-Study sequence_closures(const ReproduceOptions& options) {
-  constexpr int kSeeds = 3;
+/// Of --mission DIR, or car parks.
+std::vector<StudyMission> study_missions(const ReproduceOptions& options, int default_seeds) {
   refuse_drive(options);
-  const auto carpark = with_settings(CarparkParams{}, collect_settings({}, options.set));
-  ProgressLine line;
-  const auto cells =
-      measure_sequence_closures(carpark, options.seed, options.seeds.value_or(kSeeds), line.progress());
-  return study_of(sequence_table(cells), sequence_json(cells));
+  if (options.missions.empty()) {
+    const auto carpark = with_settings(CarparkParams{}, collect_settings({}, options.set));
+    return simulated_carparks(carpark, options.seed, options.seeds.value_or(default_seeds));
+  }
+  if (!options.set.empty()) refuse(options, "takes no --set beside --mission: it is for simulated car parks");
+  std::vector<StudyMission> missions;
+  for (const std::string& folder : options.missions) {
+    Mission mission = read_mission(folder);
+    Truth truth = read_truth(folder, mission);
+    missions.push_back({std::move(mission), std::move(truth)});
+    if (const auto what = lacking(missions.back())) throw InputError(folder, 0, *what);
+  }
+  return missions;
 }
 
-/// A car park with known starts, which dead reckoning as the baseline requires.
-CarparkParams known_carpark(const ReproduceOptions& options) {
-  refuse_drive(options);
-  const auto carpark = with_settings(CarparkParams{}, collect_settings({}, options.set));
-  if (!carpark.known_start) refuse(options, "needs known starts: known_start=true");
-  return carpark;
+/// Car parks must have known starts, from which dead reckoning, their baseline, goes.
+std::vector<StudyMission> missions_with_baseline(const ReproduceOptions& options, int default_seeds) {
+  std::vector<StudyMission> missions = study_missions(options, default_seeds);
+  if (options.missions.empty() && !of_unknown_start(missions.front().mission).empty())
+    refuse(options, "needs known starts: known_start=true");
+  return missions;
+}
+
+void refuse_unknown_measure(const ReproduceOptions& options) {
+  std::vector<std::string> names = similarity_measures();
+  names.emplace_back("all");
+  if (!options.measure.empty() && std::find(names.begin(), names.end(), options.measure) == names.end())
+    throw InputError("--measure " + options.measure, 0,
+                     "unknown similarity measure" + did_you_mean(options.measure, names));
+}
+
+/// Those asked for; an empty name is the default of `run`.
+std::vector<std::string> measures_of(const ReproduceOptions& options) {
+  refuse_unknown_measure(options);
+  if (options.measure == "all") return similarity_measures();
+  return {options.measure};
+}
+
+Study sequence_closures(const ReproduceOptions& options) {
+  constexpr int kSeeds = 3;
+  const auto measures = measures_of(options);
+  const auto missions = study_missions(options, kSeeds);
+  ProgressLine line;
+  const auto cells = measure_sequence_closures(missions, measures, line.progress());
+  return study_of(sequence_table(cells, listed(missions)), sequence_json(cells));
 }
 
 Study fingerprint_tables(const ReproduceOptions& options) {
   constexpr int kSeeds = 3;
-  const auto carpark = known_carpark(options);
+  refuse_unknown_measure(options);
+  auto missions = missions_with_baseline(options, kSeeds);
+  for (std::size_t k = 0; k < options.missions.size(); ++k) {
+    take_starts_of_truth(missions[k]);
+    if (const std::string unknown = of_unknown_start(missions[k].mission); !unknown.empty())
+      throw InputError(
+          options.missions[k], 0,
+          "needs an initial_pose or two true positions, from which the algorithm starts, of " + unknown);
+  }
   ProgressLine line;
   const auto tables =
-      measure_fingerprint_tables(carpark, options.seed, options.seeds.value_or(kSeeds), line.progress());
+      measure_fingerprint_tables(missions, fingerprint_measures(options.measure), line.progress());
   return study_of(fingerprint_tables_table(tables), fingerprint_tables_json(tables));
 }
 
 Study threshold_sweep(const ReproduceOptions& options) {
   constexpr int kSeeds = 10;
-  const auto carpark = known_carpark(options);
+  const auto measures = measures_of(options);
+  const auto missions = missions_with_baseline(options, kSeeds);
   ProgressLine line;
-  const auto missions =
-      sweep_thresholds(carpark, {}, options.seed, options.seeds.value_or(kSeeds), line.progress());
-  return study_of(threshold_sweep_table(missions), threshold_sweep_json(missions));
+  const auto swept = sweep_thresholds(missions, {}, measures, line.progress());
+  return study_of(threshold_sweep_table(swept), threshold_sweep_json(swept));
 }
 
 struct Table {
@@ -326,7 +369,8 @@ constexpr std::array<Table, 13> kTables{
      {"fingerprint-tables",
       "fingerprint SLAM over threshold and measure, compared with tables I to III of Liu et al. (2020)",
       fingerprint_tables},
-     {"threshold-sweep", "the defaults compared with the best threshold and loss of each of ten car parks",
+     {"threshold-sweep",
+      "the defaults compared with the best threshold and loss of each of ten car parks or missions",
       threshold_sweep}}};
 
 std::string table_list() {
@@ -370,6 +414,10 @@ void reproduce(const ReproduceOptions& options) {
     refuse(options, "takes no --dataset or --authors");
   if (table.reproduce != distributed_optimization && !options.teams.empty())
     refuse(options, "takes no --team");
+  const bool of_fingerprints = table.reproduce == sequence_closures ||
+                               table.reproduce == fingerprint_tables || table.reproduce == threshold_sweep;
+  if (!of_fingerprints && !(options.missions.empty() && options.measure.empty()))
+    refuse(options, "takes no --mission or --measure");
   std::optional<OutputFolder> output;
   if (!options.output.empty()) output.emplace(options.output, kStudyFolder);
   const Study study = table.reproduce(options);
@@ -414,8 +462,20 @@ void add_table_options(CLI::App& command, ReproduceOptions& options) {
           "distributed-optimization: graphs of teams instead of simulated ones, each a file or a folder "
           "of g2o files, one per robot")
       ->type_name("PATH");
+  auto* missions = command
+                       .add_option("--mission", options.missions,
+                                   "sequence-closures, fingerprint-tables, threshold-sweep: mission folders "
+                                   "with true poses instead of simulated car parks")
+                       ->type_name("DIR");
+  command
+      .add_option("--measure", options.measure,
+                  "sequence-closures, fingerprint-tables, threshold-sweep: similarity measure (cosine, "
+                  "gaussian, detection, slide, mended or sorensen), or all (default: that of `run`; for "
+                  "fingerprint-tables those of the paper)")
+      ->type_name("NAME");
   command.add_option("--seed", options.seed, "First random seed (default: 1)")
       ->check(seed_number())
+      ->excludes(missions)
       ->type_name("N");
   command
       .add_option("--poses", options.poses,
@@ -424,6 +484,7 @@ void add_table_options(CLI::App& command, ReproduceOptions& options) {
       ->type_name("N");
   command.add_option("--seeds", options.seeds, "Number of seeds; the table shows medians or means over them")
       ->check(CLI::Range(1, kMaxSeeds))
+      ->excludes(missions)
       ->type_name("N");
 }
 
@@ -459,6 +520,8 @@ void add_tables(CLI::App& program) {
       "overlap-growth needs 1 GiB of memory per half million poses.\n\n"
       "Example:\n"
       "  radioslam reproduce wi-closure-kitti --trajectory GT_LiDAR/08.txt --odometry ALOAM/08.txt\n"
+      "Example: which similarity measure suits one's own recordings\n"
+      "  radioslam reproduce threshold-sweep --mission floor --measure all -o sweep\n"
       "Example: the robustness map of a team without ranges\n"
       "  radioslam reproduce robustness-map --set ranges=false -o map");
   command->callback([options] { reproduce(*options); });

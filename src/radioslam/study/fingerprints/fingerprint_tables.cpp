@@ -76,6 +76,11 @@ constexpr double kTeam_m[kTests][kTeamNuWithin_m.size()][3][kNu_m.size()]{
 constexpr int kDimension = 2;
 constexpr std::array<std::size_t, 3> kTeamMeasures{0, 1, 3};  // those of tables II and III
 
+bool is_of_teams(std::size_t measure) {
+  return measure >= kPublishedMeasures ||
+         std::find(kTeamMeasures.begin(), kTeamMeasures.end(), measure) != kTeamMeasures.end();
+}
+
 template <std::size_t N, class Value>
 std::optional<std::size_t> node_position(const Value& value, const std::array<Value, N>& values) {
   const auto found = std::find(values.begin(), values.end(), value);
@@ -156,31 +161,32 @@ std::optional<double> estimate_ate_m(const JointGraph<SE2>& odometry, const Meas
   return ate_rmse_m(trajectories(joint), truth, kDimension);
 }
 
-std::vector<FingerprintCell> published_cells() {
+std::vector<FingerprintCell> cells_of(const std::vector<std::size_t>& measures) {
   std::vector<FingerprintCell> cells;
-  for (std::size_t measure = 0; measure < kFingerprintMeasures.size(); ++measure)
+  for (const std::size_t measure : measures)
     for (const double nu_within_m : kNu_m) cells.push_back({measure, nu_within_m, 0});
   for (const double nu_within_m : kTeamNuWithin_m)
-    for (const std::size_t measure : kTeamMeasures)
+    for (const std::size_t measure : measures)
       for (const double nu_between_m : kNu_m)
-        if (nu_between_m > 0) cells.push_back({measure, nu_within_m, nu_between_m});
+        if (nu_between_m > 0 && is_of_teams(measure)) cells.push_back({measure, nu_within_m, nu_between_m});
   return cells;
 }
 
-void add_mission(FingerprintTables& tables, const Mission& mission, const Truth& truth,
-                 ProgressCounter& counter) {
+void add_mission(FingerprintTables& tables, const std::vector<std::size_t>& measures, const Mission& mission,
+                 const Truth& truth, ProgressCounter& counter) {
   const JointGraph<SE2> odometry = published_odometry(mission);
-  std::vector<MeasuredPairs> measured;
-  for (const FingerprintMeasure& measure : kFingerprintMeasures)
-    measured.push_back(measure_pairs(mission, measure));
   for (FingerprintCell& cell : tables.cells) cell.ate_m.emplace_back();
-  parallel_for(tables.cells.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      FingerprintCell& cell = tables.cells[k];
-      cell.ate_m.back() = estimate_ate_m(odometry, measured[cell.measure], cell, truth);
-      counter.one_more();
-    }
-  });
+  for (const std::size_t measure : measures) {
+    const MeasuredPairs measured = measure_pairs(mission, kFingerprintMeasures[measure]);
+    parallel_for(tables.cells.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        FingerprintCell& cell = tables.cells[k];
+        if (cell.measure != measure) continue;
+        cell.ate_m.back() = estimate_ate_m(odometry, measured, cell, truth);
+        counter.one_more();
+      }
+    });
+  }
   tables.defaults_ate_m.push_back(run_and_evaluate(mission, truth, {}, {}).ate_m);
   tables.dead_reckoning_ate_m.push_back(dead_reckoning_ate_m(mission, truth));
 }
@@ -208,19 +214,17 @@ StudyRow row_of(std::string label, std::optional<double> first_m, std::optional<
 }
 
 std::string lead_of(const FingerprintTables& tables) {
-  const std::size_t missions = tables.defaults_ate_m.size();
-  const std::string seeds =
-      missions == 1 ? "Seed " + std::to_string(tables.first_seed)
-                    : std::to_string(missions) + " seeds from " + std::to_string(tables.first_seed) + " on";
-  return seeds +
-         ": the published algorithm in simulated car parks, over its thresholds in metres. Position " +
-         "errors in metres, RMSE after one alignment of the team, means over the seeds.";
+  const bool simulated = !tables.missions.empty() && tables.missions.front().seed;
+  return listed(tables.missions) + ": the published algorithm " +
+         (simulated ? "in simulated car parks, " : "") +
+         "over its thresholds in metres. Position errors in metres, RMSE after one alignment of the team, " +
+         "means over the " + (simulated ? "seeds." : "missions.");
 }
 
 std::vector<std::string> fingerprint_notes() {
   return {
       "I: single robots (nu_p = 0); II, III: the team. Table II of the paper is Test I, III is Test II.",
-      ("The published drives and odometry differ from the simulated ones: compare how the error falls and "
+      ("The published drives and odometry are others: compare how the error falls and "
        "rises again with nu, not the metres."),
       ("As published: windows of 5 s, every pair with its full weight 1 / sigma(s)^2, least squares, no "
        "variable for the odometry's constant drift. Chosen here, as not published: odometry's white noise "
@@ -241,6 +245,7 @@ std::optional<double> published_ate_m(std::size_t test, const FingerprintCell& c
   RADIOSLAM_CHECK(test < kTests, "there are two tests");
   const auto alone = node_position(cell.nu_within_m, kNu_m),
              between = node_position(cell.nu_between_m, kNu_m);
+  if (cell.measure >= kPublishedMeasures) return std::nullopt;
   if (alone && cell.nu_between_m == 0) return kAlone_m[test][cell.measure][*alone];
   const auto row = node_position(cell.nu_within_m, kTeamNuWithin_m),
              measure = node_position(cell.measure, kTeamMeasures);
@@ -248,14 +253,24 @@ std::optional<double> published_ate_m(std::size_t test, const FingerprintCell& c
   return kTeam_m[test][*row][*measure][*between];
 }
 
-FingerprintTables measure_fingerprint_tables(const CarparkParams& carpark, std::uint64_t first_seed,
-                                             int seeds, const Progress& progress) {
-  RADIOSLAM_CHECK(carpark.known_start, "the tables need known starts");
-  FingerprintTables tables{first_seed, published_cells(), {}, {}};
-  ProgressCounter counter(progress, "cells", tables.cells.size() * static_cast<std::size_t>(seeds));
-  for (int k = 0; k < seeds; ++k) {
-    const auto [mission, truth] = simulate_carpark(carpark, first_seed + static_cast<std::uint64_t>(k));
-    add_mission(tables, mission, truth, counter);
+std::vector<std::size_t> fingerprint_measures(const std::string& name) {
+  std::vector<std::size_t> measures;
+  for (std::size_t k = 0; k < kFingerprintMeasures.size(); ++k)
+    if (name == "all" || name == kFingerprintMeasures[k].measure || (name.empty() && k < kPublishedMeasures))
+      measures.push_back(k);
+  return measures;
+}
+
+FingerprintTables measure_fingerprint_tables(const std::vector<StudyMission>& missions,
+                                             const std::vector<std::size_t>& measures,
+                                             const Progress& progress) {
+  FingerprintTables tables{{}, cells_of(measures), {}, {}};
+  ProgressCounter counter(progress, "cells", tables.cells.size() * missions.size());
+  for (const StudyMission& of : missions) {
+    RADIOSLAM_CHECK(of_unknown_start(of.mission).empty(), "the tables need known starts");
+    tables.missions.push_back({{}, {}, of.seed, of.starts_of_truth});
+    tables.missions.back().mission.name = of.mission.name;
+    add_mission(tables, measures, of.mission, of.truth, counter);
   }
   return tables;
 }
@@ -275,6 +290,12 @@ StudyTable fingerprint_tables_table(const FingerprintTables& tables) {
                    {"Test I, published", "Test II, published", "ours", "ours / dead reckoning"},
                    {},
                    fingerprint_notes()};
+  std::size_t starts_of_truth = 0;
+  for (const StudyMission& mission : tables.missions) starts_of_truth += mission.starts_of_truth;
+  if (starts_of_truth > 0)
+    table.notes.push_back(
+        "The algorithm needs known starts: " + std::to_string(starts_of_truth) +
+        " that the missions do not state are those with which odometry fits the truth best.");
   table.rows.push_back(row_of("without ν: the defaults", {}, {}, mean_of(tables.defaults_ate_m), tables));
   table.rows.push_back(
       row_of("dead reckoning", published(0), published(1), mean_of(tables.dead_reckoning_ate_m), tables));

@@ -13,14 +13,15 @@ namespace {
 constexpr double kLeastSquares_sigmas = 1e6;  // a Cauchy loss this wide is quadratic
 constexpr int kMetreDecimals = 2, kShareDecimals = 3, kScaleDecimals = 1;
 
-RunParams without_access_points() {
+RunParams params_of(const std::string& measure) {
   RunParams params;
+  if (!measure.empty()) params.radio.measure = measure;
   params.access_points.enabled = false;  // they come after the estimate
   return params;
 }
 
-RunParams params_of(const ThresholdCell& cell) {
-  RunParams params = without_access_points();
+RunParams params_of(const ThresholdCell& cell, const std::string& measure) {
+  RunParams params = params_of(measure);
   params.closure.within_distance_m = params.closure.between_distance_m = cell.nu_m;
   params.closure.nearest_factor = 0;
   params.robust.final_scale = cell.loss_sigmas.value_or(kLeastSquares_sigmas);
@@ -28,21 +29,20 @@ RunParams params_of(const ThresholdCell& cell) {
   return params;
 }
 
-SweptMission empty_mission(const ThresholdGrid& grid, std::uint64_t seed) {
-  SweptMission mission{seed, {}, {}, {}};
+SweptMission empty_mission(const ThresholdGrid& grid, const StudyMission& of, const std::string& measure) {
+  SweptMission mission{of.name(), {}, {}, {}, of.seed, measure};
   for (const double nu_m : grid.nu_m)
     for (const auto loss_sigmas : grid.loss_sigmas) mission.cells.push_back({nu_m, loss_sigmas});
   return mission;
 }
 
-void sweep(SweptMission& swept, const Simulation& simulation, ProgressCounter& counter) {
-  const auto& [mission, truth] = simulation;
+void sweep(SweptMission& swept, const Mission& mission, const Truth& truth, ProgressCounter& counter) {
   swept.dead_reckoning_ate_m = dead_reckoning_ate_m(mission, truth);
-  swept.default_ate_m = run_and_evaluate(mission, truth, without_access_points(), {}).ate_m;
+  swept.default_ate_m = run_and_evaluate(mission, truth, params_of(swept.measure), {}).ate_m;
   parallel_for(swept.cells.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       swept.cells[k].ate_m =
-          run_and_evaluate(simulation.mission, simulation.truth, params_of(swept.cells[k]), {}).ate_m;
+          run_and_evaluate(mission, truth, params_of(swept.cells[k], swept.measure), {}).ate_m;
       counter.one_more();
     }
   });
@@ -55,7 +55,7 @@ std::optional<double> quotient(std::optional<double> part, std::optional<double>
 
 StudyRow sweep_row(const SweptMission& mission) {
   const ThresholdCell* best = mission.best();
-  return {"mission " + std::to_string(mission.seed),
+  return {"mission " + mission.name + (mission.measure.empty() ? "" : ", " + mission.measure),
           {number_text(mission.dead_reckoning_ate_m, kMetreDecimals),
            number_text(mission.default_ate_m, kMetreDecimals),
            number_text(best ? best->ate_m : std::nullopt, kMetreDecimals), best ? label_of(*best) : "–",
@@ -105,28 +105,34 @@ std::string label_of(const ThresholdCell& cell) {
   return "ν " + number_text(cell.nu_m, 0) + " m, " + loss;
 }
 
-std::vector<SweptMission> sweep_thresholds(const CarparkParams& carpark, const ThresholdGrid& grid,
-                                           std::uint64_t first_seed, int seeds, const Progress& progress) {
-  std::vector<SweptMission> missions;
+std::vector<SweptMission> sweep_thresholds(const std::vector<StudyMission>& missions,
+                                           const ThresholdGrid& grid,
+                                           const std::vector<std::string>& measures,
+                                           const Progress& progress) {
+  std::vector<SweptMission> swept;
   ProgressCounter counter(progress, "cells",
-                          grid.nu_m.size() * grid.loss_sigmas.size() * static_cast<std::size_t>(seeds));
-  for (int k = 0; k < seeds; ++k) {
-    missions.push_back(empty_mission(grid, first_seed + static_cast<std::uint64_t>(k)));
-    sweep(missions.back(), simulate_carpark(carpark, missions.back().seed), counter);
-  }
-  return missions;
+                          grid.nu_m.size() * grid.loss_sigmas.size() * missions.size() * measures.size());
+  for (const StudyMission& of : missions)
+    for (const std::string& measure : measures) {
+      swept.push_back(empty_mission(grid, of, measure));
+      sweep(swept.back(), of.mission, of.truth, counter);
+    }
+  return swept;
 }
 
 StudyTable threshold_sweep_table(const std::vector<SweptMission>& missions) {
   StudyTable table{
       "A threshold and a loss tuned by hand",
-      ("Car parks estimated with the defaults, and over a grid of nu and of the closures' loss whose best "
+      ("Missions estimated with the defaults, and over a grid of nu and of the closures' loss whose best "
        "cell is chosen by the truth. Position errors: RMSE after one alignment of the team."),
       {"dead reckoning, m", "defaults, m", "best cell, m", "best cell", "defaults / best",
        "defaults / dead reckoning"},
       {},
       {"nu is the largest predicted distance of a pair, within a robot and between robots.",
        "Everything else, including the closures' weights, has its default value in every cell."}};
+  if (std::any_of(missions.begin(), missions.end(),
+                  [](const SweptMission& mission) { return !mission.dead_reckoning_ate_m; }))
+    table.notes.push_back("Dead reckoning needs the robots' starts (initial_pose).");
   for (const SweptMission& mission : missions) table.rows.push_back(sweep_row(mission));
   table.rows.push_back(summary_row("median", missions, median_of));
   table.rows.push_back(summary_row("worst", missions, largest_of));

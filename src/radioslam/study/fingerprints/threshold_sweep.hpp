@@ -1,6 +1,7 @@
-// Threshold sweep: what tuning threshold and loss by hand would gain. Simulated car parks, estimated with the
-// defaults and over a grid of nu (the same within a robot and between robots) and of the closures' loss,
-// everything else at its default. The best cell is chosen by the truth, the defaults are not.
+// Threshold sweep: what tuning threshold and loss by hand would gain. Simulated car parks or recorded
+// missions, estimated with the defaults and over a grid of nu (the same within a robot and between robots)
+// and of the closures' loss, everything else at its default. The best cell is chosen by the truth, the
+// defaults are not.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +10,7 @@
 #include <vector>
 
 #include "radioslam/base/progress.hpp"
-#include "radioslam/sim/scenarios/carpark.hpp"
+#include "radioslam/study/fingerprints/study_missions.hpp"
 #include "radioslam/study/study_table.hpp"
 
 namespace radioslam {
@@ -26,11 +27,14 @@ struct ThresholdCell {
   std::optional<double> ate_m = {};
 };
 
-/// One mission. Errors: position, RMSE after one alignment of the team.
+/// One mission with one measure. Dead reckoning needs known starts. Errors: position, RMSE after one
+/// alignment of the team.
 struct SweptMission {
-  std::uint64_t seed = 0;
+  std::string name;
   std::optional<double> dead_reckoning_ate_m, default_ate_m;
   std::vector<ThresholdCell> cells;
+  std::optional<std::uint64_t> seed = {};  ///< of a simulated one
+  std::string measure = {};                ///< empty: the default
 
   /// The cell of the smallest error, or null.
   const ThresholdCell* best() const;
@@ -38,10 +42,11 @@ struct SweptMission {
   std::optional<double> default_over_best() const, default_over_dead_reckoning() const;
 };
 
-/// Runs the seeds from `first_seed`. Independent of the number of threads. Cost: tens of core-seconds per
-/// mission.
-std::vector<SweptMission> sweep_thresholds(const CarparkParams& carpark, const ThresholdGrid& grid,
-                                           std::uint64_t first_seed, int seeds,
+/// Every mission with each of the measures (an empty name: the default). Independent of the number of
+/// threads. Cost: a run per cell, tens of core-seconds per car park.
+std::vector<SweptMission> sweep_thresholds(const std::vector<StudyMission>& missions,
+                                           const ThresholdGrid& grid,
+                                           const std::vector<std::string>& measures = {""},
                                            const Progress& progress = {});
 
 /// A row per mission, then median and worst.
