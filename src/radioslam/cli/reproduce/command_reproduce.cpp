@@ -277,10 +277,10 @@ std::vector<StudyMission> study_missions(const ReproduceOptions& options, int de
 
 /// Car parks must have known starts, from which dead reckoning, their baseline, goes.
 std::vector<StudyMission> missions_with_baseline(const ReproduceOptions& options, int default_seeds) {
-  std::vector<StudyMission> missions = study_missions(options, default_seeds);
-  if (options.missions.empty() && !of_unknown_start(missions.front().mission).empty())
+  if (options.missions.empty() &&
+      !with_settings(CarparkParams{}, collect_settings({}, options.set)).known_start)
     refuse(options, "needs known starts: known_start=true");
-  return missions;
+  return study_missions(options, default_seeds);
 }
 
 void refuse_unknown_measure(const ReproduceOptions& options) {
