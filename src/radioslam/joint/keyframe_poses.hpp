@@ -23,10 +23,10 @@ struct AfterKeyframe {
 template <class Pose>
 class KeyframePoses {
  public:
-  /// Both are kept by reference; the segments of the team must stay.
+  /// Of a mission, where a robot has one segment. Both are kept by reference; the segments must stay.
   KeyframePoses(const JointGraph<Pose>& joint, const Mission& mission);
 
-  /// Nothing outside the robot's odometry, and for a robot of a graph file.
+  /// Nothing outside the robot's odometry.
   std::optional<AfterKeyframe<Pose>> at(RobotIndex robot, Stamp stamp);
 
  private:

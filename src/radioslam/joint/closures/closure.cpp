@@ -94,8 +94,9 @@ void hang_on_keyframes(const JointGraph<Pose>& joint, const Mission& mission,
                        std::vector<Closure>& closures) {
   KeyframePoses<Pose> poses(joint, mission);
   for (Closure& closure : closures) {
+    if (closure_ends(joint, closure).valid()) continue;
     const auto i = poses.at(closure.robot_i, closure.stamp_i), j = poses.at(closure.robot_j, closure.stamp_j);
-    if (!i || !j || (i->after_ns == 0 && j->after_ns == 0)) continue;
+    if (!i || !j) continue;
     const UncertainPose<SE3> T_i_j{closure.T_i_j, inverse(closure.information)};
     const auto moved =
         in_space(i->motion.T_keyframe_body) * T_i_j * in_space(j->motion.T_keyframe_body).inverse();
