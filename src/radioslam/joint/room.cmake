@@ -38,6 +38,7 @@ radioslam_room(joint
     places/predicted_places.cpp
     places/scanned_robot.cpp
     places/verification_budget.cpp
+    position_fixes/component_placement.cpp
     position_fixes/placement.cpp
     segment_odometry.cpp
     sequence_stage.cpp

@@ -12,6 +12,7 @@
 #include "radioslam/joint/known_access_points.hpp"
 #include "radioslam/joint/links/link_weights.hpp"
 #include "radioslam/joint/places/place_recognition.hpp"
+#include "radioslam/joint/position_fixes/component_placement.hpp"
 #include "radioslam/joint/uncertainty/position_uncertainty.hpp"
 #include "radioslam/odometry/scan_stage.hpp"
 #include "radioslam/pipeline/occupancy_image.hpp"
@@ -99,6 +100,7 @@ void align_by_links_or_fingerprints(const RunSetup& run, TeamEstimate<Pose>& tea
           ? align_by_links(team.joint, run.params.alignment, run.progress)
           : align_robots_by_fingerprints(team.joint, run.mission, starts_of(run, team), run.radio,
                                          run.params.team_frame, run.params.field, run.progress);
+  place_components_by_fixes(team.joint, team.judgement.fixes, run.params.fixes, team.alignment);
   constrain_by_fixes(team.joint, team.judgement.fixes, team.alignment);
 }
 

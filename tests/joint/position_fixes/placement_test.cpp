@@ -60,6 +60,38 @@ TEST(FixStage, ATeamWithoutRadioSharesTheFixesFrame) {
   }
 }
 
+/// The town with its radio, which places the robots relative to each other, and `count` fixes of each.
+Simulation town_of_few_fixes(std::uint64_t seed, std::size_t count) {
+  CityParams params = small_city(600);
+  params.gnss.gnss_hz = 1;
+  Simulation simulation = simulate_city(params, seed);
+  for (Robot& robot : simulation.mission.robots) {
+    const std::vector<PositionFix> all = robot.fixes;
+    robot.fixes.clear();
+    for (std::size_t k = 0; k < count; ++k)
+      robot.fixes.push_back(all[(2 * k + 1) * all.size() / (2 * count)]);
+  }
+  return simulation;
+}
+
+TEST(FixStage, FixesOfAllRobotsPlaceATeamThatNoRobotsOwnPlace) {
+  const auto [mission, truth] = town_of_few_fixes(5, 3);
+  const auto result = run_pipeline(mission, quick_params()).result;
+  ASSERT_EQ(result.components.size(), 1U);
+  EXPECT_LT(error_in_fixes_frame_m(result, truth), 2);
+  for (const auto& robot : result.robots) {
+    ASSERT_TRUE(robot.fixes);
+    EXPECT_FALSE(robot.fixes->place);
+    EXPECT_GE(robot.fixes->used, 2U);
+  }
+}
+
+TEST(FixStage, TooFewFixesOfAllLeaveTheTeamInItsOwnFrame) {
+  const auto result = run_pipeline(town_of_few_fixes(5, 2).mission, quick_params()).result;
+  for (const auto& robot : result.robots) EXPECT_FALSE(robot.fixes->unused.empty());
+  EXPECT_LT(result.robots[0].estimate.front().pose.translation().norm(), 1e-6) << "at its start";
+}
+
 TEST(FixStage, TakesItsTimeInTheReport) {
   Mission mission = town_of_fixes(5, 0).mission;
   const auto stages = [&] {
