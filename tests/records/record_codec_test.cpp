@@ -60,6 +60,30 @@ TEST(RecordCodec, WhatWasWrittenIsReadAndWrittenTheSame) {
   EXPECT_EQ(std::get<AccessPointRecord>(*printer).bssid, "printer");
 }
 
+TEST(RecordCodec, FingerprintsOfAnyNumbersAreReadAsWritten) {
+  const auto as_read = [](const std::vector<std::uint32_t>& numbers) {
+    FingerprintRecord written{somewhere(), {}};
+    for (const std::uint32_t number : numbers)
+      written.readings.push_back({number, -40 - 0.5F * static_cast<float>(number % 60)});
+    const auto read = std::get<FingerprintRecord>(*decode_record(encode(written)));
+    for (std::size_t k = 0; k < numbers.size(); ++k)
+      EXPECT_EQ(read.readings[k].rssi_dbm, written.readings[k].rssi_dbm);
+    std::vector<std::uint32_t> result;
+    for (const auto& reading : read.readings) result.push_back(reading.number);
+    return result;
+  };
+  std::vector<std::uint32_t> dense, most;
+  for (std::uint32_t k = 0; k < 24; ++k) dense.push_back(3 * k + k % 2);
+  for (std::uint32_t k = 0; k < 255; ++k) most.push_back(2 * k);
+  for (const auto& numbers :
+       {std::vector<std::uint32_t>{}, {0}, {7, 8}, {5, 3}, {4, 4}, {1, 4000000000U}, dense, most})
+    EXPECT_EQ(as_read(numbers), numbers);
+  FingerprintRecord fingerprint{{}, {}}, empty{{}, {}};
+  for (const std::uint32_t number : dense) fingerprint.readings.push_back({number, -50});
+  EXPECT_EQ(encode(fingerprint).size() - encode(empty).size(), 24U + 9U)
+      << "a byte each, and a bit for each of 71";
+}
+
 TEST(RecordCodec, PosesAndCovariancesLoseLittle) {
   const KeyframeRecord written = std::get<KeyframeRecord>(one_of_each()[2]);
   const auto read = std::get<KeyframeRecord>(*decode_record(encode(written)));

@@ -131,6 +131,8 @@ class RobotRecords {
       FingerprintRecord fingerprint;
       for (const WifiReading& reading : scan.readings)
         fingerprint.readings.push_back({number_of(scan.stamp, reading), reading.rssi_dbm});
+      std::stable_sort(fingerprint.readings.begin(), fingerprint.readings.end(),
+                       [](const auto& a, const auto& b) { return a.number < b.number; });
       add(scan.stamp, std::move(fingerprint));
     }
     for (const PoseMatch& match : mission_.matches)

@@ -53,6 +53,25 @@ std::optional<std::array<std::uint8_t, 6>> mac_of(const std::string& text) {
   return bytes;
 }
 
+/// A bit per number, the lowest of the first byte first, where that takes fewer bytes than a list of the
+/// numbers and these increase; else nothing.
+std::string bitmap_of(const std::vector<HeardAccessPoint>& readings) {
+  std::size_t as_list = 0;
+  for (std::size_t k = 0; k < readings.size(); ++k) {
+    if (k > 0 && readings[k].number <= readings[k - 1].number) return {};
+    for (std::uint32_t n = readings[k].number; n >= 0x80U; n >>= 7U) ++as_list;
+    ++as_list;
+  }
+  const std::size_t bytes = readings.empty() ? 0 : readings.back().number / 8 + 1;
+  if (bytes >= as_list) return {};
+  std::string bitmap(bytes, '\0');
+  for (const HeardAccessPoint& reading : readings) {
+    char& byte = bitmap[reading.number / 8];
+    byte = static_cast<char>(static_cast<unsigned char>(byte) | (1U << (reading.number % 8)));
+  }
+  return bitmap;
+}
+
 // One list of fields serves writing and reading.
 
 class Writer {
@@ -114,6 +133,14 @@ class Writer {
   void list(const std::vector<T>& values, std::size_t /*most*/, const Fields& fields) {
     out_.whole(values.size());
     for (const T& value : values) fields(*this, value);
+  }
+  void readings(const std::vector<HeardAccessPoint>& readings) {
+    const std::string bitmap = bitmap_of(readings);
+    out_.whole(bitmap.empty() ? 2 * readings.size() : 2 * bitmap.size() + 1);
+    out_.append(bitmap);
+    if (bitmap.empty())
+      for (const HeardAccessPoint& reading : readings) (*this)(reading.number);
+    for (const HeardAccessPoint& reading : readings) decibels(reading.rssi_dbm);
   }
   std::string take() { return out_.take(); }
   void kind(std::size_t k) { out_.byte(static_cast<std::uint8_t>(k)); }
@@ -208,6 +235,22 @@ class Reader {
     values.resize(count);
     for (T& value : values) fields(*this, value);
   }
+  void readings(std::vector<HeardAccessPoint>& readings) {
+    const std::uint64_t count_and_kind = in_.whole(), count = count_and_kind >> 1U;
+    if ((count_and_kind & 1U) != 0) {
+      const std::string_view bitmap = in_.take(count);
+      for (std::size_t byte = 0; byte < bitmap.size() && readings.size() <= kMaxReadings; ++byte)
+        for (unsigned bit = 0; bit < 8; ++bit)
+          if (((static_cast<unsigned char>(bitmap[byte]) >> bit) & 1U) != 0)
+            readings.push_back({static_cast<std::uint32_t>(8 * byte + bit)});
+    } else {
+      if (count > kMaxReadings) return in_.refuse();
+      readings.resize(count);
+      for (HeardAccessPoint& reading : readings) (*this)(reading.number);
+    }
+    if (readings.size() > kMaxReadings) return in_.refuse();
+    for (HeardAccessPoint& reading : readings) decibels(reading.rssi_dbm);
+  }
   bool is_done() const { return in_.good() && in_.empty(); }
 
  private:
@@ -254,9 +297,7 @@ void visit_fields(Visitor& visit, OfKind& record) {
   } else if constexpr (std::is_same_v<Kind, AccessPointRecord>) {
     visit(record.number), visit.bssid(record.bssid), visit(record.frequency_mhz);
   } else if constexpr (std::is_same_v<Kind, FingerprintRecord>) {
-    visit_at(visit, record.at);
-    visit.list(record.readings, kMaxReadings,
-               [](auto& of, auto& reading) { of(reading.number), of.decibels(reading.rssi_dbm); });
+    visit_at(visit, record.at), visit.readings(record.readings);
   } else {
     visit_at(visit, record.at), visit(record.other), visit(record.stamp_other), visit(record.T_i_j);
     visit(record.covariance);
