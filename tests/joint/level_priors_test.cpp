@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "radioslam/graph/marginals.hpp"
+#include "radioslam/joint/joint_graph.hpp"
 
 namespace radioslam {
 namespace {
