@@ -8,6 +8,7 @@
 #include "radioslam/consistency/chi_squared.hpp"
 #include "radioslam/geometry/alignment.hpp"
 #include "radioslam/graph/residuals.hpp"
+#include "radioslam/joint/position_fixes/heading_of_fixes.hpp"
 
 namespace radioslam {
 namespace {
@@ -42,9 +43,8 @@ std::optional<SE3> transform_by_fixes(const std::vector<FixAlongPath>& fixes, co
   if (agreeing < params.min_fixes || agreeing < params.min_inlier_ratio * static_cast<double>(fixes.size()))
     return std::nullopt;
   const Eigen::Matrix2Xd source = columns(fixes, &FixAlongPath::by_odometry_m);
-  const Eigen::Vector2d middle = source * weights / weights.sum();
-  const double of_yaw = weights.dot((source.colwise() - middle).colwise().squaredNorm().transpose());
-  if (of_yaw < 1 / (params.max_sigma_yaw_rad * params.max_sigma_yaw_rad)) return std::nullopt;
+  if (heading_information(source, weights) < 1 / (params.max_sigma_yaw_rad * params.max_sigma_yaw_rad))
+    return std::nullopt;
   return lift(align_points(source, columns(fixes, &FixAlongPath::position_m), weights),
               found->T_fixes_start.translation().z());
 }

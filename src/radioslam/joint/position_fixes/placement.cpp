@@ -10,6 +10,7 @@
 #include "radioslam/geometry/alignment.hpp"
 #include "radioslam/graph/residuals.hpp"
 #include "radioslam/joint/keyframe_poses.hpp"
+#include "radioslam/joint/position_fixes/heading_of_fixes.hpp"
 #include "radioslam/mission/odometry_edge.hpp"
 
 namespace radioslam {
@@ -220,24 +221,23 @@ class FixPlacement {
   }
 
   void classify(std::size_t r) {
-    double agreeing = 0, information = 0;
-    typename Pose::Point middle = Pose::Point::Zero();
-    for (const auto& factor : fixes_[r].factors) {
+    double agreeing = 0;
+    const auto count = static_cast<Eigen::Index>(fixes_[r].factors.size());
+    Eigen::Matrix2Xd places(2, count);
+    Eigen::VectorXd weights(count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const auto& factor = fixes_[r].factors[static_cast<std::size_t>(k)];
       agreeing += factor.weight;
-      information += factor.weight * factor.information(0, 0);
-      middle += factor.weight * factor.information(0, 0) * position(odometry_graph_, factor.i);
+      places.col(k) = position(odometry_graph_, factor.i).template head<2>();
+      weights[k] = factor.weight * factor.information(0, 0);
     }
-    middle /= information;
-    double of_yaw = 0;
-    for (const auto& factor : fixes_[r].factors)
-      of_yaw += factor.weight * factor.information(0, 0) *
-                (position(odometry_graph_, factor.i) - middle).template head<2>().squaredNorm();
     const double all = static_cast<double>(fixes_[r].factors.size());
     if (agreeing < params_.min_inlier_ratio * all || (agreeing < params_.min_fixes && !known_start(r)))
       fixes_[r].role = FixUse::kInconsistent;
     else if (known_start(r))
       fixes_[r].role = FixUse::kConstrainsRobot;
-    else if (of_yaw < 1 / (params_.max_sigma_yaw_rad * params_.max_sigma_yaw_rad))
+    else if (heading_information(places, weights) <
+             1 / (params_.max_sigma_yaw_rad * params_.max_sigma_yaw_rad))
       fixes_[r].role = FixUse::kNoBaseline;
     else
       fixes_[r].role = FixUse::kPlacesRobot;
