@@ -1,5 +1,6 @@
 #include "radioslam/radio/fingerprints/censored_loss.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -45,7 +46,7 @@ CensoredLoss censored_loss(double z) {
     return {lowest.cost + beyond * (2 * lowest.hazard + beyond), lowest.hazard + beyond};
   }
   const double steps = (z - kLowest) * kPerStep;
-  const auto at = static_cast<std::size_t>(steps);
+  const std::size_t at = std::min(static_cast<std::size_t>(steps), knots.size() - 2);  // z + 12 may round up
   const Knot &a = knots[at], &b = knots[at + 1];
   const double t = steps - static_cast<double>(at);
   return {hermite(a.cost, -2 * a.hazard / kPerStep, b.cost, -2 * b.hazard / kPerStep, t),
