@@ -79,7 +79,7 @@ TEST(LayoutSigmas, AreWhatHalvesDisagreeOnBeyondTheReachOfNearFingerprints) {
   const auto layout = grid();
   const auto sigmas =
       layout_sigmas_m(layout, {{{with_first_at(layout, {20, 0}), 0}}, {{with_first_at(layout, {0, 5}), 0}}},
-                      {layout, {}}, kOneGroup, of_known_size());
+                      {}, kOneGroup, of_known_size());
   EXPECT_NEAR(sigmas[0], std::sqrt((400.0 + 25) / 2 - 36), 0.3);
   for (std::size_t b = 1; b < kBodies; ++b) EXPECT_EQ(sigmas[b], 0);
 }
@@ -92,7 +92,7 @@ TEST(LayoutSigmas, TakesTheMirrorImageThatAgrees) {
     body.T_layout_body = SE2(Eigen::Vector2d(at.x(), -3 * at.y()), body.T_layout_body.angle());
   }
   for (const double sigma :
-       layout_sigmas_m(layout, {{{mirrored, 0}, {layout, 100}}}, {layout, {}}, kOneGroup, of_known_size()))
+       layout_sigmas_m(layout, {{{mirrored, 0}, {layout, 100}}}, {}, kOneGroup, of_known_size()))
     EXPECT_EQ(sigma, 0);
 }
 
@@ -100,7 +100,7 @@ TEST(LayoutSigmas, GrowWithTheDistanceFromTheMiddleBeyondWhatTheRobotCovered) {
   auto layout = grid();
   layout[8].points *= 20;  // reaches 40 m
   const LayoutParams params;
-  const auto sigmas = layout_sigmas_m(layout, {{{layout, 0}}}, {layout, {}}, kOneGroup, params);
+  const auto sigmas = layout_sigmas_m(layout, {{{layout, 0}}}, {}, kOneGroup, params);
   EXPECT_NEAR(sigmas[0], params.sigma_size * (std::hypot(20, 20) - 2), 1e-9);
   EXPECT_NEAR(sigmas[1], params.sigma_size * 18, 1e-9);
   EXPECT_EQ(sigmas[4], 0);
@@ -111,7 +111,8 @@ TEST(LayoutSigmas, HoldAlternativesByTheirLikelihood) {
   const auto layout = grid();
   const auto alternative = with_first_at(layout, {30, 0});
   const auto with_cost = [&](double cost) {
-    return layout_sigmas_m(layout, {{{layout, 0}}}, {layout, {{alternative, cost}}}, kOneGroup,
+    return layout_sigmas_m(layout, {{{layout, 0}}},
+                           {{centre_moves_m(layout, alternative, kOneGroup), std::exp(-cost)}}, kOneGroup,
                            of_known_size())[0];
   };
   EXPECT_NEAR(with_cost(0), std::sqrt(0.5 * 900 / 2), 0.3);
@@ -126,7 +127,7 @@ TEST(LayoutSigmas, AreZeroForKnownStartsAndRobotsOnTheirOwn) {
   group_of[8] = 8;
   auto other = layout;
   for (const std::size_t b : {0U, 8U}) other[b].T_layout_body = SE2(Eigen::Vector2d(500, 500), 0);
-  const auto sigmas = layout_sigmas_m(layout, {{{other, 0}}}, {layout, {}}, group_of, {});
+  const auto sigmas = layout_sigmas_m(layout, {{{other, 0}}}, {}, group_of, {});
   EXPECT_EQ(sigmas[0], 0);
   EXPECT_EQ(sigmas[8], 0);
   EXPECT_GT(sigmas[2], 0);

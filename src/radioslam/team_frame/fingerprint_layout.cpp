@@ -226,13 +226,13 @@ bool is_cheaper(const FieldFit& a, const FieldFit& b) { return a.cost < b.cost; 
 /// A layout, and those it was chosen from.
 struct ChosenLayout {
   std::vector<RigidBody> bodies;
-  AlternativeLayouts alternatives;
+  std::vector<AlternativeLayout> alternatives;
 };
 
 /// The layout that the radio field fits best after a round, fitted further; without a field, the one that
 /// fits the first evidence best.
-ChosenLayout best_layout(std::vector<std::vector<Layout>> made, const TeamField* field,
-                         const FieldParams& params, const Progress& progress) {
+ChosenLayout best_layout(std::vector<std::vector<Layout>> made, const std::vector<std::size_t>& group_of,
+                         const TeamField* field, const FieldParams& params, const Progress& progress) {
   if (!field) made.resize(1);
   std::vector<FieldFit> layouts;
   for (std::vector<Layout>& images : made)
@@ -243,9 +243,11 @@ ChosenLayout best_layout(std::vector<std::vector<Layout>> made, const TeamField*
       if (field) advance_by_field(layouts.back(), *field, params, true);
     }
   const auto first = std::min_element(layouts.begin(), layouts.end(), is_cheaper);
-  ChosenLayout chosen{{}, {first->bodies, {}}};
+  ChosenLayout chosen;
   for (auto other = layouts.begin(); other != layouts.end(); ++other)
-    if (other != first) chosen.alternatives.others.push_back({other->bodies, other->cost - first->cost});
+    if (other != first)
+      chosen.alternatives.push_back({centre_moves_m(first->bodies, other->bodies, group_of),
+                                     std::exp(-std::max(0.0, other->cost - first->cost))});
   FieldFit best = *first;
   for (int round = 1; field && round < params.rounds; ++round) {
     report_progress(progress, "team frame", 0.5 + 0.3 * round / params.rounds);
@@ -256,14 +258,11 @@ ChosenLayout best_layout(std::vector<std::vector<Layout>> made, const TeamField*
 }
 
 /// The note on a layout of which another one may be true; nothing where none is likely.
-std::optional<std::string> alternatives_note(const AlternativeLayouts& alternatives,
-                                             const std::vector<std::size_t>& group_of,
+std::optional<std::string> alternatives_note(const std::vector<AlternativeLayout>& alternatives,
                                              const LayoutParams& params) {
   double weight = 0;
-  for (const Layout& other : alternatives.others) {
-    const auto moves = centre_moves_m(alternatives.chosen, other.bodies, group_of);
-    if (upper_median(moves) > kOtherPlaces * params.sigma_m) weight += weight_of_alternative(other);
-  }
+  for (const AlternativeLayout& other : alternatives)
+    if (upper_median(other.moves_m) > kOtherPlaces * params.sigma_m) weight += other.weight;
   if (weight < kMinAlternative) return std::nullopt;
   return "another layout of the robots, such as the mirror image, fits their fingerprints nearly as well: "
          "its "
@@ -285,7 +284,7 @@ TeamFrame align_by_fingerprints(const Mission& mission, const KnownStarts& start
   std::optional<TeamField> team_field;
   if (field.enabled) team_field = field_of(radio, nodes, field);
   const ChosenLayout chosen =
-      best_layout(maker.by_all(), team_field ? &*team_field : nullptr, field, progress);
+      best_layout(maker.by_all(), maker.group_of(), team_field ? &*team_field : nullptr, field, progress);
   report_progress(progress, "team frame", 0.8);
   const std::vector<bool> is_in_second = second_half(mission.access_points);
   std::vector<std::vector<Layout>> by_halves = maker.by_half(is_in_second, false);
@@ -294,7 +293,7 @@ TeamFrame align_by_fingerprints(const Mission& mission, const KnownStarts& start
   TeamFrame frame = express_in_group_frames(starts, chosen.bodies, groups);
   frame.sigma_layout_m =
       layout_sigmas_m(chosen.bodies, by_halves, chosen.alternatives, maker.group_of(), params);
-  frame.note = alternatives_note(chosen.alternatives, maker.group_of(), params);
+  frame.note = alternatives_note(chosen.alternatives, params);
   return frame;
 }
 

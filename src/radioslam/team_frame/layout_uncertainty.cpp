@@ -118,8 +118,6 @@ std::vector<bool> second_half(const std::vector<std::string>& bssids) {
   return second;
 }
 
-double weight_of_alternative(const Layout& other) { return std::exp(-std::max(0.0, other.cost)); }
-
 std::vector<double> centre_moves_m(const std::vector<RigidBody>& layout, const std::vector<RigidBody>& other,
                                    const std::vector<std::size_t>& group_of) {
   RADIOSLAM_CHECK(other.size() == layout.size() && group_of.size() == layout.size(), "of the same bodies");
@@ -130,16 +128,14 @@ std::vector<double> centre_moves_m(const std::vector<RigidBody>& layout, const s
 
 std::vector<double> layout_sigmas_m(const std::vector<RigidBody>& layout,
                                     const std::vector<std::vector<Layout>>& by_halves,
-                                    const AlternativeLayouts& alternatives,
+                                    const std::vector<AlternativeLayout>& alternatives,
                                     const std::vector<std::size_t>& group_of, const LayoutParams& params) {
   std::vector<double> squares(layout.size(), 0), beyond(layout.size(), 0), alternative(layout.size(), 0);
   double weights = 1;
-  for (const Layout& other : alternatives.others) weights += weight_of_alternative(other);
-  for (const Layout& other : alternatives.others) {
-    const auto moves = centre_moves_m(alternatives.chosen, other.bodies, group_of);
+  for (const AlternativeLayout& other : alternatives) weights += other.weight;
+  for (const AlternativeLayout& other : alternatives)
     for (std::size_t b = 0; b < layout.size(); ++b)
-      alternative[b] += weight_of_alternative(other) / weights * moves[b] * moves[b] / 2;
-  }
+      alternative[b] += other.weight / weights * other.moves_m[b] * other.moves_m[b] / 2;
   const double held_m = 2 * params.sigma_m;
   std::vector<double> sigmas(layout.size(), 0);
   for (const Group& group : groups_of(layout, group_of)) {

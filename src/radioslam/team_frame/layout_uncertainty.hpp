@@ -15,10 +15,9 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
-#include "radioslam/mission/mission.hpp"
-#include "radioslam/radio/fingerprints/fingerprint.hpp"
 #include "radioslam/team_frame/layout_evidence.hpp"
 #include "radioslam/team_frame/rigid_layout.hpp"
 #include "radioslam/team_frame/scaled_layouts.hpp"
@@ -29,25 +28,22 @@ namespace radioslam {
 /// addresses differ in the last digit alone, belong to the same half.
 std::vector<bool> second_half(const std::vector<std::string>& bssids);
 
-/// A layout by all access points, and its mirror image or one by another model of distance.
-struct AlternativeLayouts {
-  std::vector<RigidBody> chosen;
-  std::vector<Layout> others;  ///< cost: above the chosen one's, as a negative log likelihood
-};
-
-/// Relative weight of another layout, from 0 to 1; the chosen one's is 1.
-double weight_of_alternative(const Layout& other);
-
 /// Displacement of every body's centre from `layout` to `other`, which is moved onto it group by group as a
 /// rigid body, but for groups with fixed bodies. `group_of`: per body. 0 for bodies without points.
 std::vector<double> centre_moves_m(const std::vector<RigidBody>& layout, const std::vector<RigidBody>& other,
                                    const std::vector<std::size_t>& group_of);
 
+/// Another layout by all access points: the mirror image, or one by another model of distance.
+struct AlternativeLayout {
+  std::vector<double> moves_m;  ///< centre_moves_m from the layout that was chosen
+  double weight = 0;            ///< likelihood over that of the layout that was chosen, from 0 to 1
+};
+
 /// Standard deviation of every body's place, per axis; 0 for fixed bodies and for those alone in their group.
 /// `by_halves`: the layout and its mirror image by each half and model.
 std::vector<double> layout_sigmas_m(const std::vector<RigidBody>& layout,
                                     const std::vector<std::vector<Layout>>& by_halves,
-                                    const AlternativeLayouts& alternatives,
+                                    const std::vector<AlternativeLayout>& alternatives,
                                     const std::vector<std::size_t>& group_of, const LayoutParams& params);
 
 }  // namespace radioslam
