@@ -83,7 +83,7 @@ class KeyframeChoice {
   }
 
   bool is_better_than_odometry(const Occasion& occasion) {
-    const auto variances = motion_.at(occasion.stamp).T_keyframe_body.covariance.diagonal();
+    const SE3::Tangent variances = motion_.at(occasion.stamp).T_keyframe_body.covariance.diagonal();
     return occasion.sigma_m <= 0 || variances.head<3>().maxCoeff() > occasion.sigma_m * occasion.sigma_m ||
            variances.tail<3>().maxCoeff() > occasion.sigma_rad * occasion.sigma_rad;
   }
