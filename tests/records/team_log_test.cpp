@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "radioslam/geometry/se2.hpp"
+#include "radioslam/mission/odometry_edge.hpp"
 #include "radioslam/records/logs_of_mission.hpp"
 #include "radioslam/records/mission_of_logs.hpp"
 
@@ -126,6 +127,14 @@ TEST(TeamLog, SaysWhatIsMissingAndKeepsTheRest) {
   for (const OdometryStepNoise& step : logged.mission.robots[0].odometry_noise.steps)
     widest = std::max(widest, step.covariance_per_s(0, 0) * seconds_between(step.begin, step.end));
   EXPECT_GT(widest, 100) << "m^2";
+  const auto covariance_until = [](const Robot& robot, double seconds) {
+    return odometry_between<SE3>(robot, robot.odometry.front().stamp, Stamp::from_seconds(seconds))
+        .covariance;
+  };
+  const Mission whole = circling();
+  EXPECT_NEAR(covariance_until(logged.mission.robots[0], 50)(0, 0),
+              covariance_until(whole.robots[1], 50)(0, 0), 0.02 * covariance_until(whole.robots[1], 50)(0, 0))
+      << "as before where no keyframe is missing";
 }
 
 TEST(TeamLog, LeavesOutRobotsWhoseLogsAreNotThere) {

@@ -52,10 +52,11 @@ void append_sample(OdometryEdge<Pose>& edge, const StampedPose<SE3>& from, const
   const typename Pose::Jacobian carry = step.inverse().adjoint();
 
   edge.covariance = (carry * edge.covariance * carry.transpose()).eval();
-  if (noise.steps.empty())
+  if (const SE3::Jacobian measured = measured_covariance(noise.steps, from.stamp, to.stamp);
+      measured.isZero(0))
     edge.covariance.diagonal() += increment_variance<Pose>(distance, turn, noise);
   else
-    edge.covariance += covariance_as<Pose>(measured_covariance(noise.steps, from.stamp, to.stamp));
+    edge.covariance += covariance_as<Pose>(measured);
   edge.drift_jacobian = (carry * edge.drift_jacobian).eval();
   edge.drift_jacobian(Pose::kDof - 1, 0) += distance;
   edge.drift_jacobian.template topRightCorner<Pose::kDim, 1>() += xi.template head<Pose::kDim>();

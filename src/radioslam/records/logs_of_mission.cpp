@@ -70,9 +70,16 @@ class RobotRecords {
     record.number = static_cast<std::uint32_t>(k);
     record.stamp = nodes_.stamps[k];
     record.T_before_this = k > 0 ? odometry[before].pose.inverse() * odometry[row].pose : odometry[row].pose;
-    if (k > 0 && !robot_.odometry_noise.steps.empty())
-      record.covariance = odometry_edge<SE3>(odometry, before, row, robot_.odometry_noise).covariance;
+    if (k > 0 && !robot_.odometry_noise.steps.empty()) record.covariance = covariance(before, row);
     return record;
+  }
+
+  /// Without the floor of an edge, which whoever reads the log adds.
+  SE3::Jacobian covariance(std::size_t first_row, std::size_t last_row) const {
+    OdometryEdge<SE3> edge;
+    for (std::size_t row = first_row; row < last_row; ++row)
+      append_sample(edge, nodes_.odometry[row], nodes_.odometry[row + 1], robot_.odometry_noise);
+    return edge.covariance;
   }
 
   std::optional<PoseAt> at(Stamp stamp) {
