@@ -148,6 +148,13 @@ TEST(ChooseKeyframes, OfAStandingRobotCostLittle) {
   EXPECT_EQ(chosen(mission), Seconds({0, 99'999}));
 }
 
+/// Neither is one that creeps, along an arc of which no piece is straight.
+TEST(ChooseKeyframes, OfACreepingRobotCostLittle) {
+  std::vector<SE2> poses{SE2()};
+  for (int k = 0; k < 20'000; ++k) poses.push_back(poses.back() * SE2({4e-5, 0}, 5e-6));
+  EXPECT_LE(chosen(drive(poses)).size(), 3U);
+}
+
 TEST(KeyframesOf, ARobotThatComesWithThemAreThese) {
   Mission mission = straight_drive(0.25);
   EXPECT_EQ(keyframes_of(mission, kRobot, {}), choose_keyframes(mission, kRobot, {}));

@@ -10,6 +10,7 @@
 namespace radioslam {
 namespace {
 
+constexpr double kThinning = 0.05;  // of the allowed deviation, between samples that are looked at
 constexpr double kAnything = std::numeric_limits<double>::infinity();
 
 Trajectory<SE3> with_stamps(const Trajectory<SE3>& odometry, const std::vector<Stamp>& node_stamps) {
@@ -68,15 +69,16 @@ class KeyframeChoice {
   void add(const StampedPose<SE3>& sample) {
     if (!keyframes_.empty()) bound_deviation(sample);
     if (keyframes_.empty() || is_new_keyframe(last_.pose, sample.pose, params_)) start(sample);
-    since_last_.push_back(sample);
-    last_sample_ = sample.stamp;
-    farthest_ = std::max(farthest_, allowances(last_.pose.inverse() * sample.pose, params_));
+    if (allowances(way_.back().pose.inverse() * sample.pose, params_) >= kThinning) {
+      if (way_.back().stamp < last_sample_.stamp) extend_way(last_sample_);
+      extend_way(sample);
+    }
+    last_sample_ = sample;
   }
 
   /// A time from the last sample to the next one, which shall be a keyframe.
   void add(Stamp stamp) {
     if (stamp <= last_.stamp) return;
-    if (!since_last_.empty() && since_last_.back().stamp == stamp) since_last_.pop_back();
     const StampedPose<SE3> here{stamp, *robot_.odometry.at(stamp)};
     bound_deviation(here);
     start(here);
@@ -89,7 +91,7 @@ class KeyframeChoice {
   }
 
   std::vector<Stamp> finish() && {
-    if (!keyframes_.empty()) add(last_sample_);
+    if (!keyframes_.empty()) add(last_sample_.stamp);
     return std::move(keyframes_);
   }
 
@@ -97,8 +99,13 @@ class KeyframeChoice {
   void start(const StampedPose<SE3>& keyframe) {
     keyframes_.push_back(keyframe.stamp);
     last_ = keyframe;
-    since_last_.clear();
+    way_ = {keyframe};
     farthest_ = 0;
+  }
+
+  void extend_way(const StampedPose<SE3>& sample) {
+    way_.push_back(sample);
+    farthest_ = std::max(farthest_, allowances(last_.pose.inverse() * sample.pose, params_));
   }
 
   /// Makes the last sample a keyframe if the geodesic from the last one to `next` would leave the path.
@@ -107,10 +114,10 @@ class KeyframeChoice {
     if (farthest_ + allowances(T_last_next, params_) <= 1) return;  // so is every point between
     const SE3::Tangent way = T_last_next.log();
     const double duration_s = seconds_between(last_.stamp, next.stamp);
-    for (const StampedPose<SE3>& sample : since_last_) {
+    for (const StampedPose<SE3>& sample : way_) {
       const SE3 drawn = last_.pose * SE3::exp(seconds_between(last_.stamp, sample.stamp) / duration_s * way);
       if (allowances(drawn.inverse() * sample.pose, params_) > 1)
-        return start(StampedPose<SE3>(since_last_.back()));
+        return start(StampedPose<SE3>(last_sample_.stamp < next.stamp ? last_sample_ : sample));
     }
   }
 
@@ -118,9 +125,9 @@ class KeyframeChoice {
   const KeyframeParams& params_;
   std::vector<Stamp> keyframes_;
   StampedPose<SE3> last_;
-  std::vector<StampedPose<SE3>> since_last_;  ///< samples
-  Stamp last_sample_;
-  double farthest_ = 0;  ///< of these from the last keyframe, in allowances
+  std::vector<StampedPose<SE3>> way_;  ///< from it; of samples close to each other, the first and last
+  StampedPose<SE3> last_sample_;
+  double farthest_ = 0;  ///< of it from the last keyframe, in allowances
   KeyframeMotion<SE3> motion_;
 };
 
