@@ -82,10 +82,11 @@ Mission two_robots(double angle_delay_s) {
   const LinkEnd a{RobotIndex(0), {}, {}, Eigen::Vector3d::Zero()};
   const LinkEnd b{RobotIndex(1), {}, {}, Eigen::Vector3d::Zero()};
   const Stamp at = Stamp::from_seconds(5.5), later = Stamp::from_seconds(5.5 + angle_delay_s);
-  mission.ranges.push_back({at, b, a, 40, 0.5});  // listed by the second robot
+  mission.ranges.push_back({at, b, a, 40, 0.5});              // listed by the second robot
+  const double azimuth = std::atan2(40, -4 * angle_delay_s);  // by then each has passed the other
   mission.aoa_measurements.push_back(
-      {later, RobotIndex(0), b, {{kPi / 2, {}, 0.1, -50}, {0.3, {}, 0.1, -60}}});
-  mission.aoa_measurements.push_back({later, RobotIndex(1), a, {{kPi / 2, {}, 0.1, -50}}});
+      {later, RobotIndex(0), b, {{azimuth, {}, 0.1, -50}, {0.3, {}, 0.1, -60}}});
+  mission.aoa_measurements.push_back({later, RobotIndex(1), a, {{azimuth, {}, 0.1, -50}}});
   return mission;
 }
 
@@ -94,12 +95,7 @@ JointGraph<SE2> aligned(const Mission& mission) {
   auto joint = build_joint_graph<SE2>(mission, {}, {});
   for (const auto& bearing : joint.team.bearings)
     for (std::size_t p = 0; p < bearing.paths.size(); ++p)
-      joint.team.graph.bearings.push_back({bearing.i,
-                                           bearing.j,
-                                           bearing.paths[p].direction,
-                                           bearing.paths[p].sigma_rad,
-                                           {},
-                                           p == 0 ? 0.9 : 0.1});
+      joint.team.graph.bearings.emplace_back(path_factor(bearing, p)).weight = p == 0 ? 0.9 : 0.1;
   return joint;
 }
 
@@ -134,6 +130,29 @@ TEST(MutualBearings, AnglesOfAnotherTimeDoNotCount) {
   ASSERT_EQ(estimated.team().view(0, 1).ties(), 1U);
   EXPECT_GT(std::abs(estimated.team().view(0, 1).turn_in_a(0) - kPi), 1)
       << "the graph's poses are not aligned here";
+}
+
+TEST(MutualBearings, ThoseAfterOneKeyframeAreToldApart) {
+  Mission mission = two_robots(0);
+  for (std::size_t k = 0; k < 2; ++k) {  // from .3 s later, of a reflection that is taken for direct
+    AoaMeasurement later = mission.aoa_measurements[2 * k];
+    later.stamp = Stamp::from_seconds(5.8);
+    later.paths = {{0.2, {}, 0.1, -50}};
+    mission.aoa_measurements.insert(mission.aoa_measurements.begin(), later);
+  }
+  const auto [links, is_estimated] = measured_links(aligned(mission), 0.5, 100);
+  EXPECT_FALSE(is_estimated);
+  const auto view = links.team().view(0, 1);
+  ASSERT_EQ(view.ties(), 1U);
+  const auto place = view.relative(0, links.poses(0).records()[5], links.poses(1).records()[5]);
+  EXPECT_LT((place.difference_m - Eigen::Vector2d(2, 40)).norm(), 1e-9);
+}
+
+TEST(MutualBearings, AnEstimatedLinkCountsOnceForAllRangesOfItsPoses) {
+  Mission mission = two_robots(0.3);
+  mission.ranges.push_back(mission.ranges[0]);
+  mission.ranges.back().stamp = Stamp::from_seconds(5.7);
+  EXPECT_EQ(measured_links(aligned(mission), 0.01, 100).covariance.team().view(0, 1).ties(), 1U);
 }
 
 TEST(MutualBearings, MoreThanAskedForAreThinnedEvenly) {

@@ -5,6 +5,8 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/geometry/uncertain_pose.hpp"
@@ -14,6 +16,7 @@ namespace radioslam {
 namespace {
 
 constexpr double kDirectWeight = 0.5;  // min. weight of a range or path that is used as direct
+constexpr int kMotionRounds = 5;       // of turning directions from their time to the range's
 
 /// Robot, keyframe and stamp of a pose of the graph.
 struct PoseOrigin {
@@ -58,13 +61,24 @@ std::vector<KeyframeOdometry<Pose>> odometry_chains(const JointGraph<Pose>& join
   return chains;
 }
 
+/// Whether the factor is of one of the bearing's paths. Several bearings of one pair of poses differ in where
+/// the receiver was.
+template <class Pose>
+bool is_path_of(const BearingFactor<Pose>& factor, const AmbiguousBearing<Pose>& bearing) {
+  return factor.i == bearing.i && factor.j.pose == bearing.j.pose &&
+         factor.T_i_receiver.translation() == bearing.T_i_receiver.translation() &&
+         factor.T_i_receiver.rotation_matrix() == bearing.T_i_receiver.rotation_matrix() &&
+         std::any_of(bearing.paths.begin(), bearing.paths.end(),
+                     [&](const auto& path) { return path.direction == factor.direction; });
+}
+
 /// The most likely direct path of a bearing, by its weight in the graph.
 template <class Pose>
-const BearingFactor<Pose>* direct_path(const PoseGraph<Pose>& graph, PoseId receiver, PoseId transmitter) {
+const BearingFactor<Pose>* direct_path(const PoseGraph<Pose>& graph, const AmbiguousBearing<Pose>& bearing) {
   const BearingFactor<Pose>* best = nullptr;
   for (const auto& factor : graph.bearings)
-    if (factor.i == receiver && factor.j.pose == transmitter && factor.weight >= kDirectWeight &&
-        (!best || factor.weight > best->weight))
+    if (factor.weight >= kDirectWeight && (!best || factor.weight > best->weight) &&
+        is_path_of(factor, bearing))
       best = &factor;
   return best;
 }
@@ -98,8 +112,10 @@ class MutualBearings {
     std::vector<OverlapLink<Pose>> links;
     const auto marginals = Marginals<Pose>::compute(joint_.team.graph);
     if (!marginals) return links;
+    std::set<std::pair<PoseId, PoseId>> added;
     const auto add = [&](PoseId i, PoseId j) {
       if (!i.valid() || !j.valid() || origins_.of(i).robot == origins_.of(j).robot) return;
+      if (!added.emplace(i, j).second) return;
       const auto& graph = joint_.team.graph;
       links.push_back(at_keyframes(i, j, graph.poses[i.index()].inverse() * graph.poses[j.index()],
                                    marginals->relative_pose(i, j)));
@@ -127,28 +143,52 @@ class MutualBearings {
       const Stamp heard{origins_.of(bearing.i).stamp.ns + bearing.after_ns};
       const double apart_s = std::abs(seconds_between(heard, stamp));
       if (apart_s > best_s) continue;
-      const auto* path = direct_path(joint_.team.graph, bearing.i, bearing.j.pose);
+      const auto* path = direct_path(joint_.team.graph, bearing);
       if (path) best = path, best_s = apart_s;
     }
     return best;
   }
 
-  /// The azimuth in the frame of a pose, that of the range.
-  double azimuth_at(const BearingFactor<Pose>& bearing, PoseId pose) const {
+  /// Where a direction was measured and what it pointed at, in the frames of the range's poses.
+  struct Sight {
+    Pose T_pose_receiver;
+    typename Pose::Point transmitter;
+    double azimuth_rad;  ///< in the receiver's frame
+  };
+
+  Sight sight(const BearingFactor<Pose>& bearing, PoseId of_receiver, PoseId of_transmitter) const {
     const auto& poses = joint_.team.graph.poses;
-    const Pose T = poses[pose.index()].inverse() * poses[bearing.i.index()] * bearing.T_i_receiver;
-    return std::atan2(bearing.direction.y(), bearing.direction.x()) + heading(T);
+    const auto moved = [&](PoseId from, PoseId to) {
+      return poses[from.index()].inverse() * poses[to.index()];
+    };
+    return {moved(of_receiver, bearing.i) * bearing.T_i_receiver,
+            moved(of_transmitter, bearing.j.pose) * bearing.j.lever_arm,
+            std::atan2(bearing.direction.y(), bearing.direction.x())};
+  }
+
+  /// The azimuth of antenna b at antenna a, at the time of the range: robots move in between.
+  static double azimuth_then(const Sight& seen, const Pose& T_i_j, const RangeEnd<Pose>& a,
+                             const RangeEnd<Pose>& b) requires(Pose::kDim == 2) {
+    const Eigen::Vector2d then = T_i_j * b.lever_arm - a.lever_arm,
+                          measured = seen.T_pose_receiver.inverse() * (T_i_j * seen.transmitter);
+    return seen.azimuth_rad + std::atan2(then.y(), then.x()) - std::atan2(measured.y(), measured.x());
   }
 
   OverlapLink<Pose> link(const RangeFactor<Pose>& range, const BearingFactor<Pose>& by_i,
                          const BearingFactor<Pose>& by_j) const requires(Pose::kDim == 2) {
-    const MutualBearing measured{range.range_m,
-                                 range.sigma_m,
-                                 azimuth_at(by_i, range.i.pose),
-                                 by_i.sigma_rad,
-                                 azimuth_at(by_j, range.j.pose),
-                                 by_j.sigma_rad};
+    const Sight i = sight(by_i, range.i.pose, range.j.pose), j = sight(by_j, range.j.pose, range.i.pose);
     const UncertainPose<Pose> T_i_a{Pose(range.i.lever_arm, 0)}, T_j_b{Pose(range.j.lever_arm, 0)};
+    MutualBearing measured{range.range_m,
+                           range.sigma_m,
+                           i.azimuth_rad + heading(i.T_pose_receiver),
+                           by_i.sigma_rad,
+                           j.azimuth_rad + heading(j.T_pose_receiver),
+                           by_j.sigma_rad};
+    for (int k = 0; k < kMotionRounds; ++k) {
+      const Pose T_i_j = T_i_a.pose * relative_pose(measured) * T_j_b.pose.inverse();
+      measured.phi_rad = azimuth_then(i, T_i_j, range.i, range.j);
+      measured.psi_rad = azimuth_then(j, T_i_j.inverse(), range.j, range.i);
+    }
     const UncertainPose<Pose> T_a_b{relative_pose(measured), relative_pose_covariance(measured)};
     const UncertainPose<Pose> T_i_j = T_i_a * T_a_b * T_j_b.inverse();
     return at_keyframes(range.i.pose, range.j.pose, T_i_j.pose, T_i_j.covariance);
