@@ -96,6 +96,17 @@ TEST(LayoutSigmas, TakesTheMirrorImageThatAgrees) {
     EXPECT_EQ(sigma, 0);
 }
 
+TEST(LayoutSigmas, TakesTheMirrorImageThatAgreesThoughMostStartsAreKnown) {
+  auto layout = grid();
+  for (std::size_t b = 0; b < 6; ++b) layout[b].fixed = true;
+  auto other = layout;
+  for (std::size_t b = 6; b < kBodies; ++b)
+    other[b].T_layout_body = SE2(Eigen::Vector2d(0, 30), 0) * other[b].T_layout_body;
+  for (const double sigma :
+       layout_sigmas_m(layout, {{{other, 0}, {layout, 100}}}, {}, kOneGroup, of_known_size()))
+    EXPECT_EQ(sigma, 0);
+}
+
 TEST(LayoutSigmas, GrowWithTheDistanceFromTheMiddleBeyondWhatTheRobotCovered) {
   auto layout = grid();
   layout[8].points *= 20;  // reaches 40 m

@@ -257,17 +257,23 @@ ChosenLayout best_layout(std::vector<std::vector<Layout>> made, const std::vecto
   return chosen;
 }
 
+/// Whether most of the bodies that can move lie elsewhere in it.
+bool is_elsewhere(const AlternativeLayout& other, const ChosenLayout& chosen, const LayoutParams& params) {
+  std::vector<double> moves_m;
+  for (std::size_t b = 0; b < chosen.bodies.size(); ++b)
+    if (!chosen.bodies[b].fixed && chosen.bodies[b].points.cols() > 0) moves_m.push_back(other.moves_m[b]);
+  return !moves_m.empty() && upper_median(moves_m) > kOtherPlaces * params.sigma_m;
+}
+
 /// The note on a layout of which another one may be true; nothing where none is likely.
-std::optional<std::string> alternatives_note(const std::vector<AlternativeLayout>& alternatives,
-                                             const LayoutParams& params) {
+std::optional<std::string> alternatives_note(const ChosenLayout& chosen, const LayoutParams& params) {
   double weight = 0;
-  for (const AlternativeLayout& other : alternatives)
-    if (upper_median(other.moves_m) > kOtherPlaces * params.sigma_m) weight += other.weight;
+  for (const AlternativeLayout& other : chosen.alternatives)
+    if (is_elsewhere(other, chosen, params)) weight = std::max(weight, other.weight);
   if (weight < kMinAlternative) return std::nullopt;
   return "another layout of the robots, such as the mirror image, fits their fingerprints nearly as well: "
-         "its "
-         "likelihood is " +
-         std::to_string(std::lround(100 * std::min(weight, 1.0))) + " % of that of the layout returned";
+         "its likelihood is " +
+         std::to_string(std::lround(100 * weight)) + " % of that of the layout returned";
 }
 
 }  // namespace
@@ -293,7 +299,7 @@ TeamFrame align_by_fingerprints(const Mission& mission, const KnownStarts& start
   TeamFrame frame = express_in_group_frames(starts, chosen.bodies, groups);
   frame.sigma_layout_m =
       layout_sigmas_m(chosen.bodies, by_halves, chosen.alternatives, maker.group_of(), params);
-  frame.note = alternatives_note(chosen.alternatives, params);
+  frame.note = alternatives_note(chosen, params);
   return frame;
 }
 

@@ -76,13 +76,15 @@ void add_moves(const Group& group, const std::vector<RigidBody>& layout, const s
 void add_mean_squares(const Group& group, const std::vector<RigidBody>& layout,
                       const std::vector<std::vector<Layout>>& by_halves, std::vector<double>& squares_m2) {
   for (const std::vector<Layout>& images : by_halves) {
-    std::vector<double> nearest;
+    std::vector<double> nearest(layout.size(), 0);
     double least = std::numeric_limits<double>::infinity();
     for (const Layout& image : images) {
-      std::vector<double> moves(layout.size(), 0), of_group;
+      std::vector<double> moves(layout.size(), 0), of_free;
       add_moves(group, layout, image.bodies, moves);
-      for (const std::size_t b : group.bodies) of_group.push_back(moves[b]);
-      if (const double median = upper_median(of_group); median < least) {
+      for (const std::size_t b : group.bodies)
+        if (!layout[b].fixed) of_free.push_back(moves[b]);
+      if (of_free.empty()) continue;
+      if (const double median = upper_median(of_free); median < least) {
         least = median;
         nearest = std::move(moves);
       }

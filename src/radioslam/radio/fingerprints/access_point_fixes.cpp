@@ -354,7 +354,7 @@ AccessPointFixes fixes_by_access_points(const Mission& mission,
     const Fix& fix = fixes[used[n]];
     const KnownFingerprint& of = fingerprints[used[n]];
     result.robots[of.robot].push_back(
-        {of.stamp, {fix.mean_m.x(), fix.mean_m.y(), 0}, std::sqrt(counts[n]) * fix.sigma_m});
+        {of.stamp, {fix.mean_m.x(), fix.mean_m.y(), 0}, std::sqrt(std::max(1.0, counts[n])) * fix.sigma_m});
   }
   return result;
 }
