@@ -35,7 +35,10 @@ std::vector<Record> one_of_each() {
           FixRecord{somewhere(), {1, 2, 3}, 0.5},
           AccessPointRecord{300, "00:1a:2b:3c:4d:5e", 2412},
           fingerprint,
-          ClosureRecord{somewhere(), "b", Stamp{99}, lift(SE2({3, 4}, -1)), isotropic_covariance(0.1, 0.05)}};
+          ClosureRecord{somewhere(), "b", Stamp{99}, lift(SE2({3, 4}, -1)), isotropic_covariance(0.1, 0.05),
+                        0.9, 0.01},
+          DescriptorRecord{7, false, 40, 0.05, 2, 5, {0, 3, 15, 0, 0, 0, 0, 0, 0, 1}},
+          AmendmentRecord{2, {{lift(SE2({1, 0}, 0.1)), covariance_in_space()}, {SE3(), std::nullopt}}}};
 }
 
 TEST(RecordCodec, WhatWasWrittenIsReadAndWrittenTheSame) {
@@ -56,6 +59,9 @@ TEST(RecordCodec, WhatWasWrittenIsReadAndWrittenTheSame) {
   EXPECT_EQ(fingerprint.readings[1].number, 300U);
   EXPECT_EQ(fingerprint.readings[1].rssi_dbm, -71.5F);
   EXPECT_EQ(std::get<AccessPointRecord>(*decode_record(encode(records[6]))).bssid, "00:1a:2b:3c:4d:5e");
+  EXPECT_NEAR(*std::get<ClosureRecord>(*decode_record(encode(records[8]))).doubt, 0.01, 1e-9);
+  const auto place = std::get<DescriptorRecord>(records[9]);
+  EXPECT_EQ(std::get<DescriptorRecord>(*decode_record(encode(records[9]))).bins, place.bins);
   const auto printer = decode_record(encode(AccessPointRecord{1, "printer", 0}));
   EXPECT_EQ(std::get<AccessPointRecord>(*printer).bssid, "printer");
 }
@@ -89,6 +95,18 @@ TEST(RecordCodec, PosesAndCovariancesLoseLittle) {
   const auto read = std::get<KeyframeRecord>(*decode_record(encode(written)));
   EXPECT_LT((read.T_before_this.inverse() * written.T_before_this).log().norm(), 1e-6);
   EXPECT_LT((*read.covariance - *written.covariance).norm(), 1e-5 * written.covariance->norm());
+}
+
+/// In coordinates of a national grid, 32 bits would lose a decimetre.
+TEST(RecordCodec, StartsFarFromTheOriginAreExact) {
+  const SE3 there(Eigen::Vector3d(691234.567, 5334567.891, 512.3), Eigen::Quaterniond::Identity());
+  FactsRecord facts = std::get<FactsRecord>(one_of_each()[0]);
+  facts.initial_pose = there;
+  EXPECT_EQ(std::get<FactsRecord>(*decode_record(encode(facts))).initial_pose->translation(),
+            there.translation());
+  const KeyframeRecord first{0, {}, there, std::nullopt};
+  EXPECT_EQ(std::get<KeyframeRecord>(*decode_record(encode(first))).T_before_this.translation(),
+            there.translation());
 }
 
 /// A walk of a metre in the plane, with its covariance, and a range beside it.

@@ -9,6 +9,7 @@
 #include "radioslam/mission/odometry_edge.hpp"
 #include "radioslam/records/logs_of_mission.hpp"
 #include "radioslam/records/mission_of_logs.hpp"
+#include "radioslam/records/record_codec.hpp"
 
 namespace radioslam {
 namespace {
@@ -91,6 +92,91 @@ TEST(MissionLogs, SayWhatTheMissionSays) {
       EXPECT_LT(((*robot.odometry.at(row.stamp)).inverse() * row.pose).log().norm(), 0.06);
     EXPECT_LT((robot.odometry.back().pose.inverse() * odometry.back().pose).log().norm(), 1e-4);
   }
+}
+
+TEST(MissionLogs, SayWhatScansMeasured) {
+  const Mission mission = circling();
+  ScannedRecords scanned;
+  scanned.closures = {{RobotIndex(1), RobotIndex(1), Stamp{8 * kSecond}, Stamp{40 * kSecond}, SE3(),
+                       isotropic_covariance(0.1, 0.1), 0.9, 0.01},
+                      {RobotIndex(0), RobotIndex(1), Stamp{5 * kSecond}, Stamp{6 * kSecond},
+                       lift(SE2({1, 0}, 0)), isotropic_covariance(0.1, 0.1), 0.8}};
+  scanned.places = {{RobotIndex(1), Stamp{7 * kSecond}, {0, true, 40, 1, 1, 3, {0, 1, 1}}}};
+  TeamLog team;
+  for (const RobotLog& log : logs_of(mission, KeyframeParams(), scanned).robots) team.add(log);
+  const LoggedMission logged = mission_of(team);
+  ASSERT_EQ(logged.closures.size(), 2U);
+  EXPECT_EQ(logged.mission.matches.size(), mission.matches.size());
+  EXPECT_EQ(logged.mission.robots[logged.closures[0].robot_i.index()].id, "b");
+  EXPECT_NEAR(logged.closures[0].inlier_ratio, 0.8, 1e-7);
+  EXPECT_FALSE(logged.closures[0].doubt);
+  EXPECT_NEAR(*logged.closures[1].doubt, 0.01, 1e-9);
+  std::size_t keyframes = 0;
+  for (const auto& [number, bytes] : team.robots().at("a").records) {
+    const auto record = decode_record(bytes);
+    if (const auto* keyframe = std::get_if<KeyframeRecord>(&*record))
+      if (keyframe->stamp <= Stamp{7 * kSecond}) ++keyframes;
+    if (const auto* place = std::get_if<DescriptorRecord>(&*record)) {
+      EXPECT_EQ(place->keyframe + 1, keyframes);
+    }
+    if (const auto* closure = std::get_if<ClosureRecord>(&*record); closure && closure->inlier_ratio) {
+      EXPECT_GE(keyframes, 1U);
+    }
+  }
+}
+
+TEST(MissionLogs, TheLastAmendmentHolds) {
+  RobotLog log = logs_of_circling(20).robots[1];
+  const auto say = [&](std::uint32_t first, std::vector<AmendedStep> steps) {
+    log.records.push_back(encode(AmendmentRecord{first, std::move(steps)}));
+  };
+  const SE3 step = lift(SE2({0.5, 0}, 0));
+  say(1, {{lift(SE2({9, 0}, 0)), {}}, {step, isotropic_covariance(0.3, 0.1)}});
+  say(1, {{step, {}}});
+  TeamLog team;
+  team.add(log);
+  const Robot robot = mission_of(team).mission.robots[0];
+  const auto moved = [&](std::size_t k) {
+    return (robot.odometry.at(robot.keyframes[k - 1])->inverse() * *robot.odometry.at(robot.keyframes[k]));
+  };
+  for (const std::size_t k : {1U, 2U}) EXPECT_LT((moved(k).inverse() * step).log().norm(), 1e-6);
+  EXPECT_GT((moved(3).inverse() * step).log().norm(), 0.1);
+  const auto covariance = odometry_between<SE3>(robot, robot.keyframes[1], robot.keyframes[2]).covariance;
+  EXPECT_NEAR(covariance(0, 0), 0.09, 1e-4);
+}
+
+TEST(MissionLogs, PutRobotsInTheOrderOfTheirNumbers) {
+  TeamLog team;
+  for (const char* id : {"r10", "r2", "r02", "r", "q11"}) {
+    RobotLog log = logs_of_circling(20).robots[1];
+    log.robot = id;
+    team.add(log);
+  }
+  std::string order;
+  for (const Robot& robot : mission_of(team).mission.robots) order += robot.id + " ";
+  EXPECT_EQ(order, "q11 r r2 r02 r10 ");
+}
+
+TEST(ByLogs, KeepsTheOrderOfRobotsAndWhatNoLogSays) {
+  Mission mission = circling();
+  mission.name = "circles";
+  mission.robots[0].inertial.resize(3);
+  mission.robots.push_back({});
+  mission.robots.back().id = "parked";
+  mission.robots.back().odometry = Trajectory<SE3>({{Stamp{5}, SE3()}});
+  const LoggedMission logged = by_logs(mission, KeyframeParams());
+  const Mission& read = logged.mission;
+  EXPECT_EQ(read.name, "circles");
+  ASSERT_EQ(read.robots.size(), 3U);
+  EXPECT_EQ(read.robots[0].id, "b");
+  EXPECT_EQ(read.robots[0].inertial.size(), 3U);
+  EXPECT_EQ(read.robots[2].odometry.size(), 1U);
+  ASSERT_EQ(read.ranges.size(), mission.ranges.size());
+  EXPECT_EQ(read.ranges[0].i.robot, RobotIndex(0));
+  EXPECT_EQ(read.ranges[0].j.robot, RobotIndex(1));
+  EXPECT_EQ(read.aoa_measurements[0].receiver, RobotIndex(1));
+  EXPECT_EQ(read.matches[0].robot_i, RobotIndex(1));
+  EXPECT_LT(read.robots[0].odometry.size(), mission.robots[0].odometry.size() / 2);
 }
 
 TEST(TeamLog, IsASetWhateverTheOrderAndRepetition) {
@@ -185,7 +271,7 @@ TEST(TeamLog, RefusesNamesThatAreNone) {
 /// Headers of chunks, each of which claims what follows: the worst for a reader that starts again at each.
 TEST(TeamLog, GivesUpOnWhatNeverEnds) {
   std::string bytes;
-  while (bytes.size() < 1'000'000) bytes += std::string("RSL1\1a", 6) + std::string(4, '\0') + '\0' + '\x7f';
+  while (bytes.size() < 1'000'000) bytes += std::string("RSL2\1a", 6) + std::string(4, '\0') + '\0' + '\x7f';
   TeamLog team;
   const auto begin = std::chrono::steady_clock::now();
   EXPECT_EQ(team.accept(bytes).records, 0U);

@@ -45,4 +45,4 @@ radioslam_room(joint
     team_alignment.cpp
     uncertainty/position_uncertainty.cpp
     uncertainty/rejected_stretches.cpp
-  ROOMS odometry places closure team_frame graph radio results consistency)
+  ROOMS odometry places closure team_frame graph radio records results consistency)

@@ -167,27 +167,6 @@ OverlapStage list_overlaps(const RunSetup& run, const TeamEstimate<Pose>& team) 
        keyframes_of(team.joint, team.measured.closures.loops), run.options.take_candidates});
 }
 
-constexpr int kBudgetedRounds = 2;
-constexpr int kMaxDoublings = 30;
-
-/// What is left of the user's budget, in equal shares over the rounds that are left; without one, as much in
-/// every round as in all before, as long as it is worth it.
-std::optional<VerificationBudget> budget_of_round(const RunSetup& run, int round, std::size_t done) {
-  const PlaceParams& places = run.params.places;
-  std::optional<VerificationBudget> budget = run.options.verifications;
-  if (budget) {
-    const auto rounds =
-        static_cast<std::size_t>(std::max(1, std::min(places.rounds, kBudgetedRounds) - round));
-    budget->registrations = (budget->registrations - done + rounds - 1) / rounds;
-  } else if (places.least_worth > 0) {
-    const std::size_t robots = run.mission.robots.size();
-    const auto first = static_cast<std::size_t>(places.first_round) * (robots * (robots - 1) / 2);
-    budget = VerificationBudget{first << std::min(round, kMaxDoublings), VerificationBudget::Order::kWorth,
-                                places.least_worth, true};
-  }
-  return budget;
-}
-
 bool compares_scans(const RunSetup& run, const MeasuredScans& scans) {
   return run.params.places.enabled && !run.options.overlap_only && has_comparable_scans(scans);
 }
@@ -199,9 +178,15 @@ RecognisedPlaces find_places(const RunSetup& run, const TeamEstimate<Pose>& team
                              const RecognisedPlaces& before = {}) {
   if (!compares_scans(run, scans)) return {};
   std::vector<CandidateList::Group> allowed;
-  PlaceInput<Pose> input{
-      team,    run.mission,     scans,           descriptors,
-      nullptr, before.attempts, before.exchange, budget_of_round(run, round, before.attempts.size())};
+  PlaceInput<Pose> input{team,
+                         run.mission,
+                         scans,
+                         descriptors,
+                         nullptr,
+                         before.attempts,
+                         before.exchange,
+                         budget_of_round(run.params.places, run.options.verifications,
+                                         run.mission.robots.size(), round, before.attempts.size())};
   if (run.options.pruning == Pruning::kOn) {
     const auto keep = [&](const CandidateList::Group& group, const auto&) { allowed.push_back(group); };
     OverlapStageParams overlap = run.params.overlap;
@@ -320,23 +305,35 @@ JudgedTeam<Pose> judge_closures(const RunSetup& run, TeamEstimate<Pose> aligned,
 
 namespace {
 
-/// The whole estimate. `graph`: the team as a factor graph, or null.
+/// What a run estimates from.
 template <class Pose>
-RunOutput run(const Mission& recorded, const TeamGraph<Pose>* graph, const MeasuredScans& scans,
-              const RunParams& params, const RunOptions& options, const Progress& progress,
-              StageClock& timed) {
+struct RunInput {
+  const Mission& mission;                  ///< as logs describe it
+  const Mission& measured;                 ///< the same with all of its odometry
+  const TeamGraph<Pose>* graph = nullptr;  ///< the team as a factor graph
+  MeasuredScans scans = {};
+  std::vector<VerifiedClosure> places = {};  ///< closures between robots that their scans gave before
+};
+
+/// The whole estimate.
+template <class Pose>
+RunOutput run(const RunInput<Pose>& input, const RunParams& params, const RunOptions& options,
+              const Progress& progress, StageClock& timed) {
+  const Mission& recorded = input.mission;
+  const MeasuredScans& scans = input.scans;
   const RadioMeasurements radio = timed("radio", measure_radio, recorded, params.radio, progress);
   const auto known = timed("radio fixes", use_known_access_points, recorded, radio, params.access_points);
   const Mission& mission = known.mission ? *known.mission : recorded;
   const MapWitness maps(mission, scans);
   const RunSetup run{mission, radio, params, options, progress, timed, &maps};
-  auto built = timed("graph", build_team<Pose>, run, graph, scans);
+  auto built = timed("graph", build_team<Pose>, run, input.graph, scans);
   auto aligned = align_team(run, std::move(built));
   TeamDescriptors descriptors;
   if (compares_scans(run, scans))
     descriptors =
         timed("places", describe_places, scans, params.places.descriptors, params.scans.loops.submap_m);
   auto places = find_places(run, aligned, scans, descriptors);
+  places.closures.insert(places.closures.end(), input.places.begin(), input.places.end());
   auto judged = judge_closures(run, aligned, places.closures);
   const auto may_find_more = [&] { return places.has_verified() || places.counts.has_left_out(); };
   for (int round = 1; round < params.places.rounds && may_find_more(); ++round) {
@@ -353,11 +350,33 @@ RunOutput run(const Mission& recorded, const TeamGraph<Pose>* graph, const Measu
       break;
   }
 
-  RunResult result =
-      describe_run(mission, radio, judged.team, std::move(judged.overlaps), params, options, timed);
+  RunResult result = describe_run(mission, input.measured, radio, judged.team, std::move(judged.overlaps),
+                                  params, options, timed);
   count_places(result, places.counts);
   add_known_access_points(result, recorded, known.fixes, params.access_points.known);
-  return {std::move(result), std::move(judged.team.joint.team.graph)};
+  return {std::move(result), std::move(judged.team.joint.team.graph), std::move(places.closures)};
+}
+
+RunOutput estimate(const LoggedMission& logged, const Mission& measured, const MeasuredScans& scans,
+                   const RunParams& params, const RunOptions& options, const Progress& progress,
+                   StageClock& timed) {
+  const auto of_dimension = [&]<class Pose>(RunInput<Pose> input) {
+    for (const ScannedClosure& closure : logged.closures) {
+      const auto& [i, j, stamp_i, stamp_j] =
+          std::tie(closure.robot_i, closure.robot_j, closure.stamp_i, closure.stamp_j);
+      if (i == j)
+        input.scans.closures.push_back({i, stamp_i, stamp_j, loop_of(closure)});
+      else
+        input.places.push_back(closure_of_scan(i, stamp_i, j, stamp_j, loop_of(closure)));
+    }
+    return run(input, params, options, progress, timed);
+  };
+  RunOutput output = logged.mission.dimension == 2
+                         ? of_dimension(RunInput<SE2>{logged.mission, measured, nullptr, scans})
+                         : of_dimension(RunInput<SE3>{logged.mission, measured, nullptr, scans});
+  auto& notes = output.result.notes;
+  notes.insert(notes.begin(), logged.notes.begin(), logged.notes.end());
+  return output;
 }
 
 }  // namespace
@@ -390,12 +409,18 @@ RunOutput run_pipeline(const Mission& recorded, const RunParams& params, const R
 
 RunOutput run_pipeline(const Mission& recorded, const MeasuredRecordings& recordings, const RunParams& params,
                        const RunOptions& options, StageClock timed, const Progress& progress) {
-  const Mission& mission = recordings.mission ? *recordings.mission : recorded;
-  const MeasuredScans& scans = recordings.scans;
-  RunOutput output = mission.dimension == 2
-                         ? run<SE2>(mission, nullptr, scans, params, options, progress, timed)
-                         : run<SE3>(mission, nullptr, scans, params, options, progress, timed);
-  add_recording_results(output.result, mission, scans, recordings.csi, params, options, timed);
+  const Mission& measured = recordings.mission ? *recordings.mission : recorded;
+  const LoggedMission logged = timed("records", by_logs, measured, params.keyframe);
+  RunOutput output = estimate(logged, measured, recordings.scans, params, options, progress, timed);
+  add_recording_results(output.result, measured, recordings.scans, recordings.csi, params, options, timed);
+  output.result.timings = timed.timings();
+  return output;
+}
+
+RunOutput run_pipeline(const LoggedMission& logged, const RunParams& params, const RunOptions& options,
+                       const Progress& progress) {
+  StageClock timed;
+  RunOutput output = estimate(logged, logged.mission, {}, params, options, progress, timed);
   output.result.timings = timed.timings();
   return output;
 }
@@ -404,7 +429,7 @@ template <class Pose>
 RunOutput run_pipeline(const Mission& mission, const TeamGraph<Pose>& team, const RunParams& params,
                        const RunOptions& options, const Progress& progress) {
   StageClock timed;
-  RunOutput output = run(mission, &team, {}, params, options, progress, timed);
+  RunOutput output = run(RunInput<Pose>{mission, mission, &team}, params, options, progress, timed);
   output.result.timings = timed.timings();
   return output;
 }

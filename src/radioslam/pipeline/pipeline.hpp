@@ -1,6 +1,7 @@
 // Offline pipeline: estimates the joint trajectory of a team from its recorded mission.
 //
 //   measure    scans give odometry and loop closures of each robot, captures angles, WiFi scans fingerprints
+//   record     what every robot's log says of all that
 //   build      the joint graph: odometry, known starts, radio links, each robot's own closures
 //   align      all robots in one frame, and the team optimized there
 //   judge      closures between robots: propose where views overlap, select those that hold, solve; with
@@ -19,8 +20,9 @@
 #include "radioslam/mission/mission.hpp"
 #include "radioslam/odometry/scan_stage.hpp"
 #include "radioslam/pipeline/params.hpp"
-#include "radioslam/pipeline/stage_clock.hpp"
+#include "radioslam/results/stage_clock.hpp"
 #include "radioslam/radio/captures/csi_stage.hpp"
+#include "radioslam/records/mission_of_logs.hpp"
 #include "radioslam/results/results.hpp"
 
 namespace radioslam {
@@ -29,6 +31,7 @@ namespace radioslam {
 struct RunOutput {
   RunResult result;
   std::variant<PoseGraph2, PoseGraph3> graph;
+  std::vector<VerifiedClosure> places;  ///< found between robots by their scans, as verified
 };
 
 /// What raw recordings measure: laser scans the odometry and loop closures of each robot, CSI captures angles
@@ -44,14 +47,20 @@ MeasuredRecordings measure_recordings(const Mission& recorded, const RunParams& 
                                       const RunOptions& options, StageClock& timed,
                                       const Progress& progress = {});
 
-/// Estimates the joint trajectory of the team. Deterministic: the same mission and parameters give identical
-/// numbers for any number of threads. RunResult::parameters is left for the caller to fill.
+/// Estimates the joint trajectory of the team from what its robots' logs say of the mission, and from scans.
+/// Deterministic: the same mission and parameters give identical numbers for any number of threads.
+/// RunResult::parameters is left for the caller to fill.
 RunOutput run_pipeline(const Mission& recorded, const RunParams& params, const RunOptions& options = {},
                        const Progress& progress = {});
 
 /// The same from what its recordings measured, which several runs may share. `timed`: the stages so far.
 RunOutput run_pipeline(const Mission& recorded, const MeasuredRecordings& recordings, const RunParams& params,
                        const RunOptions& options = {}, StageClock timed = {}, const Progress& progress = {});
+
+/// The same from logs alone. Trajectories have the same bytes as those of the mission whose logs these are,
+/// if it has no scans and its robots are in the order of mission_of().
+RunOutput run_pipeline(const LoggedMission& logged, const RunParams& params, const RunOptions& options = {},
+                       const Progress& progress = {});
 
 /// The same for a team given as a factor graph; `mission` contains its robots and no other measurements.
 template <class Pose>

@@ -4,4 +4,4 @@ radioslam_room(pipeline
     occupancy_image.cpp
     pipeline.cpp
     run_results.cpp
-  ROOMS joint odometry closure consistency results)
+  ROOMS joint odometry closure consistency records results)

@@ -168,7 +168,7 @@ void add_uncertain_stretches(RunResult& result) {
 }  // namespace
 
 template <class Pose>
-RunResult describe_run(const Mission& mission, const RadioMeasurements& radio,
+RunResult describe_run(const Mission& mission, const Mission& measured, const RadioMeasurements& radio,
                        const TeamEstimate<Pose>& estimate, std::optional<OverlapStage> overlaps,
                        const RunParams& params, const RunOptions& options, StageClock& timed) {
   std::optional<JointGraph<Pose>> tied;
@@ -185,7 +185,7 @@ RunResult describe_run(const Mission& mission, const RadioMeasurements& radio,
   if (overlaps) add_overlaps(result, mission, std::move(*overlaps), options.take_candidates != nullptr);
   add_estimate(result, mission, joint, estimate.alignment, params.alignment.mixture, timed);
   for (std::size_t r = 0; r < mission.robots.size() && !options.overlap_only; ++r)
-    result.robots[r].dense = dense_trajectory<Pose>(mission, joint, nullptr, r, result.robots[r]).poses;
+    result.robots[r].dense = dense_trajectory<Pose>(measured, joint, nullptr, r, result.robots[r]).poses;
   add_rssi_offsets(result.robots, radio.rssi_offsets);
   if (is_laid_out_by_fingerprints(estimate, radio)) {
     widen_by_layout(result.robots, estimate.alignment);
@@ -217,11 +217,11 @@ RunResult describe_run(const Mission& mission, const RadioMeasurements& radio,
   return result;
 }
 
-template RunResult describe_run(const Mission&, const RadioMeasurements&, const TeamEstimate<SE2>&,
-                                std::optional<OverlapStage>, const RunParams&, const RunOptions&,
-                                StageClock&);
-template RunResult describe_run(const Mission&, const RadioMeasurements&, const TeamEstimate<SE3>&,
-                                std::optional<OverlapStage>, const RunParams&, const RunOptions&,
-                                StageClock&);
+template RunResult describe_run(const Mission&, const Mission&, const RadioMeasurements&,
+                                const TeamEstimate<SE2>&, std::optional<OverlapStage>, const RunParams&,
+                                const RunOptions&, StageClock&);
+template RunResult describe_run(const Mission&, const Mission&, const RadioMeasurements&,
+                                const TeamEstimate<SE3>&, std::optional<OverlapStage>, const RunParams&,
+                                const RunOptions&, StageClock&);
 
 }  // namespace radioslam

@@ -11,13 +11,14 @@
 #include "radioslam/joint/overlap_stage.hpp"
 #include "radioslam/joint/team_estimate.hpp"
 #include "radioslam/pipeline/params.hpp"
-#include "radioslam/pipeline/stage_clock.hpp"
+#include "radioslam/results/stage_clock.hpp"
 
 namespace radioslam {
 
-/// The results of the final estimate, without timings. `overlaps`: nothing if no pairs were searched for.
+/// The results of the final estimate, without timings. `measured`: the mission with all of its odometry, at
+/// whose samples trajectories are dense. `overlaps`: nothing if no pairs were searched for.
 template <class Pose>
-RunResult describe_run(const Mission& mission, const RadioMeasurements& radio,
+RunResult describe_run(const Mission& mission, const Mission& measured, const RadioMeasurements& radio,
                        const TeamEstimate<Pose>& estimate, std::optional<OverlapStage> overlaps,
                        const RunParams& params, const RunOptions& options, StageClock& timed);
 

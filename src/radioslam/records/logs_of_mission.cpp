@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <utility>
 
@@ -31,16 +32,41 @@ FactsRecord facts_of(const Mission& mission, const Robot& robot) {
   return facts;
 }
 
+/// Of the motion from one row to another, without the floor of an edge, which whoever reads the log adds.
+SE3::Jacobian covariance_of(const Trajectory<SE3>& odometry, std::size_t first_row, std::size_t last_row,
+                            const OdometryNoise& noise) {
+  OdometryEdge<SE3> edge;
+  for (std::size_t row = first_row; row < last_row; ++row)
+    append_sample(edge, odometry[row], odometry[row + 1], noise);
+  return edge.covariance;
+}
+
+/// As many readings as a record holds, in their order.
+std::vector<WifiReading> strongest(std::vector<WifiReading> readings) {
+  if (readings.size() <= kMaxReadings) return readings;
+  std::vector<float> levels;
+  for (const WifiReading& reading : readings) levels.push_back(reading.rssi_dbm);
+  const auto last = levels.begin() + (kMaxReadings - 1);
+  std::nth_element(levels.begin(), last, levels.end(), std::greater<>());
+  const float least = *last;
+  std::erase_if(readings, [least](const WifiReading& reading) { return reading.rssi_dbm < least; });
+  readings.resize(std::min(readings.size(), kMaxReadings));
+  return readings;
+}
+
 class RobotRecords {
  public:
-  RobotRecords(const Mission& mission, std::size_t r, const KeyframeParams& params)
+  RobotRecords(const Mission& mission, std::size_t r, const KeyframeParams& params,
+               const ScannedRecords& scanned)
       : mission_(mission),
+        scanned_(scanned),
         robot_(mission.robots[r]),
         index_(r),
         nodes_(nodes_at(robot_.odometry, keyframes_of(mission, RobotIndex(r), params))) {}
 
   RobotLog log(std::size_t& left_out) {
     add_measurements();
+    add_scanned();
     std::stable_sort(measured_.begin(), measured_.end(),
                      [](const Timed& a, const Timed& b) { return a.stamp < b.stamp; });
     RobotLog log{robot_.id, {}};
@@ -70,16 +96,9 @@ class RobotRecords {
     record.number = static_cast<std::uint32_t>(k);
     record.stamp = nodes_.stamps[k];
     record.T_before_this = k > 0 ? odometry[before].pose.inverse() * odometry[row].pose : odometry[row].pose;
-    if (k > 0 && !robot_.odometry_noise.steps.empty()) record.covariance = covariance(before, row);
+    if (k > 0 && !robot_.odometry_noise.steps.empty())
+      record.covariance = covariance_of(odometry, before, row, robot_.odometry_noise);
     return record;
-  }
-
-  /// Without the floor of an edge, which whoever reads the log adds.
-  SE3::Jacobian covariance(std::size_t first_row, std::size_t last_row) const {
-    OdometryEdge<SE3> edge;
-    for (std::size_t row = first_row; row < last_row; ++row)
-      append_sample(edge, nodes_.odometry[row], nodes_.odometry[row + 1], robot_.odometry_noise);
-    return edge.covariance;
   }
 
   std::optional<PoseAt> at(Stamp stamp) {
@@ -94,9 +113,14 @@ class RobotRecords {
 
   template <class OfKind>
   void add(Stamp stamp, OfKind record) {
+    add(stamp, stamp, std::move(record));
+  }
+  /// A measurement that is known later than it was made.
+  template <class OfKind>
+  void add(Stamp stamp, Stamp known, OfKind record) {
     if (const auto pose = at(stamp)) {
       record.at = *pose;
-      measured_.push_back({stamp, std::move(record)});
+      measured_.push_back({known, std::move(record)});
     }
   }
 
@@ -115,6 +139,10 @@ class RobotRecords {
           {stamp, AccessPointRecord{found->second, mission_.access_points[reading.access_point.index()],
                                     reading.frequency_mhz}});
     return found->second;
+  }
+
+  ClosureRecord closure_record(const auto& of) const {
+    return {{}, mission_.robots[of.robot_j.index()].id, of.stamp_j, of.T_i_j, of.covariance, {}, {}};
   }
 
   void add_measurements() {
@@ -136,7 +164,7 @@ class RobotRecords {
         continue;
       }
       FingerprintRecord fingerprint;
-      for (const WifiReading& reading : scan.readings)
+      for (const WifiReading& reading : strongest(scan.readings))
         fingerprint.readings.push_back({number_of(scan.stamp, reading), reading.rssi_dbm});
       std::stable_sort(fingerprint.readings.begin(), fingerprint.readings.end(),
                        [](const auto& a, const auto& b) { return a.number < b.number; });
@@ -144,12 +172,27 @@ class RobotRecords {
     }
     for (const PoseMatch& match : mission_.matches)
       if (match.robot_i == RobotIndex(index_))
-        add(match.stamp_i,
-            ClosureRecord{
-                {}, mission_.robots[match.robot_j.index()].id, match.stamp_j, match.T_i_j, match.covariance});
+        add(match.stamp_i, std::max(match.stamp_i, match.stamp_j), closure_record(match));
+  }
+
+  void add_scanned() {
+    for (const ScannedClosure& closure : scanned_.closures)
+      if (closure.robot_i == RobotIndex(index_)) {
+        ClosureRecord record = closure_record(closure);
+        record.inlier_ratio = closure.inlier_ratio;
+        record.doubt = closure.doubt;
+        add(closure.stamp_i, std::max(closure.stamp_i, closure.stamp_j), std::move(record));
+      }
+    for (const ScannedPlace& place : scanned_.places) {
+      if (place.robot != RobotIndex(index_)) continue;
+      DescriptorRecord record = place.grid;
+      record.keyframe = static_cast<std::uint32_t>(keyframe_before(nodes_.stamps, place.stamp));
+      measured_.push_back({place.stamp, std::move(record)});
+    }
   }
 
   const Mission& mission_;
+  const ScannedRecords& scanned_;
   const Robot& robot_;
   std::size_t index_;
   RobotNodes nodes_;
@@ -160,11 +203,11 @@ class RobotRecords {
 
 }  // namespace
 
-MissionLogs logs_of(const Mission& mission, const KeyframeParams& params) {
+MissionLogs logs_of(const Mission& mission, const KeyframeParams& params, const ScannedRecords& scanned) {
   MissionLogs logs;
   for (std::size_t r = 0; r < mission.robots.size(); ++r) {
     std::size_t left_out = 0;
-    logs.robots.push_back(RobotRecords(mission, r, params).log(left_out));
+    logs.robots.push_back(RobotRecords(mission, r, params, scanned).log(left_out));
     if (left_out > 0)
       logs.notes.push_back("log of robot " + mission.robots[r].id + ": " + std::to_string(left_out) +
                            " measurements are left out: outside its odometry, or beyond what a record holds");

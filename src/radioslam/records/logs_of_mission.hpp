@@ -6,6 +6,7 @@
 
 #include "radioslam/mission/keyframes.hpp"
 #include "radioslam/mission/mission.hpp"
+#include "radioslam/records/scanned_records.hpp"
 #include "radioslam/records/team_log.hpp"
 
 namespace radioslam {
@@ -18,7 +19,8 @@ struct MissionLogs {
 /// Records in order of time: facts and anchors, then keyframes and what was measured from them. A range is in
 /// the log of its first robot, angles in their receiver's, matches in that of robot i. What lies outside the
 /// odometry is left out, and so are raw scans, captures and inertial data: a log says what they measured
-/// (`mission` has their odometry and angles already).
-MissionLogs logs_of(const Mission& mission, const KeyframeParams& params);
+/// (`mission` has their odometry and angles already, `scanned` the rest). A closure is said when both of its
+/// ends are known. Of a fingerprint with more readings than a record holds, the strongest are said.
+MissionLogs logs_of(const Mission& mission, const KeyframeParams& params, const ScannedRecords& scanned = {});
 
 }  // namespace radioslam

@@ -6,8 +6,10 @@
 #include <optional>
 #include <set>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
+#include "radioslam/records/logs_of_mission.hpp"
 #include "radioslam/records/record_codec.hpp"
 
 namespace radioslam {
@@ -97,6 +99,41 @@ std::vector<Measured> in_order(std::vector<Placed<Measured>> placed) {
   return result;
 }
 
+/// Digits count as the number they are; names that are equal so far go by their letters.
+bool is_before(std::string_view a, std::string_view b) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  for (std::size_t i = 0, j = 0; i < a.size() && j < b.size(); ++i, ++j) {
+    if (is_digit(a[i]) && is_digit(b[j])) {
+      const auto number = [&](std::string_view text, std::size_t& at) {
+        const std::size_t begin = std::min(text.find_first_not_of('0', at), text.size());
+        for (at = begin; at < text.size() && is_digit(text[at]);) ++at;
+        return text.substr(begin, at-- - begin);
+      };
+      const std::string_view x = number(a, i), y = number(b, j);
+      if (x.size() != y.size()) return x.size() < y.size();
+      if (x != y) return x < y;
+    } else if (a[i] != b[j]) {
+      return a[i] < b[j];
+    }
+  }
+  return a.size() != b.size() ? a.size() < b.size() : a < b;
+}
+
+/// Gives keyframes the motion that the robot last said.
+void amend(std::vector<Record>& records) {
+  std::map<std::uint32_t, AmendedStep> amended;
+  for (const Record& record : records)
+    if (const auto* of = std::get_if<AmendmentRecord>(&record))
+      for (std::size_t k = 0; k < of->steps.size(); ++k)
+        amended[of->first + static_cast<std::uint32_t>(k)] = of->steps[k];
+  for (Record& record : records)
+    if (auto* keyframe = std::get_if<KeyframeRecord>(&record))
+      if (const auto found = amended.find(keyframe->number); found != amended.end()) {
+        keyframe->T_before_this = found->second.T_before_this;
+        keyframe->covariance = found->second.covariance;
+      }
+}
+
 template <class Kind, class Take>
 void for_each(const RobotRecords& robot, const Take& take) {
   for (std::size_t n = 0; n < robot.records.size(); ++n)
@@ -154,10 +191,11 @@ class LoggedMeasurements {
     return notes();
   }
 
-  void finish() && {
-    mission_.ranges = in_order(std::move(ranges_));
-    mission_.aoa_measurements = in_order(std::move(angles_));
-    mission_.matches = in_order(std::move(matches_));
+  void finish(LoggedMission& result) && {
+    result.mission.ranges = in_order(std::move(ranges_));
+    result.mission.aoa_measurements = in_order(std::move(angles_));
+    result.mission.matches = in_order(std::move(matches_));
+    result.closures = in_order(std::move(scanned_));
   }
 
  private:
@@ -178,11 +216,18 @@ class LoggedMeasurements {
   void add(const ClosureRecord& closure, std::size_t r, std::size_t n) {
     const auto other = names_.robots.find(closure.other);
     if (other == names_.robots.end()) return void(unknown_.insert(closure.other));
+    const RobotIndex i(r), j(other->second);
+    if (i == j && closure.at.stamp == closure.stamp_other) return;  // says nothing
+    if (closure.inlier_ratio)
+      return scanned_.push_back({closure.at.stamp,
+                                 r,
+                                 n,
+                                 {i, j, closure.at.stamp, closure.stamp_other, closure.T_i_j,
+                                  closure.covariance, *closure.inlier_ratio, closure.doubt}});
     matches_.push_back({closure.at.stamp,
                         r,
                         n,
-                        {RobotIndex(r), RobotIndex(other->second), closure.at.stamp, closure.stamp_other,
-                         closure.T_i_j, closure.covariance}});
+                        {i, j, closure.at.stamp, closure.stamp_other, closure.T_i_j, closure.covariance}});
   }
 
   AccessPoints access_points_of(const RobotRecords& of) const {
@@ -238,6 +283,7 @@ class LoggedMeasurements {
   std::vector<Placed<RangeMeasurement>> ranges_;
   std::vector<Placed<AoaMeasurement>> angles_;
   std::vector<Placed<PoseMatch>> matches_;
+  std::vector<Placed<ScannedClosure>> scanned_;
 };
 
 class MissionBuilder {
@@ -247,7 +293,10 @@ class MissionBuilder {
       RobotRecords& robot = robots_.emplace_back(RobotRecords{id, {}, log.gaps()});
       for (const auto& [number, bytes] : log.records)
         if (auto record = decode_record(bytes)) robot.records.push_back(*std::move(record));
+      amend(robot.records);
     }
+    std::sort(robots_.begin(), robots_.end(),
+              [](const auto& a, const auto& b) { return is_before(a.id, b.id); });
   }
 
   LoggedMission build() {
@@ -258,7 +307,7 @@ class MissionBuilder {
     LoggedMeasurements measurements(names_, result_.mission);
     for (std::size_t r = 0; r < robots_.size(); ++r)
       for (const std::string& text : measurements.add(robots_[r], r, chains_[r])) note(robots_[r], text);
-    std::move(measurements).finish();
+    std::move(measurements).finish(result_);
     return std::move(result_);
   }
 
@@ -369,5 +418,57 @@ class MissionBuilder {
 }  // namespace
 
 LoggedMission mission_of(const TeamLog& team) { return MissionBuilder(team).build(); }
+
+namespace {
+
+/// For each robot of the mission, the one of the log.
+std::vector<std::optional<std::size_t>> robots_in(const Mission& logged, const Mission& mission) {
+  std::vector<std::optional<std::size_t>> indices(mission.robots.size());
+  for (std::size_t r = 0; r < indices.size(); ++r)
+    for (std::size_t k = 0; k < logged.robots.size(); ++k)
+      if (logged.robots[k].id == mission.robots[r].id) indices[r] = k;
+  return indices;
+}
+
+}  // namespace
+
+LoggedMission by_logs(Mission mission, const KeyframeParams& params) {
+  const MissionLogs logs = logs_of(mission, params);
+  TeamLog team;
+  for (const RobotLog& log : logs.robots) team.add(log);
+  LoggedMission logged;
+  try {
+    logged = mission_of(team);
+  } catch (const std::runtime_error&) {  // robots that do not move, and nothing else
+    return {std::move(mission), {}, {}};
+  }
+  logged.notes.insert(logged.notes.end(), logs.notes.begin(), logs.notes.end());
+  std::vector<RobotIndex> index(logged.mission.robots.size());
+  const auto in_log = robots_in(logged.mission, mission);
+  for (std::size_t r = 0; r < mission.robots.size(); ++r) {
+    if (!in_log[r]) continue;
+    Robot &of = logged.mission.robots[*in_log[r]], &robot = mission.robots[r];
+    index[*in_log[r]] = RobotIndex(r);
+    robot.odometry = std::move(of.odometry);
+    robot.odometry_noise = std::move(of.odometry_noise);
+    robot.keyframes = std::move(of.keyframes);
+    robot.fixes = std::move(of.fixes);
+    robot.wifi = std::move(of.wifi);
+  }
+  const auto renumber = [&](RobotIndex& robot) {
+    if (robot.valid()) robot = index[robot.index()];
+  };
+  mission.anchors = std::move(logged.mission.anchors);
+  mission.access_points = std::move(logged.mission.access_points);
+  mission.ranges = std::move(logged.mission.ranges);
+  for (RangeMeasurement& range : mission.ranges) renumber(range.i.robot), renumber(range.j.robot);
+  mission.aoa_measurements = std::move(logged.mission.aoa_measurements);
+  for (AoaMeasurement& angles : mission.aoa_measurements)
+    renumber(angles.receiver), renumber(angles.transmitter.robot);
+  mission.matches = std::move(logged.mission.matches);
+  for (PoseMatch& match : mission.matches) renumber(match.robot_i), renumber(match.robot_j);
+  logged.mission = std::move(mission);
+  return logged;
+}
 
 }  // namespace radioslam

@@ -4,14 +4,17 @@
 #include <string>
 #include <vector>
 
+#include "radioslam/mission/keyframes.hpp"
 #include "radioslam/mission/mission.hpp"
+#include "radioslam/records/scanned_records.hpp"
 #include "radioslam/records/team_log.hpp"
 
 namespace radioslam {
 
 struct LoggedMission {
-  Mission mission;                 ///< robots by their names, measurements by time, robot and number
-  std::vector<std::string> notes;  ///< what is missing, and what was left out for want of it
+  Mission mission;  ///< robots by their names, 2 before 10; measurements by time, robot and number
+  std::vector<ScannedClosure> closures;  ///< of scans, by time, robot and number
+  std::vector<std::string> notes;        ///< what is missing, and what was left out for want of it
 };
 
 /// Depends on the records alone, not on the order in which they came. Odometry consists of the keyframes and
@@ -20,5 +23,9 @@ struct LoggedMission {
 /// or keyframes that are not known are left out. Throws std::runtime_error with one line if the logs do not
 /// make a mission: no robot with two keyframes, or robots of missions of different dimensions.
 LoggedMission mission_of(const TeamLog& team);
+
+/// The mission as its robots' logs describe it, in its own order of robots and with what no log says: raw
+/// recordings and names. A robot of which no log can be made stays as recorded, without its measurements.
+LoggedMission by_logs(Mission mission, const KeyframeParams& params);
 
 }  // namespace radioslam

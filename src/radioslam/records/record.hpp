@@ -98,13 +98,40 @@ struct ClosureRecord {
   Stamp stamp_other;
   SE3 T_i_j;  ///< of the other one's body in this one's
   SE3::Jacobian covariance = SE3::Jacobian::Identity();
+  std::optional<double> inlier_ratio;  ///< of scans that measured it; nothing where it was measured otherwise
+  std::optional<double> doubt;         ///< of scans: probability that another place explains them
 };
 
-using Record = std::variant<FactsRecord, AnchorRecord, KeyframeRecord, RangeRecord, AnglesRecord, FixRecord,
-                            AccessPointRecord, FingerprintRecord, ClosureRecord>;
+/// The largest number in a bin of a place's grid.
+inline constexpr std::uint8_t kMostBin = 15;
+
+/// The polar grid of a place (scan_context.hpp), by which other robots recognise it.
+struct DescriptorRecord {
+  std::uint32_t keyframe = 0;
+  bool is_occupancy = false;     ///< of a planar scanner; else heights
+  double range_m = 0, step = 0;  ///< of the grid; of a bin's number
+  std::uint32_t rings = 0, sectors = 0;
+  std::vector<std::uint8_t> bins;  ///< ring by ring, 0 where empty, at most kMostBin
+};
+
+/// A motion between keyframes as the robot now knows it.
+struct AmendedStep {
+  SE3 T_before_this;
+  std::optional<SE3::Jacobian> covariance;
+};
+/// The robot has changed its mind: of several amendments the last one holds.
+struct AmendmentRecord {
+  std::uint32_t first = 0;  ///< keyframe
+  std::vector<AmendedStep> steps;
+};
+
+using Record =
+    std::variant<FactsRecord, AnchorRecord, KeyframeRecord, RangeRecord, AnglesRecord, FixRecord,
+                 AccessPointRecord, FingerprintRecord, ClosureRecord, DescriptorRecord, AmendmentRecord>;
 
 /// The name of a record's kind, in the order of Record.
-inline constexpr const char* kRecordKinds[] = {"facts", "anchor",       "keyframe",    "range",  "angles",
-                                               "fix",   "access_point", "fingerprint", "closure"};
+inline constexpr const char* kRecordKinds[] = {"facts",   "anchor",     "keyframe",     "range",
+                                               "angles",  "fix",        "access_point", "fingerprint",
+                                               "closure", "descriptor", "amendment"};
 
 }  // namespace radioslam

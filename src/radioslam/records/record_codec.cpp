@@ -13,8 +13,9 @@
 namespace radioslam {
 namespace {
 
-constexpr std::size_t kMaxName = 200, kMaxPaths = 64, kMaxReadings = 255;
+constexpr std::size_t kMaxName = 200, kMaxPaths = 64, kMaxBins = 4096, kMaxAmended = 256;
 constexpr double kMaxMetres = 1e7;
+constexpr double kFine_m = 1e-4, kFine_rad = 1e-5;
 constexpr float kDecibelStep = 0.5F, kMostDecibels = 1000;
 constexpr std::int64_t kMaxNanoseconds = std::int64_t{1} << 61;
 constexpr double kRounding = 1e-6;  // what correlations lose, so that rounded covariances stay definite
@@ -79,6 +80,12 @@ class Writer {
   void operator()(bool value) { out_.byte(value ? 1 : 0); }
   void operator()(float value) { out_.f32(value); }
   void operator()(double value) { out_.f64(value); }
+  /// In 32 bits.
+  void real(double value) { out_.f32(static_cast<float>(value)); }
+  void real(const std::optional<double>& value) {
+    (*this)(value.has_value());
+    if (value) real(*value);
+  }
   void operator()(std::uint32_t value) { out_.whole(value); }
   void operator()(int value) { out_.byte(static_cast<std::uint8_t>(value)); }
   void operator()(Heading value) { out_.byte(static_cast<std::uint8_t>(value)); }
@@ -101,6 +108,43 @@ class Writer {
     (*this)(planar);
     for (int k = 0; k < (planar ? 2 : 3); ++k) out_.f32(static_cast<float>(t[k]));
     for (int k = planar ? 2 : 0; k < 3; ++k) out_.f32(static_cast<float>(r[k]));
+  }
+  /// A short motion, to a tenth of a millimetre and 10 microradians.
+  void fine(const SE3& T) {
+    const bool planar = is_planar(T);
+    const Eigen::Vector3d t = T.translation(), r = T.log().tail<3>();
+    (*this)(planar);
+    for (int k = 0; k < (planar ? 2 : 3); ++k) (*this)(Stamp{std::llround(t[k] / kFine_m)});
+    for (int k = planar ? 2 : 0; k < 3; ++k) (*this)(Stamp{std::llround(r[k] / kFine_rad)});
+  }
+  /// One that may be far from the origin.
+  void exact(const SE3& T) {
+    for (int k = 0; k < 3; ++k) out_.f64(T.translation()[k]);
+    const Eigen::Vector3d r = T.log().tail<3>();
+    for (int k = 0; k < 3; ++k) out_.f64(r[k]);
+  }
+  void exact(const std::optional<SE3>& T) {
+    (*this)(T.has_value());
+    if (T) exact(*T);
+  }
+  /// A bit for each, whether it is empty, then those that are not, two in a byte.
+  void bins(const std::vector<std::uint8_t>& bins, std::size_t /*count*/, bool is_occupancy) {
+    std::string full((bins.size() + 7) / 8, '\0');
+    for (std::size_t k = 0; k < bins.size(); ++k)
+      if (bins[k] != 0)
+        full[k / 8] = static_cast<char>(static_cast<unsigned char>(full[k / 8]) | (1U << (k % 8)));
+    out_.append(full);
+    if (is_occupancy) return;
+    std::string halves;
+    bool is_second = false;
+    for (const std::uint8_t bin : bins) {
+      if (bin == 0) continue;
+      if (!is_second) halves.push_back('\0');
+      halves.back() =
+          static_cast<char>(static_cast<unsigned char>(halves.back()) | (is_second ? bin << 4U : bin));
+      is_second = !is_second;
+    }
+    out_.append(halves);
   }
   /// Standard deviations, then correlations.
   void operator()(const SE3::Jacobian& covariance) {
@@ -149,6 +193,18 @@ class Writer {
   WireWriter out_;
 };
 
+std::string mac_text(WireReader& in) {
+  constexpr char kDigits[] = "0123456789abcdef";
+  std::string text;
+  for (int k = 0; k < 6; ++k) {
+    const unsigned byte = in.byte();
+    if (k > 0) text += ':';
+    text += kDigits[byte >> 4U];
+    text += kDigits[byte & 15U];
+  }
+  return text;
+}
+
 class Reader {
  public:
   explicit Reader(std::string_view bytes) : in_(bytes) {}
@@ -160,12 +216,16 @@ class Reader {
   }
   void operator()(float& value) { value = in_.f32(); }
   void operator()(double& value) { value = in_.f64(); }
+  void real(double& value) { value = static_cast<double>(in_.f32()); }
+  void real(std::optional<double>& value) {
+    optional(value, [this](double& of) { real(of); });
+  }
   void operator()(std::uint32_t& value) { value = in_.whole32(); }
   void operator()(int& value) { value = in_.byte(); }
   void operator()(Heading& value) {
-    const std::uint8_t byte = in_.byte();
-    if (byte > 1) in_.refuse();
-    value = byte == 1 ? Heading::kAbsolute : Heading::kRelative;
+    bool is_absolute = false;
+    (*this)(is_absolute);
+    value = is_absolute ? Heading::kAbsolute : Heading::kRelative;
   }
   void operator()(Stamp& value) {
     const std::uint64_t zigzag = in_.whole();
@@ -180,17 +240,37 @@ class Reader {
       for (int k = 0; k < 3; ++k) vector[k] = in_.f64();
   }
   void operator()(SE3& T) {
-    bool planar = false;
-    (*this)(planar);
-    Eigen::Vector3d t = Eigen::Vector3d::Zero(), r = Eigen::Vector3d::Zero();
-    for (int k = 0; k < (planar ? 2 : 3); ++k) t[k] = static_cast<double>(in_.f32());
-    for (int k = planar ? 2 : 0; k < 3; ++k) r[k] = static_cast<double>(in_.f32());
-    const double angle = r.norm();
-    if (!(t.cwiseAbs().maxCoeff() < kMaxMetres) || !(angle < 4)) in_.refuse();
+    pose(T, [this](double) { return static_cast<double>(in_.f32()); });
+  }
+  void fine(SE3& T) {
+    pose(T, [this](double step) {
+      Stamp count;
+      (*this)(count);
+      return step * static_cast<double>(count.ns);
+    });
+  }
+  void exact(SE3& T) {
+    std::array<double, 6> n{};
+    for (double& number : n) number = in_.f64();
+    set(T, {n[0], n[1], n[2]}, {n[3], n[4], n[5]});
+  }
+  void exact(std::optional<SE3>& T) {
+    optional(T, [this](SE3& of) { exact(of); });
+  }
+  void bins(std::vector<std::uint8_t>& bins, std::size_t count, bool is_occupancy) {
+    if (count > kMaxBins) return in_.refuse();
+    const std::string_view full = in_.take((count + 7) / 8);
     if (!in_.good()) return;
-    const Eigen::Quaterniond q =
-        angle > 0 ? Eigen::Quaterniond(Eigen::AngleAxisd(angle, r / angle)) : Eigen::Quaterniond::Identity();
-    T = SE3(t, q);
+    bins.resize(count);
+    unsigned halves = 0, left = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      if (((static_cast<unsigned char>(full[k / 8]) >> (k % 8)) & 1U) == 0) continue;
+      if (!is_occupancy && left == 0) halves = in_.byte(), left = 2;
+      bins[k] = is_occupancy ? 1 : static_cast<std::uint8_t>(halves & kMostBin);
+      halves >>= 4U, left -= is_occupancy ? 0 : 1;
+      if (bins[k] == 0) in_.refuse();
+    }
+    if (halves != 0) in_.refuse();
   }
   void operator()(SE3::Jacobian& covariance) {
     bool planar = false;
@@ -212,21 +292,11 @@ class Reader {
     bool is_mac = false;
     (*this)(is_mac);
     if (!is_mac) return (*this)(text);
-    text.clear();
-    for (int k = 0; k < 6; ++k) {
-      constexpr char kDigits[] = "0123456789abcdef";
-      const unsigned byte = in_.byte();
-      if (k > 0) text += ':';
-      text += kDigits[byte >> 4U];
-      text += kDigits[byte & 15U];
-    }
+    text = mac_text(in_);
   }
   template <class T>
   void operator()(std::optional<T>& value) {
-    bool has_value = false;
-    (*this)(has_value);
-    value.reset();
-    if (has_value) (*this)(value.emplace());
+    optional(value, *this);
   }
   template <class T, class Fields>
   void list(std::vector<T>& values, std::size_t most, const Fields& fields) {
@@ -254,6 +324,30 @@ class Reader {
   bool is_done() const { return in_.good() && in_.empty(); }
 
  private:
+  template <class T, class Read>
+  void optional(std::optional<T>& value, Read&& read) {
+    bool has_value = false;
+    (*this)(has_value);
+    value.reset();
+    if (has_value) read(value.emplace());
+  }
+  template <class Number>
+  void pose(SE3& T, const Number& number) {
+    bool planar = false;
+    (*this)(planar);
+    Eigen::Vector3d t = Eigen::Vector3d::Zero(), r = Eigen::Vector3d::Zero();
+    for (int k = 0; k < (planar ? 2 : 3); ++k) t[k] = number(kFine_m);
+    for (int k = planar ? 2 : 0; k < 3; ++k) r[k] = number(kFine_rad);
+    set(T, t, r);
+  }
+  void set(SE3& T, const Eigen::Vector3d& translation, const Eigen::Vector3d& rotation) {
+    const double angle = rotation.norm();
+    if (!(translation.cwiseAbs().maxCoeff() < kMaxMetres) || !(angle < 4)) in_.refuse();
+    if (!in_.good()) return;
+    T = SE3(translation, angle > 0 ? Eigen::Quaterniond(Eigen::AngleAxisd(angle, rotation / angle))
+                                   : Eigen::Quaterniond::Identity());
+  }
+
   WireReader in_;
 };
 
@@ -264,7 +358,7 @@ void visit_noise(Visitor& visit, Noise& noise) {
 }
 template <class Visitor, class At>
 void visit_at(Visitor& visit, At& at) {
-  visit(at.keyframe), visit(at.stamp), visit(at.T_keyframe_body);
+  visit(at.keyframe), visit(at.stamp), visit.fine(at.T_keyframe_body);
 }
 template <class Visitor, class Peer>
 void visit_peer(Visitor& visit, Peer& peer) {
@@ -277,30 +371,40 @@ void visit_fields(Visitor& visit, OfKind& record) {
   using Kind = std::remove_const_t<OfKind>;
   if constexpr (std::is_same_v<Kind, FactsRecord>) {
     visit(record.dimension), visit_noise(visit, record.noise), visit(record.heading);
-    visit(record.sigma_heading_rad), visit(record.initial_pose), visit(record.lidar_range_m);
+    visit(record.sigma_heading_rad), visit.exact(record.initial_pose), visit(record.lidar_range_m);
     visit(record.lidar_view_rad), visit(record.fix_lever_m);
   } else if constexpr (std::is_same_v<Kind, AnchorRecord>) {
     visit(record.anchor.id), visit(record.anchor.position_m), visit(record.anchor.sigma_m);
   } else if constexpr (std::is_same_v<Kind, KeyframeRecord>) {
-    visit(record.number), visit(record.stamp), visit(record.T_before_this), visit(record.covariance);
+    visit(record.number), visit(record.stamp);
+    record.number == 0 ? visit.exact(record.T_before_this) : visit(record.T_before_this);
+    visit(record.covariance);
   } else if constexpr (std::is_same_v<Kind, RangeRecord>) {
     visit_at(visit, record.at), visit(record.antenna), visit(record.lever_arm_m);
-    visit_peer(visit, record.other), visit(record.is_other_first), visit(record.range_m);
-    visit(record.sigma_m);
+    visit_peer(visit, record.other), visit(record.is_other_first), visit.real(record.range_m);
+    visit.real(record.sigma_m);
   } else if constexpr (std::is_same_v<Kind, AnglesRecord>) {
     visit_at(visit, record.at), visit_peer(visit, record.transmitter);
     visit.list(record.paths, kMaxPaths, [](auto& of, auto& path) {
-      of(path.azimuth_rad), of(path.elevation_rad), of(path.sigma_rad), of(path.power_db);
+      of.real(path.azimuth_rad), of.real(path.elevation_rad), of.real(path.sigma_rad), of.real(path.power_db);
     });
   } else if constexpr (std::is_same_v<Kind, FixRecord>) {
-    visit_at(visit, record.at), visit(record.position_m), visit(record.sigma_m);
+    visit_at(visit, record.at), visit(record.position_m), visit.real(record.sigma_m);
   } else if constexpr (std::is_same_v<Kind, AccessPointRecord>) {
     visit(record.number), visit.bssid(record.bssid), visit(record.frequency_mhz);
   } else if constexpr (std::is_same_v<Kind, FingerprintRecord>) {
     visit_at(visit, record.at), visit.readings(record.readings);
-  } else {
+  } else if constexpr (std::is_same_v<Kind, ClosureRecord>) {
     visit_at(visit, record.at), visit(record.other), visit(record.stamp_other), visit(record.T_i_j);
-    visit(record.covariance);
+    visit(record.covariance), visit.real(record.inlier_ratio), visit.real(record.doubt);
+  } else if constexpr (std::is_same_v<Kind, DescriptorRecord>) {
+    visit(record.keyframe), visit(record.is_occupancy), visit(record.range_m), visit(record.step);
+    visit(record.rings), visit(record.sectors);
+    visit.bins(record.bins, std::size_t{record.rings} * record.sectors, record.is_occupancy);
+  } else {
+    visit(record.first);
+    visit.list(record.steps, kMaxAmended,
+               [](auto& of, auto& step) { of(step.T_before_this), of(step.covariance); });
   }
 }
 
@@ -356,7 +460,18 @@ struct Validity {
                        [](const auto& reading) { return std::abs(reading.rssi_dbm) < kMostDecibels; });
   }
   bool operator()(const ClosureRecord& closure) const {
-    return is_time(closure.at.stamp) && is_time(closure.stamp_other) && is_record_name(closure.other);
+    const auto is_ratio = [](double x) { return x >= 0 && x <= 1; };
+    return is_time(closure.at.stamp) && is_time(closure.stamp_other) && is_record_name(closure.other) &&
+           is_ratio(closure.inlier_ratio.value_or(0)) && is_ratio(closure.doubt.value_or(0));
+  }
+  bool operator()(const DescriptorRecord& place) const {
+    return place.rings > 0 && place.sectors > 0 && place.bins.size() <= kMaxBins &&
+           place.bins.size() == std::size_t{place.rings} * place.sectors && is_sigma(place.range_m) &&
+           is_sigma(place.step) &&
+           std::all_of(place.bins.begin(), place.bins.end(), [](auto bin) { return bin <= kMostBin; });
+  }
+  bool operator()(const AmendmentRecord& amendment) const {
+    return !amendment.steps.empty() && amendment.steps.size() <= kMaxAmended;
   }
 };
 

@@ -12,6 +12,7 @@
 namespace radioslam {
 
 inline constexpr std::size_t kMaxRecordBytes = 8192;
+inline constexpr std::size_t kMaxReadings = 255;  ///< of a fingerprint
 
 /// Whether the text can be a name of a robot, anchor, antenna or access point: docs/formats.md,
 /// "Conventions".

@@ -10,7 +10,7 @@
 namespace radioslam {
 namespace {
 
-constexpr std::string_view kMagic = "RSL1";
+constexpr std::string_view kMagic = "RSL2";
 constexpr std::size_t kMaxChunkRecords = 256, kMaxChunkBytes = 60000, kMaxRefusals = 8, kMaxDamaged = 16;
 constexpr std::uint64_t kMaxRecords = std::uint64_t{1} << 40U;
 
@@ -86,10 +86,15 @@ std::string contradiction(const Chunk& chunk, const KnownLog* known) {
 
 }  // namespace
 
-std::string RobotLog::bytes(std::size_t first, std::size_t end) const {
-  end = std::min(end, records.size());
+std::uint32_t RobotLog::life() const {
   std::uint32_t life = crc32(robot);
   for (const std::string& record : records) life = crc32(record, life);
+  return life;
+}
+
+std::string RobotLog::bytes(std::size_t first, std::size_t end) const {
+  end = std::min(end, records.size());
+  const std::uint32_t life = this->life();
   std::string all;
   while (first < end) {
     std::size_t count = 0, size = 0;
@@ -124,6 +129,12 @@ std::vector<std::pair<std::uint64_t, std::uint64_t>> KnownLog::gaps() const {
     next = number + 1;
   }
   return gaps;
+}
+
+void TeamLog::add(const RobotLog& own) {
+  KnownLog& log = robots_[own.robot];
+  log.life = own.life();
+  for (std::size_t k = 0; k < own.records.size(); ++k) log.records.emplace(k, own.records[k]);
 }
 
 Acceptance TeamLog::accept(std::string_view bytes) {

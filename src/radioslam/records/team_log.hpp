@@ -1,7 +1,7 @@
 // The records of a team, as bytes that other machines can read, keep and pass on.
 //
 // A robot's records are said in chunks of at most 256 and 60 kB:
-//   "RSL1", name, life, number of the first record, count, bytes of each record, checksum (CRC-32)
+//   "RSL2", name, life, number of the first record, count, bytes of each record, checksum (CRC-32)
 // A log file is any sequence of chunks, of any robots. A log is a set: chunks may come in any order, repeated
 // or overlapping, and what is missing is known by its numbers. `life` says which recording of the robot it
 // is: two recordings do not mix.
@@ -25,7 +25,10 @@ struct RobotLog {
   std::string robot;
   std::vector<std::string> records;  ///< encoded
 
-  /// Its records from `first` up to before `end`, in chunks. The same records have the same life.
+  /// Which recording it is: a checksum of all records.
+  std::uint32_t life() const;
+
+  /// Its records from `first` up to before `end`, in chunks.
   std::string bytes(std::size_t first = 0, std::size_t end = std::numeric_limits<std::size_t>::max()) const;
 };
 
@@ -53,6 +56,8 @@ class TeamLog {
   /// chunk. Time linear in the bytes but for a logarithm of the records known, memory at most ten times
   /// theirs.
   Acceptance accept(std::string_view bytes);
+  /// Takes the whole log of a robot from the robot itself, unchecked.
+  void add(const RobotLog& own);
 
   /// By the robots' names.
   const std::map<std::string, KnownLog>& robots() const { return robots_; }

@@ -113,7 +113,7 @@ RunOutput estimate(MissionInput input, const RunParams& params, const RunArgumen
   RunOptions options;
   options.pruning = arguments.no_prune ? Pruning::kOff : Pruning::kOn;
   if (arguments.max_verifications) options.verifications = VerificationBudget{*arguments.max_verifications};
-  auto run = run_input(std::move(input), params, options, line.progress());
+  auto run = run_input(std::move(input), params, options, line.progress(), arguments.log);
   run.result.parameters = effective_parameters(params);
   return run;
 }
@@ -125,12 +125,8 @@ void run_mission(const RunArguments& options) {
   refuse_replacing_inputs(options.log, options.mission);
   OutputFolder output(options.output, kRunFolder);
   MissionInput input = read_input(options.mission, options.starts);
-  if (!options.log.empty()) {
-    if (!std::holds_alternative<std::monostate>(input.graph))
-      throw InputError("--log", 0, "is for missions: a factor graph is no recording");
-    ProgressLine line;
-    input = write_and_read_logs(input, params, options.log, line.progress());
-  }
+  if (!options.log.empty() && !input.is_recorded())
+    throw InputError("--log", 0, "is for missions: a factor graph or a log is no recording");
   const bool is_checked = !options.unchecked && std::holds_alternative<std::monostate>(input.graph);
   std::vector<std::string> notes = input.notes;
   std::vector<Finding> warnings;

@@ -114,6 +114,7 @@ MissionInput from_logs(const TeamLog& team, std::vector<std::string> notes, cons
   try {
     LoggedMission logged = mission_of(team);
     input.mission = std::move(logged.mission);
+    input.logged = std::move(logged.closures);
     input.notes = std::move(logged.notes);
   } catch (const std::runtime_error& error) {
     throw InputError(source, 0, error.what());
@@ -124,37 +125,24 @@ MissionInput from_logs(const TeamLog& team, std::vector<std::string> notes, cons
   return input;
 }
 
-/// Loop closures of the robots' own scans, as what a log says of them.
-void add_closures_of_scans(const MeasuredScans& scans, Mission& mission) {
-  for (const auto& [closure, judgement] : closures_of_scans(scans.closures))
+/// Those that hold on their own, as logs say them.
+void say(const std::vector<VerifiedClosure>& verified, ScannedRecords& records) {
+  for (const auto& [closure, judgement] : verified)
     if (judgement.status == ClosureStatus::kAccepted)
-      mission.matches.push_back({closure.robot_i, closure.robot_j, closure.stamp_i, closure.stamp_j,
-                                 closure.T_i_j, inverse<SE3::Jacobian>(closure.information)});
+      records.closures.push_back({closure.robot_i, closure.robot_j, closure.stamp_i, closure.stamp_j,
+                                  closure.T_i_j, inverse<SE3::Jacobian>(closure.information),
+                                  judgement.statistic, judgement.doubt});
 }
 
 }  // namespace
 
 MissionLogs logs_of_recordings(const Mission& recorded, const MeasuredRecordings& recordings,
-                               const RunParams& params) {
-  Mission measured = recordings.mission ? *recordings.mission : recorded;
-  add_closures_of_scans(recordings.scans, measured);
-  return logs_of(measured, params.keyframe);
-}
-
-MissionInput write_and_read_logs(const MissionInput& input, const RunParams& params,
-                                 const std::filesystem::path& folder, const Progress& progress) {
-  StageClock timed;
-  const MeasuredRecordings recordings = measure_recordings(input.mission, params, {}, timed, progress);
-  const MissionLogs logs = logs_of_recordings(input.mission, recordings, params);
-  write_logs(folder, logs.robots);
-  TeamLog team;
-  for (const RobotLog& log : logs.robots) team.accept(log.bytes());
-  MissionInput logged = from_logs(team, logs.notes, folder.string());
-  for (const Robot& robot : logged.mission.robots)
-    for (const RobotTruth& truth : input.truth.robots)
-      if (truth.id == robot.id) logged.truth.robots.push_back(truth);
-  if (logged.truth.robots.size() < logged.mission.robots.size()) logged.truth = {};
-  return logged;
+                               const RunParams& params, const std::vector<VerifiedClosure>& places) {
+  ScannedRecords scanned;
+  say(closures_of_scans(recordings.scans.closures), scanned);
+  say(places, scanned);
+  scanned.places = scanned_places(recordings.scans, params.places.descriptors, params.scans.loops.submap_m);
+  return logs_of(recordings.mission ? *recordings.mission : recorded, params.keyframe, scanned);
 }
 
 MissionInput read_input(const std::vector<std::string>& paths, StatedStarts starts) {
@@ -177,13 +165,23 @@ MissionInput read_input(const std::vector<std::string>& paths, StatedStarts star
 }
 
 RunOutput run_input(MissionInput input, const RunParams& params, const RunOptions& options,
-                    const Progress& progress) {
+                    const Progress& progress, const std::filesystem::path& log_folder) {
+  if (input.logged)
+    return run_pipeline(LoggedMission{std::move(input.mission), *std::move(input.logged), {}}, params,
+                        options, progress);
   return std::visit(
       [&](const auto& graph) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(graph)>, std::monostate>)
-          return run_pipeline(std::move(input.mission), params, options, progress);
-        else
+        if constexpr (std::is_same_v<std::decay_t<decltype(graph)>, std::monostate>) {
+          StageClock timed;
+          const auto recordings = measure_recordings(input.mission, params, options, timed, progress);
+          RunOutput run =
+              run_pipeline(input.mission, recordings, params, options, std::move(timed), progress);
+          if (!log_folder.empty())
+            write_logs(log_folder, logs_of_recordings(input.mission, recordings, params, run.places).robots);
+          return run;
+        } else {
           return run_pipeline(input.mission, graph, params, options, progress);
+        }
       },
       input.graph);
 }

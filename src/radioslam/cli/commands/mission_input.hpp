@@ -26,23 +26,24 @@ struct MissionInput {
   std::vector<std::uint64_t> pose_ids, point_ids;  ///< of a graph, as in TeamGraphFile
   std::vector<std::string> notes;                  ///< on what of a graph's file was left out
   std::variant<std::monostate, TeamGraph<SE2>, TeamGraph<SE3>> graph;
+  std::optional<std::vector<ScannedClosure>>
+      logged;  ///< closures of scans; nothing where the input is no log
+
+  bool is_recorded() const { return std::holds_alternative<std::monostate>(graph) && !logged; }
 };
 
-/// What each robot of the mission would have said, from what its recordings measured.
+/// What each robot of the mission would have said, from what its recordings measured. `places`: closures
+/// between robots by their scans.
 MissionLogs logs_of_recordings(const Mission& recorded, const MeasuredRecordings& recordings,
-                               const RunParams& params);
-
-/// Writes what each robot of the mission would have said, as `<robot>.rslog`, and returns what these logs
-/// say: the same as read_input() of the files, with the truth of the mission.
-MissionInput write_and_read_logs(const MissionInput& input, const RunParams& params,
-                                 const std::filesystem::path& folder, const Progress& progress);
+                               const RunParams& params, const std::vector<VerifiedClosure>& places = {});
 
 /// Reads one path, several g2o files, or logs of robots. Refuses stated starts to be used where the input
 /// states none, or is a mission folder, which always uses them.
 MissionInput read_input(const std::vector<std::string>& paths, StatedStarts starts = StatedStarts::kIgnored);
 
-/// Calls run_pipeline with the mission or with the graph.
+/// Calls run_pipeline with the mission, its logs or the graph. `log_folder`: where each robot of a recorded
+/// mission gets a file of what it would have said, `<robot>.rslog`; empty: nowhere.
 RunOutput run_input(MissionInput input, const RunParams& params, const RunOptions& options,
-                    const Progress& progress);
+                    const Progress& progress, const std::filesystem::path& log_folder = {});
 
 }  // namespace radioslam::cli

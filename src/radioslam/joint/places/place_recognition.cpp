@@ -43,6 +43,22 @@ void reject_repetitions(const std::vector<Proposal>& proposals, std::vector<Veri
 
 }  // namespace
 
+std::optional<VerificationBudget> budget_of_round(const PlaceParams& places,
+                                                  std::optional<VerificationBudget> given, std::size_t robots,
+                                                  int round, std::size_t done) {
+  constexpr int kBudgetedRounds = 2, kMaxDoublings = 30;
+  if (given) {
+    const auto rounds =
+        static_cast<std::size_t>(std::max(1, std::min(places.rounds, kBudgetedRounds) - round));
+    given->registrations = (given->registrations - done + rounds - 1) / rounds;
+  } else if (places.least_worth > 0) {
+    const auto first = static_cast<std::size_t>(places.first_round) * (robots * (robots - 1) / 2);
+    given = VerificationBudget{first << std::min(round, kMaxDoublings), VerificationBudget::Order::kWorth,
+                               places.least_worth, true};
+  }
+  return given;
+}
+
 bool has_comparable_scans(const MeasuredScans& scans) {
   int spatial = 0, planar = 0;
   for (const auto& robot : scans.robots)

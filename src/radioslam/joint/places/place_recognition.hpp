@@ -44,6 +44,13 @@ struct RecognisedPlaces {
 /// Whether two robots have scans that can be compared.
 bool has_comparable_scans(const MeasuredScans& scans);
 
+/// How many registrations a round gets, from 0 on, `done` before it. Of a budget that is `given`, equal
+/// shares of what is left; else as many as in all rounds before, as long as they are worth it; nothing: no
+/// bound.
+std::optional<VerificationBudget> budget_of_round(const PlaceParams& places,
+                                                  std::optional<VerificationBudget> given, std::size_t robots,
+                                                  int round, std::size_t done);
+
 template <class Pose>
 RecognisedPlaces recognise_places(const PlaceInput<Pose>& input, const PlaceParams& params,
                                   const ScanParams& scan_params, const RadioAlignmentParams& alignment,

@@ -1,10 +1,16 @@
 #include "radioslam/joint/places/scanned_robot.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <utility>
+
+#include "radioslam/geometry/linear_algebra.hpp"
 
 namespace radioslam {
 namespace {
+
+constexpr double kLeastApart_m = 1;  // of places whose grids are said; they look alike from any heading
 
 /// The least range of all robots' scanners of this kind.
 double common_range_m(const MeasuredScans& scans, ScannerKind kind) {
@@ -53,6 +59,47 @@ TeamDescriptors describe_places(const MeasuredScans& scans, const PlaceDescripto
     described.index = keyframe_index(keyframes, path_lengths(keyframes), described.range_m, submap_m, params);
   }
   return team;
+}
+
+std::vector<ScannedPlace> scanned_places(const MeasuredScans& scans, const PlaceDescriptorParams& params,
+                                         double submap_m) {
+  const TeamDescriptors team = describe_places(scans, params, submap_m);
+  std::vector<ScannedPlace> places;
+  for (std::size_t r = 0; r < team.robots.size(); ++r) {
+    if (!team.robots[r].index) continue;
+    const ScanOdometry& robot = *scans.robots[r];
+    std::optional<Eigen::Vector3d> last;
+    for (std::size_t k = 0; k < team.robots[r].index->size(); ++k) {
+      const ScanContext& context = team.robots[r].index->context(k);
+      const Eigen::Vector3d here = robot.keyframes.poses[k].translation();
+      if (context.empty() || (last && (here - *last).norm() < kLeastApart_m)) continue;
+      last = here;
+      ScannedPlace& place = places.emplace_back();
+      place.robot = RobotIndex(r);
+      place.stamp = robot.keyframe_stamps[k];
+      DescriptorRecord& grid = place.grid;
+      grid.is_occupancy = robot.keyframes.kind == ScannerKind::kPlanar;
+      grid.range_m = team.robots[r].range_m;
+      grid.step = static_cast<double>(context.bins().maxCoeff()) / (grid.is_occupancy ? 1 : kMostBin);
+      grid.rings = static_cast<std::uint32_t>(context.rings());
+      grid.sectors = static_cast<std::uint32_t>(context.sectors());
+      for (Eigen::Index i = 0; i < context.bins().rows(); ++i)
+        for (Eigen::Index j = 0; j < context.bins().cols(); ++j) {
+          const double steps = static_cast<double>(context.bins()(i, j)) / grid.step;
+          grid.bins.push_back(steps > 0 ? static_cast<std::uint8_t>(std::max(1L, std::lround(steps))) : 0);
+        }
+    }
+  }
+  return places;
+}
+
+ScanLoop loop_of(const ScannedClosure& said) {
+  ScanLoop loop;
+  loop.T_i_j = said.T_i_j;
+  loop.information = inverse<SE3::Jacobian>(said.covariance);
+  loop.inlier_ratio = said.inlier_ratio;
+  loop.doubt = said.doubt;
+  return loop;
 }
 
 }  // namespace radioslam

@@ -10,6 +10,7 @@
 #include "radioslam/places/keyframe_contexts.hpp"
 #include "radioslam/places/loops/expected_place.hpp"
 #include "radioslam/places/scan_context_index.hpp"
+#include "radioslam/records/scanned_records.hpp"
 
 namespace radioslam {
 
@@ -28,6 +29,13 @@ struct TeamDescriptors {
 /// little at once: its grids are of all scans within `submap_m`.
 TeamDescriptors describe_places(const MeasuredScans& scans, const PlaceDescriptorParams& params,
                                 double submap_m);
+
+/// These descriptors as records, one a metre, in steps of a 15th of the highest bin.
+std::vector<ScannedPlace> scanned_places(const MeasuredScans& scans, const PlaceDescriptorParams& params,
+                                         double submap_m);
+
+/// A closure that was said in a log.
+ScanLoop loop_of(const ScannedClosure& said);
 
 /// A robot's keyframes as its scans place them. All must outlive the result. `contexts`: null where places
 /// that look alike are not searched.
