@@ -14,6 +14,7 @@ add_library(radioslam_cli STATIC
   cli/commands/command_optimize.cpp
   cli/commands/command_options.cpp
   cli/commands/command_parameters.cpp
+  cli/commands/command_poses.cpp
   cli/commands/command_prune.cpp
   cli/commands/command_rendezvous.cpp
   cli/commands/command_reproduce.cpp

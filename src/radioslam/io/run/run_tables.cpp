@@ -110,17 +110,6 @@ std::string weights_field(const std::vector<double>& weights) {
 }
 
 /// Seven fields, empty without a pose.
-void append_pose_fields(std::string& out, const std::optional<SE3>& pose) {
-  if (!pose) {
-    out.append(7, ',');
-    return;
-  }
-  const Eigen::Vector3d& p = pose->translation();
-  const Eigen::Quaterniond& q = pose->rotation();
-  for (const double number : {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()})
-    append_number(out += ',', number);
-}
-
 std::optional<SE3> pose_in(const CsvReader& csv, std::size_t column) {
   for (std::size_t k = 0; k < 7; ++k)
     if (!csv.given(column + k)) return std::nullopt;
@@ -214,6 +203,17 @@ std::string format_closures(const std::vector<ClosureResult>& closures, std::spa
     out += '\n';
   }
   return out;
+}
+
+void append_pose_fields(std::string& out, const std::optional<SE3>& pose) {
+  if (!pose) {
+    out.append(7, ',');
+    return;
+  }
+  const Eigen::Vector3d& p = pose->translation();
+  const Eigen::Quaterniond& q = pose->rotation();
+  for (const double number : {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()})
+    append_number(out += ',', number);
 }
 
 std::string format_uncertainty(const std::vector<RobotResult>& robots) {

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -44,6 +45,8 @@ class CandidateWriter {
   std::vector<std::vector<std::string>> ends_;  ///< "id,stamp" per robot and keyframe
   std::vector<std::string> pieces_;
 };
+/// ",x,y,z,qx,qy,qz,qw", empty fields without a pose.
+void append_pose_fields(std::string& out, const std::optional<SE3>& pose);
 /// A list in one call.
 void write_candidates(const std::filesystem::path& path, const CandidateList& candidates,
                       std::span<const std::string> ids);
