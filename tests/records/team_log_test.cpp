@@ -145,16 +145,22 @@ TEST(MissionLogs, TheLastAmendmentHolds) {
   EXPECT_NEAR(covariance(0, 0), 0.09, 1e-4);
 }
 
-TEST(MissionLogs, PutRobotsInTheOrderOfTheirNumbers) {
-  TeamLog team;
-  for (const char* id : {"r10", "r2", "r02", "r", "q11"}) {
-    RobotLog log = logs_of_circling(20).robots[1];
-    log.robot = id;
-    team.add(log);
-  }
-  std::string order;
-  for (const Robot& robot : mission_of(team).mission.robots) order += robot.id + " ";
-  EXPECT_EQ(order, "q11 r r2 r02 r10 ");
+TEST(MissionLogs, PutRobotsInTheOrderOfTheirNamesOrNumbers) {
+  const auto order = [](const std::vector<std::string>& ids) {
+    TeamLog team;
+    for (const std::string& id : ids) {
+      RobotLog log = logs_of_circling(20).robots[1];
+      log.robot = id;
+      team.add(log);
+    }
+    std::string text;
+    for (const Robot& robot : mission_of(team).mission.robots) text += robot.id + " ";
+    return text;
+  };
+  EXPECT_EQ(order({"r10", "r2", "r1"}), "r1 r2 r10 ");
+  EXPECT_EQ(order({"r10", "r2", "s1"}), "r10 r2 s1 ");
+  EXPECT_EQ(order({"f91", "f8a", "f100"}), "f100 f8a f91 ");
+  EXPECT_EQ(order({"bob", "alice"}), "alice bob ");
 }
 
 TEST(ByLogs, KeepsTheOrderOfRobotsAndWhatNoLogSays) {

@@ -6,7 +6,6 @@
 #include <optional>
 #include <set>
 #include <stdexcept>
-#include <string_view>
 #include <utility>
 
 #include "radioslam/records/logs_of_mission.hpp"
@@ -99,24 +98,15 @@ std::vector<Measured> in_order(std::vector<Placed<Measured>> placed) {
   return result;
 }
 
-/// Digits count as the number they are; names that are equal so far go by their letters.
-bool is_before(std::string_view a, std::string_view b) {
-  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-  for (std::size_t i = 0, j = 0; i < a.size() && j < b.size(); ++i, ++j) {
-    if (is_digit(a[i]) && is_digit(b[j])) {
-      const auto number = [&](std::string_view text, std::size_t& at) {
-        const std::size_t begin = std::min(text.find_first_not_of('0', at), text.size());
-        for (at = begin; at < text.size() && is_digit(text[at]);) ++at;
-        return text.substr(begin, at-- - begin);
-      };
-      const std::string_view x = number(a, i), y = number(b, j);
-      if (x.size() != y.size()) return x.size() < y.size();
-      if (x != y) return x < y;
-    } else if (a[i] != b[j]) {
-      return a[i] < b[j];
-    }
+/// Whether the names differ in a number at their ends alone.
+bool are_numbered(const std::vector<RobotRecords>& robots) {
+  std::set<std::string> names;
+  for (const RobotRecords& robot : robots) {
+    const std::size_t last = robot.id.find_last_not_of("0123456789") + 1;
+    if (last == robot.id.size()) return false;
+    names.insert(robot.id.substr(0, last));
   }
-  return a.size() != b.size() ? a.size() < b.size() : a < b;
+  return names.size() == 1;
 }
 
 /// Gives keyframes the motion that the robot last said.
@@ -295,8 +285,9 @@ class MissionBuilder {
         if (auto record = decode_record(bytes)) robot.records.push_back(*std::move(record));
       amend(robot.records);
     }
-    std::sort(robots_.begin(), robots_.end(),
-              [](const auto& a, const auto& b) { return is_before(a.id, b.id); });
+    if (are_numbered(robots_))
+      std::stable_sort(robots_.begin(), robots_.end(),
+                       [](const auto& a, const auto& b) { return a.id.size() < b.id.size(); });
   }
 
   LoggedMission build() {

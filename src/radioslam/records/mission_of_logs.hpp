@@ -12,7 +12,7 @@
 namespace radioslam {
 
 struct LoggedMission {
-  Mission mission;  ///< robots by their names, 2 before 10; measurements by time, robot and number
+  Mission mission;  ///< robots by name, or by the number that ends it; measurements by time, robot and record
   std::vector<ScannedClosure> closures;  ///< of scans, by time, robot and number
   std::vector<std::string> notes;        ///< what is missing, and what was left out for want of it
 };
