@@ -12,6 +12,7 @@ void add_run(CLI::App& program);
 void add_prune(CLI::App& program);
 void add_doctor(CLI::App& program);
 void add_log(CLI::App& program);
+void add_map(CLI::App& program);
 void add_poses(CLI::App& program);
 void add_evaluate(CLI::App& program);
 void add_optimize(CLI::App& program);

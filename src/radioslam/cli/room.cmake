@@ -11,6 +11,7 @@ add_library(radioslam_cli STATIC
   cli/commands/command_evaluate.cpp
   cli/commands/command_import.cpp
   cli/commands/command_log.cpp
+  cli/commands/command_map.cpp
   cli/commands/command_optimize.cpp
   cli/commands/command_options.cpp
   cli/commands/command_parameters.cpp
@@ -25,6 +26,7 @@ add_library(radioslam_cli STATIC
   cli/commands/distributed_optimization.cpp
   cli/commands/evaluated_estimate.cpp
   cli/commands/evaluation.cpp
+  cli/commands/map_output.cpp
   cli/commands/mission_check.cpp
   cli/commands/mission_input.cpp
   cli/commands/output_path_check.cpp

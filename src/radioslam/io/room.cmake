@@ -33,6 +33,7 @@ radioslam_room(io
     lidar/pcd.cpp
     lidar/point_table.cpp
     lidar/point_times.cpp
+    map/map_files.cpp
     mission/anchor_tables.cpp
     mission/mission_folder.cpp
     mission/mission_output.cpp
@@ -91,6 +92,6 @@ radioslam_room(io
     wifi/wifi_csv.cpp
     wifi/wifi_log.cpp
     wifi/wifi_scan_log.cpp
-  ROOMS graph rendezvous mission records radio results eval
+  ROOMS graph rendezvous mission map records radio results eval
   LIBRARIES nlohmann_json::nlohmann_json
   PRIVATE_LIBRARIES yaml-cpp Zstd::Zstd BZip2::BZip2 ZLIB::ZLIB Lz4::Lz4 SQLite::SQLite3 Pcap::Pcap)

@@ -1,4 +1,4 @@
-// Filters a scan's points and deskews them by a constant twist of the body over the sweep (deskew.hpp).
+// Filters a scan's points and deskews them by the motion of the body over the sweep (deskew.hpp).
 //
 // Points are dropped if they or their times are not finite, if they are nearer than `min_range_m` (the robot
 // itself) or farther than `max_range_m`, or if their time is more than `max_time_s` from the stamp.
@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "radioslam/base/fields.hpp"
@@ -50,9 +51,14 @@ struct PointCounts {
 struct ScanPoints {
   std::vector<Eigen::Vector3f> points;  ///< in the body frame at the scan's stamp
   std::vector<float> times_s;           ///< of each point since the stamp; empty if unknown
+  std::vector<float> intensities;       ///< of each point; empty if not recorded
   PointCounts counts;
   double middle_s = 0;  ///< median of the times; 0 without times
 };
+
+/// `pose_at(time_s)`: of the body in its frame at the stamp; not called for scans without point times.
+ScanPoints filter_and_deskew(const LidarScan& scan, const std::function<SE3(double time_s)>& pose_at,
+                             const ScanPointParams& params);
 
 /// `twist_per_s`: of the body, T(t) = T(stamp) Exp(t twist); unused for scans without point times.
 ScanPoints filter_and_deskew(const LidarScan& scan, const SE3::Tangent& twist_per_s,

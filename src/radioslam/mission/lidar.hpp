@@ -18,6 +18,8 @@ struct LidarScan {
   std::vector<Eigen::Vector3f> points;
   /// Time of every point relative to the scan's stamp, seconds, may be negative; empty if unknown.
   std::vector<float> times_s;
+  /// Strength of every return, in the scanner's own units; empty if not recorded.
+  std::vector<float> intensities;
 };
 
 /// A robot's scans.

@@ -94,12 +94,16 @@ StampedScan joined(const std::vector<StampedScan>& slices) {
   const bool has_times = slices.back().stamp != sweep.stamp ||
                          std::any_of(slices.begin(), slices.end(),
                                      [](const auto& slice) { return !slice.scan.times_s.empty(); });
+  const bool has_intensities = std::all_of(slices.begin(), slices.end(), [](const auto& slice) {
+    return slice.scan.intensities.size() == slice.scan.points.size();
+  });
   for (const StampedScan& slice : slices) {
     const auto offset_s = static_cast<float>(seconds_between(sweep.stamp, slice.stamp));
     for (std::size_t k = 0; k < slice.scan.points.size(); ++k) {
       sweep.scan.points.push_back(slice.scan.points[k]);
       const float time_s = slice.scan.times_s.empty() ? 0 : slice.scan.times_s[k];
       if (has_times) sweep.scan.times_s.push_back(offset_s + time_s);
+      if (has_intensities) sweep.scan.intensities.push_back(slice.scan.intensities[k]);
     }
   }
   return sweep;

@@ -18,9 +18,9 @@
 #include "radioslam/joint/places/verification_budget.hpp"
 #include "radioslam/joint/position_fixes/placement.hpp"
 #include "radioslam/joint/sequence_stage.hpp"
+#include "radioslam/map/map_params.hpp"
 #include "radioslam/mission/keyframes.hpp"
 #include "radioslam/odometry/scan_stage.hpp"
-#include "radioslam/pipeline/occupancy_image.hpp"
 #include "radioslam/radio/aoa/aoa_likelihood.hpp"
 #include "radioslam/radio/captures/csi_params.hpp"
 #include "radioslam/radio/fingerprints/measurements.hpp"
@@ -34,7 +34,6 @@ struct RunParams {
   KeyframeParams keyframe;
   RadioParams radio;
   ScanParams scans;
-  OccupancyImageParams occupancy_image;
   CsiStageParams csi;
   LayoutParams team_frame;
   FieldParams field;
@@ -51,6 +50,7 @@ struct RunParams {
   AoaLikelihoodParams angles;
   AoaIntegrityParams angle_check;
   AccessPointStageParams access_points;
+  MapParams map;
   RobustParams robust;
   /// Predicted fingerprint distances are accurate to metres, so a tighter tolerance changes nothing.
   OptimizerParams optimizer{.max_iterations = 30, .relative_cost_tolerance = 1e-5};
@@ -60,7 +60,6 @@ struct RunParams {
     visit("keyframe", self.keyframe);
     visit("radio", self.radio);
     ScanParams::visit_sections(self.scans, visit);
-    visit("occupancy_image", self.occupancy_image);
     visit("csi", self.csi);
     visit("team_frame", self.team_frame);
     visit("field", self.field);
@@ -77,6 +76,7 @@ struct RunParams {
     visit("angles", self.angles);
     visit("angle_check", self.angle_check);
     visit("access_points", self.access_points);
+    visit("map", self.map);
     visit("robust", self.robust);
     visit("optimizer", self.optimizer);
   }

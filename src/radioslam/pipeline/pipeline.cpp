@@ -15,7 +15,6 @@
 #include "radioslam/joint/position_fixes/component_placement.hpp"
 #include "radioslam/joint/uncertainty/position_uncertainty.hpp"
 #include "radioslam/odometry/scan_stage.hpp"
-#include "radioslam/pipeline/occupancy_image.hpp"
 #include "radioslam/pipeline/run_results.hpp"
 #include "radioslam/radio/captures/csi_aoa.hpp"
 #include "radioslam/radio/captures/csi_stage.hpp"
@@ -69,12 +68,8 @@ void add_angles(Mission& mission, const std::vector<AoaMeasurement>& measured) {
 bool is_not_empty(const MeasuredCsi& csi) { return !csi.aoa_measurements.empty() || !csi.notes.empty(); }
 
 /// Adds the results of these recordings to those of a run on the same mission.
-void add_recording_results(RunResult& result, const Mission& mission, const MeasuredScans& scans,
-                           MeasuredCsi csi, const RunParams& params, const RunOptions& options,
-                           StageClock& timed) {
+void add_recording_results(RunResult& result, const MeasuredScans& scans, MeasuredCsi csi) {
   if (scans.scans > 0) count_scans(result, scans);
-  if (has_scans(mission) && !options.overlap_only)
-    timed("scan picture", add_occupancy_images, result, mission, params.scans.lidar, params.occupancy_image);
   if (is_not_empty(csi)) result.counts["aoa_measurements"] = static_cast<double>(csi.aoa_measurements.size());
   result.notes.insert(result.notes.end(), scans.notes.begin(), scans.notes.end());
   for (auto& note : csi.notes) result.notes.push_back(std::move(note));
@@ -412,7 +407,7 @@ RunOutput run_pipeline(const Mission& recorded, const MeasuredRecordings& record
   const Mission& measured = recordings.mission ? *recordings.mission : recorded;
   const LoggedMission logged = timed("records", by_logs, measured, params.keyframe);
   RunOutput output = estimate(logged, measured, recordings.scans, params, options, progress, timed);
-  add_recording_results(output.result, measured, recordings.scans, recordings.csi, params, options, timed);
+  add_recording_results(output.result, recordings.scans, recordings.csi);
   output.result.timings = timed.timings();
   return output;
 }

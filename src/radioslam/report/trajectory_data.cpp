@@ -8,37 +8,6 @@
 namespace radioslam {
 namespace {
 
-// Page data of a robot's occupancy image: {"cell_m", "scans", "cells", "x", "y", "yaw", "rows", "hits"}.
-
-constexpr int kMaxDigit = 9;
-
-char hits_digit(int hits) {
-  int digit = 1;
-  for (int left = hits; left > 1 && digit < kMaxDigit; left /= 2) ++digit;
-  return static_cast<char>('0' + digit);
-}
-
-/// Cell (i, j) is at T (i cell_m, j cell_m), T = [x, y, yaw] into the page's frame. Per row of cells, "rows"
-/// contains [j, i of the first cell, increments of i to each of the others]; "hits" contains a string per row
-/// with a digit per cell: 1 + floor(log2(hits)), at most 9.
-PageData picture_data(const OccupancyImageResult& picture, const SE3& T_page_estimate) {
-  PageData rows = PageData::array(), hits = PageData::array();
-  for (std::size_t begin = 0, end = 0; begin < picture.cells.size(); begin = end) {
-    PageData row{picture.cells[begin].y, picture.cells[begin].x};
-    std::string digits;
-    for (end = begin; end < picture.cells.size() && picture.cells[end].y == picture.cells[begin].y; ++end) {
-      if (end > begin) row.push_back(picture.cells[end].x - picture.cells[end - 1].x);
-      digits += hits_digit(picture.cells[end].hits);
-    }
-    rows.push_back(std::move(row));
-    hits.push_back(std::move(digits));
-  }
-  const Eigen::Vector3d t = T_page_estimate.translation();
-  return {{"cell_m", picture.cell_m}, {"scans", picture.scans}, {"cells", picture.cells.size()},
-          {"x", rounded(t.x(), 3)},   {"y", rounded(t.y(), 3)}, {"yaw", rounded(T_page_estimate.yaw(), 6)},
-          {"rows", std::move(rows)},  {"hits", std::move(hits)}};
-}
-
 std::size_t budget(int maximum) { return static_cast<std::size_t>(std::max(maximum, 2)); }
 
 const RobotTruth* truth_of(const std::string& id, const Truth* truth) {
@@ -161,7 +130,6 @@ PageData robot_data(const RobotResult& robot, std::size_t component, const Traje
                 {"scale_error", rounded_relative(robot.scale_error)}};
   add_paths(data, robot, context, params);
   add_evaluation(data, robot, context, params);
-  if (robot.picture) data["picture"] = picture_data(*robot.picture, context.T_page_estimate);
   if (robot.fixes) data["fixes"] = fixes_data(*robot.fixes);
   return data;
 }

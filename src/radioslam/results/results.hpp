@@ -13,6 +13,7 @@
 #include "radioslam/geometry/trajectory.hpp"
 #include "radioslam/mission/radio_links.hpp"
 #include "radioslam/results/candidate_list.hpp"
+#include "radioslam/results/map_result.hpp"
 
 namespace radioslam {
 
@@ -41,19 +42,6 @@ struct FixResult {
   std::string unused;                  ///< reason why none was used; empty if some were
 };
 
-/// Cell of an occupancy image, seen from above.
-struct ScanCell {
-  std::int32_t x = 0, y = 0;  ///< the cell covers [x * cell_m, (x + 1) * cell_m), and the same in y
-  int hits = 0;               ///< number of scans with returns in it; for 3D scanners, number of heights
-};
-
-/// Occupancy image of a robot's scans from above, in the frame of its estimate.
-struct OccupancyImageResult {
-  double cell_m = 0;
-  std::size_t scans = 0;        ///< number of scans used
-  std::vector<ScanCell> cells;  ///< by y, then by x
-};
-
 /// Consecutive keyframes behind a gap of the odometry that nothing ties to the rest of the trajectory.
 struct UntiedStretch {
   Stamp first, last;
@@ -80,7 +68,6 @@ struct RobotResult {
   bool start_known = false;                             ///< the mission specifies its start
   bool placed = true;                                   ///< false: nothing connects it to its component
   std::optional<FixResult> fixes = {};                  ///< absent if it has none
-  std::optional<OccupancyImageResult> picture = {};     ///< absent if it has no scans
 };
 
 /// Origin of a closure; kFile: a relative pose of a factor graph that is not odometry.
@@ -272,6 +259,7 @@ struct RunResult {
   double weight = 1;                           ///< of `robots` among the hypotheses
   std::vector<HypothesisResult> alternatives;  ///< most likely first
   std::optional<ExchangeResult> exchange;      ///< of a distributed overlap search
+  std::vector<MapResult> maps;                 ///< by component; of robots with scans
   std::map<std::string, double> counts;
   std::vector<StageTiming> timings;
   std::vector<EffectiveParameter> parameters;

@@ -16,6 +16,7 @@
 #include "radioslam/cli/commands.hpp"
 #include "radioslam/cli/commands/command_options.hpp"
 #include "radioslam/cli/commands/evaluation.hpp"
+#include "radioslam/cli/commands/map_output.hpp"
 #include "radioslam/cli/commands/mission_check.hpp"
 #include "radioslam/cli/commands/mission_input.hpp"
 #include "radioslam/cli/commands/output_path_check.hpp"
@@ -132,7 +133,9 @@ void run_mission(const RunArguments& options) {
   std::vector<Finding> warnings;
   if (is_checked) warnings = warnings_about(input.mission, input.truth, options.mission.front());
   const MissionInput given = for_evaluation(input);
+  auto scanned = scans_of(input.mission);
   RunOutput run = estimate(std::move(input), params, options);
+  add_maps(run.result, std::move(scanned), params, ProgressLine().progress(), output.path());
   const Agreement agreement = evaluate(run.result, given);
   append(notes, finding_notes(warnings, run.result));
   append(notes, std::move(run.result.notes));
@@ -176,6 +179,8 @@ void add_run(CLI::App& program) {
   add_threads_option(*command);
   command->footer(
       "The output folder holds <robot>.tum (keyframes), dense/<robot>.tum (every odometry sample or scan),\n"
+      "with LiDAR scans the team's map as map.ply, map.pgm and map.yaml (also of an earlier run: `radioslam "
+      "map`),\n"
       "closures.csv, candidates.csv, uncertainty.csv, graph.g2o, summary.json and report.html.\n"
       "`radioslam parameters run` lists the parameters for --set and --config.\n\n"
       "Example:\n"

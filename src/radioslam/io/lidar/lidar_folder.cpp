@@ -7,6 +7,7 @@
 #include "radioslam/base/input_error.hpp"
 #include "radioslam/io/lidar/bin_layout.hpp"
 #include "radioslam/io/lidar/pcd.hpp"
+#include "radioslam/io/lidar/point_table.hpp"
 #include "radioslam/io/text/atomic_output.hpp"
 #include "radioslam/io/text/byte_view.hpp"
 #include "radioslam/io/text/numbers.hpp"
@@ -56,18 +57,23 @@ LidarScan read_bin(const fs::path& file) {
                      InputError::Kind::kColumnOrder);
   const ByteView view(bytes, ByteOrder::kLittle);
   LidarScan scan;
-  scan.points.reserve(bytes.size() / kBinPointBytes);
-  for (std::size_t at = 0; at < bytes.size(); at += kBinPointBytes)
+  const std::size_t points = bytes.size() / kBinPointBytes;
+  scan.points.reserve(points);
+  scan.intensities.reserve(points);
+  for (std::size_t at = 0; at < bytes.size(); at += kBinPointBytes) {
     scan.points.emplace_back(view.f32(at), view.f32(at + 4), view.f32(at + 8));
+    scan.intensities.push_back(view.f32(at + 12));
+  }
+  forget_constant_intensities(scan);
   return scan;
 }
 
 std::string format_bin(const LidarScan& scan) {
   std::string out;
   out.reserve(scan.points.size() * kBinPointBytes);
-  for (const Eigen::Vector3f& point : scan.points) {
-    for (const float coordinate : point) append_f32(out, coordinate);
-    append_f32(out, 0);
+  for (std::size_t k = 0; k < scan.points.size(); ++k) {
+    for (const float coordinate : scan.points[k]) append_f32(out, coordinate);
+    append_f32(out, scan.intensities.empty() ? 0 : scan.intensities[k]);
   }
   return out;
 }

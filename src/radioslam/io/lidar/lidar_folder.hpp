@@ -21,7 +21,8 @@ void check_bin_size(const std::filesystem::path& file, std::uintmax_t bytes);
 /// Reads one scan file of such a folder.
 LidarScan read_lidar_file(const std::filesystem::path& file, Stamp stamp);
 
-/// Writes all scans one by one: as .pcd if the points have times, otherwise as .bin with intensity 0.
+/// Writes all scans one by one: as .pcd if the points have times, otherwise as .bin; with intensity 0 where it
+/// is unknown.
 void write_lidar_folder(const std::filesystem::path& folder, const LidarLog& log);
 
 /// Writes one scan into such a folder.

@@ -193,7 +193,7 @@ PointTable table_of_columns(const PcdHeader& header, std::string_view bytes) {
 
 LidarScan checked_points_of(const TextLines& at, const PointTable& table, Stamp stamp) {
   if (const auto refusal = problem_with(table)) at.fail(*refusal);
-  return {points_of(table), times_of(table, stamp).since_stamp_s};
+  return {points_of(table), times_of(table, stamp).since_stamp_s, intensities_of(table)};
 }
 
 /// A number, NaN or infinity.
@@ -209,8 +209,8 @@ double floating_in(const TextLines& at, const PcdField& field, std::string_view 
 /// Converts one number of a line to the bytes of a record; fields that are not read may have any content.
 void append_ascii_number(const TextLines& at, std::string& out, const PcdField& field,
                          std::string_view word) {
-  const bool is_time = is_time_name(field.name);
-  if (!is_time && field.name != "x" && field.name != "y" && field.name != "z") {
+  const bool is_read = is_time_name(field.name) || is_intensity_name(field.name);
+  if (!is_read && field.name != "x" && field.name != "y" && field.name != "z") {
     out.append(bytes_of(field.type), '\0');
   } else if (field.type == NumberType::kFloat32 || field.type == NumberType::kFloat64) {
     const double value = floating_in(at, field, word);
@@ -302,7 +302,7 @@ std::string format_pcd(const LidarScan& scan) {
   std::string out = pcd_header(scan);
   for (std::size_t k = 0; k < scan.points.size(); ++k) {
     for (const float coordinate : scan.points[k]) append_f32(out, coordinate);
-    append_f32(out, 0);
+    append_f32(out, scan.intensities.empty() ? 0 : scan.intensities[k]);
     if (!scan.times_s.empty()) append_f32(out, scan.times_s[k]);
   }
   return out;

@@ -21,12 +21,12 @@ namespace radioslam {
 /// Allocates at most 100 times the size of the input.
 std::optional<std::string> decompress_lzf(std::string_view bytes, std::size_t size);
 
-/// Reads the points' x, y and z and, if there is a field of times (point_times.hpp), their times since
-/// `stamp`; other fields are skipped. Refuses (InputError) an invalid or inconsistent header, truncated data,
+/// Reads the points' x, y and z and, where there are such fields, their times since `stamp` (point_times.hpp)
+/// and intensities; other fields are skipped. Refuses (InputError) an invalid or inconsistent header, truncated data,
 /// and points without coordinates.
 LidarScan read_pcd(const Text& file, Stamp stamp);
 
-/// The scan as binary PCD with the fields x y z intensity (0), and t if the scan has times.
+/// The scan as binary PCD with the fields x y z intensity (0 if unknown), and t if the scan has times.
 std::string format_pcd(const LidarScan& scan);
 
 }  // namespace radioslam

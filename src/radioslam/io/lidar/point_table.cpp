@@ -48,6 +48,8 @@ bool is_time_name(std::string_view name) {
   return std::find(kNames.begin(), kNames.end(), name) != kNames.end();
 }
 
+bool is_intensity_name(std::string_view name) { return name == "intensity" || name == "reflectivity"; }
+
 std::optional<std::string> problem_with(const PointTable& table) {
   for (const char* name : kAxes) {
     const PointColumn* column = find_column(table, name);
@@ -87,6 +89,26 @@ std::int64_t whole_at(const PointTable& table, const PointColumn& column, std::s
     default:
       return view.i64(at);
   }
+}
+
+std::vector<float> intensities_of(const PointTable& table) {
+  const auto column = std::find_if(table.columns.begin(), table.columns.end(),
+                                   [](const PointColumn& c) { return is_intensity_name(c.name); });
+  if (column == table.columns.end() || !is_inside(table, *column)) return {};
+  LidarScan scan;
+  scan.intensities.resize(table.rows);
+  for (std::size_t row = 0; row < table.rows; ++row)
+    scan.intensities[row] =
+        static_cast<float>(is_floating(column->type) ? floating_at(table, *column, row)
+                                                     : static_cast<double>(whole_at(table, *column, row)));
+  forget_constant_intensities(scan);
+  return std::move(scan.intensities);
+}
+
+void forget_constant_intensities(LidarScan& scan) {
+  std::vector<float>& all = scan.intensities;
+  const auto differs = [&](float value) { return value != all.front(); };
+  if (std::none_of(all.begin(), all.end(), differs)) all.clear();
 }
 
 const PointColumn* find_time_column(const PointTable& table) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "radioslam/io/text/byte_view.hpp"
+#include "radioslam/mission/lidar.hpp"
 
 namespace radioslam {
 
@@ -53,6 +54,15 @@ std::optional<std::string> problem_with(const PointTable& table);
 
 /// The columns x, y and z of a table that problem_with accepts; non-finite values are kept.
 std::vector<Eigen::Vector3f> points_of(const PointTable& table);
+
+/// Whether this is a name of a column with intensities.
+bool is_intensity_name(std::string_view name);
+
+/// The intensities of a table that problem_with accepts; empty without such a column, or if all are equal.
+std::vector<float> intensities_of(const PointTable& table);
+
+/// Empties intensities that are all equal, as writers put zeros where they know none.
+void forget_constant_intensities(LidarScan& scan);
 
 /// The first column for which is_time_name holds; null if there is none.
 const PointColumn* find_time_column(const PointTable& table);

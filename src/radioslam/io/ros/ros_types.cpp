@@ -144,6 +144,7 @@ RosScan read_cloud_scan(const RosMessage& message, std::optional<PointTimeUnit> 
   RosScan scan{cloud.header, {}};
   if (cloud.table.rows == 0) return scan;
   scan.scan.points = points_of(cloud.table);
+  scan.scan.intensities = intensities_of(cloud.table);
   PointTimes times = times_of(cloud.table, time_of(message, cloud.header), unit);
   scan.scan.times_s = std::move(times.since_stamp_s);
   scan.clock = times.clock;
@@ -161,7 +162,8 @@ RosScan read_livox_scan(RosMessageReader& reader) {
     scan.scan.times_s.push_back(static_cast<float>(reader.u32() * kSecondsPerNanosecond));
     Eigen::Vector3f& point = scan.scan.points.emplace_back();
     for (float& coordinate : point) coordinate = reader.f32();
-    for (int byte = 0; byte < kLivoxMarks; ++byte) reader.u8();
+    scan.scan.intensities.push_back(static_cast<float>(reader.u8()));
+    for (int byte = 1; byte < kLivoxMarks; ++byte) reader.u8();
   }
   const auto [first, last] = std::minmax_element(scan.scan.times_s.begin(), scan.scan.times_s.end());
   if (points > 1 && *first == *last) {

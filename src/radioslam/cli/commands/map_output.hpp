@@ -1,0 +1,47 @@
+// The maps of a run: one per component, in its frame.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "radioslam/io/map/map_files.hpp"
+#include "radioslam/map/team_map.hpp"
+#include "radioslam/mission/mission.hpp"
+#include "radioslam/pipeline/params.hpp"
+#include "radioslam/results/results.hpp"
+
+namespace radioslam::cli {
+
+/// A robot with its final continuous trajectory, which is empty where it could not be placed.
+struct ScannedTrajectory {
+  std::string id;
+  LidarLog scans;
+  Trajectory<SE3> poses;
+};
+
+/// The robots of a mission that have scans; without trajectories.
+std::vector<ScannedTrajectory> scans_of(const Mission& mission);
+
+/// Gives the robots the continuous trajectories of the run; robots that are not placed get none.
+void add_trajectories(std::vector<ScannedTrajectory>& robots, const RunResult& result);
+
+struct WrittenMaps {
+  std::vector<MapResult> maps;
+  std::vector<std::string> notes;
+};
+
+/// Hands over how to write a file of this name into the folder of the maps.
+using WriteMapFile =
+    std::function<void(const std::string& name, const std::function<void(const AppendToFile&)>&)>;
+
+/// Writes the maps of those robots of each component that have a trajectory: map.ply, map.pgm, map.yaml and,
+/// if asked for, map.pcd; with several components, map-<first robot>.ply and so on.
+WrittenMaps write_maps(std::vector<ScannedTrajectory> robots, const std::vector<Component>& components,
+                       const RunParams& params, const MapOptions& options, const WriteMapFile& write);
+
+/// Writes the maps of a run into its folder, and adds them, their notes, counts and time to its result.
+void add_maps(RunResult& result, std::vector<ScannedTrajectory> robots, const RunParams& params,
+              const Progress& progress, const std::filesystem::path& folder);
+
+}  // namespace radioslam::cli

@@ -1,0 +1,95 @@
+#include "radioslam/map/ray_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace radioslam {
+namespace {
+
+constexpr int kColumns = 720, kRows = 360;  // half a degree
+constexpr float kPixels_per_rad = static_cast<float>(kColumns) / (2 * std::numbers::pi_v<float>);
+constexpr int kMaxReach = 4;         // pixels about a point's direction in which rays are looked for
+constexpr float kMinCosine = 0.05F;  // between a ray and a normal, below which the ray grazes
+constexpr float kMinRange_m = 0.5F;
+
+std::size_t pixel_of(int column, int row) { return static_cast<std::size_t>(row * kColumns + column); }
+
+int column_of(float column) { return std::min(kColumns - 1, static_cast<int>(column)); }
+int row_of(float row) { return std::clamp(static_cast<int>(row), 0, kRows - 1); }
+
+}  // namespace
+
+RayView::Direction RayView::direction_of(const Eigen::Vector3f& ray) {
+  const float level = ray.head<2>().norm();
+  return {kPixels_per_rad * (std::atan2(ray.y(), ray.x()) + std::numbers::pi_v<float>),
+          kPixels_per_rad * (std::atan2(ray.z(), level) + std::numbers::pi_v<float> / 2), ray.norm()};
+}
+
+RayView::RayView(const PlacedScan& scan, const MappedRobot& robot, double view_range_m)
+    : view_range_m_(view_range_m) {
+  const Eigen::Matrix3f R = scan.T_frame_body.rotation_matrix().cast<float>();
+  const auto middle_s = static_cast<float>(scan.returns.middle_s);
+  const Eigen::Vector3d middle = robot.geometry.scanner_m + scan.returns.middle_s * scan.velocity_mps;
+  origin_m_ = scan.T_frame_body * middle;
+  const Eigen::Vector3f velocity = R * scan.velocity_mps.cast<float>();
+  std::vector<Ray> rays;
+  rays.reserve(scan.returns.points.size());
+  for (std::size_t k = 0; k < scan.returns.points.size(); ++k) {
+    const float time_s = scan.returns.times_s.empty() ? middle_s : scan.returns.times_s[k];
+    rays.push_back({(time_s - middle_s) * velocity, R * (scan.returns.points[k] - middle.cast<float>())});
+  }
+  sort_rays(rays);
+}
+
+void RayView::sort_rays(const std::vector<Ray>& rays) {
+  std::vector<std::uint32_t> pixels;
+  std::vector<int> counts(kColumns);
+  column_origins_.assign(kColumns, Eigen::Vector3f::Zero());
+  begin_.assign(std::size_t{kColumns} * kRows + 1, 0);
+  for (const Ray& ray : rays) {
+    const Direction at = direction_of(ray.hit - ray.origin);
+    const auto column = static_cast<std::size_t>(column_of(at.column));
+    pixels.push_back(static_cast<std::uint32_t>(pixel_of(column_of(at.column), row_of(at.row))));
+    ++begin_[pixels.back() + 1];
+    column_origins_[column] += (ray.origin - column_origins_[column]) / static_cast<float>(++counts[column]);
+  }
+  for (std::size_t k = 1; k < begin_.size(); ++k) begin_[k] += begin_[k - 1];
+  rays_.resize(rays.size());
+  std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
+  for (std::size_t k = 0; k < rays.size(); ++k) rays_[next[pixels[k]]++] = rays[k];
+}
+
+RayView::Votes RayView::at(const Eigen::Vector3d& position, const Eigen::Vector3f& normal, float radius_m,
+                           float depth_m) const {
+  Votes votes;
+  const Eigen::Vector3f p = (position - origin_m_).cast<float>();
+  Direction at = direction_of(p);
+  if (at.range_m < kMinRange_m || at.range_m > static_cast<float>(view_range_m_)) return votes;
+  at = direction_of(p - column_origins_[static_cast<std::size_t>(column_of(at.column))]);
+  const float angle_px = kPixels_per_rad * radius_m / at.range_m;
+  const int reach = std::min(kMaxReach, static_cast<int>(std::ceil(angle_px)));
+  const int column = column_of(at.column), row = row_of(at.row);
+  const bool has_normal = normal.squaredNorm() > 0.5F;
+  const auto vote = [&](const Ray& ray) {
+    const Eigen::Vector3f along = ray.hit - ray.origin;
+    const Eigen::Vector3f n = has_normal ? normal : Eigen::Vector3f(-along.normalized());
+    const float from = n.dot(ray.origin - p), to = n.dot(ray.hit - p);
+    if (std::abs(from - to) < kMinCosine * along.norm()) return;
+    if (std::abs(to) <= depth_m) {
+      const Eigen::Vector3f off = ray.hit - p;
+      if ((off - to * n).squaredNorm() <= radius_m * radius_m) ++votes.hits;
+    } else if ((from > 0) != (to > 0)) {
+      const Eigen::Vector3f crossing = ray.origin + from / (from - to) * along;
+      if ((crossing - p).squaredNorm() <= radius_m * radius_m) ++votes.through;
+    }
+  };
+  for (int y = std::max(0, row - reach); y <= std::min(kRows - 1, row + reach); ++y)
+    for (int x = column - reach; x <= column + reach; ++x) {
+      const std::size_t pixel = pixel_of((x + kColumns) % kColumns, y);
+      for (std::uint32_t k = begin_[pixel]; k < begin_[pixel + 1]; ++k) vote(rays_[k]);
+    }
+  return votes;
+}
+
+}  // namespace radioslam
