@@ -21,7 +21,7 @@ struct MapParams {
   double views_per_s = 3;  ///< of the drive
   double view_range_m = 20;
   double through_radius_voxels = 1.5;
-  double through_depth_m = 0.2;
+  double through_depth_m = 0.15;
   int min_through = 2;
   double min_through_ratio = 0.5;
   double min_occupied_ratio = 0.25;

@@ -1,7 +1,11 @@
 #include "radioslam/map/map_surfaces.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <optional>
+#include <vector>
 
 #include "radioslam/base/parallel.hpp"
 #include "radioslam/geometry/linear_algebra.hpp"
@@ -11,10 +15,11 @@ namespace radioslam {
 namespace {
 
 constexpr double kNormalRadius_voxels = 2.5;
-constexpr int kMinNeighbours = 5;     // with the point itself
-constexpr double kMaxFlatness = 0.2;  // of the variances across and along a surface
-constexpr double kPoolRadius_voxels = 3;
-constexpr int kOwnRays = 4;  // from which a voxel is judged by its own rays alone
+constexpr int kMaxReturns = 30;            // of a neighbour, by which it counts: what stands still has more
+constexpr std::size_t kMinNeighbours = 5;  // with the point itself
+constexpr double kMaxFlatness = 0.2;       // of the variances across and along a surface
+constexpr float kPoolRadius_voxels = 3;
+constexpr int kEnoughViews = 4;  // from which a voxel is judged by its own alone
 constexpr float kSteps = 127;
 
 Eigen::Vector3f direction_of(const Voxel& voxel) {
@@ -22,17 +27,51 @@ Eigen::Vector3f direction_of(const Voxel& voxel) {
           static_cast<float>(voxel.direction[2])};
 }
 
-/// The normal of points with these moments; zero if they lie on no surface.
-Eigen::Vector3d normal_from(const Eigen::Matrix3d& covariance, bool is_planar) {
-  Eigen::Matrix3d spread = covariance;
-  if (is_planar) {
-    spread.row(2).setZero();
-    spread.col(2).setZero();
-    spread(2, 2) = 1 + covariance.trace();
+struct Neighbour {
+  Eigen::Vector3d offset;
+  double weight = 0;
+};
+
+/// The plane through most of a voxel's neighbours, by iteratively reweighted least squares.
+struct Surface {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero(), normal = Eigen::Vector3d::Zero();
+  bool is_flat = false;
+
+  /// `width_m`: distance from the plane at which a neighbour counts a quarter.
+  void fit(const std::vector<Neighbour>& neighbours, double width_m, bool is_planar) {
+    double weights = 0;
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+    for (const auto& [offset, returns] : neighbours) {
+      const double distance = normal.dot(offset - centre) / width_m;
+      const double weight = returns / ((1 + distance * distance) * (1 + distance * distance));
+      weights += weight;
+      sum += weight * offset;
+      squares += weight * offset * offset.transpose();
+    }
+    centre = sum / weights;
+    Eigen::Matrix3d spread = squares / weights - centre * centre.transpose();
+    if (is_planar) {
+      spread.row(2).setZero();
+      spread.col(2).setZero();
+      spread(2, 2) = 1 + spread.trace();
+    }
+    const auto axes = symmetric_eigen(spread);
+    normal = axes.vectors.col(0);
+    is_flat = axes.values[0] < kMaxFlatness * axes.values[1];
   }
-  const auto axes = symmetric_eigen(spread);
-  if (!(axes.values[0] < kMaxFlatness * axes.values[1])) return Eigen::Vector3d::Zero();
-  return axes.vectors.col(0);
+};
+
+/// Normal of the surface at a voxel; zero if its neighbours, which are relative to it, lie on none, or if it
+/// does not lie on theirs.
+Eigen::Vector3d normal_from(const std::vector<Neighbour>& neighbours, double voxel_m, bool is_planar) {
+  constexpr int kIterations = 3;
+  constexpr double kWidth_voxels = 0.5, kMaxOff_voxels = 1;
+  Surface surface;
+  if (neighbours.size() < kMinNeighbours) return surface.normal;
+  for (int k = 0; k < kIterations; ++k) surface.fit(neighbours, kWidth_voxels * voxel_m, is_planar);
+  const bool is_on_it = std::abs(surface.normal.dot(surface.centre)) <= kMaxOff_voxels * voxel_m;
+  return surface.is_flat && is_on_it ? surface.normal : Eigen::Vector3d(Eigen::Vector3d::Zero());
 }
 
 std::array<std::int8_t, 3> stored(const Eigen::Vector3d& normal) {
@@ -45,8 +84,20 @@ std::array<std::int8_t, 3> stored(const Eigen::Vector3d& normal) {
 
 void count(std::uint16_t& of, int more) { of = static_cast<std::uint16_t>(std::min(65535, of + more)); }
 
-bool is_seen_through(double hits, double through, const MapParams& params) {
-  return through >= params.min_through && through >= params.min_through_ratio * (hits + through);
+bool has_enough_views(const Voxel& voxel) { return voxel.hits + voxel.through >= kEnoughViews; }
+
+bool is_seen_through(const Voxel& voxel, const MapParams& params) {
+  return voxel.through >= params.min_through &&
+         voxel.through >= params.min_through_ratio * (voxel.hits + voxel.through);
+}
+
+/// Whether two voxels are of one surface, by their normals and the way from one to the other. What has no
+/// normal belongs to nothing that has one.
+bool is_one_surface(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& from_a_to_b,
+                    float voxel_m) {
+  constexpr float kMinCosine = 0.95F;
+  if (a.isZero() || b.isZero()) return a.isZero() && b.isZero();
+  return std::abs(a.dot(b)) >= kMinCosine && std::abs(a.dot(from_a_to_b)) <= voxel_m;
 }
 
 /// Whether more rays would not change what these say.
@@ -64,6 +115,42 @@ void for_each_tile(std::span<const VoxelMap::Tile> tiles, const Body& body) {
   });
 }
 
+/// Gives voxels with too few views those of their surface about them, of which each voxel has as many as are
+/// enough at most.
+void take_views_of_surface(VoxelMap& map, std::span<const VoxelMap::Tile> tiles) {
+  struct Taken {
+    std::size_t voxel = 0;
+    double hits = 0, through = 0;
+  };
+  const auto voxel_m = static_cast<float>(map.voxel_m());
+  const std::span<Voxel> voxels = map.voxels();
+  std::vector<std::vector<Taken>> of_tile(tiles.size());
+  for_each_tile(tiles, [&](std::size_t t) {
+    std::optional<NearVoxels> near;
+    for (std::size_t k = tiles[t].begin; k < tiles[t].end; ++k) {
+      if (has_enough_views(voxels[k])) continue;
+      if (!near) near.emplace(map, tiles, t, kPoolRadius_voxels * voxel_m);
+      Taken taken{k};
+      const Eigen::Vector3f normal = normal_of(voxels[k]);
+      near->for_each(k, [&](std::size_t other, const Eigen::Vector3f& offset) {
+        const Voxel& of = voxels[other];
+        if (!is_one_surface(normal, normal_of(of), offset, voxel_m)) return;
+        const double share = kEnoughViews / std::max<double>(kEnoughViews, of.hits + of.through);
+        taken.hits += share * of.hits;
+        taken.through += share * of.through;
+      });
+      if (taken.hits + taken.through >= kEnoughViews) of_tile[t].push_back(taken);
+    }
+  });
+  for (const auto& tile : of_tile)
+    for (const Taken& taken : tile) {
+      Voxel& voxel = voxels[taken.voxel];
+      voxel.hits = voxel.through = 0;
+      count(voxel.hits, static_cast<int>(std::lround(taken.hits)));
+      count(voxel.through, static_cast<int>(std::lround(taken.through)));
+    }
+}
+
 }  // namespace
 
 Eigen::Vector3f normal_of(const Voxel& voxel) {
@@ -77,21 +164,15 @@ void estimate_normals(VoxelMap& map, std::span<const VoxelMap::Tile> tiles,
   const auto radius_m = static_cast<float>(kNormalRadius_voxels * map.voxel_m());
   for_each_tile(tiles, [&](std::size_t t) {
     const NearVoxels near(map, tiles, t, radius_m);
+    std::vector<Neighbour> neighbours;
     for (std::size_t k = tiles[t].begin; k < tiles[t].end; ++k) {
-      int points = 0;
-      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-      Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-      near.for_each(k, [&](std::size_t, const Eigen::Vector3f& offset) {
-        const Eigen::Vector3d d = offset.cast<double>();
-        ++points;
-        sum += d;
-        squares += d * d.transpose();
+      neighbours.clear();
+      near.for_each(k, [&](std::size_t other, const Eigen::Vector3f& offset) {
+        const int returns = std::min<int>(kMaxReturns, map.voxels()[other].returns);
+        neighbours.push_back({offset.cast<double>(), static_cast<double>(returns)});
       });
       Voxel& voxel = map.voxels()[k];
-      Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-      if (points >= kMinNeighbours)
-        normal = normal_from(squares / points - sum * sum.transpose() / (points * points),
-                             is_planar[VoxelMap::robot_of(voxel)]);
+      Eigen::Vector3d normal = normal_from(neighbours, map.voxel_m(), is_planar[VoxelMap::robot_of(voxel)]);
       if (normal.dot(direction_of(voxel).cast<double>()) < 0) normal = -normal;
       voxel.direction = stored(normal);
     }
@@ -113,8 +194,7 @@ void count_rays(VoxelMap& map, std::span<const VoxelMap::Tile> tiles, std::span<
         Voxel& voxel = map.voxels()[k];
         if (is_settled(voxel)) continue;
         const auto votes = view.at(map.position(voxel), normal_of(voxel), radius_m, depth_m);
-        count(voxel.hits, votes.hits);
-        count(voxel.through, votes.through);
+        if (votes.hits + votes.through > 0) count(votes.through > votes.hits ? voxel.through : voxel.hits, 1);
       }
     }
   });
@@ -122,24 +202,14 @@ void count_rays(VoxelMap& map, std::span<const VoxelMap::Tile> tiles, std::span<
 
 std::size_t leave_out_seen_through(VoxelMap& map, std::span<const VoxelMap::Tile> tiles,
                                    const MapParams& params) {
-  const auto radius_m = static_cast<float>(kPoolRadius_voxels * map.voxel_m());
-  for_each_tile(tiles, [&](std::size_t t) {
-    const NearVoxels near(map, tiles, t, radius_m);
-    for (std::size_t k = tiles[t].begin; k < tiles[t].end; ++k) {
-      Voxel& voxel = map.voxels()[k];
-      double hits = voxel.hits, through = voxel.through;
-      if (hits + through < kOwnRays) {
-        hits = through = 0;
-        near.for_each(k, [&](std::size_t other, const Eigen::Vector3f&) {
-          hits += map.voxels()[other].hits;
-          through += map.voxels()[other].through;
-        });
-      }
-      voxel.is_left_out = is_seen_through(hits, through, params);
-    }
-  });
-  return static_cast<std::size_t>(std::count_if(map.voxels().begin(), map.voxels().end(),
-                                                [](const Voxel& voxel) { return voxel.is_left_out; }));
+  constexpr int kRounds = 4;
+  for (int round = 0; round < kRounds; ++round) take_views_of_surface(map, tiles);
+  std::size_t left_out = 0;
+  for (Voxel& voxel : map.voxels()) {
+    voxel.is_left_out = is_seen_through(voxel, params);
+    left_out += voxel.is_left_out ? 1 : 0;
+  }
+  return left_out;
 }
 
 }  // namespace radioslam

@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::size_t kColumns = 720;
 constexpr std::uint16_t kMaxCount = 65535;
+constexpr double kMinNeighbourRatio = 0.1;  // of the hits of a wall, below which a cell holds its noise
 
 void count(std::uint16_t& of) { of = static_cast<std::uint16_t>(std::min<int>(kMaxCount, of + 1)); }
 
@@ -106,18 +107,28 @@ void OccupancyBuilder::add(const PlacedScan& scan, const MappedRobot& robot) {
     if (column.to_m > 0) count_through(column);
 }
 
-CellState OccupancyBuilder::state_of(const Cell& cell) const {
-  const int scans = cell.hits + cell.through;
+const OccupancyBuilder::Cell& OccupancyBuilder::cell(std::int64_t x, std::int64_t y) const {
+  static const Cell none;
+  return x < 0 || y < 0 || x >= width_ || y >= height_ ? none
+                                                       : cells_[static_cast<std::size_t>(y * width_ + x)];
+}
+
+CellState OccupancyBuilder::state_of(std::int64_t x, std::int64_t y) const {
+  const Cell& of = cell(x, y);
+  const int scans = of.hits + of.through;
   if (scans == 0) return CellState::kUnknown;
-  return cell.hits >= params_.min_occupied_ratio * scans && cell.hits > 0 ? CellState::kOccupied
-                                                                          : CellState::kFree;
+  if (of.hits == 0 || of.hits < params_.min_occupied_ratio * scans) return CellState::kFree;
+  int most = 0;  // hits of a neighbour
+  for (std::int64_t dy = -1; dy <= 1; ++dy)
+    for (std::int64_t dx = -1; dx <= 1; ++dx) most = std::max<int>(most, cell(x + dx, y + dy).hits);
+  return of.hits < kMinNeighbourRatio * most ? CellState::kUnknown : CellState::kOccupied;
 }
 
 OccupancyGrid OccupancyBuilder::grid() const {
   std::int64_t left = width_, right = -1, bottom = height_, top = -1;
   for (std::int64_t y = 0; y < height_; ++y)
     for (std::int64_t x = 0; x < width_; ++x)
-      if (const Cell& cell = cells_[static_cast<std::size_t>(y * width_ + x)]; cell.hits + cell.through > 0) {
+      if (cell(x, y).hits + cell(x, y).through > 0) {
         left = std::min(left, x), right = std::max(right, x);
         bottom = std::min(bottom, y), top = std::max(top, y);
       }
@@ -129,8 +140,7 @@ OccupancyGrid OccupancyBuilder::grid() const {
   grid.width = static_cast<std::size_t>(right - left + 1);
   grid.height = static_cast<std::size_t>(top - bottom + 1);
   for (std::int64_t y = bottom; y <= top; ++y)
-    for (std::int64_t x = left; x <= right; ++x)
-      grid.cells.push_back(state_of(cells_[static_cast<std::size_t>(y * width_ + x)]));
+    for (std::int64_t x = left; x <= right; ++x) grid.cells.push_back(state_of(x, y));
   return grid;
 }
 

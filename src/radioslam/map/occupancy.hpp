@@ -7,7 +7,7 @@
 //
 //   occupied   if its hits are at least `min_occupied_ratio` of all scans in it
 //   free       if scans saw through it, otherwise
-//   unknown    without either
+//   unknown    without either, or with a tenth of a neighbour's hits, which are the noise of that
 //
 // so that what moves away becomes free. Heights are those above the ground under the robot. All returns of a
 // planar scanner are in the slice. Cost: the cells along the columns' rays; 8 bytes per cell.
@@ -50,7 +50,8 @@ class OccupancyBuilder {
   void count_hit(const Eigen::Vector2d& position);
   void count_through(const Column& column);
   Cell* cell_at(const Eigen::Vector2d& position);
-  CellState state_of(const Cell& cell) const;
+  const Cell& cell(std::int64_t x, std::int64_t y) const;
+  CellState state_of(std::int64_t x, std::int64_t y) const;
 
   MapParams params_;
   double cell_m_ = 0;

@@ -12,6 +12,7 @@ constexpr float kPixels_per_rad = static_cast<float>(kColumns) / (2 * std::numbe
 constexpr int kMaxReach = 4;         // pixels about a point's direction in which rays are looked for
 constexpr float kMinCosine = 0.05F;  // between a ray and a normal, below which the ray grazes
 constexpr float kMinRange_m = 0.5F;
+constexpr float kSlope = 0.1F;  // by which a surface may deviate from its normal's plane
 
 std::size_t pixel_of(int column, int row) { return static_cast<std::size_t>(row * kColumns + column); }
 
@@ -79,7 +80,7 @@ RayView::Votes RayView::at(const Eigen::Vector3d& position, const Eigen::Vector3
     if (std::abs(to) <= depth_m) {
       const Eigen::Vector3f off = ray.hit - p;
       if ((off - to * n).squaredNorm() <= radius_m * radius_m) ++votes.hits;
-    } else if ((from > 0) != (to > 0)) {
+    } else if ((from > 0) != (to > 0) && std::abs(to) > depth_m + kSlope * (ray.hit - p).norm()) {
       const Eigen::Vector3f crossing = ray.origin + from / (from - to) * along;
       if ((crossing - p).squaredNorm() <= radius_m * radius_m) ++votes.through;
     }

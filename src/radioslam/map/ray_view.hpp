@@ -4,7 +4,8 @@
 // of a given radius about p that is perpendicular to n:
 //
 //   hit        h is within `depth_m` of the plane of the disc, and above the disc
-//   through    h is more than `depth_m` behind the plane, and the ray crosses the disc
+//   through    h is more than `depth_m` and a tenth of its distance from p behind the plane, and the ray
+//              crosses the disc
 //
 // A ray that ends in front of the plane, or grazes it, says nothing. Depth is measured along the normal, not
 // along the ray: a floor that is seen at a grazing angle would else be seen through in front of every return.

@@ -15,7 +15,7 @@ namespace {
 using Points = std::vector<Eigen::Vector3f>;
 
 constexpr std::size_t kScans = 4;
-constexpr std::size_t kPointsPerScan = 3000;
+constexpr std::size_t kPointsPerScan = 1500;
 constexpr double kBin_rad = 0.1 * std::numbers::pi / 180;
 constexpr double kMaxHeight_m = 4, kMaxOffset_m = 1.5;
 constexpr double kMinGain = 0.5;  // nats of entropy by which rings are told from a continuous fan
@@ -63,28 +63,26 @@ double entropy(const Points& points, const Eigen::Vector3d& origin) {
   return sum / static_cast<double>(points.size());
 }
 
-/// The value of one coordinate with the least entropy, by finer and finer steps.
-void refine(const Points& points, Eigen::Vector3d& origin, int axis, double low, double high) {
-  constexpr int kSteps = 40;
-  constexpr double kFinest_m = 0.005;
-  for (double step = (high - low) / kSteps; step > kFinest_m; step = (high - low) / kSteps) {
-    double best = origin[axis], least = entropy(points, origin);
-    for (int n = 0; n <= kSteps; ++n) {
-      Eigen::Vector3d trial = origin;
-      trial[axis] = low + n * step;
-      if (const double value = entropy(points, trial); value < least) least = value, best = trial[axis];
-    }
-    origin[axis] = best;
-    low = best - 2 * step, high = best + 2 * step;
+/// Moves one coordinate to the value within `reach_m` at which the entropy is least.
+void search(const Points& points, Eigen::Vector3d& origin, int axis, double reach_m, double step_m) {
+  const double middle = origin[axis];
+  const auto steps = static_cast<int>(reach_m / step_m);
+  double least = entropy(points, origin);
+  for (int n = -steps; n <= steps; ++n) {
+    Eigen::Vector3d trial = origin;
+    trial[axis] = middle + n * step_m;
+    if (const double value = entropy(points, trial); value < least) least = value, origin[axis] = trial[axis];
   }
 }
 
+/// Its height first, which the beams near the horizon show wherever else it is.
 Eigen::Vector3d origin_of_rings(const Points& points) {
+  constexpr double kStep_m = 0.02, kFineStep_m = 0.005;
   const Eigen::Vector3d body = Eigen::Vector3d::Zero();
   Eigen::Vector3d origin = body;
-  refine(points, origin, 2, -kMaxHeight_m, kMaxHeight_m);
-  for (int axis = 0; axis < 2; ++axis) refine(points, origin, axis, -kMaxOffset_m, kMaxOffset_m);
-  refine(points, origin, 2, origin.z() - 0.2, origin.z() + 0.2);
+  search(points, origin, 2, kMaxHeight_m, kStep_m);
+  for (const int axis : {0, 1}) search(points, origin, axis, kMaxOffset_m, kStep_m);
+  for (const int axis : {2, 0, 1}) search(points, origin, axis, kStep_m, kFineStep_m);
   return entropy(points, origin) < entropy(points, body) - kMinGain ? origin : body;
 }
 

@@ -32,6 +32,13 @@ std::uint16_t sum_of_counts(std::uint16_t a, std::uint16_t b) {
   return static_cast<std::uint16_t>(std::min<std::uint32_t>(kMaxCount, std::uint32_t{a} + b));
 }
 
+std::array<std::int8_t, 3> stored(const Eigen::Vector3f& direction) {
+  std::array<std::int8_t, 3> result{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    result[axis] = static_cast<std::int8_t>(std::lround(kDirectionSteps * direction[static_cast<int>(axis)]));
+  return result;
+}
+
 void join(Voxel& a, const Voxel& b) {
   const double share = b.returns / (static_cast<double>(a.returns) + b.returns);
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -101,13 +108,13 @@ void VoxelMap::add(const MapReturn& of) {
     Voxel& voxel = voxels_.emplace_back();
     voxel.key = *key;
     voxel.time_ms = of.time_ms;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      voxel.direction[axis] =
-          static_cast<std::int8_t>(std::lround(kDirectionSteps * of.to_scanner[static_cast<int>(axis)]));
     if (4 * voxels_.size() > 3 * index_.size()) grow_index(2 * index_.size());
   }
   Voxel& voxel = voxels_[index_[place_of(*key)]];
   voxel.returns = sum_of_counts(voxel.returns, 1);
+  const std::array<std::int8_t, 3> direction = stored(of.to_scanner);
+  if (voxel.returns == 1 || std::abs(direction[2]) > std::abs(voxel.direction[2]))
+    voxel.direction = direction;
   voxel.time_ms = std::min(voxel.time_ms, of.time_ms);
   voxel.intensity += (of.intensity - voxel.intensity) / voxel.returns;
   for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -29,11 +29,12 @@ struct MapReturn {
 struct Voxel {
   std::uint64_t key = 0;  ///< VoxelMap::key_of
   float intensity = 0;
-  std::uint32_t time_ms = 0;               ///< of the first return
-  std::array<std::uint16_t, 3> offset{};   ///< in the voxel, in 65536ths
-  std::uint16_t returns = 0;               ///< at most 65535
-  std::uint16_t hits = 0, through = 0;     ///< rays that end here, and that go through (seen_through.hpp)
-  std::array<std::int8_t, 3> direction{};  ///< to the scanner, then the normal, in 127ths
+  std::uint32_t time_ms = 0;              ///< of the first return
+  std::array<std::uint16_t, 3> offset{};  ///< in the voxel, in 65536ths
+  std::uint16_t returns = 0;              ///< at most 65535
+  std::uint16_t hits = 0, through = 0;    ///< views whose rays end here, and go through (ray_view.hpp)
+  /// To the scanner of the steepest return, which sees floors least grazing; then the normal. In 127ths.
+  std::array<std::int8_t, 3> direction{};
   bool is_left_out = false;
 };
 
