@@ -31,8 +31,6 @@ TEST(MovingThings, AreLeftOutAndHardlyAnythingElseIs) {
   ASSERT_GT(all.moving, 3000);
   EXPECT_LT(left.moving, 0.02 * all.moving);
   EXPECT_GT(left.still, 0.99 * all.still);
-  std::cout << all.moving << " moving, left " << left.moving / all.moving << ", still " << all.still
-            << ", lost " << 1 - left.still / all.still << '\n';
 }
 
 TEST(MovingThings, AStreetWithoutThemIsKept) {

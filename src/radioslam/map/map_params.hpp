@@ -19,11 +19,11 @@ struct MapParams {
   double view_step_m = 0.5;
   double view_step_s = 1;
   double views_per_s = 3;  ///< of the drive
-  double view_range_m = 20;
+  double view_range_m = 30;
   double through_radius_voxels = 1.5;
   double through_depth_m = 0.15;
   int min_through = 2;
-  double min_through_ratio = 0.5;
+  double min_through_ratio = 0.35;
   double min_occupied_ratio = 0.25;
   int max_shown_points = 300000;
 

@@ -102,7 +102,7 @@ bool is_one_surface(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Ei
 
 /// Whether more rays would not change what these say.
 bool is_settled(const Voxel& voxel) {
-  constexpr int kEnough = 16, kMinRatio = 10;
+  constexpr int kEnough = 8, kMinRatio = 8;
   const int few = std::min(voxel.hits, voxel.through), many = std::max(voxel.hits, voxel.through);
   return many >= kEnough && many >= kMinRatio * few;
 }

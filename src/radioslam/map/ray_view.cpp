@@ -14,17 +14,28 @@ constexpr float kMinCosine = 0.05F;  // between a ray and a normal, below which 
 constexpr float kMinRange_m = 0.5F;
 constexpr float kSlope = 0.1F;  // by which a surface may deviate from its normal's plane
 
+/// To 1e-4 rad, a hundredth of a pixel.
+float quick_atan2(float y, float x) {
+  using std::numbers::pi_v;
+  const float ax = std::abs(x), ay = std::abs(y), most = std::max(ax, ay);
+  const float ratio = most > 0 ? std::min(ax, ay) / most : 0, square = ratio * ratio;
+  float angle = ((-0.0464964749F * square + 0.15931422F) * square - 0.327622764F) * square * ratio + ratio;
+  if (ay > ax) angle = pi_v<float> / 2 - angle;
+  if (x < 0) angle = pi_v<float> - angle;
+  return y < 0 ? -angle : angle;
+}
+
 std::size_t pixel_of(int column, int row) { return static_cast<std::size_t>(row * kColumns + column); }
 
-int column_of(float column) { return std::min(kColumns - 1, static_cast<int>(column)); }
+int column_of(float column) { return std::clamp(static_cast<int>(column), 0, kColumns - 1); }
 int row_of(float row) { return std::clamp(static_cast<int>(row), 0, kRows - 1); }
 
 }  // namespace
 
 RayView::Direction RayView::direction_of(const Eigen::Vector3f& ray) {
   const float level = ray.head<2>().norm();
-  return {kPixels_per_rad * (std::atan2(ray.y(), ray.x()) + std::numbers::pi_v<float>),
-          kPixels_per_rad * (std::atan2(ray.z(), level) + std::numbers::pi_v<float> / 2), ray.norm()};
+  return {kPixels_per_rad * (quick_atan2(ray.y(), ray.x()) + std::numbers::pi_v<float>),
+          kPixels_per_rad * (quick_atan2(ray.z(), level) + std::numbers::pi_v<float> / 2), ray.norm()};
 }
 
 RayView::RayView(const PlacedScan& scan, const MappedRobot& robot, double view_range_m)
@@ -65,13 +76,15 @@ RayView::Votes RayView::at(const Eigen::Vector3d& position, const Eigen::Vector3
                            float depth_m) const {
   Votes votes;
   const Eigen::Vector3f p = (position - origin_m_).cast<float>();
+  const float range_m = p.norm();
+  if (range_m < kMinRange_m || range_m > static_cast<float>(view_range_m_)) return votes;
+  const bool has_normal = normal.squaredNorm() > 0.5F;
+  if (has_normal && std::abs(normal.dot(p)) < kMinCosine * range_m) return votes;  // all rays there graze
   Direction at = direction_of(p);
-  if (at.range_m < kMinRange_m || at.range_m > static_cast<float>(view_range_m_)) return votes;
   at = direction_of(p - column_origins_[static_cast<std::size_t>(column_of(at.column))]);
   const float angle_px = kPixels_per_rad * radius_m / at.range_m;
   const int reach = std::min(kMaxReach, static_cast<int>(std::ceil(angle_px)));
   const int column = column_of(at.column), row = row_of(at.row);
-  const bool has_normal = normal.squaredNorm() > 0.5F;
   const auto vote = [&](const Ray& ray) {
     const Eigen::Vector3f along = ray.hit - ray.origin;
     const Eigen::Vector3f n = has_normal ? normal : Eigen::Vector3f(-along.normalized());

@@ -10,6 +10,7 @@
 #include "radioslam/report/aoa_data.hpp"
 #include "radioslam/report/closure_data.hpp"
 #include "radioslam/report/embedded_data.hpp"
+#include "radioslam/report/map_data.hpp"
 #include "radioslam/report/page_parts.hpp"
 #include "radioslam/report/rounding.hpp"
 #include "radioslam/report/trajectory_data.hpp"
@@ -158,6 +159,7 @@ void add_robots(PageData& page, const RunResult& result, const Evaluation& evalu
     keyframes.push_back(drawn_keyframes(robot, context.totals, params));
     page["robots"].push_back(robot_data(robot, component_of(robot, result.components), context, params));
   }
+  page["maps"] = map_data(result, context.T_page_estimate, context.start);
   page["closures"] = closure_data(result, keyframes, params);
   page["alternatives"] = alternative_data(result, context, params);
 }

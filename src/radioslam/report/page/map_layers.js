@@ -59,7 +59,8 @@ function draw_paths(context, view, layer, style) {
     context.globalAlpha = fades(robot.index) ? 0.12 : style.alpha;
     context.strokeStyle = style.colour(robot.index);
     context.lineWidth = style.width + (state.highlight === robot.index ? 1 : 0);
-    stroke_path(context, robot[layer][a], robot[layer][b], view);
+    const until = isFinite(state.until) ? d3.bisectRight(robot[layer].t, state.until) : undefined;
+    stroke_path(context, robot[layer][a].subarray(0, until), robot[layer][b].subarray(0, until), view);
   }
   context.setLineDash([]);
   context.globalAlpha = 1;
@@ -115,7 +116,9 @@ function line_ends(c, view) {
   return [view.ox + view.k * from[a][i], view.oy - view.k * from[b][i], view.ox + view.k * to[a][j], view.oy - view.k * to[b][j]];
 }
 
-const line_shown = c => state.groups[lines.group[c]] && state.visible[lines.robot_i[c]] && state.visible[lines.robot_j[c]];
+const line_time = c => Math.max(robots[lines.robot_i[c]].estimate.t[lines.keyframe_i[c]], robots[lines.robot_j[c]].estimate.t[lines.keyframe_j[c]]);
+const line_shown = c => state.groups[lines.group[c]] && state.visible[lines.robot_i[c]] && state.visible[lines.robot_j[c]]
+  && (state.until === Infinity || line_time(c) <= state.until);
 const line_fades = c => state.highlight !== null && fades(lines.robot_i[c]) && fades(lines.robot_j[c]);
 
 function draw_closures(context, view) {
@@ -219,7 +222,8 @@ function draw_map(context, view) {
   context.clearRect(0, 0, view.width, view.height);
   draw_grid(context, view);
   const many = robots.length > few_robots, { layers } = state;
-  if (layers.picture) draw_pictures(context, view);
+  if (layers.grid) draw_grids(context, view);
+  if (layers.points) draw_points(context, view);
   if (layers.sigma) draw_sigma(context, view);
   if (layers.truth) draw_paths(context, view, "truth", { colour: () => css("truth"), width: many ? 2 : 3.5, alpha: 0.75 });
   if (layers.odometry) draw_paths(context, view, "odometry", { colour: robot_colour, width: 1.1, alpha: 0.75, dash: [5, 4] });

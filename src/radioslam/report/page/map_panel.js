@@ -23,7 +23,8 @@ function layer_rows() {
   if (robots.some(r => r.truth)) rows.push(layer("truth", "truth", line => line.attr("stroke", css("truth")).attr("stroke-width", 3.5)));
   if (robots.some(r => r.sigma_team_m))
     rows.push(layer("sigma", "1 σ within the team", line => line.attr("stroke", ink).attr("stroke-width", 9).attr("stroke-opacity", 0.16)));
-  if (picture_cells) rows.push(layer("picture", "scans", line => line.attr("stroke", css("walls")).attr("stroke-width", 8)));
+  if (has_grid) rows.push(layer("grid", "occupancy grid", line => line.attr("stroke", css("walls")).attr("stroke-width", 8)));
+  if (cloud.count) rows.push(layer("points", "points", line => line.attr("stroke", robot_colour(cloud.robot[0])).attr("stroke-width", 3).attr("stroke-dasharray", "1.5 2.5")));
   if (alternatives.length)
     rows.push(layer("alternatives", format.plural(alternatives.length, "other hypothesis", "other hypotheses"),
       line => line.attr("stroke", ink).attr("stroke-width", 1.6).attr("stroke-dasharray", "1 3").attr("stroke-linecap", "round")));
@@ -67,11 +68,54 @@ function component_chooser(map) {
   } }, ...options)];
 }
 
-function plane_chooser(map) {
-  if (report.dimension !== 3) return [];
+/// The planes, and space where the browser draws it.
+function view_rows(map) {
   const planes = { xy: ["x", "y"], xz: ["x", "z"], yz: ["y", "z"] };
-  const set = name => { state.axes = planes[name]; map.fit(); changes.call("layers"); };
-  return [group_of_rows("View", choice("plane", [["xy", "from above"], ["xz", "x–z"], ["yz", "y–z"]], "xy", set))];
+  const views = [["xy", "from above"]];
+  if (report.dimension === 3) views.push(["xz", "x–z"], ["yz", "y–z"]);
+  if (webgl_is_there() && (cloud.count || report.dimension === 3)) views.push(["space", "3D"]);
+  if (views.length === 1 && !cloud.count) return [];
+  const set = name => {
+    if (name !== "space") state.axes = planes[name];
+    else if (cloud.count && !state.layers.points) state.layers.points = true;
+    map.set_space(name === "space");
+    changes.call("layers");
+    changes.call("theme");
+  };
+  const shown_now = map.in_space ? "space" : state.axes.join("");
+  const rows = [choice("view", views, shown_now, set)];
+  if (cloud.count) rows.push(...point_rows());
+  return [group_of_rows("View", ...rows)];
+}
+
+/// What colours the points, and sliders for their height and for time.
+function point_rows() {
+  const colours = [["robot", "robot"], ...(has_heights ? [["height", "height"]] : []), ["time", "time"]];
+  const rows = [element("div", { class: "setting" }, "Points by ", choice("points by", colours, state.colour, value => {
+    state.colour = value;
+    if (!state.layers.points) state.layers.points = true;
+    changes.call("colour");
+    changes.call("layers");
+    changes.call("theme");
+  }))];
+  if (has_heights) rows.push(slider("up to height", height_span, "top", v => `${format.metres(v)} m`));
+  rows.push(slider("up to time", [0, time_end], "until", format.clock));
+  return rows;
+}
+
+/// A limit; at its right end there is none.
+function slider(name, [low, high], key, text) {
+  const value = element("output", { class: "value" });
+  const write = () => { value.textContent = isFinite(state[key]) ? text(state[key]) : "all"; };
+  const input = element("input", { type: "range", min: 0, max: 1000, "aria-label": name,
+    value: isFinite(state[key]) ? Math.round((1000 * (state[key] - low)) / (high - low)) : 1000,
+    oninput: () => {
+      state[key] = Number(input.value) === 1000 ? Infinity : low + ((high - low) * input.value) / 1000;
+      write();
+      changes.call("limits");
+    } });
+  write();
+  return element("label", { class: "slider" }, element("span", {}, name), input, value);
 }
 
 function draw_panel(panel, map) {
@@ -86,7 +130,7 @@ function draw_panel(panel, map) {
     if (focused >= 0) list.querySelectorAll("input")[focused].focus();
   };
   const build = () => {
-    panel.replaceChildren(...plane_chooser(map), group_of_rows("Layers", ...layer_rows()),
+    panel.replaceChildren(...view_rows(map), group_of_rows("Layers", ...layer_rows()),
       ...(groups.length ? [group_of_rows("Closures", ...closure_rows())] : []), who);
     fill();
   };
@@ -105,8 +149,10 @@ function caption_map() {
   if (alternatives.length) parts.push("Dotted: the other hypotheses, aligned at the first robot.");
   if (closures_drawn < closures_total)
     parts.push(`${format.count(closures_drawn)} of ${format.count(closures_total)} closures are drawn, evenly spaced within each kind and status; all are counted.`);
-  if (picture_cells)
-    parts.push(`Grey: walls and other vertical structures in ${format.plural(picture_scans, "scan")} at keyframes${report.dimension === 3 ? "; only in the view from above" : ""}.`);
+  const scans = total(report.maps, map => map.scans), all = total(report.maps, map => map.all_points), through = total(report.maps, map => map.seen_through);
+  if (has_grid) parts.push(`Grid, from ${format.plural(scans, "scan")}: dark cells are occupied, light ones free, the others unknown; only in the view from above.`);
+  if (cloud.count < all) parts.push(`${format.count(cloud.count)} of the map's ${format.count(all)} points are drawn; map.ply has all.`);
+  if (through) parts.push(`${format.plural(through, "point")} of things that moved, through which other scans look, ${through === 1 ? "is" : "are"} left out.`);
   const drawn = total(robots, r => (r.estimate ? r.estimate.t.length : 0)), keyframes = total(robots, r => r.keyframes);
   if (drawn < keyframes) parts.push(`${format.count(drawn)} of ${format.count(keyframes)} keyframes are drawn.`);
   by_id("map-caption").textContent = parts.join(" ");

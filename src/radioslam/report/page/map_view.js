@@ -22,6 +22,16 @@ class MapView {
     new ResizeObserver(() => this.resize()).observe(parent);
   }
 
+  /// Shows the map in space, or in the plane again.
+  set_space(on) {
+    if (on && !this.space) this.space = new SpaceView(this.parent);
+    this.in_space = on;
+    for (const part of [this.canvas, this.overlay]) part.hidden = on;
+    if (this.space) this.space.canvas.hidden = !on;
+    this.leave();
+    this.fit();
+  }
+
   buttons() {
     const button = (text, label, action) => element("button", { type: "button", "aria-label": label, title: label, onclick: action }, text);
     return element("div", { class: "map-buttons" }, button("+", "Zoom in", () => this.zoom_by(1.6)),
@@ -30,7 +40,7 @@ class MapView {
 
   listen() {
     changes.on("visibility.map", () => { this.tree = null; this.redraw(); });
-    for (const change of ["layers", "highlight", "theme"]) changes.on(`${change}.map`, this.redraw);
+    for (const change of ["layers", "highlight", "theme", "colour", "limits"]) changes.on(`${change}.map`, this.redraw);
     changes.on("moment.map", this.redraw_moment);
     this.canvas.addEventListener("mousemove", event => this.point(event));
     this.canvas.addEventListener("mouseleave", () => this.leave());
@@ -57,9 +67,10 @@ class MapView {
     event.preventDefault();
   }
 
-  zoom_by(factor) { d3.select(this.canvas).call(this.zoom.scaleBy, factor); }
+  zoom_by(factor) { if (this.in_space) this.space.zoom_by(factor); else d3.select(this.canvas).call(this.zoom.scaleBy, factor); }
 
   fit() {
+    if (this.in_space) return this.space.fit();
     this.measure();
     d3.select(this.canvas).call(this.zoom.transform, d3.zoomIdentity);
     this.redraw();
@@ -85,6 +96,7 @@ class MapView {
     }
     this.measure();
     this.redraw();
+    if (this.in_space) this.space.redraw();
   }
 
   /// Scale and centre that show every layer of the visible robots.
@@ -102,11 +114,10 @@ class MapView {
         widen(span.a, robot[layer][a]);
         widen(span.b, robot[layer][b]);
       }
-    if (state.layers.picture && a === "x" && b === "y")
-      for (const robot of shown()) {
-        widen(span.a, picture_spans[robot.index].x);
-        widen(span.b, picture_spans[robot.index].y);
-      }
+    if (state.layers.grid && from_above()) {
+      widen(span.a, grid_corners("x"));
+      widen(span.b, grid_corners("y"));
+    }
     if (state.layers.alternatives)
       for (const path of alternatives.flatMap(other => other.robots.filter((_, r) => state.visible[r]))) {
         widen(span.a, path ? path[a] : []);
@@ -123,7 +134,7 @@ class MapView {
   view() {
     const { base, transform: t, width, height } = this;
     return {
-      k: t.k * base.scale, width, height, moving: this.moving,
+      k: t.k * base.scale, width, height, ratio: this.ratio, moving: this.moving,
       ox: t.k * (width / 2 - base.scale * base.x) + t.x, oy: t.k * ((height - scale_bar_px) / 2 + base.scale * base.y) + t.y,
       points: total(robots, robot => robot.keyframes),
     };

@@ -1,9 +1,10 @@
 // State chosen by the reader, and events on its changes.
 //   visibility: visible robots              layers: drawn layers
 //   highlight: one highlighted robot        moment: {robot, t} under the pointer, in the map or in a chart
+//   colour: what colours the map's points   limits: height of points, and time, up to which they are shown
 //   theme: light, dark or paper
 
-const changes = d3.dispatch("visibility", "layers", "highlight", "moment", "theme");
+const changes = d3.dispatch("visibility", "layers", "highlight", "moment", "theme", "colour", "limits");
 const few_robots = 8;
 const many_closures = 10000;  // more would hide the trajectories and are off by default
 
@@ -12,7 +13,7 @@ const many_points = 150;  // the same for access points
 
 const state = {
   visible: robots.map(robot => robot.component === 0 && !robot.stranded),
-  layers: { truth: true, odometry: robots.length <= few_robots, estimate: true, sigma: false, alternatives: true, picture: true, access_points: points_placed > 0 && points_placed <= many_points },
+  layers: { truth: true, odometry: robots.length <= few_robots, estimate: true, sigma: false, alternatives: true, grid: true, points: false, access_points: points_placed > 0 && points_placed <= many_points },
   groups: groups.map(group => group.status === "accepted" && group.count <= many_closures),
   highlight: null,
   moment: null,
