@@ -23,6 +23,8 @@ Counts count(const TeamMap& map, const Street& street) {
 
 TEST(MovingThings, AreLeftOutAndHardlyAnythingElseIs) {
   Street street;
+  street.duration_s = 45;
+  street.steps = 400;
   street.add_traffic();
   MapParams keep_all;
   keep_all.views_per_s = 0;
@@ -34,7 +36,9 @@ TEST(MovingThings, AreLeftOutAndHardlyAnythingElseIs) {
 }
 
 TEST(MovingThings, AStreetWithoutThemIsKept) {
-  const Street street;
+  Street street;
+  street.duration_s = 20;
+  street.steps = 360;
   const TeamMap map(robots(street, 2), ScanPointParams{}, MapParams{});
   const auto all = static_cast<double>(map.result().all_points + map.result().seen_through);
   EXPECT_LT(static_cast<double>(map.result().seen_through), 0.01 * all);

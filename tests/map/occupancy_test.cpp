@@ -59,12 +59,12 @@ TEST(Occupancy, WhatMovesAwayBecomesFree) {
   builder.add(scan_of_wall(SE3(), 0), robot);
   for (int k = 0; k < 5; ++k) {
     PlacedScan farther = scan_of_wall(SE3(), 0);
-    for (Eigen::Vector3f& point : farther.returns.points) point *= 2;
+    for (Eigen::Vector3f& point : farther.returns.points) point *= 2.1F;
     builder.add(farther, robot);
   }
   const OccupancyGrid grid = builder.grid();
   EXPECT_EQ(state_at(grid, 3.05, 0.05), CellState::kFree);
-  EXPECT_EQ(state_at(grid, 6.15, 0.05), CellState::kOccupied);
+  EXPECT_EQ(state_at(grid, 6.45, 0.05), CellState::kOccupied);
 }
 
 TEST(Occupancy, CellsAreWidenedUntilThereAreFewEnough) {

@@ -49,22 +49,23 @@ TEST(TeamMap, EachRobotsPointsLieOnTheOthersSurfaces) {
   const auto points = points_of(TeamMap(street::robots(street, 2), ScanPointParams{}, MapParams{}));
   VoxelMap of_b(0.1, 1000000);
   for (const auto& [at, point] : points)
-    if (point.robot == 1) of_b.add({at, Eigen::Vector3f::UnitZ(), 0, 0, 0});
+    if (point.robot == 1) of_b.add(std::vector<MapReturn>{{at, Eigen::Vector3f::UnitZ(), 0, 0, 0}});
   std::size_t common = 0, near = 0;
   for (const auto& [at, point] : points) {
     if (point.robot != 0) continue;
-    double least = 1;
+    if (point.normal.isZero()) continue;
+    double least = 0.2, off = 0;
     for (const Voxel& voxel : of_b.voxels()) {
-      least = std::min(least, (of_b.position(voxel) - at).norm());
-      if (least < 0.1) break;
+      const Eigen::Vector3d way = of_b.position(voxel) - at;
+      if (way.norm() < least) least = way.norm(), off = std::abs(way.dot(point.normal.cast<double>()));
     }
-    if (least > 0.3) continue;  // b has not been there
+    if (least == 0.2) continue;  // b has not been there
     ++common;
-    if (least < 0.15) ++near;
-    if (common == 2000) break;
+    if (off < 0.05) ++near;
+    if (common == 1000) break;
   }
   ASSERT_GT(common, 500);
-  EXPECT_GT(static_cast<double>(near), 0.9 * static_cast<double>(common));
+  EXPECT_GT(static_cast<double>(near), 0.95 * static_cast<double>(common));
 }
 
 TEST(TeamMap, CropLeavesOutWhatIsOutside) {

@@ -6,8 +6,9 @@
 namespace radioslam {
 namespace {
 
-MapReturn return_at(double x, double y, double z, std::uint16_t robot = 0, std::uint32_t time_ms = 0) {
-  return {{x, y, z}, Eigen::Vector3f::UnitZ(), 0, time_ms, robot};
+std::vector<MapReturn> return_at(double x, double y, double z, std::uint16_t robot = 0,
+                                 std::uint32_t time_ms = 0) {
+  return {{{x, y, z}, Eigen::Vector3f::UnitZ(), 0, time_ms, robot}};
 }
 
 TEST(VoxelMap, KeepsTheMeanOfEachRobotAndTheFirstTime) {
@@ -41,7 +42,7 @@ TEST(VoxelMap, DoublesItsVoxelsRatherThanGrowBeyondItsBound) {
       map.add(return_at(0.1 * x + 0.05, 0.1 * y + 0.05, 0));
       sum += Eigen::Vector3d(0.1 * x + 0.05, 0.1 * y + 0.05, 0);
     }
-  EXPECT_DOUBLE_EQ(map.voxel_m(), 0.4);
+  EXPECT_DOUBLE_EQ(map.voxel_m(), 0.2);
   ASSERT_LE(map.voxels().size(), 100);
   int returns = 0;
   for (const Voxel& voxel : map.voxels()) {

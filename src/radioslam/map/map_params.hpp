@@ -13,7 +13,7 @@ struct MapParams {
   bool pcd = false;
   double scan_step_m = 0.2;
   double scan_step_s = 0.5;
-  int points_per_s = 250000;  ///< of the drive: a tenth of its time on two cores
+  int points_per_s = 150000;  ///< of the drive: a tenth of its time on two cores
   int max_points = 4000000;   ///< about 160 MB
   int max_cells = 8000000;
   double view_step_m = 0.5;

@@ -75,8 +75,28 @@ void search(const Points& points, Eigen::Vector3d& origin, int axis, double reac
   }
 }
 
+/// Without the most frequent heights: from within a floor or ceiling, its returns would all have one
+/// elevation.
+Points without_floor_and_ceiling(Points points) {
+  constexpr float kBin_m = 0.2F;
+  constexpr double kMinShare = 0.1;
+  for (int plane = 0; plane < 2; ++plane) {
+    std::map<long, std::size_t> heights;
+    for (const Eigen::Vector3f& point : points) ++heights[std::lround(point.z() / kBin_m)];
+    const auto most = std::max_element(heights.begin(), heights.end(),
+                                       [](const auto& a, const auto& b) { return a.second < b.second; });
+    const auto count = static_cast<double>(most->second), all = static_cast<double>(points.size());
+    if (count < kMinShare * all || count > (1 - kMinShare) * all) break;
+    const float height_m = kBin_m * static_cast<float>(most->first);
+    std::erase_if(points, [&](const Eigen::Vector3f& p) { return std::abs(p.z() - height_m) <= kBin_m; });
+  }
+  return points;
+}
+
 /// Its height first, which the beams near the horizon show wherever else it is.
-Eigen::Vector3d origin_of_rings(const Points& points) {
+Eigen::Vector3d origin_of_rings(const Points& all) {
+  const Points points = without_floor_and_ceiling(all);
+  if (points.empty()) return Eigen::Vector3d::Zero();
   constexpr double kStep_m = 0.02, kFineStep_m = 0.005;
   const Eigen::Vector3d body = Eigen::Vector3d::Zero();
   Eigen::Vector3d origin = body;

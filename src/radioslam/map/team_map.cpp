@@ -115,6 +115,7 @@ void TeamMap::insert(const Block& block) {
     const Eigen::Matrix3d R = scan.T_frame_body.rotation_matrix();
     const Eigen::Vector3d t = scan.T_frame_body.translation();
     const Eigen::Vector3d scanner = robots_[scan.robot].geometry.scanner_m;
+    std::vector<MapReturn> placed;
     MapReturn next;
     next.robot = static_cast<std::uint16_t>(scan.robot);
     next.time_ms = static_cast<std::uint32_t>((scan.stamp.ns - result_.start.ns) / 1000000);
@@ -126,8 +127,9 @@ void TeamMap::insert(const Block& block) {
       if (!is_kept(options_, next.position)) continue;
       next.to_scanner = (R * (scanner - body)).normalized().cast<float>();
       next.intensity = returns.intensities.empty() ? 0 : returns.intensities[k];
-      voxels_.add(next);
+      placed.push_back(next);
     }
+    voxels_.add(placed);
   }
 }
 

@@ -85,32 +85,55 @@ void VoxelMap::grow_index(std::size_t places) {
     index_[place_of(voxels_[k].key)] = static_cast<std::uint32_t>(k);
 }
 
-void VoxelMap::add(const MapReturn& of) {
+std::optional<std::uint64_t> VoxelMap::key_of(const MapReturn& of) const {
+  const Eigen::Vector3d at = of.position / voxel_m_;
+  if (!(at.cwiseAbs().maxCoeff() < kHalf)) return std::nullopt;
   Cell cell{};
-  std::array<double, 3> offset{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double at = of.position[static_cast<int>(axis)] / voxel_m_;
-    if (!(std::abs(at) < kHalf)) {
-      ++beyond_;
-      return;
-    }
-    cell[axis] = static_cast<std::int32_t>(std::floor(at));
-    offset[axis] = at - cell[axis];
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    cell[axis] = static_cast<std::int32_t>(std::floor(at[static_cast<int>(axis)]));
+  return key_of(cell, of.robot);
+}
+
+/// Has the memory read that add() will need in a moment: nearly all of its time would be waiting for that.
+void VoxelMap::fetch_index(const MapReturn& of) const {
+  if (const auto key = key_of(of)) __builtin_prefetch(&index_[hash_of(*key) & (index_.size() - 1)]);
+}
+
+void VoxelMap::fetch_voxel(const MapReturn& of) const {
+  const auto key = key_of(of);
+  if (!key) return;
+  const std::uint32_t k = index_[hash_of(*key) & (index_.size() - 1)];
+  if (k != kEmpty) __builtin_prefetch(&voxels_[k]);
+}
+
+void VoxelMap::add(std::span<const MapReturn> returns) {
+  constexpr std::size_t kAhead = 8;
+  for (std::size_t k = 0; k < returns.size(); ++k) {
+    if (k + 2 * kAhead < returns.size()) fetch_index(returns[k + 2 * kAhead]);
+    if (k + kAhead < returns.size()) fetch_voxel(returns[k + kAhead]);
+    add(returns[k]);
   }
-  const auto key = key_of(cell, of.robot);
+}
+
+void VoxelMap::add(const MapReturn& of) {
+  const auto key = key_of(of);
+  if (!key) {
+    ++beyond_;
+    return;
+  }
   const std::size_t place = place_of(*key);
-  if (index_[place] == kEmpty) {
+  std::size_t k = index_[place];
+  if (k == kEmpty) {
     if (voxels_.size() == max_points_) {
       double_voxels();
       return add(of);
     }
-    index_[place] = static_cast<std::uint32_t>(voxels_.size());
-    Voxel& voxel = voxels_.emplace_back();
-    voxel.key = *key;
-    voxel.time_ms = of.time_ms;
-    if (4 * voxels_.size() > 3 * index_.size()) grow_index(2 * index_.size());
+    k = voxels_.size();
+    index_[place] = static_cast<std::uint32_t>(k);
+    voxels_.push_back({*key, 0, of.time_ms});
+    if (2 * voxels_.size() > index_.size()) grow_index(2 * index_.size());
   }
-  Voxel& voxel = voxels_[index_[place_of(*key)]];
+  Voxel& voxel = voxels_[k];
   voxel.returns = sum_of_counts(voxel.returns, 1);
   const std::array<std::int8_t, 3> direction = stored(of.to_scanner);
   if (voxel.returns == 1 || std::abs(direction[2]) > std::abs(voxel.direction[2]))
@@ -118,8 +141,9 @@ void VoxelMap::add(const MapReturn& of) {
   voxel.time_ms = std::min(voxel.time_ms, of.time_ms);
   voxel.intensity += (of.intensity - voxel.intensity) / voxel.returns;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double mean = voxel.returns == 1 ? offset[axis] : in_voxel(voxel.offset[axis]);
-    voxel.offset[axis] = offset_of(mean + (offset[axis] - mean) / voxel.returns);
+    const double at = of.position[static_cast<int>(axis)] / voxel_m_, offset = at - std::floor(at);
+    const double mean = voxel.returns == 1 ? offset : in_voxel(voxel.offset[axis]);
+    voxel.offset[axis] = offset_of(mean + (offset - mean) / voxel.returns);
   }
 }
 

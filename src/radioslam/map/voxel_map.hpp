@@ -49,7 +49,7 @@ class VoxelMap {
   std::span<Voxel> voxels() { return voxels_; }
   std::size_t beyond() const { return beyond_; }  ///< returns too far from the origin for the voxel size
 
-  void add(const MapReturn& of);
+  void add(std::span<const MapReturn> returns);
 
   /// Puts the voxels in the order of square tiles of about `tile_m`, by y, then x, then voxel; releases the
   /// index, after which nothing can be added. The tiles are consecutive ranges of voxels().
@@ -67,6 +67,10 @@ class VoxelMap {
  private:
   using Cell = std::array<std::int32_t, 3>;
 
+  void add(const MapReturn& of);
+  void fetch_index(const MapReturn& of) const;
+  void fetch_voxel(const MapReturn& of) const;
+  std::optional<std::uint64_t> key_of(const MapReturn& of) const;
   static std::optional<std::uint64_t> key_of(const Cell& cell, std::uint16_t robot);
   static Cell cell_of(std::uint64_t key);
   std::size_t place_of(std::uint64_t key) const;
