@@ -98,6 +98,14 @@ function point_rows() {
     changes.call("layers");
     changes.call("theme");
   }))];
+  if (alternatives.length) rows.push(element("div", { class: "setting" }, "Points of ", element("select", { "aria-label": "Hypothesis whose points are shown",
+    onchange: event => {
+      state.hypothesis = event.target.value === "shown" ? "shown" : Number(event.target.value);
+      if (!state.layers.points) state.layers.points = true;
+      changes.call("layers");
+      changes.call("theme");
+    } }, ...["shown", ...d3.range(alternatives.length)].map(k => element("option", { value: k, selected: k === state.hypothesis },
+    k === "shown" ? `team shown, ${d3.format(".2f")(report.weight)}` : `hypothesis ${k + 1}, ${d3.format(".2f")(alternatives[k].weight)}`)))));
   if (has_heights) rows.push(slider("up to height", height_span, "top", v => `${format.metres(v)} m`));
   rows.push(slider("up to time", [0, time_end], "until", format.clock));
   return rows;

@@ -40,7 +40,6 @@ class SpaceView {
     this.redraw = once_per_frame(() => this.draw());
     this.program = this.link();
     this.buffers = { points: {}, lines: {} };
-    this.fill("points", cloud.x, cloud.y, cloud.z, cloud.t);
     for (const change of ["visibility", "theme", "layers", "highlight", "colour"]) changes.on(`${change}.space`, () => { this.stale = true; this.redraw(); });
     changes.on("limits.space", this.redraw);
     this.listen();
@@ -146,7 +145,7 @@ class SpaceView {
     return camera_matrix(this.target, this.yaw, this.pitch, this.distance, this.parent.clientWidth / this.parent.clientHeight);
   }
 
-  /// Trajectories and closures as pairs of ends.
+  /// Closures and, over them, trajectories as pairs of ends.
   build_lines() {
     const x = [], y = [], z = [], t = [], colours = [];
     const end = (path, i, colour) => {
@@ -160,15 +159,15 @@ class SpaceView {
       const rgb = d3.rgb(colour);
       for (let i = 1; path && i < path.x.length; ++i) end(path, i - 1, rgb), end(path, i, rgb);
     };
+    for (let c = 0; c < lines.group.length; ++c) {
+      if (!line_shown(c)) continue;
+      const rgb = d3.rgb(d3.interpolateLab(css("paper"), closure_colour(groups[lines.group[c]]))(0.6));
+      end(robots[lines.robot_i[c]].estimate, lines.keyframe_i[c], rgb);
+      end(robots[lines.robot_j[c]].estimate, lines.keyframe_j[c], rgb);
+    }
     for (const robot of shown()) {
       if (state.layers.estimate) add(robot.estimate, fades(robot.index) ? css("line") : robot_colour(robot.index));
       if (state.layers.truth) add(robot.truth, css("truth"));
-    }
-    for (let c = 0; c < lines.group.length; ++c) {
-      if (!line_shown(c)) continue;
-      const rgb = d3.rgb(closure_colour(groups[lines.group[c]]));
-      end(robots[lines.robot_i[c]].estimate, lines.keyframe_i[c], rgb);
-      end(robots[lines.robot_j[c]].estimate, lines.keyframe_j[c], rgb);
     }
     this.fill("lines", x, y, z, t);
     this.colour("lines", new Uint8Array(colours));
@@ -187,6 +186,9 @@ class SpaceView {
     if (!this.target) this.fit();
     this.resize();
     if (this.stale) {
+      const placed = chosen_cloud();
+      if (this.placed !== placed) this.fill("points", placed.x, placed.y, placed.z, placed.t);
+      this.placed = placed;
       this.colour("points", current_colours());
       this.build_lines();
       this.stale = false;

@@ -30,6 +30,41 @@ state.top = Infinity;    // height up to which points are shown
 state.until = Infinity;  // time up to which points, trajectories and closures are shown
 state.colour = "robot";
 
+state.hypothesis = "shown";  // the team whose points are drawn: this, or the index of an alternative
+
+/// The plane motion of a robot from the team that is shown to another, by least squares over its path.
+function motion_to(other, robot) {
+  const from = robots[robot].estimate, to = other.robots[robot], samples = 50;
+  if (!from || !to) return null;
+  const at = (values, share) => values[Math.round(share * (values.length - 1))];
+  const shares = d3.range(samples).map(k => k / (samples - 1)), mean = (path, axis) => d3.mean(shares, s => (path[axis] ? at(path[axis], s) : 0));
+  const [fx, fy, fz, tx, ty, tz] = [from, to].flatMap(path => ["x", "y", "z"].map(axis => mean(path, axis)));
+  let dot = 0, cross = 0;
+  for (const s of shares) {
+    const [u, v, p, q] = [at(from.x, s) - fx, at(from.y, s) - fy, at(to.x, s) - tx, at(to.y, s) - ty];
+    dot += u * p + v * q;
+    cross += u * q - v * p;
+  }
+  const yaw = Math.atan2(cross, dot), c = Math.cos(yaw), s = Math.sin(yaw);
+  return (x, y, z) => [tx + c * (x - fx) - s * (y - fy), ty + s * (x - fx) + c * (y - fy), z + (from.z && to.z ? tz - fz : 0)];
+}
+
+/// The points as the chosen hypothesis places each robot's.
+const clouds_of = new Map();
+function chosen_cloud() {
+  if (state.hypothesis === "shown") return cloud;
+  if (!clouds_of.has(state.hypothesis)) {
+    const motions = robots.map(robot => motion_to(alternatives[state.hypothesis], robot.index));
+    const moved = { ...cloud, x: cloud.x.slice(), y: cloud.y.slice(), z: cloud.z.slice() };
+    for (let k = 0; k < cloud.count; ++k) {
+      const motion = motions[cloud.robot[k]];
+      if (motion) [moved.x[k], moved.y[k], moved.z[k]] = motion(cloud.x[k], cloud.y[k], cloud.z[k]);
+    }
+    clouds_of.set(state.hypothesis, moved);
+  }
+  return clouds_of.get(state.hypothesis);
+}
+
 /// Colours of all points as [r, g, b, a]; hidden robots have a = 0.
 function point_colours() {
   const colours = new Uint8Array(4 * cloud.count), of_robot = robots.map(robot => d3.rgb(robot_colour(robot.index)));
@@ -74,7 +109,7 @@ const from_above = () => state.axes[0] === "x" && state.axes[1] === "y";
 const map_shown = map => map.robots.some(robot => state.visible[robot]);
 
 function draw_grids(context, view) {
-  if (!from_above()) return;
+  if (!from_above() || state.hypothesis !== "shown") return;
   grid_images = grid_images || report.maps.map(map => (map.grid ? grid_image(map.grid) : null));
   report.maps.forEach((map, m) => {
     if (!map.grid || !map_shown(map)) return;
@@ -107,7 +142,7 @@ function draw_points(context, view) {
   if (point_canvas.width !== width || point_canvas.height !== height) Object.assign(point_canvas, { width, height });
   const layer = point_canvas.getContext("2d"), image = layer.createImageData(width, height);
   const out = new Uint32Array(image.data.buffer), colours = new Uint32Array(current_colours().buffer);
-  const a = cloud[state.axes[0]], b = cloud[state.axes[1]], k = view.k * ratio, ox = view.ox * ratio, oy = view.oy * ratio;
+  const placed = chosen_cloud(), a = placed[state.axes[0]], b = placed[state.axes[1]], k = view.k * ratio, ox = view.ox * ratio, oy = view.oy * ratio;
   const side = Math.max(1, Math.min(4, Math.round(0.05 * k)));
   for (let n = 0; n < cloud.count; ++n) {
     if (cloud.z[n] > state.top || cloud.t[n] > state.until || !(colours[n] >>> 24)) continue;
