@@ -30,7 +30,7 @@ add_library(radioslam_cli STATIC
   cli/commands/mission_check.cpp
   cli/commands/mission_input.cpp
   cli/commands/output_path_check.cpp
-  cli/commands/recorded_drive.cpp
+  cli/recorded_drive.cpp
   cli/config.cpp
   cli/ending.cpp
   cli/import/import_android.cpp

@@ -15,7 +15,7 @@
 #include "radioslam/base/suggestion.hpp"
 #include "radioslam/cli/commands/command_options.hpp"
 #include "radioslam/cli/commands/distributed_optimization.hpp"
-#include "radioslam/cli/commands/recorded_drive.hpp"
+#include "radioslam/cli/recorded_drive.hpp"
 #include "radioslam/cli/config.hpp"
 #include "radioslam/cli/parameters.hpp"
 #include "radioslam/cli/progress_line.hpp"

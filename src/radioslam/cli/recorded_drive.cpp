@@ -1,4 +1,4 @@
-#include "radioslam/cli/commands/recorded_drive.hpp"
+#include "radioslam/cli/recorded_drive.hpp"
 
 #include "radioslam/base/input_error.hpp"
 #include "radioslam/io/lidar/kitti_sequence.hpp"
