@@ -18,7 +18,7 @@ struct MapParams {
   int max_cells = 8000000;
   double view_step_m = 0.5;
   double view_step_s = 1;
-  double views_per_s = 3;  ///< of the drive
+  double views_per_s = 2;  ///< of the drive
   double view_range_m = 30;
   double through_radius_voxels = 1.5;
   double through_depth_m = 0.15;

@@ -7,11 +7,11 @@
 //   through    h is more than `depth_m` and a tenth of its distance from p behind the plane, and the ray
 //              crosses the disc
 //
-// A ray that ends in front of the plane, or grazes it, says nothing. Depth is measured along the normal, not
-// along the ray: a floor that is seen at a grazing angle would else be seen through in front of every return.
-// Without a normal the disc faces the ray.
-// Rays are found by their direction. As a sweep takes time, a direction is looked up from where the scanner
-// was when it looked there. Cost: a few dozen rays per point.
+// A ray that ends in front of the plane, or grazes it, counts for neither. Depth is measured along the
+// normal, not along the ray: a floor that is seen at a grazing angle would else be seen through in front of
+// every return. Without a normal the disc faces the ray. Rays are found by their direction. As a sweep takes
+// time, a direction is looked up from where the scanner was when it looked there. Cost: a few dozen rays per
+// point.
 #pragma once
 
 #include <Eigen/Core>
