@@ -166,8 +166,8 @@ class SpaceView {
       end(robots[lines.robot_j[c]].estimate, lines.keyframe_j[c], rgb);
     }
     for (const robot of shown()) {
-      if (state.layers.estimate) add(robot.estimate, fades(robot.index) ? css("line") : robot_colour(robot.index));
       if (state.layers.truth) add(robot.truth, css("truth"));
+      if (state.layers.estimate) add(robot.estimate, fades(robot.index) ? css("line") : robot_colour(robot.index));
     }
     this.fill("lines", x, y, z, t);
     this.colour("lines", new Uint8Array(colours));
