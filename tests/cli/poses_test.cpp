@@ -1,6 +1,7 @@
 // radioslam poses: where the robots of a run were at given times.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <sstream>
 
 #include "cli/process.hpp"

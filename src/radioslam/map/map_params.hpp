@@ -29,16 +29,15 @@ struct MapParams {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    RADIOSLAM_BASIC_FIELD(voxel_m, "m", 0.005, 100,
-                          "voxel size of the map's points, one per voxel and robot");
-    RADIOSLAM_BASIC_FIELD(cell_m, "m", 0.01, 100, "cell width of the occupancy grid");
-    RADIOSLAM_BASIC_FIELD(slice_bottom_m, "m", -100, 100,
-                          "lowest height above the ground at which a return of a spatial scanner occupies a "
-                          "cell of the occupancy grid");
-    RADIOSLAM_BASIC_FIELD(slice_top_m, "m", -100, 1000,
-                          "greatest height above the ground at which a return of a spatial scanner occupies "
-                          "a cell of the occupancy grid");
-    RADIOSLAM_BASIC_FIELD(pcd, "", 0, 1, "whether the map's points are also written as map.pcd");
+    RADIOSLAM_FIELD(voxel_m, "m", 0.005, 100, "voxel size of the map's points, one per voxel and robot");
+    RADIOSLAM_FIELD(cell_m, "m", 0.01, 100, "cell width of the occupancy grid");
+    RADIOSLAM_FIELD(slice_bottom_m, "m", -100, 100,
+                    "lowest height above the ground at which a return of a spatial scanner occupies a "
+                    "cell of the occupancy grid");
+    RADIOSLAM_FIELD(slice_top_m, "m", -100, 1000,
+                    "greatest height above the ground at which a return of a spatial scanner occupies "
+                    "a cell of the occupancy grid");
+    RADIOSLAM_FIELD(pcd, "", 0, 1, "whether the map's points are also written as map.pcd");
     RADIOSLAM_FIELD(scan_step_m, "m", 0, 100, "distance after which another scan is mapped");
     RADIOSLAM_FIELD(scan_step_s, "s", 0, 1e6,
                     "time after which another scan is mapped, though the robot stands");

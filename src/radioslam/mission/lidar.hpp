@@ -19,7 +19,7 @@ struct LidarScan {
   /// Time of every point relative to the scan's stamp, seconds, may be negative; empty if unknown.
   std::vector<float> times_s;
   /// Strength of every return, in the scanner's own units; empty if not recorded.
-  std::vector<float> intensities;
+  std::vector<float> intensities = {};
 };
 
 /// A robot's scans.

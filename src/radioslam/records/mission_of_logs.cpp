@@ -440,10 +440,13 @@ LoggedMission by_logs(Mission mission, const KeyframeParams& params) {
     if (!in_log[r]) continue;
     Robot &of = logged.mission.robots[*in_log[r]], &robot = mission.robots[r];
     index[*in_log[r]] = RobotIndex(r);
+    std::erase_if(robot.fixes, [&](const PositionFix& fix) { return of.odometry.covers(fix.stamp); });
     robot.odometry = std::move(of.odometry);
     robot.odometry_noise = std::move(of.odometry_noise);
     robot.keyframes = std::move(of.keyframes);
-    robot.fixes = std::move(of.fixes);
+    robot.fixes.insert(robot.fixes.end(), of.fixes.begin(), of.fixes.end());
+    std::stable_sort(robot.fixes.begin(), robot.fixes.end(),
+                     [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
     robot.wifi = std::move(of.wifi);
   }
   const auto renumber = [&](RobotIndex& robot) {

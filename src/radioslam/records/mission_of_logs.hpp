@@ -25,7 +25,8 @@ struct LoggedMission {
 LoggedMission mission_of(const TeamLog& team);
 
 /// The mission as its robots' logs describe it, in its own order of robots and with what no log says: raw
-/// recordings and names. A robot of which no log can be made stays as recorded, without its measurements.
+/// recordings, names, and fixes outside the odometry, whose clock may be another. A robot of which no log can
+/// be made stays as recorded, without its measurements.
 LoggedMission by_logs(Mission mission, const KeyframeParams& params);
 
 }  // namespace radioslam
