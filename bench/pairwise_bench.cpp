@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include "radioslam/base/random.hpp"
+#include "radioslam/consistency/odometry_chain.hpp"
 #include "radioslam/consistency/pairwise.hpp"
 
 namespace radioslam {
