@@ -18,7 +18,6 @@
 #include "radioslam/cli/config.hpp"
 #include "radioslam/cli/progress_line.hpp"
 #include "radioslam/cli/run_parameters.hpp"
-#include "radioslam/io/mission/tum.hpp"
 #include "radioslam/io/run/run_folder.hpp"
 #include "radioslam/io/text/atomic_output.hpp"
 #include "radioslam/io/text/numbers.hpp"
@@ -74,10 +73,10 @@ std::vector<ScannedTrajectory> read_robots(const MapArguments& arguments, const 
   auto robots = scans_of(input.mission);
   if (robots.empty()) throw InputError(arguments.mission.front(), 0, "has no LiDAR scans to make a map of");
   for (ScannedTrajectory& robot : robots) {
-    const fs::path path = fs::path(arguments.run) / "dense" / (robot.id + ".tum");
     const bool is_unplaced =
         std::find(run.unplaced.begin(), run.unplaced.end(), robot.id) != run.unplaced.end();
-    if (!is_unplaced && fs::exists(path)) robot.poses = read_tum(read_text(path));
+    if (is_unplaced) continue;
+    if (auto poses = read_dense(arguments.run, robot.id)) robot.poses = *std::move(poses);
   }
   const auto has_poses = [](const ScannedTrajectory& robot) { return !robot.poses.empty(); };
   if (std::none_of(robots.begin(), robots.end(), has_poses))

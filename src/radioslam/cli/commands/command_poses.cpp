@@ -12,7 +12,6 @@
 #include "radioslam/base/input_error.hpp"
 #include "radioslam/cli/commands.hpp"
 #include "radioslam/cli/commands/command_options.hpp"
-#include "radioslam/io/mission/tum.hpp"
 #include "radioslam/io/run/run_folder.hpp"
 #include "radioslam/io/run/run_tables.hpp"
 #include "radioslam/io/text/atomic_output.hpp"
@@ -35,10 +34,8 @@ struct AskedPose {
 class EstimatedMotion {
  public:
   explicit EstimatedMotion(const std::filesystem::path& folder) : robots_(read_run(folder).robots) {
-    for (const EstimatedTrajectory& robot : robots_) {
-      const auto dense = folder / "dense" / (robot.id + ".tum");
-      dense_.push_back(std::filesystem::exists(dense) ? read_tum(read_text(dense)) : robot.poses);
-    }
+    for (const EstimatedTrajectory& robot : robots_)
+      dense_.push_back(read_dense(folder, robot.id).value_or(robot.poses));
   }
 
   std::optional<std::size_t> index(std::string_view id) const {

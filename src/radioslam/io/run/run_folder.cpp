@@ -297,6 +297,12 @@ Json read_json(const Text& text) {
   }
 }
 
+std::optional<Trajectory<SE3>> read_dense(const fs::path& folder, const std::string& robot) {
+  const fs::path path = folder / "dense" / (robot + ".tum");
+  if (!fs::exists(path)) return std::nullopt;
+  return read_tum(read_text(path));
+}
+
 RunFolder read_run(const fs::path& folder) {
   if (!fs::is_directory(folder)) throw InputError(folder.string(), 0, "no such run folder");
   RunFolder run;

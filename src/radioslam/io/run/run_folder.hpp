@@ -52,6 +52,9 @@ struct RunFolder {
 /// summary; without it, an empty candidates.csv means that there was no search. Errors are InputErrors.
 RunFolder read_run(const std::filesystem::path& folder);
 
+/// The robot at all of its odometry samples, from a run's folder; nothing if it is not there.
+std::optional<Trajectory<SE3>> read_dense(const std::filesystem::path& folder, const std::string& robot);
+
 /// Parses JSON; refuses invalid JSON, with its line.
 nlohmann::ordered_json read_json(const Text& text);
 
