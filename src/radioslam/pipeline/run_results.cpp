@@ -73,7 +73,7 @@ void add_notes(RunResult& result, const Mission& mission, const RadioMeasurement
         " links are not used: they have no odometry at their time, or are relative poses between robots");
   if (auto note = range_bias_note(result.range_biases)) result.notes.push_back(std::move(*note));
   if (!result.alternatives.empty())
-    result.notes.push_back("the links leave the team alignment ambiguous: see hypotheses/");
+    result.notes.push_back("what was measured leaves the alignment ambiguous: see hypotheses/");
   if (const auto note = sequence_note(mission.dimension, radio, sequence)) result.notes.push_back(*note);
 }
 

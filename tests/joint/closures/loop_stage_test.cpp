@@ -66,6 +66,33 @@ TEST(CloseByLoops, CorrectsTrajectoriesByTheirOwnLoops) {
   EXPECT_LT(looped.largest_error_m(out, 0, 0), 0.6 * apart.largest_error_m(apart.solve(), 0, 0));
 }
 
+TEST(CloseByLoops, LoopsThatContradictEachOtherByLittleLeaveAlternatives) {
+  // Two readings of the same round, 2 m apart, which the odometry cannot tell from one another.
+  BlockTeam team(1, 320);
+  for (std::size_t k = 60; k < 84; k += 6) team.see(0, k, 0, k + BlockTeam::kRound);
+  for (std::size_t k = 63; k < 87; k += 6) team.mistake(0, k, 0, k + BlockTeam::kRound, SE2({0, 2}, 0));
+  const auto out = team.solve();
+  ASSERT_EQ(out.alignment.alternatives.size(), 1u);
+  EXPECT_LT(out.alignment.weight, 0.9);
+  EXPECT_NEAR(out.alignment.weight + out.alignment.alternative_weights.front(), 1, 1e-9);
+  auto other = out;
+  other.joint.team.graph.poses = out.alignment.alternatives.front();
+  const double error_m = team.relative_error_m(out, 0, 80, 0, 240),
+               other_m = team.relative_error_m(other, 0, 80, 0, 240);
+  EXPECT_LT(std::min(error_m, other_m), 0.3);
+  EXPECT_GT(std::max(error_m, other_m), 1);
+}
+
+TEST(CloseByLoops, AHandfulAgainstManyIsNoAlternative) {
+  BlockTeam team(1, 320);
+  for (std::size_t k = 0; k < 160; k += 4) team.see(0, k, 0, k + BlockTeam::kRound);
+  for (std::size_t k = 63; k < 87; k += 6) team.mistake(0, k, 0, k + BlockTeam::kRound, SE2({0, 2}, 0));
+  const auto out = team.solve();
+  EXPECT_TRUE(out.alignment.alternatives.empty());
+  EXPECT_EQ(out.alignment.weight, 1);
+  EXPECT_LT(team.relative_error_m(out, 0, 80, 0, 240), 0.3);
+}
+
 TEST(CloseByLoops, LeavesRobotsApartWhereGroupsAreEquallyStrong) {
   BlockTeam team(2);
   for (const std::size_t k : {40u, 100u}) team.see(0, k, 1, k - 40);

@@ -17,6 +17,17 @@ BlockPattern inner_pattern(const BlockPattern& pattern, const std::vector<std::i
   return inner;  // eliminated blocks keep their order, so that this stays sorted
 }
 
+/// Replaces both halves by their mean, tile by tile.
+void make_symmetric(Eigen::MatrixXd& matrix) {
+  constexpr Eigen::Index kTile = 32;
+  const Eigen::Index n = matrix.rows();
+  for (Eigen::Index column = 0; column < n; column += kTile)
+    for (Eigen::Index row = column; row < n; row += kTile)
+      for (Eigen::Index c = column; c < std::min(column + kTile, n); ++c)
+        for (Eigen::Index r = std::max(row, c + 1); r < std::min(row + kTile, n); ++r)
+          matrix(r, c) = matrix(c, r) = (matrix(r, c) + matrix(c, r)) / 2;
+}
+
 }  // namespace
 
 PartialElimination::PartialElimination(const BlockPattern& pattern, const std::vector<std::size_t>& kept)
@@ -87,7 +98,7 @@ Factorization PartialElimination::factorize(const SymmetricBlockMatrix& matrix) 
         between_.col(c).isZero(0) ? Eigen::VectorXd(between_.col(c)) : cholesky_->solve(between_.col(c));
   const Eigen::SparseMatrix<double> sparse_between = between_.sparseView();
   reduced_ -= sparse_between.transpose() * solved;
-  reduced_ = (reduced_ + reduced_.transpose()).eval() / 2;
+  make_symmetric(reduced_);
   return Factorization::kDone;
 }
 

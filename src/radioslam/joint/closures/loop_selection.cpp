@@ -74,7 +74,7 @@ class LoopSelector {
         choice_(choice_of(joint, loops)),
         equations_(choice_.graph) {}
 
-  LoopSelection run(const OptimizerParams& optimizer, const Progress& progress) {
+  LoopSelection<Pose> run(const OptimizerParams& optimizer, const Progress& progress) {
     choose_jointly(optimizer, progress);
     for (int round = 0; round < kMaxRounds; ++round) {
       report_progress(progress, "select loops", round / static_cast<double>(kMaxRounds));
@@ -104,7 +104,7 @@ class LoopSelector {
       if (truncated_cost(by_alignment) < truncated_cost(choice_) - kMinGain)
         choice_ = std::move(by_alignment);
     }
-    result_.trials = leave_valleys(choice_, optimizer);
+    result_.valleys = leave_valleys(choice_, optimizer);
     result_.cost = truncated_cost(choice_);
   }
 
@@ -174,7 +174,7 @@ class LoopSelector {
   std::vector<TeamLoop<Pose>>& loops_;
   LoopChoice<Pose> choice_;
   NormalEquations<Pose> equations_;
-  LoopSelection result_;
+  LoopSelection<Pose> result_;
 };
 
 /// Accepts loops that were set aside where the solution agrees with them and others that hold vouch for them.
@@ -207,9 +207,9 @@ void test_others(const PoseGraph<Pose>& solved, const std::vector<int>& componen
 }  // namespace
 
 template <class Pose>
-LoopSelection select_loops(JointGraph<Pose>& joint, const std::vector<int>& component,
-                           std::vector<TeamLoop<Pose>>& loops, const OptimizerParams& optimizer,
-                           const Progress& progress) {
+LoopSelection<Pose> select_loops(JointGraph<Pose>& joint, const std::vector<int>& component,
+                                 std::vector<TeamLoop<Pose>>& loops, const OptimizerParams& optimizer,
+                                 const Progress& progress) {
   std::vector<std::size_t> members;
   std::vector<TeamLoop<Pose>> taking_part;
   for (std::size_t k = 0; k < loops.size(); ++k) {
@@ -219,19 +219,19 @@ LoopSelection select_loops(JointGraph<Pose>& joint, const std::vector<int>& comp
       loops[k].accepted = false;
   }
   LoopSelector<Pose> selector(joint, taking_part);
-  LoopSelection result = selector.run(optimizer, progress);
+  LoopSelection<Pose> result = selector.run(optimizer, progress);
   for (std::size_t m = 0; m < members.size(); ++m) loops[members[m]] = std::move(taking_part[m]);
-  for (ValleyTrial& trial : result.trials)
+  for (ValleyTrial& trial : result.valleys.trials)
     for (std::size_t& loop : trial.loops) loop = members[loop];
   GraphValues<Pose>(selector.graph()).restore(joint.team.graph);
   test_others(selector.graph(), component, result.loop_scale, loops);
   return result;
 }
 
-#define RADIOSLAM_LOOP_SELECTION(Pose)                                                      \
-  template LoopSelection select_loops(JointGraph<Pose>&, const std::vector<int>&,           \
-                                      std::vector<TeamLoop<Pose>>&, const OptimizerParams&, \
-                                      const Progress&);
+#define RADIOSLAM_LOOP_SELECTION(Pose)                                                            \
+  template LoopSelection<Pose> select_loops(JointGraph<Pose>&, const std::vector<int>&,           \
+                                            std::vector<TeamLoop<Pose>>&, const OptimizerParams&, \
+                                            const Progress&);
 RADIOSLAM_LOOP_SELECTION(SE2)
 RADIOSLAM_LOOP_SELECTION(SE3)
 #undef RADIOSLAM_LOOP_SELECTION

@@ -22,19 +22,20 @@
 
 namespace radioslam {
 
+template <class Pose>
 struct LoopSelection {
   double odometry_scale = 1;  ///< actual over stated standard deviation of the odometry
   double loop_scale = 1;      ///< and of accepted loops
   double cost = 0;            ///< truncated (loop_choice.hpp), at stated covariances
-  std::vector<ValleyTrial> trials;
+  Valleys<Pose> valleys;
 };
 
 /// Moves the team, which must be aligned as far as `component` says (per segment), to the optimum of its
 /// odometry and the loops that hold, and sets which do. Loops between components are not accepted. Scales are
 /// those of the present covariances.
 template <class Pose>
-LoopSelection select_loops(JointGraph<Pose>& joint, const std::vector<int>& component,
-                           std::vector<TeamLoop<Pose>>& loops, const OptimizerParams& optimizer,
-                           const Progress& progress);
+LoopSelection<Pose> select_loops(JointGraph<Pose>& joint, const std::vector<int>& component,
+                                 std::vector<TeamLoop<Pose>>& loops, const OptimizerParams& optimizer,
+                                 const Progress& progress);
 
 }  // namespace radioslam

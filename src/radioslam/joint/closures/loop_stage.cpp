@@ -145,6 +145,24 @@ void set_alternatives(const JointGraph<Pose>& joint, const std::vector<TeamLoop<
   for (std::size_t k = 1; k < weights.size(); ++k) alignment.alternative_weights.push_back(weights[k] / sum);
 }
 
+/// Appends the solutions of nearly the same cost that accept other loops; they share the best one's weight.
+template <class Pose>
+void append_valleys(const LoopSelection<Pose>& selection, TeamAlignment<Pose>& alignment) {
+  const double scale = std::max({1.0, selection.odometry_scale, selection.loop_scale});
+  const double best = alignment.weight;
+  double sum = 1;
+  std::vector<double> shares;
+  for (const OtherValley<Pose>& other : selection.valleys.others) {
+    const double share = std::exp(std::min(0.0, selection.cost - other.cost) / (2 * scale * scale));
+    if (share < kMinAlternative || alignment.alternatives.size() >= kMaxAlternatives) break;
+    alignment.alternatives.push_back(other.poses);
+    shares.push_back(share);
+    sum += share;
+  }
+  alignment.weight = best / sum;
+  for (const double share : shares) alignment.alternative_weights.push_back(best * share / sum);
+}
+
 /// Components of segments that were apart, joined by the accepted loops between them.
 template <class Pose>
 std::vector<int> joined_by_accepted(std::vector<int> component, const std::vector<TeamLoop<Pose>>& loops) {
@@ -158,9 +176,9 @@ std::vector<int> joined_by_accepted(std::vector<int> component, const std::vecto
 /// The choice as the user reads it.
 template <class Pose>
 LoopChoiceResult described(const JointGraph<Pose>& joint, const std::vector<TeamLoop<Pose>>& loops,
-                           const LoopSelection& selection) {
+                           const LoopSelection<Pose>& selection) {
   LoopChoiceResult result{selection.cost, {}};
-  for (const ValleyTrial& trial : selection.trials) {
+  for (const ValleyTrial& trial : selection.valleys.trials) {
     const TeamLoop<Pose>& first = loops[trial.loops.front()];
     LoopTrialResult described{{}, trial.loops.size(), trial.fate == Fate::kHolds, trial.cost, trial.taken};
     for (const std::size_t segment : {first.segment_i, first.segment_j}) {
@@ -237,7 +255,7 @@ std::string factor_text(double scale) {
 }
 
 template <class Pose>
-void note_scales(const LoopSelection& selection, TeamAlignment<Pose>& alignment) {
+void note_scales(const LoopSelection<Pose>& selection, TeamAlignment<Pose>& alignment) {
   const auto note = [&](const std::string& what, double scale) {
     if (!is_notable(scale)) return;
     alignment.notes.push_back(
@@ -253,7 +271,7 @@ template <class Pose>
 struct LoopSolution {
   JointGraph<Pose> joint;
   std::vector<TeamLoop<Pose>> loops;
-  LoopSelection selection;
+  LoopSelection<Pose> selection;
   double log_likelihood = 0;  ///< of a team with links
 };
 
@@ -328,9 +346,14 @@ class ClosureJudge {
     if (of_radio_.empty()) {
       set_alternatives(before, loops_before, loops, frames_, alignments, optimizer_, alignment_);
       alignment_.weight *= weight_before_;
+    } else {
+      alignment_.weight = weight_before_;
+      alignment_.alternative_weights.resize(of_radio_.size());
+      alignment_.alternatives.clear();
+      for (const std::vector<Pose>& poses : of_radio_)
+        alignment_.alternatives.push_back(frames_.moved(joint, poses, loops, best));
     }
-    for (std::size_t k = 0; k < of_radio_.size(); ++k)
-      alignment_.alternatives[k] = frames_.moved(joint, of_radio_[k], loops, best);
+    append_valleys(selection, alignment_);
     choice_ = described(joint, loops, selection);
     for (TeamLoop<Pose>& loop : loops) loop.covariance *= selection.loop_scale * selection.loop_scale;
     selection.loop_scale *= loop_scale;

@@ -19,6 +19,9 @@ constexpr double kTolerance = 1e-5;  // of the cost, to which trials are solved
 constexpr double kHopeless =
     1.3;  // of the best cost: what a trial may cost before its loops are judged again
 constexpr double kMinGain = 1e-3;  // of the truncated cost
+/// Cost of an alternative above the best: e^-7 of its likelihood where errors are twice as large as stated.
+constexpr double kMaxExcess = 56;
+constexpr double kElsewhere_m = 0.5;  // that an alternative moves what a group ties
 
 using Group = std::vector<std::size_t>;  // of loops
 
@@ -73,10 +76,10 @@ class ValleySearch {
     is_calm_.resize(groups_.size());
   }
 
-  std::vector<ValleyTrial> run() {
+  Valleys<Pose> run() {
     while (try_groups()) {
     }
-    return std::move(trials_);
+    return {std::move(trials_), others()};
   }
 
  private:
@@ -88,16 +91,44 @@ class ValleySearch {
         if (trials_.size() >= kMaxTrials) return false;
         choose_gradually(other, groups_[g], fate, kTrial, solver_);
         if (truncated_cost(other) < kHopeless * cost_) settle(other);
-        const double cost = truncated_cost(other);
+        double cost = truncated_cost(other);
         const bool is_better = cost < cost_ * (1 - kMinGain);
         trials_.push_back({groups_[g], fate, cost, is_better});
-        if (!is_better) continue;
-        best_ = std::move(other);
-        cost_ = cost;
-        return true;
+        if (is_better) std::swap(best_, other), std::swap(cost_, cost);
+        keep(other, cost, g);
+        if (is_better) return true;
       }
     }
     return false;
+  }
+
+  void keep(const LoopChoice<Pose>& other, double cost, std::size_t group) {
+    if (cost <= cost_ + kMaxExcess)
+      kept_.push_back({cost, other.accepted, other.graph.poses}), of_.push_back(group);
+  }
+
+  bool is_elsewhere(const OtherValley<Pose>& other, const Group& group) const {
+    const auto& loop = best_.loop(group[group.size() / 2]);
+    const auto motion = [&](const std::vector<Pose>& poses) {
+      return poses[loop.i.index()].inverse() * poses[loop.j.index()];
+    };
+    return (motion(other.poses).translation() - motion(best_.graph.poses).translation()).norm() >
+           kElsewhere_m;
+  }
+
+  /// Of what was kept, solutions that are still near the best, each choice of loops once.
+  std::vector<OtherValley<Pose>> others() {
+    std::vector<OtherValley<Pose>> result;
+    for (std::size_t k = 0; k < kept_.size(); ++k) {
+      OtherValley<Pose>& other = kept_[k];
+      const bool is_known = std::any_of(result.begin(), result.end(),
+                                        [&](const auto& o) { return o.accepted == other.accepted; });
+      if (!is_known && other.cost <= cost_ + kMaxExcess && is_elsewhere(other, groups_[of_[k]]))
+        result.push_back(std::move(other));
+    }
+    std::stable_sort(result.begin(), result.end(),
+                     [](const auto& a, const auto& b) { return a.cost < b.cost; });
+    return result;
   }
 
   /// Judges all loops by the solution, and solves, until nothing changes.
@@ -173,16 +204,18 @@ class ValleySearch {
   OptimizerParams solver_;
   double cost_ = 0;
   std::vector<ValleyTrial> trials_;
+  std::vector<OtherValley<Pose>> kept_;
+  std::vector<std::size_t> of_;  ///< per kept solution: the group that led to or from it
 };
 
 }  // namespace
 
 template <class Pose>
-std::vector<ValleyTrial> leave_valleys(LoopChoice<Pose>& choice, const OptimizerParams& optimizer) {
+Valleys<Pose> leave_valleys(LoopChoice<Pose>& choice, const OptimizerParams& optimizer) {
   return ValleySearch<Pose>(choice, optimizer).run();
 }
 
-template std::vector<ValleyTrial> leave_valleys(LoopChoice<SE2>&, const OptimizerParams&);
-template std::vector<ValleyTrial> leave_valleys(LoopChoice<SE3>&, const OptimizerParams&);
+template Valleys<SE2> leave_valleys(LoopChoice<SE2>&, const OptimizerParams&);
+template Valleys<SE3> leave_valleys(LoopChoice<SE3>&, const OptimizerParams&);
 
 }  // namespace radioslam

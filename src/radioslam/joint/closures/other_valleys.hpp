@@ -5,7 +5,8 @@
 // solution is left by a whole group at once: one that is rejected holds and what contradicts it must pay, or
 // one that is accepted goes. The graph is solved from there, all loops are judged again, and the result is
 // taken where its cost is lower. The groups with most at stake come first; a group is tried again only after
-// the solution has changed, and the number of trials is bounded.
+// the solution has changed, and the number of trials is bounded. Solutions that cost hardly more than the
+// best and put what a group ties elsewhere are alternatives.
 #pragma once
 
 #include <cstddef>
@@ -23,9 +24,23 @@ struct ValleyTrial {
   bool taken = false;
 };
 
-/// Moves a choice, whose graph is at the optimum of its accepted loops, to the best solution that trials lead
-/// to. Returns the trials, in order.
+/// A solution of nearly the same cost.
 template <class Pose>
-std::vector<ValleyTrial> leave_valleys(LoopChoice<Pose>& choice, const OptimizerParams& optimizer);
+struct OtherValley {
+  double cost = 0;
+  std::vector<bool> accepted;  ///< per loop
+  std::vector<Pose> poses;
+};
+
+template <class Pose>
+struct Valleys {
+  std::vector<ValleyTrial> trials;        ///< in order
+  std::vector<OtherValley<Pose>> others;  ///< the cheapest first
+};
+
+/// Moves a choice, whose graph is at the optimum of its accepted loops, to the best solution that trials lead
+/// to.
+template <class Pose>
+Valleys<Pose> leave_valleys(LoopChoice<Pose>& choice, const OptimizerParams& optimizer);
 
 }  // namespace radioslam
