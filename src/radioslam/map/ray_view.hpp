@@ -40,16 +40,13 @@ class RayView {
   struct Ray {
     Eigen::Vector3f origin, hit;  ///< relative to origin_m_
   };
-  struct Direction {
-    float column = 0, row = 0;  ///< in pixels
-    float range_m = 0;
-  };
-  static Direction direction_of(const Eigen::Vector3f& ray);
   void sort_rays(const std::vector<Ray>& rays);
+  void note_farthest(int column, int row, float range_m);
 
   double view_range_m_;
   Eigen::Vector3d origin_m_;
   std::vector<Eigen::Vector3f> column_origins_;  ///< where the scanner was when it looked there
+  std::vector<float> farthest_m_;                ///< that rays about the pixels of a block reach, by block
   std::vector<Ray> rays_;                        ///< by pixel
   std::vector<std::uint32_t> begin_;             ///< of each pixel's rays, then the end
 };
