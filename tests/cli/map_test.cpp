@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "cli/process.hpp"
 
@@ -116,6 +117,31 @@ TEST_F(Map, IsTheSameFromTheRunsFolderAndFollowsItsOptions) {
   const auto json = nlohmann::json::parse(coarse.out);
   EXPECT_EQ(json["maps"][0]["voxel_m"], 0.5);
   EXPECT_LT(json["maps"][0]["points"], 2000);
+}
+
+TEST_F(Map, EachHypothesisOfATeamInWhichNothingIsSureHasItsOwn) {
+  // Ranges alone, between two straight paths without a common view: mirror images are as likely.
+  ASSERT_EQ(
+      run({"simulate", "hall", "-o", "mirrored", "--seed", "1", "--set", "matches_true=0", "matches_false=0",
+           "angle_ends=none", "links=12", "lidar_beams=1", "lidar_azimuth_steps=180", "lidar_rotation_hz=2",
+           "hall_x_m=100", "hall_y_m=90", "pillar_spacing_m=20", "path_length_m=12", "lidar_range_m=12"},
+          folder())
+          .status,
+      0);
+  ASSERT_EQ(run({"run", "mirrored", "-o", "unsure"}, folder()).status, 0);
+  ASSERT_EQ(run({"map", "unsure", "mirrored", "-o", "unsure-again"}, folder()).status, 0);
+  const auto summary = nlohmann::json::parse(read_file(folder() / "unsure/summary.json"));
+  const std::size_t hypotheses = summary["team_frame"]["hypotheses"].size();
+  ASSERT_GT(hypotheses, 1);
+  std::set<std::string> maps;
+  for (std::size_t k = 0; k < hypotheses; ++k) {
+    const fs::path part = k == 0 ? fs::path() : fs::path("hypotheses") / std::to_string(k);
+    for (const char* file : {"map.ply", "map.pgm", "map.yaml"})
+      EXPECT_EQ(read_file(folder() / "unsure" / part / file),
+                read_file(folder() / "unsure-again" / part / file));
+    maps.insert(read_file(folder() / "unsure" / part / "map.ply"));
+  }
+  EXPECT_EQ(maps.size(), hypotheses);
 }
 
 TEST_F(Map, RefusesWhatItCannotMapInOneLine) {

@@ -56,6 +56,22 @@ void add_estimate(RunResult& result, const Mission& mission, const JointGraph<Po
     if (!robot.placed) result.unplaced.push_back(robot.id);
 }
 
+/// Adds the continuous trajectories, also those of the alternatives.
+template <class Pose>
+void add_dense(RunResult& result, const Mission& measured, const JointGraph<Pose>& joint,
+               const TeamAlignment<Pose>& alignment) {
+  const auto add = [&](const JointGraph<Pose>& of, std::vector<RobotResult>& robots) {
+    for (std::size_t r = 0; r < robots.size(); ++r)
+      robots[r].dense = dense_trajectory<Pose>(measured, of, nullptr, r, robots[r]).poses;
+  };
+  add(joint, result.robots);
+  for (std::size_t k = 0; k < result.alternatives.size(); ++k) {
+    JointGraph<Pose> alternative = joint;
+    alternative.team.graph.poses = alignment.alternatives[k];
+    add(alternative, result.alternatives[k].robots);
+  }
+}
+
 void append(std::vector<std::string>& notes, std::vector<std::string> more) {
   for (auto& note : more) notes.push_back(std::move(note));
 }
@@ -184,8 +200,7 @@ RunResult describe_run(const Mission& mission, const Mission& measured, const Ra
   result.loop_choice = estimate.judgement.loop_choice;
   if (overlaps) add_overlaps(result, mission, std::move(*overlaps), options.take_candidates != nullptr);
   add_estimate(result, mission, joint, estimate.alignment, params.alignment.mixture, timed);
-  for (std::size_t r = 0; r < mission.robots.size() && !options.overlap_only; ++r)
-    result.robots[r].dense = dense_trajectory<Pose>(measured, joint, nullptr, r, result.robots[r]).poses;
+  if (!options.overlap_only) add_dense(result, measured, joint, estimate.alignment);
   add_rssi_offsets(result.robots, radio.rssi_offsets);
   if (is_laid_out_by_fingerprints(estimate, radio)) {
     widen_by_layout(result.robots, estimate.alignment);

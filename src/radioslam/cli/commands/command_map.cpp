@@ -67,20 +67,18 @@ RunParams params_of(const MapArguments& arguments) {
   return params;
 }
 
-/// The robots with scans, on the trajectories of the run.
-std::vector<ScannedTrajectory> read_robots(const MapArguments& arguments, const RunFolder& run) {
-  const MissionInput input = read_input(arguments.mission);
-  auto robots = scans_of(input.mission);
-  if (robots.empty()) throw InputError(arguments.mission.front(), 0, "has no LiDAR scans to make a map of");
+/// The robots with scans, on the trajectories of the run or of one of its hypotheses.
+std::vector<ScannedTrajectory> placed_by(const fs::path& folder, const RunFolder& run,
+                                         std::vector<ScannedTrajectory> robots) {
   for (ScannedTrajectory& robot : robots) {
     const bool is_unplaced =
         std::find(run.unplaced.begin(), run.unplaced.end(), robot.id) != run.unplaced.end();
     if (is_unplaced) continue;
-    if (auto poses = read_dense(arguments.run, robot.id)) robot.poses = *std::move(poses);
+    if (auto poses = read_dense(folder, robot.id)) robot.poses = *std::move(poses);
   }
   const auto has_poses = [](const ScannedTrajectory& robot) { return !robot.poses.empty(); };
   if (std::none_of(robots.begin(), robots.end(), has_poses))
-    throw InputError(arguments.run, 0,
+    throw InputError(folder.string(), 0,
                      "has no continuous trajectory (dense/<robot>.tum) of a robot with scans");
   return robots;
 }
@@ -93,26 +91,43 @@ std::vector<Component> components_of(const RunFolder& run) {
   return {all};
 }
 
-nlohmann::ordered_json json_of(const WrittenMaps& written) {
-  nlohmann::ordered_json json{{"maps", nlohmann::ordered_json::array()}, {"notes", written.notes}};
-  for (const MapResult& map : written.maps)
-    json["maps"].push_back({{"robots", map.robots},
-                            {"points", map.all_points},
-                            {"seen_through", map.seen_through},
-                            {"voxel_m", map.voxel_m},
-                            {"scans", map.scans},
-                            {"cell_m", map.grid.cell_m},
-                            {"cells", map.grid.cells.size()}});
+nlohmann::ordered_json json_of(const std::vector<MapResult>& maps) {
+  auto json = nlohmann::ordered_json::array();
+  for (const MapResult& map : maps)
+    json.push_back({{"robots", map.robots},
+                    {"points", map.all_points},
+                    {"seen_through", map.seen_through},
+                    {"voxel_m", map.voxel_m},
+                    {"scans", map.scans},
+                    {"cell_m", map.grid.cell_m},
+                    {"cells", map.grid.cells.size()}});
   return json;
 }
 
-void print(const WrittenMaps& written, const std::string& folder) {
-  for (const std::string& note : written.notes) std::cout << "note: " << note << '\n';
+/// Of the run first, then of its alternatives.
+nlohmann::ordered_json json_of(const std::vector<WrittenMaps>& written) {
+  auto hypotheses = nlohmann::ordered_json::array();
+  for (std::size_t k = 1; k < written.size(); ++k) hypotheses.push_back({{"maps", json_of(written[k].maps)}});
+  return {{"maps", json_of(written.front().maps)},
+          {"hypotheses", std::move(hypotheses)},
+          {"notes", written.front().notes}};
+}
+
+void print(const WrittenMaps& written, const fs::path& folder) {
   for (const MapResult& map : written.maps)
-    std::cout << folder << ": " << map.all_points << " points of " << map.robots.size()
+    std::cout << folder.string() << ": " << map.all_points << " points of " << map.robots.size()
               << " robots in voxels of " << map.voxel_m << " m, without " << map.seen_through
               << " that were seen through; " << map.grid.width << " x " << map.grid.height << " cells of "
               << map.grid.cell_m << " m\n";
+}
+
+/// The folders of the run that have continuous trajectories: its own, which is empty, and those of the
+/// alternatives.
+std::vector<fs::path> parts_of(const fs::path& run) {
+  std::vector<fs::path> parts{fs::path()};
+  for (std::size_t k = 0; fs::is_directory(run / hypothesis_folder(k) / "dense"); ++k)
+    parts.push_back(hypothesis_folder(k));
+  return parts;
 }
 
 void make_map(const MapArguments& arguments) {
@@ -121,20 +136,27 @@ void make_map(const MapArguments& arguments) {
   MapOptions options{{}, line.progress()};
   if (!arguments.crop.empty()) options.crop = crop_of(arguments.crop);
   const RunFolder run = read_run(arguments.run);
-  const std::string folder = arguments.output.empty() ? arguments.run : arguments.output;
+  const auto robots = scans_of(read_input(arguments.mission).mission);
+  if (robots.empty()) throw InputError(arguments.mission.front(), 0, "has no LiDAR scans to make a map of");
+  const fs::path from = arguments.run, to = arguments.output.empty() ? arguments.run : arguments.output;
+  const std::vector<fs::path> parts = parts_of(from);
   // All files are written beside their places before the first of them is moved there.
   std::vector<std::unique_ptr<OutputFile>> files;
-  const WrittenMaps written =
-      write_maps(read_robots(arguments, run), components_of(run), params, options,
-                 [&](const std::string& name, const std::function<void(const AppendToFile&)>& content) {
-                   files.push_back(std::make_unique<OutputFile>(fs::path(folder) / name));
-                   content([&](std::string_view part) { files.back()->append(part); });
-                 });
+  std::vector<WrittenMaps> written;
+  for (const fs::path& part : parts)
+    written.push_back(
+        write_maps(placed_by(from / part, run, robots), components_of(run), params, options,
+                   [&](const fs::path& name, const std::function<void(const AppendToFile&)>& content) {
+                     files.push_back(std::make_unique<OutputFile>(to / part / name));
+                     content([&](std::string_view piece) { files.back()->append(piece); });
+                   }));
   for (const auto& file : files) file->commit();
-  if (arguments.json)
+  if (arguments.json) {
     std::cout << json_of(written).dump(2) << '\n';
-  else
-    print(written, folder);
+    return;
+  }
+  for (const std::string& note : written.front().notes) std::cout << "note: " << note << '\n';
+  for (std::size_t k = 0; k < parts.size(); ++k) print(written[k], parts[k].empty() ? to : to / parts[k]);
 }
 
 }  // namespace
@@ -165,6 +187,7 @@ void add_map(CLI::App& program) {
   command->footer(
       "Writes map.ply, map.pgm and map.yaml; of a team in several frames, map-<first robot>.ply and so on "
       "for each.\n"
+      "Where the team's alignment is ambiguous, the same for each of hypotheses/<k>.\n"
       "`radioslam parameters run` lists the parameters for --set and --config; those of the map are "
       "map.*.\n\n"
       "Example:\n  radioslam map hall-out hall --voxel 0.05 --crop 0,10,-5,5");

@@ -133,9 +133,9 @@ void run_mission(const RunArguments& options) {
   std::vector<Finding> warnings;
   if (is_checked) warnings = warnings_about(input.mission, input.truth, options.mission.front());
   const MissionInput given = for_evaluation(input);
-  auto scanned = scans_of(input.mission);
+  const auto scanned = scans_of(input.mission);
   RunOutput run = estimate(std::move(input), params, options);
-  add_maps(run.result, std::move(scanned), params, ProgressLine().progress(), output.path());
+  add_maps(run.result, scanned, params, ProgressLine().progress(), output.path());
   const Agreement agreement = evaluate(run.result, given);
   append(notes, finding_notes(warnings, run.result));
   append(notes, std::move(run.result.notes));

@@ -10,6 +10,8 @@
 namespace radioslam::cli {
 namespace {
 
+namespace fs = std::filesystem;
+
 /// The component's robots that can be mapped, moved out of `robots`; notes those that cannot.
 std::vector<MappedRobot> take_mapped(std::vector<ScannedTrajectory>& robots, const Component& component,
                                      const LidarParams& lidar, std::vector<std::string>& notes) {
@@ -45,6 +47,15 @@ void write_map(const std::string& name, const TeamMap& map, const MapParams& par
   write(name + ".yaml", [&](const AppendToFile& append) { append(format_map_yaml(grid, name + ".pgm")); });
 }
 
+/// The robots with their continuous trajectories of an estimate; those that are not placed get none.
+std::vector<ScannedTrajectory> placed(std::vector<ScannedTrajectory> robots,
+                                      const std::vector<RobotResult>& estimates) {
+  for (ScannedTrajectory& robot : robots)
+    for (const RobotResult& estimate : estimates)
+      if (estimate.id == robot.id && estimate.placed) robot.poses = estimate.dense;
+  return robots;
+}
+
 }  // namespace
 
 std::vector<ScannedTrajectory> scans_of(const Mission& mission) {
@@ -54,11 +65,7 @@ std::vector<ScannedTrajectory> scans_of(const Mission& mission) {
   return robots;
 }
 
-void add_trajectories(std::vector<ScannedTrajectory>& robots, const RunResult& result) {
-  for (ScannedTrajectory& robot : robots)
-    for (const RobotResult& estimate : result.robots)
-      if (estimate.id == robot.id && estimate.placed) robot.poses = estimate.dense;
-}
+fs::path hypothesis_folder(std::size_t k) { return fs::path("hypotheses") / std::to_string(k + 1); }
 
 WrittenMaps write_maps(std::vector<ScannedTrajectory> robots, const std::vector<Component>& components,
                        const RunParams& params, const MapOptions& options, const WriteMapFile& write) {
@@ -75,18 +82,21 @@ WrittenMaps write_maps(std::vector<ScannedTrajectory> robots, const std::vector<
   return written;
 }
 
-void add_maps(RunResult& result, std::vector<ScannedTrajectory> robots, const RunParams& params,
-              const Progress& progress, const std::filesystem::path& folder) {
+void add_maps(RunResult& result, const std::vector<ScannedTrajectory>& robots, const RunParams& params,
+              const Progress& progress, const fs::path& folder) {
   if (robots.empty()) return;
   const auto start = std::chrono::steady_clock::now();
-  add_trajectories(robots, result);
-  WrittenMaps written =
-      write_maps(std::move(robots), result.components, params, {{}, progress},
-                 [&](const std::string& name, const std::function<void(const AppendToFile&)>& content) {
-                   FileWriter file(folder / name);
-                   content([&](std::string_view part) { file.write(part); });
-                   file.close();
-                 });
+  const auto write_into = [&](const fs::path& part, const std::vector<RobotResult>& estimates) {
+    return write_maps(placed(robots, estimates), result.components, params, {{}, progress},
+                      [&](const std::string& name, const std::function<void(const AppendToFile&)>& content) {
+                        FileWriter file(folder / part / name);
+                        content([&](std::string_view piece) { file.write(piece); });
+                        file.close();
+                      });
+  };
+  WrittenMaps written = write_into({}, result.robots);
+  for (std::size_t k = 0; k < result.alternatives.size(); ++k)
+    write_into(hypothesis_folder(k), result.alternatives[k].robots);
   for (const MapResult& map : written.maps) {
     result.counts["map_points"] += static_cast<double>(map.all_points);
     result.counts["map_points_seen_through"] += static_cast<double>(map.seen_through);

@@ -23,8 +23,8 @@ struct ScannedTrajectory {
 /// The robots of a mission that have scans; without trajectories.
 std::vector<ScannedTrajectory> scans_of(const Mission& mission);
 
-/// Gives the robots the continuous trajectories of the run; robots that are not placed get none.
-void add_trajectories(std::vector<ScannedTrajectory>& robots, const RunResult& result);
+/// The files of the k-th alternative's maps are in this folder of the run.
+std::filesystem::path hypothesis_folder(std::size_t k);
 
 struct WrittenMaps {
   std::vector<MapResult> maps;
@@ -40,8 +40,9 @@ using WriteMapFile =
 WrittenMaps write_maps(std::vector<ScannedTrajectory> robots, const std::vector<Component>& components,
                        const RunParams& params, const MapOptions& options, const WriteMapFile& write);
 
-/// Writes the maps of a run into its folder, and adds them, their notes, counts and time to its result.
-void add_maps(RunResult& result, std::vector<ScannedTrajectory> robots, const RunParams& params,
+/// Writes the maps of a run and of its alternatives into its folder, and adds those of the run, their notes,
+/// counts and the time to its result.
+void add_maps(RunResult& result, const std::vector<ScannedTrajectory>& robots, const RunParams& params,
               const Progress& progress, const std::filesystem::path& folder);
 
 }  // namespace radioslam::cli
