@@ -50,17 +50,21 @@ function draw_grid(context, view) {
   context.stroke();
 }
 
+/// Estimates are those of the chosen hypothesis.
+const path_of = (robot, layer) => (layer === "estimate" ? chosen_team().paths[robot.index] : robot[layer]);
+
 function draw_paths(context, view, layer, style) {
   const [a, b] = state.axes;
   context.lineJoin = "round";
   context.setLineDash(style.dash && !(view.moving && view.points > moving_points) ? style.dash : []);
   for (const robot of shown()) {
-    if (!robot[layer]) continue;
+    const path = path_of(robot, layer);
+    if (!path) continue;
     context.globalAlpha = fades(robot.index) ? 0.12 : style.alpha;
     context.strokeStyle = style.colour(robot.index);
     context.lineWidth = style.width + (state.highlight === robot.index ? 1 : 0);
-    const until = isFinite(state.until) ? d3.bisectRight(robot[layer].t, state.until) : undefined;
-    stroke_path(context, robot[layer][a].subarray(0, until), robot[layer][b].subarray(0, until), view);
+    const until = isFinite(state.until) ? d3.bisectRight(path.t, state.until) : undefined;
+    stroke_path(context, path[a].subarray(0, until), path[b].subarray(0, until), view);
   }
   context.setLineDash([]);
   context.globalAlpha = 1;
@@ -117,7 +121,7 @@ function line_ends(c, view) {
 }
 
 const line_time = c => Math.max(robots[lines.robot_i[c]].estimate.t[lines.keyframe_i[c]], robots[lines.robot_j[c]].estimate.t[lines.keyframe_j[c]]);
-const line_shown = c => state.groups[lines.group[c]] && state.visible[lines.robot_i[c]] && state.visible[lines.robot_j[c]]
+const line_shown = c => is_shown_team() && state.groups[lines.group[c]] && state.visible[lines.robot_i[c]] && state.visible[lines.robot_j[c]]
   && (state.until === Infinity || line_time(c) <= state.until);
 const line_fades = c => state.highlight !== null && fades(lines.robot_i[c]) && fades(lines.robot_j[c]);
 
@@ -150,9 +154,10 @@ function draw_closures(context, view) {
 function draw_starts(context, view) {
   const [a, b] = state.axes;
   for (const robot of shown()) {
-    if (!robot.estimate || fades(robot.index) || (robots.length > few_robots && state.highlight !== robot.index)) continue;
+    const path = path_of(robot, "estimate");
+    if (!path || fades(robot.index) || (robots.length > few_robots && state.highlight !== robot.index)) continue;
     context.beginPath();
-    context.arc(view.ox + view.k * robot.estimate[a][0], view.oy - view.k * robot.estimate[b][0], 4, 0, 2 * Math.PI);
+    context.arc(view.ox + view.k * path[a][0], view.oy - view.k * path[b][0], 4, 0, 2 * Math.PI);
     context.fillStyle = css("paper");
     context.strokeStyle = robot_colour(robot.index);
     context.lineWidth = 2;
@@ -168,10 +173,10 @@ const nearest_index = (times, t) => {
 
 /// The keyframe under the pointer, with its closures and its distance from the truth.
 function draw_moment(context, view) {
-  const { robot: index, t } = state.moment, robot = robots[index], [a, b] = state.axes;
-  if (!robot.estimate || !state.visible[index]) return;
-  const i = nearest_index(robot.estimate.t, t);
-  const px = view.ox + view.k * robot.estimate[a][i], py = view.oy - view.k * robot.estimate[b][i];
+  const { robot: index, t } = state.moment, robot = robots[index], [a, b] = state.axes, path = path_of(robot, "estimate");
+  if (!path || !state.visible[index]) return;
+  const i = nearest_index(path.t, t);
+  const px = view.ox + view.k * path[a][i], py = view.oy - view.k * path[b][i];
   context.lineWidth = 2;
   for (const c of lines_at[index].get(i) || []) {
     if (!line_shown(c)) continue;
@@ -224,7 +229,7 @@ function draw_map(context, view) {
   const many = robots.length > few_robots, { layers } = state;
   if (layers.grid) draw_grids(context, view);
   if (layers.points) draw_points(context, view);
-  if (layers.sigma) draw_sigma(context, view);
+  if (layers.sigma && is_shown_team()) draw_sigma(context, view);
   if (layers.truth) draw_paths(context, view, "truth", { colour: () => css("truth"), width: many ? 2 : 3.5, alpha: 0.75 });
   if (layers.odometry) draw_paths(context, view, "odometry", { colour: robot_colour, width: 1.1, alpha: 0.75, dash: [5, 4] });
   if (layers.alternatives) draw_alternatives(context, view);

@@ -84,12 +84,12 @@ function view_rows(map) {
   };
   const shown_now = map.in_space ? "space" : state.axes.join("");
   const rows = [choice("view", views, shown_now, set)];
-  if (cloud.count) rows.push(...point_rows());
+  if (cloud.count) rows.push(...point_rows(map));
   return [group_of_rows("View", ...rows)];
 }
 
 /// What colours the points, and sliders for their height and for time.
-function point_rows() {
+function point_rows(map) {
   const colours = [["robot", "robot"], ...(has_heights ? [["height", "height"]] : []), ["time", "time"]];
   const rows = [element("div", { class: "setting" }, "Points by ", choice("points by", colours, state.colour, value => {
     state.colour = value;
@@ -98,12 +98,13 @@ function point_rows() {
     changes.call("layers");
     changes.call("theme");
   }))];
-  if (alternatives.length) rows.push(element("div", { class: "setting" }, "Points of ", element("select", { "aria-label": "Hypothesis whose points are shown",
+  if (alternatives.length) rows.push(element("div", { class: "setting" }, "Team of ", element("select", { "aria-label": "Hypothesis whose points and trajectories are shown",
     onchange: event => {
       state.hypothesis = event.target.value === "shown" ? "shown" : Number(event.target.value);
       if (!state.layers.points) state.layers.points = true;
       changes.call("layers");
       changes.call("theme");
+      map.fit();
     } }, ...["shown", ...d3.range(alternatives.length)].map(k => element("option", { value: k, selected: k === state.hypothesis },
     k === "shown" ? `team shown, ${d3.format(".2f")(report.weight)}` : `hypothesis ${k + 1}, ${d3.format(".2f")(alternatives[k].weight)}`)))));
   if (has_heights) rows.push(slider("up to height", height_span, "top", v => `${format.metres(v)} m`));
@@ -154,7 +155,7 @@ function caption_map() {
   if (report.components.length > 1)
     parts.push(`The team has ${report.components.length} components; no measurement connects their frames.`);
   if (robots.length <= few_robots) parts.push("A ring marks a robot's start.");
-  if (alternatives.length) parts.push("Dotted: the other hypotheses, aligned at the first robot.");
+  if (alternatives.length) parts.push("Dotted: the other hypotheses, aligned at the first robot; one that is chosen is drawn with its points, as each robot's are moved rigidly.");
   if (closures_drawn < closures_total)
     parts.push(`${format.count(closures_drawn)} of ${format.count(closures_total)} closures are drawn, evenly spaced within each kind and status; all are counted.`);
   const scans = total(report.maps, map => map.scans), all = total(report.maps, map => map.all_points), through = total(report.maps, map => map.seen_through);

@@ -15,6 +15,8 @@ const fragment_shader = `
 precision mediump float; varying vec4 shade;
 void main() { gl_FragColor = vec4(shade.rgb, 1.0); }`;
 const far_away = 1e9;
+const slow_ms = 60, quick_ms = 20;  // per frame while the view moves: fewer points are drawn, or more
+const most_sparse = 15;             // every so manieth point; WebGL steps over at most 255 bytes
 
 const webgl_is_there = () => Boolean(element("canvas").getContext("webgl"));
 
@@ -41,9 +43,18 @@ class SpaceView {
     this.program = this.link();
     this.buffers = { points: {}, lines: {} };
     for (const change of ["visibility", "theme", "layers", "highlight", "colour"]) changes.on(`${change}.space`, () => { this.stale = true; this.redraw(); });
-    changes.on("limits.space", this.redraw);
+    changes.on("limits.space", () => this.move());
     this.listen();
     this.stale = true;
+    this.step = 1;  // every so manieth point is drawn while the view moves
+  }
+
+  /// Draws as many points as are quick, and all of them once the view rests.
+  move() {
+    this.moving = true;
+    clearTimeout(this.rest);
+    this.rest = setTimeout(() => { this.moving = false; this.redraw(); }, 250);
+    this.redraw();
   }
 
   link() {
@@ -127,18 +138,18 @@ class SpaceView {
   turn(yaw, pitch) {
     this.yaw += yaw;
     this.pitch = Math.max(-0.3, Math.min(1.57, this.pitch + pitch));
-    this.redraw();
+    this.move();
   }
 
   pan(dx, dy) {
     const { right, up } = this.camera(), scale = this.distance / this.parent.clientHeight;
     this.target = this.target.map((t, i) => t - scale * (dx * right[i] - dy * up[i]));
-    this.redraw();
+    this.move();
   }
 
   zoom_by(factor) {
     this.distance /= factor;
-    this.redraw();
+    this.move();
   }
 
   camera() {
@@ -167,7 +178,7 @@ class SpaceView {
     }
     for (const robot of shown()) {
       if (state.layers.truth) add(robot.truth, css("truth"));
-      if (state.layers.estimate) add(robot.estimate, fades(robot.index) ? css("line") : robot_colour(robot.index));
+      if (state.layers.estimate) add(path_of(robot, "estimate"), fades(robot.index) ? css("line") : robot_colour(robot.index));
     }
     this.fill("lines", x, y, z, t);
     this.colour("lines", new Uint8Array(colours));
@@ -182,11 +193,11 @@ class SpaceView {
 
   draw() {
     if (this.canvas.hidden) return;
-    const { gl, program } = this, paper = d3.rgb(css("paper"));
+    const { gl, program } = this, paper = d3.rgb(css("paper")), start = performance.now();
     if (!this.target) this.fit();
     this.resize();
     if (this.stale) {
-      const placed = chosen_cloud();
+      const placed = chosen_team().cloud;
       if (this.placed !== placed) this.fill("points", placed.x, placed.y, placed.z, placed.t);
       this.placed = placed;
       this.colour("points", current_colours());
@@ -202,13 +213,24 @@ class SpaceView {
     gl.uniformMatrix4fv(at("camera"), false, new Float32Array(this.camera().matrix));
     gl.uniform1f(at("size"), 0.06 * this.canvas.height * 1.6);
     const limit = value => (isFinite(value) ? value : far_away);
-    if (state.layers.points) this.render("points", gl.POINTS, [limit(state.top) - this.centre[2], limit(state.until)], [0, 0]);
+    const step = this.moving ? this.step : 1;
+    if (state.layers.points) this.render("points", gl.POINTS, [limit(state.top) - this.centre[2], limit(state.until)], [0, 0], step);
     gl.disable(gl.DEPTH_TEST);
     for (const [dx, dy] of [[0, 0], [1, 0], [0, 1], [1, 1]])
       this.render("lines", gl.LINES, [far_away, limit(state.until)], [(2 * dx) / this.canvas.width, (2 * dy) / this.canvas.height]);
+    if (this.moving) this.adapt(start);
   }
 
-  render(name, kind, limits, shift) {
+  /// Reading a pixel waits for what was drawn.
+  adapt(start) {
+    this.gl.readPixels(0, 0, 1, 1, this.gl.RGBA, this.gl.UNSIGNED_BYTE, new Uint8Array(4));
+    const took = performance.now() - start;
+    if (took > slow_ms) this.step = Math.min(most_sparse, Math.ceil((this.step * took) / slow_ms));
+    else if (took < quick_ms) this.step = Math.max(1, this.step - 1);
+  }
+
+  /// Every step-th vertex.
+  render(name, kind, limits, shift, step = 1) {
     const { gl, program } = this, set = this.buffers[name];
     if (!set.count) return;
     const bind = (buffer, attribute, size, type, normalised, stride, offset) => {
@@ -217,11 +239,11 @@ class SpaceView {
       gl.enableVertexAttribArray(place);
       gl.vertexAttribPointer(place, size, type, normalised, stride, offset);
     };
-    bind(set.vertices, "position", 3, gl.FLOAT, false, 16, 0);
-    bind(set.vertices, "time", 1, gl.FLOAT, false, 16, 12);
-    bind(set.colours, "colour", 4, gl.UNSIGNED_BYTE, true, 4, 0);
+    bind(set.vertices, "position", 3, gl.FLOAT, false, 16 * step, 0);
+    bind(set.vertices, "time", 1, gl.FLOAT, false, 16 * step, 12);
+    bind(set.colours, "colour", 4, gl.UNSIGNED_BYTE, true, 4 * step, 0);
     gl.uniform2fv(gl.getUniformLocation(program, "limits"), limits);
     gl.uniform2fv(gl.getUniformLocation(program, "shift"), shift);
-    gl.drawArrays(kind, 0, set.count);
+    gl.drawArrays(kind, 0, Math.floor(set.count / step));
   }
 }

@@ -110,11 +110,15 @@ class MapView {
     };
     for (const robot of shown())
       for (const layer of ["estimate", "truth", "odometry"]) {
-        if (!robot[layer] || !state.layers[layer]) continue;
-        widen(span.a, robot[layer][a]);
-        widen(span.b, robot[layer][b]);
+        const path = path_of(robot, layer);
+        if (!path || !state.layers[layer]) continue;
+        widen(span.a, path[a]);
+        widen(span.b, path[b]);
       }
-    if (state.layers.grid && from_above()) {
+    if (!is_shown_team()) {
+      widen(span.a, span_of(chosen_team().cloud[a]));
+      widen(span.b, span_of(chosen_team().cloud[b]));
+    } else if (state.layers.grid && from_above()) {
       widen(span.a, grid_corners("x"));
       widen(span.b, grid_corners("y"));
     }
@@ -158,13 +162,14 @@ class MapView {
 
   /// Keyframes of the visible robots, for finding the one nearest to a point.
   keyframes() {
-    if (this.tree && this.tree.axes === state.axes) return this.tree;
+    const { paths } = chosen_team();
+    if (this.tree && this.tree.axes === state.axes && this.tree.paths === paths) return this.tree;
     const [a, b] = state.axes, points = [];
-    for (const robot of shown())
-      for (let i = 0; robot.estimate && i < robot.estimate.t.length; ++i)
-        if (isFinite(robot.estimate[a][i] + robot.estimate[b][i])) points.push({ robot: robot.index, i });
-    this.tree = d3.quadtree(points, p => robots[p.robot].estimate[a][p.i], p => robots[p.robot].estimate[b][p.i]);
-    this.tree.axes = state.axes;
+    for (const { index } of shown())
+      for (let i = 0; paths[index] && i < paths[index].t.length; ++i)
+        if (isFinite(paths[index][a][i] + paths[index][b][i])) points.push({ robot: index, i });
+    this.tree = d3.quadtree(points, p => paths[p.robot][a][p.i], p => paths[p.robot][b][p.i]);
+    Object.assign(this.tree, { axes: state.axes, paths });
     return this.tree;
   }
 
@@ -193,10 +198,11 @@ class MapView {
 }
 
 function describe_keyframe(robot, i) {
-  const t = robot.estimate.t[i], rows = [element("b", {}, robot.id)];
+  const path = path_of(robot, "estimate"), t = path.t[i], rows = [element("b", {}, robot.id)];
   const row = (name, value) => rows.push(element("span", {}, `${name} `), value, element("br"));
   row("time", `${format.clock(t)}  (${d3.format(".3f")(report.start_s + t)} s)`);
-  row("position", `${format.metres(robot.estimate.x[i])}, ${format.metres(robot.estimate.y[i])}${robot.estimate.z ? `, ${format.metres(robot.estimate.z[i])}` : ""} m`);
+  row("position", `${format.metres(path.x[i])}, ${format.metres(path.y[i])}${path.z ? `, ${format.metres(path.z[i])}` : ""} m`);
+  if (!is_shown_team()) return rows.slice(0, -1);
   if (robot.sigma_m && isFinite(robot.sigma_m[i])) row("σ", `${format.metres(robot.sigma_team_m[i])} m within the team, ${format.metres(robot.sigma_m[i])} m from what holds the frame`);
   if (robot.errors) {
     const e = nearest_index(robot.errors.t, t);

@@ -49,20 +49,30 @@ function motion_to(other, robot) {
   return (x, y, z) => [tx + c * (x - fx) - s * (y - fy), ty + s * (x - fx) + c * (y - fy), z + (from.z && to.z ? tz - fz : 0)];
 }
 
-/// The points as the chosen hypothesis places each robot's.
-const clouds_of = new Map();
-function chosen_cloud() {
-  if (state.hypothesis === "shown") return cloud;
-  if (!clouds_of.has(state.hypothesis)) {
-    const motions = robots.map(robot => motion_to(alternatives[state.hypothesis], robot.index));
-    const moved = { ...cloud, x: cloud.x.slice(), y: cloud.y.slice(), z: cloud.z.slice() };
-    for (let k = 0; k < cloud.count; ++k) {
-      const motion = motions[cloud.robot[k]];
-      if (motion) [moved.x[k], moved.y[k], moved.z[k]] = motion(cloud.x[k], cloud.y[k], cloud.z[k]);
+/// The points and trajectories as the chosen hypothesis places each robot; the grids are those of the team shown.
+const teams = new Map();
+function chosen_team() {
+  if (!teams.has(state.hypothesis)) teams.set(state.hypothesis, state.hypothesis === "shown" ? { cloud, paths: robots.map(r => r.estimate) } : moved_team());
+  return teams.get(state.hypothesis);
+}
+const is_shown_team = () => state.hypothesis === "shown";
+
+function moved_team() {
+  const motions = robots.map(robot => motion_to(alternatives[state.hypothesis], robot.index));
+  const moved = (columns, motion_of) => {
+    const result = { ...columns, x: columns.x.slice(), y: columns.y.slice() };
+    if (columns.z) result.z = columns.z.slice();
+    for (let k = 0; k < columns.x.length; ++k) {
+      const motion = motion_of(k);
+      if (!motion) continue;
+      const [x, y, z] = motion(columns.x[k], columns.y[k], columns.z ? columns.z[k] : 0);
+      result.x[k] = x;
+      result.y[k] = y;
+      if (columns.z) result.z[k] = z;
     }
-    clouds_of.set(state.hypothesis, moved);
-  }
-  return clouds_of.get(state.hypothesis);
+    return result;
+  };
+  return { cloud: moved(cloud, k => motions[cloud.robot[k]]), paths: robots.map((robot, r) => (robot.estimate ? moved(robot.estimate, () => motions[r]) : null)) };
 }
 
 /// Colours of all points as [r, g, b, a]; hidden robots have a = 0.
@@ -109,7 +119,7 @@ const from_above = () => state.axes[0] === "x" && state.axes[1] === "y";
 const map_shown = map => map.robots.some(robot => state.visible[robot]);
 
 function draw_grids(context, view) {
-  if (!from_above() || state.hypothesis !== "shown") return;
+  if (!from_above() || !is_shown_team()) return;
   grid_images = grid_images || report.maps.map(map => (map.grid ? grid_image(map.grid) : null));
   report.maps.forEach((map, m) => {
     if (!map.grid || !map_shown(map)) return;
@@ -142,7 +152,7 @@ function draw_points(context, view) {
   if (point_canvas.width !== width || point_canvas.height !== height) Object.assign(point_canvas, { width, height });
   const layer = point_canvas.getContext("2d"), image = layer.createImageData(width, height);
   const out = new Uint32Array(image.data.buffer), colours = new Uint32Array(current_colours().buffer);
-  const placed = chosen_cloud(), a = placed[state.axes[0]], b = placed[state.axes[1]], k = view.k * ratio, ox = view.ox * ratio, oy = view.oy * ratio;
+  const placed = chosen_team().cloud, a = placed[state.axes[0]], b = placed[state.axes[1]], k = view.k * ratio, ox = view.ox * ratio, oy = view.oy * ratio;
   const side = Math.max(1, Math.min(4, Math.round(0.05 * k)));
   for (let n = 0; n < cloud.count; ++n) {
     if (cloud.z[n] > state.top || cloud.t[n] > state.until || !(colours[n] >>> 24)) continue;
