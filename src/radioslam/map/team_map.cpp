@@ -126,7 +126,8 @@ void TeamMap::insert(const Block& block) {
       next.position = R * body + t;
       if (!is_kept(options_, next.position)) continue;
       next.to_scanner = (R * (scanner - body)).normalized().cast<float>();
-      next.intensity = returns.intensities.empty() ? 0 : returns.intensities[k];
+      if (!returns.intensities.empty())
+        next.intensity = std::isfinite(returns.intensities[k]) ? returns.intensities[k] : 0;
       placed.push_back(next);
     }
     voxels_.add(placed);

@@ -82,7 +82,7 @@ TEST(Carmen, PutsALateLineBeforeThoseThatFollow) {
 
 TEST(Carmen, ReadsScansThatDescribeThemselves) {
   const auto imported = read_carmen(
-      "ROBOTLASER1 0 -0.5 1 0.5 10 0.01 0 3 2 2 10 2 7 8 1 2 1.5707963267948966 1 1 1.5707963267948966 0 0 "
+      "ROBOTLASER1 0 -0.5 1 0.5 10 0.01 0 3 2 2 10 3 7 8 9 1 2 1.5707963267948966 1 1 1.5707963267948966 0 0 "
       "0.3 "
       "0.2 0 100.5 host 3\n");
   const Robot& robot = imported.mission.robots[0];
@@ -92,6 +92,7 @@ TEST(Carmen, ReadsScansThatDescribeThemselves) {
   const Eigen::Vector3d first(1 + 2 * std::cos(0.5), -2 * std::sin(0.5), 0);  // the laser is 1 m ahead
   EXPECT_LT((scan.points[0].cast<double>() - first).norm(), 1e-6);
   EXPECT_LT((scan.points[1] - Eigen::Vector3f(3, 0, 0)).norm(), 1e-6);
+  EXPECT_EQ(scan.intensities, (std::vector<float>{7, 8}));
 }
 
 TEST(Carmen, ARearScannerLooksBackwards) {

@@ -102,7 +102,8 @@ TEST_P(RosTypes, LaserScans) {
   for (const float value : {-1.5F, 1.5F, 0.75F, 0.25F, 1.0F, 0.5F, 10.0F}) bytes.f32(value);
   bytes.u32(5);
   for (const float range : {2.0F, 0.1F, 4.0F, infinity, 11.0F}) bytes.f32(range);
-  bytes.u32(0);
+  bytes.u32(5);
+  for (const float intensity : {7.0F, 1.0F, 9.0F, 2.0F, 3.0F}) bytes.f32(intensity);
   const RosChannel laser = channel("sensor_msgs/LaserScan");
   const RosScan scan = read_ros_scan(as(laser, bytes));
   EXPECT_EQ(scan.range_max_m, 10);
@@ -111,6 +112,7 @@ TEST_P(RosTypes, LaserScans) {
   EXPECT_NEAR(static_cast<double>(scan.scan.points[0].y()), -2 * std::sin(1.5), 1e-6);
   EXPECT_LT((scan.scan.points[1] - Eigen::Vector3f(4, 0, 0)).norm(), 1e-6);
   EXPECT_EQ(scan.scan.times_s, (std::vector<float>{0, 0.5F}));
+  EXPECT_EQ(scan.scan.intensities, (std::vector<float>{7, 9}));
 }
 
 /// Drivers that do not know a scanner's maximum range leave it at zero.
@@ -123,6 +125,7 @@ TEST_P(RosTypes, LaserScansWithoutALargestRange) {
   const RosScan scan = read_ros_scan(as(laser, bytes));
   EXPECT_EQ(scan.scan.points.size(), 2U);
   EXPECT_EQ(scan.range_max_m, 0) << "not stated";
+  EXPECT_TRUE(scan.scan.intensities.empty());
 }
 
 TEST_P(RosTypes, LivoxPoints) {

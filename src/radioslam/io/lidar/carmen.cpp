@@ -37,6 +37,7 @@ struct CarmenScan {
   CarmenFan fan;
   double limit_m = std::numeric_limits<double>::infinity();  ///< stated in the line
   std::vector<float> ranges_m;
+  std::vector<float> remissions;  ///< of each range; empty if not stated
 };
 
 std::string_view first_word(std::string_view line) { return line.substr(0, line.find_first_of(" \t")); }
@@ -115,7 +116,8 @@ CarmenScan read_described_scan(const TextLines& lines, LineFields& fields) {
   fields.number("the accuracy");
   fields.number("the remission_mode");
   scan.ranges_m = read_readings(fields);
-  read_readings(fields);  // remissions
+  scan.remissions = read_readings(fields);
+  if (scan.remissions.size() != scan.ranges_m.size()) scan.remissions.clear();
   const SE2 T_log_laser = read_planar_pose(fields);
   scan.T_log_body = read_planar_pose(fields);
   scan.fan.T_body_laser = scan.T_log_body.inverse() * T_log_laser;
@@ -220,6 +222,7 @@ LidarScan points_of_fan(const CarmenScan& scan) {
     const Eigen::Vector2d point_m =
         scan.fan.T_body_laser * Eigen::Vector2d(range_m * std::cos(angle_rad), range_m * std::sin(angle_rad));
     points.points.emplace_back(static_cast<float>(point_m.x()), static_cast<float>(point_m.y()), 0.0F);
+    if (!scan.remissions.empty()) points.intensities.push_back(scan.remissions[k]);
   }
   return points;
 }

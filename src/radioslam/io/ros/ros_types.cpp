@@ -195,15 +195,21 @@ RosScan read_laser_scan(RosMessageReader& reader) {
   const LaserScanFan fan = read_fan(reader);
   if (std::isfinite(fan.max_m)) scan.range_max_m = fan.max_m;
   const std::size_t readings = reader.count(sizeof(float));
+  std::vector<std::size_t> returned;
   for (std::size_t k = 0; k < readings; ++k) {
     const auto range_m = static_cast<double>(reader.f32());
     if (!std::isfinite(range_m) || !(range_m >= fan.min_m && range_m <= fan.max_m)) continue;
+    returned.push_back(k);
     const double angle_rad = fan.begin_rad + static_cast<double>(k) * fan.step_rad;
     scan.scan.points.emplace_back(static_cast<float>(range_m * std::cos(angle_rad)),
                                   static_cast<float>(range_m * std::sin(angle_rad)), 0.0F);
     if (fan.time_step_s > 0)
       scan.scan.times_s.push_back(static_cast<float>(static_cast<double>(k) * fan.time_step_s));
   }
+  std::vector<float> intensities(reader.count(sizeof(float)));
+  for (float& intensity : intensities) intensity = reader.f32();
+  if (intensities.size() != readings) return scan;  // most drivers leave them out
+  for (const std::size_t k : returned) scan.scan.intensities.push_back(intensities[k]);
   return scan;
 }
 
