@@ -71,9 +71,7 @@ RunParams params_of(const MapArguments& arguments) {
 std::vector<ScannedTrajectory> placed_by(const fs::path& folder, const RunFolder& run,
                                          std::vector<ScannedTrajectory> robots) {
   for (ScannedTrajectory& robot : robots) {
-    const bool is_unplaced =
-        std::find(run.unplaced.begin(), run.unplaced.end(), robot.id) != run.unplaced.end();
-    if (is_unplaced) continue;
+    if (!has_frame(robot.id, run.components, run.unplaced)) continue;
     if (auto poses = read_dense(folder, robot.id)) robot.poses = *std::move(poses);
   }
   const auto has_poses = [](const ScannedTrajectory& robot) { return !robot.poses.empty(); };

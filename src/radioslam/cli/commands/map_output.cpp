@@ -47,12 +47,13 @@ void write_map(const std::string& name, const TeamMap& map, const MapParams& par
   write(name + ".yaml", [&](const AppendToFile& append) { append(format_map_yaml(grid, name + ".pgm")); });
 }
 
-/// The robots with their continuous trajectories of an estimate; those that are not placed get none.
-std::vector<ScannedTrajectory> placed(std::vector<ScannedTrajectory> robots,
+/// The robots with their continuous trajectories of an estimate, where these are in a frame of the maps.
+std::vector<ScannedTrajectory> placed(std::vector<ScannedTrajectory> robots, const RunResult& result,
                                       const std::vector<RobotResult>& estimates) {
   for (ScannedTrajectory& robot : robots)
     for (const RobotResult& estimate : estimates)
-      if (estimate.id == robot.id && estimate.placed) robot.poses = estimate.dense;
+      if (estimate.id == robot.id && has_frame(robot.id, result.components, result.unplaced))
+        robot.poses = estimate.dense;
   return robots;
 }
 
@@ -63,6 +64,13 @@ std::vector<ScannedTrajectory> scans_of(const Mission& mission) {
   for (const Robot& robot : mission.robots)
     if (!robot.lidar.empty()) robots.push_back({robot.id, robot.lidar, {}});
   return robots;
+}
+
+bool has_frame(const std::string& robot, const std::vector<Component>& components,
+               const std::vector<std::string>& unplaced) {
+  const auto is_alone = [&](const Component& of) { return of.robots == std::vector<std::string>{robot}; };
+  return std::find(unplaced.begin(), unplaced.end(), robot) == unplaced.end() ||
+         std::any_of(components.begin(), components.end(), is_alone);
 }
 
 fs::path hypothesis_folder(std::size_t k) { return fs::path("hypotheses") / std::to_string(k + 1); }
@@ -87,7 +95,7 @@ void add_maps(RunResult& result, const std::vector<ScannedTrajectory>& robots, c
   if (robots.empty()) return;
   const auto start = std::chrono::steady_clock::now();
   const auto write_into = [&](const fs::path& part, const std::vector<RobotResult>& estimates) {
-    return write_maps(placed(robots, estimates), result.components, params, {{}, progress},
+    return write_maps(placed(robots, result, estimates), result.components, params, {{}, progress},
                       [&](const std::string& name, const std::function<void(const AppendToFile&)>& content) {
                         FileWriter file(folder / part / name);
                         content([&](std::string_view piece) { file.write(piece); });

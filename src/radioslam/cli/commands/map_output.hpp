@@ -23,6 +23,11 @@ struct ScannedTrajectory {
 /// The robots of a mission that have scans; without trajectories.
 std::vector<ScannedTrajectory> scans_of(const Mission& mission);
 
+/// Whether the robot's trajectory is in a frame of a map: that of its team or, in a component of its own, its
+/// own. Among others, a robot that is not placed has none.
+bool has_frame(const std::string& robot, const std::vector<Component>& components,
+               const std::vector<std::string>& unplaced);
+
 /// The files of the k-th alternative's maps are in this folder of the run.
 std::filesystem::path hypothesis_folder(std::size_t k);
 
