@@ -8,7 +8,8 @@
 namespace radioslam {
 namespace {
 
-constexpr std::size_t kNeighbours = 3;  // on either side
+constexpr std::size_t kNeighbours = 3;    // on either side
+constexpr std::size_t kSuspicious = 200;  // samples before which no share of outliers is suspicious
 
 using Component = double (*)(const ImuSample& sample, Eigen::Index axis);
 
@@ -43,14 +44,36 @@ bool is_spike(const std::vector<ImuSample>& samples, std::size_t k, const ImuOut
 
 }  // namespace
 
+void ImuOutlierFilter::add(const ImuSample& sample, std::vector<ImuSample>& kept) {
+  ++seen_;
+  if (!is_suspicious() && !is_possible(sample, params_)) return void(++removed_);
+  window_.push_back(sample);
+  if (window_.size() > next_ + kNeighbours) judge(kept);
+}
+
+void ImuOutlierFilter::finish(std::vector<ImuSample>& kept) {
+  while (next_ < window_.size()) judge(kept);
+}
+
+bool ImuOutlierFilter::is_suspicious() const {
+  return seen_ >= kSuspicious &&
+         static_cast<double>(removed_) > params_.max_outlier_ratio * static_cast<double>(seen_);
+}
+
+void ImuOutlierFilter::judge(std::vector<ImuSample>& kept) {
+  if (!is_suspicious() && is_spike(window_, next_, params_))
+    ++removed_;
+  else
+    kept.push_back(window_[next_]);
+  if (++next_ > kNeighbours) window_.erase(window_.begin()), --next_;
+}
+
 FilteredImu remove_imu_outliers(const std::vector<ImuSample>& samples, const ImuOutlierParams& params) {
-  std::vector<ImuSample> possible;
-  for (const ImuSample& sample : samples)
-    if (is_possible(sample, params)) possible.push_back(sample);
   FilteredImu filtered;
-  for (std::size_t k = 0; k < possible.size(); ++k)
-    if (!is_spike(possible, k, params)) filtered.samples.push_back(possible[k]);
-  filtered.removed = samples.size() - filtered.samples.size();
+  ImuOutlierFilter filter(params);
+  for (const ImuSample& sample : samples) filter.add(sample, filtered.samples);
+  filter.finish(filtered.samples);
+  filtered.removed = filter.removed();
   if (static_cast<double>(filtered.removed) > params.max_outlier_ratio * static_cast<double>(samples.size()))
     return {samples, 0};
   return filtered;

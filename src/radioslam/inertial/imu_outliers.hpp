@@ -46,6 +46,29 @@ struct FilteredImu {
   std::size_t removed = 0;
 };
 
+/// The same sample by sample; a sample is judged once three more have come.
+class ImuOutlierFilter {
+ public:
+  explicit ImuOutlierFilter(const ImuOutlierParams& params) : params_(params) {}
+
+  /// Takes the next sample and appends to `kept` what has been judged by now.
+  void add(const ImuSample& sample, std::vector<ImuSample>& kept);
+  /// Judges the rest.
+  void finish(std::vector<ImuSample>& kept);
+
+  std::size_t removed() const { return removed_; }
+  /// Whether so much would be removed that the data as a whole is suspicious; nothing is from then on.
+  bool is_suspicious() const;
+
+ private:
+  void judge(std::vector<ImuSample>& kept);
+
+  ImuOutlierParams params_;
+  std::vector<ImuSample> window_;  ///< possible samples about the one that is judged next
+  std::size_t next_ = 0;           ///< of the window
+  std::size_t seen_ = 0, removed_ = 0;
+};
+
 FilteredImu remove_imu_outliers(const std::vector<ImuSample>& samples, const ImuOutlierParams& params);
 
 }  // namespace radioslam

@@ -11,7 +11,6 @@
 namespace radioslam {
 namespace {
 
-constexpr std::size_t kTraitScans = 10;
 constexpr float kFlat_m = 1e-3F;
 
 }  // namespace
@@ -27,12 +26,18 @@ void DeskewedScan::deskew_with(const SE3::Tangent& is_per_s) {
 }
 
 ScannerTraits scanner_traits(const LidarLog& log, const LidarParams& params) {
+  std::vector<LidarScan> scans;
+  const std::size_t stride = std::max<std::size_t>(1, (log.size() + kTraitScans - 1) / kTraitScans);
+  for (std::size_t k = 0; k < log.size(); k += stride) scans.push_back(log.read(k));
+  return scanner_traits(scans, params);
+}
+
+ScannerTraits scanner_traits(const std::vector<LidarScan>& scans, const LidarParams& params) {
   std::vector<double> ranges;
   ScannerTraits traits;
   traits.kind = ScannerKind::kPlanar;
-  const std::size_t stride = std::max<std::size_t>(1, (log.size() + kTraitScans - 1) / kTraitScans);
-  for (std::size_t k = 0; k < log.size(); k += stride) {
-    const auto points = filter_and_deskew(log.read(k), SE3::Tangent::Zero(), params.points).points;
+  for (const LidarScan& scan : scans) {
+    const auto points = filter_and_deskew(scan, SE3::Tangent::Zero(), params.points).points;
     for (const Eigen::Vector3f& point : points) {
       ranges.push_back(static_cast<double>(point.norm()));
       if (std::abs(point.z() - points.front().z()) > kFlat_m) traits.kind = ScannerKind::kSpatial;

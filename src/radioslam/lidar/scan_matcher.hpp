@@ -45,12 +45,16 @@ struct DeskewedScan {
 };
 
 /// Properties of a scanner and its surroundings: planar or spatial, and the map point spacing (a fraction of
-/// the median range). Determined from up to ten scans, spread over the log.
+/// the median range). Determined from kTraitScans scans.
 struct ScannerTraits {
   double spacing_m = 0.25;
   ScannerKind kind = ScannerKind::kSpatial;
 };
 
+inline constexpr std::size_t kTraitScans = 10;
+
+ScannerTraits scanner_traits(const std::vector<LidarScan>& scans, const LidarParams& params);
+/// By scans spread over the log.
 ScannerTraits scanner_traits(const LidarLog& log, const LidarParams& params);
 
 class ScanMatcher {

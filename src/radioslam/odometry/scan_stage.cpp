@@ -2,181 +2,19 @@
 
 #include <algorithm>
 #include <iomanip>
+#include <mutex>
 #include <optional>
-#include <span>
 #include <sstream>
 #include <utility>
 
+#include "radioslam/base/parallel.hpp"
 #include "radioslam/geometry/linear_algebra.hpp"
-#include "radioslam/inertial/preintegration.hpp"
-#include "radioslam/lidar/lidar_odometry.hpp"
 #include "radioslam/mission/mission.hpp"
-#include "radioslam/mission/odometry_edge.hpp"
-#include "radioslam/odometry/inertial_params.hpp"
-#include "radioslam/odometry/map_drift.hpp"
-#include "radioslam/odometry/scan_tracking.hpp"
+#include "radioslam/odometry/scan_front_end.hpp"
 #include "radioslam/odometry/scans_on_odometry.hpp"
 
 namespace radioslam {
 namespace {
-
-// LiDAR-inertial odometry: smooths a robot's registered scans together with its IMU samples.
-//
-// The smoother (inertial/inertial_smoother.hpp) estimates all states at once. A scan contributes the
-// information of its points, which is none along a featureless corridor; the map drifts as it grows
-// (map_drift.hpp), so that on revisited ground scan poses do not drift. States are at least `node_s` apart,
-// because errors of successive scans are strongly correlated; poses in between follow the IMU, or the scans
-// where IMU samples are missing.
-
-/// Result of smoothing; z is up.
-struct InertialOdometry {
-  std::vector<SE3> poses;                ///< of the scans
-  std::vector<OdometryStepNoise> steps;  ///< between successive states
-  double cost_per_step = 0;              ///< squared norm of the residuals per step
-};
-
-SE3::Jacobian drift_between(const std::vector<ScanPose>& scans, std::size_t from, std::size_t to,
-                            const InertialStageParams& params) {
-  MapDrift drift(scans[from], params);
-  for (std::size_t k = from + 1; k <= to; ++k) drift.add(scans[k]);
-  return drift.covariance();
-}
-
-/// Indices of the scans with a state: the first, the last, those at least `node_s` after the previous one,
-/// and the scans on either side of a new map's start.
-std::vector<std::size_t> nodes_of(const std::vector<ScanPose>& scans, double node_s) {
-  std::vector<std::size_t> nodes;
-  for (std::size_t k = 0; k < scans.size(); ++k)
-    if (nodes.empty() || k + 1 == scans.size() || scans[k].status == ScanStatus::kNewMap ||
-        scans[k + 1].status == ScanStatus::kNewMap ||
-        seconds_between(scans[nodes.back()].stamp, scans[k].stamp) >= node_s)
-      nodes.push_back(k);
-  return nodes;
-}
-
-/// The body's poses at the scans, starting from `state`, by the IMU, or by the scans if IMU samples are
-/// missing.
-std::vector<SE3> path_from(const InertialState& state, std::span<const ScanPose> scans,
-                           const std::vector<ImuSample>& samples, const ImuNoiseParams& noise) {
-  std::vector<Stamp> stamps;
-  for (const ScanPose& scan : scans) stamps.push_back(scan.stamp);
-  std::vector<SE3> path;
-  if (const auto states = predict_motion(state, stamps.front(), samples, stamps, noise))
-    for (const InertialState& there : *states) path.push_back(there.T_world_body);
-  else
-    for (const ScanPose& scan : scans)
-      path.push_back(state.T_world_body * scans.front().T_start_body.inverse() * scan.T_start_body);
-  return path;
-}
-
-/// The body's poses at all scans: the predicted path between nodes, its end error spread evenly in time.
-std::vector<SE3> poses_through(const std::vector<ScanPose>& scans, const std::vector<std::size_t>& nodes,
-                               const std::vector<InertialState>& states,
-                               const std::vector<ImuSample>& samples, const ImuNoiseParams& noise) {
-  std::vector<SE3> poses{states.front().T_world_body};
-  for (std::size_t n = 1; n < nodes.size(); ++n) {
-    const std::span<const ScanPose> span(scans.data() + nodes[n - 1], nodes[n] - nodes[n - 1] + 1);
-    const std::vector<SE3> path = path_from(states[n - 1], span, samples, noise);
-    const SE3::Tangent missing = (path.back().inverse() * states[n].T_world_body).log();
-    const double duration_s = seconds_between(span.front().stamp, span.back().stamp);
-    for (std::size_t k = 1; k < path.size(); ++k)
-      poses.push_back(path[k] *
-                      SE3::exp(seconds_between(span.front().stamp, span[k].stamp) / duration_s * missing));
-  }
-  return poses;
-}
-
-/// Nothing if gravity cannot be estimated or the smoother refuses.
-std::optional<InertialOdometry> smooth_scans(const std::vector<ScanPose>& scans,
-                                             const std::vector<ImuSample>& samples,
-                                             const InertialParams& params) {
-  const auto aligned = align_gravity(trajectory_of(scans), samples, params.noise, params.alignment);
-  if (!aligned) return std::nullopt;
-  const auto nodes = nodes_of(scans, params.stage.node_s);
-  InertialDrive drive;
-  for (std::size_t n = 0; n < nodes.size(); ++n) {
-    drive.stamps.push_back(scans[nodes[n]].stamp);
-    drive.poses.push_back(map_pose(scans[nodes[n]], params.stage));
-    if (n > 0) drive.map_drifts.push_back(drift_between(scans, nodes[n - 1], nodes[n], params.stage));
-  }
-  drive.start = aligned->states.front();
-  const auto smoothed = smooth_inertially(drive, samples, params.noise, params.smoother);
-  if (!smoothed) return std::nullopt;
-  return InertialOdometry{
-      poses_through(scans, nodes, smoothed->states, samples, params.noise),
-      odometry_noise_inflation(*smoothed, params.odometry_noise),
-      smoothed->cost / static_cast<double>(std::max<std::size_t>(1, drive.map_drifts.size()))};
-}
-
-// Tracks a robot's scans together with its IMU, or without it if the IMU data is inconsistent with the scans.
-//
-//   outliers        single IMU outliers are removed                (inertial/imu_outliers.hpp)
-//   consistency     of the IMU with the first `check_s` of scans   (inertial/imu_consistency.hpp)
-//   tracking        all scans, with the IMU as motion prior        (scan_tracking.hpp)
-//   smoothing       poses from scans and IMU together
-//
-// If the consistency test or the smoother finds a contradiction, or gravity cannot be estimated, the IMU is
-// ignored with a note.
-// Cost: the scans' registrations; with an IMU, those of the first `check_s` seconds twice.
-
-bool uses_inertial(const Robot& robot, const ScanParams& params) {
-  return params.inertial.stage.enabled && !robot.inertial.empty();
-}
-
-void remove_outliers(Robot& robot, const ImuOutlierParams& params, std::vector<std::string>& notes) {
-  FilteredImu filtered = remove_imu_outliers(robot.inertial, params);
-  if (filtered.removed == 0) return;
-  robot.inertial = std::move(filtered.samples);
-  notes.push_back("robot " + robot.id + ": " + std::to_string(filtered.removed) +
-                  " IMU samples are outliers and were removed");
-}
-
-/// Replaces the estimate from scans alone by that from scans and IMU; returns why if it cannot.
-std::optional<std::string> smooth_with_imu(ScanTrajectory& track, const std::vector<ImuSample>& samples,
-                                           const InertialParams& params) {
-  const auto smoothed = smooth_scans(track.poses, samples, params);
-  if (!smoothed) return "gravity could not be estimated from its IMU data and scans";
-  if (smoothed->cost_per_step > params.stage.max_cost_per_step) return "its IMU data contradicts its scans";
-  for (std::size_t k = 0; k < track.poses.size(); ++k) {
-    track.poses[k].T_start_body = smoothed->poses[k];
-    if (k == 0) continue;
-    const Stamp begin = track.poses[k - 1].stamp, end = track.poses[k].stamp;
-    track.poses[k].covariance = measured_covariance(smoothed->steps, begin, end);
-  }
-  track.is_level = true;
-  return std::nullopt;
-}
-
-/// Number of scans within the first `duration_s`.
-std::size_t scans_within(const LidarLog& log, double duration_s) {
-  std::size_t count = 0;
-  while (count < log.size() && seconds_between(log.stamps.front(), log.stamps[count]) <= duration_s) ++count;
-  return count;
-}
-
-/// Removes IMU outliers from `robot`.
-ScanTrajectory track_scans_with_imu(Robot& robot, const ScannerTraits& traits, const ScanParams& params,
-                                    const KeyframeParams& keyframes, const Progress& progress,
-                                    std::vector<std::string>& notes) {
-  const auto track = [&](std::size_t until, ImuUse by) {
-    return track_scans(robot, until, by, traits, params, keyframes, progress);
-  };
-  const std::size_t all = robot.lidar.size();
-  if (!uses_inertial(robot, params)) return track(all, ImuUse::kNone);
-  remove_outliers(robot, params.inertial.outliers, notes);
-  const std::size_t checked = scans_within(robot.lidar, params.inertial.stage.check_s);
-  ScanTrajectory alone = track(checked, ImuUse::kNone);
-  auto wrong = find_inconsistency(trajectory_of(alone.poses), robot.inertial, params.inertial.noise,
-                                  params.inertial.consistency);
-  if (!wrong) {
-    ScanTrajectory together = track(all, ImuUse::kReadings);
-    if (together.poses.empty()) return together;
-    wrong = smooth_with_imu(together, robot.inertial, params.inertial);
-    if (!wrong) return together;
-  }
-  notes.push_back("robot " + robot.id + ": " + *wrong + "; its IMU data was ignored");
-  return checked == all ? std::move(alone) : track(all, ImuUse::kNone);
-}
 
 /// A robot without odometry and registered scans stays at the origin from its first scan on.
 ScanOdometry static_odometry(const Robot& robot) {
@@ -316,37 +154,96 @@ bool is_tracked(const Robot& robot, const ScanParams& params) {
   return !robot.lidar.empty() && !is_recorded;
 }
 
+/// Tracks the recorded scans, sample by sample.
+TrackedScans track_recorded(const Robot& robot, const ScanParams& params, const KeyframeParams& keyframes,
+                            const Progress& progress) {
+  ScanFrontEnd front_end(robot, {!robot.odometry.empty(), !robot.inertial.empty()}, params, keyframes);
+  auto odometry = robot.odometry.begin();
+  auto sample = robot.inertial.begin();
+  for (std::size_t k = 0; k < robot.lidar.size(); ++k) {
+    const Stamp stamp = robot.lidar.stamps[k];
+    const auto is_next = [&](const auto& of, const auto& end) { return of != end && of->stamp <= stamp; };
+    while (is_next(odometry, robot.odometry.end()) || is_next(sample, robot.inertial.end())) {
+      const bool is_odometry = odometry != robot.odometry.end() &&
+                               (sample == robot.inertial.end() || odometry->stamp <= sample->stamp);
+      is_odometry ? front_end.add(*odometry++) : front_end.add(*sample++);
+    }
+    front_end.add(stamp, robot.lidar.read(k));
+    report_progress(progress, "scans of " + robot.id,
+                    static_cast<double>(k + 1) / static_cast<double>(robot.lidar.size()));
+  }
+  for (; odometry != robot.odometry.end(); ++odometry) front_end.add(*odometry);
+  for (; sample != robot.inertial.end(); ++sample) front_end.add(*sample);
+  return front_end.finish();
+}
+
+void report_imu(MeasuredScans& measured, const Robot& robot, const TrackedScans& tracked) {
+  if (tracked.imu_outliers > 0)
+    measured.notes.push_back("robot " + robot.id + ": " + std::to_string(tracked.imu_outliers) +
+                             " IMU samples are outliers and were removed");
+  if (tracked.imu_fault)
+    measured.notes.push_back("robot " + robot.id + ": " + *tracked.imu_fault + "; its IMU data was ignored");
+}
+
+/// What one robot's scans say; `measured` is empty.
+void measure_robot(const Robot& robot, RobotIndex index, const ScanParams& params,
+                   const KeyframeParams& keyframes, const ScanLoopSearch& loops, ScansOfRecorded recorded,
+                   const Progress& progress, std::optional<TrackedScans> tracked, MeasuredScans& measured) {
+  std::optional<ScanOdometry>& scans = measured.robots.emplace_back();
+  if (!is_tracked(robot, params)) {
+    if (recorded == ScansOfRecorded::kForPlaces && !robot.lidar.empty())
+      scans = recorded_odometry_with_scans(robot, params, keyframes);
+    return;
+  }
+  if (!tracked) tracked = track_recorded(robot, params, keyframes, progress);
+  ScanTrajectory& track = tracked->track;
+  report_imu(measured, robot, *tracked);
+  report_scans(measured, robot, track);
+  if (track.poses.empty()) {
+    if (robot.odometry.empty()) scans = static_odometry(robot);
+    return;
+  }
+  report_guessed_time(measured, robot, track, tracked->traits->kind);
+  scans.emplace();
+  scans->keyframes = extract_keyframes(track, *tracked->traits);
+  scans->odometry = odometry_from_scans(robot, track, params.stage);
+  for (const std::size_t k : track.keyframes) scans->keyframe_stamps.push_back(track.poses[k].stamp);
+  close_loops(measured, index, *scans, loops, progress);
+}
+
+void append(MeasuredScans& to, MeasuredScans of_robot) {
+  for (auto& scans : of_robot.robots) to.robots.push_back(std::move(scans));
+  to.closures.insert(to.closures.end(), of_robot.closures.begin(), of_robot.closures.end());
+  to.notes.insert(to.notes.end(), of_robot.notes.begin(), of_robot.notes.end());
+  to.scans += of_robot.scans;
+  to.registered += of_robot.registered;
+  to.too_few += of_robot.too_few;
+  to.lost += of_robot.lost;
+}
+
 }  // namespace
 
 MeasuredScans measure_scans(const Mission& mission, const ScanParams& params, const KeyframeParams& keyframes,
                             const Progress& progress, ScansOfRecorded recorded,
-                            const PlaceDescriptorParams& descriptors) {
+                            const PlaceDescriptorParams& descriptors,
+                            std::vector<std::optional<TrackedScans>> tracked) {
+  tracked.resize(mission.robots.size());
   const ScanLoopSearch loops{params.loops,  params.lidar.map,
                              params.search, params.lidar.registration,
                              descriptors,   mission.dimension == 3 ? Storeys::kSeveral : Storeys::kOne};
+  std::mutex reporting;
+  const Progress report = [&](std::string_view stage, double fraction) {
+    const std::lock_guard lock(reporting);
+    report_progress(progress, stage, fraction);
+  };
+  std::vector<MeasuredScans> of_robots(mission.robots.size());
+  parallel_for(of_robots.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t r = begin; r < end; ++r)
+      measure_robot(mission.robots[r], RobotIndex(r), params, keyframes, loops, recorded, report,
+                    std::move(tracked[r]), of_robots[r]);
+  });
   MeasuredScans measured;
-  for (std::size_t r = 0; r < mission.robots.size(); ++r) {
-    std::optional<ScanOdometry>& scans = measured.robots.emplace_back();
-    if (!is_tracked(mission.robots[r], params)) {
-      if (recorded == ScansOfRecorded::kForPlaces && !mission.robots[r].lidar.empty())
-        scans = recorded_odometry_with_scans(mission.robots[r], params, keyframes);
-      continue;
-    }
-    Robot robot = mission.robots[r];
-    const ScannerTraits traits = scanner_traits(robot.lidar, params.lidar);
-    ScanTrajectory track = track_scans_with_imu(robot, traits, params, keyframes, progress, measured.notes);
-    report_scans(measured, robot, track);
-    report_guessed_time(measured, robot, track, traits.kind);
-    if (track.poses.empty()) {
-      if (robot.odometry.empty()) scans = static_odometry(robot);
-      continue;
-    }
-    scans.emplace();
-    scans->keyframes = extract_keyframes(track, traits);
-    scans->odometry = odometry_from_scans(robot, track, params.stage);
-    for (const std::size_t k : track.keyframes) scans->keyframe_stamps.push_back(track.poses[k].stamp);
-    close_loops(measured, RobotIndex(r), *scans, loops, progress);
-  }
+  for (MeasuredScans& of_robot : of_robots) append(measured, std::move(of_robot));
   return measured;
 }
 

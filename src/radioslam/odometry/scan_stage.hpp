@@ -14,6 +14,7 @@
 #include "radioslam/base/stamp.hpp"
 #include "radioslam/mission/keyframes.hpp"
 #include "radioslam/mission/mission.hpp"
+#include "radioslam/odometry/scan_front_end.hpp"
 #include "radioslam/odometry/scan_params.hpp"
 #include "radioslam/odometry/scan_tracking.hpp"
 #include "radioslam/places/loops/scan_loop.hpp"
@@ -50,10 +51,12 @@ struct MeasuredScans {
 /// Whether a robot whose odometry is used as recorded gets keyframes with scans, too.
 enum class ScansOfRecorded { kIgnored, kForPlaces };
 
-/// `descriptors`: by which loop closures within a robot find places that look alike.
+/// `descriptors`: by which loop closures within a robot find places that look alike. `tracked`: per robot its
+/// scans, where they have been tracked already.
 MeasuredScans measure_scans(const Mission& mission, const ScanParams& params, const KeyframeParams& keyframes,
                             const Progress& progress, ScansOfRecorded recorded = ScansOfRecorded::kIgnored,
-                            const PlaceDescriptorParams& descriptors = {});
+                            const PlaceDescriptorParams& descriptors = {},
+                            std::vector<std::optional<TrackedScans>> tracked = {});
 
 /// The mission with the odometry of its scans, and with keyframes among which are those of the scans.
 Mission with_odometry(Mission mission, const MeasuredScans& measured, const KeyframeParams& keyframes);

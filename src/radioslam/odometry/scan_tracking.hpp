@@ -34,15 +34,6 @@ struct ScanTrajectory {
   bool is_level = false;  ///< roll and pitch are aligned with gravity
 };
 
-/// Whether the IMU provides the motion prior.
-enum class ImuUse { kNone, kReadings };
-
-/// Tracks the robot's first `until` scans. Keyframes follow the rule of select_keyframes; the last pose is
-/// one.
-ScanTrajectory track_scans(const Robot& robot, std::size_t until, ImuUse by, const ScannerTraits& traits,
-                           const ScanParams& params, const KeyframeParams& keyframes,
-                           const Progress& progress);
-
 /// The keyframes for loop closing; moves the clouds out of `track`.
 ScanKeyframes extract_keyframes(ScanTrajectory& track, const ScannerTraits& traits);
 

@@ -377,14 +377,14 @@ RunOutput estimate(const LoggedMission& logged, const Mission& measured, const M
 }  // namespace
 
 MeasuredRecordings measure_recordings(const Mission& recorded, const RunParams& params,
-                                      const RunOptions& options, StageClock& timed,
-                                      const Progress& progress) {
+                                      const RunOptions& options, StageClock& timed, const Progress& progress,
+                                      std::vector<std::optional<TrackedScans>> tracked) {
   MeasuredRecordings measured;
   if (has_scans(recorded)) {
     const bool is_compared = params.places.enabled && !options.overlap_only && recorded.robots.size() > 1;
     measured.scans = timed("scans", measure_scans, recorded, params.scans, params.keyframe, progress,
                            is_compared ? ScansOfRecorded::kForPlaces : ScansOfRecorded::kIgnored,
-                           params.places.descriptors);
+                           params.places.descriptors, std::move(tracked));
     measured.mission = with_odometry(recorded, measured.scans, params.keyframe);
   }
   if (has_captures(recorded)) {

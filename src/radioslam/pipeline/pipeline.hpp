@@ -20,10 +20,10 @@
 #include "radioslam/mission/mission.hpp"
 #include "radioslam/odometry/scan_stage.hpp"
 #include "radioslam/pipeline/params.hpp"
-#include "radioslam/results/stage_clock.hpp"
 #include "radioslam/radio/captures/csi_stage.hpp"
 #include "radioslam/records/mission_of_logs.hpp"
 #include "radioslam/results/results.hpp"
+#include "radioslam/results/stage_clock.hpp"
 
 namespace radioslam {
 
@@ -43,9 +43,11 @@ struct MeasuredRecordings {
   MeasuredCsi csi;
 };
 
+/// `tracked`: per robot its scans, where they have been tracked already.
 MeasuredRecordings measure_recordings(const Mission& recorded, const RunParams& params,
                                       const RunOptions& options, StageClock& timed,
-                                      const Progress& progress = {});
+                                      const Progress& progress = {},
+                                      std::vector<std::optional<TrackedScans>> tracked = {});
 
 /// Estimates the joint trajectory of the team from what its robots' logs say of the mission, and from scans.
 /// Deterministic: the same mission and parameters give identical numbers for any number of threads.

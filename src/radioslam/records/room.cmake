@@ -1,5 +1,6 @@
 radioslam_room(records
   SOURCES
+    log_builder.cpp
     logs_of_mission.cpp
     mission_of_logs.cpp
     record_codec.cpp

@@ -21,6 +21,7 @@
 #include "radioslam/cli/commands/mission_input.hpp"
 #include "radioslam/cli/commands/output_path_check.hpp"
 #include "radioslam/cli/config.hpp"
+#include "radioslam/cli/online_output.hpp"
 #include "radioslam/cli/progress_line.hpp"
 #include "radioslam/cli/run_parameters.hpp"
 #include "radioslam/eval/mirror_image.hpp"
@@ -43,6 +44,7 @@ struct RunArguments {
   bool no_prune = false;
   std::optional<std::size_t> max_verifications;
   bool unchecked = false;
+  bool stream = false;
   bool json = false;
 };
 
@@ -109,12 +111,23 @@ MissionInput for_evaluation(MissionInput& input) {
   return given;
 }
 
-RunOutput estimate(MissionInput input, const RunParams& params, const RunArguments& arguments) {
+/// Streams the recordings, if asked to; else nothing.
+std::vector<ReplayedRobot> stream(const Mission& mission, const RunParams& params,
+                                  const RunArguments& arguments) {
   ProgressLine line;
+  if (!arguments.stream) return {};
+  return replay(mission, params.scans, params.keyframe, line.progress());
+}
+
+RunOutput estimate(MissionInput input, const RunParams& params, const RunArguments& arguments,
+                   std::vector<ReplayedRobot>& streamed) {
+  ProgressLine line;
+  std::vector<std::optional<TrackedScans>> tracked;
+  for (ReplayedRobot& robot : streamed) tracked.push_back(std::move(robot.tracked));
   RunOptions options;
   options.pruning = arguments.no_prune ? Pruning::kOff : Pruning::kOn;
   if (arguments.max_verifications) options.verifications = VerificationBudget{*arguments.max_verifications};
-  auto run = run_input(std::move(input), params, options, line.progress(), arguments.log);
+  auto run = run_input(std::move(input), params, options, line.progress(), arguments.log, std::move(tracked));
   run.result.parameters = effective_parameters(params);
   return run;
 }
@@ -126,15 +139,18 @@ void run_mission(const RunArguments& options) {
   refuse_replacing_inputs(options.log, options.mission);
   OutputFolder output(options.output, kRunFolder);
   MissionInput input = read_input(options.mission, options.starts);
-  if (!options.log.empty() && !input.is_recorded())
-    throw InputError("--log", 0, "is for missions: a factor graph or a log is no recording");
+  for (const char* option : {"--log", "--stream"})
+    if ((option == std::string("--log") ? !options.log.empty() : options.stream) && !input.is_recorded())
+      throw InputError(option, 0, "is for missions: a factor graph or a log is no recording");
   const bool is_checked = !options.unchecked && std::holds_alternative<std::monostate>(input.graph);
   std::vector<std::string> notes = input.notes;
   std::vector<Finding> warnings;
   if (is_checked) warnings = warnings_about(input.mission, input.truth, options.mission.front());
   const MissionInput given = for_evaluation(input);
   const auto scanned = scans_of(input.mission);
-  RunOutput run = estimate(std::move(input), params, options);
+  std::vector<ReplayedRobot> streamed = stream(input.mission, params, options);
+  append(notes, event_notes(given.mission, streamed));
+  RunOutput run = estimate(std::move(input), params, options, streamed);
   add_maps(run.result, scanned, params, ProgressLine().progress(), output.path());
   const Agreement agreement = evaluate(run.result, given);
   append(notes, finding_notes(warnings, run.result));
@@ -144,10 +160,12 @@ void run_mission(const RunArguments& options) {
   run.result.notes = std::move(notes);
   const RunDocuments documents = documents_of(run, given, agreement);
   write_run(output.path(), run.result, documents);
+  if (options.stream) write_online(output.path(), given.mission, streamed);
   output.commit();
   if (options.json) {
     std::cout << summary_json(run.result, documents.metrics).dump(2) << '\n';
   } else {
+    std::cout << latency_text(given.mission, streamed);
     print_run(run.result, agreement.metrics, options.output);
   }
 }
@@ -172,6 +190,10 @@ void add_run(CLI::App& program) {
   command->add_option("--log", options->log,
                       "Write what each robot would have said on its way, as <robot>.rslog, into this folder, "
                       "and estimate from that alone: scans of different robots are not compared");
+  command->add_flag(
+      "--stream", options->stream,
+      "Feed the recordings to the robots' front ends sample by sample, in time order, and write "
+      "<robot>.online.tum (keyframes as known when they were added) and online.csv as well");
   command->add_flag(
       "--unchecked", options->unchecked,
       "Run without the checks of `radioslam doctor`, which refuse missions with certain faults");

@@ -165,7 +165,8 @@ MissionInput read_input(const std::vector<std::string>& paths, StatedStarts star
 }
 
 RunOutput run_input(MissionInput input, const RunParams& params, const RunOptions& options,
-                    const Progress& progress, const std::filesystem::path& log_folder) {
+                    const Progress& progress, const std::filesystem::path& log_folder,
+                    std::vector<std::optional<TrackedScans>> tracked) {
   if (input.logged)
     return run_pipeline(LoggedMission{std::move(input.mission), *std::move(input.logged), {}}, params,
                         options, progress);
@@ -173,7 +174,8 @@ RunOutput run_input(MissionInput input, const RunParams& params, const RunOption
       [&](const auto& graph) {
         if constexpr (std::is_same_v<std::decay_t<decltype(graph)>, std::monostate>) {
           StageClock timed;
-          const auto recordings = measure_recordings(input.mission, params, options, timed, progress);
+          const auto recordings =
+              measure_recordings(input.mission, params, options, timed, progress, std::move(tracked));
           RunOutput run =
               run_pipeline(input.mission, recordings, params, options, std::move(timed), progress);
           if (!log_folder.empty())

@@ -43,7 +43,9 @@ MissionInput read_input(const std::vector<std::string>& paths, StatedStarts star
 
 /// Calls run_pipeline with the mission, its logs or the graph. `log_folder`: where each robot of a recorded
 /// mission gets a file of what it would have said, `<robot>.rslog`; empty: nowhere.
+/// `tracked`: scans that have been tracked already.
 RunOutput run_input(MissionInput input, const RunParams& params, const RunOptions& options,
-                    const Progress& progress, const std::filesystem::path& log_folder = {});
+                    const Progress& progress, const std::filesystem::path& log_folder = {},
+                    std::vector<std::optional<TrackedScans>> tracked = {});
 
 }  // namespace radioslam::cli

@@ -1,0 +1,134 @@
+#include "radioslam/front_end/replay.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <utility>
+
+#include "radioslam/base/parallel.hpp"
+
+namespace radioslam {
+namespace {
+
+/// One kind of a robot's recordings.
+struct Stream {
+  std::size_t size = 0;
+  std::function<Stamp(std::size_t)> stamp;
+  std::function<Sample(std::size_t)> sample;
+};
+
+/// Of those that are kept, in the order in which they are known.
+template <class Items, class Keep>
+Stream stream_of(const Items& items, const Keep& keep) {
+  std::vector<std::size_t> kept;
+  for (std::size_t k = 0; k < items.size(); ++k)
+    if (keep(items[k])) kept.push_back(k);
+  const auto known = [&items](std::size_t k) { return stamp_of(Sample(items[k])); };
+  std::stable_sort(kept.begin(), kept.end(), [&](auto a, auto b) { return known(a) < known(b); });
+  return {kept.size(), [known, kept](std::size_t k) { return known(kept[k]); },
+          [&items, kept](std::size_t k) { return Sample(items[kept[k]]); }};
+}
+
+template <class Items>
+Stream stream_of(const Items& items) {
+  return stream_of(items, [](const auto&) { return true; });
+}
+
+/// In the order in which samples of one stamp come.
+std::vector<Stream> streams_of(const Mission& mission, RobotIndex self) {
+  const Robot& robot = mission.robots[self.index()];
+  const LidarLog& scans = robot.lidar;
+  return {stream_of(robot.odometry),
+          stream_of(robot.inertial),
+          {scans.size(), [&scans](std::size_t k) { return scans.stamps[k]; },
+           [&scans](std::size_t k) {
+             return Sample(ScanSample{scans.stamps[k], scans.read(k)});
+           }},
+          stream_of(mission.ranges,
+                    [&](const auto& range) { return range.i.robot == self || range.j.robot == self; }),
+          stream_of(mission.aoa_measurements, [&](const auto& angles) { return angles.receiver == self; }),
+          stream_of(robot.fixes),
+          stream_of(robot.wifi),
+          stream_of(mission.matches,
+                    [&](const auto& match) { return match.robot_i == self || match.robot_j == self; })};
+}
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+
+void number_keyframes(const FrontEnd& front_end, std::vector<ReplayedPose>& poses) {
+  std::map<Stamp, std::uint32_t> numbers;
+  for (const StampedPose<SE3>& keyframe : front_end.keyframes())
+    numbers.emplace(keyframe.stamp, static_cast<std::uint32_t>(numbers.size()));
+  for (ReplayedPose& pose : poses)
+    if (const auto found = numbers.find(pose.pose.stamp); found != numbers.end())
+      pose.keyframe = found->second;
+}
+
+ReplayedRobot replay_robot(const Mission& mission, RobotIndex self, const ScanParams& scans,
+                           const KeyframeParams& keyframes, const Progress& progress) {
+  const Robot& robot = mission.robots[self.index()];
+  FrontEnd front_end(mission, self, {!robot.odometry.empty(), !robot.inertial.empty(), !robot.lidar.empty()},
+                     scans, keyframes);
+  const std::vector<Stream> streams = streams_of(mission, self);
+  std::vector<std::size_t> next(streams.size(), 0);
+  ReplayedRobot replayed;
+  Stamp now;
+  const auto take_poses = [&](Clock::time_point begin) {
+    for (OnlinePose& pose : front_end.take_poses())
+      replayed.poses.push_back({pose, {}, seconds_between(pose.stamp, now), milliseconds_since(begin)});
+  };
+  std::size_t total = 0, done = 0;
+  for (const Stream& stream : streams) total += stream.size;
+  for (; done < total; ++done) {
+    std::size_t first = streams.size();
+    for (std::size_t s = 0; s < streams.size(); ++s)
+      if (next[s] < streams[s].size &&
+          (first == streams.size() || streams[s].stamp(next[s]) < streams[first].stamp(next[first])))
+        first = s;
+    Sample sample = streams[first].sample(next[first]++);
+    now = stamp_of(sample);
+    const auto begin = Clock::now();
+    front_end.add(std::move(sample));
+    take_poses(begin);
+    report_progress(progress, "replay " + robot.id, static_cast<double>(done) / static_cast<double>(total));
+  }
+  const auto begin = Clock::now();
+  replayed.tracked = front_end.finish();
+  take_poses(begin);
+  number_keyframes(front_end, replayed.poses);
+  if (replayed.tracked && !replayed.tracked->track.poses.empty()) {
+    ScanTrajectory track;
+    track.poses = replayed.tracked->track.poses;
+    track.is_level = replayed.tracked->track.is_level;
+    front_end.amend(odometry_from_scans(robot, track, scans.stage));
+  }
+  replayed.events = front_end.events();
+  replayed.log = {robot.id, front_end.take_records()};
+  replayed.left_out = front_end.left_out();
+  return replayed;
+}
+
+}  // namespace
+
+std::vector<ReplayedRobot> replay(const Mission& mission, const ScanParams& scans,
+                                  const KeyframeParams& keyframes, const Progress& progress) {
+  std::mutex reporting;
+  const Progress report = [&](std::string_view stage, double fraction) {
+    const std::lock_guard lock(reporting);
+    report_progress(progress, stage, fraction);
+  };
+  std::vector<ReplayedRobot> robots(mission.robots.size());
+  parallel_for(robots.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t r = begin; r < end; ++r)
+      robots[r] = replay_robot(mission, RobotIndex(r), scans, keyframes, report);
+  });
+  return robots;
+}
+
+}  // namespace radioslam

@@ -1,0 +1,36 @@
+// A recorded mission as its robots live through it: every sample in time order through a front end a robot.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "radioslam/base/progress.hpp"
+#include "radioslam/front_end/front_end.hpp"
+#include "radioslam/mission/mission.hpp"
+#include "radioslam/odometry/scan_stage.hpp"
+#include "radioslam/records/team_log.hpp"
+
+namespace radioslam {
+
+/// A pose when it was added, and the time that its sample took.
+struct ReplayedPose {
+  OnlinePose pose;
+  std::optional<std::uint32_t> keyframe;  ///< its number, if it is one
+  double delay_s = 0;                     ///< of the recording, from the pose's stamp until it was known
+  double latency_ms = 0;                  ///< of the machine, from the sample that completed it
+};
+
+struct ReplayedRobot {
+  std::vector<ReplayedPose> poses;
+  std::vector<FrontEndEvent> events;
+  RobotLog log;  ///< with amendments
+  std::optional<TrackedScans> tracked;
+  std::size_t left_out = 0;
+};
+
+/// The robots of the mission, in parallel. Poses, events and logs do not depend on the number of threads.
+std::vector<ReplayedRobot> replay(const Mission& mission, const ScanParams& scans,
+                                  const KeyframeParams& keyframes, const Progress& progress = {});
+
+}  // namespace radioslam
