@@ -48,5 +48,34 @@ TEST(OdometrySigma, GrowsWithTheStepsBetween) {
   EXPECT_NEAR(odometry_sigma_m(keyframes, path_m, 0, 2), 0.02 * 7, 1e-12) << "2 % of the way";
 }
 
+/// Rings of points around a robot that goes straight on, in a store of so many mebibytes.
+ScanKeyframes ringed_keyframes(int memory_mib) {
+  CloudStore store({memory_mib});
+  ScanKeyframes keyframes;
+  for (int k = 0; k < 20; ++k) {
+    ScanPyramid cloud;
+    for (int n = 0; n < 2000; ++n) {
+      const float angle = 0.01F * static_cast<float>(n), range_m = 4 + 0.2F * static_cast<float>(k);
+      cloud.all.push_back(
+          {Eigen::Vector3f(range_m * std::cos(angle), range_m * std::sin(angle), 0.1F * angle),
+           Eigen::Matrix3f::Identity()});
+    }
+    keyframes.clouds.push_back(store.add(cloud));
+    keyframes.poses.push_back(pose_at(k, 0, 0, 0));
+  }
+  return keyframes;
+}
+
+TEST(KeyframeContexts, AreTheSameOfCloudsInMemoryAndOnDisk) {
+  const ScanKeyframes in_memory = ringed_keyframes(64), on_disk = ringed_keyframes(0);
+  const double range_m = context_range(in_memory);
+  EXPECT_NEAR(range_m, 7.4, 0.3);
+  EXPECT_EQ(context_range(on_disk), range_m);
+  const auto path_m = path_lengths(in_memory);
+  const auto a = keyframe_contexts(in_memory, path_m, range_m, 5, {});
+  const auto b = keyframe_contexts(on_disk, path_m, range_m, 5, {});
+  for (std::size_t k = 0; k < a.size(); ++k) EXPECT_EQ(a[k].bins(), b[k].bins());
+}
+
 }  // namespace
 }  // namespace radioslam

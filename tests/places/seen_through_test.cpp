@@ -40,7 +40,7 @@ struct Visitor {
     keyframes.poses = poses;
     keyframes.spacing_m = kSpacing_m;
     for (std::size_t k = 0; k < poses.size(); ++k) {
-      keyframes.clouds.push_back(scan_at(room, poses[k], ScannerKind::kSpatial));
+      keyframes.clouds.push_back(CloudStore().add(scan_at(room, poses[k], ScannerKind::kSpatial)));
       path_m.push_back(4.0 * static_cast<double>(k));
     }
   }

@@ -3,5 +3,6 @@ radioslam_room(base
     check.cpp
     parallel.cpp
     random.cpp
+    scratch_file.cpp
     suggestion.cpp
   LIBRARIES Threads::Threads)

@@ -44,14 +44,14 @@ Stamp stamp_of(const Sample& sample) {
 }
 
 FrontEnd::FrontEnd(const Mission& names, RobotIndex self, MotionSources sources, const ScanParams& scans,
-                   const KeyframeParams& keyframes)
+                   const KeyframeParams& keyframes, CloudStore& clouds)
     : self_(self),
       params_(scans),
       keyframe_params_(keyframes),
       follows_scans_(sources.scans &&
                      !(odometry_source(scans.stage) == OdometrySource::kRecorded && sources.odometry)),
       history_(of_log(names.robots[self.index()], follows_scans_)),
-      scans_(names.robots[self.index()], sources, params_, keyframe_params_),
+      scans_(names.robots[self.index()], sources, params_, keyframe_params_, clouds),
       log_(names, history_.robot(), keyframe_params_) {}
 
 void FrontEnd::add(Sample sample) {

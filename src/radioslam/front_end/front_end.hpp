@@ -52,7 +52,7 @@ class FrontEnd {
   /// Of robot `self`. `names`: its properties, anchors, access points and the other robots; its recordings
   /// are not read. Keeps references.
   FrontEnd(const Mission& names, RobotIndex self, MotionSources sources, const ScanParams& scans,
-           const KeyframeParams& keyframes);
+           const KeyframeParams& keyframes, CloudStore& clouds);
   FrontEnd(const FrontEnd&) = delete;
   FrontEnd& operator=(const FrontEnd&) = delete;
 

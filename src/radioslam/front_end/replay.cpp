@@ -71,7 +71,7 @@ void number_keyframes(const FrontEnd& front_end, std::vector<ReplayedPose>& pose
 }
 
 ReplayedRobot replay_robot(const Mission& mission, RobotIndex self, const ScanParams& scans,
-                           const KeyframeParams& keyframes, const Progress& progress) {
+                           const KeyframeParams& keyframes, CloudStore& clouds, const Progress& progress) {
   const Robot& robot = mission.robots[self.index()];
   FrontEnd front_end(mission, self, {!robot.odometry.empty(), !robot.inertial.empty(), !robot.lidar.empty()},
                      scans, keyframes);
@@ -123,10 +123,11 @@ std::vector<ReplayedRobot> replay(const Mission& mission, const ScanParams& scan
     const std::lock_guard lock(reporting);
     report_progress(progress, stage, fraction);
   };
+  CloudStore clouds(scans.clouds);
   std::vector<ReplayedRobot> robots(mission.robots.size());
   parallel_for(robots.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t r = begin; r < end; ++r)
-      robots[r] = replay_robot(mission, RobotIndex(r), scans, keyframes, report);
+      robots[r] = replay_robot(mission, RobotIndex(r), scans, keyframes, clouds, report);
   });
   return robots;
 }

@@ -28,6 +28,8 @@ class OverlapField {
   std::vector<double> scores(const std::vector<Surfel>& points, const Eigen::Quaterniond& turn,
                              const std::vector<Eigen::Vector3d>& places) const;
 
+  std::size_t bytes() const { return values_.size(); }
+
  private:
   Eigen::Vector3i voxel_of(const Eigen::Vector3f& point) const;
   std::size_t offset_of(const Eigen::Vector3i& voxel) const;

@@ -1,6 +1,8 @@
 radioslam_room(lidar
   SOURCES
     candidate_map.cpp
+    clouds/cloud_store.cpp
+    clouds/packed_cloud.cpp
     deskew.cpp
     lidar_odometry.cpp
     local_map.cpp
@@ -17,4 +19,4 @@ radioslam_room(lidar
     surfels/surfel_map.cpp
     surfels/voxel_grid.cpp
   ROOMS mission
-  PRIVATE_LIBRARIES $<BUILD_INTERFACE:nanoflann::nanoflann>)
+  PRIVATE_LIBRARIES $<BUILD_INTERFACE:nanoflann::nanoflann> Zstd::Zstd)

@@ -17,6 +17,7 @@ class Submap {
   const SurfelColumns& fine() const { return fine_; }
   const SurfelColumns& coarse() const { return coarse_; }
   const OverlapField& overlap() const { return overlap_; }
+  std::size_t bytes() const { return sizeof(Submap) + fine_.bytes() + coarse_.bytes() + overlap_.bytes(); }
 
  private:
   SurfelColumns fine_, coarse_;

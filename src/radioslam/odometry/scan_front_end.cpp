@@ -22,9 +22,10 @@ std::optional<Stamp> newest(const std::optional<ScanTracker>& tracker) {
 }  // namespace
 
 ScanFrontEnd::ScanFrontEnd(const Robot& robot, MotionSources sources, const ScanParams& params,
-                           const KeyframeParams& keyframes)
+                           const KeyframeParams& keyframes, CloudStore& clouds)
     : params_(params),
       keyframes_(keyframes),
+      clouds_(clouds),
       sources_(sources),
       history_(robot),
       outliers_(params.inertial.outliers),
@@ -116,8 +117,8 @@ void ScanFrontEnd::start() {
   std::vector<LidarScan> scans;
   for (std::size_t k = 0; k < std::min(waiting_.size(), kTraitScans); ++k) scans.push_back(waiting_[k].scan);
   traits_ = scanner_traits(scans, params_.lidar);
-  alone_.emplace(history_, ImuUse::kNone, *traits_, params_, keyframes_);
-  if (gate_) with_imu_.emplace(history_, ImuUse::kReadings, *traits_, params_, keyframes_);
+  alone_.emplace(history_, ImuUse::kNone, *traits_, params_, keyframes_, clouds_);
+  if (gate_) with_imu_.emplace(history_, ImuUse::kReadings, *traits_, params_, keyframes_, clouds_);
 }
 
 void ScanFrontEnd::register_scan(WaitingScan scan) {

@@ -42,9 +42,10 @@ class ScanFrontEnd {
  public:
   static constexpr double kStart_s = 3;
 
-  /// `robot`: its properties; its recordings are not read. Keeps references to the parameters.
+  /// `robot`: its properties; its recordings are not read. Keeps references to the parameters and `clouds`,
+  /// where the keyframes' clouds are put.
   ScanFrontEnd(const Robot& robot, MotionSources sources, const ScanParams& params,
-               const KeyframeParams& keyframes);
+               const KeyframeParams& keyframes, CloudStore& clouds);
   ScanFrontEnd(const ScanFrontEnd&) = delete;
   ScanFrontEnd& operator=(const ScanFrontEnd&) = delete;
 
@@ -80,6 +81,7 @@ class ScanFrontEnd {
 
   const ScanParams& params_;
   const KeyframeParams& keyframes_;
+  CloudStore& clouds_;
   MotionSources sources_;
   SensorHistory history_;
   ImuOutlierFilter outliers_;

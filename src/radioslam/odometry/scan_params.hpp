@@ -4,6 +4,7 @@
 #include <string>
 
 #include "radioslam/base/fields.hpp"
+#include "radioslam/lidar/clouds/cloud_store.hpp"
 #include "radioslam/lidar/lidar_odometry.hpp"
 #include "radioslam/odometry/inertial_params.hpp"
 #include "radioslam/places/loops/scan_loops.hpp"
@@ -43,6 +44,7 @@ inline OdometrySource odometry_source(const ScanStageParams& params) {
 struct ScanParams {
   ScanStageParams stage;
   LidarParams lidar;
+  CloudStoreParams clouds;
   PoseSearchParams search;
   ScanLoopParams loops;
   InertialParams inertial;
@@ -51,6 +53,7 @@ struct ScanParams {
   static void visit_sections(Self& self, Visitor&& visit) {
     visit("scans", self.stage);
     LidarParams::visit_sections(self.lidar, visit);
+    visit("clouds", self.clouds);
     visit("scan_search", self.search);
     visit("scan_loops", self.loops);
     InertialParams::visit_sections(self.inertial, visit);

@@ -25,9 +25,9 @@ ScanOdometry static_odometry(const Robot& robot) {
 }
 
 ScanOdometry recorded_odometry_with_scans(const Robot& robot, const ScanParams& params,
-                                          const KeyframeParams& keyframes) {
+                                          const KeyframeParams& keyframes, CloudStore& clouds) {
   const ScannerTraits traits = scanner_traits(robot.lidar, params.lidar);
-  ScansOnOdometry scans = scans_on_odometry(robot, traits, params.lidar, keyframes);
+  ScansOnOdometry scans = scans_on_odometry(robot, traits, params.lidar, keyframes, clouds);
   return {std::nullopt, std::move(scans.keyframes), std::move(scans.stamps), {}};
 }
 
@@ -66,7 +66,8 @@ std::vector<bool> open_poses(const ScanTrajectory& track, ScannerKind kind) {
     if (kind == ScannerKind::kSpatial)
       open.push_back(is_open(track.poses[k].information));
     else
-      open.push_back(is_keyframe ? has_parallel_walls(track.clouds[next].all) : !open.empty() && open.back());
+      open.push_back(is_keyframe ? has_parallel_walls(track.clouds[next].read()->all)
+                                 : !open.empty() && open.back());
     next += is_keyframe;
   }
   return open;
@@ -156,8 +157,9 @@ bool is_tracked(const Robot& robot, const ScanParams& params) {
 
 /// Tracks the recorded scans, sample by sample.
 TrackedScans track_recorded(const Robot& robot, const ScanParams& params, const KeyframeParams& keyframes,
-                            const Progress& progress) {
-  ScanFrontEnd front_end(robot, {!robot.odometry.empty(), !robot.inertial.empty()}, params, keyframes);
+                            CloudStore& clouds, const Progress& progress) {
+  ScanFrontEnd front_end(robot, {!robot.odometry.empty(), !robot.inertial.empty()}, params, keyframes,
+                         clouds);
   auto odometry = robot.odometry.begin();
   auto sample = robot.inertial.begin();
   for (std::size_t k = 0; k < robot.lidar.size(); ++k) {
@@ -188,14 +190,15 @@ void report_imu(MeasuredScans& measured, const Robot& robot, const TrackedScans&
 /// What one robot's scans say; `measured` is empty.
 void measure_robot(const Robot& robot, RobotIndex index, const ScanParams& params,
                    const KeyframeParams& keyframes, const ScanLoopSearch& loops, ScansOfRecorded recorded,
-                   const Progress& progress, std::optional<TrackedScans> tracked, MeasuredScans& measured) {
+                   CloudStore& clouds, const Progress& progress, std::optional<TrackedScans> tracked,
+                   MeasuredScans& measured) {
   std::optional<ScanOdometry>& scans = measured.robots.emplace_back();
   if (!is_tracked(robot, params)) {
     if (recorded == ScansOfRecorded::kForPlaces && !robot.lidar.empty())
-      scans = recorded_odometry_with_scans(robot, params, keyframes);
+      scans = recorded_odometry_with_scans(robot, params, keyframes, clouds);
     return;
   }
-  if (!tracked) tracked = track_recorded(robot, params, keyframes, progress);
+  if (!tracked) tracked = track_recorded(robot, params, keyframes, clouds, progress);
   ScanTrajectory& track = tracked->track;
   report_imu(measured, robot, *tracked);
   report_scans(measured, robot, track);
@@ -231,6 +234,7 @@ MeasuredScans measure_scans(const Mission& mission, const ScanParams& params, co
   const ScanLoopSearch loops{params.loops,  params.lidar.map,
                              params.search, params.lidar.registration,
                              descriptors,   mission.dimension == 3 ? Storeys::kSeveral : Storeys::kOne};
+  CloudStore clouds(params.clouds);
   std::mutex reporting;
   const Progress report = [&](std::string_view stage, double fraction) {
     const std::lock_guard lock(reporting);
@@ -239,7 +243,7 @@ MeasuredScans measure_scans(const Mission& mission, const ScanParams& params, co
   std::vector<MeasuredScans> of_robots(mission.robots.size());
   parallel_for(of_robots.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t r = begin; r < end; ++r)
-      measure_robot(mission.robots[r], RobotIndex(r), params, keyframes, loops, recorded, report,
+      measure_robot(mission.robots[r], RobotIndex(r), params, keyframes, loops, recorded, clouds, report,
                     std::move(tracked[r]), of_robots[r]);
   });
   MeasuredScans measured;

@@ -8,11 +8,12 @@
 namespace radioslam {
 
 ScanTracker::ScanTracker(const SensorHistory& history, ImuUse by, const ScannerTraits& traits,
-                         const ScanParams& params, const KeyframeParams& keyframes)
+                         const ScanParams& params, const KeyframeParams& keyframes, CloudStore& clouds)
     : history_(history),
       by_(by),
       params_(params),
       keyframes_(keyframes),
+      clouds_(clouds),
       odometry_(traits, params.lidar),
       imu_prior_(history.inertial(), params.inertial),
       distortion_(params.stage.acceleration_smoothing, history.scan_interval_s()) {}
@@ -40,8 +41,7 @@ void ScanTracker::add(Stamp stamp, LidarScan scan) {
 }
 
 ScanTrajectory ScanTracker::finish() && {
-  if (!track_.poses.empty() && track_.keyframes.back() + 1 < track_.poses.size())
-    add_keyframe(std::move(last_cloud_));
+  if (!track_.poses.empty() && track_.keyframes.back() + 1 < track_.poses.size()) add_keyframe();
   track_.nominal_inlier_ratio /= static_cast<double>(std::max<std::size_t>(1, track_.poses.size() - 1));
   return std::move(track_);
 }
@@ -94,9 +94,9 @@ void ScanTracker::add_distortion_covariance(ScanPose& pose, MotionSource source,
 }
 
 /// Replaces the last keyframe's cloud if its scan started the map and was deskewed again.
-void ScanTracker::take_first_cloud(std::optional<ScanPyramid> cloud) {
+void ScanTracker::take_first_cloud(const std::optional<ScanPyramid>& cloud) {
   if (cloud && !track_.keyframes.empty() && track_.keyframes.back() + 1 == track_.poses.size())
-    track_.clouds.back() = *std::move(cloud);
+    track_.clouds.back() = clouds_.add(*cloud);
 }
 
 void ScanTracker::forget_start() {
@@ -111,7 +111,7 @@ void ScanTracker::append(ScanPose pose) {
   last_cloud_ = std::exchange(pose.cloud, {});
   track_.nominal_inlier_ratio += pose.inlier_ratio;
   track_.poses.push_back(std::move(pose));
-  if (starts_keyframe()) add_keyframe(last_cloud_);
+  if (starts_keyframe()) add_keyframe();
 }
 
 /// The last pose of the trajectory becomes a keyframe in finish().
@@ -121,9 +121,9 @@ bool ScanTracker::starts_keyframe() const {
                          keyframes_);
 }
 
-void ScanTracker::add_keyframe(ScanPyramid cloud) {
+void ScanTracker::add_keyframe() {
   track_.keyframes.push_back(track_.poses.size() - 1);
-  track_.clouds.push_back(std::move(cloud));
+  track_.clouds.push_back(clouds_.add(last_cloud_));
 }
 
 }  // namespace radioslam

@@ -22,8 +22,9 @@ enum class ImuUse { kNone, kReadings };
 class ScanTracker {
  public:
   /// Keeps references, which must outlive it; the history's intervals are known.
+  /// The keyframes' clouds are put into `clouds`.
   ScanTracker(const SensorHistory& history, ImuUse by, const ScannerTraits& traits, const ScanParams& params,
-              const KeyframeParams& keyframes);
+              const KeyframeParams& keyframes, CloudStore& clouds);
 
   /// Registers the next scan. The history covers its sweep, as far as it was measured.
   void add(Stamp stamp, LidarScan scan);
@@ -41,16 +42,17 @@ class ScanTracker {
   std::optional<SE3> recorded_motion(Stamp from, Stamp to) const;
   SE3::Jacobian recorded_covariance(Stamp stamp) const;
   void add_distortion_covariance(ScanPose& pose, MotionSource source, const ScanTimeSpan& time);
-  void take_first_cloud(std::optional<ScanPyramid> cloud);
+  void take_first_cloud(const std::optional<ScanPyramid>& cloud);
   void forget_start();
   void append(ScanPose pose);
   bool starts_keyframe() const;
-  void add_keyframe(ScanPyramid cloud);
+  void add_keyframe();
 
   const SensorHistory& history_;
   ImuUse by_;
   const ScanParams& params_;
   const KeyframeParams& keyframes_;
+  CloudStore& clouds_;
   LidarOdometry odometry_;
   ImuMotionPrior imu_prior_;
   DistortionCovariance distortion_;

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "radioslam/base/progress.hpp"
+#include "radioslam/lidar/clouds/cloud_store.hpp"
 #include "radioslam/lidar/lidar_odometry.hpp"
 #include "radioslam/mission/keyframes.hpp"
 #include "radioslam/mission/mission.hpp"
@@ -27,7 +28,7 @@ namespace radioslam {
 struct ScanTrajectory {
   std::vector<ScanPose> poses;  ///< of the registered scans, without their clouds
   std::vector<std::size_t> keyframes;
-  std::vector<ScanPyramid> clouds;  ///< of the keyframes
+  std::vector<StoredCloud> clouds;  ///< of the keyframes
   std::map<ScanStatus, std::size_t> status_counts;
   PointCounts points;
   double nominal_inlier_ratio = 0;

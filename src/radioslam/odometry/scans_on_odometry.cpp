@@ -30,10 +30,10 @@ double nominal_inlier_ratio(const ScanKeyframes& of, const ScanMatcher& matcher)
   std::vector<double> ratios;
   for (std::size_t k = kBefore; k < count; k += stride) {
     LocalMap map = matcher.empty_map();
-    for (std::size_t n = k - kBefore; n < k; ++n) map.add(of.clouds[n], of.poses[n], 0);
+    for (std::size_t n = k - kBefore; n < k; ++n) map.add(*of.clouds[n].read(), of.poses[n], 0);
     PosePrior prior{of.poses[k]};
     prior.information = isotropic(1 / (kDeviation_m * kDeviation_m), 100);
-    const Registration fit = matcher.register_near(map, of.clouds[k], prior, kDeviation_m);
+    const Registration fit = matcher.register_near(map, *of.clouds[k].read(), prior, kDeviation_m);
     if (fit.end == RegistrationStatus::kConverged) ratios.push_back(fit.inlier_ratio);
   }
   return std::max(kMinNominal, ratios.empty() ? 1 : upper_median(std::move(ratios)));
@@ -44,7 +44,7 @@ void drop_empty(ScansOnOdometry& scans) {
   std::size_t kept = 0;
   ScanKeyframes& of = scans.keyframes;
   for (std::size_t k = 0; k < of.clouds.size(); ++k) {
-    if (of.clouds[k].source.surfels.empty()) continue;
+    if (of.clouds[k].empty()) continue;
     std::swap(of.clouds[kept], of.clouds[k]);
     of.poses[kept] = of.poses[k];
     scans.stamps[kept++] = scans.stamps[k];
@@ -57,7 +57,7 @@ void drop_empty(ScansOnOdometry& scans) {
 }  // namespace
 
 ScansOnOdometry scans_on_odometry(const Robot& robot, const ScannerTraits& traits, const LidarParams& params,
-                                  const KeyframeParams& keyframes) {
+                                  const KeyframeParams& keyframes, CloudStore& clouds) {
   ScansOnOdometry result;
   ScanKeyframes& scans = result.keyframes;
   scans.spacing_m = traits.spacing_m;
@@ -78,7 +78,8 @@ ScansOnOdometry scans_on_odometry(const Robot& robot, const ScannerTraits& trait
       const Stamp stamp = result.stamps[n];
       const SE3::Tangent twist = twist_at(robot.odometry, stamp, scan_s);
       const ScanPoints points = filter_and_deskew(robot.lidar.read(chosen[n]), twist, params.points);
-      scans.clouds[n] = matcher.pyramid_of(matcher.measure(stamp, points, twist, MotionSource::kOdometry));
+      scans.clouds[n] =
+          clouds.add(matcher.pyramid_of(matcher.measure(stamp, points, twist, MotionSource::kOdometry)));
     }
   });
   drop_empty(result);

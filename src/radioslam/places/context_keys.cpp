@@ -11,12 +11,12 @@ Eigen::VectorXf ring_key(const ScanContext& context) {
 }
 
 Eigen::MatrixXf band_spectra(const ScanContext& context, int bands, int frequencies) {
-  const Eigen::Index stride = context.spectra().rows() / 2,
-                     count = std::min<Eigen::Index>(frequencies, stride);
+  const Eigen::MatrixXf spectra = context.spectra();
+  const Eigen::Index stride = spectra.rows() / 2, count = std::min<Eigen::Index>(frequencies, stride);
   Eigen::MatrixXf result = Eigen::MatrixXf::Zero(Eigen::Index{2} * frequencies, bands);
   for (int ring = 0; ring < context.rings(); ++ring) {
     const int band = context.rings() < bands ? ring : ring * bands / context.rings();
-    const auto spectrum = context.spectra().col(ring);
+    const auto spectrum = spectra.col(ring);
     result.col(band).head(count) += spectrum.head(count);
     result.col(band).segment(frequencies, count) += spectrum.segment(stride, count);
   }

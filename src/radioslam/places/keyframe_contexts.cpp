@@ -5,13 +5,15 @@
 #include <optional>
 #include <utility>
 
+#include "radioslam/base/evenly_chosen.hpp"
 #include "radioslam/base/parallel.hpp"
 #include "radioslam/geometry/uncertain_pose.hpp"
 
 namespace radioslam {
 namespace {
 
-constexpr double kRangeQuantile = 0.9;  // of the points' ranges: that of the descriptors
+constexpr double kRangeQuantile = 0.9;    // of the points' ranges: that of the descriptors
+constexpr std::size_t kMostRanged = 256;  // keyframes whose points they are, evenly chosen
 constexpr double kDriftRatio = 0.02;
 constexpr double kMinRange_m = 3, kMaxRange_m = 80;
 
@@ -22,7 +24,8 @@ std::vector<Eigen::Vector3f> points_around(const ScanKeyframes& keyframes, const
     if (n != k && (keyframes.kind == ScannerKind::kSpatial || std::abs(path_m[n] - path_m[k]) > submap_m))
       continue;
     const SE3 T = keyframes.poses[k].inverse() * keyframes.poses[n];
-    for (const Surfel& surfel : transformed(T, keyframes.clouds[n].all)) points.push_back(surfel.position);
+    for (const Surfel& surfel : transformed(T, keyframes.clouds[n].read()->all))
+      points.push_back(surfel.position);
   }
   return points;
 }
@@ -56,8 +59,10 @@ double odometry_sigma_m(const ScanKeyframes& keyframes, const std::vector<double
 
 double context_range(const ScanKeyframes& keyframes) {
   std::vector<float> ranges_m;
-  for (const ScanPyramid& cloud : keyframes.clouds)
-    for (const Surfel& surfel : cloud.all) ranges_m.push_back(surfel.position.head<2>().norm());
+  for (const StoredCloud& stored : evenly_chosen(keyframes.clouds, kMostRanged)) {
+    const auto cloud = stored.read();
+    for (const Surfel& surfel : cloud->all) ranges_m.push_back(surfel.position.head<2>().norm());
+  }
   if (ranges_m.empty()) return 0;
   const auto at = ranges_m.begin() +
                   static_cast<std::ptrdiff_t>(kRangeQuantile * static_cast<double>(ranges_m.size() - 1));

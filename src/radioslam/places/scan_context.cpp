@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -58,17 +59,28 @@ double yaw_of(int shift, int sectors) {
 
 }  // namespace
 
-ScanContext::ScanContext(Eigen::MatrixXf bins, double min_common_ratio) : bins_(std::move(bins)) {
+ScanContext::Rounded::Rounded(const Eigen::MatrixXf& values) {
+  constexpr float kMostSteps = std::numeric_limits<std::int16_t>::max();
+  step = values.size() > 0 ? values.cwiseAbs().maxCoeff() / kMostSteps : 0;
+  steps = values.unaryExpr([&](float value) {
+    if (value == 0) return std::int16_t{0};
+    const float rounded = std::round(value / step);
+    return static_cast<std::int16_t>(rounded == 0 ? std::copysign(1.0F, value) : rounded);
+  });
+}
+
+ScanContext::ScanContext(const Eigen::MatrixXf& bins, double min_common_ratio)
+    : bins_(bins), spectra_(Eigen::MatrixXf()) {
   RADIOSLAM_CHECK(rings() >= 1 && sectors() <= kMaxSectors, "at least one ring, at most 64 sectors");
   min_common_ = std::max(1, static_cast<int>(std::ceil(min_common_ratio * sectors())));
-  Eigen::MatrixXf unit = bins_;
+  Eigen::MatrixXf unit = bins;
   for (int j = 0; j < sectors(); ++j) {
     const float norm = unit.col(j).norm();
     if (!(norm > 0)) continue;
     unit.col(j) /= norm;
     columns_ |= std::uint64_t{1} << j;
   }
-  spectra_ = SectorDft::complete(sectors()).spectra_of_rows(unit);
+  spectra_ = Rounded(SectorDft::complete(sectors()).spectra_of_rows(unit));
 }
 
 ScanContext make_scan_context(const std::vector<Eigen::Vector3f>& points, double max_range_m,
@@ -82,7 +94,7 @@ ScanContext make_scan_context(const std::vector<Eigen::Vector3f>& points, double
     float& bin = bins(point.ring, point.sector);
     bin = std::max(bin, has_heights ? point.height_m - ground_m : 1.0F);
   }
-  return {std::move(bins), params.min_common_ratio};
+  return {bins, params.min_common_ratio};
 }
 
 ContextMatch compare(const ScanContext& a, const ScanContext& b) {
@@ -110,7 +122,7 @@ ContextMatch compare(const ScanContext& a, const ScanContext& b) {
 
 std::size_t wire_bytes(const ScanContext& context) {
   constexpr std::size_t kHeader = 2 + 2 + 4;  // rings, sectors, metres per step
-  return kHeader + static_cast<std::size_t>(context.bins().size());
+  return kHeader + static_cast<std::size_t>(context.rings() * context.sectors());
 }
 
 }  // namespace radioslam

@@ -43,15 +43,15 @@ enum class ScanContextKind {
   kOccupancy,  ///< 1 in each bin with a point: for planar scanners
 };
 
-/// A place's polar grid with its spectra.
+/// A place's polar grid with its spectra, both with 16 bits a number: a long drive has thousands.
 class ScanContext {
  public:
   /// `bins`: rings x sectors, zero where empty and positive elsewhere.
-  ScanContext(Eigen::MatrixXf bins, double min_common_ratio);
+  ScanContext(const Eigen::MatrixXf& bins, double min_common_ratio);
 
-  int rings() const { return static_cast<int>(bins_.rows()); }
-  int sectors() const { return static_cast<int>(bins_.cols()); }
-  const Eigen::MatrixXf& bins() const { return bins_; }
+  int rings() const { return static_cast<int>(bins_.steps.rows()); }
+  int sectors() const { return static_cast<int>(bins_.steps.cols()); }
+  Eigen::MatrixXf bins() const { return bins_.values(); }
   bool empty() const { return columns_ == 0; }
 
   /// Bit j: column j is not empty.
@@ -59,13 +59,22 @@ class ScanContext {
   /// Smallest number of common columns at which a shift is considered, at least 1.
   int min_common() const { return min_common_; }
   /// Of the unit columns along the sectors, a spectrum per ring (SectorDft).
-  const Eigen::MatrixXf& spectra() const { return spectra_; }
+  Eigen::MatrixXf spectra() const { return spectra_.values(); }
 
  private:
-  Eigen::MatrixXf bins_;
+  /// In steps of a 32767th of the largest number; none but zeros become zero.
+  struct Rounded {
+    Eigen::Matrix<std::int16_t, Eigen::Dynamic, Eigen::Dynamic> steps;
+    float step = 0;
+
+    explicit Rounded(const Eigen::MatrixXf& values);
+    Eigen::MatrixXf values() const { return step * steps.cast<float>(); }
+  };
+
+  Rounded bins_;
   std::uint64_t columns_ = 0;
   int min_common_ = 1;
-  Eigen::MatrixXf spectra_;
+  Rounded spectra_;
 };
 
 /// Points in the body frame, x forward, z up, metres. Those that are not finite, on the z axis or at or

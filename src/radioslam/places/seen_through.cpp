@@ -26,7 +26,7 @@ constexpr double kUpright = 0.5;           // share of a surfel's information in
 std::vector<std::size_t> compared_keyframes(const PlacedKeyframes& robot) {
   std::vector<std::size_t> with_scan;
   for (std::size_t k = 0; k < robot.poses.size(); ++k)
-    if (!robot.keyframes.clouds[k].all.empty()) with_scan.push_back(k);
+    if (!robot.keyframes.clouds[k].empty()) with_scan.push_back(k);
   return evenly_chosen(std::move(with_scan), kMaxKeyframes);
 }
 
@@ -71,9 +71,9 @@ void count(const PlacedKeyframes& a, const PlacedKeyframes& b, const std::vector
   const std::vector<std::size_t> of_b = compared_keyframes(b);
   std::vector<std::vector<Eigen::Vector3f>> points;
   for (const std::size_t k : of_b)
-    points.push_back(structure_points(b.keyframes.clouds[k], b.keyframes.kind));
+    points.push_back(structure_points(*b.keyframes.clouds[k].read(), b.keyframes.kind));
   for (const std::size_t m : compared_keyframes(a)) {
-    const Panorama view(a.keyframes.clouds[m], a.keyframes.kind);
+    const Panorama view(*a.keyframes.clouds[m].read(), a.keyframes.kind);
     for (std::size_t n = 0; n < of_b.size(); ++n) {
       const Placed at = placed(a, m, b, of_b[n], places);
       if (at.sigma_m > kMaxSigma_m) continue;

@@ -51,7 +51,8 @@ ScanOdometry scans_along(const ScannedRoom& room, const std::vector<SE3>& truth,
     const Stamp stamp = Stamp::from_seconds(static_cast<double>(k));
     const SE3 pose = truth.front().inverse() * truth[k];
     scans.keyframes.poses.push_back(pose);
-    scans.keyframes.clouds.push_back(pyramid_of(sweep(room, scanner, truth[k], rng), kSpacing_m, kind));
+    scans.keyframes.clouds.push_back(
+        CloudStore().add(pyramid_of(sweep(room, scanner, truth[k], rng), kSpacing_m, kind)));
     scans.keyframe_stamps.push_back(stamp);
     rows.push_back({stamp, pose});
     if (k > 0) scans.keyframes.step_covariances.push_back(SE3::Jacobian::Identity() * 1e-6);
@@ -174,7 +175,7 @@ TEST(RecognisePlaces, InAPlaneBodiesMayStandAtDifferentHeights) {
 
 TEST(RecognisePlaces, OfARobotWithoutPointsThereAreNone) {
   Hall hall;
-  for (ScanPyramid& cloud : hall.scans.robots[1]->keyframes.clouds) cloud = {};
+  for (StoredCloud& cloud : hall.scans.robots[1]->keyframes.clouds) cloud = {};
   EXPECT_TRUE(hall.recognise(true).closures.empty());
 }
 

@@ -16,9 +16,10 @@ ScanKeyframes there_and_back(int way_m) {
   ScanKeyframes keyframes;
   for (int k = 0; k <= 2 * way_m; ++k) {
     keyframes.poses.push_back(pose_at(k <= way_m ? k : 2 * way_m - k, 0, 0, 0));
-    ScanPyramid& cloud = keyframes.clouds.emplace_back();
-    cloud.source.surfels.push_back({Eigen::Vector3f::Zero(), Eigen::Matrix3f::Identity()});
+    ScanPyramid cloud;
+    cloud.all.push_back({Eigen::Vector3f::Zero(), Eigen::Matrix3f::Identity()});
     cloud.median_range_m = 10;
+    keyframes.clouds.push_back(CloudStore().add(cloud));
     if (k > 0) keyframes.step_covariances.push_back(isotropic(0.04, 1e-8));
   }
   return keyframes;

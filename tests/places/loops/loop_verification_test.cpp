@@ -27,7 +27,7 @@ ScanKeyframes keyframes_at(const ScannedRoom& room, const std::vector<SE3>& pose
   keyframes.poses = poses;
   for (const SE3& pose : poses)
     keyframes.clouds.push_back(
-        pyramid_of(sweep(room, scanner, pose, rng), kSpacing_m, ScannerKind::kSpatial));
+        CloudStore().add(pyramid_of(sweep(room, scanner, pose, rng), kSpacing_m, ScannerKind::kSpatial)));
   for (std::size_t k = 1; k < poses.size(); ++k)
     keyframes.step_covariances.emplace_back(SE3::Jacobian::Identity() * 1e-6);
   return keyframes;

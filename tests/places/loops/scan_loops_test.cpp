@@ -62,7 +62,8 @@ ScanKeyframes keyframes_along(const ScannedRoom& room, const std::vector<SE3>& t
   variance.head<2>().setConstant(sigma_step_m * sigma_step_m);
   variance[5] = sigma_step_rad * sigma_step_rad;
   for (std::size_t k = 0; k < truth.size(); ++k) {
-    keyframes.clouds.push_back(pyramid_of(sweep(room, scanner, truth[k], scans), kKeyframeSpacing_m, kind));
+    keyframes.clouds.push_back(
+        CloudStore().add(pyramid_of(sweep(room, scanner, truth[k], scans), kKeyframeSpacing_m, kind)));
     if (k == 0) {
       keyframes.poses.emplace_back();
       continue;
@@ -181,7 +182,7 @@ TEST(CloseScanLoops, TryNothingThatIsKnownOrNear) {
   params.enabled = false;
   EXPECT_TRUE(close_loops(keyframes, params).loops.empty());
   EXPECT_EQ(close_loops(keyframes, params).poses.size(), truth.size());
-  for (ScanPyramid& cloud : keyframes.clouds) cloud = {};
+  for (StoredCloud& cloud : keyframes.clouds) cloud = {};
   EXPECT_TRUE(close_loops(keyframes).loops.empty());
 }
 

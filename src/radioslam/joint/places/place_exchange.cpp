@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::size_t kSurfelBytes = 21;
 
-std::size_t scan_bytes(const ScanPyramid& scan) { return kSurfelBytes * scan.all.size(); }
+std::size_t scan_bytes(const StoredCloud& scan) { return kSurfelBytes * scan.points(); }
 
 }  // namespace
 

@@ -78,14 +78,15 @@ std::vector<ScannedPlace> scanned_places(const MeasuredScans& scans, const Place
       place.robot = RobotIndex(r);
       place.stamp = robot.keyframe_stamps[k];
       DescriptorRecord& grid = place.grid;
+      const Eigen::MatrixXf bins = context.bins();
       grid.is_occupancy = robot.keyframes.kind == ScannerKind::kPlanar;
       grid.range_m = team.robots[r].range_m;
-      grid.step = static_cast<double>(context.bins().maxCoeff()) / (grid.is_occupancy ? 1 : kMostBin);
+      grid.step = static_cast<double>(bins.maxCoeff()) / (grid.is_occupancy ? 1 : kMostBin);
       grid.rings = static_cast<std::uint32_t>(context.rings());
       grid.sectors = static_cast<std::uint32_t>(context.sectors());
-      for (Eigen::Index i = 0; i < context.bins().rows(); ++i)
-        for (Eigen::Index j = 0; j < context.bins().cols(); ++j) {
-          const double steps = static_cast<double>(context.bins()(i, j)) / grid.step;
+      for (Eigen::Index i = 0; i < bins.rows(); ++i)
+        for (Eigen::Index j = 0; j < bins.cols(); ++j) {
+          const double steps = static_cast<double>(bins(i, j)) / grid.step;
           grid.bins.push_back(steps > 0 ? static_cast<std::uint8_t>(std::max(1L, std::lround(steps))) : 0);
         }
     }

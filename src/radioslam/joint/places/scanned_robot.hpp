@@ -54,8 +54,8 @@ struct ScannedRobot {
 
   std::size_t size() const { return nodes.size(); }
   ScannerKind kind() const { return scans->keyframes.kind; }
-  const ScanPyramid& cloud(std::size_t k) const { return scans->keyframes.clouds[k]; }
-  bool has_cloud(std::size_t k) const { return !cloud(k).source.surfels.empty(); }
+  const StoredCloud& cloud(std::size_t k) const { return scans->keyframes.clouds[k]; }
+  bool has_cloud(std::size_t k) const { return !cloud(k).empty(); }
   bool has_any_cloud() const {
     for (std::size_t k = 0; k < size(); ++k)
       if (has_cloud(k)) return true;

@@ -47,7 +47,7 @@ Indices shuffled(Indices of) {
 
 WeighedPair weighed(const Proposal& pair, const ScannedRobot& a, const ScannedRobot& b,
                     const ScanLoopParams& loops) {
-  const double radius_m = loops.radius_ratio * static_cast<double>(b.cloud(pair.j).median_range_m);
+  const double radius_m = loops.radius_ratio * b.cloud(pair.j).median_range_m();
   const double near = probability_within(radius_m, pair.T_i_j.pose.translation().head<2>(),
                                          pair.T_i_j.position_covariance().topLeftCorner<2, 2>());
   return {a.nodes[pair.i], b.nodes[pair.j], near * (1 - pair.descriptor_distance), pair.alignment,

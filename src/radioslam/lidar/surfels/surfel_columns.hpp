@@ -21,6 +21,10 @@ class SurfelColumns {
   /// Largest search distance.
   double max_distance_m() const { return max_distance_m_; }
   const std::vector<Surfel>& surfels() const { return surfels_; }
+  std::size_t bytes() const {
+    return sizeof(std::uint32_t) * first_.size() +
+           (sizeof(Eigen::Vector3f) + sizeof(Surfel)) * surfels_.size();
+  }
 
   /// The nearest surfel closer than the root of `squared_max_distance`, or null; valid as long as this.
   const Surfel* nearest(const Eigen::Vector3f& point, float squared_max_distance) const;

@@ -24,7 +24,7 @@ struct PlacedKeyframes {
   std::function<double(std::size_t, std::size_t)> sigma_m = {};
   std::shared_ptr<KeptSubmaps> submaps = std::make_shared<KeptSubmaps>();
 
-  bool has_cloud(std::size_t k) const { return !keyframes.clouds[k].source.surfels.empty(); }
+  bool has_cloud(std::size_t k) const { return !keyframes.clouds[k].empty(); }
 };
 
 /// Where keyframe j of one robot is expected from keyframe i of another.

@@ -28,7 +28,7 @@ std::vector<LoopCandidate> LoopCandidates::find(const PoseGraph<SE3>& graph) {
   part_of_ = connected_components(graph).of_pose;
   double next_m = 0;
   for (std::size_t j = 0; j < graph.poses.size(); ++j) {
-    if (path_m_[j] < next_m || keyframes_.clouds[j].source.surfels.empty()) continue;
+    if (path_m_[j] < next_m || keyframes_.clouds[j].empty()) continue;
     next_m = path_m_[j] + params_.stride_m;
     for (const std::size_t i : revisits(j, graph.poses)) {
       const auto tried = tried_.find({i, j});
@@ -54,7 +54,7 @@ std::vector<std::size_t> LoopCandidates::revisits(std::size_t j, const std::vect
     const double distance = (poses[i].translation() - poses[j].translation()).norm();
     const double sigma = part_of_[i] == part_of_[j] ? sigma_j : unknown_motion_m(i, j);
     const double limit = radius_of(j) + params_.sigmas * sigma;
-    if (keyframes_.clouds[i].source.surfels.empty() || distance > limit) {
+    if (keyframes_.clouds[i].empty() || distance > limit) {
       inside = false;
       continue;
     }

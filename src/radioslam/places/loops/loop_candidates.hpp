@@ -42,7 +42,9 @@ class LoopCandidates {
   const std::vector<double>& path_m() const { return path_m_; }
 
  private:
-  double radius_of(std::size_t k) const { return params_.radius_ratio * keyframes_.clouds[k].median_range_m; }
+  double radius_of(std::size_t k) const {
+    return params_.radius_ratio * keyframes_.clouds[k].median_range_m();
+  }
   /// The nearest keyframe of every earlier segment of the trajectory that may pass keyframe j.
   std::vector<std::size_t> revisits(std::size_t j, const std::vector<SE3>& poses) const;
   /// Of their relative pose; of keyframes in parts of the trajectory that nothing joins, by what they may

@@ -71,7 +71,8 @@ bool LoopVerification::reaches_elsewhere(const ExpectedPlace& expected, double m
 
 ScanLoop LoopVerification::verify(const PlacedKeyframes& target, std::size_t i, const PlacedKeyframes& source,
                                   std::size_t j, const ExpectedPlace& expected) const {
-  const ScanPyramid scan = source_around(source, j);
+  const auto of_source = source_around(source, j);
+  const ScanPyramid& scan = *of_source;
   UncertainPose<SE3> where = expected.T_i_j;
   if (!expected.anywhere) where.covariance *= kBeyond * kBeyond;
   std::vector<Fit> fits = fits_around(target, i, scan, where);
@@ -214,10 +215,12 @@ double LoopVerification::unseen_storeys(const Setting& setting, const Fit& fit) 
                                       std::max(setting.sigma_up_m(), params_.min_sigma_m));
 }
 
-ScanPyramid LoopVerification::source_around(const PlacedKeyframes& robot, std::size_t j) const {
-  if (of_.source_m == 0) return robot.keyframes.clouds[j];
-  return scan_pyramid(map_around(robot, j, of_.source_m).fine().surfels(), robot.keyframes.spacing_m,
-                      robot.keyframes.kind, map_params_);
+std::shared_ptr<const ScanPyramid> LoopVerification::source_around(const PlacedKeyframes& robot,
+                                                                   std::size_t j) const {
+  if (of_.source_m == 0) return robot.keyframes.clouds[j].read();
+  return std::make_shared<const ScanPyramid>(scan_pyramid(map_around(robot, j, of_.source_m).fine().surfels(),
+                                                          robot.keyframes.spacing_m, robot.keyframes.kind,
+                                                          map_params_));
 }
 
 LocalMap LoopVerification::map_around(const PlacedKeyframes& robot, std::size_t i, double extent_m) const {
@@ -227,7 +230,7 @@ LocalMap LoopVerification::map_around(const PlacedKeyframes& robot, std::size_t 
   for (std::size_t k = 0; k < robot.poses.size(); ++k) {
     if (std::abs(robot.path_m[k] - robot.path_m[i]) > extent_m) continue;
     if (k != i && last_m && robot.path_m[k] - *last_m < of_.apart_m) continue;
-    map.add(robot.keyframes.clouds[k], T_i_frame * robot.poses[k], 0);
+    map.add(*robot.keyframes.clouds[k].read(), T_i_frame * robot.poses[k], 0);
     last_m = robot.path_m[k];
   }
   return map;

@@ -97,7 +97,7 @@ class LoopVerification {
   /// Weight of storeys that were not seen, relative to a fit's.
   double unseen_storeys(const Setting& setting, const Fit& fit) const;
   LocalMap map_around(const PlacedKeyframes& robot, std::size_t i, double extent_m) const;
-  ScanPyramid source_around(const PlacedKeyframes& robot, std::size_t j) const;
+  std::shared_ptr<const ScanPyramid> source_around(const PlacedKeyframes& robot, std::size_t j) const;
   /// The submap has errors of its own: (I^-1 + minimum covariance)^-1, also for a singular I.
   SE3::Jacobian bounded(const SE3::Jacobian& information) const;
 

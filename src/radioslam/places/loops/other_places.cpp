@@ -122,7 +122,7 @@ std::vector<OtherPlace> places_on_other_storeys(const ComparedKeyframes& compare
 }
 
 UncertainPose<SE3> described_pose(const ScanKeyframes& keyframes, const Neighbour& found, int sectors) {
-  const double sigma_m = kSigmaPlace * keyframes.clouds[found.index].median_range_m;
+  const double sigma_m = kSigmaPlace * keyframes.clouds[found.index].median_range_m();
   const double sigma_rad = 2 * std::numbers::pi / sectors;
   // compare(query, context): p_query = Rz(yaw) p_context.
   const Eigen::AngleAxisd turn(-found.match.yaw_rad, Eigen::Vector3d::UnitZ());

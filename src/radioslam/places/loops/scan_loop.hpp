@@ -8,7 +8,7 @@
 
 #include "radioslam/base/fields.hpp"
 #include "radioslam/geometry/se3.hpp"
-#include "radioslam/lidar/local_map.hpp"
+#include "radioslam/lidar/clouds/cloud_store.hpp"
 #include "radioslam/lidar/surfels/surfel.hpp"
 
 namespace radioslam {
@@ -114,7 +114,7 @@ inline bool is_worth_another_trial(double before_m, double now_m) {
 struct ScanKeyframes {
   std::vector<SE3> poses;                       ///< T_start_keyframe, by odometry
   std::vector<SE3::Jacobian> step_covariances;  ///< of T_k^-1 T_k+1
-  std::vector<ScanPyramid> clouds;              ///< one each, empty for a keyframe without a scan
+  std::vector<StoredCloud> clouds;              ///< one each, empty for a keyframe without a scan
   double nominal_inlier_ratio = 1;              ///< mean inlier ratio of the odometry's scans
   double spacing_m = 0.25;
   ScannerKind kind = ScannerKind::kSpatial;

@@ -102,7 +102,7 @@ ScanLoops close_scan_loops(const ScanKeyframes& keyframes, const ScanLoopSearch&
     const std::vector<LoopCandidate> found = candidates.find(graph);
     if (!index && std::any_of(found.begin(), found.end(), [&](const LoopCandidate& candidate) {
           return verification.reaches_elsewhere({candidate.T_i_j},
-                                                keyframes.clouds[candidate.j].median_range_m);
+                                                keyframes.clouds[candidate.j].median_range_m());
         }))
       index = index_of(keyframes, candidates.path_m(), search);
     const auto tried = verify(found, verification,
