@@ -51,9 +51,7 @@ void join(Voxel& a, const Voxel& b) {
 }  // namespace
 
 VoxelMap::VoxelMap(double voxel_m, std::size_t max_points)
-    : voxel_m_(voxel_m), max_points_(max_points), index_(kFirstPlaces, kEmpty) {
-  voxels_.reserve(max_points);  // not touched until it is used
-}
+    : voxel_m_(voxel_m), max_points_(max_points), index_(kFirstPlaces, kEmpty) {}
 
 std::optional<std::uint64_t> VoxelMap::key_of(const Cell& cell, std::uint16_t robot) {
   std::uint64_t key = robot;

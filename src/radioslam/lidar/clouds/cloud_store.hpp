@@ -14,7 +14,7 @@
 namespace radioslam {
 
 struct CloudStoreParams {
-  int memory_mib = 64;
+  int memory_mib = 32;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
