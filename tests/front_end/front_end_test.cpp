@@ -24,8 +24,9 @@ constexpr RobotIndex kSelf{0};
 
 Mission city() {
   CityParams params;
-  params.path_m = 400;
-  params.links.links = 120;
+  params.path_length_m = 400;
+  params.min_contact_s = 5;
+  params.radio.links = 60;
   return simulate_city(params, 3).mission;
 }
 

@@ -17,7 +17,7 @@ using namespace test;
 
 ScanDrive small_drive(ScannerKind kind = ScannerKind::kPlanar, std::uint64_t seed = 1) {
   Scanner scanner = kind == ScannerKind::kPlanar ? planar_scanner() : Scanner();
-  if (kind == ScannerKind::kSpatial) scanner.azimuths = 120;
+  if (kind == ScannerKind::kSpatial) scanner.azimuths = 240;
   return drive_along(furnished_room(), scanner, around_furnished_room(40), seed);
 }
 
@@ -365,7 +365,7 @@ Robot robot_in_corridor(ScannerKind kind) {
   ScannedRoom corridor;
   corridor.boxes = {{{-300, -1.2, 0}, {300, 1.2, 2.6}}};
   Scanner scanner = kind == ScannerKind::kPlanar ? planar_scanner() : Scanner();
-  if (kind == ScannerKind::kSpatial) scanner.azimuths = 120;
+  if (kind == ScannerKind::kSpatial) scanner.azimuths = 240;
   std::vector<SE3> poses;
   const int scans = kind == ScannerKind::kPlanar ? 230 : 70;
   for (int k = 0; k < scans; ++k) poses.push_back(pose_at(0.3 * k, 0.1, 1.2, 0));

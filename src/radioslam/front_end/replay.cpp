@@ -74,7 +74,7 @@ ReplayedRobot replay_robot(const Mission& mission, RobotIndex self, const ScanPa
                            const KeyframeParams& keyframes, CloudStore& clouds, const Progress& progress) {
   const Robot& robot = mission.robots[self.index()];
   FrontEnd front_end(mission, self, {!robot.odometry.empty(), !robot.inertial.empty(), !robot.lidar.empty()},
-                     scans, keyframes);
+                     scans, keyframes, clouds);
   const std::vector<Stream> streams = streams_of(mission, self);
   std::vector<std::size_t> next(streams.size(), 0);
   ReplayedRobot replayed;

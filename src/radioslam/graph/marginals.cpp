@@ -81,6 +81,26 @@ typename Marginals<Pose>::PoseCovariance Marginals<Pose>::relative_pose(
 }
 
 template <class Pose>
+std::vector<typename Marginals<Pose>::PoseCovariance> Marginals<Pose>::relative_poses_with(PoseId i) const {
+  const std::int32_t own = equations_.blocks().of(variable(i));
+  Eigen::MatrixXd columns;
+  if (own >= 0) columns = equations_.cholesky().inverse_columns(static_cast<std::size_t>(own));
+  const PoseCovariance of_i = pose(i);
+  std::vector<PoseCovariance> result;
+  for (std::size_t k = 0; k < poses_.size(); ++k) {
+    const PoseId j(k);
+    PoseCovariance of_j_with_i = PoseCovariance::Zero();
+    if (const std::int32_t other = equations_.blocks().of(variable(j)); own >= 0 && other >= 0)
+      of_j_with_i = columns.template middleRows<Pose::kDof>(
+          static_cast<Eigen::Index>(equations_.matrix().offset(static_cast<std::size_t>(other))));
+    result.push_back(i == j  ? PoseCovariance(PoseCovariance::Zero())
+                     : i < j ? relative_pose(i, j, of_i, pose(j), of_j_with_i.transpose())
+                             : relative_pose(j, i, pose(j), of_i, of_j_with_i));
+  }
+  return result;
+}
+
+template <class Pose>
 std::vector<typename Marginals<Pose>::PoseCovariance> Marginals<Pose>::relative_poses(
     const std::vector<PoseId>& of) const {
   std::vector<std::size_t> blocks;

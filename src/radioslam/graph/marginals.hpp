@@ -35,6 +35,9 @@ class Marginals {
 
   /// Covariance of T_i_j = T_i^-1 T_j for a right perturbation.
   PoseCovariance relative_pose(PoseId i, PoseId j) const;
+  /// The same of this pose with each of the graph's, T_i_j with i before j: at the cost of one solution. Zero
+  /// for the pose itself.
+  std::vector<PoseCovariance> relative_poses_with(PoseId i) const;
   /// The same for all pairs of these poses, (0, 1), (0, 2), ..., (1, 2), ...: for many pairs, at the cost of
   /// one solution for each pose.
   std::vector<PoseCovariance> relative_poses(const std::vector<PoseId>& of) const;

@@ -20,7 +20,8 @@ struct PlacedKeyframes {
   const std::vector<double>& path_m;  ///< from the first keyframe to each
   const ScanContextIndex* index =
       nullptr;  ///< of the keyframes' contexts; null: none are searched that look alike
-  /// Standard deviation of the relative position of two keyframes, metres; thread-safe; needed with an index.
+  /// Standard deviation of the relative position of two keyframes, metres; thread-safe, and cheap for one
+  /// first keyframe with many others; needed with an index.
   std::function<double(std::size_t, std::size_t)> sigma_m = {};
   std::shared_ptr<KeptSubmaps> submaps = std::make_shared<KeptSubmaps>();
 

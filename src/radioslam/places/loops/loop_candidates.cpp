@@ -10,6 +10,8 @@
 namespace radioslam {
 namespace {
 
+constexpr std::size_t kKeptSigmas = 64;
+
 bool is_doubtful(LoopStatus status) {
   return status == LoopStatus::kAmbiguous || status == LoopStatus::kUnmapped ||
          status == LoopStatus::kAnotherStorey;
@@ -23,6 +25,7 @@ void LoopCandidates::note(const ScanLoop& tried) {
 
 std::vector<LoopCandidate> LoopCandidates::find(const PoseGraph<SE3>& graph) {
   marginals_ = Marginals<SE3>::compute(graph);
+  sigmas_.clear();
   std::vector<LoopCandidate> candidates;
   if (!marginals_) return candidates;
   part_of_ = connected_components(graph).of_pose;
@@ -30,11 +33,13 @@ std::vector<LoopCandidate> LoopCandidates::find(const PoseGraph<SE3>& graph) {
   for (std::size_t j = 0; j < graph.poses.size(); ++j) {
     if (path_m_[j] < next_m || keyframes_.clouds[j].empty()) continue;
     next_m = path_m_[j] + params_.stride_m;
+    std::vector<SE3::Jacobian> with_j;  // where j may be a revisit
     for (const std::size_t i : revisits(j, graph.poses)) {
       const auto tried = tried_.find({i, j});
       if (tried != tried_.end() && tried->second == 0) continue;
       const auto T_i_j = graph.poses[i].inverse() * graph.poses[j];
-      const SE3::Jacobian covariance = relative_covariance(i, j);
+      if (with_j.empty()) with_j = marginals_->relative_poses_with(PoseId(j));
+      const SE3::Jacobian covariance = relative_covariance(i, j, with_j[i]);
       if (!is_candidate({T_i_j, covariance}, radius_of(j))) continue;
       const double sigma_m = std::sqrt(covariance.topLeftCorner<3, 3>().trace());
       if (tried != tried_.end() && !is_worth_another_trial(tried->second, sigma_m)) continue;
@@ -78,12 +83,27 @@ double LoopCandidates::unknown_motion_m(std::size_t i, std::size_t j) const {
   return std::sqrt(variance);
 }
 
-double LoopCandidates::sigma_m(std::size_t i, std::size_t j) const {
-  return std::sqrt(relative_covariance(std::min(i, j), std::max(i, j)).topLeftCorner<3, 3>().trace() / 3);
+double LoopCandidates::sigma_m(std::size_t i, std::size_t j) const { return (*sigmas_with(i))[j]; }
+
+std::shared_ptr<const std::vector<double>> LoopCandidates::sigmas_with(std::size_t i) const {
+  {
+    const std::lock_guard lock(sigmas_mutex_);
+    if (const auto known = sigmas_.find(i); known != sigmas_.end()) return known->second;
+  }
+  const std::vector<SE3::Jacobian> with_i = marginals_->relative_poses_with(PoseId(i));
+  std::vector<double> sigmas;
+  for (std::size_t k = 0; k < with_i.size(); ++k) {
+    const SE3::Jacobian covariance = relative_covariance(std::min(i, k), std::max(i, k), with_i[k]);
+    sigmas.push_back(std::sqrt(covariance.topLeftCorner<3, 3>().trace() / 3));
+  }
+  const std::lock_guard lock(sigmas_mutex_);
+  if (sigmas_.size() >= kKeptSigmas) sigmas_.clear();
+  return sigmas_[i] = std::make_shared<const std::vector<double>>(std::move(sigmas));
 }
 
-SE3::Jacobian LoopCandidates::relative_covariance(std::size_t i, std::size_t j) const {
-  if (part_of_[i] == part_of_[j]) return marginals_->relative_pose(PoseId(i), PoseId(j));
+SE3::Jacobian LoopCandidates::relative_covariance(std::size_t i, std::size_t j,
+                                                  const SE3::Jacobian& in_one_part) const {
+  if (part_of_[i] == part_of_[j]) return in_one_part;
   const double sigma_m = unknown_motion_m(i, j);
   return isotropic(sigma_m * sigma_m / 3, std::numbers::pi * std::numbers::pi);
 }

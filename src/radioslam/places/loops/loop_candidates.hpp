@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -35,7 +37,8 @@ class LoopCandidates {
   /// By this estimate of the keyframes' poses. Pairs that were candidates before are left out unless they
   /// were doubtful and are predicted much better now.
   std::vector<LoopCandidate> find(const PoseGraph<SE3>& graph);
-  /// Standard deviation of the relative position of two keyframes, by the estimate of the last search.
+  /// Standard deviation of the relative position of two keyframes, by the estimate of the last search. Of one
+  /// `i` with many `j` it costs one solution. Thread-safe.
   double sigma_m(std::size_t i, std::size_t j) const;
   /// What came of a candidate.
   void note(const ScanLoop& tried);
@@ -48,8 +51,9 @@ class LoopCandidates {
   /// The nearest keyframe of every earlier segment of the trajectory that may pass keyframe j.
   std::vector<std::size_t> revisits(std::size_t j, const std::vector<SE3>& poses) const;
   /// Of their relative pose; of keyframes in parts of the trajectory that nothing joins, by what they may
-  /// have moved in between, with any orientation.
-  SE3::Jacobian relative_covariance(std::size_t i, std::size_t j) const;
+  /// have moved in between, with any orientation. `in_one_part`: if they are in the same.
+  SE3::Jacobian relative_covariance(std::size_t i, std::size_t j, const SE3::Jacobian& in_one_part) const;
+  std::shared_ptr<const std::vector<double>> sigmas_with(std::size_t i) const;
   /// Standard deviation of the motions between two keyframes that nothing measured.
   double unknown_motion_m(std::size_t i, std::size_t j) const;
   bool is_candidate(const UncertainPose<SE3>& T_i_j, double radius_m) const;
@@ -58,6 +62,9 @@ class LoopCandidates {
   ScanLoopParams params_;
   std::vector<double> path_m_;
   std::optional<Marginals<SE3>> marginals_;
+  mutable std::mutex sigmas_mutex_;
+  mutable std::map<std::size_t, std::shared_ptr<const std::vector<double>>>
+      sigmas_;                         ///< of the last asked for
   std::vector<std::int32_t> part_of_;  ///< per keyframe, the part of the trajectory that holds together
   /// Standard deviation of the relative position when they were tried; 0: never again.
   std::map<std::pair<std::size_t, std::size_t>, double> tried_;

@@ -21,7 +21,7 @@ constexpr double kSigmaStorey_m = 1, kSigmaStorey_rad = 0.1;  // of a scan from 
 /// what hangs on j itself shows the scan where it is, wherever that may be.
 bool may_show(const ComparedKeyframes& of, std::size_t k, double reach_m) {
   if (!of.target.has_cloud(k)) return false;
-  return !of.are_of_one_robot() || (k != of.j && kPossibleSigmas * of.target.sigma_m(k, of.j) > reach_m);
+  return !of.are_of_one_robot() || (k != of.j && kPossibleSigmas * of.target.sigma_m(of.j, k) > reach_m);
 }
 
 /// Whether a search around the one finds the other.
