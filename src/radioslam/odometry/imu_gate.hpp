@@ -29,7 +29,7 @@ class ImuGate {
   /// Why it was rejected, in words that follow a robot's name.
   const std::string& reason() const { return reason_; }
 
-  /// Tests the samples against these scans, in time order, if it is time to. Returns whether the verdict has
+  /// Tests the samples against these scans, in time order, if it is time to. Returns whether its trust has
   /// changed.
   bool test(const std::vector<ScanPose>& scans, const std::vector<ImuSample>& samples);
 

@@ -1,9 +1,9 @@
 // A robot's odometry from its scans as they come, with what else it has measured by then.
 //
-// A scan is registered once its sweep is over and every source of motion has passed the sweep's end, or is
-// silent for two scans' time. The first kTraitScans scans, or those of kStart_s, wait for each other: they
-// show what scanner it is. While the IMU is untested (imu_gate.hpp), the scans are tracked twice, without and
-// with it, and the former is the estimate; what the latter makes of it later is a change of mind.
+// A scan is registered once its sweep is over and every source of motion has passed the end of it, or sends
+// nothing for the time of two scans. The first kTraitScans scans, or those of kStart_s, wait for each other:
+// they show what scanner it is. While the IMU is untested (imu_gate.hpp), the scans are tracked twice,
+// without and with it, and the former is the estimate; what the latter makes of it later is a change of mind.
 // Causal: what is known at a time depends on the samples until then alone, in whatever pieces they came.
 #pragma once
 

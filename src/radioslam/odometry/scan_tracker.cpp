@@ -62,14 +62,18 @@ std::optional<SE3> ScanTracker::motion_to(Stamp stamp, const std::optional<Motio
   return recorded_motion(track_.poses.back().stamp, stamp);
 }
 
-/// Recorded motion, also across a gap in the scans, but not if recorded odometry has a longer gap there.
+/// Recorded motion, also across a gap in the scans. Across a gap in the recorded odometry, too, if the robot
+/// has been as fast before: what counts the wheels' turns may go on where the recording pauses.
 std::optional<SE3> ScanTracker::recorded_motion(Stamp from, Stamp to) const {
-  const auto a = history_.robot().odometry.at(from), b = history_.robot().odometry.at(to);
+  const Trajectory<SE3>& odometry = history_.robot().odometry;
+  const auto a = odometry.at(from), b = odometry.at(to);
   if (!a || !b) return std::nullopt;
+  const SE3 motion = a->inverse() * *b;
   const double max_gap_s = std::max(params_.stage.max_odometry_gap_ratio * history_.sample_interval_s(),
                                     params_.lidar.odometry.max_lost_scans * history_.scan_interval_s());
-  if (max_sample_gap_s(history_.robot().odometry, from, to) > max_gap_s) return std::nullopt;
-  return a->inverse() * *b;
+  const bool is_whole = max_sample_gap_s(odometry, from, to) <= max_gap_s;
+  if (!is_whole && !history_.has_been_as_fast(motion, seconds_between(from, to))) return std::nullopt;
+  return motion;
 }
 
 /// Of the recorded motion since the previous scan, if that was some time ago; zero if it is not recorded.

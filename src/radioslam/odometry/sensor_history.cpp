@@ -1,5 +1,6 @@
 #include "radioslam/odometry/sensor_history.hpp"
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 
@@ -8,6 +9,7 @@
 namespace radioslam {
 namespace {
 
+constexpr double kNoGap = 2;                    // nominal intervals
 constexpr std::ptrdiff_t kMaxForgotten = 1024;  // steps that are kept though nothing needs them
 
 }  // namespace
@@ -28,8 +30,22 @@ SensorHistory::SensorHistory(Robot robot) : robot_(std::move(robot)) {
 }
 
 void SensorHistory::add(const StampedPose<SE3>& odometry) {
+  if (!rows_.empty()) {
+    const double duration_s = seconds_between(rows_.back().stamp, odometry.stamp);
+    if (duration_s <= kNoGap * sample_interval_s()) {
+      const SE3::Tangent step = (rows_.back().pose.inverse() * odometry.pose).log();
+      fastest_mps_ = std::max(fastest_mps_, step.head<3>().norm() / duration_s);
+      fastest_radps_ = std::max(fastest_radps_, step.tail<3>().norm() / duration_s);
+    }
+  }
   rows_.push_back(odometry);
   sample_interval_.add(odometry.stamp);
+}
+
+bool SensorHistory::has_been_as_fast(const SE3& motion, double duration_s) const {
+  const SE3::Tangent step = motion.log();
+  return step.head<3>().norm() <= duration_s * fastest_mps_ &&
+         step.tail<3>().norm() <= duration_s * fastest_radps_;
 }
 
 void SensorHistory::update() {

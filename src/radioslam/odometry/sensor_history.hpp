@@ -45,6 +45,9 @@ class SensorHistory {
   /// Odometry before `stamp` is needed no more.
   void forget_before(Stamp stamp);
 
+  /// Whether the robot has moved as fast before, by its odometry.
+  bool has_been_as_fast(const SE3& motion, double duration_s) const;
+
   double sample_interval_s() const { return sample_interval_.seconds(); }
   double scan_interval_s() const { return scan_interval_.seconds(); }
 
@@ -52,6 +55,7 @@ class SensorHistory {
   Robot robot_;
   std::deque<StampedPose<SE3>> rows_;
   NominalInterval sample_interval_, scan_interval_;
+  double fastest_mps_ = 0, fastest_radps_ = 0;
 };
 
 }  // namespace radioslam
