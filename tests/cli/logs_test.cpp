@@ -1,4 +1,4 @@
-// run --log, run of logs, and log.
+// run --log, run of logs, log, and run --stream.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -24,6 +24,32 @@ TEST(Logs, GiveTheSameTrajectoriesAsTheMissionInAnyOrder) {
   EXPECT_GT(json["robots"]["a"]["kinds"]["fingerprint"]["records"], 10);
   EXPECT_TRUE(json["robots"]["a"]["gaps"].empty());
   EXPECT_NE(run({"log", "logs/a.rslog"}, folder).out.find("keyframe"), std::string::npos);
+}
+
+/// The front ends see the recording sample by sample, and the estimate is that of the whole.
+TEST(Stream, WritesWhatWasKnownOnTheWayBesideTheEstimateOfTheRun) {
+  const TemporaryFolder temporary;
+  const auto& folder = temporary.path();
+  ASSERT_EQ(run({"simulate", "hall", "-o", "m", "--seed", "2", "--set", "path_length_m=20", "lidar_beams=8",
+                 "lidar_azimuth_steps=180", "lidar_rotation_hz=4"},
+                folder)
+                .status,
+            0);
+  ASSERT_EQ(run({"run", "m", "-o", "whole"}, folder).status, 0);
+  for (const char* threads : {"1", "2"}) {
+    const auto streamed =
+        run({"run", "m", "-o", std::string("stream") + threads, "--stream", "--threads", threads}, folder);
+    ASSERT_EQ(streamed.status, 0) << streamed.err;
+    EXPECT_NE(streamed.out.find("99 % of them registered within"), std::string::npos) << streamed.out;
+  }
+  for (const char* file : {"a.tum", "b.tum", "closures.csv"})
+    EXPECT_EQ(read_file(folder / "whole" / file), read_file(folder / "stream1" / file)) << file;
+  for (const char* file : {"a.online.tum", "b.online.tum", "a.tum"})
+    EXPECT_EQ(read_file(folder / "stream1" / file), read_file(folder / "stream2" / file)) << file;
+  EXPECT_FALSE(read_file(folder / "stream1" / "a.online.tum").empty());
+  const std::string table = read_file(folder / "stream1" / "online.csv");
+  EXPECT_EQ(table.rfind("t_s,robot,keyframe,latency_ms,delay_s\n", 0), 0u);
+  EXPECT_NE(table.find(",b,0,"), std::string::npos);
 }
 
 TEST(Logs, AreRefusedWithOneLineWhereTheyAreNone) {

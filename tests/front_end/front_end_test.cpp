@@ -73,7 +73,7 @@ MotionSources sources_of(const Robot& robot) {
 }
 
 Said live_through(const Mission& mission, const std::vector<Sample>& samples, bool to_the_end = true) {
-  CloudStore clouds({});
+  CloudStore clouds;
   FrontEnd front_end(mission, kSelf, sources_of(mission.robots[0]), {}, {}, clouds);
   for (const Sample& sample : samples) front_end.add(sample);
   if (to_the_end) front_end.finish();

@@ -239,6 +239,37 @@ TEST(MeasureScans, AreBridgedByRecordedOdometryAcrossAGap) {
     EXPECT_LT(distance_between(*odometry.at(whole.stamps[k]), T_odometry_first * drive.way_to(k)), 0.08) << k;
 }
 
+/// The recording pauses while the wheels are counted on: a robot that can have moved like this has. One that
+/// cannot was carried, or its odometry began again.
+TEST(MeasureScans, CrossAPauseOfTheWholeRecordingAsFastAsTheRobotHasBeen) {
+  const ScanDrive drive = small_drive();
+  constexpr std::size_t kBegin = 12, kEnd = 28;
+  for (const double jump_m : {0.0, 30.0}) {
+    Robot robot = scanning_robot("a", drive);
+    const LidarLog whole = robot.lidar;
+    std::vector<StampedPose<SE3>> rows;
+    for (const auto& row : recorded_odometry(drive, SE3())) {
+      if (whole.stamps[kBegin] <= row.stamp && row.stamp < whole.stamps[kEnd]) continue;
+      const double x = row.stamp < whole.stamps[kEnd] ? 0 : jump_m;
+      rows.push_back({row.stamp, SE3({x, 0, 0}, Eigen::Quaterniond::Identity()) * row.pose});
+    }
+    robot.odometry = Trajectory<SE3>(std::move(rows));
+    robot.lidar.stamps.erase(robot.lidar.stamps.begin() + kBegin, robot.lidar.stamps.begin() + kEnd);
+    robot.lidar.read = [whole](std::size_t k) { return whole.read(k < kBegin ? k : k + kEnd - kBegin); };
+    Mission mission = mission_of({robot});
+    const MeasuredScans measured = measure(mission);
+    const auto& odometry = mission.robots[0].odometry;
+    const SE3 way = odometry.at(whole.stamps.front())->inverse() * *odometry.at(whole.stamps.back());
+    const double error_m = distance_between(way, drive.way());
+    if (jump_m > 0) {
+      EXPECT_TRUE(error_m < 0.1 || !measured.notes.empty()) << error_m;
+      continue;
+    }
+    EXPECT_TRUE(measured.notes.empty()) << measured.notes.front();
+    EXPECT_LT(error_m, 0.1);
+  }
+}
+
 TEST(MeasureScans, NoteOdometryThatIsNotConnected) {
   const ScanDrive drive = small_drive();
   Robot robot = scanning_robot("a", drive);

@@ -47,7 +47,7 @@ void write_online(const std::filesystem::path& folder, const Mission& mission,
     const std::string& id = mission.robots[r].id;
     write_file(folder / (id + ".online.tum"), format_tum(online_trajectory(robots[r])));
     for (const ReplayedPose& pose : robots[r].poses) {
-      if (!pose.keyframe && mission.robots[r].lidar.empty()) continue;
+      if (!pose.keyframe && !robots[r].follows_scans) continue;
       table << std::setprecision(9) << pose.pose.stamp.seconds() << ',' << id << ',';
       if (pose.keyframe) table << *pose.keyframe;
       table << ',' << std::setprecision(3) << pose.latency_ms << ',' << pose.delay_s << '\n';
@@ -59,7 +59,7 @@ void write_online(const std::filesystem::path& folder, const Mission& mission,
 std::string latency_text(const Mission& mission, const std::vector<ReplayedRobot>& robots) {
   std::ostringstream text;
   for (std::size_t r = 0; r < robots.size(); ++r) {
-    if (mission.robots[r].lidar.empty() || robots[r].poses.empty()) continue;
+    if (!robots[r].follows_scans || robots[r].poses.empty()) continue;
     std::vector<double> latencies_ms;
     for (const ReplayedPose& pose : robots[r].poses) latencies_ms.push_back(pose.latency_ms);
     std::sort(latencies_ms.begin(), latencies_ms.end());

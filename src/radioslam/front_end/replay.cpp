@@ -100,6 +100,7 @@ ReplayedRobot replay_robot(const Mission& mission, RobotIndex self, const ScanPa
   }
   const auto begin = Clock::now();
   replayed.tracked = front_end.finish();
+  replayed.follows_scans = replayed.tracked.has_value();
   take_poses(begin);
   number_keyframes(front_end, replayed.poses);
   if (replayed.tracked && !replayed.tracked->track.poses.empty()) {

@@ -26,6 +26,7 @@ struct ReplayedRobot {
   std::vector<FrontEndEvent> events;
   RobotLog log;  ///< with amendments
   std::optional<TrackedScans> tracked;
+  bool follows_scans = false;  ///< its poses are those of scans
   std::size_t left_out = 0;
 };
 

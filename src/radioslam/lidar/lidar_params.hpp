@@ -34,10 +34,11 @@ struct LidarOdometryParams {
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
     RADIOSLAM_BASIC_FIELD(spacing_m, "m", 0, 10,
-                          "spacing of the map's points; 0 derives it from the scans' median range");
+                          "spacing of the map's points; 0 derives it from the ranges of the first scans");
     RADIOSLAM_FIELD(
         spacing_ratio, "", 0.001, 1,
-        "map point spacing as a fraction of the scans' median range, where it is derived from them");
+        "map point spacing as a fraction of the first scans' median range, or of the range that a tenth of a "
+        "planar scanner's points are within");
     RADIOSLAM_FIELD(min_spacing_m, "m", 0.001, 10, "smallest map point spacing chosen automatically");
     RADIOSLAM_FIELD(max_spacing_m, "m", 0.001, 10, "largest map point spacing chosen automatically");
     RADIOSLAM_FIELD(first_sigma_m, "m", 1e-3, 10,
