@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "radioslam/base/statistics.hpp"
 #include "radioslam/lidar/pose_search.hpp"
 #include "radioslam/lidar/surfels/voxel_grid.hpp"
 
@@ -11,14 +12,6 @@ namespace radioslam {
 namespace {
 
 constexpr float kFlat_m = 1e-3F;
-
-/// Of which the spacing is a fraction.
-double typical_range_m(std::vector<double> ranges, ScannerKind kind) {
-  const auto typical = ranges.begin() + std::ssize(ranges) / (kind == ScannerKind::kPlanar ? 10 : 2);
-  std::nth_element(ranges.begin(), typical, ranges.end());
-  return *typical;
-}
-
 }  // namespace
 
 SE3::Tangent twist_between(const ScanOnMap& from, const ScanOnMap& to) {
@@ -50,11 +43,10 @@ ScannerTraits scanner_traits(const std::vector<LidarScan>& scans, const LidarPar
     }
   }
   const LidarOdometryParams& odometry = params.odometry;
-  traits.spacing_m =
-      odometry.spacing_m > 0 ? odometry.spacing_m
-      : ranges.empty()       ? odometry.max_spacing_m
-                       : std::clamp(odometry.spacing_ratio * typical_range_m(std::move(ranges), traits.kind),
-                                    odometry.min_spacing_m, odometry.max_spacing_m);
+  traits.spacing_m = odometry.spacing_m > 0 ? odometry.spacing_m
+                     : ranges.empty()       ? odometry.max_spacing_m
+                                            : std::clamp(odometry.spacing_ratio * upper_median(ranges),
+                                                         odometry.min_spacing_m, odometry.max_spacing_m);
   return traits;
 }
 

@@ -10,6 +10,9 @@ namespace radioslam {
 namespace {
 
 constexpr double kMinPatience_s = 0.3;
+/// Of the map of a planar scanner, whose few points need no thinning: where it starts in a wide hall, the map
+/// would be too coarse for the rooms to come. Without a prediction it must reach from scan to scan.
+constexpr double kMaxPlanarSpacing_m = 0.12;
 constexpr Stamp kNever{std::numeric_limits<std::int64_t>::min()};
 
 Stamp after(Stamp stamp, double s) { return {stamp.ns + Stamp::from_seconds(s).ns}; }
@@ -117,6 +120,10 @@ void ScanFrontEnd::start() {
   std::vector<LidarScan> scans;
   for (std::size_t k = 0; k < std::min(waiting_.size(), kTraitScans); ++k) scans.push_back(waiting_[k].scan);
   traits_ = scanner_traits(scans, params_.lidar);
+  const LidarOdometryParams& odometry = params_.lidar.odometry;
+  const bool is_predicted = sources_.odometry || sources_.inertial;
+  if (traits_->kind == ScannerKind::kPlanar && is_predicted && odometry.spacing_m == 0)
+    traits_->spacing_m = std::min(traits_->spacing_m, std::max(kMaxPlanarSpacing_m, odometry.min_spacing_m));
   alone_.emplace(history_, ImuUse::kNone, *traits_, params_, keyframes_, clouds_);
   if (gate_) with_imu_.emplace(history_, ImuUse::kReadings, *traits_, params_, keyframes_, clouds_);
 }
