@@ -37,7 +37,7 @@ struct LidarOdometryParams {
                           "spacing of the map's points; 0 derives it from the ranges of the first scans");
     RADIOSLAM_FIELD(spacing_ratio, "", 0.001, 1,
                     "map point spacing as a fraction of the first scans' median range; at most 0.12 m for a "
-                    "planar scanner");
+                    "planar scanner with odometry");
     RADIOSLAM_FIELD(min_spacing_m, "m", 0.001, 10, "smallest map point spacing chosen automatically");
     RADIOSLAM_FIELD(max_spacing_m, "m", 0.001, 10, "largest map point spacing chosen automatically");
     RADIOSLAM_FIELD(first_sigma_m, "m", 1e-3, 10,

@@ -45,8 +45,7 @@ struct DeskewedScan {
 };
 
 /// Properties of a scanner and its surroundings: planar or spatial, and the map point spacing (a fraction of
-/// the median range; bounded for a planar scanner, whose few points need no thinning: where it starts in a
-/// wide hall, the map would be too coarse for the rooms to come). Determined from kTraitScans scans.
+/// the median range). Determined from kTraitScans scans.
 struct ScannerTraits {
   double spacing_m = 0.25;
   ScannerKind kind = ScannerKind::kSpatial;

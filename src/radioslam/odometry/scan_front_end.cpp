@@ -121,8 +121,7 @@ void ScanFrontEnd::start() {
   for (std::size_t k = 0; k < std::min(waiting_.size(), kTraitScans); ++k) scans.push_back(waiting_[k].scan);
   traits_ = scanner_traits(scans, params_.lidar);
   const LidarOdometryParams& odometry = params_.lidar.odometry;
-  const bool is_predicted = sources_.odometry || sources_.inertial;
-  if (traits_->kind == ScannerKind::kPlanar && is_predicted && odometry.spacing_m == 0)
+  if (traits_->kind == ScannerKind::kPlanar && sources_.odometry && odometry.spacing_m == 0)
     traits_->spacing_m = std::min(traits_->spacing_m, std::max(kMaxPlanarSpacing_m, odometry.min_spacing_m));
   alone_.emplace(history_, ImuUse::kNone, *traits_, params_, keyframes_, clouds_);
   if (gate_) with_imu_.emplace(history_, ImuUse::kReadings, *traits_, params_, keyframes_, clouds_);
